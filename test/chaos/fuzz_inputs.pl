@@ -46,10 +46,10 @@ said(3, Codes) :-
     random_member(Text, [`GET / HTTP/1.1\r\nHost: x\r\n\r\n`,
                          `POST /x HTTP/1.0\r\nContent-Length: 9999999\r\n\r\n`,
                          `SSH-2.0-OpenSSH_9.2\r\n`, `halt.\n`, `\n`,
-                         `typhon\n`, `typhon 2\n`, `typhon 2 \n`,
+                         `typhon\n`, `typhon 3\n`, `typhon 3 \n`,
                          `typhon 1 00 a 1 b:1 90004 64 little\n`,
                          `typhon 99999999999999999999 x\n`,
-                         `typhon 2 00 a 1 b:1 90004 64 little\n\n\n\n`]),
+                         `typhon 3 00 a 1 b:1 90004 64 little\n\n\n\n`]),
     Codes = Text.
 said(4, [0x16, 3, 1, L1, L0|Codes]) :-  % how TLS begins
     random_between(0, 255, L1),
@@ -94,7 +94,7 @@ greeting(Codes) :-
     ),
     catch(hello_line(Hello, Line), error(_, _), Line = "a b c"),
     random_word(Nonce),
-    format(codes(Codes), "typhon 2 ~w ~w\n", [Nonce, Line]).
+    format(codes(Codes), "typhon 3 ~w ~w\n", [Nonce, Line]).
 
 random_word(Word) :-
     random_member(Word, [x, 17, -1, 0, '', 'a b', '127.0.0.1:99999',
@@ -127,7 +127,7 @@ peer_frame(2, Codec, Codes) :-
     !,
     right_frame(Codec, Frame),
     cut(Frame, Codes).
-peer_frame(3, _, [B3, B2, B1, B0, 0, 0, 0, 1, 2, 3]) :-
+peer_frame(3, _, [B3, B2, B1, B0, 0,0,0, 0,0,0,0, 0,0,0,0, 1, 2, 3]) :-
     !,
     maplist([B]>>random_between(0, 255, B), [B3, B2, B1, B0]).
 peer_frame(4, text, Codes) :-           % damaged by who sends it
@@ -146,10 +146,13 @@ right_frame(Codec, Codes) :-
     term_bytes(Codec, Term, Bytes),
     framed(Bytes, Codes).
 
-framed(Bytes, [B3, B2, B1, B0, C2, C1, C0|Codes]) :-
+framed(Bytes, [B3, B2, B1, B0, C2, C1, C0, 0,0,0,R, 0,0,0,S|Codes]) :-
     string_codes(Bytes, Codes),
     string_length(Bytes, Length),
-    check_bytes(Bytes, Check),
+    random_member(R, [0, 0, 0, 1, 100]),
+    random_member(S, [0, 0, 0, 1, 100]),
+    check_bytes(Bytes, Hash),
+    Check is (Hash + 7919*R + 104729*S) /\ 0xffffff,
     B3 is Length>>24,
     B2 is (Length>>16) /\ 255,
     B1 is (Length>>8) /\ 255,
@@ -164,8 +167,12 @@ random_frame(Term) :-
     random_between(0, 2, Times),
     mutated(Times, Term0, Term).
 
-frame(ack(0, 0)).
-frame(ack(1, 100)).
+frame(objection(1, spoilt)).
+frame(objection(0, deferred)).
+frame(hand(hop, x)).
+frame(Term) :-
+    requested(hop, Body),
+    Term = hand(hop, Body).
 frame(ping).
 frame(answer(0, x)).
 frame(spoilt(1)).

@@ -35,7 +35,7 @@ Only who knows the cookie can send that.
             [cert_accept_any/5, ssl_context/3, ssl_negotiate/5]).
 :- use_module(library(typhon/kernel/wire/handshake),
               [authenticate/6, cookie/1, hello/4, line_read/3, line_write/2]).
-:- use_module(library(typhon/kernel/wire/frame), [frame_write/2, term_bytes/3]).
+:- use_module(library(typhon/kernel/wire/frame), [frame_write/3, term_bytes/3]).
 
 %!  fuzz(+Options, -Faults:list) is det.
 %
@@ -301,7 +301,7 @@ say_frames(Frames, _, Out) :-
 
 goodbye(Codec, In, Out) :-
     term_bytes(Codec, bye, Bytes),
-    catch(( frame_write(Out, Bytes),
+    catch(( frame_write(Out, counts(0, 0), Bytes),
             flush_output(Out),
             read_string(In, _, _) ),
           error(_, _),

@@ -130,7 +130,7 @@ handshake(Direction, Connection, In, Out, HeadBytes) :-
     lines_to_resume(In, Out).
 
 head_bytes("2", 7).                     % length, check
-head_bytes("3", 11).                    % length, check, counts
+head_bytes("3", 15).                    % length, check, counts
 
 client_named(Words, Connection) :-
     member(Word, Words),

@@ -204,7 +204,14 @@ programs_seen(Count) :-
 
 silence_answers :-
     wrap_predicate(typhon_messaging:endpoint_reply_later(_, _), mute, _,
-                   true).
+                   true),
+    settle_nothing.
+
+%   What comes is received; that it is settled is not said.
+
+settle_nothing :-
+    wrap_predicate(typhon_frame:frame_write(_, Counts, _), unsettled, Wrapped,
+                   ( setarg(2, Counts, 0), Wrapped )).
 
 %   The answers to what arrives are kept until give_answers/0.
 
@@ -213,8 +220,13 @@ silence_answers :-
 keep_answers :-
     wrap_predicate(typhon_messaging:endpoint_reply_later(ReplyTo, Answer),
                    keep, _,
-                   assertz(peer_main:answer_kept(ReplyTo, Answer))).
+                   assertz(peer_main:answer_kept(ReplyTo, Answer))),
+    settle_nothing.
 
 give_answers :-
     forall(retract(answer_kept(ReplyTo, Answer)),
-           typhon_messaging:endpoint_reply(ReplyTo, Answer)).
+           typhon_messaging:endpoint_reply(ReplyTo, Answer)),
+    unwrap_predicate(typhon_frame:frame_write/3, unsettled),
+    forall(typhon_session:session(_, Session),
+           typhon_outbox:session_acknowledge(Session)).
+

@@ -7,11 +7,13 @@ This is the interface of the layer: higher layers import from here.
 */
 
 :- reexport(agent/agents,
-            [ agent/5, agent_departs/3, agent_enter/3, agent_mail/2,
+            [ agent/5, agent_departs/3, agent_enter/3, agent_gone/5,
+              agent_handed/4, agent_here/5, agent_mail/2,
               agent_mobile/6, agent_move/5, agent_note/3,
               agent_program/4, agent_put/3, agent_put_life/2, agent_ready/2,
               agent_remove/3, agent_rest/3, agent_resumes/2,
-              agent_status/3, agent_take/3, agent_wakes/2
+              agent_status/3, agent_take/3, agent_thawed/5, agent_under_way/6,
+              agent_wakes/2
             ]).
 :- reexport(agent/agent_lock, [agents_passed/0, with_agent/2]).
 :- reexport(agent/agent_orders,
@@ -26,7 +28,8 @@ This is the interface of the layer: higher layers import from here.
               agent_origin/5, origin_inherited/3, origin_key/2, origin_said/2
             ]).
 :- reexport(agent/life,
-            [ is_life/1, life_clone/3, life_hop/3, life_hops/2, life_may_move/2,
+            [ is_life/1, life_before/2, life_clone/3, life_hop/3, life_hops/2,
+              life_may_move/2,
               life_parent/2, life_payloads/2, life_extras/2,
               make_life/2, set_extras_of_life/3
             ]).
@@ -44,4 +47,4 @@ This is the interface of the layer: higher layers import from here.
               legacy_result/2 ]).
 :- reexport(agent/mailbox,
               [ mail_all/2, mail_back/2, mail_count/2, mail_list/2,
-                mail_restore/3, mail_take/2 ]).
+                mail_restore/3, mail_take/2, mail_waits/1 ]).

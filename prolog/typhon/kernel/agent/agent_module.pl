@@ -17,7 +17,7 @@
 :- use_module('../program', [code_module/2]).
 :- use_module('../host',
               [host/3, parts/3, parts_call/3]).
-:- use_module(agents, [agent/5]).
+:- use_module(agents, [agent_here/5]).
 :- use_module(variants, [agent_variant/2, place_variant/3]).
 
 /** <module> The module of an agent
@@ -118,7 +118,7 @@ agent_clauses(Module, Clauses0, Clauses) :-
 %   A copy that waits for the end of its hop has a module already.
 
 free_module(Id, Module) :-
-    (   agent(Id, _, Id, _, _)
+    (   agent_here(Id, _, Id, _, _)
     ->  atom_concat(Id, ' again', Module)
     ;   Module = Id
     ).

@@ -1,5 +1,6 @@
 :- module(typhon_agents,
           [ agent/5,                    % ?Id, ?Host, ?Module, ?Hash, ?Life
+            agent_here/5,               % ?Id, ?Host, ?Module, ?Hash, ?Life
             agent_status/3,             % ?Id, ?Status, ?Goals
             agent_enter/3,              % +Agent, +Status, +Goals
             agent_remove/3,             % +Id, -Mail, -Orders
@@ -13,6 +14,11 @@
             agent_rest/3,               % +Id, +Status, +Goals
             agent_take/3,               % +Id, -Goals, -Order
             agent_departs/3,            % +Id, -Dest, -Goals
+            agent_handed/4,             % +Id, +Hops, +Way, +Frame
+            agent_under_way/6,          % ?Id, ?Hops, -Host, -Hash, -Way,
+                                        % -Frame
+            agent_gone/5,               % +Id, ?Hops, -Host, -Way, -Mail
+            agent_thawed/5,             % +Id, +Module, +Life, +Status, +Goals
             agent_resumes/2,            % +Id, -Goals
             agent_ready/2,              % +Id, +Goals
             agent_wakes/2,              % +Id, +Goals
@@ -42,6 +48,11 @@ The records of agents, each with one owner: this module.  An agent is
     under way the goals are Hole-Goals, see typhon_machine;
   - a mailbox, see typhon_mailbox, and orders, see typhon_agent_orders.
 
+An agent that was handed over to another process, see typhon_hand_over, is only
+the frame that was sent and a mailbox, until the other process has accepted it.
+What looks at such an agent thaws it: it has a record again, as one that is in
+transit.
+
 Changes of the database are what a hop costs most of.  So an agent that
 runs has no status at all: whoever removes `ready` has it.
 
@@ -56,19 +67,23 @@ which Prolog makes by itself, is not safe where other threads retract
     typhon_code:in_use/1,
     put_down/3,                 % Id, Status, Goals: to be noted
     state_ends/2,               % Id, Module: is about to be destroyed
-    carries/2.                  % Id, Extras: the agent, which carries Extras,
+    carries/2,                  % Id, Extras: the agent, which carries Extras,
                                 % see typhon_life, is in this process now
+    thaw/1.                     % Id: is under way and gets a record
 
 %   The name under which people know it.
 
 :- setting(typhon_creation:faulty_mail, nonneg, 1000,
            "Messages kept for an agent that is faulty").
 
-:- dynamic carries/2.
+:- dynamic
+    carries/2,
+    thaw/1.
 
 :- dynamic
     stands/6,                   % Id, Host, Module, Hash, Life, Until
-    status/3.                   % Id, Status, Goals; none: it runs
+    status/3,                   % Id, Status, Goals; none: it runs
+    under_way/6.                % Id, Hops, Host, Hash, Way, Frame
 
 %!  agent(?Id, ?Host, ?Module, ?Hash, ?Life) is nondet.
 %
@@ -76,10 +91,30 @@ which Prolog makes by itself, is not safe where other threads retract
 %   state, the hash of their program, and their life.
 
 agent(Id, Host, Module, Hash, Life) :-
+    nonvar(Id),
+    !,
+    (   stands(Id, Host, Module, Hash, Life, _)
+    ->  true
+    ;   under_way(Id, _, _, _, _, _),
+        thaw(Id),
+        stands(Id, Host, Module, Hash, Life, _)
+    ->  true
+    ).
+agent(Id, Host, Module, Hash, Life) :-
+    forall(under_way(Thawed, _, _, _, _, _), ignore(thaw(Thawed))),
+    stands(Id, Host, Module, Hash, Life, _).
+
+%!  agent_here(?Id, ?Host, ?Module, ?Hash, ?Life) is nondet.
+%
+%   As agent/5, without those that are under way as a frame.
+
+agent_here(Id, Host, Module, Hash, Life) :-
     stands(Id, Host, Module, Hash, Life, _).
 
 typhon_code:in_use(Hash) :-
-    stands(_, _, _, Hash, _, _),
+    (   stands(_, _, _, Hash, _, _)
+    ;   under_way(_, _, _, Hash, _, _)
+    ),
     !.
 
 %!  agent_enter(+Agent, +Status, +Goals) is det.
@@ -152,8 +187,15 @@ agent_move(Id, Host, Module, Life, Until) :-
 %!  agent_status(?Id, ?Status, ?Goals) is nondet.
 
 agent_status(Id, Status, Goals) :-
+    (   nonvar(Id)
+    ->  ignore(agent(Id, _, _, _, _))
+    ;   forall(agent(_, _, _, _, _), true)
+    ),
+    status_now(Id, Status, Goals).
+
+status_now(Id, Status, Goals) :-
     status(Id, Status, Goals).
-agent_status(Id, running, []) :-
+status_now(Id, running, []) :-
     stands(Id, _, _, _, _, _),
     \+ status(Id, _, _).
 
@@ -210,6 +252,43 @@ agent_take(Id, Goals, Order) :-
 agent_departs(Id, Dest, Goals) :-
     retract(status(Id, leaving(Dest, _), Goals)),
     !.
+
+                /*******************************
+                *           UNDER WAY          *
+                *******************************/
+
+%!  agent_handed(+Id, +Hops, +Way, +Frame) is semidet.
+%!  agent_under_way(?Id, ?Hops, -Host, -Hash, -Way, -Frame) is nondet.
+%!  agent_gone(+Id, ?Hops, -Host, -Way, -Mail:list) is semidet.
+%!  agent_thawed(+Id, +Module, +Life, +Status, +Goals) is det.
+%
+%   Id, which runs, is under way from now on; its record and its module are no
+%   more. Fails if it has an order, or was ended. Those that are under way. Id
+%   has gone, and Mail came for it meanwhile. It has a record again.
+
+agent_handed(Id, Hops, Way, Frame) :-
+    stands(Id, Host, Module, Hash, _, _),
+    \+ agent_ordered(Id),
+    \+ status(Id, _, _),
+    !,
+    assertz(under_way(Id, Hops, Host, Hash, Way, Frame)),
+    forget_first(Id),
+    '$destroy_module'(Module).
+
+agent_under_way(Id, Hops, Host, Hash, Way, Frame) :-
+    under_way(Id, Hops, Host, Hash, Way, Frame).
+
+agent_gone(Id, Hops, Host, Way, Mail) :-
+    retract(under_way(Id, Hops, Host, _, Way, _)),
+    !,
+    mail_all(Id, Mail).
+
+agent_thawed(Id, Module, Life, Status, Goals) :-
+    under_way(Id, _, Host, Hash, _, _),
+    !,
+    assertz(status(Id, Status, Goals)),
+    assertz(stands(Id, Host, Module, Hash, Life, 0)),
+    retractall(under_way(Id, _, _, _, _, _)).
 
 %!  agent_resumes(+Id, -Goals) is semidet.
 %
@@ -286,6 +365,10 @@ agent_mail(Id, Messages) :-
     ->  mail_to(Status, Id, Host, Goals, Messages)
     ;   put_mail(Messages, Id)
     ).
+agent_mail(Id, Messages) :-
+    under_way(Id, _, _, _, _, _),
+    !,
+    put_mail(Messages, Id).
 
 put_mail(Messages, Id) :-
     tell_mail(Messages, Id),

@@ -10,6 +10,7 @@
             set_extras_of_life/3,       % +Extras, +Life0, -Life
             life_may_move/2,            % +Life, -May
             life_hop/3,                 % +Life0, -Life, -Hops
+            life_before/2,              % +Life, -Life0
             life_clone/3                % +Id, +Life0, -Life
           ]).
 :- use_module(library(apply), [exclude/3]).
@@ -75,6 +76,14 @@ life_may_move(Life, May) :-
 life_hop(life(Parent, Hops0, Most, Tokens, Payloads, Static, Extras),
          life(Parent, Hops, Most, Tokens, Payloads, Static, Extras), Hops) :-
     Hops is Hops0+1.
+
+%!  life_before(+Life, -Life0) is det.
+%
+%   Life0 is Life before its last hop.
+
+life_before(life(Parent, Hops, Most, Tokens, Payloads, Static, Extras),
+            life(Parent, Hops0, Most, Tokens, Payloads, Static, Extras)) :-
+    Hops0 is Hops-1.
 
 %!  life_clone(+Id, +Life0, -Life) is det.
 %

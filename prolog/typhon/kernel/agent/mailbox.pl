@@ -4,6 +4,7 @@
             mail_restore/3,             % +Id, +N, +Message
             mail_all/2,                 % +Id, -Messages
             mail_list/2,                % +Id, -Messages
+            mail_waits/1,               % +Id
             mail_count/2,               % +Id, -Count
             mail_back/2                 % +Id, +Messages
           ]).
@@ -111,6 +112,14 @@ mail_list(Id, Messages) :-
 bare([], []).
 bare([mail(Message, _)|Numbered], [Message|Messages]) :-
     bare(Numbered, Messages).
+
+%!  mail_waits(+Id) is semidet.
+%
+%   Id may have messages: at least it had some.
+
+mail_waits(Id) :-
+    box(Id, _),
+    !.
 
 %!  mail_count(+Id, -Count:nonneg) is det.
 

@@ -2,6 +2,7 @@
           [ parts/3,                    % ?Phase, ?Host, ?Closures
             parts_call/3,               % +Phase, +Host, +Args
             amended/5,                  % +Phase, +Host, +About, +Term0, -Term
+            plain/1,                    % +Host
             parts_compile/1,            % +Host
             parts_forget/1              % +Host
           ]).
@@ -147,6 +148,13 @@ amended_by([], _, _, Term, Term).
 amended_by([Closure|Closures], Host, About, Term0, Term) :-
     call(Closure, Host, About, Term0, Term1),
     amended_by(Closures, Host, About, Term1, Term).
+
+%!  plain(+Host) is semidet.
+%
+%   Host has no parts: nothing comes between what happens on it and the kernel.
+
+plain(Host) :-
+    \+ parts(_, Host, _).
 
 %!  parts_compile(+Host) is det.
 %!  parts_forget(+Host) is det.

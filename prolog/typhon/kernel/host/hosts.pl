@@ -12,6 +12,7 @@
             host_leave/1,               % +Name
             host_load/2,                % +Name, -Load
             host_hop/3,                 % +Name, +Direction, +Seconds
+            host_left/2,                % +Name, +Seconds
             host_passed/3,              % +Here, +There, +Seconds
             host_hop_stats/3            % +Name, ?Direction, -Stats
           ]).
@@ -244,16 +245,25 @@ host_load(Name, Load) :-
                 *******************************/
 
 %!  host_hop(+Name, +Direction, +Seconds) is det.
+%!  host_left(+Name, +Seconds) is det.
 %!  host_passed(+Here, +There, +Seconds) is det.
 %
 %   A hop into (`in`) or out of (`out`) Name took Seconds of host time; an agent
-%   on Here is on There now, both hosts of this process.
+%   on Name has gone to another process by one; an agent on Here is on There
+%   now, both hosts of this process.
 
 host_hop(Name, Direction, Seconds) :-
     hop_keys(Name, Direction, Flags),
     !,
     with_mutex(typhon_host_flags, add_hop(Flags, Seconds)).
 host_hop(_, _, _).
+
+host_left(Name, Seconds) :-
+    load_key(Name, Load),
+    hop_keys(Name, out, Out),
+    !,
+    with_mutex(typhon_host_flags, left(Load, Out, Seconds)).
+host_left(_, _).                        % stopped meanwhile
 
 host_passed(Here, There, Seconds) :-
     load_key(Here, Load),
@@ -270,6 +280,10 @@ passed(Load, Out, In, Seconds) :-
     count_load(Load, -1),
     add_hop(Out, Seconds),
     add_hop(In, Seconds).
+
+left(Load, Out, Seconds) :-
+    count_load(Load, -1),
+    add_hop(Out, Seconds).
 
 add_hop(flags(Count, Min, Sum, Max), Seconds) :-
     get_flag(Count, N0), N is N0+1, set_flag(Count, N),

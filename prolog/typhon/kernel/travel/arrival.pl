@@ -33,28 +33,54 @@ anyhow: the agent stands here, has gone on, or has ended.
 */
 
 :- multifile
+    typhon_endpoint:handed/4,
     typhon_endpoint:lent/2,
     typhon_endpoint:requested/4,
     typhon_endpoint:returned/0.
 
-typhon_endpoint:requested(hop, hop(Name, Image, Program), Peer, ReplyTo) :-
-    arrived(Name, Image, Program, none, Peer, ReplyTo).
+%   With a journal the answer waits for the commit.
+
+typhon_endpoint:handed(hop, hop(Name, Image, Program), Peer, Verdict) :-
+    (   durable_on
+    ->  Verdict = deferred
+    ;   holed(Image, Whole),
+        arrived(Name, Whole, Program, none, Peer, Answer),
+        handed(Answer, Name, Verdict)
+    ).
+
+handed(installed(Id), Name, accepted) :-
+    !,
+    endpoint_afterwards(go_on(Name, Id)).
+handed(Answer, _, Answer).
+
+%   holed(+Image0, -Image): what was handed over has its hole.
+
+holed(image(Id, Hash, Life, State, Hole-Goals, Mail, Start), Image) :-
+    !,
+    Hole = true,
+    Image = image(Id, Hash, Life, State, Goals, Mail, Start).
+holed(Image, Image).
+
+typhon_endpoint:requested(hop, hop(Name, Image0, Program), Peer, ReplyTo) :-
+    holed(Image0, Image),
+    arrived(Name, Image, Program, none, Peer, Answer),
+    answer(Answer, Name, ReplyTo).
 typhon_endpoint:requested(hop, hop(Name, Image, Program, Label), Peer,
                           ReplyTo) :-
     (   is_crossing(Label)
-    ->  arrived(Name, Image, Program, Label, Peer, ReplyTo)
+    ->  arrived(Name, Image, Program, Label, Peer, Answer),
+        answer(Answer, Name, ReplyTo)
     ;   endpoint_reply(ReplyTo, refused(error(type_error(crossing, Name))))
     ).
 
-arrived(Name, Image, Program, Label, Peer, ReplyTo) :-
+arrived(Name, Image, Program, Label, Peer, Answer) :-
     catch(arrive_noted(Name, Image, Program, Label, Peer, Answer),
           error(Formal, Context),
           ( print_error(error, error(Formal, Context)),
             gate_refused(Name, from(Peer, Program, none), malformed,
                          error(Formal)),
             Answer = refused(error(Formal))
-          )),
-    answer(Answer, Name, ReplyTo).
+          )).
 
 arrive_noted(Name, Image, Program, Label, Peer, Answer) :-
     (   durable_on

@@ -5,7 +5,6 @@
                                         % +Goals
           ]).
 :- use_module(library(debug), [debug/3]).
-:- use_module('../program', [code_sent/2]).
 :- use_module('../wire',
               [endpoint_address/1, endpoint_request/4, mobile_term/1]).
 :- use_module('../host',
@@ -16,7 +15,9 @@
 :- use_module(hop_ids, [crossing_label/3, crossing_repeated/1]).
 :- use_module(doubt, [doubt_open/1, doubt_settle/1]).
 :- use_module(home, [agent_born/2]).
+:- use_module(hand_over, [hand_over/5]).
 :- use_module(legacies, [clone_born/2]).
+:- use_module(programs_sent, [program_missing/2, program_sent/3]).
 :- use_module(within, [hop_within/6]).
 :- use_module(transfer,
               [ transfer_arrived/1, transfer_freeze/4, transfer_image/2,
@@ -25,7 +26,8 @@
 
 /** <module> A hop is a transaction
 
-Between hosts of one process see typhon_within; this is of hops to others.
+Between hosts of one process see typhon_within, and for the short way between
+plain hosts typhon_hand_over; this is of hops by request.
 The source freezes the agent and sends its image: state, payloads, goals,
 mail.  The receiver installs it and answers, see typhon_arrival, and only
 then does the source let its copy go, see typhon_transfer.  An agent that
@@ -46,11 +48,9 @@ endpoint, which never wait.
 :- multifile
     sent_again/2,               % Endpoint, Id: they lack what proves it
     typhon_doubt:again/1,
-    typhon_endpoint:connection/2.
+    typhon_hand_over:result/2.
 
 :- dynamic sent_again/2.
-
-:- dynamic has_program/2.       % Endpoint, Hash: was sent there
 
 %!  hop(+Id, +Where, +Hole, +Goals, +Since, -Next) is det.
 %
@@ -65,6 +65,9 @@ endpoint, which never wait.
 hop(Id, local(Name), Hole, Goals, Since, Next) :-
     !,
     hop_within(Id, Name, Hole, Goals, Since, Next).
+hop(Id, Where, Hole, Goals, Since, stop) :-
+    hand_over(Id, Where, Hole, Goals, Since),
+    !.
 hop(Id, Where, Hole, Goals, Since, stop) :-
     destination(Where, Dest),
     Transfer = hop(Id, Dest, _),
@@ -124,12 +127,12 @@ send(Transfer, Image0) :-
                 arg(1, Transfer, Id),
                 agent(Id, Host, _, _, _) % else it was ended meanwhile
             ->  image_amended(departs, Host, Address, Image0, Image),
-                program(Endpoint, Hash, Sent),
+                program_sent(Endpoint, Hash, Sent),
                 transfer_traveller(Transfer, Who, _),
                 amended(papers, Host, program(Who, Hash, Endpoint), Sent,
                         Program)
             ;   Image = Image0,
-                program(Endpoint, Hash, Program)
+                program_sent(Endpoint, Hash, Program)
             ),
             (   durable_on
             ->  hop_request(Transfer, Name, Image, Program, Request),
@@ -163,39 +166,26 @@ not_sent(Formal, Transfer) :-
 %   Once more, whoever was asked before.
 
 typhon_doubt:again(Transfer) :-
+    again(Transfer).
+
+again(Transfer) :-
     (   transfer_image(Transfer, Image)
     ->  send(Transfer, Image)
     ;   transfer_stays(Transfer, given_up)
     ).
 
-%   The program is sent to processes that lack it as far as we know.
-
-program(Endpoint, Hash, known) :-
-    has_program(Endpoint, Hash),
-    !.
-program(Endpoint, Hash, Sent) :-
-    code_sent(Hash, Sent),
-    bound_programs,
-    assertz(has_program(Endpoint, Hash)).
-
-%   What is forgotten is sent once more.
-
-most_programs(10000).
-
-bound_programs :-
-    predicate_property(has_program(_, _), number_of_clauses(Count)),
-    most_programs(Most),
-    Count > Most,
-    !,
-    retractall(has_program(_, _)).
-bound_programs.
-
-typhon_endpoint:connection(Endpoint, down) :-
-    retractall(has_program(Endpoint, _)).
-
                 /*******************************
                 *            ANSWERS           *
                 *******************************/
+
+typhon_hand_over:result(unsent, Transfer) :-
+    !,
+    again(Transfer).
+typhon_hand_over:result(lost, Transfer) :-
+    !,
+    answered(Transfer, lost).
+typhon_hand_over:result(Answer, Transfer) :-
+    answered(Transfer, answer(Answer)).
 
 answered(Transfer, answer(Answer)) :-
     taken(Answer, Transfer).
@@ -217,7 +207,7 @@ taken(need_program, Transfer) :-
     ->  arg(2, Transfer, dest(_, _, Endpoint)),
         debug(typhon(hop), '~w lacks the program', [Endpoint]),
         image_hash(Image, Hash),
-        retractall(has_program(Endpoint, Hash)),
+        program_missing(Endpoint, Hash),
         transfer_traveller(Transfer, Who, _),
         forall(sent_again(Endpoint, Who), true),
         send(Transfer, Image)

@@ -69,6 +69,9 @@ own_start_next/1 run under the mutex of the endpoint.
     received/3,                         % Kind, Term, Peer
     together/3,                         % Kind, Terms, Fewer
     requested/4,                        % Kind, Term, Peer, ReplyTo
+    handed/4,                           % Kind, Term, Peer, Verdict: `accepted`,
+                                        % `deferred`, or another answer
+    handed_over/2,                      % Token, Result
     connection/2,                       % Peer, State
     lent/2,                             % Goal, Thread
     returned/0.
@@ -76,6 +79,8 @@ own_start_next/1 run under the mutex of the endpoint.
     received/3,
     together/3,
     requested/4,
+    handed/4,
+    handed_over/2,
     connection/2,
     lent/2,
     returned/0.

@@ -1,23 +1,28 @@
 :- module(typhon_frame,
-          [ frame_write/2,              % +Out, +Bytes
-            frame_write_now/2,          % +Out, +Bytes
-            frame_read/3,               % +In, +MaxBytes, -Bytes
+          [ frame_write/3,              % +Out, +Counts, +Bytes
+            frame_read/4,               % +In, +MaxBytes, -Counts, -Bytes
+            frame_overhead/1,           % ?Bytes
+            count_ahead/3,              % +Counted, +Count, -Ahead
             term_bytes/3,               % +Codec, +Term, -Bytes
             bytes_term/3,               % +Codec, +Bytes, -Term
             bytes_mark/2,               % +Bytes, -Mark
             check_bytes/2,              % +Bytes, -Check
             mobile_term/1,              % +Term
             bundle_fits/1,              % +Bytes
-            bundle_next/5,              % +Queue, +Codec, +Space, -Bytes, -Many
+            bundle_next/5,              % +Queue, +Codec, +Space, -Frame, -Many
             bundle_all/3,               % +Queue, +Codec, -Frames
             bundle_parts/2              % +Bundle, -Parts
           ]).
 
 /** <module> Frames: terms as counted bytes
 
-A frame is a big-endian four-byte length, a check of three bytes, and as
-many bytes as the length says. Bytes are a string of codes 0..255, the body
-of one term in one of two codecs:
+A frame is a head of fifteen bytes and a body. The head has, big-endian, the
+length of the body in four bytes, a check in three, and two counts of four
+bytes each, counts(Received, Settled): how many frames of the other side this
+side has received, and how many of them are settled, see unacked.pl. Counts
+wrap around. A frame without body says nothing but its counts.
+
+The body is a string of codes 0..255, one term in one of two codecs:
 
   - `fast` is the internal record format. It is only for peers of one
     word size, byte order and a tried range of versions: a record of
@@ -25,16 +30,17 @@ of one term in one of two codecs:
   - `text` is canonical text in UTF-8, independent of the operators and
     flags of both sides.
 
-The check detects damage in transit before the bytes are decoded: a damaged
-record aborts the process, too. It is no proof of anything.
+The check detects damage of body and counts in transit before the bytes are
+decoded: a damaged record aborts the process, too. It is no proof of anything.
 
 Before the body of a request or an answer that may turn out to be more than
 the other side can decode, long ones and all text, stands a mark with its
 number, so that no caller waits for an answer that could not be read.
 
 Writing, reading, checking and keeping a small frame costs more than its
-content. So posts that wait are loose(Bytes), and up to a hundred of them
-become one frame, bundle(Parts).
+content. So of the frames that wait, frame(Bytes, Token, Settled), posts are
+loose(Bytes, Settled), and up to a hundred of them become one frame,
+bundle(Parts).
 
 *Threading*: no state; every predicate may be called from any thread. The
 owner of a stream ensures that one thread at a time writes to it; the mutex
@@ -49,30 +55,46 @@ of the session guards a queue of bundles.
 :- use_module('../base/text', [term_text/2, text_term/2]).
 :- use_module('../base/trees', [is_in_itself/1]).
 
-%!  frame_write(+Out, +Bytes) is det.
-%!  frame_write_now(+Out, +Bytes) is det.
+%!  frame_write(+Out, +Counts, +Bytes) is det.
 %
-%   Write one frame to the binary stream Out; the second flushes it.
+%   Write one frame to the binary stream Out, which is not flushed.
 
-frame_write_now(Out, Bytes) :-
-    frame_write(Out, Bytes),
-    flush_output(Out).
-
-frame_write(Out, Bytes) :-
+frame_write(Out, counts(Received, Settled), Bytes) :-
     string_length(Bytes, Length),
-    B3 is (Length>>24) /\ 255,
-    B2 is (Length>>16) /\ 255,
-    B1 is (Length>>8) /\ 255,
-    B0 is Length /\ 255,
-    check_bytes(Bytes, Check),
-    C2 is Check>>16,
-    C1 is (Check>>8) /\ 255,
-    C0 is Check /\ 255,
-    string_codes(Head, [B3, B2, B1, B0, C2, C1, C0]),
+    check_bytes(Bytes, Hash),
+    R is Received /\ 0xffffffff,
+    S is Settled /\ 0xffffffff,
+    head_check(Hash, R, S, Check),
+    L3 is Length>>24, L2 is (Length>>16) /\ 255,
+    L1 is (Length>>8) /\ 255, L0 is Length /\ 255,
+    C2 is Check>>16, C1 is (Check>>8) /\ 255, C0 is Check /\ 255,
+    R3 is R>>24, R2 is (R>>16) /\ 255, R1 is (R>>8) /\ 255, R0 is R /\ 255,
+    S3 is S>>24, S2 is (S>>16) /\ 255, S1 is (S>>8) /\ 255, S0 is S /\ 255,
+    string_codes(Head, [ L3,L2,L1,L0, C2,C1,C0, R3,R2,R1,R0, S3,S2,S1,S0 ]),
     write(Out, Head),
     write(Out, Bytes).
 
-%!  frame_read(+In, +MaxBytes, -Bytes) is det.
+%   Each bit of the counts matters to the 24 bits of the check.
+
+head_check(Hash, R, S, Check) :-
+    Check is (Hash + 7919*(R + R>>19) + 104729*(S + S>>19)) /\ 0xffffff.
+
+%!  frame_overhead(?Bytes) is det.
+%
+%   The head of a frame takes so many.
+
+frame_overhead(15).
+
+%!  count_ahead(+Counted, +Count, -Ahead) is semidet.
+%
+%   Count, as it stands in a head, is Ahead frames more than Counted; fails if
+%   it is less, as in a frame that was written long ago.
+
+count_ahead(Counted, Count, Ahead) :-
+    Ahead is (Count-Counted) /\ 0xffffffff,
+    Ahead < 0x80000000.
+
+%!  frame_read(+In, +MaxBytes, -Counts, -Bytes) is det.
 %
 %   Read one frame. Bytes is `end_of_file` when In ends where a frame
 %   would begin.
@@ -82,14 +104,19 @@ frame_write(Out, Bytes) :-
 %   the context is check(Read, Found). In is where the next frame begins.
 %   @error resource_error(frame_bytes) the frame is longer than MaxBytes.
 
-frame_read(In, MaxBytes, Bytes) :-
-    read_string(In, 7, Head),
-    (   string_codes(Head, [B3, B2, B1, B0, C2, C1, C0])
-    ->  Length is B3<<24 \/ B2<<16 \/ B1<<8 \/ B0,
+frame_read(In, MaxBytes, Counts, Bytes) :-
+    read_string(In, 15, Head),
+    (   string_codes(Head, [ L3,L2,L1,L0, C2,C1,C0, R3,R2,R1,R0,
+                             S3,S2,S1,S0 ])
+    ->  Length is L3<<24 \/ L2<<16 \/ L1<<8 \/ L0,
         frame_body(In, Length, MaxBytes, Bytes),
+        R is R3<<24 \/ R2<<16 \/ R1<<8 \/ R0,
+        S is S3<<24 \/ S2<<16 \/ S1<<8 \/ S0,
+        Counts = counts(R, S),
         Check is C2<<16 \/ C1<<8 \/ C0,
-        check_bytes(Bytes, Found),
-        (   Found == Check
+        check_bytes(Bytes, Hash),
+        head_check(Hash, R, S, Found),
+        (   Found =:= Check
         ->  true
         ;   throw(error(syntax_error(damaged_frame), check(Check, Found)))
         )
@@ -293,49 +320,49 @@ bundle_fits(Bytes) :-
     longest_part(Most),
     Length =< Most.
 
-%!  bundle_next(+Queue, +Codec, +Space, -Bytes, -Many) is semidet.
+%!  bundle_next(+Queue, +Codec, +Space, -Frame, -Many) is semidet.
 %
-%   Take the next frame of Queue: fails where there is none, or not one of
-%   Space bytes, a number or `inf`.  Many is `true` if it is a bundle.
+%   Take the next Frame of Queue, frame(Bytes, Token, Settled): fails where
+%   there is none, or not one of Space bytes, a number or `inf`. Many is `true`
+%   if it is a bundle.
 
-bundle_next(Queue, Codec, Space, Bytes, Many) :-
+bundle_next(Queue, Codec, Space, Frame, Many) :-
     thread_peek_message(Queue, Next),
-    first_length(Next, Length),
+    arg(1, Next, Bytes),
+    string_length(Bytes, Length),
     Length =< Space,
     !,
-    next(Next, Queue, Codec, Space, Bytes, Many).
+    next(Next, Queue, Codec, Space, Frame, Many).
 
-first_length(loose(Bytes), Length) :-
-    !,
-    string_length(Bytes, Length).
-first_length(Bytes, Length) :-
-    string_length(Bytes, Length).
-
-next(loose(_), Queue, Codec, Space, Bytes, Many) :-
+next(loose(_, _), Queue, Codec, Space, Frame, Many) :-
     !,
     most_parts(Most),
-    parts(Most, Space, Queue, Parts),
-    bundled(Parts, Codec, Bytes, Many).
-next(Bytes, Queue, _, _, Bytes, false) :-
+    parts(Most, Space, Queue, 0, Parts, Settled),
+    bundled(Parts, Codec, Settled, Frame, Many).
+next(Frame, Queue, _, _, Frame, false) :-
     thread_get_message(Queue, _).
 
-bundled([Bytes], _, Bytes, false) :-
+bundled([Bytes], _, Settled, frame(Bytes, none, Settled), false) :-
     !.
-bundled(Parts, Codec, Bytes, true) :-
+bundled(Parts, Codec, Settled, frame(Bytes, none, Settled), true) :-
     term_bytes(Codec, bundle(Parts), Bytes).
 
-parts(Most, Space0, Queue, Parts) :-
+%   What is settled is as of the last part: all that was sent before it has
+%   gone by then.
+
+parts(Most, Space0, Queue, Settled0, Parts, Settled) :-
     (   Most > 0,
         thread_peek_message(Queue, Next),
-        Next = loose(Part),
+        Next = loose(Part, Settled1),
         string_length(Part, Length),
         Length =< Space0
     ->  thread_get_message(Queue, _),
         Parts = [Part|More],
         space_left(Space0, Length, Space),
         Most1 is Most-1,
-        parts(Most1, Space, Queue, More)
-    ;   Parts = []
+        parts(Most1, Space, Queue, Settled1, More, Settled)
+    ;   Parts = [],
+        Settled = Settled0
     ).
 
 space_left(inf, _, inf) :-
@@ -349,8 +376,8 @@ space_left(Space0, Length, Space) :-
 %   Take all that waits.
 
 bundle_all(Queue, Codec, Frames) :-
-    (   bundle_next(Queue, Codec, inf, Bytes, _)
-    ->  Frames = [Bytes|More],
+    (   bundle_next(Queue, Codec, inf, Frame, _)
+    ->  Frames = [Frame|More],
         bundle_all(Queue, Codec, More)
     ;   Frames = []
     ).

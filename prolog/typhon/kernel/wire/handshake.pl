@@ -16,8 +16,8 @@
 Both ends of a connection prove that they know a shared secret, the cookie,
 before either decodes a term of the other. Four short lines pass:
 
-    client: typhon 2 <nonce> <hello>
-    server: typhon 2 <nonce> <hello>
+    client: typhon 3 <nonce> <hello>
+    server: typhon 3 <nonce> <hello>
     client: <proof>
     server: <proof>
 
@@ -29,7 +29,7 @@ endpoint, its listening address, its Prolog version, word size and byte order.
 A proof is the HMAC-SHA256 under the cookie of the prover's role and both
 first lines: it cannot be replayed, reflected, or moved to other hellos. The
 server proves nothing to a client that has not. A client of another version
-of the protocol receives ours, as `typhon 2`.
+of the protocol receives ours, as `typhon 3`.
 
 *Threading*: any thread. One thread owns the streams of a connection while
 lines are exchanged. The cookie is kept with the time stamp of its file
@@ -216,7 +216,7 @@ greet(Out, Hello, Line) :-
     format(string(Line), "~w ~w ~w", [Protocol, Nonce, HelloLine]),
     line_write(Out, Line).
 
-protocol("typhon 2").
+protocol("typhon 3").
 
 greeting_hello(Line, Hello) :-
     (   split_string(Line, " ", "", [_, _, _|Fields])

@@ -3,7 +3,7 @@
             lending_anew/0,
             lending_open/3,             % +Session, +In, +Out
             lending_close/0,
-            lend/2,                     % +Count, :More
+            lend/1,                     % :More
             lent/0,
             lent_away/0
           ]).
@@ -29,7 +29,7 @@ The token goes to the thread that takes it first.
 
 :- use_module(library(debug), [debug/3]).
 :- use_module(library(lists), [member/2]).
-:- use_module(session, [note_received/2, session_adopting/2, session_key/2]).
+:- use_module(session, [session_adopting/2]).
 :- use_module(threads,
               [ in_background/2, manager_notify/1, wire_thread_leaves/1,
                 wire_thread_obey/1 ]).
@@ -38,7 +38,7 @@ The token goes to the thread that takes it first.
 
 :- meta_predicate
     endpoint_afterwards(1),
-    lend(+, 0).
+    lend(0).
 
 :- multifile
     typhon_endpoint:lent/2,             % Goal, Thread
@@ -118,37 +118,36 @@ come_back :-
     nb_getval(typhon_token, token(Queue, _)),
     sig_atomic(take_back(Queue, _)).
 
-%!  lend(+Count, :More) is semidet.
+%!  lend(:More) is semidet.
 %
-%   Call what a hook has left, if anything: Count frames of the peer are
-%   handled. True when the thread has been lent, and is back. More says
-%   whether there is more to read first.
+%   Call what a hook has left, if anything. True when the thread has been lent,
+%   and is back. More says whether there is more to read first.
 %
 %   Throws wire_thread_end(Why) if it is to end, as when the connection is no
 %   longer ours.
 
-lend(Count, More) :-
+lend(More) :-
     nb_getval(typhon_lending, wants(Goal)),
     (   call(More)
     ->  sig_atomic(( nb_setval(typhon_lending, idle),
                      call(Goal, later) )),
         fail
-    ;   sig_atomic(give(Goal, Count, Queue)),
+    ;   sig_atomic(give(Goal, Queue)),
         call(Goal, here),
         sig_atomic(take_back(Queue, Told)),
         heard(Told)
     ).
 
-give(Goal, Count, Queue) :-
+give(Goal, Queue) :-
     nb_getval(typhon_token, token(Queue, Turn0)),
     Turn is Turn0+1,
     nb_linkval(typhon_token, token(Queue, Turn)),
     nb_linkval(typhon_lending, lent),
-    thread_send_message(Queue, token(Turn, Count, Goal)),
+    thread_send_message(Queue, token(Turn, Goal)),
     watch.
 
 take_back(Queue, Told) :-
-    (   token_taken(Queue, _, _)
+    (   token_taken(Queue, _)
     ->  nb_getval(typhon_lending, State),
         nb_linkval(typhon_lending, idle),
         told(State, Told)
@@ -159,13 +158,13 @@ take_back(Queue, Told) :-
         Told = lent
     ).
 
-%   token_taken(+Queue, -Count, -Goal) is semidet: it goes to one. Nothing is
+%   token_taken(+Queue, -Goal) is semidet: it goes to one. Nothing is
 %   waited for: a wait with a deadline has no place where signals are held.
 
-token_taken(Queue, Count, Goal) :-
+token_taken(Queue, Goal) :-
     with_mutex(typhon_lending,
                ( thread_peek_message(Queue, Message),
-                 Message = token(_, Count, Goal),
+                 Message = token(_, Goal),
                  thread_get_message(Queue, _) )).
 
 told(lent, none).
@@ -255,15 +254,14 @@ worked(Thread, Seconds) :-
 away(Thread, Turn) :-
     lendable(Thread, Queue, _),
     catch(thread_peek_message(Queue, Message), error(_, _), fail),
-    Message = token(Turn, _, _).
+    Message = token(Turn, _).
 
                  /*******************************
                  *           RELEASE            *
                  *******************************/
 
 %   release(+Thread) is semidet: it is on its own, and the session without
-%   connection.  A thread that waits for the end of Thread goes on,
-%   and finds the right count.  Should Thread come back before the connection
+%   connection.  A thread that waits for the end of Thread goes on.  Should Thread come back before the connection
 %   is gone, it sees to that itself.
 
 typhon_threads:overdue(Thread) :-
@@ -277,11 +275,8 @@ release(Thread) :-
 
 released(Thread, Connection) :-
     lendable(Thread, Queue, Connection),
-    catch(token_taken(Queue, Count, Goal), error(_, _), fail),
+    catch(token_taken(Queue, Goal), error(_, _), fail),
     !,
-    Connection = connection(Session, _, _),
-    session_key(Session, Key),
-    note_received(Key, Count),
     call_cleanup(                       % it waits for this, whatever a hook does
         forall(typhon_endpoint:lent(Goal, Thread), true),
         ( wire_thread_leaves(Thread),

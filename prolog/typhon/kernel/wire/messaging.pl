@@ -3,6 +3,9 @@
             endpoint_post_up/3,         % +Address, +Kind, +Term
             endpoint_post_by/4,         % +Deadline, +Address, +Kind, +Term
             endpoint_request/4,         % +Address, +Kind, +Term, :OnAnswer
+            endpoint_hand/4,            % +Address, +Kind, +Term, -Hand
+            endpoint_hand_over/2,       % +Hand, +Token
+            endpoint_handed/2,          % +Hand, -Term
             endpoint_reply/2,           % +ReplyTo, +Term
             endpoint_reply_later/2,     % +ReplyTo, +Term
             endpoint_call/5,            % +Address, +Kind, +Term, -Answer,
@@ -29,15 +32,16 @@ endpoint_ask_all/6 wait, and are not for the threads of the endpoint.
 :- use_module(alone, [alone/1, alone_request/4]).
 :- use_module(connection_manager, [manager_connect/1, manager_connect/2]).
 :- use_module(endpoint, [endpoint_address/1]).
-:- use_module(frame, [mobile_term/1]).
-:- use_module(outbox, [session_send_with/2]).
+:- use_module(frame, [bytes_term/3, mobile_term/1]).
+:- use_module(outbox,
+              [session_hand/3, session_hand_bytes/4, session_send_with/2]).
 :- use_module(peers, [endpoint_peer/2]).
 :- use_module(reader, [in_reader/0]).
 :- use_module(request,
               [ request_forget/1, request_reply/2, request_reply_later/2,
                 request_send/4, take_post/3, unsent/1, unsent_closed/4,
                 unsent_forget/1, unsent_request/4 ]).
-:- use_module(session, [route/2, route_up/2]).
+:- use_module(session, [route/2, route_up/2, session_codec/2]).
 
 :- meta_predicate
     endpoint_request(+, +, +, 1).
@@ -157,6 +161,32 @@ endpoint_request(Address, Kind, Term, OnAnswer) :-
     check_running,
     mobile_term(Term),
     unsent_request(Address, Kind, Term, OnAnswer).
+
+%!  endpoint_hand(+Address, +Kind, +Term, -Hand) is semidet.
+%!  endpoint_hand_over(+Hand, +Token) is det.
+%!  endpoint_handed(+Hand, -Term) is det.
+%
+%   Hand is the frame by which Term is handed over to the process at Address:
+%   fails if there is no connection, or something else waits to be asked there.
+%   Send it: what becomes of it comes to the hook handed_over(Token, Result), in
+%   a thread of the endpoint. The Term that was in it. Term holds neither
+%   attributed variables nor cycles.
+%
+%   Hand is hand(Session, Codec, Bytes). It can be kept in clauses.
+%
+%   @error resource_error(frame_bytes), type_error(mobile_term, Culprit)
+%   @error session_closed
+
+endpoint_hand(Address, Kind, Term, hand(Session, Codec, Bytes)) :-
+    open_way(Address, Session),
+    session_codec(Session, Codec),
+    session_hand_bytes(Session, Kind, Term, Bytes).
+
+endpoint_hand_over(hand(Session, _, Bytes), Token) :-
+    session_hand(Session, Bytes, Token).
+
+endpoint_handed(hand(_, Codec, Bytes), Term) :-
+    bytes_term(Codec, Bytes, hand(_, Term)).
 
 %!  endpoint_reply(+ReplyTo, +Term) is det.
 %

@@ -2,6 +2,11 @@
           [ session_send/2,             % +Session, +Term
             session_answer/2,           % +Session, +Term
             session_send_with/2,        % +Session, +Term
+            session_hand/3,             % +Session, +Bytes, +Token
+            session_hand_bytes/4,       % +Session, +Kind, +Term, -Bytes
+            session_object/2,           % +Session, +Answer
+            session_acknowledge/1,      % +Session
+            session_owes/0,
             session_release/1,          % +Session
             session_send_later/2,       % +Session, +Term
             session_later/1,            % -Count
@@ -39,16 +44,18 @@ is held.
               [ commit_changes/0, flush_sends/0, output_waits/0,
                 send_after_commit/2 ]).
 :- use_module(frame,
-              [bundle_fits/1, frame_write/2, frame_write_now/2, term_bytes/3]).
+              [bundle_fits/1, frame_overhead/1, frame_write/3, term_bytes/3]).
 :- use_module(session,
-              [ acknowledged/3, session_codec/2, session_key/2,
-                session_locked/2, session_must_exist/2, session_up/1,
-                transport/3, transport_broken/2, debug_frame/4 ]).
+              [ session_codec/2, session_key/2, session_locked/2,
+                session_must_exist/2, session_received/2,
+                session_up/1, session_window/2, transport/3,
+                transport_broken/2, debug_frame/4 ]).
 :- use_module(threads, [manager_notify/1]).
 :- use_module(unacked,
               [ pusher/2, pusher_control/3, pusher_start/4, unacked_await/3,
                 unacked_next/3, unacked_no_wait/1, unacked_owed/2,
-                unacked_sent/2, unacked_waiting/1, unacked_waits/2 ]).
+                unacked_sent/3, unacked_waiting/1, unacked_waits/3,
+                unacked_waits_loose/2 ]).
 
 :- multifile typhon_durable_changes:committed/1.
 
@@ -88,7 +95,7 @@ send(Session, Term, When) :-
     (   output_waits
     ->  let_out(Session, Bytes, When)
     ;   session_locked(Session,
-                       put_frame(Session, Bytes, frame_write_now))
+                       put_frame(Session, Bytes, none, flush))
     ).
 
 %!  session_send_with(+Session, +Term) is det.
@@ -110,15 +117,54 @@ session_send_with(Session, Term) :-
     (   output_waits
     ->  let_out(Session, loose(Bytes), now)
     ;   session_locked(Session,
-                       put_with(Session, Bytes, frame_write_now))
+                       put_with(Session, Bytes, flush))
     ).
 
 session_release(Session) :-
-    session_key(Session, Key),
-    (   unacked_waiting(Key)
-    ->  session_locked(Session, see_to(Session, Key))
+    (   unacked_waiting(Session)
+    ->  session_key(Session, Key),
+        session_locked(Session, see_to(Session, Key))
     ;   true
     ).
+
+%!  session_hand_bytes(+Session, +Kind, +Term, -Bytes) is det.
+%!  session_hand(+Session, +Bytes, +Token) is det.
+%
+%   Bytes are the frame that hands over Term; send it, and learn by Token what
+%   became of it: see request.pl.
+%
+%   @error resource_error(frame_bytes), type_error(mobile_term, Culprit)
+%
+%   @error session_closed
+
+session_hand_bytes(Session, Kind, Term, Bytes) :-
+    frame_bytes(Session, hand(Kind, Term), Bytes).
+
+session_hand(Session, Bytes, Token) :-
+    answers_first(Session),
+    session_locked(Session, put_frame(Session, Bytes, Token, flush)).
+
+%!  session_object(+Session, +Answer) is det.
+%!  session_owes is det.
+%
+%   For the thread of the connection, of the frame that it is about to count:
+%   the peer learns that it is not accepted, but Answer; the peer waits for the
+%   count of it, which goes with whatever is sent next, see session_send_later/2.
+%   An objection never waits for a commit: the count would overtake it.
+
+session_object(Session, Answer) :-
+    session_received(Session, Count),
+    Number is Count+1,
+    frame_bytes(Session, objection(Number, Answer), Bytes),
+    unless_closed(session_locked(Session,
+                                 put_frame(Session, Bytes, none, flush))),
+    session_owes.
+
+session_owes :-
+    nb_getval(typhon_later, Count),
+    Count1 is Count+1,
+    nb_linkval(typhon_later, Count1),
+    nb_linkval(typhon_owing, true).
 
 %   What a reader has left goes along, or before what is sent to other peers: the
 %   next process must not report an agent before the answer that it has come
@@ -128,7 +174,8 @@ answers_first(Session) :-
     answers_left(Own),
     !,
     (   Own == Session
-    ->  nb_linkval(typhon_later, 0)
+    ->  nb_linkval(typhon_later, 0),
+        nb_linkval(typhon_owing, false)
     ;   session_push(Own)
     ).
 answers_first(_).
@@ -152,7 +199,7 @@ session_send_later(Session, Term) :-
     frame_bytes(Session, Term, Bytes),
     (   output_waits
     ->  unless_closed(let_out(Session, Bytes, later))
-    ;   session_locked(Session, put_frame(Session, Bytes, frame_write))
+    ;   session_locked(Session, put_frame(Session, Bytes, none, buffer))
     ),
     Count1 is Count+1,
     nb_linkval(typhon_later, Count1).
@@ -163,18 +210,22 @@ session_later(Count) :-
     nb_getval(typhon_later, Count).
 
 session_push(Session) :-
-    (   output_waits
-    ->  flush_sends
+    ( output_waits -> flush_sends ; true ),
+    (   nb_current(typhon_owing, true)
+    ->  session_acknowledge(Session)
+    ;   output_waits
+    ->  true
     ;   session_key(Session, Key),
-        session_locked(Session, push_out(Key))
+        session_locked(Session, flush_out(Key))
     ),
     nb_linkval(typhon_later, 0),
+    nb_linkval(typhon_owing, false),
     (   nb_current(typhon_later_in, Session)
     ->  true
     ;   nb_setval(typhon_later_in, Session)
     ).
 
-push_out(Key) :-
+flush_out(Key) :-
     (   transport(Key, Thread, Out),
         \+ pusher(Key, _)
     ->  catch(flush_output(Out),
@@ -204,63 +255,77 @@ frame_bytes(Session, Term, Bytes) :-
     ;   resource_error(frame_bytes)
     ).
 
-put_with(Session, Bytes, Write) :-
+put_with(Session, Bytes, Flush) :-
     \+ bundle_fits(Bytes),
     !,
-    put_frame(Session, Bytes, Write).
-put_with(Session, Bytes, Write) :-
+    put_frame(Session, Bytes, none, Flush).
+put_with(Session, Bytes, Flush) :-
     session_must_exist(Session, Key),
-    (   holds(Key)
-    ->  unacked_waits(Key, loose(Bytes))
-    ;   put(Session, Key, Bytes, loose(Bytes), Write)
+    (   holds(Session, Key)
+    ->  unacked_waits_loose(Session, Bytes)
+    ;   put(Session, Key, Bytes, loose, Flush)
     ).
 
-%   holds(+Key): the peer will acknowledge some of what is under way, and not
-%   too much waits; or there is a pusher.
+%   holds(+Session, +Key): the peer will acknowledge some of what is under way,
+%   and not too much waits; or there is a pusher.
 
 most_held(256).
 
-holds(Key) :-
+holds(_, Key) :-
     pusher(Key, _),
     !.
-holds(Key) :-
+holds(Session, Key) :-
     session_up(Key),
-    unacked_owed(Key, Waiting),
+    unacked_owed(Session, Waiting),
     most_held(Most),
     Waiting < Most.
 
-put_frame(Session, Bytes, Write) :-
+put_frame(Session, Bytes, Token, Flush) :-
     session_must_exist(Session, Key),
-    put(Session, Key, Bytes, Bytes, Write).
+    put(Session, Key, Bytes, Token, Flush).
 
-%   put(+Session, +Key, +Bytes, +Frame, :Write): Frame is what waits if it
-%   cannot be written.
+%   put(+Session, +Key, +Bytes, +Token, +Flush): Token is `loose` if Bytes may go
+%   with others when they have to wait.
 
-put(Session, Key, Bytes, Frame, Write) :-
-    (   \+ unacked_waiting(Key),
-        writable(Key, Bytes, Thread, Out)
-    ->  unacked_sent(Key, Bytes),
-        written(Write, Key, Thread, Out, Bytes)
-    ;   unacked_waits(Key, Frame),
+put(Session, Key, Bytes, Token, Flush) :-
+    (   \+ unacked_waiting(Session),
+        writable(Session, Key, Bytes, Thread, Out)
+    ->  session_received(Session, Count),
+        sent(Token, Session, Bytes),
+        written(Flush, Key, Thread, Out, counts(Count, Count), Bytes)
+    ;   waits(Token, Session, Bytes),
         see_to(Session, Key)
     ).
 
-%   writable(+Key, +Bytes, -Thread, -Out): Bytes can be written to Out.
+sent(loose, Session, Bytes) :-
+    !,
+    unacked_sent(Session, Bytes, none).
+sent(Token, Session, Bytes) :-
+    unacked_sent(Session, Bytes, Token).
 
-writable(Key, Bytes, Thread, Out) :-
-    space(Key, Thread, Out, Space),
+waits(loose, Session, Bytes) :-
+    !,
+    unacked_waits_loose(Session, Bytes).
+waits(Token, Session, Bytes) :-
+    unacked_waits(Session, Bytes, Token).
+
+%   writable(+Session, +Key, +Bytes, -Thread, -Out): Bytes can be written to Out.
+
+writable(Session, Key, Bytes, Thread, Out) :-
+    space(Session, Key, Thread, Out, Space),
     string_length(Bytes, Length),
     Length < Space,
     !.
 
-%   space(+Key, -Thread, -Out, -Space): so many bytes can be written to Out.
-%   The stream of a pusher is left alone: even to look at it might block.
+%   space(+Session, +Key, -Thread, -Out, -Space): so many bytes can be written
+%   to Out. The stream of a pusher is left alone: even to look at it might block.
 
-space(Key, Thread, Out, Space) :-
+space(Session, Key, Thread, Out, Space) :-
     transport(Key, Thread, Out),
     \+ pusher(Key, _),
+    session_window(Session, window(_, _, _, _, _, AckedBytes, _)),
     byte_count(Out, Written),
-    acknowledged(Key, _, Acked),
+    get_flag(AckedBytes, Acked),
     under_way(Max),
     Space is Max-(Written-Acked).
 
@@ -278,15 +343,19 @@ write_waiting(Session, Key, Thread, Out) :-
     catch(( write_while_room(Session, Key), flush_output(Out) ),
           error(_, _),
           transport_broken(Key, Thread)),
-    (   unacked_waiting(Key)
+    (   unacked_waiting(Session)
     ->  push(Session, Key)
     ;   true
     ).
 
+%   In order: nothing that waits has been overtaken, so all is settled that was
+%   received when it was put, and more is told only behind it.
+
 write_while_room(Session, Key) :-
-    (   space(Key, _, Out, Space),
-        unacked_next(Session, Space, Bytes)
-    ->  frame_write(Out, Bytes),
+    (   space(Session, Key, _, Out, Space),
+        unacked_next(Session, Space, frame(Bytes, _, Settled))
+    ->  session_received(Session, Count),
+        frame_write(Out, counts(Count, Settled), Bytes),
         write_while_room(Session, Key)
     ;   true
     ).
@@ -298,15 +367,18 @@ push(Session, Key) :-
     ;   true
     ).
 
-written(Write, Key, Thread, Out, Bytes) :-
-    catch(call(Write, Out, Bytes),
+written(Flush, Key, Thread, Out, Counts, Bytes) :-
+    catch(( frame_write(Out, Counts, Bytes),
+            ( Flush == flush -> flush_output(Out) ; true )
+          ),
           error(_, _),
           transport_broken(Key, Thread)).
 
 %!  session_control(+Session, +Term) is det.
+%!  session_acknowledge(+Session) is det.
 %
-%   Send Term outside the count, before all that waits: dropped when the
-%   session is down, and where a newer one of its kind follows.
+%   Send Term, or nothing but counts, outside the count, before all that waits:
+%   dropped when the session is down, and where a newer one of its kind follows.
 
 session_control(Session, Term) :-
     session_codec(Session, Codec),
@@ -315,15 +387,35 @@ session_control(Session, Term) :-
     functor(Term, Kind, _),
     session_locked(Session, put_control(Session, Kind, Bytes)).
 
+session_acknowledge(Session) :-
+    session_locked(Session, put_control(Session, acknowledge, "")).
+
+%   If something waits it is held without a pusher: posts, which settle nothing.
+
 put_control(Session, Kind, Bytes) :-
     session_key(Session, Key),
-    (   writable(Key, Bytes, Thread, Out)
-    ->  written(frame_write_now, Key, Thread, Out, Bytes)
+    (   writable(Session, Key, Bytes, Thread, Out)
+    ->  control_counts(Session, Bytes, Counts),
+        written(flush, Key, Thread, Out, Counts, Bytes)
     ;   session_up(Key)
     ->  pusher_control(Key, Kind, Bytes),
         push(Session, Key)
     ;   true
     ).
+
+%   The peer does not acknowledge it: its bytes are not under way.
+
+control_counts(Session, Bytes, counts(Count, Count)) :-
+    session_window(Session,
+                   window(_, _, Received, Told, _, AckedBytes, Settled)),
+    get_flag(Received, Count),
+    set_flag(Told, Count),
+    set_flag(Settled, Count),
+    string_length(Bytes, Length),
+    frame_overhead(Head),
+    get_flag(AckedBytes, Acked0),
+    Acked is Acked0+Length+Head,
+    set_flag(AckedBytes, Acked).
 
                 /*******************************
                 *       WHAT IS COMMITTED      *
@@ -340,7 +432,8 @@ let_out(Session, Frame, When) :-
 
 typhon_durable_changes:committed(Frames) :-
     let_out_all(Frames, [], Sessions),
-    forall(member(Session, Sessions), flush_out(Session)).
+    forall(( member(Session, Sessions), session_key(Session, Key) ),
+           session_locked(Session, flush_out(Key))).
 
 let_out_all([], Sessions0, Sessions) :-
     reverse(Sessions0, Sessions).
@@ -356,13 +449,9 @@ let_out_all([frame(Session, Frame)|Frames], Sessions0, Sessions) :-
 
 put_committed(loose(Bytes), Session) :-
     !,
-    put_with(Session, Bytes, frame_write).
+    put_with(Session, Bytes, buffer).
 put_committed(Bytes, Session) :-
-    put_frame(Session, Bytes, frame_write).
-
-flush_out(Session) :-
-    session_key(Session, Key),
-    session_locked(Session, push_out(Key)).
+    put_frame(Session, Bytes, none, buffer).
 
 %!  session_flush(+Session, +Deadline) is semidet.
 %

@@ -15,30 +15,31 @@ sent so, and is skipped. A frame that cannot be decoded counts as received:
 asking for it again would not help. A caller that waits for an answer learns
 it at once, here or there.
 
-*Threading*: runs in the thread of the connection, see connection.pl. The
-counts are that thread's own and are stored when it ends, as is what it
-knows of damage. Signals are held back while a frame is being handled and
-counted.
+*Threading*: runs in the thread of the connection, see connection.pl. Signals
+are held back while a frame is being handled and counted.
 */
 
 :- use_module(library(apply), [maplist/3, partition/4]).
-:- use_module(library(error), [domain_error/2]).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(settings), [setting/2, setting/4]).
 :- use_module(frame,
-              [bundle_parts/2, bytes_mark/2, bytes_term/3, frame_read/3]).
+              [bundle_parts/2, bytes_mark/2, bytes_term/3, frame_read/4]).
 :- use_module(lending,
-              [lend/2, lending_close/0, lending_open/3, lent/0, lent_away/0]).
+              [lend/1, lending_close/0, lending_open/3, lent/0]).
 :- use_module(outbox,
-              [ session_answer/2, session_control/2, session_later/1,
+              [ session_acknowledge/1, session_answer/2, session_control/2,
+                session_later/1, session_object/2, session_owes/0,
                 session_push/1, session_release/1 ]).
-:- use_module(request, [dispatch/2, dispatch_all/2, session_unfinished/1]).
+:- use_module(request,
+              [ dispatch/2, dispatch_all/2, handed_over/2,
+                session_unfinished/1 ]).
 :- use_module(secure, [secure_input/2]).
 :- use_module(session,
-              [ ack_frames/1, debug_frame/4, note_received/2, received/2,
-                session_codec/2, session_key/2, session_peer/3 ]).
+              [ ack_frames/1, debug_frame/4, session_codec/2, session_count/1,
+                session_key/2, session_peer/3, session_received/2,
+                session_told/2 ]).
 :- use_module(threads, [manager_notify/1]).
-:- use_module(unacked, [session_acked/3, session_sent/2]).
+:- use_module(unacked, [session_acked/3]).
 
 :- setting(silence, number, 5,
            "Seconds of silence before a peer is asked for a sign of life").
@@ -60,23 +61,17 @@ ack_bytes(32768).
 %   @error domain_error(acknowledged, Count) more than was sent
 
 read_frames(Session, In, Out) :-
-    session_key(Session, Key),
     setting(silence, Silence),
     setting(typhon_session:frame_bytes, Max),
     set_stream(In, timeout(Silence)),
-    received(Key, Count),
     byte_count(In, Bytes),
     nb_setval(typhon_reader, true),
     session_push(Session),
-    State = count(Count, Count, Bytes, 0),
-    call_cleanup(
-        call_cleanup(
-            setup_call_cleanup(
-                lending_open(Session, In, Out),
-                read_or_skip(Session, In, Max, State),
-                lending_close),
-            keep_count(Key, State)),
-        keep_count(Key, State)).
+    session_owes,                       % what was received before
+    setup_call_cleanup(
+        lending_open(Session, In, Out),
+        read_or_skip(Session, In, Max, state(Bytes, 0)),
+        lending_close).
 
 %!  in_reader is semidet.
 %
@@ -87,37 +82,27 @@ in_reader :-
     nb_current(typhon_reader, true),
     \+ lent.
 
-%   Kept twice, as the one signal that ends this thread may come in the
-%   middle of the first: with an old count everything would come again.
-
-keep_count(_, _) :-
-    lent_away,
-    !.                                  % another thread counts by now
-keep_count(Key, State) :-
-    arg(1, State, Count),
-    note_received(Key, Count).
-
 read_or_skip(Session, In, Max, State) :-
     catch(read_all(Session, In, Max, State),
           error(syntax_error(damaged_frame), Which),
           true),
     (   var(Which)
     ->  true
-    ;   skip(Session, Which, State),
+    ;   skip(Session, Which),
         read_or_skip(Session, In, Max, State)
     ).
 
 read_all(Session, In, Max, State) :-
     session_codec(Session, Codec),
     repeat,
-    afterwards(Session, In, State),
+    afterwards(Session, In),
     push_late(Session, In),
-    (   next(In, Max, Bytes)
+    (   next(In, Max, Counts, Bytes)
     ->  (   Bytes == end_of_file
         ->  !
         ;   frame_term(Codec, Bytes, Term),
             debug_frame(from, Session, Term, Bytes),
-            sig_atomic(handle(Term, Session, In, State)),
+            sig_atomic(handle(Term, Counts, Session, In, State)),
             fail
         )
     ;   silent(Session, In, State),
@@ -127,9 +112,8 @@ read_all(Session, In, Max, State) :-
 %   What a hook has left to do is done here. What it says to the peer has
 %   taken the answers along, else they go now.
 
-afterwards(Session, In, State) :-
-    arg(1, State, Count),
-    (   lend(Count, more_first(In)),
+afterwards(Session, In) :-
+    (   lend(more_first(In)),
         session_later(Late),
         Late > 0
     ->  session_push(Session)
@@ -164,16 +148,16 @@ push_late(Session, In) :-
     ;   session_push(Session)
     ).
 
-%   skip(+Session, +Which, +State): throws as long as it may be an accident.
+%   skip(+Session, +Which): throws as long as it may be an accident.
 
-skip(Session, Which, State) :-
+skip(Session, Which) :-
     session_key(Session, Key),
-    arg(1, State, Count),
+    session_received(Session, Count),
     times_damaged(Key, Count, Which, Times),
     (   Times < 3
     ->  throw(error(syntax_error(damaged_frame), Which))
-    ;   Count1 is Count+1,
-        nb_setarg(1, State, Count1),
+    ;   sig_atomic(( session_object(Session, spoilt),
+                     session_count(Session) )),
         session_peer(Session, _, Address),
         print_message(error, typhon(endpoint, skipped(Address)))
     ).
@@ -199,34 +183,48 @@ forget_damage.
 
 %   Fails when nothing begins to come. The time out of a peek loses nothing.
 
-next(In, Max, Bytes) :-
+next(In, Max, Counts, Bytes) :-
     catch(peek_byte(In, _), error(timeout_error(_, _), _), fail),
-    frame_read(In, Max, Bytes).
+    frame_read(In, Max, Counts, Bytes).
 
 %   Three silences in a row while we wait for something is one too many.
 
 silent(Session, In, State) :-
-    State = count(Count, Told, _, Silent),
-    (   Count > Told                    % it need not keep them any longer
-    ->  acknowledge(Session, In, State)
-    ;   true
+    (   all_told(Session)
+    ->  true
+    ;   acknowledge(Session, In, State) % it need not keep them any longer
     ),
+    arg(2, State, Silent),
     (   \+ session_unfinished(Session)
-    ->  nb_setarg(4, State, 0)
+    ->  nb_setarg(2, State, 0)
     ;   Silent < 2
     ->  Silent1 is Silent+1,
-        nb_setarg(4, State, Silent1),
+        nb_setarg(2, State, Silent1),
         session_control(Session, ping)
     ;   throw(error(timeout_error(read, In), _))
     ).
 
-handle(ack(Count, Bytes), Session, In, State) :-
-    !,
-    check_ack(Count, Bytes, Session),
-    nb_setarg(4, State, 0),
-    session_acked(Session, Count, Bytes),
+all_told(Session) :-
+    session_received(Session, Count),
+    session_told(Session, Count).
+
+%   The counts of a frame come before what it says: an agent may come back in
+%   it that they settle.
+
+handle(Frame, Counts, Session, In, State) :-
+    session_acked(Session, Counts, Settled),
+    settled(Settled, Session),
     session_release(Session),
-    acknowledge_now_and_then(Session, In, State).
+    handle(Frame, Session, In, State).
+
+settled([], _).
+settled([One|Settled], Session) :-
+    handed_over(One, Session),
+    settled(Settled, Session).
+
+handle(none, _, _, State) :-
+    !,
+    nb_setarg(2, State, 0).
 handle(ping, Session, In, State) :-
     !,
     acknowledge(Session, In, State).
@@ -237,50 +235,36 @@ handle(bye, Session, _, _) :-
 handle(Bundle, Session, In, State) :-
     take_bundle(Bundle, Session),
     !,
-    counted(State),
+    session_count(Session),
+    nb_setarg(2, State, 0),
     acknowledge(Session, In, State).
 handle(Frame, Session, In, State) :-
     take_frame(Frame, Session),
-    counted(State),
+    session_count(Session),
+    nb_setarg(2, State, 0),
     acknowledge_now_and_then(Session, In, State).
 
-counted(State) :-
-    arg(1, State, Count0),
-    Count is Count0+1,
-    nb_setarg(1, State, Count),
-    nb_setarg(4, State, 0).
-
-%   Acks are under way, too: their bytes count as well. A bundle is
-%   acknowledged at once: its sender holds others until then.
+%   A bundle is acknowledged at once: its sender holds others until then.
 
 acknowledge_now_and_then(Session, In, State) :-
-    State = count(Count, Told, ToldBytes, _),
-    byte_count(In, Bytes),
-    ack_frames(MaxFrames),
-    ack_bytes(MaxBytes),
-    (   Count-Told < MaxFrames,
+    session_received(Session, Count),
+    session_told(Session, Told),
+    (   Count =:= Told
+    ->  true
+    ;   arg(1, State, ToldBytes),
+        byte_count(In, Bytes),
+        ack_frames(MaxFrames),
+        ack_bytes(MaxBytes),
+        Count-Told < MaxFrames,
         Bytes-ToldBytes < MaxBytes
     ->  true
     ;   acknowledge(Session, In, State)
     ).
 
-%   A peer that acknowledges what was never sent would make us discard it.
-
-check_ack(Count, Bytes, Session) :-
-    integer(Count),
-    integer(Bytes),
-    session_sent(Session, Sent),
-    Count =< Sent,
-    !.
-check_ack(Count, _, _) :-
-    domain_error(acknowledged, Count).
-
 acknowledge(Session, In, State) :-
-    arg(1, State, Count),
     byte_count(In, Bytes),
-    nb_setarg(2, State, Count),
-    nb_setarg(3, State, Bytes),
-    session_control(Session, ack(Count, Bytes)).
+    nb_setarg(1, State, Bytes),
+    session_acknowledge(Session).
 
 		 /*******************************
 		 *         FRAME INTAKE         *
@@ -288,8 +272,11 @@ acknowledge(Session, In, State) :-
 
 %!  frame_term(+Codec, +Bytes, -Frame) is det.
 %
-%   Frame is what Bytes say, or unreadable(Formal, Mark).
+%   Frame is what Bytes say, `none` if there are none, or
+%   unreadable(Formal, Mark).
 
+frame_term(_, "", none) :-
+    !.
 frame_term(Codec, Bytes, Term) :-
     catch(bytes_term(Codec, Bytes, Term),
           error(Formal, _),
@@ -332,7 +319,8 @@ spoil(request(Id), Session) :-
 spoil(answer(Id), Session) :-
     !,
     dispatch(Session, spoilt(Id)).
-spoil(_, _).
+spoil(_, Session) :-                    % it may have been handed over
+    session_object(Session, spoilt).
 
 :- multifile prolog:message//1.
 

@@ -6,6 +6,7 @@
             request_forget/1,           % :OnAnswer
             requests_lost/2,            % +Session, +Unsent
             session_unfinished/1,       % +Session
+            handed_over/2,              % +Settled, +Session
             dispatch/2,                 % +Session, +Frame
             dispatch_all/2,             % +Session, +Frames
             take_post/3,                % +Kind, +Term, +Peer
@@ -27,8 +28,14 @@
     request(Id, Kind, Term)   wants an answer
     answer(Id, Term)          here it is
     spoilt(Id)                the request was taken, and went wrong
+    hand(Kind, Term)          this is yours, if you accept it
+    objection(Number, Answer) the frame of that Number is not accepted
 
 Posts and requests go to the hooks of typhon_endpoint, answers to the caller.
+What is handed over needs no answer: that its frame is settled says that it was
+accepted. An objection is `spoilt`, an answer of the hook, or `deferred`: then
+the frame is a request from now on, under its negated number.
+
 A request to a peer that is not connected is held here, in order, until
 there is a session to send it in, or it is known that there can be none.
 
@@ -46,11 +53,13 @@ same thread may overtake it. The thread that removes a request answers it.
               [on_demand_later/1, on_demand_load/2, on_demand_missing/2]).
 :- use_module(attempts, [asking/1]).
 :- use_module(outbox,
-              [session_answer/2, session_send/2, session_send_later/2]).
+              [ session_answer/2, session_object/2, session_owes/0,
+                session_send/2, session_send_later/2 ]).
 :- use_module(peer_cache, [contact_expected/1]).
-:- use_module(session, [route/2, session_key/2, session_peer/3]).
+:- use_module(session,
+              [route/2, session_key/2, session_peer/3, session_received/2]).
 :- use_module(threads, [manager_notify/1]).
-:- use_module(unacked, [session_pending/2]).
+:- use_module(unacked, [session_objected/3, session_pending/2]).
 
 :- meta_predicate
     request_send(+, +, +, 1),
@@ -126,7 +135,36 @@ requests_lost(Session, Unsent) :-
     session_key(Session, Key),
     forall(member(request(Id, _, _), Unsent),
            conclude(unreachable, Id, Key)),
-    forall(open_request(Id, Key, _), conclude(lost, Id, Key)).
+    forall(open_request(Id, Key, _), conclude(lost, Id, Key)),
+    forall(member(handed(Token, Result), Unsent), handed(Token, Result)).
+
+%!  handed_over(+Settled, +Session) is det.
+%
+%   Settled is settled(Token, Number, Result), see session_acked/3: call the hook
+%   handed_over(Token, Result), where Result is `accepted`, `lost`, `unsent`, or
+%   what the peer answered.
+
+handed_over(settled(Token, Number, Result), Session) :-
+    (   Result == deferred
+    ->  Id is -Number,
+        session_key(Session, Key),
+        assertz(open_request(Id, Key, typhon_request:answered_late(Token)))
+    ;   handed(Token, Result)
+    ).
+
+handed(Token, spoilt) :-
+    !,
+    handed(Token, lost).
+handed(Token, Result) :-
+    reporting(typhon_endpoint:handed_over(Token, Result), handed_over).
+
+:- public answered_late/2.
+
+answered_late(Token, answer(Answer)) :-
+    !,
+    handed(Token, Answer).
+answered_late(Token, lost) :-
+    handed(Token, lost).
 
 %!  request_take(+Session, +Id, -OnAnswer) is semidet.
 %
@@ -157,10 +195,17 @@ dispatch(Session, post(Kind, Term)) :-
 dispatch(Session, request(Id, Kind, Term)) :-
     !,
     session_peer(Session, _, Peer),
-    (   take_request(Kind, Term, Peer, reply_to(Session, Id))
-    ->  true
-    ;   spoil(reply_to(Session, Id), Kind)
+    dispatch_request(Id, Kind, Term, Peer, Session).
+dispatch(Session, hand(Kind, Term)) :-
+    !,
+    session_peer(Session, _, Peer),
+    (   attempt(typhon_endpoint:handed(Kind, Term, Peer, Verdict), Kind)
+    ->  verdict(Verdict, Kind, Term, Peer, Session)
+    ;   session_object(Session, spoilt)
     ).
+dispatch(Session, objection(Number, Answer)) :-
+    !,
+    session_objected(Session, Number, Answer).
 dispatch(Session, answer(Id, Term)) :-
     !,
     session_key(Session, Key),
@@ -171,6 +216,24 @@ dispatch(Session, spoilt(Id)) :-
     conclude(lost, Id, Key).
 dispatch(_, Frame) :-                   % of a later version, or damaged
     print_message(warning, typhon(endpoint, unknown_frame(Frame))).
+
+verdict(accepted, _, _, _, _) :-
+    !,
+    session_owes.
+verdict(deferred, Kind, Term, Peer, Session) :-
+    !,
+    session_object(Session, deferred),
+    session_received(Session, Count),
+    Id is -(Count+1),
+    dispatch_request(Id, Kind, Term, Peer, Session).
+verdict(Answer, _, _, _, Session) :-
+    session_object(Session, Answer).
+
+dispatch_request(Id, Kind, Term, Peer, Session) :-
+    (   take_request(Kind, Term, Peer, reply_to(Session, Id))
+    ->  true
+    ;   spoil(reply_to(Session, Id), Kind)
+    ).
 
 %!  dispatch_all(+Session, +Frames:list) is det.
 %

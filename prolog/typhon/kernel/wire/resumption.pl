@@ -30,6 +30,7 @@ ended.
 :- use_module(library(apply), [maplist/3]).
 :- use_module(library(debug), [debug/3]).
 :- use_module(library(error), [syntax_error/1]).
+:- use_module(library(lists), [append/3]).
 :- use_module(library(settings), [setting/2]).
 :- use_module(frame, [bytes_term/3]).
 :- use_module(handshake,
@@ -37,16 +38,17 @@ ended.
                 line_read/3, line_write/2 ]).
 :- use_module(request, [connection_is/2]).
 :- use_module(session,
-              [ received/2, session/2, session_adopting/2, session_codec/2,
+              [ session/2, session_adopting/2, session_codec/2,
                 session_forget/1, session_key/2, session_locked/2,
-                session_must_exist/2, session_open/4, session_up_since/2,
+                session_must_exist/2, session_open/4, session_received/2,
+                session_up_since/2,
                 transport_attach/3, transport_detach/2, transport_stop/2,
                 transport_thread/2 ]).
 :- use_module(threads, [manager_notify/1, wire_thread_end/2]).
 :- use_module(unacked,
               [ pusher_no_control/1, pusher_start/4, pusher_stop/1,
-                unacked_again/2, unacked_close/2, unacked_gone/3,
-                unacked_open/1, unacked_rest/1, unacked_waiting/1 ]).
+                unacked_again/2, unacked_close/3, unacked_resumed/3,
+                unacked_waiting/1 ]).
 
 %!  session_install(+Session, +Thread, +Out, +PeerCount) is det.
 %
@@ -64,14 +66,13 @@ session_install(Session, Thread, Out, PeerCount) :-
 
 install(Session, Key, Thread, Out, PeerCount) :-
     session_must_exist(Session, Key),
-    unacked_open(Key),
     byte_count(Out, Bytes),
-    unacked_gone(Key, PeerCount, Bytes),
+    unacked_resumed(Session, PeerCount, Bytes),
     pusher_no_control(Key),
     transport_attach(Key, Thread, Out),
-    unacked_again(Key, Again),
+    unacked_again(Session, Again),
     (   Again == [],
-        \+ unacked_waiting(Key)
+        \+ unacked_waiting(Session)
     ->  true
     ;   pusher_start(Session, Thread, Out, Again)
     ),
@@ -92,8 +93,7 @@ session_down(Session, Thread) :-
 
 at_rest(Key, Thread) :-
     transport_detach(Key, Thread),
-    pusher_no_control(Key),
-    unacked_rest(Key).
+    pusher_no_control(Key).
 
 %!  session_lost(+Session, +Thread) is det.
 %
@@ -133,23 +133,22 @@ session_retire(Session) :-
 %
 %   Forget a session that has no connection; inside session_adopting/2, so
 %   that it gets none. Fails when it is forgotten already. Unsent are
-%   the terms that were never written to any.
+%   the terms that were never written to any, and what became of what was handed
+%   over, handed(Token, Result).
 
 session_close(Session, Unsent) :-
-    session_locked(Session, forget(Session, Waiting)),
+    session_locked(Session, forget(Session, Waiting, Handed)),
     session_codec(Session, Codec),
-    maplist(frame_term(Codec), Waiting, Unsent).
+    maplist(frame_term(Codec), Waiting, Terms),
+    append(Terms, Handed, Unsent).
 
-frame_term(Codec, loose(Bytes), Term) :-
-    !,
-    bytes_term(Codec, Bytes, Term).
-frame_term(Codec, Bytes, Term) :-
+frame_term(Codec, Frame, Term) :-
+    arg(1, Frame, Bytes),
     bytes_term(Codec, Bytes, Term).
 
-forget(Session, Waiting) :-
+forget(Session, Waiting, Handed) :-
     session_forget(Session),
-    session_key(Session, Key),
-    unacked_close(Key, Waiting).
+    unacked_close(Session, Waiting, Handed).
 
 		 /*******************************
 		 *     AFTER THE HANDSHAKE      *
@@ -221,14 +220,14 @@ adopt(MyKey, Key, Role, Session, In, Out) :-
     session_adopting(Session,
                      ( needed(Role, Session),
                        session_retire(Session),
-                       say_count(Key, Out),
+                       say_count(Session, Out),
                        hear_count(In, Count),
                        install(Session, Out, Count) )).
-adopt(_, Key, _, Session, In, Out) :-
+adopt(_, _, _, Session, In, Out) :-
     hear_count(In, Count),
     session_adopting(Session,
                      ( session_retire(Session),
-                       say_count(Key, Out),
+                       say_count(Session, Out),
                        install(Session, Out, Count) )).
 
 %   We have met by another connection since this one was begun. The peer has
@@ -249,8 +248,8 @@ install(Session, Out, Count) :-
     sig_atomic(( session_install(Session, Me, Out, Count),
                  connection_is(Session, up) )).
 
-say_count(Key, Out) :-
-    received(Key, Count),
+say_count(Session, Out) :-
+    session_received(Session, Count),
     format(string(Line), "resume ~d", [Count]),
     line_write(Out, Line).
 

@@ -13,10 +13,11 @@
             route_key/2,                % ?Address, ?Key
             route_add/2,                % +Address, +Session
             ack_frames/1,               % -Count
-            received/2,                 % +Key, -Count
-            note_received/2,            % +Key, +Count
-            acknowledged/3,             % +Key, -Count, -Bytes
-            note_acknowledged/3,        % +Key, +Count, +Bytes
+            session_window/2,           % +Session, -Window
+            session_window_free/1,      % +Session
+            session_received/2,         % +Session, -Count
+            session_count/1,            % +Session
+            session_told/2,             % +Session, -Count
             transport/3,                % ?Key, ?Thread, -Out
             transport_thread/2,         % ?Key, ?Thread
             transport_attach/3,         % +Key, +Thread, +Out
@@ -36,17 +37,22 @@ many connections, one at a time. outbox.pl sends in it; resumption.pl gives
 it its connections.
 
 A session is session(Key, Codec, Mutex, Adoption, peer(Process, Address,
-Proof)). Key names the peer. Mutex guards the sending side; a thread that
+Proof), Window). Key names the peer. Mutex guards the sending side; a thread that
 gives the session a new connection holds Adoption. No other module takes the
 term apart.
 
-Frames are numbered by counting on both sides. Two counts are kept of each
-session, by its key: how many frames of the peer have been handled, and
-how many of ours it has acknowledged.
+Frames are numbered by counting on both sides. The window of a session is
+
+    window(Sent, Waiting, Received, Told, Acked, AckedBytes, Settled)
+
+two queues of frames, see unacked.pl, and the names of five flags: how many
+frames of the peer were received; how many of them the peer has been told of;
+how many of ours it has received, and how many bytes of its connection; and
+which count of settled frames was written last.
 
 *Threading*: any thread; a mutex serializes sessions and routes, the mutex of
-a session its connection and what is acknowledged. Only the thread of the
-connection changes the count of what was received.
+a session its connection and its window. Only the thread of the connection
+changes the count of what was received.
 */
 
 :- use_module(library(debug), [debug/3, debugging/1]).
@@ -74,7 +80,7 @@ connection changes the count of what was received.
 %   The sessions there are, and which addresses lead to each.
 
 route_key(Address, Key) :-
-    route(Address, session(Key, _, _, _, _)).
+    route(Address, session(Key, _, _, _, _, _)).
 
 %!  session_key(+Session, -Key) is det.
 %!  session_codec(+Session, -Codec) is det.
@@ -82,17 +88,18 @@ route_key(Address, Key) :-
 %
 %   Address is where the peer says it listens.
 
-session_key(session(Key, _, _, _, _), Key).
+session_key(session(Key, _, _, _, _, _), Key).
 
-session_codec(session(_, Codec, _, _, _), Codec).
+session_codec(session(_, Codec, _, _, _, _), Codec).
 
-session_peer(session(_, _, _, _, peer(Process, Address, _)), Process, Address).
+session_peer(session(_, _, _, _, peer(Process, Address, _), _), Process,
+             Address).
 
 %!  session_proof(+Session, -Proof) is det.
 %
 %   How the peer has proved itself: `cookie`, or certificate(Name).
 
-session_proof(session(_, _, _, _, peer(_, _, Proof)), Proof).
+session_proof(session(_, _, _, _, peer(_, _, Proof), _), Proof).
 
 %!  session_open(+Key, +Peer, +Codec, -Session) is det.
 %
@@ -117,9 +124,9 @@ open_session(Key, Hello, Proof, Codec, Session) :-
     hello_peer(Hello, Process, _, Address),
     mutex_create(Mutex),
     mutex_create(Adoption),
+    window_open(Window),
     Session = session(Key, Codec, Mutex, Adoption,
-                      peer(Process, Address, Proof)),
-    counts_open(Key),
+                      peer(Process, Address, Proof), Window),
     assertz(session(Key, Session)).
 
 %!  session_forget(+Session) is semidet.
@@ -132,8 +139,7 @@ session_forget(Session) :-
     session_key(Session, Key),
     with_mutex(typhon_session,
                ( retract(session(Key, Session)),
-                 retractall(route(_, Session)),
-                 counts_forget(Key) )),
+                 retractall(route(_, Session)) )),
     debug(typhon(session), '~w: forgotten', [Key]).
 
 %!  session_must_exist(+Session, -Key) is det.
@@ -153,14 +159,14 @@ session_must_exist(Session, Key) :-
 %
 %   Run once(Goal) alone with the sending side of Session: in one step.
 
-session_locked(session(_, _, Mutex, _, _), Goal) :-
+session_locked(session(_, _, Mutex, _, _, _), Goal) :-
     sig_atomic(with_mutex(Mutex, Goal)).
 
 %!  session_adopting(+Session, :Goal) is semidet.
 %
 %   Run Goal, which gives Session a new connection, one at a time.
 
-session_adopting(session(_, _, _, Adoption, _), Goal) :-
+session_adopting(session(_, _, _, Adoption, _, _), Goal) :-
     with_mutex(Adoption, Goal).
 
 %!  route_add(+Address, +Session) is det.
@@ -192,12 +198,11 @@ reroute(Address, Session) :-
     forall(member(_-Key, Displaced), ignore(manager_notify(displaced(Key)))).
 
 		 /*******************************
-		 *            COUNTS            *
+		 *            WINDOW            *
 		 *******************************/
 
 :- dynamic
-    received/2,                         % Key, Count
-    acknowledged/3.                     % Key, Count, Bytes
+    free_flags/1.                       % Flags: no session has them
 
 %!  ack_frames(-Count) is det.
 %
@@ -205,36 +210,54 @@ reroute(Address, Session) :-
 
 ack_frames(32).
 
-%!  counts_open(+Key) is det.
-%!  counts_forget(+Key) is det.
+%   window_open(-Window): flags are never freed, so those of sessions that are
+%   over are used again.
+
+window_open(Window) :-
+    message_queue_create(Sent),
+    message_queue_create(Waiting),
+    (   retract(free_flags(Flags))
+    ->  true
+    ;   flag(typhon_session_flags, N, N+1),
+        findall(Flag,
+                ( member(Name, [received, told, acked, bytes, settled]),
+                  atomic_list_concat([typhon_session, Name, N], '_', Flag) ),
+                Flags)
+    ),
+    forall(member(Flag, Flags), set_flag(Flag, 0)),
+    Window =.. [window, Sent, Waiting|Flags].
+
+%!  session_window(+Session, -Window) is det.
+%!  session_window_free(+Session) is det.
 %
-%   There is a session Key; there is none any more.
+%   The window of the session; no thread uses it any more.
 
-counts_open(Key) :-
-    assertz(received(Key, 0)).
+session_window_free(session(_, _, _, _, _, Window)) :-
+    Window =.. [window, Sent, Waiting|Flags],
+    message_queue_destroy(Sent),
+    message_queue_destroy(Waiting),
+    assertz(free_flags(Flags)).
 
-counts_forget(Key) :-
-    retractall(received(Key, _)),
-    retractall(acknowledged(Key, _, _)).
+session_window(session(_, _, _, _, _, Window), Window).
 
-%!  received(+Key, -Count) is semidet.
-%!  note_received(+Key, +Count) is det.
+%!  session_received(+Session, -Count) is det.
+%!  session_told(+Session, -Count) is det.
+%!  session_count(+Session) is det.
 %
-%   How many frames had been received when the last connection ended.
+%   Count frames of the peer have been received, and the peer has been told of
+%   Count; one more has been. The last is for the thread of the connection.
 
-note_received(Key, Count) :-
-    retractall(received(Key, _)),
-    assertz(received(Key, Count)).
+session_received(session(_, _, _, _, _, window(_, _, Received, _, _, _, _)),
+                 Count) :-
+    get_flag(Received, Count).
 
-%!  acknowledged(+Key, -Count, -Bytes) is semidet.
-%!  note_acknowledged(+Key, +Count, +Bytes) is det.
-%
-%   The peer has Count frames of the session, and Bytes bytes of its
-%   connection. Fails if it never had a connection.
+session_told(session(_, _, _, _, _, window(_, _, _, Told, _, _, _)), Count) :-
+    get_flag(Told, Count).
 
-note_acknowledged(Key, Count, Bytes) :-
-    retractall(acknowledged(Key, _, _)),
-    assertz(acknowledged(Key, Count, Bytes)).
+session_count(session(_, _, _, _, _, window(_, _, Received, _, _, _, _))) :-
+    get_flag(Received, Count0),
+    Count is Count0+1,
+    set_flag(Received, Count).
 
 		 /*******************************
 		 *          CONNECTION          *
@@ -337,7 +360,9 @@ frame_words(request(Id, Kind, _), request(Id, Kind)) :-
     !.
 frame_words(answer(Id, _), answer(Id)) :-
     !.
-frame_words(ack(Count, Bytes), ack(Count, Bytes)) :-
+frame_words(hand(Kind, _), hand(Kind)) :-
+    !.
+frame_words(objection(Number, Answer), objection(Number, Answer)) :-
     !.
 frame_words(spoilt(Id), spoilt(Id)) :-
     !.

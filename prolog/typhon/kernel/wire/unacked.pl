@@ -1,18 +1,17 @@
 :- module(typhon_unacked,
-          [ unacked_open/1,             % +Key
-            unacked_sent/2,             % +Key, +Bytes
-            unacked_waits/2,            % +Key, +Frame
-            unacked_waiting/1,          % +Key
-            unacked_owed/2,             % +Key, -Waiting
-            unacked_next/3,             % +Session, +Space, -Bytes
-            unacked_again/2,            % +Key, -Frames
-            unacked_gone/3,             % +Key, +Count, +Bytes
-            unacked_rest/1,             % +Key
-            unacked_close/2,            % +Key, -Waiting
+          [ unacked_sent/3,             % +Session, +Bytes, +Token
+            unacked_waits/3,            % +Session, +Bytes, +Token
+            unacked_waits_loose/2,      % +Session, +Bytes
+            unacked_waiting/1,          % +Session
+            unacked_owed/2,             % +Session, -Waiting
+            unacked_next/3,             % +Session, +Space, -Frame
+            unacked_again/2,            % +Session, -Frames
+            unacked_resumed/3,          % +Session, +Count, +Bytes
+            unacked_close/3,            % +Session, -Waiting, -Handed
             unacked_await/3,            % +Session, +Queue, -Count
             unacked_no_wait/1,          % +Queue
-            session_acked/3,            % +Session, +Count, +Bytes
-            session_sent/2,             % +Session, -Count
+            session_acked/3,            % +Session, +Counts, -Settled
+            session_objected/3,         % +Session, +Number, +Answer
             session_pending/2,          % +Session, -Count
             pusher/2,                   % ?Key, ?Thread
             pusher_start/4,             % +Session, +Thread, +Out, +Again
@@ -21,91 +20,93 @@
             pusher_no_control/1         % +Key
           ]).
 
-/** <module> Frames that wait, and the thread that writes them
+/** <module> The window: frames that wait or are not acknowledged
 
-Frames of a session that were written to some connection and are not
-acknowledged are in the queue Sent; those that never were, in the queue
-Waiting. A session without connection from which nothing is pending has no
-queues.
+A frame of a session is frame(Bytes, Token, Settled). Frames that were written
+to some connection and that the peer has not received are in the queue Sent of
+the window, those that never were in Waiting; see session.pl.
+
+A Token that is not `none` is what a caller has handed over with the frame: the
+caller learns what became of it. The frame is _settled_ when the peer counts it
+among those that it has accepted. If the peer does not accept it, it sends an
+objection before it counts the frame. Settled of a frame is how many frames of
+the peer were settled when it was put: so a frame that has waited behind an
+objection does not settle what the objection is about. How many frames the peer
+has received is a count of its own: it opens the window, in whatever order.
 
 A session of which more is sent than the buffers of the operating system hold
 has a thread that writes, the pusher, until nothing waits. It writes first
 what is outside the count, then what the peer lacks of an earlier connection,
 then what waits.
 
-*Threading*: the mutex of the session guards its queues: a caller of unacked_*
+*Threading*: the mutex of the session guards its window: a caller of unacked_*
 holds it, as does one that starts a pusher or leaves it a control.
-session_acked/3, session_sent/2 and, without the mutex, pusher_stop/1 are for
-the thread of the connection, session_pending/2 is for any thread.
+session_acked/3, session_objected/3 and, without the mutex, pusher_stop/1 are
+for the thread of the connection, session_pending/2 is for any thread.
 */
 
 :- use_module(library(debug), [debug/3]).
-:- use_module(library(lists), [member/2]).
+:- use_module(library(error), [domain_error/2]).
+:- use_module(library(lists), [append/3, member/2]).
 :- use_module('../base/error_text', [print_error/2]).
 :- use_module('../base/fifo', [fifo_empty/2]).
-:- use_module(frame, [bundle_all/3, bundle_next/5, frame_write/2]).
+:- use_module(frame,
+              [ bundle_all/3, bundle_next/5, count_ahead/3, frame_overhead/1,
+                frame_write/3 ]).
 :- use_module(session,
-              [ ack_frames/1, acknowledged/3, note_acknowledged/3,
-                session_codec/2, session_key/2, session_locked/2,
-                transport_broken/2 ]).
+              [ ack_frames/1, session_codec/2, session_key/2, session_locked/2,
+                session_window/2, session_window_free/1, transport_broken/2 ]).
 :- use_module(threads, [wire_thread_create/3, wire_thread_end/2]).
 
 :- dynamic
-    queues/3,                           % Key, Sent, Waiting
     bundled/2,                          % Key, Count: the last bundle's
+    unsettled/3,                        % Key, Number, Token: received
+    objection/3,                        % Key, Number, Answer
     flusher/3.                          % Key, Count, Queue
 
 		 /*******************************
-		 *            QUEUES            *
+		 *            FRAMES            *
 		 *******************************/
 
-%!  unacked_open(+Key) is det.
-%
-%   The session has queues.
-
-unacked_open(Key) :-
-    queues_of(Key, _, _).
-
-queues_of(Key, Sent, Waiting) :-
-    queues(Key, Sent, Waiting),
-    !.
-queues_of(Key, Sent, Waiting) :-
-    message_queue_create(Sent),
-    message_queue_create(Waiting),
-    assertz(queues(Key, Sent, Waiting)).
-
-%!  unacked_sent(+Key, +Bytes) is det.
-%!  unacked_waits(+Key, +Frame) is det.
+%!  unacked_sent(+Session, +Bytes, +Token) is det.
+%!  unacked_waits(+Session, +Bytes, +Token) is det.
+%!  unacked_waits_loose(+Session, +Bytes) is det.
 %
 %   A frame is about to be written, as the session is up; it waits until
-%   others are, Frame being its bytes, or loose(Bytes) if it may go with
-%   others in one, see typhon_bundle.
+%   others are; it may go with others in one frame then.
 
-unacked_sent(Key, Bytes) :-
-    queues(Key, Sent, _),
-    !,
-    thread_send_message(Sent, Bytes).
+unacked_sent(Session, Bytes, Token) :-
+    session_window(Session, window(Sent, _, Received, Told, _, _, Settled)),
+    get_flag(Received, Count),
+    thread_send_message(Sent, frame(Bytes, Token, Count)),
+    set_flag(Told, Count),
+    set_flag(Settled, Count).
 
-unacked_waits(Key, Frame) :-
-    queues_of(Key, _, Waiting),
-    thread_send_message(Waiting, Frame).
+unacked_waits(Session, Bytes, Token) :-
+    session_window(Session, window(_, Waiting, Received, _, _, _, _)),
+    get_flag(Received, Count),
+    thread_send_message(Waiting, frame(Bytes, Token, Count)).
 
-%!  unacked_waiting(+Key) is semidet.
-%!  unacked_owed(+Key, -Waiting) is semidet.
+unacked_waits_loose(Session, Bytes) :-
+    session_window(Session, window(_, Waiting, Received, _, _, _, _)),
+    get_flag(Received, Count),
+    thread_send_message(Waiting, loose(Bytes, Count)).
+
+%!  unacked_waiting(+Session) is semidet.
+%!  unacked_owed(+Session, -Waiting) is semidet.
 %
 %   Some frame waits; what was written is so much that the peer is sure to
 %   acknowledge some of it, and so many wait: it tells every bundle, and all
 %   else after ack_frames/1.
 
-unacked_waiting(Key) :-
-    queues(Key, _, Waiting),
+unacked_waiting(Session) :-
+    session_window(Session, window(_, Waiting, _, _, _, _, _)),
     queue_size(Waiting, Size),
-    Size > 0,
-    !.
+    Size > 0.
 
-unacked_owed(Key, Size) :-
-    queues(Key, Sent, Waiting),
-    !,
+unacked_owed(Session, Size) :-
+    session_key(Session, Key),
+    session_window(Session, window(Sent, Waiting, _, _, _, _, _)),
     (   bundled(Key, _)
     ->  true
     ;   message_queue_property(Sent, size(Written)),
@@ -114,142 +115,242 @@ unacked_owed(Key, Size) :-
     ),
     message_queue_property(Waiting, size(Size)).
 
-%!  unacked_next(+Session, +Space, -Bytes) is semidet.
+%!  unacked_next(+Session, +Space, -Frame) is semidet.
 %
 %   The frame that has waited longest is about to be written, if it is not
 %   longer than Space.
 
-unacked_next(Session, Space, Bytes) :-
-    session_key(Session, Key),
+unacked_next(Session, Space, Frame) :-
     session_codec(Session, Codec),
-    queues(Key, Sent, Waiting),
-    bundle_next(Waiting, Codec, Space, Bytes, Many),
+    session_window(Session, window(Sent, Waiting, _, _, _, _, _)),
+    bundle_next(Waiting, Codec, Space, Frame, Many),
     !,
-    thread_send_message(Sent, Bytes),
+    thread_send_message(Sent, Frame),
     (   Many == true
-    ->  note_bundle(Key, Sent)
+    ->  note_bundle(Session)
     ;   true
     ).
 
-note_bundle(Key, Sent) :-
-    acked_frames(Key, Acked),
-    message_queue_property(Sent, size(Size)),
-    Count is Acked+Size,
+note_bundle(Session) :-
+    session_key(Session, Key),
+    session_sent(Session, Count),
     retractall(bundled(Key, _)),
     assertz(bundled(Key, Count)).
 
-%!  unacked_again(+Key, -Frames) is det.
+%!  unacked_resumed(+Session, +Count, +Bytes) is det.
+%!  unacked_again(+Session, -Frames) is det.
 %
-%   What was written, and has to be once more.
+%   The session has a new connection, to which Bytes were written: the peer
+%   has received Count of our frames, of which none is settled by that; Frames
+%   are what was written, and has to be once more. A peer that has forgotten
+%   the session, and we have not, knows of more than was sent.
 
-unacked_again(Key, Frames) :-
-    queues_of(Key, Sent, _),
-    fifo_empty(Sent, Frames),
-    forall(member(Bytes, Frames), thread_send_message(Sent, Bytes)).
-
-%!  unacked_rest(+Key) is det.
-%
-%   The session has lost its connection: without anything pending it needs
-%   no queues.
-
-unacked_rest(Key) :-
-    (   queues(Key, Sent, Waiting),
-        queue_size(Sent, 0),
-        queue_size(Waiting, 0)
-    ->  drop_queues(Key)
+unacked_resumed(Session, Count, Bytes) :-
+    session_window(Session, Window),
+    Window = window(Sent, _, _, Told, Acked, AckedBytes, Settled),
+    get_flag(Acked, Count0),
+    message_queue_property(Sent, size(Size)),
+    Gone is max(0, min(Count-Count0, Size)),
+    gone(Gone, Session, none, [], _),
+    Count1 is max(Count0, Count),
+    set_flag(Acked, Count1),
+    set_flag(AckedBytes, Bytes),
+    session_key(Session, Key),
+    has_frames(Key, Count1),
+    set_flag(Told, -1),                 % the reader begins with telling it
+    (   thread_peek_message(Sent, frame(_, _, First))
+    ->  set_flag(Settled, First)
     ;   true
     ).
 
-%!  unacked_close(+Key, -Waiting) is det.
-%
-%   The session is over; the frames Waiting were never written.  Threads that
-%   wait for it go on.
+unacked_again(Session, Frames) :-
+    session_window(Session, window(Sent, _, _, _, _, _, _)),
+    fifo_empty(Sent, Frames),
+    forall(member(Frame, Frames), thread_send_message(Sent, Frame)).
 
-unacked_close(Key, List) :-
-    (   queues(Key, _, Waiting)
-    ->  fifo_empty(Waiting, List)
-    ;   List = []
-    ),
-    drop_queues(Key),
+%!  unacked_close(+Session, -Waiting, -Handed) is det.
+%
+%   The session is over; the frames Waiting were never written.  Handed is what
+%   became of tokens: handed(Token, Result), where Result is `unsent`, `lost`,
+%   or an objection.  Threads that wait for the session go on.
+
+unacked_close(Session, Waiting, Handed) :-
+    session_key(Session, Key),
+    session_window(Session, window(SentQueue, WaitingQueue, _, _, Acked, _, _)),
+    get_flag(Acked, Count),
+    findall(N-Token, unsettled(Key, N, Token), Unsettled),
+    fifo_empty(SentQueue, Sent),
+    fifo_empty(WaitingQueue, Waiting),
+    numbered(Sent, Count, Numbered),
+    append(Unsettled, Numbered, Lost),
+    findall(handed(Token, Result),
+            (   member(N-Token, Lost),
+                ( objection(Key, N, Answer) -> Result = Answer ; Result = lost )
+            ;   member(frame(_, Token, _), Waiting),
+                Token \== none,
+                Result = unsent
+            ),
+            Handed),
+    retractall(bundled(Key, _)),
+    retractall(unsettled(Key, _, _)),
+    retractall(objection(Key, _, _)),
+    session_window_free(Session),
     forall(flusher(Key, Wanted, Queue), flushed(Key, Wanted, Queue)).
 
-drop_queues(Key) :-
-    retractall(bundled(Key, _)),
-    (   retract(queues(Key, Sent, Waiting))
-    ->  message_queue_destroy(Sent),
-        message_queue_destroy(Waiting)
-    ;   true
-    ).
+numbered([], _, []).
+numbered([frame(_, Token, _)|Frames], N0, Numbered) :-
+    N is N0+1,
+    (   Token == none
+    ->  Numbered = More
+    ;   Numbered = [N-Token|More]
+    ),
+    numbered(Frames, N, More).
 
 		 /*******************************
 		 *       ACKNOWLEDGEMENTS       *
 		 *******************************/
 
-%!  session_acked(+Session, +Count, +Bytes) is det.
+%!  session_acked(+Session, +Counts, -Settled:list) is det.
 %
-%   The peer has received Count frames of this session, and Bytes bytes of
-%   this connection. For the reader only.
+%   A frame of the peer has these Counts, see frame.pl. Settled are the
+%   tokens that are settled by that, settled(Token, Number, Result), Result
+%   being `accepted` or an objection. For the thread of the connection.
+%
+%   @error domain_error(acknowledged, Count) more than was sent
 
-session_acked(Session, Count, Bytes) :-
+session_acked(Session, counts(Received, Count), Settled) :-
+    session_window(Session, window(_, _, _, _, Acked, _, _)),
+    get_flag(Acked, Count0),
+    (   count_ahead(Count0, Received, Ahead),
+        Ahead > 0
+    ->  session_locked(Session, acked(Ahead, Session, Count, Tokens, Late))
+    ;   Tokens = Late
+    ),
     session_key(Session, Key),
-    session_locked(Session,
-                   (   queues(Key, _, _)
-                   ->  unacked_gone(Key, Count, Bytes)
-                   ;   true
-                   )).
+    (   unsettled(Key, _, _)
+    ->  settled_late(Key, Count, Late)
+    ;   Late = []
+    ),
+    results(Tokens, Key, Settled).
 
-%!  unacked_gone(+Key, +Count, +Bytes) is det.
-%
-%   As session_acked/3.  A thread that counts what is pending, or under way,
-%   sees all of this or nothing.
+acked(Ahead, Session, Count, Tokens, Late) :-
+    session_window(Session, window(Sent, _, _, _, Acked, AckedBytes, _)),
+    message_queue_property(Sent, size(Size)),
+    (   Ahead =< Size
+    ->  true
+    ;   domain_error(acknowledged, Ahead)
+    ),
+    gone(Ahead, Session, Count, Tokens, Late, Bytes),
+    get_flag(Acked, Count0),
+    Count1 is Count0+Ahead,
+    set_flag(Acked, Count1),
+    get_flag(AckedBytes, Bytes0),
+    Bytes1 is Bytes0+Bytes,
+    set_flag(AckedBytes, Bytes1),
+    session_key(Session, Key),
+    has_frames(Key, Count1).
 
-unacked_gone(Key, Count, Bytes) :-
-    acked_frames(Key, Count0),
-    queues_of(Key, Sent, _),
-    forget(Count0, Count, Sent),
-    Count1 is max(Count0, Count),
-    note_acknowledged(Key, Count1, Bytes),
+%   has_frames(+Key, +Count): the peer has so many.
+
+has_frames(Key, Count) :-
     (   bundled(Key, Last),
-        Last =< Count1
+        Last =< Count
     ->  retractall(bundled(Key, _))
     ;   true
     ),
-    forall(( flusher(Key, Wanted, Queue), Wanted =< Count1 ),
-           flushed(Key, Wanted, Queue)).
+    (   flusher(Key, _, _)
+    ->  forall(( flusher(Key, Wanted, Queue), Wanted =< Count ),
+               flushed(Key, Wanted, Queue))
+    ;   true
+    ).
 
-acked_frames(Key, Count) :-
-    acknowledged(Key, Count0, _),
-    !,
-    Count = Count0.
-acked_frames(_, 0).
+%   gone(+Ahead, +Session, +Settled, -Tokens, ?Rest, -Bytes): the peer has so
+%   many more frames, of Bytes bytes.  Settled is its count of those, or `none`.
 
-forget(Count0, Count, Sent) :-
-    queue_size(Sent, Size),
-    Gone is min(Count-Count0, Size),
-    forall(between(1, Gone, _),
-           thread_get_message(Sent, _)).
+gone(Ahead, Session, Settled, Tokens, Rest) :-
+    gone(Ahead, Session, Settled, Tokens, Rest, _).
 
-%!  session_sent(+Session, -Count) is det.
+gone(Ahead, Session, Settled, Tokens, Rest, Bytes) :-
+    session_key(Session, Key),
+    session_window(Session, window(Sent, _, _, _, Acked, _, _)),
+    get_flag(Acked, Count),
+    gone(Ahead, Count, Sent, Key-Settled, Tokens, Rest, 0, Bytes).
+
+gone(0, _, _, _, Tokens, Tokens, Bytes, Bytes) :-
+    !.
+gone(Ahead, N0, Sent, How, Tokens, Rest, Bytes0, Bytes) :-
+    thread_get_message(Sent, frame(Frame, Token, _)),
+    string_length(Frame, Length),
+    frame_overhead(Head),
+    Bytes1 is Bytes0+Length+Head,
+    N is N0+1,
+    token_gone(Token, N, How, Tokens, Tokens1),
+    Ahead1 is Ahead-1,
+    gone(Ahead1, N, Sent, How, Tokens1, Rest, Bytes1, Bytes).
+
+token_gone(none, _, _, Tokens, Tokens) :-
+    !.
+token_gone(Token, N, _-Settled, [N-Token|Tokens], Tokens) :-
+    integer(Settled),
+    count_ahead(N, Settled, _),
+    !.
+token_gone(Token, N, Key-_, Tokens, Tokens) :-
+    assertz(unsettled(Key, N, Token)).
+
+settled_late(Key, Count, Late) :-
+    findall(N-Token,
+            ( unsettled(Key, N, Token), count_ahead(N, Count, _) ), Late),
+    forall(member(N-_, Late), retractall(unsettled(Key, N, _))).
+
+results([], _, []).
+results([N-Token|Tokens], Key, [settled(Token, N, Result)|Settled]) :-
+    (   retract(objection(Key, N, Answer))
+    ->  Result = Answer
+    ;   Result = accepted
+    ),
+    results(Tokens, Key, Settled).
+
+%!  session_objected(+Session, +Number, +Answer) is det.
 %
-%   No more than Count frames have been sent. For the reader only.
+%   The peer does not accept the frame of that Number, but says Answer. What is
+%   not about a frame under way is ignored.
+
+session_objected(Session, Number, Answer) :-
+    session_key(Session, Key),
+    (   integer(Number),
+        (   unsettled(Key, Number, _)
+        ;   session_window(Session, window(_, _, _, _, Acked, _, _)),
+            get_flag(Acked, Count),
+            Number > Count,
+            session_sent(Session, Sent),
+            Number =< Sent
+        ),
+        \+ objection(Key, Number, _)
+    ->  assertz(objection(Key, Number, Answer))
+    ;   true
+    ).
+
+%   session_sent(+Session, -Count): so many frames have been written, or less if
+%   another thread is about to write some.
 
 session_sent(Session, Count) :-
-    session_key(Session, Key),
-    acked_frames(Key, Acked),
-    session_pending(Session, Pending),
-    Count is Acked+Pending.
+    session_window(Session, window(Sent, _, _, _, Acked, _, _)),
+    get_flag(Acked, Gone),
+    queue_size(Sent, Size),
+    Count is Gone+Size.
 
 %!  session_pending(+Session, -Count) is det.
 %
-%   Count frames are not acknowledged.
+%   Count frames are not acknowledged, or are handed over and not settled.
 
 session_pending(Session, Count) :-
     session_key(Session, Key),
-    (   queues(Key, Sent, Waiting)
-    ->  queue_size(Sent, S),
-        queue_size(Waiting, W),
-        Count is S+W
-    ;   Count = 0
+    session_window(Session, window(Sent, Waiting, _, _, _, _, _)),
+    queue_size(Sent, S),
+    queue_size(Waiting, W),
+    (   unsettled(Key, _, _)
+    ->  Count is S+W+1
+    ;   Count is S+W
     ).
 
 %   The queue may be gone: the session was closed.
@@ -270,20 +371,24 @@ queue_size(_, 0).
 
 unacked_await(Session, Queue, Count) :-
     session_key(Session, Key),
-    bundle_waiting(Session, Key),
-    session_pending(Session, Count),
-    session_sent(Session, Sent),
-    assertz(flusher(Key, Sent, Queue)).
+    bundle_waiting(Session),
+    session_window(Session, window(Sent, Waiting, _, _, Acked, _, _)),
+    queue_size(Sent, S),
+    queue_size(Waiting, W),
+    Count is S+W,
+    get_flag(Acked, Gone),
+    Wanted is Gone+Count,
+    assertz(flusher(Key, Wanted, Queue)).
 
 %   What waits is counted as what it will be.
 
-bundle_waiting(Session, Key) :-
+bundle_waiting(Session) :-
     session_codec(Session, Codec),
-    (   queues(Key, _, Waiting)
-    ->  bundle_all(Waiting, Codec, Frames),
-        forall(member(Bytes, Frames), thread_send_message(Waiting, Bytes))
-    ;   true
-    ).
+    session_window(Session, window(_, Waiting, _, _, _, _, _)),
+    catch(( bundle_all(Waiting, Codec, Frames),
+            forall(member(Frame, Frames), thread_send_message(Waiting, Frame)) ),
+          error(existence_error(_, _), _),
+          true).
 
 unacked_no_wait(Queue) :-
     retractall(flusher(_, _, Queue)).
@@ -327,11 +432,15 @@ pusher_start(Session, Thread, Out, Again) :-
 
 push(Session, Thread, Out, Again) :-
     call_cleanup(
-        catch(( forall(member(Bytes, Again), frame_write(Out, Bytes)),
+        catch(( forall(member(Frame, Again), write_again(Frame, Session, Out)),
                 push_waiting(Session, Out) ),
               error(_, _),
               true),
         session_locked(Session, pushed(Session, Thread))).
+
+write_again(Frame, Session, Out) :-
+    session_locked(Session, frame_counts(Frame, Session, Counts, Bytes)),
+    frame_write(Out, Counts, Bytes).
 
 %   A pusher that has written all has ended already.
 
@@ -344,34 +453,64 @@ pushed(Session, Thread) :-
     ).
 
 push_waiting(Session, Out) :-
-    session_key(Session, Key),
     repeat,
-    write_waiting(Session, Key, Out),
-    session_locked(Session, nothing_waits(Key)),
+    write_waiting(Session, Out),
+    session_locked(Session, nothing_waits(Session)),
     !.
 
 %   Many small frames go in one write: the buffer is flushed when it is full
 %   and when nothing waits, and that without the mutex.
 
-write_waiting(Session, Key, Out) :-
+write_waiting(Session, Out) :-
     repeat,
-    (   session_locked(Session, next_frame(Session, Key, Bytes))
-    ->  frame_write(Out, Bytes),
+    (   session_locked(Session, next_frame(Session, Counts, Bytes))
+    ->  frame_write(Out, Counts, Bytes),
         fail
     ;   !,
         flush_output(Out)
     ).
 
-next_frame(_, Key, Bytes) :-
-    retract(control(Key, _, Bytes)),
-    !.
-next_frame(Session, _, Bytes) :-
-    unacked_next(Session, inf, Bytes).
+%   What is outside the count settles no more than what was written before it.
 
-nothing_waits(Key) :-
+next_frame(Session, counts(Count, Settled), Bytes) :-
+    session_key(Session, Key),
+    retract(control(Key, _, Bytes)),
+    !,
+    session_window(Session,
+                   window(_, _, Received, Told, _, AckedBytes, SettledFlag)),
+    get_flag(Received, Count),
+    set_flag(Told, Count),
+    get_flag(SettledFlag, Settled),
+    string_length(Bytes, Length),
+    frame_overhead(Head),
+    get_flag(AckedBytes, Acked0),
+    Acked is Acked0+Length+Head,
+    set_flag(AckedBytes, Acked).
+next_frame(Session, Counts, Bytes) :-
+    unacked_next(Session, inf, Frame),
+    frame_counts(Frame, Session, Counts, Bytes).
+
+frame_counts(frame(Bytes, _, Settled), Session, counts(Count, Settled),
+             Bytes) :-
+    session_window(Session, window(_, _, Received, Told, _, _, SettledFlag)),
+    get_flag(Received, Count),
+    set_flag(Told, Count),
+    set_flag(SettledFlag, Settled).
+
+%   All that was settled meanwhile is told at the end.
+
+nothing_waits(Session) :-
+    session_key(Session, Key),
     \+ control(Key, _, _),
-    \+ unacked_waiting(Key),
-    retractall(pusher(Key, _)).
+    \+ unacked_waiting(Session),
+    session_window(Session, window(_, _, Received, _, _, _, Settled)),
+    get_flag(Received, Count),
+    (   get_flag(Settled, Count)
+    ->  retractall(pusher(Key, _))
+    ;   set_flag(Settled, Count),
+        pusher_control(Key, acknowledge, ""),
+        fail
+    ).
 
 %!  pusher_stop(+Key) is det.
 %

@@ -97,8 +97,8 @@ expired(Authority) :-
           greets(Authority, good, Endpoint, Welcome),
           greets(Authority, old, Endpoint, Refusal) ),
         host_stop(alpha)),
-    assertion(sub_string(Welcome, _, _, _, "typhon 2 ")),
-    assertion(\+ sub_string(Refusal, _, _, _, "typhon 2 ")),
+    assertion(sub_string(Welcome, _, _, _, "typhon 3 ")),
+    assertion(\+ sub_string(Refusal, _, _, _, "typhon 3 ")),
     assertion(sub_string(Refusal, _, _, _, "certificate expired")).
 
 greets(Authority, Name, Endpoint, Told) :-
@@ -111,7 +111,7 @@ greets(Authority, Name, Endpoint, Told) :-
                          '-cert', Certificate, '-key', Key ],
                        [ stdin(pipe(In)), stdout(pipe(Out)),
                          stderr(pipe(Err)), process(Pid) ]),
-        ( catch(( format(In, "typhon 2 ~`0t~32| x 1 127.0.0.1:1 90004 64 \c
+        ( catch(( format(In, "typhon 3 ~`0t~32| x 1 127.0.0.1:1 90004 64 \c
                               none~n", []),
                   flush_output(In) ), error(_, _), true),
           read_string(Out, _, Said),    % until the host has waited enough

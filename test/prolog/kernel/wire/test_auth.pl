@@ -149,7 +149,7 @@ trickle(In, Out) :-
            )).
 
 endless(_, Out) :-
-    forall(between(1, 100000, _), write(Out, "typhon 2 ")),
+    forall(between(1, 100000, _), write(Out, "typhon 3 ")),
     flush_output(Out).
 
 %   Says back whatever it hears.
@@ -157,7 +157,7 @@ endless(_, Out) :-
 reflect(In, Out) :-
     hello(x, 1, 'c:1', Hello),
     hello_line(Hello, HelloLine),
-    format(string(First), "typhon 2 00 ~w", [HelloLine]),
+    format(string(First), "typhon 3 00 ~w", [HelloLine]),
     line_write(Out, First),
     get_time(Now),
     Deadline is Now+5,

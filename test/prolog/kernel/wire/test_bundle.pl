@@ -16,9 +16,9 @@
 :- use_module(library(typhon/kernel/travel/post), []).
 :- use_module(library(typhon/kernel/wire/frame)).
 :- use_module(library(typhon/kernel/wire/outbox), [session_send/2]).
-:- use_module(library(typhon/kernel/wire/session), [route/2, session_key/2]).
+:- use_module(library(typhon/kernel/wire/session), [route/2]).
 :- use_module(library(typhon/kernel/wire/unacked),
-              [session_sent/2, unacked_waiting/1]).
+              [unacked_waiting/1]).
 
 :- dynamic note/2.                      % Note, Thread
 
@@ -57,7 +57,7 @@ test(take_few_frames, true(Frames < 1500)) :-
                    notes(A, Notes),
                    assertion(Notes == Sent),
                    session(A, Session),
-                   session_sent(Session, Frames) )).
+                   typhon_unacked:session_sent(Session, Frames) )).
 test(as_text, [ setup(( setting(typhon_handshake:records, Old),
                         set_setting(typhon_handshake:records, false) )),
                 cleanup(set_setting(typhon_handshake:records, Old)),
@@ -78,8 +78,7 @@ test(go_though_nothing_follows) :-
     with_settings([typhon_reader:silence=100],
         with_peer(A, ( post_notes(A, 1, 200),
                        session(A, Session),
-                       session_key(Session, Key),
-                       wait_until(\+ unacked_waiting(Key), 20) ))).
+                       wait_until(\+ unacked_waiting(Session), 20) ))).
 test(arrive_before_the_endpoint_stops, true(Flushed == true)) :-
     with_settings([typhon_reader:silence=100],
         with_peer(A, ( post_notes(A, 1, 500),
@@ -146,25 +145,27 @@ with_queue(Frames, Queue, Goal) :-
 :- begin_tests(what_waits).
 
 test(loose_ones_go_together, true(Many-Left == true-0)) :-
-    with_queue([loose("a"), loose("b")], Queue,
-               ( bundle_next(Queue, fast, inf, Bytes, Many),
+    with_queue([loose("a", 1), loose("b", 2)], Queue,
+               ( bundle_next(Queue, fast, inf, frame(Bytes, none, 2), Many),
                  message_queue_property(Queue, size(Left)) )),
     fast_term_serialized(Bundle, Bytes),
     bundle_parts(Bundle, Parts),
     assertion(Parts == ["a", "b"]).
-test(one_goes_as_it_is, true(Frames == ["a", "B", "c"])) :-
-    with_queue([loose("a"), "B", loose("c")], Queue,
+test(one_goes_as_it_is,
+     true(Frames == [ frame("a", none, 1), frame("B", token, 2),
+                      frame("c", none, 3) ])) :-
+    with_queue([loose("a", 1), frame("B", token, 2), loose("c", 3)], Queue,
                bundle_all(Queue, fast, Frames)).
 test(what_does_not_fit_stays, true(Size == 2)) :-
-    with_queue(["long", loose("b")], Queue,
+    with_queue([frame("long", none, 0), loose("b", 0)], Queue,
                ( \+ bundle_next(Queue, fast, 3, _, _),
                  message_queue_property(Queue, size(Size)) )).
 test(no_more_than_fit, true(Size == 1)) :-
-    with_queue([loose("aaaa"), loose("bbbb"), loose("cccc")], Queue,
+    with_queue([loose("aaaa", 0), loose("bbbb", 0), loose("cccc", 0)], Queue,
                ( bundle_next(Queue, fast, 30, _, true),
                  message_queue_property(Queue, size(Size)) )).
 test(no_more_than_a_hundred, true(Count == 3)) :-
-    findall(loose("a"), between(1, 250, _), Frames0),
+    findall(loose("a", 0), between(1, 250, _), Frames0),
     with_queue(Frames0, Queue,
                ( bundle_all(Queue, fast, Frames), length(Frames, Count) )).
 test(nothing, fail) :-

@@ -156,15 +156,16 @@ test(several, Read == ["", "abc", Long, end_of_file]) :-
     all_bytes(Long),
     framed(["", "abc", Long], Bytes),
     read_frames(Bytes, 10000, 4, Read).
-test(truncated, [forall(member(Cut, [1, 2, 3, 4, 5, 8])),
+test(truncated, [forall(member(Cut, [1, 2, 3, 4, 5, 8, 12, 16])),
                  error(syntax_error(truncated_frame))]) :-
     framed(["abc"], Bytes),
     sub_string(Bytes, 0, _, Cut, Short),
     read_frames(Short, 10000, 1, _).
-test(damaged, [forall(between(4, 9, At)),
+test(damaged, [forall(between(5, 18, At)),
                error(syntax_error(damaged_frame))]) :-
     framed(["abc"], Bytes),             % the check, and what it is of
-    flipped(At, Bytes, Damaged),
+    random_between(0, 7, Bit),
+    flipped(At, Bit, Bytes, Damaged),
     read_frames(Damaged, 10000, 1, _).
 test(each_flipped_bit_of_a_record) :-
     term_bytes(fast, f(a, "b", [1, 2.0|_]), Body),
@@ -176,7 +177,7 @@ test(each_flipped_bit_of_a_record) :-
              assertion(Other =\= Check) )).
 test(what_follows_damage, Next == "def") :-
     framed(["abc", "def"], Bytes),
-    flipped(8, Bytes, Damaged),
+    flipped(16, Bytes, Damaged),
     with_bytes(Damaged, second_frame(Next)).
 test(cut_in_the_length, error(syntax_error(truncated_frame))) :-
     read_frames("\x0\\x0\", 10000, 1, _).
@@ -185,6 +186,21 @@ test(too_long, error(resource_error(frame_bytes))) :-
     read_frames(Bytes, 3, 1, _).
 test(absurdly_long, error(resource_error(frame_bytes))) :-
     read_frames("GET / HTTP/1.1\r\n", 67108864, 1, _).
+test(counts_wrap_around, true(Ahead-Counts == 5-counts(1, 0))) :-
+    Before is 0xffffffff-3,
+    Now is 0xffffffff+2,
+    count_ahead(Before, Now, Ahead),
+    with_file(File,
+              ( setup_call_cleanup(
+                    open(File, write, Out, [type(binary)]),
+                    frame_write(Out, counts(0x100000001, 0x300000000), "x"),
+                    close(Out)),
+                setup_call_cleanup(
+                    open(File, read, In, [type(binary)]),
+                    frame_read(In, 10, Counts, "x"),
+                    close(In)) )).
+test(a_count_that_is_less_is_not_ahead, fail) :-
+    count_ahead(10, 9, _).
 
 :- end_tests(frames_are_counted_bytes).
 
@@ -264,7 +280,7 @@ framed(List, Bytes) :-
     with_file(File,
               ( setup_call_cleanup(
                     open(File, write, Out, [type(binary)]),
-                    forall(member(B, List), frame_write(Out, B)),
+                    forall(member(B, List), frame_write(Out, counts(7, 5), B)),
                     close(Out)),
                 setup_call_cleanup(
                     open(File, read, In, [type(binary)]),
@@ -290,12 +306,13 @@ with_bytes(Bytes, Goal) :-
 
 read_each([], _, _).
 read_each([Frame|Frames], Max, In) :-
-    frame_read(In, Max, Frame),
+    frame_read(In, Max, Counts, Frame),
+    assertion(Frame == end_of_file ; Counts == counts(7, 5)),
     read_each(Frames, Max, In).
 
 second_frame(Frame, In) :-
-    catch(frame_read(In, 100, _), error(syntax_error(_), _), true),
-    frame_read(In, 100, Frame).
+    catch(frame_read(In, 100, _, _), error(syntax_error(_), _), true),
+    frame_read(In, 100, _, Frame).
 
 :- meta_predicate with_file(-, 0).
 

@@ -200,7 +200,7 @@ test(evicted_at_any_moment) :-
 dies(I) :-
     hello(x, 1, 'c:1', Hello),
     hello_line(Hello, Line),
-    format(string(Greeting), "typhon 2 00 ~w\n", [Line]),
+    format(string(Greeting), "typhon 3 00 ~w\n", [Line]),
     string_length(Greeting, Length),
     Bytes is I mod (Length+1),
     sub_string(Greeting, 0, Bytes, _, Text),
@@ -243,7 +243,7 @@ test(told_of_those_at_the_very_end, Sum == 20) :-
         with_endpoint(true),
         unwrap_predicate(typhon_threads:wire_threads_end/0, last)),
     counted(Sum).
-test(another_version, Line == "typhon 2") :-
+test(another_version, Line == "typhon 3") :-
     with_endpoint(setup_call_cleanup(
         connected(Client),
         ( say("typhon 1 00 p 1 a:1 90004 64 little\n", Client),

@@ -1,0 +1,150 @@
+:- module(typhon_hand_over,
+          [ hand_over/5                 % +Id, +Where, +Hole, +Goals, +Since
+          ]).
+:- use_module(library(debug), [debug/3]).
+:- use_module('../base/durable_changes', [durable_on/0]).
+:- use_module('../wire',
+              [endpoint_hand/4, endpoint_hand_over/2, endpoint_handed/2]).
+:- use_module('../host',
+              [ event_heard/1, host/3, host_left/2, host_time/2, plain/1,
+                scheduler_call/1 ]).
+:- use_module('../agent',
+              [ agent_gone/5, agent_handed/4, agent_here/5, agent_standing/5,
+                agent_state/2, agent_thawed/5, agent_under_way/6,
+                life_before/2, life_extras/2, life_hop/3, mail_all/2,
+                mail_back/2, mail_waits/1, with_agent/2 ]).
+:- use_module(post, [post_on/2]).
+:- use_module(programs_sent, [program_sent/3]).
+:- use_module(whereabouts, [agent_left/4]).
+
+/** <module> The short way of a hop
+
+An agent that leaves a host without parts, see typhon_host_parts, for another
+process is handed over: what is kept of it is the frame that was sent, and that
+the frame is settled says that the agent has arrived.  No request is open, no
+goals are copied, and no module is kept.
+
+All else that can become of it, and whatever looks at it meanwhile, _thaws_ it:
+the frame is read, and the agent is in transit as one that was sent by request,
+see typhon_transfer, to which the rest is left.
+
+The other process takes the agent in like any other, see typhon_arrival.
+
+*Threading*: hand_over/5 in a worker; results in the threads of the endpoint.
+*/
+
+:- multifile
+    typhon_agents:thaw/1,
+    typhon_endpoint:handed_over/2,
+    result/2.                   % Result, Transfer: the agent, in transit, is to
+                                % be treated as the answer says
+
+:- dynamic result/2.
+
+%!  hand_over(+Id, +Where, +Hole, +Goals, +Since) is semidet.
+%
+%   Send Id to Where, as of host_resolve/2, where it goes on with Goals, Hole
+%   bound to `true`.  Fails, and nothing has changed, if it has to go by
+%   request: options are in use, there is no connection, its terms cannot
+%   travel, or it has an order.
+%
+%   @arg Since is the host time at which it set out
+
+hand_over(Id, remote(Address, Name, Endpoint), Hole, Goals, Since) :-
+    var(Hole),
+    \+ durable_on,
+    agent_here(Id, Host, Module, Hash, Life0),
+    !,
+    plain(Host),
+    \+ event_heard(hops),
+    life_extras(Life0, []),
+    life_hop(Life0, Life, Hops),
+    agent_state(Module, State),
+    mail(Id, Mail),
+    (   framed(Endpoint, Name, Hash,
+               image(Id, Hash, Life, State, Hole-Goals, Mail, Since), Frame),
+        get_time(Sent),
+        Transfer = hop(Id, dest(Address, Name, Endpoint), Hops),
+        sig_atomic(with_agent(Id, leave(Transfer, way(Since, Sent), Frame)))
+    ->  debug(typhon(hop), '~w hop ~D: leaves for ~w', [Id, Hops, Address])
+    ;   with_agent(Id, mail_back(Id, Mail)),
+        fail
+    ).
+
+mail(Id, Mail) :-
+    (   mail_waits(Id)
+    ->  with_agent(Id, mail_all(Id, Mail))
+    ;   Mail = []
+    ).
+
+%   What is wrong is reported where it goes by request.
+
+framed(Endpoint, Name, Hash, Image, Frame) :-
+    acyclic_term(Image),
+    term_attvars(Image, []),
+    program_sent(Endpoint, Hash, Program),
+    catch(endpoint_hand(Endpoint, hop, hop(Name, Image, Program), Frame),
+          error(_, _), fail).
+
+%   The agent may be back before anything else is done here, so all else is
+%   done before.
+
+leave(Transfer, way(Since, Sent), Frame) :-
+    Transfer = hop(Id, Dest, Hops),
+    agent_handed(Id, Hops, way(Dest, Since, Sent), Frame),
+    catch(endpoint_hand_over(Frame, Transfer), error(session_closed, _),
+          scheduler_call(typhon_hand_over:settled(unsent, Transfer))).
+
+                /*******************************
+                *            RESULTS           *
+                *******************************/
+
+:- public settled/2.
+
+typhon_endpoint:handed_over(Transfer, Result) :-
+    settled(Result, Transfer).
+
+settled(accepted, Transfer) :-
+    Transfer = hop(Id, _, Hops),
+    with_agent(Id, moved_on(Transfer, Host, Since)),
+    !,
+    debug(typhon(hop), '~w hop ~D: has gone', [Id, Hops]),
+    (   host_time(Host, Now)
+    ->  Seconds is max(0.0, Now-Since),
+        host_left(Host, Seconds)
+    ;   true                            % the host was stopped meanwhile
+    ).
+settled(Result, Transfer) :-
+    arg(1, Transfer, Id),
+    ignore(with_agent(Id, thawed(Id))),
+    result(Result, Transfer).
+
+%   Where it went is known before it is gone, and mail that came meanwhile
+%   is on its way before any that comes now.
+
+moved_on(hop(Id, dest(Address, _, Endpoint), Hops), Host, Since) :-
+    agent_gone(Id, Hops, Host, way(_, Since, _), Mail),
+    agent_left(Id, Address, Hops, Endpoint),
+    post_on(Id, Mail).
+
+                /*******************************
+                *            THAWING           *
+                *******************************/
+
+typhon_agents:thaw(Id) :-
+    sig_atomic(with_agent(Id, thawed(Id))).
+
+%   thawed(+Id) is semidet: inside with_agent/2.  Its state, its goals and the
+%   mail it had are those of the frame; the hop is not counted before it is made.
+
+thawed(Id) :-
+    agent_under_way(Id, Hops, Host, _, way(Dest, Since, Sent), Frame),
+    !,
+    endpoint_handed(Frame, hop(_, Image, _)),
+    Image = image(Id, Hash, Life1, State, Hole-Goals0, Mail, _),
+    life_before(Life1, Life0),
+    host(Host, _, Place),
+    agent_standing(Id, Place, Hash, State-Goals0, Module-Goals),
+    arg(1, Dest, Address),
+    agent_thawed(Id, Module, Life0, transit(Address, Sent),
+                 hop(Hole-Goals, Hops, Mail, Since)).
