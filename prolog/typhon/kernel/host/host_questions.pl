@@ -218,7 +218,7 @@ may_ask(Question, Peer) :-
     ;   true
     ).
 
-needs(host_properties(Name), Name, watch).
+needs(host_properties(Name), Name, inspect).
 needs(link(Name, _), Name, orders).
 needs(link(Name, _, _), Name, orders).
 needs(unlink(Name, _), Name, orders).

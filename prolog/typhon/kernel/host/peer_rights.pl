@@ -16,7 +16,7 @@ The rights are
   - messages: send messages to agents here
   - orders: dispose of them, move, change them; link the host
   - remote: run goals here, see remote/2
-  - watch: look at agents and at the properties of the host
+  - inspect: look at agents, events and the properties of the host
 
 A peer has all of them, but `remote` only with our own proof: the cookie, or,
 where processes have keys, our own certificate.  The parts of a host in the

@@ -155,7 +155,7 @@ typhon_endpoint:requested(agent, question(Agent, Question), Peer, ReplyTo) :-
 right_for(order(_), Right) => Right = orders.
 right_for(dispose, Right) => Right = orders.
 right_for(force, Right) => Right = orders.
-right_for(_, Right) => Right = watch.
+right_for(_, Right) => Right = inspect.
 
 may_ask(Right, Peer, Host, Agent, Question) :-
     peer_may(Peer, Host, Right),

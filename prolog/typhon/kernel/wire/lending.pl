@@ -144,7 +144,7 @@ give(Goal, Queue) :-
     nb_linkval(typhon_token, token(Queue, Turn)),
     nb_linkval(typhon_lending, lent),
     thread_send_message(Queue, token(Turn, Goal)),
-    watch.
+    look_in_time.
 
 take_back(Queue, Told) :-
     (   token_taken(Queue, _)
@@ -194,12 +194,12 @@ typhon_threads:not_now(Why) :-
     nb_setval(typhon_lending, told(Why)).
 
                  /*******************************
-                 *            WATCH             *
+                 *            LOOKING           *
                  *******************************/
 
 %   While threads are lent the manager checks which do not come back.
 
-watch :-
+look_in_time :-
     (   get_flag(typhon_lending, 1)
     ->  true
     ;   flag(typhon_lending, Looks, 1),
@@ -227,7 +227,7 @@ look :-
     forall(member(Seen, All), assertz(Seen)),
     (   All == []
     ->  true
-    ;   watch
+    ;   look_in_time
     ).
 
 lent_now(Now, seen(Thread, Turn, Since, Work)) :-

@@ -10,7 +10,7 @@
 
 The option peer(Rules) of a host is a list of Peer-Rights.  Peer is `cookie`,
 certificate(Name), or a pattern of these; Rights is `all` or a list of rights,
-see typhon_peer_rights.  The first rule that matches how a peer has proved
+see typhon_peer_rights; that to inspect is `watch` here.  The first rule that matches how a peer has proved
 itself counts; without a match it has no right.
 
 With the option audit(File) each security event is a line there,
@@ -64,7 +64,15 @@ permits(Rules, Proof, Right) :-
     member(Peer-Rights, Rules),
     subsumes_term(Peer, Proof),
     !,
-    ( Rights == all -> true ; memberchk(Right, Rights) ).
+    (   Rights == all
+    ->  true
+    ;   named(Right, Name),
+        memberchk(Name, Rights)
+    ).
+
+named(inspect, watch) :-
+    !.
+named(Right, Right).
 
 right(agents).
 right(messages).
@@ -100,8 +108,9 @@ rights(Rights) :-
 
 %   note(+File, +Host, +Peer, +Proof, +What): see security_event/4.
 
-note(File, Host, Peer, Proof, What) :-
+note(File, Host, Peer, Proof, What0) :-
     get_time(Time),
+    ( What0 == refused(inspect) -> What = refused(watch) ; What = What0 ),
     catch(with_mutex(typhon_audit,
                      append_line(File,
                                  audit(Time, Host, Peer, Proof, What))),
