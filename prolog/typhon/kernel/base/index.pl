@@ -91,4 +91,4 @@ part_setting(seconds,typhon_survey,number,2,'A table waits so long for the other
 part_setting(ssh,typhon_children,atom,ssh,'The program that reaches other machines','network/children').
 part_setting(start_seconds,typhon_processes,number,60,'The processes of a network have so long to start','network/processes').
 part_setting(stop_seconds,typhon_children,number,5,'A child has so long to end in order, then it is killed','network/children').
-part_setting(virtual_events,typhon_telling,positive_integer,1000000,'As many of virtual time, which is ahead of everybody','options/watch/telling').
+part_setting(virtual_events,typhon_telling,positive_integer,1000000,'As many of virtual time, which is ahead of all watches','options/watch/telling').

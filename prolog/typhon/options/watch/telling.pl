@@ -6,7 +6,7 @@
 :- use_module('../../kernel/wire', [endpoint_address/1, endpoint_reply/2, mobile_term/1]).
 :- use_module('../../kernel/host',
               [ clock/3, event_shown/3, events_hear/3, events_unheard/1,
-                host/3, time_kind/1 ]).
+                host/3, peer_may/3, time_repeats/2, time_kind/1 ]).
 :- use_module(event_buffer, [basin_close/1, basin_open/3, basin_put/3]).
 :- use_module(teller, [teller_ring/2, teller_run/1, time_at/2]).
 
@@ -44,7 +44,7 @@ record.
 :- setting(events, positive_integer, 10 000,
            "So many events wait for a watch that is slow").
 :- setting(virtual_events, positive_integer, 1 000 000,
-           "As many of virtual time, which is ahead of everybody").
+           "As many of virtual time, which is ahead of all watches").
 
 :- dynamic teller/5.            % Peer, Id, Thread, Bell, telling(Wanted, Basin)
 
@@ -83,7 +83,8 @@ tell_to(Peer, Id, Wanted, true) :-
     debug(typhon(watch), '~w of ~w watches', [Id, Peer]).
 
 most(Most) :-
-    time_kind(virtual),
+    time_kind(Kind),
+    time_repeats(Kind, _),
     !,
     setting(virtual_events, Most).
 most(Most) :-
@@ -95,6 +96,7 @@ hear_of(New, Wanted, Peer, Id, Hosts) :-
     findall(Name-(Address-clock(Epoch, Rate)),
             ( host(Name, Address, _),
               is_wanted(Wanted, Name),
+              may_watch(Peer, Name),
               clock(Name, Epoch, Rate) ),
             Pairs),
     forall(( New == true, member(Name-Host, Pairs) ),
@@ -106,13 +108,20 @@ is_wanted(all, _).
 is_wanted([Name0|Names], Name) :-
     memberchk(Name, [Name0|Names]).
 
+may_watch(Peer, _) :-
+    endpoint_address(Peer),
+    !.
+may_watch(Peer, Name) :-
+    peer_may(Peer, Name, inspect).
+
 listen(Name, Address-Clock, Basin) :-
     kinds(Kinds),
     events_hear(Kinds, Name, watch(Basin, Address, Clock)).
 
 typhon_hosting:begins(Name) :-
-    teller(_, _, _, _, telling(Wanted, Basin)),
+    teller(Peer, _, _, _, telling(Wanted, Basin)),
     is_wanted(Wanted, Name),
+    may_watch(Peer, Name),
     host(Name, Address, _),
     clock(Name, Epoch, Rate),
     listen(Name, Address-clock(Epoch, Rate), Basin).

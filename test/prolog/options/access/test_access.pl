@@ -29,6 +29,9 @@ test(rules_and_audit_of_a_running_host_change,
          [true, permission_error(orders, agent, _), true]
          - [refused(orders), order(_, dispose)]) :-
     with_tmp_dir(changed_rules([Before,Ruled,After], Noted)).
+test(events_need_the_right_to_watch,
+     Results-Noted = [existence_error(host, _), true]-[refused(watch)]) :-
+    with_tmp_dir(watched(Results, Noted)).
 test(unknown_rules_are_an_error, error(domain_error(peer_rule, x))) :-
     host_start(g, [peer([x])]).
 test(unknown_rules_are_an_error_of_a_change,
@@ -65,6 +68,22 @@ changed_rules([Before,Ruled,After], Noted, Dir) :-
           peer_do(p, host_change(p, peer([cookie-all]))),
           disposed(After),
           audited(File, Noted) )))).
+
+%   A peer watches a host, by its name, without the right and with it.
+
+watched([Without,With], Noted, Dir) :-
+    directory_file_path(Dir, audit, File),
+    no_leaks(with_peers(
+        [p-[host([peer([cookie-[messages]]), audit(File)])]],
+        with_host_here(( peer_host(p, There),
+          tried(watches(There), Without),
+          peer_do(p, host_change(p, peer([cookie-[watch]]))),
+          tried(watches(There), With),
+          audited(File, Noted) )))).
+
+watches(Host) :-
+    watch([Host], [_]>>true, Watch),
+    unwatch(Watch).
 
 disposed(Result) :-
     waiting_agent(A),
