@@ -57,6 +57,7 @@ a folder, with an interface of the same name beside it:
 :- use_module(typhon/options/virtual, []).
 :- use_module(typhon/tools/messages, []).
 :- use_module(typhon/tools/fault_messages, []).
+:- use_module(typhon/options/tls, []).
 :- use_module(typhon/options/identity, []).
 
 :- user_errors(typhon).

@@ -1,15 +1,2 @@
-exception('prolog/typhon/kernel/base/keys.pl',tls).
 exception('prolog/typhon/kernel/host/host_options.pl',journal).
-exception('prolog/typhon/kernel/host/host_options.pl',tls).
-exception('prolog/typhon/kernel/host/runtime.pl',tls).
 exception('prolog/typhon/kernel/program/advice.pl',snapshot).
-exception('prolog/typhon/kernel/wire/acceptor.pl',tls).
-exception('prolog/typhon/kernel/wire/connection.pl',tls).
-exception('prolog/typhon/kernel/wire/endpoint.pl',tls).
-exception('prolog/typhon/kernel/wire/handshake.pl',tls).
-exception('prolog/typhon/kernel/wire/lending.pl',tls).
-exception('prolog/typhon/kernel/wire/peer_cache.pl',tls).
-exception('prolog/typhon/kernel/wire/reader.pl',tls).
-exception('prolog/typhon/kernel/wire/refusals.pl',tls).
-exception('prolog/typhon/kernel/wire/secure.pl',identity).
-exception('prolog/typhon/kernel/wire/session.pl',tls).

@@ -48,9 +48,6 @@ option_words(trace,    [trace, traces, traced, tracing, spying, stepping]).
 option_file(journal, 'travel/channel.pl').
 option_file(journal, 'travel/channel_end.pl').
 option_file(journal, 'travel/hop_ids.pl').
-option_file(tls, 'wire/secure.pl').
-option_file(tls, 'base/key_files.pl').
-option_file(identity, 'base/keys.pl').
 
 %!  kernel_file(?File) is nondet.
 %

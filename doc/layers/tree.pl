@@ -256,6 +256,8 @@ reach(Part, Module, Name/Arity) :-
 layers([ 'kernel/base', 'bridges/helper', 'bridges/nxt', 'kernel/program',
          'kernel/wire', 'kernel/host', 'kernel/agent', 'kernel/travel',
          'kernel/lifecycle', 'kernel/vocabulary',
+         'options/keys',
+         'options/tls',
          'options/identity',
          'options/trail',
          'options/journal',

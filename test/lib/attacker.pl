@@ -23,6 +23,7 @@ endpoint.
 :- use_module(library(lists), [nth1/3, nth1/4, select/4]).
 :- use_module(library(main), [main/0]).
 :- use_module(library(typhon/kernel/wire)).
+:- use_module(library(typhon/options/tls), []).
 
 :- initialization(main, main).
 
@@ -38,7 +39,7 @@ typhon_endpoint:requested(hop, Request, _, ReplyTo) :-
     endpoint_reply(ReplyTo, accepted).
 
 main([Keys]) :-
-    endpoint_start(localhost, 0, keys(Keys), Address),
+    endpoint_start(localhost, 0, [tls(Keys)], Address),
     say(Address),
     repeat,
     read_term(user_input, Command, []),

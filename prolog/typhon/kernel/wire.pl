@@ -8,7 +8,7 @@ This is the interface of the layer: higher layers import from here.
 */
 
 :- reexport(wire/endpoint,
-            [ endpoint_address/1, endpoint_keys/1, endpoint_listen/2,
+            [ endpoint_address/1, endpoint_listen/2,
               endpoint_listen_end/1, endpoint_open/0, endpoint_process/1,
               endpoint_proof/1, endpoint_start/3, endpoint_start/4,
               endpoint_start_alone/1, endpoint_stop/0 ]).
@@ -27,5 +27,8 @@ This is the interface of the layer: higher layers import from here.
             [ contact_expect/1, contact_expect_no_more/1,
               endpoint_own_proof/1, endpoint_proof/2 ]).
 :- reexport(wire/frame, [mobile_term/1]).
-:- reexport(wire/handshake, [cookie/1, random_hex/2]).
-:- reexport(wire/refusals, [tls_text/2]).
+:- reexport(wire/handshake,
+            [cookie/1, line_read/3, line_write/2, random_hex/2]).
+:- reexport(wire/threads, [manager_notify/1]).
+:- reexport(wire/transport, [transport_disagrees/1]).
+:- reexport(wire/refusals, [refusal_text/2]).

@@ -17,7 +17,8 @@
 :- use_module(library(settings), [setting/2, setting/4]).
 :- use_module('../kernel/base/options', [check_options/2]).
 :- use_module('../kernel/base/spawn', [spawn/3]).
-:- use_module('../kernel/wire', [cookie/1, endpoint_keys/1]).
+:- use_module('../kernel/wire', [cookie/1]).
+:- use_module('../options/keys', [own_keys/1]).
 :- use_module(child_output, [voice_heard/2]).
 
 /** <module> Processes that carry the hosts of a network
@@ -102,7 +103,7 @@ child_start(Tag, Machine, Interface, Options, OnEvent,
 %   A process with TLS can talk only to others with TLS.
 
 keys(Keys) :-
-    (   endpoint_keys(Directory)
+    (   own_keys(Directory)
     ->  Keys = keys(Directory)
     ;   Keys = none
     ).

@@ -11,7 +11,7 @@ the wire, of networks and of the log keep the texts of their own messages.
 */
 
 :- use_module('../kernel/base/error_text', [error_told/3, term_told/3]).
-:- use_module('../kernel/wire', [endpoint_missed/2, tls_text/2]).
+:- use_module('../kernel/wire', [endpoint_missed/2, refusal_text/2]).
 :- use_module('../kernel/program', [files_beside/3]).
 :- use_module('../kernel/host', [address_parts/3, host_property/2, host_resolve/2]).
 :- use_module('../kernel/base/names',
@@ -147,8 +147,8 @@ missed(permission_error(authenticate, peer, protocol),
 missed(permission_error(authenticate, peer, version(Version)), Text) :-
     format(atom(Text), 'it speaks another version of the protocol, ~w',
            [Version]).
-missed(permission_error(authenticate, peer, tls(Why)), Text) :-
-    tls_text(Why, Text).
+missed(permission_error(authenticate, peer, Why), Text) :-
+    refusal_text(Why, Text).
 missed(permission_error(use, cookie_file, File), Text) :-
     format(atom(Text), 'the cookie file ~w may not be used', [File]).
 

@@ -17,7 +17,6 @@ typhon_options:declared(host_option, Option, Type, Value) :-
 
 host_option_type(port(X), between(0, 65535), X).
 host_option_type(bind(X), atom, X).
-host_option_type(tls(X), atom, X).
 host_option_type(capacity(X), nonneg, X).
 host_option_type(capacity(X), oneof([inf]), X).
 host_option_type(tokens(X), list, X).

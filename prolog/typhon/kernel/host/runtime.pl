@@ -15,9 +15,10 @@
 :- use_module('../base/durable_changes', [durable_end/0]).
 :- use_module('../program', [code_clear/0]).
 :- use_module('../wire',
-              [ endpoint_address/1, endpoint_keys/1, endpoint_listen/2,
+              [ endpoint_address/1, endpoint_listen/2,
                 endpoint_listen_end/1, endpoint_start/4,
-                endpoint_start_alone/1, endpoint_stop/0 ]).
+                endpoint_start_alone/1, endpoint_stop/0,
+                transport_disagrees/1 ]).
 :- use_module(scheduler, [scheduler_forget/0]).
 :- use_module(time,
               [time_apart/2, time_kind/1, time_start/1, time_stop/0]).
@@ -107,17 +108,7 @@ start_endpoint(Kind, _) :-
 start_endpoint(_, Options) :-
     option(port(Port), Options, 0),
     option(bind(Interface), Options, localhost),
-    keys(Options, Keys),
-    endpoint_start(Interface, Port, Keys, _).
-
-%   A process that starts no host, a guest, gets it from the environment.
-
-keys(Options, Keys) :-
-    (   ( option(tls(Directory), Options)
-        ; getenv('TYPHON_TLS', Directory), Directory \== '' )
-    ->  Keys = keys(Directory)
-    ;   Keys = none
-    ).
+    endpoint_start(Interface, Port, Options, _).
 
 must_agree(time(Kind)) :-
     \+ time_kind(Kind),
@@ -129,9 +120,8 @@ must_agree(Option) :-
     ;   true
     ).
 
-disagrees(tls(Directory0)) :-
-    absolute_file_name(Directory0, Directory),
-    \+ endpoint_keys(Directory).
+disagrees(Option) :-
+    transport_disagrees(Option).
 disagrees(bind(Interface)) :-
     Interface \== localhost,
     endpoint_address(Endpoint),

@@ -13,14 +13,13 @@
                 durable_putting/5, enqueue_changes/0, unit_of_work/1 ]).
 :- use_module('../base/unit_of_work',
               [unit_after/1, unit_change/1, unit_defers/0]).
-:- use_module('../wire',
-              [endpoint_address/1, endpoint_keys/1, mobile_term/1]).
+:- use_module('../wire', [endpoint_address/1, mobile_term/1]).
 :- use_module('../host', [parts/3, peer_may/3]).
 :- use_module('../agent', [agent/5, agent_home/2, agent_mail/2, with_agent/2]).
 :- use_module(backlog, [backlog/1, backlog_add/2, backlog_all/2]).
 :- use_module(channel, [channel_must_fit/1]).
 :- use_module(retries, [retry_later/3]).
-:- use_module(senders, [mail_believed/5]).
+:- use_module(senders, [mail_believed/5, senders_checked/0]).
 :- use_module(routing, [one_letter/2, way_in/2, way_out/3, way_send/3]).
 
 /** <module> Messages
@@ -146,7 +145,7 @@ post_via(Id, Endpoint, From, Message) :-
     mobile_term(Message),
     (   (   agent(Id, _, _, _, _)
         ;   endpoint_address(Endpoint)
-        ;   endpoint_keys(_),           % it may not pass it on
+        ;   senders_checked,            % it may not pass it on
             agent_home(From, _)
         )
     ->  post(Id, From, Message)

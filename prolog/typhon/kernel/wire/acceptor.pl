@@ -31,7 +31,7 @@ far it has come and returns its own.
               [ manager_notify/1, wire_thread_create/4, wire_thread_running/1,
                 wire_thread_signal/2 ]).
 :- use_module(refusals, [refusals_begin/0, refused/2]).
-:- use_module(secure, [secure_first/2]).
+:- use_module(transport, [transport_first/2]).
 
 :- setting(strangers, positive_integer, 128,
            "Connections at a time that have not proved themselves").
@@ -106,7 +106,7 @@ check_first(-1, _) :-
     !,
     syntax_error(end_of_file).
 check_first(Byte, Out) :-
-    secure_first(Byte, Out).
+    transport_first(Byte, Out).
 
 close_streams(In, Out) :-
     close(Out, [force(true)]),

@@ -26,12 +26,16 @@ the session of the peer, see resumption.pl, reads frames until it breaks, and cl
               [ meet/7, own_session/1, prove/5, session_left/0,
                 session_lost/2 ]).
 :- use_module(reader, [read_frames/3]).
-:- use_module(refusals, [refused/2, tls_text/2]).
-:- use_module(secure, [secure_close/0, secure_first/2, secure_streams/6]).
+:- use_module(refusals, [refusal_text/2, refused/2]).
 :- use_module(session, [route_add/2, session_adopting/2, session_peer/3]).
+:- use_module(transport,
+              [transport_close/0, transport_first/2, transport_open/6]).
 
 :- multifile
+    harmless/1,                 % Formal: a break that is no news
     typhon_handshake:greeted/0.
+
+:- dynamic harmless/1.
 
 :- meta_predicate
     incoming(+, +, +, 1, +),
@@ -50,7 +54,7 @@ incoming(In, Out, Ip, Stage, Me) :-
     catch(with_streams(call(Stage, silent), In, Out,
                        ( await_word(In, Out),
                          call(Stage, heard),
-                         secure_streams(server, In, Out, SIn, SOut, Proof),
+                         transport_open(server, In, Out, SIn, SOut, Proof),
                          prove(Role, SIn, SOut, Me, Peer),
                          call(Stage, proved),
                          nb_setval(typhon_proved, true),
@@ -66,7 +70,7 @@ await_word(In, Out) :-
     peek_byte(In, Byte),
     (   Byte == -1
     ->  syntax_error(end_of_file)
-    ;   secure_first(Byte, Out)
+    ;   transport_first(Byte, Out)
     ).
 
 turned_away(Ip, Formal, Stage) :-
@@ -116,7 +120,7 @@ outgoing(Address, Me) :-
     catch(( address_parts(Address, Interface, Port),
             connect(Interface, Port, Socket),
             with_streams(open_streams(Socket, In, Out), In, Out,
-                         ( secure_streams(client, In, Out, SIn, SOut, Proof),
+                         ( transport_open(client, In, Out, SIn, SOut, Proof),
                            prove(Role, SIn, SOut, Me, Peer),
                            meet(Role, SIn, SOut, Me, Peer-Proof, Session,
                                 found(Address, Interface, Peer)),
@@ -139,7 +143,7 @@ missed(Address, Formal) :-
     (   Formal = socket_error(econnrefused, _)
     ->  contact_gone(Address)
     ;   Formal = permission_error(authenticate, peer, Why),
-        memberchk(Why, [version(_), tls(_)])
+        ( Why = version(_) ; Why == other ; refusal_text(Why, _) )
     ->  print_message(warning, typhon(endpoint, foreign(Address, Formal)))
     ;   true
     ),
@@ -166,7 +170,7 @@ with_streams(Open, In, Out, Goal) :-
         Open,
         Goal,
         ( session_left,
-          secure_close,
+          transport_close,
           close_stream(Out),
           close_stream(In) )).
 
@@ -222,12 +226,11 @@ report_break(Session, Formal) :-
     session_peer(Session, _, Address),
     (   nb_current(typhon_proved, true) % it came to us by another way
     ->  Level = silent
-    ;   memberchk(Formal,
-                  [ io_error(_, _), socket_error(_, _),
-                    syntax_error(truncated_frame),
-                    ssl_error(_, _, _, 'unexpected eof while reading'),
-                    ssl_error(_, _, _, 'tlsv1 alert decode error') % he says
-                  ])                                               % the same
+    ;   (   memberchk(Formal,
+                      [ io_error(_, _), socket_error(_, _),
+                        syntax_error(truncated_frame) ])
+        ;   harmless(Formal)
+        )
     ->  Level = silent
     ;   Level = warning
     ),
@@ -236,11 +239,16 @@ report_break(Session, Formal) :-
 :- multifile prolog:message//1.
 
 prolog:message(typhon(endpoint, foreign(Address, Formal))) -->
-    { arg(3, Formal, tls(Why)),
-      tls_text(Why, Text)
+    { arg(3, Formal, Why),
+      refusal_text(Why, Text)
     },
     !,
     [ 'Endpoint: no connection with ~w: ~w'-[Address, Text] ].
+prolog:message(typhon(endpoint, foreign(Address, Formal))) -->
+    { arg(3, Formal, other) },
+    !,
+    [ 'Endpoint: no connection with ~w: it says that it is another one'
+      -[Address] ].
 prolog:message(typhon(endpoint, foreign(Address, Formal))) -->
     { arg(3, Formal, version(Theirs)) },
     [ 'Endpoint: ~w speaks another version of the protocol, ~w'

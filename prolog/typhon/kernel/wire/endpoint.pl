@@ -1,13 +1,12 @@
 :- module(typhon_endpoint,
           [ endpoint_start/3,           % +Interface, +Port, -Address
-            endpoint_start/4,           % +Interface, +Port, +Keys, -Address
+            endpoint_start/4,           % +Interface, +Port, +Options, -Address
             endpoint_start_alone/1,     % +Address
             endpoint_open/0,
             endpoint_stop/0,
             endpoint_listen/2,          % +Port, -Address
             endpoint_listen_end/1,      % +Address
             endpoint_address/1,         % ?Address
-            endpoint_keys/1,            % -Directory
             endpoint_proof/1,           % -Proof
             endpoint_process/1          % -Id
           ]).
@@ -60,10 +59,9 @@ own_start_next/1 run under the mutex of the endpoint.
 :- use_module(peers, [peers_flush/1]).
 :- use_module(request, [requests_lost/2]).
 :- use_module(resumption, [session_close/2]).
-:- use_module(secure,
-              [ secure_begin/1, secure_directory/1, secure_end/0,
-                secure_proof/1 ]).
 :- use_module(session, [session/2]).
+:- use_module(transport,
+              [transport_begin/1, transport_end/0, transport_proof/1]).
 
 :- multifile
     received/3,                         % Kind, Term, Peer
@@ -94,33 +92,31 @@ own_start_next/1 run under the mutex of the endpoint.
     further/3.                          % Address, Socket, Acceptor
 
 %!  endpoint_start(+Interface, +Port, -Address) is det.
-%!  endpoint_start(+Interface, +Port, +Keys, -Address) is det.
+%!  endpoint_start(+Interface, +Port, +Options, -Address) is det.
 %
-%   Listen at Port of Interface; Port 0 is any free one. Keys is `none`, or
-%   keys(Directory): all connections are TLS, see typhon_secure.
+%   Listen at Port of Interface; Port 0 is any free one. Options are for
+%   transports, see typhon_transport.
 %
 %   @error permission_error(start, endpoint, Address) one is running.
 %   @error socket_error(Code, Text): the port is taken, the interface unknown;
 %   the context names both
 
 endpoint_start(Interface, Port, Address) :-
-    endpoint_start(Interface, Port, none, Address).
+    endpoint_start(Interface, Port, [], Address).
 
-endpoint_start(Interface, Port, Keys, Address) :-
+endpoint_start(Interface, Port, Options, Address) :-
     must_be(atom, Interface),
     must_be(nonneg, Port),
-    with_mutex(typhon_endpoint, start(Keys, Interface, Port, Address)).
+    with_mutex(typhon_endpoint, start(Options, Interface, Port, Address)).
 
 start(_, _, _, _) :-
     endpoint_address(Address),
     !,
     permission_error(start, endpoint, Address).
-start(none, Interface, Port, Address) :-
-    start(Interface, Port, Address).
-start(keys(Directory), Interface, Port, Address) :-
-    secure_begin(Directory),
+start(Options, Interface, Port, Address) :-
+    transport_begin(Options),
     catch(start(Interface, Port, Address), Ball,
-          ( secure_end, throw(Ball) )).
+          ( transport_end, throw(Ball) )).
 
 start(Interface0, Port0, Address) :-
     cookie(_),
@@ -285,7 +281,7 @@ stop :-
     forall(session(_, Session),
            ( session_close(Session, Unsent),
              requests_lost(Session, Unsent) )),
-    secure_end.
+    transport_end.
 stop :-
     alone_end.
 
@@ -301,20 +297,13 @@ endpoint_address(Address) :-
 endpoint_address(Address) :-
     alone(Address).
 
-%!  endpoint_keys(-Directory) is semidet.
-%
-%   The endpoint has the keys in Directory.
-
-endpoint_keys(Directory) :-
-    secure_directory(Directory).
-
 %!  endpoint_proof(-Proof) is semidet.
 %
 %   In a hook: how the peer whose frame is being handled has proved itself,
-%   `cookie` or certificate(Name). Fails in other threads.
+%   see typhon_transport. Fails in other threads.
 
 endpoint_proof(Proof) :-
-    secure_proof(Proof).
+    transport_proof(Proof).
 
 		 /*******************************
 		 *          PROCESS ID          *

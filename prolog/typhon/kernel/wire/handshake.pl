@@ -177,10 +177,13 @@ line_write(Out, Line) :-
     authenticate(+, +, +, +, 1, -).
 
 :- multifile
-    greeted/0.
+    greeted/0,
+    other_line/2.                       % Line, Why: of a server that speaks
+                                        % otherwise
 
 :- dynamic
     greeted/0,
+    other_line/2,
     known_cookie/3.                     % File, Time, Cookie
 
 %!  authenticate(+Role, +In, +Out, +Hello, :Cookie, -PeerHello) is det.
@@ -192,7 +195,7 @@ line_write(Out, Line) :-
 %   a nonce.
 %
 %   @error permission_error(authenticate, peer, Why) Why: cookie, protocol,
-%   version(Theirs), tls(wanted)
+%   version(Theirs), and what options say
 %   @error timeout_error(read, In)
 %   @error syntax_error(Message) what comes is no hello.
 
@@ -250,7 +253,8 @@ check_protocol(Line) :-
     ;   permission_error(authenticate, peer, What)
     ).
 
-%   speaks(+Line, -What): `ours`, version(Number), tls(wanted) or `protocol`.
+%   speaks(+Line, -What): `ours`, version(Number), what an option knows of a
+%   server that speaks otherwise, or `protocol`.
 
 speaks(Line, What) :-
     protocol(Protocol),
@@ -261,8 +265,8 @@ speaks(Line, What) :-
         number_string(Version, Number),
         integer(Version)
     ->  What = version(Version)
-    ;   Line == "typhon tls"            % see secure.pl
-    ->  What = tls(wanted)
+    ;   other_line(Line, Other)
+    ->  What = Other
     ;   What = protocol
     ).
 

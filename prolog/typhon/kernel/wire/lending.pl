@@ -34,7 +34,7 @@ The token goes to the thread that takes it first.
               [ in_background/2, manager_notify/1, wire_thread_leaves/1,
                 wire_thread_obey/1 ]).
 :- use_module(resumption, [session_lost/2]).
-:- use_module(secure, [secure_forget/0]).
+:- use_module(transport, [transport_forget/0]).
 
 :- meta_predicate
     endpoint_afterwards(1),
@@ -153,7 +153,7 @@ take_back(Queue, Told) :-
         told(State, Told)
     ;   thread_get_message(Queue, released),
         nb_setval(typhon_lending, away),
-        secure_forget,
+        transport_forget,
         forall(typhon_endpoint:returned, true),
         Told = lent
     ).

@@ -23,8 +23,9 @@ last error. A bounded number of addresses is kept, the oldest are discarded.
 
 :- use_module(library(settings), [setting/2, setting/4]).
 :- use_module('../base/durable_changes', [durable_drop/3, durable_put/4]).
-:- use_module(secure, [secure_directory/1, secure_own/1, secure_proof/1]).
 :- use_module(session, [route/2, session_proof/2]).
+:- use_module(transport,
+              [transport_own/1, transport_proof/1, transport_unknown/1]).
 
 :- setting(contacts, positive_integer, 10000,
            "Addresses of which the last process met is remembered").
@@ -132,32 +133,25 @@ forget_oldest :-
 
 %!  endpoint_proof(+Peer, -Proof) is det.
 %
-%   Proof is `cookie`, or certificate(Name): by what the process at the
-%   address Peer is known.  In the thread of a connection that is what was
-%   proved in it, whatever address the peer claims.  Where there is TLS
-%   no peer counts as one with the cookie only: an unknown one has
-%   certificate(unknown).
+%   Proof is by what the process at the address Peer is known, `cookie` on plain
+%   TCP, see typhon_transport.  In the thread of a connection that is what was
+%   proved in it, whatever address the peer claims.
 
 endpoint_proof(_, Proof) :-
-    secure_proof(Proof0),
+    transport_proof(Proof0),
     !,
     Proof = Proof0.
-endpoint_proof(_, Proof) :-
-    \+ secure_directory(_),
-    !,
-    Proof = cookie.
 endpoint_proof(Peer, Proof) :-
-    route(Peer, Session),
-    !,
-    session_proof(Session, Proof).
-endpoint_proof(_, certificate(unknown)).
+    transport_unknown(Unknown),
+    (   Unknown \== cookie,
+        route(Peer, Session)
+    ->  session_proof(Session, Proof)
+    ;   Proof = Unknown
+    ).
 
 %!  endpoint_own_proof(?Proof) is semidet.
 %
-%   A process with this proof has our keys, or, without TLS, our cookie.
+%   A process with this proof has our keys, or, on plain TCP, our cookie.
 
 endpoint_own_proof(Proof) :-
-    (   secure_own(Own)
-    ->  Proof = Own
-    ;   Proof = cookie
-    ).
+    transport_own(Proof).

@@ -33,12 +33,12 @@ are held back while a frame is being handled and counted.
 :- use_module(request,
               [ dispatch/2, dispatch_all/2, handed_over/2,
                 session_unfinished/1 ]).
-:- use_module(secure, [secure_input/2]).
 :- use_module(session,
               [ ack_frames/1, debug_frame/4, session_codec/2, session_count/1,
                 session_key/2, session_peer/3, session_received/2,
                 session_told/2 ]).
 :- use_module(threads, [manager_notify/1]).
+:- use_module(transport, [transport_input/2]).
 :- use_module(unacked, [session_acked/3]).
 
 :- setting(silence, number, 5,
@@ -125,7 +125,7 @@ afterwards(Session, In) :-
 more_first(In) :-
     current_prolog_flag(cpu_count, Processors),
     Processors > 2,
-    sig_atomic(secure_input(In, 0)).
+    sig_atomic(transport_input(In, 0)).
 
 %   Answers that were left in the buffer go with the next frame that
 %   is sent, or now: when there are many, or nothing comes in for a
@@ -143,7 +143,7 @@ push_late(Session, In) :-
     ;   late_answers(Max),
         Count < Max,
         late_seconds(Seconds),
-        sig_atomic(secure_input(In, Seconds))
+        sig_atomic(transport_input(In, Seconds))
     ->  true
     ;   session_push(Session)
     ).

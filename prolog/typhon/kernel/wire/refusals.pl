@@ -1,7 +1,7 @@
 :- module(typhon_refusals,
           [ refused/2,                  % +Ip, +Why
             refusals_begin/0,
-            tls_text/2                  % +Why, -Text
+            refusal_text/2              % +Why, -Text
           ]).
 
 /** <module> Reporting refused connections
@@ -19,7 +19,12 @@ connection manager calls report/0 when a second is over.
 :- use_module(library(lists), [member/2]).
 :- use_module(threads, [manager_notify/1]).
 
+%   Why, Text: of an option.
+
+:- multifile text/2.
+
 :- dynamic
+    text/2,
     burst/1,                            % Told: so many one by one
     tally/3.                            % Ip, Why, Count: not yet reported
 
@@ -165,45 +170,21 @@ why(crowd) -->
     !, [ 'there are too many' ].
 why(line) -->
     !, [ 'it said too much' ].
-why(tls(Why)) -->
-    { tls_text(Why, Text) },
-    !, [ '~w'-[Text] ].
+why(other) -->
+    !, [ 'it says that it is another one' ].
 why(several) -->
     !, [ 'for several reasons' ].
 why(Why) -->
+    { text(Why, Text) },
+    !, [ '~w'-[Text] ].
+why(Why) -->
     [ '~p'-[Why] ].
 
-                 /*******************************
-                 *              TLS             *
-                 *******************************/
-
-%!  tls_text(+Why, -Text:atom) is det.
+%!  refusal_text(+Why, -Text:atom) is semidet.
 %
-%   Why is that of permission_error(authenticate, peer, tls(Why)), see
-%   secure_streams/6.
+%   What Why of permission_error(authenticate, peer, Why) means, if an option
+%   knows.
 
-tls_text(Why, Text) :-
-    (   said(Why, Text0)
-    ->  Text = Text0
-    ;   flaw(Why, Flaw)
-    ->  atom_concat('its certificate ', Flaw, Text)
-    ;   Why = his(His),
-        flaw(His, Flaw)
-    ->  atom_concat('it says that our certificate ', Flaw, Text)
-    ;   format(atom(Text), 'TLS failed: ~p', [Why])
-    ).
-
-said(missing, 'it speaks without TLS').
-said(wanted, 'it wants TLS, and we have no keys').
-said(unknown, 'it speaks TLS, and we have no keys').
-said(plain, 'it does not speak TLS').
-said(other, 'it says that it is another one').
-said('peer did not return a certificate', 'it shows no certificate').
-said('unsupported protocol', 'it does not speak TLS 1.3').
-said('version too low', 'it does not speak TLS 1.3').
-
-flaw(expired, 'has expired').
-flaw(revoked, 'is revoked').
-flaw(wrong_use, 'is not that of a host').
-flaw(self_made, 'is signed by itself').
-flaw(foreign, 'is of another authority').
+refusal_text(Why, Text) :-
+    text(Why, Text),
+    !.

@@ -97,7 +97,7 @@ session_peer(session(_, _, _, _, peer(Process, Address, _), _), Process,
 
 %!  session_proof(+Session, -Proof) is det.
 %
-%   How the peer has proved itself: `cookie`, or certificate(Name).
+%   How the peer has proved itself, see typhon_transport.
 
 session_proof(session(_, _, _, _, peer(_, _, Proof), _), Proof).
 
@@ -106,7 +106,7 @@ session_proof(session(_, _, _, _, peer(_, _, Proof), _), Proof).
 %   The session with the peer Key, a new one on first contact. Peer is
 %   Hello-Proof.
 %
-%   @error permission_error(authenticate, peer, tls(other)) the session is
+%   @error permission_error(authenticate, peer, other) the session is
 %   that of another peer, which knows its key
 
 session_open(Key, Hello-Proof, Codec, Session) :-
@@ -114,7 +114,7 @@ session_open(Key, Hello-Proof, Codec, Session) :-
                open_session(Key, Hello, Proof, Codec, Session)),
     (   session_proof(Session, Proof)
     ->  true
-    ;   permission_error(authenticate, peer, tls(other))
+    ;   permission_error(authenticate, peer, other)
     ).
 
 open_session(Key, _, _, _, Session) :-

@@ -17,10 +17,10 @@ has signed it: what has changed since is not.
 
 :- use_module(library(error), [existence_error/2]).
 :- use_module(library(lists), [member/2]).
-:- use_module('../../kernel/wire', [endpoint_keys/1]).
 :- use_module('../../kernel/host', [host_option/2]).
 :- use_module('../../kernel/agent',
               [agent_attach/2, agent_state/2, life_payloads/2]).
+:- use_module('../keys', [own_keys/1]).
 :- use_module(signatures,
               [ payload_hash/2, payload_signature/2, program_author/3,
                 signature_author/4, signature_keep/2 ]).
@@ -42,7 +42,7 @@ typhon_options:declared(host_option, authors(Names), list(atom), Names).
 typhon_host_parts:begins(_, _, Options) :-
     (   \+ memberchk(authors(_), Options)
     ->  true
-    ;   endpoint_keys(_)
+    ;   own_keys(_)
     ->  true
     ;   existence_error(host_option, tls)
     ).
@@ -72,7 +72,7 @@ program_forbids(From, entrant(_, Hash, _, _, _), Host, Verdict) :-
 %   signed_by(+Authors, +Hash): one of Authors has signed that program.
 
 signed_by(Authors, Hash) :-
-    endpoint_keys(Keys),
+    own_keys(Keys),
     program_author(Keys, Hash, Author),
     memberchk(Author, Authors),
     !.
@@ -81,7 +81,7 @@ signed_by(Authors, Hash) :-
 %   is one by one of Authors for what has this Hash.
 
 signature_by(Authors, Hash, Signature) :-
-    endpoint_keys(Keys),
+    own_keys(Keys),
     signature_author(Keys, Hash, Signature, Author),
     memberchk(Author, Authors),
     !.

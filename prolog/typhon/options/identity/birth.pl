@@ -27,11 +27,12 @@ process shows it once.
 :- use_module(library(lists), [sum_list/2]).
 :- use_module(library(settings), [setting/4]).
 :- use_module('../../kernel/base/bounded', [bounded/2]).
-:- use_module('../../kernel/base/keys', [keys_sign/3, keys_verify/4]).
-:- use_module('../../kernel/base/durable_changes', [durable_drop/3, durable_put/4]).
+:- use_module('../keys', [keys_sign/3, keys_verify/4, own_keys/1]).
+:- use_module('../../kernel/base/durable_changes',
+              [durable_drop/3, durable_put/4]).
 :- use_module('../../kernel/wire',
-              [ endpoint_address/1, endpoint_keys/1, endpoint_own_proof/1,
-                endpoint_peer/2, endpoint_proof/2 ]).
+              [ endpoint_address/1, endpoint_own_proof/1, endpoint_peer/2,
+                endpoint_proof/2 ]).
 :- use_module('../../kernel/agent', [agent/5, agent_home_endpoint/2]).
 :- use_module(owner, [agent_owned/1, agent_owned/2]).
 
@@ -48,16 +49,16 @@ process shows it once.
 
 :- dynamic
     known/2,                            % Id, Birth: a good one
-    has/2.                              % Id, Proof: a process with this proof has it
+    has/2.                              % Id, Proof: of a process that has it
 
 typhon_identity:ids_anew :-
     retractall(known(_, _)),
     retractall(has(_, _)).
 
 typhon_host_parts:part(papers, _, 10, typhon_birth:papers) :-
-    endpoint_keys(_).
+    own_keys(_).
 typhon_host_parts:part(new_program, _, 10, typhon_birth:may_change) :-
-    endpoint_keys(_).
+    own_keys(_).
 
 :- public may_change/3.
 
@@ -118,7 +119,7 @@ birth(Id, Hash, Birth) :-
     Birth = Birth0.
 birth(Id, Hash, birth(Id, Hash, Certificate, Hex)) :-
     agent_owned(Id),
-    endpoint_keys(Keys),
+    own_keys(Keys),
     birth_text(Id, Hash, Text),
     keys_sign(Keys, Text, signature(Pem, Hex)),
     atom_string(Certificate, Pem),      % which many share
@@ -149,7 +150,7 @@ typhon_durable:restore(birth, Id, _, Birth) :-
     assertz(known(Id, Birth)).
 
 typhon_host_parts:part(admit, _, 20, typhon_birth:forbids) :-
-    endpoint_keys(_).
+    own_keys(_).
 
 :- public forbids/4.
 
@@ -167,9 +168,9 @@ unproved(Papers, Verdict) :-
     ;   Verdict = need_program
     ).
 
-%   proved(+Papers, +Proof, +Id, +Hash): Papers, which may be anything, show that
-%   a process with that Proof may bring Id with a program of that Hash, or it has
-%   shown that before.
+%   proved(+Papers, +Proof, +Id, +Hash): Papers, which may be anything, show
+%   that a process with that Proof may bring Id with a program of that Hash, or
+%   it has shown that before.
 
 proved(_, Proof, Id, Hash) :-
     has(Id, Proof),
@@ -193,7 +194,7 @@ birth_good(Birth) :-
     (   known(Id, Birth)
     ->  true
     ;   short([Id, Hash, Certificate]),
-        endpoint_keys(Keys),
+        own_keys(Keys),
         birth_text(Id, Hash, Text),
         atom_string(Certificate, Pem),
         keys_verify(Keys, Text, signature(Pem, Hex), host(Owner)),

@@ -4,10 +4,10 @@
           ]).
 :- use_module(library(apply), [exclude/3, foldl/4]).
 :- use_module(library(lists), [append/3]).
-:- use_module('../../kernel/wire',
-              [endpoint_keys/1, endpoint_own_proof/1, endpoint_proof/2]).
+:- use_module('../../kernel/wire', [endpoint_own_proof/1, endpoint_proof/2]).
 :- use_module('../../kernel/host', [host_option/2]).
 :- use_module('../../kernel/agent', [origin_said/2]).
+:- use_module('../keys', [own_keys/1]).
 :- use_module(signatures, [program_author/3]).
 
 /** <module> Whose agent it is
@@ -15,9 +15,10 @@
 What agents of one owner use together can be bounded, see typhon_quotas.  An
 owner is what no agent can choose, besides its home, see typhon_identity:
 
-  - author(Name) on a host with authors(Names): the author that signed its program
-  - certificate(Name): the process that proved this name, not one of ours, when it
-    sent it, or the agent of which it is a clone
+  - author(Name) on a host with authors(Names): the author that signed its
+    program
+  - certificate(Name): the process that proved this name, not one of ours, when
+    it sent it, or the agent of which it is a clone
 
 The second is a fact '$owner'(Owner) among the state of the agent, so it goes
 along.  It is put there when an untrusted process brings an agent, whatever it
@@ -37,7 +38,7 @@ typhon_birth.
 
 typhon_identity:origin(Host, Hash, _, author(Author)) :-
     host_option(Host, authors(_)),
-    endpoint_keys(Keys),
+    own_keys(Keys),
     program_author(Keys, Hash, Author).
 typhon_identity:origin(_, _, State, certificate(Name)) :-
     origin_said(State, Origin),
@@ -46,9 +47,9 @@ typhon_identity:origin(_, _, State, certificate(Name)) :-
     atom(Name).
 
 typhon_host_parts:part(arrives, _, 20, typhon_owner:arrives) :-
-    endpoint_keys(_).
+    own_keys(_).
 typhon_host_parts:part(created, _, 20, typhon_owner:created) :-
-    endpoint_keys(_).
+    own_keys(_).
 
 :- public arrives/4, created/4.
 
@@ -58,10 +59,11 @@ arrives(_, hop(_, _, _, _, from(Peer, _)), State0, State) :-
 created(_, Peer, State0, State) :-
     owner_entered(Peer, State0, State).
 
-%   owner_entered(+Peer, +State0, -State): State0 is that of an agent which the process at Peer sends.
+%   owner_entered(+Peer, +State0, -State): State0 is that of an agent which the
+%   process at Peer sends.
 
 owner_entered(Peer, State0, State) :-
-    (   endpoint_keys(_),
+    (   own_keys(_),
         endpoint_proof(Peer, Proof),
         \+ endpoint_own_proof(Proof)
     ->  State0 = state(Empty, Clauses0),
@@ -100,7 +102,7 @@ agent_owned(Id, Owner) :-
     spelt(Owner, Said).
 
 typhon_identity:mark_suffix(Part) :-
-    endpoint_keys(_),
+    own_keys(_),
     endpoint_own_proof(certificate(Name)),
     spelt(Name, Spelt),
     atom_concat(-, Spelt, Part).

@@ -15,12 +15,11 @@ process may wait for an answer.
 */
 
 :- use_module(library(error), [existence_error/2, must_be/2]).
-:- use_module('../../kernel/base/keys',
+:- use_module('../keys',
               [ keys_certificate/2, keys_holder/3, keys_seal/4,
-                keys_unseal/3 ]).
+                keys_unseal/3, own_keys/1 ]).
 :- use_module('../../kernel/base/text', [term_text/2, text_term/2]).
-:- use_module('../../kernel/wire',
-              [endpoint_keys/1, endpoint_reply/2, mobile_term/1]).
+:- use_module('../../kernel/wire', [endpoint_reply/2, mobile_term/1]).
 :- use_module('../../kernel/host', [host_resolve/2, process_ask/6]).
 
 :- multifile typhon_endpoint:requested/4.
@@ -42,7 +41,7 @@ answer_seconds(10).
 seal(Term, For, Sealed) :-
     must_be(atom, For),
     mobile_term(Term),
-    own_keys(Keys),
+    keys_here(Keys),
     host_resolve(For, Where),
     certificate(Where, Keys, Certificate),
     (   keys_holder(Keys, Certificate, host(_))
@@ -53,12 +52,12 @@ seal(Term, For, Sealed) :-
     keys_seal(Keys, Text, Certificate, Sealed).
 
 unseal(Sealed, Term) :-
-    own_keys(Keys),
+    keys_here(Keys),
     keys_unseal(Keys, Sealed, Text),
     text_term(Text, Term).
 
-own_keys(Keys) :-
-    (   endpoint_keys(Keys0)
+keys_here(Keys) :-
+    (   own_keys(Keys0)
     ->  Keys = Keys0
     ;   existence_error(keys, here)
     ).
@@ -74,7 +73,7 @@ certificate(remote(Address, _, Endpoint), _, Certificate) :-
     ).
 
 typhon_endpoint:requested(certificate, of_yours, _, ReplyTo) :-
-    (   endpoint_keys(Keys)
+    (   own_keys(Keys)
     ->  keys_certificate(Keys, Certificate),
         Answer = certificate(Certificate)
     ;   Answer = none

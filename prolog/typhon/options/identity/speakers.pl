@@ -3,8 +3,8 @@
 /** <module> Processes that may speak for an agent
 
 Where processes have keys, a process may speak for an agent if it has the keys
-of its owner, or shows its birth, see typhon_birth, which a process can do that has or
-had the agent. And messages to an agent are taken from processes that may
+of its owner, or shows its birth, see typhon_birth, which a process can do that
+has or had the agent. And messages to an agent are taken from processes that may
 speak for it: they pass on what they have admitted themselves.
 
 The sender may be `user`, or a term of a bridge: that is no id, and as
@@ -33,17 +33,17 @@ from here.
 :- use_module(owner, [agent_owned/1, agent_owned/2]).
 
 :- multifile
-    typhon_secure:begins/0,
-    typhon_secure:ends/0,
+    typhon_keys:begin/0,
+    typhon_keys:end/0,
     typhon_senders:ours/1,
     typhon_senders:speaks/3,
     typhon_senders:believes/5,
     typhon_senders:shows/4,
     typhon_senders:by_parts/4.
 
-typhon_secure:begins :-
+typhon_keys:begin :-
     senders_check(true).
-typhon_secure:ends :-
+typhon_keys:end :-
     senders_check(false).
 
 typhon_senders:ours(Id) :-
@@ -65,7 +65,8 @@ may_speak(_, Births, Id) :-
     birth_among(Births, Id, Birth),
     birth_good(Birth).
 
-%   One for each, however many are shown: to look whether one is good takes long.
+%   One for each, however many are shown: to look whether one is good takes
+%   long.
 
 birth_among(Births, Id, Birth) :-
     is_list(Births),

@@ -50,9 +50,8 @@ stays as it is, and has no more links.
 :- use_module(library(lists), [last/2, select/3, selectchk/3]).
 :- use_module(library(settings), [setting/2, setting/4]).
 :- use_module(library(sha), [hash_atom/2, sha_hash/3]).
-:- use_module('../../kernel/base/keys', [keys_sign/3]).
+:- use_module('../keys', [keys_sign/3, own_keys/1]).
 :- use_module('../../kernel/base/text', [term_text/2]).
-:- use_module('../../kernel/wire', [endpoint_keys/1]).
 :- use_module('../../kernel/host', [host_option/2]).
 :- use_module(chain, [chain_add/4]).
 
@@ -68,7 +67,7 @@ typhon_host_parts:changeable(trail(_)).
 
 typhon_host_parts:part(Phase, _, 10, typhon_trail:Closure) :-
     closure(Phase, Closure),
-    endpoint_keys(_).
+    own_keys(_).
 
 closure(departs, departs).
 closure(arrives, arrives).
@@ -102,7 +101,7 @@ of_trail(Clause) :-
 %   handed(To) or received(At), Label is of(Host, Id, Hash, Hops).
 
 trail_link(Event, Label, State0, Goals, State) :-
-    endpoint_keys(Keys),
+    own_keys(Keys),
     State0 = state(Empty, Clauses0),
     taken_out(Clauses0, Raw0, Rest),
     of_ours(Event, Raw0, Raw1),
@@ -242,7 +241,7 @@ typhon_words:enters(Module, Id, Result) :-
 %   @error existence_error(keys, here)
 
 trail_enter(Module, Id, Result) :-
-    (   endpoint_keys(Keys)
+    (   own_keys(Keys)
     ->  raw(Module, Raw0),
         happens(entered(Result), Keys, Id, Raw0, Raw),
         dynamic(Module:'$trail'/4),
@@ -257,7 +256,7 @@ trail_enter(Module, Id, Result) :-
 
 trail_of(Module, Id, Raw) :-
     raw(Module, Raw0),
-    (   endpoint_keys(Keys)
+    (   own_keys(Keys)
     ->  settled(Keys, Id, Raw0, Raw)
     ;   Raw = Raw0
     ).

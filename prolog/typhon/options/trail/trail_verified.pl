@@ -12,10 +12,10 @@ It is read as a whole on request only.
 
 :- use_module(library(apply), [maplist/2]).
 :- use_module(library(error), [existence_error/2]).
-:- use_module('../../kernel/base/keys',
-              [keys_certificate/2, keys_holder/3, keys_verify/4]).
+:- use_module('../keys',
+              [keys_certificate/2, keys_holder/3, keys_verify/4, own_keys/1]).
 :- use_module('../../kernel/base/text', [text_term/2]).
-:- use_module('../../kernel/wire', [endpoint_address/1, endpoint_keys/1]).
+:- use_module('../../kernel/wire', [endpoint_address/1]).
 :- use_module('../../kernel/host', [address_parts/3]).
 :- use_module('../../kernel/agent', [agent/5, agent_home_endpoint/2]).
 :- use_module('../../kernel/lifecycle', [agent_answer/3, question_answered/2]).
@@ -60,7 +60,7 @@ typhon_questions:here(trail, Agent, Asker) :-
 %   @error existence_error(keys, here)
 
 trail_verified(Id, Raw, trail(Steps, Verdict)) :-
-    (   endpoint_keys(Keys)
+    (   own_keys(Keys)
     ->  true
     ;   existence_error(keys, here)
     ),

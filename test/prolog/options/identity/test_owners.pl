@@ -168,9 +168,9 @@ forged(with_her_own_renamed, C, _, Hash, _, birth(_, _, Pem, Hex), C, Hash,
        birth(C, Hash, Pem, Hex)).
 forged(signed_by_her, C, _, Hash, _, _, C, Hash, birth(C, Hash, Pem, Hex)) :-
     peer_do(mallory,
-            ( typhon_secure:secure_directory(Keys),
+            ( typhon_keys:own_keys(Keys),
               typhon_birth:birth_text(C, Hash, Text),
-              typhon_base_keys:keys_sign(Keys, Text, signature(Pem0, Hex)),
+              typhon_keys:keys_sign(Keys, Text, signature(Pem0, Hex)),
               atom_string(Pem, Pem0) )).
 forged(another_program, _, A, _, birth(A, _, Pem, Hex), _, A, another,
        birth(A, another, Pem, Hex)).

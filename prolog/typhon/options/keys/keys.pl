@@ -1,5 +1,8 @@
-:- module(typhon_base_keys,
-          [ keys_sign/3,                % +Directory, +Text, -Signature
+:- module(typhon_keys,
+          [ own_keys/1,                 % ?Directory
+            own_keys_begin/1,           % +Directory
+            own_keys_end/0,
+            keys_sign/3,                % +Directory, +Text, -Signature
             keys_verify/4,              % +Directory, +Text, +Signature, -Holder
             keys_seal/4,                % +Directory, +Text, +Certificate,
                                         % -Sealed
@@ -20,7 +23,9 @@ The keys are RSA: on SWI-Prolog 9.0.4 library(crypto) crashes when it signs
 with those of curves. Signatures are compared with what they should contain,
 byte by byte, since rsa_verify/4 prints what it finds wrong.
 
-*Threading*: any thread; no state.
+The keys of this process are those with which its endpoint was started.
+
+*Threading*: any thread; own keys begin and end under the mutex of the endpoint.
 */
 
 :- use_module(library(error), [permission_error/3]).
@@ -34,9 +39,35 @@ byte by byte, since rsa_verify/4 prints what it finds wrong.
               rsa_public_encrypt/4, rsa_sign/4 ]).
 :- autoload(library(ssl), [certificate_field/2]).
 
+:- multifile
+    begin/0,                            % the process has keys
+    end/0.                              % it has none any more
+
+:- dynamic
+    begin/0,
+    end/0,
+    own_keys/1.                         % Directory
+
+%!  own_keys(?Directory) is semidet.
+%!  own_keys_begin(+Directory) is det.
+%!  own_keys_end is det.
+%
+%   This process has the keys in Directory, an absolute path; has them from now
+%   on; has none any more.
+
+own_keys_begin(Directory) :-
+    assertz(own_keys(Directory)),
+    forall(begin, true).
+
+own_keys_end :-
+    (   retract(own_keys(_))
+    ->  forall(end, true)
+    ;   true
+    ).
+
 %!  keys_certificate(+Directory, -Certificate:string) is det.
 %
-%   Our own, as PEM.
+%   That of Directory, as PEM.
 
 keys_certificate(Directory, Certificate) :-
     key_loaded(Directory, cert, Certificate).

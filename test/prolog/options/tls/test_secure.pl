@@ -314,7 +314,7 @@ secure_network(Proofs, Ours) :-
     setup_call_cleanup(
         network_start(ring(2), Network, [processes(2), tls(Dir)]),
         ( network_property(Network, hosts([First|_])),
-          findall(N, remote(First, ( typhon_secure:secure_directory(_),
+          findall(N, remote(First, ( typhon_keys:own_keys(_),
                                      N = 2 )), Proofs) ),
         network_stop(Network)).
 

@@ -1,15 +1,4 @@
-:- module(typhon_secure,
-          [ secure_begin/1,             % +Directory
-            secure_end/0,
-            secure_directory/1,         % -Directory
-            secure_own/1,               % -Proof
-            secure_first/2,             % +Byte, +Out
-            secure_streams/6,           % +Role, +In, +Out, -SIn, -SOut, -Proof
-            secure_close/0,
-            secure_proof/1,             % -Proof
-            secure_forget/0,
-            secure_input/2              % +In, +Seconds
-          ]).
+:- module(typhon_secure, []).
 
 /** <module> TLS between processes
 
@@ -22,9 +11,7 @@ A directory holds `cert.pem` and `key.pem`, our own, `ca.pem`, of the
 authority, and `crl.pem`, its revocations. They are read for each connection:
 a host that is revoked while we run is refused from then on.
 
-Library(ssl) reads the plain stream through its buffer, so there may be
-something to read of which the TLS stream knows nothing: secure_input/2 looks
-at both. OpenSSL lets one thread read while another writes, once the tickets
+OpenSSL lets one thread read while another writes, once the tickets
 of the handshake are through; these come with the first line of the server,
 which is read before any thread writes frames.
 
@@ -36,62 +23,66 @@ thread of its connection. The connection manager limits its duration.
 :- use_module(library(error),
               [existence_error/2, permission_error/3, syntax_error/1]).
 :- use_module(library(lists), [member/2]).
+:- use_module(library(option), [option/2]).
 :- use_module(library(settings), [setting/2]).
-:- use_module('../base/key_files', [key_loaded/3, keys_file/3]).
-:- use_module('../base/keys', [keys_certificate/2, keys_holder/3]).
-:- use_module(handshake, [line_read/3, line_write/2]).
-:- use_module(threads, [manager_notify/1]).
+:- use_module('../../kernel/wire',
+              [line_read/3, line_write/2, manager_notify/1]).
+:- use_module('../keys',
+              [ key_loaded/3, keys_certificate/2, keys_file/3, keys_holder/3,
+                own_keys/1, own_keys_begin/1, own_keys_end/0 ]).
 
 :- autoload(library(ssl),
             [ certificate_field/2, ssl_context/3, ssl_negotiate/5,
               ssl_peer_certificate/2 ]).
 
 :- multifile
-    begins/0,                           % the process has keys
-    ends/0.                             % it has none any more
+    typhon_connection:harmless/1,
+    typhon_handshake:other_line/2,
+    typhon_options:declared/4,
+    typhon_transport:begins/4,
+    typhon_transport:ends/1,
+    typhon_transport:disagrees/1,
+    typhon_transport:first_byte/2,
+    typhon_transport:misfit/4,
+    typhon_transport:opens/7,
+    typhon_transport:closes/0.
 
-:- dynamic
-    begins/0,
-    ends/0,
-    secure_directory/1,                 % of keys, while there is TLS
-    own/1.                              % Proof: what we show
+typhon_options:declared(host_option, tls(Directory), atom, Directory).
 
-%!  secure_begin(+Directory) is det.
-%!  secure_end is det.
-%!  secure_directory(-Directory) is semidet.
-%
-%   From now on all connections are TLS, with the keys in Directory, an
-%   absolute path; they are not any more; they are.
+%   A process that starts no host, a guest, gets it from the environment.
+
+typhon_transport:begins(Options, tls, Own, certificate(unknown)) :-
+    (   option(tls(Directory), Options)
+    ->  true
+    ;   getenv('TYPHON_TLS', Directory),
+        Directory \== ''
+    ),
+    begin(Directory, Own).
+
+%   begin(+Directory, -Own): from now on all connections are TLS, with the keys
+%   in Directory.
 %
 %   @error existence_error(file, File)
 %   @error ssl_error(Code, Library, Function, Reason)
 
-secure_begin(Directory0) :-
+begin(Directory0, Own) :-
     absolute_file_name(Directory0, Directory),
     forall(member(Which, [cert, key, ca, crl]),
            must_be_there(Directory, Which)),
     context(server, Directory, _),
     keys_certificate(Directory, Certificate),
     (   keys_holder(Directory, Certificate, host(Name))
-    ->  assertz(own(certificate(Name)))
-    ;   true                            % peers will reject this certificate
+    ->  Own = certificate(Name)
+    ;   Own = cookie                    % peers will reject this certificate
     ),
-    assertz(secure_directory(Directory)),
-    forall(begins, true).
+    own_keys_begin(Directory).
 
-secure_end :-
-    (   retract(secure_directory(_))
-    ->  retractall(own(_)),
-        forall(ends, true)
-    ;   true
-    ).
+typhon_transport:ends(tls) :-
+    own_keys_end.
 
-%!  secure_own(-Proof) is semidet.
-%
-%   How we prove ourselves to others: certificate(Name).
-
-secure_own(Proof) :-
-    own(Proof).
+typhon_transport:disagrees(tls(Directory0)) :-
+    absolute_file_name(Directory0, Directory),
+    \+ own_keys(Directory).
 
 must_be_there(Directory, Which) :-
     keys_file(Directory, Which, File),
@@ -156,43 +147,16 @@ verdict(Verdict, _, Why) =>
                  *          HANDSHAKE           *
                  *******************************/
 
-%!  secure_first(+Byte, +Out) is det.
-%
-%   A client begins with Byte: it speaks TLS if we do. If not we report that, in
-%   a line that fits in any buffer.
-%
-%   @error permission_error(authenticate, peer, tls(Why)) Why: `missing` or
-%   `unknown`, it speaks plainly, or TLS, and we do not
-%   @error permission_error(authenticate, peer, protocol)
+%   A TLS record begins with this. The line is for clients of the other kind.
 
-secure_first(Byte, Out) :-
-    first(Byte, What),
-    (   secure_directory(_)
-    ->  Wanted = tls
-    ;   Wanted = plain
-    ),
-    (   What == Wanted
-    ->  true
-    ;   misfit(What, Line, Why)
-    ->  line_write(Out, Line),
-        permission_error(authenticate, peer, Why)
-    ;   permission_error(authenticate, peer, protocol)
-    ).
+typhon_transport:first_byte(0x16, tls).
 
-first(0't, plain) :-
-    !.
-first(0x16, tls) :-
-    !.
-first(_, other).
+typhon_transport:misfit(plain, tls, "typhon tls", tls(missing)).
+typhon_transport:misfit(tls, plain, "typhon plain", tls(unknown)).
 
-misfit(plain, "typhon tls", tls(missing)).
-misfit(tls, "typhon plain", tls(unknown)).
+typhon_handshake:other_line("typhon tls", tls(wanted)).
 
-%!  secure_streams(+Role, +In, +Out, -SIn, -SOut, -Proof) is det.
-%
-%   What is said to the peer goes through SIn and SOut from now on: In and Out
-%   themselves where there is no TLS. Proof is how the peer has proved itself,
-%   or will: `cookie`, or certificate(Name).
+%   Proof is certificate(Name).
 %
 %   @error permission_error(authenticate, peer, tls(Why)) Why is what is wrong
 %   with the certificate of the peer: `expired`, `revoked`, `foreign`, of
@@ -202,24 +166,18 @@ misfit(tls, "typhon plain", tls(unknown)).
 %   @error syntax_error(end_of_file)
 %   @error timeout_error(read, tls) it took too long
 
-secure_streams(Role, In, Out, SIn, SOut, Proof) :-
-    (   secure_directory(Directory)
-    ->  catch(in_time(handshake(Role, Directory, In, Out, SIn, SOut, Name)),
-              error(ssl_error(_, _, _, Reason), _),
-              refuse(Reason)),
-        Proof = certificate(Name)
-    ;   SIn = In,
-        SOut = Out,
-        Proof = cookie
-    ),
-    nb_setval(typhon_proof, Proof).
+typhon_transport:opens(tls, Role, In, Out, SIn, SOut, certificate(Name)) :-
+    own_keys(Directory),
+    catch(in_time(handshake(Role, Directory, In, Out, SIn, SOut, Name)),
+          error(ssl_error(_, _, _, Reason), _),
+          refuse(Reason)).
 
 handshake(Role, Directory, In, Out, SIn, SOut, Name) :-
     nb_setval(typhon_verdict, none),
     context(Role, Directory, Context),
     nb_setval(typhon_secure, under(In, Out)),
     ssl_negotiate(Context, In, Out, SIn, SOut),
-    nb_setval(typhon_secure, over(In, SIn, SOut)),
+    nb_setval(typhon_secure, over(SIn, SOut)),
     maplist(octets, [SIn, SOut]),
     peer_name(SIn, Name),
     welcome(Role, SIn, SOut).
@@ -321,21 +279,14 @@ said('alert bad certificate', bad_certificate).
 said('alert certificate unknown', bad_certificate).
 said('alert protocol version', version).
 
-%!  secure_close is det.
-%
-%   Close what secure_streams/6 has opened in this thread, if anything: an
-%   exception takes the bindings of its arguments away.
+typhon_transport:closes :-
+    nb_current(typhon_secure, Streams),
+    opened(Streams, All),
+    maplist(close_stream, All).
 
-secure_close :-
-    nb_current(typhon_secure, over(_, SIn, SOut)),
-    !,
-    maplist(close_stream, [SOut, SIn]).
-secure_close :-
-    nb_current(typhon_secure, under(In, Out)),
-    !,
-    findall(Stream, above(In, Out, Stream), Streams),
-    maplist(close_stream, Streams).
-secure_close.
+opened(over(SIn, SOut), [SOut, SIn]).
+opened(under(In, Out), Streams) :-
+    findall(Stream, above(In, Out, Stream), Streams).
 
 %   above(+In, +Out, -Stream): one of those that ssl_negotiate/5 has just
 %   made.  A thread that is interrupted then does not know them, and none of
@@ -352,29 +303,7 @@ above(In, Out, Stream) :-
 close_stream(Stream) :-
     catch(close(Stream, [force(true)]), error(_, _), true).
 
-%!  secure_proof(-Proof) is semidet.
-%
-%   In the thread of a connection: how the peer has proved itself, `cookie` or
-%   certificate(Name).
+%   How a connection breaks when its peer has gone, or says that it broke.
 
-secure_proof(Proof) :-
-    nb_current(typhon_proof, Proof),
-    Proof \== none.
-
-%!  secure_forget is det.
-%
-%   This thread has no connection any more, and goes on as another.
-
-secure_forget :-
-    nb_setval(typhon_proof, none).
-
-%!  secure_input(+In, +Seconds) is semidet.
-%
-%   In the thread of a connection: there is something to read from In, or will
-%   be within Seconds.
-
-secure_input(In, Seconds) :-
-    (   nb_current(typhon_secure, over(Plain, _, _))
-    ->  wait_for_input([In, Plain], [_|_], Seconds)
-    ;   wait_for_input([In], [_], Seconds)
-    ).
+typhon_connection:harmless(ssl_error(_, _, _, 'unexpected eof while reading')).
+typhon_connection:harmless(ssl_error(_, _, _, 'tlsv1 alert decode error')).

@@ -1,4 +1,4 @@
-:- module(typhon_base_key_files,
+:- module(typhon_key_files,
           [ keys_file/3,                % +Directory, +Which, -File
             key_loaded/3,               % +Directory, +Which, -Loaded
             key_loaded/4,               % +Directory, +Which, -Loaded, -Stamp
@@ -18,7 +18,7 @@ files that it depends on are.
 :- autoload(library(filesex), [directory_file_path/3]).
 :- autoload(library(readutil), [read_file_to_string/3]).
 :- use_module(library(settings), [setting/4]).
-:- use_module(bounded, [bounded/2]).
+:- use_module('../../kernel/base/bounded', [bounded/2]).
 
 :- autoload(library(ssl),
             [load_certificate/2, load_crl/2, load_private_key/3]).
@@ -29,6 +29,8 @@ files that it depends on are.
     loaded/3,                           % File, Stamp, Loaded
     found/4.                            % Hash, Pem, Stamp, Found
 
+:- setting(typhon_base_key_files:certificates, positive_integer, 256,
+           "Now typhon_key_files:certificates").
 :- setting(certificates, positive_integer, 256,
            "Certificates of which it is remembered whose they are").
 
@@ -94,7 +96,7 @@ key_found(Pem, Stamp, Find, Found) :-
 remember(Hash, Pem, Stamp, Found) :-
     retractall(found(Hash, Pem, _, _)),
     assertz(found(Hash, Pem, Stamp, Found)),
-    bounded(found(_, _, _, _), typhon_base_key_files:certificates).
+    bounded(found(_, _, _, _), typhon_key_files:certificates).
 
 %!  pem_certificate(+Pem, -Certificate) is semidet.
 %

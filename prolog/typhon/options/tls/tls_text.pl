@@ -1,0 +1,36 @@
+:- module(typhon_tls_text, []).
+
+/** <module> Why a peer with TLS was turned away, in words
+
+*Threading*: any thread; no state.
+*/
+
+:- multifile typhon_refusals:text/2.
+
+typhon_refusals:text(tls(Why), Text) :-
+    tls_text(Why, Text).
+
+tls_text(Why, Text) :-
+    (   said(Why, Text0)
+    ->  Text = Text0
+    ;   flaw(Why, Flaw)
+    ->  atom_concat('its certificate ', Flaw, Text)
+    ;   Why = his(His),
+        flaw(His, Flaw)
+    ->  atom_concat('it says that our certificate ', Flaw, Text)
+    ;   format(atom(Text), 'TLS failed: ~p', [Why])
+    ).
+
+said(missing, 'it speaks without TLS').
+said(wanted, 'it wants TLS, and we have no keys').
+said(unknown, 'it speaks TLS, and we have no keys').
+said(plain, 'it does not speak TLS').
+said('peer did not return a certificate', 'it shows no certificate').
+said('unsupported protocol', 'it does not speak TLS 1.3').
+said('version too low', 'it does not speak TLS 1.3').
+
+flaw(expired, 'has expired').
+flaw(revoked, 'is revoked').
+flaw(wrong_use, 'is not that of a host').
+flaw(self_made, 'is signed by itself').
+flaw(foreign, 'is of another authority').
