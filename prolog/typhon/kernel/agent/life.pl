@@ -14,6 +14,7 @@
             life_clone/3                % +Id, +Life0, -Life
           ]).
 :- use_module(library(apply), [exclude/3]).
+:- use_module(library(lists), [member/2]).
 :- use_module(library(record), [(record)/1, op(_, _, record)]).
 
 /** <module> What an agent takes along besides its state
@@ -31,11 +32,36 @@ takes it apart.
 *Threading*: pure.
 */
 
-:- record life(parent:atom=none, hops:integer=0, lifetime:atomic=inf,
-               tokens:list=[], payloads:list=[], static:atom=false,
-               extras:list=[]).
+:- multifile error:has_type/2.
 
-:- multifile not_cloned/1.     % Extra: a clone does not carry it
+%   A life that comes from another process could name predicates of a module,
+%   which would go when the payload is detached.
+
+error:has_type(typhon_carried_payloads, Payloads) :-
+    is_list(Payloads),
+    all_carried(Payloads).
+
+all_carried([]).
+all_carried([Payload|Payloads]) :-
+    nonvar(Payload),
+    Payload = Name-PIs,
+    atom(Name),
+    is_list(PIs),
+    forall(member(PI, PIs), is_indicator(PI)),
+    all_carried(Payloads).
+
+is_indicator(PI) :-
+    nonvar(PI),
+    PI = Name/Arity,
+    atom(Name),
+    integer(Arity).
+
+:- record life(parent:atom=none, hops:integer=0, lifetime:atomic=inf,
+               tokens:list=[], payloads:typhon_carried_payloads=[],
+               static:atom=false, extras:list=[]).
+
+:- multifile
+    not_cloned/1.               % Extra: a clone does not carry it
 
 :- dynamic not_cloned/1.
 

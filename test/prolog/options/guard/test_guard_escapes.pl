@@ -333,6 +333,21 @@ test(no_library_is_loaded,
      [forall(( comes(How), wrapped(Program, Sent) )), Escaped == 0]) :-
     with_tmp_dir(loads_library(How, Program, Sent, Escaped)).
 
+
+%   detach/1 would abolish what a life names.
+
+test(no_life_names_predicates_of_modules,
+     [ forall(member(Payloads, [ [x-[user:(p/1)]], [x-[(user:p)/1]], [x-_],
+                                 [x-[p/1|_]], _ ])),
+       error(type_error(agent_image, _)) ]) :-
+    Life = life(none, 1, inf, [], Payloads, false, []),
+    typhon_image:image_label(image('x.1.0@g@127.0.0.1:1', hash, Life,
+                                   state([], []), [], [], 0.0), _).
+test(lives_name_predicates_of_agents) :-
+    Life = life(none, 1, inf, [], [x-[p/1,q/0]], false, []),
+    typhon_image:image_label(image('x.1.0@g@127.0.0.1:1', hash, Life,
+                                   state([], []), [], [], 0.0), _).
+
 :- end_tests(programs_of_peers).
 
 wrapped(Program, Program).
@@ -549,7 +564,7 @@ holding(stack,
           long(Long) ]) :-
     long_atom_900(Long).
 holding(cells,
-        [ (main :- long(L), text(12, L, S), self(Me), send(Me, S)),
+        [ (main :- long(L), text(11, L, S), self(Me), send(Me, S)),
           long(Text),
           text(0, S, S),
           (text(N0, S0, S) :- N0 > 0, N is N0-1, string_concat(S0, S0, S1),
