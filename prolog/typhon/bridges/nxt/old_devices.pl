@@ -1,6 +1,7 @@
 :- module(typhon_nxt_old_devices,
           [ rotate_nxt/4,
             rotateto_nxt/4,
+            read_accel_nxt/5,
             read_sensorport_nxt/3,
             floodlight_nxt/3,
             start_compasscalibration_nxt/2,
@@ -17,7 +18,6 @@
 :- use_module(brick, [nxt_command/4]).
 :- use_module(motors).
 :- use_module(sensors).
-:- reexport(sensors, [nxt_accelerometer/5 as read_accel_nxt]).
 
 /** <module> Motors and sensors by the names of SWI-PRO-NXT
 
@@ -70,8 +70,8 @@ family_body(speed(Sign), Brick, Ports, [Speed],
 
 family(move_forward_nxt, 2, speed(1)).
 family(move_backward_nxt, 2, speed(-1)).
-family(flt_nxt, 2, all(nxt_float)).     % switch the current off
-family(stop_nxt, 2, all(nxt_stop)).     % stop and hold
+family(flt_nxt, 2, all(nxt_float)).
+family(stop_nxt, 2, all(nxt_stop)).
 family(reverse_nxt, 2, each(reverse)).
 family(set_motorspeed_nxt, 2, value(set_motorspeed)).
 family(set_acceleration_nxt, 2, value(set_acceleration)).
@@ -99,6 +99,11 @@ family(read_irseeker_nxt, 2, value(nxt_infrared)).
                 *            MOTORS            *
                 *******************************/
 
+%!  move_forward_nxt(+Name, +P, +Speed) is det.
+%!  move_forward_nxt(+Name, +P1, +P2, +Speed) is det.
+%!  move_backward_nxt(+Name, +P, +Speed) is det.
+%!  move_backward_nxt(+Name, +P1, +P2, +Speed) is det.
+%
 %   The motors run at Speed, -100 to 100, until they are stopped.
 
 move_at(Sign, Name, Ports, Speed) :-
@@ -136,6 +141,13 @@ ramp(Name, Ports, Now, Power, Rate) :-
         sleep(0.05),
         ramp(Name, Ports, Next, Power, Rate)
     ).
+
+%!  flt_nxt(+Name, +P) is det.
+%!  flt_nxt(+Name, +P1, +P2) is det.
+%!  stop_nxt(+Name, +P) is det.
+%!  stop_nxt(+Name, +P1, +P2) is det.
+%
+%   Switch the current off; stop and hold.
 
 %!  rotate_nxt(+Name, +P, +Angle, +Dir) is det.
 %!  rotateto_nxt(+Name, +P, +Angle, +Sign) is det.
@@ -178,6 +190,9 @@ turn_to(Name, P, To, Now) :-
     Seconds is 10+3*abs(To-Now)/(10*Power),
     nxt_turn_to(Name, P, Power, To, Seconds).
 
+%!  reverse_nxt(+Name, +P) is det.
+%!  reverse_nxt(+Name, +P1, +P2) is det.
+%
 %   Turn the other way at the same speed.
 
 reverse(Name, P) :-
@@ -185,6 +200,9 @@ reverse(Name, P) :-
     memberchk(power(Power), State),
     move(Name, [P], -Power).
 
+%!  set_motorspeed_nxt(+Name, +P, +Speed) is det.
+%!  set_motorspeed_nxt(+Name, +P1, +P2, +S1, +S2) is det.
+%
 %   Set the speed: of a motor that turns at once, of others for rotate_nxt/4.
 
 set_motorspeed(Name, P, Speed) :-
@@ -199,6 +217,9 @@ set_motorspeed(Name, P, Speed) :-
     ;   move(Name, [P], sign(Now)*Power)
     ).
 
+%!  set_acceleration_nxt(+Name, +P, +Acceleration) is det.
+%!  set_acceleration_nxt(+Name, +P1, +P2, +A1, +A2) is det.
+%
 %   Per cent in a second.  A move then takes time to reach its speed.
 
 set_acceleration(Name, P, Acceleration) :-
@@ -206,11 +227,17 @@ set_acceleration(Name, P, Acceleration) :-
     nxt_motor(Name, P, _),
     old_set(Name, acceleration(P), Acceleration).
 
+%!  ismoving_nxt(+Name, +P, -R) is det.
+%!  ismoving_nxt(+Name, +P1, +P2, -R1, -R2) is det.
+%
 %   R is 1 if the motor moves, 0 if not.
 
 is_moving(Name, P, R) :-
     ( nxt_moves(Name, P) -> R = 1 ; R = 0 ).
 
+%!  getmode_nxt(+Name, +P, -R) is det.
+%!  getmode_nxt(+Name, +P1, +P2, -R1, -R2) is det.
+%
 %   R is 1 for forward, 2 backward, 3 stopped, 4 without current.
 
 motor_mode(Name, P, R) :-
@@ -230,6 +257,34 @@ mode(_, _, _, 3).
                 *            SENSORS           *
                 *******************************/
 
+%!  init_light_nxt(+Name, +P1) is det.
+%!  init_light_nxt(+Name, +P1, +P2) is det.
+%!  init_light_nxt(+Name, +P1, +P2, +P3) is det.
+%!  init_light_nxt(+Name, +P1, +P2, +P3, +P4) is det.
+%!  init_sound_nxt(+Name, +P1) is det.
+%!  init_sound_nxt(+Name, +P1, +P2) is det.
+%!  init_sound_nxt(+Name, +P1, +P2, +P3) is det.
+%!  init_sound_nxt(+Name, +P1, +P2, +P3, +P4) is det.
+%!  init_ultrasonic_nxt(+Name, +P1) is det.
+%!  init_ultrasonic_nxt(+Name, +P1, +P2) is det.
+%!  init_ultrasonic_nxt(+Name, +P1, +P2, +P3) is det.
+%!  init_ultrasonic_nxt(+Name, +P1, +P2, +P3, +P4) is det.
+%!  init_touch_nxt(+Name, +P1) is det.
+%!  init_touch_nxt(+Name, +P1, +P2) is det.
+%!  init_touch_nxt(+Name, +P1, +P2, +P3) is det.
+%!  init_touch_nxt(+Name, +P1, +P2, +P3, +P4) is det.
+%!  init_color_nxt(+Name, +P1) is det.
+%!  init_color_nxt(+Name, +P1, +P2) is det.
+%!  init_color_nxt(+Name, +P1, +P2, +P3) is det.
+%!  init_color_nxt(+Name, +P1, +P2, +P3, +P4) is det.
+%!  init_compass_nxt(+Name, +P1) is det.
+%!  init_compass_nxt(+Name, +P1, +P2) is det.
+%!  init_gyro_nxt(+Name, +P1) is det.
+%!  init_gyro_nxt(+Name, +P1, +P2) is det.
+%!  init_irseeker_nxt(+Name, +P1) is det.
+%!  init_irseeker_nxt(+Name, +P1, +P2) is det.
+%!  init_accel_nxt(+Name, +P1) is det.
+%
 %   Set the ports up for sensors of this kind; the lamps of light sensors as
 %   floodlight_nxt/3 has set them.
 
@@ -252,6 +307,23 @@ type(sound, _, _, 7, 0x80).
 type(gyro, _, _, 9, 0).
 type(i2c, _, _, 0x0B, 0).
 
+%!  read_light_nxt(+Name, +P, -R) is det.
+%!  read_light_nxt(+Name, +P1, +P2, -R1, -R2) is det.
+%!  read_sound_nxt(+Name, +P, -R) is det.
+%!  read_sound_nxt(+Name, +P1, +P2, -R1, -R2) is det.
+%!  read_ultrasonic_nxt(+Name, +P, -R) is det.
+%!  read_ultrasonic_nxt(+Name, +P1, +P2, -R1, -R2) is det.
+%!  read_touch_nxt(+Name, +P, -R) is det.
+%!  read_touch_nxt(+Name, +P1, +P2, -R1, -R2) is det.
+%!  read_color_nxt(+Name, +P, -R) is det.
+%!  read_color_nxt(+Name, +P1, +P2, -R1, -R2) is det.
+%!  read_compass_nxt(+Name, +P, -R) is det.
+%!  read_compass_nxt(+Name, +P1, +P2, -R1, -R2) is det.
+%!  read_gyro_nxt(+Name, +P, -R) is det.
+%!  read_gyro_nxt(+Name, +P1, +P2, -R1, -R2) is det.
+%!  read_irseeker_nxt(+Name, +P, -R) is det.
+%!  read_irseeker_nxt(+Name, +P1, +P2, -R1, -R2) is det.
+%
 %   R is what the sensor at P measures: light as of nxt_light/4 and loudness,
 %   per cent; the distance in centimetres, 255 if there is nothing; 1 if the
 %   touch sensor is pressed, else 0; the number of the colour, as of
@@ -275,6 +347,13 @@ turning(Name, Port, R) :-
     nxt_gyro(Name, Port, Value),
     old_value(Name, gyro(Port), 0, Offset),
     R is Value-Offset.
+
+%!  read_accel_nxt(+Name, +P, -X, -Y, -Z) is det.
+%
+%   The acceleration, as of nxt_accelerometer/5.
+
+read_accel_nxt(Name, P, X, Y, Z) :-
+    nxt_accelerometer(Name, P, X, Y, Z).
 
 %!  read_sensorport_nxt(+Name, +P, -R) is det.
 %

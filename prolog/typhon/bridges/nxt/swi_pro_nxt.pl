@@ -10,9 +10,11 @@
             read_res_nxt/2,
             check_res_nxt/2,
             write_lcd_nxt/4,
+            clear_lcd_nxt/1,
             beep_nxt/2,
             wait_nxt/2,
             exec_nxt/2,
+            del_nxt/2,
             exists_nxt/3,
             download_nxt/3,
             get_files_nxt/2
@@ -26,8 +28,6 @@
 :- use_module(files).
 :- use_module(old_devices, [old_clear/2, old_set/3, old_value/4]).
 
-:- reexport(brick, [nxt_clear/1 as clear_lcd_nxt]).
-:- reexport(files, [nxt_file_delete/2 as del_nxt]).
 :- reexport(old_devices, except([old_clear/2, old_set/3, old_value/4])).
 
 /** <module> The names of SWI-PRO-NXT
@@ -131,12 +131,16 @@ check_res_nxt(Name, Values) :-
                 *******************************/
 
 %!  write_lcd_nxt(+Name, +X, +Y, +Atom) is det.
+%!  clear_lcd_nxt(+Name) is det.
 %
 %   X is a column, 0 to 15, Y a row, 0 to 7.
 
 write_lcd_nxt(Name, X, Y, Atom) :-
     must_be(atomic, Atom),
     nxt_write(Name, X, Y, Atom).
+
+clear_lcd_nxt(Name) :-
+    nxt_clear(Name).
 
 %!  beep_nxt(+Name, +Type) is det.
 %
@@ -186,6 +190,13 @@ exec_nxt(Name, Program) :-
     ;   File = Program
     ),
     nxt_program_start(Name, File).
+
+%!  del_nxt(+Name, +File) is det.
+%
+%   Delete a file of the brick.
+
+del_nxt(Name, File) :-
+    nxt_file_delete(Name, File).
 
 %!  exists_nxt(+Name, +File, -R) is det.
 %
