@@ -41,23 +41,11 @@ option_words(virtual,  [virtual]).
 option_words(watch,    [watch, watches, watched, watching]).
 option_words(trace,    [trace, traces, traced, tracing, spying, stepping]).
 
-%!  option_file(?Option, ?Relative) is nondet.
-%
-%   The files of an option that is not yet a folder of its own below options/.
-
-option_file(journal, 'travel/channel.pl').
-option_file(journal, 'travel/channel_end.pl').
-option_file(journal, 'travel/hop_ids.pl').
-
 %!  kernel_file(?File) is nondet.
 %
-%   File is of the kernel, and of no option.
+%   File is of the kernel, but for the index.
 
 kernel_file(File) :-
-    in_kernel(File),
-    \+ own_option(File, _).
-
-in_kernel(File) :-
     layer_module(File, Layer, _),
     sub_atom(Layer, 0, _, _, 'kernel/'),
     \+ index_file(File).                % it names them all, and is made
@@ -119,10 +107,8 @@ not_above(Layer, Definer) :-
                 *******************************/
 
 names_option(File, Option) :-
-    in_kernel(File),
-    own_options(File, Own),
+    kernel_file(File),
     option_words(Option, Words),
-    \+ memberchk(Option, Own),
     once(( mentions(File, Name), has_word(Name, Words) )).
 
 has_word(Name, Words) :-
@@ -133,14 +119,6 @@ has_word(Name, Words) :-
     member(Part, Parts),
     memberchk(Part, Words),
     !.
-
-own_options(File, Options) :-
-    findall(Option, own_option(File, Option), Options).
-
-own_option(File, Option) :-
-    inside('prolog/typhon/kernel/', Prefix),
-    atom_concat(Prefix, Relative, File),
-    option_file(Option, Relative).
 
                 /*******************************
                 *           EXCEPTIONS         *

@@ -11,7 +11,7 @@ This is the interface of the layer: higher layers import from here.
 :- reexport('travel/ordered_moves').
 :- reexport(travel/doubt, [in_doubt/1, out_of_touch/1]).
 :- use_module(travel/arrival, []).
-:- use_module(travel/channel_end, []).
+:- reexport(travel/durable_posts, [post_must_fit/1]).
 :- reexport(travel/home,
               [ agent_born/2, agent_outcome/2, home_agents/1, home_agents_at/2,
                 outcome_wait/3 ]).

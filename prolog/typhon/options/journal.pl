@@ -11,6 +11,7 @@ layer.
 
 :- use_module(journal/committing, []).
 :- use_module(journal/journaled_agents, []).
+:- use_module(journal/channel, []).
 :- use_module(journal/recovery, []).
 :- reexport(journal/journaled_hosts, [hosts_back/1, hosts_journal/2]).
 :- reexport(journal/database,

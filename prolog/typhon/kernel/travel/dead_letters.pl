@@ -16,7 +16,7 @@
 :- multifile
     returned/3,                 % From, Id, Message: whoever brought it knows
     error:has_type/2,
-    typhon_channel:undelivered/4,
+    typhon_durable_posts:undelivered/4,
     typhon_endpoint:received/3.
 
 :- dynamic returned/3.
@@ -87,9 +87,9 @@ typhon_endpoint:received(message, lost(Formal, Id, Mail), _) :-
     ;   report(Formal, Id, Sent)
     ).
 
-typhon_channel:undelivered(message, shown(_, Message), Endpoint, Formal) :-
-    typhon_channel:undelivered(message, Message, Endpoint, Formal).
-typhon_channel:undelivered(message, message(Id, Mail, _), _, Formal) :-
+typhon_durable_posts:undelivered(message, shown(_, Message), Endpoint, Formal) :-
+    typhon_durable_posts:undelivered(message, Message, Endpoint, Formal).
+typhon_durable_posts:undelivered(message, message(Id, Mail, _), _, Formal) :-
     mail_lost(Formal, Id, Mail).
 
 error:has_type(typhon_mail, Mail) :-

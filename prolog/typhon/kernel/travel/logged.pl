@@ -7,7 +7,7 @@
 :- use_module('../base/unit_of_work',
               [unit_after/1, unit_defers/0, unit_put/4]).
 :- use_module('../host', [host_log/3, host_log_event/4]).
-:- use_module(channel, [channel_post/3]).
+:- use_module(durable_posts, [durable_post/3]).
 
 /** <module> What agents log
 
@@ -20,7 +20,7 @@ tells its log server it tells at once, see typhon_host_log.
 
 :- multifile
     typhon_durable:fact_table/5,
-    typhon_channel:undelivered/4,
+    typhon_durable_posts:undelivered/4,
     typhon_durable:go_on/0.
 
 :- dynamic said/4.                      % Host, N, Agent, What: before a restart
@@ -46,7 +46,7 @@ go(Host, N, Agent, What) :-
 
 post(Host, Agent, What) :-
     (   host_log_event(Host, Agent, What, Endpoint-Event)
-    ->  catch(channel_post(Endpoint, log, Event),
+    ->  catch(durable_post(Endpoint, log, Event),
               error(resource_error(frame_bytes), Context),
               print_message(warning,
                             error(resource_error(frame_bytes), Context)))
@@ -64,5 +64,5 @@ typhon_durable:go_on :-
 
 %   There is no log server there any more, or it cannot take this.
 
-typhon_channel:undelivered(log, event(_, Host, Agent, What), _, _) :-
+typhon_durable_posts:undelivered(log, event(_, Host, Agent, What), _, _) :-
     print_message(informational, typhon(log(Host, Agent, What))).

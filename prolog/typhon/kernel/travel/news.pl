@@ -6,7 +6,7 @@
 :- use_module(library(settings), [setting/2, setting/4]).
 :- use_module('../base/durable_changes', [durable_on/0]).
 :- use_module('../wire', [endpoint_post/3, endpoint_post_by/4]).
-:- use_module(channel, [channel_post/3]).
+:- use_module(durable_posts, [durable_post/3]).
 :- use_module(senders, [shown/5]).
 :- use_module('../host', [alarm_in/3, scheduler_call/1]).
 
@@ -26,7 +26,7 @@ that waits for the next.
            "News for a home that cannot be reached are kept so long").
 
 :- multifile
-    typhon_channel:undelivered/4,
+    typhon_durable_posts:undelivered/4,
     typhon_runtime:ending/1,
     typhon_scheduler:fire/2.
 
@@ -51,7 +51,7 @@ news_tell(Home, _, News) :-
     durable_on,
     news_lasts(News),
     !,
-    posted(channel_post, Home, [News]).
+    posted(durable_post, Home, [News]).
 news_tell(Home, Id, News) :-
     with_mutex(typhon_news, note(Home, Id, News, Courier)),
     (   Courier == wanted
@@ -172,11 +172,11 @@ posted_in_parts(All, Post, Home) :-
     posted(Post, Home, First),
     posted(Post, Home, Rest).
 
-typhon_channel:undelivered(whereabouts, shown(_, All), Home, Formal) :-
+typhon_durable_posts:undelivered(whereabouts, shown(_, All), Home, Formal) :-
     !,
-    typhon_channel:undelivered(whereabouts, All, Home, Formal).
-typhon_channel:undelivered(whereabouts, All, Home, resource_error(_)) :-
-    posted_in_parts(All, channel_post, Home).
+    typhon_durable_posts:undelivered(whereabouts, All, Home, Formal).
+typhon_durable_posts:undelivered(whereabouts, All, Home, resource_error(_)) :-
+    posted_in_parts(All, durable_post, Home).
 
 take(Home, All) :-
     load(Most),

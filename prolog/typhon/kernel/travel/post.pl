@@ -17,7 +17,7 @@
 :- use_module('../host', [parts/3, peer_may/3]).
 :- use_module('../agent', [agent/5, agent_home/2, agent_mail/2, with_agent/2]).
 :- use_module(backlog, [backlog/1, backlog_add/2, backlog_all/2]).
-:- use_module(channel, [channel_must_fit/1]).
+:- use_module(durable_posts, [post_must_fit/1]).
 :- use_module(retries, [retry_later/3]).
 :- use_module(senders, [mail_believed/5, senders_checked/0]).
 :- use_module(routing, [one_letter/2, way_in/2, way_out/3, way_send/3]).
@@ -93,7 +93,7 @@ may_travel(Id, _) :-
     agent(Id, _, _, _, _),
     !.
 may_travel(_, Change) :-
-    channel_must_fit(Change).
+    post_must_fit(Change).
 
 %   What an agent says goes when its turn is over, and noted.
 

@@ -12,7 +12,7 @@
               [ endpoint_address/1, endpoint_gone/1, endpoint_post/3, endpoint_post_up/3 ]).
 :- use_module('../host', [address_parts/3, amended/5, parts/3]).
 :- use_module('../agent', [agent/5, agent_home_endpoint/2, agent_mail/2]).
-:- use_module(channel, [channel_post/3]).
+:- use_module(durable_posts, [durable_post/3]).
 :- use_module(dead_letters, [mail_lost/3]).
 :- use_module(senders, [mail_parts/4, senders_checked/0, shown/5]).
 :- use_module(whereabouts, [whereabouts/2]).
@@ -147,7 +147,7 @@ part_sent(Endpoint, Id, Mail, Left) :-
 posted(Endpoint, Id, letter(Mail, Left), Post) :-
     message(Endpoint, Id, Mail, Left, Message),
     (   durable_on
-    ->  By = channel_post
+    ->  By = durable_post
     ;   By = Post
     ),
     catch(call(By, Endpoint, message, Message),

@@ -1,33 +1,24 @@
-:- module(typhon_channel,
-          [ channel_post/3,             % +Endpoint, +Kind, +Term
-            channel_must_fit/1          % +Change
-          ]).
+:- module(typhon_channel, []).
 :- use_module(library(debug), [debug/3]).
-:- use_module(library(error), [must_be/2, resource_error/1]).
+:- use_module(library(error), [must_be/2]).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(settings), [setting/2, setting/4]).
-:- use_module('../base/durable_changes',
-              [ crash_point/1, durable_bytes/2, durable_change/1,
-                durable_drop/3, durable_drop_below/3, durable_number/1,
-                durable_on/0, durable_putting/5, enqueue_changes/0,
-                output_waits/0 ]).
-:- use_module('../wire',
+:- use_module('../../kernel/base/durable_changes',
+              [ crash_point/1, durable_change/1, durable_drop/3,
+                durable_drop_below/3, durable_number/1, durable_on/0,
+                durable_putting/5, enqueue_changes/0, output_waits/0 ]).
+:- use_module('../../kernel/wire',
               [ endpoint_address/1, endpoint_gone/1, endpoint_post/3,
-                endpoint_process/1, frame_fits/1 ]).
-:- use_module('../host', [alarm_in/3, scheduler_call/1]).
+                endpoint_process/1 ]).
+:- use_module('../../kernel/host', [alarm_in/3, scheduler_call/1]).
+:- use_module('../../kernel/travel', [post_must_fit/1]).
 
-/** <module> Posts that survive the processes that send and take them
+/** <module> The sending end of posts that survive
 
 A process that keeps a journal notes what it posts to another before it is
 sent, and keeps it until the other says that it has come for good.  Until then
-it is sent again whenever there is a new connection.  The other, see module
-`channel_end`, takes each once, in order:
-
-    channel(Process, To, Before, N, Kind, Term)
-
-is the post of number N of Process to the endpoint To; Before is the number
-of the one before, or first(M) if all up to M are known to have come.  A process
-that lacks one sends again(To), one that has one had(To, N).
+it is sent again whenever there is a new connection.  What is sent, and the
+other end, is described in typhon_durable_posts.
 
 *Threading*: any thread posts, and never waits for a connection; one worker at
 a time sends to an endpoint.
@@ -37,6 +28,7 @@ a time sends to an endpoint.
 
 :- multifile
     typhon_durable:fact_table/5,
+    typhon_durable_posts:queued/3,
     typhon_endpoint:connection/2,
     typhon_endpoint:received/3,
     typhon_durable:go_on/0,
@@ -56,38 +48,15 @@ a time sends to an endpoint.
 
 batch(100).
 longest_pause(1).               % seconds between attempts
-around(1000).                   % what a frame has besides, at most
 
-%!  channel_post(+Endpoint, +Kind, +Term) is det.
-%
-%   Post Term to Endpoint, once, whatever dies.  What was noted in this step
-%   is sealed with it.
-%
-%   @error resource_error(frame_bytes) Term is too long for a frame
-
-channel_post(Endpoint, Kind, Term) :-
+typhon_durable_posts:queued(Endpoint, Kind, Term) :-
     engaging(Endpoint,
              ( durable_number(N),
                durable_putting(out, Endpoint, N, item(Kind, Term), Change),
-               channel_must_fit(Change),
+               post_must_fit(Change),
                durable_change(Change),
                enqueue_changes,
                assertz(out(Endpoint, N, Kind, Term)) )).
-
-%!  channel_must_fit(+Change) is det.
-%
-%   What is noted can be sent in a frame.
-%
-%   @error resource_error(frame_bytes)
-
-channel_must_fit(Change) :-
-    durable_bytes(Change, Count),
-    around(More),
-    Most is Count+More,
-    (   frame_fits(Most)
-    ->  true
-    ;   resource_error(frame_bytes)
-    ).
 
 %   engaging(+Endpoint, :Goal): Goal changes what is to be sent to Endpoint, for
 %   which there is a courier then.  A thread that is ended in the middle
@@ -252,11 +221,10 @@ forget_all(Endpoint) :-
     ;   true
     ).
 
-:- multifile undelivered/4.             % Kind, Term, Endpoint, Formal
-
 say_undelivered(Lost, Endpoint, Formal) :-
     forall(member(Kind-Term, Lost),
-           ignore(undelivered(Kind, Term, Endpoint, Formal))).
+           ignore(typhon_durable_posts:undelivered(Kind, Term, Endpoint,
+                                                   Formal))).
 
                 /*******************************
                 *        WHAT IS ANSWERED      *
