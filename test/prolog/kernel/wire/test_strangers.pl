@@ -4,14 +4,15 @@
 % told of them.
 
 :- use_module('../../../lib/common').
+:- use_module('../../../lib/plain_client').
 :- use_module(library(aggregate), [aggregate_all/3]).
 :- use_module(library(apply), [maplist/2, maplist/3]).
 :- use_module(library(lists), [member/2, sum_list/2]).
 :- use_module(library(plunit)).
+:- use_module(library(readutil), [read_line_to_string/2]).
 :- use_module(library(prolog_wrap), [unwrap_predicate/2, wrap_predicate/4]).
 :- use_module(library(socket)).
 :- use_module(library(thread), [concurrent_maplist/3]).
-:- use_module(library(typhon/kernel/wire/handshake)).
 :- use_module(library(typhon/kernel/wire)).
 
 :- dynamic told/1.
@@ -86,10 +87,9 @@ turned_away(Why, Count) :-
 newcomer(I, Seconds) :-
     get_time(T0),
     atom_concat(newcomer, I, Process),
-    hello(Process, 1, '127.0.0.1:1', Hello),
     setup_call_cleanup(connected(Client),
                        ( Client = streams(In, Out),
-                         authenticate(client, In, Out, Hello, cookie, _) ),
+                         prove_oneself(In, Out, Process) ),
                        closed(Client)),
     get_time(T1),
     Seconds is T1-T0.
@@ -198,9 +198,8 @@ test(evicted_at_any_moment) :-
 %   A greeting of so many bytes, and gone.
 
 dies(I) :-
-    hello(x, 1, 'c:1', Hello),
-    hello_line(Hello, Line),
-    format(string(Greeting), "typhon 3 00 ~w\n", [Line]),
+    greeting(x, Line),
+    string_concat(Line, "\n", Greeting),
     string_length(Greeting, Length),
     Bytes is I mod (Length+1),
     sub_string(Greeting, 0, Bytes, _, Text),
@@ -248,9 +247,7 @@ test(another_version, Line == "typhon 3") :-
         connected(Client),
         ( say("typhon 1 00 p 1 a:1 90004 64 little\n", Client),
           arg(1, Client, In),
-          get_time(Now),
-          Deadline is Now+5,
-          line_read(In, Deadline, Line),
+          read_line_to_string(In, Line),
           wait_until(told(turned_away(_, version(1))), 30) ),
         closed(Client))).
 test(another_version_of_a_server,
