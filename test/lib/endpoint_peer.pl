@@ -13,7 +13,8 @@ endpoint anew and prints its new address; greet(Address, Time) posts to
 Address at Time, a time stamp, and prints outcome(Outcome, Seconds); all else
 ends it.
 
-Posts of kind `note` are remembered. Requests are
+Posts of kind `note` are remembered; at `back` N are posted to the sender.
+Requests are
 
   - `echo`, `process` (its id), `notes` (all notes so far), `count` (how many)
   - `later` (answered by another thread), `never`, `wrong` (the hook raises)
@@ -42,6 +43,9 @@ Posts of kind `note` are remembered. Requests are
 
 typhon_endpoint:received(note, Note, _) :-
     assertz(note(Note)).
+
+typhon_endpoint:received(back, N, Peer) :-
+    forall(between(1, N, I), endpoint_post(Peer, note, I)).
 
 typhon_endpoint:requested(echo, Term, _, ReplyTo) :-
     endpoint_reply(ReplyTo, Term).

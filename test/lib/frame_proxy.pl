@@ -11,7 +11,8 @@
 
 A proxy of each endpoint knows frames by their heads only. Those from A to B
 are numbered from 1 on over all connections of the two since script/2, and
-Link is A-B. An event
+Link is A-B, each the name of an endpoint or the address of one without a
+proxy. An event
 
     at(Link, Number, When, Action)
 
@@ -132,11 +133,12 @@ handshake(Direction, Connection, In, Out, HeadBytes) :-
 head_bytes("2", 7).                     % length, check
 head_bytes("3", 15).                    % length, check, counts
 
-client_named(Words, Connection) :-
-    member(Word, Words),
+client_named([_Nonce, _Process, _Start, Word|_], Connection) :-
     atom_string(Address, Word),
-    proxy(_, Name, Address),
-    !,
+    (   proxy(_, Name, Address)
+    ->  true
+    ;   Name = Address
+    ),
     assertz(client(Connection, Name)).
 
 lines_to_resume(In, Out) :-

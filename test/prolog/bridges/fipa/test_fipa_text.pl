@@ -11,8 +11,8 @@
 :- use_module(library(random), [random_between/3, random_member/2]).
 :- use_module(library(typhon/bridges/fipa/acl)).
 :- use_module(library(typhon/bridges/fipa/letter)).
-:- use_module(library(typhon/bridges/fipa/managers), []).
 :- use_module(library(typhon/bridges/fipa/sl)).
+:- use_module(library(typhon/fipa), []).
 
 
                 /*******************************

@@ -20,6 +20,10 @@ test(mail_waits_for_its_way) :-
     with_cut(waits_for_way).
 test(mail_in_order_behind_what_waits) :-
     with_cut(waits_in_order).
+test(mail_in_order_behind_what_was_tried_in_vain) :-
+    with_cut(waits_behind_tried).
+test(mail_in_order_where_the_agent_comes_to_it) :-
+    with_cut(waits_where_it_comes).
 test(told_to_the_sender_when_the_process_is_dead) :-
     with_peers([a, b, c], told_when_dead).
 
@@ -88,6 +92,41 @@ waits_in_order :-
     peer_do(b, forall(between(21, 40, N), agent_send(Id, n(N)))),
     wait_until(( noted(Noted), same_length(Noted, Numbers) ), 20),
     noted(Numbers).
+
+%   More comes while the first are tried, and after that.
+
+waits_behind_tried :-
+    noting_on_c(Id),
+    cut_off,
+    numlist(1, 60, Numbers),
+    peer_do(b, forall(between(1, 20, N), agent_send(Id, n(N)))),
+    wait_until(peer_do(a, tried_in_vain(Id)), 30),
+    peer_do(b, forall(between(21, 40, N), agent_send(Id, n(N)))),
+    wait_until(peer_do(a, tried_in_vain(Id)), 30),
+    reconnected,
+    peer_do(b, forall(between(41, 60, N), agent_send(Id, n(N)))),
+    wait_until(( noted(Noted), same_length(Noted, Numbers) ), 20),
+    noted(Numbers),
+    wait_until(peer_do(a, \+ kept(Id)), 20).
+
+%   The agent moves to the process in which its mail waits. What it has got
+%   before comes first.
+
+waits_where_it_comes :-
+    noting_on_c(Id),
+    cut_off,
+    numlist(1, 20, Numbers),
+    peer_do(b, forall(between(1, 20, N), agent_send(Id, n(N)))),
+    wait_until(peer_do(a, tried_in_vain(Id)), 30),
+    peer_host(a, A),
+    reconnected,
+    peer_do(c, agent_move(Id, A)),
+    wait_until(( noted(OnC),
+                 peer_do(a, remote(a, findall(N, sense(noted(N)), OnA))),
+                 append(OnC, OnA, Noted),
+                 same_length(Noted, Numbers) ), 30),
+    Noted == Numbers,
+    wait_until(peer_do(a, \+ kept(Id)), 20).
 
 told_when_dead :-
     noting_on_c(Id),

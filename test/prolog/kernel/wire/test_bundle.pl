@@ -13,12 +13,8 @@
 :- use_module(library(settings), [set_setting/2, setting/2]).
 :- use_module(library(thread), [concurrent_forall/3]).
 :- use_module(library(typhon/kernel/wire)).
-:- use_module(library(typhon/kernel/travel/post), []).
-:- use_module(library(typhon/kernel/wire/frame)).
-:- use_module(library(typhon/kernel/wire/outbox), [session_send/2]).
-:- use_module(library(typhon/kernel/wire/session), [route/2]).
-:- use_module(library(typhon/kernel/wire/unacked),
-              [unacked_waiting/1]).
+:- use_module(library(typhon/kernel/travel), []).
+:- use_module('../../../lib/frame_proxy').
 
 :- dynamic note/2.                      % Note, Thread
 
@@ -28,13 +24,21 @@ typhon_endpoint:received(note, Note, _) :-
     thread_self(Me),
     assertz(note(Note, Me)).
 
+forget_notes :-
+    retractall(note(_, _)).
+
+has_note(Note) :-
+    note(Note, _),
+    !.
+
 :- meta_predicate with_peer(-, 0).
 
 with_peer(Address, Goal) :-
     project_file('test/lib/endpoint_peer.pl', File),
     no_leaks(setup_call_cleanup(
         endpoint_start(localhost, 0, _),
-        with_swipl(['-g', 'serve(0)', File], _, _, Out,
+        with_swipl(['-g', 'set_setting(typhon_reader:silence,100)',
+                    '-g', 'serve(0)', File], _, _, Out,
                    ( read_line_to_string(Out, Line),
                      atom_string(Address, Line),
                      once(Goal) )),
@@ -46,18 +50,28 @@ post_notes(Address, From, To) :-
 notes(Address, Notes) :-
     endpoint_call(Address, notes, x, answer(Notes), 20).
 
-session(Address, Session) :-
-    once(route(Address, Session)).
+%   with_counted_peer(-Address, :Goal): the frames that go there are counted.
+
+:- meta_predicate with_counted_peer(-, 0).
+
+with_counted_peer(Address, Goal) :-
+    with_peer(Peer,
+              setup_call_cleanup(
+                  ( frame_proxy_start(peer, Peer, Proxy, Address),
+                    script([], true) ),
+                  once(Goal),
+                  frame_proxy_stop(Proxy))).
 
 :- begin_tests(many_small_posts).
 
 test(take_few_frames, true(Frames < 1500)) :-
     numlist(1, 3000, Sent),
-    with_peer(A, ( post_notes(A, 1, 3000),
-                   notes(A, Notes),
-                   assertion(Notes == Sent),
-                   session(A, Session),
-                   typhon_unacked:session_sent(Session, Frames) )).
+    with_counted_peer(A, ( post_notes(A, 1, 3000),
+                           notes(A, Notes),
+                           assertion(Notes == Sent),
+                           endpoint_address(Me),
+                           frames_passed(Me-peer, Frames),
+                           assertion(Frames > 10) )).
 test(as_text, [ setup(( setting(typhon_handshake:records, Old),
                         set_setting(typhon_handshake:records, false) )),
                 cleanup(set_setting(typhon_handshake:records, Old)),
@@ -74,11 +88,13 @@ test(stay_in_order_with_long_ones, true(Notes == Sent)) :-
 
 %   Nor is the peer asked for a sign of life.
 
-test(go_though_nothing_follows) :-
+test(go_though_nothing_follows, true(Found == Sent)) :-
+    numlist(1, 200, Sent),
+    forget_notes,
     with_settings([typhon_reader:silence=100],
-        with_peer(A, ( post_notes(A, 1, 200),
-                       session(A, Session),
-                       wait_until(\+ unacked_waiting(Session), 20) ))).
+        with_peer(A, ( endpoint_post(A, back, 200),
+                       wait_until(has_note(200), 20) ))),
+    findall(Note, note(Note, _), Found).
 test(arrive_before_the_endpoint_stops, true(Flushed == true)) :-
     with_settings([typhon_reader:silence=100],
         with_peer(A, ( post_notes(A, 1, 500),
@@ -95,6 +111,7 @@ test(of_many_threads, true(Sorted == Sent)) :-
                    notes(A, Notes),
                    msort(Notes, Sorted) )).
 test(to_oneself_are_taken_at_once, true(Found == [1-Me, 2-Me])) :-
+    forget_notes,
     thread_self(Me),
     setup_call_cleanup(
         endpoint_start(localhost, 0, Own),
@@ -114,64 +131,22 @@ long_or_short(I, Note) :-
 :- begin_tests(bundles).
 
 test(one_part_is_not_a_term, true(Notes == [1, 2])) :-
-    term_bytes(fast, post(note, 1), One),
-    term_bytes(fast, post(note, 2), Two),
+    fast_term_serialized(post(note, 1), One),
+    fast_term_serialized(post(note, 2), Two),
     with_peer(A, ( notes(A, []),
-                   session(A, Session),
-                   session_send(Session, bundle([One, "#-0 f((. ", Two])),
+                   bundle_sent(A, bundle([One, "#-0 f((. ", Two])),
                    notes(A, Notes) )).
 test(is_none, [ forall(member(Bundle, [bundle(x), bundle([x]), bundle(_)])),
                 true(Notes == []) ]) :-
-    with_peer(A, ( notes(A, []),
-                   session(A, Session),
-                   session_send(Session, Bundle),
-                   notes(A, Notes) )).
+    with_peer(A, ( notes(A, []), bundle_sent(A, Bundle), notes(A, Notes) )).
+
+%   No interface sends what no process of ours would send.
+
+bundle_sent(Address, Bundle) :-
+    once(typhon_session:route(Address, Session)),
+    typhon_outbox:session_send(Session, Bundle).
 
 :- end_tests(bundles).
-
-		 /*******************************
-		 *         WITHOUT A WIRE       *
-		 *******************************/
-
-:- meta_predicate with_queue(+, -, 0).
-
-with_queue(Frames, Queue, Goal) :-
-    setup_call_cleanup(
-        message_queue_create(Queue),
-        ( forall(member(Frame, Frames), thread_send_message(Queue, Frame)),
-          once(Goal) ),
-        message_queue_destroy(Queue)).
-
-:- begin_tests(what_waits).
-
-test(loose_ones_go_together, true(Many-Left == true-0)) :-
-    with_queue([loose("a", 1), loose("b", 2)], Queue,
-               ( bundle_next(Queue, fast, inf, frame(Bytes, none, 2), Many),
-                 message_queue_property(Queue, size(Left)) )),
-    fast_term_serialized(Bundle, Bytes),
-    bundle_parts(Bundle, Parts),
-    assertion(Parts == ["a", "b"]).
-test(one_goes_as_it_is,
-     true(Frames == [ frame("a", none, 1), frame("B", token, 2),
-                      frame("c", none, 3) ])) :-
-    with_queue([loose("a", 1), frame("B", token, 2), loose("c", 3)], Queue,
-               bundle_all(Queue, fast, Frames)).
-test(what_does_not_fit_stays, true(Size == 2)) :-
-    with_queue([frame("long", none, 0), loose("b", 0)], Queue,
-               ( \+ bundle_next(Queue, fast, 3, _, _),
-                 message_queue_property(Queue, size(Size)) )).
-test(no_more_than_fit, true(Size == 1)) :-
-    with_queue([loose("aaaa", 0), loose("bbbb", 0), loose("cccc", 0)], Queue,
-               ( bundle_next(Queue, fast, 30, _, true),
-                 message_queue_property(Queue, size(Size)) )).
-test(no_more_than_a_hundred, true(Count == 3)) :-
-    findall(loose("a", 0), between(1, 250, _), Frames0),
-    with_queue(Frames0, Queue,
-               ( bundle_all(Queue, fast, Frames), length(Frames, Count) )).
-test(nothing, fail) :-
-    with_queue([], Queue, bundle_next(Queue, fast, inf, _, _)).
-
-:- end_tests(what_waits).
 
 :- begin_tests(letters_that_come_together).
 

@@ -429,3 +429,47 @@ random_codes([Code|Codes]) :-
     ;   random_between(0x10000, 0x10ffff, Code)
     ),
     random_codes(Codes).
+
+		 /*******************************
+		 *            BUNDLES           *
+		 *******************************/
+
+:- meta_predicate with_queue(+, -, 0).
+
+with_queue(Frames, Queue, Goal) :-
+    setup_call_cleanup(
+        message_queue_create(Queue),
+        ( forall(member(Frame, Frames), thread_send_message(Queue, Frame)),
+          once(Goal) ),
+        message_queue_destroy(Queue)).
+
+:- begin_tests(what_waits).
+
+test(loose_ones_go_together, true(Many-Left == true-0)) :-
+    with_queue([loose("a", 1), loose("b", 2)], Queue,
+               ( bundle_next(Queue, fast, inf, frame(Bytes, none, 2), Many),
+                 message_queue_property(Queue, size(Left)) )),
+    fast_term_serialized(Bundle, Bytes),
+    bundle_parts(Bundle, Parts),
+    assertion(Parts == ["a", "b"]).
+test(one_goes_as_it_is,
+     true(Frames == [ frame("a", none, 1), frame("B", token, 2),
+                      frame("c", none, 3) ])) :-
+    with_queue([loose("a", 1), frame("B", token, 2), loose("c", 3)], Queue,
+               bundle_all(Queue, fast, Frames)).
+test(what_does_not_fit_stays, true(Size == 2)) :-
+    with_queue([frame("long", none, 0), loose("b", 0)], Queue,
+               ( \+ bundle_next(Queue, fast, 3, _, _),
+                 message_queue_property(Queue, size(Size)) )).
+test(no_more_than_fit, true(Size == 1)) :-
+    with_queue([loose("aaaa", 0), loose("bbbb", 0), loose("cccc", 0)], Queue,
+               ( bundle_next(Queue, fast, 30, _, true),
+                 message_queue_property(Queue, size(Size)) )).
+test(no_more_than_a_hundred, true(Count == 3)) :-
+    findall(loose("a", 0), between(1, 250, _), Frames0),
+    with_queue(Frames0, Queue,
+               ( bundle_all(Queue, fast, Frames), length(Frames, Count) )).
+test(nothing, fail) :-
+    with_queue([], Queue, bundle_next(Queue, fast, inf, _, _)).
+
+:- end_tests(what_waits).
