@@ -13,7 +13,8 @@
   - an import that is not used, in any file of the tree;
   - an export of a module or of an interface that no module uses;
   - an import against the layers: a module imports from its own folder,
-    from kernel/base, and from the interfaces of lower layers;
+    from kernel/base, and from the interfaces of lower layers, but an option
+    from no other;
   - a call Module:Goal of a predicate that Module does not export;
   - modules that import each other in a circle;
   - a file of the kernel that names an option, and is not in the list of

@@ -132,7 +132,13 @@ may_import(Layer, Target) :-
     layers(Layers),
     nth1(L, Layers, Lower),
     nth1(H, Layers, Layer),
-    L < H.
+    L < H,
+    \+ ( is_option(Lower), is_option(Layer) ).
+
+%   Options know of each other by seams alone.
+
+is_option(Layer) :-
+    atom_concat('options/', _, Layer).
 
 %   A hook is declared multifile by the module that calls it.
 

@@ -50,7 +50,6 @@ kind(program, any).
 kind(stands, any).
 kind(mail, any).
 kind(order, any).
-kind(stays, repeated).
 kind(turns, repeated).
 kind(counts, repeated).
 
@@ -90,7 +89,7 @@ about(Kind, Host, _, host(Host)) :-
     memberchk(Kind, [place, fact, turns, counts]).
 about(Kind, Id, _, agent(Id)) :-
     memberchk(Kind, [ birth, born, outcome, faulty, left, clone, gone, given_up,
-                      backlog, stands, mail, order, stays ]).
+                      backlog, stands, mail, order ]).
 
 on_host(host(Host), Host).
 on_host(agent(Id), Host) :-
@@ -196,10 +195,9 @@ unasked(Order, Order).
 %   Agents go on.  Where what happens repeats itself, the runtime knows the
 %   alarms, and some agents are Scheduled.
 
-cut_go_on(real, Agents, _) :-
-    forall(member(Id, Agents), agent_reschedule(Id)),
-    retries_go_on.
-cut_go_on(virtual, Agents, Scheduled0) :-
+cut_go_on(Kind, Agents, Scheduled0) :-
+    time_repeats(Kind, _),
+    !,
     findall(Id, ( member(Id, Agents), agent_status(Id, ready, _) ), Ready0),
     sort(Ready0, Ready),
     sort(Scheduled0, Scheduled),
