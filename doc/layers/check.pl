@@ -135,10 +135,11 @@ may_import(Layer, Target) :-
     L < H,
     \+ ( is_option(Lower), is_option(Layer) ).
 
-%   Options know of each other by seams alone.
+%   Options know of each other by seams alone, but for the keys that some share.
 
 is_option(Layer) :-
-    atom_concat('options/', _, Layer).
+    atom_concat('options/', Option, Layer),
+    Option \== keys.
 
 %   A hook is declared multifile by the module that calls it.
 
