@@ -31,6 +31,8 @@ them as messages or as facts.  This is the interface of the layer.  A bridge
         helper_close(echo(Host)).
 */
 
+:- reexport(common/crew, [crew_end/1, crew_start/4]).
+:- reexport(common/http_server).
 :- reexport(common/inbox, [inbox_put/4]).
 :- reexport(common/json_values, [json_value/1]).
 :- reexport(common/services,

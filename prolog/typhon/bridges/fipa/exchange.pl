@@ -127,7 +127,7 @@ taken(bad(Why), Host, Code) =>
 %   message(+Request, +Url, -Message): Message is message(Acl, Receivers), or
 %   bad(Code).
 
-message(request(Method, _, _, _, _), _, Message), Method \== 'POST' =>
+message(request(Method, _, _, _, _), _, Message), Method \== post =>
     Message = bad(405).
 message(request(_, Target, _, _, _), Url, Message), \+ at(Target, Url) =>
     Message = bad(404).

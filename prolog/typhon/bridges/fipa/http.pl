@@ -1,27 +1,44 @@
 :- module(typhon_fipa_http,
           [ http_url/3,                 % ?Url, ?Address, ?Path
-            http_request/4,             % +In, +Out, +MaxBytes, -Request
+            http_request/5,             % +In, +Out, +Deadline, +MaxBytes,
+                                        % -Request
             http_respond/3,             % +Out, +Code, +KeepAlive
             http_post/4,                % +Out, +Url, +ContentType, +Body
-            http_response/3             % +In, -Code, -KeepAlive
+            http_response/4,            % +In, +Deadline, -Code, -KeepAlive
+            within/2                    % +Seconds, :Goal
           ]).
-:- use_module(library(error), [domain_error/2, must_be/2, resource_error/1,
-                               syntax_error/1]).
-:- use_module(library(http/http_header), [http_parse_header/2]).
-:- use_module(library(lists), [append/3]).
+:- use_module(library(dcg/basics), [string_without//2]).
+:- use_module(library(error),
+              [domain_error/2, must_be/2, resource_error/1, syntax_error/1]).
+:- use_module(library(http/http_header),
+              [http_parse_header/2, http_read_request/2]).
 :- use_module(library(uri), [uri_components/2, uri_authority_components/2,
                              uri_authority_data/3, uri_data/3]).
+:- use_module('../../kernel/host', [alarm_in/3]).
+:- use_module('../common', [http_head/4, with_bytes/3]).
 
 /** <module> HTTP, as far as a message transport needs it
 
 Requests and responses on byte streams, each of bounded size: a head of at
-most 16 kB, a body of known length.  Servers of the libraries do not bound
-the head of a request.
+most 16 kB, a body of known length.  Heads are read by the library, when they are
+there.  Clients of library(http/http_open) cannot be used: answers of JADE have no
+length, and the connection is kept.
 
-The caller limits the time.
+The caller limits the time by within/2, which is like call_with_time_limit/2; but
+the library of that may keep 9.0.4 from halting once it is loaded.  This uses
+the alarms of hosts.
 
-*Threading*: any thread, one for each stream.
+*Threading*: any thread, one for each stream; within/2 while a host runs.  The
+timer signals it.
 */
+
+:- multifile
+    typhon_scheduler:fire/2,
+    typhon_scheduler:over/2.
+
+:- meta_predicate within(+, 0).
+
+:- dynamic busy/2.                      % Key, Thread
 
 max_head(16384).
 
@@ -57,45 +74,42 @@ http_url(Url, Host:Port, Path) :-
                 *           REQUESTS           *
                 *******************************/
 
-%!  http_request(+In, +Out, +MaxBytes, -Request) is semidet.
+%!  http_request(+In, +Out, +Deadline, +MaxBytes, -Request) is semidet.
 %
-%   Read the next request from In, Request being request(Method, Path,
-%   ContentType, Body, KeepAlive): an atom, two more, a string of bytes and a
-%   boolean.  Fails at the end of In.  A body must have a length; a client
-%   that expects `100 Continue` gets it on Out.
+%   Read the next request from In, Request being request(Method, Target,
+%   ContentType, Body, KeepAlive): an atom as `post`, two more, a string of bytes
+%   and a boolean.  Fails at the end of In.  Its head has to be there before the
+%   Deadline.  A body must have a length; a client that expects `100 Continue`
+%   gets it on Out.
 %
 %   @error syntax_error(http_request), syntax_error(http_length)
 %   @error resource_error(http_head), resource_error(http_body)
 
-http_request(In, Out, MaxBytes, request(Method, Path, Type, Body, KeepAlive)) :-
-    \+ at_end_of_stream(In),
+http_request(In, Out, Deadline, MaxBytes,
+             request(Method, Target, Type, Body, KeepAlive)) :-
     max_head(Max),
-    line(In, First, Max, Left),
-    (   phrase(request_line(MethodCodes, PathCodes, Version), First)
-    ->  atom_codes(Method, MethodCodes),
-        atom_codes(Path, PathCodes)
+    http_head(In, Max, Deadline, Head),
+    (   catch(with_bytes(written(Head), Text,
+                         http_read_request(Text, Fields)),
+              error(_, _), fail),
+        memberchk(method(Method0), Fields),
+        memberchk(request_uri(Target0), Fields),
+        memberchk(http_version(1-Minor), Fields)
+    ->  Method = Method0,
+        Target = Target0
     ;   syntax_error(http_request)
     ),
-    fields(In, Left, Fields),
-    keep_alive(Version, Fields, KeepAlive),
+    keep_alive(Minor, Fields, KeepAlive),
     field(content_type(Type), Fields, ''),
     body(Fields, In, Out, MaxBytes, Body).
 
-request_line(Method, Path, Version) -->
-    word(Method), " ", word(Path), " HTTP/1.", [Version].
+written(Bytes, Out) :-
+    format(Out, '~s', [Bytes]).
 
-word([Code|Codes]) -->
-    [Code],
-    { Code > 0' , Code < 0x7f },
-    (   word(Codes)
-    ->  []
-    ;   { Codes = [] }
-    ).
-
-keep_alive(Version, Fields, KeepAlive) :-
+keep_alive(Minor, Fields, KeepAlive) :-
     field(connection(Word0), Fields, none),
     downcase_atom(Word0, Word),
-    (   ( Word == close ; Version == 0'0, Word \== 'keep-alive' )
+    (   ( Word == close ; Minor == 0, Word \== 'keep-alive' )
     ->  KeepAlive = false
     ;   KeepAlive = true
     ).
@@ -173,36 +187,48 @@ http_post(Out, Url, ContentType, Body) :-
     write(Out, Body),
     flush_output(Out).
 
-%!  http_response(+In, -Code, -KeepAlive:boolean) is semidet.
+%!  http_response(+In, +Deadline, -Code, -KeepAlive:boolean) is semidet.
 %
 %   Fails at the end of In.  JADE's answers have no length: the rest of the
 %   last one is skipped.
 %
 %   @error resource_error(http_head), syntax_error(http_response)
 
-http_response(In, Code, KeepAlive) :-
-    max_skipped(Most),
-    status_line(In, Most, Version, Code0),
+http_response(In, Deadline, Code, KeepAlive) :-
     max_head(Max),
-    fields(In, Max, Fields),
-    (   Code0 == 100
-    ->  http_response(In, Code, KeepAlive)
-    ;   Code = Code0,
-        keep_alive(Version, Fields, KeepAlive),
+    max_skipped(Most),
+    Left is Max+Most,
+    response(In, Left, Deadline, Code, KeepAlive).
+
+response(In, Left0, Deadline, Code, KeepAlive) :-
+    http_head(In, Left0, Deadline, Head),
+    (   phrase(status(Minor, Code0), Head, Rest),
+        Code0 \== 100
+    ->  Code = Code0,
+        response_fields(Rest, Fields),
+        keep_alive(Minor, Fields, KeepAlive),
         skip_body(Fields, In)
+    ;   length(Head, Length),
+        Left is Left0-Length,
+        response(In, Left, Deadline, Code, KeepAlive)
     ).
 
-status_line(In, Left0, Version, Code) :-
-    \+ at_end_of_stream(In),
-    line(In, Line, Left0, Left),
-    (   phrase(status(Version, Code0), Line, _)
-    ->  Code = Code0
-    ;   status_line(In, Left, Version, Code)
-    ).
+status(Minor, Code) -->
+    "HTTP/1.",
+    !,
+    [Version], " ", [A,B,C],
+    string_without(`\n`, _), "\n",
+    { catch(number_codes(Code, [A,B,C]), error(_, _), fail),
+      Minor is Version-0'0 }.
+status(Minor, Code) -->
+    string_without(`\n`, _), "\n",
+    status(Minor, Code).
 
-status(Version, Code) -->
-    "HTTP/1.", [Version], " ", [A,B,C],
-    { catch(number_codes(Code, [A,B,C]), error(_, _), fail) }.
+response_fields(Codes, Fields) :-
+    (   catch(http_parse_header(Codes, Fields0), error(_, _), fail)
+    ->  Fields = Fields0
+    ;   syntax_error(http_response)
+    ).
 
 skip_body(Fields, In) :-
     memberchk(content_length(Length), Fields),
@@ -215,51 +241,48 @@ skip_body(Fields, In) :-
     ).
 skip_body(_, _).
 
-                /*******************************
-                *             HEADS            *
-                *******************************/
-
-%   line(+In, -Codes, +Left0, -Left): one line, without its end, of which
-%   there may be Left0 bytes.
-
-line(In, Codes, Left0, Left) :-
-    get_byte(In, Byte),
-    line(Byte, In, Codes, Left0, Left).
-
-line(_, _, _, 0, _) :-
-    !,
-    resource_error(http_head).
-line(-1, _, _, _, _) :-
-    !,
-    syntax_error(http_request).
-line(0'\n, _, [], Left0, Left) :-
-    !,
-    Left is Left0-1.
-line(0'\r, In, Codes, Left0, Left) :-
-    !,
-    Left1 is Left0-1,
-    line(In, Codes, Left1, Left).
-line(Byte, In, [Byte|Codes], Left0, Left) :-
-    Left1 is Left0-1,
-    line(In, Codes, Left1, Left).
-
-fields(In, Left, Fields) :-
-    head(In, Left, Codes),
-    (   catch(http_parse_header(Codes, Fields0), error(_, _), fail)
-    ->  Fields = Fields0
-    ;   syntax_error(http_request)
-    ).
-
-head(In, Left0, Codes) :-
-    line(In, Line, Left0, Left),
-    (   Line == []
-    ->  Codes = `\r\n`
-    ;   append(Line, [0'\r,0'\n|More], Codes),
-        head(In, Left, More)
-    ).
-
 field(Field, Fields, Default) :-
     (   memberchk(Field, Fields)
     ->  true
     ;   arg(1, Field, Default)
+    ).
+
+                /*******************************
+                *             TIME             *
+                *******************************/
+
+%!  within(+Seconds, :Goal) is semidet.
+%
+%   Run Goal once.
+%
+%   @throws time_limit_exceeded
+
+within(Seconds, Goal) :-
+    flag(typhon_fipa_http, Number, Number+1),
+    atom_concat('fipa ', Number, Key),
+    thread_self(Me),
+    setup_call_cleanup(
+        assertz(busy(Key, Me)),
+        ( alarm_in(Seconds, Key, fipa_late),
+          once(Goal) ),
+        retractall(busy(Key, _))).
+
+%   A signal that comes just before a thread blocks does not wake it.
+
+typhon_scheduler:fire(Key, fipa_late) :-
+    !,
+    (   busy(Key, Thread)
+    ->  catch(thread_signal(Thread, typhon_fipa_http:late(Key)),
+              error(_, _), true),
+        alarm_in(0.5, Key, fipa_late)
+    ;   true
+    ).
+
+typhon_scheduler:over(Key, fipa_late) :-
+    \+ busy(Key, _).
+
+late(Key) :-
+    (   retract(busy(Key, _))
+    ->  throw(time_limit_exceeded)
+    ;   true
     ).

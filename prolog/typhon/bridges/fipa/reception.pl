@@ -3,19 +3,16 @@
             reception_close/1           % +Host
           ]).
 :- use_module(library(option), [option/2]).
-:- use_module(library(socket),
-              [ tcp_bind/2, tcp_close_socket/1, tcp_listen/2, tcp_setopt/2,
-                tcp_socket/1 ]).
 :- use_module('../../kernel/base/error_text', [print_error/2]).
-:- use_module('../../kernel/base/clients',
-              [client_becomes/1, clients_end/1, clients_start/4]).
-:- use_module(limit, [within/2]).
-:- use_module(http, [http_request/4, http_respond/3]).
+:- use_module('../common',
+              [ client_becomes/1, http_deadline/2, http_server_close/1,
+                http_server_open/4 ]).
+:- use_module(http, [http_request/5, http_respond/3, within/2]).
 
 /** <module> Incoming requests
 
 Each client has a thread, as many at a time as there may be connections, see
-typhon_clients.  The time between the first byte and the last of
+typhon_http_server.  The time between the first byte and the last of
 a request is limited.
 
 *Threading*: an acceptor, and a thread for each client.
@@ -23,9 +20,6 @@ a request is limited.
 
 :- multifile
     requested/3.                % Host, Request, Code: handle a request
-
-:- dynamic
-    listens/2.                  % Host, Socket
 
 %   Between two requests, at most.
 
@@ -37,48 +31,31 @@ max_drained(16000000).
 
 %!  reception_open(+Host, +Address, +Limits, -Port) is det.
 %
-%   Listen at Address, Interface:Port0, for Host.  Limits has
+%   Listen at Address, Interface:Port, for Host.  Limits has
 %   connections(N), max_bytes(N) and seconds(S).
 %
 %   @error socket_error(Code, Message)
 
-reception_open(Host, Interface:Port0, Limits, Port) :-
-    tcp_socket(Socket),
-    catch(( tcp_setopt(Socket, reuseaddr),
-            Port = Port0,
-            tcp_bind(Socket, Interface:Port),
-            tcp_listen(Socket, 64),
-            assertz(listens(Host, Socket)),
-            option(connections(Most), Limits),
-            clients_start(fipa(Host), Socket, Most,
-                          typhon_fipa_reception:serve(Host, Limits))
-          ),
-          error(Formal, Context),
-          ( retractall(listens(Host, _)),
-            tcp_close_socket(Socket),
-            throw(error(Formal, Context)) )).
+reception_open(Host, Interface:Port, Limits, Port) :-
+    option(connections(Most), Limits),
+    http_server_open(fipa(Host), Interface:Port, Most,
+                     typhon_fipa_reception:serve(Host, Limits)).
 
 %!  reception_close(+Host) is det.
 
 reception_close(Host) :-
-    (   retract(listens(Host, Socket))
-    ->  clients_end(fipa(Host)),
-        tcp_close_socket(Socket)
-    ;   true
-    ).
+    http_server_close(fipa(Host)).
 
                 /*******************************
                 *            CLIENTS           *
                 *******************************/
 
-:- public serve/4.              % called by typhon_clients
+:- public serve/4.              % called by typhon_http_server
 
 serve(_, _, none, Out) :-
     !,
     http_respond(Out, 503, false).
 serve(Host, Limits, In, Out) :-
-    set_stream(In, newline(posix)),
-    set_stream(Out, newline(posix)),
     requests(Host, In, Out, Limits).
 
 requests(Host, In, Out, Limits) :-
@@ -89,18 +66,15 @@ requests(Host, In, Out, Limits) :-
     Byte \== -1,
     client_becomes(reading),
     option(seconds(Seconds), Limits),
-    set_stream(In, timeout(Seconds)),
-    catch(within(Seconds, one_request(In, Out, Limits, Request)),
+    http_deadline(Seconds, Deadline),
+    option(max_bytes(Max), Limits),
+    catch(within(Seconds, http_request(In, Out, Deadline, Max, Request)),
           Ball,
           Request = bad(Ball)),
     client_becomes(busy),
     answer(Request, Host, In, Out, KeepAlive),
     KeepAlive == true,
     requests(Host, In, Out, Limits).
-
-one_request(In, Out, Limits, Request) :-
-    option(max_bytes(Max), Limits),
-    http_request(In, Out, Max, Request).
 
 answer(bad(Ball), _, In, Out, false) :-
     !,

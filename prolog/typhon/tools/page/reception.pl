@@ -5,24 +5,18 @@
           ]).
 :- use_module(library(error), [syntax_error/1]).
 :- use_module(library(http/http_wrapper), [http_wrapper/5]).
-:- use_module(library(lists), [member/2]).
-:- use_module(library(memfile),
-              [free_memory_file/1, new_memory_file/1, open_memory_file/4]).
 :- use_module(library(settings), [setting/2, setting/4]).
-:- use_module(library(socket),
-              [ tcp_bind/2, tcp_close_socket/1, tcp_listen/2,
-                tcp_open_socket/2, tcp_setopt/2, tcp_socket/1 ]).
-:- use_module('../../kernel/base/clients',
-              [client_becomes/1, clients_end/1, clients_start/4]).
-:- use_module('../../kernel/base/options', [blaming/2]).
+:- use_module('../../bridges/common',
+              [ client_becomes/1, http_before/2, http_deadline/2,
+                http_head/4, http_server_close/1, http_server_open/4,
+                with_bytes/3 ]).
 
 /** <module> Connections of browsers
 
 The head of a request is read into memory before the library of HTTP looks at
 it: it has a bounded size, and has to be there in time, from its first byte to
-its last.  A client that has not sent it holds a connection only while no other
-client wants it, see typhon_clients.  The body, which is read when the token is
-known to be right, has to be there in time, too.
+its last, see typhon_http_server.  The body, which is read when the token is known to
+be right, has to be there in time, too.
 
 *Threading*: an acceptor, and a thread for each client.
 */
@@ -36,10 +30,7 @@ known to be right, has to be there in time, too.
 
 :- meta_predicate
     reception_open(+, 2),
-    with_body(+, +, -, 0),
-    with_bytes(1, -, 0).
-
-:- dynamic listens/1.           % Socket
+    with_body(+, +, -, 0).
 
 %!  reception_open(+Address, :Serve) is det.
 %!  reception_close is det.
@@ -50,31 +41,15 @@ known to be right, has to be there in time, too.
 %
 %   @error socket_error(Code, Message)
 
-%   Processes that are started later must not inherit the socket: the port would
-%   be in use as long as they are.
-
-reception_open(Interface:Port, Serve) :-
+reception_open(Address, Serve) :-
     setting(connections, Most),
-    tcp_socket(Socket),
-    catch(( tcp_setopt(Socket, reuseaddr),
-            blaming(port(Port), tcp_bind(Socket, Interface:Port)),
-            tcp_listen(Socket, 64),
-            tcp_open_socket(Socket, Stream),
-            set_stream(Stream, close_on_exec(true)),
-            clients_start(typhon_page, Socket, Most,
-                          typhon_page_reception:client(Serve)) ),
-          Ball,
-          ( tcp_close_socket(Socket), throw(Ball) )),
-    assertz(listens(Socket)).
+    http_server_open(typhon_page, Address, Most,
+                     typhon_page_reception:client(Serve)).
 
 reception_close :-
-    (   retract(listens(Socket))
-    ->  clients_end(typhon_page),
-        tcp_close_socket(Socket)
-    ;   true
-    ).
+    http_server_close(typhon_page).
 
-:- public client/3.             % called by typhon_clients
+:- public client/3.             % called by typhon_http_server
 
 client(_, none, Out) :-
     !,
@@ -83,11 +58,10 @@ client(_, none, Out) :-
     flush_output(Out).
 client(Serve, In, Out) :-
     setting(request_seconds, Seconds),
-    set_stream(In, close_on_exec(true)),
     set_stream(Out, timeout(Seconds)),
-    deadline(Deadline),
+    http_deadline(Seconds, Deadline),
     setting(head_bytes, Most),
-    head(In, Most, 0'\n, Deadline, Bytes),
+    http_head(In, Most, Deadline, Bytes),
     client_becomes(busy),
     handler(Serve, In, Handler),
     with_bytes(written(Bytes), Head,
@@ -113,39 +87,8 @@ switched(switch_protocol(Goal, _), In, Out) :-
 switched(_, _, _).
 
                 /*******************************
-                *             TIME             *
+                *             BODY             *
                 *******************************/
-
-deadline(Deadline) :-
-    setting(request_seconds, Seconds),
-    get_time(Now),
-    Deadline is Now+Seconds.
-
-%   before(+Deadline, +In): the next byte has to be there by then.
-
-before(Deadline, In) :-
-    get_time(Now),
-    Left is Deadline-Now,
-    (   Left > 0
-    ->  set_stream(In, timeout(Left))
-    ;   throw(error(timeout_error(read, In), _))
-    ).
-
-%   head(+In, +Most, +Last, +Deadline, -Bytes): until the end of an empty line,
-%   Last being the byte before, of returns aside.
-
-head(In, Most, Last, Deadline, [Byte|Bytes]) :-
-    before(Deadline, In),
-    get_byte(In, Byte),
-    Byte \== -1,
-    Most > 0,
-    (   Byte == 0'\n,
-        Last == 0'\n
-    ->  Bytes = []
-    ;   ( Byte == 0'\r -> Next = Last ; Next = Byte ),
-        Most1 is Most-1,
-        head(In, Most1, Next, Deadline, Bytes)
-    ).
 
 %!  with_body(+In, +Length, -Body, :Goal) is semidet.
 %
@@ -155,12 +98,13 @@ head(In, Most, Last, Deadline, [Byte|Bytes]) :-
 %   @error timeout_error(read, In), syntax_error(http_length) if it is shorter
 
 with_body(In, Length, Body, Goal) :-
-    deadline(Deadline),
+    setting(request_seconds, Seconds),
+    http_deadline(Seconds, Deadline),
     with_bytes(copied(In, Length, Deadline), Body, Goal).
 
 copied(In, Left, Deadline, Out) :-
     (   Left > 0
-    ->  before(Deadline, In),
+    ->  http_before(Deadline, In),
         (   peek_byte(In, -1)
         ->  syntax_error(http_length)
         ;   true
@@ -174,19 +118,4 @@ copied(In, Left, Deadline, Out) :-
     ).
 
 written(Bytes, Out) :-
-    forall(member(Byte, Bytes), put_byte(Out, Byte)).
-
-%   with_bytes(:Write, -In, :Goal): In has what call(Write, Out) writes.
-
-with_bytes(Write, In, Goal) :-
-    setup_call_cleanup(
-        new_memory_file(File),
-        ( setup_call_cleanup(
-              open_memory_file(File, write, Out, [encoding(octet)]),
-              call(Write, Out),
-              close(Out)),
-          setup_call_cleanup(
-              open_memory_file(File, read, In, [encoding(octet)]),
-              once(Goal),
-              close(In)) ),
-        free_memory_file(File)).
+    format(Out, '~s', [Bytes]).

@@ -3,7 +3,7 @@
             crew_end/1                  % +Owner
           ]).
 :- use_module(library(lists), [member/2]).
-:- use_module(own_thread, [in_own_thread/1]).
+:- use_module('../../kernel/base/own_thread', [in_own_thread/1]).
 
 /** <module> Threads that end with their owner
 

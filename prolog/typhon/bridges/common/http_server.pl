@@ -1,0 +1,266 @@
+:- module(typhon_http_server,
+          [ http_server_open/4,         % +Server, +Address, +Most, :Serve
+            http_server_close/1,        % +Server
+            client_becomes/1,           % +State
+            http_deadline/2,            % +Seconds, -Deadline
+            http_head/4,                % +In, +Most, +Deadline, -Bytes
+            http_before/2,              % +Deadline, +In
+            with_bytes/3                % :Write, -In, :Goal
+          ]).
+:- use_module(library(aggregate), [aggregate_all/3]).
+:- use_module(library(debug), [debug/3]).
+:- use_module(library(error), [resource_error/1]).
+:- use_module(library(lists), [member/2]).
+:- use_module(library(memfile),
+              [free_memory_file/1, new_memory_file/1, open_memory_file/4]).
+:- use_module(library(socket),
+              [ tcp_accept/3, tcp_bind/2, tcp_close_socket/1, tcp_listen/2,
+                tcp_open_socket/2, tcp_open_socket/3, tcp_setopt/2,
+                tcp_socket/1 ]).
+:- use_module('../../kernel/base/options', [blaming/2]).
+:- use_module(crew, [crew_end/1, crew_start/4]).
+
+/** <module> HTTP for clients that are not trusted
+
+Servers of library(http/thread_httpd) do not bound the head of a request, and their
+time-outs are those of one wait, not of the whole of a request.  So threads, heads
+and bodies are our own; what a head says is read by the library out of memory.
+
+Each client has a thread, up to a bound.  If there are as many, a client that
+has not sent a whole request gives way to the newcomer: one of the address that
+has most connections; of these, one between two requests before one in the
+middle of a request; of these, the oldest.  So half requests can hold
+connections only as long as no other client wants them, and clients of one
+address do not displace those of others that have fewer.  If every client is
+being served, the newcomer is sent away.
+
+*Threading*: an acceptor, and a thread for each client.
+*/
+
+:- meta_predicate
+    http_server_open(+, +, +, 2),
+    with_bytes(1, -, 0).
+
+:- dynamic
+    listens/2,                  % Server, Socket
+    client/5.                   % Server, Thread, Ip, Since, State
+
+%!  http_server_open(+Server, +Address, +Most, :Serve) is det.
+%!  http_server_close(+Server) is det.
+%
+%   From now on call(Serve, In, Out) serves each client that connects to Address,
+%   Interface:Port, Most at a time, in streams of bytes that are closed afterwards.
+%   Serve says how far it is by client_becomes/1; a new client is `reading`.  In is
+%   `none` for a client that is to be sent away: Serve runs in the acceptor then
+%   and must not wait.  http_server_close/1 ends all threads of Server, a ground
+%   term.
+%
+%   @error socket_error(Code, Message)
+
+http_server_open(Server, Interface:Port, Most, Serve) :-
+    tcp_socket(Socket),
+    catch(( tcp_setopt(Socket, reuseaddr),
+            blaming(port(Port), tcp_bind(Socket, Interface:Port)),
+            tcp_listen(Socket, 64),
+            close_on_exec(Socket),
+            functor(Server, Name, _),
+            crew_start(Server, Name,
+                       typhon_http_server:accept_all(Server, Socket, Most,
+                                                     Serve),
+                       true) ),
+          Ball,
+          ( tcp_close_socket(Socket), throw(Ball) )),
+    assertz(listens(Server, Socket)).
+
+%   Processes that are started later must not inherit the socket: the port would
+%   be in use as long as they are.
+
+close_on_exec(Socket) :-
+    tcp_open_socket(Socket, Stream),
+    set_stream(Stream, close_on_exec(true)).
+
+http_server_close(Server) :-
+    (   retract(listens(Server, Socket))
+    ->  crew_end(Server),
+        tcp_close_socket(Socket)
+    ;   true
+    ).
+
+                /*******************************
+                *            CLIENTS           *
+                *******************************/
+
+accept_all(Server, Socket, Most, Serve) :-
+    repeat,
+    catch(accept(Server, Socket, Most, Serve), error(Formal, _),
+          accept_failed(Server, Formal)),
+    fail.
+
+accept_failed(Server, Formal) :-
+    debug(typhon(clients), '~w: a client is lost: ~p', [Server, Formal]),
+    sleep(0.1).                         % out of descriptors, most likely
+
+accept(Server, Socket, Most, Serve) :-
+    tcp_accept(Socket, Client, Ip),
+    sig_atomic(admit(Server, Client, Ip, Most, Serve)).
+
+admit(Server, Client, Ip, Most, Serve) :-
+    open_streams(Client, In, Out),
+    (   has_slot(Server, Most)
+    ->  functor(Server, Name, _),
+        catch(crew_start(Server, Name,
+                         typhon_http_server:serve(Server, Ip, Serve, In, Out),
+                         typhon_http_server:left(In, Out)),
+              error(_, _),
+              send_away(Serve, In, Out))
+    ;   send_away(Serve, In, Out)
+    ).
+
+open_streams(Socket, In, Out) :-
+    catch(( tcp_setopt(Socket, nodelay),
+            tcp_open_socket(Socket, In, Out) ),
+          error(Formal, Context),
+          ( tcp_close_socket(Socket),
+            throw(error(Formal, Context)) )),
+    forall(member(Stream, [In, Out]),
+           ( set_stream(Stream, encoding(octet)),
+             set_stream(Stream, newline(posix)),
+             set_stream(Stream, close_on_exec(true)) )).
+
+send_away(Serve, In, Out) :-
+    catch(ignore(call(Serve, none, Out)), error(_, _), true),
+    close_streams(In, Out).
+
+close_streams(In, Out) :-
+    catch(close(Out, [force(true)]), error(_, _), true),
+    catch(close(In, [force(true)]), error(_, _), true).
+
+serve(Server, Ip, Serve, In, Out) :-
+    thread_self(Me),
+    get_time(Now),
+    assertz(client(Server, Me, Ip, Now, reading)),
+    catch(ignore(call(Serve, In, Out)), error(Formal, _),
+          debug(typhon(clients), '~w: a client goes: ~p', [Server, Formal])).
+
+left(In, Out) :-
+    thread_self(Me),
+    retractall(client(_, Me, _, _, _)),
+    close_streams(In, Out).
+
+%!  client_becomes(+State) is semidet.
+%
+%   The client of this thread is `idle`, between two requests, `reading` one, or
+%   `busy`: it is being served; or it is `apart`: it does not count any more.
+%   Fails if it has had to give way.
+
+client_becomes(State) :-
+    sig_atomic(becomes(State)).
+
+becomes(State) :-
+    thread_self(Me),
+    retract(client(Server, Me, Ip, _, _)),
+    !,
+    get_time(Now),
+    assertz(client(Server, Me, Ip, Now, State)).
+
+%   has_slot(+Server, +Most): fails if no client can give way.
+
+has_slot(Server, Most) :-
+    aggregate_all(count, ( client(Server, _, _, _, State0),
+                           State0 \== apart ), Count),
+    (   Count < Most
+    ->  true
+    ;   victim(Server, Thread),
+        retract(client(Server, Thread, _, _, State)),
+        gives_way(State, _)
+    ->  catch(thread_signal(Thread, typhon_http_server:give_way), error(_, _),
+              true)
+    ).
+
+victim(Server, Victim) :-
+    findall(rank(Free, Rank, Since)-Thread,
+            ( client(Server, Thread, Ip, Since, State),
+              gives_way(State, Rank),
+              aggregate_all(count, client(Server, _, Ip, _, _), Held),
+              Free is -Held ),
+            Ranked),
+    keysort(Ranked, [_-Victim|_]).
+
+gives_way(idle, 0).
+gives_way(reading, 1).
+
+%   It may have been signalled before it began, or while it ended.
+
+give_way :-
+    thread_self(Me),
+    (   client(_, Me, _, _, _)
+    ->  true
+    ;   throw(crew_end)
+    ).
+
+                /*******************************
+                *       HEADS AND BODIES       *
+                *******************************/
+
+%!  http_deadline(+Seconds, -Deadline) is det.
+
+http_deadline(Seconds, Deadline) :-
+    get_time(Now),
+    Deadline is Now+Seconds.
+
+%!  http_before(+Deadline, +In) is det.
+%
+%   The next byte has to be there by then.
+%
+%   @error timeout_error(read, In)
+
+http_before(Deadline, In) :-
+    get_time(Now),
+    Left is Deadline-Now,
+    (   Left > 0
+    ->  set_stream(In, timeout(Left))
+    ;   throw(error(timeout_error(read, In), _))
+    ).
+
+%!  http_head(+In, +Most, +Deadline, -Bytes:list) is semidet.
+%
+%   What comes until the end of an empty line, with that.  Fails at the end of In.
+%
+%   @error resource_error(http_head) if that is more than Most bytes,
+%   timeout_error(read, In)
+
+http_head(In, Most, Deadline, Bytes) :-
+    head(In, Most, 0'\n, Deadline, Bytes).
+
+%   Last is the byte before, of returns aside.
+
+head(In, Most, Last, Deadline, [Byte|Bytes]) :-
+    http_before(Deadline, In),
+    get_byte(In, Byte),
+    Byte \== -1,
+    (   Most =:= 0
+    ->  resource_error(http_head)
+    ;   Byte == 0'\n,
+        Last == 0'\n
+    ->  Bytes = []
+    ;   ( Byte == 0'\r -> Next = Last ; Next = Byte ),
+        Most1 is Most-1,
+        head(In, Most1, Next, Deadline, Bytes)
+    ).
+
+%!  with_bytes(:Write, -In, :Goal) is semidet.
+%
+%   Run Goal once; the stream In has the bytes that call(Write, Out) writes.
+
+with_bytes(Write, In, Goal) :-
+    setup_call_cleanup(
+        new_memory_file(File),
+        ( setup_call_cleanup(
+              open_memory_file(File, write, Out, [encoding(octet)]),
+              call(Write, Out),
+              close(Out)),
+          setup_call_cleanup(
+              open_memory_file(File, read, In, [encoding(octet)]),
+              once(Goal),
+              close(In)) ),
+        free_memory_file(File)).
