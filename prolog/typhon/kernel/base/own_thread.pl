@@ -1,10 +1,12 @@
 :- module(typhon_own_thread,
           [ in_own_thread/1,                    % :Goal
             own_thread_start/0,
-            own_thread_stop/0
+            own_thread_stop/0,
+            stop_thread/1,                      % +Thread
+            abort_quietly/0
           ]).
 
-/** <module> What must not be done in a cleanup handler
+/** <module> How things and threads are stopped
 
 In SWI-Prolog 9.0.4 a thread that runs a cleanup handler, sig_atomic/1 or a
 directive leaves its signals pending. If one is, which garbage collection
@@ -118,3 +120,54 @@ help(call(Goal, Caller), State, State) :-
     ;   Result = false
     ),
     server_answer(Caller, Result).
+
+                /*******************************
+                *       THREADS THAT END       *
+                *******************************/
+
+%!  stop_thread(+Thread) is det.
+%
+%   Join Thread, which has been told to end.  After a second it is aborted,
+%   in the middle of whatever it does, again and again; after another one it
+%   is left to itself, and a message says so.
+
+stop_thread(Thread) :-
+    stop_thread(1000, Thread).
+
+stop_thread(_, Thread) :-
+    \+ thread_property(Thread, status(running)),
+    !,
+    thread_join(Thread, _).
+stop_thread(0, Thread) :-
+    !,
+    print_message(warning, typhon(stuck_worker(Thread))),
+    thread_detach(Thread).
+stop_thread(Tries, Thread) :-
+    thread_self(Me),
+    \+ thread_get_message(Me, '$typhon_never', [timeout(0.002)]),
+    interrupt(Tries, Thread),
+    Tries1 is Tries-1,
+    stop_thread(Tries1, Thread).
+
+interrupt(Tries, Thread) :-
+    (   Tries =< 500,
+        Tries mod 50 =:= 0
+    ->  catch(thread_signal(Thread,
+                            typhon_own_thread:abort_quietly), error(_, _), true)
+    ;   true
+    ).
+
+%!  abort_quietly
+%
+%   As abort/0, which cannot be caught for good, but input that was typed
+%   ahead is not discarded.  Where it is not sure which exception that is,
+%   abort/0 raises it.
+
+abort_quietly :-
+    current_prolog_flag(version, Version),
+    (   Version < 90300
+    ->  throw('$aborted')
+    ;   Version >= 100000
+    ->  throw(unwind(abort))
+    ;   abort
+    ).

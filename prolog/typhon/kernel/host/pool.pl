@@ -4,7 +4,7 @@
 :- use_module(library(lists), [member/2]).
 :- use_module(library(settings), [setting/2, setting/4]).
 :- use_module('../base/headroom', [memory_short/0]).
-:- use_module('../base/stop_thread', [stop_thread/1]).
+:- use_module('../base/own_thread', [stop_thread/1]).
 :- use_module(alarms, [alarm_stamp/3]).
 :- use_module(blocked,
               [ blocked_forget/0, blocked_full/2, blocked_held/1,

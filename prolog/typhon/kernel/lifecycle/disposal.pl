@@ -6,9 +6,8 @@
 :- use_module(library(option), [option/2]).
 :- use_module(library(settings), [setting/2, setting/4]).
 :- use_module('../base/harmless_error', [harmless_error/2]).
-:- use_module('../base/own_thread', [in_own_thread/1]).
+:- use_module('../base/own_thread', [abort_quietly/0, in_own_thread/1]).
 :- use_module('../base/options', [check_options/2]).
-:- use_module('../base/stop_thread', [abort_quietly/0]).
 :- use_module('../program', [machine_inside/0]).
 :- use_module('../host', [context_now/2, turn_of/3]).
 :- use_module('../agent', [agent/5, agent_status/3]).

@@ -1,6 +1,6 @@
 :- module(typhon_evacuation, []).
 :- use_module(library(lists), [member/2]).
-:- use_module('../base/stop_thread', [abort_quietly/0]).
+:- use_module('../base/own_thread', [abort_quietly/0]).
 :- use_module('../base/durable_changes', [durable_closed/0]).
 :- use_module('../program', [machine_inside/0]).
 :- use_module('../host', [context_now/2, host_load/2, time_signal/1]).

@@ -12,7 +12,7 @@
 :- use_module(library(apply), [maplist/2]).
 :- use_module(library(error), [domain_error/2, must_be/2, resource_error/1]).
 :- use_module(library(lists), [append/3, member/2]).
-:- use_module('../../kernel/base/stop_thread', [abort_quietly/0]).
+:- use_module('../../kernel/base/own_thread', [abort_quietly/0]).
 :- use_module('../../kernel/program', [machine_inside/0]).
 
 /** <module> The quotas in force, and what happens when one is passed

@@ -1,7 +1,7 @@
 :- module(typhon_virtual, []).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(settings), [setting/2, setting/4]).
-:- use_module('../../kernel/base/stop_thread', [stop_thread/1]).
+:- use_module('../../kernel/base/own_thread', [stop_thread/1]).
 :- use_module('../../kernel/host', [limit_parked/1]).
 :- use_module(virtual_loop,
               [ virtual_alone/0, virtual_begin/0, virtual_doing/1,

@@ -2,7 +2,7 @@
 :- use_module(library(debug), [debug/3]).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(settings), [setting/2, setting/4]).
-:- use_module('../../kernel/base/stop_thread', [stop_thread/1]).
+:- use_module('../../kernel/base/own_thread', [stop_thread/1]).
 :- use_module('../../kernel/wire', [endpoint_address/1, endpoint_reply/2, mobile_term/1]).
 :- use_module('../../kernel/host',
               [ clock/3, event_shown/3, events_hear/3, events_unheard/1,

@@ -5,8 +5,8 @@
 :- use_module(library(error), [existence_error/2, must_be/2]).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(settings), [setting/2, setting/4]).
-:- use_module('../../kernel/base/own_thread', [in_own_thread/1]).
-:- use_module('../../kernel/base/stop_thread', [stop_thread/1]).
+:- use_module('../../kernel/base/own_thread',
+              [in_own_thread/1, stop_thread/1]).
 :- use_module('../../kernel/wire', [endpoint_request/4]).
 :- use_module('../../kernel/host',
               [ address_parts/3, host_unknown/1, process_ask/6,
