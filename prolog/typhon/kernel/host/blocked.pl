@@ -34,6 +34,10 @@ timer alone.
            "A worker is blocked if its turn has lasted for so long").
 :- setting(typhon_scheduler:blocked_workers, positive_integer, 768,
            "When there are so many workers, work that blocks is held").
+:- setting(typhon_held:held_seconds, number, 1,
+           "Now typhon_scheduler:blocked_seconds").
+:- setting(typhon_held:held_workers, positive_integer, 768,
+           "Now typhon_scheduler:blocked_workers").
 
 :- dynamic
     kind_held/1,                % Kind
