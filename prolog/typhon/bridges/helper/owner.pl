@@ -1,18 +1,19 @@
 :- module(typhon_helper_owner,
-          [ own/5,                      % +Name, +Command, +When, +Alias, +Told
+          [ own/4,                      % +Me, +Message, +State0, -State
+            own_state/2,                % +When, -State
             request_line/2,             % +Request, -Line
             request_line/4,             % +Request, +Seconds, -Id, -Line
             said/3,                     % +Name, +Owner, +Dict
-            answer/2,                   % +Queue, +Answer
             answer_unwanted/1           % +Id
           ]).
 :- use_module(library(debug), [debug/3]).
 :- use_module('../../kernel/base/json', [json_text/2]).
+:- use_module('../../kernel/base/server', [server_answer/2, server_self/1]).
 :- use_module(process,
-              [ process_begin/4, process_end/1, process_release/1,
-                process_write/2 ]).
+              [ process_begin/5, process_end/1, process_kill_of/1,
+                process_release/1, process_write/2 ]).
 
-/** <module> The thread that owns the process of a helper
+/** <module> The server that owns the process of a helper
 
 The owner starts the process, and writes to it in the order in which
 requests come.  One that is to run `always` and has ended is started again
@@ -23,7 +24,7 @@ when there is a request.
 Requests and answers are JSON objects with the same id; what has no id but
 an `event` was said unasked.
 
-*Threading*: own/5 is the thread of the owner.  It runs again/2, which must not
+*Threading*: own/4 is called by the server.  It runs again/2, which must not
 wait for the helper, nor may heard/2, which the thread runs that reads what the
 helper writes.
 */
@@ -35,48 +36,38 @@ helper writes.
 
 soon(5).                        % seconds, for a process to end
 
-%!  own(+Name, +Command, +When, +Alias, +Told) is det.
+%!  own_state(+When, -State) is det.
+%!  own(+Me, +Message, +State0, -State) is det.
 %
-%   Keep the helper until stop(Caller) comes, which then gets stopped(Owner). Other
-%   messages are request(Id, Queue, Line), note(Line) and `told`: a line is in
-%   the queue Told.
+%   Handle a Message to the server Me, owner(Name, Command, When, Role, Told):
+%   a request(Id, Line), note(Line), `told`, that a line is in the queue Told, or
+%   `quit`.
 %
-%   Me is owner(Name, Command, When, Alias, Told).  State is
-%   up(Process, Since, Wait), or down(Time, Wait, Answer): the process is
-%   started at Time, or when it is `asked` for something; until then requests
-%   get Answer.  Wait is for how long it is down next time, if it ends soon.
+%   State is up(Process, Since, Wait), or down(Time, Wait, Answer): the process is
+%   started at Time, or when it is `asked` for something, or `never`; until then
+%   requests get Answer.  Wait is for how long it is down next time, if it ends
+%   soon.
 
-own(Name, Command, When, Alias, Told) :-
-    Me = owner(Name, Command, When, Alias, Told),
-    (   When == always
-    ->  begin(Me, 0, State)
-    ;   State = down(asked, 0, closed)
-    ),
-    own(Me, State).
+own_state(asked, down(asked, 0, closed)).
+own_state(always, until(0, down(0, first, closed))).
 
-own(Me, State0) :-
-    next_message(State0, Message),
+own(Me, Message, State0, Next) :-
     handle(Message, Me, State0, State),
-    (   State = stopped(Who)
-    ->  thread_self(Owner),
-        thread_send_message(Who, stopped(Owner))
-    ;   own(Me, State)
+    (   State = down(Time, _, _),
+        number(Time)
+    ->  Next = until(Time, State)
+    ;   Next = State
     ).
 
-next_message(down(Time, _, _), Message) :-
-    number(Time),
-    !,
-    thread_self(Me),
-    (   thread_get_message(Me, Message0, [deadline(Time)])
-    ->  Message = Message0
-    ;   Message = start
-    ).
-next_message(_, Message) :-
-    thread_get_message(Message).
+%   It has had another thread.
 
-handle(request(Id, Queue, Line), Me, State0, State) =>
+handle(begin, _, State0, State) =>
+    server_self(Owner),
+    process_kill_of(Owner),
+    State = State0.
+handle(call(request(Id, Line), Caller), Me, State0, State) =>
     when_asked(State0, Me, State),
-    write_request(State, Id, Queue, Line).
+    write_request(State, Id, Caller, Line).
 handle(told, Me, State0, State) =>
     Me = owner(_, _, _, _, Told),
     thread_get_message(Told, Line),
@@ -85,16 +76,22 @@ handle(told, Me, State0, State) =>
 handle(note(Line), _, State0, State) =>
     State = State0,
     write_told(State, Line).
-handle(start, Me, down(_, Wait, _), State) =>
+handle(timeout, Me, down(_, first, _), State) =>
+    begin(Me, 0, State).
+handle(timeout, Me, down(_, Wait, _), State) =>
     begin_again(Me, Wait, State).
 handle(ended(Status), Me, up(Process, Since, Wait), State) =>
     process_release(Process),
     ended(Status, Me, Since, Wait, State).
-handle(stop(Who), _, State0, State) =>
+handle(ended(_), _, State0, State) =>   % of a process that was killed
+    State = State0.
+handle(call(quit, Caller), _, State0, State) =>
     answer_all(closed),
     stop(State0),
-    forget,
-    State = stopped(Who).
+    State = down(never, 0, closed),
+    server_answer(Caller, done).
+handle(stop, _, State0, State) =>
+    State = State0.
 
 when_asked(down(asked, _, _), Me, State), Me = owner(_, _, always, _, _) =>
     begin_again(Me, 0, State).
@@ -103,10 +100,10 @@ when_asked(down(asked, _, _), Me, State) =>
 when_asked(State0, _, State) =>
     State = State0.
 
-begin(owner(Name, Command, When, Alias, _), Wait, State) :-
+begin(owner(Name, Command, When, Role, _), Wait, State) :-
     get_time(Now),
-    thread_self(Owner),
-    catch(( process_begin(Command, Alias, said(Name, Owner), Process),
+    server_self(Owner),
+    catch(( process_begin(Command, Owner, Role, said(Name, Owner), Process),
             State = up(Process, Now, Wait) ),
           error(Formal, Context),
           ( First is max(0.1, Wait),
@@ -169,11 +166,11 @@ tell_ended(asked, _, _).
 tell_ended(always, Name, Status) :-
     print_message(warning, typhon(helper_ended(Name, Status))).
 
-write_request(up(Process, _, _), Id, Queue, Line) :-
-    answer_awaited(Id, Queue),
+write_request(up(Process, _, _), Id, Caller, Line) :-
+    answer_awaited(Id, Caller),
     process_write(Process, Line).
-write_request(down(_, _, Answer), _, Queue, _) :-
-    answer(Queue, Answer).
+write_request(down(_, _, Answer), _, Caller, _) :-
+    server_answer(Caller, Answer).
 
 write_told(up(Process, _, _), Line) :-
     process_write(Process, Line).
@@ -183,26 +180,8 @@ stop(up(Process, _, _)) :-
     request_line(_{do:quit}, Line),
     process_write(Process, Line),
     process_end(Process),
-    thread_get_message(ended(_)),
     process_release(Process).
 stop(down(_, _, _)).
-
-%   What was asked after the order to stop.
-
-forget :-
-    thread_self(Me),
-    (   thread_peek_message(Me, Message)
-    ->  thread_get_message(Message),
-        forgotten(Message),
-        forget
-    ;   true
-    ).
-
-forgotten(Message) :-
-    (   Message = request(_, Queue, _)
-    ->  answer(Queue, closed)
-    ;   true
-    ).
 
 prolog:message(typhon(helper_ended(Name, Status))) -->
     [ 'The helper ~p ended (~p), and is started again'-[Name, Status] ].
@@ -215,7 +194,7 @@ prolog:message(typhon(helper_ended(Name, Status))) -->
     heard/2.                    % Name, Dict: the helper has said it unasked
 
 :- dynamic
-    awaited/3,                  % Id, Queue, Owner: written, not yet answered
+    awaited/3,                  % Id, Caller, Owner: written, not yet answered
     complaint/2.                % Owner, Dict: an error, but of no request
 
 %!  request_line(+Request:dict, -Line:string) is det.
@@ -234,16 +213,16 @@ request_line(Request0, Seconds, Id, Line) :-
 
 %!  said(+Name, +Owner, +Dict) is det.
 %
-%   What the helper Name of the thread Owner has said.
+%   What the helper Name of Owner has said.
 
 said(_, Owner, Dict) :-
     get_dict(id, Dict, Id),
     integer(Id),
     !,
     retractall(complaint(Owner, _)),
-    (   retract(awaited(Id, Queue, _))
+    (   retract(awaited(Id, Caller, _))
     ->  answer_of(Dict, Answer),
-        answer(Queue, Answer)
+        server_answer(Caller, Answer)
     ;   true                            % no caller waits any more
     ).
 said(Name, _, Dict) :-
@@ -262,22 +241,15 @@ answer_of(Dict, ok(Reply)) :-
     !.
 answer_of(Dict, said(Dict)).
 
-%!  answer(+Queue, +Answer) is det.
-
-answer(Queue, Answer) :-
-    catch(thread_send_message(Queue, answer(Answer)),
-          error(existence_error(_, _), _),
-          true).                        % no caller waits any more
-
-%!  answer_awaited(+Id, +Queue) is det.
+%!  answer_awaited(+Id, +Caller) is det.
 %!  answer_unwanted(+Id) is det.
 %
-%   The answer to Id, which is asked by the owner now, is for Queue; it is for
+%   The answer to Id, which is asked by the owner now, is for Caller; it is for
 %   no caller any more.
 
-answer_awaited(Id, Queue) :-
-    thread_self(Owner),
-    assertz(awaited(Id, Queue, Owner)).
+answer_awaited(Id, Caller) :-
+    server_self(Owner),
+    assertz(awaited(Id, Caller, Owner)).
 
 answer_unwanted(Id) :-
     retractall(awaited(Id, _, _)).
@@ -289,15 +261,15 @@ answer_unwanted(Id) :-
 %   of itself before it ended.
 
 answer_all(Answer) :-
-    thread_self(Owner),
-    (   retract(awaited(_, Queue, Owner))
-    ->  answer(Queue, Answer),
+    server_self(Owner),
+    (   retract(awaited(_, Caller, Owner))
+    ->  server_answer(Caller, Answer),
         answer_all(Answer)
     ;   true
     ).
 
 answer_died(Answer0, Answer) :-
-    thread_self(Owner),
+    server_self(Owner),
     (   retract(complaint(Owner, Dict))
     ->  Answer = said(Dict)
     ;   Answer = Answer0

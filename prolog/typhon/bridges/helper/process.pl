@@ -1,5 +1,6 @@
 :- module(typhon_helper_process,
-          [ process_begin/4,            % +Command, +Alias, :Heard, -Process
+          [ process_begin/5,            % +Command, +Owner, +Role, :Heard,
+                                        % -Process
             process_write/2,            % +Process, +Line
             process_end/1,              % +Process
             process_release/1,          % +Process
@@ -15,6 +16,7 @@
 :- use_module(library(settings), [setting/2, setting/4]).
 :- use_module('../../kernel/base/error_text', [print_error/2]).
 :- use_module('../../kernel/base/json', [json_dict/2]).
+:- use_module('../../kernel/base/server', [server_cast/2]).
 :- use_module('../../kernel/base/spawn', [spawn/3]).
 
 /** <module> The process of a helper
@@ -24,15 +26,14 @@ output.  It ends when its standard input does, and so never outlives this
 process.  It leads a session of its own: the interrupt key of a terminal is
 not for it.
 
-*Threading*: a process belongs to the thread that began it.  A thread of its
-own reads what it writes, waits for its end, and sends ended(Status) to the
-owner.  process_kill_of/1 may be called by any thread.
+*Threading*: a process belongs to a server.  A thread of its own reads what it
+writes, waits for its end, and sends ended(Status) to the owner.  process_kill_of/1 may be called by any thread.
 */
 
-:- meta_predicate process_begin(+, +, 1, -).
+:- meta_predicate process_begin(+, +, +, 1, -).
 
 :- dynamic
-    running/2,                  % Owner thread, Pid
+    running/2,                  % Owner: a server, Pid
     bridges/1.                  % Directory
 
 :- prolog_load_context(directory, Dir),
@@ -50,19 +51,20 @@ helper_file(Relative, File) :-
     bridges(Bridges),
     atomic_list_concat([Bridges, Relative], /, File).
 
-%!  process_begin(+Command, +Alias, :Heard, -Process) is det.
+%!  process_begin(+Command, +Owner, +Role, :Heard, -Process) is det.
 %
 %   Command is command(Program, Args), for process_create/3.  For each line
 %   that is a JSON object call(Heard, Dict) is run by the thread that reads,
-%   whose alias is made of Alias; while it runs nothing else is read.
+%   whose alias is made of Role; while it runs nothing else is read.
 %
 %   @error existence_error(python, Program)
 
-process_begin(command(Program, Args), Alias, Heard, process(In, Reader)) :-
-    thread_self(Owner),
+process_begin(command(Program, Args), Owner, Role, Heard,
+              process(In, Reader)) :-
     start(Program, Args, In, Out, Pid),
     with_mutex(typhon_helper_pid, assertz(running(Owner, Pid))),
-    atom_concat(Alias, '_reader', ReaderAlias),
+    flag(typhon_helper_reader, N, N+1),
+    atomic_list_concat([typhon, Role, reader, N], '_', ReaderAlias),
     thread_create(follow(Owner, Pid, Out, Heard), Reader,
                   [alias(ReaderAlias)]).
 
@@ -107,7 +109,7 @@ process_release(process(In, Reader)) :-
 %!  process_kill_of(+Owner) is det.
 %!  process_pid(?Owner, ?Pid) is nondet.
 %
-%   End the process of the thread Owner at once, if there is one; the
+%   End the process of Owner at once, if there is one; the
 %   processes that run.
 
 process_kill_of(Owner) :-
@@ -132,7 +134,7 @@ follow(Owner, Pid, Out, Heard) :-
     end_seconds(Seconds),
     Deadline is Now+Seconds,
     wait(Owner, Pid, Deadline, Status),
-    thread_send_message(Owner, ended(Status)).
+    ignore(server_cast(Owner, ended(Status))).
 
 lines(Out, Heard) :-
     read_line_to_string(Out, Line),

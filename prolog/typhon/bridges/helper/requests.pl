@@ -8,28 +8,29 @@
             helper_failure/3            % +Answer, +Name, +Request
           ]).
 :- use_module(library(error), [existence_error/2, permission_error/3]).
-:- use_module(library(lists), [append/2]).
 :- use_module(library(option), [option/3]).
 :- use_module('../../kernel/base/own_thread', [in_own_thread/1]).
+:- use_module('../../kernel/base/server',
+              [server_call/4, server_cast/2, server_start/4, server_stop/1]).
 :- use_module(owner,
-              [answer_unwanted/1, own/5, request_line/2, request_line/4]).
+              [ answer_unwanted/1, own/4, own_state/2, request_line/2,
+                request_line/4 ]).
 :- use_module(process, [process_kill_of/1, process_pid/2]).
 
 /** <module> Requests to helpers, and their answers
 
-Every helper has a thread that owns its process, see typhon_helper_owner.
+Every helper has a server that owns its process, see typhon_helper_owner.
 Answers, in whatever order, go to the waiting callers.
 
 A helper ends what it does at the deadline of the request.  Who asked waits
 two seconds longer, then kills a helper that has not answered, so nothing
 hangs.
 
-*Threading*: any thread may ask.  It waits for its answer at a queue of its
-own, so what comes too late is dropped.
+*Threading*: any thread may ask.  An answer that comes too late is dropped.
 */
 
 :- dynamic
-    helper/4.                   % Text, Owner thread, Queue of what was told,
+    helper/4.                   % Text, Owner, Queue of what was told,
                                 % Name: asked by Text, see the_helper/3
 
 grace_seconds(2).
@@ -56,21 +57,16 @@ open_helper(Name, _, _) :-
     !,
     permission_error(open, helper, Name).
 open_helper(Name, Command, When) :-
-    owner_alias(Name, Alias),
+    Name =.. Parts,
+    atomic_list_concat(Parts, '_', Role),
     text(Name, Text),
     most_told(Max),
+    own_state(When, State),
     sig_atomic(( message_queue_create(Told, [max_size(Max)]),
-                 thread_create(own(Name, Command, When, Alias, Told),
-                               Owner, [alias(Alias)]),
+                 server_start(Role,
+                              own(owner(Name, Command, When, Role, Told)),
+                              State, Owner),
                  assertz(helper(Text, Owner, Told, Name)) )).
-
-%   One that is closed may have its name still.
-
-owner_alias(Name, Alias) :-
-    flag(typhon_helper_owner, N, N+1),
-    Name =.. Parts,
-    append([[typhon], Parts, [N]], All),
-    atomic_list_concat(All, '_', Alias).
 
 %!  helper_close(+Name) is det.
 %
@@ -88,15 +84,12 @@ close_helper(Name) :-
     ->  true
     ;   existence_error(helper, Name)
     ),
-    thread_self(Me),
-    thread_send_message(Owner, stop(Me)),
     stop_seconds(Seconds),
-    (   thread_get_message(Me, stopped(Owner), [timeout(Seconds)])
+    (   server_call(Owner, quit, Seconds, done)
     ->  true
-    ;   process_kill_of(Owner),
-        thread_get_message(Me, stopped(Owner))
+    ;   process_kill_of(Owner)
     ),
-    thread_join(Owner, _),
+    server_stop(Owner),
     message_queue_destroy(Told).
 
 %!  helper_pid(?Name, ?Pid) is nondet.
@@ -127,27 +120,19 @@ helper_pid(Name, Pid) :-
 helper_ask(Name, Request, Seconds, Answer) :-
     the_helper(Name, Owner, _),
     request_line(Request, Seconds, Id, Line),
-    setup_call_cleanup(
-        message_queue_create(Queue),
-        ask(Name, Owner, request(Id, Queue, Line), Seconds, Answer),
-        ( answer_unwanted(Id),
-          message_queue_destroy(Queue) )).
-
-ask(Name, Owner, Request, Seconds, Answer) :-
-    Request = request(_, Queue, _),
-    pass(Name, Owner, Request),
     grace_seconds(Grace),
     Longest is Seconds+Grace,
-    (   thread_get_message(Queue, answer(Answer0), [timeout(Longest)])
+    call_cleanup(ask(Name, Owner, request(Id, Line), Longest, Answer),
+                 answer_unwanted(Id)).
+
+ask(Name, Owner, Request, Seconds, Answer) :-
+    (   catch(server_call(Owner, Request, Seconds, Answer0),
+              error(existence_error(server, _), _),
+              existence_error(helper, Name))
     ->  Answer = Answer0
     ;   process_kill_of(Owner),
         Answer = stuck
     ).
-
-pass(Name, Queue, Message) :-
-    catch(thread_send_message(Queue, Message),
-          error(existence_error(_, _), _),
-          existence_error(helper, Name)).
 
 %!  helper_tell(+Name, +Request) is det.
 %!  helper_note(+Name, +Request) is det.
@@ -161,13 +146,21 @@ pass(Name, Queue, Message) :-
 helper_tell(Name, Request) :-
     the_helper(Name, Owner, Told),
     request_line(Request, Line),
-    pass(Name, Told, Line),
+    catch(thread_send_message(Told, Line),
+          error(existence_error(_, _), _),
+          existence_error(helper, Name)),
     pass(Name, Owner, told).
 
 helper_note(Name, Request) :-
     the_helper(Name, Owner, _),
     request_line(Request, Line),
     pass(Name, Owner, note(Line)).
+
+pass(Name, Owner, Message) :-
+    (   server_cast(Owner, Message)
+    ->  true
+    ;   existence_error(helper, Name)
+    ).
 
 %   An index on compound terms is not safe where other threads retract.
 

@@ -6,6 +6,7 @@
             server_call/4,              % +Server, +Request, +Seconds, -Answer
             server_answer/2,            % +Caller, +Answer
             server_check/1,             % +Server
+            server_self/1,              % -Server
             server_stop/1,              % +Server
             server_leave/1              % +Server
           ]).
@@ -224,7 +225,15 @@ no_thread(Formal, Queue) :-
                 *           THE THREAD         *
                 *******************************/
 
+%!  server_self(-Server) is semidet.
+%
+%   This thread is that of Server.
+
+server_self(Server) :-
+    nb_current(typhon_server, Server).
+
 serve(Queue, Handle, State) :-
+    nb_setval(typhon_server, Queue),
     catch(serve_from(begin, State, Handle, Queue, End), Ball, survive(Ball)),
     (   var(End)
     ->  serve(Queue, Handle, State)
