@@ -20,8 +20,8 @@ stands on the host:
 and owner(What(Most)) of all agents here that have one owner, see
 typhon_owner, together, and host(What(Most)) of all that are here.  There are
 also owner(agents(N)), how many may be here, and host(tuples(N)), the facts in
-the tuple space.  The largest user ends first: of what the host has together, the
-agents of the owner that uses most of it.
+the tuple space.  The largest user ends first: of what the host has together,
+the agents of the owner that uses most of it.
 
 A host that admits agents which it does not trust has defaults for what the
 option does not say.  A host without quotas has none of the parts below.

@@ -67,8 +67,9 @@ which Prolog makes by itself, is not safe where other threads retract
     typhon_code:in_use/1,
     put_down/3,                 % Id, Status, Goals: to be noted
     state_ends/2,               % Id, Module: is about to be destroyed
-    carries/2,                  % Id, Extras: the agent, which carries Extras,
-                                % see typhon_life, is in this process now
+    carries/3,                  % Name, Id, Extra: the agent is in this process
+                                % now, and carries Extra, of that functor, see
+                                % typhon_life
     thaw/1.                     % Id: is under way and gets a record
 
 %   The name under which people know it.
@@ -77,7 +78,7 @@ which Prolog makes by itself, is not safe where other threads retract
            "Messages kept for an agent that is faulty").
 
 :- dynamic
-    carries/2,
+    carries/3,
     thaw/1.
 
 :- dynamic
@@ -134,7 +135,11 @@ carried(Id, Life) :-
     life_extras(Life, Extras),
     (   Extras == []
     ->  true
-    ;   forall(carries(Id, Extras), true)
+    ;   forall(( member(Extra, Extras),
+                 callable(Extra),       % peers may have written them
+                 functor(Extra, Name, _),
+                 carries(Name, Id, Extra) ),
+               true)
     ).
 
 agent_remove(Id, Mail, Orders) :-

@@ -169,8 +169,8 @@ alarm_in(Seconds, Agent, Token) :-
 
 %!  time_due(+Agent, +Token, -Stamp) is semidet.
 %
-%   When the alarm goes off.  Where time_stands/1 has a term for all alarms, this
-%   fails.
+%   When the alarm goes off.  Where time_stands/1 has a term for all alarms,
+%   this fails.
 
 time_due(Agent, Token, Stamp) :-
     time_kind(Kind),
@@ -279,8 +279,8 @@ time_signal(_).
 %!  time_let_go(-Agents:list) is det.
 %!  time_again(+Standing, -Agents:list) is det.
 %
-%   No agent gets a turn any more, and no alarm goes off; fails if that cannot be
-%   had in Seconds of the time of day.  Then Standing is all that the runtime
+%   No agent gets a turn any more, and no alarm goes off; fails if that cannot
+%   be had in Seconds of the time of day.  Then Standing is all that the runtime
 %   knows of what comes next, or the Kind of one that knows nothing.  It goes on:
 %   Agents have missed their turn.  What comes next is as Standing says; Agents
 %   have their turns.

@@ -35,8 +35,8 @@ the enforcer, too_long/2 in a worker; interrupt/2 and pause/2 are signals.
 */
 
 :- setting(pause, between(0.0, 1.0), 0.8,
-           "Agents that run for long where there are quotas pause for this part \c
-            of the time while others run").
+           "Agents that run for long where there are quotas pause for this \c
+            part of the time while others run").
 :- setting(typhon_overuse:pause, number, 0.8,
            "Now typhon_quota_enforcer:pause").
 
@@ -67,9 +67,9 @@ run(turn(Id, Host, Context), Goals, Outcome) :-
     storable(Outcome1, Host, Outcome).
 
 %   An agent that passes the quota of stack is interrupted long before its stack
-%   is full: one that fills it to the brim while it catches all that is raised leaves no
-%   space for exceptions, and then 9.0.4 ends the process.  A limit near the quota
-%   would make it worse: the brim would be there sooner.
+%   is full: one that fills it to the brim while it catches all that is raised
+%   leaves no space for exceptions, and then 9.0.4 ends the process.  A limit near
+%   the quota would make it worse: the brim would be there sooner.
 
 far_limit(Host) :-
     (   quota(Host, stack, Most),
@@ -188,9 +188,9 @@ turn(Agent, Host, Thread, Seconds) :-
 
 %   exceeds(+Agent, +Host, +Thread, +Seconds, -Act) is semidet.
 %
-%   A stack is not bounded by its limit, see far_limit/1.  An agent that does not
-%   stop for long lets others go first, if there are some that are not like that.
-%   Priorities of threads would do the same if systems kept to them.
+%   A stack is not bounded by its limit, see far_limit/1.  An agent that does
+%   not stop for long lets others go first, if there are some that are not like
+%   that.  Priorities of threads would do the same if systems kept to them.
 
 exceeds(Agent, Host, Thread, _, stop_in(Thread, Agent, stack)) :-
     quota(Host, stack, Most),

@@ -123,9 +123,9 @@ signal(Goal) :-
                 *            HOLDING           *
                 *******************************/
 
-%   Where time stands is known, see virtual_standing/1.  Let go on from there, it
-%   stands until a caller waits.  What is called in the thread of virtual time
-%   itself holds it anyway.
+%   Where time stands is known, see virtual_standing/1.  When it is let go, or
+%   goes on from such a term, it stands until a caller waits.  What is called in
+%   the thread of virtual time itself holds it anyway.
 
 typhon_time:hold(virtual, Seconds) :-
     (   own_thread

@@ -20,16 +20,21 @@
 
 /** <module> The thread of virtual time
 
-It hears in one queue of what is to be done, in order:
+It takes from one queue what is to be done, in order:
 
-  | do(Work)                  | see module `work`                        |
-  | alarm(Stamp, Agent-Token) | of two at one Stamp the first goes first |
-  | ask(wait(Reply, Waited, Stamp)) | a caller waits for a message in Waited, until Stamp; Reply will get `there` or `late` |
-  | ask(no_longer(Reply))     | it does not any more                     |
-  | ask(stop)                 |                                          |
-  | ask(hold(Reply))          | Reply will hear `held`: nothing is done until held(let_go) |
-  | held(standing(Reply))     | meanwhile: Reply will hear where time stands |
-  | ask(again(Standing, Reply)) | time is as it was; Reply will hear `done` |
+  | do(Work)                        | see module `work`                     |
+  | alarm(Stamp, Agent-Token)       | of two at one Stamp the first goes    |
+  |                                 | off first                             |
+  | ask(wait(Reply, Waited, Stamp)) | a caller waits for a message in       |
+  |                                 | Waited, until Stamp; Reply gets       |
+  |                                 | `there` or `late`                     |
+  | ask(no_longer(Reply))           | it does not any more                  |
+  | ask(stop)                       |                                       |
+  | ask(hold(Reply))                | Reply gets `held`: nothing is done    |
+  |                                 | until held(let_go)                    |
+  | held(standing(Reply))           | meanwhile: Reply gets where time      |
+  |                                 | stands                                |
+  | ask(again(Standing, Reply))     | time is as it was; Reply gets `done`  |
 
 Without a waiting caller it only answers questions: time stands still.
 
@@ -40,7 +45,7 @@ thread may ask for.
 
 :- multifile
     typhon_scheduler:fire/2,            % Agent, Token: an alarm went off
-    typhon_scheduler:over/2,            % Agent, Token: it is not needed any more
+    typhon_scheduler:over/2,            % Agent, Token: it is not needed
     prolog:message//1.
 
 %!  virtual_begin is det.
@@ -164,21 +169,21 @@ asked(wait(Reply, Waited, Stamp), Waiting0, Queue, Alarms) :-
 asked(hold(Reply), Waiting, Queue, Alarms) :-
     !,
     forget_held(Queue),
-    (   told(Reply, held)
+    (   send(Reply, held)
     ->  hold(Queue, Alarms)
-    ;   true                            % he has given up
+    ;   true                            % the caller has given up
     ),
     go(Waiting, Queue, Alarms).
 asked(again(Standing, Reply), Waiting, Queue, _) :-
     !,
     standing_again(Standing, Queue, Alarms),
-    ignore(told(Reply, done)),
+    ignore(send(Reply, done)),
     go(Waiting, Queue, Alarms).
 asked(no_longer(Reply), Waiting0, Queue, Alarms) :-
     exclude(is_of(Reply), Waiting0, Waiting),
     go(Waiting, Queue, Alarms).
 
-%   What was said when this was not held.
+%   What was sent when time was not held.
 
 forget_held(Queue) :-
     thread_peek_message(Queue, held(_)),
@@ -191,7 +196,7 @@ hold(Queue, Alarms) :-
     thread_get_message(Queue, held(What)),
     (   What = standing(Reply)
     ->  standing(Queue, Alarms, Standing),
-        ignore(told(Reply, Standing)),
+        ignore(send(Reply, Standing)),
         hold(Queue, Alarms)
     ;   true
     ).
@@ -236,8 +241,8 @@ next(Waiting0, Queue, Alarms) :-
     satisfied(Waiting0, Waiting),
     go(Waiting, Queue, Alarms).
 
-%   A goal that catches an abort is to be aborted when it has recovered.  So this is
-%   where the loop goes on, to the end of time.
+%   A goal that catches an abort is to be aborted when it has recovered.  So this
+%   is where the loop goes on, to the end of time.
 
 go_on(Ball, Waiting, Queue, Alarms) :-
     aborted(Ball),
@@ -322,9 +327,9 @@ late(Waiting) :-
     forall(member(waits(Reply, _, _), Waiting), reply(Reply, late)).
 
 reply(Reply, Answer) :-
-    ignore(told(Reply, Answer)).        % the caller was interrupted
+    ignore(send(Reply, Answer)).        % the caller was interrupted
 
-told(Reply, Answer) :-
+send(Reply, Answer) :-
     catch(thread_send_message(Reply, Answer), error(existence_error(_, _), _),
           fail).
 
