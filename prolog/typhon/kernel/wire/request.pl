@@ -59,7 +59,8 @@ same thread may overtake it. The thread that removes a request answers it.
 :- use_module(session,
               [route/2, session_key/2, session_peer/3, session_received/2]).
 :- use_module(threads, [manager_notify/1]).
-:- use_module(unacked, [session_objected/3, session_pending/2]).
+:- use_module(unacked,
+              [session_answered/3, session_objected/3, session_pending/2]).
 
 :- meta_predicate
     request_send(+, +, +, 1),
@@ -208,12 +209,18 @@ dispatch(Session, objection(Number, Answer)) :-
     session_objected(Session, Number, Answer).
 dispatch(Session, answer(Id, Term)) :-
     !,
-    session_key(Session, Key),
-    conclude(answer(Term), Id, Key).
+    (   answers_deferred(Session, Id, Term)
+    ->  true
+    ;   session_key(Session, Key),
+        conclude(answer(Term), Id, Key)
+    ).
 dispatch(Session, spoilt(Id)) :-
     !,
-    session_key(Session, Key),
-    conclude(lost, Id, Key).
+    (   answers_deferred(Session, Id, spoilt)
+    ->  true
+    ;   session_key(Session, Key),
+        conclude(lost, Id, Key)
+    ).
 dispatch(_, Frame) :-                   % of a later version, or damaged
     print_message(warning, typhon(endpoint, unknown_frame(Frame))).
 
@@ -225,9 +232,19 @@ verdict(deferred, Kind, Term, Peer, Session) :-
     session_object(Session, deferred),
     session_received(Session, Count),
     Id is -(Count+1),
-    dispatch_request(Id, Kind, Term, Peer, Session).
+    dispatch_request(Id, Kind, Term, Peer, Session),
+    session_owes.                       % an answer has gone without its count
 verdict(Answer, _, _, _, Session) :-
     session_object(Session, Answer).
+
+%   answers_deferred(+Session, +Id, +Answer) is semidet: Id is of a frame that
+%   the peer has deferred, and does not count before its answer.
+
+answers_deferred(Session, Id, Answer) :-
+    integer(Id),
+    Id < 0,
+    Number is -Id,
+    session_answered(Session, Number, Answer).
 
 dispatch_request(Id, Kind, Term, Peer, Session) :-
     (   take_request(Kind, Term, Peer, reply_to(Session, Id))

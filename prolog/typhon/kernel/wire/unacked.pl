@@ -12,6 +12,7 @@
             unacked_no_wait/1,          % +Queue
             session_acked/3,            % +Session, +Counts, -Settled
             session_objected/3,         % +Session, +Number, +Answer
+            session_answered/3,         % +Session, +Number, +Answer
             session_pending/2,          % +Session, -Count
             pusher/2,                   % ?Key, ?Thread
             pusher_start/4,             % +Session, +Thread, +Out, +Again
@@ -41,8 +42,9 @@ then what waits.
 
 *Threading*: the mutex of the session guards its window: a caller of unacked_*
 holds it, as does one that starts a pusher or leaves it a control.
-session_acked/3, session_objected/3 and, without the mutex, pusher_stop/1 are
-for the thread of the connection, session_pending/2 is for any thread.
+session_acked/3, session_objected/3, session_answered/3 and, without the mutex,
+pusher_stop/1 are for the thread of the connection, session_pending/2 is for any
+thread.
 */
 
 :- use_module(library(debug), [debug/3]).
@@ -329,6 +331,17 @@ session_objected(Session, Number, Answer) :-
     ->  assertz(objection(Key, Number, Answer))
     ;   true
     ).
+
+%!  session_answered(+Session, +Number, +Answer) is semidet.
+%
+%   The peer has answered the frame that it had deferred, before it has counted
+%   it: this is what it objects.
+
+session_answered(Session, Number, Answer) :-
+    session_key(Session, Key),
+    retract(objection(Key, Number, deferred)),
+    !,
+    assertz(objection(Key, Number, Answer)).
 
 %   session_sent(+Session, -Count): so many frames have been written, or less if
 %   another thread is about to write some.
