@@ -20,7 +20,7 @@ order/3 has one clause for each command, and fails when the answer is no.
                 agent_property/2, host_property/2, remote/2 ]).
 :- use_module('../prolog/typhon/kernel/agent/identity', [agent_name/3]).
 :- use_module('../prolog/typhon/kernel/host/host_names', [address_parts/3]).
-:- use_module('../prolog/typhon/tools/survey', [survey/4]).
+:- use_module('../prolog/typhon/tools/inventory', [survey/4]).
 
 %!  order(+Command, +Arguments, +Options) is semidet.
 

@@ -6,6 +6,6 @@ Tables, and the texts of errors and reports.
 This is the interface of the layer: higher layers import from here.
 */
 
-:- reexport(tools/survey, [survey/4, survey_agents/2, survey_hosts/4]).
-:- reexport('tools/host_report').
+:- reexport(tools/inventory,
+            [host_report/2, survey/4, survey_agents/2, survey_hosts/4]).
 :- reexport(tools/event_text, [own_event/1]).

@@ -20,7 +20,7 @@ typhon(Args, Status, Out, Err) :-
 %   All the processes of a busy machine are heard.
 
 typhon_args(Args, ['-g',Heard,App|Args]) :-
-    Heard = 'settings:set_setting(typhon_survey:seconds,30)',
+    Heard = 'settings:set_setting(typhon_inventory:seconds,30)',
     project_file('app/typhon.pl', App).
 
 %   What a command that works prints, in lines.

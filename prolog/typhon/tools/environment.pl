@@ -2,9 +2,10 @@
           [ hosts/0,
             agents/0
           ]).
-:- autoload(agent_words, [word_told/3, words_only/3]).
+:- autoload(agent_words,
+            [ directive_coloured/2, directive_meant/2, word_told/3,
+              words_file/1, words_only/3 ]).
 :- autoload(completion, [completed/4]).
-:- autoload(editors, [directive_coloured/2, directive_meant/2, words_file/1]).
 :- autoload(manual, [apropos_completed/3, help_shown/1]).
 :- autoload(tables, [print_agents/2, print_hosts/1]).
 :- use_module(library(prolog_wrap), [wrap_predicate/4]).
@@ -24,7 +25,7 @@ level does not have them.
 %   processes, too: their address, what they do, how many agents they have
 %   of how many they admit, how many came in, and their neighbours.  Of a
 %   process that has not answered within two seconds (the setting
-%   `typhon_survey:seconds`) it says so.
+%   `typhon_inventory:seconds`) it says so.
 
 hosts :-
     print_hosts([]).

@@ -14,7 +14,7 @@ made is left out.
 :- use_module(library(pairs), [map_list_to_pairs/3, pairs_values/2]).
 :- use_module(library(settings), [setting/2]).
 :- use_module('../kernel/agent', [agent_name/3]).
-:- use_module(survey,
+:- use_module(inventory,
               [survey/4, survey_agents/2, survey_hosts/4, survey_order/2]).
 
 %   So many lines are still read by a person.
@@ -146,7 +146,7 @@ print_silence(gone, Endpoint) :-
 print_silence(lost, Endpoint) :-
     format('The connection to ~w was lost~n', [Endpoint]).
 print_silence(late, Endpoint) :-
-    setting(typhon_survey:seconds, Seconds),
+    setting(typhon_inventory:seconds, Seconds),
     format('The process at ~w has not answered within ~w s~n',
            [Endpoint, Seconds]).
 

@@ -142,7 +142,7 @@ whole(Network) :-
     agent_send(A, hello),
     wait_until(sees(agents, "far *n2 *resident *"), 5),
     wait_until(joined_sees(H1), 20),
-    with_settings([typhon_survey:seconds=1],
+    with_settings([typhon_inventory:seconds=1],
                   hangs(P2, P3)).
 
 sees(Table, Pattern) :-

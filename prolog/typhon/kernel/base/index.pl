@@ -46,8 +46,7 @@ part_file('options/watch','options/watch/listening').
 part_file('options/watch','options/watch/metrics').
 part_file('options/watch','options/watch/overview').
 part_file('options/watch','options/watch/telling').
-part_file(tools,'tools/host_report').
-part_file(tools,'tools/survey').
+part_file(tools,'tools/inventory').
 
 %!  part_setting(?Name, ?Module, ?Type, ?Default, ?Text, ?File) is nondet.
 %
@@ -87,7 +86,8 @@ part_setting(request_seconds,typhon_page_reception,positive_integer,20,'The head
 part_setting(rest_seconds,typhon_carrier,number,1,'Agents of a network have so long to come to rest when it stops','network/carrier').
 part_setting(restart_seconds,typhon_restarts,number,60,'The time that this number is for','network/restarts').
 part_setting(restarts,typhon_restarts,nonneg,10,'A process of a network is started again so often','network/restarts').
-part_setting(seconds,typhon_survey,number,2,'A table waits so long for the other processes of a network','tools/survey').
+part_setting(seconds,typhon_inventory,number,2,'A table waits so long for the other processes of a network','tools/inventory').
+part_setting(seconds,typhon_survey,number,2,'Now typhon_inventory:seconds','tools/inventory').
 part_setting(ssh,typhon_children,atom,ssh,'The program that reaches other machines','network/children').
 part_setting(start_seconds,typhon_processes,number,60,'The processes of a network have so long to start','network/processes').
 part_setting(stop_seconds,typhon_children,number,5,'A child has so long to end in order, then it is killed','network/children').

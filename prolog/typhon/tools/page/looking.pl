@@ -11,7 +11,7 @@
               [ agent_join/3, agent_listing/1, agent_property/2,
                 goals_shown/4 ]).
 :- use_module('../../network', [network_property/2]).
-:- use_module('../../tools', [host_close_up/2]).
+:- use_module('../../tools', [host_report/2]).
 :- use_module(mechanisms, [mechanism_dicts/1, program_names/1]).
 :- use_module(protocol,
               [name_text/2, page_time/2, place_text/2, scene_dict/3, text/2]).
@@ -199,7 +199,7 @@ without_arrow(Line, Plain) :-
                 *******************************/
 
 host_dict(Host, Dict) :-
-    host_close_up(Host, close_up(Properties, Options, Tuples, Clauses,
+    host_report(Host, close_up(Properties, Options, Tuples, Clauses,
                                  Services)),
     memberchk(address(Address), Properties),
     name_text(Address, Id),

@@ -1,35 +1,45 @@
-:- module(typhon_survey,
+:- module(typhon_inventory,
           [ survey/4,                   % +Most, +Places, -Seen, -Silent
             survey_hosts/4,             % +Places, +Seen, +Silent, -Hosts
             survey_agents/2,            % +Seen, -Agents
-            survey_order/2              % +Text, -Key
+            survey_order/2,             % +Text, -Key
+            host_report/2             % +Host, -CloseUp
           ]).
 :- use_module(library(apply), [exclude/3, maplist/3]).
 :- use_module(library(dcg/basics), [digits//1, string_without//2]).
+:- autoload(library(listing), [portray_clause/1]).
 :- use_module(library(lists), [append/2, append/3, member/2]).
 :- use_module(library(option), [option/3]).
 :- use_module(library(pairs), [map_list_to_pairs/3, pairs_values/2]).
 :- use_module(library(settings), [setting/2, setting/4]).
-:- use_module('../kernel/wire',
-              [endpoint_address/1, endpoint_ask_all/6, endpoint_left/1,
-               endpoint_reply/2]).
+:- use_module(library(solution_sequences), [limit/2]).
+:- use_module('../kernel/base/abridged', [abridged/3]).
 :- use_module('../kernel/host',
-              [ address_parts/3, clock/3, host_link_cost/3, host_property/2,
-                scheduler_call/1, time_kind/1 ]).
+              [ address_parts/3, clock/3, host/3, host_link_cost/3,
+                host_option/2, host_property/2, host_resolve/2,
+                host_unknown/1, process_ask/6, scheduler_call/1, time_kind/1,
+                tuple_sense/2 ]).
 :- use_module('../kernel/lifecycle', [agent_glance/2]).
+:- use_module('../kernel/wire',
+              [ endpoint_address/1, endpoint_ask_all/6, endpoint_left/1,
+                endpoint_reply/2 ]).
 :- use_module('../network', [network_hosts/2]).
 
-/** <module> What stands in all processes of a network
+/** <module> What there is in all processes of a network, and on one host
 
-Each process reports in one answer its hosts and the agents on them. Asked
+Each process reports in one answer its hosts and the agents on them.  Asked
 are those that carry networks started here, and those of hosts to which one
-comes along links. All are asked at once; a process that has not answered
+comes along links.  All are asked at once; a process that has not answered
 by the deadline is reported as silent.
 
-*Threading*: any thread may ask, but those of the endpoint. A worker answers,
-for there may be many agents.
+Of one host the report has what lies in its tuple space, what its place defines and
+with what options it runs, as text.  Long values are shortened.
+
+*Threading*: any thread may ask that may wait, but those of the endpoint.  A worker
+answers, for there may be many agents.
 */
 
+:- setting(typhon_survey:seconds, number, 2, "Now typhon_inventory:seconds").
 :- setting(seconds, number, 2,
            "A table waits so long for the other processes of a network").
 
@@ -95,7 +105,7 @@ ask_there([], _, []) :-
 ask_there(Endpoints, Most, Results) :-
     setting(seconds, Seconds),
     endpoint_ask_all(Endpoints, survey, look(Most),
-                     typhon_survey:further, Seconds, Results).
+                     typhon_inventory:further, Seconds, Results).
 
 further(Seen, Endpoints) :-
     further_places(Seen, Addresses),
@@ -120,7 +130,7 @@ other_processes(Addresses, Endpoints) :-
                 *******************************/
 
 typhon_endpoint:requested(survey, look(Most), _, ReplyTo) :-
-    scheduler_call(typhon_survey:reply(Most, ReplyTo)).
+    scheduler_call(typhon_inventory:reply(Most, ReplyTo)).
 
 :- public
     reply/2.                    % goal of a worker
@@ -253,3 +263,104 @@ parts([Text, Number|Parts]) -->
 parts([Text]) -->
     string_without(`0123456789`, Codes),
     { atom_codes(Text, Codes) }.
+
+                /*******************************
+                *           ONE HOST           *
+                *******************************/
+
+%   So much is still read by a person.
+
+most(tuples, 300).
+most(clauses, 300).
+longest(2000).
+
+%!  host_report(+Host, -CloseUp) is det.
+%
+%   CloseUp is close_up(Properties, Options, Tuples, Clauses, Services): the
+%   properties of Host as of host_property/2, and lists of strings.
+%
+%   @error existence_error(host, Host), host_unreachable(Host)
+
+host_report(Host, CloseUp) :-
+    host_resolve(Host, Where),
+    close_up(Where, CloseUp).
+
+close_up(local(Name), CloseUp) :-
+    seen(Name, CloseUp).
+close_up(remote(Address, Name, Endpoint), CloseUp) :-
+    process_ask(Endpoint, Address, close_up, host(Name), Answer, 10),
+    (   Answer == none
+    ->  host_unknown(Address)
+    ;   CloseUp = Answer
+    ).
+
+typhon_endpoint:requested(close_up, host(Name), _Peer, ReplyTo) :-
+    scheduler_call(typhon_inventory:report_reply(Name, ReplyTo)).
+
+:- public
+    report_reply/2.                            % goal of a worker
+
+report_reply(Name, ReplyTo) :-
+    (   host(Name, _, _)
+    ->  seen(Name, Answer)
+    ;   Answer = none
+    ),
+    endpoint_reply(ReplyTo, Answer).
+
+                /*******************************
+                *            HERE              *
+                *******************************/
+
+seen(Name, close_up(Properties, Options, Tuples, Clauses, Services)) :-
+    host(Name, _, Place),
+    findall(P, ( host_property(Name, P), P \= place(_) ), Properties),
+    findall(Text, ( host_option(Name, Option), text(Option, Text) ), Options),
+    some(tuples, Text, tuple_text(Place, Text), Tuples),
+    some(clauses, Text, clause_text(Place, Text), Clauses),
+    findall(Text, service_text(Place, Text), Services).
+
+:- meta_predicate some(+, ?, 0, -).
+
+some(What, Template, Goal, List) :-
+    most(What, Most),
+    findall(Template, limit(Most, Goal), List).
+
+text(Term, Text) :-
+    longest(Longest),
+    abridged(Term, Longest, Text).
+
+tuple_text(Place, Text) :-
+    tuple_sense(Place, Fact),
+    text(Fact, Text).
+
+clause_text(Place, Text) :-
+    own_predicate(Place, Head),
+    catch(clause(Place:Head, Body), error(_, _), fail),
+    clause_string((Head:-Body), Text).
+
+clause_string(Clause, Text) :-
+    with_output_to(string(Whole), portray_clause(Clause)),
+    longest(Longest),
+    (   sub_string(Whole, 0, Longest, _, Begin)
+    ->  string_concat(Begin, "...", Text)
+    ;   Text = Whole
+    ).
+
+own_predicate(Place, Head) :-
+    current_predicate(_, Place:Head),
+    \+ predicate_property(Place:Head, imported_from(_)),
+    functor(Head, Name, _),
+    \+ sub_atom(Name, 0, _, _, $).
+
+%   What it offers of modules: their predicates by name.
+
+service_text(Place, Text) :-
+    import_module(Place, Module),
+    Module \== typhon_vocabulary,
+    format(string(Text), 'all of ~q', [Module]).
+service_text(Place, Text) :-
+    current_predicate(Name, Place:Head),
+    predicate_property(Place:Head, imported_from(Module)),
+    Module \== system,
+    functor(Head, Name, Arity),
+    format(string(Text), '~q', [Module:Name/Arity]).
