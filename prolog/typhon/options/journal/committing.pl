@@ -4,6 +4,8 @@
 :- use_module('../../kernel/base/durable_changes',
               [crash_point/1, durable_closed/0, send_committed/1]).
 :- use_module('../../kernel/base/fifo', [fifo_empty/2]).
+:- use_module('../../kernel/base/server',
+              [server_cast/2, server_start/4, server_stop/1]).
 :- use_module(store, [store_commit/1, store_sync/1]).
 
 /** <module> Entries are committed in order, many at a time
@@ -34,9 +36,9 @@ may take those of sessions: a thread that holds one of these must not commit.
     typhon_durable_changes:back_end_error/2.
 
 :- dynamic
-    queue/3,                            % Entries, Wake, Sync
+    queue/3,                            % Entries, Committer, Sync
     unsaved/2,                          % Changes and items that wait for them
-    committer/1,                        % Thread
+    committer/1,                        % Server
     told/1.                             % Error: nothing can be committed
 
 %   Delay before an idle commit, and before a failed one is tried again.
@@ -51,12 +53,11 @@ again_seconds(1).
 typhon_durable_changes:begin_commits :-
     on_signal(xfsz, _, typhon_committing:file_too_long),
     store_sync(Sync),
-    message_queue_create(Entries),
-    message_queue_create(Wake),
-    assertz(queue(Entries, Wake, Sync)),
     set_flag(typhon_journal_awake, 0),
-    thread_create(commit_when_told(Wake), Thread, [alias(typhon_journal)]),
-    assertz(committer(Thread)).
+    server_start(journal, typhon_committing:commits, none, Committer),
+    message_queue_create(Entries),
+    assertz(queue(Entries, Committer, Sync)),
+    assertz(committer(Committer)).
 
 %   Where a file may not get longer that is an error, as a disk that is full: no
 %   reason to break off what a thread does.
@@ -68,18 +69,16 @@ file_too_long(_).
 %   Commit as much as can be.  Fails if it had not begun.
 
 typhon_durable_changes:end_commits :-
-    retract(committer(Thread)),
+    retract(committer(Committer)),
     !,
-    queue(Entries, Wake, _),
-    thread_send_message(Wake, stop),
-    thread_join(Thread, _),
+    queue(Entries, _, _),
+    server_stop(Committer),
     catch(commit, error(Formal, Context),
           print_message(error, error(Formal, Context))),
     retractall(queue(_, _, _)),
     retractall(unsaved(_, _)),
     retractall(told(_)),
-    message_queue_destroy(Entries),
-    message_queue_destroy(Wake).
+    message_queue_destroy(Entries).
 
                 /*******************************
                 *            ENTRIES           *
@@ -109,8 +108,8 @@ wake(How) :-
         Awake >= Urgency
     ->  true
     ;   set_flag(typhon_journal_awake, Urgency),
-        queue(_, Wake, _),
-        thread_send_message(Wake, How)
+        queue(_, Committer, _),
+        ignore(server_cast(Committer, How))     % else it is closed
     ).
 
 urgency(idle, 1).
@@ -252,36 +251,36 @@ item_of(put(Kind, Key, N, _), Kind-Key-N).
 item_of(drop(Kind, Key, N), Kind-Key-N).
 
                 /*******************************
-                *           THE THREAD         *
+                *          THE COMMITTER       *
                 *******************************/
 
-commit_when_told(Wake) :-
-    repeat,
-    thread_get_message(Wake, How),
-    (   How == stop
-    ->  !
-    ;   idle_seconds(Seconds),
-        unless_urgent(How, Wake, Seconds),
-        set_flag(typhon_journal_awake, 0),
-        catch(commit, error(Formal, Context),
-              not_committed(error(Formal, Context), Wake)),
-        fail
-    ).
+:- public commits/3.
 
-unless_urgent(idle, Wake, Seconds) :-
-    thread_get_message(Wake, How, [timeout(Seconds)]),
-    How == stop,
-    !,
-    thread_send_message(Wake, stop).
-unless_urgent(_, _, _).
+commits(begin, State, Next) :-
+    commit_now(State, Next).
+commits(idle, State, until(Stamp, State)) :-
+    idle_seconds(Seconds),
+    get_time(Now),
+    Stamp is Now+Seconds.
+commits(now, State, Next) :-
+    commit_now(State, Next).
+commits(timeout, State, Next) :-
+    commit_now(State, Next).
 
-not_committed(Error, Wake) :-
+commit_now(State, Next) :-
+    set_flag(typhon_journal_awake, 0),
+    catch(( commit,
+            Next = State ),
+          error(Formal, Context),
+          not_committed(error(Formal, Context), State, Next)).
+
+not_committed(Error, State, until(Stamp, State)) :-
     (   told(_)
     ->  true
     ;   print_message(error, Error),
         assertz(told(Error))
     ),
-    again_seconds(Seconds),
     set_flag(typhon_journal_awake, 2),
-    unless_urgent(idle, Wake, Seconds),
-    thread_send_message(Wake, now).
+    again_seconds(Seconds),
+    get_time(Now),
+    Stamp is Now+Seconds.

@@ -5,8 +5,7 @@
 :- use_module(library(lists), [last/2, member/2]).
 :- use_module(library(pairs), [group_pairs_by_key/2]).
 :- use_module(library(settings), [setting/2, setting/4]).
-:- use_module('../../kernel/base/error_text', [print_error/2]).
-:- use_module('../../kernel/base/own_thread', [in_own_thread/1]).
+:- use_module('../../kernel/base/server', [server_start/4, server_stop/1]).
 :- use_module('../../kernel/base/trees', [is_tree/2]).
 :- use_module('../../kernel/program',
               [fault_note/1, fault_noted/1, machine_inside/0, machine_run/3]).
@@ -25,7 +24,7 @@
 
 A turn is limited in its inferences, and what is kept of an agent in its size.
 While there are hosts with quotas of what is not counted when it is used, a
-thread looks ten times a second: how long an agent has not stopped, how large
+server looks ten times a second: how long an agent has not stopped, how large
 its stack is, and what agents of one owner, or all of a host, have of these and
 of state together.  And an agent ends that has been on a host for as long as it
 may.
@@ -46,7 +45,7 @@ the enforcer, too_long/2 in a worker; interrupt/2 and pause/2 are signals.
     typhon_scheduler:over/2,
     typhon_turn:limit_passed/1.
 
-:- dynamic enforcer/1.          % Thread
+:- dynamic enforcer/1.          % Server
 
                 /*******************************
                 *             TURNS            *
@@ -129,25 +128,25 @@ typhon_turn:limit_passed(raised(error(resource_error(What), _))) :-
     quota_passed_now(What).
 
                 /*******************************
-                *           THE THREAD         *
+                *          THE ENFORCER        *
                 *******************************/
 
 %!  enforcer_adapt is det.
 %
-%   The quotas of hosts have changed: the thread runs as long as it is needed.
+%   The quotas of hosts have changed: the enforcer runs as long as it is needed.
 
 enforcer_adapt :-
     is_needed,
     !,
     (   enforcer(_)
     ->  true
-    ;   thread_create(enforce, Thread, [alias(typhon_quota_enforcer)]),
-        assertz(enforcer(Thread))
+    ;   server_start(quota_enforcer, typhon_quota_enforcer:enforces, none,
+                     Enforcer),
+        assertz(enforcer(Enforcer))
     ).
 enforcer_adapt :-
-    (   retract(enforcer(Thread))
-    ->  thread_send_message(Thread, stop),
-        in_own_thread(thread_join(Thread, _))
+    (   retract(enforcer(Enforcer))
+    ->  server_stop(Enforcer)
     ;   true
     ).
 
@@ -159,14 +158,17 @@ is_needed :-
     member(What, [seconds, stack, state]),
     quota_shared(_, _, What, _).
 
-enforce :-
-    thread_self(Me),
-    (   thread_get_message(Me, stop, [timeout(0.1)])
-    ->  true
-    ;   catch(look, error(Formal, Context),
-              print_error(error, error(Formal, Context))),
-        enforce
-    ).
+:- public enforces/3.
+
+enforces(begin, State, Next) :-
+    look_later(State, Next).
+enforces(timeout, State, Next) :-
+    look,
+    look_later(State, Next).
+
+look_later(State, until(Stamp, State)) :-
+    get_time(Now),
+    Stamp is Now+0.1.
 
 look :-
     forall(( turn(Agent, Host, Thread, Seconds),
