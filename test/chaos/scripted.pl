@@ -48,35 +48,43 @@ all_of(Scenario, Links) :-
 some([]) :-
     !.
 some(Cases) :-
-    with_scripted(until_violated(Cases, Rest)),
+    Cases = [Way-_|_],
+    with_scripted(Way, until_violated(Cases, Way, Rest)),
     some(Rest).
 
-until_violated([], []).
-until_violated([Case|Cases], Rest) :-
+%   until_violated(+Cases, +Way, -Rest): those of Way, up to a violation.
+
+until_violated([Way-Case|Cases], Way, Rest) :-
+    !,
     get_time(Start),
     catch(Case, Error, true),
     get_time(End),
     Seconds is End-Start,
     Case =.. [_|Words],
     findall(W, ( member(Word, Words), term_to_atom(Word, W) ), Texts),
-    atomic_list_concat(Texts, ' ', Line),
+    atomic_list_concat([Way|Texts], ' ', Line),
     format('~w~t~1f~60| s~n', [Line, Seconds]),
     (   var(Error)
-    ->  until_violated(Cases, Rest)
+    ->  until_violated(Cases, Way, Rest)
     ;   print_message(error, Error),
         retract(violations(Count0)),
         Count is Count0+1,
         assertz(violations(Count)),
         Rest = Cases
     ).
+until_violated(Rest, _, Rest).
 
-scripted(Scenario, Links, Case) :-
+scripted(Scenario, Links, Way-Case) :-
+    member(Way, [short, both, long]),
     member(Program, [known, new, forgotten]),
     member(Link, Links),
     (   member(Action, [cut, cut_twice, hold(0.2), mute]),
         member(When, [before, inside, after]),
         Case = each_frame(Scenario, Program, Link, When, Action)
-    ;   Link = A-B,
+    ;   member(Act, [look, dispose]),
+        Case = each_stop(Scenario, Program, Link, before, Act)
+    ;   Way == short,
+        Link = A-B,
         member(Peer, [A, B]),
         member(When, [before, after]),
         member(Restart, [now, later]),

@@ -4,6 +4,7 @@
             script/2,                   % +Events, :Crash
             happened/1,                 % -Events
             has_crashed/1,              % +Name
+            go_on/0,
             frames_passed/2             % +Link, -Count
           ]).
 
@@ -22,6 +23,7 @@ half of it has passed (`inside`), or `after` it. Actions are
   - cut: both sides see that the connection ends
   - mute: nothing more passes on this connection, in either direction
   - hold(Seconds): the frame, and what comes after it, waits
+  - stop: it waits until go_on/0
   - crash(Name): call(Crash, Name), while the frame waits
 
 *Threading*: the threads of the relays pass frames on. The other predicates are
@@ -41,7 +43,8 @@ for the main thread of a test.
     event/2,                            % Link-Number-When, Action
     event_happened/1,                   % at(Link, Number, When, Action)
     crash/1,                            % Closure
-    crashed/1.                          % Name
+    crashed/1,                          % Name
+    stopped/1.                          % Thread
 
 %!  frame_proxy_start(+Name, +Target, -Proxy, -Address) is det.
 %
@@ -93,6 +96,15 @@ happened(Events) :-
 
 has_crashed(Name) :-
     crashed(Name).
+
+%!  go_on is det.
+%
+%   What events `stop` have stopped goes on.
+
+go_on :-
+    forall(retract(stopped(Thread)),
+           catch(thread_send_message(Thread, go_on),
+                 error(existence_error(_, _), _), true)).
 
 %!  frames_passed(+Link, -Count) is det.
 
@@ -217,6 +229,11 @@ do(mute, Connection, Event) :-
 do(hold(Seconds), _, Event) :-
     assertz(event_happened(Event)),
     sleep(Seconds).
+do(stop, _, Event) :-
+    thread_self(Me),
+    assertz(stopped(Me)),
+    assertz(event_happened(Event)),
+    thread_get_message(go_on).
 do(crash(Name), _, Event) :-
     assertz(event_happened(Event)),
     crash(Crash),

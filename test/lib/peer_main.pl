@@ -146,6 +146,16 @@ try_move(Host, Options, Error) :-
            remote(Name, take(tried(Error0))) )),
     Error = error(Error0).
 
+%   A goal that others need not wait for; background: it has not ended.
+
+:- dynamic background/0.
+
+in_background(Goal) :-
+    assertz(background),
+    thread_create(call_cleanup(catch(peer_main:Goal, error(_, _), true),
+                               retract(background)),
+                  _, [detached(true)]).
+
 send_in_background(Id, Count) :-
     thread_create(forall(between(1, Count, I), agent_send(Id, n(I))), _,
                   [detached(true)]).

@@ -1,10 +1,12 @@
 :- module(test_scripted_hops,
-          [ with_scripted/1,            % :Goal
+          [ with_scripted/2,            % +Way, :Goal
             scenario/2,                 % ?Scenario, -Links
             each_frame/5,               % +Scenario, +Program, +Link, +When,
                                         % +Action
-            each_crash/6                % +Scenario, +Program, +Link, +When,
+            each_crash/6,               % +Scenario, +Program, +Link, +When,
                                         % +Peer, +Restart
+            each_stop/5                 % +Scenario, +Program, +Link, +When,
+                                        % +Act
           ]).
 
 /** <module> What agents do while the frames of their hops are disturbed
@@ -28,26 +30,39 @@ that what is lost or done twice shows.
 
 :- use_module(common, [wait_until/2]).
 :- use_module(frame_proxy, 
-              [frames_passed/2, happened/1, has_crashed/1, script/2]).
+              [ frames_passed/2, go_on/0, happened/1, has_crashed/1,
+                script/2 ]).
 :- use_module(peers).
 :- use_module(library(apply), [maplist/3]).
 :- use_module(library(gensym), [gensym/2]).
 :- use_module(library(lists),
               [member/2, memberchk/2]).
 
-:- meta_predicate with_scripted(0).
+:- meta_predicate with_scripted(+, 0).
 
-%!  with_scripted(:Goal) is semidet.
+%!  with_scripted(+Way, :Goal) is semidet.
 %
-%   The processes notice within a second that a connection is mute, and
+%   Agents go the short way, if Way is `short`; they do not, as hosts have
+%   options, if it is `long`; b alone has options, if it is `both`. The processes notice within a second that a connection is mute, and
 %   keep one program that none of their agents has.
 
-with_scripted(Goal) :-
+with_scripted(Way, Goal) :-
     Settings = ( set_setting(typhon_reader:silence, 0.3),
                  set_setting(typhon_code:programs, 0) ),
     Options = [proxy(frames), setup(Settings)],
-    with_peers([a-Options, b-Options, c-Options],
+    findall(Peer-[host(HostOptions)|Options],
+            ( member(Peer, [a, b, c]), way(Way, Peer, HostOptions) ),
+            Specs),
+    with_peers(Specs,
                ( prepare(b), meet, Goal )).
+
+way(short, _, []).
+way(long, _, [quota([messages(100000)])]).
+way(both, Peer, Options) :-
+    (   Peer == b
+    ->  way(long, b, Options)
+    ;   Options = []
+    ).
 
 prepare(b) :-
     !,
@@ -69,6 +84,14 @@ meet :-
 %
 %   @error violated(What) see disturbed/4 and crashed/5.
 
+%!  each_stop(+Scenario, +Program, +Link, +When, +Act) is det.
+%
+%   While frame 1 of Link waits, then while frame 2 does and so on, a is asked
+%   for all properties of the agent, if Act is `look`, or disposes of it, if it is
+%   `dispose`.
+%
+%   @error violated(What) see stopped/5.
+
 each_frame(Scenario, Program, Link, When, Action) :-
     each_number(Number, Happened,
                 ( events(Action, Link, Number, When, Events),
@@ -79,6 +102,11 @@ each_crash(Scenario, Program, Link, When, Peer, Restart) :-
                 crashed(Scenario, Program,
                         at(Link, Number, When, crash(Peer)),
                         Restart, Happened)).
+
+each_stop(Scenario, Program, Link, When, Act) :-
+    each_number(Number, Happened,
+                stopped(Scenario, Program, at(Link, Number, When, stop), Act,
+                        Happened)).
 
 events(cut_twice, Link, Number, When,
        [at(Link, Number, When, cut), at(Link, Next, When, cut)]) :-
@@ -236,6 +264,51 @@ forget(forgotten) :-
     !,
     disturbed(ring, new, [], _).
 forget(_).
+
+%   stopped(+Scenario, +Program, +Event, +Act, -Happened) is det.
+%
+%   The story is as if there were no Event, or nothing after some point of it.
+%
+%   Throws error(violated(What), _).
+
+stopped(Scenario, Program, Event, Act, Happened) :-
+    forget(Program),
+    gensym(tag, Tag),
+    script([Event], no_crash),
+    start(Scenario, Program, Tag, 20, Id),
+    wait_until(( happened([_]) ; peer_do(a, outcome_here(Id, _)) ), 40),
+    happened(Happened),
+    act(Act, Id),
+    go_on,
+    peer_do(a, agent_join(Id, Outcome, 40)),
+    resolved(Tag),
+    steps(Tag, Steps),
+    demand(ended_by(Act, Scenario, Outcome, Steps), steps(Outcome, Steps)).
+
+%   What needs the frame that waits ends later.
+
+act(Act, Id) :-
+    goal(Act, Id, Goal),
+    peer_do(a, in_background(Goal)),
+    catch(wait_until(peer_do(a, \+ background), 0.2),
+          error(timeout_error(_, _), _),
+          true).
+
+goal(look, Id, forall(agent_property(Id, _), true)).
+goal(dispose, Id, agent_dispose(Id)).
+
+ended_by(look, Scenario, Outcome, Steps) :-
+    Outcome == done,
+    as_without_events(Scenario, Steps).
+ended_by(dispose, Scenario, Outcome, Steps) :-
+    (   Outcome == done
+    ->  as_without_events(Scenario, Steps)
+    ;   Outcome == disposed,
+        findall(What, ( member(_-Whats, Steps), member(What, Whats) ), All),
+        length(All, Count),
+        sort(All, Set),
+        length(Set, Count)
+    ).
 
 no_crash(Peer) :-
     throw(error(permission_error(crash, peer, Peer), _)).

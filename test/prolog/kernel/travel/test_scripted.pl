@@ -13,38 +13,57 @@ is sampled here; `make scripted` does all of it.
 
 :- begin_tests(scripted).
 
-test(cut_at_each_frame) :-
-    with_scripted(forall(( scenario(Scenario, Links),
-                           member(Program, [known, forgotten]),
+test(cut_at_each_frame, [forall(member(Way-Program, [ short-known,
+                                                      short-forgotten,
+                                                      both-known,
+                                                      long-known ]))]) :-
+    with_scripted(Way,
+                  forall(( scenario(Scenario, Links),
                            member(Link, Links),
                            member(When, [before, inside, after]) ),
                          each_frame(Scenario, Program, Link, When, cut))).
 test(cut_twice) :-
-    with_scripted(forall(( scenario(Scenario, Links),
+    with_scripted(short,
+                  forall(( scenario(Scenario, Links),
                            member(Link, Links),
                            member(When, [before, inside]) ),
                          each_frame(Scenario, known, Link, When,
                                     cut_twice))).
 test(hold_each_frame) :-
-    with_scripted(forall(( member(Scenario, [ring, clone, follow]),
+    with_scripted(short,
+                  forall(( member(Scenario, [ring, clone, follow]),
                            scenario(Scenario, Links),
                            member(Link, Links) ),
                          each_frame(Scenario, known, Link, before,
                                     hold(0.1)))).
 test(mute_at_each_frame) :-
-    with_scripted(forall(( member(Scenario, [there_and_back, follow]),
+    with_scripted(short,
+                  forall(( member(Scenario, [there_and_back, follow]),
                            scenario(Scenario, Links),
                            member(Link, Links) ),
                          each_frame(Scenario, known, Link, inside, mute))).
+test(look_at_each_frame) :-
+    with_scripted(short,
+                  forall(( member(Scenario, [there_and_back, ring, follow]),
+                           scenario(Scenario, Links),
+                           member(Link, Links) ),
+                         each_stop(Scenario, known, Link, before, look))).
+test(dispose_at_each_frame) :-
+    with_scripted(short,
+                  forall(( member(Scenario, [there_and_back, ring]),
+                           scenario(Scenario, Links),
+                           member(Link, Links) ),
+                         each_stop(Scenario, known, Link, before, dispose))).
 test(crash_at_each_frame) :-
-    with_scripted(forall(( crash(Scenario, Link, When, Peer),
-                           member(Restart, [now, later]) ),
+    with_scripted(short,
+                  forall(crash(Scenario, Link, When, Peer, Restart),
                          each_crash(Scenario, known, Link, When, Peer,
                                     Restart))).
 
 :- end_tests(scripted).
 
-crash(there_and_back, b-a, before, b).
-crash(ring, b-c, after, b).
-crash(clone, a-b, after, b).
-crash(follow, a-b, before, a).
+crash(there_and_back, b-a, before, b, now).
+crash(there_and_back, b-a, before, b, later).
+crash(ring, b-c, after, b, now).
+crash(clone, a-b, after, b, later).
+crash(follow, a-b, before, a, now).
