@@ -1,0 +1,102 @@
+:- module(test_transport, []).
+
+/** <module> Tests of transports: a process connects to itself by one of ours
+
+The client says `M` before anything else, and the server answers with a line.
+
+*Threading*: the main thread; the hooks run in those of the endpoint.
+*/
+
+:- use_module('../../../lib/common').
+:- use_module(library(plunit)).
+:- use_module(library(socket), [tcp_connect/3]).
+:- use_module(library(readutil), [read_line_to_string/2]).
+:- use_module(library(typhon/kernel/wire)).
+
+:- multifile
+    typhon_endpoint:requested/4,
+    typhon_transport:begins/4,
+    typhon_transport:ends/1,
+    typhon_transport:disagrees/1,
+    typhon_transport:first_byte/2,
+    typhon_transport:misfit/4,
+    typhon_transport:opens/7.
+
+:- dynamic is_on/0.
+
+typhon_transport:begins(Options, marked, mark(ours), mark(unknown)) :-
+    memberchk(marked, Options),
+    assertz(is_on).
+typhon_transport:ends(marked) :-
+    retractall(is_on).
+typhon_transport:disagrees(marked) :-
+    \+ is_on.
+typhon_transport:first_byte(0'M, marked).
+typhon_transport:misfit(plain, marked, "typhon marked", no_mark).
+typhon_transport:misfit(marked, plain, "typhon plain", a_mark).
+typhon_transport:opens(marked, client, In, Out, In, Out, mark(server)) :-
+    put_byte(Out, 0'M),
+    flush_output(Out),
+    get_byte(In, 0'm).
+typhon_transport:opens(marked, server, In, Out, In, Out, mark(client)) :-
+    get_byte(In, 0'M),
+    put_byte(Out, 0'm),
+    flush_output(Out).
+
+typhon_endpoint:requested(proof, mine, _, ReplyTo) :-
+    endpoint_proof(Proof),
+    endpoint_reply(ReplyTo, Proof).
+
+:- meta_predicate with_endpoint(+, 1).
+
+with_endpoint(Options, Goal) :-
+    no_leaks(test_transport:endpoint_and(Options, Goal)).
+
+endpoint_and(Options, Goal) :-
+    setup_call_cleanup(
+        endpoint_start(localhost, 0, Options, Address),
+        once(call(Goal, Address)),
+        endpoint_stop).
+
+%   says(+Text, -Line, +Address): Line is the answer to a client that begins
+%   with Text.
+
+says(Text, Line, Address) :-
+    atomic_list_concat([Host,Port0], :, Address),
+    atom_number(Port0, Port),
+    setup_call_cleanup(
+        tcp_connect(Host:Port, Stream, []),
+        ( format(Stream, "~w", [Text]),
+          flush_output(Stream),
+          read_line_to_string(Stream, Line) ),
+        close(Stream, [force(true)])).
+
+asked(Proof, Address) :-
+    endpoint_call(Address, proof, mine, answer(Proof), 10).
+
+:- begin_tests(transport).
+
+test(peer_proves_itself_by_the_transport, Proof == mark(client)) :-
+    with_endpoint([marked], asked(Proof)).
+test(peer_of_plain_tcp_has_proved_the_cookie, Proof == cookie) :-
+    with_endpoint([], asked(Proof)).
+test(own_and_unknown_proofs_are_those_of_the_transport,
+     Own-Unknown == mark(ours)-mark(unknown)) :-
+    with_endpoint([marked], test_transport:proofs(Own, Unknown)).
+test(plain_client_gets_the_name_of_the_transport, Line == "typhon marked") :-
+    with_endpoint([marked], says(typhon, Line)).
+test(client_of_a_transport_gets_a_line_where_there_is_none,
+     Line == "typhon plain") :-
+    with_endpoint([], says('M', Line)).
+test(transport_ends_with_the_endpoint) :-
+    with_endpoint([marked], agrees),
+    transport_disagrees(marked).
+
+:- end_tests(transport).
+
+proofs(Own, Unknown, _) :-
+    endpoint_own_proof(Own),
+    endpoint_proof('127.0.0.1:1', Unknown).
+
+agrees(_) :-
+    \+ transport_disagrees(marked).
