@@ -7,7 +7,7 @@ This is the interface of the layer: higher layers import from here.
 */
 
 :- reexport(agent/agents,
-            [ agent/5, agent_departs/3, agent_enter/3, agent_gone/5,
+            [ agent/5, agent_comes/5, agent_departs/3, agent_enter/3, agent_gone/5,
               agent_handed/4, agent_here/5, agent_mail/2,
               agent_mobile/6, agent_move/5, agent_note/3,
               agent_program/4, agent_put/3, agent_put_life/2, agent_ready/2,
@@ -21,7 +21,7 @@ This is the interface of the layer: higher layers import from here.
 :- reexport(agent/agent_module,
             [ agent_add/2, agent_changed/4, agent_clauses/3, agent_code/2,
               agent_elsewhere/3, agent_handles/2,
-              agent_module/5, agent_standing/5, agent_state/2 ]).
+              agent_module/4, agent_module/5, agent_standing/5, agent_state/2 ]).
 :- reexport(agent/variants, [agent_variant/2]).
 :- reexport(agent/identity,
             [ agent_home/2, agent_home_endpoint/2, agent_id/3, agent_name/3,

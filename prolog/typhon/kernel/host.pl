@@ -7,7 +7,8 @@ This is the interface of the layer: higher layers import from here.
 */
 
 :- reexport(host/hosts,
-            [ host/3, host_closed/1, host_again/1, host_enter/3, host_hop/3,
+            [ host/3, host_again/1, host_came/2, host_closed/1, host_enter/3,
+              host_hop/3, host_lets_all/3,
               host_leave/1, host_left/2, host_load/2, host_note/1,
               host_option/2, host_passed/3 ]).
 :- reexport('host/host_names').
@@ -29,9 +30,9 @@ This is the interface of the layer: higher layers import from here.
               context_now/2, context_set/3
             ]).
 :- reexport('host/peer_rights').
-:- reexport(host/turns, [turn_later/1, turn_of/3, turns_now/3]).
+:- reexport(host/turns, [turn_later/1, turn_of/3, turns_now/3, turns_paused/0]).
 :- reexport(host/scheduler,
-            [ schedule/2, schedule_adopt/2, schedule_here/2, schedule_leave/0,
+            [ schedule/2, schedule_adopt/2, schedule_here/3, schedule_leave/0,
               schedule_stays/2, scheduler_call/1
             ]).
 :- reexport(host/time,

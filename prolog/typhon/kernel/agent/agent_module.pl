@@ -1,5 +1,6 @@
 :- module(typhon_agent_module,
           [ agent_module/5,             % +Id, +Place, +Hash, +State, -Module
+            agent_module/4,             % +Id, +Place, +Program, +Clauses
             agent_code/2,               % +Module, -Program
             agent_standing/5,           % +Id, +Place, +Hash, +Begin, -Agent
             agent_clauses/3,            % +Module, +Clauses0, -Clauses
@@ -30,8 +31,10 @@ worker.
 */
 
 %!  agent_module(+Id, +Place, +Hash, +State, -Module) is semidet.
+%!  agent_module(+Id, +Place, +Program, +Clauses) is det.
 %
-%   Make a module with the state of an agent.  What is wrong with the state
+%   The second is for a host without parts, where there is no module Id; Program
+%   is that of the program. Make a module with the state of an agent.  What is wrong with the state
 %   is found here, and nothing is left behind then.  Fails if there is no
 %   program of that Hash.
 %
@@ -45,15 +48,24 @@ agent_module(Id, Place, Hash, State0, Module) :-
     below(Place, Hash, Program0, State0, Program, Above, State),
     State = state(Empty, Clauses),
     free_module(Id, Module),
-    set_module(Module:class(temporary)),
-    set_module(Module:base(Program)),
-    add_import_module(Module, Above, end),
+    hung(Module, Program, Above),
     begins(Place, Module),
     catch(( declare_all(Empty, Module),
             add_clauses(Clauses, Module) ),
           error(Formal, Context),
           ( '$destroy_module'(Module),
             throw(error(Formal, Context)) )).
+
+agent_module(Id, Place, Program, Clauses) :-
+    hung(Id, Program, Place),
+    catch(add_clauses(Clauses, Id), error(Formal, Context),
+          ( '$destroy_module'(Id),
+            throw(error(Formal, Context)) )).
+
+hung(Module, Program, Above) :-
+    set_module(Module:class(temporary)),
+    set_module(Module:base(Program)),
+    add_import_module(Module, Above, end).
 
 begins(Place, Module) :-
     (   parts(module, _, _),

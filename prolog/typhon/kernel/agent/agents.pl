@@ -14,6 +14,7 @@
             agent_rest/3,               % +Id, +Status, +Goals
             agent_take/3,               % +Id, -Goals, -Order
             agent_departs/3,            % +Id, -Dest, -Goals
+            agent_comes/5,              % +Id, +Host, +Module, +Hash, +Life
             agent_handed/4,             % +Id, +Hops, +Way, +Frame
             agent_under_way/6,          % ?Id, ?Hops, -Host, -Hash, -Way,
                                         % -Frame
@@ -262,14 +263,19 @@ agent_departs(Id, Dest, Goals) :-
                 *           UNDER WAY          *
                 *******************************/
 
+%!  agent_comes(+Id, +Host, +Module, +Hash, +Life) is det.
 %!  agent_handed(+Id, +Hops, +Way, +Frame) is semidet.
 %!  agent_under_way(?Id, ?Hops, -Host, -Hash, -Way, -Frame) is nondet.
 %!  agent_gone(+Id, ?Hops, -Host, -Way, -Mail:list) is semidet.
 %!  agent_thawed(+Id, +Module, +Life, +Status, +Goals) is det.
 %
-%   Id, which runs, is under way from now on; its record and its module are no
+%   Id has come to Host, which is plain, and runs. Id, which runs, is under way
+%   from now on; its record and its module are no
 %   more. Fails if it has an order, or was ended. Those that are under way. Id
 %   has gone, and Mail came for it meanwhile. It has a record again.
+
+agent_comes(Id, Host, Module, Hash, Life) :-
+    assertz(stands(Id, Host, Module, Hash, Life, 0)).
 
 agent_handed(Id, Hops, Way, Frame) :-
     stands(Id, Host, Module, Hash, _, _),

@@ -12,6 +12,8 @@
             host_leave/1,               % +Name
             host_load/2,                % +Name, -Load
             host_hop/3,                 % +Name, +Direction, +Seconds
+            host_lets_all/3,            % +Name, -Address, -Place
+            host_came/2,                % +Name, +Seconds
             host_left/2,                % +Name, +Seconds
             host_passed/3,              % +Here, +There, +Seconds
             host_hop_stats/3            % +Name, ?Direction, -Stats
@@ -20,6 +22,7 @@
 :- use_module(library(lists), [member/2]).
 :- use_module('../base/durable_changes',
               [durable_drop/3, durable_on/0, durable_put/4]).
+:- use_module('../base/headroom', [memory_short/1]).
 :- use_module(links, [host_linked/1, host_unlink/2]).
 :- use_module(host_parts, [parts_compile/1, parts_forget/1]).
 
@@ -217,6 +220,25 @@ count_load(Key, Change) :-
     Load is Load0+Change,
     set_flag(Key, Load).
 
+%!  host_lets_all(+Name, -Address, -Place) is semidet.
+%!  host_came(+Name, +Seconds) is semidet.
+%
+%   Name, which may be anything, is a host of this process that asks for no
+%   token.  An agent has come to it by a hop of so many Seconds of host time;
+%   fails, and it has not, if there is no capacity.
+
+host_lets_all(Name, Address, Place) :-
+    atom(Name),
+    door(Name, [], _, _),
+    host(Name, Address, Place),
+    !.
+
+host_came(Name, Seconds) :-
+    door(Name, [], Capacity, Load),
+    hop_keys(Name, in, In),
+    !,
+    with_mutex(typhon_host_flags, came(Load, Capacity, In, Seconds)).
+
 %!  host_again(+Name) is det.
 %!  host_leave(+Name) is det.
 %
@@ -279,6 +301,14 @@ host_passed(Here, There, Seconds) :-    % one was stopped meanwhile
 passed(Load, Out, In, Seconds) :-
     count_load(Load, -1),
     add_hop(Out, Seconds),
+    add_hop(In, Seconds).
+
+came(Load, Capacity, In, Seconds) :-
+    get_flag(Load, Count),
+    Count < Capacity,
+    Count1 is Count+1,
+    \+ memory_short(Count1),
+    set_flag(Load, Count1),
     add_hop(In, Seconds).
 
 left(Load, Out, Seconds) :-

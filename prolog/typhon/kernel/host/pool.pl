@@ -15,7 +15,7 @@
                 timer_stop/0 ]).
 :- use_module(turns,
               [turn_if_short/2, turn_in/3, turns_go_on/1, turns_pause/0]).
-:- use_module(work, [work_do/2]).
+:- use_module(work, [work_do/2, work_survives/1]).
 
 /** <module> The runtime `real`: a pool of few threads for many agents
 
@@ -37,7 +37,7 @@ end, whole: when the run queue is gone no worker is added.
     typhon_time:alarm/4,
     typhon_time:alone/1,
     typhon_time:due/4,
-    typhon_time:here/2,
+    typhon_time:here/3,
     typhon_time:hold/2,
     typhon_time:leave/1,
     typhon_time:let_go/2,
@@ -138,9 +138,9 @@ waits(Queue) :-
 
 %   This thread is of no pool, and gets no turn that may take long.
 
-typhon_time:here(real, Agent) :-
+typhon_time:here(real, Agent, Turn) :-
     run_queue(_),
-    turn_if_short(Agent, work_do(agent(Agent), enqueue)).
+    turn_if_short(Agent, work_survives(Turn)).
 
                 /*******************************
                 *         ALARMS, WAITING      *

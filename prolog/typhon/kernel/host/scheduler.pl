@@ -4,7 +4,7 @@
             scheduler_forget/0,
             schedule/2,                 % +Host, +Agent
             schedule_stays/2,           % +Here, +There
-            schedule_here/2,            % +Host, +Agent
+            schedule_here/3,            % +Host, +Agent, :Turn
             schedule_adopt/2,           % +Thread, +Agent
             schedule_leave/0,
             scheduler_call/1            % :Goal
@@ -13,7 +13,7 @@
 :- use_module(library(lists), [member/2]).
 :- use_module(turns, [turns_not_short/2]).
 :- use_module(time,
-              [ time_adopt/1, time_alone/0, time_here/1, time_leave/0,
+              [ time_adopt/1, time_alone/0, time_here/2, time_leave/0,
                 time_work/1 ]).
 :- use_module(work,
               [ limit_clear/2, limit_enter/3, limit_set/3, limited/1,
@@ -31,10 +31,13 @@ Higher layers define agents by the hooks run/1, fire/2, over/2 and kind/2.
 */
 
 :- meta_predicate
+    schedule_here(+, +, 0),
     scheduler_call(0).
 
 :- multifile
     run/1,                      % Agent: run it until it has to wait
+    run_on/4,                   % Agent, Host, Context, Goals: run it, which has
+                                % no status, from there
     fire/2,                     % Agent, Token: an alarm went off
     over/2,                     % Agent, Token: this alarm is not needed any more
     kind/2.                     % Agent, Kind: agents that may block alike
@@ -81,21 +84,19 @@ schedule_stays(Here, There) :-
     \+ limited(Here, There),
     time_alone.
 
-%!  schedule_here(+Host, +Agent) is det.
+%!  schedule_here(+Host, +Agent, :Turn) is semidet.
 %
-%   As schedule/2, by this thread and at once if Agent's turns are short.
+%   Call Turn, which runs Agent, in this thread.  Fails if the turns of Agent may
+%   take long, or have to wait for others.
 
-schedule_here(Host, Agent) :-
-    (   \+ limited(Host),
-        time_here(Agent)
-    ->  true
-    ;   schedule(Host, Agent)
-    ).
+schedule_here(Host, Agent, Turn) :-
+    \+ limited(Host),
+    time_here(Agent, Turn).
 
 %!  schedule_adopt(+Thread, +Agent) is det.
 %!  schedule_leave is det.
 %
-%   Thread runs Agent by schedule_here/2, and has nothing else to do any more:
+%   Thread runs Agent by schedule_here/3, and has nothing else to do any more:
 %   it is a worker, until it calls schedule_leave/0.
 
 blocks(60).                             % seconds for which it is believed to

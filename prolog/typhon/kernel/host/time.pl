@@ -8,7 +8,7 @@
             time_now/1,                 % -Stamp
             time_work/1,                % +Work
             time_alone/0,
-            time_here/1,                % +Agent
+            time_here/2,                % +Agent
             time_adopt/1,               % +Thread
             time_leave/0,
             time_wait/3,                % +Queue, -Message, +Stamp
@@ -39,7 +39,9 @@ first group; of the others each describes a property that a runtime may lack.
 time.
 */
 
-:- meta_predicate time_signal(0).
+:- meta_predicate
+    time_here(+, 0),
+    time_signal(0).
 
 :- multifile
     starts/1,                   % Kind
@@ -58,7 +60,7 @@ time.
     wanted/2,                   % Option, Kind: see time_wanted/2
     apart/2,                    % Kind, Address: see time_apart/2
     repeats/2,                  % Kind, Mark: see time_repeats/2
-    here/2,                     % Kind, Agent: see time_here/1; with it go
+    here/3,                     % Kind, Agent, Turn: see time_here/2; with it go
     adopt/2,                    % Kind, Thread: see time_adopt/1
     leave/1,                    % Kind: see time_leave/0
     due/4,                      % Kind, Agent, Token, Stamp: see time_due/3
@@ -71,7 +73,7 @@ time.
     wanted/2,
     apart/2,
     repeats/2,
-    here/2,
+    here/3,
     adopt/2,
     leave/1,
     due/4,
@@ -232,19 +234,19 @@ time_alone :-
     time_kind(Kind),
     alone(Kind).
 
-%!  time_here(+Agent) is semidet.
+%!  time_here(+Agent, :Turn) is semidet.
 %
-%   Run Agent in this thread, which has other things to do, too; fails
-%   where it is to be done by workers.
+%   Call Turn, which is one of Agent, in this thread, which has other things to
+%   do, too; fails where it is to be done by workers.
 
-time_here(Agent) :-
+time_here(Agent, Turn) :-
     time_kind(Kind),
-    here(Kind, Agent).
+    here(Kind, Agent, Turn).
 
 %!  time_adopt(+Thread) is det.
 %!  time_leave is det.
 %
-%   Thread, which runs an agent by time_here/1, does work until it has done so;
+%   Thread, which runs an agent by time_here/2, does work until it has done so;
 %   this thread has.
 
 time_adopt(Thread) :-

@@ -1,5 +1,6 @@
 :- module(typhon_work,
           [ work_do/2,                  % +Work, :Again
+            work_survives/1,            % :Turn
             limit_set/3,                % +Host, +Concurrency, -Work
             limit_clear/2,              % +Host, -Agents
             limit_enter/3,              % +Host, +Agent, -Work
@@ -24,7 +25,9 @@ it its own.
 *Threading*: any thread; no two have the same agent.  One mutex for limits.
 */
 
-:- meta_predicate work_do(+, 1).
+:- meta_predicate
+    work_do(+, 1),
+    work_survives(0).
 
 :- multifile
     typhon_scheduler:run/1,     % Agent: run it until it has to wait
@@ -41,6 +44,13 @@ it its own.
 
 work_do(Work, Again) :-
     catch(do(Work, Again), Ball, survive(Ball)).
+
+%!  work_survives(:Turn) is semidet.
+%
+%   Call Turn, whose errors do not reach the caller.
+
+work_survives(Turn) :-
+    catch(Turn, Ball, survive(Ball)).
 
 do(agent(Agent), _) :-
     run_one(Agent).

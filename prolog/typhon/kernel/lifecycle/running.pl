@@ -2,10 +2,11 @@
 :- use_module('../base/durable_changes', [unit_of_work/1]).
 :- use_module('../program', [answer_at/3]).
 :- use_module('../host',
-              [context_clear/0, context_set/3, event/4, turn_later/1]).
+              [ context_clear/0, context_set/3, event/4, turn_later/1,
+                turns_paused/0 ]).
 :- use_module('../agent',
               [ agent/5, agent_code/2, agent_departs/3, agent_handles/2,
-                agent_ordered/1, agent_ready/2, agent_resumes/2, agent_rest/3,
+                agent_here/5, agent_ordered/1, agent_ready/2, agent_resumes/2, agent_rest/3,
                 agent_take/3, mail_take/2, with_agent/2 ]).
 :- use_module(effect, [effect/5, effect_depart/6]).
 :- use_module(ending, [agent_end/2, agent_fails/3]).
@@ -24,7 +25,9 @@ options make of a run is in typhon_turn.
 belongs to one worker.
 */
 
-:- multifile typhon_scheduler:run/1.
+:- multifile
+    typhon_scheduler:run/1,
+    typhon_scheduler:run_on/4.
 
 typhon_scheduler:run(Id) :-
     (   with_agent(Id, take(Id, Task))
@@ -35,6 +38,28 @@ typhon_scheduler:run(Id) :-
         )
     ;   turn_over(Id)                   % has ended
     ).
+
+%   An agent that has just come by the short way is running already.
+
+typhon_scheduler:run_on(Id, Host, Context, Goals) :-
+    (   turns_paused
+    ->  ignore(with_agent(Id, agent_ready(Id, Goals)))
+    ;   (   catch(run_on(Id, Host, Context, Goals), Ball, broken_off(Ball, Id))
+        ->  context_clear
+        ;   context_clear,
+            fail
+        )
+    ).
+
+run_on(Id, Host, Context, Goals) :-
+    agent_here(Id, Host, Module, Hash, Life),
+    !,
+    context_set(Host, Id, Module),
+    turn_engine(agent(Id, Host, Hash, Life), goals(Goals), Engine),
+    turns(goals(Goals), Engine, turn(Id, Host, Context), Next),
+    go_on(Next, Id).
+run_on(Id, _, _, _) :-                  % has ended
+    turn_over(Id).
 
 take(Id, later) :-
     turn_later(Id),

@@ -9,12 +9,13 @@
               [ endpoint_afterwards/1, endpoint_reply/2, endpoint_reply_later/2 ]).
 :- use_module('../host',
               [ event/4, host/3, host_hop/3, host_time/2, schedule/2,
-                schedule_adopt/2, schedule_here/2, schedule_leave/0 ]).
+                schedule_adopt/2, schedule_here/3, schedule_leave/0 ]).
 :- use_module('../agent',
               [ agent/5, agent_order/2, agent_status/3, gate/4,
                 gate_refused/4, image_amended/5, image_enter/4, image_entrant/2,
                 image_label/2, image_module/3, life_hops/2,
                 with_agent/2 ]).
+:- use_module(hand_over, [taken_over/4]).
 :- use_module(hop_ids,
               [ crossing_done/1, crossing_end/2, crossing_known/1,
                 is_crossing/1 ]).
@@ -43,6 +44,8 @@ anyhow: the agent stands here, has gone on, or has ended.
 typhon_endpoint:handed(hop, hop(Name, Image, Program), Peer, Verdict) :-
     (   durable_on
     ->  Verdict = deferred
+    ;   catch(taken_over(Name, Image, Program, Peer), error(_, _), fail)
+    ->  Verdict = accepted
     ;   holed(Image, Whole),
         arrived(Name, Whole, Program, none, Peer, Answer),
         handed(Answer, Name, Verdict)
@@ -102,8 +105,9 @@ answer(Answer, _, ReplyTo) :-
 %   go_on(+Name, +Id, +Where): `here`, in this thread, or `later`.
 
 go_on(Name, Id, here) :-
-    schedule_here(Name, Id).
-go_on(Name, Id, later) :-
+    schedule_here(Name, Id, typhon_scheduler:run(Id)),
+    !.
+go_on(Name, Id, _) :-
     schedule(Name, Id).
 
 typhon_endpoint:lent(_:go_on(_, Id), Thread) :-

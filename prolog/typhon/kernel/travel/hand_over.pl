@@ -1,21 +1,28 @@
 :- module(typhon_hand_over,
-          [ hand_over/5                 % +Id, +Where, +Hole, +Goals, +Since
+          [ hand_over/5,                % +Id, +Where, +Hole, +Goals, +Since
+            taken_over/4                % +Host, +Image, +Program, +Peer
           ]).
 :- use_module(library(debug), [debug/3]).
 :- use_module('../base/durable_changes', [durable_on/0]).
+:- use_module('../program', [code_module/2]).
 :- use_module('../wire',
-              [endpoint_hand/4, endpoint_hand_over/2, endpoint_handed/2]).
+              [ endpoint_afterwards/1, endpoint_hand/4, endpoint_hand_over/2,
+                endpoint_handed/2 ]).
 :- use_module('../host',
-              [ event_heard/1, host/3, host_left/2, host_time/2, plain/1,
-                scheduler_call/1 ]).
+              [ event_heard/1, host/3, host_came/2, host_left/2,
+                host_lets_all/3, host_time/2, plain/1, schedule_adopt/2,
+                schedule_here/3, scheduler_call/1 ]).
 :- use_module('../agent',
-              [ agent_gone/5, agent_handed/4, agent_here/5, agent_standing/5,
-                agent_state/2, agent_thawed/5, agent_under_way/6,
-                life_before/2, life_extras/2, life_hop/3, mail_all/2,
-                mail_back/2, mail_waits/1, with_agent/2 ]).
+              [ agent_comes/5, agent_gone/5, agent_handed/4, agent_here/5,
+                agent_module/4, agent_ready/2, agent_standing/5,
+                agent_state/2, agent_thawed/5, agent_under_way/6, is_life/1,
+                life_before/2, life_extras/2, life_hop/3, life_hops/2,
+                mail_all/2, mail_back/2, mail_waits/1, with_agent/2 ]).
+:- use_module(backlog, [backlog/1]).
 :- use_module(post, [post_on/2]).
 :- use_module(programs_sent, [program_sent/3]).
-:- use_module(whereabouts, [agent_left/4]).
+:- use_module(whereabouts,
+              [agent_comes_anew/3, agent_left/4, agent_seen/4]).
 
 /** <module> The short way of a hop
 
@@ -28,14 +35,17 @@ All else that can become of it, and whatever looks at it meanwhile, _thaws_ it:
 the frame is read, and the agent is in transit as one that was sent by request,
 see typhon_transfer, to which the rest is left.
 
-The other process takes the agent in like any other, see typhon_arrival.
+What comes to a host without parts is taken over in one step, and goes on in the
+thread that has read it, if its turns are short.  All that is unusual fails, and
+nothing has changed: then the agent comes in like any other, see typhon_arrival.
 
-*Threading*: hand_over/5 in a worker; results in the threads of the endpoint.
+*Threading*: hand_over/5 in a worker; the rest in the threads of the endpoint.
 */
 
 :- multifile
     typhon_agents:thaw/1,
     typhon_endpoint:handed_over/2,
+    typhon_endpoint:lent/2,
     result/2.                   % Result, Transfer: the agent, in transit, is to
                                 % be treated as the answer says
 
@@ -148,3 +158,76 @@ thawed(Id) :-
     arg(1, Dest, Address),
     agent_thawed(Id, Module, Life0, transit(Address, Sent),
                  hop(Hole-Goals, Hops, Mail, Since)).
+
+                /*******************************
+                *            ARRIVAL           *
+                *******************************/
+
+%!  taken_over(+Host, +Image, +Program, +Peer) is semidet.
+%
+%   The process at Peer hands over an agent to Host; all of that may be anything.
+%   It is here now, and goes on afterwards.
+%
+%   @error what is wrong with its clauses
+
+taken_over(Host, Image, known, Peer) :-
+    plain(Host),
+    host_lets_all(Host, Address, Place),
+    \+ event_heard(hops),
+    comes(Image, Id, Hash, Life, Clauses, Goals, Since),
+    code_module(Hash, Program),
+    life_hops(Life, Hops),
+    host_time(Host, Now),
+    Seconds is max(0.0, Now-Since),
+    with_agent(Id, come(Id, Hops, Host-Place, Hash-Program, Life, Clauses,
+                        Seconds, Home)),
+    !,
+    debug(typhon(hop), '~w hop ~D: is on ~w, from ~w',
+          [Id, Hops, Address, Peer]),
+    (   Home == here
+    ->  true                            % and so are we
+    ;   agent_seen(Id, Address, Hops, Peer)
+    ),
+    endpoint_afterwards(go_on(Id, Host, context(Program, Id), Goals)).
+
+%   An agent that brings no messages, and that no option lets carry anything.
+
+comes(image(Id, Hash, Life, State, Hole-Goals, Mail, Since), Id, Hash, Life,
+      Clauses, Goals, Since) :-
+    Mail == [],
+    atom(Id),
+    sub_atom(Id, _, _, _, @),
+    !,
+    atom(Hash),
+    number(Since),
+    is_list(Goals),
+    is_life(Life),
+    life_extras(Life, []),
+    nonvar(State),
+    State = state(Empty, Clauses),
+    Empty == [],
+    is_list(Clauses),
+    Hole = true.
+
+%   Signals are held back, see reader.pl: between these steps none comes.
+
+come(Id, Hops, Host-Place, Hash-Program, Life, Clauses, Seconds, Home) :-
+    \+ agent_here(Id, _, _, _, _),
+    \+ agent_under_way(Id, _, _, _, _, _),
+    \+ backlog(Id),
+    agent_comes_anew(Id, Hops, Home),
+    agent_module(Id, Place, Program, Clauses),
+    (   host_came(Host, Seconds)
+    ->  agent_comes(Id, Host, Id, Hash, Life)
+    ;   '$destroy_module'(Id),
+        fail
+    ).
+
+go_on(Id, Host, Context, Goals, here) :-
+    schedule_here(Host, Id, typhon_scheduler:run_on(Id, Host, Context, Goals)),
+    !.
+go_on(Id, _, _, Goals, _) :-
+    ignore(with_agent(Id, agent_ready(Id, Goals))).
+
+typhon_endpoint:lent(_:go_on(Id, _, _, _), Thread) :-
+    schedule_adopt(Thread, Id).

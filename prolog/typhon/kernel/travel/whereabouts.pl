@@ -12,6 +12,7 @@
             agent_reached/3,            % +Id, +Hops, :OnAnswer
             agent_reached_at/4,         % +Id, +Hops, +Endpoint, -Answer
             agent_heard_of/2,           % +Id, -Hops
+            agent_comes_anew/3,         % +Id, +Hops, -Home
             whereabouts/2               % +Id, -Address
           ]).
 :- use_module(library(apply), [include/3, maplist/2]).
@@ -363,6 +364,20 @@ agent_heard_of(Id, Hops) :-
     home_knows(Id, _, Hops, _).
 agent_heard_of(Id, Hops) :-
     ended_here(Id, Hops).
+
+%!  agent_comes_anew(+Id, +Hops, -Home) is semidet.
+%
+%   As far as is known Id, which is not in this process, has not made Hops hops
+%   before; Home is `here` if it was born in this process, else `elsewhere`.
+
+agent_comes_anew(Id, Hops, Home) :-
+    home_knows(Id, _, Hops0, _),
+    !,
+    Hops0 < Hops,
+    Home = here.
+agent_comes_anew(Id, Hops, elsewhere) :-
+    \+ agent_outcome(Id, _),
+    \+ ( agent_heard_of(Id, Hops0), Hops0 >= Hops ).
 
 %!  whereabouts(+Id, -Address) is semidet.
 %
