@@ -46,7 +46,7 @@ is held.
 :- use_module(frame,
               [bundle_fits/1, frame_overhead/1, frame_write/3, term_bytes/3]).
 :- use_module(session,
-              [ session_codec/2, session_key/2, session_locked/2,
+              [ session_codec/2, session_held/2, session_key/2, session_locked/2,
                 session_must_exist/2, session_received/2,
                 session_up/1, session_window/2, transport/3,
                 transport_broken/2, debug_frame/4 ]).
@@ -131,7 +131,7 @@ session_release(Session) :-
 %!  session_hand(+Session, +Bytes, +Token) is det.
 %
 %   Bytes are the frame that hands over Term; send it, and learn by Token what
-%   became of it: see request.pl.
+%   became of it: see request.pl.  The caller of session_hand/3 holds signals back.
 %
 %   @error resource_error(frame_bytes), type_error(mobile_term, Culprit)
 %
@@ -142,7 +142,7 @@ session_hand_bytes(Session, Kind, Term, Bytes) :-
 
 session_hand(Session, Bytes, Token) :-
     answers_first(Session),
-    session_locked(Session, put_frame(Session, Bytes, Token, flush)).
+    session_held(Session, put_frame(Session, Bytes, Token, flush)).
 
 %!  session_object(+Session, +Answer) is det.
 %!  session_owes is det.

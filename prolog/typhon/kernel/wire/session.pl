@@ -8,6 +8,7 @@
             session_peer/3,             % +Session, -Process, -Address
             session_proof/2,            % +Session, -Proof
             session_locked/2,           % +Session, :Goal
+            session_held/2,             % +Session, :Goal
             session_adopting/2,         % +Session, :Goal
             route/2,                    % ?Address, ?Session
             route_key/2,                % ?Address, ?Key
@@ -67,6 +68,7 @@ changes the count of what was received.
 
 :- meta_predicate
     session_locked(+, 0),
+    session_held(+, 0),
     session_adopting(+, 0).
 
 :- dynamic
@@ -156,11 +158,16 @@ session_must_exist(Session, Key) :-
     ).
 
 %!  session_locked(+Session, :Goal) is semidet.
+%!  session_held(+Session, :Goal) is semidet.
 %
-%   Run once(Goal) alone with the sending side of Session: in one step.
+%   Run once(Goal) alone with the sending side of Session: in one step. The
+%   second is for threads that hold signals back anyway.
 
 session_locked(session(_, _, Mutex, _, _, _), Goal) :-
     sig_atomic(with_mutex(Mutex, Goal)).
+
+session_held(session(_, _, Mutex, _, _, _), Goal) :-
+    with_mutex(Mutex, Goal).
 
 %!  session_adopting(+Session, :Goal) is semidet.
 %

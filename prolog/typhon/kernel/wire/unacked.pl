@@ -56,8 +56,8 @@ thread.
               [ bundle_all/3, bundle_next/5, count_ahead/3, frame_overhead/1,
                 frame_write/3 ]).
 :- use_module(session,
-              [ ack_frames/1, session_codec/2, session_key/2, session_locked/2,
-                session_window/2, session_window_free/1, transport_broken/2 ]).
+              [ ack_frames/1, session_codec/2, session_held/2, session_key/2,
+                session_locked/2, session_window/2, session_window_free/1, transport_broken/2 ]).
 :- use_module(threads, [wire_thread_create/3, wire_thread_end/2]).
 
 :- dynamic
@@ -153,11 +153,11 @@ unacked_resumed(Session, Count, Bytes) :-
     get_flag(Acked, Count0),
     message_queue_property(Sent, size(Size)),
     Gone is max(0, min(Count-Count0, Size)),
-    gone(Gone, Session, none, [], _),
+    session_key(Session, Key),
+    gone(Gone, Count0, Sent, Key-none, [], [], 0, _),
     Count1 is max(Count0, Count),
     set_flag(Acked, Count1),
     set_flag(AckedBytes, Bytes),
-    session_key(Session, Key),
     has_frames(Key, Count1),
     set_flag(Told, -1),                 % the reader begins with telling it
     (   thread_peek_message(Sent, frame(_, _, First))
@@ -221,36 +221,36 @@ numbered([frame(_, Token, _)|Frames], N0, Numbered) :-
 %   @error domain_error(acknowledged, Count) more than was sent
 
 session_acked(Session, counts(Received, Count), Settled) :-
-    session_window(Session, window(_, _, _, _, Acked, _, _)),
+    session_window(Session, Window),
+    arg(5, Window, Acked),
     get_flag(Acked, Count0),
+    session_key(Session, Key),
     (   count_ahead(Count0, Received, Ahead),
         Ahead > 0
-    ->  session_locked(Session, acked(Ahead, Session, Count, Tokens, Late))
+    ->  session_held(Session, acked(Ahead, Key, Window, Count, Tokens, Late))
     ;   Tokens = Late
     ),
-    session_key(Session, Key),
     (   unsettled(Key, _, _)
     ->  settled_late(Key, Count, Late)
     ;   Late = []
     ),
     results(Tokens, Key, Settled).
 
-acked(Ahead, Session, Count, Tokens, Late) :-
-    session_window(Session, window(Sent, _, _, _, Acked, AckedBytes, _)),
+acked(Ahead, Key, Window, Settled, Tokens, Late) :-
+    Window = window(Sent, _, _, _, Acked, AckedBytes, _),
     message_queue_property(Sent, size(Size)),
     (   Ahead =< Size
     ->  true
     ;   domain_error(acknowledged, Ahead)
     ),
-    gone(Ahead, Session, Count, Tokens, Late, Bytes),
     get_flag(Acked, Count0),
-    Count1 is Count0+Ahead,
-    set_flag(Acked, Count1),
+    gone(Ahead, Count0, Sent, Key-Settled, Tokens, Late, 0, Bytes),
+    Count is Count0+Ahead,
+    set_flag(Acked, Count),
     get_flag(AckedBytes, Bytes0),
     Bytes1 is Bytes0+Bytes,
     set_flag(AckedBytes, Bytes1),
-    session_key(Session, Key),
-    has_frames(Key, Count1).
+    has_frames(Key, Count).
 
 %   has_frames(+Key, +Count): the peer has so many.
 
@@ -266,17 +266,9 @@ has_frames(Key, Count) :-
     ;   true
     ).
 
-%   gone(+Ahead, +Session, +Settled, -Tokens, ?Rest, -Bytes): the peer has so
-%   many more frames, of Bytes bytes.  Settled is its count of those, or `none`.
-
-gone(Ahead, Session, Settled, Tokens, Rest) :-
-    gone(Ahead, Session, Settled, Tokens, Rest, _).
-
-gone(Ahead, Session, Settled, Tokens, Rest, Bytes) :-
-    session_key(Session, Key),
-    session_window(Session, window(Sent, _, _, _, Acked, _, _)),
-    get_flag(Acked, Count),
-    gone(Ahead, Count, Sent, Key-Settled, Tokens, Rest, 0, Bytes).
+%   gone(+Ahead, +Count, +Sent, +How, -Tokens, ?Rest, +Bytes0, -Bytes): the peer
+%   has Ahead frames more than Count, of so many bytes.  How is Key-Settled, its
+%   count of those that are settled, or Key-none.
 
 gone(0, _, _, _, Tokens, Tokens, Bytes, Bytes) :-
     !.
