@@ -105,9 +105,8 @@ answer(Answer, _, ReplyTo) :-
 %   go_on(+Name, +Id, +Where): `here`, in this thread, or `later`.
 
 go_on(Name, Id, here) :-
-    schedule_here(Name, Id, typhon_scheduler:run(Id)),
-    !.
-go_on(Name, Id, _) :-
+    schedule_here(Name, Id, typhon_scheduler:run(Id)).
+go_on(Name, Id, later) :-
     schedule(Name, Id).
 
 typhon_endpoint:lent(_:go_on(_, Id), Thread) :-

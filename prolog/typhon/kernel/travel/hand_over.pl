@@ -224,9 +224,8 @@ come(Id, Hops, Host-Place, Hash-Program, Life, Clauses, Seconds, Home) :-
     ).
 
 go_on(Id, Host, Context, Goals, here) :-
-    schedule_here(Host, Id, typhon_scheduler:run_on(Id, Host, Context, Goals)),
-    !.
-go_on(Id, _, _, Goals, _) :-
+    schedule_here(Host, Id, typhon_scheduler:run_on(Id, Host, Context, Goals)).
+go_on(Id, _, _, Goals, later) :-
     ignore(with_agent(Id, agent_ready(Id, Goals))).
 
 typhon_endpoint:lent(_:go_on(Id, _, _, _), Thread) :-

@@ -3,7 +3,7 @@
             lending_anew/0,
             lending_open/3,             % +Session, +In, +Out
             lending_close/0,
-            lend/1,                     % :More
+            lend/2,                     % :More, :Tell
             lent/0,
             lent_away/0
           ]).
@@ -38,7 +38,7 @@ The token goes to the thread that takes it first.
 
 :- meta_predicate
     endpoint_afterwards(1),
-    lend(0).
+    lend(0, 0).
 
 :- multifile
     typhon_endpoint:lent/2,             % Goal, Thread
@@ -61,9 +61,9 @@ most_time(0.2).
 %!  endpoint_afterwards(:Goal) is det.
 %
 %   In a hook: call(Goal, here) in this thread when the hook has ended and
-%   its frame is counted, or call(Goal, later) if more is to be read first;
-%   then, or if this is no reader, Goal is to leave the work to others. Goal
-%   does not fail or raise. Where it lasts, the hook lent(Goal, Thread) tells
+%   its frame is counted.  If that fails, or more is to be read first, or this is
+%   no reader, call(Goal, later) leaves the work to others; that does not fail.
+%   Goal does not raise. Where it lasts, the hook lent(Goal, Thread) tells
 %   that Thread is not of the endpoint any more, and returned, there, that
 %   Thread is about to end.
 
@@ -118,25 +118,32 @@ come_back :-
     nb_getval(typhon_token, token(Queue, _)),
     sig_atomic(take_back(Queue, _)).
 
-%!  lend(:More) is semidet.
+%!  lend(:More, :Tell) is semidet.
 %
-%   Call what a hook has left, if anything. True when the thread has been lent,
-%   and is back. More says whether there is more to read first.
+%   Call what a hook has left; fails if there is nothing. More says whether there
+%   is more to read first. Tell is called when the thread is back, and before the
+%   work is left to others: the peer learns what was accepted before they act.
 %
 %   Throws wire_thread_end(Why) if it is to end, as when the connection is no
 %   longer ours.
 
-lend(More) :-
+lend(More, Tell) :-
     nb_getval(typhon_lending, wants(Goal)),
     (   call(More)
-    ->  sig_atomic(( nb_setval(typhon_lending, idle),
-                     call(Goal, later) )),
-        fail
+    ->  nb_setval(typhon_lending, idle),
+        leave(Goal, Tell)
     ;   sig_atomic(give(Goal, Queue)),
-        call(Goal, here),
-        sig_atomic(take_back(Queue, Told)),
+        (   call(Goal, here)
+        ->  sig_atomic(take_back(Queue, Told)),
+            call(Tell)
+        ;   sig_atomic(take_back(Queue, Told)),
+            leave(Goal, Tell)
+        ),
         heard(Told)
     ).
+
+leave(Goal, Tell) :-
+    sig_atomic(( call(Tell), call(Goal, later) )).
 
 give(Goal, Queue) :-
     nb_getval(typhon_token, token(Queue, Turn0)),

@@ -25,7 +25,7 @@ are held back while a frame is being handled and counted.
 :- use_module(frame,
               [bundle_parts/2, bytes_mark/2, bytes_term/3, frame_read/4]).
 :- use_module(lending,
-              [lend/1, lending_close/0, lending_open/3, lent/0]).
+              [lend/2, lending_close/0, lending_open/3, lent/0]).
 :- use_module(outbox,
               [ session_acknowledge/1, session_answer/2, session_control/2,
                 session_later/1, session_object/2, session_owes/0,
@@ -113,9 +113,14 @@ read_all(Session, In, Max, State) :-
 %   taken the answers along, else they go now.
 
 afterwards(Session, In) :-
-    (   lend(more_first(In)),
-        session_later(Late),
-        Late > 0
+    (   lend(more_first(In), tell(Session))
+    ->  true
+    ;   true
+    ).
+
+tell(Session) :-
+    session_later(Late),
+    (   Late > 0
     ->  session_push(Session)
     ;   true
     ).
