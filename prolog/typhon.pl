@@ -17,12 +17,11 @@ a folder, with an interface of the same name beside it:
   | Python, MQTT, ROS, FIPA         | typhon/bridges           |
 */
 
-%   Arithmetic is compiled in all modules; debug/3 is kept. From 9.2 on
-%   library(debug) defines the flag.
+:- use_module(typhon/kernel/base/compiling,
+              [compiling_begin/1, compiling_end/1]).
 
-:- use_module(library(debug), []).
-:- set_prolog_flag(optimise, true).
-:- set_prolog_flag(optimise_debug, false).
+:- compiling_begin(Flags),
+   nb_setval(typhon_flags, Flags).
 
 :- use_module(typhon/kernel/base/user_errors, [user_errors/1]).
 :- reexport(typhon/kernel/program, [agent_check/1, agent_check/2]).
@@ -50,11 +49,6 @@ a folder, with an interface of the same name beside it:
             [ mqtt_start/3, mqtt_stop/1, python_start/3, python_stop/1,
               ros_start/3, ros_stop/1, ros_property/2, fipa_start/3, fipa_stop/1 ]).
 :- use_module(typhon/kernel/vocabulary, []).
-:- use_module(typhon/options/journal, []).
-:- use_module(typhon/options/access, []).
-:- use_module(typhon/options/guard, []).
-:- use_module(typhon/options/quotas, []).
-:- use_module(typhon/options/virtual, []).
 :- use_module(typhon/tools/messages, []).
 :- use_module(typhon/tools/fault_messages, []).
 :- use_module(typhon/options/tls, []).
@@ -62,4 +56,6 @@ a folder, with an interface of the same name beside it:
 
 :- user_errors(typhon).
 
-:- set_prolog_flag(optimise_debug, default).
+:- nb_getval(typhon_flags, Flags),
+   compiling_end(Flags),
+   nb_delete(typhon_flags).

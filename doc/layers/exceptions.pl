@@ -1,2 +1,1 @@
-exception('prolog/typhon/kernel/host/host_options.pl',journal).
 exception('prolog/typhon/kernel/program/advice.pl',snapshot).

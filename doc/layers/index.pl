@@ -17,12 +17,24 @@ they are loaded; see module `typhon_on_demand`.
 *Threading*: the main thread.
 */
 
-%!  indexed(?Hook, ?Seam, ?Head, ?What) is nondet.
+%!  indexed(+Hook, -Seam, +Head, -What) is semidet.
 %
-%   Hook is in the index under Seam: its clauses have Head, and are for What.
+%   Hook is in the index under Seam: a clause of Head is for What.
+%   Options are there under their domain, by name.
 
 indexed(typhon_endpoint:requested/4, requested, requested(Kind, _, _, _), Kind).
 indexed(typhon_endpoint:received/3, received, received(Kind, _, _), Kind).
+indexed(typhon_on_demand:joins/2, Seam, joins(Seam, What), What).
+indexed(typhon_questions:here/3, question, here(Question, _, _), Kind) :-
+    callable(Question),
+    functor(Question, Kind, _).
+indexed(typhon_time:starts/1, time, starts(Kind), Kind).
+indexed(typhon_durable:fact_table/5, durable, fact_table(Kind, _, _, _, _),
+        Kind).
+indexed(typhon_durable:dump/4, durable, dump(Kind, _, _, _), Kind).
+indexed(typhon_durable:restore/4, durable, restore(Kind, _, _, _), Kind).
+indexed(typhon_durable_changes:open_store/3, open_store, open_store(_, _, _),
+        any).
 
 %!  index_problem(-Problem) is nondet.
 
@@ -92,9 +104,16 @@ print_facts(Facts) :-
 
 part_joins(Seam, What, Part) :-
     on_demand(File, Part),
-    indexed(Module:_, Seam, Head, What),
     hook_clause(File, Module:Head),
-    ground(What).
+    functor(Head, Hook, Arity),
+    indexed(Module:Hook/Arity, Seam, Head, What),
+    ground(Seam-What).
+part_joins(Domain, Name, Part) :-
+    on_demand(File, Part),
+    hook_clause(File, typhon_options:declared(Domain, Option, _, _)),
+    atom(Domain),
+    callable(Option),
+    functor(Option, Name, _).
 
 part_file(Part, Path) :-
     on_demand(File, Part),

@@ -1,20 +1,74 @@
-:- module(typhon_journal, []).
+:- module(typhon_journal,
+          [ hosts_journal/2,            % +Where, +Options
+            hosts_back/1,               % +Options
+            journal_part/3,             % +Where, +P, -Part
+            journal_place/2,            % +Where, -Place
+            journal_opened/1,           % -Place
+            journal_record/2,           % +Where, -Text
+            journal_record_put/2,       % +Where, +Text
+            journal_record_drop/1       % +Where
+          ]).
+:- use_module('../kernel/base/on_demand', [on_demand_call/3]).
 
 /** <module> The journal: what happens in a process outlives it
 
 It notes agents as they change, commits the changes that the kernel queues, see
 typhon_durable_changes, many together, to a database, and restores all of it
-when the process is started again.  Once this file is loaded the hooks of the
-kernel do so in processes that open a journal.  This is the interface of the
-layer.
+when the process is started again.  Its modules are loaded with the first
+journal; then the hooks of the kernel do so in processes that open one.  This
+is the interface of the layer.
+
+*Threading*: any thread.
 */
 
-:- use_module(journal/committing, []).
-:- use_module(journal/journaled_agents, []).
-:- use_module(journal/channel, []).
-:- use_module(journal/recovery, []).
-:- reexport(journal/journaled_hosts, [hosts_back/1, hosts_journal/2]).
-:- reexport(journal/database,
-            [ journal_part/3, journal_record/2, journal_record_drop/1,
-              journal_record_put/2 ]).
-:- reexport(journal/store, [journal_opened/1, journal_place/2]).
+%!  hosts_journal(+Where, +Options) is det.
+%!  hosts_back(+Options) is det.
+%
+%   See module typhon_journaled_hosts.
+
+hosts_journal(Where, Options) :-
+    journal_call(typhon_journaled_hosts:hosts_journal(Where, Options)).
+
+hosts_back(Options) :-
+    journal_call(typhon_journaled_hosts:hosts_back(Options)).
+
+%!  journal_part(+Where, +P, -Part) is det.
+%
+%   Part is the P-th of several journals that belong together: a directory
+%   below that of Where, or another schema.
+
+journal_part(Where, P, Part) :-
+    journal_call(typhon_database:journal_part(Where, P, Part)).
+
+%!  journal_place(+Where, -Place:atom) is det.
+%!  journal_opened(-Place) is semidet.
+%
+%   What the journal at Where is called, as in errors; what the one is called
+%   that is open.
+%
+%   @arg Where is a directory, postgresql(Url), or such a Url
+%   @error domain_error(postgresql_url, Url)
+
+journal_place(Where, Place) :-
+    journal_call(typhon_store:journal_place(Where, Place)).
+
+journal_opened(Place) :-
+    journal_call(typhon_store:journal_opened(Place)).
+
+%!  journal_record(+Where, -Text) is semidet.
+%!  journal_record_put(+Where, +Text) is det.
+%!  journal_record_drop(+Where) is det.
+%
+%   What journals that belong together have in common is a text beside them.
+
+journal_record(Where, Text) :-
+    journal_call(typhon_database:journal_record(Where, Text)).
+
+journal_record_put(Where, Text) :-
+    journal_call(typhon_database:journal_record_put(Where, Text)).
+
+journal_record_drop(Where) :-
+    journal_call(typhon_database:journal_record_drop(Where)).
+
+journal_call(Goal) :-
+    on_demand_call(open_store, any, Goal).

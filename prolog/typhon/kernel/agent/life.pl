@@ -15,7 +15,7 @@
           ]).
 :- use_module(library(apply), [exclude/3]).
 :- use_module(library(lists), [member/2]).
-:- use_module(library(record), [(record)/1, op(_, _, record)]).
+:- use_module(library(option), [option/3]).
 
 /** <module> What an agent takes along besides its state
 
@@ -32,14 +32,24 @@ takes it apart.
 *Threading*: pure.
 */
 
-:- multifile error:has_type/2.
+:- multifile not_cloned/1.     % Extra: a clone does not carry it
+
+:- dynamic not_cloned/1.
+
+%!  is_life(@Term) is semidet.
+
+is_life(life(Parent, Hops, Lifetime, Tokens, Payloads, Static, Extras)) :-
+    atom(Parent),
+    integer(Hops),
+    atomic(Lifetime),
+    is_list(Tokens),
+    is_list(Payloads),
+    all_carried(Payloads),
+    atom(Static),
+    is_list(Extras).
 
 %   A life that comes from another process could name predicates of a module,
 %   which would go when the payload is detached.
-
-error:has_type(typhon_carried_payloads, Payloads) :-
-    is_list(Payloads),
-    all_carried(Payloads).
 
 all_carried([]).
 all_carried([Payload|Payloads]) :-
@@ -56,26 +66,41 @@ is_indicator(PI) :-
     atom(Name),
     integer(Arity).
 
-:- record life(parent:atom=none, hops:integer=0, lifetime:atomic=inf,
-               tokens:list=[], payloads:typhon_carried_payloads=[],
-               static:atom=false, extras:list=[]).
-
-:- multifile
-    not_cloned/1.               % Extra: a clone does not carry it
-
-:- dynamic not_cloned/1.
-
-%!  is_life(@Term) is semidet.
 %!  make_life(+Fields:list, -Life) is det.
+%
+%   Fields are Name(Value), names as above in lower case; others have their
+%   defaults.
+
+make_life(Fields,
+          life(Parent, Hops, Lifetime, Tokens, Payloads, Static, Extras)) :-
+    option(parent(Parent), Fields, none),
+    option(hops(Hops), Fields, 0),
+    option(lifetime(Lifetime), Fields, inf),
+    option(tokens(Tokens), Fields, []),
+    option(payloads(Payloads), Fields, []),
+    option(static(Static), Fields, false),
+    option(extras(Extras), Fields, []).
+
 %!  life_parent(+Life, -Id) is det.
 %!  life_hops(+Life, -Count:integer) is det.
 %!  life_tokens(+Life, -Tokens:list) is det.
 %!  life_payloads(+Life, -Payloads:list) is det.
 %!  life_extras(+Life, -Extras:list) is det.
+
+life_parent(life(Parent, _, _, _, _, _, _), Parent).
+life_hops(life(_, Hops, _, _, _, _, _), Hops).
+life_tokens(life(_, _, _, Tokens, _, _, _), Tokens).
+life_payloads(life(_, _, _, _, Payloads, _, _), Payloads).
+life_extras(life(_, _, _, _, _, _, Extras), Extras).
+
 %!  set_payloads_of_life(+Payloads:list, +Life0, -Life) is det.
 %!  set_extras_of_life(+Extras:list, +Life0, -Life) is det.
-%
-%   See library(record).
+
+set_payloads_of_life(Payloads, life(P, H, L, T, _, S, E),
+                     life(P, H, L, T, Payloads, S, E)).
+
+set_extras_of_life(Extras, life(P, H, L, T, Ps, S, _),
+                   life(P, H, L, T, Ps, S, Extras)).
 
 %!  life_may_move(+Life, -May) is det.
 %
@@ -85,11 +110,10 @@ life_may_move(life(_, _, inf, _, _, false, _), May) :-
     !,
     May = go.                           % nearly always
 life_may_move(Life, May) :-
-    (   life_static(Life, true)
+    Life = life(_, Hops, Most, _, _, Static, _),
+    (   Static == true
     ->  May = static
-    ;   life_lifetime(Life, Most),
-        integer(Most),
-        life_hops(Life, Hops),
+    ;   integer(Most),
         Hops >= Most
     ->  May = end
     ;   May = go
@@ -115,9 +139,6 @@ life_before(life(Parent, Hops, Most, Tokens, Payloads, Static, Extras),
 %
 %   Life0 is that of Id, Life that of a clone of it.
 
-life_clone(Id, Life0, Life) :-
-    set_parent_of_life(Id, Life0, Life1),
-    set_hops_of_life(0, Life1, Life2),
-    life_extras(Life0, Extras0),
-    exclude(not_cloned, Extras0, Extras),
-    set_extras_of_life(Extras, Life2, Life).
+life_clone(Id, life(_, _, Most, Tokens, Payloads, Static, Extras0),
+           life(Id, 0, Most, Tokens, Payloads, Static, Extras)) :-
+    exclude(not_cloned, Extras0, Extras).

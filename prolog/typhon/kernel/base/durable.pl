@@ -2,6 +2,7 @@
           [ durable_dump/4,             % +Kind, -Key, -N, -Term
             durable_restore/4           % +Kind, +Key, +N, +Term
           ]).
+:- use_module(on_demand, [on_demand_load/2]).
 
 /** <module> Tables that outlive the process
 
@@ -56,6 +57,9 @@ dumps(Kind) :-
 %
 %   Put the item where it was.  Fails if no owner knows items like this.
 
+durable_restore(Kind, _, _, _) :-
+    on_demand_load(durable, Kind),
+    fail.
 durable_restore(Kind, Key, N, Term) :-
     restore(Kind, Key, N, Term),
     !.

@@ -32,7 +32,8 @@
           ]).
 :- use_module(library(error), [existence_error/2]).
 :- use_module(library(lists), [member/2]).
-:- use_module(library(uri), [uri_encoded/3]).
+:- autoload(library(uri), [uri_encoded/3]).
+:- use_module(on_demand, [on_demand_load/2]).
 
 /** <module> Changes that outlive the process
 
@@ -113,6 +114,7 @@ inside the mutex that guards its owner.
 %          back end
 
 durable_open(Where, Sync, Seconds) :-
+    on_demand_load(open_store, any),
     (   open_store(Where, Sync, Seconds)
     ->  true
     ;   existence_error(back_end, Where)

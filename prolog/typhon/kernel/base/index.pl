@@ -16,6 +16,33 @@ Made by `swipl doc/layers.pl -- index`, and compared by `make check`.
 %
 %   Part defines the hook Seam for What.
 
+part_joins(check_option,policy,'options/guard').
+part_joins(durable,agent,'options/journal').
+part_joins(durable,code,'options/journal').
+part_joins(durable,flag,'options/snapshot').
+part_joins(durable,mail,'options/journal').
+part_joins(durable,mail,'options/snapshot').
+part_joins(durable,order,'options/snapshot').
+part_joins(durable,out,'options/journal').
+part_joins(durable,program,'options/snapshot').
+part_joins(durable,stands,'options/snapshot').
+part_joins(durable,state,'options/journal').
+part_joins(host_option,audit,'options/access').
+part_joins(host_option,clock,'options/virtual').
+part_joins(host_option,journal,'options/journal').
+part_joins(host_option,peer,'options/access').
+part_joins(host_option,policy,'options/guard').
+part_joins(host_option,quota,'options/quotas').
+part_joins(host_option,sync,'options/journal').
+part_joins(host_option,trail,'options/trail').
+part_joins(keys,any,'options/trail').
+part_joins(machine_option,bind,network).
+part_joins(machine_option,node,network).
+part_joins(machine_option,swipl,network).
+part_joins(network_load_option,log,network).
+part_joins(open_store,any,'options/journal').
+part_joins(question,trail,'options/trail').
+part_joins(received,channel,'options/journal').
 part_joins(received,log,network).
 part_joins(requested,close_up,tools).
 part_joins(requested,everywhere,'options/watch').
@@ -24,11 +51,17 @@ part_joins(requested,node,network).
 part_joins(requested,survey,tools).
 part_joins(requested,watch,'options/watch').
 part_joins(requested,watched,'options/watch').
+part_joins(ros_call_option,deadline,'bridges/ros').
+part_joins(time,virtual,'options/virtual').
+part_joins(untrusted,any,'options/quotas').
 
 %!  part_file(?Part, ?File) is nondet.
 %
 %   File, below prolog/typhon, defines hooks of Part.
 
+part_file('bridges/ros','bridges/ros/events').
+part_file('bridges/ros','bridges/ros/requests').
+part_file('bridges/ros','bridges/ros/service').
 part_file(network,'network/appointments').
 part_file(network,'network/carrier').
 part_file(network,'network/changes').
@@ -40,6 +73,24 @@ part_file(network,'network/networks').
 part_file(network,'network/plan').
 part_file(network,'network/topology').
 part_file(network,'network/wiring').
+part_file('options/access','options/access/access_rules').
+part_file('options/guard','options/guard/sandbox').
+part_file('options/journal','options/journal/channel').
+part_file('options/journal','options/journal/committing').
+part_file('options/journal','options/journal/journaled_agents').
+part_file('options/journal','options/journal/journaled_hosts').
+part_file('options/journal','options/journal/recovery').
+part_file('options/journal','options/journal/store').
+part_file('options/quotas','options/quotas/mailbox_quota').
+part_file('options/quotas','options/quotas/quota_agents').
+part_file('options/quotas','options/quotas/quota_enforcer').
+part_file('options/quotas','options/quotas/quota_hosts').
+part_file('options/quotas','options/quotas/quota_table').
+part_file('options/quotas','options/quotas/usage').
+part_file('options/snapshot','options/snapshot/process_dump').
+part_file('options/trail','options/trail/trail').
+part_file('options/trail','options/trail/trail_verified').
+part_file('options/virtual','options/virtual/virtual').
 part_file('options/watch','options/watch/counting').
 part_file('options/watch','options/watch/everywhere').
 part_file('options/watch','options/watch/listening').
@@ -53,7 +104,14 @@ part_file(tools,'tools/inventory').
 %   File declares the setting Module:Name.
 
 part_setting(answer_seconds,typhon_processes,number,2,'A process that is to end and says nothing for so long is killed','network/processes').
+part_setting(atom_chars,typhon_guard_limits,positive_integer,1000,'Atoms that untrusted agents make have at most so many characters','options/guard/guard_limits').
+part_setting(atom_chars,typhon_guard_texts,positive_integer,1000,'Now typhon_guard_limits:atom_chars','options/guard/guard_limits').
+part_setting(ball_cells,typhon_guard_arguments,positive_integer,10000,'Now typhon_guard_calls:ball_cells','options/guard/guard_calls').
+part_setting(ball_cells,typhon_guard_calls,positive_integer,10000,'What untrusted agents throw has at most so many parts','options/guard/guard_calls').
 part_setting(browsers,typhon_page_browsers,positive_integer,32,'So many browsers may look at a page at a time','tools/page/browsers').
+part_setting(channel_seconds,typhon_channel,number,300,'Posts for a process that has left, and keeps no journal as far as is known, are kept so long','options/journal/channel').
+part_setting(clause_cells,typhon_guard_limits,positive_integer,200000,'Clauses that untrusted agents add have at most so many parts','options/guard/guard_limits').
+part_setting(clause_cells,typhon_refusing,positive_integer,200000,'Now typhon_guard_limits:clause_cells','options/guard/guard_limits').
 part_setting(connections,typhon_page_reception,positive_integer,64,'A page has so many clients at a time','tools/page/reception').
 part_setting(delay,typhon_telling,number,0.05,'Events gather for so many seconds before they are sent','options/watch/teller').
 part_setting(entries,typhon_fipa_directory,positive_integer,10000,'Now typhon_fipa_managers:entries','bridges/fipa/managers').
@@ -66,6 +124,7 @@ part_setting(heartbeat_seconds,typhon_page_browsers,number,5,'A page says so oft
 part_setting(hold_seconds,typhon_saving,number,30,'A network that is saved has so long to come to rest','network/saving').
 part_setting(kill_seconds,typhon_processes,number,10,'A process that was killed has so long to be gone','network/processes').
 part_setting(last_seconds,typhon_watches,number,2,'unwatch/1 waits so long for what has happened before','options/watch/watches').
+part_setting(links,typhon_trail,positive_integer,32,'So many links of the trail of an agent are kept','options/trail/trail').
 part_setting(longest,typhon_ros_rosbridge,nonneg,4000000,'Characters of one message from a rosbridge server','bridges/ros/rosbridge').
 part_setting(longest,typhon_ros_socket,nonneg,4000000,'Now typhon_ros_rosbridge:longest','bridges/ros/rosbridge').
 part_setting(met,typhon_fipa_platform,positive_integer,10000,'Agents of other platforms whose addresses are remembered','bridges/fipa/platform').
@@ -75,6 +134,9 @@ part_setting(most,typhon_ros_requests,positive_integer,1000,'Requests of ROS tha
 part_setting(most,typhon_ros_standing,positive_integer,1000,'Now typhon_ros_advertisements:most','bridges/ros/advertisements').
 part_setting(order_seconds,typhon_processes,number,60,'A process has so long to answer an order','network/carriers').
 part_setting(patience,typhon_telling,number,30,'A process that watches and is cut off has so long to answer','options/watch/teller').
+part_setting(patience,typhon_virtual,number,10,'Virtual time that stands still for so long is reported','options/virtual/virtual').
+part_setting(pause,typhon_overuse,number,0.8,'Now typhon_quota_enforcer:pause','options/quotas/quota_enforcer').
+part_setting(pause,typhon_quota_enforcer,between(0.0,1.0),0.8,'Agents that run for long where there are quotas pause for this part of the time while others run','options/quotas/quota_enforcer').
 part_setting(python,typhon_helper_process,atom,'','The Python of helpers; \'\' for that of the system','bridges/helper/process').
 part_setting(python,typhon_helper_python,atom,'','Now typhon_helper_process:python','bridges/helper/process').
 part_setting(python,typhon_nxt_helper,atom,'','Now typhon_nxt_link:python','bridges/nxt/link').
@@ -88,6 +150,7 @@ part_setting(restart_seconds,typhon_restarts,number,60,'The time that this numbe
 part_setting(restarts,typhon_restarts,nonneg,10,'A process of a network is started again so often','network/restarts').
 part_setting(seconds,typhon_inventory,number,2,'A table waits so long for the other processes of a network','tools/inventory').
 part_setting(seconds,typhon_survey,number,2,'Now typhon_inventory:seconds','tools/inventory').
+part_setting(silent_seconds,typhon_postgresql,positive_integer,10,'A server of a journal whose machine says nothing for so long is taken to be gone','options/journal/postgresql').
 part_setting(ssh,typhon_children,atom,ssh,'The program that reaches other machines','network/children').
 part_setting(start_seconds,typhon_processes,number,60,'The processes of a network have so long to start','network/processes').
 part_setting(stop_seconds,typhon_children,number,5,'A child has so long to end in order, then it is killed','network/children').

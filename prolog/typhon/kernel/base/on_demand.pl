@@ -1,9 +1,11 @@
 :- module(typhon_on_demand,
           [ on_demand_missing/2,        % +Seam, +What
             on_demand_load/2,           % +Seam, +What
+            on_demand_call/3,           % +Seam, +What, +Goal
             on_demand_later/1           % :Goal
           ]).
 :- use_module(library(lists), [member/2]).
+:- use_module(compiling, [compiling_begin/1, compiling_end/1]).
 :- use_module(index, [part_file/2, part_joins/3, part_setting/6]).
 
 /** <module> Code that is loaded when it is used first
@@ -13,6 +15,12 @@ option, is loaded when one of its predicates is called, an option of it is
 given, or a peer asks for it.  The index, which `doc/layers.pl -- index` makes
 of the sources, says which part is behind which name.
 
+Where nothing names a part, it says itself when it is needed, by the hook
+joins(Seam, What): the kernel, or another part, calls on_demand_load/2 for these.
+
+  | untrusted | any  | a host admits agents that it does not trust |
+  | keys      | any  | the process has keys                        |
+
 Other threads run meanwhile, and call hooks. So clauses of hooks are compiled
 when the rest of their file is there: a hook works as soon as it is seen.
 
@@ -21,9 +29,11 @@ a worker by on_demand_later/1.
 */
 
 :- multifile
+    joins/2,                    % Seam, What: the part joins there, too
     worker_call/1.              % Goal: call it once in a worker
 
 :- dynamic
+    joins/2,
     loaded/1,                   % Part
     directory/1.                % of the parts
 
@@ -49,13 +59,20 @@ on_demand_missing(Seam, What) :-
 on_demand_load(Seam, What) :-
     forall(( part_joins(Seam, What, Part), \+ loaded(Part) ), load(Part)).
 
+%!  on_demand_call(+Seam, +What, +Goal) is nondet.
+%
+%   Call Goal, which is Module:Plain, when these are loaded.
+
+on_demand_call(Seam, What, Module:Goal) :-
+    on_demand_load(Seam, What),
+    call(Module:Goal).
+
 load(Part) :-
     findall(Path, ( part_file(Part, File), path(File, Path) ), Paths),
-    current_prolog_flag(optimise, Optimise),
     setup_call_cleanup(
-        set_prolog_flag(optimise, true),        % as all of library(typhon)
+        compiling_begin(Flags),
         forall(member(Path, Paths), use_module(Path, [])),
-        set_prolog_flag(optimise, Optimise)),
+        compiling_end(Flags)),
     assertz(loaded(Part)).
 
 %   Settings can be set before they are loaded.

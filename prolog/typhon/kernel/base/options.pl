@@ -2,12 +2,16 @@
           [ check_options/2,            % +Domain, +Options
             check_option/2,             % +Domain, +Option
             check_name/2,               % +Domain, +Term
+            options_load/2,             % +Domain, +Options
             blaming/2                   % +What, :Goal
           ]).
 :- use_module(library(apply), [maplist/2]).
 :- use_module(library(broadcast), [listen/2]).
+:- use_module(library(lists), [member/2]).
 :- use_module(library(error), [domain_error/2, is_of_type/2, must_be/2]).
 :- use_module(library(settings), [set_setting/2, setting_property/2]).
+:- use_module(index, [part_joins/3]).
+:- use_module(on_demand, [on_demand_load/2]).
 :- use_module(names,
               [names/2, names_joined/3, names_listed/2, names_proposed/3]).
 
@@ -18,7 +22,8 @@ may have is declared by the module that takes them, with clauses for
 
     declared(Domain, Option, Type, Value)
 
-Type is that of Value, a part of Option, as of must_be/2.  Where there are
+which stand in the files of an option if they are about it alone: checking such
+an option loads these. Type is that of Value, a part of Option, as of must_be/2.  Where there are
 several clauses for an option, one has to agree.
 
 *Threading*: any thread.
@@ -35,6 +40,8 @@ several clauses for an option, one has to agree.
 typhon_names:known(Domain, Name) :-
     declared(Domain, Option, _, _),
     functor(Option, Name, _).
+typhon_names:known(Domain, Name) :-
+    part_joins(Domain, Name, _).
 
 %!  check_options(+Domain, +Options) is det.
 %!  check_option(+Domain, +Option) is det.
@@ -48,6 +55,7 @@ check_options(Domain, Options) :-
 
 check_option(Domain, Option) :-
     must_be(callable, Option),
+    options_load(Domain, [Option]),
     (   declared(Domain, Option, Type, Value),
         is_of_type(Type, Value)
     ->  true
@@ -60,6 +68,14 @@ wrong_option(Domain, Option) :-
     blaming(Option, must_be(Type, Value)).
 wrong_option(Domain, Option) :-
     domain_error(Domain, Option).
+
+%!  options_load(+Domain, +Options:list) is det.
+%
+%   What Options are about is loaded.  check_option/2 does so, too.
+
+options_load(Domain, Options) :-
+    forall(( member(Option, Options), functor(Option, Name, _) ),
+           on_demand_load(Domain, Name)).
 
 %!  check_name(+Domain, +Term) is det.
 %

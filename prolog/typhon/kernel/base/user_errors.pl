@@ -1,7 +1,7 @@
 :- module(typhon_user_errors,
           [ user_errors/1               % +Module
           ]).
-:- use_module(library(debug), [debugging/1]).
+:- use_module(library(debug), [debugging/1, nodebug/1]).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(prolog_wrap), [wrap_predicate/4]).
 

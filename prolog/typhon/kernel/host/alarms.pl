@@ -16,7 +16,7 @@
           ]).
 :- use_module(library(apply), [maplist/2]).
 :- use_module(library(pairs), [pairs_keys_values/3]).
-:- use_module(library(rbtrees),
+:- autoload(library(rbtrees),
               [ ord_list_to_rbtree/2, rb_delete/3, rb_insert/4, rb_min/3,
                 rb_size/2 ]).
 

@@ -7,6 +7,7 @@
 :- use_module('../base/durable_changes', [sync_changes/0]).
 :- use_module(host_options, [host_listed/2]).
 :- use_module(host_names, [host_resolve/2]).
+:- use_module(host_parts, [parts_load/1]).
 :- use_module(hosts, [host/3, host_option/2, host_put/2]).
 :- use_module(place, [place_offer/2]).
 :- use_module(remote, [remote/2]).
@@ -31,6 +32,7 @@ each other by a mutex.
 
 host_change(Host, Option) :-
     check_option(host_option, Option),
+    parts_load([Option]),
     host_resolve(Host, Where),
     change_at(Where, Option).
 

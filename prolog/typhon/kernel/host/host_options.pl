@@ -32,9 +32,6 @@ host_option_type(clock(X, Y), list(number), [X,Y]).
 host_option_type(hop_time(uniform(X, Y)), list(number), [X,Y]).
 host_option_type(seed(X), integer, X).
 host_option_type(python(X), boolean, X).
-host_option_type(journal(X), atom, X).
-host_option_type(journal(postgresql(X)), atom, X).
-host_option_type(sync(X), oneof([full, normal]), X).
 
 %!  host_listed(+ListOrOne, -List) is det.
 %

@@ -3,11 +3,15 @@
             parts_call/3,               % +Phase, +Host, +Args
             amended/5,                  % +Phase, +Host, +About, +Term0, -Term
             plain/1,                    % +Host
+            parts_load/1,               % +Options
             parts_compile/1,            % +Host
             parts_forget/1              % +Host
           ]).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(pairs), [pairs_values/2]).
+
+:- use_module('../base/on_demand', [on_demand_load/2]).
+:- use_module('../base/options', [options_load/2]).
 
 /** <module> The parts of a host: what options add to it
 
@@ -155,6 +159,18 @@ amended_by([Closure|Closures], Host, About, Term0, Term) :-
 
 plain(Host) :-
     \+ parts(_, Host, _).
+
+%!  parts_load(+Options) is det.
+%
+%   All that a host with Options needs is loaded.
+
+parts_load(Options) :-
+    options_load(host_option, Options),
+    (   member(Option, Options),
+        untrusted(Option)
+    ->  on_demand_load(untrusted, any)
+    ;   true
+    ).
 
 %!  parts_compile(+Host) is det.
 %!  parts_forget(+Host) is det.

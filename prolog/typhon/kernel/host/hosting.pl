@@ -26,6 +26,7 @@
 :- use_module(events, [event/4, events_forget/1]).
 :- use_module(host_log, []).
 :- use_module(host_options, [host_listed/2]).
+:- use_module(host_parts, [parts_load/1]).
 :- use_module(hosts,
               [host/3, host_add/4, host_close/1, host_remove/1]).
 :- use_module(host_names, [address_parts/3, host_resolve/2]).
@@ -123,6 +124,7 @@ host_start(Name, Options) :-
     must_be(atom, Name),
     check_options(host_option, Options),
     must_be_name(Name),
+    parts_load(Options),
     forall(typhon_host_parts:check(Options), true),
     forall(member(log(_, Kinds), Options), must_be(list(event_kind), Kinds)),
     with_mutex(typhon_hosting, start(Name, Options)).
@@ -167,6 +169,7 @@ start_new(Name, Options) :-
     event(hosts, Name, none, started).
 
 stand_new(Name, Options) :-
+    parts_load(Options),                % it may come from a journal
     kind_of_time(Options, Kind),
     append(Kind, Options, Options1),
     runtime_acquire(host(Name), Options1, Endpoint),

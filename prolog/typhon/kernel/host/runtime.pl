@@ -10,6 +10,7 @@
 :- use_module(library(option), [option/2, option/3]).
 :- use_module('../base/erased', [forget_erased/0]).
 :- use_module('../base/functors', [functors_room/0]).
+:- use_module('../base/on_demand', [on_demand_load/2]).
 :- use_module('../base/own_thread',
               [in_own_thread/1, own_thread_start/0, own_thread_stop/0]).
 :- use_module('../base/durable_changes', [durable_end/0]).
@@ -67,6 +68,8 @@ runtime_acquire(User, Options) :-
     runtime_acquire(User, Options, _).
 
 runtime_acquire(User, Options, Endpoint) :-
+    option(time(Kind), Options, real),
+    on_demand_load(time, Kind),
     with_mutex(typhon_runtime, acquire(User, Options, Endpoint)).
 
 acquire(User, Options, Endpoint) :-

@@ -24,6 +24,7 @@
             alarm_in/3                  % +Seconds, +Agent, +Token
           ]).
 :- use_module(library(lists), [member/2]).
+:- use_module('../base/options', [options_load/2]).
 
 /** <module> The runtime: which threads do the work, and what time it is
 
@@ -118,6 +119,7 @@ time_stop :-
 %   The options of a host ask for another Kind than `real`.
 
 time_wanted(Options, Kind) :-
+    options_load(host_option, Options),
     member(Option, Options),
     wanted(Option, Kind),
     !.

@@ -4,6 +4,8 @@
             agent_urge/4,               % +Agent, +Question, +Seconds, -Answer
             question_answered/2         % +Asker, +Answer
           ]).
+:- use_module('../base/on_demand',
+              [on_demand_later/1, on_demand_load/2, on_demand_missing/2]).
 :- use_module('../wire',
               [endpoint_address/1, endpoint_reply/2]).
 :- use_module('../host',
@@ -167,8 +169,24 @@ may_ask(Right, Peer, Host, Agent, Question) :-
 answer(Question, Agent, Asker) :-
     (   here(Question, Agent, Asker)
     ->  true
+    ;   answered_later(Question, Agent, Asker)
+    ->  true
     ;   not_here(Agent, Asker)
     ).
+
+%   A worker loads the code that answers.
+
+answered_later(Question, Agent, Asker) :-
+    functor(Question, Kind, _),
+    on_demand_missing(question, Kind),
+    on_demand_later(typhon_questions:load_and_answer(Kind, Question, Agent,
+                                                     Asker)).
+
+:- public load_and_answer/4.            % goal of a worker
+
+load_and_answer(Kind, Question, Agent, Asker) :-
+    on_demand_load(question, Kind),
+    answer(Question, Agent, Asker).
 
 not_here(Agent, Asker) :-
     (   whereabouts(Agent, Address),

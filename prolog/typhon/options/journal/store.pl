@@ -45,7 +45,8 @@ parts.
     typhon_durable_changes:open_store/3,
     typhon_durable_changes:store_opened/1,
     typhon_durable_changes:stored_item/5,
-    typhon_durable_changes:close_store/0.
+    typhon_durable_changes:close_store/0,
+    typhon_options:declared/4.
 
 :- dynamic
     connection/2,                       % Place, Connection
@@ -87,6 +88,10 @@ journal_open(Where, Sync, Seconds) :-
           ( forget(Connection),
             throw(error(Formal, Context)) )),
     assertz(connection(Place, Connection)).
+
+typhon_options:declared(host_option, journal(X), atom, X).
+typhon_options:declared(host_option, journal(postgresql(X)), atom, X).
+typhon_options:declared(host_option, sync(X), oneof([full, normal]), X).
 
 typhon_durable_changes:open_store(Where, Sync, Seconds) :-
     journal_open(Where, Sync, Seconds).

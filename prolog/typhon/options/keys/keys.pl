@@ -28,6 +28,7 @@ The keys of this process are those with which its endpoint was started.
 *Threading*: any thread; own keys begin and end under the mutex of the endpoint.
 */
 
+:- use_module('../../kernel/base/on_demand', [on_demand_load/2]).
 :- use_module(library(error), [permission_error/3]).
 :- use_module(key_files,
               [key_found/4, key_loaded/3, key_loaded/4, pem_certificate/2]).
@@ -57,6 +58,7 @@ The keys of this process are those with which its endpoint was started.
 
 own_keys_begin(Directory) :-
     assertz(own_keys(Directory)),
+    on_demand_load(keys, any),
     forall(begin, true).
 
 own_keys_end :-

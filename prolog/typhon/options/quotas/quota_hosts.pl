@@ -20,11 +20,16 @@ it admits agents that it does not trust.
     typhon_host_parts:changes/2,
     typhon_host_parts:compiled/1,
     typhon_host_parts:ends/1,
+    typhon_on_demand:joins/2,
     typhon_options:declared/4.
 
 :- dynamic changed/1.           % Host: has other quotas than its agents know
 
 typhon_options:declared(host_option, quota(List), list, List).
+
+%   Hosts that admit untrusted agents have quotas, whether they say so or not.
+
+typhon_on_demand:joins(untrusted, any).
 
 %   default(?Quota): on hosts that admit untrusted agents.
 

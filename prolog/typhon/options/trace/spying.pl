@@ -4,6 +4,7 @@
           ]).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(prolog_trace), [trace/2]).
+:- use_module(library(prolog_wrap), [wrap_predicate/4]).
 :- use_module('../../kernel/base/names', [names_proposed/3]).
 :- use_module('../../kernel/program',
               [clause_parts/3, code_module/2, code_program/2]).

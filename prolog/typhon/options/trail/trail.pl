@@ -58,8 +58,11 @@ stays as it is, and has no more links.
 :- multifile
     typhon_host_parts:changeable/1,
     typhon_host_parts:part/4,
+    typhon_on_demand:joins/2,
     typhon_options:declared/4,
     typhon_words:enters/3.
+
+typhon_on_demand:joins(keys, any).
 
 typhon_options:declared(host_option, trail(X), boolean, X).
 

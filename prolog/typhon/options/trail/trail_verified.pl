@@ -26,17 +26,7 @@ It is read as a whole on request only.
 
 %!  agent_trail(+Agent, -Trail) is det.
 %
-%   Trail is trail(Steps, Verdict): which hosts have had Agent since it first
-%   left its process, with the keys of this process. A step is
-%   step(N, Name, What): the host with the certificate of that Name has signed
-%   that it was handed(To), received(At), or has entered(Result). Verdict is
-%   `whole`, or unaccounted(Name): after that host, or in its hands, state or
-%   code have changed without a signature; of what came later there are no
-%   steps; or since(N), if all is well from the N-th link on, and those before
-%   are gone. Without keys on its way an agent has no steps.
-%
-%   @error existence_error(agent, Agent)
-%   @error existence_error(keys, here)
+%   See the interface of the layer.
 
 agent_trail(Agent, Trail) :-
     agent_answer(Agent, trail, Raw),

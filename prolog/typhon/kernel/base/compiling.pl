@@ -1,0 +1,33 @@
+:- module(typhon_compiling,
+          [ compiling_begin/1,          % -Flags
+            compiling_end/1             % +Flags
+          ]).
+:- use_module(library(debug), []).      % from 9.2 on it defines a flag
+:- use_module(library(lists), [member/2]).
+
+/** <module> How the library is compiled
+
+Arithmetic is compiled; debug/3 is kept. Predicates are imported or declared by
+autoload/2, and not searched for: where they were, library(settings) would load
+library(predicate_options), which takes as long as ten of our modules.
+
+*Threading*: any thread; flags are those of the thread.
+*/
+
+%!  compiling_begin(-Flags:list) is det.
+%!  compiling_end(+Flags:list) is det.
+%
+%   Files that this thread loads from now on are compiled like that; Flags are
+%   again what they were.
+
+compiling_begin(Flags) :-
+    findall(Name=Value,
+            ( flag(Name, _), current_prolog_flag(Name, Value) ), Flags),
+    forall(flag(Name, Value), set_prolog_flag(Name, Value)).
+
+compiling_end(Flags) :-
+    forall(member(Name=Value, Flags), set_prolog_flag(Name, Value)).
+
+flag(optimise, true).
+flag(optimise_debug, false).
+flag(autoload, explicit).
