@@ -16,7 +16,7 @@
 :- use_module('../base/error_text', [print_error/2]).
 :- use_module('../base/durable_changes',
               [durable_drop/3, durable_drop_all/2, durable_put/4]).
-:- use_module('../base/unit_of_work', [unit_drop/3]).
+:- use_module('../base/deferred', [deferred_drop/3]).
 :- use_module('../program', [clause_parts/3, indicator_in/2]).
 
 /** <module> Places: what a host offers to the agents on it
@@ -279,7 +279,7 @@ place_undeliver(Place, Name) :-
 remove(Place, Name) :-
     retract(delivered(Place, Name, PIs)),
     (   payload_key(Place, Name, _, Key)
-    ->  unit_drop(payload, Key, 0)
+    ->  deferred_drop(payload, Key, 0)
     ;   true
     ),
     forall(member(PI, PIs), abolish(Place:PI)).

@@ -7,8 +7,9 @@
           ]).
 :- use_module(library(error), [must_be/2]).
 :- use_module('../base/durable_changes', [durable_number/1, durable_on/0]).
-:- use_module('../base/unit_of_work',
-              [unit_after/1, unit_defers/0, unit_drop/3, unit_put/4]).
+:- use_module('../base/deferred',
+              [ deferred_call/1, deferred_drop/3, deferred_put/4,
+                effects_deferred/0 ]).
 :- use_module(place, [place_host/2]).
 
 /** <module> Tuple spaces: facts that all agents on a host see
@@ -74,11 +75,11 @@ leave_noted(Place, Fact, By) :-
     durable_number(N),
     place_host(Place, Host),
     noted(By, Fact, Noted),
-    unit_put(tuple, Host, N, Noted),
-    (   unit_defers
+    deferred_put(tuple, Host, N, Noted),
+    (   effects_deferred
     ->  thread_self(Me),
         assertz(due(Place, N, Fact, By, Me)),
-        unit_after(typhon_tuples:leave_due(Place, N))
+        deferred_call(typhon_tuples:leave_due(Place, N))
     ;   put_tuple(Place, N, Fact, By)
     ).
 
@@ -107,7 +108,7 @@ count(By, Change) :-
 tuple_sense(Place, Fact) :-
     Place:'$tuple'(Fact).
 tuple_sense(Place, Fact) :-
-    unit_defers,
+    effects_deferred,
     thread_self(Me),
     due(Place, _, Fact, _, Me).
 
@@ -119,16 +120,16 @@ tuple_take(Place, Fact) :-
     (   N == none
     ->  true
     ;   place_host(Place, Host),
-        unit_drop(tuple, Host, N)
+        deferred_drop(tuple, Host, N)
     ),
     count(By, -1).
 tuple_take(Place, Fact) :-
-    unit_defers,
+    effects_deferred,
     thread_self(Me),
     retract(due(Place, N, Fact, By, Me)),
     !,
     place_host(Place, Host),
-    unit_drop(tuple, Host, N),
+    deferred_drop(tuple, Host, N),
     count(By, -1).
 
 typhon_durable:restore(tuple, Host, N, Noted) :-

@@ -4,8 +4,8 @@
 :- use_module(library(lists), [member/2]).
 :- use_module('../base/durable_changes',
               [durable_drop/3, durable_number/1, unit_of_work/1]).
-:- use_module('../base/unit_of_work',
-              [unit_after/1, unit_defers/0, unit_put/4]).
+:- use_module('../base/deferred',
+              [deferred_call/1, effects_deferred/0, deferred_put/4]).
 :- use_module('../host', [host_log/3, host_log_event/4]).
 :- use_module(durable_posts, [durable_post/3]).
 
@@ -31,10 +31,10 @@ tells its log server it tells at once, see typhon_host_log.
 %   server of Host, which it has.
 
 agent_logs(Host, Agent, What) :-
-    (   unit_defers
+    (   effects_deferred
     ->  durable_number(N),
-        unit_put(logged, Host, N, Agent-What),
-        unit_after(typhon_logged:go(Host, N, Agent, What))
+        deferred_put(logged, Host, N, Agent-What),
+        deferred_call(typhon_logged:go(Host, N, Agent, What))
     ;   host_log(Host, Agent, What)
     ).
 

@@ -11,8 +11,8 @@
 :- use_module('../base/durable_changes',
               [ durable_drop/3, durable_number/1, durable_on/0,
                 durable_putting/5, enqueue_changes/0, unit_of_work/1 ]).
-:- use_module('../base/unit_of_work',
-              [unit_after/1, unit_change/1, unit_defers/0]).
+:- use_module('../base/deferred',
+              [deferred_call/1, deferred_change/1, effects_deferred/0]).
 :- use_module('../wire', [endpoint_address/1, mobile_term/1]).
 :- use_module('../host', [parts/3, peer_may/3]).
 :- use_module('../agent', [agent/5, agent_home/2, agent_mail/2, with_agent/2]).
@@ -65,12 +65,12 @@ post(Id, From, Message) :-
     (   \+ durable_on
     ->  with_agent(Id, post_way(Id, From, Message, Way)),
         go(Way, Id)
-    ;   unit_defers
+    ;   effects_deferred
     ->  durable_number(N),
         durable_putting(letter, Id, N, From-Message, Change),
         may_travel(Id, Change),
-        unit_change(Change),
-        unit_after(typhon_post:post_noted(Id, N, From, Message))
+        deferred_change(Change),
+        deferred_call(typhon_post:post_noted(Id, N, From, Message))
     ;   unit_of_work(post_now(Id, From, Message))
     ).
 

@@ -30,7 +30,7 @@ last error. A bounded number of addresses is kept, the oldest are discarded.
 :- setting(contacts, positive_integer, 10000,
            "Addresses of which the last process met is remembered").
 
-:- multifile typhon_durable:restore/4.
+:- multifile typhon_durable:fact_table/5.
 
 :- dynamic
     contact/3,                          % Address, Process, met or gone
@@ -117,8 +117,8 @@ note_lasting(none, _) :-
 note_lasting(_, Address) :-
     durable_drop(lasting, Address, 0).
 
-typhon_durable:restore(lasting, Address, _, Process) :-
-    assertz(contact(Address, Process, met)).
+typhon_durable:fact_table(lasting, Address, 0, Process,
+                          typhon_peer_cache:contact(Address, Process, met)).
 
 forget_oldest :-
     predicate_property(contact(_, _, _), number_of_clauses(Count)),

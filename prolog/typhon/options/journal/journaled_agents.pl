@@ -8,9 +8,9 @@
                 durable_drop_at_once/3, durable_item/5, durable_on/0,
                 durable_put_at_once/4, durable_putting/5, enqueue_changes/0,
                 unit_of_work/1 ]).
-:- use_module('../../kernel/base/unit_of_work',
-              [ unit_commit/0, unit_has_effects/0, unit_release/0,
-                unit_run/1 ]).
+:- use_module('../../kernel/base/deferred',
+              [ deferred_commit/0, deferred_any/0, deferred_release/0,
+                defer_effects/1 ]).
 :- use_module('../../kernel/program', [code_receive/2, code_sent/2]).
 :- use_module('../../kernel/agent',
               [ agent/5, agent_enter/3, agent_module/5, agent_note/3,
@@ -77,19 +77,19 @@ typhon_turn:unit(typhon_journaled_agents:run,
     durable_on.
 
 typhon_turn:settle :-
-    unit_commit,
-    unit_release.
+    deferred_commit,
+    deferred_release.
 
 :- public run/1, conclude/4.
 
 run(Goal) :-
-    unit_run(Goal).
+    defer_effects(Goal).
 
 conclude(Id, Outcome, Conclude, Next) :-
     unit_of_work(( turn_ends(Outcome, Id),
                    call(Conclude),
                    noted(Next, Id) )),
-    unit_release.
+    deferred_release.
 
 turn_ends(effect(Control, Hole, Goals), Id) :-
     !,
@@ -99,14 +99,14 @@ turn_ends(done, Id) :-
     !,
     before_it_rests(Id, []).
 turn_ends(_, _) :-
-    unit_commit.
+    deferred_commit.
 
 before_it_rests(Id, Goals) :-
-    (   unit_has_effects
-    ->  unit_commit,
+    (   deferred_any
+    ->  deferred_commit,
         agent_note(Id, ready, Goals),
         enqueue_changes,
-        unit_release
+        deferred_release
     ;   true
     ).
 
