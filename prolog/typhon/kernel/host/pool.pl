@@ -130,7 +130,7 @@ enqueue(_).                             % stopping
 
 typhon_time:alone(real) :-
     run_queue(Queue),
-    \+ waits(Queue).
+    message_queue_property(Queue, size(0)).
 
 waits(Queue) :-
     message_queue_property(Queue, size(Size)),
@@ -265,9 +265,11 @@ leave(Me) :-
 %   may find none when its turn comes.
 
 look_if_last(Queue) :-
-    (   message_queue_property(Queue, waiting(_))
+    (   message_queue_property(Queue, size(0))
     ->  true
-    ;   look_if_work_waits(Queue)
+    ;   message_queue_property(Queue, waiting(_))
+    ->  true
+    ;   look_soon
     ).
 
 look_if_work_waits(Queue) :-
