@@ -43,8 +43,9 @@ that what is lost or done twice shows.
 %!  with_scripted(+Way, :Goal) is semidet.
 %
 %   Agents go the short way, if Way is `short`; they do not, as hosts have
-%   options, if it is `long`; b alone has options, if it is `both`. The processes notice within a second that a connection is mute, and
-%   keep one program that none of their agents has.
+%   options, if it is `long`; b alone has options, if it is `both`. The
+%   processes notice within a second that a connection is mute, and keep one
+%   program that none of their agents has.
 
 with_scripted(Way, Goal) :-
     Settings = ( set_setting(typhon_reader:silence, 0.3),
@@ -87,8 +88,8 @@ meet :-
 %!  each_stop(+Scenario, +Program, +Link, +When, +Act) is det.
 %
 %   While frame 1 of Link waits, then while frame 2 does and so on, a is asked
-%   for all properties of the agent, if Act is `look`, or disposes of it, if it is
-%   `dispose`.
+%   for all properties of the agent, if Act is `look`, or disposes of it, if it
+%   is `dispose`.
 %
 %   @error violated(What) see stopped/5.
 

@@ -1,13 +1,16 @@
 :- module(test_overlays, []).
 :- use_module('../../../lib/common').
+:- use_module('../../../lib/fixtures').
+:- use_module('../../../lib/pages').
 :- use_module(library(plunit)).
 :- use_module(library(filesex), [directory_file_path/3]).
-:- use_module(library(lists), [member/2]).
-:- use_module(library(pairs), [pairs_keys_values/3]).
+:- use_module(library(lists), [append/3, member/2]).
 :- use_module(library(typhon)).
-:- use_module(library(typhon/tools/page/overlays)).
 
-/*  What mechanisms declare to be seen. */
+/** <module> What mechanisms declare to be seen
+
+A browser gets it beside what the agents do.
+*/
 
 declared("
 :- agent(clerk, []).
@@ -22,62 +25,92 @@ overlay('broken', bar, log(.
 main :- halt.
 ").
 
-%   shown(+What, -Rows): of one event.
+unbounded("
+:- agent(clerk, []).
+overlay('best', bar, log(of(N)), N).
+overlay('sum', bar, leave(of(M)), add(M)).
+").
 
-shown(What, Rows) :-
-    with_tmp_dir(shown_in(What, Rows)).
+%   shown(+Goal, -Rows): what the overlays of declared/1 show of it, each a list
+%   without time, host and agent. H stands for the host of the agent.
 
-shown_in(What, Rows, Dir) :-
-    directory_file_path(Dir, 'clerk.pl', File),
+shown(Goal, Rows) :-
     declared(Text),
-    setup_call_cleanup(open(File, write, Out), write(Out, Text), close(Out)),
-    overlays_declared([File], Overlays),
-    event_rows([event(2.5, 'a@h:1', 'x.1@a@h:1', What)], Overlays,
-               [_|Rows]).
+    shown(Text, Goal, Rows).
 
-infinite(What, Kind, Value) :-
-    event_rows([event(2.5, 'a@h:1', 'x.1@a@h:1', What)],
-               [ overlay(best, bar, log(N), N),
-                 overlay(sum, bar, leave(of(M)), add(M)) ],
-               [_, [_, _, _, Kind, _, _, Value]]).
+shown(Text, Goal, Rows) :-
+    with_tmp_dir(shown_in(Text, Goal, Rows)).
+
+shown_in(Text, Goal, Rows, Dir) :-
+    directory_file_path(Dir, 'clerk.pl', File),
+    setup_call_cleanup(open(File, write, Out), write(Out, Text), close(Out)),
+    with_hosts([alpha, beta],
+               with_page([overlays([File])], Base,
+                         with_feed(Base, Feed, shown_on(Feed, Goal, Rows)))).
+
+shown_on(Feed, Goal, Rows) :-
+    frame(Feed, _),
+    create([(main :- Goal, leave(over))], Agent0, [host(alpha)]),
+    atom_string(Agent0, Agent),
+    address(alpha, Host0),
+    atom_string(Host0, Host),
+    rows(Feed, Agent, All),
+    findall([Kind|Row],
+            ( member([_, _, _, Kind|Row0], All),
+              member(Kind, ["add", "show"]),
+              here(Row0, Host, Row) ),
+            Rows).
+
+%   All that Agent does.
+
+rows(Feed, Agent, Rows) :-
+    frame(Feed, Frame),
+    (   get_dict(events, Frame, Events)
+    ->  findall(Row, ( member(Row, Events), Row = [_, _, Agent|_] ), Some)
+    ;   Some = []
+    ),
+    (   member([_, _, _, "ended"|_], Some)
+    ->  Rows = Some
+    ;   append(Some, More, Rows),
+        rows(Feed, Agent, More)
+    ).
+
+here([Name, Host, Value], Host, [Name, 'H', Value]) :-
+    !.
+here(Row, _, Row).
 
 :- begin_tests(overlays).
 
-test(sum, Rows == [[2.5, "a@h:1", "x.1@a@h:1", "add", "queue", "a@h:1", 1]]) :-
-    shown(leave(request(7)), Rows).
-test(less, [Kind, Value] == ["add", -1]) :-
-    shown(take(request(7)), [[_, _, _, Kind, _, _, Value]]).
-test(other_host, [Where, Value] == ["b@h:2", "task('<b>')"]) :-
-    shown(log(reserved('b@h:2', task('<b>'))),
-          [[_, _, _, "show", "reserved", Where, Value]]).
-test(ended, Value == null) :-
-    shown(log(released('b@h:2')), [[_, _, _, "show", _, "b@h:2", Value]]).
-test(of_a_link, Where-Value == "a@h:1 b@h:2"-12) :-
-    shown(log(sent('b@h:2', 'a@h:1', 12)), [[_, _, _, _, _, Where, Value]]).
+test(sum, Rows == [["add", "queue", 'H', 1], ["add", "queue", 'H', -1]]) :-
+    shown(( leave(request(7)), take(request(7)) ), Rows).
+test(other_host, Rows == [["show", "reserved", "b@h:2", "task('<b>')"]]) :-
+    shown(log(reserved('b@h:2', task('<b>'))), Rows).
+test(ended, Rows == [["show", "reserved", "b@h:2", null]]) :-
+    shown(log(released('b@h:2')), Rows).
+test(of_a_link, Rows == [["show", "traffic", "a@h:1 b@h:2", 12]]) :-
+    shown(log(sent('b@h:2', 'a@h:1', 12)), Rows).
 test(nothing_of_it, Rows == []) :-
     shown(log(something(else)), Rows).
 test(not_declared, Rows == []) :-
     shown(log(x), Rows).
-test(infinite, [Values, Kinds] == [["1.0Inf", "add(1.0Inf)"],
-                                 ["show", "show"]]) :-
-    Inf is inf,
-    findall(Kind-Value,
-            ( member(What, [log(Inf), leave(of(Inf))]),
-              infinite(What, Kind, Value) ),
-            Pairs),
-    pairs_keys_values(Pairs, Kinds, Values).
+test(infinite, Rows == [ ["show", "best", 'H', "1.0Inf"],
+                         ["show", "sum", 'H', "add(1.0Inf)"] ]) :-
+    unbounded(Text),
+    shown(Text, ( X is inf, log(of(X)), leave(of(X)) ), Rows).
 test(hops_are_no_overlays, Rows == []) :-
-    shown(left('b@h:2'), Rows).
+    shown(( move(beta), home(H), move(H) ), Rows).
 test(variables_of_agents, Rows == []) :-
     shown(log(_), Rows).
-test(variables_in_values, Value == "_") :-
-    shown(log(reserved('b@h:2', _)), [[_, _, _, "show", _, _, Value]]).
+test(variables_in_values, Rows == [["show", "reserved", "b@h:2", "_"]]) :-
+    shown(log(reserved('b@h:2', _)), Rows).
 test(of_agents) :-
-    overlays_declared([], Overlays),
-    overlay_dicts(Overlays, Dicts),
-    findall(Name, ( member(Dict, Dicts), get_dict(name, Dict, Name) ), Names),
+    with_hosts([alpha],
+               with_page([], Base,
+                         with_feed(Base, Feed, frame(Feed, First)))),
+    Scene = First.snapshot,
+    findall(Name, ( member(Dict, Scene.overlays), Name = Dict.name ), Names),
     assertion(memberchk("task executed", Names)).
 test(no_file, error(existence_error(source_sink, _), _)) :-
-    overlays_declared(['no such file.pl'], _).
+    with_hosts([alpha], with_page([overlays(['no such file.pl'])], _, true)).
 
 :- end_tests(overlays).
