@@ -2,15 +2,12 @@
 
 /** <module> Identity: owners, births, signatures, authors and seals
 
-What the keys of processes and authors prove of agents.  This is the interface
-of the layer.
+What the keys of processes and authors prove of agents.  Signatures of programs
+are kept in all processes, and agents find seal/3 on all hosts; the rest is
+loaded in processes that have keys.  This is the interface of the layer.
 */
 
 :- reexport(identity/signatures, [file_sign/2]).
-:- use_module(identity/authors, []).
-:- use_module(identity/owner, []).
-:- use_module(identity/birth, []).
-:- use_module(identity/speakers, []).
 :- use_module(identity/seals, [seal/3, unseal/2]).
 
 %   Agents find these on every host.

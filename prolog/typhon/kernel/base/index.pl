@@ -18,6 +18,7 @@ Made by `swipl doc/layers.pl -- index`, and compared by `make check`.
 
 part_joins(check_option,policy,'options/guard').
 part_joins(durable,agent,'options/journal').
+part_joins(durable,birth,'options/identity').
 part_joins(durable,code,'options/journal').
 part_joins(durable,flag,'options/snapshot').
 part_joins(durable,mail,'options/journal').
@@ -27,14 +28,18 @@ part_joins(durable,out,'options/journal').
 part_joins(durable,program,'options/snapshot').
 part_joins(durable,stands,'options/snapshot').
 part_joins(durable,state,'options/journal').
+part_joins(environment,'TYPHON_TLS','options/tls').
 part_joins(host_option,audit,'options/access').
+part_joins(host_option,authors,'options/identity').
 part_joins(host_option,clock,'options/virtual').
 part_joins(host_option,journal,'options/journal').
 part_joins(host_option,peer,'options/access').
 part_joins(host_option,policy,'options/guard').
 part_joins(host_option,quota,'options/quotas').
 part_joins(host_option,sync,'options/journal').
+part_joins(host_option,tls,'options/tls').
 part_joins(host_option,trail,'options/trail').
+part_joins(keys,any,'options/identity').
 part_joins(keys,any,'options/trail').
 part_joins(machine_option,bind,network).
 part_joins(machine_option,node,network).
@@ -75,6 +80,10 @@ part_file(network,'network/topology').
 part_file(network,'network/wiring').
 part_file('options/access','options/access/access_rules').
 part_file('options/guard','options/guard/sandbox').
+part_file('options/identity','options/identity/authors').
+part_file('options/identity','options/identity/birth').
+part_file('options/identity','options/identity/owner').
+part_file('options/identity','options/identity/speakers').
 part_file('options/journal','options/journal/channel').
 part_file('options/journal','options/journal/committing').
 part_file('options/journal','options/journal/journaled_agents').
@@ -88,6 +97,7 @@ part_file('options/quotas','options/quotas/quota_hosts').
 part_file('options/quotas','options/quotas/quota_table').
 part_file('options/quotas','options/quotas/usage').
 part_file('options/snapshot','options/snapshot/process_dump').
+part_file('options/tls','options/tls/secure').
 part_file('options/trail','options/trail/trail').
 part_file('options/trail','options/trail/trail_verified').
 part_file('options/virtual','options/virtual/virtual').
@@ -108,7 +118,10 @@ part_setting(atom_chars,typhon_guard_limits,positive_integer,1000,'Atoms that un
 part_setting(atom_chars,typhon_guard_texts,positive_integer,1000,'Now typhon_guard_limits:atom_chars','options/guard/guard_limits').
 part_setting(ball_cells,typhon_guard_arguments,positive_integer,10000,'Now typhon_guard_calls:ball_cells','options/guard/guard_calls').
 part_setting(ball_cells,typhon_guard_calls,positive_integer,10000,'What untrusted agents throw has at most so many parts','options/guard/guard_calls').
+part_setting(births,typhon_birth,positive_integer,20000,'Of so many agents that were here the owners are remembered','options/identity/birth').
 part_setting(browsers,typhon_page_browsers,positive_integer,32,'So many browsers may look at a page at a time','tools/page/browsers').
+part_setting(certificates,typhon_base_key_files,positive_integer,256,'Now typhon_key_files:certificates','options/keys/key_files').
+part_setting(certificates,typhon_key_files,positive_integer,256,'Certificates of which it is remembered whose they are','options/keys/key_files').
 part_setting(channel_seconds,typhon_channel,number,300,'Posts for a process that has left, and keeps no journal as far as is known, are kept so long','options/journal/channel').
 part_setting(clause_cells,typhon_guard_limits,positive_integer,200000,'Clauses that untrusted agents add have at most so many parts','options/guard/guard_limits').
 part_setting(clause_cells,typhon_refusing,positive_integer,200000,'Now typhon_guard_limits:clause_cells','options/guard/guard_limits').

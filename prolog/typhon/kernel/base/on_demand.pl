@@ -20,6 +20,7 @@ joins(Seam, What): the kernel, or another part, calls on_demand_load/2 for these
 
   | untrusted | any  | a host admits agents that it does not trust |
   | keys      | any  | the process has keys                        |
+  | environment | Variable | it is set when an endpoint starts     |
 
 Other threads run meanwhile, and call hooks. So clauses of hooks are compiled
 when the rest of their file is there: a hook works as soon as it is seen.

@@ -46,6 +46,9 @@ transport_input/2 looks at both.
 */
 
 :- use_module(library(error), [permission_error/3]).
+:- use_module('../base/index', [part_joins/3]).
+:- use_module('../base/on_demand', [on_demand_load/2]).
+:- use_module('../base/options', [options_load/2]).
 :- use_module(handshake, [line_write/2]).
 
 :- multifile
@@ -77,6 +80,11 @@ transport_input/2 looks at both.
 %   @error what begins/4 raises
 
 transport_begin(Options) :-
+    options_load(host_option, Options),
+    forall(( part_joins(environment, Variable, _),
+             getenv(Variable, Value),
+             Value \== '' ),
+           on_demand_load(environment, Variable)),
     (   begins(Options, Transport, Own, Unknown)
     ->  assertz(current(Transport, Own, Unknown))
     ;   true

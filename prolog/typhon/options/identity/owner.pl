@@ -33,8 +33,11 @@ typhon_birth.
 
 :- multifile
     typhon_host_parts:part/4,
+    typhon_on_demand:joins/2,
     typhon_identity:mark_suffix/1,
     typhon_identity:origin/4.
+
+typhon_on_demand:joins(keys, any).
 
 typhon_identity:origin(Host, Hash, _, author(Author)) :-
     host_option(Host, authors(_)),

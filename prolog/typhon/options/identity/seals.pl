@@ -15,7 +15,7 @@ process may wait for an answer.
 */
 
 :- use_module(library(error), [existence_error/2, must_be/2]).
-:- use_module('../keys',
+:- autoload('../keys',
               [ keys_certificate/2, keys_holder/3, keys_seal/4,
                 keys_unseal/3, own_keys/1 ]).
 :- use_module('../../kernel/base/text', [term_text/2, text_term/2]).

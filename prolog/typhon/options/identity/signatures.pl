@@ -25,7 +25,7 @@ has written into them.
 :- use_module(library(apply), [maplist/3]).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(terms), [mapsubterms/3]).
-:- use_module('../keys', [keys_sign/3, keys_verify/4]).
+:- autoload('../keys', [keys_sign/3, keys_verify/4]).
 :- use_module('../../kernel/program',
               [ clause_parts/3, payload_file/1, payload_load/2,
                 program_file/2, program_hash/2, program_read/7 ]).

@@ -37,19 +37,19 @@ thread of its connection. The connection manager limits its duration.
 
 :- multifile
     typhon_connection:harmless/1,
-    typhon_handshake:other_line/2,
+    typhon_on_demand:joins/2,
     typhon_options:declared/4,
     typhon_transport:begins/4,
     typhon_transport:ends/1,
     typhon_transport:disagrees/1,
-    typhon_transport:first_byte/2,
-    typhon_transport:misfit/4,
     typhon_transport:opens/7,
     typhon_transport:closes/0.
 
 typhon_options:declared(host_option, tls(Directory), atom, Directory).
 
 %   A process that starts no host, a guest, gets it from the environment.
+
+typhon_on_demand:joins(environment, 'TYPHON_TLS').
 
 typhon_transport:begins(Options, tls, Own, certificate(unknown)) :-
     (   option(tls(Directory), Options)
@@ -146,15 +146,6 @@ verdict(Verdict, _, Why) =>
                  /*******************************
                  *          HANDSHAKE           *
                  *******************************/
-
-%   A TLS record begins with this. The line is for clients of the other kind.
-
-typhon_transport:first_byte(0x16, tls).
-
-typhon_transport:misfit(plain, tls, "typhon tls", tls(missing)).
-typhon_transport:misfit(tls, plain, "typhon plain", tls(unknown)).
-
-typhon_handshake:other_line("typhon tls", tls(wanted)).
 
 %   Proof is certificate(Name).
 %

@@ -1,11 +1,33 @@
-:- module(typhon_tls_text, []).
+:- module(typhon_tls_mismatch, []).
 
-/** <module> Why a peer with TLS was turned away, in words
+/** <module> Peers that cannot talk: one has TLS, the other has not
+
+The one that has none does not load typhon_secure, and reports the other all
+the same.
 
 *Threading*: any thread; no state.
 */
 
-:- multifile typhon_refusals:text/2.
+:- multifile
+    typhon_handshake:other_line/2,
+    typhon_refusals:text/2,
+    typhon_transport:first_byte/2,
+    typhon_transport:misfit/4.
+
+%   A TLS record begins with this. The line is for clients of the other kind.
+
+typhon_transport:first_byte(0x16, tls).
+
+typhon_transport:misfit(plain, tls, "typhon tls", tls(missing)).
+typhon_transport:misfit(tls, plain, "typhon plain", tls(unknown)).
+
+typhon_handshake:other_line("typhon tls", tls(wanted)).
+
+                 /*******************************
+                 *           IN WORDS           *
+                 *******************************/
+
+%   tls_text(+Why, -Text): what is wrong with a peer.
 
 typhon_refusals:text(tls(Why), Text) :-
     tls_text(Why, Text).
