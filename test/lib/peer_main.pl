@@ -88,6 +88,15 @@ agent_here(Id) :-
 status_here(Id) :-
     typhon_agents:agent_status(Id, _, _).
 
+%   The agent is under way as a frame; to look at its properties would change that.
+
+handed_over(Id) :-
+    typhon_agents:under_way(Id, _, _, _, _, _),
+    !.
+
+agents_here(Ids) :-
+    findall(Id, agent_here(Id), Ids).
+
 agent_named_here(Name) :-
     agent_named_here(Name, _),
     !.

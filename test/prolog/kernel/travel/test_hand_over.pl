@@ -1,0 +1,184 @@
+:- module(test_hand_over, []).
+:- use_module('../../../lib/common').
+:- use_module('../../../lib/peers').
+:- use_module('../../../lib/travellers').
+:- use_module(library(lists), [member/2, numlist/3]).
+:- use_module(library(plunit)).
+
+/** <module> The short way of a hop between plain hosts
+
+While an agent is under way it is nothing but the frame that was sent.  What
+looks at it meanwhile, and what becomes of the hop, finds what it finds of an
+agent that was sent by request.  Options that are switched on and off while
+agents hop change the way, and no agent is lost or doubled.
+
+*Threading*: the main thread; the hosts are in other processes.
+*/
+
+%   An agent of a, made with Facts, is under way to b, which is stopped, when
+%   Goal is called.
+
+:- meta_predicate with_under_way(+, -, 0).
+
+with_under_way(Facts, Id, Goal) :-
+    with_peers([a, b], ( set_under_way(Facts, Id), call(Goal) )).
+
+set_under_way(Facts, Id) :-
+    peer_host(a, A),
+    peer_host(b, B),
+    travel(a, [B, A], 4),               % connects, and brings no program of its
+    visitor(Clauses),
+    peer_do(a, agent_create(clauses(Clauses), Id,
+                            [host(a), facts([to(B)|Facts])])),
+    wait_until(peer_do(a, agent_property(Id, state(waiting))), 10),
+    peer_signal(b, stop),
+    peer_do(a, agent_send(Id, go)),
+    wait_until(peer_do(a, handed_over(Id)), 10).
+
+visitor([ (:- agent(visitor, [state([to/1, fact/1, got/1])])),
+          (main :- receive(_-go), to(B),
+                   catch(move(B), error(E, _), leave(raised(E))),
+                   stay),
+          (stay :- receive(_-Message),
+                   (   Message == end
+                   ->  findall(X, got(X), All),
+                       here(Here),
+                       result(Here-All)
+                   ;   assertz(got(Message)),
+                       stay
+                   )) ]).
+
+:- begin_tests(under_way).
+
+test(its_properties_are_known,
+     State-Facts-Hops == in_transit-[fact(1),fact(2)]-0) :-
+    with_under_way([fact(1), fact(2)], Id,
+        ( peer_do(a, agent_property(Id, state(State))),
+          peer_do(a, agent_property(Id, facts(All))),
+          findall(fact(X), member(fact(X), All), Facts),
+          peer_do(a, agent_property(Id, hops(Hops))),
+          goes_on(Id) )).
+test(it_is_listed, true(memberchk(Id, Ids))) :-
+    with_under_way([], Id,
+        ( peer_do(a, findall(A, agent_property(A, home(_)), Ids)),
+          goes_on(Id) )).
+test(messages_follow_in_order, Result == B-All) :-
+    numlist(1, 20, All),
+    with_under_way([], Id,
+        ( peer_host(b, B),
+          forall(member(N, All), peer_do(a, agent_send(Id, N))),
+          goes_on(Id),
+          result_of(Id, Result) )).
+test(messages_follow_also_when_it_was_looked_at, Result == B-All) :-
+    numlist(1, 20, All),
+    with_under_way([], Id,
+        ( peer_host(b, B),
+          forall(member(N, All),
+                 ( peer_do(a, agent_send(Id, N)),
+                   (   N =:= 10
+                   ->  peer_do(a, agent_property(Id, state(in_transit)))
+                   ;   true
+                   ) )),
+          goes_on(Id),
+          result_of(Id, Result) )).
+test(an_order_to_end_follows_it, Outcome == disposed) :-
+    with_under_way([], Id,
+        ( peer_do(a, agent_dispose(Id)),
+          peer_signal(b, cont),
+          wait_until(peer_do(a, agent_join(Id, Outcome, 1)), 20) )).
+test(it_goes_on_at_its_source_when_the_other_process_has_died,
+     Error == host_unreachable(B)) :-
+    with_under_way([], Id,
+        ( peer_host(b, B),
+          peer_kill(b),
+          peer_restart(b),
+          wait_until(peer_do(a, remote(a, take(raised(Error)))), 30),
+          peer_do(a, agent_send(Id, end)),
+          wait_until(peer_do(a, agent_join(Id, done, 1)), 20) )).
+test(its_host_is_stopped_meanwhile) :-
+    with_under_way([], Id,
+        ( peer_signal(b, cont),
+          peer_do(a, host_stop(a)),
+          peer_do(a, \+ agent_here(Id)) )).
+
+:- end_tests(under_way).
+
+goes_on(Id) :-
+    peer_signal(b, cont),
+    wait_until(( peer_do(a, agent_property(Id, host(Host))),
+                 peer_host(b, Host) ), 20).
+
+result_of(Id, Result) :-
+    peer_do(a, agent_send(Id, end)),
+    wait_until(peer_do(a, agent_result(Id, Result, 1)), 20).
+
+:- begin_tests(not_accepted).
+
+test(refused_for_a_token_raises_at_the_move,
+     Error == move_refused(B, token)) :-
+    with_peers([a, b],
+        ( peer_host(a, A),
+          peer_host(b, B),
+          travel(a, [B, A], 4),
+          peer_do(b, host_change(b, tokens([red]))),
+          mover(a, B),
+          wait_until(peer_do(a, remote(a, take(raised(Error)))), 20) )).
+test(refused_for_capacity_raises_at_the_move,
+     Error == move_refused(B, capacity)) :-
+    with_peers([a, b],
+        ( peer_host(a, A),
+          peer_host(b, B),
+          travel(a, [B, A], 4),
+          peer_do(b, host_change(b, capacity(0))),
+          mover(a, B),
+          wait_until(peer_do(a, remote(a, take(raised(Error)))), 20) )).
+test(what_cannot_travel_raises_at_the_move,
+     Error = type_error(mobile_term, _)) :-
+    with_peers([a, b],
+        ( peer_host(a, A),
+          peer_host(b, B),
+          travel(a, [B, A], 4),
+          peer_do(a, agent_create(
+              clauses([ (:- agent(carrier, [])),
+                        (main :- stream_property(S, alias(user_error)),
+                                 catch(go(S), error(E, _),
+                                       ( E = type_error(K, _),
+                                         leave(raised(type_error(K, x))) ))),
+                        (go(S) :- to(B1), move(B1), atom(S)),
+                        to(B) ]), _, [host(a)])),
+          wait_until(peer_do(a, remote(a, take(raised(Error)))), 20) )).
+
+:- end_tests(not_accepted).
+
+mover(Peer, To) :-
+    peer_do(Peer, agent_create(
+        clauses([ (:- agent(mover, [])),
+                  (main :- catch(move(To), error(E, _), leave(raised(E)))) ]),
+        _, [host(Peer)])).
+
+:- begin_tests(options_under_traffic).
+
+%   Ten agents hop; meanwhile one option after the other is switched on and off
+%   on both hosts.
+
+test(change_the_way_and_lose_nothing) :-
+    with_peers([a, b],
+        ( peer_host(a, A),
+          peer_host(b, B),
+          travel(a, [B, A], 2),
+          findall(Id, ( between(1, 10, _), set_out(a, [B, A], 200, Id) ), Ids),
+          forall(( between(1, 4, _),
+                   switched(On, Off),
+                   member(Peer, [a, b]) ),
+                 ( peer_do(Peer, host_change(Peer, On)),
+                   forall(member(X, [a, b]), travel(X, [B, A], 4)),
+                   peer_do(Peer, host_change(Peer, Off)) )),
+          forall(member(Id, Ids), ended_well(a, Id, 200)) )).
+
+:- end_tests(options_under_traffic).
+
+switched(quota([hops(1 000 000)]), quota([])).
+switched(peer([cookie-all]), peer([cookie-[agents, messages, orders, remote,
+                                           watch]])).
+switched(hop_time(uniform(0.0, 0.001)), hop_time(uniform(0.0, 0.0))).
+switched(policy(guarded), policy(trusted)).
