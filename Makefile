@@ -108,7 +108,7 @@ bench: tools            ## measure; one line per figure
 bench-peers: tools      ## hops beside those of Erlang and JADE, if there
 	@$(SWIPL) bench/run.pl -- --out out/bench-peers peers
 
-profile: tools          ## which room takes how long of a hop
+profile: tools          ## which module takes how long of a hop
 	@$(SWIPL) bench/profile.pl
 
 test-portability:       ## the suites on other Prologs (root); SWIPL=one more
