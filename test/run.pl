@@ -54,7 +54,7 @@ longest([ chaos, shell, wire, doc, hop, sync_network, auction_network, cluster,
 plain(pack).
 plain(shell).
 plain(site).
-plain(voice).
+plain(child_output).
 plain(locale).
 plain(attackers).
 

@@ -20,10 +20,10 @@
                 lasting_goes_on/3, lasting_open/3, lasting_restarts/4 ]).
 :- use_module(log, [log_serve/2, log_serve_end/1]).
 :- use_module(plan,
-              [ plan_dynamics/3, plan_furnishing/2, plan_hosts/4,
+              [ plan_dynamics/3, plan_host_setup/2, plan_hosts/4,
                 plan_links/2, plan_links_at/3, plan_log/3, plan_option/2,
                 plan_processes/3, plan_time/2 ]).
-:- use_module(processes, [carriers_start/5]).
+:- use_module(processes, [nodes_start/5]).
 :- use_module(wiring,
               [wire_goals/3, wire_hosts/4, wire_instead/3, wire_links/3]).
 
@@ -50,7 +50,7 @@ network_build(Network, Plan, Kept, Change, Clock) :-
     plan_option(Plan, seed(Seed)),
     time_seed(Seed),
     known_log(Kept, Network, Clock, Plan, Log),
-    carriers_start(Network, P, Machines, Interface,
+    nodes_start(Network, P, Machines, Interface,
                    lasting_child(Plan, Log)),
     clock_and_log(Network, Plan, Clock, Log),
     lasting_back(Plan, Log),
@@ -79,7 +79,7 @@ furnished(_, Network, P, Plan, Clock, Common, 0) :-
     wire_hosts(Network, P, hosts, Hosts),
     plan_links(Plan, Links),
     wire_links(Network, P, Links),
-    plan_furnishing(Plan, Goals),
+    plan_host_setup(Plan, Goals),
     wire_goals(Network, P, Goals),
     kept_note(Plan, Clock, built).
 

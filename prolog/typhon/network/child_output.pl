@@ -1,7 +1,7 @@
 :- module(typhon_child_output,
-          [ voice_begin/0,
-            voice_end/0,
-            voice_heard/2               % +Child, +Line
+          [ output_begin/0,
+            output_end/0,
+            output_heard/2              % +Child, +Line
           ]).
 
 /** <module> Output of the child processes of a network
@@ -11,7 +11,7 @@ standard output and prints it. Messages are sent as terms, so that the parent
 prints them as messages, or not, according to its own verbosity. Other lines
 are printed with the name of the network and the number of the process.
 
-*Threading*: voice_begin/0 in the main thread of a child, voice_heard/2 in the
+*Threading*: output_begin/0 in the main thread of a child, output_heard/2 in the
 thread that follows it.
 */
 
@@ -27,16 +27,16 @@ thread that follows it.
 :- dynamic
     ended/0.
 
-%!  voice_begin is det.
-%!  voice_end is det.
+%!  output_begin is det.
+%!  output_end is det.
 %
-%   From voice_begin/0 on messages of this process are sent to its parent,
-%   until voice_end/0, after which they are dropped.
+%   From output_begin/0 on messages of this process are sent to its parent,
+%   until output_end/0, after which they are dropped.
 
-voice_end :-
+output_end :-
     assertz(ended).
 
-voice_begin :-
+output_begin :-
     asserta((user:message_hook(_, Kind, Lines) :-
                 typhon_child_output:message(Kind, Lines))).
 
@@ -64,11 +64,11 @@ placed(Kind, Lines, ['~w:~d: '-[File, Line]|Lines]) :-
     !.
 placed(_, Lines, Lines).
 
-%!  voice_heard(+Child, +Line) is det.
+%!  output_heard(+Child, +Line) is det.
 %
 %   The child Network-P has printed Line.
 
-voice_heard(Child, Line) :-
+output_heard(Child, Line) :-
     string_concat("\u0001", Said, Line),
     catch(term_string(message(Kind, Text), Said),
           error(_, _), fail),
@@ -77,9 +77,9 @@ voice_heard(Child, Line) :-
     !,
     setup_call_cleanup(
         nb_setval(typhon_child_output, Child),
-        print_message(Kind, typhon(voice(Text))),
+        print_message(Kind, typhon(child_output(Text))),
         nb_delete(typhon_child_output)).
-voice_heard(Network-P, Line) :-
+output_heard(Network-P, Line) :-
     format(user_output, '[~w/~w] ~s~n', [Network, P, Line]).
 
 %   Errors, warnings and debug messages do not name their process.
@@ -96,7 +96,7 @@ begins(error, 'ERROR: ').
 begins(warning, 'Warning: ').
 begins(debug(_), '% ').
 
-prolog:message(typhon(voice(Text))) -->
+prolog:message(typhon(child_output(Text))) -->
     { split_string(Text, "\n", "", Lines) },
     text(Lines).
 

@@ -19,11 +19,11 @@
 :- use_module('../kernel/base/spawn', [spawn/3]).
 :- use_module('../kernel/wire', [cookie/1]).
 :- use_module('../options/keys', [own_keys/1]).
-:- use_module(child_output, [voice_heard/2]).
+:- use_module(child_output, [output_heard/2]).
 
 /** <module> Processes that carry the hosts of a network
 
-A child runs carrier.pl, on this machine or through ssh on another. It gets
+A child runs node_process.pl, on this machine or through ssh on another. It gets
 what it must know in one line on its standard input, the cookie among it,
 which therefore is in no argument list and no environment of ssh. It says
 in one line on its standard output where its endpoint listens. Whatever it
@@ -61,7 +61,7 @@ become ready, and with down(Tag, Status) when it has ended.
     node_file/1.                % File
 
 :- prolog_load_context(directory, Dir),
-   atom_concat(Dir, '/carrier.pl', File),
+   atom_concat(Dir, '/node_process.pl', File),
    retractall(node_file(_)),
    assertz(node_file(File)).
 
@@ -70,7 +70,7 @@ become ready, and with down(Tag, Status) when it has ended.
 %
 %   Machine is `local`, a target of ssh, or machine(Target, Options) with
 %   the options swipl(Program), default `swipl`, node(File), the place of
-%   carrier.pl there, default the same as here, and bind(Interface), the
+%   node_process.pl there, default the same as here, and bind(Interface), the
 %   interface at which the child listens, default the host of Target.
 %   A local child listens at Interface. Options are for the child: port(Port),
 %   at which it listens, journal(Directory, How), see doc/journal.md, which is
@@ -142,15 +142,24 @@ command(Machine, _, Program, [Target|Command], Bind) :-
     node_file(Here),
     option(bind(Bind), Options, Host),
     option(swipl(Swipl), Options, swipl),
-    option(node(File), Options, Here),
+    option(node(File0), Options, Here),
+    named_now(File0, File),
     node_args(File, Args),
     maplist(shell_word, [Swipl|Args], Command).
+
+%   node_process.pl was called carrier.pl.
+
+named_now(File0, File) :-
+    (   atom_concat(Dir, '/carrier.pl', File0)
+    ->  atom_concat(Dir, '/node_process.pl', File)
+    ;   File = File0
+    ).
 
 typhon_options:declared(machine_option, bind(X), atom, X).
 typhon_options:declared(machine_option, swipl(X), atom, X).
 typhon_options:declared(machine_option, node(X), atom, X).
 
-node_args(File, ['-q', '-f', none, '-g', carrier_main, '-t', 'halt(1)', File]).
+node_args(File, ['-q', '-f', none, '-g', node_main, '-t', 'halt(1)', File]).
 
 %   The command goes through the shell of the other machine.
 
@@ -187,14 +196,14 @@ lines(Tag, Out, OnEvent) :-
     ).
 
 line(Line, Tag, OnEvent) :-
-    (   split_string(Line, " ", "", ["typhon_carrier", Endpoint0, Pid0])
+    (   split_string(Line, " ", "", ["typhon_node_process", Endpoint0, Pid0])
     ->  atom_string(Endpoint, Endpoint0),
         number_string(Pid, Pid0),
         call(OnEvent, up(Tag, Endpoint, Pid))
-    ;   string_concat("typhon_carrier_error ", Text, Line),
+    ;   string_concat("typhon_node_process_error ", Text, Line),
         catch(term_string(Error, Text), error(_, _), fail)
     ->  call(OnEvent, failed(Tag, Error))
-    ;   voice_heard(Tag, Line)
+    ;   output_heard(Tag, Line)
     ).
 
                 /*******************************

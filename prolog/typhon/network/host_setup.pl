@@ -1,7 +1,7 @@
 :- module(typhon_host_setup,
-          [ furnishing_check/2,         % +Places, +Names
-            furnishing_files/3,         % +Places, +Name, -Files
-            furnishing_goals/3          % +Places, +Name, -Goals
+          [ host_setup_check/2,         % +Places, +Names
+            host_setup_files/3,         % +Places, +Name, -Files
+            host_setup_goals/3          % +Places, +Name, -Goals
           ]).
 :- use_module(library(apply), [maplist/2]).
 :- use_module(library(error), [existence_error/2, must_be/2]).
@@ -21,12 +21,12 @@ Places is an item, or a list of such:
 *Threading*: pure, but that it looks for search paths.
 */
 
-%!  furnishing_check(+Places, +Names) is det.
+%!  host_setup_check(+Places, +Names) is det.
 %
 %   @arg Names are those of the hosts
 %   @error type_error(callable, Item), existence_error(host, Host)
 
-furnishing_check(Places, Names) :-
+host_setup_check(Places, Names) :-
     listed(Places, Items),
     maplist(check_item(Names), Items).
 
@@ -35,7 +35,7 @@ check_item(Names, Item) :-
     (   Item = Host-Items
     ->  host_name(Host, Name),
         (   memberchk(Name, Names)
-        ->  furnishing_check(Items, Names)
+        ->  host_setup_check(Items, Names)
         ;   existence_error(host, Host)
         )
     ;   is_file(Item)
@@ -55,16 +55,16 @@ host_name(Host, Name) :-
         Name = Host
     ).
 
-%!  furnishing_files(+Places, +Name, -Files) is det.
-%!  furnishing_goals(+Places, +Name, -Goals) is det.
+%!  host_setup_files(+Places, +Name, -Files) is det.
+%!  host_setup_goals(+Places, +Name, -Goals) is det.
 %
 %   What is consulted into the place of host Name, and what is called there,
 %   in order.
 
-furnishing_files(Places, Name, Files) :-
+host_setup_files(Places, Name, Files) :-
     findall(Item, ( item(Places, Name, Item), is_file(Item) ), Files).
 
-furnishing_goals(Places, Name, Goals) :-
+host_setup_goals(Places, Name, Goals) :-
     findall(Item, ( item(Places, Name, Item), \+ is_file(Item) ), Goals).
 
 item(Places, Name, Item) :-

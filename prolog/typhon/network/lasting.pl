@@ -17,12 +17,12 @@
               [ hosts_back/1, hosts_journal/2, journal_opened/1,
                 journal_place/2, journal_record/2, journal_record_drop/1,
                 journal_record_put/2 ]).
-:- use_module(carriers, [carrier_order/4]).
+:- use_module(nodes, [node_order/4]).
 :- use_module(plan,
-              [ network_plan/3, plan_furnishing/2, plan_hosts/4,
+              [ network_plan/3, plan_host_setup/2, plan_hosts/4,
                 plan_journal/4, plan_links/2, plan_option/2, plan_options/2,
                 plan_processes/3, plan_shape/3, plan_without/3 ]).
-:- use_module(processes, [carriers_restart/3]).
+:- use_module(processes, [nodes_restart/3]).
 :- use_module(wiring, [wire_again/5, wire_go_on/2]).
 
 /** <module> Networks that outlive their processes
@@ -99,7 +99,7 @@ lasting_goes_on(Network, P, Plan) :-
 
 lasting_restarts(Network, P, Plan, Common) :-
     (   plan_option(Plan, restart(true))
-    ->  carriers_restart(Network,
+    ->  nodes_restart(Network,
                          lasting_child(Plan, none),
                          again(Network, Plan, P, Common))
     ;   true
@@ -109,9 +109,9 @@ again(Network, Plan, Count, Common, P) :-
     plan_hosts(Plan, Count, Common, Hosts),
     (   plan_option(Plan, journal(_))
     ->  wire_again(Network, P, Hosts, [], []),
-        carrier_order(Network, P, go_on, ok)
+        node_order(Network, P, go_on, ok)
     ;   plan_links(Plan, Links),
-        plan_furnishing(Plan, Goals),
+        plan_host_setup(Plan, Goals),
         wire_again(Network, P, Hosts, Links, Goals)
     ).
 

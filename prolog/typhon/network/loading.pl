@@ -8,7 +8,7 @@
 :- use_module('../kernel/host',
               [address_parts/3, alarm_set/3, time_kind/1, time_now/1]).
 :- use_module(appointments, [appointments_again/2]).
-:- use_module(carriers, [carrier_order/4]).
+:- use_module(nodes, [node_order/4]).
 :- use_module(changes, [dynamics_again/5]).
 :- use_module(log_file, [log_goes_on/2]).
 :- use_module(networks,
@@ -17,7 +17,7 @@
               [network_dynamics/2, network_endpoint/4, network_log/4]).
 :- use_module(plan,
               [plan_log/3, plan_processes/3, plan_time/2, plan_unkept/2]).
-:- use_module(processes, [carriers_start/5]).
+:- use_module(processes, [nodes_start/5]).
 :- use_module(saved_file, [saved_read/2]).
 :- use_module(wiring, [wire_hosts/4, wired_hosts/2]).
 
@@ -79,7 +79,7 @@ again(Saved, Options, Network) :-
     plan_processes(Plan, P, Machines),
     own_port(P-Machines, Terms, Port),
     network_endpoint(Network, Plan, Port, Interface),
-    carriers_start(Network, P, Machines, Interface, child_port(Terms)),
+    nodes_start(Network, P, Machines, Interface, child_port(Terms)),
     shift(Kind, Then, Shift),
     shifted(Shift, Clock0, Clock),
     log_again(Options, Log, Network, Plan, Clock, LogOptions),
@@ -180,7 +180,7 @@ port(Address, Port) :-
 
 fill(Network, P, Kind, Terms) :-
     findall(Item, member(P:Item, Terms), Items),
-    carrier_order(Network, P, fill(Kind, Items), ok).
+    node_order(Network, P, fill(Kind, Items), ok).
 
 %   In virtual time the alarms are among what time knows.
 
@@ -206,7 +206,7 @@ due_at(real, Shift, Stamp0, Who, Token) :-
 go_on(Network, P, Kind, Terms) :-
     memberchk(time(P, Time), Terms),
     findall(Id, member(P:item(stands, Id, _, _), Terms), Agents),
-    carrier_order(Network, P, goes_on(Kind, Time, Agents), ok).
+    node_order(Network, P, goes_on(Kind, Time, Agents), ok).
 
                 /*******************************
                 *           MESSAGES           *

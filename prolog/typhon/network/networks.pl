@@ -19,10 +19,10 @@
 :- use_module(building,
               [ dynamics_end/1, endpoint_end/1, equipment_forget/1,
                 log_end/1, network_build/5, part/2 ]).
-:- use_module(carriers, [carrier/3]).
+:- use_module(nodes, [node/3]).
 :- use_module(lasting, [kept_plan/4, lasting_over/1, lasting_rests/1]).
 :- use_module(plan, [plan_change/3, plan_option/2]).
-:- use_module(processes, [carriers_stop/1]).
+:- use_module(processes, [nodes_stop/1]).
 :- use_module(restarts, [restarts_back/1]).
 :- use_module(wiring,
               [ wire_change/2, wire_forget/1, wire_resting_own/2,
@@ -140,7 +140,7 @@ networks_stop(Network) :-
 end(Network) :-
     step(dynamics_end(Network)),
     step(wire_resting_own(Network, stop_own(Network))),
-    step(carriers_stop(Network)),
+    step(nodes_stop(Network)),
     step(log_end(Network)),
     step(endpoint_end(Network)),
     wire_forget(Network),
@@ -243,7 +243,7 @@ property(agents(Agents), Network) :-
     wired_agents(Network, Agents).
 property(processes(Pids), Network) :-
     restarts_back(Network),
-    findall(P-Pid, carrier(Network, P, Pid), Pairs),
+    findall(P-Pid, node(Network, P, Pid), Pairs),
     keysort(Pairs, Sorted),
     pairs_values(Sorted, Pids).
 property(log(File), Network) :-

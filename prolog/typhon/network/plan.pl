@@ -9,7 +9,7 @@
             plan_links/2,               % +Plan, -Links
             plan_links_at/3,            % +Plan, +Time, -Links
             plan_change/3,              % +Plan, +Change0, -Change
-            plan_furnishing/2,          % +Plan, -Goals
+            plan_host_setup/2,          % +Plan, -Goals
             plan_dynamics/3,            % +Plan, +Time, -State
             plan_journal/4,             % +Plan, +P, -Where, -How
             plan_options/2,             % +Plan, -Options
@@ -30,7 +30,7 @@
 :- use_module('../kernel/base/prng',
               [chance_hash/2, chance_seed/2, chance_uniform/5]).
 :- use_module(host_setup,
-              [furnishing_check/2, furnishing_files/3, furnishing_goals/3]).
+              [host_setup_check/2, host_setup_files/3, host_setup_goals/3]).
 :- use_module(topology,
               [topology_costs/2, topology_edges/4, topology_names/2]).
 
@@ -59,7 +59,7 @@ network_plan(Topology, Options0, plan(Names, Edges, Costs, Options)) :-
     topology_edges(Topology, Seed, _, Edges),
     topology_names(Topology, Names),
     option(places(Places), Options, []),
-    furnishing_check(Places, Names),
+    host_setup_check(Places, Names),
     topology_costs(Topology, Listed),
     list_to_assoc(Listed, Costs).
 
@@ -257,7 +257,7 @@ plan_hosts(Plan, P, Common, Hosts) :-
 
 with_files(Plan, Name, Options0, Options) :-
     plan_option(Plan, places(Places)),
-    furnishing_files(Places, Name, Files),
+    host_setup_files(Places, Name, Files),
     Files \== [],
     !,
     select_option(consult(Own), Options0, Options1, []),
@@ -265,17 +265,17 @@ with_files(Plan, Name, Options0, Options) :-
     Options = [consult(All)|Options1].
 with_files(_, _, Options, Options).
 
-%!  plan_furnishing(+Plan, -Goals) is det.
+%!  plan_host_setup(+Plan, -Goals) is det.
 %
 %   What is to be called in the places of hosts when they are there: pairs
 %   I-Goal.
 
-plan_furnishing(Plan, Goals) :-
+plan_host_setup(Plan, Goals) :-
     Plan = plan(Names, _, _, _),
     findall(I-Goal,
             ( plan_option(Plan, places(Places)),
               nth1(I, Names, Name),
-              furnishing_goals(Places, Name, All),
+              host_setup_goals(Places, Name, All),
               member(Goal, All) ),
             Goals).
 

@@ -1,8 +1,8 @@
 :- module(typhon_processes,
-          [ carriers_start/5,           % +Network, +P, +Machines, +Interface,
+          [ nodes_start/5,              % +Network, +P, +Machines, +Interface,
                                         % :Options
-            carriers_restart/3,         % +Network, :Options, :Restore
-            carriers_stop/1             % +Network
+            nodes_restart/3,            % +Network, :Options, :Restore
+            nodes_stop/1                % +Network
           ]).
 :- use_module(library(lists), [member/2, nth1/3]).
 :- use_module(library(settings), [setting/2, setting/4]).
@@ -11,10 +11,10 @@
 :- use_module('../kernel/travel', [home_agents_at/2]).
 :- use_module(children,
               [child_close/1, child_kill/1, child_release/1, child_start/6]).
-:- use_module(carriers,
-              [ carrier/3, carrier/4, carrier_again/2, carrier_came/4,
-                carrier_gone/2, carrier_order/4, carrier_went/3,
-                carriers_ask/6, carriers_forget/1, carriers_peers/2,
+:- use_module(nodes,
+              [ node/3, node/4, node_again/2, node_came/4,
+                node_gone/2, node_order/4, node_went/3,
+                nodes_ask/6, nodes_forget/1, nodes_peers/2,
                 deadline/2, message_before/3, unwatched/1 ]).
 :- use_module(restarts, [restarts_absent/2, restarts_begin/3, restarts_end/2]).
 :- use_module(wiring, [wired_host/3]).
@@ -40,15 +40,15 @@ in between the thread of module `restarts`, if there is one.
            "A process that was killed has so long to be gone").
 
 :- meta_predicate
-    carriers_start(+, +, +, +, 2),
-    carriers_restart(+, 2, 1),
+    nodes_start(+, +, +, +, 2),
+    nodes_restart(+, 2, 1),
     order_children(+, +, 1).
 
 :- dynamic
     queue/2,                    % Network, Queue
-    wanted/1,                   % Network: its carriers are to stay
+    wanted/1,                   % Network: its processes are to stay
     child/3,                    % Network, P, Child
-    lasting/1,                  % Network: its carriers have journals
+    lasting/1,                  % Network: its processes have journals
     start/4,                    % Network, P, Machine, Interface
     at/3.                       % Network, P, Endpoint: where it listens
 
@@ -60,22 +60,22 @@ most_named(10).
                 *           STARTING           *
                 *******************************/
 
-%!  carriers_start(+Network, +P, +Machines, +Interface, :Options) is det.
+%!  nodes_start(+Network, +P, +Machines, +Interface, :Options) is det.
 %
-%   Starts P carriers, blocks of them on each of Machines. With `[local]`
-%   and P = 1 this process is the carrier. Options(P, List) are those of
+%   Starts P processes, blocks of them on each of Machines. With `[local]`
+%   and P = 1 the hosts are in this process. Options(P, List) are those of
 %   child_start/6 for each. When this throws, what was started waits for
-%   carriers_stop/1.
+%   nodes_stop/1.
 %
 %   @error timeout_error(start, Network),
 %   system_error(process_ended(Status)), what a child says that cannot
 %   begin, and as child_start/6
 
-carriers_start(Network, 1, [local], _, _) :-
+nodes_start(Network, 1, [local], _, _) :-
     !,
     current_prolog_flag(pid, Pid),
-    carrier_came(Network, 1, local, Pid).
-carriers_start(Network, P, Machines, Interface, Options) :-
+    node_came(Network, 1, local, Pid).
+nodes_start(Network, P, Machines, Interface, Options) :-
     message_queue_create(Queue),
     assertz(queue(Network, Queue)),
     length(Machines, M),
@@ -120,7 +120,7 @@ start(Network, P, Options) :-
     assertz(child(Network, P, Child)).
 
 event(up(Network-P, Endpoint, Pid)) :-
-    carrier_came(Network, P, Endpoint, Pid),
+    node_came(Network, P, Endpoint, Pid),
     retractall(at(Network, P, _)),
     assertz(at(Network, P, Endpoint)),
     tell(Network, up(P)).
@@ -131,15 +131,15 @@ event(down(Network-P, Status)) :-
     ->  is_missed(Network, P, Status)
     ;   true
     ),
-    carrier_went(Network, P, Status),
+    node_went(Network, P, Status),
     tell(Network, down(P, Status)).
 
 is_missed(Network, P, Status) :-
     restarts_absent(Network, P),
-    (   carrier(Network, P, Pid, Endpoint)
+    (   node(Network, P, Pid, Endpoint)
     ->  findall(Name, wired_host(Network, P, Name), Names),
         home_agents_at(Endpoint, Agents),
-        print_message(warning, typhon(carrier_down(Network, Pid, Status,
+        print_message(warning, typhon(node_down(Network, Pid, Status,
                                                    Names, Agents)))
     ;   true
     ).
@@ -166,13 +166,13 @@ wait_up(P, Network, Queue) :-
                 *         STARTING AGAIN       *
                 *******************************/
 
-%!  carriers_restart(+Network, :Options, :Restore) is det.
+%!  nodes_restart(+Network, :Options, :Restore) is det.
 %
-%   Carriers that die are started again from now on, see module `restarts`, with
+%   Processes that die are started again from now on, see module `restarts`, with
 %   the options Options(P, List) and the port that they had; then Restore(P)
-%   is called. Nothing is to be done where this process is the carrier.
+%   is called. Nothing is to be done where the hosts are in this process.
 
-carriers_restart(Network, Options, Restore) :-
+nodes_restart(Network, Options, Restore) :-
     (   queue(Network, Queue)
     ->  findall(P, at(Network, P, _), Ps),
         forall(member(P, Ps), expect(Network, P)),
@@ -186,7 +186,7 @@ carriers_restart(Network, Options, Restore) :-
 
 expect(Network, P) :-
     findall(Endpoint, at(Network, _, Endpoint), Endpoints),
-    carrier_order(Network, P, expect(Endpoints), ok).
+    node_order(Network, P, expect(Endpoints), ok).
 
 expect_no_more(Network, P) :-
     forall(at(Network, P, Endpoint), contact_expect_no_more(Endpoint)).
@@ -198,7 +198,7 @@ restart(Network, Options, _, start(P)) :-
     !,
     child_close(Child),
     child_release(Child),
-    carrier_again(Network, P),
+    node_again(Network, P),
     at(Network, P, Endpoint),
     atomic_list_concat([_, Text], :, Endpoint),
     atom_number(Text, Port),
@@ -214,17 +214,17 @@ restart(Network, _, Restore, restore(P)) :-
 restart(Network, _, _, give_up(P)) :-
     expect_no_more(Network, P),
     at(Network, P, Endpoint),
-    forall(carrier(Network, Other, _),
-           catch(carrier_order(Network, Other, expect_no_more([Endpoint]), _),
+    forall(node(Network, Other, _),
+           catch(node_order(Network, Other, expect_no_more([Endpoint]), _),
                  error(existence_error(carrier, _), _), true)).
 
                 /*******************************
                 *           STOPPING           *
                 *******************************/
 
-%!  carriers_stop(+Network) is det.
+%!  nodes_stop(+Network) is det.
 %
-%   Ends the carriers that carriers_start/4 began to start, in order if
+%   Ends the processes that nodes_start/4 began to start, in order if
 %   they can, else by force. This process stays, of course.
 %
 %   First no agent runs in any of the children any more that would find that
@@ -234,7 +234,7 @@ restart(Network, _, _, give_up(P)) :-
 %   Where there are journals their contents stay, and no event reports
 %   it: a child does that when it ends.
 
-carriers_stop(Network) :-
+nodes_stop(Network) :-
     retractall(wanted(Network)),
     forall(queue(Network, Queue), restarts_end(Network, Queue)),
     rest_children(Network),
@@ -243,7 +243,7 @@ carriers_stop(Network) :-
     ;   order_children(Network, stop, kill_hanging(Network)),
         Watch = unwatched
     ),
-    carriers_peers(Network, Peers),
+    nodes_peers(Network, Peers),
     order_children(Network, flush(2, Peers), Watch),
     forall(child(Network, _, Child), child_close(Child)),
     (   queue(Network, Queue)
@@ -256,17 +256,17 @@ carriers_stop(Network) :-
     retractall(start(Network, _, _, _)),
     expect_no_more(Network, _),
     retractall(at(Network, _, _)),
-    carriers_forget(Network).
+    nodes_forget(Network).
 
 %   An agent on its way to a process that has died stays so, as does one in a
 %   goal that takes longer: so it stays in a journal.
 
 rest_children(Network) :-
     order_children(Network, hold(0), kill_hanging(Network)),
-    setting(typhon_carrier:rest_seconds, Rest),
+    setting(typhon_node_process:rest_seconds, Rest),
     Seconds is Rest+1,
     children_up(Network, Ps),
-    carriers_ask(Network, Ps, rest(Rest, []), Seconds, kill_hanging(Network),
+    nodes_ask(Network, Ps, rest(Rest, []), Seconds, kill_hanging(Network),
                  _).
 
 %   One by one: other threads may start children meanwhile, see
@@ -283,7 +283,7 @@ release_children(_).
 
 kill_hanging(Network, Ps) :-
     setting(answer_seconds, Seconds),
-    carriers_ask(Network, Ps, alive, Seconds, unwatched, Results),
+    nodes_ask(Network, Ps, alive, Seconds, unwatched, Results),
     findall(P, member(P-late, Results), Hanging),
     (   Hanging == []
     ->  true
@@ -294,13 +294,13 @@ kill_hanging(Network, Ps) :-
 
 kill_all(Network, Ps) :-
     forall(( member(P, Ps), child(Network, P, Child) ),
-           ( print_message(warning, typhon(carrier_killed(Network, P))),
+           ( print_message(warning, typhon(node_killed(Network, P))),
              child_kill(Child) )),
     setting(kill_seconds, Seconds),
     wait_down(Network, Ps, Seconds).
 
 children_up(Network, Ps) :-
-    findall(P, ( child(Network, P, _), carrier(Network, P, _) ), Ps).
+    findall(P, ( child(Network, P, _), node(Network, P, _) ), Ps).
 
 %   All children that are up do Order, watched by Watch; one that cannot is
 %   left to later.
@@ -308,9 +308,9 @@ children_up(Network, Ps) :-
 order_children(Network, Order, Watch) :-
     setting(typhon_children:stop_seconds, Seconds),
     children_up(Network, Ps),
-    carriers_ask(Network, Ps, Order, Seconds, Watch, Results),
+    nodes_ask(Network, Ps, Order, Seconds, Watch, Results),
     forall(( member(P-Result, Results), Result \== answer(done(ok)) ),
-           print_message(warning, typhon(carrier_order(P, Order, Result)))).
+           print_message(warning, typhon(node_order(P, Order, Result)))).
 
 %   The children kill themselves when they cannot end in order within
 %   stop_seconds, so those that are left after that are really stuck.
@@ -326,11 +326,11 @@ end_children(Network) :-
     !.
 end_children(Network) :-
     forall(( left(Network, P), retract(child(Network, P, _)) ),
-           print_message(error, typhon(carrier_stays(Network, P)))).
+           print_message(error, typhon(node_stays(Network, P)))).
 
 left(Network, P) :-
     child(Network, P, _),
-    \+ carrier_gone(Network, P).
+    \+ node_gone(Network, P).
 
 %   wait_down(+Network, +Ps, +Seconds) fails when one of Ps is left.
 
@@ -351,15 +351,15 @@ await_down(Network, Ps, Queue, Deadline) :-
                 *           MESSAGES           *
                 *******************************/
 
-prolog:message(typhon(carrier_down(Network, Pid, Status, Hosts, Agents))) -->
+prolog:message(typhon(node_down(Network, Pid, Status, Hosts, Agents))) -->
     [ 'Process ~w of ~w ended: ~p'-[Pid, Network, Status] ],
     gone_with_it('its hosts', Hosts),
     gone_with_it('agents of this process that were there', Agents).
-prolog:message(typhon(carrier_order(P, Order, Result))) -->
+prolog:message(typhon(node_order(P, Order, Result))) -->
     [ 'Process ~w of the network did not do ~q: ~p'-[P, Order, Result] ].
-prolog:message(typhon(carrier_killed(Network, P))) -->
+prolog:message(typhon(node_killed(Network, P))) -->
     [ 'Process ~w of ~w does not end, and is killed'-[P, Network] ].
-prolog:message(typhon(carrier_stays(Network, P))) -->
+prolog:message(typhon(node_stays(Network, P))) -->
     [ 'Process ~w of ~w could not be ended'-[P, Network] ].
 
 gone_with_it(_, []) -->

@@ -9,7 +9,7 @@
 :- use_module(library(lists), [member/2, min_member/2, selectchk/3]).
 :- use_module(library(settings), [setting/2, setting/4]).
 :- use_module('../kernel/base/error_text', [print_error/2]).
-:- use_module(carriers, [deadline/2, message_before/3]).
+:- use_module(nodes, [deadline/2, message_before/3]).
 
 /** <module> Processes of a network that die are started again
 
@@ -117,7 +117,7 @@ handled(down(P, _), State, Deaths0, Deaths, Starting0, Starting) :-
         setting(restarts, Most),
         setting(restart_seconds, Seconds),
         print_message(error,
-                      typhon(carrier_given_up(Network, P, Most, Seconds))),
+                      typhon(node_given_up(Network, P, Most, Seconds))),
         ignore(call(Do, give_up(P))),
         present(Network, P)
     ).
@@ -161,7 +161,7 @@ later(Since, _-Time) :-
 
 restored(P, state(Network, _, Do)) :-
     (   catch(restore(Do, P), Ball, not_restored(Ball))
-    ->  print_message(informational, typhon(carrier_back(Network, P))),
+    ->  print_message(informational, typhon(node_back(Network, P))),
         present(Network, P)
     ;   ignore(call(Do, kill(P)))
     ).
@@ -230,8 +230,8 @@ restarts_back(_).
                 *           MESSAGES           *
                 *******************************/
 
-prolog:message(typhon(carrier_given_up(Network, P, Most, Seconds))) -->
+prolog:message(typhon(node_given_up(Network, P, Most, Seconds))) -->
     [ 'Process ~w of ~w is not started again: it has died ~D times within \c
        ~w seconds'-[P, Network, Most, Seconds] ].
-prolog:message(typhon(carrier_back(Network, P))) -->
+prolog:message(typhon(node_back(Network, P))) -->
     [ 'Process ~w of ~w is there again'-[P, Network] ].

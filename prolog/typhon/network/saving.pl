@@ -10,10 +10,10 @@
                 time_now/1 ]).
 :- use_module('../kernel/wire', [mobile_term/1]).
 :- use_module(appointments, [appointments/2]).
-:- use_module(carrier, [order_do/2]).
-:- use_module(carriers,
-              [ carrier/4, carriers_order/5, carriers_peers/2,
-                carriers_tell/3 ]).
+:- use_module(node_process, [order_do/2]).
+:- use_module(nodes,
+              [ node/4, nodes_order/5, nodes_peers/2,
+                nodes_tell/3 ]).
 :- use_module(changes, [dynamics_kept/3]).
 :- use_module(log_file, [log_size/2]).
 :- use_module(networks, [network_standing/2]).
@@ -24,7 +24,7 @@
 
 /** <module> Restore points of whole networks
 
-All carriers hold what they do; then each says what it knows, and goes on.
+All processes hold what they do; then each says what it knows, and goes on.
 That is written when they have gone on.  See module `loading` for the way back.
 
 *Threading*: any thread, also that of virtual time, for what is called by
@@ -88,7 +88,7 @@ nobody_else(Network) :-
 nobody_else(_).
 
 carried_here(Network) :-
-    carrier(Network, _, _, local).
+    node(Network, _, _, local).
 
 cut(Network, Ps, Standing, Terms) :-
     setting(hold_seconds, Seconds),
@@ -113,7 +113,7 @@ hold(Network, Ps, Deadline) :-
     all_do(Network, Ps, rest([]), Deadline),
     (   carried_here(Network)
     ->  true
-    ;   carriers_peers(Network, Peers),
+    ;   nodes_peers(Network, Peers),
         forall(member(_, [here|Ps]),
                ( all_do(Network, Ps, flush(Peers), Deadline),
                  all_do(Network, Ps, rest(Peers), Deadline) ))
@@ -129,7 +129,7 @@ hold_here(_) :-
     order_do(hold(0), ok).
 
 let_go(Network, Ps) :-
-    carriers_tell(Network, Ps, let_go),
+    nodes_tell(Network, Ps, let_go),
     (   carried_here(Network)
     ->  true
     ;   order_do(let_go, ok)
@@ -153,7 +153,7 @@ order(flush(Peers), Seconds, flush(Seconds, Peers)).
 answers(Network, Ps, Order, Deadline, Answers) :-
     seconds_to(Deadline, Seconds0),
     Seconds is Seconds0+1,
-    carriers_order(Network, Ps, Order, Seconds, Answers).
+    nodes_order(Network, Ps, Order, Seconds, Answers).
 
 seconds_to(Deadline, Seconds) :-
     get_time(Now),
@@ -163,7 +163,7 @@ seconds_to(Deadline, Seconds) :-
                 *         WHAT THERE IS        *
                 *******************************/
 
-%   about(+Network, +Standing, +Deadline, -About): what the carriers do not
+%   about(+Network, +Standing, +Deadline, -About): what the processes do not
 %   know.
 
 about(Network, standing(Plan, Clock, Log0, Dynamics0), Deadline,

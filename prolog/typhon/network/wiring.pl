@@ -21,13 +21,13 @@
 :- use_module(library(settings), [setting/2]).
 :- use_module('../kernel/host', [time_kind/1]).
 :- use_module('../kernel/agent', [agent_home/2]).
-:- use_module(carriers, [carrier/3, carrier/4, carrier_order/4]).
+:- use_module(nodes, [node/3, node/4, node_order/4]).
 :- use_module(restarts, [restarts_back/1]).
 
 /** <module> The hosts of a network and the links between them
 
 Knows which host, by number, name and address, is in which process, and
-gives the carriers their orders about hosts and links.
+gives the processes their orders about hosts and links.
 
 *Threading*: wire_change/2 runs in the thread of the dynamics, beside
 callers that ask for properties; wire_again/5 in that of module `restarts`, and not
@@ -49,17 +49,17 @@ typhon_host_names:elsewhere(Name, Address) :-
 
 typhon_names:known(host, Address) :-
     current_prolog_flag(pid, Pid),
-    carrier(Network, P, Other),
+    node(Network, P, Other),
     Other \== Pid,
     host(Network, _, _, P, Address).
 
 %!  wire_hosts(+Network, +P, +How, +Hosts) is det.
 %
-%   Starts Hosts, terms host(At, I, Name, Options), At one of the carriers
-%   1..P. Each carrier gets one order, How being its name: `hosts`, or `again`
+%   Starts Hosts, terms host(At, I, Name, Options), At one of the processes
+%   1..P. Each process gets one order, How being its name: `hosts`, or `again`
 %   for those that there were before.
 %
-%   @error as carrier_order/4
+%   @error as node_order/4
 
 wire_hosts(Network, P, How, Hosts) :-
     forall(between(1, P, At), start_hosts(Network, At, How, Hosts)).
@@ -74,13 +74,13 @@ start_hosts(Network, P, How, Hosts) :-
 order_hosts(Network, P, How, Hosts, Addresses) :-
     findall(Name-Options, member(host(P, _, Name, Options), Hosts), Specs),
     Order =.. [How, Specs],
-    carrier_order(Network, P, Order, Addresses).
+    node_order(Network, P, Order, Addresses).
 
 %!  wire_links(+Network, +P, +Links) is det.
 %!  wire_instead(+Network, +P, +Links) is det.
 %
 %   Makes Links, terms link(I, J, Cost); instead of what links there are. Each
-%   of the carriers 1..P hears in one order of all the ends of links in it.
+%   of the processes 1..P hears in one order of all the ends of links in it.
 
 wire_links(Network, P, Links) :-
     order_links(Network, P, link, Links).
@@ -103,20 +103,20 @@ order_links(Network, P, Action, Links) :-
 
 order_halves(Network, P, Action, Halves) :-
     Order =.. [Action, Halves],
-    carrier_order(Network, P, Order, ok).
+    node_order(Network, P, Order, ok).
 
 %!  wire_go_on(+Network, +P) is det.
 %
-%   What was in the journals of the carriers 1..P goes on.
+%   What was in the journals of the processes 1..P goes on.
 
 wire_go_on(Network, P) :-
-    forall(between(1, P, At), carrier_order(Network, At, go_on, ok)).
+    forall(between(1, P, At), node_order(Network, At, go_on, ok)).
 
 %!  wire_goals(+Network, +P, +Goals) is det.
 %
 %   Calls Goals, pairs I-Goal, in the places of hosts I.
 %
-%   @error as carrier_order/4
+%   @error as node_order/4
 
 wire_goals(Network, P, Goals) :-
     forall(between(1, P, At), order_goals(Network, At, Goals)).
@@ -127,16 +127,16 @@ order_goals(Network, P, Goals) :-
             Mine),
     (   Mine == []
     ->  true
-    ;   carrier_order(Network, P, places(Mine), ok)
+    ;   node_order(Network, P, places(Mine), ok)
     ).
 
 %!  wire_again(+Network, +P, +Hosts, +Links, +Goals) is det.
 %
-%   Carrier P was started again: what of Hosts and Links belongs to it is made
+%   Process P was started again: what of Hosts and Links belongs to it is made
 %   there, with the links that have changed meanwhile as they are now, and
 %   Goals are called.
 %
-%   @error as carrier_order/4
+%   @error as node_order/4
 
 wire_again(Network, P, Hosts, Links, Goals) :-
     order_hosts(Network, P, hosts, Hosts, _),
@@ -182,8 +182,8 @@ change(Network, Change) :-
              alive_order(Network, P, Order, _) )).
 
 alive_order(Network, P, Order, Answer) :-
-    carrier(Network, P, _),
-    catch(carrier_order(Network, P, Order, Answer),
+    node(Network, P, _),
+    catch(node_order(Network, P, Order, Answer),
           error(existence_error(carrier, _), _), fail),
     !.
 alive_order(_, _, _, none).
@@ -198,7 +198,7 @@ present_order(Network, P, Order, Answer) :-
     Answer \== none,
     !.
 
-one_carrier(Network, P) :-
+one_node(Network, P) :-
     findall(P0, host(Network, _, _, P0, _), Ps0),
     sort(Ps0, Ps),
     member(P, Ps).
@@ -209,9 +209,9 @@ one_carrier(Network, P) :-
 
 wire_stop_own(Network) :-
     current_prolog_flag(pid, Pid),
-    (   carrier(Network, P, Pid)
+    (   node(Network, P, Pid)
     ->  findall(Name, host(Network, _, Name, P, _), Names),
-        carrier_order(Network, P, stop(Names), ok)
+        node_order(Network, P, stop(Names), ok)
     ;   true
     ).
 
@@ -223,17 +223,17 @@ wire_stop_own(Network) :-
 
 wire_resting_own(Network, Goal) :-
     current_prolog_flag(pid, Pid),
-    (   carrier(Network, P, Pid),
+    (   node(Network, P, Pid),
         time_kind(real)
-    ->  setup_call_cleanup(carrier_order(Network, P, hold(0), ok),
+    ->  setup_call_cleanup(node_order(Network, P, hold(0), ok),
                            ( rest(Network, P), once(Goal) ),
-                           carrier_order(Network, P, let_go, ok))
+                           node_order(Network, P, let_go, ok))
     ;   once(Goal)
     ).
 
 rest(Network, P) :-
-    setting(typhon_carrier:rest_seconds, Seconds),
-    carrier_order(Network, P, rest(Seconds, []), _).
+    setting(typhon_node_process:rest_seconds, Seconds),
+    node_order(Network, P, rest(Seconds, []), _).
 
 %!  wire_forget(+Network) is det.
 
@@ -253,7 +253,7 @@ wired(Network, Hosts) :-
 
 %!  wired_host(+Network, +P, -Name) is nondet.
 %
-%   Carrier P has a host of that name.
+%   Process P has a host of that name.
 
 wired_host(Network, P, Name) :-
     host(Network, _, Name, P, _).
@@ -286,7 +286,7 @@ numbered_edges(Network, Numbered) :-
     sort(Numbered0, Numbered).
 
 half_edge(Network, I-J) :-
-    one_carrier(Network, P),
+    one_node(Network, P),
     findall(A-Name, host(Network, A, Name, P, _), Pairs),
     pairs_keys_values(Pairs, Numbers, Names),
     present_order(Network, P, neighbours(Names), Lists),
@@ -304,7 +304,7 @@ half_edge(Network, I-J) :-
 
 wired_agents(Network, Agents) :-
     findall(Agent,
-            ( one_carrier(Network, P),
+            ( one_node(Network, P),
               present_order(Network, P, agents, Born),
               member(Agent, Born),
               agent_home(Agent, Home),
@@ -318,8 +318,8 @@ wired_agents(Network, Agents) :-
 
 wired_ended(Network, Name, Agents) :-
     findall(Agent,
-            ( one_carrier(Network, P),
-              carrier(Network, P, _, Where),
+            ( one_node(Network, P),
+              node(Network, P, _, Where),
               Where \== local,
               present_order(Network, P, ended(Name), Ended),
               member(Agent, Ended) ),

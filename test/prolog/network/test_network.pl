@@ -41,8 +41,8 @@ quiet(Goal) :-
     retractall(printed(_)),
     setup_call_cleanup(
         maplist([M]>>assertz(expected(M)),
-                [ carrier_down(_, _, _, _, _), carrier_killed(_, _),
-                  carrier_order(_, _, _) ]),
+                [ node_down(_, _, _, _, _), node_killed(_, _),
+                  node_order(_, _, _) ]),
         once(Goal),
         retractall(expected(_))).
 
@@ -432,7 +432,7 @@ bury(Count, Network) :-
     pids(Network, [Pid|_]),
     process_kill(Pid, kill),
     wait_until(( pids(Network, Rest), length(Rest, Count), Count < 4 ), 5),
-    wait_until(printed(carrier_down(Network, Pid, killed(9), _, _)), 5).
+    wait_until(printed(node_down(Network, Pid, killed(9), _, _)), 5).
 
 test(warning_names_hosts_and_agents_of_a_process_that_died) :-
     setup_call_cleanup(
@@ -451,14 +451,14 @@ bury_with_agents(Network) :-
     wait_until(agent_property(There, host(First)), 5),
     pids(Network, [Pid|_]),
     process_kill(Pid, kill),
-    wait_until(printed(carrier_down(Network, Pid, killed(9), _, _)), 5),
-    printed(carrier_down(Network, Pid, _, Hosts, Agents)),
+    wait_until(printed(node_down(Network, Pid, killed(9), _, _)), 5),
+    printed(node_down(Network, Pid, _, Hosts, Agents)),
     assertion(Hosts == [n1, n2]),
     assertion(Agents == [There]).
 
 test(warning_names_ten_hosts_and_how_many_more) :-
     numlist(1, 12, Hosts),
-    Message = typhon(carrier_down(network0, 7, killed(9), Hosts, [bob])),
+    Message = typhon(node_down(network0, 7, killed(9), Hosts, [bob])),
     phrase('$messages':translate_message(Message), Lines),
     with_output_to(string(Text),
                    print_message_lines(current_output, '', Lines)),
@@ -477,7 +477,7 @@ test(a_process_that_hangs,
                 [typhon_children:stop_seconds=1],
                 with_network(ring(8), [processes(4)|Dynamic], freeze)),
                                Seconds))),
-    once(printed(carrier_killed(_, _))).
+    once(printed(node_killed(_, _))).
 
 freeze(Network) :-
     pids(Network, [_, Pid|_]),
@@ -505,7 +505,7 @@ all_killed(Network) :-
     pids(Network, Pids),
     forall(member(Pid, Pids), process_kill(Pid, kill)),
     forall(member(Pid, Pids),
-           wait_until(printed(carrier_down(_, Pid, killed(9), _, _)), 20)).
+           wait_until(printed(node_down(_, Pid, killed(9), _, _)), 20)).
 
 test(a_busy_agent_does_not_hold_it_up, true(Seconds < 25)) :-
     nothing_left(seconds(with_network(ring(4), [processes(2)], busy),
@@ -705,7 +705,7 @@ test(a_dead_process_does_not_stop_the_rest) :-
 limping(Network) :-
     pids(Network, [Pid|_]),
     process_kill(Pid, kill),
-    wait_until(printed(carrier_down(_, Pid, _, _, _)), 5),
+    wait_until(printed(node_down(_, Pid, _, _, _)), 5),
     network_property(Network, edges(Before)),
     wait_until(( network_property(Network, edges(Now)), Now \== Before ), 10).
 

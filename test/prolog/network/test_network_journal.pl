@@ -35,8 +35,8 @@ network(Dir, Topology, Options, Goal) :-
 
 user:message_hook(typhon(Message), _, _) :-
     expected,
-    memberchk(Message, [ carrier_down(_, _, _, _, _), carrier_back(_, _),
-                         carrier_given_up(_, _, _, _), carrier_killed(_, _) ]),
+    memberchk(Message, [ node_down(_, _, _, _, _), node_back(_, _),
+                         node_given_up(_, _, _, _), node_killed(_, _) ]),
     assertz(printed(Message)).
 
 quiet(Goal) :-
@@ -524,14 +524,14 @@ saved(Dir) :-
 saved_without(File, Network) :-
     pids(Network, [_, Pid]),
     process_kill(Pid, kill),
-    wait_until(printed(carrier_down(_, Pid, _, _, _)), 10),
+    wait_until(printed(node_down(_, Pid, _, _, _)), 10),
     network_save(Network, File).
 
 test('one that dies again and again is left alone at last, and that is told',
-     Told = [carrier_given_up(_, 1, 2, 60)]) :-
+     Told = [node_given_up(_, 1, 2, 60)]) :-
     with_settings([typhon_restarts:restarts=2], quiet(no_leaks(too_often))),
-    findall(carrier_given_up(N, P, M, S),
-            printed(carrier_given_up(N, P, M, S)), Told).
+    findall(node_given_up(N, P, M, S),
+            printed(node_given_up(N, P, M, S)), Told).
 
 too_often :-
     setup_call_cleanup(
@@ -551,7 +551,7 @@ stopped_meanwhile :-
     network_start(ring(3), Network, [processes(3), restart(true)]),
     pids(Network, [Pid|_]),
     process_kill(Pid, kill),
-    wait_until(printed(carrier_down(_, _, _, _, _)), 5),
+    wait_until(printed(node_down(_, _, _, _, _)), 5),
     network_stop(Network).
 
 :- end_tests(network_restart).

@@ -54,7 +54,7 @@ test('of those that are stopped on their way nothing is told',
                 member(Options, [[processes(3)], []]) )),
        Told == [] ]) :-
     call(Kind, Clauses),
-    with_settings([typhon_carrier:rest_seconds=10],
+    with_settings([typhon_node_process:rest_seconds=10],
                   no_leaks(stopped(Options, Clauses, 50, Told))).
 
 %   Longer than agents have to come to rest, and so long that it is broken off.

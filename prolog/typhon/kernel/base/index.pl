@@ -68,13 +68,13 @@ part_file('bridges/ros','bridges/ros/events').
 part_file('bridges/ros','bridges/ros/requests').
 part_file('bridges/ros','bridges/ros/service').
 part_file(network,'network/appointments').
-part_file(network,'network/carrier').
 part_file(network,'network/changes').
 part_file(network,'network/children').
 part_file(network,'network/dynamics').
 part_file(network,'network/loading').
 part_file(network,'network/log').
 part_file(network,'network/networks').
+part_file(network,'network/node_process').
 part_file(network,'network/plan').
 part_file(network,'network/topology').
 part_file(network,'network/wiring').
@@ -145,7 +145,7 @@ part_setting(most,typhon_ros_advertisements,positive_integer,1000,'Topics and se
 part_setting(most,typhon_ros_open_requests,positive_integer,1000,'Now typhon_ros_requests:most','bridges/ros/requests').
 part_setting(most,typhon_ros_requests,positive_integer,1000,'Requests of ROS that may wait for the answers of agents','bridges/ros/requests').
 part_setting(most,typhon_ros_standing,positive_integer,1000,'Now typhon_ros_advertisements:most','bridges/ros/advertisements').
-part_setting(order_seconds,typhon_processes,number,60,'A process has so long to answer an order','network/carriers').
+part_setting(order_seconds,typhon_processes,number,60,'A process has so long to answer an order','network/nodes').
 part_setting(patience,typhon_telling,number,30,'A process that watches and is cut off has so long to answer','options/watch/teller').
 part_setting(patience,typhon_virtual,number,10,'Virtual time that stands still for so long is reported','options/virtual/virtual').
 part_setting(pause,typhon_overuse,number,0.8,'Now typhon_quota_enforcer:pause','options/quotas/quota_enforcer').
@@ -158,7 +158,8 @@ part_setting(queue,typhon_subscribers,positive_integer,1000,'Messages of bridges
 part_setting(renew_seconds,typhon_page_sources,number,3,'A page that is looked at finds new hosts within so many seconds','tools/page/sources').
 part_setting(request_bytes,typhon_page_server,positive_integer,4000000,'A page takes no larger request than this','tools/page/server').
 part_setting(request_seconds,typhon_page_reception,positive_integer,20,'The head of a request takes no longer, and no longer its body','tools/page/reception').
-part_setting(rest_seconds,typhon_carrier,number,1,'Agents of a network have so long to come to rest when it stops','network/carrier').
+part_setting(rest_seconds,typhon_carrier,number,1,'Now typhon_node_process:rest_seconds','network/node_process').
+part_setting(rest_seconds,typhon_node_process,number,1,'Agents of a network have so long to come to rest when it stops','network/node_process').
 part_setting(restart_seconds,typhon_restarts,number,60,'The time that this number is for','network/restarts').
 part_setting(restarts,typhon_restarts,nonneg,10,'A process of a network is started again so often','network/restarts').
 part_setting(seconds,typhon_inventory,number,2,'A table waits so long for the other processes of a network','tools/inventory').

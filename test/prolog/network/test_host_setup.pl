@@ -1,4 +1,4 @@
-:- module(test_furnishing, []).
+:- module(test_host_setup, []).
 :- use_module('../../lib/common').
 :- use_module(library(plunit)).
 :- use_module(library(filesex), [directory_file_path/3]).

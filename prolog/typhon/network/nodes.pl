@@ -1,18 +1,18 @@
-:- module(typhon_carriers,
-          [ carrier_came/4,             % +Network, +P, +Where, +Pid
-            carrier_went/3,             % +Network, +P, +Status
-            carrier_again/2,            % +Network, +P
-            carriers_forget/1,          % +Network
-            carrier/3,                  % ?Network, ?P, ?Pid
-            carrier/4,                  % ?Network, ?P, ?Pid, ?Where
-            carrier_gone/2,             % +Network, +P
-            carrier_order/4,            % +Network, +P, +Order, -Answer
-            carriers_order/5,           % +Network, +Ps, +Order, +Seconds,
+:- module(typhon_nodes,
+          [ node_came/4,                % +Network, +P, +Where, +Pid
+            node_went/3,                % +Network, +P, +Status
+            node_again/2,               % +Network, +P
+            nodes_forget/1,             % +Network
+            node/3,                     % ?Network, ?P, ?Pid
+            node/4,                     % ?Network, ?P, ?Pid, ?Where
+            node_gone/2,                % +Network, +P
+            node_order/4,               % +Network, +P, +Order, -Answer
+            nodes_order/5,              % +Network, +Ps, +Order, +Seconds,
                                         % -Answers
-            carriers_ask/6,             % +Network, +Ps, +Order, +Seconds,
+            nodes_ask/6,                % +Network, +Ps, +Order, +Seconds,
                                         % :Watch, -Results
-            carriers_tell/3,            % +Network, +Ps, +Order
-            carriers_peers/2,           % +Network, -Peers
+            nodes_tell/3,               % +Network, +Ps, +Order
+            nodes_peers/2,              % +Network, -Peers
             unwatched/1,                % +Ps
             deadline/2,                 % +Seconds, -Deadline
             message_before/3            % +Queue, ?Message, +Deadline
@@ -24,16 +24,16 @@
 :- use_module(library(settings), [setting/2, setting/4]).
 :- use_module('../kernel/base/harmless_error', [harmless_error/2]).
 :- use_module('../kernel/wire', [endpoint_address/1, endpoint_request/4]).
-:- use_module(carrier, [order_do/2]).
+:- use_module(node_process, [order_do/2]).
 
 /** <module> The processes of a network, and orders to them
 
-The carriers of a network are numbered from 1. Either there is one, this
-process, or each is a child. Orders (see module `carrier`) are done here in the
-first case and go over the wire in the second.
+The processes of a network are numbered from 1. Either there is one, this
+process, or each is a child. Orders (see module `node_process`) are done here
+in the first case and go over the wire in the second.
 
 *Threading*: any thread may give orders. The thread that follows a
-carrier reports that it is down: as a fact, and to callers that wait for an answer.
+process reports that it is down: as a fact, and to callers that wait for an answer.
 */
 
 :- multifile
@@ -43,7 +43,7 @@ carrier reports that it is down: as a fact, and to callers that wait for an answ
            "A process has so long to answer an order").
 
 :- meta_predicate
-    carriers_ask(+, +, +, +, 1, -).
+    nodes_ask(+, +, +, +, 1, -).
 
 :- dynamic
     up/4,                       % Network, P, local or Endpoint, Pid
@@ -54,50 +54,50 @@ carrier reports that it is down: as a fact, and to callers that wait for an answ
                 *           CARRIERS           *
                 *******************************/
 
-%!  carrier_came(+Network, +P, +Where, +Pid) is det.
-%!  carrier_went(+Network, +P, +Status) is det.
-%!  carrier_again(+Network, +P) is det.
-%!  carriers_forget(+Network) is det.
+%!  node_came(+Network, +P, +Where, +Pid) is det.
+%!  node_went(+Network, +P, +Status) is det.
+%!  node_again(+Network, +P) is det.
+%!  nodes_forget(+Network) is det.
 %
-%   Carrier P is up, Where being `local` or the endpoint of a child; it is
+%   Process P is up, Where being `local` or the endpoint of a child; it is
 %   down; it was, and is about to be started again; all are forgotten.
 
-carrier_came(Network, P, Where, Pid) :-
+node_came(Network, P, Where, Pid) :-
     assertz(up(Network, P, Where, Pid)),
     debug(typhon(network), 'process ~w of ~w is up: ~w, ~w',
           [P, Network, Where, Pid]).
 
-carrier_went(Network, P, Status) :-
+node_went(Network, P, Status) :-
     assertz(down(Network, P, Status)),
     debug(typhon(network), 'process ~w of ~w is down: ~p',
           [P, Network, Status]),
     forall(waiting(Network, P, Queue), answered(Queue, P, down)).
 
-carrier_again(Network, P) :-
+node_again(Network, P) :-
     retractall(up(Network, P, _, _)),
     retractall(down(Network, P, _)).
 
-carriers_forget(Network) :-
+nodes_forget(Network) :-
     retractall(up(Network, _, _, _)),
     retractall(down(Network, _, _)).
 
-%!  carrier(?Network, ?P, ?Pid) is nondet.
-%!  carrier(?Network, ?P, ?Pid, ?Where) is nondet.
+%!  node(?Network, ?P, ?Pid) is nondet.
+%!  node(?Network, ?P, ?Pid, ?Where) is nondet.
 %
-%   Carrier P of Network is up; Pid is its process on its machine.
+%   Process P of Network is up; Pid is its process on its machine.
 
-carrier(Network, P, Pid) :-
-    carrier(Network, P, Pid, _).
+node(Network, P, Pid) :-
+    node(Network, P, Pid, _).
 
-carrier(Network, P, Pid, Where) :-
+node(Network, P, Pid, Where) :-
     up(Network, P, Where, Pid),
     \+ down(Network, P, _).
 
-%!  carrier_gone(+Network, +P) is semidet.
+%!  node_gone(+Network, +P) is semidet.
 %
-%   Carrier P has ended, whether it was up or not.
+%   Process P has ended, whether it was up or not.
 
-carrier_gone(Network, P) :-
+node_gone(Network, P) :-
     down(Network, P, _),
     !.
 
@@ -105,34 +105,34 @@ carrier_gone(Network, P) :-
                 *            ORDERS            *
                 *******************************/
 
-%!  carrier_order(+Network, +P, +Order, -Answer) is det.
+%!  node_order(+Network, +P, +Order, -Answer) is det.
 %
-%   Carrier P does Order.
+%   Process P does Order.
 %
 %   @error existence_error(carrier, Network-P) when it is not up, or ends
 %   before it has answered; timeout_error(answer, Network-P); what order_do/2
 %   throws there
 
-carrier_order(Network, P, Order, Answer) :-
+node_order(Network, P, Order, Answer) :-
     up(Network, P, local, _),
     !,
     order_do(Order, Answer).
-carrier_order(Network, P, Order, Answer) :-
+node_order(Network, P, Order, Answer) :-
     setting(typhon_processes:order_seconds, Seconds),
-    carriers_ask(Network, [P], Order, Seconds, unwatched, [_-Result]),
+    nodes_ask(Network, [P], Order, Seconds, unwatched, [_-Result]),
     result(Result, Network-P, Answer).
 
-%!  carriers_order(+Network, +Ps, +Order, +Seconds, -Answers) is det.
+%!  nodes_order(+Network, +Ps, +Order, +Seconds, -Answers) is det.
 %
-%   As carrier_order/4, of all carriers Ps at the same time, with one answer of
+%   As node_order/4, of all processes Ps at the same time, with one answer of
 %   each, in Seconds.
 
-carriers_order(Network, [P], Order, _, [Answer]) :-
+nodes_order(Network, [P], Order, _, [Answer]) :-
     up(Network, P, local, _),
     !,
     order_do(Order, Answer).
-carriers_order(Network, Ps, Order, Seconds, Answers) :-
-    carriers_ask(Network, Ps, Order, Seconds, unwatched, Results),
+nodes_order(Network, Ps, Order, Seconds, Answers) :-
+    nodes_ask(Network, Ps, Order, Seconds, unwatched, Results),
     maplist(result_of(Network, Results), Ps, Answers).
 
 result_of(Network, Results, P, Answer) :-
@@ -143,23 +143,23 @@ result(answer(done(Answer)), _, Answer).
 result(answer(raised(Formal, Text)), _, _) :-
     harmless_error(error(Formal, context(_, Text)), Ball),
     throw(Ball).
-result(down, Carrier, _) :-
-    existence_error(carrier, Carrier).
-result(unreachable, Carrier, _) :-
-    existence_error(carrier, Carrier).
-result(lost, Carrier, _) :-
-    existence_error(carrier, Carrier).
-result(late, Carrier, _) :-
-    throw(error(timeout_error(answer, Carrier), _)).
+result(down, Node, _) :-
+    existence_error(carrier, Node).
+result(unreachable, Node, _) :-
+    existence_error(carrier, Node).
+result(lost, Node, _) :-
+    existence_error(carrier, Node).
+result(late, Node, _) :-
+    throw(error(timeout_error(answer, Node), _)).
 
-%!  carriers_ask(+Network, +Ps, +Order, +Seconds, :Watch, -Results) is det.
+%!  nodes_ask(+Network, +Ps, +Order, +Seconds, :Watch, -Results) is det.
 %
 %   What children Ps answer, P-Result in order of arrival. While some have
 %   not answered, call(Watch, Those) again and again. Result is one of
 %   endpoint_request/4, `down` or `late`. The endpoint alone cannot tell a
 %   peer that is dead from one that will be back.
 
-carriers_ask(Network, Ps, Order, Seconds, Watch, Results) :-
+nodes_ask(Network, Ps, Order, Seconds, Watch, Results) :-
     functor(Order, What, _),            % options of hosts may be secret
     debug(typhon(network), 'processes ~w of ~w: ~w', [Ps, Network, What]),
     deadline(Seconds, Deadline),
@@ -172,28 +172,28 @@ carriers_ask(Network, Ps, Order, Seconds, Watch, Results) :-
           message_queue_destroy(Queue)
         )).
 
-%!  carriers_tell(+Network, +Ps, +Order) is det.
+%!  nodes_tell(+Network, +Ps, +Order) is det.
 %
-%   Carriers Ps are to do Order, when they come to it.  Never waits.
+%   Processes Ps are to do Order, when they come to it.  Never waits.
 
-carriers_tell(Network, Ps, Order) :-
-    forall(( member(P, Ps), carrier(Network, P, _, Where) ),
+nodes_tell(Network, Ps, Order) :-
+    forall(( member(P, Ps), node(Network, P, _, Where) ),
            tell(Where, Order)).
 
 tell(local, Order) :-
     !,
     order_do(Order, _).
 tell(Endpoint, Order) :-
-    endpoint_request(Endpoint, node, Order, typhon_carriers:unwatched).
+    endpoint_request(Endpoint, node, Order, typhon_nodes:unwatched).
 
-%!  carriers_peers(+Network, -Peers:list) is det.
+%!  nodes_peers(+Network, -Peers:list) is det.
 %
 %   The endpoints of this process, and of the children that are left.
 
-carriers_peers(Network, Peers) :-
+nodes_peers(Network, Peers) :-
     findall(Peer,
             ( endpoint_address(Peer)
-            ; carrier(Network, _, _, Peer) ),
+            ; node(Network, _, _, Peer) ),
             Peers).
 
 %!  unwatched(+Ps) is det.
@@ -204,9 +204,9 @@ unwatched(_).
 
 send(Network, P, Order, Queue) :-
     assertz(waiting(Network, P, Queue)),
-    (   carrier(Network, P, _, Endpoint)
+    (   node(Network, P, _, Endpoint)
     ->  endpoint_request(Endpoint, node, Order,
-                         typhon_carriers:answered(Queue, P))
+                         typhon_nodes:answered(Queue, P))
     ;   answered(Queue, P, down)
     ).
 

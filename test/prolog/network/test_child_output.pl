@@ -1,4 +1,4 @@
-:- module(test_voice, []).
+:- module(test_child_output, []).
 
 % Output and messages of the child processes of a network are printed by the
 % process that started it.
@@ -47,7 +47,7 @@ lines(Text, Lines) :-
     split_string(Text, "\n", "", Lines0),
     exclude(==(""), Lines0, Lines).
 
-:- begin_tests(voice).
+:- begin_tests(child_output).
 
 unmarked(Line, Text) :-
     once(sub_string(Line, Before, 2, _, "] ")),
@@ -71,4 +71,4 @@ test(as_quiet_as_the_parent) :-
     assertion(length(Out, 4)),
     assertion(length(Err, 2)).
 
-:- end_tests(voice).
+:- end_tests(child_output).

@@ -1,6 +1,6 @@
-:- module(typhon_carrier,
+:- module(typhon_node_process,
           [ order_do/2,                 % +Order, -Answer
-            carrier_main/0
+            node_main/0
           ]).
 :- use_module(library(apply), [maplist/3]).
 :- use_module(library(debug), [debug/3]).
@@ -17,15 +17,15 @@
               [ host/3, host_do/2, host_link/3, host_neighbours/2,
                 host_option/2, host_property/2, host_restart/2, host_start/2,
                 host_stop/1, host_unlink/2, hosts_go_on/0, hosts_rest/0,
-                runtime_acquire/2, runtime_release/1, time_again/2, time_hold/1, time_let_go/1,
-                time_stands/1 ]).
+                runtime_acquire/2, runtime_release/1, time_again/2,
+                time_hold/1, time_let_go/1, time_stands/1 ]).
 :- use_module('../options/journal', [hosts_back/1, hosts_journal/2]).
 :- use_module('../options/snapshot',
               [ agents_at_rest/2, agents_go_on/1, cut_again/2, cut_go_on/3,
                 cut_kept/2 ]).
 :- use_module('../kernel/agent', [agent_name/3]).
 :- use_module('../kernel/travel', [agent_outcome/2, home_agents/1]).
-:- use_module(child_output, [voice_begin/0, voice_end/0]).
+:- use_module(child_output, [output_begin/0, output_end/0]).
 
 /** <module> A process that carries hosts of a network
 
@@ -33,14 +33,14 @@ What a network asks of whoever carries its hosts is done by direct call in
 its own process, and by request in a child. Whole lists go in one order: a
 network of a thousand hosts is a few requests.
 
-A child is started by the module `children` as `swipl -g carrier_main
-carrier.pl`. The first line of its standard input is node(Cookie, Interface,
-StopSeconds, Keys, Options). When the endpoint listens, and what is in its
+A child is started by the module `children` as `swipl -g node_main
+node_process.pl`. The first line of its standard input is
+node(Cookie, Interface, StopSeconds, Keys, Options). When the endpoint listens, and what is in its
 journal, if it has one, is there again, one line is written:
 
-    typhon_carrier <Interface>:<Port> <Pid>
+    typhon_node_process <Interface>:<Port> <Pid>
 
-If that cannot be the line is `typhon_carrier_error <Error>`, and the process
+If that cannot be the line is `typhon_node_process_error <Error>`, and the process
 ends.
 
 From then on orders come over the wire, as requests of kind `node`. The
@@ -62,6 +62,8 @@ one for the order to stop: it sees to it that there is an end.
     at_rest/0,                  % agents have had their time to come to rest
     child/0.                    % this process is one
 
+:- setting(typhon_carrier:rest_seconds, number, 1,
+           "Now typhon_node_process:rest_seconds").
 :- setting(rest_seconds, number, 1,
            "Agents of a network have so long to come to rest when it stops").
 
@@ -224,11 +226,11 @@ stop_host(Name) :-
                 *            A CHILD           *
                 *******************************/
 
-%!  carrier_main
+%!  node_main
 %
 %   Never returns: the process ends.
 
-carrier_main :-
+node_main :-
     load_platform,
     set_stream(user_input, encoding(utf8)),
     set_stream(user_output, encoding(utf8)),
@@ -239,16 +241,16 @@ carrier_main :-
     with_keys(Keys),
     thread_create(see_to_end(Seconds), _,
                   [alias(typhon_end), detached(true)]),
-    on_signal(term, _, typhon_carrier:on_stop_signal),
-    on_signal(int, _, typhon_carrier:on_stop_signal),
+    on_signal(term, _, typhon_node_process:on_stop_signal),
+    on_signal(int, _, typhon_node_process:on_stop_signal),
     assertz(child),
-    voice_begin,
+    output_begin,
     catch(begin(Interface, Seconds, Options), error(Formal, Context),
           cannot_begin(Formal, Context)),
     endpoint_address(Endpoint),
     thread_create(watch_input, _, [alias(typhon_input), detached(true)]),
     current_prolog_flag(pid, Pid),
-    format('typhon_carrier ~w ~d~n', [Endpoint, Pid]),
+    format('typhon_node_process ~w ~d~n', [Endpoint, Pid]),
     flush_output,
     serve,
     stop.
@@ -275,7 +277,7 @@ cannot_begin(Formal, Context) :-
     ->  true
     ;   true
     ),
-    format('typhon_carrier_error ~k~n', [error(Formal, context(_, Text))]),
+    format('typhon_node_process_error ~k~n', [error(Formal, context(_, Text))]),
     flush_output,
     halt(1).
 
@@ -288,14 +290,14 @@ with_keys(keys(Directory)) :-
 load_platform :-
     (   exists_source(library(typhon))
     ->  true
-    ;   module_property(typhon_carrier, file(File)),
+    ;   module_property(typhon_node_process, file(File)),
         relative_library(File, Library),
         asserta(user:file_search_path(library, Library))
     ),
     use_module(library(typhon), []).
 
 relative_library(File, Library) :-
-    atom_concat(Library, '/typhon/network/carrier.pl', File).
+    atom_concat(Library, '/typhon/network/node_process.pl', File).
 
 on_stop_signal(_) :-
     thread_send_message(typhon_end, stop).
@@ -381,7 +383,7 @@ come_to_rest :-
 
 stop :-
     (   output_waits
-    ->  voice_end,
+    ->  output_end,
         come_to_rest
     ;   true
     ),
