@@ -62,6 +62,9 @@ looked_at(clause(_, _), head).
 looked_at(throw(_), ball).
 looked_at(format(_, _, _), format).
 looked_at(attach(_), payload).
+looked_at(functor(_, _, _), arity).
+looked_at(functor(_, _, _, _), arity).
+looked_at(compound_name_arity(_, _, _), arity).
 looked_at(Goal, text) :-
     makes_atoms(Goal).
 looked_at(term_to_atom(_, _), term_text).

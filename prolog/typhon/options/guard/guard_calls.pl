@@ -221,6 +221,10 @@ looked_at(term_text, _, Goal, Goal) :-
     must_be_tree(Goal),
     readable_text(Goal),
     !.
+looked_at(arity, _, Goal, Goal) :-
+    arg(3, Goal, Arity),
+    \+ too_many(Arity),
+    !.
 looked_at(payload, _, attach(Spec), attach(Spec)) :-
     nonvar(Spec),
     Spec = payloads(Path),
@@ -234,6 +238,12 @@ unqualified(Head) :-
     callable(Head),
     Head \= _:_,
     \+ makes_clause(Head).
+
+%   SWI-Prolog crashes where the size of a term overflows.
+
+too_many(Arity) :-
+    integer(Arity),
+    Arity > 100 000 000.
 
 %   What ends a thread, or stops what is measured.
 

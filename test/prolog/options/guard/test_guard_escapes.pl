@@ -455,6 +455,37 @@ test(large_data_are_no_goals, R == 300 000) :-
 :- end_tests(shared_terms).
 
                 /*******************************
+                *           HUGE TERMS         *
+                *******************************/
+
+%   huge(-Goal): SWI-Prolog 9.0.4 crashes.
+
+huge(Goal) :-
+    member(Arity, [ 4611686018427387903, 4611686018427387904,
+                    9223372036854775807 ]),
+    member(Goal, [ functor(_, a, Arity), functor(_, a, Arity, _),
+                   functor(_, a, Arity, compound),
+                   compound_name_arity(_, a, Arity) ]).
+
+:- begin_tests(huge_terms).
+
+test(no_term_is_as_large_as_memory, Through == []) :-
+    findall(Goal, huge(Goal), Goals),
+    with_hosts([g-[policy(guarded)], t],
+               listening(let_through(Goals, Through), _)).
+test(terms_are_made_by_their_size,
+     true(subsumes_term([f(_,_), a, 3, g(_), [f,1]], R))) :-
+    with_hosts([g-[policy(guarded)]],
+               ( create([ (main :- functor(A, f, 2), functor(B, a, 0),
+                                   functor(x(1,2,3), _, C),
+                                   compound_name_arity(D, g, 1),
+                                   f(1) =.. E, result([A,B,C,D,E])) ],
+                        Agent, [host(g)]),
+                 agent_result(Agent, R, 10) )).
+
+:- end_tests(huge_terms).
+
+                /*******************************
                 *             TEXT             *
                 *******************************/
 
