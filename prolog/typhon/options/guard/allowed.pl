@@ -195,8 +195,10 @@ own_name(Head) :-
         remember(General)
     ).
 
-%   makes_clause(?Head): assertz/1 takes the fact for another clause, or the
-%   reader would.
+%!  makes_clause(?Head) is nondet.
+%
+%   assertz/1 takes a fact with that head for another clause, or the reader
+%   would.
 
 makes_clause((:-_)).
 makes_clause((_:-_)).
