@@ -349,7 +349,8 @@ reference_holds(Span) :-
     project_file(Relative, File),
     exists_file(File),
     (   PI = Name/Arity
-    ->  module_property(Module, file(File)),
+    ->  load_files(File, [if(not_loaded), imports([])]),
+        module_property(Module, file(File)),
         functor(Head, Name, Arity),
         predicate_property(Module:Head, defined),
         \+ predicate_property(Module:Head, imported_from(_))
