@@ -61,6 +61,7 @@ job(mqtt, [env], unpinned).
 job(strangers, [env], unpinned).
 job(guard, [env], unpinned).
 job(keys, [env], unpinned).
+job(start, [env], unpinned).
 job(hosts, [env], unpinned).
 job(population, [env], unpinned).
 job(virtual, [env], 20000).

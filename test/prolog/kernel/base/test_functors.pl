@@ -40,7 +40,7 @@ test(a_second_time_makes_none, true(Count1-Count0 =< 1)) :-
 test(a_process_has_it_before_it_can_have_threads,
      Status-Out == exit(0)-"room") :-
     project_file('prolog/typhon.pl', Typhon),
-    run_swipl([ '-g', 'statistics(functors, N), N > 0x8001, write(room)',
+    run_swipl([ '-g', 'statistics(functors, N), N > 0x4001, write(room)',
                 '-t', halt, Typhon ],
               [timeout(60)], Status, Out, _).
 test(four_threads_make_some, Lost == []) :-

@@ -1,0 +1,81 @@
+:- module(test_on_demand, []).
+
+/** <module> What a process does not use is not loaded, and works when it is
+
+Each test has a process of its own.
+
+*Threading*: one thread in each, but where the name of the test says so.
+*/
+
+:- use_module('../../../lib/common', [project_file/2, run_swipl/5]).
+:- use_module(library(plunit)).
+
+%   seen(+Goal, -Out): what a process with library(typhon) prints, of which it
+%   is asked with loaded(Modules).
+
+seen(Goal, Out) :-
+    project_file('prolog/typhon.pl', Typhon),
+    atom_concat(Goal, ', flush_output', Flushed),
+    run_swipl(['-g', Flushed, '-t', halt, Typhon], [timeout(60)], Status, Out,
+              Err),
+    (   Status == exit(0)
+    ->  true
+    ;   throw(error(system_error(Err), _))
+    ).
+
+:- begin_tests(on_demand).
+
+test(a_plain_host_has_no_code_of_options, Out == "[]") :-
+    seen('host_start(a), agent_create(clauses([(:- agent(x, [])), main]), A), \c
+          agent_join(A, done, 5), \c
+          findall(M, ( member(M, [ typhon_networks, typhon_store, \c
+                                   typhon_sandbox, typhon_virtual, \c
+                                   typhon_quota_hosts, typhon_trail, \c
+                                   typhon_access_rules, typhon_telling, \c
+                                   typhon_tables, typhon_page_server ]), \c
+                       module_property(M, file(_)) ), Ms), \c
+          print(Ms)', Out).
+test(an_option_of_a_host_loads_its_code, Out == "guarded") :-
+    seen('host_start(a, [policy(guarded)]), \c
+          module_property(typhon_sandbox, file(_)), \c
+          module_property(typhon_quota_hosts, file(_)), write(guarded)', Out).
+test(so_does_a_change_of_options, Out == "guarded") :-
+    seen('host_start(a), host_change(a, policy(guarded)), \c
+          module_property(typhon_sandbox, file(_)), write(guarded)', Out).
+test(mistyped_options_are_compared_with_those_not_loaded,
+     true(sub_string(Out, _, _, _, "did you mean policy?"))) :-
+    seen('catch(host_start(a, [polici(x)]), E, true), \c
+          \'$messages\':translate_message(E, Lines, []), \c
+          print_message_lines(user_output, \'\', Lines)', Out).
+test(what_an_option_takes_is_checked, Out == "type_error(atom,1)") :-
+    seen('catch(host_start(a, [policy(1)]), error(E, _), print(E))', Out).
+test(settings_can_be_set_before, Out == "7,7") :-
+    seen('set_setting(typhon_telling:events, 7), \c
+          setting(typhon_telling:events, A), host_start(a), \c
+          watch(a, [_]>>true, W), unwatch(W), \c
+          findall(B, setting(typhon_telling:events, B), Bs), \c
+          atomic_list_concat([A|Bs], (\',\'), All), write(All)', Out).
+test(a_peer_watches_first, Out == "started") :-
+    seen('host_start(a), host_property(a, address(Address)), \c
+          format(atom(There), "host_start(b), watch(~q, [E]>>true, W), \c
+                               unwatch(W), write(started), host_stop(b)", \c
+                 [Address]), \c
+          current_prolog_flag(executable, Swipl), \c
+          module_property(typhon, file(Typhon)), \c
+          process_create(Swipl, [\'-g\', There, \'-t\', halt, Typhon], \c
+                         [stdout(pipe(In))]), \c
+          read_string(In, _, Said), write(Said), \c
+          module_property(typhon_telling, file(_))', Out).
+test(many_threads_use_a_part_first, Out == "[true]") :-
+    seen('host_start(a), \c
+          findall(T, ( between(1, 8, _), \c
+                       thread_create(( watch(a, [_]>>true, W), \c
+                                       unwatch(W) ), T) ), Ts), \c
+          findall(S, ( member(T, Ts), thread_join(T, S) ), Ss), \c
+          sort(Ss, Set), print(Set)', Out).
+test(library_predicates_are_searched_for_again, Out == "true,false") :-
+    seen('current_prolog_flag(autoload, A), \c
+          current_prolog_flag(optimise, O), \c
+          format("~w,~w", [A, O])', Out).
+
+:- end_tests(on_demand).
