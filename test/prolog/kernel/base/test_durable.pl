@@ -6,6 +6,7 @@
 :- use_module(library(plunit)).
 :- use_module(library(random), [random_member/2]).
 :- use_module(library(typhon)).
+:- use_module(library(typhon/options/journal/channel), []).     % it has a table
 
 :- begin_tests(durable).
 
@@ -37,6 +38,11 @@ test(items_of_a_table_are_dumped,
             Items),
     findall(Key-Term, durable_dump(Kind, Key, _, Term), Dumped),
     emptied(Kind).
+
+test(no_kind_has_two_tables, Kinds == Once) :-
+    findall(Kind, table(Kind), Kinds0),
+    msort(Kinds0, Kinds),
+    sort(Kinds0, Once).
 
 test(item_of_no_table_is_not_restored, fail) :-
     durable_restore(no_such_kind, key, 0, term).
