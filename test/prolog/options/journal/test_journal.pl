@@ -489,6 +489,28 @@ changing(Messages, Dir) :-
               by_predicate(Clauses, Model) )),
         host_stop(driver)).
 
+%   The unit of work that would have noted a change fails: the change is noted
+%   with the next one.
+
+test('a change of a large state whose unit of work fails is not lost') :-
+    with_journal(
+        ( changer(Program, Facts),
+          agent_create(Program, A, [facts(Facts)]),
+          nb_setval(journal_test, A),
+          agent_send(A, one),
+          wait_until(changes_done(A, 1), 5),
+          typhon_agents:agent(A, _, Module, _, _),
+          \+ typhon_durable_changes:unit_of_work(
+                 ( assertz(Module:item(new, change)),
+                   typhon_agents:agent_note(A, resident, []),
+                   fail )),
+          agent_send(A, two),
+          wait_until(changes_done(A, 2), 5) ),
+        ( nb_getval(journal_test, Again),
+          changes_done(Again, 2),
+          agent_property(Again, facts(Kept)),
+          memberchk(item(new, change), Kept) )).
+
 changes_done(A, N) :-
     agent_property(A, facts(Facts)),
     memberchk(done(N), Facts).
