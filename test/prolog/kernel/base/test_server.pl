@@ -114,6 +114,8 @@ test(aborted_thread_is_replaced_and_its_queue_kept,
                         server_cast(Server, add(b)),
                         wait_until(test_server:waits, 10),
                         aborted(Server),
+                        wait_until(was_told(error,
+                                            typhon(server_ended(test))), 10),
                         list(Server, List) ), Messages)),
     message_queue_destroy(Gate),
     Messages = [error-typhon(server_ended(test))].
