@@ -163,8 +163,9 @@ blocked_forget :-
                 *******************************/
 
 prolog:message(typhon(workers_blocked(Count, Blocked))) -->
-    [ 'Native goals block all ~D workers; the pool grows beyond its maximum.'-
-      [Count], nl ],
+    { length(Blocked, Length) },
+    [ 'Native goals block ~D of ~D workers; the pool grows beyond its maximum.'-
+      [Length, Count], nl ],
     blocked_agents(Blocked).
 prolog:message(typhon(pool_full(Count, Why, Blocked))) -->
     [ '~D workers are blocked or busy, and there cannot be more (~w).'-
