@@ -19,7 +19,16 @@
 :- use_module('../../../lib/endpoint_peer', [sleep_until/1]).
 
 :- dynamic
-    peer/3.                             % Address, Pid, In
+    peer/3,                             % Address, Pid, In
+    place_wanted/0.
+
+%   A client has lost its place to another.
+
+:- multifile user:message_hook/3.
+
+user:message_hook(typhon(endpoint, turned_away(_, silent)), _, _) :-
+    assertz(place_wanted),
+    fail.
 
                 /*******************************
                 *           FIXTURES           *
@@ -151,6 +160,7 @@ test(sixteen_connect_to_all, Missed == []) :-
                        Answer \= answer([]),
                        M = Answer ), Missed) ))).
 test(a_place_at_the_door_comes_free, Outcome = outcome(ok, _)) :-
+    retractall(test_wire:place_wanted),
     with_settings([typhon_acceptor:strangers=1],
         with_endpoint(with_peers(1, [A],
             ( endpoint_address(Me),
@@ -160,7 +170,7 @@ test(a_place_at_the_door_comes_free, Outcome = outcome(ok, _)) :-
                   tcp_connect('127.0.0.1':Port, Stranger, []),
                   ( peer(A, _, In-Out),
                     command(In, greet(Me, 0)),
-                    sleep(0.5)
+                    wait_until(test_wire:place_wanted, 20)
                   ),
                   close(Stranger, [force(true)])),
               read(Out, Outcome) )))).
@@ -433,7 +443,7 @@ test(contacts_are_bounded, true(Count =< 5)) :-
                             Count) ))).
 
 queues(Count) :-
-    aggregate_all(count, session(_, _), Sessions),
+    aggregate_all(count, typhon_session:session(_, _), Sessions),
     aggregate_all(count, message_queue_property(_, size(_)), All),
     Count is All-2*Sessions.
 
