@@ -34,7 +34,6 @@ them as messages or as facts.  This is the interface of the layer.  A bridge
 :- reexport(common/crew, [crew_end/1, crew_start/4]).
 :- reexport(common/http_server).
 :- reexport(common/inbox, [inbox_put/4]).
-:- reexport(common/json_values, [json_value/1]).
 :- reexport(common/services,
             [ service/2, service_begin/4, service_end/2, service_offer/4 ]).
 :- reexport(common/subscribers,

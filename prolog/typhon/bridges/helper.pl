@@ -21,6 +21,7 @@ typhon_helper_owner:again(Name, Request).  Names are ground terms of the
 caller's choice, one for each helper.
 */
 
+:- reexport(helper/owner, [json_value/1]).
 :- reexport(helper/process, [helper_file/2, helper_python/2]).
 :- reexport(helper/requests,
             [ helper_ask/4, helper_close/1, helper_failure/3, helper_note/2,

@@ -4,9 +4,13 @@
             request_line/2,             % +Request, -Line
             request_line/4,             % +Request, +Seconds, -Id, -Line
             said/3,                     % +Name, +Owner, +Dict
-            answer_unwanted/1           % +Id
+            answer_unwanted/1,          % +Id
+            json_value/1                % +Term
           ]).
+:- use_module(library(apply), [maplist/2]).
 :- use_module(library(debug), [debug/3]).
+:- use_module(library(error), [instantiation_error/1, type_error/2]).
+:- use_module(library(pairs), [pairs_values/2]).
 :- use_module('../../kernel/base/json', [json_text/2]).
 :- use_module('../../kernel/base/server', [server_answer/2, server_self/1]).
 :- use_module(process,
@@ -23,6 +27,10 @@ when there is a request.
 
 Requests and answers are JSON objects with the same id; what has no id but
 an `event` was said unasked.
+
+In JSON numbers, strings, lists and dicts are what they are in Prolog, the atoms
+`null`, `true` and `false`, too, which are None, True and False to Python; other
+atoms are strings.  What comes in is made of the same, strings being strings.
 
 *Threading*: own/4 is called by the server.  It runs again/2, which must not
 wait for the helper, nor may heard/2, which the thread runs that reads what the
@@ -275,3 +283,42 @@ answer_died(Answer0, Answer) :-
     ;   Answer = Answer0
     ),
     answer_all(Answer).
+
+                /*******************************
+                *            VALUES            *
+                *******************************/
+
+%!  json_value(+Term) is det.
+%
+%   @error instantiation_error, type_error(json_value, Culprit)
+
+json_value(Term) :-
+    var(Term),
+    !,
+    instantiation_error(Term).
+json_value(Term) :-
+    number(Term),
+    !,
+    (   ( integer(Term) ; float(Term), finite(Term) )
+    ->  true
+    ;   type_error(json_value, Term)
+    ).
+json_value(Term) :-
+    ( atom(Term) ; string(Term) ; Term == [] ),
+    !.
+json_value(Term) :-
+    is_list(Term),
+    !,
+    maplist(json_value, Term).
+json_value(Term) :-
+    is_dict(Term),
+    !,
+    dict_pairs(Term, _, Pairs),
+    pairs_values(Pairs, Values),
+    maplist(json_value, Values).
+json_value(Term) :-
+    type_error(json_value, Term).
+
+finite(Float) :-
+    float_class(Float, Class),
+    \+ memberchk(Class, [infinite,nan]).

@@ -7,8 +7,9 @@
           ]).
 :- use_module(library(error), [domain_error/2, must_be/2, type_error/2]).
 :- use_module(library(lists), [append/3, member/2]).
+:- use_module('../helper', [json_value/1]).
 :- use_module('../common',
-              [ json_value/1, subscribers_drop/4, subscribers_tell/5,
+              [ subscribers_drop/4, subscribers_tell/5,
                 subscribers_tell_new/5, subscription/3 ]).
 
 /** <module> What comes from brokers, and what may be sent to them

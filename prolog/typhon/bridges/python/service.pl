@@ -6,11 +6,11 @@
 :- use_module(library(pairs), [pairs_keys_values/3]).
 :- use_module('../../kernel/base/options', [check_options/2]).
 :- use_module('../common',
-              [ inbox_put/4, json_value/1, service/2, service_begin/4,
+              [ inbox_put/4, service/2, service_begin/4,
                 service_end/2, service_offer/4, subscriber/2 ]).
 :- use_module('../helper',
               [ helper_ask/4, helper_close/1, helper_failure/3,
-                helper_file/2, helper_note/2, helper_open/3, helper_python/2 ]).
+                helper_file/2, helper_note/2, helper_open/3, helper_python/2, json_value/1 ]).
 
 /** <module> Python on a host
 
