@@ -521,7 +521,7 @@ changer(clauses([ (:- agent(changes, [state([done/1,item/2,rule/1,other/1])])),
                                        change(K, N))
                 | Changes ]), [done(0)|Items]) :-
     findall(Change, change(Change), Changes),
-    findall(item(I, first), between(1, 300, I), Items).
+    findall(item(I, first), between(1, 1000, I), Items).
 
 change((change(0, N) :- assertz(item(N, x)))).
 change((change(1, N) :- asserta(item(N, y)))).
