@@ -62,9 +62,10 @@ looked_at(clause(_, _), head).
 looked_at(throw(_), ball).
 looked_at(format(_, _, _), format).
 looked_at(attach(_), payload).
-looked_at(functor(_, _, _), arity).
-looked_at(functor(_, _, _, _), arity).
-looked_at(compound_name_arity(_, _, _), arity).
+looked_at(functor(_, _, _), size(3)).
+looked_at(functor(_, _, _, _), size(3)).
+looked_at(compound_name_arity(_, _, _), size(3)).
+looked_at(length(_, _), size(2)).
 looked_at(Goal, text) :-
     makes_atoms(Goal).
 looked_at(term_to_atom(_, _), term_text).

@@ -221,9 +221,9 @@ looked_at(term_text, _, Goal, Goal) :-
     must_be_tree(Goal),
     readable_text(Goal),
     !.
-looked_at(arity, _, Goal, Goal) :-
-    arg(3, Goal, Arity),
-    \+ too_many(Arity),
+looked_at(size(I), _, Goal, Goal) :-
+    arg(I, Goal, Size),
+    \+ too_many(Size),
     !.
 looked_at(payload, _, attach(Spec), attach(Spec)) :-
     nonvar(Spec),
@@ -241,9 +241,9 @@ unqualified(Head) :-
 
 %   SWI-Prolog crashes where the size of a term overflows.
 
-too_many(Arity) :-
-    integer(Arity),
-    Arity > 100 000 000.
+too_many(Size) :-
+    integer(Size),
+    Size > 100 000 000.
 
 %   What ends a thread, or stops what is measured.
 

@@ -465,7 +465,9 @@ huge(Goal) :-
                     9223372036854775807 ]),
     member(Goal, [ functor(_, a, Arity), functor(_, a, Arity, _),
                    functor(_, a, Arity, compound),
-                   compound_name_arity(_, a, Arity) ]).
+                   compound_name_arity(_, a, Arity),
+                   length(_, Arity), length([a|_], Arity),
+                   maplist(length, [_], [Arity]) ]).
 
 :- begin_tests(huge_terms).
 
@@ -479,7 +481,8 @@ test(terms_are_made_by_their_size,
                ( create([ (main :- functor(A, f, 2), functor(B, a, 0),
                                    functor(x(1,2,3), _, C),
                                    compound_name_arity(D, g, 1),
-                                   f(1) =.. E, result([A,B,C,D,E])) ],
+                                   f(1) =.. E, length(E, 2), length([x], 1),
+                                   result([A,B,C,D,E])) ],
                         Agent, [host(g)]),
                  agent_result(Agent, R, 10) )).
 
