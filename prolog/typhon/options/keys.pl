@@ -1,4 +1,4 @@
-:- module(typhon_key_directories,
+:- module(typhon_keys,
           [ own_keys/1,                 % ?Directory
             own_keys_begin/1,           % +Directory
             own_keys_end/0,
@@ -8,20 +8,216 @@
                                         % -Sealed
             keys_unseal/3,              % +Directory, +Sealed, -Text
             keys_certificate/2,         % +Directory, -Certificate
-            keys_holder/3,              % +Directory, +Certificate, -Holder
-            keys_file/3,                % +Directory, +Which, -File
-            key_loaded/3                % +Directory, +Which, -Loaded
+            keys_holder/3               % +Directory, +Certificate, -Holder
           ]).
 
 /** <module> Keys: what hosts and authors sign, seal and prove with
 
-The options tls, identity and trail stand on this.  This is the interface of
-the layer, which also is loaded when it is used first: so it says itself what
-it exports.
+A directory of keys is what `app/typhon.pl keys` makes for a host or an
+author: `cert.pem`, `key.pem`, `ca.pem` and `crl.pem`. A signature is
+signature(Certificate, Hex): the certificate of the signer, as PEM; it
+counts if the authority has signed that, it has not expired, and is not
+revoked. Holder is host(Name) or author(Name).
+
+The keys are RSA: on SWI-Prolog 9.0.4 library(crypto) crashes when it signs
+with those of curves. Signatures are compared with what they should contain,
+byte by byte, since rsa_verify/4 prints what it finds wrong.
+
+The keys of this process are those with which its endpoint was started.  The
+options tls, identity and trail stand on them.  This is the interface of the
+layer.
+
+*Threading*: any thread; own keys begin and end under the mutex of the endpoint.
 */
 
+:- use_module(library(error), [permission_error/3]).
+:- use_module('../kernel/base/on_demand', [on_demand_load/2]).
+:- use_module(keys/key_files,
+              [key_found/4, key_loaded/3, key_loaded/4, pem_certificate/2]).
 :- reexport(keys/key_files, [key_loaded/3, keys_file/3]).
-:- reexport(keys/keys,
-            [ own_keys/1, own_keys_begin/1, own_keys_end/0, keys_sign/3,
-              keys_verify/4, keys_seal/4, keys_unseal/3, keys_certificate/2,
-              keys_holder/3 ]).
+
+:- autoload(library(crypto),
+            [ crypto_data_decrypt/6, crypto_data_encrypt/6,
+              crypto_data_hash/3, crypto_n_random_bytes/2, hex_bytes/2,
+              rsa_private_decrypt/4, rsa_public_decrypt/4,
+              rsa_public_encrypt/4, rsa_sign/4 ]).
+:- autoload(library(ssl), [certificate_field/2]).
+
+:- multifile
+    begin/0,                            % the process has keys
+    end/0.                              % it has none any more
+
+:- dynamic
+    begin/0,
+    end/0,
+    own_keys/1.                         % Directory
+
+%!  own_keys(?Directory) is semidet.
+%!  own_keys_begin(+Directory) is det.
+%!  own_keys_end is det.
+%
+%   This process has the keys in Directory, an absolute path; has them from now
+%   on; has none any more.
+
+own_keys_begin(Directory) :-
+    assertz(own_keys(Directory)),
+    on_demand_load(keys, any),
+    forall(begin, true).
+
+own_keys_end :-
+    (   retract(own_keys(_))
+    ->  forall(end, true)
+    ;   true
+    ).
+
+%!  keys_certificate(+Directory, -Certificate:string) is det.
+%
+%   That of Directory, as PEM.
+
+keys_certificate(Directory, Certificate) :-
+    key_loaded(Directory, cert, Certificate).
+
+                 /*******************************
+                 *           SIGNATURES         *
+                 *******************************/
+
+%!  keys_sign(+Directory, +Text, -Signature) is det.
+
+keys_sign(Directory, Text, signature(Certificate, Hex)) :-
+    keys_certificate(Directory, Certificate),
+    key_loaded(Directory, key, Key),
+    digest(Text, Digest),
+    rsa_sign(Key, Digest, Hex, [type(sha256), encoding(hex)]).
+
+digest(Text, Digest) :-
+    crypto_data_hash(Text, Digest0, [algorithm(sha256), encoding(utf8)]),
+    string_lower(Digest0, Digest).
+
+%!  keys_verify(+Directory, +Text, +Signature, -Holder) is semidet.
+%
+%   Holder has signed Text. Signature may be any term.
+
+keys_verify(Directory, Text, Signature, Holder) :-
+    subsumes_term(signature(_, _), Signature),
+    Signature = signature(Pem, Hex),
+    string(Pem),
+    string(Hex),
+    known_certificate(Directory, Pem, Certificate, Holder),
+    certificate_field(Certificate, public_key(Key)),
+    digest(Text, Digest),
+    signs(Key, Digest, Hex).
+
+%   signs(+PublicKey, +Digest, +Hex): what PKCS #1 puts before a SHA-256.
+
+signs(Key, Digest, Hex) :-
+    string_lower(Hex, Lower),
+    catch(( hex_bytes(Lower, Bytes),
+            string_codes(Text, Bytes),
+            rsa_public_decrypt(Key, Text, Plain,
+                               [encoding(octet), padding(pkcs1)]) ),
+          error(_, _),
+          fail),
+    string_codes(Plain, PlainBytes),
+    hex_bytes(PlainHex, PlainBytes),
+    atom_concat('3031300d060960864801650304020105000420', Digest, Expected),
+    atom_string(Expected, PlainText),
+    string_lower(PlainHex, PlainText).
+
+%!  keys_holder(+Directory, +Certificate, -Holder) is semidet.
+%
+%   Certificate is a valid one, of Holder.
+
+keys_holder(Directory, Pem, Holder) :-
+    string(Pem),
+    known_certificate(Directory, Pem, _, Holder).
+
+known_certificate(Directory, Pem, Certificate, Holder) :-
+    string_length(Pem, Length),
+    Length =< 16384,
+    key_loaded(Directory, ca, Authority, Stamp1),
+    key_loaded(Directory, crl, List, Stamp2),
+    key_found(Pem, Stamp1-Stamp2, certified(Pem, Authority, List),
+              Certificate-Holder),
+    in_its_time(Certificate).
+
+certified(Pem, Authority, List, Certificate-Holder) :-
+    pem_certificate(Pem, Certificate),
+    of_authority(Authority, Certificate),
+    \+ revoked(List, Certificate),
+    certificate_field(Certificate, subject(Subject)),
+    memberchk('CN'=Name, Subject),
+    memberchk('OU'=Kind, Subject),
+    memberchk(Kind, [host, author]),
+    Holder =.. [Kind, Name].
+
+of_authority(Authority, Certificate) :-
+    certificate_field(Authority, public_key(Key)),
+    certificate_field(Certificate, to_be_signed(Hex)),
+    certificate_field(Certificate, signature(Signature)),
+    string_lower(Hex, Lower),
+    hex_bytes(Lower, Bytes),
+    string_codes(Signed, Bytes),
+    crypto_data_hash(Signed, Digest, [algorithm(sha256), encoding(octet)]),
+    string_lower(Digest, DigestLower),
+    signs(Key, DigestLower, Signature).
+
+in_its_time(Certificate) :-
+    certificate_field(Certificate, not_before(From)),
+    certificate_field(Certificate, not_after(To)),
+    get_time(Now),
+    From =< Now,
+    Now =< To.
+
+revoked(List, Certificate) :-
+    certificate_field(Certificate, serial(Serial)),
+    memberchk(revocations(Revoked), List),
+    memberchk(revoked(Serial, _), Revoked).
+
+                 /*******************************
+                 *            SEALS             *
+                 *******************************/
+
+%!  keys_seal(+Directory, +Text, +Certificate, -Sealed) is det.
+%!  keys_unseal(+Directory, +Sealed, -Text) is det.
+%
+%   Sealed can be read with the key of Certificate only: a new AES-256 key,
+%   for that key, and Text under it, with GCM.
+%
+%   @error permission_error(unseal, term, Sealed) it is not for us, or is
+%   damaged
+
+keys_seal(Directory, Text, Pem, sealed(ForUs, Nonce, Tag, Cipher)) :-
+    known_certificate(Directory, Pem, Certificate, _),
+    certificate_field(Certificate, public_key(Public)),
+    crypto_n_random_bytes(32, Key),
+    crypto_n_random_bytes(12, Nonce),
+    hex_bytes(KeyHex, Key),
+    rsa_public_encrypt(Public, KeyHex, ForUs0, [padding(pkcs1_oaep)]),
+    octets_hex(ForUs0, ForUs),
+    crypto_data_encrypt(Text, 'aes-256-gcm', Key, Nonce, Cipher0, [tag(Tag)]),
+    octets_hex(Cipher0, Cipher).
+
+keys_unseal(Directory, Sealed, Text) :-
+    (   subsumes_term(sealed(_, _, _, _), Sealed),
+        catch(unsealed(Directory, Sealed, Text), error(_, _), fail)
+    ->  true
+    ;   permission_error(unseal, term, Sealed)
+    ).
+
+unsealed(Directory, sealed(ForUs0, Nonce, Tag, Cipher0), Text) :-
+    key_loaded(Directory, key, Private),
+    hex_octets(ForUs0, ForUs),
+    rsa_private_decrypt(Private, ForUs, KeyHex, [padding(pkcs1_oaep)]),
+    hex_bytes(KeyHex, Key),
+    hex_octets(Cipher0, Cipher),
+    length(Tag, 16),                    % shorter ones prove less
+    crypto_data_decrypt(Cipher, 'aes-256-gcm', Key, Nonce, Text, [tag(Tag)]).
+
+octets_hex(Octets, Hex) :-
+    string_codes(Octets, Bytes),
+    hex_bytes(Hex0, Bytes),
+    atom_string(Hex0, Hex).
+
+hex_octets(Hex, Octets) :-
+    hex_bytes(Hex, Bytes),
+    string_codes(Octets, Bytes).

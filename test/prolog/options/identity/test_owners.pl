@@ -113,15 +113,15 @@ honest :-
 
 births_saved(Peer) :-
     peer_do(Peer,
-            ( use_module(library(typhon/network/carrier), []),
+            ( use_module(library(typhon/network/node_process), []),
               forall(member(Order, [hold(5), rest(20, [])]),
-                     typhon_carrier:order_do(Order, ok)),
-              typhon_carrier:order_do(kept([Peer]), kept(_, _, Items)),
+                     typhon_node_process:order_do(Order, ok)),
+              typhon_node_process:order_do(kept([Peer]), kept(_, _, Items)),
               findall(item(birth, Id, N, Birth),
                       member(item(birth, Id, N, Birth), Items), Births),
               forall(typhon_identity:ids_anew, true),
-              typhon_carrier:order_do(fill(real, Births), ok),
-              typhon_carrier:order_do(let_go, ok) )).
+              typhon_node_process:order_do(fill(real, Births), ok),
+              typhon_node_process:order_do(let_go, ok) )).
 
 %   Mallory has A's birth, since it was her guest; of C she knows the id only,
 %   but beta knows C.
