@@ -5,7 +5,6 @@
     swipl doc/layers.pl -- check
     swipl doc/layers.pl -- picture | tred | dot -Tsvg > doc/img/layers.svg
     swipl doc/layers.pl -- figures
-    swipl doc/layers.pl -- exceptions
     swipl doc/layers.pl -- index
 
 `check` says what is not in order, and fails if anything is:
@@ -17,9 +16,7 @@
     from no other;
   - a call Module:Goal of a predicate that Module does not export;
   - modules that import each other in a circle;
-  - a file of the kernel that names an option, and is not in the list of
-    exceptions, doc/layers/exceptions.pl, which may only shrink
-    (`exceptions` rewrites it without those that are no longer needed);
+  - a file of the kernel that names an option;
   - a hook that its module does not declare, or that no module defines;
   - an index of what is loaded on demand that is not up to date (`index`
     writes it, prolog/typhon/kernel/base/index.pl).
@@ -37,7 +34,6 @@ prints what the kernel and the tests hold beside the most that is wanted.
 :- use_module(layers/figures).
 :- use_module(layers/index, [write_index/0]).
 :- use_module(layers/picture).
-:- use_module(layers/seams, [shrink_exceptions/0]).
 :- use_module(layers/tree, [read_tree/0]).
 
 :- initialization(main, main).
@@ -53,9 +49,6 @@ main([check]) :-
     ->  true
     ;   halt(1)
     ).
-main([exceptions]) :-
-    read_tree,
-    shrink_exceptions.
 main([index]) :-
     read_tree,
     write_index.

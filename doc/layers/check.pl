@@ -185,9 +185,6 @@ says(breaks_rule(F, H), '~w: defines ~w of a higher layer', [F, H]) :-
     H = _:_.
 says(breaks_rule(F, O), '~w: names the option ~w: use a hook', [F, O]) :-
     atom(O).
-says(exception_not_needed(F, W),
-     '~w: the exception ~w is not needed: run doc/layers.pl -- exceptions',
-     [F, W]).
 says(hook_not_declared(F, H), '~w: defines ~w, which its module does not \c
      declare multifile', [F, H]).
 says(stale_index(F), '~w: is not what it is to be: run doc/layers.pl -- index',

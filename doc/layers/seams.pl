@@ -1,11 +1,8 @@
 :- module(layers_seams,
           [ seam_problem/1,     % -Problem
-            exception/2,        % ?File, ?What
-            kernel_file/1,      % ?File
-            shrink_exceptions/0
+            kernel_file/1       % ?File
           ]).
 :- use_module(library(lists), [member/2]).
-:- use_module(library(readutil), [read_file_to_terms/3]).
 :- use_module(index, [index_file/1]).
 :- use_module(tree).
 
@@ -16,10 +13,6 @@ quotas.  The kernel offers hooks, which options define; it does not name them.
 A file names an option if a word of an atom or functor in its code is one of
 the option's words; comments do not count.
 
-The kernel does not yet keep this rule.  `exceptions.pl` lists the files that
-break it, and the list may only shrink: a file that names another option is a
-problem, and so is an exception that is no longer needed.
-
 Hooks are checked like imports.  Each is declared multifile by the module that
 calls it, and a module may define the hooks of lower layers only.
 
@@ -29,7 +22,7 @@ calls it, and a module may define the hooks of lower layers only.
 %!  option_words(?Option, ?Words) is nondet.
 
 option_words(journal,  [journal, journaled, committing, ledger]).
-option_words(snapshot, [snapshot, snapshots]).
+option_words(snapshot, [snapshots]).   % snapshot/1 is Prolog's
 option_words(tls,      [tls, secure, certificate, certificates]).
 option_words(identity, [owner, owners, signed, signature, signatures,
                         authors, unseal]).
@@ -53,11 +46,7 @@ kernel_file(File) :-
 %!  seam_problem(-Problem) is nondet.
 
 seam_problem(breaks_rule(File, What)) :-
-    breaks_rule(File, What),
-    \+ exception(File, What).
-seam_problem(exception_not_needed(File, What)) :-
-    exception(File, What),
-    \+ breaks_rule(File, What).
+    breaks_rule(File, What).
 seam_problem(hook_not_declared(File, Hook)) :-
     defines(File, Hook),
     Hook = Module:_,
@@ -119,48 +108,3 @@ has_word(Name, Words) :-
     member(Part, Parts),
     memberchk(Part, Words),
     !.
-
-                /*******************************
-                *           EXCEPTIONS         *
-                *******************************/
-
-:- dynamic
-    exceptions/1.               % list of exception(Relative, What)
-
-%!  exception(?File, ?What) is nondet.
-
-exception(File, What) :-
-    exceptions_read(Exceptions),
-    member(exception(Relative, What), Exceptions),
-    inside(Relative, File).
-
-exceptions_read(Exceptions) :-
-    exceptions(Exceptions),
-    !.
-exceptions_read(Exceptions) :-
-    exceptions_file(File),
-    read_file_to_terms(File, Exceptions, []),
-    assertz(exceptions(Exceptions)).
-
-exceptions_file(File) :-
-    inside('doc/layers/exceptions.pl', File).
-
-%!  shrink_exceptions is det.
-%
-%   Write exceptions.pl anew, without the exceptions that are no longer
-%   needed.  None is added.
-
-shrink_exceptions :-
-    exceptions_file(File),
-    inside('', Root),
-    findall(exception(Relative, What),
-            ( exception(Full, What),
-              once(breaks_rule(Full, What)),
-              atom_concat(Root, Relative, Full) ),
-            Exceptions0),
-    sort(Exceptions0, Exceptions),
-    setup_call_cleanup(
-        open(File, write, Out),
-        forall(member(Exception, Exceptions),
-               format(Out, '~q.~n', [Exception])),
-        close(Out)).

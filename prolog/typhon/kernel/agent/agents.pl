@@ -1,6 +1,7 @@
 :- module(typhon_agents,
           [ agent/5,                    % ?Id, ?Host, ?Module, ?Hash, ?Life
             agent_here/5,               % ?Id, ?Host, ?Module, ?Hash, ?Life
+            agent_on/2,                 % +Id, -Host
             agent_status/3,             % ?Id, ?Status, ?Goals
             agent_enter/3,              % +Agent, +Status, +Goals
             agent_remove/3,             % +Id, -Mail, -Orders
@@ -112,6 +113,17 @@ agent(Id, Host, Module, Hash, Life) :-
 
 agent_here(Id, Host, Module, Hash, Life) :-
     stands(Id, Host, Module, Hash, Life, _).
+
+%!  agent_on(+Id, -Host) is semidet.
+%
+%   Id is in this process, on Host, or is under way from there.
+
+agent_on(Id, Host) :-
+    (   stands(Id, Host0, _, _, _, _)
+    ;   under_way(Id, _, Host0, _, _, _)
+    ),
+    !,
+    Host = Host0.
 
 typhon_code:in_use(Hash) :-
     (   stands(_, _, _, Hash, _, _)

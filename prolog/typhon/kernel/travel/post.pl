@@ -15,7 +15,7 @@
               [deferred_call/1, deferred_change/1, effects_deferred/0]).
 :- use_module('../wire', [endpoint_address/1, mobile_term/1]).
 :- use_module('../host', [parts/3, peer_may/3]).
-:- use_module('../agent', [agent/5, agent_home/2, agent_mail/2, with_agent/2]).
+:- use_module('../agent', [agent_home/2, agent_mail/2, agent_on/2, with_agent/2]).
 :- use_module(backlog, [backlog/1, backlog_add/2, backlog_all/2]).
 :- use_module(durable_posts, [post_must_fit/1]).
 :- use_module(retries, [retry_later/3]).
@@ -90,7 +90,7 @@ waits(Way, _, Way).
 %   An agent that stands here needs no frame.
 
 may_travel(Id, _) :-
-    agent(Id, _, _, _, _),
+    agent_on(Id, _),
     !.
 may_travel(_, Change) :-
     post_must_fit(Change).
@@ -118,7 +118,7 @@ typhon_durable:go_on :-
 
 post_way(Id, From, Message, Way) :-
     parts(deliver, _, _),
-    agent(Id, _, _, _, _),
+    agent_on(Id, _),
     !,
     new_letter(From, Message, Letter),
     way(Id, Letter, Way).
@@ -143,7 +143,7 @@ new_letter(From, Message, letter([mail(Origin, From, Message)], Max)) :-
 
 post_via(Id, Endpoint, From, Message) :-
     mobile_term(Message),
-    (   (   agent(Id, _, _, _, _)
+    (   (   agent_on(Id, _)
         ;   endpoint_address(Endpoint)
         ;   senders_checked,            % it may not pass it on
             agent_home(From, _)
@@ -190,7 +190,7 @@ letter_comes(Id, Births, Mail0, Left, Peer) :-
     mail_believed(Peer, Id, Births, Mail0, Mail),
     (   Mail == []
     ->  true
-    ;   agent(Id, Host, _, _, _),
+    ;   agent_on(Id, Host),
         \+ peer_may(Peer, Host, messages)
     ->  true                            % which is noted
     ;   pass_on(Id, letter(Mail, Left))

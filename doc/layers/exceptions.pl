@@ -1,1 +1,0 @@
-exception('prolog/typhon/kernel/program/advice.pl',snapshot).
