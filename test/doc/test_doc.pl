@@ -24,7 +24,7 @@
                 make_directory_path/1 ]).
 :- use_module(library(lists), [append/3, member/2, nth0/3]).
 :- use_module(library(plunit)).
-:- use_module(library(readutil), [read_file_to_string/3]).
+:- use_module(library(readutil), [read_file_to_string/3, read_file_to_terms/3]).
 :- use_module(library(typhon)).
 :- use_module(library(typhon/kernel/program),
               [payload_load/2, program_load/5]).
@@ -194,9 +194,13 @@ library_file(File) :-
     project_file(prolog, Dir),
     directory_member(Dir, File, [extensions([pl]), recursive(true)]).
 
+%   An interface, of directives alone, exports what others document.
+
 undocumented(File, PI) :-
     library_file(File),
     exports(File, PIs),
+    \+ ( catch(read_file_to_terms(File, Terms, []), error(_, _), fail),
+         forall(member(Term, Terms), Term = (:- _)) ),
     read_file_to_string(File, Text, [encoding(utf8)]),
     split_string(Text, "\n", "", Lines),
     findall(Documented, documented(Lines, Documented), All),
