@@ -11,7 +11,7 @@ as it lives, and a reader that waits until a pipe ends waits for both.
 *Threading*: any thread may call; one does it at a time.
 */
 
-:- use_module(library(process), [process_create/3]).
+:- autoload(library(process), [process_create/3]).
 
 %!  spawn(+Program, +Args:list, +Options:list) is det.
 %
