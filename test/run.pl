@@ -58,6 +58,7 @@ plain(site).
 plain(child_output).
 plain(locale).
 plain(attackers).
+plain(kernel).
 
 main(Names) :-
     suite_files(Names, Files0),
