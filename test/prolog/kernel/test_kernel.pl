@@ -59,7 +59,8 @@ test(options_are_loaded_later,
        Outcome == done ]) :-
     use_module(library(typhon/options/Path), []),
     life(Options, Outcome).
-test(a_quota_that_is_passed, Outcome = raised(error(resource_error(hops), _))) :-
-    life([quota([hops(1)])], Outcome).
+test(a_quota_that_is_passed,
+     Outcome = raised(error(resource_error(cells), _))) :-
+    life([quota([cells(1)])], Outcome).
 
 :- end_tests(kernel).
