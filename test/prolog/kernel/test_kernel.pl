@@ -31,7 +31,8 @@ traveller(Outcome) :-
     agent_create(
         clauses([ (:- agent(traveller, [state([seen/1])])),
                   (main :- receive(_-go(Host)), home(Home), move(Host),
-                           assertz(seen(Host)), leave(was(here)), clone(Who),
+                           assertz(seen(Host)), leave(was(here)),
+                           leave(was(there)), clone(Who),
                            ( Who = parent(_) -> move(Home), log(back) ; true ))
                 ]),
         Agent, [host(a)]),
@@ -60,7 +61,7 @@ test(options_are_loaded_later,
     use_module(library(typhon/options/Path), []),
     life(Options, Outcome).
 test(a_quota_that_is_passed,
-     Outcome = raised(error(resource_error(cells), _))) :-
-    life([quota([cells(1)])], Outcome).
+     Outcome = raised(error(resource_error(tuples), _))) :-
+    life([quota([tuples(1)])], Outcome).
 
 :- end_tests(kernel).
