@@ -25,11 +25,11 @@
 
 /** <module> Agents here: records, clauses, threads, beginning and end
 
-An agent is a record, as facts of module `user`, since programs look at them, and
-clauses of that module, of its handler and its payload, whose first argument is
-its name.  The templates from which they are made have `guid` there.  Where
-Tartarus replaced text, atoms in terms are replaced: what the authors of programs
-meant.
+An agent is a record, as facts of module `user`, since programs look at them,
+and clauses of that module, of its handler and its payload, whose first
+argument is its name.  The templates from which they are made have `guid`
+there.  Where Tartarus replaced text, atoms in terms are replaced: what the
+authors of programs meant.
 
 Record and clauses come and go together.  An agent that moved leaves its clauses
 behind until its last thread here is through: that may need them.  They are not

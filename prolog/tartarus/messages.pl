@@ -22,8 +22,8 @@ A message is a goal for another platform, as a list [Functor,Agent|Arguments].
 It is called there in a thread of its own; the sender knows only whether it
 was accepted.
 
-Any platform is a log server, and there may be three: what it is sent it prints and
-appends to a file in its working directory.
+Any platform is a log server, and there may be three: what it is sent it prints
+and appends to a file in its working directory.
 
 *Threading*: any thread; accept/3 and logged/3 in workers, one entry at a time.
 */

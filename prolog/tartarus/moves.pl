@@ -34,11 +34,11 @@ Typhon, takes to the other platform and hands over there.  So the bundle
 arrives once or not at all, whatever happens to the connection; only when it
 is in the agent goes here.
 
-A hop takes the time from sending to knowing that it has arrived, on the side that
-sends; from sending to arriving on the other, by the clocks of both.
+A hop takes the time from sending to knowing that it has arrived, on the side
+that sends; from sending to arriving on the other, by the clocks of both.
 
-*Threading*: move_agent/2 and clone_agent/3 return when it is known whether
-the agent was let in; land/1 is called by carriers, in a worker; times are for any
+*Threading*: move_agent/2 and clone_agent/3 return when it is known whether the
+agent was let in; land/1 is called by carriers, in a worker; times are for any
 thread.
 */
 

@@ -55,9 +55,9 @@ born on another, `tartarus_gate`, which asks for no token.
 %!  start_tartarus(+Port) is semidet.
 %!  platform_start(+Ip, +Port) is semidet.
 %
-%   Start the platform of this process, and print its banner.  Without a
-%   token no agent is admitted.  Fails when the port is taken.  Ports above 65535
-%   are those modulo 65536.
+%   Start the platform of this process, and print its banner.  Without a token
+%   no agent is admitted.  Fails when the port is taken.  Ports above 65535 are
+%   those modulo 65536.
 
 start_tartarus(Port) :-
     platform_start(localhost, Port).

@@ -23,11 +23,11 @@
 
 /** <module> Processes that carry the hosts of a network
 
-A child runs node_process.pl, on this machine or through ssh on another. It gets
-what it must know in one line on its standard input, the cookie among it,
-which therefore is in no argument list and no environment of ssh. It says
-in one line on its standard output where its endpoint listens. Whatever it
-prints later is printed here, see module `child_output`. One that cannot begin says
+A child runs node_process.pl, on this machine or through ssh on another. It
+gets what it must know in one line on its standard input, the cookie among it,
+which therefore is in no argument list and no environment of ssh. It says in
+one line on its standard output where its endpoint listens. Whatever it prints
+later is printed here, see module `child_output`. One that cannot begin says
 why in such a line, and ends.
 
 Its standard input stays open as long as it is wanted. The end of it is

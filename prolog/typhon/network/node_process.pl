@@ -34,14 +34,14 @@ its own process, and by request in a child. Whole lists go in one order: a
 network of a thousand hosts is a few requests.
 
 A child is started by the module `children` as `swipl -g node_main
-node_process.pl`. The first line of its standard input is
-node(Cookie, Interface, StopSeconds, Keys, Options). When the endpoint listens, and what is in its
-journal, if it has one, is there again, one line is written:
+node_process.pl`. The first line of its standard input is node(Cookie,
+Interface, StopSeconds, Keys, Options). When the endpoint listens, and what is
+in its journal, if it has one, is there again, one line is written:
 
     typhon_node_process <Interface>:<Port> <Pid>
 
-If that cannot be the line is `typhon_node_process_error <Error>`, and the process
-ends.
+If that cannot be the line is `typhon_node_process_error <Error>`, and the
+process ends.
 
 From then on orders come over the wire, as requests of kind `node`. The
 process stops in order, hosts first, then what is still to be sent, when

@@ -32,8 +32,8 @@ The processes of a network are numbered from 1. Either there is one, this
 process, or each is a child. Orders (see module `node_process`) are done here
 in the first case and go over the wire in the second.
 
-*Threading*: any thread may give orders. The thread that follows a
-process reports that it is down: as a fact, and to callers that wait for an answer.
+*Threading*: any thread may give orders. The thread that follows a process
+reports that it is down: as a fact, and to callers that wait for an answer.
 */
 
 :- multifile

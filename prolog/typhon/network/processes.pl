@@ -168,9 +168,10 @@ wait_up(P, Network, Queue) :-
 
 %!  nodes_restart(+Network, :Options, :Restore) is det.
 %
-%   Processes that die are started again from now on, see module `restarts`, with
-%   the options Options(P, List) and the port that they had; then Restore(P)
-%   is called. Nothing is to be done where the hosts are in this process.
+%   Processes that die are started again from now on, see module `restarts`,
+%   with the options Options(P, List) and the port that they had; then
+%   Restore(P) is called. Nothing is to be done where the hosts are in this
+%   process.
 
 nodes_restart(Network, Options, Restore) :-
     (   queue(Network, Queue)

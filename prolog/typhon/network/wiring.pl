@@ -29,8 +29,8 @@
 Knows which host, by number, name and address, is in which process, and
 gives the processes their orders about hosts and links.
 
-*Threading*: wire_change/2 runs in the thread of the dynamics, beside
-callers that ask for properties; wire_again/5 in that of module `restarts`, and not
+*Threading*: wire_change/2 runs in the thread of the dynamics, beside callers
+that ask for properties; wire_again/5 in that of module `restarts`, and not
 beside a change.
 */
 
@@ -218,8 +218,8 @@ wire_stop_own(Network) :-
 %!  wire_resting_own(+Network, :Goal) is semidet.
 %
 %   As once(Goal), which stops the hosts in this process, if there are any.
-%   Meanwhile no agent runs here that would find that others are gone. In virtual
-%   time none does anyway.
+%   Meanwhile no agent runs here that would find that others are gone. In
+%   virtual time none does anyway.
 
 wire_resting_own(Network, Goal) :-
     current_prolog_flag(pid, Pid),

@@ -13,14 +13,15 @@
 /** <module> What agents can say, for the top level and for editors
 
 `move(beta)` is for the programs of agents.  Typed at the top level, or called
-in a module, it is an error that names what is called there instead; the correction
-of Prolog itself would offer the predicate of the module that implements it.
+in a module, it is an error that names what is called there instead; the
+correction of Prolog itself would offer the predicate of the module that
+implements it.
 
 Editors see a program through library(prolog_xref) and library(prolog_colour):
-PceEmacs, Sweep for Emacs, the language server lsp_server.  These learn here that in
-a file with `:- agent(Name, Options)` what agents can say is built in, main/0 and
-on_message/2 are called, and which of its predicates are state; and that a payload
-offers what it provides.  What is loaded is not concerned.
+PceEmacs, Sweep for Emacs, the language server lsp_server.  These learn here
+that in a file with `:- agent(Name, Options)` what agents can say is built in,
+main/0 and on_message/2 are called, and which of its predicates are state; and
+that a payload offers what it provides.  What is loaded is not concerned.
 
 *Threading*: any thread; editors: see prolog_load_context/2.
 */

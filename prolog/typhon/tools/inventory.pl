@@ -32,11 +32,11 @@ are those that carry networks started here, and those of hosts to which one
 comes along links.  All are asked at once; a process that has not answered
 by the deadline is reported as silent.
 
-Of one host the report has what lies in its tuple space, what its place defines and
-with what options it runs, as text.  Long values are shortened.
+Of one host the report has what lies in its tuple space, what its place defines
+and with what options it runs, as text.  Long values are shortened.
 
-*Threading*: any thread may ask that may wait, but those of the endpoint.  A worker
-answers, for there may be many agents.
+*Threading*: any thread may ask that may wait, but those of the endpoint.  A
+worker answers, for there may be many agents.
 */
 
 :- setting(typhon_survey:seconds, number, 2, "Now typhon_inventory:seconds").

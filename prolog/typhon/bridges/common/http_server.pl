@@ -22,9 +22,10 @@
 
 /** <module> HTTP for clients that are not trusted
 
-Servers of library(http/thread_httpd) do not bound the head of a request, and their
-time-outs are those of one wait, not of the whole of a request.  So threads, heads
-and bodies are our own; what a head says is read by the library out of memory.
+Servers of library(http/thread_httpd) do not bound the head of a request, and
+their time-outs are those of one wait, not of the whole of a request.  So
+threads, heads and bodies are our own; what a head says is read by the library
+out of memory.
 
 Each client has a thread, up to a bound.  If there are as many, a client that
 has not sent a whole request gives way to the newcomer: one of the address that
@@ -48,12 +49,12 @@ being served, the newcomer is sent away.
 %!  http_server_open(+Server, +Address, +Most, :Serve) is det.
 %!  http_server_close(+Server) is det.
 %
-%   From now on call(Serve, In, Out) serves each client that connects to Address,
-%   Interface:Port, Most at a time, in streams of bytes that are closed afterwards.
-%   Serve says how far it is by client_becomes/1; a new client is `reading`.  In is
-%   `none` for a client that is to be sent away: Serve runs in the acceptor then
-%   and must not wait.  http_server_close/1 ends all threads of Server, a ground
-%   term.
+%   From now on call(Serve, In, Out) serves each client that connects to
+%   Address, Interface:Port, Most at a time, in streams of bytes that are
+%   closed afterwards. Serve says how far it is by client_becomes/1; a new
+%   client is `reading`.  In is `none` for a client that is to be sent away:
+%   Serve runs in the acceptor then and must not wait.  http_server_close/1
+%   ends all threads of Server, a ground term.
 %
 %   @error socket_error(Code, Message)
 
@@ -224,7 +225,8 @@ http_before(Deadline, In) :-
 
 %!  http_head(+In, +Most, +Deadline, -Bytes:list) is semidet.
 %
-%   What comes until the end of an empty line, with that.  Fails at the end of In.
+%   What comes until the end of an empty line, with that.  Fails at the end of
+%   In.
 %
 %   @error resource_error(http_head) if that is more than Most bytes,
 %   timeout_error(read, In)

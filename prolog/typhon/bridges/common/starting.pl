@@ -252,7 +252,8 @@ stop_at(local(Name), Bridge) :-
 stop_at(remote(Host, Name, _), Bridge) :-
     remote(Host, typhon_starting:stop(Bridge, Name)).
 
-%   properties_at(+Where, +Bridge-Property, +Host, -Properties): those that match
+%   properties_at(+Where, +Bridge-Property, +Host, -Properties): those that
+%   match
 
 properties_at(local(Name), Bridge-Property, _, Properties) :-
     findall(Property, has(Bridge, Name, Property), Properties).

@@ -175,8 +175,8 @@ why(Code, Why) :-
     ;   format(string(Why), '~p', [Code])
     ).
 
-%   exchange(+Url, +Letter, +Deadline, !Way, -Code): a connection that is kept may have
-%   been closed by the other side just now: then a new one is tried.
+%   exchange(+Url, +Letter, +Deadline, !Way, -Code): a connection that is kept
+%   may have been closed by the other side just now: then a new one is tried.
 
 exchange(Url, Letter, Deadline, Way, Code) :-
     kept(Url, Way, In, Out),

@@ -19,14 +19,14 @@
 
 /** <module> HTTP, as far as a message transport needs it
 
-Requests and responses on byte streams, each of bounded size: a head of at
-most 16 kB, a body of known length.  Heads are read by the library, when they are
-there.  Clients of library(http/http_open) cannot be used: answers of JADE have no
-length, and the connection is kept.
+Requests and responses on byte streams, each of bounded size: a head of at most
+16 kB, a body of known length.  Heads are read by the library, when they are
+there.  Clients of library(http/http_open) cannot be used: answers of JADE have
+no length, and the connection is kept.
 
-The caller limits the time by within/2, which is like call_with_time_limit/2; but
-the library of that may keep 9.0.4 from halting once it is loaded.  This uses
-the alarms of hosts.
+The caller limits the time by within/2, which is like call_with_time_limit/2;
+but the library of that may keep 9.0.4 from halting once it is loaded.  This
+uses the alarms of hosts.
 
 *Threading*: any thread, one for each stream; within/2 while a host runs.  The
 timer signals it.
@@ -77,10 +77,10 @@ http_url(Url, Host:Port, Path) :-
 %!  http_request(+In, +Out, +Deadline, +MaxBytes, -Request) is semidet.
 %
 %   Read the next request from In, Request being request(Method, Target,
-%   ContentType, Body, KeepAlive): an atom as `post`, two more, a string of bytes
-%   and a boolean.  Fails at the end of In.  Its head has to be there before the
-%   Deadline.  A body must have a length; a client that expects `100 Continue`
-%   gets it on Out.
+%   ContentType, Body, KeepAlive): an atom as `post`, two more, a string of
+%   bytes and a boolean.  Fails at the end of In.  Its head has to be there
+%   before the Deadline.  A body must have a length; a client that expects `100
+%   Continue` gets it on Out.
 %
 %   @error syntax_error(http_request), syntax_error(http_length)
 %   @error resource_error(http_head), resource_error(http_body)

@@ -18,15 +18,15 @@
 A message travels as multipart/mixed (RFC 2046): its envelope and its text.
 Text that is not ASCII is UTF-8, which the envelope declares.
 
-The envelope is what the transport reads (FIPA00084, FIPA00071), in XML; here it is
-a list of parameters:
+The envelope is what the transport reads (FIPA00084, FIPA00071), in XML; here
+it is a list of parameters:
 
   - to(Aids), intended_receiver(Aids), from(Aid)
   - acl_representation(Atom), payload_length(Bytes), payload_encoding(Atom),
     date(Text)
 
-One with a document type is refused before it is parsed, so there are
-no entities that grow, and none that stand for files.  The time of the parser for
+One with a document type is refused before it is parsed, so there are no
+entities that grow, and none that stand for files.  The time of the parser for
 attributes and digits grows faster than their length, so both are bounded.
 
 *Threading*: pure, but for the date and the boundary.

@@ -19,8 +19,8 @@ search, and of the AMS get-description.  The AMS knows the agents of this
 process, and those born here, without registration; others may register with
 it as well.
 
-In a directory, any ground term, each name has one description, which may be there
-only until some time.
+In a directory, any ground term, each name has one description, which may be
+there only until some time.
 
 *Threading*: any thread; a mutex serializes changes of directories.
 */

@@ -48,13 +48,13 @@ soon(5).                        % seconds, for a process to end
 %!  own(+Me, +Message, +State0, -State) is det.
 %
 %   Handle a Message to the server Me, owner(Name, Command, When, Role, Told):
-%   a request(Id, Line), note(Line), `told`, that a line is in the queue Told, or
-%   `quit`.
+%   a request(Id, Line), note(Line), `told`, that a line is in the queue Told,
+%   or `quit`.
 %
-%   State is up(Process, Since, Wait), or down(Time, Wait, Answer): the process is
-%   started at Time, or when it is `asked` for something, or `never`; until then
-%   requests get Answer.  Wait is for how long it is down next time, if it ends
-%   soon.
+%   State is up(Process, Since, Wait), or down(Time, Wait, Answer): the process
+%   is started at Time, or when it is `asked` for something, or `never`; until
+%   then requests get Answer.  Wait is for how long it is down next time, if it
+%   ends soon.
 
 own_state(asked, down(asked, 0, closed)).
 own_state(always, until(0, down(0, first, closed))).

@@ -27,7 +27,8 @@ process.  It leads a session of its own: the interrupt key of a terminal is
 not for it.
 
 *Threading*: a process belongs to a server.  A thread of its own reads what it
-writes, waits for its end, and sends ended(Status) to the owner.  process_kill_of/1 may be called by any thread.
+writes, waits for its end, and sends ended(Status) to the owner.
+process_kill_of/1 may be called by any thread.
 */
 
 :- meta_predicate process_begin(+, +, +, 1, -).

@@ -16,13 +16,14 @@
 
 The functions of files are predicates of the place.  On hosts with the option
 python(true) an agent may deliver a payload that was read from a `.py` file:
-the place has its functions as predicates then, until undeliver/1.  They run in the
-process that python_start/3 has started, or in one that is started for them.
+the place has its functions as predicates then, until undeliver/1.  They run in
+the process that python_start/3 has started, or in one that is started for
+them.
 
 Python code can do whatever the user of this process may do.
 
-*Threading*: any thread; a call waits for its answer, others do not.  What Python
-says unasked is passed on by the thread that reads it.
+*Threading*: any thread; a call waits for its answer, others do not.  What
+Python says unasked is passed on by the thread that reads it.
 */
 
 :- multifile

@@ -221,8 +221,8 @@ tell(Asker, Result) :-
           error(existence_error(_, _), _),
           true).
 
-%   Not by a cleanup handler, which must not wait; so a caller that is interrupted
-%   while it tidies up does that again.
+%   Not by a cleanup handler, which must not wait; so a caller that is
+%   interrupted while it tidies up does that again.
 
 served(Link, Socket) :-
     Link = link(Host, _, Silence, _),

@@ -23,7 +23,8 @@ one text of it, twenty times a second at the most, and puts that into the
 queues of all browsers.  A browser that does not take them fast enough loses
 some, and gets their number.
 
-*Threading*: any thread tells; a server makes texts; each browser has a thread, which sends them, and one that notices when it goes.
+*Threading*: any thread tells; a server makes texts; each browser has a thread,
+which sends them, and one that notices when it goes.
 */
 
 :- meta_predicate browser_serve(1, +).
@@ -53,7 +54,8 @@ frames_waiting(40).
 %!  browsers_start is det.
 %!  browsers_stop is det.
 %
-%   Browsers that are connected when it stops are notified, and go within seconds.
+%   Browsers that are connected when it stops are notified, and go within
+%   seconds.
 
 browsers_start :-
     queue_size(Size),

@@ -27,8 +27,8 @@ are.  The same text is the same file.
 Messages of a thread that serves a browser are kept for that browser, and not
 printed at the terminal.
 
-*Threading*: any thread; each text has a folder of its own, messages are those of
-the thread.
+*Threading*: any thread; each text has a folder of its own, messages are those
+of the thread.
 */
 
 :- dynamic folder/1.

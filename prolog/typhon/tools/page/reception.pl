@@ -15,8 +15,8 @@
 
 The head of a request is read into memory before the library of HTTP looks at
 it: it has a bounded size, and has to be there in time, from its first byte to
-its last, see typhon_http_server.  The body, which is read when the token is known to
-be right, has to be there in time, too.
+its last, see typhon_http_server.  The body, which is read when the token is
+known to be right, has to be there in time, too.
 
 *Threading*: an acceptor, and a thread for each client.
 */

@@ -30,9 +30,9 @@ one: ids come again and again.  Which hosts are linked is in a log only if
 links came or went; else hosts between which an agent hopped are taken for
 linked.
 
-A file of its own needs no server and fetches nothing: scripts, styles and the log
-stand in it.  Modules are data URLs, which an import map names; so what they import
-from `./x.js` they import from `typhon/x.js` there.  By its
+A file of its own needs no server and fetches nothing: scripts, styles and the
+log stand in it.  Modules are data URLs, which an import map names; so what
+they import from `./x.js` they import from `typhon/x.js` there.  By its
 Content-Security-Policy scripts run that were written here, and no others.
 
 *Threading*: any thread.
