@@ -150,7 +150,11 @@ is_start(Start) :-
 image_name(image(Id, _, _, _, _, _, _), Name) :-
     atom(Id),
     !,
-    Name = Id.
+    (   sub_atom(Id, 0, 100, After, Start),
+        After > 0
+    ->  atom_concat(Start, '...', Name)
+    ;   Name = Id
+    ).
 image_name(Image, Name/Arity) :-
     callable(Image),
     !,
