@@ -6,7 +6,11 @@
 :- use_module(library(plunit)).
 :- use_module(library(random), [random_member/2]).
 :- use_module(library(typhon)).
-:- use_module(library(typhon/options/journal/channel), []).     % it has a table
+:- use_module(library(typhon/kernel/base/on_demand), [on_demand_load/2]).
+
+%   The journal has a table, too.
+
+:- on_demand_load(open_store, any).
 
 :- begin_tests(durable).
 
