@@ -4,6 +4,7 @@
             alone_end/0,
             alone_request/4             % +Address, +Kind, +Term, :OnAnswer
           ]).
+:- use_module('../base/on_demand', [on_demand_load/2]).
 :- use_module(frame, [mobile_term/1]).
 :- use_module(request, [request_answer/2, take_request/4]).
 
@@ -41,6 +42,7 @@ alone_request(Address, Kind, Term, OnAnswer) :-
     (   alone(Address)
     ->  mobile_term(Term),
         copy_term(Term, Copy),
+        on_demand_load(requested, Kind), % time may stand still meanwhile
         (   take_request(Kind, Copy, Address, alone(OnAnswer))
         ->  true
         ;   request_answer(lost, OnAnswer)
