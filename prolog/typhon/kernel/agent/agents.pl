@@ -104,7 +104,7 @@ agent(Id, Host, Module, Hash, Life) :-
     ->  true
     ).
 agent(Id, Host, Module, Hash, Life) :-
-    forall(under_way(Thawed, _, _, _, _, _), ignore(thaw(Thawed))),
+    forall(under_way(Thawed, _, Host, _, _, _), ignore(thaw(Thawed))),
     stands(Id, Host, Module, Hash, Life, _).
 
 %!  agent_here(?Id, ?Host, ?Module, ?Hash, ?Life) is nondet.
