@@ -212,10 +212,10 @@ test('an agent is there again when its process was killed') :-
         host_stop(driver)).
 
 test('a network, and a process of it that is killed',
-     Told = [carrier_back(_, 2)]) :-
+     Told = [node_back(_, 2)]) :-
     postgres_url(net, Url),
     in_network([processes(2), restart(true)], Url, first_time(A)),
-    findall(carrier_back(N, P), retract(heard(carrier_back(N, P))), Told),
+    findall(node_back(N, P), retract(heard(node_back(N, P))), Told),
     in_network([], Url, second_time(A)),
     catch(network_start(ring(3), _, [journal(postgresql(Url))]),
           error(Formal, _), true),
@@ -238,7 +238,7 @@ first_time(A, N) :-
     agent_send(A, 1),
     wait_until(agent_property(A, state(waiting)), 5),
     process_kill(Pid, kill),
-    wait_until(heard(carrier_back(_, _)), 20).
+    wait_until(heard(node_back(_, _)), 20).
 
 second_time(A, N) :-
     network_property(N, hosts([_, Host])),
@@ -251,7 +251,7 @@ second_time(A, N) :-
 :- dynamic user:message_hook/3.
 
 user:message_hook(typhon(Message), _, _) :-
-    memberchk(Message, [carrier_back(_, _), carrier_down(_, _, _, _, _)]),
+    memberchk(Message, [node_back(_, _), node_down(_, _, _, _, _)]),
     assertz(plunit_postgresql:heard(Message)).
 
 %   The server ends all connections that have the journal.
