@@ -7,6 +7,7 @@
 :- use_module(library(plunit)).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(typhon)).
+:- use_module(library(typhon/network/node_process), []).
 
 /** <module> Errors of agents and of other processes are only data
 
@@ -206,7 +207,7 @@ test(errors_of_another_process_are_harmless_and_the_same) :-
           assertion(Oops == oops) ))).
 test(a_process_of_a_network_answers_errors_as_data,
      [forall(hostile(Ball)), Answer = raised(_, _)]) :-
-    printing(typhon_carrier:raised(Ball, Answer), _),
+    printing(typhon_node_process:raised(Ball, Answer), _),
     untouched.
 
 :- end_tests(errors_of_other_processes).
