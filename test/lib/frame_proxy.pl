@@ -3,6 +3,7 @@
             frame_proxy_stop/1,         % +Proxy
             script/2,                   % +Events, :Crash
             happened/1,                 % -Events
+            script_end/1,               % -Events
             has_crashed/1,              % +Name
             go_on/0,
             frames_passed/2             % +Link, -Count
@@ -24,7 +25,7 @@ half of it has passed (`inside`), or `after` it. Actions are
   - mute: nothing more passes on this connection, in either direction
   - hold(Seconds): the frame, and what comes after it, waits
   - stop: it waits until go_on/0
-  - crash(Name): call(Crash, Name), while the frame waits
+  - crash(Name): call(Crash, Name); what has not passed of the frame is lost
 
 *Threading*: the threads of the relays pass frames on. The other predicates are
 for the main thread of a test.
@@ -89,6 +90,13 @@ new_script(Events, Crash) :-
 
 happened(Events) :-
     findall(Event, event_happened(Event), Events).
+
+%!  script_end(-Events:list) is det.
+%
+%   Events have happened, and no other will.
+
+script_end(Events) :-
+    with_mutex(frame_proxy, ( retractall(event(_, _)), happened(Events) )).
 
 %!  has_crashed(+Name) is semidet.
 %
@@ -214,28 +222,32 @@ count(What, Link, Number) :-
     assertz(frames(What, Link, Number)).
 
 happens(Where, Connection) :-
-    (   retract(event(Where, Action))
-    ->  Where = Link-Number-When,
-        do(Action, Connection, at(Link, Number, When, Action))
+    (   event(Where, _),
+        with_mutex(frame_proxy, taken(Where, Action))
+    ->  do(Action, Connection)
     ;   true
     ).
 
-do(cut, _, Event) :-
-    assertz(event_happened(Event)),
+taken(Where, Action) :-
+    retract(event(Where, Action)),
+    Where = Link-Number-When,
+    (   Action == stop
+    ->  thread_self(Me),
+        assertz(stopped(Me))
+    ;   true
+    ),
+    assertz(event_happened(at(Link, Number, When, Action))).
+
+do(cut, _) :-
     cut.
-do(mute, Connection, Event) :-
-    assertz(muted(Connection)),
-    assertz(event_happened(Event)).
-do(hold(Seconds), _, Event) :-
-    assertz(event_happened(Event)),
+do(mute, Connection) :-
+    assertz(muted(Connection)).
+do(hold(Seconds), _) :-
     sleep(Seconds).
-do(stop, _, Event) :-
-    thread_self(Me),
-    assertz(stopped(Me)),
-    assertz(event_happened(Event)),
+do(stop, _) :-
     thread_get_message(go_on).
-do(crash(Name), _, Event) :-
-    assertz(event_happened(Event)),
+do(crash(Name), _) :-
     crash(Crash),
     sig_atomic(( call(Crash, Name),     % which ends this connection
-                 assertz(crashed(Name)) )).
+                 assertz(crashed(Name)) )),
+    cut.

@@ -31,7 +31,7 @@ that what is lost or done twice shows.
 :- use_module(common, [wait_until/2]).
 :- use_module(frame_proxy, 
               [ frames_passed/2, go_on/0, happened/1, has_crashed/1,
-                script/2 ]).
+                script/2, script_end/1 ]).
 :- use_module(peers).
 :- use_module(library(apply), [maplist/3]).
 :- use_module(library(gensym), [gensym/2]).
@@ -257,7 +257,7 @@ disturbed(Scenario, Program, Events, Happened) :-
     peer_do(a, agent_join(Id, Outcome, 40)),
     demand(Outcome == done, outcome(Outcome)),
     resolved(Tag),
-    happened(Happened),
+    script_end(Happened),
     steps(Tag, Steps),
     demand(as_without_events(Scenario, Steps), steps(Steps)).
 
@@ -278,7 +278,7 @@ stopped(Scenario, Program, Event, Act, Happened) :-
     script([Event], no_crash),
     start(Scenario, Program, Tag, 20, Id),
     wait_until(( happened([_]) ; peer_do(a, outcome_here(Id, _)) ), 40),
-    happened(Happened),
+    script_end(Happened),
     act(Act, Id),
     go_on,
     peer_do(a, agent_join(Id, Outcome, 40)),
@@ -366,7 +366,7 @@ crashed(Scenario, Program, Event, Restart, Happened) :-
     script([Event], peer_crash),
     start(Scenario, Program, Tag, 1, _),
     wait_until(( happened([_]) ; \+ on_any(has_agent(Tag)) ), 40),
-    happened(Happened),
+    script_end(Happened),
     (   Happened == []
     ->  true
     ;   bring_back(Restart, Tag, Peer, Frames),
