@@ -6,7 +6,7 @@
 :- use_module('../../../lib/fixtures').
 :- use_module(library(debug), [assertion/1]).
 :- use_module(library(filesex), [directory_file_path/3]).
-:- use_module(library(lists), [append/3, member/2, subtract/3]).
+:- use_module(library(lists), [append/3, member/2, min_list/2, subtract/3]).
 :- use_module(library(plunit)).
 :- use_module(library(process), [process_kill/2]).
 :- use_module(library(typhon)).
@@ -89,15 +89,21 @@ wanderer(A) :-
              on_message(_, _) ],
            A, [host(alpha)]).
 
+%   The hosts were seen one after the other: what has happened since the first was
+%   seen counts, on all of them, or an older arrival would count for more than a
+%   newer one.
+
 followed(A, Hosts, Agents, Host) :-
     (   memberchk(agent(A, Host0, _, _, _), Agents)
     ->  true
     ;   Host0 = none
     ),
-    findall(H, ( test_overview:told(event(Time, H, A, arrived(_, _))),
-                 memberchk(host(H, Since, _, _, _), Hosts),
-                 Time > Since ), Later),
-    (   append(_, [Last], Later)
+    findall(Since, member(host(_, Since, _, _, _), Hosts), All),
+    min_list(All, First),
+    findall(Time-H, ( test_overview:told(event(Time, H, A, arrived(_, _))),
+                      Time > First ), Later0),
+    keysort(Later0, Later),
+    (   append(_, [_-Last], Later)
     ->  Host = Last
     ;   Host = Host0
     ).
