@@ -77,7 +77,7 @@ hand_over(Id, remote(Address, Name, Endpoint), Hole, Goals, Since) :-
         Transfer = hop(Id, dest(Address, Name, Endpoint), Hops),
         sig_atomic(with_agent(Id, leave(Transfer, way(Since, Sent), Frame)))
     ->  debug(typhon(hop), '~w hop ~D: leaves for ~w', [Id, Hops, Address])
-    ;   with_agent(Id, mail_back(Id, Mail)),
+    ;   with_agent(Id, mail_returned(Id, Mail)),
         fail
     ).
 
@@ -85,6 +85,15 @@ mail(Id, Mail) :-
     (   mail_waits(Id)
     ->  with_agent(Id, mail_all(Id, Mail))
     ;   Mail = []
+    ).
+
+%   An agent that was ended meanwhile has no mailbox any more: its mail is lost,
+%   and its senders learn that.
+
+mail_returned(Id, Mail) :-
+    (   agent_here(Id, _, _, _, _)
+    ->  mail_back(Id, Mail)
+    ;   post_on(Id, Mail)
     ).
 
 %   What is wrong is reported where it goes by request.

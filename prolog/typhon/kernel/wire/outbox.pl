@@ -134,7 +134,6 @@ session_release(Session) :-
 %   became of it: see request.pl.  The caller of session_hand/3 holds signals back.
 %
 %   @error resource_error(frame_bytes), type_error(mobile_term, Culprit)
-%
 %   @error session_closed
 
 session_hand_bytes(Session, Kind, Term, Bytes) :-
