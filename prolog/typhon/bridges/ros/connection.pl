@@ -150,8 +150,8 @@ way_await(Host, Id, Op, Seconds, Answer) :-
 
 %   answer_await(+Host, +Id, :Ask, +Seconds, -Answer) is det.
 %
-%   Run Ask once, and wait for what somebody says by answer_come/2.  Answer
-%   is that, lost(Why), or `timeout`.
+%   Run Ask once, and wait for what another thread gives to answer_come/2.
+%   Answer is that, lost(Why), or `timeout`.
 
 answer_await(Host, Id, Ask, Seconds, Answer) :-
     setup_call_cleanup(

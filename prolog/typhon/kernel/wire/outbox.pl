@@ -347,8 +347,8 @@ write_waiting(Session, Key, Thread, Out) :-
     ;   true
     ).
 
-%   In order: nothing that waits has been overtaken, so all is settled that was
-%   received when it was put, and more is told only behind it.
+%   In order: a frame settles what was received when it was put, and no more,
+%   since an objection may wait behind it.
 
 write_while_room(Session, Key) :-
     (   space(Session, Key, _, Out, Space),

@@ -502,7 +502,7 @@ frame_counts(frame(Bytes, _, Settled), Session, counts(Count, Settled),
     set_flag(Told, Count),
     set_flag(SettledFlag, Settled).
 
-%   All that was settled meanwhile is told at the end.
+%   The last frame settles all that was received meanwhile.
 
 nothing_waits(Session) :-
     session_key(Session, Key),
