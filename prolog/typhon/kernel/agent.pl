@@ -28,7 +28,7 @@ This is the interface of the layer: higher layers import from here.
               agent_origin/5, origin_inherited/3, origin_key/2, origin_said/2
             ]).
 :- reexport(agent/life,
-            [ is_life/1, life_before/2, life_clone/3, life_hop/3, life_hops/2,
+            [ is_life/1, life_before/2, life_clone/3, life_goes/3, life_hop/3, life_hops/2,
               life_may_move/2,
               life_parent/2, life_payloads/2, life_extras/2,
               make_life/2, set_extras_of_life/3

@@ -8,9 +8,8 @@ This is the interface of the layer: higher layers import from here.
 
 :- reexport(host/hosts,
             [ host/3, host_again/1, host_came/2, host_closed/1, host_enter/3,
-              host_hop/3, host_lets_all/3,
-              host_leave/1, host_left/2, host_load/2, host_note/1,
-              host_option/2, host_passed/3 ]).
+              host_hop/3, host_leave/1, host_left/2, host_load/2, host_note/1,
+              host_option/2, host_passed/3, host_plain/2, host_plain_time/2 ]).
 :- reexport('host/host_names').
 :- reexport(host/links,
             [host_link/3, host_link_cost/3, host_neighbours/2, host_unlink/2]).
@@ -19,7 +18,7 @@ This is the interface of the layer: higher layers import from here.
               events_hear/3, events_unheard/1 ]).
 :- reexport('host/event_shown').
 :- reexport('host/host_log').
-:- reexport(host/host_parts, [amended/5, parts/3, parts_call/3, plain/1]).
+:- reexport(host/host_parts, [amended/5, parts/3, parts_call/3]).
 :- reexport(host/place,
             [ place_deliver/3, place_host/2, place_service/2,
               place_undeliver/2 ]).
@@ -32,7 +31,7 @@ This is the interface of the layer: higher layers import from here.
 :- reexport('host/peer_rights').
 :- reexport(host/turns, [turn_later/1, turn_of/3, turns_now/3, turns_paused/0]).
 :- reexport(host/scheduler,
-            [ schedule/2, schedule_adopt/2, schedule_here/3, schedule_leave/0,
+            [ schedule/2, schedule_adopt/1, schedule_here/3, schedule_leave/0,
               schedule_stays/2, scheduler_call/1
             ]).
 :- reexport(host/time,

@@ -10,6 +10,7 @@
             set_extras_of_life/3,       % +Extras, +Life0, -Life
             life_may_move/2,            % +Life, -May
             life_hop/3,                 % +Life0, -Life, -Hops
+            life_goes/3,                % +Life0, -Life, -Hops
             life_before/2,              % +Life, -Life0
             life_clone/3                % +Id, +Life0, -Life
           ]).
@@ -125,6 +126,19 @@ life_may_move(Life, May) :-
 
 life_hop(life(Parent, Hops0, Most, Tokens, Payloads, Static, Extras),
          life(Parent, Hops, Most, Tokens, Payloads, Static, Extras), Hops) :-
+    Hops is Hops0+1.
+
+%!  life_goes(+Life0, -Life, -Hops:integer) is semidet.
+%
+%   As life_hop/3, of an agent that may move and carries no extras.
+
+life_goes(life(Parent, Hops0, Most, Tokens, Payloads, false, []),
+          life(Parent, Hops, Most, Tokens, Payloads, false, []), Hops) :-
+    (   Most == inf
+    ->  true
+    ;   integer(Most),
+        Hops0 < Most
+    ),
     Hops is Hops0+1.
 
 %!  life_before(+Life, -Life0) is det.

@@ -2,7 +2,6 @@
           [ parts/3,                    % ?Phase, ?Host, ?Closures
             parts_call/3,               % +Phase, +Host, +Args
             amended/5,                  % +Phase, +Host, +About, +Term0, -Term
-            plain/1,                    % +Host
             parts_load/1,               % +Options
             parts_compile/1,            % +Host
             parts_forget/1              % +Host
@@ -152,13 +151,6 @@ amended_by([], _, _, Term, Term).
 amended_by([Closure|Closures], Host, About, Term0, Term) :-
     call(Closure, Host, About, Term0, Term1),
     amended_by(Closures, Host, About, Term1, Term).
-
-%!  plain(+Host) is semidet.
-%
-%   Host has no parts: nothing comes between what happens on it and the kernel.
-
-plain(Host) :-
-    \+ parts(_, Host, _).
 
 %!  parts_load(+Options) is det.
 %

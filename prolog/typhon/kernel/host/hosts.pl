@@ -12,9 +12,10 @@
             host_leave/1,               % +Name
             host_load/2,                % +Name, -Load
             host_hop/3,                 % +Name, +Direction, +Seconds
-            host_lets_all/3,            % +Name, -Address, -Place
-            host_came/2,                % +Name, +Seconds
-            host_left/2,                % +Name, +Seconds
+            host_plain/2,               % ?Name, -Plain
+            host_plain_time/2,          % +Plain, -Seconds
+            host_came/2,                % +Plain, +Since
+            host_left/2,                % +Name, +Since
             host_passed/3,              % +Here, +There, +Seconds
             host_hop_stats/3            % +Name, ?Direction, -Stats
           ]).
@@ -23,8 +24,9 @@
 :- use_module('../base/durable_changes',
               [durable_drop/3, durable_on/0, durable_put/4]).
 :- use_module('../base/headroom', [memory_short/1]).
+:- use_module(clock, [clock/3, host_time/2]).
 :- use_module(links, [host_linked/1, host_unlink/2]).
-:- use_module(host_parts, [parts_compile/1, parts_forget/1]).
+:- use_module(host_parts, [parts/3, parts_compile/1, parts_forget/1]).
 
 /** <module> Hosts of this process
 
@@ -41,7 +43,8 @@ one mutex: flag/3 would lock for each of them.
     door/4,                     % Name, Tokens, Capacity, Flag: while
                                 % it is open
     load_key/2,                 % Name, Flag
-    hop_keys/3.                 % Name, Direction, Flags
+    hop_keys/3,                 % Name, Direction, Flags
+    host_plain/2.               % Name, Plain
 
 %!  host(?Name, ?Address, ?Place) is nondet.
 %
@@ -68,6 +71,7 @@ host_add(Name, Address, Place, Options) :-
     parts_compile(Name),
     assertz(host(Name, Address, Place)),
     open_door(Name),
+    note_plain(Name),
     host_note(Name).
 
 open_door(Name) :-
@@ -75,6 +79,30 @@ open_door(Name) :-
     asked(Name, capacity(Capacity), inf),
     load_key(Name, Key),
     assertz(door(Name, Tokens, Capacity, Key)).
+
+%!  host_plain(?Name, -Plain) is nondet.
+%!  host_plain_time(+Plain, -Seconds:float) is det.
+%
+%   Nothing comes between what happens on Name and the kernel: the host is open,
+%   has no parts, asks for no token and does not delay hops.  Plain is what a hop
+%   has to know of it, one fact; and the time of its clock.
+
+note_plain(Name) :-
+    (   \+ parts(_, Name, _),
+        \+ option(Name, hop_time(_)),
+        door(Name, [], Capacity, Load),
+        host(Name, Address, Place),
+        clock(Name, Epoch, Rate),
+        hop_keys(Name, in, In),
+        hop_keys(Name, out, Out)
+    ->  assertz(host_plain(Name, plain(Address, Place, Epoch, Rate, Capacity,
+                                       Load, In, Out)))
+    ;   true
+    ).
+
+host_plain_time(plain(_, _, Epoch, Rate, _, _, _, _), Seconds) :-
+    get_time(Now),
+    Seconds is (Now-Epoch)*Rate.
 
 asked(Name, Option, Default) :-
     (   option(Name, Option)
@@ -123,6 +151,7 @@ count_key(Name, Key) :-
 %   From now on no agent is admitted: it is about to stop.
 
 host_close(Name) :-
+    retractall(host_plain(Name, _)),
     retractall(door(Name, _, _, _)).
 
 host_closed(Name) :-
@@ -132,7 +161,7 @@ host_closed(Name) :-
 
 host_remove(Name) :-
     durable_drop(host, Name, 0),
-    retractall(door(Name, _, _, _)),
+    host_close(Name),
     retractall(host(Name, _, _)),
     retractall(option(Name, _)),
     host_unlink(Name, _),
@@ -163,11 +192,13 @@ host_note(Name) :-
 %!  host_put(+Name, +Option) is det.
 %
 %   Option replaces that of its name.  The new comes before the old goes: a
-%   host is never without.
+%   host is never without.  It is not plain until the parts are those of the
+%   new options.
 
 host_put(Name, Option) :-
     functor(Option, OptionName, Arity),
     functor(Old, OptionName, Arity),
+    retractall(host_plain(Name, _)),
     (   option(Name, Old)
     ->  assertz(option(Name, Option)),
         once(retract(option(Name, Old)))
@@ -179,6 +210,7 @@ host_put(Name, Option) :-
         once(retract(door(Name, Tokens, Capacity, Key)))
     ;   true                            % it stops
     ),
+    note_plain(Name),
     host_note(Name).
 
                 /*******************************
@@ -220,23 +252,14 @@ count_load(Key, Change) :-
     Load is Load0+Change,
     set_flag(Key, Load).
 
-%!  host_lets_all(+Name, -Address, -Place) is semidet.
-%!  host_came(+Name, +Seconds) is semidet.
+%!  host_came(+Plain, +Since) is semidet.
 %
-%   Name, which may be anything, is a host of this process that asks for no
-%   token.  An agent has come to it by a hop of so many Seconds of host time;
-%   fails, and it has not, if there is no capacity.
+%   An agent has come to a host that is Plain by a hop that began at Since, in
+%   host time; fails, and it has not, if there is no capacity.
 
-host_lets_all(Name, Address, Place) :-
-    atom(Name),
-    door(Name, [], _, _),
-    host(Name, Address, Place),
-    !.
-
-host_came(Name, Seconds) :-
-    door(Name, [], Capacity, Load),
-    hop_keys(Name, in, In),
-    !,
+host_came(plain(_, _, Epoch, Rate, Capacity, Load, In, _), Since) :-
+    get_time(Now),
+    Seconds is max(0.0, (Now-Epoch)*Rate-Since),
     with_mutex(typhon_host_flags, came(Load, Capacity, In, Seconds)).
 
 %!  host_again(+Name) is det.
@@ -267,12 +290,12 @@ host_load(Name, Load) :-
                 *******************************/
 
 %!  host_hop(+Name, +Direction, +Seconds) is det.
-%!  host_left(+Name, +Seconds) is det.
+%!  host_left(+Name, +Since) is det.
 %!  host_passed(+Here, +There, +Seconds) is det.
 %
 %   A hop into (`in`) or out of (`out`) Name took Seconds of host time; an agent
-%   on Name has gone to another process by one; an agent on Here is on There
-%   now, both hosts of this process.
+%   on Name has gone to another process by one that began at Since; an agent on
+%   Here is on There now, both hosts of this process.
 
 host_hop(Name, Direction, Seconds) :-
     hop_keys(Name, Direction, Flags),
@@ -280,10 +303,18 @@ host_hop(Name, Direction, Seconds) :-
     with_mutex(typhon_host_flags, add_hop(Flags, Seconds)).
 host_hop(_, _, _).
 
-host_left(Name, Seconds) :-
+host_left(Name, Since) :-
+    host_plain(Name, plain(_, _, Epoch, Rate, _, Load, _, Out)),
+    !,
+    get_time(Now),
+    Seconds is max(0.0, (Now-Epoch)*Rate-Since),
+    with_mutex(typhon_host_flags, left(Load, Out, Seconds)).
+host_left(Name, Since) :-
+    host_time(Name, Now),
     load_key(Name, Load),
     hop_keys(Name, out, Out),
     !,
+    Seconds is max(0.0, Now-Since),
     with_mutex(typhon_host_flags, left(Load, Out, Seconds)).
 host_left(_, _).                        % stopped meanwhile
 

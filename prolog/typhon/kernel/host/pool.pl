@@ -138,9 +138,9 @@ waits(Queue) :-
 
 %   This thread is of no pool, and gets no turn that may take long.
 
-typhon_time:here(real, Agent, Turn) :-
+typhon_time:here(real, Agents, Turn) :-
     run_queue(_),
-    turn_if_short(Agent, work_survives(Turn)).
+    turn_if_short(Agents, work_survives(Turn)).
 
                 /*******************************
                 *         ALARMS, WAITING      *

@@ -4,14 +4,14 @@
             scheduler_forget/0,
             schedule/2,                 % +Host, +Agent
             schedule_stays/2,           % +Here, +There
-            schedule_here/3,            % +Host, +Agent, :Turn
-            schedule_adopt/2,           % +Thread, +Agent
+            schedule_here/3,            % +Host, +Kind, :Turn
+            schedule_adopt/1,           % +Thread
             schedule_leave/0,
             scheduler_call/1            % :Goal
           ]).
 :- use_module(library(debug), [debug/3]).
 :- use_module(library(lists), [member/2]).
-:- use_module(turns, [turns_not_short/2]).
+:- use_module(turns, [turn_in/3, turns_not_short/2]).
 :- use_module(time,
               [ time_adopt/1, time_alone/0, time_here/2, time_leave/0,
                 time_work/1 ]).
@@ -84,26 +84,27 @@ schedule_stays(Here, There) :-
     \+ limited(Here, There),
     time_alone.
 
-%!  schedule_here(+Host, +Agent, :Turn) is semidet.
+%!  schedule_here(+Host, +Kind, :Turn) is semidet.
 %
-%   Call Turn, which runs Agent, in this thread.  Fails if the turns of Agent may
-%   take long, or have to wait for others.
+%   Call Turn, which runs an agent of that Kind, in this thread.  Fails if such
+%   turns may take long, or have to wait for others.
 
-schedule_here(Host, Agent, Turn) :-
+schedule_here(Host, Kind, Turn) :-
     \+ limited(Host),
-    time_here(Agent, Turn).
+    time_here(Kind, Turn).
 
-%!  schedule_adopt(+Thread, +Agent) is det.
+%!  schedule_adopt(+Thread) is det.
 %!  schedule_leave is det.
 %
-%   Thread runs Agent by schedule_here/3, and has nothing else to do any more:
+%   Thread runs an agent by schedule_here/3, and has nothing else to do any more:
 %   it is a worker, until it calls schedule_leave/0.
 
 blocks(60).                             % seconds for which it is believed to
 
-schedule_adopt(Thread, Agent) :-
+schedule_adopt(Thread) :-
     blocks(Seconds),
-    turns_not_short(Agent, Seconds),
+    forall(( turn_in(Thread, Agent, _), kind(Agent, Kind) ),
+           turns_not_short(Kind, Seconds)),
     time_adopt(Thread).
 
 schedule_leave :-

@@ -8,7 +8,7 @@
             time_now/1,                 % -Stamp
             time_work/1,                % +Work
             time_alone/0,
-            time_here/2,                % +Agent
+            time_here/2,                % +Agents, :Turn
             time_adopt/1,               % +Thread
             time_leave/0,
             time_wait/3,                % +Queue, -Message, +Stamp
@@ -61,7 +61,7 @@ time.
     wanted/2,                   % Option, Kind: see time_wanted/2
     apart/2,                    % Kind, Address: see time_apart/2
     repeats/2,                  % Kind, Mark: see time_repeats/2
-    here/3,                     % Kind, Agent, Turn: see time_here/2; with it go
+    here/3,                     % Kind, Agents, Turn: see time_here/2; with it go
     adopt/2,                    % Kind, Thread: see time_adopt/1
     leave/1,                    % Kind: see time_leave/0
     due/4,                      % Kind, Agent, Token, Stamp: see time_due/3
@@ -236,14 +236,14 @@ time_alone :-
     time_kind(Kind),
     alone(Kind).
 
-%!  time_here(+Agent, :Turn) is semidet.
+%!  time_here(+Agents, :Turn) is semidet.
 %
-%   Call Turn, which is one of Agent, in this thread, which has other things to
-%   do, too; fails where it is to be done by workers.
+%   Call Turn, which is one of an agent of the kind Agents, in this thread, which
+%   has other things to do, too; fails where it is to be done by workers.
 
-time_here(Agent, Turn) :-
+time_here(Agents, Turn) :-
     time_kind(Kind),
-    here(Kind, Agent, Turn).
+    here(Kind, Agents, Turn).
 
 %!  time_adopt(+Thread) is det.
 %!  time_leave is det.

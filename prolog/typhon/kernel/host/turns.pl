@@ -3,8 +3,8 @@
             turn_of/3,                  % +Agent, -Thread, -Seconds
             turns_now/3,                % -Agent, -Thread, -Seconds
             turn_in/3,                  % +Thread, -What, -Since
-            turn_if_short/2,            % +Agent, :Turn
-            turns_not_short/2,          % +Agent, +Seconds
+            turn_if_short/2,            % +Kind, :Turn
+            turns_not_short/2,          % +Kind, +Seconds
             turns_paused/0,
             turns_pause/0,
             turns_go_on/1,              % -Agents
@@ -34,9 +34,6 @@ it.
 */
 
 :- meta_predicate turn_if_short(+, 0).
-
-:- multifile
-    typhon_scheduler:kind/2.    % Agent, Kind: agents that may block alike
 
 :- dynamic
     keys/3,                     % Thread number, flag of agent, of time
@@ -121,81 +118,61 @@ latest(Turns, Latest) :-
                 *          SHORT TURNS         *
                 *******************************/
 
-most_inferences(20000).                 % as many as make some wake-ups
-most_seconds(0.004).
-few_turns(5).
+%   A turn is short that takes so many inferences, as many as make some wake-ups,
+%   and so many seconds.
+
+short(20000, 0.004).
+
+%   Two turns that waited are of a few if there were so many inferences between
+%   them: a turn takes some thousand.
+
+few_turns(5000).
 
 %   For so many seconds it is remembered that a turn was long, or waited.
 
 remembered(long, 1).
 remembered(waits, 10).
 
-%!  turn_if_short(+Agent, :Turn) is semidet.
+%!  turn_if_short(+Kind, :Turn) is semidet.
 %
-%   Call Turn, which is one of Agent; fails if that may take long.
+%   Call Turn, which is one of an agent of that Kind; fails if that may take long.
 
-turn_if_short(Agent, Turn) :-
-    typhon_scheduler:kind(Agent, Kind),
-    !,
-    are_short(Kind),
+turn_if_short(Kind, Turn) :-
+    (   slow(Kind, Until)
+    ->  get_time(Now),
+        Now > Until
+    ;   true
+    ),
     get_time(Time0),
     statistics(inferences, Count0),
     call(Turn),
     statistics(inferences, Count),
     get_time(Time),
-    Inferences is Count-Count0,
-    Seconds is Time-Time0,
-    took(Inferences, Seconds, Kind).
-
-are_short(Kind) :-
-    (   slow(Kind, Until)
-    ->  get_time(Now),
-        Now > Until
-    ;   true
+    short(MostInferences, MostSeconds),
+    (   Count-Count0 > MostInferences
+    ->  remember(long, Kind)
+    ;   Time-Time0 < MostSeconds
+    ->  true
+    ;   waited(Kind, Count)
     ).
 
-took(Inferences, _, Kind) :-
-    most_inferences(Most),
-    Inferences > Most,
-    !,
-    remember(long, Kind).
-took(_, Seconds, Kind) :-
-    nb_turn(Turn),
-    most_seconds(Most),
-    (   Seconds < Most
-    ->  true
-    ;   nb_current(typhon_long_turn, Kind-Before),
+waited(Kind, Count) :-
+    (   nb_current(typhon_long_turn, Kind-Before),
         few_turns(Few),
-        Turn-Before =< Few
+        Count-Before < Few
     ->  remember(waits, Kind)
-    ;   nb_setval(typhon_long_turn, Kind-Turn)
+    ;   nb_setval(typhon_long_turn, Kind-Count)
     ).
-
-%   Turns of this thread are counted.
-
-nb_turn(Turn) :-
-    (   nb_current(typhon_turn, Turn0)
-    ->  true
-    ;   Turn0 = 0
-    ),
-    Turn is Turn0+1,
-    nb_linkval(typhon_turn, Turn).      % a number: nothing to copy
 
 remember(What, Kind) :-
     remembered(What, Seconds),
-    slow_for(Seconds, Kind).
+    turns_not_short(Kind, Seconds).
 
-%!  turns_not_short(+Agent, +Seconds) is det.
+%!  turns_not_short(+Kind, +Seconds) is det.
 %
-%   For so long no turn of the kind of Agent is taken for short.
+%   For so long no turn of that Kind is taken for short.
 
-turns_not_short(Agent, Seconds) :-
-    (   typhon_scheduler:kind(Agent, Kind)
-    ->  slow_for(Seconds, Kind)
-    ;   true
-    ).
-
-slow_for(Seconds, Kind) :-
+turns_not_short(Kind, Seconds) :-
     get_time(Now),
     Until is Now+Seconds,
     with_mutex(typhon_short_turns, slow_until(Kind, Until, Now)).

@@ -17,7 +17,7 @@
                 agent_ready/2, agent_rest/3, agent_status/3, agent_wakes/2, life_hops/2, life_may_move/2, mail_take/2,
                 with_agent/2 ]).
 :- use_module('../travel',
-              [hop/6, hop_clone/6, move_failed/2, move_over/2]).
+              [hand_over/5, hop/6, hop_clone/6, move_failed/2, move_over/2]).
 :- use_module(creation, [agent_clone_here/3, clone_id/2]).
 :- use_module(ending, [agent_end/2, agent_stays/2]).
 
@@ -47,6 +47,8 @@ effect(move(Host), Hole, Goals, Id-Here, Next) :-
     (   Dest == local(Here)
     ->  Hole = true,
         Next = go(Goals)
+    ;   hand_over(Id, Here, Dest, Hole, Goals)
+    ->  Next = stop
     ;   parts_call(acts, Here, [Id, move]),
         agent(Id, _, _, _, Life),
         life_may_move(Life, May),

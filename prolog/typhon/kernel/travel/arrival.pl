@@ -9,9 +9,9 @@
               [ endpoint_afterwards/1, endpoint_reply/2, endpoint_reply_later/2 ]).
 :- use_module('../host',
               [ event/4, host/3, host_hop/3, host_time/2, schedule/2,
-                schedule_adopt/2, schedule_here/3, schedule_leave/0 ]).
+                schedule_adopt/1, schedule_here/3, schedule_leave/0 ]).
 :- use_module('../agent',
-              [ agent/5, agent_order/2, agent_status/3, gate/4,
+              [ agent/5, agent_here/5, agent_order/2, agent_status/3, gate/4,
                 gate_refused/4, image_amended/5, image_enter/4, image_entrant/2,
                 image_label/2, image_module/3, life_hops/2,
                 with_agent/2 ]).
@@ -35,7 +35,7 @@ anyhow: the agent stands here, has gone on, or has ended.
 
 :- multifile
     typhon_endpoint:handed/4,
-    typhon_endpoint:lent/2,
+    typhon_endpoint:lent/1,
     typhon_endpoint:requested/4,
     typhon_endpoint:returned/0.
 
@@ -105,12 +105,13 @@ answer(Answer, _, ReplyTo) :-
 %   go_on(+Name, +Id, +Where): `here`, in this thread, or `later`.
 
 go_on(Name, Id, here) :-
-    schedule_here(Name, Id, typhon_scheduler:run(Id)).
+    agent_here(Id, _, _, Hash, _),
+    schedule_here(Name, Hash, typhon_scheduler:run(Id)).
 go_on(Name, Id, later) :-
     schedule(Name, Id).
 
-typhon_endpoint:lent(_:go_on(_, Id), Thread) :-
-    schedule_adopt(Thread, Id).
+typhon_endpoint:lent(Thread) :-
+    schedule_adopt(Thread).
 
 typhon_endpoint:returned :-
     schedule_leave.

@@ -1,5 +1,5 @@
 :- module(typhon_hand_over,
-          [ hand_over/5,                % +Id, +Where, +Hole, +Goals, +Since
+          [ hand_over/5,                % +Id, +Host, +Where, +Hole, +Goals
             taken_over/4                % +Host, +Image, +Program, +Peer
           ]).
 :- use_module(library(debug), [debug/3]).
@@ -9,14 +9,13 @@
               [ endpoint_afterwards/1, endpoint_hand/4, endpoint_hand_over/2,
                 endpoint_handed/2 ]).
 :- use_module('../host',
-              [ event_heard/1, host/3, host_came/2, host_left/2,
-                host_lets_all/3, host_time/2, plain/1, schedule_adopt/2,
-                schedule_here/3, scheduler_call/1 ]).
+              [ event_heard/1, host/3, host_came/2, host_left/2, host_plain/2,
+                host_plain_time/2, real_time/3, schedule_here/3, scheduler_call/1 ]).
 :- use_module('../agent',
               [ agent_comes/5, agent_gone/5, agent_handed/4, agent_here/5,
                 agent_module/4, agent_ready/2, agent_standing/5,
                 agent_state/2, agent_thawed/5, agent_under_way/6, is_life/1,
-                life_before/2, life_extras/2, life_hop/3, life_hops/2,
+                life_before/2, life_extras/2, life_goes/3, life_hops/2,
                 mail_all/2, mail_back/2, mail_waits/1, with_agent/2 ]).
 :- use_module(backlog, [backlog/1]).
 :- use_module(post, [post_on/2]).
@@ -45,37 +44,32 @@ nothing has changed: then the agent comes in like any other, see typhon_arrival.
 :- multifile
     typhon_agents:thaw/1,
     typhon_endpoint:handed_over/2,
-    typhon_endpoint:lent/2,
     result/2.                   % Result, Transfer: the agent, in transit, is to
                                 % be treated as the answer says
 
 :- dynamic result/2.
 
-%!  hand_over(+Id, +Where, +Hole, +Goals, +Since) is semidet.
+%!  hand_over(+Id, +Host, +Where, +Hole, +Goals) is semidet.
 %
-%   Send Id to Where, as of host_resolve/2, where it goes on with Goals, Hole
-%   bound to `true`.  Fails, and nothing has changed, if it has to go by
-%   request: options are in use, there is no connection, its terms cannot
-%   travel, or it has an order.
-%
-%   @arg Since is the host time at which it set out
+%   Send Id, which moves from Host, to Where, as of host_resolve/2, where it goes
+%   on with Goals, Hole bound to `true`.  Fails, and nothing has changed, if it
+%   has to go by request: options are in use, there is no connection, its terms
+%   cannot travel, it may not move, or it has an order.
 
-hand_over(Id, remote(Address, Name, Endpoint), Hole, Goals, Since) :-
-    var(Hole),
+hand_over(Id, Host, remote(Address, Name, Endpoint), Hole, Goals) :-
+    host_plain(Host, Plain),
     \+ durable_on,
+    \+ event_heard(hops),
     agent_here(Id, Host, Module, Hash, Life0),
     !,
-    plain(Host),
-    \+ event_heard(hops),
-    life_extras(Life0, []),
-    life_hop(Life0, Life, Hops),
+    life_goes(Life0, Life, Hops),
     agent_state(Module, State),
     mail(Id, Mail),
+    host_plain_time(Plain, Since),
     (   framed(Endpoint, Name, Hash,
                image(Id, Hash, Life, State, Hole-Goals, Mail, Since), Frame),
-        get_time(Sent),
         Transfer = hop(Id, dest(Address, Name, Endpoint), Hops),
-        sig_atomic(with_agent(Id, leave(Transfer, way(Since, Sent), Frame)))
+        sig_atomic(with_agent(Id, leave(Transfer, Since, Frame)))
     ->  debug(typhon(hop), '~w hop ~D: leaves for ~w', [Id, Hops, Address])
     ;   with_agent(Id, mail_returned(Id, Mail)),
         fail
@@ -108,9 +102,9 @@ framed(Endpoint, Name, Hash, Image, Frame) :-
 %   The agent may be back before anything else is done here, so all else is
 %   done before.
 
-leave(Transfer, way(Since, Sent), Frame) :-
+leave(Transfer, Since, Frame) :-
     Transfer = hop(Id, Dest, Hops),
-    agent_handed(Id, Hops, way(Dest, Since, Sent), Frame),
+    agent_handed(Id, Hops, way(Dest, Since), Frame),
     catch(endpoint_hand_over(Frame, Transfer), error(session_closed, _),
           scheduler_call(typhon_hand_over:settled(unsent, Transfer))).
 
@@ -128,11 +122,7 @@ settled(accepted, Transfer) :-
     with_agent(Id, moved_on(Transfer, Host, Since)),
     !,
     debug(typhon(hop), '~w hop ~D: has gone', [Id, Hops]),
-    (   host_time(Host, Now)
-    ->  Seconds is max(0.0, Now-Since),
-        host_left(Host, Seconds)
-    ;   true                            % the host was stopped meanwhile
-    ).
+    host_left(Host, Since).
 settled(Result, Transfer) :-
     arg(1, Transfer, Id),
     ignore(with_agent(Id, thawed(Id))),
@@ -142,7 +132,7 @@ settled(Result, Transfer) :-
 %   is on its way before any that comes now.
 
 moved_on(hop(Id, dest(Address, _, Endpoint), Hops), Host, Since) :-
-    agent_gone(Id, Hops, Host, way(_, Since, _), Mail),
+    agent_gone(Id, Hops, Host, way(_, Since), Mail),
     agent_left(Id, Address, Hops, Endpoint),
     post_on(Id, Mail).
 
@@ -157,7 +147,7 @@ typhon_agents:thaw(Id) :-
 %   mail it had are those of the frame; the hop is not counted before it is made.
 
 thawed(Id) :-
-    agent_under_way(Id, Hops, Host, _, way(Dest, Since, Sent), Frame),
+    agent_under_way(Id, Hops, Host, _, way(Dest, Since), Frame),
     !,
     endpoint_handed(Frame, hop(_, Image, _)),
     Image = image(Id, Hash, Life1, State, Hole-Goals0, Mail, _),
@@ -165,6 +155,7 @@ thawed(Id) :-
     host(Host, _, Place),
     agent_standing(Id, Place, Hash, State-Goals0, Module-Goals),
     arg(1, Dest, Address),
+    real_time(Host, Since, Sent),
     agent_thawed(Id, Module, Life0, transit(Address, Sent),
                  hop(Hole-Goals, Hops, Mail, Since)).
 
@@ -180,16 +171,15 @@ thawed(Id) :-
 %   @error what is wrong with its clauses
 
 taken_over(Host, Image, known, Peer) :-
-    plain(Host),
-    host_lets_all(Host, Address, Place),
+    atom(Host),
+    host_plain(Host, Plain),
     \+ event_heard(hops),
     comes(Image, Id, Hash, Life, Clauses, Goals, Since),
     code_module(Hash, Program),
     life_hops(Life, Hops),
-    host_time(Host, Now),
-    Seconds is max(0.0, Now-Since),
-    with_agent(Id, come(Id, Hops, Host-Place, Hash-Program, Life, Clauses,
-                        Seconds, Home)),
+    arg(1, Plain, Address),
+    with_agent(Id, come(Id, Hops, Host-Plain, Hash-Program, Life, Clauses,
+                        Since, Home)),
     !,
     debug(typhon(hop), '~w hop ~D: is on ~w, from ~w',
           [Id, Hops, Address, Peer]),
@@ -197,7 +187,7 @@ taken_over(Host, Image, known, Peer) :-
     ->  true                            % and so are we
     ;   agent_seen(Id, Address, Hops, Peer)
     ),
-    endpoint_afterwards(go_on(Id, Host, context(Program, Id), Goals)).
+    endpoint_afterwards(go_on(Id, Host-Hash, context(Program, Id), Goals)).
 
 %   An agent that brings no messages, and that no option lets carry anything.
 
@@ -220,22 +210,21 @@ comes(image(Id, Hash, Life, State, Hole-Goals, Mail, Since), Id, Hash, Life,
 
 %   Signals are held back, see reader.pl: between these steps none comes.
 
-come(Id, Hops, Host-Place, Hash-Program, Life, Clauses, Seconds, Home) :-
+come(Id, Hops, Host-Plain, Hash-Program, Life, Clauses, Since, Home) :-
     \+ agent_here(Id, _, _, _, _),
     \+ agent_under_way(Id, _, _, _, _, _),
     \+ backlog(Id),
     agent_comes_anew(Id, Hops, Home),
+    arg(2, Plain, Place),
     agent_module(Id, Place, Program, Clauses),
-    (   host_came(Host, Seconds)
+    (   host_came(Plain, Since)
     ->  agent_comes(Id, Host, Id, Hash, Life)
     ;   '$destroy_module'(Id),
         fail
     ).
 
-go_on(Id, Host, Context, Goals, here) :-
-    schedule_here(Host, Id, typhon_scheduler:run_on(Id, Host, Context, Goals)).
+go_on(Id, Host-Hash, Context, Goals, here) :-
+    schedule_here(Host, Hash,
+                  typhon_scheduler:run_on(Id, Host, Context, Goals)).
 go_on(Id, _, _, Goals, later) :-
     ignore(with_agent(Id, agent_ready(Id, Goals))).
-
-typhon_endpoint:lent(_:go_on(Id, _, _, _), Thread) :-
-    schedule_adopt(Thread, Id).

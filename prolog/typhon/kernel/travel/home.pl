@@ -147,21 +147,20 @@ home_moved(Id, Address, Hops, Process) :-
           [Id, Hops, Address]),
     with_mutex(typhon_born, moved(Id, Address, Hops, Process)).
 
-%!  home_left(+Id, +Address, +Hops, +Process) is det.
+%!  home_left(+Id, +Address, +Hops, +Process) is semidet.
 %
-%   As home_moved/4, of one that has left this process, which is noted.
+%   As home_moved/4, of one that has left this process, which is noted.  Fails if
+%   the home does not know it, or knows something newer.
 
 home_left(Id, Address, Hops, Process) :-
     with_mutex(typhon_born, left(Id, Address, Hops, Process)).
 
 left(Id, Address, Hops, Process) :-
     born(Id, _, Hops0, _),
-    Hops0 < Hops,
     !,
+    Hops0 < Hops,
     assertz(born(Id, Address, Hops, Process)),
     forget_first(Id).
-left(Id, Address, Hops, Process) :-
-    moved(Id, Address, Hops, Process).
 
 %   The new fact comes before the old one goes: others read meanwhile.  Of
 %   whom the home has never heard was born before it was started again.

@@ -15,7 +15,7 @@
 :- use_module(hop_ids, [crossing_label/3, crossing_repeated/1]).
 :- use_module(doubt, [doubt_open/1, doubt_settle/1]).
 :- use_module(home, [agent_born/2]).
-:- use_module(hand_over, [hand_over/5]).
+:- use_module(hand_over, []).
 :- use_module(legacies, [clone_born/2]).
 :- use_module(programs_sent, [program_missing/2, program_sent/3]).
 :- use_module(within, [hop_within/6]).
@@ -65,9 +65,6 @@ endpoint, which never wait.
 hop(Id, local(Name), Hole, Goals, Since, Next) :-
     !,
     hop_within(Id, Name, Hole, Goals, Since, Next).
-hop(Id, Where, Hole, Goals, Since, stop) :-
-    hand_over(Id, Where, Hole, Goals, Since),
-    !.
 hop(Id, Where, Hole, Goals, Since, stop) :-
     destination(Where, Dest),
     Transfer = hop(Id, Dest, _),

@@ -107,15 +107,14 @@ agent_left(Id, Address, Hops, Peer) :-
     (   endpoint_address(Peer)
     ->  true
     ;   process_at(Peer, Process),
-        (   at_home(Id)
+        (   home_left(Id, Address, Hops, Process)
+        ->  true
+        ;   at_home(Id)
         ->  left_home(Id, Address, Hops, Process)
         ;   remember_forward(Id, Address, Hops, Process)
         )
     ).
 
-at_home(Id) :-
-    home_knows(Id, _, _, _),            % nearly all that are at home
-    !.
 at_home(Id) :-
     agent_home_endpoint(Id, Home),
     endpoint_address(Home).
@@ -130,7 +129,7 @@ left_home(Id, Address, Hops, Process) :-
         ->  true
         ;   remember_forward(Id, Address, Hops, Process)
         )
-    ;   home_left(Id, Address, Hops, Process)
+    ;   home_moved(Id, Address, Hops, Process)
     ).
 
 process_at(Endpoint, Process) :-
@@ -171,8 +170,10 @@ typhon_durable:restore(agent, Id, _, gone(Address, Hops, Process)) :-
     agent_home_endpoint(Id, Home),
     (   agent_outcome(Id, _)
     ->  true
+    ;   home_left(Id, Address, Hops, Process)
+    ->  true
     ;   endpoint_address(Home)
-    ->  home_left(Id, Address, Hops, Process)
+    ->  home_moved(Id, Address, Hops, Process)
     ;   assertz(forward(Id, Address, Hops, Process))
     ).
 

@@ -24,7 +24,7 @@ hooks, one clause per kind of message, in the module that owns the kind:
     fewer; fails where they are to be taken one by one
   - requested(+Kind, +Term, +Peer, +ReplyTo)
   - connection(+Peer, +State)
-  - lent(+Goal, +Thread) and returned, see typhon_lending
+  - lent(+Thread) and returned, see typhon_lending
 
 Peer is the address the sender listens to.
 
@@ -71,7 +71,7 @@ own_start_next/1 run under the mutex of the endpoint.
                                         % `deferred`, or another answer
     handed_over/2,                      % Token, Result
     connection/2,                       % Peer, State
-    lent/2,                             % Goal, Thread
+    lent/1,                             % Thread
     returned/0.
 :- dynamic
     received/3,
@@ -80,7 +80,7 @@ own_start_next/1 run under the mutex of the endpoint.
     handed/4,
     handed_over/2,
     connection/2,
-    lent/2,
+    lent/1,
     returned/0.
 
 :- setting(flush_time, number, 2,

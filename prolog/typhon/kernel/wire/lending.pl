@@ -1,9 +1,9 @@
 :- module(typhon_lending,
           [ endpoint_afterwards/1,      % :Goal
             lending_anew/0,
-            lending_open/3,             % +Session, +In, +Out
+            lending_open/4,             % +Session, +In, +Out, -Queue
             lending_close/0,
-            lend/2,                     % :More, :Tell
+            lend/3,                     % +Queue, :More, :Tell
             lent/0,
             lent_away/0
           ]).
@@ -14,16 +14,16 @@ To wake another thread costs as much as the rest of a hop.  So the thread that
 has read and counted a frame may run the agent that it brought, for an unknown
 time: a goal of endpoint_afterwards/1.
 
-Meanwhile the connection belongs to a token, a message in a queue.  When the
-goal ends the thread takes it back, and reads on.  A goal that lasts is found
-by the connection manager, which takes the token instead: then the session loses this
-connection and gets another one, with a thread of its own, and the one that
-was lent is no longer of the wire.
+Meanwhile the connection belongs to a token, a message in a queue of the thread.
+When the goal ends the thread takes it back, and reads on.  A goal that lasts is
+found by the connection manager, which takes the token instead: then the session
+loses this connection and gets another one, with a thread of its own, and the one
+that was lent is no longer of the wire.
 
 A request to end a thread that is lent takes effect when it is back: what it
 runs must not be interrupted for the sake of a connection.
 
-*Threading*: lending_open/3 to lent_away/0 are for the thread of a connection.
+*Threading*: lending_open/4 to lent_away/0 are for the thread of a connection.
 The token goes to the thread that takes it first.
 */
 
@@ -38,10 +38,10 @@ The token goes to the thread that takes it first.
 
 :- meta_predicate
     endpoint_afterwards(1),
-    lend(0, 0).
+    lend(+, 0, 0).
 
 :- multifile
-    typhon_endpoint:lent/2,             % Goal, Thread
+    typhon_endpoint:lent/1,             % Thread
     typhon_endpoint:returned/0,
     typhon_threads:overdue/1,
     typhon_threads:not_now/1.
@@ -63,9 +63,9 @@ most_time(0.2).
 %   In a hook: call(Goal, here) in this thread when the hook has ended and
 %   its frame is counted.  If that fails, or more is to be read first, or this is
 %   no reader, call(Goal, later) leaves the work to others; that does not fail.
-%   Goal does not raise. Where it lasts, the hook lent(Goal, Thread) tells
-%   that Thread is not of the endpoint any more, and returned, there, that
-%   Thread is about to end.
+%   Goal does not raise. Where it lasts, the hook lent(Thread) says that Thread
+%   is not of the endpoint any more, and returned, there, that Thread is about
+%   to end.
 
 endpoint_afterwards(Goal) :-
     (   nb_current(typhon_lending, idle)
@@ -81,16 +81,17 @@ lending_anew :-
     flag(typhon_lending, _, 0),
     retractall(seen(_, _, _, _)).
 
-%!  lending_open(+Session, +In, +Out) is det.
+%!  lending_open(+Session, +In, +Out, -Queue) is det.
 %!  lending_close is det.
 %
-%   This thread begins to read, and has done so.
+%   This thread begins to read, and has done so.  Its token is in Queue.
 
-lending_open(Session, In, Out) :-
+lending_open(Session, In, Out, Queue) :-
     thread_self(Me),
     message_queue_create(Queue),
     assertz(lendable(Me, Queue, connection(Session, In, Out))),
-    nb_setval(typhon_token, token(Queue, 0)),
+    nb_setval(typhon_turns_lent, 0),
+    nb_setval(typhon_end, none),
     nb_setval(typhon_lending, idle).
 
 lending_close :-
@@ -110,15 +111,11 @@ left(wants(Goal)) :-
     nb_setval(typhon_lending, closed),
     call(Goal, later).
 left(lent) :-                           % it was aborted
-    come_back.
-left(told(_)) :-
-    come_back.
+    thread_self(Me),
+    lendable(Me, Queue, _),
+    take_back(Queue).
 
-come_back :-
-    nb_getval(typhon_token, token(Queue, _)),
-    sig_atomic(take_back(Queue, _)).
-
-%!  lend(:More, :Tell) is semidet.
+%!  lend(+Queue, :More, :Tell) is semidet.
 %
 %   Call what a hook has left; fails if there is nothing. More says whether there
 %   is more to read first. Tell is called when the thread is back, and before the
@@ -127,60 +124,56 @@ come_back :-
 %   Throws wire_thread_end(Why) if it is to end, as when the connection is no
 %   longer ours.
 
-lend(More, Tell) :-
+lend(Queue, More, Tell) :-
     nb_getval(typhon_lending, wants(Goal)),
     (   call(More)
     ->  nb_setval(typhon_lending, idle),
         leave(Goal, Tell)
-    ;   sig_atomic(give(Goal, Queue)),
+    ;   give(Queue),
         (   call(Goal, here)
-        ->  sig_atomic(take_back(Queue, Told)),
+        ->  take_back(Queue),
             call(Tell)
-        ;   sig_atomic(take_back(Queue, Told)),
+        ;   take_back(Queue),
             leave(Goal, Tell)
         ),
-        heard(Told)
+        end_if_asked
     ).
 
 leave(Goal, Tell) :-
     sig_atomic(( call(Tell), call(Goal, later) )).
 
-give(Goal, Queue) :-
-    nb_getval(typhon_token, token(Queue, Turn0)),
-    Turn is Turn0+1,
-    nb_linkval(typhon_token, token(Queue, Turn)),
+%   From the first step on a request to end this thread has to wait.
+
+give(Queue) :-
     nb_linkval(typhon_lending, lent),
-    thread_send_message(Queue, token(Turn, Goal)),
+    nb_getval(typhon_turns_lent, Turn0),
+    Turn is Turn0+1,
+    nb_linkval(typhon_turns_lent, Turn), % a number: nothing to copy
+    thread_send_message(Queue, token(Turn)),
     look_in_time.
 
-take_back(Queue, Told) :-
-    (   token_taken(Queue, _)
-    ->  nb_getval(typhon_lending, State),
-        nb_linkval(typhon_lending, idle),
-        told(State, Told)
-    ;   thread_get_message(Queue, released),
-        nb_setval(typhon_lending, away),
-        transport_forget,
-        forall(typhon_endpoint:returned, true),
-        Told = lent
+%   A thread that was missed waits until all is done that is done in its stead.
+
+take_back(Queue) :-
+    (   thread_get_message(Queue, token(_), [timeout(0)])
+    ->  nb_linkval(typhon_lending, idle)
+    ;   sig_atomic(away(Queue))
     ).
 
-%   token_taken(+Queue, -Goal) is semidet: it goes to one. Nothing is
-%   waited for: a wait with a deadline has no place where signals are held.
+away(Queue) :-
+    thread_get_message(Queue, released),
+    nb_setval(typhon_lending, away),
+    transport_forget,
+    forall(typhon_endpoint:returned, true),
+    nb_setval(typhon_end, lent).
 
-token_taken(Queue, Goal) :-
-    with_mutex(typhon_lending,
-               ( thread_peek_message(Queue, Message),
-                 Message = token(_, Goal),
-                 thread_get_message(Queue, _) )).
-
-told(lent, none).
-told(told(Why), Why).
-
-heard(none) :-
-    !.
-heard(Why) :-
-    wire_thread_obey(Why).
+end_if_asked :-
+    nb_getval(typhon_end, Why),
+    (   Why == none
+    ->  true
+    ;   nb_setval(typhon_end, none),
+        wire_thread_obey(Why)
+    ).
 
 %!  lent is semidet.
 %!  lent_away is semidet.
@@ -188,8 +181,7 @@ heard(Why) :-
 %   This thread is lent, or was for so long that it has no connection.
 
 lent :-
-    nb_current(typhon_lending, State),
-    memberchk(State, [lent, told(_)]).
+    nb_current(typhon_lending, lent).
 
 lent_away :-
     nb_current(typhon_lending, away).
@@ -198,7 +190,7 @@ lent_away :-
 
 typhon_threads:not_now(Why) :-
     lent,
-    nb_setval(typhon_lending, told(Why)).
+    nb_setval(typhon_end, Why).
 
                  /*******************************
                  *            LOOKING           *
@@ -228,8 +220,8 @@ look :-
     flag(typhon_lending, _, 0),
     get_time(Now),
     findall(Seen, lent_now(Now, Seen), All),
-    forall(( member(Seen, All), missed(Now, Seen, Thread) ),
-           ignore(release(Thread))),
+    forall(( member(Seen, All), missed(Now, Seen, Thread, Turn) ),
+           ignore(release(Thread, Turn))),
     retractall(seen(_, _, _, _)),
     forall(member(Seen, All), assertz(Seen)),
     (   All == []
@@ -238,7 +230,7 @@ look :-
     ).
 
 lent_now(Now, seen(Thread, Turn, Since, Work)) :-
-    away(Thread, Turn),
+    lent_to(Thread, Turn),
     (   seen(Thread, Turn, Since0, Work0)
     ->  Since = Since0,
         Work = Work0
@@ -246,7 +238,7 @@ lent_now(Now, seen(Thread, Turn, Since, Work)) :-
         worked(Thread, Work)
     ).
 
-missed(Now, seen(Thread, _, Since, Work0), Thread) :-
+missed(Now, seen(Thread, Turn, Since, Work0), Thread, Turn) :-
     (   most_time(Time),
         Now-Since > Time
     ->  true
@@ -258,34 +250,35 @@ missed(Now, seen(Thread, _, Since, Work0), Thread) :-
 worked(Thread, Seconds) :-
     catch(thread_statistics(Thread, cputime, Seconds), error(_, _), fail).
 
-away(Thread, Turn) :-
+lent_to(Thread, Turn) :-
     lendable(Thread, Queue, _),
-    catch(thread_peek_message(Queue, Message), error(_, _), fail),
-    Message = token(Turn, _).
+    catch(thread_peek_message(Queue, token(Turn)), error(_, _), fail).
 
                  /*******************************
                  *           RELEASE            *
                  *******************************/
 
-%   release(+Thread) is semidet: it is on its own, and the session without
-%   connection.  A thread that waits for the end of Thread goes on.  Should Thread come back before the connection
-%   is gone, it sees to that itself.
+%   release(+Thread, +Turn) is semidet: it is on its own, and the session without
+%   connection.  A thread that waits for the end of Thread goes on.  Should Thread
+%   come back before the connection is gone, it sees to that itself.
 
 typhon_threads:overdue(Thread) :-
-    release(Thread).
+    lent_to(Thread, Turn),
+    release(Thread, Turn).
 
-release(Thread) :-
-    sig_atomic(released(Thread, Connection)),
+release(Thread, Turn) :-
+    sig_atomic(released(Thread, Turn, Connection)),
     debug(typhon(session), '~w does not come back: the connection goes',
           [Thread]),
     in_background(part(Thread, Connection), lender).
 
-released(Thread, Connection) :-
+released(Thread, Turn, Connection) :-
     lendable(Thread, Queue, Connection),
-    catch(token_taken(Queue, Goal), error(_, _), fail),
+    catch(thread_get_message(Queue, token(Turn), [timeout(0)]),
+          error(_, _), fail),
     !,
     call_cleanup(                       % it waits for this, whatever a hook does
-        forall(typhon_endpoint:lent(Goal, Thread), true),
+        forall(typhon_endpoint:lent(Thread), true),
         ( wire_thread_leaves(Thread),
           thread_send_message(Queue, released) )).
 

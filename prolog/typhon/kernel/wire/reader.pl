@@ -25,7 +25,7 @@ are held back while a frame is being handled and counted.
 :- use_module(frame,
               [bundle_parts/2, bytes_mark/2, bytes_term/3, frame_read/4]).
 :- use_module(lending,
-              [lend/2, lending_close/0, lending_open/3, lent/0]).
+              [lend/3, lending_close/0, lending_open/4, lent/0]).
 :- use_module(outbox,
               [ session_acknowledge/1, session_answer/2, session_control/2,
                 session_later/1, session_object/2, session_owes/0,
@@ -36,7 +36,7 @@ are held back while a frame is being handled and counted.
 :- use_module(session,
               [ ack_frames/1, debug_frame/4, session_codec/2, session_count/1,
                 session_key/2, session_peer/3, session_received/2,
-                session_told/2 ]).
+                session_untold/2 ]).
 :- use_module(threads, [manager_notify/1]).
 :- use_module(transport, [transport_input/2]).
 :- use_module(unacked, [session_acked/3]).
@@ -69,8 +69,8 @@ read_frames(Session, In, Out) :-
     session_push(Session),
     session_owes,                       % what was received before
     setup_call_cleanup(
-        lending_open(Session, In, Out),
-        read_or_skip(Session, In, Max, state(Bytes, 0)),
+        lending_open(Session, In, Out, Queue),
+        read_or_skip(Session, In, Max, state(Bytes, 0, Queue)),
         lending_close).
 
 %!  in_reader is semidet.
@@ -94,8 +94,9 @@ read_or_skip(Session, In, Max, State) :-
 
 read_all(Session, In, Max, State) :-
     session_codec(Session, Codec),
+    arg(3, State, Queue),
     repeat,
-    afterwards(Session, In),
+    afterwards(Queue, Session, In),
     push_late(Session, In),
     (   next(In, Max, Counts, Bytes)
     ->  (   Bytes == end_of_file
@@ -112,8 +113,8 @@ read_all(Session, In, Max, State) :-
 %   What a hook has left to do is done here. What it says to the peer has
 %   taken the answers along, else they go now.
 
-afterwards(Session, In) :-
-    (   lend(more_first(In), tell(Session))
+afterwards(Queue, Session, In) :-
+    (   lend(Queue, more_first(In), tell(Session))
     ->  true
     ;   true
     ).
@@ -195,7 +196,7 @@ next(In, Max, Counts, Bytes) :-
 %   Three silences in a row while we wait for something is one too many.
 
 silent(Session, In, State) :-
-    (   all_told(Session)
+    (   session_untold(Session, 0)
     ->  true
     ;   acknowledge(Session, In, State) % it need not keep them any longer
     ),
@@ -208,10 +209,6 @@ silent(Session, In, State) :-
         session_control(Session, ping)
     ;   throw(error(timeout_error(read, In), _))
     ).
-
-all_told(Session) :-
-    session_received(Session, Count),
-    session_told(Session, Count).
 
 %   The counts of a frame come before what it says: an agent may come back in
 %   it that they settle.
@@ -238,6 +235,7 @@ handle(bye, Session, _, _) :-
     session_key(Session, Key),
     ignore(manager_notify(gone(Key))).
 handle(Bundle, Session, In, State) :-
+    Bundle = bundle(_),
     take_bundle(Bundle, Session),
     !,
     session_count(Session),
@@ -252,15 +250,14 @@ handle(Frame, Session, In, State) :-
 %   A bundle is acknowledged at once: its sender holds others until then.
 
 acknowledge_now_and_then(Session, In, State) :-
-    session_received(Session, Count),
-    session_told(Session, Told),
-    (   Count =:= Told
+    session_untold(Session, Count),
+    (   Count =:= 0
     ->  true
-    ;   arg(1, State, ToldBytes),
+    ;   ack_frames(MaxFrames),
+        Count < MaxFrames,
+        arg(1, State, ToldBytes),
         byte_count(In, Bytes),
-        ack_frames(MaxFrames),
         ack_bytes(MaxBytes),
-        Count-Told < MaxFrames,
         Bytes-ToldBytes < MaxBytes
     ->  true
     ;   acknowledge(Session, In, State)

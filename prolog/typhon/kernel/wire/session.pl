@@ -18,7 +18,7 @@
             session_window_free/1,      % +Session
             session_received/2,         % +Session, -Count
             session_count/1,            % +Session
-            session_told/2,             % +Session, -Count
+            session_untold/2,           % +Session, -Count
             transport/3,                % ?Key, ?Thread, -Out
             transport_thread/2,         % ?Key, ?Thread
             transport_attach/3,         % +Key, +Thread, +Out
@@ -248,18 +248,21 @@ session_window_free(session(_, _, _, _, _, Window)) :-
 session_window(session(_, _, _, _, _, Window), Window).
 
 %!  session_received(+Session, -Count) is det.
-%!  session_told(+Session, -Count) is det.
+%!  session_untold(+Session, -Count) is det.
 %!  session_count(+Session) is det.
 %
-%   Count frames of the peer have been received, and the peer has been told of
-%   Count; one more has been. The last is for the thread of the connection.
+%   Count frames of the peer have been received, and the peer does not know it
+%   of Count; one more has been. The last is for the thread of the connection.
 
 session_received(session(_, _, _, _, _, window(_, _, Received, _, _, _, _)),
                  Count) :-
     get_flag(Received, Count).
 
-session_told(session(_, _, _, _, _, window(_, _, _, Told, _, _, _)), Count) :-
-    get_flag(Told, Count).
+session_untold(session(_, _, _, _, _, window(_, _, Received, Told, _, _, _)),
+               Count) :-
+    get_flag(Received, All),
+    get_flag(Told, Known),
+    Count is All-Known.
 
 session_count(session(_, _, _, _, _, window(_, _, Received, _, _, _, _))) :-
     get_flag(Received, Count0),

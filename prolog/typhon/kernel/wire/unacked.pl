@@ -103,7 +103,8 @@ unacked_waits_loose(Session, Bytes) :-
 
 unacked_waiting(Session) :-
     session_window(Session, window(_, Waiting, _, _, _, _, _)),
-    queue_size(Waiting, Size),
+    catch(message_queue_property(Waiting, size(Size)),
+          error(existence_error(_, _), _), fail),
     Size > 0.
 
 unacked_owed(Session, Size) :-

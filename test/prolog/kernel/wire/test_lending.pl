@@ -27,7 +27,7 @@ own.
     back/1.                             % Thread
 
 :- multifile
-    typhon_endpoint:lent/2,
+    typhon_endpoint:lent/1,
     typhon_endpoint:received/3,
     typhon_endpoint:returned/0.
 
@@ -39,7 +39,7 @@ typhon_endpoint:received(word, Word, _) :-
     thread_self(Me),
     assertz(run(Word, read, Me)).
 
-typhon_endpoint:lent(_:go(_), Thread) :-
+typhon_endpoint:lent(Thread) :-
     assertz(lent(Thread)),
     thread_detach(Thread).
 
