@@ -1,6 +1,6 @@
 :- module(test_doc, []).
 
-% The code and the sessions in README.md and doc/*.md are true.
+% The code and the sessions in README.md, doc/*.md and doc/course/*.md are true.
 %
 %   - A block ```prolog whose first line is `% name.pl` is a file. Agent
 %     programs and payloads must be without problems. Other ```prolog blocks
@@ -30,7 +30,7 @@
               [payload_load/2, program_load/5]).
 
 document(File) :-
-    member(Pattern, ['README.md', 'doc/*.md']),
+    member(Pattern, ['README.md', 'doc/*.md', 'doc/course/*.md']),
     project_file(Pattern, Absolute),
     expand_file_name(Absolute, Files),
     member(File, Files).

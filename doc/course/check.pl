@@ -1,0 +1,189 @@
+:- module(course_check, []).
+
+/** <module> Checks and marks what students hand in
+
+    swipl doc/course/check.pl -- round.pl        one program
+    swipl doc/course/check.pl -- anna bert       all programs in folders
+    swipl doc/course/check.pl -- --csv HAND-INS
+
+A program is checked as the exercise whose name its file has.  Each program is
+checked in a process of its own, on hosts with the policy `guarded`, and has a
+minute.  The exit status is 0 if every criterion holds.
+
+*Threading*: the main thread.
+*/
+
+:- use_module(checks/course, [exercise/2, exercise_verdicts/3]).
+:- use_module(checks/first_agent, []).
+:- use_module(checks/stigmergy, []).
+:- use_module(checks/election, []).
+:- use_module(checks/contract_net, []).
+:- use_module(checks/ants, []).
+:- use_module(checks/faults, []).
+:- use_module(library(aggregate), [aggregate_all/3]).
+:- use_module(library(apply), [maplist/3]).
+:- use_module(library(csv), [csv_write_stream/3]).
+:- use_module(library(filesex), [directory_file_path/3]).
+:- use_module(library(lists), [append/3, member/2]).
+:- use_module(library(main), [argv_options/3, main/0]).
+:- use_module(library(option), [option/2, option/3]).
+:- use_module(library(process),
+              [process_create/3, process_kill/2, process_wait/2]).
+:- use_module(library(time), [alarm/4, remove_alarm/1]).
+
+:- initialization(main, main).
+
+:- public main/1.
+
+opt_type(csv, csv, boolean).
+opt_type(only, only, atom).
+opt_type(seconds, seconds, natural).
+
+opt_help(help(header), "Checks the exercises of the course\n").
+opt_help(help(usage), " -- FILE | FOLDER ... [options]").
+opt_help(csv, "Print a table of points, a line for each program [false]").
+opt_help(only, "Check the programs of this exercise only").
+opt_help(seconds, "How long the check of a program may take [60]").
+
+opt_meta(only, 'EXERCISE').
+
+main(['--inside', File]) :-
+    !,
+    check_here(File).
+main(Argv) :-
+    set_stream(user_output, encoding(utf8)),
+    argv_options(Argv, Names, Options),
+    hand_ins(Names, Options, Files),
+    check_all(Files, Options).
+
+                /*******************************
+                *            FILES             *
+                *******************************/
+
+hand_ins(Names, Options, Files) :-
+    findall(File, ( member(Name, Names), hand_in(Name, Options, File) ),
+            Files),
+    (   Files == []
+    ->  findall(E, exercise(E, _), Exercises),
+        atomic_list_concat(Exercises, ' ', Text),
+        format(user_error,
+               'Nothing to check: programs are named after exercises: ~w~n',
+               [Text]),
+        halt(2)
+    ;   true
+    ).
+
+hand_in(Name, Options, File) :-
+    exists_directory(Name),
+    !,
+    exercise(Exercise, _),
+    file_name_extension(Exercise, pl, Base),
+    directory_file_path(Name, Base, File),
+    exists_file(File),
+    is_asked_for(Exercise, Options).
+hand_in(File, Options, File) :-
+    file_exercise(File, Exercise),
+    is_asked_for(Exercise, Options).
+
+is_asked_for(Exercise, Options) :-
+    option(only(Only), Options, Exercise),
+    Only == Exercise.
+
+file_exercise(File, Exercise) :-
+    file_base_name(File, Base),
+    file_name_extension(Exercise, _, Base),
+    exercise(Exercise, _).
+
+                /*******************************
+                *      A PROCESS FOR EACH      *
+                *******************************/
+
+check_all(Files, Options) :-
+    maplist(checked(Options), Files, Rows),
+    (   option(csv(true), Options)
+    ->  findall(row(File, Exercise, Held, Of),
+                member(row(File, Exercise, Held, Of, _), Rows), Lines),
+        csv_write_stream(user_output,
+                         [row(file, exercise, points, of)|Lines], [])
+    ;   aggregate_all(count, ( member(row(_, _, N, N, _), Rows), N > 0 ),
+                      Right),
+        length(Rows, Count),
+        format('~d of ~d programs pass~n', [Right, Count])
+    ),
+    (   member(row(_, _, Held, Of, _), Rows),
+        Held =\= Of
+    ->  halt(1)
+    ;   true
+    ).
+
+%   The process prints a term for each criterion, and what else it has to say
+%   to the user.
+
+checked(Options, File, row(File, Exercise, Held, Of, Verdicts)) :-
+    file_exercise(File, Exercise),
+    option(seconds(Seconds), Options, 60),
+    verdicts_of(File, Seconds, Verdicts),
+    aggregate_all(count, member(verdict(_, ok), Verdicts), Held),
+    length(Verdicts, Of),
+    (   option(csv(true), Options)
+    ->  true
+    ;   report(File, Verdicts)
+    ).
+
+verdicts_of(File, Seconds, Verdicts) :-
+    module_property(course_check, file(Here)),
+    current_prolog_flag(executable, Swipl),
+    setup_call_cleanup(
+        process_create(Swipl, [Here, '--', '--inside', File],
+                       [stdin(null), stdout(pipe(Out)), process(Pid)]),
+        setup_call_cleanup(
+            alarm(Seconds, process_kill(Pid, kill), Alarm, [remove(false)]),
+            ( read_verdicts(Out, Verdicts0),
+              process_wait(Pid, Status) ),
+            remove_alarm(Alarm)),
+        close(Out)),
+    (   Status == exit(0)
+    ->  Verdicts = Verdicts0
+    ;   ended_early(Status, Verdict),
+        append(Verdicts0, [Verdict], Verdicts)
+    ).
+
+ended_early(killed(9), verdict('ends in time', "it was stopped")) :-
+    !.
+ended_early(Status, verdict('can be checked', Text)) :-
+    format(string(Text), "the check ended with ~w", [Status]).
+
+read_verdicts(In, Verdicts) :-
+    catch(read_term(In, Term, []), error(_, _), Term = end_of_file),
+    (   Term = verdict(_, _)
+    ->  Verdicts = [Term|More],
+        read_verdicts(In, More)
+    ;   Verdicts = []
+    ).
+
+report(File, Verdicts) :-
+    format('~w~n', [File]),
+    forall(member(verdict(Text, Found), Verdicts), report_one(Text, Found)).
+
+report_one(Text, ok) :-
+    !,
+    format('  ok    ~w~n', [Text]).
+report_one(Text, Why) :-
+    format('  FAIL  ~w: ~w~n', [Text, Why]).
+
+                /*******************************
+                *          THE CHECK           *
+                *******************************/
+
+%   What the program prints goes where the messages go.
+
+check_here(File) :-
+    stream_property(Out, alias(user_output)),
+    stream_property(Error, alias(user_error)),
+    set_stream(Error, alias(user_output)),
+    set_output(Error),
+    file_exercise(File, Exercise),
+    exercise_verdicts(Exercise, File, Verdicts),
+    forall(member(Verdict, Verdicts),
+           format(Out, '~q.~n', [Verdict])),
+    flush_output(Out).

@@ -1,0 +1,153 @@
+:- module(course,
+          [ exercise/2,                 % ?Exercise, -Lesson
+            exercise_verdicts/3,        % +Exercise, +File, -Verdicts
+            in_network/3,               % +Topology, +Options, :Goal
+            on_host/3,                  % +File, +Host, -Agent
+            on_host/4,                  % +File, +Host, +Facts, -Agent
+            ended/2,                    % +Agent, -Result
+            arrived/2,                  % +Host, -Count
+            time_passes/2,              % +Host, +Seconds
+            facts_on/3,                 % +Host, +Template, -Facts
+            expect/3                    % +What, +Found, +Expected
+          ]).
+
+/** <module> What the checks of all lessons share
+
+A check is a clause `course:criterion(Exercise, Text, Goal)`, in the file of
+its lesson: call(Goal, File) is true if the program in File does what Text
+says.  All runs are made in virtual time.
+
+*Threading*: the main thread.
+*/
+
+:- use_module('../../../prolog/typhon').
+:- use_module(library(lists), [member/2]).
+:- use_module(library(option), [merge_options/3]).
+
+:- meta_predicate in_network(+, +, 1).
+
+:- multifile criterion/3.
+:- discontiguous criterion/3.
+
+%!  exercise(?Exercise, -Lesson) is nondet.
+%
+%   The program of Exercise is called Exercise.pl.
+
+exercise(round, 1).
+exercise(richest, 1).
+exercise(tally, 1).
+exercise(claim, 2).
+exercise(forager, 2).
+exercise(brigade, 2).
+exercise(ring_leader, 3).
+exercise(leader, 3).
+exercise(contractor, 4).
+exercise(manager, 4).
+exercise(shopper, 4).
+exercise(ant, 5).
+exercise(parcel, 5).
+exercise(fading_ant, 5).
+exercise(patrol, 6).
+exercise(patient, 6).
+exercise(guard, 6).
+
+%!  exercise_verdicts(+Exercise, +File, -Verdicts:list) is det.
+%
+%   Verdicts are verdict(Text, Found) for each criterion; Found is `ok`, or
+%   says why it does not hold.
+
+exercise_verdicts(Exercise, File, Verdicts) :-
+    findall(verdict(Text, Found),
+            ( criterion(Exercise, Text, Goal),
+              found(Goal, File, Found) ),
+            Verdicts).
+
+found(Goal, File, Found) :-
+    catch(( call(Goal, File) -> Found = ok ; Found = "it does not" ),
+          error(Formal, Context),
+          message(error(Formal, Context), Found)).
+
+message(Error, Text) :-
+    phrase(prolog:translate_message(Error), Lines),
+    with_output_to(string(Text0),
+                   print_message_lines(current_output, '', Lines)),
+    split_string(Text0, "", " \n", [Text]).
+
+%!  in_network(+Topology, +Options, :Goal) is semidet.
+%
+%   Calls Goal(Hosts) once in a guarded network in virtual time.
+
+in_network(Topology, Options0, Goal) :-
+    merge_options(Options0,
+                  [ clock(virtual), seed(1), log('/dev/null'),
+                    hop_time(uniform(0.1, 0.2)),
+                    hosts([policy(guarded)]) ],
+                  Options),
+    setup_call_cleanup(
+        network_start(Topology, Network, Options),
+        ( network_property(Network, hosts(Hosts)),
+          once(call(Goal, Hosts)) ),
+        network_stop(Network)).
+
+%!  on_host(+File, +Host, -Agent) is det.
+%!  on_host(+File, +Host, +Facts, -Agent) is det.
+%
+%   Agent begins to run the program in File on Host.
+
+on_host(File, Host, Agent) :-
+    on_host(File, Host, [], Agent).
+
+on_host(File, Host, Facts, Agent) :-
+    agent_create(File, Agent, [host(Host), facts(Facts)]).
+
+%!  ended(+Agent, -Result) is det.
+%
+%   Agent ends as programs should, and Result is what it gave.
+%
+%   @error course_expected(What, Found, Expected)
+
+ended(Agent, Result) :-
+    agent_join(Agent, Outcome, 10_000),
+    expect('how it ends', Outcome, done),
+    agent_result(Agent, Result, 0).
+
+%!  arrived(+Host, -Count:integer) is det.
+%
+%   So many agents have come to Host by hops.
+
+arrived(Host, Count) :-
+    host_property(Host, hop_time(in, Stats)),
+    arg(1, Stats, Count).
+
+%!  time_passes(+Host, +Seconds) is det.
+%
+%   So many seconds pass on Host, for all that is under way.
+
+time_passes(Host, Seconds) :-
+    agent_create(clauses([ (:- agent(clock, [])), (main :- sleep(Seconds)) ]),
+                 Clock, [host(Host)]),
+    Most is Seconds+1,
+    agent_join(Clock, done, Most).
+
+%!  facts_on(+Host, +Template, -Facts:list) is det.
+%
+%   The facts like Template that lie on Host, sorted.
+
+facts_on(Host, Template, Facts) :-
+    remote(Host, findall(Template, sense(Template), Facts0)),
+    msort(Facts0, Facts).
+
+%!  expect(+What, +Found, +Expected) is det.
+%
+%   @error course_expected(What, Found, Expected) if they do not unify
+
+expect(_, Found, Expected) :-
+    Found = Expected,
+    !.
+expect(What, Found, Expected) :-
+    throw(error(course_expected(What, Found, Expected), _)).
+
+:- multifile prolog:error_message//1.
+
+prolog:error_message(course_expected(What, Found, Expected)) -->
+    [ '~w is ~p, and should be ~p'-[What, Found, Expected] ].

@@ -1,0 +1,162 @@
+:- module(test_course, []).
+
+% The exercises of doc/course: each solution passes its check, and a program
+% with one mistake does not.
+
+:- use_module('../lib/common').
+:- use_module('../../doc/course/checks/course',
+              [ exercise/2, exercise_verdicts/3 ]).
+:- use_module('../../doc/course/checks/first_agent', []).
+:- use_module('../../doc/course/checks/stigmergy', []).
+:- use_module('../../doc/course/checks/election', []).
+:- use_module('../../doc/course/checks/contract_net', []).
+:- use_module('../../doc/course/checks/ants', []).
+:- use_module('../../doc/course/checks/faults', []).
+:- use_module('../lib/fixtures', [listening/2]).
+:- use_module(library(debug), [assertion/1]).
+:- use_module(library(filesex), [directory_file_path/3, make_directory_path/1]).
+:- use_module(library(lists), [member/2, memberchk/2]).
+:- use_module(library(plunit)).
+:- use_module(library(readutil), [read_file_to_string/3]).
+:- use_module(library(typhon)).
+
+solution(Exercise, File) :-
+    format(atom(Relative), 'doc/course/solutions/~w.pl', [Exercise]),
+    project_file(Relative, File).
+
+%   What students see while it is checked is of no interest here.
+
+verdicts(Exercise, File, Verdicts) :-
+    no_leaks(listening(exercise_verdicts(Exercise, File, Verdicts), _)).
+
+                /*******************************
+                *           MISTAKES           *
+                *******************************/
+
+%   mistake(?Exercise, -Right, -Wrong): of the text of its solution.
+
+mistake(round, "subtract(Around, [From], [Next])", "Around = [Next|_]").
+mistake(richest, "max_member", "min_member").
+mistake(tally, "New is Old+N", "New = N").
+mistake(claim, "leave_new(claimed)", "leave(claimed)").
+mistake(forager, "        leave(stored(N)),\n", "").
+mistake(brigade, "withdraw(need(water))", "true").
+mistake(ring_leader, "Rank > Mine", "Rank < Mine").
+mistake(leader, "->  dispose", "->  true").
+mistake(contractor, "    leave(done(Task)),\n", "").
+mistake(manager, "keysort(Bids, Sorted)", "Sorted = Bids").
+mistake(shopper, "min_member", "max_member").
+mistake(ant, "10/Cost**2", "1").
+mistake(parcel, "max(", "min(").
+mistake(fading_ant, "0.9*Old", "1.0*Old").
+mistake(patrol, "visit(Hosts, Seen, More)", "More = [], Seen = []").
+mistake(patient, "2*Pause", "1+Pause").
+mistake(guard, "receive(_-Message, 5)", "receive(_-Message, 2)").
+
+mistaken(Exercise, Verdicts, Dir) :-
+    solution(Exercise, Solution),
+    mistake(Exercise, Right, Wrong),
+    read_file_to_string(Solution, Text, [encoding(utf8)]),
+    atomic_list_concat(Parts, Right, Text),
+    assertion(Parts = [_,_|_]),
+    atomic_list_concat(Parts, Wrong, Changed),
+    file_name_extension(Exercise, pl, Base),
+    write_program(Dir, Base, Changed, File),
+    verdicts(Exercise, File, Verdicts).
+
+write_program(Dir, Base, Text, File) :-
+    directory_file_path(Dir, Base, File),
+    file_directory_name(File, Parent),
+    make_directory_path(Parent),
+    setup_call_cleanup(open(File, write, Out, [encoding(utf8)]),
+                       write(Out, Text),
+                       close(Out)).
+
+                /*******************************
+                *          THE COMMAND         *
+                *******************************/
+
+check(Arguments, Status, Out, Err) :-
+    project_file('doc/course/check.pl', Program),
+    run_swipl([Program, '--'|Arguments], [], Status, Out, Err).
+
+hand_in(guard, Text) :-
+    solution(guard, File),
+    read_file_to_string(File, Text, [encoding(utf8)]).
+hand_in(richest, ":- agent(richest, []).\nmain :- main.\n").
+hand_in(tally, ":- agent(tally, []).\nmain :- shell('touch harmed').\n").
+
+handed_in(Goal) :-
+    with_tmp_dir(handed_in(Goal)).
+
+handed_in(Goal, Dir) :-
+    forall(hand_in(Exercise, Text),
+           ( format(atom(Base), 'anna/~w.pl', [Exercise]),
+             write_program(Dir, Base, Text, _) )),
+    directory_file_path(Dir, anna, Anna),
+    call(Goal, Anna).
+
+is_marked(Anna) :-
+    check([Anna, '--csv', '--seconds=2'], Status, Out, _),
+    assertion(Status == exit(1)),
+    split_string(Out, "\n", "\r\n", [First|Lines]),
+    assertion(First == "file,exercise,points,of"),
+    assertion(( member(Line, Lines),
+                sub_string(Line, _, _, 0, "guard.pl,guard,4,4") )),
+    assertion(( member(Line, Lines),
+                sub_string(Line, _, _, 0, "richest.pl,richest,0,1") )),
+    assertion(( member(Line, Lines),
+                sub_string(Line, _, _, 0, "tally.pl,tally,0,2") )),
+    assertion(\+ exists_file(harmed)).
+
+is_reported(Anna) :-
+    check([Anna, '--only=tally'], Status, Out, _),
+    assertion(Status == exit(1)),
+    assertion(sub_string(Out, _, _, _, "FAIL  answers with the sum")),
+    assertion(sub_string(Out, _, _, _, "0 of 1 programs pass")).
+
+                /*******************************
+                *             TESTS            *
+                *******************************/
+
+:- begin_tests(course).
+
+test(solutions_pass,
+     [forall(exercise(Exercise, _)), true(Wrong == []), nondet]) :-
+    solution(Exercise, File),
+    verdicts(Exercise, File, Verdicts),
+    assertion(Verdicts \== []),
+    findall(Text-Why, ( member(verdict(Text, Why), Verdicts), Why \== ok ),
+            Wrong).
+
+test(solutions_give_no_warnings,
+     [forall(exercise(Exercise, _)), true(Said == [])]) :-
+    solution(Exercise, File),
+    listening(agent_check(File), Messages),
+    findall(Message, ( member(Kind-Message, Messages),
+                       memberchk(Kind, [warning, error]) ),
+            Said).
+
+test(programs_with_a_mistake_do_not_pass,
+     [forall(mistake(Exercise, _, _)), true(Wrong \== []), nondet]) :-
+    with_tmp_dir(mistaken(Exercise, Verdicts)),
+    findall(Text, ( member(verdict(Text, Why), Verdicts), Why \== ok ), Wrong).
+
+test(each_exercise_is_in_its_lesson, Missing == []) :-
+    findall(Exercise,
+            ( exercise(Exercise, Lesson),
+              format(atom(Pattern), 'doc/course/~d-*.md', [Lesson]),
+              project_file(Pattern, Absolute),
+              expand_file_name(Absolute, [File]),
+              read_file_to_string(File, Text, [encoding(utf8)]),
+              format(string(Title), "**`~w.pl`**", [Exercise]),
+              \+ sub_string(Text, _, _, _, Title) ),
+            Missing).
+
+test(hand_ins_are_marked_in_a_table) :-
+    handed_in(is_marked).
+
+test(a_program_that_fails_is_reported) :-
+    handed_in(is_reported).
+
+:- end_tests(course).
