@@ -21,7 +21,6 @@ says.  All runs are made in virtual time.
 */
 
 :- use_module('../../../prolog/typhon').
-:- use_module(library(lists), [member/2]).
 :- use_module(library(option), [merge_options/3]).
 
 :- meta_predicate in_network(+, +, 1).
