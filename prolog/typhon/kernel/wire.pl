@@ -14,7 +14,8 @@ This is the interface of the layer: higher layers import from here.
               endpoint_start_alone/1, endpoint_stop/0 ]).
 :- reexport(wire/messaging,
             [ endpoint_ask_all/6, endpoint_call/5, endpoint_hand/4,
-              endpoint_hand_over/2, endpoint_handed/2, endpoint_post/3,
+              endpoint_hand_over/2, endpoint_hand_to/2, endpoint_handed/2,
+              endpoint_post/3,
               endpoint_post_by/4, endpoint_post_up/3, endpoint_reply/2,
               endpoint_reply_later/2, endpoint_request/4 ]).
 :- reexport(wire/outbox, [frame_fits/1]).

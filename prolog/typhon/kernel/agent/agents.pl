@@ -295,7 +295,7 @@ agent_handed(Id, Hops, Way, Frame) :-
     \+ status(Id, _, _),
     !,
     assertz(under_way(Id, Hops, Host, Hash, Way, Frame)),
-    forget_first(Id),
+    retract(stands(Id, _, _, _, _, _)),
     '$destroy_module'(Module).
 
 agent_under_way(Id, Hops, Host, Hash, Way, Frame) :-

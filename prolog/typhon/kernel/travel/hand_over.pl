@@ -7,6 +7,7 @@
 :- use_module('../program', [code_module/2]).
 :- use_module('../wire',
               [ endpoint_afterwards/1, endpoint_hand/4, endpoint_hand_over/2,
+                endpoint_hand_to/2,
                 endpoint_handed/2 ]).
 :- use_module('../host',
               [ event_heard/1, host/3, host_came/2, host_left/2, host_plain/2,
@@ -18,6 +19,7 @@
                 life_before/2, life_extras/2, life_goes/3, life_hops/2,
                 mail_all/2, mail_back/2, mail_waits/1, with_agent/2 ]).
 :- use_module(backlog, [backlog/1]).
+:- use_module(home, [home_left/4]).
 :- use_module(post, [post_on/2]).
 :- use_module(programs_sent, [program_sent/3]).
 :- use_module(whereabouts,
@@ -104,7 +106,8 @@ framed(Endpoint, Name, Hash, Image, Frame) :-
 
 leave(Transfer, Since, Frame) :-
     Transfer = hop(Id, Dest, Hops),
-    agent_handed(Id, Hops, way(Dest, Since), Frame),
+    endpoint_hand_to(Frame, Process),
+    agent_handed(Id, Hops, way(Dest, Since, Process), Frame),
     catch(endpoint_hand_over(Frame, Transfer), error(session_closed, _),
           scheduler_call(typhon_hand_over:settled(unsent, Transfer))).
 
@@ -118,10 +121,9 @@ typhon_endpoint:handed_over(Transfer, Result) :-
     settled(Result, Transfer).
 
 settled(accepted, Transfer) :-
-    Transfer = hop(Id, _, Hops),
+    arg(1, Transfer, Id),
     with_agent(Id, moved_on(Transfer, Host, Since)),
     !,
-    debug(typhon(hop), '~w hop ~D: has gone', [Id, Hops]),
     host_left(Host, Since).
 settled(Result, Transfer) :-
     arg(1, Transfer, Id),
@@ -132,8 +134,11 @@ settled(Result, Transfer) :-
 %   is on its way before any that comes now.
 
 moved_on(hop(Id, dest(Address, _, Endpoint), Hops), Host, Since) :-
-    agent_gone(Id, Hops, Host, way(_, Since), Mail),
-    agent_left(Id, Address, Hops, Endpoint),
+    agent_gone(Id, Hops, Host, way(_, Since, Process), Mail),
+    (   home_left(Id, Address, Hops, Process)
+    ->  true
+    ;   agent_left(Id, Address, Hops, Endpoint)
+    ),
     post_on(Id, Mail).
 
                 /*******************************
@@ -147,7 +152,7 @@ typhon_agents:thaw(Id) :-
 %   mail it had are those of the frame; the hop is not counted before it is made.
 
 thawed(Id) :-
-    agent_under_way(Id, Hops, Host, _, way(Dest, Since), Frame),
+    agent_under_way(Id, Hops, Host, _, way(Dest, Since, _), Frame),
     !,
     endpoint_handed(Frame, hop(_, Image, _)),
     Image = image(Id, Hash, Life1, State, Hole-Goals0, Mail, _),

@@ -143,13 +143,12 @@ frame_body(In, Length, _, Bytes) :-
 %   handshake.pl; that of a text is the same everywhere.
 
 check_bytes(Bytes, Check) :-
-    is_text(Bytes),
-    !,
-    sha_hash(Bytes, [C2, C1, C0|_], [encoding(octet)]),
-    Check is C2<<16 \/ C1<<8 \/ C0.
-check_bytes(Bytes, Check) :-
-    term_hash(Bytes, Hash),             % of 24 bits or, since 9.1, of 32
-    Check is Hash /\ 0xffffff.
+    (   string_code(1, Bytes, 0'#)      % a text
+    ->  sha_hash(Bytes, [C2, C1, C0|_], [encoding(octet)]),
+        Check is C2<<16 \/ C1<<8 \/ C0
+    ;   term_hash(Bytes, Hash),         % of 24 bits or, since 9.1, of 32
+        Check is Hash /\ 0xffffff
+    ).
 
 %!  term_bytes(+Codec, +Term, -Bytes) is det.
 %

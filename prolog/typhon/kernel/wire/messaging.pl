@@ -5,6 +5,7 @@
             endpoint_request/4,         % +Address, +Kind, +Term, :OnAnswer
             endpoint_hand/4,            % +Address, +Kind, +Term, -Hand
             endpoint_hand_over/2,       % +Hand, +Token
+            endpoint_hand_to/2,         % +Hand, -Process
             endpoint_handed/2,          % +Hand, -Term
             endpoint_reply/2,           % +ReplyTo, +Term
             endpoint_reply_later/2,     % +ReplyTo, +Term
@@ -41,7 +42,8 @@ endpoint_ask_all/6 wait, and are not for the threads of the endpoint.
               [ request_forget/1, request_reply/2, request_reply_later/2,
                 request_send/4, take_post/3, unsent/1, unsent_closed/4,
                 unsent_forget/1, unsent_request/4 ]).
-:- use_module(session, [route/2, route_up/2, session_codec/2]).
+:- use_module(session,
+              [route/2, route_up/2, session_codec/2, session_peer/3]).
 
 :- meta_predicate
     endpoint_request(+, +, +, 1).
@@ -164,28 +166,32 @@ endpoint_request(Address, Kind, Term, OnAnswer) :-
 
 %!  endpoint_hand(+Address, +Kind, +Term, -Hand) is semidet.
 %!  endpoint_hand_over(+Hand, +Token) is det.
+%!  endpoint_hand_to(+Hand, -Process) is det.
 %!  endpoint_handed(+Hand, -Term) is det.
 %
 %   Hand is the frame by which Term is handed over to the process at Address:
 %   fails if there is no connection, or something else waits to be asked there.
 %   Send it: what becomes of it comes to the hook handed_over(Token, Result), in
-%   a thread of the endpoint. The Term that was in it. Term holds neither
+%   a thread of the endpoint. The Process to which it goes, and the Term in it. Term holds neither
 %   attributed variables nor cycles.
 %
-%   Hand is hand(Session, Codec, Bytes). It can be kept in clauses.
+%   Hand is hand(Session, Bytes). It can be kept in clauses.
 %
 %   @error resource_error(frame_bytes), type_error(mobile_term, Culprit)
 %   @error session_closed
 
-endpoint_hand(Address, Kind, Term, hand(Session, Codec, Bytes)) :-
+endpoint_hand(Address, Kind, Term, hand(Session, Bytes)) :-
     open_way(Address, Session),
-    session_codec(Session, Codec),
     session_hand_bytes(Session, Kind, Term, Bytes).
 
-endpoint_hand_over(hand(Session, _, Bytes), Token) :-
+endpoint_hand_over(hand(Session, Bytes), Token) :-
     session_hand(Session, Bytes, Token).
 
-endpoint_handed(hand(_, Codec, Bytes), Term) :-
+endpoint_hand_to(hand(Session, _), Process) :-
+    session_peer(Session, Process, _).
+
+endpoint_handed(hand(Session, Bytes), Term) :-
+    session_codec(Session, Codec),
     bytes_term(Codec, Bytes, hand(_, Term)).
 
 %!  endpoint_reply(+ReplyTo, +Term) is det.

@@ -54,14 +54,10 @@ is held.
 :- use_module(unacked,
               [ pusher/2, pusher_control/3, pusher_start/4, unacked_await/3,
                 unacked_next/3, unacked_no_wait/1, unacked_owed/2,
-                unacked_sent/3, unacked_waiting/1, unacked_waits/3,
+                unacked_sent/5, unacked_space/3, unacked_waiting/1, unacked_waits/3,
                 unacked_waits_loose/2 ]).
 
 :- multifile typhon_durable_changes:committed/1.
-
-%   Bytes that may be under way without a chance of blocking in write.
-
-under_way(65536).
 
 %!  session_send(+Session, +Term) is det.
 %
@@ -225,8 +221,7 @@ session_push(Session) :-
     ).
 
 flush_out(Key) :-
-    (   transport(Key, Thread, Out),
-        \+ pusher(Key, _)
+    (   writable(Key, Thread, Out)
     ->  catch(flush_output(Out),
               error(_, _),
               transport_broken(Key, Thread))
@@ -287,20 +282,15 @@ put_frame(Session, Bytes, Token, Flush) :-
 %   with others when they have to wait.
 
 put(Session, Key, Bytes, Token, Flush) :-
-    (   \+ unacked_waiting(Session),
-        writable(Session, Key, Bytes, Thread, Out)
-    ->  session_received(Session, Count),
-        sent(Token, Session, Bytes),
-        written(Flush, Key, Thread, Out, counts(Count, Count), Bytes)
+    (   writable(Key, Thread, Out),
+        (   Token == loose
+        ->  unacked_sent(Session, Out, Bytes, none, Counts)
+        ;   unacked_sent(Session, Out, Bytes, Token, Counts)
+        )
+    ->  written(Flush, Key, Thread, Out, Counts, Bytes)
     ;   waits(Token, Session, Bytes),
         see_to(Session, Key)
     ).
-
-sent(loose, Session, Bytes) :-
-    !,
-    unacked_sent(Session, Bytes, none).
-sent(Token, Session, Bytes) :-
-    unacked_sent(Session, Bytes, Token).
 
 waits(loose, Session, Bytes) :-
     !,
@@ -308,25 +298,12 @@ waits(loose, Session, Bytes) :-
 waits(Token, Session, Bytes) :-
     unacked_waits(Session, Bytes, Token).
 
-%   writable(+Session, +Key, +Bytes, -Thread, -Out): Bytes can be written to Out.
+%   writable(+Key, -Thread, -Out): Out can be written to. The stream of a pusher is
+%   left alone: even to look at it might block.
 
-writable(Session, Key, Bytes, Thread, Out) :-
-    space(Session, Key, Thread, Out, Space),
-    string_length(Bytes, Length),
-    Length < Space,
-    !.
-
-%   space(+Session, +Key, -Thread, -Out, -Space): so many bytes can be written
-%   to Out. The stream of a pusher is left alone: even to look at it might block.
-
-space(Session, Key, Thread, Out, Space) :-
+writable(Key, Thread, Out) :-
     transport(Key, Thread, Out),
-    \+ pusher(Key, _),
-    session_window(Session, window(_, _, _, _, _, AckedBytes, _)),
-    byte_count(Out, Written),
-    get_flag(AckedBytes, Acked),
-    under_way(Max),
-    Space is Max-(Written-Acked).
+    \+ pusher(Key, _).
 
 %   Something waits: it is written, or a connection made.
 
@@ -351,7 +328,8 @@ write_waiting(Session, Key, Thread, Out) :-
 %   since an objection may wait behind it.
 
 write_while_room(Session, Key) :-
-    (   space(Session, Key, _, Out, Space),
+    (   writable(Key, _, Out),
+        unacked_space(Session, Out, Space),
         unacked_next(Session, Space, frame(Bytes, _, Settled))
     ->  session_received(Session, Count),
         frame_write(Out, counts(Count, Settled), Bytes),
@@ -360,8 +338,7 @@ write_while_room(Session, Key) :-
     ).
 
 push(Session, Key) :-
-    (   \+ pusher(Key, _),
-        transport(Key, Thread, Out)
+    (   writable(Key, Thread, Out)
     ->  pusher_start(Session, Thread, Out, [])
     ;   true
     ).
@@ -393,7 +370,10 @@ session_acknowledge(Session) :-
 
 put_control(Session, Kind, Bytes) :-
     session_key(Session, Key),
-    (   writable(Session, Key, Bytes, Thread, Out)
+    (   writable(Key, Thread, Out),
+        unacked_space(Session, Out, Space),
+        string_length(Bytes, Length),
+        Length < Space
     ->  control_counts(Session, Bytes, Counts),
         written(flush, Key, Thread, Out, Counts, Bytes)
     ;   session_up(Key)

@@ -1,7 +1,8 @@
 :- module(typhon_unacked,
-          [ unacked_sent/3,             % +Session, +Bytes, +Token
+          [ unacked_sent/5,             % +Session, +Out, +Bytes, +Token, -Counts
             unacked_waits/3,            % +Session, +Bytes, +Token
             unacked_waits_loose/2,      % +Session, +Bytes
+            unacked_space/3,            % +Session, +Out, -Space
             unacked_waiting/1,          % +Session
             unacked_owed/2,             % +Session, -Waiting
             unacked_next/3,             % +Session, +Space, -Frame
@@ -70,19 +71,43 @@ thread.
 		 *            FRAMES            *
 		 *******************************/
 
-%!  unacked_sent(+Session, +Bytes, +Token) is det.
+%   Bytes that may be under way without a chance of blocking in write.
+
+under_way(65536).
+
+%!  unacked_sent(+Session, +Out, +Bytes, +Token, -Counts) is semidet.
 %!  unacked_waits(+Session, +Bytes, +Token) is det.
 %!  unacked_waits_loose(+Session, +Bytes) is det.
 %
-%   A frame is about to be written, as the session is up; it waits until
-%   others are; it may go with others in one frame then.
+%   A frame is about to be written to Out, with Counts in its head: fails where
+%   others wait, or it might block; it waits until others are written; it may go
+%   with others in one frame then.
 
-unacked_sent(Session, Bytes, Token) :-
-    session_window(Session, window(Sent, _, Received, Told, _, _, Settled)),
+unacked_sent(Session, Out, Bytes, Token, counts(Count, Count)) :-
+    session_window(Session,
+                   window(Sent, Waiting, Received, Told, _, AckedBytes, Settled)),
+    message_queue_property(Waiting, size(0)),
+    space(AckedBytes, Out, Space),
+    string_length(Bytes, Length),
+    Length < Space,
     get_flag(Received, Count),
     thread_send_message(Sent, frame(Bytes, Token, Count)),
     set_flag(Told, Count),
     set_flag(Settled, Count).
+
+%!  unacked_space(+Session, +Out, -Space) is det.
+%
+%   So many bytes can be written to Out.
+
+unacked_space(Session, Out, Space) :-
+    session_window(Session, window(_, _, _, _, _, AckedBytes, _)),
+    space(AckedBytes, Out, Space).
+
+space(AckedBytes, Out, Space) :-
+    byte_count(Out, Written),
+    get_flag(AckedBytes, Acked),
+    under_way(Max),
+    Space is Max-(Written-Acked).
 
 unacked_waits(Session, Bytes, Token) :-
     session_window(Session, window(_, Waiting, Received, _, _, _, _)),
