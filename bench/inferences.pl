@@ -21,6 +21,9 @@ main([Argument]) :-
     with_peer([env], outwards(Count)),
     host_stop(here).
 
+%   An agent that goes round leaves this process, and comes to it, every third
+%   hop.
+
 within(Count) :-
     host_start(here, [clock(virtual)]),
     host_start(there, [clock(virtual)]),
@@ -32,13 +35,42 @@ within(Count) :-
 outwards(Count, Peer) :-
     hops('a hop of one agent between processes', 1, Count, Peer),
     hops('a hop of ten agents between processes', 10, Count, Peer),
-    message_to(Peer, 'a message to another process, here', Count).
+    told('a clone sent to another process, with its end', Count,
+         cloned(Peer, Count)),
+    message_to(Peer, 'a message to another process, here', Count),
+    with_peer([env], around(Peer, Count)).
+
+around(Peer, Count, Other) :-
+    told('a hop of one agent round three processes', Count*2/3,
+         ring([Peer,Other], Count)).
 
 hops(Name, Agents, Count, Peer) :-
     told(Name, Count, travelled(Agents, Count, Peer, _)).
 
 message_to(Host, Name, Count) :-
     told(Name, Count, counted(Host, Count)).
+
+cloned(Peer, Count) :-
+    agent_create(clauses([ (:- agent(spreader, [state([left/1])])),
+                           (main :- left(N), spread(N)),
+                           (spread(0) :- !),
+                           (spread(N) :- clone(Peer, Who),
+                                         ( Who = clone(_) -> true
+                                         ; N1 is N-1, spread(N1) )) ]),
+                 Agent, [facts([left(Count)])]),
+    agent_join(Agent, done, 300).
+
+ring(Others, Count) :-
+    Rounds is Count//3,
+    agent_create(clauses([ (:- agent(walker, [state([left/1,way/1])])),
+                           (main :- left(N), way(Way), rounds(N, Way)),
+                           (rounds(0, _) :- !),
+                           (rounds(N, Way) :- round(Way), home(H), move(H),
+                                              N1 is N-1, rounds(N1, Way)),
+                           round([]),
+                           (round([P|Ps]) :- move(P), round(Ps)) ]),
+                 Agent, [facts([left(Rounds), way(Others)])]),
+    agent_join(Agent, done, 300).
 
 counted(Host, Count) :-
     agent_create(clauses([ (:- agent(counter, [state([left/1])])),

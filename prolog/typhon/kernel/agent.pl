@@ -35,8 +35,9 @@ This is the interface of the layer: higher layers import from here.
             ]).
 :- reexport('agent/gate').
 :- reexport(agent/image,
-            [ image_amended/5, image_clone/5, image_enter/4, image_hash/2, image_hop/6,
-              image_entrant/2, image_label/2, image_module/3
+            [ image_amended/5, image_clone/5, image_enter/4, image_entrant/2,
+              image_hash/2, image_held/2, image_hop/6, image_label/2,
+              image_module/3
             ]).
 :- reexport('agent/printable_fallback').
 :- reexport('agent/fault').

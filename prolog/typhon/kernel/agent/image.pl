@@ -3,6 +3,7 @@
                                         % -Image
             image_clone/5,              % +Id, +CloneId, +Goals, +Since, -Image
             image_hash/2,               % +Image, -Hash
+            image_held/2,               % +Image, -Held
             image_label/2,              % +Image, -Label
             image_entrant/2,            % +Image, -Entrant
             image_amended/5,            % +Phase, +Host, +Where, +Image0,
@@ -88,6 +89,14 @@ image_amended(Phase, Host, Where, Image0, Image) :-
 %!  image_hash(+Image, -Hash) is det.
 
 image_hash(image(_, Hash, _, _, _, _, _), Hash).
+
+%!  image_held(+Image, -Held) is det.
+%
+%   Held is Image as it is handed over: its goals follow their hole, which is
+%   filled already.
+
+image_held(image(Id, Hash, Life, State, Goals, Mail, Start),
+           image(Id, Hash, Life, State, true-Goals, Mail, Start)).
 
 %!  image_label(+Image, -Label) is det.
 %

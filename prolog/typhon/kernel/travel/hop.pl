@@ -6,11 +6,13 @@
           ]).
 :- use_module(library(debug), [debug/3]).
 :- use_module('../wire',
-              [endpoint_address/1, endpoint_request/4, mobile_term/1]).
+              [ endpoint_address/1, endpoint_hand/4, endpoint_hand_over/2,
+                endpoint_request/4, mobile_term/1 ]).
 :- use_module('../host',
               [address_parts/3, amended/5, host/3, host_time/2, parts/3]).
 :- use_module('../agent',
-              [agent/5, image_amended/5, image_hash/2, with_agent/2]).
+              [ agent/5, image_amended/5, image_hash/2, image_held/2,
+                with_agent/2 ]).
 :- use_module('../base/durable_changes', [crash_point/1, durable_on/0]).
 :- use_module(hop_ids, [crossing_label/3, crossing_repeated/1]).
 :- use_module(doubt, [doubt_open/1, doubt_settle/1]).
@@ -135,12 +137,23 @@ send(Transfer, Image0) :-
             ->  hop_request(Transfer, Name, Image, Program, Request),
                 endpoint_request(Endpoint, hop, Request, answered(Transfer)),
                 crash_point(after_send)
+            ;   handed(Endpoint, hop(Name, Image, Program), Transfer)
+            ->  true
             ;   endpoint_request(Endpoint, hop, hop(Name, Image, Program),
                                  answered(Transfer))
             )
           ),
           error(Formal, _),
           not_sent(Formal, Transfer)).
+
+%   Without a journal it needs no answer: that its frame is settled is one, see
+%   typhon_hand_over.  Fails where there is no connection.
+
+handed(Endpoint, hop(Name, Image0, Program), Transfer) :-
+    image_held(Image0, Image),
+    endpoint_hand(Endpoint, hop, hop(Name, Image, Program), Hand),
+    catch(sig_atomic(endpoint_hand_over(Hand, Transfer)),
+          error(session_closed, _), fail).
 
 %   Known by number, see typhon_hop_ids.
 
