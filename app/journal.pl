@@ -103,7 +103,7 @@ kind(payload, 'delivered payloads').
 kind(code, programs).
 kind(born, 'agents born here that have not ended').
 kind(outcome, outcomes).
-kind(left, 'results and other legacies').
+kind(left, 'results, and where the agent was cloned').
 kind(out, 'posts to other processes').
 kind(letter, 'letters about to go').
 kind(wait, 'letters that wait').

@@ -28,7 +28,8 @@ This is the interface of the layer: higher layers import from here.
               agent_origin/5, origin_inherited/3, origin_key/2, origin_said/2
             ]).
 :- reexport(agent/life,
-            [ is_life/1, life_before/2, life_clone/3, life_goes/3, life_hop/3, life_hops/2,
+            [ is_life/1, life_before/2, life_clone/3, life_goes/3, life_hop/3,
+              life_hops/2,
               life_may_move/2,
               life_parent/2, life_payloads/2, life_extras/2,
               make_life/2, set_extras_of_life/3
@@ -44,8 +45,8 @@ This is the interface of the layer: higher layers import from here.
 :- reexport(agent/payloads,
             [agent_attach/2, agent_detach/2, agent_payload/3, payload_marks/2]).
 :- reexport(agent/result_facts,
-            [ is_legacy/1, legacy/2, legacy_cloned/2, legacy_none/2,
-              legacy_result/2 ]).
+            [ is_result_fact/1, result_facts/2, cloned_put/2, no_result_facts/2,
+              result_put/2 ]).
 :- reexport(agent/mailbox,
               [ mail_all/2, mail_back/2, mail_count/2, mail_list/2,
                 mail_restore/3, mail_take/2, mail_waits/1 ]).

@@ -10,13 +10,13 @@ This is the interface of the layer: higher layers import from here.
 :- reexport(travel/hand_over, [hand_over/5]).
 :- reexport(travel/transfer, [transfer_given_up/2, transfer_held/2]).
 :- reexport('travel/ordered_moves').
-:- reexport(travel/doubt, [in_doubt/1, out_of_touch/1]).
+:- reexport(travel/in_doubt, [in_doubt/1, out_of_touch/1]).
 :- use_module(travel/arrival, []).
 :- reexport(travel/durable_posts, [post_must_fit/1]).
 :- reexport(travel/home,
               [ agent_born/2, agent_outcome/2, home_agents/1, home_agents_at/2,
                 outcome_wait/3 ]).
-:- reexport(travel/legacies, [clone_born/2, clones_ask/3, legacy_ask/4]).
+:- reexport(travel/outcomes, [clone_born/2, clones_ask/3, results_ask/4]).
 :- reexport(travel/whereabouts,
               [ agent_ended/4, agent_ends/2, agent_faulty/5, agent_resumed/3,
                 agent_resumed_from/3, ended_agent/1, whereabouts/2 ]).

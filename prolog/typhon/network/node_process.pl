@@ -21,8 +21,8 @@
                 time_hold/1, time_let_go/1, time_stands/1 ]).
 :- use_module('../options/journal', [hosts_back/1, hosts_journal/2]).
 :- use_module('../options/snapshot',
-              [ agents_at_rest/2, agents_go_on/1, cut_again/2, cut_go_on/3,
-                cut_kept/2 ]).
+              [ agents_at_rest/2, agents_go_on/1, process_dump/2,
+                process_go_on/3, process_restore/2 ]).
 :- use_module('../kernel/agent', [agent_name/3]).
 :- use_module('../kernel/travel', [agent_outcome/2, home_agents/1]).
 :- use_module(child_output, [output_begin/0, output_end/0]).
@@ -144,16 +144,16 @@ order_do(kept(Names), kept(Time, Specs, Items)) :-
             ( member(Name, Names),
               findall(Option, host_option(Name, Option), Options) ),
             Specs),
-    cut_kept(Names, Items).
+    process_dump(Names, Items).
 order_do(let_go, ok) :-
     retractall(at_rest),
     time_let_go(Agents),
     agents_go_on(Agents).
 order_do(fill(Kind, Items), ok) :-
-    cut_again(Kind, Items).
+    process_restore(Kind, Items).
 order_do(goes_on(Kind, Time, Agents), ok) :-
     time_again(Time, Scheduled),
-    cut_go_on(Kind, Agents, Scheduled).
+    process_go_on(Kind, Agents, Scheduled).
 order_do(stop(Names), ok) :-
     (   host(Other, _, _),
         \+ memberchk(Other, Names)

@@ -189,7 +189,7 @@ prolog:message(typhon(ended_in_doubt(Agent, Address))) -->
 prolog:message(typhon(news_too_long(Agent))) -->
     [ 'What has become of agent ~w is too long to be sent to its home'-
       [Agent] ].
-prolog:message(typhon(legacy_lost(Agent))) -->
+prolog:message(typhon(results_lost(Agent))) -->
     [ 'What agent ~w has left, its result among it, is too long to be sent \c
        to its home'-[Agent] ].
 prolog:message(typhon(message_failed(Agent, From, Message))) -->

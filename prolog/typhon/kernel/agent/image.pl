@@ -18,7 +18,7 @@
 :- use_module(agents, [agent/5, agent_enter/3, agent_mail/2]).
 :- use_module(agent_module, [agent_standing/5, agent_state/2]).
 :- use_module(identity, [agent_home/2, origin_inherited/3]).
-:- use_module(result_facts, [legacy_none/2]).
+:- use_module(result_facts, [no_result_facts/2]).
 :- use_module(life,
               [is_life/1, life_clone/3, life_hop/3, life_hops/2]).
 
@@ -52,7 +52,7 @@ image_clone(Id, CloneId, Goals, Since,
     life_clone(Id, Life0, Life1),
     life_hop(Life1, Life, _),
     agent_state(Module, State0),
-    legacy_none(State0, State1),
+    no_result_facts(State0, State1),
     amended(cloned, Host, Id, State1, State2),
     origin_inherited(Id, State2, State),
     start(Host, Since, Start).

@@ -1,9 +1,9 @@
 :- module(typhon_result_facts,
-          [ legacy_result/2,            % +Module, +Term
-            legacy_cloned/2,            % +Module, +Endpoint
-            legacy/2,                   % +Module, -Items
-            legacy_none/2,              % +State0, -State
-            is_legacy/1                 % @Item
+          [ result_put/2,               % +Module, +Term
+            cloned_put/2,               % +Module, +Endpoint
+            result_facts/2,             % +Module, -Items
+            no_result_facts/2,          % +State0, -State
+            is_result_fact/1            % @Item
           ]).
 :- use_module(library(apply), [exclude/3]).
 :- use_module(library(error), [resource_error/1]).
@@ -27,14 +27,14 @@ They are its own: a clone begins without.
 :- setting(result_bytes, positive_integer, 1000000,
            "The result of an agent is no longer than this").
 
-%!  legacy_result(+Module, +Term) is det.
-%!  legacy_cloned(+Module, +Endpoint) is det.
+%!  result_put(+Module, +Term) is det.
+%!  cloned_put(+Module, +Endpoint) is det.
 %
 %   The result is now Term, which can travel; it was cloned at Endpoint.
 %
 %   @error resource_error(result_bytes)
 
-legacy_result(Module, Term) :-
+result_put(Module, Term) :-
     setting(result_bytes, Most),
     fast_term_serialized(Term, Bytes),
     string_length(Bytes, Length),
@@ -54,36 +54,36 @@ put_result(Module, Term) :-
 put_result(Module, Term) :-
     assertz(Module:'$legacy'(result(Term))).
 
-legacy_cloned(Module, Endpoint) :-
+cloned_put(Module, Endpoint) :-
     dynamic(Module:'$legacy'/1),
     (   Module:'$legacy'(cloned(Endpoint))
     ->  true
     ;   assertz(Module:'$legacy'(cloned(Endpoint)))
     ).
 
-%!  legacy(+Module, -Items:list) is det.
+%!  result_facts(+Module, -Items:list) is det.
 
-legacy(Module, Items) :-
+result_facts(Module, Items) :-
     (   '$c_current_predicate'(_, Module:'$legacy'(_))
     ->  findall(Item, Module:'$legacy'(Item), Items)
     ;   Items = []
     ).
 
-%!  legacy_none(+State0, -State) is det.
+%!  no_result_facts(+State0, -State) is det.
 %
-%   State, as of agent_state/2, is State0 without legacy.
+%   State, as of agent_state/2, is State0 without results.
 
-legacy_none(state(Empty, Clauses0), state(Empty, Clauses)) :-
-    exclude(of_legacy, Clauses0, Clauses).
+no_result_facts(state(Empty, Clauses0), state(Empty, Clauses)) :-
+    exclude(of_result, Clauses0, Clauses).
 
-of_legacy('$legacy'(_)).
+of_result('$legacy'(_)).
 
-%!  is_legacy(@Item) is semidet.
+%!  is_result_fact(@Item) is semidet.
 
-is_legacy(Item) :-
+is_result_fact(Item) :-
     subsumes_term(result(_), Item),
     !.
-is_legacy(Item) :-
+is_result_fact(Item) :-
     subsumes_term(cloned(_), Item),
     arg(1, Item, Endpoint),
     atom(Endpoint).

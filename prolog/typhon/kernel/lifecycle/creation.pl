@@ -26,7 +26,7 @@
               [ agent/5, agent_enter/3, agent_handles/2, agent_home/2,
                 agent_id/3, agent_mail/2, agent_name/3, agent_ready/2,
                 agent_rest/3, agent_standing/5, agent_state/2, gate/4,
-                gate_refused/4, is_life/1, legacy_none/2, life_clone/3,
+                gate_refused/4, is_life/1, no_result_facts/2, life_clone/3,
                 mail_count/2, make_life/2, origin_inherited/3, payload_marks/2,
                 with_agent/2 ]).
 :- use_module('../travel', [agent_born/2, clone_born/2]).
@@ -280,7 +280,7 @@ agent_begin(Options, Name, Start, Agent) :-
 agent_clone_here(Id, Goals, CloneId) :-
     agent(Id, Host, Module, Hash, Life0),
     agent_state(Module, State0),
-    legacy_none(State0, State1),
+    no_result_facts(State0, State1),
     amended(cloned, Host, Id, State1, State2),
     origin_inherited(Id, State2, State),
     life_clone(Id, Life0, Life),

@@ -11,10 +11,11 @@
 :- use_module('../host', [event/4, events_forget/1, host_leave/1]).
 :- use_module('../agent',
               [ agent/5, agent_fault/5, agent_remove/3, agent_status/3,
-                fault_outcome/2, fault_shown/2, is_faulty/3, legacy/2,
+                fault_outcome/2, fault_shown/2, is_faulty/3, result_facts/2,
                 life_hops/2, with_agent/2 ]).
 :- use_module(on_hold, [held_dropped/1]).
-:- use_module('../travel', [agent_ended/4, agent_ends/2, move_over/2, transfer_given_up/2]).
+:- use_module('../travel',
+              [agent_ended/4, agent_ends/2, move_over/2, transfer_given_up/2]).
 :- use_module(faulty,
               [faulty_gone/1, faulty_keep/4, faulty_oldest/1, faulty_tell/3]).
 :- use_module(questions, [question_answered/2]).
@@ -48,10 +49,10 @@ agent_end(Id, Test, Outcome) :-
                                   )),
                    removed(Last, Id, Outcome) )).
 
-remove(Id, last(Host, Hops, Status, Goals, Legacy, Orders)) :-
+remove(Id, last(Host, Hops, Status, Goals, Results, Orders)) :-
     agent(Id, Host, Module, _, Life),
     life_hops(Life, Hops),
-    legacy(Module, Legacy),
+    result_facts(Module, Results),
     once(agent_status(Id, Status, Goals)),
     (   Status = transit(_, _)
     ->  transfer_given_up(Id, Goals)
@@ -87,20 +88,20 @@ agent_forgotten(Id, Test) :-
 
 %   That it has ended badly is known.
 
-told(last(Host, Hops, faulty(_), Goals, Legacy, _), Id, _) :-
+told(last(Host, Hops, faulty(_), Goals, Results, _), Id, _) :-
     !,
     events_forget(Id),
     is_faulty(Goals, Fault, _),
     fault_outcome(Fault, Outcome),
     event(faults, Host, Id, ended(Outcome)),
-    agent_ended(Id, Outcome, Hops, Legacy).
-told(last(Host, Hops, Status, _, Legacy, _), Id, Outcome) :-
+    agent_ended(Id, Outcome, Hops, Results).
+told(last(Host, Hops, Status, _, Results, _), Id, Outcome) :-
     debug(typhon(agent), '~w: ends on ~w, ~p', [Id, Host, Outcome]),
     tell_of_doubt(Status, Id),
     host_leave(Host),
     event(life, Host, Id, ended(Outcome)),
     events_forget(Id),
-    agent_ended(Id, Outcome, Hops, Legacy).
+    agent_ended(Id, Outcome, Hops, Results).
 
 tell_of_doubt(transit(Address, _), Id) :-
     !,

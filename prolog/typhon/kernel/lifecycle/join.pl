@@ -6,9 +6,9 @@
 :- use_module(library(lists), [append/2, append/3, last/2, member/2]).
 :- use_module('../wire', [endpoint_address/1]).
 :- use_module('../host', [process_ask/6, time_now/1, time_wait/3]).
-:- use_module('../agent', [agent/5, agent_home_endpoint/2, legacy/2]).
+:- use_module('../agent', [agent/5, agent_home_endpoint/2, result_facts/2]).
 :- use_module('../travel',
-              [agent_outcome/2, clones_ask/3, legacy_ask/4, outcome_wait/3]).
+              [agent_outcome/2, clones_ask/3, results_ask/4, outcome_wait/3]).
 :- use_module(named, [agent_once_named/2]).
 :- use_module(questions, [agent_ask/4, question_answered/2]).
 
@@ -142,7 +142,7 @@ clones(Agent, Outcome, Clones) :-
 %   Term is the last that Agent has given with result/1, when it has ended,
 %   wherever and however; fails if it has not within Timeout seconds, a
 %   number or `inf`.  Its home keeps the results of the last 20,000 agents
-%   (the setting typhon_legacies:legacies).
+%   (the setting typhon_outcomes:results).
 %
 %   @error existence_error(result, Agent) if it has given none
 %   @error existence_error(agent, Agent), ambiguous_agent(Agent, Ids)
@@ -172,25 +172,25 @@ home_here(Agent, _) :-
 
 left(Agent, Outcome, Kind, Items) :-
     may_stand(Outcome),
-    catch(agent_ask(Agent, legacy(Kind), 2, answer(Items0)), error(_, _),
+    catch(agent_ask(Agent, results(Kind), 2, answer(Items0)), error(_, _),
           fail),
     !,
     Items = Items0.
 left(Agent, _, Kind, Items) :-
     agent_home_endpoint(Agent, Home),
     (   home_here(Agent, Home)
-    ->  legacy_ask(here, Agent, Kind, Items)
-    ;   legacy_ask(Home, Agent, Kind, Items)
+    ->  results_ask(here, Agent, Kind, Items)
+    ;   results_ask(Home, Agent, Kind, Items)
     ).
 
 may_stand(timeout).
 may_stand(failed).
 may_stand(raised(_)).
 
-typhon_questions:here(legacy(Kind), Agent, Asker) :-
+typhon_questions:here(results(Kind), Agent, Asker) :-
     agent(Agent, _, Module, _, _),
     !,
-    legacy(Module, Items0),
+    result_facts(Module, Items0),
     functor(Item, Kind, 1),
     findall(Item, member(Item, Items0), Items),
     question_answered(Asker, answer(Items)).

@@ -17,8 +17,8 @@
                 with_agent/2 ]).
 :- use_module(hand_over, [taken_over/4]).
 :- use_module(hop_ids,
-              [ crossing_done/1, crossing_end/2, crossing_known/1,
-                is_crossing/1 ]).
+              [ hop_id_done/1, hop_id_end/2, hop_id_known/1,
+                is_hop_id/1 ]).
 :- use_module(home, [agent_outcome/2]).
 :- use_module(post, [post_waiting/2]).
 :- use_module(transfer, [transfer_let_go/4]).
@@ -70,10 +70,10 @@ typhon_endpoint:requested(hop, hop(Name, Image0, Program), Peer, ReplyTo) :-
     answer(Answer, Name, ReplyTo).
 typhon_endpoint:requested(hop, hop(Name, Image, Program, Label), Peer,
                           ReplyTo) :-
-    (   is_crossing(Label)
+    (   is_hop_id(Label)
     ->  arrived(Name, Image, Program, Label, Peer, Answer),
         answer(Answer, Name, ReplyTo)
-    ;   endpoint_reply(ReplyTo, refused(error(type_error(crossing, Name))))
+    ;   endpoint_reply(ReplyTo, refused(error(type_error(hop_id, Name))))
     ).
 
 arrived(Name, Image, Program, Label, Peer, Answer) :-
@@ -116,14 +116,14 @@ typhon_endpoint:lent(Thread) :-
 typhon_endpoint:returned :-
     schedule_leave.
 
-arrive(Name, Image, Papers, Crossing, Peer, Answer) :-
+arrive(Name, Image, Papers, HopId, Peer, Answer) :-
     papers_program(Papers, Program),
     image_label(Image, Label),
-    (   has_come(Crossing, Label)
+    (   has_come(HopId, Label)
     ->  Answer = accepted
     ;   image_entrant(Image, Entrant),
         gate(Name, from(Peer, Program, papers(Papers))-Entrant,
-             install(Name, Label, Image, Crossing-Peer, In), Verdict),
+             install(Name, Label, Image, HopId-Peer, In), Verdict),
         answer_to(Verdict, In, Name, Label, Peer, Answer)
     ).
 
@@ -142,9 +142,9 @@ answer_to(ok, in(Address, Gone), Name, Label, Peer, installed(Id)) :-
     report_arrival(Name, Address, Label, Peer).
 answer_to(Verdict, _, _, _, _, Verdict).
 
-has_come(Crossing, _) :-
-    Crossing \== none,
-    crossing_known(Crossing),
+has_come(HopId, _) :-
+    HopId \== none,
+    hop_id_known(HopId),
     !.
 has_come(_, label(Id, Hops, _, _)) :-
     repeated(Id, Hops).
@@ -168,32 +168,32 @@ gone_on(Id, Hops) :-
 %   the gate looked; or there are two agents of this id, one of which was taken
 %   for dead: the one that is here stays.
 
-install(Name, Label, Image0, Crossing-Peer, In, Verdict) :-
+install(Name, Label, Image0, HopId-Peer, In, Verdict) :-
     (   host(Name, Address, Place)
     ->  Label = label(Id, Hops, _, _),
         image_amended(arrives, Name, from(Peer, Address), Image0, Image),
         In = in(Address, Gone),
-        with_agent(Id, install(Id, Hops, Image, Crossing, Name, Place, Gone,
+        with_agent(Id, install(Id, Hops, Image, HopId, Name, Place, Gone,
                                Verdict))
     ;   Verdict = refused(unknown_host)
     ).
 
 %   All is noted, and sealed, before the agent can be found here.
 
-install(Id, Hops, Image, Crossing, Name, Place, Gone, Verdict) :-
-    installed(Id, Hops, Image, Crossing, Name, Place, Gone, Verdict),
+install(Id, Hops, Image, HopId, Name, Place, Gone, Verdict) :-
+    installed(Id, Hops, Image, HopId, Name, Place, Gone, Verdict),
     ( durable_on -> enqueue_changes ; true ).
 
-installed(Id, Hops, Image, Crossing, Name, Place, Gone, Verdict) :-
+installed(Id, Hops, Image, HopId, Name, Place, Gone, Verdict) :-
     (   overtaken(Id, Hops)
     ->  Verdict = accepted
     ;   image_module(Image, Place, Module)
     ->  let_go(Id, Later, Orders, Gone),
         post_waiting(Id, Last),
         append(Later, Last, More),
-        (   Crossing == none
+        (   HopId == none
         ->  true
-        ;   crossing_done(Crossing)
+        ;   hop_id_done(HopId)
         ),
         image_enter(Image, Name, Module, More),
         ordered(Orders, Id),
@@ -221,7 +221,7 @@ ordered([Order|Orders], Id) :-
 
 let_go(Id, Mail, Orders, Gone) :-
     (   transfer_let_go(Id, Mail0, Orders0, Gone0)
-    ->  crossing_end(Id, _),
+    ->  hop_id_end(Id, _),
         Mail = Mail0,
         Orders = Orders0,
         Gone = Gone0

@@ -2,7 +2,7 @@
           [ agent_born/2,               % +Id, +Address
             home_moved/4,               % +Id, +Address, +Hops, +Process
             home_left/4,                % +Id, +Address, +Hops, +Process
-            home_ended/4,               % +Id, +Outcome, +Hops, +Legacy
+            home_ended/4,               % +Id, +Outcome, +Hops, +Results
             home_faulty/6,              % +Id, +Outcome, +Stamp, +Address,
                                         % +Hops, +Process
             home_resumed/3,             % +Id, +Stamp, +Hops
@@ -23,7 +23,7 @@
 :- use_module('../wire', [endpoint_address/1, endpoint_reply/2]).
 :- use_module('../host', [address_parts/3, alarm_in/3]).
 :- use_module('../agent', [agent_home_endpoint/2]).
-:- use_module(legacies, [legacy_keep/2]).
+:- use_module(outcomes, [results_keep/2]).
 
 /** <module> What a home knows of its agents
 
@@ -137,10 +137,10 @@ ended_after(Id, Hops) :-
     outcome(Id, _, Hops).
 
 %!  home_moved(+Id, +Address, +Hops, +Process) is det.
-%!  home_ended(+Id, +Outcome, +Hops, +Legacy:list) is det.
+%!  home_ended(+Id, +Outcome, +Hops, +Results:list) is det.
 %
 %   News of Id: it has gone to Address, in Process, or has ended, after Hops
-%   hops, and leaves Legacy.
+%   hops, and leaves Results.
 
 home_moved(Id, Address, Hops, Process) :-
     debug(typhon(hop), '~w hop ~D: home hears that it is on ~w',
@@ -185,10 +185,10 @@ forget_first(Id) :-
     retract(born(Id, _, _, _)),
     !.
 
-home_ended(Id, Outcome, Hops, Legacy) :-
+home_ended(Id, Outcome, Hops, Results) :-
     debug(typhon(agent), '~w: home hears that it ended after ~D hops, ~p',
           [Id, Hops, Outcome]),
-    with_mutex(typhon_born, ended(Id, Outcome, Hops, Legacy, Askers)),
+    with_mutex(typhon_born, ended(Id, Outcome, Hops, Results, Askers)),
     forall(member(Asker, Askers), tell_asker(Asker, Outcome)).
 
 %   A copy that was given up in doubt says nothing of an agent that is
@@ -200,7 +200,7 @@ ended(Id, _, Hops, _, []) :-
         Hops0 > Hops
     ),
     !.
-ended(Id, Outcome0, Hops, Legacy, Askers) :-
+ended(Id, Outcome0, Hops, Results, Askers) :-
     retractall(born(Id, _, _, _)),
     durable_drop(born, Id, 0),
     durable_drop(agent, Id, 0),
@@ -209,7 +209,7 @@ ended(Id, Outcome0, Hops, Legacy, Askers) :-
     ->  last_outcome(Outcome0, Told, Outcome)
     ;   Outcome = Outcome0
     ),
-    legacy_keep(Id, Legacy),
+    results_keep(Id, Results),
     durable_number(N),
     durable_put(outcome, Id, N, Outcome-Hops),
     assertz(outcome(Id, Outcome, Hops)),

@@ -14,11 +14,11 @@
               [ agent/5, image_amended/5, image_hash/2, image_held/2,
                 with_agent/2 ]).
 :- use_module('../base/durable_changes', [crash_point/1, durable_on/0]).
-:- use_module(hop_ids, [crossing_label/3, crossing_repeated/1]).
-:- use_module(doubt, [doubt_open/1, doubt_settle/1]).
+:- use_module(hop_ids, [hop_id_label/3, hop_id_repeated/1]).
+:- use_module(in_doubt, [may_have_arrived/1, resolve_in_doubt/1]).
 :- use_module(home, [agent_born/2]).
 :- use_module(hand_over, []).
-:- use_module(legacies, [clone_born/2]).
+:- use_module(outcomes, [clone_born/2]).
 :- use_module(programs_sent, [program_missing/2, program_sent/3]).
 :- use_module(within, [hop_within/6]).
 :- use_module(transfer,
@@ -41,7 +41,7 @@ comes back before the answer proves that it had arrived.
   | refused(Why) | raises move_refused(Host, Why) at the move       |
   | need_program | sends again, with the program                    |
   | unreachable  | raises host_unreachable(Host) at the move        |
-  | lost         | asks whether it got away, see typhon_doubt       |
+  | lost         | asks whether it got away, see typhon_in_doubt       |
 
 *Threading*: hop/6 in a worker; answers in the reader threads of the
 endpoint, which never wait.
@@ -49,7 +49,7 @@ endpoint, which never wait.
 
 :- multifile
     sent_again/2,               % Endpoint, Id: they lack what proves it
-    typhon_doubt:again/1,
+    typhon_in_doubt:again/1,
     typhon_hand_over:result/2.
 
 :- dynamic sent_again/2.
@@ -160,7 +160,7 @@ handed(Endpoint, hop(Name, Image0, Program), Transfer) :-
 hop_request(Transfer, Name, Image, Program, Request) :-
     transfer_traveller(Transfer, Who, _),
     arg(2, Transfer, dest(_, _, Endpoint)),
-    crossing_label(Who, Endpoint, Label),
+    hop_id_label(Who, Endpoint, Label),
     (   Label == none
     ->  Request = hop(Name, Image, Program)
     ;   Request = hop(Name, Image, Program, Label)
@@ -168,14 +168,14 @@ hop_request(Transfer, Name, Image, Program, Request) :-
 
 not_sent(Formal, Transfer) :-
     transfer_traveller(Transfer, Who, _),
-    (   crossing_repeated(Who)
-    ->  doubt_settle(Transfer)
+    (   hop_id_repeated(Who)
+    ->  resolve_in_doubt(Transfer)
     ;   transfer_stays(Transfer, Formal)
     ).
 
 %   Once more, whoever was asked before.
 
-typhon_doubt:again(Transfer) :-
+typhon_in_doubt:again(Transfer) :-
     again(Transfer).
 
 again(Transfer) :-
@@ -200,12 +200,12 @@ typhon_hand_over:result(Answer, Transfer) :-
 answered(Transfer, answer(Answer)) :-
     taken(Answer, Transfer).
 answered(Transfer, unreachable) :-
-    (   doubt_open(Transfer)
-    ->  doubt_settle(Transfer)
+    (   may_have_arrived(Transfer)
+    ->  resolve_in_doubt(Transfer)
     ;   transfer_unreachable(Transfer)
     ).
 answered(Transfer, lost) :-
-    doubt_settle(Transfer).
+    resolve_in_doubt(Transfer).
 
 taken(accepted, Transfer) :-
     transfer_arrived(Transfer).

@@ -1,13 +1,13 @@
 :- module(typhon_hop_ids,
-          [ crossing_begin/4,           % +Agent, +Hops, +Endpoint, -Sent
-            crossing_restore/4,         % +Agent, +Hops, +Endpoint, +Sent
-            crossing_end/2,             % +Agent, ?Hops
-            crossing_again/1,           % +Agent
-            crossing_repeated/1,        % +Agent
-            crossing_label/3,           % +Agent, +Endpoint, -Label
-            is_crossing/1,              % @Label
-            crossing_known/1,           % +Label
-            crossing_done/1             % +Label
+          [ hop_id_begin/4,             % +Agent, +Hops, +Endpoint, -Sent
+            hop_id_restore/4,           % +Agent, +Hops, +Endpoint, +Sent
+            hop_id_end/2,               % +Agent, ?Hops
+            hop_id_again/1,             % +Agent
+            hop_id_repeated/1,          % +Agent
+            hop_id_label/3,             % +Agent, +Endpoint, -Label
+            is_hop_id/1,                % @Label
+            hop_id_known/1,             % +Label
+            hop_id_done/1               % +Label
           ]).
 :- use_module('../base/durable_changes',
               [ durable_drop_below/3, durable_key/2, durable_on/0,
@@ -20,7 +20,7 @@ A process that keeps a journal may ask for a hop again after it was started
 again, when the agent has arrived long since, and has ended or gone on.  So
 each of its hops to another process has a number,
 
-    crossing(Process, N, Least)
+    hop_id(Process, N, Least)
 
 and the other keeps those that it has let in until it hears, with the next
 hop, that the first has no open one less than Least to it any more.
@@ -39,21 +39,21 @@ hop, that the first has no open one less than Least to it any more.
     again/1,                    % Agent: it was sent before
     done/2.                     % Process, N: was let in here
 
-%!  crossing_begin(+Agent, +Hops, +Endpoint, -Sent) is det.
-%!  crossing_restore(+Agent, +Hops, +Endpoint, +Sent) is det.
-%!  crossing_end(+Agent, ?Hops) is det.
-%!  crossing_again(+Agent) is det.
-%!  crossing_repeated(+Agent) is semidet.
+%!  hop_id_begin(+Agent, +Hops, +Endpoint, -Sent) is det.
+%!  hop_id_restore(+Agent, +Hops, +Endpoint, +Sent) is det.
+%!  hop_id_end(+Agent, ?Hops) is det.
+%!  hop_id_again(+Agent) is det.
+%!  hop_id_repeated(+Agent) is semidet.
 %
 %   Agent sets out for Endpoint, with so many Hops, at Sent, from which the
 %   number follows; did so before a restart; has arrived, or stays; it is not
 %   known whether it had arrived already when it is sent next; which is so.
 
-crossing_begin(Agent, Hops, Endpoint, Sent) :-
+hop_id_begin(Agent, Hops, Endpoint, Sent) :-
     (   durable_on
     ->  with_mutex(typhon_hop_ids,
                    ( stamp(Sent),
-                     crossing_add(Agent, Hops, Endpoint, Sent) ))
+                     hop_id_add(Agent, Hops, Endpoint, Sent) ))
     ;   get_time(Sent)
     ).
 
@@ -67,61 +67,61 @@ stamp(Sent) :-
     ),
     assertz(last(Sent)).
 
-crossing_add(Agent, Hops, Endpoint, Sent) :-
+hop_id_add(Agent, Hops, Endpoint, Sent) :-
     N is truncate(Sent*1000000),
     assertz(under_way(Endpoint, N, Agent, Hops)).
 
-crossing_restore(Agent, Hops, Endpoint, Sent) :-
-    crossing_add(Agent, Hops, Endpoint, Sent),
-    crossing_again(Agent).
+hop_id_restore(Agent, Hops, Endpoint, Sent) :-
+    hop_id_add(Agent, Hops, Endpoint, Sent),
+    hop_id_again(Agent).
 
-crossing_end(Agent, Hops) :-
+hop_id_end(Agent, Hops) :-
     (   retract(under_way(_, _, Agent, Hops))
     ->  retractall(again(Agent))
     ;   true
     ).
 
-crossing_again(Agent) :-
+hop_id_again(Agent) :-
     retractall(again(Agent)),
     assertz(again(Agent)).
 
-crossing_repeated(Agent) :-
+hop_id_repeated(Agent) :-
     again(Agent),
     !.
 
-%!  crossing_label(+Agent, +Endpoint, -Label) is det.
+%!  hop_id_label(+Agent, +Endpoint, -Label) is det.
 %
-%   Label is crossing(Process, N, Least), or `none`.
+%   Label is hop_id(Process, N, Least), or `none`.
 
-crossing_label(Agent, Endpoint, crossing(Process, N, Least)) :-
+hop_id_label(Agent, Endpoint, hop_id(Process, N, Least)) :-
     under_way(Endpoint, N, Agent, _),
     under_way(Endpoint, Least, _, _),
     !,
     endpoint_process(Process).
-crossing_label(_, _, none).
+hop_id_label(_, _, none).
 
-%!  is_crossing(@Label) is semidet.
+%!  is_hop_id(@Label) is semidet.
 
-is_crossing(Label) :-
+is_hop_id(Label) :-
     Label == none,
     !.
-is_crossing(Label) :-
-    subsumes_term(crossing(_, _, _), Label),
-    Label = crossing(Process, N, Least),
+is_hop_id(Label) :-
+    subsumes_term(hop_id(_, _, _), Label),
+    Label = hop_id(Process, N, Least),
     integer(Least),
     durable_key(Process, N).
 
-%!  crossing_known(+Label) is semidet.
-%!  crossing_done(+Label) is det.
+%!  hop_id_known(+Label) is semidet.
+%!  hop_id_done(+Label) is det.
 %
 %   Label was already accepted; mark Label accepted.
 
-crossing_known(crossing(Process, N, _)) :-
+hop_id_known(hop_id(Process, N, _)) :-
     done(Process, N),
     !.
 
-crossing_done(none).
-crossing_done(crossing(Process, N, Least)) :-
+hop_id_done(none).
+hop_id_done(hop_id(Process, N, Least)) :-
     durable_put(done, Process, N, N),
     assertz(done(Process, N)),
     (   N mod 64 =:= 0,

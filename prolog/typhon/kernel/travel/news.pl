@@ -36,7 +36,7 @@ that waits for the next.
     courier/1.                  % Home: a thread carries its news
 
 %   So many are sent at a time, and the longest pause between attempts.  News
-%   with a legacy may be long.
+%   with results may be long.
 
 load(500).
 weight(ended(_, _, _, _), 50) :- !.
@@ -158,7 +158,7 @@ shown_news(Home, All, Shown) :-
 
 posted_in_parts([ended(Id, Outcome, Hops, _)], Post, Home) :-
     !,
-    print_message(warning, typhon(legacy_lost(Id))),
+    print_message(warning, typhon(results_lost(Id))),
     posted(Post, Home, [ended(Id, Outcome, Hops)]).
 posted_in_parts([News], _, _) :-
     !,

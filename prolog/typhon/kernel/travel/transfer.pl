@@ -26,8 +26,8 @@
               [ crash_point/1, durable_drop/3, durable_on/0, durable_put/4,
                 enqueue_changes/0, unit_of_work/1 ]).
 :- use_module(hop_ids,
-              [crossing_begin/4, crossing_end/2, crossing_restore/4]).
-:- use_module(legacies, [clone_unborn/2]).
+              [hop_id_begin/4, hop_id_end/2, hop_id_restore/4]).
+:- use_module(outcomes, [clone_unborn/2]).
 :- use_module(ordered_moves, [move_failed/2, move_over/2]).
 :- use_module(post, [post_on/2]).
 :- use_module(whereabouts,
@@ -95,13 +95,13 @@ transfer_freeze(hop(Id, dest(Address, _, Endpoint), Hops), Held, Mail,
                 Since) :-
     agent_status(Id, Status, _),
     ( Status == running -> true ; Status == obeying ),
-    crossing_begin(Id, Hops, Endpoint, Sent),
+    hop_id_begin(Id, Hops, Endpoint, Sent),
     mail_all(Id, Mail),
     agent_put(Id, transit(Address, Sent), hop(Held, Hops, Mail, Since)),
     debug(typhon(hop), '~w hop ~D: leaves for ~w', [Id, Hops, Address]).
 transfer_freeze(clone(Id, dest(Address, _, Endpoint), CloneId), Held, [],
                 Since) :-
-    crossing_begin(CloneId, 1, Endpoint, Sent),
+    hop_id_begin(CloneId, 1, Endpoint, Sent),
     agent_put(Id, cloning(Address, Sent), clone(Held, CloneId, Since)),
     debug(typhon(hop), '~w hop 1: leaves for ~w', [CloneId, Address]).
 
@@ -125,7 +125,7 @@ arrived(hop(Id, dest(Address, _, Endpoint), Hops)) :-
         forall(member(Order, Orders), follow(Id, Order))
     ;   retract(given_up(Id, Hops))
     ->  durable_drop(given_up, Id, Hops),
-        crossing_end(Id, Hops),
+        hop_id_end(Id, Hops),
         agent_left(Id, Address, Hops, Endpoint),
         agent_left_noted(Id, Address, Hops, Endpoint),
         follow(Id, dispose)
@@ -133,7 +133,7 @@ arrived(hop(Id, dest(Address, _, Endpoint), Hops)) :-
     ).
 arrived(clone(Id, dest(Address, _, Endpoint), CloneId)) :-
     debug(typhon(hop), '~w hop 1: has gone', [CloneId]),
-    crossing_end(CloneId, 1),
+    hop_id_end(CloneId, 1),
     agent_left(CloneId, Address, 1, Endpoint),
     agent_left_noted(CloneId, Address, 1, Endpoint),
     ignore(with_agent(Id, clone_back(Id, CloneId, parent(CloneId)))).
@@ -146,7 +146,7 @@ moved_on(Id, Hops, Address, Endpoint, Orders, Gone) :-
     agent_left(Id, Address, Hops, Endpoint),
     let_go(Id, Since, Mail, Orders, Gone),
     (   durable_on
-    ->  crossing_end(Id, Hops),
+    ->  hop_id_end(Id, Hops),
         agent_left_noted(Id, Address, Hops, Endpoint),
         post_on(Id, Mail),
         enqueue_changes
@@ -192,7 +192,7 @@ follow(Id, Order) :-
 transfer_stays(Transfer, Error) :-
     transfer_traveller(Transfer, Who, Hop),
     debug(typhon(hop), '~w hop ~D: stays, ~p', [Who, Hop, Error]),
-    unit_of_work(( crossing_end(Who, Hop),
+    unit_of_work(( hop_id_end(Who, Hop),
                    stays(Transfer, Error) )).
 
 stays(hop(Id, dest(Address, _, _), Hops), Error) :-
@@ -250,7 +250,7 @@ typhon_durable:restored :-
     forall(( member(Sent-Transfer, Pairs),
              transfer_traveller(Transfer, Who, Hops),
              arg(2, Transfer, dest(_, _, Endpoint)) ),
-           crossing_restore(Who, Hops, Endpoint, Sent)).
+           hop_id_restore(Who, Hops, Endpoint, Sent)).
 
 %   The term says nothing; older journals have one.
 

@@ -4,7 +4,7 @@
             agent_left_noted/4,         % +Id, +Address, +Hops, +Peer
             agent_ends/2,               % +Id, +Hops
             ended_agent/1,              % ?Id
-            agent_ended/4,              % +Id, +Outcome, +Hops, +Legacy
+            agent_ended/4,              % +Id, +Outcome, +Hops, +Results
             agent_faulty/5,             % +Id, +Outcome, +Stamp, +Address,
                                         % +Hops
             agent_resumed/3,            % +Id, +Stamp, +Hops
@@ -27,7 +27,7 @@
                 endpoint_reply/2, endpoint_request/4 ]).
 :- use_module('../host', [address_parts/3]).
 :- use_module('../agent',
-              [agent/5, agent_home_endpoint/2, is_legacy/1, life_hops/2]).
+              [agent/5, agent_home_endpoint/2, is_result_fact/1, life_hops/2]).
 :- use_module(senders, [speaks_for/3]).
 :- use_module(home,
               [ agent_outcome/2, ended_after/2, home_ended/4, home_faulty/6,
@@ -207,21 +207,21 @@ agent_ends(Id, Hops) :-
 ended_agent(Id) :-
     ended_here(Id, _).
 
-%!  agent_ended(+Id, +Outcome, +Hops, +Legacy:list) is det.
+%!  agent_ended(+Id, +Outcome, +Hops, +Results:list) is det.
 %
 %   Let the home of Id know that it ended after Hops hops, and what it leaves.
 
-agent_ended(Id, Outcome, Hops, Legacy) :-
+agent_ended(Id, Outcome, Hops, Results) :-
     agent_home_endpoint(Id, Home),
     (   endpoint_address(Home)
-    ->  home_ended(Id, Outcome, Hops, Legacy)
-    ;   end_news(Legacy, Id, Outcome, Hops, News),
+    ->  home_ended(Id, Outcome, Hops, Results)
+    ;   end_news(Results, Id, Outcome, Hops, News),
         news_tell(Home, Id, News)
     ).
 
 end_news([], Id, Outcome, Hops, ended(Id, Outcome, Hops)) :-
     !.
-end_news(Legacy, Id, Outcome, Hops, ended(Id, Outcome, Hops, Legacy)).
+end_news(Results, Id, Outcome, Hops, ended(Id, Outcome, Hops, Results)).
 
 %!  agent_faulty(+Id, +Outcome, +Stamp, +Address, +Hops) is det.
 %!  agent_resumed(+Id, +Stamp, +Hops) is det.
@@ -283,10 +283,10 @@ news(Process, located(Id, Address, Hops)) :-
     home_moved(Id, Address, Hops, Process).
 news(Process, ended(Id, Outcome, Hops)) :-
     news(Process, ended(Id, Outcome, Hops, [])).
-news(_, ended(Id, Outcome, Hops, Legacy)) :-
+news(_, ended(Id, Outcome, Hops, Results)) :-
     must_be(nonneg, Hops),
-    must_be(list(typhon_result_facts), Legacy),
-    home_ended(Id, Outcome, Hops, Legacy).
+    must_be(list(typhon_result_facts), Results),
+    home_ended(Id, Outcome, Hops, Results).
 news(Process, faulty(Id, Outcome, Stamp, Address, Hops)) :-
     must_be(nonneg, Hops),
     must_be(number, Stamp),
@@ -298,7 +298,7 @@ news(_, resumed(Id, Stamp, Hops)) :-
     home_resumed(Id, Stamp, Hops).
 
 error:has_type(typhon_result_facts, Item) :-
-    is_legacy(Item).
+    is_result_fact(Item).
 
                 /*******************************
                 *           QUESTIONS          *

@@ -47,7 +47,7 @@
 :- use_module('../agent',
               [ agent/5, agent_attach/2, agent_detach/2, agent_home/2,
                 agent_handled/3, agent_payload/3, agent_variant/2,
-                legacy_result/2, life_hops/2, life_parent/2 ]).
+                result_put/2, life_hops/2, life_parent/2 ]).
 :- use_module('../travel', [agent_logs/3, post/3, post_abroad/4]).
 :- use_module(pheromone,
               [pheromone_emit/3, pheromone_here/4, pheromone_withdraw/2]).
@@ -354,7 +354,7 @@ result(Term) :-
     context(Host, _, Module),
     says(Host, Term),
     mobile_term(Term),
-    legacy_result(Module, Term).
+    result_put(Module, Term).
 
 %!  message_failed(+From, +Message) is det.
 %

@@ -1,7 +1,7 @@
 :- module(typhon_process_dump,
-          [ cut_kept/2,                 % +Hosts, -Items
-            cut_again/2,                % +Kind, +Items
-            cut_go_on/3                 % +Kind, +Agents, +Scheduled
+          [ process_dump/2,             % +Hosts, -Items
+            process_restore/2,          % +Kind, +Items
+            process_go_on/3             % +Kind, +Agents, +Scheduled
           ]).
 :- use_module(library(error), [domain_error/2, permission_error/3]).
 :- use_module(library(lists), [member/2]).
@@ -53,7 +53,7 @@ kind(order, any).
 kind(turns, repeated).
 kind(counts, repeated).
 
-%!  cut_kept(+Hosts:list, -Items:list) is det.
+%!  process_dump(+Hosts:list, -Items:list) is det.
 %
 %   What this process knows, but for what is about other hosts of it than Hosts,
 %   about agents that stand there, and those that left.
@@ -61,7 +61,7 @@ kind(counts, repeated).
 %   @error type_error(mobile_term, Culprit)
 %   @error permission_error(save, agent, Id) if it runs
 
-cut_kept(Hosts, Items) :-
+process_dump(Hosts, Items) :-
     others(Hosts, Others),
     findall(item(Kind, Key, N, Term),
             ( kind(Kind, _),
@@ -104,7 +104,7 @@ can_be_written(Kind, Key, Term) :-
           ( format(atom(Text), '~w of ~w', [Kind, Key]),
             throw(error(Formal, context(_, Text))) )).
 
-%!  cut_again(+Kind, +Items:list) is det.
+%!  process_restore(+Kind, +Items:list) is det.
 %
 %   All is as Items say, in a process whose hosts have been started again and
 %   whose time is of that Kind.  What it knew of these agents, from when they
@@ -112,7 +112,7 @@ can_be_written(Kind, Key, Term) :-
 %
 %   @error domain_error(saved_item, Item)
 
-cut_again(Time, Items) :-
+process_restore(Time, Items) :-
     forall(( member(item(Kind, Id, _, _), Items),
              memberchk(Kind, [born, outcome, gone]),
              typhon_identity:id_anew(Id) ),
@@ -190,12 +190,12 @@ unasked(asked(Order, _), asked(Order, queue(none))) :-
     !.
 unasked(Order, Order).
 
-%!  cut_go_on(+Kind, +Agents:list, +Scheduled:list) is det.
+%!  process_go_on(+Kind, +Agents:list, +Scheduled:list) is det.
 %
 %   Agents go on.  Where what happens repeats itself, the runtime knows the
 %   alarms, and some agents are Scheduled.
 
-cut_go_on(Kind, Agents, Scheduled0) :-
+process_go_on(Kind, Agents, Scheduled0) :-
     time_repeats(Kind, _),
     !,
     findall(Id, ( member(Id, Agents), agent_status(Id, ready, _) ), Ready0),
@@ -204,6 +204,6 @@ cut_go_on(Kind, Agents, Scheduled0) :-
     ord_subtract(Ready, Scheduled, Others),
     forall(( member(Id, Others), agent(Id, Host, _, _, _) ),
            schedule(Host, Id)).
-cut_go_on(_, Agents, _) :-
+process_go_on(_, Agents, _) :-
     forall(member(Id, Agents), agent_reschedule(Id)),
     retries_go_on.

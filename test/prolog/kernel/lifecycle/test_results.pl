@@ -118,7 +118,7 @@ test(almost_too_large, N == 999900) :-
 test(outside_an_agent, error(existence_error(running_agent, here))) :-
     virtually(remote(alpha, result(1))).
 test(bounded, Kept == [none,1]) :-
-    with_settings([typhon_legacies:legacies=50],
+    with_settings([typhon_outcomes:results=50],
                   virtually(( findall(A, ( between(1, 301, _),
                                            create([(main :- result(1))], A) ),
                                       As),

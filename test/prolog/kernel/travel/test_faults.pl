@@ -36,7 +36,7 @@ test(end_is_heard_before_the_answer,
 %   Agents are in doubt soon.
 
 with_doubt(Peers, Goal) :-
-    findall(Peer-[setup(set_setting(typhon_hop:doubt_seconds, 0.3))],
+    findall(Peer-[setup(set_setting(typhon_in_doubt:shown_seconds, 0.3))],
             member(Peer, Peers), Specs),
     with_peers(Specs, Goal).
 

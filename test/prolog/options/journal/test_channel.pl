@@ -311,7 +311,7 @@ test('that an agent has ended is told, if not what it has left') :-
           small(( agent_create(clauses(Clauses), Id,
                                [host(Beta), facts([to(Driver)])]),
                   remote(Beta, typhon:agent_join(Id, done, 20)) )),
-          wait_until(retract(told(legacy_lost(Id))), 5) ),
+          wait_until(retract(told(results_lost(Id))), 5) ),
         true).
 
 test('what an agent logs, too') :-
@@ -331,7 +331,7 @@ test('what an agent logs, too') :-
 :- multifile user:message_hook/3.
 
 user:message_hook(typhon(Told), warning, _) :-
-    ( Told = undeliverable(_, _, _, _) ; Told = legacy_lost(_) ),
+    ( Told = undeliverable(_, _, _, _) ; Told = results_lost(_) ),
     assertz(plunit_channel_frames:told(Told)).
 
 told_lost(Id, Formal) :-

@@ -1,6 +1,6 @@
-:- module(typhon_legacies,
-          [ legacy_keep/2,              % +Id, +Items
-            legacy_ask/4,               % +Where, +Id, +Kind, -Items
+:- module(typhon_outcomes,
+          [ results_keep/2,             % +Id, +Items
+            results_ask/4,              % +Where, +Id, +Kind, -Items
             clone_born/2,               % +Parent, +Clone
             clone_unborn/2,             % +Parent, +Clone
             clones_ask/3                % +Endpoint, +Parent, -Clones
@@ -12,7 +12,7 @@
               [durable_drop_all/2, durable_number/1, durable_put/4]).
 :- use_module('../wire', [endpoint_address/1, endpoint_reply/2]).
 :- use_module('../host', [process_ask/6]).
-:- use_module('../agent', [agent/5, legacy_cloned/2]).
+:- use_module('../agent', [agent/5, cloned_put/2]).
 
 /** <module> What agents have left, and where they were cloned
 
@@ -20,7 +20,7 @@ The home of an agent keeps what it left with its outcome: its result, and
 the processes in which it was cloned.  The clones themselves are known to
 the process in which they were born, which is their home.  So no notice is sent
 when a clone is made, and a search for a family goes from the
-legacy of each of its members to the homes of the next.  Of both tables the
+results of each of its members to the homes of the next.  Of both tables the
 oldest entries are forgotten.
 
 *Threading*: any thread.  Asking waits.
@@ -34,8 +34,10 @@ oldest entries are forgotten.
     typhon_durable:dump/4,
     typhon_endpoint:requested/4.
 
-:- setting(legacies, positive_integer, 20000,
-           "What ended agents have left, kept by their home").
+:- setting(results, positive_integer, 20000,
+           "Results of ended agents, kept by their home").
+:- setting(typhon_legacies:legacies, positive_integer, 20000,
+           "Now typhon_outcomes:results").
 :- setting(clones, positive_integer, 20000,
            "Clones of which their home knows the parent").
 
@@ -50,25 +52,25 @@ typhon_identity:id_anew(Id) :-
     retractall(left(Id, _)),
     retractall(clone_of(Id, _)).
 
-%!  legacy_keep(+Id, +Items:list) is det.
+%!  results_keep(+Id, +Items:list) is det.
 %
-%   Id has left Items, as of legacy/2.
+%   Id has left Items, as of result_facts/2.
 
-legacy_keep(Id, Items) :-
+results_keep(Id, Items) :-
     forall(member(Item, Items),
            ( durable_number(N),
              durable_put(left, Id, N, Item),
              assertz(left(Id, Item)),
-             bounded(left(_, _), typhon_legacies:legacies) )).
+             bounded(left(_, _), typhon_outcomes:results) )).
 
-%!  legacy_ask(+Where, +Id, +Kind, -Items:list) is det.
+%!  results_ask(+Where, +Id, +Kind, -Items:list) is det.
 %
-%   What the home of Id, at the endpoint Where or `here`, knows of its legacy:
+%   What the home of Id, at the endpoint Where or `here`, knows of its results:
 %   items of the name Kind.
 %
 %   @error host_unreachable(Where), connection_lost(Where)
 
-legacy_ask(Where, Id, Kind, Items) :-
+results_ask(Where, Id, Kind, Items) :-
     ask(Where, left(Id, Kind), Items).
 
 %!  clone_born(+Parent, +Clone) is det.
@@ -81,21 +83,21 @@ typhon_bounded:forgotten(left(Id, _)) :-
 typhon_bounded:forgotten(clone_of(_, Clone)) :-
     durable_drop_all(clone, Clone).
 
-typhon_durable:fact_table(left, Id, _, Item, typhon_legacies:left(Id, Item)).
+typhon_durable:fact_table(left, Id, _, Item, typhon_outcomes:left(Id, Item)).
 typhon_durable:fact_table(clone, Clone, _, Parent,
-                          typhon_legacies:clone_of(Parent, Clone)).
+                          typhon_outcomes:clone_of(Parent, Clone)).
 typhon_durable:dump(flag, Name, N, '') :-
-    member(Name, [legacies, clones]),
+    member(Name, [results, clones]),
     flag(Name, N, N).
 
 clone_born(Parent, Clone) :-
     durable_number(N),
     durable_put(clone, Clone, N, Parent),
     assertz(clone_of(Parent, Clone)),
-    bounded(clone_of(_, _), typhon_legacies:clones),
+    bounded(clone_of(_, _), typhon_outcomes:clones),
     (   endpoint_address(Endpoint),
         agent(Parent, _, Module, _, _)
-    ->  legacy_cloned(Module, Endpoint)
+    ->  cloned_put(Module, Endpoint)
     ;   true                            % everything is being stopped
     ).
 
@@ -107,7 +109,7 @@ clone_unborn(Parent, Clone) :-
 %
 %   The clones of Parent that were born at Endpoint, in this order.
 %
-%   @error as legacy_ask/4
+%   @error as results_ask/4
 
 clones_ask(Endpoint, Parent, Clones) :-
     ask(Endpoint, clones(Parent), Clones).
@@ -122,13 +124,13 @@ ask(Where, Question, Answer) :-
     !,
     known(Question, Answer).
 ask(Endpoint, Question, Answer) :-
-    process_ask(Endpoint, Endpoint, legacy, Question, Answer, 10).
+    process_ask(Endpoint, Endpoint, results, Question, Answer, 10).
 
 asked_here(clones(Parent)) :-
     \+ endpoint_address(_),
     clone_of(Parent, _).
 
-typhon_endpoint:requested(legacy, Question, _Peer, ReplyTo) :-
+typhon_endpoint:requested(results, Question, _Peer, ReplyTo) :-
     known(Question, Answer),
     endpoint_reply(ReplyTo, Answer).
 

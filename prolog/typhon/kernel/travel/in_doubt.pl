@@ -1,6 +1,6 @@
-:- module(typhon_doubt,
-          [ doubt_settle/1,             % +Transfer
-            doubt_open/1,               % +Transfer
+:- module(typhon_in_doubt,
+          [ resolve_in_doubt/1,         % +Transfer
+            may_have_arrived/1,         % +Transfer
             in_doubt/1,                 % +Status
             out_of_touch/1              % +Status
           ]).
@@ -12,7 +12,7 @@
                 endpoint_peer/2 ]).
 :- use_module('../host', [address_parts/3, alarm_in/3, scheduler_call/1]).
 :- use_module('../agent', [agent_home_endpoint/2]).
-:- use_module(hop_ids, [crossing_again/1, crossing_repeated/1]).
+:- use_module(hop_ids, [hop_id_again/1, hop_id_repeated/1]).
 :- use_module(transfer,
               [ transfer_arrived/1, transfer_image/2, transfer_open/1,
                 transfer_stays/2, transfer_traveller/3, transfer_unreachable/1 ]).
@@ -30,14 +30,14 @@ Where the other process keeps a journal no other need be asked: it is asked
 again, until it is there again.  It knows the agents that it has admitted.  The same goes
 for one that is there, where we have been started again ourselves.
 
-*Threading*: doubt_settle/1 in reader threads, which never wait; surveys in
+*Threading*: resolve_in_doubt/1 in reader threads, which never wait; surveys in
 a worker.
 */
 
-%   The name under which people know it.
-
-:- setting(typhon_hop:doubt_seconds, number, 3,
+:- setting(shown_seconds, number, 3,
            "An agent under way for longer is shown as in doubt").
+:- setting(typhon_hop:doubt_seconds, number, 3,
+           "Now typhon_in_doubt:shown_seconds").
 :- setting(settle_seconds, number, 1,
            "Seconds until processes that did not answer are asked again").
 
@@ -46,23 +46,23 @@ a worker.
     typhon_durable:go_on/0,
     typhon_scheduler:fire/2.
 
-%!  doubt_settle(+Transfer) is det.
+%!  resolve_in_doubt(+Transfer) is det.
 %
 %   Find out whether the agent has arrived, some time.
 
-doubt_settle(Transfer) :-
+resolve_in_doubt(Transfer) :-
     transfer_traveller(Transfer, Who, Hops),
     lasts(Transfer),
     !,
     debug(typhon(hop), '~w hop ~D: in doubt, is asked for again', [Who, Hops]),
-    crossing_again(Who),
+    hop_id_again(Who),
     arg(1, Transfer, Id),
     setting(settle_seconds, Seconds),
     alarm_in(Seconds, Id, again(Transfer)).
-doubt_settle(_) :-
+resolve_in_doubt(_) :-
     \+ endpoint_address(_),             % this process ends: no process to ask
     !.
-doubt_settle(Transfer) :-
+resolve_in_doubt(Transfer) :-
     transfer_traveller(Transfer, Id, Hops),
     debug(typhon(hop), '~w hop ~D: in doubt', [Id, Hops]),
     agent_reached(Id, Hops, home_said(Transfer)).
@@ -75,25 +75,25 @@ lasts(Transfer) :-
     !.
 lasts(Transfer) :-
     arg(2, Transfer, dest(_, _, Endpoint)),
-    doubt_open(Transfer),
+    may_have_arrived(Transfer),
     \+ endpoint_gone(Endpoint).
 
 typhon_scheduler:fire(_, again(Transfer)) :-
     !,
     scheduler_call(again(Transfer)).
 
-%!  doubt_open(+Transfer) is semidet.
+%!  may_have_arrived(+Transfer) is semidet.
 %
 %   The agent may have arrived, though the connection failed this time.
 
-doubt_open(Transfer) :-
+may_have_arrived(Transfer) :-
     transfer_traveller(Transfer, Who, _),
-    crossing_repeated(Who).
+    hop_id_repeated(Who).
 
 typhon_durable:go_on :-
     findall(Transfer, transfer_open(Transfer), Transfers),
     forall(member(Transfer, Transfers),
-           scheduler_call(typhon_doubt:again(Transfer))).
+           scheduler_call(typhon_in_doubt:again(Transfer))).
 
 home_said(Transfer, answer(true)) :-
     !,
@@ -117,7 +117,7 @@ settle_later(Transfer) :-
 typhon_scheduler:fire(_, settle(Transfer)) :-
     !,
     (   transfer_image(Transfer, _)
-    ->  doubt_settle(Transfer)
+    ->  resolve_in_doubt(Transfer)
     ;   transfer_stays(Transfer, given_up)
     ).
 
@@ -178,5 +178,5 @@ down(Status) :-
 overdue(Status) :-
     arg(2, Status, Sent),
     get_time(Now),
-    setting(typhon_hop:doubt_seconds, Limit),
+    setting(typhon_in_doubt:shown_seconds, Limit),
     Now-Sent > Limit.
