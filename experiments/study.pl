@@ -41,6 +41,7 @@ opt_type(list,    list,    boolean).
 opt_type(collect, collect, boolean).
 opt_type(real,    real,    boolean).
 opt_type(real_runs, real_runs, natural).
+opt_type(means,   means,   boolean).
 opt_type(out,     out,     atom).
 
 opt_help(help(header),
@@ -67,6 +68,7 @@ opt_help(real,    "Make one case on real sockets, too, and say whether what \c
 it gives lies within what virtual time gives [false]").
 opt_help(real_runs, "Runs of that case, each of which takes as long as the \c
 case does [1]").
+opt_help(means,   "Print means and their confidence intervals, too [false]").
 opt_help(out,     "Directory for runs, tables and pictures [out/studies]").
 
 opt_meta(set,  'NAME=VALUE').

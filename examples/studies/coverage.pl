@@ -32,9 +32,14 @@ measure(hops, Log, Hops) :-
     Hops is Visits - 1.
 measure(time, Log, Time) :-
     member(event(Time, _, _, left(0)), Log.events).
+measure(left, Log, Series) :-
+    findall(Time-Left, member(event(Time, _, _, left(Left)), Log.events),
+            Changes),
+    stepped(Changes, 10, 200, Series).
 
 label(hops, "Hops until every host was seen").
 label(time, "Host seconds until then").
+label(left, "Hosts that it has not seen").
 
 claim("who remembers is faster", [], least(time, strategy=conscientious)).
 claim("larger grids take longer", [], rises(time, along(side))).
@@ -44,3 +49,5 @@ claim("chance needs three times as many hops in the largest grid", [],
 
 plot(coverage, "An explorer sees every host",
      lines([ x(side), y([hops, time]), line(strategy), log(hops) ])).
+plot(progress, "What is left to see in the largest grid",
+     over_time([ y(left), line(strategy), where([side=9]) ])).

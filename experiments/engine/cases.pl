@@ -7,8 +7,11 @@
           ]).
 :- use_module('../../prolog/typhon/kernel/base/names', [names_proposed/3]).
 :- use_module(library(apply), [exclude/3, foldl/4]).
-:- use_module(library(lists), [last/2, list_to_set/2, member/2, memberchk/2]).
+:- use_module(library(error), [domain_error/2]).
+:- use_module(library(lists), 
+              [append/3, last/2, list_to_set/2, member/2, memberchk/2]).
 :- use_module(library(pairs), [pairs_keys/2]).
+:- use_module(sampling, [is_design/1, sampled_points/3]).
 
 /** <module> The cases of a study
 
@@ -24,7 +27,8 @@ a file that it includes: then what the study itself says counts.
 %!  study_cases(+Study, +Given:list(pair), -Cases:list(dict)) is det.
 %
 %   All combinations of what varies, but for those to be skipped, in the
-%   order of the file: what is named first varies slowest.  Given, pairs
+%   order of the file: what is named first varies slowest, and what is
+%   sampled, together, fastest.  Given, pairs
 %   Name-Value, take the place of what the file says; a list is varied.
 %
 %   @error study_parameter(Study, Name) for a name the study does not have
@@ -35,8 +39,9 @@ study_cases(Study, Given, Cases) :-
     findall(Name-Values,
             ( member(parameter(Name, Value, Why), Parameters),
               values(Why, Value, Values) ), Lists),
+    points(Parameters, Points),
     findall(Name, member(parameter(Name, _, derived), Parameters), Derived),
-    findall(Case, study_case(Study, Lists, Derived, Case), Cases0),
+    findall(Case, study_case(Study, Lists, Points, Derived, Case), Cases0),
     list_to_set(Cases0, Cases).
 
 must_have(Study, Name) :-
@@ -47,11 +52,28 @@ must_have(Study, Name) :-
 
 values(varied, Values, Values) :- !.
 values(given, Values, Values) :- is_list(Values), !.
-values(derived, _, _) :- !, fail.
+values(Why, _, _) :- memberchk(Why, [derived, sampled, design]), !, fail.
 values(_, Value, [Value]).
 
-study_case(Study, Lists, Derived, Case) :-
-    choice(Lists, Pairs),
+%   points(+Parameters, -Points): what is drawn of all that is sampled; one
+%   point without values if nothing is.
+
+points(Parameters, Points) :-
+    findall(Name-Range, member(parameter(Name, Range, sampled), Parameters),
+            Ranges),
+    (   Ranges == []
+    ->  Points = [[]]
+    ;   memberchk(parameter(design, Design, _), Parameters),
+        (   is_design(Design)
+        ->  sampled_points(Ranges, Design, Points)
+        ;   domain_error(study_design, Design)
+        )
+    ).
+
+study_case(Study, Lists, Points, Derived, Case) :-
+    choice(Lists, Pairs0),
+    member(Point, Points),
+    append(Pairs0, Point, Pairs),
     dict_pairs(Case0, case, Pairs),
     foldl(derive(Study), Derived, Case0, Case),
     \+ Study:skip(Case).
@@ -75,8 +97,9 @@ derive(Study, Name, Case0, Case) :-
 %
 %   Parameters are parameter(Name, Value, Why) in the order of the file. Why
 %   is as the file has it, `varied` or `given` (then Value may be a list),
-%   `derived` (then Value is not bound), or `default`: those of the engine,
-%   for studies that have a network.
+%   `derived` (then Value is not bound), `sampled` (then it is a range), or
+%   `default`: those of the engine, for studies that have a network.  Of what
+%   is sampled there is `design`, too, which is no parameter of cases.
 
 parameters(Study, Given, Parameters) :-
     findall(Name, said(Study, Name, _, _, _), Names0),
@@ -86,6 +109,10 @@ parameters(Study, Given, Parameters) :-
               counts(Study, Given, Name, Value, Why) ),
             Parameters).
 
+counts(Study, Given, design, Design, design) :-
+    memberchk(design-Design, Given),
+    once(clause(Study:design(_), _)),
+    !.
 counts(_, Given, Name, Value, given) :-
     memberchk(Name-Value, Given),
     !.
@@ -131,6 +158,14 @@ in_file(Study, Name, Value, Why, Source) :-
     clause(Study:fixed(Name, Value, Why), Body, Clause),
     Study:Body,
     source(Study, Clause, Source).
+in_file(Study, Name, Range, sampled, Source) :-
+    clause(Study:sample(Name, Range), Body, Clause),
+    Study:Body,
+    source(Study, Clause, Source).
+in_file(Study, design, Design, design, Source) :-
+    clause(Study:design(Design), Body, Clause),
+    Study:Body,
+    source(Study, Clause, Source).
 in_file(Study, Name, _, derived, Source) :-
     clause(Study:derive(Name0, _, _), _, Clause),
     atom(Name0),
@@ -157,7 +192,7 @@ varied(Study, Cases, Names) :-
     parameters(Study, [], Parameters),
     findall(Name,
             ( member(parameter(Name, _, Why), Parameters),
-              (   Why == varied
+              (   memberchk(Why, [varied, sampled])
               ->  true
               ;   Why \== derived,
                   several(Name, Cases)

@@ -276,6 +276,11 @@ of_expression(Term, Part) :-
     aggregate(Term, _, E),
     !,
     of_expression(E, Part).
+of_expression(correlation(E1, E2), Part) :-
+    !,
+    (   of_expression(E1, Part)
+    ;   of_expression(E2, Part)
+    ).
 of_expression(Term, Part) :-
     on_line(Term, _, E, P),
     !,

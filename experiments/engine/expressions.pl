@@ -10,8 +10,10 @@
 :- use_module(library(lists),
               [ last/2, max_list/2, member/2, memberchk/2, min_list/2,
                 sum_list/2 ]).
-:- use_module(library(pairs), [group_pairs_by_key/2, pairs_values/2]).
+:- use_module(library(pairs), 
+              [group_pairs_by_key/2, pairs_keys_values/3, pairs_values/2]).
 :- use_module(numbers, [median/2]).
+:- use_module(statistics, [mean/2, rank_correlation/3]).
 
 /** <module> Expressions in claims
 
@@ -21,6 +23,7 @@ over expressions, and
   - at(Where, E): where the case differs from this point's as Where says
   - sum(E), mean(E), median(E), least(E), most(E), number(E): over all
     points (of those that Where selects)
+  - correlation(E1, E2): Spearman's rank correlation, over the same points
   - rise(E, along(P)), first(E, along(P)), last(E, along(P)): of the line
     through this point: the points that differ in P alone
 
@@ -131,6 +134,16 @@ value(Aggregate, _, Context, Value) :-
     Context = context(Points, _, _),
     values(E, Points, Context, Values),
     call(Function, Values, Value).
+value(correlation(E1, E2), _, Context, Value) :-
+    !,
+    Context = context(Points, _, _),
+    findall(X-Y,
+            ( member(Point, Points),
+              value(E1, Point, Context, X),
+              value(E2, Point, Context, Y) ),
+            Pairs),
+    pairs_keys_values(Pairs, Xs, Ys),
+    rank_correlation(Xs, Ys, Value).
 value(OnLine, Case-_, Context, Value) :-
     on_line(OnLine, Function, E, P),
     !,
@@ -185,15 +198,10 @@ on_line(rise(E, along(P)), rise, E, P).
 on_line(first(E, along(P)), first, E, P).
 on_line(last(E, along(P)), last, E, P).
 
-:- public [sum/2, mean/2, rise/2, first/2].
+:- public [sum/2, rise/2, first/2].
 
 sum([V|Values], Sum) :-
     sum_list([V|Values], Sum).
-
-mean(Values, Mean) :-
-    sum(Values, Sum),
-    length(Values, Count),
-    Mean is Sum/Count.
 
 rise([First|Values], Rise) :-
     last(Values, Last),

@@ -18,10 +18,11 @@
                 runs_directory/2 ]).
 :- use_module(replays, [replays_save/3]).
 :- use_module(report,
-              [ claims_sentence/2, outcome_save/4, print_outcome/3,
+              [ claims_sentence/2, print_means/4, print_outcome/3,
                 shown_measures/3 ]).
 :- use_module(store, [run_done/3, run_result/3]).
 :- use_module(studies, [study_call/2, study_name/3, study_title/3]).
+:- use_module(tables, [outcome_save/4]).
 
 /** <module> What runs that are there say: tables, claims, pictures, the page
 
@@ -69,6 +70,10 @@ show(plan(Study, Given, Cases), Options, Out,
     Outcome = Outcome0.put(_{given:Given, checks:Checks}),
     save(Study, Outcome, Runs, Out),
     print_outcome(user_output, Study, Outcome),
+    (   option(means(true), Options)
+    ->  print_means(user_output, Study, Outcome, Runs)
+    ;   true
+    ),
     forall(never_measured(Study, Runs, Where, Measure),
            print_message(warning, study_measure(Where, Measure))),
     again_command(Study, Options, Again),

@@ -151,6 +151,8 @@ literal(Value, Literal) :-
     foldl(literal_code, Codes, Escaped, []),
     format(atom(Literal), '"~s"', [Escaped]).
 
+literal_code(0'\n, [0'\\, 0'n|Codes], Codes) :-
+    !.
 literal_code(Code, [0'\\, Code|Codes], Codes) :-
     memberchk(Code, `\\"`),
     !.

@@ -1,16 +1,17 @@
 :- module(study_lines,
-          [ lines_picture/6,            % +Study, +Name, +Options, +Runs,
+          [ lines_picture/6,            % +Study, +NameTitle, +Options, +Runs,
                                         % +Directory, -Picture
             matching/3                  % +Where, +Runs, -Matching
           ]).
 :- use_module(library(apply), [maplist/3]).
 :- use_module(library(filesex), [directory_file_path/3]).
 :- use_module(library(lists),
-              [ append/2, last/2, list_to_set/2, member/2, memberchk/2, nth0/3,
-                nth1/3, subtract/3 ]).
+              [ append/2, append/3, last/2, list_to_set/2, max_list/2, member/2,
+                memberchk/2, nth0/3, nth1/3,
+                selectchk/3, subtract/3 ]).
 :- use_module(library(option), [option/2, option/3]).
 :- use_module(library(pairs), [pairs_keys/2]).
-:- use_module(cases, [varied/3]).
+:- use_module(cases, [parameters/3, varied/3]).
 :- use_module(gnuplot, [colour/2, plain_text/2, save_columns/2]).
 :- use_module(numbers, [spread/4]).
 :- use_module(studies, [study_call/2]).
@@ -22,12 +23,13 @@ A panel for each measure, a line for each value of a parameter.
 *Threading*: no state; any thread.
 */
 
-%!  lines_picture(+Study, +Name, +Options, +Runs, +Directory, -Picture) is semidet.
+%!  lines_picture(+Study, +Name-Title, +Options, +Runs, +Directory, -Picture) is
+%!      semidet.
 %
 %   Write the data files of lines(Options).  Picture is Height-Variables, for
 %   lines.gp.  Fails if no run is to be shown.
 
-lines_picture(Study, Name, Options, Runs0, Directory, Height-Variables) :-
+lines_picture(Study, Name-Title, Options, Runs0, Directory, Height-Variables) :-
     option(where(Where), Options, []),
     matching(Where, Runs0, Runs),
     Runs = [_|_],
@@ -42,11 +44,68 @@ lines_picture(Study, Name, Options, Runs0, Directory, Height-Variables) :-
     save_blocks(Directory, Name, '-printed', Measures, Lines,
                 printed_row(Study, Shown)),
     length(Measures, Count),
-    Height is 130 + 330*Count,         % the label below, in SVG, is large
     findall(Variable,
             variable(Study, Options, Shown, Measures, Lines, Variable),
             Variables0),
-    Variables = ['HEIGHT'-Height|Variables0].
+    heights(Title, Count, Variables0, Height, Variables).
+
+%   heights(+Title, +Panels, +Variables0, -Height, -Variables): what is above
+%   the panels has as much room as the lines of title, subtitle and key need, and
+%   below each panel there is room for labels that are rotated.
+
+heights(Title, Panels, Variables0, Height, Variables) :-
+    memberchk('SUBTITLE'-Subtitle0, Variables0),
+    memberchk('Series'-Labels, Variables0),
+    memberchk('ROTATED'-Rotated, Variables0),
+    folded(Title, 75, '}\n{/:Bold=15 ', TitleText, TitleLines),
+    folded(Subtitle0, 110, '}\n{/*0.9 ', Subtitle, SubtitleLines),
+    key_rows(Labels, Rows),
+    Subline is 54.0 + 22*(TitleLines - 1),
+    Head is 90.0 + 22*(TitleLines - 1) + 20*(SubtitleLines - 1)
+            + 19*(Rows - 1),
+    Foot is 45.0 + 3.5*max(0, Rotated - 4),
+    Height is round(Head + 40 + (285 + Foot)*Panels),
+    selectchk('SUBTITLE'-Subtitle0, Variables0, Variables1),
+    selectchk('ROTATED'-Rotated, Variables1, Variables2),
+    Variables = [ 'TITLE'-TitleText, 'SUBTITLE'-Subtitle, 'HEIGHT'-Height,
+                  'HEAD'-Head, 'FOOT'-Foot, 'SUBLINE'-Subline,
+                  'KEYROWS'-Rows, 'ROTATED'-Rotated
+                | Variables2 ].
+
+%   folded(+Text, +Width, +Between, -Folded, -Count): in Count lines of about
+%   Width characters, with Between between them.
+
+folded(Text, Width, Between, Folded, Count) :-
+    atomic_list_concat(Words, ' ', Text),
+    fold(Words, Width, 0, '', Broken),
+    atomic_list_concat(Lines, '\n', Broken),
+    length(Lines, Count),
+    atomic_list_concat(Lines, Between, Folded).
+
+fold([], _, _, Text, Text).
+fold([Word|Words], Width, Used, Text0, Text) :-
+    atom_length(Word, Length),
+    Next is Used + Length + 1,
+    (   Used =:= 0
+    ->  atom_concat(Text0, Word, Text1),
+        Now = Next
+    ;   Next > Width
+    ->  atomic_list_concat([Text0, '\n', Word], Text1),
+        Now is Length + 1
+    ;   atomic_list_concat([Text0, ' ', Word], Text1),
+        Now = Next
+    ),
+    fold(Words, Width, Now, Text1, Text).
+
+%   gnuplot makes columns as wide as the longest label.
+
+key_rows(Labels, Rows) :-
+    findall(Length, ( member(Label, Labels), atom_length(Label, Length) ),
+            Lengths),
+    max_list(Lengths, Longest),
+    length(Labels, Count),
+    Columns is max(1, 100 // (Longest + 8)),
+    Rows is (Count + Columns - 1) // Columns.
 
 %!  matching(+Where, +Runs, -Matching) is det.
 %
@@ -154,7 +213,8 @@ variable(Study, Options, shown(Runs, X, _), _, _, 'SUBTITLE'-Subtitle) :-
 variable(Study, Options, shown(_, X, _), _, _, 'XLABEL'-Label) :-
     label(Study, X, Label0),
     option(xlabel(Label), Options, Label0).
-variable(Study, _, shown(_, _, Positions), _, _, 'XTICS'-Tics) :-
+variable(Study, _, shown(_, _, Positions0), _, _, 'XTICS'-Tics) :-
+    ticked(Positions0, Positions),
     findall(Tick, ( member(At-Value, Positions),
                     label(Study, Value, Label),
                     tick(Label, At, Tick) ),
@@ -169,6 +229,29 @@ variable(_, _, shown(_, _, Positions), _, _, Variable) :-
         Variable = 'LEFT'-Left
     ;   Right is Last + Margin,
         Variable = 'RIGHT'-Right
+    ).
+variable(_, Options, _, _, _, 'BAND'-Band) :-
+    (   option(band(true), Options)
+    ->  Band = 1
+    ;   Band = 0
+    ).
+variable(Study, _, shown(_, X, _), _, _, 'JOINED'-Joined) :-
+    parameters(Study, [], Parameters),
+    (   memberchk(parameter(X, _, sampled), Parameters)
+    ->  Joined = 0
+    ;   Joined = 1
+    ).
+variable(Study, _, shown(_, _, Positions0), _, _, 'ROTATED'-Rotated) :-
+    ticked(Positions0, Positions),
+    findall(Length, ( member(_-Value, Positions),
+                      label(Study, Value, Label),
+                      atom_length(Label, Length) ),
+            Lengths),
+    length(Lengths, Count),
+    max_list(Lengths, Longest),
+    (   Count*(Longest + 2) > 95        % characters in a line
+    ->  Rotated = Longest
+    ;   Rotated = 0
     ).
 variable(_, _, _, Measures, _, panels-Count) :-
     length(Measures, Count).
@@ -193,6 +276,53 @@ variable(Study, _, _, _, Lines, 'Series'-Labels) :-
 variable(_, _, _, _, Lines, 'Colour'-Colours) :-
     findall(Colour, ( nth0(I, Lines, _), N is I mod 6, colour(N, Colour) ),
             Colours).
+
+%   ticked(+Positions, -Ticked): of many numbers only some have a tick: those
+%   with 1, 2 or 5 of a power of ten between them if there are such, else some
+%   at equal distances.
+
+ticked(Positions, Ticked) :-
+    length(Positions, Count),
+    Count =< 12,
+    far_apart(Positions),
+    !,
+    Ticked = Positions.
+ticked(Positions, Ticked) :-
+    Positions = [First-Value|_],
+    number(Value),
+    First =:= Value,
+    !,
+    last(Positions, Last-_),
+    round_step((Last - First)/8, Step),
+    Low is ceiling(First/Step - 1.0e-9),
+    High is floor(Last/Step + 1.0e-9),
+    findall(At-At, ( between(Low, High, I), tick_at(I, Step, At) ), Ticked).
+ticked(Positions, Positions).
+
+%   Numbers are where they are: their labels must not overlap.
+
+far_apart(Positions) :-
+    Positions = [First-_|_],
+    last(Positions, Last-_),
+    Least is (Last - First)/25,
+    \+ ( append(_, [A-_, B-_|_], Positions),
+         B - A < Least ).
+
+round_step(Least0, Step) :-
+    Least is max(Least0, 1.0e-12),
+    Power is 10.0**floor(log10(Least)),
+    member(Factor, [1, 2, 5, 10]),
+    Step is Factor*Power,
+    Step >= Least*0.999,
+    !.
+
+tick_at(I, Step, At) :-
+    At0 is I*Step,
+    (   At0 =:= round(At0)
+    ->  At is round(At0)
+    ;   format(atom(Text), '~4g', [At0]),
+        atom_number(Text, At)
+    ).
 
 tick(Label, At, Tick) :-
     atomic_list_concat(Parts, '\'', Label),

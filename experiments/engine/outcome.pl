@@ -1,10 +1,12 @@
 :- module(study_outcome,
-          [ outcome/4                   % +Study, +Cases, +Runs, -Outcome
+          [ outcome/4,                  % +Study, +Cases, +Runs, -Outcome
+            case_numbers/4              % +Runs, +Case, +Measure, -Numbers
           ]).
 :- use_module(library(aggregate), [aggregate_all/3]).
 :- use_module(library(lists), [member/2]).
 :- use_module(cases, [varied/3]).
 :- use_module(claims, [claim_holds/2, claim_known/2]).
+:- use_module(evidence, [claim_comparisons/3]).
 :- use_module(found, [claim_found/4]).
 :- use_module(numbers, [spread/4]).
 :- use_module(studies, [study_call/2]).
@@ -31,8 +33,11 @@
 %       of the medians of all runs; Found is what the medians were, as text.
 %       Seeds of which a case is missing are not counted, and none are if
 %       in none there is anything to compare.
+%     - `tests`: a list of Text-Comparisons, what rank tests say of each
+%       claim, see claim_comparisons/3.
 
-outcome(Study, Cases, Runs, outcome{names:Names, rows:Rows, claims:Claims}) :-
+outcome(Study, Cases, Runs,
+        outcome{names:Names, rows:Rows, claims:Claims, tests:Tests}) :-
     varied(Study, Cases, Names),
     findall(Row, ( member(Case, Cases), row(Runs, Case, Row) ), Rows),
     seeds(Runs, Cases, Seeds),
@@ -41,7 +46,8 @@ outcome(Study, Cases, Runs, outcome{names:Names, rows:Rows, claims:Claims}) :-
               findall(Case-Ms, member(run(Case, Seed, Ms), Runs), Points) ),
             OfSeeds),
     median_points(Rows, Medians),
-    findall(Claim, claim(Study, Names, OfSeeds, Medians, Claim), Claims).
+    findall(Claim, claim(Study, Names, OfSeeds, Medians, Claim), Claims),
+    findall(Text-Comparisons, tested(Study, OfSeeds, Text, Comparisons), Tests).
 
 row(Runs, Case, row(Case, Count, Spreads)) :-
     findall(Ms, ( member(run(Case1, _, Ms), Runs), Case1 == Case ), All),
@@ -89,6 +95,25 @@ claim(Study, Names, OfSeeds, Medians, claim(Text, Notes, Held, Of, M, Found)) :-
           ( print_message(warning, study_claim(Text, error(Formal, Context))),
             t(Held, M, Found, Of)
             = t(0, false, 'a mistake in the claim', Count) )).
+
+%   A claim with a mistake was reported when it was judged.
+
+tested(Study, OfSeeds, Text, Comparisons) :-
+    study_call(Study, claim(Text, _, Test)),
+    catch(claim_comparisons(Study:Test, OfSeeds, Comparisons), error(_, _),
+          fail).
+
+%!  case_numbers(+Runs, +Case, +Measure, -Numbers:list(number)) is det.
+%
+%   What Measure is in the runs of Case in which it is a number.
+
+case_numbers(Runs, Case, Measure, Numbers) :-
+    findall(Value,
+            ( member(run(Case1, _, Ms), Runs),
+              Case1 == Case,
+              get_dict(Measure, Ms, Value),
+              number(Value) ),
+            Numbers).
 
 %   Parameters that are given may leave nothing to compare.
 

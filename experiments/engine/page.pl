@@ -7,7 +7,8 @@
 :- use_module(library(uri), [uri_encoded/3]).
 :- use_module(numbers, [number_text/2]).
 :- use_module(report,
-              [ case_texts/3, held_text/3, medians_text/4, parameter_rows/3,
+              [ case_texts/3, evidence/3, held_text/3, medians_text/4,
+                parameter_rows/3,
                 shown_measures/3, spread_text/3 ]).
 :- use_module(store, [run_facts/2]).
 :- use_module(studies, [study_call/2, study_title/3]).
@@ -74,17 +75,35 @@ studies([shown(Study, Outcome, Command, Run)|Shown], Directory) -->
       findall(Figure, figure(Study, Directory, Name, Figure), Figures) },
     html([ h2(id(Name), [Name, ': ', Title]) | Texts ]),
     html(Figures),
-    claims(Outcome.claims),
+    claims(Outcome.claims, Outcome.tests),
     medians(Study, Outcome),
     checks(Outcome.checks),
     parameters(Study, Outcome.given),
     one_run(Run),
     replay(Directory, Name),
     html(p(class(small),
-           [ 'Data: ', \link(Name, 'runs.csv'), ', ',
-             \link(Name, 'claims.csv'), ', ', \link(Name, 'parameters.csv'),
-             '. Again: ', code(Command) ])),
+           [ 'Data: ', \data(Directory, Name), '. Again: ', code(Command) ])),
     studies(Shown, Directory).
+
+%   The same rows are in files .jsonl.
+
+data(Directory, Name) -->
+    { findall(File,
+              ( member(Table, [ runs, steps, summary, tests, claims,
+                                parameters ]),
+                file_name_extension(Table, csv, File),
+                atomic_list_concat([Directory, Name, File], /, Path),
+                exists_file(Path) ),
+              [First|Files]) },
+    link(Name, First),
+    more_data(Files, Name).
+
+more_data([], _) -->
+    [].
+more_data([File|Files], Name) -->
+    html(', '),
+    link(Name, File),
+    more_data(Files, Name).
 
 link(Name, File) -->
     { path(Name, File, Path) },
@@ -108,19 +127,25 @@ figure(Study, Directory, Name, p([b(Plot), ' ', Title, br([]), Shown])) :-
                 *            TABLES            *
                 *******************************/
 
-claims([]) -->
+claims([], _) -->
     !,
     [].
-claims(Claims) -->
-    { findall(tr(class(Class), [td(Said), td(Word), td(Found)]),
+claims(Claims, Tests) -->
+    { findall(tr(class(Class), [td(Said), td(Word), td([Found|Evidence])]),
               ( member(claim(Text, Notes, Held, Of, Medians, Found), Claims),
                 held_text(Held, Of, Word0),
                 verdict(Held, Of, Medians, Class),
                 medians_text(Held, Of, Medians, Word1),
                 atom_concat(Word0, Word1, Word),
-                noted(Text, Notes, Said) ),
+                noted(Text, Notes, Said),
+                evidence_span(Text, Tests, Evidence) ),
               Rows) },
     html(table([tr([th(claim), th('held'), th('found (medians)')])|Rows])).
+
+evidence_span(Text, Tests, [' ', span(class(small), Said)]) :-
+    evidence(Text, Tests, Said),
+    !.
+evidence_span(_, _, []).
 
 verdict(Of, Of, true, yes) :- Of > 0, !.
 verdict(0, _, false, no) :- !.

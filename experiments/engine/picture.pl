@@ -3,10 +3,11 @@
           ]).
 :- use_module(library(filesex), [copy_file/2, directory_file_path/3]).
 :- use_module(library(lists), [append/3, member/2, memberchk/2]).
-:- use_module(library(option), [option/2]).
+:- use_module(library(option), [option/2, option/3]).
 :- use_module(gnuplot,
               [plain_text/2, plot/3, save_columns/2, save_variables/2]).
 :- use_module(lines, [lines_picture/6, matching/3]).
+:- use_module(series, [runs_over_time/3]).
 :- use_module(studies, [study_call/2]).
 
 /** <module> What is drawn
@@ -18,6 +19,9 @@ A picture is
     y(Measures), line(P): a line for each value, default none;
     where(Conditions): Name=Value or Name=in(Values); log(Measure),
     rule(Measure, Number), subtitle(Text), xlabel(Text).
+  - over_time(Options): medians of series (see series.pl) against time, and a
+    band from the least to the greatest run.  Options are as of lines, without
+    x(P).
   - script(File, Tables, Options): what gnuplot does with File, beside the
     study.  Tables are NAME-Goal: call(Goal, Runs, Rows) in the study, for
     the data file NAME.dat; options size(W,H), seed(first): only the runs
@@ -51,10 +55,20 @@ picture(Study, plot(Name, Title, Picture), Runs, Directory) :-
     ).
 
 drawn(lines(Options), Study, Name, Title, Runs, Directory) :-
-    lines_picture(Study, Name, Options, Runs, Directory, Height-Variables),
+    plain_text(Title, Plain),
+    lines_picture(Study, Name-Plain, Options, Runs, Directory,
+                  Height-Variables),
     module_property(study_picture, file(Here)),
     beside(Here, 'lines.gp', Script),
-    draw(Directory, Name, Title, 1000-Height, Script, Variables).
+    draw(Directory, Name, 1000-Height, Script, Variables).
+drawn(over_time(Options), Study, Name, Title, Runs0, Directory) :-
+    option(y(Y), Options),
+    ( is_list(Y) -> Measures = Y ; Measures = [Y] ),
+    option(where(Where), Options, []),
+    matching(Where, Runs0, Runs),
+    runs_over_time(Runs, Measures, Steps),
+    append(Options, [x(time), xlabel('host seconds'), band(true)], All),
+    drawn(lines(All), Study, Name, Title, Steps, Directory).
 drawn(script(File, Tables, Options), Study, Name, Title, Runs0, Directory) :-
     of_seed(Options, Runs0, Runs),
     forall(member(Table-Goal, Tables),
@@ -69,7 +83,8 @@ drawn(script(File, Tables, Options), Study, Name, Title, Runs0, Directory) :-
     append(Options, [size(1200, 1000)], Sizes),
     memberchk(size(W, H), Sizes),
     beside(Study, File, Script),
-    draw(Directory, Name, Title, W-H, Script, ['HEIGHT'-H|More]).
+    plain_text(Title, Plain),
+    draw(Directory, Name, W-H, Script, ['TITLE'-Plain, 'HEIGHT'-H|More]).
 drawn(file(File, Where), _, Name, _, Runs0, Directory) :-
     matching(Where, Runs0, Runs),
     of_seed([seed(first)], Runs, [run(_, _, Measures)|_]),
@@ -93,14 +108,13 @@ beside(File, Name, Path) :-
 %   The script stays beside the pictures, so that a figure can be changed
 %   without the runs.
 
-draw(Directory, Name, Title0, Size, Script, Variables) :-
-    plain_text(Title0, Title),
+draw(Directory, Name, Size, Script, Variables) :-
     file_base_name(Script, Base),
     directory_file_path(Directory, Base, Copy),
     copy_file(Script, Copy),
     file_name_extension(Name, gnuplot, Own),
     directory_file_path(Directory, Own, Path),
-    append(['NAME'-Name, 'TITLE'-Title|Variables], [load-Base], All),
+    append(['NAME'-Name|Variables], [load-Base], All),
     save_variables(Path, All),
     plot(Directory, Name, Size).
 

@@ -1,7 +1,8 @@
 :- module(study_report,
           [ print_outcome/3,            % +Stream, +Study, +Outcome
+            print_means/4,              % +Stream, +Study, +Outcome, +Runs
+            evidence/3,                 % +Text, +Tests, -Evidence
             print_table/3,              % +Stream, +Header, +Rows
-            outcome_save/4,             % +Study, +Outcome, +Runs, +Directory
             case_texts/3,               % +Case, +Names, -Texts
             spread_text/3,              % +Row, +Measure, -Text
             shown_measures/3,           % +Study, +Rows, -Measures
@@ -12,24 +13,26 @@
           ]).
 :- use_module(library(aggregate), [aggregate_all/3]).
 :- use_module(library(apply), [exclude/3, maplist/3, maplist/4]).
-:- use_module(library(csv), [csv_write_file/3]).
-:- use_module(library(filesex), [directory_file_path/3]).
 :- use_module(library(lists),
               [ append/2, append/3, list_to_set/2, member/2, memberchk/2,
                 nth1/3 ]).
 :- use_module(cases, [parameters/3]).
+:- use_module(evidence, [evidence_text/2]).
 :- use_module(numbers, [number_text/2, spread_text/4]).
+:- use_module(outcome, [case_numbers/4]).
+:- use_module(statistics, [mean/2, mean_interval/4]).
 :- use_module(studies, [study_call/2, study_title/3]).
 
-/** <module> Tables for people, CSV for other programs
+/** <module> Tables for people
 
 *Threading*: no state; any thread.
 */
 
 %!  print_outcome(+Stream, +Study, +Outcome) is det.
 %
-%   A line for each case: medians, and from which to which; and a line for
-%   each claim.  Outcome has two keys more: `given`, what --set has given, and
+%   A line for each case: medians, and from which to which; and for each claim
+%   in how many runs it held, what was found, and what rank tests say.  Outcome
+%   has two keys more: `given`, what --set has given, and
 %   `checks`, see cross_check/4.
 
 print_outcome(Stream, Study, Outcome) :-
@@ -43,7 +46,8 @@ print_outcome(Stream, Study, Outcome) :-
     append([Outcome.names, [runs], Measures], Header),
     print_table(Stream, Header, Rows),
     nl(Stream),
-    forall(member(Claim, Outcome.claims), print_claim(Stream, Claim)),
+    forall(member(Claim, Outcome.claims),
+           print_claim(Stream, Outcome.tests, Claim)),
     print_checks(Stream, Outcome.checks).
 
 print_checks(_, []) :-
@@ -93,10 +97,51 @@ spread_text(row(_, Count, Spreads), Measure, Text) :-
     ).
 spread_text(_, _, '').
 
-print_claim(Stream, claim(Text, _, Held, Of, OfMedians, Found)) :-
+print_claim(Stream, Tests, claim(Text, _, Held, Of, OfMedians, Found)) :-
     held_text(Held, Of, Word),
     medians_text(Held, Of, OfMedians, Medians),
-    format(Stream, '  ~w~t~22|~w~w~n~22|~w~n', [Word, Text, Medians, Found]).
+    format(Stream, '  ~w~t~22|~w~w~n~22|~w~n', [Word, Text, Medians, Found]),
+    (   evidence(Text, Tests, Evidence)
+    ->  format(Stream, '~22|~w~n', [Evidence])
+    ;   true
+    ).
+
+%!  evidence(+Text, +Tests, -Evidence:atom) is semidet.
+%
+%   What rank tests say of the claim Text; fails if it compares no cases.
+
+evidence(Text, Tests, Evidence) :-
+    memberchk(Text-Comparisons, Tests),
+    evidence_text(Comparisons, Evidence).
+
+%!  print_means(+Stream, +Study, +Outcome, +Runs) is det.
+%
+%   A line for each case: means, and their confidence intervals.
+
+print_means(Stream, Study, Outcome, Runs) :-
+    shown_measures(Study, Outcome.rows, Measures),
+    findall(Cells,
+            ( member(row(Case, Count, _), Outcome.rows),
+              case_texts(Case, Outcome.names, Keys),
+              findall(Text,
+                      ( member(Measure, Measures),
+                        case_numbers(Runs, Case, Measure, Numbers),
+                        mean_text(Numbers, Text) ),
+                      Values),
+              append([Keys, [Count], Values], Cells) ),
+            Rows),
+    append([Outcome.names, [runs], Measures], Header),
+    format(Stream, '~nMeans, and their confidence intervals (95 %)~n~n', []),
+    print_table(Stream, Header, Rows).
+
+mean_text(Numbers, Text) :-
+    mean(Numbers, Mean),
+    !,
+    (   mean_interval(Numbers, 0.95, Low, High)
+    ->  spread_text(Low, Mean, High, Text)
+    ;   number_text(Mean, Text)
+    ).
+mean_text(_, '').
 
 %!  held_text(+Held, +Of, -Text) is det.
 
@@ -218,6 +263,7 @@ parameter_rows(Study, Given, Rows) :-
 why(default, '') :- !.
 why(derived, 'follows from others') :- !.
 why(given, 'given by --set') :- !.
+why(design, 'of what is sampled') :- !.
 why(tuned(Why), Text) :- !,
     format(atom(Text), 'tuned after results were seen: ~w', [Why]).
 why(Term, Text) :-                      % assumed(Why), printed(Where)
@@ -226,50 +272,3 @@ why(Term, Text) :-                      % assumed(Why), printed(Where)
     !,
     format(atom(Text), '~w: ~w', [Name, Why]).
 why(Why, Text) :- format(atom(Text), '~w', [Why]).
-
-                /*******************************
-                *             CSV              *
-                *******************************/
-
-%!  outcome_save(+Study, +Outcome, +Runs, +Directory) is det.
-%
-%   Write runs.csv, claims.csv and parameters.csv.
-
-outcome_save(Study, Outcome, Runs, Directory) :-
-    measured(Runs, Measures),
-    findall([Seed|Cells],
-            ( member(run(Case, Seed, Ms), Runs),
-              case_texts(Case, Outcome.names, Keys),
-              maplist(csv_cell(Ms), Measures, Values),
-              append(Keys, Values, Cells) ),
-            RunRows),
-    append([[seed], Outcome.names, Measures], Header),
-    save_csv(Directory, 'runs.csv', [Header|RunRows]),
-    findall([Text, Held, Of, OfMedians, Found, Notes],
-            ( member(claim(Text, Notes0, Held, Of, OfMedians, Found),
-                     Outcome.claims),
-              format(atom(Notes), '~w', [Notes0]) ),
-            ClaimRows),
-    save_csv(Directory, 'claims.csv',
-             [[claim, held, of, of_medians, found, notes]|ClaimRows]),
-    parameter_rows(Study, Outcome.given, ParameterRows),
-    save_csv(Directory, 'parameters.csv',
-             [[parameter, value, why]|ParameterRows]).
-
-measured(Runs, Measures) :-
-    findall(Name,
-            ( member(run(_, _, Ms), Runs), get_dict(Name, Ms, V), number(V) ),
-            Names),
-    sort(Names, Measures).
-
-csv_cell(Ms, Name, Value) :-
-    (   get_dict(Name, Ms, Value0),
-        number(Value0)
-    ->  Value = Value0
-    ;   Value = ''
-    ).
-
-save_csv(Directory, Name, Rows) :-
-    directory_file_path(Directory, Name, File),
-    findall(Line, ( member(Row, Rows), Line =.. [row|Row] ), Lines),
-    csv_write_file(File, Lines, [encoding(utf8)]).

@@ -10,6 +10,8 @@
 :- use_module('../../prolog/typhon/kernel/base/names', [names_joined/3, names_near/3]).
 :- use_module('../../prolog/typhon/kernel/base/options', [check_options/2]).
 :- use_module(cases, [parameters/3, study_parameter/2]).
+:- use_module(sampling, [is_design/1, is_range/1]).
+:- use_module(series, []).
 :- use_module(claims, [claim_name/2, claim_shape/2, claim_value/2]).
 
 /** <module> A study is a short file
@@ -21,6 +23,8 @@ what is claimed and what is drawn.  Its words are
     text(Paragraph).
     vary(Parameter, Values).
     fixed(Parameter, Value, Why).
+    sample(Parameter, Range).
+    design(Design).
     derive(Parameter, Case, Value).
     skip(Case).
     network(Case, Topology, Options).
@@ -59,6 +63,8 @@ word(study/2).
 word(text/1).
 word(vary/2).
 word(fixed/3).
+word(sample/2).
+word(design/1).
 word(derive/3).
 word(skip/1).
 word(network/3).
@@ -94,6 +100,8 @@ study_load(File, Study) :-
     (   loaded(Study)
     ->  true
     ;   forall(word(PI), ( Study:dynamic(PI), Study:discontiguous(PI) )),
+        Study:import(study_series:counted/4),
+        Study:import(study_series:stepped/4),
         statistics(errors, Before),
         load_files(Study:Study,
                    [encoding(utf8), silent(true), if(true)]),
@@ -164,6 +172,15 @@ problem(Study, _, arity(Name/Other, Word)) :-
 problem(Study, _, no_values(Name)) :-
     study_call(Study, vary(Name, Values)),
     \+ Values = [_|_].
+problem(Study, _, no_range(Name, Range)) :-
+    study_call(Study, sample(Name, Range)),
+    \+ is_range(Range).
+problem(Study, _, no_design(Design)) :-
+    study_call(Study, design(Design)),
+    \+ is_design(Design).
+problem(Study, _, missing(design/1)) :-
+    study_says(Study, sample/2),
+    \+ study_says(Study, design/1).
 problem(Study, _, said(claim(Text), no_test(Part))) :-
     study_call(Study, claim(Text, _, Test)),
     claim_shape(Study:Test, Part).
@@ -195,7 +212,9 @@ study_name(Study, claim(Text), Name) :-
     study_call(Study, claim(Text, _, Test)),
     claim_name(Study:Test, Name).
 study_name(Study, plot(Plot), Name) :-
-    study_call(Study, plot(Plot, _, lines(Options))),
+    study_call(Study, plot(Plot, _, Picture)),
+    picture_options(Picture, _, Options),
+    \+ Picture = script(_, _, _),
     member(Option, Options),
     (   Option = y(Measures),
         is_list(Measures)
@@ -206,6 +225,7 @@ study_name(Study, plot(Plot), Name) :-
 %   picture_options(+Picture, -Domain, -Options): see room picture.
 
 picture_options(lines(Options), lines_option, Options).
+picture_options(over_time(Options), over_time_option, Options).
 picture_options(script(_, _, Options), script_option, Options).
 
 typhon_options:declared(lines_option, x(X), nonvar, X).
@@ -216,11 +236,15 @@ typhon_options:declared(lines_option, log(X), nonvar, X).
 typhon_options:declared(lines_option, rule(X, Y), nonvar, X-Y).
 typhon_options:declared(lines_option, subtitle(X), ground, X).
 typhon_options:declared(lines_option, xlabel(X), ground, X).
+typhon_options:declared(over_time_option, Option, Type, Value) :-
+    typhon_options:declared(lines_option, Option, Type, Value),
+    Option \= x(_).
 typhon_options:declared(script_option, size(W, H), list(integer), [W,H]).
 typhon_options:declared(script_option, seed(X), oneof([first]), X).
 typhon_options:declared(script_option, variables(X), callable, X).
 
 is_picture(lines(_)).
+is_picture(over_time(_)).
 is_picture(script(_, _, _)).
 is_picture(file(_, _)).
 
@@ -266,6 +290,11 @@ says(arity(PI, Word)) -->
     [ 'it has ~q; the word is ~q'-[PI, Word] ].
 says(no_values(Name)) -->
     [ 'vary(~q, Values): Values is not a list of values'-[Name] ].
+says(no_range(Name, Range)) -->
+    [ 'sample(~q, ~q): ranges are uniform(A, B), loguniform(A, B), \c
+integer(A, B) and lists'-[Name, Range] ].
+says(no_design(Design)) -->
+    [ 'design(~q): designs are random(N) and latin_hypercube(N)'-[Design] ].
 says(said(Where, Problem)) -->
     [ '~p: '-[Where] ],
     says(Problem).

@@ -3,7 +3,8 @@
             with_study_file/2,          % +Lines, :Goal
             save_lines/3,               % +Dir, +Name, +Lines
             study_command/4,            % +Dir, +Arguments, -Status, -Text
-            study_messages/2            % :Goal, -Text
+            study_messages/2,           % :Goal, -Text
+            pandas_python/1             % -Python
           ]).
 
 /** <module> Studies that are made up
@@ -86,3 +87,23 @@ messages(Goal, Text, Dir) :-
         ( set_stream(Old, alias(user_error)),
           close(Out) )),
     read_file_to_string(File, Text, [encoding(utf8)]).
+
+%!  pandas_python(-Python) is semidet.
+%
+%   Python is the one that .ci/pandas has made; fails if there is none.
+
+pandas_python(Python) :-
+    missing([pandas], []),
+    pandas_directory(Directory),
+    directory_file_path(Directory, 'bin/python', Python).
+
+pandas_directory(Directory) :-
+    getenv('TYPHON_PANDAS', Directory),
+    !.
+pandas_directory(Directory) :-
+    (   getenv('XDG_CACHE_HOME', Cache)
+    ->  true
+    ;   getenv('HOME', Home),
+        directory_file_path(Home, '.cache', Cache)
+    ),
+    directory_file_path(Cache, 'typhon/pandas', Directory).

@@ -4,9 +4,12 @@
 % gives what is shown there.
 
 :- use_module('../../lib/common').
-:- use_module('../../lib/study_files', [study_command/4]).
+:- use_module('../../lib/study_files', [pandas_python/1, study_command/4]).
 :- use_module(library(debug), [assertion/1]).
+:- use_module(library(filesex),
+              [delete_directory_and_contents/1, make_directory_path/1]).
 :- use_module(library(lists), [member/2]).
+:- use_module(library(process), [process_create/3, process_wait/2]).
 :- use_module(library(plunit)).
 :- use_module(library(readutil), [read_file_to_string/3]).
 
@@ -43,12 +46,43 @@ test(same_study, Shown == Text) :-
     file('examples/studies/coverage.pl', Text).
 test(gives_what_is_shown) :-
     block(text, '$ swipl', Lines),
-    with_tmp_dir(output(Output)),
+    made(_, Output),
     forall(member(Line, Lines),
            assertion(once(sub_string(Output, _, _, _, Line)))).
+test(notebook_prints_what_is_shown,
+     [condition(pandas_python(_)), true(Printed == Shown)]) :-
+    block(python, '# look.py', Lines),
+    atomic_list_concat(Lines, '\n', Script),
+    made(Dir, _),
+    pandas_prints(Script, Dir, Text),
+    split_string(Text, "", "\n", [Printed]),
+    block(text, 'strategy', Below),
+    atomic_list_concat(['strategy  conscientious      random'|Below], '\n',
+                       Table),
+    split_string(Table, "", "\n", [Shown]).
 
 :- end_tests(example_study).
 
-output(Output, Dir) :-
+%   Made once.
+
+:- dynamic there/2.
+
+made(Dir, Output) :-
+    there(Dir, Output),
+    !.
+made(Dir, Output) :-
+    tmp_file(example_study, Dir),
+    make_directory_path(Dir),
+    at_halt(delete_directory_and_contents(Dir)),
     project_file('examples/studies/coverage.pl', Study),
-    study_command(Dir, [Study, '--runs', 10], exit(0), Output).
+    study_command(Dir, [Study, '--runs', 10, '--out', out], exit(0), Output),
+    assertz(there(Dir, Output)).
+
+pandas_prints(Script, Dir, Text) :-
+    pandas_python(Python),
+    setup_call_cleanup(
+        process_create(Python, ['-c', Script],
+                       [ cwd(Dir), stdout(pipe(Out)), process(Pid) ]),
+        read_string(Out, _, Text),
+        close(Out)),
+    process_wait(Pid, exit(0)).

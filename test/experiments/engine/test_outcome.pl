@@ -8,6 +8,7 @@
 :- use_module('../../../experiments/engine/numbers').
 :- use_module('../../../experiments/engine/outcome').
 :- use_module('../../../experiments/engine/report').
+:- use_module('../../../experiments/engine/tables', [outcome_save/4]).
 :- use_module(library(lists), [member/2, memberchk/2]).
 :- use_module(library(debug), [assertion/1]).
 :- use_module(library(filesex), [directory_file_path/3]).

@@ -10,7 +10,7 @@
 :- use_module('../../../experiments/engine/outcome', [outcome/4]).
 :- use_module('../../../experiments/engine/page').
 :- use_module('../../../experiments/engine/picture').
-:- use_module('../../../experiments/engine/report', [outcome_save/4]).
+:- use_module('../../../experiments/engine/tables', [outcome_save/4]).
 :- use_module('../../../experiments/engine/studies',
               [study_call/2, study_load/2]).
 :- use_module(library(debug), [assertion/1]).

@@ -1,0 +1,17 @@
+% One of several that look for what is to be seen.    See search.pl beside this.
+
+:- agent(searcher, [state([pause/1])]).
+
+main :-
+    walk(400).
+
+walk(0).
+walk(N) :-
+    N > 0,
+    log(here),
+    pause(Pause),
+    sleep(Pause),
+    next_host(conscientious, Next),
+    move(Next),
+    N1 is N-1,
+    walk(N1).
