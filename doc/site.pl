@@ -4,9 +4,8 @@
 
     swipl doc/site.pl -- DIR
 
-makes it in DIR: README.md, the pages of doc/ in the order in which the
-section Documentation of README.md names them, and a reference of all public
-predicates. The files that pages point to come along. It can be read, and
+makes it in DIR: README.md, the pages of doc/ in the order in which
+doc/contents.md names them, and a reference of all public predicates. The files that pages point to come along. It can be read, and
 searched, without a server. Says which links are broken, and fails if any
 are.
 

@@ -15,55 +15,47 @@ the tree, which is the working directory.
 :- use_module(library(lists), [append/3]).
 :- use_module(library(readutil), [read_file_to_string/3]).
 :- use_module(colour, [code_dom/3]).
-:- use_module(dom, [dom_attribute/3, dom_edit/3, dom_text/2]).
+:- use_module(dom, [dom_edit/3, dom_text/2]).
 :- use_module(links, [linked/3, site_file/3]).
 :- use_module(markdown, [markdown_dom/2]).
 :- use_module(reference, [reference_dom/1]).
 
 %!  documents(-Groups) is det.
 %
-%   Groups are Heading-Documents: README.md; what its section Documentation
-%   links to, in that order and under the headings there; the reference.
+%   Groups are Heading-Documents: README.md and doc/contents.md; what the
+%   sections of that link to, in that order; the reference of predicates.
 
-documents(["Start"-[Readme]|Groups]) :-
+documents(["Start"-[Readme, Contents]|Groups]) :-
     document('README.md', Readme),
-    Readme = document(_, _, Dom),
-    append(_, [Heading|After], Dom),
-    dom_attribute(Heading, id, documentation),
-    !,
-    groups(After, Groups0),
+    document('doc/contents.md', Contents),
+    Contents = document(_, _, Dom),
+    groups(Dom, Groups0),
     reference_dom(Reference),
     append(Groups0,
-           ["Reference"-[document('predicates.md', "All predicates",
-                                  Reference)]],
+           ["Predicates"-[document('predicates.md', "All predicates",
+                                   Reference)]],
            Groups).
 
-groups([Heading|After], Groups) :-
-    heading(Heading, Level, Text),
+groups([], []).
+groups([element(h2, _, Heading)|After], [Text-Documents|Groups]) :-
     !,
-    (   Level == h2
-    ->  Groups = []
-    ;   Groups = [Text-Documents|More],
-        until_heading(After, Here, Rest),
-        findall(Path, ( linked('README.md', Here, Path),
-                        site_file(page, Path, _) ), Paths),
-        maplist(document, Paths, Documents),
-        groups(Rest, More)
-    ).
+    dom_text(Heading, Text),
+    until_heading(After, Here, Rest),
+    findall(Path, ( linked('doc/contents.md', Here, Path),
+                    site_file(page, Path, _) ), Paths),
+    maplist(document, Paths, Documents),
+    groups(Rest, Groups).
 groups([_|After], Groups) :-
     groups(After, Groups).
 
+until_heading([], [], []).
 until_heading([Node|Nodes], Before, Rest) :-
-    (   heading(Node, _, _)
+    (   Node = element(h2, _, _)
     ->  Before = [],
         Rest = [Node|Nodes]
     ;   Before = [Node|More],
         until_heading(Nodes, More, Rest)
     ).
-
-heading(element(Level, _, Dom), Level, Text) :-
-    memberchk(Level, [h2, h3]),
-    dom_text(Dom, Text).
 
 document(Path, document(Path, Title, Dom)) :-
     markdown_dom(Path, Dom0),

@@ -4,22 +4,20 @@
 
 /** <module> The reference: what PlDoc knows of the public predicates
 
-All that library(typhon), the vocabulary of agents and library(typhon/nxt)
-export, room by room, and what their comments refer to. Predicates that
+Predicates are grouped by what users want to do with them: task/3. Those that
 share a comment share an entry.
 
 *Threading*: the main thread. PlDoc notes comments while files are loaded,
-so this room is loaded before any other that loads library(typhon).
+so this module is loaded before any other that loads library(typhon).
 */
 
 :- use_module(library(apply), [maplist/3]).
 :- use_module(library(http/html_write), [print_html/1]).
-:- use_module(library(lists), [append/2, append/3, list_to_set/2, member/2]).
+:- use_module(library(lists), [append/2, member/2]).
 :- use_module(library(pairs), [group_pairs_by_key/2, pairs_values/2]).
 :- use_module(library(pldoc)).
 :- use_module(library(pldoc/doc_html), []).
 :- use_module(library(pldoc/doc_process), [doc_comment/4]).
-:- use_module(library(readutil), [read_file_to_terms/3]).
 :- use_module(library(uri), [uri_components/2, uri_query_components/2]).
 :- use_module(dom,
               [dom_attribute/3, dom_edit/3, dom_element/2, html_dom/2]).
@@ -33,66 +31,93 @@ so this room is loaded before any other that loads library(typhon).
 :- doc_collect(false).
 
                 /*******************************
-                *         WHAT IS PUBLIC       *
+                *             TASKS            *
                 *******************************/
 
-%   part(-Id, -Module): all that Module exports is public.
+%   part(?Id, ?Title).
 
-part(library, typhon).
-part(inside, typhon_words).
-part(inside, typhon_memory).
-part(robots, typhon_nxt).
-part(fipa, typhon_fipa).
+part(agents, "Inside an agent").
+part(library, "At the top level and in programs: library(typhon)").
+part(fipa, "Platforms of FIPA: library(typhon/fipa)").
+part(robots, "Robots: library(typhon/nxt)").
 
-title(library, "At the top level and in programs: library(typhon)").
-title(inside, "Inside an agent").
-title(robots, "Robots: library(typhon/nxt)").
-title(fipa, "Platforms of FIPA: library(typhon/fipa)").
-title(others, "What these refer to").
+%   task(?Part, ?Title, ?Modules): Modules are those that define the predicates
+%   of the task, or Module:PIs if some are of other tasks.
 
-%   public(?Module, -PI): of the part Module; what is part of library(typhon),
-%   too, is told there.
+task(agents, "Move, clone and end",
+     [ typhon_words:[move/1, clone/1, clone/2, dispose/0], typhon_memory ]).
+task(agents, "Wait, and exchange messages",
+     [ typhon_words:[sleep/1, receive/1, receive/2, send/2] ]).
+task(agents, "Know where it is",
+     [ typhon_words:[ self/1, here/1, home/1, parent/1, hops/1, now/1,
+                      host_load/1, neighbours/1, neighbour/2 ] ]).
+task(agents, "Share facts on a host",
+     [ typhon_words:[leave/1, leave_new/1, sense/1, take/1] ]).
+task(agents, "Report results and events",
+     [ typhon_words:[result/1, log/1, enter/1], typhon_seals:[seal/3] ]).
+task(agents, "Carry and deliver payloads",
+     [ typhon_words:[attach/1, detach/1, deliver/1, undeliver/1] ]).
+task(agents, "Call agents by pheromones",
+     [ typhon_words:[emit/1, emit/2, withdraw/1, pheromone/3] ]).
+task(library, "Start, change and stop hosts", [typhon_hosting, typhon_changing]).
+task(library, "Link hosts, and ask them",
+     [typhon_host_questions, typhon_remote]).
+task(library, "Start networks, and read their logs", [typhon_network]).
+task(library, "Check programs", [typhon_check]).
+task(library, "Create agents", [typhon_creation]).
+task(library, "Write to agents, and order them about",
+     [typhon_sending, typhon_order_client]).
+task(library, "Wait for agents, and end them", [typhon_join, typhon_disposal]).
+task(library, "Look into agents",
+     [ typhon_environment, typhon_properties, typhon_listing, typhon_tracing,
+       typhon_stepping, typhon_trails ]).
+task(library, "Watch a network", [typhon_watching, typhon_page]).
+task(library, "Save and restore agents", [typhon_restore]).
+task(library, "Use Python, MQTT, ROS and FIPA", [typhon_starting]).
+task(fipa, "Ask a platform", [typhon_fipa_service]).
+task(robots, "Connect a brick, and use its parts", [typhon_nxt_brick]).
+task(robots, "Run motors", [typhon_nxt_motors]).
+task(robots, "Read sensors", [typhon_nxt_sensors]).
+task(robots, "Files and programs of a brick", [typhon_nxt_files]).
+task(robots, "The names of SWI-PRO-NXT", [typhon_nxt_swi_pro_nxt]).
+task(robots, "Motors and sensors by the names of SWI-PRO-NXT",
+     [typhon_nxt_old_devices]).
 
-public(Module, Room:PI) :-
-    part(_, Module),
+%   public(+Part, ?PI): predicates that users may call.
+
+public(agents, Module:PI) :-
+    exported(typhon_words, Module:PI),
+    PI \== message_failed/2.            % is for the machine
+public(agents, PI) :-
+    exported(typhon_memory, PI).
+public(agents, typhon_seals:seal/3).
+public(library, PI) :-
+    exported(typhon, PI).
+public(fipa, Module:PI) :-
+    exported(typhon_fipa, Module:PI),
+    \+ exported(typhon, Module:PI).
+public(robots, PI) :-
+    exported(typhon_nxt, PI).
+
+exported(Module, Definer:PI) :-
     module_property(Module, exports(PIs)),
     member(PI, PIs),
-    defined_in(Module, PI, Room),
-    \+ ( Module \== typhon, defined_in(typhon, PI, Room) ).
-public(typhon_words, typhon_words:sleep/1).     % with the name of another
-
-defined_in(Module, Name/Arity, Room) :-
+    PI = Name/Arity,
     functor(Head, Name, Arity),
-    (   predicate_property(Module:Head, imported_from(Room0))
-    ->  Room = Room0
-    ;   Room = Module
+    (   predicate_property(Module:Head, imported_from(Definer0))
+    ->  Definer = Definer0
+    ;   Definer = Module
     ).
 
-%   rooms(+Module): this one, then what its file re-exports, in that order.
+%   of_task(+Part, +Modules, -PI)
 
-rooms(Module) -->
-    [Module],
-    { module_property(Module, file(File)),
-      file_directory_name(File, Dir),
-      read_file_to_terms(File, Terms, []),
-      findall(Room,
-              ( member((:- Directive), Terms),
-                reexported(Directive, Spec),
-                absolute_file_name(Spec, Path,
-                                   [file_type(prolog), relative_to(Dir)]),
-                module_property(Room, file(Path)) ),
-              Rooms)
-    },
-    all_rooms(Rooms).
-
-all_rooms([]) -->
-    [].
-all_rooms([Room|Rooms]) -->
-    rooms(Room),
-    all_rooms(Rooms).
-
-reexported(reexport(Spec), Spec).
-reexported(reexport(Spec, _), Spec).
+of_task(Part, Modules, Module:PI) :-
+    member(Item, Modules),
+    (   Item = Module:PIs
+    ->  member(PI, PIs)
+    ;   Item = Module,
+        public(Part, Module:PI)
+    ).
 
                 /*******************************
                 *            ENTRIES           *
@@ -123,24 +148,9 @@ entry_dom(Entry, Dom) :-
                               [navtree(false), module(Module)]), Tokens),
     tokens_dom(Tokens, Dom).
 
-%   The same of a module, without a heading with buttons.
-
-about_dom(File, Heading, Comment, Dom) :-
-    phrase(pldoc_html:file_header(File, [file(Heading, Comment)]), Tokens),
-    tokens_dom(Tokens, Dom).
-
-:- multifile prolog:doc_file_title//3.
-
-prolog:doc_file_title(_, _, _) -->
-    [].
-
 tokens_dom(Tokens, Dom) :-
     with_output_to(string(Html), print_html(Tokens)),
     html_dom(Html, Dom).
-
-refers(Dom, PI) :-
-    dom_element(Dom, Element),
-    pldoc_link(Element, PI).
 
 pldoc_link(Element, PI) :-
     dom_attribute(Element, href, Link),
@@ -177,68 +187,41 @@ settle(_, element(span, [style='float:right'], _), []).
 %!  reference_dom(-Dom) is det.
 %
 %   The page of all public predicates. The id of a predicate is its name and
-%   arity.
+%   arity; the first entry of two with one name has it.
+%
+%   @error existence_error(task, PI): a public predicate that no task has
 
 reference_dom([element(h1, [id=predicates], ["All predicates"])|Dom]) :-
-    findall(Id, part(Id, _), Ids0),
-    list_to_set(Ids0, Ids),
-    maplist(part_rooms, Ids, Parts0),
-    referred(Parts0, Others),
-    append(Parts0, [Others], Parts),
-    maplist(part_dom, Parts, Doms),
-    append(Doms, Dom0),
+    forall(public(Part, PI), has_task(Part, PI)),
+    findall(Node, ( part(Part, Title), part_node(Part, Title, Node) ), Dom0),
     findall(PI, ( dom_element(Dom0, E), dom_attribute(E, name, PI) ), Known),
     dom_edit(settle(Known), Dom0, Dom).
 
-%   A part is part(Id, Rooms), a room is room(Heading, Dom).
+has_task(Part, PI) :-
+    task(Part, _, Modules),
+    of_task(Part, Modules, PI),
+    !.
+has_task(_, PI) :-
+    throw(error(existence_error(task, PI), _)).
 
-part_rooms(Id, part(Id, Rooms)) :-
-    findall(Room,
-            ( part(Id, Module),
-              phrase(rooms(Module), Modules),
-              member(Definer, Modules),
-              findall(Definer:PI, public(Module, Definer:PI), PIs),
-              room(Definer, PIs, Room) ),
-            Rooms).
-
-room(Module, PIs, room(Heading, Dom)) :-
-    PIs = [_|_],
-    once(doc_comment(Module:module(Heading), File:_, _, Comment)),
-    about_dom(File, Heading, Comment, About),
+part_node(Part, Title, element(h2, [id=Part], [Title])).
+part_node(Part, _, Node) :-
+    task(Part, Title, Modules),
+    findall(PI, of_task(Part, Modules, PI), PIs),
     entries(PIs, Entries),
     maplist(entry_dom, Entries, Doms),
-    append([About|Doms], Dom).
+    append(Doms, Dom),
+    findall(Link, name_link(Dom, Link), Links),
+    slug(Title, Slug),
+    atomic_list_concat([Part, Slug], -, Id),
+    member(Node, [ element(h3, [id=Id], [Title]),
+                   element(p, [class=names], Links)
+                 | Dom ]).
 
-%   What is not public, and named by what is.
-
-referred(Parts, part(others, Rooms)) :-
-    findall(Module-(Module:PI),
-            ( member(part(_, Others), Parts),
-              member(room(_, Dom), Others),
-              refers(Dom, Module:PI),
-              \+ public(_, Module:PI) ),
-            Pairs0),
-    sort(Pairs0, Pairs),
-    group_pairs_by_key(Pairs, Groups),
-    findall(Room, ( member(Module-PIs, Groups), room(Module, PIs, Room) ),
-            Rooms).
-
-part_dom(part(Id, Rooms),
-         [element(h2, [id=Id], [Title]), element(p, [class=names], Links)
-         |Dom]) :-
-    title(Id, Title),
-    findall(Name, ( member(room(_, Body), Rooms), dom_element(Body, E),
-                    dom_attribute(E, name, Name) ), Names0),
+name_link(Dom, Node) :-
+    findall(Name, ( dom_element(Dom, E), dom_attribute(E, name, Name) ),
+            Names0),
     sort(Names0, Names),
-    findall(Node, ( member(Name, Names), name_link(Name, Node) ), Links),
-    maplist(room_dom(Id), Rooms, Doms),
-    append(Doms, Dom).
-
-name_link(Name, element(a, [href=Link], [Name])) :-
-    atom_concat(#, Name, Link).
-name_link(_, " ").
-
-room_dom(Part, room(Heading, Dom),
-         [element(h3, [id=Id], [Heading])|Dom]) :-
-    slug(Heading, Slug),
-    atomic_list_concat([Part, Slug], -, Id).
+    member(Name, Names),
+    atom_concat(#, Name, Link),
+    member(Node, [element(a, [href=Link], [Name]), " "]).

@@ -166,6 +166,8 @@ elsewhere("perf record").               % needs a build of SWI-Prolog with symbo
 elsewhere("lsp_server").                % a pack that is not part of anything here
 elsewhere("db.example").                % test_postgresql has a server
 elsewhere("pack_install").              % test_pack installs the pack
+elsewhere("swipl pack install").
+elsewhere("apt install").
 
                 /*******************************
                 *     NAMES OF THIS MACHINE    *
