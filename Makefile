@@ -21,7 +21,7 @@ CHECKS = list_undefined, list_trivial_fails, list_format_errors, \
 .PHONY: help tools tools-peers tools-all tools-ros demo demo-robots demo-ros \
     demo-page page-tools thesis thesis-real test chaos scripted fuzz hostile \
     check check-all \
-    doc pictures bench bench-peers profile \
+    doc pictures vscode bench bench-peers profile \
     test-portability install clean
 
 # In the environment of pack_install there is where libraries of C go.
@@ -96,6 +96,11 @@ hostile:                ## hostile agents on a guarded host; COUNT=100000, SEED=
 pictures: tools page-tools ## make the pictures of the page for README and doc
 	@.ci/install page
 	@$(SWIPL) doc/pictures.pl -- doc/img
+
+vscode:                 ## pack the extension for VS Code, by vsce from npm
+	@mkdir -p out
+	@cd editors/vscode && npx --yes @vscode/vsce@3 package \
+	    --allow-missing-repository --out ../../out/typhon-agents.vsix
 
 doc: tools              ## the documents as a site, in out/doc
 	@.ci/install doc

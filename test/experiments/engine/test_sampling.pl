@@ -12,7 +12,9 @@
 :- use_module('../../../experiments/engine/series').
 :- use_module('../../../experiments/engine/studies', [study_load/2]).
 :- use_module(library(debug), [assertion/1]).
-:- use_module(library(filesex), [directory_file_path/3]).
+:- use_module(library(filesex),
+              [ delete_directory_and_contents/1, directory_file_path/3,
+                make_directory_path/1 ]).
 :- use_module(library(lists), [append/3, member/2, numlist/3]).
 :- use_module(library(plunit)).
 :- use_module(library(process), [process_create/3, process_wait/2]).
@@ -206,9 +208,20 @@ table([ 'study(table, "A table").',
 :- meta_predicate with_tables(1).
 
 with_tables(Goal) :-
-    with_tmp_dir(tables_in(Goal)).
+    tables(Tables),
+    call(Goal, Tables).
 
-tables_in(Goal, Dir) :-
+%   Made once.
+
+:- dynamic made/1.
+
+tables(Tables) :-
+    made(Tables),
+    !.
+tables(Tables) :-
+    tmp_file(tables, Dir),
+    make_directory_path(Dir),
+    at_halt(delete_directory_and_contents(Dir)),
     table(Lines),
     atomic_list_concat(Lines, '\n', Text),
     directory_file_path(Dir, 'table.pl', File),
@@ -216,7 +229,7 @@ tables_in(Goal, Dir) :-
                        close(Out)),
     study_command(Dir, [File, '--runs', 2, '--out', out], exit(0), _),
     directory_file_path(Dir, 'out/table', Tables),
-    call(Goal, Tables).
+    assertz(made(Tables)).
 
 lines_of(Name, Lines, Tables) :-
     directory_file_path(Tables, Name, File),
