@@ -29,10 +29,8 @@ indexed(typhon_questions:here/3, question, here(Question, _, _), Kind) :-
     callable(Question),
     functor(Question, Kind, _).
 indexed(typhon_time:starts/1, time, starts(Kind), Kind).
-indexed(typhon_durable:fact_table/5, durable, fact_table(Kind, _, _, _, _),
-        Kind).
-indexed(typhon_durable:dump/4, durable, dump(Kind, _, _, _), Kind).
-indexed(typhon_durable:restore/4, durable, restore(Kind, _, _, _), Kind).
+indexed(typhon_durable:durable/5, durable, durable(Kind, _, _, _, _), Kind).
+indexed(typhon_durable:durable/6, durable, durable(Kind, _, _, _, _, _), Kind).
 indexed(typhon_durable_changes:open_store/3, open_store, open_store(_, _, _),
         any).
 

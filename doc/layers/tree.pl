@@ -187,7 +187,12 @@ note_directive(agent(Name, Options), File) :-
     note_names(agent(Name, Options), File),
     assertz(agent_program(File)).
 note_directive(Directive, File) :-
-    note_names(Directive, File).
+    note_names(Directive, File),
+    (   functor(Directive, durable, Arity),
+        Arity >= 5
+    ->  assertz(hook_clause(File, typhon_durable:Directive))
+    ;   true
+    ).
 
 note_import(Kind, File, Spec, List) :-
     target(Spec, File, Target),

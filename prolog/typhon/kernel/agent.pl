@@ -48,5 +48,5 @@ This is the interface of the layer: higher layers import from here.
             [ is_result_fact/1, result_facts/2, cloned_put/2, no_result_facts/2,
               result_put/2 ]).
 :- reexport(agent/mailbox,
-              [ mail_all/2, mail_back/2, mail_count/2, mail_list/2,
-                mail_restore/3, mail_take/2, mail_waits/1 ]).
+            [ mail_all/2, mail_back/2, mail_count/2, mail_list/2, mail_take/2,
+              mail_waits/1 ]).

@@ -10,6 +10,7 @@
           ]).
 :- use_module(library(error), [representation_error/1]).
 :- use_module(library(lists), [append/3]).
+:- use_module('../base/durable', [durable/6]).
 :- use_module('../base/durable_changes', [durable_key/1, durable_on/0]).
 :- use_module('../wire', [endpoint_address/1]).
 :- use_module('../host', [address_parts/3, time_repeats/2]).
@@ -54,7 +55,6 @@ agent_id(Name, Home, Id) :-
     id_anew/1,                  % what is known of Id is
     mark_suffix/1,              % Suffix: of the marks of this process
     origin/4,                   % Host, Hash, State, Origin: not its home
-    typhon_durable:dump/4,
     typhon_runtime:beginning/1.
 
 :- dynamic
@@ -72,8 +72,8 @@ typhon_runtime:beginning(Kind) :-
     ;   true
     ).
 
-typhon_durable:dump(flag, typhon_agent_id, N, '') :-
-    flag(typhon_agent_id, N, N).
+:- durable(flag, Name, N, '', ( Name = typhon_agent_id, flag(Name, N, N) ),
+           set_flag(Name, N)).
 
 process_mark(Mark) :-
     mark(Mark),

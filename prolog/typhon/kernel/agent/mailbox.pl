@@ -1,15 +1,16 @@
 :- module(typhon_mailbox,
           [ mail_put/2,                 % +Id, +Messages
             mail_take/2,                % +Id, ?Message
-            mail_restore/3,             % +Id, +N, +Message
             mail_all/2,                 % +Id, -Messages
             mail_list/2,                % +Id, -Messages
             mail_waits/1,               % +Id
             mail_count/2,               % +Id, -Count
             mail_back/2                 % +Id, +Messages
           ]).
-:- use_module(library(lists), [append/3]).
+:- use_module(library(lists), [append/3, member/2]).
+:- use_module(agent_lock, [with_agent/2]).
 :- use_module('../base/fifo', [fifo_empty/2, fifo_take/2]).
+:- use_module('../base/durable', [durable/6]).
 :- use_module('../base/durable_changes',
               [ durable_drop/3, durable_drop_all/2, durable_number/1,
                 durable_on/0, durable_put/4, enqueue_changes/0 ]).
@@ -51,9 +52,13 @@ box_of(Id, Queue) :-
     message_queue_create(Queue),
     assertz(box(Id, Queue)).
 
-%!  mail_restore(+Id, +N, +Message) is det.
-%
-%   Put back a message that is in the journal under the number N.
+:- durable(mail, Id, N, Message, mail_item(Id, Message),
+           mail_restore(Id, N, Message)).
+
+mail_item(Id, Message) :-
+    box(Id, _),
+    with_agent(Id, mail_list(Id, Messages)),
+    member(Message, Messages).
 
 mail_restore(Id, N, Message) :-
     box_of(Id, Queue),

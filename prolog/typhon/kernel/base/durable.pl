@@ -1,69 +1,124 @@
 :- module(typhon_durable,
-          [ durable_dump/4,             % +Kind, -Key, -N, -Term
+          [ durable/5,                  % +Kind, ?Key, ?N, ?Term, :Fact
+            durable/6,                  % +Kind, ?Key, ?N, ?Term, :Dump,
+                                        % :Restore
+            durable_assertz/1,          % :Fact
+            durable_retractall/1,       % :Fact
+            durable_dump/4,             % +Kind, -Key, -N, -Term
             durable_restore/4           % +Kind, +Key, +N, +Term
           ]).
+:- use_module(durable_changes,
+              [durable_drop_all/2, durable_number/1, durable_on/0, durable_put/4]).
 :- use_module(on_demand, [on_demand_load/2]).
 
 /** <module> Tables that outlive the process
 
 What outlives a process is items, item(Kind, Key, N, Term): a journal notes
-them as they change, a saved network holds all of them.  Where a kind of item
-is a table of facts, its owner declares that once,
+them as they change, a saved network holds all of them.  The owner of a table
+declares it once.  A table of facts needs no more than the item of a fact:
 
-    typhon_durable:fact_table(outcome, Id, _, Outcome-Hops,
-                         typhon_home:outcome(Id, Outcome, Hops)).
+    :- durable(outcome, Id, _, Outcome-Hops, outcome(Id, Outcome, Hops)).
 
-and both directions follow.  Where it is more than that, as a mailbox, the
-owner defines dump/4, restore/4 or both.
+Where the items are not facts, as of a mailbox, which is a queue, the owner
+says how they are listed, and how one is put back:
+
+    :- durable(mail, Id, N, Message, mail_item(Id, N, Message),
+               mail_restore(Id, N, Message)).
+
+N is 0, and Term is '', where the table has none.
 
 *Threading*: dump while nothing changes; restore before agents run.
 */
 
+:- meta_predicate
+    durable(+, ?, ?, ?, 0),
+    durable(+, ?, ?, ?, 0, 0),
+    durable_assertz(0),
+    durable_retractall(0).
+
 :- multifile
-    fact_table/5,                    % Kind, Key, N, Term, Module:Fact
-    dump/4,                     % Kind, Key, N, Term: there is this item
-    restore/4,                  % Kind, Key, N, Term: put it where it was
     restored/0,                 % all items of a journal are restored
     recover/0,                  % the items of a journal are to be restored
     tidy/0,                     % no peer is let in yet
     go_on/0.                    % what was restored goes on
 
 :- dynamic
-    fact_table/5,
-    dump/4,
-    restore/4,
     restored/0,
     recover/0,
     tidy/0,
-    go_on/0.
+    go_on/0,
+    item_table/6,               % Kind, Key, N, Term, Dump, Restore
+    fact_table/6.               % Fact, Module, Kind, Key, N, Term
+
+%!  durable(+Kind, ?Key, ?N, ?Term, :Fact) is det.
+%!  durable(+Kind, ?Key, ?N, ?Term, :Dump, :Restore) is det.
+%
+%   Directives.  The items of this Kind are the facts Fact; or they are what Dump
+%   enumerates, and Restore puts one back.  Several tables may have one Kind: an
+%   item goes to the first that takes it.
+
+durable(Kind, Key, N, Term, Module:Fact) :-
+    once_there(fact_table(Fact, Module, Kind, Key, N, Term)),
+    durable(Kind, Key, N, Term, Module:Fact, Module:assertz(Fact)).
+
+durable(Kind, Key, N, Term, Dump, Restore) :-
+    once_there(item_table(Kind, Key, N, Term, Dump, Restore)).
+
+%   A file may be loaded again.
+
+once_there(Table) :-
+    copy_term(Table, General),
+    (   call(General),
+        General =@= Table
+    ->  true
+    ;   assertz(Table)
+    ).
+
+%!  durable_assertz(:Fact) is det.
+%!  durable_retractall(:Fact) is det.
+%
+%   Add Fact to a table of facts, as its newest item; remove those that match
+%   Fact, the key of which is bound.
+%
+%   @error representation_error(_): no item can have this key
+
+durable_assertz(Module:Fact) :-
+    (   durable_on
+    ->  fact_table(Fact, Module, Kind, Key, N, Term),
+        ( var(N) -> durable_number(N) ; true ),
+        no_term(Term),
+        durable_put(Kind, Key, N, Term)
+    ;   true
+    ),
+    assertz(Module:Fact).
+
+durable_retractall(Module:Fact) :-
+    (   durable_on
+    ->  fact_table(Fact, Module, Kind, Key, _, _),
+        durable_drop_all(Kind, Key)
+    ;   true
+    ),
+    retractall(Module:Fact).
 
 %!  durable_dump(+Kind, -Key, -N, -Term) is nondet.
 %
-%   The items of this kind.  N is 0 where the table does not number its items.
+%   The items of this kind.
 
 durable_dump(Kind, Key, N, Term) :-
-    dump(Kind, Key, N, Term).
-durable_dump(Kind, Key, N, Term) :-
-    \+ dumps(Kind),
-    fact_table(Kind, Key, N, Term, Fact),
-    call(Fact),
-    ( var(N) -> N = 0 ; true ).
+    item_table(Kind, Key, N, Term, Dump, _),
+    call(Dump),
+    ( var(N) -> N = 0 ; true ),
+    no_term(Term).
 
-dumps(Kind) :-
-    clause(dump(Kind, _, _, _), _),
-    !.
+no_term(Term) :-
+    ( var(Term) -> Term = '' ; true ).
 
 %!  durable_restore(+Kind, +Key, +N, +Term) is semidet.
 %
-%   Put the item where it was.  Fails if no owner knows items like this.
+%   Put the item where it was.  Fails if no table takes it.
 
-durable_restore(Kind, _, _, _) :-
+durable_restore(Kind, Key, N, Term) :-
     on_demand_load(durable, Kind),
-    fail.
-durable_restore(Kind, Key, N, Term) :-
-    restore(Kind, Key, N, Term),
+    item_table(Kind, Key, N, Term, _, Restore),
+    call(Restore),
     !.
-durable_restore(Kind, Key, N, Term) :-
-    fact_table(Kind, Key, N, Term, Fact),
-    !,
-    assertz(Fact).

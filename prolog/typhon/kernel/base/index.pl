@@ -19,10 +19,6 @@ Made by `swipl doc/layers.pl -- index`, and compared by `make check`.
 part_joins(check_option,policy,'options/guard').
 part_joins(durable,agent,'options/journal').
 part_joins(durable,birth,'options/identity').
-part_joins(durable,code,'options/journal').
-part_joins(durable,flag,'options/snapshot').
-part_joins(durable,mail,'options/journal').
-part_joins(durable,mail,'options/snapshot').
 part_joins(durable,order,'options/snapshot').
 part_joins(durable,out,'options/journal').
 part_joins(durable,program,'options/snapshot').

@@ -21,6 +21,7 @@
           ]).
 :- use_module(library(apply), [maplist/3]).
 :- use_module(library(lists), [member/2]).
+:- use_module('../base/durable', [durable/6]).
 :- use_module('../base/durable_changes',
               [durable_drop/3, durable_on/0, durable_put/4]).
 :- use_module('../base/headroom', [memory_short/1]).
@@ -50,10 +51,7 @@ one mutex: flag/3 would lock for each of them.
 %
 %   The hosts of this process, in the order in which they were started.
 
-:- multifile
-    typhon_names:known/2,
-    typhon_durable:restore/4,
-    typhon_durable:dump/4.
+:- multifile typhon_names:known/2.
 
 %   Those of other processes by their addresses.
 
@@ -132,10 +130,14 @@ make_hop_keys(Name, Direction) :-
 
 %   How many stand there, and how long hops took.
 
-typhon_durable:dump(counts, Name, 0, Values) :-
+:- durable(counts, Name, 0, Values, counts_item(Name, Values),
+           counts_restore(Name, Values)).
+
+counts_item(Name, Values) :-
     host(Name, _, _),
     findall(Value, ( count_key(Name, Key), flag(Key, Value, Value) ), Values).
-typhon_durable:restore(counts, Name, _, Values) :-
+
+counts_restore(Name, Values) :-
     findall(Key, count_key(Name, Key), Keys),
     maplist(set_flag, Keys, Values).
 

@@ -15,11 +15,8 @@ One direction of each: the other is known to the other host.
 *Threading*: any thread; one mutex for changes.
 */
 
+:- use_module('../base/durable', [durable/6]).
 :- use_module('../base/durable_changes', [durable_drop/3, durable_put/4]).
-
-:- multifile
-    typhon_durable:restore/4,
-    typhon_durable:dump/4.
 
 :- dynamic
     neighbour/2,                % Name, Address
@@ -46,13 +43,25 @@ note_link(Name, Address) :-
 link_key(Name, Address, Key) :-
     atomic_list_concat([Name, Address], ' ', Key).
 
-%   A link that was there before is not reported.
+add_link(Name, Address) :-
+    (   neighbour(Name, Address)
+    ->  true
+    ;   assertz(neighbour(Name, Address)),
+        event(links, Name, none, link(Address))
+    ).
 
-typhon_durable:dump(link, Key, 0, link(Name, Address, Cost)) :-
+:- durable(link, Key, 0, link(Name, Address, Cost),
+           link_item(Key, Name, Address, Cost),
+           link_restore(Name, Address, Cost)).
+
+link_item(Key, Name, Address, Cost) :-
     neighbour(Name, Address),
     host_link_cost(Name, Address, Cost),
     link_key(Name, Address, Key).
-typhon_durable:restore(link, _, _, link(Name, Address, Cost)) :-
+
+%   It was there before, so it is not reported.
+
+link_restore(Name, Address, Cost) :-
     with_mutex(typhon_links,
                ( (   neighbour(Name, Address)
                  ->  true
@@ -60,13 +69,6 @@ typhon_durable:restore(link, _, _, link(Name, Address, Cost)) :-
                  ),
                  set_cost(Cost, Name, Address),
                  note_link(Name, Address) )).
-
-add_link(Name, Address) :-
-    (   neighbour(Name, Address)
-    ->  true
-    ;   assertz(neighbour(Name, Address)),
-        event(links, Name, none, link(Address))
-    ).
 
 %   A caller meanwhile finds the old cost or the new one.
 

@@ -14,6 +14,7 @@
               [existence_error/2, must_be/2, permission_error/3]).
 :- use_module(library(lists), [member/2, subtract/3]).
 :- use_module('../base/error_text', [print_error/2]).
+:- use_module('../base/durable', [durable/6]).
 :- use_module('../base/durable_changes',
               [durable_drop/3, durable_drop_all/2, durable_put/4]).
 :- use_module('../base/deferred', [deferred_drop/3]).
@@ -38,9 +39,7 @@ those that see nothing else of the place, by directives
 
 :- multifile
     serves/2,                   % Place, PI: it offers that from now on
-    prolog:make_hook/2,
-    typhon_durable:restore/4,
-    typhon_durable:dump/4.
+    prolog:make_hook/2.
 
 :- dynamic
     place_host/2,               % Place, Host
@@ -288,17 +287,19 @@ remove(Place, Name) :-
                 *       WHAT OUTLIVES IT       *
                 *******************************/
 
-typhon_durable:restore(payload, _, _, payload(Host, Payload)) :-
-    place_host(Place, Host),
-    place_deliver(Place, Payload, _).
-
 %   As they would be delivered once more.
 
-typhon_durable:dump(payload, Key, 0,
-                     payload(Host, payload(Name, PIs, Clauses))) :-
+:- durable(payload, Key, 0, payload(Host, Payload),
+           payload_item(Key, Host, Payload), payload_restore(Host, Payload)).
+
+payload_item(Key, Host, payload(Name, PIs, Clauses)) :-
     delivered(Place, Name, PIs),
     payload_key(Place, Name, Host, Key),
     clauses_of(Place, PIs, Clauses).
+
+payload_restore(Host, Payload) :-
+    place_host(Place, Host),
+    place_deliver(Place, Payload, _).
 
 clauses_of(Place, PIs, Clauses) :-
     findall((Head:-Body),
@@ -309,12 +310,16 @@ clauses_of(Place, PIs, Clauses) :-
 
 %   What goals and files have made of the place itself.
 
-typhon_durable:dump(place, Host, 0, state(PIs, Clauses)) :-
+:- durable(place, Host, 0, state(PIs, Clauses), place_item(Host, PIs, Clauses),
+           place_restore(Host, PIs, Clauses)).
+
+place_item(Host, PIs, Clauses) :-
     place_host(Place, Host),
     findall(PI, own_state(Place, PI), PIs),
     PIs \== [],
     clauses_of(Place, PIs, Clauses).
-typhon_durable:restore(place, Host, _, state(PIs, Clauses)) :-
+
+place_restore(Host, PIs, Clauses) :-
     place_host(Place, Host),
     forall(( member(Name/Arity, PIs), functor(Head, Name, Arity) ),
            ( dynamic(Place:Name/Arity),

@@ -6,6 +6,7 @@
             tuple_take/2                % +Place, ?Fact
           ]).
 :- use_module(library(error), [must_be/2]).
+:- use_module('../base/durable', [durable/6]).
 :- use_module('../base/durable_changes', [durable_number/1, durable_on/0]).
 :- use_module('../base/deferred',
               [ deferred_call/1, deferred_drop/3, deferred_put/4,
@@ -21,10 +22,8 @@ leaving a fact while tuple_leave_new/3 looks.
 */
 
 :- multifile
-    counted/2,                  % By, Change: of its facts one more, or less,
+    counted/2.                  % By, Change: of its facts one more, or less,
                                 % is there: 1 or -1
-    typhon_durable:restore/4,
-    typhon_durable:dump/4.
 
 :- dynamic counted/2.
 
@@ -132,7 +131,17 @@ tuple_take(Place, Fact) :-
     deferred_drop(tuple, Host, N),
     count(By, -1).
 
-typhon_durable:restore(tuple, Host, N, Noted) :-
+%   A journal has facts by their numbers.
+
+:- durable(tuple, Host, N, Noted, tuple_item(Host, N, Noted),
+           tuple_restore(Host, N, Noted)).
+
+tuple_item(Host, N, Noted) :-
+    tuple_on(Host, Fact, N, By),
+    integer(N),
+    noted(By, Fact, Noted).
+
+tuple_restore(Host, N, Noted) :-
     was_noted(Noted, By, Fact),
     place_host(Place, Host),
     count(By, 1),
@@ -146,13 +155,17 @@ noted(none, Fact, Fact) :-
     !.
 noted(By, Fact, '$by'(By, Fact)).
 
-%   As they would be left once more.
+%   A saved network has them as they would be left once more.
 
-typhon_durable:dump(fact, Host, By, Fact) :-
+:- durable(fact, Host, By, Fact, tuple_on(Host, Fact, _, By),
+           fact_restore(Host, By, Fact)).
+
+fact_restore(Host, By, Fact) :-
+    place_host(Place, Host),
+    tuple_leave(Place, Fact, By).
+
+tuple_on(Host, Fact, N, By) :-
     place_host(Place, Host),
     clause(Place:'$tuple'(Fact), Body0),
     strip_module(Body0, _, Body),
-    tuple_body(_, By, Body).
-typhon_durable:restore(fact, Host, By, Fact) :-
-    place_host(Place, Host),
-    tuple_leave(Place, Fact, By).
+    tuple_body(N, By, Body).

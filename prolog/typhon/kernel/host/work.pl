@@ -10,6 +10,7 @@
             limits_forget/0
           ]).
 :- use_module(library(lists), [member/2]).
+:- use_module('../base/durable', [durable/6]).
 :- use_module('../base/error_text', [print_error/2]).
 :- use_module(turns, [turn_begins/1]).
 
@@ -30,9 +31,7 @@ it its own.
     work_survives(0).
 
 :- multifile
-    typhon_scheduler:run/1,     % Agent: run it until it has to wait
-    typhon_durable:restore/4,
-    typhon_durable:dump/4.
+    typhon_scheduler:run/1.     % Agent: run it until it has to wait
 
 :- dynamic
     limit/2,                    % Host, Concurrency
@@ -122,12 +121,16 @@ unpark(_, _, []).
 
 %   The agents that wait for a turn, and how many have one.
 
-typhon_durable:dump(turns, Host, Running, Agents) :-
+:- durable(turns, Host, Running, Agents, turns_item(Host, Running, Agents),
+           turns_restore(Host, Running, Agents)).
+
+turns_item(Host, Running, Agents) :-
     limit(Host, _),
     running_key(Host, Key),
     flag(Key, Running, Running),
     findall(Agent, parked(Host, Agent), Agents).
-typhon_durable:restore(turns, Host, Running, Agents) :-
+
+turns_restore(Host, Running, Agents) :-
     running_key(Host, Key),
     flag(Key, _, Running),
     forall(member(Agent, Agents), assertz(parked(Host, Agent))).

@@ -24,7 +24,6 @@ move, or out of a restore point.  Only agent_resume/1 takes that away.
 *Threading*: what takes an Id inside with_agent/2, but for faulty_tell/3.
 */
 
-:- multifile typhon_durable:fact_table/5.
 
 :- dynamic kept/1.                      % Id, the oldest first
 
@@ -67,8 +66,6 @@ faulty_stirs(Id) :-
 
 faulty_gone(Id) :-
     retractall(kept(Id)).
-
-typhon_durable:fact_table(stays, Id, 0, '', typhon_faulty:kept(Id)).
 
 %!  faulty_tell(+Id, +Fault, +At) is det.
 %

@@ -9,8 +9,9 @@
             post_tried/0
           ]).
 :- use_module(library(apply), [maplist/2]).
-:- use_module(library(lists), [append/3]).
+:- use_module(library(lists), [append/3, member/2]).
 :- use_module('../base/fifo', [fifo_empty/2]).
+:- use_module('../base/durable', [durable/6]).
 :- use_module('../base/durable_changes',
               [durable_drop_all/2, durable_number/1, durable_put/4]).
 
@@ -24,8 +25,6 @@ tried they are with whoever tries; there is one at a time.
 */
 
 :- multifile
-    typhon_durable:restore/4,
-    typhon_durable:dump/4,
     typhon_runtime:ending/1.
 
 :- dynamic waits/4.             % Id, Queue, Tries, State: idle or tried
@@ -45,16 +44,25 @@ backlog_add(Id, Letter) :-
     durable_put(wait, Id, N, Letter),
     add(Id, Letter).
 
-typhon_durable:restore(wait, Id, _, Letter) :-
-    add(Id, Letter).
+%   A journal has them one by one; a saved network has those of an agent
+%   together.
 
-%   There are some, and no thread tries them now.
+:- durable(wait, Id, _, Letter, letter_item(Id, Letter), add(Id, Letter)).
+:- durable(backlog, Id, Tries, Letters, backlog_item(Id, Tries, Letters),
+           backlog_restore(Id, Tries, Letters)).
 
-typhon_durable:dump(backlog, Id, Tries, Letters) :-
+letter_item(Id, Letter) :-
+    backlog_item(Id, _, Letters),
+    member(Letter, Letters).
+
+%   No thread tries them now.
+
+backlog_item(Id, Tries, Letters) :-
     waits(Id, Queue, Tries, _),
     fifo_empty(Queue, Letters),
     maplist(thread_send_message(Queue), Letters).
-typhon_durable:restore(backlog, Id, Tries, Letters) :-
+
+backlog_restore(Id, Tries, Letters) :-
     message_queue_create(Queue),
     maplist(thread_send_message(Queue), Letters),
     assertz(waits(Id, Queue, Tries, idle)).

@@ -4,6 +4,7 @@
           ]).
 :- use_module(library(error), [existence_error/2, must_be/2, resource_error/1]).
 :- use_module('../base/error_text', [print_error/2]).
+:- use_module('../base/durable', [durable/5]).
 :- use_module('../base/durable_changes',
               [ crash_point/1, durable_bytes/2, durable_put/4, unit_of_work/1 ]).
 :- use_module('../wire', [endpoint_post/3, frame_fits/1]).
@@ -28,7 +29,6 @@ taken by the threads of connections; a worker says what has come.
 :- multifile
     queued/3,                   % Endpoint, Kind, Term: will be sent
     undelivered/4,              % Kind, Term, Endpoint, Formal: never will be
-    typhon_durable:fact_table/5,
     typhon_endpoint:received/3,
     typhon_runtime:ending/1,
     typhon_scheduler:fire/2.
@@ -132,7 +132,7 @@ typhon_scheduler:fire(Key, had(To, Peer)) :-
     !,
     scheduler_call(typhon_durable_posts:say_had(Key, To, Peer)).
 
-typhon_durable:fact_table(seen, Key, 0, N, typhon_durable_posts:seen(Key, N)).
+:- durable(seen, Key, 0, N, seen(Key, N)).
 
 typhon_runtime:ending(after) :-
     retractall(seen(_, _)),

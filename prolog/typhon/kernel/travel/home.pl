@@ -17,9 +17,9 @@
 :- use_module(library(lists), [member/2]).
 :- use_module(library(settings), [setting/4]).
 :- use_module('../base/bounded', [bounded/2]).
+:- use_module('../base/durable', [durable/5, durable/6, durable_assertz/1]).
 :- use_module('../base/durable_changes',
-              [ durable_drop/3, durable_drop_all/2, durable_number/1,
-                durable_put/4 ]).
+              [durable_drop/3, durable_drop_all/2, durable_put/4]).
 :- use_module('../wire', [endpoint_address/1, endpoint_reply/2]).
 :- use_module('../host', [address_parts/3, alarm_in/3]).
 :- use_module('../agent', [agent_home_endpoint/2]).
@@ -51,11 +51,9 @@ its agents what they tell it.
     waiter/3.                   % Id, Token, Asker
 
 :- multifile
-    typhon_durable:fact_table/5,
     typhon_bounded:forgotten/1,
     typhon_identity:ids_anew/0,
     typhon_identity:id_anew/1,
-    typhon_durable:dump/4,
     typhon_endpoint:requested/4,
     typhon_scheduler:fire/2,
     typhon_scheduler:over/2.
@@ -85,18 +83,18 @@ typhon_bounded:forgotten(outcome(Id, _, _)) :-
 
 %   At the address of another process there may be another by then.
 
-typhon_durable:dump(born, Id, 0, born(Address, Hops, Process)) :-
+:- durable(born, Id, 0, born(Address, Hops, Process),
+           born_item(Id, Address, Hops, Process),
+           assertz(born(Id, Address, Hops, Process))).
+
+born_item(Id, Address, Hops, Process) :-
     born(Id, Address, Hops, Process0),
     ( Process0 == here -> Process = here ; Process = unknown ).
-typhon_durable:fact_table(outcome, Id, _, Outcome-Hops,
-                          typhon_home:outcome(Id, Outcome, Hops)).
-typhon_durable:fact_table(faulty, Id, 0, faulty(Outcome, Age),
-                          typhon_home:faulty(Id, Outcome, Age)).
-typhon_durable:dump(flag, outcomes, N, '') :-
-    flag(outcomes, N, N).
 
-typhon_durable:fact_table(born, Id, 0, born(Address, Hops, Process),
-                          typhon_home:born(Id, Address, Hops, Process)).
+:- durable(outcome, Id, _, Outcome-Hops, outcome(Id, Outcome, Hops)).
+:- durable(faulty, Id, 0, faulty(Outcome, Age), faulty(Id, Outcome, Age)).
+:- durable(flag, Name, N, '', ( Name = outcomes, flag(Name, N, N) ),
+           set_flag(Name, N)).
 
 %!  home_knows(+Id, -Address, -Hops, -Process) is semidet.
 %
@@ -210,9 +208,7 @@ ended(Id, Outcome0, Hops, Results, Askers) :-
     ;   Outcome = Outcome0
     ),
     results_keep(Id, Results),
-    durable_number(N),
-    durable_put(outcome, Id, N, Outcome-Hops),
-    assertz(outcome(Id, Outcome, Hops)),
+    durable_assertz(outcome(Id, Outcome, Hops)),
     bounded(outcome(_, _, _), typhon_whereabouts:outcomes),
     waiters(Id, Askers).
 
@@ -262,8 +258,7 @@ resumed(Id, Age) :-
 
 put_fault(Id, Outcome, Age) :-
     retractall(faulty(Id, _, _)),
-    durable_put(faulty, Id, 0, faulty(Outcome, Age)),
-    assertz(faulty(Id, Outcome, Age)).
+    durable_assertz(faulty(Id, Outcome, Age)).
 
 %   One by one: see typhon_mailbox.
 

@@ -9,6 +9,7 @@
             hop_id_known/1,             % +Label
             hop_id_done/1               % +Label
           ]).
+:- use_module('../base/durable', [durable/5]).
 :- use_module('../base/durable_changes',
               [ durable_drop_below/3, durable_key/2, durable_on/0,
                 durable_put/4 ]).
@@ -28,9 +29,7 @@ hop, that the first has no open one less than Least to it any more.
 *Threading*: any thread; of an agent that is under way one at a time.
 */
 
-:- multifile
-    typhon_durable:fact_table/5,
-    typhon_runtime:ending/1.
+:- multifile typhon_runtime:ending/1.
 
 :- dynamic
     under_way/4,                    % Endpoint, N, Agent, Hops: under way; the
@@ -144,8 +143,7 @@ forget_below(Process, Least) :-
 
 %   The number that comes from the database has 32 bits.
 
-typhon_durable:fact_table(done, Process, _, N,
-                          typhon_hop_ids:done(Process, N)).
+:- durable(done, Process, _, N, done(Process, N)).
 
 typhon_runtime:ending(after) :-
     retractall(under_way(_, _, _, _)),

@@ -2,6 +2,7 @@
           [ agent_logs/3                % +Host, +Agent, +What
           ]).
 :- use_module(library(lists), [member/2]).
+:- use_module('../base/durable', [durable/5]).
 :- use_module('../base/durable_changes',
               [durable_drop/3, durable_number/1, unit_of_work/1]).
 :- use_module('../base/deferred',
@@ -19,7 +20,6 @@ tells its log server it tells at once, see typhon_host_log.
 */
 
 :- multifile
-    typhon_durable:fact_table/5,
     typhon_durable_posts:undelivered/4,
     typhon_durable:go_on/0.
 
@@ -53,8 +53,7 @@ post(Host, Agent, What) :-
     ;   true                            % it has none any more
     ).
 
-typhon_durable:fact_table(logged, Host, N, Agent-What,
-                          typhon_logged:said(Host, N, Agent, What)).
+:- durable(logged, Host, N, Agent-What, said(Host, N, Agent, What)).
 
 typhon_durable:go_on :-
     findall(said(Host, N, Agent, What),

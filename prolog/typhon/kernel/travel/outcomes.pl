@@ -8,8 +8,9 @@
 :- use_module(library(lists), [list_to_set/2, member/2]).
 :- use_module(library(settings), [setting/4]).
 :- use_module('../base/bounded', [bounded/2]).
-:- use_module('../base/durable_changes',
-              [durable_drop_all/2, durable_number/1, durable_put/4]).
+:- use_module('../base/durable',
+              [ durable/5, durable/6, durable_assertz/1, durable_retractall/1 ]).
+:- use_module('../base/durable_changes', [durable_drop_all/2]).
 :- use_module('../wire', [endpoint_address/1, endpoint_reply/2]).
 :- use_module('../host', [process_ask/6]).
 :- use_module('../agent', [agent/5, cloned_put/2]).
@@ -27,11 +28,9 @@ oldest entries are forgotten.
 */
 
 :- multifile
-    typhon_durable:fact_table/5,
     typhon_bounded:forgotten/1,
     typhon_identity:ids_anew/0,
     typhon_identity:id_anew/1,
-    typhon_durable:dump/4,
     typhon_endpoint:requested/4.
 
 :- setting(results, positive_integer, 20000,
@@ -58,9 +57,7 @@ typhon_identity:id_anew(Id) :-
 
 results_keep(Id, Items) :-
     forall(member(Item, Items),
-           ( durable_number(N),
-             durable_put(left, Id, N, Item),
-             assertz(left(Id, Item)),
+           ( durable_assertz(left(Id, Item)),
              bounded(left(_, _), typhon_outcomes:results) )).
 
 %!  results_ask(+Where, +Id, +Kind, -Items:list) is det.
@@ -83,17 +80,14 @@ typhon_bounded:forgotten(left(Id, _)) :-
 typhon_bounded:forgotten(clone_of(_, Clone)) :-
     durable_drop_all(clone, Clone).
 
-typhon_durable:fact_table(left, Id, _, Item, typhon_outcomes:left(Id, Item)).
-typhon_durable:fact_table(clone, Clone, _, Parent,
-                          typhon_outcomes:clone_of(Parent, Clone)).
-typhon_durable:dump(flag, Name, N, '') :-
-    member(Name, [results, clones]),
-    flag(Name, N, N).
+:- durable(left, Id, _, Item, left(Id, Item)).
+:- durable(clone, Clone, _, Parent, clone_of(Parent, Clone)).
+:- durable(flag, Name, N, '',
+           ( member(Name, [results, clones]), flag(Name, N, N) ),
+           set_flag(Name, N)).
 
 clone_born(Parent, Clone) :-
-    durable_number(N),
-    durable_put(clone, Clone, N, Parent),
-    assertz(clone_of(Parent, Clone)),
+    durable_assertz(clone_of(Parent, Clone)),
     bounded(clone_of(_, _), typhon_outcomes:clones),
     (   endpoint_address(Endpoint),
         agent(Parent, _, Module, _, _)
@@ -102,8 +96,7 @@ clone_born(Parent, Clone) :-
     ).
 
 clone_unborn(Parent, Clone) :-
-    durable_drop_all(clone, Clone),
-    retractall(clone_of(Parent, Clone)).
+    durable_retractall(clone_of(Parent, Clone)).
 
 %!  clones_ask(+Endpoint, +Parent, -Clones:list) is det.
 %

@@ -8,6 +8,7 @@
 :- use_module(library(error), [existence_error/2, must_be/2]).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(pairs), [group_pairs_by_key/2]).
+:- use_module('../base/durable', [durable/5]).
 :- use_module('../base/durable_changes',
               [ durable_drop/3, durable_number/1, durable_on/0,
                 durable_putting/5, enqueue_changes/0, unit_of_work/1 ]).
@@ -42,7 +43,6 @@ post_on/2 and the hooks never do.
 */
 
 :- multifile
-    typhon_durable:fact_table/5,
     typhon_durable:go_on/0,
     typhon_endpoint:received/3,
     typhon_endpoint:together/3.
@@ -107,8 +107,7 @@ post_noted(Id, N, From, Message) :-
                               typhon(undeliverable(Formal, Id, From,
                                                    Message)))) )).
 
-typhon_durable:fact_table(letter, Id, N, From-Message,
-                          typhon_post:said(Id, N, From, Message)).
+:- durable(letter, Id, N, From-Message, said(Id, N, From, Message)).
 
 typhon_durable:go_on :-
     findall(said(Id, N, From, Message),

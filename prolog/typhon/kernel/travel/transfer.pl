@@ -22,9 +22,9 @@
               [ agent/5, agent_put/3, agent_ready/2, agent_remove/3,
                 agent_status/3, image_clone/5, image_hop/6, mail_all/2,
                 mail_back/2, with_agent/2 ]).
+:- use_module('../base/durable', [durable/5, durable_assertz/1]).
 :- use_module('../base/durable_changes',
-              [ crash_point/1, durable_drop/3, durable_on/0, durable_put/4,
-                enqueue_changes/0, unit_of_work/1 ]).
+              [ crash_point/1, durable_drop/3, durable_on/0, enqueue_changes/0, unit_of_work/1 ]).
 :- use_module(hop_ids,
               [hop_id_begin/4, hop_id_end/2, hop_id_restore/4]).
 :- use_module(outcomes, [clone_unborn/2]).
@@ -48,8 +48,6 @@ clone(Held, CloneId, Since).
 */
 
 :- multifile
-    typhon_durable:fact_table/5,
-    typhon_durable:restore/4,
     typhon_durable:restored/0,
     forward_order/2.            % Id, Order: the agent has left
 
@@ -234,8 +232,7 @@ clone_back(Id, CloneId, Answer) :-
 %   it.
 
 transfer_given_up(Id, hop(_, Hops, _, _)) :-
-    durable_put(given_up, Id, Hops, Hops),
-    assertz(given_up(Id, Hops)).
+    durable_assertz(given_up(Id, Hops)).
 
 %   The oldest first, before anybody else sets out.
 
@@ -254,10 +251,7 @@ typhon_durable:restored :-
 
 %   The term says nothing; older journals have one.
 
-typhon_durable:fact_table(given_up, Id, Hops, '',
-                          typhon_transfer:given_up(Id, Hops)).
-typhon_durable:restore(given_up, Id, Hops, _) :-
-    assertz(given_up(Id, Hops)).
+:- durable(given_up, Id, Hops, _, given_up(Id, Hops)).
 
 %!  transfer_open(?Transfer) is nondet.
 %

@@ -19,6 +19,7 @@
 :- use_module(library(error), [must_be/2]).
 :- use_module(library(settings), [setting/4]).
 :- use_module('../base/bounded', [bounded/2]).
+:- use_module('../base/durable', [durable/6]).
 :- use_module('../base/durable_changes',
               [durable_drop/3, durable_on/0, durable_put/4]).
 :- use_module('../wire',
@@ -62,13 +63,10 @@ see typhon_news, since it may have to connect.
     ended_here/2.               % Id, Hops
 
 :- multifile
-    typhon_durable:fact_table/5,
     error:has_type/2,
     typhon_bounded:forgotten/1,
     typhon_identity:ids_anew/0,
     typhon_identity:id_anew/1,
-    typhon_durable:restore/4,
-    typhon_durable:dump/4,
     typhon_endpoint:received/3,
     typhon_endpoint:requested/4.
 
@@ -159,14 +157,15 @@ typhon_bounded:forgotten(forward(Id, _, _, _)) :-
 
 %   The process may be another by then.
 
-typhon_durable:dump(gone, Id, 0, gone(Address, Hops, unknown)) :-
-    forward(Id, Address, Hops, _).
-typhon_durable:fact_table(gone, Id, 0, gone(Address, Hops, Process),
-                          typhon_whereabouts:forward(Id, Address, Hops,
-                                                     Process)).
+:- durable(gone, Id, 0, gone(Address, Hops, Process),
+           ( Process = unknown, forward(Id, Address, Hops, _) ),
+           assertz(forward(Id, Address, Hops, Process))).
 
-typhon_durable:restore(agent, Id, _, gone(Address, Hops, Process)) :-
-    !,
+:- durable(agent, Id, 0, gone(Address, Hops, Process),
+           forward(Id, Address, Hops, Process),
+           forward_restore(Id, Address, Hops, Process)).
+
+forward_restore(Id, Address, Hops, Process) :-
     agent_home_endpoint(Id, Home),
     (   agent_outcome(Id, _)
     ->  true

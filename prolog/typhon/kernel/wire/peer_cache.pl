@@ -22,6 +22,7 @@ last error. A bounded number of addresses is kept, the oldest are discarded.
 */
 
 :- use_module(library(settings), [setting/2, setting/4]).
+:- use_module('../base/durable', [durable/5]).
 :- use_module('../base/durable_changes', [durable_drop/3, durable_put/4]).
 :- use_module(session, [route/2, session_proof/2]).
 :- use_module(transport,
@@ -30,7 +31,6 @@ last error. A bounded number of addresses is kept, the oldest are discarded.
 :- setting(contacts, positive_integer, 10000,
            "Addresses of which the last process met is remembered").
 
-:- multifile typhon_durable:fact_table/5.
 
 :- dynamic
     contact/3,                          % Address, Process, met or gone
@@ -117,8 +117,7 @@ note_lasting(none, _) :-
 note_lasting(_, Address) :-
     durable_drop(lasting, Address, 0).
 
-typhon_durable:fact_table(lasting, Address, 0, Process,
-                          typhon_peer_cache:contact(Address, Process, met)).
+:- durable(lasting, Address, 0, Process, contact(Address, Process, met)).
 
 forget_oldest :-
     predicate_property(contact(_, _, _), number_of_clauses(Count)),

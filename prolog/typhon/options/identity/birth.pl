@@ -28,6 +28,7 @@ process shows it once.
 :- use_module(library(settings), [setting/4]).
 :- use_module('../../kernel/base/bounded', [bounded/2]).
 :- use_module('../keys', [keys_sign/3, keys_verify/4, own_keys/1]).
+:- use_module('../../kernel/base/durable', [durable/6]).
 :- use_module('../../kernel/base/durable_changes',
               [durable_drop/3, durable_put/4]).
 :- use_module('../../kernel/wire',
@@ -40,9 +41,7 @@ process shows it once.
     typhon_bounded:forgotten/1,
     typhon_identity:ids_anew/0,
     typhon_host_parts:part/4,
-    typhon_hop:sent_again/2,
-    typhon_durable:restore/4,
-    typhon_durable:dump/4.
+    typhon_hop:sent_again/2.
 
 :- setting(births, positive_integer, 20000,
            "Of so many agents that were here the owners are remembered").
@@ -143,11 +142,8 @@ typhon_bounded:forgotten(known(Id, Birth)) :-
     ;   durable_drop(birth, Id, 0)
     ).
 
-typhon_durable:dump(birth, Id, 0, Birth) :-
-    known(Id, Birth).
-typhon_durable:restore(birth, Id, _, Birth) :-
-    retractall(known(Id, _)),
-    assertz(known(Id, Birth)).
+:- durable(birth, Id, 0, Birth, known(Id, Birth),
+           ( retractall(known(Id, _)), assertz(known(Id, Birth)) )).
 
 typhon_host_parts:part(admit, _, 20, typhon_birth:forbids) :-
     own_keys(_).

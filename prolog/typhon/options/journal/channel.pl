@@ -3,6 +3,7 @@
 :- use_module(library(error), [must_be/2]).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(settings), [setting/2, setting/4]).
+:- use_module('../../kernel/base/durable', [durable/5]).
 :- use_module('../../kernel/base/durable_changes',
               [ crash_point/1, durable_change/1, durable_drop/3,
                 durable_drop_below/3, durable_number/1, durable_on/0,
@@ -27,7 +28,6 @@ a time sends to an endpoint.
 :- meta_predicate engaging(+, 0).
 
 :- multifile
-    typhon_durable:fact_table/5,
     typhon_durable_posts:queued/3,
     typhon_endpoint:connection/2,
     typhon_endpoint:received/3,
@@ -268,8 +268,7 @@ typhon_endpoint:connection(Endpoint, up) :-
     ;   begin_anew(Endpoint)
     ).
 
-typhon_durable:fact_table(out, Endpoint, N, item(Kind, Term),
-                          typhon_channel:out(Endpoint, N, Kind, Term)).
+:- durable(out, Endpoint, N, item(Kind, Term), out(Endpoint, N, Kind, Term)).
 
 typhon_durable:go_on :-
     findall(Endpoint, out(Endpoint, _, _, _), All),

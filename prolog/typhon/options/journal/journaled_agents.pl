@@ -3,6 +3,7 @@
             states_unused/1             % -Ids
           ]).
 :- use_module(library(lists), [member/2]).
+:- use_module('../../kernel/base/durable', [durable/5]).
 :- use_module('../../kernel/base/durable_changes',
               [ durable_bytes/2, durable_change/1, durable_drop_all/2,
                 durable_drop_at_once/3, durable_item/5, durable_on/0,
@@ -45,7 +46,6 @@ said before.
     typhon_agents:put_down/3,
     typhon_agents:state_ends/2,
     typhon_code:retiring/1,
-    typhon_durable:restore/4,
     typhon_durable_changes:dropped/1,
     typhon_runtime:ending/1,
     typhon_turn:settle/0,
@@ -274,8 +274,7 @@ code_back(Hash) :-
     assertz(code_noted(Hash)),
     !.
 
-typhon_durable:restore(state, Id, N, Item) :-
-    assertz(stored(Id, N, Item)).
+:- durable(state, Id, N, Item, stored(Id, N, Item)).
 
 %   The items come in the order of their numbers.
 

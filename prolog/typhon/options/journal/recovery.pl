@@ -1,12 +1,12 @@
 :- module(typhon_recovery, []).
 :- use_module(library(debug), [debug/3]).
 :- use_module(library(lists), [member/2]).
-:- use_module('../../kernel/base/durable', [durable_restore/4]).
+:- use_module('../../kernel/base/durable', [durable/6, durable_restore/4]).
 :- use_module('../../kernel/base/error_text', [print_error/2]).
 :- use_module('../../kernel/base/durable_changes',
               [durable_drop_all/2, durable_item/5]).
 :- use_module('../../kernel/host', [host/3, host_again/1]).
-:- use_module('../../kernel/agent', [agent/5, agent_status/3, mail_restore/3]).
+:- use_module('../../kernel/agent', [agent/5, agent_status/3]).
 :- use_module('../../kernel/lifecycle', [agent_reschedule/1]).
 :- use_module(journaled_agents, [agent_back/3, states_unused/1]).
 
@@ -24,7 +24,6 @@ for or sent again.
     typhon_code:in_use/1,
     typhon_durable:go_on/0,
     typhon_durable:recover/0,
-    typhon_durable:restore/4,
     typhon_durable:tidy/0,
     typhon_runtime:ending/1.
 
@@ -66,6 +65,21 @@ typhon_durable:recover :-
            is_back(Kind, Key, N, Term)),
     forall(typhon_durable:restored, true).
 
+%   Programs are restored with their agents.
+
+is_back(code, Hash, _, _) :-
+    !,
+    (   ( agent(_, _, _, Hash, _) ; left(_, Hash) )
+    ->  true
+    ;   assertz(superfluous(code, Hash))
+    ).
+is_back(mail, Id, _, _) :-
+    \+ agent(Id, _, _, _, _),
+    !,
+    (   left(Id, _)
+    ->  true
+    ;   assertz(superfluous(mail, Id))
+    ).
 is_back(Kind, Key, N, Term) :-
     catch(durable_restore(Kind, Key, N, Term), error(Formal, Context), true),
     !,
@@ -93,25 +107,16 @@ typhon_code:in_use(Hash) :-
 typhon_runtime:ending(after) :-
     retractall(left(_, _)).
 
-typhon_durable:restore(agent, Id, _, Record) :-
+%   The items are made as agents come to rest, see typhon_journaled_agents.
+
+:- durable(agent, Id, _, Record, fail, record_back(Id, Record)).
+
+record_back(Id, Record) :-
     Record = agent(Host, _, _, _, _, _),
     host(Host, _, Place),
     agent_back(Id, Record, Place),
     host_again(Host),
     debug(typhon(agent), '~w: is there again, on ~w', [Id, Host]).
-typhon_durable:restore(mail, Id, N, Message) :-
-    (   agent(Id, _, _, _, _)
-    ->  mail_restore(Id, N, Message)
-    ;   left(Id, _)
-    ->  true
-    ;   assertz(superfluous(mail, Id))
-    ).
-
-typhon_durable:restore(code, Hash, _, _) :-
-    (   ( agent(_, _, _, Hash, _) ; left(_, Hash) )
-    ->  true
-    ;   assertz(superfluous(code, Hash))
-    ).
 
 %   Before any request can need it.
 

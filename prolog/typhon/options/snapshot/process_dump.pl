@@ -6,14 +6,14 @@
 :- use_module(library(error), [domain_error/2, permission_error/3]).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(ordsets), [ord_subtract/3]).
-:- use_module('../../kernel/base/durable', [durable_dump/4, durable_restore/4]).
+:- use_module('../../kernel/base/durable', 
+              [durable/6, durable_dump/4, durable_restore/4]).
 :- use_module('../../kernel/program', [code_receive/2, code_sent/2]).
 :- use_module('../../kernel/wire', [mobile_term/1]).
 :- use_module('../../kernel/host', [host/3, host_again/1, schedule/2, time_repeats/2]).
 :- use_module('../../kernel/agent',
               [ agent/5, agent_enter/3, agent_home/2, agent_module/5,
-                agent_order/2, agent_orders/2, agent_state/2, agent_status/3,
-                mail_list/2, with_agent/2 ]).
+                agent_order/2, agent_orders/2, agent_state/2, agent_status/3 ]).
 :- use_module('../../kernel/travel', [retries_go_on/0]).
 :- use_module('../../kernel/lifecycle', [agent_reschedule/1, held_parts/3]).
 
@@ -24,10 +24,6 @@ time does not know.
 
 *Threading*: any thread, while time is held.
 */
-
-:- multifile
-    typhon_durable:restore/4,
-    typhon_durable:dump/4.
 
 %   What others look up comes before them.  Some kinds are restored only where
 %   what happens is to repeat itself; another process knows better.
@@ -136,25 +132,25 @@ is_again(Kind, Key, N, Term) :-
                 *            AGENTS            *
                 *******************************/
 
-typhon_durable:restore(flag, Name, N, _) :-
-    set_flag(Name, N).
+:- durable(program, Hash, 0, Sent, program_item(Hash, Sent),
+           code_receive(Hash, Sent)).
 
-typhon_durable:dump(program, Hash, 0, Sent) :-
+program_item(Hash, Sent) :-
     findall(Hash, agent(_, _, _, Hash, _), Hashes0),
     sort(Hashes0, Hashes),
     member(Hash, Hashes),
     code_sent(Hash, Sent).
-typhon_durable:restore(program, Hash, _, Sent) :-
-    code_receive(Hash, Sent).
 
-typhon_durable:dump(stands, Id, 0,
-                     agent(Host, Hash, Life, State, Status, Goals)) :-
+:- durable(stands, Id, 0, Agent, agent_item(Id, Agent),
+           agent_restore(Id, Agent)).
+
+agent_item(Id, agent(Host, Hash, Life, State, Status, Goals)) :-
     agent(Id, Host, Module, Hash, Life),
     agent_status(Id, Status0, Goals0),
     rests(Status0, Goals0, Id, Status, Goals),
     agent_state(Module, State).
-typhon_durable:restore(stands, Id, _,
-                     agent(Host, Hash, Life, State, Status, Goals)) :-
+
+agent_restore(Id, agent(Host, Hash, Life, State, Status, Goals)) :-
     host(Host, _, Place),
     agent_module(Id, Place, Hash, State, Module),
     agent_enter(agent(Id, Host, Module, Hash, Life), Status, Goals),
@@ -170,21 +166,16 @@ rests(_, Held, _, ready, Goals) :-
     !.
 rests(Status, Goals, _, Status, Goals).
 
-typhon_durable:dump(mail, Id, 0, Message) :-
-    agent(Id, _, _, _, _),
-    with_agent(Id, mail_list(Id, Messages)),
-    member(Message, Messages).
-
 %   No caller waits for the answer any more.
 
-typhon_durable:dump(order, Id, 0, Order) :-
+:- durable(order, Id, 0, Order, order_item(Id, Order), agent_order(Id, Order)).
+
+order_item(Id, Order) :-
     agent(Id, _, _, _, _),
     agent_orders(Id, Orders),
     member(Order0, Orders),
     Order0 \= asked(question(_), _),
     unasked(Order0, Order).
-typhon_durable:restore(order, Id, _, Order) :-
-    agent_order(Id, Order).
 
 unasked(asked(Order, _), asked(Order, queue(none))) :-
     !.
