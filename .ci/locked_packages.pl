@@ -45,7 +45,7 @@ package(Dir, Place, Package) :-
     setup_call_cleanup(
         http_open(Address, In, [timeout(60)]),
         ( set_stream(In, encoding(octet)),
-          read_string(In, 10 000 000, Bytes) ),
+          read_string(In, 50 000 000, Bytes) ),
         close(In)),
     atom_concat('sha512-', Wanted, Package.integrity),
     sha_hash(Bytes, Hash, [algorithm(sha512), encoding(octet)]),

@@ -59,6 +59,7 @@ plain(child_output).
 plain(locale).
 plain(attackers).
 plain(kernel).
+plain(single).
 
 main(Names) :-
     suite_files(Names, Files0),

@@ -112,6 +112,7 @@ is_test(File) :-
     atom_concat(Tests, _, File).
 
 face(File) :- inside('prolog/typhon.pl', File).
+face(File) :- inside('prolog/typhon/kernel.pl', File).
 face(File) :- inside('prolog/typhon/nxt.pl', File).
 face(File) :- inside('prolog/typhon/python.pl', File).
 face(File) :- inside('prolog/typhon/mqtt.pl', File).

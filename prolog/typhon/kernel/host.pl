@@ -35,11 +35,13 @@ This is the interface of the layer: higher layers import from here.
               schedule_stays/2, scheduler_call/1
             ]).
 :- reexport(host/time,
-              [ alarm_in/3, alarm_set/3, time_again/2, time_apart/2, time_due/3,
+              [ agents_run/1, alarm_in/3, alarm_set/3, time_again/2,
+                time_apart/2, time_due/3,
                 time_hold/1, time_kind/1, time_let_go/1, time_now/1,
                 time_repeats/2, time_seed/1, time_signal/1, time_stands/1,
                 time_wait/3, time_wanted/2 ]).
 :- use_module(host/pool, []).
+:- use_module(host/single, []).
 :- reexport(host/work, [limit_parked/1, work_do/2]).
 :- reexport(host/asking, [as_guest/1, process_ask/6]).
 :- reexport(host/runtime,

@@ -8,7 +8,7 @@
           ]).
 :- use_module(library(apply), [maplist/2, maplist/3]).
 :- use_module(library(lists), [append/3, last/2, member/2]).
-:- use_module(library(solution_sequences), [limit/2]).
+:- autoload(library(solution_sequences), [limit/2]).
 
 /** <module> Names that people mistype
 

@@ -40,7 +40,9 @@ no other: so the helper never waits for itself.
 %   caller is interrupted while waiting, Goal runs on.
 
 in_own_thread(Goal) :-
-    nb_current(typhon_own_thread, true),
+    (   nb_current(typhon_own_thread, true)
+    ;   current_prolog_flag(threads, false)
+    ),
     !,
     once(Goal).
 in_own_thread(Goal) :-
@@ -86,6 +88,9 @@ conclude(Status) :-
 %   The helper begins; and ends when it has done what it was asked for,
 %   which may be this.
 
+own_thread_start :-
+    current_prolog_flag(threads, false),
+    !.
 own_thread_start :-
     server_start(helper, typhon_own_thread:help, idle, Helper),
     assertz(helper(Helper)).

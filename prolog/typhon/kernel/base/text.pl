@@ -16,7 +16,7 @@ characters need quotes, and 10.1 writes some there that it cannot read.
 local to a thread and are put back.
 */
 
-:- use_module(library(memfile), [free_memory_file/1, memory_file_to_string/3,
+:- autoload(library(memfile), [free_memory_file/1, memory_file_to_string/3,
                                  new_memory_file/1, open_memory_file/3,
                                  open_memory_file/4, size_memory_file/3]).
 

@@ -5,8 +5,7 @@
             alarm_stamp/3,              % ?Stamp, +Agent, ?Token
             alarms_renew/1,             % +Stamp
             alarms_new/1,               % -Count
-            alarms_at/2,                % +Stamp, -Alarms
-            alarm_take/3,               % +Alarm, -Agent, -Token
+            alarms_go_off/1,            % +Stamp
             alarms_number/1,            % -Count
             index_make/1,               % -Index
             index_update/2,             % +Index0, -Index
@@ -15,7 +14,9 @@
             index_size/2                % +Index, -Count
           ]).
 :- use_module(library(apply), [maplist/2]).
+:- use_module(library(debug), [debug/3]).
 :- use_module(library(pairs), [pairs_keys_values/3]).
+:- use_module('../base/error_text', [error_told/3]).
 :- autoload(library(rbtrees),
               [ ord_list_to_rbtree/2, rb_delete/3, rb_insert/4, rb_min/3,
                 rb_size/2 ]).
@@ -40,6 +41,7 @@ the next is looked for when that has gone off.
 */
 
 :- multifile
+    typhon_scheduler:fire/2,            % Agent, Token: an alarm went off
     typhon_scheduler:over/2,            % Agent, Token: it is not needed any more
     prolog:message//1.
 
@@ -102,13 +104,22 @@ alarms_new(Count) :-
     ;   Count = 0
     ).
 
-%!  alarms_at(+Stamp, -Alarms:list) is det.
-%!  alarm_take(+Alarm, -Agent, -Token) is semidet.
+%!  alarms_go_off(+Stamp) is det.
 %
-%   The Alarms set to Stamp; each can be taken once.
+%   Call fire/2 for each alarm set to Stamp.  An alarm goes off once, whatever
+%   signals the thread.
 
-alarms_at(Stamp, Alarms) :-
-    findall(Alarm, clause(alarm(Stamp, _, _), true, Alarm), Alarms).
+alarms_go_off(Stamp) :-
+    findall(Alarm, clause(alarm(Stamp, _, _), true, Alarm), Alarms),
+    maplist(go_off, Alarms).
+
+go_off(Alarm) :-
+    sig_atomic(( alarm_take(Alarm, Agent, Token)
+               ->  debug(typhon(scheduler), 'alarm ~p of ~p', [Token, Agent]),
+                   catch(ignore(typhon_scheduler:fire(Agent, Token)), Ball,
+                         print_message(error, typhon(alarm(Ball))))
+               ;   true
+               )).
 
 alarm_take(Alarm, Agent, Token) :-
     clause(alarm(_, Agent, Token), true, Alarm),
@@ -228,6 +239,9 @@ index_size(index(Stamps, _), Size) :-
                 *           MESSAGES           *
                 *******************************/
 
+prolog:message(typhon(alarm(Ball))) -->
+    [ 'An alarm met with an error; the others go on', nl ],
+    error_told(Ball).
 prolog:message(typhon(no_index(Count))) -->
     [ 'The timer has no memory for an index of ~D alarms, and is slow'-
       [Count] ].

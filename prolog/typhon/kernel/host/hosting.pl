@@ -34,7 +34,7 @@
 :- use_module(place, [place_create/4, place_destroy/1]).
 :- use_module(runtime, [runtime_acquire/3, runtime_release/1]).
 :- use_module(scheduler, [scheduler_limit/2, scheduler_unlimit/1]).
-:- use_module(time, [time_let_go/1, time_wanted/2]).
+:- use_module(time, [time_default/1, time_let_go/1, time_wanted/2]).
 
 /** <module> Starting and stopping hosts
 
@@ -232,7 +232,8 @@ kind_of_time(Options, [time(Kind)]) :-
 kind_of_time(Options, []) :-
     memberchk(clock(_, _), Options),
     !.
-kind_of_time(_, [time(real)]).
+kind_of_time(_, [time(Kind)]) :-
+    time_default(Kind).
 
 start_host(Name, Endpoint, Options) :-
     address_parts(Address, Name, Endpoint),

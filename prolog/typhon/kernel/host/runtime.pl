@@ -22,7 +22,8 @@
                 transport_disagrees/1 ]).
 :- use_module(scheduler, [scheduler_forget/0]).
 :- use_module(time,
-              [time_apart/2, time_kind/1, time_start/1, time_stop/0]).
+              [ time_apart/2, time_default/1, time_kind/1, time_start/1,
+                time_stop/0 ]).
 
 /** <module> What the hosts of a process share
 
@@ -68,7 +69,8 @@ runtime_acquire(User, Options) :-
     runtime_acquire(User, Options, _).
 
 runtime_acquire(User, Options, Endpoint) :-
-    option(time(Kind), Options, real),
+    time_default(Default),
+    option(time(Kind), Options, Default),
     on_demand_load(time, Kind),
     with_mutex(typhon_runtime, acquire(User, Options, Endpoint)).
 
@@ -94,7 +96,8 @@ reached_at(Port, Endpoint) :-
     ).
 
 start(Options) :-
-    option(time(Kind), Options, real),
+    time_default(Default),
+    option(time(Kind), Options, Default),
     own_thread_start,
     catch(( time_start(Kind),
             start_endpoint(Kind, Options),

@@ -2,6 +2,7 @@
           [ time_start/1,               % +Kind
             time_stop/0,
             time_kind/1,                % ?Kind
+            time_default/1,             % -Kind
             time_wanted/2,              % +Options, -Kind
             time_apart/2,               % ?Kind, -Address
             time_repeats/2,             % ?Kind, -Mark
@@ -13,6 +14,7 @@
             time_leave/0,
             time_wait/3,                % +Queue, -Message, +Stamp
             time_day_wait/3,            % +Queue, -Message, +Stamp
+            agents_run/1,               % +Seconds
             time_signal/1,              % :Goal
             time_seed/1,                % +Seed
             time_hold/1,                % +Seconds
@@ -23,14 +25,16 @@
             alarm_set/3,                % +Stamp, +Agent, +Token
             alarm_in/3                  % +Seconds, +Agent, +Token
           ]).
+:- use_module(library(error), [must_be/2]).
 :- use_module(library(lists), [member/2]).
 :- use_module('../base/options', [options_load/2]).
 
 /** <module> The runtime: which threads do the work, and what time it is
 
 Work, alarms and waiting callers are served by a runtime of some Kind.  The
-kernel has `real`: a pool of threads, in the time of day, see typhon_pool.  A
-process has one kind for as long as it has hosts.  Stamps are seconds: those of
+kernel has `real`, a pool of threads, see typhon_pool, and, in a Prolog without
+threads, `single`, see typhon_single, both in the time of day.  A process has one
+kind for as long as it has hosts.  Stamps are seconds: those of
 the time of day, or those of the clock of the runtime.
 
 A runtime defines the hooks below for its Kind.  It has to have those of the
@@ -114,9 +118,19 @@ time_stop :-
                 *           PROPERTIES         *
                 *******************************/
 
+%!  time_default(-Kind) is det.
+%
+%   The kind of hosts that ask for none.
+
+time_default(Kind) :-
+    (   current_prolog_flag(threads, true)
+    ->  Kind = real
+    ;   Kind = single
+    ).
+
 %!  time_wanted(+Options, -Kind) is semidet.
 %
-%   The options of a host ask for another Kind than `real`.
+%   The options of a host ask for another Kind than the default.
 
 time_wanted(Options, Kind) :-
     options_load(host_option, Options),
@@ -201,6 +215,27 @@ time_day_wait(Queue, Message, inf) :-
     thread_get_message(Queue, Message).
 time_day_wait(Queue, Message, Stamp) :-
     thread_get_message(Queue, Message, [deadline(Stamp)]).
+
+%!  agents_run(+Seconds) is det.
+%
+%   Wait for so many Seconds, while agents have their turns; in a runtime without
+%   threads also `inf`: until no agent has anything to do any more.
+%
+%   @error type_error(number, Seconds)
+
+agents_run(Seconds) :-
+    (   Seconds == inf,
+        time_kind(single)
+    ->  Stamp = inf
+    ;   must_be(number, Seconds),
+        time_now(Now),
+        Stamp is Now+Seconds
+    ),
+    setup_call_cleanup(
+        message_queue_create(Queue),
+        catch(ignore(time_wait(Queue, _, Stamp)),
+              error(no_agent_can_run, _), true),
+        message_queue_destroy(Queue)).
 
 %!  time_seed(+Seed:integer) is det.
 %

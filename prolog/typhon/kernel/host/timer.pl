@@ -5,17 +5,13 @@
             timer_alarm/3,              % +Stamp, +Agent, +Token
             alarms_overdue/0
           ]).
-:- use_module(library(apply), [maplist/2]).
-:- use_module(library(debug), [debug/3]).
-:- use_module('../base/error_text', [error_told/3]).
 :- use_module('../base/server',
               [ server_answer/2, server_call/4, server_cast/2, server_check/1,
                 server_start/4, server_stop/1 ]).
 :- use_module(alarms,
-              [ alarm_add/3, alarm_take/3, alarms_at/2, alarms_begin/0,
-                alarms_end/0, alarms_new/1, alarms_number/1, alarms_renew/1,
-                index_delete/3, index_first/2, index_make/1, index_size/2,
-                index_update/2 ]).
+              [ alarm_add/3, alarms_begin/0, alarms_end/0, alarms_go_off/1,
+                alarms_new/1, alarms_number/1, alarms_renew/1, index_delete/3,
+                index_first/2, index_make/1, index_size/2, index_update/2 ]).
 :- use_module(turns, [turns_paused/0]).
 
 /** <module> The timer: a server that sets alarms off
@@ -166,26 +162,7 @@ rung(Stamp, Index0, Index) :-
     !,
     (   turns_paused
     ->  true                            % they go off when that is over
-    ;   alarms_at(Stamp, Alarms),
-        maplist(go_off, Alarms)
+    ;   alarms_go_off(Stamp)
     ),
     index_delete(Index0, Stamp, Index).
 rung(_, Index, Index).
-
-%   An alarm goes off once, whatever signals the timer.
-
-go_off(Alarm) :-
-    sig_atomic(( alarm_take(Alarm, Agent, Token)
-               ->  debug(typhon(scheduler), 'alarm ~p of ~p', [Token, Agent]),
-                   catch(ignore(typhon_scheduler:fire(Agent, Token)), Ball,
-                         print_message(error, typhon(timer(Ball))))
-               ;   true
-               )).
-
-                /*******************************
-                *           MESSAGES           *
-                *******************************/
-
-prolog:message(typhon(timer(Ball))) -->
-    [ 'An alarm met with an error; the timer goes on', nl ],
-    error_told(Ball).

@@ -10,7 +10,7 @@
 :- use_module(library(error),
               [domain_error/2, must_be/2, permission_error/3, type_error/2]).
 :- use_module(library(lists), [append/2, append/3, member/2]).
-:- use_module(library(occurs), [sub_term/2]).
+:- autoload(library(occurs), [sub_term/2]).
 :- use_module(library(option), [option/2, option/3]).
 :- use_module('../base/options', [check_options/2]).
 :- use_module('../base/durable_changes', [sync_changes/0, unit_of_work/1]).

@@ -3,7 +3,7 @@
             undeclared_problem/3        % +Rules, +State, -Problem
           ]).
 :- use_module(library(lists), [append/3, last/2, member/2, memberchk/2]).
-:- use_module(library(solution_sequences), [distinct/2]).
+:- autoload(library(solution_sequences), [distinct/2]).
 :- use_module(mobile, [body_calls/2]).
 :- use_module(source, [indicator_in/2]).
 

@@ -25,7 +25,7 @@ far it has come and returns its own.
 :- use_module(library(lists), [member/2]).
 :- use_module(library(pairs), [group_pairs_by_key/2, pairs_keys_values/3]).
 :- use_module(library(settings), [setting/2, setting/4]).
-:- use_module(library(socket), [tcp_accept/3]).
+:- autoload(library(socket), [tcp_accept/3]).
 :- use_module(connection, [incoming/5, open_streams/3]).
 :- use_module(threads,
               [ manager_notify/1, wire_thread_create/4, wire_thread_running/1,

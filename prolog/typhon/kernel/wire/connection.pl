@@ -15,7 +15,7 @@ the session of the peer, see resumption.pl, reads frames until it breaks, and cl
 :- use_module(library(debug), [debug/3]).
 :- use_module(library(error), [domain_error/2, syntax_error/1]).
 :- use_module(library(settings), [setting/2]).
-:- use_module(library(socket),
+:- autoload(library(socket),
               [ tcp_close_socket/1, tcp_connect/2, tcp_open_socket/3,
                 tcp_setopt/2, tcp_socket/1 ]).
 :- use_module(peer_cache, [contact_gone/1, contact_met/2]).

@@ -39,7 +39,7 @@ own_start_next/1 run under the mutex of the endpoint.
 :- use_module(library(error),
               [existence_error/2, must_be/2, permission_error/3]).
 :- use_module(library(settings), [setting/2, setting/4]).
-:- use_module(library(socket),
+:- autoload(library(socket),
               [ tcp_bind/2, tcp_close_socket/1, tcp_listen/2,
                 tcp_open_socket/3, tcp_setopt/2, tcp_socket/1 ]).
 :- use_module('../base/durable_changes',

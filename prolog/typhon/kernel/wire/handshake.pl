@@ -39,7 +39,7 @@ in one fact; two threads that read it at once store the same.
 :- use_module(library(error), [must_be/2, permission_error/3, syntax_error/1]).
 :- autoload(library(filesex),
             [chmod/2, delete_directory_and_contents/1, link_file/3]).
-:- use_module(library(readutil), [read_line_to_string/2]).
+:- autoload(library(readutil), [read_line_to_string/2]).
 :- use_module(library(settings), [setting/2, setting/4]).
 :- use_module(library(sha), [hash_atom/2, hmac_sha/4]).
 :- use_module('../base/spawn', [spawn/3]).

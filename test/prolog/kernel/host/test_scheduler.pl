@@ -494,7 +494,7 @@ test(a_hook_that_throws, true(E == [x-t])) :-
                            alarm_set(U, test(x), t),
                            wait_until(test_scheduler:happened(x-t), 5) ),
                          Messages)),
-    memberchk(error-typhon(timer(oops)), Messages),
+    memberchk(error-typhon(alarm(oops)), Messages),
     findall(X, event(X), E).
 test(the_end_of_time, true(E == [x-t])) :-
     scheduling(( alarm_set(1.0e300, test(never), t),

@@ -1,0 +1,39 @@
+:- module(typhon_kernel, []).
+
+/** <module> The kernel alone
+
+Hosts and agents without options, networks, tools and bridges: what runs where
+there are no threads, sockets and processes, as in SWI-Prolog compiled to
+WebAssembly.  There agents have their turns while the caller waits, see
+agents_run/1 and typhon_single, and no other process is reached.  With threads
+it is library(typhon) without its top level.
+*/
+
+:- use_module(kernel/base/compiling, [compiling_begin/1, compiling_end/1]).
+
+:- compiling_begin(Flags),
+   nb_setval(typhon_flags, Flags).
+
+:- use_module(kernel/base/no_queues, []).
+:- use_module(kernel/base/user_errors, [user_errors/1]).
+:- reexport(kernel/program, [agent_check/1, agent_check/2]).
+:- reexport(kernel/host,
+            [ host_start/1, host_start/2, host_change/2, host_stop/1,
+              host_property/2, link/2, link/3, unlink/2, remote/2, agents_run/1
+            ]).
+:- reexport(kernel/lifecycle,
+            [ agent_create/2, agent_create/3, agent_property/2, agent_send/2,
+              agent_move/2, agent_move/3, agent_clone/2, agent_resume/1,
+              agent_change/2, agent_dispose/1, agent_dispose/2, agent_join/3,
+              agent_result/3, agent_listing/1, payload_attach/2,
+              payload_detach/2
+            ]).
+:- use_module(kernel/vocabulary, []).
+:- use_module(tools/messages, []).
+:- use_module(tools/fault_messages, []).
+
+:- user_errors(typhon_kernel).
+
+:- nb_getval(typhon_flags, Flags),
+   compiling_end(Flags),
+   nb_delete(typhon_flags).

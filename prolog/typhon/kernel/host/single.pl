@@ -1,0 +1,151 @@
+:- module(typhon_single, []).
+:- use_module('../base/fifo', [fifo_empty/2]).
+:- use_module(alarms,
+              [ alarm_add/3, alarm_stamp/3, alarms_begin/0, alarms_end/0,
+                alarms_go_off/1, index_delete/3, index_first/2, index_make/1,
+                index_update/2 ]).
+:- use_module(turns, [turns_go_on/1, turns_pause/0, turns_paused/0]).
+:- use_module(work, [work_do/2]).
+
+/** <module> The runtime `single`: no thread but that of the caller
+
+In a Prolog without threads, as in a browser, agents have their turns while the
+caller waits for something: for the end of an agent, an answer, or nothing but
+the time, see agents_run/1.  Work is done in the order in which it came; where
+there is none the thread sleeps until the next alarm.
+
+The hosts of the process have no endpoint that others could reach.
+
+*Threading*: there is one.
+*/
+
+:- multifile
+    typhon_time:alarm/4,
+    typhon_time:alone/1,
+    typhon_time:apart/2,
+    typhon_time:due/4,
+    typhon_time:hold/2,
+    typhon_time:let_go/2,
+    typhon_time:signal/2,
+    typhon_time:starts/1,
+    typhon_time:stops/1,
+    typhon_time:wait/4,
+    typhon_time:work/2,
+    prolog:error_message//1.
+
+:- dynamic run_queue/1.         % Queue
+
+typhon_time:apart(single, 'single:0').
+
+typhon_time:starts(single) :-
+    message_queue_create(Queue),
+    assertz(run_queue(Queue)),
+    alarms_begin.
+
+typhon_time:stops(single) :-
+    retract(run_queue(Queue)),
+    fifo_empty(Queue, _),
+    message_queue_destroy(Queue),
+    alarms_end,
+    turns_go_on(_).
+
+typhon_time:work(single, Work) :-
+    run_queue(Queue),
+    thread_send_message(Queue, Work).
+
+typhon_time:alone(single) :-
+    run_queue(Queue),
+    message_queue_property(Queue, size(0)).
+
+typhon_time:alarm(single, Stamp0, Agent, Token) :-
+    Stamp is float(Stamp0),
+    ignore(alarm_add(Stamp, Agent, Token)).
+
+typhon_time:due(single, Agent, Token, Stamp) :-
+    alarm_stamp(Stamp, Agent, Token).
+
+typhon_time:hold(single, _) :-
+    turns_pause.
+
+typhon_time:let_go(single, Agents) :-
+    turns_go_on(Agents).
+
+typhon_time:signal(single, _).          % what works is not interrupted
+
+                /*******************************
+                *            WAITING           *
+                *******************************/
+
+%   A goal of an agent cannot wait: while it runs no other agent does.
+
+typhon_time:wait(single, Queue, Message, Stamp) :-
+    (   nb_current(typhon_single, works)
+    ->  there(Queue)
+    ;   index_make(Index),
+        comes(Queue, Stamp, Index)
+    ),
+    thread_get_message(Queue, Message).
+
+%   comes(+Queue, +Stamp, +Index) is semidet.
+%
+%   Agents have their turns until there is a message in Queue; fails at Stamp.
+%
+%   @error no_agent_can_run if nothing can come any more
+
+comes(Queue, _, _) :-
+    there(Queue),
+    !.
+comes(Queue, Stamp, Index) :-
+    work_takes(Work),
+    !,
+    setup_call_cleanup(
+        nb_setval(typhon_single, works),
+        work_do(Work, typhon_single:again),
+        nb_setval(typhon_single, waits)),
+    comes(Queue, Stamp, Index).
+comes(Queue, Stamp, Index0) :-
+    index_update(Index0, Index1),
+    index_first(Index1, First),
+    sleep_until(First, Stamp),
+    (   earlier(First, Stamp)
+    ->  alarms_go_off(First),
+        index_delete(Index1, First, Index),
+        comes(Queue, Stamp, Index)
+    ;   there(Queue)
+    ).
+
+sleep_until(inf, inf) :-
+    !,
+    throw(error(no_agent_can_run, _)).
+sleep_until(Stamp1, Stamp2) :-
+    (   earlier(Stamp1, Stamp2)
+    ->  Stamp = Stamp1
+    ;   Stamp = Stamp2
+    ),
+    get_time(Now),
+    Seconds is max(0.0, Stamp-Now),
+    sleep(Seconds).
+
+earlier(Stamp, inf) :-
+    !,
+    number(Stamp).
+earlier(Stamp1, Stamp2) :-
+    number(Stamp1),
+    Stamp1 =< Stamp2.
+
+there(Queue) :-
+    message_queue_property(Queue, size(Size)),
+    Size > 0.
+
+work_takes(Work) :-
+    \+ turns_paused,
+    run_queue(Queue),
+    thread_get_message(Queue, Work, [timeout(0)]).
+
+:- public again/1.
+
+again(Work) :-
+    typhon_time:work(single, Work).
+
+prolog:error_message(no_agent_can_run) -->
+    [ 'What is waited for does not come: no agent is ready, and no alarm is set' ].

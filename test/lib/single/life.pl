@@ -1,0 +1,130 @@
+:- use_module(library(lists), [member/2]).
+:- use_module(library(typhon/kernel)).
+
+/*  What agents do where there are no threads, sockets and processes: main/0
+prints what came of it, a fact for each step, see test_single.pl and
+test_wasm.pl. */
+
+main :-
+    host_start(a),
+    host_start(b),
+    host_start(full, [capacity(1)]),
+    link(a, b),
+    forall(step(Name, Goal), tell(Name, Goal)),
+    forall(member(Host, [a, b, full]), host_stop(Host)),
+    tell(loaded, foreign_parts).
+
+tell(Name, Goal) :-
+    (   catch(call(Goal, Result), error(Formal, _), Result = raised(Formal))
+    ->  true
+    ;   Result = failed
+    ),
+    format('~q.~n', [came(Name, Result)]).
+
+step(travels, travels).
+step(waits, waits(0.2)).
+step(timeout, timeout).
+step(nothing_can_happen, never).
+step(asleep, sleeps(1)).
+step(many_sleep, sleeps(200)).
+step(refused, refused).
+step(fails, outcome([ (:- agent(f, [])), (main :- fail) ])).
+step(raises, outcome([ (:- agent(r, [])), (main :- atom_length(_, _)) ])).
+step(runs_for_a_while, runs).
+step(rests, rests).
+
+create(Clauses, Agent, Options) :-
+    agent_create(clauses(Clauses), Agent, Options).
+
+travels(Outcome-Result) :-
+    host_property(b, address(B)),
+    create([ (:- agent(traveller, [state([seen/1])])),
+             (main :- receive(_-go(Host)), home(Home), move(Host),
+                      assertz(seen(Host)), leave(was(here)), sense(was(Where)),
+                      clone(Who),
+                      ( Who = parent(_) -> move(Home), result(Where) ; true )) ],
+           Agent, [host(a)]),
+    agent_send(Agent, go(B)),
+    agent_join(Agent, Outcome, 10),
+    agent_result(Agent, Result, 1).
+
+waiting(Agent) :-
+    create([ (:- agent(waiter, [])), (main :- receive(_)) ], Agent, [host(a)]).
+
+waits(Seconds, State) :-
+    waiting(Agent),
+    agents_run(Seconds),
+    agent_property(Agent, state(State)),
+    agent_dispose(Agent).
+
+timeout(Outcome) :-
+    waiting(Agent),
+    agent_join(Agent, Outcome, 0.1),
+    agent_dispose(Agent).
+
+never(Outcome) :-
+    waiting(Agent),
+    catch(agent_join(Agent, Outcome, inf), Error, true),
+    agent_dispose(Agent),
+    throw(Error).
+
+sleeps(Count, Outcomes) :-
+    findall(Agent,
+            ( between(1, Count, I), Seconds is 0.1+(I mod 7)*0.01,
+              create([ (:- agent(sleeper, [state([long/1])])),
+                       (main :- long(S), sleep(S)) ],
+                     Agent, [host(a), facts([long(Seconds)])]) ),
+            Agents),
+    findall(Outcome,
+            ( member(Agent, Agents), agent_join(Agent, Outcome, 10) ),
+            All),
+    sort(All, Outcomes).
+
+refused(Outcome) :-
+    waiting(Agent),
+    agent_move(Agent, full),
+    agents_run(inf),
+    host_property(full, address(Full)),
+    create([ (:- agent(late, [])), (main :- receive(_-H), move(H)) ],
+           Late, [host(a)]),
+    agent_send(Late, Full),
+    agent_join(Late, raised(error(move_refused(_, Outcome), _)), 10),
+    agent_dispose(Agent).
+
+outcome(Clauses, Name) :-
+    create(Clauses, Agent, [host(a)]),
+    agent_join(Agent, Outcome, 10),
+    functor(Outcome, Name, _).
+
+runs(More) :-
+    create([ (:- agent(counter, [state([count/1])])),
+             (main :- retract(count(N)), N1 is N+1, assertz(count(N1)),
+                      sleep(0.001), main) ],
+           Agent, [host(a), facts([count(0)])]),
+    agents_run(0.3),
+    agent_property(Agent, facts(Facts)),
+    member(count(Count), Facts),
+    agent_dispose(Agent),
+    ( Count > 20 -> More = many ; More = Count ).
+
+rests(Answer) :-
+    create([ (:- agent(clerk, [state([asked/1])])),
+             (main),
+             (on_message(_, Question) :- assertz(asked(Question))) ],
+           Agent, [host(b)]),
+    agent_send(Agent, first),
+    agent_send(Agent, second),
+    agents_run(inf),
+    agent_property(Agent, facts(Answer)),
+    agent_dispose(Agent).
+
+%   What browsers do not have, and whether there is another thread.
+
+foreign_parts(Parts) :-
+    findall(Name,
+            ( member(Name, [socket, process, time, ssl, unix]),
+              file_name_extension(Name, pl, File),
+              source_file(Path),
+              file_base_name(Path, File),
+              \+ sub_atom(Path, _, _, _, '/typhon/') ),
+            Parts).

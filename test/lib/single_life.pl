@@ -1,0 +1,43 @@
+:- module(test_single_life,
+          [ life_file/1,                % -File
+            life_came/2                 % +Text, -Unexpected
+          ]).
+:- use_module(library(lists), [subtract/3]).
+:- use_module(library(apply), [maplist/3]).
+:- use_module(common, [project_file/2]).
+
+/** <module> What single/life.pl prints
+
+*Threading*: no state.
+*/
+
+%!  life_file(-File) is det.
+
+life_file(File) :-
+    project_file('test/lib/single/life.pl', File).
+
+%!  life_came(+Text, -Unexpected) is det.
+%
+%   Unexpected is unexpected(More, Missing): facts that Text has, printed by that
+%   file, and should not have, and those that it lacks.
+
+life_came(Text, Unexpected) :-
+    split_string(Text, "\n", "\n", Lines),
+    maplist(term_string, Found, Lines),
+    findall(came(Name, Result), came(Name, Result), Wanted),
+    subtract(Found, Wanted, More),
+    subtract(Wanted, Found, Missing),
+    Unexpected = unexpected(More, Missing).
+
+came(travels, done-here).
+came(waits, waiting).
+came(timeout, timeout).
+came(nothing_can_happen, raised(no_agent_can_run)).
+came(asleep, [done]).
+came(many_sleep, [done]).
+came(refused, capacity).
+came(fails, failed).
+came(raises, raised).
+came(runs_for_a_while, many).
+came(rests, [asked(first),asked(second)]).
+came(loaded, []).
