@@ -21,7 +21,7 @@ CHECKS = list_undefined, list_trivial_fails, list_format_errors, \
 .PHONY: help tools tools-peers tools-all tools-ros demo demo-robots demo-ros \
     demo-page page-tools thesis thesis-real test chaos scripted fuzz hostile \
     check check-all \
-    doc pictures vscode bench bench-peers profile \
+    doc pictures vscode release bench bench-peers profile \
     test-portability install clean
 
 # In the environment of pack_install there is where libraries of C go.
@@ -107,6 +107,9 @@ doc: tools              ## the documents as a site, in out/doc
 	@rm -rf out/doc
 	@$(SWIPL) doc/site.pl -- out/doc
 
+release:                ## the archive of a release; URL=https://... of its home
+	@packaging/release out/release "$(URL)"
+
 bench: tools            ## measure; one line per figure
 	@$(SWIPL) bench/run.pl -- --out out/bench
 
@@ -140,5 +143,10 @@ tools-all:              ## install all that .ci/packages lists, and JADE
 	@bench/peers/jade --get >/dev/null || \
 	    echo "JADE is not to be had: what needs it is left out" >&2
 
+# Of a copy, not of a link to a clone, in which files change.
 install:
-	@:
+	@if [ -n "$$PACKSODIR$$SWIPL_MODULE_DIR" ]; then \
+	    case "$$(pwd -P)" in \
+	    */pack/typhon) $(SWIPL) -q app/typhon/compile.pl ;; \
+	    esac; \
+	fi

@@ -21,20 +21,20 @@ stop waits for a message, which the handlers of SIGINT and SIGTERM send.
 :- use_module('../prolog/typhon/kernel/host/runtime',
               [runtime_acquire/2, runtime_release/1]).
 :- use_module('../prolog/typhon/tools/page', [page_export/3, page_serve/2]).
-:- use_module(commands, [command/4, footer/2, option/5]).
-:- use_module(diagnose, [diagnose/1]).
-:- use_module(diagnose_fipa, [diagnose_fipa/1]).
-:- use_module(diagnose_bridges, [diagnose_bridge/2]).
-:- use_module(diagnose_nxt, [diagnose_nxt/1]).
-:- use_module(journal, [journal_shown/2]).
-:- use_module(keys, [keys/3, keys_sign_file/3]).
-:- use_module(options, [options_for/3]).
-:- use_module(orders,
+:- use_module(typhon/commands, [command/4, footer/2, option/5]).
+:- use_module(typhon/diagnose, [diagnose/1]).
+:- use_module(typhon/diagnose_fipa, [diagnose_fipa/1]).
+:- use_module(typhon/diagnose_bridges, [diagnose_bridge/2]).
+:- use_module(typhon/diagnose_nxt, [diagnose_nxt/1]).
+:- use_module(typhon/journal, [journal_shown/2]).
+:- use_module(typhon/keys, [keys/3, keys_sign_file/3]).
+:- use_module(typhon/options, [options_for/3]).
+:- use_module(typhon/orders,
               [agent_argument/3, host_now/2, order/3, program_argument/2]).
-:- use_module(picture, [picture/3]).
-:- use_module(serving, [and_then/2, until_told_to_stop/3]).
-:- use_module(story, [story/2]).
-:- use_module(usage, [complain/2]).
+:- use_module(typhon/picture, [picture/3]).
+:- use_module(typhon/serving, [and_then/2, until_told_to_stop/3]).
+:- use_module(typhon/story, [story/2]).
+:- use_module(typhon/usage, [complain/2]).
 :- use_module(library(lists), [member/2, nth0/3]).
 :- use_module(library(main), [argv_options/4, main/0]).
 :- use_module(library(option), [option/2, option/3]).

@@ -1,6 +1,6 @@
 :- use_module(common).
 :- use_module(traveller).
-:- use_module('../app/keys', [keys_init/1, keys_issue/4]).
+:- use_module('../app/typhon/keys', [keys_init/1, keys_issue/4]).
 :- use_module(library(typhon)).
 :- use_module(library(filesex), [delete_directory_and_contents/1]).
 :- use_module(library(lists), [max_list/2, member/2]).

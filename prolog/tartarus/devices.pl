@@ -102,7 +102,8 @@ in_python(Goal) :-
 
 :- dynamic bridge/1.
 
-:- prolog_load_context(directory, Dir),
+:- module_property(tartarus_devices, file(Source)),
+   file_directory_name(Source, Dir),
    absolute_file_name('../../bridges/tartarus/tartarus.py', File,
                       [relative_to(Dir)]),
    retractall(bridge(_)),

@@ -18,7 +18,7 @@
 :- use_module(library(process), [process_create/3]).
 
 :- prolog_load_context(directory, Dir),
-   atom_concat(Dir, '/../../app/keys', Keys),
+   atom_concat(Dir, '/../../app/typhon/keys', Keys),
    use_module(Keys, [keys_init/1, keys_issue/4]).
 
 :- meta_predicate with_authority(+, +, 1).
@@ -26,7 +26,7 @@
 %!  with_authority(+Hosts, +Authors, :Goal) is semidet.
 %
 %   Call Goal with the directory of an authority that knows these, see
-%   app/keys.pl. It goes afterwards.
+%   app/typhon/keys.pl. It goes afterwards.
 
 with_authority(Hosts, Authors, Goal) :-
     with_tmp_dir(authority(Hosts, Authors, Goal)).

@@ -5,10 +5,10 @@
 
 :- use_module('../lib/common').
 :- use_module(library(debug), [assertion/1]).
-:- use_module(library(filesex), [directory_file_path/3]).
+:- use_module(library(filesex), [directory_file_path/3, directory_member/3]).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(plunit)).
-:- use_module(library(process), [process_create/3]).
+:- use_module(library(process), [process_create/3, process_wait/2]).
 
 swipl_at_home(Home, Directory, Goals, Out) :-
     swipl_at_home(Home, Directory, Goals, Out, _).
@@ -64,6 +64,7 @@ works_in(Home, Dir) :-
                             ( typhon_paths:program_file(F, P), \c
                               writeln(P) ))',
                     'host_start(here)',
+                    'host_start(guarded, [policy(guarded)])',
                     'agent_create(clauses([(:- agent(a, [])), (main)]), A)'
                   ], Out0),
     split_string(Out0, "\n", "\n", Lines),
@@ -82,7 +83,7 @@ archive(Archive) :-
     project_file('.', Root),
     process_create(path(tar),
                    [ '--exclude=./.git', '--exclude=./out',
-                     '--transform', 's,^\\.,typhon-0.1.0,',
+                     '--transform', 's,^\\.,typhon-0.2.0,',
                      '-czf', Archive, '-C', Root, '.'
                    ], []).
 
@@ -93,7 +94,7 @@ copied(Home, Root) :-
     directory_file_path(Home, 'typhon.tar.gz', Archive),
     archive(Archive),
     process_create(path(tar), ['-xzf', Archive, '-C', Home], []),
-    directory_file_path(Home, 'typhon-0.1.0', Root).
+    directory_file_path(Home, 'typhon-0.2.0', Root).
 
 :- begin_tests(pack).
 
@@ -116,11 +117,68 @@ from_directory_url(Home) :-
     works(Home).
 
 from_archive_url(Home) :-
-    directory_file_path(Home, 'typhon-0.1.0.tgz', Archive),
+    directory_file_path(Home, 'typhon-0.2.0.tgz', Archive),
     archive(Archive),
     atom_concat('file://', Archive, URL),
     install(typhon, [url(URL)], Home, Home),
+    assertion(compiled(Home)),
     works(Home).
+
+%   Each file of the library has a .qlf file.
+
+compiled(Home) :-
+    directory_file_path(Home, 'swi-prolog/pack/typhon/prolog', Library),
+    forall(directory_member(Library, File,
+                            [extensions([pl]), recursive(true)]),
+           ( file_name_extension(Stem, pl, File),
+             file_name_extension(Stem, qlf, Compiled),
+             exists_file(Compiled) )).
+
+%   SWI-Prolog 9.1.18 and later call it by `swipl typhon`.
+
+test(command_line, [condition(has_apps), Status == exit(0)]) :-
+    with_tmp_dir(command_line(Status, Out)),
+    sub_string(Out, _, _, _, "diagnose"),
+    !.
+
+has_apps :-
+    current_prolog_flag(version, Version),
+    Version >= 90118.
+
+command_line(Status, Out, Home) :-
+    copied(Home, Root),
+    install('.', [], Home, Root),
+    run_swipl([typhon, '--help'],
+              [ cwd(Home),
+                environment(['HOME'=Home, 'XDG_DATA_HOME'=Home]) ],
+              Status, Out, _).
+
+test(release_is_reproducible, [condition(a_clone), true(First == Second)]) :-
+    with_tmp_dir(released(First)),
+    sleep(1.1),
+    with_tmp_dir(released(Second)).
+
+%   A commit of what is there, so that files that are changed do not matter.
+
+a_clone :-
+    absolute_file_name(path(git), _, [access(execute), file_errors(fail)]).
+
+released(Sum, Dir) :-
+    copied(Dir, Root),
+    format(atom(Script),
+           "cd ~w && git init -q && git add -A && \c
+            git -c user.name=t -c user.email=t commit -qm t && \c
+            packaging/release ../out https://example.org/typhon && \c
+            tar -xOzf ../out/typhon-*.tgz --wildcards '*/pack.pl' | \c
+            grep -q '^home('", [Root]),
+    process_create(path(sh), ['-c', Script],
+                   [ stdout(pipe(Out)), process(Pid),
+                     environment([ 'GIT_COMMITTER_DATE'='2026-01-01T00:00:00Z',
+                                   'GIT_AUTHOR_DATE'='2026-01-01T00:00:00Z' ])
+                   ]),
+    read_string(Out, _, Sum),
+    close(Out),
+    process_wait(Pid, exit(0)).
 
 test(each_library_by_its_file_alone,
      [ forall(member(Name, ['typhon.pl', 'tartarus.pl', 'typhon/nxt.pl',

@@ -60,7 +60,8 @@ become ready, and with down(Tag, Status) when it has ended.
 :- dynamic
     node_file/1.                % File
 
-:- prolog_load_context(directory, Dir),
+:- module_property(typhon_children, file(Source)),
+   file_directory_name(Source, Dir),
    atom_concat(Dir, '/node_process.pl', File),
    retractall(node_file(_)),
    assertz(node_file(File)).

@@ -263,7 +263,8 @@ properties_at(remote(_, Name, _), Wanted, Host, Properties) :-
 
 :- dynamic folder/1.                    % of the bridges' interfaces
 
-:- prolog_load_context(directory, Dir),
+:- module_property(typhon_starting, file(Source)),
+   file_directory_name(Source, Dir),
    file_directory_name(Dir, Bridges),
    file_directory_name(Bridges, Typhon),
    retractall(folder(_)),

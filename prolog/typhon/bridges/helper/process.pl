@@ -37,7 +37,8 @@ process_kill_of/1 may be called by any thread.
     running/2,                  % Owner: a server, Pid
     bridges/1.                  % Directory
 
-:- prolog_load_context(directory, Dir),
+:- module_property(typhon_helper_process, file(Source)),
+   file_directory_name(Source, Dir),
    absolute_file_name('../../../../bridges', Bridges, [relative_to(Dir)]),
    retractall(bridges(_)),
    assertz(bridges(Bridges)).

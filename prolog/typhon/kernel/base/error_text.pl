@@ -29,7 +29,8 @@ an error, and a large term is not written.
 
 :- dynamic library/1.
 
-:- prolog_load_context(directory, Dir),
+:- module_property(typhon_error_text, file(Source)),
+   file_directory_name(Source, Dir),
    absolute_file_name('../../../..', Root,
                       [relative_to(Dir), file_type(directory)]),
    retractall(library(_)),

@@ -38,7 +38,8 @@ a worker by on_demand_later/1.
     loaded/1,                   % Part
     directory/1.                % of the parts
 
-:- prolog_load_context(directory, Base),
+:- module_property(typhon_on_demand, file(Source)),
+   file_directory_name(Source, Base),
    file_directory_name(Base, Kernel),
    file_directory_name(Kernel, Typhon),
    retractall(directory(_)),

@@ -24,7 +24,8 @@ of an installed pack, `library` leads to the one that is loaded.
 
 %   The pack is four folders up, whatever these are called.
 
-:- prolog_load_context(directory, Dir),
+:- module_property(typhon_paths, file(Source)),
+   file_directory_name(Source, Dir),
    absolute_file_name('../../../..', Root,
                       [relative_to(Dir), file_type(directory)]),
    retractall(root(_)),
@@ -43,7 +44,8 @@ user:file_search_path(payloads, Dir) :-
 %   In a clone library(typhon) is no library of a pack: agents whose programs
 %   import it must find the one that is loaded.
 
-:- prolog_load_context(directory, Dir),
+:- module_property(typhon_paths, file(Source)),
+   file_directory_name(Source, Dir),
    absolute_file_name('../../..', Prolog,
                       [relative_to(Dir), file_type(directory)]),
    (   absolute_file_name(library(typhon), File,

@@ -109,7 +109,8 @@ policy('trusted-types \'none\'').
 
 :- dynamic folder/1.
 
-:- prolog_load_context(directory, Dir),
+:- module_property(typhon_page_guard, file(Source)),
+   file_directory_name(Source, Dir),
    directory_file_path(Dir, www, Www),
    retractall(folder(_)),
    assertz(folder(Www)).

@@ -10,7 +10,7 @@
 :- use_module(library(plunit)).
 :- use_module(library(occurs), [sub_term/2]).
 :- use_module(library(typhon)).
-:- use_module('../../../../app/keys', [keys_revoke/2, keys_sign_file/3]).
+:- use_module('../../../../app/typhon/keys', [keys_revoke/2, keys_sign_file/3]).
 
 :- needs([openssl]).
 

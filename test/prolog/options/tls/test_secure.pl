@@ -16,7 +16,7 @@
 :- use_module(library(typhon)).
 :- use_module(library(typhon/kernel/wire), [endpoint_proof/1, endpoint_reply/2]).
 
-:- use_module('../../../../app/keys', [keys_revoke/2]).
+:- use_module('../../../../app/typhon/keys', [keys_revoke/2]).
 
 :- needs([openssl]).
 

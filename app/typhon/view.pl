@@ -11,7 +11,7 @@
 :- use_module(library(dcg/basics), [digits/3]).
 :- use_module(library(lists), [max_list/2, member/2]).
 :- use_module(library(pairs), [pairs_values/2]).
-:- use_module('../prolog/typhon/tools/event_text', [short_name/2]).
+:- use_module('../../prolog/typhon/tools/event_text', [short_name/2]).
 
 /** <module> Where things are in the picture of a log
 

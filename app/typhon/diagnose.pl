@@ -20,9 +20,9 @@ while after the answer is known.
               [ tcp_close_socket/1, tcp_connect/2, tcp_host_to_address/2,
                 tcp_socket/1
               ]).
-:- use_module('../prolog/typhon', [host_property/2]).
-:- use_module('../prolog/typhon/kernel/base/error_text', [error_text/2]).
-:- use_module('../prolog/typhon/kernel/wire', [cookie/1, endpoint_peer/2]).
+:- use_module('../../prolog/typhon', [host_property/2]).
+:- use_module('../../prolog/typhon/kernel/base/error_text', [error_text/2]).
+:- use_module('../../prolog/typhon/kernel/wire', [cookie/1, endpoint_peer/2]).
 
 connect_deadline(5).                    % seconds
 

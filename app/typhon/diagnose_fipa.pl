@@ -10,10 +10,10 @@ Goes from its URL to a message that it takes.
 */
 
 :- use_module(library(socket), [tcp_connect/3]).
-:- use_module('../prolog/typhon/bridges/fipa/acl', [acl_text/2]).
-:- use_module('../prolog/typhon/bridges/fipa/http',
+:- use_module('../../prolog/typhon/bridges/fipa/acl', [acl_text/2]).
+:- use_module('../../prolog/typhon/bridges/fipa/http',
               [http_post/4, http_response/4, http_url/3]).
-:- use_module('../prolog/typhon/bridges/fipa/letter', [letter_write/5]).
+:- use_module('../../prolog/typhon/bridges/fipa/letter', [letter_write/5]).
 :- use_module(diagnose, [diagnose_steps/2]).
 
 deadline(5).                            % seconds, of silence

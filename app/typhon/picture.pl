@@ -4,8 +4,8 @@
 :- use_module(library(apply), [foldl/4]).
 :- use_module(library(lists), [member/2, nth0/3, nth1/3]).
 :- use_module(library(option), [option/3]).
-:- use_module('../prolog/typhon', [log_events/2]).
-:- use_module('../prolog/typhon/tools/event_text', [short_name/2]).
+:- use_module('../../prolog/typhon', [log_events/2]).
+:- use_module('../../prolog/typhon/tools/event_text', [short_name/2]).
 :- use_module(colours, [colours/3]).
 :- use_module(spacetime, [spacetime/2]).
 :- use_module(svg,

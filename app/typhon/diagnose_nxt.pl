@@ -12,8 +12,8 @@ and stops with advice at the step that does not work.  Nothing moves.
 
 :- use_module(library(apply), [maplist/3]).
 :- use_module(library(lists), [memberchk/2]).
-:- use_module('../prolog/typhon/nxt').
-:- use_module('../prolog/typhon/bridges/nxt/link', [nxt_python/2]).
+:- use_module('../../prolog/typhon/nxt').
+:- use_module('../../prolog/typhon/bridges/nxt/link', [nxt_python/2]).
 :- use_module(diagnose, [diagnose_steps/2, python_says/4]).
 
 %!  diagnose_nxt(+Port) is semidet.

@@ -3,7 +3,7 @@
           ]).
 :- use_module(library(apply), [maplist/3]).
 :- use_module(library(lists), [member/2, nth0/3]).
-:- use_module('../prolog/typhon/tools/event_text', [short_name/2]).
+:- use_module('../../prolog/typhon/tools/event_text', [short_name/2]).
 
 /** <module> The colours of agents in a picture
 

@@ -15,12 +15,12 @@ order/3 has one clause for each command, and fails when the answer is no.
 :- use_module(library(apply), [exclude/3, maplist/2, maplist/3]).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(option), [option/2, option/3]).
-:- use_module('../prolog/typhon',
+:- use_module('../../prolog/typhon',
               [ agent_check/1, agent_dispose/1, agent_join/3, agent_move/3,
                 agent_property/2, host_property/2, remote/2 ]).
-:- use_module('../prolog/typhon/kernel/agent/identity', [agent_name/3]).
-:- use_module('../prolog/typhon/kernel/host/host_names', [address_parts/3]).
-:- use_module('../prolog/typhon/tools/inventory', [survey/4]).
+:- use_module('../../prolog/typhon/kernel/agent/identity', [agent_name/3]).
+:- use_module('../../prolog/typhon/kernel/host/host_names', [address_parts/3]).
+:- use_module('../../prolog/typhon/tools/inventory', [survey/4]).
 
 %!  order(+Command, +Arguments, +Options) is semidet.
 

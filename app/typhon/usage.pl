@@ -7,9 +7,9 @@
 *Threading*: the main thread only.
 */
 
-:- use_module('../prolog/typhon/kernel/base/error_text',
+:- use_module('../../prolog/typhon/kernel/base/error_text',
               [error_told/3, print_error/2]).
-:- use_module('../prolog/typhon/kernel/base/names',
+:- use_module('../../prolog/typhon/kernel/base/names',
               [names_listed/2, names_proposed/3]).
 :- use_module(commands, [command/4]).
 

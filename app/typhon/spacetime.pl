@@ -4,7 +4,7 @@
 :- use_module(library(apply), [foldl/4]).
 :- use_module(library(lists), [last/2, member/2, reverse/2]).
 :- use_module(library(pairs), [group_pairs_by_key/2, pairs_values/2]).
-:- use_module('../prolog/typhon/tools/event_text', [own_event/1]).
+:- use_module('../../prolog/typhon/tools/event_text', [own_event/1]).
 
 /** <module> Who was where, and when
 

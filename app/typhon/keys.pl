@@ -36,7 +36,7 @@ stolen from a host nobody can sign programs.
 :- use_module(library(option), [option/3]).
 :- use_module(library(process), [process_create/3, process_wait/2]).
 
-:- use_module('../prolog/typhon/options/identity', [file_sign/2]).
+:- use_module('../../prolog/typhon/options/identity', [file_sign/2]).
 
 :- multifile prolog:error_message//1.
 

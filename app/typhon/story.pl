@@ -3,8 +3,8 @@
           ]).
 :- use_module(library(apply), [include/3]).
 :- use_module(library(lists), [member/2]).
-:- use_module('../prolog/typhon', [log_events/2]).
-:- use_module('../prolog/typhon/tools/event_text',
+:- use_module('../../prolog/typhon', [log_events/2]).
+:- use_module('../../prolog/typhon/tools/event_text',
               [happening/3, short_name/2]).
 
 /** <module> The story of an agent, as a log tells it

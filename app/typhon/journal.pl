@@ -1,13 +1,13 @@
 :- module(typhon_app_journal,
           [ journal_shown/2             % +Dir, +Options
           ]).
-:- use_module('../prolog/typhon/kernel/agent/identity', [agent_name/3]).
-:- use_module('../prolog/typhon/kernel/agent/life', [life_hops/2]).
-:- use_module('../prolog/typhon/options/journal/database', [journal_part/3]).
-:- use_module('../prolog/typhon/options/journal/store',
+:- use_module('../../prolog/typhon/kernel/agent/identity', [agent_name/3]).
+:- use_module('../../prolog/typhon/kernel/agent/life', [life_hops/2]).
+:- use_module('../../prolog/typhon/options/journal/database', [journal_part/3]).
+:- use_module('../../prolog/typhon/options/journal/store',
               [ journal_found/1, journal_item/5, journal_open/2,
                 journal_place/2, store_close/0 ]).
-:- use_module('../prolog/typhon/kernel/lifecycle/restore', [restore_point/2]).
+:- use_module('../../prolog/typhon/kernel/lifecycle/restore', [restore_point/2]).
 :- use_module(library(aggregate), [aggregate_all/3]).
 :- use_module(library(error), [existence_error/2]).
 :- use_module(library(lists), [append/3, member/2]).
