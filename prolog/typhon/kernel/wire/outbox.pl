@@ -51,11 +51,11 @@ is held.
                 session_up/1, session_window/2, transport/3,
                 transport_broken/2, debug_frame/4 ]).
 :- use_module(threads, [manager_notify/1]).
+:- use_module(pusher, [pusher/2, pusher_control/3, pusher_start/4]).
 :- use_module(unacked,
-              [ pusher/2, pusher_control/3, pusher_start/4, unacked_await/3,
-                unacked_next/3, unacked_no_wait/1, unacked_owed/2,
-                unacked_sent/5, unacked_space/3, unacked_waiting/1, unacked_waits/3,
-                unacked_waits_loose/2 ]).
+              [ unacked_await/3, unacked_next/3, unacked_no_wait/1, unacked_owed/2,
+                unacked_sent/5, unacked_space/3, unacked_waiting/1,
+                unacked_waits/3, unacked_waits_loose/2 ]).
 
 :- multifile typhon_durable_changes:committed/1.
 

@@ -45,9 +45,9 @@ ended.
                 transport_attach/3, transport_detach/2, transport_stop/2,
                 transport_thread/2 ]).
 :- use_module(threads, [manager_notify/1, wire_thread_end/2]).
+:- use_module(pusher, [pusher_no_control/1, pusher_start/4, pusher_stop/1]).
 :- use_module(unacked,
-              [ pusher_no_control/1, pusher_start/4, pusher_stop/1,
-                unacked_again/2, unacked_close/3, unacked_resumed/3,
+              [ unacked_again/2, unacked_close/3, unacked_resumed/3,
                 unacked_waiting/1 ]).
 
 %!  session_install(+Session, +Thread, +Out, +PeerCount) is det.

@@ -14,12 +14,7 @@
             session_acked/3,            % +Session, +Counts, -Settled
             session_objected/3,         % +Session, +Number, +Answer
             session_answered/3,         % +Session, +Number, +Answer
-            session_pending/2,          % +Session, -Count
-            pusher/2,                   % ?Key, ?Thread
-            pusher_start/4,             % +Session, +Thread, +Out, +Again
-            pusher_stop/1,              % +Key
-            pusher_control/3,           % +Key, +Kind, +Bytes
-            pusher_no_control/1         % +Key
+            session_pending/2           % +Session, -Count
           ]).
 
 /** <module> The window: frames that wait or are not acknowledged
@@ -36,30 +31,19 @@ the peer were settled when it was put: so a frame that has waited behind an
 objection does not settle what the objection is about. How many frames the peer
 has received is a count of its own: it opens the window, in whatever order.
 
-A session of which more is sent than the buffers of the operating system hold
-has a thread that writes, the pusher, until nothing waits. It writes first
-what is outside the count, then what the peer lacks of an earlier connection,
-then what waits.
-
 *Threading*: the mutex of the session guards its window: a caller of unacked_*
-holds it, as does one that starts a pusher or leaves it a control.
-session_acked/3, session_objected/3, session_answered/3 and, without the mutex,
-pusher_stop/1 are for the thread of the connection, session_pending/2 is for any
-thread.
+holds it. session_acked/3, session_objected/3 and session_answered/3 are for the
+thread of the connection, session_pending/2 is for any thread.
 */
 
-:- use_module(library(debug), [debug/3]).
 :- use_module(library(error), [domain_error/2]).
 :- use_module(library(lists), [append/3, member/2]).
-:- use_module('../base/error_text', [print_error/2]).
 :- use_module('../base/fifo', [fifo_empty/2]).
 :- use_module(frame,
-              [ bundle_all/3, bundle_next/5, count_ahead/3, frame_overhead/1,
-                frame_write/3 ]).
+              [bundle_all/3, bundle_next/5, count_ahead/3, frame_overhead/1]).
 :- use_module(session,
               [ ack_frames/1, session_codec/2, session_held/2, session_key/2,
-                session_locked/2, session_window/2, session_window_free/1, transport_broken/2 ]).
-:- use_module(threads, [wire_thread_create/3, wire_thread_end/2]).
+                session_window/2, session_window_free/1 ]).
 
 :- dynamic
     bundled/2,                          % Key, Count: the last bundle's
@@ -431,137 +415,3 @@ flushed(Key, Wanted, Queue) :-
     catch(thread_send_message(Queue, flushed),
           error(existence_error(_, _), _),
           true).
-
-		 /*******************************
-		 *            PUSHER            *
-		 *******************************/
-
-:- dynamic
-    pusher/2,                           % Key, Thread
-    control/3.                          % Key, Kind, Bytes: before what waits
-
-%!  pusher(?Key, ?Thread) is nondet.
-%
-%   Thread alone may write what is sent in the session.
-
-%!  pusher_start(+Session, +Thread, +Out, +Again) is det.
-%
-%   Write the frames Again, and what waits, to Out, of Thread.  Where no
-%   thread can be made the connection is given up: what waits must not be
-%   overtaken, and is sent over the next.
-
-pusher_start(Session, Thread, Out, Again) :-
-    session_key(Session, Key),
-    catch(( wire_thread_create(push(Session, Thread, Out, Again),
-                               pusher-Key, Pusher),
-            assertz(pusher(Key, Pusher)),
-            debug(typhon(session), '~w: ~w writes', [Key, Pusher])
-          ),
-          error(Formal, Context),
-          ( print_error(error, error(Formal, Context)),
-            transport_broken(Key, Thread) )).
-
-push(Session, Thread, Out, Again) :-
-    call_cleanup(
-        catch(( forall(member(Frame, Again), write_again(Frame, Session, Out)),
-                push_waiting(Session, Out) ),
-              error(_, _),
-              true),
-        session_locked(Session, pushed(Session, Thread))).
-
-write_again(Frame, Session, Out) :-
-    session_locked(Session, frame_counts(Frame, Session, Counts, Bytes)),
-    frame_write(Out, Counts, Bytes).
-
-%   A pusher that has written all has ended already.
-
-pushed(Session, Thread) :-
-    session_key(Session, Key),
-    thread_self(Me),
-    (   retract(pusher(Key, Me))
-    ->  transport_broken(Key, Thread)
-    ;   true
-    ).
-
-push_waiting(Session, Out) :-
-    repeat,
-    write_waiting(Session, Out),
-    session_locked(Session, nothing_waits(Session)),
-    !.
-
-%   Many small frames go in one write: the buffer is flushed when it is full
-%   and when nothing waits, and that without the mutex.
-
-write_waiting(Session, Out) :-
-    repeat,
-    (   session_locked(Session, next_frame(Session, Counts, Bytes))
-    ->  frame_write(Out, Counts, Bytes),
-        fail
-    ;   !,
-        flush_output(Out)
-    ).
-
-%   What is outside the count settles no more than what was written before it.
-
-next_frame(Session, counts(Count, Settled), Bytes) :-
-    session_key(Session, Key),
-    retract(control(Key, _, Bytes)),
-    !,
-    session_window(Session,
-                   window(_, _, Received, Told, _, AckedBytes, SettledFlag)),
-    get_flag(Received, Count),
-    set_flag(Told, Count),
-    get_flag(SettledFlag, Settled),
-    string_length(Bytes, Length),
-    frame_overhead(Head),
-    get_flag(AckedBytes, Acked0),
-    Acked is Acked0+Length+Head,
-    set_flag(AckedBytes, Acked).
-next_frame(Session, Counts, Bytes) :-
-    unacked_next(Session, inf, Frame),
-    frame_counts(Frame, Session, Counts, Bytes).
-
-frame_counts(frame(Bytes, _, Settled), Session, counts(Count, Settled),
-             Bytes) :-
-    session_window(Session, window(_, _, Received, Told, _, _, SettledFlag)),
-    get_flag(Received, Count),
-    set_flag(Told, Count),
-    set_flag(SettledFlag, Settled).
-
-%   The last frame settles all that was received meanwhile.
-
-nothing_waits(Session) :-
-    session_key(Session, Key),
-    \+ control(Key, _, _),
-    \+ unacked_waiting(Session),
-    session_window(Session, window(_, _, Received, _, _, _, Settled)),
-    get_flag(Received, Count),
-    (   get_flag(Settled, Count)
-    ->  retractall(pusher(Key, _))
-    ;   set_flag(Settled, Count),
-        pusher_control(Key, acknowledge, ""),
-        fail
-    ).
-
-%!  pusher_stop(+Key) is det.
-%
-%   End the pusher of the session, if any, and wait for that.
-
-pusher_stop(Key) :-
-    (   retract(pusher(Key, Pusher))
-    ->  wire_thread_end(Pusher, broken)
-    ;   true
-    ).
-
-%!  pusher_control(+Key, +Kind, +Bytes) is det.
-%!  pusher_no_control(+Key) is det.
-%
-%   Bytes goes before all that waits, in place of an older one of its Kind.
-%   What is left was for another connection.
-
-pusher_control(Key, Kind, Bytes) :-
-    retractall(control(Key, Kind, _)),
-    assertz(control(Key, Kind, Bytes)).
-
-pusher_no_control(Key) :-
-    retractall(control(Key, _, _)).
