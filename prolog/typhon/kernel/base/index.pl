@@ -84,7 +84,9 @@ part_file('options/journal','options/journal/channel').
 part_file('options/journal','options/journal/committing').
 part_file('options/journal','options/journal/journaled_agents').
 part_file('options/journal','options/journal/journaled_hosts').
+part_file('options/journal','options/journal/postgresql').
 part_file('options/journal','options/journal/recovery').
+part_file('options/journal','options/journal/sqlite').
 part_file('options/journal','options/journal/store').
 part_file('options/quotas','options/quotas/mailbox_quota').
 part_file('options/quotas','options/quotas/quota_agents').

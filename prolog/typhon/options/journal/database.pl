@@ -15,21 +15,36 @@
             in_terms_of/3               % +Place, +Base, :Goal
           ]).
 :- use_module(library(filesex), [directory_file_path/3]).
-:- use_module(postgresql).
-:- use_module(postgresql_url).
-:- use_module(sql, [sql_load/0]).
-:- use_module(sqlite).
+:- use_module(library(lists), [member/2]).
+:- use_module(postgresql, [postgresql_place/4, postgresql_url/1]).
+:- use_module(sqlite, []).
 
 /** <module> Databases for a journal
 
 SQLite in a directory, or PostgreSQL at a URL; higher layers do not know which.
+The modules of both define the hooks, for a Base of their own.
 
 *Threading*: one thread at a time.
 */
 
 :- meta_predicate in_terms_of(+, +, 0).
 
-:- multifile prolog:error_message//1.
+:- multifile
+    database_found/1,
+    database_connect/4,
+    database_lock/3,
+    database_tables/2,
+    database_stamp/3,
+    database_same/4,
+    database_forgets/4,
+    database_wrong/3,
+    record/2,                   % Base, Text
+    record_put/2,               % Base, Text
+    record_drop/1,              % Base
+    says/3,                     % Base, Words, What: an error of the driver with
+                                % one of Words is `locked`, `unwritable`,
+                                % `full`, `unreachable` or missing(Package)
+    prolog:error_message//1.
 
 %!  database(+Where, -Place:atom, -Base) is det.
 %
@@ -88,39 +103,6 @@ journal_part(Dir0, P, Part) :-
 %   connection; it may lose what was committed in the last Seconds when it dies
 %   alone; it is damaged.
 
-database_found(sqlite(Dir)) :-
-    sqlite_found(Dir).
-database_found(postgresql(Server)) :-
-    postgresql_found(Server).
-
-database_connect(sqlite(Dir), Seconds, Connection, Age) :-
-    sqlite_connect(Dir, Seconds, Connection, Age).
-database_connect(postgresql(Server), Seconds, Connection, Age) :-
-    postgresql_connect(Server, Seconds, Connection, Age).
-
-database_lock(sqlite(_), Sync, Connection) :-
-    sqlite_lock(Connection, Sync).
-database_lock(postgresql(_), Sync, Connection) :-
-    postgresql_lock(Connection, Sync).
-
-database_tables(sqlite(_), Connection) :-
-    sqlite_tables(Connection).
-database_tables(postgresql(_), Connection) :-
-    postgresql_tables(Connection).
-
-database_stamp(sqlite(_), _, none).
-database_stamp(postgresql(_), Connection, Stamp) :-
-    postgresql_stamp(Connection, Stamp).
-
-database_same(postgresql(_), Sync, Stamp, Connection) :-
-    postgresql_same(Connection, Sync, Stamp).
-
-database_forgets(postgresql(_), normal, Connection, Seconds) :-
-    postgresql_forgets(Connection, Seconds).
-
-database_wrong(sqlite(_), Connection, Why) :-
-    sqlite_wrong(Connection, Why).
-
                 /*******************************
                 *            RECORD            *
                 *******************************/
@@ -135,29 +117,13 @@ journal_record(Where, Text) :-
     database(Where, Place, Base),
     in_terms_of(Place, Base, record(Base, Text)).
 
-record(sqlite(Dir), Text) :-
-    sqlite_record(Dir, Text).
-record(postgresql(Server), Text) :-
-    sql_load,
-    postgresql_record(Server, Text).
-
 journal_record_put(Where, Text) :-
     database(Where, Place, Base),
     in_terms_of(Place, Base, record_put(Base, Text)).
 
-record_put(sqlite(Dir), Text) :-
-    sqlite_record_put(Dir, Text).
-record_put(postgresql(Server), Text) :-
-    postgresql_record_put(Server, Text).
-
 journal_record_drop(Where) :-
     database(Where, Place, Base),
     in_terms_of(Place, Base, record_drop(Base)).
-
-record_drop(sqlite(Dir)) :-
-    sqlite_record_drop(Dir).
-record_drop(postgresql(Server)) :-
-    postgresql_record_drop(Server).
 
                 /*******************************
                 *            ERRORS            *
@@ -174,10 +140,13 @@ in_terms_of(Place, Base, Goal) :-
           ;   throw(error(journal_damaged(Place, Text), _))
           )).
 
-means(sqlite(_), _, Text, What) :-
-    sqlite_blame(Text, What).
-means(postgresql(_), State, Text, What) :-
-    postgresql_blame(State, Text, What).
+means(Base, _, Text, What) :-
+    says(Base, Words, What),
+    member(Word, Words),
+    sub_atom(Text, _, _, _, Word),
+    !.
+means(postgresql(_), State, _, unreachable) :-
+    sub_atom(State, 0, _, _, '08').     % the class of connections
 
 blame(locked, _, Place) :-
     not_opened(Place, 'another process has it').

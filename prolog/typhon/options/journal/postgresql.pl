@@ -1,45 +1,171 @@
 :- module(typhon_postgresql,
-          [ postgresql_found/1,         % +Server
-            postgresql_connect/4,       % +Server, +Seconds, -Connection, -Age
-            postgresql_lock/2,          % +Connection, +Sync
-            postgresql_tables/1,        % +Connection
-            postgresql_stamp/2,         % +Connection, -Stamp
-            postgresql_same/3,          % +Connection, +Sync, +Stamp
-            postgresql_forgets/2,       % +Connection, -Seconds
-            postgresql_record/2,        % +Server, -Text
-            postgresql_record_put/2,    % +Server, +Text
-            postgresql_record_drop/1,   % +Server
-            postgresql_blame/3          % +State, +Text, -What
+          [ postgresql_url/1,           % +Text
+            postgresql_place/4          % +Url, +Part, -Place, -Server
           ]).
+:- use_module(library(apply), [foldl/4]).
+:- use_module(library(error), [domain_error/2, must_be/2]).
 :- use_module(library(lists), [member/2]).
+:- use_module(library(option), [option/3]).
 :- use_module(library(settings), [setting/2, setting/4]).
+:- use_module(library(uri),
+              [ uri_authority_components/2, uri_components/2, uri_encoded/3,
+                uri_query_components/2 ]).
 :- use_module(sql,
-              [sql_connect/2, sql_disconnect/1, sql_do/2, sql_row/4]).
+              [ sql_connect/2, sql_disconnect/1, sql_do/2, sql_load/0, sql_row/4 ]).
 
 /** <module> A journal in PostgreSQL: a schema of a database
 
-A server is given as described in module `postgresql_url`.
+See typhon_database.  The Base is postgresql(server(Schema, Driver)), and is given
+by a URL, as psql and other programs take it:
+
+    postgresql://[user[:password]@][host][:port][/database][?schema=name&...]
+
+The schema is `typhon` if none is named. Further parameters are host (also the
+directory of a socket), port, user, password, dbname and sslmode. What it does
+not say the environment does, as PGPASSWORD, or the defaults of the server.
 
 *Threading*: one thread at a time.
 */
+
+:- multifile
+    typhon_database:database_found/1,
+    typhon_database:database_connect/4,
+    typhon_database:database_lock/3,
+    typhon_database:database_tables/2,
+    typhon_database:database_stamp/3,
+    typhon_database:database_same/4,
+    typhon_database:database_forgets/4,
+    typhon_database:record/2,
+    typhon_database:record_put/2,
+    typhon_database:record_drop/1,
+    typhon_database:says/3.
 
 :- setting(silent_seconds, positive_integer, 10,
            "A server of a journal whose machine says nothing for so long is \c
             taken to be gone").
 
                 /*******************************
+                *             URLS             *
+                *******************************/
+
+%!  postgresql_url(+Text) is semidet.
+
+postgresql_url(Text) :-
+    member(Scheme, ['postgresql://', 'postgres://']),
+    sub_atom(Text, 0, _, _, Scheme),
+    !.
+
+%!  postgresql_place(+Url, +Part, -Place, -Server) is det.
+%
+%   Place is Url as it may be shown, and names the journal: without password.
+%   Server is how it is reached.  Part is added to the name of the schema.
+%
+%   @error domain_error(postgresql_url, Url)
+
+postgresql_place(Url0, Part, Place, server(Schema, Driver)) :-
+    must_be(text, Url0),
+    atom_string(Url, Url0),
+    (   postgresql_url(Url),
+        catch(parts(Url, Parts0), error(syntax_error(_), _), fail)
+    ->  true
+    ;   domain_error(postgresql_url, Url)
+    ),
+    foldl(known(Url), Parts0, [], Parts),
+    option(schema(Schema0), Parts, typhon),
+    atom_concat(Schema0, Part, Schema),
+    option(dbname(Database), Parts, postgres),
+    option(host(Host), Parts, localhost),
+    option(port(Port), Parts, '5432'),
+    shown_user(Parts, User),
+    format(atom(Place), 'postgresql://~w~w:~w/~w?schema=~w',
+           [User, Host, Port, Database, Schema]),
+    driver([host(Host), port(Port), dbname(Database)|Parts], Driver).
+
+shown_user(Parts, Shown) :-
+    (   memberchk(user(User), Parts)
+    ->  atom_concat(User, @, Shown)
+    ;   Shown = ''
+    ).
+
+%   parts(+Url, -Parts): pairs Name=Value, of the query first.
+
+parts(Url, Parts) :-
+    uri_components(Url, uri_components(_, Authority, Path, Search, _)),
+    findall(Part,
+            (   nonvar(Search),
+                uri_query_components(Search, Query),
+                member(Part, Query)
+            ;   nonvar(Authority),
+                uri_authority_components(Authority, Components),
+                authority_part(Components, Part)
+            ;   atom_concat(/, Name0, Path),
+                decoded(dbname=Name0, Part)
+            ), Parts).
+
+authority_part(uri_authority(User, Password, Host, Port), Part) :-
+    member(Name-Value, [ user-User, password-Password, host-Host, port-Port ]),
+    nonvar(Value),
+    decoded(Name=Value, Part).
+
+decoded(Name=Encoded0, Name=Value) :-
+    atomic_list_concat([Encoded0], Encoded),    % a port is a number
+    uri_encoded(path, Value, Encoded),
+    Value \== ''.
+
+%   None has a sign that means something in the string of a driver.
+
+known(Url, Name=Value0, Parts, [Part|Parts]) :-
+    (   parameter(Name, _),
+        atomic_list_concat([Value0], Value),
+        \+ ( member(Sign, [;, '{', '}', '\n']),
+             sub_atom(Value, _, _, _, Sign) ),
+        fits(Name, Value)
+    ->  Part =.. [Name, Value]
+    ;   domain_error(postgresql_url, Url)
+    ).
+
+parameter(host, 'Servername').
+parameter(port, 'Port').
+parameter(dbname, 'Database').
+parameter(user, 'Username').
+parameter(password, 'Password').
+parameter(sslmode, 'SSLmode').
+parameter(schema, none).
+
+fits(schema, Name) :-
+    !,
+    atom_codes(Name, [First|Codes]),
+    \+ between(0'0, 0'9, First),
+    forall(member(Code, [First|Codes]), plain(Code)),
+    atom_length(Name, Length),
+    Length < 48.                        % a part may follow
+fits(_, _).
+
+plain(0'_).
+plain(Code) :-
+    between(0'a, 0'z, Code).
+plain(Code) :-
+    between(0'0, 0'9, Code).
+
+%   Its own savepoints would double the statements of a transaction.
+
+driver(Parts, Driver) :-
+    findall(Text,
+            ( parameter(Name, Theirs),
+              Theirs \== none,
+              Part =.. [Name, Value],
+              memberchk(Part, Parts),
+              format(atom(Text), ';~w=~w', [Theirs, Value]) ),
+            Texts),
+    atomic_list_concat([ 'DRIVER={PostgreSQL Unicode};ByteaAsLongVarBinary=1;',
+                         'Protocol=7.4-1'
+                       | Texts ], Driver).
+
+                /*******************************
                 *             OPEN             *
                 *******************************/
 
-%!  postgresql_found(+Server) is semidet.
-%!  postgresql_connect(+Server, +Seconds, -Connection, -Age) is det.
-%
-%   There is a journal; open it, or a new one, Age being `old` or `new`. It is
-%   locked as long as the connection lives. A process that has it is waited for so many
-%   seconds, at least so long as the server may need to see that a client has
-%   died.
-
-postgresql_found(server(Schema, Driver)) :-
+typhon_database:database_found(postgresql(server(Schema, Driver))) :-
     connected(Driver, Connection, has_table(Schema, about, Connection)).
 
 :- meta_predicate connected(+, -, 0).
@@ -49,7 +175,11 @@ connected(Driver, Connection, Goal) :-
                        once(Goal),
                        sql_disconnect(Connection)).
 
-postgresql_connect(server(Schema, Driver), Seconds0, Connection, Age) :-
+%   It is locked as long as the connection lives. A process that has it is waited
+%   for at least so long as the server may need to see that a client has died.
+
+typhon_database:database_connect(postgresql(server(Schema, Driver)), Seconds0,
+                                 Connection, Age) :-
     server_connect(Driver, Connection),
     catch(begin(Schema, Seconds0, Connection, Age), error(Formal, Context),
           ( sql_disconnect(Connection), throw(error(Formal, Context)) )).
@@ -110,13 +240,11 @@ has_table(Schema, Table, Connection) :-
     !,
     Count > 0.
 
-%!  postgresql_lock(+Connection, +Sync) is det.
-%
-%   A transaction has begun. What the end of this process may not undo the
+%   What the end of this process may not undo the
 %   server has in any case when it has answered; what a power cut may not it
 %   has then written, as what this transaction does.
 
-postgresql_lock(Connection, Sync) :-
+typhon_database:database_lock(postgresql(_), Sync, Connection) :-
     sync(Sync, Connection),
     sql_do(Connection, begin),
     sql_do(Connection, 'set local synchronous_commit=on').
@@ -132,9 +260,7 @@ do(Connection, Format, Values) :-
     format(atom(Sql), Format, Values),
     sql_do(Connection, Sql).
 
-%!  postgresql_tables(+Connection) is det.
-
-postgresql_tables(Connection) :-
+typhon_database:database_tables(postgresql(_), Connection) :-
     sql_do(Connection,
            'create table item (kind text, key text, n bigint, \c
             length integer, sum integer, value bytea, \c
@@ -147,17 +273,13 @@ postgresql_tables(Connection) :-
            'create table about (version integer, sample text, \c
             opened bigint default 0)').
 
-%!  postgresql_stamp(+Connection, -Stamp) is det.
-%!  postgresql_same(+Connection, +Sync, +Stamp) is semidet.
-%
-%   The journal has been opened, the Stamp-th time; that was the last time, and
-%   this is another connection to it.
+%   The journal has been opened, the Stamp-th time.
 
-postgresql_stamp(Connection, Stamp) :-
+typhon_database:database_stamp(postgresql(_), Connection, Stamp) :-
     sql_do(Connection, 'update about set opened=opened+1'),
     stamp(Connection, Stamp).
 
-postgresql_same(Connection, Sync, Stamp) :-
+typhon_database:database_same(postgresql(_), Sync, Stamp, Connection) :-
     stamp(Connection, Stamp),
     sync(Sync, Connection).
 
@@ -166,12 +288,10 @@ stamp(Connection, Stamp) :-
     !,
     Stamp = Stamp0.
 
-%!  postgresql_forgets(+Connection, -Seconds) is det.
-%
 %   What was committed without waiting is written within that time: three times
 %   the setting, as PostgreSQL says, and some more.
 
-postgresql_forgets(Connection, Seconds) :-
+typhon_database:database_forgets(postgresql(_), normal, Connection, Seconds) :-
     sql_row(Connection,
             'select setting::integer from pg_settings \c
              where name=\'wal_writer_delay\'',
@@ -183,19 +303,14 @@ postgresql_forgets(Connection, Seconds) :-
                 *            RECORD            *
                 *******************************/
 
-%!  postgresql_record(+Server, -Text) is semidet.
-%!  postgresql_record_put(+Server, +Text) is det.
-%!  postgresql_record_drop(+Server) is det.
-%
-%   A text beside the journals, see module `records`.
-
-postgresql_record(server(Schema, Driver), Text) :-
+typhon_database:record(postgresql(server(Schema, Driver)), Text) :-
+    sql_load,
     connected(Driver, Connection,
               ( has_table(Schema, network, Connection),
                 format(atom(Sql), 'select record from ~w.network', [Schema]),
                 sql_row(Connection, Sql, row(Text), [string]) )).
 
-postgresql_record_put(server(Schema, Driver), Text) :-
+typhon_database:record_put(postgresql(server(Schema, Driver)), Text) :-
     split_string(Text, "'", "", Parts),
     atomic_list_concat(Parts, '\'\'', Quoted),
     connected(Driver, Connection,
@@ -208,7 +323,7 @@ postgresql_record_put(server(Schema, Driver), Text) :-
                     on conflict (one) do update set record=excluded.record',
                    [Schema, Quoted]) )).
 
-postgresql_record_drop(server(Schema, Driver)) :-
+typhon_database:record_drop(postgresql(server(Schema, Driver))) :-
     connected(Driver, Connection,
               do(Connection, 'drop table if exists ~w.network', [Schema])).
 
@@ -216,22 +331,9 @@ postgresql_record_drop(server(Schema, Driver)) :-
                 *            ERRORS            *
                 *******************************/
 
-%!  postgresql_blame(+State, +Text, -What) is semidet.
-%
-%   Which kind of error the driver means by the SQLSTATE State and Text:
-%   `locked`, `full`, `unreachable` or missing(Package).
-
-postgresql_blame(_, Text, What) :-
-    says(Words, What),
-    member(Word, Words),
-    sub_atom(Text, _, _, _, Word),
-    !.
-postgresql_blame(State, _, unreachable) :-
-    sub_atom(State, 0, _, _, '08').     % the class of connections
-
-says(['lock timeout'], locked).
-says(['No space left', 'disk full'], full).
-says(['Can\'t open lib', 'Data source name'], missing('odbc-postgresql')).
-says([ 'server closed', 'no connection', 'terminating connection', 'could not',
+typhon_database:says(postgresql(_), ['lock timeout'], locked).
+typhon_database:says(postgresql(_), ['No space left', 'disk full'], full).
+typhon_database:says(postgresql(_), ['Can\'t open lib', 'Data source name'], missing('odbc-postgresql')).
+typhon_database:says(postgresql(_), [ 'server closed', 'no connection', 'terminating connection', 'could not',
        'onnection refused', 'No such file', 'FATAL', 'onnection to server',
        'ommunication link', 'not connect' ], unreachable).

@@ -1,35 +1,32 @@
-:- module(typhon_sqlite,
-          [ sqlite_found/1,             % +Dir
-            sqlite_connect/4,           % +Dir, +Seconds, -Connection, -Age
-            sqlite_lock/2,              % +Connection, +Sync
-            sqlite_tables/1,            % +Connection
-            sqlite_wrong/2,             % +Connection, -Why
-            sqlite_record/2,            % +Dir, -Text
-            sqlite_record_put/2,        % +Dir, +Text
-            sqlite_record_drop/1,       % +Dir
-            sqlite_blame/2              % +Text, -What
-          ]).
+:- module(typhon_sqlite, []).
 :- use_module(library(filesex), [directory_file_path/3, make_directory_path/1]).
-:- use_module(library(lists), [member/2]).
 :- use_module(library(readutil), [read_file_to_string/3]).
 :- use_module(sql, [sql_connect/2, sql_do/2, sql_row/4]).
 
 /** <module> A journal in SQLite: a file of a directory
 
+See typhon_database.  The Base is sqlite(Dir).
+
 *Threading*: one thread at a time.
 */
 
-%!  sqlite_found(+Dir) is semidet.
-%!  sqlite_connect(+Dir, +Seconds, -Connection, -Age) is det.
-%
-%   There is a journal in Dir; open it, or a new one, Age being `old` or `new`.
-%   A process that has it is waited for so many seconds.
+:- multifile
+    typhon_database:database_found/1,
+    typhon_database:database_connect/4,
+    typhon_database:database_lock/3,
+    typhon_database:database_tables/2,
+    typhon_database:database_stamp/3,
+    typhon_database:database_wrong/3,
+    typhon_database:record/2,
+    typhon_database:record_put/2,
+    typhon_database:record_drop/1,
+    typhon_database:says/3.
 
-sqlite_found(Dir) :-
+typhon_database:database_found(sqlite(Dir)) :-
     file(Dir, File),
     exists_file(File).
 
-sqlite_connect(Dir, Seconds, Connection, Age) :-
+typhon_database:database_connect(sqlite(Dir), Seconds, Connection, Age) :-
     catch(make_directory_path(Dir), error(Formal, _),
           not_written(Dir, Formal)),
     file(Dir, File),
@@ -45,11 +42,9 @@ sqlite_connect(Dir, Seconds, Connection, Age) :-
 file(Dir, File) :-
     directory_file_path(Dir, 'journal.db', File).
 
-%!  sqlite_lock(+Connection, +Sync) is det.
-%
-%   A transaction has begun. The lock is taken by the first change, and kept.
+%   The lock is taken by the first change of the transaction, and kept.
 
-sqlite_lock(Connection, Sync) :-
+typhon_database:database_lock(sqlite(_), Sync, Connection) :-
     pragma(Connection, locking_mode, exclusive),
     pragma(Connection, journal_mode, wal),
     pragma(Connection, synchronous, Sync),
@@ -59,9 +54,7 @@ pragma(Connection, Name, Value) :-
     format(atom(Pragma), 'pragma ~w=~w', [Name, Value]),
     sql_do(Connection, Pragma).
 
-%!  sqlite_tables(+Connection) is det.
-
-sqlite_tables(Connection) :-
+typhon_database:database_tables(sqlite(_), Connection) :-
     sql_do(Connection,
            'create table item (kind text, key text, n integer, \c
             length integer, sum integer, value blob, \c
@@ -73,29 +66,22 @@ sqlite_tables(Connection) :-
     sql_do(Connection,
            'create table about (version integer, sample text)').
 
-%!  sqlite_wrong(+Connection, -Why) is semidet.
-%
-%   The file is damaged.
+typhon_database:database_stamp(sqlite(_), _, none).
 
-sqlite_wrong(Connection, Why) :-
+typhon_database:database_wrong(sqlite(_), Connection, Why) :-
     sql_row(Connection, 'pragma quick_check(1)', row(Said), [atom]),
     !,
     Said \== ok,
     Why = Said.
 
-%!  sqlite_record(+Dir, -Text) is semidet.
-%!  sqlite_record_put(+Dir, +Text) is det.
-%!  sqlite_record_drop(+Dir) is det.
-%
-%   A text beside the journals, see module `kept`: a file, which is there as a
-%   whole or not at all.
+%   The record is a file, which is there as a whole or not at all.
 
-sqlite_record(Dir, Text) :-
+typhon_database:record(sqlite(Dir), Text) :-
     record_file(Dir, File),
     exists_file(File),
     read_file_to_string(File, Text, [encoding(utf8)]).
 
-sqlite_record_put(Dir, Text) :-
+typhon_database:record_put(sqlite(Dir), Text) :-
     record_file(Dir, File),
     atom_concat(File, '.new', New),
     catch(( make_directory_path(Dir),
@@ -110,7 +96,7 @@ not_written(Dir, Formal) :-
     format(atom(Why), 'it cannot be written: ~p', [Formal]),
     throw(error(permission_error(open, journal, Dir), context(_, Why))).
 
-sqlite_record_drop(Dir) :-
+typhon_database:record_drop(sqlite(Dir)) :-
     record_file(Dir, File),
     (   exists_file(File)
     ->  delete_file(File)
@@ -120,18 +106,9 @@ sqlite_record_drop(Dir) :-
 record_file(Dir, File) :-
     directory_file_path(Dir, 'network.pl', File).
 
-%!  sqlite_blame(+Text, -What) is semidet.
-%
-%   Which kind of error the driver means by Text: `locked`, `unwritable`, `full`
-%   or missing(Package).
-
-sqlite_blame(Text, What) :-
-    says(Words, What),
-    member(Word, Words),
-    sub_atom(Text, _, _, _, Word),
-    !.
-
-says(['is locked'], locked).
-says([readonly, 'unable to open', 'connect failed'], unwritable).
-says(['is full', 'disk I/O'], full).
-says([driver, 'Driver', 'Data source'], missing(libsqliteodbc)).
+typhon_database:says(sqlite(_), ['is locked'], locked).
+typhon_database:says(sqlite(_), [readonly, 'unable to open', 'connect failed'],
+                     unwritable).
+typhon_database:says(sqlite(_), ['is full', 'disk I/O'], full).
+typhon_database:says(sqlite(_), [driver, 'Driver', 'Data source'],
+                     missing(libsqliteodbc)).
