@@ -16,8 +16,6 @@ This is the interface of the layer: higher layers import from here.
               agent_wakes/2
             ]).
 :- reexport(agent/agent_lock, [agents_passed/0, with_agent/2]).
-:- reexport(agent/agent_orders,
-            [agent_order/2, agent_ordered/1, agent_orders/2, agent_unorder/2]).
 :- reexport(agent/agent_module,
             [ agent_add/2, agent_changed/4, agent_clauses/3, agent_code/2,
               agent_elsewhere/3, agent_handles/2,
@@ -38,9 +36,8 @@ This is the interface of the layer: higher layers import from here.
 :- reexport(agent/image,
             [ image_amended/5, image_clone/5, image_enter/4, image_entrant/2,
               image_hash/2, image_held/2, image_hop/6, image_label/2,
-              image_module/3
+              image_module/3, program_missing/2, program_sent/3
             ]).
-:- reexport('agent/printable_fallback').
 :- reexport('agent/fault').
 :- reexport(agent/payloads,
             [agent_attach/2, agent_detach/2, agent_payload/3, payload_marks/2]).
@@ -48,5 +45,6 @@ This is the interface of the layer: higher layers import from here.
             [ is_result_fact/1, result_facts/2, cloned_put/2, no_result_facts/2,
               result_put/2 ]).
 :- reexport(agent/mailbox,
-            [ mail_all/2, mail_back/2, mail_count/2, mail_list/2, mail_take/2,
+            [ agent_order/2, agent_ordered/1, agent_orders/2, agent_unorder/2,
+              mail_all/2, mail_back/2, mail_count/2, mail_list/2, mail_take/2,
               mail_waits/1 ]).

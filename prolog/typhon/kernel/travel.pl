@@ -8,8 +8,9 @@ This is the interface of the layer: higher layers import from here.
 
 :- reexport(travel/hop, [hop/6, hop_clone/6]).
 :- reexport(travel/hand_over, [hand_over/5]).
-:- reexport(travel/transfer, [transfer_given_up/2, transfer_held/2]).
-:- reexport('travel/ordered_moves').
+:- reexport(travel/transfer, 
+            [ move_awaited/2, move_failed/2, move_over/2, transfer_given_up/2,
+              transfer_held/2 ]).
 :- reexport(travel/in_doubt, [in_doubt/1, out_of_touch/1]).
 :- use_module(travel/arrival, []).
 :- reexport(travel/durable_posts, [post_must_fit/1]).

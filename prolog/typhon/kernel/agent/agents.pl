@@ -32,9 +32,9 @@
 :- use_module('../base/durable_changes',
               [durable_drop/3, durable_on/0, enqueue_changes/0]).
 :- use_module('../host', [events_forget/1, parts_call/3, schedule/2]).
-:- use_module(agent_orders,
-              [agent_ordered/1, agent_unorder/2, agent_unorder_all/2]).
-:- use_module(mailbox, [mail_all/2, mail_count/2, mail_put/2]).
+:- use_module(mailbox,
+              [ agent_ordered/1, agent_unorder/2, agent_unorder_all/2,
+                mail_all/2, mail_count/2, mail_put/2 ]).
 :- use_module(life, [life_extras/2]).
 
 /** <module> Agents that stand in this process
@@ -48,7 +48,7 @@ The records of agents, each with one owner: this module.  An agent is
     leaving(Host, At), transit(Host, Sent), cloning(Host, Sent) or
     faulty(Error), with the goals still to run.  While a control predicate is
     under way the goals are Hole-Goals, see typhon_machine;
-  - a mailbox, see typhon_mailbox, and orders, see typhon_agent_orders.
+  - a mailbox, and orders, see typhon_mailbox.
 
 An agent that was handed over to another process, see typhon_hand_over, is only
 the frame that was sent and a mailbox, until the other process has accepted it.

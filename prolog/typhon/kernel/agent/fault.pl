@@ -7,16 +7,19 @@
             fault_shown/2,              % +Fault, -Shown
             fault_told/5,               % +Fault, -Goal, -Where, -Address,
                                         % -Hops
-            is_faulty/3                 % ?Goals, ?Fault, ?Left
+            is_faulty/3,                % ?Goals, ?Fault, ?Left
+            in_words/2                  % +Term, -Portable
           ]).
+:- use_module(library(apply), [maplist/3]).
 :- use_module(library(debug), [debug/3]).
 :- use_module(library(lists), [member/2]).
+:- use_module('../base/trees', [is_in_itself/1]).
+:- use_module('../wire', [mobile_term/1]).
 :- use_module('../program',
               [ advice_text/2, clause_parts/3, code_program/2, fault/3,
                 fault_where/4, unknown_advice/3, where_handled/5 ]).
 :- use_module('../host', [host/3]).
 :- use_module(agents, [agent/5]).
-:- use_module(printable_fallback, [in_words/2]).
 :- use_module(life, [life_hops/2]).
 
 /** <module> What is the matter with an agent
@@ -174,3 +177,45 @@ fault_told(fault(_, Goal, Where, Address, Hops, _), Goal, Where, Address,
 %   Goals are those of an agent that is faulty: Fault, and then Left.
 
 is_faulty(['$fault'(Fault)|Left], Fault, Left).
+
+                /*******************************
+                *             WORDS             *
+                *******************************/
+
+%   An error or a goal may hold what cannot travel.  That is replaced by words, so
+%   that it is still the same error, and shows what was there.
+
+%!  in_words(+Term, -Portable) is det.
+%
+%   Portable is Term, with an atom in place of each part that cannot travel.
+
+in_words(Term, Portable) :-
+    catch(mobile_term(Term), error(_, _), fail),
+    !,
+    Portable = Term.
+in_words(Term, 'a cyclic term') :-
+    is_in_itself(Term),
+    !.
+in_words(Term, Words) :-
+    attvar(Term),
+    !,
+    copy_term(Term, _, Goals),
+    attributed(Goals, Words).
+in_words(Term, Portable) :-
+    compound(Term),
+    !,
+    compound_name_arguments(Term, Name, Args0),
+    maplist(in_words, Args0, Args),
+    compound_name_arguments(Portable, Name, Args).
+in_words(Term, Words) :-
+    blob(Term, Type),
+    format(atom(Words), 'a ~w (~w)', [Type, Term]).
+
+attributed(Goals, Words) :-
+    member(Goal0, Goals),
+    strip_module(Goal0, _, Goal),
+    callable(Goal),
+    !,
+    functor(Goal, Name, Arity),
+    format(atom(Words), 'an attributed variable (~q)', [Name/Arity]).
+attributed(_, 'an attributed variable').

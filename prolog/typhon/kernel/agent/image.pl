@@ -9,11 +9,15 @@
             image_amended/5,            % +Phase, +Host, +Where, +Image0,
                                         % -Image
             image_module/3,             % +Image, +Place, -Agent
-            image_enter/4               % +Image, +Host, +Agent, +More
+            image_enter/4,              % +Image, +Host, +Agent, +More
+            program_sent/3,             % +Endpoint, +Hash, -Sent
+            program_missing/2           % +Endpoint, +Hash
           ]).
 :- use_module(library(error), [type_error/2]).
 :- use_module(library(lists), [append/3, member/2]).
 :- use_module('../base/durable_changes', [durable_key/2, durable_on/0]).
+:- use_module('../program', [code_sent/2]).
+:- use_module('../wire', []).
 :- use_module('../host', [amended/5, event_heard/1, host/3, parts/3]).
 :- use_module(agents, [agent/5, agent_enter/3, agent_mail/2]).
 :- use_module(agent_module, [agent_standing/5, agent_state/2]).
@@ -30,8 +34,14 @@ Hash names its program, Mail is a list of From-Message, the oldest first,
 and Since the host time at which it set out, or From-Since where a listener
 wants to know from which host.
 
+Its program goes along to processes that lack it as far as is known.
+
 *Threading*: any thread; image_enter/4 inside with_agent/2.
 */
+
+:- multifile typhon_endpoint:connection/2.
+
+:- dynamic has_program/2.       % Endpoint, Hash: was sent there
 
 %!  image_hop(+Id, -Hops, +Goals, ?Mail, +Since, -Image) is det.
 %!  image_clone(+Id, +CloneId, +Goals, +Since, -Image) is det.
@@ -186,3 +196,39 @@ image_enter(image(Id, Hash, Life, _, _, Mail0, _), Host, Module-Goals, More) :-
     ->  true
     ;   agent_mail(Id, Mail)
     ).
+
+                /*******************************
+                *            PROGRAMS           *
+                *******************************/
+
+%!  program_sent(+Endpoint, +Hash, -Sent) is det.
+%!  program_missing(+Endpoint, +Hash) is det.
+%
+%   Sent is what goes to Endpoint with an agent of that program: as of
+%   code_sent/2, or `known`. The process lacks the program after all.
+
+program_sent(Endpoint, Hash, known) :-
+    has_program(Endpoint, Hash),
+    !.
+program_sent(Endpoint, Hash, Sent) :-
+    code_sent(Hash, Sent),
+    bound_programs,
+    assertz(has_program(Endpoint, Hash)).
+
+program_missing(Endpoint, Hash) :-
+    retractall(has_program(Endpoint, Hash)).
+
+%   What is forgotten is sent once more.
+
+most_programs(10000).
+
+bound_programs :-
+    predicate_property(has_program(_, _), number_of_clauses(Count)),
+    most_programs(Most),
+    Count > Most,
+    !,
+    retractall(has_program(_, _)).
+bound_programs.
+
+typhon_endpoint:connection(Endpoint, down) :-
+    retractall(has_program(Endpoint, _)).

@@ -5,7 +5,12 @@
             mail_list/2,                % +Id, -Messages
             mail_waits/1,               % +Id
             mail_count/2,               % +Id, -Count
-            mail_back/2                 % +Id, +Messages
+            mail_back/2,                % +Id, +Messages
+            agent_order/2,              % +Id, +Order
+            agent_unorder/2,            % +Id, ?Order
+            agent_unorder_all/2,        % +Id, -Orders
+            agent_orders/2,             % +Id, -Orders
+            agent_ordered/1             % +Id
           ]).
 :- use_module(library(lists), [append/3, member/2]).
 :- use_module(agent_lock, [with_agent/2]).
@@ -15,7 +20,7 @@
               [ durable_drop/3, durable_drop_all/2, durable_number/1,
                 durable_on/0, durable_put/4, enqueue_changes/0 ]).
 
-/** <module> The mailboxes of agents
+/** <module> What waits for an agent: its mailbox, and orders
 
 A mailbox is a message queue, made for the first message and gone with the
 agent.  A table of messages that all agents share would not do: while other
@@ -30,7 +35,9 @@ What is put in the journal before it can be taken cannot be taken twice.
 mail_put/2 may add to a queue, and no thread waits at one.
 */
 
-:- dynamic box/2.                       % Id, Queue
+:- dynamic
+    box/2,                      % Id, Queue
+    order/2.                    % Id, Order: the oldest first
 
 %!  mail_put(+Id, +Messages:list) is det.
 
@@ -153,3 +160,39 @@ mail_back(Id, Older) :-
         put_all(Numbered, Queue)
     ;   put_bare(Messages, Queue)
     ).
+
+                /*******************************
+                *             ORDERS            *
+                *******************************/
+
+%!  agent_order(+Id, +Order) is det.
+%!  agent_unorder(+Id, ?Order) is semidet.
+%!  agent_unorder_all(+Id, -Orders:list) is det.
+%!  agent_ordered(+Id) is semidet.
+%!  agent_orders(+Id, -Orders:list) is det.
+%
+%   Note an order; take the oldest that unifies; take all; whether there is one;
+%   all there are.
+
+agent_order(Id, Order) :-
+    assertz(order(Id, Order)).
+
+agent_unorder(Id, Order) :-
+    retract(order(Id, Order)),
+    !.
+
+%   One by one, as above.
+
+agent_unorder_all(Id, Orders) :-
+    (   retract(order(Id, Order))
+    ->  Orders = [Order|More],
+        agent_unorder_all(Id, More)
+    ;   Orders = []
+    ).
+
+agent_ordered(Id) :-
+    order(Id, _),
+    !.
+
+agent_orders(Id, Orders) :-
+    findall(Order, order(Id, Order), Orders).

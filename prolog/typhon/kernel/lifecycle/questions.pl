@@ -29,7 +29,7 @@ reader threads, which never wait.
 :- multifile
     here/3,                     % Question, Agent, Asker
     typhon_endpoint:requested/4,
-    typhon_ordered_moves:answered/2.
+    typhon_transfer:answered/2.
 
 %   here(+Question, +Agent, +Asker) is semidet: fails if Agent does not stand
 %   in this process.  Else Asker gets the answer, then or later.
@@ -208,5 +208,5 @@ question_answered(queue(Queue), Answer) :-
 question_answered(reply(ReplyTo), Answer) :-
     endpoint_reply(ReplyTo, Answer).
 
-typhon_ordered_moves:answered(Asker, Answer) :-
+typhon_transfer:answered(Asker, Answer) :-
     question_answered(Asker, Answer).

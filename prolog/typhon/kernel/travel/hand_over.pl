@@ -17,11 +17,10 @@
                 agent_module/4, agent_ready/2, agent_standing/5,
                 agent_state/2, agent_thawed/5, agent_under_way/6, is_life/1,
                 life_before/2, life_extras/2, life_goes/3, life_hops/2,
-                mail_all/2, mail_back/2, mail_waits/1, with_agent/2 ]).
+                mail_all/2, mail_back/2, mail_waits/1, program_sent/3, with_agent/2 ]).
 :- use_module(backlog, [backlog/1]).
 :- use_module(home, [home_left/4]).
 :- use_module(post, [post_on/2]).
-:- use_module(programs_sent, [program_sent/3]).
 :- use_module(whereabouts,
               [agent_comes_anew/3, agent_left/4, agent_seen/4]).
 

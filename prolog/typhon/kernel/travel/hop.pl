@@ -12,14 +12,13 @@
               [address_parts/3, amended/5, host/3, host_time/2, parts/3]).
 :- use_module('../agent',
               [ agent/5, image_amended/5, image_hash/2, image_held/2,
-                with_agent/2 ]).
+                program_missing/2, program_sent/3, with_agent/2 ]).
 :- use_module('../base/durable_changes', [crash_point/1, durable_on/0]).
 :- use_module(hop_ids, [hop_id_label/3, hop_id_repeated/1]).
 :- use_module(in_doubt, [may_have_arrived/1, resolve_in_doubt/1]).
 :- use_module(home, [agent_born/2]).
 :- use_module(hand_over, []).
 :- use_module(outcomes, [clone_born/2]).
-:- use_module(programs_sent, [program_missing/2, program_sent/3]).
 :- use_module(within, [hop_within/6]).
 :- use_module(transfer,
               [ transfer_arrived/1, transfer_freeze/4, transfer_image/2,

@@ -10,7 +10,10 @@
             transfer_let_go/4,          % +Id, -Mail, -Orders, -Gone
             transfer_given_up/2,        % +Id, +Frozen
             transfer_held/2,            % +Frozen, -Held
-            transfer_open/1             % ?Transfer
+            transfer_open/1,            % ?Transfer
+            move_awaited/2,             % +Id, +Asker
+            move_failed/2,              % +Id, +Formal
+            move_over/2                 % +Id, +Answer
           ]).
 :- use_module(library(debug), [debug/3]).
 :- use_module(library(lists), [member/2]).
@@ -28,7 +31,6 @@
 :- use_module(hop_ids,
               [hop_id_begin/4, hop_id_end/2, hop_id_restore/4]).
 :- use_module(outcomes, [clone_unborn/2]).
-:- use_module(ordered_moves, [move_failed/2, move_over/2]).
 :- use_module(post, [post_on/2]).
 :- use_module(whereabouts,
               [agent_ended/4, agent_left/4, agent_left_noted/4]).
@@ -49,9 +51,12 @@ clone(Held, CloneId, Since).
 
 :- multifile
     typhon_durable:restored/0,
-    forward_order/2.            % Id, Order: the agent has left
+    forward_order/2,            % Id, Order: the agent has left
+    answered/2.                 % Asker, Answer: of an ordered move
 
-:- dynamic given_up/2.          % Id, Hops: disposed of while in doubt
+:- dynamic
+    given_up/2,                 % Id, Hops: disposed of while in doubt
+    waits/2.                    % Id, Asker: for a move that it ordered
 
 %!  transfer_traveller(+Transfer, -Id, -Hops) is det.
 %
@@ -274,3 +279,38 @@ open_transfer(cloning(Address, _), Id, clone(_, CloneId, _),
 
 transfer_held(hop(Held, _, _, _), Held).
 transfer_held(clone(Held-_, _, _), Held).
+
+                /*******************************
+                *         ORDERED MOVES         *
+                *******************************/
+
+%   A caller of agent_move/3 waits until the agent is there.  The process in which
+%   the agent takes the order knows how its next hop ends.
+
+%!  move_awaited(+Id, +Asker) is det.
+%
+%   Id is about to move on an order; Asker waits for the outcome.
+
+move_awaited(Id, Asker) :-
+    assertz(waits(Id, Asker)).
+
+%!  move_over(+Id, +Answer) is semidet.
+%
+%   The move of Id is over: all that wait for it get Answer, answer(arrived),
+%   error(Formal), or `none` if Id has ended.  Fails if none waits.
+
+move_over(Id, Answer) :-
+    waits(Id, _),
+    !,
+    forall(retract(waits(Id, Asker)), answered(Asker, Answer)).
+
+%!  move_failed(+Id, +Formal) is det.
+%
+%   Id stays: the callers that wait get error(Formal).  If none waits, this
+%   process reports it.
+
+move_failed(Id, Formal) :-
+    (   move_over(Id, error(Formal))
+    ->  true
+    ;   print_message(warning, typhon(order_failed(Id, Formal)))
+    ).

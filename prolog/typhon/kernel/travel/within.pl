@@ -12,7 +12,7 @@
               [ agent/5, agent_changed/4, agent_elsewhere/3, agent_mobile/6,
                 agent_move/5, agent_put/3, agent_standing/5, agent_state/2,
                 agent_status/3, gate/4, life_hop/3, with_agent/2 ]).
-:- use_module(ordered_moves, [move_over/2]).
+:- use_module(transfer, [move_over/2]).
 :- use_module(whereabouts, [agent_seen/4]).
 
 /** <module> Hops between hosts of one process

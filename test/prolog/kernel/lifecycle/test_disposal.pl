@@ -50,7 +50,7 @@ ending_when_asked(Clauses, Agent, Goal) :-
     create([ (over :- sense(over)) |Clauses], Agent),
     wait_until(running_for(Agent, 0.02), 10),
     setup_call_cleanup(
-        thread_create(( wait_until(typhon_agent_orders:order(Agent, _), 10),
+        thread_create(( wait_until(typhon_mailbox:order(Agent, _), 10),
                         remote(alpha, leave(over)) ), Ends),
         once(Goal),
         thread_join(Ends, Ended)),
@@ -215,7 +215,7 @@ clone_in_vain(A, E) :-
     thread_self(Me),
     thread_create(( catch(agent_clone(A, _), error(F, _), true),
                     thread_send_message(Me, cloned(F)) ), T),
-    wait_until(typhon_agent_orders:order(A, asked(clone, _)), 5),
+    wait_until(typhon_mailbox:order(A, asked(clone, _)), 5),
     agent_dispose(A, [force(0)]),
     thread_get_message(cloned(E)),
     thread_join(T, true).
