@@ -27,7 +27,6 @@
             commit_changes/0,
             send_after_commit/2,        % +Item, +When
             flush_sends/0,
-            send_committed/1,           % +Items
             crash_point/1               % +Name
           ]).
 :- use_module(library(error), [existence_error/2]).
@@ -55,41 +54,25 @@ inside the mutex that guards its owner.
 
 :- multifile
     open_store/3,               % Where, Sync, Seconds: open the store
-    store_opened/1,             % Place: of the open store
-    stored_item/5,              % Kind, Order, Key, N, Value
+    durable_opened/1,
+    durable_item/5,
     close_store/0,
     begin_commits/0,            % the store is open
     end_commits/0,              % commit what is in the queue, and stop
     queue_entry/1,              % Changes: to be committed together
     queue_send/1,               % Item: to be sent after them
     commit_queue/0,             % now, and return when it is done
-    commit_queue_soon/0,
+    flush_sends/0,              % commit soon
     commit_error/1,             % Error: of the last commit
     back_end_error/2,           % Why, Formal: `closed`, `key`
     committed/1,                % Items: they may be sent, in this order
     dropped/1,                  % Changes: their unit of work has failed
     reached/1.                  % Name: of crash_point/1
 
-:- dynamic
-    open_store/3,
-    store_opened/1,
-    stored_item/5,
-    close_store/0,
-    begin_commits/0,
-    end_commits/0,
-    queue_entry/1,
-    queue_send/1,
-    commit_queue/0,
-    commit_queue_soon/0,
-    commit_error/1,
-    back_end_error/2,
-    committed/1,
-    dropped/1,
-    reached/1.
-
 :- meta_predicate unit_of_work(0).
 
 :- dynamic
+    reached/1,
     durable_on/0,
     output_waits/0.
 
@@ -105,7 +88,7 @@ inside the mutex that guards its owner.
 %!  durable_item(+Kind, +Order, -Key, -N, -Value) is nondet.
 %
 %   Open the store at Where; the name of the store that is open, as in errors; its
-%   items of Kind.
+%   items of Kind.  The back end defines the last two.
 %
 %   @arg Sync is `full` if commits survive a power cut, or `normal`
 %   @arg Seconds is how long to wait until another process closes it
@@ -119,12 +102,6 @@ durable_open(Where, Sync, Seconds) :-
     ->  true
     ;   existence_error(back_end, Where)
     ).
-
-durable_opened(Place) :-
-    store_opened(Place).
-
-durable_item(Kind, Order, Key, N, Value) :-
-    stored_item(Kind, Order, Key, N, Value).
 
 %!  durable_begin is det.
 %!  durable_close is det.
@@ -242,23 +219,20 @@ durable_put(Kind, Key, N, Term) :-
     ).
 
 durable_drop(Kind, Key, N) :-
-    (   durable_on,
-        durable_key(Key, N)
-    ->  durable_change(drop(Kind, Key, N))
-    ;   true
-    ).
+    drop(Key, N, drop(Kind, Key, N)).
 
 durable_drop_all(Kind, Key) :-
-    (   durable_on,
-        durable_key(Key)
-    ->  durable_change(drop_all(Kind, Key))
-    ;   true
-    ).
+    drop(Key, 0, drop_all(Kind, Key)).
 
 durable_drop_below(Kind, Key, N) :-
+    drop(Key, N, drop_below(Kind, Key, N)).
+
+%   No item has another key.
+
+drop(Key, N, Change) :-
     (   durable_on,
         durable_key(Key, N)
-    ->  durable_change(drop_below(Kind, Key, N))
+    ->  durable_change(Change)
     ;   true
     ).
 
@@ -398,7 +372,7 @@ send_after_commit(Item, When) :-
     ),
     (   When == later
     ->  true
-    ;   commit_queue_soon
+    ;   flush_sends
     ).
 
 may_wait(now) :-
@@ -408,16 +382,8 @@ may_wait(now) :-
 may_wait(_).
 
 %!  flush_sends is det.
-%!  send_committed(+Items:list) is det.
 %
-%   Commit soon, and send what waits for it; the changes before Items are
-%   committed: send these.
-
-flush_sends :-
-    commit_queue_soon.
-
-send_committed(Items) :-
-    committed(Items).
+%   Commit soon, and send what waits for it.  The back end defines it.
 
                 /*******************************
                 *          CRASH POINTS        *

@@ -211,12 +211,8 @@ ended_agent(Id) :-
 %   Let the home of Id know that it ended after Hops hops, and what it leaves.
 
 agent_ended(Id, Outcome, Hops, Results) :-
-    agent_home_endpoint(Id, Home),
-    (   endpoint_address(Home)
-    ->  home_ended(Id, Outcome, Hops, Results)
-    ;   end_news(Results, Id, Outcome, Hops, News),
-        news_tell(Home, Id, News)
-    ).
+    end_news(Results, Id, Outcome, Hops, News),
+    tell_home(Id, News).
 
 end_news([], Id, Outcome, Hops, ended(Id, Outcome, Hops)) :-
     !.
@@ -230,17 +226,16 @@ end_news(Results, Id, Outcome, Hops, ended(Id, Outcome, Hops, Results)).
 %   fault of that Stamp.
 
 agent_faulty(Id, Outcome, Stamp, Address, Hops) :-
-    agent_home_endpoint(Id, Home),
-    (   endpoint_address(Home)
-    ->  home_faulty(Id, Outcome, Stamp, Address, Hops, here)
-    ;   news_tell(Home, Id, faulty(Id, Outcome, Stamp, Address, Hops))
-    ).
+    tell_home(Id, faulty(Id, Outcome, Stamp, Address, Hops)).
 
 agent_resumed(Id, Stamp, Hops) :-
+    tell_home(Id, resumed(Id, Stamp, Hops)).
+
+tell_home(Id, News) :-
     agent_home_endpoint(Id, Home),
     (   endpoint_address(Home)
-    ->  home_resumed(Id, Stamp, Hops)
-    ;   news_tell(Home, Id, resumed(Id, Stamp, Hops))
+    ->  news(here, News)
+    ;   news_tell(Home, Id, News)
     ).
 
 %!  agent_resumed_from(+Id, +Stamp, +Hops) is det.

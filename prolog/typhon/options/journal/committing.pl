@@ -2,7 +2,7 @@
 :- use_module(library(lists), [append/3, reverse/2]).
 :- use_module(library(rbtrees), [rb_insert_new/4, rb_new/1]).
 :- use_module('../../kernel/base/durable_changes',
-              [crash_point/1, durable_closed/0, send_committed/1]).
+              [crash_point/1, durable_closed/0]).
 :- use_module('../../kernel/base/fifo', [fifo_empty/2]).
 :- use_module('../../kernel/base/server',
               [server_cast/2, server_start/4, server_stop/1]).
@@ -31,7 +31,7 @@ may take those of sessions: a thread that holds one of these must not commit.
     typhon_durable_changes:queue_entry/1,
     typhon_durable_changes:queue_send/1,
     typhon_durable_changes:commit_queue/0,
-    typhon_durable_changes:commit_queue_soon/0,
+    typhon_durable_changes:flush_sends/0,
     typhon_durable_changes:commit_error/1,
     typhon_durable_changes:back_end_error/2.
 
@@ -143,11 +143,11 @@ commit :-
     sig_atomic(( with_mutex(typhon_commit, commit_all),
                  once_more )).
 
-typhon_durable_changes:commit_queue_soon :-
+typhon_durable_changes:flush_sends :-
     queue(_, _, full),
     !,
     wake(now).
-typhon_durable_changes:commit_queue_soon :-
+typhon_durable_changes:flush_sends :-
     sig_atomic(commit_or_leave).
 
 %   No thread waits for the committing one: it finds that more is wanted, and does it.
@@ -196,7 +196,7 @@ commit_all :-
 commit_all.
 
 go(Items) :-
-    catch(ignore(send_committed(Items)), error(Formal, Context),
+    catch(ignore(typhon_durable_changes:committed(Items)), error(Formal, Context),
           print_message(error, error(Formal, Context))).
 
 parted([], [], []).

@@ -43,8 +43,8 @@ parts.
 
 :- multifile
     typhon_durable_changes:open_store/3,
-    typhon_durable_changes:store_opened/1,
-    typhon_durable_changes:stored_item/5,
+    typhon_durable_changes:durable_opened/1,
+    typhon_durable_changes:durable_item/5,
     typhon_durable_changes:close_store/0,
     typhon_options:declared/4.
 
@@ -174,7 +174,7 @@ journal_found(Where) :-
 journal_opened(Place) :-
     connection(Place, _).
 
-typhon_durable_changes:store_opened(Place) :-
+typhon_durable_changes:durable_opened(Place) :-
     connection(Place, _).
 
 store_sync(Sync) :-
@@ -327,7 +327,7 @@ journal_item(Kind, Order, Key, N, Value) :-
     ;   throw(error(journal_damaged(Place, Kind-Key), _))
     ).
 
-typhon_durable_changes:stored_item(Kind, Order, Key, N, Value) :-
+typhon_durable_changes:durable_item(Kind, Order, Key, N, Value) :-
     journal_item(Kind, Order, Key, N, Value).
 
 order(any, '').
