@@ -17,7 +17,7 @@ set label 1 "{/:Bold=15 ".TITLE."}" at screen 0.095,(1-26.0/HEIGHT)
 set label 2 "{/*0.9 ".SUBTITLE."}" at screen 0.095,(1-SUBLINE/HEIGHT) tc rgb "#555555"
 set xrange [LEFT:RIGHT]
 eval "set xtics (".XTICS.")"
-if (ROTATED) { set xtics rotate by -25 }
+if (ROTATED) { set xtics rotate by 25 right }
 PANEL = 285.0 + FOOT
 set border 3 lc rgb "#888888"
 set tics nomirror out scale 0.6 tc rgb "#333333" noenhanced

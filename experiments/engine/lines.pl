@@ -57,9 +57,11 @@ heights(Title, Panels, Variables0, Height, Variables) :-
     memberchk('SUBTITLE'-Subtitle0, Variables0),
     memberchk('Series'-Labels, Variables0),
     memberchk('ROTATED'-Rotated, Variables0),
+    memberchk('PRINTED'-Printed, Variables0),
     folded(Title, 75, '}\n{/:Bold=15 ', TitleText, TitleLines),
     folded(Subtitle0, 110, '}\n{/*0.9 ', Subtitle, SubtitleLines),
-    key_rows(Labels, Rows),
+    ( Printed =:= 1 -> Keys = [printed|Labels] ; Keys = Labels ),
+    key_rows(Keys, Rows),
     Subline is 54.0 + 22*(TitleLines - 1),
     Head is 90.0 + 22*(TitleLines - 1) + 20*(SubtitleLines - 1)
             + 19*(Rows - 1),
@@ -67,10 +69,20 @@ heights(Title, Panels, Variables0, Height, Variables) :-
     Height is round(Head + 40 + (285 + Foot)*Panels),
     selectchk('SUBTITLE'-Subtitle0, Variables0, Variables1),
     selectchk('ROTATED'-Rotated, Variables1, Variables2),
+    room_on_the_left(Rotated, Variables2, Variables3),
     Variables = [ 'TITLE'-TitleText, 'SUBTITLE'-Subtitle, 'HEIGHT'-Height,
                   'HEAD'-Head, 'FOOT'-Foot, 'SUBLINE'-Subline,
                   'KEYROWS'-Rows, 'ROTATED'-Rotated
-                | Variables2 ].
+                | Variables3 ].
+
+%   Labels that are rotated end where their tick is.
+
+room_on_the_left(0, Variables, Variables) :-
+    !.
+room_on_the_left(_, Variables0, ['LEFT'-Left|Variables]) :-
+    selectchk('LEFT'-Left0, Variables0, Variables),
+    memberchk('RIGHT'-Right, Variables),
+    Left is Left0 - 0.1*(Right - Left0).
 
 %   folded(+Text, +Width, +Between, -Folded, -Count): in Count lines of about
 %   Width characters, with Between between them.
@@ -249,7 +261,10 @@ variable(Study, _, shown(_, _, Positions0), _, _, 'ROTATED'-Rotated) :-
             Lengths),
     length(Lengths, Count),
     max_list(Lengths, Longest),
-    (   Count*(Longest + 2) > 95        % characters in a line
+    last(Lengths, LastLength),
+    (   ( Count*(Longest + 2) > 95      % characters in a line
+        ; LastLength > 13               % which are in the middle of the tick
+        )
     ->  Rotated = Longest
     ;   Rotated = 0
     ).
