@@ -191,6 +191,9 @@ export function agentList(parent, store, app) {
   const doing = agent => {
     if (agent.status === 'ended') return `ended: ${agent.outcome ?? 'unknown'}`;
     if (agent.status === 'faulty' && agent.fault) return `faulty: ${agent.fault}`;
+    // what was told may be of an earlier hop
+    if (agent.status === 'in_transit')
+      return agent.hop ? `in_transit to ${shortName(agent.hop.to)}` : 'in_transit';
     const told = more(agent);
     return told.status === agent.status && told.doing ? told.doing : agent.status;
   };
