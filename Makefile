@@ -93,9 +93,9 @@ fuzz:                   ## what nobody should send; COUNT=100000, SEED=1, TLS=tr
 hostile:                ## hostile agents on a guarded host; COUNT=100000, SEED=1
 	@$(SWIPL) test/chaos/hostile.pl -- --count $(COUNT) --seed $(SEED)
 
-pictures: tools page-tools ## make the pictures of the page for README and doc
+pictures: tools page-tools ## make all pictures of README and doc; KINDS=page
 	@.ci/install page
-	@$(SWIPL) doc/pictures.pl -- doc/img
+	@RUNS=$(RUNS) $(SWIPL) doc/pictures.pl -- doc/img $(KINDS)
 
 vscode:                 ## pack the extension for VS Code, by vsce from npm
 	@mkdir -p out

@@ -1,8 +1,8 @@
-:- module(doc_pictures, []).
+:- module(doc_pictures_page,
+          [ page_pictures/1             % +Directory
+          ]).
 
 /** <module> The pictures of the page in README and doc
-
-    swipl doc/pictures.pl -- doc/img            `make pictures`
 
 Starts sixty hosts in four processes with a mechanism at work, looks at their
 page in Chromium, and writes page-NAME.png for each picture/2 below.  The
@@ -11,24 +11,19 @@ network is made for the pictures alone.
 *Threading*: the main thread.
 */
 
-:- use_module('../prolog/typhon',
+:- use_module('../../prolog/typhon',
               [ agent_create/3, network_property/2, network_start/3,
                 network_stop/1 ]).
-:- use_module('../prolog/typhon/tools/page', [page_serve/2, page_stop/0]).
-:- use_module('../agents/sync/operator', [sequence_start/5]).
-:- use_module('../test/lib/browser').
+:- use_module('../../prolog/typhon/tools/page', [page_serve/2, page_stop/0]).
+:- use_module('../../agents/sync/operator', [sequence_start/5]).
+:- use_module('../../test/lib/browser').
 :- use_module(library(apply), [maplist/3]).
-:- use_module(library(filesex),
-              [directory_file_path/3, make_directory_path/1]).
+:- use_module(library(filesex), [directory_file_path/3]).
 :- use_module(library(lists), [member/2, nth1/3]).
-:- use_module(library(main), [main/0]).
 
-:- initialization(main, main).
+%!  page_pictures(+Directory) is det.
 
-:- public main/1.
-
-main([Directory]) :-
-    make_directory_path(Directory),
+page_pictures(Directory) :-
     setup_call_cleanup(
         network_start(grid(6, 10), Network,
                       [ processes(4), seed(1), hop_time(uniform(0.5, 1.5)),

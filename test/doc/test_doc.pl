@@ -17,6 +17,7 @@
 
 :- use_module('../lib/common').
 :- use_module('../lib/transcript', [transcript_differences/4]).
+:- use_module('../../doc/pictures/studies', [study_picture/3]).
 :- use_module('../../doc/site/markdown', [slug/2]).
 :- use_module(library(apply), [maplist/2]).
 :- use_module(library(filesex),
@@ -261,6 +262,21 @@ broken_links_in(Text, Links, Dir) :-
                 *             TESTS            *
                 *******************************/
 
+%   See doc/pictures.pl.
+
+is_made('layers.svg').
+is_made('spacetime.svg').
+is_made(Picture) :-
+    atom_concat('page-', _, Picture).
+is_made(Picture) :-
+    study_picture(Picture, _, _).
+
+scouts_made(Text, Dir) :-
+    project_file('doc/pictures.pl', Script),
+    run_swipl([Script, '--', Dir, spacetime], [], exit(0), _, _),
+    directory_file_path(Dir, 'spacetime.svg', File),
+    read_file_to_string(File, Text, []).
+
 :- begin_tests(documentation).
 
 about_journals(File) :-
@@ -315,6 +331,24 @@ test(links_that_lead_nowhere_are_seen,
          [c](doc.md#a-heading-code--more) [d](doc.md#none) [e](#none)\n\c
          `[f](no)`\n```\n[g](no)\n# none\n```\n",
         Links)).
+
+% Those of layers and of virtual time are the same whenever they are made; but
+% the former changes with each module.
+
+test(pictures_are_all_made_by_one_command, Missing == []) :-
+    findall(Picture,
+            ( document(File),
+              prose(File, Text),
+              points_to(Text, Link),
+              file_directory_name(Link, Dir),
+              file_base_name(Dir, img),
+              file_base_name(Link, Picture),
+              \+ is_made(Picture) ),
+            Missing).
+test(picture_of_scouts_is_as_it_is_made, Shown == Made) :-
+    with_tmp_dir(scouts_made(Made)),
+    project_file('doc/img/spacetime.svg', File),
+    read_file_to_string(File, Shown, []).
 
 test(every_export_has_a_comment_with_modes, Missing == []) :-
     findall(Base:PI,

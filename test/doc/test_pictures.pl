@@ -3,7 +3,7 @@
 
 :- needs([page]).
 
-% doc/pictures.pl makes all pictures of the page that documents show.
+% doc/pictures.pl makes the pictures of the page that documents show.
 
 :- use_module(library(filesex), [directory_file_path/3]).
 :- use_module(library(lists), [append/3, member/2]).
@@ -14,7 +14,7 @@
 
 made(Names, Sizes, Dir) :-
     project_file('doc/pictures.pl', Script),
-    run_swipl([Script, '--', Dir], [timeout(120)], exit(0), _, _),
+    run_swipl([Script, '--', Dir, page], [timeout(120)], exit(0), _, _),
     directory_files(Dir, Entries),
     findall(Name-Size,
             ( member(Name, Entries),
