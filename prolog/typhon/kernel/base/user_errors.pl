@@ -52,16 +52,25 @@ wrap_exports(Module) :-
     module_property(Module, exports(PIs)),
     forall(member(PI, PIs), wrap(Module, PI)).
 
-%   The wrapped goal is not qualified: a predicate that is module transparent
-%   is called in the context of its caller.
+%   A predicate that is module transparent is called in the context of its caller:
+%   9.2 does not do that by itself.
 
 wrap(Module, Name/Arity) :-
     functor(Head, Name, Arity),
     defined_in(Module, Head, Home),
-    wrap_predicate(Home:Head, typhon_user_errors, Wrapped,
-                   catch_with_backtrace(
-                       Wrapped, error(Formal, Context),
-                       typhon_user_errors:raise_again(Formal, Context))).
+    (   predicate_property(Home:Head, transparent)
+    ->  Body = ( prolog_current_frame(Frame),
+                 prolog_frame_attribute(Frame, context_module, Caller),
+                 Reported ),
+        reported(@(Wrapped, Caller), Reported)
+    ;   reported(Wrapped, Body)
+    ),
+    wrap_predicate(Home:Head, typhon_user_errors, Wrapped, Body).
+
+reported(Goal,
+         catch_with_backtrace(
+             Goal, error(Formal, Context),
+             typhon_user_errors:raise_again(Formal, Context))).
 
 defined_in(Module, Head, Home) :-
     predicate_property(Module:Head, imported_from(Home)),
