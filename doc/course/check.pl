@@ -13,7 +13,7 @@ minute.  The exit status is 0 if every criterion holds.
 *Threading*: the main thread.
 */
 
-:- use_module(checks/course, [exercise/2, exercise_verdicts/3]).
+:- use_module(checks/course, [criterion/3, exercise/2, exercise_verdict/3]).
 :- use_module(checks/first_agent, []).
 :- use_module(checks/stigmergy, []).
 :- use_module(checks/election, []).
@@ -124,7 +124,7 @@ checked(Options, File, row(File, Exercise, Held, Of, Verdicts)) :-
     option(seconds(Seconds), Options, 60),
     verdicts_of(File, Seconds, Verdicts),
     aggregate_all(count, member(verdict(_, ok), Verdicts), Held),
-    length(Verdicts, Of),
+    aggregate_all(count, criterion(Exercise, _, _), Of),
     (   option(csv(true), Options)
     ->  true
     ;   report(File, Verdicts)
@@ -183,7 +183,6 @@ check_here(File) :-
     set_stream(Error, alias(user_output)),
     set_output(Error),
     file_exercise(File, Exercise),
-    exercise_verdicts(Exercise, File, Verdicts),
-    forall(member(Verdict, Verdicts),
-           format(Out, '~q.~n', [Verdict])),
-    flush_output(Out).
+    forall(exercise_verdict(Exercise, File, Verdict),
+           ( format(Out, '~q.~n', [Verdict]),
+             flush_output(Out) )).

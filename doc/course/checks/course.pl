@@ -1,6 +1,7 @@
 :- module(course,
           [ exercise/2,                 % ?Exercise, -Lesson
-            exercise_verdicts/3,        % +Exercise, +File, -Verdicts
+            criterion/3,                % ?Exercise, -Text, -Goal
+            exercise_verdict/3,         % +Exercise, +File, -Verdict
             in_network/3,               % +Topology, +Options, :Goal
             on_host/3,                  % +File, +Host, -Agent
             on_host/4,                  % +File, +Host, +Facts, -Agent
@@ -50,16 +51,14 @@ exercise(patrol, 6).
 exercise(patient, 6).
 exercise(guard, 6).
 
-%!  exercise_verdicts(+Exercise, +File, -Verdicts:list) is det.
+%!  exercise_verdict(+Exercise, +File, -Verdict) is nondet.
 %
-%   Verdicts are verdict(Text, Found) for each criterion; Found is `ok`, or
-%   says why it does not hold.
+%   Verdict is verdict(Text, Found) for each criterion; Found is `ok`, or says
+%   why it does not hold.
 
-exercise_verdicts(Exercise, File, Verdicts) :-
-    findall(verdict(Text, Found),
-            ( criterion(Exercise, Text, Goal),
-              found(Goal, File, Found) ),
-            Verdicts).
+exercise_verdict(Exercise, File, verdict(Text, Found)) :-
+    criterion(Exercise, Text, Goal),
+    found(Goal, File, Found).
 
 found(Goal, File, Found) :-
     catch(( call(Goal, File) -> Found = ok ; Found = "it does not" ),
