@@ -124,7 +124,28 @@ agent(at(Browser, _, Ann)) :-
     view(Browser, agents),
     select(Browser, agent, Ann),
     browser_wait(Browser, "return document.querySelector(\c
-                           '#details .program .here')").
+                           '#details .program .here')"),
+    ways(Browser).
+
+%   Agents are under way along links: what the list says is of their present
+%   hop.
+
+ways(Browser) :-
+    browser_run(Browser,
+                "return [...document.querySelectorAll('[role=row]')]\c
+                 .map(row => [...row.children].map(e => e.textContent))\c
+                 .map(([, from, , , state]) => \c
+                     [from, /^in_transit to (.*)$/.exec(state)?.[1]])\c
+                 .filter(([from, to]) => to && \c
+                     ![...typhon.store.hosts.values()].some(host => \c
+                         host.id.startsWith(`${from}@`) && \c
+                         [...host.links.keys()].some(other => \c
+                             other.startsWith(`${to}@`))))",
+                Stale),
+    (   Stale == []
+    ->  true
+    ;   throw(error(picture_not_clean(Stale), _))
+    ).
 
 host(at(Browser, Hosts, _)) :-
     nth1(25, Hosts, Host),

@@ -12,7 +12,7 @@ In virtual time, so the picture is the same whenever it is made.
 :- use_module('../../prolog/typhon',
               [ agent_create/3, agent_join/3, network_start/3, network_stop/1
               ]).
-:- use_module('../../app/picture', [picture/3]).
+:- use_module('../../app/typhon/picture', [picture/3]).
 :- use_module(library(filesex), [directory_file_path/3]).
 :- use_module(library(lists), [member/2]).
 
