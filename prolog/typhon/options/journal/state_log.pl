@@ -8,6 +8,7 @@
 :- use_module(library(gensym), [gensym/2]).
 :- use_module(library(lists), [max_list/2, member/2]).
 :- use_module(library(solution_sequences), [offset/2]).
+:- use_module('../../kernel/program', [clause_parts/3]).
 :- use_module('../../kernel/agent', [agent_add/2, agent_state/2]).
 
 /** <module> What has changed in the state of an agent
@@ -191,13 +192,6 @@ clause_term(Head, true, Clause) =>
     Clause = Head.
 clause_term(Head, Body, Clause) =>
     Clause = (Head:-Body).
-
-clause_parts((Head0:-Body0), Head, Body) =>
-    Head = Head0,
-    Body = Body0.
-clause_parts(Fact, Head, Body) =>
-    Head = Fact,
-    Body = true.
 
                 /*******************************
                 *            CHANGES           *
