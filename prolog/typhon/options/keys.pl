@@ -47,10 +47,7 @@ layer.
     begin/0,                            % the process has keys
     end/0.                              % it has none any more
 
-:- dynamic
-    begin/0,
-    end/0,
-    own_keys/1.                         % Directory
+:- dynamic own_keys/1.          % Directory
 
 %!  own_keys(?Directory) is semidet.
 %!  own_keys_begin(+Directory) is det.

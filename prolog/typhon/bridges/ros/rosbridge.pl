@@ -35,7 +35,8 @@ run by the thread that reads, which reads nothing meanwhile.
     down/2.                     % Host, Why: `stopped` if it was closed here
 
 :- dynamic
-    heard/2, up/2, down/2,
+    heard/2,
+    up/2,
     reader/2,                   % Host, Thread
     writer/2.                   % Host, Thread: while there is a connection
 

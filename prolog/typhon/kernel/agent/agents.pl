@@ -80,10 +80,6 @@ which Prolog makes by itself, is not safe where other threads retract
            "Messages kept for an agent that is faulty").
 
 :- dynamic
-    carries/3,
-    thaw/1.
-
-:- dynamic
     stands/6,                   % Id, Host, Module, Hash, Life, Until
     status/3,                   % Id, Status, Goals; none: it runs
     under_way/6.                % Id, Hops, Host, Hash, Way, Frame

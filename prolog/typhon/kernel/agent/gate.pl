@@ -42,8 +42,6 @@ many for the capacity of the host.
     forbidden/2.                % Ball, Reason: to install an agent raised Ball,
                                 % so the host refuses it
 
-:- dynamic forbidden/2.
-
 %!  gate(+Host, +Entrant, :Install, -Verdict) is det.
 %
 %   Let an agent in.  Entrant is From-Agent.  If nothing is against it, a place

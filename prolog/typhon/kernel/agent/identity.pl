@@ -57,11 +57,7 @@ agent_id(Name, Home, Id) :-
     origin/4,                   % Host, Hash, State, Origin: not its home
     typhon_runtime:beginning/1.
 
-:- dynamic
-    ids_anew/0,
-    mark_suffix/1,
-    origin/4,
-    mark/1.
+:- dynamic mark/1.
 
 typhon_runtime:beginning(Kind) :-
     retractall(mark(_)),

@@ -35,8 +35,6 @@ takes it apart.
 
 :- multifile not_cloned/1.     % Extra: a clone does not carry it
 
-:- dynamic not_cloned/1.
-
 %!  is_life(@Term) is semidet.
 
 is_life(life(Parent, Hops, Lifetime, Tokens, Payloads, Static, Extras)) :-

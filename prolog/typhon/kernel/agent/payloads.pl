@@ -27,10 +27,6 @@ refuse it when it is attached or delivered, called with From, Payload, Host,
     mark/2,                     % Payload, Mark: goes with it
     unmarked/2.                 % Module, Name: of a payload that is detached
 
-:- dynamic
-    mark/2,
-    unmarked/2.
-
 %!  payload_marks(+Payload, -Marks:list) is det.
 %
 %   The facts that go with Payload among the state of an agent.

@@ -42,13 +42,8 @@ the host, whatever becomes of the options of the host.
     called/5.                   % Variant, Module, Closure, Extra, Goal
 
 :- dynamic
-    variant/2,
-    program/3,
     state/3,
-    goals/4,
-    clauses/3,
-    declares/2,
-    called/5.
+    declares/2.
 
 %!  place_variant(+Place, -View, -Variant) is semidet.
 %

@@ -13,8 +13,6 @@ a fact too many is forgotten.
 
 :- multifile forgotten/1.               % Fact
 
-:- dynamic forgotten/1.
-
 %!  bounded(:Fact, +Setting) is det.
 %
 %   A fact like Fact was added.  Now and then forget the oldest of what

@@ -43,10 +43,6 @@ N is 0, and Term is '', where the table has none.
     go_on/0.                    % what was restored goes on
 
 :- dynamic
-    restored/0,
-    recover/0,
-    tidy/0,
-    go_on/0,
     item_table/6,               % Kind, Key, N, Term, Dump, Restore
     fact_table/6.               % Fact, Module, Kind, Key, N, Term
 

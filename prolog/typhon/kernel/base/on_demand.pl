@@ -34,7 +34,6 @@ a worker by on_demand_later/1.
     worker_call/1.              % Goal: call it once in a worker
 
 :- dynamic
-    joins/2,
     loaded/1,                   % Part
     directory/1.                % of the parts
 

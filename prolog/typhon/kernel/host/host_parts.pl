@@ -107,16 +107,7 @@ What an option keeps of a host follows the life of the host by the hooks
     unnoted/1,
     ends/1.
 
-:- dynamic
-    part/4,
-    check/1,
-    begins/3,
-    changeable/1,
-    changes/2,
-    compiled/1,
-    untrusted/1,
-    unnoted/1,
-    ends/1.
+:- dynamic compiled/1.
 
 :- dynamic parts/3.             % Phase, Host, Closures
 

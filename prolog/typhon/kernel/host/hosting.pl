@@ -52,10 +52,6 @@ other users of the process its endpoint, see typhon_runtime.
     starts/2,                   % Name, Options: an option has started the host
     evacuate/2.                 % Name, Deadline: no agent is left on the host
 
-:- dynamic
-    starts/2,
-    evacuate/2.
-
 :- meta_predicate hosts_exclusively(0).
 
                 /*******************************

@@ -46,7 +46,6 @@ those that see nothing else of the place, by directives
     loaded/4,                   % Place, SourceId, File, Time: consulted
                                 % into it, as File was at Time
     place_service/2,            % Place, PI: offered to all agents
-    serves/2,
     delivered/3.                % Place, Payload name, PIs
 
 %!  place_create(+Host, +Files, +Services, -Place) is det.

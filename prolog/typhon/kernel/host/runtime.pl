@@ -39,10 +39,7 @@ hooks beginning/1 and ending/1.
     beginning/1,                        % Kind of the runtime that has started
     ending/1.                           % before or after both have stopped
 
-:- dynamic
-    beginning/1,
-    ending/1,
-    user/2.                             % Name of a user, Endpoint
+:- dynamic user/2.              % Name of a user, Endpoint
 
 %   When this is loaded, or a saved state with it begins: the process may
 %   have threads when a host is started.

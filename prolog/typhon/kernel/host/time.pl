@@ -73,18 +73,7 @@ time.
     stands/2,                   % Kind, Standing: see time_stands/1
     again/3.                    % Kind, Standing, Agents: see time_again/2
 
-:- dynamic
-    clock/2,
-    wanted/2,
-    apart/2,
-    repeats/2,
-    here/3,
-    adopt/2,
-    leave/1,
-    due/4,
-    seed/2,
-    stands/2,
-    again/3.
+:- dynamic stands/2.
 
 :- dynamic
     time_kind/1,                % Kind: while it runs

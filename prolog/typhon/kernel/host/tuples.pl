@@ -25,8 +25,6 @@ leaving a fact while tuple_leave_new/3 looks.
     counted/2.                  % By, Change: of its facts one more, or less,
                                 % is there: 1 or -1
 
-:- dynamic counted/2.
-
 :- public leave_due/2.
 
 :- dynamic due/5.               % Place, N, Fact, By, Thread: left when its

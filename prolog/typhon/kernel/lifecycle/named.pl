@@ -34,8 +34,6 @@ that has ended, as long as that is remembered.
     typhon_names:known/2.
 
 :- dynamic
-    elsewhere/1,
-    ended_elsewhere/2,
     met/2.                      % Id of an agent created elsewhere, alive
                                 % or gone
 

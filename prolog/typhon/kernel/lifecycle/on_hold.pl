@@ -24,8 +24,6 @@ next effect.
 
 :- multifile dropped/1.         % State: the agent ends, and goes on no more
 
-:- dynamic dropped/1.
-
 %!  held_put(+Id, +State, +Goals:list) is det.
 %!  held_parts(+Held, -State, -Goals:list) is semidet.
 %!  held_on(+Id, +Held) is det.

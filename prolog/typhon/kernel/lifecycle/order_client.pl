@@ -32,8 +32,6 @@ agent; what becomes of it there see typhon_orders.
     attach_order/2,             % Payload, Order: what attaches it
     typhon_options:declared/4.
 
-:- dynamic attach_order/2.
-
 %!  agent_move(+Agent, +Host) is det.
 %!  agent_move(+Agent, +Host, +Options) is det.
 %

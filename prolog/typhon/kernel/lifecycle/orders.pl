@@ -41,10 +41,6 @@ come from another process, and obeyed by the worker that has the agent.
     typhon_questions:here/3,
     typhon_transfer:forward_order/2.
 
-:- dynamic
-    carried_out/3,
-    noted/1.
-
                 /*******************************
                 *             TAKE             *
                 *******************************/

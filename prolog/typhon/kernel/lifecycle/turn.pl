@@ -42,13 +42,6 @@ call that fails.
     settle/0,                   % that unit ends here
     over/1.                     % Id: its worker leaves it
 
-:- dynamic
-    engine/3,
-    limit_passed/1,
-    unit/2,
-    settle/0,
-    over/1.
-
 %!  turn_engine(+Agent, +Start, -Engine) is det.
 %
 %   What runs Agent, agent(Id, Host, Hash, Life), from here.

@@ -56,11 +56,6 @@ into a goal list, see typhon_machine.  The table '$mobile'/6 leads to them.
     extra_comes/2.              % Extra, Hash: has come with it
 
 :- dynamic
-    wrapped/3,
-    extra/2,
-    extra_comes/2,
-    retiring/1,
-    installed/2,
     code_module/2,              % Hash, Module
     code_program/2,             % Hash, Program
     stands/2,                   % Hash, Places: where that is known

@@ -35,7 +35,6 @@ brings, or finds, may define them.
 :- multifile was_read/2.
 
 :- dynamic
-    was_read/2,
     loaded/3,                   % File or hash of clauses, Sources, Loaded:
                                 % the oldest first
     warned/2,                   % File or hash of clauses, Sources: its

@@ -48,8 +48,6 @@ becomes a plain term:
 
 :- multifile payload_was_read/2.        % Spec, Payload: of a file
 
-:- dynamic payload_was_read/2.
-
 %!  program_read(+Spec, -Program, -Initial, -Kinds, -Places, -Sources,
 %!               -Warnings:list) is det.
 %

@@ -19,8 +19,6 @@
     typhon_durable_posts:undelivered/4,
     typhon_endpoint:received/3.
 
-:- dynamic returned/3.
-
 %!  mail_lost(+Formal, +Id, +Mail) is det.
 %
 %   Said here and where it was sent.  That an agent has ended is nothing

@@ -34,8 +34,6 @@ taken by the threads of connections; a worker says what has come.
     typhon_scheduler:fire/2.
 
 :- dynamic
-    queued/3,
-    undelivered/4,
     seen/2,                     % Key, N: of a channel to here
     told/1.                     % Key: that is about to be said
 

@@ -23,8 +23,6 @@ an agent can be away from the bridge and still answer.
     carried/4,                  % Host, To, From, Message: a bridge takes it
     typhon_endpoint:received/3.
 
-:- dynamic carried/4.
-
 %!  post_abroad(+Host, +To, +From, +Message) is det.
 %
 %   Message of the agent From, which stands on Host, goes to To.  The bridge

@@ -48,8 +48,6 @@ nothing has changed: then the agent comes in like any other, see typhon_arrival.
     result/2.                   % Result, Transfer: the agent, in transit, is to
                                 % be treated as the answer says
 
-:- dynamic result/2.
-
 %!  hand_over(+Id, +Host, +Where, +Hole, +Goals) is semidet.
 %
 %   Send Id, which moves from Host, to Where, as of host_resolve/2, where it goes

@@ -51,8 +51,6 @@ endpoint, which never wait.
     typhon_in_doubt:again/1,
     typhon_hand_over:result/2.
 
-:- dynamic sent_again/2.
-
 %!  hop(+Id, +Where, +Hole, +Goals, +Since, -Next) is det.
 %
 %   Send Id to Where, as of host_resolve/2, where it goes on with Goals,

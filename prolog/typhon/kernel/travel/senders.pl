@@ -24,13 +24,7 @@ to, and what must not be said by this process goes through another.
     shows/4,                    % Endpoint, Ids, There, Shown
     by_parts/4.                 % Endpoint, Id, Mail, Parts
 
-:- dynamic
-    senders_checked/0,          % while there are processes that must not
-    ours/1,
-    speaks/3,
-    believes/5,
-    shows/4,
-    by_parts/4.
+:- dynamic senders_checked/0.   % while there are processes that must not
 
 %!  senders_checked is semidet.
 %!  senders_check(+Boolean) is det.

@@ -67,8 +67,6 @@ the machine takes care of them everywhere else.
     python_delivered/3,         % Host, Name, Source: a payload, where allowed
     python_undelivered/2.       % Host, Name
 
-:- dynamic enters/3.
-
 %!  self(-Id) is det.
 %!  here(-Host) is det.
 %!  home(-Host) is det.

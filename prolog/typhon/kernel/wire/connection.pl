@@ -35,8 +35,6 @@ the session of the peer, see resumption.pl, reads frames until it breaks, and cl
     harmless/1,                 % Formal: a break that is no news
     typhon_handshake:greeted/0.
 
-:- dynamic harmless/1.
-
 :- meta_predicate
     incoming(+, +, +, 1, +),
     with_streams(0, ?, ?, 0).

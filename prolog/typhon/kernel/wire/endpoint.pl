@@ -74,14 +74,8 @@ own_start_next/1 run under the mutex of the endpoint.
     lent/1,                             % Thread
     returned/0.
 :- dynamic
-    received/3,
-    together/3,
-    requested/4,
-    handed/4,
-    handed_over/2,
     connection/2,
-    lent/1,
-    returned/0.
+    lent/1.
 
 :- setting(flush_time, number, 2,
            "Seconds endpoint_stop/0 waits for the last frames to arrive").

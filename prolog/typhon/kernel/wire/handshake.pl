@@ -181,10 +181,7 @@ line_write(Out, Line) :-
     other_line/2.                       % Line, Why: of a server that speaks
                                         % otherwise
 
-:- dynamic
-    greeted/0,
-    other_line/2,
-    known_cookie/3.                     % File, Time, Cookie
+:- dynamic known_cookie/3.      % File, Time, Cookie
 
 %!  authenticate(+Role, +In, +Out, +Hello, :Cookie, -PeerHello) is det.
 %

@@ -40,10 +40,7 @@ is serialized by the caller.
     not_now/1,                          % Why: this thread will obey it later
     overdue/1.                          % Thread: do without it, if you can
 
-:- dynamic
-    not_now/1,
-    overdue/1,
-    wire_thread/1.                      % Thread
+:- dynamic wire_thread/1.       % Thread
 
 %!  wire_thread_create(:Goal, +Name, -Thread) is det.
 %!  wire_thread_create(:Goal, +Name, -Thread, :Before) is det.

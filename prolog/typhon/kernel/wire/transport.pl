@@ -61,15 +61,7 @@ transport_input/2 looks at both.
                                         % Proof
     closes/0.
 
-:- dynamic
-    begins/4,
-    ends/1,
-    disagrees/1,
-    first_byte/2,
-    misfit/4,
-    opens/7,
-    closes/0,
-    current/3.                          % Transport, Own, Unknown: not plain TCP
+:- dynamic current/3.           % Transport, Own, Unknown: not plain TCP
 
 %!  transport_begin(+Options) is det.
 %!  transport_end is det.
