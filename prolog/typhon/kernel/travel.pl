@@ -24,8 +24,7 @@ This is the interface of the layer: higher layers import from here.
 :- reexport(travel/post, [post/3, post_via/4]).
 :- reexport(travel/logged, [agent_logs/3]).
 :- reexport(travel/dead_letters, [mail_lost/3]).
-:- reexport(travel/backlog, [post_tried/0]).
-:- reexport(travel/retries, [retries_go_on/0]).
+:- reexport(travel/backlog, [post_tried/0, retries_go_on/0]).
 :- reexport(travel/senders, [senders_check/1]).
 :- reexport(travel/news, [news_carried/1]).
 :- reexport(travel/external_recipients, [post_abroad/4]).

@@ -17,9 +17,9 @@
 :- use_module('../wire', [endpoint_address/1, mobile_term/1]).
 :- use_module('../host', [parts/3, peer_may/3]).
 :- use_module('../agent', [agent_home/2, agent_mail/2, agent_on/2, with_agent/2]).
-:- use_module(backlog, [backlog/1, backlog_add/2, backlog_all/2]).
+:- use_module(backlog,
+              [backlog/1, backlog_add/2, backlog_all/2, retry_later/3]).
 :- use_module(durable_posts, [post_must_fit/1]).
-:- use_module(retries, [retry_later/3]).
 :- use_module(senders, [mail_believed/5, senders_checked/0]).
 :- use_module(routing, [one_letter/2, way_in/2, way_out/3, way_send/3]).
 
@@ -36,7 +36,7 @@ follows an agent together stays together, so that whatever waited for one
 that hops without pause reaches it at once, and not each message after a
 chase of its own.
 
-A letter that cannot be passed on waits, see typhon_retries.
+A letter that cannot be passed on waits, see typhon_backlog.
 
 *Threading*: any thread.  post/3 and post_via/4 may wait for a connection,
 post_on/2 and the hooks never do.
