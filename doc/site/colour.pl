@@ -11,7 +11,7 @@ is said in style.css.
 */
 
 :- use_module(library(apply), [maplist/3]).
-:- use_module(library(lists), [append/2]).
+:- use_module(library(lists), [append/2, append/3]).
 :- use_module(library(prolog_colour), [prolog_colourise_stream/3]).
 
 :- thread_local range/3.                % Start, Length, Class
@@ -32,7 +32,8 @@ code_dom(prolog, Text, Dom) :-
     paint(Ranges, 0, Text, Dom).
 code_dom('prolog-session', Text, Dom) :-
     !,
-    split_string(Text, "\n", "", Lines),
+    split_string(Text, "\n", "", Lines0),
+    append(Lines, [_], Lines0),         % after the last line end
     maplist(session_line, Lines, Doms),
     append(Doms, Dom).
 code_dom(_, Text, [Text]).

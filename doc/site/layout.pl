@@ -36,8 +36,10 @@ page_html(page(File, Title, Dom), Groups, Version, Html) :-
                   element(input, [type=search, id=search,
                                   placeholder='Search ( / )',
                                   'aria-label'='Search'], []),
-                  element(div, [id=found, role=status], [])
-                | Entries
+                  element(div, [id=found, role=status], []),
+                  element(input, [type=checkbox, id=menu], []),
+                  element(label, [for=menu], ["Contents"]),
+                  element(div, [class=entries], Entries)
                 ]),
               element(main, [], [element(article, [], Dom), Steps]),
               element(script, [src='sections.js'], []),

@@ -207,9 +207,13 @@ has_task(_, PI) :-
 part_node(Part, Title, element(h2, [id=Part], [Title])).
 part_node(Part, _, Node) :-
     task(Part, Title, Modules),
-    findall(PI, of_task(Part, Modules, PI), PIs),
-    entries(PIs, Entries),
-    maplist(entry_dom, Entries, Doms),
+    findall(Entry,
+            ( member(Module, Modules),
+              findall(PI, of_task(Part, [Module], PI), PIs),
+              entries(PIs, Entries),
+              member(Entry, Entries) ),
+            All),
+    maplist(entry_dom, All, Doms),
     append(Doms, Dom),
     findall(Link, name_link(Dom, Link), Links),
     slug(Title, Slug),

@@ -168,6 +168,7 @@ elsewhere("db.example").                % test_postgresql has a server
 elsewhere("pack_install").              % test_pack installs the pack
 elsewhere("swipl pack install").
 elsewhere("apt install").
+elsewhere("systemctl").
 
                 /*******************************
                 *     NAMES OF THIS MACHINE    *
