@@ -59,7 +59,16 @@ everything(Directory, Shown) -->
            table([ tr([ th(study), th(title),
                         th('claims: held of the medians') ])
                  | Rows ]) ]),
-    studies(Shown, Directory).
+    studies(Shown, Directory),
+    how_to_cite.
+
+how_to_cite -->
+    html([ h2('How to cite'),
+           p([ 'The Typhon developers: Typhon, mobile agents that travel in ',
+               'the middle of a clause. For studies of the thesis also: ',
+               'Shashi Shekhar Jha, PhD thesis, Department of Computer ',
+               'Science and Engineering, Indian Institute of Technology ',
+               'Guwahati. Entries for BibTeX are in doc/citing.md.' ]) ]).
 
 share(Outcome, Text) :-
     findall(x, member(claim(_, _, _, _, true, _), Outcome.claims), Held),
