@@ -99,12 +99,10 @@ part_file('options/tls','options/tls/secure').
 part_file('options/trail','options/trail/trail').
 part_file('options/trail','options/trail/trail_verified').
 part_file('options/virtual','options/virtual/virtual').
-part_file('options/watch','options/watch/counting').
-part_file('options/watch','options/watch/everywhere').
 part_file('options/watch','options/watch/listening').
 part_file('options/watch','options/watch/metrics').
-part_file('options/watch','options/watch/overview').
 part_file('options/watch','options/watch/telling').
+part_file('options/watch','options/watch/watched').
 part_file(tools,'tools/inventory').
 
 %!  part_setting(?Name, ?Module, ?Type, ?Default, ?Text, ?File) is nondet.

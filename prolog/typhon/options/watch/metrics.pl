@@ -5,22 +5,24 @@
 :- use_module(library(lists), [last/2, member/2]).
 :- use_module('../../kernel/program', [code_program/2]).
 :- use_module('../../kernel/wire', [endpoint_address/1, endpoint_peer/2]).
-:- use_module('../../kernel/host', [host/3]).
+:- use_module('../../kernel/host', [events_hear/3, events_unheard/1, host/3]).
 :- use_module('../../kernel/agent', [agent/5, agent_status/3]).
 :- use_module('../../kernel/lifecycle', [status_shown/2]).
-:- use_module(counting, [counted/2, counted_hops/2, counting_begin/0]).
-:- use_module(everywhere, [everywhere/5]).
-:- use_module(prometheus, [exposition/3]).
-:- use_module(watched, [watched_places/2]).
+:- use_module(watched, [everywhere/5, watched_places/2]).
 
 /** <module> A network in numbers, for Prometheus
 
-Each process says its own numbers: whoever reads them adds them up.
+Each process reports its own numbers; the reader adds them up.  A process counts
+from the first request for numbers on, as long as it has an endpoint.
 
-*Threading*: any thread that may wait.
+*Threading*: any thread that may wait.  Numbers are flags.
 */
 
-:- multifile typhon_everywhere:answer/2.
+:- multifile
+    typhon_events:told/4,
+    typhon_watched:answer/2,
+    typhon_hosting:begins/1,
+    typhon_runtime:ending/1.
 
 %!  processes_metrics(+Hosts, -Text:string) is det.
 %
@@ -73,7 +75,7 @@ sample(Name, Processes, _, sample(Suffix, [process=Endpoint|Labels], Value)) :-
                 *          ONE PROCESS         *
                 *******************************/
 
-typhon_everywhere:answer(numbers, Numbers) :-
+typhon_watched:answer(numbers, Numbers) :-
     counting_begin,
     findall(number(Name, Suffix, Labels, Value),
             number(Name, Suffix, Labels, Value),
@@ -120,3 +122,154 @@ agent_is(Program, State) :-
     once(agent_status(Id, Status, _)),
     once(status_shown(Status, Shown)),
     functor(Shown, State, _).
+
+                /*******************************
+                *           COUNTING           *
+                *******************************/
+
+:- dynamic counting/0.
+
+counting_begin :-
+    counting,
+    !.
+counting_begin :-
+    with_mutex(typhon_counting, begin).
+
+begin :-
+    counting,
+    !.
+begin :-
+    assertz(counting),
+    forall(host(Name, _, _), count_on(Name)).
+
+count_on(Name) :-
+    events_hear([life, faults, hops, messages], Name, count).
+
+typhon_hosting:begins(Name) :-
+    counting,
+    count_on(Name).
+
+typhon_runtime:ending(after) :-
+    retractall(counting),
+    events_unheard(count).
+
+typhon_events:told(count, _, _, What) :-
+    count(What).
+
+count(arrived(_, Seconds)) =>
+    bound(Bound, Key),
+    Seconds =< Bound,
+    !,
+    flag(Key, N, N+1),
+    bump(seconds, Seconds).
+count(sent(_, _)) =>
+    bump(sent, 1).
+count(received(_, _)) =>
+    bump(received, 1).
+count(fault(_)) =>
+    bump(faults, 1).
+count(created) =>
+    bump(created, 1).
+count(ended(_)) =>
+    bump(ended, 1).
+count(_) =>
+    true.
+
+bump(What, By) :-
+    key(What, Key),
+    flag(Key, N, N+By).
+
+key(seconds, 'typhon count seconds').
+key(sent, 'typhon count sent').
+key(received, 'typhon count received').
+key(faults, 'typhon count faults').
+key(created, 'typhon count created').
+key(ended, 'typhon count ended').
+
+%   bound(?Seconds, ?Key): the flag of hops that took so long at the most
+
+bound(0.0001, 'typhon count hops 1').
+bound(0.00025, 'typhon count hops 2').
+bound(0.0005, 'typhon count hops 3').
+bound(0.001, 'typhon count hops 4').
+bound(0.0025, 'typhon count hops 5').
+bound(0.005, 'typhon count hops 6').
+bound(0.01, 'typhon count hops 7').
+bound(0.05, 'typhon count hops 8').
+bound(0.1, 'typhon count hops 9').
+bound(0.5, 'typhon count hops 10').
+bound(1.0, 'typhon count hops 11').
+bound(10.0, 'typhon count hops 12').
+bound(inf, 'typhon count hops 13').
+
+counted(What, Count) :-
+    key(What, Key),
+    What \== seconds,
+    flag(Key, Count, Count).
+
+%   counted_hops(-Buckets, -Sum): Buckets are Bound-Count: so many hops have taken at most Bound seconds of
+%   the clock of the host, a number or `inf`, and Sum is what all have taken.
+
+counted_hops(Buckets, Sum) :-
+    findall(Bound-Count,
+            ( bound(Bound, Key), flag(Key, Count, Count) ), Counts),
+    cumulated(Counts, 0, Buckets),
+    key(seconds, SumKey),
+    flag(SumKey, Sum, Sum).
+
+cumulated([], _, []).
+cumulated([Bound-Own|Counts], Count0, [Bound-Count|Buckets]) :-
+    Count is Count0+Own,
+    cumulated(Counts, Count, Buckets).
+
+                /*******************************
+                *      TEXT OF PROMETHEUS      *
+                *******************************/
+
+%   A metric is metric(Name, Type, Help, Samples), a sample
+%   sample(Suffix, Labels, Value): Suffix is what follows the name of the
+%   metric, as `_bucket`, Labels are Name=Value, Value anything, Value a number.
+
+exposition([]) --> [].
+exposition([Metric|Metrics]) -->
+    metric(Metric),
+    exposition(Metrics).
+
+metric(metric(_, _, _, [])) -->
+    !.
+metric(metric(Name, Type, Help, Samples)) -->
+    "# HELP ", text(Name), " ", text(Help), "\n",
+    "# TYPE ", text(Name), " ", text(Type), "\n",
+    samples(Samples, Name).
+
+samples([], _) --> [].
+samples([sample(Suffix, Labels, Value)|Samples], Name) -->
+    text(Name), text(Suffix), labels(Labels), " ", text(Value), "\n",
+    samples(Samples, Name).
+
+labels([]) -->
+    !.
+labels([Label|Labels]) -->
+    "{", label(Label), more_labels(Labels), "}".
+
+more_labels([]) --> [].
+more_labels([Label|Labels]) -->
+    ",", label(Label),
+    more_labels(Labels).
+
+label(Name=Value) -->
+    { format(codes(Codes), '~w', [Value]) },
+    text(Name), "=\"", escaped(Codes), "\"".
+
+escaped([]) --> [].
+escaped([Code|Codes]) -->
+    escape(Code),
+    escaped(Codes).
+
+escape(0'\\) --> !, "\\\\".
+escape(0'") --> !, "\\\"".
+escape(0'\n) --> !, "\\n".
+escape(Code) --> [Code].
+
+text(Text, Codes, Rest) :-
+    format(codes(Codes, Rest), '~w', [Text]).

@@ -1,7 +1,10 @@
 :- module(typhon_teller,
           [ teller_run/1,               % +To
             teller_ring/2,              % +Bell, +Message
-            time_at/2                   % +Clock, -Time
+            time_at/2,                  % +Clock, -Time
+            basin_open/3,               % +Most, +Bell, -Basin
+            basin_close/1,              % +Basin
+            basin_put/3                 % +Basin, +Host, +Event
           ]).
 :- use_module(library(lists), [append/3, member/2]).
 :- use_module(library(settings), [setting/2, setting/4]).
@@ -9,19 +12,21 @@
               [ endpoint_address/1, endpoint_call/5, endpoint_reply/2,
                 endpoint_request/4 ]).
 :- use_module('../../kernel/host', [time_now/1]).
-:- use_module(event_buffer, [basin_awaited/1, basin_size/2, basin_take/4]).
 
-/** <module> The thread that tells
+/** <module> The thread that sends events to a watch
 
-The teller sends what has gathered in batches, and the next when the last is in
-the hands of the watch.  So a watch is as far behind as it is slow, the basin
-overflows where it is too slow, and hosts never wait.
+Events gather in a buffer, to which adding never waits: of events that do not
+fit, the number is kept by host.  The teller sends what has gathered in batches,
+and the next batch when the last has been accepted.  So a watch lags by as much
+as it is slow, the buffer overflows if it is too slow, and hosts never wait.
 
-It hears in its bell `some`, of its basin; end(ReplyTo), when it is to tell all
-that is left; and as now(Message) what it has to heed while it waits for an
-answer, too: `check`, whether the watch is still there, and the answer.
+The teller receives in its queue, the bell, `some` when there are events;
+end(ReplyTo) when all that is left is to be sent; and now(Message), which it
+handles also while it waits for an answer: `check`, whether the watch is still
+there, and the answer.  To wake a thread costs as much as the rest of an event,
+so the bell rings only for a teller that waits, and once.
 
-*Threading*: a thread for each watch.
+*Threading*: a thread for each watch takes events; any thread adds them.
 */
 
 :- multifile
@@ -189,3 +194,87 @@ await(To, Answer) :-
     ;   is_there(To),
         await(To, Answer)
     ).
+
+                /*******************************
+                *       EVENTS THAT WAIT       *
+                *******************************/
+
+:- dynamic skipped/3.           % Queue, Host, Count
+
+%!  basin_open(+Most, +Bell, -Basin) is det.
+%!  basin_close(+Basin) is det.
+%
+%   Basin holds Most events; the queue Bell hears `some`.
+
+basin_open(Most, Bell, basin(Queue, Flag, Most, Bell)) :-
+    flag(typhon_basin, N, N+1),
+    atom_concat(typhon_basin_, N, Flag),
+    message_queue_create(Queue).
+
+basin_close(basin(Queue, _, _, _)) :-
+    message_queue_destroy(Queue),
+    retractall(skipped(Queue, _, _)).
+
+%!  basin_put(+Basin, +Host, +Event) is det.
+%
+%   @error existence_error(message_queue, Queue) if it has been closed
+
+basin_put(basin(Queue, Flag, Most, Bell), Host, Event) :-
+    message_queue_property(Queue, size(Size)),
+    (   Size < Most
+    ->  thread_send_message(Queue, Event),
+        get_flag(Flag, Awaited),
+        (   Awaited == 1
+        ->  set_flag(Flag, 0),
+            thread_send_message(Bell, some)
+        ;   true
+        )
+    ;   with_mutex(typhon_basin, skip(Queue, Host))
+    ).
+
+skip(Queue, Host) :-
+    (   retract(skipped(Queue, Host, Count0))
+    ->  Count is Count0+1
+    ;   Count = 1
+    ),
+    assertz(skipped(Queue, Host, Count)).
+
+%   The bell rings for the next event, at once if there is one.
+
+basin_awaited(basin(Queue, Flag, _, Bell)) :-
+    set_flag(Flag, 1),
+    message_queue_property(Queue, size(Size)),
+    (   Size > 0
+    ->  set_flag(Flag, 0),
+        thread_send_message(Bell, some)
+    ;   true
+    ).
+
+basin_size(basin(Queue, _, _, _), Size) :-
+    message_queue_property(Queue, size(Size0)),
+    Size = Size0.
+
+%   basin_take(+Basin, +Most, -Events, -Skipped): the first events, Most at the
+%   most.  Skipped are pairs Host-Count of what
+%   did not fit since the last call.
+
+basin_take(basin(Queue, _, _, _), Most, Events, Skipped) :-
+    take(Most, Queue, Events),
+    (   skipped(Queue, _, _)
+    ->  with_mutex(typhon_basin, all_skipped(Queue, Skipped))
+    ;   Skipped = []
+    ).
+
+take(Most, Queue, Events) :-
+    (   Most > 0,
+        thread_peek_message(Queue, _)
+    ->  thread_get_message(Queue, Event),
+        Events = [Event|More],
+        Left is Most-1,
+        take(Left, Queue, More)
+    ;   Events = []
+    ).
+
+all_skipped(Queue, Skipped) :-
+    findall(Host-Count, skipped(Queue, Host, Count), Skipped),
+    forall(member(Host-_, Skipped), retractall(skipped(Queue, Host, _))).

@@ -7,8 +7,9 @@
 :- use_module('../../kernel/host',
               [ clock/3, event_shown/3, events_hear/3, events_unheard/1,
                 host/3, peer_may/3, time_repeats/2, time_kind/1 ]).
-:- use_module(event_buffer, [basin_close/1, basin_open/3, basin_put/3]).
-:- use_module(teller, [teller_ring/2, teller_run/1, time_at/2]).
+:- use_module(teller,
+              [ basin_close/1, basin_open/3, basin_put/3, teller_ring/2,
+                teller_run/1, time_at/2 ]).
 
 /** <module> Sending events to watches
 

@@ -1,17 +1,40 @@
 :- module(typhon_watched,
-          [ watched_places/2            % +Hosts, -Places
+          [ watched_places/2,           % +Hosts, -Places
+            everywhere/5,               % +Places, +Question, +Seconds,
+                                        % -Answers, -Silent
+            processes_overview/3        % +Hosts, -Processes, -Silent
           ]).
+:- use_module(library(apply), [partition/4]).
 :- use_module(library(error), [existence_error/2, must_be/2]).
-:- use_module(library(lists), [member/2]).
+:- use_module(library(lists), [append/3, member/2]).
 :- use_module(library(pairs), [group_pairs_by_key/2]).
-:- use_module('../../kernel/wire', [endpoint_address/1]).
-:- use_module('../../kernel/host', [address_parts/3, host_resolve/2]).
+:- use_module('../../kernel/wire',
+              [ endpoint_address/1, endpoint_ask_all/6, endpoint_reply/2 ]).
+:- use_module('../../kernel/host',
+              [ address_parts/3, as_guest/1, host/3, host_link_cost/3,
+                host_load/2, host_neighbours/2, host_option/2,
+                host_resolve/2, host_time/2, scheduler_call/1 ]).
 :- use_module('../../network', [network_hosts/2]).
+:- use_module('../../kernel/program', [code_program/2]).
+:- use_module('../../kernel/agent', [agent/5, agent_status/3, life_hops/2]).
+:- use_module('../../kernel/lifecycle', [status_shown/2]).
 
-/** <module> Which hosts are to be watched, and where they are
+/** <module> Hosts that are watched, and questions to their processes
 
-*Threading*: any thread.
+Modules that ask all processes of a watch define the hook answer/2.
+
+The state of hosts is known exactly to a caller that begins to watch, then asks
+for the overview, and then takes the events.  An event whose time is not after
+that of its host in the overview is contained in it; later events may be, too.
+So the overview says where an agent is, and counts nothing.
+
+*Threading*: any thread that may wait, but those of the endpoint.  Workers
+answer: an answer may be long.
 */
+
+:- multifile
+    answer/2,                   % Question, Answer
+    typhon_endpoint:requested/4.
 
 %!  watched_places(+Hosts, -Places) is det.
 %
@@ -81,3 +104,110 @@ whose(Whats, Whose) :-
         Whose = carried(Addresses)
     ;   Whose = asked(Asked)
     ).
+
+                /*******************************
+                *  QUESTIONS TO ALL PROCESSES  *
+                *******************************/
+
+%!  everywhere(+Places, +Question, +Seconds, -Answers, -Silent) is det.
+%
+%   Answers are Place-Answer, for those of the Places, see watched_places/2,
+%   that have answered within Seconds, Silent the endpoints of the others.
+%   The hook answer(Question, Answer) gives the answer.
+
+everywhere(Places, Question, Seconds, Answers, Silent) :-
+    partition(is_here, Places, Here, There),
+    findall(Place-Answer,
+            ( member(Place, Here), answer_to(Question, Answer) ), Own),
+    ask(There, Question, Seconds, Results),
+    findall(Place-Answer,
+            ( member(Place, There),
+              Place = place(Endpoint, _, _),
+              memberchk(Endpoint-answer(Answer), Results) ),
+            Others),
+    append(Own, Others, Answers),
+    findall(Endpoint,
+            ( member(Endpoint-Result, Results), Result \= answer(_) ),
+            Silent).
+
+is_here(place(Endpoint, _, _)) :-
+    endpoint_address(Endpoint).
+
+ask([], _, _, []) :-
+    !.
+ask(Places, Question, Seconds, Results) :-
+    findall(Endpoint, member(place(Endpoint, _, _), Places), Endpoints),
+    as_guest(endpoint_ask_all(Endpoints, everywhere, Question,
+                              typhon_watched:no_further, Seconds,
+                              Results)).
+
+:- public
+    no_further/2,
+    reply/2.                    % goal of a worker
+
+no_further(_, []).
+
+typhon_endpoint:requested(everywhere, Question, _, ReplyTo) :-
+    scheduler_call(typhon_watched:reply(Question, ReplyTo)).
+
+reply(Question, ReplyTo) :-
+    answer_to(Question, Answer),
+    endpoint_reply(ReplyTo, Answer).
+
+answer_to(Question, Answer) :-
+    once(answer(Question, Answer)).
+
+                /*******************************
+                *           OVERVIEW           *
+                *******************************/
+
+%!  processes_overview(+Hosts, -Processes, -Silent) is det.
+%
+%   See overview/3.
+
+processes_overview(Hosts, Processes, Silent) :-
+    watched_places(Hosts, Places),
+    everywhere(Places, overview, 5, Answers, Silent),
+    findall(Process,
+            ( member(place(_, Wanted, _)-Answer, Answers),
+              only(Wanted, Answer, Process) ),
+            Processes).
+
+only(all, Process, Process) :-
+    !.
+only(Names, process(Endpoint, Pid, Hosts0, Agents0),
+     process(Endpoint, Pid, Hosts, Agents)) :-
+    findall(Host,
+            ( member(Host, Hosts0), arg(1, Host, Address),
+              address_parts(Address, Name, _), memberchk(Name, Names) ),
+            Hosts),
+    findall(Agent,
+            ( member(Agent, Agents0), arg(2, Agent, Address),
+              memberchk(host(Address, _, _, _, _), Hosts) ),
+            Agents).
+
+answer(overview, process(Endpoint, Pid, Hosts, Agents)) :-
+    endpoint_address(Endpoint),
+    current_prolog_flag(pid, Pid),
+    findall(Host, host_seen(Host), Hosts),
+    findall(Agent, agent_seen(Agent), Agents).
+
+host_seen(host(Address, Time, Load, Options, Links)) :-
+    host(Name, Address, _),
+    host_time(Name, Time),
+    host_load(Name, Load),
+    findall(Option,
+            ( host_option(Name, Option), \+ Option = tokens(_) ), Options),
+    host_neighbours(Name, Neighbours),
+    findall(To-Cost,
+            ( member(To, Neighbours), host_link_cost(Name, To, Cost) ),
+            Links).
+
+agent_seen(agent(Id, Address, Program, State, Hops)) :-
+    agent(Id, Host, _, Hash, Life),
+    host(Host, Address, _),
+    code_program(Hash, program(Program, _, _, _)),
+    once(agent_status(Id, Status, _)),
+    once(status_shown(Status, Shown)),
+    functor(Shown, State, _),
+    life_hops(Life, Hops).
