@@ -6,7 +6,7 @@
 :- use_module('../prolog/typhon').
 :- use_module('../prolog/typhon/bridges/helper', [helper_file/2]).
 :- use_module('../prolog/typhon/kernel/base/json', [atom_json_dict/3]).
-:- use_module('../prolog/typhon/bridges/ros/node', [node_python/2]).
+:- use_module('../prolog/typhon/bridges/ros/connection', [node_python/2]).
 :- use_module('../agents/allocation/operator').
 :- use_module(library(apply), [maplist/2, maplist/4]).
 :- use_module(library(lists), [member/2, nth0/3]).

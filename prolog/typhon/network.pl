@@ -11,12 +11,12 @@
             log_server_stop/1,          % +Address
             log_events/2                % +File, -Events
           ]).
-:- autoload('network/appointments', [appointments_at/3, appointments_wait/2]).
 :- autoload('network/loading', [load_network/3]).
 :- autoload('network/log', [log_serve/2, log_serve_end/1]).
 :- autoload('network/log_file', [log_read/2]).
 :- autoload('network/networks',
-            [networks_property/2, networks_start/3, networks_stop/1]).
+              [ appointments_at/3, appointments_wait/2, networks_property/2,
+                networks_start/3, networks_stop/1 ]).
 :- autoload('network/saving', [save_network/2]).
 
 /** <module> Networks

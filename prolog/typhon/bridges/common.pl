@@ -26,12 +26,11 @@ them as messages or as facts.  This is the interface of the layer.  A bridge
     typhon_subscribers:wanted(echo, Host, Key, false) :-
         helper_note(echo(Host), _{do:deafen, key:Key}).
 
-    % the host stops, or somebody said echo_stop(Host)
+    % the host stops, or echo_stop(Host) is called
     typhon_services:ends(echo, Host) :-
         helper_close(echo(Host)).
 */
 
-:- reexport(common/crew, [crew_end/1, crew_start/4]).
 :- reexport(common/http_server).
 :- reexport(common/inbox, [inbox_put/4]).
 :- reexport(common/services,

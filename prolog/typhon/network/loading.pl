@@ -7,12 +7,12 @@
 :- use_module('../kernel/base/options', [check_options/2]).
 :- use_module('../kernel/host',
               [address_parts/3, alarm_set/3, time_kind/1, time_now/1]).
-:- use_module(appointments, [appointments_again/2]).
 :- use_module(nodes, [node_order/4]).
 :- use_module(changes, [dynamics_again/5]).
 :- use_module(log_file, [log_goes_on/2]).
 :- use_module(networks,
-              [network_begin/4, network_change/2, network_goes_on/2]).
+              [ appointments_again/2, network_begin/4, network_change/2,
+                network_goes_on/2 ]).
 :- use_module(building,
               [network_dynamics/2, network_endpoint/4, network_log/4]).
 :- use_module(plan,

@@ -2,11 +2,14 @@
           [ networks_start/3,           % +Topology, -Network, +Options
             networks_stop/1,            % +Network
             networks_property/2,        % ?Network, ?Property
-            network_clock/2,            % +Network, -Clock
             network_begin/4,            % ?Name, +Plan, :Build, -Network
             network_goes_on/2,          % +Network, +Clock
             network_standing/2,         % +Network, -Standing
-            network_change/2            % +Network, +Change
+            network_change/2,           % +Network, +Change
+            appointments_wait/2,        % +Network, +Seconds
+            appointments_at/3,          % +Network, +Time, :Goal
+            appointments/2,             % +Network, -Due
+            appointments_again/2        % +Network, +Due
           ]).
 :- use_module(library(debug), [debug/3]).
 :- use_module(library(error), [existence_error/2, must_be/2]).
@@ -16,19 +19,20 @@
 :- use_module('../kernel/base/erased', [forget_erased/0]).
 :- use_module('../kernel/base/options', [check_name/2]).
 :- use_module('../kernel/base/own_thread', [in_own_thread/1]).
+:- use_module('../kernel/host',
+              [ alarm_set/3, scheduler_call/1, time_now/1, time_wait/3 ]).
 :- use_module(building,
               [ dynamics_end/1, endpoint_end/1, equipment_forget/1,
                 log_end/1, network_build/5, part/2 ]).
-:- use_module(nodes, [node/3]).
 :- use_module(lasting, [kept_plan/4, lasting_over/1, lasting_rests/1]).
+:- use_module(nodes, [node/3]).
 :- use_module(plan, [plan_change/3, plan_option/2]).
 :- use_module(processes, [nodes_stop/1]).
 :- use_module(restarts, [restarts_back/1]).
 :- use_module(wiring,
               [ wire_change/2, wire_forget/1, wire_resting_own/2,
-                wire_stop_own/1,
-                wired_agents/2, wired_edges/2, wired_ended/3,
-                wired_hosts/2 ]).
+                wire_stop_own/1, wired_agents/2, wired_edges/2,
+                wired_ended/3, wired_hosts/2 ]).
 
 /** <module> Networks of hosts
 
@@ -46,14 +50,16 @@ started it. It has the threads of modules `children`, `dynamics` and `log`, and
 none of its own.
 */
 
-:- meta_predicate network_begin(?, +, 1, -).
-
 :- multifile
+    ended/1,
     prolog:message//1,
     typhon_named:elsewhere/1,
     typhon_named:ended_elsewhere/2,
     typhon_names:known/2,
-    ended/1.                    % Network
+    typhon_scheduler:fire/2,
+    typhon_scheduler:over/2.
+
+:- meta_predicate network_begin(?, +, 1, -).
 
 :- dynamic
     ended/1,
@@ -173,7 +179,7 @@ step(Goal) :-
                 *          PROPERTIES          *
                 *******************************/
 
-%!  network_clock(+Network, -Clock) is det.
+%   network_clock(+Network, -Clock) is det.
 %
 %   Clock is clock(Epoch, Rate).
 %
@@ -258,3 +264,67 @@ property(seed(Seed), Network) :-
 
 prolog:message(typhon(network_step(Goal))) -->
     [ 'Ending the network: ~p failed'-[Goal] ].
+
+                /*******************************
+                *         APPOINTMENTS         *
+                *******************************/
+
+:- meta_predicate appointments_at(+, +, 0).
+
+:- dynamic
+    due/3.                      % Network, Number, Goal
+
+typhon_networks:ended(Network) :-
+    retractall(due(Network, _, _)).
+
+%!  appointments_wait(+Network, +Seconds) is det.
+%
+%   See network_advance/2.
+
+appointments_wait(Network, Seconds) :-
+    must_be(number, Seconds),
+    network_clock(Network, clock(_, Rate)),
+    time_now(Now),
+    Stamp is Now+Seconds/Rate,
+    setup_call_cleanup(
+        message_queue_create(Queue),
+        \+ time_wait(Queue, _, Stamp),
+        message_queue_destroy(Queue)).
+
+%!  appointments_at(+Network, +Time, :Goal) is det.
+%
+%   See network_at/3.
+
+appointments_at(Network, Time, Goal) :-
+    must_be(number, Time),
+    strip_module(Goal, _, Plain),
+    must_be(callable, Plain),
+    network_clock(Network, clock(Epoch, Rate)),
+    flag(typhon_network_at, N, N+1),
+    assertz(due(Network, N, Goal)),
+    Stamp is Epoch+Time/Rate,
+    alarm_set(Stamp, Network, at(N)).
+
+%!  appointments(+Network, -Due:list) is det.
+%!  appointments_again(+Network, +Due:list) is det.
+%
+%   What is still to be called: pairs N-Goal; their alarms, at(N), are set
+%   by the caller.
+
+appointments(Network, Due) :-
+    findall(N-Goal, due(Network, N, Goal), Due).
+
+appointments_again(Network, Due) :-
+    forall(member(N-Goal, Due),
+           ( assertz(due(Network, N, Goal)),
+             flag(typhon_network_at, N0, max(N0, N+1)) )).
+
+typhon_scheduler:fire(Network, at(N)) :-
+    !,
+    (   retract(due(Network, N, Goal))
+    ->  scheduler_call(Goal)
+    ;   true
+    ).
+
+typhon_scheduler:over(Network, at(N)) :-
+    \+ due(Network, N, _).

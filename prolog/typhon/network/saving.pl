@@ -9,14 +9,13 @@
               [ context_now/2, host_property/2, time_due/3, time_kind/1,
                 time_now/1 ]).
 :- use_module('../kernel/wire', [mobile_term/1]).
-:- use_module(appointments, [appointments/2]).
 :- use_module(node_process, [order_do/2]).
 :- use_module(nodes,
               [ node/4, nodes_order/5, nodes_peers/2,
                 nodes_tell/3 ]).
 :- use_module(changes, [dynamics_kept/3]).
 :- use_module(log_file, [log_size/2]).
-:- use_module(networks, [network_standing/2]).
+:- use_module(networks, [appointments/2, network_standing/2]).
 :- use_module(plan, [plan_processes/3]).
 :- use_module(restarts, [restarts_back/1]).
 :- use_module(saved_file, [saved_write/2]).

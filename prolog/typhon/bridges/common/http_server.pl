@@ -5,20 +5,22 @@
             http_deadline/2,            % +Seconds, -Deadline
             http_head/4,                % +In, +Most, +Deadline, -Bytes
             http_before/2,              % +Deadline, +In
-            with_bytes/3                % :Write, -In, :Goal
+            with_bytes/3,               % :Write, -In, :Goal
+            crew_start/4,               % +Owner, +Role, :Goal, :Release
+            crew_end/1                  % +Owner
           ]).
 :- use_module(library(aggregate), [aggregate_all/3]).
 :- use_module(library(debug), [debug/3]).
 :- use_module(library(error), [resource_error/1]).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(memfile),
-              [free_memory_file/1, new_memory_file/1, open_memory_file/4]).
+              [ free_memory_file/1, new_memory_file/1, open_memory_file/4 ]).
 :- use_module(library(socket),
-              [ tcp_accept/3, tcp_bind/2, tcp_close_socket/1, tcp_listen/2,
-                tcp_open_socket/2, tcp_open_socket/3, tcp_setopt/2,
-                tcp_socket/1 ]).
+              [ tcp_accept/3, tcp_bind/2, tcp_close_socket/1,
+                tcp_listen/2, tcp_open_socket/2, tcp_open_socket/3,
+                tcp_setopt/2, tcp_socket/1 ]).
 :- use_module('../../kernel/base/options', [blaming/2]).
-:- use_module(crew, [crew_end/1, crew_start/4]).
+:- use_module('../../kernel/base/own_thread', [in_own_thread/1]).
 
 /** <module> HTTP for clients that are not trusted
 
@@ -34,6 +36,9 @@ middle of a request; of these, the oldest.  So half requests can hold
 connections only as long as no other client wants them, and clients of one
 address do not displace those of others that have fewer.  If every client is
 being served, the newcomer is sent away.
+
+Threads of one owner, a crew, are ended and joined with it; a thread that ends
+earlier is joined then.
 
 *Threading*: an acceptor, and a thread for each client.
 */
@@ -266,3 +271,91 @@ with_bytes(Write, In, Goal) :-
               once(Goal),
               close(In)) ),
         free_memory_file(File)).
+
+                /*******************************
+                *     THREADS OF AN OWNER      *
+                *******************************/
+
+:- meta_predicate crew_start(+, +, 0, 0).
+
+:- dynamic crew/2.                      % Owner, Thread
+
+%!  crew_start(+Owner, +Role:atom, :Goal, :Release) is det.
+%
+%   Run Goal in a new thread, and Release when that ends, even if it has not
+%   come to Goal.
+%
+%   @error resource_error(threads) or the like
+
+crew_start(Owner, Role, Goal, Release) :-
+    flag(typhon_crew, Number, Number+1),
+    atomic_list_concat([typhon, Role, Number], '_', Alias),
+    sig_atomic(create(Owner, Goal, Release, Alias)).
+
+create(Owner, Goal, Release, Alias) :-
+    thread_create(typhon_http_server:work(Goal), Thread,
+                  [ alias(Alias), at_exit(Release) ]),
+    assertz(crew(Owner, Thread)),
+    thread_send_message(Thread, crew_begin).
+
+work(Goal) :-
+    setup_call_cleanup(
+        true,
+        catch(( thread_get_message(crew_begin),
+                ignore(Goal) ),
+              Ball,
+              told(Ball)),
+        ended).
+
+told(crew_end) :-
+    !.
+told('$aborted') :-
+    !.
+told(unwind(_)) :-
+    !.
+told(Ball) :-
+    print_message(error, Ball).
+
+%   Whoever takes the fact away sees to what is left of the thread.
+
+ended :-
+    thread_self(Me),
+    (   retract(crew(_, Me))
+    ->  thread_detach(Me)
+    ;   true
+    ).
+
+%!  crew_end(+Owner) is det.
+%
+%   End all threads of Owner, whatever they do.
+
+crew_end(Owner) :-
+    in_own_thread(typhon_http_server:end_all(Owner)).
+
+end_all(Owner) :-
+    findall(Thread, crew(Owner, Thread), Threads),
+    forall(( member(Thread, Threads), retract(crew(Owner, Thread)) ),
+           end(Thread, 0.001)),
+    (   crew(Owner, _)
+    ->  end_all(Owner)
+    ;   true
+    ).
+
+%   A signal that comes just before a thread blocks does not wake it.
+
+end(Thread, Wait) :-
+    (   thread_property(Thread, status(running))
+    ->  catch(thread_signal(Thread, typhon_http_server:end_once),
+              error(_, _), true),
+        sleep(Wait),
+        Wait1 is min(0.1, 2*Wait),
+        end(Thread, Wait1)
+    ;   thread_join(Thread, _)
+    ).
+
+end_once :-
+    (   nb_current(typhon_crew_ending, true)
+    ->  true
+    ;   nb_setval(typhon_crew_ending, true),
+        throw(crew_end)
+    ).

@@ -1,5 +1,6 @@
 :- module(typhon_fipa_exchange,
-          [ exchange_send/4             % +Host, +Local, +To, +Acl
+          [ exchange_send/4,            % +Host, +Local, +To, +Acl
+            exchange_received/3         % +Host, +Request, -Code
           ]).
 :- use_module(library(debug), [debug/3]).
 :- use_module(library(error), [existence_error/2, resource_error/1]).
@@ -36,7 +37,6 @@ connection to another of our processes.
 
 :- multifile
     typhon_fipa_carriage:returned/4,
-    typhon_fipa_reception:requested/3,
     typhon_dead_letters:returned/3.
 
                 /*******************************
@@ -104,7 +104,12 @@ typhon_fipa_carriage:returned(Host, about(Local, To, Acl), Url, Why) :-
                 *              IN              *
                 *******************************/
 
-typhon_fipa_reception:requested(Host, Request, Code) :-
+%!  exchange_received(+Host, +Request, -Code) is det.
+%
+%   Deliver the message in Request, as of http_request/5.  Code is the status of
+%   the response.
+
+exchange_received(Host, Request, Code) :-
     platform(Host, _, Url, _),
     catch(message(Request, Url, Message), error(Formal, _),
           Message = bad(Formal)),

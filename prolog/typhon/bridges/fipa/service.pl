@@ -3,25 +3,30 @@
           ]).
 :- use_module(library(error), [domain_error/2, permission_error/3]).
 :- use_module(library(lists), [member/2]).
-:- use_module(library(option), [option/3]).
+:- use_module(library(option), [option/2, option/3]).
 :- use_module('../../kernel/base/options', [check_name/2, check_options/2]).
 :- use_module('../../kernel/program', [payload_load/2]).
 :- use_module('../../kernel/host', [host_option/2]).
 :- use_module('../common',
-              [service_begin/4, service_end/2, service_offer/4]).
-:- use_module(sexp, [aid/1, aid_name/2]).
+              [ client_becomes/1, http_deadline/2, http_server_close/1,
+                http_server_open/4, service_begin/4, service_end/2,
+                service_offer/4 ]).
+:- use_module('../../kernel/base/error_text', [print_error/2]).
 :- use_module(carriage, [carriage_close/1, carriage_queued/2]).
-:- use_module(exchange, [exchange_send/4]).
-:- use_module(http, [http_url/3]).
+:- use_module(exchange, [exchange_received/3, exchange_send/4]).
+:- use_module(http, [http_request/5, http_respond/3, http_url/3, within/2]).
 :- use_module(managers, [manager_end/1]).
 :- use_module(platform,
               [ platform/4, platform_add/4, platform_aid/3,
                 platform_counts/2, platform_local/3, platform_remove/1 ]).
-:- use_module(reception, [reception_close/1, reception_open/4]).
+:- use_module(sexp, [aid/1, aid_name/2]).
 
 /** <module> A host as a platform of FIPA
 
-*Threading*: any thread.
+The time between the first byte and the last of a request is limited, and so
+are the clients at a time, see typhon_http_server.
+
+*Threading*: any thread; one accepts connections, and each client has one.
 */
 
 :- multifile
@@ -143,3 +148,108 @@ way(_, To, Host) :-
     platform_local(Host, Name, _).
 way(_, _, Host) :-
     platform(Host, _, _, _).
+
+                /*******************************
+                *      INCOMING REQUESTS       *
+                *******************************/
+
+%   Between two requests, at most.
+
+idle_seconds(60).
+
+%   So that a client that sends too much can read the answer.
+
+max_drained(16000000).
+
+%   reception_open(+Host, +Address, +Limits, -Port): listen at Address,
+%   Interface:Port, for Host.  Limits has connections(N), max_bytes(N) and
+%   seconds(S).
+
+reception_open(Host, Interface:Port, Limits, Port) :-
+    option(connections(Most), Limits),
+    http_server_open(fipa(Host), Interface:Port, Most,
+                     typhon_fipa_service:serve(Host, Limits)).
+
+reception_close(Host) :-
+    http_server_close(fipa(Host)).
+
+                /*******************************
+                *            CLIENTS           *
+                *******************************/
+
+:- public serve/4.              % called by typhon_http_server
+
+serve(_, _, none, Out) :-
+    !,
+    http_respond(Out, 503, false).
+serve(Host, Limits, In, Out) :-
+    requests(Host, In, Out, Limits).
+
+requests(Host, In, Out, Limits) :-
+    client_becomes(idle),
+    idle_seconds(Idle),
+    set_stream(In, timeout(Idle)),
+    peek_byte(In, Byte),
+    Byte \== -1,
+    client_becomes(reading),
+    option(seconds(Seconds), Limits),
+    http_deadline(Seconds, Deadline),
+    option(max_bytes(Max), Limits),
+    catch(within(Seconds, http_request(In, Out, Deadline, Max, Request)),
+          Ball,
+          Request = bad(Ball)),
+    client_becomes(busy),
+    answer(Request, Host, In, Out, KeepAlive),
+    KeepAlive == true,
+    requests(Host, In, Out, Limits).
+
+answer(bad(Ball), _, In, Out, false) :-
+    !,
+    (   bad(Ball, Code)
+    ->  http_respond(Out, Code, false),
+        drained(Code, In)
+    ;   throw(Ball)
+    ).
+answer(Request, Host, _, Out, KeepAlive) :-
+    Request = request(_, _, _, _, KeepAlive0),
+    (   catch(exchange_received(Host, Request, Code0), error(Formal, Context),
+              ( print_error(error, error(Formal, Context)), fail ))
+    ->  Code = Code0,
+        KeepAlive = KeepAlive0
+    ;   Code = 500,
+        KeepAlive = false
+    ),
+    http_respond(Out, Code, KeepAlive).
+
+bad(time_limit_exceeded, 408).
+bad(error(Formal, _), Code) :-
+    bad_request(Formal, Code).
+
+bad_request(resource_error(http_body), 413) :- !.
+bad_request(resource_error(http_head), 413) :- !.
+bad_request(syntax_error(http_length), 411) :- !.
+bad_request(timeout_error(_, _), 408) :- !.
+bad_request(_, 400).
+
+%   A connection that is closed with unread input is reset, and the client
+%   loses the answer.
+
+drained(413, In) :-
+    !,
+    max_drained(Most),
+    set_stream(In, timeout(2)),
+    catch(catch(within(5, drain(In, Most)),
+                time_limit_exceeded, true),
+          error(_, _), true).
+drained(_, _).
+
+drain(In, Left) :-
+    (   Left > 0,
+        peek_byte(In, Byte),
+        Byte \== -1
+    ->  read_pending_codes(In, Codes, []),
+        length(Codes, Count),
+        Left1 is Left-Count,
+        drain(In, Left1)
+    ;   true
+    ).

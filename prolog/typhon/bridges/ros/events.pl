@@ -9,10 +9,9 @@
                 unsubscribe/4 ]).
 :- use_module(connection,
               [answer_come/2, answers_fail/2, way_note/2, way_option/3]).
-:- use_module(frames, [frame_event/2, op_frame/2]).
 :- use_module(requests, [goal_end/4, request_begin/3, request_end/3]).
 :- use_module(advertisements, [standing/3, standing_again/3, standing_end/3]).
-:- use_module(messages, [json_value/3]).
+:- use_module(messages, [frame_event/2, json_value/3, op_frame/2]).
 
 /** <module> What is heard of ROS
 

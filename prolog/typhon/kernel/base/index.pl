@@ -63,7 +63,6 @@ part_joins(untrusted,any,'options/quotas').
 part_file('bridges/ros','bridges/ros/events').
 part_file('bridges/ros','bridges/ros/requests').
 part_file('bridges/ros','bridges/ros/service').
-part_file(network,'network/appointments').
 part_file(network,'network/changes').
 part_file(network,'network/children').
 part_file(network,'network/dynamics').
@@ -121,14 +120,14 @@ part_setting(certificates,typhon_key_files,positive_integer,256,'Certificates of
 part_setting(channel_seconds,typhon_channel,number,300,'Posts for a process that has left, and keeps no journal as far as is known, are kept so long','options/journal/channel').
 part_setting(clause_cells,typhon_guard_limits,positive_integer,200000,'Clauses that untrusted agents add have at most so many parts','options/guard/guard_limits').
 part_setting(clause_cells,typhon_refusing,positive_integer,200000,'Now typhon_guard_limits:clause_cells','options/guard/guard_limits').
-part_setting(connections,typhon_page_reception,positive_integer,64,'A page has so many clients at a time','tools/page/reception').
+part_setting(connections,typhon_page_reception,positive_integer,64,'A page has so many clients at a time','tools/page/server').
 part_setting(delay,typhon_telling,number,0.05,'Events gather for so many seconds before they are sent','options/watch/teller').
 part_setting(entries,typhon_fipa_directory,positive_integer,10000,'Now typhon_fipa_managers:entries','bridges/fipa/managers').
 part_setting(entries,typhon_fipa_managers,positive_integer,10000,'Descriptions in a directory of FIPA','bridges/fipa/managers').
 part_setting(events,typhon_telling,positive_integer,10000,'So many events wait for a watch that is slow','options/watch/telling').
 part_setting(frame_events,typhon_page_browsers,positive_integer,2000,'A page tells its browsers of so many events at a time','tools/page/browsers').
 part_setting(frame_seconds,typhon_page_browsers,number,0.05,'A page tells its browsers of events once in so many seconds','tools/page/browsers').
-part_setting(head_bytes,typhon_page_reception,positive_integer,16384,'The head of a request is no longer','tools/page/reception').
+part_setting(head_bytes,typhon_page_reception,positive_integer,16384,'The head of a request is no longer','tools/page/server').
 part_setting(heartbeat_seconds,typhon_page_browsers,number,5,'A page says so often that it is there, when nothing happens','tools/page/browsers').
 part_setting(hold_seconds,typhon_saving,number,30,'A network that is saved has so long to come to rest','network/saving').
 part_setting(kill_seconds,typhon_processes,number,10,'A process that was killed has so long to be gone','network/processes').
@@ -153,7 +152,7 @@ part_setting(python,typhon_nxt_link,atom,'','The Python of the helpers of bricks
 part_setting(queue,typhon_subscribers,positive_integer,1000,'Messages of bridges that may wait for an agent','bridges/common/subscribers').
 part_setting(renew_seconds,typhon_page_sources,number,3,'A page that is looked at finds new hosts within so many seconds','tools/page/sources').
 part_setting(request_bytes,typhon_page_server,positive_integer,4000000,'A page takes no larger request than this','tools/page/server').
-part_setting(request_seconds,typhon_page_reception,positive_integer,20,'The head of a request takes no longer, and no longer its body','tools/page/reception').
+part_setting(request_seconds,typhon_page_reception,positive_integer,20,'The head of a request takes no longer, and no longer its body','tools/page/server').
 part_setting(rest_seconds,typhon_carrier,number,1,'Now typhon_node_process:rest_seconds','network/node_process').
 part_setting(rest_seconds,typhon_node_process,number,1,'Agents of a network have so long to come to rest when it stops','network/node_process').
 part_setting(restart_seconds,typhon_restarts,number,60,'The time that this number is for','network/restarts').

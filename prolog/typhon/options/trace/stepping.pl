@@ -13,18 +13,24 @@
                 held_parts/3, held_put/3, order_give/3, order_take/2,
                 question_answered/2, turn_bounded/1, turn_settled/0,
                 turn_unit/1 ]).
-:- use_module(probe, [probe_next/2, probe_start/3, probe_stop/1]).
+:- use_module('../../kernel/program',
+              [ fault_note/1, fault_noted/1, machine_run/3, plain_goals/2 ]).
 :- use_module(spying, [spied/3, spied_program/1]).
 :- use_module(tracing,
-              [ goal_shown/3, traced_goals/1, traced_held/1, traced_step/1,
-                traced_stepwise/1 ]).
+              [ goal_shown/3, traced_goals/1, traced_held/1,
+                traced_step/1, traced_stepwise/1 ]).
 
 /** <module> Agents that are held before each goal
 
-An agent that is stepped, or whose goals are traced, runs in a probe, see
-typhon_probe.  A stepped agent is held before each goal, see typhon_on_hold, in
-the state probe(Probe, Seen), Seen being whether a caller was notified where it
-is.
+An agent that is stepped, or whose goals are traced, runs in a probe: an engine
+in which the machine stops before each goal that it looks up.  Between two goals
+a probe is a term that holds no thread, with all choice points.  A stepped agent
+is held before each goal, see typhon_on_hold, in the state probe(Probe, Seen),
+Seen being whether a caller was notified where it is.
+
+The machine looks goals up in the table '$mobile'/6 of the program's module.  A
+probe gives it this module instead, whose table yields the goal and then looks it
+up in the program's.  A goal that Prolog runs to its end by itself is one step.
 
 *Threading*: any thread asks; the worker that has the agent runs its probe.
 */
@@ -261,3 +267,66 @@ rests(Status, again) :-
     !.
 rests(Status, rests(State)) :-
     functor(Status, State, _).
+
+                /*******************************
+                *         GOAL BY GOAL         *
+                *******************************/
+
+%   probe_start(+Context, +Goals, -Probe), probe_next(+Probe, -Step),
+%   probe_stop(+Probe)
+%
+%   Probe runs Goals as machine_run/3 does.  Each Step is goal(Goal, Goals),
+%   which is next, with those that come after it as far as the machine has
+%   them at hand, or, the last one, outcome(Outcome, Goals0), Goals0 being those
+%   with which it began.  Nothing is left of a probe after that, or when it is
+%   stopped; what was the matter is noted in the thread that took the outcome.
+
+probe_start(context(Program, Agent), Goals, Probe) :-
+    (   nb_current(typhon_context, Context)
+    ->  true
+    ;   Context = none
+    ),
+    engine_create(Step, run(Context, Program, Agent, Goals, Step), Probe).
+
+%   Global variables are the engine's own.
+
+run(Context, Program, Agent, Goals, outcome(Outcome, Goals)-Note) :-
+    nb_setval(typhon_context, Context),
+    nb_setval(typhon_probed, Program),
+    machine_run(context(typhon_stepping, Agent), Goals, Outcome),
+    fault_noted(Note),
+    stops_at(Outcome).
+
+stops_at(Outcome) :-
+    (   Outcome = effect(Control, _, [_|Goals]),
+        \+ again(Control)
+    ->  engine_yield(goal(Control, Goals)-none)
+    ;   true
+    ).
+
+%   An agent that is woken looks whether its time has come.
+
+again(sleep_until(_)).
+again(receive_until(_, _)).
+again(receive_until(_, _, _)).
+again('$fault'(_)).
+
+:- public '$mobile'/6.
+
+'$mobile'(Goal, Program:Clause, More, Goals, Barrier, Guard) :-
+    plain_goals(Goals, Left),
+    engine_yield(goal(Goal, Left)-none),
+    nb_getval(typhon_probed, Program),
+    Program:'$mobile'(Goal, Clause, More, Goals, Barrier, Guard).
+
+probe_next(Probe, Step) :-
+    engine_next(Probe, Step0-Note),
+    Step = Step0,
+    (   Step = outcome(_, _)
+    ->  fault_note(Note),
+        probe_stop(Probe)
+    ;   true
+    ).
+
+probe_stop(Probe) :-
+    engine_destroy(Probe).

@@ -3,8 +3,17 @@
                                         % -State
             trail_enter/3,              % +Module, +Id, +Result
             trail_of/3,                 % +Module, +Id, -Raw
-            trail_signed/4              % +Id, +Text, +Last, -Signed
+            trail_signed/4,             % +Id, +Text, +Last, -Signed
+            chain_links/2               % +Text, -Links
           ]).
+:- use_module(library(apply), [exclude/3, include/3, maplist/2]).
+:- use_module(library(error), [existence_error/2]).
+:- use_module(library(lists), [last/2, select/3, selectchk/3]).
+:- use_module(library(settings), [setting/2, setting/4]).
+:- use_module(library(sha), [hash_atom/2, sha_hash/3]).
+:- use_module('../keys', [keys_sign/3, own_keys/1]).
+:- use_module('../../kernel/base/text', [term_text/2]).
+:- use_module('../../kernel/host', [host_option/2]).
 
 /** <module> Which hosts have had an agent, and what they did with it
 
@@ -15,10 +24,16 @@ fact among the state of the agent:
 
     '$trail'(At, Chain, Certificates, Pending)
 
-Chain is one string, see typhon_chain, so that it is not parsed on
-the way: each link is the text of N-Events, the N-th event and perhaps others,
-with its signature, and the number C of the certificate pem(C, Last, Pem) of
-the signer; Last is the last link of that signer. At is at(Next, Made, Kept,
+Chain is one string, which is not parsed on the way, so that it costs the same
+to carry, to keep and to pass on however many links it has. Each link is the
+text of N-Events, the N-th event and perhaps others, with its signature, and the
+number C of the certificate pem(C, Last, Pem) of the signer; Last is the last
+link of that signer. Link(Text, Hex, C) is
+
+    00000123Hex C Text
+
+with the number of characters that follow the first eight; the oldest comes
+first. At is at(Next, Made, Kept,
 Hex, Handed): the number of the next event, how many links were made, how many
 are left, the signature of the last one, and What it has handed on or `none`.
 An event is
@@ -39,21 +54,11 @@ then as it would have been before.
 
 The oldest links go when there are more than `links`.
 
-A host that has an agent can make anything of its trail. What does not hang together
-stays as it is, and has no more links.
+A host that has an agent can make anything of its trail. A trail that is not
+consistent stays as it is, and gets no more links.
 
 *Threading*: the thread that sends, receives or runs the agent.
 */
-
-:- use_module(library(apply), [exclude/3, include/3, maplist/2]).
-:- use_module(library(error), [existence_error/2]).
-:- use_module(library(lists), [last/2, select/3, selectchk/3]).
-:- use_module(library(settings), [setting/2, setting/4]).
-:- use_module(library(sha), [hash_atom/2, sha_hash/3]).
-:- use_module('../keys', [keys_sign/3, own_keys/1]).
-:- use_module('../../kernel/base/text', [term_text/2]).
-:- use_module('../../kernel/host', [host_option/2]).
-:- use_module(chain, [chain_add/4]).
 
 :- multifile
     typhon_host_parts:changeable/1,
@@ -271,3 +276,70 @@ raw(Module, Raw) :-
     ->  true
     ;   no_trail(Raw)
     ).
+
+                /*******************************
+                *     LINKS IN ONE STRING      *
+                *******************************/
+
+%   chain_add(+Link, +Chain0, +Most, -Chain) is semidet.
+%
+%   Chain is Count-Text: with Link there are Count0 of them; the oldest go
+%   until there are no more than Most. Fails if there are not so many.
+
+chain_add(link(Text, Hex, C), Count0-Chain0, Most, Count-Chain) :-
+    format(string(Link), '~w ~d ~s', [Hex, C, Text]),
+    string_length(Link, Length),
+    format(string(Framed), '~`0t~d~8|~s', [Length, Link]),
+    string_concat(Chain0, Framed, Chain1),
+    newest(Count0, Most, Chain1, 0, Start, Count),
+    sub_string(Chain1, Start, _, 0, Chain).
+
+newest(Count, Most, _, Start, Start, Count) :-
+    Count =< Most,
+    !.
+newest(Count0, Most, Chain, Start0, Start, Count) :-
+    framed(Chain, Start0, _, Start1),
+    Count1 is Count0-1,
+    newest(Count1, Most, Chain, Start1, Start, Count).
+
+%   framed(+Chain, +Start, -Link, -End): one that stands there.
+
+framed(Chain, Start, Link, End) :-
+    sub_string(Chain, Start, 8, _, Digits),
+    number_string(Length, Digits),
+    integer(Length),
+    Length >= 0,
+    Begin is Start+8,
+    sub_string(Chain, Begin, Length, _, Link),
+    End is Begin+Length.
+
+%!  chain_links(+Text, -Links:list) is semidet.
+%
+%   The oldest first. Text may be anything: what comes where no link begins is
+%   one of no signature, and it fails for what is no string.
+
+chain_links(Chain, Links) :-
+    string(Chain),
+    string_length(Chain, Length),
+    links(0, Length, Chain, Links).
+
+links(End, End, _, []) :-
+    !.
+links(Start, End, Chain, [Link|Links]) :-
+    framed(Chain, Start, Framed, Next),
+    link(Framed, Link),
+    !,
+    links(Next, End, Chain, Links).
+links(Start, _, Chain, [link(Rest, "", none)]) :-
+    sub_string(Chain, Start, _, 0, Rest).
+
+link(Framed, link(Text, Hex, C)) :-
+    until_space(Framed, Hex, Numbered),
+    until_space(Numbered, Digits, Text),
+    number_string(C, Digits).
+
+until_space(Text, Before, After) :-
+    sub_string(Text, Length, _, Rest, " "),
+    !,
+    sub_string(Text, 0, Length, _, Before),
+    sub_string(Text, _, Rest, 0, After).

@@ -19,8 +19,7 @@ It is read as a whole on request only.
 :- use_module('../../kernel/host', [address_parts/3]).
 :- use_module('../../kernel/agent', [agent/5, agent_home_endpoint/2]).
 :- use_module('../../kernel/lifecycle', [agent_answer/3, question_answered/2]).
-:- use_module(chain, [chain_links/2]).
-:- use_module(trail, [trail_of/3, trail_signed/4]).
+:- use_module(trail, [chain_links/2, trail_of/3, trail_signed/4]).
 
 :- multifile typhon_questions:here/3.
 

@@ -2,27 +2,31 @@
           [ server_start/2,             % +Options, -Link
             server_stop/0
           ]).
-:- use_module(library(error), [must_be/2, permission_error/3]).
+:- use_module(library(error),
+              [ must_be/2, permission_error/3, syntax_error/1 ]).
 :- use_module(library(http/http_json), [http_read_json_dict/3]).
-:- use_module(library(http/http_stream), []). % else WebSockets are HTTP/1.0
+:- use_module(library(http/http_wrapper), [http_wrapper/5]).
 :- use_module(library(http/websocket), [http_upgrade_to_websocket/3]).
 :- use_module(library(option), [option/2, option/3]).
 :- use_module(library(settings), [setting/2, setting/4]).
+:- use_module('../../kernel/base/error_text', [error_text/2]).
+:- use_module('../../kernel/base/json', [json_text/2]).
+:- use_module('../../bridges/common',
+              [ client_becomes/1, http_before/2, http_deadline/2,
+                http_head/4, http_server_close/1, http_server_open/4,
+                with_bytes/3 ]).
 :- use_module(acting, [act/2]).
-:- use_module(browsers,
-              [browser_serve/2, browsers_start/0, browsers_stop/0]).
+:- use_module(browsers, [browser_serve/2, browsers_start/0, browsers_stop/0]).
 :- use_module(editor,
-              [editor_start/0, editor_stop/0, on_console/1, without_folder/2]).
+              [ editor_start/0, editor_stop/0, on_console/1,
+                without_folder/2 ]).
 :- use_module(guard,
               [ guarding_headers/0, page_file/3, request_own/1,
                 request_within/2, token_new/1, token_right/2 ]).
-:- use_module(protocol, [times_start/0, times_stop/0]).
 :- use_module(looking, [first_sight/1, look/2]).
 :- use_module(overlays,
-              [overlays_shown/1, overlays_start/1, overlays_stop/0]).
-:- use_module('../../kernel/base/error_text', [error_text/2]).
-:- use_module('../../kernel/base/json', [json_text/2]).
-:- use_module(reception, [reception_close/0, reception_open/2, with_body/4]).
+              [ overlays_shown/1, overlays_start/1, overlays_stop/0 ]).
+:- use_module(protocol, [times_start/0, times_stop/0]).
 :- use_module(sources, [sources_metrics/1, sources_start/1, sources_stop/0]).
 
 /** <module> The server of the page
@@ -32,12 +36,19 @@ page, `/TOKEN/feed` the WebSocket, `/TOKEN/ask` where questions and orders are
 posted; other names are those of files.  `/?token=TOKEN` leads to the page, and
 `feed?token=TOKEN`, as `metrics?token=TOKEN`, will do, too.
 
-It does not use http_dispatch: what else of HTTP this process serves is not
-seen here, nor this there.
+It does not use http_dispatch, so that other HTTP servers of this process and
+this one do not see each other's handlers.
+
+The head of a request is read into memory before the library of HTTP looks at
+it: it has a bounded size, and has to be there in time, from its first byte to
+its last, see typhon_http_server.  The body, which is read when the token is
+known to be right, has to be there in time, too.
 
 *Threading*: starting and stopping exclude each other by a mutex.  Each client
-has a thread, see module `reception`.
+has a thread, another accepts connections.
 */
+
+:- use_module(library(http/http_stream), []). % else WebSockets are HTTP/1.0
 
 :- setting(request_bytes, positive_integer, 4 000 000,
            "A page takes no larger request than this").
@@ -65,7 +76,8 @@ start(Options, Link) :-
     token_new(Token),
     ( Port0 == 0 -> true ; Port = Port0 ),
     catch(( prepare(Options),
-            reception_open(Interface:Port, typhon_page_server:serve) ), Ball,
+            reception_open(Interface:Port) ),
+          Ball,
           ( put_away, throw(Ball) )),
     assertz(serving(Port, Token, ReadOnly)),
     format(atom(Link), 'http://~w:~d/?token=~w', [Interface, Port, Token]).
@@ -100,7 +112,7 @@ put_away :-
                 *           REQUESTS           *
                 *******************************/
 
-:- public serve/2.              % called by the reception
+:- public serve/2.              % called by the library
 
 serve(In, Request) :-
     memberchk(path(Path), Request),
@@ -219,3 +231,94 @@ may_act(What) :-
 told(Error, _{error:Text}) :-
     error_text(Error, Text0),
     without_folder(Text0, Text).
+
+                /*******************************
+                *   CONNECTIONS OF BROWSERS    *
+                *******************************/
+
+:- setting(typhon_page_reception:connections, positive_integer, 64,
+           "A page has so many clients at a time").
+:- setting(typhon_page_reception:request_seconds, positive_integer, 20,
+           "The head of a request takes no longer, and no longer its body").
+:- setting(typhon_page_reception:head_bytes, positive_integer, 16 384,
+           "The head of a request is no longer").
+
+:- meta_predicate with_body(+, +, -, 0).
+
+%   reception_open(+Address): serve clients that connect to Address,
+%   Interface:Port, by serve(In, Request), which prints an answer as handlers of
+%   library(http) do; In has the body.
+
+reception_open(Address) :-
+    setting(typhon_page_reception:connections, Most),
+    http_server_open(typhon_page, Address, Most,
+                     typhon_page_server:client).
+
+reception_close :-
+    http_server_close(typhon_page).
+
+:- public client/2.             % called by typhon_http_server
+
+client(none, Out) :-
+    !,
+    format(Out, 'HTTP/1.1 503 Service Unavailable\r\n\c
+                 Content-Length: 0\r\nConnection: close\r\n\r\n', []),
+    flush_output(Out).
+client(In, Out) :-
+    setting(typhon_page_reception:request_seconds, Seconds),
+    set_stream(Out, timeout(Seconds)),
+    http_deadline(Seconds, Deadline),
+    setting(typhon_page_reception:head_bytes, Most),
+    http_head(In, Most, Deadline, Bytes),
+    client_becomes(busy),
+    handler(In, Handler),
+    with_bytes(written(Bytes), Head,
+               http_wrapper(Handler, Head, Out, Close, [])),
+    switched(Close, In, Out).
+
+%   http_wrapper/5 adds the request, which its declaration does not say.
+
+handler(In, typhon_page_server:serve(In)).
+
+%   The rest of the connection is a WebSocket.
+
+switched(switch_protocol(Goal, _), In, Out) :-
+    !,
+    client_becomes(apart),
+    set_stream(Out, timeout(infinite)),
+    call(Goal, In, Out).
+switched(_, _, _).
+
+                /*******************************
+                *             BODY             *
+                *******************************/
+
+%   with_body(+In, +Length, -Body, :Goal) is semidet.
+%
+%   Run Goal once while Body is a stream with the body of that Length, which
+%   has been read from In.
+%
+%   @error timeout_error(read, In), syntax_error(http_length) if it is shorter
+
+with_body(In, Length, Body, Goal) :-
+    setting(typhon_page_reception:request_seconds, Seconds),
+    http_deadline(Seconds, Deadline),
+    with_bytes(copied(In, Length, Deadline), Body, Goal).
+
+copied(In, Left, Deadline, Out) :-
+    (   Left > 0
+    ->  http_before(Deadline, In),
+        (   peek_byte(In, -1)
+        ->  syntax_error(http_length)
+        ;   true
+        ),
+        read_pending_codes(In, Bytes, []),
+        written(Bytes, Out),
+        length(Bytes, Count),
+        Left1 is Left-Count,
+        copied(In, Left1, Deadline, Out)
+    ;   true
+    ).
+
+written(Bytes, Out) :-
+    format(Out, '~s', [Bytes]).

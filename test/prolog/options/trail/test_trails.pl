@@ -98,7 +98,7 @@ taken_away :-
     toured(Agent, trail(_, whole)),
     typhon_agents:agent(Agent, _, Module, _, _),
     Module:'$trail'(Next, Chain, Pems, Pending),
-    typhon_chain:chain_links(Chain, Oldest),
+    typhon_trail:chain_links(Chain, Oldest),
     reverse(Oldest, Links),
     findall(Forged-Expected, forged(Links, Forged, Expected), Cases),
     assertion(length(Cases, 7)),
@@ -198,7 +198,7 @@ another(_, Term) :-
                     entered(z), at(0, 0, 0, none, none) ]).
 
 chained(Link, Chain0, Chain) :-
-    typhon_chain:chain_add(Link, 1-Chain0, 9, _-Chain).
+    typhon_trail:chain_add(Link, 1-Chain0, 9, _-Chain).
 
 %   forged(+Links, -Forged, -Verdict): newest first. Links are two of gamma, two
 %   of beta, the older with what it received and what was entered, one of alpha.
