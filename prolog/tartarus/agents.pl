@@ -25,10 +25,11 @@
 :- use_module(library(lists), [member/2, reverse/2, subtract/3, union/3]).
 :- use_module(library(random), [random_member/2]).
 :- use_module('../typhon', [remote/2]).
+:- use_module(clauses, [body_copy/2, body_erase/2, body_has/2]).
 :- use_module(lives,
-              [ body_copy/2, body_erase/2, body_has/2, life_begin/4,
-                life_end/1, record/3, record_payload/2, record_static/2,
-                record_tokens/2, run_handler/4, set_payload/2, set_tokens/2 ]).
+              [ life_begin/4, life_end/1, record/3, record_payload/2,
+                record_static/2, record_tokens/2, run_handler/4,
+                set_payload/2, set_tokens/2 ]).
 :- use_module(platform,
               [ here/1, location_address/2, must/1, port_open/2,
                 same_location/2, told/2, verbosely/2, wrong/2 ]).

@@ -11,25 +11,17 @@
             record_static/2,            % +Name, ?Key
             set_payload/2,              % +Name, +Indicators
             set_tokens/2,               % +Name, +Tokens
-            body/3,                     % +Name, +Indicators, -Clauses
-            body_erase/2,               % +Name, +Indicators
-            body_copy/2,                % +Name, +Indicator
-            body_has/2,                 % +Name, +Indicator
-            renamed/4,                  % +Old, +New, +Term0, -Term
             run_handler/4,              % +Name, +Handler, +Start, +When
             run_apart/1                 % :Goal
           ]).
-:- use_module(library(apply), [maplist/2, maplist/3]).
-:- use_module(library(lists), [append/2, member/2]).
+:- use_module(library(lists), [member/2]).
+:- use_module(clauses, [body_copy/2, body_erase/2, body_install/1]).
 :- use_module(platform, [port_closed/1]).
 
-/** <module> Agents here: records, clauses, threads, beginning and end
+/** <module> Agents here: records, threads, beginning and end
 
 An agent is a record, as facts of module `user`, since programs look at them,
-and clauses of that module, of its handler and its payload, whose first
-argument is its name.  The templates from which they are made have `guid`
-there.  Where Tartarus replaced text, atoms in terms are replaced: what the
-authors of programs meant.
+and clauses of that module, see module `clauses`.
 
 Record and clauses come and go together.  An agent that moved leaves its clauses
 behind until its last thread here is through: that may need them.  They are not
@@ -186,143 +178,6 @@ record_static(Name, Key) :-
     (   nonvar(Key)
     ->  assertz(static(Name, Key))
     ;   static(Name, Key)
-    ).
-
-                /*******************************
-                *           CLAUSES            *
-                *******************************/
-
-%!  body(+Name, +Indicators, -Clauses) is det.
-%
-%   The clauses about Name of these predicates, as Head :- Body.
-%
-%   @arg Indicators is a list of pairs (Predicate,Arity)
-
-body(Name, Indicators, Clauses) :-
-    maplist(clauses_of(Name), Indicators, Parts),
-    append(Parts, Clauses).
-
-clauses_of(Name, Indicator, Clauses) :-
-    head(Indicator, Name, Head),
-    findall((Head:-Body), own_clause(Head, Body), Clauses).
-
-%   A clause whose first argument is a variable belongs to no agent.
-
-own_clause(Head, Body) :-
-    arg(1, Head, Name),
-    functor(Head, Predicate, Arity),
-    functor(General, Predicate, Arity),
-    is_own(General),
-    predicate_property(user:General, number_of_clauses(_)),
-    arg(1, General, First),
-    clause(user:General, Body),
-    First == Name,
-    Head = General.
-
-head((Predicate,Arity), Name, Head) :-
-    functor(Head, Predicate, Arity),
-    arg(1, Head, Name).
-
-%!  body_has(+Name, +Indicator) is semidet.
-
-body_has(Name, Indicator) :-
-    head(Indicator, Name, Head),
-    own_clause(Head, _),
-    !.
-
-%!  body_copy(+Name, +Indicator) is det.
-%
-%   Copy the template of a predicate.
-
-body_copy(Name, Indicator) :-
-    clauses_of(guid, Indicator, Template),
-    renamed(guid, Name, Template, Clauses),
-    body_install(Clauses).
-
-body_install(Clauses) :-
-    maplist(install, Clauses).
-
-install((Head:-Body)) :-
-    make_dynamic(Head),
-    assertz(user:(Head:-Body)).
-
-%!  body_erase(+Name, +Indicators) is det.
-
-body_erase(Name, Indicators) :-
-    maplist(erase_of(Name), Indicators).
-
-%   One by one, by reference: others add meanwhile.
-
-erase_of(Name, (Predicate,Arity)) :-
-    functor(Head, Predicate, Arity),
-    (   is_own(Head),
-        predicate_property(user:Head, dynamic)
-    ->  arg(1, Head, First),
-        findall(Ref, ( clause(user:Head, _, Ref), First == Name ), Refs),
-        maplist(gone, Refs)
-    ;   true
-    ).
-
-gone(Ref) :-
-    catch(erase(Ref), error(existence_error(_, _), _), true).
-
-%   A predicate of a program that is not declared dynamic becomes so, with
-%   the clauses it has.
-
-make_dynamic(Head) :-
-    (   is_own(Head),
-        predicate_property(user:Head, dynamic)
-    ->  true
-    ;   with_mutex(tartarus_dynamic, static_to_dynamic(Head))
-    ).
-
-static_to_dynamic(Head0) :-
-    functor(Head0, Predicate, Arity),
-    functor(Head, Predicate, Arity),
-    (   is_static(Head)
-    ->  findall((Head:-Body), clause(user:Head, Body), Clauses),
-        abolish(user:Predicate/Arity)
-    ;   Clauses = [],
-        override_import(Head)
-    ),
-    dynamic(user:Predicate/Arity),
-    forall(member(Clause, Clauses), assertz(user:Clause)).
-
-is_static(Head) :-
-    is_own(Head),
-    \+ predicate_property(user:Head, dynamic).
-
-%   As a definition in a file does: a library may have the same name.
-
-override_import(Head) :-
-    (   functor(Head, Predicate, Arity),
-        current_predicate(user:Predicate/Arity)
-    ->  redefine_system_predicate(user:Head)
-    ;   true
-    ).
-
-%!  is_own(+Head) is semidet.
-%
-%   Module `user` defines the predicate.  Only current_predicate/1 does not load
-%   a library that has one of that name: predicate_property/2 would import it.
-
-is_own(Head) :-
-    functor(Head, Predicate, Arity),
-    current_predicate(user:Predicate/Arity),
-    \+ predicate_property(user:Head, imported_from(_)).
-
-%!  renamed(+Old, +New, +Term0, -Term) is det.
-%
-%   Term is Term0 with the atom New wherever Old is an argument.
-
-renamed(Old, New, Term0, Term) :-
-    (   Term0 == Old
-    ->  Term = New
-    ;   compound(Term0)
-    ->  compound_name_arguments(Term0, Functor, Arguments0),
-        maplist(renamed(Old, New), Arguments0, Arguments),
-        compound_name_arguments(Term, Functor, Arguments)
-    ;   Term = Term0
     ).
 
                 /*******************************

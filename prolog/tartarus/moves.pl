@@ -19,10 +19,11 @@
 :- use_module(library(gensym), [gensym/2]).
 :- use_module(library(lists), [append/3, max_list/2, min_list/2, sum_list/2]).
 :- use_module('../typhon', [agent_create/3, agent_join/3]).
+:- use_module(clauses, [body/3, renamed/4]).
 :- use_module(lives,
-              [ body/3, life_begin/6, life_elsewhere/2, record/3,
-                record_life/2, record_payload/2, record_static/2,
-                record_tokens/2, renamed/4, run_handler/4 ]).
+              [ life_begin/6, life_elsewhere/2, record/3, record_life/2,
+                record_payload/2, record_static/2, record_tokens/2,
+                run_handler/4 ]).
 :- use_module(platform,
               [ here/1, location_address/2, must/1, same_location/2, told/2,
                 verbosely/2, verbosity/1, wrong/2 ]).

@@ -6,9 +6,9 @@
 :- use_module(library(lists), [member/2]).
 :- use_module(library(listing), [portray_clause/2]).
 :- use_module(library(readutil), [read_file_to_terms/3]).
+:- use_module(clauses, [body/3]).
 :- use_module(lives,
-              [ body/3, life_begin/6, record/3, record_payload/2,
-                run_handler/4 ]).
+              [ life_begin/6, record/3, record_payload/2, run_handler/4 ]).
 :- use_module(platform, [here/1, must/1, wrong/2]).
 
 /** <module> Saved agents and platforms
