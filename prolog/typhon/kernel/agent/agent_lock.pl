@@ -5,7 +5,7 @@
 
 /** <module> A mutex for each agent
 
-He holds one of 64 mutexes, chosen by the id.
+There are 64 mutexes: the id of an agent chooses one.
 
 *Threading*: any thread.  Nothing inside with_agent/2 may block.
 */

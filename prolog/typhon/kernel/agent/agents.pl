@@ -74,7 +74,7 @@ which Prolog makes by itself, is not safe where other threads retract
                                 % typhon_life
     thaw/1.                     % Id: is under way and gets a record
 
-%   The name under which people know it.
+%   The name by which users set it.
 
 :- setting(typhon_creation:faulty_mail, nonneg, 1000,
            "Messages kept for an agent that is faulty").

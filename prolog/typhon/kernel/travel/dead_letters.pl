@@ -14,7 +14,7 @@
 */
 
 :- multifile
-    returned/3,                 % From, Id, Message: whoever brought it knows
+    returned/3,                 % From, Id, Message: its bridge takes it back
     error:has_type/2,
     typhon_durable_posts:undelivered/4,
     typhon_endpoint:received/3.

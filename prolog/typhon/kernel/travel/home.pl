@@ -36,7 +36,7 @@ its agents what they tell it.
 *Threading*: any thread; one mutex.
 */
 
-%   The name under which people know it.
+%   The name by which users set it.
 
 :- setting(typhon_whereabouts:outcomes, positive_integer, 20000,
            "Outcomes of ended agents kept by their home").
@@ -160,8 +160,8 @@ left(Id, Address, Hops, Process) :-
     assertz(born(Id, Address, Hops, Process)),
     forget_first(Id).
 
-%   The new fact comes before the old one goes: others read meanwhile.  Of
-%   whom the home has never heard was born before it was started again.
+%   The new fact comes before the old one goes: others read meanwhile.  An
+%   agent that the home does not know was born before that was started again.
 
 moved(Id, Address, Hops, Process) :-
     born(Id, _, Hops0, _),

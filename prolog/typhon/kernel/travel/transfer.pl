@@ -239,7 +239,7 @@ clone_back(Id, CloneId, Answer) :-
 transfer_given_up(Id, hop(_, Hops, _, _)) :-
     durable_assertz(given_up(Id, Hops)).
 
-%   The oldest first, before anybody else sets out.
+%   The oldest first, before other agents set out.
 
 typhon_durable:restored :-
     findall(Sent-Transfer,

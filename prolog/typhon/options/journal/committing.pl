@@ -159,7 +159,7 @@ commit_or_leave :-
 commit_or_leave :-
     set_flag(typhon_journal_wanted, 1),
     mutex_trylock(typhon_commit),
-    !,                                  % he may not have seen that
+    !,                                  % its owner may have missed it
     commit_locked.
 commit_or_leave.
 
