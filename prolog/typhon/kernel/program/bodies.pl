@@ -58,8 +58,17 @@ mark_cuts(Body, _, Body).
 %!  plain_goals(+Goals0, -Goals) is det.
 %
 %   `'$cut'(_)` becomes `!` again: what a suspended agent shows.
+%
+%   Frames of chunks become the goals for which they stand.
 
 plain_goals([], []).
+plain_goals([Frame|Goals0], Goals) :-
+    nonvar(Frame),
+    Frame = '$k'(Place, Vars),
+    !,
+    functor(Vars, Program, _),
+    once(Program:'$goals'(Place, Vars, Goals, Rest)),
+    plain_goals(Goals0, Rest).
 plain_goals([Goal0|Goals0], [Goal|Goals]) :-
     plain(Goal0, Goal),
     plain_goals(Goals0, Goals).

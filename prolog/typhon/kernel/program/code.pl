@@ -13,6 +13,7 @@
             code_places/2,              % +Hash, -Places
             code_names/2,               % +Hash, -Lists
             code_make/3,                % +Program, +Kinds, -Module
+            native_body/4,              % +Body0, +Module, +Own, -Body
             code_clear/0
           ]).
 :- use_module(library(apply), [include/3, maplist/2, maplist/3]).
@@ -353,8 +354,10 @@ add_mobile(_, Module, Head, Body) :-
     mobile_head(Head, Goals, Rest, Barrier, Mobile),
     assertz(Module:Mobile).
 
-%   native_body(+Body0, +Module, +Own, -Body): goals that depend on where
-%   the agent is are called in its context.
+%!  native_body(+Body0, +Module, +Own, -Body) is det.
+%
+%   Goals that depend on where the agent is are called in its context.  Own
+%   is an assoc of the kinds of the program's predicates.
 
 native_body(Body, _, _, call(Body)) :-
     var(Body),

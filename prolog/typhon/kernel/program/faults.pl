@@ -1,11 +1,16 @@
 :- module(typhon_faults,
           [ fails/2,                    % +Goal, +Goals
+            fails_at/3,                 % +Place, +Vars, +Goals
+            test_fails/3,               % +Place, +Vars, +Goals
             fails_inside/2,             % +Frame, +Goals
             fault/3,                    % +Outcome, +Goals0, -Fault
             fault_noted/1,              % -Note
             fault_note/1                % +Note
           ]).
+:- use_module(library(apply), [maplist/2]).
+:- use_module(library(lists), [append/3, member/2]).
 :- use_module(bodies, [goals_body/2, plain_goals/2]).
+:- use_module(chunks, [place_left/4]).
 
 /** <module> Where a run of the machine came to its end
 
@@ -52,6 +57,27 @@ fails(Goal, Goals) :-
     ),
     fail.
 
+%!  fails_at(+Place, +Vars, +Goals) is failure.
+%
+%   In a chunk the goal at Place has failed, see typhon_chunks.  What it is, is
+%   found out when the fault is asked for.
+
+fails_at(Place, Vars, Goals) :-
+    prolog_current_choice(Choice),
+    (   may_be_noted(Vars-Goals, Choice)
+    ->  note(failed, '$k'(Place, Vars), ['$k'(Place, Vars)|Goals])
+    ;   functor(Vars, Program, _),
+        note(failed, '$k'(Place, Program), unknown)
+    ),
+    fail.
+
+%!  test_fails(+Place, +Vars, +Goals) is failure.
+%
+%   In a chunk a goal of a condition has failed.
+
+test_fails(_, _, _) :-
+    fail.
+
 note(How, Goal, Goals) :-
     note(How, Goal, Goals, natives(none, [])).
 
@@ -84,7 +110,8 @@ final(Choice) :-
 fails_inside(Left-Framed, Goals) :-
     nb_getval(typhon_fault, failed-fault(Goal, Sub, _)),
     Sub \== unknown,
-    goals_body(Sub, Left),
+    plain_goals(Sub, Plain),
+    goals_body(Plain, Left),
     note(failed, Goal, [Framed|Goals]),
     fail.
 
@@ -116,17 +143,35 @@ note_raised(Frame) :-
     native_goal(Frame, Raising),
     native_clauses(100, Frame, Clauses),
     raising(Frame, Goal, Goals, Outer),
-    framed(Outer, [Goal|Goals], Left),
+    same_goal(Frame, Raising, Goal),
+    framed(Outer, Goals, Left),
     note(raised, Goal, Left, natives(Raising, Clauses)).
 
-raising(Frame, Control, Goals, Outer) :-
+raising(Frame, Control, [Control|Goals], Outer) :-
     prolog_frame_attribute(Frame, parent, Outer),
     frame_of(Outer, raises/3),
     !,
     prolog_frame_attribute(Outer, argument(2), Control),
     prolog_frame_attribute(Outer, argument(3), Goals).
 raising(Frame, Goal, Goals, Outer) :-
+    in_chunk(Frame, Outer, PC),
+    !,
+    chunk_place(Outer, PC, Place, Vars, Rest),
+    place_left(Place, Vars, Goal, Left),
+    append(Left, Rest, Goals).
+raising(Frame, Goal, [Goal|Goals], Outer) :-
     outer(Frame, called(Goal, Goals, _, _, _), Outer).
+
+%   A native goal has variables of its own for those that are new in it; what
+%   has no clause is the goal itself, if it has its name.
+
+same_goal(Frame, Raising, Goal) :-
+    (   \+ prolog_frame_attribute(Frame, clause, _),
+        prolog_frame_attribute(Frame, parent, Outer),
+        is_chunk(Outer)
+    ->  ignore(Goal = Raising)
+    ;   true
+    ).
 
 %   Goals are looked up in the module that asks.
 
@@ -138,10 +183,77 @@ outer(Frame, Goal, Outer) :-
 
 framed(Frame, Goals0, Goals) :-
     (   outer(Frame, inside(_, Sub-Framed, Goals1, _, _), Outer)
-    ->  goals_body(Goals0, Sub),
+    ->  plain_goals(Goals0, Plain),
+        goals_body(Plain, Sub),
         framed(Outer, [Framed|Goals1], Goals)
     ;   Goals = Goals0
     ).
+
+%   in_chunk(+Frame, -Chunk, -PC) is semidet: Frame is below a goal of the chunk
+%   that runs in the frame Chunk, called before PC of its clause.
+
+in_chunk(Frame, Chunk, PC) :-
+    prolog_frame_attribute(Frame, parent, Outer),
+    (   is_chunk(Outer)
+    ->  Chunk = Outer,
+        prolog_frame_attribute(Frame, pc, PC)
+    ;   \+ frame_of(Outer, called/5),
+        in_chunk(Outer, Chunk, PC)
+    ).
+
+is_chunk(Frame) :-
+    prolog_frame_attribute(Frame, predicate_indicator, Module:Name/_),
+    chunk_name(Name),
+    '$get_predicate_attribute'(Module:'$chunks'(_), defined, 1).
+
+chunk_name('$k') :- !.
+chunk_name(Name) :- sub_atom(Name, 0, _, _, 'run '), !.
+chunk_name(Name) :- sub_atom(Name, 0, _, _, 'do ').
+
+%   chunk_place(+Frame, +PC, -Place, -Vars, -Goals): after each goal in the
+%   clause comes what is done when it fails, with the place as a number.  What
+%   that is called with is read from the frame.
+
+chunk_place(Frame, PC, Place, Vars, Goals) :-
+    prolog_frame_attribute(Frame, clause, Clause),
+    number_after(Clause, PC, call, Place),
+    '$clause'(_, Body, Clause, Slots),
+    noted_in(Body, Place, Vars, Goals),
+    term_variables(Vars-Goals, Variables),
+    maplist(from_frame(Frame, Slots), Variables).
+
+number_after(Clause, PC, State0, Place) :-
+    '$fetch_vm'(Clause, PC, Next, Instruction),
+    (   Instruction = c_softcut(_)
+    ->  State = cut
+    ;   State = State0
+    ),
+    (   State == cut,
+        Instruction = b_smallint(Place0)
+    ->  Place = Place0
+    ;   number_after(Clause, Next, State, Place)
+    ).
+
+noted_in(Term, Place, Vars, Goals) :-
+    compound(Term),
+    (   ( Term = fails_at(Place0, Vars0, Goals0)
+        ; Term = test_fails(Place0, Vars0, Goals0)
+        ),
+        Place0 == Place
+    ->  Vars = Vars0,
+        Goals = Goals0
+    ;   arg(_, Term, Part),
+        noted_in(Part, Place, Vars, Goals)
+    ),
+    !.
+
+from_frame(Frame, Slots, Variable) :-
+    member(Slot=Variable0, Slots),
+    Variable0 == Variable,
+    !,
+    Argument is Slot+1,
+    prolog_frame_attribute(Frame, argument(Argument), Variable).
+from_frame(_, _, _).
 
 %   What raised the error itself is mostly no more than this.
 
@@ -157,7 +269,10 @@ native_goal(_, none).
 native_clauses(0, _, []) :-
     !.
 native_clauses(_, Frame, []) :-
-    ( frame_of(Frame, called/5) ; frame_of(Frame, raises/3) ),
+    (   frame_of(Frame, called/5)
+    ;   frame_of(Frame, raises/3)
+    ;   is_chunk(Frame)
+    ),
     !.
 native_clauses(Most, Frame, Clauses) :-
     (   prolog_frame_attribute(Frame, clause, Clause)
@@ -189,7 +304,18 @@ fault(Outcome, Goals0, fault(Goal, Goals, Clauses)) :-
     ),
     nb_setval(typhon_fault, none),
     ( Goals1 == unknown -> Goals2 = Goals0 ; Goals2 = Goals1 ),
-    plain_goals([Goal0|Goals2], [Goal|Goals]).
+    noted_goal(Goal0, Goals1, Goal3),
+    plain_goals([Goal3|Goals2], [Goal|Goals]).
+
+noted_goal('$k'(Place, Vars), Goals, Goal) :-
+    !,
+    place_left(Place, Vars, Goal0, _),
+    (   Goals == unknown
+    ->  functor(Goal0, Name, Arity),
+        functor(Goal, Name, Arity)
+    ;   Goal = Goal0
+    ).
+noted_goal(Goal, _, Goal).
 
 %!  fault_noted(-Note) is det.
 %!  fault_note(+Note) is det.

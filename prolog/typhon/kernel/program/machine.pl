@@ -2,10 +2,14 @@
           [ machine_run/3,              % +Context, +Goals, -Outcome
             answer_at/3,                % +Control, +Answer, -Goal
             machine_inside/0,
-            control/1                   % ?Head
+            ruled/2,                    % +Heads, +Context
+            handed/6                    % +Place, +Vars, +Goals, +Context,
+                                        % +Base, -Out
           ]).
 :- use_module(bodies,
               [body_goals/4, called_goal/2, goals_body/2, plain_goals/2]).
+:- use_module(chunks, [chunks_ready/1, place_marked/3]).
+:- use_module(control, [special/2]).
 :- multifile
     checked/3.                  % Context, Goal, Called: it may be called
 :- use_module(faults, [fails/2, fails_inside/2]).
@@ -37,32 +41,6 @@ make this possible:
 machine.  Two threads must not run the same agent.
 */
 
-%!  control(?Head) is nondet.
-%
-%   Head is the head of a control predicate: the machine stops at it.
-
-control(Head) :-
-    special(Head, control).
-
-term_expansion(special_of(Name, Kind), Specials) :-
-    findall(special(Goal, Kind),
-            ( between(1, 16, Arity), functor(Goal, Name, Arity) ),
-            Specials).
-
-special(move(_), control).
-special(clone(_), control).
-special(clone(_, _), control).
-special(sleep(_), control).
-special(receive(_), control).
-special(receive(_, _), control).
-special(dispose, control).
-special(sleep_until(_), control).
-special(receive_until(_, _, _), control).
-special(receive_until(_, _), control).  % in old restore points
-special('$fault'(_), control).          % stays as it was: see typhon_faulty
-special_of(call, call).                 % with more than one argument
-special_of('$checked', checked).        % see typhon_checked
-
 %!  machine_run(+Context, +Goals, -Outcome) is det.
 %
 %   Run Goals up to the next effect.
@@ -93,11 +71,20 @@ raised(Ball, Outcome) :-
     ).
 
 first_outcome(Goals, Context, Outcome) :-
+    engine(Context, X),
     prolog_current_choice(Base),
-    run(Goals, Context, Base, Out),
+    continue(Goals, X, Base, Out),
     !,
     outcome(Out, Outcome).
 first_outcome(_, _, failed).
+
+%   A compiled program runs in chunks, see typhon_chunks.
+
+engine(context(Program, Agent), X) :-
+    (   chunks_ready(Program)
+    ->  X = compiled(Program, Agent)
+    ;   X = context(Program, Agent)
+    ).
 
 outcome(exit, done).
 outcome(effect(Control, Hole, Goals0), effect(Control, Hole, Goals)) :-
@@ -131,9 +118,30 @@ run([], _, _, exit).
 run([Goal|Goals], Context, Base, Out) :-
     step(Goal, Goals, Context, Base, Out).
 
+%!  continue(+Goals, +Context, +Base, -Out) is nondet.
+%
+%   As run/4.  Goals that are the rest of a clause are run as the chunk that
+%   they stand for.
+
+continue([Goal|Goals], X, Base, Out) :-
+    Goal == true,
+    !,
+    continue(Goals, X, Base, Out).
+continue(Goals, X, Base, Out) :-
+    (   X = compiled(Program, _),
+        Goals = [Goal|_],
+        nonvar(Goal),
+        Program:'$frame'(Goal, Goals, Base, Frame, Rest)
+    ->  run([Frame|Rest], X, Base, Out)
+    ;   run(Goals, X, Base, Out)
+    ).
+
 %   step(+Goal, +Goals, +Context, +Base, -Out) is nondet: one rule for each
 %   construct.
 
+step('$k'(Place, Vars), Goals, X, Base, Out) =>
+    X = compiled(Program, Agent),
+    @(Program:'$k'(Place, Vars, Goals, X, Base, Out), Agent).
 step(true, Goals, X, Base, Out) =>
     run(Goals, X, Base, Out).
 step((A,B), Goals, X, Base, Out) =>
@@ -183,21 +191,19 @@ special(call, Goal, Goals, X, Base, Out) :-
     ;   called(Goal, Goals, X, Base, Out)       % which raises
     ).
 special(checked, Goal, Goals, X, Base, Out) :-
-    checked(X, Goal, Called),
+    arg(1, X, Program),
+    arg(2, X, Agent),
+    checked(context(Program, Agent), Goal, Called),
     step(call(Called), Goals, X, Base, Out).
 
 %   called(+Goal, ...): a goal that is no construct is unfolded by a clause
 %   of the program or of the agent's own rules, or called natively.
 
 called(Goal, Goals, X, Base, Out) :-
-    X = context(Program, Agent),
-    (   Program:'$mobile'(Goal, Clause, More, Goals, Barrier, Condition),
+    arg(2, X, Agent),
+    (   entry(X, Goal, Goals, Base, Out, Entry, Condition),
         mobile(Condition, Agent)
-    ->  prolog_current_choice(Barrier),
-        (   Program:Clause
-        *-> run(More, X, Base, Out)
-        ;   fails(Goal, Goals)
-        )
+    ->  @(Entry, Agent)
     ;   '$c_current_predicate'(_, Agent:Goal),
         has_rules(Agent:Goal)
     ->  prolog_current_choice(Barrier),
@@ -208,6 +214,27 @@ called(Goal, Goals, X, Base, Out) :-
         )
     ;   Agent:Goal
     *-> run(Goals, X, Base, Out)
+    ;   fails(Goal, Goals)
+    ).
+
+%   entry(+Context, +Goal, +Goals, +Base, -Out, -Entry, -Condition) is
+%   semidet: Entry runs Goal, which is to be unfolded if Condition holds, and
+%   then Goals.
+
+entry(compiled(Program, Agent), Goal, Goals, Base, Out, Program:Run,
+      Condition) :-
+    Program:'$run'(Goal, Run, Goals, compiled(Program, Agent), Base, Out,
+                   Condition).
+entry(context(Program, Agent), Goal, Goals, Base, Out,
+      typhon_machine:unfolded(Program:Clause, Goal, Barrier, More, Goals,
+                              context(Program, Agent), Base, Out),
+      Condition) :-
+    Program:'$mobile'(Goal, Clause, More, Goals, Barrier, Condition).
+
+unfolded(Clause, Goal, Barrier, More, Goals, X, Base, Out) :-
+    prolog_current_choice(Barrier),
+    (   Clause
+    *-> run(More, X, Base, Out)
     ;   fails(Goal, Goals)
     ).
 
@@ -274,7 +301,8 @@ proceed(exit, Then, Goals, _, X, Base, Out) :-
     step(Then, Goals, X, Base, Out).
 proceed(effect(Control, Hole, Sub), _, Goals, Rest-Frame, _, _,
         effect(Control, Hole, [Frame|Goals])) :-
-    goals_body(Sub, Rest).
+    plain_goals(Sub, Plain),
+    goals_body(Plain, Rest).
 
 %!  answer_at(+Control, +Answer, -Goal) is det.
 %
@@ -286,6 +314,26 @@ answer_at(Control, Answer, '$at'(Control, Answer)).
 raises(Error, Control, Goals) :-
     throw(Error),
     stood(Control, Goals).
+
+%!  ruled(+Heads, +Context) is semidet.
+%!  handed(+Place, +Vars, +Goals, +Context, +Base, -Out) is nondet.
+%
+%   For chunks: one of Heads is a predicate of the agent's state that holds
+%   rules, so that it may stop; then the machine runs what the chunk has left
+%   at Place, and Goals.
+
+ruled([Head|Heads], X) :-
+    arg(2, X, Agent),
+    (   '$get_predicate_attribute'(Agent:Head, number_of_rules, N),
+        N > 0,
+        state_rule(Agent, Head)
+    ->  true
+    ;   ruled(Heads, X)
+    ).
+
+handed(Place, Vars, Goals, X, Base, Out) :-
+    place_marked(Place, Vars, Left-Goals),
+    run(Left, X, Base, Out).
 
 %   mobile(+Condition, +Agent): must this static predicate be unfolded?
 

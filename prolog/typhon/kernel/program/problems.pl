@@ -5,7 +5,7 @@
             option_problem/3            % +Kind, +Located, -Problem
           ]).
 :- use_module(library(lists), [member/2, memberchk/2]).
-:- use_module(machine, [control/1]).
+:- use_module(control, [control/1]).
 :- use_module(source, [clause_parts/3, declaration/4, library_import/2]).
 
 /** <module> What can be wrong with an agent program or a payload

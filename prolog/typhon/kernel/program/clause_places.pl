@@ -1,0 +1,183 @@
+:- module(typhon_clause_places,
+          [ clause_places/5,            % +Head, +Body, -Barrier, -Nodes, -Places
+            node_parts/3,               % +Goal, +N, -Parts
+            nodes_goals/2               % +Nodes, -Goals
+          ]).
+:- use_module(library(apply), [exclude/3, include/3]).
+:- use_module(library(lists), [append/3, member/2]).
+:- use_module(bodies, [body_goals/4, goals_body/2]).
+
+/** <module> Places in a clause, by number
+
+Each goal of a clause has a number, in the order of the text.  When the machine
+comes to it, certain goals of the clause are left: those from there on, and in a
+condition what remains of the condition.  This depends on nothing but the
+clause.  So a number and the values of variables stand for a list of goals.
+
+A node is N-Goal.  A place is place(N, Old, New, Goal, Goals): at Goal, the
+machine has Goals left of the clause; Old are those of their variables that
+occurred before, New those that occur first in Goal.  Cuts of the clause are
+'$cut'(Barrier).
+
+*Threading*: pure.
+*/
+
+%!  clause_places(+Head, +Body, -Barrier, -Nodes, -Places) is det.
+%
+%   Nodes are the goals of Body.
+
+clause_places(Head, Body, Barrier, Nodes, Places) :-
+    body_goals(Body, Barrier, Goals, []),
+    numbered(Goals, 0, Nodes),
+    phrase(places(Nodes, [], top, Head-Barrier), Places).
+
+numbered([], _, []).
+numbered([Goal|Goals], N, [N-Goal|Nodes]) :-
+    size(Goal, Size),
+    N1 is N+Size,
+    numbered(Goals, N1, Nodes).
+
+%!  nodes_goals(+Nodes, -Goals) is det.
+
+nodes_goals([], []).
+nodes_goals([_-Goal|Nodes], [Goal|Goals]) :-
+    nodes_goals(Nodes, Goals).
+
+%   size(+Goal, -Size): so many numbers it takes.
+
+size(Goal, Size) :-
+    node_parts(Goal, 0, Parts),
+    parts_size(Parts, 1, Size).
+
+parts_size(none, Size, Size).
+parts_size(both(_-A, _-B), Size0, Size) :-
+    sum_sizes([A,B], Size0, Size).
+parts_size(either(_-A, _-B), Size0, Size) :-
+    sum_sizes([A,B], Size0, Size).
+parts_size(not(_-A), Size0, Size) :-
+    sum_sizes([A], Size0, Size).
+parts_size(if(_, _-If, _-Then, _-Else, _), Size0, Size) :-
+    Size1 is Size0+1,                   % a number for its failure
+    sum_sizes([If,Then,Else], Size1, Size).
+
+sum_sizes([], Size, Size).
+sum_sizes([Part|Parts], Size0, Size) :-
+    size(Part, Size1),
+    Size2 is Size0+Size1,
+    sum_sizes(Parts, Size2, Size).
+
+%!  node_parts(+Goal, +N, -Parts) is det.
+%
+%   Parts are the nodes that Goal consists of: both(A, B), either(A, B), not(A),
+%   if(Arrow, If, Then, Else, Failing), or `none`.  Failing is a node, too: what
+%   the machine says has failed where no branch is taken, if Else is `fail`.
+
+node_parts(Goal, N, Parts) :-
+    (   nonvar(Goal),
+        parts(Goal, Parts0)
+    ->  Parts = Parts0,
+        N1 is N+1,
+        number_parts(Parts, N1)
+    ;   Parts = none
+    ).
+
+parts((A,B), both(_-A, _-B)).
+parts((Or;Else), Parts) :-
+    (   condition(Or, Arrow, If, Then)
+    ->  Parts = if(Arrow, _-If, _-Then, _-Else, _-Or)
+    ;   Parts = either(_-Or, _-Else)
+    ).
+parts(\+ A, not(_-A)).
+parts(once(A), if(->, _-A, _-true, _-fail, _-(A->true))).
+parts(ignore(A), if(->, _-A, _-true, _-true, _-(A->true))).
+parts((If->Then), if(->, _-If, _-Then, _-fail, _-(If->Then))).
+parts((If*->Then), if(*->, _-If, _-Then, _-fail, _-(If*->Then))).
+
+condition(Or, Arrow, If, Then) :-
+    nonvar(Or),
+    (   Or = (If->Then)
+    ->  Arrow = (->)
+    ;   Or = (If*->Then),
+        Arrow = (*->)
+    ).
+
+number_parts(both(N-A, M-_), N) :-
+    next(N, A, M).
+number_parts(either(N-A, M-_), N) :-
+    next(N, A, M).
+number_parts(not(N-_), N).
+number_parts(if(_, I-If, T-Then, E-_, N-_), N) :-
+    I is N+1,
+    next(I, If, T),
+    next(T, Then, E).
+
+next(N, Goal, Next) :-
+    size(Goal, Size),
+    Next is N+Size.
+
+%   places(+Nodes, +Outer, +Within, +Seen)//: of Nodes, after which come Outer.
+%   Within is `top`, or within(Construct, Nodes, Within) inside a condition.
+
+places([], _, _, _) -->
+    [].
+places([Node|Nodes], Outer, Within, Seen) -->
+    { append(Nodes, Outer, Rest),
+      Node = N-Goal,
+      place(N, Goal, [Node|Rest], Within, Seen, Place),
+      node_parts(Goal, N, Parts)
+    },
+    [Place],
+    part_places(Parts, Nodes, Outer, Rest, Within, Seen),
+    next_places(Parts, Goal, Nodes, Outer, Within, Seen).
+
+next_places(both(_, _), _, _, _, _, _) -->
+    !.
+next_places(_, Goal, Nodes, Outer, Within, Seen) -->
+    places(Nodes, Outer, Within, Seen-Goal).
+
+part_places(none, _, _, _, _, _) -->
+    [].
+part_places(both(A, B), Nodes, Outer, _, Within, Seen) -->
+    places([A,B|Nodes], Outer, Within, Seen).
+part_places(either(A, B), _, _, Rest, Within, Seen) -->
+    places([A], Rest, Within, Seen),
+    places([B], Rest, Within, Seen).
+part_places(not(A), _, _, Rest, Within, Seen) -->
+    { A = _-Goal },
+    places([A], [], within(not(Goal), Rest, Within), Seen).
+part_places(if(Arrow, If, Then, Else, Failing), _, _, Rest, Within, Seen) -->
+    { If = _-Condition,
+      Then = _-Yes,
+      Else = _-No,
+      Failing = N-Goal,
+      place(N, Goal, [Failing|Rest], Within, Seen, Place)
+    },
+    [Place],
+    places([If], [], within(if(Arrow, Yes, No), Rest, Within), Seen),
+    places([Then], Rest, Within, Seen-Condition),
+    places([Else], Rest, Within, Seen).
+
+place(N, Goal, Nodes, Within, Seen, place(N, Old, New, Goal, Goals)) :-
+    nodes_goals(Nodes, Goals0),
+    all_left(Within, Goals0, Goals),
+    term_variables(Seen, Before),
+    term_variables(Goals, Variables),
+    include(among(Before), Variables, Old),
+    term_variables(Goal, InGoal),
+    exclude(among(Before), InGoal, New).
+
+among(Variables, Variable) :-
+    member(Other, Variables),
+    Other == Variable,
+    !.
+
+all_left(top, Goals, Goals).
+all_left(within(Construct, Nodes, Within), Goals0, Goals) :-
+    goals_body(Goals0, Left),
+    constructed(Construct, Left, Goal),
+    nodes_goals(Nodes, Goals1),
+    all_left(Within, [Goal|Goals1], Goals).
+
+constructed(not(Goal), _, \+ Goal).
+constructed(if(->, Then, Else), Left, (Left->Then;Else)).
+constructed(if(*->, Then, Else), Left, (Left*->Then;Else)).
