@@ -7,6 +7,7 @@
 :- use_module(library(assoc), [get_assoc/3, list_to_assoc/2]).
 :- use_module(library(lists),
               [append/2, append/3, member/2, memberchk/2, nth0/3]).
+:- use_module(library(occurs), [sub_term/2]).
 :- use_module(bodies, [plain_goals/2]).
 :- use_module(clause_places,
               [clause_places/5, node_parts/3]).
@@ -80,8 +81,8 @@ compile(Module, program(_, State, _, Clauses)) :-
     tables(Module),
     numbered_clauses(Clauses, 0, Numbered),
     findall(Compiled,
-            ( member(C, Numbered),
-              clause_compiled(C, Count, Module, Own, Compiled)
+            ( append(_, [C|Later], Numbered),
+              clause_compiled(C, Later, Count, Module, Own, Compiled)
             ),
             All),
     include(is_mobile, Kinds, Mobile),
@@ -92,8 +93,9 @@ compile(Module, program(_, State, _, Clauses)) :-
            add_frame(Module, Frame)),
     assertz(Module:('$goals'(Place, Vars, Goals, Rest) :-
                         typhon_chunks:place_plain(Place, Vars, Goals, Rest))),
-    include(has_clauses(Module), ['$k'/6, '$frame'/5, '$run'/7], Tables),
-    append([Tables,['$go'/4, '$goals'/4],Predicates], All1),
+    assertz(Module:( '$frame'(_, _, _, _, _) => fail )),
+    include(has_clauses(Module), ['$k'/6, '$run'/7], Tables),
+    append([Tables,['$go'/4],Predicates], All1),
     maplist(qualified(Module), All1, PIs),
     compile_predicates(PIs),
     assertz(Module:'$chunks'(Count)).
@@ -107,7 +109,8 @@ has_clauses(Module, Name/Arity) :-
 
 tables(Module) :-
     dynamic([ Module:'$k'/6, Module:'$go'/4, Module:'$goals'/4,
-              Module:'$frame'/5, Module:'$run'/7, Module:'$marked'/4 ]),
+              Module:'$frame'/5, Module:'$run'/7, Module:'$marked'/4,
+              Module:'$added'/1 ]),
     module_transparent([Module:'$k'/6, Module:'$go'/4]),
     assertz(Module:('$go'(['$k'(P,V)|K], X, B, O) :-
                  !,
@@ -143,7 +146,7 @@ numbered_clauses([Clause|Clauses], I, [I-Clause|Numbered]) :-
 %   clause_compiled(+Numbered, ...) is semidet: Compiled is compiled(Head,
 %   Barrier, Arguments, Code, Frames).
 
-clause_compiled(I-Clause, Count, Module, Own,
+clause_compiled(I-Clause, Later, Count, Module, Own,
                 compiled(Head, Barrier, [K,X,Base,Out], Code, Frames)) :-
     clause_parts(Clause, Head, Body),
     functor(Head, Name, Arity),
@@ -152,8 +155,19 @@ clause_compiled(I-Clause, Count, Module, Own,
     clause_places(Head, Body, Barrier, Nodes, Places),
     Env = env(Module, Own, Places, I/Count, args(K, X, Base, Out, Barrier),
               frames([])),
-    block(Nodes, [], tail, first, Env, Code),
+    phase(Name/Arity, Later, Phase),
+    block(Nodes, [], tail, Phase, Env, Code),
     arg(6, Env, frames(Frames)).
+
+%   phase(+PI, +Later, -Phase): of Later clauses, one is for all calls.
+
+phase(Name/Arity, Later, guard) :-
+    functor(General, Name, Arity),
+    member(_-Clause, Later),
+    clause_parts(Clause, Head, _),
+    subsumes_term(Head, General),
+    !.
+phase(_, _, first).
 
 %   add_predicate(+Module, +All, +Kind, -PIs): what calls 'run p' comes to its
 %   clauses, or first notes that the head of none matches, and where a cut
@@ -197,6 +211,9 @@ total(Clauses) :-
 
 sub_variable(Variable, Term) :-
     term_variables(Term, Variables),
+    among(Variables, Variable).
+
+among(Variables, Variable) :-
     member(Other, Variables),
     Other == Variable,
     !.
@@ -241,45 +258,23 @@ named(Prefix, Goal, More, Named) :-
                 *            FRAMES            *
                 *******************************/
 
-%   frame(+Place, +Vars, +Goals, +Args, +Code, +Leading): Leading native goals
-%   come first.
+%   A frame is frame(Place, Vars, Args, Code).
 
-add_frame(Module, frame(Place, Vars, Goals, args(K, X, Base, Out, Barrier),
-                        Code, Leading)) :-
-    assertz(Module:('$k'(Place, Vars, K, X, Base, Out) :- Code)),
-    plain_goals(Goals, Plain),
-    append(Plain, Rest, List),
-    assertz(Module:'$goals'(Place, Vars, List, Rest)),
-    (   Leading >= 3,
-        Plain = [First|_],
-        callable(First)
-    ->  functor(First, Name, Arity),
-        functor(General, Name, Arity),
-        same_length_list(Plain, Actual),
-        append(Actual, Rest, Actuals),
-        assertz(Module:('$frame'(General, Actuals, Barrier,
-                                 '$k'(Place, Vars), Rest) :-
-                     subsumes_term(Plain, Actual),
-                     Plain = Actual))
-    ;   true
-    ).
-
-same_length_list(List, Other) :-
-    length(List, Length),
-    length(Other, Length).
+add_frame(Module, frame(Place, Vars, args(K, X, Base, Out, _), Code)) :-
+    assertz(Module:('$k'(Place, Vars, K, X, Base, Out) :- Code)).
 
 %   frame_at(+Nodes, +Outer, +Env, -Place, -Vars): the frame of Nodes and then
 %   Outer is made if it is not there yet.
 
 frame_at(Nodes, Outer, Env, Place, Vars) :-
     append(Nodes, Outer, [N-_|_]),
-    at(N, Env, Place, Vars, Goals),
+    at(N, Env, Place, Vars),
     arg(6, Env, Frames),
     (   arg(1, Frames, List),
-        memberchk(frame(Place, _, _, _, _, _), List)
+        memberchk(frame(Place, _, _, _), List)
     ->  true
     ;   arg(5, Env, Args),
-        Frame = frame(Place, Vars, Goals, Args, Code, Leading),
+        Frame = frame(Place, Vars, Args, Code),
         arg(1, Frames, List0),
         setarg(1, Frames, [Frame|List0]),
         (   Nodes == []
@@ -288,24 +283,14 @@ frame_at(Nodes, Outer, Env, Place, Vars) :-
         ;   Own = Nodes,
             After = Outer
         ),
-        append(Nodes, Outer, All),
-        leading(All, Env, 0, Leading),
         block(Own, After, tail, later, Env, Code)
     ).
 
-leading([_-Goal|Nodes], Env, Count0, Count) :-
-    how(Goal, Env, How),
-    memberchk(How, [leaf(_), true]),
-    !,
-    Count1 is Count0+1,
-    leading(Nodes, Env, Count1, Count).
-leading(_, _, Count, Count).
-
-%   at(+N, +Env, -Place, -Vars, -Goals): the number of a place in a program
+%   at(+N, +Env, -Place, -Vars): the number of a place in a program
 %   says its clause, too.
 
-at(N, env(Module, _, Places, I/Count, _, _), Place, Vars, Goals) :-
-    memberchk(place(N, Variables, _, _, Goals), Places),
+at(N, env(Module, _, Places, I/Count, _, _), Place, Vars) :-
+    memberchk(place(N, Variables, _, _, _), Places),
     Place is N*Count+I,
     Vars =.. [Module|Variables].
 
@@ -339,10 +324,58 @@ place_marked(Place, Vars, Goals-Rest) :-
 
 :- public place_plain/4.
 
+%   The tables '$goals' and '$frame' have the places that were asked for, the
+%   first of them last.
+
 place_plain(Place, Vars, Goals, Rest) :-
-    place_left(Place, Vars, _, Goals0),
+    functor(Vars, Module, Arity),
+    functor(General, Module, Arity),
+    place_left(Place, General, _, Goals0),
     plain_goals(Goals0, Plain),
-    append(Plain, Rest, Goals).
+    append(Plain, Rest0, List),
+    with_mutex(typhon_chunks,
+               add_place(Module, Place, General, Goals0, Plain, List, Rest0)),
+    Vars-Goals-Rest = General-List-Rest0.
+
+add_place(Module, Place, _, _, _, _, _) :-
+    Module:'$added'(Place),
+    !.
+add_place(Module, Place, General, Goals, Plain, List, Rest) :-
+    assertz(Module:'$added'(Place)),
+    asserta(Module:'$goals'(Place, General, List, Rest)),
+    (   is_frame(Module, Place, General),
+        worth(Plain),
+        Plain = [First|_]
+    ->  functor(First, Name, Arity),
+        functor(Head, Name, Arity),
+        barrier(Goals, Base),
+        asserta(Module:( '$frame'(Head, List, Base0, Frame, Rest0) =>
+                             Base0 = Base,
+                             Frame = '$k'(Place, General),
+                             Rest0 = Rest ))
+    ;   true
+    ).
+
+is_frame(Module, Place, Vars) :-
+    \+ \+ clause(Module:'$k'(Place, Vars, _, _, _, _), _).
+
+%   It begins with native goals, as far as can be seen.
+
+worth([A,B,C|_]) :-
+    maplist(plain_goal, [A,B,C]).
+
+plain_goal(Goal) :-
+    callable(Goal),
+    \+ special(Goal, _).
+
+%   Cuts go to where the run began.
+
+barrier(Goals, Barrier) :-
+    sub_term(Cut, Goals),
+    nonvar(Cut),
+    Cut = '$cut'(Barrier),
+    !.
+barrier(_, _).
 
 place_left(Place, Vars, Goal, Goals) :-
     functor(Vars, Module, _),
@@ -366,8 +399,10 @@ place_left(Place, Vars, Goal, Goals) :-
 
 %   block(+Nodes, +Outer, +Mode, +Phase, +Env, -Code): Code runs Nodes.  If Mode
 %   is `tail` it goes on with Outer, and with K; `through` leaves that to what
-%   comes after it, and cannot stop.  Phase is `first` in the clause of a
-%   predicate, `later` in a frame.
+%   comes after it, and cannot stop.  Phase is `guard` or `first` in the clause
+%   of a predicate, `later` in a frame.  What fails in a guard need not be noted:
+%   no cut came before, so that another clause is tried, and if that comes to
+%   nothing, something in it has failed last.
 
 block([], Outer, tail, _, Env, Code) =>
     Env = env(_, _, _, _, args(K, X, Base, Out, _), _),
@@ -387,9 +422,10 @@ block(true, _, Nodes, Outer, Mode, Phase, Env, Code) =>
 block(cut, _, Nodes, Outer, Mode, Phase, Env, Code) =>
     Code = (Cut,Rest),
     cut(Phase, Env, Cut),
-    block(Nodes, Outer, Mode, Phase, Env, Rest).
+    after_cut(Phase, Phase1),
+    block(Nodes, Outer, Mode, Phase1, Env, Rest).
 block(leaf(Heads), Node, Nodes, Outer, Mode, Phase, Env, Code) =>
-    noted(Node, Env, Called),
+    noted(Node, Phase, Env, Called),
     block(Nodes, Outer, Mode, Phase, Env, Rest),
     guarded(Heads, Node, Env, (Called,Rest), Code).
 block(control, _-Goal, Nodes, Outer, _, _, Env, Code) =>
@@ -415,7 +451,7 @@ parts_block(both(A, B), _, Nodes, Outer, Mode, Phase, Env, Code) =>
 parts_block(not(A), N-_, Nodes, Outer, Mode, Phase, Env, Code) =>
     Code = ((\+ Test -> true ; Fails), Rest),
     test(A, Env, Test),
-    fails(N, fails_at, Env, Fails),
+    fails(N, Phase, Env, Fails),
     block(Nodes, Outer, Mode, Phase, Env, Rest).
 parts_block(either(A, B), _, Nodes, Outer, Mode, Phase, Env, Code) =>
     branches([A,B], Nodes, Outer, Mode, Phase, Env, [CodeA,CodeB], Rest),
@@ -423,7 +459,7 @@ parts_block(either(A, B), _, Nodes, Outer, Mode, Phase, Env, Code) =>
 parts_block(if(Arrow, If, Then, Else, N-_), _, Nodes, Outer, Mode, Phase, Env,
             Code), Else = _-Fail, Fail == fail =>
     test(If, Env, Test),
-    fails(N, fails_at, Env, Fails),
+    fails(N, Phase, Env, Fails),
     branches([Then], Nodes, Outer, Mode, Phase, Env, [CodeT], Rest),
     condition(Arrow, Test, CodeT, Fails, Code0),
     join(Code0, Rest, Code).
@@ -448,7 +484,8 @@ branches(Branches, Nodes, Outer, Mode, Phase, Env, Codes, Rest) :-
     (   \+ ( member(Branch, Branches),
              \+ cannot_stop(Branch, Env) )
     ->  maplist(branch(through, [], Phase, Env), Branches, Codes),
-        block(Nodes, Outer, Mode, Phase, Env, Rest)
+        after_branches(Branches, Phase, Phase1),
+        block(Nodes, Outer, Mode, Phase1, Env, Rest)
     ;   append(Nodes, Outer, After),
         maplist(branch(tail, After, Phase, Env), Branches, Codes),
         Rest = none
@@ -457,9 +494,23 @@ branches(Branches, Nodes, Outer, Mode, Phase, Env, Codes, Rest) :-
 branch(Mode, After, Phase, Env, Branch, Code) :-
     block([Branch], After, Mode, Phase, Env, Code).
 
-cut(first, _, !).
-cut(later, env(_, _, _, _, args(_, _, _, _, Barrier), _),
-    prolog_cut_to(Barrier)).
+cut(later, env(_, _, _, _, args(_, _, _, _, Barrier), _), Cut) =>
+    Cut = prolog_cut_to(Barrier).
+cut(_, _, Cut) =>
+    Cut = (!).
+
+after_cut(guard, first) :-
+    !.
+after_cut(Phase, Phase).
+
+%   A branch may have cut.
+
+after_branches(Branches, guard, first) :-
+    sub_term(Cut, Branches),
+    nonvar(Cut),
+    Cut = '$cut'(_),
+    !.
+after_branches(_, Phase, Phase).
 
 %   guarded(+Heads, +Node, +Env, +Code0, -Code): Code0 if none of Heads holds
 %   rules in the state of the agent.
@@ -467,30 +518,73 @@ cut(later, env(_, _, _, _, args(_, _, _, _, Barrier), _),
 guarded([], _, _, Code, Code) :-
     !.
 guarded(Heads, N-_, Env, Code, Guarded) :-
-    at(N, Env, Place, Vars, _),
+    at(N, Env, Place, Vars),
     Env = env(_, _, _, _, args(K, X, Base, Out, _), _),
-    Guarded = ( typhon_machine:ruled(Heads, X)
+    Guarded = ( Ruled
               ->  typhon_machine:handed(Place, Vars, K, X, Base, Out)
               ;   Code
-              ).
+              ),
+    (   Heads = [Head]
+    ->  Ruled = ( '$get_predicate_attribute'(Head, number_of_rules, Count),
+                  Count \== 0,
+                  typhon_machine:ruled(Heads, X)
+                )
+    ;   Ruled = typhon_machine:ruled(Heads, X)
+    ).
 
                 /*******************************
                 *        NATIVE GOALS          *
                 *******************************/
 
-%   noted(+Node, +Env, -Called): Goal is called, and its failure noted.
+%   noted(+Node, +Phase, +Env, -Called): Goal is called, and its failure noted.
 
-noted(N-Goal, Env, Called) :-
-    native(Goal, Env, Native),
-    fails(N, fails_at, Env, Fails),
+noted(N-(Variable = Term), _, Env, Called), fresh(Variable, Term, N, Env) =>
+    Called = (Variable = Term).
+noted(N-(Variable is Expression), Phase, Env, Called),
+        added(Variable, Expression, N, Env, Number) =>
+    Called = ( integer(Number)
+             ->  Variable is Expression
+             ;   Other
+             ),
+    called(N-(Variable is Expression), Phase, Env, Other).
+noted(Node, Phase, Env, Called) =>
+    called(Node, Phase, Env, Called).
+
+called(N-Goal, Phase, Env, Called) :-
+    native(N, Goal, Env, Native),
+    fails(N, Phase, Env, Fails),
     Called = ( Native *-> true ; Fails ).
+
+%   This cannot fail.
+
+fresh(Variable, Term, N, Env) :-
+    new(N, Env, New),
+    var(Variable),
+    among(New, Variable),
+    \+ sub_variable(Variable, Term).
+
+%   This is quick, and cannot fail either, if Number is an integer.
+
+added(Variable, Expression, N, Env, Number) :-
+    nonvar(Expression),
+    ( Expression = Number+I ; Expression = Number-I ),
+    var(Number),
+    integer(I),
+    abs(I) < 1000,
+    fresh(Variable, Number, N, Env),
+    \+ current_prolog_flag(optimise, true).
+
+new(N, Env, New) :-
+    arg(3, Env, Places),
+    memberchk(place(N, _, New, _, _), Places).
 
 %   What fails_at/3 is called with has the variables that are new in the goal,
 %   too, for what reads them where an error is raised, and no barrier.
 
-fails(N, Name, Env, typhon_faults:Fails) :-
+fails(N, Phase, Env, typhon_faults:Fails) :-
+    ( Phase == guard -> Name = test_fails ; Name = fails_at ),
     Env = env(Module, _, Places, _, args(K, _, _, _, Barrier), _),
-    at(N, Env, Place, _, _),
+    at(N, Env, Place, _),
     memberchk(place(N, Old, New, _, _), Places),
     append(Old, New, Variables0),
     maplist(but_for(Barrier), Variables0, Variables),
@@ -503,22 +597,33 @@ but_for(Barrier, Variable, Other) :-
     ;   Other = Variable
     ).
 
-%   native(+Goal, +Env, -Native): arithmetic that the compiler would do in the
-%   clause is called, so that an error has a frame.
+%   native(+N, +Goal, +Env, -Native): arithmetic that the compiler would do in
+%   the clause is called, so that an error has a frame.  Variables are kept even
+%   if they occur but once, so that they can be read then.
 
-native(Variable is Expression, _, Native) :-
+native(_, Variable is Expression, _, Native) :-
     !,
     (   current_prolog_flag(optimise, true)
     ->  Native = call(Variable is Expression)
     ;   Native = ( Variable = _, Variable is Expression )
     ).
-native(Goal, _, call(Goal)) :-
+native(_, Goal, _, call(Goal)) :-
     current_prolog_flag(optimise, true),
     Goal =.. [Name,_,_],
     memberchk(Name, [<,>,=<,>=,=:=,=\=]),
     !.
-native(Goal, env(Module, Own, _, _, _, _), Native) :-
-    native_body(Goal, Module, Own, Native).
+native(N, Goal, Env, Native) :-
+    Env = env(Module, Own, _, _, _, _),
+    native_body(Goal, Module, Own, Native0),
+    (   '$get_predicate_attribute'(system:Goal, system, 1)
+    ->  Native = Native0
+    ;   new(N, Env, New),
+        kept(New, Native0, Native)
+    ).
+
+kept([], Native, Native).
+kept([Variable|Variables], Native0, (Variable = _, Native)) :-
+    kept(Variables, Native0, Native).
 
 %   test(+Node, +Env, -Code): of what fails in a condition the machine makes
 %   nothing in the end; of an error in it the place is told by what would be
@@ -547,8 +652,8 @@ test(if(Arrow, If, Then, Else, _), _, Env, Code) =>
 test(none, _-Goal, _, Code), harmless(Goal) =>
     Code = Goal.
 test(none, N-Goal, Env, Code) =>
-    native(Goal, Env, Native),
-    fails(N, test_fails, Env, Fails),
+    native(N, Goal, Env, Native),
+    fails(N, guard, Env, Fails),
     Code = ( Native *-> true ; Fails ).
 
 %   It raises no error.

@@ -63,8 +63,17 @@ fails(Goal, Goals) :-
 %   found out when the fault is asked for.
 
 fails_at(Place, Vars, Goals) :-
-    prolog_current_choice(Choice),
-    (   may_be_noted(Vars-Goals, Choice)
+    most_cells(Most),
+    '$term_size'(Vars-Goals, Most, _),
+    nb_setval(typhon_fault,
+              failed-fault('$k'(Place, Vars), ['$k'(Place, Vars)|Goals],
+                           natives(none, []))),
+    !,
+    fail.
+fails_at(Place, Vars, Goals) :-
+    prolog_current_choice(Choice0),
+    prolog_choice_attribute(Choice0, parent, Choice),   % its own
+    (   final(Choice)
     ->  note(failed, '$k'(Place, Vars), ['$k'(Place, Vars)|Goals])
     ;   functor(Vars, Program, _),
         note(failed, '$k'(Place, Program), unknown)
