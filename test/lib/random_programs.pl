@@ -2,13 +2,12 @@
           [ random_program/1,           % -Clauses
             engines_differ/2            % +Clauses, -Difference
           ]).
-:- use_module(library(apply), [foldl/4, maplist/2]).
+:- use_module(library(apply), [maplist/2]).
 :- use_module(library(gensym), [gensym/2]).
-:- use_module(library(lists), [append/3, member/2, memberchk/2]).
+:- use_module(library(lists), [member/2]).
 :- use_module(library(occurs), [sub_term/2]).
 :- use_module(library(random),
               [random/1, random_between/3, random_member/2]).
-:- use_module(library(time), [call_with_inference_limit/3]).
 :- use_module(library(typhon/kernel/program),
               [ code_install/3, code_module/2, fault/3, machine_run/3,
                 program_load/5 ]).

@@ -161,7 +161,7 @@ clause_compiled(I-Clause, Later, Count, Module, Own,
 
 %   phase(+PI, +Later, -Phase): of Later clauses, one is for all calls.
 
-phase(Name/Arity, Later, guard) :-
+phase(Name/Arity, Later, lead) :-
     functor(General, Name, Arity),
     member(_-Clause, Later),
     clause_parts(Clause, Head, _),
@@ -399,8 +399,8 @@ place_left(Place, Vars, Goal, Goals) :-
 
 %   block(+Nodes, +Outer, +Mode, +Phase, +Env, -Code): Code runs Nodes.  If Mode
 %   is `tail` it goes on with Outer, and with K; `through` leaves that to what
-%   comes after it, and cannot stop.  Phase is `guard` or `first` in the clause
-%   of a predicate, `later` in a frame.  What fails in a guard need not be noted:
+%   comes after it, and cannot stop.  Phase is `lead` or `first` in the clause
+%   of a predicate, `later` in a frame.  What fails in the lead need not be noted:
 %   no cut came before, so that another clause is tried, and if that comes to
 %   nothing, something in it has failed last.
 
@@ -427,7 +427,7 @@ block(cut, _, Nodes, Outer, Mode, Phase, Env, Code) =>
 block(leaf(Heads), Node, Nodes, Outer, Mode, Phase, Env, Code) =>
     noted(Node, Phase, Env, Called),
     block(Nodes, Outer, Mode, Phase, Env, Rest),
-    guarded(Heads, Node, Env, (Called,Rest), Code).
+    unless_ruled(Heads, Node, Env, (Called,Rest), Code).
 block(control, _-Goal, Nodes, Outer, _, _, Env, Code) =>
     rest(Nodes, Outer, Env, Goals),
     Env = env(_, _, _, _, args(_, _, _, Out, _), _),
@@ -444,7 +444,7 @@ block(parts(Heads), Node, Nodes, Outer, Mode, Phase, Env, Code) =>
     Node = N-Goal,
     node_parts(Goal, N, Parts),
     parts_block(Parts, Node, Nodes, Outer, Mode, Phase, Env, Code0),
-    guarded(Heads, Node, Env, Code0, Code).
+    unless_ruled(Heads, Node, Env, Code0, Code).
 
 parts_block(both(A, B), _, Nodes, Outer, Mode, Phase, Env, Code) =>
     block([A,B|Nodes], Outer, Mode, Phase, Env, Code).
@@ -499,28 +499,28 @@ cut(later, env(_, _, _, _, args(_, _, _, _, Barrier), _), Cut) =>
 cut(_, _, Cut) =>
     Cut = (!).
 
-after_cut(guard, first) :-
+after_cut(lead, first) :-
     !.
 after_cut(Phase, Phase).
 
 %   A branch may have cut.
 
-after_branches(Branches, guard, first) :-
+after_branches(Branches, lead, first) :-
     sub_term(Cut, Branches),
     nonvar(Cut),
     Cut = '$cut'(_),
     !.
 after_branches(_, Phase, Phase).
 
-%   guarded(+Heads, +Node, +Env, +Code0, -Code): Code0 if none of Heads holds
+%   unless_ruled(+Heads, +Node, +Env, +Code0, -Code): Code0 if none of Heads holds
 %   rules in the state of the agent.
 
-guarded([], _, _, Code, Code) :-
+unless_ruled([], _, _, Code, Code) :-
     !.
-guarded(Heads, N-_, Env, Code, Guarded) :-
+unless_ruled(Heads, N-_, Env, Code, Ruling) :-
     at(N, Env, Place, Vars),
     Env = env(_, _, _, _, args(K, X, Base, Out, _), _),
-    Guarded = ( Ruled
+    Ruling = ( Ruled
               ->  typhon_machine:handed(Place, Vars, K, X, Base, Out)
               ;   Code
               ),
@@ -582,7 +582,7 @@ new(N, Env, New) :-
 %   too, for what reads them where an error is raised, and no barrier.
 
 fails(N, Phase, Env, typhon_faults:Fails) :-
-    ( Phase == guard -> Name = test_fails ; Name = fails_at ),
+    ( Phase == lead -> Name = test_fails ; Name = fails_at ),
     Env = env(Module, _, Places, _, args(K, _, _, _, Barrier), _),
     at(N, Env, Place, _),
     memberchk(place(N, Old, New, _, _), Places),
@@ -653,7 +653,7 @@ test(none, _-Goal, _, Code), harmless(Goal) =>
     Code = Goal.
 test(none, N-Goal, Env, Code) =>
     native(N, Goal, Env, Native),
-    fails(N, guard, Env, Fails),
+    fails(N, lead, Env, Fails),
     Code = ( Native *-> true ; Fails ).
 
 %   It raises no error.

@@ -1,7 +1,6 @@
 :- module(typhon_clause_places,
           [ clause_places/5,            % +Head, +Body, -Barrier, -Nodes, -Places
-            node_parts/3,               % +Goal, +N, -Parts
-            nodes_goals/2               % +Nodes, -Goals
+            node_parts/3                % +Goal, +N, -Parts
           ]).
 :- use_module(library(apply), [exclude/3, include/3]).
 :- use_module(library(lists), [append/3, member/2]).
@@ -37,7 +36,7 @@ numbered([Goal|Goals], N, [N-Goal|Nodes]) :-
     N1 is N+Size,
     numbered(Goals, N1, Nodes).
 
-%!  nodes_goals(+Nodes, -Goals) is det.
+%   nodes_goals(+Nodes, -Goals)
 
 nodes_goals([], []).
 nodes_goals([_-Goal|Nodes], [Goal|Goals]) :-

@@ -71,8 +71,7 @@ fails_at(Place, Vars, Goals) :-
     !,
     fail.
 fails_at(Place, Vars, Goals) :-
-    prolog_current_choice(Choice0),
-    prolog_choice_attribute(Choice0, parent, Choice),   % its own
+    prolog_current_choice(Choice),
     (   final(Choice)
     ->  note(failed, '$k'(Place, Vars), ['$k'(Place, Vars)|Goals])
     ;   functor(Vars, Program, _),

@@ -2,7 +2,6 @@
 :- use_module(library(plunit)).
 :- use_module('../../../lib/common').
 :- use_module('../../../lib/random_programs').
-:- use_module(library(random), [set_random/1]).
 :- use_module(library(typhon/kernel/program), [code_clear/0]).
 
 /** <module> Tests of typhon_chunks: programs run as the machine runs them
