@@ -25,7 +25,7 @@ This is the interface of the layer: higher layers import from here.
               code_wrapped/3, sent_program/2 ]).
 :- reexport(program/mobile, [mobile_predicates/3]).
 :- reexport(program/machine,
-            [ answer_at/3, machine_inside/0, machine_run/3 ]).
+            [ answer_at/3, machine_inside/0, machine_ready/1, machine_run/3 ]).
 :- reexport(program/control, [control/1]).
 :- reexport(program/faults, [fault/3, fault_note/1, fault_noted/1]).
 :- reexport(program/clause_location, [fault_where/4, where_handled/5]).

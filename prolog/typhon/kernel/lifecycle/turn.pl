@@ -10,7 +10,7 @@
             turn_bounded/1,             % +Host
             turn_over/1                 % +Id
           ]).
-:- use_module('../program', [machine_run/3]).
+:- use_module('../program', [machine_ready/1, machine_run/3]).
 :- use_module('../host', [parts/3]).
 
 /** <module> A turn: one run of the machine, which options may change
@@ -70,7 +70,8 @@ turn_run(Engine, Turn, Start, Outcome, Goals0) :-
 bounded_run(Turn, Goals, Outcome) :-
     Turn = turn(_, Host, Context),
     (   parts(turn, Host, [Run|_])
-    ->  call(Run, Turn, Goals, Outcome)
+    ->  machine_ready(Context),
+        call(Run, Turn, Goals, Outcome)
     ;   machine_run(Context, Goals, Outcome)
     ).
 

@@ -1,6 +1,7 @@
 :- module(typhon_machine,
           [ machine_run/3,              % +Context, +Goals, -Outcome
             answer_at/3,                % +Control, +Answer, -Goal
+            machine_ready/1,            % +Context
             machine_inside/0,
             ruled/2,                    % +Heads, +Context
             handed/6                    % +Place, +Vars, +Goals, +Context,
@@ -8,7 +9,8 @@
           ]).
 :- use_module(bodies,
               [body_goals/4, called_goal/2, goals_body/2, plain_goals/2]).
-:- use_module(chunks, [chunks_ready/1, place_marked/3]).
+:- use_module(chunk_goals, [place_marked/3]).
+:- use_module(chunks, [chunks_ready/1]).
 :- use_module(control, [special/2]).
 :- multifile
     checked/3.                  % Context, Goal, Called: it may be called
@@ -61,6 +63,16 @@ machine_run(Context, Goals, Outcome) :-
     catch(first_outcome(Goals, Context, Outcome), Ball, Raised = true),
     (   Raised == true
     ->  raised(Ball, Outcome)
+    ;   true
+    ).
+
+%!  machine_ready(+Context) is det.
+%
+%   Compile the program, so that no limit of the run counts that.
+
+machine_ready(context(Program, _)) :-
+    (   chunks_ready(Program)
+    ->  true
     ;   true
     ).
 

@@ -1,0 +1,374 @@
+:- module(typhon_chunk_code,
+          [ clause_code/5,              % +Own, +Clause, +Phase, +Args, -Code
+            named/4,                    % +Prefix, +Goal, +More, -Named
+            occurs/2                    % +Variable, +Term
+          ]).
+:- use_module(library(apply), [maplist/3]).
+:- use_module(library(lists), [append/3, member/2, memberchk/2]).
+:- use_module(library(occurs), [sub_term/2]).
+:- use_module(chunk_kinds, [cannot_stop/2, goal_kind/3]).
+:- use_module(clause_places, [clause_places/5, node_parts/3]).
+:- use_module(code, [native_body/4]).
+
+/** <module> The code of a chunk
+
+What a clause becomes, see typhon_chunks.
+
+*Threading*: pure, but for the destructive change of a term of its own.
+*/
+
+%!  clause_code(+Own, +Clause, +Phase, +Args, -Code) is det.
+%
+%   @arg Own is own(Module, Kinds, I/Count): Clause, (Head:-Body), is the I-th of
+%        Count of the program in Module.
+%   @arg Phase says whether another clause is there for all calls, see block/6.
+%   @arg Args is args(K, X, Base, Out, Barrier), the variables of the code.
+%   @arg Code is Body-Frames, where each frame is frame(Place, Vars, Args, Body).
+
+clause_code(own(Module, Own, Number), (Head:-Body), Phase, Args, Code-Frames) :-
+    arg(5, Args, Barrier),
+    clause_places(Head, Body, Barrier, Nodes, Places),
+    Env = env(Module, Own, Places, Number, Args, frames([])),
+    block(Nodes, [], tail, Phase, Env, Code),
+    arg(6, Env, frames(Frames)).
+
+%!  named(+Prefix, +Goal, +More, -Named) is det.
+%
+%   Named has the name of Goal with Prefix, and More arguments.
+
+named(Prefix, Goal, More, Named) :-
+    Goal =.. [Name|Args],
+    atom_concat(Prefix, Name, NewName),
+    append(Args, More, NewArgs),
+    Named =.. [NewName|NewArgs].
+
+%!  occurs(+Variable, +Term) is semidet.
+
+occurs(Variable, Term) :-
+    term_variables(Term, Variables),
+    among(Variables, Variable).
+
+among(Variables, Variable) :-
+    member(Other, Variables),
+    Other == Variable,
+    !.
+
+                /*******************************
+                *            FRAMES            *
+                *******************************/
+
+%   frame_at(+Nodes, +Outer, +Env, -Place, -Vars): the frame of Nodes and then
+%   Outer is made if it is not there yet.
+
+frame_at(Nodes, Outer, Env, Place, Vars) :-
+    append(Nodes, Outer, [N-_|_]),
+    at(N, Env, Place, Vars),
+    arg(6, Env, Frames),
+    (   arg(1, Frames, List),
+        memberchk(frame(Place, _, _, _), List)
+    ->  true
+    ;   arg(5, Env, Args),
+        Frame = frame(Place, Vars, Args, Code),
+        arg(1, Frames, List0),
+        setarg(1, Frames, [Frame|List0]),
+        (   Nodes == []
+        ->  Own = Outer,
+            After = []
+        ;   Own = Nodes,
+            After = Outer
+        ),
+        block(Own, After, tail, later, Env, Code)
+    ).
+
+%   at(+N, +Env, -Place, -Vars): the number of a place in a program
+%   says its clause, too.
+
+at(N, env(Module, _, Places, I/Count, _, _), Place, Vars) :-
+    memberchk(place(N, Variables, _, _, _), Places),
+    Place is N*Count+I,
+    Vars =.. [Module|Variables].
+
+rest(Nodes, Outer, Env, Goals) :-
+    arg(5, Env, args(K, _, _, _, _)),
+    (   Nodes == [],
+        Outer == []
+    ->  Goals = K
+    ;   frame_at(Nodes, Outer, Env, Place, Vars),
+        Goals = ['$k'(Place, Vars)|K]
+    ).
+
+                /*******************************
+                *            BLOCKS            *
+                *******************************/
+
+%   kind(+Goal, +Env, -Kind): see goal_kind/3.
+
+kind(Goal, env(Module, Own, _, _, _, _), Kind) :-
+    goal_kind(Goal, Module-Own, Kind).
+
+%   block(+Nodes, +Outer, +Mode, +Phase, +Env, -Code): Code runs Nodes.  If Mode
+%   is `tail` it goes on with Outer, and with K; `through` leaves that to what
+%   comes after it, and cannot stop.  Phase is `lead` or `first` in the clause
+%   of a predicate, `later` in a frame.  What fails in the lead need not be noted:
+%   no cut came before, so that another clause is tried, and if that comes to
+%   nothing, something in it has failed last.
+
+block([], Outer, tail, _, Env, Code) =>
+    Env = env(_, _, _, _, args(K, X, Base, Out, _), _),
+    (   Outer == []
+    ->  Code = '$go'(K, X, Base, Out)
+    ;   frame_at([], Outer, Env, Place, Vars),
+        Code = '$k'(Place, Vars, K, X, Base, Out)
+    ).
+block([], _, through, _, _, Code) =>
+    Code = true.
+block([N-Goal|Nodes], Outer, Mode, Phase, Env, Code) =>
+    kind(Goal, Env, How),
+    block(How, N-Goal, Nodes, Outer, Mode, Phase, Env, Code).
+
+block(true, _, Nodes, Outer, Mode, Phase, Env, Code) =>
+    block(Nodes, Outer, Mode, Phase, Env, Code).
+block(cut, _, Nodes, Outer, Mode, Phase, Env, Code) =>
+    Code = (Cut,Rest),
+    cut(Phase, Env, Cut),
+    after_cut(Phase, Phase1),
+    block(Nodes, Outer, Mode, Phase1, Env, Rest).
+block(leaf(Heads), Node, Nodes, Outer, Mode, Phase, Env, Code) =>
+    noted(Node, Phase, Env, Called),
+    block(Nodes, Outer, Mode, Phase, Env, Rest),
+    unless_ruled(Heads, Node, Env, (Called,Rest), Code).
+block(control, _-Goal, Nodes, Outer, _, _, Env, Code) =>
+    rest(Nodes, Outer, Env, Goals),
+    Env = env(_, _, _, _, args(_, _, _, Out, _), _),
+    Code = (Out = effect(Goal, Hole, [Hole|Goals])).
+block(mobile, _-Goal, Nodes, Outer, _, _, Env, Code) =>
+    rest(Nodes, Outer, Env, Goals),
+    Env = env(_, _, _, _, args(_, X, Base, Out, _), _),
+    named('run ', Goal, [Goals,X,Base,Out], Code).
+block(machine, _-Goal, Nodes, Outer, _, _, Env, Code) =>
+    rest(Nodes, Outer, Env, Goals),
+    Env = env(_, _, _, _, args(_, X, Base, Out, _), _),
+    Code = typhon_machine:step(Goal, Goals, X, Base, Out).
+block(parts(Heads), Node, Nodes, Outer, Mode, Phase, Env, Code) =>
+    Node = N-Goal,
+    node_parts(Goal, N, Parts),
+    parts_block(Parts, Node, Nodes, Outer, Mode, Phase, Env, Code0),
+    unless_ruled(Heads, Node, Env, Code0, Code).
+
+parts_block(both(A, B), _, Nodes, Outer, Mode, Phase, Env, Code) =>
+    block([A,B|Nodes], Outer, Mode, Phase, Env, Code).
+parts_block(not(A), N-_, Nodes, Outer, Mode, Phase, Env, Code) =>
+    Code = ((\+ Test -> true ; Fails), Rest),
+    test(A, Env, Test),
+    fails(N, Phase, Env, Fails),
+    block(Nodes, Outer, Mode, Phase, Env, Rest).
+parts_block(either(A, B), _, Nodes, Outer, Mode, Phase, Env, Code) =>
+    branches([A,B], Nodes, Outer, Mode, Phase, Env, [CodeA,CodeB], Rest),
+    join((CodeA;CodeB), Rest, Code).
+parts_block(if(Arrow, If, Then, Else, N-_), _, Nodes, Outer, Mode, Phase, Env,
+            Code), Else = _-Fail, Fail == fail =>
+    test(If, Env, Test),
+    fails(N, Phase, Env, Fails),
+    branches([Then], Nodes, Outer, Mode, Phase, Env, [CodeT], Rest),
+    condition(Arrow, Test, CodeT, Fails, Code0),
+    join(Code0, Rest, Code).
+parts_block(if(Arrow, If, Then, Else, _), _, Nodes, Outer, Mode, Phase, Env,
+            Code) =>
+    test(If, Env, Test),
+    branches([Then,Else], Nodes, Outer, Mode, Phase, Env, [CodeT,CodeE], Rest),
+    condition(Arrow, Test, CodeT, CodeE, Code0),
+    join(Code0, Rest, Code).
+
+condition(->, If, Then, Else, (If->Then;Else)).
+condition(*->, If, Then, Else, (If*->Then;Else)).
+
+join(Code, none, Code) :-
+    !.
+join(Code, Rest, (Code,Rest)).
+
+%   branches(+Branches, +Nodes, ...): if no branch can stop what comes after is
+%   Rest, else each goes on with it.
+
+branches(Branches, Nodes, Outer, Mode, Phase, Env, Codes, Rest) :-
+    Env = env(Module, Own, _, _, _, _),
+    (   \+ ( member(_-Branch, Branches),
+             \+ cannot_stop(Branch, Module-Own) )
+    ->  maplist(branch(through, [], Phase, Env), Branches, Codes),
+        after_branches(Branches, Phase, Phase1),
+        block(Nodes, Outer, Mode, Phase1, Env, Rest)
+    ;   append(Nodes, Outer, After),
+        maplist(branch(tail, After, Phase, Env), Branches, Codes),
+        Rest = none
+    ).
+
+branch(Mode, After, Phase, Env, Branch, Code) :-
+    block([Branch], After, Mode, Phase, Env, Code).
+
+cut(later, env(_, _, _, _, args(_, _, _, _, Barrier), _), Cut) =>
+    Cut = prolog_cut_to(Barrier).
+cut(_, _, Cut) =>
+    Cut = (!).
+
+after_cut(lead, first) :-
+    !.
+after_cut(Phase, Phase).
+
+%   A branch may have cut.
+
+after_branches(Branches, lead, first) :-
+    sub_term(Cut, Branches),
+    nonvar(Cut),
+    Cut = '$cut'(_),
+    !.
+after_branches(_, Phase, Phase).
+
+%   unless_ruled(+Heads, +Node, +Env, +Code0, -Code): Code0 if none of Heads holds
+%   rules in the state of the agent.
+
+unless_ruled([], _, _, Code, Code) :-
+    !.
+unless_ruled(Heads, N-_, Env, Code, Ruling) :-
+    at(N, Env, Place, Vars),
+    Env = env(_, _, _, _, args(K, X, Base, Out, _), _),
+    Ruling = ( Ruled
+              ->  typhon_machine:handed(Place, Vars, K, X, Base, Out)
+              ;   Code
+              ),
+    (   Heads = [Head]
+    ->  Ruled = ( '$get_predicate_attribute'(Head, number_of_rules, Count),
+                  Count \== 0,
+                  typhon_machine:ruled(Heads, X)
+                )
+    ;   Ruled = typhon_machine:ruled(Heads, X)
+    ).
+
+                /*******************************
+                *        NATIVE GOALS          *
+                *******************************/
+
+%   noted(+Node, +Phase, +Env, -Called): Goal is called, and its failure noted.
+
+noted(N-(Variable = Term), _, Env, Called), fresh(Variable, Term, N, Env) =>
+    Called = (Variable = Term).
+noted(N-(Variable is Expression), Phase, Env, Called),
+        added(Variable, Expression, N, Env, Number) =>
+    Called = ( integer(Number)
+             ->  Variable is Expression
+             ;   Other
+             ),
+    called(N-(Variable is Expression), Phase, Env, Other).
+noted(Node, Phase, Env, Called) =>
+    called(Node, Phase, Env, Called).
+
+called(N-Goal, Phase, Env, Called) :-
+    native(N, Goal, Env, Native),
+    fails(N, Phase, Env, Fails),
+    Called = ( Native *-> true ; Fails ).
+
+%   This cannot fail.
+
+fresh(Variable, Term, N, Env) :-
+    new(N, Env, New),
+    var(Variable),
+    among(New, Variable),
+    \+ occurs(Variable, Term).
+
+%   This is quick, and cannot fail either, if Number is an integer.
+
+added(Variable, Expression, N, Env, Number) :-
+    nonvar(Expression),
+    ( Expression = Number+I ; Expression = Number-I ),
+    var(Number),
+    integer(I),
+    abs(I) < 1000,
+    fresh(Variable, Number, N, Env),
+    \+ current_prolog_flag(optimise, true).
+
+new(N, Env, New) :-
+    arg(3, Env, Places),
+    memberchk(place(N, _, New, _, _), Places).
+
+%   What fails_at/3 is called with has the variables that are new in the goal,
+%   too, for what reads them where an error is raised, and no barrier.
+
+fails(N, Phase, Env, typhon_faults:Fails) :-
+    ( Phase == lead -> Name = test_fails ; Name = fails_at ),
+    Env = env(Module, _, Places, _, args(K, _, _, _, Barrier), _),
+    at(N, Env, Place, _),
+    memberchk(place(N, Old, New, _, _), Places),
+    append(Old, New, Variables0),
+    maplist(but_for(Barrier), Variables0, Variables),
+    Vars =.. [Module|Variables],
+    Fails =.. [Name, Place, Vars, K].
+
+but_for(Barrier, Variable, Other) :-
+    (   Variable == Barrier
+    ->  Other = none
+    ;   Other = Variable
+    ).
+
+%   native(+N, +Goal, +Env, -Native): arithmetic that the compiler would do in
+%   the clause is called, so that an error has a frame.  Variables are kept even
+%   if they occur but once, so that they can be read then.
+
+native(_, Variable is Expression, _, Native) :-
+    !,
+    (   current_prolog_flag(optimise, true)
+    ->  Native = call(Variable is Expression)
+    ;   Native = ( Variable = _, Variable is Expression )
+    ).
+native(_, Goal, _, call(Goal)) :-
+    current_prolog_flag(optimise, true),
+    Goal =.. [Name,_,_],
+    memberchk(Name, [<,>,=<,>=,=:=,=\=]),
+    !.
+native(N, Goal, Env, Native) :-
+    Env = env(Module, Own, _, _, _, _),
+    native_body(Goal, Module, Own, Native0),
+    (   '$get_predicate_attribute'(system:Goal, system, 1)
+    ->  Native = Native0
+    ;   new(N, Env, New),
+        kept(New, Native0, Native)
+    ).
+
+kept([], Native, Native).
+kept([Variable|Variables], Native0, (Variable = _, Native)) :-
+    kept(Variables, Native0, Native).
+
+%   test(+Node, +Env, -Code): of what fails in a condition the machine makes
+%   nothing in the end; of an error in it the place is told by what would be
+%   called then.
+
+test(N-Goal, Env, Code) :-
+    node_parts(Goal, N, Parts),
+    test(Parts, N-Goal, Env, Code).
+
+test(both(A, B), _, Env, Code) =>
+    Code = (CodeA,CodeB),
+    test(A, Env, CodeA),
+    test(B, Env, CodeB).
+test(either(A, B), _, Env, Code) =>
+    Code = (CodeA;CodeB),
+    test(A, Env, CodeA),
+    test(B, Env, CodeB).
+test(not(A), _, Env, Code) =>
+    Code = (\+ CodeA),
+    test(A, Env, CodeA).
+test(if(Arrow, If, Then, Else, _), _, Env, Code) =>
+    test(If, Env, CodeI),
+    test(Then, Env, CodeT),
+    test(Else, Env, CodeE),
+    condition(Arrow, CodeI, CodeT, CodeE, Code).
+test(none, _-Goal, _, Code), harmless(Goal) =>
+    Code = Goal.
+test(none, N-Goal, Env, Code) =>
+    native(N, Goal, Env, Native),
+    fails(N, lead, Env, Fails),
+    Code = ( Native *-> true ; Fails ).
+
+%   It raises no error.
+
+harmless(Goal) :-
+    memberchk(Goal, [ !, true, fail, false, _ = _, _ == _, _ \== _, var(_),
+                      nonvar(_), atom(_), integer(_), number(_), atomic(_),
+                      compound(_) ]).

@@ -1,0 +1,112 @@
+:- module(typhon_chunk_goals,
+          [ place_left/4,               % +Place, +Vars, -Goal, -Goals
+            place_marked/3              % +Place, +Vars, -Left
+          ]).
+:- use_module(library(apply), [maplist/2]).
+:- use_module(library(lists), [append/3, memberchk/2, nth0/3]).
+:- use_module(library(occurs), [sub_term/2]).
+:- use_module(bodies, [plain_goals/2]).
+:- use_module(clause_places, [clause_places/5]).
+:- use_module(code, [code_module/2, code_program/2]).
+:- use_module(control, [special/2]).
+:- use_module(source, [clause_parts/3]).
+
+/** <module> Frames of chunks and the goals that they stand for
+
+A place of a program is Number*Count+Clause, for the goal of that number in a
+clause (see typhon_clause_places), of which there are Count.  What an agent has
+left at a place is read from the clause when it stops there first.  Then it is in
+two tables of the program's module: '$goals'/4, from frames to goals, and, if that
+saves time, '$frame'/5, from goals to frames.
+
+*Threading*: any thread; one mutex when a place is added.
+*/
+
+%!  place_left(+Place, +Vars, -Goal, -Goals) is det.
+%!  place_marked(+Place, +Vars, -Left) is det.
+%
+%   The goal at a place, and the goals that are left there, with cuts as the
+%   machine has them; Left is Goals-Rest.  Vars is the name of the module alone
+%   if they are not known.
+
+place_marked(Place, Vars, Goals-Rest) :-
+    functor(Vars, Module, _),
+    (   Module:'$marked'(Place, Vars, Goals0, Rest)
+    ->  Goals = Goals0
+    ;   functor(Vars, _, Arity),
+        functor(General, Module, Arity),
+        place_left(Place, General, _, Goals1),
+        append(Goals1, Rest1, Goals2),
+        assertz(Module:'$marked'(Place, General, Goals2, Rest1)),
+        place_marked(Place, Vars, Goals-Rest)
+    ).
+
+:- public place_plain/4.
+
+%   The tables '$goals' and '$frame' have the places that were asked for, the
+%   first of them last.
+
+place_plain(Place, Vars, Goals, Rest) :-
+    functor(Vars, Module, Arity),
+    functor(General, Module, Arity),
+    place_left(Place, General, _, Goals0),
+    plain_goals(Goals0, Plain),
+    append(Plain, Rest0, List),
+    with_mutex(typhon_chunks,
+               add_place(Module, Place, General, Goals0, Plain, List, Rest0)),
+    Vars-Goals-Rest = General-List-Rest0.
+
+add_place(Module, Place, _, _, _, _, _) :-
+    clause(Module:'$goals'(Place, _, _, _), true),
+    !.
+add_place(Module, Place, General, Goals, Plain, List, Rest) :-
+    asserta(Module:'$goals'(Place, General, List, Rest)),
+    (   is_frame(Module, Place, General),
+        worth(Plain),
+        Plain = [First|_]
+    ->  functor(First, Name, Arity),
+        functor(Head, Name, Arity),
+        barrier(Goals, Base),
+        asserta(Module:( '$frame'(Head, List, Base0, Frame, Rest0) =>
+                             Base0 = Base,
+                             Frame = '$k'(Place, General),
+                             Rest0 = Rest ))
+    ;   true
+    ).
+
+is_frame(Module, Place, Vars) :-
+    \+ \+ clause(Module:'$k'(Place, Vars, _, _, _, _), _).
+
+%   It begins with native goals, as far as can be seen.
+
+worth([A,B,C|_]) :-
+    maplist(plain_goal, [A,B,C]).
+
+plain_goal(Goal) :-
+    callable(Goal),
+    \+ special(Goal, _).
+
+%   Cuts go to where the run began.
+
+barrier(Goals, Barrier) :-
+    sub_term(Cut, Goals),
+    nonvar(Cut),
+    Cut = '$cut'(Barrier),
+    !.
+barrier(_, _).
+
+place_left(Place, Vars, Goal, Goals) :-
+    functor(Vars, Module, _),
+    Module:'$chunks'(Count),
+    code_module(Hash, Module),
+    code_program(Hash, program(_, _, _, Clauses)),
+    I is Place mod Count,
+    N is Place//Count,
+    nth0(I, Clauses, Clause),
+    clause_parts(Clause, Head, Body),
+    clause_places(Head, Body, _, _, Places),
+    memberchk(place(N, Old, New, Goal, Goals), Places),
+    Vars =.. [_|Values],
+    append(Old, New, Variables),
+    append(Values, _, Variables),
+    !.
