@@ -19,8 +19,8 @@ CHECKS = list_undefined, list_trivial_fails, list_format_errors, \
     list_redefined, list_void_declarations, list_autoload
 
 .PHONY: help tools tools-peers tools-all tools-ros demo demo-robots demo-ros \
-    demo-page page-tools thesis thesis-real test chaos scripted fuzz hostile \
-    check check-all \
+    demo-page page-tools thesis thesis-real test chaos scripted fuzz \
+    fuzz-programs hostile check check-all \
     doc pictures vscode release bench bench-peers profile \
     test-portability install clean
 
@@ -89,6 +89,9 @@ check-all:
 
 fuzz:                   ## what nobody should send; COUNT=100000, SEED=1, TLS=true
 	@$(SWIPL) test/chaos/fuzz.pl -- --count $(COUNT) --seed $(SEED) --tls=$(TLS)
+
+fuzz-programs:          ## random programs, compiled and interpreted; COUNT, SEED=1
+	@TYPHON_PROGRAMS=$(COUNT) TYPHON_SEED=$(SEED) $(SWIPL) test/run.pl -- chunks
 
 hostile:                ## hostile agents on a guarded host; COUNT=100000, SEED=1
 	@$(SWIPL) test/chaos/hostile.pl -- --count $(COUNT) --seed $(SEED)

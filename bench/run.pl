@@ -66,6 +66,7 @@ job(hosts, [env], unpinned).
 job(population, [env], unpinned).
 job(virtual, [env], 20000).
 job(inferences, [env], 4000).
+job(compiled, [env], 4000).
 job(tartarus, [env], 2000).
 job(watch, [env], 9).
 job(phercon, [env], 3).

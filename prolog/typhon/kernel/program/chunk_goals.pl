@@ -2,8 +2,8 @@
           [ place_left/4,               % +Place, +Vars, -Goal, -Goals
             place_marked/3              % +Place, +Vars, -Left
           ]).
-:- use_module(library(apply), [maplist/2]).
-:- use_module(library(lists), [append/3, memberchk/2, nth0/3]).
+:- use_module(library(apply), [exclude/3, maplist/2]).
+:- use_module(library(lists), [append/3, member/2, memberchk/2, nth0/3]).
 :- use_module(library(occurs), [sub_term/2]).
 :- use_module(bodies, [plain_goals/2]).
 :- use_module(clause_places, [clause_places/5]).
@@ -67,12 +67,43 @@ add_place(Module, Place, General, Goals, Plain, List, Rest) :-
     ->  functor(First, Name, Arity),
         functor(Head, Name, Arity),
         barrier(Goals, Base),
-        asserta(Module:( '$frame'(Head, List, Base0, Frame, Rest0) =>
-                             Base0 = Base,
-                             Frame = '$k'(Place, General),
-                             Rest0 = Rest ))
+        term_variables(General, Known),
+        term_variables(Plain, Variables),
+        exclude(among(Known), Variables, New),
+        asserta(Module:( ?=>('$frame'(Head, List, Base0, Frame, Rest0),
+                             ( typhon_chunk_goals:untouched(New, General-Rest),
+                               !,
+                               Base0 = Base,
+                               Frame = '$k'(Place, General),
+                               Rest0 = Rest )) ))
     ;   true
     ).
+
+:- public untouched/2.
+
+%   untouched(+New, +Others) is semidet: a frame does not hold the variables that
+%   are New in its goals.  So they must be unbound, different, and occur nowhere
+%   else, as where the agent stopped at its place.
+
+untouched([], _) :-
+    !.
+untouched(New, Others) :-
+    term_variables(New, Variables),
+    Variables == New,
+    term_variables(Others, Known),
+    (   Known == []
+    ->  true
+    ;   term_variables(Others-New, All),
+        length(New, N),
+        length(Known, K),
+        length(All, Sum),
+        Sum =:= N+K
+    ).
+
+among(Variables, Variable) :-
+    member(Other, Variables),
+    Other == Variable,
+    !.
 
 is_frame(Module, Place, Vars) :-
     \+ \+ clause(Module:'$k'(Place, Vars, _, _, _, _), _).

@@ -2,7 +2,10 @@
 :- use_module(library(plunit)).
 :- use_module('../../../lib/common').
 :- use_module('../../../lib/random_programs').
-:- use_module(library(typhon/kernel/program), [code_clear/0]).
+:- use_module(library(lists), [member/2]).
+:- use_module(library(typhon/kernel/program),
+              [ code_clear/0, code_install/3, code_module/2, machine_run/3,
+                plain_goals/2, program_load/5 ]).
 
 /** <module> Tests of typhon_chunks: programs run as the machine runs them
 
@@ -22,6 +25,84 @@ test(random_programs_run_as_in_the_machine, Differing == []) :-
               engines_differ(Clauses, Difference)
             ),
             Differing).
+
+%   Of each place at which an agent has stopped, with any values.
+
+test(a_frame_is_made_of_its_goals_again, Lost-Many == []-true) :-
+    findall(Kept,
+            ( between(1, 300, Seed),
+              set_random(seed(Seed)),
+              once(random_program(Clauses)),
+              \+ engines_differ(Clauses, _),
+              program_frames(Clauses, Frames),
+              member(Frame-Goals-Again, Frames),
+              (   Again =@= Goals
+              ->  Kept = kept
+              ;   Kept = lost(Frame, Goals, Again)
+              )
+            ),
+            All),
+    findall(F, ( member(F, All), F \== kept ), Lost),
+    length(All, Count),
+    ( Count > 5 -> Many = true ; Many = Count ).
+test(goals_of_another_clause_are_no_frame, Goals-Outcome == [1,7]-done) :-
+    Clauses = [ (:- agent(instance, [state([t_/1])])),
+                (main :- p, q(7)),
+                (p :- move(a), X = Y, t(Y), r(X), r(Y), Y = 1),
+                (q(X) :- move(a), X = Y, t(Y), r(X), r(Y)),
+                (t(X) :- ( var(X) -> assertz(t_(1)) ; assertz(t_(X)) )),
+                r(_) ],
+    stopped(Clauses, Module, Goals1),
+    next(Module, Goals1, effect(move(a), true, Goals2)),
+    next(Module, Goals2, Outcome),
+    findall(T, chunks_agent:t_(T), Goals),
+    abolish(chunks_agent:t_/1).
+test(an_instance_of_goals_is_no_frame) :-
+    Clauses = [ (:- agent(instance, [])),
+                (main :- move(a), X = f(Y), functor(X, _, _), Y == 1, move(b)) ],
+    stopped(Clauses, Module, [true|Goals]),
+    assertion(framed(Module, Goals)),
+    copy_term(Goals, Bound),
+    Bound = [_ = f(1)|_],
+    assertion(\+ framed(Module, Bound)),
+    copy_term(Goals, [_|General]),
+    assertion(\+ framed(Module, [_ = _|General])).
+test(a_program_is_compiled_by_its_first_run) :-
+    Clauses = [(:- agent(first, [])), (main :- p), (p :- move(a), t(1)), t(_)],
+    stopped(Clauses, Module, Goals),
+    assertion(Goals == [true,t(1)]),
+    assertion(Module:'$chunks'(_)).
+
+%   stopped(+Clauses, -Module, -Goals): what is left at the first stop.
+
+stopped(Clauses, Module, Goals) :-
+    program_load(clauses(Clauses), Program, _, Hash, Kinds),
+    code_install(Hash, Program, Kinds),
+    code_module(Hash, Module),
+    set_module(chunks_agent:base(Module)),
+    next(Module, [main], effect(_, true, Goals)).
+
+next(Module, Goals, Outcome) :-
+    machine_run(context(Module, chunks_agent), Goals, Outcome).
+
+framed(Module, [Goal|Goals]) :-
+    Module:'$frame'(Goal, [Goal|Goals], 0, _, _).
+
+%   program_frames(+Clauses, -Frames): each as Frame-Goals-Again, where Again are
+%   the goals of the frame that is made of Goals.
+
+program_frames(Clauses, Frames) :-
+    program_load(clauses(Clauses), Program, _, Hash, Kinds),
+    code_install(Hash, Program, Kinds),
+    code_module(Hash, Module),
+    findall('$k'(Place, Vars)-Goals-Again,
+            ( clause(Module:'$goals'(Place, Vars, Goals, []), true),
+              numbervars(Vars, 0, _),
+              Goals = [First|_],
+              Module:'$frame'(First, Goals, 0, Frame, []),
+              plain_goals([Frame], Again)
+            ),
+            Frames).
 
 number_from(Variable, Default, Number) :-
     (   getenv(Variable, Text)
