@@ -24,7 +24,7 @@ do for [p=1:panels] {
     set tmargin at screen top
     set bmargin at screen (top - (each - 45)/HEIGHT)
     set label 2 Panel[p] at screen 0.07,(top + 16.0/HEIGHT)
-    set yrange [0:1<*]; set offsets 0,0,graph 0.15,0
+    set yrange [0:1<*]; set offsets 0,0,graph (Size[p] > 3 ? 0.3 : 0.15),0
     if (p == panels) { set format x "%g"; set xlabel "round of attacks" tc rgb "#333333" }
     plot for [s=1:Size[p]] "dots.dat" index First[p]+s-1 using 1:2 \
              with points pt 7 ps 0.4 lc rgb (0xa0000000 + Colour[s]) notitle, \
