@@ -16,7 +16,9 @@
                 node_gone/2, node_order/4, node_went/3,
                 nodes_ask/6, nodes_forget/1, nodes_peers/2,
                 deadline/2, message_before/3, unwatched/1 ]).
-:- use_module(restarts, [restarts_absent/2, restarts_begin/3, restarts_end/2]).
+:- use_module(restarts,
+              [ restarts_absent/2, restarts_begin/3, restarts_end/1,
+                restarts_tell/3 ]).
 :- use_module(wiring, [wired_host/3]).
 
 /** <module> The processes that carry a network begin and end
@@ -146,7 +148,7 @@ is_missed(Network, P, Status) :-
 
 tell(Network, Event) :-
     queue(Network, Queue),
-    thread_send_message(Queue, Event).
+    restarts_tell(Network, Queue, Event).
 
 wait_up(0, _, _) :-
     !.
@@ -237,7 +239,7 @@ restart(Network, _, _, give_up(P)) :-
 
 nodes_stop(Network) :-
     retractall(wanted(Network)),
-    forall(queue(Network, Queue), restarts_end(Network, Queue)),
+    restarts_end(Network),
     rest_children(Network),
     (   retract(lasting(Network))
     ->  Watch = kill_hanging(Network)

@@ -1,6 +1,7 @@
 :- module(typhon_restarts,
           [ restarts_begin/3,           % +Network, +Queue, :Do
-            restarts_end/2,             % +Network, +Queue
+            restarts_end/1,             % +Network
+            restarts_tell/3,            % +Network, +Queue, +Event
             restarts_absent/2,          % +Network, +P
             restarts_back/1             % +Network
           ]).
@@ -9,6 +10,8 @@
 :- use_module(library(lists), [member/2, min_member/2, selectchk/3]).
 :- use_module(library(settings), [setting/2, setting/4]).
 :- use_module('../kernel/base/error_text', [print_error/2]).
+:- use_module('../kernel/base/server',
+              [server_cast/2, server_start/4, server_stop/1]).
 :- use_module(nodes, [deadline/2, message_before/3]).
 
 /** <module> Processes of a network that die are started again
@@ -18,7 +21,7 @@ whenever it is started would not be better for it. From when one dies until its
 hosts are there again it is absent: requests to the whole network
 wait meanwhile.
 
-*Threading*: one thread for each such network. Nothing in it waits for a child
+*Threading*: one server for each such network. Nothing in it waits for a child
 to come up: that is a message, as is its end. Callers that wait for an
 absent one do so in threads of their own.
 */
@@ -30,6 +33,7 @@ absent one do so in threads of their own.
     restarts_begin(+, +, 1).
 
 :- public
+    handle/3,                   % of the server
     interrupt/0.                % goal of a signal
 
 :- setting(restarts, nonneg, 10,
@@ -38,34 +42,60 @@ absent one do so in threads of their own.
            "The time that this number is for").
 
 :- dynamic
-    restarter/2,                % Network, Thread
+    restarter/2,                % Network, Server
+    restoring/2,                % Network, Thread that calls Do(restore(_))
     absent/2,                   % Network, P
     waiting/2.                  % Network, Queue: until none is absent
 
 %!  restarts_begin(+Network, +Queue, :Do) is det.
-%!  restarts_end(+Network, +Queue) is det.
+%!  restarts_end(+Network) is det.
 %
-%   From now on Queue is read: up(P), down(P, Status) and failed(P, Error) are
+%   From now on events come by restarts_tell/2, first those in Queue: up(P),
+%   down(P, Status) and failed(P, Error) are
 %   what happens to processes. Do(start(P)) is to start P again, Do(restore(P))
 %   what is done when it is up, Do(kill(P)) what ends one that cannot begin,
 %   Do(give_up(P)) what follows when it is not started again.
-%   From restarts_end/2 on nothing of this is done any more.
+%   From restarts_end/1 on nothing of this is done any more.
+%
+%   @error resource_error(What) if no thread can be made
 
 restarts_begin(Network, Queue, Do) :-
-    atom_concat(typhon_restarts_, Network, Alias),
-    thread_create(restarts(Network, Queue, Do), Thread, [alias(Alias)]),
-    assertz(restarter(Network, Thread)).
+    atom_concat(restarts_, Network, Role),
+    server_start(Role, typhon_restarts:handle, state(Network, Do, [], []),
+                 Server),
+    with_mutex(typhon_restarts,
+               ( assertz(restarter(Network, Server)),
+                 hand_on(Queue, Server) )).
 
-restarts_end(Network, Queue) :-
-    retract(restarter(Network, Thread)),
+hand_on(Queue, Server) :-
+    (   thread_get_message(Queue, Event, [timeout(0)])
+    ->  server_cast(Server, Event),
+        hand_on(Queue, Server)
+    ;   true
+    ).
+
+restarts_end(Network) :-
+    with_mutex(typhon_restarts, retract(restarter(Network, Server))),
     !,
-    thread_send_message(Queue, stop),
-    catch(thread_signal(Thread, typhon_restarts:interrupt),
-          error(existence_error(_, _), _), true),
-    thread_join(Thread, _),
+    forall(restoring(Network, Thread),
+           catch(thread_signal(Thread, typhon_restarts:interrupt),
+                 error(existence_error(_, _), _), true)),
+    server_stop(Server),
+    retractall(restoring(Network, _)),
     retractall(absent(Network, _)),
     tell_waiting(Network).
-restarts_end(_, _).
+restarts_end(_).
+
+%!  restarts_tell(+Network, +Queue, +Event) is det.
+%
+%   Event goes to the server of Network, and before that begins to Queue.
+
+restarts_tell(Network, Queue, Event) :-
+    with_mutex(typhon_restarts,
+               (   restarter(Network, Server)
+               ->  ignore(server_cast(Server, Event))
+               ;   thread_send_message(Queue, Event)
+               )).
 
 %   Only what is being restored is interrupted: that may wait for one that
 %   hangs.
@@ -77,63 +107,68 @@ interrupt :-
     ;   true
     ).
 
-restarts(Network, Queue, Do) :-
-    loop(state(Network, Queue, Do), [], []).
+%   Deaths are terms P-Time, Starting terms Deadline-P.  A server whose thread
+%   was ended finds in absent/2 what it had started.
 
-%   Deaths are terms P-Time, Starting terms Deadline-P.
+handle(begin, state(Network, Do, Deaths, _), Next) :-
+    !,
+    start_deadline(Deadline),
+    findall(Deadline-P, absent(Network, P), Starting),
+    next(state(Network, Do, Deaths, Starting), Next).
+handle(Event, State0, Next) :-
+    State0 = state(Network, _, _, _),
+    (   restarter(Network, _)
+    ->  handled(Event, State0, State)
+    ;   State = State0
+    ),
+    next(State, Next).
 
-loop(State, Deaths, Starting) :-
-    next(State, Starting, Event),
-    (   Event == stop
-    ->  true
-    ;   handled(Event, State, Deaths, Deaths1, Starting, Starting1),
-        loop(State, Deaths1, Starting1)
+next(State, Next) :-
+    State = state(_, _, _, Starting),
+    (   min_member(Deadline-_, Starting)
+    ->  Next = until(Deadline, State)
+    ;   Next = State
     ).
 
-next(state(_, Queue, _), [], Event) :-
-    !,
-    thread_get_message(Queue, Event).
-next(state(_, Queue, _), Starting, Event) :-
-    min_member(Deadline-P, Starting),
-    (   message_before(Queue, Event, Deadline)
-    ->  true
-    ;   Event = late(P)
-    ).
+start_deadline(Deadline) :-
+    setting(typhon_processes:start_seconds, Seconds),
+    deadline(Seconds, Deadline).
 
-handled(down(P, _), State, Deaths0, Deaths, Starting0, Starting) :-
-    !,
-    not_starting(P, Starting0, Starting1),
-    State = state(Network, _, Do),
+handled(down(P, _), State0, State) :-
+    State0 = state(Network, Do, Deaths0, Starting0),
+    not_starting(P, Starting0, Starting),
     (   once_more(P, Deaths0, Deaths)
     ->  debug(typhon(network), 'process ~w of ~w is started again',
               [P, Network]),
         catch(ignore(call(Do, start(P))), error(Formal, Context),
               print_error(error, error(Formal, Context))),
-        setting(typhon_processes:start_seconds, Seconds),
-        deadline(Seconds, Deadline),
-        Starting = [Deadline-P|Starting1]
-    ;   Deaths = Deaths0,
-        Starting = Starting1,
-        setting(restarts, Most),
-        setting(restart_seconds, Seconds),
-        print_message(error,
-                      typhon(node_given_up(Network, P, Most, Seconds))),
-        ignore(call(Do, give_up(P))),
-        present(Network, P)
+        start_deadline(Deadline),
+        State = state(Network, Do, Deaths, [Deadline-P|Starting])
+    ;   State = state(Network, Do, Deaths0, Starting),
+        given_up(P, Network, Do)
     ).
-handled(up(P), State, Deaths, Deaths, Starting0, Starting) :-
-    !,
-    (   not_starting(P, Starting0, Starting),
-        Starting \== Starting0
-    ->  restored(P, State)
-    ;   Starting = Starting0            % it came before this thread did
-    ).
-handled(failed(_, Error), _, Deaths, Deaths, Starting, Starting) :-
-    !,
-    print_error(error, Error).
-handled(late(P), state(_, _, Do), Deaths, Deaths, Starting0, Starting) :-
+handled(up(P), State0, State) :-
+    State0 = state(Network, Do, Deaths, Starting0),
     not_starting(P, Starting0, Starting),
+    State = state(Network, Do, Deaths, Starting),
+    (   Starting \== Starting0
+    ->  restored(P, Network, Do)
+    ;   true                            % it came before this server began
+    ).
+handled(failed(_, Error), State, State) :-
+    print_error(error, Error).
+handled(timeout, state(Network, Do, Deaths, Starting0), State) :-
+    min_member(_-P, Starting0),
+    not_starting(P, Starting0, Starting),
+    State = state(Network, Do, Deaths, Starting),
     ignore(call(Do, kill(P))).
+
+given_up(P, Network, Do) :-
+    setting(restarts, Most),
+    setting(restart_seconds, Seconds),
+    print_message(error, typhon(node_given_up(Network, P, Most, Seconds))),
+    ignore(call(Do, give_up(P))),
+    present(Network, P).
 
 not_starting(P, Starting0, Starting) :-
     (   selectchk(_-P, Starting0, Starting1)
@@ -159,16 +194,28 @@ later(Since, _-Time) :-
 %   One that is up but cannot be what it was is no use: it is as if it had
 %   died.
 
-restored(P, state(Network, _, Do)) :-
-    (   catch(restore(Do, P), Ball, not_restored(Ball))
+restored(P, Network, Do) :-
+    (   catch(restore(Network, Do, P), Ball, not_restored(Ball))
     ->  print_message(informational, typhon(node_back(Network, P))),
         present(Network, P)
     ;   ignore(call(Do, kill(P)))
     ).
 
-restore(Do, P) :-
+restore(Network, Do, P) :-
+    thread_self(Me),
+    setup_call_cleanup(assertz(restoring(Network, Me)),
+                       restore_p(Network, Do, P),
+                       retractall(restoring(Network, Me))).
+
+%   What ends the network after this has looked finds the thread in
+%   restoring/2.
+
+restore_p(Network, Do, P) :-
     nb_setval(typhon_restoring, true),
-    call(Do, restore(P)),
+    (   restarter(Network, _)
+    ->  call(Do, restore(P))
+    ;   true
+    ),
     nb_setval(typhon_restoring, false).
 
 not_restored(stop_restoring) :-

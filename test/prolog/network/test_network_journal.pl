@@ -36,7 +36,8 @@ network(Dir, Topology, Options, Goal) :-
 user:message_hook(typhon(Message), _, _) :-
     expected,
     memberchk(Message, [ node_down(_, _, _, _, _), node_back(_, _),
-                         node_given_up(_, _, _, _), node_killed(_, _) ]),
+                         node_given_up(_, _, _, _), node_killed(_, _),
+                         server_ended(_) ]),
     assertz(printed(Message)).
 
 quiet(Goal) :-
@@ -543,6 +544,29 @@ too_often :-
           wait_until(pids(Network, [Other]), 10),
           hosts(Network, [_, _]) ),
         network_stop(Network)).
+
+test('processes begin again after the thread that starts them has ended',
+     true(Told == [server_ended])) :-
+    quiet(no_leaks(begun_by_another)),
+    findall(server_ended, printed(server_ended(_)), Told).
+
+begun_by_another :-
+    setup_call_cleanup(
+        network_start(ring(2), Network, [processes(2), restart(true)]),
+        ( wakes([Thread]),
+          thread_signal(Thread, throw('$aborted')),
+          wait_until(printed(server_ended(_)), 10),
+          kill(Network, 1),
+          hosts(Network, [_, _]) ),
+        network_stop(Network)).
+
+%   wakes(-Threads): those that start processes of networks again.
+
+wakes(Threads) :-
+    findall(Thread,
+            ( thread_property(Thread, alias(Alias)),
+              atom_concat(typhon_restarts_, _, Alias) ),
+            Threads).
 
 test('a network is stopped while one of its processes begins again') :-
     quiet(no_leaks(stopped_meanwhile)).
