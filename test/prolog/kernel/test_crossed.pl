@@ -1,0 +1,67 @@
+:- module(test_crossed_modules, []).
+:- use_module('../../lib/common').
+:- use_module('../../lib/peers').
+:- use_module(library(lists), [append/3]).
+:- use_module(library(plunit)).
+
+/** <module> How many modules a plain agent's life crosses
+
+An agent is created, gets a message, hops to another process and back, and
+ends.  Modules are counted that are called meanwhile in either process.  What
+the threads of the platform do by the clock can only add some, so the life with
+the fewest of several counts.  The bound is what was measured: it is lowered as
+modules are merged.
+
+*Threading*: the main thread; the hosts are in other processes.
+*/
+
+:- begin_tests(crossed).
+
+test(modules_of_a_plain_life) :-
+    with_peers([a, b], fewest(15, Modules)),
+    assertion(no_more_than(65, Modules)).
+
+:- end_tests(crossed).
+
+no_more_than(Bound, Modules) :-
+    length(Modules, Count),
+    Count =< Bound.
+
+%   fewest(+Lives, -Modules): the first life connects, and brings the program.
+
+fewest(Lives, Modules) :-
+    life,
+    peer_crossing(a),
+    peer_crossing(b),
+    findall(Count-Crossed,
+            ( between(1, Lives, _),
+              crossed(Crossed),
+              length(Crossed, Count) ),
+            All),
+    keysort(All, [_-Modules|_]).
+
+crossed(Modules) :-
+    peer_do(a, test_crossed:crossed(_)),
+    peer_do(b, test_crossed:crossed(_)),
+    life,
+    peer_do(a, test_crossed:crossed(A)),
+    peer_do(b, test_crossed:crossed(B)),
+    append(A, B, Both),
+    sort(Both, Modules).
+
+peer_crossing(Peer) :-
+    project_file('test/lib/crossed.pl', File),
+    peer_do(Peer, use_module(File, [])),
+    peer_do(Peer, test_crossed:crossing_begin).
+
+life :-
+    peer_host(b, B),
+    plain(Clauses),
+    peer_do(a, agent_create(clauses(Clauses), Id,
+                            [host(a), facts([to(B)])])),
+    peer_do(a, agent_send(Id, go)),
+    peer_do(a, agent_join(Id, Outcome, 10)),
+    assertion(Outcome == done).
+
+plain([ (:- agent(plain, [state([to/1])])),
+        (main :- receive(_-go), to(B), here(A), move(B), move(A)) ]).
