@@ -13,11 +13,11 @@ of the agent.  When one moves, a small agent of Typhon carries these clauses,
 so that it is neither lost nor doubled.
 
   | starting and stopping, what is printed | tartarus/platform |
-  | agents: what they are made of          | tartarus/lives    |
+  | agents: records, threads, saving       | tartarus/lives    |
+  | agents: their clauses                  | tartarus/clauses  |
   | agents: creating, running, ending      | tartarus/agents   |
   | from platform to platform, in what time | tartarus/moves   |
   | messages, log servers                  | tartarus/messages |
-  | saved platforms and agents             | tartarus/states   |
   | speech, Python, robots, pins           | tartarus/devices  |
 
 Local definitions win: programs may have predicates of these names.
@@ -41,7 +41,8 @@ Local definitions win: programs may have predicates of these names.
             [ post_agent/2, post_agent/3, send_log/2, send_log1/2,
               send_log2/2, set_log_server/2, set_log_serverr/2,
               set_log_serverrr/2 ]).
-:- reexport(tartarus/states).
+:- reexport(tartarus/lives,
+            [load_tartarus_state/1, save_agent/2, save_tartarus_state/1]).
 :- reexport(tartarus/devices).
 
 %   The names before 2019.
@@ -62,7 +63,7 @@ Local definitions win: programs may have predicates of these names.
             [clone_agent/3 as agent_clone, move_agent/2 as agent_move]).
 :- reexport(tartarus/messages,
             [post_agent/2 as agent_post, post_agent/3 as agent_post]).
-:- reexport(tartarus/states,
+:- reexport(tartarus/lives,
             [ load_tartarus_state/1 as load_platform_state,
               save_agent/2 as agent_save,
               save_tartarus_state/1 as save_platform_state ]).

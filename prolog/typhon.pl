@@ -50,7 +50,7 @@ a folder, with an interface of the same name beside it:
               ros_start/3, ros_stop/1, ros_property/2, fipa_start/3, fipa_stop/1 ]).
 :- use_module(typhon/kernel/vocabulary, []).
 :- use_module(typhon/tools/messages, []).
-:- use_module(typhon/tools/fault_messages, []).
+:- use_module(typhon/tools/event_text, []).
 :- use_module(typhon/options/tls, []).
 :- use_module(typhon/options/identity, []).
 

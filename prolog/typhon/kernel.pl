@@ -30,7 +30,7 @@ it is library(typhon) without its top level.
             ]).
 :- use_module(kernel/vocabulary, []).
 :- use_module(tools/messages, []).
-:- use_module(tools/fault_messages, []).
+:- use_module(tools/event_text, []).
 
 :- user_errors(typhon_kernel).
 

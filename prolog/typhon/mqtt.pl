@@ -14,6 +14,5 @@ doc/bridges.md.
 :- use_module(kernel/base/user_errors, [user_errors/1]).
 :- reexport(bridges/common/starting, [mqtt_start/3, mqtt_stop/1]).
 :- use_module('bridges/mqtt/service', []).
-:- use_module('bridges/mqtt/words', []).
 
 :- user_errors(typhon_mqtt).

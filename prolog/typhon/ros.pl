@@ -10,7 +10,7 @@ is not part of library(typhon).  Nothing is defined here: see the modules in
 bridges/ros/.
 
   | start, stop, properties       | typhon/bridges/common/starting |
-  | topics                        | typhon/bridges/ros/topics      |
+  | topics                        | typhon/bridges/ros/service     |
   | services, parameters, actions | typhon/bridges/ros/requests    |
   | messages as terms             | typhon/bridges/ros/messages    |
 */

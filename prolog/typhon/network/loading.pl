@@ -18,7 +18,7 @@
 :- use_module(plan,
               [plan_log/3, plan_processes/3, plan_time/2, plan_unkept/2]).
 :- use_module(processes, [nodes_start/5]).
-:- use_module(saved_file, [saved_read/2]).
+:- use_module(saving, [saved_read/2]).
 :- use_module(wiring, [wire_hosts/4, wired_hosts/2]).
 
 /** <module> Networks out of restore points

@@ -3,10 +3,9 @@
             agents/0
           ]).
 :- autoload(agent_words,
-            [ directive_coloured/2, directive_meant/2, word_told/3,
-              words_file/1, words_only/3 ]).
+            [ apropos_completed/3, directive_coloured/2, directive_meant/2,
+              help_shown/1, word_told/3, words_file/1, words_only/3 ]).
 :- autoload(completion, [completed/4]).
-:- autoload(manual, [apropos_completed/3, help_shown/1]).
 :- autoload(tables, [print_agents/2, print_hosts/1]).
 :- use_module(library(prolog_wrap), [wrap_predicate/4]).
 

@@ -196,7 +196,7 @@ traffic(Network) :-
 
 saved(Network, File, Agents, Sent, Got) :-
     network_save(Network, File),
-    typhon_saved_file:saved_read(File, Terms),
+    typhon_saving:saved_read(File, Terms),
     findall(Facts,
             member(_:item(stands, _, _, agent(_, _, _, state(_, Facts), _, _)),
                    Terms),

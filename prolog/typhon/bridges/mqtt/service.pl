@@ -1,29 +1,23 @@
-:- module(typhon_mqtt_service,
-          [ mqtt_ask/3,                 % +Host, +Request, +Seconds
-            mqtt_note/2,                % +Host, +Request
-            mqtt_publish/4,             % +Host, +Message, +Wait, +Seconds
-            mqtt_default/3,             % +Host, +Option, +Default
-            mqtt_message/5              % +Topic, +Payload, +Options, +Kind,
-                                        % -Message
-          ]).
-:- use_module(library(error), [domain_error/2, existence_error/2]).
+:- module(typhon_mqtt_service, []).
+:- use_module(library(error), [existence_error/2, must_be/2]).
 :- use_module(library(lists), [member/2]).
-:- use_module(library(option), [option/2, option/3]).
-:- use_module(library(uri),
-              [ uri_authority_components/2, uri_authority_data/3,
-                uri_components/2, uri_data/3, uri_encoded/3 ]).
+:- use_module(library(option), [option/2, option/3, select_option/4]).
 :- use_module('../../kernel/base/options', [check_options/2]).
-:- use_module('../common', [service_begin/4, service_end/2, subscription/3]).
+:- use_module('../common',
+              [ service_begin/4, service_end/2, subscribe/5 as subscribe_to,
+                subscriber/2, subscription/3,
+                unsubscribe/4 as unsubscribe_from ]).
 :- use_module('../helper',
               [ helper_ask/4, helper_close/1, helper_failure/3,
                 helper_file/2, helper_note/2, helper_open/3, helper_python/2,
                 helper_tell/2 ]).
 :- use_module(incoming,
-              [connection/1, connection_gone/1, mqtt_payload/3, mqtt_topic/2]).
+              [ connection/1, connection_gone/1, mqtt_filter/2,
+                mqtt_payload/3, mqtt_topic/2, mqtt_url/2 ]).
 
-/** <module> The connection of a host to a broker
+/** <module> The connection of a host to a broker, and what its agents can call
 
-*Threading*: any thread.
+*Threading*: any thread; what agents call, in the thread that runs the agent.
 */
 
 :- multifile
@@ -43,7 +37,7 @@ typhon_starting:starts(mqtt, Host, URL, Options) :-
     service_begin(mqtt, Host,
                   [ publish/2, publish/3, subscribe/1, subscribe/2,
                     unsubscribe/1 ],
-                  typhon_mqtt_words),
+                  typhon_mqtt_service),
     assertz(started(Host, Options, Request)),
     catch(connect(Host, Options, Request), Ball,
           ( service_end(mqtt, Host),
@@ -119,7 +113,7 @@ will(Options, Will) :-
     mqtt_message(Topic, Payload, More, auto, Will).
 will(_, false).
 
-%!  mqtt_message(+Topic, +Payload, +Options, +Kind, -Message:dict) is det.
+%   mqtt_message(+Topic, +Payload, +Options, +Kind, -Message:dict) is det.
 %
 %   What is to be published.  Options are those of publish/3, Kind is what
 %   the payload is if they do not say.
@@ -150,7 +144,7 @@ typhon_services:ends(mqtt, Host) :-
     retractall(started(Host, _, _)),
     connection_gone(Host).
 
-%!  mqtt_default(+Host, +Option, +Default) is det.
+%   mqtt_default(+Host, +Option, +Default) is det.
 %
 %   As option/3, of what Host was started with.
 %
@@ -166,8 +160,8 @@ mqtt_default(Host, Option, Default) :-
                 *           REQUESTS           *
                 *******************************/
 
-%!  mqtt_ask(+Host, +Request, +Seconds) is det.
-%!  mqtt_note(+Host, +Request) is det.
+%   mqtt_ask(+Host, +Request, +Seconds) is det.
+%   mqtt_note(+Host, +Request) is det.
 %
 %   @error mqtt_error(Problem, Host), Problem being one of unreachable, refused,
 %   tls, failed; timeout_error(mqtt(What), Host),
@@ -203,7 +197,7 @@ formal(denied, _, Request, permission_error(subscribe, mqtt_filter, Filter)) :-
 formal(timeout, Host, Request, timeout_error(mqtt(What), Host)) :-
     get_dict(do, Request, What).
 
-%!  mqtt_publish(+Host, +Message, +Wait:boolean, +Seconds) is det.
+%   mqtt_publish(+Host, +Message, +Wait:boolean, +Seconds) is det.
 %
 %   What may be lost is not waited for, as long as there is a connection: a
 %   question for each would be half as fast.
@@ -240,6 +234,128 @@ typhon_helper_owner:again(mqtt(Host), Request) :-
     put_dict(filters, Request0, Filters, Request).
 
                 /*******************************
+                *            AGENTS            *
+                *******************************/
+
+:- multifile
+    typhon_options:declared/4,
+    typhon_subscribers:wanted/4.
+
+:- public                               % called by agents
+    publish/2,
+    publish/3,
+    subscribe/1,
+    subscribe/2,
+    unsubscribe/1.
+
+%!  publish(+Topic, +Payload) is det.
+%!  publish(+Topic, +Payload, +Options) is det.
+%
+%   Options:
+%
+%     - qos(0, 1 or 2): default 0
+%     - retain(Boolean): whether the broker keeps it for later subscribers
+%     - payload(Kind): `auto`, by which dicts and lists are written as JSON and
+%       all else as text; `json`; `text`; or `bytes`, text whose characters
+%       are bytes
+%     - wait(Boolean): whether to wait until the broker has it, default `false`
+%
+%   What is published while there is no connection is kept for it.
+%
+%   @error domain_error(mqtt_topic, Topic), type_error(mqtt_payload, Payload),
+%   resource_error(mqtt_pending) if too much is kept,
+%   resource_error(mqtt_payload) if it is too big
+
+publish(Topic, Payload) :-
+    publish(Topic, Payload, []).
+
+publish(Topic, Payload, Options) :-
+    subscriber(Host, _),
+    mqtt_default(Host, payload(Kind), auto),
+    mqtt_default(Host, timeout(Seconds), 10),
+    mqtt_message(Topic, Payload, Options, Kind, Message),
+    option(wait(Wait), Options, false),
+    mqtt_publish(Host, Message, Wait, Seconds).
+
+%!  subscribe(+Filter) is det.
+%!  subscribe(+Filter, +Options) is det.
+%
+%   What is published under topics that match Filter comes to the agent as
+%   mqtt-message(Topic, Payload, Options), Topic being an atom and Options
+%   qos(N) and retain(Boolean), until it unsubscribes, leaves the host, or
+%   ends.  What it cannot take in comes as mqtt-dropped(mqtt(Filter, Kind),
+%   Count), and what is too big as mqtt-too_big(Topic, Bytes).  Options:
+%
+%     - qos(N): as which it comes at the most, default 0
+%     - payload(Kind): `auto`, by which JSON objects and lists come as dicts
+%       and lists and all else as strings; `json`: all JSON as terms; `text`;
+%       or `bytes`: a string of characters up to 255.  What is no UTF-8 is
+%       always bytes.
+%     - as(How), queue(N): as of subscribe/5 of typhon_subscribers
+%
+%   @error domain_error(mqtt_filter, Filter)
+%   @error permission_error(subscribe, mqtt_filter, Filter): the broker refuses
+
+subscribe(Filter) :-
+    subscribe(Filter, []).
+
+subscribe(Filter0, Options0) :-
+    must_be(list, Options0),
+    subscriber(Host, Agent),
+    mqtt_filter(Filter0, Filter),
+    mqtt_default(Host, payload(Kind0), auto),
+    select_option(payload(Kind), Options0, Options1, Kind0),
+    select_option(qos(QoS), Options1, Options2, 0),
+    check_options(mqtt_publish_option, [payload(Kind),qos(QoS)]),
+    mqtt_default(Host, queue(Max), 1000),
+    mqtt_default(Host, timeout(Seconds), 10),
+    with_queue(Options2, Max, Options),
+    Key = mqtt(Filter, Kind),
+    unsubscribe_others(Filter, Key, Host, Agent),
+    subscribe_to(mqtt, Host, Key, Agent, Options),
+    catch(mqtt_ask(Host, _{do:subscribe, filter:Filter, kind:Kind, qos:QoS},
+                   Seconds),
+          error(Formal, Context),
+          ( ignore(unsubscribe_from(mqtt, Host, Key, Agent)),
+            throw(error(Formal, Context)) )).
+
+with_queue(Options, _, Options) :-
+    memberchk(queue(_), Options),
+    !.
+with_queue(Options, Max, [queue(Max)|Options]).
+
+%!  unsubscribe(+Filter) is det.
+%
+%   @error existence_error(mqtt_subscription, Filter)
+
+unsubscribe(Filter0) :-
+    subscriber(Host, Agent),
+    mqtt_filter(Filter0, Filter),
+    (   kind(Kind),
+        unsubscribe_from(mqtt, Host, mqtt(Filter, Kind), Agent)
+    ->  true
+    ;   existence_error(mqtt_subscription, Filter)
+    ).
+
+%   An agent wants a filter in one way.
+
+unsubscribe_others(Filter, Key, Host, Agent) :-
+    forall(( kind(Kind), Other = mqtt(Filter, Kind), Other \== Key ),
+           ignore(unsubscribe_from(mqtt, Host, Other, Agent))).
+
+kind(auto).
+kind(json).
+kind(text).
+kind(bytes).
+
+typhon_subscribers:wanted(mqtt, Host, mqtt(Filter, Kind), Wanted) :-
+    wanted_request(Wanted, Do, More),
+    mqtt_note(Host, More.put(_{do:Do, filter:Filter, kind:Kind})).
+
+wanted_request(true, subscribe, _{qos:2}).
+wanted_request(false, unsubscribe, _{}).
+
+                /*******************************
                 *           MESSAGES           *
                 *******************************/
 
@@ -256,62 +372,3 @@ problem(unreachable, 'the broker cannot be reached').
 problem(refused, 'the broker refuses the connection').
 problem(tls, 'TLS cannot be used').
 problem(failed, 'the client library raises an exception').
-
-                /*******************************
-                *             URL              *
-                *******************************/
-
-%   mqtt_url(+URL, -Parts:dict) is det.
-%
-%   URL is mqtt://User:Password@Host:Port, or mqtts:// for TLS; all but the
-%   host may be missing.  Parts are `host`, `port`, `tls`, and `user` and
-%   `password` where they are said.
-%
-%   @error domain_error(mqtt_url, URL)
-
-mqtt_url(URL, Parts) :-
-    (   catch(parts(URL, Parts0), error(_, _), fail)
-    ->  Parts = Parts0
-    ;   domain_error(mqtt_url, URL)
-    ).
-
-parts(URL, Parts) :-
-    uri_components(URL, Components),
-    uri_data(scheme, Components, Scheme),
-    scheme(Scheme, TLS, Default),
-    uri_data(authority, Components, Authority),
-    uri_authority_components(Authority, Data),
-    uri_authority_data(host, Data, Host0),
-    nonvar(Host0),
-    bare(Host0, Host),
-    Host \== '',
-    uri_authority_data(port, Data, Port0),
-    ( var(Port0) -> Port = Default ; integer(Port0), Port = Port0 ),
-    between(1, 65535, Port),
-    login(Data, Login),
-    Parts = Login.put(_{host:Host, port:Port, tls:TLS}).
-
-scheme(mqtt, false, 1883).
-scheme(mqtts, true, 8883).
-
-%   IPv6 addresses are in brackets.
-
-bare(Host0, Host) :-
-    (   atomic_list_concat(['', Rest], '[', Host0),
-        atomic_list_concat([Inner, ''], ']', Rest)
-    ->  Host = Inner
-    ;   Host = Host0
-    ).
-
-login(Data, Login) :-
-    uri_authority_data(user, Data, User0),
-    (   var(User0)
-    ->  Login = _{}
-    ;   uri_encoded(segment, User, User0),
-        uri_authority_data(password, Data, Password0),
-        (   var(Password0)
-        ->  Login = _{user:User}
-        ;   uri_encoded(segment, Password, Password0),
-            Login = _{user:User, password:Password}
-        )
-    ).

@@ -6,6 +6,9 @@
                                         % -Reply
             link_option/2,              % +Brick, ?Option
             link_brick/2,               % ?Brick, ?Port
+            link_set/3,                 % +Brick, +Key, +Value
+            link_value/4,               % +Brick, +Key, +Default, -Value
+            link_unset/2,               % +Brick, ?Key
             nxt_python/2,               % +Options, -Program
             bytes_hex/2,                % +Bytes, -Hex
             hex_bytes/2,                % +Hex, -Bytes
@@ -280,6 +283,37 @@ formal(no_pyserial, _, _, _, _,
        existence_error(python_module, serial)) :- !.
 formal(bad_request, _, _, _, What, domain_error(nxt_request, What)) :- !.
 formal(Kind, _, Brick, _, _, nxt_error(Kind, Brick)).
+
+                /*******************************
+                *            VALUES            *
+                *******************************/
+
+%   Speeds, accelerations, lamps, offsets, and replies not yet read, by the names
+%   of SWI-PRO-NXT.
+
+:- dynamic
+    value/3.                    % Brick, Key, Value
+
+%!  link_set(+Brick, +Key, +Value) is det.
+%!  link_value(+Brick, +Key, +Default, -Value) is det.
+%!  link_unset(+Brick, ?Key) is det.
+%
+%   Remember a value for Brick, which survives a lost connection; return it, or
+%   Default; forget it.
+
+link_set(Brick, Key, Value) :-
+    with_mutex(typhon_nxt_values,
+               ( retractall(value(Brick, Key, _)),
+                 assertz(value(Brick, Key, Value)) )).
+
+link_value(Brick, Key, Default, Value) :-
+    (   value(Brick, Key, Value0)
+    ->  Value = Value0
+    ;   Value = Default
+    ).
+
+link_unset(Brick, Key) :-
+    retractall(value(Brick, Key, _)).
 
                 /*******************************
                 *           MESSAGES           *

@@ -6,16 +6,14 @@
             floodlight_nxt/3,
             start_compasscalibration_nxt/2,
             stop_compasscalibration_nxt/2,
-            set_gyroffset_nxt/2,        % and those of family/3
-            old_set/3,                  % +Name, +Key, +Value
-            old_value/4,                % +Name, +Key, +Default, -Value
-            old_clear/2                 % +Name, ?Key
+            set_gyroffset_nxt/2         % and those of family/3
           ]).
 :- use_module(library(apply), [maplist/2, maplist/3]).
 :- use_module(library(error), [domain_error/2, must_be/2]).
 :- use_module(library(lists),
               [append/3, member/2, memberchk/2, same_length/2]).
 :- use_module(brick, [nxt_command/4]).
+:- use_module(link, [link_set/3, link_unset/2, link_value/4]).
 :- use_module(motors).
 :- use_module(sensors).
 
@@ -120,7 +118,7 @@ clipped(Speed, Power) :-
 move(Name, Ports, Power0) :-
     Power is Power0,
     Ports = [First|_],
-    old_value(Name, acceleration(First), none, Rate),
+    link_value(Name, acceleration(First), none, Rate),
     (   Rate == none
     ->  true
     ;   nxt_motor(Name, First, State),
@@ -185,7 +183,7 @@ sign_of(-, -1).
 %   The deadline is three times as long as it should take.
 
 turn_to(Name, P, To, Now) :-
-    old_value(Name, speed(P), 50, Speed),
+    link_value(Name, speed(P), 50, Speed),
     Power is max(1, abs(Speed)),
     Seconds is 10+3*abs(To-Now)/(10*Power),
     nxt_turn_to(Name, P, Power, To, Seconds).
@@ -208,7 +206,7 @@ reverse(Name, P) :-
 set_motorspeed(Name, P, Speed) :-
     clipped(Speed, Power),
     nxt_motor(Name, P, State),
-    old_set(Name, speed(P), Power),
+    link_set(Name, speed(P), Power),
     memberchk(power(Now), State),
     (   Now =:= 0
     ->  true
@@ -225,7 +223,7 @@ set_motorspeed(Name, P, Speed) :-
 set_acceleration(Name, P, Acceleration) :-
     must_be(positive_integer, Acceleration),
     nxt_motor(Name, P, _),
-    old_set(Name, acceleration(P), Acceleration).
+    link_set(Name, acceleration(P), Acceleration).
 
 %!  ismoving_nxt(+Name, +P, -R) is det.
 %!  ismoving_nxt(+Name, +P1, +P2, -R1, -R2) is det.
@@ -301,7 +299,7 @@ init_port(Kind, Name, Port) :-
 
 type(touch, _, _, 1, 0x20).
 type(light, Name, Port, Type, 0x80) :-
-    old_value(Name, lamp(Port), on, Lamp),
+    link_value(Name, lamp(Port), on, Lamp),
     ( Lamp == on -> Type = 5 ; Type = 6 ).
 type(sound, _, _, 7, 0x80).
 type(gyro, _, _, 9, 0).
@@ -332,7 +330,7 @@ type(i2c, _, _, 0x0B, 0).
 %   the infrared light is, as of nxt_infrared/3.
 
 light(Name, Port, R) :-
-    old_value(Name, lamp(Port), on, Lamp),
+    link_value(Name, lamp(Port), on, Lamp),
     nxt_light(Name, Port, Lamp, R).
 
 distance(Name, Port, R) :-
@@ -345,7 +343,7 @@ touch(Name, Port, R) :-
 
 turning(Name, Port, R) :-
     nxt_gyro(Name, Port, Value),
-    old_value(Name, gyro(Port), 0, Offset),
+    link_value(Name, gyro(Port), 0, Offset),
     R is Value-Offset.
 
 %!  read_accel_nxt(+Name, +P, -X, -Y, -Z) is det.
@@ -373,7 +371,7 @@ floodlight_nxt(Name, P, OnOff) :-
     ;   must_be(atom, OnOff),
         domain_error(oneof([on,off]), OnOff)
     ),
-    old_set(Name, lamp(P), OnOff),
+    link_set(Name, lamp(P), OnOff),
     init(light, Name, [P]).
 
 %!  start_compasscalibration_nxt(+Name, +P) is det.
@@ -392,33 +390,6 @@ stop_compasscalibration_nxt(Name, P) :-
 %   The value that the gyroscope has now, at rest, is read as 0 from now on.
 
 set_gyroffset_nxt(Name, P) :-
-    old_clear(Name, gyro(P)),
+    link_unset(Name, gyro(P)),
     nxt_gyro(Name, P, Value),
-    old_set(Name, gyro(P), Value).
-
-                /*******************************
-                *            MEMORY            *
-                *******************************/
-
-%   Speeds, accelerations, lamps, offsets, and replies not yet read.
-
-:- dynamic
-    value/3.                    % Name, Key, Value
-
-%!  old_set(+Name, +Key, +Value) is det.
-%!  old_value(+Name, +Key, +Default, -Value) is det.
-%!  old_clear(+Name, ?Key) is det.
-
-old_set(Name, Key, Value) :-
-    with_mutex(typhon_nxt_old,
-               ( retractall(value(Name, Key, _)),
-                 assertz(value(Name, Key, Value)) )).
-
-old_value(Name, Key, Default, Value) :-
-    (   value(Name, Key, Value0)
-    ->  Value = Value0
-    ;   Value = Default
-    ).
-
-old_clear(Name, Key) :-
-    retractall(value(Name, Key, _)).
+    link_set(Name, gyro(P), Value).

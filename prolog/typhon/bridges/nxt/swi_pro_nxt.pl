@@ -26,9 +26,9 @@
 :- use_module(library(pairs), [pairs_keys/2]).
 :- use_module(brick).
 :- use_module(files).
-:- use_module(old_devices, [old_clear/2, old_set/3, old_value/4]).
+:- use_module(link, [link_set/3, link_unset/2, link_value/4]).
 
-:- reexport(old_devices, except([old_clear/2, old_set/3, old_value/4])).
+:- reexport(old_devices).
 
 /** <module> The names of SWI-PRO-NXT
 
@@ -76,7 +76,7 @@ connect_nxt(Name, Link, Port) :-
 
 close_nxt(Name) :-
     nxt_disconnect(Name),
-    old_clear(Name, _).
+    link_unset(Name, _).
 
 %!  write_nxt(+Name, +Msg) is det.
 %!  written_nxt(+Name, +Msg) is det.
@@ -87,7 +87,7 @@ close_nxt(Name) :-
 
 write_nxt(Name, Msg) :-
     send(Name, Msg, Values),
-    old_set(Name, reply, Values).
+    link_set(Name, reply, Values).
 
 written_nxt(Name, Msg) :-
     send(Name, Msg, _).
@@ -116,9 +116,9 @@ read_res_nxt(Name, Values) :-
     ).
 
 read_nxt(Name, Values) :-
-    old_value(Name, reply, none, Values0),
+    link_value(Name, reply, none, Values0),
     Values0 \== none,
-    old_clear(Name, reply),
+    link_unset(Name, reply),
     Values = Values0.
 
 check_res_nxt(Name, Values) :-

@@ -307,12 +307,15 @@ write_on(Socket, Every) :-
     ;   true
     ).
 
-say(write(Text), Socket) :-
-    socket_write(Socket, Text).
-say(ping, Socket) :-
-    socket_ping(Socket).
-say(bye, Socket) :-
-    socket_bye(Socket).
+%   The server answers a ping; its end of the connection answers a bye.
+
+say(Message, socket(_, Out)) :-
+    socket_message(Message, WebSocketMessage),
+    ws_send(Out, WebSocketMessage).
+
+socket_message(write(Text), text(Text)).
+socket_message(ping, ping('')).
+socket_message(bye, close(1000, "")).
 
 %   One that writes to a server which does not read is stuck, and again when it
 %   is interrupted, because the library writes what is left.
@@ -391,22 +394,6 @@ rest(In, Count0, Count) :-
     ;   Count1 is Count0+Length,
         rest(In, Count1, Count)
     ).
-
-%   socket_write(+Socket, +Text) is det.
-%   socket_ping(+Socket) is det.
-%   socket_bye(+Socket) is det.
-%
-%   Write a message; what the server has to answer; that we are going, to
-%   which its end is the answer.
-
-socket_write(socket(_, Out), Text) :-
-    ws_send(Out, text(Text)).
-
-socket_ping(socket(_, Out)) :-
-    ws_send(Out, ping('')).
-
-socket_bye(socket(_, Out)) :-
-    ws_send(Out, close(1000, "")).
 
 socket_close(socket(In, Out)) :-
     catch(close(Out, [force(true)]), error(_, _), true),

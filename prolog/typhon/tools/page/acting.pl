@@ -18,7 +18,7 @@
 :- use_module(editor,
               [ name_in/3, on_console/1, problem_dicts/2, program_at/2,
                 read_text/3, saying/2, term_in/4, text_file/3, text_in/3 ]).
-:- use_module(mechanisms, [mechanism_file/2]).
+:- use_module(overlays, [mechanism_file/2]).
 :- use_module(protocol, [name_text/2, text/2]).
 
 /** <module> What browsers may do, where a page is not for looking only

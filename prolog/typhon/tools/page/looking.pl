@@ -12,7 +12,7 @@
                 goals_shown/4 ]).
 :- use_module('../../network', [network_property/2]).
 :- use_module('../../tools', [host_report/2]).
-:- use_module(mechanisms, [mechanism_dicts/1, program_names/1]).
+:- use_module(overlays, [mechanism_dicts/1, program_names/1]).
 :- use_module(protocol,
               [name_text/2, page_time/2, place_text/2, scene_dict/3, text/2]).
 :- use_module(replay, [replay_of_text/3]).

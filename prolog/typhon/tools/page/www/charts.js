@@ -137,7 +137,7 @@ class Charts {
     }
   }
 
-  // Who looks at a part goes on looking at it.
+  // Whether a part of the data is shown, which new data then leaves as it is.
   zoomed({ drawn }) {
     const [xs] = drawn.data, { min, max } = drawn.scales.x;
     return min > xs[0] || max < xs[xs.length - 1];

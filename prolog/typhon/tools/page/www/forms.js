@@ -15,7 +15,7 @@ export function dialog(title, content, confirm, send, wide = false) {
       await send();
       made.close();
     } catch (error) {
-      if (!made.open) throw error;      // nobody would see it there
+      if (!made.open) throw error;      // a closed form shows nothing
       problem.textContent = error.message;
       problem.hidden = false;
     } finally {

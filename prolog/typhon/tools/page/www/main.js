@@ -6,7 +6,7 @@ import { Store } from './store.js';
 import { details } from './details.js';
 import { workMenu } from './work.js';
 
-const SILENCE = 16000;          // ms without a word: nobody is there
+const SILENCE = 16000;          // ms without a frame: the server is gone
 const LONGEST = 8000;           // ms between attempts
 
 // The connection is made again whenever it is lost; what was shown stays
@@ -76,8 +76,8 @@ class Connection {
     this.timer = setTimeout(() => { if (!this.socket) this.open(); }, wait);
   }
 
-  // What happens while the server looks may be in what it sees or not: it
-  // is told afterwards once more.
+  // The snapshot may contain events that happen while the server makes it, or
+  // not: they are applied again afterwards.
   async refresh() {
     if (this.held || !this.socket) return;
     this.held = [];
@@ -155,7 +155,7 @@ class App {
 
   refresh() { return this.connection.refresh(); }
 
-  // Say something to who looks on: 'said', or 'error'.
+  // Show a note of this kind: 'said', 'warning' or 'error'.
   note(text, kind = 'said') {
     const note = element('p', { class: `note ${kind}` },
       element('span', {}, text),
@@ -166,7 +166,7 @@ class App {
     if (kind !== 'error') setTimeout(() => note.remove(), 4000);
   }
 
-  // An order; what came of it, or nothing when it failed, which is told.
+  // Send an order. Returns its answer, or nothing if it failed, with a note.
   async order(message, said) {
     try {
       const answer = await this.ask(message);
@@ -295,7 +295,7 @@ function connect(app) {
     },
   });
 
-  // who has missed something looks anew
+  // ask for a new snapshot after missed events
   function lookAnew(wait) {
     resync ??= setTimeout(() => {
       resync = null;
@@ -341,7 +341,7 @@ function keepFresh(app) {
 const store = new Store();
 const app = new App(store);
 
-// What fails where nobody waits for it is told as well.
+// Failures of promises without a handler are shown as well.
 addEventListener('unhandledrejection', ({ reason }) =>
   app.note(reason?.message ?? String(reason), 'error'));
 
@@ -351,4 +351,4 @@ stateLine(app);
 connect(app);
 keepFresh(app);
 app.show(VIEWS.some(([name]) => name === app.prefs.view) ? app.prefs.view : 'map');
-globalThis.typhon = { store, app };     // for who looks at it from a console
+globalThis.typhon = { store, app };     // for the console of the browser

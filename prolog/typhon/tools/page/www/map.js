@@ -10,10 +10,9 @@ import { onTheme, Palette, paperPalette, legend } from './palette.js';
 import { cut, Scene } from './mapscene.js';
 import { byName, found, shortName } from './names.js';
 import {
-  button, choice, element, fillChoice, fitCanvas, onSize,
+  button, choice, element, fillChoice, fitCanvas, onSize, pointers,
 } from './dom.js';
 import { pngBlob, saveButtons, SvgPen } from './svg.js';
-import { pointers } from './camera.js';
 
 const CALM = 160;               // ms; up to a second where drawing is slow
 const FOUND = 200;              // of a search, marked
@@ -148,7 +147,7 @@ class MapView {
   }
 
   // Hosts or links are new, or gone. Where hosts stand changes only if there
-  // are others than before; links that come and go move nobody.
+  // are others than before; links that come and go move no host.
   reshape() {
     this.shape = this.store.shape;
     const hosts = [...this.store.hosts.values()];
@@ -406,7 +405,7 @@ class MapView {
       this.say('This page can only look.');
       return;
     }
-    this.say(`${shortName(agent)} is told to go to ${shortName(host)}`);
+    this.say(`${shortName(agent)} is ordered to go to ${shortName(host)}`);
     this.app.act({ do: 'move', agent, host });
   }
 
@@ -503,7 +502,7 @@ class MapView {
     if (!host) return '';
     const links = [...host.links.keys()].map(shortName).sort(byName);
     const shown = links.length > 8 ? `${links.length} hosts`
-      : links.join(' ') || 'nobody';
+      : links.join(' ') || 'no host';
     const value = this.store.overlays.get(this.scene.overlay)?.values.get(hostId);
     return `${host.name} (${host.process}), ${host.state}, `
       + `${host.agents.size} agents, linked to ${shown}`

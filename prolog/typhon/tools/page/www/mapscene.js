@@ -58,7 +58,7 @@ export class Scene {
     const y = c ? rest * rest * a.y + 2 * rest * share * c.y + share * share * b.y
       : a.y + (b.y - a.y) * share;
     const length = Math.hypot(b.x - a.x, b.y - a.y) || 1;
-    const aside = Math.min(4, this.k * 0.07);   // who meets passes
+    const aside = Math.min(4, this.k * 0.07);   // opposite hops pass each other
     return { x: x - (b.y - a.y) / length * aside,
              y: y + (b.x - a.x) / length * aside };
   }
@@ -531,7 +531,7 @@ export class Scene {
     pen.setLineDash([]);
   }
 
-  // ---------------------------------------------------------- who is here
+  // ---------------------------------------------------------- agents here
 
   hit(x, y, now) {
     let nearest = null, least = 12;

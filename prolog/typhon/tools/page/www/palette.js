@@ -1,4 +1,4 @@
-// Colours: of programs, chosen so that people who see few colours tell them
+// Colours: of programs, chosen so that colour-blind readers tell them
 // apart (after Okabe and Ito, made darker or lighter for contrast), each with
 // a shape as well; and those of the theme, which views.css defines.
 

@@ -202,8 +202,8 @@ export function decode(log) {
     [time, ...items.map(item)]) };
 }
 
-// Events in the order of time; of who sets out it is known how long that takes
-// and when it sets out again: [..., 'left', to, seconds, room].
+// Events in the order of time; a hop also has its duration and the time until
+// the next hop of the agent: [..., 'left', to, seconds, room].
 function known(events) {
   const sorted = events.map((event, i) => [event, i])
     .sort(([a, i], [b, j]) => a[0] - b[0] || i - j).map(([event]) => [...event]);

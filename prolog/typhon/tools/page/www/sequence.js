@@ -11,7 +11,7 @@ import { story } from './story.js';
 const CALM = 300;
 const ROW = 24;
 const ROWS = 400;               // the latest
-const AGENTS = 8;               // who talk most, until somebody is chosen
+const AGENTS = 8;               // with most messages, until some are chosen
 const HEAD = 34;
 const LEFT = 74;
 const FONT = 'system-ui, sans-serif';
@@ -22,7 +22,7 @@ class Sequence {
   constructor(parent, store, app) {
     this.store = store;
     this.app = app;
-    this.chosen = [];           // agents; none: those who talk most
+    this.chosen = [];           // agents; none: those with most messages
     this.moves = true;
     this.build(parent);
     this.palette = new Palette(store, this.element);

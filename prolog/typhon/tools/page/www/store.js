@@ -1,13 +1,12 @@
-// What is known of a network: hosts, links, agents, counts. Both the live
-// feed and a replay are told to it as a snapshot and lists of events
+// The state of a network: hosts, links, agents, counts. Both the live feed
+// and a replay write to it a snapshot and lists of events
 //
 //     [time, host, agent, kind, argument, ...]
 //
-// and all views look at it. It knows neither pixels nor the document, and
-// decides nothing: what it is told it believes.
+// and all views read it. It depends neither on pixels nor on the document, and
+// does not check what it gets.
 
-import { APPLY } from './events.js';
-import { History } from './history.js';
+import { APPLY, History } from './events.js';
 import { machineOf, processOf, programGuess, shortName } from './names.js';
 
 const TRAIL = 64;               // hosts that are remembered of an agent
@@ -311,7 +310,7 @@ export class Store {
   // --------------------------------------------------------------- hops
 
   // A hop is {from, to, start, arrives}, in seconds of the clock; `arrives`
-  // is null as long as nobody knows when it does.
+  // is null while that time is unknown.
   setOut(agent, from, to, time, seconds, room) {
     const start = this.stamped ? time : this.clock();
     agent.hop = { from, to, start, shown: start, done: 0,

@@ -1,10 +1,10 @@
-// From events to lines in space and time: who stayed where, hopped when, and
-// sent what to whom.
+// From events to lines in space and time: stays, hops and messages of
+// agents.
 //
 //   stays:   {agent, host, from, to, lane}
 //   hops:    {agent, a, from, b, to}
 //   letters: {sender, a, from, receiver, b, to, text}; b and to are null as
-//            long as nobody has taken it
+//            long as it has not been taken
 //   marks:   {kind, agent, host, time}, of kind begins, ends, fails, clone
 //   lanes:   Map of host -> how many agents were there at a time
 

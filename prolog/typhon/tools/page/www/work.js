@@ -18,7 +18,7 @@ export function hostField(app, label, value) {
     ?? app.chosen.host ?? linked ?? hosts[0] ?? '' });
 }
 
-// An order whose errors are told where it was asked for.
+// Send an order; errors are shown in the form that sent it.
 export async function order(app, message, said) {
   const answer = await app.ask(message);
   for (const problem of answer.said) app.note(problem.text, 'warning');
@@ -311,7 +311,7 @@ export function editor(app) {
   const text = element('textarea', { 'aria-label': 'Program', spellcheck: 'false',
     autocomplete: 'off', wrap: 'off', 'aria-describedby': 'advice' });
   const advice = element('ul', { class: 'advice', id: 'advice',
-    'aria-live': 'polite', 'aria-label': 'What is said of it' });
+    'aria-live': 'polite', 'aria-label': 'Problems' });
   let problems = [], round = 0, timer = null;
   text.value = app.draft ?? START;
 
