@@ -9,7 +9,7 @@ This is the interface of the layer: higher layers import from here.
 :- reexport(lifecycle/creation, [agent_create/2, agent_create/3]).
 :- use_module(lifecycle/running, []).
 :- use_module(lifecycle/evacuation, []).
-:- reexport('lifecycle/rescheduling').
+:- reexport(lifecycle/evacuation).
 :- reexport('lifecycle/properties').
 :- reexport('lifecycle/agent_summary').
 :- reexport('lifecycle/order_client',
@@ -21,7 +21,7 @@ This is the interface of the layer: higher layers import from here.
 :- reexport('lifecycle/listing').
 :- reexport(lifecycle/named, [agent_named/2]).
 :- reexport(lifecycle/ending, [agent_end/3]).
-:- reexport(lifecycle/on_hold, [held_on/2, held_parts/3, held_put/3]).
+:- reexport(lifecycle/change, [held_on/2, held_parts/3, held_put/3]).
 :- reexport(lifecycle/orders, [order_take/2]).
 :- reexport(lifecycle/questions, [question_answered/2]).
 :- reexport(lifecycle/turn, [turn_bounded/1, turn_settled/0, turn_unit/1]).

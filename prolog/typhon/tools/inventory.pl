@@ -13,7 +13,7 @@
 :- use_module(library(pairs), [map_list_to_pairs/3, pairs_values/2]).
 :- use_module(library(settings), [setting/2, setting/4]).
 :- use_module(library(solution_sequences), [limit/2]).
-:- use_module('../kernel/base/abridged', [abridged/3]).
+:- use_module('../kernel/base/error_text', [abridged/3]).
 :- use_module('../kernel/host',
               [ address_parts/3, clock/3, host/3, host_link_cost/3,
                 host_option/2, host_property/2, host_resolve/2,

@@ -12,7 +12,7 @@
 :- use_module(library(error), [existence_error/2]).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(settings), [setting/4]).
-:- use_module('../../kernel/base/bounded', [bounded/2]).
+:- use_module('../../kernel/base/bounds', [bounded/2]).
 :- use_module(sexp, [aid_addresses/2, aid_name/2]).
 
 /** <module> Platforms, as others see them

@@ -2,7 +2,7 @@
           [ gate/4,                     % +Host, +Entrant, :Install, -Verdict
             gate_refused/4              % +Host, +From, +Agent, +Reason
           ]).
-:- use_module('../base/headroom', [memory_short/1]).
+:- use_module('../base/bounds', [memory_short/1]).
 :- use_module('../program', [code_module/2, code_receive/2]).
 :- use_module('../wire', [endpoint_address/1, endpoint_own_proof/1]).
 :- use_module('../host',

@@ -5,9 +5,11 @@
             term_told/3,                % +Term, -Lines, ?Rest
             formal_told/3,              % +Formal, -Lines, ?Rest
             context_indicator/1,        % +PI
-            is_remark/1                 % @Text
+            is_remark/1,                % @Text
+            abridged/3                  % +Term, +Longest, -Text
           ]).
 :- use_module(library(lists), [append/3]).
+:- use_module(library(apply), [maplist/2]).
 :- use_module(trees, [is_tree/2]).
 
 /** <module> Errors from elsewhere as text
@@ -352,3 +354,38 @@ is_remark(Text) :-
     !,
     Text \== '',
     Text \== "".
+
+                /*******************************
+                *           ABRIDGED           *
+                *******************************/
+
+%   Terms as text that has an end.
+
+%!  abridged(+Term, +Longest:integer, -Text:string) is det.
+%
+%   Text is Term as it would be written in a program, variables as `_` where
+%   they occur once and letters elsewhere.  Of more than Longest characters
+%   only the beginning is there, and three dots after it.  What is deep or
+%   cyclic is cut off on the way, so that a large term costs no more than its
+%   text.
+
+abridged(Term, Longest, Text) :-
+    copy_term(Term, Copy, _),
+    named(Copy),
+    Depth is max(10, Longest),
+    format(string(Whole), '~W',
+           [ Copy, [ quoted(true), numbervars(true), portray(false),
+                     max_depth(Depth), cycles(true) ] ]),
+    (   sub_string(Whole, 0, Longest, After, Begin),
+        After > 3
+    ->  string_concat(Begin, "...", Text)
+    ;   Text = Whole
+    ).
+
+named(Term) :-
+    cyclic_term(Term),
+    !.
+named(Term) :-
+    term_singletons(Term, Singletons),
+    maplist(=('$VAR'('_')), Singletons),
+    numbervars(Term, 0, _).

@@ -1,11 +1,11 @@
 :- module(typhon_changing,
-          [ host_change/2               % +Host, +Option
+          [ host_change/2,              % +Host, +Option
+            host_listed/2               % +ListOrOne, -List
           ]).
 :- use_module(library(error), [permission_error/3]).
 :- use_module(library(lists), [member/2]).
 :- use_module('../base/options', [check_option/2]).
 :- use_module('../base/durable_changes', [sync_changes/0]).
-:- use_module(host_options, [host_listed/2]).
 :- use_module(host_names, [host_resolve/2]).
 :- use_module(host_parts, [parts_load/1]).
 :- use_module(hosts, [host/3, host_option/2, host_put/2]).
@@ -64,3 +64,44 @@ changes(log(_)).
 changes(python(_)).
 changes(remote(_)).
 changes(seed(_)).
+
+                /*******************************
+                *         HOST OPTIONS         *
+                *******************************/
+
+%   What may be said of a host that is started.
+%
+%   What it means is described at host_start/2, which of it may be changed later at
+%   host_change/2.
+
+:- multifile typhon_options:declared/4.
+
+typhon_options:declared(host_option, Option, Type, Value) :-
+    host_option_type(Option, Type, Value).
+
+host_option_type(port(X), between(0, 65535), X).
+host_option_type(bind(X), atom, X).
+host_option_type(capacity(X), nonneg, X).
+host_option_type(capacity(X), oneof([inf]), X).
+host_option_type(tokens(X), list, X).
+host_option_type(concurrency(X), positive_integer, X).
+host_option_type(concurrency(X), oneof([inf]), X).
+host_option_type(consult(X), ground, X).
+host_option_type(services(X), ground, X).
+host_option_type(place(X), atom, X).
+host_option_type(log(X), host_address, X).
+host_option_type(log(X, _), host_address, X).
+host_option_type(remote(X), boolean, X).
+host_option_type(clock(X, Y), list(number), [X,Y]).
+host_option_type(hop_time(uniform(X, Y)), list(number), [X,Y]).
+host_option_type(seed(X), integer, X).
+host_option_type(python(X), boolean, X).
+
+%!  host_listed(+ListOrOne, -List) is det.
+%
+%   What is not a list is the only one in it.
+
+host_listed(List, List) :-
+    is_list(List),
+    !.
+host_listed(One, [One]).

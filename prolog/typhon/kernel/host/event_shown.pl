@@ -2,7 +2,7 @@
           [ event_shown/3               % +Host, +What, -Shown
           ]).
 :- use_module(library(settings), [setting/2, setting/4]).
-:- use_module('../base/abridged', [abridged/3]).
+:- use_module('../base/error_text', [abridged/3]).
 :- use_module(hosts, [host_option/2]).
 
 /** <module> What of an event leaves the process

@@ -25,7 +25,7 @@
 :- use_module(clock, [clock_clear/1, clock_set/3]).
 :- use_module(events, [event/4, events_forget/1]).
 :- use_module(host_log, []).
-:- use_module(host_options, [host_listed/2]).
+:- use_module(changing, [host_listed/2]).
 :- use_module(host_parts, [parts_load/1]).
 :- use_module(hosts,
               [host/3, host_add/4, host_close/1, host_remove/1]).

@@ -3,7 +3,7 @@
 :- use_module(library(debug), [debug/3]).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(settings), [setting/2, setting/4]).
-:- use_module('../base/headroom', [memory_short/0]).
+:- use_module('../base/bounds', [memory_short/0]).
 :- use_module('../base/own_thread', [stop_thread/1]).
 :- use_module(alarms, [alarm_stamp/3]).
 :- use_module(blocked,

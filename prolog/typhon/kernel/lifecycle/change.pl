@@ -1,7 +1,11 @@
 :- module(typhon_change,
           [ change_order/2,             % +Change, -Order
             change_made/2,              % +Order, +Id
-            undeclared/2                % +PI, +Declared
+            undeclared/2,               % +PI, +Declared
+            held_put/3,                 % +Id, +State, +Goals
+            held_parts/3,               % +Held, -State, -Goals
+            held_on/2,                  % +Id, +Held
+            held_dropped/1              % +Goals
           ]).
 :- use_module(library(apply), [maplist/2]).
 :- use_module(library(error), [domain_error/2, must_be/2, permission_error/3]).
@@ -10,10 +14,10 @@
               [ clause_parts/3, code_install/3, code_program/2,
                 code_receive/2, code_sent/2, code_stands/2, program_load/6 ]).
 :- use_module('../wire', [mobile_term/1]).
-:- use_module('../host', [host/3, parts/3]).
+:- use_module('../host', [host/3, parts/3, schedule/2]).
 :- use_module('../agent',
               [ agent/5, agent_add/2, agent_clauses/3, agent_module/5,
-                agent_program/4, agent_state/2, with_agent/2 ]).
+                agent_program/4, agent_put/3, agent_state/2, with_agent/2 ]).
 
 /** <module> Agents are changed from outside
 
@@ -133,3 +137,51 @@ state_indicator(Module, Name/Arity) :-
 
 undeclared(PI, Declared) :-
     throw(error(existence_error(state, PI, Declared), _)).
+
+                /*******************************
+                *           ON HOLD            *
+                *******************************/
+
+%   Agents that are held in the middle of their goals.
+%
+%   The engine of a turn, see typhon_turn, may put an agent down before any goal.
+%   The agent then has the status `held`, and when it is to go on `resumed`, until
+%   a worker has it.  In place of its goals there is
+%
+%       held(State, Goals)
+%
+%   State being what the engine needs to go on, and Goals what comes next.  It
+%   holds no thread, and is ended as others that rest are.  Orders wait for its
+%   next effect.
+
+:- multifile dropped/1.         % State: the agent ends, and goes on no more
+
+%!  held_put(+Id, +State, +Goals:list) is det.
+%!  held_parts(+Held, -State, -Goals:list) is semidet.
+%!  held_on(+Id, +Held) is det.
+%
+%   Id, which was running, is held; what Held is; it is to go on.
+
+held_put(Id, State, Goals) :-
+    agent_put(Id, held, held(State, Goals)).
+
+held_parts(Held, State, Goals) :-
+    nonvar(Held),
+    Held = held(State, Goals).
+
+held_on(Id, Held) :-
+    agent_put(Id, resumed, Held),
+    agent(Id, Host, _, _, _),
+    !,
+    schedule(Host, Id).
+
+%!  held_dropped(+Goals) is det.
+%
+%   An agent ends in the place of whose goals there was Goals.
+
+held_dropped(Goals) :-
+    (   held_parts(Goals, State, _),
+        dropped(State)
+    ->  true
+    ;   true
+    ).

@@ -13,7 +13,7 @@
               [ agent/5, agent_fault/5, agent_remove/3, agent_status/3,
                 fault_outcome/2, fault_shown/2, is_faulty/3, result_facts/2,
                 life_hops/2, with_agent/2 ]).
-:- use_module(on_hold, [held_dropped/1]).
+:- use_module(change, [held_dropped/1]).
 :- use_module('../travel',
               [agent_ended/4, agent_ends/2, move_over/2, transfer_given_up/2]).
 :- use_module(faulty,

@@ -1,10 +1,16 @@
-:- module(typhon_evacuation, []).
+:- module(typhon_evacuation,
+          [ agent_reschedule/1          % +Id
+          ]).
 :- use_module(library(lists), [member/2]).
 :- use_module('../base/own_thread', [abort_quietly/0]).
 :- use_module('../base/durable_changes', [durable_closed/0]).
 :- use_module('../program', [machine_inside/0]).
-:- use_module('../host', [context_now/2, host_load/2, time_signal/1]).
-:- use_module('../agent', [agent/5, agent_ordered/1, agent_status/3]).
+:- use_module('../host',
+              [ alarm_set/3, context_now/2, host_load/2, real_time/3,
+                schedule/2, time_signal/1 ]).
+:- use_module('../agent',
+              [ agent/5, agent_ordered/1, agent_status/3, agent_wakes/2,
+                mail_count/2, with_agent/2 ]).
 :- use_module(ending, [agent_end/3, agent_forgotten/2]).
 :- use_module(orders, [order_take/2]).
 
@@ -104,3 +110,60 @@ stop_running(Host) :-
     ->  abort_quietly
     ;   true
     ).
+
+                /*******************************
+                *         RESCHEDULING         *
+                *******************************/
+
+%   Agents that were restored go on.
+%
+%   Agents that were about to run are scheduled, those that have mail are woken,
+%   and for those that sleep or wait an alarm is set.
+
+%!  agent_reschedule(+Id) is det.
+%
+%   Id, which has been put where it was, is scheduled if it was about to run,
+%   and woken when its time has come.  Others are let in already, and what they
+%   send may have woken it: an agent that runs by now must not be run by two.
+
+agent_reschedule(Id) :-
+    (   with_agent(Id, ( agent_status(Id, Status, Goals),
+                         goes_on(Status, Goals, Id) ))
+    ->  true
+    ;   true
+    ),
+    (   agent_status(Id, Now, _),
+        alarm(Now, Stamp, Token),
+        agent(Id, Host, _, _, _)
+    ->  rings(Host, Stamp, Id, Token)
+    ;   true
+    ).
+
+goes_on(ready, _, Id) :-
+    agent(Id, Host, _, _, _),
+    !,
+    schedule(Host, Id).
+goes_on(obeying, Goals, Id) :-
+    agent_wakes(Id, Goals).
+goes_on(faulty(_), Goals, Id) :-
+    agent_wakes(Id, Goals).
+goes_on(resident, Goals, Id) :-
+    has_mail(Id, Goals).
+goes_on(waiting(_, _), Goals, Id) :-
+    has_mail(Id, Goals).
+
+%   It runs, and sees for itself.
+
+has_mail(Id, Goals) :-
+    mail_count(Id, Count),
+    Count > 0,
+    agent_wakes(Id, Goals).
+
+alarm(waiting(_, Until), Until, until(Until)) :-
+    number(Until).
+alarm(sleeping(Until), Until, until(Until)).
+alarm(leaving(_, At), At, leave).
+
+rings(Host, Until, Id, Token) :-
+    real_time(Host, Until, Stamp),
+    alarm_set(Stamp, Id, Token).

@@ -7,7 +7,7 @@
 :- use_module(library(error), [existence_error/2, must_be/2]).
 :- use_module(library(lists), [last/2, member/2]).
 :- use_module(library(settings), [setting/4]).
-:- use_module('../base/bounded', [bounded/2]).
+:- use_module('../base/bounds', [bounded/2]).
 :- use_module('../agent', [agent/5, agent_name/3]).
 :- use_module('../travel', [agent_outcome/2, ended_agent/1, home_agents/1]).
 :- use_module(questions, [agent_ask/4]).

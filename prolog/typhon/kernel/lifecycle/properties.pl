@@ -12,7 +12,7 @@
                 fault_error/2, fault_shown/2, in_words/2, is_faulty/3,
                 life_hops/2, life_payloads/2, mail_list/2, with_agent/2 ]).
 :- use_module('../travel', [in_doubt/1, transfer_held/2]).
-:- use_module(on_hold, [held_parts/3]).
+:- use_module(change, [held_parts/3]).
 :- use_module(named, [agent_named/2]).
 :- use_module(questions,
               [agent_ask/4, agent_ask_here/4, question_answered/2]).

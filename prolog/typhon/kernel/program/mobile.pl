@@ -11,7 +11,7 @@
 :- use_module(library(lists), [append/3, member/2]).
 :- use_module(library(ordsets), [ord_union/3]).
 :- use_module(library(settings), [setting/4]).
-:- use_module('../base/bounded', [bounded/2]).
+:- use_module('../base/bounds', [bounded/2]).
 :- use_module(control, [control/1]).
 
 /** <module> Which predicates of a program can reach a control predicate

@@ -16,7 +16,7 @@
 :- use_module(library(debug), [debug/3]).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(settings), [setting/4]).
-:- use_module('../base/bounded', [bounded/2]).
+:- use_module('../base/bounds', [bounded/2]).
 :- use_module('../base/durable', [durable/5, durable/6, durable_assertz/1]).
 :- use_module('../base/durable_changes',
               [durable_drop/3, durable_drop_all/2, durable_put/4]).
@@ -51,7 +51,7 @@ its agents what they tell it.
     waiter/3.                   % Id, Token, Asker
 
 :- multifile
-    typhon_bounded:forgotten/1,
+    typhon_bounds:forgotten/1,
     typhon_identity:ids_anew/0,
     typhon_identity:id_anew/1,
     typhon_endpoint:requested/4,
@@ -78,7 +78,7 @@ put_born(Id, Address, Hops, Process) :-
     durable_put(born, Id, 0, born(Address, Hops, Process)),
     assertz(born(Id, Address, Hops, Process)).
 
-typhon_bounded:forgotten(outcome(Id, _, _)) :-
+typhon_bounds:forgotten(outcome(Id, _, _)) :-
     durable_drop_all(outcome, Id).
 
 %   At the address of another process there may be another by then.

@@ -7,7 +7,7 @@
           ]).
 :- use_module(library(lists), [list_to_set/2, member/2]).
 :- use_module(library(settings), [setting/4]).
-:- use_module('../base/bounded', [bounded/2]).
+:- use_module('../base/bounds', [bounded/2]).
 :- use_module('../base/durable',
               [ durable/5, durable/6, durable_assertz/1, durable_retractall/1 ]).
 :- use_module('../base/durable_changes', [durable_drop_all/2]).
@@ -28,7 +28,7 @@ oldest entries are forgotten.
 */
 
 :- multifile
-    typhon_bounded:forgotten/1,
+    typhon_bounds:forgotten/1,
     typhon_identity:ids_anew/0,
     typhon_identity:id_anew/1,
     typhon_endpoint:requested/4.
@@ -75,9 +75,9 @@ results_ask(Where, Id, Kind, Items) :-
 %
 %   Clone is one of Parent, which stands here; it could not begin elsewhere.
 
-typhon_bounded:forgotten(left(Id, _)) :-
+typhon_bounds:forgotten(left(Id, _)) :-
     durable_drop_all(left, Id).
-typhon_bounded:forgotten(clone_of(_, Clone)) :-
+typhon_bounds:forgotten(clone_of(_, Clone)) :-
     durable_drop_all(clone, Clone).
 
 :- durable(left, Id, _, Item, left(Id, Item)).

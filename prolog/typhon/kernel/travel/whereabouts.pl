@@ -18,7 +18,7 @@
 :- use_module(library(apply), [include/3, maplist/2]).
 :- use_module(library(error), [must_be/2]).
 :- use_module(library(settings), [setting/4]).
-:- use_module('../base/bounded', [bounded/2]).
+:- use_module('../base/bounds', [bounded/2]).
 :- use_module('../base/durable', [durable/6]).
 :- use_module('../base/durable_changes',
               [durable_drop/3, durable_on/0, durable_put/4]).
@@ -64,7 +64,7 @@ see typhon_news, since it may have to connect.
 
 :- multifile
     error:has_type/2,
-    typhon_bounded:forgotten/1,
+    typhon_bounds:forgotten/1,
     typhon_identity:ids_anew/0,
     typhon_identity:id_anew/1,
     typhon_endpoint:received/3,
@@ -152,7 +152,7 @@ typhon_identity:ids_anew :-
     retractall(forward(_, _, _, _)),
     retractall(ended_here(_, _)).
 
-typhon_bounded:forgotten(forward(Id, _, _, _)) :-
+typhon_bounds:forgotten(forward(Id, _, _, _)) :-
     durable_drop(agent, Id, 0).
 
 %   The process may be another by then.

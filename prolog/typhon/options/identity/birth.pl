@@ -26,7 +26,7 @@ process shows it once.
 :- use_module(library(error), [permission_error/3]).
 :- use_module(library(lists), [sum_list/2]).
 :- use_module(library(settings), [setting/4]).
-:- use_module('../../kernel/base/bounded', [bounded/2]).
+:- use_module('../../kernel/base/bounds', [bounded/2]).
 :- use_module('../keys', [keys_sign/3, keys_verify/4, own_keys/1]).
 :- use_module('../../kernel/base/durable', [durable/6]).
 :- use_module('../../kernel/base/durable_changes',
@@ -38,7 +38,7 @@ process shows it once.
 :- use_module(owner, [agent_owned/1, agent_owned/2]).
 
 :- multifile
-    typhon_bounded:forgotten/1,
+    typhon_bounds:forgotten/1,
     typhon_identity:ids_anew/0,
     typhon_host_parts:part/4,
     typhon_hop:sent_again/2.
@@ -136,7 +136,7 @@ remember(Id, Birth) :-
 
 %   For agents that are here no other process may know it.
 
-typhon_bounded:forgotten(known(Id, Birth)) :-
+typhon_bounds:forgotten(known(Id, Birth)) :-
     (   agent(Id, _, _, _, _)
     ->  assertz(known(Id, Birth))
     ;   durable_drop(birth, Id, 0)

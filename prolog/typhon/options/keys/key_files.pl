@@ -18,7 +18,7 @@ files that it depends on are.
 :- autoload(library(filesex), [directory_file_path/3]).
 :- autoload(library(readutil), [read_file_to_string/3]).
 :- use_module(library(settings), [setting/4]).
-:- use_module('../../kernel/base/bounded', [bounded/2]).
+:- use_module('../../kernel/base/bounds', [bounded/2]).
 
 :- autoload(library(ssl),
             [load_certificate/2, load_crl/2, load_private_key/3]).

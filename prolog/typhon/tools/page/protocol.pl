@@ -14,7 +14,7 @@
           ]).
 :- use_module(library(apply), [maplist/3, maplist/4]).
 :- use_module(library(lists), [member/2]).
-:- use_module('../../kernel/base/abridged', [abridged/3]).
+:- use_module('../../kernel/base/error_text', [abridged/3]).
 :- use_module('../../kernel/host', [address_parts/3]).
 
 /** <module> What server and browser say to each other

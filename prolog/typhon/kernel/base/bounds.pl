@@ -1,12 +1,14 @@
-:- module(typhon_headroom,
+:- module(typhon_bounds,
           [ memory_short/0,
-            memory_short/1              % +Count
+            memory_short/1,             % +Count
+            bounded/2                   % :Fact, +Setting
           ]).
 :- use_module(library(aggregate), [aggregate_all/3]).
 :- use_module(library(lists), [member/2]).
 :- autoload(library(readutil), [read_file_to_string/3]).
+:- use_module(library(settings), [setting/2]).
 
-/** <module> Whether there is little memory left
+/** <module> What keeps a process in bounds: memory, and tables that forget
 
 A process that may have only so much address space (ulimit -v, prlimit --as)
 ends when an allocation fails, whichever thread it was for.  So the numbers of
@@ -84,3 +86,38 @@ free_pages(Bytes) :-
     malloc_property('tcmalloc.pageheap_free_bytes'(Bytes)).
 free_pages(Bytes) :-
     malloc_property('tcmalloc.pageheap_unmapped_bytes'(Bytes)).
+
+                /*******************************
+                *           BOUNDED            *
+                *******************************/
+
+%   Tables that forget the oldest.
+
+:- meta_predicate bounded(0, +).
+
+:- multifile forgotten/1.               % Fact
+
+%!  bounded(:Fact, +Setting) is det.
+%
+%   A fact like Fact was added.  Now and then forget the oldest of what
+%   exceeds Setting, module:name.
+
+bounded(Fact, Setting) :-
+    Setting = _:Key,
+    flag(Key, N, N+1),
+    (   N mod 100 =:= 0
+    ->  setting(Setting, Max),
+        predicate_property(Fact, number_of_clauses(Count)),
+        Excess is Count-Max,
+        forall(between(1, Excess, _), forget(Fact))
+    ;   true
+    ).
+
+%   Modules that hold it elsewhere are notified.
+
+forget(Fact) :-
+    (   retract(Fact)
+    ->  strip_module(Fact, _, Plain),
+        forall(forgotten(Plain), true)
+    ;   true
+    ).
