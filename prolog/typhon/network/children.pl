@@ -39,7 +39,8 @@ terminal stops the query there, not the network.
 *Threading*: one thread per child reads its output and waits for its end.
 It calls OnEvent with up(Tag, Endpoint, Pid) when the child is ready, Pid
 being that of the child on its machine, with failed(Tag, Error) if it cannot
-become ready, and with down(Tag, Status) when it has ended.
+become ready, and with down(Tag, Status) when it has ended. No `server`: it
+waits for a stream.
 */
 
 :- meta_predicate

@@ -26,7 +26,8 @@ than the setting `longest` is skipped and not kept.  library(http/http_stream)
 is there because without it the request says HTTP/1.0, which servers refuse.
 
 *Threading*: rosbridge_send/3 may be called in any thread.  The hooks are
-run by the thread that reads, which reads nothing meanwhile.
+run by the thread that reads, which reads nothing meanwhile. No `server`: it
+waits for a stream, and the thread that writes ends with its connection.
 */
 
 :- multifile

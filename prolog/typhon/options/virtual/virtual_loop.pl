@@ -40,7 +40,7 @@ Without a waiting caller it only answers questions: time stands still.
 
 *Threading*: the heap of alarms and the list of waiting callers are on the
 stack of this thread. The time and the number of steps are flags, which any
-thread may ask for.
+thread may ask for. No `server`: it takes messages by their form, not in order.
 */
 
 :- multifile

@@ -21,7 +21,7 @@ it that the places from which they come are asked again when they were cut
 off, see module `watch_places`.
 
 *Threading*: one thread for each watch.  The hooks of the endpoint put into its
-queue what it is to hear.
+queue what it is to hear. No `server`: an aborted watch ends.
 */
 
 :- meta_predicate listen_on(+, +, 1, +).

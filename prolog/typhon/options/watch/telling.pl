@@ -32,7 +32,7 @@ Events are sent with requests of kind `watched`:
   | alive(Id)          | `yes` or `no`                             |
 
 *Threading*: a teller for each watch, joined by the thread that removes its
-record.
+record. No `server`: amid a batch it waits for the answer of the watch.
 */
 
 :- multifile
