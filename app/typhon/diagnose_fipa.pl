@@ -12,7 +12,7 @@ Goes from its URL to a message that it takes.
 :- use_module(library(socket), [tcp_connect/3]).
 :- use_module('../../prolog/typhon/bridges/fipa/acl', [acl_text/2]).
 :- use_module('../../prolog/typhon/bridges/fipa/http',
-              [http_post/4, http_response/4, http_url/3]).
+              [http_post/4, http_response/3, http_url/3]).
 :- use_module('../../prolog/typhon/bridges/fipa/letter', [letter_write/5]).
 :- use_module(diagnose, [diagnose_steps/2]).
 
@@ -49,10 +49,7 @@ check(Url, message, Found) :-
     letter_write(Text, From, To, Type, Body),
     connected(Url, In, Out,
               ( http_post(Out, Url, Type, Body),
-                deadline(Seconds),
-                get_time(Now),
-                Deadline is Now+Seconds,
-                http_response(In, Deadline, Code, _) )),
+                http_response(In, Code, _) )),
     (   Code == 200
     ->  Found = 'it takes messages'
     ;   throw(error(domain_error(fipa_response, Code), _))

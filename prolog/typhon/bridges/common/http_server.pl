@@ -216,10 +216,12 @@ http_deadline(Seconds, Deadline) :-
 
 %!  http_before(+Deadline, +In) is det.
 %
-%   The next byte has to be there by then.
+%   The next byte has to be there by then; with `none` the caller bounds the time.
 %
 %   @error timeout_error(read, In)
 
+http_before(none, _) :-
+    !.
 http_before(Deadline, In) :-
     get_time(Now),
     Left is Deadline-Now,

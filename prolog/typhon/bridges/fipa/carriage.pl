@@ -11,8 +11,8 @@
               [ tcp_close_socket/1, tcp_connect/2, tcp_open_socket/3,
                 tcp_setopt/2, tcp_socket/1 ]).
 :- use_module('../../kernel/base/error_text', [print_error/2]).
-:- use_module('../common', [crew_end/1, crew_start/4, http_deadline/2]).
-:- use_module(http, [http_post/4, http_response/4, http_url/3, within/2]).
+:- use_module('../common', [crew_end/1, crew_start/4]).
+:- use_module(http, [http_post/4, http_response/3, http_url/3, within/2]).
 
 /** <module> Outgoing messages
 
@@ -139,8 +139,7 @@ idle(Host, Address, Queue) :-
 
 sent([Url|Urls], Host, Letter, Limits, Way) :-
     option(seconds(Seconds), Limits),
-    http_deadline(Seconds, Deadline),
-    catch(within(Seconds, exchange(Url, Letter, Deadline, Way, Code)),
+    catch(within(Seconds, exchange(Url, Letter, Way, Code)),
           Ball,
           failed(Ball, Way, Code)),
     debug(typhon(fipa), '~w: a message to ~w: ~p', [Host, Url, Code]),
@@ -175,29 +174,29 @@ why(Code, Why) :-
     ;   format(string(Why), '~p', [Code])
     ).
 
-%   exchange(+Url, +Letter, +Deadline, !Way, -Code): a connection that is kept
+%   exchange(+Url, +Letter, !Way, -Code): a connection that is kept
 %   may have been closed by the other side just now: then a new one is tried.
 
-exchange(Url, Letter, Deadline, Way, Code) :-
+exchange(Url, Letter, Way, Code) :-
     kept(Url, Way, In, Out),
-    catch(post(In, Out, Url, Letter, Deadline, Code0, KeepAlive),
+    catch(post(In, Out, Url, Letter, Code0, KeepAlive),
           error(_, _), fail),
     !,
     keep(KeepAlive, Way),
     Code = Code0.
-exchange(Url, Letter, Deadline, Way, Code) :-
+exchange(Url, Letter, Way, Code) :-
     disconnect(Way),
     connect(Url, Way, In, Out),
-    (   post(In, Out, Url, Letter, Deadline, Code0, KeepAlive)
+    (   post(In, Out, Url, Letter, Code0, KeepAlive)
     ->  keep(KeepAlive, Way),
         Code = Code0
     ;   disconnect(Way),
         Code = connection_closed
     ).
 
-post(In, Out, Url, letter(Type, Body, _), Deadline, Code, KeepAlive) :-
+post(In, Out, Url, letter(Type, Body, _), Code, KeepAlive) :-
     http_post(Out, Url, Type, Body),
-    http_response(In, Deadline, Code, KeepAlive).
+    http_response(In, Code, KeepAlive).
 
 %   kept(+Url, +Way, -In, -Out): Way has an open connection.  Pending input is
 %   the rest of an earlier answer.

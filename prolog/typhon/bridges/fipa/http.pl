@@ -1,10 +1,9 @@
 :- module(typhon_fipa_http,
           [ http_url/3,                 % ?Url, ?Address, ?Path
-            http_request/5,             % +In, +Out, +Deadline, +MaxBytes,
-                                        % -Request
+            http_request/4,             % +In, +Out, +MaxBytes, -Request
             http_respond/3,             % +Out, +Code, +KeepAlive
             http_post/4,                % +Out, +Url, +ContentType, +Body
-            http_response/4,            % +In, +Deadline, -Code, -KeepAlive
+            http_response/3,            % +In, -Code, -KeepAlive
             within/2                    % +Seconds, :Goal
           ]).
 :- use_module(library(dcg/basics), [string_without//2]).
@@ -24,7 +23,8 @@ Requests and responses on byte streams, each of bounded size: a head of at most
 there.  Clients of library(http/http_open) cannot be used: answers of JADE have
 no length, and the connection is kept.
 
-The caller limits the time by within/2, which is like call_with_time_limit/2;
+The caller bounds the time of the whole by within/2, since a deadline for each
+byte would cost more than the rest of a head.  within/2 is like call_with_time_limit/2;
 but the library of that may keep 9.0.4 from halting once it is loaded.  This
 uses the alarms of hosts.
 
@@ -74,21 +74,20 @@ http_url(Url, Host:Port, Path) :-
                 *           REQUESTS           *
                 *******************************/
 
-%!  http_request(+In, +Out, +Deadline, +MaxBytes, -Request) is semidet.
+%!  http_request(+In, +Out, +MaxBytes, -Request) is semidet.
 %
 %   Read the next request from In, Request being request(Method, Target,
 %   ContentType, Body, KeepAlive): an atom as `post`, two more, a string of
-%   bytes and a boolean.  Fails at the end of In.  Its head has to be there
-%   before the Deadline.  A body must have a length; a client that expects `100
-%   Continue` gets it on Out.
+%   bytes and a boolean.  Fails at the end of In.  A body must have a length; a
+%   client that expects `100 Continue` gets it on Out.
 %
 %   @error syntax_error(http_request), syntax_error(http_length)
 %   @error resource_error(http_head), resource_error(http_body)
 
-http_request(In, Out, Deadline, MaxBytes,
+http_request(In, Out, MaxBytes,
              request(Method, Target, Type, Body, KeepAlive)) :-
     max_head(Max),
-    http_head(In, Max, Deadline, Head),
+    http_head(In, Max, none, Head),
     (   catch(with_bytes(written(Head), Text,
                          http_read_request(Text, Fields)),
               error(_, _), fail),
@@ -187,21 +186,21 @@ http_post(Out, Url, ContentType, Body) :-
     write(Out, Body),
     flush_output(Out).
 
-%!  http_response(+In, +Deadline, -Code, -KeepAlive:boolean) is semidet.
+%!  http_response(+In, -Code, -KeepAlive:boolean) is semidet.
 %
 %   Fails at the end of In.  JADE's answers have no length: the rest of the
 %   last one is skipped.
 %
 %   @error resource_error(http_head), syntax_error(http_response)
 
-http_response(In, Deadline, Code, KeepAlive) :-
+http_response(In, Code, KeepAlive) :-
     max_head(Max),
     max_skipped(Most),
     Left is Max+Most,
-    response(In, Left, Deadline, Code, KeepAlive).
+    response(In, Left, Code, KeepAlive).
 
-response(In, Left0, Deadline, Code, KeepAlive) :-
-    http_head(In, Left0, Deadline, Head),
+response(In, Left0, Code, KeepAlive) :-
+    http_head(In, Left0, none, Head),
     (   phrase(status(Minor, Code0), Head, Rest),
         Code0 \== 100
     ->  Code = Code0,
@@ -210,7 +209,7 @@ response(In, Left0, Deadline, Code, KeepAlive) :-
         skip_body(Fields, In)
     ;   length(Head, Length),
         Left is Left0-Length,
-        response(In, Left, Deadline, Code, KeepAlive)
+        response(In, Left, Code, KeepAlive)
     ).
 
 status(Minor, Code) -->

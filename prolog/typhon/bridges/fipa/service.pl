@@ -8,13 +8,12 @@
 :- use_module('../../kernel/program', [payload_load/2]).
 :- use_module('../../kernel/host', [host_option/2]).
 :- use_module('../common',
-              [ client_becomes/1, http_deadline/2, http_server_close/1,
-                http_server_open/4, service_begin/4, service_end/2,
-                service_offer/4 ]).
+              [ client_becomes/1, http_server_close/1, http_server_open/4,
+                service_begin/4, service_end/2, service_offer/4 ]).
 :- use_module('../../kernel/base/error_text', [print_error/2]).
 :- use_module(carriage, [carriage_close/1, carriage_queued/2]).
 :- use_module(exchange, [exchange_received/3, exchange_send/4]).
-:- use_module(http, [http_request/5, http_respond/3, http_url/3, within/2]).
+:- use_module(http, [http_request/4, http_respond/3, http_url/3, within/2]).
 :- use_module(managers, [manager_end/1]).
 :- use_module(platform,
               [ platform/4, platform_add/4, platform_aid/3,
@@ -193,9 +192,9 @@ requests(Host, In, Out, Limits) :-
     Byte \== -1,
     client_becomes(reading),
     option(seconds(Seconds), Limits),
-    http_deadline(Seconds, Deadline),
     option(max_bytes(Max), Limits),
-    catch(within(Seconds, http_request(In, Out, Deadline, Max, Request)),
+    set_stream(In, timeout(Seconds)),
+    catch(within(Seconds, http_request(In, Out, Max, Request)),
           Ball,
           Request = bad(Ball)),
     client_becomes(busy),
