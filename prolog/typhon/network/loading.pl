@@ -199,9 +199,9 @@ links_again(dynamics(Name, Stamp, Then), Network, Clock, Kind, Shift) :-
     due_at(Kind, Shift, Stamp, Dynamics, links).
 
 due_at(virtual, _, _, _, _).
-due_at(real, Shift, Stamp0, Who, Token) :-
+due_at(real, Shift, Stamp0, Owner, Token) :-
     Stamp is Stamp0+Shift,
-    alarm_set(Stamp, Who, Token).
+    alarm_set(Stamp, Owner, Token).
 
 go_on(Network, P, Kind, Terms) :-
     memberchk(time(P, Time), Terms),

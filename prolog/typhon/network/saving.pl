@@ -72,7 +72,7 @@ save(Network, Standing, File) :-
     Standing = standing(Plan, _, _, _),
     plan_processes(Plan, Count, _),
     numlist(1, Count, Ps),
-    nobody_else(Network),
+    not_shared(Network),
     restarts_back(Network),
     setup_call_cleanup(
         true,
@@ -80,22 +80,22 @@ save(Network, Standing, File) :-
         let_go(Network, Ps)),
     saved_write(File, Terms).
 
-%   In virtual time what others do in this process is not to be told from what
-%   the network does.
+%   In virtual time the work of other hosts of this process cannot be separated
+%   from that of the network.
 
-nobody_else(Network) :-
+not_shared(Network) :-
     context_now(_, Agent),
     Agent \== none,
     !,
     permission_error(save, network, Network).
-nobody_else(Network) :-
+not_shared(Network) :-
     time_kind(virtual),
     wired(Network, Hosts),
     host_property(Name, address(Address)),
     \+ memberchk(host(_, _, Name, Address), Hosts),
     !,
     permission_error(save, host, Address).
-nobody_else(_).
+not_shared(_).
 
 carried_here(Network) :-
     node(Network, _, _, local).
@@ -202,8 +202,8 @@ dynamics(Dynamics, Deadline, Network, dynamics(Dynamics, Stamp, Then)) :-
 
 %   What has just gone off, and is not done yet, is to go off at once.
 
-due(Who, Token, Stamp) :-
-    (   time_due(Who, Token, Stamp0)
+due(Owner, Token, Stamp) :-
+    (   time_due(Owner, Token, Stamp0)
     ->  Stamp = Stamp0
     ;   Stamp = 0
     ).

@@ -26,10 +26,10 @@
 
 /** <module> Subscribers of services
 
-Agents subscribe to a Key, as a topic.  They are told what comes until they
-unsubscribe, leave the host, end, or are faulty.  One that set out and stays
-is subscribed as before.  Who subscribes by remote/2 is no agent: facts come
-until the service ends.
+Agents subscribe to a Key, as a topic.  They receive what comes until they
+unsubscribe, leave the host, end, or are faulty; an agent whose hop fails stays
+subscribed.  A goal of remote/2 has no agent: what it subscribes to is stored as
+facts until the service ends.
 
 *Threading*: any thread; subscribers_tell/5 is for the thread that reads what
 comes, and does not wait.  The hook wanted/4 is run inside a mutex, so that
@@ -171,7 +171,7 @@ tell(_, Service-Key, Host-Agent, _) :-  % it is not here any more
 
 %!  subscribers_drop(+Service, +Host, +Key, +Message) is det.
 %
-%   Key cannot be had.  Who wanted it is told Message, as the last thing.
+%   Key is not available: subscribers get Message and are dropped.
 
 subscribers_drop(Service, Host, Key, Message) :-
     subscribers_tell(Service, Host, Key, Message, Message),
@@ -197,10 +197,10 @@ forget(Service, Host) :-
 forget(_, _).
 
                 /*******************************
-                *      WHO LEAVES OR ENDS      *
+                *    AGENTS THAT LEAVE OR END  *
                 *******************************/
 
-%   As long as somebody is subscribed on a host what happens there is heard.
+%   Events of a host are listened to while it has subscribers.
 
 hear(Host) :-
     (   hearing(Host)

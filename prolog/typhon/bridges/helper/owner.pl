@@ -123,7 +123,7 @@ down(always, Wait0, Answer, down(Time, Wait, Answer)) :-
     Time is Now+Wait0,
     Wait is min(10, 2*Wait0).
 
-%   Started again it is told first what it has to know.
+%   A helper that is started again first gets the state it needs.
 
 begin_again(Me, Wait, State) :-
     begin(Me, Wait, State),

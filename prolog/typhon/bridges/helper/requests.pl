@@ -22,9 +22,8 @@
 Every helper has a server that owns its process, see typhon_helper_owner.
 Answers, in whatever order, go to the waiting callers.
 
-A helper ends what it does at the deadline of the request.  Who asked waits
-two seconds longer, then kills a helper that has not answered, so nothing
-hangs.
+A helper ends what it does at the deadline of the request.  The caller waits two
+seconds longer, then kills a helper that has not answered, so nothing hangs.
 
 *Threading*: any thread may ask.  An answer that comes too late is dropped.
 */
@@ -137,9 +136,9 @@ ask(Name, Owner, Request, Seconds, Answer) :-
 %!  helper_tell(+Name, +Request) is det.
 %!  helper_note(+Name, +Request) is det.
 %
-%   As helper_ask/4, without an answer, and if no process is running, to
-%   nobody.  A caller that tells waits while many are to be written, so that a
-%   fast one cannot fill the memory; one that notes never waits.
+%   As helper_ask/4, but without an answer; dropped if no process is running.
+%   helper_tell/2 waits while many requests are to be written, so that a fast
+%   caller cannot fill the memory; helper_note/2 never waits.
 %
 %   @error existence_error(helper, Name)
 

@@ -180,7 +180,7 @@ goal_over(Host, Id, Agent, Status, Result) :-
 complaint(Level, _, Text, Host) :-
     \+ memberchk(Level, [error, warning]),
     !,
-    debug(typhon(ros), '~w is told: ~w', [Host, Text]).
+    debug(typhon(ros), '~w: ROS reports ~w', [Host, Text]).
 complaint(error, Id, Text, _) :-
     answer_come(Id, failed(Text)),
     !.

@@ -78,7 +78,7 @@ first_attempt(Link, Seconds, Result) :-
     ;   Result = error(timeout_error(connect, URL), _)
     ).
 
-%   Of one that is being closed there may be the name still.
+%   A thread that is about to end may still have the name.
 
 alias(Role, Host, Alias) :-
     flag(typhon_ros_thread, N, N+1),
@@ -113,8 +113,7 @@ pass(Writer, Message, Seconds) :-
 
 %!  rosbridge_close(+Host) is det.
 %
-%   A server that does not answer our farewell within a second is left
-%   without.
+%   The connection ends after a second if the server does not close it.
 
 rosbridge_close(Host) :-
     (   retract(reader(Host, Reader))
@@ -197,7 +196,7 @@ connected(Link, Wait) :-
     ),
     pause(Link, Pause).
 
-%   One that ends its connections at once is not asked at once.
+%   A server that closes connections at once is asked after the longer pause.
 
 pause_after(Start, Wait, Pause) :-
     get_time(Now),
@@ -209,8 +208,8 @@ pause_after(Start, Wait, Pause) :-
 
 pause(Link, Pause) :-
     thread_self(Me),
-    (   thread_get_message(Me, stop(Who), [timeout(Pause)])
-    ->  thread_send_message(Who, stopped(Me))
+    (   thread_get_message(Me, stop(Caller), [timeout(Pause)])
+    ->  thread_send_message(Caller, stopped(Me))
     ;   longest_wait(Longest),
         Longer is min(Longest, 2*Pause),
         connected(Link, Longer)
@@ -260,7 +259,7 @@ served_until(link(Host, _, Silence, Asker), Socket, Writer, Why) :-
     tell(Asker, true),
     catch(read_on(Host, Socket, Why), error(Why, _), true).
 
-%   What begins to hold while this is said may be said twice.
+%   What changes while these frames are sent may be sent twice.
 
 said_to([], _, _).
 said_to([Frame|Frames], Writer, Seconds) :-
@@ -318,8 +317,8 @@ socket_message(write(Text), text(Text)).
 socket_message(ping, ping('')).
 socket_message(bye, close(1000, "")).
 
-%   One that writes to a server which does not read is stuck, and again when it
-%   is interrupted, because the library writes what is left.
+%   A writer whose server does not read blocks, also after an interrupt, because
+%   the library then writes the rest.
 
 writer_end(Writer) :-
     thread_self(Me),
