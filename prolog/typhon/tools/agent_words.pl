@@ -10,6 +10,7 @@
 :- use_module(library(apply), [maplist/2]).
 :- use_module(library(lists), [append/3, member/2]).
 :- use_module(library(pairs), [pairs_values/2]).
+:- use_module(library(solution_sequences), [limit/2]).
 :- autoload(library(prolog_xref), [xref_source/2]).
 :- use_module('../kernel/program', [declaration/4, indicator_in/2]).
 :- use_module('../kernel/vocabulary', []).
@@ -227,23 +228,17 @@ once_each([Piece|Pieces0], First, [Piece|Pieces]) :-
 apropos_completed(no_apropos_match(Query), Pairs, Count) :-
     matches(Query, Ours),
     Ours \== [],
-    first(20, Ours, Pairs),
+    findall(Pair, limit(20, member(Pair, Ours)), Pairs),
     length(Ours, Count).
 apropos_completed(apropos_matches(Manual, Count0), Pairs, Count) :-
     asked(Query),
     matches(Query, Ours),
     Ours \== [],
-    first(12, Ours, Nearest),
+    findall(Pair, limit(12, member(Pair, Ours)), Nearest),
     append(Nearest, Manual, All),
-    first(20, All, Pairs),
+    findall(Pair, limit(20, member(Pair, All)), Pairs),
     length(Ours, Length),
     Count is Count0+Length.
-
-first(Count, All, First) :-
-    length(First, Count),
-    append(First, _, All),
-    !.
-first(_, All, All).
 
 %   asked(-Query): apropos/1 does not say what for, but is still there.
 

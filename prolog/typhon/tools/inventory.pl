@@ -3,7 +3,7 @@
             survey_hosts/4,             % +Places, +Seen, +Silent, -Hosts
             survey_agents/2,            % +Seen, -Agents
             survey_order/2,             % +Text, -Key
-            host_report/2             % +Host, -CloseUp
+            host_report/2               % +Host, -CloseUp
           ]).
 :- use_module(library(apply), [exclude/3, maplist/3]).
 :- use_module(library(dcg/basics), [digits//1, string_without//2]).
@@ -150,17 +150,10 @@ look(Most, seen(Hosts, Agents, Count)) :-
     maplist(agent_key, All, Keyed0),
     keysort(Keyed0, Keyed),
     pairs_values(Keyed, Sorted),
-    first(Most, Sorted, Agents).
+    findall(Agent, limit(Most, member(Agent, Sorted)), Agents).
 
 agent_key(Id-Glance, Key-agent(Id, Glance)) :-
     survey_order(Id, Key).
-
-first(Most, List, First) :-
-    (   length(First, Most),
-        append(First, _, List)
-    ->  true
-    ;   First = List
-    ).
 
 host_seen(host(Address, State, Load, Capacity, Arrived, Neighbours,
                Costs, Clock)) :-

@@ -11,9 +11,11 @@ made is left out.
 
 :- use_module(library(apply), [foldl/4, maplist/2, maplist/3, maplist/4]).
 :- use_module(library(lists), [append/3, member/2, sum_list/2]).
-:- use_module(library(pairs), [map_list_to_pairs/3, pairs_values/2]).
+:- use_module(library(pairs),
+              [map_list_to_pairs/3, pairs_keys_values/3, pairs_values/2]).
 :- use_module(library(settings), [setting/2]).
 :- use_module('../kernel/agent', [agent_name/3]).
+:- use_module(event_text, [short_name/2]).
 :- use_module(inventory,
               [survey/4, survey_agents/2, survey_hosts/4, survey_order/2]).
 
@@ -63,12 +65,6 @@ host_neighbours(Neighbours, Text) :-
     ->  Text = Text0
     ;   format(atom(Text), '~w and ~d more', [Text0, More])
     ).
-
-short_name(Address, Name) :-
-    sub_atom(Address, Before, _, _, @),
-    !,
-    sub_atom(Address, 0, Before, _, Name).
-short_name(Name, Name).
 
                 /*******************************
                 *            AGENTS            *
@@ -154,8 +150,7 @@ print_table(_, [], What) :-
     !,
     format('No ~ws~n', [What]).
 print_table(Columns, Rows, _) :-
-    findall(Title, member(Title-_, Columns), Titles),
-    findall(Side, member(_-Side, Columns), Sides),
+    pairs_keys_values(Columns, Titles, Sides),
     All = [Titles|Rows],
     maplist(maplist(width), All, [First|WidthRows]),
     foldl(maplist(wider), WidthRows, First, Widths),
