@@ -27,13 +27,13 @@ them as messages or as facts.  This is the interface of the layer.  A bridge
         helper_note(echo(Host), _{do:deafen, key:Key}).
 
     % the host stops, or echo_stop(Host) is called
-    typhon_services:ends(echo, Host) :-
+    typhon_starting:ends(echo, Host) :-
         helper_close(echo(Host)).
 */
 
 :- reexport(common/http_server).
 :- reexport(common/inbox, [inbox_put/4]).
-:- reexport(common/services,
+:- reexport(common/starting,
             [ service/2, service_begin/4, service_end/2, service_offer/4 ]).
 :- reexport(common/subscribers,
             [ subscribe/5, subscriber/2, subscribers_drop/4, subscribers_tell/5,

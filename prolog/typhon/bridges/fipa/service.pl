@@ -32,7 +32,7 @@ are the clients at a time, see typhon_http_server.
     typhon_external_recipients:carried/4,
     typhon_names:known/2,
     typhon_options:declared/4,
-    typhon_services:ends/2,
+    typhon_starting:ends/2,
     typhon_starting:starts/4.
 
 typhon_options:declared(fipa_option, Option, Type, Value) :-
@@ -92,7 +92,7 @@ limits(Options, [ queue(Queue), connections(Connections), max_bytes(Max),
     option(max_bytes(Max), Options, 2000000),
     option(seconds(Seconds), Options, 10).
 
-typhon_services:ends(fipa, Host) :-
+typhon_starting:ends(fipa, Host) :-
     reception_close(Host),
     carriage_close(Host),
     ignore(platform_remove(Host)),

@@ -24,7 +24,7 @@
     typhon_starting:starts/4,
     typhon_helper_owner:again/2,
     typhon_options:declared/4,
-    typhon_services:ends/2,
+    typhon_starting:ends/2,
     prolog:error_message//1.
 
 :- dynamic
@@ -138,7 +138,7 @@ publish_type(retain(X), boolean, X).
 publish_type(payload(X), oneof([auto,json,text,bytes]), X).
 publish_type(wait(X), boolean, X).
 
-typhon_services:ends(mqtt, Host) :-
+typhon_starting:ends(mqtt, Host) :-
     ignore(catch(helper_close(mqtt(Host)),
                  error(existence_error(_, _), _), true)),
     retractall(started(Host, _, _)),

@@ -31,7 +31,7 @@ Python says unasked is passed on by the thread that reads it.
     typhon_helper_owner:heard/2,
     typhon_helper_owner:again/2,
     typhon_options:declared/4,
-    typhon_services:ends/2,
+    typhon_starting:ends/2,
     typhon_starting:delivers/3,
     typhon_words:python_undelivered/2,
     prolog:error_message//1.
@@ -117,7 +117,7 @@ seconds(Host, Seconds) :-
     started(Host, Options),
     option(timeout(Seconds), Options, 10).
 
-typhon_services:ends(python, Host) :-
+typhon_starting:ends(python, Host) :-
     ignore(catch(helper_close(python(Host)),
                  error(existence_error(_, _), _), true)),
     retractall(started(Host, _)),

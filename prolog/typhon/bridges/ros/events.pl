@@ -35,7 +35,7 @@ from `ros`, and dropped(Key, Count), see typhon_inbox.
     typhon_ros_rosbridge:heard/2,
     typhon_ros_rosbridge:up/2,
     typhon_ros_rosbridge:down/2,
-    typhon_services:ends/2,
+    typhon_starting:ends/2,
     typhon_subscribers:wanted/4.
 
 :- dynamic
@@ -215,7 +215,7 @@ ros_ignored(Host, Count) :-
     ;   Count = 0
     ).
 
-typhon_services:ends(ros, Host) :-
+typhon_starting:ends(ros, Host) :-
     retractall(ignored(Host, _)),
     retractall(away(Host)).
 

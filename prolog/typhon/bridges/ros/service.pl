@@ -38,7 +38,7 @@ queue to a server.
 
 :- multifile
     typhon_options:declared/4,
-    typhon_services:ends/2,
+    typhon_starting:ends/2,
     typhon_starting:has/3,
     typhon_starting:starts/4,
     prolog:error_message//1,
@@ -74,7 +74,7 @@ option_type(domain(X), between(0, 232), X).
 option_type(reach(X), oneof([localhost,subnet]), X).
 option_type(python(X), atom, X).
 
-typhon_services:ends(ros, Host) :-
+typhon_starting:ends(ros, Host) :-
     way_close(Host),
     answers_fail(Host, stopped),
     standing_forget(Host).

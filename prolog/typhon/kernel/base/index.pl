@@ -149,7 +149,6 @@ part_setting(python,typhon_helper_process,atom,'','The Python of helpers; \'\' f
 part_setting(python,typhon_helper_python,atom,'','Now typhon_helper_process:python','bridges/helper/process').
 part_setting(python,typhon_nxt_helper,atom,'','Now typhon_nxt_link:python','bridges/nxt/link').
 part_setting(python,typhon_nxt_link,atom,'','The Python of the helpers of bricks; \'\' for that of all helpers','bridges/nxt/link').
-part_setting(queue,typhon_subscribers,positive_integer,1000,'Messages of bridges that may wait for an agent','bridges/common/subscribers').
 part_setting(renew_seconds,typhon_page_sources,number,3,'A page that is looked at finds new hosts within so many seconds','tools/page/sources').
 part_setting(request_bytes,typhon_page_server,positive_integer,4000000,'A page takes no larger request than this','tools/page/server').
 part_setting(request_seconds,typhon_page_reception,positive_integer,20,'The head of a request takes no longer, and no longer its body','tools/page/server').
