@@ -29,8 +29,8 @@
 
 /** <module> A process that carries hosts of a network
 
-What a network asks of whoever carries its hosts is done by direct call in
-its own process, and by request in a child. Whole lists go in one order: a
+What a network orders for its hosts is done by direct call in its own process,
+and by request in a child. Whole lists go in one order: a
 network of a thousand hosts is a few requests.
 
 A child is started by the module `children` as `swipl -g node_main
@@ -94,7 +94,7 @@ one for the order to stop: it sees to it that there is an end.
 %     - places(Pairs)
 %       Calls the goal of each Name-Goal in the place of the host; `ok`.
 %     - expect(Endpoints), expect_no_more(Endpoints)
-%       Whoever ends at one of Endpoints is started again, or no more; `ok`.
+%       A process at one of Endpoints that ends is started again, or no more; `ok`.
 %     - neighbours(Names)
 %       Answer is the list of their lists of neighbours; `[]` for a host
 %       that is gone.

@@ -55,7 +55,7 @@ worker answers, for there may be many agents.
 %   of survey_order/2, of Count agents, terms agent(Id, Glance), see
 %   agent_glance/2; if Most is 0 they are not counted. Asked are this process,
 %   those of the networks started here, those at the addresses Places, and
-%   whoever else comes to light. Silent are Endpoint-Why of those that gave no
+%   others that these name. Silent are Endpoint-Why of those that gave no
 %   answer, Why being `gone`, `lost` or `late`.
 
 survey(Most, Places, [Here|Seen], Silent) :-

@@ -318,7 +318,7 @@ told(unwind(_)) :-
 told(Ball) :-
     print_message(error, Ball).
 
-%   Whoever takes the fact away sees to what is left of the thread.
+%   The thread that retracts the fact detaches or joins the thread.
 
 ended :-
     thread_self(Me),

@@ -17,8 +17,8 @@ free again, or the next one fits, the agent first gets
 Service-dropped(Key, Count).  So it is with facts; there the fact
 Service-dropped(Key, Count) has the count of all that were dropped.
 
-*Threading*: inbox_put/4 is for the thread that reads what comes.  Whoever
-runs an agent hears that it takes a message, while there are gaps.
+*Threading*: inbox_put/4 is for the thread that reads what comes.  The
+thread that runs an agent reports that it takes a message, while there are gaps.
 */
 
 :- multifile
@@ -129,7 +129,7 @@ inbox_key(Key, Text) :-
 
 %!  gap_forget(+Service, +Key, +Agent) is det.
 %
-%   Nobody wants to know any more.
+%   The agent is not subscribed any more.
 
 gap_forget(Service, Key, Agent) :-
     Gap = gap(Agent, Service, Key, _, _),

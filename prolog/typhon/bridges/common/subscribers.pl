@@ -125,7 +125,7 @@ gone(Service, Host, Key, Agent) :-
 
 %!  subscription(?Service, ?Host, ?Key) is nondet.
 %
-%   Somebody wants Key.
+%   Key has a subscriber.
 
 subscription(Service, Host, Key) :-
     subscribed(_, _, Service, Host, _, Key0),

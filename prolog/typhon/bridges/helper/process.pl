@@ -155,8 +155,8 @@ line(Line, Heard) :-
 line(Line, _) :-
     debug(typhon(helper), 'a helper says ~s', [Line]).
 
-%   Nobody may kill a number that belongs to another process by now, so it
-%   is taken off the list when the process is taken off the system's.
+%   A signal must not go to another process that has got the same number: the
+%   fact is retracted in the same step as the process is reaped.
 
 wait(Owner, Pid, _, Status) :-
     with_mutex(typhon_helper_pid, ended(Owner, Pid, Status)),

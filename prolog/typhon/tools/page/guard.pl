@@ -13,10 +13,10 @@
 
 /** <module> Access to a page, and what a browser may do with it
 
-Whoever has the token may.  It is a part of the address, before all else, so
+The token gives access.  It is the first part of each path, so
 that scripts and styles of the page, whose addresses are relative, are
 guarded as well, and no cookie goes to other servers of the machine.  What
-another site makes a browser send is turned away by its origin.
+another site makes a browser send is refused by its origin.
 
 *Threading*: any thread.
 */
