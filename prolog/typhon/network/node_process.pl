@@ -94,7 +94,8 @@ one for the order to stop: it sees to it that there is an end.
 %     - places(Pairs)
 %       Calls the goal of each Name-Goal in the place of the host; `ok`.
 %     - expect(Endpoints), expect_no_more(Endpoints)
-%       A process at one of Endpoints that ends is started again, or no more; `ok`.
+%       A process at one of Endpoints that ends is started again, or no more;
+%       `ok`.
 %     - neighbours(Names)
 %       Answer is the list of their lists of neighbours; `[]` for a host
 %       that is gone.

@@ -216,7 +216,8 @@ http_deadline(Seconds, Deadline) :-
 
 %!  http_before(+Deadline, +In) is det.
 %
-%   The next byte has to be there by then; with `none` the caller bounds the time.
+%   The next byte has to be there by then; with `none` the caller bounds the
+%   time.
 %
 %   @error timeout_error(read, In)
 

@@ -7,7 +7,8 @@
 :- use_module('../../kernel/host',
               [ event/4, events_hear/3, events_unheard/1, host/3,
                 tuple_leave/2, tuple_sense/2, tuple_take/2 ]).
-:- use_module('../../kernel/agent', [agent/5, agent_mail/2, mail_count/2, with_agent/2]).
+:- use_module('../../kernel/agent',
+              [agent/5, agent_mail/2, mail_count/2, with_agent/2]).
 
 /** <module> Incoming messages of services, and dropped ones
 
