@@ -102,7 +102,7 @@ pictures: tools page-tools ## make all pictures of README and doc; KINDS=page
 
 vscode:                 ## pack the extension for VS Code, by vsce from npm
 	@mkdir -p out
-	@cd editors/vscode && npx --yes @vscode/vsce@3 package \
+	@cd app/editors/vscode && npx --yes @vscode/vsce@3 package \
 	    --allow-missing-repository --out ../../out/typhon-agents.vsix
 
 doc: tools              ## the documents as a site, in out/doc
@@ -111,7 +111,7 @@ doc: tools              ## the documents as a site, in out/doc
 	@$(SWIPL) doc/site.pl -- out/doc
 
 release:                ## the archive of a release; URL=https://... of its home
-	@packaging/release out/release "$(URL)"
+	@app/packaging/release out/release "$(URL)"
 
 bench: tools            ## measure; one line per figure
 	@$(SWIPL) bench/run.pl -- --out out/bench

@@ -80,7 +80,7 @@ vscode_warns(Text, File) :-
 
 emacs_shows(Lines, File) :-
     project_file('test/editors/emacs.el', Script),
-    project_file('editors/emacs/typhon.el', Mode),
+    project_file('app/editors/emacs/typhon.el', Mode),
     library(Library),
     current_prolog_flag(executable, Swipl),
     runs(emacs, ['--batch', '-Q', '-l', Script, '--', Mode, Swipl, Library,
@@ -189,12 +189,12 @@ test(without_prolog_it_says_so, [condition(program(node, _))]) :-
     with_program(Text, vscode_warns(Warning)),
     assertion(sub_string(Warning, 0, _, _, "/nowhere/swipl does not run")).
 test(grammar_knows_all_words_of_agents, Missing == []) :-
-    not_in('editors/vscode/syntaxes/prolog.tmLanguage.json', Missing).
+    not_in('app/editors/vscode/syntaxes/prolog.tmLanguage.json', Missing).
 test(task_and_extension_read_problems_alike) :-
-    json_file('editors/vscode/package.json', Package),
+    json_file('app/editors/vscode/package.json', Package),
     [Matcher] = Package.contributes.problemMatchers,
     RegExp = Matcher.pattern.regexp,
-    project_file('editors/vscode/check.js', File),
+    project_file('app/editors/vscode/check.js', File),
     read_file_to_string(File, Text, [encoding(utf8)]),
     format(string(Literal), "/~w/;", [RegExp]),
     assertion(sub_string(Text, _, _, _, Literal)).
@@ -223,6 +223,6 @@ test(problems_are_shown_where_they_are, [condition(program(emacs, _))]) :-
     assertion(sub_string(Second, 0, _, _, "8 :warning ")),
     assertion(Face == "move is font-lock-keyword-face").
 test(mode_knows_all_words_of_agents, Missing == []) :-
-    not_in('editors/emacs/typhon.el', Missing).
+    not_in('app/editors/emacs/typhon.el', Missing).
 
 :- end_tests(emacs).

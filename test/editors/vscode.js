@@ -11,7 +11,7 @@ const fs = require('fs');
 const Module = require('module');
 const path = require('path');
 
-const folder = path.join(__dirname, '../../editors/vscode');
+const folder = path.join(__dirname, '../../app/editors/vscode');
 
 // "${1:name}" and "$0"; "${2/\/.*//}" is placeholder 2 without what follows
 // a slash.

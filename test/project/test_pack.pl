@@ -168,7 +168,7 @@ released(Sum, Dir) :-
     format(atom(Script),
            "cd ~w && git init -q && git add -A && \c
             git -c user.name=t -c user.email=t commit -qm t && \c
-            packaging/release ../out https://example.org/typhon && \c
+            app/packaging/release ../out https://example.org/typhon && \c
             tar -xOzf ../out/typhon-*.tgz --wildcards '*/pack.pl' | \c
             grep -q '^home('", [Root]),
     process_create(path(sh), ['-c', Script],

@@ -8,7 +8,7 @@
 ;; what agent_check/1 finds is shown by Flymake, and the words of agents have
 ;; colours.
 ;;
-;;   (add-to-list 'load-path "/path/to/typhon/editors/emacs")
+;;   (add-to-list 'load-path "/path/to/typhon/app/editors/emacs")
 ;;   (require 'typhon)
 ;;   (add-hook 'prolog-mode-hook #'typhon-maybe-mode)
 ;;
