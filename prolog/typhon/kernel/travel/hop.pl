@@ -28,7 +28,7 @@
 /** <module> A hop is a transaction
 
 Between hosts of one process see typhon_within, and for the short way between
-plain hosts typhon_hand_over; this is of hops by request.
+plain hosts typhon_hand_over; this is of hops whose agent the source keeps.
 The source freezes the agent and sends its image: state, payloads, goals,
 mail.  The receiver installs it and answers, see typhon_arrival, and only
 then does the source let its copy go, see typhon_transfer.  An agent that
