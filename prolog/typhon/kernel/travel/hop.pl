@@ -40,7 +40,7 @@ comes back before the answer proves that it had arrived.
   | refused(Why) | raises move_refused(Host, Why) at the move       |
   | need_program | sends again, with the program                    |
   | unreachable  | raises host_unreachable(Host) at the move        |
-  | lost         | asks whether it got away, see typhon_in_doubt       |
+  | lost         | asks whether it got away, see typhon_in_doubt    |
 
 *Threading*: hop/6 in a worker; answers in the reader threads of the
 endpoint, which never wait.
