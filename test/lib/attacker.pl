@@ -31,12 +31,18 @@ endpoint.
 
 :- dynamic had/2.                       % Image, Papers
 
-:- multifile typhon_endpoint:requested/4.
+:- multifile
+    typhon_endpoint:handed/4,
+    typhon_endpoint:requested/4.
 
 typhon_endpoint:requested(hop, Request, _, ReplyTo) :-
     Request =.. [hop, _, Image, Papers|_],
     assertz(had(Image, Papers)),
     endpoint_reply(ReplyTo, accepted).
+typhon_endpoint:handed(hop, hop(_, Image0, Papers), _, accepted) :-
+    Image0 = image(Id, Hash, Life, State, true-Goals, Mail, Since),
+    Image = image(Id, Hash, Life, State, Goals, Mail, Since),
+    assertz(had(Image, Papers)).
 
 main([Keys]) :-
     endpoint_start(localhost, 0, [tls(Keys)], Address),
