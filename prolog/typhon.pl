@@ -47,7 +47,8 @@ a folder, with an interface of the same name beside it:
 :- reexport(typhon/tools/page, [page_start/1, page_stop/0]).
 :- reexport(typhon/bridges/common/starting,
             [ mqtt_start/3, mqtt_stop/1, python_start/3, python_stop/1,
-              ros_start/3, ros_stop/1, ros_property/2, fipa_start/3, fipa_stop/1 ]).
+              ros_start/3, ros_stop/1, ros_property/2, fipa_start/3,
+              fipa_stop/1 ]).
 :- use_module(typhon/kernel/vocabulary, []).
 :- use_module(typhon/tools/messages, []).
 :- use_module(typhon/tools/event_text, []).

@@ -130,8 +130,9 @@ override_import(Head) :-
     ;   true
     ).
 
-%   is_own(+Head): module `user` defines the predicate.  Only current_predicate/1 does not load
-%   a library that has one of that name: predicate_property/2 would import it.
+%   is_own(+Head): module `user` defines the predicate.  Only
+%   current_predicate/1 does not load a library that has one of that name:
+%   predicate_property/2 would import it.
 
 is_own(Head) :-
     functor(Head, Predicate, Arity),

@@ -5,9 +5,9 @@
     :- use_module(library(typhon/fipa)).
 
 The whole interface is fipa_start/3, fipa_stop/1 and fipa_property/2; what
-agents send and receive is described in [bridges-fipa.md].  Only the first two are
-part of library(typhon).  It needs nothing but Prolog.  Nothing is defined here: see
-the modules in bridges/fipa/.
+agents send and receive is described in [bridges-fipa.md].  Only the first two
+are part of library(typhon).  It needs nothing but Prolog.  Nothing is defined
+here: see the modules in bridges/fipa/.
 
   | starting and stopping           | common/starting           |
   | hosts as platforms              | service, platform         |

@@ -13,9 +13,9 @@ This is the interface of the layer: higher layers import from here.
 :- reexport('lifecycle/properties').
 :- reexport('lifecycle/agent_summary').
 :- reexport('lifecycle/order_client',
-            [ agent_move/2, agent_move/3, agent_clone/2, agent_resume/1, agent_change/2,
-              payload_attach/2, payload_detach/2, agent_answer/3, order_give/3
-            ]).
+            [ agent_move/2, agent_move/3, agent_clone/2, agent_resume/1,
+              agent_change/2, payload_attach/2, payload_detach/2,
+              agent_answer/3, order_give/3 ]).
 :- reexport('lifecycle/disposal').
 :- reexport('lifecycle/sending').
 :- reexport('lifecycle/listing').

@@ -51,10 +51,10 @@ absent one do so in threads of their own.
 %!  restarts_end(+Network) is det.
 %
 %   From now on events come by restarts_tell/3, first those in Queue: up(P),
-%   down(P, Status) and failed(P, Error). Do(start(P)) is to start P again, Do(restore(P))
-%   what is done when it is up, Do(kill(P)) what ends one that cannot begin,
-%   Do(give_up(P)) what follows when it is not started again.
-%   From restarts_end/1 on nothing of this is done any more.
+%   down(P, Status) and failed(P, Error). Do(start(P)) is to start P again,
+%   Do(restore(P)) what is done when it is up, Do(kill(P)) what ends one that
+%   cannot begin, Do(give_up(P)) what follows when it is not started again. From
+%   restarts_end/1 on nothing of this is done any more.
 %
 %   @error resource_error(What) if no thread can be made
 

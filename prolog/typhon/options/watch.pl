@@ -54,8 +54,8 @@ modules are loaded when this process watches, or another watches its hosts.
 %
 %   Those of one host come in order.  All are called in one thread, one after
 %   the other, and not where they happen: whatever OnEvent does, hosts do not
-%   wait for it.  That it fails means nothing; an exception is reported once, and
-%   the watch goes on.
+%   wait for it.  That it fails means nothing; an exception is reported once,
+%   and the watch goes on.
 %
 %   OnEvent may be a lambda expression; its variables that are bound when
 %   watch/3 is called are as they are then, as in [E]>>p(Q, E).

@@ -24,9 +24,9 @@ there.  Clients of library(http/http_open) cannot be used: answers of JADE have
 no length, and the connection is kept.
 
 The caller bounds the time of the whole by within/2, since a deadline for each
-byte would cost more than the rest of a head.  within/2 is like call_with_time_limit/2;
-but the library of that may keep 9.0.4 from halting once it is loaded.  This
-uses the alarms of hosts.
+byte would cost more than the rest of a head.  within/2 is like
+call_with_time_limit/2; but the library of that may keep 9.0.4 from halting once
+it is loaded.  This uses the alarms of hosts.
 
 *Threading*: any thread, one for each stream; within/2 while a host runs.  The
 timer signals it.

@@ -288,8 +288,8 @@ formal(Kind, _, Brick, _, _, nxt_error(Kind, Brick)).
                 *            VALUES            *
                 *******************************/
 
-%   Speeds, accelerations, lamps, offsets, and replies not yet read, by the names
-%   of SWI-PRO-NXT.
+%   Speeds, accelerations, lamps, offsets, and replies not yet read, by the
+%   names of SWI-PRO-NXT.
 
 :- dynamic
     value/3.                    % Brick, Key, Value

@@ -10,7 +10,8 @@
                 service_end/2, service_offer/4, subscriber/2 ]).
 :- use_module('../helper',
               [ helper_ask/4, helper_close/1, helper_failure/3,
-                helper_file/2, helper_note/2, helper_open/3, helper_python/2, json_value/1 ]).
+                helper_file/2, helper_note/2, helper_open/3,
+                helper_python/2, json_value/1 ]).
 
 /** <module> Python on a host
 

@@ -2,7 +2,8 @@
           [ ros_ignored/2               % +Host, -Count
           ]).
 :- use_module(library(debug), [debug/3]).
-:- use_module('../../kernel/agent', [agent/5, agent_mail/2, mail_count/2, with_agent/2]).
+:- use_module('../../kernel/agent',
+              [agent/5, agent_mail/2, mail_count/2, with_agent/2]).
 :- use_module('../../kernel/base/json', [atom_json_dict/3]).
 :- use_module('../common',
               [ service/2, subscribers_tell/5, subscription/3,

@@ -34,9 +34,9 @@ worker.
 %!  agent_module(+Id, +Place, +Program, +Clauses) is det.
 %
 %   The second is for a host without parts, where there is no module Id; Program
-%   is that of the program. Make a module with the state of an agent.  What is wrong with the state
-%   is found here, and nothing is left behind then.  Fails if there is no
-%   program of that Hash.
+%   is that of the program. Make a module with the state of an agent.  What is
+%   wrong with the state is found here, and nothing is left behind then.  Fails
+%   if there is no program of that Hash.
 %
 %   @arg State is state(Empty, Clauses): what is dynamic without having
 %        clauses, and the clauses of all else.

@@ -173,10 +173,10 @@ state_destroy(Id, Module) :-
 %!  agent_mobile(+Id, -Host, -Module, -Hash, -Life, -Until:integer) is semidet.
 %!  agent_move(+Id, +Host, +Module, +Life, +Until:integer) is det.
 %
-%   As agent/5, for an agent that is to travel; the agent is on Host from now on,
-%   with its state in Module; another
-%   module that it had is no more.  Until says that its state can travel as
-%   it was then, see agent_changed/4; it is 0 until the first look.
+%   As agent/5, for an agent that is to travel; the agent is on Host from now
+%   on, with its state in Module; another module that it had is no more.  Until
+%   says that its state can travel as it was then, see agent_changed/4; it is 0
+%   until the first look.
 
 agent_mobile(Id, Host, Module, Hash, Life, Until) :-
     stands(Id, Host, Module, Hash, Life, Until),

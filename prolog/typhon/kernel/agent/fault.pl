@@ -57,8 +57,8 @@ agent_fault(Id, Outcome0, Goals0,
     life_hops(Life, Hops),
     get_time(Stamp).
 
-%   advised(+Outcome0, +Module, +Hash, -Outcome): the context of the error that a
-%   procedure does not exist says what may have been meant.
+%   advised(+Outcome0, +Module, +Hash, -Outcome): the context of the error that
+%   a procedure does not exist says what may have been meant.
 
 advised(raised(error(existence_error(procedure, Module:PI), Context0)),
         Module, Hash,
@@ -182,8 +182,8 @@ is_faulty(['$fault'(Fault)|Left], Fault, Left).
                 *             WORDS             *
                 *******************************/
 
-%   An error or a goal may hold what cannot travel.  That is replaced by words, so
-%   that it is still the same error, and shows what was there.
+%   An error or a goal may hold what cannot travel.  That is replaced by words,
+%   so that it is still the same error, and shows what was there.
 
 %!  in_words(+Term, -Portable) is det.
 %

@@ -13,10 +13,10 @@
 /** <module> Admission: which agents a host lets in
 
 Every agent that begins on a host, or comes to it, passes gate/4: when it is
-created, cloned or restored there, and at the end of a hop, from this process
-or from another.  The reasons to refuse an agent are tried in the same order on
-each path: those of options, see typhon_host_parts, then token and capacity.  A refusal is a security event, and reported as an event,
-here and nowhere else.
+created, cloned or restored there, and at the end of a hop, from this process or
+from another.  The reasons to refuse an agent are tried in the same order on
+each path: those of options, see typhon_host_parts, then token and capacity.  A
+refusal is a security event, and reported as an event, here and nowhere else.
 
 The agent is
 

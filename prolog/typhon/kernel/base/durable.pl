@@ -8,7 +8,8 @@
             durable_restore/4           % +Kind, +Key, +N, +Term
           ]).
 :- use_module(durable_changes,
-              [durable_drop_all/2, durable_number/1, durable_on/0, durable_put/4]).
+              [ durable_drop_all/2, durable_number/1, durable_on/0,
+                durable_put/4 ]).
 :- use_module(on_demand, [on_demand_load/2]).
 
 /** <module> Tables that outlive the process
@@ -49,9 +50,9 @@ N is 0, and Term is '', where the table has none.
 %!  durable(+Kind, ?Key, ?N, ?Term, :Fact) is det.
 %!  durable(+Kind, ?Key, ?N, ?Term, :Dump, :Restore) is det.
 %
-%   Directives.  The items of this Kind are the facts Fact; or they are what Dump
-%   enumerates, and Restore puts one back.  Several tables may have one Kind: an
-%   item goes to the first that takes it.
+%   Directives.  The items of this Kind are the facts Fact; or they are what
+%   Dump enumerates, and Restore puts one back.  Several tables may have one
+%   Kind: an item goes to the first that takes it.
 
 durable(Kind, Key, N, Term, Module:Fact) :-
     once_there(fact_table(Fact, Module, Kind, Key, N, Term)),

@@ -87,8 +87,8 @@ inside the mutex that guards its owner.
 %!  durable_opened(-Place) is semidet.
 %!  durable_item(+Kind, +Order, -Key, -N, -Value) is nondet.
 %
-%   Open the store at Where; the name of the store that is open, as in errors; its
-%   items of Kind.  The back end defines the last two.
+%   Open the store at Where; the name of the store that is open, as in errors;
+%   its items of Kind.  The back end defines the last two.
 %
 %   @arg Sync is `full` if commits survive a power cut, or `normal`
 %   @arg Seconds is how long to wait until another process closes it

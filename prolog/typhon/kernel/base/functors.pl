@@ -5,10 +5,10 @@
 /** <module> Space in the table of functors
 
 A functor that one thread makes while another makes the table of all functors
-larger may be missing in the new table, on 9.0.4 and on 10.1.  A thread that names it
-later gets a second one, and a term of the one never unifies with the same term
-of the other: a predicate that is there is not found.  The table grows at each
-power of two, for ever, as no functor goes away.
+larger may be missing in the new table, on 9.0.4 and on 10.1.  A thread that
+names it later gets a second one, and a term of the one never unifies with the
+same term of the other: a predicate that is there is not found.  The table grows
+at each power of two, for ever, as no functor goes away.
 
 So it grows before threads begin, beyond what the programs of most hosts need.
 A process that has read library(typhon) has 8,700 functors, one that begins with

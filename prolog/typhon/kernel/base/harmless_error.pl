@@ -81,8 +81,8 @@ translated(Ball) :-
           error(permission_error(_, _, _), _), true),   % it is protected
     !.
 
-%   takes(+Term, ?Any, :Hook): a clause for Hook, which is about Any, takes Term.
-%   One that takes anything does if the clauses do to which it hands it.
+%   takes(+Term, ?Any, :Hook): a clause for Hook, which is about Any, takes
+%   Term. One that takes anything does if the clauses do to which it hands it.
 
 takes(Term, Any, Hook) :-
     predicate_property(Hook, defined),

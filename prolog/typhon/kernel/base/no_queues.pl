@@ -3,8 +3,8 @@
 /** <module> Message queues where Prolog has none
 
 A Prolog that was built without threads, as that for WebAssembly, has no message
-queues and mutexes.  There this module defines those of their predicates that the
-kernel uses, and puts them in module `user`, where all modules find them.  A
+queues and mutexes.  There this module defines those of their predicates that
+the kernel uses, and puts them in module `user`, where all modules find them.  A
 queue is then what its name says: nothing can come to it while the caller waits.
 
 *Threading*: there is one thread.

@@ -16,7 +16,8 @@ given, or a peer asks for it.  The index, which `doc/layers.pl -- index` makes
 of the sources, says which part is behind which name.
 
 Where nothing names a part, it says itself when it is needed, by the hook
-joins(Seam, What): the kernel, or another part, calls on_demand_load/2 for these.
+joins(Seam, What): the kernel, or another part, calls on_demand_load/2 for
+these.
 
   | untrusted | any  | a host admits agents that it does not trust |
   | keys      | any  | the process has keys                        |

@@ -23,8 +23,8 @@ may have is declared by the module that takes them, with clauses for
     declared(Domain, Option, Type, Value)
 
 which stand in the files of an option if they are about it alone: checking such
-an option loads these. Type is that of Value, a part of Option, as of must_be/2.  Where there are
-several clauses for an option, one has to agree.
+an option loads these. Type is that of Value, a part of Option, as of must_be/2.
+Where there are several clauses for an option, one has to agree.
 
 *Threading*: any thread.
 */

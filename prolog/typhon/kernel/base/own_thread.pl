@@ -62,7 +62,8 @@ in_own_thread(Goal) :-
 in_own_thread(Goal) :-
     once(Goal).
 
-%   There may be several of a role, and one that is about to end still has its name.
+%   There may be several of a role, and one that is about to end still has its
+%   name.
 
 alias(Role, Alias) :-
     flag(typhon_own_thread, N, N+1),

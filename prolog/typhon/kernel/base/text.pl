@@ -36,7 +36,8 @@ bare_syntax :-
 
 %!  term_text(+Term, -Bytes:string) is det.
 %
-%   Bytes are the text of Term. Term must be mobile, see mobile_term/1 of the wire.
+%   Bytes are the text of Term. Term must be mobile, see mobile_term/1 of the
+%   wire.
 
 term_text(Term, Bytes) :-
     text_options(Options),

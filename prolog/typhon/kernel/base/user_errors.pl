@@ -52,8 +52,8 @@ wrap_exports(Module) :-
     module_property(Module, exports(PIs)),
     forall(member(PI, PIs), wrap(Module, PI)).
 
-%   A predicate that is module transparent is called in the context of its caller:
-%   9.2 does not do that by itself.
+%   A predicate that is module transparent is called in the context of its
+%   caller: 9.2 does not do that by itself.
 
 wrap(Module, Name/Arity) :-
     functor(Head, Name, Arity),

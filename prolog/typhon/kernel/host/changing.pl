@@ -71,8 +71,8 @@ changes(seed(_)).
 
 %   What may be said of a host that is started.
 %
-%   What it means is described at host_start/2, which of it may be changed later at
-%   host_change/2.
+%   What it means is described at host_start/2, which of it may be changed later
+%   at host_change/2.
 
 :- multifile typhon_options:declared/4.
 

@@ -82,8 +82,8 @@ open_door(Name) :-
 %!  host_plain_time(+Plain, -Seconds:float) is det.
 %
 %   Nothing comes between what happens on Name and the kernel: the host is open,
-%   has no parts, asks for no token and does not delay hops.  Plain is what a hop
-%   has to know of it, one fact; and the time of its clock.
+%   has no parts, asks for no token and does not delay hops.  Plain is what a
+%   hop has to know of it, one fact; and the time of its clock.
 
 note_plain(Name) :-
     (   \+ parts(_, Name, _),

@@ -217,7 +217,8 @@ deliver(Place, Name, PIs, Clauses) :-
     ),
     debug(typhon(host), '~w has payload ~w', [Place, Name]).
 
-%   Fails for what is no payload of agents: services come with the program that starts them.
+%   Fails for what is no payload of agents: services come with the program that
+%   starts them.
 
 payload_key(Place, Name, Host, Key) :-
     atom(Name),

@@ -27,11 +27,11 @@ other process.
 
 %!  remote(+Host, +Goal) is semidet.
 %
-%   once(Goal) in the place of Host, here or in another process.  Bindings
-%   come back; failure and errors, too: an error of another process that would
-%   do something when it is printed comes as error(raised_elsewhere(Ball), _).
-%   A goal M:G is run in module M instead, with the place only as its context.  leave/1, sense/1 and take/1
-%   work on the tuple space of Host.
+%   once(Goal) in the place of Host, here or in another process.  Bindings come
+%   back; failure and errors, too: an error of another process that would do
+%   something when it is printed comes as error(raised_elsewhere(Ball), _). A
+%   goal M:G is run in module M instead, with the place only as its context.
+%   leave/1, sense/1 and take/1 work on the tuple space of Host.
 %
 %   @error permission_error(remote, host, Host) if the host refuses
 %   @error host_unreachable(Host), permission_error(authenticate, host, Host)

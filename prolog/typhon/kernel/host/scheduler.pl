@@ -76,8 +76,8 @@ schedule(Host, Agent) :-
 
 %!  schedule_stays(+Here, +There) is semidet.
 %
-%   The worker that runs an agent on Here may go on with it on There: no
-%   other agent waits to be run.  To wake another thread would cost as much as the
+%   The worker that runs an agent on Here may go on with it on There: no other
+%   agent waits to be run.  To wake another thread would cost as much as the
 %   hop.
 
 schedule_stays(Here, There) :-
@@ -96,8 +96,8 @@ schedule_here(Host, Kind, Turn) :-
 %!  schedule_adopt(+Thread) is det.
 %!  schedule_leave is det.
 %
-%   Thread runs an agent by schedule_here/3, and has nothing else to do any more:
-%   it is a worker, until it calls schedule_leave/0.
+%   Thread runs an agent by schedule_here/3, and has nothing else to do any
+%   more: it is a worker, until it calls schedule_leave/0.
 
 blocks(60).                             % seconds for which it is believed to
 

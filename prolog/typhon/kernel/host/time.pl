@@ -33,9 +33,9 @@
 
 Work, alarms and waiting callers are served by a runtime of some Kind.  The
 kernel has `real`, a pool of threads, see typhon_pool, and, in a Prolog without
-threads, `single`, see typhon_single, both in the time of day.  A process has one
-kind for as long as it has hosts.  Stamps are seconds: those of
-the time of day, or those of the clock of the runtime.
+threads, `single`, see typhon_single, both in the time of day.  A process has
+one kind for as long as it has hosts.  Stamps are seconds: those of the time of
+day, or those of the clock of the runtime.
 
 A runtime defines the hooks below for its Kind.  It has to have those of the
 first group; of the others each describes a property that a runtime may lack.
@@ -207,8 +207,8 @@ time_day_wait(Queue, Message, Stamp) :-
 
 %!  agents_run(+Seconds) is det.
 %
-%   Wait for so many Seconds, while agents have their turns; in a runtime without
-%   threads also `inf`: until no agent has anything to do any more.
+%   Wait for so many Seconds, while agents have their turns; in a runtime
+%   without threads also `inf`: until no agent has anything to do any more.
 %
 %   @error type_error(number, Seconds)
 
@@ -262,8 +262,8 @@ time_alone :-
 
 %!  time_here(+Agents, :Turn) is semidet.
 %
-%   Call Turn, which is one of an agent of the kind Agents, in this thread, which
-%   has other things to do, too; fails where it is to be done by workers.
+%   Call Turn, which is one of an agent of the kind Agents, in this thread,
+%   which has other things to do, too; fails where it is to be done by workers.
 
 time_here(Agents, Turn) :-
     time_kind(Kind),
@@ -309,9 +309,9 @@ time_signal(_).
 %
 %   No agent gets a turn any more, and no alarm goes off; fails if that cannot
 %   be had in Seconds of the time of day.  Then Standing is all that the runtime
-%   knows of what comes next, or the Kind of one that knows nothing.  It goes on:
-%   Agents have missed their turn.  What comes next is as Standing says; Agents
-%   have their turns.
+%   knows of what comes next, or the Kind of one that knows nothing.  It goes
+%   on: Agents have missed their turn.  What comes next is as Standing says;
+%   Agents have their turns.
 
 time_hold(Seconds) :-
     time_kind(Kind),

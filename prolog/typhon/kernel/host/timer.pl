@@ -26,9 +26,9 @@ that comes before the next does, and many that it has not heard of yet.
 Whatever happens to the timer, no alarm is lost with it: it begins again with
 a new index.
 
-*Threading*: alarms from any thread.  The flag typhon_next says what the
-timer waits for; it is written before the timer looks for new alarms for the
-last time, and read by a thread that adds one after that: so one of the two sees the
+*Threading*: alarms from any thread.  The flag typhon_next says what the timer
+waits for; it is written before the timer looks for new alarms for the last
+time, and read by a thread that adds one after that: so one of the two sees the
 other.
 */
 

@@ -118,8 +118,8 @@ latest(Turns, Latest) :-
                 *          SHORT TURNS         *
                 *******************************/
 
-%   A turn is short that takes so many inferences, as many as make some wake-ups,
-%   and so many seconds.
+%   A turn is short that takes so many inferences, as many as make some
+%   wake-ups, and so many seconds.
 
 short(20000, 0.004).
 
@@ -135,7 +135,8 @@ remembered(waits, 10).
 
 %!  turn_if_short(+Kind, :Turn) is semidet.
 %
-%   Call Turn, which is one of an agent of that Kind; fails if that may take long.
+%   Call Turn, which is one of an agent of that Kind; fails if that may take
+%   long.
 
 turn_if_short(Kind, Turn) :-
     (   slow(Kind, Until)

@@ -144,9 +144,9 @@ undeclared(PI, Declared) :-
 
 %   Agents that are held in the middle of their goals.
 %
-%   The engine of a turn, see typhon_turn, may put an agent down before any goal.
-%   The agent then has the status `held`, and when it is to go on `resumed`, until
-%   a worker has it.  In place of its goals there is
+%   The engine of a turn, see typhon_turn, may put an agent down before any
+%   goal. The agent then has the status `held`, and when it is to go on
+%   `resumed`, until a worker has it.  In place of its goals there is
 %
 %       held(State, Goals)
 %

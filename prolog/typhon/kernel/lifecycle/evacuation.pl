@@ -37,9 +37,9 @@ typhon_hosting:evacuate(Host, Deadline) :-
 under_way(transit(_, _)).
 under_way(cloning(_, _)).
 
-%   Nearly always all rest, and nothing is waited for.  Else it looks again every
-%   10 ms: a notification would make each arrival, return and end of a turn check
-%   for a waiting caller.
+%   Nearly always all rest, and nothing is waited for.  Else it looks again
+%   every 10 ms: a notification would make each arrival, return and end of a
+%   turn check for a waiting caller.
 
 evacuate(Host, Deadline) :-
     evacuated(Host, Deadline),

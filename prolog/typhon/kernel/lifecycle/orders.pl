@@ -25,9 +25,9 @@
 
 /** <module> Orders are taken and obeyed
 
-An order that has found its agent, see typhon_order_client, is noted in its record.
-The agent takes it at its next effect.  The caller that waits for its result is
-noted with it: asked(Order, Asker).
+An order that has found its agent, see typhon_order_client, is noted in its
+record. The agent takes it at its next effect.  The caller that waits for its
+result is noted with it: asked(Order, Asker).
 
 *Threading*: orders are taken in any thread, in the reader threads if they
 come from another process, and obeyed by the worker that has the agent.
@@ -63,9 +63,9 @@ at_once(dispose).
 
 %!  order_take(+Id, +Order) is semidet.
 %
-%   Order comes to Id.  Fails if there is no such agent in this process.
-%   Besides those of typhon_order_client there is evacuate(Host): it ends an agent
-%   on Host, of this process, unless it has left it meanwhile.
+%   Order comes to Id.  Fails if there is no such agent in this process. Besides
+%   those of typhon_order_client there is evacuate(Host): it ends an agent on
+%   Host, of this process, unless it has left it meanwhile.
 
 order_take(Id, dispose) :-
     agent_end(Id, at_rest, disposed),

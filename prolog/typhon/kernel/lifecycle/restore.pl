@@ -7,8 +7,9 @@
 :- use_module(library(error), [domain_error/2, must_be/2]).
 :- use_module(library(lists), [member/2]).
 :- use_module('../base/options', [check_options/2]).
-:- use_module('../program', [ code_receive/2, code_extras/2, code_unwrapped/3, code_wrapped/3,
-                program_hash/2 ]).
+:- use_module('../program',
+              [ code_receive/2, code_extras/2, code_unwrapped/3,
+                code_wrapped/3, program_hash/2 ]).
 :- use_module('../agent', [is_life/1]).
 :- use_module(creation, [agent_begin/4]).
 :- use_module(order_client, [order_give/3]).

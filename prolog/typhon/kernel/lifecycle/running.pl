@@ -6,8 +6,9 @@
                 turns_paused/0 ]).
 :- use_module('../agent',
               [ agent/5, agent_code/2, agent_departs/3, agent_handles/2,
-                agent_here/5, agent_ordered/1, agent_ready/2, agent_resumes/2, agent_rest/3,
-                agent_take/3, mail_take/2, with_agent/2 ]).
+                agent_here/5, agent_ordered/1, agent_ready/2,
+                agent_resumes/2, agent_rest/3, agent_take/3, mail_take/2,
+                with_agent/2 ]).
 :- use_module(effect, [effect/5, effect_depart/6]).
 :- use_module(ending, [agent_end/2, agent_fails/3]).
 :- use_module(orders, [order_obey/3]).

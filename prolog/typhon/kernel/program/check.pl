@@ -37,10 +37,10 @@
 %     - of an agent, calls to predicates that neither it nor the vocabulary
 %       defines, so that a place or a payload must offer them
 %
-%   While some of it cannot be read, only syntax errors are reported.  agent_create/3 raises
-%   the errors, and prints the warnings once for each program, until its file
-%   changes; those of the last kind unless a payload of the agent or the place
-%   of a host of this process defines the predicate.
+%   While some of it cannot be read, only syntax errors are reported.
+%   agent_create/3 raises the errors, and prints the warnings once for each
+%   program, until its file changes; those of the last kind unless a payload of
+%   the agent or the place of a host of this process defines the predicate.
 
 agent_check(Spec) :-
     once(source_terms(Spec, Located, _, Unread, Once)),

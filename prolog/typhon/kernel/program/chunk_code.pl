@@ -109,9 +109,9 @@ kind(Goal, env(Module, Own, _, _, _, _), Kind) :-
 %   block(+Nodes, +Outer, +Mode, +Phase, +Env, -Code): Code runs Nodes.  If Mode
 %   is `tail` it goes on with Outer, and with K; `through` leaves that to what
 %   comes after it, and cannot stop.  Phase is `lead` or `first` in the clause
-%   of a predicate, `later` in a frame.  What fails in the lead need not be noted:
-%   no cut came before, so that another clause is tried, and if that comes to
-%   nothing, something in it has failed last.
+%   of a predicate, `later` in a frame.  What fails in the lead need not be
+%   noted: no cut came before, so that another clause is tried, and if that
+%   comes to nothing, something in it has failed last.
 
 block([], Outer, tail, _, Env, Code) =>
     Env = env(_, _, _, _, args(K, X, Base, Out, _), _),
@@ -222,8 +222,8 @@ after_branches(Branches, lead, first) :-
     !.
 after_branches(_, Phase, Phase).
 
-%   unless_ruled(+Heads, +Node, +Env, +Code0, -Code): Code0 if none of Heads holds
-%   rules in the state of the agent.
+%   unless_ruled(+Heads, +Node, +Env, +Code0, -Code): Code0 if none of Heads
+%   holds rules in the state of the agent.
 
 unless_ruled([], _, _, Code, Code) :-
     !.

@@ -15,9 +15,9 @@
 
 A place of a program is Number*Count+Clause, for the goal of that number in a
 clause (see typhon_clause_places), of which there are Count.  What an agent has
-left at a place is read from the clause when it stops there first.  Then it is in
-two tables of the program's module: '$goals'/4, from frames to goals, and, if that
-saves time, '$frame'/5, from goals to frames.
+left at a place is read from the clause when it stops there first.  Then it is
+in two tables of the program's module: '$goals'/4, from frames to goals, and, if
+that saves time, '$frame'/5, from goals to frames.
 
 *Threading*: any thread; one mutex when a place is added.
 */
@@ -81,9 +81,9 @@ add_place(Module, Place, General, Goals, Plain, List, Rest) :-
 
 :- public untouched/2.
 
-%   untouched(+New, +Others) is semidet: a frame does not hold the variables that
-%   are New in its goals.  So they must be unbound, different, and occur nowhere
-%   else, as where the agent stopped at its place.
+%   untouched(+New, +Others) is semidet: a frame does not hold the variables
+%   that are New in its goals.  So they must be unbound, different, and occur
+%   nowhere else, as where the agent stopped at its place.
 
 untouched([], _) :-
     !.

@@ -31,9 +31,9 @@ program.  These tables are in that module:
     '$frame'(First, Goals, Base, Frame, Rest)  the frame for goals
     '$run'(Head, Run, K, X, Base, Out, Condition)  how to call a predicate
 
-No frame outlives a run: where the agent stops the goals are left (plain_goals/2),
-and when it goes on, a frame is made of them again if that saves time.  So
-whatever looks at an agent, or carries it, sees its goals.
+No frame outlives a run: where the agent stops the goals are left
+(plain_goals/2), and when it goes on, a frame is made of them again if that
+saves time.  So whatever looks at an agent, or carries it, sees its goals.
 
 A goal that cannot stop is called as it stands, and
 
@@ -41,8 +41,8 @@ A goal that cannot stop is called as it stands, and
 
 notes its failure.  If-then-else, `\+`, once/1 and ignore/1 are compiled if
 their tests cannot stop, disjunctions always.  The machine runs the other
-constructs, such as catch/3, and call/1, one by one, and what a chunk has left if
-a predicate that it calls has rules in the agent's state.
+constructs, such as catch/3, and call/1, one by one, and what a chunk has left
+if a predicate that it calls has rules in the agent's state.
 
 *Threading*: one mutex while a program is compiled.
 */

@@ -6,7 +6,8 @@
               [ crash_point/1, durable_on/0, enqueue_changes/0,
                 unit_of_work/1 ]).
 :- use_module('../wire',
-              [ endpoint_afterwards/1, endpoint_reply/2, endpoint_reply_later/2 ]).
+              [ endpoint_afterwards/1, endpoint_reply/2,
+                endpoint_reply_later/2 ]).
 :- use_module('../host',
               [ event/4, host/3, host_hop/3, host_time/2, schedule/2,
                 schedule_adopt/1, schedule_here/3, schedule_leave/0 ]).

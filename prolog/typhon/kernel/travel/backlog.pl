@@ -27,8 +27,8 @@
 Letters that cannot be passed on for the moment wait here, in order, and what
 comes later for the same agent waits behind them.  They are tried again: for as
 long as the next process may be alive, and for a while longer, since the news
-that the agent had left it may be under way.  While they are being tried they are
-with the worker that tries; there is one at a time for each agent.
+that the agent had left it may be under way.  While they are being tried they
+are with the worker that tries; there is one at a time for each agent.
 
 *Threading*: inside with_agent/2 of the agent, but for retries_go_on/0 and
 post_tried/0.

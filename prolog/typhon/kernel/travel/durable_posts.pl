@@ -6,7 +6,8 @@
 :- use_module('../base/error_text', [print_error/2]).
 :- use_module('../base/durable', [durable/5]).
 :- use_module('../base/durable_changes',
-              [ crash_point/1, durable_bytes/2, durable_put/4, unit_of_work/1 ]).
+              [ crash_point/1, durable_bytes/2, durable_put/4,
+                unit_of_work/1 ]).
 :- use_module('../wire', [endpoint_post/3, frame_fits/1]).
 :- use_module('../host', [alarm_in/3, scheduler_call/1]).
 
@@ -18,12 +19,12 @@ for good.  A back end does so: it defines the hook queued/3, and sends
     channel(Process, To, Before, N, Kind, Term)
 
 the post of number N of Process to the endpoint To; Before is the number of the
-one before, or first(M) if all up to M are known to have come.  Any process takes
-each once, in order, and notes its arrival together with its effects.  A
+one before, or first(M) if all up to M are known to have come.  Any process
+takes each once, in order, and notes its arrival together with its effects.  A
 process that lacks one sends again(To), one that has one had(To, N).
 
-*Threading*: any thread posts, and never waits for a connection; what comes in is
-taken by the threads of connections; a worker says what has come.
+*Threading*: any thread posts, and never waits for a connection; what comes in
+is taken by the threads of connections; a worker says what has come.
 */
 
 :- multifile
@@ -46,8 +47,9 @@ around(1000).
 %!  durable_post(+Endpoint, +Kind, +Term) is det.
 %!  post_must_fit(+Change) is det.
 %
-%   Post Term to Endpoint, once, whatever dies, together with the changes of this
-%   unit of work so far, which ends; what Change notes can be sent in a frame.
+%   Post Term to Endpoint, once, whatever dies, together with the changes of
+%   this unit of work so far, which ends; what Change notes can be sent in a
+%   frame.
 %
 %   @error resource_error(frame_bytes) Term is too long for a frame
 

@@ -10,14 +10,16 @@
                 endpoint_hand_to/2,
                 endpoint_handed/2 ]).
 :- use_module('../host',
-              [ event_heard/1, host/3, host_came/2, host_left/2, host_plain/2,
-                host_plain_time/2, real_time/3, schedule_here/3, scheduler_call/1 ]).
+              [ event_heard/1, host/3, host_came/2, host_left/2,
+                host_plain/2, host_plain_time/2, real_time/3,
+                schedule_here/3, scheduler_call/1 ]).
 :- use_module('../agent',
               [ agent_comes/5, agent_gone/5, agent_handed/4, agent_here/5,
                 agent_module/4, agent_ready/2, agent_standing/5,
                 agent_state/2, agent_thawed/5, agent_under_way/6, is_life/1,
                 life_before/2, life_extras/2, life_goes/3, life_hops/2,
-                mail_all/2, mail_back/2, mail_waits/1, program_sent/3, with_agent/2 ]).
+                mail_all/2, mail_back/2, mail_waits/1, program_sent/3,
+                with_agent/2 ]).
 :- use_module(backlog, [backlog/1]).
 :- use_module(home, [home_left/4]).
 :- use_module(post, [post_on/2]).
@@ -50,10 +52,10 @@ nothing has changed: then the agent comes in like any other, see typhon_arrival.
 
 %!  hand_over(+Id, +Host, +Where, +Hole, +Goals) is semidet.
 %
-%   Send Id, which moves from Host, to Where, as of host_resolve/2, where it goes
-%   on with Goals, Hole bound to `true`.  Fails, and nothing has changed, if it
-%   has to go by request: options are in use, there is no connection, its terms
-%   cannot travel, it may not move, or it has an order.
+%   Send Id, which moves from Host, to Where, as of host_resolve/2, where it
+%   goes on with Goals, Hole bound to `true`.  Fails, and nothing has changed,
+%   if it has to go by request: options are in use, there is no connection, its
+%   terms cannot travel, it may not move, or it has an order.
 
 hand_over(Id, Host, remote(Address, Name, Endpoint), Hole, Goals) :-
     host_plain(Host, Plain),
@@ -146,7 +148,8 @@ typhon_agents:thaw(Id) :-
     sig_atomic(with_agent(Id, thawed(Id))).
 
 %   thawed(+Id) is semidet: inside with_agent/2.  Its state, its goals and the
-%   mail it had are those of the frame; the hop is not counted before it is made.
+%   mail it had are those of the frame; the hop is not counted before it is
+%   made.
 
 thawed(Id) :-
     agent_under_way(Id, Hops, Host, _, way(Dest, Since, _), Frame),
@@ -167,8 +170,8 @@ thawed(Id) :-
 
 %!  taken_over(+Host, +Image, +Program, +Peer) is semidet.
 %
-%   The process at Peer hands over an agent to Host; all of that may be anything.
-%   It is here now, and goes on afterwards.
+%   The process at Peer hands over an agent to Host; all of that may be
+%   anything. It is here now, and goes on afterwards.
 %
 %   @error what is wrong with its clauses
 

@@ -147,8 +147,8 @@ home_moved(Id, Address, Hops, Process) :-
 
 %!  home_left(+Id, +Address, +Hops, +Process) is semidet.
 %
-%   As home_moved/4, of one that has left this process, which is noted.  Fails if
-%   the home does not know it, or knows something newer.
+%   As home_moved/4, of one that has left this process, which is noted.  Fails
+%   if the home does not know it, or knows something newer.
 
 home_left(Id, Address, Hops, Process) :-
     with_mutex(typhon_born, left(Id, Address, Hops, Process)).

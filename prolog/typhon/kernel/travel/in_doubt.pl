@@ -15,7 +15,8 @@
 :- use_module(hop_ids, [hop_id_again/1, hop_id_repeated/1]).
 :- use_module(transfer,
               [ transfer_arrived/1, transfer_image/2, transfer_open/1,
-                transfer_stays/2, transfer_traveller/3, transfer_unreachable/1 ]).
+                transfer_stays/2, transfer_traveller/3,
+                transfer_unreachable/1 ]).
 :- use_module(whereabouts, [agent_reached/3, agent_reached_at/4]).
 
 /** <module> Transfers in doubt
@@ -27,8 +28,8 @@ together with that process: all known processes are asked.  If none has seen
 the agent it has not survived there, and goes on here.
 
 Where the other process keeps a journal no other need be asked: it is asked
-again, until it is there again.  It knows the agents that it has admitted.  The same goes
-for one that is there, where we have been started again ourselves.
+again, until it is there again.  It knows the agents that it has admitted.  The
+same goes for one that is there, where we have been started again ourselves.
 
 *Threading*: resolve_in_doubt/1 in reader threads, which never wait; surveys in
 a worker.

@@ -16,7 +16,8 @@
               [deferred_call/1, deferred_change/1, effects_deferred/0]).
 :- use_module('../wire', [endpoint_address/1, mobile_term/1]).
 :- use_module('../host', [parts/3, peer_may/3]).
-:- use_module('../agent', [agent_home/2, agent_mail/2, agent_on/2, with_agent/2]).
+:- use_module('../agent',
+              [agent_home/2, agent_mail/2, agent_on/2, with_agent/2]).
 :- use_module(backlog,
               [backlog/1, backlog_add/2, backlog_all/2, retry_later/3]).
 :- use_module(durable_posts, [post_must_fit/1]).

@@ -9,7 +9,8 @@
 :- use_module(library(lists), [append/2, append/3, max_list/2, member/2]).
 :- use_module('../base/durable_changes', [durable_on/0]).
 :- use_module('../wire',
-              [ endpoint_address/1, endpoint_gone/1, endpoint_post/3, endpoint_post_up/3 ]).
+              [ endpoint_address/1, endpoint_gone/1, endpoint_post/3,
+                endpoint_post_up/3 ]).
 :- use_module('../host', [address_parts/3, amended/5, parts/3]).
 :- use_module('../agent', [agent/5, agent_home_endpoint/2, agent_mail/2]).
 :- use_module(durable_posts, [durable_post/3]).
@@ -26,8 +27,8 @@ mail(Origin, From, Message), the oldest first.
 they never wait.  way_send/3 may wait for a connection.
 */
 
-%   A letter that has been forwarded so often at once chases its agent in
-%   vain for the moment, or the processes that should know do not know yet: it waits
+%   A letter that has been forwarded so often at once chases its agent in vain
+%   for the moment, or the processes that should know do not know yet: it waits
 %   a little.
 
 forwards_at_once(64).
@@ -87,8 +88,8 @@ way_out(Id, letter(Mail, Left), Way) :-
     ).
 way_out(_, _, nowhere).
 
-%   An agent that is not here has left a record, or the home knows.  The endpoint is `here`
-%   if it is that of this process.
+%   An agent that is not here has left a record, or the home knows.  The
+%   endpoint is `here` if it is that of this process.
 
 next_endpoint(Id, Endpoint) :-
     whereabouts(Id, Address),

@@ -27,7 +27,8 @@
                 mail_back/2, with_agent/2 ]).
 :- use_module('../base/durable', [durable/5, durable_assertz/1]).
 :- use_module('../base/durable_changes',
-              [ crash_point/1, durable_drop/3, durable_on/0, enqueue_changes/0, unit_of_work/1 ]).
+              [ crash_point/1, durable_drop/3, durable_on/0,
+                enqueue_changes/0, unit_of_work/1 ]).
 :- use_module(hop_ids,
               [hop_id_begin/4, hop_id_end/2, hop_id_restore/4]).
 :- use_module(outcomes, [clone_unborn/2]).
@@ -284,8 +285,8 @@ transfer_held(clone(Held-_, _, _), Held).
                 *         ORDERED MOVES         *
                 *******************************/
 
-%   A caller of agent_move/3 waits until the agent is there.  The process in which
-%   the agent takes the order knows how its next hop ends.
+%   A caller of agent_move/3 waits until the agent is there.  The process in
+%   which the agent takes the order knows how its next hop ends.
 
 %!  move_awaited(+Id, +Asker) is det.
 %

@@ -317,7 +317,8 @@ typhon_endpoint:requested(whereabouts, reached(Id, Hops), _, ReplyTo) :-
     reached(Id, Hops, Reached),
     endpoint_reply(ReplyTo, Reached).
 
-%   In this order: an agent that leaves or ends meanwhile is noted before it is gone.
+%   In this order: an agent that leaves or ends meanwhile is noted before it is
+%   gone.
 
 reached(Id, Hops, true) :-
     (   hops_of(Id, Hops0)

@@ -40,10 +40,10 @@
 :- use_module('../host',
               [ context/3, context_agent/1, context_host/1, context_now/2,
                 event/4, host/3, host_address/2, host_closed/1,
-                host_link_cost/3, host_load/2, host_logs/1, host_neighbours/2,
-                host_time/2, place_deliver/3, place_undeliver/2,
-                amended/5, parts_call/3,
-                tuple_leave/3, tuple_leave_new/3, tuple_sense/2, tuple_take/2 ]).
+                host_link_cost/3, host_load/2, host_logs/1,
+                host_neighbours/2, host_time/2, place_deliver/3,
+                place_undeliver/2, amended/5, parts_call/3, tuple_leave/3,
+                tuple_leave_new/3, tuple_sense/2, tuple_take/2 ]).
 :- use_module('../agent',
               [ agent/5, agent_attach/2, agent_detach/2, agent_home/2,
                 agent_handled/3, agent_payload/3, agent_variant/2,
@@ -136,10 +136,10 @@ host_load(Count) :-
 
 %!  send(+Agent, +Message) is det.
 %
-%   As agent_send/2; it is from this agent.  If Agent has ended the
-%   message is lost with a warning, not an error; without one if the host of
-%   this agent is about to stop.  The sender from outside is `user`, which has no
-%   mailbox: answers to it are printed.
+%   As agent_send/2; it is from this agent.  If Agent has ended the message is
+%   lost with a warning, not an error; without one if the host of this agent is
+%   about to stop.  The sender from outside is `user`, which has no mailbox:
+%   answers to it are printed.
 %
 %   A compound term, as fipa(Name, Addresses), is a recipient beyond a bridge of
 %   this host, see post_abroad/4.

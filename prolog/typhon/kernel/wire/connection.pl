@@ -7,7 +7,8 @@
 /** <module> The thread of one connection
 
 A connection has one thread, which opens its streams, gives the connection to
-the session of the peer, see resumption.pl, reads frames until it breaks, and closes the streams.
+the session of the peer, see resumption.pl, reads frames until it breaks, and
+closes the streams.
 
 *Threading*: incoming/5 and outgoing/2 are the goals of threads of the wire.
 */

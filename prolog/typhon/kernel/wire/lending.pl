@@ -17,8 +17,8 @@ time: a goal of endpoint_afterwards/1.
 Meanwhile the connection belongs to a token, a message in a queue of the thread.
 When the goal ends the thread takes it back, and reads on.  A goal that lasts is
 found by the connection manager, which takes the token instead: then the session
-loses this connection and gets another one, with a thread of its own, and the one
-that was lent is no longer of the wire.
+loses this connection and gets another one, with a thread of its own, and the
+one that was lent is no longer of the wire.
 
 A request to end a thread that is lent takes effect when it is back: what it
 runs must not be interrupted for the sake of a connection.
@@ -60,9 +60,9 @@ most_time(0.2).
 
 %!  endpoint_afterwards(:Goal) is det.
 %
-%   In a hook: call(Goal, here) in this thread when the hook has ended and
-%   its frame is counted.  If that fails, or more is to be read first, or this is
-%   no reader, call(Goal, later) leaves the work to others; that does not fail.
+%   In a hook: call(Goal, here) in this thread when the hook has ended and its
+%   frame is counted.  If that fails, or more is to be read first, or this is no
+%   reader, call(Goal, later) leaves the work to others; that does not fail.
 %   Goal does not raise. Where it lasts, the hook lent(Thread) says that Thread
 %   is not of the endpoint any more, and returned, there, that Thread is about
 %   to end.
@@ -103,7 +103,8 @@ lending_close :-
     ;   true
     ).
 
-%   left(+State): what is left to do for a thread that stops reading in this State.
+%   left(+State): what is left to do for a thread that stops reading in this
+%   State.
 
 left(idle).
 left(away).
@@ -117,9 +118,10 @@ left(lent) :-                           % it was aborted
 
 %!  lend(+Queue, :More, :Tell) is semidet.
 %
-%   Call what a hook has left; fails if there is nothing. More says whether there
-%   is more to read first. Tell is called when the thread is back, and before the
-%   work is left to others: the peer learns what was accepted before they act.
+%   Call what a hook has left; fails if there is nothing. More says whether
+%   there is more to read first. Tell is called when the thread is back, and
+%   before the work is left to others: the peer learns what was accepted before
+%   they act.
 %
 %   Throws wire_thread_end(Why) if it is to end, as when the connection is no
 %   longer ours.
@@ -258,9 +260,10 @@ lent_to(Thread, Turn) :-
                  *           RELEASE            *
                  *******************************/
 
-%   release(+Thread, +Turn) is semidet: it is on its own, and the session without
-%   connection.  A thread that waits for the end of Thread goes on.  Should Thread
-%   come back before the connection is gone, it sees to that itself.
+%   release(+Thread, +Turn) is semidet: it is on its own, and the session
+%   without connection.  A thread that waits for the end of Thread goes on.
+%   Should Thread come back before the connection is gone, it sees to that
+%   itself.
 
 typhon_threads:overdue(Thread) :-
     lent_to(Thread, Turn),

@@ -172,8 +172,8 @@ endpoint_request(Address, Kind, Term, OnAnswer) :-
 %   Hand is the frame by which Term is handed over to the process at Address:
 %   fails if there is no connection, or something else waits to be asked there.
 %   Send it: what becomes of it comes to the hook handed_over(Token, Result), in
-%   a thread of the endpoint. The Process to which it goes, and the Term in it. Term holds neither
-%   attributed variables nor cycles.
+%   a thread of the endpoint. The Process to which it goes, and the Term in it.
+%   Term holds neither attributed variables nor cycles.
 %
 %   Hand is hand(Session, Bytes). It can be kept in clauses.
 %

@@ -46,16 +46,16 @@ is held.
 :- use_module(frame,
               [bundle_fits/1, frame_overhead/1, frame_write/3, term_bytes/3]).
 :- use_module(session,
-              [ session_codec/2, session_held/2, session_key/2, session_locked/2,
-                session_must_exist/2, session_received/2,
+              [ session_codec/2, session_held/2, session_key/2,
+                session_locked/2, session_must_exist/2, session_received/2,
                 session_up/1, session_window/2, transport/3,
                 transport_broken/2, debug_frame/4 ]).
 :- use_module(threads, [manager_notify/1]).
 :- use_module(pusher, [pusher/2, pusher_control/3, pusher_start/4]).
 :- use_module(unacked,
-              [ unacked_await/3, unacked_next/3, unacked_no_wait/1, unacked_owed/2,
-                unacked_sent/5, unacked_space/3, unacked_waiting/1,
-                unacked_waits/3, unacked_waits_loose/2 ]).
+              [ unacked_await/3, unacked_next/3, unacked_no_wait/1,
+                unacked_owed/2, unacked_sent/5, unacked_space/3,
+                unacked_waiting/1, unacked_waits/3, unacked_waits_loose/2 ]).
 
 :- multifile typhon_durable_changes:committed/1.
 
@@ -127,7 +127,8 @@ session_release(Session) :-
 %!  session_hand(+Session, +Bytes, +Token) is det.
 %
 %   Bytes are the frame that hands over Term; send it, and learn by Token what
-%   became of it: see request.pl.  The caller of session_hand/3 holds signals back.
+%   became of it: see request.pl.  The caller of session_hand/3 holds signals
+%   back.
 %
 %   @error resource_error(frame_bytes), type_error(mobile_term, Culprit)
 %   @error session_closed
@@ -144,8 +145,9 @@ session_hand(Session, Bytes, Token) :-
 %
 %   For the thread of the connection, of the frame that it is about to count:
 %   the peer learns that it is not accepted, but Answer; the peer waits for the
-%   count of it, which goes with whatever is sent next, see session_send_later/2.
-%   An objection never waits for a commit: the count would overtake it.
+%   count of it, which goes with whatever is sent next, see
+%   session_send_later/2. An objection never waits for a commit: the count would
+%   overtake it.
 
 session_object(Session, Answer) :-
     session_received(Session, Count),
@@ -161,8 +163,8 @@ session_owes :-
     nb_linkval(typhon_later, Count1),
     nb_linkval(typhon_owing, true).
 
-%   What a reader has left goes along, or before what is sent to other peers: the
-%   next process must not report an agent before the answer that it has come
+%   What a reader has left goes along, or before what is sent to other peers:
+%   the next process must not report an agent before the answer that it has come
 %   to this one has left.
 
 answers_first(Session) :-
@@ -278,8 +280,8 @@ put_frame(Session, Bytes, Token, Flush) :-
     session_must_exist(Session, Key),
     put(Session, Key, Bytes, Token, Flush).
 
-%   put(+Session, +Key, +Bytes, +Token, +Flush): Token is `loose` if Bytes may go
-%   with others when they have to wait.
+%   put(+Session, +Key, +Bytes, +Token, +Flush): Token is `loose` if Bytes may
+%   go with others when they have to wait.
 
 put(Session, Key, Bytes, Token, Flush) :-
     (   writable(Key, Thread, Out),
@@ -298,8 +300,8 @@ waits(loose, Session, Bytes) :-
 waits(Token, Session, Bytes) :-
     unacked_waits(Session, Bytes, Token).
 
-%   writable(+Key, -Thread, -Out): Out can be written to. The stream of a pusher is
-%   left alone: even to look at it might block.
+%   writable(+Key, -Thread, -Out): Out can be written to. The stream of a pusher
+%   is left alone: even to look at it might block.
 
 writable(Key, Thread, Out) :-
     transport(Key, Thread, Out),

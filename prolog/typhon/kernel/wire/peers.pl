@@ -78,8 +78,8 @@ endpoint_lasting(Address) :-
 
 %!  endpoint_missed(+Address, ?Formal) is semidet.
 %
-%   Why no process could be reached at Address when that was last tried: `late`, or
-%   the formal term of an error, as permission_error(authenticate, peer, Why)
+%   Why no process could be reached at Address when that was last tried: `late`,
+%   or the formal term of an error, as permission_error(authenticate, peer, Why)
 %   or socket_error(Code, Text).
 
 endpoint_missed(Address, Formal) :-
@@ -109,8 +109,8 @@ endpoint_flush(Seconds, Peers) :-
 %!  peers_flush(+Seconds) is semidet.
 %
 %   As endpoint_flush/1, for a process about to end: nothing is waited for that
-%   cannot arrive, as no process listens at the address of the peer any more. Not
-%   for hooks nor clean-up handlers, see manager_connect/2.
+%   cannot arrive, as no process listens at the address of the peer any more.
+%   Not for hooks nor clean-up handlers, see manager_connect/2.
 
 peers_flush(Seconds) :-
     get_time(Now),

@@ -22,9 +22,9 @@ has a thread that writes, the pusher, until nothing waits. It writes first what
 is outside the count, then what the peer lacks of an earlier connection, then
 what waits.
 
-*Threading*: a thread that starts a pusher or leaves it a control holds the mutex
-of the session; one that calls pusher_stop/1, the thread of the connection, does
-not.
+*Threading*: a thread that starts a pusher or leaves it a control holds the
+mutex of the session; one that calls pusher_stop/1, the thread of the
+connection, does not.
 */
 
 :- dynamic

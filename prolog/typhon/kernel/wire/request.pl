@@ -141,9 +141,9 @@ requests_lost(Session, Unsent) :-
 
 %!  handed_over(+Settled, +Session) is det.
 %
-%   Settled is settled(Token, Number, Result), see session_acked/3: call the hook
-%   handed_over(Token, Result), where Result is `accepted`, `lost`, `unsent`, or
-%   what the peer answered.
+%   Settled is settled(Token, Number, Result), see session_acked/3: call the
+%   hook handed_over(Token, Result), where Result is `accepted`, `lost`,
+%   `unsent`, or what the peer answered.
 
 handed_over(settled(Token, Number, Result), Session) :-
     (   Result == deferred
@@ -398,7 +398,8 @@ unsent(Address) :-
 
 %!  unsent_send(+Address, +Session) is det.
 %
-%   Send in Session all that is held for Address. For the connection manager only.
+%   Send in Session all that is held for Address. For the connection manager
+%   only.
 
 unsent_send(Address, Session) :-
     oldest(Address, Row),

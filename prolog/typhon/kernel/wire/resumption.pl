@@ -160,8 +160,8 @@ forget(Session, Waiting, Handed) :-
 %!  prove(+Role, +In, +Out, +Me, -Peer) is det.
 %
 %   Me is our hello, Peer that of the peer, which has proved itself. Role is
-%   server(Start), for a connection accepted at the time Start, or client(Start),
-%   for one begun then.
+%   server(Start), for a connection accepted at the time Start, or
+%   client(Start), for one begun then.
 %
 %   A server tells a client that its proof is wrong, so that it need not try
 %   again.

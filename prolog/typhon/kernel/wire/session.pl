@@ -37,10 +37,10 @@ A session joins this process to another for the life of both, over however
 many connections, one at a time. outbox.pl sends in it; resumption.pl gives
 it its connections.
 
-A session is session(Key, Codec, Mutex, Adoption, peer(Process, Address,
-Proof), Window). Key names the peer. Mutex guards the sending side; a thread that
-gives the session a new connection holds Adoption. No other module takes the
-term apart.
+A session is session(Key, Codec, Mutex, Adoption, peer(Process, Address, Proof),
+Window). Key names the peer. Mutex guards the sending side; a thread that gives
+the session a new connection holds Adoption. No other module takes the term
+apart.
 
 Frames are numbered by counting on both sides. The window of a session is
 

@@ -68,8 +68,8 @@ under_way(65536).
 %   with others in one frame then.
 
 unacked_sent(Session, Out, Bytes, Token, counts(Count, Count)) :-
-    session_window(Session,
-                   window(Sent, Waiting, Received, Told, _, AckedBytes, Settled)),
+    session_window(Session, Window),
+    Window = window(Sent, Waiting, Received, Told, _, AckedBytes, Settled),
     message_queue_property(Waiting, size(0)),
     space(AckedBytes, Out, Space),
     string_length(Bytes, Length),

@@ -10,8 +10,8 @@
 
 The option peer(Rules) of a host is a list of Peer-Rights.  Peer is `cookie`,
 certificate(Name), or a pattern of these; Rights is `all` or a list of rights,
-see typhon_peer_rights; that to inspect is `watch` here.  The first rule that matches how a peer has proved
-itself counts; without a match it has no right.
+see typhon_peer_rights; that to inspect is `watch` here.  The first rule that
+matches how a peer has proved itself counts; without a match it has no right.
 
 With the option audit(File) each security event is a line there,
 

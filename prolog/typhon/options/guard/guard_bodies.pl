@@ -16,8 +16,9 @@
 
 /** <module> The goals in clauses of untrusted agents
 
-See typhon_guard_clauses.  Own is own(Heads, Policy), where Heads is heads(Assoc) or
-module(Module), where the static predicates of the agent are, or `none`.
+See typhon_guard_clauses.  Own is own(Heads, Policy), where Heads is
+heads(Assoc) or module(Module), where the static predicates of the agent are, or
+`none`.
 
 What is looked at here is not what will run, but a copy of it is: each
 construct, closure and lambda expression in Body is a new term, which the

@@ -21,8 +21,8 @@ sent, and keeps it until the other says that it has come for good.  Until then
 it is sent again whenever there is a new connection.  What is sent, and the
 other end, is described in typhon_durable_posts.
 
-The window of a session, see typhon_unacked, is another: it numbers frames one by
-one, keeps bytes in a queue, and ends with the process.  Here the items of a
+The window of a session, see typhon_unacked, is another: it numbers frames one
+by one, keeps bytes in a queue, and ends with the process.  Here the items of a
 journal are the window: their numbers have gaps, and one may be dropped from the
 middle.  A frame kept as a fact costs three times as much as one in a queue.
 

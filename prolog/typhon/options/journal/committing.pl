@@ -16,10 +16,10 @@ all there is: the changes become one transaction, then the items go, in their
 order.  So a thread that only sends does not wait for the disk.
 
 Where a commit takes as long as the disk takes to sync, a thread commits, and
-what gathers meanwhile is the next transaction.  Where it does not, a thread that wants
-output to leave commits itself.  Entries without a waiting thread are committed
-after some milliseconds.  What could not be committed is kept, with what was
-to be let out, and tried again each second.
+what gathers meanwhile is the next transaction.  Where it does not, a thread
+that wants output to leave commits itself.  Entries without a waiting thread are
+committed after some milliseconds.  What could not be committed is kept, with
+what was to be let out, and tried again each second.
 
 *Threading*: any thread.  One at a time commits, holding a mutex in which it
 may take those of sessions: a thread that holds one of these must not commit.
@@ -150,7 +150,8 @@ typhon_durable_changes:flush_sends :-
 typhon_durable_changes:flush_sends :-
     sig_atomic(commit_or_leave).
 
-%   No thread waits for the committing one: it finds that more is wanted, and does it.
+%   No thread waits for the committing one: it finds that more is wanted, and
+%   does it.
 
 commit_or_leave :-
     mutex_trylock(typhon_commit),

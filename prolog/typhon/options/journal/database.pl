@@ -99,9 +99,9 @@ journal_part(Dir0, P, Part) :-
 %   There is a journal; open it, or a new one, Age being `old` or `new`, for
 %   which another process is waited for so many seconds; a transaction begins,
 %   and no other process can open the journal any more; make the tables of a new
-%   one; Stamp identifies the last process that opened it; it still is so, on another
-%   connection; it may lose what was committed in the last Seconds when it dies
-%   alone; it is damaged.
+%   one; Stamp identifies the last process that opened it; it still is so, on
+%   another connection; it may lose what was committed in the last Seconds when
+%   it dies alone; it is damaged.
 
                 /*******************************
                 *            RECORD            *

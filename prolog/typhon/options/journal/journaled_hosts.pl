@@ -111,8 +111,8 @@ not_here(Where, Why) :-
 known(Name, Options) :-
     durable_item(host, numbers, Name, _, Options).
 
-%   with_known(+Known, +Options, -All): All are Options, and those Known of which
-%   these say nothing.
+%   with_known(+Known, +Options, -All): All are Options, and those Known of
+%   which these say nothing.
 
 with_known(Known, Options, All) :-
     findall(Option,
@@ -126,11 +126,11 @@ with_known(Known, Options, All) :-
 %!  hosts_journal(+Where, +Options) is det.
 %!  hosts_back(+Options) is det.
 %
-%   What a host with the option journal(Where) does when it starts, in steps, for
-%   callers that act in between, or have no host yet: the journal is open, and
-%   the process may start its endpoint; all that it knows is there again, its
-%   hosts with Options in place of what they had, and others are let in.  Then
-%   hosts_go_on/0 is to be called.
+%   What a host with the option journal(Where) does when it starts, in steps,
+%   for callers that act in between, or have no host yet: the journal is open,
+%   and the process may start its endpoint; all that it knows is there again,
+%   its hosts with Options in place of what they had, and others are let in.
+%   Then hosts_go_on/0 is to be called.
 %
 %   @arg Options of hosts_journal/2 are sync(How), as of host_start/2, and
 %        wait(Seconds): so long for another process that has it, which is

@@ -11,12 +11,13 @@
               [ uri_authority_components/2, uri_components/2, uri_encoded/3,
                 uri_query_components/2 ]).
 :- use_module(sql,
-              [ sql_connect/2, sql_disconnect/1, sql_do/2, sql_load/0, sql_row/4 ]).
+              [ sql_connect/2, sql_disconnect/1, sql_do/2, sql_load/0,
+                sql_row/4 ]).
 
 /** <module> A journal in PostgreSQL: a schema of a database
 
-See typhon_database.  The Base is postgresql(server(Schema, Driver)), and is given
-by a URL, as psql and other programs take it:
+See typhon_database.  The Base is postgresql(server(Schema, Driver)), and is
+given by a URL, as psql and other programs take it:
 
     postgresql://[user[:password]@][host][:port][/database][?schema=name&...]
 
@@ -175,8 +176,9 @@ connected(Driver, Connection, Goal) :-
                        once(Goal),
                        sql_disconnect(Connection)).
 
-%   It is locked as long as the connection lives. A process that has it is waited
-%   for at least so long as the server may need to see that a client has died.
+%   It is locked as long as the connection lives. A process that has it is
+%   waited for at least so long as the server may need to see that a client has
+%   died.
 
 typhon_database:database_connect(postgresql(server(Schema, Driver)), Seconds0,
                                  Connection, Age) :-
@@ -333,7 +335,10 @@ typhon_database:record_drop(postgresql(server(Schema, Driver))) :-
 
 typhon_database:says(postgresql(_), ['lock timeout'], locked).
 typhon_database:says(postgresql(_), ['No space left', 'disk full'], full).
-typhon_database:says(postgresql(_), ['Can\'t open lib', 'Data source name'], missing('odbc-postgresql')).
-typhon_database:says(postgresql(_), [ 'server closed', 'no connection', 'terminating connection', 'could not',
+typhon_database:says(postgresql(_), ['Can\'t open lib', 'Data source name'],
+                     missing('odbc-postgresql')).
+typhon_database:says(postgresql(_),
+                     [ 'server closed', 'no connection',
+                       'terminating connection', 'could not',
        'onnection refused', 'No such file', 'FATAL', 'onnection to server',
        'ommunication link', 'not connect' ], unreachable).

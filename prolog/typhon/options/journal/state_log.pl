@@ -51,8 +51,8 @@ SWI-Prolog crash when they are listened to and their module is destroyed.
 %!  state_log_begin(+Module) is det.
 %!  state_log_end(+Module) is det.
 %
-%   What changes from now on is logged, in addition to the state as it is now; it
-%   is not logged any more.
+%   What changes from now on is logged, in addition to the state as it is now;
+%   it is not logged any more.
 
 state_log_begin(Module) :-
     log_of(Module, Log),
@@ -235,8 +235,8 @@ changed_since(Since, Module, Head, Last) :-
     ;   \+ heard(Head, Module)
     ).
 
-%   predicate(+Module, -Head, -Last) is nondet: a predicate of the state, and the
-%   generation of its last change.
+%   predicate(+Module, -Head, -Last) is nondet: a predicate of the state, and
+%   the generation of its last change.
 
 predicate(Module, Head, Last) :-
     '$c_current_predicate'(_, Module:Head),

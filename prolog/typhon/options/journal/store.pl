@@ -225,8 +225,8 @@ commit_all(Changes) :-
           ( catch(sql_execute(rollback, []), error(_, _), true),
             throw(error(Formal, Context)) )).
 
-%   A server that is there again has lost our lock: a process that has opened the
-%   journal meanwhile has it. It may have lost more.
+%   A server that is there again has lost our lock: a process that has opened
+%   the journal meanwhile has it. It may have lost more.
 
 connect_again :-
     connection(Place, Old),

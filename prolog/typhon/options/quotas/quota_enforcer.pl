@@ -67,8 +67,8 @@ run(turn(Id, Host, Context), Goals, Outcome) :-
 
 %   An agent that passes the quota of stack is interrupted long before its stack
 %   is full: one that fills it to the brim while it catches all that is raised
-%   leaves no space for exceptions, and then 9.0.4 ends the process.  A limit near
-%   the quota would make it worse: the brim would be there sooner.
+%   leaves no space for exceptions, and then 9.0.4 ends the process.  A limit
+%   near the quota would make it worse: the brim would be there sooner.
 
 far_limit(Host) :-
     (   quota(Host, stack, Most),

@@ -10,7 +10,8 @@
               [durable/6, durable_dump/4, durable_restore/4]).
 :- use_module('../../kernel/program', [code_receive/2, code_sent/2]).
 :- use_module('../../kernel/wire', [mobile_term/1]).
-:- use_module('../../kernel/host', [host/3, host_again/1, schedule/2, time_repeats/2]).
+:- use_module('../../kernel/host',
+              [host/3, host_again/1, schedule/2, time_repeats/2]).
 :- use_module('../../kernel/agent',
               [ agent/5, agent_enter/3, agent_home/2, agent_module/5,
                 agent_order/2, agent_orders/2, agent_state/2, agent_status/3 ]).

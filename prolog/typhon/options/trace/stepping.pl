@@ -29,8 +29,9 @@ is held before each goal, see typhon_change, in the state probe(Probe, Seen),
 Seen being whether a caller was notified where it is.
 
 The machine looks goals up in the table '$mobile'/6 of the program's module.  A
-probe gives it this module instead, whose table yields the goal and then looks it
-up in the program's.  A goal that Prolog runs to its end by itself is one step.
+probe gives it this module instead, whose table yields the goal and then looks
+it up in the program's.  A goal that Prolog runs to its end by itself is one
+step.
 
 *Threading*: any thread asks; the worker that has the agent runs its probe.
 */

@@ -133,8 +133,8 @@ taken_out(Clauses, Raw, Clauses) :-
 
 no_trail('$trail'(at(0, 0, 0, none, none), "", [], none)).
 
-%   of_ours(+Event, +Raw0, -Raw): a host that hands on an agent has signed all that
-%   happened there; what it has not signed we do not sign for it.
+%   of_ours(+Event, +Raw0, -Raw): a host that hands on an agent has signed all
+%   that happened there; what it has not signed we do not sign for it.
 
 of_ours(received(_), '$trail'(At, Chain, Pems, _),
         '$trail'(At, Chain, Pems, none)) :-

@@ -241,8 +241,8 @@ next(Waiting0, Queue, Alarms) :-
     satisfied(Waiting0, Waiting),
     go(Waiting, Queue, Alarms).
 
-%   A goal that catches an abort is to be aborted when it has recovered.  So this
-%   is where the loop goes on, to the end of time.
+%   A goal that catches an abort is to be aborted when it has recovered.  So
+%   this is where the loop goes on, to the end of time.
 
 go_on(Ball, Waiting, Queue, Alarms) :-
     aborted(Ball),

@@ -207,8 +207,9 @@ counted(What, Count) :-
     What \== seconds,
     flag(Key, Count, Count).
 
-%   counted_hops(-Buckets, -Sum): Buckets are Bound-Count: so many hops have taken at most Bound seconds of
-%   the clock of the host, a number or `inf`, and Sum is what all have taken.
+%   counted_hops(-Buckets, -Sum): Buckets are Bound-Count: so many hops have
+%   taken at most Bound seconds of the clock of the host, a number or `inf`, and
+%   Sum is what all have taken.
 
 counted_hops(Buckets, Sum) :-
     findall(Bound-Count,

@@ -3,7 +3,8 @@
 :- use_module(library(lists), [member/2]).
 :- use_module(library(settings), [setting/2, setting/4]).
 :- use_module('../../kernel/base/own_thread', [stop_thread/1]).
-:- use_module('../../kernel/wire', [endpoint_address/1, endpoint_reply/2, mobile_term/1]).
+:- use_module('../../kernel/wire',
+              [endpoint_address/1, endpoint_reply/2, mobile_term/1]).
 :- use_module('../../kernel/host',
               [ clock/3, event_shown/3, events_hear/3, events_unheard/1,
                 host/3, peer_may/3, time_repeats/2, time_kind/1 ]).
@@ -13,8 +14,8 @@
 
 /** <module> Sending events to watches
 
-For each watch, of this process or another, that wants to hear of hosts of
-this process there is a thread, see module `teller`, and a basin in which gathers
+For each watch, of this process or another, that wants to hear of hosts of this
+process there is a thread, see module `teller`, and a basin in which gathers
 what it is to tell.
 
 A watch is forgotten when it is over, when its process says that it has none
