@@ -70,6 +70,7 @@ happened(Text) :-
     listening(( create([(main :- foo(_) is _)], C, [host(beta)]),
                 wait_state(C, faulty(_)) ), _),
     wait_until(received_one, 5),
+    wait_state(B, resident),            % it has done with the message
     metrics([alpha, beta], Text).
 
 received_one :-
