@@ -39,5 +39,6 @@ came(refused, capacity).
 came(fails, failed).
 came(raises, raised).
 came(runs_for_a_while, many).
+came(always_ready, done).
 came(rests, [asked(first),asked(second)]).
 came(loaded, []).

@@ -31,6 +31,7 @@ step(refused, refused).
 step(fails, outcome([ (:- agent(f, [])), (main :- fail) ])).
 step(raises, outcome([ (:- agent(r, [])), (main :- atom_length(_, _)) ])).
 step(runs_for_a_while, runs).
+step(always_ready, busy).
 step(rests, rests).
 
 create(Clauses, Agent, Options) :-
@@ -106,6 +107,17 @@ runs(More) :-
     member(count(Count), Facts),
     agent_dispose(Agent),
     ( Count > 20 -> More = many ; More = Count ).
+
+%   An agent that never sleeps holds up neither one that does nor the caller.
+
+busy(Outcome) :-
+    create([ (:- agent(busy, [])), (main :- move(b), move(a), main) ],
+           Busy, [host(a)]),
+    create([ (:- agent(sleeper, [])), (main :- sleep(0.05)) ],
+           Sleeper, [host(a)]),
+    agents_run(0.2),
+    agent_join(Sleeper, Outcome, 0.2),
+    agent_dispose(Busy).
 
 rests(Answer) :-
     create([ (:- agent(clerk, [state([asked/1])])),

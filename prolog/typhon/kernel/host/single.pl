@@ -1,4 +1,6 @@
 :- module(typhon_single, []).
+:- use_module(library(apply), [include/3]).
+:- use_module(library(lists), [min_list/2]).
 :- use_module('../base/fifo', [fifo_empty/2]).
 :- use_module(alarms,
               [ alarm_add/3, alarm_stamp/3, alarms_begin/0, alarms_end/0,
@@ -12,7 +14,8 @@
 In a Prolog without threads, as in a browser, agents have their turns while the
 caller waits for something: for the end of an agent, an answer, or nothing but
 the time, see agents_run/1.  Work is done in the order in which it came; where
-there is none the thread sleeps until the next alarm.
+there is none the thread sleeps until the next alarm.  A hop ends a turn, so that
+the caller, alarms and other agents come in between.
 
 The hosts of the process have no endpoint that others could reach.
 
@@ -21,7 +24,6 @@ The hosts of the process have no endpoint that others could reach.
 
 :- multifile
     typhon_time:alarm/4,
-    typhon_time:alone/1,
     typhon_time:apart/2,
     typhon_time:due/4,
     typhon_time:hold/2,
@@ -52,10 +54,6 @@ typhon_time:stops(single) :-
 typhon_time:work(single, Work) :-
     run_queue(Queue),
     thread_send_message(Queue, Work).
-
-typhon_time:alone(single) :-
-    run_queue(Queue),
-    message_queue_property(Queue, size(0)).
 
 typhon_time:alarm(single, Stamp0, Agent, Token) :-
     Stamp is float(Stamp0),
@@ -89,49 +87,56 @@ typhon_time:wait(single, Queue, Message, Stamp) :-
 %   comes(+Queue, +Stamp, +Index) is semidet.
 %
 %   Agents have their turns until there is a message in Queue; fails at Stamp.
+%   Alarms that are due come before work, so that agents which are always ready
+%   hold up neither those that sleep nor the caller.
 %
 %   @error no_agent_can_run if nothing can come any more
 
-comes(Queue, _, _) :-
-    there(Queue),
+comes(Queue, Stamp, Index0) :-
+    (   there(Queue)
+    ->  true
+    ;   index_update(Index0, Index1),
+        index_first(Index1, First),
+        get_time(Now),
+        next(Now, First, Stamp, Next),
+        proceed(Next, Index1, Index),
+        comes(Queue, Stamp, Index)
+    ).
+
+%   next(+Now, +First, +Stamp, -Next) is semidet: what is done next, First being
+%   the stamp of the first alarm.
+
+next(Now, First, _, alarm(First)) :-
+    due(First, Now),
     !.
-comes(Queue, Stamp, Index) :-
-    work_takes(Work),
+next(Now, _, Stamp, _) :-
+    due(Stamp, Now),
     !,
+    fail.
+next(_, _, _, work(Work)) :-
+    work_takes(Work),
+    !.
+next(_, inf, inf, _) :-
+    throw(error(no_agent_can_run, _)).
+next(Now, First, Stamp, sleep(Seconds)) :-
+    include(number, [First, Stamp], Stamps),
+    min_list(Stamps, Least),
+    Seconds is Least-Now.
+
+due(Stamp, Now) :-
+    number(Stamp),
+    Stamp =< Now.
+
+proceed(alarm(Stamp), Index0, Index) :-
+    alarms_go_off(Stamp),
+    index_delete(Index0, Stamp, Index).
+proceed(work(Work), Index, Index) :-
     setup_call_cleanup(
         nb_setval(typhon_single, works),
         work_do(Work, typhon_single:again),
-        nb_setval(typhon_single, waits)),
-    comes(Queue, Stamp, Index).
-comes(Queue, Stamp, Index0) :-
-    index_update(Index0, Index1),
-    index_first(Index1, First),
-    sleep_until(First, Stamp),
-    (   earlier(First, Stamp)
-    ->  alarms_go_off(First),
-        index_delete(Index1, First, Index),
-        comes(Queue, Stamp, Index)
-    ;   there(Queue)
-    ).
-
-sleep_until(inf, inf) :-
-    !,
-    throw(error(no_agent_can_run, _)).
-sleep_until(Stamp1, Stamp2) :-
-    (   earlier(Stamp1, Stamp2)
-    ->  Stamp = Stamp1
-    ;   Stamp = Stamp2
-    ),
-    get_time(Now),
-    Seconds is max(0.0, Stamp-Now),
+        nb_setval(typhon_single, waits)).
+proceed(sleep(Seconds), Index, Index) :-
     sleep(Seconds).
-
-earlier(Stamp, inf) :-
-    !,
-    number(Stamp).
-earlier(Stamp1, Stamp2) :-
-    number(Stamp1),
-    Stamp1 =< Stamp2.
 
 there(Queue) :-
     message_queue_property(Queue, size(Size)),
