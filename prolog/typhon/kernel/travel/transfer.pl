@@ -301,9 +301,10 @@ move_awaited(Id, Asker) :-
 %   error(Formal), or `none` if Id has ended.  Fails if none waits.
 
 move_over(Id, Answer) :-
-    waits(Id, _),
+    retract(waits(Id, Asker)),          % one by one: others add to the table
     !,
-    forall(retract(waits(Id, Asker)), answered(Asker, Answer)).
+    answered(Asker, Answer),
+    ignore(move_over(Id, Answer)).
 
 %!  move_failed(+Id, +Formal) is det.
 %
