@@ -177,10 +177,8 @@ state_item(Module, Item) :-
     '$c_current_predicate'(_, Module:Head),
     '$get_predicate_attribute'(Module:Head, (dynamic), 1),
     \+ '$get_predicate_attribute'(Module:Head, imported, _),
-    (   '$get_predicate_attribute'(Module:Head, number_of_clauses, N),
-        N > 0
-    ->  clause(Module:Head, Body),
-        (   Body == true
+    (   clause(Module:Head, Body)
+    *-> (   Body == true
         ->  Item = Head
         ;   Item = (Head:-Body)
         )
