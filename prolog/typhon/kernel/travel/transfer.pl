@@ -200,7 +200,10 @@ transfer_stays(Transfer, Error) :-
                    stays(Transfer, Error) )).
 
 stays(hop(Id, dest(Address, _, _), Hops), Error) :-
-    forall(retract(given_up(Id, Hops)), durable_drop(given_up, Id, Hops)),
+    (   retract(given_up(Id, Hops))
+    ->  durable_drop(given_up, Id, Hops)
+    ;   true
+    ),
     (   agent(Id, Host, _, _, _)
     ->  event(hops, Host, Id, stayed(Address))
     ;   true
