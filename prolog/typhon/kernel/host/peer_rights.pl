@@ -7,6 +7,7 @@
 :- use_module(library(lists), [member/2]).
 :- use_module('../wire', [endpoint_own_proof/1, endpoint_proof/2]).
 :- use_module(host_parts, [parts/3]).
+:- use_module(hosts, [host/3, host_option/2]).
 
 /** <module> What other processes may do on a host
 
@@ -26,6 +27,8 @@ concerns its security; see typhon_host_parts.
 *Threading*: any thread.
 */
 
+:- multifile typhon_handshake:text_only/1.
+
 %!  peer_may(+Peer, +Host, +Right) is semidet.
 %
 %   The process at the address Peer has Right on Host.  That it does not is a
@@ -38,17 +41,31 @@ peer_may(Peer, Host, Right) :-
         fail
     ).
 
+permitted(_, Host, Right) :-
+    Right \== remote,
+    \+ parts(permit, Host, _),
+    !.
 permitted(Peer, Host, Right) :-
+    endpoint_proof(Peer, Proof),
+    proof_may(Proof, Host, Right).
+
+proof_may(Proof, Host, Right) :-
     parts(permit, Host, Closures),
     !,
-    endpoint_proof(Peer, Proof),
     forall(member(Closure, Closures), call(Closure, Proof, Right)).
-permitted(_, _, Right) :-
-    Right \== remote,
-    !.
-permitted(Peer, _, remote) :-
-    endpoint_proof(Peer, Proof),
+proof_may(Proof, _, remote) :-
     endpoint_own_proof(Proof),
+    !.
+
+%   A peer that may not run goals here must not end the process by a record
+%   either.  The codec of a session is chosen when the session begins.
+
+typhon_handshake:text_only(Proof) :-
+    (   host(Host, _, _)
+    *-> \+ ( proof_may(Proof, Host, remote),
+             \+ host_option(Host, remote(false)) )
+    ;   \+ endpoint_own_proof(Proof)
+    ),
     !.
 
 %!  security_event(+Host, +Peer, +What) is det.

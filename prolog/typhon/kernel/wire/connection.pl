@@ -20,7 +20,7 @@ closes the streams.
               [ tcp_close_socket/1, tcp_connect/2, tcp_open_socket/3,
                 tcp_setopt/2, tcp_socket/1 ]).
 :- use_module(peer_cache, [contact_gone/1, contact_met/2]).
-:- use_module(handshake, [hello_peer/4]).
+:- use_module(handshake, [hello_peer/4, hello_to/3]).
 :- use_module(threads, [manager_notify/1]).
 :- use_module(lending, [lent_away/0]).
 :- use_module(resumption,
@@ -47,13 +47,14 @@ closes the streams.
 %   `heard` when the client has said something, and with `proved` or `refused`.
 %   If it fails, that was all.
 
-incoming(In, Out, Ip, Stage, Me) :-
+incoming(In, Out, Ip, Stage, Me0) :-
     get_time(Start),
     Role = server(Start),
     catch(with_streams(call(Stage, silent), In, Out,
                        ( await_word(In, Out),
                          call(Stage, heard),
                          transport_open(server, In, Out, SIn, SOut, Proof),
+                         hello_to(Proof, Me0, Me),
                          prove(Role, SIn, SOut, Me, Peer),
                          call(Stage, proved),
                          nb_setval(typhon_proved, true),
@@ -112,7 +113,7 @@ loopback(Ip) :-
 %   Connect to Address. If that fails the connection manager receives
 %   missed(Thread, Formal).
 
-outgoing(Address, Me) :-
+outgoing(Address, Me0) :-
     nb_setval(typhon_set_out, true),
     get_time(Start),
     Role = client(Start),
@@ -120,6 +121,7 @@ outgoing(Address, Me) :-
             connect(Interface, Port, Socket),
             with_streams(open_streams(Socket, In, Out), In, Out,
                          ( transport_open(client, In, Out, SIn, SOut, Proof),
+                           hello_to(Proof, Me0, Me),
                            prove(Role, SIn, SOut, Me, Peer),
                            meet(Role, SIn, SOut, Me, Peer-Proof, Session,
                                 found(Address, Interface, Peer)),

@@ -1,6 +1,7 @@
 :- module(typhon_handshake,
           [ hello/4,                    % +Process, +Start, +Address, -Hello
             hello_peer/4,               % +Hello, -Process, -Start, -Address
+            hello_to/3,                 % +Proof, +Hello0, -Hello
             hello_line/2,               % +Hello, -Line
             hello_codec/3,              % +Hello, +PeerHello, -Codec
             line_read/3,                % +In, +Deadline, -Line
@@ -79,6 +80,18 @@ byte_order(Order) :-
 %   Hello is that of Process, in its start number Start, at Address.
 
 hello_peer(hello(Process, Start, Address, _, _, _), Process, Start, Address).
+
+%!  hello_to(+Proof, +Hello0, -Hello) is det.
+%
+%   Hello is Hello0 as a peer gets it that proves itself by Proof: without a
+%   byte order if no record of such a peer may be decoded, since a record with
+%   one wrong byte can end the process.  See the hook text_only/1.
+
+hello_to(Proof, hello(Process, Start, Address, Version, Word, _),
+         hello(Process, Start, Address, Version, Word, none)) :-
+    text_only(Proof),
+    !.
+hello_to(_, Hello, Hello).
 
 %!  hello_line(+Hello, -Line:string) is det.
 
@@ -178,6 +191,8 @@ line_write(Out, Line) :-
 
 :- multifile
     greeted/0,
+    text_only/1,                        % Proof: a peer of that proof is not
+                                        % trusted with records
     other_line/2.                       % Line, Why: of a server that speaks
                                         % otherwise
 

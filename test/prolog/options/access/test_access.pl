@@ -2,11 +2,13 @@
 :- use_module('../../../lib/common').
 :- use_module('../../../lib/fixtures').
 :- use_module('../../../lib/peers').
+:- use_module(library(apply), [maplist/3]).
 :- use_module(library(plunit)).
 :- use_module(library(filesex), [directory_file_path/3]).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(readutil), [read_file_to_terms/3]).
 :- use_module(library(typhon)).
+:- use_module(library(typhon/kernel/wire), [endpoint_peer/2]).
 
 /** <module> Rules for peers, and the audit
 
@@ -38,7 +40,21 @@ test(unknown_rules_are_an_error_of_a_change,
      error(domain_error(peer_rule, x))) :-
     with_hosts([g-[peer([cookie-all])]], host_change(g, peer([x]))).
 
+test(records_only_of_peers_that_may_run_goals, Codecs == [fast,text,text]) :-
+    maplist(codec_with, [ [], [peer([cookie-[agents,messages]])],
+                          [remote(false)] ], Codecs).
+
 :- end_tests(access).
+
+codec_with(Options, Codec) :-
+    no_leaks(with_peers(
+        [p-[host(Options)]],
+        with_host_here(( peer_host(p, There),
+          agent_create(clauses([(:- agent(y, [])), main]), A, [host(here)]),
+          agent_join(A, done, 5),
+          tried(agent_create(clauses([(:- agent(y, [])), main]), _,
+                             [host(There)]), _),
+          once(endpoint_peer(_, codec(Codec))) )))).
 
 peer_rules([Create,Remote,Dispose,Look], Noted, Dir) :-
     directory_file_path(Dir, audit, File),
