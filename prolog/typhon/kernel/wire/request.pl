@@ -59,6 +59,7 @@ same thread may overtake it. The thread that removes a request answers it.
 :- use_module(session,
               [route/2, session_key/2, session_peer/3, session_received/2]).
 :- use_module(threads, [manager_notify/1]).
+:- use_module(transport, [transport_as/2, transport_proof/1]).
 :- use_module(unacked,
               [session_answered/3, session_objected/3, session_pending/2]).
 
@@ -336,14 +337,16 @@ attempt(Goal, Kind) :-
     ).
 
 %   taken_later(+Hook) is semidet: it is defined by code that is not loaded
-%   yet. A worker loads it and calls the hook.
+%   yet. A worker loads it and calls the hook, for which the peer has proved
+%   itself in this thread, whatever address it claims.
 
 taken_later(typhon_endpoint:Hook) :-
     functor(Hook, Seam, _),
     memberchk(Seam, [received, requested]),
     arg(1, Hook, Kind),
     on_demand_missing(Seam, Kind),
-    on_demand_later(typhon_request:load_and_take(Hook)).
+    ( transport_proof(Proof) -> true ; Proof = none ),
+    on_demand_later(transport_as(Proof, typhon_request:load_and_take(Hook))).
 
 :- public load_and_take/1.              % goal of a worker
 

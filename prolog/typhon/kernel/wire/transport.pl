@@ -8,6 +8,7 @@
             transport_open/6,           % +Role, +In, +Out, -TIn, -TOut, -Proof
             transport_close/0,
             transport_proof/1,          % -Proof
+            transport_as/2,             % +Proof, :Goal
             transport_forget/0,
             transport_input/2           % +In, +Seconds
           ]).
@@ -171,6 +172,17 @@ transport_close :-
 transport_proof(Proof) :-
     nb_current(typhon_proof, Proof),
     Proof \== none.
+
+%!  transport_as(+Proof, :Goal) is semidet.
+%
+%   Call Goal for the peer of a connection, in a thread that has none: the peer
+%   has proved itself by Proof there, `none` if there was no connection.
+
+:- meta_predicate transport_as(+, 0).
+
+transport_as(Proof, Goal) :-
+    setup_call_cleanup(nb_setval(typhon_proof, Proof), once(Goal),
+                       transport_forget).
 
 %!  transport_forget is det.
 %
