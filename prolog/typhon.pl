@@ -5,7 +5,8 @@
 The public interface of the platform; nothing is defined here.  Each layer is
 a folder, with an interface of the same name beside it:
 
-  | checking programs               | typhon/kernel/program    |
+  | checking programs               | typhon/tools/checks      |
+  | listing agents                  | typhon/tools/source_view |
   | hosts, links, goals on a host   | typhon/kernel/host       |
   | agents                          | typhon/kernel/lifecycle  |
   | predicates that agents can call | typhon/kernel/vocabulary |
@@ -24,7 +25,8 @@ a folder, with an interface of the same name beside it:
    nb_setval(typhon_flags, Flags).
 
 :- use_module(typhon/kernel/base/user_errors, [user_errors/1]).
-:- reexport(typhon/kernel/program, [agent_check/1, agent_check/2]).
+:- reexport(typhon/tools/checks, [agent_check/1, agent_check/2]).
+:- reexport(typhon/tools/source_view, [agent_listing/1]).
 :- reexport(typhon/options/watch, [watch/3, unwatch/1]).
 :- reexport(typhon/kernel/host,
             [ host_start/1, host_start/2, host_change/2, host_stop/1,
@@ -34,8 +36,8 @@ a folder, with an interface of the same name beside it:
             [ agent_create/2, agent_create/3, agent_property/2, agent_send/2,
               agent_move/2, agent_move/3, agent_clone/2, agent_resume/1,
               agent_change/2, agent_dispose/1, agent_dispose/2, agent_join/3,
-              agent_result/3, agent_listing/1, agent_save/2, agent_load/2,
-              agent_load/3, payload_attach/2, payload_detach/2
+              agent_result/3, agent_save/2, agent_load/2, agent_load/3,
+              payload_attach/2, payload_detach/2
             ]).
 :- reexport('typhon/options/trace').
 :- reexport(typhon/options/trail, [agent_trail/2]).
@@ -51,6 +53,7 @@ a folder, with an interface of the same name beside it:
               fipa_stop/1 ]).
 :- use_module(typhon/kernel/vocabulary, []).
 :- use_module(typhon/tools/messages, []).
+:- use_module(typhon/tools/problem_text, []).
 :- use_module(typhon/tools/event_text, []).
 :- use_module(typhon/options/tls, []).
 :- use_module(typhon/options/identity, []).

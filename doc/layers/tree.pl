@@ -175,7 +175,7 @@ note_directive(multifile(PIs), File) :-
     note_names(PIs, File),
     module_of(File, Module),
     forall(( comma_member(PI, PIs), strip_module(Module:PI, M, Name) ),
-           assertz(declares(File, M:Name))).
+           note_declared(File, M, Name)).
 note_directive(setting(Name0, Type, Default, Text), File) :-
     !,
     note_names(setting(Name0, Type, Default, Text), File),
@@ -193,6 +193,14 @@ note_directive(Directive, File) :-
     ->  assertz(hook_clause(File, typhon_durable:Directive))
     ;   true
     ).
+
+%   A grammar rule is noted with the arity of its head.
+
+note_declared(File, Module, Name//Arity) :-
+    !,
+    assertz(declares(File, Module:Name/Arity)).
+note_declared(File, Module, PI) :-
+    assertz(declares(File, Module:PI)).
 
 note_import(Kind, File, Spec, List) :-
     target(Spec, File, Target),
@@ -261,6 +269,7 @@ reach(Part, Module, Name/Arity) :-
 layers([ 'kernel/base', 'bridges/helper', 'bridges/nxt', 'kernel/program',
          'kernel/wire', 'kernel/host', 'kernel/agent', 'kernel/travel',
          'kernel/lifecycle', 'kernel/vocabulary',
+         'tools/checks', 'tools/source_view',
          'options/keys',
          'options/tls',
          'options/identity',

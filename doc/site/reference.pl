@@ -63,13 +63,13 @@ task(library, "Start, change and stop hosts", [typhon_hosting, typhon_changing])
 task(library, "Link hosts, and ask them",
      [typhon_host_questions, typhon_remote]).
 task(library, "Start networks, and read their logs", [typhon_network]).
-task(library, "Check programs", [typhon_check]).
+task(library, "Check programs", [typhon_checks]).
 task(library, "Create agents", [typhon_creation]).
 task(library, "Write to agents, and order them about",
      [typhon_sending, typhon_order_client]).
 task(library, "Wait for agents, and end them", [typhon_join, typhon_disposal]).
 task(library, "Look into agents",
-     [ typhon_environment, typhon_properties, typhon_listing, typhon_tracing,
+     [ typhon_environment, typhon_properties, typhon_source_view, typhon_tracing,
        typhon_stepping, typhon_trails ]).
 task(library, "Watch a network", [typhon_watching, typhon_page]).
 task(library, "Save and restore agents", [typhon_restore]).

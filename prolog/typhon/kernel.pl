@@ -16,7 +16,8 @@ it is library(typhon) without its top level.
 
 :- use_module(kernel/base/no_queues, []).
 :- use_module(kernel/base/user_errors, [user_errors/1]).
-:- reexport(kernel/program, [agent_check/1, agent_check/2]).
+:- reexport(tools/checks, [agent_check/1, agent_check/2]).
+:- reexport(tools/source_view, [agent_listing/1]).
 :- reexport(kernel/host,
             [ host_start/1, host_start/2, host_change/2, host_stop/1,
               host_property/2, link/2, link/3, unlink/2, remote/2, agents_run/1
@@ -25,11 +26,11 @@ it is library(typhon) without its top level.
             [ agent_create/2, agent_create/3, agent_property/2, agent_send/2,
               agent_move/2, agent_move/3, agent_clone/2, agent_resume/1,
               agent_change/2, agent_dispose/1, agent_dispose/2, agent_join/3,
-              agent_result/3, agent_listing/1, payload_attach/2,
-              payload_detach/2
+              agent_result/3, payload_attach/2, payload_detach/2
             ]).
 :- use_module(kernel/vocabulary, []).
 :- use_module(tools/messages, []).
+:- use_module(tools/problem_text, []).
 :- use_module(tools/event_text, []).
 
 :- user_errors(typhon_kernel).

@@ -18,7 +18,6 @@ This is the interface of the layer: higher layers import from here.
               agent_answer/3, order_give/3 ]).
 :- reexport('lifecycle/disposal').
 :- reexport('lifecycle/sending').
-:- reexport('lifecycle/listing').
 :- reexport(lifecycle/named, [agent_named/2]).
 :- reexport(lifecycle/ending, [agent_end/3]).
 :- reexport(lifecycle/change, [held_on/2, held_parts/3, held_put/3]).

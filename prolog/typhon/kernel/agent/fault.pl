@@ -15,9 +15,8 @@
 :- use_module(library(lists), [member/2]).
 :- use_module('../base/trees', [is_in_itself/1]).
 :- use_module('../wire', [mobile_term/1]).
-:- use_module('../program',
-              [ advice_text/2, clause_parts/3, code_program/2, fault/3,
-                fault_where/4, unknown_advice/3, where_handled/5 ]).
+:- use_module('../base/on_demand', [on_demand_load/2]).
+:- use_module('../program', [fault/3]).
 :- use_module('../host', [host/3]).
 :- use_module(agents, [agent/5]).
 :- use_module(life, [life_hops/2]).
@@ -29,13 +28,23 @@ A fault is
     fault(Outcome, Goal, Where, Address, Hops, Stamp)
 
 `failed` or raised(Error); the goal that failed or raised, and where it
-stands, see typhon_clause_location; on which host that was, after how many hops,
-and when.  All of it can travel.  It comes first among the goals of an agent
+stands: a list of up to two lists of places, in one of the first, called from
+the one of the second; on which host that was, after how many hops, and when. A
+place is at(PI, Place): a clause of the predicate PI, Place being its File:Line,
+clause(N) for the N-th clause of PI where that is not known, or `state` for a
+rule of the agent's own.  All of it can travel.  It comes first among the goals of an agent
 that is faulty, as '$fault'(Fault): the machine stops there, wherever the
 agent is brought, until that is taken away.
 
 *Threading*: agent_fault/5 in the worker that ran the agent.
 */
+
+:- multifile
+    stands/4,                   % +Hash, +Module, +Fault, -Where
+    handled/5,                  % +Hash, +Module, +Goal, +Fault, -Where: of a
+                                % Goal that no clause of the program called
+    advice/3.                   % +PI, +Hash, -Text: what may have been meant by
+                                % a predicate that does not exist
 
 %!  agent_fault(+Id, +Outcome, +Goals0, -Fault, -Goals) is semidet.
 %
@@ -70,19 +79,9 @@ advised(raised(error(existence_error(procedure, Module:PI), Context0)),
     ( subsumes_term(context(_, _), Context0) -> Context0 = context(In, _)
     ; true
     ),
-    findall(Own, own(Hash, Own), PIs),
-    unknown_advice(PI, PIs, Advice),
-    advice_text(Advice, Text).
+    on_demand_load(program, read),
+    once(advice(PI, Hash, Text)).
 advised(Outcome, _, _, Outcome).
-
-own(Hash, PI) :-
-    code_program(Hash, program(_, State, _, Clauses)),
-    (   member(PI, State)
-    ;   member(Clause, Clauses),
-        clause_parts(Clause, Head, _),
-        functor(Head, Name, Arity),
-        PI = Name/Arity
-    ).
 
 %   Prolog has no clauses that hold a cyclic term.
 
@@ -103,7 +102,8 @@ agent_handled(Id, Goal0, fault(failed, Goal, Where, Address, Hops, Stamp)) :-
     !,
     fault(failed, [Goal0], Fault),
     Fault = fault(Goal1, _, _),
-    where_handled(Hash, Module, Goal0, Fault, Where),
+    on_demand_load(fault, stands),
+    handled(Hash, Module, Goal0, Fault, Where),
     in_words(Goal1, Goal),
     life_hops(Life, Hops),
     get_time(Stamp).
@@ -111,22 +111,12 @@ agent_handled(Id, Goal0, fault(failed, Goal, Where, Address, Hops, Stamp)) :-
 %   An agent is not lost because the place of its goal is not known.
 
 where(Hash, Module, Fault, Where) :-
+    on_demand_load(fault, stands),
     catch(stands(Hash, Module, Fault, Where0), error(Formal, _),
           debug(typhon(agent), 'place unknown: ~p', [Formal])),
     !,
     ( var(Where0) -> Where = [] ; Where = Where0 ).
 where(_, _, _, []).
-
-%   main/0 need not be called.
-
-stands(Hash, Module, Fault, Where) :-
-    Fault = fault(Goal, _, _),
-    Goal == main,
-    where_handled(Hash, Module, Goal, Fault, Where0),
-    !,
-    Where = Where0.
-stands(Hash, Module, Fault, Where) :-
-    fault_where(Hash, Module, Fault, Where).
 
 %!  fault_outcome(+Fault, -Outcome) is det.
 %!  fault_error(+Fault, -Error) is det.

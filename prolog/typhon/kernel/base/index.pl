@@ -25,6 +25,7 @@ part_joins(durable,program,'options/snapshot').
 part_joins(durable,stands,'options/snapshot').
 part_joins(durable,state,'options/journal').
 part_joins(environment,'TYPHON_TLS','options/tls').
+part_joins(fault,stands,'tools/source_view').
 part_joins(host_option,audit,'options/access').
 part_joins(host_option,authors,'options/identity').
 part_joins(host_option,clock,'options/virtual').
@@ -42,6 +43,8 @@ part_joins(machine_option,node,network).
 part_joins(machine_option,swipl,network).
 part_joins(network_load_option,log,network).
 part_joins(open_store,any,'options/journal').
+part_joins(program,read,'tools/checks').
+part_joins(question,program,'tools/source_view').
 part_joins(question,trail,'options/trail').
 part_joins(received,channel,'options/journal').
 part_joins(received,log,network).
@@ -103,6 +106,10 @@ part_file('options/watch','options/watch/metrics').
 part_file('options/watch','options/watch/telling').
 part_file('options/watch','options/watch/watched').
 part_file(tools,'tools/inventory').
+part_file('tools/checks','tools/checks/goal_lines').
+part_file('tools/checks','tools/checks/warnings').
+part_file('tools/source_view','tools/source_view/clause_location').
+part_file('tools/source_view','tools/source_view/listing').
 
 %!  part_setting(?Name, ?Module, ?Type, ?Default, ?Text, ?File) is nondet.
 %

@@ -22,6 +22,8 @@ these.
   | untrusted | any  | a host admits agents that it does not trust |
   | keys      | any  | the process has keys                        |
   | environment | Variable | it is set when an endpoint starts     |
+  | program   | read | a program is read from a file or from clauses |
+  | fault     | stands | an agent has failed, or raised an error |
 
 Other threads run meanwhile, and call hooks. So clauses of hooks are compiled
 when the rest of their file is there: a hook works as soon as it is seen.

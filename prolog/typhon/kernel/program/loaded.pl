@@ -5,13 +5,10 @@
                                         % -Kinds, -Places
             program_unknown/3           % +Hash, +State, :Offered
           ]).
-:- use_module(library(apply), [partition/4]).
 :- use_module(library(debug), [debug/3]).
-:- use_module(library(lists), [member/2, memberchk/2]).
 :- use_module(library(settings), [setting/2, setting/4]).
+:- use_module('../base/on_demand', [on_demand_load/2]).
 :- use_module(paths, [program_file/2]).
-:- use_module(advice, [problem_error/3]).
-:- use_module(goal_lines, [problem_at_goal/2]).
 :- use_module(programs, [program_hash/2, program_read/7]).
 :- use_module(source, [source_same/1, source_settled/1]).
 
@@ -20,26 +17,21 @@
 A program file is read, checked and analysed when the first agent is created
 from it, and again when it, or a file that it includes, has changed; a program
 of clauses once for all that are variants of it.  What a library that it
-imports defines is taken as it was then.  What is doubtful about a program is
-printed when it is read, and not again while it is the same.  Calls of what it
-does not define are kept until an agent is created from it: what that agent
-brings, or finds, may define them.
+imports defines is taken as it was then.
 
 *Threading*: any thread.  One mutex is held to remember; to look needs none.
 */
 
 :- setting(files, nonneg, 64, "Programs remembered as they were read").
 
-%   File, Hash: of the program that was read.
+:- multifile
+    was_read/2,                 % File, Hash: of the program that was read
+    read_anew/4,                % File or hash of clauses, Hash, Sources,
+                                % Doubtful, see program_read/7
+    unknown/3.                  % +Hash, +State, :Offered, see program_unknown/3
 
-:- multifile was_read/2.
-
-:- dynamic
-    loaded/3,                   % File or hash of clauses, Sources, Loaded:
-                                % the oldest first
-    warned/2,                   % File or hash of clauses, Sources: its
-                                % warnings were printed
-    unknown/2.                  % Hash, Problems: not printed yet
+:- dynamic loaded/3.            % File or hash of clauses, Sources, Loaded: the
+                                % oldest first
 
 :- meta_predicate program_unknown(+, +, 1).
 
@@ -76,10 +68,12 @@ load(Key, _, Loaded) :-
     !,
     Loaded = Loaded0.
 load(Key, Spec, Loaded) :-
-    read_program(Spec, Loaded, Sources, Warnings),
+    read_program(Spec, Loaded, Sources, Doubtful),
     read_from(Spec, Loaded),
     debug(typhon(program), 'read ~w', [Key]),
-    warn(Key, Sources, Loaded, Warnings),
+    on_demand_load(program, read),
+    arg(3, Loaded, Hash),
+    forall(read_anew(Key, Hash, Sources, Doubtful), true),
     (   source_settled(Sources)
     ->  with_mutex(typhon_loaded, remember(Key, Sources, Loaded))
     ;   true
@@ -92,45 +86,14 @@ read_from(File, loaded(_, _, Hash, _, _)) :-
 read_from(_, _).
 
 read_program(Spec, loaded(Program, Initial, Hash, Kinds, Places), Sources,
-             Warnings) :-
-    program_read(Spec, Program, Initial, Kinds, Places, Sources, Warnings),
+             Doubtful) :-
+    program_read(Spec, Program, Initial, Kinds, Places, Sources, Doubtful),
     program_hash(Program, Hash).
 
 remember(Key, Sources, Loaded) :-
     retractall(loaded(Key, _, _)),
     assertz(loaded(Key, Sources, Loaded)),
-    forget_oldest(loaded(_, _, _)).
-
-%   warn(+Key, +Sources, +Loaded, +Warnings)
-
-warn(_, _, _, []) :-
-    !.
-warn(Key, Sources, loaded(_, _, Hash, _, _), Warnings0) :-
-    partition(is_unknown, Warnings0, Unknown, Warnings),
-    (   with_mutex(typhon_loaded, is_news(Key, Sources, Hash, Unknown))
-    ->  forall(member(Warning, Warnings), print_warning(Warning))
-    ;   true
-    ).
-
-is_unknown(problem(unknown_procedure(_), _, _)).
-
-is_news(Key, _, _, _) :-
-    warned(Key, Sources),
-    source_same(Sources),
-    !,
-    fail.
-is_news(Key, Sources, Hash, Unknown) :-
-    retractall(warned(Key, _)),
-    assertz(warned(Key, Sources)),
-    forget_oldest(warned(_, _)),
-    retractall(unknown(Hash, _)),
-    assertz(unknown(Hash, Unknown)),
-    forget_oldest(unknown(_, _)).
-
-print_warning(Warning0) :-
-    problem_at_goal(Warning0, Warning),
-    problem_error(Warning, [], Error),
-    print_message(warning, Error).
+    forget_oldest.
 
 %!  program_unknown(+Hash, +State:list, :Offered) is det.
 %
@@ -139,26 +102,15 @@ print_warning(Warning0) :-
 %   nothing defines; call(Offered, Problem) is true of a problem that need not
 %   be printed.
 
-program_unknown(Hash, _, _) :-
-    \+ unknown(Hash, _),
-    !.
 program_unknown(Hash, State, Offered) :-
-    (   retract(unknown(Hash, Problems))
-    ->  forall(( member(Problem, Problems),
-                 Problem = problem(unknown_procedure(PI), _, _),
-                 \+ memberchk(PI, State),
-                 \+ call(Offered, Problem) ),
-               print_warning(Problem))
-    ;   true                            % another thread has
-    ).
+    forall(unknown(Hash, State, Offered), true).
 
-%   forget_oldest(+Table): keep no more than are remembered.
-
-forget_oldest(Table) :-
-    predicate_property(Table, number_of_clauses(Count)),
+forget_oldest :-
+    predicate_property(loaded(_, _, _), number_of_clauses(Count)),
     setting(files, Max),
     Count > Max,
-    \+ \+ retract(Table),
+    loaded(Key, _, _),
     !,
-    forget_oldest(Table).
-forget_oldest(_).
+    retractall(loaded(Key, _, _)),
+    forget_oldest.
+forget_oldest.

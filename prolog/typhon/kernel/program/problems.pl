@@ -11,7 +11,7 @@
 /** <module> What can be wrong with an agent program or a payload
 
 A problem is problem(Formal, Location, Advice): an ISO error, where it
-stands and what to do about it, see typhon_advice.
+stands and what to do about it, see typhon_problem_text.
 
 *Threading*: pure.
 */

@@ -1,13 +1,14 @@
 :- module(typhon_programs,
           [ program_read/7,             % +Spec, -Program, -Initial, -Kinds,
-                                        % -Places, -Sources, -Warnings
+                                        % -Places, -Sources, -Doubtful
             payload_load/2,             % +Spec, -Payload
             payload_file/1,             % +File
             program_terms/6,            % +Located, -Program, -Initial,
                                         % -Kinds, -Places, -Errors
-            program_doubts/3,           % +Located, +Kinds, -Warnings
             payload_terms/3,            % +Located, -Payload, -Errors
             in_file_order/3,            % +Problems, +Located, -Ordered
+            problem_error/3,            % +Problem, +Others, -Error
+            advice_text/2,              % +Advice, -Text
             program_hash/2              % +Program, -Hash
           ]).
 :- use_module(library(apply), [maplist/3, partition/4]).
@@ -16,9 +17,7 @@
 :- use_module(library(pairs), [pairs_values/2]).
 :- use_module(library(error), [must_be/2]).
 :- use_module(library(sha), [hash_atom/2, sha_hash/3]).
-:- use_module(advice, [problem_error/3]).
-:- use_module(choices, [lost_choice/3]).
-:- use_module(goal_lines, [problem_at_goal/2]).
+:- use_module('../base/on_demand', [on_demand_load/2]).
 :- use_module(mobile, [mobile_predicates/3]).
 :- use_module(parts,
               [ clause_indicator/2, file_parts/4, in_state/2,
@@ -27,10 +26,8 @@
 :- use_module(problems,
               [ clause_problem/2, directive_problem/2, entry_problem/3,
                 option_problem/3 ]).
-:- use_module(lint, [apart_problem/3, undeclared_problem/3]).
 :- use_module(python_code, [python_payload/2]).
 :- use_module(source, [declaration/4, source_terms/5]).
-:- use_module(unknown, [unknown_problems/2]).
 
 /** <module> Agent programs and payloads
 
@@ -46,10 +43,14 @@ becomes a plain term:
 *Threading*: any thread; nothing is stored here.
 */
 
-:- multifile payload_was_read/2.        % Spec, Payload: of a file
+:- multifile
+    payload_was_read/2,         % Spec, Payload: of a file
+    problem_at_goal/2,          % +Problem0, -Problem: at the line of its goal
+    advice//1.                  % +Advice: parts of the text, none where the
+                                % error says enough
 
 %!  program_read(+Spec, -Program, -Initial, -Kinds, -Places, -Sources,
-%!               -Warnings:list) is det.
+%!               -Doubtful) is det.
 %
 %   Read an agent program.
 %
@@ -58,22 +59,20 @@ becomes a plain term:
 %   @arg Kinds is what mobile_predicates/3 finds.
 %   @arg Places say where its clauses stand, see typhon_places.
 %   @arg Sources is what it was read from, see source_terms/5.
-%   @arg Warnings are problems that do not keep it from running: what was
-%        found in reading, those of program_doubts/3 and unknown_problems/2.
+%   @arg Doubtful is doubtful(Located, Kinds, Once), for those who warn of what
+%        does not keep it from running: the terms as read, and problems that
+%        were found in reading.
 %   @error The first problem that keeps the program from running, with the
 %        others in its context, see problem_error/3.
 
-program_read(Spec, Program, Initial, Kinds, Places, Sources, Warnings) :-
+program_read(Spec, Program, Initial, Kinds, Places, Sources,
+             doubtful(Located, Kinds, Once)) :-
     source_terms(Spec, Located, Sources, Unread, Once),
     no_problems(Unread),
     program_terms(Located, Program, Initial, Kinds, Places0, Errors),
     no_problems(Errors),
     Program = program(_, _, _, Clauses),
-    places_named(Places0, Clauses, Sources, Places),
-    program_doubts(Located, Kinds, Doubts),
-    unknown_problems(Located, Unknown),
-    append([Once, Doubts, Unknown], Warnings0),
-    in_file_order(Warnings0, Located, Warnings).
+    places_named(Places0, Clauses, Sources, Places).
 
 %!  payload_load(+Spec, -Payload) is det.
 %
@@ -116,9 +115,26 @@ payload_file(File) :-
 no_problems([]) :-
     !.
 no_problems(Problems) :-
+    on_demand_load(program, read),
     maplist(problem_at_goal, Problems, [Problem|Others]),
     problem_error(Problem, Others, Error),
     throw(Error).
+
+%!  problem_error(+Problem, +Others:list, -Error) is det.
+%!  advice_text(+Advice, -Text:atom) is det.
+%
+%   Error is Problem, and tells Others as well: error(Formal, at(Location, Text,
+%   Others)), where Text says what to do about it. A context/2 of Prolog's own
+%   would be replaced by a trace of the reader's calls when the error is not
+%   caught.
+
+problem_error(problem(Formal, Location, Advice), Others,
+              error(Formal, at(Location, Text, Others))) :-
+    advice_text(Advice, Text).
+
+advice_text(Advice, Text) :-
+    phrase(advice(Advice), Parts),
+    atomic_list_concat(Parts, Text).
 
 %!  program_terms(+Located, -Program, -Initial, -Kinds, -Places,
 %!                -Errors:list) is det.
@@ -159,27 +175,6 @@ moves([], Static, Kinds, Errors) :-
     !,
     mobile_predicates(Static, Kinds, Errors).
 moves(Errors, _, [], Errors).
-
-%!  program_doubts(+Located, +Kinds, -Warnings:list) is det.
-%
-%   What hardly means what it says.  Kinds are those of program_terms/5: where
-%   they are none, its clauses are faulty.
-
-program_doubts(_, [], []) :-
-    !.
-program_doubts(Located, Kinds, Warnings) :-
-    file_parts(agent, Located, Parts, _),
-    findall(Problem, doubtful(Parts, Kinds, Problem), Warnings).
-
-doubtful(Parts, Kinds, Problem) :-
-    part(rules, Parts, Rules),
-    part(directives, Parts, Directives),
-    part(state, Parts, State),
-    findall(PI, member(PI-mobile, Kinds), Mobile),
-    (   apart_problem(Rules, Directives-State, Problem)
-    ;   undeclared_problem(Rules, State, Problem)
-    ;   lost_choice(Rules, own(State, Mobile), Problem)
-    ).
 
 %!  payload_terms(+Located, -Payload, -Errors:list) is det.
 %

@@ -11,8 +11,7 @@
 :- use_module(library(error),
               [domain_error/2, existence_error/2, must_be/2]).
 :- use_module(library(lists), [member/2]).
-:- use_module('../../kernel/program',
-              [code_names/2, code_program/2, goal_named/4]).
+:- use_module('../../kernel/program', [code_names/2, code_program/2]).
 :- use_module('../../kernel/wire',
               [endpoint_address/1, endpoint_reply/2, endpoint_request/4]).
 :- use_module('../../kernel/host', [events_hear/3, host/3]).
@@ -21,6 +20,7 @@
                 life_extras/2, set_extras_of_life/3, with_agent/2 ]).
 :- use_module('../../kernel/lifecycle',
               [held_on/2, order_give/3, question_answered/2]).
+:- use_module('../../tools/source_view', [goal_named/4]).
 
 /** <module> Agents that are traced
 

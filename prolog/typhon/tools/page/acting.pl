@@ -13,7 +13,7 @@
               [ agent_clone/2, agent_create/3, agent_dispose/1,
                 agent_dispose/2, agent_load/3, agent_move/2, agent_resume/1,
                 agent_save/2, agent_send/2 ]).
-:- use_module('../../kernel/program', [agent_check/1]).
+:- use_module('../checks', [agent_check/1]).
 :- use_module('../../network', [network_start/3, network_stop/1]).
 :- use_module(editor,
               [ name_in/3, on_console/1, problem_dicts/2, program_at/2,

@@ -1,13 +1,10 @@
-:- module(typhon_clause_location,
-          [ fault_where/4,              % +Hash, +Agent, +Fault, -Where
-            where_handled/5             % +Hash, +Agent, +Goal, +Fault, -Where
-          ]).
+:- module(typhon_clause_location, []).
 :- use_module(library(apply), [maplist/3]).
 :- use_module(library(lists), [append/3, member/2, min_list/2, nth1/3]).
-:- use_module(code, [code_module/2, code_places/2, code_program/2]).
-:- use_module(places, [place/3]).
+:- use_module('../../kernel/program',
+              [ clause_parts/3, code_module/2, code_places/2, code_program/2,
+                place/3 ]).
 :- use_module(points, [goal_level/3, goals_normal/2, point/3]).
-:- use_module(source, [clause_parts/3]).
 
 /** <module> In which clause a goal stands
 
@@ -16,19 +13,33 @@ with recursion, and travel.  But a list [Goal|Goals] begins with an instance
 of what is left of a clause, and after that comes what is left of one that
 called it.  So it can be found out afterwards, when something is the matter.
 
-A place is at(PI, Place): a clause of the predicate PI, Place being its
-File:Line, clause(N) for the N-th clause of PI where that is not known, or
-`state` for a rule of the agent's own.
+Places are as in typhon_fault.
 
 *Threading*: any thread.
 */
 
-%!  fault_where(+Hash, +Agent, +Fault, -Where:list) is det.
-%
-%   Where the goal of Fault stands, see typhon_faults, in an agent with the
-%   program Hash and the module Agent.  Where is a list of up to two lists of
-%   places: in one of the first, called from the one of the second.  What
-%   could be at more than three places is nowhere.
+:- multifile
+    typhon_fault:handled/5,
+    typhon_fault:stands/4,
+    typhon_on_demand:joins/2.
+
+typhon_on_demand:joins(fault, stands).
+
+typhon_fault:handled(Hash, Agent, Goal, Fault, Where) :-
+    where_handled(Hash, Agent, Goal, Fault, Where).
+
+%   main/0 need not be called.
+
+typhon_fault:stands(Hash, Agent, Fault, Where) :-
+    Fault = fault(Goal, _, _),
+    Goal == main,
+    where_handled(Hash, Agent, Goal, Fault, Where),
+    !.
+typhon_fault:stands(Hash, Agent, Fault, Where) :-
+    fault_where(Hash, Agent, Fault, Where).
+
+%   fault_where(+Hash, +Agent, +Fault, -Where): Agent is the module of the agent.
+%   What could be at more than three places is nowhere.
 
 fault_where(Hash, Agent, fault(Goal, Goals, Natives), Where) :-
     code_module(Hash, Module),
@@ -42,10 +53,9 @@ fault_where(Hash, Agent, fault(Goal, Goals, Natives), Where) :-
     first_two(Numbers0, Numbers),
     maplist(maplist(shown(Hash, All)), Numbers, Where).
 
-%!  where_handled(+Hash, +Agent, +Goal, +Fault, -Where) is semidet.
-%
-%   As fault_where/4, where Goal, which no clause of the program called, has
-%   failed with Fault.  Fails if no clause is for it.
+%   where_handled(+Hash, +Agent, +Goal, +Fault, -Where) is semidet: no clause of
+%   the program called Goal, which has failed with Fault.  Fails if no clause is
+%   for it.
 
 where_handled(Hash, Agent, Goal, Fault, Where) :-
     all_clauses(Hash, Agent, All),

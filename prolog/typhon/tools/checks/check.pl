@@ -1,21 +1,18 @@
 :- module(typhon_check,
-          [ agent_check/1,              % +Spec
-            agent_check/2               % +Spec, +Options
+          [ check_program/1,            % +Spec
+            check_program/2             % +Spec, +Options
           ]).
 :- use_module(library(apply), [maplist/3]).
 :- use_module(library(lists), [append/2, member/2]).
-:- use_module('../base/options', [check_options/2]).
-:- use_module(advice, [problem_error/3]).
-:- use_module(goal_lines, [problem_at_goal/2]).
-:- use_module(mobile, [mobile_predicates/3]).
-:- use_module(parts, [file_parts/4, library_directive/2, part/3]).
-:- use_module(programs,
-              [ in_file_order/3, payload_terms/3, program_doubts/3,
-                program_terms/6 ]).
-:- use_module(unknown, [unknown_problems/2]).
-:- use_module(lint, [apart_problem/3]).
+:- use_module('../../kernel/base/options', [check_options/2]).
+:- use_module('../../kernel/program',
+              [ declaration/4, file_parts/4, in_file_order/3,
+                library_directive/2, mobile_predicates/3, part/3,
+                payload_terms/3, problem_error/3, program_terms/6,
+                source_terms/5 ]).
 :- use_module(choices, [lost_choice/3]).
-:- use_module(source, [declaration/4, source_terms/5]).
+:- use_module(doubts, [apart_problem/3, program_doubts/3, unknown_problems/2]).
+:- use_module(goal_lines, [problem_at_goal/2]).
 
 /** <module> What is wrong with a program, for people
 
@@ -25,27 +22,15 @@
 :- multifile objection/3.               % Options, Program, Where-Formal
 :- dynamic objection/3.
 
-%!  agent_check(+Spec) is det.
+%!  check_program(+Spec) is det.
+%!  check_program(+Spec, +Options) is semidet.
 %
-%   Print what is wrong with an agent program, or with a payload.  Errors
-%   would keep it from loading.  Warnings are
-%
-%     - variables that occur once, and clauses of a predicate with others in
-%       between
-%     - predicates that it changes, and has not declared as its state
-%     - choices that it gives up when it stops, and seems to count on
-%     - of an agent, calls to predicates that neither it nor the vocabulary
-%       defines, so that a place or a payload must offer them
-%
-%   While some of it cannot be read, only syntax errors are reported.
-%   agent_create/3 raises the errors, and prints the warnings once for each
-%   program, until its file changes; those of the last kind unless a payload of
-%   the agent or the place of a host of this process defines the predicate.
+%   As agent_check/1 and agent_check/2.
 
-agent_check(Spec) :-
+check_program(Spec) :-
     once(source_terms(Spec, Located, _, Unread, Once)),
-    looked_at(Unread, Located, Errors, Slips, Undefined),
-    append([Once, Slips, Undefined], Warnings0),
+    looked_at(Unread, Located, Errors, Doubts, Undefined),
+    append([Once, Doubts, Undefined], Warnings0),
     in_file_order(Warnings0, Located, Warnings),
     forall(member(P, Errors), report(error, P)),
     forall(member(P, Warnings), report(warning, P)),
@@ -53,15 +38,9 @@ agent_check(Spec) :-
     W is W0-U,
     print_message(informational, typhon(checked(Spec, E, W, U))).
 
-%!  agent_check(+Spec, +Options) is semidet.
-%
-%   Options say where the program or the payload is to run.  With the option
-%   policy(Policy), see host_start/2, what a host with that policy would refuse
-%   is reported as errors, and agent_check/2 fails if there is any.
-
-agent_check(Spec, Options) :-
+check_program(Spec, Options) :-
     check_options(check_option, Options),
-    agent_check(Spec),
+    check_program(Spec),
     once(source_terms(Spec, Located, _, Unread, _)),
     (   Unread == []
     ->  no_objections(Options, Spec, Located)

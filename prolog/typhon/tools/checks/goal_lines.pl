@@ -3,7 +3,7 @@
           ]).
 :- use_module(library(lists), [append/3, nth1/3]).
 :- autoload(library(readutil), [read_file_to_string/3]).
-:- use_module(source, [source_clause/2]).
+:- use_module('../../kernel/program', [source_clause/2]).
 
 /** <module> The line of the goal that is meant
 
@@ -13,6 +13,11 @@ for the line of the goal, or of the variable, that it is about.
 
 *Threading*: any thread.
 */
+
+:- multifile typhon_programs:problem_at_goal/2.
+
+typhon_programs:problem_at_goal(Problem0, Problem) :-
+    problem_at_goal(Problem0, Problem).
 
 %!  problem_at_goal(+Problem0, -Problem) is det.
 %

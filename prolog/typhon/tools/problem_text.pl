@@ -1,44 +1,24 @@
-:- module(typhon_advice,
-          [ problem_error/3,            % +Problem, +Others, -Error
-            advice_text/2               % +Advice, -Text
-          ]).
+:- module(typhon_problem_text, []).
+:- use_module('../kernel/base/error_text', [error_told/3]).
+:- use_module('../kernel/base/names', [names_joined/3]).
+:- use_module('../kernel/program', [problem_error/3]).
 
-/** <module> Problems of a program as errors, with advice
+/** <module> Texts of problems of programs, with advice
 
 A problem, see typhon_problems, is raised and printed as
 
     error(Formal, at(Location, Text, Others))
 
 where Text says what to do about it, and Others are problems found with it.
-A context/2 of Prolog's own would be replaced by a trace of the reader's
-calls when the error is not caught.
 
 *Threading*: pure.
 */
 
-:- use_module('../base/error_text', [error_told/3]).
-:- use_module('../base/names', [names_joined/3]).
-
 :- multifile
     prolog:error_message//1,
     prolog:message_context//1,
-    prolog:message_location//1.
-
-%!  problem_error(+Problem, +Others:list, -Error) is det.
-%
-%   Error is Problem, and tells Others as well.
-
-problem_error(problem(Formal, Location, Advice), Others,
-              error(Formal, at(Location, Text, Others))) :-
-    advice_text(Advice, Text).
-
-%!  advice_text(+Advice, -Text:atom) is det.
-%
-%   Text says what to do; it is empty where the error says enough.
-
-advice_text(Advice, Text) :-
-    phrase(advice(Advice), Parts),
-    atomic_list_concat(Parts, Text).
+    prolog:message_location//1,
+    typhon_programs:advice//1.
 
                 /*******************************
                 *             TEXTS            *
@@ -98,70 +78,68 @@ others([Problem|Others]) -->
                 *            ADVICE            *
                 *******************************/
 
-%   advice(+Advice)//: the text, empty where the error says enough.
-
-advice(none) -->
+typhon_programs:advice(none) -->
     [].
-advice(singletons) -->
+typhon_programs:advice(singletons) -->
     ['if it is meant to occur once, write it with an underscore first'].
-advice(discontiguous(Name/Arity)) -->
+typhon_programs:advice(discontiguous(Name/Arity)) -->
     { term_to_atom(Name/Arity, Atom) },
     ['put them together, or write :- discontiguous ', Atom, '.'].
-advice(include([])) -->
+typhon_programs:advice(include([])) -->
     ['cannot include'].
-advice(include([File|Files])) -->
+typhon_programs:advice(include([File|Files])) -->
     { names_joined([File|Files], ' or ', Meant) },
     ['cannot include: did you mean ', Meant, '?'].
-advice(include_itself) -->
+typhon_programs:advice(include_itself) -->
     ['a file cannot include itself'].
-advice(grammar) -->
+typhon_programs:advice(grammar) -->
     ['not a grammar rule'].
-advice(declare(agent)) -->
+typhon_programs:advice(declare(agent)) -->
     ['begin the file with :- agent(Name, [state([Name/Arity, ...])]).'].
-advice(declare(payload)) -->
+typhon_programs:advice(declare(payload)) -->
     ['begin the file with :- payload(Name, [provides([Name/Arity, ...])]).'].
-advice(directive) -->
+typhon_programs:advice(directive) -->
     ['nothing runs at load time; allowed are agent/1,2, payload/1,2, \c
       dynamic/1, discontiguous/1, include/1 and use_module(library(_))'].
-advice(once) -->
+typhon_programs:advice(once) -->
     ['a file begins with one declaration: move what follows it to a file \c
       of its own'].
-advice(library) -->
+typhon_programs:advice(library) -->
     ['there is no such library: install it, or write library(Name)'].
-advice(indicator) -->
+typhon_programs:advice(indicator) -->
     ['write dynamic Name/Arity, ...'].
-advice(rule) -->
+typhon_programs:advice(rule) -->
     ['write Head :- Body'].
-advice(head) -->
+typhon_programs:advice(head) -->
     ['a clause head is an atom or a compound term'].
-advice(body) -->
+typhon_programs:advice(body) -->
     ['a clause body is built of callable terms'].
-advice(qualified) -->
+typhon_programs:advice(qualified) -->
     ['an agent has no modules: write the head without one'].
-advice(redefined) -->
+typhon_programs:advice(redefined) -->
     ['the name is taken: rename the predicate'].
-advice(entry) -->
+typhon_programs:advice(entry) -->
     ['define main/0, on_message/2 or both'].
-advice(options(agent)) -->
+typhon_programs:advice(options(agent)) -->
     ['write agent(Name, [state([Name/Arity, ...])])'].
-advice(options(payload)) -->
+typhon_programs:advice(options(payload)) -->
     ['write payload(Name, [provides([Name/Arity, ...])])'].
-advice(undeclared(Name/Arity)) -->
+typhon_programs:advice(undeclared(Name/Arity)) -->
     { term_to_atom(Name/Arity, Atom) },
     ['what an agent changes is its state: write agent(Name, [state([',
      Atom, '])])'].
-advice(offered([])) -->
+typhon_programs:advice(offered([])) -->
     ['a place or a payload must offer it'].
-advice(offered([PI|PIs])) -->
+typhon_programs:advice(offered([PI|PIs])) -->
     { names_joined([PI|PIs], ' or ', Meant) },
     ['did you mean ', Meant, '? If not, a place or a payload must offer it'].
-advice(of_library(Library)) -->
+typhon_programs:advice(of_library(Library)) -->
     ['library(', Library, ') defines it: write :- use_module(library(',
      Library, ')) in the program'].
-advice(commits(Choice)) -->
+typhon_programs:advice(commits(Choice)) -->
     ['what stops an agent commits it: '],
     instead(Choice).
-advice(inside(Name/Arity)) -->
+typhon_programs:advice(inside(Name/Arity)) -->
     { term_to_atom(Name/Arity, Atom) },
     ['an agent cannot stop inside ', Atom, ': '],
     outside(Name/Arity).

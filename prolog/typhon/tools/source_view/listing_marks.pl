@@ -3,9 +3,8 @@
           ]).
 :- use_module(library(aggregate), [aggregate_all/3]).
 :- use_module(library(lists), [append/3, member/2, nth1/3]).
-:- use_module(bodies, [body_goals/4, plain_goals/2]).
-:- use_module(control, [control/1]).
-:- use_module(source, [clause_parts/3]).
+:- use_module('../../kernel/program',
+              [body_goals/4, clause_parts/3, control/1, plain_goals/2]).
 
 /** <module> In which clause an agent stands
 

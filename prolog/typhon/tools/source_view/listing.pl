@@ -1,17 +1,17 @@
 :- module(typhon_listing,
-          [ agent_listing/1,            % +Agent
-            goals_shown/4               % +Agent, +Facts, +Goals, -Shown
+          [ list_agent/1,               % +Agent
+            show_goals/4                % +Agent, +Facts, +Goals, -Shown
           ]).
 :- use_module(library(lists), [append/3, member/2, nth1/3]).
 :- autoload(library(listing), [portray_clause/1, portray_clause/3]).
-:- use_module('../program',
-              [ body_goals/4, clause_bindings/3, clause_parts/3, code_names/2,
-                code_program/2, goals_bindings/4, goals_body/2, plain_goals/2,
-                stands_in/3 ]).
-:- use_module('../agent', [agent/5]).
-:- use_module(properties, [agent_property/2]).
-:- use_module(order_client, [agent_answer/3]).
-:- use_module(questions, [question_answered/2]).
+:- use_module('../../kernel/program',
+              [ body_goals/4, clause_parts/3, code_names/2, code_program/2,
+                goals_body/2, plain_goals/2 ]).
+:- use_module('../../kernel/agent', [agent/5]).
+:- use_module('../../kernel/lifecycle',
+              [agent_answer/3, agent_property/2, question_answered/2]).
+:- use_module(listing_marks, [stands_in/3]).
+:- use_module(variable_names, [clause_bindings/3, goals_bindings/4]).
 
 /** <module> What an agent is, as text
 
@@ -20,17 +20,11 @@
 
 :- multifile typhon_questions:here/3.
 
-%!  agent_listing(+Agent) is det.
+%!  list_agent(+Agent) is det.
 %
-%   Print the program of Agent, with the names of variables if it was read from
-%   a file, its facts, and the goals that it has left, as
-%   clauses.  An arrow marks the goal at which it stands; where several
-%   clauses would go on in the same way, each of them.  Of an agent that runs
-%   at this moment the goals are not known, see agent_step/1.
-%
-%   @error existence_error(agent, Agent)
+%   As agent_listing/1.
 
-agent_listing(Agent) :-
+list_agent(Agent) :-
     agent_answer(Agent, program,
                  program(Name, State, Libraries, Static)-Names),
     findall(Property, agent_property(Agent, Property), Properties),
@@ -53,14 +47,14 @@ typhon_questions:here(program, Agent, Asker) :-
     code_names(Hash, Names),
     question_answered(Asker, answer(Program-Names)).
 
-%!  goals_shown(+Agent, +Facts, +Goals, -Shown) is det.
+%!  show_goals(+Agent, +Facts, +Goals, -Shown) is det.
 %
 %   Shown are Goals, which Agent with these Facts has left, with '$VAR'(Name)
 %   for variables whose names in the program are known.
 %
 %   @error existence_error(agent, Agent)
 
-goals_shown(Agent, Facts, Goals, Shown) :-
+show_goals(Agent, Facts, Goals, Shown) :-
     agent_answer(Agent, program, program(_, _, _, Static)-Names),
     append(Static, Facts, Clauses),
     goals_bindings(Clauses, Names, Goals, Bindings),

@@ -4,7 +4,7 @@
             goal_level/3                % +Goal, +Goals, -Left
           ]).
 :- use_module(library(lists), [append/3]).
-:- use_module(bodies, [body_goals/4, goals_body/2, plain_goals/2]).
+:- use_module('../../kernel/program', [body_goals/4, goals_body/2, plain_goals/2]).
 
 /** <module> Points that the machine can come to in a clause
 

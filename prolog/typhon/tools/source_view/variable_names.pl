@@ -1,14 +1,14 @@
 :- module(typhon_variable_names,
           [ clause_bindings/3,          % +Clause, +Names, -Bindings
             goals_bindings/4,           % +Clauses, +Lists, +Goals, -Bindings
-            goal_named/4                % +Clauses, +Lists, +Goal, -Named
+            name_goal/4                 % +Clauses, +Lists, +Goal, -Named
           ]).
 :- use_module(library(apply), [maplist/2, maplist/3]).
 :- use_module(library(lists), [append/3, member/2, memberchk/2, nth1/3]).
+:- use_module('../../kernel/program',
+              [body_goals/4, clause_parts/3, plain_goals/2]).
 :- use_module(listing_marks, [stands_in/3]).
-:- use_module(bodies, [body_goals/4, plain_goals/2]).
 :- use_module(points, [point/3]).
-:- use_module(source, [clause_parts/3]).
 
 /** <module> The names of variables, as the program has them
 
@@ -105,12 +105,12 @@ free_name(Name, N, Bindings, Free) :-
     ;   Free = Free0
     ).
 
-%!  goal_named(+Clauses, +Lists, +Goal, -Named) is det.
+%!  name_goal(+Clauses, +Lists, +Goal, -Named) is det.
 %
 %   Named is Goal with '$VAR'(Name) for variables, if all the clauses that could
 %   have called it agree on their names.
 
-goal_named(Clauses, Lists, Goal, Named) :-
+name_goal(Clauses, Lists, Goal, Named) :-
     term_variables(Goal, [_|_]),
     findall(Instance,
             ( nth1(N, Lists, [Name|Names]),
@@ -120,7 +120,7 @@ goal_named(Clauses, Lists, Goal, Named) :-
     sort(Found0, [Named0]),
     !,
     Named = Named0.
-goal_named(_, _, Goal, Goal).
+name_goal(_, _, Goal, Goal).
 
 called_in(Clause, Names, Goal, Goal) :-
     copy_term_nat(Clause, Copy),
