@@ -39,7 +39,8 @@ a folder, with an interface of the same name beside it:
               agent_result/3, agent_save/2, agent_load/2, agent_load/3,
               payload_attach/2, payload_detach/2
             ]).
-:- reexport('typhon/options/trace').
+:- reexport(typhon/options/trace,
+            [agent_trace/2, agent_notrace/1, agent_step/1]).
 :- reexport(typhon/options/trail, [agent_trail/2]).
 :- reexport(typhon/network,
             [ network_start/3, network_stop/1, network_property/2,

@@ -18,6 +18,7 @@ This is the interface of the layer: higher layers import from here.
               endpoint_post/3,
               endpoint_post_by/4, endpoint_post_up/3, endpoint_reply/2,
               endpoint_reply_later/2, endpoint_request/4 ]).
+:- reexport(wire/request, [endpoint_later/1]).
 :- reexport(wire/outbox, [frame_fits/1]).
 :- reexport(wire/lending, [endpoint_afterwards/1]).
 :- reexport(wire/peers,

@@ -15,6 +15,8 @@
             agent_rest/3,               % +Id, +Status, +Goals
             agent_take/3,               % +Id, -Goals, -Order
             agent_departs/3,            % +Id, -Dest, -Goals
+            agent_extras_missing/1,     % @Life
+            agent_extras_load/1,        % +Life
             agent_comes/5,              % +Id, +Host, +Module, +Hash, +Life
             agent_handed/4,             % +Id, +Hops, +Way, +Frame
             agent_under_way/6,          % ?Id, ?Hops, -Host, -Hash, -Way,
@@ -31,11 +33,12 @@
 :- use_module(library(settings), [setting/2, setting/4]).
 :- use_module('../base/durable_changes',
               [durable_drop/3, durable_on/0, enqueue_changes/0]).
+:- use_module('../base/on_demand', [on_demand_load/2, on_demand_missing/2]).
 :- use_module('../host', [events_forget/1, parts_call/3, schedule/2]).
 :- use_module(mailbox,
               [ agent_ordered/1, agent_unorder/2, agent_unorder_all/2,
                 mail_all/2, mail_count/2, mail_put/2 ]).
-:- use_module(life, [life_extras/2]).
+:- use_module(life, [is_life/1, life_extras/2]).
 
 /** <module> Agents that stand in this process
 
@@ -144,12 +147,33 @@ carried(Id, Life) :-
     life_extras(Life, Extras),
     (   Extras == []
     ->  true
-    ;   forall(( member(Extra, Extras),
-                 callable(Extra),       % peers may have written them
-                 functor(Extra, Name, _),
-                 carries(Name, Id, Extra) ),
-               true)
+    ;   forall(extra(Life, Name, Extra),
+               ( on_demand_load(carries, Name),
+                 ignore(carries(Name, Id, Extra)) ))
     ).
+
+%!  agent_extras_missing(@Life) is semidet.
+%!  agent_extras_load(+Life) is det.
+%
+%   An agent with this Life, any term, carries what an option knows that is not
+%   loaded; load it.  Not for the thread of a connection.
+
+agent_extras_missing(Life) :-
+    is_life(Life),
+    extra(Life, Name, _),
+    on_demand_missing(carries, Name),
+    !.
+
+agent_extras_load(Life) :-
+    forall(extra(Life, Name, _), on_demand_load(carries, Name)).
+
+%   Peers may have written it.
+
+extra(Life, Name, Extra) :-
+    life_extras(Life, Extras),
+    member(Extra, Extras),
+    callable(Extra),
+    functor(Extra, Name, _).
 
 agent_remove(Id, Mail, Orders) :-
     retract(stands(Id, Host, Module, _, _, _)),

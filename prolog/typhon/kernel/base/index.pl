@@ -16,6 +16,8 @@ Made by `swipl doc/layers.pl -- index`, and compared by `make check`.
 %
 %   Part defines the hook Seam for What.
 
+part_joins(carries,step,'options/trace').
+part_joins(carries,trace,'options/trace').
 part_joins(check_option,policy,'options/guard').
 part_joins(durable,agent,'options/journal').
 part_joins(durable,birth,'options/identity').
@@ -43,8 +45,11 @@ part_joins(machine_option,node,network).
 part_joins(machine_option,swipl,network).
 part_joins(network_load_option,log,network).
 part_joins(open_store,any,'options/journal').
+part_joins(order,attach,'options/identity').
+part_joins(order,watched,'options/trace').
 part_joins(program,read,'tools/checks').
 part_joins(question,program,'tools/source_view').
+part_joins(question,step,'options/trace').
 part_joins(question,trail,'options/trail').
 part_joins(received,channel,'options/journal').
 part_joins(received,log,network).
@@ -53,9 +58,11 @@ part_joins(requested,everywhere,'options/watch').
 part_joins(requested,log,network).
 part_joins(requested,node,network).
 part_joins(requested,survey,tools).
+part_joins(requested,trace,'options/trace').
 part_joins(requested,watch,'options/watch').
 part_joins(requested,watched,'options/watch').
 part_joins(ros_call_option,deadline,'bridges/ros').
+part_joins(spied,program,'options/trace').
 part_joins(time,virtual,'options/virtual').
 part_joins(untrusted,any,'options/quotas').
 
@@ -98,6 +105,9 @@ part_file('options/quotas','options/quotas/quota_table').
 part_file('options/quotas','options/quotas/usage').
 part_file('options/snapshot','options/snapshot/process_dump').
 part_file('options/tls','options/tls/secure').
+part_file('options/trace','options/trace/spying').
+part_file('options/trace','options/trace/stepping').
+part_file('options/trace','options/trace/tracing').
 part_file('options/trail','options/trail/trail').
 part_file('options/trail','options/trail/trail_verified').
 part_file('options/virtual','options/virtual/virtual').

@@ -21,6 +21,7 @@ these.
 
   | untrusted | any  | a host admits agents that it does not trust |
   | keys      | any  | the process has keys                        |
+  | spied     | program | a predicate of a program is spied or traced |
   | environment | Variable | it is set when an endpoint starts     |
   | program   | read | a program is read from a file or from clauses |
   | fault     | stands | an agent has failed, or raised an error |

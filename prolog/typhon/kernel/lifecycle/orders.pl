@@ -5,6 +5,7 @@
 :- use_module(library(debug), [debug/3]).
 :- use_module(library(error),
               [domain_error/2, permission_error/3]).
+:- use_module('../base/on_demand', [on_demand_load/2]).
 :- use_module('../program', [code_sent/2]).
 :- use_module('../wire', [mobile_term/1]).
 :- use_module('../host', [alarm_in/3, amended/5, scheduler_call/1]).
@@ -275,4 +276,6 @@ done(image, Agent,
     mail_list(Agent, Mail),
     mobile_term(State-Goals).
 done(Order, Agent, Result) :-
+    functor(Order, Kind, _),
+    on_demand_load(order, Kind),
     carried_out(Order, Agent, Result).

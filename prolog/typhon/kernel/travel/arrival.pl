@@ -6,13 +6,14 @@
               [ crash_point/1, durable_on/0, enqueue_changes/0,
                 unit_of_work/1 ]).
 :- use_module('../wire',
-              [ endpoint_afterwards/1, endpoint_reply/2,
+              [ endpoint_afterwards/1, endpoint_later/1, endpoint_reply/2,
                 endpoint_reply_later/2 ]).
 :- use_module('../host',
               [ event/4, host/3, host_hop/3, host_time/2, schedule/2,
                 schedule_adopt/1, schedule_here/3, schedule_leave/0 ]).
 :- use_module('../agent',
-              [ agent/5, agent_here/5, agent_order/2, agent_status/3, gate/4,
+              [ agent/5, agent_extras_load/1, agent_extras_missing/1,
+                agent_here/5, agent_order/2, agent_status/3, gate/4,
                 gate_refused/4, image_amended/5, image_enter/4, image_entrant/2,
                 image_label/2, image_module/3, life_hops/2,
                 with_agent/2 ]).
@@ -40,10 +41,11 @@ anyhow: the agent stands here, has gone on, or has ended.
     typhon_endpoint:requested/4,
     typhon_endpoint:returned/0.
 
-%   With a journal the answer waits for the commit.
+%   With a journal the answer waits for the commit; or until the code is there
+%   for what the agent carries.
 
 typhon_endpoint:handed(hop, hop(Name, Image, Program), Peer, Verdict) :-
-    (   durable_on
+    (   ( durable_on ; carries_more(Image) )
     ->  Verdict = deferred
     ;   catch(taken_over(Name, Image, Program, Peer), error(_, _), fail)
     ->  Verdict = accepted
@@ -65,17 +67,36 @@ holed(image(Id, Hash, Life, State, Hole-Goals, Mail, Start), Image) :-
     Image = image(Id, Hash, Life, State, Goals, Mail, Start).
 holed(Image, Image).
 
-typhon_endpoint:requested(hop, hop(Name, Image0, Program), Peer, ReplyTo) :-
+typhon_endpoint:requested(hop, Hop, Peer, ReplyTo) :-
+    (   arg(2, Hop, Image),
+        carries_more(Image),
+        endpoint_later(typhon_arrival:load_and_take(Image, Hop, Peer, ReplyTo))
+    ->  true
+    ;   take(Hop, Peer, ReplyTo)
+    ).
+
+take(hop(Name, Image0, Program), Peer, ReplyTo) :-
     holed(Image0, Image),
     arrived(Name, Image, Program, none, Peer, Answer),
     answer(Answer, Name, ReplyTo).
-typhon_endpoint:requested(hop, hop(Name, Image, Program, Label), Peer,
-                          ReplyTo) :-
+take(hop(Name, Image, Program, Label), Peer, ReplyTo) :-
     (   is_hop_id(Label)
     ->  arrived(Name, Image, Program, Label, Peer, Answer),
         answer(Answer, Name, ReplyTo)
     ;   endpoint_reply(ReplyTo, refused(error(type_error(hop_id, Name))))
     ).
+
+carries_more(Image) :-
+    subsumes_term(image(_, _, _, _, _, _, _), Image),
+    arg(3, Image, Life),
+    agent_extras_missing(Life).
+
+:- public load_and_take/4.              % goal of a worker
+
+load_and_take(Image, Hop, Peer, ReplyTo) :-
+    arg(3, Image, Life),
+    agent_extras_load(Life),
+    take(Hop, Peer, ReplyTo).
 
 arrived(Name, Image, Program, Label, Peer, Answer) :-
     catch(arrive_noted(Name, Image, Program, Label, Peer, Answer),

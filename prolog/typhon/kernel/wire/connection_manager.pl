@@ -36,13 +36,14 @@ take a while is done by a thread in the background.
 :- use_module(connection, [outgoing/2]).
 :- use_module(peer_cache,
               [contact_expected/1, contact_gone/1, contact_missed/2]).
-:- use_module(request,
-              [ requests_lost/2, session_unfinished/1, unsent/1,
-                unsent_again/2, unsent_fail/1, unsent_fail/2, unsent_send/2 ]).
+:- use_module(request, [requests_lost/2, session_unfinished/1]).
 :- use_module(resumption, [session_close/2, session_retire/1]).
 :- use_module(session,
               [ route/2, route_key/2, route_up/2, session/2,
                 session_adopting/2, session_key/2, session_up/1 ]).
+:- use_module(unsent,
+              [ unsent/1, unsent_again/2, unsent_fail/1, unsent_fail/2,
+                unsent_send/2 ]).
 :- use_module(threads,
               [ in_background/2, manager_receive/2, manager_notify/1,
                 wire_thread_create/3, wire_thread_end/2, wire_thread_join/1 ]).

@@ -40,8 +40,9 @@ endpoint_ask_all/6 wait, and are not for the threads of the endpoint.
 :- use_module(reader, [in_reader/0]).
 :- use_module(request,
               [ request_forget/1, request_reply/2, request_reply_later/2,
-                request_send/4, take_post/3, unsent/1, unsent_closed/4,
-                unsent_forget/1, unsent_request/4 ]).
+                request_send/4, take_post/3 ]).
+:- use_module(unsent,
+              [unsent/1, unsent_closed/4, unsent_forget/1, unsent_request/4]).
 :- use_module(session,
               [route/2, route_up/2, session_codec/2, session_peer/3]).
 

@@ -4,6 +4,7 @@
             request_reply_later/2,      % +ReplyTo, +Term
             request_answer/2,           % +Result, :OnAnswer
             request_forget/1,           % :OnAnswer
+            request_take/3,             % +Session, +Id, -OnAnswer
             requests_lost/2,            % +Session, +Unsent
             session_unfinished/1,       % +Session
             handed_over/2,              % +Settled, +Session
@@ -11,15 +12,8 @@
             dispatch_all/2,             % +Session, +Frames
             take_post/3,                % +Kind, +Term, +Peer
             take_request/4,             % +Kind, +Term, +Peer, +ReplyTo
-            connection_is/2,            % +Session, +State
-            unsent_request/4,           % +Address, +Kind, +Term, :OnAnswer
-            unsent/1,                   % ?Address
-            unsent_send/2,              % +Address, +Session
-            unsent_again/2,             % +Session, +Unsent
-            unsent_closed/4,            % +Address, +Kind, +Term, :OnAnswer
-            unsent_fail/1,              % ?Address
-            unsent_fail/2,              % ?Address, +Asked
-            unsent_forget/1             % :OnAnswer
+            endpoint_later/1,           % :Goal
+            connection_is/2             % +Session, +State
           ]).
 
 /** <module> Requests and posts, and the frames that carry them
@@ -36,29 +30,20 @@ What is handed over needs no answer: that its frame is settled says that it was
 accepted. An objection is `spoilt`, an answer of the hook, or `deferred`: then
 the frame is a request from now on, under its negated number.
 
-A request to a peer that is not connected is held here, in order, until
-there is a session to send it in, or it is known that there can be none.
-
 *Threading*: dispatch/2 runs in the thread of a connection, the hooks with
 it. The table of open requests is shared; retract/1 takes a request out, so
-it is answered once. Any thread adds to the held requests. The connection
-manager, which receives requests(Address), sends them, and removes what it has
-sent only then: as long as something is held for an address, nothing of the
-same thread may overtake it. The thread that removes a request answers it.
+it is answered once.
 */
 
 :- use_module(library(lists), [member/2]).
 :- use_module('../base/error_text', [error_told/3, print_error/2]).
 :- use_module('../base/on_demand',
               [on_demand_later/1, on_demand_load/2, on_demand_missing/2]).
-:- use_module(attempts, [asking/1]).
 :- use_module(outbox,
               [ session_answer/2, session_object/2, session_owes/0,
                 session_send/2, session_send_later/2 ]).
-:- use_module(peer_cache, [contact_expected/1]).
 :- use_module(session,
               [route/2, session_key/2, session_peer/3, session_received/2]).
-:- use_module(threads, [manager_notify/1]).
 :- use_module(transport, [transport_as/2, transport_proof/1]).
 :- use_module(unacked,
               [session_answered/3, session_objected/3, session_pending/2]).
@@ -337,16 +322,26 @@ attempt(Goal, Kind) :-
     ).
 
 %   taken_later(+Hook) is semidet: it is defined by code that is not loaded
-%   yet. A worker loads it and calls the hook, for which the peer has proved
-%   itself in this thread, whatever address it claims.
+%   yet. A worker loads it and calls the hook.
 
 taken_later(typhon_endpoint:Hook) :-
     functor(Hook, Seam, _),
     memberchk(Seam, [received, requested]),
     arg(1, Hook, Kind),
     on_demand_missing(Seam, Kind),
+    endpoint_later(typhon_request:load_and_take(Hook)).
+
+%!  endpoint_later(:Goal) is semidet.
+%
+%   In a hook: call Goal once in a worker, for a peer that has proved itself as
+%   it has in this thread, whatever address it claims.  Fails if there are no
+%   workers.
+
+:- meta_predicate endpoint_later(0).
+
+endpoint_later(Goal) :-
     ( transport_proof(Proof) -> true ; Proof = none ),
-    on_demand_later(transport_as(Proof, typhon_request:load_and_take(Hook))).
+    on_demand_later(transport_as(Proof, Goal)).
 
 :- public load_and_take/1.              % goal of a worker
 
@@ -365,131 +360,6 @@ load_and_take(requested(Kind, Term, Peer, ReplyTo)) :-
 %   The thread is to end: that is not the hook's fault, nor to be kept from it.
 
 is_order(wire_thread_end(_)).
-
-		 /*******************************
-		 *   REQUESTS WITHOUT SESSION   *
-		 *******************************/
-
-:- meta_predicate
-    unsent_request(+, +, +, 1),
-    unsent_closed(+, +, +, 1),
-    unsent_forget(1).
-
-:- dynamic
-    unsent/5.                           % Address, Number, Kind, Term,
-                                        % OnAnswer
-
-%!  unsent_request(+Address, +Kind, +Term, :OnAnswer) is det.
-%
-%   As endpoint_request/4, when there is a connection with Address.
-
-unsent_request(Address, Kind, Term, OnAnswer) :-
-    asking(Number),
-    assertz(unsent(Address, Number, Kind, Term, OnAnswer)),
-    (   manager_notify(requests(Address))
-    ->  true
-    ;   fail_one(Address, Number)
-    ).
-
-%!  unsent(?Address) is semidet.
-%
-%   Something is held for Address.
-
-unsent(Address) :-
-    unsent(Address, _, _, _, _),
-    !.
-
-%!  unsent_send(+Address, +Session) is det.
-%
-%   Send in Session all that is held for Address. For the connection manager
-%   only.
-
-unsent_send(Address, Session) :-
-    oldest(Address, Row),
-    !,
-    (   send(Row, Session)
-    ->  sent(Row),
-        unsent_send(Address, Session)
-    ;   ignore(manager_notify(requests(Address)))
-    ).
-unsent_send(_, _).
-
-oldest(Address, Row) :-
-    Row = unsent(Address, _, _, _, _),
-    call(Row),
-    !.
-
-send(unsent(Address, _, Kind, Term, OnAnswer), Session) :-
-    catch(request_send(Session, Kind, Term, OnAnswer),
-          error(Formal, Context),
-          not_sent(Formal, Context, Address, OnAnswer)).
-
-%   The caller may have given up meanwhile.
-
-sent(unsent(Address, Number, _, _, OnAnswer)) :-
-    (   retract(unsent(Address, Number, _, _, _))
-    ->  true
-    ;   request_forget(OnAnswer)
-    ).
-
-%   not_sent(+Formal, +Context, +Address, +OnAnswer) fails if the next process
-%   at Address is to be asked.
-
-not_sent(session_closed, _, Address, OnAnswer) :-
-    !,
-    \+ contact_expected(Address),
-    request_answer(unreachable, OnAnswer).
-not_sent(Formal, Context, _, OnAnswer) :-
-    print_error(error, error(Formal, Context)),
-    request_answer(unreachable, OnAnswer).
-
-%!  unsent_closed(+Address, +Kind, +Term, :OnAnswer) is det.
-%!  unsent_again(+Session, +Unsent) is det.
-%
-%   The peer is gone for good, and was not asked this; nor what is among the
-%   frames Unsent.  If a process is expected there soon, that waits for it.
-
-unsent_closed(Address, Kind, Term, OnAnswer) :-
-    (   contact_expected(Address)
-    ->  unsent_request(Address, Kind, Term, OnAnswer)
-    ;   request_answer(unreachable, OnAnswer)
-    ).
-
-unsent_again(Session, Unsent) :-
-    session_peer(Session, _, Address),
-    contact_expected(Address),
-    !,
-    forall(( member(request(Id, Kind, Term), Unsent),
-             request_take(Session, Id, OnAnswer) ),
-           unsent_request(Address, Kind, Term, OnAnswer)).
-unsent_again(_, _).
-
-%!  unsent_fail(?Address) is det.
-%!  unsent_fail(?Address, +Asked) is det.
-%
-%   There is no way to Address: say so, to those with a number below Asked, see
-%   asking/1.
-
-unsent_fail(Address) :-
-    unsent_fail(Address, inf).
-
-unsent_fail(Address, Asked) :-
-    findall(A-Number, unsent(A, Number, _, _, _), All),
-    forall(( member(Address-Number, All), Number < Asked ),
-           fail_one(Address, Number)).
-
-fail_one(Address, Number) :-
-    (   retract(unsent(Address, Number, _, _, OnAnswer))
-    ->  request_answer(unreachable, OnAnswer)
-    ;   true
-    ).
-
-%!  unsent_forget(:OnAnswer) is det.
-%
-%   No caller waits for this answer any more.
-
-unsent_forget(OnAnswer) :-
-    retractall(unsent(_, _, _, _, OnAnswer)).
 
 :- multifile prolog:message//1.
 

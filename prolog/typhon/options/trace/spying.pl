@@ -1,10 +1,10 @@
 :- module(typhon_spying,
           [ spied_program/1,            % +Hash
-            spied/3                     % +Hash, +Goal, -Action
+            spied/3,                    % +Hash, +Goal, -Action
+            trace_program/2             % +Spec, +Ports
           ]).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(prolog_trace), [trace/2]).
-:- use_module(library(prolog_wrap), [wrap_predicate/4]).
 :- use_module('../../kernel/base/names', [names_proposed/3]).
 :- use_module('../../kernel/program',
               [clause_parts/3, code_module/2, code_program/2]).
@@ -27,7 +27,10 @@ at each goal then.
 
 :- multifile
     prolog:debug_control_hook/1,
-    typhon_code:installed/2.
+    typhon_code:installed/2,
+    typhon_on_demand:joins/2.
+
+typhon_on_demand:joins(spied, program).
 
 :- dynamic
     spied/4,                    % Program, Name, Arity, `hold` or `print`
@@ -146,16 +149,9 @@ program_module(Program, Module) :-
                 *             TRACE            *
                 *******************************/
 
-%   trace/2 has no hook.
-
-:- initialization(
-       wrap_predicate(prolog_trace:trace(Spec, Ports), typhon, Closure,
-                      ( typhon_spying:trace_program(Spec, Ports)
-                      ->  true
-                      ;   Closure
-                      ))).
-
-:- public trace_program/2.
+%!  trace_program(+Spec, +Ports) is semidet.
+%
+%   As trace/2, for predicates of programs; fails for others.
 
 trace_program(Spec, Ports) :-
     of_program(Spec, Program, Name, Arity),

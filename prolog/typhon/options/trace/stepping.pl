@@ -50,15 +50,7 @@ step.
 
 %!  agent_step(+Agent) is det.
 %
-%   Agent runs its next goal, and is held before the one after it, wherever
-%   that is; this goal is printed.  One that is not held yet is held at its
-%   next goal, which it comes to after its next effect if it runs now.  Where
-%   it stops otherwise, waits for a message or ends, that is printed.
-%   agent_notrace/1 lets it go on.
-%
-%   @error existence_error(agent, Agent)
-%   @error timeout_error(order, Agent): it came to no goal within 10 seconds
-%   @error permission_error(step, agent, Agent) where turns have limits
+%   As typhon_trace says.
 
 agent_step(Agent) :-
     agent_answer(Agent, step, Answer),

@@ -46,18 +46,7 @@ come.  The thread that has the agent, or holds its mutex, changes tracers.
 %!  agent_trace(+Agent, +What) is det.
 %!  agent_notrace(+Agent) is det.
 %
-%   Print what happens to Agent from now on, wherever it is and goes, and
-%   write it in the log of the host where it happens, if that has one.  What
-%   is a list out of `hops`, `messages`, `facts`, which is what it leaves in
-%   and takes from the tuple spaces of hosts, and `goals`, which are those
-%   that the machine comes to, not those within what Prolog runs to its end
-%   by itself.  Clones are traced, too.
-%
-%   agent_notrace/1 ends this, and lets an agent go on that is held, see
-%   agent_step/1.
-%
-%   @error existence_error(agent, Agent)
-%   @error domain_error(trace_kind, Kind)
+%   As typhon_trace says.
 
 agent_trace(Agent, What) :-
     must_be(list, What),
