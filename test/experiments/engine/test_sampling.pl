@@ -12,6 +12,7 @@
 :- use_module('../../../experiments/engine/series').
 :- use_module('../../../experiments/engine/studies', [study_load/2]).
 :- use_module(library(debug), [assertion/1]).
+:- use_module(library(http/json), [atom_json_dict/3]).
 :- use_module(library(filesex),
               [ delete_directory_and_contents/1, directory_file_path/3,
                 make_directory_path/1 ]).
@@ -251,8 +252,8 @@ pandas_reads(Tables) :-
 
 test(json_lines) :-
     with_tables(lines_of('runs.jsonl', [First|_])),
-    assertion(First == "{\"seed\":1, \"kind\":\"new_one\", \"n\":1, \c
-\"late\":null, \"m\":1}").
+    atom_json_dict(First, Line, []),
+    assertion(Line = _{seed:1, kind:"new_one", n:1, late:null, m:1}).
 test(steps) :-
     with_tables(lines_of('steps.csv', [Header, First|_])),
     assertion(Header == "seed,kind,n,time,s"),

@@ -32,7 +32,9 @@ test(a_plain_host_has_no_code_of_options, Out == "[]") :-
                                    typhon_sandbox, typhon_virtual, \c
                                    typhon_quota_hosts, typhon_trail, \c
                                    typhon_access_rules, typhon_telling, \c
-                                   typhon_tables, typhon_page_server ]), \c
+                                   typhon_tables, typhon_page_server, \c
+                                   typhon_tracing, typhon_stepping, \c
+                                   typhon_spying ]), \c
                        module_property(M, file(_)) ), Ms), \c
           print(Ms)', Out).
 test(an_option_of_a_host_loads_its_code, Out == "guarded") :-
