@@ -84,5 +84,4 @@ may_name_program(Spec) :-
 
 program_traced(Spec, Ports) :-
     may_name_program(Spec),
-    on_demand_load(spied, program),
-    typhon_spying:trace_program(Spec, Ports).
+    on_demand_call(spied, program, typhon_spying:trace_program(Spec, Ports)).
