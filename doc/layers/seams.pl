@@ -29,6 +29,7 @@ option_words(identity, [owner, owners, signed, signature, signatures,
 option_words(trail,    [trail, trails, chain]).
 option_words(guard,    [guard, guarded, guards]).
 option_words(quotas,   [quota, quotas]).
+option_words(cell,     [gatekeeper, walled]).
 option_words(access,   [access_rules, audit, permits]).
 option_words(virtual,  [virtual]).
 option_words(watch,    [watch, watches, watched, watching]).

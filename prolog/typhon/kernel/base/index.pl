@@ -30,6 +30,7 @@ part_joins(environment,'TYPHON_TLS','options/tls').
 part_joins(fault,stands,'tools/source_view').
 part_joins(host_option,audit,'options/access').
 part_joins(host_option,authors,'options/identity').
+part_joins(host_option,cell,'options/cell').
 part_joins(host_option,clock,'options/virtual').
 part_joins(host_option,journal,'options/journal').
 part_joins(host_option,peer,'options/access').
@@ -84,6 +85,7 @@ part_file(network,'network/plan').
 part_file(network,'network/topology').
 part_file(network,'network/wiring').
 part_file('options/access','options/access/access_rules').
+part_file('options/cell','options/cell/gatekeeper').
 part_file('options/guard','options/guard/sandbox').
 part_file('options/identity','options/identity/authors').
 part_file('options/identity','options/identity/birth').
@@ -132,6 +134,7 @@ part_setting(ball_cells,typhon_guard_arguments,positive_integer,10000,'Now typho
 part_setting(ball_cells,typhon_guard_calls,positive_integer,10000,'What untrusted agents throw has at most so many parts','options/guard/guard_calls').
 part_setting(births,typhon_birth,positive_integer,20000,'Of so many agents that were here the owners are remembered','options/identity/birth').
 part_setting(browsers,typhon_page_browsers,positive_integer,32,'So many browsers may look at a page at a time','tools/page/browsers').
+part_setting(cells,typhon_cells,positive_integer,16,'Processes for agents of untrusted owners, at most','options/cell/cells').
 part_setting(certificates,typhon_base_key_files,positive_integer,256,'Now typhon_key_files:certificates','options/keys/key_files').
 part_setting(certificates,typhon_key_files,positive_integer,256,'Certificates of which it is remembered whose they are','options/keys/key_files').
 part_setting(channel_seconds,typhon_channel,number,300,'Posts for a process that has left, and keeps no journal as far as is known, are kept so long','options/journal/channel').
@@ -147,11 +150,13 @@ part_setting(frame_seconds,typhon_page_browsers,number,0.05,'A page tells its br
 part_setting(head_bytes,typhon_page_reception,positive_integer,16384,'The head of a request is no longer','tools/page/server').
 part_setting(heartbeat_seconds,typhon_page_browsers,number,5,'A page says so often that it is there, when nothing happens','tools/page/browsers').
 part_setting(hold_seconds,typhon_saving,number,30,'A network that is saved has so long to come to rest','network/saving').
+part_setting(idle,typhon_cells,number,60,'Seconds after which a cell that no agent uses ends','options/cell/cells').
 part_setting(kill_seconds,typhon_processes,number,10,'A process that was killed has so long to be gone','network/processes').
 part_setting(last_seconds,typhon_watches,number,2,'unwatch/1 waits so long for what has happened before','options/watch/watches').
 part_setting(links,typhon_trail,positive_integer,32,'So many links of the trail of an agent are kept','options/trail/trail').
 part_setting(longest,typhon_ros_rosbridge,nonneg,4000000,'Characters of one message from a rosbridge server','bridges/ros/rosbridge').
 part_setting(longest,typhon_ros_socket,nonneg,4000000,'Now typhon_ros_rosbridge:longest','bridges/ros/rosbridge').
+part_setting(memory,typhon_cells,positive_integer,1500000000,'Bytes of address space that a cell may have','options/cell/cells').
 part_setting(met,typhon_fipa_platform,positive_integer,10000,'Agents of other platforms whose addresses are remembered','bridges/fipa/platform').
 part_setting(most,typhon_ros_advertisements,positive_integer,1000,'Topics and services that a host may use, each in its way','bridges/ros/advertisements').
 part_setting(most,typhon_ros_open_requests,positive_integer,1000,'Now typhon_ros_requests:most','bridges/ros/requests').

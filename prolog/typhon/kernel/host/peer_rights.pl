@@ -78,6 +78,8 @@ typhon_handshake:text_only(Proof) :-
 %   | refused(Agent, Reason)   | Host did not admit Agent, see typhon_gate    |
 %   | refused(Right)           | Peer does not have that Right               |
 %   | refused(Id, from(Other)) | Id got no message of Peer's in Other's name |
+%   | cell(Agent, Reason)      | the process that ran Agent was ended, since |
+%   |                          | it did what it must not, or ended itself    |
 %   | order(Agent, Order)      | Peer gave that order to Agent               |
 %   | remote(Goal)             | Peer had Goal run                           |
 

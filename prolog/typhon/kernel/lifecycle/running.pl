@@ -132,6 +132,8 @@ conclude(done, _, Turn, Next) :-
 conclude(failed, Goals0, turn(Id, _, _), stop) :-
     agent_fails(Id, failed, Goals0).
 conclude(held, _, _, stop).
+conclude(lost(Why), _, turn(Id, _, _), stop) :-
+    ignore(agent_end(Id, lost(Why))).
 conclude(over(What), _, turn(Id, _, _), stop) :-
     ends_over(Id, raised(error(resource_error(What), _))).
 conclude(raised(Error), Goals0, turn(Id, _, _), stop) :-

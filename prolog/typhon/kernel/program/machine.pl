@@ -13,6 +13,8 @@
 :- use_module(chunks, [chunks_ready/1]).
 :- use_module(control, [special/2]).
 :- multifile
+    elsewhere/3,                % Context, Goals, Outcome: another process has
+                                % run them
     checked/3.                  % Context, Goal, Called: it may be called
 :- use_module(faults, [fails/2, fails_inside/2]).
 
@@ -52,7 +54,9 @@ machine.  Two threads must not run the same agent.
 %   @arg Outcome is one of `done`, `failed`, raised(Error) or
 %        effect(Control, Hole, Goals), where Control is the control
 %        predicate reached and Goals what is left to run.  Goals contains
-%        the variable Hole where Control stood.
+%        the variable Hole where Control stood.  Where an option runs the
+%        agent elsewhere, Outcome is also `held`, when that comes later, or
+%        lost(Why).
 
 %
 %   What was the matter if it failed or raised is noted, see typhon_faults,
@@ -82,6 +86,10 @@ raised(Ball, Outcome) :-
     ;   Outcome = raised(Ball)
     ).
 
+first_outcome(Goals, Context, Outcome) :-
+    elsewhere(Context, Goals, Outcome0),
+    !,
+    Outcome = Outcome0.
 first_outcome(Goals, Context, Outcome) :-
     engine(Context, X),
     prolog_current_choice(Base),

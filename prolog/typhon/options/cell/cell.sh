@@ -1,0 +1,50 @@
+#!/bin/bash
+# cell.sh LIBRARY FILTER HOME SWIPL ARG...
+#
+# Run SWIPL with these arguments in a cell, where its standard input and output
+# are all that it shares with others:
+#   LIBRARY  the folder seen read-only as /typhon
+#   FILTER   the compiled seccomp filter that filter.py writes
+#   HOME     the home of SWI-Prolog, seen read-only where it is
+# CELL_UID, CELL_AS, CELL_NPROC, CELL_TMP and CELL_CPU are limits, see below.
+set -eu
+library=$1 filter=$2 home=$3 swipl=$4; shift 4
+# Limits of the number of threads do not hold for root, so a process of root
+# gives each cell a user of its own.
+as=(); uid=${CELL_UID:-65534}
+if [ "$(id -u)" = 0 ]; then
+    as=(setpriv "--reuid=$uid" "--regid=$uid" --clear-groups)
+fi
+# Of the system there is what the loader needs: no shell, no Python.
+mounts=(--symlink usr/lib /lib --symlink usr/bin /bin
+        --ro-bind /usr/bin/prlimit /usr/bin/prlimit)
+for path in /usr/lib/*-linux-gnu* /usr/lib64 /etc/ld.so.cache /etc/swi-prolog \
+            "$home" "$swipl"; do
+    if [ -e "$path" ]; then mounts+=(--ro-bind "$path" "$path"); fi
+done
+if [ -e /lib64 ]; then mounts+=(--symlink usr/lib64 /lib64); fi
+# --unshare-user: --unshare-all alone goes on silently without that.
+# --as-pid-1: else process 1 is a bwrap without the limits below, and the cell
+# can write to its memory. Signals from inside do not end process 1.
+# --args: arguments of process 1 can be read inside.
+exec 8< <(printf '%s\0' --unshare-all --unshare-user --disable-userns \
+    --die-with-parent --new-session --as-pid-1 --hostname cell \
+    --uid 1000 --gid 1000 --cap-drop ALL --clearenv \
+    --setenv PATH /usr/bin --setenv HOME /tmp --setenv LANG C.UTF-8 \
+    "${mounts[@]}" --proc /proc --dev /dev --remount-ro /dev \
+    --size "${CELL_TMP:-16777216}" --tmpfs /tmp \
+    --ro-bind "$library" /typhon --remount-ro / \
+    --chdir /tmp --seccomp 9) 9<"$filter"
+# bwrap closes no descriptors, and SWI-Prolog 9.0.4 lets processes inherit
+# listening sockets. bash keeps one at 63.
+for path in /proc/self/fd/*; do
+    case ${path##*/} in
+    0|1|2|8|9) ;;
+    *) eval "exec ${path##*/}>&-" 2>/dev/null || true ;;
+    esac
+done
+exec "${as[@]}" bwrap --args 8 -- \
+    prlimit --as="${CELL_AS:-1500000000}" --nproc="${CELL_NPROC:-64}" \
+        --nofile=64 --fsize=16777216 --core=0 --msgqueue=0 --memlock=0 \
+        --rttime=0 --cpu="${CELL_CPU:-unlimited}" --nice=0 --sigpending=64 \
+    "$swipl" "$@"

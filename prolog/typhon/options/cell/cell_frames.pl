@@ -1,0 +1,201 @@
+:- module(typhon_cell_frames,
+          [ cell_frame_write/2,         % +Out, +Term
+            cell_frame_read/2,          % +In, -Term
+            cell_word/2,                % ?Kind, ?PI
+            cell_state/2,               % +State0, -State
+            state_mark/2,               % +Module, -Mark
+            state_changes/3,            % +Module, +Mark, -Changes
+            state_predicate/2           % +Module, -Head
+          ]).
+:- use_module(library(lists), [max_list/2]).
+:- use_module(library(apply), [exclude/3]).
+:- use_module(library(error), [resource_error/1, syntax_error/1]).
+:- use_module('../../kernel/base/text', [term_text/2, text_term/2]).
+:- use_module('../../kernel/program', [clause_parts/3]).
+
+/** <module> What a gatekeeper and a cell say to each other
+
+Each frame is a length, four bytes, the most significant first, and the
+canonical text of one term.  There is no other codec: a record with one wrong
+byte can end the process that decodes it.
+
+The gatekeeper sends
+
+    host(Rules, PIs)            bind the cell to a host: `guarded`, or the text
+                                of its rules; and what its place offers
+    turn(N, Id, Hash, Program, State, Known, Forget, Goals)
+                                run Goals of the agent Id.  Program is as of
+                                code_receive/2 or `known`, State as of
+                                agent_state/2 or `same`; Known are facts that
+                                do not change in a turn; Forget are agents
+                                that have left
+    answer(N, Answer)           to a request: solutions(Goals), raised(Error),
+                                or changed(State, Answer)
+
+and the cell sends
+
+    ready                       once
+    request(N, Goal)            a word of the agent, in the turn N
+    changing(N, Goal, Changes)  the same for words that change the state; the
+                                agent has made these Changes before
+    lacks(N)                    the program or the state of the turn N
+    outcome(N, Outcome, Note, Changes)
+                                the turn N is over, see machine_run/3
+
+Changes are PI-Clauses, the clauses that a predicate of the state has now.
+
+*Threading*: no state.
+*/
+
+%   No state of an agent is larger, see the quota `state`.
+
+most_bytes(33 554 432).
+
+%!  cell_frame_write(+Out, +Term) is det.
+%
+%   @error resource_error(cell_frame) Term is too large
+
+cell_frame_write(Out, Term) :-
+    term_text(Term, Bytes),
+    string_length(Bytes, Length),
+    most_bytes(Most),
+    (   Length =< Most
+    ->  true
+    ;   resource_error(cell_frame)
+    ),
+    L3 is Length>>24, L2 is (Length>>16) /\ 255,
+    L1 is (Length>>8) /\ 255, L0 is Length /\ 255,
+    string_codes(Head, [L3,L2,L1,L0]),
+    write(Out, Head),
+    write(Out, Bytes),
+    flush_output(Out).
+
+%!  cell_frame_read(+In, -Term) is det.
+%
+%   Term is `end_of_file` where In ends.
+%
+%   @error syntax_error(Message) it is no text of a term, or the frame is too
+%   large: nothing of it was read then
+
+cell_frame_read(In, Term) :-
+    read_string(In, 4, Head),
+    (   string_codes(Head, [L3,L2,L1,L0])
+    ->  Length is L3<<24 \/ L2<<16 \/ L1<<8 \/ L0,
+        frame_body(In, Length, Bytes),
+        text_term(Bytes, Term)
+    ;   Term = end_of_file
+    ).
+
+frame_body(In, Length, Bytes) :-
+    most_bytes(Most),
+    (   Length > Most
+    ->  syntax_error(frame_too_large)
+    ;   read_string(In, Length, Bytes),
+        string_length(Bytes, Length)
+    ->  true
+    ;   syntax_error(truncated_frame)
+    ).
+
+                /*******************************
+                *            WORDS             *
+                *******************************/
+
+%!  cell_word(?Kind, ?PI) is nondet.
+%
+%   What an agent in a cell asks the gatekeeper: Kind is `fixed` if the answer is
+%   the same for a whole turn, and goes into the cell with it; `acts`; or
+%   `changes` if that changes the state of the agent.
+
+cell_word(fixed, self/1).
+cell_word(fixed, here/1).
+cell_word(fixed, home/1).
+cell_word(fixed, parent/1).
+cell_word(fixed, hops/1).
+cell_word(acts, now/1).
+cell_word(acts, neighbours/1).
+cell_word(acts, neighbour/2).
+cell_word(acts, host_load/1).
+cell_word(acts, next_host/2).
+cell_word(acts, send/2).
+cell_word(acts, leave/1).
+cell_word(acts, leave_new/1).
+cell_word(acts, sense/1).
+cell_word(acts, take/1).
+cell_word(acts, emit/1).
+cell_word(acts, emit/2).
+cell_word(acts, withdraw/1).
+cell_word(acts, pheromone/3).
+cell_word(acts, log/1).
+cell_word(acts, result/1).
+cell_word(acts, enter/1).
+cell_word(acts, seal/3).
+cell_word(acts, unseal/2).
+cell_word(acts, message_failed/2).
+cell_word(changes, attach/1).
+cell_word(changes, detach/1).
+
+                /*******************************
+                *            STATE             *
+                *******************************/
+
+%   What the platform has among the state of an agent, names with `$`, stays
+%   with the gatekeeper.
+
+%!  cell_state(+State0, -State) is det.
+%
+%   State is what of State0 goes into a cell.
+
+cell_state(state(Empty0, Clauses0), state(Empty, Clauses)) :-
+    exclude(reserved_indicator, Empty0, Empty),
+    exclude(reserved_clause, Clauses0, Clauses).
+
+reserved_indicator(Name/_) :-
+    reserved(Name).
+
+reserved_clause(Clause) :-
+    clause_parts(Clause, Head, _),
+    functor(Head, Name, _),
+    reserved(Name).
+
+reserved(Name) :-
+    sub_atom(Name, 0, _, _, $).
+
+%!  state_predicate(+Module, -Head) is nondet.
+
+state_predicate(Module, Head) :-
+    '$c_current_predicate'(_, Module:Head),
+    '$get_predicate_attribute'(Module:Head, (dynamic), 1),
+    \+ '$get_predicate_attribute'(Module:Head, imported, _),
+    functor(Head, Name, _),
+    \+ reserved(Name).
+
+%!  state_mark(+Module, -Mark) is det.
+%!  state_changes(+Module, +Mark, -Changes:list) is det.
+%
+%   The state has another Mark when it has changed, in these predicates.
+
+state_mark(Module, Latest/Count) :-
+    findall(Last, ( state_predicate(Module, Head), modified(Module, Head, Last) ),
+            Lasts),
+    length(Lasts, Count),
+    max_list([0|Lasts], Latest).
+
+modified(Module, Head, Last) :-
+    (   '$get_predicate_attribute'(Module:Head, last_modified_generation, Last0)
+    ->  Last = Last0
+    ;   Last = 0                        % has never had a clause
+    ).
+
+state_changes(Module, Since/_, Changes) :-
+    findall(PI-Clauses, changed(Module, Since, PI, Clauses), Changes).
+
+changed(Module, Since, Name/Arity, Clauses) :-
+    state_predicate(Module, Head),
+    modified(Module, Head, Last),
+    Last > Since,
+    functor(Head, Name, Arity),
+    findall(Clause, state_clause(Module, Head, Clause), Clauses).
+
+state_clause(Module, Head, Clause) :-
+    clause(Module:Head, Body),
+    ( Body == true -> Clause = Head ; Clause = (Head:-Body) ).

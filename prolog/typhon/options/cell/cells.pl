@@ -1,0 +1,526 @@
+:- module(typhon_cells,
+          [ cells_begin/1,              % +Host
+            cells_end/1,                % +Host
+            cell_take/3,                % +Key, +Agent, -Cell
+            cell_wait/3,                % +Key, +Host, +Agent
+            cell_give/1,                % +Cell
+            cell_left/1,                % +Agent
+            cell_end/2,                 % +Cell, -Reason
+            cell_break/1,               % +Cell
+            cell_streams/3,             % +Cell, -In, -Out
+            cell_knows/3,               % +Cell, ?What, ?Value
+            cell_learns/3,              % +Cell, +What, +Value
+            cell_forgets/2,             % +Cell, +What
+            cells_list/1                % -Cells
+          ]).
+:- use_module(library(filesex),
+              [delete_directory_and_contents/1, directory_file_path/3]).
+:- use_module(library(lists), [member/2]).
+:- autoload(library(process), [process_kill/2, process_wait/2]).
+:- use_module(library(readutil), [read_stream_to_codes/2]).
+:- use_module(library(settings), [setting/2, setting/4]).
+:- use_module('../../kernel/base/server',
+              [ server_answer/2, server_call/4, server_cast/2, server_start/4,
+                server_stop/1 ]).
+:- use_module('../../kernel/base/spawn', [spawn/3]).
+:- use_module('../../kernel/host', [schedule/2]).
+:- use_module(cell_frames, [cell_frame_read/2]).
+
+/** <module> The processes of cells
+
+A cell is a process that the system walls in: no network, no files but those of
+SWI-Prolog and of this library, read-only, and a small /tmp, no other process,
+no capabilities, few system calls, and limits of memory, threads and files; see
+cell.sh and filter.py.  All that it shares with this process is a pipe each way.
+
+A cell that has served agents of one key, an atom, serves no other: `spare`
+ones, which have served none, are started ahead.  One agent at a time has its
+turn in a cell; others of the key wait, ready but not scheduled.
+
+The system kills a cell when the thread ends that has started it.  So a server
+starts them all.
+
+*Threading*: any thread; a mutex protects the tables.  Who has taken a cell
+alone uses its streams, and gives it back or ends it.
+*/
+
+:- setting(cells, positive_integer, 16,
+           "Processes for agents of untrusted owners, at most").
+:- setting(idle, number, 60,
+           "Seconds after which a cell that no agent uses ends").
+:- setting(memory, positive_integer, 1 500 000 000,
+           "Bytes of address space that a cell may have").
+
+:- multifile
+    prolog:error_message//1,
+    prolog:message//1.
+
+:- dynamic
+    server/1,                   % Server
+    filter/2,                   % Directory, File: the seccomp filter
+    user/1,                     % Host: has agents in cells
+    process/5,                  % Cell, Pid, In, Out, Err
+    spare/1,                    % Cell
+    bound/2,                    % Cell, Key
+    idle/2,                     % Cell, Since
+    waits/4,                    % Key, Number, Host, Agent
+    woken/2,                    % Agent, Key: is scheduled for an idle cell
+    knows/3.                    % Cell, What, Value
+
+                /*******************************
+                *             HOSTS            *
+                *******************************/
+
+%!  cells_begin(+Host) is det.
+%!  cells_end(+Host) is det.
+%
+%   Host has agents in cells from now on; no longer.
+%
+%   @error cell_unavailable(Cause): no cell can be started here
+
+cells_begin(Host) :-
+    with_mutex(typhon_cells_users, begin(Host)).
+
+begin(Host) :-
+    assertz(user(Host)),
+    catch(( server_running(Server),
+            server_call(Server, begin, 60, _) ), Ball,
+          ( end(Host), throw(Ball) )).
+
+cells_end(Host) :-
+    with_mutex(typhon_cells_users, end(Host)).
+
+end(Host) :-
+    retractall(user(Host)),
+    (   user(_)
+    ->  ( server(Server) -> server_cast(Server, ended_host(Host)) ; true )
+    ;   retract(server(Server))
+    ->  server_stop(Server)
+    ;   true
+    ).
+
+server_running(Server) :-
+    (   server(Server)
+    ->  true
+    ;   server_start(cells, typhon_cells:serves, none, Server),
+        assertz(server(Server))
+    ).
+
+                /*******************************
+                *             TURNS            *
+                *******************************/
+
+%!  cell_take(+Key, +Agent, -Cell) is semidet.
+%!  cell_wait(+Key, +Host, +Agent) is det.
+%!  cell_left(+Agent) is det.
+%!  cell_give(+Cell) is det.
+%
+%   Agent has Cell, one of Key that no agent uses; Agent, which is ready, is
+%   scheduled when there is one; Agent is not here any more; Cell is free again.
+
+cell_take(Key, Agent, Cell) :-
+    with_mutex(typhon_cells, take(Key, Agent, Cell)).
+
+take(Key, Agent, Cell) :-
+    retractall(woken(Agent, _)),
+    bound(Cell, Key),
+    retract(idle(Cell, _)),
+    !.
+
+cell_wait(Key, Host, Agent) :-
+    with_mutex(typhon_cells, wait(Key, Host, Agent, Next)),
+    go_on(Next).
+
+wait(Key, Host, Agent, Next) :-
+    flag(typhon_cell_waits, N, N+1),
+    assertz(waits(Key, N, Host, Agent)),
+    next_of(Key, Next).
+
+%   An agent that was scheduled and does not come makes room for the next.
+
+cell_left(Agent) :-
+    (   ( waits(_, _, _, Agent) ; woken(Agent, _) )
+    ->  with_mutex(typhon_cells, left(Agent, Next)),
+        go_on(Next)
+    ;   true
+    ).
+
+left(Agent, Next) :-
+    forall(waits(Key, N, _, Agent), retractall(waits(Key, N, _, _))),
+    (   woken(Agent, Key)
+    ->  retractall(woken(Agent, _)),
+        next_of(Key, Next)
+    ;   Next = none
+    ).
+
+%   next_of(+Key, -Next): whom to schedule, where a cell is idle.
+
+next_of(Key, Next) :-
+    (   bound(Cell, Key),
+        idle(Cell, _),
+        \+ woken(_, Key)
+    ->  ( first(Key, First) -> Next = First ; Next = none )
+    ;   bound(_, Key)
+    ->  Next = none
+    ;   waits(Key, _, _, _)
+    ->  Next = wanted
+    ;   Next = none
+    ).
+
+first(Key, run(Host, Agent)) :-
+    waits(Key, N, Host, Agent),
+    !,
+    retractall(waits(Key, N, _, _)),
+    assertz(woken(Agent, Key)).
+
+cell_give(Cell) :-
+    with_mutex(typhon_cells, give(Cell, Next)),
+    go_on(Next).
+
+give(Cell, Next) :-
+    bound(Cell, Key),
+    !,
+    get_time(Now),
+    assertz(idle(Cell, Now)),
+    next_of(Key, Next0),
+    (   Next0 == none,
+        unserved(_)
+    ->  Next = wanted
+    ;   Next = Next0
+    ).
+give(_, none).
+
+unserved(Key) :-
+    waits(Key, _, _, _),
+    \+ bound(_, Key),
+    !.
+
+go_on(none).
+go_on(run(Host, Agent)) :-
+    schedule(Host, Agent).
+go_on(wanted) :-
+    (   server(Server),
+        server_cast(Server, wanted)
+    ->  true
+    ;   true                            % the host stops
+    ).
+
+%!  cell_end(+Cell, -Reason) is det.
+%!  cell_break(+Cell) is det.
+%
+%   The caller has Cell, and ends it, or it has ended: Reason is exit(Status) or
+%   killed(Signal). The second does not wait for that.
+
+cell_end(Cell, Reason) :-
+    (   with_mutex(typhon_cells, forgotten(Cell, Process))
+    ->  ended(Process, Reason)
+    ;   Reason = exit(unknown)
+    ),
+    go_on(wanted).
+
+cell_break(Cell) :-
+    (   with_mutex(typhon_cells, forgotten(Cell, Process)),
+        server(Server),
+        server_cast(Server, ended(Process))
+    ->  true
+    ;   true
+    ).
+
+forgotten(Cell, process(Pid, In, Out, Err)) :-
+    retract(process(Cell, Pid, In, Out, Err)),
+    retractall(spare(Cell)),
+    retractall(bound(Cell, _)),
+    retractall(idle(Cell, _)),
+    retractall(knows(Cell, _, _)).
+
+ended(process(Pid, In, Out, Err), Reason) :-
+    catch(process_kill(Pid, kill), error(_, _), true),
+    process_wait(Pid, Reason),
+    forall(member(Stream, [Out, In, Err]), close(Stream, [force(true)])).
+
+%!  cell_streams(+Cell, -In, -Out) is semidet.
+
+cell_streams(Cell, In, Out) :-
+    process(Cell, _, In, Out, _),
+    !.
+
+%!  cell_knows(+Cell, ?What, ?Value) is nondet.
+%!  cell_learns(+Cell, +What, +Value) is det.
+%!  cell_forgets(+Cell, +What) is det.
+%
+%   What the gatekeeper has sent to Cell.  What is an atom.
+
+cell_knows(Cell, What, Value) :-
+    knows(Cell, What, Value).
+
+cell_learns(Cell, What, Value) :-
+    retractall(knows(Cell, What, _)),
+    (   process(Cell, _, _, _, _)
+    ->  assertz(knows(Cell, What, Value))
+    ;   true
+    ).
+
+cell_forgets(Cell, What) :-
+    retractall(knows(Cell, What, _)).
+
+%!  cells_list(-Cells) is det.
+%
+%   Cells are cell(Cell, Pid, Key), Key being `spare` for some.
+
+cells_list(Cells) :-
+    findall(cell(Cell, Pid, Key),
+            ( process(Cell, Pid, _, _, _),
+              ( bound(Cell, Key0) -> Key = Key0 ; Key = spare ) ),
+            Cells).
+
+                /*******************************
+                *            SERVER            *
+                *******************************/
+
+:- public serves/3.
+
+serves(call(begin, Caller), _, Next) :-
+    spare_ready,
+    server_answer(Caller, true),
+    look_later(Next).
+serves(wanted, _, Next) :-
+    catch(provide, error(Formal, _),
+          print_message(error, error(Formal, _))),
+    look_later(Next).
+serves(ended(Process), _, Next) :-
+    ended(Process, _),
+    serves(wanted, none, Next).
+serves(ended_host(Host), _, Next) :-
+    atom_concat(Host, ' ', Prefix),
+    forall(( bound(Cell, Key),
+             once(( Key == Host ; sub_atom(Key, 0, _, _, Prefix) )) ),
+           cell_end_now(Cell)),
+    look_later(Next).
+serves(timeout, _, Next) :-
+    forall(idle_long(Cell), end_idle(Cell)),
+    serves(wanted, none, Next).
+serves(stop, _, _) :-
+    forall(process(Cell, _, _, _, _), cell_end_now(Cell)),
+    retractall(waits(_, _, _, _)),
+    retractall(woken(_, _)),
+    filter_forget.
+
+%   Once a second while agents wait for what is not there.
+
+look_later(until(Stamp, none)) :-
+    get_time(Now),
+    (   unserved(_)
+    ->  Stamp is Now+1
+    ;   bound(_, _)
+    ->  setting(idle, Idle),
+        Stamp is Now+Idle/4
+    ;   Stamp = inf
+    ).
+
+%   provide: each key for whose agents there is no cell gets one, as long as
+%   there is room.
+
+provide :-
+    (   with_mutex(typhon_cells, bind_spare(Next))
+    ->  go_on(Next),
+        provide
+    ;   unserved(_),
+        room
+    ->  spare_start,
+        provide
+    ;   \+ spare(_),
+        count(Count),
+        setting(cells, Most),
+        Count < Most
+    ->  spare_start
+    ;   true
+    ).
+
+bind_spare(Next) :-
+    unserved(Key),
+    retract(spare(Cell)),
+    !,
+    assertz(bound(Cell, Key)),
+    give(Cell, Next).
+
+%   room is semidet: one more process may be started.
+
+room :-
+    count(Count),
+    setting(cells, Most),
+    (   Count < Most
+    ->  true
+    ;   oldest_idle(Cell)
+    ->  end_idle(Cell)
+    ).
+
+count(Count) :-
+    findall(Cell, process(Cell, _, _, _, _), Cells),
+    length(Cells, Count).
+
+%   The one for which an agent is scheduled is not idle for long.
+
+oldest_idle(Cell) :-
+    findall(Since-Cell0,
+            ( idle(Cell0, Since),
+              \+ ( bound(Cell0, Key), woken(_, Key) ) ),
+            Pairs0),
+    keysort(Pairs0, [_-Cell|_]).
+
+idle_long(Cell) :-
+    setting(idle, Idle),
+    get_time(Now),
+    idle(Cell, Since),
+    Now-Since > Idle.
+
+end_idle(Cell) :-
+    (   with_mutex(typhon_cells, ( retract(idle(Cell, _)),
+                                   forgotten(Cell, Process) ))
+    ->  ended(Process, _)
+    ;   true                            % was taken meanwhile
+    ).
+
+cell_end_now(Cell) :-
+    (   with_mutex(typhon_cells, forgotten(Cell, Process))
+    ->  ended(Process, _)
+    ;   true
+    ).
+
+                /*******************************
+                *             START            *
+                *******************************/
+
+spare_ready :-
+    spare(_),
+    !.
+spare_ready :-
+    spare_start.
+
+%   @error cell_unavailable(Cause)
+
+spare_start :-
+    filter_file(Filter),
+    launch(Filter, process(Pid, In, Out, Err)),
+    (   comes_up(In)
+    ->  flag(typhon_cell, Cell, Cell+1),
+        with_mutex(typhon_cells,
+                   ( assertz(process(Cell, Pid, In, Out, Err)),
+                     assertz(spare(Cell)) ))
+    ;   process_kill_quietly(Pid),
+        read_stream_to_codes(Err, Codes),
+        ended(process(Pid, In, Out, Err), _),
+        string_codes(Text, Codes),
+        unavailable(Text)
+    ).
+
+process_kill_quietly(Pid) :-
+    catch(process_kill(Pid, kill), error(_, _), true).
+
+%   A cell has half a minute to load its program.
+
+comes_up(In) :-
+    set_stream(In, timeout(30)),
+    catch(cell_frame_read(In, Frame), error(_, _), fail),
+    Frame == ready,
+    set_stream(In, timeout(infinite)).
+
+unavailable(Text) :-
+    throw(error(cell_unavailable(Text), _)).
+
+launch(Filter, process(Pid, In, Out, Err)) :-
+    source('cell.sh', Script),
+    source('../../..', Library0),
+    absolute_file_name(Library0, Library),
+    current_prolog_flag(home, Home0),
+    real_path(Home0, Home),
+    swipl(Home, Swipl),
+    setting(memory, Memory),
+    flag(typhon_cell_user, User, (User+1) mod 1000),
+    Uid is 2 000 000 + User,
+    program(Goal),
+    spawn(path(bash),
+          [ Script, Library, Filter, Home, Swipl, '-q', '-f', none, '--no-tty',
+            '-g', Goal, '-t', 'halt(1)' ],
+          [ stdin(pipe(Out)), stdout(pipe(In)), stderr(pipe(Err)), process(Pid),
+            environment(['CELL_AS'=Memory, 'CELL_UID'=Uid]) ]),
+    set_stream(In, encoding(octet)),
+    set_stream(Out, encoding(octet)),
+    set_stream(Out, buffer(full)).
+
+program('set_prolog_flag(gc_thread,false),\c
+         use_module(\'/typhon/typhon/options/cell/inside\'),\c
+         typhon_cell_inside:cell_main').
+
+%   This process may be a saved state.
+
+swipl(Home, Swipl) :-
+    current_prolog_flag(arch, Arch),
+    atomic_list_concat([Home, bin, Arch, swipl], /, Swipl),
+    exists_file(Swipl),
+    !.
+swipl(_, Swipl) :-
+    current_prolog_flag(executable, Swipl0),
+    real_path(Swipl0, Swipl).
+
+real_path(Path0, Path) :-
+    (   read_link(Path0, _, Target)
+    ->  Path = Target
+    ;   Path = Path0
+    ).
+
+source(Name, Path) :-
+    module_property(typhon_cells, file(File)),
+    file_directory_name(File, Directory),
+    directory_file_path(Directory, Name, Path).
+
+                /*******************************
+                *            FILTER            *
+                *******************************/
+
+%   The filter is made once, in a directory that the users of cells may enter.
+
+filter_file(File) :-
+    filter(_, File),
+    !.
+filter_file(File) :-
+    must_have(bwrap, 'apt install bubblewrap'),
+    must_have(prlimit, 'apt install util-linux'),
+    tmp_file(typhon_cells, Directory),
+    make_directory(Directory),
+    directory_file_path(Directory, filter, File),
+    source('filter.py', Maker),
+    spawn(path(python3), [Maker, File],
+          [stdout(null), stderr(pipe(Err)), process(Pid)]),
+    read_stream_to_codes(Err, Codes),
+    close(Err),
+    process_wait(Pid, Status),
+    assertz(filter(Directory, File)),
+    (   Status == exit(0)
+    ->  true
+    ;   filter_forget,
+        string_codes(Text, Codes),
+        unavailable(Text)
+    ).
+
+must_have(Command, How) :-
+    (   absolute_file_name(path(Command), _,
+                           [access(execute), file_errors(fail)])
+    ->  true
+    ;   format(string(Text), 'there is no ~w (~w)', [Command, How]),
+        unavailable(Text)
+    ).
+
+filter_forget :-
+    forall(retract(filter(Directory, _)),
+           catch(delete_directory_and_contents(Directory), error(_, _), true)).
+
+                /*******************************
+                *           MESSAGES           *
+                *******************************/
+
+prolog:error_message(cell_unavailable(Cause)) -->
+    [ 'No cell can be started: ~w'-[Cause], nl,
+      'A cell needs bubblewrap (apt install bubblewrap), and that it may make \c
+       user namespaces: allow them (kernel.unprivileged_userns_clone, \c
+       AppArmor, the seccomp profile of a container), or make bwrap setuid; \c
+       with cell(none) agents stay in this process'-[] ].

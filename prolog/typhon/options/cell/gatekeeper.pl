@@ -1,0 +1,487 @@
+:- module(typhon_gatekeeper, []).
+:- use_module(library(apply), [maplist/2]).
+:- use_module(library(error), [permission_error/3, resource_error/1]).
+:- use_module(library(lists), [member/2]).
+:- use_module(library(readutil), [read_file_to_string/3]).
+:- use_module(library(solution_sequences), [limit/2]).
+:- use_module('../../kernel/program',
+              [clause_parts/3, code_sent/2, fault_note/1]).
+:- use_module('../../kernel/wire', [endpoint_address/1, endpoint_own_proof/1]).
+:- use_module('../../kernel/host',
+              [ context_now/2, host/3, host_option/2, parts_call/3,
+                place_service/2, security_event/4 ]).
+:- use_module('../../kernel/agent',
+              [ agent/5, agent_add/2, agent_clauses/3, agent_home/2,
+                agent_origin/5, agent_put/3, agent_state/2, agent_variant/2,
+                in_words/2, life_hops/2, life_parent/2, origin_key/2,
+                with_agent/2 ]).
+:- use_module('../../kernel/lifecycle', [turn_settled/0]).
+:- use_module(cell_frames).
+:- use_module(cells,
+              [ cell_break/1, cell_end/2, cell_forgets/2, cell_give/1,
+                cell_knows/3, cell_learns/3, cell_left/1, cell_streams/3,
+                cell_take/3, cell_wait/3, cells_begin/1, cells_end/1 ]).
+
+/** <module> Hosts whose agents run in cells
+
+With the option cell(Kind) each run of the machine for an agent of the host is a
+turn in a cell: `owner`, in one of the owner of the agent, see typhon_owner, or
+`host`, in one of all agents of the host.  The record of the agent, its mail,
+home, and state stay here, so the rest of the platform does not know of cells.
+What the agent asks of its host in a turn is a request, which is carried out as
+an act of the agent whose turn it is: the cell cannot name another one.  What
+comes back is its outcome, and what has changed in its state.
+
+None of its clauses and goals is ever called here; what comes from a cell is
+checked as it is when an agent arrives.  A cell that says anything else ends,
+and with it the agent, whose outcome is lost(cell(Reason)).
+
+*Threading*: in the worker that has the agent.  It may be interrupted; then the
+cell ends, too.
+*/
+
+:- multifile
+    typhon_host_parts:begins/3,
+    typhon_host_parts:changes/2,
+    typhon_host_parts:check/1,
+    typhon_host_parts:ends/1,
+    typhon_host_parts:part/4,
+    typhon_machine:elsewhere/3,
+    typhon_options:declared/4,
+    prolog:message//1.
+
+:- dynamic
+    walled/2.                   % Host, Kind: `owner` or `host`
+
+                /*******************************
+                *             HOSTS            *
+                *******************************/
+
+typhon_options:declared(host_option, cell(Kind), oneof([none,owner,host]),
+                        Kind).
+
+typhon_host_parts:check(Options) :-
+    (   memberchk(cell(Kind), Options),
+        Kind \== none
+    ->  must_be_guarded(Options),
+        no_inferences(Options),
+        must_be_real_time(Options)
+    ;   true
+    ).
+
+must_be_guarded(Options) :-
+    (   memberchk(policy(Policy), Options),
+        Policy \== trusted
+    ->  true
+    ;   throw(error(existence_error(host_option, policy),
+                    context(_, 'only hosts with policy(guarded), or a file \c
+                                of rules, have cells')))
+    ).
+
+%   They are counted by the thread that runs the machine.
+
+no_inferences(Options) :-
+    (   memberchk(quota(Quotas), Options),
+        memberchk(inferences(N), Quotas)
+    ->  throw(error(permission_error(limit, cell, inferences(N)),
+                    context(_, 'a turn in a cell is limited by the quota \c
+                                seconds')))
+    ;   true
+    ).
+
+%   While an agent waits for a cell no other thread may let time pass.
+
+must_be_real_time(Options) :-
+    (   memberchk(clock(Clock), Options)
+    ->  throw(error(permission_error(start, cell, clock(Clock)),
+                    context(_, 'agents in cells live in real time')))
+    ;   true
+    ).
+
+typhon_host_parts:begins(Host, _, Options) :-
+    (   memberchk(cell(Kind), Options),
+        Kind \== none
+    ->  cells_begin(Host),
+        assertz(walled(Host, Kind))
+    ;   true
+    ).
+
+typhon_host_parts:ends(Host) :-
+    (   retract(walled(Host, _))
+    ->  cells_end(Host)
+    ;   true
+    ).
+
+%   Cells have the rules with which they began.
+
+typhon_host_parts:changes(policy(Policy), Host) :-
+    walled(Host, _),
+    permission_error(change, host_option, policy(Policy)).
+typhon_host_parts:changes(quota(Quotas), Host) :-
+    walled(Host, _),
+    no_inferences([quota(Quotas)]).
+
+typhon_host_parts:part(goes, Host, 10, typhon_gatekeeper:goes) :-
+    walled(Host, _).
+
+:- public goes/3.
+
+goes(Id, _, _) :-
+    forall(( cell_knows(Cell, Id, What), What \== gone ),
+           cell_learns(Cell, Id, gone)),
+    cell_left(Id).
+
+                /*******************************
+                *             TURNS            *
+                *******************************/
+
+%   On such a host no run of the machine happens here, whatever has become of the
+%   agent meanwhile.
+
+typhon_machine:elsewhere(context(_, Module), Goals, Outcome) :-
+    walled(_, _),
+    context_now(Host, Id),
+    walled(Host, Kind),
+    !,
+    (   agent(Id, Host, Module, Hash, Life)
+    ->  run(Kind, agent(Id, Host, Module, Hash, Life), Goals, Outcome)
+    ;   Outcome = held                  % it was ended
+    ).
+
+run(Kind, Agent, Goals, Outcome) :-
+    Agent = agent(Id, Host, Module, Hash, _),
+    key(Kind, Host, agent(Id, Module, Hash), Key),
+    (   cell_take(Key, Id, Cell)
+    ->  run_in(Cell, Agent, Goals, Outcome)
+    ;   with_agent(Id, agent_put(Id, ready, Goals)),
+        turn_settled,
+        cell_wait(Key, Host, Id),
+        Outcome = held
+    ),
+    !.
+run(_, agent(Id, _, _, _, _), _, _) :-
+    throw(error(system_error(no_turn(Id)), _)).
+
+key(host, Host, _, Host).
+key(owner, Host, agent(Id, Module, Hash), Key) :-
+    agent_origin(Host, Id, Hash, module(Module), Origin),
+    origin_key(Origin, Owner),
+    atomic_list_concat([Host, Owner], ' ', Key).
+
+%   Whatever ends this before the outcome ends the cell, which may be in the
+%   middle of a goal.
+
+run_in(Cell, Agent, Goals, Outcome) :-
+    State = state(unfinished),
+    setup_call_cleanup(
+        true,
+        ( in_cell(Cell, Agent, Goals, Result),
+          nb_setarg(1, State, finished) ),
+        left(State, Cell)),
+    finished(Result, Cell, Agent, Outcome).
+
+left(state(finished), _).
+left(state(unfinished), Cell) :-
+    cell_break(Cell).
+
+finished(outcome(Outcome, Note), Cell, _, Outcome) :-
+    cell_give(Cell),
+    fault_note(Note).
+finished(broken(Why), Cell, agent(Id, Host, _, _, _), lost(cell(Reason))) :-
+    cell_end(Cell, Status),
+    ( Why == ended -> Reason = Status ; Reason = Why ),
+    endpoint_address(Own),
+    endpoint_own_proof(Proof),
+    security_event(Host, Own, Proof, cell(Id, Reason)),
+    print_message(warning, typhon(cell_lost(Id, Host, Reason))).
+
+%   in_cell(+Cell, +Agent, +Goals, -Result): Result is outcome(Outcome, Note) or
+%   broken(Why).
+
+in_cell(Cell, Agent, Goals, Result) :-
+    flag(typhon_cell_turn, N, N+1),
+    catch(( cell_bound(Cell, Agent),
+            turn_sent(Cell, N, Agent, Goals, new),
+            turn_heard(Cell, N, Agent, Goals, Result) ),
+          error(Formal, Context),
+          broken(Formal, Context, Result)).
+
+broken(io_error(_, _), _, broken(ended)) :-
+    !.
+broken(cell_violation(What), _, broken(violation(What))) :-
+    !.
+broken(syntax_error(What), _, broken(violation(syntax_error(What)))) :-
+    !.
+broken(resource_error(c_stack), _, broken(violation(too_deep))) :-
+    !.
+broken(Formal, Context, _) :-
+    throw(error(Formal, Context)).
+
+violation(What) :-
+    throw(error(cell_violation(What), _)).
+
+%   The first agent binds the cell to its host; what the place offers later is
+%   sent when it is there.
+
+cell_bound(Cell, agent(_, Host, _, _, _)) :-
+    host(Host, _, Place),
+    findall(PI, place_service(Place, PI), PIs),
+    (   cell_knows(Cell, host, PIs)
+    ->  true
+    ;   rules(Host, Rules),
+        send(Cell, host(Rules, PIs)),
+        cell_learns(Cell, host, PIs)
+    ).
+
+rules(Host, Rules) :-
+    host_option(Host, policy(Policy)),
+    !,
+    (   Policy == guarded
+    ->  Rules = guarded
+    ;   read_file_to_string(Policy, Rules, [encoding(utf8)])
+    ).
+
+send(Cell, Frame) :-
+    cell_streams(Cell, _, Out),
+    cell_frame_write(Out, Frame).
+
+%   turn_sent(+Cell, +N, +Agent, +Goals, +How): How is `again` if the cell has
+%   not got what it was thought to have.
+
+turn_sent(Cell, N, agent(Id, Host, Module, Hash, Life), Goals, How) :-
+    ( How == again -> cell_forgets(Cell, Id), cell_forgets(Cell, Hash) ; true ),
+    program_for(Cell, Hash, Program),
+    state_for(Cell, Id, Module, State),
+    known(Id, Host, Life, Known),
+    findall(Gone, cell_knows(Cell, Gone, gone), Forget),
+    forall(member(Gone, Forget), cell_forgets(Cell, Gone)),
+    send(Cell, turn(N, Id, Hash, Program, State, Known, Forget, Goals)),
+    cell_learns(Cell, Hash, sent).
+
+program_for(Cell, Hash, known) :-
+    cell_knows(Cell, Hash, sent),
+    !.
+program_for(_, Hash, Program) :-
+    code_sent(Hash, Program).
+
+state_for(Cell, Id, Module, same) :-
+    cell_knows(Cell, Id, Module-Mark),
+    state_mark(Module, Mark),
+    !.
+state_for(_, _, Module, State) :-
+    agent_state(Module, State0),
+    cell_state(State0, State).
+
+known(Id, Host, Life, Known) :-
+    host(Host, Address, _),
+    agent_home(Id, Home),
+    life_hops(Life, Hops),
+    life_parent(Life, Parent),
+    ( Parent == none -> Last = [] ; Last = [parent(Parent)] ),
+    Known = [self(Id), here(Address), home(Home), hops(Hops)|Last].
+
+                /*******************************
+                *       WHAT A CELL SAYS       *
+                *******************************/
+
+turn_heard(Cell, N, Agent, Goals, Result) :-
+    cell_streams(Cell, In, _),
+    cell_frame_read(In, Frame),
+    (   is_of_turn(Frame, N),
+        heard(Frame, N, Cell, Agent, Goals, Next)
+    ->  (   Next == more
+        ->  turn_heard(Cell, N, Agent, Goals, Result)
+        ;   Result = Next
+        )
+    ;   violation(frame)
+    ).
+
+is_of_turn(Frame, _) :-
+    Frame == end_of_file,
+    !.
+is_of_turn(Frame, N) :-
+    compound(Frame),
+    arg(1, Frame, N0),
+    N0 == N.
+
+heard(end_of_file, _, _, _, _, broken(ended)).
+heard(request(N, Goal), N, Cell, Agent, _, more) :-
+    agent(Agent, Host, _),
+    answer(Goal, acts, Host, Agent, Answer),
+    send(Cell, answer(N, Answer)).
+heard(changing(N, Goal, Changes), N, Cell, Agent, _, more) :-
+    agent(Agent, Host, Module),
+    changes_made(Changes, Host, Module),
+    answer(Goal, changes, Host, Agent, Answer),
+    agent_state(Module, State0),
+    cell_state(State0, State),
+    send(Cell, answer(N, changed(State, Answer))).
+heard(lacks(N), N, Cell, Agent, Goals, more) :-
+    \+ cell_knows(Cell, again, N),
+    cell_learns(Cell, again, N),
+    turn_sent(Cell, N, Agent, Goals, again).
+heard(outcome(N, Outcome, Note, Changes), N, Cell, Agent, _,
+      outcome(Outcome, Fault)) :-
+    is_outcome(Outcome),
+    note_fault(Note, Outcome, Fault),
+    Agent = agent(Id, Host, Module, _, _),
+    changes_made(Changes, Host, Module),
+    (   Outcome = raised(_)             % it may not have sent its changes
+    ->  cell_forgets(Cell, Id)
+    ;   state_mark(Module, Mark),
+        cell_learns(Cell, Id, Module-Mark)
+    ).
+
+agent(agent(_, Host, Module, _, _), Host, Module).
+
+is_outcome(done).
+is_outcome(failed).
+is_outcome(raised(Error)) :-
+    nonvar(Error),
+    Error \== '$aborted',
+    Error \= unwind(_).
+is_outcome(effect(Control, Hole, Goals)) :-
+    var(Hole),
+    nonvar(Control),
+    is_control(Control),
+    is_list(Goals),
+    maplist(is_goal, Goals).
+
+is_goal(Goal) :-
+    ( var(Goal) ; callable(Goal) ),
+    !.
+
+is_control(move(_)).
+is_control(clone(_)).
+is_control(clone(_, _)).
+is_control(sleep(_)).
+is_control(sleep_until(Until)) :- number(Until).
+is_control(receive(_)).
+is_control(receive(_, _)).
+is_control(receive_until(_, Until, _)) :- number(Until).
+is_control(dispose).
+
+%   The fault as typhon_faults notes it, without references to clauses.
+
+note_fault(note(How, fault(Goal, Goals, natives(Raising, []))), Outcome,
+           How-fault(Goal, Goals, natives(Raising, []))) :-
+    functor(Outcome, How, _),
+    ( Goals == unknown -> true ; is_list(Goals) ),
+    !.
+note_fault(_, _, none).
+
+                /*******************************
+                *            STATE             *
+                *******************************/
+
+%   changes_made(+Changes, +Host, +Module): these clauses take the place of
+%   those that the predicates of the state had.
+
+changes_made(Changes, Host, Module) :-
+    is_list(Changes),
+    maplist(change_made(Host, Module), Changes).
+
+change_made(Host, Module, Change) :-
+    subsumes_term(Name/Arity-_, Change),
+    Change = Name/Arity-Clauses,
+    atom(Name),
+    between(0, 255, Arity),
+    is_list(Clauses),
+    functor(Head, Name, Arity),
+    maplist(is_clause_of(Head), Clauses),
+    catch(allowed(Module, Head, Name/Arity, Clauses, Allowed),
+          error(Formal, _), violation(Formal)),
+    retractall(Module:Head),
+    forall(member(Clause, Allowed),
+           parts_call(adds_clause, Host, [Module, Clause])),
+    agent_add(Allowed, Module).
+
+is_clause_of(Head, Clause) :-
+    nonvar(Clause),
+    clause_parts(Clause, Head1, _),
+    callable(Head1),
+    \+ Head1 \= Head.
+
+allowed(Module, Head, PI, Clauses, Allowed) :-
+    (   state_predicate(Module, Head)
+    ->  true
+    ;   agent_variant(Module, Variant),
+        typhon_variants:declares(Variant, PI),
+        \+ '$c_current_predicate'(_, Module:Head)
+    ->  dynamic(Module:PI)
+    ;   violation(PI)
+    ),
+    agent_clauses(Module, Clauses, Allowed).
+
+                /*******************************
+                *             ACTS             *
+                *******************************/
+
+%   answer(+Goal, +Kind, +Host, +Agent, -Answer): the agent whose turn it is
+%   calls Goal.
+
+most_solutions(10 000).
+
+answer(Goal, Kind, Host, agent(Id, _, _, _, _), Answer) :-
+    callable(Goal),
+    functor(Goal, Name, Arity),
+    (   may_ask(Kind, Host, Name/Arity, Module),
+        arguments_allowed(Goal)
+    ->  catch(solutions(Goal, Module, Answer), error(Formal, Where),
+              raised(error(Formal, Where), Answer))
+    ;   endpoint_address(Own),
+        endpoint_own_proof(Proof),
+        in_words(Goal, Shown),
+        security_event(Host, Own, Proof, refused(Id, policy(Shown))),
+        raised(error(permission_error(call, sandboxed, Goal), _), Answer)
+    ).
+
+raised(Error, raised(Portable)) :-
+    in_words(Error, Portable).
+
+solutions(Goal, Module, solutions(Goals)) :-
+    most_solutions(Most),
+    More is Most+1,
+    findall(Goal, limit(More, Module:Goal), Goals),
+    length(Goals, Count),
+    (   Count =< Most
+    ->  true
+    ;   resource_error(solutions)
+    ).
+
+%   What is in the vocabulary, or offered by the place.
+
+may_ask(Kind, _, PI, typhon_vocabulary) :-
+    cell_word(Kind0, PI),
+    !,
+    ( Kind0 == fixed -> Kind = acts ; Kind = Kind0 ).
+may_ask(acts, Host, PI, Place) :-
+    host(Host, _, Place),
+    place_service(Place, PI),
+    !.
+
+%   The policy has looked at them in the cell; what the cell says does not count.
+
+arguments_allowed(attach(Spec)) :-
+    !,
+    nonvar(Spec),
+    Spec = payloads(Path),
+    ground(Path),
+    is_inside(Path).
+arguments_allowed(_).
+
+is_inside(Path) :-
+    atom(Path),
+    !,
+    \+ sub_atom(Path, _, _, _, '..'),
+    \+ is_absolute_file_name(Path).
+is_inside(A/B) :-
+    is_inside(A),
+    is_inside(B).
+
+                /*******************************
+                *           MESSAGES           *
+                *******************************/
+
+prolog:message(typhon(cell_lost(Id, Host, Reason))) -->
+    [ 'Agent ~w on ~w is lost: its cell ended, ~p'-[Id, Host, Reason] ].

@@ -1,0 +1,238 @@
+:- module(typhon_cell_inside, []).
+:- use_module(library(lists), [member/2]).
+:- use_module('../../kernel/base/on_demand', [on_demand_load/2]).
+:- use_module('../../kernel/program',
+              [ answer_at/3, code_module/2, code_receive/2, fault_noted/1,
+                machine_run/3 ]).
+:- use_module('../../kernel/wire', [mobile_term/1]).
+:- use_module('../../kernel/host',
+              [context_set/3, host/3, host_change/2, host_start/1]).
+:- use_module('../../kernel/agent',
+              [agent_add/2, agent_code/2, agent_module/5, in_words/2]).
+:- use_module('../../kernel/vocabulary', []).
+:- use_module(cell_frames).
+
+/** <module> The program of a cell
+
+It runs turns of agents for the gatekeeper, see typhon_gatekeeper, with a host
+of its own that has the same policy.  What an agent asks of its host is a
+request; all else happens here.
+
+Nothing outside relies on what this process does: an agent that has escaped from
+its rules may do here whatever the system lets the process do.
+
+*Threading*: one thread, and no other can be made.
+*/
+
+:- dynamic
+    stands/2,                   % Id, Module: agents whose state is here
+    offered/1.                  % PI: what the place of the host offers
+
+%   cell_main
+%
+%   Serve the gatekeeper until it closes the connection, and halt.
+
+:- public cell_main/0.
+
+cell_main :-
+    set_prolog_flag(gc_thread, false),
+    set_prolog_flag(threads, false),
+    set_prolog_flag(stack_limit, 268 435 456),
+    set_setting(typhon_code:programs, 10 000),
+    connection(In, Out),
+    twin_start,
+    words_ask,
+    open_null_stream(Null),
+    set_stream(Null, alias(user_error)),
+    cell_frame_write(Out, ready),
+    serve(In, Out).
+
+connection(In, Out) :-
+    stream_property(In, alias(user_input)),
+    stream_property(Out, alias(user_output)),
+    set_stream(In, tty(false)),
+    set_stream(Out, tty(false)),
+    set_stream(In, encoding(octet)),
+    set_stream(Out, encoding(octet)),
+    set_stream(In, newline(posix)),
+    set_stream(Out, newline(posix)),
+    set_stream(Out, buffer(full)),
+    nb_setval(cell_connection, connection(In, Out)),
+    open_null_stream(Null),
+    set_stream(Null, alias(user_output)).
+
+%   Without the option itself: quotas, of which it would load the defaults, are
+%   the business of the gatekeeper.
+
+twin_start :-
+    host_start(cell),
+    on_demand_load(host_option, policy),
+    guarded_by(guarded).
+
+guarded_by(Policy) :-
+    forall(typhon_host_parts:changes(policy(Policy), cell), true),
+    host_change(cell, seed(0)).         % its parts are made anew
+
+serve(In, Out) :-
+    repeat,
+    cell_frame_read(In, Frame),
+    (   Frame == end_of_file
+    ->  halt(0)
+    ;   handle(Frame, Out)
+    ),
+    fail.
+
+handle(host(Rules, PIs), _) :-
+    !,
+    (   Rules == guarded
+    ->  true
+    ;   rules_file('/tmp/policy', Rules),
+        guarded_by('/tmp/policy')
+    ),
+    offer(PIs).
+handle(turn(N, Id, Hash, Program, State, Known, Forget, Goals), Out) :-
+    forall(member(Gone, Forget), forget(Gone)),
+    (   catch(standing(Id, Hash, Program, State, Module), error(Formal, _),
+              cell_frame_write(Out, outcome(N, raised(error(Formal, _)), none,
+                                            [])))
+    ->  ( var(Module) -> true ; turn(N, Id, Known, Goals, Module, Out) )
+    ;   cell_frame_write(Out, lacks(N))
+    ).
+
+rules_file(File, Text) :-
+    setup_call_cleanup(
+        open(File, write, Out, [encoding(utf8)]),
+        write(Out, Text),
+        close(Out)).
+
+                /*******************************
+                *            AGENTS            *
+                *******************************/
+
+%   standing(+Id, +Hash, +Program, +State, -Module) is semidet.
+
+standing(Id, _, known, same, Module) :-
+    !,
+    stands(Id, Module).
+standing(Id, Hash, Program, State, Module) :-
+    State = state(_, _),
+    (   Program == known
+    ->  code_module(Hash, _)
+    ;   code_receive(Hash, Program)
+    ),
+    forget(Id),
+    host(cell, _, Place),
+    agent_module(Id, Place, Hash, State, Module),
+    assertz(stands(Id, Module)).
+
+forget(Id) :-
+    (   retract(stands(Id, Module))
+    ->  '$destroy_module'(Module)
+    ;   true
+    ).
+
+turn(N, Id, Known, Goals, Module, Out) :-
+    b_setval(cell_turn, turn(N, Known, Module)),
+    context_set(cell, Id, Module),
+    agent_code(Module, Program),
+    state_mark(Module, Mark),
+    nb_setval(cell_mark, Mark),
+    run(context(Program, Module), Goals, Outcome, Note),
+    nb_getval(cell_mark, Since),
+    state_changes(Module, Since, Changes),
+    catch(cell_frame_write(Out, outcome(N, Outcome, Note, Changes)),
+          error(resource_error(What), _),
+          cell_frame_write(Out, outcome(N, raised(error(resource_error(What),
+                                                        _)), none, []))).
+
+%   What cannot travel is an error at the control predicate, as elsewhere.
+
+run(Context, Goals0, Outcome, Note) :-
+    machine_run(Context, Goals0, Outcome0),
+    (   Outcome0 = effect(Control, Hole, Goals),
+        catch(( mobile_term(Outcome0), fail ), error(Formal, Where), true)
+    ->  answer_at(Control, throw(error(Formal, Where)), Hole),
+        run(Context, Goals, Outcome, Note)
+    ;   in_words(Outcome0, Outcome),
+        noted(Outcome, Note)
+    ).
+
+noted(Outcome, note(How, Portable)) :-
+    functor(Outcome, How, _),
+    memberchk(How, [failed, raised]),
+    fault_noted(How-fault(Goal, Goals, natives(Raising, _))),
+    !,
+    in_words(fault(Goal, Goals, natives(Raising, [])), Portable).
+noted(_, none).
+
+                /*******************************
+                *            WORDS             *
+                *******************************/
+
+words_ask :-
+    forall(( cell_word(_, Name/Arity),
+             functor(Head, Name, Arity),
+             predicate_property(typhon_vocabulary:Head, imported_from(Module))
+           ),
+           wrap_predicate(Module:Head, cell, _,
+                          typhon_cell_inside:ask(Head))).
+
+%   What the place of the host offers is asked in the same way.
+
+offer(PIs) :-
+    forall(( member(PI, PIs), \+ offered(PI) ), assertz(offered(PI))),
+    host(cell, _, Place),
+    setup_call_cleanup(
+        open('/tmp/services.pl', write, Out, [encoding(utf8)]),
+        forall(offered(PI), portray_service(Out, PI)),
+        close(Out)),
+    load_files(Place:'/tmp/services.pl', [silent(true)]).
+
+portray_service(Out, Name/Arity) :-
+    functor(Head, Name, Arity),
+    numbervars(Head, 0, _),
+    format(Out, ":- service(~q).~n", [Name/Arity]),
+    write_term(Out, (Head :- typhon_cell_inside:ask(Head)),
+               [ quoted(true), ignore_ops(true), numbervars(true),
+                 fullstop(true), nl(true) ]).
+
+:- public ask/1.
+
+ask(Goal) :-
+    b_getval(cell_turn, turn(N, Known, Module)),
+    functor(Goal, Name, Arity),
+    ( cell_word(Kind, Name/Arity) -> true ; Kind = acts ),
+    (   Kind == fixed
+    ->  memberchk(Goal, Known)
+    ;   mobile_term(Goal),
+        asked(Kind, Goal, N, Module, Answer),
+        answered(Answer, Goal)
+    ).
+
+asked(Kind, Goal, N, Module, Answer) :-
+    nb_getval(cell_connection, connection(In, Out)),
+    (   Kind == changes
+    ->  nb_getval(cell_mark, Mark),
+        state_changes(Module, Mark, Changes),
+        cell_frame_write(Out, changing(N, Goal, Changes)),
+        cell_frame_read(In, answer(N, changed(State, Answer))),
+        state_put(Module, State)
+    ;   cell_frame_write(Out, request(N, Goal)),
+        cell_frame_read(In, answer(N, Answer))
+    ).
+
+state_put(Module, state(Empty, Clauses)) :-
+    forall(state_predicate(Module, Head),
+           ( functor(Head, Name, Arity), abolish(Module:Name/Arity) )),
+    forall(member(PI, Empty), dynamic(Module:PI)),
+    agent_add(Clauses, Module),
+    state_mark(Module, Mark),
+    nb_setval(cell_mark, Mark).
+
+answered(solutions(Goals), Goal) :-
+    (   Goals = [Only]
+    ->  Goal = Only
+    ;   member(Goal, Goals)
+    ).
+answered(raised(Error), _) :-
+    throw(Error).

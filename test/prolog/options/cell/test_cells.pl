@@ -1,0 +1,239 @@
+:- module(test_cells, []).
+:- use_module('../../../lib/common').
+:- needs([cells]).
+:- use_module('../../../lib/fixtures').
+:- use_module('../../../lib/peers').
+:- use_module(library(plunit)).
+:- use_module(library(filesex), [directory_file_path/3]).
+:- use_module(library(lists), [member/2, numlist/3]).
+:- use_module(library(process), [process_kill/2]).
+:- use_module(library(typhon)).
+:- use_module(library(typhon/options/cell/cells), [cells_list/1]).
+
+/** <module> Agents in cells
+
+*Threading*: one test at a time.
+*/
+
+%   cell(+Goal): Goal is called while the host c has agents in cells.
+
+:- meta_predicate cell(0).
+
+cell(Goal) :-
+    with_hosts([c-[policy(guarded), cell(owner)]], Goal).
+
+result(Clauses, Result) :-
+    create(Clauses, A, [host(c)]),
+    agent_result(A, Result, 30).
+
+outcome(Clauses, Outcome) :-
+    create(Clauses, A, [host(c)]),
+    agent_join(A, Outcome, 30).
+
+:- begin_tests(cells).
+
+test(an_agent_does_what_agents_do,
+     Result = r(Id, C, C, 0, [C], [f(1),f(2)], 2, f(1), got(Id, clone))) :-
+    cell(( address(c, C),
+           result([ (main :- self(Me), here(H), home(B), hops(N),
+                             neighbours(Ns), leave(f(1)), leave(f(2)),
+                             findall(F, sense(F), Fs), host_load(_),
+                             assertz(s(1)), sleep(0.01), assertz(s(2)),
+                             aggregate_all(count, s(_), Seen),
+                             take(f(X)), clone(Who), talk(Who, M),
+                             result(r(Me, H, B, N, [H|Ns], Fs, Seen, f(X), M))),
+                    (talk(parent(_), got(Me, M)) :- self(Me), receive(_-M)),
+                    (talk(clone(P), _) :- send(P, clone), dispose) ], Result),
+           arg(1, Result, Id) )).
+test(a_parent_is_known, Parent == Id) :-
+    cell(( create([ (main :- clone(Who), tell(Who)),
+                    (tell(parent(C)) :- send(C, who), receive(_-P), result(P)),
+                    (tell(clone(P)) :- receive(_-who), parent(Q), send(P, Q)) ],
+                  Id, [host(c)]),
+           agent_result(Id, Parent, 30) )).
+test(messages_are_handled, Said == [hello(1),hello(2)]) :-
+    cell(( create([ (:- dynamic(said/1)),
+                    (on_message(_, hello(N)) :- assertz(said(hello(N)))),
+                    (on_message(From, tell) :- findall(S, said(S), Ss),
+                                               send(From, Ss)) ],
+                  A, [host(c)]),
+           agent_send(A, hello(1)), agent_send(A, hello(2)),
+           result([ (main :- receive(_-ask(B)), send(B, tell), receive(_-Ss),
+                             result(Ss)) ], A, Said) )).
+test(rules_hold_in_the_cell,
+     Formal == permission_error(call, sandboxed, shell(ls))) :-
+    cell(result([ plan(shell(ls)),
+                  (main :- plan(G), catch(call(G), error(F, _), true),
+                           result(F)) ], Formal)).
+test(rules_refuse_at_the_gate,
+     error(move_refused(_, policy(shell(ls))))) :-
+    cell(create([(main :- shell(ls))], _, [host(c)])).
+test(faults_are_told_where_they_were,
+     Outcome-Place = raised(error(instantiation_error, _))-(foo/1:1)) :-
+    cell(( create([ (main :- foo(X), result(X)),
+                    (foo(X) :- atom_length(_, X)) ], A, [host(c)]),
+           agent_join(A, Outcome, 30),
+           agent_property(A, fault(fault(_, _, Place, _))) )).
+test(a_goal_that_fails, Outcome == failed) :-
+    cell(outcome([(main :- member(x, [y]))], Outcome)).
+test(state_changes_from_outside, Facts == [n(1),n(2)]) :-
+    cell(( create([ (:- dynamic(n/1)), n(1),
+                    (main :- receive(_-go), findall(n(N), n(N), Ns),
+                             result(Ns)) ], A, [host(c)]),
+           wait_state(A, waiting),
+           agent_change(A, facts([n(2)])),
+           agent_send(A, go),
+           agent_result(A, Facts, 30) )).
+test(services_of_the_place_are_offered, Result == [2,4]-no) :-
+    with_tmp_dir(served(Result)).
+test(an_order_from_outside, Outcome == disposed) :-
+    cell(( create([(main :- receive(_))], A, [host(c)]),
+           wait_state(A, waiting),
+           agent_dispose(A),
+           agent_join(A, Outcome, 30) )).
+test(an_agent_that_does_not_stop_is_ended,
+     Outcomes-Beside = [raised(error(resource_error(seconds), _)),disposed]
+                       -done) :-
+    with_hosts([ c-[policy(guarded), cell(owner), quota([seconds(1)])] ],
+               ( create([(main :- repeat, fail)], A, [host(c)]),
+                 agent_join(A, Outcome1, 30),
+                 create([(main :- repeat, fail)], B, [host(c)]),
+                 wait_state(B, running),
+                 agent_dispose(B, [force(0.1)]),
+                 agent_join(B, Outcome2, 30),
+                 outcome([(main :- sleep(0))], Beside),
+                 Outcomes = [Outcome1,Outcome2] )).
+test(many_agents_share_a_cell, Sum-Cells == 5050-1) :-
+    cell(( numlist(1, 100, Ns),
+           findall(A, ( member(N, Ns),
+                        create([ n(N), (main :- n(N), sleep(0.05), result(N)) ],
+                               A, [host(c)]) ), As),
+           findall(R, ( member(A, As), agent_result(A, R, 60) ), Rs),
+           sum_list(Rs, Sum),
+           used_cells(Cells) )).
+
+:- end_tests(cells).
+
+result(Clauses, Ask, Result) :-
+    create(Clauses, A, [host(c)]),
+    agent_send(A, ask(Ask)),
+    agent_result(A, Result, 30).
+
+used_cells(Count) :-
+    cells_list(Cells),
+    findall(Key, ( member(cell(_, _, Key), Cells), Key \== spare ), Keys),
+    length(Keys, Count).
+
+served(Result, Dir) :-
+    directory_file_path(Dir, place, File),
+    setup_call_cleanup(
+        open(File, write, Out),
+        format(Out, ":- service(even/1).~neven(2).~neven(4).~nodd(1).~n", []),
+        close(Out)),
+    with_hosts([ c-[policy(guarded), cell(host), consult(File)] ],
+               result([ (main :- findall(N, even(N), Ns), G = odd(_),
+                                 ( catch(G, error(_, _), fail) -> R = yes
+                                 ; R = no ),
+                                 result(Ns-R)) ], Result)).
+
+                /*******************************
+                *          PROCESSES           *
+                *******************************/
+
+:- begin_tests(cell_processes).
+
+test(hops_in_and_out, Trip == [P,C,P,C]-[done,done]) :-
+    no_leaks(with_peers(
+        [p-[host([policy(guarded), cell(owner)])]],
+        with_hosts([c], ( peer_host(p, P), address(c, C), trip(P, Trip) )))).
+test(owners_do_not_share_a_cell, Keys == 2) :-
+    no_leaks(with_peers(
+        [p-[host([])]],
+        with_hosts([c-[policy(guarded), cell(owner)]],
+                   ( address(c, C),
+                     sleeper(Sleeper),
+                     peer_do(p, agent_create(clauses([(:- agent(s, [])),
+                                                      (main :- move(C), sleep(60))]),
+                                             _)),
+                     create(Sleeper, _, [host(c)]),
+                     wait_until(used_cells(2), 30),
+                     used_cells(Keys) )))).
+test(cells_end_with_their_process, Dead == true) :-
+    no_leaks(with_peers(
+        [p-[host([policy(guarded), cell(owner)])]],
+        ( peer_do(p, typhon_cells:cells_list(Cells)),
+          Cells = [cell(_, Pid, _)|_],
+          peer_crash(p),
+          ( wait_until(is_dead(Pid), 20) -> Dead = true ; Dead = false ) ))).
+test(a_cell_that_dies_takes_what_runs_in_it_and_nothing_else,
+     Lost-Result = lost(cell(killed(9)))-awake) :-
+    cell(( create([(main :- receive(_-go), result(awake))], Rests, [host(c)]),
+           wait_state(Rests, waiting),
+           create([(main :- repeat, fail)], Runs, [host(c)]),
+           wait_state(Runs, running),
+           wait_until(used_cells(1), 30),
+           cells_list(Cells),
+           once(( member(cell(_, Pid, Key), Cells), Key \== spare )),
+           listening(( process_kill(Pid, kill), agent_join(Runs, Lost, 30) ),
+                     Messages),
+           assertion(memberchk(warning-typhon(cell_lost(_, c, _)), Messages)),
+           agent_send(Rests, go),
+           agent_result(Rests, Result, 30) )).
+test(more_owners_than_cells, Count == 1) :-
+    with_settings([typhon_cells:cells=1],
+        no_leaks(with_peers(
+            [p-[host([])]],
+            with_hosts([c-[policy(guarded), cell(owner)]],
+                ( address(c, C),
+                  numlist(1, 5, Ns),
+                  findall(A, ( member(_, Ns), one_of_each(C, A) ), Pairs),
+                  forall(( member(As, Pairs), member(A, As) ),
+                         ( agent_join(A, O, 60), assertion(O == done) )),
+                  used_cells(Count) ))))).
+test(without_bubblewrap_a_host_does_not_start,
+     [Formal,Result] = [cell_unavailable(_), done]) :-
+    getenv('PATH', Path),
+    setup_call_cleanup(
+        setenv('PATH', '/nowhere'),
+        catch(host_start(c, [policy(guarded), cell(owner)]),
+              error(Formal, _), true),
+        setenv('PATH', Path)),
+    cell(outcome([main], Result)).
+test(a_trusted_host_has_no_cells, error(existence_error(host_option, policy))) :-
+    host_start(c, [cell(owner)]).
+test(inferences_are_not_counted_in_cells,
+     error(permission_error(limit, cell, inferences(9)))) :-
+    host_start(c, [policy(guarded), cell(owner), quota([inferences(9)])]).
+test(the_policy_of_cells_does_not_change,
+     error(permission_error(change, host_option, policy(trusted)))) :-
+    cell(host_change(c, policy(trusted))).
+test(virtual_time_has_no_cells,
+     error(permission_error(start, cell, clock(virtual)))) :-
+    host_start(c, [policy(guarded), cell(owner), clock(virtual)]).
+test(none_is_no_cell, Cells == []) :-
+    with_hosts([c-[policy(guarded), cell(none)]],
+               ( outcome([main], done), cells_list(Cells) )).
+
+:- end_tests(cell_processes).
+
+trip(P, Trip-[Outcome1,Outcome2]) :-
+    Clauses = [ (:- dynamic(seen/1)),
+                (main :- receive(_-go(P, C)), visit(P), visit(C), visit(P),
+                         visit(C), findall(H, seen(H), Hs), result(Hs)),
+                (visit(H) :- move(H), here(There), assertz(seen(There))) ],
+    create(Clauses, A, [host(c)]),
+    address(c, C),
+    agent_send(A, go(P, C)),
+    agent_result(A, Trip, 60),
+    agent_join(A, Outcome1, 5),
+    agent_create(clauses([(:- agent(y, [])), (main :- sleep(0), result(1))]), B,
+                 [host(P)]),
+    agent_result(B, 1, 30),
+    agent_join(B, Outcome2, 5).
+
+sleeper([(main :- sleep(60))]).
+
+one_of_each(C, [A,B]) :-
+    create([(main :- sleep(0.01))], A, [host(c)]),
+    peer_do(p, agent_create(clauses([(:- agent(s, [])),
+                                     (main :- move(C), sleep(0.01))]), B)).
