@@ -82,10 +82,14 @@ reusable(Bytes) :-
     ;   Bytes = 0
     ).
 
+%   A Prolog without tcmalloc has no such predicate.
+
 free_pages(Bytes) :-
-    malloc_property('tcmalloc.pageheap_free_bytes'(Bytes)).
-free_pages(Bytes) :-
-    malloc_property('tcmalloc.pageheap_unmapped_bytes'(Bytes)).
+    member(Name, [ 'tcmalloc.pageheap_free_bytes',
+                   'tcmalloc.pageheap_unmapped_bytes' ]),
+    Property =.. [Name, Bytes],
+    Goal = malloc_property(Property),
+    call(Goal).
 
                 /*******************************
                 *           BOUNDED            *
