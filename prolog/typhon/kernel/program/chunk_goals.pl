@@ -2,7 +2,7 @@
           [ place_left/4,               % +Place, +Vars, -Goal, -Goals
             place_marked/3              % +Place, +Vars, -Left
           ]).
-:- use_module(library(apply), [exclude/3, maplist/2]).
+:- use_module(library(apply), [exclude/3, foldl/4, maplist/2]).
 :- use_module(library(lists), [append/3, member/2, memberchk/2, nth0/3]).
 :- use_module(library(occurs), [sub_term/2]).
 :- use_module(bodies, [plain_goals/2]).
@@ -70,8 +70,9 @@ add_place(Module, Place, General, Goals, Plain, List, Rest) :-
         term_variables(General, Known),
         term_variables(Plain, Variables),
         exclude(among(Known), Variables, New),
+        untouched(New, General-Rest, Untouched),
         asserta(Module:( ?=>('$frame'(Head, List, Base0, Frame, Rest0),
-                             ( typhon_chunk_goals:untouched(New, General-Rest),
+                             ( Untouched,
                                !,
                                Base0 = Base,
                                Frame = '$k'(Place, General),
@@ -79,26 +80,27 @@ add_place(Module, Place, General, Goals, Plain, List, Rest) :-
     ;   true
     ).
 
-:- public untouched/2.
+%   untouched(+New, +Others, -Code): a frame does not hold the variables that are
+%   New in its goals.  So Code succeeds if they are unbound, without attributes,
+%   different, and occur nowhere else, as where the agent stopped at its place.
+%   Numbers in their stead show that: term_variables/2 takes twice as long.
 
-%   untouched(+New, +Others) is semidet: a frame does not hold the variables
-%   that are New in its goals.  So they must be unbound, different, and occur
-%   nowhere else, as where the agent stopped at its place.
-
-untouched([], _) :-
+untouched([], _, true) :-
     !.
-untouched(New, Others) :-
-    term_variables(New, Variables),
-    Variables == New,
-    term_variables(Others, Known),
-    (   Known == []
-    ->  true
-    ;   term_variables(Others-New, All),
-        length(New, N),
-        length(Known, K),
-        length(All, Sum),
-        Sum =:= N+K
-    ).
+untouched(New, Others, ( Unbound,
+                         term_attvars(Variables, []),
+                         term_variables(Others, Known),
+                         \+ \+ ( Numbered,
+                                 term_variables(Known, Left),
+                                 Left == Known ) )) :-
+    Variables =.. [new|New],
+    foldl(unbound, New, true, Unbound),
+    foldl(numbered, New, 0-true, _-Numbered).
+
+unbound(Variable, Code, (var(Variable),Code)).
+
+numbered(Variable, N0-Code, N-(Variable=N,Code)) :-
+    N is N0+1.
 
 among(Variables, Variable) :-
     member(Other, Variables),

@@ -2,7 +2,7 @@
 :- use_module(library(plunit)).
 :- use_module('../../../lib/common').
 :- use_module('../../../lib/random_programs').
-:- use_module(library(lists), [member/2]).
+:- use_module(library(lists), [append/3, member/2]).
 :- use_module(library(typhon/kernel/program),
               [ code_clear/0, code_install/3, code_module/2, machine_run/3,
                 plain_goals/2, program_load/5 ]).
@@ -66,7 +66,26 @@ test(an_instance_of_goals_is_no_frame) :-
     Bound = [_ = f(1)|_],
     assertion(\+ framed(Module, Bound)),
     copy_term(Goals, [_|General]),
-    assertion(\+ framed(Module, [_ = _|General])).
+    assertion(\+ framed(Module, [_ = _|General])),
+    copy_term(Goals, Same),
+    Same = [Z = f(Z)|_],
+    assertion(\+ framed(Module, Same)),
+    copy_term(Goals, Attributed),
+    Attributed = [Frozen = _|_],
+    freeze(Frozen, throw(woken)),
+    assertion(\+ framed(Module, Attributed)).
+test(a_frame_holds_no_variable_of_other_goals) :-
+    Clauses = [ (:- agent(shared, [])),
+                (main :- p(_), q),
+                (p(Z) :- move(a), X = f(Z), functor(X, _, _), atom(X)),
+                (q :- move(b)) ],
+    stopped(Clauses, Module, [true|Goals]),
+    Goals = [X = _|_],
+    append(Own, [q], Goals),
+    append(Own, [q(X)], Sharing),
+    Goals = [First|_],
+    assertion(Module:'$frame'(First, Goals, 0, _, [_])),
+    assertion(\+ Module:'$frame'(First, Sharing, 0, _, [_])).
 test(a_program_is_compiled_by_its_first_run) :-
     Clauses = [(:- agent(first, [])), (main :- p), (p :- move(a), t(1)), t(_)],
     stopped(Clauses, Module, Goals),
