@@ -42,13 +42,16 @@ nodes_goals([], []).
 nodes_goals([_-Goal|Nodes], [Goal|Goals]) :-
     nodes_goals(Nodes, Goals).
 
-%   size(+Goal, -Size): so many numbers it takes.
+%   size(+Goal, -Size): so many numbers it takes.  Its parts are not numbered for
+%   that: numbering asks for sizes, and deep clauses would take for ever.
 
 size(Goal, Size) :-
-    node_parts(Goal, 0, Parts),
-    parts_size(Parts, 1, Size).
+    (   nonvar(Goal),
+        parts(Goal, Parts)
+    ->  parts_size(Parts, 1, Size)
+    ;   Size = 1
+    ).
 
-parts_size(none, Size, Size).
 parts_size(both(_-A, _-B), Size0, Size) :-
     sum_sizes([A,B], Size0, Size).
 parts_size(either(_-A, _-B), Size0, Size) :-

@@ -74,7 +74,7 @@ test(an_instance_of_goals_is_no_frame) :-
     Attributed = [Frozen = _|_],
     freeze(Frozen, throw(woken)),
     assertion(\+ framed(Module, Attributed)).
-test(a_frame_holds_no_variable_of_other_goals) :-
+test(a_frame_holds_no_variable_of_other_goals, nondet) :-
     Clauses = [ (:- agent(shared, [])),
                 (main :- p(_), q),
                 (p(Z) :- move(a), X = f(Z), functor(X, _, _), atom(X)),
@@ -86,11 +86,22 @@ test(a_frame_holds_no_variable_of_other_goals) :-
     Goals = [First|_],
     assertion(Module:'$frame'(First, Goals, 0, _, [_])),
     assertion(\+ Module:'$frame'(First, Sharing, 0, _, [_])).
+test(a_deeply_nested_clause_is_compiled_soon,
+     true(Within \== inference_limit_exceeded)) :-
+    nested(40, Nested),
+    Clauses = [(:- agent(deep, [])), (main :- Nested, move(a)), t(_)],
+    call_with_inference_limit(stopped(Clauses, _, _), 1 000 000, Within).
 test(a_program_is_compiled_by_its_first_run) :-
     Clauses = [(:- agent(first, [])), (main :- p), (p :- move(a), t(1)), t(_)],
     stopped(Clauses, Module, Goals),
     assertion(Goals == [true,t(1)]),
     assertion(Module:'$chunks'(_)).
+
+nested(0, t(0)) :-
+    !.
+nested(N, ( (t(N),Nested -> true ; fail) -> t(N) ; t(0) )) :-
+    N1 is N-1,
+    nested(N1, Nested).
 
 %   stopped(+Clauses, -Module, -Goals): what is left at the first stop.
 
