@@ -4,26 +4,30 @@
 
     swipl doc/site.pl -- DIR
 
-makes it in DIR: README.md, the pages of doc/ in the order in which
-doc/contents.md names them, and a reference of all public predicates. The files that pages point to come along. It can be read, and
-searched, without a server. Says which links are broken, and fails if any
-are.
+makes it in DIR by MkDocs: README.md, the pages of doc/ in the order in which
+doc/contents.md names them, a reference of all public predicates, and the
+files that pages point to. It can be read, and searched, without a server.
+Says which links are broken, and fails if any are.
 
 *Threading*: the main thread.
 */
 
-:- use_module(site/documents).          % first, see site/reference.pl
-:- use_module(site/broken).
-:- use_module(site/dom).
-:- use_module(site/layout).
-:- use_module(site/links).
-:- use_module(site/search).
-:- use_module(library(apply), [maplist/2, maplist/3]).
+:- use_module(site/reference).          % first, see there
+:- use_module(site/markdown).
 :- use_module(library(filesex),
-              [copy_file/2, directory_file_path/3, make_directory_path/1]).
-:- use_module(library(lists), [last/2, member/2]).
+              [ copy_file/2, delete_directory_and_contents/1,
+                directory_file_path/3, make_directory_path/1,
+                relative_file_name/3 ]).
+:- use_module(library(lists), [member/2]).
 :- use_module(library(main), [main/0]).
-:- use_module(library(readutil), [read_file_to_terms/3]).
+:- use_module(library(process), [process_create/3, process_wait/2]).
+:- use_module(library(readutil), [read_file_to_string/3]).
+
+:- if(exists_source(library(json))).
+:- use_module(library(json), [json_write_dict/3]).
+:- else.
+:- use_module(library(http/json), [json_write_dict/3]).
+:- endif.
 
 :- initialization(main, main).
 
@@ -39,90 +43,124 @@ main([Dir0]) :-
     absolute_file_name(Dir0, Dir),
     root(Root),
     working_directory(_, Root),
-    documents(Groups),
-    write_site(Dir, Groups),
-    findall(Problem, broken(Dir, Problem), Problems),
-    forall(member(Problem, Problems), report(Problem)),
-    (   Problems == []
-    ->  true
-    ;   halt(1)
-    ).
-
-report(link(File, Link)) :-
-    format(user_error, "~w: ~w leads nowhere~n", [File, Link]).
-report(twice(File, Id)) :-
-    format(user_error, "~w: two are called ~w~n", [File, Id]).
+    tmp_file(typhon_site, Work),
+    setup_call_cleanup(
+        make_directory(Work),
+        ( sources(Work),
+          mkdocs(Work, Dir, Status) ),
+        delete_directory_and_contents(Work)),
+    halt(Status).
 
                 /*******************************
-                *             FILES            *
+                *            SOURCES           *
                 *******************************/
 
-write_site(Dir, Groups0) :-
-    make_directory_path(Dir),
-    public_names(Groups0, Public),
-    findall(Path, along(Groups0, Path), Paths0),
+%   What MkDocs reads: the tree as it is, as far as pages point to it.
+
+sources(Work) :-
+    directory_file_path(Work, docs, Docs),
+    reference(Public, Reference),
+    document(Docs, Public, 'predicates.md', Reference),
+    findall(File, document_file(File), Files),
+    forall(member(File, Files), page(Docs, Public, File)),
+    findall(Path, along(Files, Path), Paths0),
     sort(Paths0, Paths),
-    copy_pictures(Dir, Paths),
-    source_pages(Public, Paths, Sources),
-    maplist(group_pages(Public), Groups0, Groups),
-    findall(Page, ( member(_-Some, Groups), member(Page, Some) ), Pages),
-    version(Version),
-    maplist(write_page(Dir, Groups, Version), Pages),
-    maplist(write_page(Dir, Groups, Version), Sources),
-    search_index(Pages, Index),
-    write_file(Dir, 'sections.js', Index),
-    forall(member(Own, ['doc/site/style.css', 'doc/site/search.js']),
-           copy_file(Own, Dir)).
+    forall(member(Path, Paths), come_along(Docs, Public, Path)),
+    forall(member(Own, ['style.css', 'iframe-worker.js']),
+           ( directory_file_path('doc/site', Own, From),
+             directory_file_path(Docs, Own, To),
+             copy_file(From, To) )),
+    settings(Work, Docs).
 
-%   Who stands in the reference, the last of all.
+document_file(File) :-
+    member(Pattern, ['README.md', 'CHANGELOG.md', 'doc/*.md',
+                     'doc/course/*.md']),
+    expand_file_name(Pattern, Files),
+    member(File, Files).
 
-public_names(Groups, Public) :-
-    last(Groups, _-[document(_, _, Dom)]),
-    findall(PI, ( dom_element(Dom, E), dom_attribute(E, id, PI),
-                  sub_atom(PI, _, _, _, /) ), Public).
+page(Docs, Public, File) :-
+    read_file_to_string(File, Text, [encoding(utf8)]),
+    document(Docs, Public, File, Text).
+
+document(Docs, Public, File, Text) :-
+    site_markdown(File, Public, Text, Markdown),
+    write_file(Docs, File, Markdown).
 
 %   The files that must come along, pictures and sources.
 
-along(Groups, Path) :-
-    member(_-Documents, Groups),
-    member(document(Source, _, Dom), Documents),
-    linked(Source, Dom, Path),
-    \+ site_file(page, Path, _).
+along(Files, Path) :-
+    member(File, Files),
+    read_file_to_string(File, Text, [encoding(utf8)]),
+    link_target(Text, Target),
+    beside(File, Target, Path),
+    exists_file(Path),
+    \+ file_name_extension(_, md, Path).
 
-source_pages(Public, Paths, Pages) :-
-    findall(Document,
-            ( member(Path, Paths),
-              site_file(source, Path, _),
-              source_document(Path, Document) ),
-            Documents),
-    maplist(document_page(Public), Documents, Pages).
+beside(File, Target, Path) :-
+    file_directory_name(File, Dir),
+    directory_file_path(Dir, Target, Relative),
+    absolute_file_name(Relative, Absolute),
+    relative_file_name(Absolute, 'README.md', Path).
 
-group_pages(Public, Heading-Documents, Heading-Pages) :-
-    maplist(document_page(Public), Documents, Pages).
+come_along(Docs, _, Path) :-
+    file_name_extension(_, Extension, Path),
+    memberchk(Extension, [png, svg]),
+    !,
+    directory_file_path(Docs, Path, To),
+    file_directory_name(To, Dir),
+    make_directory_path(Dir),
+    copy_file(Path, To).
+come_along(Docs, Public, Path) :-
+    read_file_to_string(Path, Text, [encoding(utf8)]),
+    source_page(Path, Public, Text, Markdown),
+    file_name_extension(Path, md, Page),
+    write_file(Docs, Page, Markdown).
 
-document_page(Public, document(Path, Title, Dom0), page(File, Title, Dom)) :-
-    site_file(_, Path, File),
-    settle_links(Path, Public, Dom0, Dom).
-
-write_page(Dir, Groups, Version, Page) :-
-    Page = page(File, _, _),
-    page_html(Page, Groups, Version, Html),
-    write_file(Dir, File, Html).
-
-copy_pictures(Dir, Paths) :-
-    directory_file_path(Dir, img, Pictures),
-    make_directory_path(Pictures),
-    forall(( member(Path, Paths), site_file(picture, Path, File) ),
-           ( directory_file_path(Dir, File, To),
-             copy_file(Path, To) )).
-
-write_file(Dir, Name, Text) :-
-    directory_file_path(Dir, Name, File),
+write_file(Docs, Path, Text) :-
+    directory_file_path(Docs, Path, File),
+    file_directory_name(File, Dir),
+    make_directory_path(Dir),
     setup_call_cleanup(
         open(File, write, Out, [encoding(utf8)]),
         write(Out, Text),
         close(Out)).
 
-version(Version) :-
-    read_file_to_terms('pack.pl', Terms, []),
-    memberchk(version(Version), Terms).
+                /*******************************
+                *            MKDOCS            *
+                *******************************/
+
+%   YAML that MkDocs reads before ours; JSON is YAML.
+
+settings(Work, Docs) :-
+    absolute_file_name('doc/site/mkdocs.yml', Ours),
+    findall(Group, group(Group), Groups),
+    directory_file_path(Work, 'mkdocs.yml', File),
+    setup_call_cleanup(
+        open(File, write, Out, [encoding(utf8)]),
+        json_write_dict(Out, _{'INHERIT':Ours, docs_dir:Docs, nav:Groups},
+                        [tab(1000000)]),
+        close(Out)).
+
+%   Headings of doc/contents.md, with the pages below them.
+
+group(_{'Start':['README.md', 'doc/contents.md']}).
+group(Group) :-
+    read_file_to_string('doc/contents.md', Text, [encoding(utf8)]),
+    atomic_list_concat([_|Sections], '\n## ', Text),
+    member(Section, Sections),
+    atomic_list_concat([Heading|_], '\n', Section),
+    findall(Page,
+            ( link_target(Section, Target),
+              beside('doc/contents.md', Target, Page) ),
+            Pages),
+    dict_pairs(Group, _, [Heading-Pages]).
+group(_{'Predicates':['predicates.md']}).
+
+mkdocs(Work, Dir, Status) :-
+    directory_file_path(Work, 'mkdocs.yml', Settings),
+    process_create(path(sh),
+                   [ '-c', 'exec "$("$0" --where)/bin/mkdocs" "$@"',
+                     '.ci/mkdocs-material', build, '--quiet', '--strict', '-f', Settings,
+                     '-d', Dir ],
+                   [process(Pid), environment(['NO_MKDOCS_2_WARNING'=1])]),
+    process_wait(Pid, exit(Status)).

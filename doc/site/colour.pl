@@ -1,5 +1,5 @@
 :- module(site_colour,
-          [ code_dom/3                  % +Kind, +Text, -Dom
+          [ code_html/4                 % +Kind, +Text, +Site, -Html
           ]).
 
 /** <module> Code in colours
@@ -11,17 +11,24 @@ is said in style.css.
 */
 
 :- use_module(library(apply), [maplist/3]).
-:- use_module(library(lists), [append/2, append/3]).
+:- use_module(library(lists), [append/3]).
 :- use_module(library(prolog_colour), [prolog_colourise_stream/3]).
+:- use_module(library(sgml), [xml_quote_cdata/3]).
 
 :- thread_local range/3.                % Start, Length, Class
 
-%!  code_dom(+Kind, +Text:string, -Dom) is det.
+%!  code_html(+Kind, +Text:string, +Site, -Html:string) is det.
 %
-%   Kind is `prolog`, `'prolog-session'` or anything else.
+%   Kind is `prolog` or `'prolog-session'`; Site is site(Root, Public), the way
+%   to the root of the site, and the predicates of its reference.
 
-code_dom(prolog, Text, Dom) :-
-    !,
+code_html(Kind, Text, Site, Html) :-
+    painted(Kind, Text, Site, Parts),
+    atomic_list_concat(Parts, Inside),
+    format(string(Html), '<pre class="~w"><code>~w</code></pre>~n',
+           [Kind, Inside]).
+
+painted(prolog, Text, Site, Parts) :-
     setup_call_cleanup(
         open_string(Text, In),
         prolog_colourise_stream(In, site_code, note),
@@ -29,14 +36,11 @@ code_dom(prolog, Text, Dom) :-
     findall(Start-range(Length, Class), retract(range(Start, Length, Class)),
             Ranges0),
     keysort(Ranges0, Ranges),
-    paint(Ranges, 0, Text, Dom).
-code_dom('prolog-session', Text, Dom) :-
-    !,
+    paint(Ranges, 0, Text, Site, Parts).
+painted('prolog-session', Text, _, Parts) :-
     split_string(Text, "\n", "", Lines0),
     append(Lines, [_], Lines0),         % after the last line end
-    maplist(session_line, Lines, Doms),
-    append(Doms, Dom).
-code_dom(_, Text, [Text]).
+    maplist(session_line, Lines, Parts).
 
 note(Colour, Start, Length) :-
     (   class(Colour, Class)
@@ -44,9 +48,10 @@ note(Colour, Start, Length) :-
     ;   true
     ).
 
-class(goal(_, Goal), goal(Name/Arity)) :-
+class(goal(_, Goal), goal(PI)) :-
     callable(Goal),
-    functor(Goal, Name, Arity).
+    functor(Goal, Name, Arity),
+    atomic_list_concat([Name, Arity], /, PI).
 class(comment(_), comment).
 class(var, var).
 class(singleton, var).
@@ -56,33 +61,42 @@ class(head(_, _), head).
 class(int, number).
 class(float, number).
 
-%   paint(+Ranges, +At, +Text, -Dom): ranges do not overlap, but for a
+%   paint(+Ranges, +At, +Text, +Site, -Parts): ranges do not overlap, but for a
 %   comment that is seen twice.
 
-paint([], At, Text, [Rest]) :-
-    sub_string(Text, At, _, 0, Rest).
-paint([Start-range(Length, Class)|Ranges], At, Text, Dom) :-
+paint([], At, Text, _, [Rest]) :-
+    sub_string(Text, At, _, 0, Rest0),
+    quoted(Rest0, Rest).
+paint([Start-range(Length, Class)|Ranges], At, Text, Site, Parts) :-
     (   Start < At
-    ->  paint(Ranges, At, Text, Dom)
+    ->  paint(Ranges, At, Text, Site, Parts)
     ;   Before is Start-At,
-        sub_string(Text, At, Before, _, Plain),
-        sub_string(Text, Start, Length, _, Painted),
+        sub_string(Text, At, Before, _, Plain0),
+        sub_string(Text, Start, Length, _, Range0),
+        quoted(Plain0, Plain),
+        quoted(Range0, Range),
+        coloured(Class, Range, Site, Painted),
+        Parts = [Plain, Painted|More],
         End is Start+Length,
-        painted(Class, Painted, Node),
-        Dom = [Plain, Node|More],
-        paint(Ranges, End, Text, More)
+        paint(Ranges, End, Text, Site, More)
     ).
 
-%   Names of goals are left to links.pl, which knows what is public.
-
-painted(goal(Name/Arity), Text, element(code, [name=PI], [Text])) :-
+coloured(goal(PI), Text, site(Root, Public), Html) :-
     !,
-    atomic_list_concat([Name, Arity], /, PI).
-painted(Class, Text, element(span, [class=Class], [Text])).
+    (   memberchk(PI, Public)
+    ->  format(string(Html), '<a href="~wpredicates.html#~w">~w</a>',
+               [Root, PI, Text])
+    ;   Html = Text
+    ).
+coloured(Class, Text, _, Html) :-
+    format(string(Html), '<span class="~w">~w</span>', [Class, Text]).
 
-session_line(Line, [element(b, [], [Line]), "\n"]) :-
-    sub_string(Line, 0, _, _, "?- "),
-    !.
-session_line("", ["\n"]) :-
-    !.
-session_line(Line, [element(span, [class=answer], [Line]), "\n"]).
+session_line(Line0, Html) :-
+    quoted(Line0, Line),
+    (   sub_string(Line0, 0, _, _, "?- ")
+    ->  format(string(Html), '<b>~w</b>~n', [Line])
+    ;   format(string(Html), '<span class="answer">~w</span>~n', [Line])
+    ).
+
+quoted(Text, Quoted) :-
+    xml_quote_cdata(Text, Quoted, utf8).

@@ -1,74 +1,163 @@
 :- module(site_markdown,
-          [ markdown_dom/2,             % +File, -Dom
-            slug/2                      % +Text, -Slug
+          [ site_markdown/4,            % +Path, +Public, +Text, -Markdown
+            source_page/4,              % +Path, +Public, +Text, -Markdown
+            link_target/2               % +Text, -Target
           ]).
 
-/** <module> Markdown, read as GitHub reads it
+/** <module> Markdown with programs in colours, and links to predicates
 
-By cmark-gfm, GitHub's own reader. It leaves to others what to call the
-headings; here they are called as GitHub does.
+MkDocs does the rest. Paths are relative to the root of the tree; Public are
+the predicates of the reference, atoms as `move/1`.
 
 *Threading*: any thread.
 */
 
-:- use_module(library(apply), [foldl/6]).
+:- use_module(library(dcg/basics), [eos//0, string//1, string_without//2]).
 :- use_module(library(lists), [member/2]).
-:- use_module(library(process), [process_create/3, process_wait/2]).
-:- use_module(dom, [dom_text/2, html_dom/2]).
+:- use_module(colour, [code_html/4]).
 
-%!  markdown_dom(+File, -Dom) is det.
+%!  site_markdown(+Path, +Public, +Text:string, -Markdown:string) is det.
 %
-%   Dom is the text of File, its headings with ids.
+%   The document at Path with programs in colours, links from predicates named
+%   as code to the reference, and from files to their pages.
+
+site_markdown(Path, Public, Text, Markdown) :-
+    root(Path, Root),
+    string_codes(Text, Codes),
+    phrase(lines(site(Root, Public), Parts), Codes),
+    joined(Parts, Markdown).
+
+%!  source_page(+Path, +Public, +Text:string, -Markdown:string) is det.
 %
-%   @error what process_create/3 throws where there is no cmark-gfm
+%   The page of a file that is no document.
 
-markdown_dom(File, Dom) :-
-    setup_call_cleanup(
-        process_create(path('cmark-gfm'),
-                       ['-e', table, '-e', autolink, file(File)],
-                       [stdout(pipe(Out, [encoding(utf8)])), process(Pid)]),
-        read_string(Out, _, Html),
-        close(Out)),
-    process_wait(Pid, exit(0)),
-    html_dom(Html, Dom0),
-    foldl(name_heading, Dom0, Dom, [], _).
+source_page(Path, Public, Text, Markdown) :-
+    root(Path, Root),
+    file_name_extension(_, Extension, Path),
+    code(Extension, Text, site(Root, Public), Code),
+    joined(['---\nsearch: {exclude: true}\n---\n# ', Path, '\n\n', Code],
+           Markdown).
 
-name_heading(element(Name, [], Text), element(Name, [id=Id], Text),
-             Used, [Slug|Used]) :-
-    heading(Name),
+code(pl, Text, Site, Html) :-
     !,
-    dom_text(Text, String),
-    slug(String, Slug),
-    findall(x, member(Slug, Used), Before),
-    length(Before, N),
-    numbered(N, Slug, Id).
-name_heading(Node, Node, Used, Used).
+    code_html(prolog, Text, Site, Html).
+code(Extension, Text, _, Fenced) :-
+    joined(['````', Extension, '\n', Text, '````\n'], Fenced).
 
-heading(h1).
-heading(h2).
-heading(h3).
-heading(h4).
-
-numbered(0, Slug, Slug) :-
-    !.
-numbered(N, Slug, Id) :-
-    atomic_list_concat([Slug, N], -, Id).
-
-%!  slug(+Text, -Slug:atom) is det.
+%!  link_target(+Text, -Target:atom) is nondet.
 %
-%   By what name GitHub knows a heading: in lower case, blanks as hyphens,
-%   without punctuation.
+%   Text has a link to Target.
 
-slug(Text, Slug) :-
-    string_lower(Text, Lower),
-    string_chars(Lower, Chars0),
-    findall(Char, ( member(Char0, Chars0), slug_char(Char0, Char) ), Chars),
-    atom_chars(Slug, Chars).
+link_target(Text, Target) :-
+    atomic_list_concat([_|Pieces], '](', Text),
+    member(Piece, Pieces),
+    once(sub_atom(Piece, Length, _, _, ')')),
+    sub_atom(Piece, 0, Length, _, Target).
 
-slug_char(' ', -) :-
+%   From the folder of Path to the root, as '../'.
+
+root(Path, Root) :-
+    atomic_list_concat([_|Folders], /, Path),
+    findall('../', member(_, Folders), Ups),
+    atomic_list_concat(Ups, Root).
+
+joined(Parts, Text) :-
+    atomic_list_concat(Parts, Atom),
+    atom_string(Atom, Text).
+
+                /*******************************
+                *            TEXT              *
+                *******************************/
+
+%   Headings stay as they are: they are in tables of contents, too.
+
+lines(Site, [Part|Parts]) -->
+    fenced(Site, Part),
+    !,
+    lines(Site, Parts).
+lines(Site, [Start, Line, '\n'|Parts]) -->
+    verbatim(Start), text("\n", Line), "\n",
+    !,
+    lines(Site, Parts).
+lines(Site, Parts) -->
+    line(Site, Parts).
+
+verbatim(#) --> "#".
+verbatim('    ') --> "    ".
+
+fenced(Site, Part) -->
+    "```", text("\n", Kind), "\n", string(Codes), "\n```\n",
+    !,
+    { string_codes(Code, Codes),
+      string_concat(Code, "\n", Text),
+      (   memberchk(Kind, ["prolog", "prolog-session"])
+      ->  atom_string(Name, Kind),
+          code_html(Name, Text, Site, Part)
+      ;   joined(['```', Kind, '\n', Text, '```\n'], Part)
+      ) }.
+
+line(_, []) -->
+    eos,
     !.
-slug_char(Char, Char) :-
-    (   char_type(Char, csym)
-    ;   Char == (-)
+line(Site, ['\n'|Parts]) -->
+    "\n",
+    !,
+    lines(Site, Parts).
+line(Site, [Part|Parts]) -->
+    part(Site, Part),
+    !,
+    line(Site, Parts).
+line(Site, [Char|Parts]) -->
+    [Code],
+    { char_code(Char, Code) },
+    line(Site, Parts).
+
+part(_, Link) -->
+    "[", text("[]", Text), "](", text(")", Target0), ")",
+    { page(Target0, Target),
+      joined(['[', Text, '](', Target, ')'], Link) }.
+part(site(Root, Public), Part) -->
+    "`", text("`", Code), "`",
+    {   predicate_named(Code, PI),
+        memberchk(PI, Public)
+    ->  joined(['[`', Code, '`](', Root, 'predicates.md#', PI, ')'], Part)
+    ;   joined(['`', Code, '`'], Part)
+    }.
+
+%   text(+End:string, -Text:string): up to one of the characters of End.
+
+text(End, Text) -->
+    { string_codes(End, Stop) },
+    string_without(Stop, Codes),
+    { string_codes(Text, Codes) }.
+
+%   A file that is not of MkDocs has a page, see source_page/4.
+
+page(Target, Target) :-
+    (   sub_atom(Target, _, _, _, :)
+    ;   sub_atom(Target, _, _, _, #)
+    ;   file_name_extension(_, Extension, Target),
+        memberchk(Extension, [md, png, svg])
     ),
     !.
+page(Target, Page) :-
+    string_concat(Target, ".md", Page).
+
+%   As in `move/1` and `move(+Host)`.
+
+predicate_named(Text, PI) :-
+    catch(term_string(Term, Text), error(_, _), fail),
+    nonvar(Term),
+    (   Term = Name/Arity
+    ->  atom(Name),
+        integer(Arity)
+    ;   compound(Term),
+        compound_name_arity(Term, Name, Arity),
+        forall(arg(_, Term, Arg), moded(Arg))
+    ),
+    atomic_list_concat([Name, Arity], /, PI).
+
+moded(Arg) :-
+    compound(Arg),
+    compound_name_arguments(Arg, Mode, [_]),
+    memberchk(Mode, [+, -, ?, :]).

@@ -1,5 +1,5 @@
 :- module(site_reference,
-          [ reference_dom/1             % -Dom
+          [ reference/2                 % -Public, -Markdown
           ]).
 
 /** <module> The reference: what PlDoc knows of the public predicates
@@ -13,15 +13,13 @@ so this module is loaded before any other that loads library(typhon).
 
 :- use_module(library(apply), [maplist/3]).
 :- use_module(library(http/html_write), [print_html/1]).
-:- use_module(library(lists), [append/2, member/2]).
+:- use_module(library(lists), [append/2, append/3, member/2]).
 :- use_module(library(pairs), [group_pairs_by_key/2, pairs_values/2]).
 :- use_module(library(pldoc)).
 :- use_module(library(pldoc/doc_html), []).
 :- use_module(library(pldoc/doc_process), [doc_comment/4]).
-:- use_module(library(uri), [uri_components/2, uri_query_components/2]).
-:- use_module(dom,
-              [dom_attribute/3, dom_edit/3, dom_element/2, html_dom/2]).
-:- use_module(markdown, [slug/2]).
+:- use_module(library(sgml), [load_html/3]).
+:- use_module(library(sgml_write), [html_write/3]).
 
 :- doc_collect(true).
 :- use_module('../../prolog/typhon', []).
@@ -59,7 +57,8 @@ task(agents, "Carry and deliver payloads",
      [ typhon_words:[attach/1, detach/1, deliver/1, undeliver/1] ]).
 task(agents, "Call agents by pheromones",
      [ typhon_words:[emit/1, emit/2, withdraw/1, pheromone/3] ]).
-task(library, "Start, change and stop hosts", [typhon_hosting, typhon_changing]).
+task(library, "Start, change and stop hosts",
+     [typhon_hosting, typhon_changing]).
 task(library, "Link hosts, and ask them",
      [typhon_host_questions, typhon_remote]).
 task(library, "Start networks, and read their logs", [typhon_network]).
@@ -69,8 +68,8 @@ task(library, "Write to agents, and order them about",
      [typhon_sending, typhon_order_client]).
 task(library, "Wait for agents, and end them", [typhon_join, typhon_disposal]).
 task(library, "Look into agents",
-     [ typhon_environment, typhon_properties, typhon_source_view, typhon_tracing,
-       typhon_stepping, typhon_trails ]).
+     [ typhon_environment, typhon_properties, typhon_source_view, typhon_trace,
+       typhon_trails ]).
 task(library, "Watch a network", [typhon_watching, typhon_page]).
 task(library, "Save and restore agents", [typhon_restore]).
 task(library, "Use Python, MQTT, ROS and FIPA", [typhon_starting]).
@@ -139,63 +138,84 @@ entry(Place-CommentPIs, entry(Place, Comment, PIs)) :-
     CommentPIs = [Comment-_|_],
     pairs_values(CommentPIs, PIs).
 
-%   What PlDoc shows of a comment, and whereto it refers.
+%   What PlDoc shows of a comment; it makes links for its own server.
 
-entry_dom(Entry, Dom) :-
-    Entry = entry(Place, Comment, [PI|_]),
-    PI = Module:_,
-    phrase(pldoc_html:objects([doc(PI, Place, Comment)],
+entry_html(entry(Place, Comment, [Module:PI|_]), Html) :-
+    phrase(pldoc_html:objects([doc(Module:PI, Place, Comment)],
                               [navtree(false), module(Module)]), Tokens),
-    tokens_dom(Tokens, Dom).
+    with_output_to(string(Html0), print_html(Tokens)),
+    html_dom(Html0, Dom0),
+    edited(Dom0, Dom),
+    with_output_to(string(Html), html_write(current_output, Dom,
+                                            [header(false), layout(false)])).
 
-tokens_dom(Tokens, Dom) :-
-    with_output_to(string(Html), print_html(Tokens)),
-    html_dom(Html, Dom).
+:- multifile prolog:doc_object_href/2.
 
-pldoc_link(Element, PI) :-
-    dom_attribute(Element, href, Link),
-    sub_atom(Link, 0, _, _, '/pldoc/doc_for?'),
-    uri_components(Link, uri_components(_, _, _, Query, _)),
-    uri_query_components(Query, [object=Object]),
-    term_to_atom(PI, Object),
-    PI = _:_/_.
-
-%   As it stands on our page. PlDoc makes links for its own server.
-
-settle(Known, element(a, As, Dom), Nodes) :-
-    pldoc_link(element(a, As, Dom), _:Name/Arity),
+prolog:doc_object_href(_:Name/Arity, Link) :-
+    public(_, _:Name/Arity),
     !,
-    atomic_list_concat([Name, Arity], /, Id),
-    (   memberchk(Id, Known)
-    ->  atom_concat(#, Id, Link),
-        Nodes = [element(a, [href=Link], [element(code, [], Dom)])]
-    ;   Nodes = [element(code, [], Dom)]
+    format(atom(Link), '#~w/~w', [Name, Arity]).
+
+html_dom(Html, Dom) :-
+    setup_call_cleanup(
+        open_string(Html, In),
+        load_html(stream(In), Dom, [syntax_errors(quiet), max_errors(-1)]),
+        close(In)).
+
+%   Predicates become headings: those the search finds.
+
+edited(Dom0, Dom) :-
+    maplist(edit, Dom0, Doms),
+    append(Doms, Dom).
+
+edit(element(Name, As, Dom0), Nodes) :-
+    !,
+    edited(Dom0, Dom),
+    (   settled(Name, As, Dom, Nodes)
+    ->  true
+    ;   Nodes = [element(Name, As, Dom)]
     ).
-settle(_, element(a, As, Dom), [element(a, [href=Link], Dom)]) :-
+edit(Text, [Text]).
+
+settled(html, _, Dom, Dom).
+settled(head, _, _, []).
+settled(body, _, Dom, Dom).
+settled(span, ['style'='float:right'|_], _, []).
+settled(span, [class=anot|_], _, []).
+settled(dl, [], Dom, Dom).
+settled(dd, [class=defbody], Dom, [element(div, [class=entry], Dom)]).
+settled(dt, _, [element(b, [name=PI], Head)|Det],
+        [element(h4, [id=PI], [element(code, [], Head)|Det])]).
+settled(a, As, Dom, [element(b, [name=PI], Dom)]) :-
+    memberchk(name=PI, As).
+settled(a, As, Dom, [element(a, [href=Link], Dom)]) :-
     memberchk(href=Manual, As),
-    sub_atom(Manual, 0, _, _, '/pldoc/'),
+    sub_atom(Manual, 0, _, _, '/pldoc/man'),
     atom_concat('https://www.swi-prolog.org', Manual, Link).
-settle(_, element(a, As, Dom), [element(a, [id=Id, href=Link], Dom)]) :-
-    memberchk(name=Id, As),
-    atom_concat(#, Id, Link).
-settle(_, element(span, [style='float:right'], _), []).
+settled(a, As, Dom, [element(code, [], Dom)]) :-
+    memberchk(href=Link, As),
+    sub_atom(Link, 0, _, _, '/pldoc/').
 
                 /*******************************
                 *             PAGE             *
                 *******************************/
 
-%!  reference_dom(-Dom) is det.
+%!  reference(-Public, -Markdown:string) is det.
 %
-%   The page of all public predicates. The id of a predicate is its name and
-%   arity; the first entry of two with one name has it.
+%   The page of all public predicates, and their names, atoms as `move/1`, which
+%   are places of it.
 %
 %   @error existence_error(task, PI): a public predicate that no task has
 
-reference_dom([element(h1, [id=predicates], ["All predicates"])|Dom]) :-
+reference(Public, Markdown) :-
     forall(public(Part, PI), has_task(Part, PI)),
-    findall(Node, ( part(Part, Title), part_node(Part, Title, Node) ), Dom0),
-    findall(PI, ( dom_element(Dom0, E), dom_attribute(E, name, PI) ), Known),
-    dom_edit(settle(Known), Dom0, Dom).
+    findall(Name,
+            ( task(Part, _, Modules),
+              of_task(Part, Modules, _:PI),
+              term_to_atom(PI, Name) ),
+            Public),
+    findall(Text, ( part(Part, Title), part_text(Part, Title, Text) ), Texts),
+    atomic_list_concat(['# All predicates\n\n'|Texts], Markdown).
 
 has_task(Part, PI) :-
     task(Part, _, Modules),
@@ -204,8 +224,9 @@ has_task(Part, PI) :-
 has_task(_, PI) :-
     throw(error(existence_error(task, PI), _)).
 
-part_node(Part, Title, element(h2, [id=Part], [Title])).
-part_node(Part, _, Node) :-
+part_text(_, Title, Text) :-
+    format(string(Text), "## ~w~n~n", [Title]).
+part_text(Part, _, Text) :-
     task(Part, Title, Modules),
     findall(Entry,
             ( member(Module, Modules),
@@ -213,19 +234,11 @@ part_node(Part, _, Node) :-
               entries(PIs, Entries),
               member(Entry, Entries) ),
             All),
-    maplist(entry_dom, All, Doms),
-    append(Doms, Dom),
-    findall(Link, name_link(Dom, Link), Links),
-    slug(Title, Slug),
-    atomic_list_concat([Part, Slug], -, Id),
-    member(Node, [ element(h3, [id=Id], [Title]),
-                   element(p, [class=names], Links)
-                 | Dom ]).
-
-name_link(Dom, Node) :-
-    findall(Name, ( dom_element(Dom, E), dom_attribute(E, name, Name) ),
+    maplist(entry_html, All, Entries),
+    findall(Name, ( member(entry(_, _, PIs), All), member(_:PI, PIs),
+                    format(atom(Name), '`~w`', [PI]) ),
             Names0),
     sort(Names0, Names),
-    member(Name, Names),
-    atom_concat(#, Name, Link),
-    member(Node, [element(a, [href=Link], [Name]), " "]).
+    atomic_list_concat(Names, ' ', Overview),
+    atomic_list_concat(Entries, Html),
+    format(string(Text), "### ~w~n~n~w~n~n~w~n~n", [Title, Overview, Html]).

@@ -18,7 +18,6 @@
 :- use_module('../lib/common').
 :- use_module('../lib/transcript', [transcript_differences/4]).
 :- use_module('../../doc/pictures/studies', [study_picture/3]).
-:- use_module('../../doc/site/markdown', [slug/2]).
 :- use_module(library(apply), [maplist/2]).
 :- use_module(library(filesex),
               [ directory_file_path/3, directory_member/3,
@@ -186,6 +185,20 @@ heading(File, Id) :-
     string_concat("#", More, Line),
     split_string(More, "", "# ", [Heading]),
     slug(Heading, Id).
+
+%   How GitHub calls a heading: in lower case, blanks as hyphens, without
+%   punctuation.
+
+slug(Text, Slug) :-
+    string_lower(Text, Lower),
+    string_chars(Lower, Chars0),
+    findall(Char, ( member(Char0, Chars0), slug_char(Char0, Char) ), Chars),
+    atom_chars(Slug, Chars).
+
+slug_char(' ', -).
+slug_char(Char, Char) :-
+    Char \== ' ',
+    once(( char_type(Char, csym) ; Char == (-) )).
 
                 /*******************************
                 *            PLDOC             *

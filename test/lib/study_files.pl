@@ -15,7 +15,9 @@
 :- use_module(common).
 :- use_module('../../experiments/engine/studies', [study_load/2]).
 :- use_module(library(filesex), [directory_file_path/3]).
-:- use_module(library(readutil), [read_file_to_string/3]).
+:- use_module(library(process), [process_create/3]).
+:- use_module(library(readutil),
+              [read_file_to_string/3, read_line_to_string/2]).
 
 :- meta_predicate
     with_study(+, 1),
@@ -94,16 +96,7 @@ messages(Goal, Text, Dir) :-
 
 pandas_python(Python) :-
     missing([pandas], []),
-    pandas_directory(Directory),
+    project_file('.ci/pandas', Script),
+    process_create(Script, ['--where'], [stdout(pipe(Out))]),
+    call_cleanup(read_line_to_string(Out, Directory), close(Out)),
     directory_file_path(Directory, 'bin/python', Python).
-
-pandas_directory(Directory) :-
-    getenv('TYPHON_PANDAS', Directory),
-    !.
-pandas_directory(Directory) :-
-    (   getenv('XDG_CACHE_HOME', Cache)
-    ->  true
-    ;   getenv('HOME', Home),
-        directory_file_path(Home, '.cache', Cache)
-    ),
-    directory_file_path(Cache, 'typhon/pandas', Directory).

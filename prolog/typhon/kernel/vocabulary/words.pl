@@ -142,7 +142,7 @@ host_load(Count) :-
 %   answers to it are printed.
 %
 %   A compound term, as fipa(Name, Addresses), is a recipient beyond a bridge of
-%   this host, see post_abroad/4.
+%   this host.
 
 send(at(Agent, _), Message), \+ compound(Agent) =>
     send(Agent, Message).
