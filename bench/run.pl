@@ -60,6 +60,7 @@ job(fipa, [env], unpinned).
 job(mqtt, [env], unpinned).
 job(strangers, [env], unpinned).
 job(guard, [env], unpinned).
+job(cells, [env], unpinned).
 job(keys, [env], unpinned).
 job(start, [env], unpinned).
 job(hosts, [env], unpinned).

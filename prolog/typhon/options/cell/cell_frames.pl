@@ -47,9 +47,9 @@ Changes are PI-Clauses, the clauses that a predicate of the state has now.
 *Threading*: no state.
 */
 
-%   No state of an agent is larger, see the quota `state`.
+%   No state within the default of the quota `state` is larger.
 
-most_bytes(33 554 432).
+most_bytes(8 388 608).
 
 %!  cell_frame_write(+Out, +Term) is det.
 %

@@ -436,7 +436,7 @@ launch(Filter, process(Pid, In, Out, Err)) :-
     swipl(Home, Swipl),
     setting(memory, Memory),
     flag(typhon_cell_user, User, (User+1) mod 1000),
-    Uid is 2 000 000 + User,
+    Uid is 59 000 + User,
     program(Goal),
     spawn(path(bash),
           [ Script, Library, Filter, Home, Swipl, '-q', '-f', none, '--no-tty',

@@ -148,41 +148,48 @@ typhon_machine:elsewhere(context(_, Module), Goals, Outcome) :-
     ;   Outcome = held                  % it was ended
     ).
 
+%   A worker may be interrupted: what is not finished then ends the cell, which
+%   may be in the middle of a goal.
+
 run(Kind, Agent, Goals, Outcome) :-
     Agent = agent(Id, Host, Module, Hash, _),
     key(Kind, Host, agent(Id, Module, Hash), Key),
-    (   cell_take(Key, Id, Cell)
-    ->  run_in(Cell, Agent, Goals, Outcome)
-    ;   with_agent(Id, agent_put(Id, ready, Goals)),
-        turn_settled,
-        cell_wait(Key, Host, Id),
-        Outcome = held
-    ),
+    State = state(unfinished),
+    setup_call_cleanup(
+        taken(Key, Id, Cell),
+        run_in(Cell, Key, Agent, Goals, State, Outcome),
+        left(State, Cell)),
     !.
 run(_, agent(Id, _, _, _, _), _, _) :-
     throw(error(system_error(no_turn(Id)), _)).
+
+taken(Key, Id, Cell) :-
+    (   cell_take(Key, Id, Cell0)
+    ->  Cell = Cell0
+    ;   Cell = none
+    ).
+
+run_in(none, Key, agent(Id, Host, _, _, _), Goals, _, held) :-
+    !,
+    sig_atomic(( with_agent(Id, agent_put(Id, ready, Goals)),
+                 turn_settled,
+                 cell_wait(Key, Host, Id) )).
+run_in(Cell, _, Agent, Goals, State, Outcome) :-
+    in_cell(Cell, Agent, Goals, Result),
+    sig_atomic(( finished(Result, Cell, Agent, Outcome),
+                 nb_setarg(1, State, finished) )).
+
+left(state(unfinished), Cell) :-
+    integer(Cell),
+    !,
+    cell_break(Cell).
+left(_, _).
 
 key(host, Host, _, Host).
 key(owner, Host, agent(Id, Module, Hash), Key) :-
     agent_origin(Host, Id, Hash, module(Module), Origin),
     origin_key(Origin, Owner),
     atomic_list_concat([Host, Owner], ' ', Key).
-
-%   Whatever ends this before the outcome ends the cell, which may be in the
-%   middle of a goal.
-
-run_in(Cell, Agent, Goals, Outcome) :-
-    State = state(unfinished),
-    setup_call_cleanup(
-        true,
-        ( in_cell(Cell, Agent, Goals, Result),
-          nb_setarg(1, State, finished) ),
-        left(State, Cell)),
-    finished(Result, Cell, Agent, Outcome).
-
-left(state(finished), _).
-left(state(unfinished), Cell) :-
-    cell_break(Cell).
 
 finished(outcome(Outcome, Note), Cell, _, Outcome) :-
     cell_give(Cell),
@@ -348,8 +355,11 @@ is_outcome(effect(Control, Hole, Goals)) :-
     maplist(is_goal, Goals).
 
 is_goal(Goal) :-
-    ( var(Goal) ; callable(Goal) ),
+    var(Goal),
     !.
+is_goal(Goal) :-
+    callable(Goal),
+    Goal \= '$fault'(_).
 
 is_control(move(_)).
 is_control(clone(_)).

@@ -323,6 +323,9 @@ frame('a control that is a variable', outcome(effect(_, H, [H]), none, []),
       violation(frame)).
 frame('a fault made up', outcome(effect('$fault'(x), H, [H]), none, []),
       violation(frame)).
+frame('a fault among its goals',
+      outcome(effect(sleep(0), H, [H,'$fault'(x)]), none, []),
+      violation(frame)).
 frame('a hole that is bound', outcome(effect(sleep(0), halt, []), none, []),
       violation(frame)).
 frame('goals that are no list', outcome(effect(sleep(0), H, [H|x]), none, []),
