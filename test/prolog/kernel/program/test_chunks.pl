@@ -86,6 +86,17 @@ test(a_frame_holds_no_variable_of_other_goals, nondet) :-
     Goals = [First|_],
     assertion(Module:'$frame'(First, Goals, 0, _, [_])),
     assertion(\+ Module:'$frame'(First, Sharing, 0, _, [_])).
+%   SWI-Prolog compiles the first occurrence of a variable wrongly there.
+
+test(a_new_variable_is_tested_in_optimised_code,
+     [ setup(set_prolog_flag(optimise, true)),
+       cleanup(set_prolog_flag(optimise, false)) ]) :-
+    Clauses = [ (:- agent(optimised, [])),
+                (main :- \+ nonvar(X), new(X), ( var(Y) -> new(Y) ; true ),
+                         move(X-Y)),
+                (new(X) :- var(X)) ],
+    stopped(Clauses, _, Goals),
+    assertion(Goals == [true]).
 test(a_deeply_nested_clause_is_compiled_soon,
      true(Within \== inference_limit_exceeded)) :-
     nested(40, Nested),
