@@ -216,8 +216,8 @@ close_queue(Unheard) :-
 
 unheard(Queue, Message) :-
     repeat,
-    (   thread_peek_message(Queue, _)
-    ->  thread_get_message(Queue, Message)
+    (   thread_get_message(Queue, Message, [timeout(0)])
+    ->  true
     ;   !,
         fail
     ).
