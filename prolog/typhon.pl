@@ -58,6 +58,7 @@ a folder, with an interface of the same name beside it:
 :- use_module(typhon/tools/event_text, []).
 :- use_module(typhon/options/tls, []).
 :- use_module(typhon/options/identity, []).
+:- reexport(typhon/options/supervision, [agent_monitor/2]).
 
 :- user_errors(typhon).
 

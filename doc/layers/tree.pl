@@ -284,6 +284,7 @@ layers([ 'kernel/base', 'bridges/helper', 'bridges/nxt', 'kernel/program',
          'options/virtual',
          network,
          'options/watch',
+         'options/supervision',
          tools,
          'bridges/common', 'bridges/python', 'bridges/mqtt', 'bridges/fipa',
          'bridges/ros', 'tools/page' ]).

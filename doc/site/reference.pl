@@ -46,6 +46,8 @@ task(agents, "Move, clone and end",
      [ typhon_words:[move/1, clone/1, clone/2, dispose/0], typhon_memory ]).
 task(agents, "Wait, and exchange messages",
      [ typhon_words:[sleep/1, receive/1, receive/2, send/2] ]).
+task(agents, "Create agents, and learn how they end",
+     [ typhon_words:[create/3], typhon_monitor_words ]).
 task(agents, "Know where it is",
      [ typhon_words:[ self/1, here/1, home/1, parent/1, hops/1, now/1,
                       host_load/1, neighbours/1, neighbour/2 ] ]).
@@ -66,7 +68,8 @@ task(library, "Check programs", [typhon_checks]).
 task(library, "Create agents", [typhon_creation]).
 task(library, "Write to agents, and order them about",
      [typhon_sending, typhon_order_client]).
-task(library, "Wait for agents, and end them", [typhon_join, typhon_disposal]).
+task(library, "Wait for agents, and end them",
+     [typhon_join, typhon_supervision, typhon_disposal]).
 task(library, "Look into agents",
      [ typhon_environment, typhon_properties, typhon_source_view, typhon_trace,
        typhon_trails ]).

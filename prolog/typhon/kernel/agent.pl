@@ -23,7 +23,8 @@ This is the interface of the layer: higher layers import from here.
 :- reexport(agent/variants, [agent_variant/2]).
 :- reexport(agent/identity,
             [ agent_home/2, agent_home_endpoint/2, agent_id/3, agent_name/3,
-              agent_origin/5, origin_inherited/3, origin_key/2, origin_said/2
+              agent_origin/5, origin_inherited/3, origin_key/2,
+              origin_passed/4, origin_said/2
             ]).
 :- reexport(agent/life,
             [ is_life/1, life_before/2, life_clone/3, life_goes/3, life_hop/3,

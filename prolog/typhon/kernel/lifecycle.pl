@@ -6,7 +6,7 @@ They are created, run from one effect to the next, take orders, and end.
 This is the interface of the layer: higher layers import from here.
 */
 
-:- reexport(lifecycle/creation, [agent_create/2, agent_create/3]).
+:- reexport(lifecycle/creation, [agent_create/2, agent_create/3, agent_create_child/4]).
 :- use_module(lifecycle/running, []).
 :- use_module(lifecycle/evacuation, []).
 :- reexport(lifecycle/evacuation).

@@ -63,7 +63,8 @@ goal(Query, Module, Goal) :-
     goal(Argument, Module, Goal).
 
 word(PI) :-
-    member(Module, [typhon_words, typhon_memory, typhon_seals]),
+    member(Module, [ typhon_words, typhon_memory, typhon_monitor_words,
+                      typhon_seals ]),
     module_property(Module, exports(PIs)),
     memberchk(PI, PIs).
 
@@ -150,7 +151,7 @@ predicates_option(payload, PIs, provides(PIs)).
 %   File defines predicates that agents can call.
 
 words_file(File) :-
-    member(Module, [typhon_words, typhon_memory]),
+    member(Module, [typhon_words, typhon_memory, typhon_monitor_words]),
     module_property(Module, file(File)).
 
 %!  directive_coloured(+Directive, -Colours) is semidet.
@@ -296,7 +297,8 @@ part_of_one(Texts, Word) :-
 %   ours(?Module, -PI): PI is public, and defined in Module.
 
 ours(Module, Name/Arity) :-
-    member(Interface, [typhon, typhon_words, typhon_memory]),
+    member(Interface, [ typhon, typhon_words, typhon_memory,
+                        typhon_monitor_words ]),
     module_property(Interface, exports(PIs)),
     member(Name/Arity, PIs),
     functor(Head, Name, Arity),

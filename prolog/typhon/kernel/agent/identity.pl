@@ -6,7 +6,8 @@
             agent_origin/5,             % +Host, +Id, +Hash, +State, -Origin
             origin_key/2,               % +Origin, -Key
             origin_said/2,              % +State, -Origin
-            origin_inherited/3          % +Id, +State0, -State
+            origin_inherited/3,         % +Id, +State0, -State
+            origin_passed/4             % +Parent, +Endpoint, +State0, -State
           ]).
 :- use_module(library(error), [representation_error/1]).
 :- use_module(library(lists), [append/3]).
@@ -170,4 +171,20 @@ origin_inherited(Id, State, State) :-
     !.
 origin_inherited(Id, state(Empty, Clauses),
                  state(Empty, ['$owner'(home(Home))|Clauses])) :-
+    agent_home_endpoint(Id, Home).
+
+%!  origin_passed(+Parent, +Endpoint, +State0, -State) is det.
+%
+%   State is that of an agent which Parent, Id-Module, creates at Endpoint: where
+%   it comes from is where Parent does.
+
+origin_passed(_-Module, _, state(PIs, Clauses),
+              state(PIs, ['$owner'(Origin)|Clauses])) :-
+    origin_said(module(Module), Origin),
+    !.
+origin_passed(Id-_, Endpoint, State, State) :-
+    agent_home_endpoint(Id, Endpoint),
+    !.
+origin_passed(Id-_, _, state(PIs, Clauses),
+              state(PIs, ['$owner'(home(Home))|Clauses])) :-
     agent_home_endpoint(Id, Home).

@@ -21,6 +21,7 @@ part_joins(carries,trace,'options/trace').
 part_joins(check_option,policy,'options/guard').
 part_joins(durable,agent,'options/journal').
 part_joins(durable,birth,'options/identity').
+part_joins(durable,monitor,'options/supervision').
 part_joins(durable,order,'options/snapshot').
 part_joins(durable,out,'options/journal').
 part_joins(durable,program,'options/snapshot').
@@ -57,6 +58,7 @@ part_joins(received,log,network).
 part_joins(requested,close_up,tools).
 part_joins(requested,everywhere,'options/watch').
 part_joins(requested,log,network).
+part_joins(requested,monitor,'options/supervision').
 part_joins(requested,node,network).
 part_joins(requested,survey,tools).
 part_joins(requested,trace,'options/trace').
@@ -106,6 +108,9 @@ part_file('options/quotas','options/quotas/quota_hosts').
 part_file('options/quotas','options/quotas/quota_table').
 part_file('options/quotas','options/quotas/usage').
 part_file('options/snapshot','options/snapshot/process_dump').
+part_file('options/supervision','options/supervision/gone').
+part_file('options/supervision','options/supervision/monitors').
+part_file('options/supervision','options/supervision/watched').
 part_file('options/tls','options/tls/secure').
 part_file('options/trace','options/trace/spying').
 part_file('options/trace','options/trace/stepping').
@@ -127,6 +132,7 @@ part_file('tools/source_view','tools/source_view/listing').
 %
 %   File declares the setting Module:Name.
 
+part_setting(again_seconds,typhon_monitors,number,1,'The home of a monitored agent that does not answer is asked again','options/supervision/monitors').
 part_setting(answer_seconds,typhon_processes,number,2,'A process that is to end and says nothing for so long is killed','network/processes').
 part_setting(atom_chars,typhon_guard_limits,positive_integer,1000,'Atoms that untrusted agents make have at most so many characters','options/guard/guard_limits').
 part_setting(atom_chars,typhon_guard_texts,positive_integer,1000,'Now typhon_guard_limits:atom_chars','options/guard/guard_limits').

@@ -1,6 +1,7 @@
 :- module(typhon_creation,
           [ agent_create/2,             % +Program, -Agent
             agent_create/3,             % +Program, -Agent, +Options
+            agent_create_child/4,       % +Parent, +Program, -Agent, +Options
             agent_begin/4,              % +Options, +Name, +Start, -Agent
             agent_clone_here/3,         % +Id, +Goals, ?CloneId
             clone_id/2                  % +Id, -CloneId
@@ -11,14 +12,15 @@
               [domain_error/2, must_be/2, permission_error/3, type_error/2]).
 :- use_module(library(lists), [append/2, append/3, member/2]).
 :- autoload(library(occurs), [sub_term/2]).
-:- use_module(library(option), [option/2, option/3]).
+:- use_module(library(option), [merge_options/3, option/2, option/3]).
 :- use_module('../base/options', [check_options/2]).
 :- use_module('../base/durable_changes', [sync_changes/0, unit_of_work/1]).
 :- use_module('../program',
-              [ clause_parts/3, code_install/3, code_module/2, code_sent/2,
-                code_stands/2, payload_load/2, program_load/6,
-                program_unknown/3 ]).
-:- use_module('../wire', [endpoint_reply/2, mobile_term/1]).
+              [ clause_parts/3, code_install/3, code_module/2,
+                code_program/2, code_sent/2, code_stands/2, payload_load/2,
+                program_load/6, program_unknown/3 ]).
+:- use_module('../wire',
+              [endpoint_address/1, endpoint_reply/2, mobile_term/1]).
 :- use_module('../host',
               [ amended/5, event/4, host/3, host_address/2, host_resolve/2,
                 host_unknown/1, process_ask/6 ]).
@@ -27,8 +29,8 @@
                 agent_id/3, agent_mail/2, agent_name/3, agent_ready/2,
                 agent_rest/3, agent_standing/5, agent_state/2, gate/4,
                 gate_refused/4, is_life/1, no_result_facts/2, life_clone/3,
-                mail_count/2, make_life/2, origin_inherited/3, payload_marks/2,
-                with_agent/2 ]).
+                mail_count/2, make_life/2, origin_inherited/3, origin_passed/4,
+                payload_marks/2, with_agent/2 ]).
 :- use_module('../travel', [agent_born/2, clone_born/2]).
 :- use_module(change, [undeclared/2]).
 :- use_module(named, [agent_met/1]).
@@ -78,22 +80,55 @@ agent_create(Program, Agent) :-
 agent_create(Spec, Agent, Options) :-
     must_be(var, Agent),
     check_options(agent_option, Options),
-    once(create_by(Options, Spec, Agent)).
+    once(create_by(Options, none, Spec, Agent)).
 
-create_by(Options, Spec, Agent) :-
+%!  agent_create_child(+Parent, +Program, -Agent, +Options) is det.
+%
+%   As agent_create/3, for the agent Parent, which runs here: Program may be
+%   `self`, that of Parent, whose state is then what facts(Clauses) says; the
+%   default host is the one on which Parent stands; Agent has its owner.
+%
+%   @error as agent_create/3
+
+agent_create_child(Parent, Spec, Agent, Options) :-
+    must_be(var, Agent),
+    must_be(nonvar, Spec),
+    check_options(agent_option, Options),
+    agent(Parent, Host, _, _, _),
+    merge_options(Options, [host(Host)], All),
+    once(create_by(All, Parent, Spec, Agent)).
+
+create_by(Options, Parent, Spec, Agent) :-
     target(Options, Target),
-    program_load(Spec, Program, Initial, Hash, Kinds, Places),
+    program_of(Spec, Parent, Program, Initial, Hash),
     Program = program(Name0, Declared, _, Clauses),
     option(name(Name), Options, Name0),
     check_agent_name(Name),
-    birth(Options, Declared, Initial, Clauses, Life, State),
-    mobile_term(State),
+    birth(Options, Declared, Initial, Clauses, Life, State0),
+    mobile_term(State0),
+    from_parent(Parent, Target, State0, State),
     start_goals(Clauses, Initial, Goals),
-    code_install(Hash, Program, Kinds),
-    code_stands(Hash, Places),
     State = state(PIs, _),
     program_unknown(Hash, PIs, may_be_offered(Target, Clauses)),
     create(Target, Name, start(Hash, Life, State, Goals, []), Agent).
+
+program_of(Spec, Parent, Program, [], Hash) :-
+    Spec == self,
+    agent(Parent, _, _, Hash, _),
+    !,
+    code_program(Hash, Program).
+program_of(Spec, _, Program, Initial, Hash) :-
+    program_load(Spec, Program, Initial, Hash, Kinds, Places),
+    code_install(Hash, Program, Kinds),
+    code_stands(Hash, Places).
+
+from_parent(none, _, State, State) :-
+    !.
+from_parent(Parent, Target, State0, State) :-
+    agent(Parent, _, Module, _, _),
+    ( Target = remote(_, _, Endpoint) ; endpoint_address(Endpoint) ),
+    !,
+    origin_passed(Parent-Module, Endpoint, State0, State).
 
 %   may_be_offered(+Target, +Clauses, +Problem) is semidet: a place of this
 %   process defines what the program with these Clauses calls, or others may,

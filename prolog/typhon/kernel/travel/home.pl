@@ -278,7 +278,8 @@ waiters(Id, Askers) :-
 %   Tell Asker the outcome of Id, whose home is here, when it is known;
 %   `timeout` after Seconds and `unknown` if there is no such agent.
 %
-%   @arg Asker is queue(Queue, Tag) or reply(ReplyTo)
+%   @arg Asker is queue(Queue, Tag), reply(ReplyTo) or call(Closure), which is
+%   called in the thread that reports the end, and must be quick
 
 outcome_wait(Id, Seconds, Asker) :-
     with_mutex(typhon_born, wait_or_answer(Id, Seconds, Asker, Answer)),
@@ -319,6 +320,8 @@ tell_asker(queue(Queue, Tag), Outcome) :-
           error(existence_error(_, _), _), true).
 tell_asker(reply(ReplyTo), Outcome) :-
     endpoint_reply(ReplyTo, Outcome).
+tell_asker(call(Closure), Outcome) :-
+    call(Closure, Outcome).
 
 typhon_endpoint:requested(join, join(Id, Seconds), _Peer, ReplyTo) :-
     outcome_wait(Id, Seconds, reply(ReplyTo)).

@@ -21,6 +21,7 @@
             emit/2,                     % +Problem, +Options
             withdraw/1,                 % +Problem
             pheromone/3,                % ?Problem, -Source, -Strength
+            create/3,                   % +Program, -Agent, +Options
             log/1,                      % +What
             result/1,                   % +Term
             enter/1,                    % +Result
@@ -49,6 +50,7 @@
                 agent_handled/3, agent_payload/3, agent_variant/2,
                 result_put/2, life_hops/2, life_parent/2 ]).
 :- use_module('../travel', [agent_logs/3, post/3, post_abroad/4]).
+:- use_module('../lifecycle', [agent_create_child/4]).
 :- use_module(pheromone,
               [pheromone_emit/3, pheromone_here/4, pheromone_withdraw/2]).
 
@@ -304,6 +306,37 @@ withdraw(Problem) :-
 pheromone(Problem, Source, Strength) :-
     context_host(Host),
     pheromone_here(Host, Problem, Source, Strength).
+
+%!  create(+Program, -Agent, +Options) is det.
+%
+%   As agent_create/3; the new agent begins on this host unless host(Host) says
+%   where, and has the owner of this one.  Program may also be `self`, the
+%   program of this agent: its state is then what facts(Clauses) says.  Where
+%   programs are checked Program is `self`, clauses(Terms) or agents(Path), and a
+%   new agent counts as a clone.
+%
+%   @error as agent_create/3
+
+create(Program, Agent, Options) :-
+    context(Host, Id, Module),
+    says(Host, Program-Options),
+    parts_call(acts, Host, [Id, clone]),
+    (   agent_variant(Module, _),
+        \+ may_name(Program)
+    ->  permission_error(call, sandboxed, create(Program, Agent, Options))
+    ;   agent_create_child(Id, Program, Agent, Options)
+    ).
+
+may_name(Program) :-
+    ground(Program),
+    Program = agents(Path),
+    !,
+    format(atom(Below), '~w', [Path]),
+    \+ is_absolute_file_name(Below),
+    \+ sub_atom(Below, _, _, _, '..').
+may_name(Program) :-
+    ( Program == self ; subsumes_term(clauses(_), Program) ),
+    !.
 
 %!  log(+What) is det.
 %

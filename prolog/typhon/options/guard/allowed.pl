@@ -297,7 +297,7 @@ head_of(Head, Head).
 
 word(Head) :-
     module_property(Module, exports(PIs)),
-    memberchk(Module, [typhon_words, typhon_memory]),
+    memberchk(Module, [typhon_words, typhon_memory, typhon_monitor_words]),
     member(Name/Arity, PIs),
     functor(Head, Name, Arity).
 

@@ -41,6 +41,7 @@ kind(birth, any).
 kind(born, any).
 kind(outcome, numbers).
 kind(faulty, any).
+kind(monitor, any).
 kind(left, numbers).
 kind(clone, numbers).
 kind(given_up, any).

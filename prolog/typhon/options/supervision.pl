@@ -1,0 +1,37 @@
+:- module(typhon_supervision,
+          [ agent_monitor/2             % +Agent, :OnDown
+          ]).
+:- autoload('supervision/monitors', [monitor_call/2]).
+:- use_module('supervision/monitor_words',
+              [monitor/1, monitor/2, unmonitor/1]).
+
+/** <module> Supervision: the ends of other agents
+
+An agent, or a process, is told once when another agent ends, wherever both
+are.  This is the interface of the layer; what keeps monitors is loaded when
+one is set, or another process asks for one.
+
+*Threading*: any thread that may wait.
+*/
+
+:- meta_predicate agent_monitor(+, :).
+
+%   Agents find these on every host.
+
+:- typhon_vocabulary:import(typhon_monitor_words:monitor/1).
+:- typhon_vocabulary:import(typhon_monitor_words:monitor/2).
+:- typhon_vocabulary:import(typhon_monitor_words:unmonitor/1).
+
+%!  agent_monitor(+Agent, :OnDown) is det.
+%
+%   Have call(OnDown, Id, Outcome) called once, in a worker, when Agent, whose
+%   id is Id, has ended, is faulty or is lost.  Outcome is as of agent_join/3,
+%   `unknown` of an agent that its home does not know, or lost(Host), the last
+%   address that is known of an agent whose process, or the process of whose
+%   home, is gone.  Does not wait.  This process takes part in the network until
+%   then.
+%
+%   @error existence_error(agent, Agent), ambiguous_agent(Agent, Ids)
+
+agent_monitor(Agent, OnDown) :-
+    monitor_call(Agent, OnDown).

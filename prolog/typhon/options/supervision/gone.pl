@@ -1,0 +1,82 @@
+:- module(typhon_gone_processes,
+          [ process_suspect/1           % +Peer
+          ]).
+:- use_module('../../kernel/wire',
+              [ endpoint_address/1, endpoint_gone/1, endpoint_peer/2,
+                endpoint_reply/2, endpoint_request/4 ]).
+:- use_module('../../kernel/host', [alarm_in/3, scheduler_call/1]).
+
+/** <module> Processes that are gone
+
+A connection that breaks may be made again.  So the process is asked, which makes
+the endpoint try to reach it, and looked at until there is a connection again,
+or it is known to be gone: none listens at its address, it said goodbye, or
+another one has met us there.  One that keeps a journal is not gone.
+
+*Threading*: the hook concerns/0 is called in threads of connections, gone/1 in
+a worker.
+*/
+
+:- multifile
+    concerns/0,                 % it is of interest which processes are gone
+    gone/1,                     % Peer
+    typhon_endpoint:connection/2,
+    typhon_endpoint:requested/4,
+    typhon_scheduler:fire/2.
+
+:- dynamic concerns/0.
+
+first_pause(0.1).
+longest_pause(5).
+
+typhon_endpoint:connection(Peer, down) :-
+    (   concerns,
+        \+ endpoint_address(Peer)
+    ->  process_suspect(Peer)
+    ;   true
+    ).
+typhon_endpoint:connection(_, up).
+
+%!  process_suspect(+Peer) is det.
+%
+%   There is no connection to Peer: find out whether it is gone.
+
+process_suspect(Peer) :-
+    process(Peer, Process),
+    endpoint_request(Peer, monitor, alive, typhon_gone_processes:answered),
+    first_pause(Pause),
+    alarm_in(Pause, Peer, gone(Process, Pause)).
+
+process(Peer, Process) :-
+    (   endpoint_peer(Peer, process(Process0))
+    ->  Process = Process0
+    ;   Process = none
+    ).
+
+typhon_endpoint:requested(monitor, alive, _, ReplyTo) :-
+    endpoint_reply(ReplyTo, yes).
+
+:- public answered/1, concluded/1.
+
+answered(_).
+
+typhon_scheduler:fire(Peer, gone(Process, Pause)) :-
+    !,
+    (   is_gone(Peer, Process)
+    ->  scheduler_call(typhon_gone_processes:concluded(Peer))
+    ;   endpoint_peer(Peer, state(up))
+    ->  true
+    ;   longest_pause(Longest),
+        Next is min(Longest, 2*Pause),
+        alarm_in(Next, Peer, gone(Process, Next))
+    ).
+
+is_gone(Peer, _) :-
+    endpoint_gone(Peer),
+    !.
+is_gone(Peer, Process) :-
+    process(Peer, Now),
+    Now \== Process.
+
+concluded(Peer) :-
+    forall(gone(Peer), true).

@@ -1,0 +1,77 @@
+:- module(typhon_monitor_words,
+          [ monitor/1,                  % +Agent
+            monitor/2,                  % +Agent, +Options
+            unmonitor/1                 % +Agent
+          ]).
+:- use_module(library(error), [existence_error/2, must_be/2]).
+:- use_module(library(option), [option/3]).
+:- use_module('../../kernel/base/options', [check_options/2]).
+:- use_module('../../kernel/wire', [endpoint_address/1]).
+:- use_module('../../kernel/host', [context/3, parts_call/3, process_ask/6]).
+:- use_module('../../kernel/agent', [agent_home_endpoint/2]).
+:- autoload(monitors, [monitor_begin/3, monitor_end/2]).
+
+/** <module> What agents say to monitor others
+
+The home of the agent that monitors keeps its monitors: it knows where the agent
+is, and when it ends.
+
+*Threading*: the thread that runs the agent; waits for the home, if that is
+another process.
+*/
+
+:- multifile typhon_options:declared/4.
+
+typhon_options:declared(monitor_option, shared(Shared),
+                        oneof([true,false,agent]), Shared).
+
+%!  monitor(+Agent) is det.
+%!  monitor(+Agent, +Options) is det.
+%!  unmonitor(+Agent) is det.
+%
+%   This agent gets one message, `system-down(Agent, Outcome)`, when Agent ends,
+%   is faulty or is lost, wherever both are by then; at once if that has
+%   happened.  Outcome is as of agent_monitor/2.  To monitor an agent that is
+%   monitored changes nothing.  After unmonitor/1 no message comes that is not
+%   in the mailbox yet.  Option:
+%
+%     - shared(+Shared): if `true` the two share their fate, as by link/1 of
+%       Erlang: if one of them ends otherwise than `done`, the other is disposed
+%       of.  If `agent` only Agent is, as a child of a supervisor is
+%
+%   @error existence_error(agent, Agent): that is no id
+%   @error domain_error(monitor_option, Option)
+%   @error host_unreachable(Home), connection_lost(Home): the home of this agent
+
+monitor(Agent) :-
+    monitor(Agent, []).
+
+monitor(Agent, Options) :-
+    check_options(monitor_option, Options),
+    option(shared(Shared), Options, false),
+    ask_home(begin(Agent, Shared), Agent).
+
+unmonitor(Agent) :-
+    ask_home(end(Agent), Agent).
+
+ask_home(Request, Agent) :-
+    must_be(atom, Agent),
+    context(Host, Id, _),
+    parts_call(acts, Host, [Id, send(Request)]),
+    (   agent_home_endpoint(Agent, _),
+        agent_home_endpoint(Id, Home)
+    ->  at_home(Home, Id, Request)
+    ;   existence_error(agent, Agent)
+    ).
+
+at_home(Home, Id, Request) :-
+    endpoint_address(Home),
+    !,
+    here(Request, Id).
+at_home(Home, Id, Request) :-
+    process_ask(Home, Home, monitor, by(Id, Request), ok, 10).
+
+here(begin(Agent, Shared), Id) :-
+    monitor_begin(Id, Agent, Shared).
+here(end(Agent), Id) :-
+    monitor_end(Id, Agent).

@@ -1,0 +1,323 @@
+:- module(typhon_monitors,
+          [ monitor_begin/3,            % +Id, +Agent, +Shared
+            monitor_end/2,              % +Id, +Agent
+            monitor_call/2              % +Agent, :OnDown
+          ]).
+:- use_module(library(error), [must_be/2]).
+:- use_module(library(lists), [member/2]).
+:- use_module(library(settings), [setting/2, setting/4]).
+:- use_module('../../kernel/base/durable', [durable/5, durable_assertz/1]).
+:- use_module('../../kernel/base/durable_changes',
+              [durable_drop/3, unit_of_work/1]).
+:- use_module('../../kernel/base/error_text', [print_error/2]).
+:- use_module('../../kernel/wire',
+              [ endpoint_address/1, endpoint_gone/1, endpoint_reply/2,
+                endpoint_request/4 ]).
+:- use_module('../../kernel/host',
+              [ address_parts/3, alarm_in/3, peer_may/3, runtime_acquire/2,
+                runtime_release/1, scheduler_call/1 ]).
+:- use_module('../../kernel/agent', [agent_home/2, agent_home_endpoint/2]).
+:- use_module('../../kernel/travel',
+              [outcome_wait/3, post_on/2, speaks_for/3]).
+:- use_module('../../kernel/lifecycle', [agent_dispose/1, agent_named/2]).
+:- use_module(watched, [watched_add/2]).
+
+/** <module> Monitors, at the home of those that set them
+
+The home of a watcher keeps its monitors, and asks the home of each agent that
+is monitored once, by a request that is answered when the agent is down, see
+typhon_watched.  If this request is lost, the home of the agent is gone, and the
+agent with it, or it keeps a journal and is asked again.  Whatever says that the
+agent is down, the thread that removes the monitor sends the message: so it is
+sent once.  With a journal both are one unit of work.
+
+A watcher is the id of an agent that gets a message; ends(Id), an agent that is
+disposed of if the other ends otherwise than `done`; or call(N), a goal of this
+process.
+
+*Threading*: any thread; nothing waits but monitor_call/2.
+*/
+
+:- multifile
+    typhon_durable:go_on/0,
+    typhon_endpoint:requested/4,
+    typhon_gone_processes:concerns/0,
+    typhon_gone_processes:gone/1,
+    typhon_identity:ids_anew/0,
+    typhon_runtime:ending/1,
+    typhon_scheduler:fire/2.
+
+:- meta_predicate monitor_call(+, :).
+
+:- setting(again_seconds, number, 1,
+           "The home of a monitored agent that does not answer is asked again").
+
+:- dynamic
+    monitor/3,                  % Key, Watcher, Agent
+    asked/2,                    % Agent, Since: its home is asked, `before` if
+                                % it had been asked before; `first`
+    minded/1,                   % Id: its monitors go when it ends
+    goal/2.                     % N, Goal
+
+:- durable(monitor, Key, 0, Watcher-Agent, monitor(Key, Watcher, Agent)).
+
+typhon_identity:ids_anew :-
+    forget.
+
+typhon_runtime:ending(after) :-
+    forget.
+
+forget :-
+    retractall(monitor(_, _, _)),
+    retractall(asked(_, _)),
+    retractall(minded(_)),
+    retractall(goal(_, _)).
+
+                /*******************************
+                *        BEGIN AND END         *
+                *******************************/
+
+%!  monitor_begin(+Id, +Agent, +Shared) is det.
+%!  monitor_end(+Id, +Agent) is det.
+%
+%   Id, the home of which is here, monitors Agent, or does no longer.  Shared is
+%   as of monitor/2.
+
+monitor_begin(Id, Agent, Shared) :-
+    monitor_add(Id, Agent),
+    (   Shared == true
+    ->  monitor_add(ends(Id), Agent)
+    ;   true
+    ),
+    (   Shared == false
+    ->  true
+    ;   shares(Agent, monitor_add(ends(Agent), Id))
+    ).
+
+monitor_end(Id, Agent) :-
+    ignore(monitor_remove(Id, Agent)),
+    ignore(monitor_remove(ends(Id), Agent)),
+    shares(Agent, monitor_remove(ends(Agent), Id)).
+
+%   shares(+Agent, +Change): the other half, at the home of Agent.
+
+shares(Agent, Change) :-
+    agent_home_endpoint(Agent, Home),
+    (   endpoint_address(Home)
+    ->  ignore(Change)
+    ;   endpoint_request(Home, monitor, Change,
+                         typhon_monitors:share_said(Agent, Change))
+    ).
+
+:- public share_said/3.
+
+share_said(_, _, answer(_)) :-
+    !.
+share_said(Agent, Change, _) :-
+    agent_home_endpoint(Agent, Home),
+    (   endpoint_gone(Home)
+    ->  true
+    ;   later(Agent, share(Change))
+    ).
+
+monitor_remove(Watcher, Agent) :-
+    key(Watcher, Agent, Key),
+    retract(monitor(Key, _, _)),
+    !,
+    durable_drop(monitor, Key, 0).
+
+key(Watcher, Agent, Key) :-
+    format(atom(Key), '~w ~w', [Watcher, Agent]).
+
+monitor_add(Watcher, Agent) :-
+    key(Watcher, Agent, Key),
+    with_mutex(typhon_monitors, add(Key, Watcher, Agent, New)),
+    (   New == true
+    ->  mind(Watcher),
+        watch(Agent, first)
+    ;   true
+    ).
+
+add(Key, _, _, false) :-
+    monitor(Key, _, _),
+    !.
+add(Key, Watcher, Agent, true) :-
+    durable_assertz(monitor(Key, Watcher, Agent)).
+
+%   The monitors of an agent end with it.
+
+mind(Id) :-
+    atom(Id),
+    \+ minded(Id),
+    !,
+    assertz(minded(Id)),
+    outcome_wait(Id, inf, call(typhon_monitors:over(Id))).
+mind(_).
+
+:- public over/2.
+
+over(Id, _) :-
+    retractall(minded(Id)),
+    findall(Agent, monitor(_, Id, Agent), Agents),
+    forall(member(Agent, Agents), ignore(monitor_remove(Id, Agent))).
+
+typhon_endpoint:requested(monitor, by(Id, Request), Peer, ReplyTo) :-
+    must_be(atom, Id),
+    speaks_for(Peer, [], Id),
+    for_peer(Request, Id),
+    endpoint_reply(ReplyTo, ok).
+typhon_endpoint:requested(monitor, monitor_add(Ends, Id), Peer, ReplyTo) :-
+    share(Peer, Ends, Id, monitor_add(Ends, Id)),
+    endpoint_reply(ReplyTo, ok).
+typhon_endpoint:requested(monitor, monitor_remove(Ends, Id), Peer, ReplyTo) :-
+    share(Peer, Ends, Id, monitor_remove(Ends, Id)),
+    endpoint_reply(ReplyTo, ok).
+
+share(Peer, ends(Agent), Id, Change) :-
+    must_be(atom, Id),
+    agent_home(Agent, Address),
+    address_parts(Address, Host, _),
+    (   peer_may(Peer, Host, orders)
+    ->  ignore(Change)
+    ;   true
+    ).
+
+for_peer(begin(Agent, Shared), Id) :-
+    agent_home(Agent, _),
+    monitor_begin(Id, Agent, Shared).
+for_peer(end(Agent), Id) :-
+    monitor_end(Id, Agent).
+
+%!  monitor_call(+Agent, :OnDown) is det.
+%
+%   See agent_monitor/2.
+
+monitor_call(Agent, OnDown) :-
+    strip_module(OnDown, _, Plain),
+    must_be(callable, Plain),
+    agent_named(Agent, Id),
+    flag(typhon_monitor, N, N+1),
+    runtime_acquire(monitor(N), []),
+    assertz(goal(N, OnDown)),
+    monitor_add(call(N), Id).
+
+                /*******************************
+                *         HOME IS ASKED        *
+                *******************************/
+
+%   watch(+Agent, +Since): learn when Agent is down, if no request does that.
+
+watch(Agent, Since) :-
+    with_mutex(typhon_monitors, to_ask(Agent, Since)),
+    !,
+    agent_home_endpoint(Agent, Home),
+    (   endpoint_address(Home)
+    ->  watched_add(Agent, call(typhon_monitors:down(Agent)))
+    ;   endpoint_request(Home, monitor, watch(Agent),
+                         typhon_monitors:said(Agent, Home))
+    ).
+watch(_, _).
+
+to_ask(Agent, Since) :-
+    \+ asked(Agent, _),
+    monitor(_, _, Agent),
+    assertz(asked(Agent, Since)).
+
+:- public said/3.
+
+said(Agent, _, answer(unknown)) :-
+    asked(Agent, before),
+    !,
+    lost(Agent).
+said(Agent, _, answer(Outcome)) :-
+    !,
+    down(Agent, Outcome).
+said(Agent, Home, _) :-
+    (   endpoint_gone(Home)
+    ->  lost(Agent)
+    ;   retractall(asked(Agent, _)),
+        later(Agent, watch)
+    ).
+
+%   Its home was its last known address.
+
+lost(Agent) :-
+    agent_home(Agent, Address),
+    down(Agent, lost(Address)).
+
+later(Agent, What) :-
+    setting(again_seconds, Seconds),
+    alarm_in(Seconds, Agent, monitor(What)).
+
+typhon_scheduler:fire(Agent, monitor(watch)) :-
+    !,
+    watch(Agent, before).
+typhon_scheduler:fire(Agent, monitor(share(Change))) :-
+    !,
+    shares(Agent, Change).
+
+typhon_gone_processes:concerns :-
+    asked(_, _),
+    !.
+
+typhon_gone_processes:gone(Peer) :-
+    findall(Agent, ( asked(Agent, _), agent_home_endpoint(Agent, Peer) ),
+            Agents),
+    forall(member(Agent, Agents), lost(Agent)).
+
+typhon_durable:go_on :-
+    scheduler_call(typhon_monitors:go_on).
+
+:- public go_on/0.
+
+go_on :-
+    findall(Watcher-Agent, monitor(_, Watcher, Agent), Pairs),
+    forall(member(Watcher-Agent, Pairs),
+           ( mind(Watcher), watch(Agent, first) )).
+
+                /*******************************
+                *             DOWN             *
+                *******************************/
+
+%   down(+Agent, +Outcome): each monitor of it is used up.
+
+:- public down/2.
+
+down(Agent, Outcome) :-
+    retractall(asked(Agent, _)),
+    findall(Watcher, monitor(_, Watcher, Agent), Watchers),
+    forall(member(Watcher, Watchers),
+           unit_of_work(used(Watcher, Agent, Outcome))).
+
+used(Watcher, Agent, Outcome) :-
+    (   monitor_remove(Watcher, Agent)
+    ->  tell(Watcher, Agent, Outcome)
+    ;   true
+    ).
+
+tell(call(N), Agent, Outcome) :-
+    !,
+    scheduler_call(typhon_monitors:called(N, Agent, Outcome)).
+tell(ends(_), _, done) :-
+    !.
+tell(ends(Id), _, _) :-
+    !,
+    scheduler_call(typhon_monitors:shares_end(Id)).
+tell(Id, Agent, Outcome) :-
+    post_on(Id, [system-down(Agent, Outcome)]).
+
+:- public shares_end/1, called/3.
+
+shares_end(Id) :-
+    catch(agent_dispose(Id), error(_, _), true).
+
+%   A worker cannot stop the workers, which the last release does.
+
+called(N, Agent, Outcome) :-
+    retract(goal(N, Goal)),
+    !,
+    atom_concat(typhon_monitor_, N, Alias),
+    catch(ignore(call(Goal, Agent, Outcome)), error(Formal, Context),
+          print_error(warning, error(Formal, Context))),
+    thread_create(runtime_release(monitor(N)), _,
+                  [alias(Alias), detached(true)]).

@@ -1,0 +1,186 @@
+:- module(typhon_watched_agents,
+          [ watched_add/2               % +Agent, +Asker
+          ]).
+:- use_module(library(apply), [exclude/3]).
+:- use_module(library(error), [must_be/2]).
+:- use_module(library(lists), [append/3, member/2]).
+:- use_module('../../kernel/wire',
+              [ endpoint_address/1, endpoint_call/5, endpoint_gone/1,
+                endpoint_peer/2, endpoint_reply/2 ]).
+:- use_module('../../kernel/host',
+              [address_parts/3, alarm_in/3, scheduler_call/1]).
+:- use_module('../../kernel/agent', [agent_on/2]).
+:- use_module(gone, [process_suspect/1]).
+:- use_module('../../kernel/travel',
+              [agent_outcome/2, home_knows/4, outcome_wait/3]).
+
+/** <module> Agents that are monitored, at their home
+
+The home of an agent learns how it ends.  If a process is gone, all processes
+are asked for the agents that are monitored and are not here, twice, a second
+apart: one that none of them has, and that the home did not hear of meanwhile,
+is lost.  Nothing is done for that while processes live: hops of agents, also of
+those that are monitored, cost what they cost without.
+
+*Threading*: questions to all are asked in a worker.
+*/
+
+:- multifile
+    typhon_gone_processes:concerns/0,
+    typhon_gone_processes:gone/1,
+    typhon_endpoint:requested/4,
+    typhon_identity:ids_anew/0,
+    typhon_runtime:ending/1,
+    typhon_scheduler:fire/2.
+
+:- dynamic asker/3.             % Agent, N, Asker: wants to know its end
+
+typhon_identity:ids_anew :-
+    retractall(asker(_, _, _)).
+
+typhon_runtime:ending(after) :-
+    retractall(asker(_, _, _)).
+
+pause(1).                       % seconds between two rounds
+patience(5).                    % seconds for an answer
+
+%!  watched_add(+Agent, +Asker) is det.
+%
+%   Tell Asker once how Agent ends, whose home is here, as outcome_wait/3, or
+%   lost(Host).
+%
+%   @arg Asker is reply(ReplyTo) or call(Closure)
+
+watched_add(Agent, Asker) :-
+    flag(typhon_watched_agent, N, N+1),
+    assertz(asker(Agent, N, Asker)),
+    outcome_wait(Agent, inf, call(typhon_watched_agents:over(Agent, N))),
+    ( asker(Agent, N, _) -> went_to(Agent) ; true ).
+
+%   A connection that is down by now does not break any more.
+
+went_to(Agent) :-
+    home_knows(Agent, Address, _, Process),
+    Process \== here,
+    !,
+    address_parts(Address, _, Endpoint),
+    (   endpoint_peer(Endpoint, process(Process)),
+        endpoint_peer(Endpoint, state(up))
+    ->  true
+    ;   endpoint_peer(Endpoint, process(Now)),
+        Now \== Process
+    ->  scheduler_call(typhon_watched_agents:look_for_all)
+    ;   process_suspect(Endpoint)
+    ).
+went_to(_).
+
+:- public over/3.
+
+over(Agent, N, Outcome) :-
+    (   retract(asker(Agent, N, Asker))
+    ->  tell(Asker, Outcome)
+    ;   true
+    ).
+
+tell(call(Closure), Outcome) :-
+    call(Closure, Outcome).
+tell(reply(ReplyTo), Outcome) :-
+    endpoint_reply(ReplyTo, Outcome).
+
+typhon_endpoint:requested(monitor, watch(Agent), _, ReplyTo) :-
+    must_be(atom, Agent),
+    watched_add(Agent, reply(ReplyTo)).
+
+                /*******************************
+                *       PROCESSES THAT GO      *
+                *******************************/
+
+typhon_gone_processes:concerns :-
+    asker(_, _, _),
+    !.
+
+typhon_gone_processes:gone(_) :-
+    look_for_all.
+
+look_for_all :-
+    absent(Absent),
+    (   Absent == []
+    ->  true
+    ;   missing(Absent, Missing),
+        pause(Seconds),
+        alarm_in(Seconds, watched, missing(Missing))
+    ).
+
+typhon_scheduler:fire(_, missing(Missing)) :-
+    !,
+    scheduler_call(typhon_watched_agents:look_again(Missing)).
+
+:- public look_for_all/0, look_again/1.
+
+look_again(Before) :-
+    absent(Now),
+    findall(One, ( member(One, Before), memberchk(One, Now) ), Still),
+    missing(Still, Lost),
+    forall(member(at(Agent, Address, _, _), Lost),
+           lost(Agent, Address)).
+
+lost(Agent, Address) :-
+    (   retract(asker(Agent, _, Asker))
+    ->  tell(Asker, lost(Address)),
+        lost(Agent, Address)
+    ;   true
+    ).
+
+%   absent(-Absent): monitored agents that are not here, at(Agent, Address, Hops,
+%   Process), as far as is known.
+
+absent(Absent) :-
+    findall(at(Agent, Address, Hops, Process),
+            ( asker(Agent, _, _),
+              \+ agent_on(Agent, _),
+              \+ agent_outcome(Agent, _),
+              home_knows(Agent, Address, Hops, Process) ),
+            Absent0),
+    sort(Absent0, Absent).
+
+%   missing(+Absent, -Missing): no process has them, and those where they were
+%   are gone, or have answered.
+
+missing([], []) :-
+    !.
+missing(Absent, Missing) :-
+    findall(Agent, member(at(Agent, _, _, _), Absent), Agents),
+    findall(Peer, other(Peer), Peers0),
+    sort(Peers0, Peers),
+    answers(Peers, Agents, Found, Answered),
+    exclude(may_be_found(Found, Answered), Absent, Missing).
+
+other(Peer) :-
+    endpoint_peer(Peer, process(_)),
+    \+ endpoint_address(Peer),
+    \+ endpoint_gone(Peer).
+
+answers([], _, [], []).
+answers([Peer|Peers], Agents, Found, Answered) :-
+    patience(Seconds),
+    (   catch(endpoint_call(Peer, monitor, have(Agents), answer(Has), Seconds),
+              error(_, _), fail)
+    ->  Answered = [Peer|Answered1]
+    ;   Has = [],
+        Answered = Answered1
+    ),
+    answers(Peers, Agents, Found1, Answered1),
+    append(Has, Found1, Found).
+
+may_be_found(Found, _, at(Agent, _, _, _)) :-
+    memberchk(Agent, Found),
+    !.
+may_be_found(_, Answered, at(_, Address, _, _)) :-
+    address_parts(Address, _, Endpoint),
+    \+ memberchk(Endpoint, Answered),
+    \+ endpoint_gone(Endpoint).
+
+typhon_endpoint:requested(monitor, have(Agents), _, ReplyTo) :-
+    must_be(list(atom), Agents),
+    findall(Agent, ( member(Agent, Agents), agent_on(Agent, _) ), Here),
+    endpoint_reply(ReplyTo, Here).

@@ -1,0 +1,470 @@
+:- module(test_monitors, []).
+:- use_module('../../../lib/common').
+:- use_module('../../../lib/fixtures').
+:- use_module('../../../lib/peers').
+:- use_module('../../../lib/cutting_proxy', [proxy_cut/1]).
+:- use_module(library(plunit)).
+:- use_module(library(aggregate), [aggregate_all/3]).
+:- use_module(library(lists), [member/2]).
+:- use_module(library(typhon)).
+
+/** <module> Monitors: an agent is told once how another ends
+
+*Threading*: one test at a time; agent_monitor/2 calls what it calls in workers.
+*/
+
+%   A monitoring agent collects what it hears in s/1, from `system` or others.
+
+watcher(Clauses, [ (on_message(system, M) :- assertz(s(M))),
+                   (on_message(user, monitor(A)) :- monitor(A),
+                                                   assertz(r(A))),
+                   (on_message(user, shared(A)) :-
+                        monitor(A, [shared(true)]), assertz(r(A))),
+                   (on_message(user, unmonitor(A)) :- unmonitor(A),
+                                                      retractall(r(A))),
+                   (on_message(user, move(H)) :- move(H))
+                 | Clauses ]).
+
+watcher(Id, Clauses, Options) :-
+    watcher(Clauses, All),
+    create(All, Id, Options).
+
+%   monitors(+Watcher, +Agent): the message was taken.
+
+monitors(W, A) :-
+    agent_send(W, monitor(A)),
+    set(W, A).
+
+shares(W, A) :-
+    agent_send(W, shared(A)),
+    set(W, A).
+
+set(W, A) :-
+    wait_until(( agent_property(W, facts(Facts)), memberchk(r(A), Facts) ),
+               10).
+
+unmonitors(W, A) :-
+    agent_send(W, unmonitor(A)),
+    wait_until(( agent_property(W, facts(Facts)),
+                 \+ memberchk(r(A), Facts) ), 10).
+
+heard(W, Messages) :-
+    agent_property(W, facts(Facts)),
+    findall(M, member(s(M), Facts), Messages).
+
+hears(W, Message) :-
+    wait_until(( heard(W, Ms), memberchk(Message, Ms) ), 20).
+
+%   Nothing more has come after a while.
+
+once_only(W, Message) :-
+    hears(W, Message),
+    sleep(0.3),
+    heard(W, Ms),
+    Ms == [Message].
+
+sleeper(Id, Options) :-
+    create([(main :- receive(_-end(How)), call(How))], Id, Options).
+
+ends(A, How) :-
+    agent_send(A, end(How)).
+
+:- begin_tests(monitors).
+
+test(outcomes, [forall(member(How-Outcome,
+                              [ true-done, fail-failed,
+                                throw(oops)-raised(oops),
+                                dispose_now-disposed ]))]) :-
+    with_hosts([alpha],
+               ( watcher(W, [], []),
+                 sleeper(A, []),
+                 monitors(W, A),
+                 (   How == dispose_now
+                 ->  agent_dispose(A)
+                 ;   listening(( ends(A, How), joined(A, _) ), _)
+                 ),
+                 once_only(W, down(A, Outcome)) )).
+test(ended_before) :-
+    with_hosts([alpha],
+               ( watcher(W, [], []),
+                 create([(main :- true)], A),
+                 joined(A, done),
+                 monitors(W, A),
+                 once_only(W, down(A, done)) )).
+test(not_known) :-
+    with_hosts([alpha],
+               ( watcher(W, [], []),
+                 address(alpha, H),
+                 atom_concat('nobody.x.1@', H, A),
+                 monitors(W, A),
+                 once_only(W, down(A, unknown)) )).
+test(no_id, F == existence_error(agent, bob)) :-
+    with_hosts([alpha],
+               ( create([ (main :- catch(monitor(bob), error(F0, _), true),
+                                   result(F0)) ], A),
+                 agent_result(A, F, 10) )).
+test(wrong_option, F = domain_error(monitor_option, _)) :-
+    with_hosts([alpha],
+               ( create([ (main :- self(A),
+                                   catch(monitor(A, [hot(true)]), error(F0, _),
+                                         true),
+                                   result(F0)) ], A),
+                 agent_result(A, F, 10) )).
+test(twice_is_once) :-
+    with_hosts([alpha],
+               ( watcher(W, [], []),
+                 sleeper(A, []),
+                 monitors(W, A),
+                 monitors(W, A),
+                 ends(A, true),
+                 once_only(W, down(A, done)) )).
+test(not_any_more, Ms == []) :-
+    with_hosts([alpha],
+               ( watcher(W, [], []),
+                 sleeper(A, []),
+                 monitors(W, A),
+                 unmonitors(W, A),
+                 ends(A, true),
+                 joined(A, done),
+                 sleep(0.2),
+                 heard(W, Ms) )).
+test(again_after_unmonitor) :-
+    with_hosts([alpha],
+               ( watcher(W, [], []),
+                 sleeper(A, []),
+                 monitors(W, A),
+                 unmonitors(W, A),
+                 monitors(W, A),
+                 ends(A, true),
+                 once_only(W, down(A, done)) )).
+test(by_many, Count == 50) :-
+    with_hosts([alpha],
+               ( sleeper(A, []),
+                 findall(W, ( between(1, 50, _), watcher(W, [], []) ), Ws),
+                 forall(member(W, Ws), agent_send(W, monitor(A))),
+                 forall(member(W, Ws), set(W, A)),
+                 ends(A, true),
+                 forall(member(W, Ws), hears(W, down(A, done))),
+                 aggregate_all(count,
+                               ( member(W, Ws), heard(W, [down(A, done)]) ),
+                               Count) )).
+test(once_while_faulty, [true(Ms == [down(A, failed)])]) :-
+    with_hosts([alpha],
+               ( watcher(W, [], []),
+                 create([ (main :- receive(_-end(_)), s(_)) ], A),
+                 monitors(W, A),
+                 listening(( ends(A, true), joined(A, failed) ), _),
+                 hears(W, down(A, failed)),
+                 agent_change(A, facts([s(1)])),
+                 agent_resume(A),
+                 joined(A, done),
+                 sleep(0.2),
+                 heard(W, Ms) )).
+test(wherever_both_are) :-
+    with_hosts([alpha, beta],
+               ( watcher(W, [], []),
+                 sleeper(A, []),
+                 monitors(W, A),
+                 address(beta, Beta),
+                 agent_move(A, Beta, [wait(5)]),
+                 agent_move(W, Beta, [wait(5)]),
+                 ends(A, true),
+                 once_only(W, down(A, done)) )).
+test(in_receive, X == done) :-
+    with_hosts([alpha],
+               ( create([ (main :- create(clauses([(:- agent(c, [])),
+                                                   (main :- sleep(0.1))]),
+                                          C, []),
+                                   monitor(C),
+                                   receive(system-down(C, O)),
+                                   result(O)) ], A),
+                 agent_result(A, X, 10) )).
+test(virtual_time, X == done-5.0) :-
+    with_hosts([alpha-[clock(virtual)]],
+               ( create([ (main :- now(T0),
+                                   create(clauses([(:- agent(c, [])),
+                                                   (main :- sleep(5.0))]),
+                                          C, []),
+                                   monitor(C),
+                                   receive(system-down(C, O)),
+                                   now(T), D is T-T0,
+                                   result(O-D)) ], A),
+                 agent_result(A, X, 10) )).
+test(guarded, X == done) :-
+    with_hosts([alpha-[policy(guarded)]],
+               ( create([ (main :- create(clauses([(:- agent(c, [])),
+                                                   (main :- true)]),
+                                          C, []),
+                                   monitor(C),
+                                   receive(system-down(C, O)),
+                                   result(O)) ], A),
+                 agent_result(A, X, 10) )).
+
+:- end_tests(monitors).
+
+:- begin_tests(shared_fate).
+
+test(it_ends_badly, O == disposed) :-
+    with_hosts([alpha],
+               ( watcher(W, [], []),
+                 sleeper(A, []),
+                 shares(W, A),
+                 agent_dispose(A),
+                 joined(W, O) )).
+test(the_watcher_ends_badly, O == disposed) :-
+    with_hosts([alpha],
+               ( watcher(W, [], []),
+                 sleeper(A, []),
+                 shares(W, A),
+                 agent_dispose(W),
+                 joined(A, O) )).
+test(a_good_end_is_told) :-
+    with_hosts([alpha],
+               ( watcher(W, [], []),
+                 sleeper(A, []),
+                 shares(W, A),
+                 ends(A, true),
+                 once_only(W, down(A, done)) )).
+test(not_after_unmonitor) :-
+    with_hosts([alpha],
+               ( watcher(W, [], []),
+                 sleeper(A, []),
+                 shares(W, A),
+                 unmonitors(W, A),
+                 agent_dispose(A),
+                 sleep(0.3),
+                 agent_property(W, state(resident)),
+                 sleeper(B, []),
+                 shares(W, B),
+                 unmonitors(W, B),
+                 agent_dispose(W),
+                 sleep(0.3),
+                 agent_property(B, state(waiting)) )).
+
+:- end_tests(shared_fate).
+
+:- begin_tests(agent_monitor).
+
+:- dynamic down/2.
+
+note(A, O) :-
+    assertz(down(A, O)).
+
+told(A, O) :-
+    wait_until(down(A, O), 20).
+
+forget :-
+    retractall(down(_, _)).
+
+test(of_this_process, [cleanup(forget)]) :-
+    with_hosts([alpha],
+               ( sleeper(A, [name(bob)]),
+                 agent_monitor(bob, note),
+                 ends(A, true),
+                 told(A, done) )).
+test(a_goal_that_raises, [cleanup(forget)]) :-
+    with_hosts([alpha],
+               ( sleeper(A, []),
+                 agent_monitor(A, no_such_predicate),
+                 agent_monitor(A, note),
+                 listening(( ends(A, true), told(A, done),
+                             wait_until(was_told(_, _), 5) ), _) )).
+test(no_such_agent, error(existence_error(agent, nobody))) :-
+    with_hosts([alpha], agent_monitor(nobody, note)).
+test(of_another_process_as_a_guest, [cleanup(forget)]) :-
+    no_leaks(with_peers([p1],
+                 ( peer_host(p1, There),
+                   sleeper(A, [host(There)]),
+                   agent_monitor(A, note),
+                   ends(A, true),
+                   told(A, done) ))).
+test(lost_with_its_process, [cleanup(forget), true(H == There)]) :-
+    no_leaks(with_peers([p1],
+                 ( peer_host(p1, There),
+                   sleeper(A, [host(There)]),
+                   agent_monitor(A, note),
+                   sleep(0.2),
+                   peer_kill(p1),
+                   told(A, lost(H)) ))).
+
+:- end_tests(agent_monitor).
+
+%   Watchers and agents in two processes, and in this one.
+
+:- begin_tests(monitors_of_processes).
+
+%   What is left behind is looked for when the processes have ended.
+
+:- meta_predicate here(0).
+
+here(Goal) :-
+    setup_call_cleanup(host_start(alpha), once(Goal), host_stop(alpha)).
+
+remote_watcher(W, Peer) :-
+    peer_host(Peer, There),
+    watcher(W, [], [host(There)]).
+
+test(each_place, [forall(member(Wh-Ah, [here-p1, p1-here, p1-p2, p1-p1]))]) :-
+    no_leaks(with_peers([p1, p2],
+        here(
+            ( at(Wh, WHost), at(Ah, AHost),
+              watcher(W, [], [host(WHost)]),
+              sleeper(A, [host(AHost)]),
+              monitors(W, A),
+              ends(A, true),
+              once_only(W, down(A, done)) )))).
+
+at(here, Host) :-
+    !,
+    address(alpha, Host).
+at(Peer, Host) :-
+    peer_host(Peer, Host).
+
+test(both_move, [nondet]) :-
+    no_leaks(with_peers([p1, p2],
+        here(
+            ( at(p1, H1), at(p2, H2),
+              watcher(W, [], []),
+              sleeper(A, []),
+              agent_move(W, H1, [wait(5)]),
+              monitors(W, A),
+              agent_move(A, H2, [wait(5)]),
+              agent_move(W, H2, [wait(5)]),
+              agent_move(A, H1, [wait(5)]),
+              ends(A, true),
+              once_only(W, down(A, done)) )))).
+test(lost_with_its_home, [nondet]) :-
+    no_leaks(with_peers([p1],
+        here(
+            ( at(p1, H1),
+              watcher(W, [], []),
+              sleeper(A, [host(H1)]),
+              sleeper(B, [host(H1)]),
+              monitors(W, A),
+              monitors(W, B),
+              ends(B, true),
+              hears(W, down(B, done)),
+              peer_kill(p1),
+              hears(W, down(A, lost(H1))),
+              sleep(0.3),
+              heard(W, Ms),
+              assertion(Ms == [down(B, done), down(A, lost(H1))]) )))).
+test(lost_where_it_went, [nondet]) :-
+    no_leaks(with_peers([p1],
+        here(
+            ( at(p1, H1),
+              watcher(W, [], []),
+              sleeper(A, []),
+              monitors(W, A),
+              agent_move(A, H1, [wait(5)]),
+              peer_kill(p1),
+              once_only(W, down(A, lost(H1))) )))).
+test(lost_where_it_went_seen_from_a_third, [nondet]) :-
+    no_leaks(with_peers([p1, p2, p3],
+        here(
+            ( at(p1, H1), at(p2, H2), at(p3, H3),
+              watcher(W, [], [host(H3)]),
+              sleeper(A, [host(H1)]),
+              monitors(W, A),
+              agent_move(A, H2, [wait(5)]),
+              peer_kill(p2),
+              once_only(W, down(A, lost(H2))) )))).
+test(not_lost_if_it_went_on, [nondet]) :-
+    no_leaks(with_peers([p1, p2],
+        here(
+            ( at(p1, H1), at(p2, H2),
+              watcher(W, [], []),
+              sleeper(A, []),
+              monitors(W, A),
+              agent_move(A, H1, [wait(5)]),
+              agent_move(A, H2, [wait(5)]),
+              peer_kill(p1),
+              sleep(2.5),
+              heard(W, []),
+              ends(A, true),
+              once_only(W, down(A, done)) )))).
+test(restarted_at_the_same_address, [nondet]) :-
+    no_leaks(with_peers([p1],
+        here(
+            ( at(p1, H1),
+              watcher(W, [], []),
+              sleeper(A, [host(H1)]),
+              monitors(W, A),
+              peer_kill(p1),
+              peer_restart(p1),
+              once_only(W, down(A, lost(H1))) )))).
+test(stopped_in_order, [nondet]) :-
+    no_leaks(with_peers([p1],
+        here(
+            ( at(p1, H1),
+              watcher(W, [], []),
+              sleeper(A, [host(H1)]),
+              monitors(W, A),
+              peer_do(p1, host_stop(p1)),
+              wait_until(heard(W, [_]), 20),
+              heard(W, [down(A, O)]),
+              assertion(memberchk(O, [disposed, lost(H1)])) )))).
+test(shared_with_a_process_that_dies, [nondet]) :-
+    no_leaks(with_peers([p1],
+        here(
+            ( at(p1, H1),
+              watcher(W, [], [host(H1)]),
+              sleeper(A, []),
+              shares(W, A),
+              sleep(0.3),
+              peer_kill(p1),
+              joined(A, O),
+              assertion(O == disposed) )))).
+test(connection_that_breaks, [nondet]) :-
+    no_leaks(with_peers([p1-[proxy(true)]],
+        here(
+            ( at(p1, H1),
+              watcher(W, [], []),
+              sleeper(A, [host(H1)]),
+              monitors(W, A),
+              peer_proxy(p1, Proxy),
+              proxy_cut(Proxy),
+              sleep(1.5),
+              heard(W, []),
+              ends(A, true),
+              once_only(W, down(A, done)) )))).
+
+:- end_tests(monitors_of_processes).
+
+%   With a journal a monitor outlives the processes of both.
+
+:- begin_tests(monitors_in_the_journal, [condition(missing([journal], []))]).
+
+lasting(Dir) :-
+    findall(P-[host([journal(J)])],
+            ( member(P, [p1, p2]), atomic_list_concat([Dir, /, P], J) ),
+            Specs),
+    with_peers(Specs, lasts).
+
+lasts :-
+    setup_call_cleanup(host_start(alpha), both_die, host_stop(alpha)).
+
+both_die :-
+    peer_host(p1, H1),
+    peer_host(p2, H2),
+    watcher(W, [], [host(H1)]),
+    sleeper(A, [host(H2)]),
+    sleeper(B, [host(H2)]),
+    monitors(W, A),
+    monitors(W, B),
+    peer_kill(p1),
+    peer_kill(p2),
+    peer_restart(p2),
+    wait_until(agent_property(A, state(waiting)), 20),
+    ends(A, true),
+    joined(A, done),
+    peer_restart(p1),
+    wait_until(agent_property(W, state(resident)), 20),
+    once_only(W, down(A, done)),
+    ends(B, true),
+    hears(W, down(B, done)).
+
+test(both_processes_die, [nondet]) :-
+    no_leaks(with_tmp_dir(lasting)).
+
+:- end_tests(monitors_in_the_journal).
