@@ -10,6 +10,7 @@ SECONDS ?= 600
 COUNT ?= 100000
 SEED ?= 1
 TLS ?= false
+CELL ?= none
 MAKEFLAGS += --no-print-directory
 ENTRY_POINTS = prolog/typhon.pl app/typhon.pl test/run.pl \
     experiments/study.pl bench/run.pl
@@ -93,8 +94,9 @@ fuzz:                   ## what nobody should send; COUNT=100000, SEED=1, TLS=tr
 fuzz-programs:          ## random programs, compiled and interpreted; COUNT, SEED=1
 	@TYPHON_PROGRAMS=$(COUNT) TYPHON_SEED=$(SEED) $(SWIPL) test/run.pl -- chunks
 
-hostile:                ## hostile agents on a guarded host; COUNT=100000, SEED=1
-	@$(SWIPL) test/chaos/hostile.pl -- --count $(COUNT) --seed $(SEED)
+hostile:                ## hostile agents on a guarded host; COUNT=100000, SEED=1, CELL=owner
+	@$(SWIPL) test/chaos/hostile.pl -- --count $(COUNT) --seed $(SEED) \
+	    --cell $(CELL)
 
 pictures: tools page-tools ## make all pictures of README and doc; KINDS=page
 	@.ci/install page

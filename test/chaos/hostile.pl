@@ -1,6 +1,6 @@
 /*  Hostile agents at random, on a host that guards.
 
-    swipl test/chaos/hostile.pl -- [--count N] [--seed N]
+    swipl test/chaos/hostile.pl -- [--count N] [--seed N] [--cell KIND]
 
 Each agent has a seed of its own, from the one given on: `--count 1 --seed I`
 repeats one.  Harm that was done is printed with the seeds between which it was
@@ -25,10 +25,13 @@ user:message_hook(Term, Kind, _) :-
 
 opt_type(count, count, nonneg).
 opt_type(seed, seed, nonneg).
+opt_type(cell, cell, oneof([none,owner,host])).
 opt_help(count, 'agents (default 500)').
 opt_help(seed, 'the first seed (default 1)').
+opt_help(cell, 'where they run: none, owner or host (default none)').
 opt_meta(count, 'N').
 opt_meta(seed, 'N').
+opt_meta(cell, 'KIND').
 
 main(Argv) :-
     argv_options(Argv, _, Options),

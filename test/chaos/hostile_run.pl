@@ -26,19 +26,22 @@ is looked at whether it still answers, and whether the process is as it was.
 %!  hostile(+Options, -Faults:list) is det.
 %
 %   Options: count(N), agents; seed(I), of the first; the others have the
-%   numbers that follow.  progress(true) prints how far it is.
+%   numbers that follow.  progress(true) prints how far it is.  cell(Kind) is
+%   that option of their host.
 
 hostile(Options, Faults) :-
     option(count(Count), Options, 500),
     option(seed(Seed), Options, 1),
     option(progress(Progress), Options, false),
+    option(cell(Cell), Options, none),
     fill_pool,
     retractall(let_in(_)),
     assertz(let_in(0)),
     quotas(Quotas),
     setup_call_cleanup(
         ( host_start(home),
-          host_start(hostile, [policy(guarded), quota(Quotas)]) ),
+          host_start(hostile, [ policy(guarded), cell(Cell),
+                                quota(Quotas) ]) ),
         ( Last is Seed+Count-1,
           bystander(Canary),
           world(Before),

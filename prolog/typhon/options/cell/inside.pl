@@ -40,7 +40,6 @@ cell_main :-
     set_prolog_flag(stack_limit, 268 435 456),
     set_setting(typhon_code:programs, 10 000),
     connection(In, Out),
-    yield_to_others,
     twin_start,
     words_ask,
     open_null_stream(Null),
@@ -61,16 +60,6 @@ connection(In, Out) :-
     nb_setval(cell_connection, connection(In, Out)),
     open_null_stream(Null),
     set_stream(Null, alias(user_output)).
-
-%   Where the system shares the processors among sessions, the priority of the
-%   process does not count beyond its own.
-
-yield_to_others :-
-    catch(setup_call_cleanup(
-              open('/proc/self/autogroup', write, Out),
-              write(Out, 10),
-              close(Out)),
-          error(_, _), true).
 
 %   Without the option itself: quotas, of which it would load the defaults, are
 %   the business of the gatekeeper.
