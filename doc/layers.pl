@@ -9,7 +9,8 @@
 
 `check` says what is not in order, and fails if anything is:
 
-  - an import that is not used, in any file of the tree;
+  - an import that is not used, in any file of the tree, or of a file that is
+    not there;
   - an export of a module or of an interface that no module uses;
   - an import against the layers: a module imports from its own folder,
     from kernel/base, and from the interfaces of lower layers, but an option

@@ -118,7 +118,7 @@ slack(_, Options, Slack) :-
     !.
 slack([Host|_], _, Slack) :-
     host_name(Host, Name),
-    remote(Host, typhon_clock:clock(Name, _, Rate)),
+    remote(Host, typhon_time:clock(Name, _, Rate)),
     !,
     Slack is Rate/2.
 slack(_, _, 0.5).

@@ -7,7 +7,7 @@
 :- use_module('../../prolog/typhon/options/journal/store',
               [ journal_found/1, journal_item/5, journal_open/2,
                 journal_place/2, store_close/0 ]).
-:- use_module('../../prolog/typhon/kernel/lifecycle/restore', [restore_point/2]).
+:- use_module('../../prolog/typhon/tools/administration/restore', [restore_point/2]).
 :- use_module(library(aggregate), [aggregate_all/3]).
 :- use_module(library(error), [existence_error/2]).
 :- use_module(library(lists), [append/3, member/2]).

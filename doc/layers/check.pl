@@ -19,7 +19,7 @@ what is not found may be.
 
 problem(unused_import(File, Target, PI)) :-
     import(File, Target, List),
-    \+ inside('prolog/typhon/kernel/vocabulary/vocabulary.pl', File),   % for agents
+    \+ inside('prolog/typhon/kernel/vocabulary.pl', File),   % for agents
     is_list(List),
     member(Import, List),
     imported_as(Import, PI, Name),
@@ -34,6 +34,11 @@ problem(unused_at_interface(Interface, PI)) :-
     reexport(Interface, Module, List),
     offered(Module, List, PI),
     \+ used(Interface, PI).
+problem(no_such_file(File, Target)) :-
+    layer_module(File, _, _),
+    ( import(File, Target, _) ; reexport(File, Target, _) ),
+    Target \= library(_),
+    \+ exists_file(Target).
 problem(against_layers(File, Target)) :-
     layer_module(File, Layer, _),
     ( import(File, Target, _) ; reexport(File, Target, _) ),
@@ -178,6 +183,7 @@ says(unused_import(F, T, PI), '~w: ~w of ~w is imported, and not used',
      [F, PI, T]).
 says(unused_export(F, PI), '~w: no module uses its export ~w', [F, PI]).
 says(unused_at_interface(F, PI), '~w: no module imports ~w from this interface', [F, PI]).
+says(no_such_file(F, T), '~w: imports ~w, which is not there', [F, T]).
 says(against_layers(F, T), '~w: imports ~w, against the layers', [F, T]).
 says(past_interface(F, M, PI), '~w: calls ~w of ~w, which is internal',
      [F, PI, M]).

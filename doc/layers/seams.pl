@@ -26,6 +26,8 @@ option_words(snapshot, [snapshots]).   % snapshot/1 is Prolog's
 option_words(tls,      [tls, secure, certificate, certificates]).
 option_words(identity, [owner, owners, signed, signature, signatures,
                         authors, unseal]).
+option_words(migration, [strategy, strategies, pheromone, pheromones,
+                         next_host]).
 option_words(trail,    [trail, trails, chain]).
 option_words(guard,    [guard, guarded, guards]).
 option_words(quotas,   [quota, quotas]).

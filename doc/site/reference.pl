@@ -58,23 +58,25 @@ task(agents, "Report results and events",
 task(agents, "Carry and deliver payloads",
      [ typhon_words:[attach/1, detach/1, deliver/1, undeliver/1] ]).
 task(agents, "Call agents by pheromones",
-     [ typhon_words:[emit/1, emit/2, withdraw/1, pheromone/3] ]).
+     [ typhon_pheromone ]).
 task(library, "Start, change and stop hosts",
-     [typhon_hosting, typhon_changing]).
+     [typhon_hosting, typhon_administration:[host_change/2]]).
 task(library, "Link hosts, and ask them",
-     [typhon_host_questions, typhon_remote]).
+     [ typhon_administration:[host_property/2, link/2, link/3, unlink/2],
+       typhon_remote ]).
 task(library, "Start networks, and read their logs", [typhon_network]).
 task(library, "Check programs", [typhon_checks]).
 task(library, "Create agents", [typhon_creation]).
 task(library, "Write to agents, and order them about",
-     [typhon_sending, typhon_order_client]).
+     [typhon_order_client]).
 task(library, "Wait for agents, and end them",
      [typhon_join, typhon_supervision, typhon_disposal]).
 task(library, "Look into agents",
-     [ typhon_environment, typhon_properties, typhon_source_view, typhon_trace,
-       typhon_trails ]).
+     [ typhon_environment, typhon_administration:[agent_property/2],
+       typhon_source_view, typhon_trace, typhon_trails ]).
 task(library, "Watch a network", [typhon_watching, typhon_page]).
-task(library, "Save and restore agents", [typhon_restore]).
+task(library, "Save and restore agents",
+     [typhon_administration:[agent_save/2, agent_load/2, agent_load/3]]).
 task(library, "Use Python, MQTT, ROS and FIPA", [typhon_starting]).
 task(fipa, "Ask a platform", [typhon_fipa_service]).
 task(robots, "Connect a brick, and use its parts", [typhon_nxt_brick]).
@@ -92,6 +94,8 @@ public(agents, Module:PI) :-
     PI \== message_failed/2.            % is for the machine
 public(agents, PI) :-
     exported(typhon_memory, PI).
+public(agents, PI) :-
+    exported(typhon_pheromone, PI).
 public(agents, typhon_seals:seal/3).
 public(library, PI) :-
     exported(typhon, PI).

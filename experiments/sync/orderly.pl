@@ -1,5 +1,5 @@
 :- module(sync_orderly, []).
-:- use_module('../../prolog/typhon/kernel/vocabulary/strategy', [memory_visited/2]).
+:- use_module('../../prolog/typhon/options/migration/strategy', [memory_visited/2]).
 :- use_module(library(apply), [maplist/3, partition/4]).
 :- use_module(library(lists), [append/3, member/2, memberchk/2, reverse/2]).
 :- use_module(library(pairs), [pairs_values/2]).

@@ -17,6 +17,7 @@
             save_tartarus_state/1,      % +File
             load_tartarus_state/1       % +File
           ]).
+:- use_module(library(debug), [debug/3]).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(listing), [portray_clause/2]).
 :- use_module(library(readutil), [read_file_to_terms/3]).
@@ -204,7 +205,7 @@ record_static(Name, Key) :-
 %
 %   Call Handler(Name, Location, Start) in a new thread, When is `now` or
 %   `in_turn`: when the last thread of Name, if it runs, is through.  Failure
-%   and errors go unsaid.
+%   says nothing, and an error only under debug(tartarus(handler)).
 
 run_handler(Name, Handler, Start, When) :-
     record_location(Name, Location),
@@ -225,8 +226,17 @@ before(in_turn, Name, Thread) :-
 handle(Name, Before, Goal) :-
     call_cleanup(
         ( await(Before),
-          catch(ignore(user:Goal), _, true) ),
+          catch(ignore(user:Goal), Ball, unsaid(Ball, Name)) ),
         through(Name)).
+
+%   An abort ends the thread, as it has to when the process ends.
+
+unsaid('$aborted', _) :-
+    throw('$aborted').
+unsaid(unwind(Reason), _) :-
+    throw(unwind(Reason)).
+unsaid(Ball, Name) :-
+    debug(tartarus(handler), 'the handler of ~w raised ~p', [Name, Ball]).
 
 through(Name) :-
     thread_self(Me),

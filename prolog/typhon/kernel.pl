@@ -14,21 +14,24 @@ it is library(typhon) without its top level.
 :- compiling_begin(Flags),
    nb_setval(typhon_flags, Flags).
 
-:- use_module(kernel/base/no_queues, []).
 :- use_module(kernel/base/user_errors, [user_errors/1]).
+:- reexport(tools/administration,
+            [ host_change/2, host_property/2, link/2, link/3, unlink/2,
+              agent_property/2 ]).
 :- reexport(tools/checks, [agent_check/1, agent_check/2]).
 :- reexport(tools/source_view, [agent_listing/1]).
 :- reexport(kernel/host,
-            [ host_start/1, host_start/2, host_change/2, host_stop/1,
-              host_property/2, link/2, link/3, unlink/2, remote/2, agents_run/1
+            [ host_start/1, host_start/2, host_stop/1, remote/2, agents_run/1
             ]).
 :- reexport(kernel/lifecycle,
-            [ agent_create/2, agent_create/3, agent_property/2, agent_send/2,
+            [ agent_create/2, agent_create/3, agent_send/2,
               agent_move/2, agent_move/3, agent_clone/2, agent_resume/1,
               agent_change/2, agent_dispose/1, agent_dispose/2, agent_join/3,
               agent_result/3, payload_attach/2, payload_detach/2
             ]).
 :- use_module(kernel/vocabulary, []).
+:- use_module(options/migration, []).
+:- use_module(tools/error_lines, []).
 :- use_module(tools/messages, []).
 :- use_module(tools/problem_text, []).
 :- use_module(tools/event_text, []).

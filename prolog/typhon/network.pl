@@ -67,7 +67,7 @@ modules are loaded when they are used first.
 %       their errors, and which links and hosts came and went.
 %       With messages(content) for `messages` it has what the messages say,
 %       too; of more than 200 characters (the setting
-%       `typhon_event_shown:content_characters`) the beginning, as a string.
+%       `typhon_host_log:content_characters`) the beginning, as a string.
 %     - dynamic(Model)
 %       Links come and go: see dynamics_model/2.
 %     - cost(Cost)

@@ -93,7 +93,8 @@ emacs_shows(Lines, File) :-
 %   The names of what agents can say.
 
 word(Name) :-
-    member(Module, [typhon_words, typhon_memory, typhon_seals]),
+    member(Module, [ typhon_words, typhon_memory, typhon_pheromone,
+                      typhon_seals ]),
     module_property(Module, exports(PIs)),
     member(Name/_, PIs),
     \+ memberchk(Name, [enter, message_failed]).    % called by the platform

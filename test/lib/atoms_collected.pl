@@ -11,7 +11,7 @@ lost it says so, or the process crashes.
 *Threading*: the main thread waits for the others.
 */
 
-:- use_module('../../prolog/typhon/kernel/base/fast_bytes').
+:- use_module('../../prolog/typhon/kernel/base/prolog_faults').
 :- use_module(library(apply), [maplist/2]).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(main), [main/0]).

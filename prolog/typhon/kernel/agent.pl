@@ -8,7 +8,6 @@ This is the interface of the layer: higher layers import from here.
 
 :- reexport(agent/agents,
             [ agent/5, agent_comes/5, agent_departs/3, agent_enter/3,
-              agent_extras_load/1, agent_extras_missing/1,
               agent_gone/5, agent_handed/4, agent_here/5, agent_on/2,
               agent_mail/2, agent_mobile/6, agent_move/5, agent_note/3,
               agent_program/4, agent_put/3, agent_put_life/2,
@@ -17,17 +16,18 @@ This is the interface of the layer: higher layers import from here.
               agent_thawed/5, agent_under_way/6, agent_wakes/2 ]).
 :- reexport(agent/agent_lock, [agents_passed/0, with_agent/2]).
 :- reexport(agent/agent_module,
-            [ agent_add/2, agent_changed/4, agent_clauses/3, agent_code/2,
-              agent_elsewhere/3, agent_handles/2, agent_module/4,
-              agent_module/5, agent_standing/5, agent_state/2 ]).
-:- reexport(agent/variants, [agent_variant/2]).
+              [ agent_add/2, agent_changed/4, agent_clauses/3, agent_code/2,
+                agent_elsewhere/3, agent_handles/2, agent_module/4,
+                agent_module/5, agent_standing/5, agent_state/2,
+                agent_variant/2 ]).
 :- reexport(agent/identity,
             [ agent_home/2, agent_home_endpoint/2, agent_id/3, agent_name/3,
               agent_origin/5, origin_inherited/3, origin_key/2,
               origin_passed/4, origin_said/2
             ]).
 :- reexport(agent/life,
-            [ is_life/1, life_before/2, life_clone/3, life_goes/3, life_hop/3,
+            [ agent_extras_load/1, agent_extras_missing/1, is_life/1,
+              life_before/2, life_clone/3, life_goes/3, life_hop/3,
               life_hops/2,
               life_may_move/2,
               life_parent/2, life_payloads/2, life_extras/2,
@@ -41,10 +41,9 @@ This is the interface of the layer: higher layers import from here.
             ]).
 :- reexport('agent/fault').
 :- reexport(agent/payloads,
-            [agent_attach/2, agent_detach/2, agent_payload/3, payload_marks/2]).
-:- reexport(agent/result_facts,
-            [ is_result_fact/1, result_facts/2, cloned_put/2, no_result_facts/2,
-              result_put/2 ]).
+              [ agent_attach/2, agent_detach/2, agent_payload/3, cloned_put/2,
+                is_result_fact/1, no_result_facts/2, payload_marks/2,
+                result_facts/2, result_put/2 ]).
 :- reexport(agent/mailbox,
             [ agent_order/2, agent_ordered/1, agent_orders/2, agent_unorder/2,
               mail_all/2, mail_back/2, mail_count/2, mail_list/2, mail_take/2,

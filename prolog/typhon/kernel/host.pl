@@ -8,22 +8,26 @@ This is the interface of the layer: higher layers import from here.
 
 :- reexport(host/hosts,
             [ host/3, host_again/1, host_came/2, host_closed/1, host_enter/3,
-              host_hop/3, host_leave/1, host_left/2, host_load/2, host_note/1,
-              host_option/2, host_passed/3, host_plain/2, host_plain_time/2 ]).
+              host_hop/3, host_hop_stats/3, host_leave/1, host_left/2, host_load/2, host_note/1,
+              host_option/2, host_passed/3, host_put/2, host_plain/2, host_plain_time/2 ]).
 :- reexport('host/host_names').
 :- reexport(host/links,
             [host_link/3, host_link_cost/3, host_neighbours/2, host_unlink/2]).
 :- reexport(host/events,
             [ event/4, event_heard/1, events_forget/1,
               events_hear/3, events_unheard/1 ]).
-:- reexport('host/event_shown').
 :- reexport('host/host_log').
-:- reexport(host/host_parts, [amended/5, parts/3, parts_call/3]).
+:- reexport(host/host_parts, [amended/5, parts/3, parts_call/3, parts_load/1]).
 :- reexport(host/place,
-            [ place_deliver/3, place_host/2, place_service/2,
+            [ place_deliver/3, place_host/2, place_offer/2, place_service/2,
               place_undeliver/2 ]).
 :- reexport('host/tuples').
-:- reexport(host/clock, [clock/3, host_time/2, real_time/3]).
+:- reexport(host/time,
+              [ agents_run/1, alarm_in/3, alarm_set/3, clock/3, host_time/2,
+                real_time/3, time_again/2, time_apart/2, time_due/3,
+                time_hold/1, time_kind/1, time_let_go/1, time_now/1,
+                time_repeats/2, time_seed/1, time_signal/1, time_stands/1,
+                time_wait/3, time_wanted/2 ]).
 :- reexport(host/context,
             [ context/3, context_agent/1, context_clear/0, context_host/1,
               context_now/2, context_set/3
@@ -31,26 +35,16 @@ This is the interface of the layer: higher layers import from here.
 :- reexport('host/peer_rights').
 :- reexport(host/turns, [turn_later/1, turn_of/3, turns_now/3, turns_paused/0]).
 :- reexport(host/scheduler,
-            [ schedule/2, schedule_adopt/1, schedule_here/3, schedule_leave/0,
-              schedule_stays/2, scheduler_call/1
-            ]).
-:- reexport(host/time,
-              [ agents_run/1, alarm_in/3, alarm_set/3, time_again/2,
-                time_apart/2, time_due/3,
-                time_hold/1, time_kind/1, time_let_go/1, time_now/1,
-                time_repeats/2, time_seed/1, time_signal/1, time_stands/1,
-                time_wait/3, time_wanted/2 ]).
+              [ limit_parked/1, schedule/2, schedule_adopt/1, schedule_here/3,
+                schedule_leave/0, schedule_stays/2, scheduler_call/1,
+                scheduler_limit/2, work_do/2 ]).
 :- use_module(host/pool, []).
 :- use_module(host/single, []).
-:- reexport(host/work, [limit_parked/1, work_do/2]).
-:- reexport(host/asking, [as_guest/1, process_ask/6]).
 :- reexport(host/runtime,
-            [runtime_acquire/2, runtime_acquire/3, runtime_release/1]).
-:- reexport(host/changing, [host_change/2]).
+              [ as_guest/1, process_ask/6, runtime_acquire/2,
+                runtime_acquire/3, runtime_release/1 ]).
 :- reexport(host/hosting,
-            [ host_begin/2, host_end/1, host_restart/2, host_start/1,
+            [ host_begin/2, host_end/1, host_listed/2, host_restart/2, host_start/1,
               host_start/2, host_stop/1, hosts_exclusively/1, hosts_go_on/0,
               hosts_rest/0 ]).
-:- reexport(host/host_questions,
-            [host_property/2, host_unknown/1, link/2, link/3, unlink/2]).
-:- reexport(host/remote, [host_do/2, remote/2]).
+:- reexport(host/remote, [host_do/2, host_unknown/1, remote/2]).

@@ -14,11 +14,10 @@ This is the interface of the layer: higher layers import from here.
               source_same/1, source_terms/5 ]).
 :- reexport(program/parts, [file_parts/4, library_directive/2, part/3]).
 :- reexport(program/places, [place/3]).
-:- reexport(program/python_code, [payload_python/3]).
 :- reexport(program/programs,
-            [ advice_text/2, in_file_order/3, payload_file/1, payload_load/2,
-              payload_terms/3, problem_error/3, program_hash/2, program_read/7,
-              program_terms/6 ]).
+              [ advice_text/2, in_file_order/3, payload_file/1, payload_load/2,
+                payload_python/3, payload_terms/3, problem_error/3,
+                program_hash/2, program_read/7, program_terms/6 ]).
 :- reexport(program/loaded,
             [program_load/5, program_load/6, program_unknown/3]).
 :- reexport(program/code,

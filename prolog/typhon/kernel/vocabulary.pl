@@ -1,9 +1,31 @@
-:- module(typhon_language, []).
+:- module(typhon_vocabulary, []).
 
-/** <module> What agents can say
+/** <module> What is visible to agents
 
-The predicates that agents find on every host, and where they go next.
+This module is the import parent of all places.  It defines nothing: it
+brings together the vocabulary of agents (typhon_words, and what options import
+into it) and libraries without state that agents may use without asking.
+
 This is the interface of the layer: higher layers only load it.
+
+*Threading*: nothing happens here.
 */
 
-:- use_module(vocabulary/vocabulary, []).
+:- set_module(base(system)).
+
+:- use_module(library(aggregate)).
+:- use_module(library(apply)).
+:- use_module(library(assoc)).
+:- use_module(library(error)).
+:- use_module(library(lists)).
+:- use_module(library(option)).
+:- use_module(library(ordsets)).
+:- use_module(library(pairs)).
+:- use_module(library(random)).
+:- use_module(library(solution_sequences)).
+:- use_module(library(yall)).
+:- use_module(vocabulary/checked,
+              [ '$checked'/1, '$checked'/2, '$checked'/3, '$checked'/4,
+                '$checked'/5, '$checked'/6, '$checked'/7, '$checked'/8,
+                '$uncaught'/1 ]).
+:- use_module(vocabulary/words).

@@ -16,7 +16,7 @@
 :- autoload(library(readutil), [read_line_to_string/2]).
 :- use_module(library(settings), [setting/2, setting/4]).
 :- use_module('../kernel/base/options', [check_options/2]).
-:- use_module('../kernel/base/spawn', [spawn/3]).
+:- use_module('../kernel/base/prolog_faults', [spawn/3]).
 :- use_module('../kernel/wire', [cookie/1]).
 :- use_module('../options/keys', [own_keys/1]).
 :- use_module(child_output, [output_heard/2]).

@@ -16,7 +16,7 @@
 :- use_module(library(lists), [last/2, member/2]).
 :- use_module(library(pairs), [pairs_values/2]).
 :- use_module('../kernel/base/error_text', [print_error/2]).
-:- use_module('../kernel/base/erased', [forget_erased/0]).
+:- use_module('../kernel/base/prolog_faults', [forget_erased/0]).
 :- use_module('../kernel/base/options', [check_name/2]).
 :- use_module('../kernel/base/own_thread', [in_own_thread/1]).
 :- use_module('../kernel/host',
@@ -53,8 +53,8 @@ none of its own.
 :- multifile
     ended/1,
     prolog:message//1,
-    typhon_named:elsewhere/1,
-    typhon_named:ended_elsewhere/2,
+    typhon_questions:elsewhere/1,
+    typhon_questions:ended_elsewhere/2,
     typhon_names:known/2,
     typhon_scheduler:fire/2,
     typhon_scheduler:over/2.
@@ -231,12 +231,12 @@ typhon_names:known(network_property, Property) :-
 typhon_names:known(network, Network) :-
     running(Network).
 
-typhon_named:elsewhere(Agent) :-
+typhon_questions:elsewhere(Agent) :-
     running(Network),
     wired_agents(Network, Agents),
     member(Agent, Agents).
 
-typhon_named:ended_elsewhere(Name, Agent) :-
+typhon_questions:ended_elsewhere(Name, Agent) :-
     running(Network),
     wired_ended(Network, Name, Agents),
     last(Agents, Agent).

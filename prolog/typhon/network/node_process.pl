@@ -15,10 +15,11 @@
                 endpoint_flush/2, endpoint_reply/2 ]).
 :- use_module('../kernel/host',
               [ host/3, host_do/2, host_link/3, host_neighbours/2,
-                host_option/2, host_property/2, host_restart/2, host_start/2,
-                host_stop/1, host_unlink/2, hosts_go_on/0, hosts_rest/0,
-                runtime_acquire/2, runtime_release/1, time_again/2,
-                time_hold/1, time_let_go/1, time_stands/1 ]).
+                host_option/2, host_restart/2, host_start/2, host_stop/1,
+                host_unlink/2, hosts_go_on/0, hosts_rest/0, runtime_acquire/2,
+                runtime_release/1, time_again/2, time_hold/1, time_let_go/1,
+                time_stands/1 ]).
+:- use_module('../tools/administration', [host_property/2]).
 :- use_module('../options/journal', [hosts_back/1, hosts_journal/2]).
 :- use_module('../options/snapshot',
               [ agents_at_rest/2, agents_go_on/1, process_dump/2,

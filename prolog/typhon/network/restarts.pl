@@ -5,7 +5,7 @@
             restarts_absent/2,          % +Network, +P
             restarts_back/1             % +Network
           ]).
-:- use_module(library(apply), [include/3]).
+:- use_module(library(aggregate), [aggregate_all/3]).
 :- use_module(library(debug), [debug/3]).
 :- use_module(library(lists), [member/2, min_member/2, selectchk/3]).
 :- use_module(library(settings), [setting/2, setting/4]).
@@ -45,6 +45,7 @@ absent one do so in threads of their own.
     restarter/2,                % Network, Server
     restoring/2,                % Network, Thread that calls Do(restore(_))
     absent/2,                   % Network, P
+    death/3,                    % Network, P, Time
     waiting/2.                  % Network, Queue: until none is absent
 
 %!  restarts_begin(+Network, +Queue, :Do) is det.
@@ -60,7 +61,7 @@ absent one do so in threads of their own.
 
 restarts_begin(Network, Queue, Do) :-
     atom_concat(restarts_, Network, Role),
-    server_start(Role, typhon_restarts:handle, state(Network, Do, [], []),
+    server_start(Role, typhon_restarts:handle, state(Network, Do, []),
                  Server),
     with_mutex(typhon_restarts,
                ( assertz(restarter(Network, Server)),
@@ -82,6 +83,7 @@ restarts_end(Network) :-
     server_stop(Server),
     retractall(restoring(Network, _)),
     retractall(absent(Network, _)),
+    retractall(death(Network, _, _)),
     tell_waiting(Network).
 restarts_end(_).
 
@@ -106,16 +108,16 @@ interrupt :-
     ;   true
     ).
 
-%   Deaths are terms P-Time, Starting terms Deadline-P.  A server whose thread
-%   was ended finds in absent/2 what it had started.
+%   Starting are terms Deadline-P.  A server whose thread was ended finds in
+%   absent/2 what it had started, and in death/3 what has died before.
 
-handle(begin, state(Network, Do, Deaths, _), Next) :-
+handle(begin, state(Network, Do, _), Next) :-
     !,
     start_deadline(Deadline),
     findall(Deadline-P, absent(Network, P), Starting),
-    next(state(Network, Do, Deaths, Starting), Next).
+    next(state(Network, Do, Starting), Next).
 handle(Event, State0, Next) :-
-    State0 = state(Network, _, _, _),
+    State0 = state(Network, _, _),
     (   restarter(Network, _)
     ->  handled(Event, State0, State)
     ;   State = State0
@@ -123,7 +125,7 @@ handle(Event, State0, Next) :-
     next(State, Next).
 
 next(State, Next) :-
-    State = state(_, _, _, Starting),
+    State = state(_, _, Starting),
     (   min_member(Deadline-_, Starting)
     ->  Next = until(Deadline, State)
     ;   Next = State
@@ -133,33 +135,29 @@ start_deadline(Deadline) :-
     setting(typhon_processes:start_seconds, Seconds),
     deadline(Seconds, Deadline).
 
-handled(down(P, _), State0, State) :-
-    State0 = state(Network, Do, Deaths0, Starting0),
+handled(down(P, _), state(Network, Do, Starting0), State) :-
     not_starting(P, Starting0, Starting),
-    (   once_more(P, Deaths0, Deaths)
+    (   once_more(Network, P)
     ->  debug(typhon(network), 'process ~w of ~w is started again',
               [P, Network]),
         catch(ignore(call(Do, start(P))), error(Formal, Context),
               print_error(error, error(Formal, Context))),
         start_deadline(Deadline),
-        State = state(Network, Do, Deaths, [Deadline-P|Starting])
-    ;   State = state(Network, Do, Deaths0, Starting),
+        State = state(Network, Do, [Deadline-P|Starting])
+    ;   State = state(Network, Do, Starting),
         given_up(P, Network, Do)
     ).
-handled(up(P), State0, State) :-
-    State0 = state(Network, Do, Deaths, Starting0),
+handled(up(P), state(Network, Do, Starting0), state(Network, Do, Starting)) :-
     not_starting(P, Starting0, Starting),
-    State = state(Network, Do, Deaths, Starting),
     (   Starting \== Starting0
     ->  restored(P, Network, Do)
     ;   true                            % it came before this server began
     ).
 handled(failed(_, Error), State, State) :-
     print_error(error, Error).
-handled(timeout, state(Network, Do, Deaths, Starting0), State) :-
+handled(timeout, state(Network, Do, Starting0), state(Network, Do, Starting)) :-
     min_member(_-P, Starting0),
     not_starting(P, Starting0, Starting),
-    State = state(Network, Do, Deaths, Starting),
     ignore(call(Do, kill(P))).
 
 given_up(P, Network, Do) :-
@@ -175,20 +173,18 @@ not_starting(P, Starting0, Starting) :-
     ;   Starting = Starting0
     ).
 
-%   once_more(+P, +Deaths0, -Deaths) fails if it has died too often.
+%   once_more(+Network, +P) fails if it has died too often.
 
-once_more(P, Deaths0, [P-Now|Deaths]) :-
+once_more(Network, P) :-
     get_time(Now),
     setting(restart_seconds, Seconds),
-    Since is Now-Seconds,
-    include(later(Since), Deaths0, Deaths),
-    findall(x, member(P-_, Deaths), Times),
-    length(Times, Count),
     setting(restarts, Most),
-    Count < Most.
-
-later(Since, _-Time) :-
-    Time > Since.
+    Since is Now-Seconds,
+    findall(Time, ( death(Network, P, Time), Time =< Since ), Olds),
+    forall(member(Old, Olds), retractall(death(Network, P, Old))),
+    aggregate_all(count, death(Network, P, _), Count),
+    Count < Most,
+    assertz(death(Network, P, Now)).
 
 %   One that is up but cannot be what it was is no use: it is as if it had
 %   died.

@@ -11,8 +11,8 @@
 :- use_module(library(sha), [hash_atom/2, sha_hash/3]).
 :- use_module('../kernel/base/text', [term_text/2, text_term/2]).
 :- use_module('../kernel/host',
-              [ context_now/2, host_property/2, time_due/3, time_kind/1,
-                time_now/1 ]).
+              [context_now/2, time_due/3, time_kind/1, time_now/1]).
+:- use_module('../tools/administration', [host_property/2]).
 :- use_module('../kernel/wire', [mobile_term/1]).
 :- use_module(node_process, [order_do/2]).
 :- use_module(nodes, [node/4, nodes_order/5, nodes_peers/2, nodes_tell/3]).

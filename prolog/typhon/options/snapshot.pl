@@ -6,6 +6,4 @@ A network is saved so.  This is the interface of the layer: higher layers
 import from here.
 */
 
-:- reexport(snapshot/process_dump,
-            [process_dump/2, process_go_on/3, process_restore/2]).
-:- reexport('snapshot/resting').
+:- reexport('snapshot/process_dump').

@@ -64,7 +64,7 @@ goal(Query, Module, Goal) :-
 
 word(PI) :-
     member(Module, [ typhon_words, typhon_memory, typhon_monitor_words,
-                      typhon_seals ]),
+                     typhon_pheromone, typhon_seals ]),
     module_property(Module, exports(PIs)),
     memberchk(PI, PIs).
 
@@ -151,7 +151,8 @@ predicates_option(payload, PIs, provides(PIs)).
 %   File defines predicates that agents can call.
 
 words_file(File) :-
-    member(Module, [typhon_words, typhon_memory, typhon_monitor_words]),
+    member(Module, [ typhon_words, typhon_memory, typhon_monitor_words,
+                     typhon_pheromone ]),
     module_property(Module, file(File)).
 
 %!  directive_coloured(+Directive, -Colours) is semidet.
@@ -298,7 +299,7 @@ part_of_one(Texts, Word) :-
 
 ours(Module, Name/Arity) :-
     member(Interface, [ typhon, typhon_words, typhon_memory,
-                        typhon_monitor_words ]),
+                        typhon_monitor_words, typhon_pheromone ]),
     module_property(Interface, exports(PIs)),
     member(Name/Arity, PIs),
     functor(Head, Name, Arity),

@@ -16,10 +16,11 @@
 :- use_module('../kernel/base/error_text', [abridged/3]).
 :- use_module('../kernel/host',
               [ address_parts/3, clock/3, host/3, host_link_cost/3,
-                host_option/2, host_property/2, host_resolve/2,
+                host_option/2, host_resolve/2,
                 host_unknown/1, process_ask/6, scheduler_call/1, time_kind/1,
                 tuple_sense/2 ]).
-:- use_module('../kernel/lifecycle', [agent_glance/2]).
+:- use_module(administration, [host_property/2]).
+:- use_module(agent_summary, [agent_glance/2]).
 :- use_module('../kernel/wire',
               [ endpoint_address/1, endpoint_ask_all/6, endpoint_left/1,
                 endpoint_reply/2 ]).

@@ -14,7 +14,8 @@ the wire, of networks and of the log keep the texts of their own messages.
 :- use_module('../kernel/wire', [endpoint_missed/2, refusal_text/2]).
 :- use_module('../kernel/program', [files_beside/3]).
 :- use_module('../kernel/host',
-              [address_parts/3, host_property/2, host_resolve/2]).
+              [address_parts/3, host_resolve/2]).
+:- use_module(administration, [host_property/2]).
 :- use_module('../kernel/base/names',
               [names/2, names_joined/3, names_listed/2, names_proposed/3]).
 :- use_module('../kernel/travel', [agent_outcome/2]).

@@ -5,7 +5,7 @@
 
 /** <module> Texts of problems of programs, with advice
 
-A problem, see typhon_problems, is raised and printed as
+A problem, see typhon_parts, is raised and printed as
 
     error(Formal, at(Location, Text, Others))
 

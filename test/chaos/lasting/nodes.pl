@@ -27,7 +27,7 @@ war; the rest is for one thread.
 :- use_module(library(process), [process_kill/2, process_wait/2]).
 :- use_module(library(random), [random/3, random_between/3, random_member/2]).
 :- use_module(library(readutil), [read_file_to_string/3, read_line_to_string/2]).
-:- use_module('../../../prolog/typhon/kernel/base/spawn', [spawn/3]).
+:- use_module('../../../prolog/typhon/kernel/base/prolog_faults', [spawn/3]).
 :- use_module('../../lib/common', [free_port/1, wait_until/2]).
 
 :- meta_predicate with_nodes(+, -, 0, -).

@@ -27,7 +27,7 @@ life(Options, Outcome) :-
                  ( host_stop(a), host_stop(b) ))).
 
 traveller(Outcome) :-
-    host_property(b, address(B)),
+    host_address(b, B),
     agent_create(
         clauses([ (:- agent(traveller, [state([seen/1])])),
                   (main :- receive(_-go(Host)), home(Home), move(Host),

@@ -560,6 +560,24 @@ begun_by_another :-
           hosts(Network, [_, _]) ),
         network_stop(Network)).
 
+test(deaths_are_counted_across_threads,
+     true(Told == [node_given_up(1, 1)])) :-
+    with_settings([typhon_restarts:restarts=1],
+                  quiet(no_leaks(counted_by_another))),
+    findall(node_given_up(P, Most), printed(node_given_up(_, P, Most, _)), Told).
+
+counted_by_another :-
+    setup_call_cleanup(
+        network_start(ring(2), Network, [processes(2), restart(true)]),
+        ( kill(Network, 1),
+          wakes([Thread]),
+          thread_signal(Thread, throw('$aborted')),
+          wait_until(printed(server_ended(_)), 10),
+          pids(Network, [Pid, Other]),
+          process_kill(Pid, kill),
+          wait_until(pids(Network, [Other]), 10) ),
+        network_stop(Network)).
+
 %   wakes(-Threads): those that start processes of networks again.
 
 wakes(Threads) :-

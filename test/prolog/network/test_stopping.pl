@@ -84,10 +84,10 @@ test('what is wrong with one is told',
 test('where all rest nothing is waited for', Looks == 64) :-
     flag(test_stopping_looks, _, 0),
     setup_call_cleanup(
-        wrap_predicate(typhon_evacuation:end_or_order(_, _), counted, Ended,
+        wrap_predicate(typhon_disposal:end_or_order(_, _), counted, Ended,
                        ( flag(test_stopping_looks, N, N+1), Ended )),
         all_rest(64),
-        unwrap_predicate(typhon_evacuation:end_or_order/2, counted)),
+        unwrap_predicate(typhon_disposal:end_or_order/2, counted)),
     flag(test_stopping_looks, Looks, 0).
 
 all_rest(Count) :-

@@ -17,7 +17,7 @@
 :- use_module('../../kernel/base/error_text', [print_error/2]).
 :- use_module('../../kernel/base/json', [json_dict/2]).
 :- use_module('../../kernel/base/server', [server_cast/2]).
-:- use_module('../../kernel/base/spawn', [spawn/3]).
+:- use_module('../../kernel/base/prolog_faults', [spawn/3]).
 
 /** <module> The process of a helper
 

@@ -6,13 +6,12 @@
           ]).
 :- use_module(library(debug), [debug/3]).
 :- use_module(library(error), [resource_error/1]).
-:- use_module(library(http/http_stream), []).
-:- use_module(library(http/websocket), [http_open_websocket/3, ws_send/2]).
+:- use_module(library(http/websocket), [ws_send/2]).
 :- use_module(library(lists), [member/2]).
-:- use_module(library(settings), [setting/2, setting/4]).
 :- use_module('../../kernel/base/error_text', [print_error/2]).
 :- use_module('../../kernel/base/json', [json_text/2]).
 :- use_module('../../kernel/base/own_thread', [in_own_thread/1]).
+:- use_module(websocket, [socket_close/1, socket_open/3, socket_read/2]).
 
 /** <module> The connection to a rosbridge server
 
@@ -20,10 +19,6 @@ A thread connects, and reads; when the connection is lost it connects
 again, after a tenth of a second, then twice as long, up to ten.  A second
 thread writes what waits in its queue, which is bounded: a sender of more than
 the server reads waits, and gets an error in the end.
-
-WebSockets are those of library(http/websocket), but a message that is longer
-than the setting `longest` is skipped and not kept.  library(http/http_stream)
-is there because without it the request says HTTP/1.0, which servers refuse.
 
 *Threading*: rosbridge_send/3 may be called in any thread.  The hooks are
 run by the thread that reads, which reads nothing meanwhile. No `server`: it
@@ -116,10 +111,17 @@ pass(Writer, Message, Seconds) :-
 %   The connection ends after a second if the server does not close it.
 
 rosbridge_close(Host) :-
-    (   retract(reader(Host, Reader))
+    (   taken(Host, Reader)
     ->  in_own_thread(close_down(Host, Reader))
     ;   true
     ).
+
+%   One of the callers gets it.
+
+taken(Host, Reader) :-
+    reader(Host, Reader),
+    retract(reader(Host, Reader)),
+    !.
 
 close_down(Host, Reader) :-
     thread_self(Me),
@@ -141,7 +143,9 @@ close_down(Host, Reader) :-
 :- at_halt(close_all).
 
 close_all :-
-    findall(Reader, ( retract(reader(Host, Reader)), leave(Host, Reader) ),
+    findall(Host, reader(Host, _), Hosts),
+    findall(Reader,
+            ( member(Host, Hosts), taken(Host, Reader), leave(Host, Reader) ),
             Readers),
     get_time(Now),
     bye_seconds(Seconds),
@@ -332,69 +336,3 @@ writer_stop(Writer, Me) :-
     !,
     writer_stop(Writer, Me).
 writer_stop(_, _).
-
-                /*******************************
-                *            SOCKET            *
-                *******************************/
-
-:- setting(typhon_ros_socket:longest, nonneg, 4 000 000,
-           "Now typhon_ros_rosbridge:longest").
-:- setting(longest, nonneg, 4 000 000,
-           "Characters of one message from a rosbridge server").
-
-%   socket_open(+URL, +Silence, -Socket) is det.
-%
-%   Silence is how many seconds a server may say nothing at all.
-%
-%   @error What http_open/3 and http_open_websocket/3 raise
-
-socket_open(URL, Silence, socket(In, Out)) :-
-    http_open_websocket(URL, Pair, [timeout(Silence)]),
-    stream_pair(Pair, In, Out).
-
-%   socket_read(+Socket, -Read) is det.
-%
-%   Waits for a message.  Read is text(String), too_long(Characters), `binary`,
-%   or end(Why).  Answers pings.
-%
-%   @error timeout_error(read, Stream)
-
-socket_read(Socket, Read) :-
-    Socket = socket(In, _),
-    websocket:ws_read_header(In, Code, _),
-    read_frame(Code, Socket, Read0),
-    (   Read0 == none
-    ->  socket_read(Socket, Read)
-    ;   Read = Read0
-    ).
-
-read_frame(end_of_file, _, end(closed)) :- !.
-read_frame(Code, Socket, Read) :-
-    Socket = socket(In, Out),
-    setting(longest, Longest),
-    read_string(In, Longest, Text),
-    rest(In, 0, More),
-    (   More > 0
-    ->  Length is Longest+More,
-        Read = too_long(Length)
-    ;   frame_read(Code, Text, Out, Read)
-    ).
-
-frame_read(1, Text, _, text(Text)) :- !.
-frame_read(2, _, _, binary) :- !.
-frame_read(8, _, _, end(closed)) :- !.
-frame_read(9, Text, Out, none) :- !, ws_send(Out, pong(Text)).
-frame_read(_, _, _, none).
-
-rest(In, Count0, Count) :-
-    read_string(In, 4096, Text),
-    string_length(Text, Length),
-    (   Length =:= 0
-    ->  Count = Count0
-    ;   Count1 is Count0+Length,
-        rest(In, Count1, Count)
-    ).
-
-socket_close(socket(In, Out)) :-
-    catch(close(Out, [force(true)]), error(_, _), true),
-    catch(close(In, [force(true)]), error(_, _), true).

@@ -10,21 +10,43 @@
             agent_elsewhere/3,          % +Module, +Place0, +Place
             agent_handles/2,            % +Program, +Module
             attach_clauses/3,           % +Module, +Hash, +Payload
-            detach_clauses/2            % +Module, +PIs
+            detach_clauses/2,           % +Module, +PIs
+            agent_variant/2             % +Module, -Variant
           ]).
 :- use_module(library(apply), [maplist/2]).
 :- use_module(library(error), [permission_error/3]).
 :- use_module(library(lists), [member/2, memberchk/2]).
 :- use_module('../program', [code_module/2]).
-:- use_module('../host',
-              [host/3, parts/3, parts_call/3]).
+:- use_module('../host', [host/3, parts/3, parts_call/3, place_host/2]).
 :- use_module(agents, [agent_here/5]).
-:- use_module(variants, [agent_variant/2, place_variant/3]).
 
 /** <module> The module of an agent
 
 Everything dynamic in this temporary module is the agent's state.  Its
 program is found through the import chain, see typhon_code and typhon_place.
+
+An option may rewrite what agents bring to a host, for example to check what
+they call.  Then an agent does not hang below the place of the host, but below
+a view of it, a module that the option has made: the part of the host in the
+phase `view`, see typhon_host_parts.  The option defines the hooks
+
+    variant(View, Variant)      agents that hang below View have this variant,
+                                a term that the option knows
+    program(Variant, Hash, Module)
+                                Module has the installed program of that hash
+    state(Variant, State0, State)
+    goals(Variant, Program, Goals0, Goals)
+                                an agent with the program in the module
+                                Program comes with State0 and Goals0
+    clauses(Variant, Clauses0, Clauses)
+                                clauses are added to its state
+    declares(Variant, PI)       a payload provides PI
+    called(Variant, Module, Closure, Extra, Goal)
+                                Goal is what the agent in Module calls by
+                                '$checked'(Closure, Extra, ...)
+
+They raise errors to refuse it.  An agent keeps its variant while it stays on
+the host, whatever becomes of the options of the host.
 
 *Threading*: any thread; the module of an agent that runs belongs to its
 worker.
@@ -41,7 +63,7 @@ worker.
 %   @arg State is state(Empty, Clauses): what is dynamic without having
 %        clauses, and the clauses of all else.
 %   @error what assertz/1 raises
-%   @error what a variant raises, see typhon_variants
+%   @error what a variant raises, see typhon_agent_module
 
 agent_module(Id, Place, Hash, State0, Module) :-
     code_module(Hash, Program0),
@@ -79,8 +101,8 @@ begins(Place, Module) :-
 below(Place, Hash, _, State0, Program, View, State) :-
     place_variant(Place, View, Variant),
     !,
-    typhon_variants:program(Variant, Hash, Program),
-    typhon_variants:state(Variant, State0, State).
+    typhon_agent_module:program(Variant, Hash, Program),
+    typhon_agent_module:state(Variant, State0, State).
 below(Place, _, Program, State, Program, Place, State).
 
 %!  agent_code(+Module, -Program) is det.
@@ -101,7 +123,7 @@ agent_goals(Module, Goals0, Goals) :-
     agent_variant(Module, Variant),
     !,
     agent_code(Module, Program),
-    typhon_variants:goals(Variant, Program, Goals0, Goals).
+    typhon_agent_module:goals(Variant, Program, Goals0, Goals).
 agent_goals(_, Goals, Goals).
 
 %!  agent_standing(+Id, +Place, +Hash, +Begin, -Agent) is semidet.
@@ -123,7 +145,7 @@ agent_standing(Id, Place, Hash, State-Goals0, Module-Goals) :-
 
 agent_clauses(Module, Clauses0, Clauses) :-
     (   agent_variant(Module, Variant)
-    ->  typhon_variants:clauses(Variant, Clauses0, Clauses)
+    ->  typhon_agent_module:clauses(Variant, Clauses0, Clauses)
     ;   Clauses = Clauses0
     ).
 
@@ -228,7 +250,7 @@ latest([Last-_|Changed], Until0, Until) :-
 %   what is the same everywhere: its program and the vocabulary.
 
 agent_elsewhere(Module, Place0, Place) :-
-    (   typhon_variants:variant(_, _)
+    (   typhon_agent_module:variant(_, _)
     ->  stands_below(Place0, Place, Module, Above0, Above)
     ;   Above0 = Place0,
         Above = Place
@@ -299,7 +321,7 @@ attach_clauses(Module, Hash, payload(_, PIs, Clauses0)) :-
 
 may_have(Module, PI) :-
     (   agent_variant(Module, Variant)
-    ->  typhon_variants:declares(Variant, PI)
+    ->  typhon_agent_module:declares(Variant, PI)
     ;   true
     ).
 
@@ -319,3 +341,44 @@ free(Module, Program, Name/Arity) :-
 
 detach_clauses(Module, PIs) :-
     forall(member(PI, PIs), abolish(Module:PI)).
+
+                /*******************************
+                *           VARIANTS           *
+                *******************************/
+
+:- multifile
+    variant/2,                  % View, Variant
+    program/3,                  % Variant, Hash, Module
+    state/3,                    % Variant, State0, State
+    goals/4,                    % Variant, Program, Goals0, Goals
+    clauses/3,                  % Variant, Clauses0, Clauses
+    declares/2,                 % Variant, PI
+    called/5.                   % Variant, Module, Closure, Extra, Goal
+
+:- dynamic
+    state/3,
+    declares/2.
+
+%   place_variant(+Place, -View, -Variant) is semidet.
+%
+%   What agents hang below that come to Place now.  Fails for places where
+%   programs run as they are.
+
+place_variant(Place, View, Variant) :-
+    (   variant(_, _)
+    ->  place_host(Place, Host),
+        parts(view, Host, [View|_]),
+        variant(View, Variant),
+        !
+    ).
+
+%!  agent_variant(+Module, -Variant) is semidet.
+%
+%   The agent in Module runs a variant of its program.
+
+agent_variant(Module, Variant) :-
+    (   variant(_, _)
+    ->  import_module(Module, View),
+        variant(View, Variant),
+        !
+    ).

@@ -15,8 +15,6 @@
             agent_rest/3,               % +Id, +Status, +Goals
             agent_take/3,               % +Id, -Goals, -Order
             agent_departs/3,            % +Id, -Dest, -Goals
-            agent_extras_missing/1,     % @Life
-            agent_extras_load/1,        % +Life
             agent_comes/5,              % +Id, +Host, +Module, +Hash, +Life
             agent_handed/4,             % +Id, +Hops, +Way, +Frame
             agent_under_way/6,          % ?Id, ?Hops, -Host, -Hash, -Way,
@@ -28,17 +26,15 @@
             agent_wakes/2,              % +Id, +Goals
             agent_mail/2                % +Id, +Messages
           ]).
-:- use_module(library(debug), [debug/3]).
 :- use_module(library(lists), [member/2]).
-:- use_module(library(settings), [setting/2, setting/4]).
 :- use_module('../base/durable_changes',
               [durable_drop/3, durable_on/0, enqueue_changes/0]).
-:- use_module('../base/on_demand', [on_demand_load/2, on_demand_missing/2]).
+:- use_module('../base/on_demand', [on_demand_load/2]).
 :- use_module('../host', [events_forget/1, parts_call/3, schedule/2]).
 :- use_module(mailbox,
               [ agent_ordered/1, agent_unorder/2, agent_unorder_all/2,
-                mail_all/2, mail_count/2, mail_put/2 ]).
-:- use_module(life, [is_life/1, life_extras/2]).
+                mail_all/2, mail_keep/2, mail_put/2 ]).
+:- use_module(life, [life_extra/3, life_extras/2]).
 
 /** <module> Agents that stand in this process
 
@@ -76,11 +72,6 @@ which Prolog makes by itself, is not safe where other threads retract
                                 % now, and carries Extra, of that functor, see
                                 % typhon_life
     thaw/1.                     % Id: is under way and gets a record
-
-%   The name by which users set it.
-
-:- setting(typhon_creation:faulty_mail, nonneg, 1000,
-           "Messages kept for an agent that is faulty").
 
 :- dynamic
     stands/6,                   % Id, Host, Module, Hash, Life, Until
@@ -147,33 +138,10 @@ carried(Id, Life) :-
     life_extras(Life, Extras),
     (   Extras == []
     ->  true
-    ;   forall(extra(Life, Name, Extra),
+    ;   forall(life_extra(Life, Name, Extra),
                ( on_demand_load(carries, Name),
                  ignore(carries(Name, Id, Extra)) ))
     ).
-
-%!  agent_extras_missing(@Life) is semidet.
-%!  agent_extras_load(+Life) is det.
-%
-%   An agent with this Life, any term, carries what an option knows that is not
-%   loaded; load it.  Not for the thread of a connection.
-
-agent_extras_missing(Life) :-
-    is_life(Life),
-    extra(Life, Name, _),
-    on_demand_missing(carries, Name),
-    !.
-
-agent_extras_load(Life) :-
-    forall(extra(Life, Name, _), on_demand_load(carries, Name)).
-
-%   Peers may have written it.
-
-extra(Life, Name, Extra) :-
-    life_extras(Life, Extras),
-    member(Extra, Extras),
-    callable(Extra),
-    functor(Extra, Name, _).
 
 agent_remove(Id, Mail, Orders) :-
     retract(stands(Id, Host, Module, _, _, _)),
@@ -385,7 +353,7 @@ agent_program(Id, Hash, Module, Life) :-
     forget_first(Id),
     state_destroy(Id, Old).
 
-%   Others always find one.  Not by clause reference: see typhon_erased.
+%   Others always find one.  Not by clause reference: see typhon_prolog_faults.
 
 forget_first(Id) :-
     retract(stands(Id, _, _, _, _, _)),
@@ -397,57 +365,30 @@ forget_first(Id) :-
 
 %!  agent_mail(+Id, +Messages:list) is semidet.
 %
-%   Put Messages in the mailbox and wake the agent if it waits for one.  The
-%   mailbox of one that is faulty holds so many, and no more.  Fails if there
-%   is no such agent.
+%   Put Messages in the mailbox and wake the agent if it waits for one.  Fails if
+%   there is no such agent.
 
 agent_mail(Id, Messages) :-
     stands(Id, Host, _, _, _, _),
     !,
     (   status(Id, Status, Goals)
     ->  mail_to(Status, Id, Host, Goals, Messages)
-    ;   put_mail(Messages, Id)
+    ;   mail_put(Id, Messages)
     ).
 agent_mail(Id, Messages) :-
     under_way(Id, _, _, _, _, _),
     !,
-    put_mail(Messages, Id).
-
-put_mail(Messages, Id) :-
-    tell_mail(Messages, Id),
     mail_put(Id, Messages).
-
-tell_mail([], _).
-tell_mail([Message|Messages], Id) :-
-    debug(typhon(mail), '~w: gets ~p', [Id, Message]),
-    tell_mail(Messages, Id).
 
 mail_to(faulty(_), Id, _, _, Messages) :-
     !,
-    keep_mail(Messages, Id).
+    mail_keep(Id, Messages).
 mail_to(Status, Id, Host, Goals, Messages) :-
-    put_mail(Messages, Id),
+    mail_put(Id, Messages),
     (   wakes(Status, Messages)
     ->  wakes_on(Host, Id, Goals)
     ;   true
     ).
-
-%   Repeated questions to a faulty agent are reported once.
-
-keep_mail([], _).
-keep_mail([Message|Messages], Id) :-
-    setting(typhon_creation:faulty_mail, Max),
-    mail_count(Id, Count),
-    (   Count < Max
-    ->  debug(typhon(mail), '~w: will get ~p', [Id, Message]),
-        mail_put(Id, [Message])
-    ;   debug(typhon(mail), '~w: has no space for ~p', [Id, Message])
-    ),
-    (   Count =:= Max-1
-    ->  print_message(warning, typhon(mailbox_full(Id, Max)))
-    ;   true
-    ),
-    keep_mail(Messages, Id).
 
 wakes(resident, [_|_]).
 wakes(waiting(Pattern, _), Messages) :-

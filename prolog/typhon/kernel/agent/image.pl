@@ -22,7 +22,7 @@
 :- use_module(agents, [agent/5, agent_enter/3, agent_mail/2]).
 :- use_module(agent_module, [agent_standing/5, agent_state/2]).
 :- use_module(identity, [agent_home/2, origin_inherited/3]).
-:- use_module(result_facts, [no_result_facts/2]).
+:- use_module(payloads, [no_result_facts/2]).
 :- use_module(life,
               [is_life/1, life_clone/3, life_hop/3, life_hops/2]).
 

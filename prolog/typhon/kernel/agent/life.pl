@@ -6,6 +6,9 @@
             life_tokens/2,              % +Life, -Tokens
             life_payloads/2,            % +Life, -Payloads
             life_extras/2,              % +Life, -Extras
+            life_extra/3,               % +Life, ?Name, -Extra
+            agent_extras_missing/1,     % @Life
+            agent_extras_load/1,        % +Life
             set_payloads_of_life/3,     % +Payloads, +Life0, -Life
             set_extras_of_life/3,       % +Extras, +Life0, -Life
             life_may_move/2,            % +Life, -May
@@ -17,6 +20,7 @@
 :- use_module(library(apply), [exclude/3]).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(option), [option/3]).
+:- use_module('../base/on_demand', [on_demand_load/2, on_demand_missing/2]).
 
 /** <module> What an agent takes along besides its state
 
@@ -30,7 +34,7 @@ list of Name-PIs, whether it may not move, and a list of what options let it
 carry.  It goes over the wire and into restore points as it is; no other module
 takes it apart.
 
-*Threading*: pure.
+*Threading*: pure, but for agent_extras_load/1.
 */
 
 :- multifile not_cloned/1.     % Extra: a clone does not carry it
@@ -154,3 +158,28 @@ life_before(life(Parent, Hops, Most, Tokens, Payloads, Static, Extras),
 life_clone(Id, life(_, _, Most, Tokens, Payloads, Static, Extras0),
            life(Id, 0, Most, Tokens, Payloads, Static, Extras)) :-
     exclude(not_cloned, Extras0, Extras).
+
+%!  agent_extras_missing(@Life) is semidet.
+%!  agent_extras_load(+Life) is det.
+%
+%   An agent with this Life, any term, carries what an option knows that is not
+%   loaded; load it.  Not for the thread of a connection.
+
+agent_extras_missing(Life) :-
+    is_life(Life),
+    life_extra(Life, Name, _),
+    on_demand_missing(carries, Name),
+    !.
+
+agent_extras_load(Life) :-
+    forall(life_extra(Life, Name, _), on_demand_load(carries, Name)).
+
+%!  life_extra(+Life, ?Name, -Extra) is nondet.
+%
+%   An Extra of that functor.  Peers may have written it.
+
+life_extra(Life, Name, Extra) :-
+    life_extras(Life, Extras),
+    member(Extra, Extras),
+    callable(Extra),
+    functor(Extra, Name, _).

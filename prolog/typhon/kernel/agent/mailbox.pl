@@ -1,5 +1,6 @@
 :- module(typhon_mailbox,
           [ mail_put/2,                 % +Id, +Messages
+            mail_keep/2,                % +Id, +Messages
             mail_take/2,                % +Id, ?Message
             mail_all/2,                 % +Id, -Messages
             mail_list/2,                % +Id, -Messages
@@ -12,7 +13,9 @@
             agent_orders/2,             % +Id, -Orders
             agent_ordered/1             % +Id
           ]).
+:- use_module(library(debug), [debug/3]).
 :- use_module(library(lists), [append/3, member/2]).
+:- use_module(library(settings), [setting/2, setting/4]).
 :- use_module(agent_lock, [with_agent/2]).
 :- use_module('../base/fifo', [fifo_empty/2, fifo_take/2]).
 :- use_module('../base/durable', [durable/6]).
@@ -35,6 +38,11 @@ What is put in the journal before it can be taken cannot be taken twice.
 mail_put/2 may add to a queue, and no thread waits at one.
 */
 
+%   The name by which users set it.
+
+:- setting(typhon_creation:faulty_mail, nonneg, 1000,
+           "Messages kept for an agent that is faulty").
+
 :- dynamic
     box/2,                      % Id, Queue
     order/2.                    % Id, Order: the oldest first
@@ -44,6 +52,7 @@ mail_put/2 may add to a queue, and no thread waits at one.
 mail_put(_, []) :-
     !.
 mail_put(Id, Messages) :-
+    tell_mail(Messages, Id),
     box_of(Id, Queue),
     (   durable_on
     ->  noted(Messages, Id, Numbered),
@@ -51,6 +60,11 @@ mail_put(Id, Messages) :-
         put_all(Numbered, Queue)
     ;   put_bare(Messages, Queue)
     ).
+
+tell_mail([], _).
+tell_mail([Message|Messages], Id) :-
+    debug(typhon(mail), '~w: gets ~p', [Id, Message]),
+    tell_mail(Messages, Id).
 
 box_of(Id, Queue) :-
     box(Id, Queue),
@@ -86,6 +100,25 @@ put_all([], _).
 put_all([Message|Messages], Queue) :-
     thread_send_message(Queue, Message),
     put_all(Messages, Queue).
+
+%!  mail_keep(+Id, +Messages:list) is det.
+%
+%   As mail_put/2, for an agent that is faulty: its mailbox holds so many, and no
+%   more.  That it is full is reported once.
+
+mail_keep(_, []).
+mail_keep(Id, [Message|Messages]) :-
+    setting(typhon_creation:faulty_mail, Max),
+    mail_count(Id, Count),
+    (   Count < Max
+    ->  mail_put(Id, [Message])
+    ;   debug(typhon(mail), '~w: has no space for ~p', [Id, Message])
+    ),
+    (   Count =:= Max-1
+    ->  print_message(warning, typhon(mailbox_full(Id, Max)))
+    ;   true
+    ),
+    mail_keep(Id, Messages).
 
 %!  mail_take(+Id, ?Message) is semidet.
 %

@@ -2,17 +2,24 @@
           [ agent_attach/2,             % +Id, +Payload
             agent_detach/2,             % +Id, +Name
             agent_payload/3,            % +Id, +Name, -Payload
-            payload_marks/2             % +Payload, -Marks
+            payload_marks/2,            % +Payload, -Marks
+            result_put/2,               % +Module, +Term
+            cloned_put/2,               % +Module, +Endpoint
+            result_facts/2,             % +Module, -Items
+            no_result_facts/2,          % +State0, -State
+            is_result_fact/1            % @Item
           ]).
-:- use_module(library(error), [existence_error/2]).
+:- use_module(library(apply), [exclude/3]).
+:- use_module(library(error), [existence_error/2, resource_error/1]).
 :- use_module(library(lists), [member/2, selectchk/3]).
+:- use_module(library(settings), [setting/2, setting/4]).
+:- use_module('../host', [host_address/2, parts/3]).
 :- use_module(agents, [agent/5, agent_put_life/2]).
 :- use_module(agent_lock, [with_agent/2]).
 :- use_module(agent_module, [attach_clauses/3, detach_clauses/2]).
-:- use_module('../host', [host_address/2, parts/3]).
 :- use_module(life, [life_payloads/2, set_payloads_of_life/3]).
 
-/** <module> The payloads of agents
+/** <module> What agents carry: payloads, and the results they have given
 
 A payload is payload(Name, PIs, Clauses).  Its clauses are part of the
 agent's state, its name and predicates are noted in its life.  Options may mark
@@ -20,7 +27,15 @@ it by facts among the state; and parts of the host, see typhon_host_parts, may
 refuse it when it is attached or delivered, called with From, Payload, Host,
 -Reason: From is `new`, or module(Module) if it is that of this agent.
 
-*Threading*: the worker that has the agent.
+Results are facts '$legacy'(Item) among the state of an agent, so they travel with
+it.  An item is
+
+  - result(Term): the result it has given, the last one
+  - cloned(Endpoint): it was cloned in that process
+
+They are its own: a clone begins without.
+
+*Threading*: the worker that has the agent adds; the rest as typhon_agents.
 */
 
 :- multifile
@@ -102,3 +117,80 @@ payload_clause(Module, PIs, (Head:-Body)) :-
     member(Name/Arity, PIs),
     functor(Head, Name, Arity),
     clause(Module:Head, Body).
+
+                /*******************************
+                *           RESULTS            *
+                *******************************/
+
+:- multifile prolog:error_message//1.
+
+:- setting(typhon_result_facts:result_bytes, positive_integer, 1000000,
+           "Now typhon_payloads:result_bytes").
+:- setting(result_bytes, positive_integer, 1000000,
+           "The result of an agent is no longer than this").
+
+%!  result_put(+Module, +Term) is det.
+%!  cloned_put(+Module, +Endpoint) is det.
+%
+%   The result is now Term, which can travel; it was cloned at Endpoint.
+%
+%   @error resource_error(result_bytes)
+
+result_put(Module, Term) :-
+    setting(result_bytes, Most),
+    fast_term_serialized(Term, Bytes),
+    string_length(Bytes, Length),
+    (   Length =< Most
+    ->  dynamic(Module:'$legacy'/1),
+        put_result(Module, Term)
+    ;   resource_error(result_bytes)
+    ).
+
+%   There is always one.
+
+put_result(Module, Term) :-
+    Module:'$legacy'(result(_)),
+    !,
+    assertz(Module:'$legacy'(result(Term))),
+    once(retract(Module:'$legacy'(result(_)))).
+put_result(Module, Term) :-
+    assertz(Module:'$legacy'(result(Term))).
+
+cloned_put(Module, Endpoint) :-
+    dynamic(Module:'$legacy'/1),
+    (   Module:'$legacy'(cloned(Endpoint))
+    ->  true
+    ;   assertz(Module:'$legacy'(cloned(Endpoint)))
+    ).
+
+%!  result_facts(+Module, -Items:list) is det.
+
+result_facts(Module, Items) :-
+    (   '$c_current_predicate'(_, Module:'$legacy'(_))
+    ->  findall(Item, Module:'$legacy'(Item), Items)
+    ;   Items = []
+    ).
+
+%!  no_result_facts(+State0, -State) is det.
+%
+%   State, as of agent_state/2, is State0 without results.
+
+no_result_facts(state(Empty, Clauses0), state(Empty, Clauses)) :-
+    exclude(of_result, Clauses0, Clauses).
+
+of_result('$legacy'(_)).
+
+%!  is_result_fact(@Item) is semidet.
+
+is_result_fact(Item) :-
+    subsumes_term(result(_), Item),
+    !.
+is_result_fact(Item) :-
+    subsumes_term(cloned(_), Item),
+    arg(1, Item, Endpoint),
+    atom(Endpoint).
+
+prolog:error_message(resource_error(result_bytes)) -->
+    { setting(result_bytes, Most) },
+    [ 'A result may have ~D bytes at most (setting typhon_payloads:result_bytes)'-
+      [Most] ].

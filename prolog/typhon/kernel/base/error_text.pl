@@ -3,12 +3,10 @@
             error_text/2,               % +Error, -Text
             print_error/2,              % +Kind, +Error
             term_told/3,                % +Term, -Lines, ?Rest
-            formal_told/3,              % +Formal, -Lines, ?Rest
-            context_indicator/1,        % +PI
+            context_indicator/3,        % +PI, -Name, -Arity
             is_remark/1,                % @Text
             abridged/3                  % +Term, +Longest, -Text
           ]).
-:- use_module(library(lists), [append/3]).
 :- use_module(library(apply), [maplist/2]).
 :- use_module(trees, [is_tree/2]).
 
@@ -16,27 +14,16 @@
 
 What an agent raises, and what another process answers, is data.  Handed to
 print_message/2 it would be a program: format(Format, Args) is printed with
-these arguments, and ~@ calls one.  So errors are translated here: those of
-ISO and of SWI-Prolog by clauses of our own, those of this library by its
-clauses for prolog:error_message//1; all others are written as terms.  The
-result is text, so no hook for printing (portray/1, attributes) sees a part of
-an error, and a large term is not written.
+these arguments, and ~@ calls one.  So what the hook lines//1 has to say of an
+error is made text here: no hook for printing (portray/1, attributes) sees a part
+of it, and a large term is not written.
 
 *Threading*: pure, but for a flag, which is local to the thread.
 */
 
 :- multifile
-    prolog:error_message//1,
+    lines//1,                   % +Error: the lines of its message
     prolog:message//1.
-
-:- dynamic library/1.
-
-:- module_property(typhon_error_text, file(Source)),
-   file_directory_name(Source, Dir),
-   absolute_file_name('../../../..', Root,
-                      [relative_to(Dir), file_type(directory)]),
-   retractall(library(_)),
-   assertz(library(Root)).
 
 %!  print_error(+Kind, +Error) is det.
 %
@@ -56,14 +43,14 @@ error_told(Error) -->
     { error_text(Error, Text),
       split_string(Text, "\n", "", Lines)
     },
-    lines(Lines).
+    text_lines(Lines).
 
-lines([Line]) -->
+text_lines([Line]) -->
     !,
     [ '~w'-[Line] ].
-lines([Line|Lines]) -->
+text_lines([Line|Lines]) -->
     [ '~w'-[Line], nl ],
-    lines(Lines).
+    text_lines(Lines).
 
 %!  error_text(+Error, -Text:string) is det.
 
@@ -75,6 +62,12 @@ error_text(Error, Text) :-
     ->  plainly(message(error(Formal, _)), Text)
     ;   large_text(Error, Text)
     ).
+
+message(Error) -->
+    lines(Error),
+    !.
+message(Error) -->                      % nothing that translates is loaded
+    [ '~p'-[Error] ].
 
 large_text(Term, Text) :-
     (   callable(Term)
@@ -114,193 +107,13 @@ term_told(Term) -->
     { large_text(Term, Text) },
     [ '~w'-[Text] ].
 
-                /*******************************
-                *          TRANSLATION         *
-                *******************************/
-
-message(Ball) -->
-    { var(Ball) },
-    !,
-    [ 'Unknown message: ~p'-[Ball] ].
-message(error(Formal, Context)) -->
-    !,
-    location(Context),
-    formal(Formal),
-    extra(Context).
-message('$aborted') -->
-    !,
-    [ 'Execution Aborted' ].
-message(Ball) -->
-    [ 'Unknown message: ~p'-[Ball] ].
-
-formal(Formal) -->
-    formal_told(Formal),
-    !.
-formal(Formal) -->
-    [ 'Unknown error term: ~p'-[Formal] ].
-
-%!  formal_told(+Formal, -Lines, ?Rest) is semidet.
+%!  is_remark(@Text) is semidet.
+%!  context_indicator(+PI, -Name, -Arity) is semidet.
 %
-%   The lines for errors that this library translates.
+%   Text is a remark, and PI, that is Name/Arity, a predicate indicator, that may
+%   stand in the context of an error.
 
-formal_told(Formal) -->
-    { nonvar(Formal) },
-    (   ours(prolog:error_message(Formal))
-    ;   known(Formal)
-    ),
-    !.
-
-%   ours(:Hook)//: a clause of this library for a hook has this to say.
-
-ours(prolog:Hook, Lines, Rest) :-
-    Hook =.. List0,
-    append(List0, [Lines,Rest], List),
-    Goal =.. List,
-    catch(clause(prolog:Goal, Body, Clause),
-          error(permission_error(_, _, _), _), fail),   % it is protected
-    of_library(Clause),
-    call(prolog:Body),
-    !.
-
-of_library(Clause) :-
-    clause_property(Clause, file(File)),
-    library(Root),
-    sub_atom(File, 0, _, _, Root).
-
-known(instantiation_error) -->
-    [ 'Arguments are not sufficiently instantiated' ].
-known(uninstantiation_error(Culprit)) -->
-    [ 'Uninstantiated argument expected, found ~p'-[Culprit] ].
-known(type_error(evaluable, Culprit)) -->
-    { callable(Culprit) },
-    !,
-    [ 'Arithmetic: `~p'' is not a function'-[Culprit] ].
-known(type_error(Type, Culprit)) -->
-    { kind_of(Culprit, Kind) },
-    [ 'Type error: `~w'' expected, found `~p'' (~w)'-[Type, Culprit, Kind] ].
-known(domain_error(Domain, Culprit)) -->
-    [ 'Domain error: `~w'' expected, found `~p'''-[Domain, Culprit] ].
-known(existence_error(procedure, PI)) -->
-    !,
-    [ 'Unknown procedure: ~q'-[PI] ].
-known(existence_error(matching_rule, Goal)) -->
-    !,
-    [ 'No rule matches ~p'-[Goal] ].
-known(existence_error(Kind, Culprit)) -->
-    [ '~w `~p'' does not exist'-[Kind, Culprit] ].
-known(existence_error(Kind, Culprit, In)) -->
-    [ '~w `~p'' does not exist in ~p'-[Kind, Culprit, In] ].
-known(permission_error(Action, Kind, Culprit)) -->
-    { kind_named(Kind, Name) },
-    [ 'No permission to ~w ~w `~p'''-[Action, Name, Culprit] ].
-known(representation_error(What)) -->
-    [ 'Cannot represent due to `~w'''-[What] ].
-known(evaluation_error(What)) -->
-    [ 'Arithmetic: evaluation error: `~p'''-[What] ].
-known(resource_error(What)) -->
-    [ 'Not enough resources: ~w'-[What] ].
-known(syntax_error(What)) -->
-    { syntax(What, Text) },
-    [ 'Syntax error: ~w'-[Text] ].
-known(busy(Kind, Culprit)) -->
-    [ '~w `~p'' is busy'-[Kind, Culprit] ].
-known(timeout_error(What, Culprit)) -->
-    [ 'Timeout in ~w from ~p'-[What, Culprit] ].
-known(io_error(What, Culprit)) -->
-    [ 'I/O error in ~w on stream ~p'-[What, Culprit] ].
-known(socket_error(_, Text)) -->
-    [ 'Socket error: ~w'-[Text] ].
-known(ssl_error(Id, _, Function, Reason)) -->
-    [ 'SSL(~w) ~w: ~w'-[Id, Function, Reason] ].
-known(system_error(Text)) -->
-    [ 'error in system call: ~w'-[Text] ].
-known(shell(What, Command)) -->
-    [ 'Could not execute `~w'' (~p)'-[Command, What] ].
-known(format(Text)) -->
-    [ 'Format error: ~w'-[Text] ].
-known(format_argument_type(Directive, Argument)) -->
-    [ 'Illegal argument to format sequence ~~~w: ~p'-[Directive, Argument] ].
-known(duplicate_key(Key)) -->
-    [ 'Duplicate key: ~p'-[Key] ].
-known(goal_failed(Goal)) -->
-    [ 'goal unexpectedly failed: ~p'-[Goal] ].
-known(determinism_error(Goal, Declared, Found, _)) -->
-    [ '~p is declared ~w, and was ~w'-[Goal, Declared, Found] ].
-
-kind_named(built_in_procedure, 'built-in predicate') :- !.
-kind_named(static_procedure, 'static procedure') :- !.
-kind_named(Kind, Kind).
-
-kind_of(Term, 'a var')       :- var(Term), !.
-kind_of(Term, 'an integer')  :- integer(Term), !.
-kind_of(Term, 'a float')     :- float(Term), !.
-kind_of(Term, 'a rational')  :- rational(Term), !.
-kind_of(Term, 'a string')    :- string(Term), !.
-kind_of([], 'an empty_list') :- !.
-kind_of(Term, 'a reserved_symbol') :-
-    blob(Term, reserved_symbol),
-    !.
-kind_of(Term, 'an atom')     :- blob(Term, text), !.
-kind_of(Term, 'a blob')      :- atom(Term), !.
-kind_of(Term, 'a dict')      :- is_dict(Term), !.
-kind_of([_|_], 'a list')     :- !.
-kind_of(_, 'a compound').
-
-syntax(cannot_start_term, 'Illegal start of term') :- !.
-syntax(operator_clash, 'Operator priority clash') :- !.
-syntax(operator_balance, 'Unbalanced operator') :- !.
-syntax(end_of_clause, 'Unexpected end of clause') :- !.
-syntax(end_of_file, 'Unexpected end of file') :- !.
-syntax(list_rest, 'Unexpected comma or bar in rest of list') :- !.
-syntax(quoted_punctuation, 'Operand expected, unquoted comma or bar found') :-
-    !.
-syntax(What, Text) :-
-    atom(What),
-    sub_atom(What, 0, 1, _, First),
-    sub_atom(What, 1, _, 0, Others),
-    \+ sub_atom(What, _, _, _, ' '),
-    !,
-    upcase_atom(First, Upper),
-    atomic_list_concat(Parts, '_', Others),
-    atomic_list_concat(Parts, ' ', Words),
-    atom_concat(Upper, Words, Text).
-syntax(What, What).
-
-%   Where an error was raised, and a remark, if they are what SWI-Prolog adds.
-
-location(Context) -->
-    { var(Context) },
-    !.
-location(Context) -->
-    ours(prolog:message_location(Context)),
-    !.
-location(context(PI, _)) -->
-    { indicator(PI, Name, Arity) },
-    !,
-    [ '~q/~w: '-[Name, Arity] ].
-location(file(File, Line, Position, _)) -->
-    { atomic(File), integer(Line), integer(Position) },
-    !,
-    (   { Position < 0 }
-    ->  [ '~w:~d: '-[File, Line] ]
-    ;   [ '~w:~d:~d: '-[File, Line, Position] ]
-    ).
-location(stream(Stream, Line, Position, _)) -->
-    { integer(Line), integer(Position) },
-    !,
-    { named_stream(Stream, Name) },
-    [ '~w:~d:~d: '-[Name, Line, Position] ].
-location(_) -->
-    [].
-
-named_stream(Stream, Name) :-
-    (   blob(Stream, stream),
-        catch(stream_property(Stream, file_name(File)), error(_, _), fail)
-    ->  Name = File
-    ;   format(string(Name), 'Stream ~w', [Stream])
-    ).
-
-indicator(PI0, Name, Arity) :-
+context_indicator(PI0, Name, Arity) :-
     nonvar(PI0),
     (   PI0 = Module:PI,
         memberchk(Module, [system, user])
@@ -318,36 +131,6 @@ indicator(PI0, Name, Arity) :-
         atom(N),
         Name = Name0
     ).
-
-extra(Context) -->
-    { var(Context) },
-    !.
-extra(Context) -->
-    ours(prolog:message_context(Context)),
-    !.
-extra(context(_, Text)) -->
-    { is_remark(Text) },
-    !,
-    [ ' (~w)'-[Text] ].
-extra(string(Text, Position)) -->
-    { is_remark(Text),
-      integer(Position),
-      sub_string(Text, 0, Position, _, Before),
-      sub_string(Text, Position, _, 0, After)
-    },
-    !,
-    [ nl, '~w'-[Before], nl, '** here **', nl, '~w'-[After] ].
-extra(_) -->
-    [].
-
-%!  is_remark(@Text) is semidet.
-%!  context_indicator(+PI) is semidet.
-%
-%   Text is one, and PI a predicate indicator, that may stand in the context of
-%   an error.
-
-context_indicator(PI) :-
-    indicator(PI, _, _).
 
 is_remark(Text) :-
     ( atom(Text) ; string(Text) ),

@@ -13,6 +13,11 @@ thread_peek_message/2 that has passed over a message leaves a reference to
 what is no more, and a garbage collection while it reads the next one damages
 the stacks of the thread.
 
+A Prolog that was built without threads, as that for WebAssembly, has no message
+queues and mutexes.  There the end of this module defines those of their predicates that
+the kernel uses, and puts them in module `user`, where all modules find them.  A
+queue is then what its name says: nothing can come to it while the caller waits.
+
 *Threading*: only for queues with one reader at a time.
 */
 
@@ -76,3 +81,60 @@ turn(Size, Seen0, Queue, Message) :-
 seen(first, none).
 seen(none, none).
 seen(found, found).
+
+                /*******************************
+                *       WITHOUT THREADS        *
+                *******************************/
+
+:- if(\+ predicate_property(system:message_queue_create(_), defined)).
+
+:- dynamic
+    queue/1,                    % Queue
+    message/2.                  % Queue, Message
+
+user:message_queue_create(Queue) :-
+    typhon_fifo:create(Queue).
+user:message_queue_create(Queue, _Options) :-
+    typhon_fifo:create(Queue).
+user:message_queue_destroy(Queue) :-
+    typhon_fifo:must_exist(Queue),
+    retractall(typhon_fifo:queue(Queue)),
+    retractall(typhon_fifo:message(Queue, _)).
+user:message_queue_property(Queue, size(Size)) :-
+    typhon_fifo:must_exist(Queue),
+    aggregate_all(count, typhon_fifo:message(Queue, _), Size).
+user:thread_send_message(Queue, Message) :-
+    typhon_fifo:must_exist(Queue),
+    assertz(typhon_fifo:message(Queue, Message)).
+user:thread_peek_message(Queue, Message) :-
+    typhon_fifo:must_exist(Queue),
+    typhon_fifo:message(Queue, Message),
+    !.
+user:thread_get_message(Queue, Message) :-
+    (   user:thread_get_message(Queue, Message, [])
+    ->  true
+    ;   throw(error(system_error(deadlock), _))
+    ).
+user:thread_get_message(Queue, Message, _Options) :-
+    typhon_fifo:must_exist(Queue),
+    retract(typhon_fifo:message(Queue, Message)),
+    !.
+user:mutex_create(Mutex) :-
+    gensym('typhon mutex ', Mutex).
+user:mutex_destroy(_).
+user:is_thread(main).
+
+create(Queue) :-
+    (   var(Queue)
+    ->  gensym('typhon queue ', Queue)
+    ;   true
+    ),
+    assertz(queue(Queue)).
+
+must_exist(Queue) :-
+    (   queue(Queue)
+    ->  true
+    ;   throw(error(existence_error(message_queue, Queue), _))
+    ).
+
+:- endif.

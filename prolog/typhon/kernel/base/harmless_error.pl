@@ -2,8 +2,7 @@
           [ harmless_error/2            % +Ball0, -Ball
           ]).
 :- use_module(library(lists), [member/2]).
-:- use_module(error_text,
-              [context_indicator/1, formal_told/3, is_remark/1]).
+:- use_module(error_text, [context_indicator/3, is_remark/1]).
 :- use_module(trees, [is_tree/2]).
 
 /** <module> Errors from elsewhere, raised again
@@ -15,7 +14,10 @@ libraries, which take some errors for programs.
 *Threading*: pure.
 */
 
-:- multifile prolog:error_message//1.
+:- multifile
+    formal_lines//1,            % +Formal: of an error of ISO, SWI-Prolog or this
+                                % library
+    prolog:error_message//1.
 
 %!  harmless_error(+Ball0, -Ball) is det.
 %
@@ -51,7 +53,7 @@ harmless_formal(existence_error(reset, _)) :-
     !,
     fail.
 harmless_formal(Formal) :-
-    phrase(formal_told(Formal), _),
+    phrase(formal_lines(Formal), _),
     !.
 harmless_formal(Formal) :-
     \+ translated(error(Formal, _)).
@@ -63,7 +65,7 @@ harmless_context(Context0, Context) :-
     nonvar(Context0),
     Context0 = context(PI0, Text0),
     !,
-    ( context_indicator(PI0) -> PI = PI0 ; true ),
+    ( context_indicator(PI0, _, _) -> PI = PI0 ; true ),
     ( is_remark(Text0) -> Text = Text0 ; true ),
     Context = context(PI, Text).
 harmless_context(_, _).

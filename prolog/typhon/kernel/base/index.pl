@@ -42,6 +42,8 @@ part_joins(host_option,tls,'options/tls').
 part_joins(host_option,trail,'options/trail').
 part_joins(keys,any,'options/identity').
 part_joins(keys,any,'options/trail').
+part_joins(link_option,cost,'tools/administration').
+part_joins(load_option,host,'tools/administration').
 part_joins(machine_option,bind,network).
 part_joins(machine_option,node,network).
 part_joins(machine_option,swipl,network).
@@ -50,13 +52,16 @@ part_joins(open_store,any,'options/journal').
 part_joins(order,attach,'options/identity').
 part_joins(order,watched,'options/trace').
 part_joins(program,read,'tools/checks').
+part_joins(question,mailbox,'tools/administration').
 part_joins(question,program,'tools/source_view').
+part_joins(question,properties,'tools/administration').
 part_joins(question,step,'options/trace').
 part_joins(question,trail,'options/trail').
 part_joins(received,channel,'options/journal').
 part_joins(received,log,network).
 part_joins(requested,close_up,tools).
 part_joins(requested,everywhere,'options/watch').
+part_joins(requested,hosting,'tools/administration').
 part_joins(requested,log,network).
 part_joins(requested,monitor,'options/supervision').
 part_joins(requested,node,network).
@@ -123,6 +128,9 @@ part_file('options/watch','options/watch/metrics').
 part_file('options/watch','options/watch/telling').
 part_file('options/watch','options/watch/watched').
 part_file(tools,'tools/inventory').
+part_file('tools/administration','tools/administration/host_questions').
+part_file('tools/administration','tools/administration/properties').
+part_file('tools/administration','tools/administration/restore').
 part_file('tools/checks','tools/checks/goal_lines').
 part_file('tools/checks','tools/checks/warnings').
 part_file('tools/source_view','tools/source_view/clause_location').
@@ -147,7 +155,7 @@ part_setting(channel_seconds,typhon_channel,number,300,'Posts for a process that
 part_setting(clause_cells,typhon_guard_limits,positive_integer,200000,'Clauses that untrusted agents add have at most so many parts','options/guard/guard_limits').
 part_setting(clause_cells,typhon_refusing,positive_integer,200000,'Now typhon_guard_limits:clause_cells','options/guard/guard_limits').
 part_setting(connections,typhon_page_reception,positive_integer,64,'A page has so many clients at a time','tools/page/server').
-part_setting(delay,typhon_telling,number,0.05,'Events gather for so many seconds before they are sent','options/watch/teller').
+part_setting(delay,typhon_telling,number,0.05,'Events gather for so many seconds before they are sent','options/watch/event_sender').
 part_setting(entries,typhon_fipa_directory,positive_integer,10000,'Now typhon_fipa_managers:entries','bridges/fipa/managers').
 part_setting(entries,typhon_fipa_managers,positive_integer,10000,'Descriptions in a directory of FIPA','bridges/fipa/managers').
 part_setting(events,typhon_telling,positive_integer,10000,'So many events wait for a watch that is slow','options/watch/telling').
@@ -160,8 +168,8 @@ part_setting(idle,typhon_cells,number,60,'Seconds after which a cell that no age
 part_setting(kill_seconds,typhon_processes,number,10,'A process that was killed has so long to be gone','network/processes').
 part_setting(last_seconds,typhon_watches,number,2,'unwatch/1 waits so long for what has happened before','options/watch/watches').
 part_setting(links,typhon_trail,positive_integer,32,'So many links of the trail of an agent are kept','options/trail/trail').
-part_setting(longest,typhon_ros_rosbridge,nonneg,4000000,'Characters of one message from a rosbridge server','bridges/ros/rosbridge').
-part_setting(longest,typhon_ros_socket,nonneg,4000000,'Now typhon_ros_rosbridge:longest','bridges/ros/rosbridge').
+part_setting(longest,typhon_ros_rosbridge,nonneg,4000000,'Characters of one message from a rosbridge server','bridges/ros/websocket').
+part_setting(longest,typhon_ros_socket,nonneg,4000000,'Now typhon_ros_rosbridge:longest','bridges/ros/websocket').
 part_setting(memory,typhon_cells,positive_integer,1500000000,'Bytes of address space that a cell may have','options/cell/cells').
 part_setting(met,typhon_fipa_platform,positive_integer,10000,'Agents of other platforms whose addresses are remembered','bridges/fipa/platform').
 part_setting(most,typhon_ros_advertisements,positive_integer,1000,'Topics and services that a host may use, each in its way','bridges/ros/advertisements').
@@ -169,7 +177,7 @@ part_setting(most,typhon_ros_open_requests,positive_integer,1000,'Now typhon_ros
 part_setting(most,typhon_ros_requests,positive_integer,1000,'Requests of ROS that may wait for the answers of agents','bridges/ros/requests').
 part_setting(most,typhon_ros_standing,positive_integer,1000,'Now typhon_ros_advertisements:most','bridges/ros/advertisements').
 part_setting(order_seconds,typhon_processes,number,60,'A process has so long to answer an order','network/nodes').
-part_setting(patience,typhon_telling,number,30,'A process that watches and is cut off has so long to answer','options/watch/teller').
+part_setting(patience,typhon_telling,number,30,'A process that watches and is cut off has so long to answer','options/watch/event_sender').
 part_setting(patience,typhon_virtual,number,10,'Virtual time that stands still for so long is reported','options/virtual/virtual').
 part_setting(pause,typhon_overuse,number,0.8,'Now typhon_quota_enforcer:pause','options/quotas/quota_enforcer').
 part_setting(pause,typhon_quota_enforcer,between(0.0,1.0),0.8,'Agents that run for long where there are quotas pause for this part of the time while others run','options/quotas/quota_enforcer').

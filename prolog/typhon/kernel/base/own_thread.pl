@@ -1,5 +1,5 @@
 :- module(typhon_own_thread,
-          [ in_own_thread/1,                    % :Goal
+          [ in_own_thread/1,            % :Goal
             own_thread_start/0,
             own_thread_stop/0,
             stop_thread/1,                      % +Thread

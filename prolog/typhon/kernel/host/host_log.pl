@@ -1,20 +1,25 @@
 :- module(typhon_host_log,
           [ host_log/3,                 % +Host, +Agent, +What
             host_log_event/4,           % +Host, +Agent, +What, -Post
-            host_logs/1                 % +Host
+            host_logs/1,                % +Host
+            event_shown/3               % +Host, +What, -Shown
           ]).
 :- use_module(library(lists), [member/2]).
-:- use_module('../base/error_text', [print_error/2]).
+:- use_module(library(settings), [setting/2, setting/4]).
+:- use_module('../base/error_text', [abridged/3, print_error/2]).
 :- use_module('../wire', [endpoint_post/3]).
-:- use_module(event_shown, [event_shown/3]).
 :- use_module(events, [events_hear/3, log_kind/2]).
 :- use_module(host_names, [address_parts/3]).
 :- use_module(hosts, [host/3, host_option/2]).
 
-/** <module> What a host says to its log server
+/** <module> What of events leaves the process, and goes to a log server
 
 A log hears when agents begin and end, what they log, and of those kinds of
 events that the option of its host names.
+
+Logs and watches get events without the content of messages.  They get it,
+bounded in size, where the option log(Address, Kinds) of the host has
+messages(content) among Kinds.
 
 *Threading*: any thread; that of an endpoint does not wait for a connection.
 */
@@ -98,3 +103,48 @@ host_log_event(Host, Agent, What, Endpoint-event(Log, Address, Agent, What)) :-
 host_logs(Host) :-
     log_server(Host, _, _),
     !.
+
+                /*******************************
+                *           CONTENT            *
+                *******************************/
+
+:- setting(typhon_event_shown:content_characters, positive_integer, 200,
+           "Now typhon_host_log:content_characters").
+:- setting(content_characters, positive_integer, 200,
+           "Of longer messages the text begins with so many characters").
+
+%!  event_shown(+Host, +What, -Shown) is det.
+%
+%   Shown is What as logs and watches get it, an event on Host, as of event/4.
+
+event_shown(Host, sent(To, Message), Shown) =>
+    (   shows_content(Host)
+    ->  content(Message, Content),
+        Shown = sent(To, Content)
+    ;   Shown = sent(To)
+    ).
+event_shown(Host, received(From, Message), Shown) =>
+    (   shows_content(Host)
+    ->  content(Message, Content),
+        Shown = received(From, Content)
+    ;   Shown = received(From)
+    ).
+event_shown(_, What, Shown) =>
+    Shown = What.
+
+shows_content(Host) :-
+    host_option(Host, log(_, Kinds)),
+    memberchk(messages(content), Kinds).
+
+%   content(+Message, -Content): Message itself, or if its text is too long, a
+%   string that is the beginning of it and ends with three dots.
+
+content(Message, Content) :-
+    setting(content_characters, Longest),
+    abridged(Message, Longest, Text),
+    (   string_length(Text, Length),
+        Length > Longest,
+        string_concat(_, "...", Text)
+    ->  Content = Text
+    ;   Content = Message
+    ).

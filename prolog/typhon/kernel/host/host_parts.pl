@@ -28,7 +28,7 @@ up one list of closures, and a host without options has none.
   |               |                              | typhon_gate                 |
   | admit_program | From, Entrant, Host, Verdict | its program is here, too    |
   | view          | (a module)                   | an agent is installed, see  |
-  |               |                              | typhon_variants             |
+  |               |                              | typhon_agent_module             |
   | module        | Module                       | its module begins to get    |
   |               |                              | its state                   |
   | comes         | Id, Host, Module, Hash       | the agent stands on Host    |

@@ -7,7 +7,8 @@
             host_end/1,                 % +Name
             hosts_exclusively/1,        % :Goal
             hosts_go_on/0,
-            hosts_rest/0
+            hosts_rest/0,
+            host_listed/2               % +ListOrOne, -List
           ]).
 :- use_module(library(debug), [debug/3]).
 :- use_module(library(error),
@@ -22,10 +23,11 @@
               [ durable_close/0, durable_closed/0, durable_end/0,
                 sync_changes/0 ]).
 :- use_module('../wire', [endpoint_address/1]).
-:- use_module(clock, [clock_clear/1, clock_set/3]).
+:- use_module(time,
+              [ clock_clear/1, clock_set/3, time_default/1, time_let_go/1,
+                time_wanted/2 ]).
 :- use_module(events, [event/4, events_forget/1]).
 :- use_module(host_log, []).
-:- use_module(changing, [host_listed/2]).
 :- use_module(host_parts, [parts_load/1]).
 :- use_module(hosts,
               [host/3, host_add/4, host_close/1, host_remove/1]).
@@ -34,7 +36,6 @@
 :- use_module(place, [place_create/4, place_destroy/1]).
 :- use_module(runtime, [runtime_acquire/3, runtime_release/1]).
 :- use_module(scheduler, [scheduler_limit/2, scheduler_unlimit/1]).
-:- use_module(time, [time_default/1, time_let_go/1, time_wanted/2]).
 
 /** <module> Starting and stopping hosts
 
@@ -89,7 +90,7 @@ other users of the process its endpoint, see typhon_runtime.
 %       default `false`
 %     - clock(virtual): time is virtual, see doc/time.md; so it is then
 %       for all hosts of the process, which cannot be reached from others
-%     - clock(+Epoch, +Rate): see typhon_clock
+%     - clock(+Epoch, +Rate): see typhon_time
 %     - hop_time(uniform(Min, Max)): delay added to hops out of it
 %     - seed(+Integer): for the choices of migration strategies
 %     - journal(+Where): what happens in this process outlives it, see
@@ -327,3 +328,44 @@ local_name(Host, Name) :-
     ->  true
     ;   existence_error(host, Host)
     ).
+
+                /*******************************
+                *         HOST OPTIONS         *
+                *******************************/
+
+%   What may be said of a host that is started.
+%
+%   What it means is described at host_start/2, which of it may be changed later
+%   at host_change/2.
+
+:- multifile typhon_options:declared/4.
+
+typhon_options:declared(host_option, Option, Type, Value) :-
+    host_option_type(Option, Type, Value).
+
+host_option_type(port(X), between(0, 65535), X).
+host_option_type(bind(X), atom, X).
+host_option_type(capacity(X), nonneg, X).
+host_option_type(capacity(X), oneof([inf]), X).
+host_option_type(tokens(X), list, X).
+host_option_type(concurrency(X), positive_integer, X).
+host_option_type(concurrency(X), oneof([inf]), X).
+host_option_type(consult(X), ground, X).
+host_option_type(services(X), ground, X).
+host_option_type(place(X), atom, X).
+host_option_type(log(X), host_address, X).
+host_option_type(log(X, _), host_address, X).
+host_option_type(remote(X), boolean, X).
+host_option_type(clock(X, Y), list(number), [X,Y]).
+host_option_type(hop_time(uniform(X, Y)), list(number), [X,Y]).
+host_option_type(seed(X), integer, X).
+host_option_type(python(X), boolean, X).
+
+%!  host_listed(+ListOrOne, -List) is det.
+%
+%   What is not a list is the only one in it.
+
+host_listed(List, List) :-
+    is_list(List),
+    !.
+host_listed(One, [One]).

@@ -25,7 +25,7 @@
 :- use_module('../base/durable_changes',
               [durable_drop/3, durable_on/0, durable_put/4]).
 :- use_module('../base/bounds', [memory_short/1]).
-:- use_module(clock, [clock/3, host_time/2]).
+:- use_module(time, [clock/3, host_time/2]).
 :- use_module(links, [host_linked/1, host_unlink/2]).
 :- use_module(host_parts, [parts/3, parts_compile/1, parts_forget/1]).
 

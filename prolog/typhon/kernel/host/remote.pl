@@ -1,14 +1,15 @@
 :- module(typhon_remote,
           [ remote/2,                   % +Host, +Goal
-            host_do/2                   % +Name, +Goal
+            host_do/2,                  % +Name, +Goal
+            host_unknown/1              % +Address
           ]).
 :- use_module(library(debug), [debug/3]).
-:- use_module(library(error), [must_be/2, permission_error/3]).
+:- use_module(library(error),
+              [existence_error/2, must_be/2, permission_error/3]).
 :- use_module('../base/harmless_error', [harmless_error/2]).
 :- use_module('../wire', [endpoint_reply/2, mobile_term/1]).
-:- use_module(asking, [process_ask/6]).
+:- use_module(runtime, [process_ask/6]).
 :- use_module(context, [in_context/2]).
-:- use_module(host_questions, [host_unknown/1]).
 :- use_module(host_names, [host_resolve/2]).
 :- use_module(hosts, [host/3, host_option/2]).
 :- use_module(peer_rights, [peer_may/3, security_event/3]).
@@ -64,6 +65,25 @@ run_here(Name, Goal) :-
     ->  permission_error(remote, host, Name)
     ;   host_do(Name, Goal)
     ).
+
+%!  host_unknown(+Address) is failure.
+%
+%   The process of Address has said that it has no such host: say which
+%   ones it has.
+%
+%   @error existence_error(host, Address)
+
+host_unknown(Address) :-
+    host_resolve(Address, remote(_, _, Endpoint)),
+    catch(process_ask(Endpoint, Address, hosting, hosts, Names, 10),
+          error(_, _), fail),
+    Names = [_|_],
+    !,
+    atomic_list_concat(Names, ', ', Listed),
+    atom_concat('there are: ', Listed, Text),
+    throw(error(existence_error(host, Address), context(_, Text))).
+host_unknown(Address) :-
+    existence_error(host, Address).
 
 %!  host_do(+Name, +Goal) is semidet.
 %

@@ -2,22 +2,23 @@
           [ runtime_acquire/2,          % +User, +Options
             runtime_acquire/3,          % +User, +Options, -Endpoint
             runtime_release/1,          % +User
-            runtime_user/1              % ?User
+            process_ask/6,              % +Endpoint, +Host, +Kind, +Term,
+                                        % -Answer, +Seconds
+            as_guest/1                  % :Goal
           ]).
 :- use_module(library(debug), [debug/3]).
 :- use_module(library(error), [permission_error/3]).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(option), [option/2, option/3]).
-:- use_module('../base/erased', [forget_erased/0]).
-:- use_module('../base/functors', [functors_room/0]).
+:- use_module('../base/prolog_faults', [forget_erased/0, functors_room/0]).
 :- use_module('../base/on_demand', [on_demand_load/2]).
 :- use_module('../base/own_thread',
               [in_own_thread/1, own_thread_start/0, own_thread_stop/0]).
 :- use_module('../base/durable_changes', [durable_end/0]).
 :- use_module('../program', [code_clear/0]).
 :- use_module('../wire',
-              [ endpoint_address/1, endpoint_listen/2,
-                endpoint_listen_end/1, endpoint_start/4,
+              [ endpoint_address/1, endpoint_call/5, endpoint_listen/2,
+                endpoint_listen_end/1, endpoint_missed/2, endpoint_start/4,
                 endpoint_start_alone/1, endpoint_stop/0,
                 transport_disagrees/1 ]).
 :- use_module(scheduler, [scheduler_forget/0]).
@@ -32,7 +33,12 @@ them: hosts, log servers.  The first user starts them, the last one stops
 them.  Higher layers join by the
 hooks beginning/1 and ending/1.
 
-*Threading*: a mutex makes users come and go one at a time.
+A process without hosts is a guest in the network for as long as a question
+takes: it has an endpoint of its own until the answer is there.
+
+*Threading*: a mutex makes users come and go one at a time.  Questions are for
+any thread that may wait.  The platform's own are no guests: stopping it waits
+for them.
 */
 
 :- multifile
@@ -130,7 +136,7 @@ disagrees(bind(Interface)) :-
     endpoint_address(Endpoint),
     \+ atomic_list_concat([Interface,_], ':', Endpoint).
 
-%!  runtime_user(?User) is nondet.
+%   runtime_user(?User) is nondet.
 %!  runtime_release(+User) is det.
 %
 %   User uses endpoint and time; does so no more.
@@ -164,3 +170,53 @@ released(_) :-
     code_clear,
     forall(ending(after), true),
     own_thread_stop.
+
+                /*******************************
+                *            GUESTS            *
+                *******************************/
+
+:- meta_predicate as_guest(0).
+
+%!  process_ask(+Endpoint, +Host, +Kind, +Term, -Answer, +Seconds) is det.
+%
+%   As endpoint_call/5; errors name the process as Host.
+%
+%   @error host_unreachable(Host)
+%   @error permission_error(authenticate, host, Host): the process there has
+%   another cookie than this one
+%   @error those of endpoint_call/5
+
+process_ask(Endpoint, Host, Kind, Term, Answer, Seconds) :-
+    as_guest(catch(endpoint_call(Endpoint, Kind, Term, answer(Answer),
+                                 Seconds),
+                   error(unreachable(_), _),
+                   unreachable(Endpoint, Host))).
+
+unreachable(Endpoint, Host) :-
+    (   endpoint_missed(Endpoint, permission_error(authenticate, peer, cookie))
+    ->  Formal = permission_error(authenticate, host, Host)
+    ;   Formal = host_unreachable(Host)
+    ),
+    throw(error(Formal, _)).
+
+%!  as_guest(:Goal) is semidet.
+%
+%   Run Goal once; if this process has no endpoint, or has it for the sake of
+%   other guests only, it has one meanwhile.
+
+as_guest(Goal) :-
+    (   runtime_user(User),
+        User \= guest(_)
+    ;   own_thread
+    ),
+    !,
+    once(Goal).
+as_guest(Goal) :-
+    flag(typhon_guest, N, N+1),
+    runtime_acquire(guest(N), []),
+    setup_call_cleanup(true, once(Goal), runtime_release(guest(N))).
+
+own_thread :-
+    thread_self(Me),
+    atom(Me),
+    sub_atom(Me, 0, _, _, typhon_).

@@ -7,7 +7,7 @@
                 alarms_go_off/1, index_delete/3, index_first/2, index_make/1,
                 index_update/2 ]).
 :- use_module(turns, [turns_go_on/1, turns_pause/0, turns_paused/0]).
-:- use_module(work, [work_do/2]).
+:- use_module(scheduler, [work_do/2]).
 
 /** <module> The runtime `single`: no thread but that of the caller
 

@@ -33,7 +33,7 @@
                 payload_marks/2, with_agent/2 ]).
 :- use_module('../travel', [agent_born/2, clone_born/2]).
 :- use_module(change, [undeclared/2]).
-:- use_module(named, [agent_met/1]).
+:- use_module(questions, [agent_met/1]).
 
 /** <module> How agents begin
 

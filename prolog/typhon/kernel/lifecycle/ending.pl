@@ -3,24 +3,33 @@
             agent_end/3,                % +Id, :Test, +Outcome
             agent_forgotten/2,          % +Id, :Test
             agent_fails/3,              % +Id, +Outcome, +Goals0
-            agent_stays/2               % +Id, +Goals
+            agent_stays/2,              % +Id, +Goals
+            faulty_stirs/1              % +Id
           ]).
 :- use_module(library(debug), [debug/3]).
 :- use_module(library(lists), [member/2]).
+:- use_module(library(settings), [setting/2, setting/4]).
 :- use_module('../base/durable_changes', [unit_of_work/1]).
-:- use_module('../host', [event/4, events_forget/1, host_leave/1]).
+:- use_module('../host',
+              [event/4, events_forget/1, host/3, host_again/1, host_leave/1]).
 :- use_module('../agent',
-              [ agent/5, agent_fault/5, agent_remove/3, agent_status/3,
-                fault_outcome/2, fault_shown/2, is_faulty/3, result_facts/2,
-                life_hops/2, with_agent/2 ]).
-:- use_module(change, [held_dropped/1]).
+              [ agent/5, agent_fault/5, agent_ordered/1, agent_put/3,
+                agent_ready/2, agent_remove/3, agent_status/3, fault_error/2,
+                fault_outcome/2, fault_shown/2, fault_stamp/2, is_faulty/3,
+                life_hops/2, result_facts/2, with_agent/2 ]).
 :- use_module('../travel',
-              [agent_ended/4, agent_ends/2, move_over/2, transfer_given_up/2]).
-:- use_module(faulty,
-              [faulty_gone/1, faulty_keep/4, faulty_oldest/1, faulty_tell/3]).
+              [ agent_ended/4, agent_ends/2, agent_faulty/5, move_over/2,
+                transfer_given_up/2 ]).
+:- use_module(change, [held_dropped/1]).
 :- use_module(questions, [question_answered/2]).
 
-/** <module> How agents end
+/** <module> How agents end, or are kept as they were
+
+An agent that is faulty stands on its host with its goals, state and mail,
+and does not count there.  When an order comes it stirs: it is `ready` and
+counts until the order is done.  As its goals begin with its fault, see
+typhon_fault, it is faulty again wherever it comes to run: after an order, a
+move, or out of a restore point.  Only agent_resume/1 takes that away.
 
 *Threading*: any thread.  The thread that removes the record of an agent,
 inside with_agent/2, reports its end.
@@ -168,3 +177,72 @@ bound_faulty(Kept) :-
     ).
 
 is_kept(faulty(_)).
+
+                /*******************************
+                *      KEPT AS THEY WERE       *
+                *******************************/
+
+:- dynamic kept/1.                      % Id, the oldest first
+
+%   The name under which people know it.
+
+:- setting(typhon_creation:faulty, nonneg, 100,
+           "Faulty agents kept for inspection").
+
+%   faulty_keep(+Id, +Goals, -Kept, -At) is semidet.
+%
+%   Id, which was running or obeyed an order, is faulty, as Goals say.  Kept
+%   is `false` if another order has come meanwhile.  At says where it is, and
+%   after how many hops: a moment later it may be elsewhere.
+
+faulty_keep(Id, Goals, Kept, at(Host, Hops)) :-
+    agent(Id, Host, _, _, Life),
+    life_hops(Life, Hops),
+    (   agent_ordered(Id)
+    ->  agent_ready(Id, Goals),
+        Kept = false
+    ;   is_faulty(Goals, Fault, _),
+        fault_error(Fault, Error),
+        agent_put(Id, faulty(Error), Goals),
+        assertz(kept(Id)),
+        host_leave(Host),
+        Kept = true
+    ),
+    !.
+
+%!  faulty_stirs(+Id) is det.
+%   faulty_gone(+Id) is det.
+%
+%   Id, which is faulty, counts again on its host; or has ended.
+
+faulty_stirs(Id) :-
+    retractall(kept(Id)),
+    agent(Id, Host, _, _, _),
+    !,
+    host_again(Host).
+
+faulty_gone(Id) :-
+    retractall(kept(Id)).
+
+%   faulty_tell(+Id, +Fault, +At) is det.
+%
+%   Let its home know.
+
+faulty_tell(Id, Fault, at(Host, Hops)) :-
+    host(Host, Address, _),
+    !,
+    fault_outcome(Fault, Outcome),
+    fault_stamp(Fault, Stamp),
+    agent_faulty(Id, Outcome, Stamp, Address, Hops).
+faulty_tell(_, _, _).                   % it has gone, with its host
+
+%   faulty_oldest(-Id) is semidet.
+%
+%   There are too many: Id is the first to go.
+
+faulty_oldest(Id) :-
+    setting(typhon_creation:faulty, Max),
+    predicate_property(kept(_), number_of_clauses(Count)),
+    Count > Max,
+    kept(Id),
+    !.

@@ -9,8 +9,8 @@
 :- use_module('../agent', [agent/5, agent_home_endpoint/2, result_facts/2]).
 :- use_module('../travel',
               [agent_outcome/2, clones_ask/3, results_ask/4, outcome_wait/3]).
-:- use_module(named, [agent_once_named/2]).
-:- use_module(questions, [agent_ask/4, question_answered/2]).
+:- use_module(questions,
+              [agent_ask/4, agent_once_named/2, question_answered/2]).
 
 /** <module> Waiting for the end of agents, and what they leave
 

@@ -7,20 +7,23 @@
             agent_resume/1,             % +Agent
             agent_change/2,             % +Agent, +Change
             order_give/3,               % +Agent, +Order, -Result
-            agent_answer/3              % +Agent, +Question, -Answer
+            agent_answer/3,             % +Agent, +Question, -Answer
+            agent_send/2                % +Agent, +Message
           ]).
 :- use_module(library(error), [existence_error/2, must_be/2]).
 :- use_module(library(option), [option/2]).
 :- use_module('../base/harmless_error', [harmless_error/2]).
 :- use_module('../base/options', [check_options/2]).
+:- use_module('../base/durable_changes', [output_waits/0, sync_changes/0]).
 :- use_module('../program', [payload_load/2]).
-:- use_module('../host', [host_address/2]).
-:- use_module('../travel', [agent_resumed_from/3]).
+:- use_module('../host',
+              [address_parts/3, as_guest/1, context_now/2, host_address/2]).
+:- use_module('../travel', [agent_resumed_from/3, post/3, post_via/4]).
+:- use_module('../agent', [agent/5]).
 :- use_module(change, [change_order/2]).
-:- use_module(named, [agent_named/2]).
-:- use_module(questions, [agent_ask/4]).
+:- use_module(questions, [agent_ask/4, agent_named/2]).
 
-/** <module> Orders from outside
+/** <module> Orders and messages from outside
 
 An order is put as a question, see typhon_questions, so that it finds the
 agent; what becomes of it there see typhon_orders.
@@ -164,3 +167,45 @@ answered(answer(Answer), Answer).
 answered(error(Formal), _) :-
     harmless_error(error(Formal, _), Ball),
     throw(Ball).
+
+                /*******************************
+                *           MESSAGES           *
+                *******************************/
+
+%!  agent_send(+Agent, +Message) is det.
+%
+%   Send Message to Agent, wherever it is: its id, or its name, where it is
+%   the only agent known here of that name.  at(Agent, Host) says where it
+%   is believed to be.  Does not wait for it to arrive.  Messages from
+%   outside are from `user`.
+%
+%   @error existence_error(agent, Agent), ambiguous_agent(Agent, Ids)
+%   @error host_unreachable(Host)
+%   @error resource_error(frame_bytes) Message is too long to be sent
+%   @error type_error(mobile_term, Culprit)
+
+agent_send(at(Agent, Host), Message) :-
+    !,
+    agent_named(Agent, Id),
+    host_address(Host, Address),
+    address_parts(Address, _, Endpoint),
+    sender(From),
+    as_guest(post_via(Id, Endpoint, From, Message)),
+    sync_changes.
+agent_send(Agent, Message) :-
+    (   atom(Agent),
+        agent(Agent, _, _, _, _)        % then this process is no guest
+    ->  sender(From),
+        post(Agent, From, Message)
+    ;   agent_named(Agent, Id),
+        sender(From),
+        as_guest(post(Id, From, Message))
+    ),
+    ( output_waits -> sync_changes ; true ).
+
+sender(From) :-
+    (   context_now(_, Agent),
+        Agent \== none
+    ->  From = Agent
+    ;   From = user
+    ).

@@ -20,8 +20,8 @@
 :- use_module(change, [change_made/2]).
 :- use_module(creation, [agent_clone_here/3]).
 :- use_module(effect, [effect_order/4]).
-:- use_module(ending, [agent_end/2, agent_end/3, agent_stays/2]).
-:- use_module(faulty, [faulty_stirs/1]).
+:- use_module(ending,
+              [agent_end/2, agent_end/3, agent_stays/2, faulty_stirs/1]).
 :- use_module(questions, [agent_ask/4, question_answered/2]).
 
 /** <module> Orders are taken and obeyed

@@ -1,19 +1,25 @@
 :- module(typhon_turn,
-          [ turn_engine/3,              % +Agent, +Start, -Engine
-            turn_run/5,                 % +Engine, +Turn, +Start, -Outcome,
-                                        % -Goals0
-            turn_unit/1,                % :Goal
+          [ turn_unit/1,                % :Goal
             turn_settled/0,
-            turn_concluded/4,           % +Turn, +Outcome, :Conclude, -Next
-            turn_broken/1,              % -Outcome
-            turn_overruled/2,           % +Host, -Outcome
-            turn_bounded/1,             % +Host
-            turn_over/1                 % +Id
+            turn_bounded/1              % +Host
           ]).
-:- use_module('../program', [machine_ready/1, machine_run/3]).
-:- use_module('../host', [parts/3]).
+:- use_module('../base/durable_changes', [unit_of_work/1]).
+:- use_module('../program', [answer_at/3, machine_ready/1, machine_run/3]).
+:- use_module('../host',
+              [ context_clear/0, context_set/3, event/4, parts/3, turn_later/1,
+                turns_paused/0 ]).
+:- use_module('../agent',
+              [ agent/5, agent_code/2, agent_departs/3, agent_handles/2,
+                agent_here/5, agent_ordered/1, agent_ready/2, agent_resumes/2,
+                agent_rest/3, agent_take/3, mail_take/2, with_agent/2 ]).
+:- use_module(effect, [effect/5, effect_depart/6]).
+:- use_module(ending, [agent_end/2, agent_fails/3]).
+:- use_module(orders, [order_obey/3]).
 
-/** <module> A turn: one run of the machine, which options may change
+/** <module> Turns: the life of an agent on a host
+
+A worker of the scheduler runs an agent from one effect of the machine to
+the next, see typhon_effect.  Orders from outside are obeyed in between.
 
 A turn is turn(Id, Host, Context): the agent, the host on which it stands, and
 the context of the machine.  It starts with goals(Goals), or with
@@ -25,7 +31,8 @@ Options change turns at the hooks below, and as the part `turn` of a host, see
 typhon_host_parts, and nowhere else.  A hook that no option defines costs one
 call that fails.
 
-*Threading*: in the worker that has the agent.
+*Threading*: in the worker that has the agent.  While its status is `running` an
+agent belongs to one worker.
 */
 
 :- meta_predicate
@@ -42,7 +49,7 @@ call that fails.
     settle/0,                   % that unit ends here
     over/1.                     % Id: its worker leaves it
 
-%!  turn_engine(+Agent, +Start, -Engine) is det.
+%   turn_engine(+Agent, +Start, -Engine) is det.
 %
 %   What runs Agent, agent(Id, Host, Hash, Life), from here.
 
@@ -52,7 +59,7 @@ turn_engine(Agent, Start, Engine) :-
     ;   Engine = machine
     ).
 
-%!  turn_run(+Engine, +Turn, +Start, -Outcome, -Goals0) is det.
+%   turn_run(+Engine, +Turn, +Start, -Outcome, -Goals0) is det.
 %
 %   Run the agent to its next stop, from Goals0.  Outcome is that of
 %   machine_run/3, `held` if the agent was put down in the middle of its goals,
@@ -96,13 +103,10 @@ turn_concluded(turn(Id, _, _), Outcome, Conclude, Next) :-
     ).
 
 turn_settled :-
-    (   settle
-    ->  true
-    ;   true
-    ).
+    ignore(settle).
 
-%!  turn_broken(-Outcome) is det.
-%!  turn_overruled(+Host, -Outcome) is semidet.
+%   turn_broken(-Outcome) is det.
+%   turn_overruled(+Host, -Outcome) is semidet.
 %
 %   How an agent ends that was interrupted in the middle of a goal; that it
 %   ends in this way whatever it catches, as it passed a limit on Host.
@@ -126,12 +130,181 @@ turn_bounded(Host) :-
     parts(turn, Host, _),
     !.
 
-%!  turn_over(+Id) is det.
+%   turn_over(+Id) is det.
 %
 %   The worker leaves the agent, which rests, goes on elsewhere or has ended.
 
 turn_over(Id) :-
-    (   over(Id)
-    ->  true
-    ;   true
+    ignore(over(Id)).
+
+                /*******************************
+                *       AGENTS ON A HOST       *
+                *******************************/
+
+:- multifile
+    typhon_scheduler:run/1,
+    typhon_scheduler:run_on/4.
+
+typhon_scheduler:run(Id) :-
+    (   with_agent(Id, take(Id, Task))
+    ->  (   catch(perform(Task, Id), Ball, broken_off(Ball, Id))
+        ->  context_clear
+        ;   context_clear,
+            fail
+        )
+    ;   turn_over(Id)                   % has ended
     ).
+
+%   An agent that has just come by the short way is running already.
+
+typhon_scheduler:run_on(Id, Host, Context, Goals) :-
+    (   turns_paused
+    ->  ignore(with_agent(Id, agent_ready(Id, Goals)))
+    ;   (   catch(run_on(Id, Host, Context, Goals), Ball, broken_off(Ball, Id))
+        ->  context_clear
+        ;   context_clear,
+            fail
+        )
+    ).
+
+run_on(Id, Host, Context, Goals) :-
+    agent_here(Id, Host, Module, Hash, Life),
+    !,
+    context_set(Host, Id, Module),
+    turn_engine(agent(Id, Host, Hash, Life), goals(Goals), Engine),
+    turns(goals(Goals), Engine, turn(Id, Host, Context), Next),
+    go_on(Next, Id).
+run_on(Id, _, _, _) :-                  % has ended
+    turn_over(Id).
+
+take(Id, later) :-
+    turn_later(Id),
+    !.
+take(Id, Task) :-
+    agent_take(Id, Goals, Order),
+    !,
+    (   Order == none
+    ->  Task = run(goals(Goals))
+    ;   Task = order(Order, Goals)
+    ).
+take(Id, leave(Dest, Hole, Goals, Since)) :-
+    agent_departs(Id, Dest, hop(Hole-Goals, Since)),
+    !.
+take(Id, run(resumed(Held))) :-
+    agent_resumes(Id, Held).
+
+perform(later, _).
+perform(order(Order, Goals), Id) :-
+    unit_of_work(order_obey(Order, Id, Goals)).
+perform(leave(Dest, Hole, Goals, Since), Id) :-
+    unit_of_work(effect_depart(Id, Dest, Hole, Goals, Since, Next)),
+    go_on(Next, Id).
+perform(run(Start), Id) :-
+    agent(Id, Host, Module, Hash, Life),
+    agent_code(Module, Program),
+    context_set(Host, Id, Module),
+    turn_engine(agent(Id, Host, Hash, Life), Start, Engine),
+    turns(Start, Engine, turn(Id, Host, context(Program, Module)), Next),
+    go_on(Next, Id).
+
+%   turns(+Start, +Engine, +Turn, -Next): Next is `stop`, or elsewhere(Goals).
+
+turns(Start, Engine, Turn, Next) :-
+    turn_run(Engine, Turn, Start, Outcome, Goals0),
+    turn_concluded(Turn, Outcome, conclude(Outcome, Goals0, Turn), Next0),
+    (   Next0 = go(Goals)
+    ->  turns(goals(Goals), Engine, Turn, Next)
+    ;   Next = Next0
+    ).
+
+go_on(stop, Id) :-
+    turn_over(Id).
+go_on(elsewhere(Goals), Id) :-
+    perform(run(goals(Goals)), Id).
+
+%   An agent whose worker is interrupted is in the middle of a goal, and cannot
+%   go on.  Not in a cleanup handler: while an exception is pending 9.0.4
+%   catches no other.
+
+broken_off(Ball, Id) :-
+    sig_atomic(( context_clear,
+                 turn_broken(Outcome),
+                 over_limit(Id, Outcome),
+                 turn_settled,
+                 ignore(agent_end(Id, Outcome)) )),
+    throw(Ball).
+
+over_limit(Id, raised(error(resource_error(What), _))) :-
+    !,
+    print_message(warning, typhon(over_limit(Id, What))).
+over_limit(_, _).
+
+%   conclude(+Outcome, +Goals0, +Turn, -Next): the run from Goals0 came to
+%   Outcome.  Next is as of effect/5.
+
+conclude(done, _, Turn, Next) :-
+    finish(Turn, Next).
+conclude(failed, Goals0, turn(Id, _, _), stop) :-
+    agent_fails(Id, failed, Goals0).
+conclude(held, _, _, stop).
+conclude(lost(Why), _, turn(Id, _, _), stop) :-
+    ignore(agent_end(Id, lost(Why))).
+conclude(over(What), _, turn(Id, _, _), stop) :-
+    ends_over(Id, raised(error(resource_error(What), _))).
+conclude(raised(Error), Goals0, turn(Id, _, _), stop) :-
+    agent_fails(Id, raised(Error), Goals0).
+conclude(effect(Control, Hole, Goals), _, turn(Id, Host, _), Next) :-
+    (   agent_ordered(Id),
+        term_attvars(Goals, [])         % else see effect/5
+    ->  Hole = Control,
+        with_agent(Id, agent_ready(Id, Goals)),
+        Next = stop
+    ;   catch(effect(Control, Hole, Goals, Id-Host, Next),
+              error(Formal, Where),
+              raised_at(Control, error(Formal, Where), Hole-Goals, Id-Host,
+                        Next))
+    ).
+
+%   An agent that passed a limit ends, whatever it would catch.
+
+raised_at(_, _, _, Id-Host, stop) :-
+    turn_overruled(Host, Outcome),
+    !,
+    ends_over(Id, Outcome).
+raised_at(Control, Error, Hole-Goals, _, go(Goals)) :-
+    answer_at(Control, throw(Error), Hole).
+
+ends_over(Id, Outcome) :-
+    over_limit(Id, Outcome),
+    ignore(agent_end(Id, Outcome)).
+
+%   No goals are left: take the next message, or stay resident, or end.  That
+%   on_message/2 does not want a message, or fails, is no reason to end.
+
+finish(turn(Id, _, context(Program, Module)), Next) :-
+    agent_handles(Program, Module),
+    !,
+    with_agent(Id, next_message(Id, Next)),
+    received(Next, Id).
+finish(turn(Id, _, _), stop) :-
+    ignore(agent_end(Id, done)).
+
+%   An order comes first.
+
+next_message(Id, Next) :-
+    (   \+ agent_ordered(Id),
+        mail_take(Id, From-Message)
+    ->  Next = go([( on_message(From, Message)
+                   ->  true
+                   ;   message_failed(From, Message)
+                   )])
+    ;   agent_rest(Id, resident, []),
+        Next = stop
+    ).
+
+received(stop, _).
+received(go([(on_message(From, Message) -> _ ; _)]), Id) :-
+    agent(Id, Host, _, _, _),
+    !,
+    event(messages, Host, Id, received(From, Message)).
+received(go(_), _).

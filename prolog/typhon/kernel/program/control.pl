@@ -34,6 +34,6 @@ special(dispose, control).
 special(sleep_until(_), control).
 special(receive_until(_, _, _), control).
 special(receive_until(_, _), control).  % in old restore points
-special('$fault'(_), control).          % stays as it was: see typhon_faulty
+special('$fault'(_), control).          % stays as it was: see typhon_ending
 special_of(call, call).                 % with more than one argument
 special_of('$checked', checked).        % see typhon_checked

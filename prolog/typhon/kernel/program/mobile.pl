@@ -1,5 +1,5 @@
 :- module(typhon_mobile,
-          [ mobile_predicates/3,                 % +Clauses, -Kinds, -Problems
+          [ mobile_predicates/3,        % +Clauses, -Kinds, -Problems
             body_calls/2,               % +Body, -Calls
             is_mobile/2,                % +PI, +Mobile
             built_in/1,                 % +PI

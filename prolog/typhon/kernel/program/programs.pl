@@ -3,31 +3,31 @@
                                         % -Places, -Sources, -Doubtful
             payload_load/2,             % +Spec, -Payload
             payload_file/1,             % +File
-            program_terms/6,            % +Located, -Program, -Initial,
-                                        % -Kinds, -Places, -Errors
+            program_terms/6,            % +Located, -Program, -Initial, -Kinds,
+                                        % -Places, -Errors
             payload_terms/3,            % +Located, -Payload, -Errors
             in_file_order/3,            % +Problems, +Located, -Ordered
             problem_error/3,            % +Problem, +Others, -Error
             advice_text/2,              % +Advice, -Text
-            program_hash/2              % +Program, -Hash
+            program_hash/2,             % +Program, -Hash
+            payload_python/3            % +Payload, -Name, -Source
           ]).
 :- use_module(library(apply), [maplist/3, partition/4]).
+:- use_module(library(error), [must_be/2]).
 :- use_module(library(lists),
               [append/2, append/3, member/2, memberchk/2, nth1/3]).
 :- use_module(library(pairs), [pairs_values/2]).
-:- use_module(library(error), [must_be/2]).
+:- autoload(library(readutil), [read_file_to_string/3]).
 :- use_module(library(sha), [hash_atom/2, sha_hash/3]).
 :- use_module('../base/on_demand', [on_demand_load/2]).
 :- use_module(mobile, [mobile_predicates/3]).
 :- use_module(parts,
-              [ clause_indicator/2, file_parts/4, in_state/2,
-                library_directive/2, located_clause/2, part/3 ]).
+              [ clause_indicator/2, clause_problem/2, directive_problem/2,
+                entry_problem/3, file_parts/4, in_state/2, library_directive/2,
+                located_clause/2, option_problem/3, part/3 ]).
 :- use_module(places, [places/2, places_named/4]).
-:- use_module(problems,
-              [ clause_problem/2, directive_problem/2, entry_problem/3,
-                option_problem/3 ]).
-:- use_module(python_code, [python_payload/2]).
 :- use_module(source, [declaration/4, source_terms/5]).
+:- use_module(paths, []).
 
 /** <module> Agent programs and payloads
 
@@ -39,6 +39,10 @@ becomes a plain term:
     are the predicate indicators of what is mutable, Libraries what
     use_module/1,2 named, Clauses the static clauses as Head:-Body.
   - payload(Name, Predicates, Clauses)
+
+A payload that was read from a file vision.py is called `vision`; its one
+clause is a fact 'vision.py'(Source).  So it travels as any other payload,
+and is text for a host without Python.
 
 *Threading*: any thread; nothing is stored here.
 */
@@ -235,3 +239,43 @@ print_canonical(Term) :-
             write_term(Term, [ quoted(true), ignore_ops(true) ]),
             nl
           ).
+
+                /*******************************
+                *            PYTHON            *
+                *******************************/
+
+%   python_payload(+Spec, -Payload) is semidet.
+%
+%   Fails if Spec does not end in `.py`.
+%
+%   @error existence_error(source_sink, Spec)
+
+python_payload(Spec, payload(Name, [Functor/1], [(Fact:-true)])) :-
+    base(Spec, Base),
+    file_name_extension(Name, py, Base),
+    absolute_file_name(Spec, File, [access(read)]),
+    read_file_to_string(File, Source, [encoding(utf8)]),
+    functor_of(Name, Functor),
+    Fact =.. [Functor, Source].
+
+base(Spec, Base) :-
+    compound(Spec),
+    compound_name_arguments(Spec, _, [Path]),
+    !,
+    base(Path, Base).
+base(Spec, Base) :-
+    ( atom(Spec) ; string(Spec) ),
+    file_base_name(Spec, Base).
+
+functor_of(Name, Functor) :-
+    atom_concat(Name, '.py', Functor).
+
+%!  payload_python(+Payload, -Name, -Source:string) is semidet.
+%
+%   Payload is Python.
+
+payload_python(payload(Name, [Functor/1], [Clause]), Name, Source) :-
+    functor_of(Name, Functor),
+    Clause = (Fact:-true),
+    Fact =.. [Functor, Source],
+    string(Source).

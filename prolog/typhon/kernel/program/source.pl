@@ -25,7 +25,7 @@ is followed.  Grammar rules are translated.  Operators that the file
 imports from libraries are known from there on.
 
 What cannot be read, or looks like a slip of the pen, is a problem as in
-typhon_problems, and reading goes on behind it.  A syntax error stands at
+typhon_parts, and reading goes on behind it.  A syntax error stands at
 file(File, Line, LinePos, CharNo).
 
 What was read can be compared with what would be read now, by its

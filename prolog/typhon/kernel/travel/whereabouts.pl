@@ -279,7 +279,7 @@ news(Process, ended(Id, Outcome, Hops)) :-
     news(Process, ended(Id, Outcome, Hops, [])).
 news(_, ended(Id, Outcome, Hops, Results)) :-
     must_be(nonneg, Hops),
-    must_be(list(typhon_result_facts), Results),
+    must_be(list(typhon_payloads), Results),
     home_ended(Id, Outcome, Hops, Results).
 news(Process, faulty(Id, Outcome, Stamp, Address, Hops)) :-
     must_be(nonneg, Hops),
@@ -291,7 +291,7 @@ news(_, resumed(Id, Stamp, Hops)) :-
     must_be(number, Stamp),
     home_resumed(Id, Stamp, Hops).
 
-error:has_type(typhon_result_facts, Item) :-
+error:has_type(typhon_payloads, Item) :-
     is_result_fact(Item).
 
                 /*******************************

@@ -14,7 +14,7 @@
 
 /** <module> Goals that are checked when they are called
 
-Variants of programs, see typhon_variants, contain
+Variants of programs, see typhon_agent_module, contain
 
     '$checked'(Goal)            '$checked'(Closure, A, ...)
 
@@ -92,7 +92,7 @@ native(Module, Closure, Extra, Goal) :-
 called(Module, Closure, Extra, Goal) :-
     agent_variant(Module, Variant),
     !,
-    typhon_variants:called(Variant, Module, Closure, Extra, Goal).
+    typhon_agent_module:called(Variant, Module, Closure, Extra, Goal).
 called(_, Closure, [], Closure) :-
     !.
 called(_, Closure, Extra, Goal) :-

@@ -17,10 +17,6 @@
             detach/1,                   % +Name
             deliver/1,                  % +Name
             undeliver/1,                % +Name
-            emit/1,                     % +Problem
-            emit/2,                     % +Problem, +Options
-            withdraw/1,                 % +Problem
-            pheromone/3,                % ?Problem, -Source, -Strength
             create/3,                   % +Program, -Agent, +Options
             log/1,                      % +What
             result/1,                   % +Term
@@ -51,14 +47,11 @@
                 result_put/2, life_hops/2, life_parent/2 ]).
 :- use_module('../travel', [agent_logs/3, post/3, post_abroad/4]).
 :- use_module('../lifecycle', [agent_create_child/4]).
-:- use_module(pheromone,
-              [pheromone_emit/3, pheromone_here/4, pheromone_withdraw/2]).
 
 /** <module> What an agent can say
 
 The vocabulary of agents, found through the place of the host on which
-they stand; next_host/2 is in typhon_memory.  The control predicates at the
-end are here only to say that they were called where an agent cannot stop:
+they stand.  The control predicates at the end are here only to say that they were called where an agent cannot stop:
 the machine takes care of them everywhere else.
 
 *Threading*: whatever thread runs the agent; see typhon_context.
@@ -280,32 +273,6 @@ undeliver(Name) :-
     place(Host, Place),
     place_undeliver(Place, Name),
     ignore(python_undelivered(Host, Name)).
-
-%!  emit(+Problem) is det.
-%!  emit(+Problem, +Options) is det.
-%!  withdraw(+Problem) is det.
-%!  pheromone(?Problem, -Source, -Strength) is nondet.
-%
-%   The host calls for an agent that can solve Problem, and takes this back;
-%   and what pheromones from other hosts are here. For the options see
-%   pheromone_emit/3, for how it fades pheromone_strength/4. Agents follow
-%   pheromones by the migration strategy phercon(Problem).
-
-emit(Problem) :-
-    emit(Problem, []).
-
-emit(Problem, Options) :-
-    context_host(Host),
-    says(Host, Problem-Options),
-    pheromone_emit(Host, Problem, Options).
-
-withdraw(Problem) :-
-    context_host(Host),
-    pheromone_withdraw(Host, Problem).
-
-pheromone(Problem, Source, Strength) :-
-    context_host(Host),
-    pheromone_here(Host, Problem, Source, Strength).
 
 %!  create(+Program, -Agent, +Options) is det.
 %

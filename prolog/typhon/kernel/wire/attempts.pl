@@ -310,7 +310,7 @@ waiter_tell(Queue, Result) :-
 %   A request made now has Number; earlier ones have a lower one.
 
 asking(Number) :-
-    flag(typhon_asking, Number, Number+1).
+    flag(typhon_runtime, Number, Number+1).
 
 asked(Number) :-
-    flag(typhon_asking, Number, Number).
+    flag(typhon_runtime, Number, Number).

@@ -51,7 +51,7 @@ of the session guards a queue of bundles.
               [resource_error/1, syntax_error/1, type_error/2]).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(sha), [sha_hash/3]).
-:- use_module('../base/fast_bytes', [fast_bytes_term/2]).
+:- use_module('../base/prolog_faults', [fast_bytes_term/2]).
 :- use_module('../base/text', [term_text/2, text_term/2]).
 :- use_module('../base/trees', [is_in_itself/1]).
 

@@ -43,7 +43,7 @@ in one fact; two threads that read it at once store the same.
 :- autoload(library(readutil), [read_line_to_string/2]).
 :- use_module(library(settings), [setting/2, setting/4]).
 :- use_module(library(sha), [hash_atom/2, hmac_sha/4]).
-:- use_module('../base/spawn', [spawn/3]).
+:- use_module('../base/prolog_faults', [spawn/3]).
 :- use_module(frame, [check_bytes/2]).
 
 :- setting(records, boolean, true,

@@ -22,7 +22,7 @@
 :- use_module('../../kernel/base/server',
               [ server_answer/2, server_call/4, server_cast/2, server_start/4,
                 server_stop/1 ]).
-:- use_module('../../kernel/base/spawn', [spawn/3]).
+:- use_module('../../kernel/base/prolog_faults', [spawn/3]).
 :- use_module('../../kernel/host', [schedule/2]).
 :- use_module(cell_frames, [cell_frame_read/2]).
 
@@ -448,6 +448,7 @@ launch(Filter, process(Pid, In, Out, Err)) :-
     set_stream(Out, buffer(full)).
 
 program('set_prolog_flag(gc_thread,false),\c
+         use_module(\'/typhon/typhon/options/migration\',[]),\c
          use_module(\'/typhon/typhon/options/cell/inside\'),\c
          typhon_cell_inside:cell_main').
 

@@ -416,7 +416,7 @@ allowed(Module, Head, PI, Clauses, Allowed) :-
     (   state_predicate(Module, Head)
     ->  true
     ;   agent_variant(Module, Variant),
-        typhon_variants:declares(Variant, PI),
+        typhon_agent_module:declares(Variant, PI),
         \+ '$c_current_predicate'(_, Module:Head)
     ->  dynamic(Module:PI)
     ;   violation(PI)

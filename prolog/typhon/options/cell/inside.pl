@@ -6,7 +6,8 @@
                 machine_run/3 ]).
 :- use_module('../../kernel/wire', [mobile_term/1]).
 :- use_module('../../kernel/host',
-              [context_set/3, host/3, host_change/2, host_start/1]).
+              [context_set/3, host/3, host_start/1]).
+:- use_module('../../tools/administration', [host_change/2]).
 :- use_module('../../kernel/agent',
               [agent_add/2, agent_code/2, agent_module/5, in_words/2]).
 :- use_module('../../kernel/vocabulary', []).

@@ -297,7 +297,8 @@ head_of(Head, Head).
 
 word(Head) :-
     module_property(Module, exports(PIs)),
-    memberchk(Module, [typhon_words, typhon_memory, typhon_monitor_words]),
+    memberchk(Module, [ typhon_words, typhon_memory, typhon_monitor_words,
+                        typhon_pheromone ]),
     member(Name/Arity, PIs),
     functor(Head, Name, Arity).
 

@@ -1,4 +1,5 @@
 :- module(typhon_sandbox, []).
+:- use_module(library(apply), [maplist/2]).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(option), [option/2]).
 :- use_module('../../kernel/program',
@@ -16,7 +17,7 @@
 
 Policy is `trusted`, `guarded`, or a file of rules, see policy_read/1.  On a
 host with another policy than `trusted` agents run the variant guarded(Policy)
-of their program, see typhon_variants, and hang below a view of the place that
+of their program, see typhon_agent_module, and hang below a view of the place that
 has nothing but its services, see place_service/2.  An agent is looked through
 before it enters.
 
@@ -39,13 +40,13 @@ host_start/2 those of views.
     typhon_host_parts:untrusted/1,
     typhon_options:declared/4,
     typhon_place:serves/2,
-    typhon_variants:called/5,
-    typhon_variants:clauses/3,
-    typhon_variants:declares/2,
-    typhon_variants:goals/4,
-    typhon_variants:program/3,
-    typhon_variants:state/3,
-    typhon_variants:variant/2.
+    typhon_agent_module:called/5,
+    typhon_agent_module:clauses/3,
+    typhon_agent_module:declares/2,
+    typhon_agent_module:goals/4,
+    typhon_agent_module:program/3,
+    typhon_agent_module:state/3,
+    typhon_agent_module:variant/2.
 
 :- dynamic
     view_now/2,                 % Host, View
@@ -113,11 +114,9 @@ typhon_host_parts:ends(Host) :-
     views_end(Host).
 
 views_end(Host) :-
-    (   retract(view(View, Host, _))
-    ->  '$destroy_module'(View),
-        views_end(Host)
-    ;   true
-    ).
+    findall(View, view(View, Host, _), Views),
+    retractall(view(_, Host, _)),
+    maplist('$destroy_module', Views).
 
                 /*******************************
                 *          ADMISSION           *
@@ -184,25 +183,25 @@ check_sent(Policy, Sent) :-
                 *           VARIANTS           *
                 *******************************/
 
-typhon_variants:variant(View, guarded(Policy)) :-
+typhon_agent_module:variant(View, guarded(Policy)) :-
     view(View, _, Policy).
 
-typhon_variants:program(guarded(Policy), Hash, Module) :-
+typhon_agent_module:program(guarded(Policy), Hash, Module) :-
     guarded_module(Policy, Hash, Module).
 
-typhon_variants:state(guarded(Policy), State0, State) :-
+typhon_agent_module:state(guarded(Policy), State0, State) :-
     guard_state(Policy, State0, State).
 
-typhon_variants:goals(guarded(Policy), Program, Goals0, Goals) :-
+typhon_agent_module:goals(guarded(Policy), Program, Goals0, Goals) :-
     guard_goals(Policy, Program, Goals0, Goals).
 
-typhon_variants:clauses(guarded(Policy), Clauses0, Clauses) :-
+typhon_agent_module:clauses(guarded(Policy), Clauses0, Clauses) :-
     guard_clauses(Policy, Clauses0, Clauses).
 
-typhon_variants:declares(guarded(Policy), PI) :-
+typhon_agent_module:declares(guarded(Policy), PI) :-
     guard_declares(Policy, PI).
 
-typhon_variants:called(guarded(Policy), Module, Closure, Extra, Goal) :-
+typhon_agent_module:called(guarded(Policy), Module, Closure, Extra, Goal) :-
     guard_call(Policy, Module, Closure, Extra, Goal).
 
 %   guarded_module(+Policy, +Hash, -Module): Module has the program Hash, which
@@ -239,8 +238,12 @@ typhon_code:retiring(Hash) :-
     with_mutex(typhon_sandbox, retire(Hash)).
 
 retire(Hash) :-
-    forall(retract(retired(Module)), '$destroy_module'(Module)),
-    forall(retract(variant(Hash, _, Module)), assertz(retired(Module))).
+    findall(Module, retired(Module), Before),
+    retractall(retired(_)),
+    maplist('$destroy_module', Before),
+    findall(Module, variant(Hash, _, Module), Modules),
+    retractall(variant(Hash, _, _)),
+    forall(member(Module, Modules), assertz(retired(Module))).
 
                 /*******************************
                 *           CHECKING           *

@@ -2,6 +2,7 @@
           [ agent_back/3,               % +Id, +Record, +Place
             states_unused/1             % -Ids
           ]).
+:- use_module(library(apply), [maplist/2]).
 :- use_module(library(lists), [member/2]).
 :- use_module('../../kernel/base/durable', [durable/5]).
 :- use_module('../../kernel/base/durable_changes',
@@ -178,8 +179,9 @@ put_logged(Id, Module, N, Whole, Bytes) :-
     assertz(logged(Id, Module, N, Whole, Bytes)).
 
 unlog(Id) :-
-    (   retract(logged(Id, Module, _, _, _))
-    ->  durable_drop_all(state, Id),
+    (   logged(Id, Module, _, _, _)
+    ->  retractall(logged(Id, _, _, _, _)),
+        durable_drop_all(state, Id),
         state_log_end(Module)
     ;   true
     ).
@@ -201,8 +203,9 @@ note_item(Id, Kind, N, Term0, Count) :-
 %   The module is about to be destroyed: the agent is no more, or has another.
 
 typhon_agents:state_ends(Id, Module) :-
-    retract(logged(Id, Module, _, _, _)),
+    logged(Id, Module, _, _, _),
     !,
+    retractall(logged(Id, _, _, _, _)),
     state_log_end(Module),
     (   agent(Id, _, _, _, _)
     ->  put_logged(Id, none, 0, 0, 0)
@@ -217,7 +220,9 @@ typhon_durable_changes:dropped(Changes) :-
            put_logged(Id, none, 0, 0, 0)).
 
 typhon_runtime:ending(after) :-
-    forall(retract(logged(_, Module, _, _, _)), state_log_end(Module)),
+    findall(Module, logged(_, Module, _, _, _), Modules),
+    retractall(logged(_, _, _, _, _)),
+    maplist(state_log_end, Modules),
     retractall(stored(_, _, _)).
 
                 /*******************************

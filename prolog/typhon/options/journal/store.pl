@@ -11,7 +11,7 @@
           ]).
 :- use_module(library(lists), [member/2]).
 :- use_module('../../kernel/base/durable_changes', [crash_point/1]).
-:- use_module('../../kernel/base/fast_bytes', [fast_bytes_term/2]).
+:- use_module('../../kernel/base/prolog_faults', [fast_bytes_term/2]).
 :- use_module(database,
               [ database/3, database_connect/4, database_forgets/4,
                 database_found/1, database_lock/3, database_same/4,

@@ -1,12 +1,14 @@
 :- module(typhon_process_dump,
           [ process_dump/2,             % +Hosts, -Items
             process_restore/2,          % +Kind, +Items
-            process_go_on/3             % +Kind, +Agents, +Scheduled
+            process_go_on/3,            % +Kind, +Agents, +Scheduled
+            agents_at_rest/2,           % +Seconds, +Peers
+            agents_go_on/1              % +Agents
           ]).
 :- use_module(library(error), [domain_error/2, permission_error/3]).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(ordsets), [ord_subtract/3]).
-:- use_module('../../kernel/base/durable', 
+:- use_module('../../kernel/base/durable',
               [durable/6, durable_dump/4, durable_restore/4]).
 :- use_module('../../kernel/program', [code_receive/2, code_sent/2]).
 :- use_module('../../kernel/wire', [mobile_term/1]).
@@ -14,8 +16,10 @@
               [host/3, host_again/1, schedule/2, time_repeats/2]).
 :- use_module('../../kernel/agent',
               [ agent/5, agent_enter/3, agent_home/2, agent_module/5,
-                agent_order/2, agent_orders/2, agent_state/2, agent_status/3 ]).
-:- use_module('../../kernel/travel', [retries_go_on/0]).
+                agent_order/2, agent_ordered/1, agent_orders/2, agent_state/2,
+                agent_status/3, agents_passed/0, with_agent/2 ]).
+:- use_module('../../kernel/travel',
+              [news_carried/1, post_tried/0, retries_go_on/0]).
 :- use_module('../../kernel/lifecycle', [agent_reschedule/1, held_parts/3]).
 
 /** <module> All that a process knows, at a moment
@@ -23,7 +27,12 @@
 The items of all tables that outlive the process, see typhon_durable, and what
 time does not know.
 
-*Threading*: any thread, while time is held.
+When no agent gets a turn any more those that run stop at their next effect, as
+they do for an order.  Agents under way arrive, or stay; messages and news
+that are being handled find their way, or wait.
+
+*Threading*: any thread, while time is held; the thread that holds it waits until
+agents rest.
 */
 
 %   What others look up comes before them.  Some kinds are restored only where
@@ -199,3 +208,68 @@ process_go_on(Kind, Agents, Scheduled0) :-
 process_go_on(_, Agents, _) :-
     forall(member(Id, Agents), agent_reschedule(Id)),
     retries_go_on.
+
+                /*******************************
+                *           AT REST            *
+                *******************************/
+
+%!  agents_at_rest(+Seconds, +Peers) is semidet.
+%
+%   No agent of this process runs or is under way any more, and nothing is
+%   queued for the endpoints Peers; fails if that is not so in
+%   Seconds.
+
+agents_at_rest(Seconds, Peers) :-
+    get_time(Now),
+    Deadline is Now+Seconds,
+    agents_passed,
+    rest_before(Deadline, Peers).
+
+%   Looks again every 10 ms: a notification would make each turn and each
+%   departure check for a waiting caller.
+
+rest_before(Deadline, Peers) :-
+    forall(( agent_status(Id, running, _), \+ agent_ordered(Id) ),
+           ignore(with_agent(Id, stops(Id)))),
+    (   \+ restless(Peers),
+        agents_passed,                  % messages follow agents that left
+        \+ restless(Peers)
+    ->  true
+    ;   get_time(Now),
+        Now < Deadline,
+        thread_self(Me),
+        \+ thread_get_message(Me, '$typhon_never', [timeout(0.01)]),
+        rest_before(Deadline, Peers)
+    ).
+
+%   An order with which nothing is done.
+
+stops(Id) :-
+    agent_status(Id, running, _),
+    agent_order(Id, asked(question(rest), queue(none))).
+
+restless(_) :-
+    agent_status(_, Status, _),
+    moves(Status),
+    !.
+restless(_) :-
+    post_tried,
+    !.
+restless(Peers) :-
+    member(Peer, Peers),
+    news_carried(Peer),
+    !.
+
+moves(running).
+moves(obeying).
+moves(arriving).
+moves(transit(_, _)).
+moves(cloning(_, _)).
+
+%!  agents_go_on(+Agents:list) is det.
+%
+%   Agents have missed their turn.
+
+agents_go_on(Agents) :-
+    forall(( member(Id, Agents), agent(Id, Host, _, _, _) ),
+           schedule(Host, Id)).

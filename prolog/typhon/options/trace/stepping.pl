@@ -9,10 +9,10 @@
               [ agent/5, agent_order/2, agent_status/3, agent_unorder/2,
                 in_words/2, with_agent/2 ]).
 :- use_module('../../kernel/lifecycle',
-              [ agent_answer/3, agent_join/3, agent_property/2, held_on/2,
-                held_parts/3, held_put/3, order_give/3, order_take/2,
-                question_answered/2, turn_bounded/1, turn_settled/0,
-                turn_unit/1 ]).
+              [ agent_answer/3, agent_join/3, held_on/2, held_parts/3,
+                held_put/3, order_give/3, order_take/2, question_answered/2,
+                turn_bounded/1, turn_settled/0, turn_unit/1 ]).
+:- use_module('../../tools/administration', [agent_property/2]).
 :- use_module('../../kernel/program',
               [ fault_note/1, fault_noted/1, machine_run/3, plain_goals/2 ]).
 :- use_module(spying, [spied/3, spied_program/1]).

@@ -30,7 +30,7 @@ queue what it is to hear. No `server`: an aborted watch ends.
     prolog:message//1,
     typhon_endpoint:connection/2,
     typhon_endpoint:requested/4,
-    typhon_teller:taken_here/3.
+    typhon_event_sender:taken_here/3.
 
 :- dynamic watch/2.             % Watch, Queue: as long as events are wanted
 
@@ -58,7 +58,7 @@ typhon_endpoint:requested(watched, events(Watch, Events), Peer, ReplyTo) :-
     ->  true
     ;   endpoint_reply(ReplyTo, no)
     ).
-typhon_teller:taken_here(Watch, Events, OnAnswer) :-
+typhon_event_sender:taken_here(Watch, Events, OnAnswer) :-
     endpoint_address(Own),
     !,
     listening_tell(Watch, events(Own, Events, here(OnAnswer))).
@@ -90,7 +90,7 @@ listening_tell(Watch, Message) :-
 %   The thread of Watch, until listening_end/1, or the message end(Done): then
 %   what has happened until then is taken, too, and the queue Done hears
 %   `done`.  Asked are asked(Endpoint, Wanted, Answer), Answer being what a
-%   teller says, or gone(Hosts) of a process of a network that is no more.
+%   sender says, or gone(Hosts) of a process of a network that is no more.
 
 listen_on(Watch, Queue, OnEvent, Asked) :-
     Me = me(Watch, Queue, OnEvent),

@@ -7,7 +7,7 @@
 :- use_module('../../kernel/wire', [endpoint_address/1, endpoint_peer/2]).
 :- use_module('../../kernel/host', [events_hear/3, events_unheard/1, host/3]).
 :- use_module('../../kernel/agent', [agent/5, agent_status/3]).
-:- use_module('../../kernel/lifecycle', [status_shown/2]).
+:- use_module('../../tools/administration', [status_shown/2]).
 :- use_module(watched, [everywhere/5, watched_places/2]).
 
 /** <module> A network in numbers, for Prometheus

@@ -8,14 +8,14 @@
 :- use_module('../../kernel/host',
               [ clock/3, event_shown/3, events_hear/3, events_unheard/1,
                 host/3, peer_may/3, time_repeats/2, time_kind/1 ]).
-:- use_module(teller,
-              [ basin_close/1, basin_open/3, basin_put/3, teller_ring/2,
-                teller_run/1, time_at/2 ]).
+:- use_module(event_sender,
+              [ buffer_close/1, buffer_open/3, buffer_put/3, sender_signal/2,
+                sender_run/1, time_at/2 ]).
 
 /** <module> Sending events to watches
 
 For each watch, of this process or another, that wants to hear of hosts of this
-process there is a thread, see module `teller`, and a basin in which gathers
+process there is a thread, see module `sender`, and a buffer in which gathers
 what it is to tell.
 
 A watch is forgotten when it is over, when its process says that it has none
@@ -32,7 +32,7 @@ Events are sent with requests of kind `watched`:
   | events(Id, Events) | `more`, or `no` if there is no such watch |
   | alive(Id)          | `yes` or `no`                             |
 
-*Threading*: a teller for each watch, joined by the thread that removes its
+*Threading*: a sender for each watch, joined by the thread that removes its
 record. No `server`: amid a batch it waits for the answer of the watch.
 */
 
@@ -48,7 +48,8 @@ record. No `server`: amid a batch it waits for the answer of the watch.
 :- setting(virtual_events, positive_integer, 1 000 000,
            "As many of virtual time, which is ahead of all watches").
 
-:- dynamic teller/5.            % Peer, Id, Thread, Bell, telling(Wanted, Basin)
+:- dynamic sender/5.            % Peer, Id, Thread, Signals,
+                                % watch(Wanted, Buffer)
 
 kinds([life, faults, hops, messages, facts, said, links, hosts]).
 
@@ -63,25 +64,25 @@ typhon_endpoint:requested(watch, watch(Id, Wanted), Peer, ReplyTo) :-
     !,
     endpoint_reply(ReplyTo, watching(Own, New, Hosts)).
 typhon_endpoint:requested(watch, unwatch(Id), Peer, ReplyTo) :-
-    (   teller(Peer, Id, _, Bell, telling(_, Basin))
-    ->  events_unheard(watch(Basin, _, _)),
-        teller_ring(Bell, end(ReplyTo))
+    (   sender(Peer, Id, _, Signals, watch(_, Buffer))
+    ->  events_unheard(watch(Buffer, _, _)),
+        sender_signal(Signals, end(ReplyTo))
     ;   endpoint_reply(ReplyTo, ended)
     ).
 
 tell_to(Peer, Id, Wanted, New) :-
-    retract(teller(Peer, Id, Thread, Bell, telling(_, Basin))),
+    retract(sender(Peer, Id, Thread, Signals, watch(_, Buffer))),
     !,
-    assertz(teller(Peer, Id, Thread, Bell, telling(Wanted, Basin))),
+    assertz(sender(Peer, Id, Thread, Signals, watch(Wanted, Buffer))),
     New = false.
 tell_to(Peer, Id, Wanted, true) :-
-    message_queue_create(Bell),
+    message_queue_create(Signals),
     most(Most),
-    basin_open(Most, Bell, Basin),
-    flag(typhon_teller, N, N+1),
-    atom_concat(typhon_teller_, N, Alias),
-    thread_create(teller(Peer, Id, Bell, Basin), Thread, [alias(Alias)]),
-    assertz(teller(Peer, Id, Thread, Bell, telling(Wanted, Basin))),
+    buffer_open(Most, Signals, Buffer),
+    flag(typhon_event_sender, N, N+1),
+    atom_concat(typhon_event_sender_, N, Alias),
+    thread_create(sender(Peer, Id, Signals, Buffer), Thread, [alias(Alias)]),
+    assertz(sender(Peer, Id, Thread, Signals, watch(Wanted, Buffer))),
     debug(typhon(watch), '~w of ~w watches', [Id, Peer]).
 
 most(Most) :-
@@ -93,7 +94,7 @@ most(Most) :-
     setting(events, Most).
 
 hear_of(New, Wanted, Peer, Id, Hosts) :-
-    teller(Peer, Id, _, _, telling(_, Basin)),
+    sender(Peer, Id, _, _, watch(_, Buffer)),
     !,
     findall(Name-(Address-clock(Epoch, Rate)),
             ( host(Name, Address, _),
@@ -102,7 +103,7 @@ hear_of(New, Wanted, Peer, Id, Hosts) :-
               clock(Name, Epoch, Rate) ),
             Pairs),
     forall(( New == true, member(Name-Host, Pairs) ),
-           listen(Name, Host, Basin)),
+           listen(Name, Host, Buffer)),
     findall(Host, member(_-Host, Pairs), Hosts).
 hear_of(_, _, _, _, []).
 
@@ -116,43 +117,43 @@ may_watch(Peer, _) :-
 may_watch(Peer, Name) :-
     peer_may(Peer, Name, inspect).
 
-listen(Name, Address-Clock, Basin) :-
+listen(Name, Address-Clock, Buffer) :-
     kinds(Kinds),
-    events_hear(Kinds, Name, watch(Basin, Address, Clock)).
+    events_hear(Kinds, Name, watch(Buffer, Address, Clock)).
 
 typhon_hosting:begins(Name) :-
-    teller(Peer, _, _, _, telling(Wanted, Basin)),
+    sender(Peer, _, _, _, watch(Wanted, Buffer)),
     is_wanted(Wanted, Name),
     may_watch(Peer, Name),
     host(Name, Address, _),
     clock(Name, Epoch, Rate),
-    listen(Name, Address-clock(Epoch, Rate), Basin).
+    listen(Name, Address-clock(Epoch, Rate), Buffer).
 
 typhon_endpoint:connection(Peer, down) :-
-    forall(teller(Peer, _, _, Bell, _), teller_ring(Bell, now(check))).
+    forall(sender(Peer, _, _, Signals, _), sender_signal(Signals, now(check))).
 
 %   The last event, that the hosts stop, is sent as well.
 
 typhon_runtime:ending(before) :-
-    stop_tellers.
+    stop_senders.
 
-stop_tellers :-
-    with_mutex(typhon_telling, retract(teller(_, _, Thread, Bell, _))),
+stop_senders :-
+    with_mutex(typhon_telling, retract(sender(_, _, Thread, Signals, _))),
     !,
-    teller_ring(Bell, end(none)),
+    sender_signal(Signals, end(none)),
     stop_thread(Thread),
-    stop_tellers.
-stop_tellers.
+    stop_senders.
+stop_senders.
 
                 /*******************************
                 *           EVENTS             *
                 *******************************/
 
-typhon_events:told(watch(Basin, Address, Clock), Host, Agent, What) :-
+typhon_events:told(watch(Buffer, Address, Clock), Host, Agent, What) :-
     time_at(Clock, Time),
     event_shown(Host, What, Shown),
     told_as(Shown, Clock, Public),
-    catch(basin_put(Basin, Address-Clock,
+    catch(buffer_put(Buffer, Address-Clock,
                     event(Time, Address, Agent, Public)),
           error(existence_error(_, _), _),
           true).                        % it has ended
@@ -171,22 +172,22 @@ told_as(What, _, Public) =>
     Public = What.
 
                 /*******************************
-                *         THE TELLER           *
+                *         THE SENDER           *
                 *******************************/
 
-teller(Peer, Id, Bell, Basin) :-
+sender(Peer, Id, Signals, Buffer) :-
     setup_call_cleanup(
         true,
-        teller_run(to(Peer, Id, Bell, Basin)),
-        teller_ends(Peer, Id, Bell, Basin)).
+        sender_run(to(Peer, Id, Signals, Buffer)),
+        sender_ends(Peer, Id, Signals, Buffer)).
 
-teller_ends(Peer, Id, Bell, Basin) :-
+sender_ends(Peer, Id, Signals, Buffer) :-
     debug(typhon(watch), '~w of ~w watches no more', [Id, Peer]),
-    events_unheard(watch(Basin, _, _)),
+    events_unheard(watch(Buffer, _, _)),
     thread_self(Me),
-    (   with_mutex(typhon_telling, retract(teller(Peer, Id, _, Bell, _)))
+    (   with_mutex(typhon_telling, retract(sender(Peer, Id, _, Signals, _)))
     ->  thread_detach(Me)
     ;   true
     ),
-    basin_close(Basin),
-    message_queue_destroy(Bell).
+    buffer_close(Buffer),
+    message_queue_destroy(Signals).

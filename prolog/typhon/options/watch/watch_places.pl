@@ -10,7 +10,7 @@
           ]).
 :- use_module(library(lists), [append/3, member/2]).
 :- use_module('../../kernel/host', [address_parts/3]).
-:- use_module(teller, [time_at/2]).
+:- use_module(event_sender, [time_at/2]).
 
 /** <module> Where there is something to watch
 
@@ -40,7 +40,7 @@ longest_pause(60).
 %!  place_begin(+Watch, +Asked, -Events:list) is det.
 %!  places_forget(+Watch) is det.
 %
-%   Asked is asked(Endpoint, Wanted, Answer), Answer being what a teller says,
+%   Asked is asked(Endpoint, Wanted, Answer), Answer being what a sender says,
 %   or gone(Hosts) of a process of a network that is no more.  Events are to
 %   be told.
 

@@ -17,7 +17,7 @@
 :- use_module('../../network', [network_hosts/2]).
 :- use_module('../../kernel/program', [code_program/2]).
 :- use_module('../../kernel/agent', [agent/5, agent_status/3, life_hops/2]).
-:- use_module('../../kernel/lifecycle', [status_shown/2]).
+:- use_module('../../tools/administration', [status_shown/2]).
 
 /** <module> Hosts that are watched, and questions to their processes
 

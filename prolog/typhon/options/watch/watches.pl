@@ -19,7 +19,7 @@
 /** <module> Watching hosts
 
 A watch has a thread, which calls OnEvent, see module `listening`.
-What it hears comes from the tellers of the processes that have the hosts, see
+What it hears comes from the senders of the processes that have the hosts, see
 module `telling`.
 
 *Threading*: any thread may call; a watch may be ended in its own thread.

@@ -15,7 +15,7 @@
 /** <module> What a program says, and hardly means
 
 Doubts do not keep a program from running.  They are problems as in
-typhon_problems.
+typhon_parts.
 
 *Threading*: pure, but that a library is looked up.
 */

@@ -8,9 +8,10 @@
               [append/3, member/2, memberchk/2, nth1/3, selectchk/4]).
 :- use_module('../../kernel/host', [address_parts/3]).
 :- use_module('../../kernel/lifecycle',
-              [agent_join/3, agent_property/2]).
+              [agent_join/3]).
 :- use_module('../../network', [network_property/2]).
 :- use_module('../../tools', [host_report/2]).
+:- use_module('../administration', [agent_property/2]).
 :- use_module('../source_view', [agent_listing/1, goals_shown/4]).
 :- use_module(overlays, [mechanism_dicts/1, program_names/1]).
 :- use_module(protocol,

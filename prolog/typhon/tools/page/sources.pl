@@ -14,8 +14,8 @@
 :- use_module('../../kernel/base/server',
               [server_cast/2, server_start/4, server_stop/1]).
 :- use_module('../../kernel/host',
-              [ address_parts/3, host_property/2, runtime_acquire/2,
-                runtime_release/1 ]).
+              [address_parts/3, runtime_acquire/2, runtime_release/1]).
+:- use_module('../administration', [host_property/2]).
 :- use_module('../../tools', [survey/4, survey_agents/2, survey_hosts/4]).
 :- use_module('../../options/watch', [metrics/2, unwatch/1, watch/3]).
 :- use_module(browsers, [browsers_tell/1, browsers_there/0]).

@@ -9,9 +9,10 @@
                 goals_body/2, plain_goals/2 ]).
 :- use_module('../../kernel/agent', [agent/5]).
 :- use_module('../../kernel/lifecycle',
-              [agent_answer/3, agent_property/2, question_answered/2]).
-:- use_module(listing_marks, [stands_in/3]).
-:- use_module(variable_names, [clause_bindings/3, goals_bindings/4]).
+              [agent_answer/3, question_answered/2]).
+:- use_module('../administration', [agent_property/2]).
+:- use_module(variable_names,
+              [clause_bindings/3, goals_bindings/4, stands_in/3]).
 
 /** <module> What an agent is, as text
 

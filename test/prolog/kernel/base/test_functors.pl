@@ -3,7 +3,7 @@
 :- use_module('../../../lib/common', [project_file/2, run_swipl/5]).
 :- use_module(library(apply), [maplist/2, maplist/3]).
 :- use_module(library(lists), [numlist/3]).
-:- use_module(library(typhon/kernel/base/functors)).
+:- use_module(library(typhon/kernel/base/prolog_faults)).
 
 /** <module> Functors that several threads make are the same for all
 

@@ -1,6 +1,6 @@
 :- module(test_spawn, []).
 :- use_module(library(plunit)).
-:- use_module(library(typhon/kernel/base/spawn)).
+:- use_module(library(typhon/kernel/base/prolog_faults)).
 :- use_module(library(apply), [maplist/2]).
 :- use_module(library(lists), [member/2, numlist/3]).
 :- use_module(library(process), [process_kill/2, process_wait/2]).

@@ -865,12 +865,12 @@ test(until_when_it_waits_is_known_before_it_rests,
        States == [running] ]) :-
     thread_self(Me),
     setup_call_cleanup(
-        wrap_predicate(typhon_clock:real_time(_, _, _), seen, Until,
+        wrap_predicate(typhon_time:real_time(_, _, _), seen, Until,
                        test_host:asked_in(Me, Until)),
         with_hosts([alpha-[hop_time(uniform(60, 60))], beta],
                    ( create([(main :- Wait)], _),
                      thread_get_message(Me, asked_in(States), [timeout(30)]) )),
-        unwrap_predicate(typhon_clock:real_time/3, seen)).
+        unwrap_predicate(typhon_time:real_time/3, seen)).
 test(stubborn_reader, [ setup(stubborn(reading, Clauses)),
                         true((O == disposed, S < 20)) ]) :-
     setup_call_cleanup(

@@ -8,6 +8,7 @@
 :- use_module(library(readutil), [read_line_to_string/2]).
 :- use_module(library(settings), [set_setting/2]).
 :- use_module(library(typhon)).
+:- use_module(library(typhon/tools/administration/properties), []).
 
 /** <module> Agents that do not stop are told of, and ended by force
 

@@ -92,7 +92,7 @@ test(an_id_is_not_looked_up) :-
     with_hosts([alpha],
                ( bob(Id),
                  statistics(inferences, I0),
-                 typhon_named:agent_named(Id, Same),
+                 typhon_questions:agent_named(Id, Same),
                  statistics(inferences, I1),
                  assertion(Same == Id),
                  assertion(I1-I0 < 10) )).

@@ -12,7 +12,7 @@
 :- use_module(library(readutil), [read_line_to_string/2]).
 :- use_module(library(socket)).
 :- use_module(library(thread), [concurrent_forall/3]).
-:- use_module(library(typhon/kernel/base/spawn), [spawn/3]).
+:- use_module(library(typhon/kernel/base/prolog_faults), [spawn/3]).
 :- use_module(library(typhon/kernel/wire)).
 
 :- dynamic

@@ -9,7 +9,7 @@
 :- use_module(library(plunit)).
 :- use_module(library(readutil), [read_file_to_string/3]).
 :- use_module(library(typhon)).
-:- use_module(library(typhon/tools/source_view/listing_marks), [stands_in/3]).
+:- use_module(library(typhon/tools/source_view/variable_names), [stands_in/3]).
 
 %   two(:Goal): with hosts alpha and beta, in virtual time.
 

@@ -283,7 +283,7 @@ test(nobody_hears_any_more) :-
     with_hosts([alpha, beta],
                ( watching([alpha, beta], true, _),
                  \+ typhon_events:hears(_, _, _),
-                 wait_until(\+ typhon_telling:teller(_, _, _, _, _), 5) )).
+                 wait_until(\+ typhon_telling:sender(_, _, _, _, _), 5) )).
 
 test(unknown_watch, error(existence_error(watch, watch_of_mine))) :-
     unwatch(watch_of_mine).
@@ -458,14 +458,14 @@ left(B) :-
     assertion(peer_do(b, once(typhon_events:event_heard(hops)))),
     unwatch(Watch),
     assertion(peer_do(b, \+ typhon_events:event_heard(hops))),
-    wait_until(tellers(b, 0), 5).
+    wait_until(senders(b, 0), 5).
 
-tellers(Peer, Count) :-
+senders(Peer, Count) :-
     peer_do(Peer,
             aggregate_all(count,
                           ( thread_property(T, status(_)),
                             thread_property(T, alias(Alias)),
-                            sub_atom(Alias, 0, _, _, typhon_teller) ),
+                            sub_atom(Alias, 0, _, _, typhon_event_sender) ),
                           Count0)),
     Count = Count0.
 
@@ -475,9 +475,9 @@ test(who_watches_and_dies_is_forgotten) :-
 dies :-
     peer_host(b, B),
     peer_do(a, watch(B, writeln, _)),
-    assertion(tellers(b, 1)),
+    assertion(senders(b, 1)),
     peer_kill(a),
-    wait_until(tellers(b, 0), 20),
+    wait_until(senders(b, 0), 20),
     assertion(peer_do(b, \+ typhon_events:event_heard(hops))).
 
 test(who_is_slow_keeps_no_other_process) :-

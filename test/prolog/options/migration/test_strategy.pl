@@ -7,7 +7,7 @@
 :- use_module(library(random), [random_permutation/2]).
 :- use_module(library(terms), [term_size/2]).
 :- use_module(library(yall)).
-:- use_module(library(typhon/kernel/vocabulary/strategy)).
+:- use_module(library(typhon/options/migration/strategy)).
 :- use_module(library(typhon/kernel/base/prng)).
 
 %   walk(+Strategy, +Steps, +Links, +Here, +Memory0, -Path): the hosts

@@ -1,29 +1,32 @@
 :- module(typhon_host_questions,
-          [ host_property/2,            % ?Name, ?Property
-            host_unknown/1,             % +Address
-            link/2,                     % +HostA, +HostB
-            link/3,                     % +HostA, +HostB, +Options
-            unlink/2                    % +HostA, +HostB
+          [ property_of_host/2,         % ?Name, ?Property
+            change_host/2,              % +Host, +Option
+            link_hosts/2,               % +HostA, +HostB
+            link_hosts/3,               % +HostA, +HostB, +Options
+            unlink_hosts/2              % +HostA, +HostB
           ]).
 :- use_module(library(debug), [debug/3]).
-:- use_module(library(error), [domain_error/2, existence_error/2, must_be/2]).
+:- use_module(library(error), [domain_error/2, must_be/2, permission_error/3]).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(option), [option/2]).
-:- use_module('../base/options', [check_name/2, check_options/2]).
-:- use_module('../wire', [endpoint_reply/2]).
-:- use_module(asking, [process_ask/6]).
-:- use_module(host_names, [host_address/2, host_resolve/2]).
-:- use_module(hosts,
-              [host/3, host_hop_stats/3, host_load/2, host_option/2]).
-:- use_module(peer_rights, [peer_may/3]).
-:- use_module(links, [host_link/3, host_neighbours/2, host_unlink/2]).
+:- use_module('../../kernel/base/durable_changes', [sync_changes/0]).
+:- use_module('../../kernel/base/options',
+              [check_name/2, check_option/2, check_options/2]).
+:- use_module('../../kernel/wire', [endpoint_reply/2]).
+:- use_module('../../kernel/host',
+              [ host/3, host_address/2, host_hop_stats/3, host_link/3,
+                host_listed/2, host_load/2, host_neighbours/2, host_option/2,
+                host_put/2, host_resolve/2, host_unknown/1, host_unlink/2,
+                parts_load/1, peer_may/3, place_offer/2, process_ask/6,
+                remote/2, scheduler_limit/2 ]).
 
-/** <module> Hosts anywhere: what they are, and their links
+/** <module> Hosts anywhere: what they are, their links, and changes
 
 A host of another process is asked by a request of kind `hosting`.
 
 *Threading*: any thread.  Requests are answered in the threads of
-connections.
+connections.  A change, and the start and the end of a host, exclude each other
+by a mutex.
 */
 
 :- multifile
@@ -31,17 +34,15 @@ connections.
     typhon_options:declared/4,
     typhon_endpoint:requested/4.
 
-%!  host_property(?Name, ?Property) is nondet.
+%!  property_of_host(?Name, ?Property) is nondet.
+%!  change_host(+Host, +Option) is det.
+%!  link_hosts(+A, +B) is det.
+%!  link_hosts(+A, +B, +Options) is det.
+%!  unlink_hosts(+A, +B) is det.
 %
-%   Property is address(A), state(running), capacity(N), load(N),
-%   neighbours(L), hop_time(Direction, stats(Count,Min,Mean,Max)) (host
-%   seconds) or place(M).  Name may be that of a host of another process of a
-%   network that this process started, or any address.
-%
-%   @error existence_error(host, Name), ambiguous_host(Name, Addresses)
-%   @error domain_error(host_property, Property)
+%   As host_property/2, host_change/2, link/2, link/3 and unlink/2.
 
-host_property(Name, Property) :-
+property_of_host(Name, Property) :-
     check_name(host_property, Property),
     property_of(Name, Property).
 
@@ -88,23 +89,10 @@ local_property(place(Place), Name) :-
                 *             LINKS            *
                 *******************************/
 
-%!  link(+A, +B) is det.
-%!  link(+A, +B, +Options) is det.
-%!  unlink(+A, +B) is det.
-%
-%   Make or break the overlay link between two hosts, both ways; either may
-%   be in another process.  What it costs to take it agents learn by
-%   neighbour/2: 1, or what the option cost(Number) says, which changes the
-%   cost of a link that is there.  Where a link is broken its cost is
-%   forgotten.
-%
-%   @error existence_error(host, Host), ambiguous_host(Name, Addresses)
-%   @error domain_error(link_option, Option)
-
-link(A, B) :-
+link_hosts(A, B) :-
     make_link(A, B, link).
 
-link(A, B, Options) :-
+link_hosts(A, B, Options) :-
     check_options(link_option, Options),
     (   option(cost(Cost), Options)
     ->  must_be_cost(Cost),
@@ -128,7 +116,7 @@ make_link(A, B, Change) :-
     one_way(Far, Near, Change),
     one_way(Near, Far, Change).
 
-unlink(A, B) :-
+unlink_hosts(A, B) :-
     ends(A, B, Near, Far),
     one_way(Near, Far, unlink),
     one_way(Far, Near, unlink).
@@ -163,16 +151,16 @@ there(remote(Address, Name, Endpoint)) :-
 
 one_way(From, To, Change) :-
     host_resolve(From, Where),
-    change(Where, Change, To, Answer),
+    change_link(Where, Change, To, Answer),
     (   Answer == ok
     ->  debug(typhon(host), '~w: ~w ~w', [From, Change, To])
     ;   host_unknown(From)
     ).
 
-change(local(Name), Change, To, Answer) :-
+change_link(local(Name), Change, To, Answer) :-
     hosting_question(Change, Name, To, Question),
     hosting_answer(Question, Answer).
-change(remote(Host, Name, Endpoint), Change, To, Answer) :-
+change_link(remote(Host, Name, Endpoint), Change, To, Answer) :-
     hosting_question(Change, Name, To, Question),
     ask(Endpoint, Host, Question, Answer).
 
@@ -183,24 +171,6 @@ hosting_question(unlink, Name, To, unlink(Name, To)).
                 /*******************************
                 *             ASKING           *
                 *******************************/
-
-%!  host_unknown(+Address) is failure.
-%
-%   The process of Address has said that it has no such host: say which
-%   ones it has.
-%
-%   @error existence_error(host, Address)
-
-host_unknown(Address) :-
-    host_resolve(Address, remote(_, _, Endpoint)),
-    catch(ask(Endpoint, Address, hosts, Names), error(_, _), fail),
-    Names = [_|_],
-    !,
-    atomic_list_concat(Names, ', ', Listed),
-    atom_concat('there are: ', Listed, Text),
-    throw(error(existence_error(host, Address), context(_, Text))).
-host_unknown(Address) :-
-    existence_error(host, Address).
 
 ask(Endpoint, Host, Question, Answer) :-
     process_ask(Endpoint, Host, hosting, Question, Answer, 10).
@@ -244,3 +214,42 @@ change_link(Name, Change, Answer) :-
         Answer = ok
     ;   Answer = none
     ).
+
+                /*******************************
+                *            CHANGES           *
+                *******************************/
+
+change_host(Host, Option) :-
+    check_option(host_option, Option),
+    parts_load([Option]),
+    host_resolve(Host, Where),
+    change_at(Where, Option).
+
+change_at(local(Name), Option) :-
+    with_mutex(typhon_hosting, change(Option, Name)),
+    sync_changes.
+change_at(remote(Address, Name, _), Option) :-
+    remote(Address, typhon_administration:host_change(Name, Option)).
+
+change(concurrency(Concurrency), Name) =>
+    host_put(Name, concurrency(Concurrency)),
+    scheduler_limit(Name, Concurrency).
+change(services(Services0), Name) =>
+    host(Name, _, Place),
+    host_listed(Services0, Services),
+    forall(member(Service, Services), place_offer(Place, Service)).
+change(Option, Name), typhon_host_parts:changeable(Option) =>
+    forall(typhon_host_parts:changes(Option, Name), true),
+    host_put(Name, Option).
+change(Option, Name), changes(Option) =>
+    host_put(Name, Option).
+change(Option, _) =>
+    permission_error(change, host_option, Option).
+
+changes(tokens(_)).
+changes(capacity(_)).
+changes(hop_time(_)).
+changes(log(_)).
+changes(python(_)).
+changes(remote(_)).
+changes(seed(_)).

@@ -1,21 +1,20 @@
 :- module(typhon_properties,
-          [ agent_property/2,           % ?Agent, ?Property
-            status_shown/2              % +Status, -State
+          [ property_of_agent/2,        % ?Agent, ?Property
+            show_status/2               % +Status, -State
           ]).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(pairs), [pairs_keys/2]).
-:- use_module('../base/options', [check_name/2]).
-:- use_module('../program', [code_program/2]).
-:- use_module('../host', [host/3, host_address/2, turn_of/3]).
-:- use_module('../agent',
+:- use_module('../../kernel/base/options', [check_name/2]).
+:- use_module('../../kernel/program', [code_program/2]).
+:- use_module('../../kernel/host', [host/3, host_address/2, turn_of/3]).
+:- use_module('../../kernel/agent',
               [ agent/5, agent_home/2, agent_state/2, agent_status/3,
                 fault_error/2, fault_shown/2, in_words/2, is_faulty/3,
                 life_hops/2, life_payloads/2, mail_list/2, with_agent/2 ]).
-:- use_module('../travel', [in_doubt/1, transfer_held/2]).
-:- use_module(change, [held_parts/3]).
-:- use_module(named, [agent_named/2]).
-:- use_module(questions,
-              [agent_ask/4, agent_ask_here/4, question_answered/2]).
+:- use_module('../../kernel/travel', [in_doubt/1, transfer_held/2]).
+:- use_module('../../kernel/lifecycle',
+              [ agent_ask/4, agent_ask_here/4, agent_named/2, held_parts/3,
+                question_answered/2 ]).
 
 /** <module> What can be seen of an agent
 
@@ -26,27 +25,11 @@
     typhon_names:known/2,
     typhon_questions:here/3.
 
-%!  agent_property(?Agent, ?Property) is nondet.
+%!  property_of_agent(?Agent, ?Property) is nondet.
 %
-%   Property is host(Address), program(Name), state(State), hops(N),
-%   home(Address), goals(List), facts(Clauses), payloads(Names),
-%   mailbox(Messages) or fault(Fault).  State is `running`, `sleeping`,
-%   `waiting`, `resident`, `held` (see agent_step/1), `in_transit`, `in_doubt`
-%   or faulty(Error), Error being `failed` if it has failed.  Then, and only
-%   then, there is a fault:
-%   fault(Error, Goal, Place, Host), the goal that failed or raised the error,
-%   where it stands, as File:Line, or Name/Arity:N for the N-th clause of a
-%   predicate, or `unknown`, and on which host it was.  What cannot travel
-%   stands in goals and messages in words.  One that runs has busy(Seconds):
-%   for so long, by the time of day, it has not stopped.  A host may be
-%   given by its name, as in host(alpha).  If Agent is unbound, the agents of
-%   this process are enumerated.
-%
-%   @error existence_error(agent, Agent), ambiguous_agent(Agent, Ids) if Agent
-%   is a name; of an id that is no more this fails
-%   @error domain_error(agent_property, Property) if there is none like it
+%   As agent_property/2.
 
-agent_property(Agent, Property0) :-
+property_of_agent(Agent, Property0) :-
     check_name(agent_property, Property0),
     by_address(Property0, Property),
     known_as(Agent, Id, Ask),
@@ -128,7 +111,7 @@ property(state(State), Agent) :-
         is_faulty(Goals, Fault, _)
     ->  fault_error(Fault, Error),
         State = faulty(Error)
-    ;   status_shown(Status, State)
+    ;   show_status(Status, State)
     ).
 property(busy(Seconds), Agent) :-
     agent_status(Agent, running, _),
@@ -168,24 +151,24 @@ of_platform(Clause) :-
     functor(Clause, Name, _),
     sub_atom(Name, 0, _, _, $).
 
-%!  status_shown(+Status, -State) is det.
+%!  show_status(+Status, -State) is det.
 %
-%   State is how people call what an agent of that Status does.
+%   As status_shown/2.
 
-status_shown(ready, running).
-status_shown(running, running).
-status_shown(obeying, running).
-status_shown(arriving, in_transit).
-status_shown(leaving(_, _), in_transit).
-status_shown(sleeping(_), sleeping).
-status_shown(waiting(_, _), waiting).
-status_shown(resident, resident).
-status_shown(held, held).
-status_shown(resumed, running).
-status_shown(faulty(Error), faulty(Error)).
-status_shown(transit(Host, Sent), State) :-
+show_status(ready, running).
+show_status(running, running).
+show_status(obeying, running).
+show_status(arriving, in_transit).
+show_status(leaving(_, _), in_transit).
+show_status(sleeping(_), sleeping).
+show_status(waiting(_, _), waiting).
+show_status(resident, resident).
+show_status(held, held).
+show_status(resumed, running).
+show_status(faulty(Error), faulty(Error)).
+show_status(transit(Host, Sent), State) :-
     if_certain(transit(Host, Sent), in_transit, State).
-status_shown(cloning(Host, Sent), State) :-
+show_status(cloning(Host, Sent), State) :-
     if_certain(cloning(Host, Sent), waiting, State).
 
 if_certain(Status, State0, State) :-

@@ -1,18 +1,16 @@
 :- module(typhon_restore,
-          [ agent_save/2,               % +Agent, +File
-            agent_load/2,               % +File, -Agent
-            agent_load/3,               % +File, -Agent, +Options
+          [ save_agent/2,               % +Agent, +File
+            load_agent/3,               % +File, -Agent, +Options
             restore_point/2             % +File, +Image
           ]).
 :- use_module(library(error), [domain_error/2, must_be/2]).
 :- use_module(library(lists), [member/2]).
-:- use_module('../base/options', [check_options/2]).
-:- use_module('../program',
+:- use_module('../../kernel/base/options', [check_options/2]).
+:- use_module('../../kernel/program',
               [ code_receive/2, code_extras/2, code_unwrapped/3,
                 code_wrapped/3, program_hash/2 ]).
-:- use_module('../agent', [is_life/1]).
-:- use_module(creation, [agent_begin/4]).
-:- use_module(order_client, [order_give/3]).
+:- use_module('../../kernel/agent', [is_life/1]).
+:- use_module('../../kernel/lifecycle', [agent_begin/4, order_give/3]).
 
 /** <module> Restore points: agents as text
 
@@ -24,28 +22,16 @@ still to run can be read, compared and edited.
 
 :- multifile typhon_options:declared/4.
 
-%!  agent_save(+Agent, +File) is det.
-%!  agent_load(+File, -Agent) is det.
-%!  agent_load(+File, -Agent, +Options) is det.
+%!  save_agent(+Agent, +File) is det.
+%!  load_agent(+File, -Agent, +Options) is det.
 %
-%   A restore point: what Agent is at its next effect, as text.  The agent
-%   that is made of it goes on where the first one was, under an id of its
-%   own, on the first host of this process or where the option host(Host)
-%   says, also in another process.
-%
-%   @error type_error(mobile_term, Culprit)
-%   @error domain_error(restore_point, File)
-%   @error domain_error(load_option, Option), existence_error(host, Host)
-%   @error move_refused(Host, Reason), host_unreachable(Host)
+%   As agent_save/2 and agent_load/3.
 
-agent_save(Agent, File) :-
+save_agent(Agent, File) :-
     order_give(Agent, image, Image),
     once(write_image(File, Image)).
 
-agent_load(File, Agent) :-
-    agent_load(File, Agent, []).
-
-agent_load(File, Agent, Options) :-
+load_agent(File, Agent, Options) :-
     must_be(var, Agent),
     check_options(load_option, Options),
     once(read_image(File, Image)),

@@ -9,7 +9,7 @@
 :- use_module(library(apply), [exclude/3]).
 :- use_module(library(error), [domain_error/2, must_be/2]).
 :- use_module(library(lists), [member/2, reverse/2, selectchk/3]).
-:- use_module('../base/prng',
+:- use_module('../../kernel/base/prng',
               [chance_member/4, chance_seed/2, chance_true/4]).
 
 /** <module> Where an agent goes next

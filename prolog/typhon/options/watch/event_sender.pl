@@ -1,10 +1,10 @@
-:- module(typhon_teller,
-          [ teller_run/1,               % +To
-            teller_ring/2,              % +Bell, +Message
+:- module(typhon_event_sender,
+          [ sender_run/1,               % +To
+            sender_signal/2,              % +Signals, +Message
             time_at/2,                  % +Clock, -Time
-            basin_open/3,               % +Most, +Bell, -Basin
-            basin_close/1,              % +Basin
-            basin_put/3                 % +Basin, +Host, +Event
+            buffer_open/3,               % +Most, +Signals, -Buffer
+            buffer_close/1,              % +Buffer
+            buffer_put/3                 % +Buffer, +Host, +Event
           ]).
 :- use_module(library(lists), [append/3, member/2]).
 :- use_module(library(settings), [setting/2, setting/4]).
@@ -16,15 +16,15 @@
 /** <module> The thread that sends events to a watch
 
 Events gather in a buffer, to which adding never waits: of events that do not
-fit, the number is kept by host.  The teller sends what has gathered in batches,
+fit, the number is kept by host.  The sender sends what has gathered in batches,
 and the next batch when the last has been accepted.  So a watch lags by as much
 as it is slow, the buffer overflows if it is too slow, and hosts never wait.
 
-The teller receives in its queue, the bell, `some` when there are events;
+The sender receives in its queue, Signals, `some` when there are events;
 end(ReplyTo) when all that is left is to be sent; and now(Message), which it
 handles also while it waits for an answer: `check`, whether the watch is still
 there, and the answer.  To wake a thread costs as much as the rest of an event,
-so the bell rings only for a teller that waits, and once.
+so `some` comes only to a sender that waits, and once.
 
 *Threading*: a thread for each watch takes events; any thread adds them.
 */
@@ -40,18 +40,21 @@ so the bell rings only for a teller that waits, and once.
 batch(1000).
 plenty(256).                    % is sent without delay
 
-%!  teller_run(+To) is det.
+%!  sender_run(+To) is det.
 %
-%   To is to(Peer, Id, Bell, Basin): returns when the watch has ended, or
+%   To is to(Peer, Id, Signals, Buffer): returns when the watch has ended, or
 %   all has been sent.
 
-teller_run(To) :-
-    idle(To).
+sender_run(To) :-
+    To = to(_, _, Signals, Buffer),
+    buffer_awaited(Buffer),
+    thread_get_message(Signals, Message),
+    heard(Message, To, gather(To)).
 
-%!  teller_ring(+Bell, +Message) is det.
+%!  sender_signal(+Signals, +Message) is det.
 
-teller_ring(Bell, Message) :-
-    catch(thread_send_message(Bell, Message),
+sender_signal(Signals, Message) :-
+    catch(thread_send_message(Signals, Message),
           error(existence_error(_, _), _),
           true).                        % it has ended
 
@@ -63,16 +66,10 @@ time_at(clock(Epoch, Rate), Time) :-
     time_now(Now),
     Time is (Now-Epoch)*Rate.
 
-idle(To) :-
-    To = to(_, _, Bell, Basin),
-    basin_awaited(Basin),
-    thread_get_message(Bell, Message),
-    heard(Message, To, gather(To)).
-
 gather(To) :-
-    To = to(_, _, Bell, _),
+    To = to(_, _, Signals, _),
     setting(typhon_telling:delay, Seconds),
-    (   thread_get_message(Bell, Message, [timeout(Seconds)])
+    (   thread_get_message(Signals, Message, [timeout(Seconds)])
     ->  heard(Message, To, gather(To))
     ;   pour(To)
     ).
@@ -103,20 +100,20 @@ is_there(to(Peer, Id, _, _)) :-
     Answer == yes.
 
 pour(To) :-
-    To = to(_, _, _, Basin),
+    To = to(_, _, _, Buffer),
     (   send(To)
-    ->  (   basin_size(Basin, Size),
+    ->  (   buffer_size(Buffer, Size),
             plenty(Plenty),
             Size >= Plenty
         ->  pour(To)
-        ;   idle(To)
+        ;   sender_run(To)
         )
     ;   true                            % the watch has ended
     ).
 
 pour_out(To) :-
-    To = to(_, _, _, Basin),
-    (   basin_size(Basin, 0)
+    To = to(_, _, _, Buffer),
+    (   buffer_size(Buffer, 0)
     ->  true
     ;   send(To)
     ->  pour_out(To)
@@ -128,16 +125,16 @@ pour_out(To) :-
 %   event skipped.
 
 send(To) :-
-    To = to(_, _, _, Basin),
+    To = to(_, _, _, Buffer),
     batch(Most),
-    basin_take(Basin, Most, Events0, Skipped),
+    buffer_take(Buffer, Most, Events0, Skipped),
     findall(Event, ( member(Lost, Skipped), skip_event(Lost, Event) ), More),
     append(Events0, More, Events),
     hand_over(Events, To).
 
 hand_over(Events, To) :-
-    To = to(Peer, Id, Bell, _),
-    catch(( give(Peer, Id, Events, Bell),
+    To = to(Peer, Id, Signals, _),
+    catch(( give(Peer, Id, Events, Signals),
             Given = true ),
           error(Formal, _),
           Given = Formal),
@@ -165,17 +162,17 @@ hand_over_parts(Events, To) :-
 
 %   Within this process nothing has to be sent.
 
-give(Peer, Id, Events, Bell) :-
+give(Peer, Id, Events, Signals) :-
     endpoint_address(Peer),
     !,
-    OnAnswer = typhon_teller:answered(Bell),
+    OnAnswer = typhon_event_sender:answered(Signals),
     (   taken_here(Id, Events, OnAnswer)
     ->  true
     ;   call(OnAnswer, answer(no))
     ).
-give(Peer, Id, Events, Bell) :-
+give(Peer, Id, Events, Signals) :-
     endpoint_request(Peer, watched, events(Id, Events),
-                     typhon_teller:answered(Bell)).
+                     typhon_event_sender:answered(Signals)).
 
 skip_event((Address-Clock)-Count,
            event(Time, Address, none, skipped(Count))) :-
@@ -183,12 +180,12 @@ skip_event((Address-Clock)-Count,
 
 :- public answered/2.
 
-answered(Bell, Result) :-
-    teller_ring(Bell, now(answered(Result))).
+answered(Signals, Result) :-
+    sender_signal(Signals, now(answered(Result))).
 
 await(To, Answer) :-
-    To = to(_, _, Bell, _),
-    thread_get_message(Bell, now(Message)),
+    To = to(_, _, Signals, _),
+    thread_get_message(Signals, now(Message)),
     (   Message = answered(Answer0)
     ->  Answer = Answer0
     ;   is_there(To),
@@ -201,35 +198,35 @@ await(To, Answer) :-
 
 :- dynamic skipped/3.           % Queue, Host, Count
 
-%!  basin_open(+Most, +Bell, -Basin) is det.
-%!  basin_close(+Basin) is det.
+%!  buffer_open(+Most, +Signals, -Buffer) is det.
+%!  buffer_close(+Buffer) is det.
 %
-%   Basin holds Most events; the queue Bell hears `some`.
+%   Buffer holds Most events; the queue Signals hears `some`.
 
-basin_open(Most, Bell, basin(Queue, Flag, Most, Bell)) :-
-    flag(typhon_basin, N, N+1),
-    atom_concat(typhon_basin_, N, Flag),
+buffer_open(Most, Signals, buffer(Queue, Flag, Most, Signals)) :-
+    flag(typhon_event_buffer, N, N+1),
+    atom_concat(typhon_event_buffer_, N, Flag),
     message_queue_create(Queue).
 
-basin_close(basin(Queue, _, _, _)) :-
+buffer_close(buffer(Queue, _, _, _)) :-
     message_queue_destroy(Queue),
     retractall(skipped(Queue, _, _)).
 
-%!  basin_put(+Basin, +Host, +Event) is det.
+%!  buffer_put(+Buffer, +Host, +Event) is det.
 %
 %   @error existence_error(message_queue, Queue) if it has been closed
 
-basin_put(basin(Queue, Flag, Most, Bell), Host, Event) :-
+buffer_put(buffer(Queue, Flag, Most, Signals), Host, Event) :-
     message_queue_property(Queue, size(Size)),
     (   Size < Most
     ->  thread_send_message(Queue, Event),
         get_flag(Flag, Awaited),
         (   Awaited == 1
         ->  set_flag(Flag, 0),
-            thread_send_message(Bell, some)
+            thread_send_message(Signals, some)
         ;   true
         )
-    ;   with_mutex(typhon_basin, skip(Queue, Host))
+    ;   with_mutex(typhon_event_buffer, skip(Queue, Host))
     ).
 
 skip(Queue, Host) :-
@@ -239,29 +236,29 @@ skip(Queue, Host) :-
     ),
     assertz(skipped(Queue, Host, Count)).
 
-%   The bell rings for the next event, at once if there is one.
+%   `some` comes for the next event, at once if there is one.
 
-basin_awaited(basin(Queue, Flag, _, Bell)) :-
+buffer_awaited(buffer(Queue, Flag, _, Signals)) :-
     set_flag(Flag, 1),
     message_queue_property(Queue, size(Size)),
     (   Size > 0
     ->  set_flag(Flag, 0),
-        thread_send_message(Bell, some)
+        thread_send_message(Signals, some)
     ;   true
     ).
 
-basin_size(basin(Queue, _, _, _), Size) :-
+buffer_size(buffer(Queue, _, _, _), Size) :-
     message_queue_property(Queue, size(Size0)),
     Size = Size0.
 
-%   basin_take(+Basin, +Most, -Events, -Skipped): the first events, Most at the
-%   most.  Skipped are pairs Host-Count of what
+%   buffer_take(+Buffer, +Most, -Events, -Skipped): the first events, Most at
+%   the most.  Skipped are pairs Host-Count of what
 %   did not fit since the last call.
 
-basin_take(basin(Queue, _, _, _), Most, Events, Skipped) :-
+buffer_take(buffer(Queue, _, _, _), Most, Events, Skipped) :-
     take(Most, Queue, Events),
     (   skipped(Queue, _, _)
-    ->  with_mutex(typhon_basin, all_skipped(Queue, Skipped))
+    ->  with_mutex(typhon_event_buffer, all_skipped(Queue, Skipped))
     ;   Skipped = []
     ).
 

@@ -1,11 +1,11 @@
 :- module(typhon_memory,
           [ next_host/2                 % +Strategy, -Host
           ]).
-:- use_module('../base/prng', [chance_hash/2]).
-:- use_module('../host',
+:- use_module('../../kernel/base/prng', [chance_hash/2]).
+:- use_module('../../kernel/host',
               [ address_parts/3, context/3, host/3, host_neighbours/2,
                 host_option/2 ]).
-:- use_module('../agent', [agent_home/2, agent_name/3]).
+:- use_module('../../kernel/agent', [agent_home/2, agent_name/3]).
 :- use_module(strategy, [next_host/6, strategy_memory/2]).
 
 /** <module> What agents remember of where they were

@@ -1,19 +1,21 @@
 :- module(typhon_pheromone,
-          [ pheromone_emit/3,           % +Host, +Problem, +Options
-            pheromone_withdraw/2,       % +Host, +Problem
-            pheromone_here/4            % +Host, ?Problem, -Source, -Strength
+          [ emit/1,                     % +Problem
+            emit/2,                     % +Problem, +Options
+            withdraw/1,                 % +Problem
+            pheromone/3                 % ?Problem, -Source, -Strength
           ]).
 :- use_module(library(aggregate), [aggregate_all/3]).
 :- use_module(library(debug), [debug/3]).
 :- use_module(library(error), [must_be/2]).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(option), [option/3]).
-:- use_module('../base/prng', [chance_member/4]).
-:- use_module('../base/options', [check_options/2]).
-:- use_module('../wire', [endpoint_address/1, endpoint_post/3, mobile_term/1]).
-:- use_module('../host',
-              [ address_parts/3, host/3, host_neighbours/2, host_time/2,
-                scheduler_call/1, tuple_leave/2, tuple_sense/2, tuple_take/2 ]).
+:- use_module('../../kernel/base/prng', [chance_member/4]).
+:- use_module('../../kernel/base/options', [check_options/2]).
+:- use_module('../../kernel/wire', [endpoint_address/1, endpoint_post/3, mobile_term/1]).
+:- use_module('../../kernel/host',
+              [ address_parts/3, context_host/1, context_now/2, host/3,
+                host_neighbours/2, host_time/2, parts_call/3, scheduler_call/1,
+                tuple_leave/2, tuple_sense/2, tuple_take/2 ]).
 :- use_module(strategy, [memory_chance/4]).
 
 /** <module> Pheromones, and the agents that follow them
@@ -60,9 +62,12 @@ pheromone_strength(Maximum, Span, Distance, Strength) :-
 pheromone_until(Emitted, Period, Span, Distance, Until) :-
     Until is Emitted + max(0, Span - Distance + 1) * Period.
 
-%!  pheromone_emit(+Host, +Problem, +Options) is det.
+%!  emit(+Problem) is det.
+%!  emit(+Problem, +Options) is det.
 %
-%   Host, a name, emits a pheromone for Problem, a ground term. Options:
+%   The host calls for an agent that can solve Problem, a ground term: it emits
+%   a pheromone. Agents follow it by the migration strategy phercon(Problem).
+%   Options:
 %
 %     - span(Hops): how far it spreads; default 3
 %     - strength(Number): next to the source; default 100
@@ -73,7 +78,13 @@ pheromone_until(Emitted, Period, Span, Distance, Until) :-
 %   @error type_error(mobile_term, Culprit), instantiation_error
 %   @error domain_error(pheromone_option, Option)
 
-pheromone_emit(Host, Problem, Options) :-
+emit(Problem) :-
+    emit(Problem, []).
+
+emit(Problem, Options) :-
+    context_host(Host),
+    context_now(Host, Agent),
+    parts_call(acts, Host, [Agent, say(Problem-Options)]),
     must_be(ground, Problem),
     mobile_term(Problem),
     check_options(pheromone_option, Options),
@@ -157,13 +168,14 @@ better(S0, U0, S, U) :-
 remove(Place, Problem, Source) :-
     tuple_take(Place, pheromone(Problem, Source, _, _, _)).
 
-%!  pheromone_withdraw(+Host, +Problem) is det.
+%!  withdraw(+Problem) is det.
 %
-%   The pheromone that Host emitted for Problem goes from wherever it has
+%   The pheromone that the host emitted for Problem goes from wherever it has
 %   come to, over the links as they are now. What is not reached like this
 %   evaporates.
 
-pheromone_withdraw(Host, Problem) :-
+withdraw(Problem) :-
+    context_host(Host),
     must_be(ground, Problem),
     host(Host, Source, _),
     spread_withdrawal(Host, Source, Problem).
@@ -177,11 +189,13 @@ spread_withdrawal(Host, Source, Problem) :-
                 *           FOLLOWING          *
                 *******************************/
 
-%!  pheromone_here(+Host, ?Problem, -Source, -Strength) is nondet.
+%!  pheromone(?Problem, -Source, -Strength) is nondet.
 %
-%   There is a pheromone for Problem at Host, a name, now.
+%   There is a pheromone for Problem at the host now, which Source has emitted.
+%   For how it fades see pheromone_strength/4.
 
-pheromone_here(Host, Problem, Source, Strength) :-
+pheromone(Problem, Source, Strength) :-
+    context_host(Host),
     live(Host, Problem, Source, Strength, _).
 
 live(Host, Problem, Source, Strength, Next) :-

@@ -2,11 +2,11 @@
           [ agent_glance/2              % ?Agent, -Glance
           ]).
 :- use_module(library(apply), [maplist/2]).
-:- use_module('../program', [code_program/2]).
-:- use_module('../host', [address_parts/3, host/3, host_time/2, turn_of/3]).
-:- use_module('../agent',
+:- use_module('../kernel/program', [code_program/2]).
+:- use_module('../kernel/host', [address_parts/3, host/3, host_time/2, turn_of/3]).
+:- use_module('../kernel/agent',
               [agent/5, agent_status/3, life_hops/2, mail_count/2]).
-:- use_module('../travel', [in_doubt/1]).
+:- use_module('../kernel/travel', [in_doubt/1]).
 
 /** <module> Agents at a glance
 

@@ -1,0 +1,128 @@
+:- module(typhon_administration,
+          [ host_property/2,            % ?Name, ?Property
+            host_change/2,              % +Host, +Option
+            link/2,                     % +HostA, +HostB
+            link/3,                     % +HostA, +HostB, +Options
+            unlink/2,                   % +HostA, +HostB
+            agent_property/2,           % ?Agent, ?Property
+            status_shown/2,             % +Status, -State
+            agent_save/2,               % +Agent, +File
+            agent_load/2,               % +File, -Agent
+            agent_load/3                % +File, -Agent, +Options
+          ]).
+:- autoload('administration/host_questions',
+            [ change_host/2, link_hosts/2, link_hosts/3, property_of_host/2,
+              unlink_hosts/2 ]).
+:- autoload('administration/properties',
+            [property_of_agent/2, show_status/2]).
+:- autoload('administration/restore', [load_agent/3, save_agent/2]).
+
+/** <module> Administration: what hosts and agents are, and changes of hosts
+
+This is the interface of the layer.  Its modules are loaded when they are used
+here, or when another process asks.
+
+*Threading*: any thread that may wait.
+*/
+
+%!  host_property(?Name, ?Property) is nondet.
+%
+%   Property is address(A), state(running), capacity(N), load(N),
+%   neighbours(L), hop_time(Direction, stats(Count,Min,Mean,Max)) (host
+%   seconds) or place(M).  Name may be that of a host of another process of a
+%   network that this process started, or any address.
+%
+%   @error existence_error(host, Name), ambiguous_host(Name, Addresses)
+%   @error domain_error(host_property, Property)
+
+host_property(Name, Property) :-
+    property_of_host(Name, Property).
+
+%!  host_change(+Host, +Option) is det.
+%
+%   Change an option of a host that runs, here or elsewhere: tokens, capacity,
+%   authors, concurrency, hop_time, log, audit, peer, policy, python, quota,
+%   remote, seed or trail, as of host_start/2, or services, to which those given
+%   are added.  Agents on the host stay, also if fewer are admitted from
+%   now on.
+%
+%   @error existence_error(host, Host)
+%   @error permission_error(change, host_option, Option)
+
+host_change(Host, Option) :-
+    change_host(Host, Option).
+
+%!  link(+A, +B) is det.
+%!  link(+A, +B, +Options) is det.
+%!  unlink(+A, +B) is det.
+%
+%   Make or break the overlay link between two hosts, both ways; either may
+%   be in another process.  What it costs to take it agents learn by
+%   neighbour/2: 1, or what the option cost(Number) says, which changes the
+%   cost of a link that is there.  Where a link is broken its cost is
+%   forgotten.
+%
+%   @error existence_error(host, Host), ambiguous_host(Name, Addresses)
+%   @error domain_error(link_option, Option)
+
+link(A, B) :-
+    link_hosts(A, B).
+
+link(A, B, Options) :-
+    link_hosts(A, B, Options).
+
+unlink(A, B) :-
+    unlink_hosts(A, B).
+
+%!  agent_property(?Agent, ?Property) is nondet.
+%
+%   Property is host(Address), program(Name), state(State), hops(N),
+%   home(Address), goals(List), facts(Clauses), payloads(Names),
+%   mailbox(Messages) or fault(Fault).  State is `running`, `sleeping`,
+%   `waiting`, `resident`, `held` (see agent_step/1), `in_transit`, `in_doubt`
+%   or faulty(Error), Error being `failed` if it has failed.  Then, and only
+%   then, there is a fault:
+%   fault(Error, Goal, Place, Host), the goal that failed or raised the error,
+%   where it stands, as File:Line, or Name/Arity:N for the N-th clause of a
+%   predicate, or `unknown`, and on which host it was.  What cannot travel
+%   stands in goals and messages in words.  One that runs has busy(Seconds):
+%   for so long, by the time of day, it has not stopped.  A host may be
+%   given by its name, as in host(alpha).  If Agent is unbound, the agents of
+%   this process are enumerated.
+%
+%   @error existence_error(agent, Agent), ambiguous_agent(Agent, Ids) if Agent
+%   is a name; of an id that is no more this fails
+%   @error domain_error(agent_property, Property) if there is none like it
+
+agent_property(Agent, Property) :-
+    property_of_agent(Agent, Property).
+
+%!  status_shown(+Status, -State) is det.
+%
+%   State is how people call what an agent of that Status does.
+
+status_shown(Status, State) :-
+    show_status(Status, State).
+
+%!  agent_save(+Agent, +File) is det.
+%!  agent_load(+File, -Agent) is det.
+%!  agent_load(+File, -Agent, +Options) is det.
+%
+%   A restore point: what Agent is at its next effect, as text.  The agent
+%   that is made of it goes on where the first one was, under an id of its
+%   own, on the first host of this process or where the option host(Host)
+%   says, also in another process.
+%
+%   @error type_error(mobile_term, Culprit)
+%   @error domain_error(restore_point, File)
+%   @error domain_error(load_option, Option), existence_error(host, Host)
+%   @error move_refused(Host, Reason), host_unreachable(Host)
+
+agent_save(Agent, File) :-
+    save_agent(Agent, File).
+
+agent_load(File, Agent) :-
+    agent_load(File, Agent, []).
+
+agent_load(File, Agent, Options) :-
+    load_agent(File, Agent, Options).
