@@ -70,6 +70,7 @@ job(inferences, [env], 4000).
 job(compiled, [env], 4000).
 job(tartarus, [env], 2000).
 job(watch, [env], 9).
+job(monitors, [env], 10000).
 job(phercon, [env], 3).
 job(sync, [env], unpinned).
 job(learning, [env], 1).

@@ -1,0 +1,202 @@
+:- agent(supervisor,
+         [ state([ child/3, strategy/1, intensity/2, standby/1, primary/1,
+                   running/2, stood/2, pending/1, restarted/1 ]) ]).
+:- use_module(library(typhon)).
+:- include(places).
+
+/*  Starts children, and starts them again when they end, as the supervisors of
+    OTP do.  Facts say what is wanted:
+
+      child(Name, Program, Options)   in the order in which they are started.
+                      Options are those of create/3, restart(permanent),
+                      restart(transient) or restart(temporary), and
+                      where(Place), see places.pl
+      strategy(one_for_one), one_for_all or rest_for_one
+      intensity(Count, Seconds)       more restarts in so many seconds are too
+                      many: all children are ended, and the supervisor is
+                      disposed of
+      standby(Host)   another supervisor on Host takes over when this one is
+                      lost; the two monitor each other
+
+    Messages: children, which answers children(Pairs), Name-Agent; restart(Name);
+    and `stop`, which ends the children, the last one first, and then the
+    supervisor.  A child is disposed of if its supervisor ends.
+*/
+
+main :-
+    primary(Primary),
+    !,
+    monitor(Primary),
+    receive(system-down(Primary, Outcome)),
+    (   memberchk(Outcome, [done, disposed])
+    ->  true
+    ;   retractall(primary(_)),
+        supervise
+    ).
+main :-
+    supervise.
+
+supervise :-
+    stand_by,
+    findall(Name, child(Name, _, _), Names),
+    start_all(Names),
+    serve.
+
+%   One child that could not be started yet is tried again once in a second.
+
+serve :-
+    (   pending(_)
+    ->  Patience = 1
+    ;   Patience = inf
+    ),
+    (   receive(From-Message, Patience)
+    ->  true
+    ;   Message = again
+    ),
+    heed(Message, From).
+
+heed(stop, _) :-
+    !,
+    findall(Name, running(Name, _), Names),
+    stop_all(Names).
+heed(Message, From) :-
+    ( hear(Message, From) -> true ; true ),
+    serve.
+
+hear(down(Agent, _), system) :-
+    retract(running(standby, Agent)),
+    !,
+    stand_by.
+hear(down(Agent, Outcome), system) :-
+    retract(running(Name, Agent)),
+    log(down(Name, Outcome)),
+    ended(Name, Outcome).
+hear(again, _) :-
+    findall(Name, retract(pending(Name)), Names),
+    start_all(Names).
+hear(children, From) :-
+    findall(Name-Agent, ( running(Name, Agent), Name \== standby ), Pairs),
+    send(From, children(Pairs)).
+hear(restart(Name), _) :-
+    again(Name).
+
+%   ended(+Name, +Outcome): by itself.
+
+ended(Name, Outcome) :-
+    child(Name, _, Options),
+    option(restart(Restart), Options, permanent),
+    (   starts_again(Restart, Outcome)
+    ->  too_many(TooMany),
+        restart(TooMany, Name)
+    ;   true
+    ).
+
+starts_again(permanent, _).
+starts_again(transient, Outcome) :-
+    Outcome \== done.
+
+too_many(TooMany) :-
+    ( intensity(Most, Seconds) -> true ; Most = 3, Seconds = 5 ),
+    now(Now),
+    Since is Now-Seconds,
+    assertz(restarted(Now)),
+    forall(( restarted(Then), Then < Since ), retract(restarted(Then))),
+    aggregate_all(count, restarted(_), Count),
+    ( Count > Most -> TooMany = true ; TooMany = false ).
+
+restart(true, Name) :-
+    log(gives_up(Name)),
+    findall(Running, running(Running, _), Names),
+    stop_all(Names),
+    dispose.
+restart(false, Name) :-
+    again(Name).
+
+%   again(+Name): with those that depend on it.
+
+again(Name) :-
+    findall(Child, child(Child, _, _), All),
+    ( strategy(Strategy) -> true ; Strategy = one_for_one ),
+    with_it(Strategy, Name, All, Names),
+    stop_all(Names),
+    log(restarts(Names)),
+    start_all(Names).
+
+with_it(one_for_one, Name, _, [Name]).
+with_it(one_for_all, _, All, All).
+with_it(rest_for_one, Name, All, Rest) :-
+    append(_, [Name|Others], All),
+    !,
+    Rest = [Name|Others].
+
+                /*******************************
+                *        START AND STOP        *
+                *******************************/
+
+start_all([]).
+start_all([Name|Names]) :-
+    start(Name),
+    start_all(Names).
+
+start(Name) :-
+    child(Name, Program, Options),
+    option(where(Where), Options, same),
+    places(Where, Name, Options, Places),
+    (   begun(Places, Program, Name, Options, Agent, Host)
+    ->  retractall(stood(Name, _)),
+        assertz(stood(Name, Host)),
+        assertz(running(Name, Agent)),
+        monitor(Agent, [shared(agent)])
+    ;   assertz(pending(Name))
+    ).
+
+begun([Host|Hosts], Program, Name, Options0, Agent, At) :-
+    exclude(of_supervisor, Options0, Options),
+    (   catch(create(Program, Agent, [host(Host),name(Name)|Options]),
+              error(_, _), fail)
+    ->  At = Host
+    ;   begun(Hosts, Program, Name, Options0, Agent, At)
+    ).
+
+of_supervisor(host(_)).
+of_supervisor(name(_)).
+of_supervisor(where(_)).
+of_supervisor(restart(_)).
+
+%   The last one first; each has ended before the next is told.
+
+stop_all(Names) :-
+    findall(Name-Agent, ( member(Name, Names), running(Name, Agent) ), Pairs0),
+    reverse(Pairs0, Pairs),
+    retract_pending(Names),
+    stop_each(Pairs).
+
+retract_pending(Names) :-
+    forall(member(Name, Names), retractall(pending(Name))).
+
+stop_each([]).
+stop_each([Name-Agent|Pairs]) :-
+    retractall(running(Name, Agent)),
+    catch(agent_dispose(Agent), error(_, _), true),
+    (   receive(system-down(Agent, _), 10)
+    ->  true
+    ;   catch(agent_dispose(Agent, [force(0)]), error(_, _), true)
+    ),
+    stop_each(Pairs).
+
+%   The one that stands by has the same facts.
+
+stand_by :-
+    (   standby(Host),
+        self(Me),
+        findall(child(Name, P, O), child(Name, P, O), Children),
+        findall(Fact, ( strategy(S), Fact = strategy(S)
+                      ; intensity(C, T), Fact = intensity(C, T) ), More),
+        here(Here),
+        append([primary(Me),standby(Here)|Children], More, Facts),
+        catch(create(self, Agent, [host(Host),facts(Facts)]), error(_, _),
+              fail)
+    ->  assertz(running(standby, Agent)),
+        monitor(Agent)
+    ;   true
+    ).

@@ -1,0 +1,167 @@
+:- module(test_supervisor, []).
+:- use_module('../../lib/common').
+:- use_module('../../lib/fixtures').
+:- use_module('../../lib/peers').
+:- use_module(library(plunit)).
+:- use_module(library(aggregate), [aggregate_all/3]).
+:- use_module(library(lists), [append/2, member/2]).
+:- use_module(library(typhon)).
+
+/** <module> Supervisors
+
+*Threading*: one test at a time.
+*/
+
+worker(clauses([ (:- agent(worker, [])),
+                 (main :- receive(_-Goal), call(Goal)) ])).
+
+supervised(Children, More, S) :-
+    worker(W),
+    findall(child(Name, W, Options), member(Name-Options, Children), Facts),
+    append([More, Facts], All),
+    agent_create(agents(supervision/supervisor), S, [facts(All)]),
+    wait_until(children(S, Children, _), 10).
+
+%   children(+Supervisor, +Children, -Ids): it has all of them.
+
+children(S, Children, Ids) :-
+    agent_property(S, facts(Facts)),
+    findall(Id, ( member(Name-_, Children),
+                  member(running(Name, Id), Facts) ), Ids),
+    length(Children, Count),
+    length(Ids, Count).
+
+%   kept(+Strategy, -Kept): of a, b, c those that are the same when b has ended.
+
+kept(Strategy, Kept) :-
+    Children = [a-[], b-[], c-[]],
+    with_hosts([alpha],
+        ( supervised(Children, [strategy(Strategy)], S),
+          children(S, Children, Old),
+          Old = [_, B, _],
+          agent_dispose(B),
+          wait_until(( children(S, Children, New), New = [_, B1, _],
+                       B1 \== B ), 10),
+          findall(Name, ( nth(Name, Old, Id), nth(Name, New, Id) ), Kept) )).
+
+nth(a, [Id, _, _], Id).
+nth(b, [_, Id, _], Id).
+nth(c, [_, _, Id], Id).
+
+:- begin_tests(supervisor).
+
+test(one_for_one, Kept == [a,c]) :-
+    listening(kept(one_for_one, Kept), _).
+test(rest_for_one, Kept == [a]) :-
+    listening(kept(rest_for_one, Kept), _).
+test(one_for_all, Kept == []) :-
+    listening(kept(one_for_all, Kept), _).
+test(restart_types, [forall(member(Type-Goal-Again,
+                                   [ permanent-true-yes, transient-true-no,
+                                     transient-dispose-yes,
+                                     temporary-dispose-no ]))]) :-
+    Children = [a-[restart(Type)]],
+    with_hosts([alpha],
+        listening(
+            ( supervised(Children, [], S),
+              children(S, Children, [A]),
+              agent_send(A, Goal),
+              joined(A, _),
+              (   Again == yes
+              ->  wait_until(( children(S, Children, [B]), B \== A ), 10)
+              ;   wait_until(was_told(informational,
+                                      typhon(log(_, _, down(a, _)))), 10),
+                  \+ children(S, Children, _)
+              ) ), _)).
+test(too_many_restarts, O == disposed) :-
+    Children = [a-[], b-[]],
+    with_hosts([alpha],
+        listening(
+            ( supervised(Children, [intensity(2, 60)], S),
+              children(S, Children, [A0,B]),
+              again(S, Children, A0, A1),
+              again(S, Children, A1, A2),
+              agent_dispose(A2),
+              joined(S, O),
+              joined(B, disposed) ), _)).
+
+again(S, Children, A0, A) :-
+    agent_dispose(A0),
+    wait_until(( children(S, Children, [A|_]), A \== A0 ), 10).
+
+test(stop, O == done) :-
+    Children = [a-[], b-[]],
+    with_hosts([alpha],
+        listening(
+            ( supervised(Children, [], S),
+              children(S, Children, [A,B]),
+              agent_send(S, stop),
+              joined(S, O),
+              joined(A, disposed),
+              joined(B, disposed) ), _)).
+test(children_end_with_it, [true(O1-O2 == disposed-disposed)]) :-
+    Children = [a-[], b-[]],
+    with_hosts([alpha],
+        listening(
+            ( supervised(Children, [], S),
+              children(S, Children, [A,B]),
+              agent_dispose(S),
+              joined(A, O1),
+              joined(B, O2) ), _)).
+
+:- end_tests(supervisor).
+
+:- begin_tests(supervisor_of_processes).
+
+%   on(+Peers, +Name, -Count): agents of that name in all processes.
+
+count(Peers, Name, Count) :-
+    atom_concat(Name, '.', Begin),
+    aggregate_all(sum(N),
+                  ( member(P, Peers),
+                    peer_do(P, aggregate_all(count,
+                        ( typhon_agents:agent(Id, _, _, _, _),
+                          sub_atom(Id, 0, _, _, Begin) ), N)) ),
+                  Count).
+
+each_once(Peers) :-
+    forall(member(Name, [a,b,c]), count(Peers, Name, 1)).
+
+three(Goal) :-
+    no_leaks(with_peers([p1,p2,p3], Goal)).
+
+linked(H1, H2, H3) :-
+    peer_host(p1, H1), peer_host(p2, H2), peer_host(p3, H3),
+    peer_do(p1, ( link(p1, H2), link(p1, H3) )),
+    peer_do(p2, link(p2, H3)).
+
+begun(H1, H2, H3, More) :-
+    worker(W),
+    agent_create(agents(supervision/supervisor), _,
+                 [ host(H1),
+                   facts([ child(a, W, [host(H1),where([same,least_loaded,here])]),
+                           child(b, W, [host(H2),where([same,least_loaded,here])]),
+                           child(c, W, [host(H3),where([same,least_loaded,here])]),
+                           intensity(100, 1)
+                         | More ]) ]).
+
+test(a_process_dies) :-
+    three(( linked(H1, H2, H3),
+            begun(H1, H2, H3, []),
+            wait_until(each_once([p1,p2,p3]), 20),
+            peer_kill(p3),
+            wait_until(each_once([p1,p2]), 30),
+            sleep(1),
+            each_once([p1,p2]) )).
+test(its_own_process_dies) :-
+    three(( linked(H1, H2, H3),
+            begun(H1, H2, H3, [standby(H2)]),
+            wait_until(each_once([p1,p2,p3]), 20),
+            wait_until(count([p2], supervisor, 1), 10),
+            sleep(0.5),
+            peer_kill(p1),
+            wait_until(count([p2,p3], a, 1), 30),
+            sleep(1),
+            wait_until(each_once([p2,p3]), 30) )).
+
+:- end_tests(supervisor_of_processes).
