@@ -42,6 +42,7 @@ is_refused(raised(error(permission_error(call, sandboxed, _), _))).
 is_refused(raised(error(move_refused(_, policy(_)), _))).
 is_refused(raised(error(permission_error(_, _, _), _))).
 is_refused(raised(error(existence_error(procedure, _), _))).
+is_refused(raised(error(resource_error(tripwire(_, _)), _))).   % 9.2.9
 
 %   let_through(+Goals, -Goals): those that are not refused in each way.
 
