@@ -13,25 +13,15 @@
             cell_forgets/2,             % +Cell, +What
             cells_list/1                % -Cells
           ]).
-:- use_module(library(filesex),
-              [delete_directory_and_contents/1, directory_file_path/3]).
-:- use_module(library(lists), [member/2]).
-:- autoload(library(process), [process_kill/2, process_wait/2]).
-:- use_module(library(readutil), [read_stream_to_codes/2]).
 :- use_module(library(settings), [setting/2, setting/4]).
 :- use_module('../../kernel/base/server',
               [ server_answer/2, server_call/4, server_cast/2, server_start/4,
                 server_stop/1 ]).
-:- use_module('../../kernel/base/prolog_faults', [spawn/3]).
 :- use_module('../../kernel/host', [schedule/2]).
-:- use_module(cell_frames, [cell_frame_read/2]).
+:- use_module(cell_process,
+              [cell_filter_forget/0, cell_process_end/2, cell_process_start/1]).
 
-/** <module> The processes of cells
-
-A cell is a process that the system walls in: no network, no files but those of
-SWI-Prolog and of this library, read-only, and a small /tmp, no other process,
-no capabilities, few system calls, and limits of memory, threads and files; see
-cell.sh and filter.py.  All that it shares with this process is a pipe each way.
+/** <module> Which agent runs in which cell
 
 A cell that has served agents of one key, an atom, serves no other: `spare`
 ones, which have served none, are started ahead.  One agent at a time has its
@@ -48,16 +38,9 @@ alone uses its streams, and gives it back or ends it.
            "Processes for agents of untrusted owners, at most").
 :- setting(idle, number, 60,
            "Seconds after which a cell that no agent uses ends").
-:- setting(memory, positive_integer, 1 500 000 000,
-           "Bytes of address space that a cell may have").
-
-:- multifile
-    prolog:error_message//1,
-    prolog:message//1.
 
 :- dynamic
     server/1,                   % Server
-    filter/2,                   % Directory, File: the seccomp filter
     user/1,                     % Host: has agents in cells
     process/5,                  % Cell, Pid, In, Out, Err
     spare/1,                    % Cell
@@ -213,7 +196,7 @@ go_on(wanted) :-
 
 cell_end(Cell, Reason) :-
     (   with_mutex(typhon_cells, forgotten(Cell, Process))
-    ->  ended(Process, Reason)
+    ->  cell_process_end(Process, Reason)
     ;   Reason = exit(unknown)
     ),
     go_on(wanted).
@@ -232,11 +215,6 @@ forgotten(Cell, process(Pid, In, Out, Err)) :-
     retractall(bound(Cell, _)),
     retractall(idle(Cell, _)),
     retractall(knows(Cell, _, _)).
-
-ended(process(Pid, In, Out, Err), Reason) :-
-    catch(process_kill(Pid, kill), error(_, _), true),
-    process_wait(Pid, Reason),
-    forall(member(Stream, [Out, In, Err]), close(Stream, [force(true)])).
 
 %!  cell_streams(+Cell, -In, -Out) is semidet.
 
@@ -288,7 +266,7 @@ serves(wanted, _, Next) :-
           print_message(error, error(Formal, _))),
     look_later(Next).
 serves(ended(Process), _, Next) :-
-    ended(Process, _),
+    cell_process_end(Process, _),
     serves(wanted, none, Next).
 serves(ended_host(Host), _, Next) :-
     atom_concat(Host, ' ', Prefix),
@@ -303,7 +281,7 @@ serves(stop, _, _) :-
     forall(process(Cell, _, _, _, _), cell_end_now(Cell)),
     retractall(waits(_, _, _, _)),
     retractall(woken(_, _)),
-    filter_forget.
+    cell_filter_forget.
 
 %   Once a second while agents wait for what is not there.
 
@@ -376,19 +354,15 @@ idle_long(Cell) :-
 end_idle(Cell) :-
     (   with_mutex(typhon_cells, ( retract(idle(Cell, _)),
                                    forgotten(Cell, Process) ))
-    ->  ended(Process, _)
+    ->  cell_process_end(Process, _)
     ;   true                            % was taken meanwhile
     ).
 
 cell_end_now(Cell) :-
     (   with_mutex(typhon_cells, forgotten(Cell, Process))
-    ->  ended(Process, _)
+    ->  cell_process_end(Process, _)
     ;   true
     ).
-
-                /*******************************
-                *             START            *
-                *******************************/
 
 spare_ready :-
     spare(_),
@@ -399,129 +373,8 @@ spare_ready :-
 %   @error cell_unavailable(Cause)
 
 spare_start :-
-    filter_file(Filter),
-    launch(Filter, process(Pid, In, Out, Err)),
-    (   comes_up(In)
-    ->  flag(typhon_cell, Cell, Cell+1),
-        with_mutex(typhon_cells,
-                   ( assertz(process(Cell, Pid, In, Out, Err)),
-                     assertz(spare(Cell)) ))
-    ;   process_kill_quietly(Pid),
-        read_stream_to_codes(Err, Codes),
-        ended(process(Pid, In, Out, Err), _),
-        string_codes(Text, Codes),
-        unavailable(Text)
-    ).
-
-process_kill_quietly(Pid) :-
-    catch(process_kill(Pid, kill), error(_, _), true).
-
-%   A cell has half a minute to load its program.
-
-comes_up(In) :-
-    set_stream(In, timeout(30)),
-    catch(cell_frame_read(In, Frame), error(_, _), fail),
-    Frame == ready,
-    set_stream(In, timeout(infinite)).
-
-unavailable(Text) :-
-    throw(error(cell_unavailable(Text), _)).
-
-launch(Filter, process(Pid, In, Out, Err)) :-
-    source('cell.sh', Script),
-    source('../../..', Library0),
-    absolute_file_name(Library0, Library),
-    current_prolog_flag(home, Home0),
-    real_path(Home0, Home),
-    swipl(Home, Swipl),
-    setting(memory, Memory),
-    flag(typhon_cell_user, User, (User+1) mod 1000),
-    Uid is 59 000 + User,
-    program(Goal),
-    spawn(path(bash),
-          [ Script, Library, Filter, Home, Swipl, '-q', '-f', none, '--no-tty',
-            '-g', Goal, '-t', 'halt(1)' ],
-          [ stdin(pipe(Out)), stdout(pipe(In)), stderr(pipe(Err)), process(Pid),
-            environment(['CELL_AS'=Memory, 'CELL_UID'=Uid]) ]),
-    set_stream(In, encoding(octet)),
-    set_stream(Out, encoding(octet)),
-    set_stream(Out, buffer(full)).
-
-program('set_prolog_flag(gc_thread,false),\c
-         use_module(\'/typhon/typhon/options/migration\',[]),\c
-         use_module(\'/typhon/typhon/options/cell/inside\'),\c
-         typhon_cell_inside:cell_main').
-
-%   This process may be a saved state.
-
-swipl(Home, Swipl) :-
-    current_prolog_flag(arch, Arch),
-    atomic_list_concat([Home, bin, Arch, swipl], /, Swipl),
-    exists_file(Swipl),
-    !.
-swipl(_, Swipl) :-
-    current_prolog_flag(executable, Swipl0),
-    real_path(Swipl0, Swipl).
-
-real_path(Path0, Path) :-
-    (   read_link(Path0, _, Target)
-    ->  Path = Target
-    ;   Path = Path0
-    ).
-
-source(Name, Path) :-
-    module_property(typhon_cells, file(File)),
-    file_directory_name(File, Directory),
-    directory_file_path(Directory, Name, Path).
-
-                /*******************************
-                *            FILTER            *
-                *******************************/
-
-%   The filter is made once, in a directory that the users of cells may enter.
-
-filter_file(File) :-
-    filter(_, File),
-    !.
-filter_file(File) :-
-    must_have(bwrap, 'apt install bubblewrap'),
-    must_have(prlimit, 'apt install util-linux'),
-    tmp_file(typhon_cells, Directory),
-    make_directory(Directory),
-    directory_file_path(Directory, filter, File),
-    source('filter.py', Maker),
-    spawn(path(python3), [Maker, File],
-          [stdout(null), stderr(pipe(Err)), process(Pid)]),
-    read_stream_to_codes(Err, Codes),
-    close(Err),
-    process_wait(Pid, Status),
-    assertz(filter(Directory, File)),
-    (   Status == exit(0)
-    ->  true
-    ;   filter_forget,
-        string_codes(Text, Codes),
-        unavailable(Text)
-    ).
-
-must_have(Command, How) :-
-    (   absolute_file_name(path(Command), _,
-                           [access(execute), file_errors(fail)])
-    ->  true
-    ;   format(string(Text), 'there is no ~w (~w)', [Command, How]),
-        unavailable(Text)
-    ).
-
-filter_forget :-
-    forall(retract(filter(Directory, _)),
-           catch(delete_directory_and_contents(Directory), error(_, _), true)).
-
-                /*******************************
-                *           MESSAGES           *
-                *******************************/
-
-prolog:error_message(cell_unavailable(Cause)) -->
-    [ 'No cell can be started: ~w'-[Cause], nl,
-      'A cell needs bubblewrap (apt install bubblewrap), and that it may make \c
-       user namespaces: allow them (kernel.unprivileged_userns_clone, \c
-       AppArmor, the seccomp profile of a container), or make bwrap setuid; \c
-       with cell(none) agents stay in this process'-[] ].
+    cell_process_start(process(Pid, In, Out, Err)),
+    flag(typhon_cell, Cell, Cell+1),
+    with_mutex(typhon_cells,
+               ( assertz(process(Cell, Pid, In, Out, Err)),
+                 assertz(spare(Cell)) )).

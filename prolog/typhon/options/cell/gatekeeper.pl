@@ -1,21 +1,20 @@
 :- module(typhon_gatekeeper, []).
 :- use_module(library(apply), [maplist/2]).
-:- use_module(library(error), [permission_error/3, resource_error/1]).
+:- use_module(library(error), [permission_error/3]).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(readutil), [read_file_to_string/3]).
-:- use_module(library(solution_sequences), [limit/2]).
-:- use_module('../../kernel/program',
-              [clause_parts/3, code_sent/2, fault_note/1]).
+:- use_module('../../kernel/program', [code_sent/2, fault_note/1]).
 :- use_module('../../kernel/wire', [endpoint_address/1, endpoint_own_proof/1]).
 :- use_module('../../kernel/host',
-              [ context_now/2, host/3, host_option/2, parts_call/3,
-                place_service/2, security_event/4 ]).
+              [ context_now/2, host/3, host_option/2, place_service/2,
+                security_event/4 ]).
 :- use_module('../../kernel/agent',
-              [ agent/5, agent_add/2, agent_clauses/3, agent_home/2,
-                agent_origin/5, agent_put/3, agent_state/2, agent_variant/2,
-                in_words/2, life_hops/2, life_parent/2, origin_key/2,
+              [ agent/5, agent_home/2, agent_origin/5, agent_put/3,
+                agent_state/2, life_hops/2, life_parent/2, origin_key/2,
                 with_agent/2 ]).
 :- use_module('../../kernel/lifecycle', [turn_settled/0]).
+:- use_module(cell_acts,
+              [cell_answer/5, cell_changes_made/3, cell_violation/1]).
 :- use_module(cell_frames).
 :- use_module(cells,
               [ cell_break/1, cell_end/2, cell_forgets/2, cell_give/1,
@@ -224,9 +223,6 @@ broken(resource_error(c_stack), _, broken(violation(too_deep))) :-
 broken(Formal, Context, _) :-
     throw(error(Formal, Context)).
 
-violation(What) :-
-    throw(error(cell_violation(What), _)).
-
 %   The first agent binds the cell to its host; what the place offers later is
 %   sent when it is there.
 
@@ -300,7 +296,7 @@ turn_heard(Cell, N, Agent, Goals, Result) :-
         ->  turn_heard(Cell, N, Agent, Goals, Result)
         ;   Result = Next
         )
-    ;   violation(frame)
+    ;   cell_violation(frame)
     ).
 
 is_of_turn(Frame, _) :-
@@ -314,12 +310,12 @@ is_of_turn(Frame, N) :-
 heard(end_of_file, _, _, _, _, broken(ended)).
 heard(request(N, Goal), N, Cell, Agent, _, more) :-
     agent(Agent, Host, _),
-    answer(Goal, acts, Host, Agent, Answer),
+    cell_answer(Goal, acts, Host, Agent, Answer),
     send(Cell, answer(N, Answer)).
 heard(changing(N, Goal, Changes), N, Cell, Agent, _, more) :-
     agent(Agent, Host, Module),
-    changes_made(Changes, Host, Module),
-    answer(Goal, changes, Host, Agent, Answer),
+    cell_changes_made(Changes, Host, Module),
+    cell_answer(Goal, changes, Host, Agent, Answer),
     agent_state(Module, State0),
     cell_state(State0, State),
     send(Cell, answer(N, changed(State, Answer))).
@@ -332,7 +328,7 @@ heard(outcome(N, Outcome, Note, Changes), N, Cell, Agent, _,
     is_outcome(Outcome),
     note_fault(Note, Outcome, Fault),
     Agent = agent(Id, Host, Module, _, _),
-    changes_made(Changes, Host, Module),
+    cell_changes_made(Changes, Host, Module),
     (   Outcome = raised(_)             % it may not have sent its changes
     ->  cell_forgets(Cell, Id)
     ;   state_mark(Module, Mark),
@@ -379,115 +375,6 @@ note_fault(note(How, fault(Goal, Goals, natives(Raising, []))), Outcome,
     ( Goals == unknown -> true ; is_list(Goals) ),
     !.
 note_fault(_, _, none).
-
-                /*******************************
-                *            STATE             *
-                *******************************/
-
-%   changes_made(+Changes, +Host, +Module): these clauses take the place of
-%   those that the predicates of the state had.
-
-changes_made(Changes, Host, Module) :-
-    is_list(Changes),
-    maplist(change_made(Host, Module), Changes).
-
-change_made(Host, Module, Change) :-
-    subsumes_term(Name/Arity-_, Change),
-    Change = Name/Arity-Clauses,
-    atom(Name),
-    between(0, 255, Arity),
-    is_list(Clauses),
-    functor(Head, Name, Arity),
-    maplist(is_clause_of(Head), Clauses),
-    catch(allowed(Module, Head, Name/Arity, Clauses, Allowed),
-          error(Formal, _), violation(Formal)),
-    retractall(Module:Head),
-    forall(member(Clause, Allowed),
-           parts_call(adds_clause, Host, [Module, Clause])),
-    agent_add(Allowed, Module).
-
-is_clause_of(Head, Clause) :-
-    nonvar(Clause),
-    clause_parts(Clause, Head1, _),
-    callable(Head1),
-    \+ Head1 \= Head.
-
-allowed(Module, Head, PI, Clauses, Allowed) :-
-    (   state_predicate(Module, Head)
-    ->  true
-    ;   agent_variant(Module, Variant),
-        typhon_agent_module:declares(Variant, PI),
-        \+ '$c_current_predicate'(_, Module:Head)
-    ->  dynamic(Module:PI)
-    ;   violation(PI)
-    ),
-    agent_clauses(Module, Clauses, Allowed).
-
-                /*******************************
-                *             ACTS             *
-                *******************************/
-
-%   answer(+Goal, +Kind, +Host, +Agent, -Answer): the agent whose turn it is
-%   calls Goal.
-
-most_solutions(10 000).
-
-answer(Goal, Kind, Host, agent(Id, _, _, _, _), Answer) :-
-    callable(Goal),
-    functor(Goal, Name, Arity),
-    (   may_ask(Kind, Host, Name/Arity, Module),
-        arguments_allowed(Goal)
-    ->  catch(solutions(Goal, Module, Answer), error(Formal, Where),
-              raised(error(Formal, Where), Answer))
-    ;   endpoint_address(Own),
-        endpoint_own_proof(Proof),
-        in_words(Goal, Shown),
-        security_event(Host, Own, Proof, refused(Id, policy(Shown))),
-        raised(error(permission_error(call, sandboxed, Goal), _), Answer)
-    ).
-
-raised(Error, raised(Portable)) :-
-    in_words(Error, Portable).
-
-solutions(Goal, Module, solutions(Goals)) :-
-    most_solutions(Most),
-    More is Most+1,
-    findall(Goal, limit(More, Module:Goal), Goals),
-    length(Goals, Count),
-    (   Count =< Most
-    ->  true
-    ;   resource_error(solutions)
-    ).
-
-%   What is in the vocabulary, or offered by the place.
-
-may_ask(Kind, _, PI, typhon_vocabulary) :-
-    cell_word(Kind0, PI),
-    !,
-    ( Kind0 == fixed -> Kind = acts ; Kind = Kind0 ).
-may_ask(acts, Host, PI, Place) :-
-    host(Host, _, Place),
-    place_service(Place, PI),
-    !.
-
-%   The policy has looked at them in the cell; what the cell says does not count.
-
-arguments_allowed(attach(Spec)) :-
-    !,
-    nonvar(Spec),
-    Spec = payloads(Path),
-    ground(Path),
-    is_inside(Path).
-arguments_allowed(_).
-
-is_inside(Path) :-
-    atom(Path),
-    !,
-    \+ sub_atom(Path, _, _, _, '..'),
-    \+ is_absolute_file_name(Path).
-is_inside(A/B) :-
-    is_inside(A),
-    is_inside(B).
 
                 /*******************************
                 *           MESSAGES           *

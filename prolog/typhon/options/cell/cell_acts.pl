@@ -1,0 +1,145 @@
+:- module(typhon_cell_acts,
+          [ cell_changes_made/3,        % +Changes, +Host, +Module
+            cell_answer/5,              % +Goal, +Kind, +Host, +Agent, -Answer
+            cell_violation/1            % +What
+          ]).
+:- use_module(library(apply), [maplist/2]).
+:- use_module(library(error), [resource_error/1]).
+:- use_module(library(lists), [member/2]).
+:- use_module(library(solution_sequences), [limit/2]).
+:- use_module('../../kernel/program', [clause_parts/3]).
+:- use_module('../../kernel/wire', [endpoint_address/1, endpoint_own_proof/1]).
+:- use_module('../../kernel/host',
+              [host/3, parts_call/3, place_service/2, security_event/4]).
+:- use_module('../../kernel/agent',
+              [agent_add/2, agent_clauses/3, agent_variant/2, in_words/2]).
+:- use_module(cell_frames, [cell_word/2, state_predicate/2]).
+
+/** <module> What an agent in a cell changes in its state, and asks of its host
+
+None of it is trusted: clauses are looked at as those of an agent that arrives,
+and a goal is called only if it is a word of the vocabulary or a service of the
+place.
+
+*Threading*: in the worker that has the agent.
+*/
+
+%!  cell_changes_made(+Changes, +Host, +Module) is semidet.
+%
+%   These clauses take the place of those that the predicates of the state had.
+%   Fails if Changes are none.
+%
+%   @error cell_violation(What) the policy does not allow them
+
+cell_changes_made(Changes, Host, Module) :-
+    is_list(Changes),
+    maplist(change_made(Host, Module), Changes).
+
+change_made(Host, Module, Change) :-
+    subsumes_term(Name/Arity-_, Change),
+    Change = Name/Arity-Clauses,
+    atom(Name),
+    between(0, 255, Arity),
+    is_list(Clauses),
+    functor(Head, Name, Arity),
+    maplist(is_clause_of(Head), Clauses),
+    catch(allowed(Module, Head, Name/Arity, Clauses, Allowed),
+          error(Formal, _), cell_violation(Formal)),
+    retractall(Module:Head),
+    forall(member(Clause, Allowed),
+           parts_call(adds_clause, Host, [Module, Clause])),
+    agent_add(Allowed, Module).
+
+is_clause_of(Head, Clause) :-
+    nonvar(Clause),
+    clause_parts(Clause, Head1, _),
+    callable(Head1),
+    \+ Head1 \= Head.
+
+allowed(Module, Head, PI, Clauses, Allowed) :-
+    (   state_predicate(Module, Head)
+    ->  true
+    ;   agent_variant(Module, Variant),
+        typhon_agent_module:declares(Variant, PI),
+        \+ '$c_current_predicate'(_, Module:Head)
+    ->  dynamic(Module:PI)
+    ;   cell_violation(PI)
+    ),
+    agent_clauses(Module, Clauses, Allowed).
+
+                /*******************************
+                *             ACTS             *
+                *******************************/
+
+%!  cell_answer(+Goal, +Kind, +Host, +Agent, -Answer) is det.
+%
+%   The agent whose turn it is calls Goal, Kind being `acts`, or `changes` if it
+%   may change its state.
+
+cell_answer(Goal, Kind, Host, agent(Id, _, _, _, _), Answer) :-
+    callable(Goal),
+    functor(Goal, Name, Arity),
+    (   may_ask(Kind, Host, Name/Arity, Module),
+        arguments_allowed(Goal)
+    ->  catch(solutions(Goal, Module, Answer), error(Formal, Where),
+              raised(error(Formal, Where), Answer))
+    ;   endpoint_address(Own),
+        endpoint_own_proof(Proof),
+        in_words(Goal, Shown),
+        security_event(Host, Own, Proof, refused(Id, policy(Shown))),
+        raised(error(permission_error(call, sandboxed, Goal), _), Answer)
+    ).
+
+raised(Error, raised(Portable)) :-
+    in_words(Error, Portable).
+
+most_solutions(10 000).
+
+solutions(Goal, Module, solutions(Goals)) :-
+    most_solutions(Most),
+    More is Most+1,
+    findall(Goal, limit(More, Module:Goal), Goals),
+    length(Goals, Count),
+    (   Count =< Most
+    ->  true
+    ;   resource_error(solutions)
+    ).
+
+%   What is in the vocabulary, or offered by the place.
+
+may_ask(Kind, _, PI, typhon_vocabulary) :-
+    cell_word(Kind0, PI),
+    !,
+    ( Kind0 == fixed -> Kind = acts ; Kind = Kind0 ).
+may_ask(acts, Host, PI, Place) :-
+    host(Host, _, Place),
+    place_service(Place, PI),
+    !.
+
+%   The policy has looked at them in the cell; what the cell says does not count.
+
+arguments_allowed(attach(Spec)) :-
+    !,
+    nonvar(Spec),
+    Spec = payloads(Path),
+    ground(Path),
+    is_inside(Path).
+arguments_allowed(_).
+
+is_inside(Path) :-
+    atom(Path),
+    !,
+    \+ sub_atom(Path, _, _, _, '..'),
+    \+ is_absolute_file_name(Path).
+is_inside(A/B) :-
+    is_inside(A),
+    is_inside(B).
+
+%!  cell_violation(+What).
+%
+%   A cell has said what it must not.
+%
+%   @error cell_violation(What)
+
+cell_violation(What) :-
+    throw(error(cell_violation(What), _)).

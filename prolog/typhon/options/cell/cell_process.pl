@@ -1,0 +1,176 @@
+:- module(typhon_cell_process,
+          [ cell_process_start/1,       % -Process
+            cell_process_end/2,         % +Process, -Reason
+            cell_filter_forget/0
+          ]).
+:- use_module(library(filesex),
+              [delete_directory_and_contents/1, directory_file_path/3]).
+:- use_module(library(lists), [member/2]).
+:- autoload(library(process), [process_kill/2, process_wait/2]).
+:- use_module(library(readutil), [read_stream_to_codes/2]).
+:- use_module(library(settings), [setting/2, setting/4]).
+:- use_module('../../kernel/base/prolog_faults', [spawn/3]).
+:- use_module(cell_frames, [cell_frame_read/2]).
+
+/** <module> The process of a cell
+
+The system walls it in: no network, no files but those of SWI-Prolog and of this
+library, read-only, and a small /tmp, no other process, no capabilities, few
+system calls, and limits of memory, threads and files; see cell.sh and
+filter.py.  All that it shares with this process is a pipe each way.
+
+The system kills it when the thread ends that has started it.
+
+*Threading*: one thread, the server of cells, starts processes; any ends them.
+*/
+
+:- setting(typhon_cells:memory, positive_integer, 1 500 000 000,
+           "Bytes of address space that a cell may have").
+
+:- multifile prolog:error_message//1.
+
+:- dynamic
+    filter/2.                   % Directory, File: the seccomp filter
+
+%!  cell_process_start(-Process) is det.
+%
+%   Process, process(Pid, In, Out, Err), waits for its first frame.
+%
+%   @error cell_unavailable(Cause)
+
+cell_process_start(Process) :-
+    filter_file(Filter),
+    launch(Filter, Process),
+    Process = process(Pid, In, _, Err),
+    (   comes_up(In)
+    ->  true
+    ;   kill(Pid),
+        read_stream_to_codes(Err, Codes),
+        cell_process_end(Process, _),
+        string_codes(Text, Codes),
+        unavailable(Text)
+    ).
+
+%!  cell_process_end(+Process, -Reason) is det.
+%
+%   Reason is exit(Status) or killed(Signal).
+
+cell_process_end(process(Pid, In, Out, Err), Reason) :-
+    kill(Pid),
+    process_wait(Pid, Reason),
+    forall(member(Stream, [Out, In, Err]), close(Stream, [force(true)])).
+
+kill(Pid) :-
+    catch(process_kill(Pid, kill), error(_, _), true).
+
+%   A cell has half a minute to load its program.
+
+comes_up(In) :-
+    set_stream(In, timeout(30)),
+    catch(cell_frame_read(In, Frame), error(_, _), fail),
+    Frame == ready,
+    set_stream(In, timeout(infinite)).
+
+unavailable(Text) :-
+    throw(error(cell_unavailable(Text), _)).
+
+launch(Filter, process(Pid, In, Out, Err)) :-
+    source('cell.sh', Script),
+    source('../../..', Library0),
+    absolute_file_name(Library0, Library),
+    current_prolog_flag(home, Home0),
+    real_path(Home0, Home),
+    swipl(Home, Swipl),
+    setting(typhon_cells:memory, Memory),
+    flag(typhon_cell_user, User, (User+1) mod 1000),
+    Uid is 59 000 + User,
+    program(Goal),
+    spawn(path(bash),
+          [ Script, Library, Filter, Home, Swipl, '-q', '-f', none, '--no-tty',
+            '-g', Goal, '-t', 'halt(1)' ],
+          [ stdin(pipe(Out)), stdout(pipe(In)), stderr(pipe(Err)), process(Pid),
+            environment(['CELL_AS'=Memory, 'CELL_UID'=Uid]) ]),
+    set_stream(In, encoding(octet)),
+    set_stream(Out, encoding(octet)),
+    set_stream(Out, buffer(full)).
+
+program('set_prolog_flag(gc_thread,false),\c
+         use_module(\'/typhon/typhon/options/migration\',[]),\c
+         use_module(\'/typhon/typhon/options/cell/inside\'),\c
+         typhon_cell_inside:cell_main').
+
+%   This process may be a saved state.
+
+swipl(Home, Swipl) :-
+    current_prolog_flag(arch, Arch),
+    atomic_list_concat([Home, bin, Arch, swipl], /, Swipl),
+    exists_file(Swipl),
+    !.
+swipl(_, Swipl) :-
+    current_prolog_flag(executable, Swipl0),
+    real_path(Swipl0, Swipl).
+
+real_path(Path0, Path) :-
+    (   read_link(Path0, _, Target)
+    ->  Path = Target
+    ;   Path = Path0
+    ).
+
+source(Name, Path) :-
+    module_property(typhon_cell_process, file(File)),
+    file_directory_name(File, Directory),
+    directory_file_path(Directory, Name, Path).
+
+                /*******************************
+                *            FILTER            *
+                *******************************/
+
+%   The filter is made once, in a directory that the users of cells may enter.
+
+filter_file(File) :-
+    filter(_, File),
+    !.
+filter_file(File) :-
+    must_have(bwrap, 'apt install bubblewrap'),
+    must_have(prlimit, 'apt install util-linux'),
+    tmp_file(typhon_cells, Directory),
+    make_directory(Directory),
+    directory_file_path(Directory, filter, File),
+    source('filter.py', Maker),
+    spawn(path(python3), [Maker, File],
+          [stdout(null), stderr(pipe(Err)), process(Pid)]),
+    read_stream_to_codes(Err, Codes),
+    close(Err),
+    process_wait(Pid, Status),
+    assertz(filter(Directory, File)),
+    (   Status == exit(0)
+    ->  true
+    ;   cell_filter_forget,
+        string_codes(Text, Codes),
+        unavailable(Text)
+    ).
+
+must_have(Command, How) :-
+    (   absolute_file_name(path(Command), _,
+                           [access(execute), file_errors(fail)])
+    ->  true
+    ;   format(string(Text), 'there is no ~w (~w)', [Command, How]),
+        unavailable(Text)
+    ).
+
+%!  cell_filter_forget is det.
+
+cell_filter_forget :-
+    forall(retract(filter(Directory, _)),
+           catch(delete_directory_and_contents(Directory), error(_, _), true)).
+
+                /*******************************
+                *           MESSAGES           *
+                *******************************/
+
+prolog:error_message(cell_unavailable(Cause)) -->
+    [ 'No cell can be started: ~w'-[Cause], nl,
+      'A cell needs bubblewrap (apt install bubblewrap), and that it may make \c
+       user namespaces: allow them (kernel.unprivileged_userns_clone, \c
+       AppArmor, the seccomp profile of a container), or make bwrap setuid; \c
+       with cell(none) agents stay in this process'-[] ].
