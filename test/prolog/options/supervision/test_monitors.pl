@@ -55,13 +55,20 @@ heard(W, Messages) :-
 hears(W, Message) :-
     wait_until(( heard(W, Ms), memberchk(Message, Ms) ), 20).
 
-%   Nothing more has come after a while.
+%   Nothing more has come when it hears of another agent, whose monitor began
+%   later.
 
 once_only(W, Message) :-
     hears(W, Message),
-    sleep(0.3),
+    hears_of_another(W, Other),
     heard(W, Ms),
-    Ms == [Message].
+    Ms == [Message, Other].
+
+hears_of_another(W, down(B, done)) :-
+    sleeper(B, []),
+    monitors(W, B),
+    ends(B, true),
+    hears(W, down(B, done)).
 
 sleeper(Id, Options) :-
     create([(main :- receive(_-end(How)), call(How))], Id, Options).
@@ -118,7 +125,7 @@ test(twice_is_once) :-
                  monitors(W, A),
                  ends(A, true),
                  once_only(W, down(A, done)) )).
-test(not_any_more, Ms == []) :-
+test(not_any_more, Ms == [Other]) :-
     with_hosts([alpha],
                ( watcher(W, [], []),
                  sleeper(A, []),
@@ -126,7 +133,7 @@ test(not_any_more, Ms == []) :-
                  unmonitors(W, A),
                  ends(A, true),
                  joined(A, done),
-                 sleep(0.2),
+                 hears_of_another(W, Other),
                  heard(W, Ms) )).
 test(again_after_unmonitor) :-
     with_hosts([alpha],
@@ -148,7 +155,7 @@ test(by_many, Count == 50) :-
                  aggregate_all(count,
                                ( member(W, Ws), heard(W, [down(A, done)]) ),
                                Count) )).
-test(once_while_faulty, [true(Ms == [down(A, failed)])]) :-
+test(once_while_faulty, [true(Ms == [down(A, failed), Other])]) :-
     with_hosts([alpha],
                ( watcher(W, [], []),
                  create([ (main :- receive(_-end(_)), s(_)) ], A),
@@ -158,7 +165,7 @@ test(once_while_faulty, [true(Ms == [down(A, failed)])]) :-
                  agent_change(A, facts([s(1)])),
                  agent_resume(A),
                  joined(A, done),
-                 sleep(0.2),
+                 hears_of_another(W, Other),
                  heard(W, Ms) )).
 test(wherever_both_are) :-
     with_hosts([alpha, beta],
@@ -232,13 +239,15 @@ test(not_after_unmonitor) :-
                  shares(W, A),
                  unmonitors(W, A),
                  agent_dispose(A),
-                 sleep(0.3),
+                 hears_of_another(W, _),
                  agent_property(W, state(resident)),
                  sleeper(B, []),
+                 sleeper(C, []),
                  shares(W, B),
                  unmonitors(W, B),
+                 shares(W, C),
                  agent_dispose(W),
-                 sleep(0.3),
+                 joined(C, disposed),
                  agent_property(B, state(waiting)) )).
 
 :- end_tests(shared_fate).
@@ -282,8 +291,11 @@ test(lost_with_its_process, [cleanup(forget), true(H == There)]) :-
     no_leaks(with_peers([p1],
                  ( peer_host(p1, There),
                    sleeper(A, [host(There)]),
+                   sleeper(B, [host(There)]),
                    agent_monitor(A, note),
-                   sleep(0.2),
+                   agent_monitor(B, note),
+                   ends(B, true),
+                   told(B, done),
                    peer_kill(p1),
                    told(A, lost(H)) ))).
 
@@ -346,9 +358,9 @@ test(lost_with_its_home, [nondet]) :-
               hears(W, down(B, done)),
               peer_kill(p1),
               hears(W, down(A, lost(H1))),
-              sleep(0.3),
+              hears_of_another(W, Other),
               heard(W, Ms),
-              assertion(Ms == [down(B, done), down(A, lost(H1))]) )))).
+              assertion(Ms == [down(B, done), down(A, lost(H1)), Other]) )))).
 test(lost_where_it_went, [nondet]) :-
     no_leaks(with_peers([p1],
         here(
@@ -375,14 +387,17 @@ test(not_lost_if_it_went_on, [nondet]) :-
             ( at(p1, H1), at(p2, H2),
               watcher(W, [], []),
               sleeper(A, []),
+              sleeper(B, [host(H1)]),
               monitors(W, A),
+              monitors(W, B),
               agent_move(A, H1, [wait(5)]),
               agent_move(A, H2, [wait(5)]),
               peer_kill(p1),
-              sleep(2.5),
-              heard(W, []),
+              hears(W, down(B, lost(H1))),
               ends(A, true),
-              once_only(W, down(A, done)) )))).
+              hears(W, down(A, done)),
+              heard(W, Ms),
+              assertion(Ms == [down(B, lost(H1)), down(A, done)]) )))).
 test(restarted_at_the_same_address, [nondet]) :-
     no_leaks(with_peers([p1],
         here(
@@ -411,7 +426,7 @@ test(shared_with_a_process_that_dies, [nondet]) :-
               watcher(W, [], [host(H1)]),
               sleeper(A, []),
               shares(W, A),
-              sleep(0.3),
+              hears_of_another(W, _),
               peer_kill(p1),
               joined(A, O),
               assertion(O == disposed) )))).
@@ -423,11 +438,15 @@ test(connection_that_breaks, [nondet]) :-
               sleeper(A, [host(H1)]),
               monitors(W, A),
               peer_proxy(p1, Proxy),
+              sleeper(B, [host(H1)]),
               proxy_cut(Proxy),
-              sleep(1.5),
-              heard(W, []),
+              monitors(W, B),
+              ends(B, true),
+              hears(W, down(B, done)),
               ends(A, true),
-              once_only(W, down(A, done)) )))).
+              hears(W, down(A, done)),
+              heard(W, Ms),
+              assertion(Ms == [down(B, done), down(A, done)]) )))).
 
 :- end_tests(monitors_of_processes).
 
