@@ -34,7 +34,8 @@ Only who knows the cookie can send that.
 :- autoload(library(ssl),
             [cert_accept_any/5, ssl_context/3, ssl_negotiate/5]).
 :- use_module(library(typhon/kernel/wire/handshake),
-              [authenticate/6, cookie/1, hello/4, line_read/3, line_write/2]).
+              [authenticate/6, hello/4, line_read/3, line_write/2]).
+:- use_module(library(typhon/kernel/wire), [cookie/1]).
 :- use_module(library(typhon/kernel/wire/frame), [frame_write/3, term_bytes/3]).
 
 %!  fuzz(+Options, -Faults:list) is det.

@@ -30,7 +30,8 @@ This is the interface of the layer: higher layers import from here.
               endpoint_own_proof/1, endpoint_proof/2 ]).
 :- reexport(wire/frame, [mobile_term/1]).
 :- reexport(wire/handshake,
-            [cookie/1, line_read/3, line_write/2, random_hex/2]).
+            [line_read/3, line_write/2]).
+:- reexport(wire/cookie, [cookie/1, random_hex/2]).
 :- reexport(wire/threads, [manager_notify/1]).
 :- reexport(wire/transport, [transport_disagrees/1]).
 :- reexport(wire/refusals, [refusal_text/2]).

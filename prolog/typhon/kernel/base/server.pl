@@ -129,8 +129,9 @@ close_queue(Queue) :-
     message_queue_destroy(Queue).
 
 refuse_calls(Queue) :-
-    thread_get_message(Queue, Message, [timeout(0)]),
+    thread_peek_message(Queue, _),
     !,
+    thread_get_message(Queue, Message),
     (   Message = call(_, Caller)
     ->  answer(Caller, raised(error(existence_error(server, Queue), _)))
     ;   true

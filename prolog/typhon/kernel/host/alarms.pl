@@ -190,8 +190,9 @@ alarm_least(Stamp) :-
 
 index_update(Index0, Index) :-
     (   new(New),
-        thread_get_message(New, Stamp, [timeout(0)])
-    ->  index_insert(Index0, Stamp, Index1),
+        thread_peek_message(New, _)
+    ->  thread_get_message(New, Stamp),
+        index_insert(Index0, Stamp, Index1),
         index_update(Index1, Index)
     ;   Index = Index0
     ).

@@ -70,7 +70,7 @@ timer_stop :-
 
 rest_timer :-
     (   retract(timer(Timer))
-    ->  ignore(server_call(Timer, rest, 0.5, _))
+    ->  ignore(server_cast(Timer, rest))
     ;   true
     ).
 
@@ -154,8 +154,7 @@ timed(call(count, Caller), Index, Next) :-
     index_size(Index, Size),
     server_answer(Caller, Size),
     awaits(Index, Next).
-timed(call(rest, Caller), Index, until(inf, Index)) :-
-    server_answer(Caller, rests).
+timed(rest, Index, until(inf, Index)).
 
 awaits(Index0, until(Stamp, Index)) :-
     index_update(Index0, Index1),

@@ -48,7 +48,8 @@ own_start_next/1 run under the mutex of the endpoint.
 :- use_module('../base/own_thread', [in_own_thread/1]).
 :- use_module(acceptor, [accept_all/2, accept_no_more/0]).
 :- use_module(alone, [alone/1, alone_begin/1, alone_end/0]).
-:- use_module(handshake, [cookie/1, hello/4, random_hex/2]).
+:- use_module(cookie, [cookie/1, random_hex/2]).
+:- use_module(handshake, [hello/4]).
 :- use_module(connection_manager, [keep/1, manager_unhandled/1]).
 :- use_module(threads,
               [ manager_queue_close/1, manager_queue_open/0, manager_notify/1,

@@ -33,8 +33,9 @@ ended.
 :- use_module(library(lists), [append/3]).
 :- use_module(library(settings), [setting/2]).
 :- use_module(frame, [bytes_term/3]).
+:- use_module(cookie, [cookie/1]).
 :- use_module(handshake,
-              [ authenticate/6, cookie/1, hello_codec/3, hello_peer/4,
+              [ authenticate/6, hello_codec/3, hello_peer/4,
                 line_read/3, line_write/2 ]).
 :- use_module(request, [connection_is/2]).
 :- use_module(session,

@@ -214,10 +214,13 @@ close_queue(Unheard) :-
     findall(Message, unheard(Queue, Message), Unheard),
     message_queue_destroy(Queue).
 
+%   Without a time-out: in a clean-up handler that may never end, see
+%   manager_connect/1.
+
 unheard(Queue, Message) :-
     repeat,
-    (   thread_get_message(Queue, Message, [timeout(0)])
-    ->  true
+    (   thread_peek_message(Queue, _)
+    ->  thread_get_message(Queue, Message)
     ;   !,
         fail
     ).

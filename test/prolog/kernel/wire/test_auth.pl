@@ -6,6 +6,7 @@
 :- use_module(library(settings), [set_setting/2, setting/2]).
 :- use_module(library(socket)).
 :- use_module(library(thread), [concurrent/3]).
+:- use_module(library(typhon/kernel/wire), [cookie/1]).
 :- use_module(library(typhon/kernel/wire/handshake)).
 
 :- begin_tests(cookie_is_private).
