@@ -28,7 +28,7 @@ as terms.  See typhon_error_text.
 typhon_error_text:lines(Ball) -->
     { var(Ball) },
     !,
-    [ 'Unknown message: ~p'-[Ball] ].
+    [ 'Unhandled exception: ~p'-[Ball] ].
 typhon_error_text:lines(error(Formal, Context)) -->
     !,
     location(Context),
@@ -38,7 +38,7 @@ typhon_error_text:lines('$aborted') -->
     !,
     [ 'Execution Aborted' ].
 typhon_error_text:lines(Ball) -->
-    [ 'Unknown message: ~p'-[Ball] ].
+    [ 'Unhandled exception: ~p'-[Ball] ].
 
 formal(Formal) -->
     formal_told(Formal),

@@ -131,7 +131,7 @@ test(large_terms_are_not_written, true(Length < 200)) :-
     dag(60, a, T),
     error_text(error(type_error(x, T), _), Text),
     string_length(Text, Length).
-test(hooks_for_printing_see_nothing, Text == "Unknown message: typhon_portrayed(x)") :-
+test(hooks_for_printing_see_nothing, Text == "Unhandled exception: typhon_portrayed(x)") :-
     printing(error_text(typhon_portrayed(x), Text), _),
     untouched.
 
