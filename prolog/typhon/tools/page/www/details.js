@@ -212,7 +212,8 @@ class Details {
   }
 }
 
-const ms = seconds => (seconds * 1000).toPrecision(3);
+const ms = seconds =>
+  seconds < 0.9995 ? (seconds * 1000).toPrecision(3) : (seconds * 1000).toFixed(0);
 
 function programLines({ lines, here }) {
   const marked = new Set(here);
