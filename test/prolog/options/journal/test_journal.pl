@@ -498,14 +498,14 @@ test('a change of a large state whose unit of work fails is not lost') :-
           agent_create(Program, A, [facts(Facts)]),
           nb_setval(journal_test, A),
           agent_send(A, one),
-          wait_until(changes_done(A, 1), 5),
+          wait_until(rests_after(A, 1), 5),
           typhon_agents:agent(A, _, Module, _, _),
           \+ typhon_durable_changes:unit_of_work(
                  ( assertz(Module:item(new, change)),
                    typhon_agents:agent_note(A, resident, []),
                    fail )),
           agent_send(A, two),
-          wait_until(changes_done(A, 2), 5) ),
+          wait_until(rests_after(A, 2), 5) ),
         ( nb_getval(journal_test, Again),
           changes_done(Again, 2),
           agent_property(Again, facts(Kept)),
@@ -514,6 +514,12 @@ test('a change of a large state whose unit of work fails is not lost') :-
 changes_done(A, N) :-
     agent_property(A, facts(Facts)),
     memberchk(done(N), Facts).
+
+%   The rest of a message comes after done(N).
+
+rests_after(A, N) :-
+    changes_done(A, N),
+    agent_property(A, state(resident)).
 
 changer(clauses([ (:- agent(changes, [state([done/1,item/2,rule/1,other/1])])),
                   (on_message(_, _) :- retract(done(N0)), N is N0+1,
