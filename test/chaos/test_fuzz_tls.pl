@@ -11,6 +11,6 @@
 :- begin_tests(nonsense_over_tls_does_no_harm).
 
 test(some_dozens, Faults == []) :-
-    no_leaks(fuzz([count(60), seed(1), tls(true)], Faults)).
+    no_leaks(fuzz([count(120), seed(1), tls(true)], Faults)).
 
 :- end_tests(nonsense_over_tls_does_no_harm).
