@@ -53,31 +53,31 @@ serve :-
     ->  true
     ;   Message = again
     ),
-    heed(Message, From).
+    served(Message, From).
 
-heed(stop, _) :-
+served(stop, _) :-
     !,
     findall(Name, running(Name, _), Names),
     stop_all(Names).
-heed(Message, From) :-
-    ( hear(Message, From) -> true ; true ),
+served(Message, From) :-
+    ignore(handle(Message, From)),
     serve.
 
-hear(down(Agent, _), system) :-
+handle(down(Agent, _), system) :-
     retract(running(standby, Agent)),
     !,
     stand_by.
-hear(down(Agent, Outcome), system) :-
+handle(down(Agent, Outcome), system) :-
     retract(running(Name, Agent)),
     log(down(Name, Outcome)),
     ended(Name, Outcome).
-hear(again, _) :-
+handle(again, _) :-
     findall(Name, retract(pending(Name)), Names),
     start_all(Names).
-hear(children, From) :-
+handle(children, From) :-
     findall(Name-Agent, ( running(Name, Agent), Name \== standby ), Pairs),
     send(From, children(Pairs)).
-hear(restart(Name), _) :-
+handle(restart(Name), _) :-
     again(Name).
 
 %   ended(+Name, +Outcome): by itself.
@@ -163,7 +163,7 @@ of_supervisor(name(_)).
 of_supervisor(where(_)).
 of_supervisor(restart(_)).
 
-%   The last one first; each has ended before the next is told.
+%   The last one first; each has ended before the next is disposed of.
 
 stop_all(Names) :-
     findall(Name-Agent, ( member(Name, Names), running(Name, Agent) ), Pairs0),

@@ -145,23 +145,34 @@ begun(H1, H2, H3, More) :-
                            intensity(100, 1)
                          | More ]) ]).
 
+%   answers(+Peer): its supervisor has handled all that came before.
+
+answers(Peer) :-
+    peer_do(Peer, ( typhon_agents:agent(Id, _, _, _, _),
+                    sub_atom(Id, 0, _, _, 'supervisor.') )),
+    Asker = clauses([ (:- agent(asker, [])),
+                      (main :- send(Id, children),
+                               receive(Id-children(_), 20), result(yes)) ]),
+    with_hosts([gamma],
+               ( agent_create(Asker, A), agent_result(A, yes, 25) )).
+
 test(a_process_dies) :-
     three(( linked(H1, H2, H3),
             begun(H1, H2, H3, []),
             wait_until(each_once([p1,p2,p3]), 20),
             peer_kill(p3),
             wait_until(each_once([p1,p2]), 30),
-            sleep(1),
+            answers(p1),
             each_once([p1,p2]) )).
 test(its_own_process_dies) :-
     three(( linked(H1, H2, H3),
             begun(H1, H2, H3, [standby(H2)]),
             wait_until(each_once([p1,p2,p3]), 20),
             wait_until(count([p2], supervisor, 1), 10),
-            sleep(0.5),
+            answers(p1),
             peer_kill(p1),
-            wait_until(count([p2,p3], a, 1), 30),
-            sleep(1),
-            wait_until(each_once([p2,p3]), 30) )).
+            wait_until(each_once([p2,p3]), 30),
+            answers(p2),
+            each_once([p2,p3]) )).
 
 :- end_tests(supervisor_of_processes).

@@ -95,7 +95,8 @@ carries_more(Image) :-
 
 load_and_take(Image, Hop, Peer, ReplyTo) :-
     arg(3, Image, Life),
-    agent_extras_load(Life),
+    catch(agent_extras_load(Life), error(Formal, Context),
+          print_error(error, error(Formal, Context))),
     take(Hop, Peer, ReplyTo).
 
 arrived(Name, Image, Program, Label, Peer, Answer) :-

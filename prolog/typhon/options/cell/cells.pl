@@ -67,7 +67,7 @@ cells_begin(Host) :-
 begin(Host) :-
     assertz(user(Host)),
     catch(( server_running(Server),
-            server_call(Server, begin, 60, _) ), Ball,
+            server_call(Server, begin, inf, _) ), Ball,
           ( end(Host), throw(Ball) )).
 
 cells_end(Host) :-

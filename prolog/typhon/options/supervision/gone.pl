@@ -62,7 +62,9 @@ answered(_).
 
 typhon_scheduler:fire(Peer, gone(Process, Pause)) :-
     !,
-    (   is_gone(Peer, Process)
+    (   \+ concerns
+    ->  true
+    ;   is_gone(Peer, Process)
     ->  scheduler_call(typhon_gone_processes:concluded(Peer))
     ;   endpoint_peer(Peer, state(up))
     ->  true

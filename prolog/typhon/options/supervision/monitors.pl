@@ -40,6 +40,7 @@ process.
 
 :- multifile
     typhon_durable:go_on/0,
+    typhon_durable:restored/0,
     typhon_endpoint:requested/4,
     typhon_gone_processes:concerns/0,
     typhon_gone_processes:gone/1,
@@ -275,6 +276,13 @@ go_on :-
     forall(member(Watcher-Agent, Pairs),
            ( mind(Watcher), watch(Agent, first) )).
 
+%   The goals of agent_monitor/2 ended with the process that had them, and their
+%   numbers are used again.
+
+typhon_durable:restored :-
+    findall(N-Agent, monitor(_, call(N), Agent), Calls),
+    forall(member(N-Agent, Calls), ignore(monitor_remove(call(N), Agent))).
+
                 /*******************************
                 *             DOWN             *
                 *******************************/
@@ -311,13 +319,21 @@ tell(Id, Agent, Outcome) :-
 shares_end(Id) :-
     catch(agent_dispose(Id), error(_, _), true).
 
-%   A worker cannot stop the workers, which the last release does.
-
 called(N, Agent, Outcome) :-
     retract(goal(N, Goal)),
     !,
+    call_cleanup(call_told(Goal, Agent, Outcome), release(N)).
+
+call_told(Goal, Agent, Outcome) :-
+    catch(ignore(call(Goal, Agent, Outcome)), Ball,
+          ( is_abort(Ball) -> throw(Ball) ; print_error(warning, Ball) )).
+
+is_abort('$aborted').
+is_abort(unwind(_)).
+
+%   A worker cannot stop the workers, which the last release does.
+
+release(N) :-
     atom_concat(typhon_monitor_, N, Alias),
-    catch(ignore(call(Goal, Agent, Outcome)), error(Formal, Context),
-          print_error(warning, error(Formal, Context))),
     thread_create(runtime_release(monitor(N)), _,
                   [alias(Alias), detached(true)]).

@@ -3,9 +3,9 @@
           ]).
 :- use_module(library(apply), [exclude/3]).
 :- use_module(library(error), [must_be/2]).
-:- use_module(library(lists), [append/3, member/2]).
+:- use_module(library(lists), [member/2]).
 :- use_module('../../kernel/wire',
-              [ endpoint_address/1, endpoint_call/5, endpoint_gone/1,
+              [ endpoint_address/1, endpoint_ask_all/6, endpoint_gone/1,
                 endpoint_peer/2, endpoint_reply/2 ]).
 :- use_module('../../kernel/host',
               [address_parts/3, alarm_in/3, scheduler_call/1]).
@@ -42,7 +42,7 @@ typhon_runtime:ending(after) :-
     retractall(asker(_, _, _)).
 
 pause(1).                       % seconds between two rounds
-patience(5).                    % seconds for an answer
+patience(5).                    % seconds for the answers
 
 %!  watched_add(+Agent, +Asker) is det.
 %
@@ -152,32 +152,28 @@ missing(Absent, Missing) :-
     findall(Agent, member(at(Agent, _, _, _), Absent), Agents),
     findall(Peer, other(Peer), Peers0),
     sort(Peers0, Peers),
-    answers(Peers, Agents, Found, Answered),
-    exclude(may_be_found(Found, Answered), Absent, Missing).
+    patience(Seconds),
+    endpoint_ask_all(Peers, monitor, have(Agents), typhon_watched_agents:none,
+                     Seconds, Results),
+    exclude(may_be_found(Results), Absent, Missing).
+
+:- public none/2.
+
+none(_, []).
 
 other(Peer) :-
     endpoint_peer(Peer, process(_)),
     \+ endpoint_address(Peer),
     \+ endpoint_gone(Peer).
 
-answers([], _, [], []).
-answers([Peer|Peers], Agents, Found, Answered) :-
-    patience(Seconds),
-    (   catch(endpoint_call(Peer, monitor, have(Agents), answer(Has), Seconds),
-              error(_, _), fail)
-    ->  Answered = [Peer|Answered1]
-    ;   Has = [],
-        Answered = Answered1
-    ),
-    answers(Peers, Agents, Found1, Answered1),
-    append(Has, Found1, Found).
-
-may_be_found(Found, _, at(Agent, _, _, _)) :-
-    memberchk(Agent, Found),
+may_be_found(Results, at(Agent, _, _, _)) :-
+    member(_-answer(Agents), Results),
+    is_list(Agents),
+    memberchk(Agent, Agents),
     !.
-may_be_found(_, Answered, at(_, Address, _, _)) :-
+may_be_found(Results, at(_, Address, _, _)) :-
     address_parts(Address, _, Endpoint),
-    \+ memberchk(Endpoint, Answered),
+    \+ memberchk(Endpoint-answer(_), Results),
     \+ endpoint_gone(Endpoint).
 
 typhon_endpoint:requested(monitor, have(Agents), _, ReplyTo) :-

@@ -483,6 +483,37 @@ both_die :-
     ends(B, true),
     hears(W, down(B, done)).
 
+%   The goals of agent_monitor/2 end with their process: those of the next one
+%   are not called for them.
+
+goals_end(Dir) :-
+    atomic_list_concat([Dir, /, p1], J),
+    with_peers([p1-[host([journal(J)])]], goals_end).
+
+goals_end :-
+    setup_call_cleanup(host_start(alpha), monitored_again, host_stop(alpha)).
+
+monitored_again :-
+    sleeper(A, []),
+    sleeper(B, []),
+    monitored_by_peer(A),
+    peer_kill(p1),
+    peer_restart(p1),
+    monitored_by_peer(B),
+    ends(A, true),
+    joined(A, done),
+    ends(B, true),
+    wait_until(peer_do(p1, user:down(B)), 20),
+    \+ peer_do(p1, user:down(A)).
+
+monitored_by_peer(A) :-
+    peer_do(p1, dynamic(user:down/1)),
+    peer_do(p1, agent_monitor(A, [Id,_]>>assertz(user:down(Id)))),
+    peer_do(p1, ( agent_create(clauses([(:- agent(x, [])), main]), X),
+                  agent_join(X, done, 10) )).     % so that all is committed
+
+test(goals_end_with_their_process, [nondet]) :-
+    no_leaks(with_tmp_dir(goals_end)).
 test(both_processes_die, [nondet]) :-
     no_leaks(with_tmp_dir(lasting)).
 
