@@ -7,7 +7,7 @@
 
 /** <module> Supervision: the ends of other agents
 
-An agent, or a process, is told once when another agent ends, wherever both
+An agent, or a process, is notified once when another agent ends, wherever both
 are.  This is the interface of the layer; what keeps monitors is loaded when
 one is set, or another process asks for one.
 

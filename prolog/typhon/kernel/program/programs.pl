@@ -63,7 +63,7 @@ and is text for a host without Python.
 %   @arg Kinds is what mobile_predicates/3 finds.
 %   @arg Places say where its clauses stand, see typhon_places.
 %   @arg Sources is what it was read from, see source_terms/5.
-%   @arg Doubtful is doubtful(Located, Kinds, Once), for those who warn of what
+%   @arg Doubtful is doubtful(Located, Kinds, Once), for warnings of what
 %        does not keep it from running: the terms as read, and problems that
 %        were found in reading.
 %   @error The first problem that keeps the program from running, with the

@@ -30,8 +30,8 @@ turn in a cell; others of the key wait, ready but not scheduled.
 The system kills a cell when the thread ends that has started it.  So a server
 starts them all.
 
-*Threading*: any thread; a mutex protects the tables.  Who has taken a cell
-alone uses its streams, and gives it back or ends it.
+*Threading*: any thread; a mutex protects the tables.  The thread that has taken
+a cell alone uses its streams, and gives it back or ends it.
 */
 
 :- setting(cells, positive_integer, 16,
@@ -136,7 +136,7 @@ left(Agent, Next) :-
     ;   Next = none
     ).
 
-%   next_of(+Key, -Next): whom to schedule, where a cell is idle.
+%   next_of(+Key, -Next): which agent to schedule, where a cell is idle.
 
 next_of(Key, Next) :-
     (   bound(Cell, Key),

@@ -299,19 +299,19 @@ down(Agent, Outcome) :-
 
 used(Watcher, Agent, Outcome) :-
     (   monitor_remove(Watcher, Agent)
-    ->  tell(Watcher, Agent, Outcome)
+    ->  notify(Watcher, Agent, Outcome)
     ;   true
     ).
 
-tell(call(N), Agent, Outcome) :-
+notify(call(N), Agent, Outcome) :-
     !,
     scheduler_call(typhon_monitors:called(N, Agent, Outcome)).
-tell(ends(_), _, done) :-
+notify(ends(_), _, done) :-
     !.
-tell(ends(Id), _, _) :-
+notify(ends(Id), _, _) :-
     !,
     scheduler_call(typhon_monitors:shares_end(Id)).
-tell(Id, Agent, Outcome) :-
+notify(Id, Agent, Outcome) :-
     post_on(Id, [system-down(Agent, Outcome)]).
 
 :- public shares_end/1, called/3.
@@ -322,9 +322,9 @@ shares_end(Id) :-
 called(N, Agent, Outcome) :-
     retract(goal(N, Goal)),
     !,
-    call_cleanup(call_told(Goal, Agent, Outcome), release(N)).
+    call_cleanup(called_back(Goal, Agent, Outcome), release(N)).
 
-call_told(Goal, Agent, Outcome) :-
+called_back(Goal, Agent, Outcome) :-
     catch(ignore(call(Goal, Agent, Outcome)), Ball,
           ( is_abort(Ball) -> throw(Ball) ; print_error(warning, Ball) )).
 

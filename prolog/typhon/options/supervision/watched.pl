@@ -46,7 +46,7 @@ patience(5).                    % seconds for the answers
 
 %!  watched_add(+Agent, +Asker) is det.
 %
-%   Tell Asker once how Agent ends, whose home is here, as outcome_wait/3, or
+%   Answer Asker once how Agent ends, whose home is here, as outcome_wait/3, or
 %   lost(Host).
 %
 %   @arg Asker is reply(ReplyTo) or call(Closure)
@@ -78,13 +78,13 @@ went_to(_).
 
 over(Agent, N, Outcome) :-
     (   retract(asker(Agent, N, Asker))
-    ->  tell(Asker, Outcome)
+    ->  answer(Asker, Outcome)
     ;   true
     ).
 
-tell(call(Closure), Outcome) :-
+answer(call(Closure), Outcome) :-
     call(Closure, Outcome).
-tell(reply(ReplyTo), Outcome) :-
+answer(reply(ReplyTo), Outcome) :-
     endpoint_reply(ReplyTo, Outcome).
 
 typhon_endpoint:requested(monitor, watch(Agent), _, ReplyTo) :-
@@ -126,7 +126,7 @@ look_again(Before) :-
 
 lost(Agent, Address) :-
     (   retract(asker(Agent, _, Asker))
-    ->  tell(Asker, lost(Address)),
+    ->  answer(Asker, lost(Address)),
         lost(Agent, Address)
     ;   true
     ).
