@@ -122,7 +122,9 @@ test(twice_is_once) :-
                ( watcher(W, [], []),
                  sleeper(A, []),
                  monitors(W, A),
-                 monitors(W, A),
+                 agent_send(W, monitor(A)),
+                 wait_until(( agent_property(W, facts(Facts)),
+                              findall(x, member(r(A), Facts), [_,_]) ), 10),
                  ends(A, true),
                  once_only(W, down(A, done)) )).
 test(not_any_more, Ms == [Other]) :-
