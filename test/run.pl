@@ -44,8 +44,8 @@ suite_deadline(600).                    % seconds
 
 %   What takes long begins early, that all end at about the same time.
 
-longest([ chaos, shell, wire, doc, scripted, hop, sync_network,
-          auction_network, cluster,
+longest([ chaos, fuzz_tls, shell, lasting, wire, doc, scripted, hop,
+          sync_network, auction_network, cluster,
           network, faults, study_work, pack, robots, boxes_arena, ring,
           learning_network, repeatable, agent, scheduler, letters, app ]).
 

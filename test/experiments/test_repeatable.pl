@@ -13,7 +13,7 @@
 
 /** <module> The same seed, the same log: of every mechanism, on any load
 
-Each mechanism is run six times, half of them while four other processes want
+Each mechanism is run four times, half of them while four other processes want
 the processors.  With TYPHON_REPEATS=10 in the environment each half has as
 many as that.
 
@@ -52,7 +52,7 @@ small(murdoch, 'allocation/figure_7_1_to_7_3',
 repeats(Count) :-
     (   getenv('TYPHON_REPEATS', Atom)
     ->  atom_number(Atom, Count)
-    ;   Count = 3
+    ;   Count = 2
     ).
 
 %   different(+Name, +File, +Given, -Counts, +Dir): Counts is [1] if all logs
