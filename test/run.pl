@@ -5,10 +5,10 @@
     swipl test/run.pl [-- suite ...]
 
 runs every test_*.pl in the folders of test/, or those named (`frame` for
-test/prolog/kernel/wire/test_frame.pl, `prolog/kernel/wire` for all in that folder), each
-in a process of its own, three at a time, and reports.  The last line is
-`N passed, N failed`; `N skipped` stands above it if any were.  The exit status
-is 0 only if nothing failed.
+test/prolog/kernel/wire/test_frame.pl, `prolog/kernel/wire` for all in that
+folder), each in a process of its own, three at a time, and reports.  The last
+line is `N passed, N failed`; above it stand the names of what failed, and
+`N skipped`.  The exit status is 0 only if nothing failed.
 
 A suite that does not load cleanly, has no tests, ends with a status other
 than 0, does not end within its deadline or leaves a process behind, which is
@@ -69,6 +69,7 @@ main(Names) :-
     at_halt(kill_all_left_behind),
     on_signal(term, _, terminated),
     with_tmp_dir(run_suites(Files, Suites)),
+    forall(member(Suite, Suites), print_failures(Suite)),
     foldl(add_suite, Suites, sum(0, 0, 0), Sum),
     print_sum(Sum),
     exit_status(Sum, Status),
@@ -153,11 +154,18 @@ is_named(Name, File) :-
     sub_atom(File, 0, _, _, Start),
     !.
 
-add_suite(suite(P1, F1, Skipped, _), sum(P0, F0, S0), sum(P, F, S)) :-
+add_suite(suite(_, P1, Failures, Skipped), sum(P0, F0, S0), sum(P, F, S)) :-
+    length(Failures, F1),
     length(Skipped, S1),
     P is P0+P1,
     F is F0+F1,
     S is S0+S1.
+
+%   Who sees only the end of what is printed learns what failed.
+
+print_failures(suite(Base, _, Failures, _)) :-
+    forall(member(Failure, Failures),
+           format('failed ~w ~w~n', [Base, Failure])).
 
 print_sum(sum(Passed, Failed, Skipped)) :-
     (   Skipped > 0
@@ -222,25 +230,25 @@ ended_job(Jobs, Job, Status) :-
         Status = timeout
     ).
 
-end_suite(Job, Status, suite(Passed, Failed, Skipped, Problems)) :-
+end_suite(Job, Status, Suite) :-
     Job = job(File, Mark, Log, Results, _, Start),
-    suite_results(Results, Status,
-                  suite(Passed, Failed0, Skipped, Problems0)),
+    file_base_name(File, Base),
+    suite_results(Results, Status, suite(Passed, Failed, Skipped, Problems0)),
     findall(Problem, late_problem(Status, Mark, Problem), Problems1),
     append(Problems0, Problems1, Problems),
-    length(Problems, Extra),
-    Failed is Failed0+Extra,
+    append(Failed, Problems, Failures),
+    Suite = suite(Base, Passed, Failures, Skipped),
     get_time(End),
     Seconds is End-Start,
-    report(File, suite(Passed, Failed, Skipped, Problems), Seconds, Log).
+    report(Suite, Problems, Seconds, Log).
 
 suite_results(File, _, Suite) :-
     exists_file(File),
     !,
     setup_call_cleanup(open(File, read, In), read(In, Suite), close(In)).
-suite_results(_, exit(0), suite(0, 0, [], ['gave no results'])) :-
+suite_results(_, exit(0), suite(0, [], [], ['gave no results'])) :-
     !.
-suite_results(_, _, suite(0, 0, [], [])).
+suite_results(_, _, suite(0, [], [], [])).
 
 late_problem(Status, _, Problem) :-
     Status \== exit(0),
@@ -258,9 +266,9 @@ late_problem(_, Mark, Problem) :-
                 *            REPORTS           *
                 *******************************/
 
-report(File, suite(Passed, Failed, Skipped, Problems), Seconds, Log) :-
-    file_base_name(File, Base),
+report(suite(Base, Passed, Failures, Skipped), Problems, Seconds, Log) :-
     format('~w~t~30|~t~d~36| passed~t~1f~52| s', [Base, Passed, Seconds]),
+    length(Failures, Failed),
     (   Failed > 0
     ->  format('   ~d FAILED', [Failed])
     ;   true

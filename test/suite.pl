@@ -5,8 +5,8 @@
     swipl test/suite.pl -- test/test_x.pl results
 
 loads the suite, runs it and writes what came of it to the file `results` as
-one term `suite(Passed, Failed, Skipped, Problems)`: two numbers, the list of
-skipped tests as Unit:Name, and atoms that say what else is wrong.  Started
+one term `suite(Passed, Failed, Skipped, Problems)`: a number, the lists of
+failed and of skipped tests as Unit:Name, and atoms that say what else is wrong.  Started
 by test/run.pl, one process for each suite.
 
 plunit keeps its results in dynamic predicates whose first three arguments
@@ -42,10 +42,10 @@ run_suite(File, Suite) :-
     load_suite(File, LoadProblems),
     missing(Packages),
     (   LoadProblems \== []
-    ->  Suite = suite(0, 0, [], LoadProblems)
+    ->  Suite = suite(0, [], [], LoadProblems)
     ;   Packages \== []
     ->  atomic_list_concat([all, of, it, without|Packages], ' ', Skipped),
-        Suite = suite(0, 0, [Skipped], [])
+        Suite = suite(0, [], [Skipped], [])
     ;   run_units,
         suite_results(Suite)
     ).
@@ -87,13 +87,13 @@ not_captured :-
 
 suite_results(suite(Passed, Failed, Skipped, Problems)) :-
     aggregate_all(count, result(passed, _, _, _), Passed),
-    aggregate_all(count, failed(_, _, _), Failed),
+    findall(Unit:Name, failed(Unit, Name), Failed),
     findall(Unit:Name, skipped(Unit, Name), Skipped),
     findall(Problem, not_run(Problem), Problems).
 
-failed(Unit, Name, Line) :-
+failed(Unit, Name) :-
     member(Kind, [failed, timeout, sto]),
-    result(Kind, Unit, Name, Line).
+    result(Kind, Unit, Name, _).
 
 result(Kind, Unit, Name, Line) :-
     current_predicate(plunit:Kind/Arity),
