@@ -36,12 +36,12 @@ lasts(Chi0, Found, Visited0, Hops) :-
 
 :- begin_tests(mobility_resource).
 
-test(reward_by_hand, Chi =:= 3.0) :-            % 2 (1 + 1/2 * 10/10)
+test(equation_7_1, Chi =:= 3.0) :-            % 2 (1 + 1/2 * 10/10)
     rewarded(2, 0.5, 10, 0, Chi).
 test(reward_is_less_when_less_is_needed) :-     % 2 (1 + 1/2 * 1/10)
     rewarded(2, 0.5, 10, 9, Chi),
     close_to(Chi, 2.1).
-test(penalty_by_hand) :-                        % 2 (1 - 1/2 * 2/(2 + 6))
+test(equation_7_2) :-                        % 2 (1 - 1/2 * 2/(2 + 6))
     penalised(2, 0.5, 2, 10, 4, Chi),
     close_to(Chi, 1.75).
 test(penalty_decrements_and_is_above_zero,
@@ -57,12 +57,12 @@ test(decay_at_the_joint_is_a_fifth) :-          % tan(pi/4) = 1
 test(decay_is_slow_in_a_large_network) :-
     decayed(1, 100, 0, 5, Chi),
     close_to(Chi, 0.9939571).                   % 1 - tan(pi/104)/5
-test(decay_by_hand) :-
+test(equation_7_3) :-
     decayed(1, 8, 0, 5, Chi),
     close_to(Chi, 0.9464102).                   % 1 - tan(15 degrees)/5
 test(first_search_on_new_hosts_lasts_31_hops, Hops == 31) :-
     lasts(10, 0, 1, Hops).
-test(restart, [ forall(member(Found-Chi,
+test(equation_7_4, [ forall(member(Found-Chi,
                               [10-0.028, 30-0.050, 100-0.100])) ]) :-
     restarted(Found, 5, 0.01, Chi0),
     abs(Chi0 - Chi) < 0.0005.
@@ -71,19 +71,19 @@ test(restart_lasts_one_hop_more_than_robots_are_known,
        Hops =:= Found + 1 ]) :-
     restarted(Found, 5, 0.01, Chi),
     lasts(Chi, Found, 0, Hops).
-test(reaches_and_binary_intervals) :-
-    reach_time(30, 0.5, Theta),
-    Theta =:= 15.0,
-    interval(Theta, 1, 500, 0.5, Middle),
+test(equation_7_5) :-
+    interval(15, 1, 500, 0.5, Middle),
     Middle =:= 30.0,                            % 15 + 30/2
-    interval(Theta, 2, 500, 1.0, Longest),
+    interval(15, 2, 500, 1.0, Longest),
     Longest =:= 75.0,                           % 15 + 60
-    interval(Theta, 3, 500, 0.0, Shortest),
+    interval(15, 3, 500, 0.0, Shortest),
     Shortest =:= 15.0.
+test(equation_7_6, Theta =:= 15.0) :-
+    reach_time(30, 0.5, Theta).
 test(intervals_are_bounded, [ forall(member(Count, [6, 60, 5000])),
                               Interval =:= 515.0 ]) :-
     interval(15, Count, 500, 1.0, Interval).
-test(constant_back_off, Thetas == [10, 10, 70]) :-
+test(equation_7_7, Thetas == [10, 10, 70]) :-
     maplist([Bids, Theta]>>bid_time(Bids, 10, Theta), [0, 1, 7], Thetas).
 
 :- end_tests(mobility_resource).

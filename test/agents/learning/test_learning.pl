@@ -24,11 +24,11 @@ close_to(X, Y) :-
 
 :- begin_tests(learning_equations).
 
-test(weight_of_a_bag, Pi =:= 6.5) :-    % 4.1
+test(equation_4_1, Pi =:= 6.5) :-
     bag_weight([a-1, b-2.5, c-3], Pi).
 test(weight_of_an_empty_bag, Pi =:= 0) :-
     bag_weight([], Pi).
-test(a_hop_with_a_bag, true(close_to(Rho, 1.353352832))) :- % 4.2
+test(equation_4_2, true(close_to(Rho, 1.353352832))) :-
     migration_penalty(10, 2, 10, Rho).
 test(a_hop_with_an_empty_bag, true(close_to(Rho, 9.0))) :-
     migration_penalty(10, 0, 10, Rho).
@@ -38,7 +38,7 @@ test(a_heavy_bag_takes_it_all, Rho =:= 0) :-
     migration_penalty(10, 5000, 10, Rho).
 test(hops_of_an_empty_bag, Hops == 22) :-
     hops(10, 0, Hops).
-test(what_is_gained, true(close_to(Rho, 4.5))) :- % 4.3, 4.4
+test(equation_4_3_and_4_4, true(close_to(Rho, 4.5))) :-
     migration_reward(2, 4, 6, 0.5, 10, Rho).
 test(never_above_the_maximum, Rho =:= 10) :-
     migration_reward(9, 4, 6, 0.5, 10, Rho).
@@ -46,9 +46,9 @@ test(the_first_gain_is_a_doubling, true(close_to(Rho, 3.5))) :-
     migration_reward(1.5, 0, 0.01, 0.2, 10, Rho).
 test(initial_potential, Xi =:= 10) :-
     initial_potential(2, 3, 2, Xi).
-test(an_action_costs, Xi =:= 2.5) :-    % 4.5
+test(equation_4_5, Xi =:= 2.5) :-
     action_cost(4, 1.5, Xi).
-test(a_positive_feedback_gives, Xi =:= 4.5) :- % 4.6
+test(equation_4_6, Xi =:= 4.5) :-
     action_reward(4, 0.5, Xi).
 
 hops(Rho, Hops, Hops) :-
@@ -112,7 +112,7 @@ moves(Acts, Count, Count, Acts).
 
 :- begin_tests(learner).
 
-test(all_states_in_turn,
+test(algorithm_1,
      Acts == [ send(t, execute([], 3)),
                log(executed(1, 0, 1, unreached)), moves(22),
                send(t, execute([a], 4)),

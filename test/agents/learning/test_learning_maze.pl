@@ -130,7 +130,7 @@ test(cells_of_one_light_do_not_without_signature,
      [ setup(maze([signature-false])), cleanup(maze([])) ]) :-
     sensed(at(1, 2, up), sv(Light, 0, up, 0)),
     sensed(at(3, 4, up), sv(Light, 0, up, 0)).
-test(gain_of_an_action,                 % 4.7, of the light
+test(equation_4_7,                      % of the light
      true(close_to(Weight, 25))) :-
     sensed(at(0, 2, up), Vector0),
     sensed(at(0, 4, right), Vector),

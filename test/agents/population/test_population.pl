@@ -26,11 +26,11 @@ charged(Resource0, Pressure, Reward, Resource) :-
 
 :- begin_tests(resource).
 
-test(pressure, [ forall(member(Length-Pressure,
+test(equation_6_1, [ forall(member(Length-Pressure,
                                [0-4, 1-3, 3-1, 4-0, 5-0, 9-0])),
                  P =:= Pressure ]) :-
     pressure(4, Length, P).
-test(clones, [ forall(member(R-Pressure-Resource-Count,
+test(equation_6_2, [ forall(member(R-Pressure-Resource-Count,
                              [ round-3-10-0, floor-3-10-0,      % 0.3
                                round-3-25.2-1, floor-3-25.2-0,  % 0.756
                                round-1-50-1, floor-1-50-0,      % 0.5
@@ -39,7 +39,7 @@ test(clones, [ forall(member(R-Pressure-Resource-Count,
                                round-3-0-0, floor-2-50-1 ])),
                C =:= Count ]) :-
     clones(R, Pressure, Resource, 100, C).
-test(conferred, R-C == 25-2) :-
+test(equation_6_3, R-C == 25-2) :-
     conferred(35, 2, 5, R, C).
 test(as_much_is_left_as_is_given, R-C == 10-1) :-
     conferred(20, 1, 10, R, C).
@@ -51,7 +51,7 @@ test(none_to_make, R-C == 35-0) :-
     conferred(35, 0, 10, R, C).
 test(poor_and_none_to_make, R-C == 3-0) :-
     conferred(3, 0, 10, R, C).
-test(pressure_above_one_by_hand) :-
+test(equation_6_4) :-
     charged(10, 3, 0, R),
     close_to(R, 10.1947734041),         % 10 + 0.1 exp(2/3)
     charged(10, 2, 0, R2),
@@ -71,7 +71,7 @@ test(reward_by_hand) :-
     close_to(R, 25.1947734041).
 test(no_more_than_the_maximum, R =:= 100) :-
     charged(95, 3, 1, R).
-test(lifetime, L1-L2 == 17-10) :-
+test(equation_6_5, L1-L2 == 17-10) :-
     prolonged(10, 1, 7, L1),
     prolonged(10, 0, 7, L2).
 test(no_end_no_prolongation, L == inf) :-

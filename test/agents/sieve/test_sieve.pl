@@ -31,16 +31,21 @@ bits(Name, Bits) :-
 %   Gamma-[Antigen-Xi, ...].
 
 gammas(Reading, Antigen, Pairs, Gammas) :-
+    met(Reading, Antigen, 0.5-0.5, Pairs, Gammas).
+
+%   met(+Reading, +Antigen, +Constants, +Cells, -Gammas): Constants are kt-ku.
+
+met(Reading, Antigen, Constants, Pairs, Gammas) :-
     length(Pairs, N),
     numlist(1, N, Ids),
     maplist(cell, Ids, Pairs, Cells),
-    interaction(Reading, Antigen, 0.5-0.5, Cells, Gammas).
+    interaction(Reading, Antigen, Constants, Cells, Gammas).
 
 cell(Id, Gamma-Memory, cell(Id, Gamma, Memory)).
 
 :- begin_tests(sieve_bits).
 
-test(affinity_counts_bits_that_differ,
+test(equation_3_6,                      % section 3.6 has the third
      [ forall(member(A-P-Psi, ['00000'-'11111'-5, '00000'-'11110'-4,
                                '00011'-'11111'-3, '10101'-'01000'-4,
                                '10101'-'10101'-0])),
@@ -48,7 +53,7 @@ test(affinity_counts_bits_that_differ,
     bits(A, Antigen),
     bits(P, Antibody),
     affinity(Antigen, Antibody, Found).
-test(feedback_of_the_generic_antibody, Xis == [30, 31, 29]) :-
+test(feedbacks_of_section_3_6, Xis == [30, 31, 29]) :-
     bits('11110', Antibody),
     findall(Xi,
             ( member(A, ['00000', '00001', '00011']), bits(A, Antigen),
@@ -79,12 +84,12 @@ draw(_, Drawn-Chance0, [Antibody|Drawn]-Chance) :-
 
 :- begin_tests(sieve_equations).
 
-test(squashed, [ forall(member(Xi-S, [31-0.9959, 30-0.9933, 29-0.9890,
+test(equation_3_2, [ forall(member(Xi-S, [31-0.9959, 30-0.9933, 29-0.9890,
                                       27-0.9707, 23-0.8176, 20-0.5,
                                       16-0.1192, 0-0.0])),
                  true(close_to(Squashed, S)) ]) :-
     squashed(Xi, 10, 0.5, Squashed).
-test(a_winner_is_stimulated, Gamma =:= 1.75) :-
+test(equation_3_1, Gamma =:= 1.75) :-
     stimulated(1.25, 0.5, Gamma).
 test(memory_keeps_the_last_feedback, Memory == [b-3, a-1]) :-
     learnt([a-1, b-2], b, 3, Memory).
@@ -94,8 +99,12 @@ test(better_one_is_stimulated_worse_one_suppressed,
 test(effect_is_that_of_the_other_potential, Gammas == [1.3, 0.1]) :-
     gammas(current, a, [1.0-[a-31], 0.6-[a-30]], Gammas0),
     maplist(rounded, Gammas0, Gammas).
-test(three_agents_by_hand, Gammas == [2.0, 1.0, 0.0]) :-
+test(equation_3_3, Gammas == [2.0, 1.0, 0.0]) :-
     gammas(current, a, [1.0-[a-31], 1.0-[a-30], 1.0-[a-16]], Gammas).
+test(equation_3_4, Gammas == [1.2, 0.8]) :-     % 1 + 0.5 * 0.8/(3 - 1)
+    met(current, a, 0.5-0, [1.0-[a-31], 0.8-[a-30, b-1, c-1]], Gammas).
+test(equation_3_5, Gammas == [1.0, 0.5]) :-     % 0.75 - 0.5 * 1/(3 - 1)
+    met(current, a, 0-0.5, [1.0-[a-31, b-1, c-1], 0.75-[a-30]], Gammas).
 test(equals_do_nothing, Gammas == [1.0, 1.0]) :-
     gammas(current, a, [1.0-[a-30], 1.0-[a-30]], Gammas).
 test(who_never_met_the_antigen_is_left_alone, Gammas == [1.0, 1.0]) :-

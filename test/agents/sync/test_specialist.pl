@@ -25,21 +25,18 @@ close_to(X, Y) :-
 
 :- begin_tests(stimulation).
 
-test(first_value_is_kept, H == [7]) :-
-    remembered(5, [], 7, H).
-test(larger_value_is_kept, H == [7, 8]) :-
-    remembered(5, [7], 8, H).
-test(smaller_value_is_not, H == [7, 8]) :-
-    remembered(5, [7, 8], 3, H).
-test(equal_value_is_not, H == [7, 8]) :-
-    remembered(5, [7, 8], 8, H).
+test(equation_6_7, [ forall(member(H0-D-Kept,
+                                   [ []-7-[7], [7]-8-[7, 8],
+                                     [7, 8]-3-[7, 8], [7, 8]-8-[7, 8] ])),
+                     H == Kept ]) :-
+    remembered(5, H0, D, H).
 test(window_slides, H == [2, 3, 4]) :-
     remembered(3, [1, 2, 3], 4, H).
 test(window_of_one, H == [4]) :-
     remembered(1, [1], 4, H).
 test(window_of_none, H == []) :-
     remembered(0, [], 4, H).
-test(normalised) :-
+test(equation_6_8) :-
     normalised([4, 6, 12], Values),
     maplist(close_to, Values, [0, 0.25, 1]).
 test(no_history_no_dispersion, Sigma =:= 0) :-
@@ -52,18 +49,17 @@ test(two_values, Sigma =:= 0.5) :-
     dispersion(1, [3, 9], Sigma).
 test(kappa_scales, Sigma =:= 1.5) :-
     dispersion(3, [3, 9], Sigma).
-test(full_window_by_hand) :-            % 0, 1/4, 1/2, 3/4, 1
+test(equation_6_9_and_6_10) :-          % of 0, 1/4, 1/2, 3/4, 1
     dispersion(1, [1, 2, 3, 4, 5], Sigma),
     close_to(Sigma, 0.3535533906).      % sqrt(1/8)
 test(three_values_by_hand) :-           % mean 5/12
     dispersion(1, [4, 6, 12], Sigma),
     close_to(Sigma, 0.4249182927).      % sqrt(13/72)
-test(positive_by_hand) :-
-    stimulated(positive, 100, 0.5, 0, Psi),
-    close_to(Psi, 60.65306597).         % 100 exp(-1/2)
-test(negative_by_hand) :-
-    stimulated(negative, 100, 0.5, 0, Psi),
-    close_to(Psi, 139.34693403).        % 100 (2 - exp(-1/2))
+test(equation_6_6) :-
+    stimulated(positive, 100, 0.5, 0, Psi1),
+    close_to(Psi1, 60.65306597),        % 100 exp(-1/2)
+    stimulated(negative, 100, 0.5, 0, Psi2),
+    close_to(Psi2, 139.34693403).       % 100 (2 - exp(-1/2))
 test(no_dispersion_no_change, Psi1-Psi2 =:= 80-80) :-
     stimulated(positive, 80, 0, 0.01, Psi1),
     stimulated(negative, 80, 0, 0.01, Psi2).

@@ -39,18 +39,21 @@ close_to(X, Y) :-
 
 :- begin_tests(potential).
 
+test(equation_5_1, Ps == [100, 75, 45, 0]) :-
+    increase(95, 15, 100, P1),
+    increase(60, 15, 100, P2),
+    decrease(60, 15, P3),
+    decrease(3, 3.1, P4),
+    Ps = [P1, P2, P3, P4].
+test(equation_5_2, [ forall(member(Bias-Size, [0-6, 0.5-6.5])),
+                     Theta =:= Size ]) :-       % (15 + 9)/2 * 50/100
+    theta([15, 9], 50, 100, Bias, Theta).
 test(theta_of_a_full_potential, Theta =:= 15) :-
     theta([15], 100, 100, 0, Theta).
-test(theta_scales_with_potential, Theta =:= 6) :-
-    theta([15, 9], 50, 100, 0, Theta).
 test(theta_averages_what_is_there, Theta =:= 5.5) :-
     theta([2, 4, 9], 100, 100, 0.5, Theta).
 test(bias_is_outside_the_product, Theta =:= 0.8) :-
     theta([15], 0, 100, 0.8, Theta).
-test(no_more_than_the_maximum, P =:= 100) :-
-    increase(95, 15, 100, P).
-test(no_less_than_zero, P =:= 0) :-
-    decrease(3, 3.1, P).
 test(window_grows, H == [1, 2, 3]) :-
     slide(3, [1, 2], 3, H).
 test(window_slides, H == [2, 3, 4]) :-
@@ -212,7 +215,7 @@ test(is_penalised_where_the_task_is_completed) :-
     did(Acts),
     Acts == [log(penalty(1, 84.5, 15.5))],
     drive(1, 84.5, [15, 15.5]).
-test(gives_up_what_is_done_everywhere, Moves == 111) :-
+test(algorithm_2, Moves == 111) :-      % gives up what is done everywhere
     host_with([1, 2, 3], [], Tuples),
     traveller([], Tuples),
     fake_agent:main,
@@ -259,7 +262,7 @@ potentials(Ps) :-
 
 :- begin_tests(healing).
 
-test(services_an_earlier_task_it_finds_missing) :-
+test(algorithm_2_line_29) :-            % as in Figure 5.3
     host_with([1, 3], [], Tuples),
     traveller([], Tuples),
     exhaust(1),

@@ -36,7 +36,7 @@ test(first_agents_are_in_the_order_of_tasks,
      Agents == ['agent1.x.1@b', 'agent2.x.2@a']) :-
     log(Events),
     first_agents(Events, Agents).
-test(rows, Rows == [ [dormant, dormant], [excited, dormant],
+test(table_6_1, Rows == [ [dormant, dormant], [excited, dormant],
                      [active, dormant], [active, excited],
                      [active, active] ]) :-
     rows(Rows).

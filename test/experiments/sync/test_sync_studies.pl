@@ -37,6 +37,16 @@ test(best_delta_of_the_topology, Deltas == [0.2, 0.8, 0.2, 0.5]) :-
     study_cases(Study, [], Cases),
     findall(Delta, ( member(Case, Cases), Delta = Case.delta ), Deltas).
 
+test(table_5_1, Idle == [star_bus-66, ring-32, tree-142, grid-25]) :-
+    sync_study(figure_5_5, Study),
+    findall(Topology-Seconds,
+            study_call(Study, printed(idle, [topology=Topology], Seconds)),
+            Idle).
+test(table_5_2, Slowest == [1.4, 2.3, 3.0, 4.1, 5.2, 8.0]) :-
+    sync_study(figure_5_8, Study),
+    study_cases(Study, [], [Case]),
+    findall(To, member(_-To, Case.task_time), Slowest).
+
 :- end_tests(studies).
 
                 /*******************************
