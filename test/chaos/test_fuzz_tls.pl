@@ -10,7 +10,7 @@
 
 :- begin_tests(nonsense_over_tls_does_no_harm).
 
-test(some_dozens, Faults == []) :-
-    no_leaks(fuzz([count(120), seed(1), tls(true)], Faults)).
+test(some_hundreds, Faults == []) :-
+    no_leaks(fuzz([count(400), seed(1), tls(true)], Faults)).
 
 :- end_tests(nonsense_over_tls_does_no_harm).
