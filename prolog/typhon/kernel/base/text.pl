@@ -17,8 +17,7 @@ local to a thread and are put back.
 */
 
 :- autoload(library(memfile), [free_memory_file/1, memory_file_to_string/3,
-                                 new_memory_file/1, open_memory_file/3,
-                                 open_memory_file/4, size_memory_file/3]).
+                                 new_memory_file/1, open_memory_file/4]).
 
 % Terms are read in a module of their own: it inherits from system, so
 % that operators in user do not reach it, and has system's switched off.
@@ -41,11 +40,11 @@ bare_syntax :-
 
 term_text(Term, Bytes) :-
     text_options(Options),
-    text_bytes(Term, Options, Bytes0, Characters),
-    (   string_length(Bytes0, Characters)
-    ->  Bytes = Bytes0
+    plain_flags(with_output_to(string(Text), write_term(Term, Options))),
+    (   is_ascii(Text)
+    ->  Bytes = Text
     ;   portable_options(Portable),
-        text_bytes(Term, [fullstop(true)|Portable], Bytes, _)
+        portable_bytes(Term, [fullstop(true)|Portable], Bytes)
     ).
 
 text_options([ quoted(true), ignore_ops(true), fullstop(true),
@@ -55,17 +54,26 @@ portable_options([ quoted(true), ignore_ops(true), numbervars(false),
                    module(typhon_text_syntax),
                    portray_goal(typhon_text:portable) ]).
 
-text_bytes(Term, Options, Bytes, Characters) :-
+portable_bytes(Term, Options, Bytes) :-
     setup_call_cleanup(
         new_memory_file(File),
         ( setup_call_cleanup(
               open_memory_file(File, write, Out, [encoding(utf8)]),
               plain_flags(write_term(Out, Term, Options)),
               close(Out)),
-          memory_file_to_string(File, Bytes, octet),
-          size_memory_file(File, Characters, utf8)
+          memory_file_to_string(File, Bytes, octet)
         ),
         free_memory_file(File)).
+
+%   All other characters are several bytes in UTF-8, as which a null stream
+%   counts them.
+
+is_ascii(Text) :-
+    setup_call_cleanup(
+        open_null_stream(Null),
+        ( write(Null, Text), byte_count(Null, Bytes) ),
+        close(Null)),
+    string_length(Text, Bytes).
 
 %!  portable(+Term, +Options) is semidet.
 %
@@ -137,18 +145,27 @@ write_arguments([Arg|Args], Options) :-
 %   @error syntax_error(Message)
 
 text_term(Bytes, Term) :-
+    (   is_ascii(Bytes)
+    ->  setup_call_cleanup(
+            open_string(Bytes, In),
+            plain_flags(read_text(In, Term)),
+            close(In))
+    ;   setup_call_cleanup(
+            new_memory_file(File),
+            ( file_bytes(File, Bytes),
+              setup_call_cleanup(
+                  open_memory_file(File, read, In, [encoding(utf8)]),
+                  plain_flags(read_text(In, Term)),
+                  close(In))
+            ),
+            free_memory_file(File))
+    ).
+
+file_bytes(File, Bytes) :-
     setup_call_cleanup(
-        new_memory_file(File),
-        ( setup_call_cleanup(
-              open_memory_file(File, write, Out, [encoding(octet)]),
-              write(Out, Bytes),
-              close(Out)),
-          setup_call_cleanup(
-              open_memory_file(File, read, In, [encoding(utf8)]),
-              plain_flags(read_text(In, Term)),
-              close(In))
-        ),
-        free_memory_file(File)).
+        open_memory_file(File, write, Out, [encoding(octet)]),
+        write(Out, Bytes),
+        close(Out)).
 
 read_text(In, Term) :-
     syntax(Options),
@@ -170,21 +187,21 @@ plain_flag(rational_syntax, compatibility).
 
 plain_flags(Goal) :-
     long_integers,
-    findall(Flag-Value,
-            ( plain_flag(Flag, Plain),
-              current_prolog_flag(Flag, Value),
-              Value \== Plain
-            ),
-            Changed),
-    (   Changed == []
-    ->  call(Goal)
-    ;   setup_call_cleanup(
+    (   changed_flag(_, _)
+    ->  findall(Flag-Value, changed_flag(Flag, Value), Changed),
+        setup_call_cleanup(
             forall(( member(Flag-_, Changed), plain_flag(Flag, Plain) ),
                    set_prolog_flag(Flag, Plain)),
             call(Goal),
             forall(member(Flag-Value, Changed),
                    set_prolog_flag(Flag, Value)))
+    ;   call(Goal)
     ).
+
+changed_flag(Flag, Value) :-
+    plain_flag(Flag, Plain),
+    current_prolog_flag(Flag, Value),
+    Value \== Plain.
 
 %   In threads of 9.2 none longer than 0 bytes can be written.
 

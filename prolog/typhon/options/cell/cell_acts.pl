@@ -73,15 +73,15 @@ allowed(Module, Head, PI, Clauses, Allowed) :-
 
 %!  cell_answer(+Goal, +Kind, +Host, +Agent, -Answer) is det.
 %
-%   The agent whose turn it is calls Goal, Kind being `acts`, or `changes` if it
-%   may change its state.
+%   The agent whose turn it is calls Goal, Kind being as of cell_word/2.  For
+%   those that have no answer Answer has no solutions.
 
 cell_answer(Goal, Kind, Host, agent(Id, _, _, _, _), Answer) :-
     callable(Goal),
     functor(Goal, Name, Arity),
     (   may_ask(Kind, Host, Name/Arity, Module),
         arguments_allowed(Goal)
-    ->  catch(solutions(Goal, Module, Answer), error(Formal, Where),
+    ->  catch(solutions(Kind, Goal, Module, Answer), error(Formal, Where),
               raised(error(Formal, Where), Answer))
     ;   endpoint_address(Own),
         endpoint_own_proof(Proof),
@@ -95,7 +95,10 @@ raised(Error, raised(Portable)) :-
 
 most_solutions(10 000).
 
-solutions(Goal, Module, solutions(Goals)) :-
+solutions(tells, Goal, Module, solutions([])) :-
+    !,
+    ignore(Module:Goal).
+solutions(_, Goal, Module, solutions(Goals)) :-
     most_solutions(Most),
     More is Most+1,
     findall(Goal, limit(More, Module:Goal), Goals),
@@ -110,7 +113,11 @@ solutions(Goal, Module, solutions(Goals)) :-
 may_ask(Kind, _, PI, typhon_vocabulary) :-
     cell_word(Kind0, PI),
     !,
-    ( Kind0 == fixed -> Kind = acts ; Kind = Kind0 ).
+    (   Kind0 == Kind
+    ->  true
+    ;   Kind == acts,
+        memberchk(Kind0, [fixed,tells])
+    ).
 may_ask(acts, Host, PI, Place) :-
     host(Host, _, Place),
     place_service(Place, PI),

@@ -35,7 +35,10 @@ The gatekeeper sends
 and the cell sends
 
     ready                       once
-    request(N, Goal)            a word of the agent, in the turn N
+    told(N, Goals)              words of the agent, in the turn N, that have no
+                                answer.  If one raises an error the next answer
+                                says so, or the turn ends with that
+    request(N, Goal)            a word that has an answer
     changing(N, Goal, Changes)  the same for words that change the state; the
                                 agent has made these Changes before
     lacks(N)                    the program or the state of the turn N
@@ -103,8 +106,8 @@ frame_body(In, Length, Bytes) :-
 %!  cell_word(?Kind, ?PI) is nondet.
 %
 %   What an agent in a cell asks the gatekeeper: Kind is `fixed` if the answer is
-%   the same for a whole turn, and goes into the cell with it; `acts`; or
-%   `changes` if that changes the state of the agent.
+%   the same for a whole turn, and goes into the cell with it; `tells` if there
+%   is no answer; `acts`; or `changes` if that changes the state of the agent.
 
 cell_word(fixed, self/1).
 cell_word(fixed, here/1).
@@ -116,8 +119,11 @@ cell_word(acts, neighbours/1).
 cell_word(acts, neighbour/2).
 cell_word(acts, host_load/1).
 cell_word(acts, next_host/2).
-cell_word(acts, send/2).
-cell_word(acts, leave/1).
+cell_word(tells, send/2).
+cell_word(tells, leave/1).
+cell_word(tells, log/1).
+cell_word(tells, result/1).
+cell_word(tells, message_failed/2).
 cell_word(acts, leave_new/1).
 cell_word(acts, sense/1).
 cell_word(acts, take/1).
@@ -125,12 +131,13 @@ cell_word(acts, emit/1).
 cell_word(acts, emit/2).
 cell_word(acts, withdraw/1).
 cell_word(acts, pheromone/3).
-cell_word(acts, log/1).
-cell_word(acts, result/1).
+cell_word(acts, create/3).
+cell_word(acts, monitor/1).
+cell_word(acts, monitor/2).
+cell_word(acts, unmonitor/1).
 cell_word(acts, enter/1).
 cell_word(acts, seal/3).
 cell_word(acts, unseal/2).
-cell_word(acts, message_failed/2).
 cell_word(changes, attach/1).
 cell_word(changes, detach/1).
 

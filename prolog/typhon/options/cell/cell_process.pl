@@ -96,6 +96,8 @@ launch(Filter, process(Pid, In, Out, Err)) :-
 
 program('set_prolog_flag(gc_thread,false),\c
          use_module(\'/typhon/typhon/options/migration\',[]),\c
+         use_module(\'/typhon/typhon/options/identity\',[]),\c
+         use_module(\'/typhon/typhon/options/supervision\',[]),\c
          use_module(\'/typhon/typhon/options/cell/inside\'),\c
          typhon_cell_inside:cell_main').
 

@@ -1,5 +1,5 @@
 :- module(typhon_gatekeeper, []).
-:- use_module(library(apply), [maplist/2]).
+:- use_module(library(apply), [foldl/4, maplist/2]).
 :- use_module(library(error), [permission_error/3]).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(readutil), [read_file_to_string/3]).
@@ -208,7 +208,7 @@ in_cell(Cell, Agent, Goals, Result) :-
     flag(typhon_cell_turn, N, N+1),
     catch(( cell_bound(Cell, Agent),
             turn_sent(Cell, N, Agent, Goals, new),
-            turn_heard(Cell, N, Agent, Goals, Result) ),
+            turn_heard(Cell, N, Agent, Goals, well, Result) ),
           error(Formal, Context),
           broken(Formal, Context, Result)).
 
@@ -287,13 +287,16 @@ known(Id, Host, Life, Known) :-
                 *       WHAT A CELL SAYS       *
                 *******************************/
 
-turn_heard(Cell, N, Agent, Goals, Result) :-
+%   turn_heard(+Cell, +N, +Agent, +Goals, +Told, -Result): Told is raised(Error)
+%   if something that has no answer has raised Error, else `well`.
+
+turn_heard(Cell, N, Agent, Goals, Told, Result) :-
     cell_streams(Cell, In, _),
     cell_frame_read(In, Frame),
     (   is_of_turn(Frame, N),
-        heard(Frame, N, Cell, Agent, Goals, Next)
-    ->  (   Next == more
-        ->  turn_heard(Cell, N, Agent, Goals, Result)
+        heard(Frame, Cell, Agent, Goals, Told, Next)
+    ->  (   Next = more(Told1)
+        ->  turn_heard(Cell, N, Agent, Goals, Told1, Result)
         ;   Result = Next
         )
     ;   cell_violation(frame)
@@ -308,25 +311,28 @@ is_of_turn(Frame, N) :-
     N0 == N.
 
 heard(end_of_file, _, _, _, _, broken(ended)).
-heard(request(N, Goal), N, Cell, Agent, _, more) :-
-    agent(Agent, Host, _),
-    cell_answer(Goal, acts, Host, Agent, Answer),
+heard(told(_, Goals), _, Agent, _, Told0, more(Told)) :-
+    is_list(Goals),
+    foldl(told(Agent), Goals, Told0, Told).
+heard(request(N, Goal), Cell, Agent, _, Told, more(well)) :-
+    answered(Told, Goal, acts, Agent, Answer),
     send(Cell, answer(N, Answer)).
-heard(changing(N, Goal, Changes), N, Cell, Agent, _, more) :-
+heard(changing(N, Goal, Changes), Cell, Agent, _, Told, more(well)) :-
     agent(Agent, Host, Module),
     cell_changes_made(Changes, Host, Module),
-    cell_answer(Goal, changes, Host, Agent, Answer),
+    answered(Told, Goal, changes, Agent, Answer),
     agent_state(Module, State0),
     cell_state(State0, State),
     send(Cell, answer(N, changed(State, Answer))).
-heard(lacks(N), N, Cell, Agent, Goals, more) :-
+heard(lacks(N), Cell, Agent, Goals, well, more(well)) :-
     \+ cell_knows(Cell, again, N),
     cell_learns(Cell, again, N),
     turn_sent(Cell, N, Agent, Goals, again).
-heard(outcome(N, Outcome, Note, Changes), N, Cell, Agent, _,
-      outcome(Outcome, Fault)) :-
+heard(outcome(_, Outcome, Note, Changes), Cell, Agent, _, Told, Result) :-
     is_outcome(Outcome),
     note_fault(Note, Outcome, Fault),
+    ( Told = raised(_) -> Result = outcome(Told, none)
+    ; Result = outcome(Outcome, Fault) ),
     Agent = agent(Id, Host, Module, _, _),
     cell_changes_made(Changes, Host, Module),
     (   Outcome = raised(_)             % it may not have sent its changes
@@ -334,6 +340,17 @@ heard(outcome(N, Outcome, Note, Changes), N, Cell, Agent, _,
     ;   state_mark(Module, Mark),
         cell_learns(Cell, Id, Module-Mark)
     ).
+
+told(Agent, Goal, Told0, Told) :-
+    answered(Told0, Goal, tells, Agent, Answer),
+    ( Answer = raised(_) -> Told = Answer ; Told = well ).
+
+%   After an error nothing is done until the agent has heard of it.
+
+answered(well, Goal, Kind, Agent, Answer) :-
+    agent(Agent, Host, _),
+    cell_answer(Goal, Kind, Host, Agent, Answer).
+answered(raised(Error), _, _, _, raised(Error)).
 
 agent(agent(_, Host, Module, _, _), Host, Module).
 

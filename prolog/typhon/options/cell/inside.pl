@@ -27,7 +27,8 @@ its rules may do here whatever the system lets the process do.
 
 :- dynamic
     stands/2,                   % Id, Module: agents whose state is here
-    offered/1.                  % PI: what the place of the host offers
+    offered/1,                  % PI: what the place of the host offers
+    told/1.                     % Goal: an act of this turn, not sent yet
 
 %   cell_main
 %
@@ -138,7 +139,9 @@ turn(N, Id, Known, Goals, Module, Out) :-
     agent_code(Module, Program),
     state_mark(Module, Mark),
     nb_setval(cell_mark, Mark),
+    nb_setval(cell_untold, told(0, 0)),
     run(context(Program, Module), Goals, Outcome, Note),
+    tell_all(N, 0),
     nb_getval(cell_mark, Since),
     state_changes(Module, Since, Changes),
     catch(cell_frame_write(Out, outcome(N, Outcome, Note, Changes)),
@@ -207,21 +210,81 @@ ask(Goal) :-
     b_getval(cell_turn, turn(N, Known, Module)),
     functor(Goal, Name, Arity),
     ( cell_word(Kind, Name/Arity) -> true ; Kind = acts ),
-    (   Kind == fixed
-    ->  memberchk(Goal, Known)
-    ;   mobile_term(Goal),
-        asked(Kind, Goal, N, Module, Answer),
-        answered(Answer, Goal)
+    ask(Kind, Goal, N, Known, Module).
+
+ask(fixed, Goal, _, Known, _) :-
+    !,
+    memberchk(Goal, Known).
+ask(tells, Goal, N, _, _) :-
+    needs_no_answer(Goal),
+    nb_getval(cell_untold, told(Count, Since)),
+    most_told(_, Most),
+    Count < Most,
+    !,
+    mobile_term(Goal),
+    assertz(told(Goal)),
+    Count1 is Count+1,
+    nb_setval(cell_untold, told(Count1, Since)),
+    tell_some(N, Count1, Since).
+ask(Kind, Goal, N, _, Module) :-
+    mobile_term(Goal),
+    tell_all(N, 0),
+    asked(Kind, Goal, N, Module, Answer),
+    answered(Answer, Goal).
+
+%   most_told(-Batch, -Most): so many acts go in one frame; so many are under way
+%   at most, and the next waits for its answer, which says what went wrong.
+
+most_told(50, 500).
+
+%   The first after a while goes at once.
+
+tell_some(N, Count, Since) :-
+    get_time(Now),
+    most_told(Batch, _),
+    (   Count mod Batch =\= 0,
+        Now-Since < 0.01
+    ->  true
+    ;   tell_all(N, Count)
     ).
 
-asked(Kind, Goal, N, Module, Answer) :-
+tell_all(N, Count) :-
+    findall(Goal, told(Goal), Goals),
+    (   Goals == []
+    ->  true
+    ;   retractall(told(_)),
+        nb_getval(cell_connection, connection(_, Out)),
+        cell_frame_write(Out, told(N, Goals))
+    ),
+    get_time(Now),
+    nb_setval(cell_untold, told(Count, Now)).
+
+%   What may raise an error that the agent could catch waits for its answer.
+
+needs_no_answer(Goal) :-
+    term_size(Goal, Cells),
+    Cells =< 1000,
+    (   Goal = send(To, _)
+    ->  atom(To)
+    ;   Goal = leave(Fact)
+    ->  callable(Fact)
+    ;   true
+    ).
+
+asked(changes, Goal, N, Module, Answer) :-
+    !,
     nb_getval(cell_connection, connection(In, Out)),
-    (   Kind == changes
-    ->  nb_getval(cell_mark, Mark),
-        state_changes(Module, Mark, Changes),
-        cell_frame_write(Out, changing(N, Goal, Changes)),
-        cell_frame_read(In, answer(N, changed(State, Answer))),
-        state_put(Module, State)
+    nb_getval(cell_mark, Mark),
+    state_changes(Module, Mark, Changes),
+    cell_frame_write(Out, changing(N, Goal, Changes)),
+    cell_frame_read(In, answer(N, changed(State, Answer))),
+    state_put(Module, State).
+asked(_, Goal, N, _, Answer) :-
+    nb_getval(cell_connection, connection(In, Out)),
+    cell_frame_write(Out, request(N, Goal)),
+    cell_frame_read(In, answer(N, Answer)).
+
+state_put(Module, State)
     ;   cell_frame_write(Out, request(N, Goal)),
         cell_frame_read(In, answer(N, Answer))
     ).

@@ -73,6 +73,9 @@ helper((sends(record(Term)) :-
 helper((sends(deep(N)) :-
            length(L, N), maplist(=('f('), L), atomics_to_string(L, Text),
            user:sends(text(Text)))).
+helper((sends(told(Goals)) :-
+           user:turn(N),
+           user:sends(frame(told(N, Goals))))).
 helper((sends(lacks(K)) :-
            user:turn(N),
            forall(between(1, K, _), user:sends(frame(lacks(N)))))).
@@ -178,6 +181,8 @@ test(no_frame_deceives_the_gatekeeper, Through == []) :-
     with_cell(through(frame, Through)).
 test(refused_requests_are_audited, Left == []) :-
     with_cell(unaudited(Left)).
+test(no_act_without_an_answer_passes_the_rules, Through == []) :-
+    with_cell(through(act, Through)).
 test(what_comes_after_the_outcome_ends_the_cell,
      [One,Next,After] = [ended(done), ended(lost(cell(violation(frame)))),
                          yes(true)]) :-
@@ -295,6 +300,14 @@ check(request, Name, test_ask(Goal, Answer), Expected) :-
     ;   Expected = yes(test_ask(_, Answer), as_expected(Expected0, Answer))
     ).
 
+check(act, Name, test_send(told([log(1),Goal,log(2)])),
+      ended(raised(error(permission_error(call, sandboxed, _), _)))) :-
+    request(Name, Goal, Expected),
+    refused(Refused),
+    Expected =@= Refused.
+check(act, 'an answer', test_send(told([sense(_)])),
+      ended(raised(error(permission_error(call, sandboxed, sense(_)), _)))).
+
 frame('no term', text("garbage("), violation(syntax_error(_))).
 frame('no end', bytes([0,0,0,9,0'a]), violation(_)).
 frame('longer than any', bytes([255,255,255,255]),
@@ -360,6 +373,9 @@ frame('an arity without end',
       outcome(done, none, [goal/100 000 000-[]]), violation(frame)).
 frame('a name that is none', outcome(done, none, ["goal"/1-[]]),
       violation(frame)).
+frame('acts that are no list', told(x), violation(frame)).
+frame('an act that is none', told([1]), violation(frame)).
+frame('an act that is a variable', told([_]), violation(frame)).
 frame('to lack what it has, again and again', lacks(3), violation(frame)).
 
                 /*******************************

@@ -60,6 +60,39 @@ test(messages_are_handled, Said == [hello(1),hello(2)]) :-
            agent_send(A, hello(1)), agent_send(A, hello(2)),
            result([ (main :- receive(_-ask(B)), send(B, tell), receive(_-Ss),
                              result(Ss)) ], A, Said) )).
+test(acts_without_an_answer_keep_their_order, Said-Sensed == Ns-done) :-
+    numlist(1, 1200, Ns),
+    cell(( result([ (main :- self(Me), leave(begun),
+                             forall(between(1, 1200, N), send(Me, N)),
+                             take(begun), all(1200, Ms), result(Ms)),
+                    all(0, []),
+                    (all(N, [M|Ms]) :- N > 0, receive(_-M), N1 is N-1,
+                                       all(N1, Ms)) ], Said),
+           outcome([(main :- leave(a), sense(a), log(a), take(a))], Sensed) )).
+test(they_are_done_before_the_agent_stops, Heard == slow) :-
+    cell(( create([(main :- receive(_-M), result(M))], A, [host(c)]),
+           create([ a(A), (main :- a(A), send(A, slow), sleep(60)) ], _,
+                  [host(c)]),
+           agent_result(A, Heard, 30) )).
+test(a_quota_ends_an_agent_that_only_sends,
+     Outcome = raised(error(resource_error(messages), _))) :-
+    with_hosts([c-[policy(guarded), cell(owner), quota([messages(5)])]],
+               outcome([(main :- self(Me), repeat,
+                                 catch(send(Me, x), _, true), fail)],
+                       Outcome)).
+test(an_error_that_the_agent_can_see_is_raised_at_once,
+     Formals == [type_error(callable, 1),
+                 permission_error(call, sandboxed, send(fipa(x), y))]) :-
+    cell(result([ (main :- findall(F, ( act(G), catch(G, error(F, _), true) ),
+                                   Fs), result(Fs)),
+                  act(leave(1)), act(send(fipa(x), y)) ], Formals)).
+test(agents_are_created_and_monitored, Down-Cells == done-1) :-
+    cell(( result([(main :- create(clauses([(:- agent(b, [])),
+                                            (main :- receive(_-end))]), B, []),
+                            monitor(B), send(B, end),
+                            receive(system-down(B, Outcome)),
+                            result(Outcome))], Down),
+           used_cells(Cells) )).
 test(rules_hold_in_the_cell,
      Formal == permission_error(call, sandboxed, shell(ls))) :-
     cell(result([ plan(shell(ls)),
