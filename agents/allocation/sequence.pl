@@ -10,11 +10,12 @@
               [ agent_dispose/1, agent_join/3, agent_property/2,
                 agent_send/2, remote/2 ]).
 :- use_module('../../prolog/typhon/kernel/base/options', [check_options/2]).
-:- use_module('../population/operator', [population_start/5]).
+:- use_module('../population/operator',
+              [population_join/2, population_leave/2, population_start/5]).
 :- use_module(operator, [allocation_stage/3, robot_status/2, task_allocate/4]).
 :- use_module(library(apply), [maplist/2]).
 :- use_module(library(error), [must_be/2]).
-:- use_module(library(lists), [last/2]).
+:- use_module(library(lists), [last/2, subtract/3]).
 :- use_module(library(option), [option/3]).
 
 /** <module> A sequence of tasks on the robots that an allocator has found
@@ -44,8 +45,8 @@ execute a sequence of tasks in step.  Then it lets them go.
 %     - allocation(Options), population(Options)
 %       For task_allocate/4 and population_start/5.
 %
-%   A robot that fails in the middle of the sequence is replaced for the
-%   task, but the sequence is not extended to the new one.
+%   A robot that fails in the middle of the sequence executes no more of it.
+%   The allocator finds another one, which executes the whole sequence.
 %
 %   @error domain_error(sequence_allocation_option, Option)
 %   @error errors of task_allocate/4 and population_start/5, after which
@@ -119,8 +120,25 @@ next(searching, Agent, plan(Name, Tasks, Options),
      executing(Robots, Agents)) :-
     held(Agent, Name, Robots),
     population_start(Name, Robots, Tasks, Options, Agents).
+next(executing(Robots0, Agents), Agent, plan(Name, _, _),
+     executing(Robots, Agents)) :-
+    allocation_stage(Agent, _, Held),
+    subtract(Robots0, Held, Lost),
+    Lost = [_|_],
+    !,
+    subtract(Robots0, Lost, Robots),
+    maplist(retire(Name), Lost).
+next(executing(Robots0, Agents), Agent, plan(Name, _, _),
+     executing(Robots, Agents)) :-
+    held(Agent, Name, Robots),
+    subtract(Robots, Robots0, New),
+    New = [_|_],
+    !,
+    maplist(population_join(Name), New).
 next(executing(Robots, Agents), Agent, plan(Name, Tasks, _),
      leaving(Robots)) :-
+    allocation_stage(Agent, executing, Held),
+    subtract(Held, Robots, []),
     last(Tasks, Last-_),
     maplist(completed(Name, Last), Robots),
     maplist(dismiss, Agents),
@@ -151,6 +169,11 @@ held(Agent, Name, Robots) :-
 
 executing(Agent, Name, Host) :-
     catch(robot_status(Host, executing(Agent, Name)), error(_, _), fail).
+
+%   Its host may be gone with it.
+
+retire(Name, Host) :-
+    catch(population_leave(Name, Host), error(_, _), true).
 
 completed(Name, Task, Host) :-
     catch(remote(Host, sense(task(Name, Task, completed, _))),

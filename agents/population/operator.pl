@@ -1,6 +1,8 @@
 :- module(population_operator,
-          [ population_start/5          % +Sequence, +Hosts, +Tasks, +Options,
+          [ population_start/5,         % +Sequence, +Hosts, +Tasks, +Options,
                                         % -Agents
+            population_join/2,          % +Sequence, +Host
+            population_leave/2          % +Sequence, +Host
           ]).
 :- use_module('../../prolog/typhon',
               [agent_create/3, agent_send/2, remote/2]).
@@ -68,6 +70,22 @@ furnish(Sequence, Host) :-
             ( sense(worker(Sequence, _))
             ; sense(task(Sequence, _, _, _)) ),
             agents(sync/worker), [sequence(Sequence)]).
+
+%!  population_join(+Sequence, +Host) is det.
+%!  population_leave(+Sequence, +Host) is det.
+%
+%   From now on Host has a part in Sequence, or none.  What it has completed
+%   stays so, and what it executes is not interrupted.  The agents find a host
+%   that joins late, and have it execute what it lacks, in order.
+%
+%   @error host_unreachable(Host), existence_error(host, Host)
+
+population_join(Sequence, Host) :-
+    furnish(Sequence, Host),
+    remote(Host, ignore(take(left(Sequence)))).
+
+population_leave(Sequence, Host) :-
+    remote(Host, ( sense(left(Sequence)) -> true ; leave(left(Sequence)) )).
 
 %   furnish(+Host, +What, :Present, +Program, +Facts): the agent itself says
 %   that it is there only when it has run; until then a mark does.

@@ -16,7 +16,8 @@
 
     On the hosts: task(Sequence, Task, Status, Time) says what was done, and
     worker(Sequence, Id) is there while the host's worker is free.  A host
-    that has no worker for the sequence has no part in it.
+    that has no worker for the sequence has no part in it, nor has one with
+    the tuple left(Sequence).
 */
 
 default(psi, 100).              % the action potential at the beginning
@@ -74,6 +75,7 @@ visit(0).
 
 takes_part :-
     sequence(Sequence),
+    \+ sense(left(Sequence)),
     (   sense(worker(Sequence, _))
     ->  true
     ;   sense(task(Sequence, _, _, _))

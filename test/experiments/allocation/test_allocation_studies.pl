@@ -17,6 +17,7 @@ name(figure_7_4).
 name(figure_7_5).
 name(beyond_integrated).
 name(beyond_urgent).
+name(beyond_replacement).
 
 %   texts(+Name, +World, +Held, -Texts): of the claims that hold, or do not,
 %   in a World made up of numbers: made(Name, World, Case, Measures).
@@ -56,6 +57,15 @@ made(beyond_integrated, thesis, _, ms{faulty:0, strangers:0, overlaps:0,
                                      disorder:0, both:0}).
 made(beyond_integrated, reverse, _, ms{faulty:1, strangers:1, overlaps:1,
                                       disorder:1, both:1}).
+made(beyond_replacement, thesis, Case, ms{replaced:R, faulty:0, disorder:0,
+                                         after:0, overlaps:0,
+                                         completed:300}) :-
+    R = Case.failures.
+made(beyond_replacement, reverse, Case, ms{replaced:R, faulty:1, disorder:1,
+                                          after:1, overlaps:1,
+                                          completed:T}) :-
+    R is Case.failures + 1,
+    T is 300*(Case.failures + 1).
 made(beyond_urgent, World, Case, Measures) :-
     urgent(World, Case.priority, Case.deadline, Measures).
 
@@ -125,7 +135,7 @@ test(each_may_fail, [forall(name(Name)), Holding == []]) :-
 
 :- begin_tests(allocation_cases).
 
-test(counts, Counts == [35, 15, 6, 1, 5]) :-
+test(counts, Counts == [35, 15, 6, 1, 5, 3]) :-
     findall(Count,
             ( name(Name), study(Name, Study), case_count(Study, Count) ),
             Counts).
@@ -168,6 +178,15 @@ integrated_run(Dir) :-
     Ms.found < Ms.completed,
     Ms.timetable = timetable(3, [_, _], _).
 
+replacement_run(Dir) :-
+    measures(beyond_replacement,
+             [ failures-1, hosts-6, probability-0.5, eligible-3, required-2,
+               task_time-1 ],
+             Dir, Ms),
+    forall(member(Name-Value, [replaced-1, faulty-0, disorder-0, after-0]),
+           get_dict(Name, Ms, Value)),
+    Ms.catching_up > 0.
+
 urgent_run(Dir) :-
     small(Small),
     measures(beyond_urgent, [priority-0, deadline-1|Small], Dir, Ms),
@@ -198,6 +217,8 @@ test(on_sockets) :-
     with_tmp_dir(mechanism_run(proposed, [clock-20, processes-2])).
 test(integrated) :-
     with_tmp_dir(integrated_run).
+test(replacement) :-
+    with_tmp_dir(replacement_run).
 test(urgent) :-
     with_tmp_dir(urgent_run).
 test(same_robots) :-
