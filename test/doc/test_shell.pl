@@ -162,6 +162,7 @@ serving("nxt/brick.py ").
 serving("nxt/world.py ").
 
 elsewhere("COMMAND ... [options]").     % a synopsis
+elsewhere("layers.pl -- check").         % a part of make check, see test_make
 elsewhere("perf record").               % needs a build of SWI-Prolog with symbols
 elsewhere("lsp_server").                % a pack that is not part of anything here
 elsewhere("db.example").                % test_postgresql has a server
