@@ -77,7 +77,9 @@ imported_as(Name//Arity, Name//Arity, Name).
 %   offered on. What only its own tests use is not used.
 
 used(File, _) :-
-    inside('prolog/typhon/kernel/vocabulary/words.pl', File),
+    import(File, _, List),
+    is_list(List),
+    memberchk(vocabulary/1, List),
     !.                                  % agents do
 used(File, Name/_) :-
     import(User, File, List),

@@ -23,6 +23,7 @@ so this module is loaded before any other that loads library(typhon).
 
 :- doc_collect(true).
 :- use_module('../../prolog/typhon', []).
+:- use_module('../../prolog/typhon/kernel/program', [vocabulary_word/2]).
 :- use_module('../../prolog/typhon/network/networks', []).  % else on demand
 :- use_module('../../prolog/typhon/nxt', []).
 :- use_module('../../prolog/typhon/fipa', []).
@@ -47,14 +48,14 @@ task(agents, "Move, clone and end",
 task(agents, "Wait, and exchange messages",
      [ typhon_words:[sleep/1, receive/1, receive/2, send/2] ]).
 task(agents, "Create agents, and learn how they end",
-     [ typhon_words:[create/3], typhon_monitor_words ]).
+     [ typhon_creating, typhon_monitor_words ]).
 task(agents, "Know where it is",
      [ typhon_words:[ self/1, here/1, home/1, parent/1, hops/1, now/1,
                       host_load/1, neighbours/1, neighbour/2 ] ]).
 task(agents, "Share facts on a host",
      [ typhon_words:[leave/1, leave_new/1, sense/1, take/1] ]).
 task(agents, "Report results and events",
-     [ typhon_words:[result/1, log/1, enter/1], typhon_seals:[seal/3] ]).
+     [ typhon_words:[result/1, log/1, enter/1], typhon_seals ]).
 task(agents, "Carry and deliver payloads",
      [ typhon_words:[attach/1, detach/1, deliver/1, undeliver/1] ]).
 task(agents, "Call agents by pheromones",
@@ -90,13 +91,8 @@ task(robots, "Motors and sensors by the names of SWI-PRO-NXT",
 %   public(+Part, ?PI): predicates that users may call.
 
 public(agents, Module:PI) :-
-    exported(typhon_words, Module:PI),
+    vocabulary_word(Module, PI),
     PI \== message_failed/2.            % is for the machine
-public(agents, PI) :-
-    exported(typhon_memory, PI).
-public(agents, PI) :-
-    exported(typhon_pheromone, PI).
-public(agents, typhon_seals:seal/3).
 public(library, PI) :-
     exported(typhon, PI).
 public(fipa, Module:PI) :-

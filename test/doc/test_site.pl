@@ -14,6 +14,7 @@
 :- use_module(library(plunit)).
 :- use_module(library(sgml), [load_html/3]).
 :- use_module(library(typhon)).
+:- use_module(library(typhon/kernel/program), [vocabulary_word/2]).
 :- use_module(library(typhon/nxt), []).
 :- use_module(library(uri), [uri_components/2, uri_encoded/3]).
 :- use_module(library(xpath)).
@@ -118,10 +119,11 @@ in_file(Fragment, File, Contents) :-
                 *******************************/
 
 public(PI) :-
-    member(Module, [ typhon, typhon_words, typhon_memory, typhon_pheromone,
-                      typhon_nxt ]),
+    member(Module, [typhon, typhon_nxt]),
     module_property(Module, exports(PIs)),
-    member(PI, PIs),
+    member(PI, PIs).
+public(PI) :-
+    vocabulary_word(_, PI),
     PI \== message_failed/2.
 
 %   The headings of the reference with their ids, in order.

@@ -14,8 +14,7 @@
 :- use_module(library(typhon)).
 :- use_module(library(typhon/kernel/base/json), [json_dict/2]).
 :- use_module(library(typhon/kernel/program),
-              [payload_load/2, program_load/5]).
-:- use_module(library(typhon/kernel/vocabulary), []).
+              [payload_load/2, program_load/5, vocabulary_word/2]).
 
 program(Name, Path) :-
     absolute_file_name(path(Name), Path, [access(execute), file_errors(fail)]).
@@ -93,10 +92,7 @@ emacs_shows(Lines, File) :-
 %   The names of what agents can say.
 
 word(Name) :-
-    member(Module, [ typhon_words, typhon_memory, typhon_pheromone,
-                      typhon_seals ]),
-    module_property(Module, exports(PIs)),
-    member(Name/_, PIs),
+    vocabulary_word(_, Name/_),
     \+ memberchk(Name, [enter, message_failed]).    % called by the platform
 
 not_in(Relative, Missing) :-

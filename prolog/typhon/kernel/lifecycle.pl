@@ -8,7 +8,7 @@ This is the interface of the layer: higher layers import from here.
 
 :- reexport(lifecycle/creation,
             [ agent_begin/4, agent_create/2, agent_create/3,
-              agent_create_child/4 ]).
+              agent_create_by/4 ]).
 :- reexport('lifecycle/order_client',
             [ agent_move/2, agent_move/3, agent_clone/2, agent_resume/1,
               agent_change/2, payload_attach/2, payload_detach/2,

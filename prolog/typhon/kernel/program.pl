@@ -27,7 +27,7 @@ This is the interface of the layer: higher layers import from here.
               code_wrapped/3, sent_program/2 ]).
 :- reexport(program/mobile,
             [ body_calls/2, built_in/1, is_mobile/2, mobile_predicates/3,
-              near_built_in/2 ]).
+              near_built_in/2, vocabulary/1, vocabulary_word/2 ]).
 :- reexport(program/machine,
             [ answer_at/3, machine_inside/0, machine_ready/1, machine_run/3 ]).
 :- reexport(program/control, [control/1]).

@@ -3,8 +3,8 @@
 /** <module> What is visible to agents
 
 This module is the import parent of all places.  It defines nothing: it
-brings together the vocabulary of agents (typhon_words, and what options import
-into it) and libraries without state that agents may use without asking.
+brings together what modules declare by vocabulary/1 of typhon_mobile, and
+libraries without state that agents may use without asking.
 
 This is the interface of the layer: higher layers only load it.
 
@@ -28,4 +28,5 @@ This is the interface of the layer: higher layers only load it.
               [ '$checked'/1, '$checked'/2, '$checked'/3, '$checked'/4,
                 '$checked'/5, '$checked'/6, '$checked'/7, '$checked'/8,
                 '$uncaught'/1 ]).
-:- use_module(vocabulary/words).
+:- use_module(vocabulary/words, []).
+:- use_module(vocabulary/creating, []).

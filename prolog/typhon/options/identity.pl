@@ -8,9 +8,4 @@ loaded in processes that have keys.  This is the interface of the layer.
 */
 
 :- reexport(identity/signatures, [file_sign/2]).
-:- use_module(identity/seals, [seal/3, unseal/2]).
-
-%   Agents find these on every host.
-
-:- typhon_vocabulary:import(typhon_seals:seal/3).
-:- typhon_vocabulary:import(typhon_seals:unseal/2).
+:- use_module(identity/seals, []).

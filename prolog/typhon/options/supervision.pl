@@ -2,8 +2,7 @@
           [ agent_monitor/2             % +Agent, :OnDown
           ]).
 :- autoload('supervision/monitors', [monitor_call/2]).
-:- use_module('supervision/monitor_words',
-              [monitor/1, monitor/2, unmonitor/1]).
+:- use_module('supervision/monitor_words', []).
 
 /** <module> Supervision: the ends of other agents
 
@@ -15,12 +14,6 @@ one is set, or another process asks for one.
 */
 
 :- meta_predicate agent_monitor(+, :).
-
-%   Agents find these on every host.
-
-:- typhon_vocabulary:import(typhon_monitor_words:monitor/1).
-:- typhon_vocabulary:import(typhon_monitor_words:monitor/2).
-:- typhon_vocabulary:import(typhon_monitor_words:unmonitor/1).
 
 %!  agent_monitor(+Agent, :OnDown) is det.
 %

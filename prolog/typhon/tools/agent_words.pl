@@ -10,9 +10,10 @@
 :- use_module(library(apply), [maplist/2]).
 :- use_module(library(lists), [append/3, member/2]).
 :- use_module(library(pairs), [pairs_values/2]).
-:- use_module(library(solution_sequences), [limit/2]).
+:- use_module(library(solution_sequences), [distinct/2, limit/2]).
 :- autoload(library(prolog_xref), [xref_source/2]).
-:- use_module('../kernel/program', [declaration/4, indicator_in/2]).
+:- use_module('../kernel/program',
+              [declaration/4, indicator_in/2, vocabulary_word/2]).
 :- use_module('../kernel/vocabulary', []).
 
 /** <module> Predicates of agents, for the top level, help/1 and editors
@@ -46,7 +47,7 @@ words_only(Query, Module, PI) :-
     goal(Query, Module, Goal),
     functor(Goal, Name, Arity),
     PI = Name/Arity,
-    word(PI),
+    vocabulary_word(_, PI),
     \+ predicate_property(Module:Goal, visible),
     !.
 
@@ -62,19 +63,13 @@ goal(Query, Module, Goal) :-
     arg(I, Query, Argument),
     goal(Argument, Module, Goal).
 
-word(PI) :-
-    member(Module, [ typhon_words, typhon_memory, typhon_monitor_words,
-                     typhon_pheromone, typhon_seals ]),
-    module_property(Module, exports(PIs)),
-    memberchk(PI, PIs).
-
 %!  word_told(+Spec, -Text, ?Rest) is semidet.
 %
 %   The text for an unknown procedure Spec that is a word of agents.
 
 word_told(Spec) -->
     { own_module(Spec, PI),
-      word(PI)
+      vocabulary_word(_, PI)
     },
     [ 'Unknown procedure: ~p: the program of an agent can call it'-[PI] ],
     instead(PI).
@@ -151,8 +146,7 @@ predicates_option(payload, PIs, provides(PIs)).
 %   File defines predicates that agents can call.
 
 words_file(File) :-
-    member(Module, [ typhon_words, typhon_memory, typhon_monitor_words,
-                     typhon_pheromone ]),
+    distinct(Module, vocabulary_word(Module, _)),
     module_property(Module, file(File)).
 
 %!  directive_coloured(+Directive, -Colours) is semidet.
@@ -298,10 +292,11 @@ part_of_one(Texts, Word) :-
 %   ours(?Module, -PI): PI is public, and defined in Module.
 
 ours(Module, Name/Arity) :-
-    member(Interface, [ typhon, typhon_words, typhon_memory,
-                        typhon_monitor_words, typhon_pheromone ]),
-    module_property(Interface, exports(PIs)),
-    member(Name/Arity, PIs),
+    (   module_property(typhon, exports(PIs)),
+        Interface = typhon,
+        member(Name/Arity, PIs)
+    ;   vocabulary_word(Interface, Name/Arity)
+    ),
     functor(Head, Name, Arity),
     (   predicate_property(Interface:Head, imported_from(Module))
     ->  true

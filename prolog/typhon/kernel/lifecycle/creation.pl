@@ -1,7 +1,7 @@
 :- module(typhon_creation,
           [ agent_create/2,             % +Program, -Agent
             agent_create/3,             % +Program, -Agent, +Options
-            agent_create_child/4,       % +Parent, +Program, -Agent, +Options
+            agent_create_by/4,          % +Parent, +Program, -Agent, +Options
             agent_begin/4,              % +Options, +Name, +Start, -Agent
             agent_clone_here/3,         % +Id, +Goals, ?CloneId
             clone_id/2                  % +Id, -CloneId
@@ -12,7 +12,7 @@
               [domain_error/2, must_be/2, permission_error/3, type_error/2]).
 :- use_module(library(lists), [append/2, append/3, member/2]).
 :- autoload(library(occurs), [sub_term/2]).
-:- use_module(library(option), [merge_options/3, option/2, option/3]).
+:- use_module(library(option), [option/2, option/3]).
 :- use_module('../base/options', [check_options/2]).
 :- use_module('../base/durable_changes', [sync_changes/0, unit_of_work/1]).
 :- use_module('../program',
@@ -78,28 +78,23 @@ agent_create(Program, Agent) :-
     agent_create(Program, Agent, []).
 
 agent_create(Spec, Agent, Options) :-
-    must_be(var, Agent),
-    check_options(agent_option, Options),
-    once(create_by(Options, none, Spec, Agent)).
+    agent_create_by(none, Spec, Agent, Options).
 
-%!  agent_create_child(+Parent, +Program, -Agent, +Options) is det.
+%!  agent_create_by(+Parent, +Program, -Agent, +Options) is det.
 %
-%   As agent_create/3, for the agent Parent, which runs here: Program may be
-%   `self`, that of Parent, whose state is then what facts(Clauses) says; the
-%   default host is the one on which Parent stands; Agent has its owner.
+%   As agent_create/3, for the agent Parent, which runs here, or for `none`:
+%   Program may be `self`, that of Parent, whose state is then what facts(Clauses)
+%   says; the default host is the one on which Parent stands; Agent has its owner.
 %
 %   @error as agent_create/3
 
-agent_create_child(Parent, Spec, Agent, Options) :-
+agent_create_by(Parent, Spec, Agent, Options) :-
     must_be(var, Agent),
-    must_be(nonvar, Spec),
     check_options(agent_option, Options),
-    agent(Parent, Host, _, _, _),
-    merge_options(Options, [host(Host)], All),
-    once(create_by(All, Parent, Spec, Agent)).
+    once(create_by(Options, Parent, Spec, Agent)).
 
 create_by(Options, Parent, Spec, Agent) :-
-    target(Options, Target),
+    target(Options, Parent, Target),
     program_of(Spec, Parent, Program, Initial, Hash),
     Program = program(Name0, Declared, _, Clauses),
     option(name(Name), Options, Name0),
@@ -172,9 +167,11 @@ check_agent_name(Name) :-
     ;   domain_error(agent_name, Name)
     ).
 
-target(Options, Where) :-
+target(Options, Parent, Where) :-
     (   option(host(Host), Options)
     ->  host_resolve(Host, Where)
+    ;   agent(Parent, Host, _, _, _)
+    ->  Where = local(Host)
     ;   host(Name, _, _)
     ->  Where = local(Name)
     ;   throw(error(existence_error(host, here),
@@ -302,7 +299,7 @@ must_be_state(State) :-
 %   Create an agent on the host of Options, as of agent_create/3.
 
 agent_begin(Options, Name, Start, Agent) :-
-    target(Options, Where),
+    target(Options, none, Where),
     create(Where, Name, Start, Agent).
 
 %!  agent_clone_here(+Id, +Goals, ?CloneId) is det.

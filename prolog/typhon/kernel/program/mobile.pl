@@ -3,7 +3,9 @@
             body_calls/2,               % +Body, -Calls
             is_mobile/2,                % +PI, +Mobile
             built_in/1,                 % +PI
-            near_built_in/2             % +PI, -Near
+            near_built_in/2,            % +PI, -Near
+            vocabulary/1,               % +Module
+            vocabulary_word/2           % ?Module, ?PI
           ]).
 :- use_module(library(apply), [foldl/4, maplist/3]).
 :- use_module(library(assoc),
@@ -32,7 +34,11 @@ goals did.
 A mobile goal under a construct that must run it to its end, such as
 findall/3, forall/2 or \+, is a problem.
 
-*Threading*: pure, but for what is remembered of library predicates.
+What agents can call besides is declared by the modules that define it,
+vocabulary/1.
+
+*Threading*: pure, but for what is remembered of library predicates, and for
+declarations, which are made while modules are loaded.
 */
 
 %!  mobile_predicates(+Clauses, -Kinds, -Problems) is det.
@@ -139,28 +145,6 @@ next_call(List, PI) :-
     \+ built_in(PI).
 next_call(List, unknown) :-
     memberchk(unknown(run), List).
-
-%!  built_in(+PI) is semidet.
-%
-%   PI belongs to the vocabulary of agents or to Prolog.
-
-built_in(Name/Arity) :-
-    functor(Head, Name, Arity),
-    (   '$get_predicate_attribute'(typhon_vocabulary:Head, defined, 1)
-    ->  true
-    ;   predicate_property(system:Head, visible)
-    ).
-
-%!  near_built_in(+PI, -Near) is nondet.
-%
-%   Near, of another name or arity than PI, is built in, and looks like it.
-
-near_built_in(Name/Arity, Near/NearArity) :-
-    functor(Head, Name, Arity),
-    dwim_predicate(typhon_vocabulary:Head, Module:NearHead),
-    memberchk(Module, [typhon_vocabulary, system]),
-    functor(NearHead, Near, NearArity),
-    \+ sub_atom(Near, 0, _, _, $).
 
 misplaced(Located, Mobile,
           problem(permission_error(call, control_predicate, PI), Location,
@@ -307,3 +291,53 @@ find_meta(Name/Arity, Meta) :-
 closure_arity(N, N) :- integer(N).
 closure_arity(^, 0).
 closure_arity(//, 2).
+
+                /*******************************
+                *          VOCABULARY          *
+                *******************************/
+
+:- dynamic vocabulary_module/1.         % Module
+
+%!  vocabulary(+Module) is det.
+%
+%   Directive, behind `:- module(Module, Exports)`: agents find Exports on every
+%   host.
+
+vocabulary(Module) :-
+    (   vocabulary_module(Module)
+    ->  true
+    ;   assertz(vocabulary_module(Module))
+    ),
+    forall(vocabulary_word(Module, PI),
+           typhon_vocabulary:import(Module:PI)).
+
+%!  vocabulary_word(?Module, ?PI) is nondet.
+%
+%   Module defines PI for agents.
+
+vocabulary_word(Module, PI) :-
+    vocabulary_module(Module),
+    module_property(Module, exports(PIs)),
+    member(PI, PIs).
+
+%!  built_in(+PI) is semidet.
+%
+%   PI belongs to the vocabulary of agents or to Prolog.
+
+built_in(Name/Arity) :-
+    functor(Head, Name, Arity),
+    (   '$get_predicate_attribute'(typhon_vocabulary:Head, defined, 1)
+    ->  true
+    ;   predicate_property(system:Head, visible)
+    ).
+
+%!  near_built_in(+PI, -Near) is nondet.
+%
+%   Near, of another name or arity than PI, is built in, and looks like it.
+
+near_built_in(Name/Arity, Near/NearArity) :-
+    functor(Head, Name, Arity),
+    dwim_predicate(typhon_vocabulary:Head, Module:NearHead),
+    memberchk(Module, [typhon_vocabulary, system]),
+    functor(NearHead, Near, NearArity),
+    \+ sub_atom(Near, 0, _, _, $).

@@ -17,7 +17,6 @@
             detach/1,                   % +Name
             deliver/1,                  % +Name
             undeliver/1,                % +Name
-            create/3,                   % +Program, -Agent, +Options
             log/1,                      % +What
             result/1,                   % +Term
             enter/1,                    % +Result
@@ -32,7 +31,7 @@
 :- use_module(library(error),
               [existence_error/2, must_be/2, permission_error/3]).
 :- use_module(library(lists), [member/2]).
-:- use_module('../program', [payload_load/2, payload_python/3]).
+:- use_module('../program', [payload_load/2, payload_python/3, vocabulary/1]).
 :- use_module('../wire', [mobile_term/1]).
 :- use_module('../host',
               [ context/3, context_agent/1, context_host/1, context_now/2,
@@ -46,7 +45,6 @@
                 agent_handled/3, agent_payload/3, agent_variant/2,
                 result_put/2, life_hops/2, life_parent/2 ]).
 :- use_module('../travel', [agent_logs/3, post/3, post_abroad/4]).
-:- use_module('../lifecycle', [agent_create_child/4]).
 
 /** <module> What an agent can say
 
@@ -56,6 +54,8 @@ the machine takes care of them everywhere else.
 
 *Threading*: whatever thread runs the agent; see typhon_context.
 */
+
+:- vocabulary(typhon_words).
 
 :- multifile
     enters/3,                   % Module, Id, Result: it is kept, and signed
@@ -273,37 +273,6 @@ undeliver(Name) :-
     place(Host, Place),
     place_undeliver(Place, Name),
     ignore(python_undelivered(Host, Name)).
-
-%!  create(+Program, -Agent, +Options) is det.
-%
-%   As agent_create/3; the new agent begins on this host unless host(Host) says
-%   where, and has the owner of this one.  Program may also be `self`, the
-%   program of this agent: its state is then what facts(Clauses) says.  Where
-%   programs are checked Program is `self`, clauses(Terms) or agents(Path), and a
-%   new agent counts as a clone.
-%
-%   @error as agent_create/3
-
-create(Program, Agent, Options) :-
-    context(Host, Id, Module),
-    says(Host, Program-Options),
-    parts_call(acts, Host, [Id, clone]),
-    (   agent_variant(Module, _),
-        \+ may_name(Program)
-    ->  permission_error(call, sandboxed, create(Program, Agent, Options))
-    ;   agent_create_child(Id, Program, Agent, Options)
-    ).
-
-may_name(Program) :-
-    ground(Program),
-    Program = agents(Path),
-    !,
-    format(atom(Below), '~w', [Path]),
-    \+ is_absolute_file_name(Below),
-    \+ sub_atom(Below, _, _, _, '..').
-may_name(Program) :-
-    ( Program == self ; subsumes_term(clauses(_), Program) ),
-    !.
 
 %!  log(+What) is det.
 %

@@ -8,6 +8,7 @@
 :- use_module(library(apply), [maplist/3]).
 :- use_module(library(error), [domain_error/2]).
 :- use_module(library(lists), [member/2]).
+:- use_module('../../kernel/program', [vocabulary_word/2]).
 
 /** <module> What strangers may call
 
@@ -155,6 +156,8 @@ withheld(foreach(_, _)).
 withheld(term_string(_, _, _)).         % with options
 withheld(deliver(_)).                   % what all on the host would call
 withheld(undeliver(_)).
+withheld(seal(_, _, _)).                % the keys of the process
+withheld(unseal(_, _)).
 withheld(\(_)).
 withheld(\(_, _)).
 withheld(_^_).
@@ -285,7 +288,8 @@ free_head(Head) :-
     head_of(Said, Head),
     \+ \+ predicate_property(system:Head, defined).
 free_head(Head) :-
-    word(Head),
+    vocabulary_word(_, Name/Arity),
+    functor(Head, Name, Arity),
     \+ predicate_property(typhon_vocabulary:Head, meta_predicate(_)).
 free_head(Head) :-
     library_head(_, Head),
@@ -294,13 +298,6 @@ free_head(Head) :-
 head_of(Said, _) :- var(Said), !, fail.
 head_of(Module:Head, Head) :- !, memberchk(Module, [system, crypto_hash, uri]).
 head_of(Head, Head).
-
-word(Head) :-
-    module_property(Module, exports(PIs)),
-    memberchk(Module, [ typhon_words, typhon_memory, typhon_monitor_words,
-                        typhon_pheromone ]),
-    member(Name/Arity, PIs),
-    functor(Head, Name, Arity).
 
 library_head(Module, Head) :-
     allowed_library(Library),

@@ -19,8 +19,11 @@ process may wait for an answer.
               [ keys_certificate/2, keys_holder/3, keys_seal/4,
                 keys_unseal/3, own_keys/1 ]).
 :- use_module('../../kernel/base/text', [term_text/2, text_term/2]).
+:- use_module('../../kernel/program', [vocabulary/1]).
 :- use_module('../../kernel/wire', [endpoint_reply/2, mobile_term/1]).
 :- use_module('../../kernel/host', [host_resolve/2, process_ask/6]).
+
+:- vocabulary(typhon_seals).
 
 :- multifile typhon_endpoint:requested/4.
 

@@ -2,6 +2,7 @@
           [ next_host/2                 % +Strategy, -Host
           ]).
 :- use_module('../../kernel/base/prng', [chance_hash/2]).
+:- use_module('../../kernel/program', [vocabulary/1]).
 :- use_module('../../kernel/host',
               [ address_parts/3, context/3, host/3, host_neighbours/2,
                 host_option/2 ]).
@@ -15,6 +16,8 @@ agent's state.
 
 *Threading*: whatever thread runs the agent.
 */
+
+:- vocabulary(typhon_memory).
 
 %!  next_host(+Strategy, -Host) is semidet.
 %

@@ -11,6 +11,7 @@
 :- use_module(library(option), [option/3]).
 :- use_module('../../kernel/base/prng', [chance_member/4]).
 :- use_module('../../kernel/base/options', [check_options/2]).
+:- use_module('../../kernel/program', [vocabulary/1]).
 :- use_module('../../kernel/wire', [endpoint_address/1, endpoint_post/3, mobile_term/1]).
 :- use_module('../../kernel/host',
               [ address_parts/3, context_host/1, context_now/2, host/3,
@@ -38,6 +39,8 @@ the stronger one stays, and of two that are equally strong the younger.
 
 *Threading*: any thread. What arrives is stored and passed on by a worker.
 */
+
+:- vocabulary(typhon_pheromone).
 
 :- multifile
     typhon_options:declared/4,

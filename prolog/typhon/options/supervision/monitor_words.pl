@@ -6,6 +6,7 @@
 :- use_module(library(error), [existence_error/2, must_be/2]).
 :- use_module(library(option), [option/3]).
 :- use_module('../../kernel/base/options', [check_options/2]).
+:- use_module('../../kernel/program', [vocabulary/1]).
 :- use_module('../../kernel/wire', [endpoint_address/1]).
 :- use_module('../../kernel/host', [context/3, parts_call/3, process_ask/6]).
 :- use_module('../../kernel/agent', [agent_home_endpoint/2]).
@@ -19,6 +20,8 @@ is, and when it ends.
 *Threading*: the thread that runs the agent; waits for the home, if that is
 another process.
 */
+
+:- vocabulary(typhon_monitor_words).
 
 :- multifile typhon_options:declared/4.
 
