@@ -2,6 +2,8 @@
           [ durable/5,                  % +Kind, ?Key, ?N, ?Term, :Fact
             durable/6,                  % +Kind, ?Key, ?N, ?Term, :Dump,
                                         % :Restore
+            durable_kinds/2,            % +Last, -Kinds
+            durable_order/2,            % +Kind, -Order
             durable_assertz/1,          % :Fact
             durable_retractall/1,       % :Fact
             durable_dump/4,             % +Kind, -Key, -N, -Term
@@ -10,6 +12,8 @@
 :- use_module(durable_changes,
               [ durable_drop_all/2, durable_number/1, durable_on/0,
                 durable_put/4 ]).
+:- use_module(library(lists), [append/3, subtract/3]).
+:- use_module(index, [part_joins/3]).
 :- use_module(on_demand, [on_demand_load/2]).
 
 /** <module> Tables that outlive the process
@@ -69,6 +73,34 @@ once_there(Table) :-
         General =@= Table
     ->  true
     ;   assertz(Table)
+    ).
+
+%!  durable_kinds(+Last:list, -Kinds:list) is det.
+%
+%   The kinds of all declared tables, also of options that are not loaded, in the
+%   order in which items are restored: those of Last look up what the others
+%   restore.
+
+durable_kinds(Last, Kinds) :-
+    findall(Kind,
+            (   item_table(Kind, _, _, _, _, _)
+            ;   part_joins(durable, Kind, _)
+            ),
+            Kinds0),
+    sort(Kinds0, All),
+    subtract(All, Last, First),
+    append(First, Last, Kinds).
+
+%!  durable_order(+Kind, -Order) is det.
+%
+%   `any` if the items of Kind have no numbers, else `numbers`: they are restored
+%   by these.
+
+durable_order(Kind, Order) :-
+    (   item_table(Kind, _, _, _, _, _),
+        \+ ( item_table(Kind, _, N, _, _, _), N \== 0 )
+    ->  Order = any
+    ;   Order = numbers
     ).
 
 %!  durable_assertz(:Fact) is det.

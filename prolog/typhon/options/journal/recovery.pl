@@ -1,7 +1,8 @@
 :- module(typhon_recovery, []).
 :- use_module(library(debug), [debug/3]).
 :- use_module(library(lists), [member/2]).
-:- use_module('../../kernel/base/durable', [durable/6, durable_restore/4]).
+:- use_module('../../kernel/base/durable',
+              [durable/6, durable_kinds/2, durable_order/2, durable_restore/4]).
 :- use_module('../../kernel/base/error_text', [print_error/2]).
 :- use_module('../../kernel/base/durable_changes',
               [durable_drop_all/2, durable_item/5]).
@@ -31,37 +32,20 @@ for or sent again.
     superfluous/2,              % Kind, Key: no agent needs it
     left/2.                     % Id, Hash: an agent that is not back
 
-%   What others look up comes before them.
+%   last(-Kinds): they look up what others restore; mail and programs of agents
+%   that are not there are superfluous.
 
-kind(lasting, any).
-kind(link, any).
-kind(tuple, numbers).
-kind(payload, any).
-kind(birth, any).
-kind(born, any).
-kind(outcome, numbers).
-kind(faulty, any).
-kind(monitor, any).
-kind(left, numbers).
-kind(clone, numbers).
-kind(given_up, any).
-kind(done, numbers).
-kind(seen, any).
-kind(out, numbers).
-kind(state, numbers).
-kind(agent, any).
-kind(mail, numbers).
-kind(wait, numbers).
-kind(letter, numbers).
-kind(logged, numbers).
-kind(code, any).
+last([agent, mail, wait, code]).
 
 %   What this process knew before, with another journal or none, is another
 %   story.
 
 typhon_durable:recover :-
     forall(typhon_identity:ids_anew, true),
-    forall(( kind(Kind, Order),
+    last(Last),
+    durable_kinds(Last, Kinds),
+    forall(( member(Kind, Kinds),
+             durable_order(Kind, Order),
              durable_item(Kind, Order, Key, N, Term) ),
            is_back(Kind, Key, N, Term)),
     forall(typhon_durable:restored, true).
@@ -110,7 +94,7 @@ typhon_runtime:ending(after) :-
 
 %   The items are made as agents come to rest, see typhon_journaled_agents.
 
-:- durable(agent, Id, _, Record, fail, record_back(Id, Record)).
+:- durable(agent, Id, 0, Record, fail, record_back(Id, Record)).
 
 record_back(Id, Record) :-
     Record = agent(Host, _, _, _, _, _),

@@ -9,7 +9,8 @@
 :- use_module(library(lists), [member/2]).
 :- use_module(library(ordsets), [ord_subtract/3]).
 :- use_module('../../kernel/base/durable',
-              [durable/6, durable_dump/4, durable_restore/4]).
+              [ durable/6, durable_dump/4, durable_kinds/2,
+                durable_restore/4 ]).
 :- use_module('../../kernel/program', [code_receive/2, code_sent/2]).
 :- use_module('../../kernel/wire', [mobile_term/1]).
 :- use_module('../../kernel/host',
@@ -35,29 +36,37 @@ that are being handled find their way, or wait.
 agents rest.
 */
 
-%   What others look up comes before them.  Some kinds are restored only where
-%   what happens is to repeat itself; another process knows better.
+%   last(-Kinds): they look up what others restore.
 
-kind(place, any).
-kind(fact, any).
-kind(payload, any).
-kind(link, any).
-kind(flag, repeated).
-kind(birth, any).
-kind(born, any).
-kind(outcome, any).
-kind(faulty, any).
-kind(left, any).
-kind(clone, any).
-kind(gone, any).
-kind(given_up, any).
-kind(backlog, any).
-kind(program, any).
-kind(stands, any).
-kind(mail, any).
-kind(order, any).
-kind(turns, repeated).
-kind(counts, repeated).
+last([ payload, backlog, program, stands, mail, order, turns, counts ]).
+
+%   repeated(?Kind): restored only where what happens is to repeat itself; another
+%   process knows better.
+
+repeated(flag).
+repeated(turns).
+repeated(counts).
+
+%   journaled(?Kind): in a journal alone.  A saved network has the like in other
+%   items (agent, state, tuple, wait), or is about what no other process has.
+
+journaled(agent).
+journaled(done).
+journaled(lasting).
+journaled(letter).
+journaled(logged).
+journaled(monitor).
+journaled(out).
+journaled(seen).
+journaled(state).
+journaled(tuple).
+journaled(wait).
+
+kind(Kind) :-
+    last(Last),
+    durable_kinds(Last, Kinds),
+    member(Kind, Kinds),
+    \+ journaled(Kind).
 
 %!  process_dump(+Hosts:list, -Items:list) is det.
 %
@@ -70,7 +79,7 @@ kind(counts, repeated).
 process_dump(Hosts, Items) :-
     others(Hosts, Others),
     findall(item(Kind, Key, N, Term),
-            ( kind(Kind, _),
+            ( kind(Kind),
               durable_dump(Kind, Key, N, Term),
               \+ is_of(Others, Kind, Key, Term),
               can_be_written(Kind, Key, Term) ),
@@ -124,13 +133,14 @@ process_restore(Time, Items) :-
              typhon_identity:id_anew(Id) ),
            true),
     forall(( member(item(Kind, Key, N, Term), Items),
-             kind(Kind, For),
-             restored(For, Time) ),
+             restored(Kind, Time) ),
            is_again(Kind, Key, N, Term)).
 
-restored(any, _).
-restored(repeated, Time) :-
-    time_repeats(Time, _).
+restored(Kind, Time) :-
+    (   repeated(Kind)
+    ->  time_repeats(Time, _)
+    ;   true
+    ).
 
 is_again(Kind, Key, N, Term) :-
     durable_restore(Kind, Key, N, Term),

@@ -6,6 +6,8 @@
 :- use_module(library(prolog_wrap), [wrap_predicate/4]).
 :- use_module(library(readutil), [read_line_to_string/2]).
 :- use_module(library(typhon)).
+:- use_module(library(typhon/kernel/base/durable),
+              [durable/5, durable_assertz/1, durable_retractall/1]).
 
 :- needs([journal]).
 
@@ -82,6 +84,21 @@ test('outcomes and results are known') :-
           agent_result(A, parent(C), 1),
           agent_result(C, clone(A), 1),
           agent_join(family(A), [A-done, C-done], 5) )).
+
+%   A table that the journal knows by its declaration alone.
+
+:- dynamic visit/2.
+
+:- durable(visit, Id, N, _, visit(Id, N)).
+
+test(declared_facts_are_restored_in_order, [cleanup(retractall(visit(_, _)))]) :-
+    with_journal(
+        ( forall(member(N, [10, 9, 11]), durable_assertz(visit(alice, N))),
+          durable_assertz(visit(bob, 1)),
+          durable_retractall(visit(bob, _)),
+          retractall(visit(_, _)) ),
+        ( findall(Id-N, visit(Id, N), Visits),
+          Visits == [alice-9, alice-10, alice-11] )).
 
 test('facts of the tuple space, and delivered payloads') :-
     with_tmp_dir(facts).
