@@ -1,9 +1,13 @@
 :- use_module(common).
+:- use_module(library(lists), [member/2]).
+:- use_module(library(ordsets), [ord_subtract/3]).
 :- use_module(library(typhon)).
 
 /*  What monitors and supervisors cost.
 
-    swipl bench/monitors.pl -- Monitors */
+    swipl bench/monitors.pl -- Monitors
+
+A tenth as many children. */
 
 :- initialization(main, main).
 
@@ -11,6 +15,9 @@ main([Text]) :-
     atom_number(Text, Count),
     host_start(alpha, [capacity(100000)]),
     monitors(Count),
+    Children is Count//10,
+    forall(member(Strategy, [one_for_one, one_for_all]),
+           restarts(Strategy, Children)),
     host_stop(alpha).
 
 %   Each of the agents that monitor one tells a counter when that has ended.
@@ -47,4 +54,44 @@ all_set(Counter, Count) :-
     ->  true
     ;   sleep(0.2),
         all_set(Counter, Count)
+    ).
+
+%   All children end by themselves, or one of which all others depend.
+
+restarts(Strategy, Count) :-
+    Child = clauses([ (:- agent(child, [])), (main :- receive(_-end)) ]),
+    findall(child(Name, Child, []),
+            ( between(1, Count, N), atom_concat(c, N, Name) ), Children),
+    agent_create(agents(supervisor), S,
+                 [ facts([ strategy(Strategy), intensity(Count, 60)
+                         | Children ]) ]),
+    running(S, Count, [], First),
+    (   Strategy == one_for_one
+    ->  End = First
+    ;   First = [Agent|_],
+        End = [Agent]
+    ),
+    get_time(Begin),
+    forall(member(Agent, End), agent_send(Agent, end)),
+    running(S, Count, First, _),
+    get_time(Now),
+    Seconds is Now-Begin,
+    format(atom(What), 'a supervisor restarts ~D children, ~w',
+           [Count, Strategy]),
+    figure(What, Seconds, s),
+    agent_send(S, stop),
+    agent_join(S, done, 300).
+
+%   running(+Supervisor, +Count, +Old, -Agents): so many that are none of Old.
+
+running(S, Count, Old, Agents) :-
+    agent_property(S, facts(Facts)),
+    findall(Agent, member(running(_, Agent), Facts), Agents0),
+    sort(Agents0, Agents1),
+    sort(Old, Old1),
+    ord_subtract(Agents1, Old1, New),
+    (   length(New, Count)
+    ->  Agents = New
+    ;   sleep(0.05),
+        running(S, Count, Old, Agents)
     ).

@@ -19,7 +19,7 @@ supervised(Children, More, S) :-
     worker(W),
     findall(child(Name, W, Options), member(Name-Options, Children), Facts),
     append([More, Facts], All),
-    agent_create(agents(supervision/supervisor), S, [facts(All)]),
+    agent_create(agents(supervisor), S, [facts(All)]),
     wait_until(children(S, Children, _), 10).
 
 %   children(+Supervisor, +Children, -Ids): it has all of them.
@@ -109,6 +109,83 @@ test(children_end_with_it, [true(O1-O2 == disposed-disposed)]) :-
               joined(A, O1),
               joined(B, O2) ), _)).
 
+%   Where is where a child began.
+
+test(places, [forall(member(Where-Begins,
+                            [ here-alpha, on(gamma)-gamma,
+                              least_loaded-gamma, tagged(big)-beta,
+                              [tagged(none),on(nowhere),on(beta)]-beta ]))]) :-
+    with_hosts([alpha,beta,gamma],
+        listening(
+            ( link(alpha, beta), link(alpha, gamma),
+              remote(beta, leave(tag(big))),
+              worker(W),
+              agent_create(W, _, [host(beta)]),
+              supervised([a-[where(Where)]], [], S),
+              children(S, [a-[]], [A]),
+              agent_property(A, host(Host)),
+              address(Begins, Host) ), _)).
+test(tried_again_when_there_is_a_place) :-
+    with_hosts([alpha],
+        listening(
+            ( worker(W),
+              agent_create(agents(supervisor), S,
+                           [facts([child(a, W, [where(on(beta))])])]),
+              wait_until(was_told(informational,
+                                  typhon(log(_, _, not_started(a, _, _)))),
+                         10),
+              \+ children(S, [a-[]], _),
+              setup_call_cleanup(
+                  host_start(beta),
+                  wait_until(children(S, [a-[]], _), 10),
+                  host_stop(beta)) ), _)).
+
+%   A tree: the child `sub` of the top is a supervisor of `leaf`.
+
+tree(Top, Sub, Leaf) :-
+    worker(W),
+    supervised_by(agents(supervisor),
+                  [facts([child(leaf, W, []), intensity(1, 60)])], Top),
+    wait_until(tree_of(Top, Sub, Leaf), 10).
+
+supervised_by(Program, Options, Top) :-
+    agent_create(agents(supervisor), Top,
+                 [facts([child(sub, Program, Options)])]).
+
+tree_of(Top, Sub, Leaf) :-
+    children(Top, [sub-[]], [Sub]),
+    catch(children(Sub, [leaf-[]], [Leaf]), error(_, _), fail).
+
+test(restart_of_a_leaf, Sub == Sub0) :-
+    with_hosts([alpha],
+        listening(
+            ( tree(Top, Sub0, Leaf0),
+              agent_dispose(Leaf0),
+              wait_until(( tree_of(Top, Sub, Leaf), Leaf \== Leaf0 ), 10) ),
+            _)).
+test(restart_of_a_supervisor) :-
+    with_hosts([alpha],
+        listening(
+            ( tree(Top, Sub0, Leaf0),
+              agent_dispose(Sub0),
+              joined(Leaf0, disposed),
+              wait_until(( tree_of(Top, Sub, _), Sub \== Sub0 ), 10) ), _)).
+test(a_supervisor_that_gives_up_is_restarted) :-
+    with_hosts([alpha],
+        listening(
+            ( tree(Top, Sub0, Leaf0),
+              agent_dispose(Leaf0),
+              wait_until(( tree_of(Top, Sub0, Leaf1), Leaf1 \== Leaf0 ), 10),
+              agent_dispose(Leaf1),
+              wait_until(( tree_of(Top, Sub, _), Sub \== Sub0 ), 10) ), _)).
+test(the_tree_ends_with_its_top, O-P == done-disposed) :-
+    with_hosts([alpha],
+        listening(
+            ( tree(Top, _, Leaf),
+              agent_send(Top, stop),
+              joined(Top, O),
+              joined(Leaf, P) ), _)).
+
 :- end_tests(supervisor).
 
 :- begin_tests(supervisor_of_processes).
@@ -137,7 +214,7 @@ linked(H1, H2, H3) :-
 
 begun(H1, H2, H3, More) :-
     worker(W),
-    agent_create(agents(supervision/supervisor), _,
+    agent_create(agents(supervisor), _,
                  [ host(H1),
                    facts([ child(a, W, [host(H1),where([same,least_loaded,here])]),
                            child(b, W, [host(H2),where([same,least_loaded,here])]),
@@ -148,13 +225,16 @@ begun(H1, H2, H3, More) :-
 %   answers(+Peer): its supervisor has handled all that came before.
 
 answers(Peer) :-
-    peer_do(Peer, ( typhon_agents:agent(Id, _, _, _, _),
-                    sub_atom(Id, 0, _, _, 'supervisor.') )),
+    supervisor_on(Peer, Id),
     Asker = clauses([ (:- agent(asker, [])),
                       (main :- send(Id, children),
                                receive(Id-children(_), 20), result(yes)) ]),
     with_hosts([gamma],
                ( agent_create(Asker, A), agent_result(A, yes, 25) )).
+
+supervisor_on(Peer, Id) :-
+    peer_do(Peer, ( typhon_agents:agent(Id, _, _, _, _),
+                    sub_atom(Id, 0, _, _, 'supervisor.') )).
 
 test(a_process_dies) :-
     three(( linked(H1, H2, H3),
@@ -174,5 +254,20 @@ test(its_own_process_dies) :-
             wait_until(each_once([p2,p3]), 30),
             answers(p2),
             each_once([p2,p3]) )).
+test(its_home_dies_while_it_is_elsewhere) :-
+    three(( linked(H1, H2, H3),
+            begun(H1, H2, H3, [standby(H2)]),
+            wait_until(each_once([p1,p2,p3]), 20),
+            wait_until(count([p2], supervisor, 1), 10),
+            answers(p1),
+            supervisor_on(p1, S),
+            agent_move(S, H3, [wait(5)]),
+            answers(p3),
+            peer_kill(p1),
+            wait_until(count([p3], supervisor, 0), 30),
+            wait_until(each_once([p2,p3]), 30),
+            answers(p2),
+            each_once([p2,p3]),
+            count([p2,p3], supervisor, 1) )).
 
 :- end_tests(supervisor_of_processes).

@@ -20,7 +20,7 @@
 :- use_module('../../kernel/travel',
               [outcome_wait/3, post_on/2, speaks_for/3]).
 :- use_module('../../kernel/lifecycle', [agent_dispose/1, agent_named/2]).
-:- use_module(watched, [watched_add/2]).
+:- use_module(watched, [orphans_end/1, watched_add/2]).
 
 /** <module> Monitors, at the home of those that set them
 
@@ -56,7 +56,7 @@ process.
 :- dynamic
     monitor/3,                  % Key, Watcher, Agent
     asked/2,                    % Agent, Since: its home is asked, `before` if
-                                % it had been asked before; `first`
+                                % it had been asked before; `first`; or `lost`
     minded/1,                   % Id: its monitors go when it ends
     goal/2.                     % N, Goal
 
@@ -226,23 +226,43 @@ to_ask(Agent, Since) :-
 
 :- public said/3.
 
-said(Agent, _, answer(unknown)) :-
+said(Agent, Home, answer(unknown)) :-
     asked(Agent, before),
     !,
-    lost(Agent).
+    scheduler_call(typhon_monitors:lost(Home)).
 said(Agent, _, answer(Outcome)) :-
     !,
     down(Agent, Outcome).
 said(Agent, Home, _) :-
     (   endpoint_gone(Home)
-    ->  lost(Agent)
+    ->  scheduler_call(typhon_monitors:lost(Home))
     ;   retractall(asked(Agent, _)),
         later(Agent, watch)
     ).
 
-%   Its home was its last known address.
+%   lost(+Home): with the process at Home its agents are lost.  None of them may
+%   run on elsewhere, since another one may take its place.
 
-lost(Agent) :-
+:- public lost/1.
+
+lost(Home) :-
+    with_mutex(typhon_monitors, claim(Home, Agents)),
+    (   Agents == []
+    ->  true
+    ;   orphans_end(Agents),
+        forall(member(Agent, Agents), lost_with_home(Agent))
+    ).
+
+claim(Home, Agents) :-
+    findall(Agent,
+            ( asked(Agent, Since),
+              Since \== lost,
+              agent_home_endpoint(Agent, Home) ),
+            Agents),
+    forall(member(Agent, Agents),
+           ( retractall(asked(Agent, _)), assertz(asked(Agent, lost)) )).
+
+lost_with_home(Agent) :-
     agent_home(Agent, Address),
     down(Agent, lost(Address)).
 
@@ -262,9 +282,7 @@ typhon_gone_processes:concerns :-
     !.
 
 typhon_gone_processes:gone(Peer) :-
-    findall(Agent, ( asked(Agent, _), agent_home_endpoint(Agent, Peer) ),
-            Agents),
-    forall(member(Agent, Agents), lost(Agent)).
+    lost(Peer).
 
 typhon_durable:go_on :-
     scheduler_call(typhon_monitors:go_on).

@@ -1,14 +1,17 @@
 :- module(typhon_watched_agents,
-          [ watched_add/2               % +Agent, +Asker
+          [ watched_add/2,              % +Agent, +Asker
+            orphans_end/1               % +Agents
           ]).
 :- use_module(library(apply), [exclude/3]).
 :- use_module(library(error), [must_be/2]).
 :- use_module(library(lists), [member/2]).
+:- use_module(library(ordsets), [ord_subtract/3, ord_union/2]).
 :- use_module('../../kernel/wire',
               [ endpoint_address/1, endpoint_ask_all/6, endpoint_gone/1,
                 endpoint_peer/2, endpoint_reply/2 ]).
 :- use_module('../../kernel/host',
-              [address_parts/3, alarm_in/3, scheduler_call/1]).
+              [address_parts/3, alarm_in/3, peer_may/3, scheduler_call/1]).
+:- use_module('../../kernel/lifecycle', [agent_ask_here/4]).
 :- use_module('../../kernel/agent', [agent_on/2]).
 :- use_module(gone, [process_suspect/1]).
 :- use_module('../../kernel/travel',
@@ -150,21 +153,28 @@ missing([], []) :-
     !.
 missing(Absent, Missing) :-
     findall(Agent, member(at(Agent, _, _, _), Absent), Agents),
-    findall(Peer, other(Peer), Peers0),
-    sort(Peers0, Peers),
-    patience(Seconds),
-    endpoint_ask_all(Peers, monitor, have(Agents), typhon_watched_agents:none,
-                     Seconds, Results),
+    others(Peers),
+    ask(Peers, have(Agents), Results),
     exclude(may_be_found(Results), Absent, Missing).
+
+ask(Peers, Question, Results) :-
+    patience(Seconds),
+    endpoint_ask_all(Peers, monitor, Question, typhon_watched_agents:none,
+                     Seconds, Results).
 
 :- public none/2.
 
 none(_, []).
 
-other(Peer) :-
-    endpoint_peer(Peer, process(_)),
-    \+ endpoint_address(Peer),
-    \+ endpoint_gone(Peer).
+%   others(-Peers:ordset): processes that are known, and not gone.
+
+others(Peers) :-
+    findall(Peer,
+            ( endpoint_peer(Peer, process(_)),
+              \+ endpoint_address(Peer),
+              \+ endpoint_gone(Peer) ),
+            Peers0),
+    sort(Peers0, Peers).
 
 may_be_found(Results, at(Agent, _, _, _)) :-
     member(_-answer(Agents), Results),
@@ -180,3 +190,55 @@ typhon_endpoint:requested(monitor, have(Agents), _, ReplyTo) :-
     must_be(list(atom), Agents),
     findall(Agent, ( member(Agent, Agents), agent_on(Agent, _) ), Here),
     endpoint_reply(ReplyTo, Here).
+
+                /*******************************
+                *            ORPHANS           *
+                *******************************/
+
+%!  orphans_end(+Agents) is det.
+%
+%   Agents, whose home is gone, are disposed of in all processes that can be
+%   reached, each of which asks those that it knows: now, and once more in a
+%   second, since an agent may be under way.  Waits for the answers.
+
+orphans_end(Agents) :-
+    end_everywhere(Agents, []),
+    pause(Seconds),
+    alarm_in(Seconds, watched, orphans(Agents)).
+
+typhon_scheduler:fire(_, orphans(Agents)) :-
+    !,
+    scheduler_call(typhon_watched_agents:end_everywhere(Agents, [])).
+
+:- public end_everywhere/2, end_asked/4.
+
+%   end_everywhere(+Agents, +Asked): the processes Asked are asked already.
+
+end_everywhere(Agents, Asked) :-
+    forall(member(Agent, Agents), end_here(Agent)),
+    others(Peers0),
+    ord_subtract(Peers0, Asked, Peers),
+    endpoint_address(Me),
+    ord_union([[Me], Peers, Asked], All),
+    ask(Peers, end(Agents, All), _).
+
+typhon_endpoint:requested(monitor, end(Agents, Asked), Peer, ReplyTo) :-
+    must_be(list(atom), Agents),
+    must_be(list(atom), Asked),
+    scheduler_call(typhon_watched_agents:end_asked(Agents, Asked, Peer,
+                                                   ReplyTo)).
+
+end_asked(Agents0, Asked0, Peer, ReplyTo) :-
+    exclude(may_not_end(Peer), Agents0, Agents),
+    sort(Asked0, Asked),
+    end_everywhere(Agents, Asked),
+    endpoint_reply(ReplyTo, ok).
+
+may_not_end(Peer, Agent) :-
+    agent_on(Agent, Host),
+    \+ peer_may(Peer, Host, orders).
+
+end_here(Agent) :-
+    patience(Seconds),
+    catch(ignore(agent_ask_here(Agent, dispose, Seconds, _)), error(_, _),
+          true).

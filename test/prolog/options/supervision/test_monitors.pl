@@ -363,6 +363,22 @@ test(lost_with_its_home, [nondet]) :-
               hears_of_another(W, Other),
               heard(W, Ms),
               assertion(Ms == [down(B, done), down(A, lost(H1)), Other]) )))).
+test(lost_with_its_home_while_it_is_elsewhere, [nondet]) :-
+    no_leaks(with_peers([p1, p2, p3],
+        here(
+            ( at(p1, H1), at(p2, H2), at(p3, H3),
+              link(alpha, H3),
+              peer_do(p3, link(p3, H2)),
+              watcher(W, [], []),
+              sleeper(A, [host(H1)]),
+              sleeper(B, [host(H1)]),
+              monitors(W, A),
+              agent_move(A, H2, [wait(5)]),
+              agent_move(B, H2, [wait(5)]),
+              peer_kill(p1),
+              once_only(W, down(A, lost(H1))),
+              assertion(\+ peer_do(p2, typhon_agents:agent_on(A, _))),
+              assertion(peer_do(p2, typhon_agents:agent_on(B, _))) )))).
 test(lost_where_it_went, [nondet]) :-
     no_leaks(with_peers([p1],
         here(

@@ -1,8 +1,8 @@
 :- agent(supervisor,
          [ state([ child/3, strategy/1, intensity/2, standby/1, primary/1,
-                   running/2, stood/2, pending/1, restarted/1 ]) ]).
+                   running/2, stood/2, pending/1, restarted/1, told/1 ]) ]).
 :- use_module(library(typhon)).
-:- include(places).
+:- include(supervision/places).
 
 /*  Starts children, and starts them again when they end, as the supervisors of
     OTP do.  Facts say what is wanted:
@@ -10,7 +10,7 @@
       child(Name, Program, Options)   in the order in which they are started.
                       Options are those of create/3, restart(permanent),
                       restart(transient) or restart(temporary), and
-                      where(Place), see places.pl
+                      where(Place), see supervision/places.pl
       strategy(one_for_one), one_for_all or rest_for_one
       intensity(Count, Seconds)       more restarts in so many seconds are too
                       many: all children are ended, and the supervisor is
@@ -27,12 +27,7 @@ main :-
     primary(Primary),
     !,
     monitor(Primary),
-    receive(system-down(Primary, Outcome)),
-    (   memberchk(Outcome, [done, disposed])
-    ->  true
-    ;   retractall(primary(_)),
-        supervise
-    ).
+    watch(Primary).
 main :-
     supervise.
 
@@ -42,18 +37,20 @@ supervise :-
     start_all(Names),
     serve.
 
-%   One child that could not be started yet is tried again once in a second.
+%   What was not possible yet is tried again once in a second.
 
 serve :-
-    (   pending(_)
-    ->  Patience = 1
-    ;   Patience = inf
-    ),
+    patience(Patience),
     (   receive(From-Message, Patience)
     ->  true
     ;   Message = again
     ),
     served(Message, From).
+
+patience(1) :-
+    ( pending(_) ; standby(_) ),
+    !.
+patience(inf).
 
 served(stop, _) :-
     !,
@@ -72,7 +69,12 @@ handle(down(Agent, Outcome), system) :-
     log(down(Name, Outcome)),
     ended(Name, Outcome).
 handle(again, _) :-
-    findall(Name, retract(pending(Name)), Names),
+    tell_where,
+    (   running(standby, _)
+    ->  true
+    ;   stand_by
+    ),
+    findall(Name, pending(Name), Names),
     start_all(Names).
 handle(children, From) :-
     findall(Name-Agent, ( running(Name, Agent), Name \== standby ), Pairs),
@@ -100,9 +102,18 @@ too_many(TooMany) :-
     now(Now),
     Since is Now-Seconds,
     assertz(restarted(Now)),
-    forall(( restarted(Then), Then < Since ), retract(restarted(Then))),
+    forget_before(Since),
     aggregate_all(count, restarted(_), Count),
     ( Count > Most -> TooMany = true ; TooMany = false ).
+
+forget_before(Since) :-                 % the oldest is the first
+    restarted(Then),
+    !,
+    (   Then < Since
+    ->  retract(restarted(Then)),
+        forget_before(Since)
+    ;   true
+    ).
 
 restart(true, Name) :-
     log(gives_up(Name)),
@@ -143,20 +154,34 @@ start(Name) :-
     option(where(Where), Options, same),
     places(Where, Name, Options, Places),
     (   begun(Places, Program, Name, Options, Agent, Host)
-    ->  retractall(stood(Name, _)),
+    ->  retractall(pending(Name)),
+        retractall(stood(Name, _)),
         assertz(stood(Name, Host)),
         assertz(running(Name, Agent)),
-        monitor(Agent, [shared(agent)])
+        monitor(Agent, [shared(agent)]),
+        tell_standby(started(Name, Agent))
+    ;   pending(Name)
+    ->  true
     ;   assertz(pending(Name))
     ).
 
 begun([Host|Hosts], Program, Name, Options0, Agent, At) :-
     exclude(of_supervisor, Options0, Options),
     (   catch(create(Program, Agent, [host(Host),name(Name)|Options]),
-              error(_, _), fail)
+              error(Problem, _), not_begun(Name, Host, Problem))
     ->  At = Host
     ;   begun(Hosts, Program, Name, Options0, Agent, At)
     ).
+
+%   Said once, as long as the child is tried again.
+
+not_begun(Name, _, _) :-
+    pending(Name),
+    !,
+    fail.
+not_begun(Name, Host, Problem) :-
+    log(not_started(Name, Host, Problem)),
+    fail.
 
 of_supervisor(host(_)).
 of_supervisor(name(_)).
@@ -177,6 +202,7 @@ retract_pending(Names) :-
 stop_each([]).
 stop_each([Name-Agent|Pairs]) :-
     retractall(running(Name, Agent)),
+    monitor(Agent),
     catch(agent_dispose(Agent), error(_, _), true),
     (   receive(system-down(Agent, _), 10)
     ->  true
@@ -184,19 +210,76 @@ stop_each([Name-Agent|Pairs]) :-
     ),
     stop_each(Pairs).
 
-%   The one that stands by has the same facts.
+                /*******************************
+                *            STANDBY           *
+                *******************************/
+
+%   It has the same facts, and knows the children, since it ends those that may
+%   have outlived the primary before it starts others.
 
 stand_by :-
     (   standby(Host),
         self(Me),
-        findall(child(Name, P, O), child(Name, P, O), Children),
-        findall(Fact, ( strategy(S), Fact = strategy(S)
-                      ; intensity(C, T), Fact = intensity(C, T) ), More),
         here(Here),
-        append([primary(Me),standby(Here)|Children], More, Facts),
-        catch(create(self, Agent, [host(Host),facts(Facts)]), error(_, _),
-              fail)
+        findall(Fact, inherited(Fact), Facts),
+        catch(create(self, Agent,
+                     [host(Host),facts([primary(Me),standby(Here)|Facts])]),
+              error(_, _), fail)
     ->  assertz(running(standby, Agent)),
         monitor(Agent)
+    ;   true
+    ).
+
+inherited(child(Name, Program, Options)) :-
+    child(Name, Program, Options).
+inherited(strategy(Strategy)) :-
+    strategy(Strategy).
+inherited(intensity(Count, Seconds)) :-
+    intensity(Count, Seconds).
+inherited(running(Name, Agent)) :-
+    running(Name, Agent).
+
+watch(Primary) :-
+    (   receive(From-Message, 1)
+    ->  true
+    ;   Message = again
+    ),
+    watched(Message, From, Primary).
+
+watched(down(Primary, Outcome), system, Primary) :-
+    !,
+    (   memberchk(Outcome, [done, disposed])
+    ->  true
+    ;   retractall(primary(_)),
+        log(takes_over(Primary)),
+        findall(Name, running(Name, _), Names),
+        stop_all(Names),
+        supervise
+    ).
+watched(started(Name, Agent), Primary, Primary) :-
+    !,
+    retractall(running(Name, _)),
+    assertz(running(Name, Agent)),
+    watch(Primary).
+watched(_, _, Primary) :-
+    tell_where,
+    watch(Primary).
+
+%   The process of each knows that of the other, to which that may have hopped:
+%   so it can end it there if its home is lost.
+
+tell_where :-
+    here(Here),
+    (   told(Here)
+    ->  true
+    ;   retractall(told(_)),
+        assertz(told(Here)),
+        forall(primary(Primary), send(Primary, at(Here))),
+        tell_standby(at(Here))
+    ).
+
+tell_standby(Message) :-
+    (   running(standby, Standby)
+    ->  send(Standby, Message)
     ;   true
     ).
