@@ -207,6 +207,8 @@ run(host, [Name], Options) :-
         host_start(Name, HostOptions),
         ( host_property(Name, address(Address)),
           forall(member(link(Other), Options), link(Name, Other)),
+          forall(option(mqtt(Broker), Options),
+                 mqtt_start(Name, Broker, [wait(false)])),
           print_line(Address)
         ),
         host_stop(Name)).

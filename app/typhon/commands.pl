@@ -109,6 +109,8 @@ option(host, events, atom, 'A,B',
        'with --log: also hops, messages, messages(content), facts').
 option(host, link, atom, 'ADDRESS',
        'host to link to (may be repeated)').
+option(host, mqtt, atom, 'URL',
+       'broker of MQTT for the agents there, as mqtt://localhost').
 option(host, journal, atom, 'DIR',
        'what happens here outlives the process, in DIR or at a \c
         postgresql:// URL').

@@ -21,6 +21,9 @@
 %
 %   Print Error, which Command has raised, and what to try next.
 
+complain(_, error(io_error(write, Stream), _)) :-
+    stream_property(Stream, alias(user_output)),
+    !.                                  % closed by its reader, as head(1)
 complain(Command, Error) :-
     (   Error = error(Formal, Context),
         ( hint(Formal, Hint) ; no_program(Command, Formal, Context, Hint) )

@@ -11,7 +11,7 @@
 
 :- use_module(library(plunit)).
 :- use_module(library(process), [process_kill/2]).
-:- use_module(library(readutil), [read_line_to_string/2]).
+:- use_module(library(readutil), [read_file_to_string/3, read_line_to_string/2]).
 
 typhon(Args, Status, Out, Err) :-
     typhon_args(Args, SwiplArgs),
@@ -90,6 +90,9 @@ test(help_is_apart_from_the_arguments) :-
 test(without_arguments, Lines1 == Lines2) :-
     typhon_lines([], Lines1),
     typhon_lines(['--help'], Lines2).
+test(reader_that_stops_reading, Text == "") :-
+    project_file('app/typhon.pl', App),
+    with_tmp_dir(stopped_reading(App, Text)).
 test(command, forall(member(Command-Pattern,
                             [ host-'*--port=PORT*', network-'*--processes=N*',
                               create-'*--join=SECONDS*',
@@ -103,6 +106,13 @@ test(command, forall(member(Command-Pattern,
                             ]))) :-
     typhon_lines([Command, '--help'], Lines),
     assertion(has_line(Lines, Pattern)).
+
+stopped_reading(App, Text, Dir) :-
+    directory_file_path(Dir, err, Err),
+    current_prolog_flag(executable, Swipl),
+    format(atom(Script), '~w ~w --help 2>~w | exec <&-', [Swipl, App, Err]),
+    shell(Script),
+    read_file_to_string(Err, Text, []).
 
 :- end_tests(app_help).
 
@@ -269,6 +279,15 @@ test(link) :-
                     ( typhon_lines([hosts, '--host', Alpha], Hosts),
                       assertion(has_line(Hosts, '*alpha@*beta*'))
                     ))).
+
+test(mqtt, condition(has_paho)) :-
+    with_typhon([host, alpha, '--mqtt', 'mqtt://127.0.0.1:1'], _, Alpha,
+                typhon_lines([remote, Alpha, 'publish(a,b)'], [])).
+
+has_paho :-
+    typhon([diagnose, mqtt, 'mqtt://127.0.0.1:1'], _, Out, _),
+    split_string(Out, "\n", "", Lines),
+    \+ has_line(Lines, '*FAIL*paho*').
 
 :- end_tests(app_host).
 
