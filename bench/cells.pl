@@ -1,4 +1,5 @@
 :- use_module(common).
+:- use_module(hogs).
 :- use_module(traveller).
 :- use_module(library(typhon)).
 :- use_module(library(typhon/options/cell/cells), [cells_list/1]).
@@ -17,7 +18,7 @@ with cells, one after the other. */
 main([Placement]) :-
     host_start(here),
     with_peer([env], costs),
-    with_peer([env], beside_hogs(Placement)),
+    with_peer([env], beside_all_hogs(Placement)),
     host_stop(here).
 
                 /*******************************
@@ -124,7 +125,7 @@ mean(I, All, Mean) :-
                 *             HOGS             *
                 *******************************/
 
-beside_hogs(Placement, Peer) :-
+beside_all_hogs(Placement, Peer) :-
     with_inn(owner, 0.3,
              forall(hog(What, Clauses),
                     beside_hog(What, Clauses, Peer, Placement))).
@@ -143,33 +144,13 @@ beside_hog(What, Clauses, Peer, Placement) :-
 
 rates(Clauses, Peer, Alone, Beside) :-
     travelled(10, 4000, Peer, rates(Alone, _)),
-    thread_create(hogs(Clauses), Thread),
-    travelled(10, 4000, Peer, rates(Beside, _)),
-    thread_send_message(Thread, stop),
-    thread_join(Thread, _).
-
-%   One each half second.
-
-hogs(Clauses) :-
-    agent_create(clauses([(:- agent(hog, [state([s/1])]))|Clauses]), _,
-                 [host(inn)]),
-    thread_self(Me),
-    (   thread_get_message(Me, stop, [timeout(0.5)])
-    ->  true
-    ;   hogs(Clauses)
-    ).
+    beside_hogs(inn, Clauses, travelled(10, 4000, Peer, rates(Beside, _))).
 
 hog(nothing, [ main ]).
-hog(time, [ (main :- lp), (lp :- lp) ]).
-hog(stack, [ (main :- lr(0)), (lr(N) :- M is N+1, lr(M), true) ]).
-hog(findall, [ (main :- findall(X, between(1, inf, X), _)) ]).
-hog(strings, [ (main :- ls("abc")), (ls(S) :- string_concat(S, S, T), ls(T)) ]).
-hog(state, [ (main :- between(1, inf, X), assertz(s(X)), fail) ]).
-hog(tuples, [ (main :- between(1, inf, X), leave(s(X)), fail) ]).
-hog(messages, [ (main :- self(M), between(1, inf, X), send(M, X), fail) ]).
-hog(clones, [ (main :- clone(_), main) ]).
 hog('a large number', [ (main :- between(1, inf, _),
                                  _ is (7**10000000) mod 11, fail) ]).
+hog(What, Clauses) :-
+    hog_clauses(What, Clauses).
 
 :- multifile user:message_hook/3.
 :- dynamic user:message_hook/3.

@@ -1,4 +1,5 @@
 :- use_module(common).
+:- use_module(hogs).
 :- use_module(traveller).
 :- use_module(library(typhon)).
 :- use_module(library(lists), [member/2, sum_list/2]).
@@ -33,7 +34,8 @@ guarded_hops(Placement, Peer) :-
     ratio(Name, Guarded, Plain, us, 'a plain hop'),
     set_policy(Peer, guarded),
     host_change(here, quota([seconds(0.3)])),
-    forall(hog(What, Clauses), beside_hog(What, Clauses, Peer, Placement)).
+    forall(hog_clauses(What, Clauses),
+           beside_hog(What, Clauses, Peer, Placement)).
 
 rate(Peer, Policy, Rate) :-
     set_policy(Peer, Policy),
@@ -45,33 +47,10 @@ set_policy(Peer, Policy) :-
 
 beside_hog(What, Clauses, Peer, Placement) :-
     travelled(10, 8000, Peer, rates(Alone, _)),
-    thread_create(hogs(Clauses), Thread),
-    travelled(10, 8000, Peer, rates(Beside, _)),
-    thread_send_message(Thread, stop),
-    thread_join(Thread, _),
+    beside_hogs(here, Clauses, travelled(10, 8000, Peer, rates(Beside, _))),
     atomic_list_concat(['hops of ten agents beside a hog of ', What, ', ',
                         Placement], Name),
     ratio(Name, Beside, Alone, '1/s', 'alone').
-
-%   One each half second.
-
-hogs(Clauses) :-
-    agent_create(clauses([(:- agent(hog, [state([s/1])]))|Clauses]), _,
-                 [host(here)]),
-    thread_self(Me),
-    (   thread_get_message(Me, stop, [timeout(0.5)])
-    ->  true
-    ;   hogs(Clauses)
-    ).
-
-hog(time, [ (main :- lp), (lp :- lp) ]).
-hog(stack, [ (main :- lr(0)), (lr(N) :- M is N+1, lr(M), true) ]).
-hog(findall, [ (main :- findall(X, between(1, inf, X), _)) ]).
-hog(strings, [ (main :- ls("abc")), (ls(S) :- string_concat(S, S, T), ls(T)) ]).
-hog(state, [ (main :- between(1, inf, X), assertz(s(X)), fail) ]).
-hog(tuples, [ (main :- between(1, inf, X), leave(s(X)), fail) ]).
-hog(messages, [ (main :- self(M), between(1, inf, X), send(M, X), fail) ]).
-hog(clones, [ (main :- clone(_), main) ]).
 
 :- multifile user:message_hook/3.
 :- dynamic user:message_hook/3.

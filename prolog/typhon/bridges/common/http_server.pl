@@ -19,6 +19,7 @@
               [ tcp_accept/3, tcp_bind/2, tcp_close_socket/1,
                 tcp_listen/2, tcp_open_socket/2, tcp_open_socket/3,
                 tcp_setopt/2, tcp_socket/1 ]).
+:- use_module('../../kernel/base/error_text', [is_abort/1]).
 :- use_module('../../kernel/base/options', [blaming/2]).
 :- use_module('../../kernel/base/own_thread', [in_own_thread/1]).
 
@@ -312,9 +313,8 @@ work(Goal) :-
 
 told(crew_end) :-
     !.
-told('$aborted') :-
-    !.
-told(unwind(_)) :-
+told(Ball) :-
+    is_abort(Ball),
     !.
 told(Ball) :-
     print_message(error, Ball).

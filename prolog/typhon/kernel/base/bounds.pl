@@ -107,7 +107,8 @@ free_pages(Bytes) :-
 %   exceeds Setting, module:name.
 
 bounded(Fact, Setting) :-
-    Setting = _:Key,
+    Setting = Module:Name,
+    atomic_list_concat([Module, Name], :, Key),
     flag(Key, N, N+1),
     (   N mod 100 =:= 0
     ->  setting(Setting, Max),

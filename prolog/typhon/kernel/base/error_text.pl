@@ -5,6 +5,7 @@
             term_told/3,                % +Term, -Lines, ?Rest
             context_indicator/3,        % +PI, -Name, -Arity
             is_remark/1,                % @Text
+            is_abort/1,                 % @Ball
             abridged/3                  % +Term, +Longest, -Text
           ]).
 :- use_module(library(apply), [maplist/2]).
@@ -34,6 +35,17 @@ print_error(Kind, Error) :-
 
 prolog:message(typhon(raised(Error))) -->
     error_told(Error).
+
+%!  is_abort(@Ball) is semidet.
+%
+%   Ball ends the thread that catches it: it was aborted.
+
+is_abort(Ball) :-
+    nonvar(Ball),
+    ends_thread(Ball).
+
+ends_thread('$aborted').
+ends_thread(unwind(_)).                 % SWI-Prolog 9.3 and later
 
 %!  error_told(+Error, -Lines, ?Rest) is det.
 %

@@ -2,7 +2,7 @@
           [ harmless_error/2            % +Ball0, -Ball
           ]).
 :- use_module(library(lists), [member/2]).
-:- use_module(error_text, [context_indicator/3, is_remark/1]).
+:- use_module(error_text, [context_indicator/3, is_abort/1, is_remark/1]).
 :- use_module(trees, [is_tree/2]).
 
 /** <module> Errors from elsewhere, raised again
@@ -39,7 +39,7 @@ harmless(error(Formal, Context0), error(Formal, Context)) :-
     harmless_context(Context0, Context).
 harmless(Ball, Ball) :-
     nonvar(Ball),
-    \+ ends_thread(Ball),
+    \+ is_abort(Ball),
     is_tree(Ball, 50 000),
     \+ translated(Ball).
 
@@ -57,9 +57,6 @@ harmless_formal(Formal) :-
     !.
 harmless_formal(Formal) :-
     \+ translated(error(Formal, _)).
-
-ends_thread('$aborted').
-ends_thread(unwind(_)).
 
 harmless_context(Context0, Context) :-
     nonvar(Context0),

@@ -10,7 +10,7 @@
             server_stop/1,              % +Server
             server_leave/1              % +Server
           ]).
-:- use_module(error_text, [error_told/3]).
+:- use_module(error_text, [error_told/3, is_abort/1]).
 
 /** <module> Servers: threads that own a queue
 
@@ -245,13 +245,10 @@ survive(Ball) :-
     print_message(error, typhon(server_error(Ball))).
 
 go_on(Ball) :-
-    (   unwinding(Ball)
+    (   is_abort(Ball)
     ->  throw(Ball)
     ;   true
     ).
-
-unwinding('$aborted').
-unwinding(unwind(_)).                   % SWI-Prolog 9.3 and later
 
 serve_from(begin, State0, Handle, Queue, End) :-
     !,

@@ -15,7 +15,7 @@
 :- use_module(library(debug), [debug/3]).
 :- use_module(library(lists), [member/2]).
 :- use_module('../base/durable', [durable/6]).
-:- use_module('../base/error_text', [print_error/2]).
+:- use_module('../base/error_text', [is_abort/1, print_error/2]).
 :- use_module(turns, [turn_begins/1, turn_in/3, turns_not_short/2]).
 :- use_module(time,
               [ time_adopt/1, time_alone/0, time_here/2, time_leave/0,
@@ -86,9 +86,8 @@ next_turn(Host, Again) :-
     ;   true
     ).
 
-survive('$aborted') :-
-    !.
-survive(unwind(_)) :-                   % SWI-Prolog 9.3 and later
+survive(Ball) :-
+    is_abort(Ball),
     !.
 survive(Ball) :-
     print_error(error, Ball).

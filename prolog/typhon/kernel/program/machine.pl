@@ -7,6 +7,7 @@
             handed/6                    % +Place, +Vars, +Goals, +Context,
                                         % +Base, -Out
           ]).
+:- use_module('../base/error_text', [is_abort/1]).
 :- use_module(bodies,
               [body_goals/4, called_goal/2, goals_body/2, plain_goals/2]).
 :- use_module(chunk_goals, [place_marked/3]).
@@ -80,8 +81,10 @@ machine_ready(context(Program, _)) :-
     ;   true
     ).
 
+%   Exceptions that end a thread are not the agent's business.
+
 raised(Ball, Outcome) :-
-    (   unwinding(Ball)
+    (   is_abort(Ball)
     ->  throw(Ball)
     ;   Outcome = raised(Ball)
     ).
@@ -109,12 +112,6 @@ engine(context(Program, Agent), X) :-
 outcome(exit, done).
 outcome(effect(Control, Hole, Goals0), effect(Control, Hole, Goals)) :-
     plain_goals(Goals0, Goals).
-
-%   Exceptions that end a thread are not the agent's business.
-
-unwinding(Ball) :- var(Ball), !, fail.
-unwinding('$aborted').
-unwinding(unwind(_)).
 
 %!  machine_inside is semidet.
 %
@@ -307,7 +304,7 @@ catching(Goal, Catcher, Recovery, Goals, X, Base, Out) :-
     ;   fails_inside(Frame, Goals)
     ).
 
-recovered(caught(Ball), _, _, _, _, _, _), unwinding(Ball) =>
+recovered(caught(Ball), _, _, _, _, _, _), is_abort(Ball) =>
     throw(Ball).
 recovered(caught(_), Recovery, Goals, _, X, Base, Out) =>
     step(call(Recovery), Goals, X, Base, Out).

@@ -10,6 +10,7 @@
             '$uncaught'/1               % ?Ball
           ]).
 :- use_module(library(error), [permission_error/3]).
+:- use_module('../base/error_text', [is_abort/1]).
 :- use_module('../agent', [agent_variant/2]).
 
 /** <module> Goals that are checked when they are called
@@ -109,15 +110,13 @@ typhon_machine:checked(context(_, Module), Checked, Goal) :-
 %   agent goes on.
 
 '$uncaught'(Ball) :-
-    nonvar(Ball),
     uncaught(Ball),
     !,
     throw(Ball).
 '$uncaught'(_).
 
-uncaught('$aborted').
-uncaught(unwind(_)).
-uncaught(error(Formal, _)) :-
-    nonvar(Formal),
-    Formal = resource_error(What),
-    What == stack.
+uncaught(Ball) :-
+    is_abort(Ball),
+    !.
+uncaught(Ball) :-
+    subsumes_term(error(resource_error(stack), _), Ball).

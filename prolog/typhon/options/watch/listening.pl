@@ -6,7 +6,7 @@
           ]).
 :- use_module(library(apply), [partition/4]).
 :- use_module(library(lists), [delete/3, member/2, min_list/2]).
-:- use_module('../../kernel/base/error_text', [error_told/3]).
+:- use_module('../../kernel/base/error_text', [error_told/3, is_abort/1]).
 :- use_module('../../kernel/wire',
               [endpoint_address/1, endpoint_reply/2, endpoint_request/4]).
 :- use_module(watch_places,
@@ -227,9 +227,6 @@ raised(Ball, Watch) :-
     ;   nb_setval(typhon_watch_warned, true),
         print_message(warning, typhon(watch_raised(Watch, Ball)))
     ).
-
-is_abort('$aborted').
-is_abort(unwind(_)).
 
                 /*******************************
                 *              END             *
