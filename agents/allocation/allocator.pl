@@ -51,6 +51,7 @@ default(alpha_k, 0.01).         % below it the resource is used up
 default(chi, 10).               % the resource of one that knows nothing
 default(bi_min, 10).            % seconds, of constant back-off
 default(bi_max, 500).
+default(beta, 1).               % of the first back-off; or 0
 default(backoff, adaptive).     % or `constant`: equation 7.7 for 7.6
 default(strategy, conscientious).
 default(children, 1).           % among which the robots to free are shared

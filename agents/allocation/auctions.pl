@@ -46,7 +46,8 @@ started the hosts.
 %       Of the network; default what it is now. It is the setting `level`,
 %       and with the longest time of a hop it makes the settings `window`
 %       and `answer`, host seconds to wait for bids and for answers: there
-%       and back again, and slack.
+%       and back again, to one neighbour after the other if nodes send one by
+%       one, and slack.
 %     - slack(+Seconds)
 %       Of host time, for what the computer takes to pass on some thousand
 %       messages; default what is half a second on a clock on the wall.
@@ -96,15 +97,17 @@ typhon_options:declared(auction_option, slack(X), number, X).
 
 settings(Hosts, Options, Settings) :-
     known_settings([ window, answer, renew, contract, tries, bi_min, bi_max,
-                     level, memory, jobs ],
+                     beta, sending, level, memory, jobs ],
                    Options, Pairs),
+    edges(Hosts, Edges),
     (   option(diameter(Diameter), Options)
     ->  true
-    ;   diameter(Hosts, Diameter)
+    ;   diameter(Hosts, Edges, Diameter)
     ),
     slack(Hosts, Options, Slack),
     longest_hop(Hosts, Hop),
-    Window is 2*Diameter*Hop + Slack,
+    in_turn(Pairs, Hosts, Edges, Turns),
+    Window is 2*Diameter*Hop*Turns + Slack,
     findall(setting(Name, Value),
             ( member(Name-Value, Pairs)
             ; member(Name-Value,
@@ -112,6 +115,18 @@ settings(Hosts, Options, Settings) :-
               \+ memberchk(Name-_, Pairs)
             ),
             Settings).
+
+%   in_turn(+Settings, +Hosts, +Edges, -Turns): how long it takes a node to send
+%   to all its neighbours, in hops, where it sends to one after the other and
+%   has as many as there are in the mean.
+
+in_turn(Pairs, Hosts, Edges, Turns) :-
+    memberchk(sending-one_by_one(Share), Pairs),
+    !,
+    length(Edges, Links),
+    length(Hosts, Count),
+    Turns is max(1, Share*Links/Count).
+in_turn(_, _, _, 1).
 
 slack(_, Options, Slack) :-
     option(slack(Slack), Options),
@@ -143,14 +158,18 @@ host_name(Host, Name) :-
     ;   Name = Host
     ).
 
-%   The longest of the shortest ways between hosts that are linked at all.
+%   Each link is in it twice, once for each of its ends.
 
-diameter(Hosts, Diameter) :-
+edges(Hosts, Edges) :-
     findall(Host-Other,
             ( member(Host, Hosts),
               remote(Host, neighbours(Others)),
               member(Other, Others), memberchk(Other, Hosts) ),
-            Edges),
+            Edges).
+
+%   The longest of the shortest ways between hosts that are linked at all.
+
+diameter(Hosts, Edges, Diameter) :-
     vertices_edges_to_ugraph(Hosts, Edges, Graph),
     findall(Depth,
             ( member(Host, Hosts), depth([Host], [Host], Graph, 0, Depth) ),

@@ -34,7 +34,8 @@ mechanism_allocate(Mechanism, Pairs, Case, Network) :-
     !,
     network_property(Network, hosts(Hosts)),
     auction_start(Mechanism, Hosts,
-                  [ settings([bi_min-Case.bi_min, bi_max-Case.bi_max]),
+                  [ settings([ bi_min-Case.bi_min, bi_max-Case.bi_max,
+                               beta-Case.beta, sending-Case.sending ]),
                     slack(0) ]),
     forall(member(Task-Host, Pairs), auction_post(Mechanism, Task, Host)),
     pairs_values(Pairs, Auctioneers),
@@ -59,7 +60,8 @@ task_start(Task, Host, Case) :-
 start(Backoff, Task, Host, Case) :-
     task_allocate(Task, Host,
                   [ settings([ backoff-Backoff, seed-Case.seed,
-                               bi_min-Case.bi_min, bi_max-Case.bi_max ]) ],
+                               bi_min-Case.bi_min, bi_max-Case.bi_max,
+                               beta-Case.beta ]) ],
                   _).
 
 %   Nodes do not end: they and the robots are looked at.  A robot that the

@@ -26,6 +26,9 @@ fixed(hop_time, 0.05-0.15,
 fixed(duration, 5, assumed("seconds a robot takes for its part")).
 fixed(bi_min, 10, printed("section 7.6")).
 fixed(bi_max, 500, printed("section 7.6")).
+fixed(beta, 1, assumed("exponent of equation 7.5 at the first back-off: so many \c
+it has experienced with this one, as in CSMA/CD")).
+fixed(sending, at_once, assumed("messages do not wait for each other")).
 fixed(limit, 50000, assumed("seconds; a run that takes longer fails")).
 
 network(Case, random(Case.hosts, Case.probability),

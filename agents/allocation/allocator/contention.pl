@@ -4,7 +4,7 @@
 
 /*  Backing off before others: thesis section 7.4.1, Contention Resolution.
     The equations of backoff_interval.pl in the life of an allocator;
-    backoffs(Count) is its beta.
+    backoffs(Count), with this one, is its beta, if that begins with 1.
 */
 
 %!  back_off is det.
@@ -27,8 +27,10 @@ back_off_interval(Interval) :-
     Count is Count0 + 1,
     keep(backoffs(Count)),
     parameter(bi_max, Maximum),
+    parameter(beta, First),
+    Beta is First + Count0,
     chance_turn(Turn),
-    interval(Theta, Count, Maximum, Turn, Interval).
+    interval(Theta, Beta, Maximum, Turn, Interval).
 
 theta(Theta) :-
     parameter(backoff, constant),

@@ -193,7 +193,9 @@ back_off(Job) :-
     parameter(bi_max, Maximum),
     bid_time(Bids, Minimum, Theta),
     Turn is random_float,
-    interval(Theta, Backoffs, Maximum, Turn, Seconds),
+    parameter(beta, First),
+    Beta is First + Backoffs0,
+    interval(Theta, Beta, Maximum, Turn, Seconds),
     log(backoff(Seconds)),
     after(Seconds, again(Job, Round)).
 

@@ -9,6 +9,11 @@
     passed on at the time it was due, so the computer adds nothing to the
     time of a flood as long as it keeps pace.
 
+    A node sends to all neighbours at once.  With the setting `sending`
+    one_by_one(Share) it has one channel: a message goes when the one before
+    has come, and takes this share of the time of a hop, so that many messages
+    take long (thesis section 7.6.1 names bandwidth).
+
     Each node passes a flood on once, to all neighbours but the one it came
     from: over N hosts with E links it takes 2E - (N-1) messages.  Two nodes
     often send each other the same.  The later one has got the earlier
@@ -18,9 +23,10 @@
         peer(Host, Node)        each node there is
         wave(Flood, Due, Froms) floods known, -1 once they are passed on;
                                 the neighbours from which they came
+        busy(Until)             the channel, if there is but one
 */
 
-:- dynamic peer/2, wave/3.
+:- dynamic peer/2, wave/3, busy/1.
 
                 /*******************************
                 *            LINKS             *
@@ -44,14 +50,30 @@ cross(To, Body, Now) :-
 
 transmit([], _, _, _).
 transmit([To|Tos], Here, Now, Load) :-
-    link_seconds(Seconds),
-    Due is Now + Seconds,
+    due(Now, Due),
     peer(To, Node),
     (   tell(Node, link(Due, Here, Load))
     ->  true
     ;   retractall(peer(To, _))
     ),
     transmit(Tos, Here, Now, Load).
+
+%   due(+Now, -Due): when a message that is sent now has come.
+
+due(Now, Due) :-
+    parameter(sending, Sending),
+    link_seconds(Seconds),
+    due(Sending, Seconds, Now, Due).
+
+due(at_once, Seconds, Now, Due) :-
+    Due is Now + Seconds.
+due(one_by_one(Share), Seconds, Now, Due) :-
+    (   retract(busy(Until))
+    ->  true
+    ;   Until = Now
+    ),
+    Due is max(Now, Until) + Share*Seconds,
+    assertz(busy(Due)).
 
 link_seconds(Seconds) :-
     (   setting(hop_time, uniform(Min, Max))
@@ -116,8 +138,19 @@ spread(From, Froms, Id, Body, Now) :-
     others(Neighbours, From, Count, Others),
     subtract(Others, Froms, Tos),
     transmit(Tos, Here, Now, flood(Id, Body)),
+    spare(Tos, Count, Now),
     body_kind(Body, Kind),
     count(Kind, Count).
+
+%   What is counted, and spared the computer, occupies the channel.
+
+spare(Tos, Count, Now) :-
+    length(Tos, Sent),
+    Spared is Count - Sent,
+    (   parameter(sending, at_once)
+    ->  true
+    ;   forall(between(1, Spared, _), due(Now, _))
+    ).
 
 others([], _, 0, []).
 others([Host|Hosts], From, Count, Others) :-

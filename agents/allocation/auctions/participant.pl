@@ -41,6 +41,8 @@ default(answer, 10).            % seconds for the answers to an award
 default(renew, 20).             % seconds from one renewal to the next
 default(contract, 60).          % seconds a contract lasts unless renewed
 default(tries, 3).              % rounds without a back-off between them
+default(sending, at_once).      % or one_by_one(Share)
+default(beta, 1).               % of the first back-off
 default(bi_min, 10).
 default(bi_max, 500).
 default(level, 10).             % of a broadcast tree

@@ -66,6 +66,26 @@ test(a_link_takes_as_long_as_a_hop) :-
     findall(Due, retract(fake_host:did(send(_, link(Due, _, _)))), Dues),
     length(Dues, 60),
     forall(member(Due, Dues), ( Due >= 10.5, Due =< 11.5 )).
+test(messages_over_one_channel_wait_for_each_other, Dues == [11, 12, 13, 14]) :-
+    node(murdoch, [ setting(hop_time, uniform(2, 2)),
+                    setting(sending, one_by_one(0.5)) ]),
+    at(10),
+    link(a, 10, flood(77, start(x))),
+    link(b, 10, flood(78, start(x))),
+    findall(Due, ( retract(fake_host:did(send(_, link(Due0, _, _)))),
+                   Due is integer(Due0) ),
+            Dues).
+test(what_is_spared_occupies_the_channel, Dues == [11, 13, 14]) :-
+    node(murdoch, [ setting(hop_time, uniform(2, 2)),
+                    setting(sending, one_by_one(0.5)) ]),
+    at(5),
+    link(a, 10, flood(77, start(x))),
+    link(b, 11, flood(77, start(x))),
+    at(10),
+    link(a, 10, flood(78, start(x))),
+    findall(Due, ( retract(fake_host:did(send(_, link(Due0, _, _)))),
+                   Due is integer(Due0) ),
+            Dues).
 test(what_is_passed_on_late_is_not_late) :-
     node(murdoch, [setting(hop_time, uniform(1, 1))]),
     at(10),                             % it was due at 3
