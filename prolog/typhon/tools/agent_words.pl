@@ -188,10 +188,10 @@ part(comments, pldoc_process).
 
 help_shown(HTML) :-
     begins(Mark),
-    atomic_list_concat([Begin,First|More0], Mark, HTML),
-    once_each(More0, First, More),
-    More \== More0,
-    atomic_list_concat([Begin,First|More], Mark, Once),
+    atomic_list_concat([Begin|Pieces0], Mark, HTML),
+    once_each(Pieces0, [], Pieces),
+    Pieces \== Pieces0,
+    atomic_list_concat([Begin|Pieces], Mark, Once),
     part(help, Help),
     Help:show_html(Once).
 
@@ -199,18 +199,18 @@ help_shown(HTML) :-
 
 begins('<div class="navhdr">').
 
-%   once_each(+Pieces0, +First, -Pieces): without those that are First; the
-%   last has the end of the page behind it.
+%   once_each(+Pieces0, +Before, -Pieces): without those that begin as one
+%   Before; the last has the end of the page behind it.
 
 once_each([], _, []).
-once_each([Piece|Pieces0], First, Pieces) :-
-    split_string(First, "", "\n ", [Text]),
-    split_string(Piece, "", "\n ", [Same]),
-    string_concat(Text, _, Same),
-    !,
-    once_each(Pieces0, First, Pieces).
-once_each([Piece|Pieces0], First, [Piece|Pieces]) :-
-    once_each(Pieces0, First, Pieces).
+once_each([Piece|Pieces0], Before, Pieces) :-
+    split_string(Piece, "", "\n ", [Text]),
+    (   member(Earlier, Before),
+        string_concat(Earlier, _, Text)
+    ->  Pieces = Pieces1
+    ;   Pieces = [Piece|Pieces1]
+    ),
+    once_each(Pieces0, [Text|Before], Pieces1).
 
                 /*******************************
                 *            APROPOS           *
