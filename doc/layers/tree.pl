@@ -83,7 +83,8 @@ read_source(File) :-
 
 read_terms(In, File) :-
     repeat,
-    prolog_read_source_term(In, Term, _, [term_position(Position)]),
+    prolog_read_source_term(In, Term, _, [ term_position(Position),
+                                           syntax_errors(error) ]),
     (   Term == end_of_file
     ->  !
     ;   stream_position_data(line_count, Position, First),

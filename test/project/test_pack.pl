@@ -33,6 +33,7 @@ install(Spec, Options, Home, Directory) :-
            [Spec, [interactive(false),register(false)|Options]]),
     swipl_at_home(Home, Directory, [Goal], _, Err),
     assertion(\+ sub_string(Err, _, _, _, "make demo")),
+    assertion(\+ sub_string(Err, _, _, _, "ERROR")),
     (   link_of(Home, Root)
     ->  format(string(Says), "the pack is a link: keep ~w", [Root]),
         assertion(sub_string(Err, _, _, _, Says))

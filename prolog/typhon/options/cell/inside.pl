@@ -284,11 +284,6 @@ asked(_, Goal, N, _, Answer) :-
     cell_frame_write(Out, request(N, Goal)),
     cell_frame_read(In, answer(N, Answer)).
 
-state_put(Module, State)
-    ;   cell_frame_write(Out, request(N, Goal)),
-        cell_frame_read(In, answer(N, Answer))
-    ).
-
 state_put(Module, state(Empty, Clauses)) :-
     forall(state_predicate(Module, Head),
            ( functor(Head, Name, Arity), abolish(Module:Name/Arity) )),
