@@ -47,6 +47,10 @@ host, and may stop, as in sleep(1).
 %     - agents(+Count): how many agents; default 10, or one on each of
 %       `starts`
 %     - starts(+Hosts), seed(+Integer): where they start, see starts/4
+%     - pool(+Name): hosts have one worker for all sequences of this pool,
+%       and execute one task at a time; default each sequence has its own
+%     - after(+Pairs): Task-(Other:First): a host that has a part in the
+%       sequence Other executes Task when it has completed First of that
 %     - settings(+Pairs): Name-Value, to replace what traveller.pl has as
 %       the default of `delta`, `theta`, `maximum`, `window`, `patience`:
 %       numbers above 0; or of `strategy`, which next_host/2 knows
@@ -67,7 +71,8 @@ sequence_start(Sequence, Hosts, Tasks, Options, Agents) :-
     starts(Count, Hosts, Options, Starts),
     version(Sequence, Hosts, Tasks, Version),
     Plan = plan(Sequence, Version, Tasks),
-    maplist(take_part(Plan), Hosts),
+    option(pool(Pool), Options, Sequence),
+    maplist(take_part(Plan, Pool), Hosts),
     maplist(create_traveller([Plan|Settings]), Starts, Agents),
     forall(member(Agent, Agents), agent_send(Agent, begin)).
 
@@ -84,16 +89,24 @@ check_tasks(Tasks) :-
 
 %   A host with a plan has a worker, even if that is not free.
 
-take_part(Plan, Host) :-
+take_part(Plan, Pool, Host) :-
     Plan = plan(Sequence, _, _),
     (   remote(Host, ( sense(plan(Sequence, _, _))
-                     ; sense(worker(Sequence, _)) ))
+                     ; sense(pool(Pool))
+                     ; sense(worker(Pool, _)) ))
     ->  true
     ;   agent_create(agents(sync/worker), _,
-                     [host(Host), static(true),
-                      facts([sequence(Sequence)])])
+                     [host(Host), static(true), facts([sequence(Pool)])]),
+        mark_pool(Pool, Sequence, Host)
     ),
     put_plan(Plan, Host).
+
+%   The worker of a pool may be busy, with a sequence of which this is not known.
+
+mark_pool(Sequence, Sequence, _) :-
+    !.
+mark_pool(Pool, _, Host) :-
+    remote(Host, leave(pool(Pool))).
 
 put_plan(Plan, Host) :-
     Plan = plan(Sequence, _, _),
@@ -110,11 +123,20 @@ create_traveller(Facts, Host, Agent) :-
 typhon_options:declared(sequence_option, agents(X), nonneg, X).
 typhon_options:declared(sequence_option, starts(X), list(atom), X).
 typhon_options:declared(sequence_option, seed(X), integer, X).
+typhon_options:declared(sequence_option, pool(X), atom, X).
+typhon_options:declared(sequence_option, after(X), list(pair), X).
 typhon_options:declared(sequence_option, settings(X), list, X).
 
-traveller_facts(Options, [setting(start, order)|Settings]) :-
+traveller_facts(Options, [setting(start, order)|Facts]) :-
     option(settings(Pairs), Options, []),
-    maplist(setting_fact, Pairs, Settings).
+    maplist(setting_fact, Pairs, Settings),
+    option(after(Afters), Options, []),
+    findall(Fact,
+            ( option(pool(Pool), Options), Fact = setting(pool, Pool)
+            ; member(Task-(Other:First), Afters),
+              Fact = after(Task, Other, First) ),
+            More),
+    append(Settings, More, Facts).
 
 setting_fact(strategy-Strategy, setting(strategy, Strategy)) :-
     ground(Strategy),

@@ -1,8 +1,9 @@
-:- agent(traveller, [state([plan/3, setting/2, drive/3])]).
+:- agent(traveller, [state([plan/3, setting/2, drive/3, after/3])]).
 :- include('../lib/parameters').
 :- include('../lib/await_order').
 :- include(potential).
 :- include(plans).
+:- include(dependence).
 
 /*  Algorithm 2 of the thesis: agents that know nothing of each other
     execute a sequence of tasks on hosts, and go on to the next task at the
@@ -11,7 +12,8 @@
     The fact plan(Sequence, Version, Tasks) says what is to be done: the
     name of the sequence, and a list of Task-Goal in order.  Goal is the
     task's code, handed over at each host.  What Version is for stands in
-    plans.pl, and can be passed over.  The fact drive(Task, Potential,
+    plans.pl, what after/3 is for in dependence.pl; both can be passed over.
+    The fact drive(Task, Potential,
     History) is there for each task.  Facts setting(Name, Value) replace the
     defaults below.
 
@@ -76,26 +78,31 @@ current(Task) :-
 
 visit(Task) :-
     plan(Sequence, _, Tasks),
-    take(worker(Sequence, Worker)),
+    seize(Worker),
     !,
     (   missing(Tasks, Sequence, Task, Missing)
     ->  heal(Missing, Task),
         current(Next),
         service_if(Next, Missing, Worker)
-    ;   leave(worker(Sequence, Worker)),
+    ;   give_back(Worker),
         penalise(Task)
     ).
 visit(_).
 
 %   Having found a failure, an agent may have to begin with an earlier task
-%   than the one that is missing here.
+%   than the one that is missing here.  A host that waits for another sequence
+%   will need the task: that is worth as much as a service.
 
+service_if(Missing, Missing, Worker) :-
+    held_up(Missing),
+    !,
+    give_back(Worker),
+    reward(Missing).
 service_if(Missing, Missing, Worker) :-
     !,
     service(Missing, Worker).
 service_if(_, _, Worker) :-
-    plan(Sequence, _, _),
-    leave(worker(Sequence, Worker)).
+    give_back(Worker).
 
 %   Line 29, for line 11: Missing is the first task up to Task that is not
 %   completed here.
@@ -116,7 +123,8 @@ service(Task, Worker) :-
     ignore(take(task(Sequence, Task, failed(_), _))),
     now(Time),
     leave(task(Sequence, Task, executing, Time)),
-    send(Worker, execute(Task, Goal)),
+    order(Task, Goal, Order),
+    send(Worker, Order),
     reward(Task).
 
                 /*******************************

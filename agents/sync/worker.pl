@@ -4,7 +4,8 @@
 /*  The worker of a host for one sequence of tasks, named by the fact
     sequence(Sequence): executes the tasks that travelling agents hand
     over, one at a time.  The tuple worker(Sequence, Id) says that it is
-    free.
+    free.  Tasks of other sequences may be handed over, too: then Sequence
+    is the name of a pool (dependence.pl).
 
     While Task executes the host has the tuple
     task(Sequence, Task, executing, Time), put there by who handed it over;
@@ -20,12 +21,16 @@ main :-
 
 on_message(_, execute(Task, Goal)) :-
     sequence(Sequence),
+    carry_out(Sequence, Task, Goal).
+on_message(_, execute(Sequence, Task, Goal)) :-
+    carry_out(Sequence, Task, Goal).
+
+carry_out(Sequence, Task, Goal) :-
     (   executed(Sequence, Task, Goal)
     ->  settle(Sequence, Task, completed)
     ;   settle(Sequence, Task, failed(atomic))
     ),
-    self(Me),
-    leave(worker(Sequence, Me)).
+    main.
 
 settle(Sequence, Task, Status) :-
     take(task(Sequence, Task, executing, _)),

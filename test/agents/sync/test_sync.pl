@@ -245,6 +245,50 @@ test(waits_where_it_cannot_move, Time == 15) :-
 :- end_tests(decisions).
 
                 /*******************************
+                *       SEVERAL SEQUENCES      *
+                *******************************/
+
+%   The plan of a house is on the host, and its worker is that of a pool.
+
+pooled(Facts, Tuples) :-
+    traveller([setting(pool, robots)|Facts],
+              [plan(house, 1, []), worker(robots, w)|Tuples]).
+
+:- begin_tests(several).
+
+test(worker_of_a_pool_is_told_the_sequence,
+     Acts == [send(w, execute(house, 1, floor)), log(reward(1, 100, 15))]) :-
+    pooled([], []),
+    fake_agent:visit(1),
+    did(Acts).
+test(host_without_plan_has_no_part, Acts == []) :-
+    traveller([setting(pool, robots)], [worker(robots, w)]),
+    fake_agent:visit(1),
+    did(Acts).
+test(busy_worker_of_a_pool_is_left_alone, Acts == []) :-
+    traveller([setting(pool, robots)], [plan(house, 1, [])]),
+    fake_agent:visit(1),
+    did(Acts).
+test(task_waits_for_one_of_another_sequence) :-
+    pooled([after(1, garden, dig)], [plan(garden, 1, [])]),
+    fake_agent:keep(1, drive(50, [10])),
+    fake_agent:visit(1),
+    did(Acts),
+    Acts == [log(reward(1, 55, 5))],
+    fake_host:tuple(worker(robots, w)).
+test(which_has_been_completed) :-
+    pooled([after(1, garden, dig)],
+           [plan(garden, 1, []), task(garden, dig, completed, 3)]),
+    fake_agent:visit(1),
+    did([send(w, execute(house, 1, floor))|_]).
+test(host_without_the_other_sequence_does_not_wait) :-
+    pooled([after(1, garden, dig)], []),
+    fake_agent:visit(1),
+    did([send(w, execute(house, 1, floor))|_]).
+
+:- end_tests(several).
+
+                /*******************************
                 *            HEALING           *
                 *******************************/
 

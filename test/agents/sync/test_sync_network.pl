@@ -9,6 +9,7 @@
 :- use_module(library(readutil), [read_file_to_string/3]).
 :- use_module(library(typhon)).
 :- use_module('../../../agents/sync/operator').
+:- use_module('../../../agents/sync/several').
 
 /** <module> Synchronised execution on small networks
 
@@ -155,6 +156,13 @@ settled(Sequence) :-
                 *             TESTS            *
                 *******************************/
 
+%   Two sequences of two tasks, and for what these wait.
+
+circle(AfterA, AfterB,
+       [ sequence(a, [], [1-true, 2-true], [after(AfterA)]),
+         sequence(b, [], [1-true, 2-true], [after(AfterB)])
+       ]).
+
 :- begin_tests(sync_network, [ setup(world_start), cleanup(world_end) ]).
 
 test(in_order_and_in_step) :-
@@ -190,6 +198,13 @@ test(two_sequences_at_once) :-
     histories(slow, 24, Slow),
     executed([1, gate], H1),
     all_same(Slow, H1).
+test(tasks_that_wait_in_a_circle,
+     error(domain_error(order_of_tasks, [a:1, a:2, b:1]))) :-
+    circle([2-(b:1)], [1-(a:2)], Sequences),
+    sequences_start(Sequences, [], _).
+test(no_such_task_to_wait_for, error(existence_error(task, b:7))) :-
+    circle([2-(b:7)], [], Sequences),
+    sequences_start(Sequences, [], _).
 test(task_of_a_range_of_times) :-
     Goal = ( random_between(100, 400, Ms), S is Ms/1000, sleep(S) ),
     start(ranges, [1-Goal, 2-Goal], Agents),

@@ -22,7 +22,8 @@ a_study(Name, Count) :-
            [ figure_5_2-5, figure_5_5-4, figure_5_6-20, figure_5_7-28,
              figure_5_8-1, figure_5_9-8, figure_5_11-4, figure_5_12-2,
              study_choices-16, study_links-9, study_onset-48,
-             study_readings-35, study_demo-1 ]).
+             study_readings-35, study_demo-1, beyond_several-4,
+             beyond_selected-7 ]).
 
 :- begin_tests(studies).
 
@@ -68,6 +69,19 @@ made(false, figure_5_2, Case, [ visits-Visits, first_penalty-0.1,
     D = Case.delta,
     Visits is 50*D,
     Last is 5 - D.
+made(true, beyond_several, Case, [ missing-0, out_of_order-0, executions-9,
+                                   wanted-9, both-0, early-Early, overlaps-0,
+                                   total-90 ]) :-
+    memberchk(Case.dependent-Early, [true-0, false-3]).
+made(false, beyond_several, Case, [ missing-1, out_of_order-0, executions-9,
+                                    wanted-9, both-1, early-Early, overlaps-1,
+                                    total-Total ]) :-
+    memberchk(Case.dependent-Early, [true-3, false-0]),
+    Total is 5*Case.hosts.
+made(Held, beyond_selected, Case, [ missing-0, out_of_order-Wrong, executions-9,
+                                    wanted-9, overlaps-Wrong, total-Total ]) :-
+    member(Held-Wrong-Total0, [true-0-(50/Case.share), false-1-(50*Case.share)]),
+    Total is Total0.
 made(Held, figure_5_5, Case, [idle-Idle|Pairs]) :-
     member(Held-Idles, [ true-[star_bus-66, ring-32, tree-142, grid-25],
                          false-[star_bus-20, ring-45, tree-10, grid-50] ]),
@@ -234,6 +248,14 @@ test(dynamic, Missing == 0) :-
     with_tmp_dir(small(figure_5_9, [ links-dynamic_2, agents-5, hosts-20,
                                      tasks-1 ], M)),
     Missing = M.missing.
+test(several, Ms == [0, 0, 0, 0]) :-
+    with_tmp_dir(small(beyond_several, [dependent-true, hosts-20, tasks-3], M)),
+    findall(Value, ( member(Name, [missing, out_of_order, both, early]),
+                     get_dict(Name, M, Value) ), Ms).
+test(selected, Missing-Disorder == 0-0) :-
+    with_tmp_dir(small(beyond_selected, [share-0.5, hosts-20, agents-4], M)),
+    Missing = M.missing,
+    Disorder = M.out_of_order.
 test(gallery, [condition(has_gnuplot)]) :-
     with_tmp_dir(gallery).
 test(one_run, [condition(has_gnuplot)]) :-

@@ -1,0 +1,53 @@
+%   Beyond the thesis: a sequence on selected hosts, scattered or far apart.
+
+:- include(subsets).
+:- use_module('../../prolog/typhon', [agent_join/3, network_property/2]).
+:- use_module('../../agents/sync/operator', [sequence_start/5]).
+
+study(selected, "Tasks in step on selected hosts").
+text("A part of the hosts of a grid execute three tasks in step; the others are \c
+only on the way.  The selected hosts are drawn, or stand at two opposite ends of \c
+the grid.").
+
+vary(place, [scattered, apart]).
+vary(share, [0.1, 0.25, 0.5, 1]).
+skip(Case) :-
+    Case.place == apart,
+    Case.share =:= 1.
+fixed(hosts, 60, printed("section 5.6.1")).
+fixed(agents, 10, printed("section 5.6.1")).
+fixed(sequences, 1, assumed("alone")).
+
+run(Case, Network) :-
+    network_property(Network, hosts(Hosts)),
+    selected(Case.place, Case, Hosts, Selected),
+    tasks(Case, Tasks),
+    sequence_start(sequence1, Selected, Tasks,
+                   [ agents(Case.agents), seed(Case.seed),
+                     settings([delta-(Case.delta)]) ],
+                   Agents),
+    forall(member(Agent, Agents), agent_join(Agent, done, Case.limit)).
+
+selected(scattered, Case, Hosts, Selected) :-
+    subsets([sequence1], Case, Hosts, [_-Selected]).
+selected(apart, Case, Hosts, Selected) :-
+    chosen(Case, Count),
+    Half is Count // 2,
+    Rest is Count - Half,
+    length(First, Half),
+    length(Last, Rest),
+    append(First, _, Hosts),
+    append(_, Last, Hosts),
+    !,
+    append(First, Last, Selected).
+
+claim("each selected host executes each task once, in order", [ours],
+      ( missing =:= 0, out_of_order =:= 0, executions =:= wanted )).
+claim("no task begins before all selected hosts have the one before", [ours],
+      overlaps =:= 0).
+claim("the fewer are selected, the longer it takes: agents are penalised only \c
+there", [ours],
+      falls(total, along(share))).
+
+plot(selected, "Tasks in step on selected hosts",
+     lines([x(share), y([total, idle, overlaps]), line(place)])).
