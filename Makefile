@@ -71,7 +71,7 @@ chaos: tools            ## attack networks, and journals; SECONDS=600, SEED=1
 scripted: tools         ## break each frame of a hop in every way
 	@$(SWIPL) test/chaos/scripted.pl
 
-# Who installs the pack only wants to know whether it loads.
+# Of an installed pack only whether it loads.
 check:                  ## a quick look for mistakes, offline
 	@if [ -n "$$PACKSODIR$$SWIPL_MODULE_DIR" ]; then \
 	    $(SWIPL) -q --on-error=status --on-warning=status \
@@ -88,7 +88,7 @@ check-all:
 	done
 	@echo "check: no mistakes found"
 
-fuzz:                   ## what nobody should send; COUNT=100000, SEED=1, TLS=true
+fuzz:                   ## send malformed frames; COUNT=100000, SEED=1, TLS=true
 	@$(SWIPL) test/chaos/fuzz.pl -- --count $(COUNT) --seed $(SEED) --tls=$(TLS)
 
 fuzz-programs:          ## random programs, compiled and interpreted; COUNT, SEED=1

@@ -10,7 +10,7 @@ back now and then; and antigens attack hosts, which release antibodies.  Prints
 the link to the page, and runs until Ctrl-C.
 
 *Threading*: the network is started by the main thread; what attacks and what
-sets back happens in another, until it is told to stop.
+sets back happens in another, until that is stopped.
 */
 
 :- use_module('../prolog/typhon',

@@ -106,7 +106,7 @@ host_for(Name) :-
 send_out(Parcel, From, To, Agent) :-
     task_allocate(task(Parcel, [1-[carry]], [at(From), goal(carry(From, To))]),
                   depot, [name(Parcel)], Agent),
-    format("an agent looks for who carries the ~w~n", [Parcel]).
+    format("an agent looks for a robot for the ~w~n", [Parcel]).
 
 arrives(Start, Deadline, Parcel-Agent) :-
     get_time(Now),

@@ -11,8 +11,8 @@ The whole interface stands in the tables of commands.pl; run/3 has one
 clause for each command, and does nothing that a program could not do with
 library(typhon).
 
-*Threading*: the main thread only.  A command that runs until it is told to
-stop waits for a message, which the handlers of SIGINT and SIGTERM send.
+*Threading*: the main thread only.  A command that runs until it is
+stopped waits for a message, which the handlers of SIGINT and SIGTERM send.
 */
 
 :- use_module('../prolog/typhon').
@@ -135,7 +135,7 @@ with_keys(Options) :-
     ;   true
     ).
 
-%   Who asks needs an endpoint for the answer.
+%   A question needs an endpoint for its answer.
 
 run_connected(Command, Arguments, Options) :-
     (   serves(Command, Options)

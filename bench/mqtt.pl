@@ -3,8 +3,8 @@
 :- use_module(library(typhon)).
 
 /*  Messages per second from a host through a broker to an agent on it, of
-QoS 0: each is published, comes back, and is received.  Who waits for each
-to be acknowledged, with QoS 1, is slower.  And calls of a Python function
+QoS 0: each is published, comes back, and is received.  A publisher that waits
+for each acknowledgement, with QoS 1, is slower.  And calls of a Python function
 per second, one after the other.  Without mosquitto and paho-mqtt nothing is
 measured of MQTT. */
 

@@ -113,7 +113,7 @@ free_port(Port) :-
     tcp_bind(Socket, '127.0.0.1':Port),
     tcp_close_socket(Socket).
 
-%   Who writes nothing for two minutes is given up.
+%   A peer that writes nothing for two minutes is given up.
 
 run(Round, [Program|Args]) :-
     process_create(Program, Args,

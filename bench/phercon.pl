@@ -18,7 +18,7 @@ pheromone, once, with the default span and period.  In each of the Runs all
 strategies have the same network, the same agents and the same requests.
 
 Time is from the request to its service, in host seconds.  Hops are those
-that the agent who served it made in this time. */
+that the agent that served it made in this time. */
 
 :- initialization(main, main).
 
@@ -165,8 +165,8 @@ ask(I, Strategy, Hosts, Agents, Chance0,
     I1 is I - 1,
     ask(I1, Strategy, Hosts, Agents, Chance, Asked).
 
-%   Before the request is there: who took it at once would withdraw what
-%   comes only then.
+%   Before the request is there: an agent that took it at once would withdraw
+%   what comes only then.
 
 call_for(phercon(_), Host, I) :-
     !,

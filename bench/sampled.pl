@@ -13,7 +13,7 @@
 /** <module> In which rooms threads of this process spend their time
 
 The profiler of SWI-Prolog looks at one thread of a process at a time. It is
-begun and ended in that thread, by a signal. It is told to look every five
+begun and ended in that thread, by a signal. It looks every five
 milliseconds of real time: by processor time it would look when any thread
 of the process works, and find the one that it looks at waiting. So what a
 thread does in the predicates it waits in cannot be seen: it is the
@@ -35,7 +35,7 @@ while frames of the thread still lead to it.
 
 %!  patient_threads is det.
 %
-%   From now on workers and readers push nobody aside when they are woken: a
+%   From now on workers and readers do not preempt when they are woken: a
 %   policy of Linux for what calculates. The main thread, which does the
 %   looking, still does.
 

@@ -4,7 +4,7 @@
 :- use_module(library(process), [process_create/3, process_wait/2]).
 :- use_module(library(readutil), [read_line_to_string/2]).
 
-/*  What strangers cost those who are at work: hops per second between two
+/*  What unauthenticated clients cost agents at work: hops per second between two
 processes while a third makes a thousand malformed connections a second to
 one of them, against the same without it.  What the third, which runs on the
 same processors, takes away by itself is measured with a flood of a listener
@@ -30,7 +30,7 @@ hops_in_a_flood(Peer) :-
             Rates),
     sums(Rates, Alone1, Elsewhere1, Flooded1),
     ratio('hops of ten agents while strangers come', Flooded1, Alone1,
-          '1/s', 'nobody comes'),
+          '1/s', 'no client'),
     ratio('the same, against strangers elsewhere', Flooded1, Elsewhere1,
           '1/s', 'they go to another port').
 

@@ -45,13 +45,13 @@ unheard(There) :-
     travelled(1, 40000, There, rates(_, PerCpu)),
     median_cpu(forall(between(1, 1 000 000, _), true), Empty),
     median_cpu(forall(between(1, 1 000 000, _),
-                      event(hops, here, nobody, left(there))), Full),
+                      event(hops, here, none, left(there))), Full),
     Event is (Full-Empty)*1.0e3,
-    figure('an event that nobody hears', Event, ns),
+    figure('an event without listeners', Event, ns),
     Hop is 1.0e9/PerCpu,
     Part is 3*Event/Hop*100,
     format(atom(Note), '3 events of a hop of ~0f ns of processor', [Hop]),
-    figure('of a hop within a process, if nobody watches', Part, '%', Note).
+    figure('of a hop within a process, without watches', Part, '%', Note).
 
 :- meta_predicate median_cpu(0, -).
 

@@ -41,7 +41,7 @@
 
         backoffs(Count)         beta, how often it has backed off
         stage(Stage)            `waiting`, `searching`, `resting`,
-                                `executing`, for who asks from outside
+                                `executing`, for questions from outside
 
     The other facts are said in the files that own them.
 */

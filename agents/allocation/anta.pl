@@ -102,7 +102,7 @@ gather(Job, Round, Places) :-
     ).
 
 %   lowest(+Places, +All, -List): those that may win against all others
-%   here.  Who is best for two teams can be in one of them only, so of each
+%   here.  A robot that is best for two teams can be in one only, so of each
 %   team as many are kept as robots are needed in all.
 
 lowest(Places, All, List) :-

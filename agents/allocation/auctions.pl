@@ -22,7 +22,7 @@
 :- use_module(library(pairs), [pairs_keys_values/3]).
 :- use_module(library(ugraphs), [neighbours/3, vertices_edges_to_ugraph/3]).
 
-/** <module> Auctions of tasks, as seen by who wants them done
+/** <module> Auctions of tasks, for users and programs
 
 Puts on hosts the nodes of a mechanism of thesis section 7.5, `murdoch` or
 `anta`, and posts tasks to be auctioned. Robots are those of

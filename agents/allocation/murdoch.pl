@@ -1,8 +1,8 @@
 :- agent(murdoch, [state([setting/2])]).
 :- include('auctions/participant').
 
-/*  Murdoch (Gerkey and Mataric): tasks are announced, those who can do them
-    bid, the fittest get a contract that the auctioneer renews.  As in thesis
+/*  Murdoch (Gerkey and Mataric): tasks are announced, robots that can do
+    them bid, the fittest get a contract that the auctioneer renews.  As in thesis
     section 7.5 there is no range in which a message is heard: all of them
     are flooded, the bids, too.
 */

@@ -17,7 +17,7 @@
 :- use_module(library(lists), [member/2, memberchk/2]).
 :- use_module(library(option), [option/3]).
 
-/** <module> Allocating tasks to robots, as seen by who has the tasks
+/** <module> Allocating tasks to robots, for users and programs
 
 Puts the static agents of robots on hosts, and releases allocators (thesis
 chapter 7).  Hosts are addresses, so all this works from any process that

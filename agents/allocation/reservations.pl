@@ -29,8 +29,8 @@ robots themselves logged counts.
 %   the last kind after the others.
 
 reservation_faults(Events, Faults) :-
-    empty_assoc(Nobody),
-    foldl(follow, Events, Nobody-[], Holders-Faults0),
+    empty_assoc(None),
+    foldl(follow, Events, None-[], Holders-Faults0),
     assoc_to_list(Holders, Pairs),
     reverse(Faults0, Faults1),
     findall(held(Robot, Owner, Task),

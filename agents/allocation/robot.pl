@@ -8,18 +8,18 @@
 
 /*  The static agent of a robot: says what the robot can do and what that
     would cost, and holds one task at a time (thesis sections 7.3, 7.4).
-    Mobile allocators and the agents of auctions talk to it alike; nobody
-    else changes what it holds.
+    Mobile allocators and the agents of auctions talk to it alike; no other
+    agent changes what it holds.
 
     Facts: property(Property), its capabilities and states; its payload
     defines cost(+Need, +Properties, -Cost), which fails if the robot will
-    not do it.  The tuple robot(Id) on its host, left by who put it
-    there, tells whom to ask.  In events the robot is named by the address
-    of its host.
+    not do it.  The tuple robot(Id) on its host, left by the program
+    that started it, says which agent to ask.  In events the robot is named by
+    the address of its host.
 
     A reservation is known by its Ref, a term that the asker chose.  It is
-    kept as hold(Ref, Owner, Need, Contact, Phase): Owner is who the task is
-    done for, Contact the agent that reserved the robot and is told what
+    kept as hold(Ref, Owner, Need, Contact, Phase): Owner is the agent whose
+    task it is, Contact the one that reserved the robot and gets what
     happens; Phase is `reserved`, executing(Hand) or `done`.
 
     Asked by others, and answered by answer(Ref, What):
@@ -32,10 +32,10 @@
 
     A Need is need(Task, Requirements, Details).  Refused are needs for
     which the robot is `unfit`, all while it is `failed`, and those that it
-    could serve were it not `reserved` or `executing` for somebody else.
-    But who is reserved for a task goes over to a more urgent one.
+    could serve were it not `reserved` or `executing` for another.
+    But a robot that is reserved for a task goes over to a more urgent one.
 
-    The contact is told done(Ref) after the execution, lost(Ref, Why) if the
+    The contact gets done(Ref) after the execution, lost(Ref, Why) if the
     reservation has ended otherwise, and from time to time still(Ref), to be
     answered by yes(Ref) or no(Ref).  Without an answer the reservation
     ends: whoever reserved the robot and died does not keep it.

@@ -78,7 +78,7 @@ wait(sequence(_, Agent, _)) :-
 %!  sequence_proceed(+Sequence0, -Sequence) is det.
 %!  sequence_over(+Sequence, -Robots, -Outcome) is semidet.
 %
-%   The same for who has several sequences, and time: Sequence is to be
+%   The same for callers with several sequences: Sequence is to be
 %   looked at again and again until it is over.
 %
 %   @error as sequence_allocate/7; then Sequence0 is not to be used again

@@ -26,9 +26,9 @@ die :-
 
 %!  bred(+Outcome, +Length) is det.
 %
-%   After an execution of a plan of Length actions.  Who has reached the goal
-%   needs no clones.  The queue of a host are those who are there, but for
-%   the trainer.
+%   After an execution of a plan of Length actions.  An agent that has
+%   reached the goal needs no clones.  The queue of a host are the agents there,
+%   without the trainer.
 
 bred(_, _) :-
     parameter(cloning, false),

@@ -18,7 +18,7 @@
     Collector     goes from host to host, and takes into its bag what others
                   in the same queue have to share
     Assimilator   makes a plan of all it has
-    Converger     has reached the goal, and looks for somebody who has
+    Converger     has reached the goal, and looks for an agent that has
                   reached it in a better way
 
     How a plan is made, a payload says: the learning algorithm.  It provides

@@ -45,7 +45,7 @@ ask([Other|Others], Wanted, Gain) :-
     ;   ask(Others, Wanted, Gain)
     ).
 
-%   Who does not answer is no longer there, whatever the queue says.
+%   An agent that does not answer is no longer there, whatever the queue says.
 
 asked(Other, Units, Solution) :-
     here(Here),

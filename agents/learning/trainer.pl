@@ -8,7 +8,7 @@
 /*  The static agent of a host: executes actions on what is to be learnt
     there, and gives feedback (thesis section 4.2.2).  What that is, a
     payload says, the problem.  The tuple trainer(Id) tells agents where to
-    ask; who creates the trainer leaves it.
+    ask; the program that creates the trainer leaves it.
 
         execute(Plan, Xi)   asked by an agent: Plan is a list of actions.
                             These are executed, then others at random, until
@@ -47,7 +47,7 @@ on_message(Agent, execute(Plan, Xi)) :-
     trace(Agent, Steps),
     ignore(told(Agent, Feedback)).      % it may be gone
 
-%   For those who look on: the actions, in order.
+%   For observers: the actions, in order.
 
 trace(Agent, Steps) :-
     (   parameter(trace, true)

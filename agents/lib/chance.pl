@@ -19,7 +19,7 @@ seed_chance(Who) :-
 
 %!  seed_chance_here is det.
 %
-%   As seed_chance/1, for who stays: by the name of the host.
+%   As seed_chance/1, for agents that stay: by the name of the host.
 
 seed_chance_here :-
     here(Host),

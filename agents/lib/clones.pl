@@ -3,7 +3,7 @@
 
 %!  clone_if_room(-Who) is det.
 %
-%   As clone/1; Who is `refused` where the host has no room for a clone.
+%   As clone/1; Who is `refused` where the host has no place for a clone.
 
 clone_if_room(Who) :-
     catch(clone(Who), error(move_refused(_, _), _), Who = refused).

@@ -3,7 +3,7 @@
 
 %!  parameter(+Name, -Value) is semidet.
 %
-%   A fact setting(Name, Value), given to the agent by who created it,
+%   A fact setting(Name, Value), given to the agent by its creator,
 %   replaces the default(Name, Value).
 
 parameter(Name, Value) :-

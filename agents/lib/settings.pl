@@ -9,8 +9,8 @@
 
 /** <module> What replaces the defaults of agents
 
-Who starts a mechanism has an option settings(Pairs), of Name-Value; agents
-get them as facts, see parameters.pl.
+Predicates that start a mechanism have an option settings(Pairs), of Name-Value;
+agents get them as facts, see parameters.pl.
 
 *Threading*: pure.
 */

@@ -3,7 +3,7 @@
 
 %!  tell(+Agent, +Message) is semidet.
 %
-%   As send/2, but nobody is warned.  Fails if it is known at once that
+%   As send/2, but without a warning.  Fails if it is known at once that
 %   Agent has ended, or cannot be reached.
 
 tell(Agent, Message) :-

@@ -115,7 +115,7 @@ age(Since) :-
     Ticks is (Now - Since)/Tick,
     older(Ticks).
 
-%   A turn may be on its way to who is about to die; what the queue answers
+%   A turn may be on its way to an agent that is about to die; what the queue answers
 %   comes behind it.
 
 die :-

@@ -13,8 +13,8 @@
         quit             told by an agent that is about to die, answered by
                          `gone` when no turn will come any more
 
-    How many may be there at a time is the capacity of the host: who finds
-    no free slot is refused at its move and stays where it was.
+    How many may be there at a time is the capacity of the host: an agent
+    that finds no free slot is refused at its move and stays where it was.
 
     An agent that ended on its turn without a word would stop all others;
     after so many seconds the queue goes on without it.
@@ -60,7 +60,7 @@ answer(Agent-quit) :-
     send(Agent, gone).
 answer(_).
 
-%   Who has become the head has its turn.
+%   The new head has its turn.
 
 call_head([Head|_], [Head|_]) :-
     !.

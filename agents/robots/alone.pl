@@ -2,10 +2,10 @@
 :- include('../sync/execution').
 
 /*  Executes the tasks of a sequence on the host where it is, one after the
-    other, and heeds nobody: what robots do that are not synchronised.
+    other, and heeds no other agent: what robots do that are not synchronised.
 
     The fact tasks(Sequence, Tasks) says what is to be done, as a list of
-    Task-Goal in order.  It begins when it is told `begin`, and gives up at
+    Task-Goal in order.  It begins at the message `begin`, and gives up at
     the first task that fails or raises something.  The log tells of each
     task what it tells when a worker executes it.
 */

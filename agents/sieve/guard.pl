@@ -14,7 +14,7 @@
     Facts: application(Spec), the payload for new agents, which the guard
     carries, too; cells(Count), how many memory cells it has appointed.
 
-    On the host: guard(Id), left by who put it there; attacked(Attack, Id)
+    On the host: guard(Id), left by the program that started it; attacked(Attack, Id)
     while offers are taken.  An attack is attack(Antigen, Host, Number),
     which is also the problem of its danger signal: so each agent follows
     only those it wants.

@@ -19,7 +19,7 @@
 :- use_module(library(option), [option/2, option/3]).
 :- use_module(library(pairs), [pairs_keys/2, pairs_keys_values/3]).
 
-/** <module> Sequences of tasks, as seen by who wants them done
+/** <module> Sequences of tasks, for users and programs
 
 Starts a sequence of tasks on hosts, changes it while it runs, and takes
 back what was done (thesis sections 5.4 and 5.6.6).  What is said here is
@@ -198,7 +198,7 @@ new_version(Versions, Version) :-
 later_than(Found, Version0, Version) :-
     Version is max(Version0, Found + 0.001).
 
-%   Who starts a sequence again with the same tasks has the same plan.
+%   A sequence that is started again with the same tasks has the same plan.
 
 version(Sequence, Hosts, Tasks, Version) :-
     findall(V-Ts, plan_at(Sequence, Hosts, _, V, Ts), Plans),

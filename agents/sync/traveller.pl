@@ -19,7 +19,7 @@
 
     On the hosts: task(Sequence, Task, Status, Time) says what was done and
     when.  worker(Sequence, Id) is there while the host's worker is free.
-    Who takes it has the host for himself until it is put back, so two
+    The agent that takes it has the host for itself until it is put back, so two
     agents never service one host at the same time.  Where there is none,
     because the host is executing or has no part in the sequence, an agent
     passes.
@@ -156,8 +156,8 @@ heal(Missing, Task) :-
     keep(Missing, drive(Potential, [Theta0])),
     log(revived(Missing, Potential)).
 
-%   Who searches for just what is missing here, and has come to that in
-%   turn, knows of the failure.
+%   An agent that searches for just what is missing here, and has come to that
+%   in turn, knows of the failure.
 
 begins_again(Missing, Missing, _) :-
     !.

@@ -8,7 +8,7 @@
     is the name of a pool (dependence.pl).
 
     While Task executes the host has the tuple
-    task(Sequence, Task, executing, Time), put there by who handed it over;
+    task(Sequence, Task, executing, Time), put there by the agent that handed it over;
     afterwards it says `completed`, or, of a task that fails or raises
     something, failed(atomic): it will be done again.  Where the tuple is
     gone by then, the task has been failed from outside.

@@ -66,7 +66,7 @@ agent_kind(Agent, Kind) :-
     sub_atom(Short, 0, Before, _, Kind).
 agent_kind(Agent, Agent).
 
-%   They can be told apart by people who see colours differently.
+%   They differ for colour-blind people, too.
 
 colour(0, '#0072b2').
 colour(1, '#d55e00').

@@ -68,7 +68,7 @@ footer(check, 'Exit status 0: programs without errors (warnings may be).').
 footer(join, 'Exit status 0: the outcome is `done`.').
 footer(remote, 'Exit status 0: the goal was true. Variables that begin with _').
 footer(remote, 'are not printed; what the goal prints, is.').
-footer(page, 'Prints the link to the page; who has it may do what it shows. Runs until').
+footer(page, 'Prints the link, which gives the right to all that the page does. Runs until').
 footer(page, 'SIGTERM or SIGINT.  With LOG it writes a file that a browser opens.').
 footer(keys, 'DIR/NAME goes to the machine of NAME: host_start(H, [tls(DIR)]).').
 footer(stop, 'A `host` or `network` of the command line ends with its host.').
@@ -124,14 +124,14 @@ option(network, sync, atom, 'HOW',
 option(network, restart, boolean, '',
        'start processes that die again').
 option(Command, tls, atom, 'DIR',
-       'keys: speak TLS, with those who have some of the same authority') :-
+       'keys: speak TLS, with processes that have keys of the same authority') :-
     command(Command, _, _, _),
     \+ memberchk(Command, [keys, sign, check, story, picture, journal]).
 option(Command, dir, atom, 'DIR',
        'directory of the authority (default keys)') :-
     memberchk(Command, [keys, sign]).
 option(sign, author, atom, 'NAME',
-       'who signs (required)').
+       'author that signs (required)').
 option(keys, days, natural, 'N',
        'host, author: the certificate lasts that long (default 825)').
 option(network, processes, natural, 'N',

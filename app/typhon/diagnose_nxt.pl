@@ -44,7 +44,7 @@ step(port,
 step(permission,
      'Join the group of the device: adduser USER dialout, and log in anew.').
 step(brick,
-     'Is it on, in reach, and paired (PIN 1234)? Does nobody else use it?').
+     'Is it on, in reach, and paired (PIN 1234)? Is it free?').
 step(firmware,
      'Direct commands need LEGO\'s own firmware, protocol 1.124.').
 step(name, '').

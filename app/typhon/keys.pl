@@ -11,7 +11,7 @@
 Certificates for hosts and authors, made by the `openssl` command. The
 authority is a directory:
 
-    ca.pem ca.key crl.pem       its certificate, its key, who is revoked
+    ca.pem ca.key crl.pem       its certificate, its key, revoked ones
     openssl.cnf database ...    what openssl goes on from
     NAME/                       what the host or author NAME needs
 
@@ -20,8 +20,8 @@ to the machine of NAME, and nothing else does. All keys are RSA:
 on SWI-Prolog 9.0.4 library(crypto) crashes on those of curves. Those of hosts
 and authors have 2048 bits, since each hop takes two signatures.
 
-A certificate is for a host or for an author, not for both: with what is
-stolen from a host nobody can sign programs.
+A certificate is for a host or for an author, not for both: what is stolen
+from a host cannot sign programs.
 
 *Threading*: the calling thread; one at a time for each directory.
 */
@@ -86,7 +86,7 @@ keys_init(Directory) :-
     private(Directory, 'ca.key'),
     list_revoked(Directory).
 
-%   What openssl is told stands beside this file.
+%   The configuration of openssl stands beside this file.
 
 configuration(Directory) :-
     module_property(typhon_app_keys, file(This)),
@@ -224,7 +224,7 @@ directory_member_with_keys(Directory, Own) :-
     directory_file_path(Own, 'cert.pem', Certificate),
     exists_file(Certificate).
 
-%   Who reads it meanwhile reads the old or the new.
+%   A process that reads it meanwhile reads the old or the new.
 
 hand_out(Directory, Name, Own) :-
     directory_file_path(Directory, Name, From),

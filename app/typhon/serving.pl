@@ -3,7 +3,7 @@
             and_then/2                  % :Goal, :Finally
           ]).
 
-/** <module> Commands that run until they are told to stop
+/** <module> Commands that run until they are stopped
 
 *Threading*: the main thread only; it waits for a message, which the handlers
 of SIGINT and SIGTERM send.

@@ -16,7 +16,7 @@
 %
 %   Print what happened to Agent, in words, in the order of the log File.
 %   Agent is an id, what stands before the `@` in it, or the name from which it
-%   was made; if several have that, the story of each is told.
+%   was made; if several have that, the story of each is printed.
 %
 %   @error typhon_usage(not_in_log(Agent, File, Names)): those whom it knows
 

@@ -37,9 +37,9 @@ hint(host_unreachable(Host), Hint) :-
     format(atom(Hint), 'diagnose ~w tells why', [Host]).
 hint(connection_lost(Host), Hint) :-
     format(atom(Hint), 'diagnose ~w tells why', [Host]).
-hint(existence_error(agent, _), 'agents --host ADDRESS tells who is there').
-hint(existence_error(host, _), 'hosts --host ADDRESS tells which there are').
-hint(domain_error(topology, _), 'network --help tells the shapes').
+hint(existence_error(agent, _), 'agents --host ADDRESS lists agents').
+hint(existence_error(host, _), 'hosts --host ADDRESS lists hosts').
+hint(domain_error(topology, _), 'network --help lists the shapes').
 
 %   A file that a program includes is none that was typed.
 

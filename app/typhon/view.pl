@@ -93,8 +93,8 @@ name_key([Char|Key]) -->
     name_key(Key).
 name_key([]) --> [].
 
-%   lanes(+Stays, -Lanes): who is on a host at the same time has another lane;
-%   the first that is free.
+%   lanes(+Stays, -Lanes): agents on a host at the same time have different
+%   lanes, each the first that is free.
 
 lanes(Stays, Lanes) :-
     findall(From-stay(Agent, Host, From, To),

@@ -66,7 +66,7 @@ class Browser:
         self.driver.save_screenshot(file)
 
     def complaints(self):
-        """What the console says that nobody should have to read."""
+        """Warnings and errors of the console."""
         return [entry['message'] for entry in self.driver.get_log('browser')
                 if entry['level'] in ('SEVERE', 'WARNING')
                 and 'favicon' not in entry['message']]

@@ -19,8 +19,8 @@ A helper is a subclass with a method for each `do`:
     class Greeter(Helper):
         def do_greet(self, request, deadline):
             name = text(request, 'name')
-            if name == 'Nobody':
-                raise Refusal('unknown', 'nobody is called so')
+            if name == 'none':
+                raise Refusal('unknown', 'no such name')
             self.event('visitor', name=name)
             return 'hello ' + name
 
@@ -40,10 +40,10 @@ which they came.  `deadline` is when the request must be done, by
 time.monotonic(); it counts from when the line was read.  A request that has
 not been served at its deadline is answered `timeout` if the helper is
 `watched`; its thread goes on, another takes its place, and what it returns
-in the end is for nobody.  What raises any other exception is answered with
+in the end is dropped.  What raises any other exception is answered with
 error `exception`, `class` and `message`, and the process goes on.
 
-When the standard input ends without `quit` nobody needs the helper any
+When the standard input ends without `quit` the helper is not needed any
 more: abandoned() is run, and the process ends.  Whatever is printed goes to
 the standard error: the standard output is for Prolog alone.
 """
@@ -129,7 +129,7 @@ class Output:
                 self.stream.write(line.encode())
                 self.stream.flush()
             except OSError:
-                pass        # nobody reads; standard input ends, too
+                pass        # its reader is gone; standard input ends, too
 
 
 class Requests(queue.Queue):
@@ -191,7 +191,7 @@ class Job:
 
 
 class Watch:
-    """Answers what is not done in time, and replaces who is not done."""
+    """Answers requests that are late, and replaces their threads."""
 
     def __init__(self, late):
         self.late = late
@@ -256,7 +256,7 @@ class Helper:
         return {}
 
     def drop(self):
-        """Nobody waits any more for what is under way."""
+        """No caller waits any more for what is under way."""
 
     def abandoned(self):
         """Prolog is gone."""
@@ -305,7 +305,7 @@ class Helper:
             if needed:
                 self.coming(request)
             if number is None or needed:
-                self.requests.put(job)      # who only tells waits for room
+                self.requests.put(job)      # requests without answer may wait here
                 if self.watch and number is not None:
                     self.watch.add(job)
             else:
@@ -323,7 +323,7 @@ class Helper:
                          'message': why})
 
     def drop_requests(self):
-        """Nobody wants what is still to be done."""
+        """What is still to be done is not wanted any more."""
         self.drop()
         try:
             while True:
@@ -434,7 +434,7 @@ class Helper:
         """Serve until the end; it does not return."""
         if self.output is None:
             self.connect()
-        # The interrupt key of a terminal is for the person who sits there.
+        # The interrupt key of a terminal is for Prolog.
         signal.signal(signal.SIGINT, signal.SIG_IGN)
         if self.watched:
             self.watch = Watch(self.late)

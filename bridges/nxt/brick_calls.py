@@ -140,7 +140,7 @@ class BrickCalls:
     def i2c_begin(self, port, deadline):
         self.set_mode(port, LOWSPEED_9V, 0, deadline)
         time.sleep(SETTLE)
-        try:                                # what nobody has read
+        try:                                # what was not read
             self.command('LSREAD', {'port': port}, deadline)
         except Refused:
             pass

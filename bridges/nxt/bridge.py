@@ -24,7 +24,7 @@ object per line, UTF-8, no line longer than 65536 bytes.
 
 Data are strings of hexadecimal digits.  Requests are served one after the
 other; the timeout, in seconds, counts from when the line was read.  When
-the standard input ends without `quit`, nobody drives the robot any more:
+the standard input ends without `quit`, no program drives the robot any more:
 the motors are let go, and the process ends.
 """
 

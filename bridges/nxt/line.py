@@ -101,7 +101,7 @@ class Line:
         data = b''
         while len(data) < size:
             if self.cancelled:
-                raise LineError('cancelled', 'nobody waits for it')
+                raise LineError('cancelled', 'it is not waited for')
             try:
                 data += self.serial.read(size - len(data))
             except TROUBLE as problem:

@@ -71,7 +71,7 @@ class World:
 
     def step(self):
         """Where the host is too busy to keep up, time slips: the bricks
-        must answer, and nothing should move on while nobody can look."""
+        must answer, and nothing should move on unobserved."""
         last, self.stepped = self.stepped, time.monotonic()
         late = self.stepped - last - MOST_LATE
         if late > 0:

@@ -169,7 +169,7 @@ class Ear:
 
 
 class Outbox:
-    """Frames for Prolog.  Who hears messages does not wait until it reads."""
+    """Frames for Prolog.  The subscription does not wait until it reads."""
 
     def __init__(self, say):
         self.say, self.frames, self.messages = say, collections.deque(), 0
@@ -422,7 +422,7 @@ class Node(Helper):
             self.node.destroy_service(service)
 
     def op_service_response(self, frame, _deadline):
-        """ROS cannot tell who waits that there will be no response."""
+        """ROS cannot tell a caller that there will be no response."""
         number = str(frame.get('id'))
         if number in self.calls:
             _, cls, respond, header = self.calls[number]

@@ -3,7 +3,7 @@
 :- include(ground).
 
 study(mixed, "Two learning algorithms in one population").
-text("In the maze the light is behind a corner: who follows it goes into the \c
+text("In the maze the light is behind a corner: an agent that follows it goes into the \c
 corner, from where all ways on lead away from it.").
 
 vary(crew, [greedy, scout, greedy_scout, climb, genetic, climb_genetic]).

@@ -2,7 +2,7 @@
 %
 %   Expects of the study that includes this: the parameters `problem`, a
 %   payload of learning; `algorithms`, which the agents have in turn;
-%   `agents`; `limit`, host seconds after which nobody is waited for;
+%   `agents`; `limit`, host seconds after which no agent is waited for;
 %   `settings`.  It may have `sharing`, `cloning`, and `exchange`,
 %   at(Time, Old, New): the first of the agents lays down Old then and takes
 %   up New.  Gives: network/3, run/2, view/2, and the measures of one run.

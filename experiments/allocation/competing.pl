@@ -45,7 +45,7 @@ beside(Measure, What, Order, Text, at([mechanism=proposed], Test)) :-
 auction(murdoch, "Murdoch").
 auction(anta, "ANTA").
 
-%   Of one who is alone, too; and of those who compete.
+%   Of an allocator that is alone, too; and of several that compete.
 
 so_many(_, Line, Text0-Test, Text, [line(Line)|Notes], Test) :-
     alone(Notes),

@@ -45,7 +45,7 @@ begins(File, Starts) :-
     sub_atom(Base, 0, _, _, Start),
     !.
 
-%   One that does not load is told, and does not cost the others.
+%   One that does not load is reported, and does not cost the others.
 
 loads(File, Study) :-
     catch(study_load(File, Study), error(Formal, Context),

@@ -45,7 +45,7 @@ script(Script) :-
     module_property(study_commands, file(Here)),
     absolute_file_name('../study.pl', Script, [relative_to(Here)]).
 
-%   By its usual name, if that is who this is.
+%   By its usual name, if that is this program.
 
 prolog(Swipl) :-
     current_prolog_flag(executable, Executable),

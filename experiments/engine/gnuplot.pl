@@ -51,8 +51,8 @@ font "DejaVu Sans,12"', [W, H]).
 
 %!  colour(+Index, -Colour) is semidet.
 %
-%   Colours 0 to 5, as numbers 0xRRGGBB.  They can be told apart by people
-%   who see colours differently.
+%   Colours 0 to 5, as numbers 0xRRGGBB.  They differ for colour-blind
+%   people, too.
 
 colour(0, 0x4477aa).
 colour(1, 0xee6677).

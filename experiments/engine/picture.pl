@@ -43,7 +43,7 @@ Runs are run(Case, Seed, Measures).
 %
 %   Plot is plot(Name, Title, Picture).  Writes Name.svg and Name.png in
 %   Directory, and what they were drawn from.  A picture that cannot be drawn
-%   is told, and does not cost the others.
+%   is reported, and does not cost the others.
 
 picture(Study, plot(Name, Title, Picture), Runs, Directory) :-
     (   catch(drawn(Picture, Study, Name, Title, Runs, Directory),

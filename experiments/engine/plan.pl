@@ -79,7 +79,7 @@ planned(Plans, Options, N, run(Study, Case, Seed)) :-
 %!  planned_real(+Plans, +Options, -Run) is nondet.
 %
 %   With --real, Run is to be made on real sockets: one of a case, if no other
-%   number is asked for, as nobody can make it quicker.
+%   number is asked for, as it cannot be made quicker.
 
 planned_real(Plans, Options, run(Study, Real, Seed)) :-
     option(real(true), Options),

@@ -22,7 +22,7 @@ A run is made again for this, as the logs of others do not tell of hops.
 %
 %   With replays(true) in Options, write replay.html into the directory of the
 %   first study of each folder with a network: its first case, with the first
-%   seed.  What cannot be made is told.
+%   seed.  What cannot be made is reported.
 
 replays_save(Plans, Options, Out) :-
     (   option(replays(true), Options),

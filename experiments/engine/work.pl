@@ -19,7 +19,7 @@
 
 /** <module> Many runs on several processors
 
-Workers are processes that are told one run after the other on their standard
+Workers are processes that get one run after the other on their standard
 input, and answer each with a term on their standard output.  So a run does
 not pay for the start of Prolog, and one that crashes takes nothing with it.
 
@@ -40,7 +40,7 @@ thread that stands by if they are still there ten seconds later.
 %
 %   Make what is not there yet of Runs, of which Failed fail.  What sessions
 %   that were killed have begun is removed.  Progress is shown, and failures
-%   are told, on user_error.  Options:
+%   are reported, on user_error.  Options:
 %
 %     - jobs(Count)
 %       So many processes at a time; default 2.
@@ -85,7 +85,7 @@ watched(run(Study, Case, _), What, Total) :-
     study_call(Study, progress(Case, What, Total)),
     !.
 
-%   make(+Runs, +Desk, +Task, +Done): who is free gets the next.
+%   make(+Runs, +Desk, +Task, +Done): a free worker gets the next.
 
 make([Run|Runs], Desk, Task, Done) :-
     free_worker(Desk, Worker),
@@ -113,7 +113,7 @@ told(failed(Directory, Cause), Run) :-
     assertz(failed_by(Cause)).
 told(_, _).
 
-%   What many runs have failed by is told of the first, and counted.
+%   If many runs fail in the same way, the first is reported, the others counted.
 
 tell_counts :-
     forall(( aggregate(count, failed_by(Cause), Count),

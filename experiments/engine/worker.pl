@@ -26,7 +26,7 @@
 
 %!  work is det.
 %
-%   Make the runs that are told on standard input, until it ends: terms
+%   Make the runs that come on standard input, until it ends: terms
 %   make(File, Pairs, Seed, Directory, Logs), of the study in File, the
 %   case with Pairs.  Each is answered by answer(Outcome) on standard output.
 %   What runs print goes to the file `output`.
@@ -91,7 +91,7 @@ make(Run, Directory, Logs, How, Outcome) :-
 make_in(run(Study, Case, Seed), Part) :-
     run_make(Study, Case, Seed, Part).
 
-%   Who has sent this has seen the same sources, and nobody has changed them.
+%   The sender has seen the same sources: they have not changed since.
 
 must_be_of(run(Study, _, _), Directory) :-
     sources_hash(Study, Hash),

@@ -12,7 +12,7 @@ text("Each host, every 10 to 20 s, drops each of its links with probability \c
 vary(network, [50]).
 vary(density, [0.1, 0.2, 0.3, 0.4, 0.5]).
 fixed(dynamic, thesis_4_4_7, printed("section 4.4.7: from a mesh, each link \c
-dropped by itself; where one at a time is, nobody ever has few")).
+dropped by itself; where one at a time is, no host ever has few")).
 
 label(least_degree, "Links of a host, at least").
 label(most_degree, "Links of a host, at most").

@@ -5,7 +5,7 @@
 
 study('4.9', "Executions and sharing against the density of agents").
 text("Each set of points is a network, and goes from one agent to each ten \c
-hosts to five of them. One agent alone has nobody to share with.").
+hosts to five of them. One agent alone has no other to share with.").
 
 vary(network, [10, 20, 30, 40, 50, obstacle]).
 vary(density, [0.1, 0.2, 0.3, 0.4, 0.5]).

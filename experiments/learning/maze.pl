@@ -35,7 +35,7 @@ with_settings(Settings, Goal) :-
 %!  maze_path(+Settings, +Actions, -Cells:list) is det.
 %
 %   Where a robot comes by that performs Actions from the start on.  Each
-%   cell is told once for each time that it moves there.
+%   cell is listed once for each time that it moves there.
 
 maze_path(Settings, Actions, Cells) :-
     with_settings(Settings,

@@ -21,7 +21,7 @@ label(N, Text) :-
 
 %   By how much the linear trend of sharing events changes, of their mean, in
 %   30 equal parts of the run; and of the time in which all agents are at work:
-%   who has converged does not share any more.
+%   agents that have converged do not share any more.
 
 measure(trend, View, Percent) :-
     duration(View.learners, End),

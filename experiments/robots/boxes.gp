@@ -1,4 +1,4 @@
-# Who did what when: a row for each robot, pale while it is reserved, in full
+# Which robot did what when: a row for each robot, pale while it is reserved, in full
 # colour while it executes the job of that colour.  Below it a row for each
 # box: from when its allocator is released until the box has been pushed and
 # its robots are back, grey while the allocator rests.

@@ -156,7 +156,7 @@ equip(Host, Name) :-
     findall(place(Place), between(1, 5, Place), Places),
     robot_start(Host, [push|Places], []).
 
-%   Who joins is linked with the last one that was there, and the first.
+%   A host that joins is linked with the last and the first one there.
 
 join(Arena, Host, Hosts0, Hosts) :-
     enlist(Arena, [Host]),

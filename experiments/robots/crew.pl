@@ -55,7 +55,7 @@ crew_leave :-
 %!  crew_task(+Name, +Spec, -Task) is det.
 %
 %   Task is Name-Goal, where Goal carries the payload file Spec with it:
-%   the agent who calls it takes up the payload, calls the predicate that
+%   the agent that calls it takes up the payload, calls the predicate that
 %   has the name of the payload and no arguments, and lays it down again,
 %   also when that fails or raises something.
 %

@@ -8,7 +8,7 @@
 
 study('3.3', "Antigens 00000, 11111, 10101: their complements are left").
 text("Three dissimilar antigens attack hosts drawn at random in each of 15 \c
-rounds. Hosts that nobody helps draw an antibody at random; antibodies that \c
+rounds. Hosts without help draw an antibody at random; antibodies that \c
 do better than others at a host clone themselves, the others die.").
 
 plan(_, [['00000', '11111', '10101']-15]).

@@ -3,7 +3,7 @@
 :- include(ground).
 
 study(onset, "Where overlapped executions begin").
-text("Only the ratio of task time to hop time can matter for who overlaps, so \c
+text("Only the ratio of task time to hop time can matter for overlaps, so \c
 hops stay as they are. The thesis has 0.2 on star-bus and tree, 0.5 on the \c
 grid, and none on the ring.").
 

@@ -1,5 +1,5 @@
 %   fipa_answer(+Acl, +Performative, +Content, -To, -Answer): Answer belongs
-%   to the conversation of Acl, and answers it; To is who is to get it.
+%   to the conversation of Acl, and answers it; To is its receiver.
 
 fipa_answer(acl(_, Asked), Performative, Content, To,
             acl(Performative, [content(Content)|Parameters])) :-

@@ -1,7 +1,7 @@
 :- payload(fipa_contract_net, [provides([fipa_call/4, fipa_award/4])]).
 
 /*  The initiator of FIPA's contract net (FIPA00029): calls for proposals,
-    and awards the contract to one of those who make one.  Needs reply/3, which
+    and awards the contract to one of the proposers.  Needs reply/3, which
     is in the place of hosts that are platforms, or the payload fipa/reply.
 */
 
@@ -45,8 +45,8 @@ fipa_call_answer(_, _, _, More, More).
 %!  fipa_award(+Proposals, +Chosen, +Seconds, -Outcome) is det.
 %
 %   Accept Chosen, one of Proposals, and reject the others.  Outcome is
-%   inform-Result, failure-Why, or the like, or `timeout`.  Who proposes only
-%   now comes too late.
+%   inform-Result, failure-Why, or the like, or `timeout`.  A proposal
+%   that comes only now is too late.
 
 fipa_award(Proposals, Chosen, Seconds, Outcome) :-
     Chosen = Offer-Acl,

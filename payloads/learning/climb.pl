@@ -36,8 +36,8 @@ plan(_, Units, Plan) :-
                 *          THE MEANS           *
                 *******************************/
 
-%   samples(+Units, -Samples): Settings-Value, all on the level of who
-%   measures like the average.
+%   samples(+Units, -Samples): Settings-Value, all on the level of a
+%   printer that measures like the average.
 
 samples(Units, Samples) :-
     findall(Settings-Value, member(unit(_, Settings, Value)-_, Units), Raw),

@@ -15,10 +15,10 @@
     vector the heading would give turns a weight.
 
     Units are unit(Vector0, Actions, Vector).  A turn in the open has weight
-    0, so nothing could be linked through it; it is told together with the
+    0, so nothing could be linked through it; it is reported together with the
     move that follows.
 
-    Facts of who carries it replace the defaults: setting(size, N),
+    Facts of the agent that carries it replace the defaults: setting(size, N),
     setting(obstacles, List) of (X1,Y1)-(X2,Y2), lines along an axis;
     setting(light, L), how bright the light is at the goal.
 */

@@ -49,9 +49,8 @@ root(Start, Links, Start) :-
 root(_, [_-unit(Vector, _, _)|_], Vector).
 
 %   ways(+Links, +Ways0, -Ways): way(Length, Way) to each vector, Way being
-%   the actions of its links, the last first.  Weights are positive, so who
-%   takes the links in the order of rising light comes to a vector when all
-%   ways to it are known.
+%   the actions of its links, the last first.  Weights are positive, so in
+%   the order of rising light a vector comes when all ways to it are known.
 
 ways([], Ways, Ways).
 ways([_-unit(Vector0, Actions, Vector)|Links], Ways0, Ways) :-

@@ -14,7 +14,7 @@
 
     A sensor vector is sv(Printer, Settings, Quality).  The quality, from 0
     to about 1, is that of this page as the printer itself measures it, with
-    noise; what it would be without noise, nobody can sense.  So the goal is
+    noise; what it would be without noise cannot be sensed.  So the goal is
     reached when several pages on end, printed with the same settings, have
     been good on average.  Luck may help: nothing else tells a printer that
     its settings are good.
@@ -23,7 +23,7 @@
     bad, for a learning algorithm can do something with both.  The weight of
     one that was no better than the page before is 0.
 
-    Facts of who carries it replace the defaults: setting(noise, N), the
+    Facts of the agent that carries it replace the defaults: setting(noise, N), the
     standard deviation of a measurement; setting(good, Q); setting(pages, N),
     how many on end; setting(difference, D), how far the best density and
     heat of a printer may lie from those of others; setting(printers, Seed),

@@ -3,7 +3,7 @@
 /*  Task T3 of carrying a pole (thesis section 5.7): 1.2 m forward.
 
     The wheels, 56 mm wide, are motors b and c.  Their tachometers have
-    counted since the pole was clasped, so a robot that is told to do this
+    counted since the pole was clasped, so a robot that does this
     again goes only what is left of the way.  The brick itself stops them
     there: however busy the host is, no robot goes too far.
 */

@@ -8,7 +8,7 @@
     The wheels, 56 mm wide and 112 mm apart, are motors b, left, and c; the
     compass is on port 2, sensors of colour look at the floor ahead of them
     on ports 3 and 4.  All runs are limited: a robot whose program is ended
-    stops by itself.  Who gets lost stops, and raises robot_lost(How).
+    stops by itself.  A robot that gets lost stops, and raises robot_lost(How).
 
     A way is a list of Metres-Turn: after so many metres comes a junction,
     where it turns `left` or `right` or goes `straight`; the last one is

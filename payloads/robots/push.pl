@@ -7,7 +7,7 @@
     The way to both locations is the same up to a red marker.  Job 1 is on
     the left of the main line, job 2 on the right.  The touch sensor on port
     1 tells when the box is there.  It moves only while enough robots push;
-    those who come first push against it until the others are there.
+    the first push against it until the others are there.
 */
 
 %!  push_box(+Job, +Place, +Metres, -Away) is det.

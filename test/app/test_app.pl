@@ -135,7 +135,7 @@ test(not_a_term) :-
     typhon_error([network, 'grid(2,'], "grid(2,").
 test(not_a_topology) :-
     typhon_error([network, 'blob(2)'],
-                 "blob(2)", "network --help tells the shapes").
+                 "blob(2)", "network --help lists the shapes").
 test(no_such_file) :-
     typhon_error([host, alpha, '--consult', '/no/such.pl'], "/no/such.pl").
 test(nobody_there) :-

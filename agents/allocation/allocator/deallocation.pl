@@ -7,7 +7,7 @@
     A child goes by the trail of its parent, with short cuts, to the robot
     that is nearest; where links have gone it looks for the way
     conscientiously.  It has so much time: robots it has not reached by then
-    ask the allocator, and are told that they are free, or get no answer.
+    ask the allocator, which answers that they are free, or not at all.
 */
 
 %!  deallocate(+Phases:list) is det.

@@ -63,7 +63,7 @@ look_again(Look) :-
     parameter(monitor, Seconds),
     Look is Now + Seconds.
 
-%   Who did not answer the last time is given up.
+%   A robot that did not answer the last time is given up.
 
 inquire(Asked, Asking) :-
     forall(( held(Host, Robot, Ref, _, started),

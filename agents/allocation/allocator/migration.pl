@@ -7,8 +7,8 @@
 %!  set_out is det.
 %!  restart is det.
 %
-%   Begin to search: knowing nothing, and after a back-off.  Who still has
-%   robots may have to go back to them.
+%   Begin to search: knowing nothing, and after a back-off.  An
+%   allocator that still has robots may have to go back to them.
 
 set_out :-
     endow,
@@ -28,8 +28,8 @@ restart :-
 
 %!  migrate is det.
 %
-%   Where there is no way on the resource decays, too: who is cut off does
-%   not keep robots from others.
+%   Where there is no way on the resource decays, too: an allocator that
+%   is cut off does not keep robots from others.
 
 migrate :-
     decay,

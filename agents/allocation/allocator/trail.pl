@@ -54,8 +54,8 @@ links(_, Trail, Count) :-
 %
 %   Host is the one of Neighbours that is nearest to one of the hosts
 %   Wanted, Distance along the Trail.  Fails if that is not nearer than
-%   Distance0: where links have gone, who goes to hosts that are nearer
-%   than it ever was does not go round in circles.
+%   Distance0: where links have gone, an agent that goes only to hosts
+%   nearer than it ever was does not go round in circles.
 
 nearer(Trail, Wanted, Neighbours, Distance0, Host, Distance) :-
     findall(Goal,

@@ -13,7 +13,7 @@
 
 %!  to_owner(+Job, +Body) is semidet.
 %
-%   What nodes tell the auctioneer, who is here.
+%   What nodes tell the auctioneer of this node.
 
 to_owner(Job, bids(Round, List)) :-
     bids(Job, Round, List).
@@ -231,7 +231,7 @@ renew_later(Job, Since) :-
     parameter(renew, Seconds),
     after(Seconds, renew(Job, Since)).
 
-%   Who has let a whole period pass without a sign of life is lost.
+%   A contractor that has let a whole period pass without a sign of life is lost.
 
 renew(Job, Since) :-
     renewal(Job, Since),

@@ -1,12 +1,12 @@
 % Expects: nothing; pure.
 % Gives: winners/3, becomes/3, later_phase/3.
 
-/*  Who gets a contract, and what becomes of it.
+/*  Which nodes get a contract, and what becomes of it.
 */
 
 %!  winners(+Places, +Bids, -Winners) is semidet.
 %
-%   Who costs least, team by team.  Bids are Host-Bids, Winners Host-Number.
+%   The cheapest, team by team.  Bids are Host-Bids, Winners Host-Number.
 
 winners([], _, []).
 winners([(Number-_)-Count|Places], Bids0, Winners) :-

@@ -3,7 +3,7 @@
 
 /*  The side of a node that speaks for the robot of its host.  It bids for
     one auction at a time, and for another one only when that is over, or
-    more urgent.  Who wins has a contract, which ends unless the auctioneer
+    more urgent.  The winner has a contract, which ends unless the auctioneer
     renews it: so no robot stays reserved for an auctioneer that is gone.
 
         hold(Job, Round, Offer, Until)
@@ -249,7 +249,7 @@ is_over(Job, Round) :-
     Round =< Last,
     !.
 
-%   Nobody has renewed the contract in time.
+%   The contract was not renewed in time.
 
 lapse(Job) :-
     contract(Job, Round, _, _, _, Until),

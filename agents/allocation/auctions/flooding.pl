@@ -5,7 +5,7 @@
 
     A message over a link takes as long as a hop of an agent would (setting
     hop_time).  It is sent at once, with the host time at which it is due;
-    until then it is on the agenda of who gets it.  What is passed on was
+    until then it is on the agenda of the receiver.  What is passed on was
     passed on at the time it was due, so the computer adds nothing to the
     time of a flood as long as it keeps pace.
 
@@ -34,8 +34,8 @@
 
 %!  cross(+To, +Body, +Now) is semidet.
 %
-%   Body goes over the link to host To.  Fails if there is none, or nobody
-%   at its end, who is forgotten.
+%   Body goes over the link to host To.  Fails if there is none, or no
+%   node at its end, which is forgotten.
 
 cross(To, Body, Now) :-
     neighbours(Neighbours),

@@ -10,7 +10,7 @@
 
         publish(+Body)                          to all nodes
         tell_robots(+Job, +Hosts, +Body)        to the nodes of Hosts
-        tell_owner(+Job, +Body)                 to who auctions Job
+        tell_owner(+Job, +Body)                 to the auctioneer of Job
         offer_bids(+Job, +Round, +Bids)         the bids of this host
         arrived(+Body, +From, +Now)             came over a link
         onward(+Body, -Onward)                  how a flood is passed on

@@ -19,7 +19,7 @@ reach_time(Found, HopTime, Theta) :-
 %!  bid_time(+Bids, +Minimum, -Theta) is det.
 %
 %   Equation 7.7: constant back-off.  Bids is the number of bids received;
-%   one at least, for who gets none must not try again at once.
+%   one at least, as an auctioneer without bids must not try again at once.
 
 bid_time(Bids, Minimum, Theta) :-
     Theta is max(1, Bids)*Minimum.

@@ -1,7 +1,7 @@
 """A flat arena: robots, a pole, boxes, lines and markers.
 
 It moves in steps of equal length, so that a run depends only on the seed
-and on what the motors are told at which step."""
+and on the commands of the motors at each step."""
 
 import math
 import random

@@ -7,7 +7,7 @@ class Clock:
     """Counts `rate` seconds for every second of the host.
 
     With rate 0 time stands still but for advance(), so that a run depends
-    on nothing but what it is told."""
+    on nothing but its commands."""
 
     def __init__(self, rate=1.0):
         self.rate = rate

@@ -200,7 +200,7 @@ class Station:
         if reply is not None:
             frame = framed(reply)
             channel.send(frame[:len(frame) // 2])
-        self.close_server()             # nobody new comes in meanwhile
+        self.close_server()             # no new client comes in meanwhile
         # A terminal that is closed at once loses what is in it.
         self.loop.after(LAST_WORDS, lambda: self.die(seconds))
 

@@ -62,7 +62,7 @@ class Loop:
 class Lines:
     """Lines from a file descriptor, answered one by one on standard output.
 
-    answer(words) gives a term, or None for nothing; ValueError is told."""
+    answer(words) gives a term, or None for nothing; ValueError is printed."""
 
     def __init__(self, loop, answer, at_end=None, fd=0):
         self.loop, self.answer, self.at_end = loop, answer, at_end
@@ -123,5 +123,5 @@ def say(term):
     if term is not None:
         try:
             os.write(1, (term + '.\n').encode())
-        except OSError:                 # nobody reads any more
+        except OSError:                 # its reader is gone
             pass

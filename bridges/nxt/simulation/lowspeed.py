@@ -18,7 +18,7 @@ class LowSpeed:
 
     def finish(self, now):
         """What has been read ends up in a ring of 16 bytes, behind what
-        nobody has fetched; a full ring looks like an empty one."""
+        was not fetched; a full ring looks like an empty one."""
         if self.coming and now >= self.done_at:
             unread = self.unread + self.coming
             fill = len(unread) % BUFFER

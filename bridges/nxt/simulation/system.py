@@ -188,7 +188,7 @@ def delete_user_flash(brick, request):
 
 def poll_length(brick, request):
     buffer = request.take('B')
-    return OK, pack('BB', buffer, 0)    # nobody speaks through them here
+    return OK, pack('BB', buffer, 0)    # unused here
 
 
 def poll(brick, request):
