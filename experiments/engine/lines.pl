@@ -247,9 +247,11 @@ variable(_, Options, _, _, _, 'BAND'-Band) :-
     ->  Band = 1
     ;   Band = 0
     ).
-variable(Study, _, shown(_, X, _), _, _, 'JOINED'-Joined) :-
+variable(Study, _, shown(_, X, Positions), _, _, 'JOINED'-Joined) :-
     parameters(Study, [], Parameters),
-    (   memberchk(parameter(X, _, sampled), Parameters)
+    (   ( memberchk(parameter(X, _, sampled), Parameters)
+        ; Positions = [_-Value|_], \+ number(Value)    % names
+        )
     ->  Joined = 0
     ;   Joined = 1
     ).

@@ -6,6 +6,7 @@
 :- use_module(library(lists), [append/2, append/3, member/2]).
 :- use_module(library(uri), [uri_encoded/3]).
 :- use_module(numbers, [number_text/2]).
+:- use_module(overview, [overview//2, overview_title/2]).
 :- use_module(report,
               [ case_texts/3, evidence/3, held_text/3, medians_text/4,
                 parameter_rows/3,
@@ -29,7 +30,8 @@ It needs no server: pictures and data are files beside it.
 page_save(Directory, Shown) :-
     directory_file_path(Directory, 'index.html', File),
     style(Style),
-    phrase(page([ title('Studies'), meta([charset('utf-8')]), style(Style) ],
+    overview_title(Shown, Title),
+    phrase(page([ title(Title), meta([charset('utf-8')]), style(Style) ],
                 \everything(Directory, Shown)),
            Tokens),
     setup_call_cleanup(
@@ -43,22 +45,13 @@ padding-top:1em}img{max-width:100%;height:auto}table{border-collapse:collapse;
 margin:1em 0;font-size:90%}td,th{padding:.2em .7em;border-bottom:1px solid #ddd;
 text-align:left;vertical-align:top}td.n{text-align:right;white-space:nowrap}
 .no{background:#fbe9e7}.some{background:#fff8e1}.yes{background:#e8f5e9}
+img.small{height:7em;max-width:14em}
 code{background:#f4f4f4;padding:.1em .3em}.small{color:#666;font-size:85%}').
 
 %   Not named body//2, which html_write would take for its hook.
 
 everything(Directory, Shown) -->
-    { findall(tr([td(a(href(Link), Name)), td(Title), td(class(n), Text)]),
-              ( member(shown(Study, Outcome, _, _), Shown),
-                study_title(Study, Name, Title),
-                uri_encoded(fragment, Name, Anchor),
-                atom_concat(#, Anchor, Link),
-                share(Outcome, Text) ),
-              Rows) },
-    html([ h1('Studies'),
-           table([ tr([ th(study), th(title),
-                        th('claims: held of the medians') ])
-                 | Rows ]) ]),
+    overview(Directory, Shown),
     studies(Shown, Directory),
     how_to_cite.
 
@@ -69,12 +62,6 @@ how_to_cite -->
                'Shashi Shekhar Jha, PhD thesis, Department of Computer ',
                'Science and Engineering, Indian Institute of Technology ',
                'Guwahati. Entries for BibTeX are in doc/citing.md.' ]) ]).
-
-share(Outcome, Text) :-
-    findall(x, member(claim(_, _, _, _, true, _), Outcome.claims), Held),
-    length(Held, HeldCount),
-    length(Outcome.claims, Count),
-    format(atom(Text), '~d of ~d', [HeldCount, Count]).
 
 studies([], _) -->
     [].

@@ -8,7 +8,10 @@
 :- use_module('../../../experiments/engine/cases', [study_cases/3]).
 :- use_module('../../../experiments/engine/gnuplot', [plain_text/2]).
 :- use_module('../../../experiments/engine/outcome', [outcome/4]).
+:- use_module('../../../experiments/engine/overview').
 :- use_module('../../../experiments/engine/page').
+:- use_module('../../lib/project_studies', [project_study/2]).
+:- use_module(library(http/html_write), [print_html/1]).
 :- use_module('../../../experiments/engine/picture').
 :- use_module('../../../experiments/engine/tables', [outcome_save/4]).
 :- use_module('../../../experiments/engine/studies',
@@ -253,7 +256,7 @@ test(links_lead_somewhere, Missing-Inside == []-[]) :-
     with_page(links_inside(Inside)).
 test(tables) :-
     with_page(cells(Rows)),
-    forall(member(Row, [ ['toy 1', 'A <toy>', '0 of 2'],
+    forall(member(Row, [ ['toy 1', 'A <toy>', '', '0 of 2'],
                          [c, '[5]', 'given by --set'],
                          ['10', old, '3', '202 (201–203) [12]'],
                          ['m < 3 & more (line 7, so)', 'DID NOT HOLD', _],
@@ -267,5 +270,23 @@ test(says_how_to_make_it_again) :-
     forall(member(Part, [ 'swipl a -- b', 'What it is & does.',
                           'not drawn' ]),
            assertion(once(sub_atom(Text, _, _, _, Part)))).
+
+test(figures_of_the_thesis_are_under_their_chapters,
+     Headings == ['Chapter 5', 'Chapter 7', 'Beyond the thesis']) :-
+    findall(shown(Study, outcome{claims:[]}, '', none),
+            ( member(Name, [ 'allocation/beyond_urgent', 'allocation/figure_7_5',
+                             'sync/figure_5_8' ]),
+              project_study(Name, Study) ),
+            Shown),
+    with_tmp_dir(overview_headings(Shown, Headings)).
+
+overview_headings(Shown, Headings, Dir) :-
+    phrase(overview(Dir, Shown), Tokens),
+    with_output_to(string(Text), print_html(Tokens)),
+    open_string(Text, In),
+    load_html(stream(In), DOM, [dialect(html5)]),
+    findall(Heading, xpath(DOM, //th(@colspan='4', text), Heading), Headings),
+    overview_title(Shown, Title),
+    xpath(DOM, //h1(text), Title).
 
 :- end_tests(study_page).

@@ -1,0 +1,113 @@
+:- module(study_overview,
+          [ overview_title/2,           % +Shown, -Title
+            overview//2                 % +Directory, +Shown
+          ]).
+:- use_module(library(http/html_write), [html//1]).
+:- use_module(library(lists), [list_to_set/2, member/2]).
+:- use_module(library(uri), [uri_encoded/3]).
+:- use_module(studies, [study_call/2, study_title/3]).
+
+/** <module> The beginning of the page: what it is, and a row for each study
+
+Studies named by numbers, as 5.6, are figures and tables of the thesis, and stand
+under their chapters; others come after them.
+
+*Threading*: no state; any thread.
+*/
+
+%!  overview_title(+Shown:list, -Title:atom) is det.
+%!  overview(+Directory, +Shown:list)// is det.
+%
+%   Of the studies Shown, see page_save/2.
+
+overview_title(Shown, Title) :-
+    (   of_the_thesis(Shown)
+    ->  Title = 'The figures and tables of a thesis, made anew'
+    ;   Title = 'Studies'
+    ).
+
+of_the_thesis(Shown) :-
+    member(shown(Study, _, _, _), Shown),
+    study_title(Study, Name, _),
+    numbered(Name, _),
+    !.
+
+numbered(Name, Chapter) :-
+    atomic_list_concat([First, Last], '.', Name),
+    atom_number(First, Chapter),
+    atom_number(Last, _).
+
+overview(Directory, Shown) -->
+    { overview_title(Shown, Title),
+      findall(Group, ( member(One, Shown), group(One, Group) ), Groups0),
+      list_to_set(Groups0, Groups1),
+      sort(Groups1, Groups) },
+    html(h1(Title)),
+    explained(Shown),
+    html(table([ tr([ th(study), th(title), th(figures),
+                      th('claims: held of the medians') ])
+               | \groups(Groups, Shown, Directory) ])).
+
+explained(Shown) -->
+    { of_the_thesis(Shown) },
+    !,
+    html(p([ 'What the thesis of Shashi Shekhar Jha on mobile agents for networked ',
+             'robots (Indian Institute of Technology Guwahati) says of its figures ',
+             'and tables is compared with runs of the same mechanisms, which agents ',
+             'of Typhon make in virtual time. A row has a study, its figures, ',
+             'and how many of its claims hold of the medians of all runs; below, ',
+             'numbers of the thesis stand in brackets beside ours, and are ',
+             'triangles in the figures.' ])).
+explained(_) -->
+    [].
+
+groups([], _, _) -->
+    [].
+groups([Group|Groups], Shown, Directory) -->
+    { findall(tr([th(colspan(4), Heading)]),
+              heading(Group, Shown, Heading), Headings),
+      findall(Row,
+              ( member(One, Shown), group(One, Group),
+                row(One, Directory, Row) ),
+              Rows) },
+    html(Headings),
+    html(Rows),
+    groups(Groups, Shown, Directory).
+
+%   group(+Shown, -Group): number of the chapter, inf for what is of none.
+
+group(shown(Study, _, _, _), Group) :-
+    study_title(Study, Name, _),
+    (   numbered(Name, Chapter)
+    ->  Group = Chapter
+    ;   Group = inf
+    ).
+
+heading(inf, Shown, 'Beyond the thesis') :-
+    of_the_thesis(Shown).
+heading(Chapter, _, Heading) :-
+    number(Chapter),
+    format(atom(Heading), 'Chapter ~w', [Chapter]).
+
+row(shown(Study, Outcome, _, _), Directory,
+    tr([td(a(href(Link), Name)), td(Title), td(Pictures), td(class(n), Text)])) :-
+    study_title(Study, Name, Title),
+    uri_encoded(fragment, Name, Anchor),
+    atom_concat(#, Anchor, Link),
+    findall(Picture, small_picture(Study, Name, Directory, Picture), Pictures),
+    share(Outcome, Text).
+
+%   Of each figure that was drawn.
+
+small_picture(Study, Name, Directory, img([class(small), src(Path), alt(Title)])) :-
+    study_call(Study, plot(Plot, Title, _)),
+    atomic_list_concat([Name, '/', Plot, '.svg'], File),
+    atomic_list_concat([Directory, File], /, Drawn),
+    exists_file(Drawn),
+    uri_encoded(path, File, Path).
+
+share(Outcome, Text) :-
+    findall(x, member(claim(_, _, _, _, true, _), Outcome.claims), Held),
+    length(Held, HeldCount),
+    length(Outcome.claims, Count),
+    format(atom(Text), '~d of ~d', [HeldCount, Count]).
