@@ -13,6 +13,7 @@
 :- include('allocator/deadline').
 :- include('allocator/messages').
 :- include('allocator/held_robots').
+:- include('allocator/news').
 :- include('allocator/attendance').
 :- include('allocator/sojourn').
 :- include('allocator/rewards').
@@ -54,6 +55,7 @@ default(bi_max, 500).
 default(beta, 1).               % of the first back-off; or 0
 default(backoff, adaptive).     % or `constant`: equation 7.7 for 7.6
 default(strategy, conscientious).
+default(sharing, none).         % `own`, `shared`: see news.pl
 default(children, 1).           % among which the robots to free are shared
 default(child_life, 300).       % seconds
 default(patience, 20).          % seconds to wait for a robot's answer
@@ -116,6 +118,7 @@ search :-
     keep(stage(searching)),
     attend,
     negotiate,
+    exchange,
     proceed,
     search.
 

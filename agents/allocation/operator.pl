@@ -155,6 +155,7 @@ task_allocate(Task, Host, Options, Agent) :-
     check_task(Task),
     check_options(task_option, Options),
     settings([ cd, alpha_k, chi, bi_min, bi_max, beta, backoff, strategy,
+               sharing,
                children, child_life, patience, monitor, pause, start, seed
              ],
              Options, Settings),

@@ -61,7 +61,7 @@ start(Backoff, Task, Host, Case) :-
     task_allocate(Task, Host,
                   [ settings([ backoff-Backoff, seed-Case.seed,
                                bi_min-Case.bi_min, bi_max-Case.bi_max,
-                               beta-Case.beta ]) ],
+                               beta-Case.beta, sharing-Case.sharing ]) ],
                   _).
 
 %   Nodes do not end: they and the robots are looked at.  A robot that the

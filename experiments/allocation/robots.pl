@@ -29,6 +29,7 @@ fixed(bi_max, 500, printed("section 7.6")).
 fixed(beta, 1, assumed("exponent of equation 7.5 at the first back-off: so many \c
 it has experienced with this one, as in CSMA/CD")).
 fixed(sending, at_once, assumed("messages do not wait for each other")).
+fixed(sharing, none, printed("section 7.8: allocators tell each other nothing")).
 fixed(limit, 50000, assumed("seconds; a run that takes longer fails")).
 
 network(Case, random(Case.hosts, Case.probability),

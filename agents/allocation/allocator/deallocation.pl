@@ -1,4 +1,4 @@
-% Expects: lib, common; trail, messages, held_robots, migration.
+% Expects: task/3; lib, common; trail, messages, held_robots, news, migration.
 % Gives: deallocate/1.
 
 /*  How robots are let go: by children that go back the way their parent
@@ -15,6 +15,7 @@
 %   The robots in one of Phases are free, or will soon be.
 
 deallocate(Phases) :-
+    tell_free(Phases),
     findall(Host-free(Robot, Ref),
             ( held(Host, Robot, Ref, _, Phase), memberchk(Phase, Phases) ),
             Robots),
@@ -22,10 +23,20 @@ deallocate(Phases) :-
            achieve(Team, Ref)),
     forall(member(_-free(_, Ref), Robots),
            retractall(held(_, _, Ref, _, _))),
+    exchange,
     release_here(Robots, Elsewhere),
     parameter(children, Children),
     shares(Children, Elsewhere, Shares),
     spawn_children(Shares).
+
+tell_free(_) :-
+    parameter(sharing, none),
+    !.
+tell_free(Phases) :-
+    task(_, Teams, _),
+    forall(( held(Host, _, _, Team, Phase), memberchk(Phase, Phases) ),
+           ( nth1(Team, Teams, _-Requirements),
+             learn(Host, Requirements, free) )).
 
 achieve(Team, Ref) :-
     retractall(held(_, _, Ref, _, _)),
@@ -126,7 +137,8 @@ way_on(_, Distance, Host, Distance) :-
 arrived(Arrived, _, _-Distance, Distance) :-
     var(Arrived),
     !,
-    count(child, 1).
+    count(child, 1),
+    exchange.
 arrived(false, Host, Distance-_, Distance) :-
     count(refusal, 1),
     trail(Trail0),

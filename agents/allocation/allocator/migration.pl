@@ -1,4 +1,4 @@
-% Expects: lib, common; trail, held_robots, sojourn, rewards.
+% Expects: lib, common; trail, held_robots, news, sojourn, rewards.
 % Gives: set_out/0, restart/0, migrate/0, pause/0.
 
 /*  How an allocator gets about: thesis section 7.4.1, Agent Migration.
@@ -33,12 +33,18 @@ restart :-
 
 migrate :-
     decay,
-    parameter(strategy, Strategy),
-    (   next_host(Strategy, Host)
+    (   next_place(Host)
     ->  catch(move(Host), error(_, _), Arrived = false),
         landed(Arrived)
     ;   pause
     ).
+
+next_place(Host) :-
+    promising(Host),
+    !.
+next_place(Host) :-
+    parameter(strategy, Strategy),
+    next_host(Strategy, Host).
 
 landed(Arrived) :-
     var(Arrived),

@@ -1,4 +1,5 @@
-% Expects: task/3, agreed/3, backoffs/1; lib; messages, held_robots, rewards.
+% Expects: task/3, agreed/3, backoffs/1; lib; messages, held_robots, news,
+%   rewards.
 % Gives: negotiate/0.
 
 /*  With the robot on the spot: its agent says what the task would cost, the
@@ -39,16 +40,22 @@ negotiated(bid(Cost), Robot, Ref, Need) :-
     agreed(Cost, Details, Backoffs),
     !,
     reserve(Robot, Ref, Need).
-negotiated(refused(Reason), _, _, _) :-
+negotiated(refused(Reason), _, _, Need) :-
     memberchk(Reason, [reserved, executing]),
     !,
+    taken(Need),
     penalty.
 negotiated(_, _, _, _).
 
 reserve(Robot, Ref, Need) :-
     self(Me),
     ask(Robot, Ref, reserve(Ref, Me, Need), Answer),
+    taken(Need),
     settle(Answer, Robot, Ref).
+
+taken(need(_, Requirements, _)) :-
+    here(Host),
+    learn(Host, Requirements, taken).
 
 settle(reserved, Robot, Ref) :-
     !,

@@ -551,6 +551,38 @@ test(backs_off) :-
     fake_agent:trail([here]),
     restarted(3, 5, 0.01, Chi),
     chi(Chi).
+test(newer_news_is_taken_along_and_left) :-
+    allocator([ setting(sharing, shared), news(b, [push], taken, 5),
+                news(a, [lift], free, 7) ]),
+    fake_host:leave(robots([ news(b, [push], free, 6),
+                             news(a, [lift], taken, 6) ])),
+    fake_agent:exchange,
+    fake_host:tuple(robots(News)),
+    msort(News, [news(a, [lift], free, 7), news(b, [push], free, 6)]),
+    fake_agent:news(b, [push], free, 6).
+test(nothing_is_left_without_sharing, [forall(member(S, [none, own]))]) :-
+    allocator([setting(sharing, S), news(b, [push], free, 5)]),
+    fake_agent:exchange,
+    \+ fake_host:tuple(robots(_)).
+test(goes_to_the_free_neighbour_it_heard_of_last, Host == c) :-
+    allocator([ setting(sharing, own), news(b, [push], free, 5),
+                news(c, [push], free, 6), news(d, [push], taken, 7),
+                news(e, [fly], free, 8), news(f, [push], free, 9) ]),
+    fake_neighbours([b, c, d, e]),
+    fake_agent:next_place(Host).
+test(knows_of_no_free_neighbour, Host == next) :-
+    allocator([setting(sharing, own), news(f, [push], free, 9)]),
+    fake_neighbours([b, c]),
+    fake_agent:next_place(Host).
+test(what_is_taken_and_freed_is_news) :-
+    allocator([setting(sharing, own)]),
+    answers(1, bid(3)),
+    answers(1, reserved),
+    fake_agent:negotiate,
+    fake_agent:news(here, [push], taken, _),
+    fake_at(9),
+    fake_agent:deallocate([reserved]),
+    fake_agent:news(here, [push], free, 9).
 test(executing_robots_are_not_let_go) :-
     allocator([ held(b, q, x, 1, started), setting(backoff, constant) ]),
     fake_agent:back_off,

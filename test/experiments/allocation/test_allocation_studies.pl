@@ -19,6 +19,7 @@ name(beyond_integrated).
 name(beyond_urgent).
 name(beyond_replacement).
 name(study_contention).
+name(beyond_sharing).
 
 %   texts(+Name, +World, +Held, -Texts): of the claims that hold, or do not,
 %   in a World made up of numbers: made(Name, World, Case, Measures).
@@ -64,6 +65,9 @@ made(study_contention, World, Case, ms{time:T, interval:I}) :-
     ;   T = 50,
         I = 50
     ).
+made(beyond_sharing, World, Case, ms{communications:C, time:C}) :-
+    nth1(N, [shared, own, none], Case.sharing),
+    memberchk(World-C, [thesis-N, reverse-(-N)]).
 made(beyond_replacement, thesis, Case, ms{replaced:R, faulty:0, disorder:0,
                                          after:0, overlaps:0,
                                          completed:300}) :-
@@ -142,7 +146,7 @@ test(each_may_fail, [forall(name(Name)), Holding == []]) :-
 
 :- begin_tests(allocation_cases).
 
-test(counts, Counts == [35, 15, 6, 1, 5, 3, 72]) :-
+test(counts, Counts == [35, 15, 6, 1, 5, 3, 72, 9]) :-
     findall(Count,
             ( name(Name), study(Name, Study), case_count(Study, Count) ),
             Counts).
@@ -194,6 +198,10 @@ replacement_run(Dir) :-
            get_dict(Name, Ms, Value)),
     Ms.catching_up > 0.
 
+sharing_run(Sharing, Measures, Dir) :-
+    small(Small),
+    measures(beyond_sharing, [sharing-Sharing|Small], Dir, Measures).
+
 urgent_run(Dir) :-
     small(Small),
     measures(beyond_urgent, [priority-0, deadline-1|Small], Dir, Ms),
@@ -226,6 +234,9 @@ test(integrated) :-
     with_tmp_dir(integrated_run).
 test(replacement) :-
     with_tmp_dir(replacement_run).
+test(sharing, [forall(member(Sharing, [own, shared]))]) :-
+    with_tmp_dir(sharing_run(Sharing, Ms)),
+    assertion(Ms.time > 1).
 test(urgent) :-
     with_tmp_dir(urgent_run).
 test(same_robots) :-
