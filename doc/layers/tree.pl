@@ -78,7 +78,8 @@ tree_file(File) :-
 read_source(File) :-
     setup_call_cleanup(
         prolog_open_source(File, In),
-        read_terms(In, File),
+        ( set_stream(In, encoding(utf8)),
+          read_terms(In, File) ),
         prolog_close_source(In)).
 
 read_terms(In, File) :-
