@@ -10,15 +10,15 @@
 :- use_module(library(pairs), [pairs_keys/2]).
 :- use_module(library(solution_sequences), [distinct/2]).
 
-/*  Which room takes how much of a hop.
+/*  Which module takes how much of a hop.
 
     swipl bench/profile.pl -- [--hops N] [--rounds N] [--agents N]
 
 Two tables, of hops between two processes and between two hosts of one: the
-processor time of a hop in microseconds, by room and by thread.  The times of threads
+processor time of a hop in microseconds, by module and by thread.  The times of threads
 are those of runs without profiler, medians of all rounds; how each is made
 up is what sampled.pl saw of one after the other in as many runs more.  Take
-a room of few microseconds for what it is: a handful of samples. */
+a module of few microseconds for what it is: a handful of samples. */
 
 :- initialization(main, main).
 
@@ -36,7 +36,7 @@ opt_help(agents, 'agents that travel at a time (default 1)').
 
 :- dynamic
     thread_took/3,              % Process, Role, Micros: of a hop
-    room_took/4,                % Process-Role, Room, How, Seconds
+    source_took/4,                % Process-Role, Source, How, Seconds
     seen_in/3.                  % Process-Role, Cpu, Seen: in the same run
 
 main(Argv) :-
@@ -53,7 +53,7 @@ profile(What, Times, With, Threads, Options) :-
     option(rounds(Rounds), Options, 10),
     option(agents(Agents), Options, 1),
     retractall(thread_took(_, _, _)),
-    retractall(room_took(_, _, _, _)),
+    retractall(source_took(_, _, _, _)),
     retractall(seen_in(_, _, _)),
     forall(between(1, Rounds, _),
            ( host_start(here),
@@ -114,8 +114,8 @@ sampled(Run, Peer, Process-Role) :-
     call(Run, Peer),
     asked(Process, Peer, sampling_end(Cpu-Seen, Spent)),
     assertz(seen_in(Process-Role, Cpu, Seen)),
-    forall(member(spent(Room, How, Seconds), Spent),
-           assertz(room_took(Process-Role, Room, How, Seconds))).
+    forall(member(spent(Source, How, Seconds), Spent),
+           assertz(source_took(Process-Role, Source, How, Seconds))).
 
 asked(here, _, Goal) :-
     call(bench_sampled:Goal).
@@ -127,11 +127,11 @@ asked(there, Peer, Goal) :-
                 *******************************/
 
 table(What, Threads) :-
-    findall(Total-row(Room, Total, Called, Micros),
-            ( distinct(Room, room_took(_, Room, _, _)),
-              maplist(micros(Room, _), Threads, Micros),
+    findall(Total-row(Source, Total, Called, Micros),
+            ( distinct(Source, source_took(_, Source, _, _)),
+              maplist(micros(Source, _), Threads, Micros),
               sum_list(Micros, Total),
-              maplist(micros(Room, called), Threads, Calls),
+              maplist(micros(Source, called), Threads, Calls),
               sum_list(Calls, Called) ),
             Rows0),
     sort(1, @>=, Rows0, Rows),
@@ -140,24 +140,24 @@ table(What, Threads) :-
     others(Others),
     format('~w: ~1f us of processor a hop, and ~1f us in other threads~n',
            [What, All, Others]),
-    line([room,us,'%',called|Threads]),
-    forall(member(_-row(Room, Total, Called, Micros), Rows),
+    line([module,us,'%',called|Threads]),
+    forall(member(_-row(Source, Total, Called, Micros), Rows),
            ( Share is 100*Total/All,
-             line([Room,Total,Share,Called|Micros]) )),
+             line([Source,Total,Share,Called|Micros]) )),
     maplist(overstated, Threads, Factors),
     line(['seen at work, times',' ',' ',' '|Factors]),
     nl.
 
-%   micros(+Room, ?How, +Thread, -Micros): of a hop.
+%   micros(+Source, ?How, +Thread, -Micros): of a hop.
 
-micros(Room, How, Thread, Micros) :-
+micros(Source, How, Thread, Micros) :-
     took(Thread, Took),
     seconds_in(Thread, _, _, All),
-    seconds_in(Thread, Room, How, Part),
+    seconds_in(Thread, Source, How, Part),
     Micros is Took*Part/max(All, 1.0e-9).
 
-seconds_in(Thread, Room, How, Sum) :-
-    aggregate_all(sum(S), room_took(Thread, Room, How, S), Sum).
+seconds_in(Thread, Source, How, Sum) :-
+    aggregate_all(sum(S), source_took(Thread, Source, How, S), Sum).
 
 took(Process-Role, Took) :-
     findall(Micros, thread_took(Process, Role, Micros), List),

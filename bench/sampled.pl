@@ -10,7 +10,7 @@
 :- use_module(library(process), [process_create/3]).
 :- use_module(library(yall)).
 
-/** <module> In which rooms threads of this process spend their time
+/** <module> In which modules threads of this process spend their time
 
 The profiler of SWI-Prolog looks at one thread of a process at a time. It is
 begun and ended in that thread, by a signal. It looks every five
@@ -21,7 +21,7 @@ processor time that is left over. A thread that has to wait for a processor
 or a mutex counts as at work. So that what wakes others up does not look
 dear, because these run in its stead, patient_threads/0 makes them wait.
 
-What the system and its libraries do counts for the room that called them,
+What the system and its libraries do counts for the module that called them,
 and garbage collection for itself. What the profiler takes for its own books
 is known to it, and left out. A thread can be looked at once only: what the
 profiler made for it must not be freed while a look may be under way, and
@@ -97,8 +97,8 @@ begin(Asker) :-
 %
 %   Cpu is the processor time of the thread since sampling_begin/1, in
 %   seconds, Seen how long it seemed to work: more than Cpu where it had to
-%   wait to go on. Spent are facts spent(Room, How, Seconds), How `itself` or
-%   `called`: in what it called of the system. Room is a file such as
+%   wait to go on. Spent are facts spent(Source, How, Seconds), How `itself` or
+%   `called`: in what it called of the system. Source is a file such as
 %   `wire/reader`, `agent` for programs of agents, `garbage collection`,
 %   `waiting` or `not known`.
 
@@ -116,7 +116,7 @@ sampling_end(Cpu-Seen, [spent(waiting, called, Waiting)|Spent]) :-
 end(Asker) :-
     profiler(_, false),
     statistics(cputime, Cpu),
-    findall(spent(Room, How, Seconds), spent(Room, How, Seconds), Spent),
+    findall(spent(Source, How, Seconds), spent(Source, How, Seconds), Spent),
     books(Books),
     thread_send_message(Asker, sampling(Cpu, Books, Spent)).
 
@@ -124,12 +124,12 @@ end(Asker) :-
                 *        CALLS AND ROOMS       *
                 *******************************/
 
-%   spent(-Room, -How, -Seconds) is nondet. Ticks should be milliseconds,
+%   spent(-Source, -How, -Seconds) is nondet. Ticks should be milliseconds,
 %   but the rest of each interval is dropped: so the time is shared out.
 
-spent(Room, How, Seconds) :-
+spent(Source, How, Seconds) :-
     '$prof_statistics'(_, Ticks, _, Time, _),
-    below(-, 'not known', Node, Room, How),
+    below(-, 'not known', Node, Source, How),
     '$prof_node'(Node, _, _, _, _, _, Own, _),
     Own > 0,
     Seconds is Own*Time/Ticks.
@@ -138,14 +138,14 @@ books(Seconds) :-
     '$prof_statistics'(_, Ticks, Books, Time, _),
     Seconds is Books*Time/max(1, Ticks).
 
-%   below(+Above, +RoomAbove, -Node, -Room, -How) is nondet.
+%   below(+Above, +SourceAbove, -Node, -Source, -How) is nondet.
 
-below(Above, RoomAbove, Node, Room, How) :-
+below(Above, SourceAbove, Node, Source, How) :-
     '$prof_sibling_of'(Node0, Above),
     '$prof_node'(Node0, Predicate, _, _, _, _, _, _),
-    counts_for(Predicate, RoomAbove, Room0, How0),
-    (   Node = Node0, Room = Room0, How = How0
-    ;   below(Node0, Room0, Node, Room, How)
+    counts_for(Predicate, SourceAbove, Source0, How0),
+    (   Node = Node0, Source = Source0, How = How0
+    ;   below(Node0, Source0, Node, Source, How)
     ).
 
 counts_for(Predicate, _, waiting, called) :-
@@ -153,10 +153,10 @@ counts_for(Predicate, _, waiting, called) :-
     !.
 counts_for(system:'$garbage_collect'/1, _, 'garbage collection', called) :-
     !.
-counts_for(Module:_, RoomAbove, Room, How) :-
-    (   module_room(Module, Room0)
-    ->  Room = Room0, How = itself
-    ;   Room = RoomAbove, How = called
+counts_for(Module:_, SourceAbove, Source, How) :-
+    (   module_source(Module, Source0)
+    ->  Source = Source0, How = itself
+    ;   Source = SourceAbove, How = called
     ).
 
 waits(system:thread_get_message/_).
@@ -165,11 +165,11 @@ waits(system:peek_byte/2).
 
 %   Fails for the system and its libraries.
 
-module_room(Module, Room) :-
+module_source(Module, Source) :-
     module_property(Module, file(File)),
     atomic_list_concat([_,Path], '/prolog/typhon/', File),
     !,
-    file_name_extension(Room, pl, Path).
-module_room(Module, agent) :-
+    file_name_extension(Source, pl, Path).
+module_source(Module, agent) :-
     \+ module_property(Module, file(_)),
     \+ module_property(Module, class(system)).

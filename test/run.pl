@@ -161,7 +161,7 @@ add_suite(suite(_, P1, Failures, Skipped), sum(P0, F0, S0), sum(P, F, S)) :-
     F is F0+F1,
     S is S0+S1.
 
-%   Who sees only the end of what is printed learns what failed.
+%   The end of what is printed says what failed.
 
 print_failures(suite(Base, _, Failures, _)) :-
     forall(member(Failure, Failures),

@@ -1,7 +1,7 @@
 % Expects: visit/1, fertile/0 of the program.
 % Gives: live/0; also parameters, keep and clones of lib, and replication.
 
-/*  The stigmergic cloning controller: a room for agents whose number is to
+/*  The stigmergic cloning controller: for agents whose number is to
     follow the demand for them (thesis section 6.2).
 
     An agent lives by going from queue to queue.  On its turn it does what
@@ -10,7 +10,7 @@
     Clones die when their lifetime is over, which falls by one with each
     tick in a queue; the agent that was created, not cloned, never dies.
 
-    The program that includes this room calls live/0 and says two things:
+    The program that includes this file calls live/0 and says two things:
 
         visit(-Reward)      what it does on its turn at a host; Reward is 1
                             if that was a service, else 0

@@ -222,7 +222,7 @@ study_name(Study, plot(Plot), Name) :-
     ;   member(Option, [x(Name), y(Name), line(Name)])
     ).
 
-%   picture_options(+Picture, -Domain, -Options): see room picture.
+%   picture_options(+Picture, -Domain, -Options): see module picture.
 
 picture_options(lines(Options), lines_option, Options).
 picture_options(over_time(Options), over_time_option, Options).

@@ -55,7 +55,7 @@ measure(last_theta, steps(_, Steps), Theta) :-
 measure(Name, steps(Case, Steps), Theta) :-
     member(Name, [early, late]),
     memberchk(step(Case.Name, _, Theta, _), Steps).
-measure(not_raised, steps(_, Steps), Count) :-      % where there was room
+measure(not_raised, steps(_, Steps), Count) :-      % where it could be
     rewarded_at(few, Rewards),
     aggregate_all(count,
                   ( member(N, Rewards),

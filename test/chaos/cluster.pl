@@ -119,7 +119,7 @@ close_pipe(Stream) :-
 %!  cluster_hosts(+Name, -Addresses) is det.
 %!  cluster_lives(-Lives) is det.
 %
-%   Who there is, who of them lives, the addresses of the hosts of one, and
+%   Which processes there are, which live, the addresses of the hosts of one, and
 %   life(Name, Number, From, To) for each start of a process; To is `inf`
 %   while it lives.
 
@@ -324,7 +324,7 @@ take(answer(Tag, Result)) :-
     ;   true                            % too late, or killed since
     ).
 take(ended(Pid)) :-
-    (   running(Name, Pid, _, _, _)     % and nobody killed it
+    (   running(Name, Pid, _, _, _)     % and was not killed by us
     ->  cluster_kill(Name),
         get_time(Now),
         assertz(answered(-1, asked(Name, living), crashed(Now)))

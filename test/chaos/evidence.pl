@@ -155,8 +155,8 @@ ending(_, Events, Name, Id) :-
            atom_concat(@, Host, Home),
            sub_atom(Id, _, _, 0, Home) )).
 
-%   What a killed process was just writing does not count, nor what somebody
-%   wrote who was interrupted: only that, not what comes after it.
+%   What a killed process was just writing does not count, nor what an interrupted
+%   writer wrote: only that, not what comes after it.
 
 events(Dir, Events) :-
     cluster_lives(Lives),

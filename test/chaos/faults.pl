@@ -179,7 +179,7 @@ lives(Name) :-
 
 %!  heal(+Scenario) is det.
 %
-%   No more faults.  Who is dead comes back, but in `deaths`.
+%   No more faults.  Dead processes come back, but in `deaths`.
 
 heal(Scenario) :-
     proxy([heal]),

@@ -3,7 +3,7 @@
             peer_frames/2               % +Codec, -Frames
           ]).
 
-/** <module> What nobody should send
+/** <module> Malformed and hostile input
 
 All of it is drawn from the random generator of the thread, so that a seed
 stands for an input.
@@ -25,7 +25,7 @@ stands for an input.
 
 %!  stranger_input(-Input) is det.
 %
-%   Input is send(Codes, End), what somebody says who does not know the
+%   Input is send(Codes, End), what a client sends that does not know the
 %   cookie, where End is `close`, `linger` or `drip`.
 
 stranger_input(send(Codes, End)) :-
@@ -130,7 +130,7 @@ peer_frame(2, Codec, Codes) :-
 peer_frame(3, _, [B3, B2, B1, B0, 0,0,0, 0,0,0,0, 0,0,0,0, 1, 2, 3]) :-
     !,
     maplist([B]>>random_between(0, 255, B), [B3, B2, B1, B0]).
-peer_frame(4, text, Codes) :-           % damaged by who sends it
+peer_frame(4, text, Codes) :-           % damaged by its sender
     !,
     random_frame(Term),
     term_bytes(text, Term, Bytes0),

@@ -15,7 +15,7 @@ and no slot, session, request, agent, thread or queue may be left of all
 that.
 
 What is left out: a damaged record behind a right check kills the process.
-Only who knows the cookie can send that.
+Only a peer that knows the cookie can send that.
 
 *Threading*: the main thread.
 */
@@ -248,7 +248,7 @@ peer(Seed, Port) :-
     try(3, with_session(Port, Hello, say_frames(Frames))),
     try(3, with_session(Port, Hello, goodbye(Speaks))).
 
-%   The victim decodes records only of who has its own certificate.
+%   The victim decodes records only of peers with its own certificate.
 
 peer_codec(Codec) :-
     random_member(Codec0, [fast, text]),
@@ -322,7 +322,7 @@ goodbye(Codec, In, Out) :-
 served(Host) :-
     catch(peer_do(honest, remote(Host, true)), error(_, _), fail).
 
-%   Who has a session is `honest`, of a random id, or one of our peers.
+%   Sessions are of `honest`, of a random id, or of one of our peers.
 
 nobody_in :-
     peer_do(victim,

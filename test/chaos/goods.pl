@@ -123,7 +123,7 @@ lost_message(m(From, To, K), Time, finding(Kind, m(From, To, K))) :-
     ;   Kind = message_lost
     ).
 
-%   Those who take their messages as they come have done so after some
+%   Agents that take their messages as they come have done so after some
 %   seconds; with others they may have waited to the end.
 
 death_near(To, Time) :-
@@ -183,8 +183,8 @@ wrong_token(Tokens, Token, Kind) :-
     ;   Kind = token_lost
     ).
 
-%   Who has dropped it goes on with it, as one who has not; who has found it
-%   there has carried it away.
+%   The agent that has dropped it goes on with it, as if it had not; the one that
+%   has found it there has carried it away.
 
 dropped_again(Token, Copies) :-
     aggregate_all(count, undone(_, drops(Token), _), Undone),

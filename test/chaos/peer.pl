@@ -72,7 +72,7 @@ chaos_note(Agent, Tick, Event) :-
     ledger(Stream),
     format(Stream, '~k.~n', [e(Agent, Tick, Event, Now)]).
 
-%   Who ended an agent in doubt cannot know whether it goes on elsewhere.
+%   The process that ended an agent in doubt cannot know whether it goes on.
 
 :- multifile user:message_hook/3.
 

@@ -9,7 +9,7 @@
 %   A little of what `make chaos` does for long. It is over when so much has
 %   happened; the time is for what hangs.
 
-test('processes with journals die at their steps: nobody is lost or doubled',
+test('processes with journals die at their steps: no agent is lost or doubled',
      Wrong == []) :-
     with_tmp_dir(attacked([ processes(2), agents(40), hops(50),
                             crash(0.0002), kill(1), most(6) ], Wrong)).
@@ -19,7 +19,7 @@ test('the power fails: what was answered is not lost', Wrong == []) :-
 
 %   Up to so many hops, on machines that make them in time.
 
-test('a hundred thousand hops while processes die: nobody is lost or doubled',
+test('a hundred thousand hops while processes die: no agent is lost or doubled',
      Wrong == []) :-
     get_time(Now),
     Until is Now+20,

@@ -43,7 +43,7 @@ finding_kind(died,          excused, 'agents that died with a process').
 finding_kind(again,         excused, 'steps done again after a death').
 finding_kind(message_died,  excused, 'messages that died with a process').
 finding_kind(token_died,    excused, 'tokens that died with a process').
-finding_kind(in_doubt,      excused, 'agents in doubt, to who is dead').
+finding_kind(in_doubt,      excused, 'agents in doubt, to dead processes').
 finding_kind(late,          told,    'agents disposed of in doubt that went on').
 finding_kind(order_moving,  told,    'out of order, where one moves').
 finding_kind(error,         told,    'errors while there were faults').
@@ -197,7 +197,7 @@ home_of(Host, Name) :-
     sub_atom(Host, 0, _, _, Name),
     !.
 
-%   Where it went, or those who would know, are gone for good.
+%   Where it went, or the processes that would know, are gone for good.
 
 depends_on_the_dead(Key) :-
     gone(Name),
@@ -206,7 +206,7 @@ depends_on_the_dead(Key) :-
     ;   sent_on(Key, Host),
         home_of(Host, Name)
     ;   created(Key, _, _, Name-_, _)
-    ;   created(Key, _, _, Home-_, _),  % who has forgotten, and asks all
+    ;   created(Key, _, _, Home-_, _),  % which has forgotten, and asks all
         life(Home, _, _, Died),
         Died \== inf
     ;   created(Key, Kind, _, _, _),    % which do not say where they go
@@ -215,7 +215,7 @@ depends_on_the_dead(Key) :-
     !.
 
 %   The copy that stands somewhere was sent to Host; it may have come further,
-%   and its last steps died with who was about to send it back.
+%   and its last steps died with the process that was about to send it back.
 
 sent_on(Key, Host) :-
     created(Key, _, Id, _, _),
@@ -261,7 +261,7 @@ wrong_count(Key, Hops, Facts, hops(Key, Steps, Hops)) :-
     \+ ( Kind == clone, Hops =:= Steps+1 ).
 
 right_outcome(Key, _) :-
-    copies(0, Key, died),               % nobody can know
+    copies(0, Key, died),               % that cannot be known
     !.
 right_outcome(Key, _) :-
     created(Key, _, _, Life, _),

@@ -356,8 +356,8 @@ await_all :-
 %!  work_calls(-Calls) is det.
 %
 %   agent(Key, Kind, Id, Life, Time) of all that were created, Life being
-%   Name-Number of the process that is its home; Key-Time of those who were
-%   said to be disposed of; sent(Who, Key, Number, Time) for what
+%   Name-Number of the process that is its home; Key-Time of those that were
+%   to be disposed of; sent(Who, Key, Number, Time) for what
 %   the processes wrote to the agents; call(What, Name, Result) for each call
 %   that did not succeed.
 

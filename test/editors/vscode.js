@@ -2,8 +2,8 @@
 //
 //   node vscode.js SWIPL LIBRARY FILE
 //
-// and, for each snippet, its name and its text as a user leaves it who accepts
-// every default:
+// and, for each snippet, its name and its text when every default is
+// accepted:
 //
 //   node vscode.js --snippets
 

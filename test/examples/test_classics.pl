@@ -22,7 +22,7 @@ program(Name, File) :-
     project_file(Relative, File).
 
 %   on(+Topology, +Options, :Goal, -Logged): call(Goal, Hosts) in such a
-%   network, where nobody keeps a log: Logged is what was printed instead.
+%   network, without a log: Logged is what was printed instead.
 
 on(Topology, Options, Goal, Logged) :-
     no_leaks(listening(in_network(Topology, [seed(1)|Options], Goal),

@@ -4,7 +4,7 @@
 
     swipl test/lib/atoms_collected.pl -- TIMES
 
-Three threads read terms with atoms that nobody else has, so many times each,
+Three threads read terms with atoms of their own, so many times each,
 while another collects atoms without a pause.  Prints `well`; where an atom is
 lost it says so, or the process crashes.
 

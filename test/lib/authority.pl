@@ -47,7 +47,7 @@ keys_of(Name, Authority, Dir) :-
 
 %!  verdict(+Trail, -Signed, -Verdict) is det.
 %
-%   Who has signed that what happened, as Name-handed; and the verdict, see
+%   The signers and what happened, as Name-handed; and the verdict, see
 %   agent_trail/2.
 
 verdict(trail(Steps, Verdict), Signed, Verdict) :-

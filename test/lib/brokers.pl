@@ -12,7 +12,7 @@
             stranger_hears/4            % +Broker, +Args, :Goal, -Lines
           ]).
 
-/** <module> MQTT brokers for tests, and strangers who use them
+/** <module> MQTT brokers for tests, and clients of other programs
 
 A broker is a real mosquitto at a port of its own.  Strangers are
 mosquitto_pub and mosquitto_sub.

@@ -5,7 +5,7 @@
     sh -c 'ulimit -v KILOBYTES; exec swipl test/lib/clone_bomb.pl'
 
 An agent clones itself, and so do its clones, until the host refuses a clone.
-Then the bomb is told to stop; when its agents are gone another agent begins
+Then the bomb is stopped; when its agents are gone another agent begins
 there, and ends, and `well` is printed.
 
 *Threading*: the main thread waits for the others.

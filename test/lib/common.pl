@@ -199,7 +199,7 @@ no_leaks(Goal) :-
     ;   throw(error(leaked(Things), _))
     ).
 
-%   What nobody refers to any more is there until it is collected.
+%   What has no reference any more is there until it is collected.
 
 leaked(Before, Things) :-
     garbage_collect_clauses,
@@ -364,7 +364,7 @@ ended(Pid, Status) :-
 %!  free_port(-Port:integer) is det.
 %
 %   A port of the loopback interface that is free now, was not given out before,
-%   and that the system gives to nobody who does not ask for it: it draws the
+%   and that the system gives only when asked for it: it draws the
 %   ports of outgoing connections from a higher range. Processes that have drawn
 %   the same seed begin at different ports.
 

@@ -10,7 +10,7 @@
 
 /** <module> Far ends for the bridge to NXT bricks
 
-A peer is nxt_peer.py, which answers what it is told to; a brick is the
+A peer is nxt_peer.py, which answers what a test says; a brick is the
 simulated one.  Both are processes of their own behind pseudo-terminals.
 
 *Threading*: one test at a time.

@@ -1,4 +1,4 @@
-"""The far end of a pseudo-terminal, which answers as it is told.
+"""The far end of a pseudo-terminal, which answers what a test says.
 
 The first line it prints is the name of the terminal.  Every telegram that
 comes is printed in hexadecimal digits.  Lines on the standard input say
@@ -14,11 +14,11 @@ and at once:
 
     now HEX         a reply
     lock            the terminal is another's; says `locked`
-    forbid          nobody may open it; says `forbidden`
+    forbid          it may not be opened; says `forbidden`
 
 KEEPALIVE always has its reply, and the question for the firmware if
-nothing else is said; they are not told.  Others have none without a line.
-A telegram that comes before the one before it has had its reply is told as
+nothing else is said; they are not reported.  Others have none without a line.
+A telegram that comes before the one before it has had its reply is reported as
 `overlap`.
 """
 

@@ -8,7 +8,7 @@
 :- use_module(common).
 :- use_module(library(typhon)).
 
-/** <module> Agents that do what they are told, and say what they get
+/** <module> Agents that carry out messages, and report what they get
 
 *Threading*: any thread; one at a time for each agent.
 */

@@ -3,7 +3,7 @@
             top_level_goes_on/0
           ]).
 
-/** <module> What a person sees who types at the top level
+/** <module> What is printed for queries that are typed at the top level
 
 *Threading*: any thread.
 */

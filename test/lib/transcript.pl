@@ -197,8 +197,8 @@ session(Steps, Line, Top, Line:Difference) :-
         Difference = unexpected(Report)
     ).
 
-%   Who looks for a process of his own that has ended may knock at its port,
-%   which is ours now.
+%   A program that looks for a process of its own that has ended may connect to
+%   its port, which is ours now.
 
 by_others(Report) :-
     sub_string(Report, _, _, _, "turned away a client at 127.0.0.1: it does \c

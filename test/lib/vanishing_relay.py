@@ -3,12 +3,12 @@
     python3 test/lib/vanishing_relay.py SOCKET
 
 Listens at a port of the loopback interface, which it prints, and carries
-bytes between who connects there and the server at the Unix socket SOCKET.
+bytes between clients there and the server at the Unix socket SOCKET.
 Each line of its standard input is carried out and answered with `done`:
 
     vanish   no packet is taken any more, none is acknowledged; what the
              server has heard ends
-    return   there is somebody again for who connects anew
+    return   new connections are accepted again
 
 Ends with its standard input. A stopped process would not do: the kernel
 acknowledges in its place."""

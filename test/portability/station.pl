@@ -10,7 +10,7 @@
 :- use_module(library(settings), [set_setting/2]).
 :- use_module(library(typhon)).
 
-% Nobody else knows these, and text must not depend on it.
+% Other processes do not have these, and text must not depend on them.
 
 :- op(700, xfx, ===>).
 :- op(200, fy, prefix).

@@ -61,7 +61,7 @@ shares(Count, List, [Share|Shares]) :-
     Count1 is max(1, Count - 1),
     shares(Count1, Rest, Shares).
 
-%   Where there is no room for a child, robots are written to.
+%   Where there is no place for a child, robots are written to.
 
 spawn_children([]).
 spawn_children([Share|Shares]) :-

@@ -222,7 +222,7 @@ all_of_others(Hosts, Robot) :-
     all_free(Others),
     robot_status(Robot, failed).
 
-%   Who disposes of an allocator does not dispose of its reservations.
+%   An order to dispose of an allocator does not dispose of its reservations.
 
 test(allocator_is_disposed_of) :-
     allocation(ring(3), [], [watch-5, patience-50], disposed_of).

@@ -49,7 +49,7 @@ auctions_in(Mechanism, Topology, Options0, Robots, Goal, Dir) :-
     reservation_faults(Events, Faults),
     exclude(died, Faults, []).
 
-%   Where nothing else is said nobody is given up soon.
+%   By default no node is given up soon.
 
 unhurried(Options0, [settings(Settings)|Options]) :-
     select_option(settings(Settings0), Options0, Options, []),
@@ -126,7 +126,7 @@ test(what_comes_before_its_peers_are_known_is_passed_on) :-
                  passed_on(Network),
                  network_stop(Network))).
 
-%   Nobody bids, so what is sent is one flood: 2E - (N-1) messages.
+%   There are no bids, so one flood is sent: 2E - (N-1) messages.
 
 test(closed_form, [ forall(member(Topology-Count,
                                   [ring(6)-7, grid(3,4)-23])) ]) :-

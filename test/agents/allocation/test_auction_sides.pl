@@ -7,7 +7,7 @@
 
 /** <module> The two sides of an auction, one node at a time
 
-Who has a robot and who has a task; the node is one of Murdoch.
+The side of a robot and that of a task; the node is one of Murdoch.
 */
 
                 /*******************************

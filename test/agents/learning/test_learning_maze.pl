@@ -44,7 +44,7 @@ close_to(X, Y) :-
 does(Actions, State0, State) :-
     foldl(act, Actions, State0, State).
 
-%   units(+Actions, +State0, -Units): what is told of them.
+%   units(+Actions, +State0, -Units): the shareable units of them.
 
 units(Actions, State0, Units) :-
     steps(Actions, State0, Steps),

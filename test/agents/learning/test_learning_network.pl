@@ -138,8 +138,8 @@ unshared(Hosts, File) :-
     logged(File, Events),
     \+ memberchk(event(_, _, _, shared(_, _)), Events).
 
-%   There is room for one besides the trainer.  Only when who takes the room
-%   at B has gone something is executed there.
+%   There is a place for one besides the trainer.  Only when the agent that
+%   has it at B has gone something is executed there.
 
 full_queue([A, B, C], File) :-
     learn([A, B, C], [agents(0)], []),

@@ -106,7 +106,7 @@ test(properties, [ forall(between(1, 100, Seed)) ]) :-
     Resource1 >= min(100, Resource0 + 15*Reward),
     Resource1 =< Resource0 + 15*Reward + 0.1*exp(1),
     clones(Rounding, Pressure, Resource1, 100, Count0),
-    Count0 =< Pressure,                 % never more than there is room
+    Count0 =< Pressure,                 % never more than fit
     conferred(Resource1, Count0, 10, Resource, Count),
     memberchk(Count, [0, Count0]),
     close_to(Resource1, Resource + 10*Count),
@@ -118,7 +118,7 @@ test(properties, [ forall(between(1, 100, Seed)) ]) :-
                 *           THE ROOM           *
                 *******************************/
 
-%   An agent in the room itself, at a host with a queue q.
+%   An agent that includes the file, at a host with a queue q.
 
 member_of(Resource, Lifetime, More) :-
     fake_agent('agents/population/cloning.pl',

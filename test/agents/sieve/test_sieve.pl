@@ -300,7 +300,7 @@ attacks(Hosts, File) :-
     bits('11111', B),
     antigen_attack(Hosts, A),
     settled(File, 10),
-    told(File, First),              % who is late is served by what others drew
+    told(File, First),              % late ones are served by what others drew
     aggregate_all(count, member(generated(_, _, _), First), Drawn),
     Drawn > 0,
     wait_until(count(File, born(host, _), Drawn), 20),

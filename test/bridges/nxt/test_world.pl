@@ -151,7 +151,7 @@ test(names_are_unique, Answers == [error, error, error]) :-
                findall(Kind,
                        ( member(Line, [ 'robot r1 1 1 0 plain',
                                         'box box1 1 1 0 2 1',
-                                        'remove nobody' ]),
+                                        'remove none' ]),
                          ask(World, Line, Answer),
                          functor(Answer, Kind, _)
                        ),

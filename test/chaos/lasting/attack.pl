@@ -4,7 +4,7 @@
 
 /** <module> Processes with journals are killed, again and again
 
-Whatever dies whenever, nobody is lost and nothing happens twice: each agent
+Whatever dies whenever, no agent is lost and nothing happens twice: each agent
 ends once with the right count, the counts at the hosts agree with them, each
 token is there once, each message has come once, and those of one that stays
 in order.

@@ -40,8 +40,8 @@ war; the rest is for one thread.
     node_file/1,
     child/3,                            % Name, Pid, In
     ready/1,                            % Pid: its host has started
-    orders/1,                           % what a child is told first
-    calm/0,                             % who ends is not started again
+    orders/1,                           % the first orders of a child
+    calm/0,                             % processes that end are not started again
     guard/1,                            % Thread
     warrior/1,                          % Thread
     most/1,                             % that may happen
@@ -135,7 +135,7 @@ watch_over(Node) :-
     assertz(guard(Guard)),
     thread_get_message(ready(Node)).
 
-%   Who looks after a process must not go unheard.
+%   Errors of the thread that looks after a process must be seen.
 
 guard(Node, Asker) :-
     catch(keep(Node, Asker), Ball, true),
@@ -180,7 +180,7 @@ died(Status, Said) :-
     format(user_error, 'ended by itself: ~p~n~w~n', [Status, Text]),
     count(ended(Status)).
 
-%   Who may write no more to a file is told so, and not killed.
+%   A process that may write no more to a file gets an error, and is not killed.
 
 start(node(Name, Port, Dir, Sync, Swipl), Pid, In, Out, Err) :-
     node_file(File),

@@ -47,7 +47,7 @@ wrong(_, _, Hosts, _, _, left(H, Who)) :-
     left(H, Who),
     Who \== [].
 
-%   Who has arrived elsewhere may still be asked for here.
+%   An agent that has arrived elsewhere may still be asked for here.
 
 left(Host, Who) :-
     again(remote(Host, findall(A-S, ( typhon:agent_property(A, state(S)),

@@ -4,9 +4,9 @@
 
 /** <module> Numbered words, between agents whose processes are killed
 
-Who talks says numbered words to another, who says each back; some travel
+A speaker says numbered words to another agent, which says each back; some travel
 meanwhile, so words come in any order, but each once.  All is over when each has
-said all its words, has heard all of them back, and all of who talks to it; if
+said all its words, has heard all of them back, and all of its speaker; if
 that does not come the processes say what they have in hand.
 
 *Threading*: the main thread.

@@ -193,7 +193,7 @@ at_least(Log, What, Least) :-
 
 :- begin_tests(algorithms_network).
 
-%   Good enough is what no printer can be, so nobody ever comes to an end.
+%   Good enough is what no printer can be, so no agent ever comes to an end.
 
 test(another_algorithm_while_they_live) :-
     on_network([], exchange).

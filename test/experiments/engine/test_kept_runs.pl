@@ -202,8 +202,8 @@ made_twice(Root, [Run|_]) :-
     assertion(run_done(Root, false, Run)),
     assertion(\+ exists_directory(Other)).
 
-%   Of this process, of one that has ended, and of one elsewhere, of which
-%   nobody knows here.
+%   Of this process, of one that has ended, and of one elsewhere, which
+%   is not known here.
 
 begun(Left, Root, [Run|_]) :-
     Run = run(Study, _, _),

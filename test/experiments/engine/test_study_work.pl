@@ -114,7 +114,7 @@ what_it_printed(Dir, File) :-
     read_file_to_string(Output, Said, []),
     assertion(Said == "a says it\n").
 
-%   A run that fails is told, others are made, and it is tried again.
+%   A run that fails is reported, others are made, and it is tried again.
 
 failing(What, Why, Dir, File) :-
     format(atom(Whats), '[a,~w,b]', [What]),
@@ -139,7 +139,7 @@ failing(What, Why, Dir, File) :-
     length(Tries, Count),
     assertion(Count == 2).
 
-%   Of many that fail by the same the first is told, and how many they are.
+%   Of many that fail by the same the first is reported, and how many they are.
 
 same_cause(Dir, File) :-
     runs(Dir, File, '[fail]', ['--runs', 3], exit(1), Text),
@@ -153,7 +153,7 @@ collected_anyway(Dir, File) :-
     runs(Dir, File, '[a,fail]', ['--runs', 1, '--collect'], exit(0), Text1),
     says(Text1, "index.html").
 
-%   A session is told to end in the middle of a run.
+%   A session gets a signal in the middle of a run.
 
 interrupted(Signal, Status, What, Dir, File) :-
     format(atom(Whats), 'what=[a,~w]', [What]),

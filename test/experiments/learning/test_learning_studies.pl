@@ -173,7 +173,7 @@ printers(Dir) :-
     assertion(Measures.reached =:= 100),
     assertion(Measures.pages > 0).
 
-%   Nobody is waited for after the limit.
+%   No agent is waited for after the limit.
 
 given_up(Dir) :-
     project_study('algorithms/beyond_exchange', Study),

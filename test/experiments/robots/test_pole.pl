@@ -144,7 +144,7 @@ test(bars) :-
     points([_, _-Ms]),
     forall(member(Bar, [[1, 1, 0.0, 5.0, 1], [4, 2, 8.0, 16.0, 1]]),
            assertion(( member(Row, Ms.bars), maplist(=:=, Row, Bar) ))),
-    assertion(length(Ms.bars, 16)).    % nobody waits, alone
+    assertion(length(Ms.bars, 16)).    % alone, no robot waits
 test(all_hold, true(Numbers == All)) :-
     robot_study(pole, Study),
     points(Points),

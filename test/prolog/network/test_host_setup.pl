@@ -5,7 +5,7 @@
 :- use_module(library(lists), [member/2]).
 :- use_module(library(typhon)).
 
-/** <module> Hosts of a network that offer what they are told to
+/** <module> Hosts of a network that offer what its options say
 
 *Threading*: one test at a time.
 */

@@ -298,7 +298,7 @@ test(a_read_only_directory, [ condition(powerless('/usr/bin/true', [], [])),
                               true(Out == "open"-"none") ]) :-
     with_tmp_dir(read_only(Out)).
 
-%   Root may write everywhere, by its capabilities: who tries has none.
+%   Root may write everywhere, by its capabilities: this process has none.
 
 read_only(Opened-Left, Dir) :-
     directory_file_path(Dir, events, File),

@@ -61,7 +61,7 @@ kill(Network, I) :-
 walker(Program) :-
     walks([ (go(H) :- move(H)) ], Program).
 
-%   Who is killed with others may see for a moment that they are gone.
+%   A process that is killed with others may see for a moment that they are gone.
 
 patient(Program) :-
     walks([ (go(H) :- catch(( move(H), Where = there ),
@@ -414,7 +414,7 @@ forgotten(journal_of_another(D, shape(_, _), shape(_, _)), Formal) =>
 forgotten(Formal0, Formal) =>
     Formal = Formal0.
 
-test('a journal that is damaged, or another process has, is told as that',
+test('a journal that is damaged, or another process has, is reported as that',
      Formals = [ journal_damaged(_, _), journal_damaged(_, _),
                  permission_error(open, journal, _) ]) :-
     with_settings([typhon_children:stop_seconds=1],
@@ -449,7 +449,7 @@ spoilt(Dir, File, Formal) :-
     read_file_to_codes(File, Before, [type(binary)]),
     rename_file(Good, File).
 
-test('there is none in virtual time, nor where hosts are already: why is told',
+test('there is none in virtual time, nor where hosts are already: the error says why',
      Formals-Whys == [ permission_error(open, journal, '/tmp/none'),
                        permission_error(open, journal, '/tmp/none/process1') ]-
                      [ 'not in virtual time',
@@ -528,7 +528,7 @@ saved_without(File, Network) :-
     wait_until(printed(node_down(_, Pid, _, _, _)), 10),
     network_save(Network, File).
 
-test('one that dies again and again is left alone at last, and that is told',
+test('one that dies again and again is left alone at last, and that is reported',
      Told = [node_given_up(_, 1, 2, 60)]) :-
     with_settings([typhon_restarts:restarts=2], quiet(no_leaks(too_often))),
     findall(node_given_up(N, P, M, S),

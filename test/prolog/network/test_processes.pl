@@ -465,8 +465,8 @@ test(unlinked_also_where_the_other_is_gone, [ forall(member(Way, [to,from])),
 
 :- begin_tests(peers_that_hang).
 
-%   It waits for the other as long as it is told to, and that is all.  Who is
-%   in doubt then is told of, and no more: nobody is asked any more.
+%   It waits for the other as long as its setting says, and that is all.  Agents in
+%   doubt then are reported, and no more: no process is asked any more.
 
 test(host_stop, true((Seconds < 20, Errors == []))) :-
     with_settings([ typhon_hosting:stop_seconds=0.2,

@@ -104,7 +104,7 @@ started(Name, File, Network, Seconds) :-
     network_property(Network, hosts(Hosts)),
     begun(Name, Network, Hosts).
 
-%   whole(+Name, +File, -Text): what is logged if nobody interferes.
+%   whole(+Name, +File, -Text): what is logged without interference.
 
 whole(Name, File, Text) :-
     no_leaks(setup_call_cleanup(
@@ -254,7 +254,7 @@ test(an_agent_that_does_not_stop, error(timeout_error(save, _))) :-
 
 :- end_tests(real_networks_are_saved).
 
-%   Between saving and loading time stands still, also for who sleeps.
+%   Between saving and loading time stands still, also for agents that sleep.
 
 clock_goes_on(Dir) :-
     atom_concat(Dir, '/file', File),

@@ -7,13 +7,13 @@
 
 /** <module> Tests of how networks stop, while agents are busy
 
-Who is busy with what cannot be done any more, as others are gone, is of no
-interest to people; what is wrong with an agent is.
+Agents that cannot go on since others are gone are not reported; faults of
+agents are.
 */
 
 :- begin_tests(stopping).
 
-%   stopped(+Options, +Clauses, +Count, -Told): what is told when a network is
+%   stopped(+Options, +Clauses, +Count, -Told): what is printed when a network is
 %   stopped in which there are Count agents of Clauses.
 
 stopped(Options, Clauses, Count, Told) :-
@@ -49,7 +49,7 @@ talks([ (main :- anywhere(Host), clone(Host, Who), met(Who)),
         Anywhere ]) :-
     anywhere(Anywhere).
 
-test('of those that are stopped on their way nothing is told',
+test('of those that are stopped on their way nothing is printed',
      [ forall(( member(Kind, [walks, dozes, talks]),
                 member(Options, [[processes(3)], []]) )),
        Told == [] ]) :-
@@ -70,7 +70,7 @@ test('nor of those that are in a goal that takes a while',
                 Anywhere ],
     no_leaks(stopped(Options, Clauses, 6, Told)).
 
-test('what is wrong with one is told',
+test('a fault of one is reported',
      [ forall(member(Options, [[processes(3)], []])),
        true(Told = [error-_]) ]) :-
     anywhere(Anywhere),
@@ -79,7 +79,7 @@ test('what is wrong with one is told',
                 Anywhere ],
     no_leaks(stopped(Options, Clauses, 1, Told)).
 
-%   Nobody looks a second time.
+%   No host is looked at twice.
 
 test('where all rest nothing is waited for', Looks == 64) :-
     flag(test_stopping_looks, _, 0),

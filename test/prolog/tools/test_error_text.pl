@@ -40,7 +40,7 @@ hostile(unwind(abort)).
 hostile(typhon(log(a, b, format("~@", [Harm])))) :- harm(Harm).
 hostile(error(resource_error(stack), _)).
 
-%   What was raised elsewhere and harms nobody stays what it was.
+%   What was raised elsewhere and is harmless stays what it was.
 
 kept(type_error(integer, a)).
 kept(existence_error(procedure, foo/1)).
@@ -90,7 +90,7 @@ printing(Goal, Texts) :-
 untouched :-
     flag(typhon_printed, 0, 0).
 
-%   What the top level does with an error that nobody catches.
+%   What the top level does with an uncaught error.
 
 at_the_top_level(Ball) :-
     print_message(error, Ball),

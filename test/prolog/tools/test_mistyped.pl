@@ -16,7 +16,7 @@
 :- use_module('../../../agents/sieve/operator').
 :- use_module('../../../agents/sync/operator').
 
-/** <module> What people are told who mistype a name
+/** <module> What is printed for a mistyped name
 
 */
 
@@ -42,7 +42,7 @@ says(Goal, Parts) :-
 
 :- begin_tests(options).
 
-%   What nobody knows, and what it is told to be.
+%   Unknown names, and what they are said to be.
 
 unknown(host_start(a, [capacty(1)]), host_option, capacity).
 unknown(host_start(a, [tokens([]), consut(f)]), host_option, consult).
@@ -191,7 +191,7 @@ test(strategy) :-
 
 :- begin_tests(names_that_are_given).
 
-%   Who wants to name something there says a name where one is given back.
+%   A name is given where one is returned.
 
 given(agent_create(clauses([(:- agent(a)), main]), bob)).
 given(agent_clone(eve, bob)).

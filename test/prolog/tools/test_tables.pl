@@ -1,6 +1,6 @@
 :- module(test_tables, []).
 
-% What agents/0 and hosts/0 show to who has started, or joined, a network.
+% What agents/0 and hosts/0 show where a network was started, or joined.
 
 :- use_module('../../lib/common').
 :- use_module('../../lib/fixtures').
@@ -132,7 +132,7 @@ two_ports_seen(Alpha, Lines) :-
     run_swipl(['-f', none, '-g', Goal], [], exit(0), Out, ""),
     split_string(Out, "\n", "\n", [_|Lines]).
 
-%   Also who has only joined it sees it all. A process that hangs is not
+%   A process that has only joined it sees it all, too. A process that hangs is not
 %   waited for longer than was said, and named.
 
 whole(Network) :-

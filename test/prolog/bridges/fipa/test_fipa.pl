@@ -374,7 +374,7 @@ test(is_on_loopback) :-
           tcp_close_socket(Socket),
           assertion(Formal = socket_error(econnrefused, _)) )).
 
-%   Who reads nothing.
+%   An agent that reads nothing.
 
 test(queue_of_a_mailbox) :-
     with_platform([queue(3)], _,
@@ -635,7 +635,7 @@ drip(Out, Whom) :-
     ;   thread_get_message(Me, stop)
     ).
 
-%   Who says nothing gives way to who does.
+%   Silent clients give way to others.
 
 test(silent_clients) :-
     with_platform([connections(4)], Url,

@@ -661,7 +661,7 @@ stopped_and_started(B, Ps) :-
                                       Ps0)) )),
     msort(Ps0, Ps).
 
-%   Who has subscribed long before the other wants to know, too.
+%   For an agent that has subscribed long before the other, too.
 
 retained_anew(B, Ps) :-
     with_mqtt(B, [],
@@ -767,7 +767,7 @@ certificates(Dir) :-
                              process(Pid)]),
              process_wait(Pid, exit(0)) )).
 
-%   Nobody may subscribe to anything.
+%   No client may subscribe to anything.
 
 denied(E, Dir) :-
     directory_file_path(Dir, acl, File),

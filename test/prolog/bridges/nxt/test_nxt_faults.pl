@@ -2,8 +2,8 @@
 
 /** <module> The bridge to NXT bricks when something goes wrong
 
-Every error with its context, what works again after it, who waits for
-whom, and what is left when one of the three processes dies.
+Every error with its context, what works again after it, which call
+waits for which, and what is left when one of the three processes dies.
 */
 
 :- use_module('../../../lib/common').

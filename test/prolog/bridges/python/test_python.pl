@@ -376,7 +376,7 @@ test(to_another, R == "hello") :-
                   remote(alpha, post_to(A, hello, null)),
                   joined(A, done),
                   agent_result(A, R, 5) )).
-test(to_nobody, R == 1) :-
+test(to_no_agent, R == 1) :-
     with_python([], ( remote(alpha, post_to(nobody, hello, null)),
                       remote(alpha, echo(1, R)) )).
 test(one_that_has_left_is_not_followed, Mail == []) :-
@@ -437,7 +437,7 @@ test(after_a_crash, R == 42) :-
 twice(Dir, File) :-
     file(Dir, 'twice.py', ['def twice(x): return 2*x'], File).
 
-%   To another process, where nobody knows of Python yet.
+%   To another process, which has not loaded Python yet.
 
 carried(R, Dir) :-
     twice(Dir, File),

@@ -58,8 +58,8 @@ end :-
     retract(held(Socket)),
     tcp_close_socket(Socket).
 
-%   A domain for this run alone: that of who holds the TCP port of the same
-%   number as the UDP port at which the nodes of the domain find each other.
+%   A domain for this run alone: that of the process that holds the TCP port of the
+%   same number as the UDP port at which the nodes of the domain find each other.
 
 domain_hold(Domain, Socket) :-
     between(1, 100, Domain),
@@ -315,7 +315,7 @@ document(Differences, Dir) :-
     split_string(Session, "\n", "", Lines),
     transcript_differences([1-Lines], Dir, Differences).
 
-%   Who hears faster than it is read, in Python alone.
+%   More comes in than is read, in Python alone.
 
 outbox("
 import sys, threading, time

@@ -295,7 +295,7 @@ test(a_service_that_an_agent_offers) :-
           wrong(alpha, Agent, ros_offer('/add', 'std_srvs/Empty', []), Taken),
           assertion(Taken == permission_error(offer, ros_service, '/add')) )).
 
-%   A call for which the agent has no room is refused; it is not one of those
+%   A call for which the queue of the agent is full is refused; it is not one of those
 %   that wait for him.
 
 test(a_call_that_is_dropped) :-

@@ -232,7 +232,7 @@ in_turn :-
     thread_send_message(here, here),
     thread_get_message(go, go).
 
-%   began(+N): so many more have a turn, and nobody else has.
+%   began(+N): so many more have a turn, and no others.
 
 began(N) :-
     forall(between(1, N, _),
@@ -738,7 +738,7 @@ ended_elsewhere(Elsewhere, Dir) :-
     findall(At, ( member(event(_, At, _, ended(_)), Events),
                   \+ sub_atom(At, 0, _, _, 'n1@') ), Elsewhere).
 
-%   Who has not ended still walks.
+%   Agents that have not ended still walk.
 
 all_told(Network, Log, Events) :-
     network_property(Network, agents(Left)),
@@ -754,7 +754,7 @@ walker([Home|_]) :-
                  [host(Home)]).
 
 %   In which state an agent is when it is asked until when it waits: as soon as
-%   it rests its host may be stopped, and nobody knows.
+%   it rests its host may be stopped, unnoticed.
 
 asked_in(Who, Goal) :-
     findall(State, agent_property(_, state(State)), States),
@@ -784,7 +784,7 @@ footprint(Threads, Queues, Modules, Files) :-
     ;   Files = 0
     ).
 
-%   They are told to end before they have begun.
+%   They get the order to end before they have begun.
 
 test(who_helps_to_stop_hosts_has_ended_then, true(Threads == Before)) :-
     footprint(Before, _, _, _),

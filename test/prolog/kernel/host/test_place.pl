@@ -81,8 +81,8 @@ mistakes(Dir, _) :-
     made(_),
     assertion(remote(alpha, findall(C, colour(C), [green]))).
 
-%   An agent runs on with the program with which it was created; who is
-%   created later has the new one, without make/0.
+%   An agent runs on with the program with which it was created; one that
+%   is created later has the new one, without make/0.
 
 test(programs_are_those_of_their_time) :-
     with_tmp_dir(programs).

@@ -10,7 +10,7 @@
 :- use_module(library(typhon)).
 :- use_module(library(typhon/tools/administration/properties), []).
 
-/** <module> Agents that do not stop are told of, and ended by force
+/** <module> Agents that do not stop are reported, and ended by force
 
 *Threading*: one test at a time.
 */
@@ -203,7 +203,7 @@ test(result_given_before, X == 1) :-
 test(others_who_ask_are_told, true(E = existence_error(agent, _))) :-
     with_hosts([alpha], ( start(loops, A), clone_in_vain(A, E) )).
 
-%   One who has given up waiting is no reason not to tell the next.
+%   A caller that has given up waiting is no reason not to answer the next.
 
 test(others_who_ask_later_are_told, true(E = existence_error(agent, _))) :-
     with_settings([typhon_disposal:heed_seconds=0.01],
@@ -283,7 +283,7 @@ test(unknown_option, error(domain_error(dispose_option, soon))) :-
 test(no_number, error(type_error(number, now))) :-
     with_hosts([alpha], ( create([(main :- receive(_))], A),
                           agent_dispose(A, [force(now)]) )).
-test(nobody, error(existence_error(agent, _))) :-
+test(no_such_agent, error(existence_error(agent, _))) :-
     with_hosts([alpha], ( create([main], A), joined(A, done),
                           agent_dispose(A, [force(1)]) )).
 
@@ -308,7 +308,7 @@ test(force, True-O == disposed-done) :-
                  peer_do(b, \+ agent_here(Id)),
                  peer_do(b, agent_send(Other, go)),
                  peer_do(b, agent_join(Other, O, 10)),
-                 % who has read it has left its connection to another thread
+                 % the thread that has read it has left its connection to another
                  again(B) )).
 test(warning, true(sub_string(All, _, _, _, "runs on"))) :-
     with_peers([a, b],

@@ -40,7 +40,7 @@ saved(Agent, Copy, Dir) :-
     agent_save(Agent, File),
     agent_load(File, Copy).
 
-%   says(+Lines, -Text): what people are told of an agent of that file, after
+%   says(+Lines, -Text): what is printed of an agent of that file, after
 %   its id.
 
 says(Lines, Text) :-

@@ -171,7 +171,7 @@ test(many_large_ones, Lengths == [30000]) :-
                                       Ns),
                               sort(Ns, Lengths) )) )).
 
-%   That it has ended is told at least.
+%   That it has ended is known at least.
 
 test(longer_than_a_frame, Error == existence_error(result, Id)) :-
     with_peers([ a, b-[setup(set_setting(typhon_session:frame_bytes, 70000))] ],
@@ -274,7 +274,7 @@ test(a_clone_that_could_not_begin, Os == [A-done]) :-
                  agent_join(family(A), Os, 10) )).
 test(no_such_agent, error(existence_error(agent, foo))) :-
     virtually(agent_join(family(foo), _, 1)).
-test(nobody, error(instantiation_error)) :-
+test(unbound_agent, error(instantiation_error)) :-
     virtually(agent_join(family(_), _, 1)).
 test(foolish_timeout, error(type_error(number, soon))) :-
     virtually(( create([main], A), agent_join(family(A), _, soon) )).

@@ -64,7 +64,7 @@ error_of(What, Formal, Line, Advice, File) :-
     format(string(Place), '~w:~d', [File, Line]),
     assertion(sub_string(Text, _, _, _, Place)).
 
-%   Who is root may read what nobody may.
+%   Root may read any file.
 
 reads_all :-
     with_file([], test_program:reads_forbidden).

@@ -83,7 +83,7 @@ program(Hash, Program) :-
     Program = program(x, [], [], [(main:-true), (on_message(_,_):-true)]),
     program_hash(Program, Hash).
 
-%   Nobody comes under the id of one that has ended.
+%   No agent comes under the id of one that has ended.
 
 image(Mail, image(Id, Hash,
                   life(none, 3, inf, [], [], false, []),

@@ -106,7 +106,7 @@ clone_then_back :-
     peer_do(a, agent_send(Clone, go)),
     ended(a, Clone, done).
 
-%   Nobody looks for it where it was before.
+%   It is not looked for where it was before.
 
 ended_first(Outcome) :-
     peer_host(b, B),

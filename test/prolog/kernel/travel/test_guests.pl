@@ -8,8 +8,8 @@
 
 /** <module> Agents that come from another process, and what they do there
 
-Who comes in is run by the thread that has read it.  One that blocks or never
-ends keeps nobody else who comes or goes, and its host can be stopped.
+An agent that arrives is run by the thread that has read it.  One that blocks or
+never ends keeps no other from arriving or leaving, and its host can be stopped.
 
 *Threading*: the main thread.
 */

@@ -206,7 +206,7 @@ refused_at(Host, Reason, Options) :-
     Error == error(move_refused(Host, Reason)).
 
 %   Two agents on hosts that hold one each want to change places: one has
-%   to wait elsewhere.  Nobody is ever lost, nor are there ever two.
+%   to wait elsewhere.  None is ever lost or doubled.
 
 swap(Rounds) :-
     peer_host(a, A),
@@ -310,7 +310,7 @@ programs_sent_once :-
     peer_do(b, programs_seen(Seen)),
     Seen == 1.
 
-%   b forgets what nobody uses, and asks for it when it is needed.
+%   b forgets what is not used, and asks for it when it is needed.
 
 programs_evicted :-
     peer_host(a, A),

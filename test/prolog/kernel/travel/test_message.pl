@@ -20,7 +20,7 @@ collector(Agent, Options) :-
     create([(on_message(_, M) :- assertz(s(M)))], Agent, Options).
 
 %   An agent that goes round while it is sent messages, and comes to rest
-%   when it is told to.
+%   by an order.
 
 traveller(Agent) :-
     create([ (main :- ( receive(_-stop, 0)

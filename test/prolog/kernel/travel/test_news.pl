@@ -15,15 +15,15 @@
 *Threading*: the main thread; the courier is a worker.
 */
 
-%   told(+All, -Kept): of All, told one after the other, Kept are kept when the
-%   courier has found nobody at home.
+%   told(+All, -Kept): of All, one after the other, Kept are kept when the
+%   courier has not reached the home.
 
 told(All, Kept) :-
     with_silent_home(Home,
                      ( forall(member(News, All), news_tell(Home, x, News)),
                        kept(Home, Kept) )).
 
-%   told_under_way(+First, +Then, -Kept): Then is told while a courier is away
+%   told_under_way(+First, +Then, -Kept): Then comes while a courier is away
 %   with First.
 
 told_under_way(First, Then, Kept) :-
@@ -34,7 +34,7 @@ told_under_way(First, Then, Kept) :-
                        kept(Home, Kept) )).
 
 %   with_silent_home(-Home, :Goal): a host is up, and Home is a port at which
-%   somebody listens who never says a word.
+%   a silent process listens.
 
 :- meta_predicate with_silent_home(-, 0).
 

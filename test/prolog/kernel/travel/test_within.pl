@@ -137,7 +137,7 @@ lamp(Module, Light) :-
 load(Host, Load) :-
     host_property(Host, load(Load)).
 
-%   It goes round until it is ended, and keeps what it is told in order.
+%   It goes round until it is ended, and keeps its messages in order.
 
 walker(A) :-
     create([ (main :- move(beta), hear, move(gamma), hear, move(alpha), hear,

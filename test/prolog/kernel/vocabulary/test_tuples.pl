@@ -68,7 +68,7 @@ test(of_many_one_succeeds, Owned == Keys) :-
                  remote(alpha, findall(K, sense(owns(K, _)), Owned0)) )),
     msort(Owned0, Owned).
 
-%   A lock: who left it may do what cannot be done by two at a time.
+%   A lock: the agent that left it may do what cannot be done by two at a time.
 
 test(a_lock, Count == 400) :-
     with_hosts([alpha],

@@ -112,7 +112,7 @@ with_deaf(Address, Goal) :-
 post_notes(Address, From, To) :-
     forall(between(From, To, I), endpoint_post(Address, note, I)).
 
-%   The thread that calls this is told to end, once.
+%   The thread that calls this gets the order to end, once.
 
 :- dynamic to_end/0.
 :- public told_to_end/0.
@@ -249,8 +249,8 @@ test(listens_and_is_silent, error(unreachable(_))) :-
 test(twice, error(permission_error(start, endpoint, _))) :-
     with_endpoint(endpoint_start(localhost, 0, _)).
 
-%   An attempt has been refused, and the keeper has yet to hear of it, as a peer
-%   begins to listen: who asks from then on is not told of that attempt.
+%   An attempt has been refused, and the connection manager has yet to hear of it, as
+%   a peer begins to listen: later callers get the result of a later attempt.
 
 test(who_asks_since_hears_of_a_later_attempt,
      [First,Then,Answer] == [unreachable,posted,answer(x)]) :-
@@ -372,8 +372,8 @@ gives_up(Address) :-
           error(timeout_error(answer, _), _),
           true).
 
-%   Somebody else may have a connection with the peer already, or it cannot be
-%   written to: who has installed it is told to end in that moment.
+%   Another thread may have a connection with the peer already, or it cannot be
+%   written to: the thread that has installed it is ended in that moment.
 
 test(told_of_a_connection_whatever_becomes_of_its_thread) :-
     with_endpoint(with_peer(A,

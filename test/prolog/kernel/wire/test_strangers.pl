@@ -32,7 +32,7 @@ with_endpoint(Goal) :-
                        once(Goal),
                        endpoint_stop).
 
-%   Nobody is turned away for being slow; `soon` is long before that.
+%   No client is turned away for being slow; `soon` is long before that.
 
 patiently(Goal) :-
     with_settings([typhon_handshake:handshake_time=120], Goal).
@@ -70,7 +70,7 @@ shouts(Text) :-
     setup_call_cleanup(connected(Client), say(Text, Client),
                        closed(Client)).
 
-%   So many were turned away for this reason, as we are told.
+%   So many were turned away for this reason, as is reported.
 
 turned_away(Why, Count) :-
     findall(Some,

@@ -109,7 +109,7 @@ as_process(Id, Goal) :-
         ( retractall(typhon_endpoint:process(_)),
           forall(member(Own, Owns), assertz(typhon_endpoint:process(Own))) )).
 
-%   Who calls us has proved himself, says so to us, and waits for `go`.
+%   A client has proved itself, reports that, and waits for `go`.
 
 with_late_callers(Goal) :-
     thread_self(Me),

@@ -376,7 +376,7 @@ by_rules([O1,O2], Dir) :-
                 *            QUOTAS            *
                 *******************************/
 
-%   hog(?What, -Clauses): who uses more of it than anybody may.
+%   hog(?What, -Clauses): an agent that uses more of it than any may.
 
 hog(seconds, [ (main :- lp), (lp :- lp) ]).
 hog(seconds, [ (main :- repeat, fail) ]).
@@ -425,7 +425,7 @@ brim([ (main :- findall(x, ( repeat, catch(g(0), _, true) ), _)),
 quotas([ stack(16 000 000), state(200 000), tuples(50), clones(20),
          messages(100), log(10) ]).
 
-%   Who uses too much of something else has time for that on a busy machine.
+%   A hog of something else has time for that on a busy machine.
 
 quota_of(seconds, [seconds(0.3)|Quotas]) :- !, quotas(Quotas).
 quota_of(inferences, [inferences(100 000),seconds(60)|Quotas]) :-
@@ -458,8 +458,8 @@ test(who_catches_its_end_ends_at_once, [ forall(stays(Clauses)),
                          _)),
     get_time(T1),
     Seconds is T1-T0.
-%   Who fills its stack to the brim, again and again, would end the process if
-%   it came to that.
+%   An agent that fills its stack to the brim, again and again, would end the
+%   process if it came to that.
 
 test(nobody_comes_to_the_brim_of_its_stack,
      [ forall(brim(Clauses)), setup(stack_limit(Old, 60 000 000)),

@@ -14,7 +14,7 @@
 
 :- needs([openssl]).
 
-%   The program in a file of its own, so that nobody has it yet.
+%   The program in a file of its own, so that no process has it yet.
 
 program(Authority, Name, File) :-
     atom_concat(Name, '.pl', Base),

@@ -1,6 +1,6 @@
 :- module(test_owners, []).
 
-% Who takes the id of an agent of others, or speaks in its name: mallory, who
+% Processes that take the id of an agent of others, or speak in its name: mallory
 % has a certificate, and had one of them as a guest.
 
 :- use_module('../../../lib/common').
@@ -28,8 +28,7 @@ with_owners(Goal, Authority) :-
                    once(Goal),
                    host_stop(alpha))).
 
-%   A guest goes where it is told, says what it is told, and keeps what it
-%   hears.
+%   A guest goes and speaks by messages, and keeps what it hears.
 
 guest(clauses([ (:- agent(guest, [state([heard/2])])),
                 (on_message(_, go(Host)) :- move(Host)),
@@ -107,9 +106,9 @@ honest :-
     agent_send(B, say(A, heard(back))),
     wait_until(heard(A, [B-back]), 20).
 
-%   Who stands there could not go on from a network that was saved and loaded.
-%   As a network does, it waits until nobody runs there: A has just been told to
-%   say something.
+%   An agent there could not go on from a network that was saved and loaded.
+%   As a network does, it waits until no agent runs there: A has just got a
+%   message.
 
 births_saved(Peer) :-
     peer_do(Peer,
@@ -232,7 +231,7 @@ news_forged :-
     agent_send(A, heard(still_here)),
     wait_until(heard(A, [M-done, user-still_here]), 10).
 
-%   Away from home nobody would let it go on.
+%   Away from home no host would let it go on.
 
 program_changed :-
     guest(Program),

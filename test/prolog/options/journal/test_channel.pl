@@ -82,7 +82,7 @@ hold(Kind) :-
     ;   true
     ).
 
-test('who is told to end as he posts does not keep others from it') :-
+test('a thread that is ended as it posts does not keep others from it') :-
     with_beta(
         ( nb_getval(channel_beta, Beta),
           listens(Beta, Id),
@@ -230,7 +230,7 @@ small(Goal) :-
 text(Length, Text) :-
     format(string(Text), "~`xt~*|", [Length]).
 
-test('who sends a message that is too long hears of it') :-
+test('the sender of a message that is too long gets an error') :-
     with_beta(
         ( nb_getval(channel_beta, Beta),
           listens(Beta, Id),
@@ -262,9 +262,9 @@ test('an agent does, too') :-
           got(Near, [Long0]) ),
         true).
 
-%   As when another codec needs more room than was thought.
+%   As when another codec needs more space than was thought.
 
-test('one that has become too long is told as lost') :-
+test('one that has become too long is reported as lost') :-
     setting(typhon_session:frame_bytes, Bytes),
     call_cleanup(
         with_beta(
@@ -300,7 +300,7 @@ test('those that have waited together go in as many frames as they need') :-
                   got(Id, All) )) ),
         true).
 
-test('that an agent has ended is told, if not what it has left') :-
+test('the end of an agent is reported, if not what it has left') :-
     with_beta(
         ( nb_getval(channel_beta, Beta),
           host_property(driver, address(Driver)),
@@ -339,7 +339,7 @@ told_lost(Id, Formal) :-
 
 :- end_tests(channel_frames).
 
-%   Who asks from elsewhere waits for as long.
+%   A caller elsewhere waits for as long.
 
 :- begin_tests(channel_full).
 
@@ -357,7 +357,7 @@ full :-
     remote(driver, leave(Long)),
     wait_until(typhon_durable_changes:commit_error(_), 20).
 
-test('an answer waits while the journal has no room', Line == "answered") :-
+test('an answer waits while the journal is full', Line == "answered") :-
     no_leaks(with_tmp_dir(asked_while_full(Line))).
 
 asked_while_full(Line, Dir) :-

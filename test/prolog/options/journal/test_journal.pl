@@ -201,7 +201,7 @@ test('faulty agents are kept, and can be resumed',
           agent_result(A, fine, 5) )).
 
 %   The worker that has it stands still while it releases what was said, as it
-%   is told that one word finds nobody.  If that is when the agent rests another
+%   learns that one message finds no agent.  If that is when the agent rests another
 %   worker is ahead of it.
 
 test('one that answers messages is heard in order, whoever is quicker') :-
@@ -245,7 +245,7 @@ stands_still(Agent, Keeper) :-
 %   Peers are let in before agents go on: here two messages come just before
 %   it is looked whether it is to be woken, and it has taken the first.
 
-test('who is spoken to while all goes on again hears one after the other') :-
+test('messages that come during a restart are handled one after the other') :-
     no_leaks(with_tmp_dir(one_after_the_other)).
 
 one_after_the_other(Dir) :-
@@ -284,10 +284,10 @@ spoken_to(Id) :-
     agent_send(Id, second).
 spoken_to(_).
 
-%   One comes with a program that nobody had, and cannot be let in after all:
-%   that must not keep the program from those who come with it later.
+%   One comes with a new program, and is not admitted after all: that must not
+%   keep the program from agents that come with it later.
 
-test('a program is noted whatever becomes of who has brought it') :-
+test('a program is noted whatever becomes of the agent that brought it') :-
     with_journal(
         ( keeper(P),
           agent_create(P, First, []),

@@ -41,7 +41,7 @@ test('a URL alone is one, too', true(A == B)) :-
     journal_place('postgresql://db/x', A),
     journal_place(postgresql('postgresql://db/x'), B).
 
-test('nobody is there', error(journal_unreachable(_, _))) :-
+test('no server is there', error(journal_unreachable(_, _))) :-
     with_store('postgresql://x@127.0.0.1:1/x', true).
 
 :- end_tests(postgresql_url).
@@ -79,7 +79,7 @@ test('long terms, and shorter ones in their place') :-
            ( numlist(1, Length, List),
              with_schema(long, commit([a-k-0-List])),
              with_schema(long, items(a, [k-0-List])) )).
-test('nobody else opens it meanwhile; another schema is another journal') :-
+test('no other process opens it meanwhile; another schema is another journal') :-
     postgres_url(locked, Url),
     project_file('prolog/typhon/options/journal/store.pl', Store),
     format(atom(Goal), 'journal_open(~q, normal), writeln(open), \c
@@ -181,7 +181,7 @@ server_returns(Host, Out, Goes, Returns) :-
     agent_join(Agent, done, 60),
     remote(Host, findall(V, sense(made(V)), [100])).
 
-test('who was not there must not go on with what is another\'s') :-
+test('a process that was away must not go on with what is another\'s') :-
     catch(with_schema(passed_on,
                      ( commit([a-k-0-first]),
                        sql('update about set opened=opened+1'),

@@ -86,7 +86,7 @@ long(Dir) :-
     with_store(Dir, ( commit([a-k-0-List]), commit([drop(a, k, 0)]) )),
     with_store(Dir, items(a, [])).
 
-test('nobody else opens it meanwhile',
+test('no other process opens it meanwhile',
      [error(permission_error(open, journal, _))]) :-
     with_tmp_dir(locked).
 

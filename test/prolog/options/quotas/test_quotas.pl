@@ -13,7 +13,7 @@
 */
 
 %   ended(+Quotas, +Clauses, -Outcome): of an agent on a host with these; one
-%   that has passed one is told of.
+%   that has passed one is reported.
 
 ended(Quotas, Clauses, Outcome) :-
     with_hosts([g-[quota(Quotas)], t],
@@ -43,7 +43,7 @@ test(what_is_passed_cannot_be_passed_again_and_again, O == messages) :-
           [ (main :- repeat, catch(send(user, x), _, true), fail) ], Outcome),
     over(O, Outcome).
 
-%   In a probe nobody could end it in time.
+%   In a probe it could not be ended in time.
 
 test(goals_that_somebody_wants_to_see, O == messages) :-
     with_hosts([g-[quota([messages(20)])]],
@@ -164,7 +164,7 @@ host_time_of(Host, Time) :-
 
 :- begin_tests(mailbox).
 
-%   Who does not look at what it gets until it sees that it may.
+%   An agent that does not look at what it gets until it sees that it may.
 
 test(what_does_not_fit_is_told, Xs == [1,2,3,4,5]) :-
     with_hosts([g-[quota([mailbox(5)])]],
@@ -396,7 +396,7 @@ test(who_fills_the_space_goes, [A,B] == [resource_error(tuples),done]) :-
                         joined(C, raised(error(A, _))),
                         leaver(5, D), joined(D, B) ), _)))).
 
-%   Who has left them is known when the process was started again, and what of
+%   The agents that left them are known when the process was started again, and what of
 %   theirs is taken then does not count any more.
 
 test(who_left_them_is_known_later,

@@ -8,7 +8,7 @@
 :- use_module(library(lists), [member/2]).
 :- use_module(library(typhon)).
 
-/** <module> Monitors: an agent is told once how another ends
+/** <module> Monitors: an agent gets one message when another ends
 
 *Threading*: one test at a time; agent_monitor/2 calls what it calls in workers.
 */

@@ -1,6 +1,6 @@
 :- module(test_secure, []).
 
-% TLS between processes: who is let in, who is not, and why.
+% TLS between processes: which are admitted, which not, and why.
 
 :- use_module('../../../lib/common').
 :- use_module('../../../lib/authority').
@@ -63,7 +63,7 @@ tries(Keys, Address, Here-There) :-
         once(told(There))
     ).
 
-%   Once: after that nobody is interrupted.
+%   Once: after that none is interrupted.
 
 once_broken(Negotiated) :-
     call(Negotiated),

@@ -34,7 +34,7 @@ later :-
     agent_create(clauses([ (:- agent(waiter, [])), (main :- sleep(1)) ]), A),
     agent_join(A, done, 10).
 
-%   heard(:Goal, -Said): what people are told meanwhile, and in which order.
+%   heard(:Goal, -Said): what is printed meanwhile, and in which order.
 
 :- dynamic said/1.
 :- multifile user:message_hook/3.
@@ -190,7 +190,7 @@ test(names_of_variables_of_a_goal_that_is_next,
               agent_notrace(A) ))),
     last(Said, held(_, Goal)).
 
-test(nobody, error(existence_error(agent, 'a.v.99@alpha@virtual:0'))) :-
+test(no_such_agent, error(existence_error(agent, 'a.v.99@alpha@virtual:0'))) :-
     two(agent_listing('a.v.99@alpha@virtual:0')).
 
 clauses([ (a :- b, move(x), c, d),
@@ -410,7 +410,7 @@ elsewhere(Said, Network) :-
             wait_until(( agent_step(A),
                          said(held(There, here(_))) ), 10) ), Said).
 
-test(nobody, error(existence_error(agent, _))) :-
+test(no_such_agent, error(existence_error(agent, _))) :-
     two(agent_step('a.v.99@alpha@virtual:0')).
 
 test(clones_are_not_held) :-

@@ -69,7 +69,7 @@ test(of_a_long_way_the_end_is_known,
 
 :- end_tests(trails).
 
-%   gamma keeps more than the others, who keep the newest four.
+%   gamma keeps more than the others, which keep the newest four.
 
 long_way :-
     toured(_, Trail),
@@ -111,7 +111,7 @@ taken_away :-
              assertion(Verdict == Expected) )).
 
 %   Where it was made unfit to be continued is found, and hosts go on with
-%   whatever it is; what is told of it has happened.
+%   whatever it is; what it says has happened.
 
 made_of_it :-
     toured(Agent, trail(Steps, whole)),

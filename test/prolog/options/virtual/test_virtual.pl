@@ -305,7 +305,7 @@ test(nothing_is_due) :-
 
 :- end_tests(virtual_limits).
 
-%   Time that stands still is told of after a tenth of a second.
+%   Time that stands still is reported after a tenth of a second.
 
 told_of(Main, Message) :-
     listening(with_settings([typhon_virtual:patience=0.1],

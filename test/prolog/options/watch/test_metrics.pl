@@ -40,7 +40,7 @@ said(Text, Name, Rest, Line) :-
 
 :- begin_tests(metrics).
 
-test(nobody, Status-Said == 0-"") :-
+test(no_agents, Status-Said == 0-"") :-
     with_hosts([alpha], metrics(alpha, Text)),
     promtool(Text, Status, Said),
     assertion(says(Text, "typhon_hosts", "} 1")),

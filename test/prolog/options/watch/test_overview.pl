@@ -1,6 +1,6 @@
 :- module(test_overview, []).
 
-% What is there before events are told, and the same events in a log.
+% What is there before events come, and the same events in a log.
 
 :- use_module('../../../lib/common').
 :- use_module('../../../lib/fixtures').
@@ -33,9 +33,9 @@ seen :-
     assertion(Hosts = [ host(Alpha, _, 1, [capacity(5)], [Beta-3]),
                         host(Beta, _, 0, [], [Alpha-3]) ]),
     assertion(Agents = [agent(A, Alpha, test, resident, 0)]),
-    overview(beta, [process(_, _, OnlyBeta, Nobody)], []),
+    overview(beta, [process(_, _, OnlyBeta, None)], []),
     assertion(OnlyBeta = [host(Beta, _, 0, [], _)]),
-    assertion(Nobody == []).
+    assertion(None == []).
 
 test(all_processes_of_a_network) :-
     no_leaks(( network_start(ring(6), Network, [processes(3)]),

@@ -1,6 +1,6 @@
 :- module(test_watch, []).
 
-% What is told to who watches hosts.
+% The events that a watch of hosts gets.
 
 :- use_module('../../../lib/common').
 :- use_module('../../../lib/fixtures').
@@ -238,7 +238,7 @@ test(who_is_slow_is_told_what_he_misses) :-
     assertion(told(slow, event(_, _, none, skipped(_)))),
     assertion(( sort(Got, Sorted), Sorted == Got )).
 
-%   What keeps him keeps nobody else: it ends only when all has been done.
+%   What keeps it keeps no other: it ends only when all has been done.
 
 slow_watcher :-
     address(alpha, Alpha),

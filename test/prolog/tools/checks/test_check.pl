@@ -8,7 +8,7 @@
 :- use_module(library(readutil)).
 :- use_module(library(typhon)).
 
-/** <module> Tests of what people are told about their programs
+/** <module> Tests of what checks of programs print
 
 Programs are written to files; what the check and creation print is compared
 by line and formal term, or as text.
@@ -267,7 +267,7 @@ test(advice_fits, [forall(advice(Goal, Words))]) :-
     ;   assertion(\+ sub_string(Text, _, _, _, "recursive"))
     ).
 
-%   What looks like it is named, else who might define it.
+%   What looks like it is named, else what might define it.
 
 unknown('recieve(_)', "recieve/1 (did you mean receive/1 or receive/2?").
 unknown('clone', "clone/0 (did you mean clone/1 or clone/2?").

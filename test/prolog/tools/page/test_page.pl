@@ -100,7 +100,7 @@ fill(Label, Text) :-
                  field.dispatchEvent(new Event('change', {bubbles: true}));",
                 [Label, Text], _).
 
-%   Nobody can be kept from using it: what axe-core finds that is serious.
+%   Accessibility: what axe-core finds that is serious.
 
 accessible :-
     at(Browser, _, _),
@@ -126,7 +126,7 @@ accessible :-
 test(page) :-
     stage(play).
 
-%   One scene after the other; the first that fails is told by its name.
+%   One scene after the other; the first that fails is reported by its name.
 
 play :-
     forall(clause(scene(Name), Body), played(Name, Body)).
@@ -249,7 +249,7 @@ scene(a_list_waits_for_a_press) :-
     reads("#details h2", "ann"),
     see("return row.textContent !== shown").
 
-%   A term that cannot be read is told of where it was written.
+%   A term that cannot be read is reported where it was written.
 
 scene(it_is_sent_a_message) :-
     ann(Agent),
@@ -445,7 +445,7 @@ scene(a_mechanism_is_started) :-
          typhon.store.counts.arrived > 20"),
     sees("document.querySelector('#notes').replaceChildren()", _).
 
-%   Who opens another log has done with the one before.
+%   Opening another log ends the one before.
 
 scene(one_replay_at_a_time) :-
     view(replay),
@@ -520,7 +520,7 @@ scene(no_complaints) :-
     browser_complaints(Browser, Texts),
     assertion(Texts == []).
 
-%   The page goes, which is told; what was shown is still shown, and when there
+%   The page goes, which is shown; what was shown is still shown, and when there
 %   is a page again at the same address, it goes on.
 
 scene(connection_lost) :-

@@ -171,7 +171,7 @@ test(no_such_host, error(host_unreachable(_))) :-
 test(stop_without_page) :-
     page_stop.
 
-%   Who does not ask for a page has no library of HTTP.
+%   Without a page there is no library of HTTP.
 
 test(loaded_when_wanted, Status-Err == exit(0)-"") :-
     project_file('prolog/typhon.pl', File),
@@ -335,7 +335,7 @@ test(host) :-
     assertion(Host.place == ["door(open).\n"]),
     assertion(length(Host.links, 1)).
 
-test(nobody) :-
+test(no_such_host_or_agent) :-
     page(Base, ( says(Base, _{ask:"host", host:"gamma"}, ["gamma"]),
                  says(Base, _{ask:"agent", agent:"x.0@y@127.0.0.1:1"}, []),
                  says(Base, _{ask:"what"}, ["question"]),
@@ -559,7 +559,7 @@ virtual_time(Feed, Time) :-
     agent_join(A, done, 10),
     told(Feed, [_, _, "ended", "done"], [Time|_]).
 
-%   A host that comes is found, and one whose process is killed is told of.
+%   A host that comes is found, and one whose process is killed is reported.
 
 test(come_and_go) :-
     with_settings([typhon_page_sources:renew_seconds=0.3],
@@ -582,7 +582,7 @@ come_and_go(Feed, [First|Hosts], Pid) :-
     process_kill(Pid, kill),
     told(Feed, [FirstText, "", "lost"], _).
 
-%   Who does not read loses some, and is told how many; another does not.
+%   A browser that does not read loses some, and gets their number; others do not.
 
 test(slow_browser, Sum-Fast == 3000-3000) :-
     with_settings([typhon_page_browsers:frame_events=20],
