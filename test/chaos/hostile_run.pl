@@ -238,7 +238,7 @@ harmful(f(_, _)). harmful((a :- halt)). harmful((portray(_) :- halt)).
 harmful((user:portray(_) :- true)). harmful(goal_expansion(_, _)).
 harmful(portray/1). harmful(halt/0). harmful([user:halt]).
 harmful(library(process)). harmful('/etc/passwd'). harmful(string(_)).
-harmful(atom(_)). harmful(inf). harmful(typhon_context).
+harmful(atom(_)). harmful(inf). harmful(typhon_turns).
 harmful('$aborted'). harmful(unwind(halt(0))). harmful(stack_limit).
 harmful(double_quotes). harmful(on_error). harmful([X]>>X). harmful(X>>X).
 harmful(_^halt). harmful(_^_). harmful(call(_)). harmful(call).

@@ -28,12 +28,11 @@ This is the interface of the layer: higher layers import from here.
                 time_hold/1, time_kind/1, time_let_go/1, time_now/1,
                 time_repeats/2, time_seed/1, time_signal/1, time_stands/1,
                 time_wait/3, time_wanted/2 ]).
-:- reexport(host/context,
-            [ context/3, context_agent/1, context_clear/0, context_host/1,
-              context_now/2, context_set/3
-            ]).
 :- reexport('host/peer_rights').
-:- reexport(host/turns, [turn_later/1, turn_of/3, turns_now/3, turns_paused/0]).
+:- reexport(host/turns,
+            [ context/3, context_agent/1, context_clear/0, context_host/1,
+              context_now/2, context_set/3, turn_later/1, turn_of/3,
+              turns_now/3, turns_paused/0 ]).
 :- reexport(host/scheduler,
               [ limit_parked/1, schedule/2, schedule_adopt/1, schedule_here/3,
                 schedule_leave/0, schedule_stays/2, scheduler_call/1,

@@ -13,7 +13,7 @@ This is the interface of the layer: higher layers import from here.
               transfer_held/2 ]).
 :- reexport(travel/in_doubt, [in_doubt/1, out_of_touch/1]).
 :- use_module(travel/arrival, []).
-:- reexport(travel/durable_posts, [post_must_fit/1]).
+:- reexport(travel/durable_posts, [agent_logs/3, post_must_fit/1]).
 :- reexport(travel/home,
               [ agent_born/2, agent_outcome/2, home_agents/1, home_agents_at/2,
                 home_knows/4, outcome_wait/3 ]).
@@ -22,7 +22,6 @@ This is the interface of the layer: higher layers import from here.
               [ agent_ended/4, agent_ends/2, agent_faulty/5, agent_resumed/3,
                 agent_resumed_from/3, ended_agent/1, whereabouts/2 ]).
 :- reexport(travel/post, [post/3, post_on/2, post_via/4]).
-:- reexport(travel/logged, [agent_logs/3]).
 :- reexport(travel/dead_letters, [mail_lost/3]).
 :- reexport(travel/backlog, [post_tried/0, retries_go_on/0]).
 :- reexport(travel/senders, [senders_check/1, speaks_for/3]).

@@ -22,7 +22,7 @@
 :- use_module(library(error), [existence_error/2]).
 :- use_module(library(lists), [member/2, selectchk/3]).
 :- use_module(library(settings), [setting/2, setting/4]).
-:- use_module('../kernel/base/harmless_error', [harmless_error/2]).
+:- use_module('../kernel/base/error_text', [harmless_error/2]).
 :- use_module('../kernel/wire', [endpoint_address/1, endpoint_request/4]).
 :- use_module(node_process, [order_do/2]).
 

@@ -14,7 +14,7 @@ as terms.  See typhon_error_text.
 :- multifile
     prolog:error_message//1,
     typhon_error_text:lines//1,
-    typhon_harmless_error:formal_lines//1.
+    typhon_error_text:formal_lines//1.
 
 :- dynamic library/1.
 
@@ -48,7 +48,7 @@ formal(Formal) -->
 
 %   The lines for errors that this library translates.
 
-typhon_harmless_error:formal_lines(Formal) -->
+typhon_error_text:formal_lines(Formal) -->
     formal_told(Formal).
 
 formal_told(Formal) -->

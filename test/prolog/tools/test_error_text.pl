@@ -3,7 +3,7 @@
 :- use_module('../../lib/fixtures').
 :- use_module('../../lib/peers').
 :- use_module('../../../prolog/typhon/kernel/base/error_text').
-:- use_module('../../../prolog/typhon/kernel/base/harmless_error').
+:- use_module('../../../prolog/typhon/kernel/base/error_text').
 :- use_module(library(plunit)).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(typhon)).

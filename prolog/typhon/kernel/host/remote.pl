@@ -6,10 +6,10 @@
 :- use_module(library(debug), [debug/3]).
 :- use_module(library(error),
               [existence_error/2, must_be/2, permission_error/3]).
-:- use_module('../base/harmless_error', [harmless_error/2]).
+:- use_module('../base/error_text', [harmless_error/2]).
 :- use_module('../wire', [endpoint_reply/2, mobile_term/1]).
 :- use_module(runtime, [process_ask/6]).
-:- use_module(context, [in_context/2]).
+:- use_module(turns, [in_context/2]).
 :- use_module(host_names, [host_resolve/2]).
 :- use_module(hosts, [host/3, host_option/2]).
 :- use_module(peer_rights, [peer_may/3, security_event/3]).

@@ -7,7 +7,7 @@
 :- use_module(library(lists), [member/2]).
 :- use_module(library(option), [option/2]).
 :- use_module(library(settings), [setting/2, setting/4]).
-:- use_module('../base/harmless_error', [harmless_error/2]).
+:- use_module('../base/error_text', [harmless_error/2]).
 :- use_module('../base/own_thread', [abort_quietly/0, in_own_thread/1]).
 :- use_module('../base/options', [check_options/2]).
 :- use_module('../base/durable_changes', [durable_closed/0]).

@@ -12,7 +12,7 @@
           ]).
 :- use_module(library(error), [existence_error/2, must_be/2]).
 :- use_module(library(option), [option/2]).
-:- use_module('../base/harmless_error', [harmless_error/2]).
+:- use_module('../base/error_text', [harmless_error/2]).
 :- use_module('../base/options', [check_options/2]).
 :- use_module('../base/durable_changes', [output_waits/0, sync_changes/0]).
 :- use_module('../program', [payload_load/2]).

@@ -5,10 +5,9 @@
 :- use_module(library(apply), [exclude/3, foldl/4, maplist/2]).
 :- use_module(library(lists), [append/3, member/2, memberchk/2, nth0/3]).
 :- use_module(library(occurs), [sub_term/2]).
-:- use_module(bodies, [plain_goals/2]).
+:- use_module(bodies, [plain_goals/2, special/2]).
 :- use_module(clause_places, [clause_places/5]).
 :- use_module(code, [code_module/2, code_program/2]).
-:- use_module(control, [special/2]).
 :- use_module(source, [clause_parts/3]).
 
 /** <module> Frames of chunks and the goals that they stand for

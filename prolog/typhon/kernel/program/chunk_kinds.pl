@@ -6,7 +6,7 @@
 :- use_module(library(assoc), [get_assoc/3]).
 :- use_module(library(lists), [append/2, member/2, memberchk/2]).
 :- use_module(clause_places, [node_parts/3]).
-:- use_module(control, [special/2]).
+:- use_module(bodies, [special/2]).
 :- use_module(mobile, [body_calls/2, built_in/1]).
 
 /** <module> How the goals of a clause are compiled

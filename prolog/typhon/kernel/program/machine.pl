@@ -9,10 +9,10 @@
           ]).
 :- use_module('../base/error_text', [is_abort/1]).
 :- use_module(bodies,
-              [body_goals/4, called_goal/2, goals_body/2, plain_goals/2]).
+              [ body_goals/4, called_goal/2, goals_body/2, plain_goals/2,
+                special/2 ]).
 :- use_module(chunk_goals, [place_marked/3]).
 :- use_module(chunks, [chunks_ready/1]).
-:- use_module(control, [special/2]).
 :- multifile
     elsewhere/3,                % Context, Goals, Outcome: another process has
                                 % run them

@@ -14,7 +14,7 @@
 :- use_module(library(ordsets), [ord_union/3]).
 :- use_module(library(settings), [setting/4]).
 :- use_module('../base/bounds', [bounded/2]).
-:- use_module(control, [control/1]).
+:- use_module(bodies, [control/1]).
 
 /** <module> Which predicates of a program can reach a control predicate
 

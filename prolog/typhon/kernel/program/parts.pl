@@ -15,7 +15,7 @@
 :- use_module(source,
               [ clause_parts/3, declaration/4, indicator_in/2,
                 library_import/2 ]).
-:- use_module(control, [control/1]).
+:- use_module(bodies, [control/1]).
 
 /** <module> What a program or payload file consists of, and what is wrong there
 

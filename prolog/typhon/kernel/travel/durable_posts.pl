@@ -1,15 +1,21 @@
 :- module(typhon_durable_posts,
           [ durable_post/3,             % +Endpoint, +Kind, +Term
-            post_must_fit/1             % +Change
+            post_must_fit/1,            % +Change
+            agent_logs/3                % +Host, +Agent, +What
           ]).
-:- use_module(library(error), [existence_error/2, must_be/2, resource_error/1]).
+:- use_module(library(error),
+              [existence_error/2, must_be/2, resource_error/1]).
+:- use_module(library(lists), [member/2]).
 :- use_module('../base/error_text', [print_error/2]).
 :- use_module('../base/durable', [durable/5]).
 :- use_module('../base/durable_changes',
-              [ crash_point/1, durable_bytes/2, durable_put/4,
-                unit_of_work/1 ]).
+              [ crash_point/1, durable_bytes/2, durable_drop/3,
+                durable_number/1, durable_put/4, unit_of_work/1 ]).
 :- use_module('../wire', [endpoint_post/3, frame_fits/1]).
-:- use_module('../host', [alarm_in/3, scheduler_call/1]).
+:- use_module('../host',
+              [alarm_in/3, host_log/3, host_log_event/4, scheduler_call/1]).
+:- use_module('../base/deferred',
+              [deferred_call/1, effects_deferred/0, deferred_put/4]).
 
 /** <module> Posts that survive the processes that send and take them
 
@@ -23,8 +29,13 @@ one before, or first(M) if all up to M are known to have come.  Any process
 takes each once, in order, and notes its arrival together with its effects.  A
 process that lacks one sends again(To), one that has one had(To, N).
 
+With a journal what an agent logs is part of its turn: it is noted with the
+turn, and goes to the log server once, whichever process dies.  What else a host
+tells its log server it tells at once, see typhon_host_log.
+
 *Threading*: any thread posts, and never waits for a connection; what comes in
-is taken by the threads of connections; a worker says what has come.
+is taken by the threads of connections; a worker says what has come.  The worker
+that runs the agent logs.
 */
 
 :- multifile
@@ -137,3 +148,54 @@ typhon_scheduler:fire(Key, had(To, Peer)) :-
 typhon_runtime:ending(after) :-
     retractall(seen(_, _)),
     retractall(told(_)).
+
+                /*******************************
+                *            LOGGED            *
+                *******************************/
+
+:- multifile
+    typhon_durable_posts:undelivered/4,
+    typhon_durable:go_on/0.
+
+:- dynamic said/4.                      % Host, N, Agent, What: before a restart
+
+%!  agent_logs(+Host, +Agent, +What) is det.
+%
+%   Agent, which stands on Host, has said What, which can travel, to the log
+%   server of Host, which it has.
+
+agent_logs(Host, Agent, What) :-
+    (   effects_deferred
+    ->  durable_number(N),
+        deferred_put(logged, Host, N, Agent-What),
+        deferred_call(typhon_durable_posts:go(Host, N, Agent, What))
+    ;   host_log(Host, Agent, What)
+    ).
+
+:- public go/4.
+
+go(Host, N, Agent, What) :-
+    unit_of_work(( durable_drop(logged, Host, N),
+                   post(Host, Agent, What) )).
+
+post(Host, Agent, What) :-
+    (   host_log_event(Host, Agent, What, Endpoint-Event)
+    ->  catch(durable_post(Endpoint, log, Event),
+              error(resource_error(frame_bytes), Context),
+              print_message(warning,
+                            error(resource_error(frame_bytes), Context)))
+    ;   true                            % it has none any more
+    ).
+
+:- durable(logged, Host, N, Agent-What, said(Host, N, Agent, What)).
+
+typhon_durable:go_on :-
+    findall(said(Host, N, Agent, What),
+            retract(said(Host, N, Agent, What)), All),
+    forall(member(said(Host, N, Agent, What), All),
+           go(Host, N, Agent, What)).
+
+%   There is no log server there any more, or it cannot take this.
+
+typhon_durable_posts:undelivered(log, event(_, Host, Agent, What), _, _) :-
+    print_message(informational, typhon(log(Host, Agent, What))).

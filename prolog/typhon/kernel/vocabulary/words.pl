@@ -52,7 +52,7 @@ The vocabulary of agents, found through the place of the host on which
 they stand.  The control predicates at the end are here only to say that they were called where an agent cannot stop:
 the machine takes care of them everywhere else.
 
-*Threading*: whatever thread runs the agent; see typhon_context.
+*Threading*: whatever thread runs the agent; see typhon_turns.
 */
 
 :- vocabulary(typhon_words).

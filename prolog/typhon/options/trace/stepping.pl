@@ -275,7 +275,7 @@ rests(Status, rests(State)) :-
 %   stopped; what was the matter is noted in the thread that took the outcome.
 
 probe_start(context(Program, Agent), Goals, Probe) :-
-    (   nb_current(typhon_context, Context)
+    (   nb_current(typhon_turns, Context)
     ->  true
     ;   Context = none
     ),
@@ -284,7 +284,7 @@ probe_start(context(Program, Agent), Goals, Probe) :-
 %   Global variables are the engine's own.
 
 run(Context, Program, Agent, Goals, outcome(Outcome, Goals)-Note) :-
-    nb_setval(typhon_context, Context),
+    nb_setval(typhon_turns, Context),
     nb_setval(typhon_probed, Program),
     machine_run(context(typhon_stepping, Agent), Goals, Outcome),
     fault_noted(Note),

@@ -61,9 +61,9 @@ attack(current_prolog_flag(pid, _)).
 attack(create_prolog_flag(x, 1, [])).
 attack(set_stream(user_output, alias(x))).
 attack(op(700, xfx, =>>)).
-attack(nb_setval(typhon_context, none)).
-attack(b_setval(typhon_context, none)).
-attack(nb_getval(typhon_context, _)).
+attack(nb_setval(typhon_turns, none)).
+attack(b_setval(typhon_turns, none)).
+attack(nb_getval(typhon_turns, _)).
 attack(nb_current(_, _)).
 attack(flag(x, _, 1)).
 attack(set_flag(x, 1)).
