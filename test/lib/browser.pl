@@ -27,6 +27,7 @@ Driven by chromedriver, in the words of the W3C's WebDriver.
 
 :- use_module(common, [free_port/1, wait_until/2, with_tmp_dir/1]).
 :- use_module(library(base64), [base64/2]).
+:- use_module(library(filesex), [delete_directory_contents/1]).
 :- use_module(library(http/http_json), []).
 :- use_module(library(http/http_client),
               [http_delete/3, http_get/3, http_post/4]).
@@ -43,13 +44,18 @@ Driven by chromedriver, in the words of the W3C's WebDriver.
 with_browser(Browser, Goal) :-
     with_tmp_dir(browsing(Browser, Goal)).
 
-%   Chromium leaves behind where it has listened.
+%   Chromium leaves behind where it has listened, and on a busy machine writes
+%   there for a moment after its driver has ended.
 
 browsing(Browser, Goal, Dir) :-
     setup_call_cleanup(
         driver(Dir, Pid, Out, Port),
         with_session(Port, Browser, Goal),
-        end_driver(Pid, Out)).
+        ( end_driver(Pid, Out),
+          wait_until(emptied(Dir), 20) )).
+
+emptied(Dir) :-
+    catch(delete_directory_contents(Dir), error(_, _), fail).
 
 with_session(Port, Browser, Goal) :-
     setup_call_cleanup(
