@@ -19,7 +19,7 @@
             agent_handed/4,             % +Id, +Hops, +Way, +Frame
             agent_under_way/6,          % ?Id, ?Hops, -Host, -Hash, -Way,
                                         % -Frame
-            agent_gone/5,               % +Id, ?Hops, -Host, -Way, -Mail
+            agent_gone/3,               % +Id, +Hops, -Mail
             agent_thawed/5,             % +Id, +Module, +Life, +Status, +Goals
             agent_resumes/2,            % +Id, -Goals
             agent_ready/2,              % +Id, +Goals
@@ -266,7 +266,7 @@ agent_departs(Id, Dest, Goals) :-
 %!  agent_comes(+Id, +Host, +Module, +Hash, +Life) is det.
 %!  agent_handed(+Id, +Hops, +Way, +Frame) is semidet.
 %!  agent_under_way(?Id, ?Hops, -Host, -Hash, -Way, -Frame) is nondet.
-%!  agent_gone(+Id, ?Hops, -Host, -Way, -Mail:list) is semidet.
+%!  agent_gone(+Id, +Hops, -Mail:list) is semidet.
 %!  agent_thawed(+Id, +Module, +Life, +Status, +Goals) is det.
 %
 %   Id has come to Host, which is plain, and runs. Id, which runs, is under way
@@ -289,8 +289,8 @@ agent_handed(Id, Hops, Way, Frame) :-
 agent_under_way(Id, Hops, Host, Hash, Way, Frame) :-
     under_way(Id, Hops, Host, Hash, Way, Frame).
 
-agent_gone(Id, Hops, Host, Way, Mail) :-
-    retract(under_way(Id, Hops, Host, _, Way, _)),
+agent_gone(Id, Hops, Mail) :-
+    retract(under_way(Id, Hops, _, _, _, _)),
     !,
     mail_all(Id, Mail).
 

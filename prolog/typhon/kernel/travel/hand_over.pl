@@ -14,7 +14,7 @@
                 host_plain/2, host_plain_time/2, real_time/3,
                 schedule_here/3, scheduler_call/1 ]).
 :- use_module('../agent',
-              [ agent_comes/5, agent_gone/5, agent_handed/4, agent_here/5,
+              [ agent_comes/5, agent_gone/3, agent_handed/4, agent_here/5,
                 agent_module/4, agent_ready/2, agent_standing/5,
                 agent_state/2, agent_thawed/5, agent_under_way/6, is_life/1,
                 life_before/2, life_extras/2, life_goes/3, life_hops/2,
@@ -133,11 +133,12 @@ settled(Result, Transfer) :-
 %   is on its way before any that comes now.
 
 moved_on(hop(Id, dest(Address, _, Endpoint), Hops), Host, Since) :-
-    agent_gone(Id, Hops, Host, way(_, Since, Process), Mail),
+    agent_under_way(Id, Hops, Host, _, way(_, Since, Process), _),
     (   home_left(Id, Address, Hops, Process)
     ->  true
     ;   agent_left(Id, Address, Hops, Endpoint)
     ),
+    agent_gone(Id, Hops, Mail),
     post_on(Id, Mail).
 
                 /*******************************
