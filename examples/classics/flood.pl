@@ -12,7 +12,7 @@ flood(Hops) :-
         neighbours(Hosts),
         Next is Hops+1,
         spread(Hosts, Next)
-    ;   true                            % somebody was here before
+    ;   true                            % the news was here before
     ).
 
 spread([], _).

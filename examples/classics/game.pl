@@ -11,7 +11,7 @@ main :-
 
 play(Board0, Mark-Host, Next) :-
     move(Host),
-    choose(Board0, Mark, N),            % whoever lives here
+    choose(Board0, Mark, N),            % the player of this host
     put(Board0, N, Mark, Board),
     (   won(Board, Mark)
     ->  log(won(Mark, Board))
