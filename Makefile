@@ -81,7 +81,7 @@ check:                  ## a quick look for mistakes, offline
 	fi
 
 check-all:
-	@$(SWIPL) doc/layers.pl -- check
+	@$(SWIPL) --on-error=status doc/layers.pl -- check
 	@for file in $(ENTRY_POINTS); do \
 	    $(SWIPL) -q --on-error=status --on-warning=status \
 	        -g '$(CHECKS)' -t halt -l $$file || exit 1; \

@@ -26,8 +26,15 @@ says.  All runs are made in virtual time.
 
 :- meta_predicate in_network(+, +, 1).
 
-:- multifile criterion/3.
+:- multifile
+    criterion/3,
+    user:message_hook/3.
+:- dynamic user:message_hook/3.
 :- discontiguous criterion/3.
+
+%   In virtual time there are no cells, see doc/security.md.
+
+user:message_hook(typhon(no_cells(_, _)), warning, _).
 
 %!  exercise(?Exercise, -Lesson) is nondet.
 %

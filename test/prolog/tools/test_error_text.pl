@@ -159,8 +159,8 @@ raising(atom_length(Ball, _), Ball).
 :- begin_tests(errors_of_agents).
 
 test(printing_what_an_agent_raises_calls_nothing,
-     [forall(( member(Options, [[], [policy(guarded)]]), hostile(Ball),
-               \+ Ball = unwind(_) ))]) :-
+     [forall(( member(Options, [[], [policy(guarded), cell(none)]]),
+               hostile(Ball), \+ Ball = unwind(_) ))]) :-
     with_hosts([g-Options],
                printing(forall(raising(Body, Ball),
                                says(Body)), Texts)),

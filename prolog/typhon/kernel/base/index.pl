@@ -72,6 +72,7 @@ part_joins(requested,watched,'options/watch').
 part_joins(ros_call_option,deadline,'bridges/ros').
 part_joins(spied,program,'options/trace').
 part_joins(time,virtual,'options/virtual').
+part_joins(untrusted,any,'options/cell').
 part_joins(untrusted,any,'options/quotas').
 
 %!  part_file(?Part, ?File) is nondet.

@@ -91,6 +91,7 @@ What an option keeps of a host follows the life of the host by the hooks
     untrusted(Option)           with Option a host admits agents that it does
                                 not trust
     unnoted(Option)             it is not restored with the host
+    limit(Host, What, Most)     agents on Host may use so much of What
     ends(Host)                  it is no more
 
 *Threading*: any thread reads; all else holds the mutex of host_start/2.
@@ -105,6 +106,7 @@ What an option keeps of a host follows the life of the host by the hooks
     compiled/1,
     untrusted/1,
     unnoted/1,
+    limit/3,
     ends/1.
 
 :- dynamic compiled/1.

@@ -103,9 +103,9 @@ other users of the process its endpoint, see typhon_runtime.
 %     - policy(+Policy): what agents may do here: `trusted`, everything,
 %       which is the default; `guarded`, what cannot harm others, see
 %       typhon_sandbox and doc/security.md; or a file of rules
-%     - cell(+Kind): agents run in processes that the system walls in: `owner`,
-%       one for each owner of agents, `host`, one for all, or `none`, the
-%       default; needs a policy, see doc/security.md
+%     - cell(+Kind): with a policy agents run in processes that the system walls
+%       in: `owner`, one for each owner of agents, the default where the system
+%       can do it, `host`, one for all, or `none`, see doc/security.md
 %     - peer(+Rules): which processes may do what, see typhon_access_rules
 %     - audit(+File): refusals and orders are noted there
 %     - quota(+List): how much agents may use, each, those of one owner, and

@@ -21,8 +21,9 @@ byte can end the process that decodes it.
 
 The gatekeeper sends
 
-    host(Rules, PIs)            bind the cell to a host: `guarded`, or the text
-                                of its rules; and what its place offers
+    host(Rules, PIs, Limits)    bind the cell to a host: `guarded`, or the text
+                                of its rules; what its place offers; and how
+                                much agents may use, What-Most
     turn(N, Id, Hash, Program, State, Known, Forget, Goals)
                                 run Goals of the agent Id.  Program is as of
                                 code_receive/2 or `known`, State as of
@@ -42,6 +43,8 @@ and the cell sends
     changing(N, Goal, Changes)  the same for words that change the state; the
                                 agent has made these Changes before
     lacks(N)                    the program or the state of the turn N
+    over(N, What)               in the turn N the agent has passed this limit, and
+                                the cell ends
     outcome(N, Outcome, Note, Changes)
                                 the turn N is over, see machine_run/3
 

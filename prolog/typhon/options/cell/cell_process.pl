@@ -1,7 +1,8 @@
 :- module(typhon_cell_process,
           [ cell_process_start/1,       % -Process
             cell_process_end/2,         % +Process, -Reason
-            cell_filter_forget/0
+            cell_filter_forget/0,
+            cell_needs/1                % -Text
           ]).
 :- use_module(library(filesex),
               [delete_directory_and_contents/1, directory_file_path/3]).
@@ -171,8 +172,14 @@ cell_filter_forget :-
                 *******************************/
 
 prolog:error_message(cell_unavailable(Cause)) -->
+    { cell_needs(Text) },
     [ 'No cell can be started: ~w'-[Cause], nl,
-      'A cell needs bubblewrap (apt install bubblewrap), and that it may make \c
-       user namespaces: allow them (kernel.unprivileged_userns_clone, \c
-       AppArmor, the seccomp profile of a container), or make bwrap setuid; \c
-       with cell(none) agents stay in this process'-[] ].
+      '~w; with cell(none) agents run in this process'-[Text] ].
+
+%!  cell_needs(-Text) is det.
+%
+%   What to do where no cell can be started.
+
+cell_needs('A cell needs bubblewrap (apt install bubblewrap), and that it may make \c
+            user namespaces: allow them (kernel.unprivileged_userns_clone, \c
+            AppArmor, the seccomp profile of a container), or make bwrap setuid').

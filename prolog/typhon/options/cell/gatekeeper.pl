@@ -1,21 +1,21 @@
 :- module(typhon_gatekeeper, []).
 :- use_module(library(apply), [foldl/4, maplist/2]).
-:- use_module(library(error), [permission_error/3]).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(readutil), [read_file_to_string/3]).
 :- use_module('../../kernel/program', [code_sent/2, fault_note/1]).
 :- use_module('../../kernel/wire', [endpoint_address/1, endpoint_own_proof/1]).
 :- use_module('../../kernel/host',
               [ context_now/2, host/3, host_option/2, place_service/2,
-                security_event/4 ]).
+                security_event/4, time_kind/1 ]).
 :- use_module('../../kernel/agent',
               [ agent/5, agent_home/2, agent_origin/5, agent_put/3,
-                agent_state/2, life_hops/2, life_parent/2, origin_key/2,
+                agent_state/2, agent_variant/2, life_hops/2, life_parent/2, origin_key/2,
                 with_agent/2 ]).
 :- use_module('../../kernel/lifecycle', [turn_settled/0]).
 :- use_module(cell_acts,
               [cell_answer/5, cell_changes_made/3, cell_violation/1]).
 :- use_module(cell_frames).
+:- use_module(cell_process, [cell_needs/1]).
 :- use_module(cells,
               [ cell_break/1, cell_end/2, cell_forgets/2, cell_give/1,
                 cell_knows/3, cell_learns/3, cell_left/1, cell_streams/3,
@@ -42,15 +42,18 @@ cell ends, too.
 :- multifile
     typhon_host_parts:begins/3,
     typhon_host_parts:changes/2,
-    typhon_host_parts:check/1,
     typhon_host_parts:ends/1,
     typhon_host_parts:part/4,
+    typhon_host_parts:limit/3,
+    typhon_host_parts:untrusted/1,
     typhon_machine:elsewhere/3,
+    typhon_on_demand:joins/2,
     typhon_options:declared/4,
     prolog:message//1.
 
 :- dynamic
-    walled/2.                   % Host, Kind: `owner` or `host`
+    walled/2,                   % Host, Kind: `owner` or `host`
+    warned/1.                   % Why: hosts of this process have no cells
 
                 /*******************************
                 *             HOSTS            *
@@ -59,51 +62,32 @@ cell ends, too.
 typhon_options:declared(host_option, cell(Kind), oneof([none,owner,host]),
                         Kind).
 
-typhon_host_parts:check(Options) :-
-    (   memberchk(cell(Kind), Options),
-        Kind \== none
-    ->  must_be_guarded(Options),
-        no_inferences(Options),
-        must_be_real_time(Options)
-    ;   true
-    ).
-
-must_be_guarded(Options) :-
-    (   memberchk(policy(Policy), Options),
-        Policy \== trusted
-    ->  true
-    ;   throw(error(existence_error(host_option, policy),
-                    context(_, 'only hosts with policy(guarded), or a file \c
-                                of rules, have cells')))
-    ).
-
-%   They are counted by the thread that runs the machine.
-
-no_inferences(Options) :-
-    (   memberchk(quota(Quotas), Options),
-        memberchk(inferences(N), Quotas)
-    ->  throw(error(permission_error(limit, cell, inferences(N)),
-                    context(_, 'a turn in a cell is limited by the quota \c
-                                seconds')))
-    ;   true
-    ).
-
-%   While an agent waits for a cell no other thread may let time pass.
-
-must_be_real_time(Options) :-
-    (   memberchk(clock(Clock), Options)
-    ->  throw(error(permission_error(start, cell, clock(Clock)),
-                    context(_, 'agents in cells live in real time')))
-    ;   true
-    ).
+typhon_on_demand:joins(untrusted, any).
 
 typhon_host_parts:begins(Host, _, Options) :-
-    (   memberchk(cell(Kind), Options),
+    (   is_untrusted(Options)
+    ->  wall(Host, Options)
+    ;   memberchk(cell(Kind), Options),
         Kind \== none
-    ->  cells_begin(Host),
-        assertz(walled(Host, Kind))
+    ->  throw(error(existence_error(host_option, policy),
+                    context(_, 'only hosts with policy(guarded), or a file \c
+                                of rules, have cells')))
     ;   true
     ).
+
+typhon_host_parts:changes(policy(Policy), Host) :-
+    (   walled(Host, _)
+    ->  true
+    ;   is_untrusted([policy(Policy)])
+    ->  findall(Option,
+                ( member(Option, [cell(_),clock(_),quota(_)]),
+                  host_option(Host, Option) ), Options),
+        wall(Host, Options)
+    ;   true
+    ).
+typhon_host_parts:changes(quota(Quotas), Host) :-
+    walled(Host, _),
+    possible([quota(Quotas)]).
 
 typhon_host_parts:ends(Host) :-
     (   retract(walled(Host, _))
@@ -111,14 +95,68 @@ typhon_host_parts:ends(Host) :-
     ;   true
     ).
 
-%   Cells have the rules with which they began.
+is_untrusted(Options) :-
+    member(Option, Options),
+    typhon_host_parts:untrusted(Option),
+    !.
 
-typhon_host_parts:changes(policy(Policy), Host) :-
-    walled(Host, _),
-    permission_error(change, host_option, policy(Policy)).
-typhon_host_parts:changes(quota(Quotas), Host) :-
-    walled(Host, _),
-    no_inferences([quota(Quotas)]).
+%   Where the option does not say it, a host has cells if it can.
+
+wall(Host, Options) :-
+    memberchk(cell(Kind), Options),
+    !,
+    (   Kind == none
+    ->  warn(Host, none)
+    ;   wall(Host, Kind, Options)
+    ).
+wall(Host, Options) :-
+    catch(( attempted, wall(Host, owner, Options) ), error(Formal, _),
+          unwalled(Formal, Host)).
+
+wall(Host, Kind, Options) :-
+    possible(Options),
+    cells_begin(Host),
+    assertz(walled(Host, Kind)).
+
+%   What failed once in this process fails again.
+
+attempted :-
+    (   warned(cell_unavailable(Cause))
+    ->  throw(error(cell_unavailable(Cause), _))
+    ;   true
+    ).
+
+unwalled(Formal, Host) :-
+    memberchk(Formal, [cell_unavailable(_), permission_error(_, cell, _)]),
+    !,
+    warn(Host, Formal).
+unwalled(Formal, _) :-
+    throw(error(Formal, _)).
+
+warn(Host, Why) :-
+    (   warned(Why)
+    ->  true
+    ;   assertz(warned(Why)),
+        print_message(warning, typhon(no_cells(Host, Why)))
+    ).
+
+%   Inferences are counted by the thread that runs the machine.  While an agent
+%   waits for a cell no other thread may let time pass.
+
+possible(Options) :-
+    memberchk(quota(Quotas), Options),
+    memberchk(inferences(N), Quotas),
+    throw(error(permission_error(limit, cell, inferences(N)),
+                context(_, 'a turn in a cell is limited by the quota \c
+                            seconds'))).
+possible(Options) :-
+    (   memberchk(clock(Kind), Options)
+    ;   time_kind(Kind)
+    ),
+    Kind \== real,
+    throw(error(permission_error(start, cell, clock(Kind)),
+                context(_, 'agents in cells live in real time'))).
+possible(_).
 
 typhon_host_parts:part(goes, Host, 10, typhon_gatekeeper:goes) :-
     walled(Host, _).
@@ -134,32 +172,40 @@ goes(Id, _, _) :-
                 *             TURNS            *
                 *******************************/
 
-%   On such a host no run of the machine happens here, whatever has become of the
-%   agent meanwhile.
+%   An agent whose policy is not that of its host came before that changed. One
+%   that was ended meanwhile has no record, and runs nowhere.
 
 typhon_machine:elsewhere(context(_, Module), Goals, Outcome) :-
     walled(_, _),
     context_now(Host, Id),
     walled(Host, Kind),
     !,
+    policy(Module, Policy),
     (   agent(Id, Host, Module, Hash, Life)
-    ->  run(Kind, agent(Id, Host, Module, Hash, Life), Goals, Outcome)
-    ;   Outcome = held                  % it was ended
+    ->  Policy \== trusted,
+        run(Kind, Policy, agent(Id, Host, Module, Hash, Life), Goals, Outcome)
+    ;   Outcome = held
+    ).
+
+policy(Module, Policy) :-
+    (   agent_variant(Module, guarded(Policy0))
+    ->  Policy = Policy0
+    ;   Policy = trusted
     ).
 
 %   A worker may be interrupted: what is not finished then ends the cell, which
 %   may be in the middle of a goal.
 
-run(Kind, Agent, Goals, Outcome) :-
-    Agent = agent(Id, Host, Module, Hash, _),
-    key(Kind, Host, agent(Id, Module, Hash), Key),
+run(Kind, Policy, Agent, Goals, Outcome) :-
+    Agent = agent(Id, _, _, _, _),
+    key(Kind, Policy, Agent, Key),
     State = state(unfinished),
     setup_call_cleanup(
         taken(Key, Id, Cell),
-        run_in(Cell, Key, Agent, Goals, State, Outcome),
+        run_in(Cell, Key-Policy, Agent, Goals, State, Outcome),
         left(State, Cell)),
     !.
-run(_, agent(Id, _, _, _, _), _, _) :-
+run(_, _, agent(Id, _, _, _, _), _, _) :-
     throw(error(system_error(no_turn(Id)), _)).
 
 taken(Key, Id, Cell) :-
@@ -168,13 +214,13 @@ taken(Key, Id, Cell) :-
     ;   Cell = none
     ).
 
-run_in(none, Key, agent(Id, Host, _, _, _), Goals, _, held) :-
+run_in(none, Key-_, agent(Id, Host, _, _, _), Goals, _, held) :-
     !,
     sig_atomic(( with_agent(Id, agent_put(Id, ready, Goals)),
                  turn_settled,
                  cell_wait(Key, Host, Id) )).
-run_in(Cell, _, Agent, Goals, State, Outcome) :-
-    in_cell(Cell, Agent, Goals, Result),
+run_in(Cell, _-Policy, Agent, Goals, State, Outcome) :-
+    in_cell(Cell, Policy, Agent, Goals, Result),
     sig_atomic(( finished(Result, Cell, Agent, Outcome),
                  nb_setarg(1, State, finished) )).
 
@@ -184,15 +230,18 @@ left(state(unfinished), Cell) :-
     cell_break(Cell).
 left(_, _).
 
-key(host, Host, _, Host).
-key(owner, Host, agent(Id, Module, Hash), Key) :-
+key(host, Policy, agent(_, Host, _, _, _), Key) :-
+    atomic_list_concat([Host, Policy], ' ', Key).
+key(owner, Policy, agent(Id, Host, Module, Hash, _), Key) :-
     agent_origin(Host, Id, Hash, module(Module), Origin),
     origin_key(Origin, Owner),
-    atomic_list_concat([Host, Owner], ' ', Key).
+    atomic_list_concat([Host, Policy, Owner], ' ', Key).
 
 finished(outcome(Outcome, Note), Cell, _, Outcome) :-
     cell_give(Cell),
     fault_note(Note).
+finished(over(What), Cell, _, raised(error(resource_error(What), _))) :-
+    cell_end(Cell, _).
 finished(broken(Why), Cell, agent(Id, Host, _, _, _), lost(cell(Reason))) :-
     cell_end(Cell, Status),
     ( Why == ended -> Reason = Status ; Reason = Why ),
@@ -201,12 +250,12 @@ finished(broken(Why), Cell, agent(Id, Host, _, _, _), lost(cell(Reason))) :-
     security_event(Host, Own, Proof, cell(Id, Reason)),
     print_message(warning, typhon(cell_lost(Id, Host, Reason))).
 
-%   in_cell(+Cell, +Agent, +Goals, -Result): Result is outcome(Outcome, Note) or
-%   broken(Why).
+%   in_cell(+Cell, +Policy, +Agent, +Goals, -Result): Result is
+%   outcome(Outcome, Note), over(What) or broken(Why).
 
-in_cell(Cell, Agent, Goals, Result) :-
+in_cell(Cell, Policy, Agent, Goals, Result) :-
     flag(typhon_cell_turn, N, N+1),
-    catch(( cell_bound(Cell, Agent),
+    catch(( cell_bound(Cell, Policy, Agent),
             turn_sent(Cell, N, Agent, Goals, new),
             turn_heard(Cell, N, Agent, Goals, well, Result) ),
           error(Formal, Context),
@@ -223,22 +272,21 @@ broken(resource_error(c_stack), _, broken(violation(too_deep))) :-
 broken(Formal, Context, _) :-
     throw(error(Formal, Context)).
 
-%   The first agent binds the cell to its host; what the place offers later is
-%   sent when it is there.
+%   The first agent binds the cell to its host; what the place offers later, and
+%   other limits, are sent when they are there.
 
-cell_bound(Cell, agent(_, Host, _, _, _)) :-
+cell_bound(Cell, Policy, agent(_, Host, _, _, _)) :-
     host(Host, _, Place),
     findall(PI, place_service(Place, PI), PIs),
-    (   cell_knows(Cell, host, PIs)
+    findall(What-Most, typhon_host_parts:limit(Host, What, Most), Limits),
+    (   cell_knows(Cell, host, PIs-Limits)
     ->  true
-    ;   rules(Host, Rules),
-        send(Cell, host(Rules, PIs)),
-        cell_learns(Cell, host, PIs)
+    ;   rules(Policy, Rules),
+        send(Cell, host(Rules, PIs, Limits)),
+        cell_learns(Cell, host, PIs-Limits)
     ).
 
-rules(Host, Rules) :-
-    host_option(Host, policy(Policy)),
-    !,
+rules(Policy, Rules) :-
     (   Policy == guarded
     ->  Rules = guarded
     ;   read_file_to_string(Policy, Rules, [encoding(utf8)])
@@ -328,6 +376,9 @@ heard(lacks(N), Cell, Agent, Goals, well, more(well)) :-
     \+ cell_knows(Cell, again, N),
     cell_learns(Cell, again, N),
     turn_sent(Cell, N, Agent, Goals, again).
+heard(over(_, What), _, _, _, _, over(What)) :-
+    nonvar(What),
+    memberchk(What, [cells,stack,state]).
 heard(outcome(_, Outcome, Note, Changes), Cell, Agent, _, Told, Result) :-
     is_outcome(Outcome),
     note_fault(Note, Outcome, Fault),
@@ -399,3 +450,16 @@ note_fault(_, _, none).
 
 prolog:message(typhon(cell_lost(Id, Host, Reason))) -->
     [ 'Agent ~w on ~w is lost: its cell ended, ~p'-[Id, Host, Reason] ].
+prolog:message(typhon(no_cells(Host, Why))) -->
+    [ 'Untrusted agents on ~w run in the process of the host, since '-[Host] ],
+    no_cells(Why),
+    [ nl, 'An agent that finds a way around the rules of the policy has all \c
+           rights of that process'-[] ].
+
+no_cells(none) -->
+    [ 'it has cell(none)'-[] ].
+no_cells(permission_error(_, cell, What)) -->
+    [ 'there are no cells with ~p'-[What] ].
+no_cells(cell_unavailable(Cause)) -->
+    { cell_needs(Text) },
+    [ 'no cell can be started: ~w'-[Cause], nl, Text-[] ].

@@ -1,6 +1,7 @@
 :- module(typhon_cell_inside, []).
 :- use_module(library(lists), [member/2]).
 :- use_module('../../kernel/base/on_demand', [on_demand_load/2]).
+:- use_module('../../kernel/base/trees', [is_tree/2]).
 :- use_module('../../kernel/program',
               [ answer_at/3, code_module/2, code_receive/2, fault_noted/1,
                 machine_run/3 ]).
@@ -27,6 +28,7 @@ its rules may do here whatever the system lets the process do.
 
 :- dynamic
     stands/2,                   % Id, Module: agents whose state is here
+    limit/2,                    % What, Most: an agent may use so much
     offered/1,                  % PI: what the place of the host offers
     told/1.                     % Goal: an act of this turn, not sent yet
 
@@ -44,6 +46,7 @@ cell_main :-
     connection(In, Out),
     twin_start,
     words_ask,
+    catches_check,
     open_null_stream(Null),
     set_stream(Null, alias(user_error)),
     cell_frame_write(Out, ready),
@@ -84,8 +87,9 @@ serve(In, Out) :-
     ),
     fail.
 
-handle(host(Rules, PIs), _) :-
+handle(host(Rules, PIs, Limits), _) :-
     !,
+    limits_put(Limits),
     (   Rules == guarded
     ->  true
     ;   rules_file('/tmp/policy', Rules),
@@ -125,6 +129,7 @@ standing(Id, Hash, Program, State, Module) :-
     forget(Id),
     host(cell, _, Place),
     agent_module(Id, Place, Hash, State, Module),
+    state_bounded(Module),
     assertz(stands(Id, Module)).
 
 forget(Id) :-
@@ -139,7 +144,8 @@ turn(N, Id, Known, Goals, Module, Out) :-
     agent_code(Module, Program),
     state_mark(Module, Mark),
     nb_setval(cell_mark, Mark),
-    nb_setval(cell_untold, told(0, 0)),
+    get_time(Now),
+    nb_setval(cell_untold, told(0, Now)),
     run(context(Program, Module), Goals, Outcome, Note),
     tell_all(N, 0),
     nb_getval(cell_mark, Since),
@@ -154,11 +160,12 @@ turn(N, Id, Known, Goals, Module, Out) :-
 run(Context, Goals0, Outcome, Note) :-
     machine_run(Context, Goals0, Outcome0),
     (   Outcome0 = effect(Control, Hole, Goals),
-        catch(( mobile_term(Outcome0), fail ), error(Formal, Where), true)
+        catch(( small_and_mobile(Outcome0), fail ), error(Formal, Where), true)
     ->  answer_at(Control, throw(error(Formal, Where)), Hole),
         run(Context, Goals, Outcome, Note)
     ;   Outcome0 = raised(Error0)
-    ->  in_words(Error0, Error),
+    ->  within_limits(Error0),
+        in_words(Error0, Error),
         Outcome = raised(Error),
         noted(Outcome, Note)
     ;   Outcome = Outcome0,
@@ -172,6 +179,69 @@ noted(Outcome, note(How, Portable)) :-
     !,
     in_words(fault(Goal, Goals, natives(Raising, [])), Portable).
 noted(_, none).
+
+                /*******************************
+                *            LIMITS            *
+                *******************************/
+
+%   The gatekeeper counts what comes to it.  Here is limited what would not come
+%   to an end before, or not fit in.
+
+limits_put(Limits) :-
+    retractall(limit(_, _)),
+    forall(member(What-Most, Limits), assertz(limit(What, Most))),
+    (   limit(stack, Stack)
+    ->  Far is integer(Stack)+16 000 000,
+        set_prolog_flag(stack_limit, Far)
+    ;   true
+    ).
+
+state_bounded(Module) :-
+    (   limit(state, Most)
+    ->  module_property(Module, program_size(Size)),
+        Space is max(integer(Most), Size),
+        set_module(Module:program_space(Space))
+    ;   true
+    ).
+
+%   A term may be larger than it looks; the gatekeeper counts only its part that
+%   the quota is about.
+
+small_and_mobile(Term) :-
+    (   limit(cells, Most),
+        More is Most+1000,
+        \+ is_tree(Term, More)
+    ->  over(cells)
+    ;   mobile_term(Term)
+    ).
+
+%   An agent that passes a limit ends where it would catch that, and the cell
+%   with it: 9.0.4 does not survive a stack that is filled to the brim again and
+%   again.
+
+catches_check :-
+    wrap_predicate(typhon_checked:'$uncaught'(Ball), cell, Wrapped,
+                   ( typhon_cell_inside:within_limits(Ball), Wrapped )).
+
+:- public within_limits/1.
+
+within_limits(Ball) :-
+    (   nonvar(Ball),
+        Ball = error(resource_error(What0), _),
+        limit_named(What0, What)
+    ->  over(What)
+    ;   true
+    ).
+
+limit_named(What, stack) :- What == stack.
+limit_named(What, state) :- What == program_space.
+
+over(What) :-
+    b_getval(cell_turn, turn(N, _, _)),
+    tell_all(N, 0),
+    nb_getval(cell_connection, connection(_, Out)),
+    cell_frame_write(Out, over(N, What)),
+    halt(0).
 
                 /*******************************
                 *            WORDS             *
@@ -221,13 +291,13 @@ ask(tells, Goal, N, _, _) :-
     most_told(_, Most),
     Count < Most,
     !,
-    mobile_term(Goal),
+    small_and_mobile(Goal),
     assertz(told(Goal)),
     Count1 is Count+1,
     nb_setval(cell_untold, told(Count1, Since)),
     tell_some(N, Count1, Since).
 ask(Kind, Goal, N, _, Module) :-
-    mobile_term(Goal),
+    small_and_mobile(Goal),
     tell_all(N, 0),
     asked(Kind, Goal, N, Module, Answer),
     answered(Answer, Goal).
@@ -237,7 +307,7 @@ ask(Kind, Goal, N, _, Module) :-
 
 most_told(50, 500).
 
-%   The first after a while goes at once.
+%   The first after a while goes at once, lest it waits for a long goal.
 
 tell_some(N, Count, Since) :-
     get_time(Now),

@@ -3,7 +3,7 @@
 :- use_module('../../kernel/host', [host_option/2]).
 :- use_module(quota_agents, [quota_agents_again/1]).
 :- use_module(quota_enforcer, [enforcer_adapt/0]).
-:- use_module(quota_table, [quotas_drop/1, quotas_put/3]).
+:- use_module(quota_table, [quota/3, quotas_drop/1, quotas_put/3]).
 :- use_module(usage, [usage_forget/1]).
 
 /** <module> Hosts with quotas begin, change and end
@@ -20,6 +20,7 @@ it admits agents that it does not trust.
     typhon_host_parts:changes/2,
     typhon_host_parts:compiled/1,
     typhon_host_parts:ends/1,
+    typhon_host_parts:limit/3,
     typhon_on_demand:joins/2,
     typhon_options:declared/4.
 
@@ -30,6 +31,9 @@ typhon_options:declared(host_option, quota(List), list, List).
 %   Hosts that admit untrusted agents have quotas, whether they say so or not.
 
 typhon_on_demand:joins(untrusted, any).
+
+typhon_host_parts:limit(Host, What, Most) :-
+    quota(Host, What, Most).
 
 %   default(?Quota): on hosts that admit untrusted agents.
 

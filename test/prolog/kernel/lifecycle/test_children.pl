@@ -21,7 +21,7 @@ child(Body, clauses([ (:- agent(child, [state([s/1])])), (main :- Body) ])).
 %   refused(+Program, -Formal): what creating it raises, on a guarded host.
 
 refused(Program, Formal) :-
-    made([alpha-[policy(guarded)]],
+    made([alpha-[policy(guarded), cell(none)]],
          [ (main :- catch(create(Program, _, []), error(F, _), true),
                     result(F)) ],
          Formal).
@@ -122,12 +122,12 @@ test(no_such_host, F = existence_error(host, _)) :-
 
 test(of_clauses, X == hi) :-
     child(( receive(P-_), send(P, hi) ), Child),
-    made([alpha-[policy(guarded)]],
+    made([alpha-[policy(guarded), cell(none)]],
          [ (main :- create(Child, C, []), send(C, go), receive(C-X),
                     result(X)) ],
          X).
 test(of_its_own_program, X == got) :-
-    made([alpha-[policy(guarded)]],
+    made([alpha-[policy(guarded), cell(none)]],
          [ (main :- r(Parent), !, send(Parent, got)),
            (main :- self(Me), create(self, C, [facts([r(Me)])]),
                     receive(C-X), result(X)) ],
@@ -145,7 +145,7 @@ test(of_a_file_that_is_not_there, F = existence_error(source_sink, _)) :-
     refused(agents(no_such_program), F).
 test(no_more_than_the_quota, [true(Formal == resource_error(clones))]) :-
     child(sleep(100), Child),
-    made([alpha-[policy(guarded), quota([clones(3)])]],
+    made([alpha-[policy(guarded), cell(none), quota([clones(3)])]],
          [ (main :- catch(many(100, Child), error(F, _), true), result(F)),
            (many(0, _) :- !),
            (many(N, Child) :- create(self, _, [facts([r(child)])]),
@@ -153,7 +153,7 @@ test(no_more_than_the_quota, [true(Formal == resource_error(clones))]) :-
          Formal).
 test(no_more_agents_than_the_quota, [true(Formal = move_refused(_, _))]) :-
     child(sleep(100), Child),
-    made([alpha-[policy(guarded), quota([owner(agents(3))])]],
+    made([alpha-[policy(guarded), cell(none), quota([owner(agents(3))])]],
          [ (main :- catch(many(100, Child), error(F, _), true), result(F)),
            (many(0, _) :- !),
            (many(N, Child) :- create(Child, _, []),

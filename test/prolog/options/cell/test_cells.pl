@@ -136,6 +136,20 @@ test(an_agent_that_does_not_stop_is_ended,
                  agent_join(B, Outcome2, 30),
                  outcome([(main :- sleep(0))], Beside),
                  Outcomes = [Outcome1,Outcome2] )).
+%   To look for the text takes minutes, in one call of C.
+
+test(an_agent_that_cannot_be_interrupted_is_ended,
+     Outcome = raised(error(resource_error(seconds), _))) :-
+    with_hosts([ c-[policy(guarded), cell(owner), quota([seconds(0.5)])] ],
+               outcome([ (main :- text(1 000 000, "", Text),
+                                  text(100 000, "b", Part),
+                                  sub_string(Text, _, _, _, Part)),
+                         (text(N, End, Text) :- length(Codes, N),
+                                                maplist(=(0'a), Codes),
+                                                string_codes(Text0, Codes),
+                                                string_concat(Text0, End,
+                                                              Text)) ],
+                       Outcome)).
 test(many_agents_share_a_cell, Sum-Cells == 5050-1) :-
     cell(( numlist(1, 100, Ns),
            findall(A, ( member(N, Ns),
@@ -232,22 +246,67 @@ test(without_bubblewrap_a_host_does_not_start,
               error(Formal, _), true),
         setenv('PATH', Path)),
     cell(outcome([main], Result)).
+test(without_bubblewrap_a_policy_warns_once, Out-Warned == "done"-1) :-
+    project_file('prolog/typhon.pl', Typhon),
+    run_swipl(['-g', 'host_start(z), setenv(\'PATH\', \'/nowhere\'), \c
+                      host_start(a, [policy(guarded)]), \c
+                      host_start(b, [policy(guarded)]), \c
+                      agent_create(clauses([(:- agent(x, [])), main]), A, \c
+                                   [host(a)]), \c
+                      agent_join(A, O, 30), write(O), flush_output',
+               '-t', halt, Typhon], [timeout(60)], Status, Out, Err),
+    assertion(Status == exit(0)),
+    findall(x, sub_string(Err, _, _, _, "no cell can be started"), Xs),
+    length(Xs, Warned).
 test(a_trusted_host_has_no_cells, error(existence_error(host_option, policy))) :-
     host_start(c, [cell(owner)]).
 test(inferences_are_not_counted_in_cells,
      error(permission_error(limit, cell, inferences(9)))) :-
     host_start(c, [policy(guarded), cell(owner), quota([inferences(9)])]).
-test(the_policy_of_cells_does_not_change,
-     error(permission_error(change, host_option, policy(trusted)))) :-
-    cell(host_change(c, policy(trusted))).
+test(agents_keep_the_policy_under_which_they_came, Formals-Cells == [no,yes]-1) :-
+    cell(( tries(Clauses),
+           create(Clauses, Old, [host(c)]),
+           host_change(c, policy(trusted)),
+           create(Clauses, New, [host(c)]),
+           findall(F, ( member(A, [Old,New]), agent_send(A, go),
+                        agent_result(A, F, 30) ), Formals),
+           used_cells(Cells) )).
+test(a_host_that_guards_from_now_on_has_cells, Cells-Result == 1-no) :-
+    with_hosts([c], ( host_change(c, policy(guarded)),
+                      tries(Clauses),
+                      create(Clauses, A, [host(c)]),
+                      agent_send(A, go),
+                      agent_result(A, Result, 30),
+                      used_cells(Cells) )).
 test(virtual_time_has_no_cells,
      error(permission_error(start, cell, clock(virtual)))) :-
     host_start(c, [policy(guarded), cell(owner), clock(virtual)]).
-test(none_is_no_cell, Cells == []) :-
-    with_hosts([c-[policy(guarded), cell(none)]],
-               ( outcome([main], done), cells_list(Cells) )).
-
+test(a_policy_means_a_cell_of_the_owner, Cells == 1) :-
+    with_hosts([c-[policy(guarded)]], ( outcome([main], done),
+                                        used_cells(Cells) )).
+test(none_is_no_cell_and_warns_once, Cells-Count == []-1) :-
+    listening(( with_hosts([c-[policy(guarded), cell(none)]],
+                           ( outcome([main], done), cells_list(Cells) )),
+                with_hosts([c-[policy(guarded), cell(none)]], true) ),
+              Messages),
+    was_warned(none, Messages, Count).
+test(where_cells_are_impossible_a_policy_warns, Outcome-Count == done-1) :-
+    listening(with_hosts([c-[policy(guarded), quota([inferences(1 000 000)])]],
+                         outcome([main], Outcome)),
+              Messages),
+    was_warned(permission_error(_, cell, _), Messages, Count).
 :- end_tests(cell_processes).
+
+%   The result is `yes` if the agent may do what rules refuse.
+
+tries([ plan(nb_setval(test_cells, 1)),
+        (main :- receive(_-go), plan(G),
+                 ( catch(G, error(_, _), fail) -> result(yes) ; result(no) ))
+      ]).
+
+was_warned(Why, Messages, Count) :-
+    findall(x, member(warning-typhon(no_cells(_, Why)), Messages), Warned),
+    length(Warned, Count).
 
 trip(P, Trip-[Outcome1,Outcome2]) :-
     Clauses = [ (:- dynamic(seen/1)),

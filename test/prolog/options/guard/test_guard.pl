@@ -252,13 +252,13 @@ outcome(Clauses, Outcome) :-
 :- begin_tests(guard).
 
 test(each_attack_is_refused, Through == []) :-
-    with_hosts([g-[policy(guarded)]],
+    with_hosts([g-[policy(guarded), cell(none)]],
                listening(findall(G, ( attack(G), \+ refused(G) ), Through),
                          _)).
 
 test(nothing_is_called_unseen_below_a_variable, Escaped-Count == 0-many) :-
     flag(typhon_guard_escaped, _, 0),
-    with_hosts([g-[policy(guarded)]],
+    with_hosts([g-[policy(guarded), cell(none)]],
                ( findall(Goal, below_variables(Goal), Goals),
                  made_up(Goals, []),
                  made_up(Goals, [(_^_ :- true)]),
@@ -269,7 +269,7 @@ test(nothing_is_called_unseen_below_a_variable, Escaped-Count == 0-many) :-
 %   What an untrusted agent may do, it does.
 
 test(ordinary_programs_run, R-Facts == [2-a,4-b]-[ok]) :-
-    with_hosts([g-[policy(guarded)], t],
+    with_hosts([g-[policy(guarded), cell(none)], t],
                ( create([ (main :- assertz(s(ok)), numlist(1, 4, Ns),
                                    include([X]>>(0 is X mod 2), Ns, Even),
                                    pairs_keys_values(Ps, Even, [a,b]),
@@ -280,21 +280,21 @@ test(ordinary_programs_run, R-Facts == [2-a,4-b]-[ok]) :-
                           (go(H) :- sleep(0.001), move(H)) ], A, [host(g)]),
                  agent_result(A, R-Facts, 5) )).
 test(stops_inside_what_it_makes_up, H == H0) :-
-    with_hosts([g-[policy(guarded)], t],
+    with_hosts([g-[policy(guarded), cell(none)], t],
                ( address(g, H0),
                  create([ (main :- G = (move(t), move(g)), call(G), here(H),
                                    result(H)) ], A, [host(t)]),
                  agent_result(A, H, 5) )).
 test(what_it_carries_is_looked_at_on_arrival,
      R = error(move_refused(_, policy(halt)), _)) :-
-    with_hosts([g-[policy(guarded)], t],
+    with_hosts([g-[policy(guarded), cell(none)], t],
                ( create([ (main :- assertz((s(_) :- halt)),
                                    catch(move(g), E, true), result(E)) ],
                         A, [host(t)]),
                  agent_result(A, R, 5) )).
 test(what_it_is_about_to_do_is_looked_at_on_arrival,
      R = error(move_refused(_, policy(shell(x))), _)) :-
-    with_hosts([g-[policy(guarded)], t],
+    with_hosts([g-[policy(guarded), cell(none)], t],
                ( create([ (main :- G = (move(g), shell(x)),
                                    catch(call(G), E, true), result(E)) ],
                         A, [host(t)]),
@@ -336,7 +336,7 @@ place_file(Dir, File) :-
 
 places(Rs, Dir) :-
     place_file(Dir, File),
-    with_hosts([g-[policy(guarded), consult(File)]],
+    with_hosts([g-[policy(guarded), cell(none), consult(File)]],
                ( create([ (main :- once(open(X)),
                                    catch(( hidden(_), Y = seen ), _,
                                          Y = hidden),
@@ -345,7 +345,7 @@ places(Rs, Dir) :-
 
 changes_of_services(Rs-Left, Dir) :-
     place_file(Dir, File),
-    with_hosts([g-[policy(guarded), consult(File)]],
+    with_hosts([g-[policy(guarded), cell(none), consult(File)]],
                ( create([ (main :- once(open(_)), Gs = [ retract(open(1)),
                                        clause(open(_), _),
                                        retract(hidden(_)),
@@ -442,7 +442,7 @@ is_of(tripwire(max_integer_size, _), stack).    % of 9.2
 
 test(results_without_end, true(memberchk(What, [seconds, stack]))) :-
     quota_of(seconds, Quotas),
-    with_hosts([g-[policy(guarded), quota(Quotas)]],
+    with_hosts([g-[policy(guarded), cell(none), quota(Quotas)]],
                listening(outcome([ (main :- findall(X, between(1, inf, X), _)) ],
                                  Outcome), _)),
     Outcome = raised(error(resource_error(What), _)).
@@ -452,7 +452,7 @@ test(who_catches_its_end_ends_at_once, [ forall(stays(Clauses)),
                                          true(Seconds < 3) ]) :-
     quota_of(seconds, Quotas),
     get_time(T0),
-    with_hosts([g-[policy(guarded), quota(Quotas)]],
+    with_hosts([g-[policy(guarded), cell(none), quota(Quotas)]],
                listening(outcome(Clauses,
                                  raised(error(resource_error(seconds), _))),
                          _)),
@@ -465,16 +465,17 @@ test(nobody_comes_to_the_brim_of_its_stack,
      [ forall(brim(Clauses)), setup(stack_limit(Old, 60 000 000)),
        cleanup(set_prolog_flag(stack_limit, Old)),
        Outcome = raised(error(resource_error(stack), _)) ]) :-
-    with_hosts([g-[policy(guarded), quota([seconds(60), stack(16 000 000)])]],
+    with_hosts([g-[ policy(guarded), cell(none),
+                    quota([seconds(60), stack(16 000 000)]) ]],
                listening(outcome(Clauses, Outcome), _)).
 test(ends_with_it, [ forall(hog(What, Clauses)), true(is_of(Resource, What)) ]) :-
     quota_of(What, Quotas),
-    with_hosts([g-[policy(guarded), quota(Quotas)]],
+    with_hosts([g-[policy(guarded), cell(none), quota(Quotas)]],
                listening(outcome(Clauses, Outcome), _)),
     Outcome = raised(error(resource_error(Resource), _)).
 test(others_go_on, N == 20) :-
     quota_of(seconds, Quotas),
-    with_hosts([g-[policy(guarded), quota(Quotas)], t],
+    with_hosts([g-[policy(guarded), cell(none), quota(Quotas)], t],
                listening(( hog(seconds, Hog),
                            create(Hog, _, [host(g)]),
                            create([ (main :- lap(0)),
@@ -490,7 +491,7 @@ test(trusted_hosts_have_quotas_too,
 
 test(names_are_forgotten, true(Count < 300)) :-
     with_settings([typhon_mobile:known=100],
-                  with_hosts([g-[policy(guarded)]],
+                  with_hosts([g-[policy(guarded), cell(none)]],
                              forall(between(1, 4, I), names(I)))),
     predicate_property(typhon_mobile:meta_known(_, _),
                        number_of_clauses(Count)).

@@ -132,18 +132,18 @@ written('~w', x, "x").
 
 test(calling_formats_are_refused, Escaped-Through == 0-[]) :-
     findall(Goal, calling(Goal), Goals),
-    with_hosts([g-[policy(guarded)], t],
+    with_hosts([g-[policy(guarded), cell(none)], t],
                listening(escaped(let_through(Goals, Through), Escaped), _)).
 test(harmless_formats_are_written,
      [forall(written(Format, Args, Text)), true(Result == Text)]) :-
-    with_hosts([g-[policy(guarded)]],
+    with_hosts([g-[policy(guarded), cell(none)]],
                ( create([(main :- format(string(S), Format, Args), result(S))],
                         A, [host(g)]),
                  agent_result(A, Result, 10) )).
 test(output_of_format_is_bounded,
      Outcome = raised(error(resource_error(clause_cells), _))) :-
     dag(Dag),
-    with_hosts([g-[policy(guarded)]],
+    with_hosts([g-[policy(guarded), cell(none)]],
                listening(outcome([ (main :- dag(40, a, T),
                                             format(string(_), "~w", [T]))
                                  | Dag ], Outcome), _)).
@@ -229,7 +229,7 @@ test(what_was_looked_at_is_what_runs,
      [forall(changing_program(Name, Clauses)), true(Escaped == 0-Name)]) :-
     with_tmp_dir(changed(Clauses, Name, Escaped)).
 test(no_term_is_changed_in_place, Through == []) :-
-    with_hosts([g-[policy(guarded)], t],
+    with_hosts([g-[policy(guarded), cell(none)], t],
                listening(let_through([ (X = f(a), setarg(1, X, b)),
                                        (X = f(a), nb_setarg(1, X, b)),
                                        (X = f(a), nb_linkarg(1, X, b)),
@@ -277,7 +277,7 @@ hiding(Clause, [ (main :- move(g), catch(p(1), _, true)), Clause ]).
 
 test(no_fact_is_a_rule, [Escaped-Through == 0-[]]) :-
     findall(Clause-Clauses, ( hidden(Clause), hiding(Clause, Clauses) ), All),
-    with_hosts([g-[policy(guarded)], t],
+    with_hosts([g-[policy(guarded), cell(none)], t],
                listening(escaped(findall(Clause-Outcome,
                                          ( member(Clause-Clauses, All),
                                            outcome(Clauses, Outcome),
@@ -286,7 +286,7 @@ test(no_fact_is_a_rule, [Escaped-Through == 0-[]]) :-
                                  Escaped), _)).
 test(no_fact_of_the_state_is_a_rule, [Escaped-Through == 0-[]]) :-
     findall(Clause, hidden(Clause), Clauses),
-    with_hosts([g-[policy(guarded)]],
+    with_hosts([g-[policy(guarded), cell(none)]],
                listening(escaped(findall(Clause,
                                          ( member(Clause, Clauses),
                                            comes_with(Clause) ),
@@ -316,7 +316,7 @@ service_rules(R, Dir) :-
                                     :- dynamic sv/1.~n\c
                                     sv(X) => X = kept.~n", []),
                        close(Out)),
-    with_hosts([g-[policy(guarded), consult(File)]],
+    with_hosts([g-[policy(guarded), cell(none), consult(File)]],
                ( listening(outcome([(main :- sv(_), C = (sv(_) => _),
                                              retract(C))], _), _),
                  create([(main :- sv(X), result(X))], A, [host(g)]),
@@ -367,7 +367,7 @@ loads_library(How, Program, Sent, Escaped, Dir) :-
                        close(Out)),
     Program = program(x, [], [File-all], [(main :- true)]),
     typhon_programs:program_hash(Program, Hash),
-    with_hosts([g-[policy(guarded)]],
+    with_hosts([g-[policy(guarded), cell(none)]],
                escaped(come(How, Hash, Sent), Escaped)).
 
 come(with_agent, Hash, Sent) :-
@@ -431,12 +431,12 @@ too_large(raised(error(permission_error(call, sandboxed, throw/1), _))).
 
 test(shared_terms_are_not_stored,
      [forall(storing_program(Clauses)), true(too_large(Outcome))]) :-
-    with_hosts([g-[policy(guarded)]],
+    with_hosts([g-[policy(guarded), cell(none)]],
                listening(( create(Clauses, A, [host(g)]),
                            agent_join(A, Outcome, 10) ), _)).
 test(others_are_not_held_up, R == ok) :-
     dag(Dag),
-    with_hosts([g-[policy(guarded)]],
+    with_hosts([g-[policy(guarded), cell(none)]],
                listening(( create([ (main :- dag(60, a, T), receive(_-T, 1))
                                   | Dag ], A, [host(g)]),
                            create([(main :- sleep(0.01), result(ok))], B,
@@ -446,7 +446,7 @@ test(others_are_not_held_up, R == ok) :-
 %   Large data may stand in goals that are not kept.
 
 test(large_data_are_no_goals, R == 300 000) :-
-    with_hosts([g-[policy(guarded)]],
+    with_hosts([g-[policy(guarded), cell(none)]],
                ( create([ (main :- numlist(1, 300 000, L), G = count(L),
                                    call(G)),
                           (count(L) :- length(L, N), result(N)) ],
@@ -474,11 +474,11 @@ huge(Goal) :-
 
 test(no_term_is_as_large_as_memory, Through == []) :-
     findall(Goal, huge(Goal), Goals),
-    with_hosts([g-[policy(guarded)], t],
+    with_hosts([g-[policy(guarded), cell(none)], t],
                listening(let_through(Goals, Through), _)).
 test(terms_are_made_by_their_size,
      true(subsumes_term([f(_,_), a, 3, g(_), [f,1]], R))) :-
-    with_hosts([g-[policy(guarded)]],
+    with_hosts([g-[policy(guarded), cell(none)]],
                ( create([ (main :- functor(A, f, 2), functor(B, a, 0),
                                    functor(x(1,2,3), _, C),
                                    compound_name_arity(D, g, 1),
@@ -614,16 +614,16 @@ long_atom_900(Long) :-
 
 test(long_atoms_are_not_made, Through == []) :-
     findall(Goal, text_attack(Goal), Goals),
-    with_hosts([g-[policy(guarded)], t],
+    with_hosts([g-[policy(guarded), cell(none)], t],
                listening(let_through(Goals, Through), _)).
 test(no_predicate_makes_long_atoms, Goals == []) :-
-    with_hosts([g-[policy(guarded)]], true),    % the tables are made
+    with_hosts([g-[policy(guarded), cell(none)]], true),    % the tables are made
     findall(Name/Arity, ( long_atom(Goal), functor(Goal, Name, Arity) ),
             Goals0),
     sort(Goals0, Goals).
 test(text_of_atoms_counts,
      [forall(holding(What, Clauses)), true(Passed == What)]) :-
-    with_hosts([g-[ policy(guarded),
+    with_hosts([g-[ policy(guarded), cell(none),
                     quota([ seconds(60), stack(16 000 000), state(1 000 000),
                             log(1000) ]) ]],
                listening(outcome(Clauses, Outcome), _)),
@@ -632,7 +632,7 @@ test(text_of_atoms_counts,
 
 test(text_that_is_taken_away_does_not_count, Outcome == done) :-
     long_atom_900(Long),
-    with_hosts([g-[ policy(guarded),
+    with_hosts([g-[ policy(guarded), cell(none),
                     quota([seconds(60), state(200 000)]) ]],
                listening(outcome([ (main :- forall(between(1, 2000, I),
                                                    step(I))),
@@ -641,7 +641,7 @@ test(text_that_is_taken_away_does_not_count, Outcome == done) :-
                                                retract(s(A))),
                                    long(Long) ], Outcome), _)).
 test(short_texts_pass, R == ['ABC', bc, 'a,b', f(x), "f(x)", 12]) :-
-    with_hosts([g-[policy(guarded)]],
+    with_hosts([g-[policy(guarded), cell(none)]],
                ( create([ (main :- upcase_atom(abc, A),
                                    sub_atom(abc, 1, 2, _, B),
                                    atomic_list_concat([a,b], ',', C),

@@ -200,7 +200,7 @@ test(virtual_time, X == done-5.0) :-
                                    result(O-D)) ], A),
                  agent_result(A, X, 10) )).
 test(guarded, X == done) :-
-    with_hosts([alpha-[policy(guarded)]],
+    with_hosts([alpha-[policy(guarded), cell(none)]],
                ( create([ (main :- create(clauses([(:- agent(c, [])),
                                                    (main :- true)]),
                                           C, []),
