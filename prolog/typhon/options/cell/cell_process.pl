@@ -96,10 +96,10 @@ launch(Filter, process(Pid, In, Out, Err)) :-
     set_stream(Out, buffer(full)).
 
 program('set_prolog_flag(gc_thread,false),\c
+         use_module(\'/typhon/typhon/options/cell/inside\'),\c
          use_module(\'/typhon/typhon/options/migration\',[]),\c
          use_module(\'/typhon/typhon/options/identity\',[]),\c
          use_module(\'/typhon/typhon/options/supervision\',[]),\c
-         use_module(\'/typhon/typhon/options/cell/inside\'),\c
          typhon_cell_inside:cell_main').
 
 %   This process may be a saved state.
