@@ -4,7 +4,8 @@
 
 /*  Hops between hosts of one process, by an agent that does nothing else: in
 virtual time and in real time, with and without a delay, and with much that
-it carries.  Processor time counts.
+it carries.  Another goes to neighbours at random and replaces a fact, alone,
+among others, and with delayed hops.  Processor time counts.
 
     swipl bench/virtual.pl -- 20000 */
 
@@ -22,7 +23,14 @@ main([Argument]) :-
           'hosts of one process'),
     cost(virtual, 200, Hops, Laden),
     ratio('a hop with 200 facts against one with none', Laden, Virtual, us,
-          'virtual time').
+          'virtual time'),
+    forall(walk(Name, Agents, Options),
+           ( walked(Agents, Options, Hops, Micros),
+             told(Name, Micros) )).
+
+walk('walks on 30 hosts per second of processor', 1, []).
+walk('the same, of thirty agents', 30, []).
+walk('the same, each with a delay', 30, [hop_time(uniform(0.1, 0.2))]).
 
 told(Name, Micros) :-
     Rate is 1.0e6/Micros,
@@ -45,6 +53,29 @@ cost(Kind, Carried, Hops, Micros) :-
 options(real, []).
 options(virtual, [clock(virtual)]).
 options(virtual(Time), [clock(virtual), hop_time(Time)]).
+
+%   walked(+Agents, +Options, +Hops, -Micros): of one hop of all.
+
+walked(Agents, Options, Hops, Micros) :-
+    Each is Hops//Agents,
+    setup_call_cleanup(
+        network_start(grid(5, 6), Network, [clock(virtual),seed(1)|Options]),
+        ( network_property(Network, hosts([Home|_])),
+          statistics(process_cputime, T0),
+          findall(Agent, ( between(1, Agents, _), walker(Each, Home, Agent) ),
+                  All),
+          forall(member(Agent, All), agent_join(Agent, done, inf)),
+          statistics(process_cputime, T1) ),
+        network_stop(Network)),
+    Micros is 1.0e6*(T1-T0)/(Each*Agents).
+
+walker(Hops, Home, Agent) :-
+    agent_create(clauses([ (:- agent(walker, [state([left/1])])),
+                           (main :- left(0), !),
+                           (main :- neighbours(Hosts), random_member(H, Hosts),
+                                    move(H), retract(left(N)), N1 is N-1,
+                                    assertz(left(N1)), main) ]),
+                 Agent, [host(Home), facts([left(Hops)])]).
 
 travelled([Home|_], Carried, Hops, Seconds) :-
     findall(carried(N), between(1, Carried, N), Load),

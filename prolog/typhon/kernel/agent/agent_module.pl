@@ -7,7 +7,8 @@
             agent_add/2,                % +Clauses, +Module
             agent_state/2,              % +Module, -State
             agent_changed/4,            % +Module, +Since, -Clauses, -Until
-            agent_elsewhere/3,          % +Module, +Place0, +Place
+            agent_links/4,              % +Module, +Place0, +Place, -Links
+            agent_relink/2,             % +Module, +Links
             agent_handles/2,            % +Program, +Module
             attach_clauses/3,           % +Module, +Hash, +Payload
             detach_clauses/2,           % +Module, +PIs
@@ -223,40 +224,41 @@ split([Item|Items], Empty, Clauses) :-
 %   since the state was Until before; begin with 0.
 
 agent_changed(Module, Since, Changed, Until) :-
-    findall(Last-(Head:-Body),
-            ( changed(Module, Since, Head, Last),
-              clause(Module:Head, Body) ),
-            Changed),
+    findall(Clause, changed(Module, Since, Clause), Changed),
     latest(Changed, Since, Until).
 
 %   The number first: few have changed.
 
-changed(Module, Since, Head, Last) :-
+changed(Module, Since, Last-(Head:-Body)) :-
     '$c_current_predicate'(_, Module:Head),
     '$get_predicate_attribute'(Module:Head, last_modified_generation, Last),
     Last > Since,
     '$get_predicate_attribute'(Module:Head, (dynamic), 1),
-    \+ '$get_predicate_attribute'(Module:Head, imported, _).
+    \+ '$get_predicate_attribute'(Module:Head, imported, _),
+    clause(Module:Head, Body).
 
 latest([], Until, Until).
 latest([Last-_|Changed], Until0, Until) :-
     Until1 is max(Last, Until0),
     latest(Changed, Until1, Until).
 
-%!  agent_elsewhere(+Module, +Place0, +Place) is semidet.
+%!  agent_links(+Module, +Place0, +Place, -Links) is semidet.
+%!  agent_relink(+Module, +Links) is det.
 %
-%   What an agent does not have it finds in Place, and no longer in Place0.
-%   Fails if Module has more than its state, which is to travel, and links to
-%   what is the same everywhere: its program and the vocabulary.
+%   With these Links what an agent does not have it finds in Place, and no longer
+%   in Place0.  Fails if Module has more than its state, which is to travel, and
+%   links to what is the same everywhere: its program and the vocabulary.
 
-agent_elsewhere(Module, Place0, Place) :-
+agent_links(Module, Place0, Place, Above0-Above) :-
     (   typhon_agent_module:variant(_, _)
     ->  stands_below(Place0, Place, Module, Above0, Above)
     ;   Above0 = Place0,
         Above = Place
     ),
     \+ ( '$c_current_predicate'(_, Module:Head),
-         bound_here(Module, Above0, Head) ),
+         bound_here(Module, Above0, Head) ).
+
+agent_relink(Module, Above0-Above) :-
     delete_import_module(Module, Above0),
     add_import_module(Module, Above, end).
 

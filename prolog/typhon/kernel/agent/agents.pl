@@ -3,6 +3,7 @@
             agent_here/5,               % ?Id, ?Host, ?Module, ?Hash, ?Life
             agent_on/2,                 % +Id, -Host
             agent_status/3,             % ?Id, ?Status, ?Goals
+            agent_runs/1,               % +Id
             agent_enter/3,              % +Agent, +Status, +Goals
             agent_remove/3,             % +Id, -Mail, -Orders
             agent_mobile/6,             % +Id, -Host, -Module, -Hash, -Life,
@@ -191,6 +192,9 @@ agent_move(Id, Host, Module, Life, Until) :-
                 *******************************/
 
 %!  agent_status(?Id, ?Status, ?Goals) is nondet.
+%!  agent_runs(+Id) is semidet.
+%
+%   Those that are under way have a record then; the status is `running`.
 
 agent_status(Id, Status, Goals) :-
     (   nonvar(Id)
@@ -204,6 +208,11 @@ status_now(Id, Status, Goals) :-
 status_now(Id, running, []) :-
     stands(Id, _, _, _, _, _),
     \+ status(Id, _, _).
+
+agent_runs(Id) :-
+    stands(Id, _, _, _, _, _),
+    \+ status(Id, _, _),
+    !.
 
 %!  agent_put(+Id, +Status, +Goals) is det.
 %!  agent_note(+Id, +Status, +Goals) is det.

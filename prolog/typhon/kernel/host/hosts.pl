@@ -13,9 +13,10 @@
             host_load/2,                % +Name, -Load
             host_hop/3,                 % +Name, +Direction, +Seconds
             host_plain/2,               % ?Name, -Plain
-            host_plain_time/2,          % +Plain, -Seconds
+            host_plain_leaves/2,        % +Plain, -Since
             host_came/2,                % +Plain, +Since
             host_left/2,                % +Name, +Since
+            host_passes/4,              % +From, +To, +Since, -Seconds
             host_passed/3,              % +Here, +There, +Seconds
             host_hop_stats/3            % +Name, ?Direction, -Stats
           ]).
@@ -25,7 +26,7 @@
 :- use_module('../base/durable_changes',
               [durable_drop/3, durable_on/0, durable_put/4]).
 :- use_module('../base/bounds', [memory_short/1]).
-:- use_module(time, [clock/3, host_time/2]).
+:- use_module(time, [clock/3, host_time/2, time_now/1]).
 :- use_module(links, [host_linked/1, host_unlink/2]).
 :- use_module(host_parts, [parts/3, parts_compile/1, parts_forget/1]).
 
@@ -79,28 +80,29 @@ open_door(Name) :-
     assertz(door(Name, Tokens, Capacity, Key)).
 
 %!  host_plain(?Name, -Plain) is nondet.
-%!  host_plain_time(+Plain, -Seconds:float) is det.
+%!  host_plain_leaves(+Plain, -Since:float) is semidet.
 %
 %   Nothing comes between what happens on Name and the kernel: the host is open,
-%   has no parts, asks for no token and does not delay hops.  Plain is what a
-%   hop has to know of it, one fact; and the time of its clock.
+%   has no parts and asks for no token.  Plain is what a hop has to know of it,
+%   one fact.  A hop from there to another process begins now, at Since; fails if
+%   hops are delayed.
 
 note_plain(Name) :-
     (   \+ parts(_, Name, _),
-        \+ option(Name, hop_time(_)),
         door(Name, [], Capacity, Load),
         host(Name, Address, Place),
+        asked(Name, hop_time(Delay), none),
         clock(Name, Epoch, Rate),
         hop_keys(Name, in, In),
         hop_keys(Name, out, Out)
-    ->  assertz(host_plain(Name, plain(Address, Place, Epoch, Rate, Capacity,
-                                       Load, In, Out)))
+    ->  assertz(host_plain(Name, plain(Address, Place, Delay, Epoch, Rate,
+                                       Capacity, Load, In, Out)))
     ;   true
     ).
 
-host_plain_time(plain(_, _, Epoch, Rate, _, _, _, _), Seconds) :-
+host_plain_leaves(plain(_, _, none, Epoch, Rate, _, _, _, _), Since) :-
     get_time(Now),
-    Seconds is (Now-Epoch)*Rate.
+    Since is (Now-Epoch)*Rate.
 
 asked(Name, Option, Default) :-
     (   option(Name, Option)
@@ -259,7 +261,7 @@ count_load(Key, Change) :-
 %   An agent has come to a host that is Plain by a hop that began at Since, in
 %   host time; fails, and it has not, if there is no capacity.
 
-host_came(plain(_, _, Epoch, Rate, Capacity, Load, In, _), Since) :-
+host_came(plain(_, _, _, Epoch, Rate, Capacity, Load, In, _), Since) :-
     get_time(Now),
     Seconds is max(0.0, (Now-Epoch)*Rate-Since),
     with_mutex(typhon_host_flags, came(Load, Capacity, In, Seconds)).
@@ -293,11 +295,14 @@ host_load(Name, Load) :-
 
 %!  host_hop(+Name, +Direction, +Seconds) is det.
 %!  host_left(+Name, +Since) is det.
+%!  host_passes(+From, +To, +Since, -Seconds:float) is semidet.
 %!  host_passed(+Here, +There, +Seconds) is det.
 %
 %   A hop into (`in`) or out of (`out`) Name took Seconds of host time; an agent
-%   on Name has gone to another process by one that began at Since; an agent on
-%   Here is on There now, both hosts of this process.
+%   on Name has gone to another process by one that began at Since.  An agent has
+%   passed between plain hosts of this process, as of host_plain/2, by one that
+%   began at Since; fails, and it has not, if there is no capacity.  An agent on
+%   Here is on There now, where its place was taken before.
 
 host_hop(Name, Direction, Seconds) :-
     hop_keys(Name, Direction, Flags),
@@ -306,7 +311,7 @@ host_hop(Name, Direction, Seconds) :-
 host_hop(_, _, _).
 
 host_left(Name, Since) :-
-    host_plain(Name, plain(_, _, Epoch, Rate, _, Load, _, Out)),
+    host_plain(Name, plain(_, _, _, Epoch, Rate, _, Load, _, Out)),
     !,
     get_time(Now),
     Seconds is max(0.0, (Now-Epoch)*Rate-Since),
@@ -319,6 +324,20 @@ host_left(Name, Since) :-
     Seconds is max(0.0, Now-Since),
     with_mutex(typhon_host_flags, left(Load, Out, Seconds)).
 host_left(_, _).                        % stopped meanwhile
+
+host_passes(plain(_, _, _, Epoch, Rate, _, Load0, _, Out),
+            plain(_, _, _, _, _, Capacity, Load, In, _), Since, Seconds) :-
+    time_now(Now),
+    Seconds is max(0.0, (Now-Epoch)*Rate-Since),
+    with_mutex(typhon_host_flags,
+               passes(Load, Capacity, Load0, Out, In, Seconds)).
+
+passes(Load, Capacity, Load0, Out, In, Seconds) :-
+    get_flag(Load, Count),
+    Count < Capacity,
+    Count1 is Count+1,
+    set_flag(Load, Count1),
+    passed(Load0, Out, In, Seconds).
 
 host_passed(Here, There, Seconds) :-
     load_key(Here, Load),
@@ -348,11 +367,19 @@ left(Load, Out, Seconds) :-
     count_load(Load, -1),
     add_hop(Out, Seconds).
 
+%   In virtual time hops mostly take none.
+
 add_hop(flags(Count, Min, Sum, Max), Seconds) :-
     get_flag(Count, N0), N is N0+1, set_flag(Count, N),
-    get_flag(Sum, Sum0), Sum1 is Sum0+Seconds, set_flag(Sum, Sum1),
-    get_flag(Min, Min0), ( Seconds < Min0 -> set_flag(Min, Seconds) ; true ),
-    get_flag(Max, Max0), ( Seconds > Max0 -> set_flag(Max, Seconds) ; true ).
+    (   Seconds =:= 0.0,
+        get_flag(Min, 0.0)
+    ->  true
+    ;   get_flag(Sum, Sum0), Sum1 is Sum0+Seconds, set_flag(Sum, Sum1),
+        get_flag(Min, Min0),
+        ( Seconds < Min0 -> set_flag(Min, Seconds) ; true ),
+        get_flag(Max, Max0),
+        ( Seconds > Max0 -> set_flag(Max, Seconds) ; true )
+    ).
 
 direction(in).
 direction(out).

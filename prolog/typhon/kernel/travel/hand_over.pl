@@ -11,7 +11,7 @@
                 endpoint_handed/2 ]).
 :- use_module('../host',
               [ event_heard/1, host/3, host_came/2, host_left/2,
-                host_plain/2, host_plain_time/2, real_time/3,
+                host_plain/2, host_plain_leaves/2, real_time/3,
                 schedule_here/3, scheduler_call/1 ]).
 :- use_module('../agent',
               [ agent_comes/5, agent_gone/3, agent_handed/4, agent_here/5,
@@ -59,6 +59,7 @@ nothing has changed: then the agent comes in like any other, see typhon_arrival.
 
 hand_over(Id, Host, remote(Address, Name, Endpoint), Hole, Goals) :-
     host_plain(Host, Plain),
+    host_plain_leaves(Plain, Since),
     \+ durable_on,
     \+ event_heard(hops),
     agent_here(Id, Host, Module, Hash, Life0),
@@ -66,7 +67,6 @@ hand_over(Id, Host, remote(Address, Name, Endpoint), Hole, Goals) :-
     life_goes(Life0, Life, Hops),
     agent_state(Module, State),
     mail(Id, Mail),
-    host_plain_time(Plain, Since),
     (   framed(Endpoint, Name, Hash,
                image(Id, Hash, Life, State, Hole-Goals, Mail, Since), Frame),
         Transfer = hop(Id, dest(Address, Name, Endpoint), Hops),

@@ -7,11 +7,13 @@
 :- use_module('../wire', [endpoint_address/1, mobile_term/1]).
 :- use_module('../host',
               [ address_parts/3, event/4, event_heard/1, host/3, host_passed/3,
-                host_time/2, schedule/2, schedule_stays/2 ]).
+                host_passes/4, host_plain/2, host_time/2, schedule/2,
+                schedule_stays/2 ]).
 :- use_module('../agent',
-              [ agent/5, agent_changed/4, agent_elsewhere/3, agent_mobile/6,
-                agent_move/5, agent_put/3, agent_standing/5, agent_state/2,
-                agent_status/3, gate/4, life_hop/3, with_agent/2 ]).
+              [ agent/5, agent_changed/4, agent_links/4, agent_mobile/6,
+                agent_move/5, agent_put/3, agent_relink/2, agent_runs/1,
+                agent_standing/5, agent_state/2, agent_status/3, gate/4,
+                life_hop/3, with_agent/2 ]).
 :- use_module(transfer, [move_over/2]).
 :- use_module(whereabouts, [agent_seen/4]).
 
@@ -41,12 +43,38 @@ hop_within(Id, Name, Hole, Goals, Since, Next) :-
     life_hop(Life0, Life, Hops),
     agent_changed(Module, Until0, Changed, Until),
     mobile_term(Changed-Life-Goals),    % of the state only what has changed
-    gate(Name, going-entrant(Id, Hash, Life, module(Module), []),
-         moved(Id, Here-Name, going(Module, Hash, Life, Until, Since),
-               Hole-Goals, Hops, Next),
-         Verdict),
-    went(Verdict, Id, Here-Name, Hops, Next).
+    Going = going(Module, Hash, Life, Until, Since),
+    (   sig_atomic(passed(Id, Here-Name, Going, Hole-Goals, Hops, Next0))
+    ->  Next = Next0
+    ;   gate(Name, going-entrant(Id, Hash, Life, module(Module), []),
+             moved(Id, Here-Name, Going, Hole-Goals, Hops, Next),
+             Verdict),
+        went(Verdict, Id, Here-Name, Hops, Next)
+    ).
 hop_within(_, _, _, _, _, stop).        % it was ended
+
+%   passed(+Id, +Hosts, +Going, +Held, +Hops, -Next) is semidet: between plain
+%   hosts, where there is capacity.  All else fails, and nothing has changed.
+
+passed(Id, Hosts, Going, Held, Hops, Next) :-
+    with_agent(Id, pass(Id, Hosts, Going, Held, Next, Seconds)),
+    told(Id, Hosts, Hops, Seconds, Next).
+
+pass(Id, Here-Name, going(Module, _, Life, Until, Since), Hole-Goals, Next,
+     Seconds) :-
+    host_plain(Here, From),
+    host_plain(Name, To),
+    agent_runs(Id),
+    arg(2, From, Place0),
+    arg(2, To, Place),
+    agent_links(Module, Place0, Place, Links),
+    host_passes(From, To, Since, Seconds),
+    !,
+    agent_relink(Module, Links),
+    ignore(Hole = true),
+    agent_move(Id, Name, Module, Life, Until),
+    next(running, Here-Name, Goals, Next),
+    goes_on(Next, Id, Goals).
 
 went(ok, _, _, _, _).
 went(ended, _, _, _, stop).
@@ -79,18 +107,16 @@ move(Id, Here-Name, going(Module0, Hash, Life, Until, Since), Hole-Goals0,
     agent_status(Id, Status, _),
     next(Status, Here-Name, Goals, Next),
     (   host(Here, _, Place0),
-        agent_elsewhere(Module0, Place0, Place)
+        agent_links(Module0, Place0, Place, Links)
     ->  Module = Module0,
-        Goals = Goals0
+        Goals = Goals0,
+        agent_relink(Module, Links)
     ;   agent_state(Module0, State),
         agent_standing(Id, Place, Hash, State-Goals0, Module-Goals)
     ),
     ignore(Hole = true),
     agent_move(Id, Name, Module, Life, Until),
-    (   Next == stop
-    ->  agent_put(Id, ready, Goals)
-    ;   true
-    ),
+    goes_on(Next, Id, Goals),
     seconds(Here, Name, Since, Seconds),
     host_passed(Here, Name, Seconds).
 
@@ -100,6 +126,10 @@ next(running, Here-Name, Goals, Next) :-
     ;   Next = stop
     ).
 next(obeying, _, _, stop).
+
+goes_on(elsewhere(_), _, _).
+goes_on(stop, Id, Goals) :-
+    agent_put(Id, ready, Goals).
 
 %   One of them may have been stopped meanwhile.
 
