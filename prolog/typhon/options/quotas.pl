@@ -18,7 +18,7 @@ stands on the host:
     second
 
 and owner(What(Most)) of all agents here that have one owner, see
-typhon_owner, together, and host(What(Most)) of all that are here.  There are
+typhon_birth, together, and host(What(Most)) of all that are here.  There are
 also owner(agents(N)), how many may be here, and host(tuples(N)), the facts in
 the tuple space.  The largest user ends first: of what the host has together,
 the agents of the owner that uses most of it.
@@ -30,4 +30,4 @@ This is the interface of the layer.
 
 :- use_module(quotas/quota_hosts, []).
 :- use_module(quotas/usage, []).
-:- use_module(quotas/mailbox_quota, []).
+:- use_module(quotas/quota_agents, []).

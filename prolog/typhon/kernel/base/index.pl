@@ -97,7 +97,6 @@ part_file('options/cell','options/cell/gatekeeper').
 part_file('options/guard','options/guard/sandbox').
 part_file('options/identity','options/identity/authors').
 part_file('options/identity','options/identity/birth').
-part_file('options/identity','options/identity/owner').
 part_file('options/identity','options/identity/speakers').
 part_file('options/journal','options/journal/channel').
 part_file('options/journal','options/journal/committing').
@@ -107,7 +106,6 @@ part_file('options/journal','options/journal/postgresql').
 part_file('options/journal','options/journal/recovery').
 part_file('options/journal','options/journal/sqlite').
 part_file('options/journal','options/journal/store').
-part_file('options/quotas','options/quotas/mailbox_quota').
 part_file('options/quotas','options/quotas/quota_agents').
 part_file('options/quotas','options/quotas/quota_enforcer').
 part_file('options/quotas','options/quotas/quota_hosts').

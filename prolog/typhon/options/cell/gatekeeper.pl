@@ -24,7 +24,7 @@
 /** <module> Hosts whose agents run in cells
 
 With the option cell(Kind) each run of the machine for an agent of the host is a
-turn in a cell: `owner`, in one of the owner of the agent, see typhon_owner, or
+turn in a cell: `owner`, in one of the owner of the agent, see typhon_birth, or
 `host`, in one of all agents of the host.  The record of the agent, its mail,
 home, and state stay here, so the rest of the platform does not know of cells.
 What the agent asks of its host in a turn is a request, which is carried out as

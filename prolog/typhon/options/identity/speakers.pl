@@ -29,8 +29,8 @@ from here.
 :- use_module('../../kernel/agent',
               [agent/5, agent_home/2, agent_home_endpoint/2]).
 :- use_module('../../kernel/travel', [senders_check/1]).
-:- use_module(birth, [birth_good/1, birth_shown/2]).
-:- use_module(owner, [agent_owned/1, agent_owned/2]).
+:- use_module(birth,
+              [agent_owned/1, agent_owned/2, birth_good/1, birth_shown/2]).
 
 :- multifile
     typhon_keys:begin/0,
