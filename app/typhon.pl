@@ -174,11 +174,19 @@ check_count(Command, _, _) :-
     throw(error(typhon_usage(arguments(Command)), _)).
 
 overview :-
-    format('Usage: swipl app/typhon.pl COMMAND ... [options]~n~n'),
+    called_as(Program),
+    format('Usage: ~w COMMAND ... [options]~n~n', [Program]),
     forall(command(Command, Arguments, _, Help),
            overview_line(Command, Arguments, Help)),
     format('~nCOMMAND --help tells the options of a command. Exit status: \c
             0, it was done;~n1, it was not, or the answer is no.~n').
+
+%   SWI-Prolog 9.1.18 and later run what is in the folder app of a pack by name.
+
+called_as('swipl typhon') :-
+    current_prolog_flag(os_argv, [_,typhon|_]),
+    !.
+called_as('swipl app/typhon.pl').
 
 %   Where the arguments leave no space for it, the help is on the next line.
 

@@ -139,6 +139,7 @@ compiled(Home) :-
 
 test(command_line, [condition(has_apps), Status == exit(0)]) :-
     with_tmp_dir(command_line(Status, Out)),
+    assertion(sub_string(Out, 0, _, _, "Usage: swipl typhon COMMAND")),
     sub_string(Out, _, _, _, "diagnose"),
     !.
 
