@@ -9,7 +9,8 @@
 :- use_module('../../kernel/base/durable', [durable/5, durable_assertz/1]).
 :- use_module('../../kernel/base/durable_changes',
               [durable_drop/3, unit_of_work/1]).
-:- use_module('../../kernel/base/error_text', [print_error/2]).
+:- use_module('../../kernel/base/error_text',
+              [is_abort/1, print_error/2]).
 :- use_module('../../kernel/wire',
               [ endpoint_address/1, endpoint_gone/1, endpoint_reply/2,
                 endpoint_request/4 ]).
@@ -345,9 +346,6 @@ called(N, Agent, Outcome) :-
 called_back(Goal, Agent, Outcome) :-
     catch(ignore(call(Goal, Agent, Outcome)), Ball,
           ( is_abort(Ball) -> throw(Ball) ; print_error(warning, Ball) )).
-
-is_abort('$aborted').
-is_abort(unwind(_)).
 
 %   A worker cannot stop the workers, which the last release does.
 
