@@ -60,6 +60,17 @@ program('fib(18) in a predicate that can stop', Clauses, 200) :-
       (fib(N, F) :- N < 2, !, F = N),
       (fib(N, F) :- A is N-1, B is N-2, fib(A, X), fib(B, Y), F is X+Y),
       (fib(stop(X), _) :- move(X)) ].
+program('nrev of 30 elements in predicates that can stop', Clauses, 40) :-
+    numlist(1, 30, List),
+    Clauses =
+    [ (:- agent(bench, [])),
+      (main :- nrev(List, _), move(b), main),
+      nrev([], []),
+      (nrev([X|Xs], Ys) :- nrev(Xs, Zs), app(Zs, [X], Ys)),
+      (nrev(stop(X), _) :- move(X)),
+      app([], Ys, Ys),
+      (app([X|Xs], Ys, [X|Zs]) :- app(Xs, Ys, Zs)),
+      (app(stop(X), _, _) :- move(X)) ].
 program('a stop and nothing else', Clauses, 1) :-
     Clauses = [(:- agent(bench, [])), (main :- move(a), move(b), main)].
 
