@@ -1,6 +1,7 @@
 :- agent(supervisor,
          [ state([ child/3, strategy/1, intensity/2, standby/1, primary/1,
-                   running/2, stood/2, pending/1, restarted/1, told/1 ]) ]).
+                   running/2, stood/2, pending/1, restarted/1, told/1,
+                   looked/1 ]) ]).
 :- use_module(library(typhon)).
 :- include(supervision/places).
 
@@ -70,6 +71,7 @@ handle(down(Agent, Outcome), system) :-
     ended(Name, Outcome).
 handle(again, _) :-
     tell_where,
+    look_again,
     (   running(standby, _)
     ->  true
     ;   stand_by
@@ -78,7 +80,7 @@ handle(again, _) :-
     start_all(Names).
 handle(children, From) :-
     findall(Name-Agent, ( running(Name, Agent), Name \== standby ), Pairs),
-    send(From, children(Pairs)).
+    tell(From, children(Pairs)).
 handle(restart(Name), _) :-
     again(Name).
 
@@ -150,38 +152,40 @@ start_all([Name|Names]) :-
     start_all(Names).
 
 start(Name) :-
-    child(Name, Program, Options),
-    option(where(Where), Options, same),
-    places(Where, Name, Options, Places),
-    (   begun(Places, Program, Name, Options, Agent, Host)
-    ->  retractall(pending(Name)),
-        retractall(stood(Name, _)),
-        assertz(stood(Name, Host)),
-        assertz(running(Name, Agent)),
-        monitor(Agent, [shared(agent)]),
-        tell_standby(started(Name, Agent))
-    ;   pending(Name)
-    ->  true
-    ;   assertz(pending(Name))
-    ).
-
-begun([Host|Hosts], Program, Name, Options0, Agent, At) :-
+    child(Name, Program, Options0),
+    option(where(Where), Options0, same),
+    places(Where, Name, Options0, Places),
     exclude(of_supervisor, Options0, Options),
-    (   catch(create(Program, Agent, [host(Host),name(Name)|Options]),
-              error(Problem, _), not_begun(Name, Host, Problem))
-    ->  At = Host
-    ;   begun(Hosts, Program, Name, Options0, Agent, At)
+    begun(Places, Program, [name(Name)|Options], no(place), Begun),
+    started(Begun, Name).
+
+%   begun(+Places, +Program, +Options, +Begun0, -Begun): Begun is on(Host, Agent),
+%   or no(Problem) of the last place.
+
+begun([], _, _, Begun, Begun).
+begun([Host|Hosts], Program, Options, _, Begun) :-
+    catch(( create(Program, Agent, [host(Host)|Options]),
+            Begun0 = on(Host, Agent) ),
+          error(Problem, _),
+          Begun0 = no(Problem)),
+    (   Begun0 = on(_, _)
+    ->  Begun = Begun0
+    ;   begun(Hosts, Program, Options, Begun0, Begun)
     ).
 
-%   Said once, as long as the child is tried again.
-
-not_begun(Name, _, _) :-
+started(on(Host, Agent), Name) :-
+    retractall(pending(Name)),
+    retractall(stood(Name, _)),
+    assertz(stood(Name, Host)),
+    assertz(running(Name, Agent)),
+    monitor(Agent, [shared(agent)]),
+    tell_standby(started(Name, Agent)).
+started(no(_), Name) :-
     pending(Name),
-    !,
-    fail.
-not_begun(Name, Host, Problem) :-
-    log(not_started(Name, Host, Problem)),
-    fail.
+    !.
+started(no(Problem), Name) :-
+    log(not_started(Name, Problem)),
+    assertz(pending(Name)).
 
 of_supervisor(host(_)).
 of_supervisor(name(_)).
@@ -263,6 +267,7 @@ watched(started(Name, Agent), Primary, Primary) :-
     watch(Primary).
 watched(_, _, Primary) :-
     tell_where,
+    look_again,
     watch(Primary).
 
 %   The process of each knows that of the other, to which that may have hopped:
@@ -274,12 +279,35 @@ tell_where :-
     ->  true
     ;   retractall(told(_)),
         assertz(told(Here)),
-        forall(primary(Primary), send(Primary, at(Here))),
+        forall(primary(Primary), tell(Primary, at(Here))),
         tell_standby(at(Here))
+    ).
+
+%   A message that says that an agent is down is lost with the process to which
+%   this one tried to hop.  To monitor an agent again changes nothing, or brings
+%   the message again.
+
+look_again :-
+    standby(_),
+    now(Now),
+    \+ ( looked(Before), Now-Before < 5 ),
+    !,
+    retractall(looked(_)),
+    assertz(looked(Now)),
+    forall(looked_after(Agent), catch(monitor(Agent), error(_, _), true)).
+look_again.
+
+looked_after(Agent) :-
+    (   primary(_)
+    ->  primary(Agent)
+    ;   running(_, Agent)
     ).
 
 tell_standby(Message) :-
     (   running(standby, Standby)
-    ->  send(Standby, Message)
+    ->  tell(Standby, Message)
     ;   true
     ).
+
+tell(Agent, Message) :-
+    catch(send(Agent, Message), error(_, _), true).

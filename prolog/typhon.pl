@@ -63,6 +63,7 @@ a folder, with an interface of the same name beside it:
 :- use_module(typhon/options/tls, []).
 :- use_module(typhon/options/identity, []).
 :- reexport(typhon/options/supervision, [agent_monitor/2]).
+:- use_module(typhon/options/directory, []).
 
 :- user_errors(typhon).
 

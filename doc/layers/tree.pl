@@ -288,6 +288,7 @@ layers([ 'kernel/base', 'bridges/helper', 'bridges/nxt', 'kernel/program',
          network,
          'options/watch',
          'options/supervision',
+         'options/directory',
          tools,
          'bridges/common', 'bridges/python', 'bridges/mqtt', 'bridges/fipa',
          'bridges/ros', 'tools/page' ]).

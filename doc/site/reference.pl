@@ -58,6 +58,7 @@ task(agents, "Report results and events",
      [ typhon_words:[result/1, log/1, enter/1], typhon_seals ]).
 task(agents, "Carry and deliver payloads",
      [ typhon_words:[attach/1, detach/1, deliver/1, undeliver/1] ]).
+task(agents, "Offer and find services", [typhon_directory_words]).
 task(agents, "Call agents by pheromones",
      [ typhon_pheromone ]).
 task(library, "Start, change and stop hosts",

@@ -132,7 +132,7 @@ test(tried_again_when_there_is_a_place) :-
               agent_create(agents(supervisor), S,
                            [facts([child(a, W, [where(on(beta))])])]),
               wait_until(was_told(informational,
-                                  typhon(log(_, _, not_started(a, _, _)))),
+                                  typhon(log(_, _, not_started(a, _)))),
                          10),
               \+ children(S, [a-[]], _),
               setup_call_cleanup(

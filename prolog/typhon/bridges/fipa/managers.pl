@@ -3,11 +3,15 @@
             manager_end/1               % +Host
           ]).
 :- use_module(library(error), [resource_error/1]).
+:- use_module(library(apply), [maplist/3]).
 :- use_module(library(lists), [append/2, member/2]).
+:- use_module(library(pairs), [group_pairs_by_key/2]).
 :- use_module(library(settings), [setting/2, setting/4]).
 :- use_module(library(solution_sequences), [limit/2]).
+:- use_module('../../kernel/host', [host/3]).
 :- use_module('../../kernel/agent', [agent/5]).
 :- use_module('../../kernel/travel', [home_agents/1]).
+:- use_module('../../options/directory', [host_offers/2]).
 :- use_module(acl, [acl_parameter/2]).
 :- use_module(platform, [platform/4, platform_aid/3, platform_local/3]).
 :- use_module(sexp, [aid/1, aid_name/2]).
@@ -20,7 +24,8 @@ process, and those born here, without registration; others may register with
 it as well.
 
 In a directory, any ground term, each name has one description, which may be
-there only until some time.
+there only until some time.  The DF also describes the agents of this process
+that offer services, see typhon_directory, and did not register themselves.
 
 *Threading*: any thread; a mutex serializes changes of directories.
 */
@@ -229,6 +234,42 @@ description(ams, Host, Description) :-
     aid_name(Aid, Name),
     \+ directory_has(ams(Host), Name),
     Description = 'ams-agent-description'(name:Aid, state:active).
+description(df, Host, 'df-agent-description'(name:Aid, services:set(Services))) :-
+    findall(Agent-Offer,
+            ( host(There, _, _),
+              host_offers(There, Offers),
+              member(Agent-Offer, Offers) ),
+            Pairs0),
+    keysort(Pairs0, Pairs),
+    group_pairs_by_key(Pairs, Groups),
+    member(Agent-Own, Groups),
+    platform_aid(Host, Agent, Aid),
+    aid_name(Aid, Name),
+    \+ directory_has(df(Host), Name),
+    maplist(service_description, Own, Services).
+
+%   The type of a service is the name of its term.
+
+service_description(offer(Service, Properties),
+                    'service-description'(name:Text, type:Type,
+                                          properties:set(Set))) :-
+    format(string(Text), '~q', [Service]),
+    functor(Service, Type, _),
+    maplist(property, Properties, Set).
+
+property(Property, property(name:Name, value:Value)) :-
+    compound(Property),
+    Property =.. [Name,Value0],
+    !,
+    text(Value0, Value).
+property(Property, property(name:Name, value:true)) :-
+    text(Property, Name).
+
+text(Term, Text) :-
+    (   atomic(Term)
+    ->  Text = Term
+    ;   format(string(Text), '~q', [Term])
+    ).
 
                 /*******************************
                 *         DIRECTORIES          *

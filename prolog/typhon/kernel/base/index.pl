@@ -22,6 +22,7 @@ part_joins(check_option,policy,'options/guard').
 part_joins(durable,agent,'options/journal').
 part_joins(durable,birth,'options/identity').
 part_joins(durable,monitor,'options/supervision').
+part_joins(durable,offer,'options/directory').
 part_joins(durable,order,'options/snapshot').
 part_joins(durable,out,'options/journal').
 part_joins(durable,program,'options/snapshot').
@@ -60,6 +61,7 @@ part_joins(question,trail,'options/trail').
 part_joins(received,channel,'options/journal').
 part_joins(received,log,network).
 part_joins(requested,close_up,tools).
+part_joins(requested,directory,'options/directory').
 part_joins(requested,everywhere,'options/watch').
 part_joins(requested,hosting,'tools/administration').
 part_joins(requested,log,network).
@@ -94,6 +96,8 @@ part_file(network,'network/topology').
 part_file(network,'network/wiring').
 part_file('options/access','options/access/access_rules').
 part_file('options/cell','options/cell/gatekeeper').
+part_file('options/directory','options/directory/offers').
+part_file('options/directory','options/directory/search').
 part_file('options/guard','options/guard/sandbox').
 part_file('options/identity','options/identity/authors').
 part_file('options/identity','options/identity/birth').
@@ -175,6 +179,7 @@ part_setting(most,typhon_ros_advertisements,positive_integer,1000,'Topics and se
 part_setting(most,typhon_ros_open_requests,positive_integer,1000,'Now typhon_ros_requests:most','bridges/ros/requests').
 part_setting(most,typhon_ros_requests,positive_integer,1000,'Requests of ROS that may wait for the answers of agents','bridges/ros/requests').
 part_setting(most,typhon_ros_standing,positive_integer,1000,'Now typhon_ros_advertisements:most','bridges/ros/advertisements').
+part_setting(offers,typhon_offers,positive_integer,100,'Offers of an agent','options/directory/offers').
 part_setting(order_seconds,typhon_processes,number,60,'A process has so long to answer an order','network/nodes').
 part_setting(patience,typhon_telling,number,30,'A process that watches and is cut off has so long to answer','options/watch/event_sender').
 part_setting(patience,typhon_virtual,number,10,'Virtual time that stands still for so long is reported','options/virtual/virtual').

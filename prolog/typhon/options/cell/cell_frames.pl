@@ -138,6 +138,9 @@ cell_word(acts, create/3).
 cell_word(acts, monitor/1).
 cell_word(acts, monitor/2).
 cell_word(acts, unmonitor/1).
+cell_word(acts, offer/2).
+cell_word(acts, unoffer/1).
+cell_word(acts, find/3).
 cell_word(acts, enter/1).
 cell_word(acts, seal/3).
 cell_word(acts, unseal/2).

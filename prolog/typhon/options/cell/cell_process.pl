@@ -100,6 +100,7 @@ program('set_prolog_flag(gc_thread,false),\c
          use_module(\'/typhon/typhon/options/migration\',[]),\c
          use_module(\'/typhon/typhon/options/identity\',[]),\c
          use_module(\'/typhon/typhon/options/supervision\',[]),\c
+         use_module(\'/typhon/typhon/options/directory\',[]),\c
          typhon_cell_inside:cell_main').
 
 %   This process may be a saved state.

@@ -275,6 +275,25 @@ test(df) :-
           asked('df@a', modify(Singer), Never2),
           assertion(Never2 = failure-[_, 'not-registered']) )).
 
+test(df_lists_what_agents_offer) :-
+    with_platform([], Url,
+        ( agent_create(clauses([ (:- agent(shop, [])),
+                                 (main :- offer(shop(tea), [price(7)]),
+                                          receive(_-stop)) ]), Agent, []),
+          wait_until(agent_property(Agent, state(waiting)), 10),
+          property(alpha, name(Agent, Name)),
+          description(_, shop, Template0),
+          Template0 = 'df-agent-description'(_, Services),
+          asked('df@a', search('df-agent-description'(Services)),
+                inform-[result(_, [Found])]),
+          assertion(Found = 'df-agent-description'(
+                                name:fipa(Name, [Url]),
+                                services:set([_]))),
+          agent_dispose(Agent),
+          asked('df@a', search('df-agent-description'(Services)),
+                inform-[result(_, None)]),
+          assertion(None == []) )).
+
 test(ams) :-
     with_platform([], Url,
         ( echo(alpha, Agent),

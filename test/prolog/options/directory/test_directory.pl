@@ -1,0 +1,190 @@
+:- module(test_directory, []).
+:- use_module('../../../lib/common').
+:- use_module('../../../lib/fixtures').
+:- use_module('../../../lib/peers').
+:- use_module(library(plunit)).
+:- use_module(library(lists), [member/2]).
+:- use_module(library(pairs), [pairs_keys/2]).
+:- use_module(library(typhon)).
+:- use_module(library(typhon/options/directory), [host_offers/2]).
+
+/** <module> Services are offered and found
+
+*Threading*: one test at a time.
+*/
+
+%   offering(+Offers, +Host, -Agent): it has made the offers, Service-Properties,
+%   and calls the goals that it gets then.
+
+offering(Offers, Host, Agent) :-
+    Clauses = [ (main :- offers(Offers), assertz(r(1))),
+                (offers([])),
+                (offers([S-P|Os]) :- offer(S, P), offers(Os)),
+                (on_message(user, G) :- call(G), assertz(r(G))) ],
+    create(Clauses, Agent, [host(Host)]),
+    did(Agent, 1).
+
+did(Agent, What) :-
+    wait_until(( fact_of(Agent, r(Done)), Done == What ), 10).
+
+does(Agent, Goal) :-
+    agent_send(Agent, Goal),
+    did(Agent, Goal).
+
+%   found(+Host, ?Pattern, +Options, -Agents): what an agent there finds.
+
+found(Host, Pattern, Options, Found) :-
+    create([(main :- find(Pattern, Found0, Options), result(Found0))], A,
+           [host(Host)]),
+    agent_result(A, Found, 20).
+
+agents_found(Host, Pattern, Options, Agents) :-
+    found(Host, Pattern, Options, Found),
+    pairs_keys(Found, Agents).
+
+three(Goal) :-
+    with_hosts([alpha,beta,gamma],
+               ( link(alpha, beta), link(beta, gamma), call(Goal) )).
+
+:- begin_tests(directory).
+
+test(found_with_its_properties, Found == [A-offer(shop(7), [open], Address)]) :-
+    with_hosts([alpha],
+               ( offering([shop(7)-[open], bank-[]], alpha, A),
+                 address(alpha, Address),
+                 found(alpha, shop(_), [], Found) )).
+test(nearest_first_within_the_radius,
+     [forall(member(Radius-Names, [ 0-[], 1-[b], 2-[b,c], inf-[b,c] ])),
+      true(Found == Names)]) :-
+    three(( offering([shop-[]], beta, B),
+            offering([shop-[]], gamma, C),
+            agents_found(alpha, shop, [radius(Radius)], Agents),
+            findall(Name, ( member(A, Agents), member(A-Name, [B-b, C-c]) ),
+                    Found) )).
+
+test(farther_hosts_are_not_asked_when_enough_are_found, Agents == [A]) :-
+    three(( offering([shop-[]], alpha, A),
+            offering([shop-[]], beta, _),
+            agents_found(alpha, shop, [radius(inf),most(1)], Agents) )).
+test(by_properties, Agents == [B]) :-
+    with_hosts([alpha],
+               ( offering([shop-[colour(red),open]], alpha, _),
+                 offering([shop-[colour(blue),open]], alpha, B),
+                 agents_found(alpha, shop, [properties([colour(blue)])],
+                              Agents) )).
+test(offered_again_replaces, Found = [A-offer(shop, [closed], _)]) :-
+    with_hosts([alpha],
+               ( offering([shop-[open], shop-[closed]], alpha, A),
+                 found(alpha, shop, [], Found) )).
+test(taken_back, Agents == []) :-
+    with_hosts([alpha],
+               ( offering([shop-[]], alpha, A),
+                 does(A, unoffer(shop)),
+                 agents_found(alpha, shop, [], Agents) )).
+test(lapses_when_the_agent_leaves_also_if_it_returns, Agents == []) :-
+    with_hosts([alpha,beta],
+               ( offering([shop-[]], alpha, A),
+                 address(alpha, Alpha),
+                 address(beta, Beta),
+                 agent_move(A, Beta, [wait(5)]),
+                 agent_move(A, Alpha, [wait(5)]),
+                 agents_found(alpha, shop, [], Agents) )).
+test(lapses_when_the_agent_ends, Agents == []) :-
+    with_hosts([alpha],
+               ( offering([shop-[]], alpha, A),
+                 agent_dispose(A),
+                 joined(A, disposed),
+                 agents_found(alpha, shop, [], Agents) )).
+test(lapses_when_the_agent_is_faulty, Agents == []) :-
+    with_hosts([alpha],
+               ( create([(main :- offer(shop, []), throw(oops))], A),
+                 listening(joined(A, raised(oops)), _),
+                 agents_found(alpha, shop, [], Agents) )).
+test(too_many, E == resource_error(offers)) :-
+    with_hosts([alpha],
+               ( create([ (main :- catch(offers(101), error(E0, _), true),
+                                   result(E0)),
+                          (offers(0) :- !),
+                          (offers(N) :- offer(s(N), []), M is N-1, offers(M)) ],
+                        A, []),
+                 agent_result(A, E, 10) )).
+test(must_be_ground, E == instantiation_error) :-
+    with_hosts([alpha],
+               ( create([(main :- catch(offer(s(_), []), error(E0, _), true),
+                                  result(E0))], A, []),
+                 agent_result(A, E, 10) )).
+test(unknown_option, E = domain_error(find_option, hot(1))) :-
+    with_hosts([alpha],
+               ( create([(main :- catch(find(s, _, [hot(1)]), error(E0, _), true),
+                                  result(E0))], A, []),
+                 agent_result(A, E, 10) )).
+test(on_a_guarded_host, Agents == [A]) :-
+    with_hosts([alpha-[policy(guarded)]],
+               ( offering([shop-[]], alpha, A),
+                 agents_found(alpha, shop, [], Agents) )).
+test(from_the_top_level, Found = [A-offer(shop, [], _)]) :-
+    with_hosts([alpha],
+               ( offering([shop-[]], alpha, A),
+                 remote(alpha, find(shop, Found, [])) )).
+test(of_a_host, Offers == [A-offer(shop, [open])]) :-
+    with_hosts([alpha],
+               ( offering([shop-[open]], alpha, A),
+                 host_offers(alpha, Offers) )).
+test(lapsed_offers_do_not_pile_up, true(Count < 300)) :-
+    with_hosts([alpha],
+               ( forall(between(1, 600, _),
+                        ( create([(main :- offer(shop, []))], A, []),
+                          joined(A, done) )),
+                 predicate_property(typhon_offers:offer(_, _, _, _, _, _),
+                                    number_of_clauses(Count)) )).
+
+:- end_tests(directory).
+
+:- begin_tests(directory_of_processes).
+
+test(over_links_of_processes, Agents == [A,B]) :-
+    no_leaks(with_peers([p1, p2],
+        setup_call_cleanup(
+            host_start(alpha),
+            ( peer_host(p1, H1), peer_host(p2, H2),
+              link(alpha, H1),
+              peer_do(p1, link(p1, H2)),
+              offering([shop-[]], H1, A),
+              offering([shop-[]], H2, B),
+              agents_found(alpha, shop, [radius(inf)], Agents) ),
+            host_stop(alpha)))).
+test(a_process_that_is_gone_is_left_out, Agents == [A]) :-
+    no_leaks(with_peers([p1],
+        setup_call_cleanup(
+            host_start(alpha),
+            ( peer_host(p1, H1),
+              link(alpha, H1),
+              offering([shop-[]], alpha, A),
+              offering([shop-[]], H1, _),
+              peer_kill(p1),
+              agents_found(alpha, shop, [radius(inf)], Agents) ),
+            host_stop(alpha)))).
+
+:- end_tests(directory_of_processes).
+
+:- begin_tests(directory_in_the_journal, [condition(missing([journal], []))]).
+
+test(offers_are_there_again) :-
+    no_leaks(with_tmp_dir(restarted)).
+
+restarted(Dir) :-
+    atomic_list_concat([Dir, /, p1], J),
+    with_peers([p1-[host([journal(J)])]],
+               setup_call_cleanup(host_start(alpha), found_again,
+                                  host_stop(alpha))).
+
+found_again :-
+    peer_host(p1, H1),
+    offering([shop-[open]], H1, A),
+    link(alpha, H1),
+    peer_kill(p1),
+    peer_restart(p1),
+    wait_until(agent_property(A, state(resident)), 20),
+    found(alpha, shop, [radius(1)], [A-offer(shop, [open], H1)]).
+
+:- end_tests(directory_in_the_journal).
