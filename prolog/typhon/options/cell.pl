@@ -6,4 +6,5 @@ The option cell(Kind) of hosts, see doc/security.md.  This is the interface of
 the layer.
 */
 
+:- use_module(cell/cell_hosts, []).
 :- use_module(cell/gatekeeper, []).

@@ -95,6 +95,7 @@ part_file(network,'network/plan').
 part_file(network,'network/topology').
 part_file(network,'network/wiring').
 part_file('options/access','options/access/access_rules').
+part_file('options/cell','options/cell/cell_hosts').
 part_file('options/cell','options/cell/gatekeeper').
 part_file('options/directory','options/directory/offers').
 part_file('options/directory','options/directory/search').

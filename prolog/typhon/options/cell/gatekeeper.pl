@@ -5,23 +5,22 @@
 :- use_module('../../kernel/program', [code_sent/2, fault_note/1]).
 :- use_module('../../kernel/wire', [endpoint_address/1, endpoint_own_proof/1]).
 :- use_module('../../kernel/host',
-              [ context_now/2, host/3, host_option/2, place_service/2,
-                security_event/4, time_kind/1 ]).
+              [context_now/2, host/3, place_service/2, security_event/4]).
 :- use_module('../../kernel/agent',
               [ agent/5, agent_home/2, agent_origin/5, agent_put/3,
-                agent_state/2, agent_variant/2, life_hops/2, life_parent/2, origin_key/2,
-                with_agent/2 ]).
+                agent_state/2, agent_variant/2, life_hops/2, life_parent/2,
+                origin_key/2, with_agent/2 ]).
 :- use_module('../../kernel/lifecycle', [turn_settled/0]).
 :- use_module(cell_acts,
               [cell_answer/5, cell_changes_made/3, cell_violation/1]).
 :- use_module(cell_frames).
-:- use_module(cell_process, [cell_needs/1]).
+:- use_module(cell_hosts, [walled/2]).
 :- use_module(cells,
               [ cell_break/1, cell_end/2, cell_forgets/2, cell_give/1,
                 cell_knows/3, cell_learns/3, cell_left/1, cell_streams/3,
-                cell_take/3, cell_wait/3, cells_begin/1, cells_end/1 ]).
+                cell_take/3, cell_wait/3 ]).
 
-/** <module> Hosts whose agents run in cells
+/** <module> Turns of agents in cells
 
 With the option cell(Kind) each run of the machine for an agent of the host is a
 turn in a cell: `owner`, in one of the owner of the agent, see typhon_birth, or
@@ -40,123 +39,10 @@ cell ends, too.
 */
 
 :- multifile
-    typhon_host_parts:begins/3,
-    typhon_host_parts:changes/2,
-    typhon_host_parts:ends/1,
     typhon_host_parts:part/4,
     typhon_host_parts:limit/3,
-    typhon_host_parts:untrusted/1,
     typhon_machine:elsewhere/3,
-    typhon_on_demand:joins/2,
-    typhon_options:declared/4,
     prolog:message//1.
-
-:- dynamic
-    walled/2,                   % Host, Kind: `owner` or `host`
-    warned/1.                   % Why: hosts of this process have no cells
-
-                /*******************************
-                *             HOSTS            *
-                *******************************/
-
-typhon_options:declared(host_option, cell(Kind), oneof([none,owner,host]),
-                        Kind).
-
-typhon_on_demand:joins(untrusted, any).
-
-typhon_host_parts:begins(Host, _, Options) :-
-    (   is_untrusted(Options)
-    ->  wall(Host, Options)
-    ;   memberchk(cell(Kind), Options),
-        Kind \== none
-    ->  throw(error(existence_error(host_option, policy),
-                    context(_, 'only hosts with policy(guarded), or a file \c
-                                of rules, have cells')))
-    ;   true
-    ).
-
-typhon_host_parts:changes(policy(Policy), Host) :-
-    (   walled(Host, _)
-    ->  true
-    ;   is_untrusted([policy(Policy)])
-    ->  findall(Option,
-                ( member(Option, [cell(_),clock(_),quota(_)]),
-                  host_option(Host, Option) ), Options),
-        wall(Host, Options)
-    ;   true
-    ).
-typhon_host_parts:changes(quota(Quotas), Host) :-
-    walled(Host, _),
-    possible([quota(Quotas)]).
-
-typhon_host_parts:ends(Host) :-
-    (   retract(walled(Host, _))
-    ->  cells_end(Host)
-    ;   true
-    ).
-
-is_untrusted(Options) :-
-    member(Option, Options),
-    typhon_host_parts:untrusted(Option),
-    !.
-
-%   Where the option does not say it, a host has cells if it can.
-
-wall(Host, Options) :-
-    memberchk(cell(Kind), Options),
-    !,
-    (   Kind == none
-    ->  warn(Host, none)
-    ;   wall(Host, Kind, Options)
-    ).
-wall(Host, Options) :-
-    catch(( attempted, wall(Host, owner, Options) ), error(Formal, _),
-          unwalled(Formal, Host)).
-
-wall(Host, Kind, Options) :-
-    possible(Options),
-    cells_begin(Host),
-    assertz(walled(Host, Kind)).
-
-%   What failed once in this process fails again.
-
-attempted :-
-    (   warned(cell_unavailable(Cause))
-    ->  throw(error(cell_unavailable(Cause), _))
-    ;   true
-    ).
-
-unwalled(Formal, Host) :-
-    memberchk(Formal, [cell_unavailable(_), permission_error(_, cell, _)]),
-    !,
-    warn(Host, Formal).
-unwalled(Formal, _) :-
-    throw(error(Formal, _)).
-
-warn(Host, Why) :-
-    (   warned(Why)
-    ->  true
-    ;   assertz(warned(Why)),
-        print_message(warning, typhon(no_cells(Host, Why)))
-    ).
-
-%   Inferences are counted by the thread that runs the machine.  While an agent
-%   waits for a cell no other thread may let time pass.
-
-possible(Options) :-
-    memberchk(quota(Quotas), Options),
-    memberchk(inferences(N), Quotas),
-    throw(error(permission_error(limit, cell, inferences(N)),
-                context(_, 'a turn in a cell is limited by the quota \c
-                            seconds'))).
-possible(Options) :-
-    (   memberchk(clock(Kind), Options)
-    ;   time_kind(Kind)
-    ),
-    Kind \== real,
-    throw(error(permission_error(start, cell, clock(Kind)),
-                context(_, 'agents in cells live in real time'))).
-possible(_).
 
 typhon_host_parts:part(goes, Host, 10, typhon_gatekeeper:goes) :-
     walled(Host, _).
@@ -450,16 +336,3 @@ note_fault(_, _, none).
 
 prolog:message(typhon(cell_lost(Id, Host, Reason))) -->
     [ 'Agent ~w on ~w is lost: its cell ended, ~p'-[Id, Host, Reason] ].
-prolog:message(typhon(no_cells(Host, Why))) -->
-    [ 'Untrusted agents on ~w run in the process of the host, since '-[Host] ],
-    no_cells(Why),
-    [ nl, 'An agent that finds a way around the rules of the policy has all \c
-           rights of that process'-[] ].
-
-no_cells(none) -->
-    [ 'it has cell(none)'-[] ].
-no_cells(permission_error(_, cell, What)) -->
-    [ 'there are no cells with ~p'-[What] ].
-no_cells(cell_unavailable(Cause)) -->
-    { cell_needs(Text) },
-    [ 'no cell can be started: ~w'-[Cause], nl, Text-[] ].
