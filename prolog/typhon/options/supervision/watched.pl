@@ -198,17 +198,25 @@ typhon_endpoint:requested(monitor, have(Agents), _, ReplyTo) :-
 %!  orphans_end(+Agents) is det.
 %
 %   Agents, whose home is gone, are disposed of in all processes that can be
-%   reached, each of which asks those that it knows: now, and once more in a
-%   second, since an agent may be under way.  Waits for the answers.
+%   reached, each of which asks those that it knows: now, and again after 1, 2, 4
+%   and more seconds, since an agent may be under way.  Waits for the answers.
 
 orphans_end(Agents) :-
     end_everywhere(Agents, []),
     pause(Seconds),
-    alarm_in(Seconds, watched, orphans(Agents)).
+    alarm_in(Seconds, watched, orphans(Agents, Seconds)).
 
-typhon_scheduler:fire(_, orphans(Agents)) :-
+last_pause(64).
+
+typhon_scheduler:fire(_, orphans(Agents, Seconds)) :-
     !,
-    scheduler_call(typhon_watched_agents:end_everywhere(Agents, [])).
+    scheduler_call(typhon_watched_agents:end_everywhere(Agents, [])),
+    Next is 2*Seconds,
+    last_pause(Last),
+    (   Next =< Last
+    ->  alarm_in(Next, watched, orphans(Agents, Next))
+    ;   true
+    ).
 
 :- public end_everywhere/2, end_asked/4.
 
