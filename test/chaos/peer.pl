@@ -180,7 +180,8 @@ left(Left) :-
 
 thing(thread(Thread)) :-
     thread_property(Thread, status(running)),
-    \+ ( thread_property(Thread, alias(Alias)),
+    \+ ( catch(thread_property(Thread, alias(Alias)),
+               error(existence_error(thread, _), _), fail),
          memberchk(Alias, [gc,main,'__thread_pool_manager']) ).
 thing(queue(Queue)) :-
     message_queue_property(Queue, size(_)).

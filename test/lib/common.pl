@@ -223,8 +223,11 @@ thing(module(Module)) :-
 thing(process(Pid)) :-
     child_process(Pid).
 
+%   It may have ended since it was found.
+
 system_thread(Thread) :-
-    thread_property(Thread, alias(Alias)),
+    catch(thread_property(Thread, alias(Alias)),
+          error(existence_error(thread, _), _), fail),
     system_alias(Alias).
 
 system_alias(gc).

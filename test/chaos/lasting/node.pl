@@ -136,7 +136,10 @@ held(agent(Id, P)) :-
     agent_property(Id, P), \+ P = program(_), \+ P = trace(_).
 held(thread(T, S, G)) :-
     thread_property(T, status(S)),
-    ( thread_property(T, alias(G)) -> true ; G = none ).
+    ( catch(thread_property(T, alias(G)), error(existence_error(thread, _), _), fail)
+    ->  true
+    ;   G = none
+    ).
 held(queue(Q, N)) :-
     message_queue_property(Q, size(N)), N > 0.
 held(alarm(A)) :-

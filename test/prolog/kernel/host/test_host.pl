@@ -589,7 +589,7 @@ test(what_cannot_be_delivered_changes_nothing,
                              fail) )).
 test(a_payload_is_replaced_without_a_gap, true(S == true)) :-
     with_place(P, ( place_deliver(P, payload(x, [p/1, q/0], [p(0), q]), _),
-                    thread_create(test_host:reads_some(P, 0), T),
+                    thread_create(test_host:reads_some(P, 0, 0), T),
                     forall(between(1, 5000, I),
                            place_deliver(P, payload(x, [p/1], [p(I)]), _)),
                     thread_send_message(T, stop),
@@ -606,19 +606,19 @@ with_place(Place, Goal) :-
 
 :- end_tests(places).
 
-%   Once in a million reads 9.0.4 overlooks a clause that is about to be
-%   collected.
+%   reads_some(+Place, +Reads, +Empty): once in some hundred thousand reads 9.0.4
+%   overlooks a clause that is about to be collected.
 
-reads_some(Place, Empty0) :-
+reads_some(Place, Reads0, Empty0) :-
+    Reads is Reads0+1,
     (   Place:p(_)
     ->  Empty = Empty0
     ;   Empty is Empty0+1
     ),
     (   thread_peek_message(stop)
-    ->  Empty < 5
-    ;   reads_some(Place, Empty)
+    ->  Empty < 5+Reads/50 000
+    ;   reads_some(Place, Reads, Empty)
     ).
-
 
 :- begin_tests(tuple_space).
 
@@ -935,6 +935,7 @@ test(every_thread_has_a_name) :-
 
 nameless(Thread) :-
     thread_property(Thread, status(_)),
-    \+ thread_property(Thread, alias(_)).
+    catch(\+ thread_property(Thread, alias(_)),
+          error(existence_error(thread, _), _), fail).
 
 :- end_tests(stopping).

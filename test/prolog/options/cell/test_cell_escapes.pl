@@ -209,6 +209,11 @@ unaudited(Left) :-
                 *           THE SYSTEM         *
                 *******************************/
 
+only_what_is_mounted(Names) :-
+    current_prolog_flag(home, Home),
+    atomic_list_concat(['',Top|_], /, Home),
+    subset(Names, [Top,.,..,bin,dev,etc,lib,lib64,proc,tmp,typhon,usr]).
+
 %   check(?Kind, ?Name, -Goal, -Expected)
 
 check(system, 'descriptors', directory_files('/proc/self/fd', L),
@@ -282,11 +287,6 @@ check(system, 'all memory',
       ( set_prolog_flag(stack_limit, 16000000000), length(L, 200000000),
         L = [a|_] ), raised(resource_error(_)) ; ended(_)).
 check(system, 'to end the process', halt, ended(lost(cell(exit(0))))).
-
-only_what_is_mounted(Names) :-
-    current_prolog_flag(home, Home),
-    atomic_list_concat(['',Top|_], /, Home),
-    subset(Names, [Top,.,..,bin,dev,etc,lib,lib64,proc,tmp,typhon,usr]).
 
                 /*******************************
                 *            FRAMES            *

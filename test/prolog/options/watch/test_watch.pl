@@ -463,8 +463,7 @@ left(B) :-
 senders(Peer, Count) :-
     peer_do(Peer,
             aggregate_all(count,
-                          ( thread_property(T, status(_)),
-                            thread_property(T, alias(Alias)),
+                          ( thread_property(_, alias(Alias)),
                             sub_atom(Alias, 0, _, _, typhon_event_sender) ),
                           Count0)),
     Count = Count0.
