@@ -12,6 +12,7 @@
 :- use_module('../../doc/course/checks/contract_net', []).
 :- use_module('../../doc/course/checks/ants', []).
 :- use_module('../../doc/course/checks/faults', []).
+:- use_module('../../doc/course/checks/supervision', []).
 :- use_module('../lib/fixtures', [listening/2]).
 :- use_module(library(debug), [assertion/1]).
 :- use_module(library(filesex), [directory_file_path/3, make_directory_path/1]).
@@ -60,6 +61,9 @@ mistake(fading_ant, "0.9*Old", "1.0*Old").
 mistake(patrol, "visit(Hosts, Seen, More)", "More = [], Seen = []").
 mistake(patient, "2*Pause", "1+Pause").
 mistake(guard, "receive(_-Message, 5)", "receive(_-Message, 2)").
+mistake(warden, "Agent-Outcome|Ends", "Agent-done|Ends").
+mistake(foreman, ", [shared(agent)]", "").
+mistake(customer, "radius(inf)", "radius(1)").
 
 mistaken(Exercise, Dir) :-
     solution(Exercise, Solution),

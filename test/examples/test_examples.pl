@@ -38,6 +38,10 @@ shows(rewrite,
       [ 'alpha is new to me', 'beta is new to me',
         'I know alpha', 'I know beta'
       ]).
+shows(supervisor,
+      [ 'left.*@alpha@* ends, left.*@alpha@* takes its place',
+        'The supervisor ends: done'
+      ]).
 shows(voting,
       [ 'agreed(12,3,of(4))' ]).
 shows(pheromone,

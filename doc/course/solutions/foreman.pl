@@ -1,0 +1,19 @@
+% foreman.pl: starts a worker again until it is done, but not too often
+
+:- agent(foreman, [state([job/1, most/1])]).
+
+main :-
+    work(0).
+
+work(Restarts) :-
+    job(Clauses),
+    create(clauses(Clauses), Worker, [name(worker)]),
+    monitor(Worker, [shared(agent)]),
+    receive(system-down(Worker, Outcome)),
+    (   Outcome == done
+    ->  result(done(Restarts))
+    ;   most(Restarts)
+    ->  result(gave_up(Outcome))
+    ;   Next is Restarts+1,
+        work(Next)
+    ).
