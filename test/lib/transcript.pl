@@ -147,8 +147,8 @@ ask(top(_, In, Queue, _, Dir), Goal, Lines) :-
     append(Reports, Answer, Lines0),
     maplist(at_home(Dir), Lines0, Lines).
 
-empty("").
-empty("next.").
+empty(Line) :-
+    string_concat(_, Line, "next.").    % or what is left of it
 
 lines_until(Mark, Queue, Deadline, Goal, Lines) :-
     (   thread_get_message(Queue, line(Line0), [deadline(Deadline)])
@@ -164,12 +164,26 @@ lines_until(Mark, Queue, Deadline, Goal, Lines) :-
         lines_until(Mark, Queue, Deadline, Goal, More)
     ).
 
-%   A report that comes between two queries stands behind the prompt.
+%   A report that comes between two queries stands behind the prompt, or in the
+%   middle of what is typed then.
 
-without_prompt(Line0, Line) :-
-    string_concat("?- ", Line, Line0),
-    !.
-without_prompt(Line, Line).
+without_echo(Line0, Goal, Line) :-
+    (   string_concat("?- ", Line1, Line0)
+    ->  true
+    ;   Line1 = Line0
+    ),
+    (   report_begins(Begin),
+        sub_string(Line1, Before, _, _, Begin),
+        sub_string(Line1, 0, Before, _, Typed),
+        member(Query, [Goal,"next."]),
+        sub_string(Query, _, _, _, Typed)
+    ->  sub_string(Line1, Before, _, 0, Line)
+    ;   Line = Line1
+    ).
+
+report_begins("% ").
+report_begins("ERROR:").
+report_begins("Warning:").
 
 at_home(Dir, Line0, Line) :-
     atomic_list_concat(Parts, Dir, Line0),
@@ -248,7 +262,7 @@ pause :-
     catch(wait_until(fail, 0.1), error(timeout_error(_, _), _), true).
 
 report(Line) :-
-    member(Begin, ["% ", "ERROR:", "Warning:"]),
+    report_begins(Begin),
     string_concat(Begin, _, Line),
     !.
 

@@ -14,9 +14,9 @@
             host_hop/3,                 % +Name, +Direction, +Seconds
             host_plain/2,               % ?Name, -Plain
             host_plain_leaves/2,        % +Plain, -Since
-            host_came/2,                % +Plain, +Since
+            host_came/2,                % +Name-Plain, +Since
             host_left/2,                % +Name, +Since
-            host_passes/4,              % +From, +To, +Since, -Seconds
+            host_passes/4,              % +From, +Name-To, +Since, -Seconds
             host_passed/3,              % +Here, +There, +Seconds
             host_hop_stats/3            % +Name, ?Direction, -Stats
           ]).
@@ -256,15 +256,17 @@ count_load(Key, Change) :-
     Load is Load0+Change,
     set_flag(Key, Load).
 
-%!  host_came(+Plain, +Since) is semidet.
+%!  host_came(+Where, +Since) is semidet.
 %
-%   An agent has come to a host that is Plain by a hop that began at Since, in
-%   host time; fails, and it has not, if there is no capacity.
+%   An agent has come to Where, Name-Plain as of host_plain/2, by a hop that began
+%   at Since, in host time; fails, and it has not, if there is no capacity, or the
+%   host is plain no longer.
 
-host_came(plain(_, _, _, Epoch, Rate, Capacity, Load, In, _), Since) :-
+host_came(Where, Since) :-
+    Where = _-plain(_, _, _, Epoch, Rate, _, _, In, _),
     get_time(Now),
     Seconds is max(0.0, (Now-Epoch)*Rate-Since),
-    with_mutex(typhon_host_flags, came(Load, Capacity, In, Seconds)).
+    with_mutex(typhon_host_flags, came(Where, In, Seconds)).
 
 %!  host_again(+Name) is det.
 %!  host_leave(+Name) is det.
@@ -295,14 +297,14 @@ host_load(Name, Load) :-
 
 %!  host_hop(+Name, +Direction, +Seconds) is det.
 %!  host_left(+Name, +Since) is det.
-%!  host_passes(+From, +To, +Since, -Seconds:float) is semidet.
+%!  host_passes(+From, +Where, +Since, -Seconds:float) is semidet.
 %!  host_passed(+Here, +There, +Seconds) is det.
 %
 %   A hop into (`in`) or out of (`out`) Name took Seconds of host time; an agent
 %   on Name has gone to another process by one that began at Since.  An agent has
-%   passed between plain hosts of this process, as of host_plain/2, by one that
-%   began at Since; fails, and it has not, if there is no capacity.  An agent on
-%   Here is on There now, where its place was taken before.
+%   passed from a host of this process that is plain as From says to Where, see
+%   host_came/2, by one that began at Since; fails, and it has not, where that
+%   does.  An agent on Here is on There now, where its place was taken before.
 
 host_hop(Name, Direction, Seconds) :-
     hop_keys(Name, Direction, Flags),
@@ -325,19 +327,31 @@ host_left(Name, Since) :-
     with_mutex(typhon_host_flags, left(Load, Out, Seconds)).
 host_left(_, _).                        % stopped meanwhile
 
-host_passes(plain(_, _, _, Epoch, Rate, _, Load0, _, Out),
-            plain(_, _, _, _, _, Capacity, Load, In, _), Since, Seconds) :-
+host_passes(plain(_, _, _, Epoch, Rate, _, Load0, _, Out), Where, Since,
+            Seconds) :-
+    Where = _-plain(_, _, _, _, _, _, _, In, _),
     time_now(Now),
     Seconds is max(0.0, (Now-Epoch)*Rate-Since),
-    with_mutex(typhon_host_flags,
-               passes(Load, Capacity, Load0, Out, In, Seconds)).
+    with_mutex(typhon_host_flags, passes(Where, Load0, Out, In, Seconds)).
 
-passes(Load, Capacity, Load0, Out, In, Seconds) :-
+passes(Where, Load0, Out, In, Seconds) :-
+    place_taken(Where),
+    passed(Load0, Out, In, Seconds).
+
+%   A host that stops is not plain any more before it waits until nobody counts
+%   on it: who finds it plain after having been counted is waited for.
+
+place_taken(Name-Plain) :-
+    Plain = plain(_, _, _, _, _, Capacity, Load, _, _),
     get_flag(Load, Count),
     Count < Capacity,
     Count1 is Count+1,
     set_flag(Load, Count1),
-    passed(Load0, Out, In, Seconds).
+    (   host_plain(Name, Plain)
+    ->  true
+    ;   set_flag(Load, Count),
+        fail
+    ).
 
 host_passed(Here, There, Seconds) :-
     load_key(Here, Load),
@@ -355,12 +369,12 @@ passed(Load, Out, In, Seconds) :-
     add_hop(Out, Seconds),
     add_hop(In, Seconds).
 
-came(Load, Capacity, In, Seconds) :-
+came(Where, In, Seconds) :-
+    Where = _-plain(_, _, _, _, _, _, Load, _, _),
     get_flag(Load, Count),
-    Count < Capacity,
-    Count1 is Count+1,
-    \+ memory_short(Count1),
-    set_flag(Load, Count1),
+    Next is Count+1,
+    \+ memory_short(Next),
+    place_taken(Where),
     add_hop(In, Seconds).
 
 left(Load, Out, Seconds) :-

@@ -216,14 +216,15 @@ comes(image(Id, Hash, Life, State, Hole-Goals, Mail, Since), Id, Hash, Life,
 
 %   Signals are held back, see reader.pl: between these steps none comes.
 
-come(Id, Hops, Host-Plain, Hash-Program, Life, Clauses, Since, Home) :-
+come(Id, Hops, Where, Hash-Program, Life, Clauses, Since, Home) :-
+    Where = Host-Plain,
     \+ agent_here(Id, _, _, _, _),
     \+ agent_under_way(Id, _, _, _, _, _),
     \+ backlog(Id),
     agent_comes_anew(Id, Hops, Home),
     arg(2, Plain, Place),
     agent_module(Id, Place, Program, Clauses),
-    (   host_came(Plain, Since)
+    (   host_came(Where, Since)
     ->  agent_comes(Id, Host, Id, Hash, Life)
     ;   '$destroy_module'(Id),
         fail
