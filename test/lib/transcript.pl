@@ -159,7 +159,7 @@ lines_until(Mark, Queue, Deadline, Goal, Lines) :-
     ->  Lines = []
     ;   Line0 == end_of_file
     ->  throw(error(existence_error(top_level, Goal), _))
-    ;   without_prompt(Line0, Line),
+    ;   without_echo(Line0, Goal, Line),
         Lines = [Line|More],
         lines_until(Mark, Queue, Deadline, Goal, More)
     ).
