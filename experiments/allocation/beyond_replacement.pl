@@ -24,7 +24,7 @@ beginning.").
 vary(failures, [0, 1, 3]).
 fixed(length, 3, assumed("tasks")).
 fixed(task_time, 5, assumed("seconds")).
-fixed(allocators, 1, assumed("nobody else wants the robots")).
+fixed(allocators, 1, assumed("no other allocator asks for the robots")).
 fixed(hosts, 30, assumed("agents of chapter 6 look on all hosts")).
 fixed(probability, 0.2, assumed("six links at a host")).
 

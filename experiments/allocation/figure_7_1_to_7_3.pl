@@ -31,10 +31,10 @@ claim(Text, Notes, at([links=Links], Test)) :-
 claim("7.1: more than 50,000 communications of ANTA with five", [line(4867)],
       at([links=dynamic, mechanism=anta, allocators=5],
          communications > 50000)).
-claim("7.1: 2.6 back-offs of one who is alone, within 1", [line(4892)],
+claim("7.1: 2.6 back-offs of an allocator alone, within 1", [line(4892)],
       at([links=dynamic, mechanism=proposed, allocators=1],
          near(backoffs, 2.6, 1))).
-claim("7.1: one who is alone backs off for 5.16 s, within 1 s", [line(4893)],
+claim("7.1: an allocator alone backs off for 5.16 s, within 1 s", [line(4893)],
       at([links=dynamic, mechanism=proposed, allocators=1],
          near(interval, 5.16, 1))).
 

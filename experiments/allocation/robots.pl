@@ -21,7 +21,7 @@ fixed(change, 2-4,
       assumed("seconds from one change of its links to the next, of each \c
 host; with 10-20 few of ANTA's trees break")).
 fixed(hop_time, 0.05-0.15,
-      assumed("one who is alone backs off for 5.16 s, by equations 7.3 and \c
+      assumed("an allocator alone backs off for 5.16 s, by equations 7.3 and \c
 7.5 twice 31 hops: not that of chapter 5")).
 fixed(duration, 5, assumed("seconds a robot takes for its part")).
 fixed(bi_min, 10, printed("section 7.6")).

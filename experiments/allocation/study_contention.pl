@@ -41,7 +41,7 @@ claim(Text, [line(4893)],
       at([sending=at_once, beta=Beta, mechanism=proposed, allocators=1],
          near(interval, 5.16, 1))) :-
     member(Beta, [0, 1]),
-    format(string(Text), "beta from ~w: one who is alone backs off for 5.16 s, \c
+    format(string(Text), "beta from ~w: an allocator alone backs off for 5.16 s, \c
 within 1 s", [Beta]).
 
 setting(Sending, Beta, Text) :-

@@ -338,8 +338,8 @@ passes(Where, Load0, Out, In, Seconds) :-
     place_taken(Where),
     passed(Load0, Out, In, Seconds).
 
-%   A host that stops is not plain any more before it waits until nobody counts
-%   on it: who finds it plain after having been counted is waited for.
+%   A host that stops is not plain any more, and then waits until its load is 0:
+%   where it is still plain after the load has grown, the stop waits for the agent.
 
 place_taken(Name-Plain) :-
     Plain = plain(_, _, _, _, _, Capacity, Load, _, _),

@@ -13,9 +13,9 @@
 /** <module> Offers, on the host on which they were made
 
 An offer notes after how many hops of its agent it was made, and lapses when the
-agent has made more, or is no longer there.  This is seen when somebody looks: so
+agent has made more, or is no longer there.  This is checked at each search: so
 hops and ends cost agents without offers nothing.  Lapsed offers are removed by
-the look that sees them, and all of them each time that as many have been made as
+the search that finds them, and all of them each time that as many have been made as
 were left the last time.
 
 *Threading*: any thread; a mutex serialises changes.
