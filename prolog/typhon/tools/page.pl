@@ -26,6 +26,7 @@ typhon_options:declared(page_option, port(X), between(0, 65535), X).
 typhon_options:declared(page_option, bind(X), atom, X).
 typhon_options:declared(page_option, read_only(X), boolean, X).
 typhon_options:declared(page_option, overlays(X), list, X).
+typhon_options:declared(page_option, world(X), callable, X).
 
 %!  page_start(+Options) is det.
 %!  page_stop is det.
@@ -41,6 +42,8 @@ typhon_options:declared(page_option, overlays(X), list, X).
 %     - read_only(+Boolean): only to look at; default `false`
 %     - overlays(+Files): of agent programs, or studies, whose overlays are
 %       shown, beside those of the programs in agents/
+%     - world(+Goal): a view World shows the picture that call(Goal, Svg)
+%       gives, twice a second; Goal is qualified by its module
 %
 %   page_stop/0 succeeds also where there is no page.
 %

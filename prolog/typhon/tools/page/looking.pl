@@ -19,6 +19,7 @@
 :- use_module(replay, [replay_of_text/3]).
 :- use_module(editor, [on_console/1]).
 :- use_module(sources, [sources_look/1]).
+:- use_module(world, [world_picture/1]).
 
 /** <module> Questions of browsers, and the answers
 
@@ -30,6 +31,7 @@
   | networks   |         | those that this process has started           |
   | mechanisms |         | the operators of `agents/`, and what they take |
   | programs   |         | names of agent programs that are found        |
+  | world      |         | the picture of the world, SVG                 |
   | replay     | `title`, `text` | the log of that text, see module `replay` |
 
 Nothing here changes anything.
@@ -67,6 +69,8 @@ asked(mechanisms, _, Dicts) :-
     mechanism_dicts(Dicts).
 asked(programs, _, Names) :-
     program_names(Names).
+asked(world, _, Svg) :-
+    world_picture(Svg).
 asked(replay, Message, Dict) :-
     maplist(text_in(Message), [title, text], [Title, Text]),
     replay_of_text(Title, Text, Dict).

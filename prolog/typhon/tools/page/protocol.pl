@@ -23,7 +23,8 @@ Over a WebSocket at `feed` the server tells in JSON what happens, at most
 twenty times a second; the browser says nothing there.  First comes
 
     {"snapshot": {"time": T, "read_only": B, "hosts": [Host, ...],
-                  "agents": [Agent, ...], "overlays": [Overlay, ...]}}
+                  "agents": [Agent, ...], "overlays": [Overlay, ...],
+                  "world": B}}
 
     Host:  {"id": Address, "process": Endpoint, "machine": Interface,
             "state": "running", "load": N, "capacity": N or absent,

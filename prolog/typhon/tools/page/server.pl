@@ -28,6 +28,7 @@
               [ overlays_shown/1, overlays_start/1, overlays_stop/0 ]).
 :- use_module(protocol, [times_start/0, times_stop/0]).
 :- use_module(sources, [sources_metrics/1, sources_start/1, sources_stop/0]).
+:- use_module(world, [world_shown/0, world_start/1, world_stop/0]).
 
 /** <module> The server of the page
 
@@ -88,6 +89,7 @@ prepare(Options) :-
     editor_start,
     option(overlays(Files), Options, []),
     overlays_start(Files),
+    world_start(Options),
     browsers_start.
 
 server_stop :-
@@ -106,6 +108,7 @@ put_away :-
     times_stop,
     browsers_stop,
     overlays_stop,
+    world_stop,
     editor_stop.
 
                 /*******************************
@@ -170,7 +173,9 @@ first_frame(_{snapshot:Scene}) :-
     serving(_, _, ReadOnly),
     on_console(first_sight(Seen)),
     overlays_shown(Overlays),
-    Scene = Seen.put(_{read_only:ReadOnly, overlays:Overlays}).
+    ( world_shown -> World = true ; World = false ),
+    Scene = Seen.put(_{ read_only:ReadOnly, overlays:Overlays,
+                        world:World }).
 
 send_file(File, Type) :-
     setup_call_cleanup(

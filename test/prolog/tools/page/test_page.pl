@@ -142,6 +142,7 @@ played(Name, Body) :-
 
 scene(sixty_hosts) :-
     see("return typhon.store.hosts.size === 60"),
+    see("return document.getElementById('tab-world').hidden"),
     view(hosts),
     reads("#table-host .row", "n20"),
     reads("[role=status]", "60 hosts"),

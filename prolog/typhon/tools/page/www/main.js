@@ -119,6 +119,7 @@ const VIEWS = [
   ['space', 'Space–time', () => import('./spacetime.js')],
   ['sequence', 'Sequence', () => import('./sequence.js')],
   ['replay', 'Replay', () => import('./replay.js')],
+  ['world', 'World', () => import('./world.js')],
 ];
 
 const $ = id => document.getElementById(id);
@@ -223,10 +224,11 @@ function tabs(app) {
   for (const [name, title] of VIEWS)
     $('tabs').append(button(title, () => app.show(name), { role: 'tab',
       id: `tab-${name}`, 'data-view': name, 'aria-controls': `panel-${name}` }));
+  $('tab-world').hidden = true;
   $('tabs').addEventListener('keydown', event => {
     const step = { ArrowRight: 1, ArrowLeft: -1 }[event.key];
     if (!step) return;
-    const all = [...$('tabs').children];
+    const all = [...$('tabs').children].filter(tab => !tab.hidden);
     const next = all[(all.indexOf(event.target) + step + all.length) % all.length];
     next.focus();
     next.click();
@@ -281,6 +283,7 @@ function connect(app) {
     state,
     snapshot(snapshot) {
       if (snapshot.read_only !== undefined) setReadOnly(app, snapshot.read_only);
+      if (snapshot.world !== undefined) setWorld(app, snapshot.world);
       app.more = new Map(snapshot.agents.map(agent => [agent.id, agent]));
       store.applySnapshot(snapshot);
       forgetStopped(store, snapshot);
@@ -321,6 +324,14 @@ function setReadOnly(app, readOnly) {
   app.act = readOnly ? undefined : message => app.order(message);
   $('actions').replaceChildren(...(readOnly ? [] : [workMenu(app)]));
   app.tell('rights');
+}
+
+// There is a tab for the world where there is one, and it is shown first.
+function setWorld(app, world) {
+  const tab = $('tab-world');
+  if (tab.hidden === !world) return;
+  tab.hidden = !world;
+  if (world !== (app.view === 'world')) app.show(world ? 'world' : 'map');
 }
 
 // While a list is looked at, what no event tells is asked for now and then.
