@@ -72,12 +72,17 @@ handle(down(Agent, Outcome), system) :-
 handle(again, _) :-
     tell_where,
     look_again,
+    keep_apart,
     (   running(standby, _)
     ->  true
     ;   stand_by
     ),
     findall(Name, pending(Name), Names),
     start_all(Names).
+handle(at(There), Standby) :-
+    running(standby, Standby),
+    retractall(stood(standby, _)),
+    assertz(stood(standby, There)).
 handle(children, From) :-
     findall(Name-Agent, ( running(Name, Agent), Name \== standby ), Pairs),
     tell(From, children(Pairs)).
@@ -222,7 +227,8 @@ stop_each([Name-Agent|Pairs]) :-
 %   have outlived the primary before it starts others.
 
 stand_by :-
-    (   standby(Host),
+    (   standby(Wanted),
+        elsewhere(Wanted, Host),
         self(Me),
         here(Here),
         findall(Fact, inherited(Fact), Facts),
@@ -230,7 +236,56 @@ stand_by :-
                      [host(Host),facts([primary(Me),standby(Here)|Facts])]),
               error(_, _), fail)
     ->  assertz(running(standby, Agent)),
+        retractall(stood(standby, _)),
+        assertz(stood(standby, Host)),
         monitor(Agent)
+    ;   true
+    ).
+
+%   elsewhere(+Wanted, -Host): a process takes along the agents whose home it is,
+%   too.  So Host is Wanted or a neighbour, in a process other than those.
+
+elsewhere(Wanted, Host) :-
+    apart_from_here(Wanted, Host),
+    !.
+elsewhere(Wanted, Wanted).
+
+apart_from_here(Wanted, Host) :-
+    neighbours(Hosts),
+    member(Host, [Wanted|Hosts]),
+    apart([Host]).
+
+apart(Hosts) :-
+    here(Here),
+    home(Home),
+    \+ ( member(Host, Hosts),
+         member(Own, [Here,Home]),
+         one_process(Host, Own) ).
+
+one_process(A, B) :-
+    after_at(A, Endpoint),
+    after_at(B, Endpoint).
+
+%   after_at(+Atom, -Rest): the endpoint of an address, the home of an agent.
+
+after_at(Atom, Rest) :-
+    sub_atom(Atom, At, 1, _, @),
+    !,
+    From is At+1,
+    sub_atom(Atom, From, _, 0, Rest).
+
+%   One of the two may have hopped to a process of the other.
+
+keep_apart :-
+    (   running(standby, Standby),
+        stood(standby, There),
+        after_at(Standby, Home),
+        \+ apart([There,Home]),
+        standby(Wanted),
+        apart_from_here(Wanted, _)
+    ->  retract(running(standby, Standby)),
+        catch(agent_dispose(Standby), error(_, _), true),
+        stand_by
     ;   true
     ).
 

@@ -114,9 +114,10 @@ round(N, Wrong) :-
     random_between(0, 4, After),
     peers(Peers),
     subtract(Peers, [Killed], Living),
-    acts(Before, Peers, Acts1),
+    Kinds = [ends, ends, hops, hops],
+    acts(Before, [supervisor_hops|Kinds], Peers, Acts1),
     peer_kill(Killed),
-    acts(After, Living, Acts2),
+    acts(After, Kinds, Living, Acts2),
     append(Acts1, [kill(Killed)|Acts2], Acts),
     (   random_between(0, 1, 0),
         \+ ( member(_-Act, Acts), memberchk(Act, [hops, supervisor_hops]) )
@@ -130,23 +131,38 @@ round(N, Wrong) :-
     ;   Wrong = Wrong0
     ).
 
-acts(0, _, []) :-
+%   In a round one supervisor hops, and to a process that is neither the place nor
+%   the home of the other: with that both would be lost.
+
+acts(0, _, _, []) :-
     !.
-acts(N, Peers, [Peer-Act|Acts]) :-
+acts(N, Kinds0, Peers, [Peer-Act|Acts]) :-
     random_member(Peer, Peers),
-    random_member(Act, [ends, ends, hops, hops, supervisor_hops]),
+    random_member(Act, Kinds0),
     random_member(To, Peers),
-    peer_host(To, Host),
-    act(Act, Peer, Host),
+    act(Act, Peer, To),
+    exclude(==(supervisor_hops), Kinds0, Kinds1),
+    ( Act == supervisor_hops -> Kinds = Kinds1 ; Kinds = Kinds0 ),
     More is N-1,
-    acts(More, Peers, Acts).
+    acts(More, Kinds, Peers, Acts).
 
 act(ends, Peer, _) :-
     of_one(Peer, Id, child(Id), agent_send(Id, stop)).
-act(hops, Peer, Host) :-
+act(hops, Peer, To) :-
+    peer_host(To, Host),
     of_one(Peer, Id, child(Id), agent_move(Id, Host)).
-act(supervisor_hops, Peer, Host) :-
-    of_one(Peer, Id, \+ child(Id), agent_move(Id, Host)).
+act(supervisor_hops, Peer, To) :-
+    peer_host(To, Host),
+    (   peers(Peers),
+        member(Place, Peers),
+        agents_of(Place, Ids),
+        member(Other, Ids),
+        \+ child(Other),
+        Place \== Peer,
+        ( Place == To ; atom_concat(_, Host, Other) )
+    ->  true
+    ;   of_one(Peer, Id, \+ child(Id), agent_move(Id, Host))
+    ).
 
 %   An agent may end or hop while it is ordered about.
 

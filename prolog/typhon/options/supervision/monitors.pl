@@ -228,9 +228,11 @@ to_ask(Agent, Since) :-
 :- public said/3.
 
 said(Agent, Home, answer(unknown)) :-
-    asked(Agent, before),
     !,
-    scheduler_call(typhon_monitors:lost(Home)).
+    (   asked(Agent, before)
+    ->  scheduler_call(typhon_monitors:lost(Home))
+    ;   scheduler_call(typhon_monitors:unknown(Agent))
+    ).
 said(Agent, _, answer(Outcome)) :-
     !,
     down(Agent, Outcome).
@@ -240,6 +242,15 @@ said(Agent, Home, _) :-
     ;   retractall(asked(Agent, _)),
         later(Agent, watch)
     ).
+
+%   unknown(+Agent): another process may have taken the place of its home, and the
+%   agent may run on elsewhere.
+
+:- public unknown/1.
+
+unknown(Agent) :-
+    orphans_end([Agent]),
+    down(Agent, unknown).
 
 %   lost(+Home): with the process at Home its agents are lost.  None of them may
 %   run on elsewhere, since another one may take its place.
