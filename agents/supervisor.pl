@@ -169,7 +169,7 @@ start(Name) :-
 
 begun([], _, _, Begun, Begun).
 begun([Host|Hosts], Program, Options, _, Begun) :-
-    catch(( create(Program, Agent, [host(Host)|Options]),
+    catch(( create(Program, Agent, [host(Host),follows(true)|Options]),
             Begun0 = on(Host, Agent) ),
           error(Problem, _),
           Begun0 = no(Problem)),
@@ -183,7 +183,7 @@ started(on(Host, Agent), Name) :-
     retractall(stood(Name, _)),
     assertz(stood(Name, Host)),
     assertz(running(Name, Agent)),
-    monitor(Agent, [shared(agent)]),
+    monitor(Agent),
     tell_standby(started(Name, Agent)).
 started(no(_), Name) :-
     pending(Name),

@@ -47,6 +47,7 @@ of the endpoint.
 */
 
 :- multifile
+    first_goal/3,               % Options, Parent, Goal: the agent begins with it
     typhon_options:declared/4,
     typhon_endpoint:requested/4.
 
@@ -102,7 +103,8 @@ create_by(Options, Parent, Spec, Agent) :-
     birth(Options, Declared, Initial, Clauses, Life, State0),
     mobile_term(State0),
     from_parent(Parent, Target, State0, State),
-    start_goals(Clauses, Initial, Goals),
+    start_goals(Clauses, Initial, Goals0),
+    findall(Goal, first_goal(Options, Parent, Goal), Goals, Goals0),
     State = state(PIs, _),
     program_unknown(Hash, PIs, may_be_offered(Target, Clauses)),
     create(Target, Name, start(Hash, Life, State, Goals, []), Agent).

@@ -23,10 +23,18 @@ another process.
 
 :- vocabulary(typhon_monitor_words).
 
-:- multifile typhon_options:declared/4.
+:- multifile
+    typhon_creation:first_goal/3,
+    typhon_options:declared/4.
 
 typhon_options:declared(monitor_option, shared(Shared),
-                        oneof([true,false,agent]), Shared).
+                        oneof([true,false,agent,self]), Shared).
+typhon_options:declared(agent_option, follows(Follows), boolean, Follows).
+
+typhon_creation:first_goal(Options, Parent,
+                           monitor(Parent, [shared(self)])) :-
+    Parent \== none,
+    option(follows(true), Options).
 
 %!  monitor(+Agent) is det.
 %!  monitor(+Agent, +Options) is det.
@@ -40,7 +48,12 @@ typhon_options:declared(monitor_option, shared(Shared),
 %
 %     - shared(+Shared): if `true` the two share their fate, as by link/1 of
 %       Erlang: if one of them ends otherwise than `done`, the other is disposed
-%       of.  If `agent` only Agent is, as a child of a supervisor is
+%       of.  If `agent` only Agent is, as a child of a supervisor is; if `self`
+%       only this agent is, and gets no message
+%
+%   With follows(true) among the options of create/3 the new agent begins with
+%   monitor(Parent, [shared(self)]): it does not outlive its parent, even if that
+%   ends before it can monitor the new agent.
 %
 %   @error existence_error(agent, Agent): that is no id
 %   @error domain_error(monitor_option, Option)

@@ -85,6 +85,9 @@ forget :-
 %   Id, the home of which is here, monitors Agent, or does no longer.  Shared is
 %   as of monitor/2.
 
+monitor_begin(Id, Agent, self) :-
+    !,
+    monitor_add(ends(Id), Agent).
 monitor_begin(Id, Agent, Shared) :-
     monitor_add(Id, Agent),
     (   Shared == true
@@ -148,6 +151,9 @@ add(Key, Watcher, Agent, true) :-
 
 %   The monitors of an agent end with it.
 
+mind(ends(Id)) :-
+    !,
+    mind(Id).
 mind(Id) :-
     atom(Id),
     \+ minded(Id),
@@ -160,8 +166,11 @@ mind(_).
 
 over(Id, _) :-
     retractall(minded(Id)),
-    findall(Agent, monitor(_, Id, Agent), Agents),
-    forall(member(Agent, Agents), ignore(monitor_remove(Id, Agent))).
+    findall(Watcher-Agent,
+            ( member(Watcher, [Id,ends(Id)]), monitor(_, Watcher, Agent) ),
+            Pairs),
+    forall(member(Watcher-Agent, Pairs),
+           ignore(monitor_remove(Watcher, Agent))).
 
 typhon_endpoint:requested(monitor, by(Id, Request), Peer, ReplyTo) :-
     must_be(atom, Id),

@@ -117,6 +117,23 @@ test(wrong_option, F = domain_error(monitor_option, _)) :-
                                          true),
                                    result(F0)) ], A),
                  agent_result(A, F, 10) )).
+test(follower_ends_with_its_parent,
+     [ forall(member(How-Outcome, [throw(oops)-disposed, true-done])),
+       Ended == Outcome ]) :-
+    with_hosts([alpha],
+               ( agent_create(clauses([ (:- agent(parent, [state([child/1])])),
+                                        (main :- Child = clauses(
+                                                   [ (:- agent(child, [])),
+                                                     (main :- receive(_-end)) ]),
+                                                 create(Child, C0,
+                                                        [follows(true)]),
+                                                 assertz(child(C0)),
+                                                 receive(_-end(G)), call(G)) ]),
+                              P),
+                 wait_until(agent_property(P, facts([child(C)])), 10),
+                 listening(( ends(P, How), joined(P, _) ), _),
+                 ( How == true -> agent_send(C, end) ; true ),
+                 joined(C, Ended) )).
 test(twice_is_once) :-
     with_hosts([alpha],
                ( watcher(W, [], []),
