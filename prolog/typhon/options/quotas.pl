@@ -14,6 +14,7 @@ stands on the host:
   - tuples(N): facts that it has left in the tuple space
   - mailbox(N): messages that wait for it
   - lifetime(S): by the clock of the host, from when it came here
+  - calls(PI, N): of a service of the place, in a second
   - messages(N), log(N), facts(N), hops(N): sent, logged, left and begun in a
     second
 

@@ -79,9 +79,11 @@ allowed(Module, Head, PI, Clauses, Allowed) :-
 cell_answer(Goal, Kind, Host, agent(Id, _, _, _, _), Answer) :-
     callable(Goal),
     functor(Goal, Name, Arity),
-    (   may_ask(Kind, Host, Name/Arity, Module),
+    (   may_ask(Kind, Host, Name/Arity, Of),
         arguments_allowed(Goal)
-    ->  catch(solutions(Kind, Goal, Module, Answer), error(Formal, Where),
+    ->  catch(( asked_of(Of, Host, Id, Name/Arity, Module),
+                solutions(Kind, Goal, Module, Answer) ),
+              error(Formal, Where),
               raised(error(Formal, Where), Answer))
     ;   endpoint_address(Own),
         endpoint_own_proof(Proof),
@@ -110,7 +112,7 @@ solutions(_, Goal, Module, solutions(Goals)) :-
 
 %   What is in the vocabulary, or offered by the place.
 
-may_ask(Kind, _, PI, typhon_vocabulary) :-
+may_ask(Kind, _, PI, vocabulary) :-
     cell_word(Kind0, PI),
     !,
     (   Kind0 == Kind
@@ -118,10 +120,14 @@ may_ask(Kind, _, PI, typhon_vocabulary) :-
     ;   Kind == acts,
         memberchk(Kind0, [fixed,tells])
     ).
-may_ask(acts, Host, PI, Place) :-
+may_ask(acts, Host, PI, place(Place)) :-
     host(Host, _, Place),
     place_service(Place, PI),
     !.
+
+asked_of(vocabulary, _, _, _, typhon_vocabulary).
+asked_of(place(Place), Host, Id, PI, Place) :-
+    parts_call(acts, Host, [Id, service(PI)]).
 
 %   The policy has looked at them in the cell; what the cell says does not count.
 

@@ -6,7 +6,8 @@
               [ clause_parts/3, code_make/3, code_module/2, code_program/2,
                 mobile_predicates/3, sent_program/2 ]).
 :- use_module('../../kernel/host',
-              [host/3, host_option/2, place_host/2, place_service/2]).
+              [ context_now/2, host/3, host_option/2, parts_call/3,
+                place_host/2, place_service/2 ]).
 :- use_module(allowed, [policy_read/1]).
 :- use_module(guard_calls, [guard_call/5, guard_goals/4]).
 :- use_module(guard_clauses,
@@ -105,9 +106,19 @@ typhon_place:serves(Place, PI) :-
     view_now(Host, View),
     show(Place, View, PI).
 
-show(Place, View, PI) :-
-    export(Place:PI),
-    @(import(Place:PI), View).
+show(Place, View, Name/Arity) :-
+    place_host(Place, Host),
+    functor(Head, Name, Arity),
+    abolish(View:Name/Arity),
+    assertz((View:Head :- typhon_sandbox:service(Host, Name/Arity, Head))).
+
+:- public service/3.
+
+service(Host, PI, Goal) :-
+    context_now(Host, Id),
+    parts_call(acts, Host, [Id, service(PI)]),
+    host(Host, _, Place),
+    call(Place:Goal).
 
 typhon_host_parts:ends(Host) :-
     retractall(view_now(Host, _)),

@@ -45,12 +45,14 @@ kind(messages,   [agent, owner, host]).
 kind(log,        [agent, owner, host]).
 kind(facts,      [agent, owner, host]).
 kind(hops,       [agent, owner, host]).
+kind(calls(_),   [agent, owner, host]).
 kind(state,      [agent, owner, host]).
 kind(seconds,    [agent, owner, host]).
 kind(stack,      [agent, owner, host]).
 
 typhon_names:known(quota, Name) :-
-    kind(Name, _).
+    kind(What, _),
+    functor(What, Name, _).
 
                 /*******************************
                 *           IN FORCE           *
@@ -124,23 +126,30 @@ first_of(Quotas, Whose, What, Most) :-
 must_be_quota(Quota) :-
     (   quota_parts(Quota, Whose, What, Most),
         kind(What, All),
-        memberchk(Whose, All)
-    ->  must_be(number, Most),
+        memberchk(Whose, All),
+        ( What = calls(PI) -> subsumes_term(_/_, PI) ; true )
+    ->  must_be(ground, What),
+        must_be(number, Most),
         ( Most > 0 -> true ; domain_error(quota, Quota) )
     ;   domain_error(quota, Quota)
     ).
 
 quota_parts(Quota, Whose, What, Most) :-
     compound(Quota),
-    compound_name_arguments(Quota, Name, [Arg]),
-    (   memberchk(Name, [owner, host]),
-        compound(Arg)
-    ->  Whose = Name,
-        compound_name_arguments(Arg, What, [Most])
+    (   compound_name_arguments(Quota, Whose0, [Of]),
+        memberchk(Whose0, [owner, host]),
+        compound(Of)
+    ->  Whose = Whose0,
+        what_most(Of, What, Most)
     ;   Whose = agent,
-        What = Name,
-        Most = Arg
+        what_most(Quota, What, Most)
     ).
+
+what_most(calls(PI, Most), What, Most) :-
+    !,
+    What = calls(PI).
+what_most(Quota, What, Most) :-
+    compound_name_arguments(Quota, What, [Most]).
 
                 /*******************************
                 *            PASSED            *

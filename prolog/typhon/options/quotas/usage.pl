@@ -56,6 +56,8 @@ acts(Host, Agent, leave(Fact)) =>
     must_be_small(Host, Fact).
 acts(Host, _, say(Term)) =>
     must_be_small(Host, Term).
+acts(Host, Agent, service(PI)) =>
+    spend(Host, Agent, calls(PI)).
 acts(Host, Agent, move) =>
     spend(Host, Agent, hops).
 acts(Host, Agent, clone) =>

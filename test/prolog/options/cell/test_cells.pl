@@ -8,6 +8,7 @@
 :- use_module(library(lists), [member/2, numlist/3]).
 :- use_module(library(process), [process_kill/2]).
 :- use_module(library(typhon)).
+:- use_module(library(typhon/bridges/common/starting), [service_begin/4]).
 :- use_module(library(typhon/options/cell/cells), [cells_list/1]).
 
 /** <module> Agents in cells
@@ -159,6 +160,17 @@ test(many_agents_share_a_cell, Sum-Cells == 5050-1) :-
            sum_list(Rs, Sum),
            used_cells(Cells) )).
 
+test(services_one_by_one_and_so_often,
+     Outcomes = [ done, done, raised(error(resource_error(calls(twice/2)), _)),
+                  raised(error(existence_error(procedure, _), _)) ]) :-
+    Often = forall(between(1, 10, X), twice(X, _)),
+    no_leaks(with_tmp_dir(bridge_called(
+                                        [ (twice(2, Y), Y == 4),
+                                          forall(between(1, 3, _), twice(2, 4)),
+                                          Often, thrice(2, _) ],
+                                        Ended))),
+    findall(Outcome, member(_-Outcome, Ended), Outcomes).
+
 :- end_tests(cells).
 
 result(Clauses, Ask, Result) :-
@@ -170,6 +182,30 @@ used_cells(Count) :-
     cells_list(Cells),
     findall(Key, ( member(cell(_, _, Key), Cells), Key \== spare ), Keys),
     length(Keys, Count).
+
+%   Of a bridge with two predicates the place offers one, and an agent may call
+%   it three times in a second.
+
+bridge_called(Calls, Ended, Dir) :-
+    directory_file_path(Dir, place, File),
+    setup_call_cleanup(
+        open(File, write, Out),
+        format(Out, ":- service(twice/2).~n", []),
+        close(Out)),
+    with_hosts([ c-[ policy(guarded), cell(host), consult(File),
+                     quota([calls(twice/2, 3)]) ] ],
+               ( service_begin(bridge, c, [twice/2,thrice/2], test_cells),
+                 findall(Call-Outcome, called(Calls, Call, Outcome), Ended) )).
+
+called(Calls, Call, Outcome) :-
+    member(Call, Calls),
+    create([ (main :- Call) ], A, [host(c)]),
+    listening(agent_join(A, Outcome, 30), _).
+
+:- public twice/2, thrice/2.
+
+twice(X, Y) :- Y is 2*X.
+thrice(X, Y) :- Y is 3*X.
 
 served(Result, Dir) :-
     directory_file_path(Dir, place, File),

@@ -301,6 +301,9 @@ test(what_it_is_about_to_do_is_looked_at_on_arrival,
                  agent_result(A, R, 5) )).
 test(only_services_of_the_place, Rs == [open(1),hidden]) :-
     with_tmp_dir(places(Rs)).
+test(a_service_is_called_so_often,
+     Rs = done-raised(error(resource_error(calls(open/1)), _))) :-
+    with_tmp_dir(often(Rs)).
 %   Its own predicate of that name comes before the service.
 
 test(services_cannot_be_changed_or_read, Rs == [[],[],[],[x],[x]]-[1,2]) :-
@@ -342,6 +345,21 @@ places(Rs, Dir) :-
                                          Y = hidden),
                                    result([open(X),Y])) ], A, [host(g)]),
                  agent_result(A, Rs, 5) )).
+
+%   Twice in a second, each time with two answers.
+
+often(Often-Outcome, Dir) :-
+    place_file(Dir, File),
+    with_hosts([g-[ policy(guarded), cell(none), consult(File),
+                    quota([owner(calls(open/1, 2))]) ]],
+               ( created([ (main :- forall(open(_), true),
+                                    forall(open(_), true)) ], A),
+                 agent_join(A, Often, 5),
+                 created([ (main :- repeat, catch(open(_), _, true), fail) ], B),
+                 listening(agent_join(B, Outcome, 5), _) )).
+
+created(Clauses, A) :-
+    create(Clauses, A, [host(g)]).
 
 changes_of_services(Rs-Left, Dir) :-
     place_file(Dir, File),
