@@ -5,13 +5,14 @@
     swipl doc/pictures.pl -- doc/img                    `make pictures`
     swipl doc/pictures.pl -- doc/img page spacetime     only these kinds
 
-Kinds are `layers`, `spacetime`, `page` and `studies`; the last makes ten runs of
-fourteen studies, or RUNS, which takes many minutes.  All are made from networks
-that are started for them.
+Kinds are `layers`, `spacetime`, `page`, `applications` and `studies`; the last
+makes ten runs of fourteen studies, or RUNS, which takes many minutes.  All are
+made from networks that are started for them.
 
 *Threading*: the main thread.
 */
 
+:- use_module(pictures/applications, [application_pictures/1]).
 :- use_module(pictures/layers, [layers_picture/1]).
 :- use_module(pictures/page, [page_pictures/1]).
 :- use_module(pictures/spacetime, [spacetime_picture/1]).
@@ -27,13 +28,15 @@ that are started for them.
 
 main([Directory]) :-
     !,
-    main([Directory, layers, spacetime, page, studies]).
+    main([Directory, layers, spacetime, page, applications, studies]).
 main([Directory|Kinds]) :-
-    must_be(list(oneof([layers, spacetime, page, studies])), Kinds),
+    must_be(list(oneof([ layers, spacetime, page, applications, studies ])),
+            Kinds),
     make_directory_path(Directory),
     maplist(make(Directory), Kinds).
 
 make(Directory, layers) :- layers_picture(Directory).
 make(Directory, spacetime) :- spacetime_picture(Directory).
 make(Directory, page) :- page_pictures(Directory).
+make(Directory, applications) :- application_pictures(Directory).
 make(Directory, studies) :- study_pictures(Directory).

@@ -135,7 +135,8 @@ how(Command, elsewhere) :-
 how(Command, serves) :-
     serving(Part),
     sub_string(Command, _, _, _, Part),
-    \+ sub_string(Command, _, _, _, "--export"),
+    \+ ( member(Ends, ["--export", "--speed=0"]),
+         sub_string(Command, _, _, _, Ends) ),
     !.
 how(Command, answers) :-
     sub_string(Command, _, _, _, " diagnose "),
@@ -159,6 +160,7 @@ serving("typhon.pl host ").
 serving("typhon.pl network ").
 serving("typhon.pl page ").
 serving("nxt/brick.py ").
+serving("examples/applications/").
 serving("nxt/world.py ").
 
 elsewhere("COMMAND ... [options]").     % a synopsis

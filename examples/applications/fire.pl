@@ -1,0 +1,39 @@
+:- module(fire, []).
+
+/** <module> A building on fire: an alarm by gossip, and exit signs by gradients
+
+    swipl examples/applications/fire.pl [--signs=fixed] [--rule=single]
+        [--growth=0.0117] [--people=3] [--speed=5] [--port=8080] [--seed=1]
+
+A room burns after 20 s.  Detectors ask their neighbours before there is an alarm;
+signs lead round the smoke.  fire/building.pl is the world, fire/room.pl the agent
+of each cell, doc/applications.md says more.
+*/
+
+:- use_module(fire/scene).
+:- use_module(stage, [stage/3, stage_advance/2]).
+:- use_module(library(main), [main/0]).
+
+:- initialization(main, main).
+
+:- public main/1, play/2.
+
+main(Argv) :-
+    stage(Argv, fire_scene, play).
+
+play(Network, Options) :-
+    scene_start(Network, [fire(20), puffs(0.1)|Options]),
+    story(Network, 0).
+
+story(Network, Time0) :-
+    stage_advance(Network, 20),
+    Time is Time0+20,
+    scene_counts(Out, Caught, Inside),
+    scene_alarms(Alarms),
+    format('~|~t~d~4| s: ~w; ~d people inside, ~d out, ~d caught by the fire~n',
+           [Time, Alarms, Inside, Out, Caught]),
+    flush_output,
+    (   ( Inside =:= 0 ; Time >= 600 )
+    ->  true
+    ;   story(Network, Time)
+    ).

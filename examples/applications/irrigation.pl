@@ -1,0 +1,50 @@
+:- module(irrigation, []).
+
+/** <module> Fields that agents irrigate by models which they carry there
+
+    swipl examples/applications/irrigation.pl [--strategy=central] [--down=0.3]
+        [--broker=mqtt://localhost] [--days=90] [--speed=5] [--port=8080]
+        [--seed=1]
+
+Six fields have a season of ninety days.  A gardener for each goes there, learns from moisture
+sensors what the crop takes, and opens the valve.  Speed is in hours of the world in
+a second.  irrigation/fields.pl is the world, irrigation/gardener.pl the agent,
+doc/applications.md says more.
+*/
+
+:- use_module(irrigation/scene).
+:- use_module(stage, [stage/3, stage_advance/2]).
+:- use_module(library(aggregate), [aggregate_all/3]).
+:- use_module(library(lists), [member/2]).
+:- use_module(library(main), [main/0]).
+:- use_module(library(option), [option/3]).
+
+:- initialization(main, main).
+
+:- public main/1, play/2.
+
+main(Argv) :-
+    stage(Argv, irrigation_scene, play).
+
+play(Network, Options) :-
+    scene_start(Network, Options),
+    option(days(Days), Options, 90),
+    story(Network, 0, Days).
+
+story(Network, Day0, Days) :-
+    stage_advance(Network, 864000),
+    Day is Day0+10,
+    scene_totals(_, Totals),
+    mean(Mm, member(_-totals(Mm, _, _), Totals), Given),
+    mean(Mm, member(_-totals(_, Mm, _), Totals), Drained),
+    mean(Hours, member(_-totals(_, _, Hours), Totals), Stress),
+    format('~|~t~d~3| days: ~|~t~0f~4| mm given, ~|~t~0f~4| mm drained, \c
+            ~|~t~0f~4| hours of stress~n', [Day, Given, Drained, Stress]),
+    flush_output,
+    ( Day >= Days -> true ; story(Network, Day, Days) ).
+
+:- meta_predicate mean(+, 0, -).
+
+mean(X, Goal, Mean) :-
+    aggregate_all(r(sum(X), count), Goal, r(Sum, Count)),
+    Mean is Sum/Count.

@@ -1,0 +1,44 @@
+:- module(test_application_studies, []).
+:- use_module('../../lib/common', [with_tmp_dir/1]).
+:- use_module('../../lib/project_studies').
+:- use_module(library(debug), [assertion/1]).
+:- use_module(library(lists), [member/2]).
+:- use_module(library(plunit)).
+
+% The studies of the applications: what is claimed, and small runs.
+
+%   small(Study, Cases, Given, Measures): of a run with Given, which is short.
+
+small(study_fire_alarm, 9, [rule-single, puffs-2, quiet-120, limit-60],
+      [false_alarms]).
+small(study_fire_signs, 8, [ signs-gradient, growth-0.0469, delay-(15-75),
+                             people-1, limit-150 ],
+      [time, last, smoke, lost]).
+small(study_irrigation, 12, [strategy-carried, down-0.3, days-4],
+      [water, stress, drained]).
+
+study(Name, Study) :-
+    atom_concat('applications/', Name, File),
+    project_study(File, Study).
+
+run(Study, Given, Measures, Dir) :-
+    first_run(Study, Given, 1, Dir, _-Measures).
+
+:- begin_tests(application_studies).
+
+test(cases, [forall(small(Name, Count, _, _)), true(Found == Count)]) :-
+    study(Name, Study),
+    case_count(Study, Found).
+
+test(claims_are_well_formed,
+     [forall(small(Name, _, _, _)), true(Odd == [])]) :-
+    study(Name, Study),
+    odd_claims(Study, Odd).
+
+test(run, [forall(small(Name, _, Given, Measures))]) :-
+    study(Name, Study),
+    with_tmp_dir(run(Study, Given, Point)),
+    forall(member(Measure, Measures),
+           assertion(( get_dict(Measure, Point, Value), number(Value) ))).
+
+:- end_tests(application_studies).
