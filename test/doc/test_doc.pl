@@ -280,7 +280,8 @@ broken_links_in(Text, Links, Dir) :-
 is_made('layers.svg').
 is_made('spacetime.svg').
 is_made(Picture) :-
-    atom_concat('page-', _, Picture).
+    member(Kind, ['page-', 'application-']),
+    atom_concat(Kind, _, Picture).
 is_made(Picture) :-
     study_picture(Picture, _, _).
 

@@ -50,10 +50,10 @@ scene_step(1).
 
 %!  scene_start(+Network, +Options) is det.
 %
-%   Options: seed(S); people(N), delay(Least-Most): see building_new/2;
-%   fire(Time), when one of the rooms
-%   begins to burn; growth(G), kW/s2, by default 0.0469, fast; puffs(N): faulty readings of a detector in an hour; dead(P):
-%   share of detectors that read nothing; rule(R) and signs(S), see room.pl.
+%   Options: seed(S); people(N), delay(Least-Most): see building_new/2; fire(Time),
+%   when one of the rooms begins to burn; growth(G), kW/s2, by default 0.0469, fast;
+%   puffs(N): faulty readings of a detector in an hour; dead(P): share of detectors
+%   that read nothing; rule(R) and signs(S), see room.pl.
 
 scene_start(Network, Options) :-
     scene_stop,
