@@ -118,7 +118,7 @@ may_ask(Kind, _, PI, vocabulary) :-
     (   Kind0 == Kind
     ->  true
     ;   Kind == acts,
-        memberchk(Kind0, [fixed,tells])
+        memberchk(Kind0, [fixed,tells,looks])
     ).
 may_ask(acts, Host, PI, place(Place)) :-
     host(Host, _, Place),

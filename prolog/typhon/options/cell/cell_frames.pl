@@ -110,17 +110,18 @@ frame_body(In, Length, Bytes) :-
 %
 %   What an agent in a cell asks the gatekeeper: Kind is `fixed` if the answer is
 %   the same for a whole turn, and goes into the cell with it; `tells` if there
-%   is no answer; `acts`; or `changes` if that changes the state of the agent.
+%   is no answer; `looks` if nothing changes; `acts`; or `changes` if that changes the
+%   state of the agent.
 
 cell_word(fixed, self/1).
 cell_word(fixed, here/1).
 cell_word(fixed, home/1).
 cell_word(fixed, parent/1).
 cell_word(fixed, hops/1).
-cell_word(acts, now/1).
-cell_word(acts, neighbours/1).
-cell_word(acts, neighbour/2).
-cell_word(acts, host_load/1).
+cell_word(looks, now/1).
+cell_word(looks, neighbours/1).
+cell_word(looks, neighbour/2).
+cell_word(looks, host_load/1).
 cell_word(acts, next_host/2).
 cell_word(tells, send/2).
 cell_word(tells, leave/1).
@@ -128,7 +129,7 @@ cell_word(tells, log/1).
 cell_word(tells, result/1).
 cell_word(tells, message_failed/2).
 cell_word(acts, leave_new/1).
-cell_word(acts, sense/1).
+cell_word(looks, sense/1).
 cell_word(acts, take/1).
 cell_word(acts, emit/1).
 cell_word(acts, emit/2).
@@ -140,7 +141,7 @@ cell_word(acts, monitor/2).
 cell_word(acts, unmonitor/1).
 cell_word(acts, offer/2).
 cell_word(acts, unoffer/1).
-cell_word(acts, find/3).
+cell_word(looks, find/3).
 cell_word(acts, enter/1).
 cell_word(acts, seal/3).
 cell_word(acts, unseal/2).

@@ -1,7 +1,8 @@
 :- module(typhon_gatekeeper, []).
 :- use_module(library(apply), [foldl/4, maplist/2]).
-:- use_module(library(lists), [member/2]).
+:- use_module(library(lists), [append/2, member/2, reverse/2]).
 :- use_module(library(readutil), [read_file_to_string/3]).
+:- use_module('../../kernel/base/durable_changes', [durable_on/0]).
 :- use_module('../../kernel/program', [code_sent/2, fault_note/1]).
 :- use_module('../../kernel/wire', [endpoint_address/1, endpoint_own_proof/1]).
 :- use_module('../../kernel/host',
@@ -30,9 +31,14 @@ What the agent asks of its host in a turn is a request, which is carried out as
 an act of the agent whose turn it is: the cell cannot name another one.  What
 comes back is its outcome, and what has changed in its state.
 
+If the cell dies in a turn the agent ends with lost(cell(Reason)).  With a
+journal it runs again in another cell, once, from where its turn began, if it had
+changed nothing outside the cell: words without an answer wait until the turn
+ends, or needs an answer.
+
 None of its clauses and goals is ever called here; what comes from a cell is
 checked as it is when an agent arrives.  A cell that says anything else ends,
-and with it the agent, whose outcome is lost(cell(Reason)).
+and with it the agent.
 
 *Threading*: in the worker that has the agent.  It may be interrupted; then the
 cell ends, too.
@@ -44,6 +50,8 @@ cell ends, too.
     typhon_machine:elsewhere/3,
     prolog:message//1.
 
+:- dynamic repeated/1.           % Id: its turn runs for the second time
+
 typhon_host_parts:part(goes, Host, 10, typhon_gatekeeper:goes) :-
     walled(Host, _).
 
@@ -52,6 +60,7 @@ typhon_host_parts:part(goes, Host, 10, typhon_gatekeeper:goes) :-
 goes(Id, _, _) :-
     forall(( cell_knows(Cell, Id, What), What \== gone ),
            cell_learns(Cell, Id, gone)),
+    retractall(repeated(Id)),
     cell_left(Id).
 
                 /*******************************
@@ -100,15 +109,23 @@ taken(Key, Id, Cell) :-
     ;   Cell = none
     ).
 
-run_in(none, Key-_, agent(Id, Host, _, _, _), Goals, _, held) :-
+run_in(none, Key-_, Agent, Goals, _, held) :-
     !,
-    sig_atomic(( with_agent(Id, agent_put(Id, ready, Goals)),
-                 turn_settled,
-                 cell_wait(Key, Host, Id) )).
-run_in(Cell, _-Policy, Agent, Goals, State, Outcome) :-
+    sig_atomic(waits(Key, Agent, Goals)).
+run_in(Cell, Key-Policy, Agent, Goals, State, Outcome) :-
     in_cell(Cell, Policy, Agent, Goals, Result),
-    sig_atomic(( finished(Result, Cell, Agent, Outcome),
-                 nb_setarg(1, State, finished) )).
+    sig_atomic(( finished(Result, Cell, Agent, Outcome0),
+                 nb_setarg(1, State, finished),
+                 (   Outcome0 == again
+                 ->  waits(Key, Agent, Goals),
+                     Outcome = held
+                 ;   Outcome = Outcome0
+                 ) )).
+
+waits(Key, agent(Id, Host, _, _, _), Goals) :-
+    with_agent(Id, agent_put(Id, ready, Goals)),
+    turn_settled,
+    cell_wait(Key, Host, Id).
 
 left(state(unfinished), Cell) :-
     integer(Cell),
@@ -123,31 +140,47 @@ key(owner, Policy, agent(Id, Host, Module, Hash, _), Key) :-
     origin_key(Origin, Owner),
     atomic_list_concat([Host, Policy, Owner], ' ', Key).
 
-finished(outcome(Outcome, Note), Cell, _, Outcome) :-
+finished(outcome(Outcome, Note), Cell, agent(Id, _, _, _, _), Outcome) :-
     cell_give(Cell),
+    retractall(repeated(Id)),
     fault_note(Note).
 finished(over(What), Cell, _, raised(error(resource_error(What), _))) :-
     cell_end(Cell, _).
-finished(broken(Why), Cell, agent(Id, Host, _, _, _), lost(cell(Reason))) :-
+finished(broken(Why), Cell, agent(Id, Host, _, _, _), Outcome) :-
     cell_end(Cell, Status),
-    ( Why == ended -> Reason = Status ; Reason = Why ),
+    ( Why = ended(_) -> Reason = Status ; Reason = Why ),
     endpoint_address(Own),
     endpoint_own_proof(Proof),
     security_event(Host, Own, Proof, cell(Id, Reason)),
-    print_message(warning, typhon(cell_lost(Id, Host, Reason))).
+    (   Why == ended(nothing),
+        durable_on,
+        \+ repeated(Id)
+    ->  assertz(repeated(Id)),
+        Outcome = again
+    ;   Outcome = lost(cell(Reason))
+    ),
+    print_message(warning, typhon(cell_ended(Id, Host, Reason, Outcome))).
 
 %   in_cell(+Cell, +Policy, +Agent, +Goals, -Result): Result is
 %   outcome(Outcome, Note), over(What) or broken(Why).
 
 in_cell(Cell, Policy, Agent, Goals, Result) :-
     flag(typhon_cell_turn, N, N+1),
-    catch(( cell_bound(Cell, Policy, Agent),
-            turn_sent(Cell, N, Agent, Goals, new),
-            turn_heard(Cell, N, Agent, Goals, well, Result) ),
+    catch(( begun(Cell, Policy, Agent, N, Goals),
+            turn_heard(Cell, N, Agent, Goals, acts(well, [], nothing),
+                       Result) ),
           error(Formal, Context),
           broken(Formal, Context, Result)).
 
-broken(io_error(_, _), _, broken(ended)) :-
+%   A cell that has died is heard of by the end of what it says.
+
+begun(Cell, Policy, Agent, N, Goals) :-
+    catch(( cell_bound(Cell, Policy, Agent),
+            turn_sent(Cell, N, Agent, Goals, new) ),
+          error(io_error(_, _), _),
+          true).
+
+broken(io_error(_, _), _, broken(ended(something))) :-
     !.
 broken(cell_violation(What), _, broken(violation(What))) :-
     !.
@@ -221,16 +254,19 @@ known(Id, Host, Life, Known) :-
                 *       WHAT A CELL SAYS       *
                 *******************************/
 
-%   turn_heard(+Cell, +N, +Agent, +Goals, +Told, -Result): Told is raised(Error)
-%   if something that has no answer has raised Error, else `well`.
+%   turn_heard(+Cell, +N, +Agent, +Goals, +Acts, -Result): Acts is acts(Told,
+%   Later, Done).  Told is raised(Error) if a word that has no answer has raised
+%   Error, else `well`; Later are lists of such words, the last one first, that
+%   are not carried out yet; Done is `nothing`, or `something` that changes the
+%   host was.
 
-turn_heard(Cell, N, Agent, Goals, Told, Result) :-
+turn_heard(Cell, N, Agent, Goals, Acts, Result) :-
     cell_streams(Cell, In, _),
     cell_frame_read(In, Frame),
     (   is_of_turn(Frame, N),
-        heard(Frame, Cell, Agent, Goals, Told, Next)
-    ->  (   Next = more(Told1)
-        ->  turn_heard(Cell, N, Agent, Goals, Told1, Result)
+        heard(Frame, Cell, Agent, Goals, Acts, Next)
+    ->  (   Next = more(Acts1)
+        ->  turn_heard(Cell, N, Agent, Goals, Acts1, Result)
         ;   Result = Next
         )
     ;   cell_violation(frame)
@@ -244,30 +280,42 @@ is_of_turn(Frame, N) :-
     arg(1, Frame, N0),
     N0 == N.
 
-heard(end_of_file, _, _, _, _, broken(ended)).
-heard(told(_, Goals), _, Agent, _, Told0, more(Told)) :-
-    is_list(Goals),
-    foldl(told(Agent), Goals, Told0, Told).
-heard(request(N, Goal), Cell, Agent, _, Told, more(well)) :-
+heard(end_of_file, _, _, _, acts(_, _, Done), broken(ended(Done))).
+heard(told(_, Words), _, Agent, _, acts(Told0, Later, Done), more(Acts)) :-
+    is_list(Words),
+    Acts0 = acts(Told0, [Words|Later], Done),
+    (   durable_on
+    ->  Acts = Acts0
+    ;   carried_out(Acts0, Agent, Told),
+        Acts = acts(Told, [], something)
+    ).
+heard(request(N, Goal), Cell, Agent, _, Acts, more(acts(well, [], Done))) :-
+    carried_out(Acts, Agent, Told),
     answered(Told, Goal, acts, Agent, Answer),
+    done(Acts, Goal, Done),
     send(Cell, answer(N, Answer)).
-heard(changing(N, Goal, Changes), Cell, Agent, _, Told, more(well)) :-
+heard(changing(N, Goal, Changes), Cell, Agent, _, Acts, more(Next)) :-
+    Next = acts(well, [], something),
+    carried_out(Acts, Agent, Told),
     agent(Agent, Host, Module),
     cell_changes_made(Changes, Host, Module),
     answered(Told, Goal, changes, Agent, Answer),
     agent_state(Module, State0),
     cell_state(State0, State),
     send(Cell, answer(N, changed(State, Answer))).
-heard(lacks(N), Cell, Agent, Goals, well, more(well)) :-
+heard(lacks(N), Cell, Agent, Goals, Acts, more(Acts)) :-
+    Acts = acts(well, [], _),
     \+ cell_knows(Cell, again, N),
     cell_learns(Cell, again, N),
     turn_sent(Cell, N, Agent, Goals, again).
-heard(over(_, What), _, _, _, _, over(What)) :-
+heard(over(_, What), _, Agent, _, Acts, over(What)) :-
     nonvar(What),
-    memberchk(What, [cells,stack,state]).
-heard(outcome(_, Outcome, Note, Changes), Cell, Agent, _, Told, Result) :-
+    memberchk(What, [cells,stack,state]),
+    carried_out(Acts, Agent, _).
+heard(outcome(_, Outcome, Note, Changes), Cell, Agent, _, Acts, Result) :-
     is_outcome(Outcome),
     note_fault(Note, Outcome, Fault),
+    carried_out(Acts, Agent, Told),
     ( Told = raised(_) -> Result = outcome(Told, none)
     ; Result = outcome(Outcome, Fault) ),
     Agent = agent(Id, Host, Module, _, _),
@@ -278,9 +326,20 @@ heard(outcome(_, Outcome, Note, Changes), Cell, Agent, _, Told, Result) :-
         cell_learns(Cell, Id, Module-Mark)
     ).
 
+carried_out(acts(Told0, Later, _), Agent, Told) :-
+    reverse(Later, Lists),
+    append(Lists, Words),
+    foldl(told(Agent), Words, Told0, Told).
+
 told(Agent, Goal, Told0, Told) :-
     answered(Told0, Goal, tells, Agent, Answer),
     ( Answer = raised(_) -> Told = Answer ; Told = well ).
+
+done(acts(_, [], Done), Goal, Done) :-
+    functor(Goal, Name, Arity),
+    cell_word(looks, Name/Arity),
+    !.
+done(_, _, something).
 
 %   After an error nothing is done until the agent has heard of it.
 
@@ -334,5 +393,7 @@ note_fault(_, _, none).
                 *           MESSAGES           *
                 *******************************/
 
-prolog:message(typhon(cell_lost(Id, Host, Reason))) -->
-    [ 'Agent ~w on ~w is lost: its cell ended, ~p'-[Id, Host, Reason] ].
+prolog:message(typhon(cell_ended(Id, Host, Reason, Outcome))) -->
+    [ 'Agent ~w on ~w '-[Id, Host] ],
+    ( { Outcome == again } -> [ 'runs again in another cell' ] ; [ 'is lost' ] ),
+    [ ': its cell ended, ~p'-[Reason] ].

@@ -259,9 +259,16 @@ test(a_cell_that_dies_takes_what_runs_in_it_and_nothing_else,
            once(( member(cell(_, Pid, Key), Cells), Key \== spare )),
            listening(( process_kill(Pid, kill), agent_join(Runs, Lost, 30) ),
                      Messages),
-           assertion(memberchk(warning-typhon(cell_lost(_, c, _)), Messages)),
+           assertion(memberchk(warning-typhon(cell_ended(_, c, _, lost(_))), Messages)),
            agent_send(Rests, go),
            agent_result(Rests, Result, 30) )).
+test(with_a_journal_a_turn_runs_again_once,
+     [ condition(missing([journal], [])),
+       forall(member(Before-Kills-Expected,
+                     [ true-1-(done-1), true-2-(lost-0),
+                       leave_new(g)-1-(lost-0) ])),
+       Result == Expected ]) :-
+    no_leaks(with_tmp_dir(killed(Before, Kills, Result))).
 test(more_owners_than_cells, Count == 1) :-
     with_settings([typhon_cells:cells=1],
         no_leaks(with_peers(
@@ -332,6 +339,38 @@ test(where_cells_are_impossible_a_policy_warns, Outcome-Count == done-1) :-
               Messages),
     was_warned(permission_error(_, cell, _), Messages, Count).
 :- end_tests(cell_processes).
+
+%   killed(+Before, +Kills, -Result, +Dir): the cell of an agent is killed so often
+%   while it works.  Result is how it ends, and how many facts it has left.
+
+killed(Before, Kills, How-Count, Dir) :-
+    atomic_list_concat([Dir, /, p], J),
+    Works = clauses([ (:- agent(works, [])),
+                      (main :- Before, leave(f), work, result(done)),
+                      (work :- between(1, 5 000 000, X), X >= 5 000 000, !) ]),
+    with_peers(
+        [p-[host([policy(guarded), cell(owner), journal(J)])]],
+        ( peer_host(p, P),
+          peer_do(p, agent_create(Works, A)),
+          (   Before = leave_new(Fact)
+          ->  wait_until(remote(P, sense(Fact)), 30)
+          ;   true
+          ),
+          kills(Kills, none),
+          peer_do(p, agent_join(A, Outcome, 60)),
+          functor(Outcome, How, _),
+          findall(f, remote(P, sense(f)), Fs) )),
+    length(Fs, Count).
+
+kills(0, _) :-
+    !.
+kills(Kills, Last) :-
+    wait_until(( peer_do(p, typhon_cells:cells_list(Cells)),
+                 member(cell(Cell, Pid, Key), Cells),
+                 Cell \== Last, Key \== spare ), 30),
+    process_kill(Pid, kill),
+    Kills1 is Kills-1,
+    kills(Kills1, Cell).
 
 %   The result is `yes` if the agent may do what rules refuse.
 
