@@ -81,8 +81,12 @@ handle(again, _) :-
     start_all(Names).
 handle(at(There), Standby) :-
     running(standby, Standby),
+    !,
     retractall(stood(standby, _)),
     assertz(stood(standby, There)).
+handle(at(_), Stray) :-                 % one that I do not know stands by, too
+    Stray \== user,
+    end(Stray).
 handle(children, From) :-
     findall(Name-Agent, ( running(Name, Agent), Name \== standby ), Pairs),
     tell(From, children(Pairs)).
@@ -137,8 +141,19 @@ again(Name) :-
     ( strategy(Strategy) -> true ; Strategy = one_for_one ),
     with_it(Strategy, Name, All, Names),
     stop_all(Names),
-    log(restarts(Names)),
+    log_restarts(Names),
     start_all(Names).
+
+%   One line is enough for a thousand.
+
+log_restarts(Names) :-
+    length(Names, Count),
+    (   Count =< 5
+    ->  log(restarts(Names))
+    ;   append([A,B,C], _, Names),
+        Others is Count-3,
+        log(restarts([A,B,C,others(Others)]))
+    ).
 
 with_it(one_for_one, Name, _, [Name]).
 with_it(one_for_all, _, All, All).
@@ -170,6 +185,7 @@ start(Name) :-
 begun([], _, _, Begun, Begun).
 begun([Host|Hosts], Program, Options, _, Begun) :-
     catch(( create(Program, Agent, [host(Host),follows(true)|Options]),
+            monitored(Agent),
             Begun0 = on(Host, Agent) ),
           error(Problem, _),
           Begun0 = no(Problem)),
@@ -178,12 +194,15 @@ begun([Host|Hosts], Program, Options, _, Begun) :-
     ;   begun(Hosts, Program, Options, Begun0, Begun)
     ).
 
+monitored(Agent) :-
+    catch(monitor(Agent), error(Problem, Context),
+          ( end(Agent), throw(error(Problem, Context)) )).
+
 started(on(Host, Agent), Name) :-
     retractall(pending(Name)),
     retractall(stood(Name, _)),
     assertz(stood(Name, Host)),
     assertz(running(Name, Agent)),
-    monitor(Agent),
     tell_standby(started(Name, Agent)).
 started(no(_), Name) :-
     pending(Name),
@@ -212,12 +231,15 @@ stop_each([]).
 stop_each([Name-Agent|Pairs]) :-
     retractall(running(Name, Agent)),
     monitor(Agent),
-    catch(agent_dispose(Agent), error(_, _), true),
+    end(Agent),
     (   receive(system-down(Agent, _), 10)
     ->  true
     ;   catch(agent_dispose(Agent, [force(0)]), error(_, _), true)
     ),
     stop_each(Pairs).
+
+end(Agent) :-
+    catch(agent_dispose(Agent), error(_, _), true).
 
                 /*******************************
                 *            STANDBY           *
@@ -284,7 +306,7 @@ keep_apart :-
         standby(Wanted),
         apart_from_here(Wanted, _)
     ->  retract(running(standby, Standby)),
-        catch(agent_dispose(Standby), error(_, _), true),
+        end(Standby),
         stand_by
     ;   true
     ).
@@ -340,16 +362,23 @@ tell_where :-
 
 %   A message that says that an agent is down is lost with the process to which
 %   this one tried to hop.  To monitor an agent again changes nothing, or brings
-%   the message again.
+%   the message again.  An agent whose creation was not confirmed, or was
+%   confirmed where this one is no more, follows this one, but is not among its
+%   children: it is ended.  One that stands by says so itself.
 
 look_again :-
-    standby(_),
     now(Now),
     \+ ( looked(Before), Now-Before < 5 ),
     !,
     retractall(looked(_)),
     assertz(looked(Now)),
-    forall(looked_after(Agent), catch(monitor(Agent), error(_, _), true)).
+    retractall(told(_)),
+    forall(looked_after(Agent), catch(monitor(Agent), error(_, _), true)),
+    (   primary(_)
+    ->  true
+    ;   followers(Agents),
+        forall(( member(Agent, Agents), \+ running(_, Agent) ), end(Agent))
+    ).
 look_again.
 
 looked_after(Agent) :-

@@ -46,7 +46,7 @@
      . font-lock-keyword-face)
     (,(regexp-opt
        '("self" "here" "home" "parent" "hops" "now" "neighbours" "neighbour"
-         "host_load" "create" "monitor" "unmonitor" "offer" "unoffer" "find" "send" "leave" "leave_new" "sense" "take" "attach"
+         "host_load" "create" "monitor" "unmonitor" "followers" "offer" "unoffer" "find" "send" "leave" "leave_new" "sense" "take" "attach"
          "detach" "deliver" "undeliver" "log" "result" "next_host" "emit"
          "withdraw" "pheromone" "seal" "unseal")
        'symbols)

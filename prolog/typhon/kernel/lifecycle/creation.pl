@@ -20,7 +20,8 @@
                 code_program/2, code_sent/2, code_stands/2, payload_load/2,
                 program_load/6, program_unknown/3 ]).
 :- use_module('../wire',
-              [endpoint_address/1, endpoint_reply/2, mobile_term/1]).
+              [ endpoint_address/1, endpoint_later/1, endpoint_reply/2,
+                mobile_term/1 ]).
 :- use_module('../host',
               [ amended/5, event/4, host/3, host_address/2, host_resolve/2,
                 host_unknown/1, process_ask/6 ]).
@@ -48,6 +49,8 @@ of the endpoint.
 
 :- multifile
     first_goal/3,               % Options, Parent, Goal: the agent begins with it
+    at_birth/2,                 % Goal, Id: done in place of Goal, with which Id
+                                % begins
     typhon_options:declared/4,
     typhon_endpoint:requested/4.
 
@@ -261,6 +264,26 @@ created(refused(Reason), Address, _) :-
 
 typhon_endpoint:requested(agent, create(HostName, Name, Start, Program), Peer,
                           ReplyTo) :-
+    Answers = typhon_creation:create_answered(HostName, Name, Start, Program,
+                                              Peer, ReplyTo),
+    (   begins_with_more(Start),
+        endpoint_later(Answers)
+    ->  true
+    ;   call(Answers)
+    ).
+
+%   What is done at birth may load code.
+
+begins_with_more(Start) :-
+    subsumes_term(start(_, _, _, [_,_|_], _), Start),
+    arg(4, Start, [Goal|_]),
+    callable(Goal),
+    clause(at_birth(Goal, _), _),
+    !.
+
+:- public create_answered/6.            % goal of a worker
+
+create_answered(HostName, Name, Start, Program, Peer, ReplyTo) :-
     From = from(Peer, Program, newborn),
     catch(create_for(From, HostName, Name, Start, Answer),
           error(Formal, _),
@@ -376,13 +399,23 @@ id_of(clone(_, Id), Name, Address, Id) :-
 id_of(none, Name, Address, Id) :-
     agent_id(Name, Address, Id).
 
-begun_here(Host, Id, Goals, Of) :-
+begun_here(Host, Id, Goals0, Of) :-
     agent_home(Id, Address),
     agent_born(Id, Address),
     descends(Of),
+    first_done(Goals0, Id, Goals),
     event(life, Host, Id, created),
     debug(typhon(agent), '~w: created on ~w', [Id, Address]),
     with_agent(Id, begin(Goals, Id)).
+
+%   Before it can be ordered to move.
+
+first_done([Goal|Goals0], Id, Goals) :-
+    callable(Goal),
+    at_birth(Goal, Id),
+    !,
+    first_done(Goals0, Id, Goals).
+first_done(Goals, _, Goals).
 
 %   Before it runs, and has clones of its own.
 

@@ -1,7 +1,8 @@
 :- module(typhon_monitor_words,
           [ monitor/1,                  % +Agent
             monitor/2,                  % +Agent, +Options
-            unmonitor/1                 % +Agent
+            unmonitor/1,                % +Agent
+            followers/1                 % -Agents
           ]).
 :- use_module(library(error), [existence_error/2, must_be/2]).
 :- use_module(library(option), [option/3]).
@@ -10,7 +11,8 @@
 :- use_module('../../kernel/wire', [endpoint_address/1]).
 :- use_module('../../kernel/host', [context/3, parts_call/3, process_ask/6]).
 :- use_module('../../kernel/agent', [agent_home_endpoint/2]).
-:- autoload(monitors, [monitor_begin/3, monitor_end/2]).
+:- autoload(monitors,
+            [monitor_begin/3, monitor_end/2, monitor_followers/2]).
 
 /** <module> What agents say to monitor others
 
@@ -24,6 +26,7 @@ another process.
 :- vocabulary(typhon_monitor_words).
 
 :- multifile
+    typhon_creation:at_birth/2,
     typhon_creation:first_goal/3,
     typhon_options:declared/4.
 
@@ -35,6 +38,13 @@ typhon_creation:first_goal(Options, Parent,
                            monitor(Parent, [shared(self)])) :-
     Parent \== none,
     option(follows(true), Options).
+
+%   Its home is here; it has not moved yet, nor can it fail.
+
+typhon_creation:at_birth(monitor(Parent, [shared(self)]), Id) :-
+    atom(Parent),
+    agent_home_endpoint(Parent, _),
+    monitor_begin(Id, Parent, self).
 
 %!  monitor(+Agent) is det.
 %!  monitor(+Agent, +Options) is det.
@@ -69,6 +79,16 @@ monitor(Agent, Options) :-
 
 unmonitor(Agent) :-
     ask_home(end(Agent), Agent).
+
+%!  followers(-Agents:ordset) is det.
+%
+%   The agents that are disposed of if this one ends otherwise than `done`: those
+%   of processes that answer within 5 seconds.
+
+followers(Agents) :-
+    context(Host, Id, _),
+    parts_call(acts, Host, [Id, send(followers)]),
+    monitor_followers(Id, Agents).
 
 ask_home(Request, Agent) :-
     must_be(atom, Agent),

@@ -1,6 +1,7 @@
 :- module(typhon_watched_agents,
           [ watched_add/2,              % +Agent, +Asker
-            orphans_end/1               % +Agents
+            orphans_end/1,              % +Agents
+            others_ask/2                % +Question, -Results
           ]).
 :- use_module(library(apply), [exclude/3]).
 :- use_module(library(error), [must_be/2]).
@@ -22,7 +23,7 @@
 The home of an agent learns how it ends.  If a process is gone, all processes
 are asked for the agents that are monitored and are not here, twice, a second
 apart: one that none of them has, and that the home did not hear of meanwhile,
-is lost.  Nothing is done for that while processes live: hops of agents, also of
+is lost, and ended if it turns up later.  Nothing is done for that while processes live: hops of agents, also of
 those that are monitored, cost what they cost without.
 
 *Threading*: questions to all are asked in a worker.
@@ -36,13 +37,19 @@ those that are monitored, cost what they cost without.
     typhon_runtime:ending/1,
     typhon_scheduler:fire/2.
 
-:- dynamic asker/3.             % Agent, N, Asker: wants to know its end
+:- dynamic
+    asker/3,                    % Agent, N, Asker: wants to know its end
+    looks_again/0.              % an alarm is set for that
 
 typhon_identity:ids_anew :-
-    retractall(asker(_, _, _)).
+    forget.
 
 typhon_runtime:ending(after) :-
-    retractall(asker(_, _, _)).
+    forget.
+
+forget :-
+    retractall(asker(_, _, _)),
+    retractall(looks_again).
 
 pause(1).                       % seconds between two rounds
 patience(5).                    % seconds for the answers
@@ -70,8 +77,7 @@ went_to(Agent) :-
     (   endpoint_peer(Endpoint, process(Process)),
         endpoint_peer(Endpoint, state(up))
     ->  true
-    ;   endpoint_peer(Endpoint, process(Now)),
-        Now \== Process
+    ;   is_gone(Address, Process)
     ->  scheduler_call(typhon_watched_agents:look_for_all)
     ;   process_suspect(Endpoint)
     ).
@@ -124,8 +130,47 @@ look_again(Before) :-
     absent(Now),
     findall(One, ( member(One, Before), memberchk(One, Now) ), Still),
     missing(Still, Lost),
+    all_lost(Lost),
+    look_later.
+
+%   It may have been under way when the processes were asked.
+
+all_lost([]) :-
+    !.
+all_lost(Lost) :-
+    findall(Agent, member(at(Agent, _, _, _), Lost), Agents),
+    orphans_end(Agents),
     forall(member(at(Agent, Address, _, _), Lost),
            lost(Agent, Address)).
+
+%   An agent that moves to a process that dies is there for a time as far as its
+%   home knows, while its source keeps it in doubt: it is looked for until its
+%   home knows better.
+
+look_later :-
+    absent(Absent),
+    (   \+ looks_again,
+        member(at(_, Address, _, Process), Absent),
+        is_gone(Address, Process)
+    ->  assertz(looks_again),
+        pause(Seconds),
+        alarm_in(Seconds, watched, look)
+    ;   true
+    ).
+
+typhon_scheduler:fire(_, look) :-
+    !,
+    retractall(looks_again),
+    scheduler_call(typhon_watched_agents:look_for_all).
+
+is_gone(Address, Process) :-
+    address_parts(Address, _, Endpoint),
+    (   endpoint_gone(Endpoint)
+    ->  true
+    ;   Process \== unknown,
+        endpoint_peer(Endpoint, process(Now)),
+        Now \== Process
+    ).
 
 lost(Agent, Address) :-
     (   retract(asker(Agent, _, Asker))
@@ -153,9 +198,17 @@ missing([], []) :-
     !.
 missing(Absent, Missing) :-
     findall(Agent, member(at(Agent, _, _, _), Absent), Agents),
-    others(Peers),
-    ask(Peers, have(Agents), Results),
+    others_ask(have(Agents), Results),
     exclude(may_be_found(Results), Absent, Missing).
+
+%!  others_ask(+Question, -Results:list) is det.
+%
+%   Ask all processes that are known, and wait: Results are as of
+%   endpoint_ask_all/6.
+
+others_ask(Question, Results) :-
+    others(Peers),
+    ask(Peers, Question, Results).
 
 ask(Peers, Question, Results) :-
     patience(Seconds),

@@ -134,6 +134,35 @@ test(follower_ends_with_its_parent,
                  listening(( ends(P, How), joined(P, _) ), _),
                  ( How == true -> agent_send(C, end) ; true ),
                  joined(C, Ended) )).
+test(follows_if_it_is_moved_before_it_runs, O == disposed) :-
+    with_hosts([alpha, beta],
+               ( create([ (main :- create(clauses([ (:- agent(c, [])),
+                                                    (on_message(_, _)) ]),
+                                          C0, [follows(true)]),
+                                   assertz(r(C0)), receive(_-_)) ], P),
+                 wait_until(( agent_property(P, facts([r(C)])),
+                              agent_property(C, state(resident)) ), 10),
+                 agent_move(C, beta, [wait(5)]),
+                 agent_dispose(P),
+                 joined(C, O) )).
+test(followers, Cs == [C]) :-
+    with_hosts([alpha],
+               ( create([ (main :- Child = clauses([ (:- agent(c, [])),
+                                                     (main :- receive(_)) ]),
+                                   create(Child, _, []),
+                                   create(Child, C0, [follows(true)]),
+                                   followers(Ds),
+                                   result(Ds-C0)) ], P),
+                 agent_result(P, Cs-C, 10) )).
+test(follower_of_a_guarded_host, O == disposed) :-
+    with_hosts([alpha-[policy(guarded), cell(none)]],
+               ( create([ (main :- create(clauses([ (:- agent(c, [])),
+                                                    (main :- receive(_)) ]),
+                                          C0, [follows(true)]),
+                                   assertz(r(C0)), receive(_-_)) ], P),
+                 wait_until(agent_property(P, facts([r(C)])), 10),
+                 agent_dispose(P),
+                 joined(C, O) )).
 test(twice_is_once) :-
     with_hosts([alpha],
                ( watcher(W, [], []),
@@ -465,6 +494,28 @@ test(shared_with_a_process_that_dies, [nondet]) :-
               peer_kill(p1),
               joined(A, O),
               assertion(O == disposed) )))).
+%   Its home dies before it creates the child, which is known to the parent alone.
+
+test(child_of_a_parent_whose_home_is_gone, [nondet]) :-
+    no_leaks(with_peers([p1, p2],
+        here(
+            ( at(p1, H1), at(p2, H2),
+              create([ (main :- receive(_-to(H)),
+                                catch(create(clauses([(:- agent(c, [])),
+                                                      (main :- receive(_))]),
+                                             _, [host(H), name(left),
+                                                 follows(true)]),
+                                      error(E, _), true),
+                                assertz(r(E)), receive(_)) ],
+                     P, [host(H1)]),
+              address(alpha, Here),
+              agent_move(P, Here, [wait(5)]),
+              peer_kill(p1),
+              agent_send(P, to(H2)),
+              wait_until(\+ typhon_agents:agent(P, _, _, _, _), 20),
+              wait_until(\+ peer_do(p2, ( typhon_agents:agent(Id, _, _, _, _),
+                                          sub_atom(Id, 0, _, _, 'left.') )),
+                         20) )))).
 test(connection_that_breaks, [nondet]) :-
     no_leaks(with_peers([p1-[proxy(true)]],
         here(
