@@ -117,7 +117,8 @@ probability(P) :-
 %   State is the beginning of a network of N hosts with Edges, pairs I-J of
 %   host numbers. The time of the first event of each host is drawn.
 
-dynamics_state(Model, N, Edges, Seed, state(Model, N, Own, Own, Due, Chance)) :-
+dynamics_state(Model, N, Edges, Seed,
+               state(Model, N, Own, Links, Due, Chance)) :-
     findall(I-J, ( member(A-B, Edges), ends(A, B, I, J) ), Ends0),
     sort(Ends0, Ends),
     numlist(1, N, Hosts),
@@ -125,13 +126,20 @@ dynamics_state(Model, N, Edges, Seed, state(Model, N, Own, Own, Due, Chance)) :-
             ( member(Host, Hosts),
               findall(J, member(Host-J, Ends), Ns) ),
             Pairs),
-    list_to_assoc(Pairs, Own),
+    list_to_assoc(Pairs, Links),
+    own_links(Model, Links, Own),
     chance_seed(Seed, Chance0),
     empty_heap(Due0),
     foldl(schedule(Model, 0), Hosts, Due0-Chance0, Due-Chance).
 
 ends(A, B, A, B).
 ends(A, B, B, A).
+
+%   Only some models ask for the links of the beginning: a state is copied for
+%   each event.
+
+own_links(toggle(_, _, _), Links, Links).
+own_links(links(_, _, _), _, none).
 
 schedule(Model, Now, Host, Due0-Chance0, Due-Chance) :-
     arg(1, Model, uniform(Min, Max)),
@@ -149,8 +157,7 @@ dynamics_event(state(Model, N, Own, Links0, Due0, Chance0), Time, Changes,
                state(Model, N, Own, Links, Due, Chance)) :-
     get_from_heap(Due0, Time, Host, Due1),
     get_assoc(Host, Links0, Ns),
-    get_assoc(Host, Own, OwnNs),
-    changes(Model, host(Host, N, Ns, OwnNs), Changes, Chance0, Chance1),
+    changes(Model, host(Host, N, Ns, Own), Changes, Chance0, Chance1),
     foldl(change, Changes, Links0, Links),
     schedule(Model, Time, Host, Due1-Chance1, Due-Chance).
 
@@ -185,7 +192,7 @@ change_end(Op, I, J, Links0, Links) :-
     put_assoc(I, Links0, Ns, Links).
 
 %   changes(+Model, +Host, -Changes, +Chance0, -Chance): what a host
-%   host(I, N, Neighbours, OwnNeighbours) does when its time has come.
+%   host(I, N, Neighbours, Own) does when its time has come.
 
 changes(links(_, Drop, Add), host(I, N, Ns, _), Changes, Chance0, Chance) :-
     dropped(Drop, Ns, Gone, Chance0, Chance1),
@@ -194,7 +201,8 @@ changes(links(_, Drop, Add), host(I, N, Ns, _), Changes, Chance0, Chance) :-
     findall(unlink(I, J), member(J, Gone), Changes, Made),
     findall(link(I, J), ( member(J, New), \+ memberchk(J, Left) ), Made).
 changes(toggle(_, Drop, Add), host(I, _, Ns, Own), Changes, Chance0, Chance) :-
-    (   chance_member(J, Own, Chance0, Chance1)
+    get_assoc(I, Own, OwnNs),
+    (   chance_member(J, OwnNs, Chance0, Chance1)
     ->  (   memberchk(J, Ns)
         ->  chance_true(Drop, Bool, Chance1, Chance),
             Change = unlink(I, J)

@@ -26,7 +26,7 @@
                 log_end/1, network_build/5, part/2 ]).
 :- use_module(lasting, [kept_plan/4, lasting_over/1, lasting_rests/1]).
 :- use_module(nodes, [node/3]).
-:- use_module(plan, [plan_change/3, plan_option/2]).
+:- use_module(plan, [plan_change/3, plan_costs/2, plan_option/2]).
 :- use_module(processes, [nodes_stop/1]).
 :- use_module(restarts, [restarts_back/1]).
 :- use_module(wiring,
@@ -65,6 +65,7 @@ none of its own.
     ended/1,
     clock_of/2,                 % Network, clock(Epoch, Rate)
     network/2,                  % Network, Plan
+    costs/2,                    % Network, Costs: of its links
     running/1.                  % Network
 
 %!  networks_start(+Topology, -Network, +Options) is det.
@@ -93,11 +94,16 @@ network_begin(Name, Plan, Build, Network) :-
     ),
     once(
         setup_call_catcher_cleanup(
-            assertz(network(Network, Plan)),
+            noted(Network, Plan),
             call(Build, Network),
             Catcher,
             unless_built(Catcher, Network))),
     forget_erased.
+
+noted(Network, Plan) :-
+    plan_costs(Plan, Costs),
+    assertz(costs(Network, Costs)),
+    assertz(network(Network, Plan)).
 
 new_name(Network) :-
     repeat,
@@ -124,8 +130,8 @@ network_goes_on(Network, Clock) :-
 %   Change is link(I, J) or unlink(I, J).
 
 network_change(Network, Change0) :-
-    network(Network, Plan),
-    plan_change(Plan, Change0, Change),
+    costs(Network, Costs),
+    plan_change(Costs, Change0, Change),
     wire_change(Network, Change).
 
                 /*******************************
@@ -154,7 +160,8 @@ end(Network) :-
     equipment_forget(Network),
     retractall(clock_of(Network, _)),
     forall(ended(Network), true),
-    retractall(network(Network, _)).
+    retractall(network(Network, _)),
+    retractall(costs(Network, _)).
 
 %   What rests in a journal is there when it is started again.
 

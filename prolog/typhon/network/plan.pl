@@ -8,7 +8,8 @@
             plan_hosts/4,               % +Plan, +P, +Common, -Hosts
             plan_links/2,               % +Plan, -Links
             plan_links_at/3,            % +Plan, +Time, -Links
-            plan_change/3,              % +Plan, +Change0, -Change
+            plan_costs/2,               % +Plan, -Costs
+            plan_change/3,              % +Costs, +Change0, -Change
             plan_host_setup/2,          % +Plan, -Goals
             plan_dynamics/3,            % +Plan, +Time, -State
             plan_journal/4,             % +Plan, +P, -Where, -How
@@ -300,11 +301,13 @@ overridden(Own, Option) :-
     memberchk(General, Own).
 
 %!  plan_links(+Plan, -Links) is det.
-%!  plan_change(+Plan, +Change0, -Change) is det.
+%!  plan_costs(+Plan, -Costs) is det.
+%!  plan_change(+Costs, +Change0, -Change) is det.
 %
 %   Links are terms link(I, J, Cost).  Change0 is link(I, J) or unlink(I, J),
 %   Change has the cost of the link besides.  It belongs to the pair of
-%   hosts: a link that comes again costs what it did.
+%   hosts: a link that comes again costs what it did.  Costs is the part of
+%   Plan that says so, since copying a plan takes longer than the change.
 
 plan_links(Plan, Links) :-
     Plan = plan(_, Edges, _, _),
@@ -325,11 +328,17 @@ links_of(Edges, Plan, Links) :-
             ( member(I-J, Edges), cost(Plan, I-J, Cost) ),
             Links).
 
-plan_change(Plan, Change0, Change) :-
+plan_costs(Plan, plan([], [], Costs, Options)) :-
+    Plan = plan(_, _, Costs, _),
+    findall(Option,
+            ( member(Option, [cost(_), seed(_)]), plan_option(Plan, Option) ),
+            Options).
+
+plan_change(Costs, Change0, Change) :-
     Change0 =.. [Action, A, B],
     I is min(A, B),
     J is max(A, B),
-    cost(Plan, I-J, Cost),
+    cost(Costs, I-J, Cost),
     Change =.. [Action, I, J, Cost].
 
 cost(plan(_, _, Costs, _), Edge, Cost) :-
