@@ -7,7 +7,7 @@ This is the interface of the layer: higher layers import from here.
 */
 
 :- reexport(agent/agents,
-            [ agent/5, agent_comes/5, agent_departs/3, agent_enter/3,
+            [ agent/5, agent_absent/1, agent_comes/5, agent_departs/3, agent_enter/3,
               agent_gone/3, agent_handed/4, agent_here/5, agent_on/2,
               agent_mail/2, agent_mobile/6, agent_move/5, agent_note/3,
               agent_program/4, agent_put/3, agent_put_life/2,
@@ -27,7 +27,7 @@ This is the interface of the layer: higher layers import from here.
             ]).
 :- reexport(agent/life,
             [ agent_extras_load/1, agent_extras_missing/1, is_life/1,
-              life_before/2, life_clone/3, life_goes/3, life_hop/3,
+              life_before/2, life_came/2, life_clone/3, life_goes/3, life_hop/3,
               life_hops/2,
               life_may_move/2,
               life_parent/2, life_payloads/2, life_extras/2,

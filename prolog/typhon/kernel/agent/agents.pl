@@ -1,6 +1,7 @@
 :- module(typhon_agents,
           [ agent/5,                    % ?Id, ?Host, ?Module, ?Hash, ?Life
             agent_here/5,               % ?Id, ?Host, ?Module, ?Hash, ?Life
+            agent_absent/1,             % +Id
             agent_on/2,                 % +Id, -Host
             agent_status/3,             % ?Id, ?Status, ?Goals
             agent_runs/1,               % +Id
@@ -104,6 +105,14 @@ agent(Id, Host, Module, Hash, Life) :-
 
 agent_here(Id, Host, Module, Hash, Life) :-
     stands(Id, Host, Module, Hash, Life, _).
+
+%!  agent_absent(+Id) is semidet.
+%
+%   Id is neither in this process nor under way from it.
+
+agent_absent(Id) :-
+    \+ stands(Id, _, _, _, _, _),
+    \+ under_way(Id, _, _, _, _, _).
 
 %!  agent_on(+Id, -Host) is semidet.
 %

@@ -14,7 +14,7 @@
 :- use_module('../base/durable', [durable/6]).
 :- use_module('../base/durable_changes', [durable_key/1, durable_on/0]).
 :- use_module('../wire', [endpoint_address/1]).
-:- use_module('../host', [address_parts/3, time_repeats/2]).
+:- use_module('../host', [time_repeats/2]).
 
 /** <module> The ids of agents
 
@@ -118,8 +118,10 @@ agent_home(Id, Home) :-
     sub_atom(Id, B1, _, 0, Home).
 
 agent_home_endpoint(Id, Endpoint) :-
-    agent_home(Id, Home),
-    address_parts(Home, _, Endpoint).
+    atom(Id),
+    atomic_list_concat([_, Name, Endpoint], '@', Id),
+    Name \== '',
+    Endpoint \== ''.
 
 %!  agent_origin(+Host, +Id, +Hash, +State, -Origin) is semidet.
 %

@@ -14,6 +14,7 @@
             life_may_move/2,            % +Life, -May
             life_hop/3,                 % +Life0, -Life, -Hops
             life_goes/3,                % +Life0, -Life, -Hops
+            life_came/2,                % @Life, -Hops
             life_before/2,              % +Life, -Life0
             life_clone/3                % +Id, +Life0, -Life
           ]).
@@ -142,6 +143,15 @@ life_goes(life(Parent, Hops0, Most, Tokens, Payloads, false, []),
         Hops0 < Most
     ),
     Hops is Hops0+1.
+
+%!  life_came(@Life, -Hops:integer) is semidet.
+%
+%   Life, any term, is that of an agent that has made Hops hops and carries no
+%   extras.
+
+life_came(Life, Hops) :-
+    is_life(Life),
+    Life = life(_, Hops, _, _, _, _, []).
 
 %!  life_before(+Life, -Life0) is det.
 %

@@ -13,7 +13,7 @@
             host_load/2,                % +Name, -Load
             host_hop/3,                 % +Name, +Direction, +Seconds
             host_plain/2,               % ?Name, -Plain
-            host_plain_leaves/2,        % +Plain, -Since
+            host_plain_leaves/2,        % +Name, -Since
             host_came/2,                % +Name-Plain, +Since
             host_left/2,                % +Name, +Since
             host_passes/4,              % +From, +Name-To, +Since, -Seconds
@@ -80,12 +80,12 @@ open_door(Name) :-
     assertz(door(Name, Tokens, Capacity, Key)).
 
 %!  host_plain(?Name, -Plain) is nondet.
-%!  host_plain_leaves(+Plain, -Since:float) is semidet.
+%!  host_plain_leaves(+Name, -Since:float) is semidet.
 %
 %   Nothing comes between what happens on Name and the kernel: the host is open,
 %   has no parts and asks for no token.  Plain is what a hop has to know of it,
 %   one fact.  A hop from there to another process begins now, at Since; fails if
-%   hops are delayed.
+%   Name is not plain, or hops are delayed.
 
 note_plain(Name) :-
     (   \+ parts(_, Name, _),
@@ -100,7 +100,9 @@ note_plain(Name) :-
     ;   true
     ).
 
-host_plain_leaves(plain(_, _, none, Epoch, Rate, _, _, _, _), Since) :-
+host_plain_leaves(Name, Since) :-
+    host_plain(Name, plain(_, _, none, Epoch, Rate, _, _, _, _)),
+    !,
     get_time(Now),
     Since is (Now-Epoch)*Rate.
 
@@ -335,15 +337,17 @@ host_passes(plain(_, _, _, Epoch, Rate, _, Load0, _, Out), Where, Since,
     with_mutex(typhon_host_flags, passes(Where, Load0, Out, In, Seconds)).
 
 passes(Where, Load0, Out, In, Seconds) :-
-    place_taken(Where),
+    Where = _-plain(_, _, _, _, _, _, Load, _, _),
+    get_flag(Load, Count),
+    place_taken(Where, Count),
     passed(Load0, Out, In, Seconds).
 
-%   A host that stops is not plain any more, and then waits until its load is 0:
+%   place_taken(+Where, +Count): Count agents stand there, and one more from now
+%   on.  A host that stops is not plain any more, and then waits until its load is 0:
 %   where it is still plain after the load has grown, the stop waits for the agent.
 
-place_taken(Name-Plain) :-
+place_taken(Name-Plain, Count) :-
     Plain = plain(_, _, _, _, _, Capacity, Load, _, _),
-    get_flag(Load, Count),
     Count < Capacity,
     Count1 is Count+1,
     set_flag(Load, Count1),
@@ -374,7 +378,7 @@ came(Where, In, Seconds) :-
     get_flag(Load, Count),
     Next is Count+1,
     \+ memory_short(Next),
-    place_taken(Where),
+    place_taken(Where, Count),
     add_hop(In, Seconds).
 
 left(Load, Out, Seconds) :-

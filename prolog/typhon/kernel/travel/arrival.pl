@@ -42,13 +42,15 @@ anyhow: the agent stands here, has gone on, or has ended.
     typhon_endpoint:returned/0.
 
 %   With a journal the answer waits for the commit; or until the code is there
-%   for what the agent carries.
+%   for what the agent carries.  What is taken over carries nothing.
 
 typhon_endpoint:handed(hop, hop(Name, Image, Program), Peer, Verdict) :-
-    (   ( durable_on ; carries_more(Image) )
+    (   durable_on
     ->  Verdict = deferred
     ;   catch(taken_over(Name, Image, Program, Peer), error(_, _), fail)
     ->  Verdict = accepted
+    ;   carries_more(Image)
+    ->  Verdict = deferred
     ;   holed(Image, Whole),
         arrived(Name, Whole, Program, none, Peer, Answer),
         handed(Answer, Name, Verdict)

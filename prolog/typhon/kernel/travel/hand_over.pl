@@ -14,17 +14,16 @@
                 host_plain/2, host_plain_leaves/2, real_time/3,
                 schedule_here/3, scheduler_call/1 ]).
 :- use_module('../agent',
-              [ agent_comes/5, agent_gone/3, agent_handed/4, agent_here/5,
-                agent_module/4, agent_ready/2, agent_standing/5,
-                agent_state/2, agent_thawed/5, agent_under_way/6, is_life/1,
-                life_before/2, life_extras/2, life_goes/3, life_hops/2,
+              [ agent_absent/1, agent_comes/5, agent_gone/3, agent_handed/4,
+                agent_here/5, agent_module/4, agent_ready/2,
+                agent_standing/5, agent_state/2, agent_thawed/5,
+                agent_under_way/6, life_before/2, life_came/2, life_goes/3,
                 mail_all/2, mail_back/2, mail_waits/1, program_sent/3,
                 with_agent/2 ]).
 :- use_module(backlog, [backlog/1]).
-:- use_module(home, [home_left/4]).
 :- use_module(post, [post_on/2]).
 :- use_module(whereabouts,
-              [agent_comes_anew/3, agent_left/4, agent_seen/4]).
+              [agent_comes_anew/3, agent_came/4, agent_went/5]).
 
 /** <module> The short way of a hop
 
@@ -58,15 +57,17 @@ nothing has changed: then the agent comes in like any other, see typhon_arrival.
 %   terms cannot travel, it may not move, or it has an order.
 
 hand_over(Id, Host, remote(Address, Name, Endpoint), Hole, Goals) :-
-    host_plain(Host, Plain),
-    host_plain_leaves(Plain, Since),
+    host_plain_leaves(Host, Since),
     \+ durable_on,
     \+ event_heard(hops),
     agent_here(Id, Host, Module, Hash, Life0),
     !,
     life_goes(Life0, Life, Hops),
     agent_state(Module, State),
-    mail(Id, Mail),
+    (   mail_waits(Id)
+    ->  with_agent(Id, mail_all(Id, Mail))
+    ;   Mail = []
+    ),
     (   framed(Endpoint, Name, Hash,
                image(Id, Hash, Life, State, Hole-Goals, Mail, Since), Frame),
         Transfer = hop(Id, dest(Address, Name, Endpoint), Hops),
@@ -74,12 +75,6 @@ hand_over(Id, Host, remote(Address, Name, Endpoint), Hole, Goals) :-
     ->  debug(typhon(hop), '~w hop ~D: leaves for ~w', [Id, Hops, Address])
     ;   with_agent(Id, mail_returned(Id, Mail)),
         fail
-    ).
-
-mail(Id, Mail) :-
-    (   mail_waits(Id)
-    ->  with_agent(Id, mail_all(Id, Mail))
-    ;   Mail = []
     ).
 
 %   An agent that was ended meanwhile has no mailbox any more: its mail is lost,
@@ -134,10 +129,7 @@ settled(Result, Transfer) :-
 
 moved_on(hop(Id, dest(Address, _, Endpoint), Hops), Host, Since) :-
     agent_under_way(Id, Hops, Host, _, way(_, Since, Process), _),
-    (   home_left(Id, Address, Hops, Process)
-    ->  true
-    ;   agent_left(Id, Address, Hops, Endpoint)
-    ),
+    agent_went(Id, Address, Hops, Endpoint, Process),
     agent_gone(Id, Hops, Mail),
     post_on(Id, Mail).
 
@@ -180,9 +172,8 @@ taken_over(Host, Image, known, Peer) :-
     atom(Host),
     host_plain(Host, Plain),
     \+ event_heard(hops),
-    comes(Image, Id, Hash, Life, Clauses, Goals, Since),
+    comes(Image, Id, Hash, Life, Hops, Clauses, Goals, Since),
     code_module(Hash, Program),
-    life_hops(Life, Hops),
     arg(1, Plain, Address),
     with_agent(Id, come(Id, Hops, Host-Plain, Hash-Program, Life, Clauses,
                         Since, Home)),
@@ -191,14 +182,14 @@ taken_over(Host, Image, known, Peer) :-
           [Id, Hops, Address, Peer]),
     (   Home == here
     ->  true                            % and so are we
-    ;   agent_seen(Id, Address, Hops, Peer)
+    ;   agent_came(Id, Address, Hops, Peer)
     ),
     endpoint_afterwards(go_on(Id, Host-Hash, context(Program, Id), Goals)).
 
 %   An agent that brings no messages, and that no option lets carry anything.
 
 comes(image(Id, Hash, Life, State, Hole-Goals, Mail, Since), Id, Hash, Life,
-      Clauses, Goals, Since) :-
+      Hops, Clauses, Goals, Since) :-
     Mail == [],
     atom(Id),
     sub_atom(Id, _, _, _, @),
@@ -206,8 +197,7 @@ comes(image(Id, Hash, Life, State, Hole-Goals, Mail, Since), Id, Hash, Life,
     atom(Hash),
     number(Since),
     is_list(Goals),
-    is_life(Life),
-    life_extras(Life, []),
+    life_came(Life, Hops),
     nonvar(State),
     State = state(Empty, Clauses),
     Empty == [],
@@ -218,8 +208,7 @@ comes(image(Id, Hash, Life, State, Hole-Goals, Mail, Since), Id, Hash, Life,
 
 come(Id, Hops, Where, Hash-Program, Life, Clauses, Since, Home) :-
     Where = Host-Plain,
-    \+ agent_here(Id, _, _, _, _),
-    \+ agent_under_way(Id, _, _, _, _, _),
+    agent_absent(Id),
     \+ backlog(Id),
     agent_comes_anew(Id, Hops, Home),
     arg(2, Plain, Place),

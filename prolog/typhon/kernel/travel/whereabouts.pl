@@ -1,6 +1,8 @@
 :- module(typhon_whereabouts,
           [ agent_seen/4,               % +Id, +Address, +Hops, +Peer
+            agent_came/4,               % +Id, +Address, +Hops, +Peer
             agent_left/4,               % +Id, +Address, +Hops, +Peer
+            agent_went/5,               % +Id, +Address, +Hops, +Peer, +Process
             agent_left_noted/4,         % +Id, +Address, +Hops, +Peer
             agent_ends/2,               % +Id, +Hops
             ended_agent/1,              % ?Id
@@ -75,14 +77,19 @@ see typhon_news, since it may have to connect.
                 *******************************/
 
 %!  agent_seen(+Id, +Address, +Hops, +Peer) is det.
+%!  agent_came(+Id, +Address, +Hops, +Peer) is det.
 %
 %   Id has arrived at Address, a host of this process, from Peer, which is
-%   `here` if that was this process.
+%   `here` if that was this process.  The second is for agents that were not
+%   born in this process.
 
 agent_seen(Id, _, _, _) :-
     home_knows(Id, _, _, _),            % it is here, and so are we
     !.
 agent_seen(Id, Address, Hops, Peer) :-
+    agent_came(Id, Address, Hops, Peer).
+
+agent_came(Id, Address, Hops, Peer) :-
     agent_home_endpoint(Id, Home),
     (   endpoint_address(Home)
     ->  true
@@ -98,24 +105,29 @@ typhon_identity:id_anew(Id) :-
     retractall(ended_here(Id, _)).
 
 %!  agent_left(+Id, +Address, +Hops, +Peer) is det.
+%!  agent_went(+Id, +Address, +Hops, +Peer, +Process) is det.
 %
-%   Id has left this process for Address, a host at the endpoint Peer.
+%   Id has left this process for Address, a host at the endpoint Peer, in
+%   Process.
 
 agent_left(Id, Address, Hops, Peer) :-
     (   endpoint_address(Peer)
     ->  true
     ;   process_at(Peer, Process),
-        (   home_left(Id, Address, Hops, Process)
-        ->  true
-        ;   at_home(Id)
-        ->  left_home(Id, Address, Hops, Process)
-        ;   remember_forward(Id, Address, Hops, Process)
-        )
+        agent_went(Id, Address, Hops, Peer, Process)
     ).
 
-at_home(Id) :-
+agent_went(Id, Address, Hops, _, Process) :-
+    home_left(Id, Address, Hops, Process),
+    !.
+agent_went(Id, Address, Hops, Peer, Process) :-
     agent_home_endpoint(Id, Home),
-    endpoint_address(Home).
+    (   endpoint_address(Home)
+    ->  left_home(Id, Address, Hops, Process)
+    ;   endpoint_address(Peer)
+    ->  true
+    ;   remember_forward(Id, Address, Hops, Process)
+    ).
 
 %   That it ended there may be heard before that it has come: to follow it
 %   would lead back here.  What ended after fewer hops was a copy that was
@@ -373,7 +385,8 @@ agent_comes_anew(Id, Hops, Home) :-
     Home = here.
 agent_comes_anew(Id, Hops, elsewhere) :-
     \+ agent_outcome(Id, _),
-    \+ ( agent_heard_of(Id, Hops0), Hops0 >= Hops ).
+    \+ ( ( forward(Id, _, Hops0, _) ; ended_here(Id, Hops0) ),
+         Hops0 >= Hops ).
 
 %!  whereabouts(+Id, -Address) is semidet.
 %

@@ -61,10 +61,9 @@ of the session guards a queue of bundles.
 
 frame_write(Out, counts(Received, Settled), Bytes) :-
     string_length(Bytes, Length),
-    check_bytes(Bytes, Hash),
     R is Received /\ 0xffffffff,
     S is Settled /\ 0xffffffff,
-    head_check(Hash, R, S, Check),
+    frame_check(Bytes, R, S, Check),
     L3 is Length>>24, L2 is (Length>>16) /\ 255,
     L1 is (Length>>8) /\ 255, L0 is Length /\ 255,
     C2 is Check>>16, C1 is (Check>>8) /\ 255, C0 is Check /\ 255,
@@ -76,7 +75,8 @@ frame_write(Out, counts(Received, Settled), Bytes) :-
 
 %   Each bit of the counts matters to the 24 bits of the check.
 
-head_check(Hash, R, S, Check) :-
+frame_check(Bytes, R, S, Check) :-
+    check_bytes(Bytes, Hash),
     Check is (Hash + 7919*(R + R>>19) + 104729*(S + S>>19)) /\ 0xffffff.
 
 %!  frame_overhead(?Bytes) is det.
@@ -114,8 +114,7 @@ frame_read(In, MaxBytes, Counts, Bytes) :-
         S is S3<<24 \/ S2<<16 \/ S1<<8 \/ S0,
         Counts = counts(R, S),
         Check is C2<<16 \/ C1<<8 \/ C0,
-        check_bytes(Bytes, Hash),
-        head_check(Hash, R, S, Found),
+        frame_check(Bytes, R, S, Found),
         (   Found =:= Check
         ->  true
         ;   throw(error(syntax_error(damaged_frame), check(Check, Found)))

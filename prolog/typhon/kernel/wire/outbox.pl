@@ -47,7 +47,7 @@ is held.
               [bundle_fits/1, frame_overhead/1, frame_write/3, term_bytes/3]).
 :- use_module(session,
               [ session_codec/2, session_held/2, session_key/2,
-                session_locked/2, session_must_exist/2, session_received/2,
+                session_locked/2, session_must_exist/3, session_received/2,
                 session_up/1, session_window/2, transport/3,
                 transport_broken/2, debug_frame/4 ]).
 :- use_module(threads, [manager_notify/1]).
@@ -256,10 +256,10 @@ put_with(Session, Bytes, Flush) :-
     !,
     put_frame(Session, Bytes, none, Flush).
 put_with(Session, Bytes, Flush) :-
-    session_must_exist(Session, Key),
+    session_must_exist(Session, Key, Window),
     (   holds(Session, Key)
     ->  unacked_waits_loose(Session, Bytes)
-    ;   put(Session, Key, Bytes, loose, Flush)
+    ;   put(Session, Key-Window, Bytes, loose, Flush)
     ).
 
 %   holds(+Session, +Key): the peer will acknowledge some of what is under way,
@@ -277,17 +277,17 @@ holds(Session, Key) :-
     Waiting < Most.
 
 put_frame(Session, Bytes, Token, Flush) :-
-    session_must_exist(Session, Key),
-    put(Session, Key, Bytes, Token, Flush).
+    session_must_exist(Session, Key, Window),
+    put(Session, Key-Window, Bytes, Token, Flush).
 
-%   put(+Session, +Key, +Bytes, +Token, +Flush): Token is `loose` if Bytes may
-%   go with others when they have to wait.
+%   put(+Session, +Parts, +Bytes, +Token, +Flush): Parts is Key-Window of the
+%   session; Token is `loose` if Bytes may go with others when they have to wait.
 
-put(Session, Key, Bytes, Token, Flush) :-
+put(Session, Key-Window, Bytes, Token, Flush) :-
     (   writable(Key, Thread, Out),
         (   Token == loose
-        ->  unacked_sent(Session, Out, Bytes, none, Counts)
-        ;   unacked_sent(Session, Out, Bytes, Token, Counts)
+        ->  unacked_sent(Window, Out, Bytes, none, Counts)
+        ;   unacked_sent(Window, Out, Bytes, Token, Counts)
         )
     ->  written(Flush, Key, Thread, Out, Counts, Bytes)
     ;   waits(Token, Session, Bytes),
@@ -406,7 +406,7 @@ control_counts(Session, Bytes, counts(Count, Count)) :-
 %   send_after_commit/2.
 
 let_out(Session, Frame, When) :-
-    session_must_exist(Session, _),
+    session_must_exist(Session, _, _),
     send_after_commit(frame(Session, Frame), When).
 
 %   All are written, then all go.

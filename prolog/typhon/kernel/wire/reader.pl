@@ -34,7 +34,7 @@ are held back while a frame is being handled and counted.
               [ dispatch/2, dispatch_all/2, handed_over/2,
                 session_unfinished/1 ]).
 :- use_module(session,
-              [ ack_frames/1, debug_frame/4, session_codec/2, session_count/1,
+              [ ack_frames/1, debug_frame/4, session_codec/2, session_count/2,
                 session_key/2, session_peer/3, session_received/2,
                 session_untold/2 ]).
 :- use_module(threads, [manager_notify/1]).
@@ -96,8 +96,10 @@ read_all(Session, In, Max, State) :-
     session_codec(Session, Codec),
     arg(3, State, Queue),
     repeat,
-    afterwards(Queue, Session, In),
-    push_late(Session, In),
+    (   lend(Queue, more_first(In), tell(Session))
+    ->  true                            % and told
+    ;   push_late(Session, In)
+    ),
     (   next(In, Max, Counts, Bytes)
     ->  (   Bytes == end_of_file
         ->  !
@@ -110,14 +112,8 @@ read_all(Session, In, Max, State) :-
         fail
     ).
 
-%   What a hook has left to do is done here. What it says to the peer has
-%   taken the answers along, else they go now.
-
-afterwards(Queue, Session, In) :-
-    (   lend(Queue, more_first(In), tell(Session))
-    ->  true
-    ;   true
-    ).
+%   After what a hook has left to do: what it says to the peer has taken the
+%   answers along, else they go now.
 
 tell(Session) :-
     session_later(Late),
@@ -163,7 +159,7 @@ skip(Session, Which) :-
     (   Times < 3
     ->  throw(error(syntax_error(damaged_frame), Which))
     ;   sig_atomic(( session_object(Session, spoilt),
-                     session_count(Session) )),
+                     session_count(Session, _) )),
         session_peer(Session, _, Address),
         print_message(error, typhon(endpoint, skipped(Address)))
     ).
@@ -238,23 +234,22 @@ handle(Bundle, Session, In, State) :-
     Bundle = bundle(_),
     take_bundle(Bundle, Session),
     !,
-    session_count(Session),
+    session_count(Session, _),
     nb_setarg(2, State, 0),
     acknowledge(Session, In, State).
 handle(Frame, Session, In, State) :-
     take_frame(Frame, Session),
-    session_count(Session),
+    session_count(Session, Untold),
     nb_setarg(2, State, 0),
-    acknowledge_now_and_then(Session, In, State).
+    acknowledge_now_and_then(Untold, Session, In, State).
 
 %   A bundle is acknowledged at once: its sender holds others until then.
 
-acknowledge_now_and_then(Session, In, State) :-
-    session_untold(Session, Count),
-    (   Count =:= 0
+acknowledge_now_and_then(Untold, Session, In, State) :-
+    (   Untold =:= 0
     ->  true
     ;   ack_frames(MaxFrames),
-        Count < MaxFrames,
+        Untold < MaxFrames,
         arg(1, State, ToldBytes),
         byte_count(In, Bytes),
         ack_bytes(MaxBytes),

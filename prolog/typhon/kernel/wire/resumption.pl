@@ -41,7 +41,7 @@ ended.
 :- use_module(session,
               [ session/2, session_adopting/2, session_codec/2,
                 session_forget/1, session_key/2, session_locked/2,
-                session_must_exist/2, session_open/4, session_received/2,
+                session_must_exist/3, session_open/4, session_received/2,
                 session_up_since/2,
                 transport_attach/3, transport_detach/2, transport_stop/2,
                 transport_thread/2 ]).
@@ -66,7 +66,7 @@ session_install(Session, Thread, Out, PeerCount) :-
     debug(typhon(session), '~w: up; it has ~D frames', [Key, PeerCount]).
 
 install(Session, Key, Thread, Out, PeerCount) :-
-    session_must_exist(Session, Key),
+    session_must_exist(Session, Key, _),
     byte_count(Out, Bytes),
     unacked_resumed(Session, PeerCount, Bytes),
     pusher_no_control(Key),

@@ -2,7 +2,7 @@
           [ session/2,                  % ?Key, -Session
             session_open/4,             % +Key, +Hello, +Codec, -Session
             session_forget/1,           % +Session
-            session_must_exist/2,       % +Session, -Key
+            session_must_exist/3,       % +Session, -Key, -Window
             session_key/2,              % +Session, -Key
             session_codec/2,            % +Session, -Codec
             session_peer/3,             % +Session, -Process, -Address
@@ -15,9 +15,10 @@
             route_add/2,                % +Address, +Session
             ack_frames/1,               % -Count
             session_window/2,           % +Session, -Window
+            session_window/3,           % +Session, -Key, -Window
             session_window_free/1,      % +Session
             session_received/2,         % +Session, -Count
-            session_count/1,            % +Session
+            session_count/2,            % +Session, -Untold
             session_untold/2,           % +Session, -Count
             transport/3,                % ?Key, ?Thread, -Out
             transport_thread/2,         % ?Key, ?Thread
@@ -144,14 +145,14 @@ session_forget(Session) :-
                  retractall(route(_, Session)) )),
     debug(typhon(session), '~w: forgotten', [Key]).
 
-%!  session_must_exist(+Session, -Key) is det.
+%!  session_must_exist(+Session, -Key, -Window) is det.
 %
 %   Session has not been closed; another may have its key by now.
 %
 %   @error session_closed
 
-session_must_exist(Session, Key) :-
-    session_key(Session, Key),
+session_must_exist(Session, Key, Window) :-
+    Session = session(Key, _, _, _, _, Window),
     (   session(Key, Session)
     ->  true
     ;   throw(error(session_closed, _))
@@ -235,9 +236,10 @@ window_open(Window) :-
     Window =.. [window, Sent, Waiting|Flags].
 
 %!  session_window(+Session, -Window) is det.
+%!  session_window(+Session, -Key, -Window) is det.
 %!  session_window_free(+Session) is det.
 %
-%   The window of the session; no thread uses it any more.
+%   The window of the session, and its key; no thread uses it any more.
 
 session_window_free(session(_, _, _, _, _, Window)) :-
     Window =.. [window, Sent, Waiting|Flags],
@@ -247,12 +249,15 @@ session_window_free(session(_, _, _, _, _, Window)) :-
 
 session_window(session(_, _, _, _, _, Window), Window).
 
+session_window(session(Key, _, _, _, _, Window), Key, Window).
+
 %!  session_received(+Session, -Count) is det.
 %!  session_untold(+Session, -Count) is det.
-%!  session_count(+Session) is det.
+%!  session_count(+Session, -Untold) is det.
 %
 %   Count frames of the peer have been received, and the peer does not know it
-%   of Count; one more has been. The last is for the thread of the connection.
+%   of Count; one more has been, of Untold it does not know then. The last is
+%   for the thread of the connection.
 
 session_received(session(_, _, _, _, _, window(_, _, Received, _, _, _, _)),
                  Count) :-
@@ -264,10 +269,13 @@ session_untold(session(_, _, _, _, _, window(_, _, Received, Told, _, _, _)),
     get_flag(Told, Known),
     Count is All-Known.
 
-session_count(session(_, _, _, _, _, window(_, _, Received, _, _, _, _))) :-
+session_count(session(_, _, _, _, _, window(_, _, Received, Told, _, _, _)),
+              Untold) :-
     get_flag(Received, Count0),
     Count is Count0+1,
-    set_flag(Received, Count).
+    set_flag(Received, Count),
+    get_flag(Told, Known),
+    Untold is Count-Known.
 
 		 /*******************************
 		 *          CONNECTION          *
@@ -341,7 +349,7 @@ session_up_since(Session, Time) :-
 
 route_up(Address, Session) :-
     route(Address, Session),
-    session_key(Session, Key),
+    Session = session(Key, _, _, _, _, _),
     session_up(Key).
 
 		 /*******************************

@@ -1,5 +1,5 @@
 :- module(typhon_unacked,
-          [ unacked_sent/5,             % +Session, +Out, +Bytes, +Token, -Counts
+          [ unacked_sent/5,             % +Window, +Out, +Bytes, +Token, -Counts
             unacked_waits/3,            % +Session, +Bytes, +Token
             unacked_waits_loose/2,      % +Session, +Bytes
             unacked_space/3,            % +Session, +Out, -Space
@@ -43,7 +43,7 @@ thread of the connection, session_pending/2 is for any thread.
               [bundle_all/3, bundle_next/5, count_ahead/3, frame_overhead/1]).
 :- use_module(session,
               [ ack_frames/1, session_codec/2, session_held/2, session_key/2,
-                session_window/2, session_window_free/1 ]).
+                session_window/2, session_window/3, session_window_free/1 ]).
 
 :- dynamic
     bundled/2,                          % Key, Count: the last bundle's
@@ -59,7 +59,7 @@ thread of the connection, session_pending/2 is for any thread.
 
 under_way(65536).
 
-%!  unacked_sent(+Session, +Out, +Bytes, +Token, -Counts) is semidet.
+%!  unacked_sent(+Window, +Out, +Bytes, +Token, -Counts) is semidet.
 %!  unacked_waits(+Session, +Bytes, +Token) is det.
 %!  unacked_waits_loose(+Session, +Bytes) is det.
 %
@@ -67,8 +67,7 @@ under_way(65536).
 %   others wait, or it might block; it waits until others are written; it may go
 %   with others in one frame then.
 
-unacked_sent(Session, Out, Bytes, Token, counts(Count, Count)) :-
-    session_window(Session, Window),
+unacked_sent(Window, Out, Bytes, Token, counts(Count, Count)) :-
     Window = window(Sent, Waiting, Received, Told, _, AckedBytes, Settled),
     message_queue_property(Waiting, size(0)),
     space(AckedBytes, Out, Space),
@@ -231,10 +230,9 @@ numbered([frame(_, Token, _)|Frames], N0, Numbered) :-
 %   @error domain_error(acknowledged, Count) more than was sent
 
 session_acked(Session, counts(Received, Count), Settled) :-
-    session_window(Session, Window),
+    session_window(Session, Key, Window),
     arg(5, Window, Acked),
     get_flag(Acked, Count0),
-    session_key(Session, Key),
     (   count_ahead(Count0, Received, Ahead),
         Ahead > 0
     ->  session_held(Session, acked(Ahead, Key, Window, Count, Tokens, Late))
