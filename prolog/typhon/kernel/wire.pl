@@ -19,15 +19,13 @@ This is the interface of the layer: higher layers import from here.
               endpoint_post_by/4, endpoint_post_up/3, endpoint_reply/2,
               endpoint_reply_later/2, endpoint_request/4 ]).
 :- reexport(wire/request, [endpoint_later/1]).
-:- reexport(wire/outbox, [frame_fits/1]).
+:- reexport(wire/session, [frame_fits/1]).
 :- reexport(wire/lending, [endpoint_afterwards/1]).
-:- reexport(wire/peers,
-            [endpoint_flush/1, endpoint_flush/2, endpoint_gone/1,
-             endpoint_lasting/1, endpoint_left/1,
-             endpoint_missed/2, endpoint_peer/2]).
+:- reexport(wire/flush, [endpoint_flush/1, endpoint_flush/2]).
 :- reexport(wire/peer_cache,
-            [ contact_expect/1, contact_expect_no_more/1,
-              endpoint_own_proof/1, endpoint_proof/2 ]).
+            [ contact_expect/1, contact_expect_no_more/1, endpoint_gone/1,
+              endpoint_lasting/1, endpoint_left/1, endpoint_missed/2,
+              endpoint_own_proof/1, endpoint_peer/2, endpoint_proof/2 ]).
 :- reexport(wire/frame, [mobile_term/1]).
 :- reexport(wire/handshake,
             [line_read/3, line_write/2]).

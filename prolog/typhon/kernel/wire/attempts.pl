@@ -6,7 +6,7 @@
             attempt_greeted/1,          % +Thread
             attempt_pause/3,            % +Address, +Pause, +Since
             attempt_end/1,              % ?Address
-            attempt_expired/2,          % +Address, +Since
+            attempt_over/3,             % +Address, +Since, +Formal
             attempt_next/2,             % +Me, -Address
             attempt_due/1,              % -Time
             attempts_due/1,             % -Due
@@ -204,14 +204,38 @@ young(Until) :-
 		 *           DEADLINES          *
 		 *******************************/
 
-%!  attempt_expired(+Address, +Since) is semidet.
+%!  attempt_over(+Address, +Since, +Formal) is semidet.
 %
-%   The time of a caller that has waited for Address Since then is over.
+%   After the failure Formal, `late` if there was no answer, the caller that has
+%   waited for Address Since then waits no more: its time is over, or another
+%   attempt would fail, too.
 
-attempt_expired(Address, Since) :-
-    deadline(Address, Since, Deadline),
-    get_time(Now),
-    Deadline =< Now.
+attempt_over(Address, Since, Formal) :-
+    number(Since),
+    (   \+ may_pass(Formal),
+        \+ soon_there(Formal, Address)
+    ->  true
+    ;   deadline(Address, Since, Deadline),
+        get_time(Now),
+        Deadline =< Now
+    ).
+
+%   It is being started again.
+
+soon_there(socket_error(econnrefused, _), Address) :-
+    contact_expected(Address).
+
+may_pass(late).
+may_pass(ended).                        % replaced by another connection
+may_pass(session_closed).
+may_pass(timeout_error(_, _)).
+may_pass(resource_error(_)).
+may_pass(io_error(_, _)).
+may_pass(syntax_error(end_of_file)).
+may_pass(socket_error(Code, _)) :-
+    memberchk(Code, [ econnreset, econnaborted, epipe, etimedout, eagain,
+                      eai_again, eintr, emfile, enfile, enobufs, enomem,
+                      eaddrnotavail ]).
 
 deadline(Address, Since, Deadline) :-
     (   contact_expected(Address)

@@ -29,13 +29,13 @@ take a while is done by a thread in the background.
 :- use_module('../base/error_text', [print_error/2]).
 :- use_module(attempts,
               [ asked/1, attempt/4, attempt_asked/2, attempt_begun/3,
-                attempt_due/1, attempt_end/1, attempt_expired/2,
-                attempt_greeted/1, attempt_next/2, attempt_pause/3,
+                attempt_due/1, attempt_end/1,
+                attempt_greeted/1, attempt_next/2, attempt_over/3, attempt_pause/3,
                 attempt_want/1, attempts_due/1, waiter/1, waiter_add/2,
                 waiter_tell/2, waiters_missed/2, waiters_tell/2 ]).
 :- use_module(connection, [outgoing/2]).
 :- use_module(peer_cache,
-              [contact_expected/1, contact_gone/1, contact_missed/2]).
+              [contact_gone/1, contact_missed/2]).
 :- use_module(request, [requests_lost/2, session_unfinished/1]).
 :- use_module(resumption, [session_close/2, session_retire/1]).
 :- use_module(session,
@@ -295,7 +295,7 @@ verdict(Address, _) :-
 verdict(Address, Formal) :-
     attempt(Address, State, Pause, Since),
     debug(typhon(connect), '~w: no connection: ~p', [Address, Formal]),
-    (   over(Address, Since, Formal)
+    (   attempt_over(Address, Since, Formal)
     ->  attempt_asked(State, Asked),
         missed(Address, Asked, Formal),
         others(Address, Pause)
@@ -311,31 +311,6 @@ others(Address, _) :-
     attempt_want(Address).
 others(Address, Pause) :-
     go_on(Address, Pause, none).
-
-over(Address, Since, Formal) :-
-    number(Since),
-    (   \+ may_pass(Formal),
-        \+ soon_there(Formal, Address)
-    ->  true
-    ;   attempt_expired(Address, Since)
-    ).
-
-%   It is being started again.
-
-soon_there(socket_error(econnrefused, _), Address) :-
-    contact_expected(Address).
-
-may_pass(late).
-may_pass(ended).                        % replaced by another connection
-may_pass(session_closed).
-may_pass(timeout_error(_, _)).
-may_pass(resource_error(_)).
-may_pass(io_error(_, _)).
-may_pass(syntax_error(end_of_file)).
-may_pass(socket_error(Code, _)) :-
-    memberchk(Code, [ econnreset, econnaborted, epipe, etimedout, eagain,
-                      eai_again, eintr, emfile, enfile, enobufs, enomem,
-                      eaddrnotavail ]).
 
 go_on(Address, Pause, Since) :-
     (   pointless(Address, Since)
@@ -370,7 +345,7 @@ late(trying(Thread, _, _), Address, _) :-
     verdict(Address, late).
 late(pausing(_, _), Address, Me) :-
     attempt(Address, _, _, Since),
-    (   over(Address, Since, late)
+    (   attempt_over(Address, Since, late)
     ->  verdict(Address, late)
     ;   pointless(Address, Since)
     ->  attempt_end(Address)

@@ -47,7 +47,6 @@ own_start_next/1 run under the mutex of the endpoint.
                 sync_changes/0 ]).
 :- use_module('../base/own_thread', [in_own_thread/1]).
 :- use_module(acceptor, [accept_all/2, accept_no_more/0]).
-:- use_module(alone, [alone/1, alone_begin/1, alone_end/0]).
 :- use_module(cookie, [cookie/1, random_hex/2]).
 :- use_module(handshake, [hello/4]).
 :- use_module(connection_manager, [keep/1, manager_unhandled/1]).
@@ -57,12 +56,13 @@ own_start_next/1 run under the mutex of the endpoint.
                 wire_threads_end/0 ]).
 :- use_module(lending, [lending_anew/0]).
 :- use_module(outbox, [session_control/2]).
-:- use_module(peers, [peers_flush/1]).
+:- use_module(flush, [peers_flush/1]).
 :- use_module(request, [requests_lost/2]).
 :- use_module(resumption, [session_close/2]).
 :- use_module(session, [session/2]).
 :- use_module(transport,
-              [transport_begin/1, transport_end/0, transport_proof/1]).
+              [ alone/1, alone_begin/1, alone_end/0, transport_begin/1,
+                transport_end/0, transport_proof/1 ]).
 
 :- multifile
     received/3,                         % Kind, Term, Peer

@@ -30,21 +30,23 @@ endpoint_ask_all/6 wait, and are not for the threads of the endpoint.
 :- use_module(library(error), [existence_error/2, must_be/2]).
 :- use_module(library(lists), [append/3, member/2, selectchk/3, subtract/3]).
 :- use_module(library(settings), [setting/2, setting/4]).
-:- use_module(alone, [alone/1, alone_request/4]).
+:- use_module('../base/on_demand', [on_demand_load/2]).
 :- use_module(connection_manager, [manager_connect/1, manager_connect/2]).
 :- use_module(endpoint, [endpoint_address/1]).
 :- use_module(frame, [bytes_term/3, mobile_term/1]).
 :- use_module(outbox,
               [session_hand/3, session_hand_bytes/4, session_send_with/2]).
-:- use_module(peers, [endpoint_peer/2]).
+:- use_module(peer_cache, [endpoint_peer/2]).
 :- use_module(reader, [in_reader/0]).
 :- use_module(request,
-              [ request_forget/1, request_reply/2, request_reply_later/2,
-                request_send/4, take_post/3 ]).
+              [ request_answer/2, request_forget/1, request_reply/2,
+                request_reply_later/2, request_send/4, take_post/3,
+                take_request/4 ]).
 :- use_module(unsent,
               [unsent/1, unsent_closed/4, unsent_forget/1, unsent_request/4]).
 :- use_module(session,
               [route/2, route_up/2, session_codec/2, session_peer/3]).
+:- use_module(transport, [alone/1]).
 
 :- meta_predicate
     endpoint_request(+, +, +, 1).
@@ -164,6 +166,21 @@ endpoint_request(Address, Kind, Term, OnAnswer) :-
     check_running,
     mobile_term(Term),
     unsent_request(Address, Kind, Term, OnAnswer).
+
+%   Where this endpoint is alone what is asked is taken at once, as a copy.
+
+alone_request(Address, Kind, Term, OnAnswer) :-
+    alone(Address),
+    !,
+    mobile_term(Term),
+    copy_term(Term, Copy),
+    on_demand_load(requested, Kind),    % time may stand still meanwhile
+    (   take_request(Kind, Copy, Address, alone(OnAnswer))
+    ->  true
+    ;   request_answer(lost, OnAnswer)
+    ).
+alone_request(_, _, _, OnAnswer) :-
+    request_answer(unreachable, OnAnswer).
 
 %!  endpoint_hand(+Address, +Kind, +Term, -Hand) is semidet.
 %!  endpoint_hand_over(+Hand, +Token) is det.

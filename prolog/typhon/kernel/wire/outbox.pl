@@ -11,9 +11,7 @@
             session_send_later/2,       % +Session, +Term
             session_later/1,            % -Count
             session_push/1,             % +Session
-            session_control/2,          % +Session, +Term
-            frame_fits/1,               % +Length
-            session_flush/2             % +Session, +Deadline
+            session_control/2           % +Session, +Term
           ]).
 
 /** <module> What is sent in a session: every frame once
@@ -38,24 +36,21 @@ is held.
 */
 
 :- use_module(library(error), [resource_error/1]).
-:- use_module(library(settings), [setting/2]).
 :- use_module(library(lists), [member/2, reverse/2]).
 :- use_module('../base/durable_changes',
-              [ commit_changes/0, flush_sends/0, output_waits/0,
-                send_after_commit/2 ]).
+              [flush_sends/0, output_waits/0, send_after_commit/2]).
 :- use_module(frame,
               [bundle_fits/1, frame_overhead/1, frame_write/3, term_bytes/3]).
 :- use_module(session,
               [ session_codec/2, session_held/2, session_key/2,
                 session_locked/2, session_must_exist/3, session_received/2,
-                session_up/1, session_window/2, transport/3,
-                transport_broken/2, debug_frame/4 ]).
+                session_up/1, session_window/2, session_window/3, transport/3,
+                transport_broken/2, debug_frame/4, frame_fits/1 ]).
 :- use_module(threads, [manager_notify/1]).
 :- use_module(pusher, [pusher/2, pusher_control/3, pusher_start/4]).
 :- use_module(unacked,
-              [ unacked_await/3, unacked_next/3, unacked_no_wait/1,
-                unacked_owed/2, unacked_sent/5, unacked_space/3,
-                unacked_waiting/1, unacked_waits/3, unacked_waits_loose/2 ]).
+              [ unacked_next/3, unacked_owed/2, unacked_sent/5,
+                unacked_space/3, unacked_waiting/1, unacked_waits/3 ]).
 
 :- multifile typhon_durable_changes:committed/1.
 
@@ -88,10 +83,12 @@ unless_closed(Goal) :-
 send(Session, Term, When) :-
     frame_bytes(Session, Term, Bytes),
     answers_first(Session),
+    goes(Session, Bytes, none, When).
+
+goes(Session, Bytes, Token, When) :-
     (   output_waits
-    ->  let_out(Session, Bytes, When)
-    ;   session_locked(Session,
-                       put_frame(Session, Bytes, none, flush))
+    ->  let_out(Session, Bytes, Token, When)
+    ;   session_locked(Session, put_frame(Session, Bytes, Token, flush))
     ).
 
 %!  session_send_with(+Session, +Term) is det.
@@ -110,11 +107,11 @@ session_send_with(Session, Term) :-
     ).
 session_send_with(Session, Term) :-
     frame_bytes(Session, Term, Bytes),
-    (   output_waits
-    ->  let_out(Session, loose(Bytes), now)
-    ;   session_locked(Session,
-                       put_with(Session, Bytes, flush))
-    ).
+    (   bundle_fits(Bytes)
+    ->  Token = loose
+    ;   Token = none
+    ),
+    goes(Session, Bytes, Token, now).
 
 session_release(Session) :-
     (   unacked_waiting(Session)
@@ -195,7 +192,7 @@ session_send_later(Session, Term) :-
     !,
     frame_bytes(Session, Term, Bytes),
     (   output_waits
-    ->  unless_closed(let_out(Session, Bytes, later))
+    ->  unless_closed(let_out(Session, Bytes, none, later))
     ;   session_locked(Session, put_frame(Session, Bytes, none, buffer))
     ),
     Count1 is Count+1,
@@ -230,18 +227,6 @@ flush_out(Key) :-
     ;   true
     ).
 
-%!  frame_fits(+Length) is semidet.
-%
-%   A frame may have so many bytes: the peer would refuse a longer one, again
-%   and again.
-
-frame_fits(Length) :-
-    Length =< 65536,
-    !.
-frame_fits(Length) :-
-    setting(typhon_session:frame_bytes, Most),
-    Length =< Most.
-
 frame_bytes(Session, Term, Bytes) :-
     session_codec(Session, Codec),
     term_bytes(Codec, Term, Bytes),
@@ -251,54 +236,41 @@ frame_bytes(Session, Term, Bytes) :-
     ;   resource_error(frame_bytes)
     ).
 
-put_with(Session, Bytes, Flush) :-
-    \+ bundle_fits(Bytes),
+%   put_frame(+Session, +Bytes, +Token, +Flush): Token is `loose` if Bytes may
+%   be held, and go with others when they have to wait.
+
+put_frame(Session, Bytes, loose, Flush) :-
     !,
-    put_frame(Session, Bytes, none, Flush).
-put_with(Session, Bytes, Flush) :-
     session_must_exist(Session, Key, Window),
     (   holds(Session, Key)
-    ->  unacked_waits_loose(Session, Bytes)
-    ;   put(Session, Key-Window, Bytes, loose, Flush)
+    ->  unacked_waits(Session, Bytes, loose)
+    ;   put(Session, Key-Window, Bytes, loose, none, Flush)
     ).
+put_frame(Session, Bytes, Token, Flush) :-
+    session_must_exist(Session, Key, Window),
+    put(Session, Key-Window, Bytes, Token, Token, Flush).
 
 %   holds(+Session, +Key): the peer will acknowledge some of what is under way,
 %   and not too much waits; or there is a pusher.
 
 most_held(256).
 
-holds(_, Key) :-
-    pusher(Key, _),
-    !.
 holds(Session, Key) :-
-    session_up(Key),
-    unacked_owed(Session, Waiting),
-    most_held(Most),
-    Waiting < Most.
-
-put_frame(Session, Bytes, Token, Flush) :-
-    session_must_exist(Session, Key, Window),
-    put(Session, Key-Window, Bytes, Token, Flush).
-
-%   put(+Session, +Parts, +Bytes, +Token, +Flush): Parts is Key-Window of the
-%   session; Token is `loose` if Bytes may go with others when they have to wait.
-
-put(Session, Key-Window, Bytes, Token, Flush) :-
-    (   writable(Key, Thread, Out),
-        (   Token == loose
-        ->  unacked_sent(Window, Out, Bytes, none, Counts)
-        ;   unacked_sent(Window, Out, Bytes, Token, Counts)
-        )
-    ->  written(Flush, Key, Thread, Out, Counts, Bytes)
-    ;   waits(Token, Session, Bytes),
-        see_to(Session, Key)
+    (   pusher(Key, _)
+    ->  true
+    ;   session_up(Key),
+        unacked_owed(Session, Waiting),
+        most_held(Most),
+        Waiting < Most
     ).
 
-waits(loose, Session, Bytes) :-
-    !,
-    unacked_waits_loose(Session, Bytes).
-waits(Token, Session, Bytes) :-
-    unacked_waits(Session, Bytes, Token).
+put(Session, Key-Window, Bytes, Waiting, Sent, Flush) :-
+    (   writable(Key, Thread, Out),
+        unacked_sent(Window, Out, Bytes, Sent, Counts)
+    ->  written(Flush, Key, Thread, Out, Counts, Bytes)
+    ;   unacked_waits(Session, Bytes, Waiting),
+        see_to(Session, Key)
+    ).
 
 %   writable(+Key, -Thread, -Out): Out can be written to. The stream of a pusher
 %   is left alone: even to look at it might block.
@@ -331,7 +303,8 @@ write_waiting(Session, Key, Thread, Out) :-
 
 write_while_room(Session, Key) :-
     (   writable(Key, _, Out),
-        unacked_space(Session, Out, Space),
+        session_window(Session, Window),
+        unacked_space(Window, Out, Space),
         unacked_next(Session, Space, frame(Bytes, _, Settled))
     ->  session_received(Session, Count),
         frame_write(Out, counts(Count, Settled), Bytes),
@@ -371,12 +344,12 @@ session_acknowledge(Session) :-
 %   If something waits it is held without a pusher: posts, which settle nothing.
 
 put_control(Session, Kind, Bytes) :-
-    session_key(Session, Key),
+    session_window(Session, Key, Window),
     (   writable(Key, Thread, Out),
-        unacked_space(Session, Out, Space),
+        unacked_space(Window, Out, Space),
         string_length(Bytes, Length),
         Length < Space
-    ->  control_counts(Session, Bytes, Counts),
+    ->  control_counts(Window, Length, Counts),
         written(flush, Key, Thread, Out, Counts, Bytes)
     ;   session_up(Key)
     ->  pusher_control(Key, Kind, Bytes),
@@ -386,13 +359,11 @@ put_control(Session, Kind, Bytes) :-
 
 %   The peer does not acknowledge it: its bytes are not under way.
 
-control_counts(Session, Bytes, counts(Count, Count)) :-
-    session_window(Session,
-                   window(_, _, Received, Told, _, AckedBytes, Settled)),
+control_counts(window(_, _, Received, Told, _, AckedBytes, Settled), Length,
+               counts(Count, Count)) :-
     get_flag(Received, Count),
     set_flag(Told, Count),
     set_flag(Settled, Count),
-    string_length(Bytes, Length),
     frame_overhead(Head),
     get_flag(AckedBytes, Acked0),
     Acked is Acked0+Length+Head,
@@ -402,12 +373,12 @@ control_counts(Session, Bytes, counts(Count, Count)) :-
                 *       WHAT IS COMMITTED      *
                 *******************************/
 
-%   let_out(+Session, +Frame, +When): Frame as it may wait, When as of
+%   let_out(+Session, +Bytes, +Token, +When): as put_frame/4, When as of
 %   send_after_commit/2.
 
-let_out(Session, Frame, When) :-
+let_out(Session, Bytes, Token, When) :-
     session_must_exist(Session, _, _),
-    send_after_commit(frame(Session, Frame), When).
+    send_after_commit(frame(Session, Bytes, Token), When).
 
 %   All are written, then all go.
 
@@ -418,8 +389,8 @@ typhon_durable_changes:committed(Frames) :-
 
 let_out_all([], Sessions0, Sessions) :-
     reverse(Sessions0, Sessions).
-let_out_all([frame(Session, Frame)|Frames], Sessions0, Sessions) :-
-    catch(session_locked(Session, put_committed(Frame, Session)),
+let_out_all([frame(Session, Bytes, Token)|Frames], Sessions0, Sessions) :-
+    catch(session_locked(Session, put_frame(Session, Bytes, Token, buffer)),
           error(session_closed, _),
           true),                        % callers have got a result
     (   memberchk(Session, Sessions0)
@@ -427,31 +398,3 @@ let_out_all([frame(Session, Frame)|Frames], Sessions0, Sessions) :-
     ;   Sessions1 = [Session|Sessions0]
     ),
     let_out_all(Frames, Sessions1, Sessions).
-
-put_committed(loose(Bytes), Session) :-
-    !,
-    put_with(Session, Bytes, buffer).
-put_committed(Bytes, Session) :-
-    put_frame(Session, Bytes, none, buffer).
-
-%!  session_flush(+Session, +Deadline) is semidet.
-%
-%   Wait until all that was sent before has been acknowledged, or the session
-%   is closed, as when its peer has died; fails at Deadline, a time stamp.
-
-session_flush(Session, Deadline) :-
-    setup_call_cleanup(
-        message_queue_create(Queue),
-        flush(Session, Queue, Deadline),
-        ( unacked_no_wait(Queue),
-          message_queue_destroy(Queue) )).
-
-flush(Session, Queue, Deadline) :-
-    catch(commit_changes, error(_, _), true), % the committer has reported it
-    session_release(Session),
-    session_locked(Session, unacked_await(Session, Queue, Pending)),
-    (   Pending =:= 0
-    ->  true
-    ;   session_control(Session, ping),
-        thread_get_message(Queue, flushed, [deadline(Deadline)])
-    ).

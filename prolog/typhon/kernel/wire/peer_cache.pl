@@ -2,11 +2,15 @@
           [ contact_met/2,              % +Address, +Process
             contact_gone/1,             % +Address
             contact_missed/2,           % +Address, +Formal
-            missed/2,                   % ?Address, ?Formal
             contact_expect/1,           % +Address
             contact_expect_no_more/1,   % +Address
             contact_expected/1,         % +Address
             contact/3,                  % ?Address, ?Process, ?State
+            endpoint_peer/2,            % ?Address, ?Property
+            endpoint_gone/1,            % +Address
+            endpoint_left/1,            % +Address
+            endpoint_lasting/1,         % +Address
+            endpoint_missed/2,          % +Address, ?Formal
             endpoint_proof/2,           % +Peer, -Proof
             endpoint_own_proof/1        % ?Proof
           ]).
@@ -24,13 +28,15 @@ last error. A bounded number of addresses is kept, the oldest are discarded.
 :- use_module(library(settings), [setting/2, setting/4]).
 :- use_module('../base/durable', [durable/5]).
 :- use_module('../base/durable_changes', [durable_drop/3, durable_put/4]).
-:- use_module(session, [route/2, session_proof/2]).
+:- use_module(session,
+              [ route/2, route_up/2, session_codec/2, session_key/2,
+                session_proof/2, session_up/1 ]).
 :- use_module(transport,
               [transport_own/1, transport_proof/1, transport_unknown/1]).
+:- use_module(unacked, [session_pending/2]).
 
 :- setting(contacts, positive_integer, 10000,
            "Addresses of which the last process met is remembered").
-
 
 :- dynamic
     contact/3,                          % Address, Process, met or gone
@@ -58,7 +64,6 @@ contact_gone(Address) :-
                  note(Address, Process, gone) )).
 
 %!  contact_missed(+Address, +Formal) is det.
-%!  missed(?Address, ?Formal) is nondet.
 %
 %   No process could be reached at Address, because of the error Formal.
 
@@ -125,6 +130,73 @@ forget_oldest :-
     Excess is Count-Max,
     forall(between(1, Excess, _),
            ignore(retract(contact(_, _, _)))).
+
+		 /*******************************
+		 *          PROPERTIES          *
+		 *******************************/
+
+%!  endpoint_peer(?Address, ?Property) is nondet.
+%
+%   Property of the peer at Address: process(Id), the one last met there,
+%   state(up or down), pending(Frames), codec(fast or text), proof(cookie or
+%   certificate(Name)).
+
+endpoint_peer(Address, process(Id)) :-
+    contact(Address, Id, _),
+    Id \== none.
+endpoint_peer(Address, Property) :-
+    route(Address, Session),
+    peer_property(Property, Session).
+
+peer_property(state(State), Session) :-
+    session_key(Session, Key),
+    (   session_up(Key)
+    ->  State = up
+    ;   State = down
+    ).
+peer_property(pending(Count), Session) :-
+    session_pending(Session, Count).
+peer_property(codec(Codec), Session) :-
+    session_codec(Session, Codec).
+peer_property(proof(Proof), Session) :-
+    session_proof(Session, Proof).
+
+%!  endpoint_left(+Address) is semidet.
+%!  endpoint_gone(+Address) is semidet.
+%
+%   As far as this process knows there is no process at Address any more to
+%   which it can have talked: none listened there when it last tried to
+%   connect, or the one that did said goodbye. Not true of a process that
+%   has been stopped, or is behind a network that is cut.
+
+endpoint_left(Address) :-
+    contact(Address, _, gone),
+    \+ route_up(Address, _).
+
+endpoint_gone(Address) :-
+    endpoint_left(Address),
+    \+ endpoint_lasting(Address).
+
+%!  endpoint_lasting(+Address) is semidet.
+%
+%   The process that was last met at Address keeps a journal: it is not gone
+%   when it ends, for it will be started again.
+
+endpoint_lasting(Address) :-
+    contact(Address, Process, _),
+    Process \== none,
+    sub_atom(Process, 0, _, _, j).
+
+%!  endpoint_missed(+Address, ?Formal) is semidet.
+%
+%   Why no process could be reached at Address when that was last tried: `late`,
+%   or the formal term of an error, as permission_error(authenticate, peer, Why)
+%   or socket_error(Code, Text).
+
+endpoint_missed(Address, Formal) :-
+    missed(Address, Formal0),
+    !,
+    Formal = Formal0.
 
 		 /*******************************
 		 *            PROOFS            *

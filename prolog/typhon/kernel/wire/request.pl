@@ -83,7 +83,7 @@ request_forget(OnAnswer) :-
 
 %!  request_reply(+ReplyTo, +Term) is det.
 %
-%   ReplyTo is reply_to(Session, Id), or alone(OnAnswer): see alone.pl.
+%   ReplyTo is reply_to(Session, Id), or alone(OnAnswer): see messaging.pl.
 
 request_reply(reply_to(Session, Id), Term) :-
     session_answer(Session, answer(Id, Term)).

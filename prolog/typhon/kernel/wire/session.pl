@@ -29,6 +29,7 @@
             session_up/1,               % +Key
             session_up_since/2,         % +Session, +Time
             route_up/2,                 % ?Address, -Session
+            frame_fits/1,               % +Length
             debug_frame/4               % +Way, +Session, +Term, +Bytes
           ]).
 
@@ -57,10 +58,11 @@ a session its connection and its window. Only the thread of the connection
 changes the count of what was received.
 */
 
+:- use_module(library(apply), [include/3]).
 :- use_module(library(debug), [debug/3, debugging/1]).
 :- use_module(library(error), [permission_error/3]).
 :- use_module(library(lists), [member/2]).
-:- use_module(library(settings), [setting/4]).
+:- use_module(library(settings), [setting/2, setting/4]).
 :- use_module(handshake, [hello_peer/4]).
 :- use_module(threads, [manager_notify/1, wire_thread_signal/2]).
 
@@ -353,8 +355,20 @@ route_up(Address, Session) :-
     session_up(Key).
 
 		 /*******************************
-		 *           DEBUGGING          *
+		 *            FRAMES            *
 		 *******************************/
+
+%!  frame_fits(+Length) is semidet.
+%
+%   A frame may have so many bytes: the peer would refuse a longer one, again
+%   and again.
+
+frame_fits(Length) :-
+    Length =< 65536,
+    !.
+frame_fits(Length) :-
+    setting(frame_bytes, Most),
+    Length =< Most.
 
 %!  debug_frame(+Way, +Session, +Term, +Bytes) is det.
 %
@@ -372,19 +386,11 @@ debug_frame(Way, Session, Term, Bytes) :-
     ;   true
     ).
 
-frame_words(post(Kind, _), post(Kind)) :-
-    !.
-frame_words(request(Id, Kind, _), request(Id, Kind)) :-
-    !.
-frame_words(answer(Id, _), answer(Id)) :-
-    !.
-frame_words(hand(Kind, _), hand(Kind)) :-
-    !.
-frame_words(objection(Number, Answer), objection(Number, Answer)) :-
-    !.
-frame_words(spoilt(Id), spoilt(Id)) :-
-    !.
-frame_words(unreadable(_, Mark), unreadable(Mark)) :-
-    !.
-frame_words(Term, Kind) :-
-    functor(Term, Kind, _).
+%   Its name and what of it is no more than a word.
+
+frame_words(Term, Words) :-
+    compound_name_arguments(Term, Name, Args),
+    !,
+    include(atomic, Args, Shown),
+    compound_name_arguments(Words, Name, Shown).
+frame_words(Name, Name).

@@ -10,7 +10,10 @@
             transport_proof/1,          % -Proof
             transport_as/2,             % +Proof, :Goal
             transport_forget/0,
-            transport_input/2           % +In, +Seconds
+            transport_input/2,          % +In, +Seconds
+            alone/1,                    % ?Address
+            alone_begin/1,              % +Address
+            alone_end/0
           ]).
 
 /** <module> What carries the bytes of connections
@@ -39,6 +42,9 @@ it knows the cookie. An option may carry them otherwise, by the hooks
                                 away
 
 All but the first three are called in the thread of a connection.
+
+An endpoint that is alone has no connections: a process without peers needs no
+sockets and no threads.
 
 A transport that reads ahead has bytes of which its stream knows nothing:
 transport_input/2 looks at both.
@@ -201,3 +207,22 @@ transport_input(In, Seconds) :-
     ->  wait_for_input([In, Below], [_|_], Seconds)
     ;   wait_for_input([In], [_], Seconds)
     ).
+
+                /*******************************
+                *             ALONE            *
+                *******************************/
+
+:- dynamic alone/1.                     % Address
+
+%!  alone(?Address) is semidet.
+%!  alone_begin(+Address) is det.
+%!  alone_end is det.
+%
+%   The endpoint of this process is alone, and has this Address; from now on, and
+%   no longer.
+
+alone_begin(Address) :-
+    assertz(alone(Address)).
+
+alone_end :-
+    retractall(alone(_)).

@@ -1,8 +1,7 @@
 :- module(typhon_unacked,
           [ unacked_sent/5,             % +Window, +Out, +Bytes, +Token, -Counts
             unacked_waits/3,            % +Session, +Bytes, +Token
-            unacked_waits_loose/2,      % +Session, +Bytes
-            unacked_space/3,            % +Session, +Out, -Space
+            unacked_space/3,            % +Window, +Out, -Space
             unacked_waiting/1,          % +Session
             unacked_owed/2,             % +Session, -Waiting
             unacked_next/3,             % +Session, +Space, -Frame
@@ -61,16 +60,15 @@ under_way(65536).
 
 %!  unacked_sent(+Window, +Out, +Bytes, +Token, -Counts) is semidet.
 %!  unacked_waits(+Session, +Bytes, +Token) is det.
-%!  unacked_waits_loose(+Session, +Bytes) is det.
 %
 %   A frame is about to be written to Out, with Counts in its head: fails where
-%   others wait, or it might block; it waits until others are written; it may go
-%   with others in one frame then.
+%   others wait, or it might block; it waits until others are written, and if
+%   Token is `loose` it may go with others in one frame then.
 
 unacked_sent(Window, Out, Bytes, Token, counts(Count, Count)) :-
-    Window = window(Sent, Waiting, Received, Told, _, AckedBytes, Settled),
+    Window = window(Sent, Waiting, Received, Told, _, _, Settled),
     message_queue_property(Waiting, size(0)),
-    space(AckedBytes, Out, Space),
+    unacked_space(Window, Out, Space),
     string_length(Bytes, Length),
     Length < Space,
     get_flag(Received, Count),
@@ -78,15 +76,11 @@ unacked_sent(Window, Out, Bytes, Token, counts(Count, Count)) :-
     set_flag(Told, Count),
     set_flag(Settled, Count).
 
-%!  unacked_space(+Session, +Out, -Space) is det.
+%!  unacked_space(+Window, +Out, -Space) is det.
 %
 %   So many bytes can be written to Out.
 
-unacked_space(Session, Out, Space) :-
-    session_window(Session, window(_, _, _, _, _, AckedBytes, _)),
-    space(AckedBytes, Out, Space).
-
-space(AckedBytes, Out, Space) :-
+unacked_space(window(_, _, _, _, _, AckedBytes, _), Out, Space) :-
     byte_count(Out, Written),
     get_flag(AckedBytes, Acked),
     under_way(Max),
@@ -95,12 +89,11 @@ space(AckedBytes, Out, Space) :-
 unacked_waits(Session, Bytes, Token) :-
     session_window(Session, window(_, Waiting, Received, _, _, _, _)),
     get_flag(Received, Count),
-    thread_send_message(Waiting, frame(Bytes, Token, Count)).
-
-unacked_waits_loose(Session, Bytes) :-
-    session_window(Session, window(_, Waiting, Received, _, _, _, _)),
-    get_flag(Received, Count),
-    thread_send_message(Waiting, loose(Bytes, Count)).
+    (   Token == loose
+    ->  Frame = loose(Bytes, Count)
+    ;   Frame = frame(Bytes, Token, Count)
+    ),
+    thread_send_message(Waiting, Frame).
 
 %!  unacked_waiting(+Session) is semidet.
 %!  unacked_owed(+Session, -Waiting) is semidet.
@@ -111,13 +104,11 @@ unacked_waits_loose(Session, Bytes) :-
 
 unacked_waiting(Session) :-
     session_window(Session, window(_, Waiting, _, _, _, _, _)),
-    catch(message_queue_property(Waiting, size(Size)),
-          error(existence_error(_, _), _), fail),
+    queue_size(Waiting, Size),
     Size > 0.
 
 unacked_owed(Session, Size) :-
-    session_key(Session, Key),
-    session_window(Session, window(Sent, Waiting, _, _, _, _, _)),
+    session_window(Session, Key, window(Sent, Waiting, _, _, _, _, _)),
     (   bundled(Key, _)
     ->  true
     ;   message_queue_property(Sent, size(Written)),
@@ -138,15 +129,12 @@ unacked_next(Session, Space, Frame) :-
     !,
     thread_send_message(Sent, Frame),
     (   Many == true
-    ->  note_bundle(Session)
+    ->  session_key(Session, Key),
+        session_sent(Session, Count),
+        retractall(bundled(Key, _)),
+        assertz(bundled(Key, Count))
     ;   true
     ).
-
-note_bundle(Session) :-
-    session_key(Session, Key),
-    session_sent(Session, Count),
-    retractall(bundled(Key, _)),
-    assertz(bundled(Key, Count)).
 
 %!  unacked_resumed(+Session, +Count, +Bytes) is det.
 %!  unacked_again(+Session, -Frames) is det.
@@ -157,12 +145,11 @@ note_bundle(Session) :-
 %   the session, and we have not, knows of more than was sent.
 
 unacked_resumed(Session, Count, Bytes) :-
-    session_window(Session, Window),
+    session_window(Session, Key, Window),
     Window = window(Sent, _, _, Told, Acked, AckedBytes, Settled),
     get_flag(Acked, Count0),
     message_queue_property(Sent, size(Size)),
     Gone is max(0, min(Count-Count0, Size)),
-    session_key(Session, Key),
     gone(Gone, Count0, Sent, Key-none, [], [], 0, _),
     Count1 is max(Count0, Count),
     set_flag(Acked, Count1),
@@ -186,8 +173,8 @@ unacked_again(Session, Frames) :-
 %   or an objection.  Threads that wait for the session go on.
 
 unacked_close(Session, Waiting, Handed) :-
-    session_key(Session, Key),
-    session_window(Session, window(SentQueue, WaitingQueue, _, _, Acked, _, _)),
+    session_window(Session, Key,
+                   window(SentQueue, WaitingQueue, _, _, Acked, _, _)),
     get_flag(Acked, Count),
     findall(N-Token, unsettled(Key, N, Token), Unsettled),
     fifo_empty(SentQueue, Sent),
@@ -268,11 +255,8 @@ has_frames(Key, Count) :-
     ->  retractall(bundled(Key, _))
     ;   true
     ),
-    (   flusher(Key, _, _)
-    ->  forall(( flusher(Key, Wanted, Queue), Wanted =< Count ),
-               flushed(Key, Wanted, Queue))
-    ;   true
-    ).
+    forall(( flusher(Key, Wanted, Queue), Wanted =< Count ),
+           flushed(Key, Wanted, Queue)).
 
 %   gone(+Ahead, +Count, +Sent, +How, -Tokens, ?Rest, +Bytes0, -Bytes): the peer
 %   has Ahead frames more than Count, of so many bytes.  How is Key-Settled, its
@@ -357,14 +341,17 @@ session_sent(Session, Count) :-
 %   Count frames are not acknowledged, or are handed over and not settled.
 
 session_pending(Session, Count) :-
-    session_key(Session, Key),
-    session_window(Session, window(Sent, Waiting, _, _, _, _, _)),
+    session_window(Session, Key, Window),
+    unacked(Window, Frames),
+    (   unsettled(Key, _, _)
+    ->  Count is Frames+1
+    ;   Count = Frames
+    ).
+
+unacked(window(Sent, Waiting, _, _, _, _, _), Count) :-
     queue_size(Sent, S),
     queue_size(Waiting, W),
-    (   unsettled(Key, _, _)
-    ->  Count is S+W+1
-    ;   Count is S+W
-    ).
+    Count is S+W.
 
 %   The queue may be gone: the session was closed.
 
@@ -383,12 +370,10 @@ queue_size(_, 0).
 %   acknowledged; it receives nothing any more.
 
 unacked_await(Session, Queue, Count) :-
-    session_key(Session, Key),
     bundle_waiting(Session),
-    session_window(Session, window(Sent, Waiting, _, _, Acked, _, _)),
-    queue_size(Sent, S),
-    queue_size(Waiting, W),
-    Count is S+W,
+    session_window(Session, Key, Window),
+    unacked(Window, Count),
+    arg(5, Window, Acked),
     get_flag(Acked, Gone),
     Wanted is Gone+Count,
     assertz(flusher(Key, Wanted, Queue)).

@@ -503,8 +503,7 @@ damaging(Goal, A) :-
 write_damaged(_, Out, counts(R, S), Bytes) :-
     damaged_now(Bytes),
     !,
-    typhon_frame:check_bytes(Bytes, Hash),
-    typhon_frame:head_check(Hash, R, S, Check),
+    typhon_frame:frame_check(Bytes, R, S, Check),
     string_length(Bytes, Length),
     string_codes(Bytes, [Code0|Codes]),
     Code is Code0 xor 64,

@@ -1,0 +1,86 @@
+:- module(typhon_flush,
+          [ endpoint_flush/1,           % +Seconds
+            endpoint_flush/2,           % +Seconds, +Peers
+            peers_flush/1               % +Seconds
+          ]).
+:- use_module(library(error), [must_be/2]).
+:- use_module(library(lists), [member/2]).
+:- use_module('../base/durable_changes', [commit_changes/0]).
+:- use_module(connection_manager, [manager_connect/2]).
+:- use_module(outbox, [session_control/2, session_release/1]).
+:- use_module(session,
+              [route/2, session/2, session_key/2, session_locked/2, session_up/1]).
+:- use_module(unacked,
+              [session_pending/2, unacked_await/3, unacked_no_wait/1]).
+
+/** <module> Waiting until all that was sent has arrived
+
+*Threading*: any thread that may wait.
+*/
+
+%!  endpoint_flush(+Seconds) is semidet.
+%!  endpoint_flush(+Seconds, +Peers:list) is semidet.
+%
+%   Wait until all that was posted has arrived, or all to these addresses;
+%   fails after Seconds.
+
+endpoint_flush(Seconds) :-
+    must_be(number, Seconds),
+    get_time(Now),
+    Deadline is Now+Seconds,
+    forall(session(_, Session), session_flush(Session, Deadline)).
+
+endpoint_flush(Seconds, Peers) :-
+    get_time(Now),
+    Deadline is Now+Seconds,
+    forall(( member(Peer, Peers),
+             route(Peer, Session) ),
+           session_flush(Session, Deadline)).
+
+%!  peers_flush(+Seconds) is semidet.
+%
+%   As endpoint_flush/1, for a process about to end: nothing is waited for that
+%   cannot arrive, as no process listens at the address of the peer any more.
+%   Not for hooks nor clean-up handlers, see manager_connect/2.
+
+peers_flush(Seconds) :-
+    get_time(Now),
+    Deadline is Now+Seconds,
+    forall(( session(_, Session),
+             reachable(Session, Deadline) ),
+           session_flush(Session, Deadline)).
+
+%   One connection may just be replaced by another.
+
+reachable(Session, _) :-
+    session_key(Session, Key),
+    session_up(Key),
+    !.
+reachable(Session, Deadline) :-
+    session_pending(Session, Count),
+    Count > 0,
+    route(Address, Session),
+    manager_connect(Address, Deadline),
+    !.
+
+%   session_flush(+Session, +Deadline) is semidet.
+%
+%   Wait until all that was sent before has been acknowledged, or the session
+%   is closed, as when its peer has died; fails at Deadline, a time stamp.
+
+session_flush(Session, Deadline) :-
+    setup_call_cleanup(
+        message_queue_create(Queue),
+        flush(Session, Queue, Deadline),
+        ( unacked_no_wait(Queue),
+          message_queue_destroy(Queue) )).
+
+flush(Session, Queue, Deadline) :-
+    catch(commit_changes, error(_, _), true), % the committer has reported it
+    session_release(Session),
+    session_locked(Session, unacked_await(Session, Queue, Pending)),
+    (   Pending =:= 0
+    ->  true
+    ;   session_control(Session, ping),
+        thread_get_message(Queue, flushed, [deadline(Deadline)])
+    ).
