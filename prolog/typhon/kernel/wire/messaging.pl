@@ -255,9 +255,8 @@ endpoint_call(Address, Kind, Term, Answer, Timeout) :-
     Deadline is Now+Timeout,
     setup_call_cleanup(
         message_queue_create(Queue),
-        ( endpoint_request(Address, Kind, Term, tell(Queue)),
-          await(Queue, Address, Deadline, Now, Result),
-          no_longer(Result, tell(Queue))
+        ( ask([Address], Kind-Term, Queue),
+          await(Queue, Address, Deadline, Now, Result)
         ),
         message_queue_destroy(Queue)),
     call_result(Result, Address, Answer).
@@ -268,10 +267,11 @@ endpoint_call(Address, Kind, Term, Answer, Timeout) :-
 await(Queue, Address, Deadline, Up0, Result) :-
     get_time(Now),
     Slice is max(0, min(1, Deadline-Now)),
-    (   thread_get_message(Queue, Result0, [timeout(Slice)])
+    (   thread_get_message(Queue, _-Result0, [timeout(Slice)])
     ->  Result = Result0
     ;   Now >= Deadline
-    ->  Result = late
+    ->  forget(Queue, Address),
+        Result = late
     ;   endpoint_peer(Address, state(down))
     ->  setting(typhon_endpoint:lost_time, Seconds),
         (   Now-Up0 > Seconds
@@ -280,19 +280,6 @@ await(Queue, Address, Deadline, Up0, Result) :-
         )
     ;   await(Queue, Address, Deadline, Now, Result)
     ).
-
-%   A request without a waiting caller must not keep a session busy.
-
-no_longer(late, OnAnswer) :-
-    !,
-    unsent_forget(OnAnswer),
-    request_forget(OnAnswer).
-no_longer(_, _).
-
-tell(Queue, Result) :-
-    catch(thread_send_message(Queue, Result),
-          error(existence_error(_, _), _),
-          true).
 
 call_result(answer(Term), _, answer(Term)).
 call_result(unreachable, Address, _) :-
@@ -354,7 +341,7 @@ gather(Open, Asked, Asking, Deadline, [Address-Result|Results]) :-
     append(New, Asked, Asked2),
     gather(Open2, Asked2, Asking, Deadline, Results).
 gather(Open, _, asking(_, Queue, _), _, Results) :-
-    forall(member(Address, Open), forget(told(Queue, Address))),
+    forall(member(Address, Open), forget(Queue, Address)),
     findall(Address-late, member(Address, Open), Results).
 
 before(Deadline, Queue, Message) :-
@@ -369,8 +356,9 @@ more(answer(Answer), Further, Asked, New) :-
     subtract(Set, Asked, New).
 more(_, _, _, []).
 
-%   As no_longer/2.
+%   A request without a waiting caller must not keep a session busy.
 
-forget(OnAnswer) :-
+forget(Queue, Address) :-
+    OnAnswer = typhon_messaging:told(Queue, Address),
     unsent_forget(OnAnswer),
     request_forget(OnAnswer).

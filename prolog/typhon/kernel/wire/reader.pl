@@ -95,8 +95,9 @@ read_or_skip(Session, In, Max, State) :-
 read_all(Session, In, Max, State) :-
     session_codec(Session, Codec),
     arg(3, State, Queue),
+    more_first(In, More),
     repeat,
-    (   lend(Queue, more_first(In), tell(Session))
+    (   lend(Queue, More, tell(Session))
     ->  true                            % and told
     ;   push_late(Session, In)
     ),
@@ -122,12 +123,15 @@ tell(Session) :-
     ;   true
     ).
 
-%   More is read first where there are processors for the threads that work.
+%   more_first(+In, -More): More says whether there is more to read first.  That
+%   counts where there are processors for the threads that work.
 
-more_first(In) :-
-    current_prolog_flag(cpu_count, Processors),
-    Processors > 2,
-    sig_atomic(transport_input(In, 0)).
+more_first(In, More) :-
+    (   current_prolog_flag(cpu_count, Processors),
+        Processors > 2
+    ->  More = sig_atomic(transport_input(In, 0))
+    ;   More = fail
+    ).
 
 %   Answers that were left in the buffer go with the next frame that
 %   is sent, or now: when there are many, or nothing comes in for a

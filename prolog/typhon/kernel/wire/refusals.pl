@@ -152,33 +152,24 @@ groups([Count-(Ip-Why)|Groups]) -->
     why(Why),
     groups(Groups).
 
-why(cookie) -->
-    !, [ 'it does not know our cookie' ].
-why(protocol) -->
-    !, [ 'it speaks something else' ].
 why(version(Version)) -->
     !, [ 'it speaks another version of the protocol, ~w'-[Version] ].
-why(hung_up) -->
-    !, [ 'it hung up' ].
-why(broken) -->
-    !, [ 'the connection broke' ].
-why(slow) -->
-    !, [ 'it took too long' ].
-why(silent) -->
-    !, [ 'others wanted its place' ].
-why(crowd) -->
-    !, [ 'there are too many' ].
-why(line) -->
-    !, [ 'it said too much' ].
-why(other) -->
-    !, [ 'it says that it is another one' ].
-why(several) -->
-    !, [ 'for several reasons' ].
 why(Why) -->
-    { text(Why, Text) },
+    { ours(Why, Text) ; text(Why, Text) },
     !, [ '~w'-[Text] ].
 why(Why) -->
     [ '~p'-[Why] ].
+
+ours(cookie, 'it does not know our cookie').
+ours(protocol, 'it speaks something else').
+ours(hung_up, 'it hung up').
+ours(broken, 'the connection broke').
+ours(slow, 'it took too long').
+ours(silent, 'others wanted its place').
+ours(crowd, 'there are too many').
+ours(line, 'it said too much').
+ours(other, 'it says that it is another one').
+ours(several, 'for several reasons').
 
 %!  refusal_text(+Why, -Text:atom) is semidet.
 %
