@@ -104,12 +104,14 @@ free_pages(Bytes) :-
 %!  bounded(:Fact, +Setting) is det.
 %
 %   A fact like Fact was added.  Now and then forget the oldest of what
-%   exceeds Setting, module:name.
+%   exceeds Setting, module:name.  Two threads may count at once, and count one.
 
 bounded(Fact, Setting) :-
     Setting = Module:Name,
     atomic_list_concat([Module, Name], :, Key),
-    flag(Key, N, N+1),
+    get_flag(Key, N),
+    Next is N+1,
+    set_flag(Key, Next),
     (   N mod 100 =:= 0
     ->  setting(Setting, Max),
         predicate_property(Fact, number_of_clauses(Count)),
