@@ -17,6 +17,7 @@
 
 study_picture('synchronisation.png',     demo,     demo).
 study_picture('penalty-bias.png',        '5.6',    '5.6').
+study_picture('hierarchy.png',           lead,     lead_deltas).
 study_picture('pole.png',                pole,     '5.14').
 study_picture('population.png',          '6.4',    '6.4').
 study_picture('sieve-complements.png',   '3.3',    '3.3').

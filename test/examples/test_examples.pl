@@ -42,6 +42,10 @@ shows(supervisor,
       [ 'left.*@alpha@* ends, left.*@alpha@* takes its place',
         'The supervisor ends: done'
       ]).
+shows(hierarchy,
+      [ 'after few: [[]delta-0.*', 'after all: [[]delta-0.*',
+        'after again: [[]delta-0.*'
+      ]).
 shows(voting,
       [ 'agreed(12,3,of(4))' ]).
 shows(pheromone,

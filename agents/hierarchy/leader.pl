@@ -1,0 +1,109 @@
+:- agent(leader, [state([setting/2, decides/1, limit/1, memory/1])]).
+:- use_module(library(typhon)).
+:- include('../lib/keep').
+:- include(orders).
+
+/*  Leads the workers of one part of a network: the middle level of a hierarchy
+    (thesis section 8.2).  For each round of work it creates workers, waits until
+    they have ended, looks at what they have left on the hosts, and changes their
+    parameters before the next round.
+
+        serve(Round, Hosts)     asked by a customer; answered by served(Round)
+
+    What workers are, what a leader sees on a host and how that changes parameters
+    says a payload, the mechanism.  It provides
+
+        crew(+Round, +Hosts, +Settings, -Orders)
+                                workers, each order(Program, Options), for
+                                create/3
+        seen(+Round, -Facts)    what is on this host
+        decided(+Reports, +Memory0, -Memory, -Orders)
+                                Reports are pairs of a leader and
+                                report(Settings, Ends, Facts): with Settings, pairs
+                                Name-Value, Ends are ended(Seconds, Outcome) of each
+                                worker, `late` if it was disposed of, and Facts were
+                                seen.  Orders are pairs of a leader and the settings
+                                that are new.  Memory, `none` at first, is what
+                                is learnt
+
+    Facts: setting(Name, Value), of workers and of the mechanism;
+    limit(Seconds), after which workers are disposed of.  The fact decides(Agent) says
+    which agent decides: `self`, `none`, or an observer, which has the same payload
+    and the reports of all leaders.
+*/
+
+main :-
+    receive(Customer-serve(Round, Hosts)),
+    Hosts = [First|_],
+    visit(First),
+    findall(Name-Value, setting(Name, Value), Settings),
+    begin(Round, Hosts, Settings, Workers),
+    now(Start),
+    attend(Workers, Start, Ends),
+    tour(Hosts, Round, [], Facts),
+    decide(Round, report(Settings, Ends, Facts)),
+    send(Customer, served(Round)),
+    main.
+
+begin(Round, Hosts, Settings, Workers) :-
+    log(leads(Round, Settings)),
+    crew(Round, Hosts, Settings, Orders),
+    findall(Worker,
+            ( member(order(Program, Options), Orders),
+              create(Program, Worker, Options) ),
+            Workers),
+    forall(member(Worker, Workers), monitor(Worker)),
+    forall(member(Worker, Workers), send(Worker, begin)).
+
+attend([], _, []).
+attend([Worker|Workers], Start, [ended(Seconds, Outcome)|Ends]) :-
+    limit(Limit),
+    now(Now),
+    Left is max(0, Start + Limit - Now),
+    (   receive(system-down(Worker, Outcome0), Left)
+    ->  Outcome = Outcome0
+    ;   Outcome = late,
+        catch(agent_dispose(Worker), error(_, _), true)
+    ),
+    now(End),
+    Seconds is End - Start,
+    attend(Workers, Start, Ends).
+
+%   Hosts that are gone meanwhile are left out.
+
+tour([], _, Facts, Facts).
+tour([Host|Hosts], Round, Facts0, Facts) :-
+    (   visit(Host)
+    ->  seen(Round, Here),
+        append(Here, Facts0, Facts1)
+    ;   Facts1 = Facts0
+    ),
+    tour(Hosts, Round, Facts1, Facts).
+
+visit(Host) :-
+    catch(move(Host), error(_, _), fail).
+
+                /*******************************
+                *           DECISIONS          *
+                *******************************/
+
+decide(Round, Report) :-
+    decides(Decider),
+    decide(Decider, Round, Report).
+
+decide(none, _, _) :-
+    !.
+decide(self, _, Report) :-
+    !,
+    self(Me),
+    orders([Me-Report], [_-Changes]),
+    obey(Changes).
+decide(Observer, Round, Report) :-
+    send(Observer, report(Round, Report)),
+    receive(Observer-change(Round, Changes)),
+    obey(Changes).
+
+obey(Changes) :-
+    forall(member(Name-Value, Changes),
+           ( retractall(setting(Name, _)),
+             assertz(setting(Name, Value)) )).

@@ -1,0 +1,22 @@
+:- agent(observer, [state([leaders/1, report/3, memory/1])]).
+:- include('../lib/keep').
+:- include(orders).
+
+/*  The entity on top of a hierarchy (thesis section 8.2): sees what all leaders have
+    measured of a round, and changes the parameters of the levels below.  It decides as a
+    leader does that has no observer, by the same payload (leader.pl), but of all reports
+    together.  The fact leaders(Count) says how many there are.
+*/
+
+on_message(Leader, report(Round, Report)) :-
+    assertz(report(Round, Leader, Report)),
+    leaders(Count),
+    findall(One-Its, report(Round, One, Its), Reports0),
+    (   length(Reports0, Count)
+    ->  retractall(report(Round, _, _)),
+        sort(Reports0, Reports),
+        orders(Reports, Orders),
+        log(decided(Round, Orders)),
+        forall(member(One-Changes, Orders), send(One, change(Round, Changes)))
+    ;   true
+    ).

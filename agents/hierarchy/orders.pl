@@ -1,0 +1,11 @@
+% Expects: keep/1; memory/1; decided/4 of a payload.
+% Gives: orders/2.
+
+%!  orders(+Reports, -Orders) is det.
+%
+%   What the mechanism decides, which remembers what it has learnt.
+
+orders(Reports, Orders) :-
+    ( memory(Memory0) -> true ; Memory0 = none ),
+    decided(Reports, Memory0, Memory, Orders),
+    keep(memory(Memory)).

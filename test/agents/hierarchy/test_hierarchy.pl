@@ -1,0 +1,190 @@
+:- module(test_hierarchy, []).
+:- use_module('../../lib/algorithms_bench').
+:- use_module('../../lib/common').
+:- use_module(library(aggregate)).
+:- use_module(library(apply)).
+:- use_module(library(lists)).
+:- use_module(library(plunit)).
+:- use_module(library(typhon)).
+:- use_module('../../../agents/hierarchy/operator').
+:- use_module('../../../agents/learning/operator').
+:- use_module('../../../agents/sync/operator').
+
+/** <module> Hierarchies of agents: decisions, leaders, observers
+*/
+
+                /*******************************
+                *           DECISIONS          *
+                *******************************/
+
+%   report(+Delta, +Times, -Report): of one task after the other, when it was
+%   completed on hosts.
+
+report(Delta, Times, report([workers-1, delta-Delta], [], Facts)) :-
+    findall(done(Task, Time), ( nth1(Task, Times, Some), member(Time, Some) ),
+            Facts).
+
+delta(Reports, Delta) :-
+    steps:decided(Reports, none, _, Orders),
+    findall(D, member(_-[delta-D], Orders), Ds),
+    sort(Ds, [Delta]).
+
+:- begin_tests(steps, [setup(algorithm(steps, payloads(hierarchy/steps), []))]).
+
+%   A spread of 10 s, and the next task as long after it.
+
+test(kept_where_it_fits, true(abs(Delta - 0.5) < 1.0e-9)) :-
+    report(0.5, [[0, 10], [20, 30]], Report),
+    delta([a-Report], Delta).
+test(halved_where_the_next_task_comes_with_the_last_host,
+     true(abs(Delta - 0.25) < 1.0e-9)) :-
+    report(0.5, [[0, 10], [10, 20]], Report),
+    delta([a-Report], Delta).
+test(rises_by_a_fifth_at_most, true(abs(Delta - 0.6) < 1.0e-9)) :-
+    report(0.5, [[0, 10], [900, 910]], Report),
+    delta([a-Report], Delta).
+test(falls_to_a_fifth_at_most, true(abs(Delta - 0.1) < 1.0e-9)) :-
+    report(0.5, [[0, 900], [1, 901]], Report),
+    delta([a-Report], Delta).
+test(an_observer_sees_a_spread_that_no_leader_sees,
+     true(abs(Delta - 0.25) < 1.0e-9)) :-
+    report(0.5, [[0, 1], [10, 11]], A),
+    report(0.5, [[9, 10], [19, 20]], B),
+    delta([a-A, b-B], Delta).
+test(tasks_are_in_order_of_time, true(abs(Delta - 0.5) < 1.0e-9)) :-
+    Facts = [done(sow, 0), done(sow, 10), done(reap, 20), done(reap, 30)],
+    delta([a-report([delta-0.5], [], Facts)], Delta).
+test(one_task_changes_nothing, Delta =:= 0.5) :-
+    report(0.5, [[0, 10]], Report),
+    delta([a-Report], Delta).
+test(one_host_that_has_one_task_at_a_time, true(abs(Delta - 0.6) < 1.0e-9)) :-
+    report(0.5, [[0], [10]], Report),
+    delta([a-Report], Delta).
+
+:- end_tests(steps).
+
+%   workers(+Parts, -Counts): of parts Count-Seconds.
+
+workers(Parts, Counts) :-
+    findall(N-report([workers-Count], [ended(1, done), ended(Seconds, done)], []),
+            nth1(N, Parts, Count-Seconds), Reports),
+    crews:decided(Reports, none, _, Orders),
+    findall(Count, member(_-[workers-Count], Orders), Counts).
+
+:- begin_tests(crews, [setup(algorithm(crews, payloads(hierarchy/crews), []))]).
+
+test(as_work_is, Counts == [6, 3, 3]) :-
+    workers([4-200, 4-100, 4-100], Counts).
+test(a_part_keeps_half_of_an_equal_share, Counts == [8, 2, 2]) :-
+    workers([4-900, 4-10, 4-10], Counts).
+test(the_last_part_too, Counts == [2, 2, 8]) :-
+    workers([4-10, 4-10, 4-900], Counts).
+test(their_number_stays, true(Odd == [])) :-
+    findall(Parts,
+            ( between(1, 100, _), length(Parts, 5), maplist(any_part, Parts),
+              workers(Parts, Counts),
+              findall(Count, member(Count-_, Parts), Before),
+              sum_list(Before, Sum),
+              \+ sum_list(Counts, Sum) ),
+            Odd).
+test(one_leader_keeps_its_own, Counts == [4]) :-
+    workers([4-200], Counts).
+
+any_part(Count-Seconds) :-
+    random_between(1, 9, Count),
+    random_between(0, 500, Seconds).
+
+:- end_tests(crews).
+
+                /*******************************
+                *            NETWORK           *
+                *******************************/
+
+:- meta_predicate in_network(+, 1, -).
+
+%   in_network(+Topology, :Goal, -Events): of the hosts, in virtual time.
+
+in_network(Topology, Goal, Events) :-
+    tmp_file(events, File),
+    setup_call_cleanup(
+        network_start(Topology, Network, [ clock(virtual), seed(1), log(File),
+                                        hop_time(uniform(0.2, 0.4)) ]),
+        ( network_property(Network, hosts(Hosts)),
+          call(Goal, Hosts) ),
+        network_stop(Network)),
+    log_events(File, Events),
+    delete_file(File).
+
+%   sequences(+Level, +Limit, +Hosts): two rounds of two tasks, in two parts.
+
+sequences(Level, Limit, Hosts) :-
+    Hosts = [A, B, C, D, E, F],
+    Parts = [[A, B, C], [D, E, F]],
+    hierarchy_start([A, D], payloads(hierarchy/steps),
+                    [ decides(Level), limit(Limit),
+                      settings([workers-1, pool-robots, delta-0.5]) ],
+                    Leaders),
+    forall(member(Round, [one, two]),
+           ( sequence_start(Round, Hosts, [1-sleep(1), 2-sleep(1)],
+                            [agents(0), pool(robots)], _),
+             hierarchy_serve(Leaders, Round, Parts, 1000) )).
+
+deltas(Round, Events, Deltas) :-
+    findall(Delta, ( member(event(_, _, _, leads(Round, Settings)), Events),
+                     memberchk(delta-Delta, Settings) ), Deltas0),
+    sort(Deltas0, Deltas).
+
+executed(Events, Count) :-
+    findall(Host-Round-Task,
+            member(event(_, Host, _, completed(Round, Task)), Events), All0),
+    sort(All0, All),
+    length(All, Count).
+
+:- begin_tests(hierarchy).
+
+test(an_observer_decides_for_all_leaders, Count-First == 24-[0.5]) :-
+    in_network(ring(6), sequences(observer, 500), Events),
+    executed(Events, Count),
+    deltas(one, Events, First),
+    deltas(two, Events, [Second]),
+    assertion(Second =\= 0.5),
+    assertion(( member(event(_, _, Agent, decided(one, _)), Events),
+                sub_atom(Agent, 0, _, _, observer) )).
+test(leaders_decide_by_themselves, Rounds == []) :-
+    in_network(ring(6), sequences(leaders, 500), Events),
+    findall(Round, member(event(_, _, _, decided(Round, _)), Events), Rounds),
+    deltas(two, Events, Deltas),
+    assertion(\+ memberchk(0.5, Deltas)).
+test(no_level_decides, Deltas == [0.5]) :-
+    in_network(ring(6), sequences(none, 500), Events),
+    deltas(two, Events, Deltas).
+test(workers_that_are_late_are_disposed_of, Rounds == [one, two]) :-
+    in_network(ring(6), sequences(observer, 3), Events),
+    findall(Round, member(event(_, _, _, served(Round)), Events), Rounds).
+test(learners_are_divided, Sum == 8) :-
+    in_network(edges([a-b, c-d]), learners, Events),
+    findall(Count, ( member(event(_, _, _, leads(two, Settings)), Events),
+                     memberchk(workers-Count, Settings) ), Counts),
+    sum_list(Counts, Sum),
+    max_list(Counts, Most),
+    assertion(Most > 4).
+test(unknown_level, throws(error(_, _))) :-
+    hierarchy_start([], payloads(hierarchy/steps), [decides(king)], _).
+test(unknown_option,
+     throws(error(domain_error(hierarchy_option, crown(1)), _))) :-
+    hierarchy_start([], payloads(hierarchy/steps), [crown(1)], _).
+
+%   The maze of one part is larger.
+
+learners(Hosts) :-
+    Hosts = [A, B, C, D],
+    learning_start([A, B], payloads(learning/maze), [],
+                   [agents(0), seed(1), settings([size-2])], _),
+    learning_start([C, D], payloads(learning/maze), [],
+                   [agents(0), seed(1), settings([size-20])], _),
+    hierarchy_start([A, C], payloads(hierarchy/crews),
+                    [settings([workers-4, algorithm-greedy, seed-1])], Leaders),
+    forall(member(Round, [one, two]),
+           hierarchy_serve(Leaders, Round, [[A, B], [C, D]], 5000)).
+
+:- end_tests(hierarchy).
