@@ -8,16 +8,18 @@
 :- use_module(library(lists), [member/2]).
 :- use_module(library(settings), [setting/2, setting/4]).
 :- use_module('../wire',
-              [ endpoint_address/1, endpoint_gone/1, endpoint_lasting/1,
-                endpoint_peer/2 ]).
+              [ endpoint_address/1, endpoint_call/5, endpoint_gone/1,
+                endpoint_lasting/1, endpoint_peer/2, endpoint_reply/2,
+                endpoint_request/4 ]).
 :- use_module('../host', [address_parts/3, alarm_in/3, scheduler_call/1]).
-:- use_module('../agent', [agent_home_endpoint/2]).
+:- use_module('../agent', [agent/5, agent_home_endpoint/2, life_hops/2]).
 :- use_module(hop_ids, [hop_id_again/1, hop_id_repeated/1]).
 :- use_module(transfer,
               [ transfer_arrived/1, transfer_image/2, transfer_open/1,
                 transfer_stays/2, transfer_traveller/3,
                 transfer_unreachable/1 ]).
-:- use_module(whereabouts, [agent_reached/3, agent_reached_at/4]).
+:- use_module(home, [agent_outcome/2]).
+:- use_module(whereabouts, [agent_heard_of/2, agent_last_seen/2]).
 
 /** <module> Transfers in doubt
 
@@ -45,6 +47,7 @@ a worker.
 :- multifile
     again/1,                    % Transfer: ask once more
     typhon_durable:go_on/0,
+    typhon_endpoint:requested/4,
     typhon_scheduler:fire/2.
 
 %!  resolve_in_doubt(+Transfer) is det.
@@ -142,7 +145,8 @@ survey(Transfer, HomeSaid) :-
     ).
 
 says(Peer, Id, Hops, Said) :-
-    catch(agent_reached_at(Id, Hops, Peer, Said), error(_, _),
+    catch(endpoint_call(Peer, whereabouts, reached(Id, Hops), answer(Said), 5),
+          error(_, _),
           no_answer(Peer, Said)).
 
 no_answer(Peer, Said) :-
@@ -150,6 +154,56 @@ no_answer(Peer, Said) :-
     ->  Said = false
     ;   Said = nothing
     ).
+
+                /*******************************
+                *         HAS IT ARRIVED?      *
+                *******************************/
+
+%   agent_reached(+Id, +Hops, :OnAnswer): ask the home of Id.
+%
+%   Call OnAnswer with answer(Reached): `true` or `false`, whether Id has made
+%   so many hops as far as its home knows, or `unknown`: the home was started
+%   after Id was born there; or with what endpoint_request/4 says if the home
+%   does not answer.
+
+agent_reached(Id, Hops, OnAnswer) :-
+    agent_home_endpoint(Id, Home),
+    (   endpoint_address(Home)
+    ->  reached(Id, Hops, Reached),
+        call(OnAnswer, answer(Reached))
+    ;   endpoint_request(Home, whereabouts, reached(Id, Hops), OnAnswer)
+    ).
+
+typhon_endpoint:requested(whereabouts, reached(Id, Hops), _, ReplyTo) :-
+    reached(Id, Hops, Reached),
+    endpoint_reply(ReplyTo, Reached).
+
+%   In this order: an agent that leaves or ends meanwhile is noted before it is
+%   gone.
+
+reached(Id, Hops, true) :-
+    (   hops_here(Id, Hops0)
+    ;   agent_heard_of(Id, Hops0)
+    ),
+    Hops0 >= Hops,
+    !.
+reached(Id, _, true) :-
+    agent_outcome(Id, _),
+    !.
+reached(Id, _, false) :-
+    (   hops_here(Id, _)
+    ;   agent_last_seen(Id, _)
+    ),
+    !.
+reached(_, _, unknown).
+
+hops_here(Id, Hops) :-
+    agent(Id, _, _, _, Life),
+    life_hops(Life, Hops).
+
+                /*******************************
+                *           OVERDUE            *
+                *******************************/
 
 %!  in_doubt(+Status) is semidet.
 %!  out_of_touch(+Status) is semidet.

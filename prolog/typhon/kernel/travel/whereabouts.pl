@@ -11,9 +11,8 @@
                                         % +Hops
             agent_resumed/3,            % +Id, +Stamp, +Hops
             agent_resumed_from/3,       % +Id, +Stamp, +Hops
-            agent_reached/3,            % +Id, +Hops, :OnAnswer
-            agent_reached_at/4,         % +Id, +Hops, +Endpoint, -Answer
             agent_heard_of/2,           % +Id, -Hops
+            agent_last_seen/2,          % +Id, -Hops
             agent_comes_anew/3,         % +Id, +Hops, -Home
             whereabouts/2               % +Id, -Address
           ]).
@@ -25,12 +24,10 @@
 :- use_module('../base/durable_changes',
               [durable_drop/3, durable_on/0, durable_put/4]).
 :- use_module('../wire',
-              [ endpoint_address/1, endpoint_call/5, endpoint_peer/2,
-                endpoint_post/3,
-                endpoint_reply/2, endpoint_request/4 ]).
+              [endpoint_address/1, endpoint_peer/2, endpoint_post/3]).
 :- use_module('../host', [address_parts/3]).
 :- use_module('../agent',
-              [agent/5, agent_home_endpoint/2, is_result_fact/1, life_hops/2]).
+              [agent_home_endpoint/2, is_result_fact/1]).
 :- use_module(senders, [speaks_for/3]).
 :- use_module(home,
               [ agent_outcome/2, ended_after/2, home_ended/4, home_faulty/6,
@@ -53,8 +50,6 @@ address now, the agent has died with the one it went to, or has moved on.
 see typhon_news, since it may have to connect.
 */
 
-:- meta_predicate agent_reached(+, +, 1).
-
 :- setting(forwards, positive_integer, 20000,
            "Forwarding addresses kept by a process").
 :- setting(endings, positive_integer, 20000,
@@ -69,8 +64,7 @@ see typhon_news, since it may have to connect.
     typhon_bounds:forgotten/1,
     typhon_identity:ids_anew/0,
     typhon_identity:id_anew/1,
-    typhon_endpoint:received/3,
-    typhon_endpoint:requested/4.
+    typhon_endpoint:received/3.
 
                 /*******************************
                 *             NEWS             *
@@ -310,68 +304,19 @@ error:has_type(typhon_payloads, Item) :-
                 *           QUESTIONS          *
                 *******************************/
 
-%!  agent_reached(+Id, +Hops, :OnAnswer) is det.
-%
-%   Call OnAnswer with answer(Reached): `true` or `false`, whether Id has made
-%   so many hops as far as its home knows, or `unknown`: the home was started
-%   after Id was born there; or with what endpoint_request/4 says if the home
-%   does not answer.
-
-agent_reached(Id, Hops, OnAnswer) :-
-    agent_home_endpoint(Id, Home),
-    (   endpoint_address(Home)
-    ->  reached(Id, Hops, Reached),
-        call(OnAnswer, answer(Reached))
-    ;   endpoint_request(Home, whereabouts, reached(Id, Hops), OnAnswer)
-    ).
-
-typhon_endpoint:requested(whereabouts, reached(Id, Hops), _, ReplyTo) :-
-    reached(Id, Hops, Reached),
-    endpoint_reply(ReplyTo, Reached).
-
-%   In this order: an agent that leaves or ends meanwhile is noted before it is
-%   gone.
-
-reached(Id, Hops, true) :-
-    (   hops_of(Id, Hops0)
-    ;   ended_here(Id, Hops0)
-    ),
-    Hops0 >= Hops,
-    !.
-reached(Id, _, true) :-
-    agent_outcome(Id, _),
-    !.
-reached(Id, _, false) :-
-    hops_of(Id, _),
-    !.
-reached(_, _, unknown).
-
-hops_of(Id, Hops) :-
-    agent(Id, _, _, _, Life),
-    life_hops(Life, Hops).
-hops_of(Id, Hops) :-
-    last_seen(Id, _, Hops, _).
-
-%!  agent_reached_at(+Id, +Hops, +Endpoint, -Reached) is det.
-%
-%   Ask the process at Endpoint instead of the home, and wait.
-%
-%   @error as endpoint_call/5
-
-agent_reached_at(Id, Hops, Endpoint, Reached) :-
-    endpoint_call(Endpoint, whereabouts, reached(Id, Hops), answer(Reached),
-                  5).
-
 %!  agent_heard_of(+Id, -Hops) is nondet.
+%!  agent_last_seen(+Id, -Hops) is nondet.
 %
-%   Id, which is not in this process, has made Hops hops at least.
+%   Id, which is not in this process, has made Hops hops at least; and it has not
+%   ended here.
 
 agent_heard_of(Id, Hops) :-
-    forward(Id, _, Hops, _).
-agent_heard_of(Id, Hops) :-
-    home_knows(Id, _, Hops, _).
+    agent_last_seen(Id, Hops).
 agent_heard_of(Id, Hops) :-
     ended_here(Id, Hops).
+
+agent_last_seen(Id, Hops) :-
+    last_seen(Id, _, Hops, _).
 
 %!  agent_comes_anew(+Id, +Hops, -Home) is semidet.
 %
