@@ -17,7 +17,7 @@ stopped waits for a message, which the handlers of SIGINT and SIGTERM send.
 
 :- use_module('../prolog/typhon').
 :- use_module('../prolog/typhon/tools/tables',
-              [print_agents/2, print_hosts/1]).
+              [print_agents/2, print_hosts/1, print_tree/1]).
 :- use_module('../prolog/typhon/kernel/host/runtime',
               [runtime_acquire/2, runtime_release/1]).
 :- use_module('../prolog/typhon/tools/page', [page_export/3, page_serve/2]).
@@ -247,6 +247,10 @@ run(hosts, [], Options) :-
     required(hosts, host(Host), Options),
     host_now(Host, _),
     print_hosts([Host]).
+run(tree, [], Options) :-
+    required(tree, host(Host), Options),
+    host_now(Host, _),
+    print_tree([Host]).
 run(send, [Agent0, Message0], Options) :-
     read_argument(Message0, Message),
     agent_argument(Agent0, Options, Agent),

@@ -25,6 +25,8 @@ command(agents, '', 0,
         'the agents in the network of a running host').
 command(hosts, '', 0,
         'the hosts in the network of a running host').
+command(tree, '', 0,
+        'supervisors, their children, and other agents that are monitored').
 command(send, 'AGENT MESSAGE', 2,
         'send a message, any term, to an agent').
 command(move, 'AGENT HOST', 2,
@@ -186,6 +188,7 @@ option(create, static, boolean, '',
        'it may not move').
 option(create, join, number, 'SECONDS',
        'wait for its end, print the outcome').
+option(tree, host, atom, 'ADDRESS', 'host to ask (required)').
 option(agents, host, atom, 'ADDRESS', 'host to ask (required)').
 option(hosts, host, atom, 'ADDRESS', 'host to ask (required)').
 option(send, host, atom, 'ADDRESS',

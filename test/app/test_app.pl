@@ -73,7 +73,7 @@ write_file(Dir, Name, Text, File) :-
 
 test(overview) :-
     typhon_lines(['--help'], Lines),
-    forall(member(Command, [host, network, check, create, agents, hosts, send,
+    forall(member(Command, [host, network, check, create, agents, hosts, tree, send,
                             move, dispose, join, remote, stop, log,
                             story, picture, diagnose]),
            ( atom_concat(Command, ' *', Pattern0),
@@ -188,6 +188,26 @@ is_resident(Address) :-
     typhon([agents, '--host', Address], exit(0), Out, _),
     split_string(Out, "\n", "", Agents),
     has_line(Agents, '*bob.*resident*').
+
+test(tree) :-
+    with_tmp_dir(tree).
+
+tree(Dir) :-
+    write_file(Dir, 'worker.pl',
+               ':- agent(worker, []).\nmain :- receive(_-stop).\n', Program),
+    format(atom(Child), 'child(ann, \'~w\', [])', [Program]),
+    with_typhon([host, alpha], _, Address,
+                ( typhon_lines([tree, '--host', Address],
+                               ["No agent that monitors others"]),
+                  typhon_lines([create, 'agents(supervisor)', '--host', Address,
+                                '--fact', Child], [_]),
+                  wait_until(has_child(Address), 20) )).
+
+has_child(Address) :-
+    typhon([tree, '--host', Address], exit(0), Out, _),
+    split_string(Out, "\n", "", [_,Top,Child|_]),
+    wildcard_match("supervisor.*", Top),
+    wildcard_match("  ann.* child * worker *", Child).
 
 test(join) :-
     with_tmp_dir(join).

@@ -1,7 +1,9 @@
 :- module(typhon_supervision,
-          [ agent_monitor/2             % +Agent, :OnDown
+          [ agent_monitor/2,            % +Agent, :OnDown
+            agent_relations/1           % -Relations
           ]).
 :- autoload('supervision/monitors', [monitor_call/2]).
+:- autoload('supervision/relations', [relations/1]).
 :- use_module('supervision/monitor_words', []).
 
 /** <module> Supervision: the ends of other agents
@@ -28,3 +30,11 @@ one is set, or another process asks for one.
 
 agent_monitor(Agent, OnDown) :-
     monitor_call(Agent, OnDown).
+
+%!  agent_relations(-Relations:ordset) is det.
+%
+%   What is known of monitors in the processes that are known here: terms
+%   monitors(Agent, Other) and follows(Agent, Other), ids.  Waits for answers.
+
+agent_relations(Relations) :-
+    relations(Relations).

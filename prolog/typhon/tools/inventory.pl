@@ -25,6 +25,7 @@
               [ endpoint_address/1, endpoint_ask_all/6, endpoint_left/1,
                 endpoint_reply/2 ]).
 :- use_module('../network', [network_hosts/2]).
+:- use_module('../options/directory', [host_offers/2]).
 
 /** <module> What there is in all processes of a network, and on one host
 
@@ -311,7 +312,8 @@ seen(Name, close_up(Properties, Options, Tuples, Clauses, Services)) :-
     findall(Text, ( host_option(Name, Option), text(Option, Text) ), Options),
     some(tuples, Text, tuple_text(Place, Text), Tuples),
     some(clauses, Text, clause_text(Place, Text), Clauses),
-    findall(Text, service_text(Place, Text), Services).
+    findall(Text, ( service_text(Place, Text) ; offer_text(Name, Text) ),
+            Services).
 
 :- meta_predicate some(+, ?, 0, -).
 
@@ -345,6 +347,15 @@ own_predicate(Place, Head) :-
     \+ predicate_property(Place:Head, imported_from(_)),
     functor(Head, Name, _),
     \+ sub_atom(Name, 0, _, _, $).
+
+%   What agents offer there.
+
+offer_text(Name, Text) :-
+    host_offers(Name, Offers),
+    member(Agent-offer(Service, Properties), Offers),
+    text(Service, ServiceText),
+    text(Properties, PropertiesText),
+    format(string(Text), '~s, by ~w: ~s', [ServiceText, Agent, PropertiesText]).
 
 %   What it offers of modules: their predicates by name.
 

@@ -1,9 +1,10 @@
 :- module(typhon_tables,
           [ print_hosts/1,              % +Places
-            print_agents/2              % +Places, +Ids
+            print_agents/2,             % +Places, +Ids
+            print_tree/1                % +Places
           ]).
 
-/** <module> Hosts and agents as tables for people
+/** <module> Hosts, agents and supervision as tables for people
 
 *Threading*: any thread.  A table is a snapshot: what goes away while it is
 made is left out.
@@ -18,6 +19,7 @@ made is left out.
 :- use_module(event_text, [short_name/2]).
 :- use_module(inventory,
               [survey/4, survey_agents/2, survey_hosts/4, survey_order/2]).
+:- autoload(supervision_tree, [supervision_tree/3]).
 
 %   So many lines are still read by a person.
 
@@ -116,6 +118,35 @@ shown_id(short, All, Id, Name) :-
 shown_id(_, _, Id, Id).
 
                 /*******************************
+                *          SUPERVISION         *
+                *******************************/
+
+%!  print_tree(+Places) is det.
+%
+%   Agents that monitor others, those below them indented, in the processes of
+%   the addresses Places among others.
+
+print_tree(Places) :-
+    supervision_tree(Places, Trees, Silent),
+    findall(Row, ( member(Tree, Trees), tree_row(Tree, 0, Row) ), Rows),
+    print_table([agent-left, is-left, host-left, program-left, state-left],
+                Rows, 'agent that monitors other'),
+    print_silent(Silent).
+
+tree_row(node(Id, Relation, Glance, _), Depth, [Name,Is,Host,Program,Doing]) :-
+    Indent is 2*Depth,
+    format(atom(Name), '~*c~w', [Indent, 0'\s, Id]),
+    ( Relation == top -> Is = '' ; Is = Relation ),
+    (   Glance = glance(Address, Program, Doing, _, _)
+    ->  short_name(Address, Host)
+    ;   Host = '', Program = '', Doing = ''
+    ).
+tree_row(node(_, _, _, Below), Depth0, Row) :-
+    Depth is Depth0+1,
+    member(Node, Below),
+    tree_row(Node, Depth, Row).
+
+                /*******************************
                 *             TABLE            *
                 *******************************/
 
@@ -165,9 +196,16 @@ wider(Width, Widest0, Widest) :-
 
 print_row(Sides, Widths, Cells) :-
     maplist(padded, Sides, Widths, Cells, Padded),
-    atomic_list_concat(Padded, '  ', Line0),
-    split_string(Line0, "", " ", [Line]),
-    format('~s~n', [Line]).
+    atomic_list_concat(Padded, '  ', Line),
+    without_trailing_blanks(Line, Text),
+    format('~s~n', [Text]).
+
+%   Those at the begin show what is below what.
+
+without_trailing_blanks(Line, Text) :-
+    string_concat(x, Line, Marked),
+    split_string(Marked, "", " ", [Stripped]),
+    sub_string(Stripped, 1, _, 0, Text).
 
 padded(Side, Width, Cell, Padded) :-
     width(Cell, Used),

@@ -119,6 +119,7 @@ part_file('options/quotas','options/quotas/usage').
 part_file('options/snapshot','options/snapshot/process_dump').
 part_file('options/supervision','options/supervision/gone').
 part_file('options/supervision','options/supervision/monitors').
+part_file('options/supervision','options/supervision/relations').
 part_file('options/supervision','options/supervision/watched').
 part_file('options/tls','options/tls/secure').
 part_file('options/trace','options/trace/spying').

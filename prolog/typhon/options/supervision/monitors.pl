@@ -2,7 +2,8 @@
           [ monitor_begin/3,            % +Id, +Agent, +Shared
             monitor_end/2,              % +Id, +Agent
             monitor_followers/2,        % +Agent, -Ids
-            monitor_call/2              % +Agent, :OnDown
+            monitor_call/2,             % +Agent, :OnDown
+            monitor_set/2               % ?Watcher, ?Agent
           ]).
 :- use_module(library(error), [must_be/2]).
 :- use_module(library(lists), [member/2]).
@@ -131,6 +132,13 @@ typhon_endpoint:requested(monitor, followers(Agent), _, ReplyTo) :-
     must_be(atom, Agent),
     findall(Id, follower(Agent, Id), Ids),
     endpoint_reply(ReplyTo, Ids).
+
+%!  monitor_set(?Watcher, ?Agent) is nondet.
+%
+%   A watcher, see above, has a monitor of Agent.
+
+monitor_set(Watcher, Agent) :-
+    monitor(_, Watcher, Agent).
 
 %   shares(+Agent, +Change): the other half, at the home of Agent.
 

@@ -15,10 +15,11 @@
 :- use_module('../source_view', [agent_listing/1, goals_shown/4]).
 :- use_module(overlays, [mechanism_dicts/1, program_names/1]).
 :- use_module(protocol,
-              [name_text/2, page_time/2, place_text/2, scene_dict/3, text/2]).
+              [ agent_glance_dict/2, name_text/2, page_time/2, place_text/2,
+                scene_dict/3, text/2 ]).
 :- use_module(replay, [replay_of_text/3]).
 :- use_module(editor, [on_console/1]).
-:- use_module(sources, [sources_look/1]).
+:- use_module(sources, [sources_look/1, sources_tree/1]).
 :- use_module(world, [world_picture/1]).
 
 /** <module> Questions of browsers, and the answers
@@ -31,6 +32,7 @@
   | networks   |         | those that this process has started           |
   | mechanisms |         | the operators of `agents/`, and what they take |
   | programs   |         | names of agent programs that are found        |
+  | tree       |         | supervisors and what is below them             |
   | world      |         | the picture of the world, SVG                 |
   | replay     | `title`, `text` | the log of that text, see module `replay` |
 
@@ -69,6 +71,9 @@ asked(mechanisms, _, Dicts) :-
     mechanism_dicts(Dicts).
 asked(programs, _, Names) :-
     program_names(Names).
+asked(tree, _, Dicts) :-
+    sources_tree(Trees),
+    maplist(node_dict, Trees, Dicts).
 asked(world, _, Svg) :-
     world_picture(Svg).
 asked(replay, Message, Dict) :-
@@ -230,6 +235,21 @@ hop_row(Way, stats(Count, Min, Mean, Max), [Text, Count|Times]) :-
     Count > 0,
     name_text(Way, Text),
     Times = [Min, Mean, Max].
+
+                /*******************************
+                *          SUPERVISION         *
+                *******************************/
+
+node_dict(node(Agent, Relation, Glance, Below), Dict) :-
+    maplist(name_text, [Agent, Relation], [Id, RelationText]),
+    maplist(node_dict, Below, Dicts),
+    glance_dict(Glance, Agent, Dict0),
+    Dict = Dict0.put(_{id:Id, relation:RelationText, below:Dicts}).
+
+glance_dict(none, _, _{host:"", program:"", status:"", doing:""}) :-
+    !.
+glance_dict(Glance, Agent, Dict) :-
+    agent_glance_dict(agent(Agent, Glance), Dict).
 
                 /*******************************
                 *           NETWORKS           *

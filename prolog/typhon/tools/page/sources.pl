@@ -2,7 +2,8 @@
           [ sources_start/1,            % +Options
             sources_stop/0,
             sources_look/1,             % -Scene
-            sources_metrics/1           % -Text
+            sources_metrics/1,          % -Text
+            sources_tree/1              % -Trees
           ]).
 :- use_module(library(apply), [maplist/2]).
 :- use_module(library(lists), [member/2]).
@@ -16,7 +17,8 @@
 :- use_module('../../kernel/host',
               [address_parts/3, runtime_acquire/2, runtime_release/1]).
 :- use_module('../administration', [host_property/2]).
-:- use_module('../../tools', [survey/4, survey_agents/2, survey_hosts/4]).
+:- use_module('../../tools',
+              [supervision_tree/3, survey/4, survey_agents/2, survey_hosts/4]).
 :- use_module('../../options/watch', [metrics/2, unwatch/1, watch/3]).
 :- use_module(browsers, [browsers_tell/1, browsers_there/0]).
 :- use_module(protocol, [times_of/1]).
@@ -95,6 +97,14 @@ sources_metrics(Text) :-
     findall(Address, member(host(Address, running, _, _, _, _, _, _), Hosts),
             Addresses),
     metrics(Addresses, Text).
+
+%!  sources_tree(-Trees:list) is det.
+%
+%   As of supervision_tree/3.
+
+sources_tree(Trees) :-
+    findall(Address, place(Address), Places),
+    supervision_tree(Places, Trees, _).
 
                 /*******************************
                 *             FIND             *

@@ -309,7 +309,7 @@ scene(hostile_names) :-
     agent_send(Agent, hello(Name)),
     see("return typhon.store.hosts.size === 61"),
     at(Browser, _, _),
-    forall(member(View, [map, time, space, sequence, replay, hosts, agents]),
+    forall(member(View, [map, tree, time, space, sequence, replay, hosts, agents]),
            view(View)),
     browser_run(Browser, "typhon.app.select({agent: args[0]})", [Agent], _),
     reads("#details .terms", "<img src=x"),
@@ -354,6 +354,40 @@ scene(an_isolated_host_is_not_proposed) :-
     keys([escape]),
     link(Host, Right),
     link(Host, Below).
+
+%   Children below their supervisor, what it does, and services on a host.
+
+scene(supervisors_are_a_tree) :-
+    nth_host(4, Host),
+    Worker = clauses([(:- agent(worker, [])), (main :- receive(_-stop))]),
+    Clerk = clauses([ (:- agent(clerk, [])),
+                      (main :- offer(shop(tea), [price(7)]), receive(_-stop)) ]),
+    agent_create(agents(supervisor), Top,
+                 [ host(Host),
+                   facts([child(wilma, Worker, []), child(chloe, Clerk, [])]) ]),
+    view(tree),
+    reads("#panel-tree .tree .tree li", "wilma"),
+    reads("#panel-tree .tree .tree li", "chloe"),
+    accessible,
+    sees("[...document.querySelectorAll('#panel-tree .tree .tree button')]
+              .find(b => b.textContent.startsWith('wilma')).click()", _),
+    reads("#details h2", "wilma"),
+    wait_until(( agent_property(Top, facts(Facts)),
+                 memberchk(running(wilma, Wilma), Facts) ), 10),
+    agent_send(Wilma, stop),
+    reads("#panel-tree .log li", "restarts([wilma])"),
+    at(Browser, _, _),
+    browser_run(Browser, "typhon.app.select({host: args[0]})", [Host], _),
+    see("return [...document.querySelectorAll('#details summary')]
+              .find(s => s.textContent.startsWith('Services'))"),
+    sees("[...document.querySelectorAll('#details summary')]
+              .find(s => s.textContent.startsWith('Services'))
+              .parentElement.open = true", _),
+    reads("#details .terms", "shop(tea), by chloe"),
+    agent_send(Top, stop),
+    reads("#panel-tree .empty", "No agent monitors another"),
+    sees("typhon.app.select({})", _),
+    view(agents).
 
 scene(two_browsers) :-
     at(Browser, Base, _),
@@ -469,7 +503,7 @@ scene(one_replay_at_a_time) :-
 scene(everybody_can_use_it) :-
     at(Browser, _, _),
     nth_host(1, Host),
-    forall(member(View-Theme, [ map-dark, hosts-dark, agents-light, time-light,
+    forall(member(View-Theme, [ map-dark, tree-light, hosts-dark, agents-light, time-light,
                                 space-light, sequence-light, replay-dark ]),
            ( browser_theme(Browser, Theme),
              view(View),
@@ -490,7 +524,8 @@ scene(narrow) :-
     at(Browser, _, _),
     browser_size(Browser, 400, 800),
     sees("typhon.app.select({})", _),
-    forall(member(View, [map, hosts, agents, time, space, sequence, replay]),
+    forall(member(View, [map, hosts, agents, tree, time, space, sequence,
+                         replay]),
            ( view(View),
              sees("return document.documentElement.scrollWidth", Width),
              assertion(Width =< 400) )),

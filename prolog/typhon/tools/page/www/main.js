@@ -115,6 +115,7 @@ const VIEWS = [
   ['map', 'Map', () => import('./map.js')],
   ['hosts', 'Hosts', () => ({ mount: hostList })],
   ['agents', 'Agents', () => ({ mount: agentList })],
+  ['tree', 'Supervision', () => import('./tree.js')],
   ['time', 'Time', () => import('./charts.js')],
   ['space', 'Space–time', () => import('./spacetime.js')],
   ['sequence', 'Sequence', () => import('./sequence.js')],

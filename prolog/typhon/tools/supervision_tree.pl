@@ -1,0 +1,132 @@
+:- module(typhon_supervision_tree,
+          [ supervision_tree/3          % +Places, -Trees, -Silent
+          ]).
+:- use_module(library(assoc),
+              [ assoc_to_keys/2, empty_assoc/1, get_assoc/3, list_to_assoc/2,
+                put_assoc/4 ]).
+:- use_module(library(lists), [append/3, member/2]).
+:- use_module(library(pairs),
+              [group_pairs_by_key/2, map_list_to_pairs/3, pairs_values/2]).
+:- use_module('../options/supervision', [agent_relations/1]).
+:- use_module(inventory, [survey/4, survey_agents/2, survey_order/2]).
+
+/** <module> Supervisors, their children and what they monitor, as trees
+
+A child of an agent is one that follows it, see monitor/2; below an agent stand
+its children, and agents that it monitors and that are no children.  Two that
+monitor each other, as a supervisor and its standby, would be below each other:
+the one with more below it is on top.
+
+*Threading*: any thread that may wait.
+*/
+
+%   So many agents of each process are known by more than their id.
+
+most(5000).
+
+%!  supervision_tree(+Places, -Trees:list, -Silent:list) is det.
+%
+%   Trees are terms node(Id, Relation, Glance, Below): Relation is `top`, `child`
+%   or `monitored`, Glance as of agent_glance/2, or `none`, and Below the list of
+%   nodes below it.  Places and Silent are as of survey/4.  Agents that are not
+%   related to others are left out.
+
+supervision_tree(Places, Trees, Silent) :-
+    most(Most),
+    survey(Most, Places, Seen, Silent),
+    survey_agents(Seen, Agents),
+    agent_relations(Relations),
+    forest(Relations, Agents, Trees).
+
+forest(Relations, Agents, Trees) :-
+    findall(Id-Glance, member(agent(Id, Glance), Agents), Glances0),
+    list_to_assoc(Glances0, Glances),
+    below(Relations, Below, Related),
+    tops(Below, Related, Tops),
+    empty_assoc(None),
+    grown(Tops, top, Below-Glances, None, _, Trees).
+
+%   below(+Relations, -Below, -Related): Below is an assoc of the Relation-Id
+%   below each agent, Related one of the agents that are below another.
+
+below(Relations, Below, Related) :-
+    findall(Relation-true, member(Relation, Relations), Pairs),
+    list_to_assoc(Pairs, Known),
+    findall(Id-true,
+            ( member(follows(Id, Parent), Relations), child(Id, Parent, Known) ),
+            Children0),
+    sort(Children0, Children1),
+    list_to_assoc(Children1, Children),
+    findall(Parent-(Relation-Id),
+            edge(Relations, Known, Children, Parent, Relation, Id),
+            Edges0),
+    sort(Edges0, Edges),
+    group_pairs_by_key(Edges, Groups),
+    list_to_assoc(Groups, Below),
+    findall(Id-true, member(_-(_-Id), Edges), Related0),
+    sort(Related0, Related1),
+    list_to_assoc(Related1, Related).
+
+edge(Relations, Known, _, Parent, child, Id) :-
+    member(follows(Id, Parent), Relations),
+    child(Id, Parent, Known).
+edge(Relations, _, Children, Parent, monitored, Id) :-
+    member(monitors(Parent, Id), Relations),
+    Parent \== Id,
+    \+ get_assoc(Id, Children, true).
+
+%   Where two follow each other the one that monitors is the parent.
+
+child(Id, Parent, Known) :-
+    \+ ( get_assoc(monitors(Id, Parent), Known, true),
+         \+ get_assoc(monitors(Parent, Id), Known, true) ).
+
+%   tops(+Below, +Related, -Tops): agents with others below them.  Those that are
+%   not below another come first; then those with most below them.
+
+tops(Below, Related, Tops) :-
+    assoc_to_keys(Below, Parents),
+    map_list_to_pairs(top_key(Below, Related), Parents, Pairs0),
+    keysort(Pairs0, Pairs),
+    pairs_values(Pairs, Tops).
+
+top_key(Below, Related, Id, key(Is, Fewer, Order)) :-
+    ( get_assoc(Id, Related, true) -> Is = 1 ; Is = 0 ),
+    get_assoc(Id, Below, List),
+    length(List, Count),
+    Fewer is -Count,
+    survey_order(Id, Order).
+
+%   grown(+Ids, +Relation, +Known, +Placed0, -Placed, -Nodes): each agent has one
+%   place.
+
+grown([], _, _, Placed, Placed, []).
+grown([Id|Ids], Relation, Known, Placed0, Placed, Nodes) :-
+    (   get_assoc(Id, Placed0, true)
+    ->  Nodes = Nodes1,
+        Placed1 = Placed0
+    ;   node(Id, Relation, Known, Placed0, Placed1, Node),
+        Nodes = [Node|Nodes1]
+    ),
+    grown(Ids, Relation, Known, Placed1, Placed, Nodes1).
+
+node(Id, Relation, Known, Placed0, Placed, node(Id, Relation, Glance, Below)) :-
+    Known = Lists-Glances,
+    ( get_assoc(Id, Glances, Glance0) -> Glance = Glance0 ; Glance = none ),
+    put_assoc(Id, Placed0, true, Placed1),
+    (   get_assoc(Id, Lists, List)
+    ->  of_relation(child, List, Children),
+        of_relation(monitored, List, Others),
+        grown(Children, child, Known, Placed1, Placed2, Below1),
+        grown(Others, monitored, Known, Placed2, Placed, Below2),
+        append(Below1, Below2, Below)
+    ;   Below = [],
+        Placed = Placed1
+    ).
+
+of_relation(Relation, List, Ids) :-
+    findall(Order-Id,
+            ( member(Relation-Id, List), survey_order(Id, Order) ),
+            Pairs0),
+    keysort(Pairs0, Pairs),
+    pairs_values(Pairs, Ids).
