@@ -266,7 +266,7 @@ test(with_a_journal_a_turn_runs_again_once,
      [ condition(missing([journal], [])),
        forall(member(Before-Kills-Expected,
                      [ true-1-(done-1), true-2-(lost-0),
-                       (leave_new(g), repeat, sense(h))-1-(lost-0) ])),
+                       (mark, repeat, sense(h))-1-(lost-0) ])),
        Result == Expected ]) :-
     no_leaks(with_tmp_dir(killed(Before, Kills, Result))).
 test(more_owners_than_cells, Count == 1) :-
@@ -345,16 +345,24 @@ test(where_cells_are_impossible_a_policy_warns, Outcome-Count == done-1) :-
 
 killed(Before, Kills, How-Count, Dir) :-
     atomic_list_concat([Dir, /, p], J),
+    atomic_list_concat([Dir, /, mark], Mark),
+    atomic_list_concat([Dir, /, place], Place),
+    setup_call_cleanup(
+        open(Place, write, Out),
+        format(Out, ":- service(mark/0).~n\c
+                     mark :- open(~q, write, Out), close(Out).~n", [Mark]),
+        close(Out)),
     Works = clauses([ (:- agent(works, [])),
                       (main :- Before, leave(f), work, result(done)),
                       (work :- between(1, 5 000 000, X), X >= 5 000 000, !) ]),
     with_peers(
-        [p-[host([policy(guarded), cell(owner), journal(J)])]],
+        [p-[host([ policy(guarded), cell(owner), journal(J),
+                   consult(Place) ])]],
         ( peer_host(p, P),
           peer_do(p, agent_create(Works, A)),
           (   Before == true
           ->  true
-          ;   wait_until(remote(P, sense(g)), 30)
+          ;   wait_until(exists_file(Mark), 30)
           ),
           kills(Kills, none),
           peer_do(p, agent_join(A, Outcome, 60)),
