@@ -67,6 +67,8 @@ chaos: tools            ## attack networks, and journals; SECONDS=600, SEED=1
 	@$(SWIPL) test/chaos/run.pl -- --seconds $(SECONDS) --seed $(SEED)
 	@$(SWIPL) test/chaos/lasting/run.pl -- --seconds $(SECONDS) \
 	    --seed $(SEED)
+	@$(SWIPL) -g supervised_main test/chaos/supervised.pl -- \
+	    --seconds=$(SECONDS) --seed=$(SEED)
 
 scripted: tools         ## break each frame of a hop in every way
 	@$(SWIPL) test/chaos/scripted.pl

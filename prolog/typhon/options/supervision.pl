@@ -3,7 +3,7 @@
             agent_relations/1           % -Relations
           ]).
 :- autoload('supervision/monitors', [monitor_call/2]).
-:- autoload('supervision/relations', [relations/1]).
+:- autoload('supervision/relations', [relations/2]).
 :- use_module('supervision/monitor_words', []).
 
 /** <module> Supervision: the ends of other agents
@@ -37,4 +37,4 @@ agent_monitor(Agent, OnDown) :-
 %   monitors(Agent, Other) and follows(Agent, Other), ids.  Waits for answers.
 
 agent_relations(Relations) :-
-    relations(Relations).
+    relations(_, Relations).

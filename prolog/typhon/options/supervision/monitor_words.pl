@@ -5,14 +5,15 @@
             followers/1                 % -Agents
           ]).
 :- use_module(library(error), [existence_error/2, must_be/2]).
+:- use_module(library(lists), [member/2]).
 :- use_module(library(option), [option/3]).
 :- use_module('../../kernel/base/options', [check_options/2]).
 :- use_module('../../kernel/program', [vocabulary/1]).
 :- use_module('../../kernel/wire', [endpoint_address/1]).
 :- use_module('../../kernel/host', [context/3, parts_call/3, process_ask/6]).
 :- use_module('../../kernel/agent', [agent_home_endpoint/2]).
-:- autoload(monitors,
-            [monitor_begin/3, monitor_end/2, monitor_followers/2]).
+:- autoload(monitors, [monitor_begin/3, monitor_end/2]).
+:- autoload(relations, [relations/2]).
 
 /** <module> What agents say to monitor others
 
@@ -88,7 +89,8 @@ unmonitor(Agent) :-
 followers(Agents) :-
     context(Host, Id, _),
     parts_call(acts, Host, [Id, send(followers)]),
-    monitor_followers(Id, Agents).
+    relations(Id, Relations),
+    findall(Agent, member(follows(Agent, Id), Relations), Agents).
 
 ask_home(Request, Agent) :-
     must_be(atom, Agent),

@@ -1,7 +1,6 @@
 :- module(typhon_monitors,
           [ monitor_begin/3,            % +Id, +Agent, +Shared
             monitor_end/2,              % +Id, +Agent
-            monitor_followers/2,        % +Agent, -Ids
             monitor_call/2,             % +Agent, :OnDown
             monitor_set/2               % ?Watcher, ?Agent
           ]).
@@ -23,7 +22,7 @@
 :- use_module('../../kernel/travel',
               [outcome_wait/3, post_on/2, speaks_for/3]).
 :- use_module('../../kernel/lifecycle', [agent_dispose/1, agent_named/2]).
-:- use_module(watched, [orphans_end/1, others_ask/2, watched_add/2]).
+:- use_module(watched, [orphans_end/1, watched_add/2]).
 
 /** <module> Monitors, at the home of those that set them
 
@@ -105,33 +104,6 @@ monitor_end(Id, Agent) :-
     ignore(monitor_remove(Id, Agent)),
     ignore(monitor_remove(ends(Id), Agent)),
     shares(Agent, monitor_remove(ends(Agent), Id)).
-
-%!  monitor_followers(+Agent, -Ids:ordset) is det.
-%
-%   Those that are disposed of if Agent ends otherwise than `done`, as far as
-%   processes answer; waits for them.
-
-monitor_followers(Agent, Ids) :-
-    others_ask(followers(Agent), Results),
-    findall(Id,
-            (   follower(Agent, Id)
-            ;   member(Peer-answer(Known), Results),
-                is_list(Known),
-                member(Id, Known),
-                atom(Id),
-                agent_home_endpoint(Id, Peer)
-            ), Ids0),
-    sort(Ids0, Ids).
-
-follower(Agent, Id) :-
-    monitor(_, ends(Id), Agent),
-    agent_home_endpoint(Id, Home),
-    endpoint_address(Home).
-
-typhon_endpoint:requested(monitor, followers(Agent), _, ReplyTo) :-
-    must_be(atom, Agent),
-    findall(Id, follower(Agent, Id), Ids),
-    endpoint_reply(ReplyTo, Ids).
 
 %!  monitor_set(?Watcher, ?Agent) is nondet.
 %

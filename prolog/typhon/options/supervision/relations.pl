@@ -1,6 +1,7 @@
 :- module(typhon_relations,
-          [ relations/1                 % -Relations
+          [ relations/2                 % ?Other, -Relations
           ]).
+:- use_module(library(error), [must_be/2]).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(solution_sequences), [limit/2]).
 :- use_module('../../kernel/wire', [endpoint_address/1, endpoint_reply/2]).
@@ -11,8 +12,7 @@
 
 /** <module> Which agents monitor and follow which
 
-For people who look at a network.  Each process reports the monitors of the
-agents whose home it is.
+Each process reports the monitors of the agents whose home it is.
 
 *Threading*: any thread that may wait.
 */
@@ -23,51 +23,52 @@ agents whose home it is.
 
 most(5000).
 
-%!  relations(-Relations:ordset) is det.
+%!  relations(?Other, -Relations:ordset) is det.
 %
 %   Of the processes that are known here and answer: monitors(Agent, Other), and
 %   follows(Agent, Other), which is disposed of if Other ends badly.
 
-relations(Relations) :-
-    here(Here),
-    others_ask(relations, Results),
+relations(Other, Relations) :-
+    endpoint_address(Me),
+    here(Other, Here),
+    others_ask(relations(Other), Results),
     findall(Relation,
-            (   member(Relation, Here)
-            ;   member(_-answer(There), Results),
-                is_list(There),
-                member(Relation, There),
-                is_relation(Relation)
-            ),
+            ( member(Peer-answer(Some), [Me-answer(Here)|Results]),
+              is_list(Some),
+              member(Relation, Some),
+              is_relation(Relation, Other, Peer) ),
             Relations0),
     sort(Relations0, Relations).
 
-is_relation(Relation) :-
+is_relation(Relation, Other, Home) :-
     nonvar(Relation),
-    ( Relation = monitors(A, B) ; Relation = follows(A, B) ),
-    atom(A),
-    atom(B),
+    ( Relation = monitors(Id, Other) ; Relation = follows(Id, Other) ),
+    atom(Id),
+    atom(Other),
+    agent_home_endpoint(Id, Home),
     !.
 
-here(Relations) :-
+here(Other, Relations) :-
     most(Most),
-    findall(Relation, limit(Most, relation(Relation)), Relations).
+    findall(Relation, limit(Most, relation(Other, Relation)), Relations).
 
-relation(Relation) :-
+relation(Other, Relation) :-
     monitor_set(Watcher, Other),
-    said(Watcher, Other, Relation, Agent),
-    agent_home_endpoint(Agent, Home),
+    said(Watcher, Other, Id, Relation),
+    agent_home_endpoint(Id, Home),
     endpoint_address(Home).
 
-said(ends(Id), Other, follows(Id, Other), Id) :-
+said(ends(Id), Other, Id, follows(Id, Other)) :-
     !.
-said(Id, Other, monitors(Id, Other), Id) :-
+said(Id, Other, Id, monitors(Id, Other)) :-
     atom(Id).
 
-typhon_endpoint:requested(monitor, relations, _, ReplyTo) :-
-    scheduler_call(typhon_relations:told(ReplyTo)).
+typhon_endpoint:requested(monitor, relations(Other), _, ReplyTo) :-
+    ( var(Other) -> true ; must_be(atom, Other) ),
+    scheduler_call(typhon_relations:told(Other, ReplyTo)).
 
-:- public told/1.                       % goal of a worker
+:- public told/2.                       % goal of a worker
 
-told(ReplyTo) :-
-    here(Relations),
+told(Other, ReplyTo) :-
+    here(Other, Relations),
     endpoint_reply(ReplyTo, Relations).
