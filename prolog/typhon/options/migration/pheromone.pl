@@ -110,22 +110,38 @@ spread(Host, From, Signal) :-
     arg(2, Signal, Source),
     host(Host, Here, _),
     host_neighbours(Host, Neighbours),
-    forall(( member(To, Neighbours), To \== From, To \== Source ),
-           tell(To, smelt(Here, Signal))).
+    findall(Name-Endpoint,
+            ( member(To, Neighbours), To \== From, To \== Source,
+              address_parts(To, Name, Endpoint) ),
+            Hosts),
+    tell(Hosts, smelt(Here, Signal)).
 
-tell(To, News) :-
-    address_parts(To, Name, Endpoint),
-    (   endpoint_address(Endpoint)
-    ->  scheduler_call(typhon_pheromone:news(Name, News))
-    ;   catch(endpoint_post(Endpoint, pheromone, pheromone(Name, News)),
-              error(Formal, _),
-              debug(typhon(pheromone), 'not told ~w: ~p', [To, Formal]))
-    ).
+%   One worker tells all hosts of this process, one after the other: to wake a
+%   worker takes longer than what it does at a host.
+
+tell(Hosts, News) :-
+    endpoint_address(Own),
+    findall(Name, member(Name-Own, Hosts), Names),
+    (   Names == []
+    ->  true
+    ;   scheduler_call(typhon_pheromone:news(Names, News))
+    ),
+    forall(( member(Name-Endpoint, Hosts), Endpoint \== Own ),
+           post(Endpoint, Name, News)).
+
+post(Endpoint, Name, News) :-
+    catch(endpoint_post(Endpoint, pheromone, pheromone(Name, News)),
+          error(Formal, _),
+          debug(typhon(pheromone), 'not told ~w@~w: ~p',
+                [Name, Endpoint, Formal])).
 
 typhon_endpoint:received(pheromone, pheromone(Name, News), _) :-
-    scheduler_call(typhon_pheromone:news(Name, News)).
+    scheduler_call(typhon_pheromone:news([Name], News)).
 
-news(Host, News) :-
+news(Hosts, News) :-
+    forall(member(Host, Hosts), news_at(Host, News)).
+
+news_at(Host, News) :-
     (   host(Host, _, Place)
     ->  heard(News, Host, Place)
     ;   true                            % it was stopped meanwhile
@@ -185,8 +201,11 @@ withdraw(Problem) :-
 
 spread_withdrawal(Host, Source, Problem) :-
     host_neighbours(Host, Neighbours),
-    forall(( member(To, Neighbours), To \== Source ),
-           tell(To, withdrawn(Source, Problem))).
+    findall(Name-Endpoint,
+            ( member(To, Neighbours), To \== Source,
+              address_parts(To, Name, Endpoint) ),
+            Hosts),
+    tell(Hosts, withdrawn(Source, Problem)).
 
                 /*******************************
                 *           FOLLOWING          *
