@@ -234,12 +234,12 @@ stop_each([Name-Agent|Pairs]) :-
     end(Agent),
     (   receive(system-down(Agent, _), 10)
     ->  true
-    ;   catch(agent_dispose(Agent, [force(0)]), error(_, _), true)
+    ;   catch(dispose(Agent, [force(0)]), error(_, _), true)
     ),
     stop_each(Pairs).
 
 end(Agent) :-
-    catch(agent_dispose(Agent), error(_, _), true).
+    catch(dispose(Agent), error(_, _), true).
 
                 /*******************************
                 *            STANDBY           *

@@ -1,7 +1,9 @@
 :- module(typhon_creating,
           [ create/3                    % +Program, -Agent, +Options
           ]).
+:- use_module(library(apply), [maplist/2]).
 :- use_module(library(error), [permission_error/3]).
+:- use_module(library(option), [option/3]).
 :- use_module('../program', [vocabulary/1]).
 :- use_module('../host', [context/3, parts_call/3]).
 :- use_module('../agent', [agent_variant/2]).
@@ -20,8 +22,8 @@ process.
 %   As agent_create/3; the new agent begins on this host unless host(Host) says
 %   where, and has the owner of this one.  Program may also be `self`, the
 %   program of this agent: its state is then what facts(Clauses) says.  Where
-%   programs are checked Program is `self`, clauses(Terms) or agents(Path), and a
-%   new agent counts as a clone.
+%   programs are checked Program is `self`, clauses(Terms) or agents(Path),
+%   payloads are clauses or payloads(Path), and a new agent counts as a clone.
 %
 %   @error as agent_create/3
 
@@ -30,7 +32,7 @@ create(Program, Agent, Options) :-
     parts_call(acts, Host, [Id, say(Program-Options)]),
     parts_call(acts, Host, [Id, clone]),
     (   agent_variant(Module, _),
-        \+ may_name(Program)
+        \+ ( may_name(Program), may_attach(Options) )
     ->  permission_error(call, sandboxed, create(Program, Agent, Options))
     ;   agent_create_by(Id, Program, Agent, Options)
     ).
@@ -38,12 +40,28 @@ create(Program, Agent, Options) :-
 %   may_name(+Program) is semidet: no file of this machine, but of agents/.
 
 may_name(Program) :-
-    ground(Program),
-    Program = agents(Path),
-    !,
+    nonvar(Program),
+    names(Program).
+
+names(self).
+names(clauses(_)).
+names(agents(Path)) :- is_below(Path).
+
+%   may_attach(+Options) is semidet: no file, but of payloads/.
+
+may_attach(Options) :-
+    is_list(Options),
+    option(payloads(Specs), Options, []),
+    is_list(Specs),
+    maplist(nonvar, Specs),
+    maplist(attaches, Specs).
+
+attaches(payload(_, _, _)).
+attaches(clauses(_)).
+attaches(payloads(Path)) :- is_below(Path).
+
+is_below(Path) :-
+    ground(Path),
     format(atom(Below), '~w', [Path]),
     \+ is_absolute_file_name(Below),
     \+ sub_atom(Below, _, _, _, '..').
-may_name(Program) :-
-    ( Program == self ; subsumes_term(clauses(_), Program) ),
-    !.

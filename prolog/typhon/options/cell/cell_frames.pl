@@ -140,6 +140,8 @@ cell_word(acts, monitor/1).
 cell_word(acts, monitor/2).
 cell_word(acts, unmonitor/1).
 cell_word(looks, followers/1).
+cell_word(acts, dispose/1).
+cell_word(acts, dispose/2).
 cell_word(acts, offer/2).
 cell_word(acts, unoffer/1).
 cell_word(looks, find/3).

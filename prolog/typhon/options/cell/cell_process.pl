@@ -11,6 +11,7 @@
 :- use_module(library(readutil), [read_stream_to_codes/2]).
 :- use_module(library(settings), [setting/2, setting/4]).
 :- use_module('../../kernel/base/prolog_faults', [spawn/3]).
+:- use_module('../../kernel/program', [vocabulary_word/2]).
 :- use_module(cell_frames, [cell_frame_read/2]).
 
 /** <module> The process of a cell
@@ -85,7 +86,7 @@ launch(Filter, process(Pid, In, Out, Err)) :-
     setting(typhon_cells:memory, Memory),
     flag(typhon_cell_user, User, (User+1) mod 1000),
     Uid is 59 000 + User,
-    program(Goal),
+    program(Library, Goal),
     spawn(path(bash),
           [ Script, Library, Filter, Home, Swipl, '-q', '-f', none, '--no-tty',
             '-g', Goal, '-t', 'halt(1)' ],
@@ -95,13 +96,22 @@ launch(Filter, process(Pid, In, Out, Err)) :-
     set_stream(Out, encoding(octet)),
     set_stream(Out, buffer(full)).
 
-program('set_prolog_flag(gc_thread,false),\c
-         use_module(\'/typhon/typhon/options/cell/inside\'),\c
-         use_module(\'/typhon/typhon/options/migration\',[]),\c
-         use_module(\'/typhon/typhon/options/identity\',[]),\c
-         use_module(\'/typhon/typhon/options/supervision\',[]),\c
-         use_module(\'/typhon/typhon/options/directory\',[]),\c
-         typhon_cell_inside:cell_main').
+%   The program has the vocabulary that this process has.
+
+program(Library, Goal) :-
+    setof(File, vocabulary_file(Library, File), Files),
+    format(atom(Goal),
+           'set_prolog_flag(gc_thread,false),\c
+            use_module(\'/typhon/typhon/options/cell/inside\'),\c
+            forall(lists:member(F,~q),use_module(F,[])),\c
+            typhon_cell_inside:cell_main',
+           [Files]).
+
+vocabulary_file(Library, File) :-
+    vocabulary_word(Module, _),
+    module_property(Module, file(Path)),
+    atom_concat(Library, Rest, Path),
+    atom_concat('/typhon', Rest, File).
 
 %   This process may be a saved state.
 

@@ -6,7 +6,7 @@
             guard_declares/2,           % +Policy, +PI
             allowed_fact/2              % +Fact, +Max
           ]).
-:- use_module(library(apply), [foldl/4, maplist/2, maplist/3]).
+:- use_module(library(apply), [exclude/3, foldl/4, maplist/2, maplist/3]).
 :- use_module(library(assoc), [empty_assoc/1, put_assoc/4]).
 :- use_module('../../kernel/base/trees', [is_tree/2]).
 :- use_module('../../kernel/program', [clause_parts/3]).
@@ -40,8 +40,9 @@ own today would be the system's tomorrow.
 %   @error permission_error(call, sandboxed, Goal) for what is not allowed:
 %          a goal, `:- use_module(Library)`, or the name of a predicate
 
-guard_program(Policy, program(Name, State, Libraries, Clauses0),
+guard_program(Policy, program(Name, State, Libraries0, Clauses0),
               program(Name, State, Libraries, Clauses)) :-
+    exclude(without, Libraries0, Libraries),
     maplist(library_allowed, Libraries),
     maplist(state_allowed, State),
     heads(Clauses0, Own),
@@ -55,6 +56,12 @@ guard_refuses(Policy, Clauses, Clause, Formal) :-
     heads(Clauses, Own),
     catch(( guard_clause(own(heads(Own), Policy), Clause, _), fail ),
           error(Formal, _), true).
+
+%   Of this library untrusted agents have the vocabulary alone: what else it
+%   defines is unknown to them.
+
+without(Library-_) :-
+    Library == library(typhon).
 
 library_allowed(Library-Imports) :-
     (   ground(Library),

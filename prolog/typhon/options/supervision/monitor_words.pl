@@ -2,17 +2,21 @@
           [ monitor/1,                  % +Agent
             monitor/2,                  % +Agent, +Options
             unmonitor/1,                % +Agent
+            dispose/1,                  % +Agent
+            dispose/2,                  % +Agent, +Options
             followers/1                 % -Agents
           ]).
-:- use_module(library(error), [existence_error/2, must_be/2]).
+:- use_module(library(error),
+              [existence_error/2, must_be/2, permission_error/3]).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(option), [option/3]).
 :- use_module('../../kernel/base/options', [check_options/2]).
 :- use_module('../../kernel/program', [vocabulary/1]).
 :- use_module('../../kernel/wire', [endpoint_address/1]).
 :- use_module('../../kernel/host', [context/3, parts_call/3, process_ask/6]).
-:- use_module('../../kernel/agent', [agent_home_endpoint/2]).
-:- autoload(monitors, [monitor_begin/3, monitor_end/2]).
+:- use_module('../../kernel/agent', [agent_home_endpoint/2, agent_variant/2]).
+:- use_module('../../kernel/lifecycle', [agent_dispose/2]).
+:- autoload(monitors, [monitor_begin/3, monitor_end/2, monitor_set/2]).
 :- autoload(relations, [relations/2]).
 
 /** <module> What agents say to monitor others
@@ -66,7 +70,10 @@ typhon_creation:at_birth(monitor(Parent, [shared(self)]), Id) :-
 %   monitor(Parent, [shared(self)]): it does not outlive its parent, even if that
 %   ends before it can monitor the new agent.
 %
+%   Where programs are checked Shared is `false` or `self`.
+%
 %   @error existence_error(agent, Agent): that is no id
+%   @error permission_error(call, sandboxed, monitor(Agent, Options))
 %   @error domain_error(monitor_option, Option)
 %   @error host_unreachable(Home), connection_lost(Home): the home of this agent
 
@@ -76,10 +83,51 @@ monitor(Agent) :-
 monitor(Agent, Options) :-
     check_options(monitor_option, Options),
     option(shared(Shared), Options, false),
+    (   memberchk(Shared, [true,agent]),
+        is_checked
+    ->  permission_error(call, sandboxed, monitor(Agent, Options))
+    ;   true
+    ),
     ask_home(begin(Agent, Shared), Agent).
 
 unmonitor(Agent) :-
     ask_home(end(Agent), Agent).
+
+is_checked :-
+    context(_, _, Module),
+    agent_variant(Module, _).
+
+%!  dispose(+Agent) is det.
+%!  dispose(+Agent, +Options) is det.
+%
+%   As agent_dispose/1,2.  Where programs are checked Agent must follow this one:
+%   it was created with follows(true).
+%
+%   @error permission_error(call, sandboxed, dispose(Agent, Options))
+%   @error as agent_dispose/2
+
+dispose(Agent) :-
+    dispose(Agent, []).
+
+dispose(Agent, Options) :-
+    must_be(atom, Agent),
+    context(Host, Id, _),
+    parts_call(acts, Host, [Id, send(dispose(Agent))]),
+    (   is_checked,
+        \+ follows(Agent, Id)
+    ->  permission_error(call, sandboxed, dispose(Agent, Options))
+    ;   agent_dispose(Agent, Options)
+    ).
+
+%   The home of Agent says so.
+
+follows(Agent, Id) :-
+    agent_home_endpoint(Agent, Home),
+    (   endpoint_address(Home)
+    ->  once(monitor_set(ends(Agent), Id))
+    ;   process_ask(Home, Home, monitor, follows(Agent, Id), Answer, 10),
+        Answer == true
+    ).
 
 %!  followers(-Agents:ordset) is det.
 %

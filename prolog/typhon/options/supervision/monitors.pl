@@ -183,28 +183,40 @@ over(Id, _) :-
 typhon_endpoint:requested(monitor, by(Id, Request), Peer, ReplyTo) :-
     must_be(atom, Id),
     speaks_for(Peer, [], Id),
-    for_peer(Request, Id),
+    for_peer(Request, Id, Peer),
     endpoint_reply(ReplyTo, ok).
 typhon_endpoint:requested(monitor, monitor_add(Ends, Id), Peer, ReplyTo) :-
     share(Peer, Ends, Id, monitor_add(Ends, Id)),
     endpoint_reply(ReplyTo, ok).
+typhon_endpoint:requested(monitor, follows(Agent, Id), _, ReplyTo) :-
+    ( monitor_set(ends(Agent), Id) -> Answer = true ; Answer = false ),
+    endpoint_reply(ReplyTo, Answer).
 typhon_endpoint:requested(monitor, monitor_remove(Ends, Id), Peer, ReplyTo) :-
     share(Peer, Ends, Id, monitor_remove(Ends, Id)),
     endpoint_reply(ReplyTo, ok).
 
 share(Peer, ends(Agent), Id, Change) :-
     must_be(atom, Id),
-    agent_home(Agent, Address),
-    address_parts(Address, Host, _),
-    (   peer_may(Peer, Host, orders)
+    (   may_order(Peer, Agent)
     ->  ignore(Change)
     ;   true
     ).
 
-for_peer(begin(Agent, Shared), Id) :-
+may_order(Peer, Agent) :-
+    agent_home(Agent, Address),
+    address_parts(Address, Host, _),
+    peer_may(Peer, Host, orders).
+
+%   This process would end Agent for its peer.
+
+for_peer(begin(Agent, Shared), Id, Peer) :-
     agent_home(Agent, _),
+    (   memberchk(Shared, [false,self])
+    ->  true
+    ;   may_order(Peer, Agent)
+    ),
     monitor_begin(Id, Agent, Shared).
-for_peer(end(Agent), Id) :-
+for_peer(end(Agent), Id, _) :-
     monitor_end(Id, Agent).
 
 %!  monitor_call(+Agent, :OnDown) is det.

@@ -9,6 +9,8 @@
 :- use_module(library(process), [process_kill/2]).
 :- use_module(library(typhon)).
 :- use_module(library(typhon/bridges/common/starting), [service_begin/4]).
+:- use_module(library(typhon/kernel/program), [vocabulary_word/2]).
+:- use_module(library(typhon/options/cell/cell_frames), [cell_word/2]).
 :- use_module(library(typhon/options/cell/cells), [cells_list/1]).
 
 /** <module> Agents in cells
@@ -170,6 +172,32 @@ test(services_one_by_one_and_so_often,
                                           Often, thrice(2, _) ],
                                         Ended))),
     findall(Outcome, member(_-Outcome, Ended), Outcomes).
+
+test(a_supervisor_starts_its_children_again, [Outcome,Last] == [done,disposed]) :-
+    cell(( agent_create(agents(supervisor), S,
+                        [ host(c),
+                          facts([child(w, clauses([ (:- agent(w, [])),
+                                                    (main :- receive(_), fail)
+                                                  ]), [])]) ]),
+           listening(( result([ (main :- receive(_-ask(S1)), child(S1, A),
+                                         send(A, go), another(S1, A)),
+                                (another(S1, A) :- child(S1, B),
+                                                   ( B \== A
+                                                   -> send(S1, stop), result(B)
+                                                   ;  sleep(0.02),
+                                                      another(S1, A) )),
+                                (child(S1, A) :-
+                                     send(S1, children),
+                                     receive(_-children(Pairs)),
+                                     ( Pairs = [_-A] -> true
+                                     ; sleep(0.02), child(S1, A) )) ], S, B),
+                       agent_join(S, Outcome, 30),
+                       agent_join(B, Last, 30) ), _) )).
+test(the_gatekeeper_is_asked_for_each_word, Own == [clone/1,clone/2,deliver/1,
+                                                    dispose/0,move/1,receive/1,
+                                                    receive/2,undeliver/1]) :-
+    findall(PI, ( vocabulary_word(_, PI), \+ cell_word(_, PI) ), PIs),
+    sort(PIs, Own).
 
 :- end_tests(cells).
 

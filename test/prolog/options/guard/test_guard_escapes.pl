@@ -652,3 +652,64 @@ test(short_texts_pass, R == ['ABC', bc, 'a,b', f(x), "f(x)", 12]) :-
                  agent_result(A, R, 10) )).
 
 :- end_tests(texts).
+
+                /*******************************
+                *      FILES AND AGENTS        *
+                *******************************/
+
+%   A new agent would bring what is in a file, or its error would show it.
+
+reads(create(self, _, [payloads([Spec])]), File) :- member(Spec, [File, (a)/File]).
+reads(create(self, _, [payloads=[File]]), File).
+reads(create(self, _, _{payloads: [File]}), File).
+reads(create(self, _, [payloads([payloads('..'/File)])]), File).
+reads(create(File, _, []), File).
+reads(attach(File), File).
+
+ends(monitor(A, [shared(agent)]), A).
+ends(monitor(A, [shared(true)]), A).
+ends(dispose(A), A).
+ends(dispose(A, [force(0)]), A).
+
+:- begin_tests(files_and_agents).
+
+test(no_file_is_read_for_an_agent, Through == []) :-
+    with_tmp_dir(read_by_agents(Through)).
+test(no_agent_ends_others, Through-State == []-waiting) :-
+    with_hosts([g-[policy(guarded), cell(none)], t],
+               ( create([(main :- receive(_))], A, [host(t)]),
+                 wait_state(A, waiting),
+                 findall(Goal, ends(Goal, A), Goals),
+                 listening(let_through(Goals, Through), _),
+                 agent_property(A, state(State)) )).
+test(an_agent_ends_those_that_follow_it, Outcome == disposed) :-
+    with_hosts([g-[policy(guarded), cell(none)]],
+               ( create([ (main :- create(clauses([ (:- agent(b, [])),
+                                                    (main :- receive(_)) ]),
+                                          B, [follows(true)]),
+                                   dispose(B), result(B)) ], A, [host(g)]),
+                 agent_result(A, B, 10),
+                 agent_join(B, Outcome, 10) )).
+test(the_library_of_the_platform_is_its_vocabulary,
+     Formal == existence_error(procedure, agent_dispose/1)) :-
+    with_hosts([g-[policy(guarded), cell(none)]],
+               ( create([ (:- use_module(library(typhon))),
+                          (main :- self(Me),
+                                   catch(agent_dispose(Me), error(F, _), true),
+                                   F = existence_error(K, PI0),
+                                   PI0 = _:PI,
+                                   result(existence_error(K, PI))) ],
+                        A, [host(g)]),
+                 agent_result(A, Formal, 10) )).
+
+:- end_tests(files_and_agents).
+
+read_by_agents(Through, Dir) :-
+    directory_file_path(Dir, secret, File),
+    setup_call_cleanup(open(File, write, Out),
+                       format(Out, ":- payload(x, [provides([s/1])]).~ns(1).~n",
+                              []),
+                       close(Out)),
+    findall(Goal, reads(Goal, File), Goals),
+    with_hosts([g-[policy(guarded), cell(none)], t],
+               listening(let_through(Goals, Through), _)).
