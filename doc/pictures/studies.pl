@@ -20,6 +20,7 @@ study_picture('penalty-bias.png',        '5.6',    '5.6').
 study_picture('hierarchy.png',           lead,     lead_deltas).
 study_picture('pole.png',                pole,     '5.14').
 study_picture('population.png',          '6.4',    '6.4').
+study_picture('surface.png',             surface,  surface).
 study_picture('sieve-complements.png',   '3.3',    '3.3').
 study_picture('sieve-generic.png',       '3.4',    '3.4').
 study_picture('sieve-switch.png',        '3.5',    '3.5').

@@ -86,13 +86,20 @@ run(Case, Network) :-
     findall(Task-Goal, task(Case, Task, Goal), Tasks),
     placed(Case, Hosts, Placed),
     strategy(Case, Strategy),
+    findall(Setting, potential(Case, Setting), Settings),
     sequence_start(main, Hosts, Tasks,
                    [ agents(Case.agents),
-                     settings([delta-(Case.delta), strategy-Strategy])
+                     settings([strategy-Strategy|Settings])
                    | Placed ],
                    Agents),
     prepare_failure(Case, Network, Hosts),
     forall(member(Agent, Agents), agent_join(Agent, done, Case.limit)).
+
+%   A study may say how potentials are, or leave it to the agents.
+
+potential(Case, Name-Value) :-
+    member(Name, [delta, theta, maximum, window]),
+    get_dict(Name, Case, Value).
 
 %   A time for all tasks, or a list with one for each; drawn at each host
 %   where it is a range.

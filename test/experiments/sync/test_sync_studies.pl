@@ -23,7 +23,7 @@ a_study(Name, Count) :-
              figure_5_8-1, figure_5_9-8, figure_5_11-4, figure_5_12-2,
              study_choices-16, study_links-9, study_onset-48,
              study_readings-35, study_demo-1, beyond_several-4,
-             beyond_selected-7 ]).
+             beyond_selected-7, study_surface-320 ]).
 
 :- begin_tests(studies).
 
@@ -139,6 +139,14 @@ made(Held, study_readings, Case, Pairs) :-
     ->  Pairs = [visits-76]
     ;   Pairs = []
     ).
+made(true, study_surface, Case, [ second-N, total-N, overlaps-Overlaps,
+                                  spread-10 ]) :-
+    N = Case.visits,
+    ( N*0.4 > 10 -> Overlaps = 0 ; Overlaps is 100 - N ).
+made(false, study_surface, Case, [ second-Less, total-Less, overlaps-N,
+                                   spread-0 ]) :-
+    N = Case.visits,
+    Less is -N.
 made(_, Name, _, []) :-
     memberchk(Name, [figure_5_8, study_links, study_demo]).
 made(false, figure_5_11, _, []).
@@ -260,6 +268,11 @@ test(gallery, [condition(has_gnuplot)]) :-
     with_tmp_dir(gallery).
 test(one_run, [condition(has_gnuplot)]) :-
     with_tmp_dir(one_run).
+test(a_sampled_potential, Missing == 0) :-
+    with_tmp_dir(small(study_surface,
+                       [ topology-grid, hosts-20, tasks-2, maximum-50, theta-20,
+                         window-5, delta-0.2 ], M)),
+    Missing = M.missing.
 test(potentials, Visits == 97) :-
     with_tmp_dir(small(figure_5_2, [delta-0.2], M)),
     Visits = M.visits.
