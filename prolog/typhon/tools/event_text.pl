@@ -123,6 +123,9 @@ short_name(Name, Name).
 
 prolog:error_message(permission_error(resume, agent, Agent)) -->
     [ 'Agent ~w is not faulty: there is nothing to resume'-[Agent] ].
+prolog:error_message(step_not_completed) -->
+    [ 'The step was not completed, and may have been done in part: \c
+       this is a defect of Typhon or of an option' ].
 
 prolog:message(typhon(faulty(Agent, Error, Fault))) -->
     agent_at(Agent, Fault),

@@ -4,14 +4,16 @@
             turn_bounded/1              % +Host
           ]).
 :- use_module('../base/durable_changes', [unit_of_work/1]).
-:- use_module('../program', [answer_at/3, machine_ready/1, machine_run/3]).
+:- use_module('../program',
+              [answer_at/3, fault_note/1, machine_ready/1, machine_run/3]).
 :- use_module('../host',
               [ context_clear/0, context_set/3, event/4, parts/3, turn_later/1,
                 turns_paused/0 ]).
 :- use_module('../agent',
               [ agent/5, agent_code/2, agent_departs/3, agent_handles/2,
                 agent_here/5, agent_ordered/1, agent_ready/2, agent_resumes/2,
-                agent_rest/3, agent_take/3, mail_take/2, with_agent/2 ]).
+                agent_rest/3, agent_status/3, agent_take/3, mail_take/2,
+                with_agent/2 ]).
 :- use_module(effect, [effect/5, effect_depart/6]).
 :- use_module(ending, [agent_end/2, agent_fails/3]).
 :- use_module(orders, [order_obey/3]).
@@ -147,7 +149,7 @@ turn_over(Id) :-
 
 typhon_scheduler:run(Id) :-
     (   with_agent(Id, take(Id, Task))
-    ->  (   catch(perform(Task, Id), Ball, broken_off(Ball, Id))
+    ->  (   catch(completed(Task, Id), Ball, broken_off(Ball, Id))
         ->  context_clear
         ;   context_clear,
             fail
@@ -160,12 +162,19 @@ typhon_scheduler:run(Id) :-
 typhon_scheduler:run_on(Id, Host, Context, Goals) :-
     (   turns_paused
     ->  ignore(with_agent(Id, agent_ready(Id, Goals)))
-    ;   (   catch(run_on(Id, Host, Context, Goals), Ball, broken_off(Ball, Id))
+    ;   (   catch(completed_on(Id, Host, Context, Goals), Ball,
+                  broken_off(Ball, Id))
         ->  context_clear
         ;   context_clear,
             fail
         )
     ).
+
+completed_on(Id, Host, Context, Goals) :-
+    run_on(Id, Host, Context, Goals),
+    !.
+completed_on(Id, _, _, Goals) :-
+    not_completed(Id, Goals).
 
 run_on(Id, Host, Context, Goals) :-
     agent_here(Id, Host, Module, Hash, Life),
@@ -192,6 +201,38 @@ take(Id, leave(Dest, Hole, Goals, Since)) :-
     !.
 take(Id, run(resumed(Held))) :-
     agent_resumes(Id, Held).
+
+completed(Task, Id) :-
+    perform(Task, Id),
+    !.
+completed(Task, Id) :-
+    task_goals(Task, Goals),
+    not_completed(Id, Goals).
+
+task_goals(run(goals(Goals)), Goals) :-
+    Goals = [_|_],
+    !.
+task_goals(order(_, Goals), Goals) :-
+    Goals = [_|_],
+    !.
+task_goals(leave(Dest, move(Dest), Goals, _), [move(Dest)|Goals]) :-
+    !.
+task_goals(_, [true]).
+
+%   not_completed(+Id, +Goals) is semidet.
+%
+%   What Id does from Goals to its next stop failed, in the kernel or in an
+%   option.  Left `running` it would hold up host_stop/1 for ever.  Fails if it
+%   rests, goes on elsewhere or has ended: there is nothing to keep.
+
+not_completed(Id, Goals) :-
+    turn_settled,
+    agent_status(Id, Status, _),
+    memberchk(Status, [running, obeying]),
+    !,
+    fault_note(none),
+    unit_of_work(agent_fails(Id, raised(error(step_not_completed, _)), Goals)),
+    turn_over(Id).
 
 perform(later, _).
 perform(order(Order, Goals), Id) :-

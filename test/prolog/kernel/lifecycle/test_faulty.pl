@@ -457,3 +457,46 @@ test(goal_of_a_clause_that_stops_nowhere,
     once(told(T, Text)).
 
 :- end_tests(what_on_message_fails_with).
+
+                /*******************************
+                *   STEPS THAT ARE NOT DONE    *
+                *******************************/
+
+%   While it is broken, what runs agents in place of the machine fails.
+
+:- dynamic broken/0.
+
+:- multifile typhon_turn:engine/3.
+
+typhon_turn:engine(_, _, test_faulty:broken_engine) :-
+    broken.
+
+:- public broken_engine/4.
+
+broken_engine(_, _, _, _) :-
+    fail.
+
+broken_once(Agent, Error, Goals) :-
+    setup_call_cleanup(
+        assertz(broken),
+        ( faulty([(main :- true)], Agent),
+          joined(Agent, raised(error(Error, _))),
+          agent_property(Agent, goals(Goals)) ),
+        retractall(broken)).
+
+:- begin_tests(steps_not_completed).
+
+test(agent_is_faulty_and_reported,
+     true(Told-Error-Goals == true-step_not_completed-[main])) :-
+    with_hosts([alpha], listening(broken_once(A, Error, Goals), Messages)),
+    ( member(error-typhon(faulty(A, _, _)), Messages) -> Told = true
+    ; Told = Messages
+    ).
+test(agent_runs_when_it_is_resumed, Outcome == done) :-
+    on([alpha],
+       ( broken_once(A, _, _),
+         agent_resume(A),
+         wait_until(\+ agent_property(A, host(_)), 10),
+         joined(A, Outcome) )).
+
+:- end_tests(steps_not_completed).
