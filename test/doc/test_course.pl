@@ -62,7 +62,7 @@ mistake(patrol, "visit(Hosts, Seen, More)", "More = [], Seen = []").
 mistake(patient, "2*Pause", "1+Pause").
 mistake(guard, "receive(_-Message, 5)", "receive(_-Message, 2)").
 mistake(warden, "Agent-Outcome|Ends", "Agent-done|Ends").
-mistake(foreman, ", [shared(agent)]", "").
+mistake(foreman, ", follows(true)", "").
 mistake(customer, "radius(inf)", "radius(1)").
 
 mistaken(Exercise, Dir) :-

@@ -7,8 +7,8 @@ main :-
 
 work(Restarts) :-
     job(Clauses),
-    create(clauses(Clauses), Worker, [name(worker)]),
-    monitor(Worker, [shared(agent)]),
+    create(clauses(Clauses), Worker, [name(worker), follows(true)]),
+    monitor(Worker),
     receive(system-down(Worker, Outcome)),
     (   Outcome == done
     ->  result(done(Restarts))

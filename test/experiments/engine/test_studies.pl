@@ -209,7 +209,7 @@ test(help_of_a_study, forall(member(Args, [ ['--help'],
     says(Text, ["toy: A toy", "  a          [1,2]      varied", "assumed: so"]).
 test(what_there_is) :-
     with_tmp_dir(what_there_is(Text)),
-    says(Text, ["  5.6          Idle time and overlaps"]).
+    says(Text, ["  5.6            Idle time and overlaps"]).
 test(table_and_claims) :-
     prints(['--runs', 2, '--out', out], exit(0), Text),
     says(Text, [ "toy: A toy", "  a  b      runs   m", "2  x         2  23",

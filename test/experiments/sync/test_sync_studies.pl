@@ -142,7 +142,10 @@ made(Held, study_readings, Case, Pairs) :-
 made(true, study_surface, Case, [ second-N, total-N, overlaps-Overlaps,
                                   spread-10 ]) :-
     N = Case.visits,
-    ( N*0.4 > 10 -> Overlaps = 0 ; Overlaps is 100 - N ).
+    (   ( Case.topology == ring ; N*0.4 > 10 )
+    ->  Overlaps = 0
+    ;   Overlaps is 100 - N
+    ).
 made(false, study_surface, Case, [ second-Less, total-Less, overlaps-N,
                                    spread-0 ]) :-
     N = Case.visits,

@@ -96,13 +96,15 @@ launch(Filter, process(Pid, In, Out, Err)) :-
     set_stream(Out, encoding(octet)),
     set_stream(Out, buffer(full)).
 
-%   The program has the vocabulary that this process has.
+%   The program has the vocabulary that this process has, and reads programs that
+%   are signed.
 
 program(Library, Goal) :-
     setof(File, vocabulary_file(Library, File), Files),
     format(atom(Goal),
            'set_prolog_flag(gc_thread,false),\c
             use_module(\'/typhon/typhon/options/cell/inside\'),\c
+            use_module(\'/typhon/typhon/options/identity\',[]),\c
             forall(lists:member(F,~q),use_module(F,[])),\c
             typhon_cell_inside:cell_main',
            [Files]).
