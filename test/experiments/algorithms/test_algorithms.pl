@@ -244,7 +244,7 @@ clones(Hosts, Log) :-
                      settings([ cloning-true, lifetime-2, c_l-1, rho_max-2,
                                 size-40 ]) ], Agents),
     wait_until(( at_least(Log, cloned, 2),
-                 at_least(Log, state(death), 2) ), 40),
+                 at_least(Log, state(death), 2) ), 120),
     log_events(Log, Events),
     algorithms_result(Events, Agents, Result),
     result_number(most, Result, Most),
