@@ -79,12 +79,12 @@ handle(again, _) :-
     ),
     findall(Name, pending(Name), Names),
     start_all(Names).
-handle(at(There), Standby) :-
+handle(supervisor_at(There), Standby) :-
     running(standby, Standby),
     !,
     retractall(stood(standby, _)),
     assertz(stood(standby, There)).
-handle(at(_), Stray) :-                 % one that I do not know stands by, too
+handle(supervisor_at(_), Stray) :-      % its creation was not confirmed
     Stray \== user,
     end(Stray).
 handle(children, From) :-
@@ -356,8 +356,8 @@ tell_where :-
     ->  true
     ;   retractall(told(_)),
         assertz(told(Here)),
-        forall(primary(Primary), tell(Primary, at(Here))),
-        tell_standby(at(Here))
+        forall(primary(Primary), tell(Primary, supervisor_at(Here))),
+        tell_standby(supervisor_at(Here))
     ).
 
 %   A message that says that an agent is down is lost with the process to which

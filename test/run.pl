@@ -50,8 +50,8 @@ waits(job(File, _, _, _, _, _)) :-
 
 %   What takes long begins early, that all end at about the same time.
 
-longest([ chaos, scripted, faults, network_journal, shell, lasting, wire, doc, hop,
-          sync_network, auction_network, cluster,
+longest([ chaos, scripted, faults, network_journal, shell, lasting, wire, doc,
+          hop, sync_network, auction_network, cluster,
           network, study_work, pack, robots, boxes_arena, ring,
           learning_network, repeatable, agent, scheduler, letters, app ]).
 

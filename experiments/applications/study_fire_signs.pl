@@ -43,7 +43,7 @@ label(last, "Seconds until the last was out").
 label(smoke, "Smoke on the way, in the mean (minutes at 1 per metre)").
 label(lost, "Share of people that did not get out").
 
-%   Who does not get out counts as `limit`.
+%   People that do not get out count as `limit`.
 
 measure(time, Log, Mean) :-
     findall(Time, out(Log, Time, _), Times),

@@ -185,7 +185,7 @@ flow(World, A, B, Flow) :-
                 *******************************/
 
 %   States: rest(Cell), leaving(Cell, When), at(Cell), walk(From, To, Metres),
-%   out(Time), caught(Time).  Used are the exits that somebody has passed now.
+%   out(Time), caught(Time).  Used are the exits that people pass now.
 
 person_step(_, _, Person, Person, Used, Used) :-
     arg(4, Person, State),

@@ -130,7 +130,7 @@ guide(guide(Alarms, Signs)) :-
     findall(Cell, ( box(Cell, _), remote(Cell, sense(alarm)) ), Alarms),
     findall(Cell-To, ( box(Cell, _), remote(Cell, sense(sign(To))) ), Signs).
 
-%   log_change(+World0, +World): who got out, and who was caught by the fire.
+%   log_change(+World0, +World): people that got out, or were caught by the fire.
 
 log_changes(world(_, _, _, People0), world(_, _, _, People)) :-
     maplist(log_change, People0, People).

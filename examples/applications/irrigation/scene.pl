@@ -19,7 +19,7 @@
 
 Six fields, each with a host, a moisture sensor and a valve, and the office, whose
 links to them break now and then.  Sensors and valves speak MQTT: with a broker the
-world publishes what sensors read at the office, and is told there of valves;
+world publishes what sensors read at the office, and gets orders to valves there;
 without, facts in the tuple spaces of fields stand for it.  A step is an hour.
 
 Assumption: a link that is down is so for a day in the mean.

@@ -7,8 +7,8 @@ This is the interface of the layer: higher layers import from here.
 */
 
 :- reexport(agent/agents,
-            [ agent/5, agent_absent/1, agent_comes/5, agent_departs/3, agent_enter/3,
-              agent_gone/3, agent_handed/4, agent_here/5, agent_on/2,
+            [ agent/5, agent_absent/1, agent_comes/5, agent_departs/3,
+              agent_enter/3, agent_gone/3, agent_handed/4, agent_here/5, agent_on/2,
               agent_mail/2, agent_mobile/6, agent_move/5, agent_note/3,
               agent_program/4, agent_put/3, agent_put_life/2,
               agent_ready/2, agent_remove/3, agent_rest/3,

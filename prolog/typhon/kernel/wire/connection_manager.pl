@@ -29,8 +29,8 @@ take a while is done by a thread in the background.
 :- use_module('../base/error_text', [print_error/2]).
 :- use_module(attempts,
               [ asked/1, attempt/4, attempt_asked/2, attempt_begun/3,
-                attempt_due/1, attempt_end/1,
-                attempt_greeted/1, attempt_next/2, attempt_over/3, attempt_pause/3,
+                attempt_due/1, attempt_end/1, attempt_greeted/1,
+                attempt_next/2, attempt_over/3, attempt_pause/3,
                 attempt_want/1, attempts_due/1, waiter/1, waiter_add/2,
                 waiter_tell/2, waiters_missed/2, waiters_tell/2 ]).
 :- use_module(connection, [outgoing/2]).

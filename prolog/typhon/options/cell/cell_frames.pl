@@ -110,8 +110,8 @@ frame_body(In, Length, Bytes) :-
 %
 %   What an agent in a cell asks the gatekeeper: Kind is `fixed` if the answer is
 %   the same for a whole turn, and goes into the cell with it; `tells` if there
-%   is no answer; `looks` if nothing changes; `acts`; or `changes` if that changes the
-%   state of the agent.
+%   is no answer; `looks` if nothing changes; `acts`; or `changes` if that changes
+%   the state of the agent.
 
 cell_word(fixed, self/1).
 cell_word(fixed, here/1).

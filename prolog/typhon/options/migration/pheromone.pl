@@ -9,6 +9,7 @@
 :- use_module(library(error), [must_be/2]).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(option), [option/3]).
+:- use_module('../../kernel/base/error_text', [print_error/2]).
 :- use_module('../../kernel/base/prng', [chance_member/4]).
 :- use_module('../../kernel/base/options', [check_options/2]).
 :- use_module('../../kernel/program', [vocabulary/1]).
@@ -139,7 +140,9 @@ typhon_endpoint:received(pheromone, pheromone(Name, News), _) :-
     scheduler_call(typhon_pheromone:news([Name], News)).
 
 news(Hosts, News) :-
-    forall(member(Host, Hosts), news_at(Host, News)).
+    forall(member(Host, Hosts),
+           catch(news_at(Host, News), error(Formal, Context),
+                 print_error(error, error(Formal, Context)))).
 
 news_at(Host, News) :-
     (   host(Host, _, Place)

@@ -23,8 +23,9 @@
 The home of an agent learns how it ends.  If a process is gone, all processes
 are asked for the agents that are monitored and are not here, twice, a second
 apart: one that none of them has, and that the home did not hear of meanwhile,
-is lost, and ended if it turns up later.  Nothing is done for that while processes live: hops of agents, also of
-those that are monitored, cost what they cost without.
+is lost, and ended if it turns up later.  Nothing is done for that while
+processes live: hops of agents, also of those that are monitored, cost what they
+cost without.
 
 *Threading*: questions to all are asked in a worker.
 */

@@ -380,6 +380,38 @@ at(here, Host) :-
 at(Peer, Host) :-
     peer_host(Peer, Host).
 
+%   An agent that was born at p1, and runs here, shares its fate with another one
+%   there: p1 would end that for this process.
+
+test(only_a_peer_with_orders_shares_the_fate_of_others,
+     [ forall(member(Rights-Expected,
+                     [ [agents,messages]-(refused-resident),
+                       [agents,messages,orders]-(monitored-gone) ])),
+       Said-State == Expected ]) :-
+    no_leaks(with_peers(
+        [p1-[host([peer([cookie-Rights])])]],
+        here(shared_from_here(p1, Said, State)))).
+
+shared_from_here(Peer, Said, State) :-
+    address(alpha, Here),
+    Victim = clauses([(:- agent(victim, [])), on_message(_, _)]),
+    Sharer = clauses([ (:- agent(sharer, [state([with/2, said/1])])),
+                       (main :- with(V, Host), move(Host),
+                                catch(( monitor(V, [shared(agent)]),
+                                        S = monitored ),
+                                      error(_, _), S = refused),
+                                assertz(said(S)), receive(_-end), fail) ]),
+    peer_do(Peer, agent_create(Victim, V)),
+    peer_do(Peer, agent_create(Sharer, A, [facts([with(V, Here)])])),
+    wait_until(( agent_property(A, facts(Facts)),
+                 memberchk(said(Said), Facts) ), 20),
+    listening(( agent_send(A, end), joined(A, failed) ), _),
+    (   Said == monitored
+    ->  peer_do(Peer, agent_join(V, disposed, 10)),
+        State = gone
+    ;   peer_do(Peer, agent_property(V, state(State)))
+    ).
+
 test(both_move, [nondet]) :-
     no_leaks(with_peers([p1, p2],
         here(
