@@ -232,10 +232,12 @@ together(Hosts, Log) :-
     result_number(pages, Result, Pages),
     Pages > 0.
 
-%   With three places at each of three hosts, and lives of two executions.
+%   With seven places at each of three hosts, and lives of two executions. Where
+%   all places are taken no agent can move any more: with three places that came
+%   before the second death in three of a hundred runs.
 
 test(clones_come_and_go) :-
-    on_network([hosts([capacity(4)])], clones).
+    on_network([hosts([capacity(8)])], clones).
 
 clones(Hosts, Log) :-
     learning_start(Hosts, payloads(learning/maze),
@@ -244,12 +246,12 @@ clones(Hosts, Log) :-
                      settings([ cloning-true, lifetime-2, c_l-1, rho_max-2,
                                 size-40 ]) ], Agents),
     wait_until(( at_least(Log, cloned, 2),
-                 at_least(Log, state(death), 2) ), 120),
+                 at_least(Log, state(death), 2) ), 40),
     log_events(Log, Events),
     algorithms_result(Events, Agents, Result),
     result_number(most, Result, Most),
     Most > 2,
-    Most =< 9.
+    Most =< 21.
 
 :- end_tests(algorithms_network).
 
