@@ -7,10 +7,11 @@
             connective/2,               % ?Test, -Tests
             leaf/4                      % ?Test, -Relation, -Where, -Es
           ]).
+:- use_module(library(apply), [maplist/2]).
 :- use_module(library(lists), [append/3, last/2, member/2, memberchk/2]).
 :- use_module(expressions,
-              [ aggregate/3, context/2, line/3, on_line/4, selected/3,
-                value/4 ]).
+              [ aggregate/3, context/2, line/3, of_all_points/1, on_line/4,
+                selected/3, value/4 ]).
 
 /** <module> Claims are terms
 
@@ -128,7 +129,10 @@ related(Test, Context, Relation, Values) :-
 
 compared(points, Es, Context, Values) :-
     Context = context(Points, _, _),
-    member(Point, Points),
+    (   maplist(of_all_points, Es)
+    ->  Points = [Point|_]
+    ;   member(Point, Points)
+    ),
     values(Es, Point, Context, Values).
 compared(against(P, V), [E], Context, [This, Other]) :-
     line(P, Context, Line),

@@ -3,10 +3,12 @@
             selected/3,                 % +Where, +Context, -Selected
             line/3,                     % +P, +Context, -Line
             value/4,                    % +E, +Point, +Context, -Number
+            of_all_points/1,            % +E
             aggregate/3,                % ?Term, -Function, -E
             on_line/4                   % ?Term, -Function, -E, -P
           ]).
-:- use_module(library(apply), [exclude/3, include/3, maplist/3, partition/4]).
+:- use_module(library(apply),
+              [exclude/3, include/3, maplist/2, maplist/3, partition/4]).
 :- use_module(library(lists),
               [ last/2, max_list/2, member/2, memberchk/2, min_list/2,
                 sum_list/2 ]).
@@ -159,6 +161,25 @@ value(Term, Point, Context, Value) :-
     maplist(value_at(Point, Context), Es, Values),
     Expression =.. [Function|Values],
     catch(Value is Expression, error(evaluation_error(_), _), fail).
+
+%!  of_all_points(+E) is semidet.
+%
+%   E has one value for all points of a context: it is made of numbers, aggregates
+%   and correlations.
+
+of_all_points(E) :-
+    number(E),
+    !.
+of_all_points(correlation(_, _)) :-
+    !.
+of_all_points(E) :-
+    aggregate(E, _, _),
+    !.
+of_all_points(E) :-
+    compound(E),
+    current_arithmetic_function(E),
+    E =.. [_|Es],
+    maplist(of_all_points, Es).
 
 value_at(Point, Context, E, Value) :-
     value(E, Point, Context, Value).
