@@ -151,10 +151,11 @@ how(_, ends("")).
 
 %   long(?Part, ?With): commands with Part may take minutes or hours (make thesis,
 %   demo, bench, chaos; all studies), and are not run: with the option With, make
-%   only prints its recipe, and a study its runs.
+%   only prints its recipe, and a study its runs. An attack has one round.
 
 long("make ", " -n").
 long("study.pl -- ", " --list").
+long("chaos/supervised.pl", " --rounds=1").
 
 serving("typhon.pl host ").
 serving("typhon.pl network ").
