@@ -44,7 +44,8 @@ part(robots, "Robots: library(typhon/nxt)").
 %   of the task, or Module:PIs if some are of other tasks.
 
 task(agents, "Move, clone and end",
-     [ typhon_words:[move/1, clone/1, clone/2, dispose/0], typhon_memory ]).
+     [ typhon_words:[move/1, clone/1, clone/2, dispose/0],
+       typhon_migration:[next_host/2] ]).
 task(agents, "Wait, and exchange messages",
      [ typhon_words:[sleep/1, receive/1, receive/2, send/2] ]).
 task(agents, "Create agents, and learn how they end",
@@ -60,7 +61,7 @@ task(agents, "Carry and deliver payloads",
      [ typhon_words:[attach/1, detach/1, deliver/1, undeliver/1] ]).
 task(agents, "Offer and find services", [typhon_directory_words]).
 task(agents, "Call agents by pheromones",
-     [ typhon_pheromone ]).
+     [typhon_migration:[emit/1, emit/2, withdraw/1, pheromone/3]]).
 task(library, "Start, change and stop hosts",
      [typhon_hosting, typhon_administration:[host_change/2]]).
 task(library, "Link hosts, and ask them",

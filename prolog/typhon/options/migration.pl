@@ -1,10 +1,69 @@
-:- module(typhon_migration, []).
+:- module(typhon_migration,
+          [ next_host/2,                % +Strategy, -Host
+            emit/1,                     % +Problem
+            emit/2,                     % +Problem, +Options
+            withdraw/1,                 % +Problem
+            pheromone/3                 % ?Problem, -Source, -Strength
+          ]).
+:- autoload('migration/memory', [next_from_here/2]).
+:- autoload('migration/pheromone',
+            [emit_here/2, pheromone_here/3, withdraw_here/1]).
+:- use_module('../kernel/program', [vocabulary/1]).
 
 /** <module> Migration: where agents go next
 
 Strategies by which agents choose among neighbours, what they remember for that,
-and pheromones.  This is the interface of the layer.
+and pheromones.  This is the interface of the layer, and what agents can say of
+it; its modules are loaded when an agent says it, or a pheromone comes.
+
+*Threading*: whatever thread runs the agent.
 */
 
-:- use_module(migration/memory, []).
-:- use_module(migration/pheromone, []).
+:- vocabulary(typhon_migration).
+
+%!  next_host(+Strategy, -Host) is semidet.
+%
+%   Choose a neighbour, see typhon_strategy.  What the strategy has to
+%   remember travels with the agent.  Fails on an isolated host.
+
+next_host(Strategy, Host) :-
+    next_from_here(Strategy, Host).
+
+%!  emit(+Problem) is det.
+%!  emit(+Problem, +Options) is det.
+%
+%   The host calls for an agent that can solve Problem, a ground term: it emits
+%   a pheromone. Agents follow it by the migration strategy phercon(Problem).
+%   Options:
+%
+%     - span(Hops): how far it spreads; default 3
+%     - strength(Number): next to the source; default 100
+%     - period(Seconds): of host time, see pheromone_until/5; default 10
+%
+%   Emitting again refreshes what is left.
+%
+%   @error type_error(mobile_term, Culprit), instantiation_error
+%   @error domain_error(pheromone_option, Option)
+
+emit(Problem) :-
+    emit_here(Problem, []).
+
+emit(Problem, Options) :-
+    emit_here(Problem, Options).
+
+%!  withdraw(+Problem) is det.
+%
+%   The pheromone that the host emitted for Problem goes from wherever it has
+%   come to, over the links as they are now. What is not reached like this
+%   evaporates.
+
+withdraw(Problem) :-
+    withdraw_here(Problem).
+
+%!  pheromone(?Problem, -Source, -Strength) is nondet.
+%
+%   There is a pheromone for Problem at the host now, which Source has emitted.
+%   For how it fades see pheromone_strength/4.
+
+pheromone(Problem, Source, Strength) :-
+    pheromone_here(Problem, Source, Strength).

@@ -106,7 +106,7 @@ test(vocabulary_is_known) :-
     census(Text),
     seen(Text, comes_from(move(_), typhon_words)),
     seen(Text, comes_from(clone(_, _), typhon_words)),
-    seen(Text, comes_from(next_host(_, _), typhon_memory)).
+    seen(Text, comes_from(next_host(_, _), typhon_migration)).
 
 test(only_what_nobody_defines_is_undefined, PIs == [nonsense/0]) :-
     census(Text),

@@ -22,7 +22,7 @@
                 place_undeliver/2, remote/2 ]).
 :- use_module('../../kernel/base/error_text', [print_error/2]).
 :- use_module('../../kernel/base/own_thread', [in_own_thread/1]).
-:- use_module(subscribers, [subscribers_forget/2]).
+:- autoload(subscribers, [subscribers_forget/2]).
 
 /** <module> The beginning and the end of bridges
 

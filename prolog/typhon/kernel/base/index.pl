@@ -52,6 +52,9 @@ part_joins(network_load_option,log,network).
 part_joins(open_store,any,'options/journal').
 part_joins(order,attach,'options/identity').
 part_joins(order,watched,'options/trace').
+part_joins(pheromone_option,period,'options/migration').
+part_joins(pheromone_option,span,'options/migration').
+part_joins(pheromone_option,strength,'options/migration').
 part_joins(program,read,'tools/checks').
 part_joins(question,mailbox,'tools/administration').
 part_joins(question,program,'tools/source_view').
@@ -60,6 +63,7 @@ part_joins(question,step,'options/trace').
 part_joins(question,trail,'options/trail').
 part_joins(received,channel,'options/journal').
 part_joins(received,log,network).
+part_joins(received,pheromone,'options/migration').
 part_joins(requested,close_up,tools).
 part_joins(requested,directory,'options/directory').
 part_joins(requested,everywhere,'options/watch').
@@ -111,6 +115,8 @@ part_file('options/journal','options/journal/postgresql').
 part_file('options/journal','options/journal/recovery').
 part_file('options/journal','options/journal/sqlite').
 part_file('options/journal','options/journal/store').
+part_file('options/migration','options/migration/pheromone').
+part_file('options/migration','options/migration/strategy').
 part_file('options/quotas','options/quotas/quota_agents').
 part_file('options/quotas','options/quotas/quota_enforcer').
 part_file('options/quotas','options/quotas/quota_hosts').
@@ -191,6 +197,7 @@ part_setting(python,typhon_helper_process,atom,'','The Python of helpers; \'\' f
 part_setting(python,typhon_helper_python,atom,'','Now typhon_helper_process:python','bridges/helper/process').
 part_setting(python,typhon_nxt_helper,atom,'','Now typhon_nxt_link:python','bridges/nxt/link').
 part_setting(python,typhon_nxt_link,atom,'','The Python of the helpers of bricks; \'\' for that of all helpers','bridges/nxt/link').
+part_setting(queue,typhon_subscribers,positive_integer,1000,'Messages of bridges that may wait for an agent','bridges/common/subscribers').
 part_setting(renew_seconds,typhon_page_sources,number,3,'A page that is looked at finds new hosts within so many seconds','tools/page/sources').
 part_setting(request_bytes,typhon_page_server,positive_integer,4000000,'A page takes no larger request than this','tools/page/server').
 part_setting(request_seconds,typhon_page_reception,positive_integer,20,'The head of a request takes no longer, and no longer its body','tools/page/server').

@@ -24,7 +24,7 @@ has written into them.
 
 :- use_module(library(apply), [maplist/3]).
 :- use_module(library(lists), [member/2]).
-:- use_module(library(terms), [mapsubterms/3]).
+:- autoload(library(terms), [mapsubterms/3]).
 :- autoload('../keys', [keys_sign/3, keys_verify/4]).
 :- use_module('../../kernel/program',
               [ clause_parts/3, payload_file/1, payload_load/2,

@@ -1,12 +1,12 @@
 :- module(typhon_memory,
-          [ next_host/2                 % +Strategy, -Host
+          [ next_from_here/2            % +Strategy, -Host
           ]).
 :- use_module('../../kernel/base/prng', [chance_hash/2]).
-:- use_module('../../kernel/program', [vocabulary/1]).
 :- use_module('../../kernel/host',
               [ address_parts/3, context/3, host/3, host_neighbours/2,
                 host_option/2 ]).
 :- use_module('../../kernel/agent', [agent_home/2, agent_name/3]).
+:- use_module(pheromone, []).           % a strategy
 :- use_module(strategy, [next_host/6, strategy_memory/2]).
 
 /** <module> What agents remember of where they were
@@ -17,14 +17,11 @@ agent's state.
 *Threading*: whatever thread runs the agent.
 */
 
-:- vocabulary(typhon_memory).
-
-%!  next_host(+Strategy, -Host) is semidet.
+%!  next_from_here(+Strategy, -Host) is semidet.
 %
-%   Choose a neighbour, see typhon_strategy.  What the strategy has to
-%   remember travels with the agent.  Fails on an isolated host.
+%   As next_host/2 of the vocabulary.
 
-next_host(Strategy, Host) :-
+next_from_here(Strategy, Host) :-
     context(Here, Id, Module),
     host(Here, Address, _),
     host_neighbours(Here, Neighbours),

@@ -1,8 +1,7 @@
 :- module(typhon_pheromone,
-          [ emit/1,                     % +Problem
-            emit/2,                     % +Problem, +Options
-            withdraw/1,                 % +Problem
-            pheromone/3                 % ?Problem, -Source, -Strength
+          [ emit_here/2,                % +Problem, +Options
+            withdraw_here/1,            % +Problem
+            pheromone_here/3            % ?Problem, -Source, -Strength
           ]).
 :- use_module(library(aggregate), [aggregate_all/3]).
 :- use_module(library(debug), [debug/3]).
@@ -12,7 +11,6 @@
 :- use_module('../../kernel/base/error_text', [print_error/2]).
 :- use_module('../../kernel/base/prng', [chance_member/4]).
 :- use_module('../../kernel/base/options', [check_options/2]).
-:- use_module('../../kernel/program', [vocabulary/1]).
 :- use_module('../../kernel/wire', [endpoint_address/1, endpoint_post/3, mobile_term/1]).
 :- use_module('../../kernel/host',
               [ address_parts/3, context_host/1, context_now/2, host/3,
@@ -41,8 +39,6 @@ the stronger one stays, and of two that are equally strong the younger.
 *Threading*: any thread. What arrives is stored and passed on by a worker.
 */
 
-:- vocabulary(typhon_pheromone).
-
 :- multifile
     typhon_options:declared/4,
     typhon_endpoint:received/3,
@@ -66,26 +62,11 @@ pheromone_strength(Maximum, Span, Distance, Strength) :-
 pheromone_until(Emitted, Period, Span, Distance, Until) :-
     Until is Emitted + max(0, Span - Distance + 1) * Period.
 
-%!  emit(+Problem) is det.
-%!  emit(+Problem, +Options) is det.
+%!  emit_here(+Problem, +Options) is det.
 %
-%   The host calls for an agent that can solve Problem, a ground term: it emits
-%   a pheromone. Agents follow it by the migration strategy phercon(Problem).
-%   Options:
-%
-%     - span(Hops): how far it spreads; default 3
-%     - strength(Number): next to the source; default 100
-%     - period(Seconds): of host time, see pheromone_until/5; default 10
-%
-%   Emitting again refreshes what is left.
-%
-%   @error type_error(mobile_term, Culprit), instantiation_error
-%   @error domain_error(pheromone_option, Option)
+%   As emit/2 of the vocabulary.
 
-emit(Problem) :-
-    emit(Problem, []).
-
-emit(Problem, Options) :-
+emit_here(Problem, Options) :-
     context_host(Host),
     context_now(Host, Agent),
     parts_call(acts, Host, [Agent, say(Problem-Options)]),
@@ -190,13 +171,11 @@ better(S0, U0, S, U) :-
 remove(Place, Problem, Source) :-
     tuple_take(Place, pheromone(Problem, Source, _, _, _)).
 
-%!  withdraw(+Problem) is det.
+%!  withdraw_here(+Problem) is det.
 %
-%   The pheromone that the host emitted for Problem goes from wherever it has
-%   come to, over the links as they are now. What is not reached like this
-%   evaporates.
+%   As withdraw/1 of the vocabulary.
 
-withdraw(Problem) :-
+withdraw_here(Problem) :-
     context_host(Host),
     must_be(ground, Problem),
     host(Host, Source, _),
@@ -214,12 +193,11 @@ spread_withdrawal(Host, Source, Problem) :-
                 *           FOLLOWING          *
                 *******************************/
 
-%!  pheromone(?Problem, -Source, -Strength) is nondet.
+%!  pheromone_here(?Problem, -Source, -Strength) is nondet.
 %
-%   There is a pheromone for Problem at the host now, which Source has emitted.
-%   For how it fades see pheromone_strength/4.
+%   As pheromone/3 of the vocabulary.
 
-pheromone(Problem, Source, Strength) :-
+pheromone_here(Problem, Source, Strength) :-
     context_host(Host),
     live(Host, Problem, Source, Strength, _).
 
