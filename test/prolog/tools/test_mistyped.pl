@@ -8,6 +8,7 @@
 :- use_module(library(yall)).
 :- use_module(library(typhon)).
 :- use_module(library(typhon/nxt)).
+:- use_module(library(typhon/options/migration/strategy), []).
 :- use_module('../../../agents/allocation/operator').
 :- use_module('../../../agents/allocation/auctions').
 :- use_module('../../../agents/allocation/sequence').
