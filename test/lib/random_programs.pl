@@ -4,18 +4,19 @@
           ]).
 :- use_module(library(apply), [maplist/2]).
 :- use_module(library(gensym), [gensym/2]).
-:- use_module(library(lists), [member/2]).
+:- use_module(library(lists), [member/2, memberchk/2]).
 :- use_module(library(occurs), [sub_term/2]).
 :- use_module(library(random),
               [random/1, random_between/3, random_member/2]).
 :- use_module(library(typhon/kernel/program),
               [ code_install/3, code_module/2, fault/3, machine_run/3,
-                program_load/5 ]).
+                plain_goals/2, program_load/5 ]).
 
 /** <module> Random agent programs, and whether all engines run them alike
 
 Each program is run by the machine alone, by chunks, and by both in turn.  At
-each stop the goals and the state that are left go to a new agent.
+each stop the goals and the state that are left go to a new agent: as goals,
+or, as within a process, with frames in their stead.
 */
 
                 /*******************************
@@ -169,7 +170,7 @@ engines_differ(Clauses, differs(Engine, Log, Reference)) :-
     code_install(Hash, Program, Kinds),
     code_module(Hash, Module),
     run_log(machine, Module, Initial, Reference),
-    member(Engine, [chunks, mixed]),
+    member(Engine, [chunks, frames, mixed, mixed_frames]),
     run_log(Engine, Module, Initial, Log),
     \+ Log =@= Reference,
     \+ ( sub_term(Lost, Reference),    % the machine has let a goal go
@@ -192,7 +193,7 @@ fresh(Program, Clauses, Agent) :-
 journey(Stops, Engine, Module, Agent, Goals, Log) :-
     (   Engine == machine
     ->  Name = reference
-    ;   Engine == mixed,
+    ;   memberchk(Engine, [mixed, mixed_frames]),
         Stops mod 2 =:= 1
     ->  Name = reference
     ;   Name = Module
@@ -200,9 +201,11 @@ journey(Stops, Engine, Module, Agent, Goals, Log) :-
     nb_setval(random_program, Module),
     ran(Name, Agent, Goals, Outcome),
     state(Agent, State),
-    (   Outcome = effect(Control, Hole, Left),
+    (   Outcome = effect(Control, Hole, Left0),
         Stops < 25
-    ->  Log = [stop(Control, Hole, Left, State)|Log1],
+    ->  plain_goals(Left0, Goals1),
+        Log = [stop(Control, Hole, Goals1, State)|Log1],
+        ( keeps_frames(Engine) -> Left = Left0 ; Left = Goals1 ),
         answer(Control, Answer),
         copy_term(Hole-Left-State, Answer1-Left1-State1),
         Answer1 = Answer,
@@ -214,6 +217,9 @@ journey(Stops, Engine, Module, Agent, Goals, Log) :-
         Log = [end(End, State)],
         '$destroy_module'(Agent)
     ).
+
+keeps_frames(frames).
+keeps_frames(mixed_frames).
 
 ran(reference, Agent, Goals, Outcome) :-
     limited(context(reference_machine, Agent), Goals, Outcome).

@@ -32,4 +32,5 @@ This is the interface of the layer: higher layers import from here.
             [ answer_at/3, machine_inside/0, machine_ready/1, machine_run/3 ]).
 :- reexport(program/faults, [fault/3, fault_note/1, fault_noted/1]).
 :- reexport(program/bodies,
-            [body_goals/4, control/1, goals_body/2, plain_goals/2]).
+            [body_goals/4, control/1, goals_body/2]).
+:- reexport(program/chunk_goals, [plain_goals/2]).

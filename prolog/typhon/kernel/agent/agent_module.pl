@@ -17,7 +17,7 @@
 :- use_module(library(apply), [maplist/2]).
 :- use_module(library(error), [permission_error/3]).
 :- use_module(library(lists), [member/2, memberchk/2]).
-:- use_module('../program', [code_module/2]).
+:- use_module('../program', [code_module/2, plain_goals/2]).
 :- use_module('../host', [host/3, parts/3, parts_call/3, place_host/2]).
 :- use_module(agents, [agent_here/5]).
 
@@ -124,7 +124,8 @@ agent_goals(Module, Goals0, Goals) :-
     agent_variant(Module, Variant),
     !,
     agent_code(Module, Program),
-    typhon_agent_module:goals(Variant, Program, Goals0, Goals).
+    plain_goals(Goals0, Plain),
+    typhon_agent_module:goals(Variant, Program, Plain, Goals).
 agent_goals(_, Goals, Goals).
 
 %!  agent_standing(+Id, +Place, +Hash, +Begin, -Agent) is semidet.

@@ -4,6 +4,7 @@
             agent_absent/1,             % +Id
             agent_on/2,                 % +Id, -Host
             agent_status/3,             % ?Id, ?Status, ?Goals
+            agent_rests/3,              % +Id, ?Status, -Goals
             agent_runs/1,               % +Id
             agent_enter/3,              % +Agent, +Status, +Goals
             agent_remove/3,             % +Id, -Mail, -Orders
@@ -32,6 +33,7 @@
 :- use_module('../base/durable_changes',
               [durable_drop/3, durable_on/0, enqueue_changes/0]).
 :- use_module('../base/on_demand', [on_demand_load/2]).
+:- use_module('../program', [plain_goals/2]).
 :- use_module('../host', [events_forget/1, parts_call/3, schedule/2]).
 :- use_module(mailbox,
               [ agent_ordered/1, agent_unorder/2, agent_unorder_all/2,
@@ -50,6 +52,10 @@ The records of agents, each with one owner: this module.  An agent is
     faulty(Error), with the goals still to run.  While a control predicate is
     under way the goals are Hole-Goals, see typhon_machine;
   - a mailbox, and orders, see typhon_mailbox.
+
+The goals of the record may be frames, see typhon_chunks, which mean something
+in this process alone: what is asked for the goals of an agent, or notes them,
+sees the goals of its program.
 
 An agent that was handed over to another process, see typhon_hand_over, is only
 the frame that was sent and a mailbox, until the other process has accepted it.
@@ -201,9 +207,11 @@ agent_move(Id, Host, Module, Life, Until) :-
                 *******************************/
 
 %!  agent_status(?Id, ?Status, ?Goals) is nondet.
+%!  agent_rests(+Id, ?Status, -Goals) is nondet.
 %!  agent_runs(+Id) is semidet.
 %
-%   Those that are under way have a record then; the status is `running`.
+%   Those that are under way have a record then; the status is `running`.  The
+%   second is for what only passes Goals on: they may be frames.
 
 agent_status(Id, Status, Goals) :-
     (   nonvar(Id)
@@ -213,10 +221,25 @@ agent_status(Id, Status, Goals) :-
     status_now(Id, Status, Goals).
 
 status_now(Id, Status, Goals) :-
-    status(Id, Status, Goals).
+    status(Id, Status, Goals0),
+    goals_shown(Goals0, Goals).
 status_now(Id, running, []) :-
     stands(Id, _, _, _, _, _),
     \+ status(Id, _, _).
+
+agent_rests(Id, Status, Goals) :-
+    status(Id, Status, Goals).
+
+%   goals_shown(+Goals0, -Goals): of an agent that is held or under way there
+%   are no frames.
+
+goals_shown([Goal|Goals0], Goals) =>
+    plain_goals([Goal|Goals0], Goals).
+goals_shown(hop(Hole-Goals0, Since), Shown) =>
+    Shown = hop(Hole-Goals, Since),
+    plain_goals(Goals0, Goals).
+goals_shown(Goals0, Goals) =>
+    Goals = Goals0.
 
 agent_runs(Id) :-
     stands(Id, _, _, _, _, _),
@@ -231,7 +254,7 @@ agent_runs(Id) :-
 
 agent_put(Id, Status, Goals) :-
     (   durable_on
-    ->  forall(put_down(Id, Status, Goals), true),
+    ->  agent_note(Id, Status, Goals),
         enqueue_changes
     ;   true
     ),
@@ -240,7 +263,8 @@ agent_put(Id, Status, Goals) :-
 
 agent_note(Id, Status, Goals) :-
     (   durable_on
-    ->  forall(put_down(Id, Status, Goals), true)
+    ->  goals_shown(Goals, Shown),
+        forall(put_down(Id, Status, Shown), true)
     ;   true
     ).
 
@@ -260,12 +284,14 @@ agent_rest(Id, Status, Goals) :-
 %   oldest order.
 
 agent_take(Id, Goals, Order) :-
-    retract(status(Id, ready, Goals)),
+    retract(status(Id, ready, Goals0)),
     !,
     (   agent_unorder(Id, Oldest)
-    ->  assertz(status(Id, obeying, Goals)),
+    ->  goals_shown(Goals0, Goals),     % it may get another program
+        assertz(status(Id, obeying, Goals)),
         Order = Oldest
-    ;   Order = none
+    ;   Goals = Goals0,
+        Order = none
     ).
 
 %!  agent_departs(+Id, -Dest, -Goals) is semidet.

@@ -14,7 +14,8 @@
                 real_time/3, schedule/2 ]).
 :- use_module('../agent',
               [ agent/5, agent_here/5, agent_name/3, agent_note/3,
-                agent_put/3, agent_ready/2, agent_rest/3, agent_status/3,
+                agent_put/3, agent_ready/2, agent_rest/3, agent_rests/3,
+                agent_status/3,
                 agent_wakes/2, life_hops/2, life_may_move/2, mail_take/2,
                 with_agent/2 ]).
 :- use_module('../travel',
@@ -186,7 +187,7 @@ rouse(Id, Until) :-
     agent_wakes(Id, Goals).
 
 rests(Id, Until, Goals) :-
-    agent_status(Id, Status, Goals),
+    agent_rests(Id, Status, Goals),
     (   Status = sleeping(Until)
     ;   Status = waiting(_, Until)
     ).

@@ -5,7 +5,8 @@
           ]).
 :- use_module('../base/durable_changes', [unit_of_work/1]).
 :- use_module('../program',
-              [answer_at/3, fault_note/1, machine_ready/1, machine_run/3]).
+              [ answer_at/3, fault_note/1, machine_ready/1, machine_run/3,
+                plain_goals/2 ]).
 :- use_module('../host',
               [ context_clear/0, context_set/3, event/4, parts/3, turn_later/1,
                 turns_paused/0 ]).
@@ -74,7 +75,14 @@ turn_run(machine, Turn, goals(Goals), Outcome, Goals) :-
     ;   bounded_run(Turn, Goals, Outcome)
     ).
 turn_run(Engine, Turn, Start, Outcome, Goals0) :-
-    call(Engine, Turn, Start, Outcome, Goals0).
+    start_plain(Start, Plain),
+    call(Engine, Turn, Plain, Outcome, Goals0).
+
+start_plain(goals(Goals0), Start) =>
+    Start = goals(Goals),
+    plain_goals(Goals0, Goals).
+start_plain(Start0, Start) =>
+    Start = Start0.
 
 bounded_run(Turn, Goals, Outcome) :-
     Turn = turn(_, Host, Context),

@@ -1,6 +1,6 @@
 :- module(typhon_bodies,
           [ body_goals/4,               % +Body, ?Barrier, -Goals, ?Rest
-            plain_goals/2,              % +Goals0, -Goals
+            plain_goal/2,               % +Goal0, -Goal
             goals_body/2,               % +Goals, -Body
             called_goal/2,              % +Goal, -Called
             control/1,                  % ?Head
@@ -57,49 +57,35 @@ mark_cuts((If*->A0), Mark, (If*->A)) :-
     mark_cuts(A0, Mark, A).
 mark_cuts(Body, _, Body).
 
-%!  plain_goals(+Goals0, -Goals) is det.
+%!  plain_goal(+Goal0, -Goal) is det.
 %
 %   `'$cut'(_)` becomes `!` again: what a suspended agent shows.
-%
-%   Frames of chunks become the goals for which they stand.
 
-plain_goals([], []).
-plain_goals([Frame|Goals0], Goals) :-
-    nonvar(Frame),
-    Frame = '$k'(Place, Vars),
-    !,
-    functor(Vars, Program, _),
-    once(Program:'$goals'(Place, Vars, Goals, Rest)),
-    plain_goals(Goals0, Rest).
-plain_goals([Goal0|Goals0], [Goal|Goals]) :-
-    plain(Goal0, Goal),
-    plain_goals(Goals0, Goals).
-
-plain(Goal, Goal) :-
+plain_goal(Goal, Goal) :-
     var(Goal),
     !.
-plain('$cut'(_), !) :-
+plain_goal('$cut'(_), !) :-
     !.
-plain((A0,B0), (A,B)) :-
+plain_goal((A0,B0), (A,B)) :-
     !,
-    plain(A0, A),
-    plain(B0, B).
-plain((A0;B0), (A;B)) :-
+    plain_goal(A0, A),
+    plain_goal(B0, B).
+plain_goal((A0;B0), (A;B)) :-
     !,
-    plain(A0, A),
-    plain(B0, B).
-plain((A0->B0), (A->B)) :-
+    plain_goal(A0, A),
+    plain_goal(B0, B).
+plain_goal((A0->B0), (A->B)) :-
     !,
-    plain(A0, A),
-    plain(B0, B).
-plain((A0*->B0), (A*->B)) :-
+    plain_goal(A0, A),
+    plain_goal(B0, B).
+plain_goal((A0*->B0), (A*->B)) :-
     !,
-    plain(A0, A),
-    plain(B0, B).
-plain(catch(A0,C,R), catch(A,C,R)) :-
+    plain_goal(A0, A),
+    plain_goal(B0, B).
+plain_goal(catch(A0,C,R), catch(A,C,R)) :-
     !,
-    plain(A0, A).
-plain(Goal, Goal).
+    plain_goal(A0, A).
+plain_goal(Goal, Goal).
 
 %!  goals_body(+Goals, -Body) is det.
 

@@ -81,11 +81,13 @@ frame_at(Nodes, Outer, Env, Place, Vars) :-
     ).
 
 %   at(+N, +Env, -Place, -Vars): the number of a place in a program
-%   says its clause, too.
+%   says its clause, too, and whether a cut is left there.
 
-at(N, env(Module, _, Places, I/Count, _, _), Place, Vars) :-
+at(N, env(Module, _, Places, I/Count, Args, _), Place, Vars) :-
     memberchk(place(N, Variables, _, _, _), Places),
-    Place is N*Count+I,
+    arg(5, Args, Barrier),
+    ( among(Variables, Barrier) -> Cuts = 1 ; Cuts = 0 ),
+    Place is (N*Count+I)*2+Cuts,
     Vars =.. [Module|Variables].
 
 rest(Nodes, Outer, Env, Goals) :-

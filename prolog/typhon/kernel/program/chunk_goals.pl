@@ -1,25 +1,76 @@
 :- module(typhon_chunk_goals,
-          [ place_left/4,               % +Place, +Vars, -Goal, -Goals
+          [ plain_goals/2,              % +Goals0, -Goals
+            suspended_goals/2,          % +Goals0, -Goals
+            frame_goals/4,              % +Place, +Vars, -Goals, ?Rest
+            place_left/4,               % +Place, +Vars, -Goal, -Goals
             place_marked/3              % +Place, +Vars, -Left
           ]).
 :- use_module(library(apply), [exclude/3, foldl/4, maplist/2]).
 :- use_module(library(lists), [append/3, member/2, memberchk/2, nth0/3]).
 :- use_module(library(occurs), [sub_term/2]).
-:- use_module(bodies, [plain_goals/2, special/2]).
+:- use_module(bodies, [plain_goal/2, special/2]).
 :- use_module(clause_places, [clause_places/5]).
 :- use_module(code, [code_module/2, code_program/2]).
 :- use_module(source, [clause_parts/3]).
 
 /** <module> Frames of chunks and the goals that they stand for
 
-A place of a program is Number*Count+Clause, for the goal of that number in a
-clause (see typhon_clause_places), of which there are Count.  What an agent has
-left at a place is read from the clause when it stops there first.  Then it is
-in two tables of the program's module: '$goals'/4, from frames to goals, and, if
-that saves time, '$frame'/5, from goals to frames.
+A place of a program is (Number*Count+Clause)*2, for the goal of that number in
+a clause (see typhon_clause_places), of which there are Count, and 1 more if a
+cut of the clause is left there.  What an agent has left at a place is read from
+the clause when it is asked for first.  Then it is in two tables of the
+program's module: '$goals'/4, from frames to goals, and, if that saves time,
+'$frame'/5, from goals to frames.
 
 *Threading*: any thread; one mutex when a place is added.
 */
+
+%!  plain_goals(+Goals0, -Goals) is det.
+%!  suspended_goals(+Goals0, -Goals) is det.
+%
+%   `'$cut'(_)` becomes `!` again, and frames become the goals for which they
+%   stand: what a suspended agent shows.  In the second, frames stay that hold no
+%   cut: it would cut to where the run began, and the next begins elsewhere.
+
+plain_goals([], []).
+plain_goals([Goal|Goals0], [Goal|Goals]) :-
+    var(Goal),
+    !,
+    plain_goals(Goals0, Goals).
+plain_goals(['$k'(Place, Vars)|Goals0], Goals) :-
+    !,
+    frame_goals(Place, Vars, Goals, Rest),
+    plain_goals(Goals0, Rest).
+plain_goals([Goal0|Goals0], [Goal|Goals]) :-
+    plain_goal(Goal0, Goal),
+    plain_goals(Goals0, Goals).
+
+suspended_goals([], []).
+suspended_goals([Goal|Goals0], [Goal|Goals]) :-
+    var(Goal),
+    !,
+    suspended_goals(Goals0, Goals).
+suspended_goals(['$k'(Place, Vars)|Goals0], Goals) :-
+    !,
+    (   Place /\ 1 =:= 0
+    ->  Goals = ['$k'(Place, Vars)|Goals1]
+    ;   frame_goals(Place, Vars, Goals, Goals1)
+    ),
+    suspended_goals(Goals0, Goals1).
+suspended_goals([Goal0|Goals0], [Goal|Goals]) :-
+    plain_goal(Goal0, Goal),
+    suspended_goals(Goals0, Goals).
+
+%!  frame_goals(+Place, +Vars, -Goals, ?Rest) is det.
+%
+%   Goals are those of a frame that holds no cut, and then Rest.
+
+frame_goals(Place, Vars, Goals, Rest) :-
+    functor(Vars, Module, _),
+    (   Module:'$goals'(Place, Vars, Goals, Rest)
+    ->  true
+    ;   place_plain(Place, Vars, Goals, Rest)
+    ).
 
 %!  place_left(+Place, +Vars, -Goal, -Goals) is det.
 %!  place_marked(+Place, +Vars, -Left) is det.
@@ -30,17 +81,17 @@ that saves time, '$frame'/5, from goals to frames.
 
 place_marked(Place, Vars, Goals-Rest) :-
     functor(Vars, Module, _),
-    (   Module:'$marked'(Place, Vars, Goals0, Rest)
+    (   '$get_predicate_attribute'(Module:'$marked'(_, _, _, _), defined, 1),
+        Module:'$marked'(Place, Vars, Goals0, Rest)
     ->  Goals = Goals0
     ;   functor(Vars, _, Arity),
         functor(General, Module, Arity),
         place_left(Place, General, _, Goals1),
         append(Goals1, Rest1, Goals2),
+        dynamic(Module:'$marked'/4),
         assertz(Module:'$marked'(Place, General, Goals2, Rest1)),
         place_marked(Place, Vars, Goals-Rest)
     ).
-
-:- public place_plain/4.
 
 %   The tables '$goals' and '$frame' have the places that were asked for, the
 %   first of them last.
@@ -63,7 +114,8 @@ add_place(Module, Place, General, Goals, Plain, List, Rest) :-
     (   is_frame(Module, Place, General),
         worth(Plain),
         Plain = [First|_]
-    ->  functor(First, Name, Arity),
+    ->  frame_table(Module),
+        functor(First, Name, Arity),
         functor(Head, Name, Arity),
         barrier(Goals, Base),
         term_variables(General, Known),
@@ -78,6 +130,15 @@ add_place(Module, Place, General, Goals, Plain, List, Rest) :-
                                Rest0 = Rest )) ))
     ;   true
     ).
+
+%   Most programs are not asked for a frame.
+
+frame_table(Module) :-
+    '$get_predicate_attribute'(Module:'$frame'(_, _, _, _, _), defined, 1),
+    !.
+frame_table(Module) :-
+    dynamic(Module:'$frame'/5),
+    assertz(Module:( '$frame'(_, _, _, _, _) => fail )).
 
 %   untouched(+New, +Others, -Code): a frame does not hold the variables that are
 %   New in its goals.  So Code succeeds if they are unbound, without attributes,
@@ -129,11 +190,11 @@ barrier(_, _).
 
 place_left(Place, Vars, Goal, Goals) :-
     functor(Vars, Module, _),
-    Module:'$chunks'(Count),
     code_module(Hash, Module),
     code_program(Hash, program(_, _, _, Clauses)),
-    I is Place mod Count,
-    N is Place//Count,
+    length(Clauses, Count),
+    I is Place//2 mod Count,
+    N is Place//2//Count,
     nth0(I, Clauses, Clause),
     clause_parts(Clause, Head, Body),
     clause_places(Head, Body, _, _, Places),

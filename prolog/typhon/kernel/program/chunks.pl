@@ -27,13 +27,14 @@ values of its variables.  The name of the second term is the module of the
 program.  These tables are in that module:
 
     '$k'(Place, Vars, K, X, Base, Out)  runs a frame, and then K
+    '$run'(Head, Run, K, X, Base, Out, Condition)  how to call a predicate
     '$goals'(Place, Vars, Goals, Rest)  the goals that a frame stands for
     '$frame'(First, Goals, Base, Frame, Rest)  the frame for goals
-    '$run'(Head, Run, K, X, Base, Out, Condition)  how to call a predicate
 
-No frame outlives a run: where the agent stops the goals are left
-(plain_goals/2), and when it goes on, a frame is made of them again if that
-saves time.  So whatever looks at an agent, or carries it, sees its goals.
+Frames mean something in this process alone, and only where the program runs
+compiled.  What goes to another process, is noted, shown, or run otherwise are
+the goals that they stand for (plain_goals/2), and of these a frame is made
+again if that saves time.  The last two tables have what was asked for.
 
 A goal that cannot stop is called as it stands, and
 
@@ -53,7 +54,7 @@ if a predicate that it calls has rules in the agent's state.
 %   memory was short, the machine runs the program.
 
 chunks_ready(Module) :-
-    '$get_predicate_attribute'(Module:'$chunks'(_), defined, 1),
+    '$get_predicate_attribute'(Module:'$goals'(_, _, _, _), defined, 1),
     !.
 chunks_ready(Module) :-
     code_module(Hash, Module),
@@ -62,7 +63,7 @@ chunks_ready(Module) :-
 
 compile_once(Module, Program) :-
     (   '$get_predicate_attribute'(Module:'$go'(_, _, _, _), defined, 1)
-    ->  '$get_predicate_attribute'(Module:'$chunks'(_), defined, 1)
+    ->  '$get_predicate_attribute'(Module:'$goals'(_, _, _, _), defined, 1)
     ;   compile(Module, Program)
     ).
 
@@ -88,7 +89,7 @@ compile(Module, program(_, State, _, Clauses)) :-
     append([['$go'/4],Tables|Made], Static),
     maplist(qualified(Module), Static, PIs),
     compile_predicates(PIs),
-    assertz(Module:'$chunks'(Count)).
+    dynamic(Module:'$goals'/4).         % says that all is there
 
 qualified(Module, PI, Module:PI).
 
@@ -98,17 +99,13 @@ has_clauses(Module, Name/Arity) :-
     Count > 0.
 
 tables(Module) :-
-    dynamic([ Module:'$k'/6, Module:'$go'/4, Module:'$goals'/4,
-              Module:'$frame'/5, Module:'$run'/7, Module:'$marked'/4 ]),
+    dynamic([Module:'$k'/6, Module:'$go'/4, Module:'$run'/7]),
     module_transparent([Module:'$k'/6, Module:'$go'/4]),
     assertz(Module:('$go'(['$k'(P,V)|K], X, B, O) :-
                  !,
                  '$k'(P, V, K, X, B, O))),
     assertz(Module:('$go'(K, X, B, O) :-
-                 typhon_machine:continue(K, X, B, O))),
-    assertz(Module:('$goals'(P, V, Goals, Rest) :-
-                        typhon_chunk_goals:place_plain(P, V, Goals, Rest))),
-    assertz(Module:( '$frame'(_, _, _, _, _) => fail )).
+                 typhon_machine:continue(K, X, B, O))).
 
 %   The kinds of typhon_mobile, as the table of the module has them.
 

@@ -9,8 +9,8 @@
           ]).
 :- use_module(library(apply), [maplist/2]).
 :- use_module(library(lists), [append/3, member/2]).
-:- use_module(bodies, [goals_body/2, plain_goals/2]).
-:- use_module(chunk_goals, [place_left/4]).
+:- use_module(bodies, [goals_body/2]).
+:- use_module(chunk_goals, [place_left/4, plain_goals/2]).
 
 /** <module> Where a run of the machine came to its end
 
@@ -212,7 +212,7 @@ in_chunk(Frame, Chunk, PC) :-
 is_chunk(Frame) :-
     prolog_frame_attribute(Frame, predicate_indicator, Module:Name/_),
     chunk_name(Name),
-    '$get_predicate_attribute'(Module:'$chunks'(_), defined, 1).
+    '$get_predicate_attribute'(Module:'$goals'(_, _, _, _), defined, 1).
 
 chunk_name('$k') :- !.
 chunk_name(Name) :- sub_atom(Name, 0, _, _, 'run '), !.

@@ -9,9 +9,10 @@
           ]).
 :- use_module('../base/error_text', [is_abort/1]).
 :- use_module(bodies,
-              [ body_goals/4, called_goal/2, goals_body/2, plain_goals/2,
-                special/2 ]).
-:- use_module(chunk_goals, [place_marked/3]).
+              [body_goals/4, called_goal/2, goals_body/2, special/2]).
+:- use_module(chunk_goals,
+              [ frame_goals/4, place_marked/3, plain_goals/2,
+                suspended_goals/2 ]).
 :- use_module(chunks, [chunks_ready/1]).
 :- multifile
     elsewhere/3,                % Context, Goals, Outcome: another process has
@@ -110,8 +111,13 @@ engine(context(Program, Agent), X) :-
     ).
 
 outcome(exit, done).
+outcome(effect(Control, Hole, [First|Goals0]), Outcome) :-
+    Outcome = effect(Control, Hole, [First|Goals]),
+    var(First),                         % mostly the hole
+    !,
+    suspended_goals(Goals0, Goals).
 outcome(effect(Control, Hole, Goals0), effect(Control, Hole, Goals)) :-
-    plain_goals(Goals0, Goals).
+    suspended_goals(Goals0, Goals).
 
 %!  machine_inside is semidet.
 %
@@ -145,11 +151,12 @@ continue([Goal|Goals], X, Base, Out) :-
     !,
     continue(Goals, X, Base, Out).
 continue(Goals, X, Base, Out) :-
-    (   X = compiled(Program, _),
+    (   X = compiled(Program, Agent),
         Goals = [Goal|_],
         nonvar(Goal),
-        Program:'$frame'(Goal, Goals, Base, Frame, Rest)
-    ->  run([Frame|Rest], X, Base, Out)
+        '$get_predicate_attribute'(Program:'$frame'(_, _, _, _, _), defined, 1),
+        Program:'$frame'(Goal, Goals, Base, '$k'(Place, Vars), Rest)
+    ->  @(Program:'$k'(Place, Vars, Rest, X, Base, Out), Agent)
     ;   run(Goals, X, Base, Out)
     ).
 
@@ -157,8 +164,11 @@ continue(Goals, X, Base, Out) :-
 %   construct.
 
 step('$k'(Place, Vars), Goals, X, Base, Out) =>
-    X = compiled(Program, Agent),
-    @(Program:'$k'(Place, Vars, Goals, X, Base, Out), Agent).
+    (   X = compiled(Program, Agent)
+    ->  @(Program:'$k'(Place, Vars, Goals, X, Base, Out), Agent)
+    ;   frame_goals(Place, Vars, Own, Goals),
+        run(Own, X, Base, Out)
+    ).
 step(true, Goals, X, Base, Out) =>
     run(Goals, X, Base, Out).
 step((A,B), Goals, X, Base, Out) =>

@@ -4,7 +4,7 @@
           ]).
 :- use_module(library(debug), [debug/3]).
 :- use_module('../base/durable_changes', [durable_on/0]).
-:- use_module('../program', [code_module/2]).
+:- use_module('../program', [code_module/2, plain_goals/2]).
 :- use_module('../wire',
               [ endpoint_afterwards/1, endpoint_hand/4, endpoint_hand_over/2,
                 endpoint_hand_to/2,
@@ -68,8 +68,9 @@ hand_over(Id, Host, remote(Address, Name, Endpoint), Hole, Goals) :-
     ->  with_agent(Id, mail_all(Id, Mail))
     ;   Mail = []
     ),
+    plain_goals(Goals, Plain),
     (   framed(Endpoint, Name, Hash,
-               image(Id, Hash, Life, State, Hole-Goals, Mail, Since), Frame),
+               image(Id, Hash, Life, State, Hole-Plain, Mail, Since), Frame),
         Transfer = hop(Id, dest(Address, Name, Endpoint), Hops),
         sig_atomic(with_agent(Id, leave(Transfer, Since, Frame)))
     ->  debug(typhon(hop), '~w hop ~D: leaves for ~w', [Id, Hops, Address])

@@ -5,6 +5,7 @@
                                         % +Goals
           ]).
 :- use_module(library(debug), [debug/3]).
+:- use_module('../program', [plain_goals/2]).
 :- use_module('../wire',
               [ endpoint_address/1, endpoint_hand/4, endpoint_hand_over/2,
                 endpoint_request/4, mobile_term/1 ]).
@@ -64,7 +65,8 @@ endpoint, which never wait.
 hop(Id, local(Name), Hole, Goals, Since, Next) :-
     !,
     hop_within(Id, Name, Hole, Goals, Since, Next).
-hop(Id, Where, Hole, Goals, Since, stop) :-
+hop(Id, Where, Hole, Goals0, Since, stop) :-
+    plain_goals(Goals0, Goals),
     destination(Where, Dest),
     Transfer = hop(Id, Dest, _),
     image(Transfer, Hole-Goals, Mail, Since, Image),
@@ -74,7 +76,8 @@ hop(Id, Where, Hole, Goals, Since, stop) :-
 %
 %   Send a clone of Id to Where; Id waits for the answer, Goals its goals.
 
-hop_clone(Id, Where, CloneId, Who, Hole, Goals) :-
+hop_clone(Id, Where, CloneId, Who, Hole, Goals0) :-
+    plain_goals(Goals0, Goals),
     agent(Id, Host, _, _, _),
     host_time(Host, Since),
     destination(Where, Dest),

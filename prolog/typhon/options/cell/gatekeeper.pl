@@ -3,7 +3,8 @@
 :- use_module(library(lists), [append/2, member/2, reverse/2]).
 :- use_module(library(readutil), [read_file_to_string/3]).
 :- use_module('../../kernel/base/durable_changes', [durable_on/0]).
-:- use_module('../../kernel/program', [code_sent/2, fault_note/1]).
+:- use_module('../../kernel/program',
+              [code_sent/2, fault_note/1, plain_goals/2]).
 :- use_module('../../kernel/wire', [endpoint_address/1, endpoint_own_proof/1]).
 :- use_module('../../kernel/host',
               [context_now/2, host/3, place_service/2, security_event/4]).
@@ -70,11 +71,12 @@ goes(Id, _, _) :-
 %   An agent whose policy is not that of its host came before that changed. One
 %   that was ended meanwhile has no record, and runs nowhere.
 
-typhon_machine:elsewhere(context(_, Module), Goals, Outcome) :-
+typhon_machine:elsewhere(context(_, Module), Goals0, Outcome) :-
     walled(_, _),
     context_now(Host, Id),
     walled(Host, Kind),
     !,
+    plain_goals(Goals0, Goals),
     policy(Module, Policy),
     (   agent(Id, Host, Module, Hash, Life)
     ->  Policy \== trusted,

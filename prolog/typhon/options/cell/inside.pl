@@ -4,7 +4,7 @@
 :- use_module('../../kernel/base/trees', [is_tree/2]).
 :- use_module('../../kernel/program',
               [ answer_at/3, code_module/2, code_receive/2, fault_noted/1,
-                machine_run/3 ]).
+                machine_run/3, plain_goals/2 ]).
 :- use_module('../../kernel/wire', [mobile_term/1]).
 :- use_module('../../kernel/host',
               [context_set/3, host/3, host_start/1]).
@@ -158,7 +158,8 @@ turn(N, Id, Known, Goals, Module, Out) :-
 %   What cannot travel is an error at the control predicate, as elsewhere.
 
 run(Context, Goals0, Outcome, Note) :-
-    machine_run(Context, Goals0, Outcome0),
+    machine_run(Context, Goals0, Outcome1),
+    outcome_plain(Outcome1, Outcome0),
     (   Outcome0 = effect(Control, Hole, Goals),
         catch(( small_and_mobile(Outcome0), fail ), error(Formal, Where), true)
     ->  answer_at(Control, throw(error(Formal, Where)), Hole),
@@ -171,6 +172,12 @@ run(Context, Goals0, Outcome, Note) :-
     ;   Outcome = Outcome0,
         noted(Outcome, Note)
     ).
+
+outcome_plain(effect(Control, Hole, Goals0), Outcome) =>
+    Outcome = effect(Control, Hole, Goals),
+    plain_goals(Goals0, Goals).
+outcome_plain(Outcome0, Outcome) =>
+    Outcome = Outcome0.
 
 noted(Outcome, note(How, Portable)) :-
     functor(Outcome, How, _),

@@ -8,7 +8,8 @@
 :- use_module('../../kernel/base/server', [server_start/4, server_stop/1]).
 :- use_module('../../kernel/base/trees', [is_tree/2]).
 :- use_module('../../kernel/program',
-              [fault_note/1, fault_noted/1, machine_inside/0, machine_run/3]).
+              [ fault_note/1, fault_noted/1, machine_inside/0, machine_run/3,
+                plain_goals/2 ]).
 :- use_module('../../kernel/host',
               [ alarm_in/3, context_now/2, context_set/3, scheduler_call/1,
                 turn_of/3, turns_now/3 ]).
@@ -120,7 +121,8 @@ storable(Outcome0, Host, Outcome) :-
     ;   Outcome = Outcome0
     ).
 
-kept(effect(Control, _, Goals), Control-Goals).
+kept(effect(Control, _, Goals0), Control-Goals) :-
+    plain_goals(Goals0, Goals).
 kept(failed, Fault) :- fault_noted(Fault).
 kept(raised(_), Fault) :- fault_noted(Fault).
 

@@ -373,6 +373,19 @@ test(one_that_does_well_is_changed, true(F == [s(new),s(old)])) :-
                   agent_send(A, x),
                   wait_until(fact_of(A, s(new)), 10),
                   facts(A, F) )).
+test(goals_outlive_the_program_of_an_agent_that_waits,
+     true(Gs-F =@= [receive(_-go),p(1),p(2),receive(_-end)]-[s(1),s(2)])) :-
+    on([alpha], ( create([ (main :- receive(_-go), p(1), p(2),
+                                    receive(_-end)),
+                           p(_) ], A),
+                  wait_until(agent_property(A, state(waiting)), 10),
+                  agent_property(A, goals(Gs)),
+                  agent_change(A, program(clauses(
+                      [ (:- agent(new, [state([s/1])])),
+                        main, (p(X) :- assertz(s(X))) ]))),
+                  agent_send(A, go),
+                  wait_until(fact_of(A, s(2)), 10),
+                  facts(A, F) )).
 test(an_order_that_came_before_the_end_is_obeyed, true(O == failed)) :-
     on([alpha,beta],
        setup_call_cleanup(

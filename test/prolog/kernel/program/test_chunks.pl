@@ -83,9 +83,8 @@ test(a_frame_holds_no_variable_of_other_goals, nondet) :-
     Goals = [X = _|_],
     append(Own, [q], Goals),
     append(Own, [q(X)], Sharing),
-    Goals = [First|_],
-    assertion(Module:'$frame'(First, Goals, 0, _, [_])),
-    assertion(\+ Module:'$frame'(First, Sharing, 0, _, [_])).
+    assertion(frame_of(Module, Goals, _, [_])),
+    assertion(\+ frame_of(Module, Sharing, _, [_])).
 %   SWI-Prolog compiles the first occurrence of a variable wrongly there.
 
 test(a_new_variable_is_tested_in_optimised_code,
@@ -102,11 +101,25 @@ test(a_deeply_nested_clause_is_compiled_soon,
     nested(40, Nested),
     Clauses = [(:- agent(deep, [])), (main :- Nested, move(a)), t(_)],
     call_with_inference_limit(stopped(Clauses, _, _), 1 000 000, Within).
+test(a_frame_with_a_cut_does_not_outlive_a_run, Frames == [frame,goals]) :-
+    Clauses = [ (:- agent(cuts, [])),
+                (main :- p, q),
+                (p :- move(a), t(1)),
+                (q :- move(b), !, t(2)),
+                t(_) ],
+    stopped(Clauses, Module, _),
+    findall(Kind,
+            ( member(Goal, [p,q]),
+              machine_run(context(Module, chunks_agent), [Goal],
+                          effect(_, _, [_,First|_])),
+              ( First = '$k'(_, _) -> Kind = frame ; Kind = goals )
+            ),
+            Frames).
 test(a_program_is_compiled_by_its_first_run) :-
     Clauses = [(:- agent(first, [])), (main :- p), (p :- move(a), t(1)), t(_)],
     stopped(Clauses, Module, Goals),
     assertion(Goals == [true,t(1)]),
-    assertion(Module:'$chunks'(_)).
+    assertion('$get_predicate_attribute'(Module:'$goals'(_, _, _, _), defined, 1)).
 
 nested(0, t(0)) :-
     !.
@@ -124,10 +137,20 @@ stopped(Clauses, Module, Goals) :-
     next(Module, [main], effect(_, true, Goals)).
 
 next(Module, Goals, Outcome) :-
-    machine_run(context(Module, chunks_agent), Goals, Outcome).
+    machine_run(context(Module, chunks_agent), Goals, Outcome0),
+    (   Outcome0 = effect(Control, Hole, Left0)
+    ->  plain_goals(Left0, Left),
+        Outcome = effect(Control, Hole, Left)
+    ;   Outcome = Outcome0
+    ).
 
-framed(Module, [Goal|Goals]) :-
-    Module:'$frame'(Goal, [Goal|Goals], 0, _, _).
+framed(Module, Goals) :-
+    frame_of(Module, Goals, _, _).
+
+frame_of(Module, Goals, Frame, Rest) :-
+    Goals = [First|_],
+    '$get_predicate_attribute'(Module:'$frame'(_, _, _, _, _), defined, 1),
+    Module:'$frame'(First, Goals, 0, Frame, Rest).
 
 %   program_frames(+Clauses, -Frames): each as Frame-Goals-Again, where Again are
 %   the goals of the frame that is made of Goals.
@@ -139,8 +162,7 @@ program_frames(Clauses, Frames) :-
     findall('$k'(Place, Vars)-Goals-Again,
             ( clause(Module:'$goals'(Place, Vars, Goals, []), true),
               numbervars(Vars, 0, _),
-              Goals = [First|_],
-              Module:'$frame'(First, Goals, 0, Frame, []),
+              frame_of(Module, Goals, Frame, []),
               plain_goals([Frame], Again)
             ),
             Frames).
