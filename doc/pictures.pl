@@ -6,7 +6,7 @@
     swipl doc/pictures.pl -- doc/img page spacetime     only these kinds
 
 Kinds are `layers`, `spacetime`, `page`, `applications` and `studies`; the last
-makes ten runs of fourteen studies, or RUNS, which takes many minutes.  All are
+makes ten runs of each study shown, or RUNS, which takes many minutes.  All are
 made from networks that are started for them.
 
 *Threading*: the main thread.

@@ -25,6 +25,7 @@ study_picture('sieve-complements.png',   '3.3',    '3.3').
 study_picture('sieve-generic.png',       '3.4',    '3.4').
 study_picture('sieve-switch.png',        '3.5',    '3.5').
 study_picture('sieve-memory.png',        memory,   memory).
+study_picture('sieve-return.png',        return,   return).
 study_picture('sieve-programs.png',      programs, programs).
 study_picture('algorithms-cloning.png',  cloning,  cloning).
 study_picture('algorithms-exchange.png', exchange, exchange).

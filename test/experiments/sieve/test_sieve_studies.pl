@@ -15,7 +15,7 @@ study(Name, Study) :-
 
 a_study(Name) :-
     member(Name, [ figure_3_3, figure_3_4, figure_3_5, beyond_memory,
-                   beyond_programs, study_comparisons ]).
+                   beyond_return, beyond_programs, study_comparisons ]).
 
 %   round_of(+Kinds, -Round): a clone of each is born.
 
@@ -93,6 +93,25 @@ test(memory, [ forall(member(Second-Helds,
     Points = [ case{memory_cells:0}-ms{first:6, second:4, helped:0.5},
                case{memory_cells:1}-ms{first:6, second:Second, helped:0.9} ],
     helds(Study, Points, Found).
+test(return, [ forall(member(Second-Helds,
+                             [ 3-[true, true, true, true, true, true],
+                               5-[false, true, true, true, true, true],
+                               9-[false, false, true, false, false, true] ])),
+               Found == Helds ]) :-
+    returned([ r(0, 2, 2, 7), r(0, 8, 6, 7), r(1, 2, 2, 7),
+               r(1, 8, Second, 7) ], Found).
+test(return_forgotten_by_none,
+     Found == [true, false, false, false, true, false]) :-
+    returned([r(0, 2, 3, 7), r(0, 8, 3, 2), r(1, 2, 2, 2), r(1, 8, 3, 2)],
+             Found).
+
+returned(Rows, Helds) :-
+    study(beyond_return, Study),
+    findall(case{memory_cells:Cells, others:Others}
+            - ms{first:7, second:Second, similar:Second, stranger:Stranger},
+            member(r(Cells, Others, Second, Stranger), Rows), Points),
+    helds(Study, Points, Helds).
+
 test(programs, Helds == [true, true]) :-
     along(Along),
     rounds_hold(beyond_programs,
@@ -137,11 +156,21 @@ check_memory(Dir) :-
     length(Ms.able, 16),
     Ms.first > 0.
 
+check_return(Dir) :-
+    small(Given),
+    study(beyond_return, Study),
+    first_run(Study, [memory_cells-1, others-2, calls-2|Given], 1, Dir, _-Ms),
+    abs(Ms.first - 2.4) < 0.001,
+    Ms.second > 0,
+    Ms.left > 0.
+
 :- begin_tests(sieve_run).
 
 test(ten_rounds) :-
     with_tmp_dir(check_rounds).
 test(memory_cells) :-
     with_tmp_dir(check_memory).
+test(antigen_comes_back) :-
+    with_tmp_dir(check_return).
 
 :- end_tests(sieve_run).
