@@ -27,7 +27,8 @@ a folder, with an interface of the same name beside it:
 :- use_module(typhon/kernel/base/user_errors, [user_errors/1]).
 :- reexport(typhon/tools/administration,
             [ host_change/2, host_property/2, link/2, link/3, unlink/2,
-              agent_property/2, agent_save/2, agent_load/2, agent_load/3 ]).
+              agent_change/2, agent_property/2, agent_save/2, agent_load/2,
+              agent_load/3 ]).
 :- reexport(typhon/tools/checks, [agent_check/1, agent_check/2]).
 :- reexport(typhon/tools/source_view, [agent_listing/1]).
 :- reexport(typhon/options/watch, [watch/3, unwatch/1]).
@@ -37,7 +38,7 @@ a folder, with an interface of the same name beside it:
 :- reexport(typhon/kernel/lifecycle,
             [ agent_create/2, agent_create/3, agent_send/2,
               agent_move/2, agent_move/3, agent_clone/2, agent_resume/1,
-              agent_change/2, agent_dispose/1, agent_dispose/2, agent_join/3,
+              agent_dispose/1, agent_dispose/2, agent_join/3,
               agent_result/3,
               payload_attach/2, payload_detach/2
             ]).

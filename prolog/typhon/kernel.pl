@@ -17,7 +17,7 @@ it is library(typhon) without its top level.
 :- use_module(kernel/base/user_errors, [user_errors/1]).
 :- reexport(tools/administration,
             [ host_change/2, host_property/2, link/2, link/3, unlink/2,
-              agent_property/2 ]).
+              agent_change/2, agent_property/2 ]).
 :- reexport(tools/checks, [agent_check/1, agent_check/2]).
 :- reexport(tools/source_view, [agent_listing/1]).
 :- reexport(kernel/host,
@@ -26,7 +26,7 @@ it is library(typhon) without its top level.
 :- reexport(kernel/lifecycle,
             [ agent_create/2, agent_create/3, agent_send/2,
               agent_move/2, agent_move/3, agent_clone/2, agent_resume/1,
-              agent_change/2, agent_dispose/1, agent_dispose/2, agent_join/3,
+              agent_dispose/1, agent_dispose/2, agent_join/3,
               agent_result/3, payload_attach/2, payload_detach/2
             ]).
 :- use_module(kernel/vocabulary, []).

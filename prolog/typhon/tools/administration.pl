@@ -5,11 +5,13 @@
             link/3,                     % +HostA, +HostB, +Options
             unlink/2,                   % +HostA, +HostB
             agent_property/2,           % ?Agent, ?Property
+            agent_change/2,             % +Agent, +Change
             status_shown/2,             % +Status, -State
             agent_save/2,               % +Agent, +File
             agent_load/2,               % +File, -Agent
             agent_load/3                % +File, -Agent, +Options
           ]).
+:- autoload('administration/change', [change_agent/2]).
 :- autoload('administration/host_questions',
             [ change_host/2, link_hosts/2, link_hosts/3, property_of_host/2,
               unlink_hosts/2 ]).
@@ -96,6 +98,27 @@ unlink(A, B) :-
 
 agent_property(Agent, Property) :-
     property_of_agent(Agent, Property).
+
+%!  agent_change(+Agent, +Change) is det.
+%
+%   Change Agent, faulty or not, at its next effect:
+%
+%     - facts(+Clauses): are added to its state, of predicates that its
+%       program or a payload declares, or that it has made itself
+%     - program(+Spec): is its program from now on, see agent_create/2.  Its
+%       state stays as it is, and so do the goals that it has left: what is
+%       left of a clause is left of the old one.
+%
+%   @error domain_error(agent_change, Change)
+%   @error permission_error(attach, procedure, PI) for a fact of a predicate
+%          of the program, and a program that has one of the state
+%   @error existence_error(state, PI, Declared) for a fact of any other
+%   @error any problem of the program
+%   @error existence_error(agent, Agent)
+%   @error timeout_error(order, Agent)
+
+agent_change(Agent, Change) :-
+    change_agent(Agent, Change).
 
 %!  status_shown(+Status, -State) is det.
 %

@@ -51,6 +51,8 @@ part_joins(machine_option,swipl,network).
 part_joins(network_load_option,log,network).
 part_joins(open_store,any,'options/journal').
 part_joins(order,attach,'options/identity').
+part_joins(order,change,'tools/administration').
+part_joins(order,image,'tools/administration').
 part_joins(order,watched,'options/trace').
 part_joins(pheromone_option,period,'options/migration').
 part_joins(pheromone_option,span,'options/migration').
@@ -139,6 +141,7 @@ part_file('options/watch','options/watch/metrics').
 part_file('options/watch','options/watch/telling').
 part_file('options/watch','options/watch/watched').
 part_file(tools,'tools/inventory').
+part_file('tools/administration','tools/administration/change').
 part_file('tools/administration','tools/administration/host_questions').
 part_file('tools/administration','tools/administration/properties').
 part_file('tools/administration','tools/administration/restore').

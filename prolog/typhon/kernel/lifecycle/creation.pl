@@ -33,7 +33,6 @@
                 mail_count/2, make_life/2, origin_inherited/3, origin_passed/4,
                 payload_marks/2, with_agent/2 ]).
 :- use_module('../travel', [agent_born/2, clone_born/2]).
-:- use_module(change, [undeclared/2]).
 :- use_module(questions, [agent_met/1]).
 
 /** <module> How agents begin
@@ -205,7 +204,7 @@ initial_fact(Clauses, PIs, Fact) :-
     not_static(Clauses, Name/Arity),
     (   memberchk(Name/Arity, PIs)
     ->  true
-    ;   undeclared(Name/Arity, PIs)
+    ;   throw(error(existence_error(state, Name/Arity, PIs), _))
     ).
 
 not_static(Clauses, Name/Arity) :-

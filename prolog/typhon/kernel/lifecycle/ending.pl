@@ -4,14 +4,18 @@
             agent_forgotten/2,          % +Id, :Test
             agent_fails/3,              % +Id, +Outcome, +Goals0
             agent_stays/2,              % +Id, +Goals
-            faulty_stirs/1              % +Id
+            faulty_stirs/1,             % +Id
+            held_put/3,                 % +Id, +State, +Goals
+            held_parts/3,               % +Held, -State, -Goals
+            held_on/2                   % +Id, +Held
           ]).
 :- use_module(library(debug), [debug/3]).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(settings), [setting/2, setting/4]).
 :- use_module('../base/durable_changes', [unit_of_work/1]).
 :- use_module('../host',
-              [event/4, events_forget/1, host/3, host_again/1, host_leave/1]).
+              [ event/4, events_forget/1, host/3, host_again/1, host_leave/1,
+                schedule/2 ]).
 :- use_module('../agent',
               [ agent/5, agent_fault/5, agent_ordered/1, agent_put/3,
                 agent_ready/2, agent_remove/3, agent_status/3, fault_error/2,
@@ -20,7 +24,6 @@
 :- use_module('../travel',
               [ agent_ended/4, agent_ends/2, agent_faulty/5, move_over/2,
                 transfer_given_up/2 ]).
-:- use_module(change, [held_dropped/1]).
 :- use_module(questions, [question_answered/2]).
 
 /** <module> How agents end, or are kept as they were
@@ -65,7 +68,7 @@ remove(Id, last(Host, Hops, Status, Goals, Results, Orders)) :-
     once(agent_status(Id, Status, Goals)),
     (   Status = transit(_, _)
     ->  transfer_given_up(Id, Goals)
-    ;   held_dropped(Goals)
+    ;   dropped_if_held(Goals)
     ),
     faulty_gone(Id),
     agent_ends(Id, Hops),
@@ -246,3 +249,50 @@ faulty_oldest(Id) :-
     Count > Max,
     kept(Id),
     !.
+
+                /*******************************
+                *           ON HOLD            *
+                *******************************/
+
+%   Agents that are held in the middle of their goals.
+%
+%   The engine of a turn, see typhon_turn, may put an agent down before any
+%   goal. The agent then has the status `held`, and when it is to go on
+%   `resumed`, until a worker has it.  In place of its goals there is
+%
+%       held(State, Goals)
+%
+%   State being what the engine needs to go on, and Goals what comes next.  It
+%   holds no thread, and is ended as others that rest are.  Orders wait for its
+%   next effect.
+
+:- multifile dropped/1.         % State: the agent ends, and goes on no more
+
+%!  held_put(+Id, +State, +Goals:list) is det.
+%!  held_parts(+Held, -State, -Goals:list) is semidet.
+%!  held_on(+Id, +Held) is det.
+%
+%   Id, which was running, is held; what Held is; it is to go on.
+
+held_put(Id, State, Goals) :-
+    agent_put(Id, held, held(State, Goals)).
+
+held_parts(Held, State, Goals) :-
+    nonvar(Held),
+    Held = held(State, Goals).
+
+held_on(Id, Held) :-
+    agent_put(Id, resumed, Held),
+    agent(Id, Host, _, _, _),
+    !,
+    schedule(Host, Id).
+
+%   dropped_if_held(+Goals) is det: an agent ends in the place of whose goals
+%   there was Goals.
+
+dropped_if_held(Goals) :-
+    (   held_parts(Goals, State, _),
+        dropped(State)
+    ->  true
+    ;   true
+    ).

@@ -5,7 +5,6 @@
             payload_attach/2,           % +Agent, +Payload
             payload_detach/2,           % +Agent, +Name
             agent_resume/1,             % +Agent
-            agent_change/2,             % +Agent, +Change
             order_give/3,               % +Agent, +Order, -Result
             agent_answer/3,             % +Agent, +Question, -Answer
             agent_send/2                % +Agent, +Message
@@ -20,7 +19,6 @@
               [address_parts/3, as_guest/1, context_now/2, host_address/2]).
 :- use_module('../travel', [agent_resumed_from/3, post/3, post_via/4]).
 :- use_module('../agent', [agent/5]).
-:- use_module(change, [change_order/2]).
 :- use_module(questions, [agent_ask/4, agent_named/2]).
 
 /** <module> Orders and messages from outside
@@ -113,34 +111,11 @@ agent_resume(Agent) :-
     order_give(Id, resume, resumed(Stamp, Hops)),
     agent_resumed_from(Id, Stamp, Hops).
 
-%!  agent_change(+Agent, +Change) is det.
-%
-%   Change Agent, faulty or not, at its next effect:
-%
-%     - facts(+Clauses): are added to its state, of predicates that its
-%       program or a payload declares, or that it has made itself
-%     - program(+Spec): is its program from now on, see agent_create/2.  Its
-%       state stays as it is, and so do the goals that it has left: what is
-%       left of a clause is left of the old one.
-%
-%   @error domain_error(agent_change, Change)
-%   @error permission_error(attach, procedure, PI) for a fact of a predicate
-%          of the program, and a program that has one of the state
-%   @error existence_error(state, PI, Declared) for a fact of any other
-%   @error any problem of the program
-%   @error existence_error(agent, Agent)
-%   @error timeout_error(order, Agent)
-
-agent_change(Agent, Change) :-
-    must_be(nonvar, Change),
-    once(change_order(Change, Order)),
-    order_give(Agent, change(Order), _).
-
 %!  order_give(+Agent, +Order, -Result) is det.
 %
 %   @arg Order is move(Host), arrive(Host), `clone`, attach(Payload),
-%        detach(Name), `image`, `resume`, change(Change), see typhon_change,
-%        or an order of an option, see typhon_orders
+%        detach(Name), `resume`, or an order of an option or a tool, see
+%        typhon_orders
 
 order_give(Agent, Order, Result) :-
     agent_answer(Agent, order(Order), Result).

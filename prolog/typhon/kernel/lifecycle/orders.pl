@@ -6,18 +6,14 @@
 :- use_module(library(error),
               [domain_error/2, permission_error/3]).
 :- use_module('../base/on_demand', [on_demand_load/2]).
-:- use_module('../program', [code_sent/2]).
-:- use_module('../wire', [mobile_term/1]).
-:- use_module('../host', [alarm_in/3, amended/5, scheduler_call/1]).
+:- use_module('../host', [alarm_in/3, scheduler_call/1]).
 :- use_module('../agent',
-              [ agent/5, agent_attach/2, agent_detach/2, agent_name/3,
-                agent_order/2, agent_ready/2, agent_state/2, agent_status/3,
-                agent_wakes/2, fault_stamp/2, is_faulty/3, life_hops/2,
-                mail_list/2, with_agent/2 ]).
+              [ agent/5, agent_attach/2, agent_detach/2, agent_order/2,
+                agent_ready/2, agent_status/3, agent_wakes/2, fault_stamp/2,
+                is_faulty/3, life_hops/2, with_agent/2 ]).
 :- use_module('../travel',
               [ agent_resumed/3, move_awaited/2, move_failed/2, move_over/2,
                 out_of_touch/1 ]).
-:- use_module(change, [change_made/2]).
 :- use_module(creation, [agent_clone_here/3]).
 :- use_module(effect, [effect_order/4]).
 :- use_module(ending,
@@ -263,18 +259,6 @@ done(question(_), _, again).
 done(clone, Agent, CloneId) :-
     agent_status(Agent, _, Goals),
     agent_clone_here(Agent, Goals, CloneId).
-done(change(Change), Agent, ok) :-
-    change_made(Change, Agent).
-done(image, Agent,
-     image(Name, Program, Life, State, Goals, Mail)) :-
-    agent(Agent, Host, Module, Hash, Life),
-    agent_status(Agent, _, Goals),
-    code_sent(Hash, Program),
-    agent_name(Agent, Name, _),
-    agent_state(Module, State0),
-    amended(copied, Host, Agent, State0, State),
-    mail_list(Agent, Mail),
-    mobile_term(State-Goals).
 done(Order, Agent, Result) :-
     functor(Order, Kind, _),
     on_demand_load(order, Kind),

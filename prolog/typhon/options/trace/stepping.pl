@@ -25,7 +25,7 @@
 An agent that is stepped, or whose goals are traced, runs in a probe: an engine
 in which the machine stops before each goal that it looks up.  Between two goals
 a probe is a term that holds no thread, with all choice points.  A stepped agent
-is held before each goal, see typhon_change, in the state probe(Probe, Seen),
+is held before each goal, see typhon_ending, in the state probe(Probe, Seen),
 Seen being whether a caller was notified where it is.
 
 The machine looks goals up in the table '$mobile'/6 of the program's module.  A
@@ -37,7 +37,7 @@ step.
 */
 
 :- multifile
-    typhon_change:dropped/1,
+    typhon_ending:dropped/1,
     typhon_questions:here/3,
     typhon_turn:engine/3,
     typhon_turn:over/1.
@@ -142,7 +142,7 @@ typhon_turn:engine(agent(_, Host, Hash, Life), goals(_),
     !,
     \+ turn_bounded(Host).             % a limit could not end a probe in time
 
-typhon_change:dropped(probe(Probe, _)) :-
+typhon_ending:dropped(probe(Probe, _)) :-
     probe_stop(Probe).
 
 :- public probe/4.

@@ -7,9 +7,13 @@
 :- use_module(library(lists), [member/2]).
 :- use_module('../../kernel/base/options', [check_options/2]).
 :- use_module('../../kernel/program',
-              [ code_receive/2, code_extras/2, code_unwrapped/3,
+              [ code_receive/2, code_extras/2, code_sent/2, code_unwrapped/3,
                 code_wrapped/3, program_hash/2 ]).
-:- use_module('../../kernel/agent', [is_life/1]).
+:- use_module('../../kernel/wire', [mobile_term/1]).
+:- use_module('../../kernel/host', [amended/5]).
+:- use_module('../../kernel/agent',
+              [ agent/5, agent_name/3, agent_state/2, agent_status/3, is_life/1,
+                mail_list/2 ]).
 :- use_module('../../kernel/lifecycle', [agent_begin/4, order_give/3]).
 
 /** <module> Restore points: agents as text
@@ -20,7 +24,9 @@ still to run can be read, compared and edited.
 *Threading*: any thread.
 */
 
-:- multifile typhon_options:declared/4.
+:- multifile
+    typhon_options:declared/4,
+    typhon_orders:carried_out/3.
 
 %!  save_agent(+Agent, +File) is det.
 %!  load_agent(+File, -Agent, +Options) is det.
@@ -30,6 +36,18 @@ still to run can be read, compared and edited.
 save_agent(Agent, File) :-
     order_give(Agent, image, Image),
     once(write_image(File, Image)).
+
+typhon_orders:carried_out(image, Agent,
+                          image(Name, Program, Life, State, Goals,
+                                Mail)) :-
+    agent(Agent, Host, Module, Hash, Life),
+    agent_status(Agent, _, Goals),
+    code_sent(Hash, Program),
+    agent_name(Agent, Name, _),
+    agent_state(Module, State0),
+    amended(copied, Host, Agent, State0, State),
+    mail_list(Agent, Mail),
+    mobile_term(State-Goals).
 
 load_agent(File, Agent, Options) :-
     must_be(var, Agent),
