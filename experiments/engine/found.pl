@@ -1,6 +1,7 @@
 :- module(study_found,
           [ claim_found/4               % :Test, +Points, +Names, -Text
           ]).
+:- use_module(library(apply), [maplist/3]).
 :- use_module(library(lists),
               [append/3, list_to_set/2, member/2]).
 :- use_module(claims, [connective/2, leaf/4]).
@@ -72,7 +73,16 @@ called(E, E).
 
 where_text(Where, Text) :-
     findall(Value, member(_=Value, Where), Values),
-    atomic_list_concat(Values, ' ', Text).
+    words(Values, Text).
+
+%   Parameters may be compound terms.
+
+words(Terms, Text) :-
+    maplist(word, Terms, Words),
+    atomic_list_concat(Words, ' ', Text).
+
+word(Term, Word) :-
+    format(atom(Word), '~w', [Term]).
 
 %   The last parameter that varies makes the values of a line, all others
 %   name it.  What is the same everywhere is said once.
@@ -110,8 +120,8 @@ line(Key, Naming, Values, Line) :-
                     number_text(Value, Text) ),
             Texts),
     shortened(Texts, Shown),
-    append(Key, Shown, Words),
-    atomic_list_concat(Words, ' ', Line).
+    append(Key, Shown, Parts),
+    words(Parts, Line).
 
 shortened(Texts, Shown) :-
     length(Some, 11),

@@ -265,5 +265,10 @@ test(nothing, Text == 'nothing: no value') :-
 test(many_are_shortened, Text == 'm: 1 2 3 4 5 6 7 8 9 10 11 ...') :-
     findall(case{n:N}-m{m:N}, between(1, 13, N), Points),
     claim_found(test_claims:(m > 0), Points, [n], Text).
+test(parameters_may_be_compound, Text == 'm: mix(1,2) 1 2, mix(2,1) 3') :-
+    Points = [ case{k:mix(1,2), n:1}-measures{m:1},
+               case{k:mix(1,2), n:2}-measures{m:2},
+               case{k:mix(2,1), n:1}-measures{m:3} ],
+    claim_found(test_claims:(m > 0), Points, [k, n], Text).
 
 :- end_tests(claims_found).
