@@ -13,9 +13,8 @@
 
 /** <module> The same seed, the same log: of every mechanism, on any load
 
-Each mechanism is run four times, half of them while four other processes want
-the processors.  With TYPHON_REPEATS=10 in the environment each half has as
-many as that.
+Each mechanism is run once alone, and once while four other processes want the
+processors; with TYPHON_REPEATS=10 in the environment as many times each.
 
 *Threading*: one test at a time.
 */
@@ -52,7 +51,7 @@ small(murdoch, 'allocation/figure_7_1_to_7_3',
 repeats(Count) :-
     (   getenv('TYPHON_REPEATS', Atom)
     ->  atom_number(Atom, Count)
-    ;   Count = 2
+    ;   Count = 1
     ).
 
 %   different(+Name, +File, +Given, -Counts, +Dir): Counts is [1] if all logs
