@@ -6,7 +6,7 @@
 
 runs every test_*.pl in the folders of test/, or those named (`frame` for
 test/prolog/kernel/wire/test_frame.pl, `prolog/kernel/wire` for all in that
-folder), each in a process of its own, three at a time, and reports.  The last
+folder), each in a process of its own, some at a time, and reports.  The last
 line is `N passed, N failed`; above it stand the names of what failed, and
 `N skipped`.  The exit status is 0 only if nothing failed.
 
@@ -24,33 +24,30 @@ would have the signals blocked that the thread has, SIGINT for one.
 :- use_module('lib/quick_swipl', [quick_swipl/2]).
 :- use_module(library(apply), [exclude/3, foldl/4, maplist/3]).
 :- use_module(library(filesex), [directory_file_path/3, directory_member/3]).
-:- use_module(library(lists), [append/2, member/2, nth1/3, selectchk/3]).
+:- use_module(library(lists), [append/2, member/2, nth1/3, selectchk/3, sum_list/2]).
 :- use_module(library(main), [main/0]).
 :- use_module(library(pairs), [map_list_to_pairs/3, pairs_values/2]).
 :- use_module(library(process),
               [ process_create/3, process_kill/2, process_wait/2,
                 process_wait/3
               ]).
-:- use_module(library(readutil), [read_file_to_string/3]).
+:- use_module(library(readutil),
+              [read_file_to_string/3, read_line_to_string/2]).
 
 :- initialization(main, main).
 
 :- public main/1.
 
-%   Of two processors many suites use less than one: they wait.
+%   Many suites mostly wait: so many run at a time, and more where processors
+%   have nothing to do.
 
-suites_at_a_time(3).
+suites_at_a_time(3, 7).
+idle_share(0.35).                       % of the time of all processors
 suite_deadline(600).                    % seconds
-
-%   They use a quarter of a processor, and run beside as many others.
-
-waits(job(File, _, _, _, _, _)) :-
-    suite_name(File, Name),
-    memberchk(Name, [chaos, scripted, faults, network_journal]).
 
 %   What takes long begins early, that all end at about the same time.
 
-longest([ chaos, scripted, faults, network_journal, shell, lasting, wire, doc,
+longest([ chaos, shell, scripted, faults, network_journal, lasting, wire, doc,
           hop, sync_network, auction_network, cluster,
           network, study_work, pack, robots, boxes_arena, ring,
           learning_network, repeatable, agent, scheduler, letters, app ]).
@@ -96,19 +93,69 @@ run_suites(Files, Suites, Dir) :-
 
 run_suites([], [], [], _) :-
     !.
-run_suites([File|Files], Jobs, Suites, By) :-
-    exclude(waits, Jobs, Busy),
-    length(Busy, Running),
-    suites_at_a_time(Most),
-    Running < Most,
-    !,
+run_suites(Files0, Jobs0, Suites, By) :-
+    wait_until(step(Files0, Jobs0, Step), 1 000 000),
+    run_step(Step, Files0, Jobs0, Suites, By).
+
+run_step(start, [File|Files], Jobs, Suites, By) :-
     start_suite(File, By, Job),
     run_suites(Files, [Job|Jobs], Suites, By).
-run_suites(Files, Jobs0, [Suite|Suites], By) :-
-    wait_until(ended_job(Jobs0, Job, Status), 1 000 000),
+run_step(ended(Job, Status), Files, Jobs0, [Suite|Suites], By) :-
     selectchk(Job, Jobs0, Jobs),
     end_suite(Job, Status, Suite),
     run_suites(Files, Jobs, Suites, By).
+
+%   step(+Files, +Jobs, -Step) is semidet.
+
+step([_|_], Jobs, start) :-
+    length(Jobs, Running),
+    suites_at_a_time(Some, Most),
+    (   Running < Some
+    ->  true
+    ;   Running < Most,
+        processors_idle
+    ),
+    !.
+step(_, Jobs, ended(Job, Status)) :-
+    ended_job(Jobs, Job, Status).
+
+%   processors_idle is semidet.
+%
+%   For a second since the last look processors had little to do.  Fails where
+%   there is no /proc/stat.
+
+processors_idle :-
+    get_time(Now),
+    (   nb_current(looked, look(Then, _, _)),
+        Now < Then+1
+    ->  fail
+    ;   processor_times(Idle, All)
+    ),
+    (   nb_current(looked, look(_, Idle0, All0))
+    ->  true
+    ;   Idle0 = Idle,
+        All0 = 0
+    ),
+    nb_setval(looked, look(Now, Idle, All)),
+    idle_share(Share),
+    Idle-Idle0 > Share*(All-All0).
+
+%   processor_times(-Idle, -All) is semidet: of all processors, in ticks.
+
+processor_times(Idle, All) :-
+    catch(setup_call_cleanup(
+              open('/proc/stat', read, In),
+              read_line_to_string(In, Line),
+              close(In)),
+          error(_, _), fail),
+    split_string(Line, " ", " ", ["cpu"|Words0]),
+    exclude(==(""), Words0, Words),
+    maplist(word_number, Words, Times),
+    Times = [_, _, _, Idle|_],
+    sum_list(Times, All).
+
+word_number(Word, Number) :-
+    number_string(Number, Word).
 
 suite_files([], Files) :-
     !,
