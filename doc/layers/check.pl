@@ -25,7 +25,7 @@ problem(unused_import(File, Target, PI)) :-
     imported_as(Import, PI, Name),
     \+ mentions_too(File, Name).
 problem(unused_export(File, PI)) :-
-    layer_module(File, _, _),
+    layer_file(File, _),
     export(File, PI),
     \+ used(File, PI).
 problem(unused_at_interface(Interface, PI)) :-
@@ -35,21 +35,21 @@ problem(unused_at_interface(Interface, PI)) :-
     offered(Module, List, PI),
     \+ used(Interface, PI).
 problem(no_such_file(File, Target)) :-
-    layer_module(File, _, _),
+    layer_file(File, _),
     ( import(File, Target, _) ; reexport(File, Target, _) ),
     Target \= library(_),
     \+ exists_file(Target).
 problem(against_layers(File, Target)) :-
-    layer_module(File, Layer, _),
+    layer_file(File, Layer),
     ( import(File, Target, _) ; reexport(File, Target, _) ),
     \+ may_import(Layer, Target).
 problem(past_interface(File, Module, PI)) :-
     reaches(File, Module, PI),
     PI \= _/0,                          % settings are named like this
-    layer_module(File, _, _),
+    layer_file(File, _),
     \+ module_of(File, Module),
     module_of(Module, Module),
-    layer_module(Module, _, _),
+    layer_file(Module, _),
     \+ hook(Module, PI).
 problem(circle(File)) :-
     layer_module(File, _, _),
@@ -118,14 +118,6 @@ is_test(File) :-
     inside('test/', Tests),
     atom_concat(Tests, _, File).
 
-face(File) :- inside('prolog/typhon.pl', File).
-face(File) :- inside('prolog/typhon/kernel.pl', File).
-face(File) :- inside('prolog/typhon/nxt.pl', File).
-face(File) :- inside('prolog/typhon/python.pl', File).
-face(File) :- inside('prolog/typhon/mqtt.pl', File).
-face(File) :- inside('prolog/typhon/ros.pl', File).
-face(File) :- inside('prolog/typhon/fipa.pl', File).
-
 may_import(_, Target) :-
     \+ module_of(Target, _),
     !.
@@ -171,9 +163,9 @@ reaches_by_import(From, To, Seen) :-
     reaches_by_import(Next, To, [Next|Seen]).
 
 next_module(From, To) :-
-    layer_module(From, Layer, _),
+    layer_file(From, Layer),
     import(From, To, _),
-    layer_module(To, Layer, _).
+    layer_file(To, Layer).
 
 report(Problem) :-
     says(Problem, Format, Args0),

@@ -135,11 +135,11 @@ path(File, Path) :-
 
 %!  on_demand(?File, ?Part) is nondet.
 %
-%   File is a module of the layer Part and not loaded with library(typhon).
+%   File is of the layer Part and not loaded with library(typhon).
 
 on_demand(File, Part) :-
     loaded_at_once(AtOnce),
-    layer_module(File, Part, _),
+    layer_file(File, Part),
     \+ memberchk(File, AtOnce).
 
 :- dynamic at_once/1.

@@ -54,13 +54,13 @@ seam_problem(hook_not_declared(File, Hook)) :-
     defines(File, Hook),
     Hook = Module:_,
     module_of(Owner, Module),
-    layer_module(Owner, _, _),
+    layer_file(Owner, _),
     \+ declares(Owner, Hook).
 seam_problem(hook_without_definition(File, Hook)) :-
     declares(File, Hook),
     Hook = Module:PI,
     module_of(File, Module),
-    layer_module(File, _, _),
+    layer_file(File, _),
     \+ defines(_, Hook),
     \+ defines_own(File, PI),
     \+ ( mentions(Test, Module), is_test(Test) ).
@@ -76,8 +76,8 @@ breaks_rule(File, Hook) :-
     defines(File, Hook),
     Hook = Module:_,
     module_of(Owner, Module),
-    layer_module(Owner, Layer, _),
-    layer_module(File, Definer, _),
+    layer_file(Owner, Layer),
+    layer_file(File, Definer),
     \+ not_above(Layer, Definer).
 
 defines_own(File, PI) :-

@@ -17,8 +17,10 @@
             pauses/2,           % ?File, -Count
             inside/2,           % ?Relative, ?File
             layers/1,           % -Layers
-            layer_module/3,             % ?File, ?Layer, ?Name
-            interface/2,             % ?File, ?Layer
+            layer_module/3,     % ?File, ?Layer, ?Name
+            interface/2,        % ?File, ?Layer
+            layer_file/2,       % ?File, ?Layer
+            face/1,             % ?File
             offered/3           % +Module, +List, ?PI
           ]).
 :- use_module(library(aggregate), [aggregate_all/3]).
@@ -295,10 +297,11 @@ layers([ 'kernel/base', 'bridges/helper', 'bridges/nxt', 'kernel/program',
 
 %!  layer_module(?File, ?Layer, ?Name) is nondet.
 %!  interface(?File, ?Layer) is nondet.
+%!  layer_file(?File, ?Layer) is nondet.
 %
 %   File is a module inside the folder of Layer; is the interface of Layer,
 %   which stands beside the folder, or in prolog/typhon if programs of users
-%   import it.
+%   import it; is one of both, and no face.
 
 layer_module(File, Layer, Name) :-
     module_of(File, _),
@@ -319,6 +322,23 @@ interface(File, Layer) :-
     ),
     format(atom(Relative), 'prolog/typhon/~w.pl', [Path]),
     inside(Relative, File).
+
+layer_file(File, Layer) :-
+    layer_module(File, Layer, _).
+layer_file(File, Layer) :-
+    interface(File, Layer),
+    \+ face(File).
+
+%!  face(?File) is nondet.
+%
+%   Programs of users import File.
+
+face(File) :-
+    member(Path, [ 'prolog/typhon.pl', 'prolog/typhon/kernel.pl',
+                   'prolog/typhon/nxt.pl', 'prolog/typhon/python.pl',
+                   'prolog/typhon/mqtt.pl', 'prolog/typhon/ros.pl',
+                   'prolog/typhon/fipa.pl' ]),
+    inside(Path, File).
 
 is_layer(Layer) :-
     layers(Layers),

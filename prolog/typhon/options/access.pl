@@ -1,9 +1,129 @@
 :- module(typhon_access, []).
+:- use_module(library(apply), [maplist/2]).
+:- use_module(library(error), [domain_error/2, must_be/2]).
+:- use_module(library(lists), [member/2]).
+:- use_module('../kernel/base/error_text', [print_error/2]).
+:- use_module('../kernel/wire', [endpoint_proof/2]).
+:- use_module('../kernel/host', [host_option/2]).
 
-/** <module> Access: which processes may do what on a host
+/** <module> Rules for peers, and a record of what they did
 
-The options peer(Rules) and audit(File) of hosts.  This is the interface of
-the layer.
+The option peer(Rules) of a host is a list of Peer-Rights.  Peer is `cookie`,
+certificate(Name), or a pattern of these; Rights is `all` or a list of rights,
+see typhon_peer_rights; that to inspect is `watch` here.  The first rule that
+matches how a peer has proved itself counts; without a match it has no right.
+
+With the option audit(File) each security event is a line there,
+
+    audit(Time, Host, Peer, Proof, What).
+
+*Threading*: any thread; a mutex keeps lines whole.
 */
 
-:- use_module(access/access_rules, []).
+:- multifile
+    typhon_host_parts:changeable/1,
+    typhon_host_parts:changes/2,
+    typhon_host_parts:check/1,
+    typhon_host_parts:part/4,
+    typhon_options:declared/4.
+
+typhon_options:declared(host_option, peer(Rules), list, Rules).
+typhon_options:declared(host_option, audit(File), atom, File).
+
+typhon_host_parts:check(Options) :-
+    forall(member(peer(Rules), Options), must_be_peer_rules(Rules)).
+
+typhon_host_parts:changeable(audit(_)).
+typhon_host_parts:changeable(peer(_)).
+
+typhon_host_parts:changes(peer(Rules), _) :-
+    must_be_peer_rules(Rules).
+
+typhon_host_parts:part(admit, Host, 10, typhon_access:forbids(Rules)) :-
+    once(host_option(Host, peer(Rules))).
+typhon_host_parts:part(permit, Host, 10, typhon_access:permits(Rules)) :-
+    once(host_option(Host, peer(Rules))).
+typhon_host_parts:part(security, Host, 10, typhon_access:note(File)) :-
+    once(host_option(Host, audit(File))).
+
+                /*******************************
+                *             RULES            *
+                *******************************/
+
+:- public forbids/5, permits/3, note/5.
+
+%   forbids(+Rules, +From, +Entrant, +Host, -Verdict): see typhon_gate.
+
+forbids(Rules, from(Peer, _, _), _, _, refused(peer)) :-
+    endpoint_proof(Peer, Proof),
+    \+ permits(Rules, Proof, agents).
+
+%   permits(+Rules, +Proof, +Right): see typhon_peer_rights.
+
+permits(Rules, Proof, Right) :-
+    member(Peer-Rights, Rules),
+    subsumes_term(Peer, Proof),
+    !,
+    (   Rights == all
+    ->  true
+    ;   named(Right, Name),
+        memberchk(Name, Rights)
+    ).
+
+named(inspect, watch) :-
+    !.
+named(Right, Right).
+
+right(agents).
+right(messages).
+right(orders).
+right(remote).
+right(watch).
+
+%   @error domain_error(peer_rule, Rule)
+
+must_be_peer_rules(Rules) :-
+    must_be(list, Rules),
+    maplist(must_be_rule, Rules).
+
+must_be_rule(Rule) :-
+    (   nonvar(Rule),
+        Rule = Peer-Rights,
+        \+ \+ member(Peer, [cookie, certificate(_)]),
+        rights(Rights)
+    ->  true
+    ;   domain_error(peer_rule, Rule)
+    ).
+
+rights(Rights) :-
+    Rights == all,
+    !.
+rights(Rights) :-
+    is_list(Rights),
+    forall(member(Right, Rights), ( ground(Right), right(Right) )).
+
+                /*******************************
+                *             AUDIT            *
+                *******************************/
+
+%   note(+File, +Host, +Peer, +Proof, +What): see security_event/4.
+
+note(File, Host, Peer, Proof, What0) :-
+    get_time(Time),
+    ( What0 == refused(inspect) -> What = refused(watch) ; What = What0 ),
+    catch(with_mutex(typhon_audit,
+                     append_line(File,
+                                 audit(Time, Host, Peer, Proof, What))),
+          error(Formal, Context),
+          print_error(error, error(Formal, Context))).
+
+%   What a peer has said is written so that it can be read again, and not at
+%   any length.
+
+append_line(File, Entry) :-
+    setup_call_cleanup(
+        open(File, append, Out, [encoding(utf8)]),
+        write_term(Out, Entry,
+                   [ quoted(true), ignore_ops(true), max_depth(20),
+                     fullstop(true), nl(true) ]),
+        close(Out)).

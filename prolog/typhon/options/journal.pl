@@ -24,13 +24,13 @@ is the interface of the layer.
 %!  hosts_journal(+Where, +Options) is det.
 %!  hosts_back(+Options) is det.
 %
-%   See module typhon_journaled_hosts.
+%   See module typhon_recovery.
 
 hosts_journal(Where, Options) :-
-    journal_call(typhon_journaled_hosts:hosts_journal(Where, Options)).
+    journal_call(typhon_recovery:hosts_journal(Where, Options)).
 
 hosts_back(Options) :-
-    journal_call(typhon_journaled_hosts:hosts_back(Options)).
+    journal_call(typhon_recovery:hosts_back(Options)).
 
 %!  journal_part(+Where, +P, -Part) is det.
 %

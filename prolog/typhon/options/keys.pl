@@ -8,8 +8,23 @@
                                         % -Sealed
             keys_unseal/3,              % +Directory, +Sealed, -Text
             keys_certificate/2,         % +Directory, -Certificate
-            keys_holder/3               % +Directory, +Certificate, -Holder
+            keys_holder/3,              % +Directory, +Certificate, -Holder
+            keys_file/3,                % +Directory, +Which, -File
+            key_loaded/3                % +Directory, +Which, -Loaded
           ]).
+:- use_module(library(error), [permission_error/3]).
+:- autoload(library(crypto),
+            [ crypto_data_decrypt/6, crypto_data_encrypt/6, crypto_data_hash/3,
+              crypto_n_random_bytes/2, hex_bytes/2, rsa_private_decrypt/4,
+              rsa_public_decrypt/4, rsa_public_encrypt/4, rsa_sign/4 ]).
+:- autoload(library(ssl),
+            [ certificate_field/2, load_certificate/2, load_crl/2,
+              load_private_key/3 ]).
+:- autoload(library(filesex), [directory_file_path/3]).
+:- autoload(library(readutil), [read_file_to_string/3]).
+:- use_module(library(settings), [setting/4]).
+:- use_module('../kernel/base/on_demand', [on_demand_load/2]).
+:- use_module('../kernel/base/bounds', [bounded/2]).
 
 /** <module> Keys: what hosts and authors sign, seal and prove with
 
@@ -27,21 +42,9 @@ The keys of this process are those with which its endpoint was started.  The
 options tls, identity and trail stand on them.  This is the interface of the
 layer.
 
-*Threading*: any thread; own keys begin and end under the mutex of the endpoint.
+*Threading*: any thread; own keys begin and end under the mutex of the endpoint,
+another serialises what is kept of files.
 */
-
-:- use_module(library(error), [permission_error/3]).
-:- use_module('../kernel/base/on_demand', [on_demand_load/2]).
-:- use_module(keys/key_files,
-              [key_found/4, key_loaded/3, key_loaded/4, pem_certificate/2]).
-:- reexport(keys/key_files, [key_loaded/3, keys_file/3]).
-
-:- autoload(library(crypto),
-            [ crypto_data_decrypt/6, crypto_data_encrypt/6,
-              crypto_data_hash/3, crypto_n_random_bytes/2, hex_bytes/2,
-              rsa_private_decrypt/4, rsa_public_decrypt/4,
-              rsa_public_encrypt/4, rsa_sign/4 ]).
-:- autoload(library(ssl), [certificate_field/2]).
 
 :- multifile
     begin/0,                            % the process has keys
@@ -218,3 +221,96 @@ octets_hex(Octets, Hex) :-
 hex_octets(Hex, Octets) :-
     hex_bytes(Hex, Bytes),
     string_codes(Octets, Bytes).
+
+                /*******************************
+                *        FILES OF KEYS         *
+                *******************************/
+
+:- meta_predicate key_found(+, +, 1, -).
+
+:- dynamic
+    loaded/3,                           % File, Stamp, Loaded
+    found/4.                            % Hash, Pem, Stamp, Found
+
+:- setting(typhon_base_key_files:certificates, positive_integer, 256,
+           "Now typhon_keys:certificates").
+:- setting(certificates, positive_integer, 256,
+           "Certificates of which it is remembered whose they are").
+
+%   To read and parse files of keys costs as much as to sign: what was read stays
+%   until the file is another. So does what was found out about a certificate,
+%   until the files that it depends on are.
+
+%!  keys_file(+Directory, +Which, -File) is det.
+%
+%   Which is `cert`, `key`, `ca` or `crl`.
+
+keys_file(Directory, Which, File) :-
+    file_name_extension(Which, pem, Name),
+    directory_file_path(Directory, Name, File).
+
+%!  key_loaded(+Directory, +Which, -Loaded) is det.
+%
+%   Loaded is what the file contains: of `cert` the text, of the others what
+%   library(ssl) makes of them.
+
+key_loaded(Directory, Which, Loaded) :-
+    key_loaded(Directory, Which, Loaded, _).
+
+%   Stamp is another when the file is.
+
+key_loaded(Directory, Which, Loaded, Stamp) :-
+    keys_file(Directory, Which, File),
+    time_file(File, Time),
+    size_file(File, Size),
+    Stamp = Time-Size,
+    (   loaded(File, Stamp, Loaded0)
+    ->  Loaded = Loaded0
+    ;   load(Which, File, Loaded),
+        with_mutex(typhon_keys,
+                   ( retractall(loaded(File, _, _)),
+                     assertz(loaded(File, Stamp, Loaded)) ))
+    ).
+
+load(cert, File, Pem) :-
+    !,
+    read_file_to_string(File, Pem, []).
+load(Which, File, Loaded) :-
+    setup_call_cleanup(
+        open(File, read, In),
+        load_from(Which, In, Loaded),
+        close(In)).
+
+load_from(key, In, Key) :-
+    load_private_key(In, "", Key).
+load_from(ca, In, Certificate) :-
+    load_certificate(In, Certificate).
+load_from(crl, In, List) :-
+    load_crl(In, List).
+
+%   key_found(+Pem, +Stamp, :Find, -Found) is semidet: Found is what
+%   call(Find, Found) finds about the certificate Pem, as long as Stamp is the
+%   same.
+
+key_found(Pem, Stamp, Find, Found) :-
+    term_hash(Pem, Hash),
+    (   found(Hash, Pem, Stamp, Found0)
+    ->  Found = Found0
+    ;   call(Find, Found),
+        with_mutex(typhon_keys, remember(Hash, Pem, Stamp, Found))
+    ).
+
+remember(Hash, Pem, Stamp, Found) :-
+    retractall(found(Hash, Pem, _, _)),
+    assertz(found(Hash, Pem, Stamp, Found)),
+    bounded(found(_, _, _, _), typhon_keys:certificates).
+
+%   pem_certificate(+Pem, -Certificate) is semidet: fails if Pem is none.
+
+pem_certificate(Pem, Certificate) :-
+    catch(setup_call_cleanup(
+              open_string(Pem, In),
+              load_certificate(In, Certificate),
+              close(In)),
+          error(_, _),
+          fail).

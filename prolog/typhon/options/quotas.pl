@@ -1,4 +1,10 @@
 :- module(typhon_quotas, []).
+:- use_module(library(lists), [append/3, member/2]).
+:- use_module('../kernel/host', [host_option/2]).
+:- use_module(quotas/quota_agents, [quota_agents_again/1]).
+:- use_module(quotas/quota_enforcer, [enforcer_adapt/0]).
+:- use_module(quotas/quota_table, [quota/3, quotas_drop/1, quotas_put/3]).
+:- use_module(quotas/usage, [usage_forget/1]).
 
 /** <module> How much agents may use on a host
 
@@ -27,8 +33,79 @@ the agents of the owner that uses most of it.
 A host that admits agents which it does not trust has defaults for what the
 option does not say.  A host without quotas has none of the parts below.
 This is the interface of the layer.
+
+*Threading*: under the mutex of host_start/2.
 */
 
-:- use_module(quotas/quota_hosts, []).
-:- use_module(quotas/usage, []).
-:- use_module(quotas/quota_agents, []).
+:- multifile
+    typhon_host_parts:begins/3,
+    typhon_host_parts:changeable/1,
+    typhon_host_parts:changes/2,
+    typhon_host_parts:compiled/1,
+    typhon_host_parts:ends/1,
+    typhon_host_parts:limit/3,
+    typhon_on_demand:joins/2,
+    typhon_options:declared/4.
+
+:- dynamic changed/1.           % Host: has other quotas than its agents know
+
+typhon_options:declared(host_option, quota(List), list, List).
+
+%   Hosts that admit untrusted agents have quotas, whether they say so or not.
+
+typhon_on_demand:joins(untrusted, any).
+
+typhon_host_parts:limit(Host, What, Most) :-
+    quota(Host, What, Most).
+
+%   default(?Quota): on hosts that admit untrusted agents.
+
+default(seconds(5)).
+default(stack(67 108 864)).
+default(state(16 777 216)).
+default(cells(200 000)).
+default(clones(100)).
+default(payloads(100)).
+default(tuples(10 000)).
+default(mailbox(10 000)).
+default(messages(10 000)).
+default(facts(10 000)).
+default(hops(10 000)).
+default(log(1000)).
+default(host(tuples(100 000))).
+
+typhon_host_parts:begins(Host, _, Options) :-
+    put(Host, Options).
+
+typhon_host_parts:changeable(quota(_)).
+
+typhon_host_parts:changes(Option, Host) :-
+    functor(Option, Name, Arity),
+    functor(Same, Name, Arity),
+    findall(Other, ( host_option(Host, Other), Other \= Same ), Others),
+    put(Host, [Option|Others]).
+
+put(Host, Options) :-
+    ( memberchk(quota(Given), Options) -> true ; Given = [] ),
+    (   member(Option, Options),
+        typhon_host_parts:untrusted(Option)
+    ->  findall(Quota, default(Quota), Defaults)
+    ;   Defaults = []
+    ),
+    append(Given, Defaults, Quotas),
+    quotas_put(Host, Quotas, Changed),
+    (   Changed == true
+    ->  assertz(changed(Host)),
+        enforcer_adapt
+    ;   true
+    ).
+
+typhon_host_parts:compiled(Host) :-
+    retract(changed(Host)),
+    !,
+    quota_agents_again(Host).
+
+typhon_host_parts:ends(Host) :-
+    quotas_drop(Host),
+    enforcer_adapt,
+    usage_forget(Host).

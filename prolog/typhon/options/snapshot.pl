@@ -1,9 +1,285 @@
-:- module(typhon_snapshot, []).
+:- module(typhon_snapshot,
+          [ process_dump/2,             % +Hosts, -Items
+            process_restore/2,          % +Kind, +Items
+            process_go_on/3,            % +Kind, +Agents, +Scheduled
+            agents_at_rest/2,           % +Seconds, +Peers
+            agents_go_on/1              % +Agents
+          ]).
+:- use_module(library(error), [domain_error/2, permission_error/3]).
+:- use_module(library(lists), [member/2]).
+:- use_module(library(ordsets), [ord_subtract/3]).
+:- use_module('../kernel/base/durable',
+              [ durable/6, durable_dump/4, durable_kinds/2,
+                durable_restore/4 ]).
+:- use_module('../kernel/program', [code_receive/2, code_sent/2]).
+:- use_module('../kernel/wire', [mobile_term/1]).
+:- use_module('../kernel/host',
+              [host/3, host_again/1, schedule/2, time_repeats/2]).
+:- use_module('../kernel/agent',
+              [ agent/5, agent_enter/3, agent_home/2, agent_module/5,
+                agent_order/2, agent_ordered/1, agent_orders/2, agent_state/2,
+                agent_status/3, agents_passed/0, with_agent/2 ]).
+:- use_module('../kernel/travel',
+              [news_carried/1, post_tried/0, retries_go_on/0]).
+:- use_module('../kernel/lifecycle', [agent_reschedule/1, held_parts/3]).
 
 /** <module> All that a process knows, at a moment
 
-A network is saved so.  This is the interface of the layer: higher layers
-import from here.
+The items of all tables that outlive the process, see typhon_durable, and what
+time does not know.
+
+When no agent gets a turn any more those that run stop at their next effect, as
+they do for an order.  Agents under way arrive, or stay; messages and news
+that are being handled find their way, or wait.
+
+*Threading*: any thread, while time is held; the thread that holds it waits until
+agents rest.
 */
 
-:- reexport('snapshot/process_dump').
+%   last(-Kinds): they look up what others restore.
+
+last([ payload, backlog, program, stands, mail, order, turns, counts ]).
+
+%   repeated(?Kind): restored only where what happens is to repeat itself; another
+%   process knows better.
+
+repeated(flag).
+repeated(turns).
+repeated(counts).
+
+%   journaled(?Kind): in a journal alone.  A saved network has the like in other
+%   items (agent, state, tuple, wait), or is about what no other process has.
+
+journaled(agent).
+journaled(done).
+journaled(lasting).
+journaled(letter).
+journaled(logged).
+journaled(monitor).
+journaled(out).
+journaled(seen).
+journaled(state).
+journaled(tuple).
+journaled(wait).
+
+kind(Kind) :-
+    last(Last),
+    durable_kinds(Last, Kinds),
+    member(Kind, Kinds),
+    \+ journaled(Kind).
+
+%!  process_dump(+Hosts:list, -Items:list) is det.
+%
+%   What this process knows, but for what is about other hosts of it than Hosts,
+%   about agents that stand there, and those that left.
+%
+%   @error type_error(mobile_term, Culprit)
+%   @error permission_error(save, agent, Id) if it runs
+
+process_dump(Hosts, Items) :-
+    others(Hosts, Others),
+    findall(item(Kind, Key, N, Term),
+            ( kind(Kind),
+              durable_dump(Kind, Key, N, Term),
+              \+ is_of(Others, Kind, Key, Term),
+              can_be_written(Kind, Key, Term) ),
+            Items).
+
+%   others(+Hosts, -Others): of this process, mostly none.
+
+others(Hosts, Others) :-
+    findall(Host, ( host(Host, _, _), \+ memberchk(Host, Hosts) ), Others).
+
+%   is_of(+Hosts, +Kind, +Key, +Term): the item is about one of Hosts.
+
+is_of([Host|Hosts], Kind, Key, Term) :-
+    about(Kind, Key, Term, About),
+    on_host(About, Other),
+    memberchk(Other, [Host|Hosts]),
+    !.
+
+about(link, _, link(Host, _, _), host(Host)).
+about(payload, _, payload(Host, _), host(Host)).
+about(Kind, Host, _, host(Host)) :-
+    memberchk(Kind, [place, fact, turns, counts]).
+about(Kind, Id, _, agent(Id)) :-
+    memberchk(Kind, [ birth, born, outcome, faulty, left, clone, gone, given_up,
+                      backlog, stands, mail, order ]).
+
+on_host(host(Host), Host).
+on_host(agent(Id), Host) :-
+    (   agent(Id, Host0, _, _, _)
+    ->  Host = Host0
+    ;   agent_home(Id, Home),
+        host(Host, Home, _)
+    ).
+
+can_be_written(Kind, Key, Term) :-
+    catch(mobile_term(Term), error(Formal, _),
+          ( format(atom(Text), '~w of ~w', [Kind, Key]),
+            throw(error(Formal, context(_, Text))) )).
+
+%!  process_restore(+Kind, +Items:list) is det.
+%
+%   All is as Items say, in a process whose hosts have been started again and
+%   whose time is of that Kind.  What it knew of these agents, from when they
+%   went on here, is forgotten.
+%
+%   @error domain_error(saved_item, Item)
+
+process_restore(Time, Items) :-
+    forall(( member(item(Kind, Id, _, _), Items),
+             memberchk(Kind, [born, outcome, gone]),
+             typhon_identity:id_anew(Id) ),
+           true),
+    forall(( member(item(Kind, Key, N, Term), Items),
+             restored(Kind, Time) ),
+           is_again(Kind, Key, N, Term)).
+
+restored(Kind, Time) :-
+    (   repeated(Kind)
+    ->  time_repeats(Time, _)
+    ;   true
+    ).
+
+is_again(Kind, Key, N, Term) :-
+    durable_restore(Kind, Key, N, Term),
+    !.
+is_again(Kind, Key, N, Term) :-
+    domain_error(saved_item, item(Kind, Key, N, Term)).
+
+                /*******************************
+                *            AGENTS            *
+                *******************************/
+
+:- durable(program, Hash, 0, Sent, program_item(Hash, Sent),
+           code_receive(Hash, Sent)).
+
+program_item(Hash, Sent) :-
+    findall(Hash, agent(_, _, _, Hash, _), Hashes0),
+    sort(Hashes0, Hashes),
+    member(Hash, Hashes),
+    code_sent(Hash, Sent).
+
+:- durable(stands, Id, 0, Agent, agent_item(Id, Agent),
+           agent_restore(Id, Agent)).
+
+agent_item(Id, agent(Host, Hash, Life, State, Status, Goals)) :-
+    agent(Id, Host, Module, Hash, Life),
+    agent_status(Id, Status0, Goals0),
+    rests(Status0, Goals0, Id, Status, Goals),
+    agent_state(Module, State).
+
+agent_restore(Id, agent(Host, Hash, Life, State, Status, Goals)) :-
+    host(Host, _, Place),
+    agent_module(Id, Place, Hash, State, Module),
+    agent_enter(agent(Id, Host, Module, Hash, Life), Status, Goals),
+    host_again(Host).
+
+%   A held agent is held again at its next goal.
+
+rests(running, _, Id, _, _) :-
+    !,
+    permission_error(save, agent, Id).
+rests(_, Held, _, ready, Goals) :-
+    held_parts(Held, _, Goals),
+    !.
+rests(Status, Goals, _, Status, Goals).
+
+%   No caller waits for the answer any more.
+
+:- durable(order, Id, 0, Order, order_item(Id, Order), agent_order(Id, Order)).
+
+order_item(Id, Order) :-
+    agent(Id, _, _, _, _),
+    agent_orders(Id, Orders),
+    member(Order0, Orders),
+    Order0 \= asked(question(_), _),
+    unasked(Order0, Order).
+
+unasked(asked(Order, _), asked(Order, queue(none))) :-
+    !.
+unasked(Order, Order).
+
+%!  process_go_on(+Kind, +Agents:list, +Scheduled:list) is det.
+%
+%   Agents go on.  Where what happens repeats itself, the runtime knows the
+%   alarms, and some agents are Scheduled.
+
+process_go_on(Kind, Agents, Scheduled0) :-
+    time_repeats(Kind, _),
+    !,
+    findall(Id, ( member(Id, Agents), agent_status(Id, ready, _) ), Ready0),
+    sort(Ready0, Ready),
+    sort(Scheduled0, Scheduled),
+    ord_subtract(Ready, Scheduled, Others),
+    forall(( member(Id, Others), agent(Id, Host, _, _, _) ),
+           schedule(Host, Id)).
+process_go_on(_, Agents, _) :-
+    forall(member(Id, Agents), agent_reschedule(Id)),
+    retries_go_on.
+
+                /*******************************
+                *           AT REST            *
+                *******************************/
+
+%!  agents_at_rest(+Seconds, +Peers) is semidet.
+%
+%   No agent of this process runs or is under way any more, and nothing is
+%   queued for the endpoints Peers; fails if that is not so in
+%   Seconds.
+
+agents_at_rest(Seconds, Peers) :-
+    get_time(Now),
+    Deadline is Now+Seconds,
+    agents_passed,
+    rest_before(Deadline, Peers).
+
+%   Looks again every 10 ms: a notification would make each turn and each
+%   departure check for a waiting caller.
+
+rest_before(Deadline, Peers) :-
+    forall(( agent_status(Id, running, _), \+ agent_ordered(Id) ),
+           ignore(with_agent(Id, stops(Id)))),
+    (   \+ restless(Peers),
+        agents_passed,                  % messages follow agents that left
+        \+ restless(Peers)
+    ->  true
+    ;   get_time(Now),
+        Now < Deadline,
+        thread_self(Me),
+        \+ thread_get_message(Me, '$typhon_never', [timeout(0.01)]),
+        rest_before(Deadline, Peers)
+    ).
+
+%   An order with which nothing is done.
+
+stops(Id) :-
+    agent_status(Id, running, _),
+    agent_order(Id, asked(question(rest), queue(none))).
+
+restless(_) :-
+    agent_status(_, Status, _),
+    moves(Status),
+    !.
+restless(_) :-
+    post_tried,
+    !.
+restless(Peers) :-
+    member(Peer, Peers),
+    news_carried(Peer),
+    !.
+
+moves(running).
+moves(obeying).
+moves(arriving).
+moves(transit(_, _)).
+moves(cloning(_, _)).
+
+%!  agents_go_on(+Agents:list) is det.
+%
+%   Agents have missed their turn.
+
+agents_go_on(Agents) :-
+    forall(( member(Id, Agents), agent(Id, Host, _, _, _) ),
+           schedule(Host, Id)).

@@ -100,11 +100,10 @@ part_file(network,'network/node_process').
 part_file(network,'network/plan').
 part_file(network,'network/topology').
 part_file(network,'network/wiring').
-part_file('options/access','options/access/access_rules').
+part_file('options/access','options/access').
 part_file('options/cell','options/cell/cell_hosts').
 part_file('options/cell','options/cell/gatekeeper').
 part_file('options/directory','options/directory/offers').
-part_file('options/directory','options/directory/search').
 part_file('options/guard','options/guard/sandbox').
 part_file('options/identity','options/identity/authors').
 part_file('options/identity','options/identity/birth').
@@ -112,19 +111,18 @@ part_file('options/identity','options/identity/speakers').
 part_file('options/journal','options/journal/channel').
 part_file('options/journal','options/journal/committing').
 part_file('options/journal','options/journal/journaled_agents').
-part_file('options/journal','options/journal/journaled_hosts').
 part_file('options/journal','options/journal/postgresql').
 part_file('options/journal','options/journal/recovery').
 part_file('options/journal','options/journal/sqlite').
 part_file('options/journal','options/journal/store').
 part_file('options/migration','options/migration/pheromone').
 part_file('options/migration','options/migration/strategy').
+part_file('options/quotas','options/quotas').
 part_file('options/quotas','options/quotas/quota_agents').
 part_file('options/quotas','options/quotas/quota_enforcer').
-part_file('options/quotas','options/quotas/quota_hosts').
 part_file('options/quotas','options/quotas/quota_table').
 part_file('options/quotas','options/quotas/usage').
-part_file('options/snapshot','options/snapshot/process_dump').
+part_file('options/snapshot','options/snapshot').
 part_file('options/supervision','options/supervision/gone').
 part_file('options/supervision','options/supervision/monitors').
 part_file('options/supervision','options/supervision/relations').
@@ -163,8 +161,8 @@ part_setting(ball_cells,typhon_guard_calls,positive_integer,10000,'What untruste
 part_setting(births,typhon_birth,positive_integer,20000,'Of so many agents that were here the owners are remembered','options/identity/birth').
 part_setting(browsers,typhon_page_browsers,positive_integer,32,'So many browsers may look at a page at a time','tools/page/browsers').
 part_setting(cells,typhon_cells,positive_integer,16,'Processes for agents of untrusted owners, at most','options/cell/cells').
-part_setting(certificates,typhon_base_key_files,positive_integer,256,'Now typhon_key_files:certificates','options/keys/key_files').
-part_setting(certificates,typhon_key_files,positive_integer,256,'Certificates of which it is remembered whose they are','options/keys/key_files').
+part_setting(certificates,typhon_base_key_files,positive_integer,256,'Now typhon_keys:certificates','options/keys').
+part_setting(certificates,typhon_keys,positive_integer,256,'Certificates of which it is remembered whose they are','options/keys').
 part_setting(channel_seconds,typhon_channel,number,300,'Posts for a process that has left, and keeps no journal as far as is known, are kept so long','options/journal/channel').
 part_setting(clause_cells,typhon_guard_limits,positive_integer,200000,'Clauses that untrusted agents add have at most so many parts','options/guard/guard_limits').
 part_setting(clause_cells,typhon_refusing,positive_integer,200000,'Now typhon_guard_limits:clause_cells','options/guard/guard_limits').
@@ -182,8 +180,8 @@ part_setting(idle,typhon_cells,number,60,'Seconds after which a cell that no age
 part_setting(kill_seconds,typhon_processes,number,10,'A process that was killed has so long to be gone','network/processes').
 part_setting(last_seconds,typhon_watches,number,2,'unwatch/1 waits so long for what has happened before','options/watch/watches').
 part_setting(links,typhon_trail,positive_integer,32,'So many links of the trail of an agent are kept','options/trail/trail').
-part_setting(longest,typhon_ros_rosbridge,nonneg,4000000,'Characters of one message from a rosbridge server','bridges/ros/websocket').
-part_setting(longest,typhon_ros_socket,nonneg,4000000,'Now typhon_ros_rosbridge:longest','bridges/ros/websocket').
+part_setting(longest,typhon_ros_rosbridge,nonneg,4000000,'Characters of one message from a rosbridge server','bridges/ros/rosbridge').
+part_setting(longest,typhon_ros_socket,nonneg,4000000,'Now typhon_ros_rosbridge:longest','bridges/ros/rosbridge').
 part_setting(memory,typhon_cells,positive_integer,1500000000,'Bytes of address space that a cell may have','options/cell/cell_process').
 part_setting(met,typhon_fipa_platform,positive_integer,10000,'Agents of other platforms whose addresses are remembered','bridges/fipa/platform').
 part_setting(most,typhon_ros_advertisements,positive_integer,1000,'Topics and services that a host may use, each in its way','bridges/ros/advertisements').

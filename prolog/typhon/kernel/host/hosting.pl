@@ -106,7 +106,7 @@ other users of the process its endpoint, see typhon_runtime.
 %     - cell(+Kind): with a policy agents run in processes that the system walls
 %       in: `owner`, one for each owner of agents, the default where the system
 %       can do it, `host`, one for all, or `none`, see doc/security.md
-%     - peer(+Rules): which processes may do what, see typhon_access_rules
+%     - peer(+Rules): which processes may do what, see typhon_access
 %     - audit(+File): refusals and orders are noted there
 %     - quota(+List): how much agents may use, each, those of one owner, and
 %       all, see typhon_quotas

@@ -10,8 +10,7 @@
 :- use_module('../../kernel/wire', [mobile_term/1]).
 :- use_module('../../kernel/host',
               [context/3, context_host/1, context_now/2, host/3, parts_call/3]).
-:- autoload(offers, [offer_add/4, offer_remove/2]).
-:- autoload(search, [search/4]).
+:- autoload(offers, [offer_add/4, offer_remove/2, search/4]).
 
 /** <module> What agents say to offer and find services
 

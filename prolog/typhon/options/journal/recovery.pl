@@ -1,24 +1,38 @@
-:- module(typhon_recovery, []).
+:- module(typhon_recovery,
+          [ hosts_journal/2,            % +Where, +Options
+            hosts_back/1                % +Options
+          ]).
 :- use_module(library(debug), [debug/3]).
-:- use_module(library(lists), [member/2]).
+:- use_module(library(lists), [append/3, member/2, selectchk/3]).
+:- use_module(library(option), [option/3]).
 :- use_module('../../kernel/base/durable',
-              [durable/6, durable_kinds/2, durable_order/2, durable_restore/4]).
+              [ durable/6, durable_kinds/2, durable_order/2,
+                durable_restore/4 ]).
 :- use_module('../../kernel/base/error_text', [print_error/2]).
 :- use_module('../../kernel/base/durable_changes',
-              [durable_drop_all/2, durable_item/5]).
-:- use_module('../../kernel/host', [host/3, host_again/1]).
+              [ durable_begin/0, durable_close/0, durable_drop_all/2,
+                durable_end/0, durable_item/5, durable_number_after/1,
+                durable_open/3 ]).
+:- use_module('../../kernel/host',
+              [ host/3, host_again/1, host_begin/2, host_end/1, host_note/1,
+                hosts_exclusively/1, hosts_go_on/0, time_apart/2,
+                time_wanted/2 ]).
 :- use_module('../../kernel/agent', [agent/5, agent_status/3]).
 :- use_module('../../kernel/lifecycle', [agent_reschedule/1]).
+:- use_module('../../kernel/wire', [endpoint_address/1, endpoint_open/0]).
 :- use_module(journaled_agents, [agent_back/3, states_unused/1]).
+:- use_module(store, [journal_opened/1, journal_place/2]).
 
-/** <module> What the journal knows stands again
+/** <module> Hosts that start with a journal
 
+The first host of a process that has the option journal(Where) opens it.  Then
+all hosts that the journal knows start, and what else it knows is restored.
 First everything is put where it was, while no peer is let in and no agent
 runs, see typhon_durable.  Then it goes on: agents whose time has come, or that
 were about to run, are scheduled, alarms are set, what was under way is asked
 for or sent again.
 
-*Threading*: the thread that starts the first host of the process.
+*Threading*: as host_start/2.
 */
 
 :- multifile
@@ -26,9 +40,13 @@ for or sent again.
     typhon_durable:go_on/0,
     typhon_durable:recover/0,
     typhon_durable:tidy/0,
+    typhon_host_parts:ends/1,
+    typhon_host_parts:unnoted/1,
+    typhon_hosting:starts/2,
     typhon_runtime:ending/1.
 
 :- dynamic
+    restored/1,                 % Name: was started because the journal says so
     superfluous/2,              % Kind, Key: no agent needs it
     left/2.                     % Id, Hash: an agent that is not back
 
@@ -117,3 +135,123 @@ typhon_durable:tidy :-
 typhon_durable:go_on :-
     findall(Id, agent_status(Id, _, _), All),
     forall(member(Id, All), agent_reschedule(Id)).
+
+                /*******************************
+                *            HOSTS             *
+                *******************************/
+
+%   A host that was restored may be started once more, which changes nothing.
+
+typhon_hosting:starts(Name, Options) :-
+    (   retract(restored(Name))
+    ->  true
+    ;   memberchk(journal(Where), Options),
+        \+ host(Name, _, _),
+        journal_place(Where, Place),
+        \+ journal_opened(Place),
+        start_from(Where, Name, Options)
+    ).
+
+%   There may be a password in it.
+
+typhon_host_parts:unnoted(journal(_)).
+typhon_host_parts:unnoted(sync(_)).
+
+typhon_host_parts:ends(Name) :-
+    retractall(restored(Name)).
+
+%   start_from(+Where, +Name, +Options): with all that is in the journal.
+
+start_from(Where, _, Options) :-
+    time_wanted(Options, Kind),
+    time_apart(Kind, _),
+    !,
+    format(atom(Why), 'not in ~w time', [Kind]),
+    not_here(Where, Why).
+start_from(Where, Name, Options) :-
+    open_journal(Where, Options),
+    catch(begin_from_journal(Name, Options), Ball,
+          ( durable_close, give_up_hosts, durable_end, throw(Ball) )).
+
+begin_from_journal(Name, Options) :-
+    findall(Other-Known, known(Other, Known), Hosts),
+    (   selectchk(Name-Known, Hosts, Others)
+    ->  with_known(Known, Options, AllOptions)
+    ;   AllOptions = Options,
+        Others = Hosts
+    ),
+    host_begin(Name, AllOptions),
+    all_back(Others),
+    hosts_go_on.
+
+all_back(Hosts) :-
+    forall(member(Name-Options, Hosts),
+           ( host_begin(Name, Options),
+             assertz(restored(Name)) )),
+    forall(typhon_durable:recover, true),
+    durable_begin,
+    forall(typhon_durable:tidy, true),
+    forall(host(Host, _, _), host_note(Host)),
+    endpoint_open.
+
+give_up_hosts :-
+    retractall(restored(_)),
+    forall(host(Name, _, _), ignore(host_end(Name))).
+
+%   @error permission_error(open, journal, Place), and as durable_open/3
+
+open_journal(Where, _) :-
+    endpoint_address(_),
+    !,
+    not_here(Where, 'this process has hosts already').
+open_journal(Where, Options) :-
+    option(sync(Sync), Options, normal),
+    option(wait(Seconds), Options, 0.2),
+    durable_open(Where, Sync, Seconds),
+    catch(forall(durable_item(number, any, _, _, N),
+                 durable_number_after(N)), Ball,
+          ( durable_end, throw(Ball) )).
+
+not_here(Where, Why) :-
+    journal_place(Where, Place),
+    throw(error(permission_error(open, journal, Place), context(_, Why))).
+
+%   known(?Name, -Options) is nondet: the journal knows the host.
+
+known(Name, Options) :-
+    durable_item(host, numbers, Name, _, Options).
+
+%   with_known(+Known, +Options, -All): All are Options, and those Known of
+%   which these say nothing.
+
+with_known(Known, Options, All) :-
+    findall(Option,
+            ( member(Option, Known),
+              functor(Option, OptionName, Arity),
+              functor(Given, OptionName, Arity),
+              \+ memberchk(Given, Options) ),
+            More),
+    append(Options, More, All).
+
+%!  hosts_journal(+Where, +Options) is det.
+%!  hosts_back(+Options) is det.
+%
+%   What a host with the option journal(Where) does when it starts, in steps,
+%   for callers that act in between, or have no host yet: the journal is open,
+%   and the process may start its endpoint; all that it knows is there again,
+%   its hosts with Options in place of what they had, and others are let in.
+%   Then hosts_go_on/0 is to be called.
+%
+%   @arg Options of hosts_journal/2 are sync(How), as of host_start/2, and
+%        wait(Seconds): so long for another process that has it, which is
+%        about to end
+%   @error permission_error(open, journal, Place), and as durable_open/3
+
+hosts_journal(Where, Options) :-
+    hosts_exclusively(open_journal(Where, Options)).
+
+hosts_back(Options) :-
+    findall(Name-All,
+            ( known(Name, Known), with_known(Known, Options, All) ),
+            Hosts),
+    hosts_exclusively(all_back(Hosts)).

@@ -1,14 +1,17 @@
 :- module(typhon_page_looking,
           [ look/2,                     % +Message, -Answer
-            first_sight/1               % -Dict
+            first_sight/1,              % -Dict
+            world_start/1,              % +Options
+            world_stop/0,
+            world_shown/0
           ]).
 :- use_module(library(apply), [maplist/3, partition/4]).
-:- use_module(library(error), [domain_error/2, must_be/2]).
+:- use_module(library(error), [domain_error/2, existence_error/2, must_be/2]).
 :- use_module(library(lists),
               [append/3, member/2, memberchk/2, nth1/3, selectchk/4]).
+:- use_module(library(option), [option/2]).
 :- use_module('../../kernel/host', [address_parts/3]).
-:- use_module('../../kernel/lifecycle',
-              [agent_join/3]).
+:- use_module('../../kernel/lifecycle', [agent_join/3]).
 :- use_module('../../network', [network_property/2]).
 :- use_module('../../tools', [host_report/2]).
 :- use_module('../administration', [agent_property/2]).
@@ -20,7 +23,6 @@
 :- use_module(replay, [replay_of_text/3]).
 :- use_module(editor, [on_console/1]).
 :- use_module(sources, [sources_look/1, sources_tree/1]).
-:- use_module(world, [world_picture/1]).
 
 /** <module> Questions of browsers, and the answers
 
@@ -38,7 +40,14 @@
 
 Nothing here changes anything.
 
-*Threading*: any thread that may wait.
+With the option world(Goal) the page has a view of what surrounds the agents,
+as the rooms of a building, or fields.  call(Goal, Svg) gives its picture now,
+the text of an SVG document, which a browser asks for twice a second while it
+shows the view.  It shows it as an image: no script in it runs, and nothing that
+it refers to is loaded.
+
+*Threading*: any thread that may wait; several may call Goal.  One thread at a
+time starts and stops the world.
 */
 
 %!  look(+Message:dict, -Answer) is det.
@@ -261,3 +270,37 @@ network_dict(_{name:Name, hosts:HostTexts, seed:Seed, processes:Pids}) :-
     maplist(name_text, Hosts, HostTexts),
     network_property(Network, seed(Seed)),
     network_property(Network, processes(Pids)).
+
+                /*******************************
+                *          THE WORLD           *
+                *******************************/
+
+:- dynamic shown/1.             % Goal of the page that is served
+
+%!  world_start(+Options) is det.
+%!  world_stop is det.
+%!  world_shown is semidet.
+%
+%   While a page is served; world_shown/0 is true if it has a world.
+
+world_start(Options) :-
+    (   option(world(Goal), Options)
+    ->  assertz(shown(Goal))
+    ;   true
+    ).
+
+world_stop :-
+    retractall(shown(_)).
+
+world_shown :-
+    shown(_).
+
+%   @error existence_error(page_view, world), and what Goal raises
+
+world_picture(Svg) :-
+    (   shown(Goal)
+    ->  once(call(Goal, Text)),
+        must_be(text, Text),
+        format(string(Svg), '~w', [Text])
+    ;   existence_error(page_view, world)
+    ).

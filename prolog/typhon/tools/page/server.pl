@@ -23,12 +23,13 @@
 :- use_module(guard,
               [ guarding_headers/0, page_file/3, request_own/1,
                 request_within/2, token_new/1, token_right/2 ]).
-:- use_module(looking, [first_sight/1, look/2]).
+:- use_module(looking,
+              [ first_sight/1, look/2, world_shown/0, world_start/1,
+                world_stop/0 ]).
 :- use_module(overlays,
               [ overlays_shown/1, overlays_start/1, overlays_stop/0 ]).
 :- use_module(protocol, [times_start/0, times_stop/0]).
 :- use_module(sources, [sources_metrics/1, sources_start/1, sources_stop/0]).
-:- use_module(world, [world_shown/0, world_start/1, world_stop/0]).
 
 /** <module> The server of the page
 

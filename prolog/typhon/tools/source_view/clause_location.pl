@@ -1,17 +1,20 @@
-:- module(typhon_clause_location, []).
+:- module(typhon_clause_location,
+          [ point/3                     % +Body, -Sequel, -End
+          ]).
 :- use_module(library(apply), [maplist/3]).
 :- use_module(library(lists), [append/3, member/2, min_list/2, nth1/3]).
 :- use_module('../../kernel/program',
-              [ clause_parts/3, code_module/2, code_places/2, code_program/2,
-                place/3 ]).
-:- use_module(points, [goal_level/3, goals_normal/2, point/3]).
+              [ body_goals/4, clause_parts/3, code_module/2, code_places/2,
+                code_program/2, goals_body/2, place/3, plain_goals/2 ]).
 
 /** <module> In which clause a goal stands
 
 Nothing in a goal list says where its goals come from: marks would grow
 with recursion, and travel.  But a list [Goal|Goals] begins with an instance
 of what is left of a clause, and after that comes what is left of one that
-called it.  So it can be found out afterwards, when something is the matter.
+called it.  So it can be found out afterwards, when something is the matter:
+the machine takes a clause body apart as it runs it, see typhon_machine, and
+point/3 has all the lists of goals that it can have left of one.
 
 Places are as in typhon_fault.
 
@@ -285,3 +288,88 @@ calls(All, General, c(N, Name/Arity)) :-
     nonvar(Call),
     \+ Call \= General,
     functor(Head, Name, Arity).
+
+                /*******************************
+                *            POINTS            *
+                *******************************/
+
+%   goals_normal(+Goals0, -Goals): Goals0 as a clause body would be.
+
+goals_normal(Goals0, Goals) :-
+    goals_body(Goals0, Body),
+    body_list(Body, Goals).
+
+body_list(Body, Goals) :-
+    body_goals(Body, _, Goals0, []),
+    plain_goals(Goals0, Goals).
+
+%!  point(+Body, -Sequel, -End) is nondet.
+%
+%   Sequel is what the machine still has to do of Body when it has come to the
+%   first goal of Sequel.  End is `open` if what comes after the body follows,
+%   `closed` inside a condition.
+
+point(Body, Sequel, End) :-
+    body_list(Body, Goals),
+    point_in(Goals, [], open, Sequel, End).
+
+%   point_in(+Goals, +After, +End0, -Sequel, -End): After comes after Goals.
+
+point_in(Goals, After0, End0, Sequel, End) :-
+    append(_, [Goal|Goals1], Goals),
+    append(Goals1, After0, After),
+    (   Sequel = [Goal|After],
+        End = End0
+    ;   nonvar(Goal),
+        part(Goal, Part, How),
+        body_list(Part, Goals2),
+        part_point(How, Goals2, After, End0, Sequel, End)
+    ).
+
+part_point(continued, Goals, After, End0, Sequel, End) :-
+    point_in(Goals, After, End0, Sequel, End).
+part_point(apart, Goals, _, _, Sequel, End) :-
+    point_in(Goals, [], closed, Sequel, End).
+
+%   part(+Goal, -Part, -How) is nondet: the machine goes on in Part, with what
+%   comes after Goal, or runs it apart.
+
+part((If->_), If, apart).
+part((_->Then), Then, continued).
+part((If*->_), If, apart).
+part((_*->Then), Then, continued).
+part((Or;_), Part, How) :-
+    part_of_or(Or, Part, How).
+part((_;Else), Else, continued).
+part(call(Goal), Goal, continued).
+part(once(Goal), Goal, apart).
+part(ignore(Goal), Goal, apart).
+part(catch(Goal,_,_), Goal, apart).
+part(catch(_,_,Recovery), Recovery, continued).
+part(\+ Goal, Goal, apart).
+
+part_of_or(Or, Part, How) :-
+    (   nonvar(Or),
+        ( Or = (_->_) ; Or = (_*->_) )
+    ->  part(Or, Part, How)
+    ;   Part = Or,
+        How = continued
+    ).
+
+%   goal_level(+Goal, +Goals, -Left): Left begins with Goal, in Goals or in what
+%   is apart in the first of them; it is Goals if Goal is not to be found.
+
+goal_level(Goal, [First|Goals], Left) :-
+    (   First == Goal
+    ->  Left = [First|Goals]
+    ;   nonvar(First),
+        apart(First, Part),
+        body_list(Part, Left0),
+        goal_level(Goal, Left0, Left)
+    ->  true
+    ;   Left = [First|Goals]
+    ).
+
+apart(Goal, Part) :-
+    part(Goal, Part, apart),
+    !.

@@ -9,7 +9,7 @@
 :- use_module(library(lists), [append/3, member/2, memberchk/2, nth1/3]).
 :- use_module('../../kernel/program',
               [body_goals/4, clause_parts/3, control/1, plain_goals/2]).
-:- use_module(points, [point/3]).
+:- use_module(clause_location, [point/3]).
 
 /** <module> Which clause goals come from, and the names of their variables
 

@@ -30,8 +30,8 @@ test(a_plain_host_has_no_code_of_options, Out == "[]") :-
           agent_join(A, done, 5), \c
           findall(M, ( member(M, [ typhon_networks, typhon_store, \c
                                    typhon_sandbox, typhon_virtual, \c
-                                   typhon_quota_hosts, typhon_trail, \c
-                                   typhon_access_rules, typhon_telling, \c
+                                   typhon_quotas, typhon_trail, \c
+                                   typhon_access, typhon_telling, \c
                                    typhon_tables, typhon_page_server, \c
                                    typhon_tracing, typhon_stepping, \c
                                    typhon_spying ]), \c
@@ -40,7 +40,7 @@ test(a_plain_host_has_no_code_of_options, Out == "[]") :-
 test(an_option_of_a_host_loads_its_code, Out == "guarded") :-
     seen('host_start(a, [policy(guarded)]), \c
           module_property(typhon_sandbox, file(_)), \c
-          module_property(typhon_quota_hosts, file(_)), write(guarded)', Out).
+          module_property(typhon_quotas, file(_)), write(guarded)', Out).
 test(so_does_a_change_of_options, Out == "guarded") :-
     seen('host_start(a), host_change(a, policy(guarded)), \c
           module_property(typhon_sandbox, file(_)), write(guarded)', Out).
