@@ -269,7 +269,8 @@ effect_depart(Id, Dest, Hole, Goals, Since, Next) :-
             Next = stop
           )).
 
-cannot_depart(ordered, Id, _, error(Formal, _)) :-
+cannot_depart(Hole, Id, _, error(Formal, _)) :-
+    Hole == ordered,                    % else it is a variable of the goals
     !,
     move_failed(Id, Formal).
 cannot_depart(Hole, _, Dest, Error) :-

@@ -40,6 +40,17 @@ test(refused_it_takes_no_room, true(Loads == [1,0])) :-
                          on_message(_, _)], A),
                  wait_state(A, resident),
                  maplist(load, [alpha,beta], Loads) )).
+test(refusal_after_the_delay_of_a_hop_is_an_error_of_the_move,
+     F-Warnings == [s(move_refused(Beta, capacity))]-[]) :-
+    with_hosts([ alpha-[hop_time(uniform(0.01, 0.02))], beta-[capacity(0)] ],
+               ( address(beta, Beta),
+                 listening(( create([ ( main :-
+                                            catch(move(beta), error(E, _),
+                                                  assertz(s(E))) ),
+                                      on_message(_, _) ], A),
+                             wait_state(A, resident) ),
+                           Warnings),
+                 agent_property(A, facts(F)) )).
 test(orders_find_it_wherever_it_is, true(Loads == [0,0,0])) :-
     with_hosts([alpha,beta,gamma],
                ( findall(A, ( between(1, 30, _), walker(A) ), Agents),
