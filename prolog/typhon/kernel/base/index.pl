@@ -104,7 +104,7 @@ part_file('options/access','options/access').
 part_file('options/cell','options/cell/cell_hosts').
 part_file('options/cell','options/cell/gatekeeper').
 part_file('options/directory','options/directory/offers').
-part_file('options/guard','options/guard/sandbox').
+part_file('options/guard','options/guard').
 part_file('options/identity','options/identity/authors').
 part_file('options/identity','options/identity/birth').
 part_file('options/identity','options/identity/speakers').
@@ -133,7 +133,7 @@ part_file('options/trace','options/trace/stepping').
 part_file('options/trace','options/trace/tracing').
 part_file('options/trail','options/trail/trail').
 part_file('options/trail','options/trail/trail_verified').
-part_file('options/virtual','options/virtual/virtual').
+part_file('options/virtual','options/virtual').
 part_file('options/watch','options/watch/listening').
 part_file('options/watch','options/watch/metrics').
 part_file('options/watch','options/watch/telling').
@@ -191,7 +191,7 @@ part_setting(most,typhon_ros_standing,positive_integer,1000,'Now typhon_ros_adve
 part_setting(offers,typhon_offers,positive_integer,100,'Offers of an agent','options/directory/offers').
 part_setting(order_seconds,typhon_processes,number,60,'A process has so long to answer an order','network/nodes').
 part_setting(patience,typhon_telling,number,30,'A process that watches and is cut off has so long to answer','options/watch/event_sender').
-part_setting(patience,typhon_virtual,number,10,'Virtual time that stands still for so long is reported','options/virtual/virtual').
+part_setting(patience,typhon_virtual,number,10,'Virtual time that stands still for so long is reported','options/virtual').
 part_setting(pause,typhon_overuse,number,0.8,'Now typhon_quota_enforcer:pause','options/quotas/quota_enforcer').
 part_setting(pause,typhon_quota_enforcer,between(0.0,1.0),0.8,'Agents that run for long where there are quotas pause for this part of the time while others run','options/quotas/quota_enforcer').
 part_setting(python,typhon_helper_process,atom,'','The Python of helpers; \'\' for that of the system','bridges/helper/process').

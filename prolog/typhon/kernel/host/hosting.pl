@@ -102,7 +102,7 @@ other users of the process its endpoint, see typhon_runtime.
 %       end of the process, `full` if a power cut, too
 %     - policy(+Policy): what agents may do here: `trusted`, everything,
 %       which is the default; `guarded`, what cannot harm others, see
-%       typhon_sandbox and doc/security.md; or a file of rules
+%       typhon_guard and doc/security.md; or a file of rules
 %     - cell(+Kind): with a policy agents run in processes that the system walls
 %       in: `owner`, one for each owner of agents, the default where the system
 %       can do it, `host`, one for all, or `none`, see doc/security.md

@@ -12,6 +12,7 @@ in one fact; two threads that read it at once store the same.
 :- autoload(library(filesex),
             [chmod/2, delete_directory_and_contents/1, link_file/3]).
 :- autoload(library(readutil), [read_line_to_string/2]).
+:- use_module(library(apply), [maplist/2]).
 :- use_module(library(sha), [hash_atom/2]).
 :- use_module('../base/prolog_faults', [spawn/3]).
 
@@ -25,15 +26,9 @@ random_hex(Count, Hex) :-
     setup_call_cleanup(
         open('/dev/urandom', read, In, [type(binary), buffer(false)]),
         ( length(Bytes, Count),
-          read_bytes(Bytes, In)
-        ),
+          maplist(get_byte(In), Bytes) ),
         close(In)),
     hash_atom(Bytes, Hex).
-
-read_bytes([], _).
-read_bytes([Byte|Bytes], In) :-
-    get_byte(In, Byte),
-    read_bytes(Bytes, In).
 
 %!  cookie(-Cookie:string) is det.
 %

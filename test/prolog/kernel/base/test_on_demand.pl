@@ -29,7 +29,7 @@ test(a_plain_host_has_no_code_of_options, Out == "[]") :-
     seen('host_start(a), agent_create(clauses([(:- agent(x, [])), main]), A), \c
           agent_join(A, done, 5), \c
           findall(M, ( member(M, [ typhon_networks, typhon_store, \c
-                                   typhon_sandbox, typhon_virtual, \c
+                                   typhon_guard, typhon_virtual, \c
                                    typhon_quotas, typhon_trail, \c
                                    typhon_access, typhon_telling, \c
                                    typhon_tables, typhon_page_server, \c
@@ -39,11 +39,11 @@ test(a_plain_host_has_no_code_of_options, Out == "[]") :-
           print(Ms)', Out).
 test(an_option_of_a_host_loads_its_code, Out == "guarded") :-
     seen('host_start(a, [policy(guarded)]), \c
-          module_property(typhon_sandbox, file(_)), \c
+          module_property(typhon_guard, file(_)), \c
           module_property(typhon_quotas, file(_)), write(guarded)', Out).
 test(so_does_a_change_of_options, Out == "guarded") :-
     seen('host_start(a), host_change(a, policy(guarded)), \c
-          module_property(typhon_sandbox, file(_)), write(guarded)', Out).
+          module_property(typhon_guard, file(_)), write(guarded)', Out).
 test(mistyped_options_are_compared_with_those_not_loaded,
      true(sub_string(Out, _, _, _, "did you mean policy?"))) :-
     seen('catch(host_start(a, [polici(x)]), E, true), \c
