@@ -11,11 +11,12 @@
           ]).
 :- use_module(library(apply), [exclude/3]).
 :- use_module(library(lists), [append/3, member/2]).
+:- use_module('../kernel/base/durable_changes', [durable_opened/1]).
 :- use_module('../kernel/base/options', [check_options/2]).
 :- use_module('../kernel/host', [host/3, hosts_rest/0]).
 :- use_module('../options/journal',
-              [ hosts_back/1, hosts_journal/2, journal_opened/1,
-                journal_place/2, journal_record/2, journal_record_drop/1,
+              [ hosts_back/1, hosts_journal/2, journal_place/2,
+                journal_record/2, journal_record_drop/1,
                 journal_record_put/2 ]).
 :- use_module(nodes, [node_order/4]).
 :- use_module(plan,
@@ -68,7 +69,7 @@ own(Plan) :-
     plan_processes(Plan, 1, [local]),
     plan_journal(Plan, 1, Where, _),
     journal_place(Where, Place),
-    journal_opened(Place).
+    durable_opened(Place).
 
 %!  lasting_child(+Plan, ?Log, +P, -Options) is det.
 %

@@ -3,7 +3,6 @@
             hosts_back/1,               % +Options
             journal_part/3,             % +Where, +P, -Part
             journal_place/2,            % +Where, -Place
-            journal_opened/1,           % -Place
             journal_record/2,           % +Where, -Text
             journal_record_put/2,       % +Where, +Text
             journal_record_drop/1       % +Where
@@ -41,19 +40,14 @@ journal_part(Where, P, Part) :-
     journal_call(typhon_database:journal_part(Where, P, Part)).
 
 %!  journal_place(+Where, -Place:atom) is det.
-%!  journal_opened(-Place) is semidet.
 %
-%   What the journal at Where is called, as in errors; what the one is called
-%   that is open.
+%   What the journal at Where is called, as in errors.
 %
 %   @arg Where is a directory, postgresql(Url), or such a Url
 %   @error domain_error(postgresql_url, Url)
 
 journal_place(Where, Place) :-
     journal_call(typhon_store:journal_place(Where, Place)).
-
-journal_opened(Place) :-
-    journal_call(typhon_store:journal_opened(Place)).
 
 %!  journal_record(+Where, -Text) is semidet.
 %!  journal_record_put(+Where, +Text) is det.

@@ -29,12 +29,9 @@ typhon_handshake:other_line("typhon tls", tls(wanted)).
                  *           IN WORDS           *
                  *******************************/
 
-%   tls_text(+Why, -Text): what is wrong with a peer.
+%   What is wrong with a peer.
 
 typhon_refusals:text(tls(Why), Text) :-
-    tls_text(Why, Text).
-
-tls_text(Why, Text) :-
     (   said(Why, Text0)
     ->  Text = Text0
     ;   flaw(Why, Flaw)

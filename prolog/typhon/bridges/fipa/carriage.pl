@@ -6,10 +6,9 @@
 :- use_module(library(aggregate), [aggregate_all/3]).
 :- use_module(library(debug), [debug/3]).
 :- use_module(library(error), [resource_error/1]).
+:- use_module(library(lists), [member/2]).
 :- use_module(library(option), [option/2]).
-:- use_module(library(socket),
-              [ tcp_close_socket/1, tcp_connect/2, tcp_open_socket/3,
-                tcp_setopt/2, tcp_socket/1 ]).
+:- use_module(library(socket), [tcp_connect/3]).
 :- use_module('../../kernel/base/error_text', [print_error/2]).
 :- use_module('../common', [crew_end/1, crew_start/4]).
 :- use_module(http, [http_post/4, http_response/3, http_url/3, within/2]).
@@ -220,18 +219,12 @@ keep(false, Way) :-
 
 connect(Url, Way, In, Out) :-
     http_url(Url, Address, _),
-    tcp_socket(Socket),
-    catch(( tcp_connect(Socket, Address),
-            tcp_setopt(Socket, nodelay),
-            tcp_open_socket(Socket, In, Out) ),
-          Ball,
-          ( tcp_close_socket(Socket),
-            throw(Ball) )),
+    tcp_connect(Address, Pair, [bypass_proxy(true), nodelay(true)]),
+    stream_pair(Pair, In, Out),
     nb_setarg(1, Way, open(Address, In, Out)),
-    set_stream(In, encoding(octet)),
-    set_stream(Out, encoding(octet)),
-    set_stream(In, newline(posix)),
-    set_stream(Out, newline(posix)).
+    forall(member(Stream, [In, Out]),
+           ( set_stream(Stream, encoding(octet)),
+             set_stream(Stream, newline(posix)) )).
 
 disconnect(Way) :-
     arg(1, Way, Connection),

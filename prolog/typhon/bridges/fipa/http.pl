@@ -11,6 +11,7 @@
               [domain_error/2, must_be/2, resource_error/1, syntax_error/1]).
 :- use_module(library(http/http_header),
               [http_parse_header/2, http_read_request/2]).
+:- use_module(library(option), [option/3]).
 :- use_module(library(uri), [uri_components/2, uri_authority_components/2,
                              uri_authority_data/3, uri_data/3]).
 :- use_module('../../kernel/host', [alarm_in/3]).
@@ -99,14 +100,14 @@ http_request(In, Out, MaxBytes,
     ;   syntax_error(http_request)
     ),
     keep_alive(Minor, Fields, KeepAlive),
-    field(content_type(Type), Fields, ''),
+    option(content_type(Type), Fields, ''),
     body(Fields, In, Out, MaxBytes, Body).
 
 written(Bytes, Out) :-
     format(Out, '~s', [Bytes]).
 
 keep_alive(Minor, Fields, KeepAlive) :-
-    field(connection(Word0), Fields, none),
+    option(connection(Word0), Fields, none),
     downcase_atom(Word0, Word),
     (   ( Word == close ; Minor == 0, Word \== 'keep-alive' )
     ->  KeepAlive = false
@@ -239,12 +240,6 @@ skip_body(Fields, In) :-
     ;   syntax_error(http_response)
     ).
 skip_body(_, _).
-
-field(Field, Fields, Default) :-
-    (   memberchk(Field, Fields)
-    ->  true
-    ;   arg(1, Field, Default)
-    ).
 
                 /*******************************
                 *             TIME             *

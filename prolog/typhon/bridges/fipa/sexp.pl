@@ -11,7 +11,9 @@
             sexp_parameters/2           % +Sexps, -Pairs
           ]).
 :- use_module(library(apply), [foldl/4, maplist/2, maplist/3]).
-:- use_module(library(dcg/basics), [blanks//0, digits//1, integer//1]).
+:- use_module(library(dcg/basics),
+              [atom//1, blanks//0, digits//1, integer//1]).
+:- use_module(library(dcg/high_order), [sequence//3]).
 :- use_module(library(error),
               [resource_error/1, syntax_error/1, type_error/2]).
 :- use_module(library(lists), [member/2]).
@@ -161,56 +163,28 @@ written(List) -->
     { is_list(List) },
     !,
     "(",
-    all_written(List),
+    sequence(written, " ", List),
     ")".
 written(string(String)) -->
     !,
     string_written(String).
 written(Word) -->
-    { atom_codes(Word, Codes) },
-    raw(Codes).
-
-all_written([]) -->
-    [].
-all_written([Sexp|Sexps]) -->
-    written(Sexp),
-    (   { Sexps == [] }
-    ->  []
-    ;   " ",
-        all_written(Sexps)
-    ).
+    atom(Word).
 
 string_written(String) -->
-    { string_codes(String, Codes) },
-    (   { sub_string(String, _, 1, 0, "\\") }
-    ->  { foldl(add_bytes, Codes, 0, Bytes) },
-        "#",
-        integer(Bytes),
-        "\"",
-        raw(Codes)
-    ;   "\"",
-        escaped(Codes)
-    ).
+    { sub_string(String, _, 1, 0, "\\") },
+    !,
+    { string_codes(String, Codes),
+      foldl(add_bytes, Codes, 0, Bytes) },
+    "#", integer(Bytes), "\"", Codes.
+string_written(String) -->
+    { atomic_list_concat(Parts, '"', String),
+      atomic_list_concat(Parts, '\\"', Escaped) },
+    "\"", atom(Escaped), "\"".
 
 add_bytes(Code, Bytes0, Bytes) :-
     code_bytes(Code, Width),
     Bytes is Bytes0+Width.
-
-escaped([]) -->
-    "\"".
-escaped([0'"|Codes]) -->
-    !,
-    "\\\"",
-    escaped(Codes).
-escaped([Code|Codes]) -->
-    [Code],
-    escaped(Codes).
-
-raw([]) -->
-    [].
-raw([Code|Codes]) -->
-    [Code],
-    raw(Codes).
 
 %!  sexp_word(+Text) is semidet.
 %
@@ -266,15 +240,8 @@ zone --> [].
 
 number_of(Count, Number) -->
     { length(Codes, Count) },
-    all_digits(Codes),
+    digits(Codes),
     { number_codes(Number, Codes) }.
-
-all_digits([]) -->
-    [].
-all_digits([Digit|Digits]) -->
-    [Digit],
-    { Digit >= 0'0, Digit =< 0'9 },
-    all_digits(Digits).
 
                 /*******************************
                 *      AGENT IDENTIFIERS       *

@@ -14,13 +14,14 @@
             hex_bytes/2,                % +Hex, -Bytes
             nxt_text/2                  % +Length, +Text
           ]).
-:- use_module(library(apply), [foldl/4, maplist/3]).
+:- use_module(library(apply), [maplist/3]).
 :- use_module(library(error),
               [ domain_error/2, existence_error/2, must_be/2,
                 permission_error/3 ]).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(option), [option/2, option/3]).
 :- use_module(library(settings), [setting/2, setting/4]).
+:- use_module(library(sha), [hash_atom/2]).
 :- use_module('../helper',
               [ helper_ask/4, helper_close/1, helper_file/2, helper_open/3,
                 helper_pid/2, helper_python/2 ]).
@@ -186,11 +187,7 @@ running(Brick, Pid) :-
 
 bytes_hex(Bytes, Hex) :-
     must_be(list(between(0, 255)), Bytes),
-    foldl(byte_hex, Bytes, Codes, []),
-    atom_codes(Hex, Codes).
-
-byte_hex(Byte, Codes, Rest) :-
-    format(codes(Codes, Rest), '~|~`0t~16r~2+', [Byte]).
+    hash_atom(Bytes, Hex).
 
 hex_bytes(Hex, Bytes) :-
     atom_codes(Hex, Codes),

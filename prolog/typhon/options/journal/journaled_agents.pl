@@ -11,8 +11,7 @@
                 durable_put_at_once/4, durable_putting/5, enqueue_changes/0,
                 unit_of_work/1 ]).
 :- use_module('../../kernel/base/deferred',
-              [ deferred_commit/0, deferred_any/0, deferred_release/0,
-                defer_effects/1 ]).
+              [deferred_any/0, deferred_commit/0, deferred_release/0]).
 :- use_module('../../kernel/program', [code_receive/2, code_sent/2]).
 :- use_module('../../kernel/agent',
               [ agent/5, agent_enter/3, agent_module/5, agent_note/3,
@@ -73,7 +72,7 @@ most_changes(65536).
                 *             TURNS            *
                 *******************************/
 
-typhon_turn:unit(typhon_journaled_agents:run,
+typhon_turn:unit(typhon_deferred:defer_effects,
                  typhon_journaled_agents:conclude) :-
     durable_on.
 
@@ -81,10 +80,7 @@ typhon_turn:settle :-
     deferred_commit,
     deferred_release.
 
-:- public run/1, conclude/4.
-
-run(Goal) :-
-    defer_effects(Goal).
+:- public conclude/4.
 
 conclude(Id, Outcome, Conclude, Next) :-
     unit_of_work(( turn_ends(Outcome, Id),

@@ -12,7 +12,7 @@
 :- use_module('../../kernel/base/durable_changes',
               [ durable_begin/0, durable_close/0, durable_drop_all/2,
                 durable_end/0, durable_item/5, durable_number_after/1,
-                durable_open/3 ]).
+                durable_open/3, durable_opened/1 ]).
 :- use_module('../../kernel/host',
               [ host/3, host_again/1, host_begin/2, host_end/1, host_note/1,
                 hosts_exclusively/1, hosts_go_on/0, time_apart/2,
@@ -21,7 +21,7 @@
 :- use_module('../../kernel/lifecycle', [agent_reschedule/1]).
 :- use_module('../../kernel/wire', [endpoint_address/1, endpoint_open/0]).
 :- use_module(journaled_agents, [agent_back/3, states_unused/1]).
-:- use_module(store, [journal_opened/1, journal_place/2]).
+:- use_module(store, [journal_place/2]).
 
 /** <module> Hosts that start with a journal
 
@@ -148,7 +148,7 @@ typhon_hosting:starts(Name, Options) :-
     ;   memberchk(journal(Where), Options),
         \+ host(Name, _, _),
         journal_place(Where, Place),
-        \+ journal_opened(Place),
+        \+ durable_opened(Place),
         start_from(Where, Name, Options)
     ).
 

@@ -3,7 +3,6 @@
             journal_open/3,             % +Where, +Sync, +Seconds
             journal_found/1,            % +Where
             journal_place/2,            % +Where, -Place
-            journal_opened/1,           % -Place
             store_close/0,
             store_sync/1,               % -Sync
             store_commit/1,             % +Changes
@@ -167,12 +166,8 @@ journal_found(Where) :-
     sql_load,
     in_terms_of(Place, Base, database_found(Base)).
 
-%!  journal_opened(-Place) is semidet.
 %!  store_sync(-Sync) is semidet.
 %!  store_close is det.
-
-journal_opened(Place) :-
-    connection(Place, _).
 
 typhon_durable_changes:durable_opened(Place) :-
     connection(Place, _).

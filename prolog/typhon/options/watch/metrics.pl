@@ -2,6 +2,7 @@
           [ processes_metrics/2         % +Hosts, -Text
           ]).
 :- use_module(library(aggregate), [aggregate/3, aggregate_all/3]).
+:- use_module(library(dcg/high_order), [sequence//2, sequence//3]).
 :- use_module(library(lists), [last/2, member/2]).
 :- use_module('../../kernel/program', [code_program/2]).
 :- use_module('../../kernel/wire', [endpoint_address/1, endpoint_peer/2]).
@@ -39,7 +40,7 @@ processes_metrics(Hosts, Text) :-
               findall(Sample, sample(Name, Processes, Silent, Sample),
                       Samples) ),
             Metrics),
-    phrase(exposition(Metrics), Codes),
+    phrase(sequence(metric, Metrics), Codes),
     string_codes(Text, Codes).
 
 described(typhon_up, gauge,
@@ -231,41 +232,24 @@ cumulated([Bound-Own|Counts], Count0, [Bound-Count|Buckets]) :-
 %   sample(Suffix, Labels, Value): Suffix is what follows the name of the
 %   metric, as `_bucket`, Labels are Name=Value, Value anything, Value a number.
 
-exposition([]) --> [].
-exposition([Metric|Metrics]) -->
-    metric(Metric),
-    exposition(Metrics).
-
 metric(metric(_, _, _, [])) -->
     !.
 metric(metric(Name, Type, Help, Samples)) -->
     "# HELP ", text(Name), " ", text(Help), "\n",
     "# TYPE ", text(Name), " ", text(Type), "\n",
-    samples(Samples, Name).
+    sequence(line(Name), Samples).
 
-samples([], _) --> [].
-samples([sample(Suffix, Labels, Value)|Samples], Name) -->
-    text(Name), text(Suffix), labels(Labels), " ", text(Value), "\n",
-    samples(Samples, Name).
+line(Name, sample(Suffix, Labels, Value)) -->
+    text(Name), text(Suffix), labels(Labels), " ", text(Value), "\n".
 
 labels([]) -->
     !.
-labels([Label|Labels]) -->
-    "{", label(Label), more_labels(Labels), "}".
-
-more_labels([]) --> [].
-more_labels([Label|Labels]) -->
-    ",", label(Label),
-    more_labels(Labels).
+labels(Labels) -->
+    "{", sequence(label, ",", Labels), "}".
 
 label(Name=Value) -->
     { format(codes(Codes), '~w', [Value]) },
-    text(Name), "=\"", escaped(Codes), "\"".
-
-escaped([]) --> [].
-escaped([Code|Codes]) -->
-    escape(Code),
-    escaped(Codes).
+    text(Name), "=\"", sequence(escape, Codes), "\"".
 
 escape(0'\\) --> !, "\\\\".
 escape(0'") --> !, "\\\"".
