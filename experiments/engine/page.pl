@@ -168,11 +168,17 @@ medians(Study, Outcome) -->
       findall(tr(Cells), ( member(Row, Outcome.rows),
                            cells(Study, Row, Outcome.names, Measures, Cells) ),
               Trs) },
-    { study_call(Study, printed(_, _, _))
-      -> Summary = 'medians (least to greatest) [printed]'
-      ;  Summary = 'medians (least to greatest)' },
-    html(details([summary(Summary),
-                  table([tr(Heads)|Trs])])).
+    median_table(Study, table([tr(Heads)|Trs])).
+
+%   Open where there are numbers of the thesis to compare with.
+
+median_table(Study, Table) -->
+    { study_call(Study, printed(_, _, _)) },
+    !,
+    html(details(open(open),
+                 [summary('medians (least to greatest) [printed]'), Table])).
+median_table(_, Table) -->
+    html(details([summary('medians (least to greatest)'), Table])).
 
 heading(Study, Measure, Text) :-
     (   study_call(Study, label(Measure, Text0))

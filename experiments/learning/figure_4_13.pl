@@ -14,6 +14,9 @@ vary(density, [0.1, 0.2, 0.3, 0.4, 0.5]).
 fixed(dynamic, thesis_4_4_7, printed("section 4.4.7: from a mesh, each link \c
 dropped by itself; where one at a time is, no host ever has few")).
 
+printed(least_degree, [], 0).
+printed(most_degree, [], 27).
+
 label(least_degree, "Links of a host, at least").
 label(most_degree, "Links of a host, at most").
 

@@ -15,6 +15,9 @@ find nothing to do die.").
 
 fixed(crash, 0, printed("section 6.5: none in this figure")).
 
+printed(overlapped, [hosts=50], 0).
+printed(overlapped, [hosts=100], 1).
+
 plot('6.3', "One kind of agent for each task",
      script('population.gp',
             [ starts-bar_rows, kinds-kind_rows, others-other_rows,

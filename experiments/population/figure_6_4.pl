@@ -16,6 +16,9 @@ Some agent of the second kind comes by, executes it again, clones itself.").
 
 fixed(crash, 20, printed("section 6.5")).
 
+printed(rise_time, [hosts=50], 250).
+printed(rise_time, [hosts=100], 300).
+
 label(crash_time, "When T2 was lost (s)").
 label(rise, "More Agent-2 than at the crash, at most").
 label(rise_time, "When there were most Agent-2 after the crash (s)").

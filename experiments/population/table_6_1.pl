@@ -21,6 +21,8 @@ view(Log, view{agents:Agents, moods:Moods, rows:Rows}) :-
             Moods),
     state_rows(Moods, Rows).
 
+printed(rows, [], 7).
+
 label(Measure, Text) :-
     mood_of(Measure, Kind, Mood),
     upcase_atom(Mood, Upper),

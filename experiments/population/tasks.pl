@@ -30,6 +30,11 @@ view(Log, view{hosts:Log.case.hosts, tasks:Tasks, executions:Executions,
     findall(Time-Host, member(event(Time, Host, _, failed(_, 2)), Events),
             Failures).
 
+printed(span_least, [], 30).
+printed(span_most, [], 60).
+printed(peak_most, [hosts=50], 30).
+printed(peak_most, [hosts=100], 60).
+
 label(span_least, "Shortest time that a task took (s)").
 label(span_most, "Longest time that a task took (s)").
 label(gap_least, "Shortest idle time (s)").

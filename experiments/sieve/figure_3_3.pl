@@ -15,6 +15,10 @@ plan(_, [['00000', '11111', '10101']-15]).
 
 complements(['11111', '00000', '01010']).
 
+printed(other_most, [], 3).
+printed(kinds, [], 14).
+printed(last_new, [], 5).
+
 label(least_complement, "Agents of each complement in the end, at least").
 label(other_most, "Agents of any other kind in the end, at most").
 label(kinds, "Kinds in all").

@@ -13,6 +13,8 @@ real([], [clock=2, processes=2]).
 
 plan(_, [['00000', '00001', '00011']-15]).
 
+printed(leads_from, [], 5).
+
 label(leads_from, "Round from which on 11110 leads").
 label(share, "Share of 11110 in the end").
 label(cloned_least, "Clones of 11110 in a round from 5 on, at least").

@@ -9,6 +9,10 @@ vary(topology, [star_bus, ring, tree, grid]).
 derive(delta, Case, Delta) :- best_delta(Case.topology, Delta).
 fixed(failure, atomic(2, 20, 5), printed("section 5.6.6")).
 
+printed(redone, [], 20).
+printed(healing_tau, [], 3).
+printed(later_tau, [], 2).
+
 label(redone, "Lost executions that were done again").
 label(healing_time, "Until they are done again (s)").
 label(healing_tau, "Distinct tasks required meanwhile (τ)").
