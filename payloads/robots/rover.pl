@@ -1,4 +1,6 @@
-:- payload(rover, [provides([cost/3, carry/2])]).
+:- payload(rover,
+           [ provides([ cost/3, carry/2, drive_to/2, take_up/0,
+                        put_down/0 ]) ]).
 
 /*  How a robot of ROS with two wheels carries something, and what that costs.
 
@@ -24,27 +26,52 @@ cost(need(_, _, Details), _, Cost) :-
 %   carry(+From, +To): points, p(X, Y).
 
 carry(From, To) :-
+    drive_to(From, 2),
+    take_up,
+    drive_to(To, 2),
+    put_down,
+    sense(rover(Name)),
+    !,
+    log(put_down(Name, To)).
+
+%   drive_to(+To, +Fastest): in metres a second.  No pose is left in the mailbox.
+
+drive_to(To, Fastest) :-
     sense(rover(Name)),
     !,
     atomic_list_concat(['/', Name, '/pose'], Topic),
     ros_subscribe(Topic, 'geometry_msgs/msg/Pose'),
-    drive(Name, From),
-    do(Name, load),
-    drive(Name, To),
-    do(Name, unload),
-    log(put_down(Name, To)).
+    drive(Name, To, Fastest),
+    ros_unsubscribe(Topic),
+    forget(Topic).
 
-drive(Name, Goal) :-
+forget(Topic) :-
+    (   receive(ros-topic(Topic, _), 0)
+    ->  forget(Topic)
+    ;   true
+    ).
+
+drive(Name, Goal, Fastest) :-
     receive(ros-topic(_, Pose)),
     place_of(Pose, Here, Heading),
-    steer(Here, Heading, Goal, Speed, Turn),
+    steer(Here, Heading, Goal, Fastest, Speed, Turn),
     atomic_list_concat(['/', Name, '/cmd_vel'], Topic),
     ros_publish(Topic, 'geometry_msgs/msg/Twist',
                 [linear=[x=Speed], angular=[z=Turn]]),
     (   Speed-Turn == 0-0
     ->  true
-    ;   drive(Name, Goal)
+    ;   drive(Name, Goal, Fastest)
     ).
+
+take_up :-
+    sense(rover(Name)),
+    !,
+    do(Name, load).
+
+put_down :-
+    sense(rover(Name)),
+    !,
+    do(Name, unload).
 
 do(Name, What) :-
     atomic_list_concat(['/', Name, /, What], Service),
@@ -67,7 +94,7 @@ place_of(Pose, p(X, Y), Heading) :-
 
 %   Turn to where it is, and go the faster the better that is ahead.
 
-steer(p(X0, Y0), Heading, p(X, Y), Speed, Turn) :-
+steer(p(X0, Y0), Heading, p(X, Y), Fastest, Speed, Turn) :-
     Distance is sqrt((X-X0)**2 + (Y-Y0)**2),
     near(Near),
     (   Distance < Near
@@ -76,5 +103,5 @@ steer(p(X0, Y0), Heading, p(X, Y), Speed, Turn) :-
     ;   Off0 is atan2(Y-Y0, X-X0)-Heading,
         Off is atan2(sin(Off0), cos(Off0)),
         Turn is 4*Off,
-        Speed is min(2, 2*Distance)*max(0, cos(Off))
+        Speed is min(Fastest, 2*Distance)*max(0, cos(Off))
     ).

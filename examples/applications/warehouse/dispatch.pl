@@ -1,0 +1,142 @@
+:- module(warehouse_dispatch,
+          [ dispatch_begin/4,           % +Order, +Office, +Options, -Job
+            dispatch_proceed/2,         % +Job0, -Job
+            dispatch_over/1             % +Job
+          ]).
+:- use_module('../../../prolog/typhon',
+              [ agent_create/3, agent_dispose/1, agent_property/2, agent_send/2,
+                remote/2 ]).
+:- use_module('../../../prolog/typhon/kernel/program/paths', []).
+:- use_module('../../../prolog/typhon/kernel/program/programs', [payload_load/2]).
+:- use_module('../../../agents/allocation/operator',
+              [allocation_stage/3, robot_status/2, task_allocate/4]).
+:- use_module('../../../agents/sync/operator', [sequence_start/5]).
+:- use_module(library(apply), [maplist/2, maplist/3]).
+:- use_module(library(lists), [member/2]).
+:- use_module(library(option), [option/3]).
+:- use_module(library(pairs), [pairs_keys_values/3]).
+
+/** <module> Orders, and the agents that carry them out
+
+An order is order(Id, Corners, From, To): a load is at From, and is to be at To.
+One with a single corner is carried by one robot: an allocator finds it (chapter 7
+of the thesis).  Others take a robot at each corner: an allocator finds and holds
+them, and agents have them execute a sequence of tasks in step (chapter 5).
+
+*Threading*: any thread; no state.
+*/
+
+%!  dispatch_begin(+Order, +Office, +Options, -Job) is det.
+%
+%   An allocator sets out from the host Office.  Options: seed(S); way(Way), by
+%   which several robots execute their tasks: `in_step`, default, or `alone`, each
+%   by itself; delta(D), the penalty bias of those in step, default 0.5; fast(S),
+%   metres a second with a load at several corners, default 0.15; deadline(S) of an
+%   order, default 600.
+
+dispatch_begin(Order, Office, Options, job(Order, Options, Agent, searching)) :-
+    Order = order(Id, Corners, From, _),
+    length(Corners, Count),
+    option(seed(Seed), Options, 1),
+    option(deadline(Deadline), Options, 600),
+    robot_goal(Order, Goal),
+    task_allocate(task(Id, [Count-[carry]],
+                       [at(From), goal(Goal), deadline(Deadline)]),
+                  Office, [name(Id), settings([seed-Seed, bi_max-60])], Agent).
+
+robot_goal(order(_, [_], From, To), carry(From, To)) :-
+    !.
+robot_goal(_, receive(_-finish)).
+
+%!  dispatch_proceed(+Job0, -Job) is det.
+%!  dispatch_over(+Job) is semidet.
+%
+%   A job is to be looked at again and again, until it is over.
+
+dispatch_over(job(_, _, _, over)).
+
+dispatch_proceed(job(Order, Options, Agent, Stage0),
+                 job(Order, Options, Agent, Stage)) :-
+    (   \+ there(Agent)
+    ->  dismiss(Stage0),
+        Stage = over
+    ;   next(Stage0, Order, Options, Agent, Stage)
+    ->  true
+    ;   Stage = Stage0
+    ).
+
+next(searching, Order, Options, Agent, executing(Robots, Agents)) :-
+    Order = order(Id, [_,_|_], _, _),
+    allocation_stage(Agent, executing, Robots),
+    maplist(executes(Agent, Id), Robots),
+    steps(Order, Robots, Options, Tasks),
+    option(way(Way), Options, in_step),
+    begin(Way, Id, Robots, Tasks, Options, Agents).
+next(executing(Robots, Agents), order(Id, _, _, _), _, Agent, leaving) :-
+    (   maplist(lowered(Id), Robots)
+    ;   \+ ( member(One, Agents), there(One) )
+    ),
+    !,
+    dismiss(executing(Robots, Agents)),
+    agent_send(Agent, finish).
+
+executes(Agent, Id, Robot) :-
+    robot_status(Robot, executing(Agent, Id)).
+
+lowered(Id, Robot) :-
+    remote(Robot, sense(task(Id, lower, completed, _))).
+
+there(Agent) :-
+    catch(agent_property(Agent, state(State)), error(_, _), fail),
+    State \= faulty(_).
+
+dismiss(executing(_, Agents)) :-
+    !,
+    forall(member(Agent, Agents), catch(agent_dispose(Agent), error(_, _), true)).
+dismiss(_).
+
+begin(in_step, Id, Robots, Tasks, Options, Agents) :-
+    option(delta(Delta), Options, 0.5),
+    sequence_start(Id, Robots, Tasks,
+                   [starts(Robots), settings([delta-Delta])], Agents).
+begin(alone, Id, Robots, Tasks, _, Agents) :-
+    maplist(create_alone(Id, Tasks), Robots, Agents),
+    forall(member(Agent, Agents), agent_send(Agent, begin)).
+
+create_alone(Id, Tasks, Robot, Agent) :-
+    agent_create(agents(robots/alone), Agent,
+                 [host(Robot), facts([tasks(Id, Tasks)]), static(true)]).
+
+%   steps(+Order, +Robots, +Options, -Tasks): a robot for each corner.
+
+steps(order(_, Corners, From, To), Robots, Options, Tasks) :-
+    option(fast(Fast), Options, 0.15),
+    maplist(corner_at(From), Corners, Starts),
+    maplist(corner_at(To), Corners, Ends),
+    pairs_keys_values(Begins, Robots, Starts),
+    pairs_keys_values(Finals, Robots, Ends),
+    payload_load(payloads(robots/rover), Rover),
+    findall(Task-Goal,
+            ( member(Task-Does, [ approach-drive(Begins, 1), lift-take_up,
+                                  carry-drive(Finals, Fast), lower-put_down ]),
+              step(Does, Rover, Goal) ),
+            Tasks).
+
+corner_at(p(X0, Y0), p(DX, DY), p(X, Y)) :-
+    X is X0+DX,
+    Y is Y0+DY.
+
+%   The worker of a host takes up the payload, and lays it down again.
+
+step(Does, Payload, ( attach(Payload),
+                      catch(( Goal -> Done = true ; Done = fail ), Ball,
+                            Done = throw(Ball)),
+                      detach(Entry),
+                      Done )) :-
+    Payload = payload(Entry, _, _),
+    acts(Does, Goal).
+
+acts(drive(Places, Fastest),
+     ( here(Host), memberchk(Host-Place, Places), drive_to(Place, Fastest) )).
+acts(take_up, take_up).
+acts(put_down, put_down).

@@ -1,0 +1,238 @@
+:- module(warehouse_scene,
+          [ scene_topology/1,           % -Topology
+            scene_network/3,            % +Options, -Topology, -NetworkOptions
+            scene_step/1,               % -Seconds
+            scene_start/2,              % +Network, +Options
+            scene_orders/4,             % -Delivered, -Waiting, -Underway, -Falls
+            scene_stop/0
+          ]).
+:- use_module('../../../prolog/typhon', [network_at/3, remote/2, ros_start/3, ros_stop/1]).
+:- use_module('../../../agents/allocation/operator', [robot_start/3]).
+:- use_module('../drawn', [drawn/3]).
+:- use_module(dispatch).
+:- use_module(floor).
+:- use_module(rosbridge).
+:- use_module(library(aggregate), [aggregate_all/3]).
+:- use_module(library(apply), [maplist/2, maplist/3, partition/4]).
+:- use_module(library(lists), [append/3, member/2, memberchk/2, nth0/3]).
+:- use_module(library(option), [option/3]).
+
+/** <module> A warehouse: robots, orders, and what is between them
+
+An office and robots, each a host; all are linked.  The robots are simulated, and
+stand behind a rosbridge server: poses, commands and calls go through
+library(typhon/ros), as with real ones.  They move five times in a second.  In
+virtual time each move waits until all frames have come through.
+
+Assumptions: a hop takes 0.2 to 0.4 s; an order comes every ten seconds.
+
+*Threading*: the floor is one fact, replaced in one step under a mutex.
+*/
+
+:- dynamic
+    floor/1,                    % see floor.pl
+    jobs/2,                     % orders to come, Time-Order; jobs
+    server/1,                   % URL
+    setting/1.                  % Options
+
+robot(Options, Name) :-
+    option(robots(Count), Options, 6),
+    between(1, Count, Number),
+    atom_concat(robot, Number, Name).
+
+scene_step(1).
+
+scene_topology(Topology) :-
+    scene_network([], Topology, _).
+
+%!  scene_network(+Options, -Topology, -NetworkOptions) is det.
+
+scene_network(Options, edges(Links), [hop_time(uniform(0.2, 0.4))]) :-
+    findall(Name, robot(Options, Name), Robots),
+    findall(A-B, ( append(_, [A|Bs], [office|Robots]), member(B, Bs) ), Links).
+
+%!  scene_start(+Network, +Options) is det.
+%
+%   Options: seed(S); robots(N), default 6, as of the network; pallets(N), which one
+%   robot carries, default 6; beams(N), which two or three carry, default 3; and
+%   those of dispatch_begin/4.
+
+scene_start(Network, Options) :-
+    scene_stop,
+    findall(Name-p(1, Y), ( robot(Options, Name), row(Name, Y) ), Robots),
+    floor_new(Robots, Floor),
+    assertz(setting(Options)),
+    assertz(floor(Floor)),
+    findall(Time-Order, order(Options, Time, Order), Orders),
+    assertz(jobs(Orders, [])),
+    rosbridge_start(heard, served, URL),
+    assertz(server(URL)),
+    forall(member(Name-_, Robots), robot_begins(URL, Name)),
+    network_at(Network, 0.2, warehouse_scene:pass(Network, 1, [])).
+
+row(Name, Y) :-
+    atom_concat(robot, Number, Name),
+    atom_number(Number, N),
+    Y is 1.2*N.
+
+robot_begins(URL, Name) :-
+    ros_start(Name, URL, [deadline(30)]),
+    atomic_list_concat(['/', Name, '/pose'], Topic),
+    remote(Name, ( ros_subscribe(Topic, 'geometry_msgs/msg/Pose', [as(latest)]),
+                   leave(rover(Name)) )),
+    robot_start(Name, [carry], [cost(payloads(robots/rover))]).
+
+%   Loads come from the right, and go to the left.
+
+order(Options, Time, order(Id, Corners, p(X, Y), p(3, Y2))) :-
+    option(seed(Seed), Options, 1),
+    option(pallets(Pallets), Options, 6),
+    option(beams(Beams), Options, 3),
+    Count is Pallets+Beams,
+    between(1, Count, Number),
+    Time is 10*Number,
+    (   Number*Beams // Count > (Number-1)*Beams // Count
+    ->  Kind = beam,
+        Which is Number mod 2,
+        nth0(Which, [[p(0, -1), p(0, 1)], [p(0, -1.5), p(0, 0), p(0, 1.5)]], Corners)
+    ;   Kind = pallet,
+        Corners = [p(0, 0)]
+    ),
+    atom_concat(Kind, Number, Id),
+    drawn(Seed, x(Number), U),
+    drawn(Seed, y(Number), V),
+    drawn(Seed, to(Number), W),
+    X is 8 + 6*U,
+    Y is 2 + 6*V,
+    Y2 is 2 + 6*W.
+
+scene_stop :-
+    with_mutex(warehouse_scene, forget).
+
+forget :-
+    (   retract(server(URL))
+    ->  forall(( setting(Options), robot(Options, Name) ),
+               catch(ros_stop(Name), error(_, _), true)),
+        rosbridge_stop(URL)
+    ;   true
+    ),
+    maplist(retractall, [floor(_), jobs(_, _), setting(_)]).
+
+                /*******************************
+                *             TIME             *
+                *******************************/
+
+:- public pass/3.               % called by network_at/3
+
+%   Poses were published of the robots Names0 the last time.  Not under the mutex of
+%   the floor: what robots hear comes in other threads.
+
+pass(Network, Tick, Names0) :-
+    settle(Names0),
+    (   change(floor_step(0.2))
+    ->  publish_poses(Tick, Names),
+        ( Tick mod 5 =:= 0 -> Time is Tick//5, dispatch(Time) ; true ),
+        Next is Tick+1,
+        Then is Next/5,
+        network_at(Network, Then, warehouse_scene:pass(Network, Next, Names))
+    ;   true
+    ).
+
+%   In virtual time no frame is under way between these hosts and the server when
+%   this is done: a call comes after all that was sent before.  One host after the
+%   other, so that agents become ready in the same order whenever this is run.
+
+settle(Names) :-
+    remote(office, here(Office)),
+    sub_atom(Office, _, _, 0, '@virtual:0'),
+    !,
+    forall(member(Name, Names),
+           remote(Name, ros_call('/settled', 'std_srvs/srv/Trigger', [], _))).
+settle(_).
+
+:- meta_predicate change(2).
+
+change(Goal) :-
+    with_mutex(warehouse_floor,
+               ( floor(Floor0),
+                 call(Goal, Floor0, Floor),
+                 transaction(( retractall(floor(_)), assertz(floor(Floor)) )) )).
+
+dispatch(Time) :-
+    jobs(Orders0, Jobs0),
+    setting(Options),
+    partition(due(Time), Orders0, Due, Orders),
+    maplist(begin(Options), Due, New),
+    maplist(dispatch_proceed, Jobs0, Jobs1),
+    append(Jobs1, New, Jobs),
+    transaction(( retractall(jobs(_, _)), assertz(jobs(Orders, Jobs)) )).
+
+due(Time, Then-_) :-
+    Then =< Time.
+
+begin(Options, _-Order, Job) :-
+    Order = order(Id, Corners, From, _),
+    change(floor_put(Id, Corners, From)),
+    dispatch_begin(Order, office, Options, Job).
+
+                /*******************************
+                *       ROBOTS OVER ROS        *
+                *******************************/
+
+%   Those that stand still say so once in a second.
+
+publish_poses(Tick, Names) :-
+    floor(Floor),
+    findall(Name, ( floor_robot(Floor, Name, _, _, State),
+                    once(( State == driven ; Tick mod 5 =:= 0 )) ), Names),
+    forall(member(Name, Names),
+           ( publish_pose(Floor, Name),
+             settle([Name]) )).
+
+publish_pose(Floor, Name) :-
+    floor_robot(Floor, Name, p(X, Y), Heading, _),
+    atomic_list_concat(['/', Name, '/pose'], Topic),
+    Z is sin(Heading/2),
+    W is cos(Heading/2),
+    rosbridge_publish(Topic, _{ position:_{x:X, y:Y, z:0.0},
+                                orientation:_{x:0.0, y:0.0, z:Z, w:W} }).
+
+heard(Topic, Message) :-
+    atomic_list_concat(['', Name, cmd_vel], /, Topic),
+    Speed = Message.linear.x,
+    Turn = Message.angular.z,
+    change(floor_drive(Name, Speed-Turn)).
+
+served('/settled', _, _{success:true, message:""}) :-
+    !.
+served(Service, _, _{success:Success, message:Message}) :-
+    atomic_list_concat(['', Name, What], /, Service),
+    memberchk(What, [load, unload]),
+    (   change(floor_fork(What, Name))
+    ->  Success = true,
+        Message = ""
+    ;   Success = false,
+        Message = "there is no load"
+    ).
+
+                /*******************************
+                *         WHAT IS SEEN         *
+                *******************************/
+
+%!  scene_orders(-Delivered, -Waiting, -Underway, -Falls) is semidet.
+%
+%   How many orders are delivered, waiting or to come, and being carried out; and
+%   how often loads fell.
+
+scene_orders(Delivered, Waiting, Underway, Falls) :-
+    floor(Floor),
+    jobs(Orders, Jobs),
+    length(Orders, Waiting),
+    aggregate_all(count, ( member(job(Order, _, _, _), Jobs),
+                           delivered(Floor, Order) ), Delivered),
+    aggregate_all(count, ( member(Job, Jobs), \+ dispatch_over(Job) ), Underway),
+    aggregate_all(sum(F), floor_load(Floor, _, _, _, F), Falls).
+
+delivered(Floor, order(Id, _, _, p(X, Y))) :-
+    floor_load(Floor, Id, _, p(X1, Y1), _),
+    sqrt((X-X1)**2 + (Y-Y1)**2) < 0.5.
