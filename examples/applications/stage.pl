@@ -25,7 +25,8 @@ threads, signals reach one of those, and are lost.
 %!  stage(+Argv, +Scene, :Play) is det.
 %
 %   Calls call(Play, Network, Options), Options being what Argv says.  Scene is a
-%   module with scene_topology(-Topology), that of the network;
+%   module with scene_topology(-Topology), that of the network, or
+%   scene_network(+Options, -Topology, -NetworkOptions);
 %   scene_step(-Seconds), of the world, of which as many pass in a second as the
 %   speed is; scene_picture(-Svg) for the page; and scene_stop, called before the
 %   network ends.  Ends the process, with status 1 if Play raises an error.
@@ -58,14 +59,21 @@ act(Scene, Play, Options) :-
     option(seed(Seed), Options, 1),
     Scene:scene_step(Step),
     ( Speed =:= 0 -> Clock = virtual ; Clock is Speed*Step ),
-    Scene:scene_topology(Topology),
+    scene_network(Scene, Options, Topology, More),
     network_start(Topology, Network,
-                  [clock(Clock), seed(Seed), log('/dev/null')]),
+                  [clock(Clock), seed(Seed), log('/dev/null')|More]),
     catch(play(Clock, Network, Scene, Play, Options), Ball, true),
     page_stop,
     Scene:scene_stop,
     network_stop(Network),
     ( var(Ball) -> true ; throw(Ball) ).
+
+scene_network(Scene, Options, Topology, More) :-
+    current_predicate(Scene:scene_network/3),
+    !,
+    Scene:scene_network(Options, Topology, More).
+scene_network(Scene, _, Topology, []) :-
+    Scene:scene_topology(Topology).
 
 play(virtual, Network, _, Play, Options) :-
     !,

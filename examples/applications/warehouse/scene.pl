@@ -59,7 +59,8 @@ scene_network(Options, edges(Links), [hop_time(uniform(0.2, 0.4))]) :-
 
 scene_start(Network, Options) :-
     scene_stop,
-    findall(Name-p(1, Y), ( robot(Options, Name), row(Name, Y) ), Robots),
+    findall(Name-Point, ( robot(Options, Name), begins_at(Options, Name, Point) ),
+            Robots),
     floor_new(Robots, Floor),
     assertz(setting(Options)),
     assertz(floor(Floor)),
@@ -70,10 +71,18 @@ scene_start(Network, Options) :-
     forall(member(Name-_, Robots), robot_begins(URL, Name)),
     network_at(Network, 0.2, warehouse_scene:pass(Network, 1, [])).
 
-row(Name, Y) :-
-    atom_concat(robot, Number, Name),
-    atom_number(Number, N),
-    Y is 1.2*N.
+begins_at(Options, Name, p(X, Y)) :-
+    option(seed(Seed), Options, 1),
+    drawn(Seed, x(Name), U),
+    drawn(Seed, y(Name), V),
+    rows(Options, Rows),
+    X is 1 + 14*U,
+    Y is 1 + (Rows-1)*V.
+
+rows(Options, Rows) :-
+    option(pallets(Pallets), Options, 6),
+    option(beams(Beams), Options, 3),
+    Rows is Pallets+Beams.
 
 robot_begins(URL, Name) :-
     ros_start(Name, URL, [deadline(30)]),
@@ -82,29 +91,26 @@ robot_begins(URL, Name) :-
                    leave(rover(Name)) )),
     robot_start(Name, [carry], [cost(payloads(robots/rover))]).
 
-%   Loads come from the right, and go to the left.
+%   Loads lie in the right half, each in a row of its own, and go to the left.
 
-order(Options, Time, order(Id, Corners, p(X, Y), p(3, Y2))) :-
+order(Options, Time, order(Id, Corners, p(X, Number), p(4, Row))) :-
     option(seed(Seed), Options, 1),
-    option(pallets(Pallets), Options, 6),
     option(beams(Beams), Options, 3),
-    Count is Pallets+Beams,
-    between(1, Count, Number),
+    rows(Options, Rows),
+    between(1, Rows, Number),
     Time is 10*Number,
-    (   Number*Beams // Count > (Number-1)*Beams // Count
+    (   Number*Beams // Rows > (Number-1)*Beams // Rows
     ->  Kind = beam,
         Which is Number mod 2,
-        nth0(Which, [[p(0, -1), p(0, 1)], [p(0, -1.5), p(0, 0), p(0, 1.5)]], Corners)
+        nth0(Which, [[p(-1, 0), p(1, 0)], [p(-1.5, 0), p(0, 0), p(1.5, 0)]],
+             Corners)
     ;   Kind = pallet,
         Corners = [p(0, 0)]
     ),
     atom_concat(Kind, Number, Id),
-    drawn(Seed, x(Number), U),
-    drawn(Seed, y(Number), V),
-    drawn(Seed, to(Number), W),
-    X is 8 + 6*U,
-    Y is 2 + 6*V,
-    Y2 is 2 + 6*W.
+    drawn(Seed, load(Number), U),
+    X is 9 + 5*U,
+    Row is Rows+1-Number.
 
 scene_stop :-
     with_mutex(warehouse_scene, forget).
