@@ -3,6 +3,8 @@
           ]).
 :- use_module('../../examples/applications/fire/scene', []).
 :- use_module('../../examples/applications/irrigation/scene', []).
+:- use_module('../../examples/applications/warehouse/scene', []).
+:- use_module('../../examples/applications/stage', [stage_network/4]).
 :- use_module('../../prolog/typhon',
               [network_advance/2, network_start/3, network_stop/1]).
 :- use_module(library(filesex), [directory_file_path/3]).
@@ -22,12 +24,13 @@ application_pictures(Directory) :-
 
 shown(fire, fire_scene, [fire(20)], 130).
 shown(irrigation, irrigation_scene, [], 1 123 200).      % 13 days
+shown(warehouse, warehouse_scene, [delta(2)], 90).
 
 picture(Directory, Name, Scene, Options, Seconds) :-
-    Scene:scene_topology(Topology),
+    stage_network(Scene, Options, Topology, More),
     setup_call_cleanup(
         network_start(Topology, Network,
-                      [clock(virtual), seed(1), log('/dev/null')]),
+                      [clock(virtual), seed(1), log('/dev/null')|More]),
         ( Scene:scene_start(Network, Options),
           network_advance(Network, Seconds),
           Scene:scene_picture(Svg) ),

@@ -1,6 +1,7 @@
 :- module(applications_stage,
           [ stage/3,                    % +Argv, +Scene, :Play
-            stage_advance/2             % +Network, +Seconds
+            stage_advance/2,            % +Network, +Seconds
+            stage_network/4             % +Scene, +Options, -Topology, -More
           ]).
 :- use_module('../../prolog/typhon',
               [ network_advance/2, network_start/3, network_stop/1 ]).
@@ -59,7 +60,7 @@ act(Scene, Play, Options) :-
     option(seed(Seed), Options, 1),
     Scene:scene_step(Step),
     ( Speed =:= 0 -> Clock = virtual ; Clock is Speed*Step ),
-    scene_network(Scene, Options, Topology, More),
+    stage_network(Scene, Options, Topology, More),
     network_start(Topology, Network,
                   [clock(Clock), seed(Seed), log('/dev/null')|More]),
     catch(play(Clock, Network, Scene, Play, Options), Ball, true),
@@ -68,11 +69,15 @@ act(Scene, Play, Options) :-
     network_stop(Network),
     ( var(Ball) -> true ; throw(Ball) ).
 
-scene_network(Scene, Options, Topology, More) :-
+%!  stage_network(+Scene, +Options, -Topology, -More) is det.
+%
+%   Of the network of a scene; More are options of network_start/3.
+
+stage_network(Scene, Options, Topology, More) :-
     current_predicate(Scene:scene_network/3),
     !,
     Scene:scene_network(Options, Topology, More).
-scene_network(Scene, _, Topology, []) :-
+stage_network(Scene, _, Topology, []) :-
     Scene:scene_topology(Topology).
 
 play(virtual, Network, _, Play, Options) :-

@@ -3,7 +3,7 @@
 /** <module> A warehouse: agents that allocate robots of ROS, and keep them in step
 
     swipl examples/applications/warehouse.pl [--robots=6] [--pallets=6]
-        [--beams=3] [--way=alone] [--delta=0.5] [--speed=5] [--port=8080]
+        [--beams=3] [--way=alone] [--delta=2] [--speed=5] [--port=8080]
         [--seed=1]
 
 A pallet is carried by one robot, a beam by two or three at the same time.

@@ -96,7 +96,7 @@ dismiss(executing(_, Agents)) :-
 dismiss(_).
 
 begin(in_step, Id, Robots, Tasks, Options, Agents) :-
-    option(delta(Delta), Options, 0.5),
+    option(delta(Delta), Options, 2),
     sequence_start(Id, Robots, Tasks,
                    [starts(Robots), settings([delta-Delta])], Agents).
 begin(alone, Id, Robots, Tasks, _, Agents) :-

@@ -1,13 +1,14 @@
 :- module(warehouse_scene,
-          [ scene_topology/1,           % -Topology
-            scene_network/3,            % +Options, -Topology, -NetworkOptions
+          [ scene_network/3,            % +Options, -Topology, -NetworkOptions
             scene_step/1,               % -Seconds
             scene_start/2,              % +Network, +Options
             scene_orders/4,             % -Delivered, -Waiting, -Underway, -Falls
+            scene_picture/1,            % -Svg
             scene_stop/0
           ]).
-:- use_module('../../../prolog/typhon', [network_at/3, remote/2, ros_start/3, ros_stop/1]).
-:- use_module('../../../agents/allocation/operator', [robot_start/3]).
+:- use_module('../../../prolog/typhon',
+              [network_at/3, remote/2, ros_start/3, ros_stop/1]).
+:- use_module('../../../agents/allocation/operator', [robot_start/3, robot_status/2]).
 :- use_module('../drawn', [drawn/3]).
 :- use_module(dispatch).
 :- use_module(floor).
@@ -26,7 +27,9 @@ virtual time each move waits until all frames have come through.
 
 Assumptions: a hop takes 0.2 to 0.4 s; an order comes every ten seconds.
 
-*Threading*: the floor is one fact, replaced in one step under a mutex.
+*Threading*: the floor is one fact, replaced in one step under a mutex of its own,
+since what robots hear comes in other threads.  Another mutex keeps the end of the
+scene apart from time that passes.
 */
 
 :- dynamic
@@ -41,9 +44,6 @@ robot(Options, Name) :-
     atom_concat(robot, Number, Name).
 
 scene_step(1).
-
-scene_topology(Topology) :-
-    scene_network([], Topology, _).
 
 %!  scene_network(+Options, -Topology, -NetworkOptions) is det.
 
@@ -130,19 +130,22 @@ forget :-
 
 :- public pass/3.               % called by network_at/3
 
-%   Poses were published of the robots Names0 the last time.  Not under the mutex of
-%   the floor: what robots hear comes in other threads.
+pass(Network, Tick, Names) :-
+    with_mutex(warehouse_scene, passed(Network, Tick, Names)).
 
-pass(Network, Tick, Names0) :-
+%   Names0 are the robots of which poses were published the last time.
+
+passed(_, _, _) :-
+    \+ floor(_),
+    !.
+passed(Network, Tick, Names0) :-
     settle(Names0),
-    (   change(floor_step(0.2))
-    ->  publish_poses(Tick, Names),
-        ( Tick mod 5 =:= 0 -> Time is Tick//5, dispatch(Time) ; true ),
-        Next is Tick+1,
-        Then is Next/5,
-        network_at(Network, Then, warehouse_scene:pass(Network, Next, Names))
-    ;   true
-    ).
+    change(floor_step(0.2)),
+    publish_poses(Tick, Names),
+    ( Tick mod 5 =:= 0 -> Time is Tick//5, dispatch(Time) ; true ),
+    Next is Tick+1,
+    Then is Next/5,
+    network_at(Network, Then, warehouse_scene:pass(Network, Next, Names)).
 
 %   In virtual time no frame is under way between these hosts and the server when
 %   this is done: a call comes after all that was sent before.  One host after the
@@ -242,3 +245,61 @@ scene_orders(Delivered, Waiting, Underway, Falls) :-
 delivered(Floor, order(Id, _, _, p(X, Y))) :-
     floor_load(Floor, Id, _, p(X1, Y1), _),
     sqrt((X-X1)**2 + (Y-Y1)**2) < 0.5.
+
+%!  scene_picture(-Svg) is det.
+%
+%   Robots, with a line ahead, red where they are held by an order; loads, and the
+%   place on the left where each is to be.
+
+scene_picture(Svg) :-
+    floor(Floor),
+    jobs(_, Jobs),
+    with_output_to(string(Svg), draw(Floor, Jobs)).
+
+%   A metre is 40 points.
+
+draw(Floor, Jobs) :-
+    Floor = floor(Time, _, _),
+    setting(Options),
+    rows(Options, Rows),
+    Height is 40*(Rows+1),
+    format('<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 680 ~d" \c
+            font-family="sans-serif" font-size="13"><rect width="680" \c
+            height="~d" fill="#f4f1ea"/><text x="10" y="20">~0f s</text>',
+           [Height, Height, Time]),
+    forall(member(job(order(_, Corners, _, To), _, _, _), Jobs),
+           draw_bar(Corners, To, 'fill="none" stroke="#aaa" stroke-dasharray="4"')),
+    forall(floor_load(Floor, Id, Corners, Centre, _),
+           draw_load(Id, Corners, Centre)),
+    forall(floor_robot(Floor, Name, Point, Heading, _),
+           draw_robot(Name, Point, Heading)),
+    format('</svg>').
+
+draw_load(Id, Corners, Centre) :-
+    draw_bar(Corners, Centre, 'fill="#d8b070" stroke="#864"'),
+    Centre = p(X0, Y0),
+    X is 40*X0 - 24,
+    Y is 40*Y0 - 13,
+    format('<text x="~1f" y="~1f" fill="#642">~w</text>', [X, Y, Id]).
+
+draw_bar(Corners, p(X0, Y0), Style) :-
+    aggregate_all(max(DX), member(p(DX, _), Corners), Half),
+    X is 40*(X0-Half) - 10,
+    Y is 40*Y0 - 10,
+    Width is 80*Half + 20,
+    format('<rect x="~1f" y="~1f" width="~1f" height="20" ~w/>',
+           [X, Y, Width, Style]).
+
+draw_robot(Name, p(X0, Y0), Heading) :-
+    X is 40*X0,
+    Y is 40*Y0,
+    X1 is X + 18*cos(Heading),
+    Y1 is Y + 18*sin(Heading),
+    TextX is X - 4,
+    TextY is Y + 5,
+    ( robot_status(Name, free) -> Colour = '#69b' ; Colour = '#c54' ),
+    atom_concat(robot, Number, Name),
+    format('<circle cx="~1f" cy="~1f" r="11" fill="~w" stroke="#333"/><path \c
+            d="M~1f,~1f L~1f,~1f" stroke="#333" stroke-width="3"/><text x="~1f" \c
+            y="~1f" fill="#fff">~w</text>',
+           [X, Y, Colour, X, Y, X1, Y1, TextX, TextY, Number]).
