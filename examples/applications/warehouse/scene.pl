@@ -208,9 +208,18 @@ publish_pose(Floor, Name) :-
 
 heard(Topic, Message) :-
     atomic_list_concat(['', Name, cmd_vel], /, Topic),
-    Speed = Message.linear.x,
-    Turn = Message.angular.z,
+    field(Message, linear, x, Speed),
+    field(Message, angular, z, Turn),
     change(floor_drive(Name, Speed-Turn)).
+
+%   What is left out is 0 in ROS.
+
+field(Message, Vector, Axis, Value) :-
+    (   get_dict(Vector, Message, Dict),
+        get_dict(Axis, Dict, Value0)
+    ->  Value = Value0
+    ;   Value = 0
+    ).
 
 served('/settled', _, _{success:true, message:""}) :-
     !.
