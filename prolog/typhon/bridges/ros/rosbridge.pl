@@ -351,10 +351,11 @@ writer_stop(_, _).
 %   socket_open(+URL, +Silence, -Socket)
 %
 %   As library(http/websocket), but of a message only that is kept which the
-%   setting allows.  A server may say nothing for Silence seconds.
+%   setting allows.  A server may say nothing for Silence seconds.  Without nodelay
+%   a frame would wait until the server has acknowledged the one before.
 
 socket_open(URL, Silence, socket(In, Out)) :-
-    http_open_websocket(URL, Pair, [timeout(Silence)]),
+    http_open_websocket(URL, Pair, [timeout(Silence), nodelay(true)]),
     stream_pair(Pair, In, Out).
 
 %   socket_read(+Socket, -Read)
