@@ -170,26 +170,39 @@ add_predicate(Module, All, (Name/Arity)-Condition, PIs) :-
     named('run ', Head, Args, Run),
     assertz(Module:'$run'(Head, Run, K, X, Base, Out, Condition)),
     findall(C, ( member(C, All), C = compiled(Head, _, _, _, _) ), Clauses),
-    (   plain_entry(Clauses)
-    ->  add_clauses(Clauses, Module, 'run ', [RunPI]),
+    barriers(Clauses, Barriers),
+    (   total(Clauses),
+        Barriers == []
+    ->  add_clauses(Clauses, Module, 'run ', [], [RunPI]),
         PIs = [RunPI]
-    ;   add_clauses(Clauses, Module, 'do ', [DoPI]),
-        named('do ', Head, [Barrier|Args], Do),
+    ;   add_clauses(Clauses, Module, 'do ', Barriers, [DoPI]),
+        append(Barriers, Args, DoArgs),
+        named('do ', Head, DoArgs, Do),
         add_heads(Clauses, Module, Head, Matches, HeadPIs),
         declare(Module, Run, RunPI),
-        assertz(Module:(Run :-
-                     prolog_current_choice(Barrier),
-                     (   \+ Matches
-                     ->  typhon_faults:fails(Head, K)
-                     ;   Do
-                     ))),
+        entry(Matches, Barriers, typhon_faults:fails(Head, K), Do, Entry),
+        assertz(Module:(Run :- Entry)),
         PIs = [RunPI,DoPI|HeadPIs]
     ).
 
-plain_entry(Clauses) :-
-    total(Clauses),
-    \+ ( member(compiled(_, Barrier, _, Code, _), Clauses),
-         occurs(Barrier, Code) ).
+%   barriers(+Clauses, -Barriers): [_] if Clauses are to know where a cut cuts
+%   to, else [].
+
+barriers(Clauses, [_]) :-
+    member(compiled(_, Barrier, _, Code, _), Clauses),
+    occurs(Barrier, Code),
+    !.
+barriers(_, []).
+
+%   entry(+Matches, +Barriers, +Fails, +Do, -Entry)
+
+entry(Matches, [Barrier], Fails, Do, Entry) =>
+    Entry = (prolog_current_choice(Barrier),Entry1),
+    entry(Matches, [], Fails, Do, Entry1).
+entry(true, [], _, Do, Entry) =>
+    Entry = Do.
+entry(Matches, [], Fails, Do, Entry) =>
+    Entry = (\+ Matches -> Fails ; Do).
 
 %   Some clause is for all calls.
 
@@ -212,18 +225,20 @@ add_heads(Clauses, Module, Head, Matches, [PI]) :-
            ( named('head ', Head1, [], Fact),
              assertz(Module:Fact) )).
 
-add_clauses([Clause|Clauses], Module, Prefix, [PI]) :-
-    run_head(Clause, Prefix, Head0),
+%   add_clauses(+Clauses, +Module, +Prefix, +Barriers, -PIs)
+
+add_clauses([Clause|Clauses], Module, Prefix, Barriers, [PI]) :-
+    run_head(Clause, Prefix, Barriers, Head0),
     declare(Module, Head0, PI),
     forall(member(C, [Clause|Clauses]),
-           ( run_head(C, Prefix, Head),
+           ( run_head(C, Prefix, Barriers, Head),
              C = compiled(_, _, _, Code, _),
              assertz(Module:(Head :- Code)) )).
 
-run_head(compiled(Head, _, Args, _, _), 'run ', Run) :-
-    named('run ', Head, Args, Run).
-run_head(compiled(Head, Barrier, Args, _, _), 'do ', Run) :-
-    named('do ', Head, [Barrier|Args], Run).
+run_head(compiled(Head, _, Args, _, _), Prefix, [], Run) :-
+    named(Prefix, Head, Args, Run).
+run_head(compiled(Head, Barrier, Args, _, _), Prefix, [_], Run) :-
+    named(Prefix, Head, [Barrier|Args], Run).
 
 declare(Module, Head, Name/Arity) :-
     functor(Head, Name, Arity),
