@@ -14,84 +14,65 @@ the error, and the clause.
 *Threading*: pure; print_message/2 calls it in any thread.
 */
 
-
 %!  happening(+What, -Text, ?Rest) is det.
 %
 %   The text of an event, see typhon_events, as a message: what an agent did,
 %   or what happened to it.
 
 happening(What) -->
-    { \+ own_event(What) },
+    { own(What, If, Text), call(If) },
     !,
+    Text.
+happening(What) -->
     [ 'logs ' ],
     term_told(What).
-happening(created) --> [ 'begins' ].
-happening(ended(Outcome)) --> [ 'ends, ' ], term_told(Outcome).
-happening(faulty(Error)) --> [ 'is faulty: ' ], term_told(Error).
-happening(fault(fault(Error, Goal, Place, _))) -->
-    [ 'is faulty, ' ],
-    term_told(Error),
-    [ ': ' ],
-    term_told(Goal),
-    [ ', at ~w'-[Place] ].
-happening(link(To)) --> named('is linked with ~w', To).
-happening(unlink(To)) --> named('is not linked with ~w any more', To).
-happening(started) --> [ 'starts' ].
-happening(stopped) --> [ 'stops' ].
-happening(refused(Agent, Reason)) -->
-    named('refuses ~w', Agent),
-    [ ': ' ],
-    term_told(Reason).
-happening(left(To)) --> named('leaves for ~w', To).
-happening(stayed(To)) --> named('could not go to ~w', To).
-happening(arrived(From, Seconds)) -->
-    named('comes from ~w', From),
-    [ ', in ~4g s'-[Seconds] ].
-happening(cloned(Clone)) --> named('has a clone, ~w', Clone).
-happening(sent(To)) --> named('sends to ~w', To).
-happening(sent(To, Message)) -->
-    [ 'sends ' ],
-    term_told(Message),
-    named(' to ~w', To).
-happening(received(From)) --> named('takes a message from ~w', From).
-happening(received(From, Message)) -->
-    [ 'takes ' ],
-    term_told(Message),
-    named(' from ~w', From).
-happening(leave(Fact)) --> [ 'leaves ' ], term_told(Fact), [ ' here' ].
-happening(take(Fact)) --> [ 'takes ' ], term_told(Fact), [ ' up here' ].
-happening(goal(Goal)) -->
-    { copy_term(Goal, Shown, _),
-      numbervars(Shown, 0, _, [singletons(true)])
-    },
-    [ '~W'-[ Shown, [ quoted(true), portray(false), numbervars(true),
-                      max_depth(10), spacing(next_argument) ] ] ].
 
 %!  own_event(+What) is semidet.
 %
 %   What is of the platform.  Agents may log whatever they like; what looks
 %   like this all the same is taken for it.
 
-own_event(created).
-own_event(ended(_)).
-own_event(faulty(_)).
-own_event(fault(fault(_, _, _, _))).
-own_event(link(To)) :- is_name(To).
-own_event(unlink(To)) :- is_name(To).
-own_event(started).
-own_event(stopped).
-own_event(refused(Agent, _)) :- atom(Agent).
-own_event(left(To)) :- is_name(To).
-own_event(stayed(To)) :- is_name(To).
-own_event(arrived(From, Seconds)) :- atom(From), number(Seconds).
-own_event(cloned(Id)) :- is_name(Id).
-own_event(sent(To)) :- atom(To).
-own_event(sent(To, _)) :- atom(To).
-own_event(received(From)) :- atom(From).
-own_event(received(From, _)) :- atom(From).
-own_event(leave(_)).
-own_event(take(_)).
-own_event(goal(_)).
+own_event(What) :-
+    own(What, If, _),
+    call(If),
+    !.
+
+%   own(+What, -If, -Text): an event, if it looks like this, and what is said of
+%   it, the body of a grammar rule.
+
+own(created, true, [ 'begins' ]).
+own(ended(Outcome), true, ([ 'ends, ' ], term_told(Outcome))).
+own(faulty(Error), true, ([ 'is faulty: ' ], term_told(Error))).
+own(fault(fault(Error, Goal, Place, _)), true,
+    ( [ 'is faulty, ' ], term_told(Error), [ ': ' ], term_told(Goal),
+      [ ', at ~w'-[Place] ] )).
+own(link(To), is_name(To), named('is linked with ~w', To)).
+own(unlink(To), is_name(To), named('is not linked with ~w any more', To)).
+own(started, true, [ 'starts' ]).
+own(stopped, true, [ 'stops' ]).
+own(refused(Agent, Reason), atom(Agent),
+    ( named('refuses ~w', Agent), [ ': ' ], term_told(Reason) )).
+own(left(To), is_name(To), named('leaves for ~w', To)).
+own(stayed(To), is_name(To), named('could not go to ~w', To)).
+own(arrived(From, Seconds), ( atom(From), number(Seconds) ),
+    ( named('comes from ~w', From), [ ', in ~4g s'-[Seconds] ] )).
+own(cloned(Clone), is_name(Clone), named('has a clone, ~w', Clone)).
+own(sent(To), atom(To), named('sends to ~w', To)).
+own(sent(To, Message), atom(To),
+    ( [ 'sends ' ], term_told(Message), named(' to ~w', To) )).
+own(received(From), atom(From), named('takes a message from ~w', From)).
+own(received(From, Message), atom(From),
+    ( [ 'takes ' ], term_told(Message), named(' from ~w', From) )).
+own(leave(Fact), true, ( [ 'leaves ' ], term_told(Fact), [ ' here' ] )).
+own(take(Fact), true, ( [ 'takes ' ], term_told(Fact), [ ' up here' ] )).
+own(goal(Goal), true, goal_shown(Goal)).
+
+goal_shown(Goal) -->
+    { copy_term(Goal, Shown, _),
+      numbervars(Shown, 0, _, [singletons(true)])
+    },
+    [ '~W'-[ Shown, [ quoted(true), portray(false), numbervars(true),
+                      max_depth(10), spacing(next_argument) ] ] ].
 
 is_name(Name) :-
     atom(Name),

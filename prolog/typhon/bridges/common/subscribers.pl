@@ -158,10 +158,9 @@ subscribers_tell_new(Service, Host, Key, Message, Same) :-
             Pairs),
     tell_all(Pairs, Service, Host, Key, Message-Same).
 
-tell_all([], _, _, _, _).
-tell_all([Agent-how(As, Max, _)|Pairs], Service, Host, Key, What) :-
-    tell(how(As, Max), Service-Key, Host-Agent, What),
-    tell_all(Pairs, Service, Host, Key, What).
+tell_all(Pairs, Service, Host, Key, What) :-
+    forall(member(Agent-how(As, Max, _), Pairs),
+           tell(how(As, Max), Service-Key, Host-Agent, What)).
 
 tell(How, Service-Key, Host-Agent, What) :-
     inbox_put(How, Service-Key, Host-Agent, What),

@@ -13,6 +13,7 @@
 :- use_module(library(apply), [maplist/3]).
 :- use_module(library(debug), [debug/3]).
 :- use_module(library(error), [existence_error/2]).
+:- use_module(library(lists), [member/2]).
 :- use_module(library(option), [option/2, option/3]).
 :- use_module('../helper',
               [ helper_ask/4, helper_close/1, helper_failure/3,
@@ -194,12 +195,7 @@ answer_come(Id, Answer) :-
 
 answers_fail(Host, Why) :-
     findall(Id, awaited(Id, Host, _), Ids),
-    answers_lost(Ids, Why).
-
-answers_lost([], _).
-answers_lost([Id|Ids], Why) :-
-    ignore(answer_come(Id, lost(Why))),
-    answers_lost(Ids, Why).
+    forall(member(Id, Ids), ignore(answer_come(Id, lost(Why)))).
 
                 /*******************************
                 *      A NODE OF OUR OWN       *
