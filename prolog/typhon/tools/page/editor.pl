@@ -188,21 +188,21 @@ read_text(Field, Text, Term) :-
           throw(error(page_syntax(Field, syntax_error(Error), Where), _))).
 
 prolog:error_message(page_syntax(Field, Error, Where)) -->
-    { message_to_text(Error, Text),
+    { syntax_text(Error, Text),
       place_text(Where, Place)
     },
     [ 'the ~w cannot be read: ~w~w'-[Field, Text, Place] ].
 prolog:error_message(existence_error(page_field, Field)) -->
     [ 'the ~w is missing'-[Field] ].
 
-message_to_text(Error, Text) :-
-    phrase(prolog_message_of(Error), Lines),
+syntax_text(syntax_error(Error), Text) :-
+    phrase('$messages':syntax_error(Error), Lines),
+    lines_text(Lines, Text).
+
+lines_text(Lines, Text) :-
     with_output_to(string(Text0),
                    print_message_lines(current_output, '', Lines)),
     split_string(Text0, "", " \n", [Text]).
-
-prolog_message_of(syntax_error(Error)) -->
-    '$messages':syntax_error(Error).
 
 %   From where on it makes no sense.
 
@@ -257,9 +257,7 @@ keep(informational, _, _) :-
     !.
 keep(Kind, Term, Lines) :-
     memberchk(Kind, [error, warning]),
-    with_output_to(string(Text0),
-                   print_message_lines(current_output, '', Lines)),
-    split_string(Text0, "", " \n", [Text]),
+    lines_text(Lines, Text),
     assertz(said(Kind, Term, Text)).
 
 %!  on_console(:Goal) is semidet.

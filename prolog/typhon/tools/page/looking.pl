@@ -21,7 +21,7 @@
               [ agent_glance_dict/2, name_text/2, page_time/2, place_text/2,
                 scene_dict/3, text/2 ]).
 :- use_module(replay, [replay_of_text/3]).
-:- use_module(editor, [on_console/1]).
+:- use_module(editor, [name_in/3, on_console/1, text_in/3]).
 :- use_module(sources, [sources_look/1, sources_tree/1]).
 
 /** <module> Questions of browsers, and the answers
@@ -86,16 +86,9 @@ asked(tree, _, Dicts) :-
 asked(world, _, Svg) :-
     world_picture(Svg).
 asked(replay, Message, Dict) :-
-    maplist(text_in(Message), [title, text], [Title, Text]),
+    text_in(title, Message, Title),
+    text_in(text, Message, Text),
     replay_of_text(Title, Text, Dict).
-
-text_in(Message, Key, Text) :-
-    get_dict(Key, Message, Text),
-    must_be(string, Text).
-
-name_in(Key, Message, Name) :-
-    text_in(Message, Key, Text),
-    atom_string(Name, Text).
 
 %!  first_sight(-Dict) is det.
 

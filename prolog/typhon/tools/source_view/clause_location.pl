@@ -1,5 +1,6 @@
 :- module(typhon_clause_location,
-          [ point/3                     % +Body, -Sequel, -End
+          [ point/3,                    % +Body, -Sequel, -End
+            body_list/2                 % +Body, -Goals
           ]).
 :- use_module(library(apply), [maplist/3]).
 :- use_module(library(lists), [append/3, member/2, min_list/2, nth1/3]).
@@ -298,6 +299,10 @@ calls(All, General, c(N, Name/Arity)) :-
 goals_normal(Goals0, Goals) :-
     goals_body(Goals0, Body),
     body_list(Body, Goals).
+
+%!  body_list(+Body, -Goals:list) is det.
+%
+%   Goals are those of a clause body.
 
 body_list(Body, Goals) :-
     body_goals(Body, _, Goals0, []),

@@ -2,15 +2,16 @@
           [ list_agent/1,               % +Agent
             show_goals/4                % +Agent, +Facts, +Goals, -Shown
           ]).
+:- use_module(library(apply), [maplist/2]).
 :- use_module(library(lists), [append/3, member/2, nth1/3]).
 :- autoload(library(listing), [portray_clause/1, portray_clause/3]).
 :- use_module('../../kernel/program',
-              [ body_goals/4, clause_parts/3, code_names/2, code_program/2,
-                goals_body/2, plain_goals/2 ]).
+              [clause_parts/3, code_names/2, code_program/2, goals_body/2]).
 :- use_module('../../kernel/agent', [agent/5]).
 :- use_module('../../kernel/lifecycle',
               [agent_answer/3, question_answered/2]).
 :- use_module('../administration', [agent_property/2]).
+:- use_module(clause_location, [body_list/2]).
 :- use_module(variable_names,
               [clause_bindings/3, goals_bindings/4, stands_in/3]).
 
@@ -60,11 +61,9 @@ show_goals(Agent, Facts, Goals, Shown) :-
     append(Static, Facts, Clauses),
     goals_bindings(Clauses, Names, Goals, Bindings),
     copy_term_nat(Goals-Bindings, Shown-Named),
-    bound_to_names(Named).
+    maplist(bound_to_name, Named).
 
-bound_to_names([]).
-bound_to_names([Name='$VAR'(Name)|Named]) :-
-    bound_to_names(Named).
+bound_to_name(Name='$VAR'(Name)).
 
 about(Agent, Properties) :-
     memberchk(host(Host), Properties),
@@ -150,8 +149,7 @@ list_clause(Clause, Bindings, _, _) :-
 
 marked(Clause, At, (Head:-Body)) :-
     clause_parts(Clause, Head, Body0),
-    body_goals(Body0, _, Marked0, []),
-    plain_goals(Marked0, Goals0),
+    body_list(Body0, Goals0),
     nth1(At, Goals, '$typhon_here', Goals0),
     goals_body(Goals, Body).
 

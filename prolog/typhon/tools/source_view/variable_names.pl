@@ -7,9 +7,8 @@
 :- use_module(library(aggregate), [aggregate_all/3]).
 :- use_module(library(apply), [maplist/2, maplist/3]).
 :- use_module(library(lists), [append/3, member/2, memberchk/2, nth1/3]).
-:- use_module('../../kernel/program',
-              [body_goals/4, clause_parts/3, control/1, plain_goals/2]).
-:- use_module(clause_location, [point/3]).
+:- use_module('../../kernel/program', [clause_parts/3, control/1]).
+:- use_module(clause_location, [body_list/2, point/3]).
 
 /** <module> Which clause goals come from, and the names of their variables
 
@@ -72,8 +71,7 @@ sequel(N-I, Clauses, Lists, Names, Variables, Sequel) :-
     copy_term_nat(Clause, Copy),
     term_variables(Copy, Variables),
     clause_parts(Copy, _, Body),
-    body_goals(Body, _, Marked, []),
-    plain_goals(Marked, Goals),
+    body_list(Body, Goals),
     Done is I-1,
     length(Before, Done),
     append(Before, Sequel, Goals).
@@ -176,7 +174,7 @@ found(Clauses, Goals, How, Places) :-
 ends_so(Goals, Clauses, How, N, I, Length) :-
     nth1(N, Clauses, Clause),
     clause_parts(Clause, _, Body),
-    goals(Body, All),
+    body_list(Body, All),
     append(Before, End, All),
     End = [First|_],
     length(End, Length),
@@ -217,8 +215,8 @@ goes_on_as(Goal, First, How, Pattern) :-
     begins(Goal, Now, _),
     nonvar(First),
     begins(First, Before, Pattern0),
-    goals(Now, Left),
-    goals(Before, All),
+    body_list(Now, Left),
+    body_list(Before, All),
     \+ subsumes_term(All, Left),
     !,
     (   How == far
@@ -236,7 +234,7 @@ goes_on_as(_, First, _, First).
 inner([Goal|_], Inner) :-
     nonvar(Goal),
     begins(Goal, Body, _),
-    goals(Body, Inner).
+    body_list(Body, Inner).
 
 %   begins(+Goal, -Body, -Pattern): Goal begins with Body; Pattern is what it
 %   is like when it has begun.
@@ -246,7 +244,3 @@ begins((If*->Then;Else), If, (_*->Then;Else)).
 begins((If->Then), If, (_->Then)).
 begins((If*->Then), If, (_*->Then)).
 begins(catch(Goal, Catcher, Recovery), Goal, catch(_, Catcher, Recovery)).
-
-goals(Body, Goals) :-
-    body_goals(Body, _, Marked, []),
-    plain_goals(Marked, Goals).
