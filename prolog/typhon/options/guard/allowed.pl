@@ -7,7 +7,8 @@
           ]).
 :- use_module(library(apply), [maplist/3]).
 :- use_module(library(error), [domain_error/2]).
-:- use_module(library(lists), [member/2]).
+:- use_module(library(lists), [member/2, memberchk/2]).
+:- use_module(library(readutil), [read_file_to_terms/3]).
 :- use_module('../../kernel/program', [vocabulary_word/2]).
 
 /** <module> What strangers may call
@@ -110,59 +111,31 @@ makes_atoms(iri_normalized(_, _, _)).
 %   holds one, writes where people read, calls what messages and formats
 %   name, reads what others keep in the thread, or tells of the machine.
 
-withheld(abort).
-withheld(sleep(_)).
-withheld(writeln(_)).
-withheld(print_message(_, _)).
-withheld(message_to_string(_, _)).
-withheld(format_time(_, _, _)).
-withheld(format_time(_, _, _, _)).
-withheld(normalize_space(_, _)).
-withheld(b_getval(_, _)).
-withheld(nb_getval(_, _)).
-withheld(nb_current(_, _)).
-withheld(abolish_all_tables).
-withheld(thread_self(_)).
-withheld(statistics(_, _)).
-withheld(is_stream(_)).
-withheld(blob(_, _)).
-withheld(current_prolog_flag(_, _)).
-withheld(current_op(_, _, _)).
-withheld(import_module(_, _)).
-withheld(strip_module(_, _, _)).
-withheld(current_type(_, _, _)).
-withheld(variant_sha1(_, _)).           % of shared terms without end
-withheld(variant_hash(_, _)).
-withheld(name(_, _)).
-withheld(atomic_concat(_, _, _)).
-withheld(get_attr(_, _, _)).
-withheld(get_attrs(_, _)).
-withheld(del_attr(_, _)).
-withheld(del_attrs(_)).
-withheld(copy_term(_, _, _)).
-withheld(setarg(_, _, _)).              % what was looked at stays as it was
-withheld(b_set_dict(_, _, _)).
-withheld(nb_setarg(_, _, _)).
-withheld(nb_linkarg(_, _, _)).
-withheld(nb_set_dict(_, _, _)).
-withheld(nb_link_dict(_, _, _)).
-withheld(dcg_translate_rule(_, _)).
-withheld(set_random(_)).                % is one for all
-withheld(setrand(_)).
-withheld(getrand(_)).
-withheld(random_property(_)).
-withheld(meta_options(_, _, _)).        % options that are goals
-withheld(foreach(_, _)).
-withheld(term_string(_, _, _)).         % with options
-withheld(deliver(_)).                   % what all on the host would call
-withheld(undeliver(_)).
-withheld(seal(_, _, _)).                % the keys of the process
-withheld(unseal(_, _)).
-withheld(\(_)).
-withheld(\(_, _)).
-withheld(_^_).
 withheld(Head) :-
-    callable(Head),
+    functor(Head, Name, Arity),
+    memberchk(Name/Arity,
+              [ abort/0, sleep/1, writeln/1, print_message/2,
+                message_to_string/2, format_time/3, format_time/4,
+                normalize_space/2, b_getval/2, nb_getval/2, nb_current/2,
+                abolish_all_tables/0, thread_self/1, statistics/2,
+                is_stream/1, blob/2, current_prolog_flag/2, current_op/3,
+                import_module/2, strip_module/3, current_type/3,
+                variant_sha1/2, variant_hash/2, % of shared terms without end
+                name/2, atomic_concat/3, get_attr/3, get_attrs/2, del_attr/2,
+                del_attrs/1, copy_term/3,
+                setarg/3,               % what was looked at stays as it was
+                b_set_dict/3, nb_setarg/3, nb_linkarg/3, nb_set_dict/3,
+                nb_link_dict/3, dcg_translate_rule/2,
+                set_random/1,           % is one for all
+                setrand/1, getrand/1, random_property/1,
+                meta_options/3,         % options that are goals
+                foreach/2,
+                term_string/3,          % with options
+                deliver/1, undeliver/1, % what all on the host would call
+                seal/3, unseal/2,       % the keys of the process
+                (\)/1, (\)/2, (^)/2 ]),
+    !.
+withheld(Head) :-
     functor(Head, Name, _),
     sub_atom(Name, 0, _, _, $).
 
@@ -248,23 +221,13 @@ rules_read(File) :-
     throw(error(existence_error(source_sink, File),
                 context(_, 'a policy is trusted, guarded or a file of rules'))).
 rules_read(File) :-
-    setup_call_cleanup(
-        open(File, read, In, [encoding(utf8)]),
-        rules_in(In, Rules),
-        close(In)),
+    read_file_to_terms(File, Rules,
+                       [ encoding(utf8), module(typhon_allowed_libraries) ]),
     maplist(policy_rule, Rules, Heads),
     with_mutex(typhon_policies,
                ( retractall(rule(_, File, _)),
                  forall(member(Head-Kind, Heads),
                         assertz(rule(Head, File, Kind))) )).
-
-rules_in(In, Rules) :-
-    read_term(In, Term, [module(typhon_allowed_libraries)]),
-    (   Term == end_of_file
-    ->  Rules = []
-    ;   Rules = [Term|More],
-        rules_in(In, More)
-    ).
 
 policy_rule(Rule, Head-Kind) :-
     (   ground(Rule),

@@ -156,14 +156,11 @@ unknown(Goal) :-
 
 %!  is_own(+Goal, +Own) is semidet.
 
-is_own(Goal, own(Heads, _)) :-
-    defined_in(Heads, Goal).
-
-defined_in(heads(Own), Goal) :-
+is_own(Goal, own(heads(Own), _)) :-
     callable(Goal),
     functor(Goal, Name, Arity),
     get_assoc(Name/Arity, Own, _).
-defined_in(module(Module), Goal) :-
+is_own(Goal, own(module(Module), _)) :-
     callable(Goal),
     Goal \= _:_,
     '$c_current_predicate'(_, Module:Goal),

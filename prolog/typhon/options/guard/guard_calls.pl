@@ -63,11 +63,22 @@ guard_call(Policy, Module, Closure, Extra, Goal) :-
     checked(Extra, Own, Closure, Goal0),
     own_only(Goal0, Module, Goal).
 
+%   checked(+Extra, +Own, +Closure, -Goal): of a lambda expression the body is
+%   guarded, for its parameters may be goals.
+
 checked([], Own, Goal0, Goal) :-
     !,
     guard_called(Own, Goal0, Goal).
 checked(Extra, Own, Closure, Goal) :-
-    guard_closure(Own, Closure, Extra, Goal).
+    is_lambda(Closure),
+    !,
+    length(Extra, N),
+    count_parts,
+    guard_lambda(Closure, N, Own, Closure1),
+    extended(Closure1, Extra, Goal).
+checked(Extra, Own, Closure, Goal) :-
+    extended(Closure, Extra, Goal0),
+    guard_called(Own, Goal0, Goal).
 
 %   guard_called(+Own, +Goal0, -Goal): Goal may be called now.
 
@@ -108,19 +119,6 @@ plain(Goal, Own) :-
 refuse_cyclic(Goal) :-
     functor(Goal, Name, Arity),
     refuse(cyclic(Name/Arity)).
-
-%   guard_closure(+Own, +Closure, +Extra, -Goal): of a lambda expression the
-%   body is guarded, for its parameters may be goals.
-
-guard_closure(Own, Closure, Extra, Goal) :-
-    (   is_lambda(Closure)
-    ->  length(Extra, N),
-        count_parts,
-        guard_lambda(Closure, N, Own, Closure1),
-        extended(Closure1, Extra, Goal)
-    ;   extended(Closure, Extra, Goal0),
-        guard_called(Own, Goal0, Goal)
-    ).
 
                 /*******************************
                 *            STATE             *

@@ -126,15 +126,18 @@ guard_clause(Own, Clause0, Clause) :-
 guard_state(Policy, state(PIs, Clauses0), state(PIs, Clauses)) :-
     maplist(declared_allowed, PIs),
     clause_cells(Max),
-    guard_state(Clauses0, Max, own(none, Policy), Clauses).
+    maplist(guard_fact(Max, own(none, Policy)), Clauses0, Clauses).
 
-guard_state([], _, _, []).
-guard_state([Clause0|Clauses0], Max, Own, [Clause|Clauses]) :-
-    (   allowed_fact(Clause0, Max)
-    ->  Clause = Clause0
-    ;   guard_fact(Own, Clause0, Clause)
-    ),
-    guard_state(Clauses0, Max, Own, Clauses).
+guard_fact(Max, _, Fact, Fact) :-
+    allowed_fact(Fact, Max),
+    !.
+guard_fact(_, _, Fact, Fact) :-
+    nonvar(Fact),
+    of_platform(Fact),
+    !,
+    must_be_tree(Fact).
+guard_fact(_, Own, Clause0, Clause) :-
+    guard_own_clause(Own, Clause0, Clause).
 
 %!  allowed_fact(+Fact, +Max) is semidet.
 %
@@ -161,14 +164,6 @@ of_platform('$memory'(_)).
 of_platform('$owner'(_)).
 of_platform('$trail'(_, _, _, _)).
 of_platform('$signed'(_, _)).
-
-guard_fact(_, Fact, Fact) :-
-    nonvar(Fact),
-    of_platform(Fact),
-    !,
-    must_be_tree(Fact).
-guard_fact(Own, Clause0, Clause) :-
-    guard_own_clause(Own, Clause0, Clause).
 
 guard_declares(_, PI) :-
     state_allowed(PI).

@@ -6,8 +6,9 @@
             short_text/1,               % +Goal
             readable_text/1             % +Goal
           ]).
+:- use_module(library(apply), [maplist/3]).
 :- use_module(library(error), [permission_error/3]).
-:- use_module(library(lists), [member/2]).
+:- use_module(library(lists), [member/2, sum_list/2]).
 :- use_module(library(settings), [setting/2, setting/4]).
 :- use_module('../../kernel/base/trees', [is_tree/2]).
 :- use_module('../../kernel/host', [context_now/2, parts/3]).
@@ -165,38 +166,31 @@ joined_length(atomic_list_concat(List, Separator, _), Length) :-
     Length is Length1+Count*Length2.
 joined_length(Goal, Length) :-
     compound_name_arguments(Goal, _, Args),
-    lengths(Args, 0, Length).
+    together(argument_length, Args, Length).
 
-lengths([], N, N).
-lengths([Arg|Args], N0, N) :-
-    argument_length(Arg, Length),
-    N1 is N0+Length,
-    lengths(Args, N1, N).
+:- meta_predicate together(2, +, -).
+
+together(Goal, List, Length) :-
+    maplist(Goal, List, Lengths),
+    sum_list(Lengths, Length).
 
 %   What is neither atomic nor a list is a type error.
 
 argument_length(Arg, Length) :-
     (   is_list(Arg)
-    ->  items_length(Arg, 0, Length)
-    ;   number(Arg)
-    ->  number_length(Arg, Length)
-    ;   atomic(Arg)
-    ->  atom_length(Arg, Length)
+    ->  together(item_length, Arg, Length)
     ;   compound(Arg)
     ->  parts_length(Arg, Length)
-    ;   Length = 0
+    ;   item_length(Arg, Length)
     ).
 
-items_length([], N, N).
-items_length([Item|Items], N0, N) :-
+item_length(Item, Length) :-
     (   number(Item)
     ->  number_length(Item, Length)
     ;   atomic(Item)
     ->  atom_length(Item, Length)
     ;   Length = 0
-    ),
-    N1 is N0+Length,
-    items_length(Items, N1, N).
+    ).
 
 %   As is_tree/2 counts: a large integer is not written for that.
 
@@ -213,7 +207,7 @@ parts_length(Term, Length) :-
     most_characters(Max),
     is_tree(Term, Max),
     compound_name_arguments(Term, _, Args),
-    lengths(Args, 0, Length).
+    together(argument_length, Args, Length).
 
 %!  readable_text(+Goal) is semidet.
 %

@@ -76,12 +76,9 @@ birth_among(Births, Id, Birth) :-
 birth_among(t(Births), Id, Birth) :-
     get_assoc(Id, Births, Birth).
 
-typhon_senders:believes(Peer, Id, Births, Mail, Believed) :-
-    mail_believed(Peer, Id, Births, Mail, Believed).
-
 %   The rest is noted.
 
-mail_believed(Peer, Id, Births, Mail, Believed) :-
+typhon_senders:believes(Peer, Id, Births, Mail, Believed) :-
     (   speaks_for(Peer, Births, Id)
     ->  Believed = Mail
     ;   by_id(Births, ById),
