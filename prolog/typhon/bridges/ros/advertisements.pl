@@ -8,6 +8,7 @@
 :- use_module(library(aggregate), [aggregate_all/3]).
 :- use_module(library(error), [permission_error/3, resource_error/1]).
 :- use_module(library(settings), [setting/2, setting/4]).
+:- use_module('../../kernel/base/bounds', [bounded/2]).
 :- use_module(connection, [way_say/2]).
 
 /** <module> Advertisements and subscriptions, until they are withdrawn
@@ -111,13 +112,7 @@ end(Host, Key, Op) :-
     !,
     retractall(ended(Host, Key, _)),
     assertz(ended(Host, Key, Op)),
-    predicate_property(ended(_, _, _), number_of_clauses(Count)),
-    setting(most, Most),
-    (   Count > Most,
-        retract(ended(_, _, _))
-    ->  true
-    ;   true
-    ).
+    bounded(ended(_, _, _), typhon_ros_advertisements:most).
 
 standing_again(Host, Key, Op) :-
     ended(Host, Key, Op),

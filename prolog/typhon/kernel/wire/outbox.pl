@@ -36,7 +36,7 @@ is held.
 */
 
 :- use_module(library(error), [resource_error/1]).
-:- use_module(library(lists), [member/2, reverse/2]).
+:- use_module(library(lists), [list_to_set/2, member/2]).
 :- use_module('../base/durable_changes',
               [flush_sends/0, output_waits/0, send_after_commit/2]).
 :- use_module(frame,
@@ -383,18 +383,13 @@ let_out(Session, Bytes, Token, When) :-
 %   All are written, then all go.
 
 typhon_durable_changes:committed(Frames) :-
-    let_out_all(Frames, [], Sessions),
+    forall(member(Frame, Frames), let_out(Frame)),
+    findall(Session, member(frame(Session, _, _), Frames), Sessions0),
+    list_to_set(Sessions0, Sessions),
     forall(( member(Session, Sessions), session_key(Session, Key) ),
            session_locked(Session, flush_out(Key))).
 
-let_out_all([], Sessions0, Sessions) :-
-    reverse(Sessions0, Sessions).
-let_out_all([frame(Session, Bytes, Token)|Frames], Sessions0, Sessions) :-
+let_out(frame(Session, Bytes, Token)) :-
     catch(session_locked(Session, put_frame(Session, Bytes, Token, buffer)),
           error(session_closed, _),
-          true),                        % callers have got a result
-    (   memberchk(Session, Sessions0)
-    ->  Sessions1 = Sessions0
-    ;   Sessions1 = [Session|Sessions0]
-    ),
-    let_out_all(Frames, Sessions1, Sessions).
+          true).                        % callers have got a result

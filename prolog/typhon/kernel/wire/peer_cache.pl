@@ -26,6 +26,7 @@ last error. A bounded number of addresses is kept, the oldest are discarded.
 */
 
 :- use_module(library(settings), [setting/2, setting/4]).
+:- use_module('../base/bounds', [bounded/2]).
 :- use_module('../base/durable', [durable/5]).
 :- use_module('../base/durable_changes', [durable_drop/3, durable_put/4]).
 :- use_module(session,
@@ -71,15 +72,7 @@ contact_missed(Address, Formal) :-
     with_mutex(typhon_contacts,
                ( retractall(missed(Address, _)),
                  assertz(missed(Address, Formal)),
-                 forget_missed )).
-
-forget_missed :-
-    predicate_property(missed(_, _), number_of_clauses(Count)),
-    setting(contacts, Max),
-    (   Count > Max
-    ->  once(retract(missed(_, _)))
-    ;   true
-    ).
+                 bounded(missed(_, _), typhon_peer_cache:contacts) )).
 
 %!  contact_expect(+Address) is det.
 %!  contact_expect_no_more(+Address) is det.
