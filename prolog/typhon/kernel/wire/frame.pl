@@ -226,9 +226,6 @@ term_mark(answer(Id, _), =, Id) :-
     !.
 term_mark(_, -, 0).
 
-is_text(Bytes) :-
-    string_code(1, Bytes, 0'#).
-
 unmarked(Bytes, Body) :-
     (   sub_string(Bytes, 20, _, 0, Body0)
     ->  Body = Body0
