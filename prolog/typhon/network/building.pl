@@ -3,6 +3,7 @@
                                         % -Clock
             network_endpoint/4,         % +Network, +Plan, +Port, -Interface
             network_log/4,              % +Network, +File, +Options, -Address
+            log_option/3,               % +Plan, +Address, -Option
             network_dynamics/2,         % +Network, +Dynamics
             part/2,                     % ?Network, ?Part
             dynamics_end/1,             % +Network
@@ -117,16 +118,21 @@ clock_and_log(Network, Plan, Clock, Log) :-
 %   start_log(+Network, +Clock, +Plan, +Mode, -HostOptions)
 
 start_log(Network, clock(Epoch, Rate), Plan, Mode, [Option]) :-
-    plan_log(Plan, Spec, Kinds),
+    plan_log(Plan, Spec, _),
     !,
     network_log(Network, Spec, [mode(Mode), clock(Epoch, Rate)], Address),
-    log_option(Kinds, Address, Option).
+    log_option(Plan, Address, Option).
 start_log(_, _, _, _, []).
 
-log_option([], Address, Option) =>
-    Option = log(Address).
-log_option(Kinds, Address, Option) =>
-    Option = log(Address, Kinds).
+%!  log_option(+Plan, +Address, -Option) is det.
+%
+%   The option of its hosts that have the log server at Address.
+
+log_option(Plan, Address, Option) :-
+    (   plan_log(Plan, _, [Kind|Kinds])
+    ->  Option = log(Address, [Kind|Kinds])
+    ;   Option = log(Address)
+    ).
 
 start_dynamics(Network, Clock, Plan, Time, Change) :-
     (   plan_dynamics(Plan, Time, State)

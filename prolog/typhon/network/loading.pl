@@ -14,9 +14,9 @@
               [ appointments_again/2, network_begin/4, network_change/2,
                 network_goes_on/2 ]).
 :- use_module(building,
-              [network_dynamics/2, network_endpoint/4, network_log/4]).
-:- use_module(plan,
-              [plan_log/3, plan_processes/3, plan_time/2, plan_unkept/2]).
+              [ log_option/3, network_dynamics/2, network_endpoint/4,
+                network_log/4 ]).
+:- use_module(plan, [plan_processes/3, plan_time/2, plan_unkept/2]).
 :- use_module(processes, [nodes_start/5]).
 :- use_module(saving, [saved_read/2]).
 :- use_module(wiring, [wire_hosts/4, wired_hosts/2]).
@@ -137,13 +137,6 @@ log_cut(Options, log(Address, File, Size)) :-
     (   ( memberchk(log(_), Options) ; Address == none )
     ->  true
     ;   log_goes_on(File, Size)
-    ).
-
-log_option(Plan, Address, Option) :-
-    (   plan_log(Plan, _, Kinds),
-        Kinds \== []
-    ->  Option = log(Address, Kinds)
-    ;   Option = log(Address)
     ).
 
 %   Where they were before.

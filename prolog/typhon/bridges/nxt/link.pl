@@ -320,9 +320,6 @@ prolog:error_message(existence_error(nxt_port, Port)) -->
     [ 'There is no port ~w'-[Port] ].
 prolog:error_message(existence_error(nxt_brick, Brick)) -->
     [ 'No brick ~w is connected'-[Brick] ].
-prolog:error_message(existence_error(python, Python)) -->
-    [ 'There is no Python ~w (install python3, or set \c
-       typhon_nxt_link:python)'-[Python] ].
 prolog:error_message(existence_error(python_module, serial)) -->
     [ 'This Python has no pyserial (install it: apt install \c
        python3-serial, or pip install pyserial)' ].
