@@ -389,8 +389,9 @@ debug_frame(Way, Session, Term, Bytes) :-
 %   Its name and what of it is no more than a word.
 
 frame_words(Term, Words) :-
-    compound_name_arguments(Term, Name, Args),
+    compound(Term),
     !,
+    compound_name_arguments(Term, Name, Args),
     include(atomic, Args, Shown),
     compound_name_arguments(Words, Name, Shown).
 frame_words(Name, Name).

@@ -479,4 +479,9 @@ post_and_flush(Address, I) :-
     ;   flag(test_failed, N, N+1)
     ).
 
+%   With the topic typhon(frame) connections broke at each of them.
+
+test(frames_of_counts_alone_can_be_shown, Words == none) :-
+    typhon_session:frame_words(none, Words).
+
 :- end_tests(flushes).
