@@ -11,10 +11,10 @@ study(warehouse, "Robots of ROS that carry loads, alone and together").
 text("Allocators find a robot for each of six pallets, and two or three robots for \c
 each of three beams, while robots are held by others. With a beam robots execute \c
 four tasks: to drive to a corner, to take it, to carry it, and to put it down; in \c
-step, by agents that travel between them, with a penalty bias, delta, or alone, each as soon as it can. A beam \c
-falls if the robots are not together. The world and what is assumed are in \c
-examples/applications/warehouse/floor.pl and scene.pl; robots are reached over \c
-rosbridge.").
+step, by agents that travel between them and have the penalty bias delta, or \c
+alone, each as soon as it can. A beam falls if the robots are not together. The \c
+world and what is assumed are in examples/applications/warehouse/floor.pl and \c
+scene.pl; robots are reached over rosbridge.").
 
 vary(way, [in_step, alone]).
 vary(robots, [4, 6, 8]).

@@ -3,6 +3,7 @@
 % The application of a warehouse: its world, its robots over rosbridge, its
 % agents, its command.
 
+:- use_module('../../agents/allocation/operator', [robot_status/2]).
 :- use_module('../../agents/allocation/reservations', [reservation_faults/2]).
 :- use_module('../../examples/applications/warehouse/floor').
 :- use_module('../../examples/applications/warehouse/scene').
@@ -179,6 +180,15 @@ test(too_few_robots) :-
           ( network_advance(Network, 150),
             scene_orders(Delivered, Waiting, Underway, Falls),
             assertion([Delivered, Waiting, Underway, Falls] == [0, 0, 0, 0]) )).
+
+test(too_fast_a_beam_falls_and_robots_are_free_again) :-
+    scene([robots(3), pallets(0), beams(1), fast(1), deadline(60)], '/dev/null',
+          Network,
+          ( network_advance(Network, 120),
+            scene_orders(Delivered, Waiting, Underway, Falls),
+            assertion([Delivered, Waiting, Underway, Falls] == [0, 0, 0, 1]),
+            forall(member(Robot, [robot1, robot2, robot3]),
+                   assertion(robot_status(Robot, free))) )).
 
 test(picture, Root == svg) :-
     scene([], '/dev/null', Network,

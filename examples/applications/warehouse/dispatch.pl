@@ -30,9 +30,9 @@ them, and agents have them execute a sequence of tasks in step (chapter 5).
 %
 %   An allocator sets out from the host Office.  Options: seed(S); way(Way), by
 %   which several robots execute their tasks: `in_step`, default, or `alone`, each
-%   by itself; delta(D), the penalty bias of those in step, default 0.5; fast(S),
+%   by itself; delta(D), the penalty bias of those in step, default 2; fast(S),
 %   metres a second with a load at several corners, default 0.15; deadline(S) of an
-%   order, default 600.
+%   order, default 600, for which an order waits whose beam has fallen.
 
 dispatch_begin(Order, Office, Options, job(Order, Options, Agent, searching)) :-
     Order = order(Id, Corners, From, _),

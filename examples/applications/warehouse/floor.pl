@@ -110,7 +110,8 @@ floor_step(Seconds, floor(Time0, Robots0, Loads0), floor(Time, Robots, Loads)) :
     maplist(robot_step(Time, Seconds), Robots0, Robots),
     maplist(load_step(Robots), Loads0, Loads).
 
-robot_step(Time, Seconds, robot(Name, p(X0, Y0), Heading0, Command, Heard), Robot) :-
+robot_step(Time, Seconds, robot(Name, p(X0, Y0), Heading0, Command, Heard),
+           Robot) :-
     (   Time-Heard > 1
     ->  Robot = robot(Name, p(X0, Y0), Heading0, 0-0, Heard)
     ;   Command = Speed0-Turn0,

@@ -8,7 +8,8 @@
           ]).
 :- use_module('../../../prolog/typhon',
               [network_at/3, remote/2, ros_start/3, ros_stop/1]).
-:- use_module('../../../agents/allocation/operator', [robot_start/3, robot_status/2]).
+:- use_module('../../../agents/allocation/operator',
+              [robot_start/3, robot_status/2]).
 :- use_module('../drawn', [drawn/3]).
 :- use_module(dispatch).
 :- use_module(floor).
