@@ -50,7 +50,7 @@ until_over(Network, Left) :-
         until_over(Network, Left1)
     ).
 
-label(time, "Seconds until all orders are completed").
+label(time, "Seconds until all orders are over").
 label(delivered, "Loads where they should be").
 label(falls, "Beams that have fallen").
 label(early, "Tasks begun before all robots of a beam had the one before").
