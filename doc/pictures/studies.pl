@@ -28,6 +28,7 @@ study_picture('sieve-memory.png',        memory,   memory).
 study_picture('sieve-return.png',        return,   return).
 study_picture('sieve-programs.png',      programs, programs).
 study_picture('algorithms-cloning.png',  cloning,  cloning).
+study_picture('algorithms-crews.png',    crews,    crews).
 study_picture('algorithms-exchange.png', exchange, exchange).
 study_picture('algorithms-islands.png',  islands,  islands).
 study_picture('algorithms-mixed.png',    mixed,    mixed).

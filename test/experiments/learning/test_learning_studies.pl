@@ -18,7 +18,7 @@ a_study(Name, Count) :-
              'learning/figure_4_13'-5, 'learning/study_light'-12,
              'algorithms/beyond_settings'-4, 'algorithms/beyond_islands'-3,
              'algorithms/beyond_mixed'-6, 'algorithms/beyond_exchange'-2,
-             'algorithms/beyond_cloning'-3 ]).
+             'algorithms/beyond_cloning'-3, 'algorithms/beyond_crews'-12 ]).
 
 :- begin_tests(learning_studies).
 
@@ -57,6 +57,10 @@ made(false, 'learning/figure_4_7', Case, Pairs) :-
                   total-300, duration-900, spread-0.2, aside-2, nearer-10,
                   detour-1 ]
     ).
+made(Held, 'algorithms/beyond_crews', Case,
+     [reached-Reached, executions-Executions]) :-
+    crew_made(Held, Case.maze, Case.crew, Reached, Executions),
+    !.
 made(Held, 'learning/figure_4_9', Case, Pairs) :-
     nth_density(Case.density, I),
     more(Held, Case.network, More),
@@ -96,6 +100,17 @@ curve(false, I, Executions, Sharing) :-
     nth1(I, [100, 98, 50, 51, 40], Executions),
     nth1(I, [1.0, 0.9, 0.5, 0.4, 1.3], Sharing).
 
+%   In the open greedy agents alone are quick, or not.
+
+crew_made(true, open, greedy, 100, 200).
+crew_made(true, _, greedy, 0, 2000).
+crew_made(true, _, both, 100, 700).
+crew_made(true, _, scout, 50, 2000).
+crew_made(true, _, scout_apart, 75, 1000).
+crew_made(false, _, greedy, 75, 900).
+crew_made(false, _, scout, 75, 600).
+crew_made(false, _, _, 50, 800).
+
 made_up(Held, Name, Verdicts) :-
     project_study(Name, Study),
     study_cases(Study, [], Cases),
@@ -117,7 +132,7 @@ test(do_not_hold, [forall(figure(Name)), true(Others == [])]) :-
 
 figure(Name) :-
     member(Name, [ 'learning/figure_4_7', 'learning/figure_4_9',
-                   'learning/figure_4_13' ]).
+                   'learning/figure_4_13', 'algorithms/beyond_crews' ]).
 
 :- end_tests(learning_claims).
 
@@ -182,6 +197,13 @@ given_up(Dir) :-
     assertion(Measures.reached < 100),
     assertion(Measures.time < 100).
 
+crew(Dir) :-
+    project_study('algorithms/beyond_crews', Study),
+    first_run(Study,
+              [maze-near_start, crew-both, size-8, arm-2, limit-1000], 1, Dir,
+              _-Measures),
+    assertion(Measures.reached =:= 100).
+
 :- begin_tests(learning_runs).
 
 test(ways) :-
@@ -192,5 +214,7 @@ test(printers) :-
     with_tmp_dir(printers).
 test(given_up) :-
     with_tmp_dir(given_up).
+test(crew) :-
+    with_tmp_dir(crew).
 
 :- end_tests(learning_runs).
