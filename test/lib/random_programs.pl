@@ -29,13 +29,13 @@ or, as within a process, with frames in their stead.
 %   and d/2 cannot stop.
 
 random_program([ (:- agent(random, [state([t_/1, f/1, r/1])])),
-                 (main :- Body),
+                 (main :- n(X), Body),
                  (t(T) :- assertz(t_(T))),
                  n(1), n(2), n(3), o(2), (o(X) :- X > 2),
                  (d(X, Y) :- Y is X+1), (s(X) :- f(X)),
                  f(7), f(8), r(5)
                | Clauses ]) :-
-    body(0, _, Body),
+    body(0, X, Body),
     findall((Head:-Body1),
             ( between(1, 4, I),
               random_between(1, 3, Count),
@@ -79,15 +79,15 @@ goals(Count, I, X, (Goal,Goals)) :-
 
 goal(I, X, Goal) :-
     random(R),
-    (   R < 0.45
+    (   R < 0.50
     ->  random_between(1, 99, K),
-        random_member(Goal-K,
-                      [ t(K-X)-K, t(K-X)-K, move(b)-K, move(b)-K, n(X)-K, o(X)-K,
-                        f(X)-K, s(X)-K, r(X)-K, X == 2-K, X = 2-K, !-K, !-K,
-                        d(X, _)-K, X > 1-K, _ is X+1-K, Y is X*2-K, t(Y)-K,
-                        true-K, assertz(f(X))-K, retract(f(X))-K,
-                        member(X, [1,2,3])-K, functor(X, _, _)-K ])
-    ;   R < 0.52
+        random_member(Goal,
+                      [ t(K-X), t(K-X), move(b), move(b), move(b), move(b),
+                        move(b), move(b), n(X), o(X), f(X), s(X), r(X), X == 2,
+                        X = 2, !, !, d(X, _), X > 1, _ is X+1, Y is X*2, t(Y),
+                        true, assertz(f(X)), retract(f(X)), member(X, [1,2,3]),
+                        functor(X, _, _) ])
+    ;   R < 0.58
     ->  random_member(Goal,
                       [ fail, throw(oops), receive(X, 0), move(refused),
                         _ is foo+X, atom_length(X, _), unknown(X),
@@ -96,7 +96,7 @@ goal(I, X, Goal) :-
                         findall(Z, n(Z), X), forall(n(Z), Z > 0), \+ \+ X = 1,
                         copy_term(X, _), G^true, call(move, b),
                         ( G = t(X), G ), ( G = move(b), call(G) ) ])
-    ;   R < 0.85
+    ;   R < 0.80                        % more would have no end
     ->  construct(I, X, Goal)
     ;   I < 4
     ->  J is I+1,
