@@ -64,6 +64,7 @@ job(cells, [env], unpinned).
 job(keys, [env], unpinned).
 job(start, [env], unpinned).
 job(hosts, [env], unpinned).
+job(processes, [env], unpinned).
 job(population, [env], unpinned).
 job(virtual, [env], 20000).
 job(inferences, [env], 4000).
