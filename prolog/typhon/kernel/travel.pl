@@ -25,5 +25,5 @@ This is the interface of the layer: higher layers import from here.
 :- reexport(travel/dead_letters, [mail_lost/3]).
 :- reexport(travel/backlog, [post_tried/0, retries_go_on/0]).
 :- reexport(travel/senders, [senders_check/1, speaks_for/3]).
-:- reexport(travel/news, [news_carried/1]).
+:- reexport(travel/news, [news_carried/1, news_hurry/0]).
 :- reexport(travel/external_recipients, [post_abroad/4]).

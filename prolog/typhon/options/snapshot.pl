@@ -20,7 +20,8 @@
                 agent_order/2, agent_ordered/1, agent_orders/2, agent_state/2,
                 agent_status/3, agents_passed/0, with_agent/2 ]).
 :- use_module('../kernel/travel',
-              [news_carried/1, post_tried/0, retries_go_on/0]).
+              [ news_carried/1, news_hurry/0, post_tried/0,
+                retries_go_on/0 ]).
 :- use_module('../kernel/lifecycle', [agent_reschedule/1, held_parts/3]).
 
 /** <module> All that a process knows, at a moment
@@ -241,6 +242,7 @@ agents_at_rest(Seconds, Peers) :-
 rest_before(Deadline, Peers) :-
     forall(( agent_status(Id, running, _), \+ agent_ordered(Id) ),
            ignore(with_agent(Id, stops(Id)))),
+    news_hurry,
     (   \+ restless(Peers),
         agents_passed,                  % messages follow agents that left
         \+ restless(Peers)

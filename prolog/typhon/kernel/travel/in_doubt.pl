@@ -69,6 +69,13 @@ resolve_in_doubt(_) :-
 resolve_in_doubt(Transfer) :-
     transfer_traveller(Transfer, Id, Hops),
     debug(typhon(hop), '~w hop ~D: in doubt', [Id, Hops]),
+    setting(typhon_news:news_pause, Pause),
+    Seconds is 4*Pause,                 % what the home is to hear may pause
+    alarm_in(Seconds, Id, doubted(Transfer)).
+
+typhon_scheduler:fire(_, doubted(Transfer)) :-
+    !,
+    transfer_traveller(Transfer, Id, Hops),
     agent_reached(Id, Hops, home_said(Transfer)).
 
 %   Only the process that was asked knows, and it will answer.

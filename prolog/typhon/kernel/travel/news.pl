@@ -1,6 +1,7 @@
 :- module(typhon_news,
           [ news_tell/3,                % +Home, +Id, +News
-            news_carried/1              % +Home
+            news_carried/1,             % +Home
+            news_hurry/0
           ]).
 :- use_module(library(lists), [append/3, member/2]).
 :- use_module(library(settings), [setting/2, setting/4]).
@@ -16,7 +17,9 @@ Where an agent is and how it ended, told to the process in which it was
 born.  Of each agent only the newest news are kept until they are sent, and
 each home has one courier, which takes along all there are: a home that does
 not answer costs one attempt at a time, whatever the number of agents and
-of their hops.
+of their hops.  Where an agent is waits a moment for more such news, which one
+frame carries then: until the home hears of it, the processes that the agent left
+forward what it is sent.
 
 *Threading*: any thread tells; a courier is a call of a worker, or an alarm
 that waits for the next.
@@ -24,6 +27,8 @@ that waits for the next.
 
 :- setting(news_seconds, number, 300,
            "News for a home that cannot be reached are kept so long").
+:- setting(news_pause, number, 0.005,
+           "Where an agent is waits so long for other news of its home").
 
 :- multifile
     typhon_durable_posts:undelivered/4,
@@ -33,7 +38,8 @@ that waits for the next.
 :- dynamic
     news/3,                     % Home, Id, News: the newest, not yet sent
     in_hand/2,                  % Home, All: what its courier has set out with
-    courier/1.                  % Home: a thread carries its news
+    courier/1,                  % Home: a thread carries its news, or will
+    pauses/1.                   % Home: its courier waits for more of them
 
 %   So many are sent at a time, and the longest pause between attempts.  News
 %   with results may be long.
@@ -54,10 +60,15 @@ news_tell(Home, _, News) :-
     posted(durable_post, Home, [News]).
 news_tell(Home, Id, News) :-
     with_mutex(typhon_news, note(Home, Id, News, Courier)),
-    (   Courier == wanted
-    ->  scheduler_call(carry(Home, try(0, 0.5)))
-    ;   true
-    ).
+    sets_out(Courier, Home).
+
+sets_out(now, Home) :-
+    scheduler_call(carry(Home, try(0, 0.5))).
+sets_out(soon, Home) :-
+    setting(news_pause, Seconds),
+    alarm_in(Seconds, Home, news_paused).
+sets_out(there, _).
+sets_out(none, _).
 
 %!  news_carried(+Home) is semidet.
 %
@@ -67,6 +78,14 @@ news_carried(Home) :-
     courier(Home),
     !.
 
+%!  news_hurry is det.
+%
+%   What waits for other news is sent now: while turns are paused no alarm goes
+%   off.
+
+news_hurry :-
+    forall(pauses(Home), typhon_scheduler:fire(Home, news_paused)).
+
 %   Where an agent is it will tell again.
 
 news_lasts(News) :-
@@ -74,10 +93,40 @@ news_lasts(News) :-
 
 note(Home, Id, News, Courier) :-
     keep(Home, Id, News),
-    (   courier(Home)
-    ->  Courier = there
-    ;   assertz(courier(Home)),
-        Courier = wanted
+    courier_of(Home, News, Courier).
+
+%   courier_of(+Home, +News, -Courier): it is to set out `now`, after a pause,
+%   `soon`, or is `there` already.
+
+courier_of(Home, News, Courier) :-
+    courier(Home),
+    !,
+    (   news_lasts(News),
+        retract(pauses(Home))
+    ->  Courier = now
+    ;   Courier = there
+    ).
+courier_of(Home, News, Courier) :-
+    assertz(courier(Home)),
+    when_due(News, Home, Courier).
+
+when_due(News, _, now) :-
+    news_lasts(News),
+    !.
+when_due(_, Home, soon) :-
+    assertz(pauses(Home)).
+
+%   after(+Home, -Courier): it has sent what it had in hand.
+
+after(Home, Courier) :-
+    retractall(in_hand(Home, _)),
+    (   news(Home, _, News),
+        news_lasts(News)
+    ->  Courier = now
+    ;   news(Home, _, News)
+    ->  when_due(News, Home, Courier)
+    ;   retractall(courier(Home)),
+        Courier = none
     ).
 
 keep(Home, Id, News) :-
@@ -200,7 +249,8 @@ set_out(Home, All) :-
     ).
 
 carried(ok, Home, _, _) :-
-    carry(Home, try(0, 0.5)).
+    with_mutex(typhon_news, after(Home, Courier)),
+    sets_out(Courier, Home).
 carried(unreachable(_), Home, All, try(Since0, Pause)) :-
     get_time(Now),
     since(Since0, Now, Since),
@@ -219,6 +269,7 @@ once_more(Home, All, try(Since, Pause)) :-
     longest_pause(Longest),
     Pause1 is min(Longest, 2*Pause),
     alarm_in(Pause, Home, news(try(Since, Pause1))).
+
 since(0, Now, Now) :-
     !.
 since(Since, _, Since).
@@ -231,9 +282,16 @@ give_up(Home) :-
     with_mutex(typhon_news,
                ( retractall(news(Home, _, _)),
                  retractall(in_hand(Home, _)),
+                 retractall(pauses(Home)),
                  retractall(courier(Home)) )),
     print_message(silent, typhon(home_unreachable(Home))).
 
 typhon_scheduler:fire(Home, news(Try)) :-
     !,
     scheduler_call(carry(Home, Try)).
+typhon_scheduler:fire(Home, news_paused) :-
+    !,
+    (   with_mutex(typhon_news, retract(pauses(Home)))
+    ->  scheduler_call(carry(Home, try(0, 0.5)))
+    ;   true                            % more urgent news came meanwhile
+    ).
