@@ -1,0 +1,50 @@
+/*  Hops of agents and messages between agents, in runs of studies.
+
+        swipl experiments/counts.pl -- 5.5 --set topology=grid --runs 3
+
+    Logs of studies have neither, as they are most of what happens, so the runs
+    are made again.
+*/
+
+:- module(counts, []).
+:- use_module('../prolog/typhon', [log_events/2]).
+:- use_module(engine/cases, [case_name/3]).
+:- use_module(engine/catalogue, [studies_named/2]).
+:- use_module(engine/plan, [plans/3, planned/4]).
+:- use_module(engine/run, [run_again/4]).
+:- use_module(engine/studies, [study_load/2]).
+:- use_module(library(aggregate), [aggregate_all/3]).
+:- use_module(library(apply), [maplist/3]).
+:- use_module(library(lists), [member/2]).
+:- use_module(library(main), [argv_options/3, main/0]).
+
+:- initialization(main, main).
+
+:- public main/1.
+
+opt_type(runs, runs, natural).
+opt_type(seed, seed, integer).
+opt_type(set,  set,  atom).
+
+main(Argv) :-
+    argv_options(Argv, Names, Options),
+    studies_named(Names, Files),
+    maplist(study_load, Files, Studies),
+    plans(Studies, Options, Plans),
+    forall(planned(Plans, Options, _, Run), counted(Run)).
+
+counted(run(Study, Case, Seed)) :-
+    tmp_file_stream(Log, Stream, [encoding(utf8)]),
+    close(Stream),
+    run_again(Study, Case, Seed, Log),
+    log_events(Log, Events),
+    delete_file(Log),
+    event_count(Events, left(_), Hops),
+    event_count(Events, sent(_), Messages),
+    aggregate_all(max(T), member(event(T, _, _, _), Events), End),
+    case_name(Study, Case, Name),
+    format('~w, seed ~w: ~D hops, ~D messages, ~1f s~n',
+           [Name, Seed, Hops, Messages, End]).
+
+event_count(Events, What, Count) :-
+    aggregate_all(count, member(event(_, _, _, What), Events), Count).
