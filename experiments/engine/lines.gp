@@ -10,7 +10,7 @@
 # NAME-runs.dat likewise x, value for each run; NAME-printed.dat what is
 # printed elsewhere.  With BAND there is a band from the least to the greatest
 # in place of bars and dots; medians are JOINED by lines; long labels of x are
-# ROTATED.
+# ROTATED.  A line without length at 1 keeps ranges of zeros from a warning.
 
 set multiplot
 set label 1 "{/:Bold=15 ".TITLE."}" at screen 0.095,(1-26.0/HEIGHT)
@@ -59,6 +59,7 @@ do for [p=1:panels] {
              with lines lw 2 lc rgb Colour[s] title Series[s], \
          for [s=1:series] NAME."-printed.dat" index block(p,s) using 1:2 \
              with points pt 8 ps 1.6 lw 1.6 lc rgb Colour[s] notitle, \
+         [LEFT:LEFT] (Log[p] ? NaN : 1) with lines lc bgnd notitle, \
          (p == 1 && PRINTED ? NaN : 1/0) with points pt 8 ps 1.6 lc rgb "#555555" \
              title (p == 1 && PRINTED ? "printed" : "")
     }
