@@ -1,0 +1,46 @@
+:- module(solar, []).
+
+/** <module> Houses with solar panels that share a battery
+
+    swipl examples/applications/solar.pl [--strategy=first] [--capacity=30]
+        [--days=7] [--speed=5] [--port=8080] [--seed=1]
+
+Ten houses exchange what their panels give, by auctions of an agent that goes from
+house to house.  Speed is in quarters of an hour of the world in a second.
+solar/street.pl is the world, solar/auctioneer.pl and solar/house.pl are agents,
+doc/applications.md says more.
+*/
+
+:- use_module(solar/scene).
+:- use_module(stage, [stage/3, stage_advance/2]).
+:- use_module(library(aggregate), [aggregate_all/3]).
+:- use_module(library(lists), [member/2]).
+:- use_module(library(main), [main/0]).
+:- use_module(library(option), [option/3]).
+
+:- initialization(main, main).
+
+:- public main/1, play/2.
+
+main(Argv) :-
+    stage(Argv, solar_scene, play).
+
+play(Network, Options) :-
+    scene_start(Network, Options),
+    option(days(Days), Options, 7),
+    story(Network, 0, Days).
+
+story(Network, Day0, Days) :-
+    stage_advance(Network, 86400),
+    Day is Day0+1,
+    scene_totals(_, Totals),
+    findall(Sum,
+            ( member(N, [1, 4, 5, 3]),
+              aggregate_all(sum(Kwh),
+                            ( member(_-Sums, Totals), arg(N, Sums, Kwh) ), Sum) ),
+            Row),
+    format('~|~t~d~3| days: ~|~t~0f~5| kWh produced, ~|~t~0f~4| wasted, \c
+            ~|~t~0f~4| taken from the street, ~|~t~0f~4| bought from the grid~n',
+           [Day|Row]),
+    flush_output,
+    ( Day >= Days -> true ; story(Network, Day, Days) ).

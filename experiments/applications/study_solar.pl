@@ -1,0 +1,122 @@
+%   Houses that share a battery, by auctions or in the order in which they ask.
+
+:- use_module('../../examples/applications/solar/scene',
+              [scene_start/2, scene_stop/0, scene_topology/1, scene_totals/2]).
+:- use_module('../../prolog/typhon', [network_advance/2, remote/2]).
+:- use_module(library(aggregate), [aggregate_all/3]).
+:- use_module(library(lists), [member/2, sum_list/2]).
+
+study(solar, "A battery that ten houses share").
+text("Ten houses with solar panels, a boiler each, and one battery, in April. \c
+Nothing is shared (none); each house asks the battery for what it lacks once in a \c
+quarter of an hour, at a moment of its own (first), or at another one each time \c
+(drawn), or likewise, but for its boiler only when that would be late (waiting); or \c
+an agent goes round for bids, and clears the market (auction). The world, its \c
+equations and what is assumed are in examples/applications/solar/street.pl.").
+
+vary(strategy, [none, first, drawn, waiting, auction]).
+vary(capacity, [15, 30, 60]).
+fixed(days, 14, assumed("clear and dull days")).
+
+network(_, Topology, []) :-
+    scene_topology(Topology).
+
+%   Until 18:00, when all boilers have what they need.
+
+run(Case, Network) :-
+    call_cleanup(
+        ( scene_start(Network, [ seed(Case.seed), strategy(Case.strategy),
+                                 capacity(Case.capacity) ]),
+          Seconds is 86400*Case.days - 21600,
+          network_advance(Network, Seconds),
+          scene_totals(Battery, Totals),
+          remote(battery, log(totals(Battery, Totals))) ),
+        scene_stop).
+
+label(bought, "Bought from the grid (kWh)").
+label(wasted, "Wasted (kWh)").
+label(fairness, "Jain's index of the share of what a house lacks that it gets").
+label(reward, "Correlation of what a house gives, and what it gains").
+label(crossings, "Hops, or links that messages cross, in an hour").
+
+measure(bought, Log, Kwh) :-
+    total(Log, 3, Kwh).
+measure(wasted, Log, Kwh) :-
+    total(Log, 4, Kwh).
+measure(fairness, Log, Index) :-
+    findall(Share,
+            ( house(Log, totals(_, _, Bought, _, Taken, _, _)),
+              Share is Taken/(Taken+Bought) ),
+            Shares),
+    jain(Shares, Index).
+measure(reward, Log, Correlation) :-
+    findall(Sold-Gain,
+            ( house(Log, totals(_, _, _, _, Taken, Sold, Paid)),
+              Gain is 30*Taken-Paid ),
+            Pairs),
+    correlation(Pairs, Correlation).
+measure(crossings, Log, Hourly) :-
+    Hours is 24*Log.case.days - 6,
+    crossings(Log.case.strategy, Log, Count),
+    Hourly is Count/Hours.
+
+house(Log, Sums) :-
+    member(event(_, _, _, totals(_, Totals)), Log.events),
+    member(_-Sums, Totals).
+
+total(Log, N, Sum) :-
+    aggregate_all(sum(Kwh), ( house(Log, Sums), arg(N, Sums, Kwh) ), Sum).
+
+%   Jain, Chiu and Hawe, DEC-TR-301, 1984: 1 if all have as much, 1/N if one has all.
+
+jain(Shares, Index) :-
+    sum_list(Shares, Sum),
+    Sum > 0,
+    aggregate_all(r(count, sum(S*S)), member(S, Shares), r(Count, Squares)),
+    Index is Sum*Sum/(Count*Squares).
+
+correlation(Pairs, R) :-
+    aggregate_all(r(count, sum(X), sum(Y)), member(X-Y, Pairs), r(N, SumX, SumY)),
+    aggregate_all(r(sum((X-SumX/N)*(Y-SumY/N)), sum((X-SumX/N)**2),
+                    sum((Y-SumY/N)**2)),
+                  member(X-Y, Pairs), r(XY, XX, YY)),
+    XX*YY > 0,
+    R is XY/sqrt(XX*YY).
+
+%   The keeper of the battery answers each request; from house N either way of the
+%   ring is as many links as counted here.
+
+crossings(none, _, 0) :-
+    !.
+crossings(auction, Log, Hops) :-
+    !,
+    aggregate_all(max(Hops), member(event(_, _, _, cleared(_, _, Hops)), Log.events),
+                  Hops).
+crossings(_, Log, Links) :-
+    aggregate_all(sum(2*min(House, 11-House)),
+                  member(event(_, _, _, granted(House, _)), Log.events), Links).
+
+claim("by auctions less is bought from the grid than alone", [],
+      at([strategy=auction], bought) < at([strategy=none], bought)).
+claim("and less than in the order in which houses ask", [],
+      at([strategy=auction], bought) < at([strategy=drawn], bought)).
+claim("and less than where boilers wait as well", [],
+      at([strategy=auction], bought) < at([strategy=waiting], bought)).
+claim("less is wasted than in the order in which houses ask", [],
+      at([strategy=auction], wasted) < at([strategy=drawn], wasted)).
+claim("the auction is fairer than moments that are always the same", [],
+      at([strategy=auction], fairness) > at([strategy=first], fairness)).
+claim("and than moments that are drawn, where boilers wait", [],
+      at([strategy=auction], fairness) > at([strategy=waiting], fairness)).
+claim("by auctions those gain more that give more", [],
+      at([strategy=auction], reward > 0)).
+claim("in the order in which they ask they do not", [],
+      at([strategy=waiting], reward =< 0)).
+claim("the agent makes fewer hops than messages cross links", [],
+      at([strategy=auction], crossings) < at([strategy=first], crossings)).
+claim("with a larger battery less is bought", [],
+      at([strategy=auction], falls(bought, along(capacity)))).
+
+plot(solar, "Energy bought and wasted, and how it is shared, by the battery",
+     lines([x(capacity), y([bought, wasted, fairness, reward]), line(strategy),
+            xlabel("Capacity of the battery (kWh)")])).
