@@ -1,52 +1,76 @@
 /*  A call market: all orders are cleared together, at one price.
 
     An order at(Ct, Trader, Kwh) buys Kwh at that price or less; a negative Kwh sells
-    at that price or more.  The price is the one at which most is traded, and where
-    that is a range, its middle.  Where not all can be served, those with the better
-    price go first, and those with an equal price get equal shares of what they want.
+    at that price or more.  As much is traded as possible.  Where not all can be
+    served, those with the better price go first, and those with an equal price get
+    equal shares of what they want.  The price is the middle of the range in which
+    all that are served agree, and all others would rather not trade.
 */
 
 %   cleared(+Orders, -Ct, -Traded, -Deals): Deals are pairs Trader-Kwh, and Traded is
 %   what changes hands; it fails if that is nothing.
 
 cleared(Orders, Ct, Traded, Deals) :-
-    findall(Ct0-(Trader-Kwh), ( member(at(Ct0, Trader, Kwh), Orders), Kwh > 0 ),
-            Bids),
-    findall(Ct0-(Trader-Kwh), ( member(at(Ct0, Trader, Kwh), Orders), Kwh < 0 ),
-            Offers),
-    price(Bids, Offers, Ct, Traded),
-    sort(1, @>=, Bids, Falling),
-    sort(1, @=<, Offers, Rising),
-    group_pairs_by_key(Falling, Highest),
-    group_pairs_by_key(Rising, Least),
-    filled(Highest, Traded, Bought),
-    filled(Least, Traded, Sold),
-    append(Bought, Sold, Deals).
-
-price(Bids, Offers, Ct, Traded) :-
-    findall(Kwh-At,
-            ( ( member(At-_, Bids) ; member(At-_, Offers) ),
-              volume(At, Bids, Offers, Kwh) ),
-            Volumes),
-    max_member(Traded-_, Volumes),
+    findall(At-(Trader-Kwh), ( member(at(At, Trader, Kwh), Orders), Kwh > 0 ), Buy),
+    findall(At-(Trader-Kwh), ( member(at(At, Trader, Kwh), Orders), Kwh < 0 ), Sell),
+    sort(1, @>=, Buy, Falling),
+    sort(1, @=<, Sell, Rising),
+    levels(Falling, Bids),
+    levels(Rising, Offers),
+    matched(Bids, Offers, 0, Traded),
     Traded > 0,
-    findall(At, ( member(Kwh-At, Volumes), Kwh > Traded - 1.0e-9 ), Prices),
-    min_list(Prices, Low),
-    max_list(Prices, High),
-    Ct is (Low+High)/2.
+    served(Bids, Traded, Bought),
+    served(Offers, Traded, Sold),
+    middle(Bought, Sold, Ct),
+    append(Bought, Sold, Served),
+    findall(Trader-Part,
+            ( member(level(_, Share, Some), Served),
+              member(Trader-Kwh, Some),
+              Part is Share*Kwh ),
+            Deals).
 
-volume(Ct, Bids, Offers, Kwh) :-
-    aggregate_all(sum(K), ( member(At-(_-K), Bids), At >= Ct ), Demand),
-    aggregate_all(sum(-K), ( member(At-(_-K), Offers), At =< Ct ), Supply),
-    Kwh is min(Demand, Supply).
+%   levels(+Orders, -Levels): level(Ct, Sum, Orders) for each price, the best first.
 
-%   filled(+Orders, +Left, -Deals): Orders are grouped by price, the best first.
+levels(Orders, Levels) :-
+    group_pairs_by_key(Orders, Groups),
+    findall(level(Ct, Sum, Some),
+            ( member(Ct-Some, Groups),
+              aggregate_all(sum(abs(Kwh)), member(_-Kwh, Some), Sum) ),
+            Levels).
 
-filled([], _, []).
-filled([_-Orders|Groups], Left0, Deals) :-
-    aggregate_all(sum(abs(Kwh)), member(_-Kwh, Orders), Sum),
-    Share is min(1, Left0/Sum),
-    findall(Trader-Part, ( member(Trader-Kwh, Orders), Part is Share*Kwh ), Some),
-    Left is max(0, Left0-Sum),
-    append(Some, More, Deals),
-    filled(Groups, Left, More).
+matched([level(Bid, Kwh1, _)|Bids], [level(Offer, Kwh2, _)|Offers], Sum0, Sum) :-
+    Bid >= Offer,
+    !,
+    Sum1 is Sum0 + min(Kwh1, Kwh2),
+    Left is Kwh1-Kwh2,
+    (   Left > 0
+    ->  matched([level(Bid, Left, [])|Bids], Offers, Sum1, Sum)
+    ;   More is -Left,
+        matched(Bids, [level(Offer, More, [])|Offers], Sum1, Sum)
+    ).
+matched(_, _, Sum, Sum).
+
+%   served(+Levels, +Traded, -Served): each with the share of it that is traded.
+
+served([], _, []).
+served([level(Ct, Sum, Some)|Levels], Left0, [level(Ct, Share, Some)|Served]) :-
+    Share is max(0, min(1, Left0/Sum)),
+    Left is Left0-Sum,
+    served(Levels, Left, Served).
+
+%   middle(+Bought, +Sold, -Ct): of the prices at which nothing else would be traded.
+
+middle(Bought, Sold, Ct) :-
+    findall(At, ( left(Bought, At) ; traded(Sold, At) ), Low),
+    findall(At, ( traded(Bought, At) ; left(Sold, At) ), High),
+    max_list(Low, Least),
+    min_list(High, Most),
+    Ct is (Least+Most)/2.
+
+traded(Levels, Ct) :-
+    member(level(Ct, Share, _), Levels),
+    Share > 1.0e-9.
+
+left(Levels, Ct) :-
+    member(level(Ct, Share, _), Levels),
+    Share < 1 - 1.0e-9.
