@@ -3,6 +3,7 @@
           ]).
 :- use_module('../../examples/applications/fire/scene', []).
 :- use_module('../../examples/applications/irrigation/scene', []).
+:- use_module('../../examples/applications/solar/scene', []).
 :- use_module('../../examples/applications/warehouse/scene', []).
 :- use_module('../../examples/applications/stage', [stage_network/4]).
 :- use_module('../../prolog/typhon',
@@ -24,6 +25,7 @@ application_pictures(Directory) :-
 
 shown(fire, fire_scene, [fire(20)], 130).
 shown(irrigation, irrigation_scene, [], 1 123 200).      % 13 days
+shown(solar, solar_scene, [], 149 400).      % 17:30 of the second day
 shown(warehouse, warehouse_scene, [delta(2)], 90).
 
 picture(Directory, Name, Scene, Options, Seconds) :-

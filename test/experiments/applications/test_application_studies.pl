@@ -16,6 +16,8 @@ small(study_fire_signs, 8, [ signs-gradient, growth-0.0469, delay-(15-75),
       [time, last, smoke, lost]).
 small(study_irrigation, 12, [strategy-carried, down-0.3, days-4],
       [water, stress, drained]).
+small(study_solar, 15, [strategy-auction, capacity-30, days-2],
+      [bought, wasted, fairness, crossings]).
 small(study_warehouse, 15, [way-in_step, delta-2, robots-4, pallets-1, beams-1],
       [time, delivered, falls, early, held]).
 
