@@ -11,7 +11,6 @@
 :- use_module(library(aggregate), [aggregate_all/3]).
 :- use_module(library(debug), [assertion/1]).
 :- use_module(library(lists)).
-:- use_module(library(pairs), [group_pairs_by_key/2]).
 :- use_module(library(plunit)).
 :- use_module(library(readutil), [read_file_to_string/3]).
 :- use_module(library(sgml), [load_structure/3]).
