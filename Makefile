@@ -94,7 +94,8 @@ fuzz:                   ## send malformed frames; COUNT=100000, SEED=1, TLS=true
 	@$(SWIPL) test/chaos/fuzz.pl -- --count $(COUNT) --seed $(SEED) --tls=$(TLS)
 
 fuzz-programs:          ## random programs, compiled and interpreted; COUNT, SEED=1
-	@TYPHON_PROGRAMS=$(COUNT) TYPHON_SEED=$(SEED) $(SWIPL) test/run.pl -- chunks
+	@TYPHON_PROGRAMS=$(COUNT) TYPHON_SEED=$(SEED) TYPHON_SUITE_SECONDS=36000 \
+	    $(SWIPL) test/run.pl -- chunks
 
 hostile:                ## hostile agents on a guarded host; COUNT=100000, SEED=1, CELL=owner
 	@$(SWIPL) test/chaos/hostile.pl -- --count $(COUNT) --seed $(SEED) \

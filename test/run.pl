@@ -43,7 +43,14 @@ would have the signals blocked that the thread has, SIGINT for one.
 
 suites_at_a_time(3, 7).
 idle_share(0.35).                       % of the time of all processors
-suite_deadline(600).                    % seconds
+
+%   In seconds; `make fuzz-programs` takes longer.
+
+suite_deadline(Seconds) :-
+    getenv('TYPHON_SUITE_SECONDS', Atom),
+    atom_number(Atom, Seconds),
+    !.
+suite_deadline(600).
 
 %   What takes long begins early, that all end at about the same time.
 
