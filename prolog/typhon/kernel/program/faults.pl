@@ -8,7 +8,7 @@
             fault_note/1                % +Note
           ]).
 :- use_module(library(apply), [maplist/2]).
-:- use_module(library(lists), [append/3, member/2]).
+:- use_module(library(lists), [append/3, member/2, memberchk/2]).
 :- use_module(bodies, [goals_body/2]).
 :- use_module(chunk_goals, [place_left/4, plain_goals/2]).
 
@@ -106,9 +106,19 @@ final(Choice) :-
     frame_of(Frame, first_outcome/3),
     !.
 final(Choice) :-
-    prolog_choice_attribute(Choice, type, catch),
+    passes_failure(Choice),
     prolog_choice_attribute(Choice, parent, Parent),
     final(Parent).
+
+%   catch/3, whose failure fails_inside/2 continues, and what `*->` has cut.
+
+passes_failure(Choice) :-
+    prolog_choice_attribute(Choice, type, Type),
+    memberchk(Type, [catch,none]),
+    !.
+passes_failure(Choice) :-
+    prolog_choice_attribute(Choice, frame, Frame),
+    frame_of(Frame, catching/7).
 
 %!  fails_inside(+Frame, +Goals) is failure.
 %

@@ -62,8 +62,8 @@ machine.  Two threads must not run the same agent.
 
 %
 %   What was the matter if it failed or raised is noted, see typhon_faults,
-%   which knows the frames of machine_run/3, first_outcome/3, inside/5,
-%   called/5 and raises/3.
+%   which knows the frames of machine_run/3, first_outcome/3, catching/7,
+%   inside/5, called/5 and raises/3.
 
 machine_run(Context, Goals, Outcome) :-
     catch(first_outcome(Goals, Context, Outcome), Ball, Raised = true),

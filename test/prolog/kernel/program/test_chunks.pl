@@ -2,10 +2,11 @@
 :- use_module(library(plunit)).
 :- use_module('../../../lib/common').
 :- use_module('../../../lib/random_programs').
+:- use_module(library(apply), [maplist/2]).
 :- use_module(library(lists), [append/3, member/2]).
 :- use_module(library(typhon/kernel/program),
-              [ code_clear/0, code_install/3, code_module/2, machine_run/3,
-                plain_goals/2, program_load/5 ]).
+              [ code_clear/0, code_install/3, code_module/2, fault/3,
+                goals_body/2, machine_run/3, plain_goals/2, program_load/5 ]).
 
 /** <module> Tests of typhon_chunks: programs run as the machine runs them
 
@@ -120,6 +121,23 @@ test(a_program_is_compiled_by_its_first_run) :-
     stopped(Clauses, Module, Goals),
     assertion(Goals == [true,t(1)]),
     assertion('$get_predicate_attribute'(Module:'$goals'(_, _, _, _), defined, 1)).
+
+%   The goals are too long to be noted but at the end of the run; its frame is not.
+
+test(a_failure_inside_catch_is_noted_with_long_goals, Goal == (\+ n(1))) :-
+    length(Long, 200),
+    maplist(=(n(1)), Long),
+    goals_body(Long, Body),
+    Clauses = [ (:- agent(long, [state([t_/1, f/1, r/1])])),
+                (main :- catch(p(1), oops, move(a))),
+                (p(X) :- \+ n(X), move(a), Body),
+                n(1) ],
+    assertion(\+ engines_differ(Clauses, _)),
+    program_load(clauses(Clauses), Program, _, Hash, Kinds),
+    code_install(Hash, Program, Kinds),
+    code_module(Hash, Module),
+    next(Module, [main], Outcome),
+    fault(Outcome, [main], fault(Goal, _, _)).
 
 nested(0, t(0)) :-
     !.
