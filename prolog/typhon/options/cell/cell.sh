@@ -8,32 +8,59 @@
 #   HOME     the home of SWI-Prolog, seen read-only where it is
 # CELL_UID, CELL_AS, CELL_NPROC, CELL_TMP and CELL_CPU are limits, see below.
 set -eu
-library=$1 filter=$2 home=$3 swipl=$4; shift 4
+library=$1 filter=$2 home=$3 swipl=$4
+seen=${CELL_SEEN:-}
 # Limits of the number of threads do not hold for root, so a process of root
-# gives each cell a user of its own.
-as=(); uid=${CELL_UID:-65534}
+# gives each cell a user of its own. That one may not enter folders of root, so
+# what is in these is mounted elsewhere, for this process alone.
+as=() uid=${CELL_UID:-65534} from=("$library" "$home" "$swipl")
 if [ "$(id -u)" = 0 ]; then
     as=(setpriv "--reuid=$uid" "--regid=$uid" --clear-groups)
+    if [ -n "$seen" ]; then
+        mount -t tmpfs -o mode=755 none "$seen"
+        mkdir "$seen/library" "$seen/home"
+        touch "$seen/swipl"
+        mount --bind "$library" "$seen/library"
+        mount --bind "$home" "$seen/home"
+        mount --bind "$swipl" "$seen/swipl"
+        from=("$seen/library" "$seen/home" "$seen/swipl")
+    elif ! "${as[@]}" test -r "$library" -a -r "$home" -a -r "$swipl"; then
+        CELL_SEEN=/mnt exec unshare --mount bash "$0" "$@"
+    fi
+fi
+shift 4
+# bwrap that is setuid needs no user namespace. It takes no --size, so nothing
+# may be written: files in an unlimited /tmp would fill the memory.
+user=(--unshare-user --disable-userns --uid 1000 --gid 1000)
+size=(--size "${CELL_TMP:-16777216}")
+readonly=()
+if [ -u "$(command -v bwrap)" ]; then
+    user=()
+    size=()
+    readonly=(--remount-ro /tmp)
 fi
 # Of the system there is what the loader needs: no shell, no Python.
 mounts=(--symlink usr/lib /lib --symlink usr/bin /bin
         --ro-bind /usr/bin/prlimit /usr/bin/prlimit)
-for path in /usr/lib/*-linux-gnu* /usr/lib64 /etc/ld.so.cache /etc/swi-prolog \
-            "$home" "$swipl"; do
+for path in /usr/lib/*-linux-gnu* /usr/lib64 /etc/ld.so.cache /etc/swi-prolog; do
     if [ -e "$path" ]; then mounts+=(--ro-bind "$path" "$path"); fi
 done
 if [ -e /lib64 ]; then mounts+=(--symlink usr/lib64 /lib64); fi
+mounts+=(--ro-bind "${from[0]}" /typhon --ro-bind "${from[1]}" "$home"
+         --ro-bind "${from[2]}" "$swipl")
+# SWI-Prolog may have been moved since it was built.
+libs=$home/lib/$(basename "$(dirname "$swipl")")
 # --unshare-user: --unshare-all alone goes on silently without that.
 # --as-pid-1: else process 1 is a bwrap without the limits below, and the cell
 # can write to its memory. Signals from inside do not end process 1.
 # --args: arguments of process 1 can be read inside.
-exec 8< <(printf '%s\0' --unshare-all --unshare-user --disable-userns \
+exec 8< <(printf '%s\0' --unshare-all "${user[@]}" \
     --die-with-parent --new-session --as-pid-1 --hostname cell \
-    --uid 1000 --gid 1000 --cap-drop ALL --clearenv \
+    --cap-drop ALL --clearenv \
     --setenv PATH /usr/bin --setenv HOME /tmp --setenv LANG C.UTF-8 \
-    "${mounts[@]}" --proc /proc --dev /dev --remount-ro /dev \
-    --size "${CELL_TMP:-16777216}" --tmpfs /tmp \
-    --ro-bind "$library" /typhon --remount-ro / \
+    --setenv LD_LIBRARY_PATH "$libs" \
+    --proc /proc --dev /dev --remount-ro /dev "${size[@]}" --tmpfs /tmp \
+    "${mounts[@]}" "${readonly[@]}" --remount-ro / \
     --chdir /tmp --seccomp 9) 9<"$filter"
 # bwrap closes no descriptors, and SWI-Prolog 9.0.4 lets processes inherit
 # listening sockets. bash keeps one at 63.
