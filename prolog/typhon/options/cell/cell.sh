@@ -29,16 +29,6 @@ if [ "$(id -u)" = 0 ]; then
     fi
 fi
 shift 4
-# bwrap that is setuid needs no user namespace. It takes no --size, so nothing
-# may be written: files in an unlimited /tmp would fill the memory.
-user=(--unshare-user --disable-userns --uid 1000 --gid 1000)
-size=(--size "${CELL_TMP:-16777216}")
-readonly=()
-if [ -u "$(command -v bwrap)" ]; then
-    user=()
-    size=()
-    readonly=(--remount-ro /tmp)
-fi
 # Of the system there is what the loader needs: no shell, no Python.
 mounts=(--symlink usr/lib /lib --symlink usr/bin /bin
         --ro-bind /usr/bin/prlimit /usr/bin/prlimit)
@@ -54,13 +44,14 @@ libs=$home/lib/$(basename "$(dirname "$swipl")")
 # --as-pid-1: else process 1 is a bwrap without the limits below, and the cell
 # can write to its memory. Signals from inside do not end process 1.
 # --args: arguments of process 1 can be read inside.
-exec 8< <(printf '%s\0' --unshare-all "${user[@]}" \
+exec 8< <(printf '%s\0' --unshare-all --unshare-user --disable-userns \
     --die-with-parent --new-session --as-pid-1 --hostname cell \
-    --cap-drop ALL --clearenv \
+    --uid 1000 --gid 1000 --cap-drop ALL --clearenv \
     --setenv PATH /usr/bin --setenv HOME /tmp --setenv LANG C.UTF-8 \
     --setenv LD_LIBRARY_PATH "$libs" \
-    --proc /proc --dev /dev --remount-ro /dev "${size[@]}" --tmpfs /tmp \
-    "${mounts[@]}" "${readonly[@]}" --remount-ro / \
+    --proc /proc --dev /dev --remount-ro /dev \
+    --size "${CELL_TMP:-16777216}" --tmpfs /tmp \
+    "${mounts[@]}" --remount-ro / \
     --chdir /tmp --seccomp 9) 9<"$filter"
 # bwrap closes no descriptors, and SWI-Prolog 9.0.4 lets processes inherit
 # listening sockets. bash keeps one at 63.

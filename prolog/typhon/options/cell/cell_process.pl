@@ -193,6 +193,7 @@ prolog:error_message(cell_unavailable(Cause)) -->
 %
 %   What to do where no cell can be started.
 
-cell_needs('A cell needs bubblewrap (apt install bubblewrap), and that it may make \c
-            user namespaces: allow them (kernel.unprivileged_userns_clone, \c
-            AppArmor, the seccomp profile of a container), or make bwrap setuid').
+cell_needs('A cell needs bubblewrap (apt install bubblewrap) that is not setuid, and \c
+            that it may make user namespaces: allow them \c
+            (kernel.unprivileged_userns_clone, AppArmor; in podman \c
+            --security-opt seccomp=unconfined --security-opt unmask=ALL)').
