@@ -31,7 +31,7 @@ This is the interface of the layer: higher layers import from here.
               life_hops/2,
               life_may_move/2,
               life_parent/2, life_payloads/2, life_extras/2,
-              make_life/2, set_extras_of_life/3
+              make_life/5, set_extras_of_life/3
             ]).
 :- reexport('agent/gate').
 :- reexport(agent/image,

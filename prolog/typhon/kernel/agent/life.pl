@@ -1,6 +1,7 @@
 :- module(typhon_life,
           [ is_life/1,                  % @Term
-            make_life/2,                % +Fields, -Life
+            make_life/5,                % +Lifetime, +Tokens, +Payloads,
+                                        % +Static, -Life
             life_parent/2,              % +Life, -Id
             life_hops/2,                % +Life, -Count
             life_tokens/2,              % +Life, -Tokens
@@ -20,7 +21,6 @@
           ]).
 :- use_module(library(apply), [exclude/3]).
 :- use_module(library(lists), [member/2]).
-:- use_module(library(option), [option/3]).
 :- use_module('../base/on_demand', [on_demand_load/2, on_demand_missing/2]).
 
 /** <module> What an agent takes along besides its state
@@ -70,20 +70,13 @@ is_indicator(PI) :-
     atom(Name),
     integer(Arity).
 
-%!  make_life(+Fields:list, -Life) is det.
+%!  make_life(+Lifetime, +Tokens:list, +Payloads:list, +Static:boolean,
+%!            -Life) is det.
 %
-%   Fields are Name(Value), names as above in lower case; others have their
-%   defaults.
+%   Life is that of an agent which begins, and is no clone.
 
-make_life(Fields,
-          life(Parent, Hops, Lifetime, Tokens, Payloads, Static, Extras)) :-
-    option(parent(Parent), Fields, none),
-    option(hops(Hops), Fields, 0),
-    option(lifetime(Lifetime), Fields, inf),
-    option(tokens(Tokens), Fields, []),
-    option(payloads(Payloads), Fields, []),
-    option(static(Static), Fields, false),
-    option(extras(Extras), Fields, []).
+make_life(Lifetime, Tokens, Payloads, Static,
+          life(none, 0, Lifetime, Tokens, Payloads, Static, [])).
 
 %!  life_parent(+Life, -Id) is det.
 %!  life_hops(+Life, -Count:integer) is det.

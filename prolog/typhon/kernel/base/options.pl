@@ -55,7 +55,8 @@ check_options(Domain, Options) :-
 
 check_option(Domain, Option) :-
     must_be(callable, Option),
-    options_load(Domain, [Option]),
+    functor(Option, Name, _),
+    on_demand_load(Domain, Name),
     (   declared(Domain, Option, Type, Value),
         is_of_type(Type, Value)
     ->  true

@@ -30,7 +30,7 @@
                 agent_id/3, agent_mail/2, agent_name/3, agent_ready/2,
                 agent_rest/3, agent_standing/5, agent_state/2, gate/4,
                 gate_refused/4, is_life/1, no_result_facts/2, life_clone/3,
-                mail_count/2, make_life/2, origin_inherited/3, origin_passed/4,
+                mail_count/2, make_life/5, origin_inherited/3, origin_passed/4,
                 payload_marks/2, with_agent/2 ]).
 :- use_module('../travel', [agent_born/2, clone_born/2]).
 :- use_module(questions, [agent_met/1]).
@@ -194,8 +194,7 @@ birth(Options, Declared, Initial, Clauses, Life,
     foldl(add_payload(Clauses), Specs, []-(Declared-StateClauses0),
           Payloads-(PIs-StateClauses)),
     maplist(initial_fact(Clauses, PIs), Facts),
-    make_life([ tokens(Tokens), lifetime(Lifetime), static(Static),
-                payloads(Payloads) ], Life).
+    make_life(Lifetime, Tokens, Payloads, Static, Life).
 
 initial_fact(Clauses, PIs, Fact) :-
     clause_parts(Fact, Head, _),
