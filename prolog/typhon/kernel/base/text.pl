@@ -1,7 +1,7 @@
 :- module(typhon_text,
           [ term_text/2,                % +Term, -Bytes
             text_term/2,                % +Bytes, -Term
-            portable/2                  % +Term, +Options
+            write_portable/3            % +Out, +Term, +Options
           ]).
 
 /** <module> The canonical text of a term
@@ -16,6 +16,7 @@ characters need quotes, and 10.1 writes some there that it cannot read.
 local to a thread and are put back.
 */
 
+:- autoload(library(error), [resource_error/1]).
 :- autoload(library(memfile), [free_memory_file/1, memory_file_to_string/3,
                                  new_memory_file/1, open_memory_file/4]).
 
@@ -43,8 +44,7 @@ term_text(Term, Bytes) :-
     plain_flags(with_output_to(string(Text), write_term(Term, Options))),
     (   is_ascii(Text)
     ->  Bytes = Text
-    ;   portable_options(Portable),
-        portable_bytes(Term, [fullstop(true)|Portable], Bytes)
+    ;   portable_bytes(Term, Bytes)
     ).
 
 text_options([ quoted(true), ignore_ops(true), fullstop(true),
@@ -54,12 +54,14 @@ portable_options([ quoted(true), ignore_ops(true), numbervars(false),
                    module(typhon_text_syntax),
                    portray_goal(typhon_text:portable) ]).
 
-portable_bytes(Term, Options, Bytes) :-
+portable_bytes(Term, Bytes) :-
     setup_call_cleanup(
         new_memory_file(File),
         ( setup_call_cleanup(
               open_memory_file(File, write, Out, [encoding(utf8)]),
-              plain_flags(write_term(Out, Term, Options)),
+              plain_flags(write_portable(Out, Term,
+                                         [ ignore_ops(true), fullstop(true),
+                                           module(typhon_text_syntax) ])),
               close(Out)),
           memory_file_to_string(File, Bytes, octet)
         ),
@@ -75,11 +77,41 @@ is_ascii(Text) :-
         close(Null)),
     string_length(Text, Bytes).
 
-%!  portable(+Term, +Options) is semidet.
+%!  write_portable(+Out, +Term, +Options) is det.
 %
-%   For the option portray_goal(typhon_text:portable) of write_term/3: Term
-%   is written so that every version reads it. False if it has no characters
-%   beyond ASCII outside of its arguments.
+%   As write_term/3, quoted, such that every version reads it.
+%
+%   @error resource_error(c_stack) if arguments are more than 10,000 deep: a
+%   stack of 8 MB reads about that. A portray goal that is out of stack aborts
+%   the process, so it is not called.
+
+write_portable(Out, Term, Options) :-
+    (   within_depth(Term, 10 000)
+    ->  write_term(Out, Term,
+                   [ quoted(true), numbervars(false),
+                     portray_goal(typhon_text:portable)
+                   | Options ])
+    ;   resource_error(c_stack)
+    ).
+
+%   The tail of a list is as deep as the list.
+
+within_depth(Term, _) :-
+    \+ compound(Term),
+    !.
+within_depth([Head|Tail], Depth) :-
+    !,
+    Depth > 0,
+    Below is Depth-1,
+    within_depth(Head, Below),
+    within_depth(Tail, Depth).
+within_depth(Term, Depth) :-
+    Depth > 0,
+    Below is Depth-1,
+    forall(arg(_, Term, Arg), within_depth(Arg, Below)).
+
+%   portable(+Term, +Options): the portray goal.  False if Term has no
+%   characters beyond ASCII outside of its arguments.
 
 portable(Term, _) :-
     atom(Term),

@@ -6,6 +6,7 @@
 :- use_module(library(error), [domain_error/2, must_be/2]).
 :- use_module(library(lists), [member/2]).
 :- use_module('../../kernel/base/options', [check_options/2]).
+:- use_module('../../kernel/base/text', [write_portable/3]).
 :- use_module('../../kernel/program',
               [ code_receive/2, code_extras/2, code_sent/2, code_unwrapped/3,
                 code_wrapped/3, program_hash/2 ]).
@@ -78,17 +79,19 @@ format_version(1).
 %   write_image(+File, +Image), read_image(+File, -Image): Image is
 %   image(Name, Sent, Life, State, Goals, Mail), Sent as of code_sent/2.
 
+%   A former restore point in File stays if this one cannot be written.
+
 write_image(File, Image) :-
+    with_output_to(string(Text), forall(line(Image, Line), write_line(Line))),
     setup_call_cleanup(
         open(File, write, Out, [encoding(utf8)]),
-        forall(line(Image, Line), write_line(Out, Line)),
+        write(Out, Text),
         close(Out)).
 
-write_line(Out, Line) :-
-    write_term(Out, Line,
-               [ module(system), quoted(true), spacing(next_argument),
-                 numbervars(false), portray_goal(typhon_text:portable),
-                 fullstop(true), nl(true) ]).
+write_line(Line) :-
+    write_portable(current_output, Line,
+                   [ module(system), spacing(next_argument), fullstop(true),
+                     nl(true) ]).
 
 line(_, restore_point(Version)) :-
     format_version(Version).

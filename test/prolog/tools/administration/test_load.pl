@@ -3,7 +3,10 @@
 :- use_module('../../../lib/fixtures').
 :- use_module('../../../lib/peers').
 :- use_module(library(plunit)).
+:- use_module(library(apply), [foldl/4]).
 :- use_module(library(filesex), [directory_file_path/3]).
+:- use_module(library(lists), [numlist/3]).
+:- use_module(library(yall)).
 :- use_module(library(typhon)).
 
 /** <module> Restore points are loaded where people want
@@ -63,5 +66,25 @@ test(unknown_option, error(domain_error(load_option, name(x)))) :-
     saved(File, with_hosts([beta], agent_load(File, _, [name(x)]))).
 test(host_is_no_name, error(type_error(atom, 7))) :-
     saved(File, with_hosts([beta], agent_load(File, _, [host(7)]))).
+
+%   The portray goal of write_term/3 would abort the process.
+
+test(too_deep_to_be_read_again, true(E-H == resource_error(c_stack)-Alpha)) :-
+    with_tmp_dir(plunit_load:deep(E, H, Alpha)).
+
+deep(Formal, H, Alpha, Dir) :-
+    directory_file_path(Dir, point, File),
+    with_hosts([alpha],
+               ( address(alpha, Alpha),
+                 create([on_message(_, _)], A),
+                 agent_save(A, File),
+                 create([ (main :- receive(_-go)) ], B),
+                 wait_state(B, waiting),
+                 numlist(1, 100 000, Numbers),
+                 foldl([_,T,s(T)]>>true, Numbers, z, Deep),
+                 agent_send(B, Deep),
+                 catch(agent_save(B, File), error(Formal, _), true),
+                 agent_load(File, Former),
+                 agent_property(Former, host(H)) )).
 
 :- end_tests(load).
