@@ -84,13 +84,22 @@ cell_answer(Goal, Kind, Host, agent(Id, _, _, _, _), Answer) :-
     ->  catch(( asked_of(Of, Host, Id, Name/Arity, Module),
                 solutions(Kind, Goal, Module, Answer) ),
               error(Formal, Where),
-              raised(error(Formal, Where), Answer))
-    ;   endpoint_address(Own),
-        endpoint_own_proof(Proof),
-        in_words(Goal, Shown),
-        security_event(Host, Own, Proof, refused(Id, policy(Shown))),
+              ( excess_audited(Formal, Host, Id),
+                raised(error(Formal, Where), Answer) ))
+    ;   in_words(Goal, Shown),
+        refusal_audited(Host, Id, policy(Shown)),
         raised(error(permission_error(call, sandboxed, Goal), _), Answer)
     ).
+
+excess_audited(resource_error(What), Host, Id) :-
+    !,
+    refusal_audited(Host, Id, quota(What)).
+excess_audited(_, _, _).
+
+refusal_audited(Host, Id, Why) :-
+    endpoint_address(Own),
+    endpoint_own_proof(Proof),
+    security_event(Host, Own, Proof, refused(Id, Why)).
 
 raised(Error, raised(Portable)) :-
     in_words(Error, Portable).

@@ -7,6 +7,7 @@
 :- use_module(library(filesex), [directory_file_path/3]).
 :- use_module(library(lists), [member/2, numlist/3]).
 :- use_module(library(process), [process_kill/2]).
+:- use_module(library(readutil), [read_file_to_terms/3]).
 :- use_module(library(typhon)).
 :- use_module(library(typhon/bridges/common/starting), [service_begin/4]).
 :- use_module(library(typhon/kernel/program), [vocabulary_word/2]).
@@ -163,14 +164,16 @@ test(many_agents_share_a_cell, Sum-Cells == 5050-1) :-
            used_cells(Cells) )).
 
 test(services_one_by_one_and_so_often,
-     Outcomes = [ done, done, raised(error(resource_error(calls(twice/2)), _)),
-                  raised(error(existence_error(procedure, _), _)) ]) :-
+     Outcomes-Refused = [ done, done,
+                          raised(error(resource_error(calls(twice/2)), _)),
+                          raised(error(existence_error(procedure, _), _)) ]
+                        -[quota(calls(twice/2))]) :-
     Often = forall(between(1, 10, X), twice(X, _)),
     no_leaks(with_tmp_dir(bridge_called(
                                         [ (twice(2, Y), Y == 4),
                                           forall(between(1, 3, _), twice(2, 4)),
                                           Often, thrice(2, _) ],
-                                        Ended))),
+                                        Ended, Refused))),
     findall(Outcome, member(_-Outcome, Ended), Outcomes).
 
 test(a_supervisor_starts_its_children_again, [Outcome,Last] == [done,disposed]) :-
@@ -214,16 +217,21 @@ used_cells(Count) :-
 %   Of a bridge with two predicates the place offers one, and an agent may call
 %   it three times in a second.
 
-bridge_called(Calls, Ended, Dir) :-
+%   Ended are the outcomes of Calls, Refused what the audit says was refused.
+
+bridge_called(Calls, Ended, Refused, Dir) :-
     directory_file_path(Dir, place, File),
+    directory_file_path(Dir, audit, Audit),
     setup_call_cleanup(
         open(File, write, Out),
         format(Out, ":- service(twice/2).~n", []),
         close(Out)),
-    with_hosts([ c-[ policy(guarded), cell(host), consult(File),
+    with_hosts([ c-[ policy(guarded), cell(host), consult(File), audit(Audit),
                      quota([calls(twice/2, 3)]) ] ],
                ( service_begin(bridge, c, [twice/2,thrice/2], test_cells),
-                 findall(Call-Outcome, called(Calls, Call, Outcome), Ended) )).
+                 findall(Call-Outcome, called(Calls, Call, Outcome), Ended) )),
+    read_file_to_terms(Audit, Entries, []),
+    findall(Why, member(audit(_, c, _, _, refused(_, Why)), Entries), Refused).
 
 called(Calls, Call, Outcome) :-
     member(Call, Calls),
