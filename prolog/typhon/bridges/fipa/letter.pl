@@ -277,11 +277,11 @@ url_element(Url, element(url, [], [Url])).
                 *            PARTS             *
                 *******************************/
 
+%   For each part the rest is copied.
+
 max_parts(16).
 
 %   multipart_read(+ContentType:text, +Body:string, -Parts:list(pair)) is det.
-%
-%   The line break before a boundary belongs to it.
 %
 %   @error syntax_error(fipa_multipart)
 
@@ -289,11 +289,9 @@ multipart_read(ContentType, Body, Parts) :-
     (   boundary(ContentType, Boundary),
         string_concat("\n--", Boundary, Mark),
         string_concat("\n", Body, Text),
-        atomic_list_concat([_|Pieces0], Mark, Text),
-        append(Pieces, [End], Pieces0),
-        length(Pieces, Count),
         max_parts(Most),
-        Count < Most,
+        split(Text, Mark, Most, [_|Pieces0]),
+        append(Pieces, [End], Pieces0),
         sub_string(End, 0, 2, _, "--"),
         maplist(piece_part, Pieces, Parts0)
     ->  Parts = Parts0
@@ -313,6 +311,18 @@ boundary(ContentType, Boundary) :-
     string_length(Boundary, Length),
     Length > 0,
     Length =< 70.
+
+%   The line break before a boundary belongs to it.
+
+split(Text, Mark, Most, [Piece|Pieces]) :-
+    sub_string(Text, Before, _, After, Mark),
+    !,
+    Most > 0,
+    Less is Most-1,
+    sub_string(Text, 0, Before, _, Piece),
+    sub_string(Text, _, After, 0, Rest),
+    split(Rest, Mark, Less, Pieces).
+split(Text, _, _, [Text]).
 
 %   A piece begins with the end of the line of its boundary.
 
