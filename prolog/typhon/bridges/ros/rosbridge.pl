@@ -6,13 +6,12 @@
           ]).
 :- use_module(library(debug), [debug/3]).
 :- use_module(library(error), [resource_error/1]).
-:- use_module(library(http/websocket), [http_open_websocket/3, ws_send/2]).
+:- use_module(library(http/websocket), [ws_send/2]).
 :- use_module(library(lists), [member/2]).
-:- use_module(library(http/http_stream), []). % else the request says HTTP/1.0
-:- use_module(library(settings), [setting/2, setting/4]).
 :- use_module('../../kernel/base/error_text', [print_error/2]).
 :- use_module('../../kernel/base/json', [json_text/2]).
 :- use_module('../../kernel/base/own_thread', [in_own_thread/1]).
+:- use_module(websocket, [socket_close/1, socket_open/3, socket_read/2]).
 
 /** <module> The connection to a rosbridge server
 
@@ -48,8 +47,7 @@ soon(5).                        % seconds, for a connection to end
 %   Connect, within Seconds, and stay connected.  A server that has said
 %   nothing for Silence seconds, pings included, is gone.
 %
-%   @error What http_open/3 and http_open_websocket/3 raise
-%   @error timeout_error(connect, URL)
+%   @error What socket_open/3 raises, timeout_error(connect, URL)
 
 rosbridge_open(Host, URL, Seconds, Silence) :-
     setup_call_cleanup(
@@ -338,69 +336,3 @@ writer_stop(Writer, Me) :-
     !,
     writer_stop(Writer, Me).
 writer_stop(_, _).
-
-                /*******************************
-                *          WEBSOCKETS          *
-                *******************************/
-
-:- setting(typhon_ros_socket:longest, nonneg, 4 000 000,
-           "Now typhon_ros_rosbridge:longest").
-:- setting(longest, nonneg, 4 000 000,
-           "Characters of one message from a rosbridge server").
-
-%   socket_open(+URL, +Silence, -Socket)
-%
-%   As library(http/websocket), but of a message only that is kept which the
-%   setting allows.  A server may say nothing for Silence seconds.  Without nodelay
-%   a frame would wait until the server has acknowledged the one before.
-
-socket_open(URL, Silence, socket(In, Out)) :-
-    http_open_websocket(URL, Pair, [timeout(Silence), nodelay(true)]),
-    stream_pair(Pair, In, Out).
-
-%   socket_read(+Socket, -Read)
-%
-%   Waits for a message.  Read is text(String), too_long(Characters), `binary`,
-%   or end(Why).  Answers pings.
-%
-%   @error timeout_error(read, Stream)
-
-socket_read(Socket, Read) :-
-    Socket = socket(In, _),
-    websocket:ws_read_header(In, Code, _),
-    read_frame(Code, Socket, Read0),
-    (   Read0 == none
-    ->  socket_read(Socket, Read)
-    ;   Read = Read0
-    ).
-
-read_frame(end_of_file, _, end(closed)) :- !.
-read_frame(Code, Socket, Read) :-
-    Socket = socket(In, Out),
-    setting(longest, Longest),
-    read_string(In, Longest, Text),
-    rest(In, 0, More),
-    (   More > 0
-    ->  Length is Longest+More,
-        Read = too_long(Length)
-    ;   frame_read(Code, Text, Out, Read)
-    ).
-
-frame_read(1, Text, _, text(Text)) :- !.
-frame_read(2, _, _, binary) :- !.
-frame_read(8, _, _, end(closed)) :- !.
-frame_read(9, Text, Out, none) :- !, ws_send(Out, pong(Text)).
-frame_read(_, _, _, none).
-
-rest(In, Count0, Count) :-
-    read_string(In, 4096, Text),
-    string_length(Text, Length),
-    (   Length =:= 0
-    ->  Count = Count0
-    ;   Count1 is Count0+Length,
-        rest(In, Count1, Count)
-    ).
-
-socket_close(socket(In, Out)) :-
-    catch(close(Out, [force(true)]), error(_, _), true),
-    catch(close(In, [force(true)]), error(_, _), true).
