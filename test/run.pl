@@ -24,7 +24,8 @@ would have the signals blocked that the thread has, SIGINT for one.
 :- use_module('lib/quick_swipl', [quick_swipl/2]).
 :- use_module(library(apply), [exclude/3, foldl/4, maplist/3]).
 :- use_module(library(filesex), [directory_file_path/3, directory_member/3]).
-:- use_module(library(lists), [append/2, member/2, nth1/3, selectchk/3, sum_list/2]).
+:- use_module(library(lists),
+              [append/2, member/2, nth1/3, selectchk/3, sum_list/2]).
 :- use_module(library(main), [main/0]).
 :- use_module(library(pairs), [map_list_to_pairs/3, pairs_values/2]).
 :- use_module(library(process),
@@ -132,20 +133,20 @@ step(_, Jobs, ended(Job, Status)) :-
 %   there is no /proc/stat.
 
 processors_idle :-
+    looked(look(Then, Idle0, All0)),
     get_time(Now),
-    (   nb_current(looked, look(Then, _, _)),
-        Now < Then+1
-    ->  fail
-    ;   processor_times(Idle, All)
-    ),
-    (   nb_current(looked, look(_, Idle0, All0))
-    ->  true
-    ;   Idle0 = Idle,
-        All0 = 0
-    ),
+    Now >= Then+1,
+    processor_times(Idle, All),
     nb_setval(looked, look(Now, Idle, All)),
     idle_share(Share),
     Idle-Idle0 > Share*(All-All0).
+
+%   The first time it is since the machine was started.
+
+looked(Look) :-
+    nb_current(looked, Look),
+    !.
+looked(look(0, 0, 0)).
 
 %   processor_times(-Idle, -All) is semidet: of all processors, in ticks.
 

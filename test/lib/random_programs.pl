@@ -80,22 +80,9 @@ goals(Count, I, X, (Goal,Goals)) :-
 goal(I, X, Goal) :-
     random(R),
     (   R < 0.50
-    ->  random_between(1, 99, K),
-        random_member(Goal,
-                      [ t(K-X), t(K-X), move(b), move(b), move(b), move(b),
-                        move(b), move(b), n(X), o(X), f(X), s(X), r(X), X == 2,
-                        X = 2, !, !, d(X, _), X > 1, _ is X+1, Y is X*2, t(Y),
-                        true, assertz(f(X)), retract(f(X)), member(X, [1,2,3]),
-                        functor(X, _, _) ])
+    ->  usual(X, Goal)
     ;   R < 0.58
-    ->  random_member(Goal,
-                      [ fail, throw(oops), receive(X, 0), move(refused),
-                        _ is foo+X, atom_length(X, _), unknown(X),
-                        assertz((r(Z) :- move(b), Z = 3)),
-                        assertz((r(Z) :- n(Z), Z > 1)),
-                        findall(Z, n(Z), X), forall(n(Z), Z > 0), \+ \+ X = 1,
-                        copy_term(X, _), G^true, call(move, b),
-                        ( G = t(X), G ), ( G = move(b), call(G) ) ])
+    ->  unusual(X, Goal)
     ;   R < 0.80                        % more would have no end
     ->  construct(I, X, Goal)
     ;   I < 4
@@ -105,6 +92,25 @@ goal(I, X, Goal) :-
         predicate(K, A, Goal)
     ;   Goal = t(X)
     ).
+
+usual(X, Goal) :-
+    random_between(1, 99, K),
+    random_member(Goal,
+                  [ t(K-X), t(K-X), move(b), move(b), move(b), move(b),
+                    move(b), move(b), n(X), o(X), f(X), s(X), r(X), X == 2,
+                    X = 2, !, !, d(X, _), X > 1, _ is X+1, Y is X*2, t(Y),
+                    true, assertz(f(X)), retract(f(X)), member(X, [1,2,3]),
+                    functor(X, _, _) ]).
+
+unusual(X, Goal) :-
+    random_member(Goal,
+                  [ fail, throw(oops), receive(X, 0), move(refused),
+                    _ is foo+X, atom_length(X, _), unknown(X),
+                    assertz((r(Z) :- move(b), Z = 3)),
+                    assertz((r(Z) :- n(Z), Z > 1)),
+                    findall(Z, n(Z), X), forall(n(Z), Z > 0), \+ \+ X = 1,
+                    copy_term(X, _), G^true, call(move, b),
+                    ( G = t(X), G ), ( G = move(b), call(G) ) ]).
 
 construct(I, X, Goal) :-
     random_between(1, 16, Kind),
@@ -191,32 +197,34 @@ fresh(Program, Clauses, Agent) :-
 %   The machine alone is given the module reference_machine for the program's.
 
 journey(Stops, Engine, Module, Agent, Goals, Log) :-
-    (   Engine == machine
-    ->  Name = reference
-    ;   memberchk(Engine, [mixed, mixed_frames]),
-        Stops mod 2 =:= 1
-    ->  Name = reference
-    ;   Name = Module
-    ),
+    engine_now(Engine, Stops, Module, Name),
     nb_setval(random_program, Module),
     ran(Name, Agent, Goals, Outcome),
     state(Agent, State),
+    '$destroy_module'(Agent),
     (   Outcome = effect(Control, Hole, Left0),
         Stops < 25
     ->  plain_goals(Left0, Goals1),
         Log = [stop(Control, Hole, Goals1, State)|Log1],
         ( keeps_frames(Engine) -> Left = Left0 ; Left = Goals1 ),
         answer(Control, Answer),
-        copy_term(Hole-Left-State, Answer1-Left1-State1),
-        Answer1 = Answer,
-        '$destroy_module'(Agent),
+        copy_term(Hole-Left-State, Answer-Left1-State1),
         fresh(Module, State1, Next),
         Stops1 is Stops+1,
         journey(Stops1, Engine, Module, Next, Left1, Log1)
     ;   end(Outcome, Goals, End),
-        Log = [end(End, State)],
-        '$destroy_module'(Agent)
+        Log = [end(End, State)]
     ).
+
+%   engine_now(+Engine, +Stops, +Module, -Name): after so many stops.
+
+engine_now(machine, _, _, reference) :-
+    !.
+engine_now(Engine, Stops, _, reference) :-
+    memberchk(Engine, [mixed, mixed_frames]),
+    Stops mod 2 =:= 1,
+    !.
+engine_now(_, _, Module, Module).
 
 keeps_frames(frames).
 keeps_frames(mixed_frames).
