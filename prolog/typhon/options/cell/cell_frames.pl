@@ -1,13 +1,14 @@
 :- module(typhon_cell_frames,
           [ cell_frame_write/2,         % +Out, +Term
             cell_frame_read/2,          % +In, -Term
+            cell_frame_heard/2,         % +In, -Term
             cell_word/2,                % ?Kind, ?PI
             cell_state/2,               % +State0, -State
             state_mark/2,               % +Module, -Mark
             state_changes/3,            % +Module, +Mark, -Changes
             state_predicate/2           % +Module, -Head
           ]).
-:- use_module(library(lists), [max_list/2]).
+:- use_module(library(lists), [max_list/2, reverse/2]).
 :- use_module(library(apply), [exclude/3]).
 :- use_module(library(error), [resource_error/1, syntax_error/1]).
 :- use_module('../../kernel/base/text', [term_text/2, text_term/2]).
@@ -77,20 +78,35 @@ cell_frame_write(Out, Term) :-
     flush_output(Out).
 
 %!  cell_frame_read(+In, -Term) is det.
+%!  cell_frame_heard(+In, -Term) is det.
 %
-%   Term is `end_of_file` where In ends.
+%   Term is `end_of_file` where In ends.  The second is for what a cell has
+%   written: a number of 30,000 digits is refused, as reading one takes a time that
+%   grows with the square of its length, and cannot be interrupted.
 %
 %   @error syntax_error(Message) it is no text of a term, or the frame is too
 %   large: nothing of it was read then
 
 cell_frame_read(In, Term) :-
-    read_string(In, 4, Head),
-    (   string_codes(Head, [L3,L2,L1,L0])
-    ->  Length is L3<<24 \/ L2<<16 \/ L1<<8 \/ L0,
-        frame_body(In, Length, Bytes),
+    (   frame_text(In, Bytes)
+    ->  text_term(Bytes, Term)
+    ;   Term = end_of_file
+    ).
+
+cell_frame_heard(In, Term) :-
+    (   frame_text(In, Bytes)
+    ->  no_long_number(Bytes),
         text_term(Bytes, Term)
     ;   Term = end_of_file
     ).
+
+%   frame_text(+In, -Bytes) is semidet: fails where In ends.
+
+frame_text(In, Bytes) :-
+    read_string(In, 4, Head),
+    string_codes(Head, [L3,L2,L1,L0]),
+    Length is L3<<24 \/ L2<<16 \/ L1<<8 \/ L0,
+    frame_body(In, Length, Bytes).
 
 frame_body(In, Length, Bytes) :-
     most_bytes(Most),
@@ -101,6 +117,61 @@ frame_body(In, Length, Bytes) :-
     ->  true
     ;   syntax_error(truncated_frame)
     ).
+
+                /*******************************
+                *         LONG NUMBERS         *
+                *******************************/
+
+%   no_long_number(+Bytes): a number of 30,000 digits has a part of 15,000 that
+%   begins at a multiple of that.  Digits may be of any base, and blanks may stand
+%   between them: text of as many letters and blanks alone is refused, too.
+%
+%   @error syntax_error(long_number)
+
+no_long_number(Bytes) :-
+    (   digits(Bytes, Before, Digits),
+        (   sub_string(Digits, _, 1, _, " ")
+        ;   number_begins(Bytes, Before, Digits)
+        )
+    ->  syntax_error(long_number)
+    ;   true
+    ).
+
+%   digits(+Bytes, -Before, -Digits) is nondet.
+
+digits(Bytes, Before, Digits) :-
+    string_length(Bytes, Length),
+    Last is Length//15 000 - 1,
+    between(0, Last, Part),
+    Before is Part*15 000,
+    sub_string(Bytes, Before, 15 000, _, Digits),
+    split_string(Digits, "", " _0123456789abcdefghijklmnopqrstuvwxyz\c
+                              ABCDEFGHIJKLMNOPQRSTUVWXYZ", [""]).
+
+%   number_begins(+Bytes, +Before, +Digits): the word that goes on with Digits
+%   begins with a digit, or after 36' or the like.  One that begins before the
+%   last 15,000 characters was looked at there.
+
+number_begins(Bytes, Before, Digits) :-
+    From is max(0, Before-15 000),
+    Length is Before-From,
+    sub_string(Bytes, From, Length, _, Text),
+    string_codes(Text, Codes),
+    reverse(Codes, Reversed),
+    string_code(1, Digits, Code),
+    word_begins(Reversed, Code, First, Rest),
+    ( Rest == [] -> From =:= 0 ; true ),
+    (   code_type(First, digit)
+    ;   Rest = [0'\',Base|_],
+        code_type(Base, digit)
+    ),
+    !.
+
+word_begins([Code|Codes], _, First, Rest) :-
+    code_type(Code, csym),
+    !,
+    word_begins(Codes, Code, First, Rest).
+word_begins(Rest, First, First, Rest).
 
                 /*******************************
                 *            WORDS             *

@@ -12,7 +12,7 @@
 :- use_module(library(settings), [setting/2, setting/4]).
 :- use_module('../../kernel/base/prolog_faults', [spawn/3]).
 :- use_module('../../kernel/program', [vocabulary_word/2]).
-:- use_module(cell_frames, [cell_frame_read/2]).
+:- use_module(cell_frames, [cell_frame_heard/2]).
 
 /** <module> The process of a cell
 
@@ -69,7 +69,7 @@ kill(Pid) :-
 
 comes_up(In) :-
     set_stream(In, timeout(30)),
-    catch(cell_frame_read(In, Frame), error(_, _), fail),
+    catch(cell_frame_heard(In, Frame), error(_, _), fail),
     Frame == ready,
     set_stream(In, timeout(infinite)).
 

@@ -264,7 +264,7 @@ known(Id, Host, Life, Known) :-
 
 turn_heard(Cell, N, Agent, Goals, Acts, Result) :-
     cell_streams(Cell, In, _),
-    cell_frame_read(In, Frame),
+    cell_frame_heard(In, Frame),
     (   is_of_turn(Frame, N),
         heard(Frame, Cell, Agent, Goals, Acts, Next)
     ->  (   Next = more(Acts1)

@@ -70,6 +70,10 @@ helper((sends(bytes(Bytes)) :-
 helper((sends(record(Term)) :-
            fast_term_serialized(Term, Text),
            user:sends(text(Text)))).
+helper((sends(digits(Before, Digits, N)) :-
+           length(L, N), maplist(=(Digits), L), atomics_to_string(L, Text0),
+           string_concat(Before, Text0, Text1), string_concat(Text1, ".", Text),
+           user:sends(text(Text)))).
 helper((sends(deep(N)) :-
            length(L, N), maplist(=('f('), L), atomics_to_string(L, Text),
            user:sends(text(Text)))).
@@ -319,6 +323,12 @@ frame('longer than any', bytes([255,255,255,255]),
 frame('a record', record(outcome(0, done, none, [])), violation(_)).
 frame('half a record', text("\u0083\u0003\u0001"), violation(_)).
 frame('too deep', deep(200 000), violation(_)).
+frame('a number of many digits', digits("f(a7,", '7', 200 000),
+      violation(syntax_error(long_number))).
+frame('of base 36', digits("36'", 'z', 100 000),
+      violation(syntax_error(long_number))).
+frame('of digits with blanks between', digits("", '7 7', 100 000),
+      violation(syntax_error(long_number))).
 frame('another frame', frame(nonsense), violation(frame)).
 frame('a variable', frame(_), violation(frame)).
 frame('another turn', outcome_of(-1, done, none, []), violation(frame)).

@@ -154,6 +154,14 @@ test(an_agent_that_cannot_be_interrupted_is_ended,
                                                 string_concat(Text0, End,
                                                               Text)) ],
                        Outcome)).
+test(long_text_is_no_number, Lengths == [40 000,40 000]) :-
+    length(Codes, 39 999),
+    maplist(=(0'7), Codes),
+    atom_codes(Atom, [0'a|Codes]),
+    string_codes(String, [0'a|Codes]),
+    cell(( create([ (main :- result([Atom,String])) ], A, [host(c)]),
+           agent_result(A, Texts, 30) )),
+    maplist(atom_length, Texts, Lengths).
 test(many_agents_share_a_cell, Sum-Cells == 5050-1) :-
     cell(( numlist(1, 100, Ns),
            findall(A, ( member(N, Ns),
