@@ -5,7 +5,6 @@
 :- use_module('../../examples/applications/irrigation/scene', []).
 :- use_module('../../examples/applications/solar/scene', []).
 :- use_module('../../examples/applications/warehouse/scene', []).
-:- use_module('../../examples/applications/stage', [stage_network/4]).
 :- use_module('../../prolog/typhon',
               [network_advance/2, network_start/3, network_stop/1]).
 :- use_module(library(filesex), [directory_file_path/3]).
@@ -29,7 +28,7 @@ shown(solar, solar_scene, [], 149 400).      % 17:30 of the second day
 shown(warehouse, warehouse_scene, [delta(2)], 90).
 
 picture(Directory, Name, Scene, Options, Seconds) :-
-    stage_network(Scene, Options, Topology, More),
+    Scene:scene_network(Options, Topology, More),
     setup_call_cleanup(
         network_start(Topology, Network,
                       [clock(virtual), seed(1), log('/dev/null')|More]),

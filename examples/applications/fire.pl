@@ -11,7 +11,7 @@ of each cell, doc/applications.md says more.
 */
 
 :- use_module(fire/scene).
-:- use_module(stage, [stage/3, stage_advance/2]).
+:- use_module(stage, [stage/3, stage_story/3]).
 :- use_module(library(main), [main/0]).
 
 :- initialization(main, main).
@@ -23,17 +23,11 @@ main(Argv) :-
 
 play(Network, Options) :-
     scene_start(Network, [fire(20), puffs(0.1)|Options]),
-    story(Network, 0).
+    stage_story(Network, 20, say).
 
-story(Network, Time0) :-
-    stage_advance(Network, 20),
-    Time is Time0+20,
+say(Time, Ends) :-
     scene_counts(Out, Caught, Inside),
     scene_alarms(Alarms),
     format('~|~t~d~4| s: ~w; ~d people inside, ~d out, ~d caught by the fire~n',
            [Time, Alarms, Inside, Out, Caught]),
-    flush_output,
-    (   ( Inside =:= 0 ; Time >= 600 )
-    ->  true
-    ;   story(Network, Time)
-    ).
+    ( ( Inside =:= 0 ; Time >= 600 ) -> Ends = true ; Ends = false ).

@@ -13,7 +13,7 @@ doc/applications.md says more.
 */
 
 :- use_module(irrigation/scene).
-:- use_module(stage, [stage/3, stage_advance/2]).
+:- use_module(stage, [stage/3, stage_story/3]).
 :- use_module(library(aggregate), [aggregate_all/3]).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(main), [main/0]).
@@ -29,19 +29,17 @@ main(Argv) :-
 play(Network, Options) :-
     scene_start(Network, Options),
     option(days(Days), Options, 90),
-    story(Network, 0, Days).
+    stage_story(Network, 864000, say(Days)).
 
-story(Network, Day0, Days) :-
-    stage_advance(Network, 864000),
-    Day is Day0+10,
+say(Days, Time, Ends) :-
+    Day is Time//86400,
     scene_totals(_, Totals),
     mean(Mm, member(_-totals(Mm, _, _), Totals), Given),
     mean(Mm, member(_-totals(_, Mm, _), Totals), Drained),
     mean(Hours, member(_-totals(_, _, Hours), Totals), Stress),
     format('~|~t~d~3| days: ~|~t~0f~4| mm given, ~|~t~0f~4| mm drained, \c
             ~|~t~0f~4| hours of stress~n', [Day, Given, Drained, Stress]),
-    flush_output,
-    ( Day >= Days -> true ; story(Network, Day, Days) ).
+    ( Day >= Days -> Ends = true ; Ends = false ).
 
 :- meta_predicate mean(+, 0, -).
 

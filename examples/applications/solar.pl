@@ -12,7 +12,7 @@ doc/applications.md says more.
 */
 
 :- use_module(solar/scene).
-:- use_module(stage, [stage/3, stage_advance/2]).
+:- use_module(stage, [stage/3, stage_story/3]).
 :- use_module(library(aggregate), [aggregate_all/3]).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(main), [main/0]).
@@ -28,11 +28,10 @@ main(Argv) :-
 play(Network, Options) :-
     scene_start(Network, Options),
     option(days(Days), Options, 7),
-    story(Network, 0, Days).
+    stage_story(Network, 86400, say(Days)).
 
-story(Network, Day0, Days) :-
-    stage_advance(Network, 86400),
-    Day is Day0+1,
+say(Days, Time, Ends) :-
+    Day is Time//86400,
     scene_totals(_, Totals),
     findall(Sum,
             ( member(N, [1, 4, 5, 3]),
@@ -42,5 +41,4 @@ story(Network, Day0, Days) :-
     format('~|~t~d~3| days: ~|~t~0f~5| kWh produced, ~|~t~0f~4| wasted, \c
             ~|~t~0f~4| taken from the street, ~|~t~0f~4| bought from the grid~n',
            [Day|Row]),
-    flush_output,
-    ( Day >= Days -> true ; story(Network, Day, Days) ).
+    ( Day >= Days -> Ends = true ; Ends = false ).

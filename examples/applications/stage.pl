@@ -1,7 +1,6 @@
 :- module(applications_stage,
           [ stage/3,                    % +Argv, +Scene, :Play
-            stage_advance/2,            % +Network, +Seconds
-            stage_network/4             % +Scene, +Options, -Topology, -More
+            stage_story/3               % +Network, +Seconds, :Say
           ]).
 :- use_module('../../prolog/typhon',
               [ network_advance/2, network_start/3, network_stop/1 ]).
@@ -21,13 +20,14 @@ speed 0 time is virtual: there is no page, and the program ends with its story.
 threads, signals reach one of those, and are lost.
 */
 
-:- meta_predicate stage(+, +, 2).
+:- meta_predicate
+    stage(+, +, 2),
+    stage_story(+, +, 2).
 
 %!  stage(+Argv, +Scene, :Play) is det.
 %
 %   Calls call(Play, Network, Options), Options being what Argv says.  Scene is a
-%   module with scene_topology(-Topology), that of the network, or
-%   scene_network(+Options, -Topology, -NetworkOptions);
+%   module with scene_network(+Options, -Topology, -NetworkOptions);
 %   scene_step(-Seconds), of the world, of which as many pass in a second as the
 %   speed is; scene_picture(-Svg) for the page; and scene_stop, called before the
 %   network ends.  Ends the process, with status 1 if Play raises an error.
@@ -60,7 +60,7 @@ act(Scene, Play, Options) :-
     option(seed(Seed), Options, 1),
     Scene:scene_step(Step),
     ( Speed =:= 0 -> Clock = virtual ; Clock is Speed*Step ),
-    stage_network(Scene, Options, Topology, More),
+    Scene:scene_network(Options, Topology, More),
     network_start(Topology, Network,
                   [clock(Clock), seed(Seed), log('/dev/null')|More]),
     catch(play(Clock, Network, Scene, Play, Options), Ball, true),
@@ -68,17 +68,6 @@ act(Scene, Play, Options) :-
     Scene:scene_stop,
     network_stop(Network),
     ( var(Ball) -> true ; throw(Ball) ).
-
-%!  stage_network(+Scene, +Options, -Topology, -More) is det.
-%
-%   Of the network of a scene; More are options of network_start/3.
-
-stage_network(Scene, Options, Topology, More) :-
-    current_predicate(Scene:scene_network/3),
-    !,
-    Scene:scene_network(Options, Topology, More).
-stage_network(Scene, _, Topology, []) :-
-    Scene:scene_topology(Topology).
 
 play(virtual, Network, _, Play, Options) :-
     !,
@@ -93,10 +82,18 @@ play(_, Network, Scene, Play, Options) :-
     ;   thread_peek_message(stop)
     ).
 
-%!  stage_advance(+Network, +Seconds) is semidet.
+%!  stage_story(+Network, +Seconds, :Say) is semidet.
 %
-%   So many host seconds pass; fails when the program is to end.
+%   Each time when so many host seconds have passed, call(Say, Time, Ends) says how
+%   things are, until Ends is `true`.  Fails when the program is to end before.
 
-stage_advance(Network, Seconds) :-
+stage_story(Network, Seconds, Say) :-
+    story(Network, Seconds, 0, Say).
+
+story(Network, Seconds, Time0, Say) :-
     network_advance(Network, Seconds),
-    \+ thread_peek_message(stop).
+    \+ thread_peek_message(stop),
+    Time is Time0+Seconds,
+    call(Say, Time, Ends),
+    flush_output,
+    ( Ends == true -> true ; story(Network, Seconds, Time, Say) ).

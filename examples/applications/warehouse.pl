@@ -12,7 +12,7 @@ warehouse/dispatch.pl says what is done for an order, doc/applications.md says m
 */
 
 :- use_module(warehouse/scene).
-:- use_module(stage, [stage/3, stage_advance/2]).
+:- use_module(stage, [stage/3, stage_story/3]).
 :- use_module(library(main), [main/0]).
 
 :- initialization(main, main).
@@ -24,16 +24,10 @@ main(Argv) :-
 
 play(Network, Options) :-
     scene_start(Network, Options),
-    story(Network, 0).
+    stage_story(Network, 40, say).
 
-story(Network, Time0) :-
-    stage_advance(Network, 40),
-    Time is Time0+40,
+say(Time, Ends) :-
     scene_orders(Delivered, Waiting, Underway, Falls),
     format('~|~t~d~4| s: ~d orders to come, ~d under way, ~d loads delivered, \c
             ~d have fallen~n', [Time, Waiting, Underway, Delivered, Falls]),
-    flush_output,
-    (   ( Waiting+Underway =:= 0 ; Time >= 1200 )
-    ->  true
-    ;   story(Network, Time)
-    ).
+    ( ( Waiting+Underway =:= 0 ; Time >= 1200 ) -> Ends = true ; Ends = false ).

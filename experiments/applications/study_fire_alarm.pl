@@ -1,7 +1,7 @@
 %   A fire alarm: detectors that ask their neighbours, against others.
 
 :- use_module('../../examples/applications/fire/scene',
-              [scene_start/2, scene_stop/0, scene_topology/1]).
+              [scene_network/3, scene_start/2, scene_stop/0]).
 :- use_module('../../prolog/typhon', [network_advance/2]).
 :- use_module(library(lists), [member/2]).
 
@@ -20,8 +20,8 @@ fixed(growth, 0.0117, assumed("kW/s2: a fire of medium growth, NFPA 72")).
 fixed(dead, 0.05, assumed("share of detectors that read nothing")).
 fixed(limit, 300, assumed("seconds from the fire on")).
 
-network(_, Topology, []) :-
-    scene_topology(Topology).
+network(_, Topology, Options) :-
+    scene_network([], Topology, Options).
 
 run(Case, Network) :-
     Begin = Case.quiet,

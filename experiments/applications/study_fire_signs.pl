@@ -1,7 +1,7 @@
 %   Exit signs that follow a gradient, against fixed ones.
 
 :- use_module('../../examples/applications/fire/scene',
-              [scene_counts/3, scene_start/2, scene_stop/0, scene_topology/1]).
+              [scene_counts/3, scene_network/3, scene_start/2, scene_stop/0]).
 :- use_module('../../prolog/typhon', [network_advance/2, remote/2]).
 :- use_module(library(lists), [max_list/2, member/2, sum_list/2]).
 
@@ -22,8 +22,8 @@ fixed(dead, 0.05, assumed("share of detectors that read nothing")).
 fixed(begin, 60, assumed("seconds until the fire: signs are set by then")).
 fixed(limit, 600, assumed("seconds from the fire on")).
 
-network(_, Topology, []) :-
-    scene_topology(Topology).
+network(_, Topology, Options) :-
+    scene_network([], Topology, Options).
 
 run(Case, Network) :-
     Begin = Case.begin,

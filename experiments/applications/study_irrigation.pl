@@ -1,7 +1,7 @@
 %   Irrigation by agents that carry a model to the field, against others.
 
 :- use_module('../../examples/applications/irrigation/scene',
-              [scene_start/2, scene_stop/0, scene_topology/1, scene_totals/2]).
+              [scene_network/3, scene_start/2, scene_stop/0, scene_totals/2]).
 :- use_module('../../prolog/typhon', [network_advance/2, remote/2]).
 :- use_module(library(lists), [member/2, sum_list/2]).
 
@@ -17,8 +17,8 @@ vary(strategy, [timer, timer_less, central, carried]).
 vary(down, [0, 0.3, 0.7]).
 fixed(days, 90, assumed("a season")).
 
-network(_, Topology, []) :-
-    scene_topology(Topology).
+network(_, Topology, Options) :-
+    scene_network([], Topology, Options).
 
 run(Case, Network) :-
     call_cleanup(

@@ -1,7 +1,7 @@
 %   Houses that share a battery, by auctions or in the order in which they ask.
 
 :- use_module('../../examples/applications/solar/scene',
-              [scene_start/2, scene_stop/0, scene_topology/1, scene_totals/2]).
+              [scene_network/3, scene_start/2, scene_stop/0, scene_totals/2]).
 :- use_module('../../prolog/typhon', [network_advance/2, remote/2]).
 :- use_module(library(aggregate), [aggregate_all/3]).
 :- use_module(library(lists), [member/2, sum_list/2]).
@@ -18,8 +18,8 @@ vary(strategy, [none, first, drawn, waiting, auction]).
 vary(capacity, [15, 30, 60]).
 fixed(days, 14, assumed("clear and dull days")).
 
-network(_, Topology, []) :-
-    scene_topology(Topology).
+network(_, Topology, Options) :-
+    scene_network([], Topology, Options).
 
 %   Until 18:00, when all boilers have what they need.
 

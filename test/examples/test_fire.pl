@@ -174,17 +174,9 @@ test(reset) :-
 
 :- begin_tests(fire_application).
 
-test(command) :-
-    project_file('examples/applications/fire.pl', File),
-    run_swipl([File, '--speed=0'], [timeout(30)], Status, Out, Err),
-    assertion(Status-Err == exit(0)-""),
-    project_file('doc/applications.md', Document),
-    read_file_to_string(Document, Text, [encoding(utf8)]),
-    assertion(sub_string(Text, _, _, _, Out)).
-
 test(picture, Root == svg) :-
     setup_call_cleanup(
-        ( scene_topology(Topology),
+        ( scene_network([], Topology, _),
           network_start(Topology, Network,
                         [clock(virtual), seed(1), log('/dev/null')]) ),
         ( scene_start(Network, [fire(1)]),

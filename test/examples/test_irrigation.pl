@@ -74,7 +74,7 @@ test(weather_is_as_assumed) :-
 :- meta_predicate season(+, +, -, 0).
 
 season(Options, Days, Network, Goal) :-
-    scene_topology(Topology),
+    scene_network([], Topology, _),
     setup_call_cleanup(
         network_start(Topology, Network,
                       [clock(virtual), seed(1), log('/dev/null')]),
@@ -105,7 +105,7 @@ test(gardeners_go_to_their_fields) :-
              assertion(remote(office, host_load(0))) )).
 
 test(they_wait_for_a_link) :-
-    scene_topology(Topology),
+    scene_network([], Topology, _),
     setup_call_cleanup(
         network_start(Topology, Network,
                       [clock(virtual), seed(1), log('/dev/null')]),
@@ -143,19 +143,3 @@ test(picture, Root == svg) :-
     Name = _:Root.
 
 :- end_tests(irrigation_agents).
-
-                /*******************************
-                *          APPLICATION         *
-                *******************************/
-
-:- begin_tests(irrigation_application).
-
-test(command) :-
-    project_file('examples/applications/irrigation.pl', File),
-    run_swipl([File, '--speed=0', '--days=30'], [timeout(60)], Status, Out, Err),
-    assertion(Status-Err == exit(0)-""),
-    project_file('doc/applications.md', Document),
-    read_file_to_string(Document, Text, [encoding(utf8)]),
-    assertion(sub_string(Text, _, _, _, Out)).
-
-:- end_tests(irrigation_application).

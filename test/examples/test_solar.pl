@@ -198,7 +198,7 @@ test(no_trade, fail) :-
 %   Totals are those after so many hours; Goal is called at the beginning.
 
 street(Options, Hours, Goal, Battery-Totals) :-
-    scene_topology(Topology),
+    scene_network([], Topology, _),
     setup_call_cleanup(
         network_start(Topology, Network,
                       [clock(virtual), seed(1), log('/dev/null')]),
@@ -280,7 +280,7 @@ test(keeper_grants_what_there_is, Kwh == [2, 1, -1, 1, -5]) :-
     findall(X, member(granted(X), Answers), Kwh).
 
 test(picture, Root == svg) :-
-    scene_topology(Topology),
+    scene_network([], Topology, _),
     setup_call_cleanup(
         network_start(Topology, Network,
                       [clock(virtual), seed(1), log('/dev/null')]),
@@ -293,19 +293,3 @@ test(picture, Root == svg) :-
     Name = _:Root.
 
 :- end_tests(solar_agents).
-
-                /*******************************
-                *          APPLICATION         *
-                *******************************/
-
-:- begin_tests(solar_application).
-
-test(command) :-
-    project_file('examples/applications/solar.pl', File),
-    run_swipl([File, '--speed=0'], [timeout(60)], Status, Out, Err),
-    assertion(Status-Err == exit(0)-""),
-    project_file('doc/applications.md', Document),
-    read_file_to_string(Document, Text, [encoding(utf8)]),
-    assertion(sub_string(Text, _, _, _, Out)).
-
-:- end_tests(solar_application).

@@ -198,19 +198,3 @@ test(picture, Root == svg) :-
     Name = _:Root.
 
 :- end_tests(warehouse_agents).
-
-                /*******************************
-                *          APPLICATION         *
-                *******************************/
-
-:- begin_tests(warehouse_application).
-
-test(command) :-
-    project_file('examples/applications/warehouse.pl', File),
-    run_swipl([File, '--speed=0'], [timeout(120)], Status, Out, Err),
-    assertion(Status-Err == exit(0)-""),
-    project_file('doc/applications.md', Document),
-    read_file_to_string(Document, Text, [encoding(utf8)]),
-    assertion(sub_string(Text, _, _, _, Out)).
-
-:- end_tests(warehouse_application).

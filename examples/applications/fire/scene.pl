@@ -1,5 +1,5 @@
 :- module(fire_scene,
-          [ scene_topology/1,           % -Topology
+          [ scene_network/3,            % +Options, -Topology, -NetworkOptions
             scene_step/1,               % -Seconds
             scene_start/2,              % +Network, +Options
             scene_counts/3,             % -Out, -Caught, -Inside
@@ -39,9 +39,9 @@ mutex keeps the end of the scene apart from a second that passes.
     puff/4,                     % Cell, From, To, PerMetre
     sounding/1.                 % Since when, without a fire
 
-%!  scene_topology(-Topology) is det.
+%!  scene_network(+Options, -Topology, -NetworkOptions) is det.
 
-scene_topology(edges(Doors)) :-
+scene_network(_, edges(Doors), []) :-
     findall(A-B, ( door(A, B), A @< B ), Doors).
 
 %!  scene_step(-Seconds) is det.

@@ -1,5 +1,5 @@
 :- module(irrigation_scene,
-          [ scene_topology/1,           % -Topology
+          [ scene_network/3,            % +Options, -Topology, -NetworkOptions
             scene_step/1,               % -Seconds
             scene_start/2,              % +Network, +Options
             scene_totals/2,             % -Days, -Totals
@@ -40,7 +40,7 @@ host(Number, Host) :-
 
 scene_step(3600).
 
-scene_topology(edges(Links)) :-
+scene_network(_, edges(Links), []) :-
     findall(office-Host, ( parcel(Number), host(Number, Host) ), Links).
 
 %!  scene_start(+Network, +Options) is det.

@@ -1,5 +1,5 @@
 :- module(solar_scene,
-          [ scene_topology/1,           % -Topology
+          [ scene_network/3,            % +Options, -Topology, -NetworkOptions
             scene_step/1,               % -Seconds
             scene_start/2,              % +Network, +Options
             scene_totals/2,             % -Battery, -Totals
@@ -34,7 +34,7 @@ house(Number, Host) :-
 
 scene_step(900).
 
-scene_topology(edges([battery-house1, house10-battery|Links])) :-
+scene_network(_, edges([battery-house1, house10-battery|Links]), []) :-
     findall(A-B, ( house(N, A), Next is N+1, house(Next, B) ), Links).
 
 %!  scene_start(+Network, +Options) is det.

@@ -1,7 +1,7 @@
 :- module(warehouse_rosbridge,
-          [ rosbridge_start/3,          % :Heard, :Served, -URL
+          [ rosbridge_start/3,          % :Heard, :Served, -Port
             rosbridge_publish/2,        % +Topic, +Message
-            rosbridge_stop/1            % +URL
+            rosbridge_stop/1            % +Port
           ]).
 :- use_module('../../../prolog/typhon/kernel/base/json', [atom_json_dict/3]).
 :- use_module(library(http/http_stream), []).
@@ -9,7 +9,6 @@
               [http_server/2, http_spawn/2, http_stop_server/2]).
 :- use_module(library(http/websocket),
               [ http_upgrade_to_websocket/3, ws_receive/3, ws_send/2 ]).
-:- use_module(library(lists), [member/2]).
 :- use_module(library(socket),
               [tcp_bind/2, tcp_listen/2, tcp_setopt/2, tcp_socket/1]).
 
@@ -29,14 +28,14 @@ connected with simulated robots by ros_start/3, as with real ones.
     client/2,                   % Client, Out
     subscribed/2.               % Client, Topic
 
-%!  rosbridge_start(:Heard, :Served, -URL) is det.
-%!  rosbridge_stop(+URL) is det.
+%!  rosbridge_start(:Heard, :Served, -Port) is det.
+%!  rosbridge_stop(+Port) is det.
 %
 %   One server in a process.  What clients publish is passed on by call(Heard,
 %   Topic, Message), both of JSON; a service is called by call(Served, Service,
 %   Request, Response), which fails if there is none.
 
-rosbridge_start(Heard, Served, URL) :-
+rosbridge_start(Heard, Served, Port) :-
     assertz(robots(Heard, Served)),
     tcp_socket(Socket),
     tcp_setopt(Socket, nodelay),        % else each frame waits for the one before
@@ -44,19 +43,11 @@ rosbridge_start(Heard, Served, URL) :-
     tcp_listen(Socket, 5),
     http_server(warehouse_rosbridge:upgraded,
                 [ port(localhost:Port), tcp_socket(Socket), workers(1),
-                  silent(true) ]),
-    format(atom(URL), 'ws://localhost:~d/', [Port]).
+                  silent(true) ]).
 
-rosbridge_stop(URL) :-
-    split_string(URL, ":/", "", Parts),
-    last_number(Parts, Port),
+rosbridge_stop(Port) :-
     retractall(robots(_, _)),
     http_stop_server(Port, []).
-
-last_number(Parts, Port) :-
-    member(Text, Parts),
-    number_string(Port, Text),
-    !.
 
 %!  rosbridge_publish(+Topic:atom, +Message:dict) is det.
 

@@ -36,7 +36,7 @@ scene apart from time that passes.
 :- dynamic
     floor/1,                    % see floor.pl
     jobs/2,                     % orders to come, Time-Order; jobs
-    server/1,                   % URL
+    server/1,                   % Port
     setting/1.                  % Options
 
 robot(Options, Name) :-
@@ -67,8 +67,9 @@ scene_start(Network, Options) :-
     assertz(floor(Floor)),
     findall(Time-Order, order(Options, Time, Order), Orders),
     assertz(jobs(Orders, [])),
-    rosbridge_start(heard, served, URL),
-    assertz(server(URL)),
+    rosbridge_start(heard, served, Port),
+    assertz(server(Port)),
+    format(atom(URL), 'ws://localhost:~d/', [Port]),
     forall(member(Name-_, Robots), robot_begins(URL, Name)),
     network_at(Network, 0.2, warehouse_scene:pass(Network, 1, [])).
 
@@ -117,10 +118,10 @@ scene_stop :-
     with_mutex(warehouse_scene, forget).
 
 forget :-
-    (   retract(server(URL))
+    (   retract(server(Port))
     ->  forall(( setting(Options), robot(Options, Name) ),
                catch(ros_stop(Name), error(_, _), true)),
-        rosbridge_stop(URL)
+        rosbridge_stop(Port)
     ;   true
     ),
     maplist(retractall, [floor(_), jobs(_, _), setting(_)]).
