@@ -1,6 +1,7 @@
 :- module(test_news, []).
-:- use_module('../../../lib/common', [wait_until/2]).
+:- use_module('../../../lib/common', [wait_until/2, with_settings/2]).
 :- use_module('../../../lib/peers').
+:- use_module(library(apply), [maplist/2]).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(plunit)).
 :- use_module(library(settings), [set_setting/2, setting/2]).
@@ -8,7 +9,8 @@
               [ tcp_bind/2, tcp_close_socket/1, tcp_listen/2,
                 tcp_socket/1 ]).
 :- use_module(library(typhon)).
-:- use_module(library(typhon/kernel/travel/news), [news_tell/3]).
+:- use_module(library(typhon/kernel/travel/news), [news_carried/1, news_hurry/0, news_tell/3]).
+:- use_module(library(prolog_wrap), [unwrap_predicate/2, wrap_predicate/4]).
 
 /** <module> News of agents for a home that cannot be reached
 
@@ -92,6 +94,32 @@ slow_courier :-
 wrapped(Peer, Head, Wrapped, Body) :-
     peer_do(Peer, \+ \+ wrap_predicate(Head, test_news, Wrapped, Body)).
 
+%   sent_with_pause(+Pause, +Acts, -Posts): so many news are in each post that
+%   follows from Acts, where places wait for Pause seconds.
+
+:- dynamic post/1.
+
+sent_with_pause(Pause, Acts, Posts) :-
+    with_settings([typhon_news:news_pause=Pause],
+                  setup_call_cleanup(
+                      ( wrap_predicate(typhon_news:posted(_, _, All), test_news,
+                                       _, test_news:posted(All)),
+                        host_start(alpha) ),
+                      ( maplist(act, Acts),
+                        wait_until(\+ news_carried('127.0.0.1:1'), 20) ),
+                      ( host_stop(alpha),
+                        unwrap_predicate(typhon_news:posted/3, test_news) ))),
+    findall(Post, retract(post(Post)), Posts).
+
+posted(All) :-
+    length(All, Count),
+    assertz(post(Count)).
+
+act(tell(Id, News)) :-
+    news_tell('127.0.0.1:1', Id, News).
+act(hurry) :-
+    news_hurry.
+
 :- begin_tests(news).
 
 test(the_newest, Kept == [News2]) :-
@@ -115,6 +143,15 @@ test(an_end_the_courier_has_with_it, Kept == [End]) :-
 test(a_copy_given_up_in_doubt, Kept == [News]) :-
     end(1, End), at(2, News),
     told_under_way(End, News, Kept).
+test(places_go_together_after_a_pause, Posts == [10]) :-
+    findall(tell(I, News), ( between(1, 10, I), at(I, News) ), Acts),
+    sent_with_pause(0.3, Acts, Posts).
+test(an_end_does_not_wait_and_takes_along_what_does, Posts == [2]) :-
+    at(1, News), end(1, End),
+    sent_with_pause(60, [tell(x, News), tell(y, End)], Posts).
+test(what_waits_is_sent_when_it_has_to_be, Posts == [1]) :-
+    at(1, News),
+    sent_with_pause(60, [tell(x, News), hurry], Posts).
 test(in_the_hands_of_one_who_is_slower_than_the_end_of_the_process) :-
     with_peers([a, b], last_news).
 
