@@ -2,6 +2,7 @@
 :- use_module(traveller, [travelled/4]).
 :- use_module(library(typhon)).
 :- use_module(library(aggregate), [aggregate_all/3]).
+:- use_module(library(lists), [member/2]).
 
 /*  What hops and messages cost in inferences of all threads of this process:
 hardly more or less where others use the machine.  Of hops between processes
@@ -18,6 +19,8 @@ main([Argument]) :-
     within(Count),
     host_start(here),
     message_to(here, 'a message within a process', Count),
+    told('an agent of a known program created, with its end', Count,
+         created(Count)),
     with_peer([env], outwards(Count)),
     host_stop(here).
 
@@ -49,6 +52,13 @@ hops(Name, Agents, Count, Peer) :-
 
 message_to(Host, Name, Count) :-
     told(Name, Count, counted(Host, Count)).
+
+created(Count) :-
+    Program = clauses([(:- agent(known, [])), on_message(_, _)]),
+    findall(Agent,
+            ( between(1, Count, _), agent_create(Program, Agent) ),
+            Agents),
+    forall(member(Agent, Agents), agent_dispose(Agent)).
 
 cloned(Peer, Count) :-
     agent_create(clauses([ (:- agent(spreader, [state([left/1])])),

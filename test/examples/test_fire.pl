@@ -10,7 +10,6 @@
 :- use_module(library(debug), [assertion/1]).
 :- use_module(library(lists), [member/2, sum_list/2]).
 :- use_module(library(plunit)).
-:- use_module(library(readutil), [read_file_to_string/3]).
 :- use_module(library(sgml), [load_structure/3]).
 :- use_module(library(typhon)).
 

@@ -12,7 +12,6 @@
 :- use_module(library(debug), [assertion/1]).
 :- use_module(library(lists)).
 :- use_module(library(plunit)).
-:- use_module(library(readutil), [read_file_to_string/3]).
 :- use_module(library(sgml), [load_structure/3]).
 :- use_module(library(typhon)).
 

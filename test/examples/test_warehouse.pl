@@ -14,7 +14,6 @@
 :- use_module(library(filesex), [directory_file_path/3]).
 :- use_module(library(lists), [member/2, numlist/3]).
 :- use_module(library(plunit)).
-:- use_module(library(readutil), [read_file_to_string/3]).
 :- use_module(library(sgml), [load_structure/3]).
 :- use_module(library(typhon)).
 

@@ -4,7 +4,9 @@
     at that price or more.  As much is traded as possible.  Where not all can be
     served, those with the better price go first, and those with an equal price get
     equal shares of what they want.  The price is the middle of the range in which
-    all that are served agree, and all others would rather not trade.
+    all that are served agree, and all others would rather not trade: a k-double
+    auction with k = 1/2 (Satterthwaite and Williams, Journal of Economic Theory 48,
+    1989).
 */
 
 %   cleared(+Orders, -Ct, -Traded, -Deals): Deals are pairs Trader-Kwh, and Traded is

@@ -56,14 +56,6 @@ elapsed(Goal, Seconds) :-
 
 test(done, O-M == done-[]) :-
     ends([main], O, M).
-test(an_agent_of_a_known_program_is_created_in_few_inferences, true(Each < 360)) :-
-    Program = clauses([(:- agent(known, [])), on_message(_, _)]),
-    with_hosts([alpha],
-               ( agent_create(Program, _),
-                 statistics(inferences, I0),
-                 forall(between(1, 100, _), agent_create(Program, _)),
-                 statistics(inferences, I1) )),
-    Each is (I1-I0)/100.
 test(failed_is_told,
      true(O-M = failed-[warning-typhon(agent_failed(_, _))])) :-
     ends([(main :- fail)], O, M).

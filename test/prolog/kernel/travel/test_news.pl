@@ -9,7 +9,8 @@
               [ tcp_bind/2, tcp_close_socket/1, tcp_listen/2,
                 tcp_socket/1 ]).
 :- use_module(library(typhon)).
-:- use_module(library(typhon/kernel/travel/news), [news_carried/1, news_hurry/0, news_tell/3]).
+:- use_module(library(typhon/kernel/travel/news),
+              [news_carried/1, news_hurry/0, news_tell/3]).
 :- use_module(library(prolog_wrap), [unwrap_predicate/2, wrap_predicate/4]).
 
 /** <module> News of agents for a home that cannot be reached
