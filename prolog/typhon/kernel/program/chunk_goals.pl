@@ -94,7 +94,8 @@ place_marked(Place, Vars, Goals-Rest) :-
     ).
 
 %   The tables '$goals' and '$frame' have the places that were asked for, the
-%   first of them last.
+%   first of them last.  Rules of `=>` would not do: a call beside asserta/1 can miss
+%   all rules, the last included, and raises an error then.
 
 place_plain(Place, Vars, Goals, Rest) :-
     functor(Vars, Module, Arity),
@@ -114,31 +115,20 @@ add_place(Module, Place, General, Goals, Plain, List, Rest) :-
     (   is_frame(Module, Place, General),
         worth(Plain),
         Plain = [First|_]
-    ->  frame_table(Module),
-        functor(First, Name, Arity),
+    ->  functor(First, Name, Arity),
         functor(Head, Name, Arity),
         barrier(Goals, Base),
         term_variables(General, Known),
         term_variables(Plain, Variables),
         exclude(among(Known), Variables, New),
         untouched(New, General-Rest, Untouched),
-        asserta(Module:( ?=>('$frame'(Head, List, Base0, Frame, Rest0),
-                             ( Untouched,
-                               !,
-                               Base0 = Base,
-                               Frame = '$k'(Place, General),
-                               Rest0 = Rest )) ))
+        asserta(Module:('$frame'(Head, List0, Base, '$k'(Place, General), Rest) :-
+                            subsumes_term(List, List0),
+                            List = List0,
+                            Untouched,
+                            !))
     ;   true
     ).
-
-%   Most programs are not asked for a frame.
-
-frame_table(Module) :-
-    '$get_predicate_attribute'(Module:'$frame'(_, _, _, _, _), defined, 1),
-    !.
-frame_table(Module) :-
-    dynamic(Module:'$frame'/5),
-    assertz(Module:( '$frame'(_, _, _, _, _) => fail )).
 
 %   untouched(+New, +Others, -Code): a frame does not hold the variables that are
 %   New in its goals.  So Code succeeds if they are unbound, without attributes,
