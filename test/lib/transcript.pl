@@ -295,12 +295,33 @@ cross_out(Wanted, Missing, [Wanted|Missing0]-Reports) :-
 
 answer_lines(Goal, Lines0, Lines) :-
     exclude(repeats_variable(Goal), Lines0, Lines1),
-    maplist(comparable, Lines1, Lines2),
-    (   Lines2 == [],
+    goals_joined(Lines1, Lines2),
+    maplist(comparable, Lines2, Lines3),
+    (   Lines3 == [],
         Lines0 \== []
     ->  Lines = ["true"]
-    ;   Lines = Lines2
+    ;   Lines = Lines3
     ).
+
+%   SWI-Prolog 10.1 lists a goal on several lines if the terminal is narrow.
+
+goals_joined([Line,Next|Lines0], Lines) :-
+    goal_continues(Line),
+    !,
+    string_concat(" ", Next, Text),
+    string_concat(Line, Text, Joined),
+    goals_joined([Joined|Lines0], Lines).
+goals_joined([Line|Lines0], [Line|Lines]) :-
+    !,
+    goals_joined(Lines0, Lines).
+goals_joined([], []).
+
+goal_continues(Line) :-
+    split_string(Line, "(", "", Opened),
+    split_string(Line, ")", "", Closed),
+    length(Opened, N),
+    length(Closed, M),
+    N > M.
 
 repeats_variable(Goal, Line) :-
     split_string(Line, "=", " ", [Name, _|_]),
