@@ -25,14 +25,15 @@ or, as within a process, with frames in their stead.
 
 %!  random_program(-Clauses) is det.
 %
-%   main/0 and p1/1 to p4/1, each of which calls only those after it; n/1, o/1
-%   and d/2 cannot stop.
+%   main/0 and p1/1 to p4/1, each of which calls only those after it; n/1, o/1,
+%   d/2 and c/1 cannot stop; c/1 raises an error after garbage collection.
 
 random_program([ (:- agent(random, [state([t_/1, f/1, r/1])])),
                  (main :- n(X), Body),
                  (t(T) :- assertz(t_(T))),
                  n(1), n(2), n(3), o(2), (o(X) :- X > 2),
                  (d(X, Y) :- Y is X+1), (s(X) :- f(X)),
+                 c(1), (c(3) :- garbage_collect, atom_length(_, _)),
                  f(7), f(8), r(5)
                | Clauses ]) :-
     body(0, X, Body),
@@ -105,7 +106,7 @@ usual(X, Goal) :-
 unusual(X, Goal) :-
     random_member(Goal,
                   [ fail, throw(oops), receive(X, 0), move(refused),
-                    _ is foo+X, atom_length(X, _), unknown(X),
+                    _ is foo+X, atom_length(X, _), unknown(X), c(X), c(_),
                     assertz((r(Z) :- move(b), Z = 3)),
                     assertz((r(Z) :- n(Z), Z > 1)),
                     findall(Z, n(Z), X), forall(n(Z), Z > 0), \+ \+ X = 1,
@@ -156,7 +157,7 @@ tests(1, X, Test) :-
                   [ X == 2, X = 1, n(X), n(_), X > 1, o(X), f(X), s(X), r(X),
                     var(X), nonvar(X), fail, true, \+ X = 2, !, ( n(X) ; o(X) ),
                     ( X == 1 -> true ; n(X) ), once(n(X)), _ is X+1, d(X, _),
-                    member(X, [3,4]), unknown(X), t(test-X) ]).
+                    member(X, [3,4]), unknown(X), c(X), t(test-X) ]).
 tests(Count, X, (Test,Tests)) :-
     tests(1, X, Test),
     Count1 is Count-1,
@@ -179,8 +180,6 @@ engines_differ(Clauses, differs(Engine, Log, Reference)) :-
     member(Engine, [chunks, frames, mixed, mixed_frames]),
     run_log(Engine, Module, Initial, Log),
     \+ Log =@= Reference,
-    \+ ( sub_term(Lost, Reference),    % the machine has let a goal go
-         Lost == '<garbage_collected>' ),
     !.
 
 run_log(Engine, Module, Initial, Log) :-

@@ -3,7 +3,7 @@
             named/4,                    % +Prefix, +Goal, +More, -Named
             occurs/2                    % +Variable, +Term
           ]).
-:- use_module(library(apply), [maplist/3]).
+:- use_module(library(apply), [exclude/3, foldl/4, maplist/3]).
 :- use_module(library(lists), [append/3, member/2, memberchk/2]).
 :- use_module(library(occurs), [sub_term/2]).
 :- use_module(chunk_kinds, [cannot_stop/2, goal_kind/3]).
@@ -136,8 +136,8 @@ block(cut, _, Nodes, Outer, Mode, Phase, Env, Code) =>
     after_cut(Phase, Phase1),
     block(Nodes, Outer, Mode, Phase1, Env, Rest).
 block(leaf(Heads), Node, Nodes, Outer, Mode, Phase, Env, Code) =>
-    noted(Node, Phase, Env, Called),
     block(Nodes, Outer, Mode, Phase, Env, Rest),
+    noted(Node, Rest, Phase, Env, Called),
     unless_ruled(Heads, Node, Env, (Called,Rest), Code).
 block(control, _-Goal, Nodes, Outer, _, _, Env, Code) =>
     rest(Nodes, Outer, Env, Goals),
@@ -248,24 +248,43 @@ unless_ruled(Heads, N-_, Env, Code, Ruling) :-
                 *        NATIVE GOALS          *
                 *******************************/
 
-%   noted(+Node, +Phase, +Env, -Called): Goal is called, and its failure noted.
+%   noted(+Node, +Rest, +Phase, +Env, -Called): Goal is called, and its failure
+%   noted.  Rest is the code that comes then.
 
-noted(N-(Variable = Term), _, Env, Called), fresh(Variable, Term, N, Env) =>
+noted(N-(Variable = Term), _, _, Env, Called), fresh(Variable, Term, N, Env) =>
     Called = (Variable = Term).
-noted(N-(Variable is Expression), Phase, Env, Called),
+noted(N-(Variable is Expression), Rest, Phase, Env, Called),
         added(Variable, Expression, N, Env, Number) =>
     Called = ( integer(Number)
              ->  Variable is Expression
              ;   Other
              ),
-    called(N-(Variable is Expression), Phase, Env, Other).
-noted(Node, Phase, Env, Called) =>
-    called(Node, Phase, Env, Called).
+    called(N-(Variable is Expression), Rest, Phase, Env, Other).
+noted(Node, Rest, Phase, Env, Called) =>
+    called(Node, Rest, Phase, Env, Called).
 
-called(N-Goal, Phase, Env, Called) :-
+called(N-Goal, Rest, Phase, Env, Called) :-
     native(N, Goal, Env, Native),
     fails(N, Phase, Env, Fails),
-    Called = ( Native *-> true ; Fails ).
+    live(Goal, Rest, Live),
+    Called = ( Native *-> Live ; Fails ).
+
+%   live(+Goal, +Rest, -Code): a variable that Rest does not need is dead while
+%   Goal runs, but for its failure.  So garbage collection undoes what Goal has
+%   bound it to, and if Goal raises an error then, the fault would not show that.
+%   Code needs the variable.  Foreign predicates raise before they bind.
+
+live(Goal, _, true) :-
+    '$get_predicate_attribute'(system:Goal, foreign, 1),
+    \+ '$get_predicate_attribute'(system:Goal, transparent, 1),
+    !.
+live(Goal, Rest, Code) :-
+    term_variables(Rest, Needed),
+    term_variables(Goal, Variables),
+    exclude(among(Needed), Variables, Dead),
+    foldl(needs, Dead, true, Code).
+
+needs(Variable, Code, (Variable == Variable, Code)).
 
 %   This cannot fail.
 
@@ -371,9 +390,7 @@ test(if(Arrow, If, Then, Else, _), _, Env, Code) =>
 test(none, _-Goal, _, Code), harmless(Goal) =>
     Code = Goal.
 test(none, N-Goal, Env, Code) =>
-    native(N, Goal, Env, Native),
-    fails(N, lead, Env, Fails),
-    Code = ( Native *-> true ; Fails ).
+    called(N-Goal, true, lead, Env, Code).
 
 %   It raises no error.
 

@@ -240,7 +240,8 @@ called(Goal, Goals, X, Base, Out) :-
         ;   fails(Goal, Goals)
         )
     ;   Agent:Goal
-    *-> run(Goals, X, Base, Out)
+    *-> stood(Goal, Goals),
+        run(Goals, X, Base, Out)
     ;   fails(Goal, Goals)
     ).
 

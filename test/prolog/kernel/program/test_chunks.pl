@@ -139,6 +139,27 @@ test(a_failure_inside_catch_is_noted_with_long_goals, Goal == (\+ n(1))) :-
     next(Module, [main], Outcome),
     fault(Outcome, [main], fault(Goal, _, _)).
 
+%   What q/1 has bound is needed by no goal that comes after it.
+
+test(a_fault_outlives_garbage_collection,
+     [ forall(member(Main, [ q(_), \+ q(_), ( q(X) -> t(1) ; t(X) ),
+                             catch(q(_), oops, true) ])),
+       true(Goals == [q(2),q(2)]) ]) :-
+    Clauses = [ (:- agent(collected, [])),
+                (main :- Main, move(a)),
+                (q(2) :- garbage_collect, atom_length(_, _)),
+                t(_) ],
+    program_load(clauses(Clauses), Program, _, Hash, Kinds),
+    code_install(Hash, Program, Kinds),
+    code_module(Hash, Module),
+    nb_setval(random_program, Module),
+    findall(Goal,
+            ( member(Engine, [Module,reference_machine]),
+              machine_run(context(Engine, Module), [main], Outcome),
+              fault(Outcome, [main], fault(Goal, _, _))
+            ),
+            Goals).
+
 nested(0, t(0)) :-
     !.
 nested(N, ( (t(N),Nested -> true ; fail) -> t(N) ; t(0) )) :-
