@@ -12,7 +12,15 @@
     afterwards it says `completed`, or, of a task that fails or raises
     something, failed(atomic): it will be done again.  Where the tuple is
     gone by then, the task has been failed from outside.
+
+    After a failure the worker is not free for a second, and twice as long
+    after each one that follows, up to 32 seconds: agents come by at any time,
+    and would have a task that cannot succeed executed without end.
+
+        failures(Count)         so many in a row
 */
+
+:- dynamic failures/1.
 
 main :-
     sequence(Sequence),
@@ -27,10 +35,22 @@ on_message(_, execute(Sequence, Task, Goal)) :-
 
 carry_out(Sequence, Task, Goal) :-
     (   executed(Sequence, Task, Goal)
-    ->  settle(Sequence, Task, completed)
-    ;   settle(Sequence, Task, failed(atomic))
+    ->  settle(Sequence, Task, completed),
+        retractall(failures(_))
+    ;   settle(Sequence, Task, failed(atomic)),
+        recover
     ),
     main.
+
+recover :-
+    (   retract(failures(Count0))
+    ->  true
+    ;   Count0 = 0
+    ),
+    Seconds is 2**min(Count0, 5),
+    Count is Count0 + 1,
+    assertz(failures(Count)),
+    sleep(Seconds).
 
 settle(Sequence, Task, Status) :-
     take(task(Sequence, Task, executing, _)),

@@ -1,6 +1,6 @@
 % Expects: task/3; common; messages.
-% Gives: complete/0, needed/1, reserved/1, open_teams/1, mark/2, give_up/3; its
-%   state.
+% Gives: complete/0, needed/1, reserved/1, open_teams/1, mark/2, give_up/3,
+%   avoided/1, forgive/0; its state.
 
 /*  The robots of an allocator.
 
@@ -8,9 +8,16 @@
                                 Phase is `reserved`, `started` or `done`
         achieved(Team)          for each robot that has done its part and
                                 is not held any more
+        avoided(Host)           where a robot was lost that had begun, since
+                                the allocator set out, or last rested
+
+    Such a robot is not asked again before the allocator has backed off.  On
+    the spot one whose execution fails at once would be reserved again, with
+    another reward and without a hop, so that the mobility resource would grow
+    without end.
 */
 
-:- dynamic held/5, achieved/1.
+:- dynamic held/5, achieved/1, avoided/1.
 
 %!  complete is semidet.
 %
@@ -63,7 +70,18 @@ give_up(Host, Ref, Why) :-
     ->  assertz(achieved(Team))
     ;   true
     ),
+    (   Phase == started
+    ->  assertz(avoided(Host))
+    ;   true
+    ),
     (   Why == silent
     ->  ignore(post(Host, Robot, release(Ref)))
     ;   true
     ).
+
+%!  forgive is det.
+%
+%   All robots may be asked again.
+
+forgive :-
+    retractall(avoided(_)).

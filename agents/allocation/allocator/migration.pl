@@ -18,6 +18,7 @@ set_out :-
     visited(Host).
 
 restart :-
+    forgive,
     replenish,
     begin_sojourn,
     (   held(_, _, _, _, _)

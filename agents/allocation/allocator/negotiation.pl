@@ -12,6 +12,7 @@
 negotiate :-
     here(Host),
     \+ held(Host, _, _, _, _),
+    \+ avoided(Host),
     sense(robot(Robot)),
     !,
     open_teams(Open),

@@ -222,6 +222,24 @@ all_of_others(Hosts, Robot) :-
     all_free(Others),
     robot_status(Robot, failed).
 
+%   Else one robot is reserved again and again, with a reward each time.
+
+test(robots_that_fail_at_once_are_asked_again_after_a_rest) :-
+    allocation(ring(3), [hop_time(uniform(0.2, 0.4))], [], fail_at_once).
+
+fail_at_once(Hosts, File) :-
+    Hosts = [First|_],
+    push(t, 2, [goal(fail), deadline(100)], First, [], Agent),
+    ends(Agent),
+    all_free(Hosts),
+    happened(File, missed(t, 100)),
+    so_far(File, Whats),
+    aggregate_all(count, member(lost(_, failed), Whats), Lost),
+    aggregate_all(count, member(backoff(_), Whats), Rests),
+    Lost > Rests,
+    Rests > 0,
+    Lost =< 3*(Rests + 1).
+
 %   An order to dispose of an allocator does not dispose of its reservations.
 
 test(allocator_is_disposed_of) :-

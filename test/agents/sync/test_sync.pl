@@ -506,6 +506,16 @@ test(task_that_fails_has_failed) :-
     fake_agent:on_message(someone, execute(1, fail)),
     tuples(Tuples),
     Tuples == [task(house, 1, failed(atomic), 7), worker(house, me)].
+test(rests_twice_as_long_after_each_failure_until_one_succeeds) :-
+    worker([]),
+    maplist(seconds_of, [fail, fail, fail, true, fail], Seconds),
+    Seconds == [1, 2, 4, 0, 1].
+test(rests_for_32_seconds_at_most) :-
+    worker([]),
+    length(Goals, 8),
+    maplist(=(fail), Goals),
+    maplist(seconds_of, Goals, Seconds),
+    Seconds == [1, 2, 4, 8, 16, 32, 32, 32].
 test(task_failed_from_outside_meanwhile) :-
     worker([task(house, 1, failed(cascaded(1)), 6)]),
     fake_agent:on_message(someone, execute(1, true)),
@@ -513,5 +523,14 @@ test(task_failed_from_outside_meanwhile) :-
     Tuples == [task(house, 1, failed(cascaded(1)), 6), worker(house, me)],
     did(Acts),
     Acts == [log(executing(house, 1))].
+
+%   For so long the worker is not free after its task.
+
+seconds_of(Goal, Seconds) :-
+    fake_host:now(Before),
+    fake_host:leave(task(house, 1, executing, Before)),
+    fake_agent:on_message(someone, execute(1, Goal)),
+    fake_host:now(Now),
+    Seconds is Now - Before.
 
 :- end_tests(worker).
