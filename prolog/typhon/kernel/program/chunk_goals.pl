@@ -94,8 +94,8 @@ place_marked(Place, Vars, Goals-Rest) :-
     ).
 
 %   The tables '$goals' and '$frame' have the places that were asked for, the
-%   first of them last.  Rules of `=>` would not do: a call beside asserta/1 can miss
-%   all rules, the last included, and raises an error then.
+%   first of them last.  Rules of `=>` would not do: a call while the first of them
+%   is added finds none, and raises an error where one of `:-` fails.
 
 place_plain(Place, Vars, Goals, Rest) :-
     functor(Vars, Module, Arity),

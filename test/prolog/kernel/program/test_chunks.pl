@@ -160,6 +160,31 @@ test(a_fault_outlives_garbage_collection,
             ),
             Goals).
 
+%   A clause that is being added is in its table and cannot be seen yet, as for
+%   other threads until a transaction ends.
+
+test(frames_are_looked_up_while_the_first_is_added, Outcome == done) :-
+    Clauses = [ (:- agent(adding, [])),
+                (main :- move(a), X = f(_), functor(X, _, _), atom(a)) ],
+    program_load(clauses(Clauses), Program, _, Hash, Kinds),
+    code_install(Hash, Program, Kinds),
+    code_module(Hash, Module),
+    set_module(chunks_agent:base(Module)),
+    machine_run(context(Module, chunks_agent), [main], effect(_, true, Frames)),
+    thread_self(Me),
+    setup_call_cleanup(
+        thread_create(transaction(( plain_goals(Frames, Goals),
+                                    thread_send_message(Me, left(Goals)),
+                                    thread_get_message(seen) )),
+                      Adding),
+        ( thread_get_message(Me, left(Left), [timeout(60)]),
+          '$get_predicate_attribute'(Module:'$frame'(_, _, _, _, _), defined, 1),
+          next(Module, Left, Outcome)
+        ),
+        ( thread_send_message(Adding, seen),
+          thread_join(Adding)
+        )).
+
 nested(0, t(0)) :-
     !.
 nested(N, ( (t(N),Nested -> true ; fail) -> t(N) ; t(0) )) :-
