@@ -4,6 +4,7 @@
 :- use_module('../../../lib/random_programs').
 :- use_module(library(apply), [maplist/2]).
 :- use_module(library(lists), [append/3, member/2]).
+:- use_module(library(pairs), [pairs_keys_values/3]).
 :- use_module(library(typhon/kernel/program),
               [ code_clear/0, code_install/3, code_module/2, fault/3,
                 goals_body/2, machine_run/3, plain_goals/2, program_load/5 ]).
@@ -138,6 +139,28 @@ test(a_failure_inside_catch_is_noted_with_long_goals, Goal == (\+ n(1))) :-
     code_module(Hash, Module),
     next(Module, [main], Outcome),
     fault(Outcome, [main], fault(Goal, _, _)).
+
+%   a/1 has another clause, in which no goal is noted.
+
+test(a_long_failure_before_a_silent_choice_has_its_name,
+     Names-Left =@= [n(1),n(_),n(_)]-[2,1,1]) :-
+    findall(Goal-Count,
+            ( member(Length-Engine, [1-Module,500-Module,500-reference_machine]),
+              length(Long, Length),
+              Clauses = [ (:- agent(silent, [])),
+                          (main :- a(X, L), n(X), move(L)),
+                          (a(1, Long)), (a(2, _) :- fail),
+                          n(5) ],
+              program_load(clauses(Clauses), Program, _, Hash, Kinds),
+              code_install(Hash, Program, Kinds),
+              code_module(Hash, Module),
+              nb_setval(random_program, Module),
+              machine_run(context(Engine, Module), [main], Outcome),
+              fault(Outcome, [main], fault(Goal, Goals, _)),
+              length(Goals, Count)
+            ),
+            Faults),
+    pairs_keys_values(Faults, Names, Left).
 
 %   What q/1 has bound is needed by no goal that comes after it.
 
