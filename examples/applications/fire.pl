@@ -11,12 +11,26 @@ of each cell, doc/applications.md says more.
 */
 
 :- use_module(fire/scene).
-:- use_module(stage, [stage/3, stage_story/3]).
+:- use_module(stage, [stage/3, stage_option/3, stage_story/3]).
 :- use_module(library(main), [main/0]).
 
 :- initialization(main, main).
 
 :- public main/1, play/2.
+
+opt_type(signs, signs, oneof([gradient,fixed])).
+opt_type(rule, rule, oneof([gossip,single,verified])).
+opt_type(growth, growth, number).
+opt_type(people, people, nonneg).
+opt_type(Name, Name, Type) :-
+    stage_option(Name, Type, _).
+
+opt_help(signs, "What exit signs point along [gradient]").
+opt_help(rule, "When there is an alarm [gossip]").
+opt_help(growth, "Of the fire, in kW/s2 [0.0469]").
+opt_help(people, "In each room [3]").
+opt_help(Name, Help) :-
+    stage_option(Name, _, Help).
 
 main(Argv) :-
     stage(Argv, fire_scene, play).

@@ -13,7 +13,7 @@ doc/applications.md says more.
 */
 
 :- use_module(irrigation/scene).
-:- use_module(stage, [stage/3, stage_story/3]).
+:- use_module(stage, [stage/3, stage_option/3, stage_story/3]).
 :- use_module(library(aggregate), [aggregate_all/3]).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(main), [main/0]).
@@ -22,6 +22,20 @@ doc/applications.md says more.
 :- initialization(main, main).
 
 :- public main/1, play/2.
+
+opt_type(strategy, strategy, oneof([carried,central,timer,timer_less])).
+opt_type(down, down, number).
+opt_type(broker, broker, atom).
+opt_type(days, days, natural).
+opt_type(Name, Name, Type) :-
+    stage_option(Name, Type, _).
+
+opt_help(strategy, "Who opens the valves [carried]").
+opt_help(down, "Share of time in which a link is down [0.3]").
+opt_help(broker, "URL of an MQTT broker [none: simulated]").
+opt_help(days, "Of the season [90]").
+opt_help(Name, Help) :-
+    stage_option(Name, _, Help).
 
 main(Argv) :-
     stage(Argv, irrigation_scene, play).

@@ -12,7 +12,7 @@ doc/applications.md says more.
 */
 
 :- use_module(solar/scene).
-:- use_module(stage, [stage/3, stage_story/3]).
+:- use_module(stage, [stage/3, stage_option/3, stage_story/3]).
 :- use_module(library(aggregate), [aggregate_all/3]).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(main), [main/0]).
@@ -21,6 +21,18 @@ doc/applications.md says more.
 :- initialization(main, main).
 
 :- public main/1, play/2.
+
+opt_type(strategy, strategy, oneof([auction,none,first,drawn,waiting])).
+opt_type(capacity, capacity, number).
+opt_type(days, days, natural).
+opt_type(Name, Name, Type) :-
+    stage_option(Name, Type, _).
+
+opt_help(strategy, "How the battery is shared [auction]").
+opt_help(capacity, "Of the battery, in kWh [30]").
+opt_help(days, "Until it is over [7]").
+opt_help(Name, Help) :-
+    stage_option(Name, _, Help).
 
 main(Argv) :-
     stage(Argv, solar_scene, play).

@@ -1,5 +1,6 @@
 :- module(applications_stage,
-          [ stage/3,                    % +Argv, +Scene, :Play
+          [ stage/3,                    % :Argv, +Scene, :Play
+            stage_option/3,             % ?Name, -Type, -Help
             stage_story/3               % +Network, +Seconds, :Say
           ]).
 :- use_module('../../prolog/typhon',
@@ -21,19 +22,23 @@ threads, signals reach one of those, and are lost.
 */
 
 :- meta_predicate
-    stage(+, +, 2),
+    stage(:, +, 2),
     stage_story(+, +, 2).
 
-%!  stage(+Argv, +Scene, :Play) is det.
+:- dynamic pace/1.              % host seconds in a second; none: virtual time
+
+%!  stage(:Argv, +Scene, :Play) is det.
 %
-%   Calls call(Play, Network, Options), Options being what Argv says.  Scene is a
+%   Calls call(Play, Network, Options), Options being what Argv says; opt_type/3
+%   and opt_help/2 of its module say what it may be, see argv_options/3.  Scene is a
 %   module with scene_network(+Options, -Topology, -NetworkOptions);
 %   scene_step(-Seconds), of the world, of which as many pass in a second as the
 %   speed is; scene_picture(-Svg) for the page; and scene_stop, called before the
 %   network ends.  Ends the process, with status 1 if Play raises an error.
 
 stage(Argv, Scene, Play) :-
-    argv_options(Argv, _, Options),
+    argv_options(Argv, Others, Options),
+    none_left(Others),
     forall(member(Signal, [int, term]),
            on_signal(Signal, _, applications_stage:stop)),
     thread_create(acted(Scene, Play, Options), Thread),
@@ -42,9 +47,33 @@ stage(Argv, Scene, Play) :-
     thread_join(Thread, Status),
     (   Status == true
     ->  halt(0)
-    ;   print_message(error, format('The application ended: ~p', [Status])),
+    ;   report(Status),
         halt(1)
     ).
+
+none_left([]).
+none_left([Other|_]) :-
+    print_message(error, format('~w is no option; --help lists them', [Other])),
+    halt(1).
+
+report(exception(error(socket_error(eaddrinuse, _), _))) :-
+    !,
+    print_message(error, format('the port is in use; --port=0 takes a free one',
+                                [])).
+report(exception(Ball)) :-
+    !,
+    print_message(error, Ball).
+report(Status) :-
+    print_message(error, format('the application ended: ~p', [Status])).
+
+%!  stage_option(?Name, -Type, -Help) is nondet.
+%
+%   What all applications understand.
+
+stage_option(speed, number,
+             "So many steps of the world in a second; 0: virtual time [5]").
+stage_option(port, between(0, 65535), "Of the page; 0: a free one [8080]").
+stage_option(seed, integer, "Of all that is drawn [1]").
 
 :- public stop/1.               % called by on_signal/3
 
@@ -72,9 +101,10 @@ act(Scene, Play, Options) :-
 play(virtual, Network, _, Play, Options) :-
     !,
     call(Play, Network, Options).
-play(_, Network, Scene, Play, Options) :-
+play(Clock, Network, Scene, Play, Options) :-
     option(port(Port), Options, 8080),
     page_serve([port(Port), world(Scene:scene_picture)], Link),
+    assertz(pace(Clock)),
     format('Open ~w in a browser. Ctrl-C ends the program.~n', [Link]),
     flush_output,
     (   call(Play, Network, Options)
@@ -91,9 +121,21 @@ stage_story(Network, Seconds, Say) :-
     story(Network, Seconds, 0, Say).
 
 story(Network, Seconds, Time0, Say) :-
-    network_advance(Network, Seconds),
-    \+ thread_peek_message(stop),
+    advance(Network, Seconds),
     Time is Time0+Seconds,
     call(Say, Time, Ends),
     flush_output,
     ( Ends == true -> true ; story(Network, Seconds, Time, Say) ).
+
+%   In pieces of half a second, since the user may wait for the program to end.
+
+advance(Network, Seconds) :-
+    pace(Rate),
+    !,
+    Piece is min(Seconds, Rate/2),
+    network_advance(Network, Piece),
+    \+ thread_peek_message(stop),
+    Left is Seconds-Piece,
+    ( Left > 0 -> advance(Network, Left) ; true ).
+advance(Network, Seconds) :-
+    network_advance(Network, Seconds).

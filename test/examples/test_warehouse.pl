@@ -12,7 +12,7 @@
 :- use_module(library(apply), [foldl/4]).
 :- use_module(library(debug), [assertion/1]).
 :- use_module(library(filesex), [directory_file_path/3]).
-:- use_module(library(lists), [member/2, numlist/3]).
+:- use_module(library(lists), [member/2, memberchk/2, numlist/3]).
 :- use_module(library(plunit)).
 :- use_module(library(sgml), [load_structure/3]).
 :- use_module(library(typhon)).
@@ -188,6 +188,30 @@ test(too_fast_a_beam_falls_and_robots_are_free_again) :-
             assertion([Delivered, Waiting, Underway, Falls] == [0, 0, 0, 1]),
             forall(member(Robot, [robot1, robot2, robot3]),
                    assertion(robot_status(Robot, free))) )).
+
+%   Both robots of a beam are needed, so another has taken the place of the one
+%   that broke down, at the corner where that was.
+
+test(a_robot_that_breaks_down_is_replaced) :-
+    with_tmp_dir(replaced).
+
+replaced(Dir) :-
+    directory_file_path(Dir, 'log.pl', Log),
+    scene([robots(4), pallets(0), beams(1), breaks(20)], Log, Network,
+          ( network_advance(Network, 500),
+            scene_orders(Delivered, Waiting, Underway, Falls),
+            assertion([Delivered, Waiting, Underway] == [1, 0, 0]),
+            assertion(Falls =< 1) )),
+    log_events(Log, Events),
+    reservation_faults(Events, Faults),
+    assertion(Faults == []),
+    findall(Robot, member(event(_, Robot, _, robot(failed)), Events), Broken),
+    assertion(Broken = [_]),
+    findall(Robots, member(event(_, _, _, allocated(beam1, Robots)), Events),
+            [First, Second]),
+    Broken = [Out],
+    assertion(memberchk(Out, First)),
+    assertion(\+ memberchk(Out, Second)).
 
 test(picture, Root == svg) :-
     scene([], '/dev/null', Network,

@@ -1,6 +1,7 @@
 :- module(warehouse_dispatch,
           [ dispatch_begin/4,           % +Order, +Office, +Options, -Job
             dispatch_proceed/2,         % +Job0, -Job
+            dispatch_carries/2,         % +Job, -Robot
             dispatch_over/1             % +Job
           ]).
 :- use_module('../../../prolog/typhon',
@@ -12,7 +13,7 @@
               [allocation_stage/3, robot_status/2, task_allocate/4]).
 :- use_module('../../../agents/sync/operator', [sequence_start/5]).
 :- use_module(library(apply), [maplist/2, maplist/3]).
-:- use_module(library(lists), [member/2]).
+:- use_module(library(lists), [member/2, subset/2]).
 :- use_module(library(option), [option/3]).
 :- use_module(library(pairs), [pairs_keys_values/3]).
 
@@ -21,7 +22,9 @@
 An order is order(Id, Corners, From, To): a load is at From, and is to be at To.
 One with a single corner is carried by one robot: an allocator finds it (chapter 7
 of the thesis).  Others take a robot at each corner: an allocator finds and holds
-them, and agents have them execute a sequence of tasks in step (chapter 5).
+them, and agents have them execute a sequence of tasks in step (chapter 5).  When
+one of these fails the allocator finds another, and they begin anew where the load
+is then.
 
 *Threading*: any thread; no state.
 */
@@ -32,7 +35,8 @@ them, and agents have them execute a sequence of tasks in step (chapter 5).
 %   which several robots execute their tasks: `in_step`, default, or `alone`, each
 %   by itself; delta(D), the penalty bias of those in step, default 2; fast(S),
 %   metres a second with a load at several corners, default 0.15; deadline(S) of an
-%   order, default 600, for which an order waits whose beam has fallen.
+%   order, default 600, for which an order waits whose beam has fallen; place(Goal),
+%   call(Goal, Id, Place) says where a load is.
 
 dispatch_begin(Order, Office, Options, job(Order, Options, Agent, searching)) :-
     Order = order(Id, Corners, From, _),
@@ -65,35 +69,73 @@ dispatch_proceed(job(Order, Options, Agent, Stage0),
     ;   Stage = Stage0
     ).
 
-next(searching, Order, Options, Agent, executing(Robots, Agents)) :-
+%   The stage is searching, executing(Sequence, Robots, Agents),
+%   regrouping(Sequence), leaving, and in the end over.
+
+next(searching, Order, Options, Agent, executing(Id, Robots, Agents)) :-
     Order = order(Id, [_,_|_], _, _),
-    allocation_stage(Agent, executing, Robots),
-    maplist(executes(Agent, Id), Robots),
+    all_held(Agent, Id, Robots),
     steps(Order, Robots, Options, Tasks),
-    option(way(Way), Options, in_step),
-    begin(Way, Id, Robots, Tasks, Options, Agents).
-next(executing(Robots, Agents), order(Id, _, _, _), _, Agent, leaving) :-
-    (   maplist(lowered(Id), Robots)
+    begin(Id, Robots, Tasks, Options, Agents).
+next(executing(Sequence, Robots, Agents), _, _, Agent, regrouping(Sequence)) :-
+    allocation_stage(Agent, _, Held),
+    \+ subset(Robots, Held),
+    !,
+    dismiss(executing(Sequence, Robots, Agents)).
+next(executing(Sequence, Robots, Agents), _, _, Agent, leaving) :-
+    (   maplist(lowered(Sequence), Robots)
     ;   \+ ( member(One, Agents), there(One) )
     ),
     !,
-    dismiss(executing(Robots, Agents)),
+    dismiss(executing(Sequence, Robots, Agents)),
     agent_send(Agent, finish).
+next(regrouping(Sequence0), Order0, Options, Agent,
+     executing(Sequence, Robots, Agents)) :-
+    Order0 = order(Id, Corners, _, To),
+    all_held(Agent, Id, Robots),
+    \+ ( member(Robot, Robots), does(Sequence0, _, Robot) ),
+    option(place(Place), Options),
+    call(Place, Id, From),
+    steps(order(Id, Corners, From, To), Robots, Options, Tasks),
+    step(let_go, LetGo),
+    atom_concat(Sequence0, +, Sequence),
+    begin(Sequence, Robots, [let_go-LetGo|Tasks], Options, Agents).
+
+all_held(Agent, Id, Robots) :-
+    allocation_stage(Agent, executing, Robots),
+    maplist(executes(Agent, Id), Robots).
+
+%   The worker of a robot that is still there goes on with its task.
+
+does(Sequence, Task, Robot) :-
+    remote(Robot, sense(task(Sequence, Task, executing, _))).
+
+%!  dispatch_carries(+Job, -Robot) is nondet.
+%
+%   Robot carries, with others.
+
+dispatch_carries(job(_, _, _, executing(Sequence, Robots, _)), Robot) :-
+    member(Robot, Robots),
+    does(Sequence, carry, Robot).
 
 executes(Agent, Id, Robot) :-
     robot_status(Robot, executing(Agent, Id)).
 
-lowered(Id, Robot) :-
-    remote(Robot, sense(task(Id, lower, completed, _))).
+lowered(Sequence, Robot) :-
+    remote(Robot, sense(task(Sequence, lower, completed, _))).
 
 there(Agent) :-
     catch(agent_property(Agent, state(State)), error(_, _), fail),
     State \= faulty(_).
 
-dismiss(executing(_, Agents)) :-
+dismiss(executing(_, _, Agents)) :-
     !,
     forall(member(Agent, Agents), catch(agent_dispose(Agent), error(_, _), true)).
 dismiss(_).
+
+begin(Sequence, Robots, Tasks, Options, Agents) :-
+    option(way(Way), Options, in_step),
+    begin(Way, Sequence, Robots, Tasks, Options, Agents).
 
 begin(in_step, Id, Robots, Tasks, Options, Agents) :-
     option(delta(Delta), Options, 2),
@@ -115,11 +157,10 @@ steps(order(_, Corners, From, To), Robots, Options, Tasks) :-
     maplist(corner_at(To), Corners, Ends),
     pairs_keys_values(Begins, Robots, Starts),
     pairs_keys_values(Finals, Robots, Ends),
-    payload_load(payloads(robots/rover), Rover),
     findall(Task-Goal,
             ( member(Task-Does, [ approach-drive(Begins, 1), lift-take_up,
                                   carry-drive(Finals, Fast), lower-put_down ]),
-              step(Does, Rover, Goal) ),
+              step(Does, Goal) ),
             Tasks).
 
 corner_at(p(X0, Y0), p(DX, DY), p(X, Y)) :-
@@ -128,11 +169,12 @@ corner_at(p(X0, Y0), p(DX, DY), p(X, Y)) :-
 
 %   The worker of a host takes up the payload, and lays it down again.
 
-step(Does, Payload, ( attach(Payload),
-                      catch(( Goal -> Done = true ; Done = fail ), Ball,
-                            Done = throw(Ball)),
-                      detach(Entry),
-                      Done )) :-
+step(Does, ( attach(Payload),
+             catch(( Goal -> Done = true ; Done = fail ), Ball,
+                   Done = throw(Ball)),
+             detach(Entry),
+             Done )) :-
+    payload_load(payloads(robots/rover), Payload),
     Payload = payload(Entry, _, _),
     acts(Does, Goal).
 
@@ -140,3 +182,4 @@ acts(drive(Places, Fastest),
      ( here(Host), memberchk(Host-Place, Places), drive_to(Place, Fastest) )).
 acts(take_up, take_up).
 acts(put_down, put_down).
+acts(let_go, catch(put_down, error(rover_error(_, _), _), true)).

@@ -3,12 +3,13 @@
             floor_put/5,                % +Id, +Corners, +Centre, +F0, -F
             floor_drive/4,              % +Name, +Command, +F0, -F
             floor_fork/4,               % +What, +Name, +F0, -F
+            floor_remove/3,             % +Name, +F0, -F
             floor_step/3,               % +Seconds, +F0, -F
             floor_robot/5,              % +Floor, ?Name, -Point, -Heading, -State
             floor_load/5                % +Floor, ?Id, -Corners, -Centre, -Falls
           ]).
 :- use_module(library(aggregate), [aggregate_all/3]).
-:- use_module(library(apply), [maplist/3]).
+:- use_module(library(apply), [exclude/3, maplist/3]).
 :- use_module(library(lists),
               [max_list/2, member/2, memberchk/2, nth1/3, same_length/2,
                select/3, select/4]).
@@ -86,6 +87,20 @@ floor_fork(unload, Name, floor(Time, Robots, Loads0), floor(Time, Robots, Loads)
            load(Id, Corners, Centre, Forks, Falls), Loads),
     select(Number-Name, Forks0, Forks),
     !.
+
+%!  floor_remove(+Name, +Floor0, -Floor) is det.
+%
+%   The robot has broken down, and is taken away.
+
+floor_remove(Name, Floor0, floor(Time, Robots, Loads)) :-
+    (   floor_fork(unload, Name, Floor0, Floor)
+    ->  true
+    ;   Floor = Floor0
+    ),
+    Floor = floor(Time, Robots0, Loads),
+    exclude(named(Name), Robots0, Robots).
+
+named(Name, robot(Name, _, _, _, _)).
 
 holds(Name, Loads, Id, Number) :-
     member(load(Id, _, _, Forks, _), Loads),

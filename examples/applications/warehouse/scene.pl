@@ -9,7 +9,7 @@
 :- use_module('../../../prolog/typhon',
               [network_at/3, remote/2, ros_start/3, ros_stop/1]).
 :- use_module('../../../agents/allocation/operator',
-              [robot_start/3, robot_status/2]).
+              [robot_fail/1, robot_start/3, robot_status/2]).
 :- use_module('../drawn', [drawn/3]).
 :- use_module(dispatch).
 :- use_module(floor).
@@ -17,7 +17,7 @@
 :- use_module(library(aggregate), [aggregate_all/3]).
 :- use_module(library(apply), [maplist/2, maplist/3, partition/4]).
 :- use_module(library(lists), [append/3, member/2, memberchk/2, nth0/3]).
-:- use_module(library(option), [option/3]).
+:- use_module(library(option), [option/2, option/3]).
 
 /** <module> A warehouse: robots, orders, and what is between them
 
@@ -37,7 +37,8 @@ scene apart from time that passes.
     floor/1,                    % see floor.pl
     jobs/2,                     % orders to come, Time-Order; jobs
     server/1,                   % Port
-    setting/1.                  % Options
+    setting/1,                  % Options
+    broken/1.                   % Name of a robot
 
 robot(Options, Name) :-
     option(robots(Count), Options, 6),
@@ -55,8 +56,9 @@ scene_network(Options, edges(Links), [hop_time(uniform(0.2, 0.4))]) :-
 %!  scene_start(+Network, +Options) is det.
 %
 %   Options: seed(S); robots(N), default 6, as of the network; pallets(N), which one
-%   robot carries, default 6; beams(N), which two or three carry, default 3; and
-%   those of dispatch_begin/4.
+%   robot carries, default 6; beams(N), which two or three carry, default 3;
+%   breaks(T): from T seconds on, the first robot that carries a beam breaks down
+%   and is taken away; and those of dispatch_begin/4.
 
 scene_start(Network, Options) :-
     scene_stop,
@@ -124,7 +126,7 @@ forget :-
         rosbridge_stop(Port)
     ;   true
     ),
-    maplist(retractall, [floor(_), jobs(_, _), setting(_)]).
+    maplist(retractall, [floor(_), jobs(_, _), setting(_), broken(_)]).
 
                 /*******************************
                 *             TIME             *
@@ -176,7 +178,20 @@ dispatch(Time) :-
     maplist(begin(Options), Due, New),
     maplist(dispatch_proceed, Jobs0, Jobs1),
     append(Jobs1, New, Jobs),
+    break_one(Time, Options, Jobs),
     transaction(( retractall(jobs(_, _)), assertz(jobs(Orders, Jobs)) )).
+
+break_one(Time, Options, Jobs) :-
+    option(breaks(From), Options),
+    Time >= From,
+    \+ broken(_),
+    member(Job, Jobs),
+    dispatch_carries(Job, Robot),
+    !,
+    assertz(broken(Robot)),
+    change(floor_remove(Robot)),
+    robot_fail(Robot).
+break_one(_, _, _).
 
 due(Time, Then-_) :-
     Then =< Time.
@@ -184,7 +199,14 @@ due(Time, Then-_) :-
 begin(Options, _-Order, Job) :-
     Order = order(Id, Corners, From, _),
     change(floor_put(Id, Corners, From)),
-    dispatch_begin(Order, office, Options, Job).
+    dispatch_begin(Order, office, [place(warehouse_scene:lies_at)|Options], Job).
+
+:- public lies_at/2.            % called by dispatch_proceed/2
+
+lies_at(Id, Place) :-
+    floor(Floor),
+    floor_load(Floor, Id, _, Place, _),
+    !.
 
                 /*******************************
                 *       ROBOTS OVER ROS        *
