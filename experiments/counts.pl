@@ -1,9 +1,11 @@
-/*  Hops of agents and messages between agents, in runs of studies.
+/*  Hops of agents, messages between agents, and memory of agents and hosts, in
+    runs of studies.
 
         swipl experiments/counts.pl -- 5.5 --set topology=grid --runs 3
 
     Logs of studies have neither, as they are most of what happens, so the runs
-    are made again.
+    are made again.  Memory is looked at each `every` host seconds; the greatest
+    values are printed.
 */
 
 :- module(counts, []).
@@ -11,12 +13,14 @@
 :- use_module(engine/cases, [case_name/3]).
 :- use_module(engine/catalogue, [studies_named/2]).
 :- use_module(engine/plan, [plans/3, planned/4]).
-:- use_module(engine/run, [run_again/4]).
+:- use_module(engine/memory, [memory_peaks/1, memory_watch/2]).
+:- use_module(engine/run, [run_again/5]).
 :- use_module(engine/studies, [study_load/2]).
 :- use_module(library(aggregate), [aggregate_all/3]).
 :- use_module(library(apply), [maplist/3]).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(main), [argv_options/3, main/0]).
+:- use_module(library(option), [option/3]).
 
 :- initialization(main, main).
 
@@ -25,18 +29,20 @@
 opt_type(runs, runs, natural).
 opt_type(seed, seed, integer).
 opt_type(set,  set,  atom).
+opt_type(every, every, number).
 
 main(Argv) :-
     argv_options(Argv, Names, Options),
     studies_named(Names, Files),
     maplist(study_load, Files, Studies),
     plans(Studies, Options, Plans),
-    forall(planned(Plans, Options, _, Run), counted(Run)).
+    forall(planned(Plans, Options, _, Run), counted(Run, Options)).
 
-counted(run(Study, Case, Seed)) :-
+counted(run(Study, Case, Seed), Options) :-
+    option(every(Every), Options, 2),
     tmp_file_stream(Log, Stream, [encoding(utf8)]),
     close(Stream),
-    run_again(Study, Case, Seed, Log),
+    run_again(Study, Case, Seed, Log, memory_watch(Every)),
     log_events(Log, Events),
     delete_file(Log),
     event_count(Events, left(_), Hops),
@@ -44,7 +50,10 @@ counted(run(Study, Case, Seed)) :-
     aggregate_all(max(T), member(event(T, _, _, _), Events), End),
     case_name(Study, Case, Name),
     format('~w, seed ~w: ~D hops, ~D messages, ~1f s~n',
-           [Name, Seed, Hops, Messages, End]).
+           [Name, Seed, Hops, Messages, End]),
+    memory_peaks(Peaks),
+    forall(member(What-Peak, Peaks), format('  ~w ~D', [What, Peak])),
+    nl.
 
 event_count(Events, What, Count) :-
     aggregate_all(count, member(event(_, _, _, What), Events), Count).

@@ -1,7 +1,8 @@
 :- module(study_run,
           [ run_make/4,                 % +Study, +Case, +Seed, +Directory
             run_log/5,                  % +Study, +Case, +Seed, +File, -Log
-            run_again/4                 % +Study, +Case, +Seed, +File
+            run_again/4,                % +Study, +Case, +Seed, +File
+            run_again/5                 % +Study, +Case, +Seed, +File, :Begin
           ]).
 :- use_module('../../prolog/typhon',
               [log_events/2, network_property/2, network_start/3,
@@ -17,6 +18,8 @@
 *Threading*: one run at a time in a process.  A signal that raises an
 exception in the caller ends the run, and the network is stopped.
 */
+
+:- meta_predicate run_again(+, +, +, +, 1).
 
 :- multifile
     prolog:error_message//1.
@@ -112,7 +115,7 @@ environment(load(Load)) :-
 run_log(Study, Case0, Seed, File, Log) :-
     begin(Study, Case0, Seed, File, Case),
     (   study_says(Study, network/3)
-    ->  network_run(Study, Case, log(File), Hosts),
+    ->  network_run(Study, Case, log(File), =(_), Hosts),
         log_events(File, Events),
         Log = log{case:Case, hosts:Hosts, events:Events}
     ;   Log = log{case:Case}
@@ -120,14 +123,20 @@ run_log(Study, Case0, Seed, File, Log) :-
 
 %!  run_again(+Study, +Case, +Seed, +File) is semidet.
 %
+%!  run_again(+Study, +Case, +Seed, +File, :Begin) is semidet.
+%
 %   Make the run for its log in File alone, in which there is all that can be
-%   logged.  Fails if the study has no network.
+%   logged.  Fails if the study has no network.  When that has started,
+%   call(Begin, Network) is called first.
 
-run_again(Study, Case0, Seed, File) :-
+run_again(Study, Case, Seed, File) :-
+    run_again(Study, Case, Seed, File, =(_)).
+
+run_again(Study, Case0, Seed, File, Begin) :-
     study_says(Study, network/3),
     begin(Study, Case0, Seed, File, Case),
     network_run(Study, Case, log(File, [hops, messages, faults, links, hosts]),
-                _).
+                Begin, _).
 
 begin(Study, Case0, Seed, File, Case) :-
     file_directory_name(File, Directory),
@@ -135,7 +144,7 @@ begin(Study, Case0, Seed, File, Case) :-
     study_at_work(Study),
     set_random(seed(Seed)).
 
-network_run(Study, Case, LogOption, Hosts) :-
+network_run(Study, Case, LogOption, Begin, Hosts) :-
     must(Study, network(Case, Topology, Options0)),
     append(Options0,
            [ clock(Case.clock), processes(Case.processes), seed(Case.seed),
@@ -145,6 +154,7 @@ network_run(Study, Case, LogOption, Hosts) :-
         network_start(Topology, Network, Options),
         ( network_property(Network, hosts(Hosts)),
           network_property(Network, processes(Pids)),
+          call(Begin, Network),
           on_network(Study, Case, Network),
           still_there(Pids, Network) ),
         network_stop(Network)).
