@@ -109,15 +109,17 @@ as_process(Id, Goal) :-
         ( retractall(typhon_endpoint:process(_)),
           forall(member(Own, Owns), assertz(typhon_endpoint:process(Own))) )).
 
-%   A client has proved itself, reports that, and waits for `go`.
+%   A client has proved itself, reports that, and waits for `go`.  Wrapped is no
+%   meta-predicate: in 9.2.9 those of wrappers get closures in the wrong module.
 
 with_late_callers(Goal) :-
     thread_self(Me),
     setup_call_cleanup(
-        wrap_predicate(typhon_resumption:meet(Role, _, _, _, _, _, _), late,
-                       Meet, ( test_wire:wait_if_called(Role, Me), Meet )),
+        wrap_predicate(typhon_resumption:session_keys(Role, _, _, _, _),
+                       late,
+                       Keys, ( test_wire:wait_if_called(Role, Me), Keys )),
         Goal,
-        unwrap_predicate(typhon_resumption:meet/7, late)).
+        unwrap_predicate(typhon_resumption:session_keys/5, late)).
 
 :- public wait_if_called/2.
 
