@@ -293,8 +293,14 @@ scouts_made(Text, Dir) :-
 
 :- begin_tests(documentation).
 
-about_journals(File) :-
-    project_file('doc/journal.md', File).
+%   What documents need beside python3, and the suite does not.
+
+needs('doc/journal.md', journal).
+needs('doc/security.md', cells).
+
+needing(Group, File) :-
+    needs(Document, Group),
+    project_file(Document, File).
 
 %   README.md is typed at all terminals, every other document at one of them.
 
@@ -312,7 +318,7 @@ document_at(File, Terminal) :-
 other_document(File) :-
     document(File),
     \+ project_file('README.md', File),
-    \+ about_journals(File).
+    \+ needing(_, File).
 
 terminal(terminal(Columns, Colour)) :-
     member(Columns, [60, 80, 132]),
@@ -329,7 +335,11 @@ test(sessions_answer_as_shown,
     differences(File, Terminal, Differences).
 test(sessions_with_a_journal_answer_as_shown,
      [ condition(missing([python3, journal], [])), Differences == [], nondet ]) :-
-    about_journals(File),
+    needing(journal, File),
+    differences(File, terminal(80, true), Differences).
+test(sessions_with_cells_answer_as_shown,
+     [ condition(missing([python3, cells], [])), Differences == [], nondet ]) :-
+    needing(cells, File),
     differences(File, terminal(80, true), Differences).
 
 test(links_lead_somewhere, Broken == []) :-

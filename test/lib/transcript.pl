@@ -354,6 +354,7 @@ special(" ")           --> " ", blanks_too.
 special("")            --> "[Thread ", string(_), "] ".
 special("(_")          --> "(_", integer(_).
 special(",_")          --> ",_", integer(_).
+special("ERROR: ")     --> "ERROR: Unhandled exception: ".
 special("F")           --> digits([_|_]), ".", digits([_,_,_,_|_]), \+ letter.
 
 letter --> [C], { code_type(C, alpha) }.

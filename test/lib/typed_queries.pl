@@ -10,3 +10,9 @@ user:expand_query(next, true, Bindings, Bindings) :-
 user:expand_query(_, _, _, _) :-
     format("~n@@begin@@~n"),
     fail.
+
+% 9.2.9 starts the tracer at the second error of a session, whatever is loaded.
+
+:- if(( current_prolog_flag(version, V), V >= 90200, V < 90300 )).
+:- set_prolog_flag(debug_on_error, false).
+:- endif.
