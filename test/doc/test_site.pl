@@ -35,7 +35,7 @@ site(Dir) :-
 site(Dir) :-
     tmp_file(typhon_site, Dir),
     project_file('doc/site.pl', Program),
-    run_swipl([Program, --, Dir], [cwd('/')], Status, Out, Err),
+    run_swipl([Program, --, Dir], [cwd('/'), timeout(300)], Status, Out, Err),
     assertion(made(Status, Out, Err) == made(exit(0), "", "")),
     assertz(made(Dir)),
     at_halt(delete_directory_and_contents(Dir)).

@@ -250,24 +250,26 @@ test(twice, error(permission_error(start, endpoint, _))) :-
     with_endpoint(endpoint_start(localhost, 0, _)).
 
 %   An attempt has been refused, and the connection manager has yet to hear of it, as
-%   a peer begins to listen: later callers get the result of a later attempt.
+%   a peer begins to listen: later callers get the result of a later attempt.  The
+%   caller that waits must not give up before the process of the peer has started.
 
 test(who_asks_since_hears_of_a_later_attempt,
      [First,Then,Answer] == [unreachable,posted,answer(x)]) :-
     free_port(Port),
     atomic_list_concat(['127.0.0.1', Port], :, A),
     thread_self(Me),
-    with_endpoint(
-        with_held(
-            typhon_connection:missed(_, _), posting(A, T1),
-            with_peer(Port, _, A,
-                      ( endpoint_request(A, echo, x, thread_send_message(Me)),
-                        posting(A, T2),
-                        wait_until(waiting(A, 2), 10),
-                        thread_send_message(endpoint_gate, go),
-                        posted(T1, First),
-                        posted(T2, Then),
-                        thread_get_message(Me, Answer, [timeout(20)]) )))).
+    with_settings([typhon_connection_manager:connect_time=60],
+        with_endpoint(
+            with_held(
+                typhon_connection:missed(_, _), posting(A, T1),
+                with_peer(Port, _, A,
+                    ( endpoint_request(A, echo, x, thread_send_message(Me)),
+                      posting(A, T2),
+                      wait_until(waiting(A, 2), 10),
+                      thread_send_message(endpoint_gate, go),
+                      posted(T1, First),
+                      posted(T2, Then),
+                      thread_get_message(Me, Answer, [timeout(20)]) ))))).
 
 :- end_tests(nobody_there).
 
