@@ -2,6 +2,7 @@
           [ agent_attach/2,             % +Id, +Payload
             agent_detach/2,             % +Id, +Name
             agent_payload/3,            % +Id, +Name, -Payload
+            not_carried/2,              % +Name, +Payloads
             payload_marks/2,            % +Payload, -Marks
             result_put/2,               % +Module, +Term
             cloned_put/2,               % +Module, +Endpoint
@@ -10,7 +11,7 @@
             is_result_fact/1            % @Item
           ]).
 :- use_module(library(apply), [exclude/3]).
-:- use_module(library(error), [existence_error/2, resource_error/1]).
+:- use_module(library(error), [existence_error/2, permission_error/3, resource_error/1]).
 :- use_module(library(lists), [member/2, selectchk/3]).
 :- use_module(library(settings), [setting/2, setting/4]).
 :- use_module('../host', [host_address/2, parts/3]).
@@ -51,18 +52,33 @@ payload_marks(Payload, Marks) :-
 
 %!  agent_attach(+Id, +Payload) is det.
 %
+%   @error permission_error(attach, payload, Name) if it carries one of that
+%          name, so that agent_detach/2 would not know which is meant
 %   @error permission_error(attach, procedure, PI)
 %   @error move_refused(Address, Reason) its host does not want it
 
 agent_attach(Id, Payload) :-
     Payload = payload(Name, PIs, _),
     agent(Id, Host, Module, Hash, Life),
+    life_payloads(Life, Payloads),
+    not_carried(Name, Payloads),
     must_be_admitted(Host, Payload, new),
     payload_marks(Payload, Marks),
     attach_clauses(Module, Hash, Payload),
     forall(member(Mark, Marks), marked(Module, Mark)),
-    life_payloads(Life, Payloads),
     put_payloads(Id, Life, [Name-PIs|Payloads]).
+
+%!  not_carried(+Name, +Payloads:list) is det.
+%
+%   None of Payloads, as of life_payloads/2, is called Name.
+%
+%   @error permission_error(attach, payload, Name)
+
+not_carried(Name, Payloads) :-
+    (   memberchk(Name-_, Payloads)
+    ->  permission_error(attach, payload, Name)
+    ;   true
+    ).
 
 %!  agent_detach(+Id, +Name) is det.
 %

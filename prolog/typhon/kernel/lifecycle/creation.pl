@@ -30,8 +30,8 @@
                 agent_id/3, agent_mail/2, agent_name/3, agent_ready/2,
                 agent_rest/3, agent_standing/5, agent_state/2, gate/4,
                 gate_refused/4, is_life/1, no_result_facts/2, life_clone/3,
-                mail_count/2, make_life/5, origin_inherited/3, origin_passed/4,
-                payload_marks/2, with_agent/2 ]).
+                mail_count/2, make_life/5, not_carried/2, origin_inherited/3,
+                origin_passed/4, payload_marks/2, with_agent/2 ]).
 :- use_module('../travel', [agent_born/2, clone_born/2]).
 :- use_module(questions, [agent_met/1]).
 
@@ -73,6 +73,9 @@ of the endpoint.
 %   @error existence_error(host, Host)
 %   @error existence_error(state, PI, Declared): facts of a predicate that is
 %   not among the Declared ones
+%   @error permission_error(attach, payload, Name),
+%   permission_error(attach, procedure, PI): a payload of that name, or a
+%   predicate that one provides, is there already
 %   @error move_refused(Host, Reason), host_unreachable(Host)
 %   @error any problem of the program, see typhon_programs
 %   @error representation_error(agent_name): the journal cannot have it
@@ -218,10 +221,18 @@ add_payload(Clauses, Spec, Payloads-(PIs0-State0),
             [Name-New|Payloads]-(PIs-State)) :-
     payload_load(Spec, Payload),
     Payload = payload(Name, New, More),
+    not_carried(Name, Payloads),
     maplist(not_static(Clauses), New),
+    maplist(not_among(PIs0), New),
     append(PIs0, New, PIs),
     payload_marks(Payload, Marks),
     append([State0, More, Marks], State).
+
+not_among(PIs, PI) :-
+    (   memberchk(PI, PIs)
+    ->  permission_error(attach, procedure, PI)
+    ;   true
+    ).
 
 start_goals(Clauses, Initial, Goals) :-
     (   member(All, [Clauses,Initial]),

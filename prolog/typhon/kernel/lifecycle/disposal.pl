@@ -59,7 +59,7 @@ signal.  Evacuation is for the thread that stops the host.
 %
 %     - force(+Seconds): if it has not ended by then (of the time of day), it
 %       is interrupted in the middle of what it does.  Then it has ended when
-%       agent_dispose/2 returns.
+%       agent_dispose/2 returns.  Less than no time is none.
 %
 %   Agents that dispose of another do not wait for its end, but with force.
 %
@@ -85,8 +85,9 @@ typhon_options:declared(dispose_option, force(Seconds), number, Seconds).
 %   patience(+Options, -Patience): `warn`, or force(Seconds).
 
 patience(Options, Patience) :-
-    (   option(force(Seconds), Options)
-    ->  Patience = force(Seconds)
+    (   option(force(Seconds0), Options)
+    ->  Seconds is max(0, Seconds0),
+        Patience = force(Seconds)
     ;   Patience = warn
     ).
 

@@ -42,16 +42,16 @@ agent_join(Who, Outcomes, Timeout) :-
     nonvar(Who),
     Who = family(Agent),
     !,
-    agent_once_named(Agent, Id),
     wait_seconds(Timeout, Seconds),
+    agent_once_named(Agent, Id),
     until(Seconds, Until),
     agent_join(Id, Outcome, Seconds),
     clones(Id, Outcome, Clones),
     members(Clones, Until, Others),
     Outcomes = [Id-Outcome|Others].
 agent_join(Agent, Outcome, Timeout) :-
-    agent_once_named(Agent, Id),
     wait_seconds(Timeout, Seconds),
+    agent_once_named(Agent, Id),
     outcome_within(Id, Seconds, Outcome0),
     (   Outcome0 == unknown
     ->  existence_error(agent, Agent)
@@ -59,7 +59,11 @@ agent_join(Agent, Outcome, Timeout) :-
     ).
 
 wait_seconds(Timeout, inf) :-
-    ( Timeout == inf ; Timeout == infinite ),
+    (   Timeout == inf
+    ;   Timeout == infinite
+    ;   float(Timeout),
+        Timeout =:= inf
+    ),
     !.
 wait_seconds(Timeout, Seconds) :-
     must_be(number, Timeout),
@@ -149,8 +153,9 @@ clones(Agent, Outcome, Clones) :-
 %   @error host_unreachable(Home), connection_lost(Home)
 
 agent_result(Agent, Term, Timeout) :-
+    wait_seconds(Timeout, Seconds),
     agent_once_named(Agent, Id),
-    agent_join(Id, Outcome, Timeout),
+    agent_join(Id, Outcome, Seconds),
     Outcome \== timeout,
     left(Id, Outcome, result, Results),
     (   last(Results, result(Result))

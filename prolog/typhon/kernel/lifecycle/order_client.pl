@@ -85,12 +85,13 @@ agent_clone(Agent, Clone) :-
     Clone = Clone0.
 
 payload_attach(Agent, Spec) :-
+    agent_named(Agent, Id),             % before a file is read for it
     once(payload_load(Spec, Payload)),
     (   attach_order(Payload, Order0)
     ->  Order = Order0
     ;   Order = attach(Payload)
     ),
-    order_give(Agent, Order, _).
+    order_give(Id, Order, _).
 
 payload_detach(Agent, Name) :-
     must_be(atom, Name),

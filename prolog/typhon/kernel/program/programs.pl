@@ -12,8 +12,8 @@
             program_hash/2,             % +Program, -Hash
             payload_python/3            % +Payload, -Name, -Source
           ]).
-:- use_module(library(apply), [maplist/3, partition/4]).
-:- use_module(library(error), [must_be/2]).
+:- use_module(library(apply), [maplist/2, maplist/3, partition/4]).
+:- use_module(library(error), [is_of_type/2, must_be/2, type_error/2]).
 :- use_module(library(lists),
               [append/2, append/3, member/2, memberchk/2, nth1/3]).
 :- use_module(library(pairs), [pairs_values/2]).
@@ -86,6 +86,9 @@ program_read(Spec, Program, Initial, Kinds, Places, Sources,
 payload_load(payload(Name, PIs, Clauses), Payload) :-
     !,
     must_be(atom, Name),
+    must_be(list, PIs),
+    maplist(must_be_indicator, PIs),
+    must_be(list, Clauses),
     Payload = payload(Name, PIs, Clauses).
 payload_load(clauses(Terms), Payload) :-
     !,
@@ -96,6 +99,16 @@ payload_load(Spec, Payload) :-
     ;   payload_read(Spec, Payload)
     ),
     forall(payload_was_read(Spec, Payload), true).
+
+must_be_indicator(PI) :-
+    (   subsumes_term(_/_, PI),
+        PI = Name/Arity,
+        is_of_type(atom, Name),
+        is_of_type(nonneg, Arity)
+    ->  true
+    ;   must_be(ground, PI),
+        type_error(predicate_indicator, PI)
+    ).
 
 payload_read(Spec, Payload) :-
     source_terms(Spec, Located, _, Unread, _),
@@ -195,11 +208,20 @@ payload_terms(Located, payload(Name, PIs, Clauses), Errors) :-
     findall(P, option_problem(payload, Located, P), Errors3),
     append([Errors0, Errors1, Errors2, Errors3], Errors4),
     in_file_order(Errors4, Located, Errors),
-    ( memberchk(provides(Provided), Options) -> true ; Provided = [] ),
+    provided(Options, Provided),
     maplist(located_clause, Clauses0, Clauses),
     findall(PI, clause_indicator(Clauses, PI), Defined),
     append(Provided, Defined, PIs0),
     sort(PIs0, PIs).
+
+%   What is no list is a problem of the declaration.
+
+provided(Options, Provided) :-
+    (   memberchk(provides(Provided0), Options),
+        is_list(Provided0)
+    ->  Provided = Provided0
+    ;   Provided = []
+    ).
 
 %!  in_file_order(+Problems, +Located, -Ordered) is det.
 %

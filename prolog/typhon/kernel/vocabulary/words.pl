@@ -367,8 +367,8 @@ clone(_, _) :-
 
 %!  sleep(+Seconds) is det.
 %
-%   Go on after that much host time.  It is not the sleep/1 of the system:
-%   an agent that sleeps holds no thread.
+%   Go on after that much host time, at once if Seconds is negative.  It is
+%   not the sleep/1 of the system: an agent that sleeps holds no thread.
 
 %!  receive(?Message) is det.
 %!  receive(?Message, +Timeout) is semidet.

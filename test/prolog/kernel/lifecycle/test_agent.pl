@@ -683,6 +683,18 @@ test(join_an_unbound, error(instantiation_error)) :-
     agent_join(_, _, 10).
 test(join_with_a_foolish_timeout, error(type_error(number, soon))) :-
     with_hosts([alpha], ( create([main], A), agent_join(A, _, soon) )).
+test(timeout_is_checked_before_the_agent,
+     [ forall(member(Goal, [ agent_join(foo, _, soon),
+                             agent_join(family(foo), _, soon),
+                             agent_result(foo, _, soon) ])),
+       error(type_error(number, soon)) ]) :-
+    call(Goal).
+test(join_for_an_infinite_float, O == disposed) :-
+    with_hosts([alpha],
+               ( create([on_message(_, _)], A),
+                 agent_dispose(A),
+                 Timeout is inf,
+                 agent_join(A, O, Timeout) )).
 test(join_when_the_host_stops, O == disposed) :-
     with_hosts([alpha],
                ( create([on_message(_, _)], A),
@@ -967,10 +979,45 @@ test(attach_over_the_program, true(F = [s(permission_error(attach, procedure,
                                                            main/0))])) :-
     lives([(main :- P = payload(x, [main/0], [main]),
                     catch(attach(P), error(E, _), assertz(s(E))))], F).
-test(attach_twice, true(F = [s(permission_error(attach, _, p/1))])) :-
+test(attach_twice, true(F = [s(permission_error(attach, payload, x))])) :-
     lives([(main :- P = payload(x, [p/1], [p(1)]), attach(P),
                     catch(attach(P), error(E, _), assertz(s(E))),
                     detach(x))], F).
+test(attach_another_of_the_name,
+     [ forall(member(Options, [[payloads([P, Q])], [payloads([P])]])),
+       error(permission_error(attach, payload, x)) ]) :-
+    P = payload(x, [p/1], [p(1)]),
+    Q = payload(x, [q/1], [q(1)]),
+    with_hosts([alpha],
+               ( create([on_message(_, _)], A, Options),
+                 payload_attach(A, Q) )).
+test(provided_twice_at_birth,
+     [ forall(member(Name/PI, [y/(p/1), y/(s/1)])),
+       error(permission_error(attach, procedure, PI)) ]) :-
+    PI = P/1,
+    Head =.. [P, 2],
+    with_hosts([alpha],
+               create([on_message(_, _)], _,
+                      [payloads([ payload(x, [p/1], [p(1)]),
+                                  payload(Name, [PI], [Head]) ])])).
+test(agent_is_checked_before_the_payload_is_read,
+     [ forall(member(Agent-Error, [ _-instantiation_error,
+                                    1-type_error(atom, 1),
+                                    foo-existence_error(agent, foo) ])),
+       error(Error) ]) :-
+    payload_attach(Agent, no_such_file).
+test(payload_of_the_wrong_type,
+     [ forall(member(Payload-Error,
+                     [ payload(x, _, [])-instantiation_error,
+                       payload(x, p, [])-type_error(list, p),
+                       payload(x, [p], [])-type_error(predicate_indicator, p),
+                       payload(x, [], p)-type_error(list, p),
+                       clauses([ (:- payload(x, [provides(p)])) ])
+                       -domain_error(payload_declaration, provides(p)) ])),
+       error(Error) ]) :-
+    with_hosts([alpha],
+               ( create([on_message(_, _)], A),
+                 payload_attach(A, Payload) )).
 test(detach_what_is_not_there,
      true(F = [s(existence_error(payload, x))])) :-
     lives([(main :- catch(detach(x), error(E, _), assertz(s(E))))], F).

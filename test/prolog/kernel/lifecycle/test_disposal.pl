@@ -132,6 +132,11 @@ test(force, [forall(runaway(Kind, _)), O == disposed]) :-
                  agent_dispose(A, [force(0.1)]),
                  gone(A),
                  agent_join(A, O, 5) )).
+test(negative_seconds_are_none, O == disposed) :-
+    with_hosts([alpha],
+               ( start(waits, A),
+                 agent_dispose(A, [force(-1000)]),
+                 agent_join(A, O, 0) )).
 test(no_force_where_it_stops_in_time, Ms == []) :-
     with_hosts([alpha],
                ( create([(main :- sleep(0.01), main)], A),
