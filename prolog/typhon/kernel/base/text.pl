@@ -16,7 +16,7 @@ characters need quotes, and 10.1 writes some there that it cannot read.
 local to a thread and are put back.
 */
 
-:- autoload(library(error), [resource_error/1]).
+:- autoload(library(error), [resource_error/1, syntax_error/1]).
 :- autoload(library(memfile), [free_memory_file/1, memory_file_to_string/3,
                                  new_memory_file/1, open_memory_file/4]).
 
@@ -174,6 +174,8 @@ write_arguments([Arg|Args], Options) :-
 
 %!  text_term(+Bytes, -Term) is det.
 %
+%   After the text of Term there may be one blank or newline, and nothing else.
+%
 %   @error syntax_error(Message)
 
 text_term(Bytes, Term) :-
@@ -201,7 +203,12 @@ file_bytes(File, Bytes) :-
 
 read_text(In, Term) :-
     syntax(Options),
-    read_term(In, Term, Options).
+    read_term(In, Term, Options),
+    read_string(In, _, Rest),
+    (   memberchk(Rest, ["", " ", "\n"])
+    ->  true
+    ;   syntax_error(end_of_file_expected)
+    ).
 
 %   Apart, as check/0 of 9.2 takes double_quotes/1 for a boolean.
 

@@ -84,8 +84,8 @@ cell_frame_write(Out, Term) :-
 %   written: a number of 30,000 digits is refused, as reading one takes a time that
 %   grows with the square of its length, and cannot be interrupted.
 %
-%   @error syntax_error(Message) it is no text of a term, or the frame is too
-%   large: nothing of it was read then
+%   @error syntax_error(Message) it is not the text of one term, or the frame is
+%   too large: nothing of it was read then
 
 cell_frame_read(In, Term) :-
     (   frame_text(In, Bytes)
@@ -96,7 +96,8 @@ cell_frame_read(In, Term) :-
 cell_frame_heard(In, Term) :-
     (   frame_text(In, Bytes)
     ->  no_long_number(Bytes),
-        text_term(Bytes, Term)
+        text_term(Bytes, Term),
+        ( Term == end_of_file -> syntax_error(no_term) ; true )
     ;   Term = end_of_file
     ).
 

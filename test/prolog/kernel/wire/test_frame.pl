@@ -81,6 +81,12 @@ test(letters_in_quotes) :-
 test(text_of_any_character) :-
     forall(( some_code(Code), char_code(Char, Code) ),
            ( foreign_term(Char, Term), round_trip(text, Term) )).
+test(text_is_one_term,
+     [ forall(member(More, ["b. ", "b", "% b", " \n", "\u0000"])),
+       throws(error(syntax_error(_), _)) ]) :-
+    term_bytes(text, a, Bytes),
+    string_concat(Bytes, More, Both),
+    bytes_term(text, Both, _).
 test(fraction, [forall(member(Codec, [text, fast]))]) :-
     round_trip(Codec, 1r3),
     round_trip(Codec, f(-22r7, [1r3])).

@@ -317,6 +317,18 @@ check(act, 'an answer', test_send(told([sense(_)])),
       ended(raised(error(permission_error(call, sandboxed, sense(_)), _)))).
 
 frame('no term', text("garbage("), violation(syntax_error(_))).
+frame('more than a term', text("told(0,[]). told(0,[])."),
+      violation(syntax_error(end_of_file_expected))).
+frame('a term and half of another', text("told(0,[]). told("),
+      violation(syntax_error(end_of_file_expected))).
+frame('a term and a comment', text("told(0,[]). % x"),
+      violation(syntax_error(end_of_file_expected))).
+frame('a term and a byte that is none', text("told(0,[]).\n\000\"),
+      violation(syntax_error(end_of_file_expected))).
+frame('nothing', text(""), violation(syntax_error(no_term))).
+frame('a comment alone', text("% x"), violation(syntax_error(no_term))).
+frame('an end that is none', text("end_of_file."),
+      violation(syntax_error(no_term))).
 frame('no end', bytes([0,0,0,9,0'a]), violation(_)).
 frame('longer than any', bytes([255,255,255,255]),
       violation(syntax_error(frame_too_large))).
