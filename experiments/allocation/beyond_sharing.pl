@@ -10,29 +10,48 @@ itself.").
 
 vary(sharing, [none, own, shared]).
 vary(allocators, [1, 3, 5]).
+vary(hosts, [100, 200]).
+skip(Case) :-
+    Case.hosts > 100,
+    ( Case.allocators =\= 3 ; Case.sharing == own ).
+derive(eligible, Case, Count) :- Count is 15*Case.hosts // 100.
+derive(required, Case, Count) :- Count is Case.hosts // 10.
+derive(probability, Case, P) :- P is 6/Case.hosts.
 fixed(mechanism, proposed, assumed("auctions have nothing to share")).
 
 claim("shared: completed sooner than without, of three and of five",
       [line(5101)],
-      ( at([sharing=shared, allocators=3], time < at([sharing=none], time)),
-        at([sharing=shared, allocators=5], time < at([sharing=none], time)) )).
+      at([hosts=100],
+         ( at([sharing=shared, allocators=3], time < at([sharing=none], time)),
+           at([sharing=shared, allocators=5], time < at([sharing=none], time))))).
+claim("likewise of three with each number of hosts", [ours],
+      at([allocators=3, sharing=shared], time < at([sharing=none], time))).
 claim("shared: fewer communications than without, of three and of five",
       [line(5103)],
-      ( at([sharing=shared, allocators=3],
-           communications < at([sharing=none], communications)),
-        at([sharing=shared, allocators=5],
-           communications < at([sharing=none], communications)) )).
+      at([hosts=100],
+         ( at([sharing=shared, allocators=3],
+              communications < at([sharing=none], communications)),
+           at([sharing=shared, allocators=5],
+              communications < at([sharing=none], communications)) ))).
+claim("likewise of three with each number of hosts, communications", [ours],
+      at([allocators=3, sharing=shared],
+         communications < at([sharing=none], communications))).
 claim("own: fewer than without, of three and of five", [ours],
-      ( at([sharing=own, allocators=3],
-           communications < at([sharing=none], communications)),
-        at([sharing=own, allocators=5],
-           communications < at([sharing=none], communications)) )).
+      at([hosts=100],
+         ( at([sharing=own, allocators=3],
+              communications < at([sharing=none], communications)),
+           at([sharing=own, allocators=5],
+              communications < at([sharing=none], communications)) ))).
 claim("shared: fewer than own, of three and of five", [ours],
-      ( at([sharing=shared, allocators=3],
-           communications < at([sharing=own], communications)),
-        at([sharing=shared, allocators=5],
-           communications < at([sharing=own], communications)) )).
+      at([hosts=100],
+         ( at([sharing=shared, allocators=3],
+              communications < at([sharing=own], communications)),
+           at([sharing=shared, allocators=5],
+              communications < at([sharing=own], communications)) ))).
 
 plot(sharing, "Allocators that share what they know",
-     lines([x(allocators), y([communications, time, backoffs]),
-            line(sharing)])).
+     lines([ x(allocators), y([communications, time, backoffs]),
+             line(sharing), where([hosts=100]) ])).
+plot(sharing_hosts, "Three allocators on larger networks",
+     lines([ x(hosts), y([communications, time]), line(sharing),
+             where([allocators=3]) ])).
