@@ -10,7 +10,9 @@ the wire, of networks and of the log keep the texts of their own messages.
 *Threading*: called by print_message/2 in any thread.
 */
 
-:- use_module('../kernel/base/error_text', [error_told/3, term_told/3]).
+:- use_module('../kernel/base/error_text',
+              [abridged/3, error_told/3, term_told/3]).
+:- use_module('../kernel/base/text', [is_printable/1]).
 :- use_module('../kernel/wire', [endpoint_missed/2, refusal_text/2]).
 :- use_module('../kernel/program', [files_beside/3]).
 :- use_module('../kernel/host',
@@ -221,19 +223,23 @@ prolog:message(typhon(journal_in_words(Agent))) -->
     [ 'What ~w has cannot all be written: in the journal that is in words'
       -[Agent] ].
 prolog:message(typhon(not_from(Peer, Agent, From))) -->
+    { named(Agent, Agent1), named(From, From1) },
     [ 'A message for ~w from ~w, which ~w has no right to speak for, is not \c
-       delivered'-[Agent, From, Peer] ].
+       delivered'-[Agent1, From1, Peer] ].
 prolog:message(typhon(undeliverable(resource_error(frame_bytes), Agent, From,
                                     _))) -->
     !,
-    [ 'A message for ~w from ~w is too long to be sent'-[Agent, From] ].
+    { named(Agent, Agent1), named(From, From1) },
+    [ 'A message for ~w from ~w is too long to be sent'-[Agent1, From1] ].
 prolog:message(typhon(undeliverable(Formal, Agent, From, Message))) -->
-    [ 'A message for ~w is lost: '-[Agent] ],
+    { named(Agent, Agent1) },
+    [ 'A message for ~w is lost: '-[Agent1] ],
     message_from(Message, From),
     [ nl ],
     lost_since(Formal).
 prolog:message(typhon(undeliverable(Formal, Agent, From, Message, Others))) -->
-    [ 'Messages for ~w are lost: '-[Agent] ],
+    { named(Agent, Agent1) },
+    [ 'Messages for ~w are lost: '-[Agent1] ],
     message_from(Message, From),
     [ ', and ~D more'-[Others], nl ],
     lost_since(Formal).
@@ -314,8 +320,22 @@ explained(Error) -->
     error_told(Error).
 
 message_from(Message, From) -->
+    { named(From, From1) },
     term_told(Message),
-    [ ' from ~w'-[From] ].
+    [ ' from ~w'-[From1] ].
+
+%   named(+Name, -Shown): to whom a message was sent, and from whom it is said to
+%   be, may be any term.
+
+named(Name, Name) :-
+    atom(Name),
+    is_printable(Name),
+    atom_length(Name, Length),
+    Length =< 200,
+    !.
+named(Name, Shown) :-
+    abridged(Name, 200, Text),
+    ( is_printable(Text) -> Shown = Text ; Shown = 'a name that cannot be shown' ).
 
                 /*******************************
                 *          NEAR NAMES          *

@@ -3,9 +3,9 @@
 :- use_module('../../lib/fixtures').
 :- use_module('../../lib/peers').
 :- use_module('../../../prolog/typhon/kernel/base/error_text').
-:- use_module('../../../prolog/typhon/kernel/base/error_text').
+:- use_module('../../../prolog/typhon/kernel/base/text', [is_printable/1]).
 :- use_module(library(plunit)).
-:- use_module(library(lists), [member/2]).
+:- use_module(library(lists), [member/2, numlist/3]).
 :- use_module(library(typhon)).
 :- use_module(library(typhon/network/node_process), []).
 
@@ -134,6 +134,27 @@ test(large_terms_are_not_written, true(Length < 200)) :-
 test(hooks_for_printing_see_nothing, Text == "Unhandled exception: typhon_portrayed(x)") :-
     printing(error_text(typhon_portrayed(x), Text), _),
     untouched.
+
+test(names_of_recipients_are_no_orders_to_a_terminal,
+     [ forall(member(Name, ['a\e[31mb', 'a\nb', 'a\u202eb', f('\e[2J')])),
+       Shown == true ]) :-
+    phrase(prolog:message(typhon(undeliverable(existence_error(agent, x), Name,
+                                               Name, hello))), Lines),
+    with_output_to(string(Text),
+                   print_message_lines(current_output, '', Lines)),
+    split_string(Text, "\n", "", [First,Second|_]),
+    (   is_printable(First), is_printable(Second)
+    ->  Shown = true
+    ;   Shown = Text
+    ).
+test(names_of_recipients_are_short, true(Length < 500)) :-
+    numlist(1, 20 000, Ns),
+    atomic_list_concat(Ns, Name),
+    phrase(prolog:message(typhon(undeliverable(existence_error(agent, x), Name,
+                                               a, hello))), Lines),
+    with_output_to(string(Text),
+                   print_message_lines(current_output, '', Lines)),
+    string_length(Text, Length).
 
 :- end_tests(error_text).
 

@@ -16,6 +16,7 @@
 :- use_module(library(error), [type_error/2]).
 :- use_module(library(lists), [append/3, member/2]).
 :- use_module('../base/durable_changes', [durable_key/2, durable_on/0]).
+:- use_module('../base/text', [is_printable/1]).
 :- use_module('../program', [code_sent/2]).
 :- use_module('../wire', []).
 :- use_module('../host', [amended/5, event_heard/1, host/3, parts/3]).
@@ -135,6 +136,7 @@ started(Start, Since, From) :-
 
 is_image(image(Id, Hash, Life, State, Goals, Mail, Start)) :-
     atom(Id),
+    is_printable(Id),
     agent_home(Id, _),
     atom(Hash),
     is_life(Life),

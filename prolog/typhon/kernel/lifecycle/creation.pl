@@ -14,6 +14,7 @@
 :- autoload(library(occurs), [sub_term/2]).
 :- use_module(library(option), [option/2, option/3]).
 :- use_module('../base/options', [check_options/2]).
+:- use_module('../base/text', [is_printable/1]).
 :- use_module('../base/durable_changes', [sync_changes/0, unit_of_work/1]).
 :- use_module('../program',
               [ clause_parts/3, code_install/3, code_module/2,
@@ -164,12 +165,14 @@ option_type(lifetime(X), nonneg, X).
 option_type(lifetime(X), oneof([inf]), X).
 option_type(static(X), boolean, X).
 
-%   What stands before the first `@` of an id is no part of an address.
+%   What stands before the first `@` of an id is no part of an address.  Names are
+%   printed as they are, in messages of every process that the agent comes to.
 
 check_agent_name(Name) :-
     must_be(atom, Name),
     (   Name \== '',
-        \+ sub_atom(Name, _, _, _, @)
+        \+ sub_atom(Name, _, _, _, @),
+        is_printable(Name)
     ->  true
     ;   domain_error(agent_name, Name)
     ).

@@ -86,7 +86,8 @@ test(name_given, N == scout) :-
     with_hosts([alpha],
                ( create([main], A, [name(scout)]), joined(A, _),
                  atomic_list_concat([N|_], '.', A) )).
-test(name_that_is_none, [ forall(member(Name, ['', 'a@b'])),
+test(name_that_is_none, [ forall(member(Name, ['', 'a@b', 'a\e[31mb',
+                                               'a\nb', 'a\u202eb'])),
                           error(domain_error(agent_name, Name)) ]) :-
     with_hosts([alpha], create([main], _, [name(Name)])).
 test(home_can_be_told_from_the_id, true(sub_atom(A, _, _, 0, Home))) :-
