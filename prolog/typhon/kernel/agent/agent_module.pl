@@ -10,7 +10,8 @@
             agent_links/4,              % +Module, +Place0, +Place, -Links
             agent_relink/2,             % +Module, +Links
             agent_handles/2,            % +Program, +Module
-            attach_clauses/3,           % +Module, +Hash, +Payload
+            attach_clauses/2,           % +Module, +Payload
+            attach_free/3,              % +Module, +Hash, +PIs
             detach_clauses/2,           % +Module, +PIs
             agent_variant/2             % +Module, -Variant
           ]).
@@ -309,14 +310,18 @@ agent_handles(Program, Module) :-
         N > 0
     ).
 
-%!  attach_clauses(+Module, +Hash, +Payload) is det.
+%!  attach_free(+Module, +Hash, +PIs) is det.
 %
 %   @error permission_error(attach, procedure, PI) if the agent has a
 %          predicate of that name already
 
-attach_clauses(Module, Hash, payload(_, PIs, Clauses0)) :-
+attach_free(Module, Hash, PIs) :-
     code_module(Hash, Program),
-    maplist(free(Module, Program), PIs),
+    maplist(free(Module, Program), PIs).
+
+%!  attach_clauses(+Module, +Payload) is det.
+
+attach_clauses(Module, payload(_, PIs, Clauses0)) :-
     maplist(may_have(Module), PIs),
     agent_clauses(Module, Clauses0, Clauses),
     declare_all(PIs, Module),

@@ -17,7 +17,8 @@
 :- use_module('../host', [host_address/2, parts/3]).
 :- use_module(agents, [agent/5, agent_put_life/2]).
 :- use_module(agent_lock, [with_agent/2]).
-:- use_module(agent_module, [attach_clauses/3, detach_clauses/2]).
+:- use_module(agent_module,
+              [attach_clauses/2, attach_free/3, detach_clauses/2]).
 :- use_module(life, [life_payloads/2, set_payloads_of_life/3]).
 
 /** <module> What agents carry: payloads, and the results they have given
@@ -52,19 +53,20 @@ payload_marks(Payload, Marks) :-
 
 %!  agent_attach(+Id, +Payload) is det.
 %
-%   @error permission_error(attach, payload, Name) if it carries one of that
-%          name, so that agent_detach/2 would not know which is meant
 %   @error permission_error(attach, procedure, PI)
+%   @error permission_error(attach, payload, Name) if it carries another of that
+%          name, so that agent_detach/2 would not know which is meant
 %   @error move_refused(Address, Reason) its host does not want it
 
 agent_attach(Id, Payload) :-
     Payload = payload(Name, PIs, _),
     agent(Id, Host, Module, Hash, Life),
+    must_be_admitted(Host, Payload, new),
+    attach_free(Module, Hash, PIs),
     life_payloads(Life, Payloads),
     not_carried(Name, Payloads),
-    must_be_admitted(Host, Payload, new),
     payload_marks(Payload, Marks),
-    attach_clauses(Module, Hash, Payload),
+    attach_clauses(Module, Payload),
     forall(member(Mark, Marks), marked(Module, Mark)),
     put_payloads(Id, Life, [Name-PIs|Payloads]).
 

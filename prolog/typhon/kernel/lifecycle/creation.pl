@@ -224,9 +224,9 @@ add_payload(Clauses, Spec, Payloads-(PIs0-State0),
             [Name-New|Payloads]-(PIs-State)) :-
     payload_load(Spec, Payload),
     Payload = payload(Name, New, More),
-    not_carried(Name, Payloads),
     maplist(not_static(Clauses), New),
     maplist(not_among(PIs0), New),
+    not_carried(Name, Payloads),
     append(PIs0, New, PIs),
     payload_marks(Payload, Marks),
     append([State0, More, Marks], State).

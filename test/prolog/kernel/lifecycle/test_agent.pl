@@ -980,7 +980,7 @@ test(attach_over_the_program, true(F = [s(permission_error(attach, procedure,
                                                            main/0))])) :-
     lives([(main :- P = payload(x, [main/0], [main]),
                     catch(attach(P), error(E, _), assertz(s(E))))], F).
-test(attach_twice, true(F = [s(permission_error(attach, payload, x))])) :-
+test(attach_twice, true(F = [s(permission_error(attach, procedure, p/1))])) :-
     lives([(main :- P = payload(x, [p/1], [p(1)]), attach(P),
                     catch(attach(P), error(E, _), assertz(s(E))),
                     detach(x))], F).
