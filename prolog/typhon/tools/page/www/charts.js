@@ -3,7 +3,9 @@
 
 import { calmly, element } from './dom.js';
 import { onTheme, Palette, paperPalette } from './palette.js';
-import { pngBlob, saveButtons, SvgPath, SvgPen } from './svg.js';
+import {
+  pngBlob, saveButtons, SvgPath, SvgPen, textWidth, write,
+} from './svg.js';
 import { byName, timeText } from './names.js';
 
 const CALM = 500;
@@ -185,19 +187,14 @@ class Charts {
   }
 
   caption(pen, palette, plot, series) {
-    pen.textAlign = 'left';
-    pen.textBaseline = 'middle';
-    pen.font = '600 13px system-ui, sans-serif';
-    pen.fillStyle = palette.text;
-    pen.fillText(plot.title, 10, 12);
-    pen.font = '11px system-ui, sans-serif';
+    write(pen, plot.title, 10, 12, { size: '600 13px', fill: palette.text });
+    const size = '11px';
     let x = 10;
     for (const [name, , given] of series) {
       pen.fillStyle = this.colour(palette, given);
       pen.fillRect(x, 26, 12, 3);
-      pen.fillStyle = palette.text;
-      pen.fillText(name, x + 16, 28);
-      x += pen.measureText(name).width + 32;
+      write(pen, name, x + 16, 28, { size, fill: palette.text });
+      x += textWidth(pen, name, size) + 32;
     }
   }
 

@@ -1,6 +1,6 @@
 // What is chosen, seen closely: an agent with its program, or a host. Live.
 
-import { button, element, renew, unpressed } from './dom.js';
+import { button, chooser, element, renew, unpressed } from './dom.js';
 import { shortName } from './names.js';
 import { agentActions, hostActions } from './work.js';
 
@@ -96,15 +96,9 @@ class Details {
         element('dd', {}, value))));
   }
 
-  hostLink(id) {
-    return button(shortName(id), () => this.app.select({ host: id }),
-      { class: 'link', title: id });
-  }
+  hostLink(host) { return chooser(this.app, { host }); }
 
-  agentLink(id) {
-    return button(shortName(id), () => this.app.select({ agent: id }),
-      { class: 'link', title: id });
-  }
+  agentLink(agent) { return chooser(this.app, { agent }); }
 
   // A part that can be folded; what has changed in it is made anew.  `around`
   // is what its parts are in, and made once.

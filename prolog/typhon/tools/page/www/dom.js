@@ -1,5 +1,7 @@
 // Elements, made without HTML: all content is text. And pointers on a canvas.
 
+import { shortName } from './names.js';
+
 export function element(tag, attributes = {}, ...children) {
   const made = document.createElement(tag);
   for (const [name, value] of Object.entries(attributes)) {
@@ -13,6 +15,13 @@ export function element(tag, attributes = {}, ...children) {
 
 export const button = (label, onclick, attributes = {}) =>
   element('button', { type: 'button', onclick, ...attributes }, label);
+
+// Press it to choose {agent} or {host}.
+export function chooser(app, chosen) {
+  const [id] = Object.values(chosen);
+  return button(shortName(id), () => app.select(chosen),
+    { class: 'link', title: id });
+}
 
 export function choice(label, options, value, onchange) {
   const select = element('select', { 'aria-label': label, onchange:

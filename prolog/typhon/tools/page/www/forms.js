@@ -77,12 +77,6 @@ export function readFile(accept, told) {
   input.click();
 }
 
-export function saveFile(name, text) {
-  const address = URL.createObjectURL(new Blob([text], { type: 'text/plain' }));
-  element('a', { href: address, download: name }).click();
-  setTimeout(() => URL.revokeObjectURL(address), 10000);
-}
-
 // An atom as Prolog reads it, whatever it is.
 export const quoted = text =>
   `'${text.replace(/\\/g, '\\\\').replace(/'/g, "\\'")}'`;

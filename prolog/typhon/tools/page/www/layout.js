@@ -46,11 +46,13 @@ export const LAYOUTS = ['auto', ...Object.keys(SHAPES), 'force', 'random'];
 
 const range = n => Array.from({ length: Math.max(0, n) }, (_, i) => i);
 
-function round(i, n, least = 0) {
-  const radius = Math.max(least, n / (2 * Math.PI));
+const around = (i, n, radius) => {
   const angle = 2 * Math.PI * i / Math.max(1, n) - Math.PI / 2;
   return [radius * Math.cos(angle), radius * Math.sin(angle)];
-}
+};
+
+const round = (i, n, least = 0) =>
+  around(i, n, Math.max(least, n / (2 * Math.PI)));
 
 // Each level has twice the room for each host that the next has.
 function treeAt(i, n) {
@@ -299,8 +301,3 @@ function groupCentres(hosts) {
   });
   return centres;
 }
-
-const around = (i, n, radius) => {
-  const angle = 2 * Math.PI * i / n - Math.PI / 2;
-  return [radius * Math.cos(angle), radius * Math.sin(angle)];
-};

@@ -2,7 +2,7 @@
 
 import { button, element } from './dom.js';
 import { agentList, hostList } from './table.js';
-import { Store } from './store.js';
+import { Announcer, Store } from './store.js';
 import { details } from './details.js';
 import { workMenu } from './work.js';
 
@@ -125,26 +125,16 @@ const VIEWS = [
 
 const $ = id => document.getElementById(id);
 
-class App {
+class App extends Announcer {
   constructor(store) {
+    super();
     this.store = store;
-    this.listeners = new Map();
     this.prefs = rememberedPrefs();
     this.chosen = {};
     this.more = new Map();      // agent -> what only surveys tell of it
     this.mounted = new Map();   // name -> element
     this.views = new Map();     // name -> what mount() returned
     this.state = 'connecting';
-  }
-
-  on(name, listener) {
-    if (!this.listeners.has(name)) this.listeners.set(name, new Set());
-    this.listeners.get(name).add(listener);
-    return () => this.listeners.get(name).delete(listener);
-  }
-
-  tell(name, ...args) {
-    for (const listener of this.listeners.get(name) || []) listener(...args);
   }
 
   // Choose an agent or a host, or with {} nothing.

@@ -12,7 +12,7 @@ import { byName, found, shortName } from './names.js';
 import {
   button, choice, element, fillChoice, fitCanvas, onSize, pointers,
 } from './dom.js';
-import { pngBlob, saveButtons, SvgPen } from './svg.js';
+import { Picture, saveButtons, write } from './svg.js';
 
 const CALM = 160;               // ms; up to a second where drawing is slow
 const FOUND = 200;              // of a search, marked
@@ -20,13 +20,11 @@ const PATIENCE = 600;           // ms until new links are looked at
 
 const same = (a, b) => a && b && a.shape === b.shape && a.columns === b.columns;
 
-export function mount(parent, store, app) {
-  const view = new MapView(parent, store, app);
-  return view;
-}
+export const mount = (parent, store, app) => new MapView(parent, store, app);
 
-class MapView {
+class MapView extends Picture {
   constructor(parent, store, app) {
+    super();
     this.store = store;
     this.app = app;
     this.places = new Map();
@@ -53,11 +51,10 @@ class MapView {
   }
 
   destroy() {
-    this.ends.forEach(end => end());
+    super.destroy();
     cancelAnimationFrame(this.waiting);
     clearTimeout(this.calm);
     clearTimeout(this.looking);
-    this.element.remove();
   }
 
   // ------------------------------------------------------------ building
@@ -279,10 +276,8 @@ class MapView {
     pen.beginPath();
     pen.arc(x, y, 9, 0, 2 * Math.PI);
     pen.fill();
-    pen.font = '600 12px system-ui, sans-serif';
-    pen.textAlign = 'left';
-    pen.fillStyle = this.palette.text;
-    pen.fillText(cut(agent.name, 30), x + 14, y);
+    write(pen, cut(agent.name, 30), x + 14, y,
+      { size: '600 12px', fill: this.palette.text });
   }
 
   // -------------------------------------------------------------- camera
@@ -511,23 +506,17 @@ class MapView {
 
   // --------------------------------------------------------------- saving
 
-  drawAll(pen) {
+  size() { return [this.width, this.height]; }
+
+  drawAll(pen, width, height) {
     const { scene } = this;
     scene.palette = paperPalette(this.store, this.element);
     const now = this.store.clock();
-    scene.drawBase(pen, this.width, this.height);
+    scene.drawBase(pen, width, height);
     scene.drawTop(pen, now);
-    this.legend.draw(pen, scene.palette, 10, this.height - 14);
+    this.legend.draw(pen, scene.palette, 10, height - 14);
     scene.palette = this.palette;
   }
-
-  toSVG() {
-    const pen = new SvgPen(this.width, this.height);
-    this.drawAll(pen);
-    return pen.toString();
-  }
-
-  toPNG() { return pngBlob(this.width, this.height, pen => this.drawAll(pen)); }
 }
 
 const KEYS = {

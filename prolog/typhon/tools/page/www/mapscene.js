@@ -2,12 +2,12 @@
 
 import { markPath } from './palette.js';
 import { shortName } from './names.js';
+import { textWidth, write } from './svg.js';
 
 const GOLDEN = Math.PI * (3 - Math.sqrt(5));
 const DENSE = 2500;             // moving marks, above which links show flows
 const PLAIN = 400;              // ... above which they are plain squares
 const CROWD = 3000;             // agents, above which hosts show shares
-const FONT = 'system-ui, sans-serif';
 const NEAR = 1.2;               // units, for hosts on common ground
 const BADGE = 8;                // seconds for which a fault flashes
 
@@ -193,11 +193,8 @@ export class Scene {
         top = at;
     }
     if (!top) return;
-    pen.font = `600 10px ${FONT}`;
-    pen.textAlign = 'left';
-    pen.textBaseline = 'bottom';
-    pen.fillStyle = this.palette.muted;
-    pen.fillText(name, top.x - this.k * 0.4, top.y - this.k * 0.36);
+    write(pen, name, top.x - this.k * 0.4, top.y - this.k * 0.36,
+      { size: '600 10px', fill: this.palette.muted, baseline: 'bottom' });
   }
 
   drawLinks(pen) {
@@ -215,16 +212,13 @@ export class Scene {
   }
 
   drawCosts(pen) {
-    pen.font = `10px ${FONT}`;
-    pen.fillStyle = this.palette.muted;
-    pen.textAlign = 'center';
-    pen.textBaseline = 'bottom';
     for (const { a, b, cost } of this.store.links.values()) {
       if (cost === 1 || cost === null) continue;
       const from = this.at(a), to = this.at(b);
       if (!from || !to) continue;
       const { x, y } = this.along(from, to, 0.5);
-      pen.fillText(short(cost), x, y);
+      write(pen, short(cost), x, y, { size: '10px', fill: this.palette.muted,
+        align: 'center', baseline: 'bottom' });
     }
   }
 
@@ -316,27 +310,18 @@ export class Scene {
     pen.closePath();
     pen.fill();
     if (size < 6) return;
-    pen.fillStyle = this.palette.bg;
-    pen.font = `bold ${Math.round(size * 1.2)}px ${FONT}`;
-    pen.textAlign = 'center';
-    pen.textBaseline = 'middle';
-    pen.fillText('!', bx, by + size * 0.12);
+    write(pen, '!', bx, by + size * 0.12, { fill: this.palette.bg,
+      size: `bold ${Math.round(size * 1.2)}px`, align: 'center' });
   }
 
   drawNames(pen, shown) {
     if (this.k < 36) return;
-    pen.font = `${this.k > 50 ? 12 : 10}px ${FONT}`;
-    pen.textAlign = 'center';
-    pen.textBaseline = 'top';
-    pen.fillStyle = this.palette.text;
-    pen.strokeStyle = this.palette.bg;
-    pen.lineWidth = 3;
+    const style = { size: this.k > 50 ? '12px' : '10px', align: 'center',
+      baseline: 'top', fill: this.palette.text, halo: this.palette.bg };
     pen.lineJoin = 'round';
     for (const [host, { x, y }, r] of shown) {
       const more = host.state === 'running' ? '' : `, ${host.state}`;
-      const name = cut(host.name, 24) + more;
-      pen.strokeText(name, x, y + r + 2);
-      pen.fillText(name, x, y + r + 2);
+      write(pen, cut(host.name, 24) + more, x, y + r + 2, style);
     }
     pen.lineJoin = 'miter';
   }
@@ -366,13 +351,14 @@ export class Scene {
     pen.fillStyle = value < 0 ? this.palette.bad : this.palette.accent;
     pen.fillRect(left, y + high / 2 - part, wide, part);
     if (this.k < 45) return;
-    this.write(pen, short(value), left + wide + 2, y + high / 2, 'left', 'bottom');
+    write(pen, short(value), left + wide + 2, y + high / 2,
+      { size: '10px', fill: this.palette.text, baseline: 'bottom' });
   }
 
   drawValue(pen, value, kind, { x, y }, r) {
     const text = cut(short(value), 18);
-    pen.font = `600 ${this.k > 40 ? 11 : 9}px ${FONT}`;
-    const wide = pen.measureText(text).width + 6;
+    const size = `600 ${this.k > 40 ? 11 : 9}px`;
+    const wide = textWidth(pen, text, size) + 6;
     const left = x - wide / 2, top = y - r - 15;
     pen.fillStyle = this.palette.bg;
     pen.fillRect(left, top, wide, 14);
@@ -380,10 +366,8 @@ export class Scene {
       : this.palette.of(`overlay ${text}`);
     pen.lineWidth = 1.5;
     pen.strokeRect(left, top, wide, 14);
-    pen.fillStyle = this.palette.text;
-    pen.textAlign = 'center';
-    pen.textBaseline = 'middle';
-    pen.fillText(text, x, top + 7.5);
+    write(pen, text, x, top + 7.5,
+      { size, fill: this.palette.text, align: 'center' });
   }
 
   drawLinkValues(pen, overlay, most) {
@@ -398,14 +382,6 @@ export class Scene {
       pen.stroke();
     }
     pen.globalAlpha = 1;
-  }
-
-  write(pen, text, x, y, align, baseline) {
-    pen.font = `10px ${FONT}`;
-    pen.textAlign = align;
-    pen.textBaseline = baseline;
-    pen.fillStyle = this.palette.text;
-    pen.fillText(text, x, y);
   }
 
   // --------------------------------------------------- what is under way
@@ -507,14 +483,8 @@ export class Scene {
     this.ring(pen, agent.id, now, [], 3);
     const at = this.agentAt(agent, now);
     if (!at) return;
-    pen.font = `600 12px ${FONT}`;
-    pen.textAlign = 'left';
-    pen.textBaseline = 'bottom';
-    pen.lineWidth = 3;
-    pen.strokeStyle = this.palette.bg;
-    pen.strokeText(cut(agent.name, 30), at.x + 12, at.y - 8);
-    pen.fillStyle = this.palette.text;
-    pen.fillText(cut(agent.name, 30), at.x + 12, at.y - 8);
+    write(pen, cut(agent.name, 30), at.x + 12, at.y - 8, { size: '600 12px',
+      baseline: 'bottom', fill: this.palette.text, halo: this.palette.bg });
   }
 
   ring(pen, id, now, dash, width) {

@@ -4,6 +4,7 @@
 
 import { element, fitCanvas, inOrder } from './dom.js';
 import { byName } from './names.js';
+import { textWidth, write } from './svg.js';
 
 const LIGHT = ['#0072b2', '#d55e00', '#00835f', '#b8418c', '#8a6d00',
                '#2a8fc4', '#5b4bb0', '#59636e'];
@@ -151,18 +152,15 @@ export function legend(store, palette, onHidden) {
 
     // The same on a picture that is saved, from left to right.
     draw(pen, colours, x, y) {
-      pen.font = '11px system-ui, sans-serif';
-      pen.textAlign = 'left';
-      pen.textBaseline = 'middle';
+      const size = '11px';
       for (const name of names()) {
         if (hidden.has(name)) continue;
         pen.fillStyle = colours.of(name);
         pen.beginPath();
         markPath(pen, colours.shape(name), x + 5, y, 5);
         pen.fill();
-        pen.fillStyle = colours.text;
-        pen.fillText(name, x + 14, y + 0.5);
-        x += pen.measureText(name).width + 30;
+        write(pen, name, x + 14, y + 0.5, { size, fill: colours.text });
+        x += textWidth(pen, name, size) + 30;
       }
     },
   };

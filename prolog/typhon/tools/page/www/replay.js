@@ -5,28 +5,27 @@ import { mount as mapView } from './map.js';
 import { mount as spaceView } from './spacetime.js';
 import { mount as sequenceView } from './sequence.js';
 import { mount as timeView } from './charts.js';
-import { Store } from './store.js';
+import { Announcer, Store } from './store.js';
 
 const VIEWS = [['Map', mapView], ['Space–time', spaceView],
   ['Sequence', sequenceView], ['Time', timeView]];
 
 // What views ask of the page they are on.
-function quietApp() {
-  const listeners = new Set();
-  return {
-    chosen: {}, prefs: {},
-    on(name, listener) { if (name === 'select') listeners.add(listener); },
-    select(what) {
-      this.chosen = what || {};
-      for (const listener of listeners) listener(this.chosen);
-    },
-    ask: () => Promise.reject(new Error('a log can only be looked at')),
-  };
+class QuietApp extends Announcer {
+  chosen = {};
+  prefs = {};
+
+  select(what) {
+    this.chosen = what || {};
+    this.tell('select', this.chosen);
+  }
+
+  ask() { return Promise.reject(new Error('a log can only be looked at')); }
 }
 
 // log: what replay.pl has made of one.
 export function showReplay(parent, log) {
-  const player = new Player(decode(log)), app = quietApp();
+  const player = new Player(decode(log)), app = new QuietApp();
   const views = VIEWS.map(([name, mount]) => ({ name, mount, view: null,
     panel: element('div', { class: 'replay-panel', role: 'tabpanel',
       'aria-label': name }) }));

@@ -3,7 +3,7 @@
 import { button, calmly, element, fitCanvas, onSize } from './dom.js';
 import { cut } from './mapscene.js';
 import { onTheme, Palette, paperPalette } from './palette.js';
-import { pngBlob, saveButtons, SvgPen } from './svg.js';
+import { line, Picture, saveButtons, textWidth, write } from './svg.js';
 import { byName, shortName, timeText } from './names.js';
 import { arrowHead } from './spacetime.js';
 import { story } from './story.js';
@@ -14,12 +14,12 @@ const ROWS = 400;               // the latest
 const AGENTS = 8;               // with most messages, until some are chosen
 const HEAD = 34;
 const LEFT = 74;
-const FONT = 'system-ui, sans-serif';
 
 export const mount = (parent, store, app) => new Sequence(parent, store, app);
 
-class Sequence {
+class Sequence extends Picture {
   constructor(parent, store, app) {
+    super();
     this.store = store;
     this.app = app;
     this.chosen = [];           // agents; none: those with most messages
@@ -32,11 +32,6 @@ class Sequence {
       onTheme(() => { this.palette.refresh(); this.draw(); }),
       onSize(this.stage, width => { this.width = width; this.draw(); }),
     ];
-  }
-
-  destroy() {
-    this.ends.forEach(end => end());
-    this.element.remove();
   }
 
   build(parent) {
@@ -149,31 +144,21 @@ class Sequence {
   }
 
   lifelines(pen, palette, agents, x, height) {
-    pen.textAlign = 'center';
-    pen.textBaseline = 'middle';
     for (const agent of agents) {
       const program = this.store.agents.get(agent)?.program || agent;
       const room = Math.max(6, Math.floor((x(agents[1] ?? agent) - x(agents[0])) / 8));
       pen.strokeStyle = palette.faint;
       pen.lineWidth = 1.5;
-      pen.beginPath();
-      pen.moveTo(x(agent), HEAD - 4);
-      pen.lineTo(x(agent), height - 6);
-      pen.stroke();
+      line(pen, x(agent), HEAD - 4, x(agent), height - 6);
       pen.fillStyle = palette.of(program);
       pen.fillRect(x(agent) - 16, HEAD - 8, 32, 4);
-      pen.font = `600 12px ${FONT}`;
-      pen.fillStyle = palette.text;
-      pen.fillText(cut(shortName(agent), agents.length > 1 ? room : 30), x(agent), 14);
+      write(pen, cut(shortName(agent), agents.length > 1 ? room : 30), x(agent),
+        14, { size: '600 12px', fill: palette.text, align: 'center' });
     }
   }
 
   time(pen, palette, time, y) {
-    pen.font = `10px ${FONT}`;
-    pen.textAlign = 'left';
-    pen.textBaseline = 'middle';
-    pen.fillStyle = palette.muted;
-    pen.fillText(timeText(time, 1), 4, y);
+    write(pen, timeText(time, 1), 4, y, { size: '10px', fill: palette.muted });
   }
 
   letter(pen, palette, { sender, receiver, text }, x, from, to) {
@@ -183,52 +168,36 @@ class Sequence {
       = palette.of(this.store.agents.get(sender)?.program || sender);
     pen.lineWidth = 1.5;
     pen.setLineDash(lost ? [4, 3] : []);
-    pen.beginPath();
-    pen.moveTo(x1, from);
-    pen.lineTo(x2, y2);
-    pen.stroke();
+    line(pen, x1, from, x2, y2);
     pen.setLineDash([]);
     pen.beginPath();
     arrowHead(pen, x1, from, x2, y2, 8);
     pen.fill();
     if (!text) return;
-    pen.font = `11px ${FONT}`;
-    pen.textAlign = 'center';
-    pen.textBaseline = 'bottom';
-    pen.fillStyle = palette.text;
     const room = Math.max(8, Math.abs(x2 - x1) / 6.5);
-    pen.fillText(cut(text, Math.floor(room)), (x1 + x2) / 2, (from + y2) / 2 - 3);
+    write(pen, cut(text, Math.floor(room)), (x1 + x2) / 2, (from + y2) / 2 - 3,
+      { size: '11px', fill: palette.text, align: 'center', baseline: 'bottom' });
   }
 
   hop(pen, palette, { b }, x, y) {
     const text = `→ ${cut(shortName(b), 14)}`;
-    pen.font = `11px ${FONT}`;
-    const wide = pen.measureText(text).width + 10;
+    const wide = textWidth(pen, text, '11px') + 10;
     pen.fillStyle = palette.surface;
     pen.fillRect(x - wide / 2, y - 8, wide, 16);
     pen.strokeStyle = palette.line;
     pen.lineWidth = 1;
     pen.strokeRect(x - wide / 2, y - 8, wide, 16);
-    pen.fillStyle = palette.text;
-    pen.textAlign = 'center';
-    pen.textBaseline = 'middle';
-    pen.fillText(text, x, y);
+    write(pen, text, x, y, { size: '11px', fill: palette.text, align: 'center' });
   }
 
-  drawAll(pen, chart, wide, height) {
-    this.picture(pen, paperPalette(this.store, this.element), chart, wide, height);
-  }
-
-  toSVG() {
+  size() {
     const chart = this.chart();
-    const pen = new SvgPen(this.wide(chart), this.heightOf(chart));
-    this.drawAll(pen, chart, pen.width, pen.height);
-    return pen.toString();
+    return [this.wide(chart), this.heightOf(chart)];
   }
 
-  toPNG() {
-    const chart = this.chart(), wide = this.wide(chart), height = this.heightOf(chart);
-    return pngBlob(wide, height, pen => this.drawAll(pen, chart, wide, height));
+  drawAll(pen, width, height) {
+    this.picture(pen, paperPalette(this.store, this.element), this.chart(),
+      width, height);
   }
 }
 

@@ -4,7 +4,7 @@
 import { button, calmly, choice, element, fitCanvas, onSize } from './dom.js';
 import { cut } from './mapscene.js';
 import { onTheme, Palette, paperPalette, legend } from './palette.js';
-import { pngBlob, saveButtons, SvgPen } from './svg.js';
+import { line, Picture, saveButtons, textWidth, write } from './svg.js';
 import { byName, shortName, timeText, timeTicks } from './names.js';
 import { story } from './story.js';
 
@@ -13,12 +13,12 @@ const LEAST = 16;               // pixels of a row
 const MANY = 30;                // hosts: only what moves is shown to begin with
 const SPANS = [['2', '2 s'], ['10', '10 s'], ['60', '1 min'], ['600', '10 min'],
   ['all', 'all']];
-const FONT = 'system-ui, sans-serif';
 
 export const mount = (parent, store, app) => new SpaceTime(parent, store, app);
 
-class SpaceTime {
+class SpaceTime extends Picture {
   constructor(parent, store, app) {
+    super();
     this.store = store;
     this.app = app;
     this.span = store.stamped ? 'all' : '10';
@@ -51,11 +51,6 @@ class SpaceTime {
       event.preventDefault();
       this.scrollBy(by);
     });
-  }
-
-  destroy() {
-    this.ends.forEach(end => end());
-    this.element.remove();
   }
 
   build(parent) {
@@ -175,39 +170,29 @@ class SpaceTime {
   }
 
   margin(pen, rows) {
-    pen.font = `11px ${FONT}`;
     const widest = rows.reduce((most, host) =>
-      Math.max(most, pen.measureText(cut(shortName(host), 18)).width), 0);
+      Math.max(most, textWidth(pen, cut(shortName(host), 18), '11px')), 0);
     return Math.min(this.width * 0.3, widest + 16);
   }
 
   drawRows(pen, palette, rows, rowTop, high, left, right) {
-    pen.textAlign = 'right';
-    pen.textBaseline = 'middle';
-    pen.font = `11px ${FONT}`;
     rows.forEach((host, i) => {
       const top = rowTop(host);
       if (top > this.height || top + high < 0) return;
       pen.fillStyle = i % 2 ? palette.bg : palette.surface;
       pen.fillRect(left, top, right - left, high);
-      pen.fillStyle = palette.text;
-      pen.fillText(cut(shortName(host), 18), left - 6, top + high / 2);
+      write(pen, cut(shortName(host), 18), left - 6, top + high / 2,
+        { size: '11px', fill: palette.text, align: 'right' });
     });
   }
 
   drawTimes(pen, palette, from, to, x, top) {
-    pen.font = `10px ${FONT}`;
-    pen.textAlign = 'center';
-    pen.textBaseline = 'bottom';
     pen.strokeStyle = palette.faint;
     pen.lineWidth = 1;
     for (const time of timeTicks(from, to, Math.max(2, this.width / 110))) {
-      pen.fillStyle = palette.muted;
-      pen.fillText(timeText(time, to - from), x(time), top - 5);
-      pen.beginPath();
-      pen.moveTo(x(time), top - 4);
-      pen.lineTo(x(time), top);
-      pen.stroke();
+      write(pen, timeText(time, to - from), x(time), top - 5, { size: '10px',
+        fill: palette.muted, align: 'center', baseline: 'bottom' });
+      line(pen, x(time), top - 4, x(time), top);
     }
   }
 
@@ -320,34 +305,24 @@ class SpaceTime {
   // -------------------------------------------------------------- saving
 
   // All rows, on white.
-  drawAll(pen, height) {
+  drawAll(pen, width, height) {
     const palette = paperPalette(this.store, this.element), sight = this.sight();
     const scroll = this.scroll;
     this.scroll = 0;
     const before = this.height;
     this.height = height;
     pen.fillStyle = palette.bg;
-    pen.fillRect(0, 0, this.width, height);
+    pen.fillRect(0, 0, width, height);
     if (sight) this.picture(pen, palette, sight, height - 22);
     this.legend.draw(pen, palette, 10, height - 11);
     this.scroll = scroll;
     this.height = before;
   }
 
-  wholeHeight() {
+  size() {
     const sight = this.sight();
-    return Math.max(this.height, (sight ? sight.rows.length : 0) * LEAST + 54);
-  }
-
-  toSVG() {
-    const pen = new SvgPen(this.width, this.wholeHeight());
-    this.drawAll(pen, pen.height);
-    return pen.toString();
-  }
-
-  toPNG() {
-    const height = this.wholeHeight();
-    return pngBlob(this.width, height, pen => this.drawAll(pen, height));
+    return [this.width,
+      Math.max(this.height, (sight ? sight.rows.length : 0) * LEAST + 54)];
   }
 }
 

@@ -16,16 +16,33 @@ const LOGGED = 500000;          // more, which are there anyway
 const LINES = 200;              // of the log of a host
 const MINIMUM = 0.3;            // seconds for which the mark of a hop is seen
 
-export class Store {
+// Listeners, by the name of what they are told of; on() returns what ends that.
+export class Announcer {
+  constructor() { this.listeners = new Map(); }
+
+  on(name, listener) {
+    if (!this.listeners.has(name)) this.listeners.set(name, new Set());
+    this.listeners.get(name).add(listener);
+    return () => this.listeners.get(name).delete(listener);
+  }
+
+  tell(name, ...args) {
+    for (const listener of this.listeners.get(name) || []) listener(...args);
+  }
+}
+
+// It tells 'change' when something is new, at most once a frame and never while
+// the page is hidden, and 'events', lists of events as they come.
+export class Store extends Announcer {
   // clock: () => seconds, by which marks move; stamped: whether events are
   // shown at their own times (a replay) or when they are heard of (live).
   constructor({ clock = () => performance.now() / 1000, stamped = false,
                 width = 1 } = {}) {
+    super();
     this.clock = clock;
     this.stamped = stamped;
     this.width = width;
     this.rate = 1;              // seconds of the clock per second of the wall
-    this.listeners = new Map();
     this.version = 0;           // goes up with every change
     this.shape = 0;             // ... of hosts or links
     this.dirty = false;
@@ -51,20 +68,6 @@ export class Store {
     this.expected = 0.3;        // seconds of a hop, lately
     this.shape++;
     this.touch();
-  }
-
-  // ---------------------------------------------------------- listeners
-
-  // 'change': something is new; at most once a frame, never while the page
-  // is hidden. 'events': lists of events as they come.
-  on(name, listener) {
-    if (!this.listeners.has(name)) this.listeners.set(name, new Set());
-    this.listeners.get(name).add(listener);
-    return () => this.listeners.get(name).delete(listener);
-  }
-
-  tell(name, ...args) {
-    for (const listener of this.listeners.get(name) || []) listener(...args);
   }
 
   touch() {

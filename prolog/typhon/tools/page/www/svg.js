@@ -1,5 +1,6 @@
 // A pen that draws SVG where a canvas is expected: as much of
-// CanvasRenderingContext2D as the views and uPlot use. Text stays text.
+// CanvasRenderingContext2D as the views and uPlot use. Text stays text. And
+// what views draw with either pen, and how they are saved.
 
 import { button } from './dom.js';
 
@@ -143,7 +144,58 @@ export class SvgPen extends SvgPath {
   }
 }
 
+// Text and lines, with either pen.
+
+const FONT = 'system-ui, sans-serif';
+
+// size: as '600 12px'; halo: the colour of what surrounds the text.
+export function write(pen, text, x, y, { size, fill, align = 'left',
+                                         baseline = 'middle', halo = null }) {
+  pen.font = `${size} ${FONT}`;
+  pen.textAlign = align;
+  pen.textBaseline = baseline;
+  if (halo) {
+    pen.strokeStyle = halo;
+    pen.lineWidth = 3;
+    pen.strokeText(text, x, y);
+  }
+  pen.fillStyle = fill;
+  pen.fillText(text, x, y);
+}
+
+export function textWidth(pen, text, size) {
+  pen.font = `${size} ${FONT}`;
+  return pen.measureText(text).width;
+}
+
+export function line(pen, x1, y1, x2, y2) {
+  pen.beginPath();
+  pen.moveTo(x1, y1);
+  pen.lineTo(x2, y2);
+  pen.stroke();
+}
+
 // Views as files: SVG as the view draws it, PNG from that, twice as fine.
+
+// A view with `ends`, functions that end it, and its `element`; size() is
+// [width, height] of what drawAll(pen, width, height) draws on paper.
+export class Picture {
+  destroy() {
+    this.ends.forEach(end => end());
+    this.element.remove();
+  }
+
+  toSVG() {
+    const size = this.size(), pen = new SvgPen(...size);
+    this.drawAll(pen, ...size);
+    return pen.toString();
+  }
+
+  toPNG() {
+    const size = this.size();
+    return pngBlob(...size, pen => this.drawAll(pen, ...size));
+  }
+}
 
 export function download(name, blob) {
   const link = document.createElement('a');

@@ -3,7 +3,7 @@
 import {
   element, inOrder, onSize, unpressed, choice, fillChoice,
 } from './dom.js';
-import { byName, shortName } from './names.js';
+import { byName, processOf, shortName } from './names.js';
 
 const ROW = 28;                 // pixels, as in style.css
 const SPARE = 6;                // rows above and below those in sight
@@ -178,9 +178,8 @@ export class Table {
   }
 }
 
-const collator = new Intl.Collator('en', { numeric: true });
 const compare = (a, b) => typeof a === 'number' && typeof b === 'number'
-  ? a - b : collator.compare(a ?? '', b ?? '');
+  ? a - b : byName(a ?? '', b ?? '');
 
 // Hosts and agents of all processes, as lists.
 
@@ -202,8 +201,8 @@ export function agentList(parent, store, app) {
     columns: [
       column('name', 'Agent', '3 1 9rem', agent => agent.name),
       column('host', 'Host', '2 1 6rem', agent => agent.host && shortName(agent.host)),
-      column('process', 'Process', '2 1 7rem', agent => agent.host
-        && agent.host.slice(agent.host.indexOf('@') + 1)),
+      column('process', 'Process', '2 1 7rem',
+        agent => agent.host && processOf(agent.host)),
       column('program', 'Program', '2 1 6rem', agent => agent.program),
       column('state', 'State', '3 1 8rem', doing,
         agent => `state-${agent.status}`),

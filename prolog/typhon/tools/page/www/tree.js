@@ -1,7 +1,7 @@
 // Supervision: agents, their children and what they monitor, as a tree, and what
 // supervisors have done lately.
 
-import { button, element, renew } from './dom.js';
+import { chooser, element, renew } from './dom.js';
 import { shortName } from './names.js';
 
 const PAUSE = 1500;             // ms between two looks
@@ -53,8 +53,7 @@ class Tree {
 
   node({ id, relation, host, program, status, doing, below }) {
     return element('li', {},
-      button(shortName(id), () => this.app.select({ agent: id }),
-        { class: 'link', title: id }),
+      chooser(this.app, { agent: id }),
       status ? element('span', { class: `pill state-${status}`, title: doing },
         status) : null,
       host ? element('span', { class: 'muted' },
@@ -72,7 +71,6 @@ class Tree {
     renew(this.lines, lines.slice(0, SHOWN).map(([time, agent, text]) =>
       element('li', {}, element('span', { class: 'muted' },
         `${time === null ? '' : time.toFixed(2)} `),
-        button(shortName(agent), () => this.app.select({ agent }),
-          { class: 'link', title: agent }), ` ${text}`)));
+        chooser(this.app, { agent }), ` ${text}`)));
   }
 }

@@ -2,9 +2,10 @@
 
 import { button, element } from './dom.js';
 import {
-  dialog, field, quoted, readFile, saveFile, select, sure,
+  dialog, field, quoted, readFile, select, sure,
 } from './forms.js';
 import { byName, shortName } from './names.js';
+import { download } from './svg.js';
 
 export const hostsThere = app => [...app.store.hosts.values()]
   .filter(host => host.state === 'running').map(host => host.id).sort(byName);
@@ -24,6 +25,12 @@ export async function order(app, message, said) {
   for (const problem of answer.said) app.note(problem.text, 'warning');
   if (said) app.note(typeof said === 'function' ? said(answer.done) : said);
   return answer.done;
+}
+
+// What is written in a field, as a list of Prolog.
+function listed({ input }) {
+  const text = input.value.trim();
+  return text && !text.startsWith('[') ? `[${text}]` : text;
 }
 
 // ------------------------------------------------------------------- menu
@@ -83,10 +90,8 @@ async function newAgent(app, host) {
     options), written.element], 'Create', async () => {
     const program = source.input.value === 'text' ? { text: written.value }
       : { program: source.input.value };
-    const text = options.input.value.trim();
     const agent = await order(app, { do: 'create', ...program,
-      host: at.input.value, name: name.input.value,
-      options: text && !text.startsWith('[') ? `[${text}]` : text },
+      host: at.input.value, name: name.input.value, options: listed(options) },
     id => `${shortName(id)} is created`);
     app.select({ agent });
   }, true);
@@ -125,7 +130,8 @@ export function agentActions(app, agent) {
       { class: 'for-faulty', hidden: true }),
     button('Save', async () => {
       const saved = await does({ do: 'save' });
-      if (saved) saveFile(`${shortName(agent)}.pl`, saved.done);
+      if (saved) download(`${shortName(agent)}.pl`,
+        new Blob([saved.done], { type: 'text/plain' }));
     }),
     button('Dispose', () => does({ do: 'dispose' },
       `${shortName(agent)} is disposed of`), { class: 'danger' }),
@@ -172,10 +178,8 @@ function newHost(app, beside = '') {
   const options = field('Options', { placeholder: 'capacity(10), tokens([a])' },
     'as of host_start/2');
   dialog('New host', [name, at, options], 'Start', async () => {
-    const text = options.input.value.trim();
     const host = await order(app, { do: 'host_start', name: name.input.value,
-      at: at.input.value, options: text && !text.startsWith('[')
-        ? `[${text}]` : text }, id => `${shortName(id)} is started`);
+      at: at.input.value, options: listed(options) }, id => `${shortName(id)} is started`);
     await app.refresh();
     app.select({ host });
   });
