@@ -60,7 +60,7 @@ hosts_stop(Ids) :-
     forall(member(Id, Ids), ended(a, Id, disposed)),
     wait_until(peer_do(b, ( aggregate_all(count, thread_property(_, alias(_)),
                                           Threads),
-                            Threads =< 2 )), 10).     % main and gc
+                            Threads =< 2 )), 60).     % main and gc
 
 :- begin_tests(guests).
 
