@@ -6,6 +6,7 @@
 :- use_module(library(error), [existence_error/2, must_be/2]).
 :- use_module('../wire', [endpoint_address/1]).
 :- use_module(hosts, [host/3]).
+:- use_module(links, [host_linked/1]).
 
 /** <module> Names and addresses of hosts
 
@@ -19,7 +20,16 @@ processes of the networks that this process started.
 :- multifile
     elsewhere/2,                % ?Name, -Address: a host of a network that
                                 % this process started
+    typhon_names:known/2,
     error:has_type/2.
+
+%   Those of other processes by their addresses.
+
+typhon_names:known(host, Name) :-
+    host(Name, _, _).
+typhon_names:known(host, Address) :-
+    host_linked(Address),
+    \+ host(_, Address, _).
 
 %!  address_parts(?Address, ?Name, ?Endpoint) is semidet.
 %

@@ -27,7 +27,7 @@
               [durable_drop/3, durable_on/0, durable_put/4]).
 :- use_module('../base/bounds', [memory_short/1]).
 :- use_module(time, [clock/3, host_time/2, time_now/1]).
-:- use_module(links, [host_linked/1, host_unlink/2]).
+:- use_module(links, [host_unlink/2]).
 :- use_module(host_parts, [parts/3, parts_compile/1, parts_forget/1]).
 
 /** <module> Hosts of this process
@@ -51,16 +51,6 @@ one mutex: flag/3 would lock for each of them.
 %!  host(?Name, ?Address, ?Place) is nondet.
 %
 %   The hosts of this process, in the order in which they were started.
-
-:- multifile typhon_names:known/2.
-
-%   Those of other processes by their addresses.
-
-typhon_names:known(host, Name) :-
-    host(Name, _, _).
-typhon_names:known(host, Address) :-
-    host_linked(Address),
-    \+ host(_, Address, _).
 
 %!  host_add(+Name, +Address, +Place, +Options) is det.
 
@@ -322,11 +312,10 @@ host_left(Name, Since) :-
     with_mutex(typhon_host_flags, left(Load, Out, Seconds)).
 host_left(Name, Since) :-
     host_time(Name, Now),
-    load_key(Name, Load),
-    hop_keys(Name, out, Out),
     !,
     Seconds is max(0.0, Now-Since),
-    with_mutex(typhon_host_flags, left(Load, Out, Seconds)).
+    host_hop(Name, out, Seconds),
+    host_leave(Name).
 host_left(_, _).                        % stopped meanwhile
 
 host_passes(plain(_, _, _, Epoch, Rate, _, Load0, _, Out), Where, Since,
@@ -340,7 +329,8 @@ passes(Where, Load0, Out, In, Seconds) :-
     Where = _-plain(_, _, _, _, _, _, Load, _, _),
     get_flag(Load, Count),
     place_taken(Where, Count),
-    passed(Load0, Out, In, Seconds).
+    left(Load0, Out, Seconds),
+    add_hop(In, Seconds).
 
 %   place_taken(+Where, +Count): Count agents stand there, and one more from now
 %   on.  A host that stops is not plain any more, and then waits until its load is 0:
@@ -357,21 +347,12 @@ place_taken(Name-Plain, Count) :-
         fail
     ).
 
-host_passed(Here, There, Seconds) :-
-    load_key(Here, Load),
-    hop_keys(Here, out, Out),
-    hop_keys(There, in, In),
-    !,
-    with_mutex(typhon_host_flags, passed(Load, Out, In, Seconds)).
-host_passed(Here, There, Seconds) :-    % one was stopped meanwhile
-    host_leave(Here),
-    host_hop(Here, out, Seconds),
-    host_hop(There, in, Seconds).
+%   A host that stops waits until its load is 0, so that is counted last.
 
-passed(Load, Out, In, Seconds) :-
-    count_load(Load, -1),
-    add_hop(Out, Seconds),
-    add_hop(In, Seconds).
+host_passed(Here, There, Seconds) :-
+    host_hop(Here, out, Seconds),
+    host_hop(There, in, Seconds),
+    host_leave(Here).
 
 came(Where, In, Seconds) :-
     Where = _-plain(_, _, _, _, _, _, Load, _, _),
