@@ -1,7 +1,6 @@
 :- module(typhon_agents,
           [ agent/5,                    % ?Id, ?Host, ?Module, ?Hash, ?Life
             agent_here/5,               % ?Id, ?Host, ?Module, ?Hash, ?Life
-            agent_absent/1,             % +Id
             agent_on/2,                 % +Id, -Host
             agent_status/3,             % ?Id, ?Status, ?Goals
             agent_rests/3,              % +Id, ?Status, -Goals
@@ -17,14 +16,13 @@
             agent_note/3,               % +Id, +Status, +Goals
             agent_rest/3,               % +Id, +Status, +Goals
             agent_take/3,               % +Id, -Goals, -Order
-            agent_departs/3,            % +Id, -Dest, -Goals
+            agent_claim/3,              % +Id, ?Status, -Goals
             agent_comes/5,              % +Id, +Host, +Module, +Hash, +Life
             agent_handed/4,             % +Id, +Hops, +Way, +Frame
             agent_under_way/6,          % ?Id, ?Hops, -Host, -Hash, -Way,
                                         % -Frame
             agent_gone/3,               % +Id, +Hops, -Mail
             agent_thawed/5,             % +Id, +Module, +Life, +Status, +Goals
-            agent_resumes/2,            % +Id, -Goals
             agent_ready/2,              % +Id, +Goals
             agent_wakes/2,              % +Id, +Goals
             agent_mail/2                % +Id, +Messages
@@ -32,13 +30,12 @@
 :- use_module(library(lists), [member/2]).
 :- use_module('../base/durable_changes',
               [durable_drop/3, durable_on/0, enqueue_changes/0]).
-:- use_module('../base/on_demand', [on_demand_load/2]).
 :- use_module('../program', [plain_goals/2]).
 :- use_module('../host', [events_forget/1, parts_call/3, schedule/2]).
 :- use_module(mailbox,
               [ agent_ordered/1, agent_unorder/2, agent_unorder_all/2,
                 mail_all/2, mail_keep/2, mail_put/2 ]).
-:- use_module(life, [life_extra/3, life_extras/2]).
+:- use_module(life, [life_carried/2]).
 
 /** <module> Agents that stand in this process
 
@@ -76,9 +73,6 @@ which Prolog makes by itself, is not safe where other threads retract
     typhon_code:in_use/1,
     put_down/3,                 % Id, Status, Goals: to be noted
     state_ends/2,               % Id, Module: is about to be destroyed
-    carries/3,                  % Name, Id, Extra: the agent is in this process
-                                % now, and carries Extra, of that functor, see
-                                % typhon_life
     thaw/1.                     % Id: is under way and gets a record
 
 :- dynamic
@@ -112,14 +106,6 @@ agent(Id, Host, Module, Hash, Life) :-
 agent_here(Id, Host, Module, Hash, Life) :-
     stands(Id, Host, Module, Hash, Life, _).
 
-%!  agent_absent(+Id) is semidet.
-%
-%   Id is neither in this process nor under way from it.
-
-agent_absent(Id) :-
-    \+ stands(Id, _, _, _, _, _),
-    \+ under_way(Id, _, _, _, _, _).
-
 %!  agent_on(+Id, -Host) is semidet.
 %
 %   Id is in this process, on Host, or is under way from there.
@@ -148,16 +134,7 @@ agent_enter(agent(Id, Host, Module, Hash, Life), Status, Goals) :-
     agent_note(Id, Status, Goals),
     assertz(status(Id, Status, Goals)),
     parts_call(comes, Host, [Id, Host, Module, Hash]),
-    carried(Id, Life).
-
-carried(Id, Life) :-
-    life_extras(Life, Extras),
-    (   Extras == []
-    ->  true
-    ;   forall(life_extra(Life, Name, Extra),
-               ( on_demand_load(carries, Name),
-                 ignore(carries(Name, Id, Extra)) ))
-    ).
+    life_carried(Life, Id).
 
 agent_remove(Id, Mail, Orders) :-
     retract(stands(Id, Host, Module, _, _, _)),
@@ -214,10 +191,7 @@ agent_move(Id, Host, Module, Life, Until) :-
 %   second is for what only passes Goals on: they may be frames.
 
 agent_status(Id, Status, Goals) :-
-    (   nonvar(Id)
-    ->  ignore(agent(Id, _, _, _, _))
-    ;   forall(agent(_, _, _, _, _), true)
-    ),
+    forall(agent(Id, _, _, _, _), true),
     status_now(Id, Status, Goals).
 
 status_now(Id, Status, Goals) :-
@@ -294,13 +268,13 @@ agent_take(Id, Goals, Order) :-
         Order = none
     ).
 
-%!  agent_departs(+Id, -Dest, -Goals) is semidet.
+%!  agent_claim(+Id, ?Status, -Goals) is semidet.
 %
-%   Id, which was leaving for Dest, belongs to the caller from now on: an
-%   order from outside can no longer end it.
+%   Id, whose status was Status, belongs to the caller from now on: an order from
+%   outside can no longer end it.
 
-agent_departs(Id, Dest, Goals) :-
-    retract(status(Id, leaving(Dest, _), Goals)),
+agent_claim(Id, Status, Goals) :-
+    retract(status(Id, Status, Goals)),
     !.
 
                 /*******************************
@@ -313,10 +287,10 @@ agent_departs(Id, Dest, Goals) :-
 %!  agent_gone(+Id, +Hops, -Mail:list) is semidet.
 %!  agent_thawed(+Id, +Module, +Life, +Status, +Goals) is det.
 %
-%   Id has come to Host, which is plain, and runs. Id, which runs, is under way
-%   from now on; its record and its module are no
-%   more. Fails if it has an order, or was ended. Those that are under way. Id
-%   has gone, and Mail came for it meanwhile. It has a record again.
+%   Id has come to Host, which is plain, and runs.  Id, which runs, is under way
+%   from now on; its record and its module are no more; fails if it has an order,
+%   or was ended.  Those that are under way.  Id has gone, and Mail came for it
+%   meanwhile.  It has a record again.
 
 agent_comes(Id, Host, Module, Hash, Life) :-
     assertz(stands(Id, Host, Module, Hash, Life, 0)).
@@ -344,14 +318,6 @@ agent_thawed(Id, Module, Life, Status, Goals) :-
     assertz(status(Id, Status, Goals)),
     assertz(stands(Id, Host, Module, Hash, Life, 0)),
     retractall(under_way(Id, _, _, _, _, _)).
-
-%!  agent_resumes(+Id, -Goals) is semidet.
-%
-%   Id, which was held and is to go on, belongs to the caller from now on.
-
-agent_resumes(Id, Goals) :-
-    retract(status(Id, resumed, Goals)),
-    !.
 
 %!  agent_ready(+Id, +Goals) is semidet.
 %!  agent_wakes(+Id, +Goals) is semidet.
@@ -383,7 +349,7 @@ agent_put_life(Id, Life) :-
     assertz(stands(Id, Host, Module, Hash, Life, Until)),
     forget_first(Id),
     events_forget(Id),
-    carried(Id, Life).
+    life_carried(Life, Id).
 
 %!  agent_program(+Id, +Hash, +Module, +Life) is det.
 %
@@ -413,16 +379,11 @@ forget_first(Id) :-
 %   there is no such agent.
 
 agent_mail(Id, Messages) :-
-    stands(Id, Host, _, _, _, _),
-    !,
+    agent_on(Id, Host),
     (   status(Id, Status, Goals)
     ->  mail_to(Status, Id, Host, Goals, Messages)
-    ;   mail_put(Id, Messages)
+    ;   mail_put(Id, Messages)          % it runs, or is under way
     ).
-agent_mail(Id, Messages) :-
-    under_way(Id, _, _, _, _, _),
-    !,
-    mail_put(Id, Messages).
 
 mail_to(faulty(_), Id, _, _, Messages) :-
     !,

@@ -7,7 +7,7 @@
             life_tokens/2,              % +Life, -Tokens
             life_payloads/2,            % +Life, -Payloads
             life_extras/2,              % +Life, -Extras
-            life_extra/3,               % +Life, ?Name, -Extra
+            life_carried/2,             % +Life, +Id
             agent_extras_missing/1,     % @Life
             agent_extras_load/1,        % +Life
             set_payloads_of_life/3,     % +Payloads, +Life0, -Life
@@ -35,10 +35,14 @@ list of Name-PIs, whether it may not move, and a list of what options let it
 carry.  It goes over the wire and into restore points as it is; no other module
 takes it apart.
 
-*Threading*: pure, but for agent_extras_load/1.
+*Threading*: pure, but for life_carried/2 and agent_extras_load/1, which load
+code.
 */
 
-:- multifile not_cloned/1.     % Extra: a clone does not carry it
+:- multifile
+    not_cloned/1,               % Extra: a clone does not carry it
+    carries/3.                  % Name, Id, Extra: the agent is in this process
+                                % now, and carries Extra, of that functor
 
 %!  is_life(@Term) is semidet.
 
@@ -162,6 +166,20 @@ life_clone(Id, life(_, _, Most, Tokens, Payloads, Static, Extras0),
            life(Id, 0, Most, Tokens, Payloads, Static, Extras)) :-
     exclude(not_cloned, Extras0, Extras).
 
+%!  life_carried(+Life, +Id) is det.
+%
+%   The agent Id, with this Life, is in this process now: options learn of what
+%   it carries for them.
+
+life_carried(Life, Id) :-
+    life_extras(Life, Extras),
+    (   Extras == []
+    ->  true
+    ;   forall(extra(Life, Name, Extra),
+               ( on_demand_load(carries, Name),
+                 ignore(carries(Name, Id, Extra)) ))
+    ).
+
 %!  agent_extras_missing(@Life) is semidet.
 %!  agent_extras_load(+Life) is det.
 %
@@ -170,18 +188,17 @@ life_clone(Id, life(_, _, Most, Tokens, Payloads, Static, Extras0),
 
 agent_extras_missing(Life) :-
     is_life(Life),
-    life_extra(Life, Name, _),
+    extra(Life, Name, _),
     on_demand_missing(carries, Name),
     !.
 
 agent_extras_load(Life) :-
-    forall(life_extra(Life, Name, _), on_demand_load(carries, Name)).
+    forall(extra(Life, Name, _), on_demand_load(carries, Name)).
 
-%!  life_extra(+Life, ?Name, -Extra) is nondet.
-%
-%   An Extra of that functor.  Peers may have written it.
+%   extra(+Life, ?Name, -Extra) is nondet: Extra, of that functor.  Peers may have
+%   written it.
 
-life_extra(Life, Name, Extra) :-
+extra(Life, Name, Extra) :-
     life_extras(Life, Extras),
     member(Extra, Extras),
     callable(Extra),

@@ -11,9 +11,9 @@
               [ context_clear/0, context_set/3, event/4, parts/3, turn_later/1,
                 turns_paused/0 ]).
 :- use_module('../agent',
-              [ agent/5, agent_code/2, agent_departs/3, agent_handles/2,
-                agent_here/5, agent_ordered/1, agent_ready/2, agent_resumes/2,
-                agent_rest/3, agent_status/3, agent_take/3, mail_take/2,
+              [ agent/5, agent_claim/3, agent_code/2, agent_handles/2,
+                agent_here/5, agent_ordered/1, agent_ready/2, agent_rest/3,
+                agent_status/3, agent_take/3, mail_take/2,
                 with_agent/2 ]).
 :- use_module(effect, [effect/5, effect_depart/6]).
 :- use_module(ending, [agent_end/2, agent_fails/3]).
@@ -205,10 +205,10 @@ take(Id, Task) :-
     ;   Task = order(Order, Goals)
     ).
 take(Id, leave(Dest, Hole, Goals, Since)) :-
-    agent_departs(Id, Dest, hop(Hole-Goals, Since)),
+    agent_claim(Id, leaving(Dest, _), hop(Hole-Goals, Since)),
     !.
 take(Id, run(resumed(Held))) :-
-    agent_resumes(Id, Held).
+    agent_claim(Id, resumed, Held).
 
 completed(Task, Id) :-
     perform(Task, Id),

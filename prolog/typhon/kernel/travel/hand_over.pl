@@ -14,8 +14,8 @@
                 host_plain/2, host_plain_leaves/2, real_time/3,
                 schedule_here/3, scheduler_call/1 ]).
 :- use_module('../agent',
-              [ agent_absent/1, agent_comes/5, agent_gone/3, agent_handed/4,
-                agent_here/5, agent_module/4, agent_ready/2,
+              [ agent_comes/5, agent_gone/3, agent_handed/4,
+                agent_here/5, agent_module/4, agent_on/2, agent_ready/2,
                 agent_standing/5, agent_state/2, agent_thawed/5,
                 agent_under_way/6, life_before/2, life_came/2, life_goes/3,
                 mail_all/2, mail_back/2, mail_waits/1, program_sent/3,
@@ -209,7 +209,7 @@ comes(image(Id, Hash, Life, State, Hole-Goals, Mail, Since), Id, Hash, Life,
 
 come(Id, Hops, Where, Hash-Program, Life, Clauses, Since, Home) :-
     Where = Host-Plain,
-    agent_absent(Id),
+    \+ agent_on(Id, _),
     \+ backlog(Id),
     agent_comes_anew(Id, Hops, Home),
     arg(2, Plain, Place),

@@ -35,7 +35,7 @@ come.  The thread that has the agent, or holds its mutex, changes tracers.
 */
 
 :- multifile
-    typhon_agents:carries/3,
+    typhon_life:carries/3,
     typhon_endpoint:requested/4,
     typhon_events:told/4,
     typhon_life:not_cloned/1,
@@ -86,12 +86,12 @@ me(To) :-
 %   An agent that is traced is in this process now.  An untrusted peer may have
 %   written by what.
 
-typhon_agents:carries(trace, Id, trace(To, Kinds0)) :-
+typhon_life:carries(trace, Id, trace(To, Kinds0)) :-
     atom(To),
     is_list(Kinds0),
     findall(Kind, ( trace_kind(Kind), memberchk(Kind, Kinds0) ), Kinds),
     events_hear([life, bad_ends|Kinds], Id, trace(To)).
-typhon_agents:carries(step, _, step).   % the engine asks, see typhon_stepping
+typhon_life:carries(step, _, step).   % the engine asks, see typhon_stepping
 
 %   No caller knows that there is a clone, so none would let it go on.
 
