@@ -2,7 +2,9 @@
 :- use_module(library(apply), [maplist/2]).
 :- use_module(library(error), [domain_error/2, must_be/2]).
 :- use_module(library(lists), [member/2]).
-:- use_module('../kernel/base/error_text', [print_error/2]).
+:- use_module(library(terms), [mapargs/3]).
+:- use_module('../kernel/base/error_text', [abridged/3, print_error/2]).
+:- use_module('../kernel/base/trees', [is_tree/2]).
 :- use_module('../kernel/wire', [endpoint_proof/2]).
 :- use_module('../kernel/host', [host_option/2]).
 
@@ -110,12 +112,31 @@ rights(Rights) :-
 
 note(File, Host, Peer, Proof, What0) :-
     get_time(Time),
-    ( What0 == refused(inspect) -> What = refused(watch) ; What = What0 ),
+    ( What0 == refused(inspect) -> What1 = refused(watch) ; What1 = What0 ),
+    brief(What1, What),
     catch(with_mutex(typhon_audit,
                      append_line(File,
                                  audit(Time, Host, Peer, Proof, What))),
           error(Formal, Context),
           print_error(error, error(Formal, Context))).
+
+%   brief(+Term0, -Term): of what is large in Term0 there is the name alone.  A peer,
+%   or a cell, could fill the disk with one entry after the other.
+
+brief(Term0, Term) :-
+    is_tree(Term0, 500),
+    !,
+    Term = Term0.
+brief(Term0, Term) :-
+    compound(Term0),
+    compound_name_arity(Term0, Name, Arity),
+    Arity =< 3,
+    is_tree(Name, 500),
+    Term0 \= [_|_],
+    !,
+    mapargs(brief, Term0, Term).
+brief(Term0, large(Text)) :-
+    abridged(Term0, 100, Text).
 
 %   What a peer has said is written so that it can be read again, and not at
 %   any length.

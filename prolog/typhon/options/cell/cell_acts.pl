@@ -1,5 +1,6 @@
 :- module(typhon_cell_acts,
-          [ cell_changes_made/3,        % +Changes, +Host, +Module
+          [ cell_turn_begins/0,
+            cell_changes_made/3,        % +Changes, +Host, +Module
             cell_answer/5,              % +Goal, +Kind, +Host, +Agent, -Answer
             cell_violation/1            % +What
           ]).
@@ -71,10 +72,20 @@ allowed(Module, Head, PI, Clauses, Allowed) :-
                 *             ACTS             *
                 *******************************/
 
+%!  cell_turn_begins is det.
+%
+%   A turn begins in this thread: none of its requests was refused yet.
+
+cell_turn_begins :-
+    nb_setval(typhon_cell_refused, 0).
+
 %!  cell_answer(+Goal, +Kind, +Host, +Agent, -Answer) is det.
 %
 %   The agent whose turn it is calls Goal, Kind being as of cell_word/2.  For
 %   those that have no answer Answer has no solutions.
+%
+%   @error cell_violation(refused) So many requests of one turn were refused, each
+%   of them a line of the audit
 
 cell_answer(Goal, Kind, Host, agent(Id, _, _, _, _), Answer) :-
     callable(Goal),
@@ -88,6 +99,7 @@ cell_answer(Goal, Kind, Host, agent(Id, _, _, _, _), Answer) :-
                 raised(error(Formal, Where), Answer) ))
     ;   in_words(Goal, Shown),
         refusal_audited(Host, Id, policy(Shown)),
+        refusal_counted,
         raised(error(permission_error(call, sandboxed, Goal), _), Answer)
     ).
 
@@ -100,6 +112,17 @@ refusal_audited(Host, Id, Why) :-
     endpoint_address(Own),
     endpoint_own_proof(Proof),
     security_event(Host, Own, Proof, refused(Id, Why)).
+
+most_refused(100).
+
+refusal_counted :-
+    nb_getval(typhon_cell_refused, Count),
+    most_refused(Most),
+    (   Count < Most
+    ->  Count1 is Count+1,
+        nb_setval(typhon_cell_refused, Count1)
+    ;   cell_violation(refused)
+    ).
 
 raised(Error, raised(Portable)) :-
     in_words(Error, Portable).

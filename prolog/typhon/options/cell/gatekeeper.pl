@@ -14,7 +14,8 @@
                 origin_key/2, with_agent/2 ]).
 :- use_module('../../kernel/lifecycle', [turn_settled/0]).
 :- use_module(cell_acts,
-              [cell_answer/5, cell_changes_made/3, cell_violation/1]).
+              [ cell_answer/5, cell_changes_made/3, cell_turn_begins/0,
+                cell_violation/1 ]).
 :- use_module(cell_frames).
 :- use_module(cell_hosts, [walled/2]).
 :- use_module(cells,
@@ -168,6 +169,7 @@ finished(broken(Why), Cell, agent(Id, Host, _, _, _), Outcome) :-
 
 in_cell(Cell, Policy, Agent, Goals, Result) :-
     flag(typhon_cell_turn, N, N+1),
+    cell_turn_begins,
     catch(( begun(Cell, Policy, Agent, N, Goals),
             turn_heard(Cell, N, Agent, Goals, acts(well, [], nothing),
                        Result) ),

@@ -80,6 +80,9 @@ helper((sends(deep(N)) :-
 helper((sends(told(Goals)) :-
            user:turn(N),
            user:sends(frame(told(N, Goals))))).
+helper((sends(refused(K, Length)) :-
+           length(List, Length),
+           forall(between(1, K, _), user:test_ask(halt(List), _)))).
 helper((sends(lacks(K)) :-
            user:turn(N),
            forall(between(1, K, _), user:sends(frame(lacks(N)))))).
@@ -185,6 +188,9 @@ test(no_frame_deceives_the_gatekeeper, Through == []) :-
     with_cell(through(frame, Through)).
 test(refused_requests_are_audited, Left == []) :-
     with_cell(unaudited(Left)).
+test(requests_that_are_refused_do_not_fill_the_audit,
+     [Outcome,Lines] = [ended(lost(cell(violation(refused)))),102]) :-
+    with_cell(refused_again_and_again(Outcome, Lines)).
 test(no_act_without_an_answer_passes_the_rules, Through == []) :-
     with_cell(through(act, Through)).
 test(what_comes_after_the_outcome_ends_the_cell,
@@ -196,6 +202,17 @@ test(no_request_passes_the_rules, Through == []) :-
     with_cell(through(request, Through)).
 
 :- end_tests(cell_escapes).
+
+%   Each is large.
+
+refused_again_and_again(Outcome, Lines) :-
+    bait(audit, Dir),
+    directory_file_path(Dir, audit, Audit),
+    attempt(test_send(refused(150, 600)), Outcome),
+    read_file_to_terms(Audit, Entries, []),
+    length(Entries, Lines),
+    size_file(Audit, Size),
+    assertion(Size < 100 000).
 
 unaudited(Left) :-
     bait(audit, Dir),
