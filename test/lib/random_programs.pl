@@ -254,6 +254,9 @@ end(Outcome, Goals, fault(Formal, Goal, Left, Raising)) :-
     ->  Raising = itself
     ;   copy_term(Raising0, Raising)
     ).
+end(effect(Control, Hole, Left0), _, effect(Control, Hole, Left)) :-
+    !,
+    plain_goals(Left0, Left).
 end(Outcome, _, Outcome).
 
 formal(error(existence_error(procedure, _:PI), _), unknown(PI)) :- !.
