@@ -394,7 +394,8 @@ native(Goal, Goals, X) :-
     inside(Goal, _-(\+ Goal), Goals, X, Out),
     (   Out = effect(Control, _, _)
     ->  functor(Control, Name, Arity),
-        throw(error(permission_error(call, control_predicate,
-                                     Name/Arity), _))
+        raises(error(permission_error(call, control_predicate,
+                                      Name/Arity), _),
+               \+ Goal, Goals)
     ;   true
     ).

@@ -140,6 +140,24 @@ test(a_failure_inside_catch_is_noted_with_long_goals, Goal == (\+ n(1))) :-
     next(Module, [main], Outcome),
     fault(Outcome, [main], fault(Goal, _, _)).
 
+test(a_stop_in_a_negation_is_the_fault_of_that, Goals =@= [\+ r(_),\+ r(_)]) :-
+    Clauses = [ (:- agent(negation, [state([r/1])])),
+                (main :- \+ r(_), move(a)) ],
+    program_load(clauses(Clauses), Program, _, Hash, Kinds),
+    code_install(Hash, Program, Kinds),
+    code_module(Hash, Module),
+    nb_setval(random_program, Module),
+    set_module(negation_agent:base(Module)),
+    dynamic(negation_agent:r/1),
+    retractall(negation_agent:r(_)),
+    assertz(negation_agent:(r(_) :- move(b))),
+    findall(Goal,
+            ( member(Engine, [Module,reference_machine]),
+              machine_run(context(Engine, negation_agent), [main], Outcome),
+              fault(Outcome, [main], fault(Goal, _, _))
+            ),
+            Goals).
+
 %   a/1 has another clause, in which no goal is noted.
 
 test(a_long_failure_before_a_silent_choice_has_its_name,
