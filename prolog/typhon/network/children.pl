@@ -123,7 +123,7 @@ tell(In, Term) :-
 
 command(local, Interface, Swipl, Args, Interface) :-
     !,
-    current_prolog_flag(executable, Swipl),
+    swipl(Swipl),
     node_file(File),
     node_args(File, Args).
 command(Machine, _, Program, [Target|Command], Bind) :-
@@ -148,6 +148,25 @@ command(Machine, _, Program, [Target|Command], Bind) :-
     named_now(File0, File),
     node_args(File, Args),
     maplist(shell_word, [Swipl|Args], Command).
+
+%   swipl(-Program): a saved state that stands alone would run its goal again,
+%   which starts processes, and so without end.
+
+swipl(Swipl) :-
+    current_prolog_flag(executable, Executable),
+    (   current_prolog_flag(resource_database, State),
+        same_file(State, Executable)
+    ->  installed_swipl(Swipl)
+    ;   Swipl = Executable
+    ).
+
+installed_swipl(Swipl) :-
+    current_prolog_flag(home, Home),
+    current_prolog_flag(arch, Arch),
+    atomic_list_concat([Home, bin, Arch, swipl], /, Swipl),
+    exists_file(Swipl),
+    !.
+installed_swipl(path(swipl)).
 
 %   node_process.pl was called carrier.pl.
 

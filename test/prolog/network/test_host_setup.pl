@@ -3,6 +3,7 @@
 :- use_module(library(plunit)).
 :- use_module(library(filesex), [directory_file_path/3]).
 :- use_module(library(lists), [member/2]).
+:- use_module(library(process), [process_create/3, process_wait/2]).
 :- use_module(library(typhon)).
 
 /** <module> Hosts of a network that offer what its options say
@@ -135,3 +136,48 @@ test(no_goal, error(type_error(callable, 7))) :-
     network_start(line(2), _, [places([7])]).
 
 :- end_tests(places).
+
+:- begin_tests(saved_program).
+
+%   Its processes are those of the installed Prolog: that of the saved state
+%   would run the goal again.  Then it says so and ends.
+
+program("
+:- multifile user:file_search_path/2.
+user:file_search_path(library, '~w').
+:- use_module(library(typhon)).
+main :-
+    getenv('TYPHON_TEST_AGAIN', _),
+    !,
+    halt(3).
+main :-
+    setenv('TYPHON_TEST_AGAIN', 1),
+    network_start(ring(3), Network, [processes(2)]),
+    network_stop(Network),
+    halt.
+").
+
+test(that_stands_alone_starts_networks, Status == exit(0)) :-
+    with_tmp_dir(status_of_saved(Status)).
+
+status_of_saved(Status, Dir) :-
+    directory_file_path(Dir, 'program.pl', File),
+    directory_file_path(Dir, saved, Saved),
+    project_file(prolog, Library),
+    program(Format),
+    setup_call_cleanup(open(File, write, Out),
+                       format(Out, Format, [Library]),
+                       close(Out)),
+    format(atom(Save),
+           'qsave_program(~q,[goal(main),stand_alone(true),foreign(save)])',
+           [Saved]),
+    current_prolog_flag(executable, Swipl),
+    ended(Swipl, ['-g', Save, '-t', halt, File], exit(0)),
+    ended(Saved, [], Status).
+
+ended(Program, Args, Status) :-
+    process_create(Program, Args,
+                   [stdin(null), stdout(null), stderr(null), process(Pid)]),
+    process_wait(Pid, Status).
+
+:- end_tests(saved_program).
