@@ -171,8 +171,7 @@ status_of_saved(Status, Dir) :-
     format(atom(Save),
            'qsave_program(~q,[goal(main),stand_alone(true),foreign(save)])',
            [Saved]),
-    current_prolog_flag(executable, Swipl),
-    ended(Swipl, ['-g', Save, '-t', halt, File], exit(0)),
+    ended(path(swipl), ['-g', Save, '-t', halt, File], exit(0)),
     ended(Saved, [], Status).
 
 ended(Program, Args, Status) :-
