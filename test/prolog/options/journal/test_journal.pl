@@ -161,22 +161,18 @@ long_ids(Dir) :-
     keeper(Keeper),
     with_peers([p], started(Dir,
         ( host_property(alpha, address(Alpha)),
-          forall(no_name(Name),
-                 ( peer_do(p, agent_create(Visitor, A, [name(Name)])),
-                   agent_send(A, go(Alpha)),
-                   agent_result(A, E, 10),
-                   assertion(E = move_refused(Alpha, error(type_error(_, _)))),
-                   catch(agent_create(Keeper, _, [name(Name)]),
-                         error(Formal, _), true),
-                   assertion(Formal == representation_error(agent_name)) )),
+          format(atom(Name), '~`xt~6000|', []),
+          peer_do(p, agent_create(Visitor, A, [name(Name)])),
+          agent_send(A, go(Alpha)),
+          agent_result(A, E, 10),
+          assertion(E = move_refused(Alpha, error(type_error(_, _)))),
+          catch(agent_create(Keeper, _, [name(Name)]),
+                error(Formal, _), true),
+          assertion(Formal == representation_error(agent_name)),
           agent_create(Keeper, Id),
           agent_send(Id, one),
           got(Id, [one]) ))),
     started(Dir, got(Id, [one])).
-
-no_name('a\000\b').
-no_name(Name) :-
-    format(atom(Name), '~`xt~6000|', []).
 
 test('a journal is for the first host',
      [error(permission_error(open, journal, _))]) :-
