@@ -276,7 +276,7 @@ either((If->Then), Else, Goals, X, Base, Out) =>
     ).
 either((If*->Then), Else, Goals, X, Base, Out) =>
     Frame = Sub-(Sub*->Then;Else),
-    (   inside(If, Frame, Goals, X, Out0)
+    (   each_inside(If, Frame, Goals, X, Out0)
     *-> proceed(Out0, Then, Goals, Frame, X, Base, Out)
     ;   otherwise(Else, (If*->Then), Goals, X, Base, Out)
     ).
@@ -303,6 +303,18 @@ inside(Goal, Frame, Goals, X, Out) :-
     stood(Frame, Goals).
 
 stood(_, _).
+
+%   each_inside(+Goal, +Frame, +Goals, +X, -Out) is nondet: likewise, for each
+%   solution of Goal.  A cut in Goal cannot be to the choice of *->, which is no
+%   more when Goal is asked for its second solution.
+
+each_inside(Goal, Frame, Goals, X, Out) :-
+    prolog_current_choice(Other),       % the other clause
+    inside(Goal, Frame, Goals, X, Out),
+    prolog_current_choice(Now),
+    ( Now == Other -> ! ; true ).
+each_inside(_, _, _, _, _) :-
+    fail.
 
 %   What is not caught here is not touched: else the place where it was
 %   raised would be lost.

@@ -110,6 +110,10 @@ test(soft_cut_after_a_move, T == [1,2,3]) :-
                    ; t(9) ))], _, T).
 test(soft_cut_else, T == [9]) :-
     runs([(main :- ( move(a), fail *-> t(1) ; t(9) ))], _, T).
+test(soft_cut_and_a_cut_in_the_second_solution, O-T == failed-[2]) :-
+    runs([ (main :- ( ( true ; !, t(2), fail ; t(3) ), m(1) *-> fail ; t(4) )),
+           (m(X) :- ( X == 2 -> move(a) ; true ))
+         ], O, T).
 test(if_without_else_fails, O == failed) :-
     runs([(main :- ( move(a), fail -> t(1) ))], O, _).
 test(negation, T == [1,2]) :-
