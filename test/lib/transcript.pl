@@ -147,8 +147,13 @@ ask(top(_, In, Queue, _, Dir), Goal, Lines) :-
     append(Reports, Answer, Lines0),
     maplist(at_home(Dir), Lines0, Lines).
 
+%   Of what was typed a part is left, or 10.1 has written it anew after a report.
+
 empty(Line) :-
-    string_concat(_, Line, "next.").    % or what is left of it
+    string_concat(_, Line, "next."),
+    !.
+empty(Line) :-
+    string_concat(_, "?- next", Line).
 
 lines_until(Mark, Queue, Deadline, Goal, Lines) :-
     (   thread_get_message(Queue, line(Line0), [deadline(Deadline)])
