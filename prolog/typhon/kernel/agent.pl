@@ -13,8 +13,7 @@ This is the interface of the layer: higher layers import from here.
               agent_program/4, agent_put/3, agent_put_life/2,
               agent_ready/2, agent_remove/3, agent_rest/3,
               agent_rests/3, agent_runs/1, agent_status/3,
-              agent_take/3, agent_thawed/5, agent_under_way/6, agent_wakes/2,
-              goals_shown/2 ]).
+              agent_take/3, agent_thawed/5, agent_under_way/6, agent_wakes/2 ]).
 :- reexport(agent/agent_lock, [agents_passed/0, with_agent/2]).
 :- reexport(agent/agent_module,
               [ agent_add/2, agent_changed/4, agent_clauses/3, agent_code/2,

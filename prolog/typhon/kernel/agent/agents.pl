@@ -25,8 +25,7 @@
             agent_thawed/5,             % +Id, +Module, +Life, +Status, +Goals
             agent_ready/2,              % +Id, +Goals
             agent_wakes/2,              % +Id, +Goals
-            agent_mail/2,               % +Id, +Messages
-            goals_shown/2               % +Goals0, -Goals
+            agent_mail/2                % +Id, +Messages
           ]).
 :- use_module(library(lists), [member/2]).
 :- use_module('../base/durable_changes',
@@ -48,8 +47,7 @@ The records of agents, each with one owner: this module.  An agent is
     waiting(Pattern, Until), `resident`, `held`, `resumed`, `obeying`,
     leaving(Host, At), transit(Host, Sent), cloning(Host, Sent) or
     faulty(Error), with the goals still to run.  While a control predicate is
-    under way the goals are Hole-Goals, see typhon_machine, and while it waits,
-    asks(Control, Hole, Goals): it is asked again when the agent wakes;
+    under way the goals are Hole-Goals, see typhon_machine;
   - a mailbox, and orders, see typhon_mailbox.
 
 The goals of the record may be frames, see typhon_chunks, which mean something
@@ -206,16 +204,11 @@ status_now(Id, running, []) :-
 agent_rests(Id, Status, Goals) :-
     status(Id, Status, Goals).
 
-%!  goals_shown(+Goals0, -Goals) is det.
-%
-%   Goals of a record, as others see them.  Of an agent that is held or under way
-%   there are no frames.
+%   goals_shown(+Goals0, -Goals): of an agent that is held or under way there
+%   are no frames.
 
 goals_shown([Goal|Goals0], Goals) =>
     plain_goals([Goal|Goals0], Goals).
-goals_shown(asks(Control, Hole, Goals0), Goals) =>
-    Hole = Control,
-    plain_goals(Goals0, Goals).
 goals_shown(hop(Hole-Goals0, Since), Shown) =>
     Shown = hop(Hole-Goals, Since),
     plain_goals(Goals0, Goals).
@@ -244,8 +237,8 @@ agent_put(Id, Status, Goals) :-
 
 agent_note(Id, Status, Goals) :-
     (   durable_on
-    ->  \+ \+ ( goals_shown(Goals, Shown),
-                forall(put_down(Id, Status, Shown), true) )
+    ->  goals_shown(Goals, Shown),
+        forall(put_down(Id, Status, Shown), true)
     ;   true
     ).
 

@@ -84,8 +84,8 @@ effect(sleep_until(Until), Hole, Goals, Id-Here, Next) :-
     (   Now >= Until
     ->  Hole = true,
         Next = go(Goals)
-    ;   wait(Id, Here, sleeping(Until), Until,
-             asks(sleep_until(Until), Hole, Goals)),
+    ;   Hole = sleep_until(Until),
+        wait(Id, Here, sleeping(Until), Until, Goals),
         Next = stop
     ).
 effect(receive(Message), Hole, Goals, Id-Here, Next) :-
@@ -128,7 +128,7 @@ infinite(Seconds) :- Seconds == infinite.
 infinite(Seconds) :- float(Seconds), Seconds =:= inf.
 
 %   receive(+Message, +Until, +Again, ...): take a message or wait for it;
-%   Again is the goal that is asked when the agent is woken.
+%   Again is the goal that does it when the agent is woken.
 
 receive(Message, Until, Again, Hole, Goals, Id-Here, Next) :-
     with_agent(Id, take_or_wait(Message, Until, Again, Hole, Goals,
@@ -155,13 +155,13 @@ take_or_wait(Message, Until, Again, Hole, Goals, _-Here, _, go(Goals)) :-
     !,
     Again = receive_until(Message, _, Seconds),
     answer_at(receive(Message, Seconds), fail, Hole).
-take_or_wait(Message, Until, Again, Hole, Goals, Id-Here, Stamp, stop) :-
-    can_be_kept(Again-Goals),
+take_or_wait(Message, Until, Again, Again, Goals, Id-Here, Stamp, stop) :-
+    can_be_kept(Goals),
     (   number(Until)
     ->  real_time(Here, Until, Stamp)
     ;   true
     ),
-    agent_rest(Id, waiting(Message, Until), asks(Again, Hole, Goals)).
+    agent_rest(Id, waiting(Message, Until), Goals).
 
 %   As soon as it rests somebody may end it, and stop the host with its clock.
 

@@ -5,14 +5,15 @@
           ]).
 :- use_module('../base/durable_changes', [unit_of_work/1]).
 :- use_module('../program',
-              [ answer_at/3, fault_note/1, machine_ready/1, machine_run/3 ]).
+              [ answer_at/3, fault_note/1, machine_ready/1, machine_run/3,
+                plain_goals/2 ]).
 :- use_module('../host',
               [ context_clear/0, context_set/3, event/4, parts/3, turn_later/1,
                 turns_paused/0 ]).
 :- use_module('../agent',
               [ agent/5, agent_claim/3, agent_code/2, agent_handles/2,
                 agent_here/5, agent_ordered/1, agent_ready/2, agent_rest/3,
-                agent_status/3, agent_take/3, goals_shown/2, mail_take/2,
+                agent_status/3, agent_take/3, mail_take/2,
                 with_agent/2 ]).
 :- use_module(effect, [effect/5, effect_depart/6]).
 :- use_module(ending, [agent_end/2, agent_fails/3]).
@@ -65,17 +66,10 @@ turn_engine(Agent, Start, Engine) :-
 %
 %   Run the agent to its next stop, from Goals0.  Outcome is that of
 %   machine_run/3, `held` if the agent was put down in the middle of its goals,
-%   or over(Resource) if it passed a limit.  An agent that wakes is where it has
-%   stopped: only what limits its runs, or notes them, has to see one.
+%   or over(Resource) if it passed a limit.
 
-turn_run(machine, turn(_, Host, _), goals(asks(Control, Hole, Goals)),
-         effect(Control, Hole, Goals), []) :-
-    \+ unit(_, _),
-    \+ parts(turn, Host, _),
-    !.
-turn_run(machine, Turn, goals(Goals0), Outcome, Goals) :-
+turn_run(machine, Turn, goals(Goals), Outcome, Goals) :-
     !,
-    goals_resumed(Goals0, Goals),
     (   unit(Run, _)
     ->  call(Run, typhon_turn:bounded_run(Turn, Goals, Outcome))
     ;   bounded_run(Turn, Goals, Outcome)
@@ -86,15 +80,9 @@ turn_run(Engine, Turn, Start, Outcome, Goals0) :-
 
 start_plain(goals(Goals0), Start) =>
     Start = goals(Goals),
-    goals_shown(Goals0, Goals).
+    plain_goals(Goals0, Goals).
 start_plain(Start0, Start) =>
     Start = Start0.
-
-goals_resumed(asks(Control, Hole, Goals0), Goals) =>
-    Hole = Control,
-    Goals = Goals0.
-goals_resumed(Goals0, Goals) =>
-    Goals = Goals0.
 
 bounded_run(Turn, Goals, Outcome) :-
     Turn = turn(_, Host, Context),
@@ -229,8 +217,7 @@ completed(Task, Id) :-
     task_goals(Task, Goals),
     not_completed(Id, Goals).
 
-task_goals(run(goals(Goals0)), Goals) :-
-    goals_shown(Goals0, Goals),
+task_goals(run(goals(Goals)), Goals) :-
     Goals = [_|_],
     !.
 task_goals(order(_, Goals), Goals) :-
