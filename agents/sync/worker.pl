@@ -38,11 +38,11 @@ carry_out(Sequence, Task, Goal) :-
     ->  settle(Sequence, Task, completed),
         retractall(failures(_))
     ;   settle(Sequence, Task, failed(atomic)),
-        recover
+        back_off
     ),
     main.
 
-recover :-
+back_off :-
     (   retract(failures(Count0))
     ->  true
     ;   Count0 = 0

@@ -30,7 +30,7 @@ opt_type(days, days, natural).
 opt_type(Name, Name, Type) :-
     stage_option(Name, Type, _).
 
-opt_help(strategy, "Who opens the valves [carried]").
+opt_help(strategy, "How it is decided which valves open [carried]").
 opt_help(down, "Share of time in which a link is down [0.3]").
 opt_help(broker, "URL of an MQTT broker [none: simulated]").
 opt_help(days, "Of the season [90]").

@@ -16,10 +16,11 @@
 :- use_module(library(lists), [last/2, member/2, memberchk/2, subtract/3]).
 
 study(replacement, "A robot that replaces another one gets the sequence").
-text("Half of the robots are eligible, but no more than fifty.  An allocator holds two thirds of these, \c
-and agents have them execute three tasks in step.  When half of them have \c
-completed the second task some fail, a tenth of those that are held, or three.  The allocator finds others, and these execute the sequence from its \c
-beginning.").
+text("Half of the robots are eligible, but no more than fifty.  An allocator \c
+holds two thirds of these, and agents have them execute three tasks in step.  \c
+When half of them have completed the second task one or three tenths of those \c
+that are held fail.  The allocator finds others, and these execute the sequence \c
+from its beginning.").
 
 vary(hosts, [30, 100]).
 vary(failing, [0, 0.1, 0.3]).

@@ -1,6 +1,6 @@
 % Expects: task/3; common; messages.
 % Gives: complete/0, needed/1, reserved/1, open_teams/1, mark/2, give_up/3,
-%   avoided/1, forgive/0; its state.
+%   avoided/1, avoid_none/0; its state.
 
 /*  The robots of an allocator.
 
@@ -9,7 +9,7 @@
         achieved(Team)          for each robot that has done its part and
                                 is not held any more
         avoided(Host)           where a robot was lost that had begun, since
-                                the allocator set out, or last rested
+                                the allocator set out, or last backed off
 
     Such a robot is not asked again before the allocator has backed off.  On
     the spot one whose execution fails at once would be reserved again, with
@@ -79,9 +79,9 @@ give_up(Host, Ref, Why) :-
     ;   true
     ).
 
-%!  forgive is det.
+%!  avoid_none is det.
 %
 %   All robots may be asked again.
 
-forgive :-
+avoid_none :-
     retractall(avoided(_)).

@@ -18,7 +18,7 @@ set_out :-
     visited(Host).
 
 restart :-
-    forgive,
+    avoid_none,
     replenish,
     begin_sojourn,
     (   held(_, _, _, _, _)

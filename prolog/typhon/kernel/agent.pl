@@ -42,8 +42,8 @@ This is the interface of the layer: higher layers import from here.
 :- reexport('agent/fault').
 :- reexport(agent/payloads,
               [ agent_attach/2, agent_detach/2, agent_payload/3, cloned_put/2,
-                is_result_fact/1, no_result_facts/2, not_carried/2, payload_marks/2,
-                result_facts/2, result_put/2 ]).
+                is_result_fact/1, no_result_facts/2, not_carried/2,
+                payload_marks/2, result_facts/2, result_put/2 ]).
 :- reexport(agent/mailbox,
             [ agent_order/2, agent_ordered/1, agent_orders/2, agent_unorder/2,
               mail_all/2, mail_back/2, mail_count/2, mail_list/2, mail_take/2,

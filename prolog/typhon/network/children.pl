@@ -16,7 +16,7 @@
 :- autoload(library(readutil), [read_line_to_string/2]).
 :- use_module(library(settings), [setting/2, setting/4]).
 :- use_module('../kernel/base/options', [check_options/2]).
-:- use_module('../kernel/base/prolog_faults', [spawn/3]).
+:- use_module('../kernel/base/prolog_faults', [installed_swipl/2, spawn/3]).
 :- use_module('../kernel/wire', [cookie/1]).
 :- use_module('../options/keys', [own_keys/1]).
 :- use_module(child_output, [output_heard/2]).
@@ -156,17 +156,10 @@ swipl(Swipl) :-
     current_prolog_flag(executable, Executable),
     (   current_prolog_flag(resource_database, State),
         same_file(State, Executable)
-    ->  installed_swipl(Swipl)
+    ->  current_prolog_flag(home, Home),
+        ( installed_swipl(Home, Swipl0) -> Swipl = Swipl0 ; Swipl = path(swipl) )
     ;   Swipl = Executable
     ).
-
-installed_swipl(Swipl) :-
-    current_prolog_flag(home, Home),
-    current_prolog_flag(arch, Arch),
-    atomic_list_concat([Home, bin, Arch, swipl], /, Swipl),
-    exists_file(Swipl),
-    !.
-installed_swipl(path(swipl)).
 
 %   node_process.pl was called carrier.pl.
 

@@ -224,7 +224,7 @@ all_of_others(Hosts, Robot) :-
 
 %   Else one robot is reserved again and again, with a reward each time.
 
-test(robots_that_fail_at_once_are_asked_again_after_a_rest) :-
+test(robots_that_fail_at_once_are_asked_again_after_a_back_off) :-
     allocation(ring(3), [hop_time(uniform(0.2, 0.4))], [], fail_at_once).
 
 fail_at_once(Hosts, File) :-

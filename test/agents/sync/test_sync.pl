@@ -506,11 +506,11 @@ test(task_that_fails_has_failed) :-
     fake_agent:on_message(someone, execute(1, fail)),
     tuples(Tuples),
     Tuples == [task(house, 1, failed(atomic), 7), worker(house, me)].
-test(rests_twice_as_long_after_each_failure_until_one_succeeds) :-
+test(waits_twice_as_long_after_each_failure_until_one_succeeds) :-
     worker([]),
     maplist(seconds_of, [fail, fail, fail, true, fail], Seconds),
     Seconds == [1, 2, 4, 0, 1].
-test(rests_for_32_seconds_at_most) :-
+test(waits_for_32_seconds_at_most) :-
     worker([]),
     length(Goals, 8),
     maplist(=(fail), Goals),

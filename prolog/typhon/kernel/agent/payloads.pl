@@ -11,7 +11,8 @@
             is_result_fact/1            % @Item
           ]).
 :- use_module(library(apply), [exclude/3]).
-:- use_module(library(error), [existence_error/2, permission_error/3, resource_error/1]).
+:- use_module(library(error),
+              [existence_error/2, permission_error/3, resource_error/1]).
 :- use_module(library(lists), [member/2, selectchk/3]).
 :- use_module(library(settings), [setting/2, setting/4]).
 :- use_module('../host', [host_address/2, parts/3]).

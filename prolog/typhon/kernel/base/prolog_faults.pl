@@ -1,6 +1,7 @@
 :- module(typhon_prolog_faults,
           [ forget_erased/0,
             functors_room/0,
+            installed_swipl/2,          % +Home, -Program
             spawn/3,                    % +Program, +Args, +Options
             fast_bytes_term/2           % +Bytes, -Term
           ]).
@@ -68,6 +69,16 @@ functors_room :-
 %   Of the pipes to a process that begins, any other that begins in that moment
 %   gets the ends, too (SWI-Prolog 9.0.4 to 10.1): it holds them open for as
 %   long as it lives, and a reader that waits until a pipe ends waits for both.
+
+%!  installed_swipl(+Home, -Program:atom) is semidet.
+%
+%   The program of the Prolog that has this Home.  The flag `executable` may name a
+%   saved state instead, which runs its own goal.
+
+installed_swipl(Home, Swipl) :-
+    current_prolog_flag(arch, Arch),
+    atomic_list_concat([Home, bin, Arch, swipl], /, Swipl),
+    exists_file(Swipl).
 
 %!  spawn(+Program, +Args:list, +Options:list) is det.
 %

@@ -253,8 +253,9 @@ long_integers :-
 
 %!  is_printable(+Text) is semidet.
 %
-%   Text, an atom or string, has no characters that a terminal obeys or that do not
-%   show, such as those that change the direction of text.
+%   Text, an atom or string, has no control characters, and none that do not show,
+%   such as those that change the direction of text.  For split_string/4 a zero
+%   byte is padding.
 
 is_printable(Text) :-
     \+ sub_atom(Text, _, _, _, '\000\'),

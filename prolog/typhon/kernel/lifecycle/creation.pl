@@ -6,20 +6,18 @@
             agent_clone_here/3,         % +Id, +Goals, ?CloneId
             clone_id/2                  % +Id, -CloneId
           ]).
-:- use_module(library(apply), [foldl/4, maplist/2]).
 :- use_module(library(debug), [debug/3]).
 :- use_module(library(error),
-              [domain_error/2, must_be/2, permission_error/3, type_error/2]).
-:- use_module(library(lists), [append/2, append/3, member/2]).
+              [domain_error/2, must_be/2, type_error/2]).
+:- use_module(library(lists), [member/2]).
 :- autoload(library(occurs), [sub_term/2]).
 :- use_module(library(option), [option/2, option/3]).
 :- use_module('../base/options', [check_options/2]).
 :- use_module('../base/text', [is_printable/1]).
 :- use_module('../base/durable_changes', [sync_changes/0, unit_of_work/1]).
 :- use_module('../program',
-              [ clause_parts/3, code_install/3, code_module/2,
-                code_program/2, code_sent/2, code_stands/2, payload_load/2,
-                program_load/6, program_unknown/3 ]).
+              [ code_install/3, code_module/2, code_program/2, code_sent/2,
+                code_stands/2, program_load/6, program_unknown/3 ]).
 :- use_module('../wire',
               [ endpoint_address/1, endpoint_later/1, endpoint_reply/2,
                 mobile_term/1 ]).
@@ -31,9 +29,10 @@
                 agent_id/3, agent_mail/2, agent_name/3, agent_ready/2,
                 agent_rest/3, agent_standing/5, agent_state/2, gate/4,
                 gate_refused/4, is_life/1, no_result_facts/2, life_clone/3,
-                mail_count/2, make_life/5, not_carried/2, origin_inherited/3,
-                origin_passed/4, payload_marks/2, with_agent/2 ]).
+                mail_count/2, origin_inherited/3, origin_passed/4,
+                with_agent/2 ]).
 :- use_module('../travel', [agent_born/2, clone_born/2]).
+:- use_module(newborn, [newborn_goals/3, newborn_state/6]).
 :- use_module(questions, [agent_met/1]).
 
 /** <module> How agents begin
@@ -106,10 +105,10 @@ create_by(Options, Parent, Spec, Agent) :-
     Program = program(Name0, Declared, _, Clauses),
     option(name(Name), Options, Name0),
     check_agent_name(Name),
-    birth(Options, Declared, Initial, Clauses, Life, State0),
+    newborn_state(Options, Declared, Initial, Clauses, Life, State0),
     mobile_term(State0),
     from_parent(Parent, Target, State0, State),
-    start_goals(Clauses, Initial, Goals0),
+    newborn_goals(Clauses, Initial, Goals0),
     findall(Goal, first_goal(Options, Parent, Goal), Goals, Goals0),
     State = state(PIs, _),
     program_unknown(Hash, PIs, may_be_offered(Target, Clauses)),
@@ -187,62 +186,6 @@ target(Options, Parent, Where) :-
     ;   throw(error(existence_error(host, here),
                     context(agent_create/3,
                             'start one with host_start/1')))
-    ).
-
-birth(Options, Declared, Initial, Clauses, Life,
-      state(PIs, StateClauses)) :-
-    option(tokens(Tokens), Options, []),
-    option(lifetime(Lifetime), Options, inf),
-    option(static(Static), Options, false),
-    option(facts(Facts), Options, []),
-    option(payloads(Specs), Options, []),
-    append(Initial, Facts, StateClauses0),
-    foldl(add_payload(Clauses), Specs, []-(Declared-StateClauses0),
-          Payloads-(PIs-StateClauses)),
-    maplist(initial_fact(Clauses, PIs), Facts),
-    make_life(Lifetime, Tokens, Payloads, Static, Life).
-
-initial_fact(Clauses, PIs, Fact) :-
-    clause_parts(Fact, Head, _),
-    must_be(callable, Head),
-    functor(Head, Name, Arity),
-    not_static(Clauses, Name/Arity),
-    (   memberchk(Name/Arity, PIs)
-    ->  true
-    ;   throw(error(existence_error(state, Name/Arity, PIs), _))
-    ).
-
-not_static(Clauses, Name/Arity) :-
-    functor(General, Name, Arity),
-    (   member(Clause, Clauses),
-        clause_parts(Clause, General, _)
-    ->  permission_error(attach, procedure, Name/Arity)
-    ;   true
-    ).
-
-add_payload(Clauses, Spec, Payloads-(PIs0-State0),
-            [Name-New|Payloads]-(PIs-State)) :-
-    payload_load(Spec, Payload),
-    Payload = payload(Name, New, More),
-    maplist(not_static(Clauses), New),
-    maplist(not_among(PIs0), New),
-    not_carried(Name, Payloads),
-    append(PIs0, New, PIs),
-    payload_marks(Payload, Marks),
-    append([State0, More, Marks], State).
-
-not_among(PIs, PI) :-
-    (   memberchk(PI, PIs)
-    ->  permission_error(attach, procedure, PI)
-    ;   true
-    ).
-
-start_goals(Clauses, Initial, Goals) :-
-    (   member(All, [Clauses,Initial]),
-        member(Clause, [main,(main:-_)]),
-        memberchk(Clause, All)
-    ->  Goals = [main]
-    ;   Goals = []
     ).
 
                 /*******************************

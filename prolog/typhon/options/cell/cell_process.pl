@@ -4,13 +4,12 @@
             cell_filter_forget/0,
             cell_needs/1                % -Text
           ]).
-:- use_module(library(filesex),
-              [delete_directory_and_contents/1, directory_file_path/3]).
+:- use_module(library(filesex), [directory_file_path/3]).
 :- use_module(library(lists), [member/2]).
 :- autoload(library(process), [process_kill/2, process_wait/2]).
 :- use_module(library(readutil), [read_stream_to_codes/2]).
 :- use_module(library(settings), [setting/2, setting/4]).
-:- use_module('../../kernel/base/prolog_faults', [spawn/3]).
+:- use_module('../../kernel/base/prolog_faults', [installed_swipl/2, spawn/3]).
 :- use_module('../../kernel/program', [vocabulary_word/2]).
 :- use_module(cell_frames, [cell_frame_heard/2]).
 
@@ -32,7 +31,7 @@ The system kills it when the thread ends that has started it.
 :- multifile prolog:error_message//1.
 
 :- dynamic
-    filter/2.                   % Directory, File: the seccomp filter
+    filter/1.                   % File: the seccomp filter
 
 %!  cell_process_start(-Process) is det.
 %
@@ -118,9 +117,7 @@ vocabulary_file(Library, File) :-
 %   This process may be a saved state.
 
 swipl(Home, Swipl) :-
-    current_prolog_flag(arch, Arch),
-    atomic_list_concat([Home, bin, Arch, swipl], /, Swipl),
-    exists_file(Swipl),
+    installed_swipl(Home, Swipl),
     !.
 swipl(_, Swipl) :-
     current_prolog_flag(executable, Swipl0),
@@ -141,24 +138,23 @@ source(Name, Path) :-
                 *            FILTER            *
                 *******************************/
 
-%   The filter is made once, in a directory that the users of cells may enter.
+%   The filter is made once.  cell.sh opens it, as the user of this process.
 
 filter_file(File) :-
-    filter(_, File),
+    filter(File),
     !.
 filter_file(File) :-
     must_have(bwrap, 'apt install bubblewrap'),
     must_have(prlimit, 'apt install util-linux'),
-    tmp_file(typhon_cells, Directory),
-    make_directory(Directory),
-    directory_file_path(Directory, filter, File),
+    tmp_file_stream(File, Stream, [encoding(octet)]),
+    close(Stream),
     source('filter.py', Maker),
     spawn(path(python3), [Maker, File],
           [stdout(null), stderr(pipe(Err)), process(Pid)]),
     read_stream_to_codes(Err, Codes),
     close(Err),
     process_wait(Pid, Status),
-    assertz(filter(Directory, File)),
+    assertz(filter(File)),
     (   Status == exit(0)
     ->  true
     ;   cell_filter_forget,
@@ -177,8 +173,8 @@ must_have(Command, How) :-
 %!  cell_filter_forget is det.
 
 cell_filter_forget :-
-    forall(retract(filter(Directory, _)),
-           catch(delete_directory_and_contents(Directory), error(_, _), true)).
+    forall(retract(filter(File)),
+           catch(delete_file(File), error(existence_error(_, _), _), true)).
 
                 /*******************************
                 *           MESSAGES           *

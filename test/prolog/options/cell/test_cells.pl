@@ -5,7 +5,7 @@
 :- use_module('../../../lib/peers').
 :- use_module(library(plunit)).
 :- use_module(library(filesex), [directory_file_path/3]).
-:- use_module(library(lists), [member/2, numlist/3]).
+:- use_module(library(lists), [member/2, numlist/3, subtract/3]).
 :- use_module(library(process), [process_kill/2]).
 :- use_module(library(readutil), [read_file_to_terms/3]).
 :- use_module(library(typhon)).
@@ -285,6 +285,8 @@ test(owners_do_not_share_a_cell, Keys == 2) :-
                      create(Sleeper, _, [host(c)]),
                      wait_until(used_cells(2), 30),
                      used_cells(Keys) )))).
+test(a_process_that_halts_leaves_no_files, Files == []) :-
+    with_tmp_dir(left_in(Files)).
 test(cells_end_with_their_process, Dead == true) :-
     no_leaks(with_peers(
         [p-[host([policy(guarded), cell(owner)])]],
@@ -384,6 +386,17 @@ test(where_cells_are_impossible_a_policy_warns, Outcome-Count == done-1) :-
               Messages),
     was_warned(permission_error(_, cell, _), Messages, Count).
 :- end_tests(cell_processes).
+
+%   left_in(-Files, +Dir): Dir is where a process makes temporary files that halts
+%   while a host has cells.
+
+left_in(Files, Dir) :-
+    format(atom(Goal),
+           'set_prolog_flag(tmp_dir,~q),use_module(library(typhon)),\c
+            host_start(a,[policy(guarded),cell(owner)])', [Dir]),
+    run_swipl(['-g', Goal, '-t', halt], [], exit(0), _, _),
+    directory_files(Dir, All),
+    subtract(All, ['.', '..'], Files).
 
 %   killed(+Before, +Kills, -Result, +Dir): the cell of an agent is killed so often
 %   while it works.  Result is how it ends, and how many facts it has left.

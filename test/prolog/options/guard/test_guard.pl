@@ -478,13 +478,14 @@ test(who_catches_its_end_ends_at_once, [ forall(stays(Clauses)),
     Seconds is T1-T0.
 %   An agent that fills its stack to the brim, again and again, would end the
 %   process if it came to that.
+%   Its limit is four times the quota: more than it fills between two looks.
 
 test(nobody_comes_to_the_brim_of_its_stack,
      [ forall(brim(Clauses)), setup(stack_limit(Old, 60 000 000)),
        cleanup(set_prolog_flag(stack_limit, Old)),
        Outcome = raised(error(resource_error(stack), _)) ]) :-
     with_hosts([g-[ policy(guarded), cell(none),
-                    quota([seconds(60), stack(16 000 000)]) ]],
+                    quota([seconds(60), stack(64 000 000)]) ]],
                listening(outcome(Clauses, Outcome), _)).
 test(ends_with_it, [ forall(hog(What, Clauses)), true(is_of(Resource, What)) ]) :-
     quota_of(What, Quotas),

@@ -16,7 +16,7 @@ const LOGGED = 500000;          // more, which are there anyway
 const LINES = 200;              // of the log of a host
 const MINIMUM = 0.3;            // seconds for which the mark of a hop is seen
 
-// Listeners, by the name of what they are told of; on() returns what ends that.
+// Listeners by the name of the event; on() returns the function that removes one.
 export class Announcer {
   constructor() { this.listeners = new Map(); }
 
