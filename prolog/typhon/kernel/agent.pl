@@ -22,8 +22,8 @@ This is the interface of the layer: higher layers import from here.
                 agent_state/2, agent_variant/2 ]).
 :- reexport(agent/identity,
             [ agent_home/2, agent_home_endpoint/2, agent_id/3, agent_name/3,
-              agent_origin/5, origin_inherited/3, origin_key/2,
-              origin_passed/4, origin_said/2
+              agent_origin/5, is_printable/1, must_be_agent_name/1,
+              origin_inherited/3, origin_key/2, origin_passed/4, origin_said/2
             ]).
 :- reexport(agent/life,
             [ agent_extras_load/1, agent_extras_missing/1, is_life/1,

@@ -12,11 +12,11 @@ the wire, of networks and of the log keep the texts of their own messages.
 
 :- use_module('../kernel/base/error_text',
               [abridged/3, error_told/3, term_told/3]).
-:- use_module('../kernel/base/text', [is_printable/1]).
 :- use_module('../kernel/wire', [endpoint_missed/2, refusal_text/2]).
 :- use_module('../kernel/program', [files_beside/3]).
 :- use_module('../kernel/host',
               [address_parts/3, host_resolve/2]).
+:- use_module('../kernel/agent', [is_printable/1]).
 :- use_module(administration, [host_property/2]).
 :- use_module('../kernel/base/names',
               [names/2, names_joined/3, names_listed/2, names_proposed/3]).

@@ -16,13 +16,12 @@
 :- use_module(library(error), [type_error/2]).
 :- use_module(library(lists), [append/3, member/2]).
 :- use_module('../base/durable_changes', [durable_key/2, durable_on/0]).
-:- use_module('../base/text', [is_printable/1]).
 :- use_module('../program', [code_sent/2]).
 :- use_module('../wire', []).
 :- use_module('../host', [amended/5, event_heard/1, host/3, parts/3]).
 :- use_module(agents, [agent/5, agent_enter/3, agent_mail/2]).
 :- use_module(agent_module, [agent_standing/5, agent_state/2]).
-:- use_module(identity, [agent_home/2, origin_inherited/3]).
+:- use_module(identity, [agent_home/2, is_printable/1, origin_inherited/3]).
 :- use_module(payloads, [no_result_facts/2]).
 :- use_module(life,
               [is_life/1, life_clone/3, life_hop/3, life_hops/2]).

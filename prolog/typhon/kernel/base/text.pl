@@ -1,8 +1,7 @@
 :- module(typhon_text,
           [ term_text/2,                % +Term, -Bytes
             text_term/2,                % +Bytes, -Term
-            write_portable/3,           % +Out, +Term, +Options
-            is_printable/1              % +Text
+            write_portable/3            % +Out, +Term, +Options
           ]).
 
 /** <module> The canonical text of a term
@@ -250,39 +249,3 @@ long_integers :-
     ->  set_prolog_flag(max_integer_size, 1 000 000 000)
     ;   true
     ).
-
-%!  is_printable(+Text) is semidet.
-%
-%   Text, an atom or string, has no control characters, and none that do not show,
-%   such as those that change the direction of text.  For split_string/4 a zero
-%   byte is padding.
-
-is_printable(Text) :-
-    \+ sub_atom(Text, _, _, _, '\000\'),
-    (   printable_ascii(Ascii),
-        split_string(Text, "", Ascii, [""])     % in one call of C
-    ->  true
-    ;   string_codes(Text, Codes),
-        \+ ( member(Code, Codes), is_hidden(Code) )
-    ).
-
-printable_ascii(" !\"#$%&'()*+,-./0123456789:;<=>?@\c
-                 ABCDEFGHIJKLMNOPQRSTUVWXYZ[\\]^_`abcdefghijklmnopqrstuvwxyz{|}~").
-
-is_hidden(Code) :-
-    hidden(First, Last),
-    Code >= First,
-    Code =< Last,
-    !.
-
-%   Controls, directions, separators of lines, halves of characters, and tags.
-
-hidden(0, 31).
-hidden(127, 159).
-hidden(0x200b, 0x200f).
-hidden(0x2028, 0x202e).
-hidden(0x2060, 0x206f).
-hidden(0xd800, 0xdfff).
-hidden(0xfeff, 0xfeff).
-hidden(0xfff9, 0xfffb).
-hidden(0xe0000, 0xe007f).

@@ -6,18 +6,19 @@
             agent_clone_here/3,         % +Id, +Goals, ?CloneId
             clone_id/2                  % +Id, -CloneId
           ]).
+:- use_module(library(apply), [foldl/4, maplist/2]).
 :- use_module(library(debug), [debug/3]).
 :- use_module(library(error),
-              [domain_error/2, must_be/2, type_error/2]).
-:- use_module(library(lists), [member/2]).
+              [must_be/2, permission_error/3, type_error/2]).
+:- use_module(library(lists), [append/2, append/3, member/2]).
 :- autoload(library(occurs), [sub_term/2]).
 :- use_module(library(option), [option/2, option/3]).
 :- use_module('../base/options', [check_options/2]).
-:- use_module('../base/text', [is_printable/1]).
 :- use_module('../base/durable_changes', [sync_changes/0, unit_of_work/1]).
 :- use_module('../program',
-              [ code_install/3, code_module/2, code_program/2, code_sent/2,
-                code_stands/2, program_load/6, program_unknown/3 ]).
+              [ clause_parts/3, code_install/3, code_module/2,
+                code_program/2, code_sent/2, code_stands/2, payload_load/2,
+                program_load/6, program_unknown/3 ]).
 :- use_module('../wire',
               [ endpoint_address/1, endpoint_later/1, endpoint_reply/2,
                 mobile_term/1 ]).
@@ -29,10 +30,10 @@
                 agent_id/3, agent_mail/2, agent_name/3, agent_ready/2,
                 agent_rest/3, agent_standing/5, agent_state/2, gate/4,
                 gate_refused/4, is_life/1, no_result_facts/2, life_clone/3,
-                mail_count/2, origin_inherited/3, origin_passed/4,
+                mail_count/2, make_life/5, must_be_agent_name/1, not_carried/2,
+                origin_inherited/3, origin_passed/4, payload_marks/2,
                 with_agent/2 ]).
 :- use_module('../travel', [agent_born/2, clone_born/2]).
-:- use_module(newborn, [newborn_goals/3, newborn_state/6]).
 :- use_module(questions, [agent_met/1]).
 
 /** <module> How agents begin
@@ -104,11 +105,11 @@ create_by(Options, Parent, Spec, Agent) :-
     program_of(Spec, Parent, Program, Initial, Hash),
     Program = program(Name0, Declared, _, Clauses),
     option(name(Name), Options, Name0),
-    check_agent_name(Name),
-    newborn_state(Options, Declared, Initial, Clauses, Life, State0),
+    must_be_agent_name(Name),
+    birth(Options, Declared, Initial, Clauses, Life, State0),
     mobile_term(State0),
     from_parent(Parent, Target, State0, State),
-    newborn_goals(Clauses, Initial, Goals0),
+    start_goals(Clauses, Initial, Goals0),
     findall(Goal, first_goal(Options, Parent, Goal), Goals, Goals0),
     State = state(PIs, _),
     program_unknown(Hash, PIs, may_be_offered(Target, Clauses)),
@@ -164,18 +165,6 @@ option_type(lifetime(X), nonneg, X).
 option_type(lifetime(X), oneof([inf]), X).
 option_type(static(X), boolean, X).
 
-%   What stands before the first `@` of an id is no part of an address.  Names are
-%   printed as they are, in messages of every process that the agent comes to.
-
-check_agent_name(Name) :-
-    must_be(atom, Name),
-    (   Name \== '',
-        \+ sub_atom(Name, _, _, _, @),
-        is_printable(Name)
-    ->  true
-    ;   domain_error(agent_name, Name)
-    ).
-
 target(Options, Parent, Where) :-
     (   option(host(Host), Options)
     ->  host_resolve(Host, Where)
@@ -186,6 +175,62 @@ target(Options, Parent, Where) :-
     ;   throw(error(existence_error(host, here),
                     context(agent_create/3,
                             'start one with host_start/1')))
+    ).
+
+birth(Options, Declared, Initial, Clauses, Life,
+      state(PIs, StateClauses)) :-
+    option(tokens(Tokens), Options, []),
+    option(lifetime(Lifetime), Options, inf),
+    option(static(Static), Options, false),
+    option(facts(Facts), Options, []),
+    option(payloads(Specs), Options, []),
+    append(Initial, Facts, StateClauses0),
+    foldl(add_payload(Clauses), Specs, []-(Declared-StateClauses0),
+          Payloads-(PIs-StateClauses)),
+    maplist(initial_fact(Clauses, PIs), Facts),
+    make_life(Lifetime, Tokens, Payloads, Static, Life).
+
+initial_fact(Clauses, PIs, Fact) :-
+    clause_parts(Fact, Head, _),
+    must_be(callable, Head),
+    functor(Head, Name, Arity),
+    not_static(Clauses, Name/Arity),
+    (   memberchk(Name/Arity, PIs)
+    ->  true
+    ;   throw(error(existence_error(state, Name/Arity, PIs), _))
+    ).
+
+not_static(Clauses, Name/Arity) :-
+    functor(General, Name, Arity),
+    (   member(Clause, Clauses),
+        clause_parts(Clause, General, _)
+    ->  permission_error(attach, procedure, Name/Arity)
+    ;   true
+    ).
+
+add_payload(Clauses, Spec, Payloads-(PIs0-State0),
+            [Name-New|Payloads]-(PIs-State)) :-
+    payload_load(Spec, Payload),
+    Payload = payload(Name, New, More),
+    maplist(not_static(Clauses), New),
+    maplist(not_among(PIs0), New),
+    not_carried(Name, Payloads),
+    append(PIs0, New, PIs),
+    payload_marks(Payload, Marks),
+    append([State0, More, Marks], State).
+
+not_among(PIs, PI) :-
+    (   memberchk(PI, PIs)
+    ->  permission_error(attach, procedure, PI)
+    ;   true
+    ).
+
+start_goals(Clauses, Initial, Goals) :-
+    (   member(All, [Clauses,Initial]),
+        member(Clause, [main,(main:-_)]),
+        memberchk(Clause, All)
+    ->  Goals = [main]
+    ;   Goals = []
     ).
 
                 /*******************************
@@ -248,7 +293,7 @@ create_answered(HostName, Name, Start, Program, Peer, ReplyTo) :-
 
 create_for(From, HostName, Name, start(Hash, Life, State0, Goals, Mail),
            Answer) :-
-    check_agent_name(Name),
+    must_be_agent_name(Name),
     must_be_life(Life),
     must_be_state(State0),
     must_be(list, Goals),
