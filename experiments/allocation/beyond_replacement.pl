@@ -36,6 +36,7 @@ skip(Case) :-
 fixed(length, 3, assumed("tasks")).
 fixed(task_time, 5, assumed("seconds")).
 fixed(allocators, 1, assumed("no other allocator asks for the robots")).
+fixed(threshold, 0.01, assumed("what the agents of chapter 6 have by default")).
 
 label(completed, "The sequence is completed (s)").
 label(replaced, "Robots that replaced others").
@@ -51,7 +52,8 @@ run(Case, Network) :-
     sequence_begin(main, [Case.required-[push]], Host, Tasks,
                    [ deadline(Case.limit),
                      allocation([settings([seed-Case.seed])]),
-                     population([seed(Case.seed)]) ],
+                     population([ seed(Case.seed),
+                                  settings([threshold-(Case.threshold)]) ]) ],
                    Sequence0),
     until(half_way, Sequence0, Case.limit, Network, Sequence),
     fail_some(Case, Sequence),
