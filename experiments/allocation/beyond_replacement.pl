@@ -37,6 +37,7 @@ fixed(length, 3, assumed("tasks")).
 fixed(task_time, 5, assumed("seconds")).
 fixed(allocators, 1, assumed("no other allocator asks for the robots")).
 fixed(threshold, 0.01, assumed("what the agents of chapter 6 have by default")).
+fixed(lifetime, 10, printed("section 6.5")).
 
 label(completed, "The sequence is completed (s)").
 label(replaced, "Robots that replaced others").
@@ -53,7 +54,8 @@ run(Case, Network) :-
                    [ deadline(Case.limit),
                      allocation([settings([seed-Case.seed])]),
                      population([ seed(Case.seed),
-                                  settings([threshold-(Case.threshold)]) ]) ],
+                                  settings([ threshold-(Case.threshold),
+                                             lifetime-(Case.lifetime) ]) ]) ],
                    Sequence0),
     until(half_way, Sequence0, Case.limit, Network, Sequence),
     fail_some(Case, Sequence),
