@@ -14,6 +14,11 @@ vary(starts, [drawn, even]).
 vary(choices, [by_chance, in_order]).
 derive(delta, Case, Delta) :- best_delta(Case.topology, Delta).
 
+label(serviced, "T1 has begun everywhere (s)").
+
+measure(serviced, View, Time) :-
+    memberchk(task(1, _, Time, _, _, _), View.rows).
+
 claim("by chance, from drawn places: no overlaps on any topology", [ours],
       at([starts=drawn, choices=by_chance], overlaps =:= 0)).
 claim("in order, from even places: no overlaps on ring, star-bus and tree",
@@ -33,3 +38,10 @@ claim("Ring, by chance from drawn places: the same",
       [why("some hosts are far ahead of any agent that comes their way")],
       at([topology=ring, starts=drawn, choices=by_chance],
          near(idle, 32, 3.2))).
+claim("Star-bus, in order from even places: T1 has begun everywhere by the 9th \c
+second", [line(3360)],
+      at([topology=star_bus, starts=even, choices=in_order],
+         serviced =< 9)).
+claim("Star-bus, by chance: the same",
+      [why("agents come to the same hosts again, and pass others")],
+      at([topology=star_bus, choices=by_chance], serviced =< 9)).
