@@ -130,8 +130,8 @@ made(true, figure_5_11, _, [executions-380]).
 made(true, figure_5_12, _, [lost-180, redone-180, lost_hosts-60,
                             healing_tau-2]).
 made(false, figure_5_12, _, [lost-180, lost_hosts-60, healing_tau-3]).
-made(Held, study_choices, _, [idle-Idle]) :-
-    member(Held-Idle, [true-32, false-10]).
+made(Held, study_choices, _, [idle-Idle, serviced-Serviced]) :-
+    member(Held-Idle-Serviced, [true-32-7, false-10-10]).
 made(Held, study_readings, Case, Pairs) :-
     (   Case.reading == agents
     ->  member(Held-Visits, [true-76, false-10]),
