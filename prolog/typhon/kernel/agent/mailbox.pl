@@ -17,7 +17,7 @@
 :- use_module(library(lists), [append/3, member/2]).
 :- use_module(library(settings), [setting/2, setting/4]).
 :- use_module(agent_lock, [with_agent/2]).
-:- use_module('../base/fifo', [fifo_empty/2, fifo_take/2]).
+:- use_module('../base/fifo', [fifo_empty/2, fifo_size/2, fifo_take/2]).
 :- use_module('../base/durable', [durable/6]).
 :- use_module('../base/durable_changes',
               [ durable_drop/3, durable_drop_all/2, durable_number/1,
@@ -170,10 +170,8 @@ mail_waits(Id) :-
 
 mail_count(Id, Count) :-
     box(Id, Queue),
-    catch(message_queue_property(Queue, size(Count0)),
-          error(existence_error(_, _), _), fail),
     !,
-    Count = Count0.
+    fifo_size(Queue, Count).
 mail_count(_, 0).
 
 %!  mail_back(+Id, +Messages:list) is det.

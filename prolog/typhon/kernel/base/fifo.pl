@@ -1,6 +1,7 @@
 :- module(typhon_fifo,
           [ fifo_take/2,                % +Queue, ?Message
-            fifo_empty/2                % +Queue, -Messages
+            fifo_empty/2,               % +Queue, -Messages
+            fifo_size/2                 % +Queue, -Size
           ]).
 
 /** <module> Message queues as plain queues
@@ -38,6 +39,18 @@ fifo_first(Queue, Message) :-
     thread_peek_message(Queue, First),
     First = Message,
     thread_get_message(Queue, _).
+
+%!  fifo_size(+Queue, -Size) is det.
+%
+%   Size messages are in Queue: none if it has just been destroyed.
+
+fifo_size(Queue, Size) :-
+    catch(message_queue_property(Queue, size(Size0)),
+          error(existence_error(_, _), _),
+          fail),
+    !,
+    Size = Size0.
+fifo_size(_, 0).
 
 %!  fifo_take(+Queue, ?Message) is semidet.
 %

@@ -189,7 +189,9 @@ forget_at_rest(Session) :-
     session_key(Session, Key),
     (   ( session_up(Key) ; session_unfinished(Session) )
     ->  true
-    ;   ignore(session_close(Session, _))
+    ;   session_close(Session, Unsent)
+    ->  requests_lost(Session, Unsent)
+    ;   true
     ).
 
 gone(Key) :-

@@ -7,11 +7,12 @@
 :- use_module(library(lists), [member/2]).
 :- use_module('../base/durable_changes', [commit_changes/0]).
 :- use_module(connection_manager, [manager_connect/2]).
-:- use_module(outbox, [session_control/2, session_release/1]).
+:- use_module(outbox, [session_mark/2]).
 :- use_module(session,
-              [route/2, session/2, session_key/2, session_locked/2, session_up/1]).
-:- use_module(unacked,
-              [session_pending/2, unacked_await/3, unacked_no_wait/1]).
+              [route/2, session/2, session_key/2, session_up/1]).
+:- use_module(unacked, [session_pending/2]).
+
+:- multifile typhon_endpoint:handed_over/2.
 
 /** <module> Waiting until all that was sent has arrived
 
@@ -65,22 +66,30 @@ reachable(Session, Deadline) :-
 
 %   session_flush(+Session, +Deadline) is semidet.
 %
-%   Wait until all that was sent before has been acknowledged, or the session
-%   is closed, as when its peer has died; fails at Deadline, a time stamp.
+%   Wait until all that was sent before has arrived, or the session is closed,
+%   as when its peer has died; fails at Deadline, a time stamp.  What is waited
+%   for is a frame without content, with which Queue is handed over: it comes
+%   after all else, and the peer settles it at once.
 
 session_flush(Session, Deadline) :-
     setup_call_cleanup(
         message_queue_create(Queue),
         flush(Session, Queue, Deadline),
-        ( unacked_no_wait(Queue),
-          message_queue_destroy(Queue) )).
+        message_queue_destroy(Queue)).
 
 flush(Session, Queue, Deadline) :-
     catch(commit_changes, error(_, _), true), % the committer has reported it
-    session_release(Session),
-    session_locked(Session, unacked_await(Session, Queue, Pending)),
-    (   Pending =:= 0
+    (   session_pending(Session, 0)
     ->  true
-    ;   session_control(Session, ping),
+    ;   catch(session_mark(Session, flushed(Queue)),
+              error(session_closed, _),
+              thread_send_message(Queue, flushed)),
         thread_get_message(Queue, flushed, [deadline(Deadline)])
     ).
+
+%   The waiting thread may have given up.
+
+typhon_endpoint:handed_over(flushed(Queue), _) :-
+    catch(thread_send_message(Queue, flushed),
+          error(existence_error(_, _), _),
+          true).

@@ -10,7 +10,6 @@
             mobile_term/1,              % +Term
             bundle_fits/1,              % +Bytes
             bundle_next/5,              % +Queue, +Codec, +Space, -Frame, -Many
-            bundle_all/3,               % +Queue, +Codec, -Frames
             bundle_parts/2              % +Bundle, -Parts
           ]).
 
@@ -365,17 +364,6 @@ space_left(inf, _, inf) :-
 space_left(Space0, Length, Space) :-
     part_overhead(Overhead),
     Space is Space0-Length-Overhead.
-
-%!  bundle_all(+Queue, +Codec, -Frames:list) is det.
-%
-%   Take all that waits.
-
-bundle_all(Queue, Codec, Frames) :-
-    (   bundle_next(Queue, Codec, inf, Frame, _)
-    ->  Frames = [Frame|More],
-        bundle_all(Queue, Codec, More)
-    ;   Frames = []
-    ).
 
 %!  bundle_parts(+Bundle, -Parts:list) is semidet.
 %

@@ -4,10 +4,10 @@
             session_send_with/2,        % +Session, +Term
             session_hand/3,             % +Session, +Bytes, +Token
             session_hand_bytes/4,       % +Session, +Kind, +Term, -Bytes
+            session_mark/2,             % +Session, +Token
             session_object/2,           % +Session, +Answer
             session_acknowledge/1,      % +Session
             session_owes/0,
-            session_release/1,          % +Session
             session_send_later/2,       % +Session, +Term
             session_later/1,            % -Count
             session_push/1,             % +Session
@@ -19,38 +19,22 @@
 A frame is kept until it is acknowledged, see unacked.pl, and goes over
 another connection if one breaks, see resumption.pl.
 
-Writing must never block the thread of a reader, or two readers could wait
-for each other, nor hold a thread that is not ours. A frame is therefore
-written by its sender only if it and all that is under way fit in
-what the buffers of the kernel hold; else it waits, and a thread of the
-session, the pusher, writes. So do those outside the count.
+Here is what senders call; writer.pl writes.
 
-To write a small frame costs more than all else that is done for it. So
-posts are held while so much is under way that the peer is sure to acknowledge
-some of it; when that has come they go in one frame. The peer would not read
-them before, anyway. What is sent after them takes them along.
-
-*Threading*: any thread may send. The mutex of the session guards the
-order. While a session is up and has no pusher, nothing waits but what
-is held.
+*Threading*: any thread may send.
 */
 
 :- use_module(library(error), [resource_error/1]).
 :- use_module(library(lists), [list_to_set/2, member/2]).
 :- use_module('../base/durable_changes',
               [flush_sends/0, output_waits/0, send_after_commit/2]).
-:- use_module(frame,
-              [bundle_fits/1, frame_overhead/1, frame_write/3, term_bytes/3]).
+:- use_module(frame, [bundle_fits/1, term_bytes/3]).
 :- use_module(session,
               [ session_codec/2, session_held/2, session_key/2,
-                session_locked/2, session_must_exist/3, session_received/2,
-                session_up/1, session_window/2, session_window/3, transport/3,
-                transport_broken/2, debug_frame/4, frame_fits/1 ]).
-:- use_module(threads, [manager_notify/1]).
-:- use_module(pusher, [pusher/2, pusher_control/3, pusher_start/4]).
-:- use_module(unacked,
-              [ unacked_next/3, unacked_owed/2, unacked_sent/5,
-                unacked_space/3, unacked_waiting/1, unacked_waits/3 ]).
+                session_locked/2, session_must_exist/3, debug_frame/4,
+                frame_fits/1 ]).
+:- use_module(unacked, [session_received/2]).
+:- use_module(writer, [flush_out/1, put_control/3, put_frame/4]).
 
 :- multifile typhon_durable_changes:committed/1.
 
@@ -92,10 +76,8 @@ goes(Session, Bytes, Token, When) :-
     ).
 
 %!  session_send_with(+Session, +Term) is det.
-%!  session_release(+Session) is det.
 %
-%   As session_send/2, but Term may be held; the peer has acknowledged
-%   something: what is held goes.
+%   As session_send/2, but Term may be held, see writer.pl.
 
 session_send_with(Session, Term) :-
     answers_left(Own),
@@ -113,13 +95,6 @@ session_send_with(Session, Term) :-
     ),
     goes(Session, Bytes, Token, now).
 
-session_release(Session) :-
-    (   unacked_waiting(Session)
-    ->  session_key(Session, Key),
-        session_locked(Session, see_to(Session, Key))
-    ;   true
-    ).
-
 %!  session_hand_bytes(+Session, +Kind, +Term, -Bytes) is det.
 %!  session_hand(+Session, +Bytes, +Token) is det.
 %
@@ -136,6 +111,16 @@ session_hand_bytes(Session, Kind, Term, Bytes) :-
 session_hand(Session, Bytes, Token) :-
     answers_first(Session),
     session_held(Session, put_frame(Session, Bytes, Token, flush)).
+
+%!  session_mark(+Session, +Token) is det.
+%
+%   Hand over nothing: Token tells that all that was sent before has arrived.
+%
+%   @error session_closed
+
+session_mark(Session, Token) :-
+    frame_bytes(Session, bundle([]), Bytes),
+    session_locked(Session, put_frame(Session, Bytes, Token, flush)).
 
 %!  session_object(+Session, +Answer) is det.
 %!  session_owes is det.
@@ -219,14 +204,6 @@ session_push(Session) :-
     ;   nb_setval(typhon_later_in, Session)
     ).
 
-flush_out(Key) :-
-    (   writable(Key, Thread, Out)
-    ->  catch(flush_output(Out),
-              error(_, _),
-              transport_broken(Key, Thread))
-    ;   true
-    ).
-
 frame_bytes(Session, Term, Bytes) :-
     session_codec(Session, Codec),
     term_bytes(Codec, Term, Bytes),
@@ -235,95 +212,6 @@ frame_bytes(Session, Term, Bytes) :-
     ->  debug_frame(to, Session, Term, Bytes)
     ;   resource_error(frame_bytes)
     ).
-
-%   put_frame(+Session, +Bytes, +Token, +Flush): Token is `loose` if Bytes may
-%   be held, and go with others when they have to wait.
-
-put_frame(Session, Bytes, loose, Flush) :-
-    !,
-    session_must_exist(Session, Key, Window),
-    (   holds(Session, Key)
-    ->  unacked_waits(Session, Bytes, loose)
-    ;   put(Session, Key-Window, Bytes, loose, none, Flush)
-    ).
-put_frame(Session, Bytes, Token, Flush) :-
-    session_must_exist(Session, Key, Window),
-    put(Session, Key-Window, Bytes, Token, Token, Flush).
-
-%   holds(+Session, +Key): the peer will acknowledge some of what is under way,
-%   and not too much waits; or there is a pusher.
-
-most_held(256).
-
-holds(Session, Key) :-
-    (   pusher(Key, _)
-    ->  true
-    ;   session_up(Key),
-        unacked_owed(Session, Waiting),
-        most_held(Most),
-        Waiting < Most
-    ).
-
-put(Session, Key-Window, Bytes, Waiting, Sent, Flush) :-
-    (   writable(Key, Thread, Out),
-        unacked_sent(Window, Out, Bytes, Sent, Counts)
-    ->  written(Flush, Key, Thread, Out, Counts, Bytes)
-    ;   unacked_waits(Session, Bytes, Waiting),
-        see_to(Session, Key)
-    ).
-
-%   writable(+Key, -Thread, -Out): Out can be written to. The stream of a pusher
-%   is left alone: even to look at it might block.
-
-writable(Key, Thread, Out) :-
-    transport(Key, Thread, Out),
-    \+ pusher(Key, _).
-
-%   Something waits: it is written, or a connection made.
-
-see_to(Session, Key) :-
-    (   pusher(Key, _)
-    ->  true
-    ;   transport(Key, Thread, Out)
-    ->  write_waiting(Session, Key, Thread, Out)
-    ;   ignore(manager_notify(wanted(Key)))
-    ).
-
-write_waiting(Session, Key, Thread, Out) :-
-    catch(( write_while_room(Session, Key), flush_output(Out) ),
-          error(_, _),
-          transport_broken(Key, Thread)),
-    (   unacked_waiting(Session)
-    ->  push(Session, Key)
-    ;   true
-    ).
-
-%   In order: a frame settles what was received when it was put, and no more,
-%   since an objection may wait behind it.
-
-write_while_room(Session, Key) :-
-    (   writable(Key, _, Out),
-        session_window(Session, Window),
-        unacked_space(Window, Out, Space),
-        unacked_next(Session, Space, frame(Bytes, _, Settled))
-    ->  session_received(Session, Count),
-        frame_write(Out, counts(Count, Settled), Bytes),
-        write_while_room(Session, Key)
-    ;   true
-    ).
-
-push(Session, Key) :-
-    (   writable(Key, Thread, Out)
-    ->  pusher_start(Session, Thread, Out, [])
-    ;   true
-    ).
-
-written(Flush, Key, Thread, Out, Counts, Bytes) :-
-    catch(( frame_write(Out, Counts, Bytes),
-            ( Flush == flush -> flush_output(Out) ; true )
-          ),
-          error(_, _),
-          transport_broken(Key, Thread)).
 
 %!  session_control(+Session, +Term) is det.
 %!  session_acknowledge(+Session) is det.
@@ -340,34 +228,6 @@ session_control(Session, Term) :-
 
 session_acknowledge(Session) :-
     session_locked(Session, put_control(Session, acknowledge, "")).
-
-%   If something waits it is held without a pusher: posts, which settle nothing.
-
-put_control(Session, Kind, Bytes) :-
-    session_window(Session, Key, Window),
-    (   writable(Key, Thread, Out),
-        unacked_space(Window, Out, Space),
-        string_length(Bytes, Length),
-        Length < Space
-    ->  control_counts(Window, Length, Counts),
-        written(flush, Key, Thread, Out, Counts, Bytes)
-    ;   session_up(Key)
-    ->  pusher_control(Key, Kind, Bytes),
-        push(Session, Key)
-    ;   true
-    ).
-
-%   The peer does not acknowledge it: its bytes are not under way.
-
-control_counts(window(_, _, Received, Told, _, AckedBytes, Settled), Length,
-               counts(Count, Count)) :-
-    get_flag(Received, Count),
-    set_flag(Told, Count),
-    set_flag(Settled, Count),
-    frame_overhead(Head),
-    get_flag(AckedBytes, Acked0),
-    Acked is Acked0+Length+Head,
-    set_flag(AckedBytes, Acked).
 
                 /*******************************
                 *       WHAT IS COMMITTED      *

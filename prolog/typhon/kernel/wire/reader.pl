@@ -29,17 +29,18 @@ are held back while a frame is being handled and counted.
 :- use_module(outbox,
               [ session_acknowledge/1, session_answer/2, session_control/2,
                 session_later/1, session_object/2, session_owes/0,
-                session_push/1, session_release/1 ]).
+                session_push/1 ]).
 :- use_module(request,
               [ dispatch/2, dispatch_all/2, handed_over/2,
                 session_unfinished/1 ]).
 :- use_module(session,
-              [ ack_frames/1, debug_frame/4, session_codec/2, session_count/2,
-                session_key/2, session_peer/3, session_received/2,
-                session_untold/2 ]).
+              [debug_frame/4, session_codec/2, session_key/2, session_peer/3]).
 :- use_module(threads, [manager_notify/1]).
 :- use_module(transport, [transport_input/2]).
-:- use_module(unacked, [session_acked/3]).
+:- use_module(unacked,
+              [ ack_frames/1, session_acked/3, session_count/2,
+                session_received/2, session_untold/2 ]).
+:- use_module(writer, [session_release/1]).
 
 :- setting(silence, number, 5,
            "Seconds of silence before a peer is asked for a sign of life").

@@ -43,10 +43,11 @@ it is answered once.
               [ session_answer/2, session_object/2, session_owes/0,
                 session_send/2, session_send_later/2 ]).
 :- use_module(session,
-              [route/2, session_key/2, session_peer/3, session_received/2]).
+              [route/2, session_key/2, session_peer/3]).
 :- use_module(transport, [transport_as/2, transport_proof/1]).
+:- use_module(settlement, [objection_answered/3]).
 :- use_module(unacked,
-              [session_answered/3, session_objected/3, session_pending/2]).
+              [session_objected/3, session_pending/2, session_received/2]).
 
 :- meta_predicate
     request_send(+, +, +, 1),
@@ -127,7 +128,7 @@ requests_lost(Session, Unsent) :-
 
 %!  handed_over(+Settled, +Session) is det.
 %
-%   Settled is settled(Token, Number, Result), see session_acked/3: call the
+%   Settled is settled(Token, Number, Result), see settled_now/5: call the
 %   hook handed_over(Token, Result), where Result is `accepted`, `lost`,
 %   `unsent`, or what the peer answered.
 
@@ -233,7 +234,8 @@ answers_deferred(Session, Id, Answer) :-
     integer(Id),
     Id < 0,
     Number is -Id,
-    session_answered(Session, Number, Answer).
+    session_key(Session, Key),
+    objection_answered(Key, Number, Answer).
 
 dispatch_request(Id, Kind, Term, Peer, Session) :-
     (   take_request(Kind, Term, Peer, reply_to(Session, Id))

@@ -41,15 +41,14 @@ ended.
 :- use_module(session,
               [ session/2, session_adopting/2, session_codec/2,
                 session_forget/1, session_key/2, session_locked/2,
-                session_must_exist/3, session_open/4, session_received/2,
-                session_up_since/2,
+                session_must_exist/3, session_open/5, session_up_since/2,
                 transport_attach/3, transport_detach/2, transport_stop/2,
                 transport_thread/2 ]).
 :- use_module(threads, [manager_notify/1, wire_thread_end/2]).
-:- use_module(pusher, [pusher_no_control/1, pusher_start/4, pusher_stop/1]).
 :- use_module(unacked,
-              [ unacked_again/2, unacked_close/3, unacked_resumed/3,
-                unacked_waiting/1 ]).
+              [ session_received/2, unacked_close/3, unacked_open/1,
+                unacked_resumed/4 ]).
+:- use_module(writer, [writer_begin/5, writer_end/1, writer_stop/1]).
 
 %!  session_install(+Session, +Thread, +Out, +PeerCount) is det.
 %
@@ -68,15 +67,9 @@ session_install(Session, Thread, Out, PeerCount) :-
 install(Session, Key, Thread, Out, PeerCount) :-
     session_must_exist(Session, Key, _),
     byte_count(Out, Bytes),
-    unacked_resumed(Session, PeerCount, Bytes),
-    pusher_no_control(Key),
+    unacked_resumed(Session, PeerCount, Bytes, Again),
     transport_attach(Key, Thread, Out),
-    unacked_again(Session, Again),
-    (   Again == [],
-        \+ unacked_waiting(Session)
-    ->  true
-    ;   pusher_start(Session, Thread, Out, Again)
-    ),
+    writer_begin(Session, Key, Thread, Out, Again),
     ignore(manager_notify(up(Key))).
 
 %   session_down(+Session, +Thread)
@@ -87,14 +80,14 @@ install(Session, Key, Thread, Out, PeerCount) :-
 session_down(Session, Thread) :-
     session_key(Session, Key),
     session_locked(Session, transport_stop(Key, Thread)),
-    pusher_stop(Key),
+    writer_stop(Key),
     session_locked(Session, at_rest(Key, Thread)),
     ignore(manager_notify(wanted(Key))),
     debug(typhon(session), '~w: down', [Key]).
 
 at_rest(Key, Thread) :-
     transport_detach(Key, Thread),
-    pusher_no_control(Key).
+    writer_end(Key).
 
 %!  session_lost(+Session, +Thread) is det.
 %
@@ -185,7 +178,7 @@ prove(server(_), In, Out, Me, Peer) :-
 meet(Role, In, Out, Me, Peer-Proof, Session, Known) :-
     hello_codec(Me, Peer, Codec),
     session_keys(Role, Me, Peer, MyKey, Key),
-    session_open(Key, Peer-Proof, Codec, Session),
+    session_open(Key, Peer-Proof, Codec, unacked_open, Session),
     call(Known, Session),
     hello_peer(Peer, _, _, Address),
     debug(typhon(session), '~w: a connection, with ~w, ~w',

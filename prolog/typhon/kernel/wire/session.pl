@@ -1,10 +1,12 @@
 :- module(typhon_session,
           [ session/2,                  % ?Key, -Session
-            session_open/4,             % +Key, +Hello, +Codec, -Session
+            session_open/5,             % +Key, +Hello, +Codec, :Open, -Session
             session_forget/1,           % +Session
             session_must_exist/3,       % +Session, -Key, -Window
             session_key/2,              % +Session, -Key
             session_codec/2,            % +Session, -Codec
+            session_window/2,           % +Session, -Window
+            session_window/3,           % +Session, -Key, -Window
             session_peer/3,             % +Session, -Process, -Address
             session_proof/2,            % +Session, -Proof
             session_locked/2,           % +Session, :Goal
@@ -13,13 +15,6 @@
             route/2,                    % ?Address, ?Session
             route_key/2,                % ?Address, ?Key
             route_add/2,                % +Address, +Session
-            ack_frames/1,               % -Count
-            session_window/2,           % +Session, -Window
-            session_window/3,           % +Session, -Key, -Window
-            session_window_free/1,      % +Session
-            session_received/2,         % +Session, -Count
-            session_count/2,            % +Session, -Untold
-            session_untold/2,           % +Session, -Count
             transport/3,                % ?Key, ?Thread, -Out
             transport_thread/2,         % ?Key, ?Thread
             transport_attach/3,         % +Key, +Thread, +Out
@@ -42,20 +37,10 @@ it its connections.
 A session is session(Key, Codec, Mutex, Adoption, peer(Process, Address, Proof),
 Window). Key names the peer. Mutex guards the sending side; a thread that gives
 the session a new connection holds Adoption. No other module takes the term
-apart.
-
-Frames are numbered by counting on both sides. The window of a session is
-
-    window(Sent, Waiting, Received, Told, Acked, AckedBytes, Settled)
-
-two queues of frames, see unacked.pl, and the names of five flags: how many
-frames of the peer were received; how many of them the peer has been told of;
-how many of ours it has received, and how many bytes of its connection; and
-which count of settled frames was written last.
+apart. Its window is that of unacked.pl.
 
 *Threading*: any thread; a mutex serializes sessions and routes, the mutex of
-a session its connection and its window. Only the thread of the connection
-changes the count of what was received.
+a session its connection and its window.
 */
 
 :- use_module(library(apply), [include/3]).
@@ -70,6 +55,7 @@ changes the count of what was received.
            "The longest frame sent or taken, in bytes").
 
 :- meta_predicate
+    session_open(+, +, +, 1, -),
     session_locked(+, 0),
     session_held(+, 0),
     session_adopting(+, 0).
@@ -89,6 +75,8 @@ route_key(Address, Key) :-
 
 %!  session_key(+Session, -Key) is det.
 %!  session_codec(+Session, -Codec) is det.
+%!  session_window(+Session, -Window) is det.
+%!  session_window(+Session, -Key, -Window) is det.
 %!  session_peer(+Session, -Process, -Address) is det.
 %
 %   Address is where the peer says it listens.
@@ -96,6 +84,10 @@ route_key(Address, Key) :-
 session_key(session(Key, _, _, _, _, _), Key).
 
 session_codec(session(_, Codec, _, _, _, _), Codec).
+
+session_window(session(_, _, _, _, _, Window), Window).
+
+session_window(session(Key, _, _, _, _, Window), Key, Window).
 
 session_peer(session(_, _, _, _, peer(Process, Address, _), _), Process,
              Address).
@@ -106,30 +98,30 @@ session_peer(session(_, _, _, _, peer(Process, Address, _), _), Process,
 
 session_proof(session(_, _, _, _, peer(_, _, Proof), _), Proof).
 
-%!  session_open(+Key, +Peer, +Codec, -Session) is det.
+%!  session_open(+Key, +Peer, +Codec, :Open, -Session) is det.
 %
-%   The session with the peer Key, a new one on first contact. Peer is
-%   Hello-Proof.
+%   The session with the peer Key, a new one on first contact, with the window
+%   of which call(Open, Window) is true. Peer is Hello-Proof.
 %
 %   @error permission_error(authenticate, peer, other) the session is
 %   that of another peer, which knows its key
 
-session_open(Key, Hello-Proof, Codec, Session) :-
+session_open(Key, Hello-Proof, Codec, Open, Session) :-
     with_mutex(typhon_session,
-               open_session(Key, Hello, Proof, Codec, Session)),
+               open_session(Key, Hello, Proof, Codec, Open, Session)),
     (   session_proof(Session, Proof)
     ->  true
     ;   permission_error(authenticate, peer, other)
     ).
 
-open_session(Key, _, _, _, Session) :-
+open_session(Key, _, _, _, _, Session) :-
     session(Key, Session),
     !.
-open_session(Key, Hello, Proof, Codec, Session) :-
+open_session(Key, Hello, Proof, Codec, Open, Session) :-
     hello_peer(Hello, Process, _, Address),
     mutex_create(Mutex),
     mutex_create(Adoption),
-    window_open(Window),
+    call(Open, Window),
     Session = session(Key, Codec, Mutex, Adoption,
                       peer(Process, Address, Proof), Window),
     assertz(session(Key, Session)).
@@ -206,78 +198,6 @@ reroute(Address, Session) :-
     assertz(route(Address, Session)),
     forall(member(Old-_, Displaced), erase(Old)),
     forall(member(_-Key, Displaced), ignore(manager_notify(displaced(Key)))).
-
-		 /*******************************
-		 *            WINDOW            *
-		 *******************************/
-
-:- dynamic
-    free_flags/1.                       % Flags: no session has them
-
-%!  ack_frames(-Count) is det.
-%
-%   After so many frames the reader acknowledges them.
-
-ack_frames(32).
-
-%   window_open(-Window): flags are never freed, so those of sessions that are
-%   over are used again.
-
-window_open(Window) :-
-    message_queue_create(Sent),
-    message_queue_create(Waiting),
-    (   retract(free_flags(Flags))
-    ->  true
-    ;   flag(typhon_session_flags, N, N+1),
-        findall(Flag,
-                ( member(Name, [received, told, acked, bytes, settled]),
-                  atomic_list_concat([typhon_session, Name, N], '_', Flag) ),
-                Flags)
-    ),
-    forall(member(Flag, Flags), set_flag(Flag, 0)),
-    Window =.. [window, Sent, Waiting|Flags].
-
-%!  session_window(+Session, -Window) is det.
-%!  session_window(+Session, -Key, -Window) is det.
-%!  session_window_free(+Session) is det.
-%
-%   The window of the session, and its key; no thread uses it any more.
-
-session_window_free(session(_, _, _, _, _, Window)) :-
-    Window =.. [window, Sent, Waiting|Flags],
-    message_queue_destroy(Sent),
-    message_queue_destroy(Waiting),
-    assertz(free_flags(Flags)).
-
-session_window(session(_, _, _, _, _, Window), Window).
-
-session_window(session(Key, _, _, _, _, Window), Key, Window).
-
-%!  session_received(+Session, -Count) is det.
-%!  session_untold(+Session, -Count) is det.
-%!  session_count(+Session, -Untold) is det.
-%
-%   Count frames of the peer have been received, and the peer does not know it
-%   of Count; one more has been, of Untold it does not know then. The last is
-%   for the thread of the connection.
-
-session_received(session(_, _, _, _, _, window(_, _, Received, _, _, _, _)),
-                 Count) :-
-    get_flag(Received, Count).
-
-session_untold(session(_, _, _, _, _, window(_, _, Received, Told, _, _, _)),
-               Count) :-
-    get_flag(Received, All),
-    get_flag(Told, Known),
-    Count is All-Known.
-
-session_count(session(_, _, _, _, _, window(_, _, Received, Told, _, _, _)),
-              Untold) :-
-    get_flag(Received, Count0),
-    Count is Count0+1,
-    set_flag(Received, Count),
-    get_flag(Told, Known),
-    Untold is Count-Known.
 
 		 /*******************************
 		 *          CONNECTION          *

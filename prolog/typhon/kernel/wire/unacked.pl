@@ -1,54 +1,81 @@
 :- module(typhon_unacked,
-          [ unacked_sent/5,             % +Window, +Out, +Bytes, +Token, -Counts
-            unacked_waits/3,            % +Session, +Bytes, +Token
-            unacked_space/3,            % +Window, +Out, -Space
+          [ unacked_open/1,             % -Window
+            unacked_sent/5,             % +Window, +Out, +Bytes, +Token, -Counts
+            unacked_waits/3,            % +Window, +Bytes, +Token
             unacked_waiting/1,          % +Session
             unacked_owed/2,             % +Session, -Waiting
-            unacked_next/3,             % +Session, +Space, -Frame
-            unacked_again/2,            % +Session, -Frames
-            unacked_resumed/3,          % +Session, +Count, +Bytes
+            unacked_next/5,             % +Session, +Out, +Most, -Counts, -Bytes
+            unacked_control/5,          % +Window, +Out, +Most, +Bytes, -Counts
+            unacked_told/1,             % +Window
+            unacked_counts/4,           % +Session, +Frame, -Counts, -Bytes
+            unacked_resumed/4,          % +Session, +Count, +Bytes, -Frames
             unacked_close/3,            % +Session, -Waiting, -Handed
-            unacked_await/3,            % +Session, +Queue, -Count
-            unacked_no_wait/1,          % +Queue
+            ack_frames/1,               % -Count
+            session_received/2,         % +Session, -Count
+            session_count/2,            % +Session, -Untold
+            session_untold/2,           % +Session, -Count
             session_acked/3,            % +Session, +Counts, -Settled
             session_objected/3,         % +Session, +Number, +Answer
-            session_answered/3,         % +Session, +Number, +Answer
             session_pending/2           % +Session, -Count
           ]).
 
 /** <module> The window: frames that wait or are not acknowledged
 
-A frame of a session is frame(Bytes, Token, Settled). Frames that were written
-to some connection and that the peer has not received are in the queue Sent of
-the window, those that never were in Waiting; see session.pl.
+Frames are numbered by counting on both sides. The window of a session is
 
-A Token that is not `none` is what a caller has handed over with the frame: the
-caller learns what became of it. The frame is _settled_ when the peer counts it
-among those that it has accepted. If the peer does not accept it, it sends an
-objection before it counts the frame. Settled of a frame is how many frames of
-the peer were settled when it was put: so a frame that has waited behind an
-objection does not settle what the objection is about. How many frames the peer
-has received is a count of its own: it opens the window, in whatever order.
+    window(Sent, Waiting, Received, Told, Acked, AckedBytes, Settled)
+
+No other module takes it apart. It holds two queues of frames, and the names of
+five flags: how many frames of the peer were received; how many of them the peer
+has been told of; how many of ours it has received, and how many bytes of its
+connection; and which count of settled frames was written last.
+
+A frame is frame(Bytes, Token, Settled). Frames that were written to some
+connection and that the peer has not received are in Sent, those that never were
+in Waiting. A Token that is not `none` or `loose` is what was handed over with
+the frame, see settlement.pl. Settled is how many frames of the peer were
+settled when the frame was put: so a frame that has waited behind an objection
+does not settle what the objection is about. How many frames the peer has
+received is a count of its own: it opens the window.
 
 *Threading*: the mutex of the session guards its window: a caller of unacked_*
-holds it. session_acked/3, session_objected/3 and session_answered/3 are for the
-thread of the connection, session_pending/2 is for any thread.
+holds it. session_count/2, session_acked/3 and session_objected/3 are for the
+thread of the connection, the other session_* are for any thread.
 */
 
 :- use_module(library(error), [domain_error/2]).
 :- use_module(library(lists), [append/3, member/2]).
-:- use_module('../base/fifo', [fifo_empty/2]).
-:- use_module(frame,
-              [bundle_all/3, bundle_next/5, count_ahead/3, frame_overhead/1]).
+:- use_module('../base/fifo', [fifo_empty/2, fifo_size/2]).
+:- use_module(frame, [bundle_next/5, count_ahead/3, frame_overhead/1]).
 :- use_module(session,
-              [ ack_frames/1, session_codec/2, session_held/2, session_key/2,
-                session_window/2, session_window/3, session_window_free/1 ]).
+              [ session_codec/2, session_held/2, session_window/2,
+                session_window/3 ]).
+:- use_module(settlement,
+              [ objection_add/3, settled_late/3, settled_never/3, settled_now/5,
+                unsettled/3 ]).
 
 :- dynamic
-    bundled/2,                          % Key, Count: the last bundle's
-    unsettled/3,                        % Key, Number, Token: received
-    objection/3,                        % Key, Number, Answer
-    flusher/3.                          % Key, Count, Queue
+    free_flags/1,                       % Flags: no window has them
+    bundled/2.                          % Key, Count: the last bundle's
+
+%!  unacked_open(-Window) is det.
+%
+%   A new window.  Flags are never freed, so those of windows that were closed
+%   are used again.
+
+unacked_open(Window) :-
+    message_queue_create(Sent),
+    message_queue_create(Waiting),
+    (   retract(free_flags(Flags))
+    ->  true
+    ;   flag(typhon_session_flags, N, N+1),
+        findall(Flag,
+                ( member(Name, [received, told, acked, bytes, settled]),
+                  atomic_list_concat([typhon_session, Name, N], '_', Flag) ),
+                Flags)
+    ),
+    forall(member(Flag, Flags), set_flag(Flag, 0)),
+    Window =.. [window, Sent, Waiting|Flags].
 
 		 /*******************************
 		 *            FRAMES            *
@@ -58,8 +85,14 @@ thread of the connection, session_pending/2 is for any thread.
 
 under_way(65536).
 
+%!  ack_frames(-Count) is det.
+%
+%   After so many frames the reader acknowledges them.
+
+ack_frames(32).
+
 %!  unacked_sent(+Window, +Out, +Bytes, +Token, -Counts) is semidet.
-%!  unacked_waits(+Session, +Bytes, +Token) is det.
+%!  unacked_waits(+Window, +Bytes, +Token) is det.
 %
 %   A frame is about to be written to Out, with Counts in its head: fails where
 %   others wait, or it might block; it waits until others are written, and if
@@ -68,7 +101,7 @@ under_way(65536).
 unacked_sent(Window, Out, Bytes, Token, counts(Count, Count)) :-
     Window = window(Sent, Waiting, Received, Told, _, _, Settled),
     message_queue_property(Waiting, size(0)),
-    unacked_space(Window, Out, Space),
+    space(room, Window, Out, Space),
     string_length(Bytes, Length),
     Length < Space,
     get_flag(Received, Count),
@@ -76,18 +109,17 @@ unacked_sent(Window, Out, Bytes, Token, counts(Count, Count)) :-
     set_flag(Told, Count),
     set_flag(Settled, Count).
 
-%!  unacked_space(+Window, +Out, -Space) is det.
-%
-%   So many bytes can be written to Out.
+%   space(+Most, +Window, +Out, -Space): so many bytes can be written to Out,
+%   where Most is `room`, or `all`: as many as there are.
 
-unacked_space(window(_, _, _, _, _, AckedBytes, _), Out, Space) :-
+space(room, window(_, _, _, _, _, AckedBytes, _), Out, Space) :-
     byte_count(Out, Written),
     get_flag(AckedBytes, Acked),
     under_way(Max),
     Space is Max-(Written-Acked).
+space(all, _, _, inf).
 
-unacked_waits(Session, Bytes, Token) :-
-    session_window(Session, window(_, Waiting, Received, _, _, _, _)),
+unacked_waits(window(_, Waiting, Received, _, _, _, _), Bytes, Token) :-
     get_flag(Received, Count),
     (   Token == loose
     ->  Frame = loose(Bytes, Count)
@@ -104,7 +136,7 @@ unacked_waits(Session, Bytes, Token) :-
 
 unacked_waiting(Session) :-
     session_window(Session, window(_, Waiting, _, _, _, _, _)),
-    queue_size(Waiting, Size),
+    fifo_size(Waiting, Size),
     Size > 0.
 
 unacked_owed(Session, Size) :-
@@ -117,92 +149,127 @@ unacked_owed(Session, Size) :-
     ),
     message_queue_property(Waiting, size(Size)).
 
-%!  unacked_next(+Session, +Space, -Frame) is semidet.
+%!  unacked_next(+Session, +Out, +Most, -Counts, -Bytes) is semidet.
+%!  unacked_counts(+Session, +Frame, -Counts, -Bytes) is det.
 %
-%   The frame that has waited longest is about to be written, if it is not
-%   longer than Space.
+%   The frame that has waited longest is about to be written to Out, if there is
+%   room for it, or Most is `all`; Frame is about to be written once more.  It
+%   settles what was received when it was put, and no more, since an objection
+%   may wait behind it.
 
-unacked_next(Session, Space, Frame) :-
+unacked_next(Session, Out, Most, Counts, Bytes) :-
     session_codec(Session, Codec),
-    session_window(Session, window(Sent, Waiting, _, _, _, _, _)),
+    session_window(Session, Key, Window),
+    Window = window(Sent, Waiting, _, _, _, _, _),
+    space(Most, Window, Out, Space),
     bundle_next(Waiting, Codec, Space, Frame, Many),
     !,
     thread_send_message(Sent, Frame),
     (   Many == true
-    ->  session_key(Session, Key),
-        session_sent(Session, Count),
+    ->  session_sent(Session, Count),
         retractall(bundled(Key, _)),
         assertz(bundled(Key, Count))
     ;   true
+    ),
+    unacked_counts(Session, Frame, Counts, Bytes).
+
+unacked_counts(Session, frame(Bytes, _, Settled), counts(Count, Settled),
+               Bytes) :-
+    session_window(Session, window(_, _, Received, Told, _, _, SettledFlag)),
+    get_flag(Received, Count),
+    set_flag(Told, Count),
+    set_flag(SettledFlag, Settled).
+
+%!  unacked_control(+Window, +Out, +Most, +Bytes, -Counts) is semidet.
+%
+%   Bytes are about to be written outside the count, if there is room, or Most
+%   is `all`.  The peer does not acknowledge them: they are not under way.  They
+%   go before what waits: where that may be an objection, that is, where Most is
+%   `all`, they settle no more than what was written before.
+
+unacked_control(Window, Out, Most, Bytes, counts(Count, Settled)) :-
+    Window = window(_, _, Received, Told, _, AckedBytes, SettledFlag),
+    space(Most, Window, Out, Space),
+    string_length(Bytes, Length),
+    Length < Space,
+    get_flag(Received, Count),
+    set_flag(Told, Count),
+    (   Most == room
+    ->  Settled = Count,
+        set_flag(SettledFlag, Count)
+    ;   get_flag(SettledFlag, Settled)
+    ),
+    frame_overhead(Head),
+    get_flag(AckedBytes, Acked0),
+    Acked is Acked0+Length+Head,
+    set_flag(AckedBytes, Acked).
+
+%!  unacked_told(+Window) is semidet.
+%
+%   Nothing waits. Fails if something was received that no frame has settled:
+%   one that is outside the count settles it now.
+
+unacked_told(window(_, _, Received, _, _, _, Settled)) :-
+    get_flag(Received, Count),
+    (   get_flag(Settled, Count)
+    ->  true
+    ;   set_flag(Settled, Count),
+        fail
     ).
 
-%!  unacked_resumed(+Session, +Count, +Bytes) is det.
-%!  unacked_again(+Session, -Frames) is det.
+%!  unacked_resumed(+Session, +Count, +Bytes, -Frames) is det.
 %
 %   The session has a new connection, to which Bytes were written: the peer
 %   has received Count of our frames, of which none is settled by that; Frames
 %   are what was written, and has to be once more. A peer that has forgotten
 %   the session, and we have not, knows of more than was sent.
 
-unacked_resumed(Session, Count, Bytes) :-
+unacked_resumed(Session, Count, Bytes, Frames) :-
     session_window(Session, Key, Window),
     Window = window(Sent, _, _, Told, Acked, AckedBytes, Settled),
     get_flag(Acked, Count0),
     message_queue_property(Sent, size(Size)),
     Gone is max(0, min(Count-Count0, Size)),
-    gone(Gone, Count0, Sent, Key-none, [], [], 0, _),
+    gone(Gone, Count0, Sent, Handed, 0, _),
+    settled_now(Handed, Key, none, [], []),
     Count1 is max(Count0, Count),
     set_flag(Acked, Count1),
     set_flag(AckedBytes, Bytes),
-    has_frames(Key, Count1),
+    has_bundle(Key, Count1),
     set_flag(Told, -1),                 % the reader begins with telling it
-    (   thread_peek_message(Sent, frame(_, _, First))
+    fifo_empty(Sent, Frames),
+    forall(member(Frame, Frames), thread_send_message(Sent, Frame)),
+    (   Frames = [frame(_, _, First)|_]
     ->  set_flag(Settled, First)
     ;   true
     ).
 
-unacked_again(Session, Frames) :-
-    session_window(Session, window(Sent, _, _, _, _, _, _)),
-    fifo_empty(Sent, Frames),
-    forall(member(Frame, Frames), thread_send_message(Sent, Frame)).
-
 %!  unacked_close(+Session, -Waiting, -Handed) is det.
 %
-%   The session is over; the frames Waiting were never written.  Handed is what
-%   became of tokens: handed(Token, Result), where Result is `unsent`, `lost`,
-%   or an objection.  Threads that wait for the session go on.
+%   The session is over; the frames Waiting were never written. Handed is what
+%   became of tokens, handed(Token, Result): `unsent`, `lost`, or an objection.
 
 unacked_close(Session, Waiting, Handed) :-
-    session_window(Session, Key,
-                   window(SentQueue, WaitingQueue, _, _, Acked, _, _)),
+    session_window(Session, Key, Window),
+    Window = window(SentQueue, WaitingQueue, _, _, Acked, _, _),
     get_flag(Acked, Count),
-    findall(N-Token, unsettled(Key, N, Token), Unsettled),
-    fifo_empty(SentQueue, Sent),
+    message_queue_property(SentQueue, size(Size)),
+    gone(Size, Count, SentQueue, Lost, 0, _),
     fifo_empty(WaitingQueue, Waiting),
-    numbered(Sent, Count, Numbered),
-    append(Unsettled, Numbered, Lost),
-    findall(handed(Token, Result),
-            (   member(N-Token, Lost),
-                ( objection(Key, N, Answer) -> Result = Answer ; Result = lost )
-            ;   member(frame(_, Token, _), Waiting),
-                Token \== none,
-                Result = unsent
-            ),
-            Handed),
+    settled_never(Key, Lost, Handed0),
+    findall(handed(Token, unsent),
+            ( member(frame(_, Token, _), Waiting), hands_over(Token) ),
+            Unsent),
+    append(Handed0, Unsent, Handed),
     retractall(bundled(Key, _)),
-    retractall(unsettled(Key, _, _)),
-    retractall(objection(Key, _, _)),
-    session_window_free(Session),
-    forall(flusher(Key, Wanted, Queue), flushed(Key, Wanted, Queue)).
+    message_queue_destroy(SentQueue),
+    message_queue_destroy(WaitingQueue),
+    Window =.. [window, _, _|Flags],
+    assertz(free_flags(Flags)).
 
-numbered([], _, []).
-numbered([frame(_, Token, _)|Frames], N0, Numbered) :-
-    N is N0+1,
-    (   Token == none
-    ->  Numbered = More
-    ;   Numbered = [N-Token|More]
-    ),
-    numbered(Frames, N, More).
+hands_over(Token) :-
+    Token \== none,
+    Token \== loose.
 
 		 /*******************************
 		 *       ACKNOWLEDGEMENTS       *
@@ -210,9 +277,8 @@ numbered([frame(_, Token, _)|Frames], N0, Numbered) :-
 
 %!  session_acked(+Session, +Counts, -Settled:list) is det.
 %
-%   A frame of the peer has these Counts, see frame.pl. Settled are the
-%   tokens that are settled by that, settled(Token, Number, Result), Result
-%   being `accepted` or an objection. For the thread of the connection.
+%   A frame of the peer has these Counts, see frame.pl. Settled is what is
+%   settled by that, see settled_now/5. For the thread of the connection.
 %
 %   @error domain_error(acknowledged, Count) more than was sent
 
@@ -222,16 +288,12 @@ session_acked(Session, counts(Received, Count), Settled) :-
     get_flag(Acked, Count0),
     (   count_ahead(Count0, Received, Ahead),
         Ahead > 0
-    ->  session_held(Session, acked(Ahead, Key, Window, Count, Tokens, Late))
-    ;   Tokens = Late
+    ->  session_held(Session, acked(Ahead, Key, Window, Count, Settled, Late))
+    ;   Settled = Late
     ),
-    (   unsettled(Key, _, _)
-    ->  settled_late(Key, Count, Late)
-    ;   Late = []
-    ),
-    results(Tokens, Key, Settled).
+    settled_late(Key, Count, Late).
 
-acked(Ahead, Key, Window, Settled, Tokens, Late) :-
+acked(Ahead, Key, Window, SettledCount, Settled, Late) :-
     Window = window(Sent, _, _, _, Acked, AckedBytes, _),
     message_queue_property(Sent, size(Size)),
     (   Ahead =< Size
@@ -239,62 +301,41 @@ acked(Ahead, Key, Window, Settled, Tokens, Late) :-
     ;   domain_error(acknowledged, Ahead)
     ),
     get_flag(Acked, Count0),
-    gone(Ahead, Count0, Sent, Key-Settled, Tokens, Late, 0, Bytes),
+    gone(Ahead, Count0, Sent, Handed, 0, Bytes),
+    settled_now(Handed, Key, SettledCount, Settled, Late),
     Count is Count0+Ahead,
     set_flag(Acked, Count),
     get_flag(AckedBytes, Bytes0),
     Bytes1 is Bytes0+Bytes,
     set_flag(AckedBytes, Bytes1),
-    has_frames(Key, Count).
+    has_bundle(Key, Count).
 
-%   has_frames(+Key, +Count): the peer has so many.
+%   has_bundle(+Key, +Count): the peer has so many frames.
 
-has_frames(Key, Count) :-
+has_bundle(Key, Count) :-
     (   bundled(Key, Last),
         Last =< Count
     ->  retractall(bundled(Key, _))
     ;   true
-    ),
-    forall(( flusher(Key, Wanted, Queue), Wanted =< Count ),
-           flushed(Key, Wanted, Queue)).
+    ).
 
-%   gone(+Ahead, +Count, +Sent, +How, -Tokens, ?Rest, +Bytes0, -Bytes): the peer
-%   has Ahead frames more than Count, of so many bytes.  How is Key-Settled, its
-%   count of those that are settled, or Key-none.
+%   gone(+Ahead, +Count, +Sent, -Handed, +Bytes0, -Bytes): the peer has Ahead
+%   frames more than Count, of so many bytes, with which Handed was handed over.
 
-gone(0, _, _, _, Tokens, Tokens, Bytes, Bytes) :-
+gone(0, _, _, [], Bytes, Bytes) :-
     !.
-gone(Ahead, N0, Sent, How, Tokens, Rest, Bytes0, Bytes) :-
+gone(Ahead, N0, Sent, Handed, Bytes0, Bytes) :-
     thread_get_message(Sent, frame(Frame, Token, _)),
     string_length(Frame, Length),
     frame_overhead(Head),
     Bytes1 is Bytes0+Length+Head,
     N is N0+1,
-    token_gone(Token, N, How, Tokens, Tokens1),
-    Ahead1 is Ahead-1,
-    gone(Ahead1, N, Sent, How, Tokens1, Rest, Bytes1, Bytes).
-
-token_gone(none, _, _, Tokens, Tokens) :-
-    !.
-token_gone(Token, N, _-Settled, [N-Token|Tokens], Tokens) :-
-    integer(Settled),
-    count_ahead(N, Settled, _),
-    !.
-token_gone(Token, N, Key-_, Tokens, Tokens) :-
-    assertz(unsettled(Key, N, Token)).
-
-settled_late(Key, Count, Late) :-
-    findall(N-Token,
-            ( unsettled(Key, N, Token), count_ahead(N, Count, _) ), Late),
-    forall(member(N-_, Late), retractall(unsettled(Key, N, _))).
-
-results([], _, []).
-results([N-Token|Tokens], Key, [settled(Token, N, Result)|Settled]) :-
-    (   retract(objection(Key, N, Answer))
-    ->  Result = Answer
-    ;   Result = accepted
+    (   hands_over(Token)
+    ->  Handed = [N-Token|Handed1]
+    ;   Handed = Handed1
     ),
-    results(Tokens, Key, Settled).
+    Ahead1 is Ahead-1,
+    gone(Ahead1, N, Sent, Handed1, Bytes1, Bytes).
 
 %!  session_objected(+Session, +Number, +Answer) is det.
 %
@@ -302,30 +343,17 @@ results([N-Token|Tokens], Key, [settled(Token, N, Result)|Settled]) :-
 %   not about a frame under way is ignored.
 
 session_objected(Session, Number, Answer) :-
-    session_key(Session, Key),
+    session_window(Session, Key, window(_, _, _, _, Acked, _, _)),
     (   integer(Number),
         (   unsettled(Key, Number, _)
-        ;   session_window(Session, window(_, _, _, _, Acked, _, _)),
-            get_flag(Acked, Count),
+        ;   get_flag(Acked, Count),
             Number > Count,
             session_sent(Session, Sent),
             Number =< Sent
-        ),
-        \+ objection(Key, Number, _)
-    ->  assertz(objection(Key, Number, Answer))
+        )
+    ->  objection_add(Key, Number, Answer)
     ;   true
     ).
-
-%!  session_answered(+Session, +Number, +Answer) is semidet.
-%
-%   The peer has answered the frame that it had deferred, before it has counted
-%   it: this is what it objects.
-
-session_answered(Session, Number, Answer) :-
-    session_key(Session, Key),
-    retract(objection(Key, Number, deferred)),
-    !,
-    assertz(objection(Key, Number, Answer)).
 
 %   session_sent(+Session, -Count): so many frames have been written, or less if
 %   another thread is about to write some.
@@ -333,7 +361,7 @@ session_answered(Session, Number, Answer) :-
 session_sent(Session, Count) :-
     session_window(Session, window(Sent, _, _, _, Acked, _, _)),
     get_flag(Acked, Gone),
-    queue_size(Sent, Size),
+    fifo_size(Sent, Size),
     Count is Gone+Size.
 
 %!  session_pending(+Session, -Count) is det.
@@ -341,60 +369,32 @@ session_sent(Session, Count) :-
 %   Count frames are not acknowledged, or are handed over and not settled.
 
 session_pending(Session, Count) :-
-    session_window(Session, Key, Window),
-    unacked(Window, Frames),
-    (   unsettled(Key, _, _)
-    ->  Count is Frames+1
-    ;   Count = Frames
-    ).
+    session_window(Session, Key, window(Sent, Waiting, _, _, _, _, _)),
+    fifo_size(Sent, S),
+    fifo_size(Waiting, W),
+    ( unsettled(Key, _, _) -> Count is S+W+1 ; Count is S+W ).
 
-unacked(window(Sent, Waiting, _, _, _, _, _), Count) :-
-    queue_size(Sent, S),
-    queue_size(Waiting, W),
-    Count is S+W.
-
-%   The queue may be gone: the session was closed.
-
-queue_size(Queue, Size) :-
-    catch(message_queue_property(Queue, size(Size0)),
-          error(existence_error(_, _), _),
-          fail),
-    !,
-    Size = Size0.
-queue_size(_, 0).
-
-%!  unacked_await(+Session, +Queue, -Count) is det.
-%!  unacked_no_wait(+Queue) is det.
+%!  session_received(+Session, -Count) is det.
+%!  session_untold(+Session, -Count) is det.
+%!  session_count(+Session, -Untold) is det.
 %
-%   Count frames are pending; Queue receives `flushed` when all these have been
-%   acknowledged; it receives nothing any more.
+%   Count frames of the peer have been received; of Count it does not know that;
+%   one more has been received, and of Untold it does not know then.
 
-unacked_await(Session, Queue, Count) :-
-    bundle_waiting(Session),
-    session_window(Session, Key, Window),
-    unacked(Window, Count),
-    arg(5, Window, Acked),
-    get_flag(Acked, Gone),
-    Wanted is Gone+Count,
-    assertz(flusher(Key, Wanted, Queue)).
+session_received(Session, Count) :-
+    session_window(Session, window(_, _, Received, _, _, _, _)),
+    get_flag(Received, Count).
 
-%   What waits is counted as what it will be.
+session_untold(Session, Count) :-
+    session_window(Session, window(_, _, Received, Told, _, _, _)),
+    get_flag(Received, All),
+    get_flag(Told, Known),
+    Count is All-Known.
 
-bundle_waiting(Session) :-
-    session_codec(Session, Codec),
-    session_window(Session, window(_, Waiting, _, _, _, _, _)),
-    catch(( bundle_all(Waiting, Codec, Frames),
-            forall(member(Frame, Frames), thread_send_message(Waiting, Frame)) ),
-          error(existence_error(_, _), _),
-          true).
-
-unacked_no_wait(Queue) :-
-    retractall(flusher(_, _, Queue)).
-
-%   The waiting thread may have given up just now.
-
-flushed(Key, Wanted, Queue) :-
-    retractall(flusher(Key, Wanted, Queue)),
-    catch(thread_send_message(Queue, flushed),
-          error(existence_error(_, _), _),
-          true).
+session_count(Session, Untold) :-
+    session_window(Session, window(_, _, Received, Told, _, _, _)),
+    get_flag(Received, Count0),
+    Count is Count0+1,
+    set_flag(Received, Count),
+    get_flag(Told, Known),
+    Untold is Count-Known.

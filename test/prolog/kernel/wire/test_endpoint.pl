@@ -589,7 +589,7 @@ test(who_waits_for_what_it_had_not_got_goes_on, Result == true) :-
           thread_create(( once(endpoint_flush(20, [A])),
                           thread_send_message(Me, flushed) ),
                         Thread),
-          wait_until(typhon_unacked:flusher(_, _, _), 5),
+          wait_until(endpoint_peer(A, pending(2)), 5),
           process_kill(Pid, kill),
           process_wait(Pid, _),
           with_peer(Port, _, A,

@@ -1,0 +1,275 @@
+:- module(typhon_writer,
+          [ put_frame/4,                % +Session, +Bytes, +Token, +Flush
+            put_control/3,              % +Session, +Kind, +Bytes
+            session_release/1,          % +Session
+            flush_out/1,                % +Key
+            writer_begin/5,             % +Session, +Key, +Thread, +Out, +Again
+            writer_stop/1,              % +Key
+            writer_end/1                % +Key
+          ]).
+
+/** <module> Writing to the connection of a session
+
+Writing must never block the thread of a reader, or two readers could wait
+for each other, nor hold a thread that is not ours. A frame is therefore
+written by its sender only if it and all that is under way fit in
+what the buffers of the kernel hold; else it waits, and a thread of the
+session, the _pusher_, writes until nothing waits. It writes first what is
+outside the count, a _control_, then what the peer lacks of an earlier
+connection, then what waits.
+
+To write a small frame costs more than all else that is done for it. So
+posts are held while so much is under way that the peer is sure to acknowledge
+some of it; when that has come they go in one frame. The peer would not read
+them before, anyway. What is sent after them takes them along.
+
+*Threading*: a thread that calls a predicate of this module holds the mutex of
+the session, which guards the order, except for session_release/1 and
+writer_stop/1: these are for the thread of the connection, or the one that acts
+in its place. While a session is up and has no pusher, nothing waits but what is
+held.
+*/
+
+:- use_module(library(debug), [debug/3]).
+:- use_module(library(lists), [member/2]).
+:- use_module('../base/error_text', [print_error/2]).
+:- use_module(frame, [frame_write/3]).
+:- use_module(session,
+              [ session_key/2, session_locked/2, session_must_exist/3,
+                session_up/1, session_window/3, transport/3,
+                transport_broken/2 ]).
+:- use_module(threads,
+              [manager_notify/1, wire_thread_create/3, wire_thread_end/2]).
+:- use_module(unacked,
+              [ unacked_control/5, unacked_counts/4, unacked_next/5,
+                unacked_owed/2, unacked_sent/5, unacked_told/1,
+                unacked_waiting/1, unacked_waits/3 ]).
+
+:- dynamic
+    pusher/2,                           % Key, Thread: it alone may write
+    control/3.                          % Key, Kind, Bytes: before what waits
+
+                /*******************************
+                *           SENDERS            *
+                *******************************/
+
+%!  put_frame(+Session, +Bytes, +Token, +Flush) is det.
+%
+%   Write Bytes, or have them wait; Flush is `flush` or `buffer`.  Token is
+%   `loose` if Bytes may be held, and go with others when they have to wait.
+%
+%   @error session_closed
+
+put_frame(Session, Bytes, Token, Flush) :-
+    session_must_exist(Session, Key, Window),
+    (   Token == loose,
+        holds(Session, Key)
+    ->  unacked_waits(Window, Bytes, loose)
+    ;   writable(Key, Thread, Out),
+        unacked_sent(Window, Out, Bytes, Token, Counts)
+    ->  written(Flush, Key, Thread, Out, Counts, Bytes)
+    ;   unacked_waits(Window, Bytes, Token),
+        see_to(Session, Key)
+    ).
+
+%   holds(+Session, +Key): the peer will acknowledge some of what is under way,
+%   and not too much waits; or there is a pusher.
+
+most_held(256).
+
+holds(Session, Key) :-
+    (   pusher(Key, _)
+    ->  true
+    ;   session_up(Key),
+        unacked_owed(Session, Waiting),
+        most_held(Most),
+        Waiting < Most
+    ).
+
+%   writable(+Key, -Thread, -Out): Out can be written to. The stream of a pusher
+%   is left alone: even to look at it might block.
+
+writable(Key, Thread, Out) :-
+    transport(Key, Thread, Out),
+    \+ pusher(Key, _).
+
+written(Flush, Key, Thread, Out, Counts, Bytes) :-
+    catch(write_out(Flush, Out, Counts, Bytes),
+          error(_, _),
+          transport_broken(Key, Thread)).
+
+write_out(flush, Out, Counts, Bytes) :-
+    frame_write(Out, Counts, Bytes),
+    flush_output(Out).
+write_out(buffer, Out, Counts, Bytes) :-
+    frame_write(Out, Counts, Bytes).
+
+%!  put_control(+Session, +Kind, +Bytes) is det.
+%
+%   Write Bytes outside the count, before all that waits: they are dropped when
+%   the session is down, and where newer ones of their Kind follow.  Posts that
+%   are held may wait: they settle nothing.
+
+put_control(Session, Kind, Bytes) :-
+    session_window(Session, Key, Window),
+    (   writable(Key, Thread, Out),
+        unacked_control(Window, Out, room, Bytes, Counts)
+    ->  written(flush, Key, Thread, Out, Counts, Bytes)
+    ;   session_up(Key)
+    ->  control_add(Key, Kind, Bytes),
+        push_what_waits(Session, Key)
+    ;   true
+    ).
+
+control_add(Key, Kind, Bytes) :-
+    retractall(control(Key, Kind, _)),
+    assertz(control(Key, Kind, Bytes)).
+
+%!  session_release(+Session) is det.
+%
+%   The peer has acknowledged something: what is held goes.
+
+session_release(Session) :-
+    (   unacked_waiting(Session)
+    ->  session_key(Session, Key),
+        session_locked(Session, see_to(Session, Key))
+    ;   true
+    ).
+
+%   Something waits: it is written, or a connection made.
+
+see_to(Session, Key) :-
+    (   pusher(Key, _)
+    ->  true
+    ;   transport(Key, Thread, Out)
+    ->  catch(write_waiting(Session, Out, room),
+              error(_, _),
+              transport_broken(Key, Thread)),
+        (   unacked_waiting(Session)
+        ->  push_what_waits(Session, Key)
+        ;   true
+        )
+    ;   ignore(manager_notify(wanted(Key)))
+    ).
+
+push_what_waits(Session, Key) :-
+    (   writable(Key, Thread, Out)
+    ->  pusher_start(Session, Key, Thread, Out, [])
+    ;   true
+    ).
+
+%!  flush_out(+Key) is det.
+%
+%   What was put into the buffer goes.
+
+flush_out(Key) :-
+    (   writable(Key, Thread, Out)
+    ->  catch(flush_output(Out),
+              error(_, _),
+              transport_broken(Key, Thread))
+    ;   true
+    ).
+
+%   write_waiting(+Session, +Out, +Most): write what waits as far as there is
+%   room, or, where Most is `all`, until nothing waits.  Many small frames go in
+%   one write: the buffer is flushed when it is full and at the end.
+
+write_waiting(Session, Out, Most) :-
+    repeat,
+    (   session_locked(Session, next_frame(Session, Out, Most, Counts, Bytes))
+    ->  frame_write(Out, Counts, Bytes),
+        fail
+    ;   !,
+        flush_output(Out)
+    ).
+
+next_frame(Session, Out, Most, Counts, Bytes) :-
+    session_window(Session, Key, Window),
+    (   retract(control(Key, _, Bytes))
+    ->  unacked_control(Window, Out, all, Bytes, Counts)
+    ;   unacked_next(Session, Out, Most, Counts, Bytes)
+    ).
+
+                /*******************************
+                *          THE PUSHER          *
+                *******************************/
+
+%!  writer_begin(+Session, +Key, +Thread, +Out, +Again) is det.
+%
+%   The session has a new connection, Out of Thread: write the frames Again, and
+%   what waits.  Controls that are left were for another connection.
+
+writer_begin(Session, Key, Thread, Out, Again) :-
+    retractall(control(Key, _, _)),
+    (   Again == [],
+        \+ unacked_waiting(Session)
+    ->  true
+    ;   pusher_start(Session, Key, Thread, Out, Again)
+    ).
+
+%   Where no thread can be made the connection is given up: what waits must not
+%   be overtaken, and is sent over the next.
+
+pusher_start(Session, Key, Thread, Out, Again) :-
+    catch(( wire_thread_create(push(Session, Key, Thread, Out, Again),
+                               pusher-Key, Pusher),
+            assertz(pusher(Key, Pusher)),
+            debug(typhon(session), '~w: ~w writes', [Key, Pusher])
+          ),
+          error(Formal, Context),
+          ( print_error(error, error(Formal, Context)),
+            transport_broken(Key, Thread) )).
+
+push(Session, Key, Thread, Out, Again) :-
+    call_cleanup(
+        catch(( forall(member(Frame, Again), write_again(Frame, Session, Out)),
+                push_waiting(Session, Key, Out) ),
+              error(_, _),
+              true),
+        session_locked(Session, pushed(Key, Thread))).
+
+write_again(Frame, Session, Out) :-
+    session_locked(Session, unacked_counts(Session, Frame, Counts, Bytes)),
+    frame_write(Out, Counts, Bytes).
+
+%   A pusher that has written all has ended already.
+
+pushed(Key, Thread) :-
+    thread_self(Me),
+    (   retract(pusher(Key, Me))
+    ->  transport_broken(Key, Thread)
+    ;   true
+    ).
+
+push_waiting(Session, Key, Out) :-
+    repeat,
+    write_waiting(Session, Out, all),
+    session_locked(Session, nothing_waits(Session, Key)),
+    !.
+
+%   The last frame settles all that was received meanwhile.
+
+nothing_waits(Session, Key) :-
+    \+ control(Key, _, _),
+    \+ unacked_waiting(Session),
+    session_window(Session, Key, Window),
+    (   unacked_told(Window)
+    ->  retractall(pusher(Key, _))
+    ;   control_add(Key, acknowledge, ""),
+        fail
+    ).
+
+%!  writer_stop(+Key) is det.
+%!  writer_end(+Key) is det.
+%
+%   The session loses its connection: end its pusher, if any, and wait for that;
+%   then forget what was left for this connection.
+
+writer_stop(Key) :-
+    (   retract(pusher(Key, Pusher))
+    ->  wire_thread_end(Pusher, broken)
+    ;   true
+    ).
+
+writer_end(Key) :-
+    retractall(control(Key, _, _)).
