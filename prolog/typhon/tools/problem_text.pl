@@ -118,8 +118,11 @@ typhon_programs:advice(qualified) -->
     ['an agent has no modules: write the head without one'].
 typhon_programs:advice(redefined) -->
     ['the name is taken: rename the predicate'].
-typhon_programs:advice(entry) -->
+typhon_programs:advice(entry([])) -->
     ['define main/0, on_message/2 or both'].
+typhon_programs:advice(entry([Written-Meant|_])) -->
+    { maplist(term_to_atom, [Meant, Written], [A, B]) },
+    ['define main/0, on_message/2 or both (did you mean ', A, ' by ', B, '?)'].
 typhon_programs:advice(options(agent)) -->
     ['write agent(Name, [state([Name/Arity, ...])])'].
 typhon_programs:advice(options(payload)) -->

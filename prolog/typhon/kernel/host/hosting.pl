@@ -135,7 +135,8 @@ must_be_name(Name) :-
     (   Name \== '',
         \+ sub_atom(Name, _, _, _, @)
     ->  true
-    ;   domain_error(host_name, Name)
+    ;   throw(error(domain_error(host_name, Name),
+                    context(_, 'a name is not empty and has no @')))
     ).
 
 start(Name, Options) :-

@@ -16,6 +16,7 @@
               [ clause_parts/3, declaration/4, indicator_in/2,
                 library_import/2 ]).
 :- use_module(bodies, [control/1]).
+:- use_module('../base/names', [names_near/3]).
 
 /** <module> What a program or payload file consists of, and what is wrong there
 
@@ -234,12 +235,20 @@ is_body((A*->B)) :- !, is_body(A), is_body(B).
 is_body(Body) :- callable(Body).
 
 entry_problem(Located, Clauses,
-              problem(existence_error(entry, main/0), Location, entry)) :-
-    \+ ( member((Head:-_)-_, Clauses),
-         nonvar(Head),
-         ( Head = main ; Head = on_message(_, _) )
-       ),
-    Located = [_-Location|_].
+              problem(existence_error(entry, main/0), Location, entry(Near))) :-
+    findall(Name/Arity,
+            ( member((Head:-_)-_, Clauses), callable(Head),
+              functor(Head, Name, Arity) ),
+            PIs),
+    \+ ( member(PI, PIs), is_entry(PI) ),
+    Located = [_-Location|_],
+    findall(PI-Entry,
+            ( is_entry(Entry), Entry = Name/Arity, member(PI, PIs),
+              PI = Written/Arity, names_near(Name, [Written], [_]) ),
+            Near).
+
+is_entry(main/0).
+is_entry(on_message/2).
 
 option_problem(Kind, Located, problem(Formal, Location, Advice)) :-
     member(Term-Location, Located),

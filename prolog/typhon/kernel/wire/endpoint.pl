@@ -202,10 +202,16 @@ listen(Interface, Port, Address, Socket) :-
 
 blame(error(socket_error(Code, Text), _), Interface, Port) :-
     !,
-    format(atom(Where), 'at ~w:~w', [Interface, Port]),
+    how_to_listen(Code, How),
+    format(atom(Where), 'at ~w:~w~w', [Interface, Port, How]),
     throw(error(socket_error(Code, Text), context(_, Where))).
 blame(Error, _, _) :-
     throw(Error).
+
+how_to_listen(eaddrinuse, How) =>
+    How = '; choose another port, or port(0) for any free one'.
+how_to_listen(_, How) =>
+    How = ''.
 
 our_hello(Start, Address, Me) :-
     endpoint_process(Process),

@@ -127,6 +127,11 @@ test(port_in_use, error(socket_error(eaddrinuse, _))) :-
                  ( tcp_socket(S), tcp_bind(S, localhost:P), tcp_listen(S, 5) ),
                  host_start(alpha, [port(P)]),
                  tcp_close_socket(S))).
+test(port_in_use_says_what_to_do, true(sub_atom(Text, _, _, _, 'port(0)'))) :-
+    setup_call_cleanup(
+        ( tcp_socket(S), tcp_bind(S, localhost:P), tcp_listen(S, 5) ),
+        catch(host_start(alpha, [port(P)]), error(_, context(_, Text)), true),
+        tcp_close_socket(S)).
 test(twice, error(permission_error(start, host, alpha))) :-
     with_hosts([alpha], host_start(alpha)).
 test(unknown_option, error(domain_error(host_option, colour(red)))) :-
