@@ -122,7 +122,7 @@ typhon_programs:advice(entry([])) -->
     ['define main/0, on_message/2 or both'].
 typhon_programs:advice(entry([Written-Meant|_])) -->
     { maplist(term_to_atom, [Meant, Written], [A, B]) },
-    ['define main/0, on_message/2 or both (did you mean ', A, ' by ', B, '?)'].
+    ['define main/0, on_message/2 or both; did you mean ', A, ' by ', B, '?'].
 typhon_programs:advice(options(agent)) -->
     ['write agent(Name, [state([Name/Arity, ...])])'].
 typhon_programs:advice(options(payload)) -->

@@ -245,7 +245,7 @@ test(no_entry, F-L == existence_error(entry, main/0)-1) :-
     says(A, 'define main/0').
 test(entry_misspelt, F-L == existence_error(entry, main/0)-1) :-
     problem([':- agent(a).', 'mian.', 'on_message(_).'], F, L, A),
-    says(A, 'did you mean main/0 by mian/0').
+    says(A, 'did you mean main/0 by mian/0?').
 test(option, F-L == domain_error(agent_declaration, colour(red))-1) :-
     problem([':- agent(a, [colour(red)]).', 'main.'], F, L, _).
 test(state, F-L == type_error(predicate_indicator, seen)-2) :-
