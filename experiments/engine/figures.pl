@@ -94,7 +94,7 @@ save(Study, Outcome, Runs, Out) :-
     directory_file_path(Out, Name, Directory),
     make_directory_path(Directory),
     outcome_save(Study, Outcome, Runs, Directory),
-    forall(study_call(Study, plot(Plot, Title, Picture)),
+    forall(( Runs = [_|_], study_call(Study, plot(Plot, Title, Picture)) ),
            picture(Study, plot(Plot, Title, Picture), Runs, Directory)).
 
 %   checks(+Study, +Cases, +Runs, +Rows, +Options, -Checks): of the case that

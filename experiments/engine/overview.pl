@@ -2,6 +2,7 @@
           [ overview_title/2,           % +Shown, -Title
             overview//2                 % +Directory, +Shown
           ]).
+:- use_module(library(aggregate), [aggregate_all/3]).
 :- use_module(library(http/html_write), [html//1]).
 :- use_module(library(lists), [list_to_set/2, member/2]).
 :- use_module(library(uri), [uri_encoded/3]).
@@ -106,8 +107,18 @@ small_picture(Study, Name, Directory, img([class(small), src(Path), alt(Title)])
     exists_file(Drawn),
     uri_encoded(path, File, Path).
 
+%   Claims for which runs are missing neither hold nor fail.
+
 share(Outcome, Text) :-
-    findall(x, member(claim(_, _, _, _, true, _), Outcome.claims), Held),
-    length(Held, HeldCount),
+    findall(OfMedians,
+            ( member(claim(_, _, _, Of, OfMedians, _), Outcome.claims), Of > 0 ),
+            Known),
+    aggregate_all(count, member(true, Known), Held),
+    length(Known, KnownCount),
     length(Outcome.claims, Count),
-    format(atom(Text), '~d of ~d', [HeldCount, Count]).
+    Unknown is Count - KnownCount,
+    (   Unknown =:= 0
+    ->  format(atom(Text), '~d of ~d', [Held, Count])
+    ;   format(atom(Text), '~d of ~d, ~d not known',
+               [Held, KnownCount, Unknown])
+    ).

@@ -256,7 +256,7 @@ test(links_lead_somewhere, Missing-Inside == []-[]) :-
     with_page(links_inside(Inside)).
 test(tables) :-
     with_page(cells(Rows)),
-    forall(member(Row, [ ['toy 1', 'A <toy>', '', '0 of 2'],
+    forall(member(Row, [ ['toy 1', 'A <toy>', '', '0 of 1, 1 not known'],
                          [c, '[5]', 'given by --set'],
                          ['10', old, '3', '202 (201–203) [12]'],
                          ['m < 3 & more (line 7, so)', 'DID NOT HOLD', _],
@@ -280,13 +280,24 @@ test(figures_of_the_thesis_are_under_their_chapters,
             Shown),
     with_tmp_dir(overview_headings(Shown, Headings)).
 
+test(claims_without_runs_are_not_counted, Texts == ['1 of 2, 1 not known']) :-
+    project_study('sync/figure_5_8', Study),
+    Claims = [ claim("holds", [], 1, 1, true, []),
+               claim("fails", [], 0, 1, false, []),
+               claim("has no runs", [], 0, 0, false, []) ],
+    overview_page([shown(Study, outcome{claims:Claims}, '', none)], '.', DOM),
+    findall(Text, xpath(DOM, //td(@class=n, text), Text), Texts).
+
 overview_headings(Shown, Headings, Dir) :-
-    phrase(overview(Dir, Shown), Tokens),
-    with_output_to(string(Text), print_html(Tokens)),
-    open_string(Text, In),
-    load_html(stream(In), DOM, [dialect(html5)]),
+    overview_page(Shown, Dir, DOM),
     findall(Heading, xpath(DOM, //th(@colspan='4', text), Heading), Headings),
     overview_title(Shown, Title),
     xpath(DOM, //h1(text), Title).
+
+overview_page(Shown, Dir, DOM) :-
+    phrase(overview(Dir, Shown), Tokens),
+    with_output_to(string(Text), print_html(Tokens)),
+    open_string(Text, In),
+    load_html(stream(In), DOM, [dialect(html5)]).
 
 :- end_tests(study_page).
