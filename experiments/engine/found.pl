@@ -4,6 +4,7 @@
 :- use_module(library(apply), [maplist/3]).
 :- use_module(library(lists),
               [append/3, list_to_set/2, member/2]).
+:- use_module(library(terms), [mapargs/3]).
 :- use_module(claims, [connective/2, leaf/4]).
 :- use_module(expressions, [context/2, selected/3, value/4]).
 :- use_module(numbers, [number_text/2]).
@@ -54,7 +55,7 @@ part(E, Context, Names, Part) :-
             Values0),
     list_to_set(Values0, Values),
     text(Values, Names, Text),
-    called(E, Name),
+    plain(E, Name),
     format(atom(Part), '~w: ~w', [Name, Text]).
 
 %   at/2 leads to another case.
@@ -65,11 +66,19 @@ led_to(at(Where, _), Case0, Case) :-
     Case = Case0.put(Other).
 led_to(_, Case, Case).
 
-called(at(Where, E), Name) :-
+%   plain(+Expression, -Plain): written as its reader would say it, at/2 by the
+%   values alone.
+
+plain(at(Where, E), Plain) :-
     !,
     where_text(Where, Said),
-    format(atom(Name), '~w ~w', [Said, E]).
-called(E, E).
+    plain(E, Of),
+    format(atom(Plain), '~w ~w', [Said, Of]).
+plain(E, Plain) :-
+    compound(E),
+    !,
+    mapargs(plain, E, Plain).
+plain(E, E).
 
 where_text(Where, Text) :-
     findall(Value, member(_=Value, Where), Values),

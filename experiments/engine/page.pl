@@ -45,6 +45,7 @@ padding-top:1em}img{max-width:100%;height:auto}table{border-collapse:collapse;
 margin:1em 0;font-size:90%}td,th{padding:.2em .7em;border-bottom:1px solid #ddd;
 text-align:left;vertical-align:top}td.n{text-align:right;white-space:nowrap}
 .no{background:#fbe9e7}.some{background:#fff8e1}.yes{background:#e8f5e9}
+.unknown{color:#666}
 img.small{height:7em;max-width:14em}
 code{background:#f4f4f4;padding:.1em .3em}.small{color:#666;font-size:85%}').
 
@@ -143,7 +144,8 @@ evidence_span(Text, Tests, [' ', span(class(small), Said)]) :-
     !.
 evidence_span(_, _, []).
 
-verdict(Of, Of, true, yes) :- Of > 0, !.
+verdict(_, 0, _, unknown) :- !.
+verdict(Of, Of, true, yes) :- !.
 verdict(0, _, false, no) :- !.
 verdict(_, _, _, some).
 
