@@ -21,7 +21,7 @@ This is the interface of the layer: higher layers import from here.
 :- reexport(wire/request, [endpoint_later/1]).
 :- reexport(wire/session, [frame_fits/1]).
 :- reexport(wire/lending, [endpoint_afterwards/1]).
-:- reexport(wire/flush, [endpoint_flush/1, endpoint_flush/2]).
+:- reexport(wire/waiting, [endpoint_flush/1, endpoint_flush/2]).
 :- reexport(wire/peer_cache,
             [ contact_expect/1, contact_expect_no_more/1, endpoint_gone/1,
               endpoint_lasting/1, endpoint_left/1, endpoint_missed/2,

@@ -9,32 +9,19 @@
             attempt_over/3,             % +Address, +Since, +Formal
             attempt_next/2,             % +Me, -Address
             attempt_due/1,              % -Time
-            attempts_due/1,             % -Due
-            waiter_add/2,               % +Address, +Queue
-            waiter/1,                   % ?Address
-            waiters_tell/2,             % ?Address, +Result
-            waiters_missed/2,           % +Address, +Asked
-            waiter_tell/2,              % +Queue, +Result
-            asking/1,                   % -Number
-            asked/1                     % -Number
+            attempts_due/1              % -Due
           ]).
 
-/** <module> Attempts to connect, their times, and the threads that wait
+/** <module> Attempts to connect, and their times
 
 For each address that is to be reached there is one attempt: it has yet to
 begin, is being made, or pauses until it is made again. connection_manager.pl
 decides about its result.
 
-A thread that cannot go on without a connection to an address waits at a
-queue of its own, and receives `met` or `missed`. Requests are held in
-request.pl and hold no thread. All of them are numbered: the result of an
-attempt to connect does not concern those that came after it began.
-
-*Threading*: the thread of the connection manager owns the tables;
-waiter_tell/2, asking/1 and asked/1 may be called from any.
+*Threading*: the thread of the connection manager owns the table.
 */
 
-:- use_module(library(lists), [member/2, min_member/2]).
+:- use_module(library(lists), [min_member/2]).
 :- use_module(library(settings), [setting/2, setting/4]).
 :- use_module(peer_cache, [contact_expected/1]).
 :- use_module(session, [session/2]).
@@ -277,64 +264,3 @@ attempts_due(Due) :-
               due(State, Address, Since, Until),
               Until =< Now ),
             Due).
-
-		 /*******************************
-		 *       WAITING THREADS        *
-		 *******************************/
-
-:- dynamic
-    waiter/3.                           % Address, Number, Queue
-
-%!  waiter_add(+Address, +Queue) is det.
-
-waiter_add(Address, Queue) :-
-    asking(Number),
-    assertz(waiter(Address, Number, Queue)).
-
-%!  waiter(?Address) is semidet.
-%
-%   A thread waits for Address.
-
-waiter(Address) :-
-    waiter(Address, _, _),
-    !.
-
-%!  waiters_tell(?Address, +Result) is det.
-%!  waiters_missed(+Address, +Asked) is det.
-%
-%   Notify all that wait for Address; send `missed` to those with a number below
-%   Asked.
-
-waiters_tell(Address, Result) :-
-    waiters_tell(Address, inf, Result).
-
-waiters_missed(Address, Asked) :-
-    waiters_tell(Address, Asked, missed).
-
-waiters_tell(Address, Before, Result) :-
-    findall(Number-Queue,
-            ( waiter(Address, Number, Queue), Number < Before ),
-            Told),
-    forall(member(Number-Queue, Told),
-           ( retractall(waiter(_, Number, _)),
-             waiter_tell(Queue, Result) )).
-
-%!  waiter_tell(+Queue, +Result) is det.
-%
-%   The waiting thread may have been interrupted, and its queue destroyed.
-
-waiter_tell(Queue, Result) :-
-    catch(thread_send_message(Queue, Result),
-          error(existence_error(_, _), _),
-          true).
-
-%!  asking(-Number) is det.
-%!  asked(-Number) is det.
-%
-%   A request made now has Number; earlier ones have a lower one.
-
-asking(Number) :-
-    flag(typhon_runtime, Number, Number+1).
-
-asked(Number) :-
-    flag(typhon_runtime, Number, Number).

@@ -1,8 +1,6 @@
 :- module(typhon_connection_manager,
           [ keep/1,                     % +Me
-            manager_connect/1,           % +Address
-            manager_connect/2,           % +Address, +Deadline
-            manager_unhandled/1            % +Messages
+            manager_unhandled/1         % +Messages
           ]).
 
 /** <module> The connection manager: connects, and connects again
@@ -28,11 +26,10 @@ take a while is done by a thread in the background.
 :- use_module(library(settings), [setting/2, setting/4]).
 :- use_module('../base/error_text', [print_error/2]).
 :- use_module(attempts,
-              [ asked/1, attempt/4, attempt_asked/2, attempt_begun/3,
+              [ attempt/4, attempt_asked/2, attempt_begun/3,
                 attempt_due/1, attempt_end/1, attempt_greeted/1,
                 attempt_next/2, attempt_over/3, attempt_pause/3,
-                attempt_want/1, attempts_due/1, waiter/1, waiter_add/2,
-                waiter_tell/2, waiters_missed/2, waiters_tell/2 ]).
+                attempt_want/1, attempts_due/1 ]).
 :- use_module(connection, [outgoing/2]).
 :- use_module(peer_cache,
               [contact_gone/1, contact_missed/2]).
@@ -41,12 +38,12 @@ take a while is done by a thread in the background.
 :- use_module(session,
               [ route/2, route_key/2, route_up/2, session/2,
                 session_adopting/2, session_key/2, session_up/1 ]).
-:- use_module(unsent,
-              [ unsent/1, unsent_again/2, unsent_fail/1, unsent_fail/2,
-                unsent_send/2 ]).
 :- use_module(threads,
-              [ in_background/2, manager_receive/2, manager_notify/1,
-                wire_thread_create/3, wire_thread_end/2, wire_thread_join/1 ]).
+              [ in_background/2, manager_receive/2, wire_thread_create/3,
+                wire_thread_end/2, wire_thread_join/1 ]).
+:- use_module(waiting,
+              [ asked/1, unsent_again/2, waiting/1, waiting_met/2,
+                waiting_missed/2 ]).
 
 :- setting(resting, positive_integer, 1000,
            "Sessions without connection kept though nothing is pending").
@@ -55,37 +52,12 @@ take a while is done by a thread in the background.
     resting/1,                          % Key
     errand/2.                           % Time, Goal
 
-%!  manager_connect(+Address) is semidet.
-%!  manager_connect(+Address, +Deadline) is semidet.
-%
-%   Ensure a connection to Address; fails if there can be none, or not before
-%   Deadline. The manager always answers, so the first has no deadline: a wait
-%   with a deadline may never end in a clean-up handler or a hook, where
-%   signals are held back (SWI-Prolog 9.0.4). In the thread of the manager,
-%   which cannot wait for itself, both fail.
-
-manager_connect(Address) :-
-    connected(Address, []).
-
-manager_connect(Address, Deadline) :-
-    connected(Address, [deadline(Deadline)]).
-
-connected(Address, Options) :-
-    \+ nb_current(typhon_keeper, true),
-    setup_call_cleanup(
-        message_queue_create(Queue),
-        ( manager_notify(connect(Address, Queue)),
-          thread_get_message(Queue, Result, Options),
-          Result == met ),
-        message_queue_destroy(Queue)).
-
 %!  manager_unhandled(+Messages) is det.
 %
 %   Answer those that asked too late, and run what was to be done later.
 
 manager_unhandled(Messages) :-
-    forall(member(connect(_, Queue), Messages), waiter_tell(Queue, missed)),
-    unsent_fail(_),
+    waiting_missed(_, inf),
     forall(member(later(_, Goal), Messages), call(Goal)).
 
 %!  keep(+Me) is det.
@@ -118,10 +90,8 @@ next_deadline(Deadline) :-
     ;   min_list(Times, Deadline)
     ).
 
-hear(connect(Address, Queue), _) :-
-    wait_for_connection(Address, Queue).
-hear(requests(Address), _) :-
-    send_held(Address).
+hear(wanted_at(Address), _) :-
+    address_wanted(Address).
 hear(greeted(Thread), _) :-
     attempt_greeted(Thread).
 hear(missed(Thread, Formal), _) :-
@@ -215,25 +185,16 @@ part(Session) :-
 		 *       WANTED ADDRESSES       *
 		 *******************************/
 
-%!  wait_for_connection(+Address, +Queue) is det.
+%!  address_wanted(+Address) is det.
 %
-%   Queue receives `met` or `missed`.
+%   Something waits for Address, or did a moment ago.
 
-wait_for_connection(Address, Queue) :-
-    (   up(Address, _)
-    ->  waiter_tell(Queue, met)
-    ;   waiter_add(Address, Queue),
-        attempt_want(Address)
-    ).
-
-%!  send_held(+Address) is det.
-%
-%   Send what is held for Address when there is a session, see request.pl.
-
-send_held(Address) :-
+address_wanted(Address) :-
     (   up(Address, Session)
-    ->  unsent_send(Address, Session)
-    ;   attempt_want(Address)
+    ->  waiting_met(Address, Session)
+    ;   waiting(Address)
+    ->  attempt_want(Address)
+    ;   true
     ).
 
 %!  reconnect(+Session) is det.
@@ -307,7 +268,7 @@ verdict(Address, Formal) :-
 %   Requests made since the attempt began get another one.
 
 others(Address, _) :-
-    ( waiter(Address) ; unsent(Address) ),
+    waiting(Address),
     !,
     attempt_end(Address),
     attempt_want(Address).
@@ -373,25 +334,22 @@ met(Address) :-
     debug(typhon(connect), '~w: met', [Address]),
     attempt_end(Address),
     (   route(Address, Session)
-    ->  unsent_send(Address, Session)
-    ;   true
-    ),
-    waiters_tell(Address, met).
+    ->  waiting_met(Address, Session)
+    ;   address_wanted(Address)
+    ).
 
 missed(Address, Asked, Formal) :-
     print_message(silent,
                   typhon(endpoint, unreachable(Address, Formal))),
     contact_missed(Address, Formal),
-    unsent_fail(Address, Asked),
-    waiters_missed(Address, Asked).
+    waiting_missed(Address, Asked).
 
 %!  give_up is det.
 %
 %   The endpoint stops: no peer can be reached any more.
 
 give_up :-
-    waiters_tell(_, missed),
-    unsent_fail(_),
+    waiting_missed(_, inf),
     attempt_end(_).
 
 :- multifile prolog:message//1.

@@ -56,13 +56,13 @@ own_start_next/1 run under the mutex of the endpoint.
                 wire_threads_end/0 ]).
 :- use_module(lending, [lending_anew/0]).
 :- use_module(outbox, [session_control/2]).
-:- use_module(flush, [peers_flush/1]).
 :- use_module(request, [requests_lost/2]).
 :- use_module(resumption, [session_close/2]).
 :- use_module(session, [session/2]).
 :- use_module(transport,
               [ alone/1, alone_begin/1, alone_end/0, transport_begin/1,
                 transport_end/0, transport_proof/1 ]).
+:- use_module(waiting, [peers_flush/1]).
 
 :- multifile
     received/3,                         % Kind, Term, Peer

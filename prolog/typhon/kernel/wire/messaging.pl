@@ -31,7 +31,6 @@ endpoint_ask_all/6 wait, and are not for the threads of the endpoint.
 :- use_module(library(lists), [append/3, member/2, selectchk/3, subtract/3]).
 :- use_module(library(settings), [setting/2, setting/4]).
 :- use_module('../base/on_demand', [on_demand_load/2]).
-:- use_module(connection_manager, [manager_connect/1, manager_connect/2]).
 :- use_module(endpoint, [endpoint_address/1]).
 :- use_module(frame, [bytes_term/3, mobile_term/1]).
 :- use_module(outbox,
@@ -42,11 +41,12 @@ endpoint_ask_all/6 wait, and are not for the threads of the endpoint.
               [ request_answer/2, request_forget/1, request_reply/2,
                 request_reply_later/2, request_send/4, take_post/3,
                 take_request/4 ]).
-:- use_module(unsent,
-              [unsent/1, unsent_closed/4, unsent_forget/1, unsent_request/4]).
 :- use_module(session,
               [route/2, route_up/2, session_codec/2, session_peer/3]).
 :- use_module(transport, [alone/1]).
+:- use_module(waiting,
+              [ manager_connect/1, manager_connect/2, unsent/1, unsent_closed/4,
+                unsent_forget/1, unsent_request/4 ]).
 
 :- meta_predicate
     endpoint_request(+, +, +, 1).

@@ -140,7 +140,7 @@ posted(Thread, Outcome) :-
     thread_join(Thread, exited(Outcome)).
 
 waiting(Address, Count) :-
-    aggregate_all(count, typhon_attempts:waiter(Address, _, _), Count).
+    aggregate_all(count, typhon_waiting:waiting(Address, _, thread(_)), Count).
 
 %   with_held(+Head, :First, :Then): Then is called when Head, of the wire, is
 %   about to be called in First; it is on `go` to the gate.
@@ -343,7 +343,7 @@ test(what_is_posted_by_some_time_waits_for_the_next_connection,
           typhon_resumption:session_retire(Session),
           with_held(
               typhon_resumption:say_count(_, _),
-              thread_create(typhon_connection_manager:manager_connect(A), Connects),
+              thread_create(typhon_waiting:manager_connect(A), Connects),
               ( truth(endpoint_post_up(A, note, 1), Up),
                 thread_create(( thread_send_message(endpoint_gate, posts),
                                 ( get_time(Now), By is Now+20,
@@ -366,7 +366,7 @@ test(who_gives_up_while_it_is_sent_leaves_nothing_open, Open == 0) :-
               thread_create(gives_up(A), Asks),
               ( thread_join(Asks, true),
                 thread_send_message(endpoint_gate, go),
-                typhon_connection_manager:manager_connect(A) )),
+                typhon_waiting:manager_connect(A) )),
           aggregate_all(count, typhon_request:open_request(_, _, _), Open) ))).
 
 gives_up(Address) :-
@@ -383,7 +383,7 @@ test(told_of_a_connection_whatever_becomes_of_its_thread) :-
                          told_to_end, Wrapped,
                          ( Wrapped, test_endpoint:told_to_end )),
           assertz(test_endpoint:to_end),
-          typhon_connection_manager:manager_connect(A),
+          typhon_waiting:manager_connect(A),
           wait_until(\+ endpoint_peer(A, state(up)), 30),
           assertion(seen(A, up)) ))).
 

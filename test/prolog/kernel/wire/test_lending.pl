@@ -13,7 +13,7 @@ own.
 :- use_module(library(lists), [member/2, numlist/3]).
 :- use_module(library(plunit)).
 :- use_module(library(typhon/kernel/wire)).
-:- use_module(library(typhon/kernel/wire/connection_manager),
+:- use_module(library(typhon/kernel/wire/waiting),
               [manager_connect/1]).
 :- use_module(library(typhon/kernel/wire/outbox), [session_send/2]).
 :- use_module(library(typhon/kernel/wire/session),

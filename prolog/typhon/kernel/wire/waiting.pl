@@ -1,0 +1,306 @@
+:- module(typhon_waiting,
+          [ manager_connect/1,          % +Address
+            manager_connect/2,          % +Address, +Deadline
+            waiting/1,                  % ?Address
+            waiting_met/2,              % +Address, +Session
+            waiting_missed/2,           % ?Address, +Asked
+            asked/1,                    % -Number
+            unsent/1,                   % ?Address
+            unsent_request/4,           % +Address, +Kind, +Term, :OnAnswer
+            unsent_closed/4,            % +Address, +Kind, +Term, :OnAnswer
+            unsent_again/2,             % +Session, +Unsent
+            unsent_forget/1,            % :OnAnswer
+            endpoint_flush/1,           % +Seconds
+            endpoint_flush/2,           % +Seconds, +Peers
+            peers_flush/1               % +Seconds
+          ]).
+
+/** <module> Waiting for a connection, and until all has arrived
+
+What waits for a connection to an address waits in order. A thread that cannot
+go on waits at a queue of its own, and receives `met` or `missed`. A request
+holds no thread: it is sent, or answered. All of them are numbered: the result
+of an attempt to connect does not concern those that came after it began.
+
+*Threading*: any thread adds to what waits. The connection manager, which
+receives wanted_at(Address), sends it, and removes what it has sent only then:
+as long as a request waits for an address, nothing of the same thread may
+overtake it. The thread that removes a request answers it. manager_connect/1,2
+and the flushes are for any thread that may wait.
+*/
+
+:- use_module(library(error), [must_be/2]).
+:- use_module(library(lists), [member/2]).
+:- use_module('../base/durable_changes', [commit_changes/0]).
+:- use_module('../base/error_text', [print_error/2]).
+:- use_module(outbox, [session_mark/2]).
+:- use_module(peer_cache, [contact_expected/1]).
+:- use_module(request,
+              [ request_answer/2, request_forget/1, request_send/4,
+                request_take/3 ]).
+:- use_module(session,
+              [ route/2, session/2, session_key/2, session_peer/3,
+                session_up/1 ]).
+:- use_module(threads, [manager_notify/1]).
+:- use_module(unacked, [session_pending/2]).
+
+:- meta_predicate
+    unsent_request(+, +, +, 1),
+    unsent_closed(+, +, +, 1),
+    unsent_forget(1).
+
+:- multifile typhon_endpoint:handed_over/2.
+
+:- dynamic
+    waiting/3.                          % Address, Number, What: thread(Queue),
+                                        % request(Kind, Term, OnAnswer)
+
+%!  waiting(?Address) is semidet.
+%!  unsent(?Address) is semidet.
+%
+%   Something waits for Address; a request does.
+
+waiting(Address) :-
+    waiting(Address, _, _),
+    !.
+
+unsent(Address) :-
+    waiting(Address, _, request(_, _, _)),
+    !.
+
+%   What waits for Address.
+
+waiting_add(Address, What) :-
+    flag(typhon_runtime, Number, Number+1),
+    assertz(waiting(Address, Number, What)),
+    (   manager_notify(wanted_at(Address))
+    ->  true
+    ;   missed(Address, Number)
+    ).
+
+%!  asked(-Number) is det.
+%
+%   What has begun to wait has a lower Number.
+
+asked(Number) :-
+    flag(typhon_runtime, Number, Number).
+
+%!  waiting_met(+Address, +Session) is det.
+%
+%   There is a Session: send in it all that waits for Address. For the
+%   connection manager only.
+
+waiting_met(Address, Session) :-
+    oldest(Address, Number, What),
+    !,
+    (   met(What, Address, Session)
+    ->  sent(Address, Number, What),
+        waiting_met(Address, Session)
+    ;   ignore(manager_notify(wanted_at(Address)))
+    ).
+waiting_met(_, _).
+
+oldest(Address, Number, What) :-
+    waiting(Address, Number, What),
+    !.
+
+met(thread(Queue), _, _) :-
+    tell(Queue, met).
+met(request(Kind, Term, OnAnswer), Address, Session) :-
+    catch(request_send(Session, Kind, Term, OnAnswer),
+          error(Formal, Context),
+          not_sent(Formal, Context, Address, OnAnswer)).
+
+%   The waiting thread may have been interrupted, and its queue destroyed.
+
+tell(Queue, Result) :-
+    catch(thread_send_message(Queue, Result),
+          error(existence_error(_, _), _),
+          true).
+
+%   The caller may have given up meanwhile.
+
+sent(Address, Number, What) :-
+    (   retract(waiting(Address, Number, _))
+    ->  true
+    ;   What = request(_, _, OnAnswer)
+    ->  request_forget(OnAnswer)
+    ;   true
+    ).
+
+%   not_sent(+Formal, +Context, +Address, +OnAnswer) fails if the next process
+%   at Address is to be asked.
+
+not_sent(session_closed, _, Address, OnAnswer) :-
+    !,
+    \+ contact_expected(Address),
+    request_answer(unreachable, OnAnswer).
+not_sent(Formal, Context, _, OnAnswer) :-
+    print_error(error, error(Formal, Context)),
+    request_answer(unreachable, OnAnswer).
+
+%!  waiting_missed(?Address, +Asked) is det.
+%
+%   There is no way to Address: say so, to those with a number below Asked, see
+%   asked/1, or to all if that is `inf`.
+
+waiting_missed(Address, Asked) :-
+    findall(A-Number,
+            ( waiting(A, Number, _), A = Address, Number < Asked ), All),
+    forall(member(A-Number, All), missed(A, Number)).
+
+missed(Address, Number) :-
+    (   retract(waiting(Address, Number, What))
+    ->  missed(What)
+    ;   true
+    ).
+
+missed(thread(Queue)) :-
+    tell(Queue, missed).
+missed(request(_, _, OnAnswer)) :-
+    request_answer(unreachable, OnAnswer).
+
+                /*******************************
+                *           THREADS            *
+                *******************************/
+
+%!  manager_connect(+Address) is semidet.
+%!  manager_connect(+Address, +Deadline) is semidet.
+%
+%   Ensure a connection to Address; fails if there can be none, or not before
+%   Deadline. The manager always answers, so the first has no deadline: a wait
+%   with a deadline may never end in a clean-up handler or a hook, where
+%   signals are held back (SWI-Prolog 9.0.4). In the thread of the manager,
+%   which cannot wait for itself, both fail.
+
+manager_connect(Address) :-
+    connected(Address, []).
+
+manager_connect(Address, Deadline) :-
+    connected(Address, [deadline(Deadline)]).
+
+connected(Address, Options) :-
+    \+ nb_current(typhon_keeper, true),
+    setup_call_cleanup(
+        message_queue_create(Queue),
+        ( waiting_add(Address, thread(Queue)),
+          thread_get_message(Queue, Result, Options),
+          Result == met ),
+        ( retractall(waiting(_, _, thread(Queue))),
+          message_queue_destroy(Queue) )).
+
+                /*******************************
+                *           REQUESTS           *
+                *******************************/
+
+%!  unsent_request(+Address, +Kind, +Term, :OnAnswer) is det.
+%!  unsent_forget(:OnAnswer) is det.
+%
+%   As endpoint_request/4, when there is a connection with Address; no caller
+%   waits for this answer any more.
+
+unsent_request(Address, Kind, Term, OnAnswer) :-
+    waiting_add(Address, request(Kind, Term, OnAnswer)).
+
+unsent_forget(OnAnswer) :-
+    retractall(waiting(_, _, request(_, _, OnAnswer))).
+
+%!  unsent_closed(+Address, +Kind, +Term, :OnAnswer) is det.
+%!  unsent_again(+Session, +Unsent) is det.
+%
+%   The peer is gone for good, and was not asked this; nor what is among the
+%   frames Unsent.  If a process is expected there soon, that waits for it.
+
+unsent_closed(Address, Kind, Term, OnAnswer) :-
+    (   contact_expected(Address)
+    ->  unsent_request(Address, Kind, Term, OnAnswer)
+    ;   request_answer(unreachable, OnAnswer)
+    ).
+
+unsent_again(Session, Unsent) :-
+    session_peer(Session, _, Address),
+    contact_expected(Address),
+    !,
+    forall(( member(request(Id, Kind, Term), Unsent),
+             request_take(Session, Id, OnAnswer) ),
+           unsent_request(Address, Kind, Term, OnAnswer)).
+unsent_again(_, _).
+
+                /*******************************
+                *           ARRIVAL            *
+                *******************************/
+
+%!  endpoint_flush(+Seconds) is semidet.
+%!  endpoint_flush(+Seconds, +Peers:list) is semidet.
+%
+%   Wait until all that was posted has arrived, or all to these addresses;
+%   fails after Seconds.
+
+endpoint_flush(Seconds) :-
+    must_be(number, Seconds),
+    get_time(Now),
+    Deadline is Now+Seconds,
+    forall(session(_, Session), session_flush(Session, Deadline)).
+
+endpoint_flush(Seconds, Peers) :-
+    get_time(Now),
+    Deadline is Now+Seconds,
+    forall(( member(Peer, Peers),
+             route(Peer, Session) ),
+           session_flush(Session, Deadline)).
+
+%!  peers_flush(+Seconds) is semidet.
+%
+%   As endpoint_flush/1, for a process about to end: nothing is waited for that
+%   cannot arrive, as no process listens at the address of the peer any more.
+%   Not for hooks nor clean-up handlers, see manager_connect/2.
+
+peers_flush(Seconds) :-
+    get_time(Now),
+    Deadline is Now+Seconds,
+    forall(( session(_, Session),
+             reachable(Session, Deadline) ),
+           session_flush(Session, Deadline)).
+
+%   One connection may just be replaced by another.
+
+reachable(Session, _) :-
+    session_key(Session, Key),
+    session_up(Key),
+    !.
+reachable(Session, Deadline) :-
+    session_pending(Session, Count),
+    Count > 0,
+    route(Address, Session),
+    manager_connect(Address, Deadline),
+    !.
+
+%   session_flush(+Session, +Deadline) is semidet.
+%
+%   Wait until all that was sent before has arrived, or the session is closed,
+%   as when its peer has died; fails at Deadline, a time stamp.  What is waited
+%   for is a frame without content, with which Queue is handed over: it comes
+%   after all else, and the peer settles it at once.
+
+session_flush(Session, Deadline) :-
+    setup_call_cleanup(
+        message_queue_create(Queue),
+        flush(Session, Queue, Deadline),
+        message_queue_destroy(Queue)).
+
+flush(Session, Queue, Deadline) :-
+    catch(commit_changes, error(_, _), true), % the committer has reported it
+    (   session_pending(Session, 0)
+    ->  true
+    ;   catch(session_mark(Session, flushed(Queue)),
+              error(session_closed, _),
+              thread_send_message(Queue, flushed)),
+        thread_get_message(Queue, flushed, [deadline(Deadline)])
+    ).
+
+%   The waiting thread may have given up.
+
+typhon_endpoint:handed_over(flushed(Queue), _) :-
+    catch(thread_send_message(Queue, flushed),
+          error(existence_error(_, _), _),
+          true).
