@@ -3,7 +3,7 @@
           ]).
 :- use_module(library(apply), [maplist/3]).
 :- use_module(library(lists),
-              [append/3, list_to_set/2, member/2]).
+              [append/3, list_to_set/2, member/2, memberchk/2]).
 :- use_module(library(terms), [mapargs/3]).
 :- use_module(claims, [connective/2, leaf/4]).
 :- use_module(expressions, [context/2, selected/3, value/4]).
@@ -81,8 +81,15 @@ plain(E, Plain) :-
 plain(E, E).
 
 where_text(Where, Text) :-
-    findall(Value, member(_=Value, Where), Values),
+    maplist(condition, Where, Values),
     words(Values, Text).
+
+%   A number or a truth value says nothing without the name of its parameter.
+
+condition(Name=Value, Name=Value) :-
+    ( number(Value) ; memberchk(Value, [true, false]) ),
+    !.
+condition(_=Value, Value).
 
 %   Parameters may be compound terms.
 

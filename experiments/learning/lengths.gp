@@ -23,7 +23,7 @@ do for [p=1:panels] {
     left = (70 + 625.0*(p-1))/W
     set lmargin at screen left; set rmargin at screen (left + 560/W)
     set tmargin at screen (1 - 105.0/HEIGHT)
-    set bmargin at screen (60.0/HEIGHT)
+    set bmargin at screen (80.0/HEIGHT)
     set label 3 Panel[p] at screen left,(1 - 90.0/HEIGHT)
     if (p == 1) { set ylabel "actions" offset 1.5,0 } else { unset ylabel }
     plot for [a=1:agents] NAME."-plans.dat" index ((p-1)*agents + a-1) using 1:2 \

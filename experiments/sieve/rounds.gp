@@ -18,7 +18,7 @@ set tics nomirror out scale 0.6 tc rgb "#333333"
 set grid ytics lc rgb "#e4e4e4" lt 1 lw 1
 set lmargin at screen 0.07; set rmargin at screen 0.975
 set key right top horizontal samplen 1.5 width 1
-each = (HEIGHT - 100.0)/panels
+each = (HEIGHT - 120.0)/panels
 do for [p=1:panels] {
     top = 1 - (50 + each*(p-1) + 30)/HEIGHT
     set tmargin at screen top

@@ -258,6 +258,8 @@ test(selected, Text == 'up: 30') :-
     found(at([k=a, n=3], up =:= 30), Text).
 test(both_sides, Text == 'b up: 11 22 33; a up: 10 20 30') :-
     found(at([k=b], up) > at([k=a], up), Text).
+test(numbers_are_named, Text == 'n=3 up: 30') :-
+    found(at([k=a], at([n=3], up) =:= 30), Text).
 test(found_other_case_inside_an_expression,
      Text == 'b up: 33; 2*a up: 60') :-
     found(at([n=3], at([k=b], up) > 2*at([k=a], up)), Text).
