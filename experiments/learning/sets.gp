@@ -10,7 +10,7 @@
 set label 1 "{/:Bold=15 ".TITLE."}" at screen 0.06,(1-24.0/HEIGHT)
 set label 2 "{/*0.9 ".LABEL."; ".RUNS.(RUNS == 1 ? " run" : " runs")." of each: median, least and greatest}" at screen 0.06,(1-50.0/HEIGHT) tc rgb "#555555"
 set lmargin at screen 0.06; set rmargin at screen 0.985
-set tmargin at screen (1-92.0/HEIGHT); set bmargin at screen (62.0/HEIGHT)
+set tmargin at screen (1-92.0/HEIGHT); set bmargin at screen (82.0/HEIGHT)
 set border 3 lc rgb "#888888"
 set tics nomirror out scale 0.6 tc rgb "#333333"
 set grid ytics lc rgb "#e4e4e4" lt 1 lw 1
