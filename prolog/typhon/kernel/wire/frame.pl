@@ -299,7 +299,7 @@ member_culprit([Arg|Args], Culprit) :-
 		 *            BUNDLES           *
 		 *******************************/
 
-%   A bundle is no more than can be under way, see outbox.pl.
+%   A bundle is no more than can be under way, see unacked.pl.
 
 longest_part(512).
 most_parts(100).

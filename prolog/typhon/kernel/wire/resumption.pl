@@ -48,7 +48,7 @@ ended.
 :- use_module(unacked,
               [ session_received/2, unacked_close/3, unacked_open/1,
                 unacked_resumed/4 ]).
-:- use_module(writer, [writer_begin/5, writer_end/1, writer_stop/1]).
+:- use_module(writer, [writer_begin/5, writer_end/1]).
 
 %!  session_install(+Session, +Thread, +Out, +PeerCount) is det.
 %
@@ -80,14 +80,10 @@ install(Session, Key, Thread, Out, PeerCount) :-
 session_down(Session, Thread) :-
     session_key(Session, Key),
     session_locked(Session, transport_stop(Key, Thread)),
-    writer_stop(Key),
-    session_locked(Session, at_rest(Key, Thread)),
+    writer_end(Key),
+    session_locked(Session, transport_detach(Key, Thread)),
     ignore(manager_notify(wanted(Key))),
     debug(typhon(session), '~w: down', [Key]).
-
-at_rest(Key, Thread) :-
-    transport_detach(Key, Thread),
-    writer_end(Key).
 
 %!  session_lost(+Session, +Thread) is det.
 %

@@ -4,7 +4,6 @@
             session_release/1,          % +Session
             flush_out/1,                % +Key
             writer_begin/5,             % +Session, +Key, +Thread, +Out, +Again
-            writer_stop/1,              % +Key
             writer_end/1                % +Key
           ]).
 
@@ -25,7 +24,7 @@ them before, anyway. What is sent after them takes them along.
 
 *Threading*: a thread that calls a predicate of this module holds the mutex of
 the session, which guards the order, except for session_release/1 and
-writer_stop/1: these are for the thread of the connection, or the one that acts
+writer_end/1: these are for the thread of the connection, or the one that acts
 in its place. While a session is up and has no pusher, nothing waits but what is
 held.
 */
@@ -197,10 +196,9 @@ next_frame(Session, Out, Most, Counts, Bytes) :-
 %!  writer_begin(+Session, +Key, +Thread, +Out, +Again) is det.
 %
 %   The session has a new connection, Out of Thread: write the frames Again, and
-%   what waits.  Controls that are left were for another connection.
+%   what waits.
 
 writer_begin(Session, Key, Thread, Out, Again) :-
-    retractall(control(Key, _, _)),
     (   Again == [],
         \+ unacked_waiting(Session)
     ->  true
@@ -259,17 +257,14 @@ nothing_waits(Session, Key) :-
         fail
     ).
 
-%!  writer_stop(+Key) is det.
 %!  writer_end(+Key) is det.
 %
-%   The session loses its connection: end its pusher, if any, and wait for that;
-%   then forget what was left for this connection.
+%   The connection is stopped: end the pusher of the session, if any, and wait
+%   for that; forget the controls, which were for this connection.
 
-writer_stop(Key) :-
+writer_end(Key) :-
     (   retract(pusher(Key, Pusher))
     ->  wire_thread_end(Pusher, broken)
     ;   true
-    ).
-
-writer_end(Key) :-
+    ),
     retractall(control(Key, _, _)).

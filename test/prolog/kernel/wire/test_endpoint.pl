@@ -751,6 +751,12 @@ test(stop_while_connecting, Result == unreachable) :-
                         wait_until(typhon_attempts:attempt(
                                        A, trying(_, _, _), _, _), 10) )))),
     thread_get_message(Me, Result, [timeout(10)]).
+test(a_thread_that_gives_up_waits_no_more, Count == 0) :-
+    no_leaks(with_deaf(A,
+        with_endpoint(( get_time(Now),
+                        Deadline is Now+0.2,
+                        \+ typhon_waiting:manager_connect(A, Deadline),
+                        waiting(A, Count) )))).
 
 %   Until it runs a process is a copy of this one.
 
