@@ -61,11 +61,14 @@ fifo_size(_, 0).
 %   Such a wait costs as much as taking out, and putting back, a dozen.
 
 fifo_take(Queue, Message) :-
-    fifo_first(Queue, Message),         % nearly always
-    !.
-fifo_take(Queue, Message) :-
+    thread_peek_message(Queue, First),
+    (   First = Message                 % nearly always
+    ->  thread_get_message(Queue, _)
+    ;   fifo_take_later(Queue, Message)
+    ).
+
+fifo_take_later(Queue, Message) :-
     message_queue_property(Queue, size(Size)),
-    Size > 0,
     (   Size > 16
     ->  thread_get_message(Queue, Message, [timeout(0)])
     ;   sig_atomic(turn(Size, first, Queue, Message))
