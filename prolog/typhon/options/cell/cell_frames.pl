@@ -1,7 +1,8 @@
 :- module(typhon_cell_frames,
           [ cell_frame_write/2,         % +Out, +Term
             cell_frame_read/2,          % +In, -Term
-            cell_frame_heard/2,         % +In, -Term
+            cell_frame_text/2,          % +In, -Text
+            cell_text_heard/2,          % +Text, -Term
             cell_word/2,                % ?Kind, ?PI
             cell_state/2,               % +State0, -State
             state_mark/2,               % +Module, -Mark
@@ -78,32 +79,35 @@ cell_frame_write(Out, Term) :-
     flush_output(Out).
 
 %!  cell_frame_read(+In, -Term) is det.
-%!  cell_frame_heard(+In, -Term) is det.
 %
-%   Term is `end_of_file` where In ends.  The second is for what a cell has
-%   written: a number of 30,000 digits is refused, as reading one takes a time that
-%   grows with the square of its length, and cannot be interrupted.
-%
-%   @error syntax_error(Message) it is not the text of one term, or the frame is
-%   too large: nothing of it was read then
+%   Term is `end_of_file` where In ends.
 
 cell_frame_read(In, Term) :-
-    (   frame_text(In, Bytes)
-    ->  text_term(Bytes, Term)
+    (   cell_frame_text(In, Text)
+    ->  text_term(Text, Term)
     ;   Term = end_of_file
     ).
 
-cell_frame_heard(In, Term) :-
-    (   frame_text(In, Bytes)
-    ->  no_long_number(Bytes),
-        text_term(Bytes, Term),
-        ( Term == end_of_file -> syntax_error(no_term) ; true )
-    ;   Term = end_of_file
-    ).
+%!  cell_text_heard(+Text, -Term) is det.
+%
+%   Text is of a frame that a cell has written: a number of 30,000 digits is
+%   refused, as reading one takes a time that grows with the square of its length,
+%   and cannot be interrupted.
+%
+%   @error syntax_error(Message) it is not the text of one term
 
-%   frame_text(+In, -Bytes) is semidet: fails where In ends.
+cell_text_heard(Text, Term) :-
+    no_long_number(Text),
+    text_term(Text, Term),
+    ( Term == end_of_file -> syntax_error(no_term) ; true ).
 
-frame_text(In, Bytes) :-
+%!  cell_frame_text(+In, -Text:string) is semidet.
+%
+%   Fails where In ends.
+%
+%   @error syntax_error(Message) the frame is too large: nothing of it was read
+
+cell_frame_text(In, Bytes) :-
     read_string(In, 4, Head),
     string_codes(Head, [L3,L2,L1,L0]),
     Length is L3<<24 \/ L2<<16 \/ L1<<8 \/ L0,

@@ -11,7 +11,7 @@
 :- use_module(library(settings), [setting/2, setting/4]).
 :- use_module('../../kernel/base/prolog_faults', [installed_swipl/2, spawn/3]).
 :- use_module('../../kernel/program', [vocabulary_word/2]).
-:- use_module(cell_frames, [cell_frame_heard/2]).
+:- use_module(cell_frames, [cell_frame_read/2]).
 
 /** <module> The process of a cell
 
@@ -48,7 +48,7 @@ cell_process_start(Process) :-
     ;   kill(Pid),
         read_stream_to_codes(Err, Codes),
         cell_process_end(Process, _),
-        string_codes(Text, Codes),
+        failure(Codes, Text),
         unavailable(Text)
     ).
 
@@ -68,9 +68,14 @@ kill(Pid) :-
 
 comes_up(In) :-
     set_stream(In, timeout(30)),
-    catch(cell_frame_heard(In, Frame), error(_, _), fail),
+    catch(cell_frame_read(In, Frame), error(_, _), fail),
     Frame == ready,
     set_stream(In, timeout(infinite)).
+
+failure([], 'it did not come up within 30 seconds, or ended without a message') :-
+    !.
+failure(Codes, Text) :-
+    string_codes(Text, Codes).
 
 unavailable(Text) :-
     throw(error(cell_unavailable(Text), _)).

@@ -17,6 +17,7 @@
               [ cell_answer/5, cell_changes_made/3, cell_turn_begins/0,
                 cell_violation/1 ]).
 :- use_module(cell_frames).
+:- use_module(cell_functors, [functors_charged/3, functors_left/1]).
 :- use_module(cell_hosts, [walled/2]).
 :- use_module(cells,
               [ cell_break/1, cell_end/2, cell_forgets/2, cell_give/1,
@@ -96,12 +97,18 @@ policy(Module, Policy) :-
 
 run(Kind, Policy, Agent, Goals, Outcome) :-
     Agent = agent(Id, _, _, _, _),
-    key(Kind, Policy, Agent, Key),
-    State = state(unfinished),
-    setup_call_cleanup(
-        taken(Key, Id, Cell),
-        run_in(Cell, Key-Policy, Agent, Goals, State, Outcome),
-        left(State, Cell)),
+    owner(Agent, Owner),
+    (   functors_left(Owner)
+    ->  key(Kind, Policy, Agent, Owner, Key),
+        State = state(unfinished),
+        setup_call_cleanup(
+            taken(Key, Id, Cell),
+            run_in(Cell, keys(Key, Policy, Owner), Agent, Goals, State, Outcome),
+            left(State, Cell))
+    ;   Reason = violation(functors),
+        Outcome = lost(cell(Reason)),
+        ended(Agent, Reason, Outcome)
+    ),
     !.
 run(_, _, agent(Id, _, _, _, _), _, _) :-
     throw(error(system_error(no_turn(Id)), _)).
@@ -112,11 +119,11 @@ taken(Key, Id, Cell) :-
     ;   Cell = none
     ).
 
-run_in(none, Key-_, Agent, Goals, _, held) :-
+run_in(none, keys(Key, _, _), Agent, Goals, _, held) :-
     !,
     sig_atomic(waits(Key, Agent, Goals)).
-run_in(Cell, Key-Policy, Agent, Goals, State, Outcome) :-
-    in_cell(Cell, Policy, Agent, Goals, Result),
+run_in(Cell, keys(Key, Policy, Owner), Agent, Goals, State, Outcome) :-
+    in_cell(Cell, Policy, Owner-Agent, Goals, Result),
     sig_atomic(( finished(Result, Cell, Agent, Outcome0),
                  nb_setarg(1, State, finished),
                  (   Outcome0 == again
@@ -136,25 +143,27 @@ left(state(unfinished), Cell) :-
     cell_break(Cell).
 left(_, _).
 
-key(host, Policy, agent(_, Host, _, _, _), Key) :-
-    atomic_list_concat([Host, Policy], ' ', Key).
-key(owner, Policy, agent(Id, Host, Module, Hash, _), Key) :-
+owner(agent(Id, Host, Module, Hash, _), Owner) :-
     agent_origin(Host, Id, Hash, module(Module), Origin),
-    origin_key(Origin, Owner),
+    origin_key(Origin, Owner).
+
+key(host, Policy, agent(_, Host, _, _, _), _, Key) :-
+    atomic_list_concat([Host, Policy], ' ', Key).
+key(owner, Policy, agent(_, Host, _, _, _), Owner, Key) :-
     atomic_list_concat([Host, Policy, Owner], ' ', Key).
 
 finished(outcome(Outcome, Note), Cell, agent(Id, _, _, _, _), Outcome) :-
     cell_give(Cell),
     retractall(repeated(Id)),
     fault_note(Note).
-finished(over(What), Cell, _, raised(error(resource_error(What), _))) :-
-    cell_end(Cell, _).
-finished(broken(Why), Cell, agent(Id, Host, _, _, _), Outcome) :-
+finished(over(What), Cell, agent(Id, Host, _, _, _),
+         raised(error(resource_error(What), _))) :-
+    cell_end(Cell, _),
+    end_audited(Host, Id, over(What)).
+finished(broken(Why), Cell, Agent, Outcome) :-
     cell_end(Cell, Status),
     ( Why = ended(_) -> Reason = Status ; Reason = Why ),
-    endpoint_address(Own),
-    endpoint_own_proof(Proof),
-    security_event(Host, Own, Proof, cell(Id, Reason)),
+    Agent = agent(Id, _, _, _, _),
     (   Why == ended(nothing),
         durable_on,
         \+ repeated(Id)
@@ -162,17 +171,26 @@ finished(broken(Why), Cell, agent(Id, Host, _, _, _), Outcome) :-
         Outcome = again
     ;   Outcome = lost(cell(Reason))
     ),
+    ended(Agent, Reason, Outcome).
+
+ended(agent(Id, Host, _, _, _), Reason, Outcome) :-
+    end_audited(Host, Id, Reason),
     print_message(warning, typhon(cell_ended(Id, Host, Reason, Outcome))).
 
-%   in_cell(+Cell, +Policy, +Agent, +Goals, -Result): Result is
+end_audited(Host, Id, Reason) :-
+    endpoint_address(Own),
+    endpoint_own_proof(Proof),
+    security_event(Host, Own, Proof, cell(Id, Reason)).
+
+%   in_cell(+Cell, +Policy, +OwnerAndAgent, +Goals, -Result): Result is
 %   outcome(Outcome, Note), over(What) or broken(Why).
 
-in_cell(Cell, Policy, Agent, Goals, Result) :-
+in_cell(Cell, Policy, Owner-Agent, Goals, Result) :-
     flag(typhon_cell_turn, N, N+1),
     cell_turn_begins,
     catch(( begun(Cell, Policy, Agent, N, Goals),
-            turn_heard(Cell, N, Agent, Goals, acts(well, [], nothing),
-                       Result) ),
+            turn_heard(Cell, N-Owner, Agent, Goals,
+                       acts(well, [], nothing), Result) ),
           error(Formal, Context),
           broken(Formal, Context, Result)).
 
@@ -258,22 +276,28 @@ known(Id, Host, Life, Known) :-
                 *       WHAT A CELL SAYS       *
                 *******************************/
 
-%   turn_heard(+Cell, +N, +Agent, +Goals, +Acts, -Result): Acts is acts(Told,
+%   turn_heard(+Cell, +NAndOwner, +Agent, +Goals, +Acts, -Result): Acts is acts(Told,
 %   Later, Done).  Told is raised(Error) if a word that has no answer has raised
 %   Error, else `well`; Later are lists of such words, the last one first, that
 %   are not carried out yet; Done is `nothing`, or `something` that changes the
 %   host was.
 
-turn_heard(Cell, N, Agent, Goals, Acts, Result) :-
+turn_heard(Cell, N-Owner, Agent, Goals, Acts, Result) :-
     cell_streams(Cell, In, _),
-    cell_frame_heard(In, Frame),
+    frame_heard(In, Owner, Frame),
     (   is_of_turn(Frame, N),
         heard(Frame, Cell, Agent, Goals, Acts, Next)
     ->  (   Next = more(Acts1)
-        ->  turn_heard(Cell, N, Agent, Goals, Acts1, Result)
+        ->  turn_heard(Cell, N-Owner, Agent, Goals, Acts1, Result)
         ;   Result = Next
         )
     ;   cell_violation(frame)
+    ).
+
+frame_heard(In, Owner, Frame) :-
+    (   cell_frame_text(In, Text)
+    ->  functors_charged(Owner, Text, Frame)
+    ;   Frame = end_of_file
     ).
 
 is_of_turn(Frame, _) :-

@@ -80,6 +80,12 @@ helper((sends(deep(N)) :-
 helper((sends(told(Goals)) :-
            user:turn(N),
            user:sends(frame(told(N, Goals))))).
+helper((sends(functors(K, Length)) :-
+           forall(between(1, K, I),
+                  ( findall(T, ( between(1, Length, J),
+                                 atomic_list_concat([a_new,I,J], '_', Name),
+                                 T =.. [Name,x] ), Ts),
+                    user:sends(told([log(Ts)])) )))).
 helper((sends(refused(K, Length)) :-
            length(List, Length),
            forall(between(1, K, _), user:test_ask(halt(List), _)))).
@@ -193,6 +199,16 @@ test(requests_that_are_refused_do_not_fill_the_audit,
     with_cell(refused_again_and_again(Outcome, Lines)).
 test(no_act_without_an_answer_passes_the_rules, Through == []) :-
     with_cell(through(act, Through)).
+test(new_functors_are_charged_to_the_owner_until_its_turns_end,
+     [First,Next,Before,After,Lines] =
+     [ended(lost(cell(violation(functors)))),ended(lost(cell(violation(functors)))),
+      true,true,2]) :-
+    with_settings([typhon_cells:functors=30 000],
+                  with_cell(functors_charged([First,Next], Before, After,
+                                             Lines))).
+test(functors_that_the_process_has_are_not_charged, Outcome == yes(true)) :-
+    with_settings([typhon_cells:functors=30 000],
+                  with_cell(attempt(true, Outcome))).
 test(what_comes_after_the_outcome_ends_the_cell,
      [One,Next,After] = [ended(done), ended(lost(cell(violation(frame)))),
                          yes(true)]) :-
@@ -213,6 +229,24 @@ refused_again_and_again(Outcome, Lines) :-
     length(Entries, Lines),
     size_file(Audit, Size),
     assertion(Size < 100 000).
+
+%   Frames of 5,000 new functors are told until the cell ends; an agent of the same
+%   owner has no turn then.  Before: not all came; After: the process has few more.
+
+functors_charged([First,Next], Before, After, Lines) :-
+    bait(audit, Dir),
+    directory_file_path(Dir, audit, Audit),
+    statistics(functors, Count0),
+    attempt(test_send(functors(20, 5 000)), First),
+    statistics(functors, Count1),
+    ( Count1-Count0 < 50 000 -> Before = true ; Before = Count1-Count0 ),
+    attempt(true, Next),
+    statistics(functors, Count2),
+    ( Count2-Count1 < 1000 -> After = true ; After = Count2-Count1 ),
+    read_file_to_terms(Audit, Entries, []),
+    findall(x, member(audit(_, c, _, _, cell(_, violation(functors))), Entries),
+            Xs),
+    length(Xs, Lines).
 
 unaudited(Left) :-
     bait(audit, Dir),
