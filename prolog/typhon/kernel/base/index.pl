@@ -173,6 +173,7 @@ part_setting(entries,typhon_fipa_managers,positive_integer,10000,'Descriptions i
 part_setting(events,typhon_telling,positive_integer,10000,'So many events wait for a watch that is slow','options/watch/telling').
 part_setting(frame_events,typhon_page_browsers,positive_integer,2000,'A page tells its browsers of so many events at a time','tools/page/browsers').
 part_setting(frame_seconds,typhon_page_browsers,number,0.05,'A page tells its browsers of events once in so many seconds','tools/page/browsers').
+part_setting(functors,typhon_cells,positive_integer,20000,'Functors that the cells of an owner may bring into the process','options/cell/cell_functors').
 part_setting(head_bytes,typhon_page_reception,positive_integer,16384,'The head of a request is no longer','tools/page/server').
 part_setting(heartbeat_seconds,typhon_page_browsers,number,5,'A page says so often that it is there, when nothing happens','tools/page/browsers').
 part_setting(hold_seconds,typhon_saving,number,30,'A network that is saved has so long to come to rest','network/saving').
