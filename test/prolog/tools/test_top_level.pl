@@ -266,7 +266,7 @@ test(mistyped_host_and_port_that_is_taken) :-
     said([Create, Start], Written),
     one_has(Written, "There is no host dlta at "),
     one_has(Written, "(there are: delta)"),
-    format(string(Where), "(at ~w)", [Address]),
+    format(string(Where), "at ~w; choose another port", [Address]),
     one_has(Written, Where).
 
 %   A host of another network, whether a person asks or an agent moves.
