@@ -110,6 +110,7 @@ charge(Name, Arity, Owner) :-
     ).
 
 counted(Owner, New) :-
-    ( retract(count(Owner, Count0)) -> true ; Count0 = 0 ),
+    ( count(Owner, Count0) -> true ; Count0 = 0 ),
     Count is Count0+New,
-    assertz(count(Owner, Count)).
+    assertz(count(Owner, Count)),       % readers hold no mutex: new before old
+    ignore(retract(count(Owner, Count0))).

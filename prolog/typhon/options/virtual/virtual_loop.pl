@@ -12,7 +12,7 @@
 :- use_module(library(debug), [debug/3]).
 :- use_module(library(heaps),
               [ add_to_heap/4, empty_heap/1, get_from_heap/4, heap_to_list/2,
-                list_to_heap/2 ]).
+                list_to_heap/2, min_of_heap/3 ]).
 :- use_module(library(lists), [append/3, member/2]).
 :- use_module('../../kernel/base/error_text', [print_error/2]).
 :- use_module('../../kernel/base/fifo', [fifo_empty/2]).
@@ -103,7 +103,7 @@ virtual_doing(Work) :-
 virtual_alone :-
     nb_current(typhon_virtual_work, doing(_, Waiting, Queue)),
     \+ there(Queue),
-    \+ some_has_got(Waiting),
+    \+ ( member(Waits, Waiting), has_got(Waits) ),
     one_step_more.
 
 %!  virtual_standing(-Standing) is semidet.
@@ -215,14 +215,13 @@ go(Waiting, Queue, Alarms) :-
     ;   jump(Waiting, Queue, Alarms)
     ).
 
-%   The terms of the global variables are not changed, nor backtracked over, as
-%   long as the work is under way: copies would take longer than the rest.
-
 step(do(Work), Waiting0, Queue, Alarms) :-
     one_step_more,
-    nb_linkval(typhon_virtual_work, doing(Work, Waiting0, Queue)),
+    nb_setval(typhon_virtual_work, doing(Work, Waiting0, Queue)),
     nb_linkval(typhon_virtual_alarms, Queue-Alarms),
-    catch(done(Work, Queue, Done), Ball,
+    catch(( work_do(Work, again(Queue)),
+            Done = true ),
+          Ball,
           go_on(Ball, Waiting0, Queue, Alarms)),
     (   Done == true
     ->  next(Waiting0, Queue, Alarms)
@@ -237,11 +236,8 @@ step(ask(Ask), Waiting, Queue, Alarms) :-
 step(held(_), Waiting, Queue, Alarms) :-
     go(Waiting, Queue, Alarms).         % it is not any more
 
-done(Work, Queue, true) :-
-    work_do(Work, again(Queue)).
-
 next(Waiting0, Queue, Alarms) :-
-    nb_linkval(typhon_virtual_work, none),
+    nb_setval(typhon_virtual_work, none),
     satisfied(Waiting0, Waiting),
     go(Waiting, Queue, Alarms).
 
@@ -267,9 +263,10 @@ again(Queue, Work) :-
 
 jump(Waiting, Queue, alarms(Count, Heap)) :-
     first_end(Waiting, End),
-    (   get_from_heap(Heap, at(Stamp, _), What, Heap1),
+    (   min_of_heap(Heap, at(Stamp, _), _),
         before(Stamp, End)
-    ->  pass_to(Stamp),
+    ->  get_from_heap(Heap, _, What, Heap1),
+        pass_to(Stamp),
         go_off(What),
         satisfied(Waiting, Waiting1),
         go(Waiting1, Queue, alarms(Count, Heap1))
@@ -302,9 +299,7 @@ ends_at(End, waits(_, _, End0)) :-
     End0 =< End.
 
 pass_to(Stamp) :-
-    get_flag(typhon_virtual_now, Now0),
-    Now is max(Now0, float(Stamp)),
-    set_flag(typhon_virtual_now, Now).
+    flag(typhon_virtual_now, Now, max(Now, float(Stamp))).
 
 go_off(Agent-Token) :-
     debug(typhon(scheduler), 'alarm ~p of ~p', [Token, Agent]),
@@ -312,23 +307,18 @@ go_off(Agent-Token) :-
           print_error(error, error(Formal, Where))).
 
 there(Queue) :-
-    thread_peek_message(Queue, _).
+    message_queue_property(Queue, size(Size)),
+    Size > 0.
 
 %   satisfied(+Waiting0, -Waiting): callers that have what they wait for are
 %   notified.
 
 satisfied(Waiting, Waiting) :-
-    \+ some_has_got(Waiting),
+    \+ ( member(Waits, Waiting), has_got(Waits) ),
     !.
 satisfied(Waiting0, Waiting) :-
     partition(has_got, Waiting0, Happy, Waiting),
     forall(member(waits(Reply, _, _), Happy), reply(Reply, there)).
-
-some_has_got([Waits|Waiting]) :-
-    (   has_got(Waits)
-    ->  true
-    ;   some_has_got(Waiting)
-    ).
 
 has_got(waits(_, Queue, _)) :-
     catch(there(Queue), error(existence_error(_, _), _), true).

@@ -206,9 +206,6 @@ test(new_functors_are_charged_to_the_owner_until_its_turns_end,
     with_settings([typhon_cells:functors=30 000],
                   with_cell(functors_charged([First,Next], Before, After,
                                              Lines))).
-test(functors_that_the_process_has_are_not_charged, Outcome == yes(true)) :-
-    with_settings([typhon_cells:functors=30 000],
-                  with_cell(attempt(true, Outcome))).
 test(what_comes_after_the_outcome_ends_the_cell,
      [One,Next,After] = [ended(done), ended(lost(cell(violation(frame)))),
                          yes(true)]) :-
@@ -230,8 +227,8 @@ refused_again_and_again(Outcome, Lines) :-
     size_file(Audit, Size),
     assertion(Size < 100 000).
 
-%   Frames of 5,000 new functors are told until the cell ends; an agent of the same
-%   owner has no turn then.  Before: not all came; After: the process has few more.
+%   The cell writes frames of 5,000 new functors until it is ended; an agent of the
+%   same owner has no turn then.  Before: not all came; After: the process has few more.
 
 functors_charged([First,Next], Before, After, Lines) :-
     bait(audit, Dir),
