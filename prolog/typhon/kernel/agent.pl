@@ -14,7 +14,6 @@ This is the interface of the layer: higher layers import from here.
               agent_ready/2, agent_remove/3, agent_rest/3,
               agent_rests/3, agent_runs/1, agent_status/3,
               agent_take/3, agent_thawed/5, agent_under_way/6, agent_wakes/2 ]).
-:- reexport(agent/agent_lock, [agents_passed/0, with_agent/2]).
 :- reexport(agent/agent_module,
               [ agent_add/2, agent_changed/4, agent_clauses/3, agent_code/2,
                 agent_handles/2, agent_links/4, agent_module/4,
@@ -22,9 +21,9 @@ This is the interface of the layer: higher layers import from here.
                 agent_state/2, agent_variant/2 ]).
 :- reexport(agent/identity,
             [ agent_home/2, agent_home_endpoint/2, agent_id/3, agent_name/3,
-              agent_origin/5, is_printable/1, must_be_agent_name/1,
-              origin_inherited/3, origin_key/2, origin_passed/4, origin_said/2
-            ]).
+              agent_origin/5, agents_passed/0, is_printable/1,
+              must_be_agent_name/1, origin_inherited/3, origin_key/2,
+              origin_passed/4, origin_said/2, with_agent/2 ]).
 :- reexport(agent/life,
             [ agent_extras_load/1, agent_extras_missing/1, is_life/1,
               life_before/2, life_came/2, life_clone/3, life_goes/3, life_hop/3,

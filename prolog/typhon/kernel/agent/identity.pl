@@ -1,5 +1,7 @@
 :- module(typhon_identity,
-          [ agent_id/3,                 % +Name, +Home, -Id
+          [ with_agent/2,               % +Id, :Goal
+            agents_passed/0,
+            agent_id/3,                 % +Name, +Home, -Id
             agent_name/3,               % +Id, -Name, -Number
             must_be_agent_name/1,       % @Name
             is_printable/1,             % +Text
@@ -19,7 +21,7 @@
 :- use_module('../wire', [endpoint_address/1]).
 :- use_module('../host', [time_repeats/2]).
 
-/** <module> The ids of agents
+/** <module> The ids of agents, and their mutexes
 
 An id is Name.Mark.Number@Home: from what the agent was made, the process,
 the how manieth in it, and the address of the host on which it was born.  An
@@ -35,7 +37,9 @@ Where an agent comes from is what no agent can choose:
 What cannot be told from the id is a fact '$owner'(Origin) among the state of
 the agent, so it goes along.  An agent that is guarded cannot touch it.
 
-*Threading*: any thread.
+There are 64 mutexes: the id of an agent chooses one.
+
+*Threading*: any thread.  Nothing inside with_agent/2 may block.
 */
 
 %!  agent_id(+Name, +Home, -Id) is det.
@@ -249,3 +253,42 @@ hidden(0xd800, 0xdfff).
 hidden(0xfeff, 0xfeff).
 hidden(0xfff9, 0xfffb).
 hidden(0xe0000, 0xe007f).
+
+                /*******************************
+                *            MUTEXES           *
+                *******************************/
+
+:- meta_predicate with_agent(+, 0).
+
+%!  with_agent(+Id, :Goal) is semidet.
+%
+%   Run Goal once while no other thread changes the record of Id.
+
+with_agent(Id, Goal) :-
+    term_hash(Id, Hash),
+    I is Hash /\ 63,
+    shard(I, Mutex),
+    with_mutex(Mutex, Goal).
+
+%!  agents_passed is det.
+%
+%   A thread that was inside with_agent/2 when this was called has left it.
+
+agents_passed :-
+    forall(shard(_, Mutex), with_mutex(Mutex, true)).
+
+:- dynamic shard/2.
+
+%   A saved state has them already where it runs this again.
+
+make_shards :-
+    shard(_, _),
+    !.
+make_shards :-
+    forall(between(0, 63, I),
+           ( atom_concat(typhon_agents_, I, Mutex),
+             assertz(shard(I, Mutex))
+           )),
+    compile_predicates([shard/2]).
+
+:- initialization(make_shards, now).

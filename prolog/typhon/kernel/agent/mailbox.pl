@@ -16,7 +16,7 @@
 :- use_module(library(debug), [debug/3]).
 :- use_module(library(lists), [append/3, member/2]).
 :- use_module(library(settings), [setting/2, setting/4]).
-:- use_module(agent_lock, [with_agent/2]).
+:- use_module(identity, [with_agent/2]).
 :- use_module('../base/fifo', [fifo_empty/2, fifo_size/2, fifo_take/2]).
 :- use_module('../base/durable', [durable/6]).
 :- use_module('../base/durable_changes',

@@ -17,7 +17,7 @@
 :- use_module(library(settings), [setting/2, setting/4]).
 :- use_module('../host', [host_address/2, parts/3]).
 :- use_module(agents, [agent/5, agent_put_life/2]).
-:- use_module(agent_lock, [with_agent/2]).
+:- use_module(identity, [with_agent/2]).
 :- use_module(agent_module,
               [attach_clauses/2, attach_free/3, detach_clauses/2]).
 :- use_module(life, [life_payloads/2, set_payloads_of_life/3]).

@@ -256,7 +256,7 @@ one_after_the_other(Dir) :-
           wait_until(agent_property(A, state(resident)), 5) )),
     message_queue_create(Gate, [alias(journal_gate)]),
     assertz(speaks_to(A)),
-    wrap_predicate(typhon_agent_lock:with_agent(Id, _), spoken_to, Wrapped,
+    wrap_predicate(typhon_identity:with_agent(Id, _), spoken_to, Wrapped,
                    ( plunit_journal:spoken_to(Id), Wrapped )),
     host_start(alpha, [journal(Dir)]),
     call_cleanup(
