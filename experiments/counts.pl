@@ -5,7 +5,7 @@
 
     Logs of studies have neither, as they are most of what happens, so the runs
     are made again.  Memory is looked at each `every` host seconds; the greatest
-    values are printed.
+    values are printed.  With --list it only prints which runs it would make.
 */
 
 :- module(counts, []).
@@ -20,7 +20,7 @@
 :- use_module(library(apply), [maplist/3]).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(main), [argv_options/3, main/0]).
-:- use_module(library(option), [option/3]).
+:- use_module(library(option), [option/2, option/3]).
 
 :- initialization(main, main).
 
@@ -30,6 +30,7 @@ opt_type(runs, runs, natural).
 opt_type(seed, seed, integer).
 opt_type(set,  set,  atom).
 opt_type(every, every, number).
+opt_type(list, list, boolean).
 
 main(Argv) :-
     argv_options(Argv, Names, Options),
@@ -38,6 +39,11 @@ main(Argv) :-
     plans(Studies, Options, Plans),
     forall(planned(Plans, Options, _, Run), counted(Run, Options)).
 
+counted(run(Study, Case, Seed), Options) :-
+    option(list(true), Options),
+    !,
+    case_name(Study, Case, Name),
+    format('~w, seed ~w~n', [Name, Seed]).
 counted(run(Study, Case, Seed), Options) :-
     option(every(Every), Options, 2),
     tmp_file_stream(Log, Stream, [encoding(utf8)]),

@@ -135,8 +135,7 @@ how(Command, elsewhere) :-
 how(Command, serves) :-
     serving(Part),
     sub_string(Command, _, _, _, Part),
-    \+ ( member(Ends, ["--export", "--speed=0"]),
-         sub_string(Command, _, _, _, Ends) ),
+    \+ sub_string(Command, _, _, _, "--export"),
     !.
 how(Command, answers) :-
     sub_string(Command, _, _, _, " diagnose "),
@@ -156,6 +155,8 @@ how(_, ends("")).
 long("make ", " -n").
 long("study.pl -- ", " --list").
 long("chaos/supervised.pl", " --rounds=1").
+long("counts.pl -- 3.3 ", " --list").
+long("counts.pl ", " --runs 1").
 
 serving("typhon.pl host ").
 serving("typhon.pl network ").
@@ -167,6 +168,7 @@ serving("nxt/world.py ").
 elsewhere("COMMAND ... [options]").     % a synopsis
 elsewhere("layers.pl -- check").         % a part of make check, see test_make
 elsewhere("perf record").               % needs a build of SWI-Prolog with symbols
+elsewhere("--speed=0").                 % test_applications runs these
 elsewhere("lsp_server").                % a pack that is not part of anything here
 elsewhere("db.example").                % test_postgresql has a server
 elsewhere("pack_install").              % test_pack installs the pack
