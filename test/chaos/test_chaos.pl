@@ -181,6 +181,20 @@ test(message_lost_after_the_death, true(Kinds == [message_lost])) :-
     kinds(true, [more(mail, sent(a, s, 2, 60))], Kinds).
 test(message_died, true(Kinds == [message_died])) :-
     kinds(true, [more(mail, sent(a, s, 2, 49))], Kinds).
+test(message_died_long_after_it_was_sent,
+     [ forall(member(Acted-Wrong, [45-[message_lost],20-[message_died]])),
+       true(Kinds == Wrong) ]) :-
+    kinds(true, [ less(events, e(s, 1, got(t, 1), _, _)),
+                  less(events, e(s, 2, got(a, 1), _, _)),
+                  less(events, e(t, 3, said(s, 1), _, _)),
+                  less(mail, sent(a, s, 1, _)),
+                  more(mail, sent(a, s, 2, 10)),
+                  less(standing, agent(_, ids, _, _, _)),
+                  more(standing, agent(a, ids, resident, 0,
+                                       [me(s), tick(1), steps(0)])),
+                  more(events, e(s, 1, at('a1@x:1'), Acted, a-1)) ],
+          Kinds0),
+    subtract(Kinds0, [count], Kinds).
 test(message_twice, true(Kinds == [count,message_twice])) :-
     kinds(false, [more(events, e(s, 3, got(a, 1), 61, a-1))], Kinds).
 test(out_of_order_from_one_that_moves, true(Kinds == [order_moving])) :-
