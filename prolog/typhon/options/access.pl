@@ -8,18 +8,19 @@
 :- use_module('../kernel/wire', [endpoint_proof/2]).
 :- use_module('../kernel/host', [host_option/2]).
 
-/** <module> Rules for peers, and a record of what they did
+/** <module> Access rules for peers, and the audit log
 
 The option peer(Rules) of a host is a list of Peer-Rights.  Peer is `cookie`,
 certificate(Name), or a pattern of these; Rights is `all` or a list of rights,
-see typhon_peer_rights; that to inspect is `watch` here.  The first rule that
-matches how a peer has proved itself counts; without a match it has no right.
+see typhon_peer_rights; the right `inspect` is called `watch` here.  The first
+rule that matches the proof of a peer applies; a peer without a matching rule
+has no right.
 
-With the option audit(File) each security event is a line there,
+With the option audit(File) each security event appends a line to File,
 
     audit(Time, Host, Peer, Proof, What).
 
-*Threading*: any thread; a mutex keeps lines whole.
+*Threading*: any thread; a mutex keeps lines from being mixed.
 */
 
 :- multifile
@@ -120,8 +121,8 @@ note(File, Host, Peer, Proof, What0) :-
           error(Formal, Context),
           print_error(error, error(Formal, Context))).
 
-%   brief(+Term0, -Term): of what is large in Term0 there is the name alone.  A peer,
-%   or a cell, could fill the disk with one entry after the other.
+%   brief(+Term0, -Term): large subterms of Term0 are replaced by abridged text.
+%   Otherwise a peer, or a cell, could fill the disk with large entries.
 
 brief(Term0, Term) :-
     is_tree(Term0, 500),
@@ -138,8 +139,8 @@ brief(Term0, Term) :-
 brief(Term0, large(Text)) :-
     abridged(Term0, 100, Text).
 
-%   What a peer has said is written so that it can be read again, and not at
-%   any length.
+%   The entry holds text of the peer, so it is quoted to be read again, and its
+%   depth is limited.
 
 append_line(File, Entry) :-
     setup_call_cleanup(

@@ -6,9 +6,9 @@
 
 /** <module> Directory: which agents offer which services
 
-An agent offers a service on the host on which it stands, and others find it.
-This is the interface of the layer; what keeps offers is loaded when a service is
-offered or looked for.
+An agent offers a service on the host where it is, and other agents find it.
+This is the interface of the layer; the module that keeps offers is loaded when
+a service is first offered or looked for.
 
 *Threading*: any thread.
 */
@@ -16,8 +16,8 @@ offered or looked for.
 %!  host_offers(+Host, -Offers:list) is det.
 %
 %   Offers are the services that agents on Host offer: pairs
-%   Agent-offer(Service, Properties), in the order in which they were made.  Host
-%   is the name of a host of this process.
+%   Agent-offer(Service, Properties), in the order of the offers.  Host is the
+%   name of a host of this process.
 
 host_offers(Host, Offers) :-
     offers_on(Host, Offers).

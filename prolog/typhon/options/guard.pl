@@ -14,16 +14,16 @@
               [ guard_clauses/3, guard_declares/2, guard_program/3,
                 guard_refuses/4, guard_state/3 ]).
 
-/** <module> Hosts that guard: the option policy(Policy)
+/** <module> Sandboxed hosts: the option policy(Policy)
 
 Policy is `trusted`, `guarded`, or a file of rules, see policy_read/1.  On a
 host with another policy than `trusted` agents run the variant guarded(Policy)
-of their program, see typhon_agent_module, and hang below a view of the place that
-has nothing but its services, see place_service/2.  An agent is looked through
-before it enters.
+of their program, see typhon_agent_module.  Their modules inherit from a view
+of the place that has nothing but its services, see place_service/2.  The
+program of an agent is checked before the agent enters.
 
-Beside a program there is for each policy what it is rewritten to, once in the
-process; it goes after the program.
+The rewritten program is made once per program and policy in a process, and is
+removed after the program.
 
 *Threading*: any thread; a mutex protects the table of variants, that of
 host_start/2 those of views.
@@ -73,7 +73,8 @@ typhon_host_parts:changeable(policy(_)).
 typhon_host_parts:untrusted(policy(Policy)) :-
     Policy \== trusted.
 
-%   Before the option is put: so a file of rules that is wrong changes nothing.
+%   This runs before the option is set, so a wrong file of rules changes
+%   nothing.
 
 typhon_host_parts:changes(policy(Policy), Host) :-
     host(Host, _, Place),
@@ -82,9 +83,9 @@ typhon_host_parts:changes(policy(Policy), Host) :-
 typhon_host_parts:part(view, Host, 10, View) :-
     view_now(Host, View).
 
-%   view_set(+Host, +Place, +Policy): agents on Host keep their policy.
+%   view_set(+Host, +Place, +Policy): agents that are on Host keep their policy.
 %
-%   @error what policy_read/1 raises
+%   @error the errors of policy_read/1
 
 view_set(Host, _, trusted) :-
     !,
@@ -150,11 +151,12 @@ forbids(Policy, From, Entrant, _, refused(Reason)) :-
     catch(( looked_through(From, Entrant, Policy), fail ), error(Formal, Where),
           forbidden(error(Formal, Where), Reason)).
 
-%   looked_through(+From, +Entrant, +Policy): the program alone.  One that is
-%   sent is checked before it is installed, since that loads its libraries.
-%   State and goals are checked when the agent is installed.
+%   looked_through(+From, +Entrant, +Policy): check the program alone.  A
+%   program that comes with the agent is checked before it is installed, since
+%   that loads its libraries.  State and goals are checked when the agent is
+%   installed.
 %
-%   @error what forbidden/2 knows
+%   @error the errors that forbidden/2 lists
 
 looked_through(_, entrant(_, Hash, _, _, _), Policy) :-
     code_module(Hash, _),
@@ -163,8 +165,7 @@ looked_through(_, entrant(_, Hash, _, _, _), Policy) :-
 looked_through(from(_, Sent, _), _, Policy) :-
     check_sent(Policy, Sent).
 
-%   forbidden(+Ball, -Reason): Ball says that a host refuses what it is not to
-%   run.
+%   forbidden(+Ball, -Reason): Ball is an error by which a host refuses code.
 
 typhon_gate:forbidden(Ball, Reason) :-
     forbidden(Ball, Reason).
@@ -178,8 +179,8 @@ forbidden(error(resource_error(clause_cells), _), policy(clause_cells)).
 may_have(Policy, _, _, Sent) :-
     check_sent(Policy, Sent).
 
-%   check_sent(+Policy, +Sent): look at a program that is not installed yet:
-%   already its libraries could be unwanted here.  Sent is as of code_receive/2.
+%   check_sent(+Policy, +Sent): check a program that is not installed yet, since
+%   its libraries alone may be forbidden here.  Sent is as of code_receive/2.
 %
 %   @error permission_error(call, sandboxed, Culprit)
 
@@ -187,7 +188,7 @@ check_sent(Policy, Sent) :-
     (   sent_program(Sent, Program),
         acyclic_term(Program)
     ->  guard_program(Policy, Program, _)
-    ;   true                            % is no program, or comes later
+    ;   true                            % not a program, or it comes later
     ).
 
                 /*******************************
@@ -215,8 +216,8 @@ typhon_agent_module:declares(guarded(Policy), PI) :-
 typhon_agent_module:called(guarded(Policy), Module, Closure, Extra, Goal) :-
     guard_call(Policy, Module, Closure, Extra, Goal).
 
-%   guarded_module(+Policy, +Hash, -Module): Module has the program Hash, which
-%   is installed, as Policy lets it run.
+%   guarded_module(+Policy, +Hash, -Module): Module has the installed program
+%   Hash, rewritten for Policy.
 %
 %   @error permission_error(call, sandboxed, Culprit)
 

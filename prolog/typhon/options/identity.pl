@@ -2,9 +2,9 @@
 
 /** <module> Identity: owners, births, signatures, authors and seals
 
-What the keys of processes and authors prove of agents.  Signatures of programs
-are kept in all processes, and agents find seal/3 on all hosts; the rest is
-loaded in processes that have keys.  This is the interface of the layer.
+The keys of processes and authors prove facts of agents.  All processes keep
+signatures of programs, and agents find seal/3 on all hosts; the other modules
+are loaded in processes that have keys.  This is the interface of the layer.
 */
 
 :- reexport(identity/signatures, [file_sign/2]).

@@ -9,13 +9,13 @@
           ]).
 :- use_module('../kernel/base/on_demand', [on_demand_call/3]).
 
-/** <module> The journal: what happens in a process outlives it
+/** <module> The journal: the state of a process outlives the process
 
-It notes agents as they change, commits the changes that the kernel queues, see
-typhon_durable_changes, many together, to a database, and restores all of it
-when the process is started again.  Its modules are loaded with the first
-journal; then the hooks of the kernel do so in processes that open one.  This
-is the interface of the layer.
+The journal records agents as they change and commits the changes that the
+kernel queues, see typhon_durable_changes, in batches to a database.  It
+restores all of it when the process is started again.  Its modules are loaded
+with the first journal, by this interface of the layer or by hooks of the
+kernel.
 
 *Threading*: any thread.
 */
@@ -41,7 +41,7 @@ journal_part(Where, P, Part) :-
 
 %!  journal_place(+Where, -Place:atom) is det.
 %
-%   What the journal at Where is called, as in errors.
+%   Place is the name of the journal at Where in errors.
 %
 %   @arg Where is a directory, postgresql(Url), or such a Url
 %   @error domain_error(postgresql_url, Url)
@@ -53,7 +53,7 @@ journal_place(Where, Place) :-
 %!  journal_record_put(+Where, +Text) is det.
 %!  journal_record_drop(+Where) is det.
 %
-%   What journals that belong together have in common is a text beside them.
+%   The common record of journals that belong together is a text beside them.
 
 journal_record(Where, Text) :-
     journal_call(typhon_database:journal_record(Where, Text)).

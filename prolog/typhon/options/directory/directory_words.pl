@@ -12,7 +12,7 @@
               [context/3, context_host/1, context_now/2, host/3, parts_call/3]).
 :- autoload(offers, [offer_add/4, offer_remove/2, search/4]).
 
-/** <module> What agents say to offer and find services
+/** <module> The predicates by which agents offer and find services
 
 *Threading*: the thread that runs the agent; find/3 waits for other processes.
 */
@@ -24,9 +24,10 @@
 %!  offer(+Service, +Properties:list) is det.
 %!  unoffer(+Service) is det.
 %
-%   This agent offers Service, a ground term, on this host, until it takes the
-%   offer back, leaves the host, ends or is faulty.  Properties, ground, describe
-%   it; to offer it again replaces them.  (withdraw/1 takes back a pheromone.)
+%   This agent offers Service, a ground term, on this host, until it withdraws
+%   the offer, leaves the host, ends or becomes faulty.  Properties, ground,
+%   describe the service; a second offer of the same Service replaces them.
+%   (withdraw/1 removes a pheromone.)
 %
 %   @error instantiation_error, type_error(mobile_term, Culprit)
 %   @error resource_error(offers): an agent has at most 100, the setting
@@ -52,10 +53,10 @@ unoffer(Service) :-
 %   Agent-offer(Service, Properties, Host), those on nearer hosts first.
 %   Options:
 %
-%     - radius(Hops): on this host and on those that so many links lead to;
-%       default 0, this host alone; `inf`, all that links lead to
-%     - properties(List): each unifies with one of those of the offer
-%     - most(Count): farther hosts are not asked when so many are found
+%     - radius(Hops): search this host and the hosts that at most Hops links
+%       lead to; default 0, this host alone; `inf`, all that links lead to
+%     - properties(List): each unifies with a property of the offer
+%     - most(Count): farther hosts are not searched when Count are found
 %     - seconds(Seconds): hosts at one distance that have not answered by then
 %       are left out; default 5
 %

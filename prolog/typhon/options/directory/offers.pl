@@ -18,19 +18,19 @@
 :- use_module('../../kernel/host',
               [address_parts/3, host/3, host_neighbours/2, scheduler_call/1]).
 
-/** <module> Offers, on the host on which they were made, and the search for them
+/** <module> The table of offers, and the search for services
 
-An offer notes after how many hops of its agent it was made, and lapses when the
-agent has made more, or is no longer there.  This is checked at each search: so
-hops and ends cost agents without offers nothing.  Lapsed offers are removed by
-the search that finds them, and all of them each time that as many have been made as
-were left the last time.
+An offer records the number of hops that its agent had made at that time, and
+lapses when the agent has made more, or is no longer there.  Each search checks
+this, so hops and ends of agents without offers cost nothing.  Lapsed offers are
+removed by the next offer of their agent, and all of them each time that as many
+offers have been added as remained after the last sweep.
 
-A search begins on one host and goes on to its neighbours, then to theirs: at
-each distance all processes are asked at once.
+A search begins on one host and continues with its neighbours, then with theirs;
+at each distance it sends the requests to all processes at once.
 
-*Threading*: any thread; a mutex serialises changes.  The thread that searches
-waits; a worker answers questions.
+*Threading*: any thread; a mutex serialises changes.  The searching thread
+waits; a worker answers requests of other processes.
 */
 
 :- multifile
@@ -56,7 +56,7 @@ typhon_host_parts:ends(Host) :-
 %!  offer_add(+Host, +Agent, +Service, +Properties) is det.
 %!  offer_remove(+Agent, +Service) is det.
 %
-%   Agent, which stands on Host, offers Service; it does no longer.
+%   Agent, which is on Host, offers Service; it withdraws the offer.
 %
 %   @error resource_error(offers)
 
@@ -136,8 +136,8 @@ search(Address, Radius, Wanted, Found) :-
     level([Address], [Address], Radius, 0, Wanted, Levels),
     append(Levels, Found).
 
-%   level(+Hosts, +Seen, +Radius, +Count, +Wanted, -Levels): what is found on
-%   Hosts, and farther ones; Count are found on nearer ones.
+%   level(+Hosts, +Seen, +Radius, +Count, +Wanted, -Levels): the offers found on
+%   Hosts, and on farther ones; Count have been found on nearer ones.
 
 level([], _, _, _, _, []) :-
     !.
@@ -215,7 +215,8 @@ reply(Hosts, Look, ReplyTo) :-
     seen_on(Hosts, Look, Answers),
     endpoint_reply(ReplyTo, Answers).
 
-%   seen_on(+Hosts, +Look, -Answers): of those that are in this process.
+%   seen_on(+Hosts, +Look, -Answers): of those of Hosts that are in this
+%   process.
 
 seen_on(Hosts, look(Pattern, Properties), Answers) :-
     findall(at(Address, Neighbours, Offers),

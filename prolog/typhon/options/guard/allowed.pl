@@ -11,13 +11,14 @@
 :- use_module(library(readutil), [read_file_to_terms/3]).
 :- use_module('../../kernel/program', [vocabulary_word/2]).
 
-/** <module> What strangers may call
+/** <module> Predicates that untrusted agents may call
 
-By name alone, so that it does not depend on where an agent is: what
-library(sandbox) takes for safe whatever its arguments are, without what
-would still reach another agent, the process or its watches; the
-vocabulary of agents; and the predicates of some libraries without state.
-The libraries are part of the vocabulary, or may be asked for.
+The check is by name alone, so that it does not depend on where an agent is.
+Allowed are the predicates that library(sandbox) takes for safe whatever their
+arguments are, except those that could still reach another agent, the process
+or its measurements; the vocabulary of agents; and the predicates of some
+libraries without state.  A program gets these libraries with the vocabulary, or
+imports them.
 
 *Threading*: the tables are made when the first policy is read.
 */
@@ -107,9 +108,10 @@ makes_atoms(uri_resolve(_, _, _)).
 makes_atoms(iri_normalized(_, _)).
 makes_atoms(iri_normalized(_, _, _)).
 
-%   What library(sandbox) lets pass, and we do not: it ends a thread or
-%   holds one, writes where people read, calls what messages and formats
-%   name, reads what others keep in the thread, or tells of the machine.
+%   Predicates that library(sandbox) allows and Typhon does not: they end or
+%   block a thread, write to the user's terminal, call code that messages and
+%   formats name, read data that others keep in the thread, or reveal facts of
+%   the machine.
 
 withheld(Head) :-
     functor(Head, Name, Arity),
@@ -123,24 +125,24 @@ withheld(Head) :-
                 variant_sha1/2, variant_hash/2, % of shared terms without end
                 name/2, atomic_concat/3, get_attr/3, get_attrs/2, del_attr/2,
                 del_attrs/1, copy_term/3,
-                setarg/3,               % what was looked at stays as it was
+                setarg/3,               % checked terms must not change
                 b_set_dict/3, nb_setarg/3, nb_linkarg/3, nb_set_dict/3,
                 nb_link_dict/3, dcg_translate_rule/2,
-                set_random/1,           % is one for all
+                set_random/1,           % its state is global
                 setrand/1, getrand/1, random_property/1,
                 meta_options/3,         % options that are goals
                 foreach/2,
                 term_string/3,          % with options
-                deliver/1, undeliver/1, % what all on the host would call
-                seal/3, unseal/2,       % the keys of the process
+                deliver/1, undeliver/1, % all agents on the host would call it
+                seal/3, unseal/2,       % use the keys of the process
                 (\)/1, (\)/2, (^)/2 ]),
     !.
 withheld(Head) :-
     functor(Head, Name, _),
     sub_atom(Name, 0, _, _, $).
 
-%   What runs goals and belongs to the system.  `^` in a specification is a
-%   goal below variables.
+%   System predicates that run goals.  `^` in a specification is a goal below
+%   variables.
 
 runs_of_system(findall(?, 0, -)).
 runs_of_system(findall(?, 0, -, ?)).
@@ -160,8 +162,8 @@ allowed_library(library(Name)) :-
 
 %!  own_name(+Head) is semidet.
 %
-%   An agent may have a predicate of that name that comes and goes: where it
-%   is not, nothing else is that was to be kept from it.
+%   An agent may have a dynamic predicate with this name: while it does not
+%   exist, its name leads to no predicate that agents must not call.
 
 own_name(Head) :-
     functor(Head, Name, Arity),
@@ -174,8 +176,8 @@ own_name(Head) :-
 
 %!  makes_clause(?Head) is nondet.
 %
-%   assertz/1 takes a fact with that head for another clause, or the reader
-%   would.
+%   assertz/1, or the reader, would take a fact with that head for another
+%   clause.
 
 makes_clause((:-_)).
 makes_clause((_:-_)).
@@ -205,7 +207,8 @@ is_own(Head) :-
 %!  policy_read(+Policy) is det.
 %
 %   Policy is `guarded`, or a file of rules, allow(Name/Arity) and
-%   refuse(Name/Arity): what strangers may call, too, and what they may not.
+%   refuse(Name/Arity): predicates that untrusted agents may call as well, and
+%   predicates that they may not call.
 %
 %   @error existence_error(source_sink, File), domain_error(policy_rule, Term)
 
@@ -243,8 +246,9 @@ policy_rule(Rule, Head-Kind) :-
                 *          THE TABLES          *
                 *******************************/
 
-%   free_head(-Head) is nondet.  What library(sandbox) knows of other libraries
-%   than those below is visible to agents only if the process has loaded them.
+%   free_head(-Head) is nondet.  Rules of library(sandbox) for other libraries
+%   than those below are left out: agents see these libraries only if the
+%   process has loaded them.
 
 free_head(Head) :-
     clause(sandbox:safe_primitive(Said), true),

@@ -16,13 +16,13 @@
 
 /** <module> The goals in clauses of untrusted agents
 
-See typhon_guard_clauses.  Own is own(Heads, Policy), where Heads is
-heads(Assoc) or module(Module), where the static predicates of the agent are, or
-`none`.
+See typhon_guard_clauses.  Own is own(Heads, Policy).  Heads names the static
+predicates of the agent: heads(Assoc), module(Module), or `none`.
 
-What is looked at here is not what will run, but a copy of it is: each
-construct, closure and lambda expression in Body is a new term, which the
-agent cannot have in hand and change afterwards.  Only data are shared.
+The goal that will run is a copy of the goal that is checked here: each
+construct, closure and lambda expression in Body is a new term, to which the
+agent has no reference by which it could change it afterwards.  Only data are
+shared.
 
 *Threading*: pure, but for a global variable of the thread, in which parts are
 counted.
@@ -30,8 +30,8 @@ counted.
 
 %!  guard_parts(+Most) is det.
 %
-%   What this thread guards next has Most goals at the most, when those that
-%   are shared in it are written out.
+%   The next term that this thread guards has at most Most goals, shared goals
+%   being counted each time that they occur.
 
 guard_parts(Most) :-
     nb_setval(typhon_guard_parts, Most).
@@ -101,8 +101,8 @@ guarded(Goal, _, Goal) :-
 guarded(Goal, _, _) :-
     refuse(Goal).
 
-%   What interrupts an agent is raised again only when the recovery has come to
-%   its end, which it need not.
+%   Else a ball that interrupts the agent would be raised again only when the
+%   recovery has ended, and it need not end.
 
 guard_recovery(Recovery0, Ball, Own, ('$uncaught'(Ball),Recovery)) :-
     (   nonvar(Recovery0),
@@ -124,8 +124,9 @@ construct(call(A0), [A0], call(A), [A]).
 construct(once(A0), [A0], once(A), [A]).
 construct(ignore(A0), [A0], ignore(A), [A]).
 
-%   What is guarded already, where a suspended agent goes on, and what an
-%   agent says to stop, but for what the system would do in its place.
+%   Goals that are guarded already, the goal at which a suspended agent
+%   continues, and the goals that stop an agent, except sleep/1, which the
+%   system would run instead.
 
 passes(Goal) :-
     compound(Goal),
@@ -139,7 +140,7 @@ passes(Goal) :-
 
 %!  is_control(@Goal) is semidet.
 %
-%   What an agent says to stop.
+%   Goal is one at which an agent stops.
 
 is_control(Goal) :-
     control(Goal),
@@ -147,7 +148,7 @@ is_control(Goal) :-
     Name \== call,
     \+ sub_atom(Name, 0, _, _, $).
 
-%   Nothing but the agent or what its place offers can have it.
+%   Goal has a name that only the agent or a service of its place can define.
 
 unknown(Goal) :-
     Goal \= _:_,
@@ -184,8 +185,8 @@ argument(Own, N, Closure0, Closure), integer(N) =>
 argument(_, _, Arg0, Arg) =>
     Arg = Arg0.
 
-%   Some call the goal below V^Goal, whatever their specification says, and
-%   whatever ^/2 the agent has.
+%   Some predicates call the goal below V^Goal, whatever their specification
+%   says, and whatever ^/2 the agent defines.
 
 below_variables(Goal0, Own, Goal) :-
     nonvar(Goal0),
@@ -196,8 +197,8 @@ below_variables(Goal0, Own, Goal) :-
 below_variables(Goal0, Own, Goal) :-
     guard(Goal0, Own, Goal).
 
-%   closure(+N, +Own, +Closure0, -Closure): to be called with N arguments
-%   more.  One whose goals are not as they stand is looked at when it is
+%   closure(+N, +Own, +Closure0, -Closure): Closure is called with N more
+%   arguments.  A closure whose guarded goal would differ is checked when it is
 %   called.
 
 closure(_, _, Closure, '$checked'(Closure)) :-
@@ -248,8 +249,8 @@ extended(Closure, Extra, Goal) :-
 %!  is_lambda(@Closure) is semidet.
 %!  guard_lambda(+Lambda0, +N, +Own, -Lambda) is det.
 %
-%   Lambda, to be called with N arguments, is Lambda0 with a body that is
-%   guarded, for its parameters may be goals.
+%   Lambda, to be called with N arguments, is Lambda0 with a guarded body, for
+%   its parameters may be goals.
 
 is_lambda(Closure) :-
     nonvar(Closure),
@@ -270,8 +271,8 @@ guard_lambda(Parameters0>>Body0, N, Own, Parameters>>Body) :-
 guard_lambda(Lambda, _, _, _) :-
     refuse(Lambda).
 
-%   parameters(+Parameters0, -Parameters, -Count): how many parameters there
-%   are says with how many arguments the body is called.
+%   parameters(+Parameters0, -Parameters, -Count): Count parameters are bound by
+%   the first arguments; the body is called with the others.
 
 parameters(Parameters0, Parameters, Count) :-
     nonvar(Parameters0),
@@ -284,7 +285,7 @@ parameters(Parameters0, Parameters, Count) :-
     length(List0, Count),
     append(List0, [], List).
 
-%   A grammar rule by its name, not a body of one.
+%   NT must be the name of a grammar rule, not a grammar body.
 
 non_terminal(NT, _, _) :-
     ( var(NT) ; \+ callable(NT) ; is_list(NT) ; body_of_grammar(NT) ),

@@ -21,8 +21,8 @@
 
 /** <module> Goals that untrusted agents call
 
-What is known only at run time: the goals with which an agent comes, those that
-it makes up, and closures with the arguments with which they are called.
+These checks need what is known only at run time: the goals with which an agent
+arrives, goals that it constructs, and closures with their arguments.
 
 *Threading*: the thread that runs the agent, or installs it; see
 typhon_guard_bodies.
@@ -33,15 +33,15 @@ typhon_guard_bodies.
 
 %!  guard_goals(+Policy, +Program, +Goals0, -Goals) is det.
 %
-%   Goals are what an agent, which has its program in the module Program, is to
-%   do.
+%   Goals are the guarded form of Goals0, the goals that an agent still has to
+%   run; its program is in the module Program.
 
 guard_goals(Policy, Program, Goals0, Goals) :-
     must_be_tree(Goals0),
     count_parts,
     maplist(guard_left(own(module(Program), Policy)), Goals0, Goals).
 
-%   What stands in a suspended list besides goals of the program.
+%   A suspended list of goals may hold '$fault'(_) besides goals of the program.
 
 guard_left(_, Goal, Goal) :-
     nonvar(Goal),
@@ -63,7 +63,7 @@ guard_call(Policy, Module, Closure, Extra, Goal) :-
     checked(Extra, Own, Closure, Goal0),
     own_only(Goal0, Module, Goal).
 
-%   checked(+Extra, +Own, +Closure, -Goal): of a lambda expression the body is
+%   checked(+Extra, +Own, +Closure, -Goal): the body of a lambda expression is
 %   guarded, for its parameters may be goals.
 
 checked([], Own, Goal0, Goal) :-
@@ -91,7 +91,7 @@ guard_called(Own, Goal0, Goal) :-
     ;   refuse_cyclic(Goal0)
     ).
 
-%   A small term may be a goal without end where it shares much.
+%   A small term that shares much may be written out to an endless goal.
 
 count_parts :-
     clause_cells(Max),
@@ -110,7 +110,7 @@ guard_now(Goal0, Own, Goal) :-
 guard_now(Goal0, Own, Goal) :-
     guard(Goal0, Own, Goal).
 
-%   plain(+Goal, +Own): Goal is no construct, and not the agent's own.
+%   plain(+Goal, +Own): the agent does not define Goal itself.
 
 plain(Goal, Own) :-
     callable(Goal),
@@ -124,8 +124,8 @@ refuse_cyclic(Goal) :-
                 *            STATE             *
                 *******************************/
 
-%   own_only(+Goal0, +Module, -Goal): what is changed or read is the agent's
-%   own, not what a place offers, or the clauses of its program.
+%   own_only(+Goal0, +Module, -Goal): an agent may change and read its own
+%   state, not the predicates of a place or the clauses of its program.
 
 own_only(Goal0, Module, Goal) :-
     touches(Goal0, Head),
@@ -154,8 +154,8 @@ adds(assertz(Clause), Clause).
 clause_of((Head:-_), Head) :- !.
 clause_of(Head, Head).
 
-%   adding(+Module, +Clause): options of the host may count what an agent adds
-%   to its state.
+%   adding(+Module, +Clause): options of the host may count the clauses that an
+%   agent adds to its state.
 
 adding(Module, Clause) :-
     (   context_now(Host, Agent),
@@ -169,9 +169,9 @@ adding(Module, Clause) :-
                 *          ARGUMENTS           *
                 *******************************/
 
-%   looked_at(+Kind, +Policy, +Goal0, -Goal): what a goal depends on is known
-%   now: what it adds and takes away, what it throws, and texts.  Kind is as of
-%   allowed/3.
+%   looked_at(+Kind, +Policy, +Goal0, -Goal): check the arguments of a goal, now
+%   that they are known: clauses to add or remove, balls to throw, and texts.
+%   Kind is as of allowed/3.
 %
 %   @error permission_error(call, sandboxed, Culprit)
 
@@ -237,13 +237,13 @@ unqualified(Head) :-
     Head \= _:_,
     \+ makes_clause(Head).
 
-%   SWI-Prolog crashes where the size of a term overflows.
+%   SWI-Prolog crashes if the size of a term overflows.
 
 too_many(Size) :-
     integer(Size),
     Size > 100 000 000.
 
-%   What ends a thread, or stops what is measured.
+%   Balls that end a thread, or stop a measurement.
 
 ends_thread('$aborted').
 ends_thread(unwind(_)).

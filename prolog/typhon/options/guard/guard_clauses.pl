@@ -16,29 +16,29 @@
 
 /** <module> Programs and clauses of untrusted agents
 
-A program is rewritten before it runs.  Goals that are known are checked now:
-what is not allowed, see typhon_allowed, is refused.  What will only be known
-at run time, and what depends on its arguments, becomes
+A program is rewritten before it runs.  Known goals are checked now, and those
+that are not allowed, see typhon_allowed, are refused.  A goal that will be
+known only at run time, or whose safety depends on its arguments, becomes
 
     '$checked'(Goal)            '$checked'(Closure, A, ...)
 
-which is checked then, see typhon_guard_calls; and what is done when something
-was caught begins with '$uncaught'(Ball), see typhon_checked.  A goal M:G is
-refused always.  What has been rewritten stays the same when it is rewritten
-again, and means the same on a host that runs programs as they are.
+which is checked when it runs, see typhon_guard_calls.  The recovery goal of
+catch/3 begins with '$uncaught'(Ball), see typhon_checked.  A goal M:G is always
+refused.  Rewriting a rewritten program changes nothing, and a rewritten program
+means the same on a host that runs programs as they are.
 
 An agent may have static predicates of any name: they are found first, as
-long as it has its program.  What comes and goes (state, payloads) must not
-have the name of what is to be kept from it, else a goal that is the agent's
-own today would be the system's tomorrow.
+long as it has its program.  Dynamic predicates (state, payloads) must not have
+the name of a forbidden predicate, else a goal that calls the agent's own
+predicate today would call that of the system tomorrow.
 
 *Threading*: pure.
 */
 
 %!  guard_program(+Policy, +Program0, -Program) is det.
 %
-%   @error permission_error(call, sandboxed, Goal) for what is not allowed:
-%          a goal, `:- use_module(Library)`, or the name of a predicate
+%   @error permission_error(call, sandboxed, Goal) if Goal is not allowed: a
+%          goal, `:- use_module(Library)`, or the name of a predicate
 
 guard_program(Policy, program(Name, State, Libraries0, Clauses0),
               program(Name, State, Libraries, Clauses)) :-
@@ -50,15 +50,15 @@ guard_program(Policy, program(Name, State, Libraries0, Clauses0),
 
 %!  guard_refuses(+Policy, +Program:list, +Clause, -Formal) is semidet.
 %
-%   Clause, one of those of Program, is a reason to refuse it.
+%   Formal is the error by which Clause, a clause of Program, is refused.
 
 guard_refuses(Policy, Clauses, Clause, Formal) :-
     heads(Clauses, Own),
     catch(( guard_clause(own(heads(Own), Policy), Clause, _), fail ),
           error(Formal, _), true).
 
-%   Of this library untrusted agents have the vocabulary alone: what else it
-%   defines is unknown to them.
+%   Untrusted agents have the vocabulary of this library alone; they cannot call
+%   its other predicates.
 
 without(Library-_) :-
     Library == library(typhon).
@@ -120,8 +120,8 @@ guard_clause(Own, Clause0, Clause) :-
 %!  guard_clauses(+Policy, +Clauses0, -Clauses) is det.
 %!  guard_declares(+Policy, +PI) is det.
 %
-%   The state of an agent, as of agent_state/2; clauses, as those of a
-%   payload; and what a payload provides.
+%   Guard the state of an agent, as of agent_state/2; guard clauses, as those of
+%   a payload; check a predicate that a payload defines.
 
 guard_state(Policy, state(PIs, Clauses0), state(PIs, Clauses)) :-
     maplist(declared_allowed, PIs),
@@ -141,7 +141,7 @@ guard_fact(_, Own, Clause0, Clause) :-
 
 %!  allowed_fact(+Fact, +Max) is semidet.
 %
-%   Fact, which has Max parts at the most, may be one of an untrusted agent.
+%   Fact, which has at most Max parts, may be a fact of an untrusted agent.
 
 allowed_fact(Fact, Max) :-
     callable(Fact),
@@ -157,7 +157,7 @@ declared_allowed(Name/Arity) :-
 declared_allowed(PI) :-
     state_allowed(PI).
 
-%   What the platform has among its state are facts, which no agent can name.
+%   The platform keeps these facts in the state; no agent can name them.
 
 of_platform('$legacy'(_)).
 of_platform('$memory'(_)).

@@ -13,11 +13,11 @@
 :- use_module('../../kernel/base/trees', [is_tree/2]).
 :- use_module('../../kernel/host', [context_now/2, parts/3]).
 
-/** <module> How large terms and texts of untrusted agents may be
+/** <module> Limits on the size of terms and texts of untrusted agents
 
-Clauses, and what is shared in them; format strings, texts that become atoms,
-and texts that are read as terms.  And how it is reported that something is
-refused.
+Limits apply to clauses, shared subterms counted each time; to format strings;
+to texts that become atoms; and to texts that are read as terms.  The module
+also raises the error when something is refused.
 
 *Threading*: any thread; no state.
 */
@@ -29,8 +29,8 @@ refused.
 
 %!  must_be_tree(+Term) is det.
 %
-%   Term is acyclic, and not larger than clauses may be when what is shared in
-%   it is written out.
+%   Term is acyclic, and not larger than clauses may be when its shared subterms
+%   are written out.
 %
 %   @error resource_error(clause_cells)
 
@@ -66,9 +66,8 @@ refuse(Culprit) :-
 
 %!  harmless_format(+Format) is semidet.
 %
-%   Format has no directives but those of harmless//1.  What is not
-%   understood here is refused: format/3 may take it for a directive that
-%   calls a goal.
+%   Format has no directives but those of directive//0.  Anything else is
+%   refused: format/3 may take it for a directive that calls a goal.
 
 harmless_format(Format) :-
     text_string(Format, String),
@@ -86,8 +85,8 @@ harmless -->
     [_],
     harmless.
 
-%   A count has three digits at the most.  Neither modifiers (`:`) nor counts
-%   from the arguments (`*`) are allowed, and a character as count (`~`xt`)
+%   A count has at most three digits.  Neither modifiers (`:`) nor counts from
+%   the arguments (`*`) are allowed; a character as count (`~`xt`) is allowed
 %   only to fill a column.
 
 directive -->
@@ -116,9 +115,8 @@ text_string(Text, String) :-
 
 %!  short_text(+Goal) is semidet.
 %
-%   The atoms that Goal makes are not long.  Atoms live outside the stacks of
-%   the agent, so they are kept short, and counted; long texts are
-%   strings.
+%   The atoms that Goal makes are short.  Atoms are stored outside the stacks of
+%   the agent, so they are kept short, and counted; long texts are strings.
 
 short_text(Goal) :-
     most_characters(Max),
@@ -127,8 +125,8 @@ short_text(Goal) :-
     all_solutions(Goal, Length, Made),
     made(Made).
 
-%   all_solutions(+Goal, +Length, -Made): there may be a solution for each
-%   part of a text.
+%   all_solutions(+Goal, +Length, -Made): Made is the number of characters in
+%   all solutions; there may be one for each part of a text.
 
 all_solutions(sub_atom(_, Before, Count, After, Sub), Length, Made) =>
     (   ( nonvar(Sub) ; nonvar(Before), nonvar(Count)
@@ -141,7 +139,7 @@ all_solutions(atom_concat(A, B, _), Length, Made), var(A), var(B) =>
 all_solutions(_, Length, Made) =>
     Made = Length.
 
-%   made(+Length): the running agent makes atoms of that length together.
+%   made(+Length): the running agent makes atoms with Length characters in all.
 %   Options of its host may count them.
 
 made(Length) :-
@@ -155,7 +153,7 @@ made(Length) :-
 most_characters(Max) :-
     setting(atom_chars, Max).
 
-%   joined_length(+Goal, -Length): how long its result may be.
+%   joined_length(+Goal, -Length): the greatest length of the result.
 
 joined_length(atomic_list_concat(List, Separator, _), Length) :-
     is_list(List),
@@ -174,7 +172,7 @@ together(Goal, List, Length) :-
     maplist(Goal, List, Lengths),
     sum_list(Lengths, Length).
 
-%   What is neither atomic nor a list is a type error.
+%   An argument that is neither atomic nor a list is a type error of the goal.
 
 argument_length(Arg, Length) :-
     (   is_list(Arg)
@@ -192,7 +190,7 @@ item_length(Item, Length) :-
     ;   Length = 0
     ).
 
-%   As is_tree/2 counts: a large integer is not written for that.
+%   The size is found as is_tree/2 counts, without writing a large integer.
 
 number_length(Number, Length) :-
     most_characters(Max),
@@ -201,7 +199,7 @@ number_length(Number, Length) :-
     ;   Length is Max+1
     ).
 
-%   Components of a URI, and partial lists.
+%   Arguments that are components of a URI, or partial lists.
 
 parts_length(Term, Length) :-
     most_characters(Max),
@@ -212,8 +210,8 @@ parts_length(Term, Length) :-
 %!  readable_text(+Goal) is semidet.
 %
 %   Goal reads a text as a term, or writes a term as an atom.  The text is as
-%   short as an atom, since it may be one, and has no quasi quotation, which
-%   calls a parser by name.
+%   short as an atom may be, since it may become one, and has no quasi
+%   quotation, which would call a parser by name.
 
 readable_text(term_to_atom(Term, Text)) :-
     (   var(Text)

@@ -1,16 +1,16 @@
 :- module(typhon_authors, []).
 
-/** <module> Whose programs are let in
+/** <module> Admission by the authors of programs and payloads
 
-A host with `authors(Names)` admits agents whose program one of these has
-signed, and their payloads, wherever they come from.
+A host with `authors(Names)` admits agents whose program is signed by one of
+these authors, and their payloads, from whatever process they come.
 
-The signature of a payload is a fact among the state of the agent,
+The signature of a payload is a fact in the state of the agent,
 
     '$signed'(Name, Signature)
 
-so it goes where the payload goes. A payload is admitted as one of the authors
-has signed it: what has changed since is not.
+so it moves with the payload.  A payload is admitted only as the author signed
+it: a payload that has changed since is refused.
 
 *Threading*: any thread; the module of an agent belongs to its worker.
 */
@@ -37,7 +37,7 @@ has signed it: what has changed since is not.
 
 typhon_options:declared(host_option, authors(Names), list(atom), Names).
 
-%   Without an authority no signature is valid.
+%   Without a certificate authority no signature is valid.
 
 typhon_host_parts:begins(_, _, Options) :-
     (   \+ memberchk(authors(_), Options)
@@ -59,7 +59,7 @@ closure(payload, 10, payload_forbids).
 
 :- public payloads_forbid/4, program_forbids/4, payload_forbids/4.
 
-%   The signature may come with the program.
+%   If the program did not come along, its signature may still come with it.
 
 program_forbids(From, entrant(_, Hash, _, _, _), Host, Verdict) :-
     host_option(Host, authors(Authors)),
@@ -69,7 +69,7 @@ program_forbids(From, entrant(_, Hash, _, _, _), Host, Verdict) :-
     ;   Verdict = refused(unsigned)
     ).
 
-%   signed_by(+Authors, +Hash): one of Authors has signed that program.
+%   signed_by(+Authors, +Hash): one of Authors has signed the program Hash.
 
 signed_by(Authors, Hash) :-
     own_keys(Keys),
@@ -77,8 +77,8 @@ signed_by(Authors, Hash) :-
     memberchk(Author, Authors),
     !.
 
-%   signature_by(+Authors, +Hash, +Signature): Signature, which may be anything,
-%   is one by one of Authors for what has this Hash.
+%   signature_by(+Authors, +Hash, +Signature): Signature, which may be any term,
+%   is the signature of one of Authors for Hash.
 
 signature_by(Authors, Hash, Signature) :-
     own_keys(Keys),
@@ -122,8 +122,8 @@ state_clauses(state(_, Clauses), Clauses).
 state_clauses(module(Module), Clauses) :-
     agent_state(Module, state(_, Clauses)).
 
-%   payload_admitted(+Host, +Payload, +Clauses): Host lets in an agent with this
-%   Payload, Clauses being among its state.
+%   payload_admitted(+Host, +Payload, +Clauses): Host admits an agent with
+%   Payload; Clauses are in the state of the agent.
 
 payload_admitted(Host, Payload, Clauses) :-
     host_option(Host, authors(Authors)),
@@ -135,7 +135,7 @@ payload_admitted(Host, Payload, Clauses) :-
     signature_by(Authors, Hash, Signature),
     !.
 
-%   The mark of a payload whose signature is known here.
+%   A new payload is marked if its signature is known here.
 
 typhon_payloads:mark(Payload, Mark) :-
     mark(Payload, Mark).
@@ -148,7 +148,7 @@ typhon_payloads:unmarked(Module, Name) :-
     '$c_current_predicate'(_, Module:'$signed'(_, _)),
     retractall(Module:'$signed'(Name, _)).
 
-%   A payload that is attached from outside goes with its signature.
+%   The order to attach a payload carries its signature.
 
 typhon_order_client:attach_order(Payload, attach(Payload, Signature)) :-
     payload_signature(Payload, Signature).

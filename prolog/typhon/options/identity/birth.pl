@@ -21,36 +21,38 @@
 :- use_module('../../kernel/host', [host_option/2]).
 :- use_module(signatures, [program_author/3]).
 
-/** <module> Whose agent it is, and what proves it
+/** <module> Births: signed proof of the owner of an agent
 
-Where processes have keys an agent that leaves the process in which it was
-born has what that one has signed,
+Where processes have keys, an agent that leaves the process in which it was
+created carries a birth that this process has signed,
 
     birth(Id, Hash, Certificate, Hex)
 
-Id is its own, and names the owner, see typhon_identity; Hash is that of
-its program, and Certificate that of the owner. No other process can make one,
-so an id belongs to the owner, and to one program. And since it is shown
-only to processes to which the agent goes, and to its home, a process that shows
-it has had the agent.
+Id is the id of the agent and names the owner, see typhon_identity; Hash is that
+of its program, and Certificate that of the owner.  No other process can make
+one, so an id belongs to one owner and one program.  A birth is shown only to
+processes to which the agent goes, and to its home, so a process that shows it
+has had the agent.
 
-It goes along with the program, to processes that lack it as far as we know; a
-process shows it once.
+The birth is sent along with the program, to processes that are not known to
+have it; a process shows it once.
 
-What agents of one owner use together can be bounded, see typhon_quotas.  An
-owner is what no agent can choose, besides its home, see typhon_identity:
+The resources that agents of one owner use together can be bounded, see
+typhon_quotas.  An owner is, besides the home, a property that no agent can
+choose, see typhon_identity:
 
   - author(Name) on a host with authors(Names): the author that signed its
     program
-  - certificate(Name): the process that proved this name, not one of ours, when
-    it sent it, or the agent of which it is a clone
+  - certificate(Name): the process that proved this name when it sent the
+    agent, or the agent of which this is a clone; not a process of the same
+    owner
 
-The second is a fact '$owner'(Owner) among the state of the agent, so it goes
-along.  It is put there when an untrusted process brings an agent, whatever it
-had before; of a process of ours it is believed.
+The second is a fact '$owner'(Owner) in the state of the agent, so it moves with
+it.  It is set when an untrusted process sends an agent, and replaces an earlier
+one; processes of the same owner are trusted to send the right one.
 
-Where there are keys the id of an agent ends its mark with the name in the
-certificate of the process in which it was born, which its birth proves.
+Where there are keys, the mark in the id of an agent ends with the name in the
+certificate of the process in which it was created, which its birth proves.
 
 *Threading*: any thread; a mutex serialises writers.
 */
@@ -65,8 +67,8 @@ certificate of the process in which it was born, which its birth proves.
            "Of so many agents that were here the owners are remembered").
 
 :- dynamic
-    known/2,                            % Id, Birth: a good one
-    has/2.                              % Id, Proof: of a process that has it
+    known/2,                            % Id, Birth: verified
+    has/2.                              % Id, Proof: the process has the birth
 
 typhon_identity:ids_anew :-
     retractall(known(_, _)),
@@ -79,7 +81,7 @@ typhon_host_parts:part(new_program, _, 10, typhon_birth:may_change) :-
 
 :- public may_change/3.
 
-%   No host would admit it.
+%   No host would admit an agent of another owner with another program.
 
 may_change(_, Id, _) :-
     (   agent_owned(Id)
@@ -109,7 +111,7 @@ believed(Proof, Id) :-
 believed(Proof, Id) :-
     is_ours(Proof, Id).
 
-%   A process with our own keys can sign what we can.
+%   A process with the same keys can sign all that this process can.
 
 is_ours(Proof, Id) :-
     endpoint_own_proof(Proof),
@@ -123,7 +125,7 @@ now_has(Id, Proof) :-
                  assertz(has(Id, Proof)),
                  bounded(has(_, _), typhon_birth:births) )).
 
-%   They lack the birth of Id there, after all.
+%   The process at Endpoint does not have the birth of Id after all.
 
 typhon_hop:sent_again(Endpoint, Id) :-
     proof_of(Endpoint, Proof),
@@ -139,7 +141,7 @@ birth(Id, Hash, birth(Id, Hash, Certificate, Hex)) :-
     own_keys(Keys),
     birth_text(Id, Hash, Text),
     keys_sign(Keys, Text, signature(Pem, Hex)),
-    atom_string(Certificate, Pem),      % which many share
+    atom_string(Certificate, Pem),      % an atom, which many births share
     remember(Id, birth(Id, Hash, Certificate, Hex)).
 
 birth_text(Id, Hash, Text) :-
@@ -152,7 +154,7 @@ remember(Id, Birth) :-
                  assertz(known(Id, Birth)),
                  bounded(known(_, _), typhon_birth:births) )).
 
-%   For agents that are here no other process may know it.
+%   Births of agents that are here are kept: no other process may have them.
 
 typhon_bounds:forgotten(known(Id, Birth)) :-
     (   agent(Id, _, _, _, _)
@@ -174,7 +176,7 @@ forbids(from(Peer, _, papers(Papers)), entrant(Id, Hash, _, _, _), _,
     \+ proved(Papers, Proof, Id, Hash),
     unproved(Papers, Verdict).
 
-%   The peer may have what proves it.
+%   Without papers, the peer may still have a birth: request it.
 
 unproved(Papers, Verdict) :-
     (   subsumes_term(papers(_, _), Papers)
@@ -182,9 +184,9 @@ unproved(Papers, Verdict) :-
     ;   Verdict = need_program
     ).
 
-%   proved(+Papers, +Proof, +Id, +Hash): Papers, which may be anything, show
-%   that a process with that Proof may bring Id with a program of that Hash, or
-%   it has shown that before.
+%   proved(+Papers, +Proof, +Id, +Hash): Papers, which may be any term, show
+%   that a process with that Proof may bring Id with a program of that Hash; or
+%   it has shown that before, or is of the same owner.
 
 proved(_, Proof, Id, Hash) :-
     has(Id, Proof),
@@ -199,8 +201,8 @@ proved(Papers, Proof, Id, Hash) :-
 
 %!  birth_good(+Birth) is semidet.
 %
-%   The owner has signed Birth, which may be anything, and which is not longer
-%   than it should be.
+%   The owner has signed Birth, which may be any term, and Birth does not exceed
+%   its maximal size.
 
 birth_good(Birth) :-
     ground(Birth),
@@ -217,8 +219,8 @@ birth_good(Birth) :-
         remember(Id, Birth)
     ).
 
-%   What is good is kept, here and in the journal, and anybody with keys of his
-%   own can sign what he likes.
+%   Verified births are kept, also in the journal, and any process with keys can
+%   sign arbitrary ones.
 
 short(Atoms) :-
     maplist(atom, Atoms),
@@ -226,7 +228,7 @@ short(Atoms) :-
     sum_list(Lengths, Length),
     Length =< 20 000.
 
-%   Agents of other owners were not born here.
+%   Agents of other owners were not created in this process.
 
 at_home(Id) :-
     agent_owned(Id),
@@ -237,7 +239,7 @@ at_home(Id) :-
 
 %!  birth_shown(+Id, -Birth) is semidet.
 %
-%   What shows that we have, or had, the agent Id of another owner.
+%   Birth proves that this process has, or had, the agent Id of another owner.
 
 birth_shown(Id, Birth) :-
     known(Id, Birth).
@@ -277,8 +279,8 @@ arrives(_, hop(_, _, _, _, from(Peer, _)), State0, State) :-
 created(_, Peer, State0, State) :-
     owner_entered(Peer, State0, State).
 
-%   owner_entered(+Peer, +State0, -State): State0 is that of an agent which the
-%   process at Peer sends.
+%   owner_entered(+Peer, +State0, -State): State0 is the state of an agent that
+%   the process at Peer sends.
 
 owner_entered(Peer, State0, State) :-
     (   own_keys(_),
@@ -300,8 +302,8 @@ of_owner(Clause) :-
 %!  agent_owned(+Id) is semidet.
 %!  agent_owned(+Id, +Owner) is semidet.
 %
-%   Id says that it belongs to us; to the process with the certificate of that
-%   name.
+%   By its name, Id belongs to this process; to the process whose certificate
+%   has the name Owner.
 
 agent_owned(Id) :-
     endpoint_own_proof(certificate(Own)),
@@ -324,8 +326,9 @@ typhon_identity:mark_suffix(Part) :-
     endpoint_own_proof(certificate(Name)),
     spelt(Name, Spelt),
     atom_concat(-, Spelt, Part).
-%   spelt(+Name, -Spelt): what could be mistaken for another part of an id
-%   is written as a number.
+
+%   spelt(+Name, -Spelt): characters that could be mistaken for another part of
+%   an id are written as numbers.
 
 spelt(Name, Spelt) :-
     atom_codes(Name, Codes),

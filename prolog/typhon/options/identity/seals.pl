@@ -3,14 +3,14 @@
             unseal/2                    % +Sealed, -Term
           ]).
 
-/** <module> What only one host can read
+/** <module> Terms encrypted for one host
 
-An agent seals what it has found for a host, its home as a rule; on its way
-there no other process can read it, or change it unseen. The key is that of the
-process of the host, see doc/keys.md. A process that can read an agent can
-read what it seals while it stands there.
+An agent seals a term for a host, usually its home; on its way there no other
+process can read the term, or change it undetected.  The key is that of the
+process of the host, see doc/keys.md.  A process that can read an agent can also
+read the terms that the agent seals there.
 
-*Threading*: whatever thread runs the agent; to seal for a host of another
+*Threading*: the thread that runs the agent; sealing for a host of another
 process may wait for an answer.
 */
 
@@ -32,13 +32,13 @@ answer_seconds(10).
 %!  seal(+Term, +For, -Sealed) is det.
 %!  unseal(+Sealed, -Term) is det.
 %
-%   Sealed is Term for the host For alone, an address or a name; Term is what
-%   was sealed for the host we stand on.
+%   Sealed is Term, encrypted for the host For, an address or a name; Term is
+%   the term that was sealed for the host on which this agent is.
 %
-%   @error existence_error(keys, Host) there are none here or there
+%   @error existence_error(keys, Host): Host, or this process, has no keys
 %   @error type_error(mobile_term, Culprit)
 %   @error host_unreachable(For)
-%   @error permission_error(unseal, term, Sealed) it is for another, or it
+%   @error permission_error(unseal, term, Sealed): it is for another host, or it
 %   has been changed
 
 seal(Term, For, Sealed) :-

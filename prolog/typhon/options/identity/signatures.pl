@@ -9,15 +9,15 @@
 
 /** <module> Signatures of programs and payloads
 
-What an author signs is the hash by which a program travels. The signature
-stands in a file beside it, `visitor.pl.sig`, and goes along
-with the code. It is verified on the first request.
+An author signs the hash by which a program is identified on its way.  The
+signature is in a file beside the program, `visitor.pl.sig`, and is sent with
+the code.  It is verified when it is first needed.
 
-A payload has no name of its own on the way, since its clauses are part of the
+A payload has no hash of its own on its way, since its clauses are part of the
 state of an agent; its hash is that of a program with the same clauses that no
-file could be. The order of its predicates does not count, that of their clauses
-does; and it is that of its clauses as they are stored, without what a variant
-has written into them.
+file can contain.  The order of its predicates does not matter, that of their
+clauses does; the hash is made from the clauses as they are stored, without the
+goals that a variant has put into them.
 
 *Threading*: any thread; a mutex serialises writers.
 */
@@ -45,8 +45,8 @@ most_signatures(1024).
 %!  program_signature(?Hash, -Signature) is semidet.
 %!  signature_keep(+Hash, +Signature) is det.
 %
-%   Signature is said to be one of the program of that Hash. The last one
-%   counts: a bad one cannot stand in the way of a good one for long.
+%   Signature is claimed to be of the program of that Hash.  The last one
+%   replaces others: a bad one cannot block a good one for long.
 
 program_signature(Hash, Signature) :-
     signature(Hash, Signature).
@@ -81,7 +81,7 @@ keep(Hash, Signature) :-
 
 %!  signature_read(+File, +Hash) is det.
 %
-%   Keep the signature beside File, if there is one, and it is of this Hash.
+%   Keep the signature beside File if there is one for this Hash.
 
 signature_read(File, Hash) :-
     atom_concat(File, '.sig', Beside),
@@ -100,8 +100,8 @@ signature_read(_, _).
 
 %!  signature_make(+File, +Hash, +Keys) is det.
 %
-%   Write the signature of what is in File, of that Hash, beside it, with the
-%   keys in that directory.
+%   Write the signature of the code in File, which has that Hash, beside it,
+%   with the keys in that directory.
 
 signature_make(File, Hash, Keys) :-
     signed_text(Hash, Text),
@@ -119,8 +119,8 @@ signed_text(Hash, Text) :-
 %!  program_author(+Keys, +Hash, -Author) is semidet.
 %!  signature_author(+Keys, +Hash, +Signature, -Author) is semidet.
 %
-%   Author has signed the program, as far as the keys in that directory tell;
-%   this Signature is his. Signature may be anything.
+%   Author has signed the program, as far as the keys in that directory show;
+%   Signature, which may be any term, is by Author.
 
 program_author(Keys, Hash, Author) :-
     signature(Hash, Signature),
@@ -145,7 +145,7 @@ typhon_code:extra(Hash, signature(Signature)) :-
 typhon_code:extra_comes(signature(Signature), Hash) :-
     signature_keep(Hash, Signature).
 
-%   A file beside what was read may hold its signature.
+%   A file beside a file that was read may hold its signature.
 
 typhon_loaded:was_read(File, Hash) :-
     signature_read(File, Hash).
@@ -162,7 +162,7 @@ typhon_programs:payload_was_read(Spec, Payload) :-
 %   Write the signature of a program or payload beside its file, with the keys
 %   in that directory.
 %
-%   @error what program_load/5 and payload_load/2 throw
+%   @error the errors of program_load/5 and payload_load/2
 
 file_sign(Spec, Keys) :-
     program_file(Spec, File),
@@ -198,7 +198,7 @@ clause_of(Name/Arity, Clauses, Head, Body) :-
     clause_parts(Clause, Head0, Body),
     Head0 = Head.
 
-%   A goal that is a variable is stored as call/1, and the like.
+%   Storing changes a body: a goal that is a variable becomes call/1, and so on.
 
 stored(Module, (Head0:-Body0), (Head:-Body)) :-
     mapsubterms(unchecked, Body0, Body1),

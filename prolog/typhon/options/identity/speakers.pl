@@ -1,19 +1,20 @@
 :- module(typhon_speakers, []).
 
-/** <module> Processes that may speak for an agent
+/** <module> Which processes may send messages in the name of an agent
 
-Where processes have keys, a process may speak for an agent if it has the keys
-of its owner, or shows its birth, see typhon_birth, which a process can do that
-has or had the agent. And messages to an agent are taken from processes that may
-speak for it: they pass on what they have admitted themselves.
+Where processes have keys, a process may send messages from an agent if it has
+the keys of the owner of the agent, or shows the birth of the agent, see
+typhon_birth.  Only a process that has or had the agent can show its birth.
+Messages to an agent are also accepted from processes that may send in the name
+of that agent: these forward messages that they have checked themselves.
 
-The sender may be `user`, or a term of a bridge: that is no id, and as
+The sender may also be `user`, or a term of a bridge: that is not an id, and as
 trustworthy as the process that sends it.
 
-The birth of an agent is shown to its home, and to where it went, and to no
-other process: others could speak for it from then on. So what an agent says
-away from home goes through its home, unless it goes to one whose way leads
-from here.
+The birth of an agent is shown to its home, and to the processes to which it
+went, and to no other process: any other could send in its name from then on.
+So messages of an agent away from home go through its home, unless the location
+of the recipient was learned here.
 
 *Threading*: any thread; no state.
 */
@@ -65,8 +66,8 @@ may_speak(_, Births, Id) :-
     birth_among(Births, Id, Birth),
     birth_good(Birth).
 
-%   One for each, however many are shown: to look whether one is good takes
-%   long.
+%   One birth for each id is verified, however many are shown, since
+%   verification takes long.
 
 birth_among(Births, Id, Birth) :-
     is_list(Births),
@@ -76,7 +77,7 @@ birth_among(Births, Id, Birth) :-
 birth_among(t(Births), Id, Birth) :-
     get_assoc(Id, Births, Birth).
 
-%   The rest is noted.
+%   Messages that are not accepted are reported as security events.
 
 typhon_senders:believes(Peer, Id, Births, Mail, Believed) :-
     (   speaks_for(Peer, Births, Id)
@@ -119,7 +120,7 @@ noted(Peer, Id, From) :-
     ).
 
                 /*******************************
-                *             SHOWN            *
+                *             BIRTHS           *
                 *******************************/
 
 typhon_senders:shows(Endpoint, Ids, There, Births) :-

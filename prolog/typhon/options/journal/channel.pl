@@ -14,17 +14,18 @@
 :- use_module('../../kernel/host', [alarm_in/3, scheduler_call/1]).
 :- use_module('../../kernel/travel', [post_must_fit/1]).
 
-/** <module> The sending end of posts that survive
+/** <module> The sending end of durable posts
 
-A process that keeps a journal notes what it posts to another before it is
-sent, and keeps it until the other says that it has come for good.  Until then
-it is sent again whenever there is a new connection.  What is sent, and the
-other end, is described in typhon_durable_posts.
+A process that keeps a journal records a post to another process before it sends
+it, and keeps the record until the other process reports that it has received
+the post durably.  Until then it sends the post again over each new connection.
+The frames, and the receiving end, are described in typhon_durable_posts.
 
-The window of a session, see typhon_unacked, is another: it numbers frames one
-by one, keeps bytes in a queue, and ends with the process.  Here the items of a
-journal are the window: their numbers have gaps, and one may be dropped from the
-middle.  A frame kept as a fact costs three times as much as one in a queue.
+The window of a session, see typhon_unacked, is different: it numbers frames
+one by one, keeps bytes in a queue, and ends with the process.  Here the items
+of the journal are the window: their numbers have gaps, and an item may be
+dropped from the middle.  A frame kept as a fact costs three times as much as a
+frame in a queue.
 
 *Threading*: any thread posts, and never waits for a connection; one worker at
 a time sends to an endpoint.
@@ -42,9 +43,9 @@ a time sends to an endpoint.
 
 :- dynamic
     out/4,                      % Endpoint, N, Kind, Term: the oldest first
-    had/2,                      % Endpoint, N: all up to N have come
-    sent/2,                     % Endpoint, N: all up to N were sent; not
-                                % there if it is to be begun anew
+    had/2,                      % Endpoint, N: all up to N were received
+    sent/2,                     % Endpoint, N: all up to N were sent; missing
+                                % if sending is to start again
     courier/1.                  % Endpoint: a thread sends
 
 :- setting(channel_seconds, number, 300,
@@ -63,9 +64,10 @@ typhon_durable_posts:queued(Endpoint, Kind, Term) :-
                enqueue_changes,
                assertz(out(Endpoint, N, Kind, Term)) )).
 
-%   engaging(+Endpoint, :Goal): Goal changes what is to be sent to Endpoint, for
-%   which there is a courier then.  A thread that is ended in the middle
-%   must not leave one that was never sent out: all others would rely on it.
+%   engaging(+Endpoint, :Goal): Goal changes the posts for Endpoint; then a
+%   courier is started unless there is one.  A thread that is ended in between
+%   must not leave a courier/1 fact without a courier: all other threads would
+%   rely on it.
 
 engaging(Endpoint, Goal) :-
     sig_atomic(( with_mutex(typhon_channel,
@@ -83,9 +85,9 @@ set_out(there, _).
 set_out(wanted, Endpoint) :-
     scheduler_call(typhon_channel:carry(Endpoint, try(0, 0.05))).
 
-%   carry(+Endpoint, +Try): in a worker, until all is sent.  Try is
-%   try(Since, Pause): it has not worked since then, 0 if it has, and the pause
-%   after this attempt.
+%   carry(+Endpoint, +Try): runs in a worker until all is sent.  Try is
+%   try(Since, Pause): attempts have failed since then, 0 if the last succeeded;
+%   Pause is the delay after this attempt.
 
 carry(Endpoint, Try) :-
     with_mutex(typhon_channel, next(Endpoint, Items)),
@@ -128,8 +130,8 @@ chained([item(N, Kind, Term)|Found], Before,
         [item(Before, N, Kind, Term)|Items]) :-
     chained(Found, N, Items).
 
-%   If it is to be begun anew meanwhile, as what was sent over a connection is
-%   lost with that, this counts for nothing, and no more of it is sent.
+%   Posts that were sent over a connection are lost with it.  If sending was
+%   started again meanwhile, this post does not count, and the rest is not sent.
 
 send_all([], _).
 send_all([item(Before, N, Kind, Term)|Items], Endpoint) :-
@@ -178,9 +180,9 @@ not_sent(Formal, Endpoint, try(Since0, Pause)) :-
     ),
     alarm_in(Pause, Endpoint, channel(try(Since, Pause1))).
 
-%   In a codec that takes more space than what was noted, or since less is
-%   allowed, one may be too long that was not when it was posted: it must not
-%   keep others from being sent.
+%   A post may exceed the limit now though it did not when it was recorded: the
+%   codec may need more space, or the limit may be lower.  It must not block
+%   others.
 
 next_is_dropped(Endpoint, [Kind-Term]) :-
     sent(Endpoint, Sent),
@@ -190,14 +192,14 @@ next_is_dropped(Endpoint, [Kind-Term]) :-
     durable_drop(out, Endpoint, N),
     retractall(out(Endpoint, N, _, _)),
     retractall(sent(Endpoint, _)).
-next_is_dropped(_, []).                 % it is begun anew
+next_is_dropped(_, []).                 % sending starts again
 
 typhon_scheduler:fire(Endpoint, channel(Try)) :-
     !,
     scheduler_call(typhon_channel:carry(Endpoint, Try)).
 
-%   This process says nothing any more.  What else does not exist, as the queue
-%   of a connection that breaks, is another's next time.
+%   This process sends nothing any more.  If another thing does not exist, such
+%   as the queue of a connection that breaks, the next attempt uses another.
 
 all_ends :-
     \+ endpoint_address(_),
@@ -206,7 +208,7 @@ all_ends :-
     output_waits,
     \+ durable_on.
 
-%   A process that is gone, and keeps no journal, will not take it.
+%   A process that is gone, and keeps no journal, will not receive the posts.
 
 give_up(Endpoint) :-
     with_mutex(typhon_channel,
@@ -232,7 +234,7 @@ say_undelivered(Lost, Endpoint, Formal) :-
                                                    Formal))).
 
                 /*******************************
-                *        WHAT IS ANSWERED      *
+                *            ANSWERS           *
                 *******************************/
 
 typhon_endpoint:received(channel, again(To), _) :-
@@ -265,7 +267,7 @@ come(To, N) :-
                 *        BREAKS AND ENDS       *
                 *******************************/
 
-%   The peer of a new connection may have died meanwhile.
+%   The previous connection may have broken, or the peer may have died.
 
 typhon_endpoint:connection(Endpoint, up) :-
     (   endpoint_address(Endpoint)

@@ -8,21 +8,22 @@
               [server_cast/2, server_start/4, server_stop/1]).
 :- use_module(store, [store_commit/1, store_sync/1]).
 
-/** <module> Entries are committed in order, many at a time
+/** <module> Group commit of queued changes, in order
 
-In a queue there are entries of changes, and between them what is to be let
-out of the process when those before it are committed.  Whoever commits takes
-all there is: the changes become one transaction, then the items go, in their
-order.  So a thread that only sends does not wait for the disk.
+A queue holds entries of changes and, between them, output that may leave the
+process when the entries before it are committed.  The committing thread takes
+all of the queue: the changes become one transaction, then the output items are
+sent, in their order.  So a thread that only sends does not wait for the disk.
 
-Where a commit takes as long as the disk takes to sync, a thread commits, and
-what gathers meanwhile is the next transaction.  Where it does not, a thread
-that wants output to leave commits itself.  Entries without a waiting thread are
-committed after some milliseconds.  What could not be committed is kept, with
-what was to be let out, and tried again each second.
+Where a commit waits for the disk to sync, a thread of its own commits; entries
+that gather meanwhile are the next transaction.  Otherwise a thread that wants
+output to leave commits itself.  Entries without a waiting thread are committed
+after some milliseconds.  After a failed commit the changes and the output are
+kept, and the commit is tried again each second.
 
-*Threading*: any thread.  One at a time commits, holding a mutex in which it
-may take those of sessions: a thread that holds one of these must not commit.
+*Threading*: any thread.  One thread at a time commits; it holds a mutex in
+which it may take those of sessions, so a thread that holds a mutex of a session
+must not commit.
 */
 
 :- multifile
@@ -39,9 +40,9 @@ may take those of sessions: a thread that holds one of these must not commit.
     queue/3,                            % Entries, Committer, Sync
     unsaved/2,                          % Changes and items that wait for them
     committer/1,                        % Server
-    told/1.                             % Error: nothing can be committed
+    told/1.                             % Error: reported; commits fail
 
-%   Delay before an idle commit, and before a failed one is tried again.
+%   Delay before an idle commit, and before a failed commit is tried again.
 
 idle_seconds(0.02).
 again_seconds(1).
@@ -59,14 +60,14 @@ typhon_durable_changes:begin_commits :-
     assertz(queue(Entries, Committer, Sync)),
     assertz(committer(Committer)).
 
-%   Where a file may not get longer that is an error, as a disk that is full: no
-%   reason to break off what a thread does.
+%   If a file exceeds its maximal size (SIGXFSZ), the write raises an error, as
+%   on a full disk; the signal must not interrupt the thread.
 
 :- public file_too_long/1.
 
 file_too_long(_).
 
-%   Commit as much as can be.  Fails if it had not begun.
+%   Commit all that can be committed.  Fails if commits had not begun.
 
 typhon_durable_changes:end_commits :-
     retract(committer(Committer)),
@@ -100,7 +101,7 @@ typhon_durable_changes:queue_send(Item) :-
     thread_send_message(Entries, item(Item)),
     wake(idle).
 
-%   wake(+How): the thread is to commit, once it was `idle`, or `now`.
+%   wake(+How): the committer commits after a delay (`idle`), or `now`.
 
 wake(How) :-
     urgency(How, Urgency),
@@ -150,8 +151,8 @@ typhon_durable_changes:flush_sends :-
 typhon_durable_changes:flush_sends :-
     sig_atomic(commit_or_leave).
 
-%   No thread waits for the committing one: it finds that more is wanted, and
-%   does it.
+%   A thread that wants a commit does not wait for the committing thread, which
+%   sees the flag and commits again.
 
 commit_or_leave :-
     mutex_trylock(typhon_commit),
@@ -160,11 +161,11 @@ commit_or_leave :-
 commit_or_leave :-
     set_flag(typhon_journal_wanted, 1),
     mutex_trylock(typhon_commit),
-    !,                                  % its owner may have missed it
+    !,                                  % the owner may have missed the flag
     commit_locked.
 commit_or_leave.
 
-%   If it cannot be done the thread tries again, and tells.
+%   If the commit fails the committer tries again, and reports the error.
 
 commit_locked :-
     set_flag(typhon_journal_wanted, 0),
@@ -219,13 +220,13 @@ save(Changes0, Items) :-
     retractall(told(_)),
     crash_point(after_commit).
 
-%   settled(+Changes0, -Changes): without those of items that change once more.
+%   settled(+Changes0, -Changes): only the last change of each item is kept.
 
 settled(Changes0, Changes) :-
     reverse(Changes0, Newest),
     length(Newest, Count),
     (   Count =< 32
-    ->  Seen = []                       % quicker for so few
+    ->  Seen = []                       % faster for so few
     ;   rb_new(Seen)
     ),
     last_of_each(Newest, Seen, [], Changes).

@@ -21,8 +21,8 @@
 
 /** <module> Databases for a journal
 
-SQLite in a directory, or PostgreSQL at a URL; higher layers do not know which.
-The modules of both define the hooks, for a Base of their own.
+The database is SQLite in a directory, or PostgreSQL at a URL; higher layers do
+not know which.  The modules of both define the hooks, for a Base of their own.
 
 *Threading*: one thread at a time.
 */
@@ -41,14 +41,14 @@ The modules of both define the hooks, for a Base of their own.
     record/2,                   % Base, Text
     record_put/2,               % Base, Text
     record_drop/1,              % Base
-    says/3,                     % Base, Words, What: an error of the driver with
-                                % one of Words is `locked`, `unwritable`,
-                                % `full`, `unreachable` or missing(Package)
+    says/3,                     % Base, Words, What: a driver error with one of
+                                % Words means `locked`, `unwritable`, `full`,
+                                % `unreachable` or missing(Package)
     prolog:error_message//1.
 
 %!  database(+Where, -Place:atom, -Base) is det.
 %
-%   Place is what the journal is called, as in errors, Base for what is below.
+%   Place is the name of the journal in errors, Base its handle for the rest.
 %
 %   @arg Where is a directory, postgresql(Url), or such a Url
 %   @error domain_error(postgresql_url, Url)
@@ -88,20 +88,35 @@ journal_part(Dir0, P, Part) :-
                 *******************************/
 
 %!  database_found(+Base) is semidet.
+%
+%   There is a journal.
+
 %!  database_connect(+Base, +Seconds, -Connection, -Age) is det.
+%
+%   Open the journal, or a new one: Age is `old` or `new`.  If another process
+%   has it, wait at most Seconds.
+
 %!  database_lock(+Base, +Sync, +Connection) is det.
+%
+%   Begin a transaction; no other process can open the journal any more.
+
 %!  database_tables(+Base, +Connection) is det.
+%
+%   Make the tables of a new journal.
+
 %!  database_stamp(+Base, +Connection, -Stamp) is det.
 %!  database_same(+Base, +Sync, +Stamp, +Connection) is semidet.
+%
+%   Stamp identifies the last process that opened the journal; it is still the
+%   same, on another connection.
+
 %!  database_forgets(+Base, +Sync, +Connection, -Seconds) is semidet.
+%
+%   The server may lose commits of the last Seconds when it dies alone.
+
 %!  database_wrong(+Base, +Connection, -Why) is semidet.
 %
-%   There is a journal; open it, or a new one, Age being `old` or `new`, for
-%   which another process is waited for so many seconds; a transaction begins,
-%   and no other process can open the journal any more; make the tables of a new
-%   one; Stamp identifies the last process that opened it; it still is so, on
-%   another connection; it may lose what was committed in the last Seconds when
-%   it dies alone; it is damaged.
+%   The journal is damaged.
 
                 /*******************************
                 *            RECORD            *
@@ -111,7 +126,7 @@ journal_part(Dir0, P, Part) :-
 %!  journal_record_put(+Where, +Text) is det.
 %!  journal_record_drop(+Where) is det.
 %
-%   What journals that belong together have in common is a text beside them.
+%   The common record of journals that belong together is a text beside them.
 
 journal_record(Where, Text) :-
     database(Where, Place, Base),
@@ -131,7 +146,7 @@ journal_record_drop(Where) :-
 
 %!  in_terms_of(+Place, +Base, :Goal) is semidet.
 %
-%   As Goal, with errors of the driver as errors of the journal.
+%   As Goal, but errors of the driver become errors of the journal.
 
 in_terms_of(Place, Base, Goal) :-
     catch(Goal, error(odbc(State, _, Text), _),

@@ -26,18 +26,18 @@ The item of an agent is
 
     agent(Host, Hash, Life, State, Status, Goals)
 
-where Status is one at which it rests, or under way.  Its program is an item
-once for all its agents.
+where Status is one at which the agent rests, or `under way`.  The program is an
+item once for all its agents.
 
-A small state is a part of this item.  In place of a large one there is `log`,
-and the items state(Id, N): the state for N=0, and lists of changes of it, see
-typhon_state_log, for N=1, 2 and so on.  When the changes have become as long
-as the state, the state as it is replaces them all.
+A small state is a part of this item.  In place of a large one the item has
+`log`, and the state is in the items state(Id, N): the whole state for N=0, and
+lists of changes, see typhon_state_log, for N=1, 2 and so on.  When the changes
+have become as long as the state, the whole state replaces them all.
 
-A turn is one unit of work: what the agent has done is noted together with
-what it is to do next, and released after that.  As soon as the agent rests
-another worker may run it, and what it says then must not overtake what it
-said before.
+A turn is one unit of work: the effects of the agent are recorded together with
+its next goals, and released after that.  As soon as the agent rests another
+worker may run it, and its messages from then on must not overtake the earlier
+ones.
 
 *Threading*: inside with_agent/2 of the agent, or in the worker that has it.
 */
@@ -60,11 +60,11 @@ said before.
     stored/3.                   % Id, N, Item: of the state of an agent that is
                                 % not restored yet
 
-%   Cells of the smallest state with a log: some 4 kB in the journal.
+%   Cells of the smallest state with a log: about 4 kB in the journal.
 
 large(2000).
 
-%   Changes of a state are kept until they are longer than the state, or this.
+%   Changes are kept until they are longer than the state, and than this.
 
 most_changes(65536).
 
@@ -117,7 +117,7 @@ noted(elsewhere(Goals), Id) :-
                 *            RECORDS           *
                 *******************************/
 
-%   An agent that is held is in the journal as it was before.
+%   A held agent stays in the journal as it was before.
 
 typhon_agents:put_down(Id, Status, Goals) :-
     \+ passing(Status),
@@ -131,8 +131,8 @@ passing(held).
 passing(resumed).
 passing(arriving).
 
-%   note_state(+Id, +Module, -State): State is what the item of the agent has of
-%   it.
+%   note_state(+Id, +Module, -State): State is the part of the agent's item that
+%   holds its state.
 
 note_state(Id, Module, State) :-
     logged(Id, Module, N, Whole, Bytes),
@@ -182,7 +182,7 @@ unlog(Id) :-
     ;   true
     ).
 
-%   What cannot be written is noted as text.
+%   A term that cannot be written in binary form is recorded as text.
 
 note_item(Id, Kind, N, Term, Count) :-
     catch(durable_putting(Kind, Id, N, Term, Change), error(_, _), fail),
@@ -196,7 +196,7 @@ note_item(Id, Kind, N, Term0, Count) :-
     durable_bytes(Change, Count),
     durable_change(Change).
 
-%   The module is about to be destroyed: the agent is no more, or has another.
+%   The module is about to be destroyed: the agent has ended, or has another.
 
 typhon_agents:state_ends(Id, Module) :-
     logged(Id, Module, _, _, _),
@@ -208,8 +208,8 @@ typhon_agents:state_ends(Id, Module) :-
     ;   durable_drop_all(state, Id)
     ).
 
-%   Changes that were taken from a log and are not noted: the state is noted
-%   anew with the next item of the agent.
+%   Changes that were taken from a log were not recorded: the whole state is
+%   recorded with the next item of the agent.
 
 typhon_durable_changes:dropped(Changes) :-
     forall(member(put(state, Id, _, _), Changes),
@@ -225,8 +225,9 @@ typhon_runtime:ending(after) :-
                 *           PROGRAMS           *
                 *******************************/
 
-%   Others see at once that it is noted: so it is, also where the unit of work
-%   that brings it is not, or is committed after theirs.
+%   Other threads see at once that the program is recorded, so it is recorded at
+%   once: the unit of work that brings it may fail, or be committed after
+%   theirs.
 
 note_code(Hash) :-
     code_noted(Hash),
@@ -240,7 +241,7 @@ note_code(Hash) :-
                    assertz(code_noted(Hash))
                )).
 
-%   A program that has been thrown out is not needed any more.
+%   The journal does not need a program that was discarded.
 
 typhon_code:retiring(Hash) :-
     code_noted(Hash),
@@ -255,10 +256,10 @@ typhon_code:retiring(Hash) :-
 
 %!  agent_back(+Id, +Record, +Place) is semidet.
 %
-%   Id is what Record says, on its host, the place of which is Place.  It is
-%   not scheduled.  Fails if its program is not to be had.
+%   Restore the agent Id from Record on its host, whose place is Place.  It is
+%   not scheduled.  Fails if its program is missing.
 %
-%   @error what agent_module/5 and state_replayed/3 raise
+%   @error the errors of agent_module/5 and state_replayed/3
 
 agent_back(Id, agent(Host, Hash, Life, Noted, Status, Goals), Place) :-
     code_back(Hash),
@@ -291,7 +292,7 @@ state_back(State0, _, State) =>
 
 %!  states_unused(-Ids:list) is det.
 %
-%   The journal has states of agents that it does not need, or that were not
+%   Ids have states in the journal that no agent needs, or whose agents were not
 %   restored.
 
 states_unused(Ids) :-

@@ -16,14 +16,14 @@
 
 /** <module> A journal in PostgreSQL: a schema of a database
 
-See typhon_database.  The Base is postgresql(server(Schema, Driver)), and is
-given by a URL, as psql and other programs take it:
+See typhon_database.  The Base is postgresql(server(Schema, Driver)), given by a
+URL as for psql and other programs:
 
     postgresql://[user[:password]@][host][:port][/database][?schema=name&...]
 
-The schema is `typhon` if none is named. Further parameters are host (also the
-directory of a socket), port, user, password, dbname and sslmode. What it does
-not say the environment does, as PGPASSWORD, or the defaults of the server.
+The default schema is `typhon`.  Further parameters are host (also the directory
+of a socket), port, user, password, dbname and sslmode.  For others the
+environment applies, such as PGPASSWORD, or the defaults of the server.
 
 *Threading*: one thread at a time.
 */
@@ -58,8 +58,9 @@ postgresql_url(Text) :-
 
 %!  postgresql_place(+Url, +Part, -Place, -Server) is det.
 %
-%   Place is Url as it may be shown, and names the journal: without password.
-%   Server is how it is reached.  Part is added to the name of the schema.
+%   Place is Url without the password; it names the journal and may be shown.
+%   Server holds the parameters of the connection.  Part is appended to the name
+%   of the schema.
 %
 %   @error domain_error(postgresql_url, Url)
 
@@ -113,7 +114,7 @@ decoded(Name=Encoded0, Name=Value) :-
     uri_encoded(path, Value, Encoded),
     Value \== ''.
 
-%   None has a sign that means something in the string of a driver.
+%   No value may contain a character with a meaning in a connection string.
 
 known(Url, Name=Value0, Parts, [Part|Parts]) :-
     (   parameter(Name, _),
@@ -148,7 +149,8 @@ plain(Code) :-
 plain(Code) :-
     between(0'0, 0'9, Code).
 
-%   Its own savepoints would double the statements of a transaction.
+%   Protocol=7.4-1: savepoints of the driver would double the statements of a
+%   transaction.
 
 driver(Parts, Driver) :-
     findall(Text,
@@ -176,9 +178,8 @@ connected(Driver, Connection, Goal) :-
                        once(Goal),
                        sql_disconnect(Connection)).
 
-%   It is locked as long as the connection lives. A process that has it is
-%   waited for at least so long as the server may need to see that a client has
-%   died.
+%   The lock lasts as long as the connection.  If another process has it, wait
+%   at least as long as the server may need to notice that a client has died.
 
 typhon_database:database_connect(postgresql(server(Schema, Driver)), Seconds0,
                                  Connection, Age) :-
@@ -186,10 +187,10 @@ typhon_database:database_connect(postgresql(server(Schema, Driver)), Seconds0,
     catch(begin(Schema, Seconds0, Connection, Age), error(Formal, Context),
           ( sql_disconnect(Connection), throw(error(Formal, Context)) )).
 
-%   A machine that has lost its power says no goodbye. For what cannot be
-%   delivered the kernel waits a quarter of an hour, for what may come for ever:
-%   so do we for a server, and a server for us, with the lock. Both are told
-%   how long to wait, as far as they know of such a setting.
+%   A machine that loses its power closes no connection.  By default the kernel
+%   waits a quarter of an hour for an acknowledgement, and for ever for data:
+%   this process for a server, and the server, with the lock, for this process.
+%   Both get shorter limits, as far as they have such settings.
 
 server_connect(Driver, Connection) :-
     findall(Bound,
@@ -242,9 +243,9 @@ has_table(Schema, Table, Connection) :-
     !,
     Count > 0.
 
-%   What the end of this process may not undo the
-%   server has in any case when it has answered; what a power cut may not it
-%   has then written, as what this transaction does.
+%   With any setting the end of this process cannot undo an answered commit.  A
+%   power cut cannot undo it if the server has written it before the answer, as
+%   it does for this transaction.
 
 typhon_database:database_lock(postgresql(_), Sync, Connection) :-
     sync(Sync, Connection),
@@ -275,7 +276,7 @@ typhon_database:database_tables(postgresql(_), Connection) :-
            'create table about (version integer, sample text, \c
             opened bigint default 0)').
 
-%   The journal has been opened, the Stamp-th time.
+%   Stamp counts how often the journal was opened.
 
 typhon_database:database_stamp(postgresql(_), Connection, Stamp) :-
     sql_do(Connection, 'update about set opened=opened+1'),
@@ -290,8 +291,8 @@ stamp(Connection, Stamp) :-
     !,
     Stamp = Stamp0.
 
-%   What was committed without waiting is written within that time: three times
-%   the setting, as PostgreSQL says, and some more.
+%   PostgreSQL writes an asynchronous commit within three times this setting;
+%   some more is added.
 
 typhon_database:database_forgets(postgresql(_), normal, Connection, Seconds) :-
     sql_row(Connection,

@@ -7,12 +7,13 @@
           ]).
 :- use_module(library(lists), [append/2, append/3]).
 
-/** <module> What was committed last, where that may be lost
+/** <module> Recent commits that the server may lose
 
-A server that answers before it has written forgets the last moments when it
-dies, and we live on.  So what was committed in the last Seconds is kept, and
-committed once more when the server is there again.  Changes say what items are
-from then on: to make the last ones twice, in their order, is to make them once.
+A server that answers before it has written loses the last commits when it dies
+alone.  So changes that were committed in the last Seconds are kept, and
+committed once more when the server is back.  A change states the new value of
+an item: to apply the last changes twice, in order, has the same result as to
+apply them once.
 
 *Threading*: one thread at a time, the one that commits.
 */
@@ -25,7 +26,7 @@ from then on: to make the last ones twice, in their order, is to make them once.
 %!  recent_begin(+Seconds:number) is det.
 %!  recent_end is det.
 %
-%   What was committed is kept for so many Seconds; nothing of it is kept.
+%   Keep changes that were committed in the last Seconds; keep none.
 
 recent_begin(Seconds) :-
     recent_end,
@@ -40,8 +41,8 @@ recent_end :-
 %!  recent_before(+Changes:list, -All:list) is det.
 %!  recent_committed(+Changes:list) is det.
 %
-%   The server may have lost what it had; All is to be committed, Changes and
-%   what may have been lost before them; that is done.
+%   The server may have lost commits; All is to be committed now: Changes, and
+%   before them the changes that may have been lost; All has been committed.
 
 recent_doubtful :-
     (   keeps(_),
