@@ -55,7 +55,7 @@ asked(Dir, Address, Client) :-
     assertion(sub_string(Table, _, _, _, "alpha")),
     typhon([hosts, At], Unknown, _, Why),
     assertion(Unknown == exit(1)),
-    assertion(sub_string(Why, _, _, _, "it wants TLS")),
+    assertion(sub_string(Why, _, _, _, "it requires TLS")),
     directory_file_path(Dir, 'p.pl', File),
     setup_call_cleanup(open(File, write, Out),
                        format(Out, ':- agent(p, []).~nmain.~n', []),

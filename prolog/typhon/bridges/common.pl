@@ -1,11 +1,11 @@
 :- module(typhon_bridge, []).
 
-/** <module> What bridges have in common
+/** <module> The common part of bridges
 
 A bridge makes something outside, a broker or a middleware, a service of the
-place of a host: agents there find predicates, and what comes in reaches
-them as messages or as facts.  This is the interface of the layer.  A bridge
-`echo` in outline:
+place of a host: agents on it find predicates, and incoming data reach them as
+messages or as facts.  This is the interface of the layer.  A bridge `echo` in
+outline:
 
     % echo_start(Host, What, Options), see typhon_starting, comes here
     typhon_starting:starts(echo, Host, What, Options) :-
@@ -18,7 +18,7 @@ them as messages or as facts.  This is the interface of the layer.  A bridge
         subscribe(echo, Host, Key, Agent, []),  % then ask the helper for Key
         ...
 
-    % what comes in, in the thread that reads from the helper
+    % incoming data, in the thread that reads from the helper
     typhon_helper_owner:heard(echo(Host), Dict) :-
         subscribers_tell(echo, Host, Dict.key, said(Dict.text), said(_)).
 

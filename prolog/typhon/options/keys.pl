@@ -26,24 +26,24 @@
 :- use_module('../kernel/base/on_demand', [on_demand_load/2]).
 :- use_module('../kernel/base/bounds', [bounded/2]).
 
-/** <module> Keys: what hosts and authors sign, seal and prove with
+/** <module> Keys: signatures, sealed texts and certificates
 
-A directory of keys is what `app/typhon.pl keys` makes for a host or an
-author: `cert.pem`, `key.pem`, `ca.pem` and `crl.pem`. A signature is
-signature(Certificate, Hex): the certificate of the signer, as PEM; it
-counts if the authority has signed that, it has not expired, and is not
-revoked. Holder is host(Name) or author(Name).
+`app/typhon.pl keys` makes a directory of keys for a host or an author:
+`cert.pem`, `key.pem`, `ca.pem` and `crl.pem`.  A signature is
+signature(Certificate, Hex), with the certificate of the signer as PEM.  It is
+valid if the authority has signed the certificate, and this has not expired and
+is not revoked.  Holder is host(Name) or author(Name).
 
-The keys are RSA: on SWI-Prolog 9.0.4 library(crypto) crashes when it signs
-with those of curves. Signatures are compared with what they should contain,
-byte by byte, since rsa_verify/4 prints what it finds wrong.
+The keys are RSA: on SWI-Prolog 9.0.4 library(crypto) crashes when it signs with
+elliptic-curve keys.  Signatures are compared byte by byte with the expected
+content, since rsa_verify/4 prints a message on each invalid one.
 
 The keys of this process are those with which its endpoint was started.  The
-options tls, identity and trail stand on them.  This is the interface of the
+options tls, identity and trail are built on them.  This is the interface of the
 layer.
 
 *Threading*: any thread; own keys begin and end under the mutex of the endpoint,
-another serialises what is kept of files.
+another mutex serialises the cache of files.
 */
 
 :- multifile
@@ -56,8 +56,8 @@ another serialises what is kept of files.
 %!  own_keys_begin(+Directory) is det.
 %!  own_keys_end is det.
 %
-%   This process has the keys in Directory, an absolute path; has them from now
-%   on; has none any more.
+%   This process has the keys in Directory, an absolute path; it uses them from
+%   now on; it uses none any more.
 
 own_keys_begin(Directory) :-
     assertz(own_keys(Directory)),
@@ -72,7 +72,7 @@ own_keys_end :-
 
 %!  keys_certificate(+Directory, -Certificate:string) is det.
 %
-%   That of Directory, as PEM.
+%   Certificate is the one in Directory, as PEM.
 
 keys_certificate(Directory, Certificate) :-
     key_loaded(Directory, cert, Certificate).
@@ -107,7 +107,8 @@ keys_verify(Directory, Text, Signature, Holder) :-
     digest(Text, Digest),
     signs(Key, Digest, Hex).
 
-%   signs(+PublicKey, +Digest, +Hex): what PKCS #1 puts before a SHA-256.
+%   signs(+PublicKey, +Digest, +Hex): the constant is the prefix of PKCS #1 for
+%   a SHA-256 digest.
 
 signs(Key, Digest, Hex) :-
     string_lower(Hex, Lower),
@@ -125,7 +126,7 @@ signs(Key, Digest, Hex) :-
 
 %!  keys_holder(+Directory, +Certificate, -Holder) is semidet.
 %
-%   Certificate is a valid one, of Holder.
+%   Certificate is valid, and belongs to Holder.
 
 keys_holder(Directory, Pem, Holder) :-
     string(Pem),
@@ -180,11 +181,12 @@ revoked(List, Certificate) :-
 %!  keys_seal(+Directory, +Text, +Certificate, -Sealed) is det.
 %!  keys_unseal(+Directory, +Sealed, -Text) is det.
 %
-%   Sealed can be read with the key of Certificate only: a new AES-256 key,
-%   for that key, and Text under it, with GCM.
+%   Sealed can be read only with the private key that belongs to Certificate: it
+%   holds a new AES-256 key, encrypted with the public key, and Text, encrypted
+%   by that AES key with GCM.
 %
-%   @error permission_error(unseal, term, Sealed) it is not for us, or is
-%   damaged
+%   @error permission_error(unseal, term, Sealed): it is for another process, or
+%   is damaged
 
 keys_seal(Directory, Text, Pem, sealed(ForUs, Nonce, Tag, Cipher)) :-
     known_certificate(Directory, Pem, Certificate, _),
@@ -235,11 +237,11 @@ hex_octets(Hex, Octets) :-
 :- setting(typhon_base_key_files:certificates, positive_integer, 256,
            "Now typhon_keys:certificates").
 :- setting(certificates, positive_integer, 256,
-           "Certificates of which it is remembered whose they are").
+           "Certificates whose holder is cached").
 
-%   To read and parse files of keys costs as much as to sign: what was read stays
-%   until the file is another. So does what was found out about a certificate,
-%   until the files that it depends on are.
+%   Reading and parsing a file of keys takes as long as signing.  So the content
+%   is cached until the file changes, and the result for a certificate until the
+%   files change on which it depends.
 
 %!  keys_file(+Directory, +Which, -File) is det.
 %
@@ -251,13 +253,13 @@ keys_file(Directory, Which, File) :-
 
 %!  key_loaded(+Directory, +Which, -Loaded) is det.
 %
-%   Loaded is what the file contains: of `cert` the text, of the others what
-%   library(ssl) makes of them.
+%   Loaded is the content of the file: a text for `cert`, for the others a term
+%   of library(ssl).
 
 key_loaded(Directory, Which, Loaded) :-
     key_loaded(Directory, Which, Loaded, _).
 
-%   Stamp is another when the file is.
+%   Stamp changes when the file changes.
 
 key_loaded(Directory, Which, Loaded, Stamp) :-
     keys_file(Directory, Which, File),
@@ -288,9 +290,8 @@ load_from(ca, In, Certificate) :-
 load_from(crl, In, List) :-
     load_crl(In, List).
 
-%   key_found(+Pem, +Stamp, :Find, -Found) is semidet: Found is what
-%   call(Find, Found) finds about the certificate Pem, as long as Stamp is the
-%   same.
+%   key_found(+Pem, +Stamp, :Find, -Found) is semidet: Found is the result of
+%   call(Find, Found) for the certificate Pem; it is cached for this Stamp.
 
 key_found(Pem, Stamp, Find, Found) :-
     term_hash(Pem, Hash),
@@ -305,7 +306,7 @@ remember(Hash, Pem, Stamp, Found) :-
     assertz(found(Hash, Pem, Stamp, Found)),
     bounded(found(_, _, _, _), typhon_keys:certificates).
 
-%   pem_certificate(+Pem, -Certificate) is semidet: fails if Pem is none.
+%   pem_certificate(+Pem, -Certificate) is semidet: fails if Pem is invalid.
 
 pem_certificate(Pem, Certificate) :-
     catch(setup_call_cleanup(

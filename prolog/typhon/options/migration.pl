@@ -10,21 +10,21 @@
             [emit_here/2, pheromone_here/3, withdraw_here/1]).
 :- use_module('../kernel/program', [vocabulary/1]).
 
-/** <module> Migration: where agents go next
+/** <module> Migration: how agents choose the next host
 
-Strategies by which agents choose among neighbours, what they remember for that,
-and pheromones.  This is the interface of the layer, and what agents can say of
-it; its modules are loaded when an agent says it, or a pheromone comes.
+Strategies by which agents choose among neighbours, the memory that these need,
+and pheromones.  This is the interface of the layer, and its vocabulary; the
+modules are loaded when an agent calls it, or a pheromone arrives.
 
-*Threading*: whatever thread runs the agent.
+*Threading*: the thread that runs the agent.
 */
 
 :- vocabulary(typhon_migration).
 
 %!  next_host(+Strategy, -Host) is semidet.
 %
-%   Choose a neighbour, see typhon_strategy.  What the strategy has to
-%   remember travels with the agent.  Fails on an isolated host.
+%   Choose a neighbour, see typhon_strategy.  The memory of the strategy moves
+%   with the agent.  Fails on an isolated host.
 
 next_host(Strategy, Host) :-
     next_from_here(Strategy, Host).
@@ -32,15 +32,15 @@ next_host(Strategy, Host) :-
 %!  emit(+Problem) is det.
 %!  emit(+Problem, +Options) is det.
 %
-%   The host calls for an agent that can solve Problem, a ground term: it emits
-%   a pheromone. Agents follow it by the migration strategy phercon(Problem).
+%   The host requests an agent that can solve Problem, a ground term: it emits a
+%   pheromone.  Agents follow it by the migration strategy phercon(Problem).
 %   Options:
 %
 %     - span(Hops): how far it spreads; default 3
 %     - strength(Number): next to the source; default 100
 %     - period(Seconds): of host time, see pheromone_until/5; default 10
 %
-%   Emitting again refreshes what is left.
+%   Emitting again renews the pheromones that are left.
 %
 %   @error type_error(mobile_term, Culprit), instantiation_error
 %   @error domain_error(pheromone_option, Option)
@@ -53,17 +53,16 @@ emit(Problem, Options) :-
 
 %!  withdraw(+Problem) is det.
 %
-%   The pheromone that the host emitted for Problem goes from wherever it has
-%   come to, over the links as they are now. What is not reached like this
-%   evaporates.
+%   Remove the pheromone that the host emitted for Problem from the hosts that
+%   the present links reach.  Elsewhere it evaporates.
 
 withdraw(Problem) :-
     withdraw_here(Problem).
 
 %!  pheromone(?Problem, -Source, -Strength) is nondet.
 %
-%   There is a pheromone for Problem at the host now, which Source has emitted.
-%   For how it fades see pheromone_strength/4.
+%   A pheromone for Problem, emitted by Source, is at the host now.  See
+%   pheromone_strength/4 for how its strength depends on the distance.
 
 pheromone(Problem, Source, Strength) :-
     pheromone_here(Problem, Source, Strength).

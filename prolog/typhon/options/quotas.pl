@@ -6,33 +6,34 @@
 :- use_module(quotas/quota_table, [quota/3, quotas_drop/1, quotas_put/3]).
 :- use_module(quotas/usage, [usage_forget/1]).
 
-/** <module> How much agents may use on a host
+/** <module> Quotas: how much agents may use on a host
 
-The option quota(List) of hosts.  Quotas are What(Most), of each agent that
-stands on the host:
+The option quota(List) of hosts.  Quotas are What(Most), for each agent on the
+host:
 
   - inferences(N), seconds(S): between two stops
   - stack(Bytes), state(Bytes)
-  - cells(N): parts of what it sends, logs, leaves or gives as its result
-  - clones(N): agents of its program and owner that are here when it clones,
+  - cells(N): size of a term that it sends, logs, leaves or returns as its
+  result
+  - clones(N): agents of its program and owner on the host when it clones,
     and clones made of these in a second
   - payloads(N): that it carries when it attaches one
   - tuples(N): facts that it has left in the tuple space
   - mailbox(N): messages that wait for it
-  - lifetime(S): by the clock of the host, from when it came here
+  - lifetime(S): by the clock of the host, since its arrival
   - calls(PI, N): of a service of the place, in a second
   - messages(N), log(N), facts(N), hops(N): sent, logged, left and begun in a
     second
 
-and owner(What(Most)) of all agents here that have one owner, see
-typhon_birth, together, and host(What(Most)) of all that are here.  There are
-also owner(agents(N)), how many may be here, and host(tuples(N)), the facts in
-the tuple space.  The largest user ends first: of what the host has together,
-the agents of the owner that uses most of it.
+and owner(What(Most)) for all agents on the host that have the same owner, see
+typhon_birth, together, and host(What(Most)) for all agents on the host.
+Further quotas are owner(agents(N)), the number of agents on the host, and
+host(tuples(N)), the facts in the tuple space.  The largest user ends first: if
+a quota of the host is passed, an agent of the owner that uses most.
 
-A host that admits agents which it does not trust has defaults for what the
-option does not say.  A host without quotas has none of the parts below.
-This is the interface of the layer.
+A host that admits untrusted agents has defaults for quotas that the option does
+not name.  A host without quotas has none of the parts below.  This is the
+interface of the layer.
 
 *Threading*: under the mutex of host_start/2.
 */
@@ -47,18 +48,18 @@ This is the interface of the layer.
     typhon_on_demand:joins/2,
     typhon_options:declared/4.
 
-:- dynamic changed/1.           % Host: has other quotas than its agents know
+:- dynamic changed/1.           % Host: its agents do not have the new quotas
 
 typhon_options:declared(host_option, quota(List), list, List).
 
-%   Hosts that admit untrusted agents have quotas, whether they say so or not.
+%   Hosts that admit untrusted agents have quotas in any case.
 
 typhon_on_demand:joins(untrusted, any).
 
 typhon_host_parts:limit(Host, What, Most) :-
     quota(Host, What, Most).
 
-%   default(?Quota): on hosts that admit untrusted agents.
+%   default(?Quota): of hosts that admit untrusted agents.
 
 default(seconds(5)).
 default(stack(67 108 864)).

@@ -24,32 +24,33 @@
                 retries_go_on/0 ]).
 :- use_module('../kernel/lifecycle', [agent_reschedule/1, held_parts/3]).
 
-/** <module> All that a process knows, at a moment
+/** <module> Snapshots of all that a process knows
 
-The items of all tables that outlive the process, see typhon_durable, and what
-time does not know.
+A snapshot has the items of all tables that outlive the process, see
+typhon_durable, and those that only repeatable time needs.
 
-When no agent gets a turn any more those that run stop at their next effect, as
-they do for an order.  Agents under way arrive, or stay; messages and news
-that are being handled find their way, or wait.
+When agents get no turn any more, running agents stop at their next effect, as
+they do for an order.  Agents in transit arrive, or stay; messages and news that
+are being handled reach their destination, or wait.
 
-*Threading*: any thread, while time is held; the thread that holds it waits until
-agents rest.
+*Threading*: any thread, while time is paused; the thread that paused it waits
+until the agents rest.
 */
 
-%   last(-Kinds): they look up what others restore.
+%   last(-Kinds): kinds that need others restored first.
 
 last([ payload, backlog, program, stands, mail, order, turns, counts ]).
 
-%   repeated(?Kind): restored only where what happens is to repeat itself; another
-%   process knows better.
+%   repeated(?Kind): restored only where time is repeatable; in other processes
+%   these counters have their own values.
 
 repeated(flag).
 repeated(turns).
 repeated(counts).
 
-%   journaled(?Kind): in a journal alone.  A saved network has the like in other
-%   items (agent, state, tuple, wait), or is about what no other process has.
+%   journaled(?Kind): in a journal alone.  A saved network has the same facts in
+%   other items (agent, state, tuple, wait), or they concern a process that
+%   another one does not have.
 
 journaled(agent).
 journaled(done).
@@ -71,11 +72,11 @@ kind(Kind) :-
 
 %!  process_dump(+Hosts:list, -Items:list) is det.
 %
-%   What this process knows, but for what is about other hosts of it than Hosts,
-%   about agents that stand there, and those that left.
+%   Items are all that this process knows, except items of other hosts than
+%   Hosts, of agents that are there, and of agents that left from there.
 %
 %   @error type_error(mobile_term, Culprit)
-%   @error permission_error(save, agent, Id) if it runs
+%   @error permission_error(save, agent, Id) if Id runs
 
 process_dump(Hosts, Items) :-
     others(Hosts, Others),
@@ -86,7 +87,7 @@ process_dump(Hosts, Items) :-
               can_be_written(Kind, Key, Term) ),
             Items).
 
-%   others(+Hosts, -Others): of this process, mostly none.
+%   others(+Hosts, -Others): other hosts of this process, usually none.
 
 others(Hosts, Others) :-
     findall(Host, ( host(Host, _, _), \+ memberchk(Host, Hosts) ), Others).
@@ -122,9 +123,9 @@ can_be_written(Kind, Key, Term) :-
 
 %!  process_restore(+Kind, +Items:list) is det.
 %
-%   All is as Items say, in a process whose hosts have been started again and
-%   whose time is of that Kind.  What it knew of these agents, from when they
-%   went on here, is forgotten.
+%   Restore Items in a process whose hosts have been started again and whose
+%   time is of that Kind.  Facts that it had of these agents, from when they ran
+%   on here, are dropped.
 %
 %   @error domain_error(saved_item, Item)
 
@@ -177,7 +178,7 @@ agent_restore(Id, agent(Host, Hash, Life, State, Status, Goals)) :-
     agent_enter(agent(Id, Host, Module, Hash, Life), Status, Goals),
     host_again(Host).
 
-%   A held agent is held again at its next goal.
+%   A held agent is stopped again at its next goal.
 
 rests(running, _, Id, _, _) :-
     !,
@@ -187,7 +188,7 @@ rests(_, Held, _, ready, Goals) :-
     !.
 rests(Status, Goals, _, Status, Goals).
 
-%   No caller waits for the answer any more.
+%   The callers of orders do not wait for their answers any more.
 
 :- durable(order, Id, 0, Order, order_item(Id, Order), agent_order(Id, Order)).
 
@@ -204,8 +205,8 @@ unasked(Order, Order).
 
 %!  process_go_on(+Kind, +Agents:list, +Scheduled:list) is det.
 %
-%   Agents go on.  Where what happens repeats itself, the runtime knows the
-%   alarms, and some agents are Scheduled.
+%   Agents continue.  With repeatable time the runtime has the alarms, and some
+%   agents are already Scheduled.
 
 process_go_on(Kind, Agents, Scheduled0) :-
     time_repeats(Kind, _),
@@ -226,9 +227,8 @@ process_go_on(_, Agents, _) :-
 
 %!  agents_at_rest(+Seconds, +Peers) is semidet.
 %
-%   No agent of this process runs or is under way any more, and nothing is
-%   queued for the endpoints Peers; fails if that is not so in
-%   Seconds.
+%   No agent of this process runs or is in transit any more, and nothing is
+%   queued for the endpoints Peers; fails if that is not so within Seconds.
 
 agents_at_rest(Seconds, Peers) :-
     get_time(Now),
@@ -236,7 +236,7 @@ agents_at_rest(Seconds, Peers) :-
     agents_passed,
     rest_before(Deadline, Peers).
 
-%   Looks again every 10 ms: a notification would make each turn and each
+%   This polls every 10 ms: a notification would make each turn and each
 %   departure check for a waiting caller.
 
 rest_before(Deadline, Peers) :-
@@ -254,7 +254,7 @@ rest_before(Deadline, Peers) :-
         rest_before(Deadline, Peers)
     ).
 
-%   An order with which nothing is done.
+%   An order without effect stops a running agent.
 
 stops(Id) :-
     agent_status(Id, running, _),
@@ -280,7 +280,7 @@ moves(cloning(_, _)).
 
 %!  agents_go_on(+Agents:list) is det.
 %
-%   Agents have missed their turn.
+%   Agents whose turn was missed are scheduled.
 
 agents_go_on(Agents) :-
     forall(( member(Id, Agents), agent(Id, Host, _, _, _) ),

@@ -9,8 +9,8 @@
 /** <module> Supervision: the ends of other agents
 
 An agent, or a process, is notified once when another agent ends, wherever both
-are.  This is the interface of the layer; what keeps monitors is loaded when
-one is set, or another process asks for one.
+are.  This is the interface of the layer; the modules that keep monitors are
+loaded when a monitor is set, or another process requests one.
 
 *Threading*: any thread that may wait.
 */
@@ -19,12 +19,12 @@ one is set, or another process asks for one.
 
 %!  agent_monitor(+Agent, :OnDown) is det.
 %
-%   Have call(OnDown, Id, Outcome) called once, in a worker, when Agent, whose
-%   id is Id, has ended, is faulty or is lost.  Outcome is as of agent_join/3,
-%   `unknown` of an agent that its home does not know, or lost(Host), the last
-%   address that is known of an agent whose process, or the process of whose
-%   home, is gone.  Does not wait.  This process takes part in the network until
-%   then.
+%   Call call(OnDown, Id, Outcome) once, in a worker, when Agent, whose id is
+%   Id, has ended, is faulty or is lost.  Outcome is as of agent_join/3, or
+%   `unknown` for an agent that its home does not know, or lost(Host): the
+%   process of the agent, or of its home, is gone, and Host is the last known
+%   address of the agent.  Does not wait.  This process takes part in the
+%   network until then.
 %
 %   @error existence_error(agent, Agent), ambiguous_agent(Agent, Ids)
 
@@ -33,8 +33,9 @@ agent_monitor(Agent, OnDown) :-
 
 %!  agent_relations(-Relations:ordset) is det.
 %
-%   What is known of monitors in the processes that are known here: terms
-%   monitors(Agent, Other) and follows(Agent, Other), ids.  Waits for answers.
+%   Relations are the monitors known to the processes that are known here: terms
+%   monitors(Agent, Other) and follows(Agent, Other), of ids.  Waits for
+%   answers.
 
 agent_relations(Relations) :-
     relations(_, Relations).

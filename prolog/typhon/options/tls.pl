@@ -2,9 +2,9 @@
 
 /** <module> TLS: the option tls(Directory) of hosts
 
-What carries bytes by TLS, typhon_secure, is loaded when the endpoint starts
-with this option, or where the environment variable `TYPHON_TLS` is set.  Here
-is what a process without it needs: it reports peers that have TLS all the same.
+The module of TLS connections, typhon_secure, is loaded when the endpoint starts
+with this option, or where the environment variable `TYPHON_TLS` is set.  This
+module is the part for processes without TLS: it reports peers that use TLS.
 This is the interface of the layer.
 
 *Threading*: any thread; no state.
@@ -16,7 +16,8 @@ This is the interface of the layer.
     typhon_transport:first_byte/2,
     typhon_transport:misfit/4.
 
-%   A TLS record begins with this. The line is for clients of the other kind.
+%   A TLS record begins with this byte.  The line is sent to clients of the
+%   other kind.
 
 typhon_transport:first_byte(0x16, tls).
 
@@ -26,10 +27,10 @@ typhon_transport:misfit(tls, plain, "typhon plain", tls(unknown)).
 typhon_handshake:other_line("typhon tls", tls(wanted)).
 
                  /*******************************
-                 *           IN WORDS           *
+                 *         DESCRIPTIONS         *
                  *******************************/
 
-%   What is wrong with a peer.
+%   The problem with a peer, as a text.
 
 typhon_refusals:text(tls(Why), Text) :-
     (   said(Why, Text0)
@@ -38,20 +39,20 @@ typhon_refusals:text(tls(Why), Text) :-
     ->  atom_concat('its certificate ', Flaw, Text)
     ;   Why = his(His),
         flaw(His, Flaw)
-    ->  atom_concat('it says that our certificate ', Flaw, Text)
+    ->  atom_concat('it reports that our certificate ', Flaw, Text)
     ;   format(atom(Text), 'TLS failed: ~p', [Why])
     ).
 
-said(missing, 'it speaks without TLS').
-said(wanted, 'it wants TLS, and we have no keys').
-said(unknown, 'it speaks TLS, and we have no keys').
-said(plain, 'it does not speak TLS').
-said('peer did not return a certificate', 'it shows no certificate').
-said('unsupported protocol', 'it does not speak TLS 1.3').
-said('version too low', 'it does not speak TLS 1.3').
+said(missing, 'it connects without TLS').
+said(wanted, 'it requires TLS, and we have no keys').
+said(unknown, 'it uses TLS, and we have no keys').
+said(plain, 'it does not use TLS').
+said('peer did not return a certificate', 'it sent no certificate').
+said('unsupported protocol', 'it does not use TLS 1.3').
+said('version too low', 'it does not use TLS 1.3').
 
 flaw(expired, 'has expired').
 flaw(revoked, 'is revoked').
-flaw(wrong_use, 'is not that of a host').
-flaw(self_made, 'is signed by itself').
-flaw(foreign, 'is of another authority').
+flaw(wrong_use, 'is not a host certificate').
+flaw(self_made, 'is self-signed').
+flaw(foreign, 'was issued by another authority').

@@ -10,10 +10,10 @@
 
 /** <module> Tracing, stepping and spying
 
-An agent is seen from outside, event by event or goal by goal, wherever it
-goes.  This is the interface of the layer; its modules are loaded when an agent
-is traced, in each process that it comes to, or a predicate of a program is
-spied, see typhon_spying.
+These predicates print what an agent does, event by event or goal by goal,
+wherever it goes.  This is the interface of the layer; its modules are loaded
+in each process to which a traced agent comes, and when a predicate of a program
+gets a spy point, see typhon_spying.
 
 *Threading*: any thread that may wait.
 */
@@ -23,15 +23,14 @@ spied, see typhon_spying.
 %!  agent_trace(+Agent, +What) is det.
 %!  agent_notrace(+Agent) is det.
 %
-%   Print what happens to Agent from now on, wherever it is and goes, and
-%   write it in the log of the host where it happens, if that has one.  What
-%   is a list out of `hops`, `messages`, `facts`, which is what it leaves in
-%   and takes from the tuple spaces of hosts, and `goals`, which are those
-%   that the machine comes to, not those within what Prolog runs to its end
-%   by itself.  Clones are traced, too.
+%   Print what Agent does from now on, wherever it is and goes, and write it to
+%   the log of the host where it happens, if that has one.  What is a list of
+%   `hops`; `messages`; `facts`, those that it leaves in and takes from the
+%   tuple spaces of hosts; and `goals`, those that the machine runs, without the
+%   goals inside a predicate that Prolog runs to its end.  Clones are traced,
+%   too.
 %
-%   agent_notrace/1 ends this, and lets an agent go on that is held, see
-%   agent_step/1.
+%   agent_notrace/1 ends this, and lets a held agent continue, see agent_step/1.
 %
 %   @error existence_error(agent, Agent)
 %   @error domain_error(trace_kind, Kind)
@@ -44,20 +43,20 @@ agent_notrace(Agent) :-
 
 %!  agent_step(+Agent) is det.
 %
-%   Agent runs its next goal, and is held before the one after it, wherever
-%   that is; this goal is printed.  One that is not held yet is held at its
-%   next goal, which it comes to after its next effect if it runs now.  Where
-%   it stops otherwise, waits for a message or ends, that is printed.
-%   agent_notrace/1 lets it go on.
+%   Agent runs its next goal and is held before the one after it, wherever that
+%   is; that goal is printed.  An agent that is not held yet is held at its next
+%   goal; if it runs now, at the goal after its next effect.  If it stops for
+%   another reason, waits for a message or ends, that is printed.
+%   agent_notrace/1 lets it continue.
 %
 %   @error existence_error(agent, Agent)
-%   @error timeout_error(order, Agent): it came to no goal within 10 seconds
-%   @error permission_error(step, agent, Agent) where turns have limits
+%   @error timeout_error(order, Agent): it reached no goal within 10 seconds
+%   @error permission_error(step, agent, Agent) on a host that limits turns
 
 agent_step(Agent) :-
     on_demand_call(order, watched, typhon_stepping:agent_step(Agent)).
 
-%   The first spy point on what may be a program.
+%   The first spy point whose module may be a program loads the modules.
 
 prolog:debug_control_hook(Action) :-
     on_demand_missing(spied, program),
@@ -71,7 +70,7 @@ may_name_program(Spec) :-
     strip_module(Spec, Module, _),
     \+ memberchk(Module, [user, system]).
 
-%   trace/2 has no hook.
+%   trace/2 has no hook, so it is wrapped.
 
 :- initialization(
        wrap_predicate(prolog_trace:trace(Spec, Ports), typhon, Closure,

@@ -8,57 +8,57 @@
 :- autoload('watch/watched', [processes_overview/3]).
 :- autoload('watch/watches', [watch_begin/3, watch_end/1]).
 
-/** <module> Watching
+/** <module> Watching: events of hosts as they happen
 
-What happens on hosts anywhere, as it happens.
-This is the interface of the layer: higher layers import from here.  Its
-modules are loaded when this process watches, or another watches its hosts.
+A process can watch hosts anywhere.  This is the interface of the layer: higher
+layers import from here.  Its modules are loaded when this process watches, or
+another process watches its hosts.
 
 *Threading*: any thread that may wait.
 */
 
-%   `:` and not 1: lambda expressions in arguments that are called are compiled
-%   while a file is loaded, and lose there what is not a parameter.
+%   `:` and not 1: a lambda expression in a meta-argument is compiled when its
+%   file is loaded, and then loses variables that are not parameters.
 
 :- meta_predicate watch(+, :, -).
 
 %!  watch(+Hosts, :OnEvent, -Watch) is det.
 %
-%   Have call(OnEvent, Event) called for what happens on Hosts from now on:
-%   a host, a network, or a list of such, of this process and of others.
-%   Event is event(Time, Host, Agent, What), Time in seconds of the clock of
-%   Host, Host an address, Agent an id or `none`, and What is one of
+%   Call call(OnEvent, Event) for each event on Hosts from now on: a host, a
+%   network, or a list of such, of this process and of others.  Event is
+%   event(Time, Host, Agent, What), where Time is in seconds of the clock of
+%   Host, Host is an address, Agent an id or `none`, and What is one of
 %
 %     - created, ended(Outcome), fault(Fault)
-%       An agent begins, ends, or is faulty, Fault being as of
-%       agent_property/2; one that is faulty ends when it is given up.
+%       An agent begins, ends, or becomes faulty; Fault is as of
+%       agent_property/2.  A faulty agent ends when it is given up.
 %     - left(To), arrived(From, Seconds), stayed(To)
-%       It sets out for To; is there, after a hop of so many seconds; could
-%       not go there.
+%       An agent departs for To; has arrived after a hop of so many seconds;
+%       could not go to To.
 %     - cloned(Id), sent(To), received(From), log(Term)
-%       On hosts whose option log(Address, Kinds) has messages(content),
+%       On hosts whose option log(Address, Kinds) has messages(content), also
 %       sent(To, Message) and received(From, Message).
 %     - leave(Fact), take(Fact)
-%       What is put in the tuple space of Host, and taken out.
+%       A fact is put into the tuple space of Host, or taken out.
 %     - link(To), unlink(To), started, stopped
 %       Agent is `none`.
 %     - refused(Agent, Reason)
-%       Host did not admit Agent: the name of one that was to be created there,
-%       or the id of one that was to come.  Reason is as of move_refused/2.
+%       Host did not admit Agent: the name of an agent to be created there, or
+%       the id of one that was to arrive.  Reason is as of move_refused/2.
 %       Agent of the event is `none`.
 %     - lost
 %       The process of Host has ended or cannot be reached any more.  When it
-%       is there again, Host has `started`.
+%       is back, Host has the event `started`.
 %     - skipped(Count)
-%       So many events of Host were not told: OnEvent is slower than they come.
+%       Count events of Host were dropped: OnEvent is slower than they arrive.
 %
-%   Those of one host come in order.  All are called in one thread, one after
-%   the other, and not where they happen: whatever OnEvent does, hosts do not
-%   wait for it.  That it fails means nothing; an exception is reported once,
-%   and the watch goes on.
+%   The events of one host arrive in order.  All calls run in one thread, one
+%   after the other, and not where the events happen: whatever OnEvent does,
+%   hosts do not wait for it.  Failure of the call is ignored; an exception is
+%   reported once, and the watch continues.
 %
-%   OnEvent may be a lambda expression; its variables that are bound when
-%   watch/3 is called are as they are then, as in [E]>>p(Q, E).
+%   OnEvent may be a lambda expression; variables that are bound when watch/3 is
+%   called keep these values, as Q in [E]>>p(Q, E).
 %
 %   Watch holds the endpoint of this process until unwatch/1.
 %
@@ -70,7 +70,7 @@ watch(Hosts, OnEvent, Watch) :-
 
 %!  unwatch(+Watch) is det.
 %
-%   Earlier events are still delivered, if that can be done in two seconds, and
+%   Earlier events are still delivered, if two seconds are enough for that, and
 %   then no event any more.
 %
 %   @error existence_error(watch, Watch)
@@ -83,13 +83,12 @@ unwatch(Watch) :-
 %   Hosts as of watch/3.  Processes are process(Endpoint, Pid, Hosts, Agents):
 %
 %     - host(Address, Time, Load, Options, Links)
-%       Time is what its clock shows, Load how many agents count there,
-%       Options those of host_start/2 but for tokens, Links To-Cost.
+%       Time is the time of its clock, Load the number of its agents that
+%       count, Options those of host_start/2 except tokens, Links To-Cost.
 %     - agent(Id, Host, Program, State, Hops)
-%       State as of agent_property/2, without the error of those that are
-%       faulty.
+%       State is as of agent_property/2, without the error of faulty agents.
 %
-%   Silent are the endpoints of processes that have not answered in five
+%   Silent are the endpoints of processes that did not answer within five
 %   seconds.
 %
 %   @error existence_error(host, Host)
@@ -99,9 +98,8 @@ overview(Hosts, Processes, Silent) :-
 
 %!  metrics(+Hosts, -Text:string) is det.
 %
-%   Text are the numbers of the processes that have Hosts, as of watch/3, in
-%   the text format of Prometheus.  What is counted begins at 0 when it is
-%   asked for the first time.
+%   Text has the metrics of the processes that have Hosts, as of watch/3, in the
+%   text format of Prometheus.  Counters begin at 0 with the first request.
 %
 %   @error existence_error(host, Host)
 

@@ -23,23 +23,22 @@
 :- use_module('../../kernel/base/options', [blaming/2]).
 :- use_module('../../kernel/base/own_thread', [in_own_thread/1]).
 
-/** <module> HTTP for clients that are not trusted
+/** <module> HTTP server for untrusted clients
 
 Servers of library(http/thread_httpd) do not bound the head of a request, and
-their time-outs are those of one wait, not of the whole of a request.  So
-threads, heads and bodies are our own; what a head says is read by the library
-out of memory.
+their timeouts apply to one wait, not to a whole request.  So this module has
+its own threads, heads and bodies; the library parses a head from memory.
 
-Each client has a thread, up to a bound.  If there are as many, a client that
-has not sent a whole request gives way to the newcomer: one of the address that
-has most connections; of these, one between two requests before one in the
-middle of a request; of these, the oldest.  So half requests can hold
-connections only as long as no other client wants them, and clients of one
-address do not displace those of others that have fewer.  If every client is
-being served, the newcomer is sent away.
+Each client has a thread, up to a bound.  At the bound, a new client displaces
+one that has not sent a whole request: of the address that has most connections;
+among these, one between two requests before one in the middle of a request;
+among these, the oldest.  So half requests can hold connections only while no
+other client needs them, and clients of one address do not displace those of
+others that have fewer.  If every client is being served, the new one is
+refused.
 
-Threads of one owner, a crew, are ended and joined with it; a thread that ends
-earlier is joined then.
+The threads of one owner, a crew, are ended and joined with it; a thread that
+ends earlier is joined at that time.
 
 *Threading*: an acceptor, and a thread for each client.
 */
@@ -56,11 +55,11 @@ earlier is joined then.
 %!  http_server_close(+Server) is det.
 %
 %   From now on call(Serve, In, Out) serves each client that connects to
-%   Address, Interface:Port, Most at a time, in streams of bytes that are
-%   closed afterwards. Serve says how far it is by client_becomes/1; a new
-%   client is `reading`.  In is `none` for a client that is to be sent away:
-%   Serve runs in the acceptor then and must not wait.  http_server_close/1
-%   ends all threads of Server, a ground term.
+%   Address, Interface:Port, at most Most at a time, on byte streams that are
+%   closed afterwards.  Serve reports its progress by client_becomes/1; a new
+%   client is `reading`.  In is `none` for a client that is to be refused: then
+%   Serve runs in the acceptor and must not wait.  http_server_close/1 ends all
+%   threads of Server, a ground term.
 %
 %   @error socket_error(Code, Message)
 
@@ -80,7 +79,7 @@ http_server_open(Server, Interface:Port, Most, Serve) :-
     assertz(listens(Server, Socket)).
 
 %   Processes that are started later must not inherit the socket: the port would
-%   be in use as long as they are.
+%   be in use for as long as they run.
 
 close_on_exec(Socket) :-
     tcp_open_socket(Socket, Stream),
@@ -105,7 +104,7 @@ accept_all(Server, Socket, Most, Serve) :-
 
 accept_failed(Server, Formal) :-
     debug(typhon(clients), '~w: a client is lost: ~p', [Server, Formal]),
-    sleep(0.1).                         % out of descriptors, most likely
+    sleep(0.1).                         % probably out of file descriptors
 
 accept(Server, Socket, Most, Serve) :-
     tcp_accept(Socket, Client, Ip),
@@ -156,9 +155,9 @@ left(In, Out) :-
 
 %!  client_becomes(+State) is semidet.
 %
-%   The client of this thread is `idle`, between two requests, `reading` one, or
-%   `busy`: it is being served; or it is `apart`: it does not count any more.
-%   Fails if it has had to give way.
+%   The client of this thread is `idle`, between two requests; `reading` one;
+%   `busy`, being served; or `apart`, not counted any more.  Fails if it has
+%   been displaced.
 
 client_becomes(State) :-
     sig_atomic(becomes(State)).
@@ -170,7 +169,7 @@ becomes(State) :-
     get_time(Now),
     assertz(client(Server, Me, Ip, Now, State)).
 
-%   has_slot(+Server, +Most): fails if no client can give way.
+%   has_slot(+Server, +Most): fails if no client can be displaced.
 
 has_slot(Server, Most) :-
     aggregate_all(count, ( client(Server, _, _, _, State0),
@@ -196,7 +195,7 @@ victim(Server, Victim) :-
 gives_way(idle, 0).
 gives_way(reading, 1).
 
-%   It may have been signalled before it began, or while it ended.
+%   The signal may have arrived before the client began, or while it ended.
 
 give_way :-
     thread_self(Me),
@@ -217,8 +216,8 @@ http_deadline(Seconds, Deadline) :-
 
 %!  http_before(+Deadline, +In) is det.
 %
-%   The next byte has to be there by then; with `none` the caller bounds the
-%   time.
+%   Reading of the next byte fails after Deadline; with `none` the caller limits
+%   the time.
 %
 %   @error timeout_error(read, In)
 
@@ -234,16 +233,15 @@ http_before(Deadline, In) :-
 
 %!  http_head(+In, +Most, +Deadline, -Bytes:list) is semidet.
 %
-%   What comes until the end of an empty line, with that.  Fails at the end of
-%   In.
+%   Bytes are all up to and including an empty line.  Fails at the end of In.
 %
-%   @error resource_error(http_head) if that is more than Most bytes,
+%   @error resource_error(http_head) if there are more than Most bytes,
 %   timeout_error(read, In)
 
 http_head(In, Most, Deadline, Bytes) :-
     head(In, Most, 0'\n, Deadline, Bytes).
 
-%   Last is the byte before, of returns aside.
+%   Last is the previous byte other than a carriage return.
 
 head(In, Most, Last, Deadline, [Byte|Bytes]) :-
     http_before(Deadline, In),
@@ -286,8 +284,8 @@ with_bytes(Write, In, Goal) :-
 
 %!  crew_start(+Owner, +Role:atom, :Goal, :Release) is det.
 %
-%   Run Goal in a new thread, and Release when that ends, even if it has not
-%   come to Goal.
+%   Run Goal in a new thread, and Release when the thread ends, even if it has
+%   not reached Goal.
 %
 %   @error resource_error(threads) or the like
 
@@ -330,7 +328,7 @@ ended :-
 
 %!  crew_end(+Owner) is det.
 %
-%   End all threads of Owner, whatever they do.
+%   End all threads of Owner, also busy ones.
 
 crew_end(Owner) :-
     in_own_thread(typhon_http_server:end_all(Owner)).

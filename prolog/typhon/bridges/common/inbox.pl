@@ -12,14 +12,14 @@
 
 /** <module> Incoming messages of services, and dropped ones
 
-What comes for an agent is put in its mailbox, as long as fewer than so many
-messages wait there.  The others are counted, and when half of the queue is
-free again, or the next one fits, the agent first gets
-Service-dropped(Key, Count).  So it is with facts; there the fact
-Service-dropped(Key, Count) has the count of all that were dropped.
+A message for an agent is put in its mailbox if fewer than Max messages wait
+there.  Others are dropped and counted, and when half of the queue is free
+again, or the next message fits, the agent first gets Service-dropped(Key,
+Count). Facts are treated in the same way, but the fact Service-dropped(Key,
+Count) has the count of all dropped facts.
 
-*Threading*: inbox_put/4 is for the thread that reads what comes.  The
-thread that runs an agent reports that it takes a message, while there are gaps.
+*Threading*: the thread that reads incoming messages calls inbox_put/4.  While
+there are gaps, the thread that runs an agent reports that it takes a message.
 */
 
 :- multifile
@@ -119,7 +119,7 @@ unheard(gap(_, _, _, Host, _)) :-
 
 %!  inbox_key(+Key, -Text:atom) is det.
 %
-%   Tables that threads share are asked by atoms: an index on compound terms
+%   Tables that threads share are indexed by atoms: an index on compound terms
 %   is not safe, see typhon_agents.
 
 inbox_key(Key, Key) :-
@@ -130,7 +130,7 @@ inbox_key(Key, Text) :-
 
 %!  gap_forget(+Service, +Key, +Agent) is det.
 %
-%   The agent is not subscribed any more.
+%   Agent is not subscribed any more.
 
 gap_forget(Service, Key, Agent) :-
     Gap = gap(Agent, Service, Key, _, _),
@@ -159,7 +159,7 @@ leave(Host, Place, Fact) :-
     tuple_leave(Place, Fact),
     event(facts, Host, none, leave(Fact)).
 
-%   All facts, if these are few, else those of Service.
+%   Count is that of all facts if these are few, else of those of Service.
 
 facts(Place, Service, Max, Count) :-
     predicate_property(Place:'$tuple'(_), number_of_clauses(All)),

@@ -152,25 +152,25 @@ part_file('tools/source_view','tools/source_view/listing').
 %
 %   File declares the setting Module:Name.
 
-part_setting(again_seconds,typhon_monitors,number,1,'The home of a monitored agent that does not answer is asked again','options/supervision/monitors').
+part_setting(again_seconds,typhon_monitors,number,1,'Seconds until a lost request to the home of an agent is repeated','options/supervision/monitors').
 part_setting(answer_seconds,typhon_processes,number,2,'A process that is to end and says nothing for so long is killed','network/processes').
 part_setting(atom_chars,typhon_guard_limits,positive_integer,1000,'Atoms that untrusted agents make have at most so many characters','options/guard/guard_limits').
 part_setting(atom_chars,typhon_guard_texts,positive_integer,1000,'Now typhon_guard_limits:atom_chars','options/guard/guard_limits').
 part_setting(ball_cells,typhon_guard_arguments,positive_integer,10000,'Now typhon_guard_calls:ball_cells','options/guard/guard_calls').
-part_setting(ball_cells,typhon_guard_calls,positive_integer,10000,'What untrusted agents throw has at most so many parts','options/guard/guard_calls').
-part_setting(births,typhon_birth,positive_integer,20000,'Of so many agents that were here the owners are remembered','options/identity/birth').
+part_setting(ball_cells,typhon_guard_calls,positive_integer,10000,'Parts of a term that an untrusted agent throws, at most','options/guard/guard_calls').
+part_setting(births,typhon_birth,positive_integer,20000,'Agents whose proofs of ownership are kept','options/identity/birth').
 part_setting(browsers,typhon_page_browsers,positive_integer,32,'So many browsers may look at a page at a time','tools/page/browsers').
 part_setting(cells,typhon_cells,positive_integer,16,'Processes for agents of untrusted owners, at most','options/cell/cells').
 part_setting(certificates,typhon_base_key_files,positive_integer,256,'Now typhon_keys:certificates','options/keys').
-part_setting(certificates,typhon_keys,positive_integer,256,'Certificates of which it is remembered whose they are','options/keys').
-part_setting(channel_seconds,typhon_channel,number,300,'Posts for a process that has left, and keeps no journal as far as is known, are kept so long','options/journal/channel').
+part_setting(certificates,typhon_keys,positive_integer,256,'Certificates whose holder is cached','options/keys').
+part_setting(channel_seconds,typhon_channel,number,300,'Seconds for which posts are kept for a process that has left, and is not known to keep a journal','options/journal/channel').
 part_setting(clause_cells,typhon_guard_limits,positive_integer,200000,'Clauses that untrusted agents add have at most so many parts','options/guard/guard_limits').
 part_setting(clause_cells,typhon_refusing,positive_integer,200000,'Now typhon_guard_limits:clause_cells','options/guard/guard_limits').
 part_setting(connections,typhon_page_reception,positive_integer,64,'A page has so many clients at a time','tools/page/server').
-part_setting(delay,typhon_telling,number,0.05,'Events gather for so many seconds before they are sent','options/watch/event_sender').
+part_setting(delay,typhon_telling,number,0.05,'Seconds for which events gather before they are sent','options/watch/event_sender').
 part_setting(entries,typhon_fipa_directory,positive_integer,10000,'Now typhon_fipa_managers:entries','bridges/fipa/managers').
 part_setting(entries,typhon_fipa_managers,positive_integer,10000,'Descriptions in a directory of FIPA','bridges/fipa/managers').
-part_setting(events,typhon_telling,positive_integer,10000,'So many events wait for a watch that is slow','options/watch/telling').
+part_setting(events,typhon_telling,positive_integer,10000,'Events that may wait for a slow watch','options/watch/telling').
 part_setting(frame_events,typhon_page_browsers,positive_integer,2000,'A page tells its browsers of so many events at a time','tools/page/browsers').
 part_setting(frame_seconds,typhon_page_browsers,number,0.05,'A page tells its browsers of events once in so many seconds','tools/page/browsers').
 part_setting(functors,typhon_cells,positive_integer,20000,'Functors that the cells of an owner may bring into the process','options/cell/cell_functors').
@@ -179,8 +179,8 @@ part_setting(heartbeat_seconds,typhon_page_browsers,number,5,'A page says so oft
 part_setting(hold_seconds,typhon_saving,number,30,'A network that is saved has so long to come to rest','network/saving').
 part_setting(idle,typhon_cells,number,60,'Seconds after which a cell that no agent uses ends','options/cell/cells').
 part_setting(kill_seconds,typhon_processes,number,10,'A process that was killed has so long to be gone','network/processes').
-part_setting(last_seconds,typhon_watches,number,2,'unwatch/1 waits so long for what has happened before','options/watch/watches').
-part_setting(links,typhon_trail,positive_integer,32,'So many links of the trail of an agent are kept','options/trail/trail').
+part_setting(last_seconds,typhon_watches,number,2,'Seconds that unwatch/1 waits for earlier events','options/watch/watches').
+part_setting(links,typhon_trail,positive_integer,32,'Links that are kept of the trail of an agent','options/trail/trail').
 part_setting(longest,typhon_ros_rosbridge,nonneg,4000000,'Characters of one message from a rosbridge server','bridges/ros/websocket').
 part_setting(longest,typhon_ros_socket,nonneg,4000000,'Now typhon_ros_rosbridge:longest','bridges/ros/websocket').
 part_setting(memory,typhon_cells,positive_integer,1500000000,'Bytes of address space that a cell may have','options/cell/cell_process').
@@ -191,7 +191,7 @@ part_setting(most,typhon_ros_requests,positive_integer,1000,'Requests of ROS tha
 part_setting(most,typhon_ros_standing,positive_integer,1000,'Now typhon_ros_advertisements:most','bridges/ros/advertisements').
 part_setting(offers,typhon_offers,positive_integer,100,'Offers of an agent','options/directory/offers').
 part_setting(order_seconds,typhon_processes,number,60,'A process has so long to answer an order','network/nodes').
-part_setting(patience,typhon_telling,number,30,'A process that watches and is cut off has so long to answer','options/watch/event_sender').
+part_setting(patience,typhon_telling,number,30,'Seconds that a disconnected watching process has to answer','options/watch/event_sender').
 part_setting(patience,typhon_virtual,number,10,'Virtual time that stands still for so long is reported','options/virtual').
 part_setting(pause,typhon_overuse,number,0.8,'Now typhon_quota_enforcer:pause','options/quotas/quota_enforcer').
 part_setting(pause,typhon_quota_enforcer,between(0.0,1.0),0.8,'Agents that run for long where there are quotas pause for this part of the time while others run','options/quotas/quota_enforcer').
@@ -209,8 +209,8 @@ part_setting(restart_seconds,typhon_restarts,number,60,'The time that this numbe
 part_setting(restarts,typhon_restarts,nonneg,10,'A process of a network is started again so often','network/restarts').
 part_setting(seconds,typhon_inventory,number,2,'A table waits so long for the other processes of a network','tools/inventory').
 part_setting(seconds,typhon_survey,number,2,'Now typhon_inventory:seconds','tools/inventory').
-part_setting(silent_seconds,typhon_postgresql,positive_integer,10,'A server of a journal whose machine says nothing for so long is taken to be gone','options/journal/postgresql').
+part_setting(silent_seconds,typhon_postgresql,positive_integer,10,'Seconds without data after which the machine of a database server is taken to be gone','options/journal/postgresql').
 part_setting(ssh,typhon_children,atom,ssh,'The program that reaches other machines','network/children').
 part_setting(start_seconds,typhon_processes,number,60,'The processes of a network have so long to start','network/processes').
 part_setting(stop_seconds,typhon_children,number,5,'A child has so long to end in order, then it is killed','network/children').
-part_setting(virtual_events,typhon_telling,positive_integer,1000000,'As many of virtual time, which is ahead of all watches','options/watch/telling').
+part_setting(virtual_events,typhon_telling,positive_integer,1000000,'The same in virtual time, which runs ahead of all watches','options/watch/telling').

@@ -29,7 +29,7 @@ typhon_guard_bodies.
 */
 
 :- setting(ball_cells, positive_integer, 10 000,
-           "What untrusted agents throw has at most so many parts").
+           "Parts of a term that an untrusted agent throws, at most").
 
 %!  guard_goals(+Policy, +Program, +Goals0, -Goals) is det.
 %

@@ -64,7 +64,7 @@ certificate of the process in which it was created, which its birth proves.
     typhon_hop:sent_again/2.
 
 :- setting(births, positive_integer, 20000,
-           "Of so many agents that were here the owners are remembered").
+           "Agents whose proofs of ownership are kept").
 
 :- dynamic
     known/2,                            % Id, Birth: verified

@@ -49,8 +49,8 @@ a time sends to an endpoint.
     courier/1.                  % Endpoint: a thread sends
 
 :- setting(channel_seconds, number, 300,
-           "Posts for a process that has left, and keeps no journal as far as \c
-            is known, are kept so long").
+           "Seconds for which posts are kept for a process that has left, and \c
+            is not known to keep a journal").
 
 batch(100).
 longest_pause(1).               % seconds between attempts

@@ -42,8 +42,8 @@ environment applies, such as PGPASSWORD, or the defaults of the server.
     typhon_database:says/3.
 
 :- setting(silent_seconds, positive_integer, 10,
-           "A server of a journal whose machine says nothing for so long is \c
-            taken to be gone").
+           "Seconds without data after which the machine of a database server \c
+            is taken to be gone").
 
                 /*******************************
                 *             URLS             *

@@ -23,14 +23,14 @@
 :- use_module(journaled_agents, [agent_back/3, states_unused/1]).
 :- use_module(store, [journal_place/2]).
 
-/** <module> Hosts that start with a journal
+/** <module> Recovery: hosts that start with a journal
 
-The first host of a process that has the option journal(Where) opens it.  Then
-all hosts that the journal knows start, and what else it knows is restored.
-First everything is put where it was, while no peer is let in and no agent
-runs, see typhon_durable.  Then it goes on: agents whose time has come, or that
-were about to run, are scheduled, alarms are set, what was under way is asked
-for or sent again.
+The first host of a process with the option journal(Where) opens the journal.
+Then all hosts in the journal start, and its other items are restored.  First
+all state is restored, while no peer is accepted and no agent runs, see
+typhon_durable.  Then the process continues: agents that are due, or were about
+to run, are scheduled, alarms are set, and unfinished transfers are queried or
+sent again.
 
 *Threading*: as host_start/2.
 */
@@ -46,17 +46,17 @@ for or sent again.
     typhon_runtime:ending/1.
 
 :- dynamic
-    restored/1,                 % Name: was started because the journal says so
+    restored/1,                 % Name: was started from the journal
     superfluous/2,              % Kind, Key: no agent needs it
-    left/2.                     % Id, Hash: an agent that is not back
+    left/2.                     % Id, Hash: an agent that was not restored
 
-%   last(-Kinds): they look up what others restore; mail and programs of agents
-%   that are not there are superfluous.
+%   last(-Kinds): kinds that need others restored first; mail and programs of
+%   agents that are not there are superfluous.
 
 last([agent, mail, wait, code]).
 
-%   What this process knew before, with another journal or none, is another
-%   story.
+%   State that this process had before, with another journal or none, is
+%   discarded.
 
 typhon_durable:recover :-
     forall(typhon_identity:ids_anew, true),
@@ -96,7 +96,7 @@ is_back(Kind, Key, _, Term) :-
     print_message(error, typhon(not_back(Kind, Key))),
     stays(Kind, Key, Term).
 
-%   What stays in the journal stays there with all that belongs to it.
+%   An item that stays in the journal keeps all that belongs to it.
 
 stays(agent, Id, agent(_, Hash, _, _, _, _)) :-
     !,
@@ -121,7 +121,7 @@ record_back(Id, Record) :-
     host_again(Host),
     debug(typhon(agent), '~w: is there again, on ~w', [Id, Host]).
 
-%   Before any request can need it.
+%   This runs before any request can need the items.
 
 typhon_durable:tidy :-
     forall(retract(superfluous(Kind, Key)), durable_drop_all(Kind, Key)),
@@ -152,7 +152,7 @@ typhon_hosting:starts(Name, Options) :-
         start_from(Where, Name, Options)
     ).
 
-%   There may be a password in it.
+%   The URL of the journal may contain a password.
 
 typhon_host_parts:unnoted(journal(_)).
 typhon_host_parts:unnoted(sync(_)).
@@ -160,7 +160,7 @@ typhon_host_parts:unnoted(sync(_)).
 typhon_host_parts:ends(Name) :-
     retractall(restored(Name)).
 
-%   start_from(+Where, +Name, +Options): with all that is in the journal.
+%   start_from(+Where, +Name, +Options): start Name and all of the journal.
 
 start_from(Where, _, Options) :-
     time_wanted(Options, Kind),
@@ -216,13 +216,13 @@ not_here(Where, Why) :-
     journal_place(Where, Place),
     throw(error(permission_error(open, journal, Place), context(_, Why))).
 
-%   known(?Name, -Options) is nondet: the journal knows the host.
+%   known(?Name, -Options) is nondet: the host is in the journal.
 
 known(Name, Options) :-
     durable_item(host, numbers, Name, _, Options).
 
-%   with_known(+Known, +Options, -All): All are Options, and those Known of
-%   which these say nothing.
+%   with_known(+Known, +Options, -All): All are Options, and those of Known that
+%   Options do not override.
 
 with_known(Known, Options, All) :-
     findall(Option,
@@ -236,15 +236,15 @@ with_known(Known, Options, All) :-
 %!  hosts_journal(+Where, +Options) is det.
 %!  hosts_back(+Options) is det.
 %
-%   What a host with the option journal(Where) does when it starts, in steps,
-%   for callers that act in between, or have no host yet: the journal is open,
-%   and the process may start its endpoint; all that it knows is there again,
-%   its hosts with Options in place of what they had, and others are let in.
-%   Then hosts_go_on/0 is to be called.
+%   The steps by which a host with the option journal(Where) starts, for callers
+%   that act in between, or have no host yet.  After hosts_journal/2 the journal
+%   is open, and the process may start its endpoint.  hosts_back/1 restores all
+%   of it, its hosts with Options in place of theirs, and accepts peers.  Then
+%   the caller must call hosts_go_on/0.
 %
 %   @arg Options of hosts_journal/2 are sync(How), as of host_start/2, and
-%        wait(Seconds): so long for another process that has it, which is
-%        about to end
+%        wait(Seconds): how long to wait for another process that has the
+%        journal and is about to end
 %   @error permission_error(open, journal, Place), and as durable_open/3
 
 hosts_journal(Where, Options) :-

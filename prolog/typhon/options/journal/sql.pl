@@ -14,11 +14,11 @@
 :- use_module(library(error), [existence_error/2]).
 :- use_module(library(lists), [append/3]).
 
-/** <module> Statements, by library(odbc)
+/** <module> SQL statements, by library(odbc)
 
-A parameter of the driver has the length that it had when its statement was
-first executed: so there is a statement for each of some lengths, and what is
-shorter is filled up.
+The driver fixes the length of a parameter when a statement is first executed.
+So there is one statement for each of some lengths, and shorter values are
+padded.
 
 *Threading*: one thread at a time.
 */
@@ -35,7 +35,8 @@ sql_load :-
     catch(use_module(library(odbc), []), error(existence_error(_, _), _),
           existence_error(package, 'swi-prolog-odbc')).
 
-%   Called so that it is not missed where the package is not installed.
+%   A meta-call, so that check/0 does not report it where the package is
+%   missing.
 
 odbc(Goal) :-
     Called = odbc:Goal,
@@ -45,7 +46,7 @@ odbc(Goal) :-
 %!  sql_disconnect(+Connection) is det.
 %
 %   @arg Driver is what odbc_driver_connect/3 expects
-%   @error odbc(State, Native, Text), as of all that is here
+%   @error odbc(State, Native, Text), as all predicates of this module
 
 sql_connect(Driver, Connection) :-
     odbc(odbc_driver_connect(Driver, Connection,
@@ -57,7 +58,7 @@ sql_disconnect(Connection) :-
 %!  sql_do(+Connection, +Sql) is det.
 %!  sql_row(+Connection, +Sql, -Row, +Types) is nondet.
 %
-%   Do Sql, whatever it answers; each row that it answers with.
+%   Execute Sql and ignore its result; Row is a row of its result.
 
 sql_do(Connection, Sql) :-
     ignore(odbc(odbc_query(Connection, Sql, _, []))).
@@ -73,7 +74,7 @@ sql_row(Connection, Sql, Row, Types) :-
 %!  sql_open(+Connection) is det.
 %!  sql_close is det.
 %
-%   Statements are those of Connection from now on; there are none.
+%   Prepare the statements for Connection; free all of them.
 
 sql_open(Connection) :-
     assertz(connection(Connection)),
@@ -91,7 +92,7 @@ prepare(Connection, Name, Size, Sql, Types0) :-
     odbc(odbc_prepare(Connection, Sql, Types, Statement, Options)),
     assertz(statement(Name, Size, Statement)).
 
-%   A type of text without a length would bind the empty text.
+%   A text type without a length would bind the empty text.
 
 parameter_type(kind, varchar(64)).
 parameter_type(key, varchar(2000)).
@@ -103,11 +104,11 @@ options(parts, [types([string])|Wide]) :-
     !.
 options(_, []).
 
-%   What is longer than a kilobyte would come damaged otherwise.
+%   Otherwise the driver returns texts longer than a kilobyte damaged.
 
 wide([wide_column_threshold(100)]).
 
-%   What both databases understand.
+%   Statements that both databases accept.
 
 sql(begin, begin, []).
 sql(commit, commit, []).
@@ -177,7 +178,7 @@ filled(Length, Size, Bytes, Full) :-
 
 %!  sql_part(+Name, +Values, -Bytes) is nondet.
 %
-%   The rows of a statement that answers with bytes.
+%   Bytes is a row of a statement that returns bytes.
 
 sql_part(Name, Values, Bytes) :-
     statement(Name, 0, Statement),

@@ -74,7 +74,7 @@ typhon_database:database_wrong(sqlite(_), Connection, Why) :-
     Said \== ok,
     Why = Said.
 
-%   The record is a file, which is there as a whole or not at all.
+%   The record is a file that is written completely or not at all.
 
 typhon_database:record(sqlite(Dir), Text) :-
     record_file(Dir, File),

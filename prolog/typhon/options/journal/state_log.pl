@@ -11,39 +11,38 @@
 :- use_module('../../kernel/program', [clause_parts/3]).
 :- use_module('../../kernel/agent', [agent_add/2, agent_state/2]).
 
-/** <module> What has changed in the state of an agent
+/** <module> The log of changes of an agent's state
 
 The state of an agent is its dynamic predicates, see typhon_agent_module.  The
-log of a module says what its program has changed since it was asked last, a
-list of
+log of a module lists the changes since the last query, so that the cost of a
+change does not depend on the size of the state:
 
   - edit(Erased, First, Last): clauses of a predicate were erased, others were
-    put before the rest, in this order, and after it.  Erased has K-Clause: of
-    the clauses that were there before and are variants of Clause, the one
-    after K others, when those before in Erased are gone.
+    added before the rest, in this order, and after it.  Erased has K-Clause:
+    of the clauses that existed at the last query and are variants of Clause,
+    the one after K others, once those earlier in Erased are gone.
   - set(Name/Arity, Clauses): the predicate is dynamic, and has these clauses
   - gone(Name/Arity): it is not dynamic any more
 
-so that what a change costs does not depend on the size of the state.
-
-The clauses of a predicate that is listened to, see prolog_listen/2, are
-reported as they are added and erased.  A predicate is not listened to before
-it is first seen here, and no more after abolish/1, which clears the flag by
-which this is known.  Clauses are counted, too: after a report was lost, as when
-a signal came in between, and after transactions that were rolled back, the
-change is the predicate as it is.
+A listener of the predicate, see prolog_listen/2, reports its clauses as they
+are added and erased.  A predicate has no listener before the first query that
+finds it, nor after abolish/1, which clears the flag that marks predicates with
+a listener.  Clauses are also counted.  If a report was lost, as after a signal
+at that moment, or a transaction was rolled back, the change is the whole
+predicate.
 
 The log is a temporary module of its own, with
 
-  - counted(Name, Arity, Count, Uncounted): there were so many clauses at the last
-    look, and so many changes since they were counted
+  - counted(Name, Arity, Count, Uncounted): number of clauses at the last
+    query, and of changes since they were really counted
   - added(Ref, Name, Arity, End): since then, at the `first` or `last` end
   - erased(Name, Arity, K, Clause), in this order
-  - unsure(Name, Arity)
-  - looked(Generation): of the newest change at the last look
+  - unsure(Name, Arity): a report was lost
+  - looked(Generation): of the newest change at the last query
 
-Thread-local predicates are noted as they are each time.  Versions 9 and 10 of
-SWI-Prolog crash when they are listened to and their module is destroyed.
+Thread-local predicates are recorded whole each time.  Versions 9 and 10 of
+SWI-Prolog crash when such a predicate has a listener and its module is
+destroyed.
 
 *Threading*: the thread to which the agent belongs.
 */
@@ -51,8 +50,7 @@ SWI-Prolog crash when they are listened to and their module is destroyed.
 %!  state_log_begin(+Module) is det.
 %!  state_log_end(+Module) is det.
 %
-%   What changes from now on is logged, in addition to the state as it is now;
-%   it is not logged any more.
+%   Begin a log of changes relative to the present state; end it.
 
 state_log_begin(Module) :-
     log_of(Module, Log),
@@ -94,17 +92,17 @@ declare(Log) :-
     dynamic([ Log:counted/4, Log:added/4, Log:erased/4, Log:unsure/2,
               Log:looked/1 ]).
 
-%   Counting takes as long as there are clauses, so that many changes share it.
+%   Counting takes time linear in the clauses, so many changes share one count.
 
 uncounted(Count, Most) :-
     Most is Count//8.
 
                 /*******************************
-                *            LISTENING         *
+                *           LISTENERS          *
                 *******************************/
 
-%   The flag `clausable` means nothing for dynamic predicates, and is cleared
-%   together with the listeners.
+%   `clausable` has no effect on dynamic predicates; abolish/1 clears it
+%   together with the listeners, so it marks predicates with a listener.
 
 heard(Head, Module) :-
     '$get_predicate_attribute'(Module:Head, clausable, 1).
@@ -133,8 +131,8 @@ unheard(Module, Log, Name, Arity) :-
 
 :- public changed/6.
 
-%   changed(+Module, +Log, +Name, +Arity, +Action, +Context): before a clause is
-%   erased, and after it was added.
+%   changed(+Module, +Log, +Name, +Arity, +Action, +Context): called before a
+%   clause is erased, and after one was added.
 
 changed(Module, Log, Name, Arity, Action, Context) :-
     sig_atomic(report(Action, Context, Name, Arity, Module, Log)).
@@ -153,11 +151,11 @@ report(retract, Ref, Name, Arity, Module, Log) =>
     ).
 report(rollback(_), _, Name, Arity, _, Log) =>
     assertz(Log:unsure(Name, Arity)).
-report(_, _, _, _, _, _) =>             % retractall/1 begins, ends
+report(_, _, _, _, _, _) =>             % begin or end of retractall/1
     true.
 
-%   ordinal(+Clause, +Ref, +Module, +Log, -K): before Ref there are K other
-%   variants of Clause that were there at the last look.
+%   ordinal(+Clause, +Ref, +Module, +Log, -K): K other variants of Clause that
+%   existed at the last query are before Ref.
 
 ordinal(Clause, Ref, Module, Log, K) :-
     Count = count(0),
@@ -172,8 +170,8 @@ ordinal(Clause, Ref, Module, Log, K) :-
         fail
     ).
 
-%   variant_at(+Clause, +Module, -Ref) is nondet: Ref is a variant of Clause, in
-%   the order of the clauses.
+%   variant_at(+Clause, +Module, -Ref) is nondet: Ref is a variant of Clause;
+%   the solutions are in the order of the clauses.
 
 variant_at(Clause, Module, Ref) :-
     copy_term(Clause, Copy),
@@ -186,7 +184,7 @@ clause_at(Ref, Module, Clause) :-
     clause(Module:Head, Body, Ref),
     clause_term(Head, Body, Clause).
 
-%   A fact is its head.
+%   A fact is stored as its head alone.
 
 clause_term(Head, true, Clause) =>
     Clause = Head.
@@ -199,7 +197,7 @@ clause_term(Head, Body, Clause) =>
 
 %!  state_log_changes(+Module, -Changes:list) is semidet.
 %
-%   Changes of the state since the last look.  Fails if there is no log.
+%   Changes of the state since the last query.  Fails if there is no log.
 
 state_log_changes(Module, Changes) :-
     log_of(Module, Log),
@@ -225,8 +223,8 @@ forget(Log, Name, Arity) :-
     retractall(Log:erased(Name, Arity, _, _)),
     retractall(Log:unsure(Name, Arity)).
 
-%   changed_since(+Since, +Module, -Head, -Last) is nondet: a predicate that is
-%   not listened to may have changed.
+%   changed_since(+Since, +Module, -Head, -Last) is nondet: the predicate
+%   changed after Since; without a listener it may have changed.
 
 changed_since(Since, Module, Head, Last) :-
     predicate(Module, Head, Last),
@@ -257,7 +255,7 @@ changes([Head-Last|Heads], Module, Log, Until0, Until, Changes0, Changes) :-
     ),
     changes(Heads, Module, Log, Until1, Until, Changes1, Changes).
 
-%   change(+Head, +Module, +Log, -Change) is semidet: fails if there is none.
+%   change(+Head, +Module, +Log, -Change) is semidet: fails if nothing changed.
 
 change(Head, Module, Log, Change) :-
     functor(Head, Name, Arity),
@@ -278,7 +276,7 @@ count(Head, Module, Count) :-
     ).
 
 %   edited(+Head, +Module, +Log, -Edit, -Counted) is semidet: fails if a report
-%   was lost, or all the clauses are no longer than the changes.
+%   was lost, or if all the clauses are shorter than the changes.
 
 edited(Head, Module, Log, edit(Erased, First, Last),
        counted(Name, Arity, Count, Uncounted)) :-
@@ -329,7 +327,7 @@ set_anew(Head, Module, Log, set(Name/Arity, Clauses),
 %   Latest is State after Changes, each a list as of state_log_changes/2, the
 %   oldest first.
 %
-%   @error existence_error(clause, Clause): Changes are not of State
+%   @error existence_error(clause, Clause): Changes do not belong to State
 
 state_replayed(state(Empty, Clauses), Changes, Latest) :-
     gensym('typhon replay ', Module),

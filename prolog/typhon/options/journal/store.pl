@@ -25,17 +25,17 @@
 
 /** <module> The store: items in a database
 
-An item is a term under a kind, a key and a number.  Changes are
+An item is a term identified by a kind, a key and a number.  Changes are
 
-  - put(Kind, Key, N, Bytes): the item is Bytes, see item_bytes/2
-  - drop(Kind, Key, N): it is no more
-  - drop_all(Kind, Key), drop_below(Kind, Key, N): nor are those of this
-    key, of numbers less than N
+  - put(Kind, Key, N, Bytes): the item becomes Bytes, see item_bytes/2
+  - drop(Kind, Key, N): delete the item
+  - drop_all(Kind, Key), drop_below(Kind, Key, N): delete all items of this key,
+    or those with numbers less than N
 
-The database is SQLite in a directory, or PostgreSQL at a URL; higher layers
-do not know which.  A process has one store at a time, which no other can
-open meanwhile.  What is longer than a parameter of the driver can be is kept in
-parts.
+The database is SQLite in a directory, or PostgreSQL at a URL; higher layers do
+not know which.  A process has one store at a time, and no other process can
+open it meanwhile.  An item that is longer than a parameter of the driver can be
+is stored in parts.
 
 *Threading*: one thread at a time.
 */
@@ -63,16 +63,16 @@ part_bytes(30000).
 %!  journal_open(+Where, +Sync) is det.
 %!  journal_open(+Where, +Sync, +Seconds) is det.
 %
-%   Open the store at Where, see journal_place/2, a new one if there is none.
+%   Open the store at Where, see journal_place/2, or make a new one.
 %
-%   @arg Seconds is how long to wait for another process to give it up
-%   @arg Sync is `full` if what is committed is to survive a power cut, or
-%        `normal` if the end of the process
+%   @arg Seconds is how long to wait for another process to close it
+%   @arg Sync is `full` if commits must survive a power cut, or `normal` if they
+%        must survive the end of the process
 %   @error permission_error(open, journal, Place): another process has it, or
 %          the directory cannot be written
 %   @error journal_damaged(Place, Why), journal_version(Place, Version),
 %          journal_unreachable(Place, Why)
-%   @error existence_error(package, Name): the machine lacks it
+%   @error existence_error(package, Name): the package is not installed
 
 journal_open(Where, Sync) :-
     journal_open(Where, Sync, 0.2).
@@ -130,7 +130,7 @@ must_be_ours(Place, Connection) :-
     (   sql_row(Connection, 'select version, sample from about',
                 row(Version0, Sample0), [integer, atom])
     ->  true
-    ;   throw(error(journal_damaged(Place, 'nothing is said about it'), _))
+    ;   throw(error(journal_damaged(Place, 'it has no version'), _))
     ),
     (   Version0 == Version,
         Sample0 == Sample
@@ -138,8 +138,8 @@ must_be_ours(Place, Connection) :-
     ;   throw(error(journal_version(Place, Version0), _))
     ).
 
-%   Records of another version or word size must not be read: what differs
-%   in any of them differs in these.
+%   A process of another version or word size must not read the items: any
+%   difference in their format shows in this sample.
 
 sample(Sample) :-
     Big is 1<<62,
@@ -153,7 +153,7 @@ sample(Sample) :-
 %!  journal_place(+Where, -Place:atom) is det.
 %!  journal_found(+Where) is semidet.
 %
-%   What a journal is called, as in errors; there is one.
+%   Place is the name of the journal in errors; the journal exists.
 %
 %   @arg Where is a directory, postgresql(Url), or such a Url
 %   @error domain_error(postgresql_url, Url)
@@ -198,7 +198,7 @@ forget(Connection) :-
 
 %!  store_commit(+Changes:list) is det.
 %
-%   All of Changes, in this order, or none.
+%   Apply all Changes, in this order, or none.
 %
 %   @error resource_error(journal_space): the disk is full
 %   @error journal_damaged(Place, Why), journal_unreachable(Place, Why)
@@ -220,8 +220,8 @@ commit_all(Changes) :-
           ( catch(sql_execute(rollback, []), error(_, _), true),
             throw(error(Formal, Context)) )).
 
-%   A server that is there again has lost our lock: a process that has opened
-%   the journal meanwhile has it. It may have lost more.
+%   When a server is back the lock of this process is lost, and perhaps also
+%   commits; another process may have opened the journal meanwhile.
 
 connect_again :-
     connection(Place, Old),
@@ -244,8 +244,8 @@ same(Base, Sync, Stamp, Place, Connection) :-
                     context(_, 'another process has opened it meanwhile')))
     ).
 
-%   Not the transactions of the driver: a disk that is full ends one without
-%   its knowledge.
+%   Transactions of the driver are not used: a full disk ends one without its
+%   knowledge.
 
 commit(Changes) :-
     sql_execute(begin, []),
@@ -276,8 +276,8 @@ change(drop_below(Kind, Key, N)) =>
     forall(( long(Kind, Key, N0), N0 < N ), drop_parts(Kind, Key, N0)),
     sql_execute(drop_below, [Kind, Key, N]).
 
-%   Of 24 bits: those of Prologs are of 24 or 32, and the driver's integers are
-%   signed.
+%   24 bits: term_hash/2 gives 24 or 32 bits in different versions, and the
+%   integers of the driver are signed.
 
 check_sum(Bytes, Sum) :-
     term_hash(Bytes, Hash),
@@ -303,10 +303,9 @@ drop_parts(Kind, Key, N) :-
 
 %!  journal_item(+Kind, +Order, -Key, -N, -Value) is nondet.
 %
-%   The items of Kind.
+%   Value is an item of Kind.
 %
-%   @arg Order is `numbers` if those of less numbers are to come first, or
-%        `any`
+%   @arg Order is `numbers` for ascending numbers, or `any`
 %   @error journal_damaged(Place, Kind-Key)
 
 journal_item(Kind, Order, Key, N, Value) :-

@@ -9,12 +9,12 @@
 :- use_module(pheromone, []).           % a strategy
 :- use_module(strategy, [next_host/6, strategy_memory/2]).
 
-/** <module> What agents remember of where they were
+/** <module> The visit memory of an agent
 
 The memory of the migration strategies is the fact '$memory'/1 of the
 agent's state.
 
-*Threading*: whatever thread runs the agent.
+*Threading*: the thread that runs the agent.
 */
 
 %!  next_from_here(+Strategy, -Host) is semidet.
@@ -43,8 +43,8 @@ memory(_, Id, Here, Memory) :-
     agent_seed(Seed0, Id, Seed),
     strategy_memory(Seed, Memory).
 
-%   With a seed an agent's choices depend on it, on the name and number of
-%   the agent, and on the host where it was born.
+%   With a seed, the choices of an agent depend on the seed, the name and number
+%   of the agent, and the host where it was created.
 
 agent_seed(random, _, Seed) :-
     !,

@@ -20,23 +20,23 @@
 
 /** <module> Pheromones, and the agents that follow them
 
-A host that needs service emits a pheromone for its problem. It spreads
-over the links as they are then, weaker at every hop, and is gone after
-Span hops. An agent that can solve the problem follows it to its source by
-the migration strategy phercon(Problem): at a host with pheromones whose
-problem Problem subsumes it goes to where the strongest came from. Where
-there are none it goes on as a conscientious agent does. (PherCon: Godfrey
-and Nair.)
+A host that needs service emits a pheromone for its problem.  It spreads over
+the links as they are then, becomes weaker at every hop, and ends after Span
+hops. An agent that can solve the problem follows it to its source by the
+migration strategy phercon(Problem): on a host with pheromones whose problem
+Problem subsumes, the agent goes to the neighbour from which the strongest came.
+On other hosts it behaves as a conscientious agent.  (PherCon: Godfrey and
+Nair.)
 
-At a host a pheromone is the tuple
+On a host a pheromone is the tuple
 
     pheromone(Problem, Source, Strength, Next, Until)
 
-Source is the host that emitted it, Next the neighbour it came from, Until
-the host time at which it has evaporated. Of the same problem and source
-the stronger one stays, and of two that are equally strong the younger.
+Source is the host that emitted it, Next the neighbour from which it came, Until
+the host time at which it has evaporated.  Of two with the same problem and
+source the stronger is kept, and of two that are equally strong the newer.
 
-*Threading*: any thread. What arrives is stored and passed on by a worker.
+*Threading*: any thread.  A worker stores and forwards arriving pheromones.
 */
 
 :- multifile
@@ -52,9 +52,9 @@ the stronger one stays, and of two that are equally strong the younger.
 %   pheromone_strength(+Maximum, +Span, +Distance, -Strength)
 %   pheromone_until(+Emitted, +Period, +Span, +Distance, -Until)
 %
-%   The strength of a pheromone Distance hops from its source, and when it
-%   evaporates there. It is 0 beyond Span hops. Near the source it lasts
-%   for Span periods, and one less at each hop.
+%   The strength of a pheromone at Distance hops from its source, and the time
+%   at which it evaporates there.  The strength is 0 beyond Span hops.  Near the
+%   source it lasts for Span periods, and one period less at each hop.
 
 pheromone_strength(Maximum, Span, Distance, Strength) :-
     Strength is max(0, Maximum - (Distance - 1) * Maximum / Span).
@@ -86,7 +86,7 @@ typhon_options:declared(pheromone_option, strength(Number), number, Number).
 typhon_options:declared(pheromone_option, period(Seconds), number, Seconds).
 
 %   A signal is signal(Problem, Source, Maximum, Span, Period, Emitted,
-%   Distance), Distance being that of the hosts that get it.
+%   Distance); Distance is that of the hosts that receive it.
 
 spread(Host, From, Signal) :-
     arg(2, Signal, Source),
@@ -98,8 +98,8 @@ spread(Host, From, Signal) :-
             Hosts),
     tell(Hosts, smelt(Here, Signal)).
 
-%   One worker tells all hosts of this process, one after the other: to wake a
-%   worker takes longer than what it does at a host.
+%   One worker informs all hosts of this process, one after the other: waking a
+%   worker takes longer than its work at a host.
 
 tell(Hosts, News) :-
     endpoint_address(Own),
@@ -128,7 +128,7 @@ news(Hosts, News) :-
 news_at(Host, News) :-
     (   host(Host, _, Place)
     ->  heard(News, Host, Place)
-    ;   true                            % it was stopped meanwhile
+    ;   true                            % the host was stopped meanwhile
     ).
 
 heard(smelt(From, Signal), Host, Place) :-
@@ -150,8 +150,8 @@ heard(withdrawn(Source, Problem), Host, Place) :-
     ;   true
     ).
 
-%   store(+Place, +Now, +Pheromone) is semidet: fails if there is a better
-%   one.
+%   store(+Place, +Now, +Pheromone) is semidet: fails if a better pheromone is
+%   there.
 
 store(Place, Now, Pheromone) :-
     Pheromone = pheromone(Problem, Source, Strength, _, Until),
@@ -207,8 +207,8 @@ live(Host, Problem, Source, Strength, Next) :-
     tuple_sense(Place, pheromone(Problem, Source, Strength, Next, Until)),
     Until > Now.
 
-%   Only what leads to a neighbour can be followed. Of equally strong ones
-%   the agent draws one.
+%   Only a pheromone that came from a present neighbour can be followed.  Among
+%   equally strong ones the agent chooses at random.
 
 typhon_strategy:strategy(phercon(_)).
 

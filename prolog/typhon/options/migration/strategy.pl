@@ -12,28 +12,27 @@
 :- use_module('../../kernel/base/prng',
               [chance_member/4, chance_seed/2, chance_true/4]).
 
-/** <module> Where an agent goes next
+/** <module> Migration strategies
 
-A migration strategy chooses one of the neighbours of the host an agent
-stands on.
+A migration strategy chooses one of the neighbours of the host on which an agent
+is.
 
-  - random: any neighbour, each as likely as any other
-  - conscientious: one never visited, drawn at random; when there is none,
-    the one whose last visit is longest ago (Minar, Kramer and Maes)
+  - random: any neighbour, all with the same probability
+  - conscientious: a neighbour never visited, drawn at random; when there is
+    none, the one whose last visit is longest ago (Minar, Kramer and Maes)
   - epsilon_conscientious(E): random with probability E, else conscientious
 
-The agent's memory is a small ground term that travels with it: the hosts
-it visited, each once, the most recent first, and the state of its own
-random generator. So the choices depend on the agent alone, not on the
-thread that runs it, and two runs with one seed choose alike. All
-strategies keep the memory in the same way, so an agent may change from
-one to another on its way.
+The agent's memory is a small ground term that moves with it: the visited hosts,
+each once, the most recent first, and the state of its own random generator.  So
+the choices depend on the agent alone, not on the thread that runs it, and two
+runs with the same seed make the same choices.  All strategies keep the memory
+in the same way, so an agent may change from one to another on its way.
 
-The host chosen counts as visited from the moment of the choice, before
-the agent is there. A host that then refuses the agent is therefore the
-last one it will try again.
+The chosen host counts as visited from the moment of the choice, before the
+agent is there.  If it then refuses the agent, it is the last one that the agent
+will try again.
 
-Further strategies are added by clauses for the two hooks below.
+Further strategies are added by clauses of the two hooks below.
 
 *Threading*: pure.
 */
@@ -45,19 +44,19 @@ Further strategies are added by clauses for the two hooks below.
 
 %!  strategy(+Strategy) is semidet.
 %
-%   Hook: true when Strategy is a migration strategy. Clauses raise an
-%   error when Strategy has the right shape and impossible arguments.
+%   Hook: true when Strategy is a migration strategy.  Clauses raise an error
+%   when Strategy has the right shape and impossible arguments.
 
 %!  choose(+Strategy, +Hosts, +Here, +Memory0, -Host, -Memory) is det.
 %
-%   Hook: Host is one of Hosts, a nonempty ordered set. Here is marked in
-%   Memory0 already, and next_host/6 marks Host after the choice; a clause
-%   returns a changed Memory only when it drew on the agent's chance, or
-%   called another strategy's choose/6.
+%   Hook: Host is one of Hosts, a nonempty ordered set.  Here is already marked
+%   in Memory0, and next_host/6 marks Host after the choice.  A clause returns a
+%   changed Memory only when it used the agent's random generator, or called
+%   choose/6 of another strategy.
 
 %!  strategy_memory(+Seed:integer, -Memory) is det.
 %
-%   The memory of an agent that has been nowhere.
+%   Memory is that of an agent that has visited no host.
 %
 %   @error type_error(integer, Seed)
 
@@ -67,9 +66,9 @@ strategy_memory(Seed, memory(Chance, [])) :-
 %!  next_host(+Strategy, +Neighbours, +Here, +Memory0, -Host, -Memory)
 %!      is semidet.
 %
-%   Host is the one of Neighbours to go to from Here. Here, then Host, are
-%   the most recently visited of Memory. Fails when there is no neighbour.
-%   The order of Neighbours does not matter.
+%   Host is the one of Neighbours to which the agent goes from Here.  Here, then
+%   Host, are the most recently visited in Memory.  Fails when there is no
+%   neighbour.  The order of Neighbours does not matter.
 %
 %   @error domain_error(migration_strategy, Strategy),
 %   domain_error(probability, E)
@@ -144,7 +143,7 @@ least_recent(Visited, Hosts, Host) :-
 
 %!  memory_mark(+Host, +Memory0, -Memory) is det.
 %
-%   Host is the most recently visited one of Memory.
+%   Memory has Host as the most recently visited host.
 
 memory_mark(Host, memory(Chance, Visited0), memory(Chance, Visited)) :-
     (   Visited0 = [Host|_]
@@ -156,14 +155,14 @@ memory_mark(Host, memory(Chance, Visited0), memory(Chance, Visited)) :-
 
 %!  memory_visited(+Memory, -Hosts) is det.
 %
-%   The hosts visited, the most recent first.
+%   Hosts are the visited hosts, the most recent first.
 
 memory_visited(memory(_, Visited), Visited).
 
 %!  memory_chance(+Memory0, -Chance0, ?Chance, -Memory) is det.
 %
-%   Takes the agent's random generator Chance0 out, and puts its later
-%   state Chance back, which may be unbound as yet.
+%   Chance0 is the agent's random generator in Memory0; Memory has its later
+%   state Chance, which may still be unbound.
 
 memory_chance(memory(Chance0, Visited), Chance0,
               Chance, memory(Chance, Visited)).

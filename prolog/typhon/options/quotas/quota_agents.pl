@@ -20,17 +20,18 @@
 
 /** <module> Agents on hosts with quotas
 
-Which come in, whose they are while they stand there, how long they may, and
-how large their state may be.
+The module decides which agents may enter, records the owner of each and until
+when it may stay, and bounds the size of its state.
 
-On a host with the quota `mailbox` no more messages wait for an agent.  Those
-that do not fit are lost, and this is reported here and where they were
-sent, see typhon_dead_letters: those of a second together, so that a flood of
-messages is not a flood of warnings.
+On a host with the quota `mailbox` at most that many messages wait for an agent.
+Further messages become dead letters, which are reported here and where they
+were sent, see typhon_dead_letters.  Those of one second are reported together,
+so that a flood of messages is not a flood of warnings.
 
-*Threading*: any thread.  Agents come and go inside with_agent/2.  Of many that
-enter at once each may be one too many for a quota.  Whether a message fits is asked inside with_agent/2,
-too; workers report those that do not.
+*Threading*: any thread.  Agents arrive and leave inside with_agent/2.  Agents
+that arrive at the same moment may pass a quota together, each one agent too
+many.  Whether a message fits is also decided inside with_agent/2; workers
+report those that do not fit.
 */
 
 :- multifile
@@ -79,8 +80,8 @@ brought(going, entrant(Id, _, _, _, _), Count) :-
 brought(_, entrant(_, _, _, _, Mail), Count) :-
     length(Mail, Count).
 
-%   owned(+From, +Agent, +State0, +Host, -Id, -State): what tells the owner.
-%   Of an agent that begins here the id says no more than this process.
+%   owned(+From, +Agent, +State0, +Host, -Id, -State): Id and State determine
+%   the owner.  The id of an agent that begins here shows this process alone.
 
 owned(going, Id, State, _, Id, State).
 owned(here, _, State, Host, Id, State) :-
@@ -121,7 +122,7 @@ goes(Id, _, Module) :-
 
 %!  quota_agents_again(+Host) is det.
 %
-%   The quotas of Host have changed, also for agents that are there.
+%   The quotas of Host have changed, also for the agents on it.
 
 quota_agents_again(Host) :-
     forall(agent(Id, Host, _, _, _),
@@ -153,9 +154,9 @@ ends_at(Until, Host, Id) :-
 %!  quota_owned(+Host, ?Owner:atom, -Count) is det.
 %!  quota_until(+Id, ?Host, -Until:number) is semidet.
 %
-%   Id stands on Host, which has quotas, and is the owner's; how many of that
-%   owner, or all, are there; until when Id may be there, on the clock of the
-%   host.
+%   Id is on Host, which has quotas, and belongs to Owner; Count agents of
+%   Owner, or of all owners, are on Host; Id may be on Host until that time of
+%   the clock of the host.
 
 quota_owner(Id, Host, Owner) :-
     stands(Id, Host, Owner, _).
@@ -172,8 +173,8 @@ quota_until(Id, Host, Until) :-
                 *             STATE            *
                 *******************************/
 
-%   While a module gets its state it may not be larger than the quota; later it
-%   may be as large as it came.
+%   While a module gets its state it may not exceed the quota; afterwards it may
+%   be as large as it was on arrival.
 
 typhon_host_parts:part(module, Host, 10, typhon_quota_agents:module(Most)) :-
     quota(Host, state, Most).
@@ -191,9 +192,10 @@ state_bounded(Host, Module) :-
     ;   true
     ).
 
-%   The size of a clause does not include the text of its atoms, which live
-%   outside.  So the text that an agent adds is counted.  What it takes away is
-%   not: when the count passes the quota the text that is there is counted anew.
+%   The size of a clause does not include the text of its atoms, which is stored
+%   elsewhere.  So the text of added clauses is counted.  Removed clauses are
+%   not subtracted: when the count passes the quota, the present text is
+%   counted.
 
 typhon_host_parts:part(adds_clause, Host, 10,
                        typhon_quota_agents:text_added(Most)) :-
@@ -246,7 +248,7 @@ state_clause(Module, Head, Body) :-
 
 %!  quota_text(+Id, -Characters:integer) is det.
 %
-%   At least so much text is in the state of Id, unless it was taken away.
+%   Count of the text added to the state of Id; it may include removed text.
 
 quota_text(Id, Characters) :-
     (   text(Id, Count)
@@ -272,8 +274,9 @@ typhon_host_parts:part(deliver, Host, 10, typhon_quota_agents:fits(Most)) :-
 
 :- public fits/5.
 
-%   fits(+Most, +Host, +Id, +Mail, -Fitting): of Mail, as of typhon_routing,
-%   there is space for Fitting in the mailbox of Id; the rest is lost.
+%   fits(+Most, +Host, +Id, +Mail, -Fitting): the mailbox of Id has space for
+%   Fitting, a prefix of Mail, as of typhon_routing; the rest becomes dead
+%   letters.
 
 fits(Most, _, Id, Mail, Fitting) :-
     mail_count(Id, There),
@@ -286,8 +289,8 @@ fits(Most, _, Id, Mail, Fitting) :-
     ;   Fitting = Mail
     ).
 
-%   Added before it looks for others: a thread that reports meanwhile finds it,
-%   or has taken them all.
+%   The fact is added before the thread looks for others: a reporting thread
+%   finds it, or has taken all others.
 
 refuse(Id, Mail) :-
     assertz(refused(Id, Mail), Ref),

@@ -21,14 +21,15 @@
                 quota_shared/4 ]).
 :- use_module(usage, [usage_begin/0]).
 
-/** <module> Turns of agents on hosts with quotas, and agents that use too much
+/** <module> Enforcement: turns of agents with quotas, and agents that exceed
+them
 
-A turn is limited in its inferences, and what is kept of an agent in its size.
-While there are hosts with quotas of what is not counted when it is used, a
-server looks ten times a second: how long an agent has not stopped, how large
-its stack is, and what agents of one owner, or all of a host, have of these and
-of state together.  And an agent ends that has been on a host for as long as it
-may.
+A turn is limited in its inferences, and the stored goals of an agent in their
+size.  While hosts have quotas of resources that are not counted when they are
+used, a server checks ten times a second: how long an agent has run without a
+stop, how large its stack is, and how much of these, and of state, the agents
+of one owner, or all agents of a host, use together.  An agent ends when its
+lifetime on a host has expired.
 
 *Threading*: run/3 in the worker that has the agent, look/0 in the thread of
 the enforcer, too_long/2 in a worker; interrupt/2 and pause/2 are signals.
@@ -59,7 +60,7 @@ typhon_host_parts:part(turn, Host, 10, typhon_quota_enforcer:run) :-
 
 run(turn(Id, Host, Context), Goals, Outcome) :-
     Context = context(_, Module),
-    context_set(Host, Id, Module),      % its seconds begin
+    context_set(Host, Id, Module),      % begins its time
     usage_begin,
     far_limit(Host),
     within_inferences(Host, Context, Goals, Outcome0),
@@ -67,9 +68,10 @@ run(turn(Id, Host, Context), Goals, Outcome) :-
     storable(Outcome1, Host, Outcome).
 
 %   An agent that passes the quota of stack is interrupted long before its stack
-%   is full: one that fills it to the brim while it catches all that is raised
-%   leaves no space for exceptions, and then 9.0.4 ends the process.  A limit
-%   near the quota would make it worse: the brim would be there sooner.
+%   is full.  An agent that fills its stack while it catches all exceptions
+%   leaves no space for exceptions, and then SWI-Prolog 9.0.4 ends the process.
+%   A limit near the quota would make this worse, since the stack would be full
+%   sooner.
 
 far_limit(Host) :-
     (   quota(Host, stack, Most),
@@ -109,8 +111,8 @@ over(Outcome, Outcome).
 quota_named(program_space, state) :- !.
 quota_named(What, What).
 
-%   storable(+Outcome0, +Host, -Outcome): what is kept of the agent is stored
-%   as a tree, while others wait for it.
+%   storable(+Outcome0, +Host, -Outcome): what remains of the agent is stored as
+%   a tree, while other threads wait for it, so its size is checked as a tree.
 
 storable(Outcome0, Host, Outcome) :-
     (   kept(Outcome0, Kept),
@@ -135,7 +137,7 @@ typhon_turn:limit_passed(raised(error(resource_error(What), _))) :-
 
 %!  enforcer_adapt is det.
 %
-%   The quotas of hosts have changed: the enforcer runs as long as it is needed.
+%   The quotas of hosts have changed: start or stop the enforcer as needed.
 
 enforcer_adapt :-
     is_needed,
@@ -187,14 +189,14 @@ turn(Agent, Host, Thread, Seconds) :-
     agent_status(Agent, running, _).
 
                 /*******************************
-                *             EACH             *
+                *           EACH AGENT         *
                 *******************************/
 
 %   exceeds(+Agent, +Host, +Thread, +Seconds, -Act) is semidet.
 %
-%   A stack is not bounded by its limit, see far_limit/1.  An agent that does
-%   not stop for long lets others go first, if there are some that are not like
-%   that.  Priorities of threads would do the same if systems kept to them.
+%   The limit of a stack is above its quota, see far_limit/1.  An agent that
+%   runs for long without a stop pauses while other agents do not.  Thread
+%   priorities would do the same if operating systems respected them.
 
 exceeds(Agent, Host, Thread, _, stop_in(Thread, Agent, stack)) :-
     quota(Host, stack, Most),
@@ -251,9 +253,9 @@ used(state, Host, Used) :-
               quota_text(Agent, Text), Bytes is Size+Text ),
             Used).
 
-%   too_much(+Whose, +Used, +Most, -Agent): Agent is the one that uses most, of
-%   an owner that uses too much, or, if it is all together, of the one that uses
-%   most.
+%   too_much(+Whose, +Used, +Most, -Agent): Agent uses most among the agents of
+%   an owner that exceeds Most; or, if all agents together exceed it, among
+%   those of the owner that uses most.
 
 too_much(Whose, Used, Most, Agent) :-
     keysort(Used, Sorted),
@@ -288,7 +290,7 @@ typhon_scheduler:over(Id, stays(Until)) :-
 
 :- public too_long/2.
 
-%   An agent under way may come back to where it was.
+%   An agent in transit may come back to this host, so the alarm is set again.
 
 too_long(Id, Until) :-
     (   quota_until(Id, _, Until)
@@ -304,7 +306,7 @@ too_long(Id, Until) :-
                 *             STOP             *
                 *******************************/
 
-%   stop(+Agent, +What): it ends, if it rests, or is interrupted.
+%   stop(+Agent, +What): end Agent if it rests, or interrupt it.
 
 stop(Agent, What) :-
     Outcome = raised(error(resource_error(What), _)),
@@ -331,7 +333,7 @@ signal(Thread, Goal) :-
 
 :- public interrupt/2, pause/2.
 
-%   Only inside its goals, as in typhon_disposal.
+%   An agent is interrupted only inside its goals, as in typhon_disposal.
 
 interrupt(Agent, What) :-
     (   inside(Agent)
@@ -339,15 +341,16 @@ interrupt(Agent, What) :-
     ;   true
     ).
 
-%   Nor may others wait for what it has; where the signal comes late, as after
-%   a long call of a foreign predicate, there is nothing left of the pause.
+%   An agent does not pause while it holds a mutex for which others wait.  If
+%   the signal is late, as after a long call of a foreign predicate, the pause
+%   is already over.
 
 pause(Agent, Until) :-
     (   inside(Agent),
         \+ has_mutex
     ->  get_time(Now),
         Seconds is Until-Now,
-        sleep(Seconds)                  % not at all if it is negative
+        sleep(Seconds)                  % returns at once if negative
     ;   true
     ).
 

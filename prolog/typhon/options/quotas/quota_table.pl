@@ -17,11 +17,11 @@
 
 /** <module> The quotas in force, and what happens when one is passed
 
-See typhon_quotas.  An agent cannot catch that it passed a quota: it ends, with
-the outcome raised(error(resource_error(What), _)).
+See typhon_quotas.  An agent cannot catch the error of a passed quota: it ends,
+with the outcome raised(error(resource_error(What), _)).
 
-*Threading*: any thread; quotas change under the mutex of host_start/2.  What
-the running agent has passed is a global variable of its thread.
+*Threading*: any thread; quotas change under the mutex of host_start/2.  The
+quota that the running agent has passed is a global variable of its thread.
 */
 
 :- multifile typhon_names:known/2.
@@ -29,9 +29,10 @@ the running agent has passed is a global variable of its thread.
 :- dynamic
     quota/3,                    % Host, What, Most
     quota_shared/4,             % Host, Whose: owner or host, What, Most
-    quota_any/1.                % Host: it has some of them
+    quota_any/1.                % Host: it has at least one of them
 
-%   kind(?What, -Whose): of whom there are such quotas.
+%   kind(?What, -Whose): whether What is a quota of an agent, an owner or a
+%   host.
 
 kind(inferences, [agent]).
 kind(cells,      [agent]).
@@ -62,14 +63,14 @@ typhon_names:known(quota, Name) :-
 %!  quota_shared(?Host, ?Whose, ?What, -Most) is nondet.
 %!  quota_any(?Host) is nondet.
 %
-%   A host of this process has a quota, of each agent; of what agents of one
-%   owner, or all agents, have together; any.
+%   A host of this process has a quota of each agent; of the agents of one
+%   owner, or of all agents, together; or any quota.
 
 %!  quotas_put(+Host, +Quotas:list, -Changed:boolean) is det.
 %!  quotas_drop(+Host) is det.
 %
-%   These are the quotas of Host, and others than before; it has none.  Of two
-%   of the same kind the first counts.
+%   Set the quotas of Host, Changed if they differ; delete them.  Of two quotas
+%   of the same kind the first is used.
 %
 %   @error domain_error(quota, Quota), type_error(number, Most)
 
@@ -105,7 +106,7 @@ is_bounded(Host) :-
     ;   assertz(quota_any(Host))
     ).
 
-%   Those of each agent first, as in_force/4.
+%   The quotas of each agent come first, as in in_force/4.
 
 has(Host, quota(agent, What, Most)) :-
     quota(Host, What, Most).
@@ -164,8 +165,8 @@ quota_begin :-
 
 %!  quota_passed(+What)
 %
-%   The running agent ends with its turn, even if it catches this; and at once
-%   if it does so again, since a turn may have no end.
+%   The running agent ends with its turn, even if it catches this error; after a
+%   second error it ends at once, since a turn may have no end.
 %
 %   @error resource_error(What)
 
@@ -181,7 +182,7 @@ quota_passed(What) :-
 
 %!  quota_overrun(+What)
 %
-%   As quota_passed/1, for a thread that is interrupted: its agent ends at once.
+%   As quota_passed/1, but the agent of the interrupted thread ends at once.
 
 quota_overrun(What) :-
     nb_setval(typhon_over, What),
@@ -189,8 +190,8 @@ quota_overrun(What) :-
 
 %!  quota_passed_now(-What) is semidet.
 %
-%   The agent that this thread ran has passed this quota: once, so that it does
-%   not count against the agent that runs in this thread next.
+%   The agent that this thread ran has passed this quota.  The query clears it,
+%   so that it does not count against the next agent of this thread.
 
 quota_passed_now(What) :-
     nb_current(typhon_over, What),

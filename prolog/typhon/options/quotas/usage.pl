@@ -11,16 +11,15 @@
               [ quota/3, quota_any/1, quota_begin/0, quota_passed/1,
                 quota_shared/4 ]).
 
-/** <module> What agents use when they act
+/** <module> Counts of what agents do
 
-What is bounded by the second is counted when it is done: for the agent, and
-where there are quotas of these, for its owner and for all on the host.  Where
-there are quotas of tuples it is counted how many facts in the tuple space are
-from an agent, from agents of one owner, and from all; facts stay when their
-agent goes.
+Acts that are limited by the second are counted when they are done: for the
+agent and, where there are such quotas, for its owner and for all agents on the
+host.  Where there are quotas of tuples, the facts in the tuple space are
+counted by agent, by owner, and in all; facts stay when their agent leaves.
 
-*Threading*: the thread that runs the agent.  An agent is counted by one
-thread at a time; what it shares with others is counted under a mutex.
+*Threading*: the thread that runs the agent.  Only one thread at a time counts
+for an agent; counts that agents share are changed under a mutex.
 */
 
 :- multifile
@@ -41,7 +40,7 @@ typhon_host_parts:part(acts, Host, 10, typhon_usage:acts(Host)) :-
 
 :- public acts/3.
 
-%   acts(+Host, +Agent, +Act): Agent is `none` for what is no agent.
+%   acts(+Host, +Agent, +Act): Agent is `none` for calls outside of agents.
 %
 %   @error resource_error(What)
 
@@ -84,7 +83,7 @@ may_attach(Host, Agent) :-
 
 %!  usage_forget(+Host) is det.
 %
-%   Host is no more.
+%   Host has ended.
 
 usage_forget(Host) :-
     with_mutex(typhon_usage,
@@ -128,7 +127,7 @@ spend(Agent, What, Second, Most) :-
     ;   quota_passed(What)
     ).
 
-%   An agent that left spends no more.
+%   Counts of agents that have left are dropped.
 
 forget_some :-
     predicate_property(spent(_, _, _, _), number_of_clauses(Count)),
@@ -180,7 +179,8 @@ one_more(Host, What, Owner, Second, Count) :-
     ),
     assertz(shared(Host, What, Owner, Second, Count)).
 
-%   No agent ends for what others do: of all, the most frequent end.
+%   An agent must not end for the acts of others: if all together exceed the
+%   quota, the most frequent one ends.
 
 too_often(Host, What, Count, _) :-
     quota_shared(Host, owner, What, Most),
@@ -197,10 +197,10 @@ too_often(Host, What, Count, All) :-
                 *             CLONES           *
                 *******************************/
 
-%   may_clone(+Host, +Agent): of its program and owner, of all programs of the
-%   owner, and of all there are not too many here.  Nor have been made in this
-%   second: else a family would clone for ever, as fast as those end that are
-%   too many.
+%   may_clone(+Host, +Agent): the quotas bound the agents of its program and
+%   owner, of its owner, and of all on the host.  They also bound the clones
+%   made in a second: else a program would clone for ever, as fast as its
+%   surplus clones end.
 
 may_clone(Host, Agent) :-
     owner(Host, Agent, Owner),
@@ -243,7 +243,7 @@ clones_in_second(Host, Family, Count) :-
                 *             TUPLES           *
                 *******************************/
 
-%   Of many that leave facts at once each may be one too many.
+%   Agents that leave facts at the same moment may each be one fact too many.
 
 may_leave(_, none) :-
     !.
@@ -270,7 +270,7 @@ too_many(Host, Agent) :-
     too_many(Whose, Host, Count, Most),
     !.
 
-%   When the space is full the agents that use most of it have to go.
+%   When the space is full the agents of the owner with most facts end.
 
 too_many(owner, _, Count, Most) :-
     Count >= Most.
@@ -331,9 +331,9 @@ typhon_host_parts:part(makes_text, Host, 10, typhon_usage:atoms_made(Most)) :-
 
 :- public atoms_made/2.
 
-%   atoms_made(+Most, +Length): the running agent makes atoms of that length
-%   together.  Their text is not part of the stack: what an agent makes between
-%   two stops counts as if it were.
+%   atoms_made(+Most, +Length): the running agent makes atoms with Length
+%   characters in all.  Their text is not on the stack, but counts as if it
+%   were, between two stops of the agent.
 %
 %   @error resource_error(stack)
 

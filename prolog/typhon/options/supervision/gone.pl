@@ -6,19 +6,20 @@
                 endpoint_reply/2, endpoint_request/4 ]).
 :- use_module('../../kernel/host', [alarm_in/3, scheduler_call/1]).
 
-/** <module> Processes that are gone
+/** <module> Detection of processes that are gone
 
-A connection that breaks may be made again.  So the process is asked, which makes
-the endpoint try to reach it, and looked at until there is a connection again,
-or it is known to be gone: none listens at its address, it said goodbye, or
-another one has met us there.  One that keeps a journal is not gone.
+A broken connection may be made again.  So a request is sent to the process,
+which makes the endpoint try to reach it, and its state is checked until there
+is a connection again, or it is known to be gone: nothing listens at its
+address, it closed the connection orderly, or another process is at its address.
+A process that keeps a journal is not gone.
 
 *Threading*: the hook concerns/0 is called in threads of connections, gone/1 in
 a worker.
 */
 
 :- multifile
-    concerns/0,                 % it is of interest which processes are gone
+    concerns/0,                 % there are monitors that need this
     gone/1,                     % Peer
     typhon_endpoint:connection/2,
     typhon_endpoint:requested/4,
@@ -39,7 +40,7 @@ typhon_endpoint:connection(_, up).
 
 %!  process_suspect(+Peer) is det.
 %
-%   There is no connection to Peer: find out whether it is gone.
+%   There is no connection to Peer: find out whether the process is gone.
 
 process_suspect(Peer) :-
     process(Peer, Process),

@@ -19,10 +19,10 @@
 :- autoload(monitors, [monitor_begin/3, monitor_end/2, monitor_set/2]).
 :- autoload(relations, [relations/2]).
 
-/** <module> What agents say to monitor others
+/** <module> The predicates by which agents monitor others
 
-The home of the agent that monitors keeps its monitors: it knows where the agent
-is, and when it ends.
+The home of a monitoring agent keeps its monitors, since the home knows where
+the agent is, and when it ends.
 
 *Threading*: the thread that runs the agent; waits for the home, if that is
 another process.
@@ -44,7 +44,7 @@ typhon_creation:first_goal(Options, Parent,
     Parent \== none,
     option(follows(true), Options).
 
-%   Its home is here; it has not moved yet, nor can it fail.
+%   The home of Id is here; Id has not moved yet, and cannot have failed.
 
 typhon_creation:at_birth(monitor(Parent, [shared(self)]), Id) :-
     atom(Parent),
@@ -57,22 +57,22 @@ typhon_creation:at_birth(monitor(Parent, [shared(self)]), Id) :-
 %
 %   This agent gets one message, `system-down(Agent, Outcome)`, when Agent ends,
 %   is faulty or is lost, wherever both are by then; at once if that has
-%   happened.  Outcome is as of agent_monitor/2.  To monitor an agent that is
-%   monitored changes nothing.  After unmonitor/1 no message comes that is not
-%   in the mailbox yet.  Option:
+%   happened already.  Outcome is as of agent_monitor/2.  A second monitor of
+%   the same agent changes nothing.  After unmonitor/1 no message arrives that
+%   is not in the mailbox yet.  Option:
 %
 %     - shared(+Shared): if `true` the two share their fate, as by link/1 of
 %       Erlang: if one of them ends otherwise than `done`, the other is disposed
-%       of.  If `agent` only Agent is, as a child of a supervisor is; if `self`
-%       only this agent is, and gets no message
+%       of.  If `agent`, this holds only for Agent, as for the child of a
+%       supervisor; if `self`, only for this agent, which gets no message
 %
 %   With follows(true) among the options of create/3 the new agent begins with
 %   monitor(Parent, [shared(self)]): it does not outlive its parent, even if that
 %   ends before it can monitor the new agent.
 %
-%   Where programs are checked Shared is `false` or `self`.
+%   On a host with a policy Shared must be `false` or `self`.
 %
-%   @error existence_error(agent, Agent): that is no id
+%   @error existence_error(agent, Agent): Agent is not an id
 %   @error permission_error(call, sandboxed, monitor(Agent, Options))
 %   @error domain_error(monitor_option, Option)
 %   @error host_unreachable(Home), connection_lost(Home): the home of this agent
@@ -100,8 +100,8 @@ is_checked :-
 %!  dispose(+Agent) is det.
 %!  dispose(+Agent, +Options) is det.
 %
-%   As agent_dispose/1,2.  Where programs are checked Agent must follow this one:
-%   it was created with follows(true).
+%   As agent_dispose/1,2.  On a host with a policy Agent must follow this one,
+%   as by follows(true) at its creation.
 %
 %   @error permission_error(call, sandboxed, dispose(Agent, Options))
 %   @error as agent_dispose/2
@@ -119,7 +119,7 @@ dispose(Agent, Options) :-
     ;   agent_dispose(Agent, Options)
     ).
 
-%   The home of Agent says so.
+%   follows(+Agent, +Id): the home of Agent has this relation.
 
 follows(Agent, Id) :-
     agent_home_endpoint(Agent, Home),
@@ -131,8 +131,8 @@ follows(Agent, Id) :-
 
 %!  followers(-Agents:ordset) is det.
 %
-%   The agents that are disposed of if this one ends otherwise than `done`: those
-%   of processes that answer within 5 seconds.
+%   Agents are disposed of if this one ends otherwise than `done`: those known
+%   to the processes that answer within 5 seconds.
 
 followers(Agents) :-
     context(Host, Id, _),

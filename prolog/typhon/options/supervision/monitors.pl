@@ -24,20 +24,21 @@
 :- use_module('../../kernel/lifecycle', [agent_dispose/1, agent_named/2]).
 :- use_module(watched, [orphans_end/1, watched_add/2]).
 
-/** <module> Monitors, at the home of those that set them
+/** <module> Monitors, at the home of the monitoring agents
 
-The home of a watcher keeps its monitors, and asks the home of each agent that
-is monitored once, by a request that is answered when the agent is down, see
-typhon_watched.  If this request is lost, the home of the agent is gone, and the
-agent with it, or it keeps a journal and is asked again.  Whatever says that the
-agent is down, the thread that removes the monitor sends the message: so it is
-sent once.  With a journal both are one unit of work.
+The home of a watcher keeps its monitors.  For each monitored agent it sends one
+request to the home of that agent, which answers when the agent is down, see
+typhon_watched.  If the request is lost, the home of the agent is gone, and the
+agent with it; or the home keeps a journal, and the request is sent again.
+Whatever reports that the agent is down, the thread that removes the monitor
+sends the message, so it is sent once.  With a journal both are one unit of
+work.
 
 A watcher is the id of an agent that gets a message; ends(Id), an agent that is
 disposed of if the other ends otherwise than `done`; or call(N), a goal of this
 process.
 
-*Threading*: any thread; nothing waits but monitor_call/2.
+*Threading*: any thread; only monitor_call/2 waits.
 */
 
 :- multifile
@@ -53,13 +54,14 @@ process.
 :- meta_predicate monitor_call(+, :).
 
 :- setting(again_seconds, number, 1,
-           "The home of a monitored agent that does not answer is asked again").
+           "Seconds until a lost request to the home of an agent is repeated").
 
 :- dynamic
     monitor/3,                  % Key, Watcher, Agent
-    asked/2,                    % Agent, Since: its home is asked, `before` if
-                                % it had been asked before; `first`; or `lost`
-    minded/1,                   % Id: its monitors go when it ends
+    asked/2,                    % Agent, Since: its home has a request; Since is
+                                % `before` after an earlier request, `first`, or
+                                % `lost`
+    minded/1,                   % Id: its monitors are removed when it ends
     goal/2.                     % N, Goal
 
 :- durable(monitor, Key, 0, Watcher-Agent, monitor(Key, Watcher, Agent)).
@@ -83,8 +85,8 @@ forget :-
 %!  monitor_begin(+Id, +Agent, +Shared) is det.
 %!  monitor_end(+Id, +Agent) is det.
 %
-%   Id, the home of which is here, monitors Agent, or does no longer.  Shared is
-%   as of monitor/2.
+%   Id, whose home is here, monitors Agent; it does so no longer.  Shared is as
+%   of monitor/2.
 
 monitor_begin(Id, Agent, self) :-
     !,
@@ -107,12 +109,12 @@ monitor_end(Id, Agent) :-
 
 %!  monitor_set(?Watcher, ?Agent) is nondet.
 %
-%   A watcher, see above, has a monitor of Agent.
+%   Watcher, see above, has a monitor of Agent.
 
 monitor_set(Watcher, Agent) :-
     monitor(_, Watcher, Agent).
 
-%   shares(+Agent, +Change): the other half, at the home of Agent.
+%   shares(+Agent, +Change): change the other half, at the home of Agent.
 
 shares(Agent, Change) :-
     agent_home_endpoint(Agent, Home),
@@ -157,7 +159,7 @@ add(Key, _, _, false) :-
 add(Key, Watcher, Agent, true) :-
     durable_assertz(monitor(Key, Watcher, Agent)).
 
-%   The monitors of an agent end with it.
+%   When an agent ends, its own monitors are removed.
 
 mind(ends(Id)) :-
     !,
@@ -207,7 +209,7 @@ may_order(Peer, Agent) :-
     address_parts(Address, Host, _),
     peer_may(Peer, Host, orders).
 
-%   This process would end Agent for its peer.
+%   A shared monitor lets this process end Agent on behalf of Peer.
 
 for_peer(begin(Agent, Shared), Id, Peer) :-
     agent_home(Agent, _),
@@ -233,10 +235,10 @@ monitor_call(Agent, OnDown) :-
     monitor_add(call(N), Id).
 
                 /*******************************
-                *         HOME IS ASKED        *
+                *       REQUESTS TO HOMES      *
                 *******************************/
 
-%   watch(+Agent, +Since): learn when Agent is down, if no request does that.
+%   watch(+Agent, +Since): request the end of Agent, unless a request is open.
 
 watch(Agent, Since) :-
     with_mutex(typhon_monitors, to_ask(Agent, Since)),
@@ -272,8 +274,8 @@ said(Agent, Home, _) :-
         later(Agent, watch)
     ).
 
-%   unknown(+Agent): another process may have taken the place of its home, and the
-%   agent may run on elsewhere.
+%   unknown(+Agent): the home does not know Agent.  Another process may have
+%   taken the place of its home, and the agent may still run elsewhere.
 
 :- public unknown/1.
 
@@ -281,8 +283,8 @@ unknown(Agent) :-
     orphans_end([Agent]),
     down(Agent, unknown).
 
-%   lost(+Home): with the process at Home its agents are lost.  None of them may
-%   run on elsewhere, since another one may take its place.
+%   lost(+Home): the process at Home is gone, and its agents are lost.  Those
+%   that run elsewhere are ended, since another process may take its place.
 
 :- public lost/1.
 
@@ -335,8 +337,8 @@ go_on :-
     forall(member(Watcher-Agent, Pairs),
            ( mind(Watcher), watch(Agent, first) )).
 
-%   The goals of agent_monitor/2 ended with the process that had them, and their
-%   numbers are used again.
+%   The goals of agent_monitor/2 ended with their process, and their numbers are
+%   used again.
 
 typhon_durable:restored :-
     findall(N-Agent, monitor(_, call(N), Agent), Calls),
@@ -346,7 +348,7 @@ typhon_durable:restored :-
                 *             DOWN             *
                 *******************************/
 
-%   down(+Agent, +Outcome): each monitor of it is used up.
+%   down(+Agent, +Outcome): notify and remove each monitor of Agent.
 
 :- public down/2.
 
@@ -387,7 +389,7 @@ called_back(Goal, Agent, Outcome) :-
     catch(ignore(call(Goal, Agent, Outcome)), Ball,
           ( is_abort(Ball) -> throw(Ball) ; print_error(warning, Ball) )).
 
-%   A worker cannot stop the workers, which the last release does.
+%   A worker cannot stop the workers, as the last release does.
 
 release(N) :-
     atom_concat(typhon_monitor_, N, Alias),

@@ -10,7 +10,7 @@
 :- use_module(monitors, [monitor_set/2]).
 :- use_module(watched, [others_ask/2]).
 
-/** <module> Which agents monitor and follow which
+/** <module> Relations: which agents monitor and follow which
 
 Each process reports the monitors of the agents whose home it is.
 
@@ -19,14 +19,15 @@ Each process reports the monitors of the agents whose home it is.
 
 :- multifile typhon_endpoint:requested/4.
 
-%   So many of a process are reported.
+%   At most this many relations of a process are reported.
 
 most(5000).
 
 %!  relations(?Other, -Relations:ordset) is det.
 %
-%   Of the processes that are known here and answer: monitors(Agent, Other), and
-%   follows(Agent, Other), which is disposed of if Other ends badly.
+%   Relations are those of the processes that are known here and answer:
+%   monitors(Agent, Other), and follows(Agent, Other): Agent is disposed of if
+%   Other ends otherwise than `done`.
 
 relations(Other, Relations) :-
     endpoint_address(Me),

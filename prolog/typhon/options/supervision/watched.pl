@@ -20,14 +20,13 @@
 
 /** <module> Agents that are monitored, at their home
 
-The home of an agent learns how it ends.  If a process is gone, all processes
-are asked for the agents that are monitored and are not here, twice, a second
-apart: one that none of them has, and that the home did not hear of meanwhile,
-is lost, and ended if it turns up later.  Nothing is done for that while
-processes live: hops of agents, also of those that are monitored, cost what they
-cost without.
+The home of an agent gets its outcome when it ends.  If a process is gone, all
+known processes are asked for the monitored agents that are not at home, twice,
+a second apart.  An agent that no process has, and of which the home received no
+news meanwhile, is lost, and is ended if it reappears.  While processes live
+this costs nothing: hops of agents, monitored or not, take the same time.
 
-*Threading*: questions to all are asked in a worker.
+*Threading*: a worker sends the requests to all processes.
 */
 
 :- multifile
@@ -39,8 +38,8 @@ cost without.
     typhon_scheduler:fire/2.
 
 :- dynamic
-    asker/3,                    % Agent, N, Asker: wants to know its end
-    looks_again/0.              % an alarm is set for that
+    asker/3,                    % Agent, N, Asker: waits for its end
+    looks_again/0.              % an alarm is set for another round
 
 typhon_identity:ids_anew :-
     forget.
@@ -57,8 +56,8 @@ patience(5).                    % seconds for the answers
 
 %!  watched_add(+Agent, +Asker) is det.
 %
-%   Answer Asker once how Agent ends, whose home is here, as outcome_wait/3, or
-%   lost(Host).
+%   Send Asker once the outcome of Agent, whose home is here, as of
+%   outcome_wait/3, or lost(Host).
 %
 %   @arg Asker is reply(ReplyTo) or call(Closure)
 
@@ -68,7 +67,7 @@ watched_add(Agent, Asker) :-
     outcome_wait(Agent, inf, call(typhon_watched_agents:over(Agent, N))),
     ( asker(Agent, N, _) -> went_to(Agent) ; true ).
 
-%   A connection that is down by now does not break any more.
+%   A connection that is already down will not report that it breaks.
 
 went_to(Agent) :-
     home_knows(Agent, Address, _, Process),
@@ -102,7 +101,7 @@ typhon_endpoint:requested(monitor, watch(Agent), _, ReplyTo) :-
     watched_add(Agent, reply(ReplyTo)).
 
                 /*******************************
-                *       PROCESSES THAT GO      *
+                *      PROCESSES THAT END      *
                 *******************************/
 
 typhon_gone_processes:concerns :-
@@ -134,7 +133,7 @@ look_again(Before) :-
     all_lost(Lost),
     look_later.
 
-%   It may have been under way when the processes were asked.
+%   An agent may have been in transit during the first round.
 
 all_lost([]) :-
     !.
@@ -144,9 +143,9 @@ all_lost(Lost) :-
     forall(member(at(Agent, Address, _, _), Lost),
            lost(Agent, Address)).
 
-%   An agent that moves to a process that dies is there for a time as far as its
-%   home knows, while its source keeps it in doubt: it is looked for until its
-%   home knows better.
+%   An agent that moves to a process that dies is there according to its home,
+%   while its source keeps it in doubt: the search continues until its home has
+%   other news.
 
 look_later :-
     absent(Absent),
@@ -180,8 +179,8 @@ lost(Agent, Address) :-
     ;   true
     ).
 
-%   absent(-Absent): monitored agents that are not here, at(Agent, Address, Hops,
-%   Process), as far as is known.
+%   absent(-Absent): at(Agent, Address, Hops, Process) for monitored agents that
+%   are not in this process, with their last known place.
 
 absent(Absent) :-
     findall(at(Agent, Address, Hops, Process),
@@ -192,7 +191,7 @@ absent(Absent) :-
             Absent0),
     sort(Absent0, Absent).
 
-%   missing(+Absent, -Missing): no process has them, and those where they were
+%   missing(+Absent, -Missing): no process has them, and their last processes
 %   are gone, or have answered.
 
 missing([], []) :-
@@ -204,8 +203,7 @@ missing(Absent, Missing) :-
 
 %!  others_ask(+Question, -Results:list) is det.
 %
-%   Ask all processes that are known, and wait: Results are as of
-%   endpoint_ask_all/6.
+%   Ask all known processes, and wait: Results are as of endpoint_ask_all/6.
 
 others_ask(Question, Results) :-
     others(Peers),
@@ -220,7 +218,7 @@ ask(Peers, Question, Results) :-
 
 none(_, []).
 
-%   others(-Peers:ordset): processes that are known, and not gone.
+%   others(-Peers:ordset): known processes that are not gone.
 
 others(Peers) :-
     findall(Peer,
@@ -251,9 +249,9 @@ typhon_endpoint:requested(monitor, have(Agents), _, ReplyTo) :-
 
 %!  orphans_end(+Agents) is det.
 %
-%   Agents, whose home is gone, are disposed of in all processes that can be
-%   reached, each of which asks those that it knows: now, and again after 1, 2, 4
-%   and more seconds, since an agent may be under way.  Waits for the answers.
+%   Agents, whose home is gone, are disposed of in all reachable processes, each
+%   of which asks the processes that it knows.  This is repeated after 1, 2, 4
+%   and more seconds, since an agent may be in transit.  Waits for the answers.
 
 orphans_end(Agents) :-
     end_everywhere(Agents, []),
@@ -274,7 +272,7 @@ typhon_scheduler:fire(_, orphans(Agents, Seconds)) :-
 
 :- public end_everywhere/2, end_asked/4.
 
-%   end_everywhere(+Agents, +Asked): the processes Asked are asked already.
+%   end_everywhere(+Agents, +Asked): the processes Asked have been asked.
 
 end_everywhere(Agents, Asked) :-
     forall(member(Agent, Agents), end_here(Agent)),

@@ -1,22 +1,22 @@
 :- module(typhon_secure, []).
 
-/** <module> TLS between processes
+/** <module> TLS connections between processes
 
-Where the endpoint has keys, a connection is TLS 1.3 before anything else is
-said in it, and both sides show a certificate that the authority of the
-directory has signed, which is good for hosts, has not expired and is not
-revoked. All that follows, the cookie too, is said inside.
+If the endpoint has keys, a connection begins with a TLS 1.3 handshake, and both
+sides send a certificate.  It must be signed by the authority of the directory,
+valid for hosts, not expired and not revoked.  All that follows, also the
+cookie, is encrypted.
 
-A directory holds `cert.pem` and `key.pem`, our own, `ca.pem`, of the
-authority, and `crl.pem`, its revocations. They are read for each connection:
-a host that is revoked while we run is refused from then on.
+A directory holds `cert.pem` and `key.pem` of this process, `ca.pem` of the
+authority, and `crl.pem`, its revocations.  They are read for each connection,
+so a host that is revoked meanwhile is refused from then on.
 
-OpenSSL lets one thread read while another writes, once the tickets
-of the handshake are through; these come with the first line of the server,
-which is read before any thread writes frames.
+OpenSSL lets one thread read while another writes after the session tickets of
+the handshake have arrived; these come with the first line of the server, which
+is read before any thread writes frames.
 
-*Threading*: the caller serializes begin and end; a handshake is in the
-thread of its connection. The connection manager limits its duration.
+*Threading*: the caller serialises begin and end; a handshake runs in the thread
+of its connection.  The connection manager limits its duration.
 */
 
 :- use_module(library(apply), [maplist/2, maplist/3]).
@@ -47,7 +47,7 @@ thread of its connection. The connection manager limits its duration.
 
 typhon_options:declared(host_option, tls(Directory), atom, Directory).
 
-%   A process that starts no host, a guest, gets it from the environment.
+%   A process without hosts, a guest, gets the option from the environment.
 
 typhon_on_demand:joins(environment, 'TYPHON_TLS').
 
@@ -59,7 +59,7 @@ typhon_transport:begins(Options, tls, Own, certificate(unknown)) :-
     ),
     begin(Directory, Own).
 
-%   begin(+Directory, -Own): from now on all connections are TLS, with the keys
+%   begin(+Directory, -Own): from now on all connections use TLS, with the keys
 %   in Directory.
 %
 %   @error existence_error(file, File)
@@ -106,9 +106,9 @@ context(Role, Directory, Context) :-
                 | Revoked
                 ]).
 
-%   Library(ssl) never frees a list, some 4 kB for each connection: an
-%   empty one is left out. Contexts cannot be shared by connections,
-%   whose peers it would mix up.
+%   Library(ssl) never frees a revocation list, about 4 kB for each connection,
+%   so an empty one is left out.  A context cannot be shared by connections: it
+%   would mix up their peers.
 
 revoked(Directory, Options) :-
     key_loaded(Directory, crl, List),
@@ -118,8 +118,8 @@ revoked(Directory, Options) :-
         Options = [crl([File]), require_crl(true)]
     ).
 
-%   verified(+SSL, +Certificate, +Chain, +First, +Verdict): only what was
-%   verified is; why it was not is remembered for the report.
+%   verified(+SSL, +Certificate, +Chain, +First, +Verdict): succeeds only for
+%   the verdict `verified`; the reason of any other is kept for the report.
 
 :- public verified/5.
 
@@ -149,13 +149,13 @@ verdict(Verdict, _, Why) =>
 
 %   Proof is certificate(Name).
 %
-%   @error permission_error(authenticate, peer, tls(Why)) Why is what is wrong
-%   with the certificate of the peer: `expired`, `revoked`, `foreign`, of
-%   another authority, `self_made`, `wrong_use`, not that of a host; his(What),
-%   what the peer says is wrong with ours; `plain`: it does not speak TLS; or
-%   what OpenSSL says
+%   @error permission_error(authenticate, peer, tls(Why)): Why is the problem
+%   with the peer: its certificate is `expired`, `revoked`, `foreign`, of
+%   another authority, `self_made`, self-signed, or `wrong_use`, not one of a
+%   host; his(What), a problem that the peer reports with our certificate;
+%   `plain`, it does not use TLS; or a reason given by OpenSSL
 %   @error syntax_error(end_of_file)
-%   @error timeout_error(read, tls) it took too long
+%   @error timeout_error(read, tls): the handshake took too long
 
 typhon_transport:opens(tls, Role, In, Out, SIn, SOut, certificate(Name)) :-
     own_keys(Directory),
@@ -173,8 +173,9 @@ handshake(Role, Directory, In, Out, SIn, SOut, Name) :-
     peer_name(SIn, Name),
     welcome(Role, SIn, SOut).
 
-%   A client is done before the server has looked at its certificate: it says
-%   nothing before the server accepts it or reports why it does not.
+%   A client finishes the handshake before the server has checked its
+%   certificate.  So it sends nothing until the server accepts the certificate
+%   or reports why not.
 
 welcome(server, _, SOut) :-
     line_write(SOut, "typhon tls").
@@ -197,7 +198,7 @@ peer_name(SIn, Name) :-
     certificate_field(Certificate, subject(Subject)),
     memberchk('CN'=Name, Subject).
 
-%   A peer that says a byte now and then would never time out.
+%   A peer that sends a byte now and then would never cause a timeout.
 
 :- meta_predicate in_time(0).
 :- public too_late/0.
@@ -213,7 +214,7 @@ in_time(Goal) :-
         catch(Goal, Ball, in_time_or_not(Ball)),
         nb_setval(typhon_shaking, false)).
 
-%   On 10.1.12 what is raised inside OpenSSL comes out as the end of the file.
+%   On 10.1.12 an exception inside OpenSSL is reported as the end of the file.
 
 in_time_or_not(_) :-
     nb_current(typhon_shaking, late),
@@ -234,7 +235,7 @@ too_late :-
     ;   true
     ).
 
-%   refuse(+Reason): what OpenSSL says becomes what we say.
+%   refuse(+Reason): raise the error of Typhon for the reason of OpenSSL.
 
 refuse(_) :-
     nb_current(typhon_verdict, Verdict),
@@ -254,7 +255,7 @@ refuse(Reason) :-
 refuse(Reason) :-
     permission_error(authenticate, peer, tls(Reason)).
 
-%   alert(+Reason, -Why): the peer does not like our certificate.
+%   alert(+Reason, -Why): the peer rejects our certificate.
 
 alert(Reason, Why) :-
     said(Part, Why),
@@ -279,9 +280,9 @@ opened(over(SIn, SOut), [SOut, SIn]).
 opened(under(In, Out), Streams) :-
     findall(Stream, above(In, Out, Stream), Streams).
 
-%   above(+In, +Out, -Stream): one of those that ssl_negotiate/5 has just
-%   made.  A thread that is interrupted then does not know them, and none of
-%   all is closed before they are.
+%   above(+In, +Out, -Stream): Stream was just made by ssl_negotiate/5.  A
+%   thread that is interrupted at that point has no reference to these streams,
+%   and the connection closes only when they are closed.
 
 above(In, Out, Stream) :-
     member(Mode, [append, write, read]),
@@ -294,7 +295,7 @@ above(In, Out, Stream) :-
 close_stream(Stream) :-
     catch(close(Stream, [force(true)]), error(_, _), true).
 
-%   How a connection breaks when its peer has gone, or says that it broke.
+%   Errors by which a connection ends when its peer is gone, or reports so.
 
 typhon_connection:harmless(ssl_error(_, _, _, 'unexpected eof while reading')).
 typhon_connection:harmless(ssl_error(_, _, _, 'tlsv1 alert decode error')).

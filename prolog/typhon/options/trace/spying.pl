@@ -11,18 +11,18 @@
 
 /** <module> Spy points on programs, by their own names
 
-spy(census:tour/0), nospy/1 and trace/1,2 serve for predicates of programs as
-they do for those of modules.  census is the name of a program if there is no
-predicate tour/0 in a module of that name, and it holds for programs that are
-yet to come.  What a predicate is decides how it is done:
+spy(census:tour/0), nospy/1 and trace/1,2 work for predicates of programs as for
+those of modules.  census is the name of a program if there is no predicate
+tour/0 in a module of that name, and the spy point also holds for programs that
+are loaded later.  The kind of the predicate decides how this is done:
 
-  - Agents are held at a goal that is spied, as by agent_step/1: nothing reads
-    from the terminal in a thread of its own.
-  - Calls of what the machine unfolds are printed as they are of an agent that
-    is traced; others by Prolog's own trace/2, with all their ports.
+  - Agents are held at a spied goal, as by agent_step/1: a thread of an agent
+    cannot read from the terminal.
+  - Calls of predicates that the machine unfolds are printed as for a traced
+    agent; other calls by Prolog's own trace/2, with all their ports.
 
-*Threading*: any thread; agents look at the table when they begin to run, and
-at each goal then.
+*Threading*: any thread; agents read the table when a turn begins, and then at
+each goal.
 */
 
 :- multifile
@@ -39,8 +39,8 @@ typhon_on_demand:joins(spied, program).
 %!  spied_program(+Hash) is semidet.
 %!  spied(+Hash, +Goal, -Action) is semidet.
 %
-%   Some predicate of the program is spied; Goal is a call of one, and Action
-%   is `hold` or `print`.
+%   A predicate of the program is spied; Goal calls one, and Action is `hold` or
+%   `print`.
 
 spied_program(Hash) :-
     spied(_, _, _, _),
@@ -87,13 +87,13 @@ prolog:debug_control_hook(nospyall) :-
 prolog:debug_control_hook(debugging) :-
     spied(Program, Name, Arity, hold),
     print_message(informational, typhon(spy(Program, Name, Arity))),
-    fail.                               % so much for ours
+    fail.                               % Prolog prints its own
 
 unspy(Program, Name, Arity, Action) :-
     retractall(spied(Program, Name, Arity, Action)).
 
-%   meant(+Program, +PI, -Text) is semidet: a program of that name is here,
-%   without PI, but Text proposes what it has.
+%   meant(+Program, +PI, -Text) is semidet: a program of that name is here, but
+%   without PI; Text proposes predicates that it has.
 
 meant(Program, PI, Text) :-
     findall(Own, own(Program, Own), PIs0),

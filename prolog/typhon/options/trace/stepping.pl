@@ -20,20 +20,21 @@
               [ goal_shown/3, traced_goals/1, traced_held/1,
                 traced_step/1, traced_stepwise/1 ]).
 
-/** <module> Agents that are held before each goal
+/** <module> Stepping: agents that are held before each goal
 
-An agent that is stepped, or whose goals are traced, runs in a probe: an engine
-in which the machine stops before each goal that it looks up.  Between two goals
-a probe is a term that holds no thread, with all choice points.  A stepped agent
-is held before each goal, see typhon_ending, in the state probe(Probe, Seen),
-Seen being whether a caller was notified where it is.
+A stepped agent, or one whose goals are traced, runs in a probe: an engine in
+which the machine stops before each goal that it looks up.  Between two goals a
+probe is a term that holds no thread, but all choice points.  A stepped agent is
+held before each goal, see typhon_ending, in the state probe(Probe, Seen); Seen
+is true if a caller has got its position.
 
 The machine looks goals up in the table '$mobile'/6 of the program's module.  A
 probe gives it this module instead, whose table yields the goal and then looks
-it up in the program's.  A goal that Prolog runs to its end by itself is one
+it up in the table of the program.  A goal that Prolog runs to its end is one
 step.
 
-*Threading*: any thread asks; the worker that has the agent runs its probe.
+*Threading*: any thread sends requests; the worker that has the agent runs its
+probe.
 */
 
 :- multifile
@@ -45,12 +46,12 @@ step.
 :- dynamic asker/2.             % Id, Asker: waits until it is held or stops
 
                 /*******************************
-                *             ASK              *
+                *           REQUESTS           *
                 *******************************/
 
 %!  agent_step(+Agent) is det.
 %
-%   As typhon_trace says.
+%   See the interface of the layer, typhon_trace.
 
 agent_step(Agent) :-
     agent_answer(Agent, step, Answer),
@@ -120,7 +121,7 @@ runs(resumed).
 runs(obeying).
 runs(arriving).
 
-%   The question follows it.
+%   In these states the request follows the agent.
 
 under_way(leaving(_, _)).
 under_way(transit(_, _)).
@@ -171,7 +172,7 @@ probed_to(goal(Goal, Goals), Probe, Turn, Outcome, Goals0) :-
         Outcome = held
     ).
 
-%   Orders that came while it ran, and need no effect.
+%   Orders that arrived while it ran, and that it obeys without an effect.
 
 held_obeys(Id) :-
     at_once(Order),
@@ -236,7 +237,7 @@ askers(Id, Askers) :-
 answer(Askers, Answer) :-
     forall(member(Asker, Askers), question_answered(Asker, answer(Answer))).
 
-%   Those that wait for the next goal of Id get the answer that it rests.
+%   Callers that wait for the next goal of Id get the answer that it rests.
 
 typhon_turn:over(Id) :-
     asker(Id, _),
@@ -246,7 +247,7 @@ typhon_turn:over(Id) :-
 
 stopped(Id, Askers, Answer) :-
     (   agent_status(Id, Status, _)
-    ->  (   runs(Status)                % it comes to a goal yet
+    ->  (   runs(Status)                % it may still reach a goal
         ->  Askers = []
         ;   askers(Id, Askers),
             rests(Status, Answer)
@@ -268,11 +269,11 @@ rests(Status, rests(State)) :-
 %   probe_start(+Context, +Goals, -Probe), probe_next(+Probe, -Step),
 %   probe_stop(+Probe)
 %
-%   Probe runs Goals as machine_run/3 does.  Each Step is goal(Goal, Goals),
-%   which is next, with those that come after it as far as the machine has
-%   them at hand, or, the last one, outcome(Outcome, Goals0), Goals0 being those
-%   with which it began.  Nothing is left of a probe after that, or when it is
-%   stopped; what was the matter is noted in the thread that took the outcome.
+%   Probe runs Goals as machine_run/3 does.  A Step is goal(Goal, Goals), the
+%   next goal and those after it, as far as the machine has them; or, at the
+%   end, outcome(Outcome, Goals0), with the goals at which the turn began.
+%   After that, or when it is stopped, the probe is gone; its fault is noted in
+%   the thread that took the outcome.
 
 probe_start(context(Program, Agent), Goals, Probe) :-
     (   nb_current(typhon_turns, Context)
@@ -281,7 +282,7 @@ probe_start(context(Program, Agent), Goals, Probe) :-
     ),
     engine_create(Step, run(Context, Program, Agent, Goals, Step), Probe).
 
-%   Global variables are the engine's own.
+%   An engine has its own global variables, so these are set again.
 
 run(Context, Program, Agent, Goals, outcome(Outcome, Goals)-Note) :-
     nb_setval(typhon_turns, Context),
@@ -297,7 +298,7 @@ stops_at(Outcome) :-
     ;   true
     ).
 
-%   An agent that is woken looks whether its time has come.
+%   An agent that is woken repeats these controls to check the time.
 
 again(sleep_until(_)).
 again(receive_until(_, _)).

@@ -22,16 +22,17 @@
               [held_on/2, order_give/3, question_answered/2]).
 :- use_module('../../tools/source_view', [goal_named/4]).
 
-/** <module> Agents that are traced
+/** <module> Tracers of agents
 
-The tracers of an agent are extras of its life, so they follow it wherever it
-goes: trace(To, Kinds), To being the address of the process that prints events
-of Kinds, and `step` if the agent is to be held before each goal.  The order
+The tracers of an agent are extras of its life, so they move with it:
+trace(To, Kinds), where To is the address of the process that prints events of
+Kinds, and `step` if the agent is held before each goal.  The order
 watched(Change) changes them, where Change is trace(To, Kinds), `step` or
 none(To).
 
-*Threading*: any thread asks; events are printed in the thread in which they
-come.  The thread that has the agent, or holds its mutex, changes tracers.
+*Threading*: any thread sends orders; events are printed in the thread in which
+they arrive.  The thread that has the agent, or holds its mutex, changes
+tracers.
 */
 
 :- multifile
@@ -46,7 +47,7 @@ come.  The thread that has the agent, or holds its mutex, changes tracers.
 %!  agent_trace(+Agent, +What) is det.
 %!  agent_notrace(+Agent) is det.
 %
-%   As typhon_trace says.
+%   See the interface of the layer, typhon_trace.
 
 agent_trace(Agent, What) :-
     must_be(list, What),
@@ -83,17 +84,17 @@ me(To) :-
                 *            TRACERS           *
                 *******************************/
 
-%   An agent that is traced is in this process now.  An untrusted peer may have
-%   written by what.
+%   A traced agent is now in this process.  An untrusted peer may have written
+%   its tracers.
 
 typhon_life:carries(trace, Id, trace(To, Kinds0)) :-
     atom(To),
     is_list(Kinds0),
     findall(Kind, ( trace_kind(Kind), memberchk(Kind, Kinds0) ), Kinds),
     events_hear([life, bad_ends|Kinds], Id, trace(To)).
-typhon_life:carries(step, _, step).   % the engine asks, see typhon_stepping
+typhon_life:carries(step, _, step).     % checked by typhon_stepping
 
-%   No caller knows that there is a clone, so none would let it go on.
+%   No caller has the id of the clone, so none would let it continue.
 
 typhon_life:not_cloned(Extra) :-
     Extra == step.
@@ -101,8 +102,8 @@ typhon_life:not_cloned(Extra) :-
 %!  traced_goals(+Life) is semidet.
 %!  traced_stepwise(+Life) is semidet.
 %
-%   Goals of an agent with this Life are traced, or it is to be held before
-%   each; the latter.
+%   Goals of an agent with this Life are traced, or it is held before each goal;
+%   it is held.
 
 traced_goals(Life) :-
     life_extras(Life, Extras),
@@ -121,7 +122,7 @@ traced_stepwise(Life) :-
 
 %!  traced_step(+Id) is det.
 %
-%   Hold Id, which belongs to the caller, before each goal.
+%   Hold Id, which the calling thread runs, before each goal.
 
 traced_step(Id) :-
     with_agent(Id, change(step, Id)).
@@ -148,7 +149,7 @@ changed(none(To), Extras0, Extras) :-
 
 is_of(To, trace(To, _)).
 
-%   An agent that is held, and need not be any more, goes on.
+%   A held agent that needs no hold any more continues.
 
 release(Extras, Id) :-
     (   \+ memberchk(step, Extras),
@@ -159,8 +160,8 @@ release(Extras, Id) :-
 
 %!  traced_held(+Id) is det.
 %
-%   Other orders wait for an effect; if Id is held it takes these now, and
-%   questions that followed it.
+%   Orders usually wait for an effect.  If Id is held, it carries out orders for
+%   tracers now, and requests that followed it get the answer `again`.
 
 traced_held(Id) :-
     with_agent(Id, ( agent_status(Id, held, _),
@@ -180,7 +181,7 @@ typhon_orders:noted(Id) :-
     traced_held(Id).
 
                 /*******************************
-                *             TELL             *
+                *           REPORTS            *
                 *******************************/
 
 typhon_events:told(trace(To), Host, Agent, What0) :-
@@ -195,8 +196,8 @@ typhon_events:told(trace(To), Host, Agent, What0) :-
 
 %!  goal_shown(+Id, +Goal, -Shown) is det.
 %
-%   Shown is Goal with '$VAR'(Name) in place of variables, as far as it is known
-%   from which clause of the program of Id it comes.
+%   Shown is Goal with '$VAR'(Name) in place of variables, as far as the clause
+%   of the program of Id is known from which the goal comes.
 
 goal_shown(Id, Goal, Shown) :-
     agent(Id, _, _, Hash, _),
@@ -206,7 +207,7 @@ goal_shown(Id, Goal, Shown) :-
     goal_named(Clauses, Lists, Goal, Shown).
 goal_shown(_, Goal, Goal).
 
-%   A process that is gone prints nothing, and misses nothing.
+%   The answer is ignored: a process that is gone does not print the event.
 
 heard(_).
 

@@ -15,47 +15,46 @@
 :- use_module('../../kernel/base/text', [term_text/2]).
 :- use_module('../../kernel/host', [host_option/2]).
 
-/** <module> Which hosts have had an agent, and what they did with it
+/** <module> The trail: signed links of hosts that have had an agent
 
-Where processes have keys, each signs of an agent what it has received from
-another process and what it handed on, and what the agent has entered there.
-Each link is signed together with the signature of the one before. They are a
-fact among the state of the agent:
+Where processes have keys, each process signs what it has received of an agent
+from another process, what it handed on, and what the agent has entered there.
+Each link is signed together with the signature of the previous link.  The links
+are a fact in the state of the agent:
 
     '$trail'(At, Chain, Certificates, Pending)
 
-Chain is one string, which is not parsed on the way, so that it costs the same
-to carry, to keep and to pass on however many links it has. Each link is the
-text of N-Events, the N-th event and perhaps others, with its signature, and the
-number C of the certificate pem(C, Last, Pem) of the signer; Last is the last
-link of that signer. Link(Text, Hex, C) is
+Chain is one string, which is not parsed on the way, so its cost in transit and
+storage depends little on the number of links.  Each link is the text of
+N-Events, the N-th event and perhaps others, with its signature, and the number
+C of the certificate pem(C, Last, Pem) of the signer; Last is the last link of
+that signer.  Link(Text, Hex, C) is
 
     00000123Hex C Text
 
 with the number of characters that follow the first eight; the oldest comes
-first. At is at(Next, Made, Kept,
-Hex, Handed): the number of the next event, how many links were made, how many
-are left, the signature of the last one, and What it has handed on or `none`.
-An event is
+first.  At is at(Next, Made, Kept, Hex, Handed): the number of the next event,
+the number of links that were made, the number that are left, the signature of
+the last one, and the hash What that was handed on, or `none`.  An event is
 
   - handed(To, What)
-  - received(At, What), or received(At) if What is what was handed on
+  - received(At, What), or received(At) if What is the one that was handed on
   - entered(Result)
 
-What is the hash of what the agent is: its program, the number of its hops, its
-state and its goals. The id of the agent is signed, too. A host is accounted
-for if what the next one received is what it handed on, to that address. What
-an agent did while it stood on a host is the word of that host; and a host
-visited twice can cut out what lies between.
+What is a hash of the agent: its program, the number of its hops, its state and
+its goals.  The id of the agent is also signed.  A host is accounted for if the
+next host received what it handed on, at the address to which it was handed.
+What an agent did while it was on a host is only claimed by that host; and a
+host that an agent visits twice can cut out the links in between.
 
-To sign costs more than all else. What was received is Pending, or `none`, and
-is signed with what comes next, on the same host; it is the word of that host
-then as it would have been before.
+Signing costs more than all else.  A received event is Pending, or `none`, and
+is signed together with the next event on the same host; it is a claim of that
+host in either case.
 
-The oldest links go when there are more than `links`.
+The oldest links are dropped when there are more than `links`.
 
-A host that has an agent can make anything of its trail. A trail that is not
-consistent stays as it is, and gets no more links.
+A host that has an agent can change its trail at will.  An inconsistent trail
+stays as it is, and gets no further links.
 
 *Threading*: the thread that sends, receives or runs the agent.
 */
@@ -91,7 +90,7 @@ arrives(Host, hop(Id, Hash, Hops, Goals, from(_, Address)), State0, State) :-
     trail_link(received(Address), of(Host, Id, Hash, Hops), State0, Goals,
                State).
 
-%   A clone begins its own, and so does what is made of a restore point.
+%   A clone begins its own trail, and so does an agent from a restore point.
 
 without(_, _, state(Empty, Clauses0), state(Empty, Clauses)) :-
     exclude(of_trail, Clauses0, Clauses).
@@ -100,13 +99,13 @@ of_trail(Clause) :-
     subsumes_term('$trail'(_, _, _, _), Clause).
 
 :- setting(links, positive_integer, 32,
-           "So many links of the trail of an agent are kept").
+           "Links that are kept of the trail of an agent").
 
 %!  trail_link(+Event, +Label, +State0, +Goals, -State) is det.
 %
-%   State is State0, as of agent_state/2, with one link more, or State0
-%   itself where there are no keys, or the host does without. Event is
-%   handed(To) or received(At), Label is of(Host, Id, Hash, Hops).
+%   State is State0, as of agent_state/2, with one more link, or State0 itself
+%   if there are no keys, or the option of the host is off.  Event is handed(To)
+%   or received(At), Label is of(Host, Id, Hash, Hops).
 
 trail_link(Event, Label, State0, Goals, State) :-
     own_keys(Keys),
@@ -133,15 +132,16 @@ taken_out(Clauses, Raw, Clauses) :-
 
 no_trail('$trail'(at(0, 0, 0, none, none), "", [], none)).
 
-%   of_ours(+Event, +Raw0, -Raw): a host that hands on an agent has signed all
-%   that happened there; what it has not signed we do not sign for it.
+%   of_ours(+Event, +Raw0, -Raw): drop the pending event of the previous host.
+%   A host that hands on an agent has signed its own events; this process does
+%   not sign them for it.
 
 of_ours(received(_), '$trail'(At, Chain, Pems, _),
         '$trail'(At, Chain, Pems, none)) :-
     !.
 of_ours(_, Raw, Raw).
 
-%   hangs_together(+Raw): a link can be added.
+%   hangs_together(+Raw): Raw has the right form, so a link can be added.
 
 hangs_together(Raw) :-
     ground(Raw),
@@ -157,7 +157,7 @@ event(Event0, of(_, _, Hash, Hops), Clauses, Goals, Event) :-
     sum(what(Hash, Hops, Clauses, Goals), What),
     Event =.. [Name, Where, What].
 
-%   The same wherever variables have other names.
+%   The hash does not depend on the names of variables.
 
 sum(Term, Sum) :-
     copy_term(Term, Copy),
@@ -169,8 +169,8 @@ text_sum(Text, Sum) :-
     sha_hash(Text, Bytes, [algorithm(sha256), encoding(octet)]),
     hash_atom(Bytes, Sum).
 
-%   happens(+Event, +Keys, +Id, +Raw0, -Raw): Event waits to be signed, or is
-%   signed with what waits.
+%   happens(+Event, +Keys, +Id, +Raw0, -Raw): Event becomes pending, or is
+%   signed together with the pending event.
 
 happens(received(Where, What), _, _, Raw0, Raw) :-
     hangs_together(Raw0),
@@ -186,7 +186,7 @@ happens(Event, Keys, Id, Raw0, Raw) :-
     ( Pending == none -> Events = [Event] ; Events = [Pending, Event] ),
     linked(Events, Keys, Id, Raw0, Raw).
 
-%   settled(+Keys, +Id, +Raw0, -Raw): nothing waits.
+%   settled(+Keys, +Id, +Raw0, -Raw): no event is pending in Raw.
 
 settled(Keys, Id, Raw0, Raw) :-
     Raw0 = '$trail'(_, _, _, Pending),
@@ -223,7 +223,7 @@ shown(Pem, Link, Pems0, C, [pem(C, Link, Pem)|Pems]) :-
     C = C0.
 shown(Pem, Link, Pems, Link, [pem(Link, Link, Pem)|Pems]).
 
-%   With the last link that a host has signed its certificate goes.
+%   A certificate is dropped with the last link of its signer.
 
 signed_since(First, pem(_, Last, _)) :-
     integer(Last),
@@ -231,8 +231,8 @@ signed_since(First, pem(_, Last, _)) :-
 
 %!  trail_signed(+Id, +Text:string, +Last, -Signed) is det.
 %
-%   What is signed of a link with this Text of the trail of Id, Last being the
-%   signature of the one before, or `none`.
+%   Signed is the text to sign for a link with this Text in the trail of Id;
+%   Last is the signature of the previous link, or `none`.
 
 trail_signed(Id, Text, Last, Signed) :-
     format(string(All), '~w ~w ~w', [Id, Last, Text]),
@@ -244,7 +244,7 @@ typhon_words:enters(Module, Id, Result) :-
 
 %!  trail_enter(+Module, +Id, +Result) is det.
 %
-%   The agent Id, whose module this is, enters Result, which can travel.
+%   The agent Id, whose module is Module, enters Result, a mobile term.
 %
 %   @error existence_error(keys, here)
 
@@ -260,7 +260,7 @@ trail_enter(Module, Id, Result) :-
 
 %!  trail_of(+Module, +Id, -Raw) is det.
 %
-%   What trail_verified/3 looks at, of the agent Id, whose module this is.
+%   Raw is the trail for trail_verified/3 of the agent Id in Module.
 
 trail_of(Module, Id, Raw) :-
     raw(Module, Raw0),
@@ -283,8 +283,8 @@ raw(Module, Raw) :-
 
 %   chain_add(+Link, +Chain0, +Most, -Chain) is semidet.
 %
-%   Chain is Count-Text: with Link there are Count0 of them; the oldest go
-%   until there are no more than Most. Fails if there are not so many.
+%   Chain is Count-Text.  Count0 includes Link; the oldest links are dropped
+%   until there are at most Most.  Fails if the text has fewer links than that.
 
 chain_add(link(Text, Hex, C), Count0-Chain0, Most, Count-Chain) :-
     format(string(Link), '~w ~d ~s', [Hex, C, Text]),
@@ -302,7 +302,7 @@ newest(Count0, Most, Chain, Start0, Start, Count) :-
     Count1 is Count0-1,
     newest(Count1, Most, Chain, Start1, Start, Count).
 
-%   framed(+Chain, +Start, -Link, -End): one that stands there.
+%   framed(+Chain, +Start, -Link, -End): Link is the framed link at Start.
 
 framed(Chain, Start, Link, End) :-
     sub_string(Chain, Start, 8, _, Digits),
@@ -315,8 +315,8 @@ framed(Chain, Start, Link, End) :-
 
 %!  chain_links(+Text, -Links:list) is semidet.
 %
-%   The oldest first. Text may be anything: what comes where no link begins is
-%   one of no signature, and it fails for what is no string.
+%   Links are ordered, the oldest first.  Text may be any term: a rest that has
+%   no valid frame becomes a link without signature; fails if Text is no string.
 
 chain_links(Chain, Links) :-
     string(Chain),

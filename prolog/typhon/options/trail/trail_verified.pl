@@ -3,9 +3,9 @@
             trail_verified/3            % +Id, +Raw, -Trail
           ]).
 
-/** <module> What a trail proves: which hosts can be accounted for
+/** <module> Verification of trails
 
-It is read as a whole on request only.
+A trail is parsed and verified as a whole, and only on request.
 
 *Threading*: any thread; no state.
 */
@@ -39,12 +39,12 @@ typhon_questions:here(trail, Agent, Asker) :-
 
 %!  trail_verified(+Id, +Raw, -Trail) is det.
 %
-%   Trail is trail(Steps, Verdict). A step is step(N, Name, What), Name being
-%   the host whose keys have signed it, and What handed(To), received(At) or
-%   entered(Result). Verdict is `whole`, or unaccounted(Name): Name is the
-%   host after which, or in whose hands, state or code changed without a
-%   signature; `nobody` where that is so from the beginning. It is since(N)
-%   where all is well from the N-th link on, and those before are gone.
+%   Trail is trail(Steps, Verdict).  A step is step(N, Name, What): Name is the
+%   host whose keys have signed it, and What is handed(To), received(At) or
+%   entered(Result).  Verdict is `whole`, or unaccounted(Name): on the host
+%   Name, or after it, state or code changed without a signature; Name is
+%   `nobody` if that is so from the beginning.  Verdict is since(N) if all is
+%   well from the N-th link on, and earlier links are gone.
 %
 %   @error existence_error(keys, here)
 
@@ -63,8 +63,8 @@ trail_verified(Id, Raw, trail(Steps, Verdict)) :-
         Verdict = unaccounted(nobody)
     ).
 
-%   Where the oldest are gone, the first one that is left can only be known by
-%   what the second one says of its signature.
+%   If the oldest links are gone, only the second one that is left proves the
+%   first, since it was signed together with the signature of the first.
 
 all_steps([Link|Links], With, Steps, Verdict) :-
     events(Link, N, Events),
@@ -80,9 +80,9 @@ all_steps([Link|Links], With, Steps, Verdict) :-
 all_steps(Links, With, Steps, Verdict) :-
     steps(Links, With, none, Steps, Verdict).
 
-%   steps(+Links, +With, +Before, -Steps, -Verdict): Before is `none`,
-%   since(N, Link) or before(N, Link, Event, Name), N being the number of the
-%   next event.
+%   steps(+Links, +With, +Before, -Steps, -Verdict): Before is `none`, since(N,
+%   Link) or before(N, Link, Event, Name), where N is the number of the next
+%   event.
 
 steps([], With, Before, [], Verdict) :-
     (   is_all(With, Before)
@@ -151,7 +151,7 @@ follows(none, Event, with(Keys, Id, _, _), Name) :-
     \+ is_received(Event, _),
     (   agent_home_endpoint(Id, Home),
         endpoint_address(Home)
-    ->  own_name(Keys, Name)            % it began with us
+    ->  own_name(Keys, Name)            % it began in this process
     ;   true
     ).
 follows(before(_, _, Earlier, Before), Event, _, Name) :-

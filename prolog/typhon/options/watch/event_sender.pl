@@ -15,35 +15,35 @@
 
 /** <module> The thread that sends events to a watch
 
-Events gather in a buffer, to which adding never waits: of events that do not
-fit, the number is kept by host.  The sender sends what has gathered in batches,
-and the next batch when the last has been accepted.  So a watch lags by as much
-as it is slow, the buffer overflows if it is too slow, and hosts never wait.
+Events gather in a buffer, and adding an event never waits: events that do not
+fit are counted by host.  The sender sends the gathered events in batches, each
+when the previous one has been accepted.  So a watch lags by as much as it is
+slow, the buffer overflows if it is too slow, and hosts never wait.
 
 The sender receives in its queue, Signals, `some` when there are events;
-end(ReplyTo) when all that is left is to be sent; and now(Message), which it
-handles also while it waits for an answer: `check`, whether the watch is still
-there, and the answer.  To wake a thread costs as much as the rest of an event,
-so `some` comes only to a sender that waits, and once.
+end(ReplyTo) when all remaining events are to be sent; and now(Message), which
+it also handles while it waits for an answer: `check`, whether the watch still
+exists, and the answer.  Waking a thread costs as much as all else of an event,
+so `some` is sent only to a waiting sender, and once.
 
-*Threading*: a thread for each watch takes events; any thread adds them.
+*Threading*: for each watch one thread takes events; any thread adds them.
 */
 
 :- multifile
     taken_here/3.               % Id, Events, OnAnswer
 
 :- setting(typhon_telling:delay, number, 0.05,
-           "Events gather for so many seconds before they are sent").
+           "Seconds for which events gather before they are sent").
 :- setting(typhon_telling:patience, number, 30,
-           "A process that watches and is cut off has so long to answer").
+           "Seconds that a disconnected watching process has to answer").
 
 batch(1000).
-plenty(256).                    % is sent without delay
+plenty(256).                    % so many events are sent without delay
 
 %!  sender_run(+To) is det.
 %
-%   To is to(Peer, Id, Signals, Buffer): returns when the watch has ended, or
-%   all has been sent.
+%   To is to(Peer, Id, Signals, Buffer).  Returns when the watch has ended, or
+%   all events have been sent.
 
 sender_run(To) :-
     To = to(_, _, Signals, Buffer),
@@ -56,11 +56,11 @@ sender_run(To) :-
 sender_signal(Signals, Message) :-
     catch(thread_send_message(Signals, Message),
           error(existence_error(_, _), _),
-          true).                        % it has ended
+          true).                        % the sender has ended
 
 %!  time_at(+Clock, -Time) is det.
 %
-%   Time is what a clock(Epoch, Rate) shows now.
+%   Time is the present time of clock(Epoch, Rate).
 
 time_at(clock(Epoch, Rate), Time) :-
     time_now(Now),
@@ -120,9 +120,9 @@ pour_out(To) :-
     ;   true
     ).
 
-%   send(+To) is semidet: the next batch has reached the watch.
-%   What is too long for a frame, or cannot travel, is halved, and a single
-%   event skipped.
+%   send(+To) is semidet: the next batch has reached the watch.  A batch that
+%   exceeds a frame, or has terms that cannot travel, is halved; a single event
+%   of that kind is skipped.
 
 send(To) :-
     To = to(_, _, _, Buffer),
@@ -146,7 +146,7 @@ handed_over(resource_error(_), Events, To) =>
     hand_over_parts(Events, To).
 handed_over(type_error(_, _), Events, To) =>
     hand_over_parts(Events, To).
-handed_over(_, _, _) =>                 % there is no endpoint any more
+handed_over(_, _, _) =>                 % the endpoint is closed
     fail.
 
 hand_over_parts([event(Time, Host, _, _)], To) :-
@@ -160,7 +160,7 @@ hand_over_parts(Events, To) :-
     hand_over(First, To),
     hand_over(Second, To).
 
-%   Within this process nothing has to be sent.
+%   Within this process events are handed over without the wire.
 
 give(Peer, Id, Events, Signals) :-
     endpoint_address(Peer),
@@ -193,7 +193,7 @@ await(To, Answer) :-
     ).
 
                 /*******************************
-                *       EVENTS THAT WAIT       *
+                *            BUFFERS           *
                 *******************************/
 
 :- dynamic skipped/3.           % Queue, Host, Count
@@ -201,7 +201,7 @@ await(To, Answer) :-
 %!  buffer_open(+Most, +Signals, -Buffer) is det.
 %!  buffer_close(+Buffer) is det.
 %
-%   Buffer holds Most events; the queue Signals hears `some`.
+%   Buffer holds at most Most events; the queue Signals receives `some`.
 
 buffer_open(Most, Signals, buffer(Queue, Flag, Most, Signals)) :-
     flag(typhon_event_buffer, N, N+1),
@@ -214,7 +214,7 @@ buffer_close(buffer(Queue, _, _, _)) :-
 
 %!  buffer_put(+Buffer, +Host, +Event) is det.
 %
-%   @error existence_error(message_queue, Queue) if it has been closed
+%   @error existence_error(message_queue, Queue) if the buffer was closed
 
 buffer_put(buffer(Queue, Flag, Most, Signals), Host, Event) :-
     message_queue_property(Queue, size(Size)),
@@ -236,7 +236,7 @@ skip(Queue, Host) :-
     ),
     assertz(skipped(Queue, Host, Count)).
 
-%   `some` comes for the next event, at once if there is one.
+%   The sender waits: the next event sends `some`; if there is one now, at once.
 
 buffer_awaited(buffer(Queue, Flag, _, Signals)) :-
     set_flag(Flag, 1),
@@ -251,9 +251,9 @@ buffer_size(buffer(Queue, _, _, _), Size) :-
     message_queue_property(Queue, size(Size0)),
     Size = Size0.
 
-%   buffer_take(+Buffer, +Most, -Events, -Skipped): the first events, Most at
-%   the most.  Skipped are pairs Host-Count of what
-%   did not fit since the last call.
+%   buffer_take(+Buffer, +Most, -Events, -Skipped): Events are the first events,
+%   at most Most.  Skipped are pairs Host-Count of events that did not fit since
+%   the last call.
 
 buffer_take(buffer(Queue, _, _, _), Most, Events, Skipped) :-
     take(Most, Queue, Events),

@@ -16,12 +16,12 @@
 
 /** <module> The events that a watch receives
 
-The thread of a watch calls what is to be called for each event, and sees to
-it that the places from which they come are asked again when they were cut
-off, see module `watch_places`.
+The thread of a watch calls OnEvent for each event.  When a place from which
+events come was disconnected, the thread sends it a new request, see module
+`watch_places`.
 
-*Threading*: one thread for each watch.  The hooks of the endpoint put into its
-queue what it is to hear. No `server`: an aborted watch ends.
+*Threading*: one thread for each watch.  The hooks of the endpoint put messages
+into its queue.  It is no `server`, since an aborted watch ends.
 */
 
 :- meta_predicate listen_on(+, +, 1, +).
@@ -32,13 +32,13 @@ queue what it is to hear. No `server`: an aborted watch ends.
     typhon_endpoint:requested/4,
     typhon_event_sender:taken_here/3.
 
-:- dynamic watch/2.             % Watch, Queue: as long as events are wanted
+:- dynamic watch/2.             % Watch, Queue: while events are wanted
 
 %!  listening_begin(+Watch, -Queue) is det.
 %!  listening_end(+Watch) is det.
 %
-%   From now on events of Watch are wanted, which come into Queue; or none
-%   are any more, and its thread ends.
+%   Queue receives the events of Watch from now on; it receives none any more,
+%   and its thread ends.
 
 listening_begin(Watch, Queue) :-
     message_queue_create(Queue),
@@ -87,10 +87,10 @@ listening_tell(Watch, Message) :-
 
 %!  listen_on(+Watch, +Queue, :OnEvent, +Asked) is det.
 %
-%   The thread of Watch, until listening_end/1, or the message end(Done): then
-%   what has happened until then is taken, too, and the queue Done hears
-%   `done`.  Asked are asked(Endpoint, Wanted, Answer), Answer being what a
-%   sender says, or gone(Hosts) of a process of a network that is no more.
+%   Runs in the thread of Watch until listening_end/1, or the message end(Done):
+%   then earlier events are delivered, too, and `done` is sent to the queue
+%   Done. Asked are asked(Endpoint, Wanted, Answer): Answer is the answer of a
+%   sender, or gone(Hosts) if a process of a network has ended.
 
 listen_on(Watch, Queue, OnEvent, Asked) :-
     Me = me(Watch, Queue, OnEvent),
@@ -100,7 +100,7 @@ listen_on(Watch, Queue, OnEvent, Asked) :-
         ( forget(Watch),
           message_queue_destroy(Queue) )).
 
-%   Those that are gone come last: their clock is that of others.
+%   Processes that are gone come last: their hosts use the clock of others.
 
 begin(Asked, Me) :-
     partition(has_answered, Asked, There, Gone),
@@ -148,7 +148,7 @@ heard(events(Peer, Events, ReplyTo), Me) =>
     forall(( member(Event, Events), wanted(Me) ),
            taken(Event, Peer, Me)).
 heard(connection(Peer, down), _), endpoint_address(Peer) =>
-    true.                               % a process is not cut off from itself
+    true.                               % this process itself
 heard(connection(Peer, down), Me) =>
     ask_again(Peer, up, Me).
 heard(connection(Peer, up), Me) =>
@@ -180,7 +180,7 @@ told(Queue, What, Endpoint, Result) :-
     Message =.. [What, Endpoint, Result],
     catch(thread_send_message(Queue, Message),
           error(existence_error(_, _), _),
-          true).                        % no listener any more
+          true).                        % the listener has ended
 
 ask_for_more(peer(ReplyTo)) :-
     endpoint_reply(ReplyTo, more).
@@ -191,7 +191,7 @@ ask_for_more(here(OnAnswer)) :-
                 *            EVENTS            *
                 *******************************/
 
-%   What has been concluded already is not told again.
+%   A host that is already known as started is not reported again.
 
 taken(event(Time, Host, none, started(Clock)), Peer, Me) =>
     Me = me(Watch, _, _),
@@ -215,7 +215,7 @@ call_on(Event, me(Watch, _, OnEvent)) :-
     ;   true
     ).
 
-%   An order to end is obeyed.
+%   An abort ends the thread.
 
 raised(Ball, _) :-
     is_abort(Ball),
@@ -259,7 +259,7 @@ await_ends(Endpoints, Me) :-
         await_ends(Endpoints, Me)
     ;   await_ends(Endpoints, Me)
     ).
-await_ends(_, _).                       % it takes too long
+await_ends(_, _).                       % the time is over
 
 unwatch_all(me(Watch, Queue, _)) :-
     forall(tells(Watch, Endpoint),
@@ -271,5 +271,5 @@ unwatch_all(me(Watch, Queue, _)) :-
                 *******************************/
 
 prolog:message(typhon(watch_raised(Watch, Ball))) -->
-    [ 'What is called for ~w raises an exception; the watch goes on: '-[Watch] ],
+    [ 'The goal of ~w raises an exception; the watch goes on: '-[Watch] ],
     error_told(Ball).

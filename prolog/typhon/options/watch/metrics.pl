@@ -11,12 +11,12 @@
 :- use_module('../../tools/administration', [status_shown/2]).
 :- use_module(watched, [everywhere/5, watched_places/2]).
 
-/** <module> A network in numbers, for Prometheus
+/** <module> Metrics of a network, for Prometheus
 
 Each process reports its own numbers; the reader adds them up.  A process counts
-from the first request for numbers on, as long as it has an endpoint.
+from the first request for metrics on, as long as it has an endpoint.
 
-*Threading*: any thread that may wait.  Numbers are flags.
+*Threading*: any thread that may wait.  Counters are flags.
 */
 
 :- multifile
@@ -46,21 +46,21 @@ processes_metrics(Hosts, Text) :-
 described(typhon_up, gauge,
           'Whether the process has answered.').
 described(typhon_hosts, gauge,
-          'Hosts that run.').
+          'Running hosts.').
 described(typhon_agents, gauge,
-          'Agents that are there, by program and state.').
+          'Agents on the hosts, by program and state.').
 described(typhon_connections, gauge,
           'Addresses of other processes to which there is a connection.').
 described(typhon_agents_created_total, counter,
-          'Agents that have begun, clones among them.').
+          'Agents that have begun, including clones.').
 described(typhon_agents_ended_total, counter,
           'Agents that have ended.').
 described(typhon_faults_total, counter,
           'Agents that became faulty.').
 described(typhon_messages_total, counter,
-          'Messages that agents have sent, and have taken.').
+          'Messages that agents have sent, and have received.').
 described(typhon_hop_seconds, histogram,
-          'How long hops took until they were there, by the clock of the host.').
+          'Duration of hops until the arrival, by the clock of the host.').
 
 sample(typhon_up, Processes, Silent, sample('', [process=Endpoint], Up)) :-
     (   member(Endpoint-_, Processes),
@@ -115,7 +115,7 @@ bound_text(inf, '+Inf') :-
     !.
 bound_text(Bound, Bound).
 
-%   An agent is counted once, also where it changes meanwhile.
+%   An agent that changes meanwhile is also counted once.
 
 agent_is(Program, State) :-
     agent(Id, _, _, Hash, _),
@@ -187,7 +187,7 @@ key(faults, 'typhon count faults').
 key(created, 'typhon count created').
 key(ended, 'typhon count ended').
 
-%   bound(?Seconds, ?Key): the flag of hops that took so long at the most
+%   bound(?Seconds, ?Key): Key counts hops that took at most so many seconds.
 
 bound(0.0001, 'typhon count hops 1').
 bound(0.00025, 'typhon count hops 2').
@@ -208,9 +208,9 @@ counted(What, Count) :-
     What \== seconds,
     flag(Key, Count, Count).
 
-%   counted_hops(-Buckets, -Sum): Buckets are Bound-Count: so many hops have
-%   taken at most Bound seconds of the clock of the host, a number or `inf`, and
-%   Sum is what all have taken.
+%   counted_hops(-Buckets, -Sum): Buckets are Bound-Count: Count hops took at
+%   most Bound seconds, a number or `inf`, by the clock of the host; Sum is the
+%   total duration of all hops.
 
 counted_hops(Buckets, Sum) :-
     findall(Bound-Count,
@@ -229,8 +229,8 @@ cumulated([Bound-Own|Counts], Count0, [Bound-Count|Buckets]) :-
                 *******************************/
 
 %   A metric is metric(Name, Type, Help, Samples), a sample
-%   sample(Suffix, Labels, Value): Suffix is what follows the name of the
-%   metric, as `_bucket`, Labels are Name=Value, Value anything, Value a number.
+%   sample(Suffix, Labels, Value): Suffix is appended to the name of the metric,
+%   as `_bucket`; Labels are Name=Value with any Value; Value is a number.
 
 metric(metric(_, _, _, [])) -->
     !.

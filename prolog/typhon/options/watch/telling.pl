@@ -14,15 +14,14 @@
 
 /** <module> Sending events to watches
 
-For each watch, of this process or another, that wants to hear of hosts of this
-process there is a thread, see module `sender`, and a buffer in which gathers
-what it is to tell.
+There is a thread for each watch, of this process or another, of hosts of this
+process, see module `event_sender`, and a buffer in which its events gather.
 
-A watch is forgotten when it is over, when its process says that it has none
-of that name, or when that cannot be reached any more.
+A watch is removed when it ends, when its process answers that it has no watch
+of that name, or when that process cannot be reached any more.
 
-A process that watches asks with requests of kind `watch`, Wanted being names
-of hosts, or `all`:
+A watching process sends requests of kind `watch`; Wanted are names of hosts, or
+`all`:
 
   | watch(Id, Wanted) | watching(Endpoint, New, Hosts), see module `watches` |
   | unwatch(Id)       | `ended`, when all events have been sent            |
@@ -33,7 +32,8 @@ Events are sent with requests of kind `watched`:
   | alive(Id)          | `yes` or `no`                             |
 
 *Threading*: a sender for each watch, joined by the thread that removes its
-record. No `server`: amid a batch it waits for the answer of the watch.
+record.  It is no `server`, since amid a batch it waits for the answer of the
+watch.
 */
 
 :- multifile
@@ -44,9 +44,9 @@ record. No `server`: amid a batch it waits for the answer of the watch.
     typhon_runtime:ending/1.
 
 :- setting(events, positive_integer, 10 000,
-           "So many events wait for a watch that is slow").
+           "Events that may wait for a slow watch").
 :- setting(virtual_events, positive_integer, 1 000 000,
-           "As many of virtual time, which is ahead of all watches").
+           "The same in virtual time, which runs ahead of all watches").
 
 :- dynamic sender/5.            % Peer, Id, Thread, Signals,
                                 % watch(Wanted, Buffer)
@@ -54,7 +54,7 @@ record. No `server`: amid a batch it waits for the answer of the watch.
 kinds([life, faults, hops, messages, facts, said, links, hosts]).
 
                 /*******************************
-                *         WHO WATCHES          *
+                *            WATCHES           *
                 *******************************/
 
 typhon_endpoint:requested(watch, watch(Id, Wanted), Peer, ReplyTo) :-
@@ -132,7 +132,7 @@ typhon_hosting:begins(Name) :-
 typhon_endpoint:connection(Peer, down) :-
     forall(sender(Peer, _, _, Signals, _), sender_signal(Signals, now(check))).
 
-%   The last event, that the hosts stop, is sent as well.
+%   The last event, the stop of the hosts, is sent as well.
 
 typhon_runtime:ending(before) :-
     stop_senders.
@@ -156,9 +156,9 @@ typhon_events:told(watch(Buffer, Address, Clock), Host, Agent, What) :-
     catch(buffer_put(Buffer, Address-Clock,
                     event(Time, Address, Agent, Public)),
           error(existence_error(_, _), _),
-          true).                        % it has ended
+          true).                        % the sender has ended
 
-%   Watches have to know of clocks; agents may log what cannot travel.
+%   Watches need the clock of a host; agents may log terms that cannot travel.
 
 told_as(started, Clock, Public) =>
     Public = started(Clock).

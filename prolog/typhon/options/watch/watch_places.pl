@@ -12,19 +12,19 @@
 :- use_module('../../kernel/host', [address_parts/3]).
 :- use_module(event_sender, [time_at/2]).
 
-/** <module> Where there is something to watch
+/** <module> The processes that a watch receives events from
 
-The places of a watch are the processes that have hosts which are watched, by
-the endpoint at which they are asked.  Peer is what they call themselves.
-State is
+The places of a watch are the processes that have watched hosts; each is
+identified by the endpoint to which requests are sent.  Peer is the address that
+the process has itself.  State is
 
-  | up                 |                                                      |
-  | cut(Pause)         | it is asked whether it is there still                |
-  | down(Again, Pause) | no process was there; it is to be asked again at the time Again |
+  | up                 | connected                                           |
+  | cut(Pause)         | a new request has been sent                         |
+  | down(Again, Pause) | no process there; ask again at the time Again       |
 
-A process that was cut off is asked to watch again.  If it has forgotten the
-watch, as one that was started anew has, events are missing: its hosts are
-lost, and those that are there have started.
+A disconnected process gets a new request to watch.  If it has no record of the
+watch, as after a restart, events are missing: its hosts are lost, and those
+that it has now have started.
 
 *Threading*: the thread of the watch.
 */
@@ -32,7 +32,7 @@ lost, and those that are there have started.
 :- dynamic
     place/4,                    % Watch, Endpoint, Peer, Wanted
     state/3,                    % Watch, Endpoint, State
-    runs/4.                     % Watch, Endpoint, Host, Clock: is known to
+    runs/4.                     % Watch, Endpoint, Host, Clock: is running
 
 first_pause(1).
 longest_pause(60).
@@ -40,9 +40,9 @@ longest_pause(60).
 %!  place_begin(+Watch, +Asked, -Events:list) is det.
 %!  places_forget(+Watch) is det.
 %
-%   Asked is asked(Endpoint, Wanted, Answer), Answer being what a sender says,
-%   or gone(Hosts) of a process of a network that is no more.  Events are to
-%   be told.
+%   Asked is asked(Endpoint, Wanted, Answer): Answer is the answer of a sender,
+%   or gone(Hosts) if a process of a network has ended.  Events are to be
+%   reported.
 
 place_begin(Watch, asked(Endpoint, Wanted, Answer), Events) :-
     (   Answer = watching(Peer, _, Hosts)
@@ -59,7 +59,7 @@ place_begin(Watch, asked(Endpoint, Wanted, Answer), Events) :-
                 Events)
     ).
 
-%   Hosts of a network have the same.
+%   Hosts of a network have the same clock.
 
 clock_of_others(Watch, Clock) :-
     (   runs(Watch, _, _, Clock0)
@@ -82,7 +82,8 @@ now_is(What, Host, Clock, event(Time, Host, none, What)) :-
 %!  place_at(+Watch, ?Peer, ?State, -Endpoint) is nondet.
 %!  place_due(+Watch, -Endpoint, -Again) is nondet.
 %
-%   The place is to be asked again at the time Again.
+%   Endpoint is a place with that Peer and State; it is due for a new request at
+%   the time Again.
 
 place_at(Watch, Peer, State, Endpoint) :-
     place(Watch, Endpoint, Peer, _),
@@ -98,8 +99,8 @@ place_due(Watch, Endpoint, Again) :-
 %!  place_cut(+Watch, +Endpoint, -Wanted) is det.
 %!  place_answered(+Watch, +Endpoint, +Result, -Events:list) is det.
 %
-%   The place is asked again for Wanted; and has answered or not, Result being
-%   as of endpoint_request/4.
+%   A new request for Wanted is to be sent to the place; the place has answered
+%   or not, Result being as of endpoint_request/4.
 
 place_cut(Watch, Endpoint, Wanted) :-
     place(Watch, Endpoint, _, Wanted),
@@ -145,8 +146,8 @@ all_lost(Watch, Endpoint, Events) :-
             Events),
     retractall(runs(Watch, Endpoint, _, _)).
 
-%   Another process may have the port by and by: of a network only hosts that
-%   were lost there are waited for.
+%   Another process may get the port later, so in a network only hosts that were
+%   lost there are still watched.
 
 still_wanted(Watch, Endpoint, Lost) :-
     place(Watch, Endpoint, Peer, Wanted),
@@ -176,8 +177,7 @@ again_later(Watch, Endpoint, Pause) :-
 %!  place_started(+Watch, +Peer, +Host, +Clock) is semidet.
 %!  place_stopped(+Watch, +Host) is det.
 %
-%   It says that Host has started, which fails if that was known already; or
-%   has stopped.
+%   Host has started, which fails if that was already known; it has stopped.
 
 place_started(Watch, Peer, Host, Clock) :-
     place(Watch, Endpoint, Peer, _),

@@ -19,17 +19,17 @@
 :- use_module('../../kernel/agent', [agent/5, agent_status/3, life_hops/2]).
 :- use_module('../../tools/administration', [status_shown/2]).
 
-/** <module> Hosts that are watched, and questions to their processes
+/** <module> Watched hosts, and questions to their processes
 
 Modules that ask all processes of a watch define the hook answer/2.
 
-The state of hosts is known exactly to a caller that begins to watch, then asks
-for the overview, and then takes the events.  An event whose time is not after
+A caller knows the state of hosts exactly if it begins to watch, then requests
+the overview, and then handles the events.  An event whose time is not after
 that of its host in the overview is contained in it; later events may be, too.
-So the overview says where an agent is, and counts nothing.
+So the overview states where an agent is, and has no counts.
 
-*Threading*: any thread that may wait, but those of the endpoint.  Workers
-answer: an answer may be long.
+*Threading*: any thread that may wait, but not those of the endpoint.  Workers
+answer, since an answer may be long.
 */
 
 :- multifile
@@ -38,11 +38,11 @@ answer: an answer may be long.
 
 %!  watched_places(+Hosts, -Places) is det.
 %
-%   Hosts is a host, name or address, a network, or a list of such.  Places
-%   are place(Endpoint, Wanted, Whose): Wanted is `all` where the process
-%   carries hosts of a network and nothing else, otherwise a list of names.
-%   Whose is carried(Addresses), the hosts of a network, or asked(Hosts), pairs
-%   Name-Host of what was asked for and has to be there.
+%   Hosts is a host, name or address, a network, or a list of such.  Places are
+%   place(Endpoint, Wanted, Whose): Wanted is `all` if the process has hosts of
+%   a network and nothing else, otherwise a list of names.  Whose is
+%   carried(Addresses), the hosts of a network, or asked(Hosts), pairs Name-Host
+%   for the hosts of the request, which must exist.
 %
 %   @error existence_error(host, Host), ambiguous_host(Name, Addresses)
 
@@ -111,9 +111,9 @@ whose(Whats, Whose) :-
 
 %!  everywhere(+Places, +Question, +Seconds, -Answers, -Silent) is det.
 %
-%   Answers are Place-Answer, for those of the Places, see watched_places/2,
-%   that have answered within Seconds, Silent the endpoints of the others.
-%   The hook answer(Question, Answer) gives the answer.
+%   Answers are Place-Answer for the Places, see watched_places/2, that have
+%   answered within Seconds; Silent are the endpoints of the others.  The hook
+%   answer(Question, Answer) gives the answer.
 
 everywhere(Places, Question, Seconds, Answers, Silent) :-
     partition(is_here, Places, Here, There),

@@ -16,17 +16,17 @@
                 listening_tell/2 ]).
 :- use_module(watched, [watched_places/2]).
 
-/** <module> Watching hosts
+/** <module> Watches of this process
 
-A watch has a thread, which calls OnEvent, see module `listening`.
-What it hears comes from the senders of the processes that have the hosts, see
-module `telling`.
+A watch has a thread, which calls OnEvent, see module `listening`.  It receives
+its events from the senders of the processes that have the hosts, see module
+`telling`.
 
 *Threading*: any thread may call; a watch may be ended in its own thread.
 */
 
 :- setting(last_seconds, number, 2,
-           "unwatch/1 waits so long for what has happened before").
+           "Seconds that unwatch/1 waits for earlier events").
 
 :- meta_predicate watch_begin(+, :, -).
 
@@ -78,7 +78,7 @@ unless_begun(exit, _) :-
 unless_begun(_, Id) :-
     in_own_thread(runtime_release(watch(Id))).
 
-%   ask(+Place, +Id, -Asked): a process of a network may be no more.
+%   ask(+Place, +Id, -Asked): a process of a network may have ended.
 
 ask(place(Endpoint, Wanted, Hosts), Id, asked(Endpoint, Wanted, Answer)) :-
     (   Hosts = asked([_-Who|_])
@@ -118,7 +118,7 @@ watch_end(Watch) :-
     ;   existence_error(watch, Watch)
     ).
 
-%   Ended in its own thread, it delivers nothing more.
+%   A watch that is ended in its own thread delivers no further event.
 
 end(Watch, Thread) :-
     thread_self(Me),
