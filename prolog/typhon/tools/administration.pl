@@ -19,10 +19,10 @@
             [property_of_agent/2, show_status/2]).
 :- autoload('administration/restore', [load_agent/3, save_agent/2]).
 
-/** <module> Administration: what hosts and agents are, and changes of hosts
+/** <module> Administration: properties of hosts and agents, and changes
 
 This is the interface of the layer.  Its modules are loaded when they are used
-here, or when another process asks.
+here, or when another process requests them.
 
 *Threading*: any thread that may wait.
 */
@@ -42,10 +42,10 @@ host_property(Name, Property) :-
 
 %!  host_change(+Host, +Option) is det.
 %
-%   Change an option of a host that runs, here or elsewhere: tokens, capacity,
+%   Change an option of a running host, here or elsewhere: tokens, capacity,
 %   authors, concurrency, hop_time, log, audit, peer, policy, python, quota,
-%   remote, seed or trail, as of host_start/2, or services, to which those given
-%   are added.  Agents on the host stay, also if fewer are admitted from
+%   remote, seed or trail, as of host_start/2, or services, to which the given
+%   ones are added.  Agents on the host stay, also if fewer are admitted from
 %   now on.
 %
 %   @error existence_error(host, Host)
@@ -58,11 +58,10 @@ host_change(Host, Option) :-
 %!  link(+A, +B, +Options) is det.
 %!  unlink(+A, +B) is det.
 %
-%   Make or break the overlay link between two hosts, both ways; either may
-%   be in another process.  What it costs to take it agents learn by
-%   neighbour/2: 1, or what the option cost(Number) says, which changes the
-%   cost of a link that is there.  Where a link is broken its cost is
-%   forgotten.
+%   Make or break the overlay link between two hosts, in both directions; either
+%   may be in another process.  Agents get the cost of a link by neighbour/2: 1,
+%   or the Number of the option cost(Number), which also changes the cost of an
+%   existing link.  Breaking a link discards its cost.
 %
 %   @error existence_error(host, Host), ambiguous_host(Name, Addresses)
 %   @error domain_error(link_option, Option)
@@ -82,19 +81,18 @@ unlink(A, B) :-
 %   home(Address), goals(List), facts(Clauses), payloads(Names),
 %   mailbox(Messages) or fault(Fault).  State is `running`, `sleeping`,
 %   `waiting`, `resident`, `held` (see agent_step/1), `in_transit`, `in_doubt`
-%   or faulty(Error), Error being `failed` if it has failed.  Then, and only
-%   then, there is a fault:
-%   fault(Error, Goal, Place, Host), the goal that failed or raised the error,
-%   where it stands, as File:Line, or Name/Arity:N for the N-th clause of a
-%   predicate, or `unknown`, and on which host it was.  What cannot travel
-%   stands in goals and messages in words.  One that runs has busy(Seconds):
-%   for so long, by the time of day, it has not stopped.  A host may be
-%   given by its name, as in host(alpha).  If Agent is unbound, the agents of
-%   this process are enumerated.
+%   or faulty(Error), where Error is `failed` after a failure.  Only a faulty
+%   agent has a fault: fault(Error, Goal, Place, Host), the goal that failed or
+%   raised the error, its place, as File:Line, or Name/Arity:N for the N-th
+%   clause of a predicate, or `unknown`, and the host.  In goals and messages,
+%   terms that cannot travel are replaced by text.  A running agent has
+%   busy(Seconds): the time, by the time of day, since its last stop.  A host
+%   may be given by its name, as in host(alpha).  If Agent is unbound, the
+%   agents of this process are enumerated.
 %
 %   @error existence_error(agent, Agent), ambiguous_agent(Agent, Ids) if Agent
-%   is a name; of an id that is no more this fails
-%   @error domain_error(agent_property, Property) if there is none like it
+%   is a name; fails for the id of an agent that has ended
+%   @error domain_error(agent_property, Property) if Property is unknown
 
 agent_property(Agent, Property) :-
     property_of_agent(Agent, Property).
@@ -106,8 +104,8 @@ agent_property(Agent, Property) :-
 %     - facts(+Clauses): are added to its state, of predicates that its
 %       program or a payload declares, or that it has made itself
 %     - program(+Spec): is its program from now on, see agent_create/2.  Its
-%       state stays as it is, and so do the goals that it has left: what is
-%       left of a clause is left of the old one.
+%       state is unchanged, and so are its remaining goals: the rest of a
+%       clause is that of the old clause.
 %
 %   @error domain_error(agent_change, Change)
 %   @error permission_error(attach, procedure, PI) for a fact of a predicate
@@ -122,7 +120,7 @@ agent_change(Agent, Change) :-
 
 %!  status_shown(+Status, -State) is det.
 %
-%   State is how people call what an agent of that Status does.
+%   State is the name that users see for Status.
 
 status_shown(Status, State) :-
     show_status(Status, State).
@@ -131,10 +129,10 @@ status_shown(Status, State) :-
 %!  agent_load(+File, -Agent) is det.
 %!  agent_load(+File, -Agent, +Options) is det.
 %
-%   A restore point: what Agent is at its next effect, as text.  The agent
-%   that is made of it goes on where the first one was, under an id of its
-%   own, on the first host of this process or where the option host(Host)
-%   says, also in another process.
+%   A restore point: Agent as it is at its next effect, as text.  The agent that
+%   is made from it continues where the first one was, under its own id, on the
+%   first host of this process or on that of the option host(Host), also in
+%   another process.
 %
 %   @error type_error(mobile_term, Culprit)
 %   @error domain_error(restore_point, File)

@@ -8,10 +8,10 @@
               [agent/5, agent_status/3, life_hops/2, mail_count/2]).
 :- use_module('../kernel/travel', [in_doubt/1]).
 
-/** <module> Agents at a glance
+/** <module> Summaries of agents for tables
 
-The little of each agent of this process that a table shows, without its
-goals and facts, which may be large.
+A summary of each agent of this process, without its goals and facts, which may
+be large.
 
 *Threading*: any thread.  Nothing is locked: an agent that leaves meanwhile is
 left out.
@@ -20,8 +20,8 @@ left out.
 %!  agent_glance(?Agent, -Glance) is nondet.
 %
 %   Glance is glance(Host, Program, Doing, Hops, Mail): the address of the host
-%   on which Agent stands, the name of its program, what it does or waits for
-%   as text, how often it moved and how many messages wait for it.
+%   of Agent, the name of its program, its activity as text, the number of its
+%   hops and the number of messages that wait for it.
 
 agent_glance(Agent, glance(Address, Program, Doing, Hops, Mail)) :-
     agent(Agent, Host, _, Hash, Life),
@@ -32,8 +32,7 @@ agent_glance(Agent, glance(Address, Program, Doing, Hops, Mail)) :-
     life_hops(Life, Hops),
     mail_count(Agent, Mail).
 
-%   One that does not stop burns time; less than a tenth of a second is not
-%   worth telling.
+%   The duration of a turn is shown if it is at least a tenth of a second.
 
 agent_doing(running, Agent, _, Doing) :-
     turn_of(Agent, _, Seconds),
@@ -92,7 +91,7 @@ formal(error(Formal, _), Formal) :-
     !.
 formal(Ball, Ball).
 
-%   So much is still read by a person.
+%   Longer texts are not readable in a table.
 
 short_text(Term, Text) :-
     copy_term(Term, Copy, _),

@@ -18,21 +18,21 @@
 
 /** <module> Predicates of agents, for the top level, help/1 and editors
 
-`move(beta)` is for the programs of agents.  Typed at the top level, or called
-in a module, it is an error that names what is called there instead; the
-correction of Prolog itself would offer the predicate of the module that
-implements it.
+`move(beta)` is for programs of agents.  Called at the top level or in a module,
+it is an error that names the predicate to call instead; the correction of
+Prolog itself would propose the predicate of the module that implements it.
 
-Editors see a program through library(prolog_xref) and library(prolog_colour):
-PceEmacs, Sweep for Emacs, the language server lsp_server.  These learn here
-that in a file with `:- agent(Name, Options)` what agents can say is built in,
-main/0 and on_message/2 are called, and which of its predicates are state; and
-that a payload offers what it provides.  What is loaded is not concerned.
+Editors parse a program by library(prolog_xref) and library(prolog_colour), as
+PceEmacs, Sweep for Emacs and the language server lsp_server do.  For a file
+with `:- agent(Name, Options)` this module gives them the vocabulary of agents
+as built-in predicates, main/0 and on_message/2 as called, and the state among
+its predicates; for a payload, the predicates that it provides.  Loading is not
+affected.
 
-Prolog's apropos/1 searches its own manual only: its matches are completed by
-what library(typhon) exports and what agents can call.  Its help/1 prints a
-comment once for each predicate that the comment is about: of several equal
-ones, one is left.  The modules of Prolog that do it are loaded at the first
+Prolog's apropos/1 searches only its own manual: matches among the exports of
+library(typhon) and the vocabulary of agents are added.  Its help/1 prints a
+comment once for each predicate that the comment documents: of several equal
+ones, one is shown.  The modules of Prolog for this are loaded at the first
 request.
 
 *Threading*: any thread; editors: see prolog_load_context/2.
@@ -40,8 +40,8 @@ request.
 
 %!  words_only(+Query, +Module, -PI) is semidet.
 %
-%   A goal of Query calls PI, which is a word of agents and nothing else in
-%   Module.
+%   A goal of Query calls PI, which is in the vocabulary of agents and undefined
+%   in Module.
 
 words_only(Query, Module, PI) :-
     goal(Query, Module, Goal),
@@ -65,7 +65,7 @@ goal(Query, Module, Goal) :-
 
 %!  word_told(+Spec, -Text, ?Rest) is semidet.
 %
-%   The text for an unknown procedure Spec that is a word of agents.
+%   Text for an unknown procedure Spec that is in the vocabulary of agents.
 
 word_told(Spec) -->
     { own_module(Spec, PI),
@@ -84,7 +84,7 @@ instead(PI) -->
 instead(_) -->
     [].
 
-%   outside(+PI, -Text): what does the same from outside.
+%   outside(+PI, -Text): the call that does the same from outside of agents.
 
 outside(move/1, 'agent_move(Agent, Host)').
 outside(clone/1, 'agent_clone(Agent, Clone)').
@@ -114,8 +114,8 @@ outside(PI, Text) :-
 
 %!  directive_meant(+Directive, -Directives) is semidet.
 %
-%   Directive is a declaration of an agent or payload and stands for
-%   Directives.
+%   Directive declares an agent or a payload, and means Directives to the
+%   cross-referencer.
 
 directive_meant(Directive, Directives) :-
     declared(Directive, Kind, Options),
@@ -135,7 +135,7 @@ meant(Kind, Options, Meant) :-
     findall(PI, indicator_in(PIs, PI), List),
     (   Meant = dynamic(List)
     ;   Kind == payload,
-        Meant = public(List)            % agents that have it may call them
+        Meant = public(List)            % agents with the payload may call them
     ).
 
 predicates_option(agent, PIs, state(PIs)).
@@ -170,10 +170,10 @@ option_colours(Kind, Options, Colours) :-
     ).
 
                 /*******************************
-                *             HELP             *
+                *        PROLOG'S MANUAL       *
                 *******************************/
 
-%   part(?What, ?Module): of Prolog's manual.
+%   part(?What, ?Module): Module of Prolog's manual implements What.
 
 part(help, prolog_help).
 part(comments, pldoc_process).
@@ -195,12 +195,12 @@ help_shown(HTML) :-
     part(help, Help),
     Help:show_html(Once).
 
-%   begins(?Mark): what is about one predicate begins with it.
+%   begins(?Mark): the text on a predicate begins with Mark.
 
 begins('<div class="navhdr">').
 
-%   once_each(+Pieces0, +Before, -Pieces): without those that begin as one
-%   Before; the last has the end of the page behind it.
+%   once_each(+Pieces0, +Before, -Pieces): without pieces that begin like one of
+%   Before.  The last piece may end with the end of the page.
 
 once_each([], _, []).
 once_each([Piece|Pieces0], Before, Pieces) :-
@@ -218,8 +218,9 @@ once_each([Piece|Pieces0], Before, Pieces) :-
 
 %!  apropos_completed(+Told, -Pairs, -Count) is semidet.
 %
-%   Told is what apropos/1 prints; Pairs are the manual's matches behind the
-%   first of ours, as many as are shown, and Count is the number of all.
+%   Told is the message of apropos/1; Pairs are the first matches of Typhon,
+%   then those of the manual, as many as are shown, and Count is the number of
+%   all.
 
 apropos_completed(no_apropos_match(Query), Pairs, Count) :-
     matches(Query, Ours),
@@ -236,7 +237,8 @@ apropos_completed(apropos_matches(Manual, Count0), Pairs, Count) :-
     length(Ours, Length),
     Count is Count0+Length.
 
-%   asked(-Query): apropos/1 does not say what for, but is still there.
+%   asked(-Query): the message does not have the query, but the frame of
+%   apropos/1 does.
 
 asked(Query) :-
     part(help, Help),
@@ -254,8 +256,8 @@ asking(Help, Query,
        system:setup_call_catcher_cleanup(
                   _, system:once(Help:apropos_no_trace(Query)), _, _)).
 
-%   matches(+Query, -Pairs): PI-Summary of our predicates that have all words
-%   of Query in name or summary; names first.
+%   matches(+Query, -Pairs): PI-Summary of predicates of Typhon that have all
+%   words of Query in name or summary; matches of the name first.
 
 matches(Query, Pairs) :-
     query_text(Query, Text),
@@ -289,7 +291,7 @@ part_of_one(Texts, Word) :-
     sub_string(Text, _, _, _, Word),
     !.
 
-%   ours(?Module, -PI): PI is public, and defined in Module.
+%   ours(?Module, -PI): PI is public, and is defined in Module.
 
 ours(Module, Name/Arity) :-
     (   module_property(typhon, exports(PIs)),

@@ -4,7 +4,7 @@
           ]).
 :- autoload('checks/check', [check_program/1, check_program/2]).
 
-/** <module> What is wrong with a program, for people
+/** <module> Checks of programs and payloads
 
 This is the interface of the layer.  Its modules are loaded when a program is
 checked or read from a file for the first time.
@@ -14,29 +14,30 @@ checked or read from a file for the first time.
 
 %!  agent_check(+Spec) is det.
 %
-%   Print what is wrong with an agent program, or with a payload.  Errors
+%   Print errors and warnings of an agent program, or of a payload.  Errors
 %   would keep it from loading.  Warnings are
 %
 %     - variables that occur once, and clauses of a predicate with others in
 %       between
-%     - predicates that it changes, and has not declared as its state
-%     - choices that it gives up when it stops, and seems to count on
-%     - of an agent, calls to predicates that neither it nor the vocabulary
-%       defines, so that a place or a payload must offer them
+%     - predicates that it changes, and does not declare as its state
+%     - choice points that a stop discards, and that it seems to rely on
+%     - for an agent, calls of predicates that neither the program nor the
+%       vocabulary defines, so that a place or a payload must offer them
 %
-%   While some of it cannot be read, only syntax errors are reported.
-%   agent_create/3 raises the errors, and prints the warnings once for each
-%   program, until its file changes; those of the last kind unless a payload of
-%   the agent or the place of a host of this process defines the predicate.
+%   If a part cannot be read, only syntax errors are reported.  agent_create/3
+%   raises the errors, and prints the warnings once for each program, until its
+%   file changes; those of the last kind unless a payload of the agent or the
+%   place of a host of this process defines the predicate.
 
 agent_check(Spec) :-
     check_program(Spec).
 
 %!  agent_check(+Spec, +Options) is semidet.
 %
-%   Options say where the program or the payload is to run.  With the option
-%   policy(Policy), see host_start/2, what a host with that policy would refuse
-%   is reported as errors, and agent_check/2 fails if there is any.
+%   Options describe the host on which the program or the payload will run.
+%   With the option policy(Policy), see host_start/2, code that a host with that
+%   policy would refuse is reported as errors, and agent_check/2 fails if there
+%   are any.
 
 agent_check(Spec, Options) :-
     check_program(Spec, Options).

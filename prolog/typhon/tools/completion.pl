@@ -7,10 +7,10 @@
 :- use_module(library(pairs), [group_pairs_by_key/2]).
 :- use_module('../kernel/base/names', [names/2]).
 
-/** <module> What the top level completes
+/** <module> Completion of names at the top level
 
-Where the name of a host, an agent, a network or a program is wanted, the
-tab key completes it; elsewhere it does what it always does.
+Where the name of a host, an agent, a network or a program is expected, the tab
+key completes it; elsewhere the completion of Prolog applies.
 
 *Threading*: the thread of the top level.
 */
@@ -57,8 +57,8 @@ wanted(Functor, 1, Kind) :-
     atom_concat(Kind, '_', Begin),
     sub_atom(Functor, 0, _, _, Begin).
 
-%   offered(+Kind, +Style, +Names, -Name): an agent is typed by the name that
-%   it alone has, else by its id.
+%   offered(+Kind, +Style, +Names, -Name): an agent is offered by its short name
+%   if that is unique, else by its id.
 
 offered(agent, plain, Ids, Name) :-
     !,
@@ -79,7 +79,8 @@ short(Id, Short) :-
     !,
     sub_atom(Id, 0, Before, _, Short).
 
-%   completion(+Style, +Kind, +Name, +After, -Text): as it is to be typed.
+%   completion(+Style, +Kind, +Name, +After, -Text): Text is Name as it is
+%   typed.
 
 completion(quoted, _, Name, After, Text) :-
     (   sub_atom(After, 0, _, _, '\'')
@@ -101,7 +102,7 @@ typed(_, Name, Name).
                 *      BACK FROM THE CURSOR    *
                 *******************************/
 
-%   started(-Style, -Text)//: Text has been typed of a name, after a quote or
+%   started(-Style, -Text)//: Text is the typed part of a name, after a quote or
 %   plain.
 
 started(quoted, Text) -->
@@ -134,8 +135,8 @@ reversed_text(Codes, Text) :-
     reverse(Codes, Forward),
     atom_codes(Text, Forward).
 
-%   argument(+N, -Functor, -Argument)//: what comes next is the argument with
-%   this number of a term of Functor; N counts.
+%   argument(+N, -Functor, -Argument)//: the position is Argument, a number, of
+%   a term with that Functor; N counts.
 
 argument(N, Functor, Argument) -->
     [Code],

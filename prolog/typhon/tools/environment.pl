@@ -9,10 +9,10 @@
 :- autoload(tables, [print_agents/2, print_hosts/1]).
 :- use_module(library(prolog_wrap), [wrap_predicate/4]).
 
-/** <module> What the top level, help/1 and editors call
+/** <module> The hooks of the top level, help/1 and editors
 
-The modules that do it are loaded at the first call; a process without a top
-level does not have them.
+The modules that implement them are loaded at the first call; a process without
+a top level does not load them.
 
 *Threading*: any thread.
 */
@@ -20,21 +20,20 @@ level does not have them.
 %!  hosts is det.
 %
 %   Print a table of the hosts of this process, of the networks that it has
-%   started, and of all to which one comes from these along links, in other
-%   processes, too: their address, what they do, how many agents they have
-%   of how many they admit, how many came in, and their neighbours.  Of a
-%   process that has not answered within two seconds (the setting
-%   `typhon_inventory:seconds`) it says so.
+%   started, and of all that links from these lead to, in other processes, too:
+%   their address, state, number of agents, capacity, number of arrivals, and
+%   neighbours.  The table names processes that have not answered within two
+%   seconds (the setting `typhon_inventory:seconds`).
 
 hosts :-
     print_hosts([]).
 
 %!  agents is det.
 %
-%   Print a table of the agents on the hosts that hosts/0 shows: the name of
-%   an agent, or its id where another has the same name; where it is; its
-%   program; what it does or waits for; how often it has moved, and how many
-%   messages wait for it.
+%   Print a table of the agents on the hosts that hosts/0 shows: the name of an
+%   agent, or its id if another has the same name; its host; its program; its
+%   activity; the number of its hops, and the number of messages that wait for
+%   it.
 
 agents :-
     print_agents([], short).
@@ -50,8 +49,9 @@ agents :-
 :- dynamic
     user:expand_query/4.
 
-%   Names of ours come before those of Prolog, whether its clauses of the hook
-%   are there yet or not.  A saved state does not keep what is wrapped.
+%   Names of Typhon come before those of Prolog, whether the clauses of Prolog's
+%   hook are loaded yet or not.  A saved state does not keep a wrapped
+%   predicate.
 
 complete_names :-
     wrap_predicate(
@@ -105,7 +105,7 @@ prolog:message(help(typhon(Pairs, Count))) -->
 :- dynamic
     user:term_expansion/2.
 
-%   To the cross-referencer alone a declaration is what it stands for.
+%   Only the cross-referencer expands a declaration.
 
 user:term_expansion((:- Directive), Directives) :-
     current_prolog_flag(xref, true),

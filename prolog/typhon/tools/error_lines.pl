@@ -2,11 +2,11 @@
 :- use_module(library(lists), [append/3]).
 :- use_module('../kernel/base/error_text', [context_indicator/3, is_remark/1]).
 
-/** <module> What errors from elsewhere mean
+/** <module> Texts of errors of ISO and SWI-Prolog
 
-Errors of ISO and of SWI-Prolog are translated by clauses of our own, those of
-this library by its clauses for prolog:error_message//1; all others are written
-as terms.  See typhon_error_text.
+Errors of ISO and of SWI-Prolog have clauses here, those of this library have
+clauses of prolog:error_message//1; all others are written as terms.  See
+typhon_error_text.
 
 *Threading*: pure.
 */
@@ -58,14 +58,14 @@ formal_told(Formal) -->
     ),
     !.
 
-%   ours(:Hook)//: a clause of this library for a hook has this to say.
+%   ours(:Hook)//: the lines are those of a clause of this library for Hook.
 
 ours(prolog:Hook, Lines, Rest) :-
     Hook =.. List0,
     append(List0, [Lines,Rest], List),
     Goal =.. List,
     catch(clause(prolog:Goal, Body, Clause),
-          error(permission_error(_, _, _), _), fail),   % it is protected
+          error(permission_error(_, _, _), _), fail),   % protected predicate
     of_library(Clause),
     call(prolog:Body),
     !.
@@ -174,7 +174,7 @@ syntax(What, Text) :-
     atom_concat(Upper, Words, Text).
 syntax(What, What).
 
-%   Where an error was raised, and a remark, if they are what SWI-Prolog adds.
+%   The location of an error, and a remark, if SWI-Prolog has added them.
 
 location(Context) -->
     { var(Context) },

@@ -16,8 +16,8 @@ the error, and the clause.
 
 %!  happening(+What, -Text, ?Rest) is det.
 %
-%   The text of an event, see typhon_events, as a message: what an agent did,
-%   or what happened to it.
+%   The text of an event, see typhon_events, as a message: an act of an agent,
+%   or an event that concerns it.
 
 happening(What) -->
     { own(What, If, Text), call(If) },
@@ -29,16 +29,16 @@ happening(What) -->
 
 %!  own_event(+What) is semidet.
 %
-%   What is of the platform.  Agents may log whatever they like; what looks
-%   like this all the same is taken for it.
+%   What is an event of the platform.  Agents may log any term; a logged term
+%   with the same form is taken for one.
 
 own_event(What) :-
     own(What, If, _),
     call(If),
     !.
 
-%   own(+What, -If, -Text): an event, if it looks like this, and what is said of
-%   it, the body of a grammar rule.
+%   own(+What, -If, -Text): What is an event if the goal If succeeds; Text, the
+%   body of a grammar rule, describes it.
 
 own(created, true, [ 'begins' ]).
 own(ended(Outcome), true, ([ 'ends, ' ], term_told(Outcome))).
@@ -85,7 +85,7 @@ named(Format, Name) -->
 
 %!  short_name(+Name, -Short) is det.
 %
-%   What stands before the address in the name of an agent or a host.
+%   Short is the part before the address in the name of an agent or a host.
 
 short_name(Name, Short) :-
     atom(Name),
@@ -117,8 +117,8 @@ prolog:message(typhon(agent_failed(Agent, Fault))) -->
     agent_at(Agent, Fault),
     failed_last(Fault).
 prolog:message(typhon(mailbox_full(Agent, Max))) -->
-    [ 'Agent ~w is faulty, and its mailbox is full: of what comes now \c
-       nothing is kept beside ~D messages'-[Agent, Max] ].
+    [ 'Agent ~w is faulty, and its mailbox is full: messages beyond ~D \c
+       are dropped'-[Agent, Max] ].
 prolog:message(typhon(message_undone(Agent, From, Message, Fault))) -->
     agent_at(Agent, Fault),
     [ 'did not do with ' ],
@@ -160,8 +160,8 @@ failed_last(Fault) -->
     goal_told(Goal),
     clauses_told(Where).
 
-%   An error that says neither what is wrong nor which predicate raised it needs
-%   the goal; and so does one whose clause is not known.
+%   The goal is reported if the error names neither the problem nor the
+%   predicate that raised it, or if the clause is not known.
 
 goal_of(Error, Fault) -->
     { fault_told(Fault, Goal, Where, _, _) },
@@ -180,7 +180,7 @@ needs_goal(error(Formal, Context)) :-
          Context = context(Caller, _),
          nonvar(Caller) ).
 
-%   The goal is the call of a predicate in whose clause the error was raised.
+%   Goal calls a predicate in whose clause the error was raised.
 
 stands_inside(Goal, [[at(Name/Arity, _)|_]|_]) :-
     callable(Goal),
@@ -206,7 +206,7 @@ goal_told(Goal0) -->
     [ '~W'-[Goal, [ quoted(true), portray(false), max_depth(10),
                     spacing(next_argument), numbervars(true) ]] ].
 
-%   In which clause that was.
+%   The clause of the goal, and of its caller.
 
 clauses_told([]) -->
     [].

@@ -27,23 +27,23 @@
 :- use_module('../network', [network_hosts/2]).
 :- use_module('../options/directory', [host_offers/2]).
 
-/** <module> What there is in all processes of a network, and on one host
+/** <module> Inventory of the processes of a network, and of one host
 
-Each process reports in one answer its hosts and the agents on them.  Asked
-are those that carry networks started here, and those of hosts to which one
-comes along links.  All are asked at once; a process that has not answered
-by the deadline is reported as silent.
+Each process reports its hosts and the agents on them in one answer.  Requests
+are sent to the processes of networks started here, and to those of hosts that
+links lead to, all at once; a process that has not answered by the deadline is
+reported as silent.
 
-Of one host the report has what lies in its tuple space, what its place defines
-and with what options it runs, as text.  Long values are shortened.
+The report on one host has the facts in its tuple space, the clauses of its
+place and its options, as text.  Long values are shortened.
 
-*Threading*: any thread may ask that may wait, but those of the endpoint.  A
-worker answers, for there may be many agents.
+*Threading*: any thread that may wait, but not those of the endpoint.  A worker
+answers, since there may be many agents.
 */
 
 :- setting(typhon_survey:seconds, number, 2, "Now typhon_inventory:seconds").
 :- setting(seconds, number, 2,
-           "A table waits so long for the other processes of a network").
+           "Seconds for which a table waits for other processes of a network").
 
 :- multifile
     typhon_endpoint:requested/4.
@@ -52,13 +52,13 @@ worker answers, for there may be many agents.
 %
 %   Seen are terms seen(Hosts, Agents, Count), one for each process: Hosts are
 %   terms host(Address, State, Load, Capacity, Arrived, Neighbours, Costs,
-%   Clock), Costs being what the links to Neighbours cost, in their order, and
-%   Clock clock(Epoch, Rate), or `virtual`; Agents the first Most, in the order
-%   of survey_order/2, of Count agents, terms agent(Id, Glance), see
-%   agent_glance/2; if Most is 0 they are not counted. Asked are this process,
-%   those of the networks started here, those at the addresses Places, and
-%   others that these name. Silent are Endpoint-Why of those that gave no
-%   answer, Why being `gone`, `lost` or `late`.
+%   Clock), where Costs are those of the links to Neighbours, in their order,
+%   and Clock is clock(Epoch, Rate), or `virtual`; Agents are the first Most, in
+%   the order of survey_order/2, of Count agents, terms agent(Id, Glance), see
+%   agent_glance/2; if Most is 0 they are not counted.  Requests are sent to
+%   this process, to those of the networks started here, to those at the
+%   addresses Places, and to others that these name.  Silent are Endpoint-Why of
+%   the processes without an answer, where Why is `gone`, `lost` or `late`.
 
 survey(Most, Places, [Here|Seen], Silent) :-
     look(Most, Here),
@@ -73,7 +73,7 @@ survey(Most, Places, [Here|Seen], Silent) :-
             Silent0),
     sort(Silent0, Silent).
 
-%   A process that listens at several ports answers at each.
+%   A process that listens at several ports answers at each of them.
 
 answers(Results, Seen) :-
     findall(Names-Answer,
@@ -93,7 +93,7 @@ known(Address) :-
     network_hosts(_, Addresses),
     member(Address, Addresses).
 
-%   A process of which it is known that it is no more is not waited for.
+%   A process that is known to have left gets no request.
 
 ask(Endpoints, Most, Results) :-
     findall(Endpoint-gone,
@@ -179,7 +179,7 @@ host_clock(Name, Clock) :-
         Clock = clock(Epoch, Rate)
     ).
 
-%   The link may be gone by now.
+%   The link may have been removed meanwhile.
 
 link_cost(Name, Neighbour, Cost) :-
     (   host_link_cost(Name, Neighbour, Cost0)
@@ -188,13 +188,13 @@ link_cost(Name, Neighbour, Cost) :-
     ).
 
                 /*******************************
-                *       PUT TOGETHER           *
+                *            RESULTS           *
                 *******************************/
 
 %!  survey_hosts(+Places, +Seen, +Silent, -Hosts) is det.
 %
-%   All Hosts of a survey, those among them that were heard of in processes
-%   that are silent: their state is `gone`, or `silent`.
+%   Hosts are all hosts of a survey, also those of silent processes that were
+%   named by others: their state is `gone`, or `silent`.
 
 survey_hosts(Places, Seen, Silent, Hosts) :-
     findall(Host, ( member(seen(Some, _, _), Seen), member(Host, Some) ),
@@ -226,8 +226,8 @@ state_unseen(late, silent).
 
 %!  survey_agents(+Seen, -Agents) is det.
 %
-%   Each agent of a survey once.  One under way may have been seen twice:
-%   where it has come counts.
+%   Agents has each agent of a survey once.  An agent in transit may be reported
+%   twice; the entry with more hops is kept.
 
 survey_agents(Seen, Agents) :-
     findall(Some, member(seen(_, Some, _), Seen), Lists),
@@ -242,7 +242,7 @@ hops_left(agent(_, glance(_, _, _, Hops, _)), Left) :-
 
 %!  survey_order(+Text, -Key) is det.
 %
-%   The order of Key is that in which people expect names: n2 before n10.
+%   Keys sort numbers inside names by value: n2 before n10.
 
 survey_order(Text, Key) :-
     atom_codes(Text, Codes),
@@ -263,7 +263,7 @@ parts([Text]) -->
                 *           ONE HOST           *
                 *******************************/
 
-%   So much is still read by a person.
+%   Longer lists and texts are not readable.
 
 most(tuples, 300).
 most(clauses, 300).
@@ -303,7 +303,7 @@ report_reply(Name, ReplyTo) :-
     endpoint_reply(ReplyTo, Answer).
 
                 /*******************************
-                *            HERE              *
+                *         THIS PROCESS         *
                 *******************************/
 
 seen(Name, close_up(Properties, Options, Tuples, Clauses, Services)) :-
@@ -348,7 +348,7 @@ own_predicate(Place, Head) :-
     functor(Head, Name, _),
     \+ sub_atom(Name, 0, _, _, $).
 
-%   What agents offer there.
+%   Services that agents offer on the host.
 
 offer_text(Name, Text) :-
     host_offers(Name, Offers),
@@ -357,7 +357,7 @@ offer_text(Name, Text) :-
     text(Properties, PropertiesText),
     format(string(Text), '~s, by ~w: ~s', [ServiceText, Agent, PropertiesText]).
 
-%   What it offers of modules: their predicates by name.
+%   Services of the place that come from modules: predicates by name.
 
 service_text(Place, Text) :-
     import_module(Place, Module),

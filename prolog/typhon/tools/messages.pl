@@ -2,12 +2,12 @@
 
 /** <module> Texts of errors
 
-The texts of the errors that the predicates of library(typhon) raise, and
-of what is reported about agents.  For a mistyped name of a host, an agent
-or an agent program they suggest similar names.  The modules of
-the wire, of networks and of the log keep the texts of their own messages.
+The texts of the errors that the predicates of library(typhon) raise, and of
+reports about agents.  For a mistyped name of a host, an agent or an agent
+program they suggest similar names.  The modules of the wire, of networks and of
+the log have the texts of their own messages.
 
-*Threading*: called by print_message/2 in any thread.
+*Threading*: print_message/2 calls the hooks in any thread.
 */
 
 :- use_module('../kernel/base/error_text',
@@ -121,8 +121,8 @@ prolog:error_message(connection_lost(Address)) -->
 prolog:error_message(type_error(mobile_term, Culprit)) -->
     [ 'This term cannot travel: ~p'-[Culprit] ].
 
-%   Host is an address, or that of a process; this process has tried, or
-%   another one.
+%   The reason why Host, the address of a host or a process, was not reached, if
+%   this process has tried.
 
 reason(Host) -->
     { endpoint_of(Host, Endpoint),
@@ -158,10 +158,10 @@ missed(permission_error(use, cookie_file, File), Text) :-
 
 refusal(capacity) --> !, [ 'it is full' ].
 refusal(token) --> !, [ 'none of its tokens is wanted there' ].
-refusal(unsigned) --> !, [ 'none of its authors has signed it' ].
-refusal(identity) --> !, [ 'its owner has not signed that it is his' ].
+refusal(unsigned) --> !, [ 'no author that it trusts has signed its code' ].
+refusal(identity) --> !, [ 'its owner has not signed its identity' ].
 refusal(unknown_host) --> !, [ 'there is no host of that name' ].
-refusal(quota(What)) --> !, [ 'its quota of ~w would be passed'-[What] ].
+refusal(quota(What)) --> !, [ 'the quota of ~w would be exceeded'-[What] ].
 refusal(Reason) --> term_told(Reason).
 
 program_alias(Spec, Alias, Name) :-
@@ -191,10 +191,10 @@ prolog:message(typhon(ended_in_doubt(Agent, Address))) -->
       [Agent, Address],
       'it ends there as soon as that is known' ].
 prolog:message(typhon(news_too_long(Agent))) -->
-    [ 'What has become of agent ~w is too long to be sent to its home'-
+    [ 'The news of agent ~w is too long to be sent to its home'-
       [Agent] ].
 prolog:message(typhon(results_lost(Agent))) -->
-    [ 'What agent ~w has left, its result among it, is too long to be sent \c
+    [ 'The outcome of agent ~w, with its result, is too long to be sent \c
        to its home'-[Agent] ].
 prolog:message(typhon(message_failed(Agent, From, Message))) -->
     [ 'Agent ~w does not understand a message: '-[Agent] ],
@@ -207,7 +207,7 @@ prolog:message(typhon(order_failed(Agent, Formal))) -->
     [ 'Agent ~w could not obey: '-[Agent] ],
     explained(error(Formal, _)).
 prolog:message(typhon(not_let_in(Where, Formal))) -->
-    [ '~w: a host that guards would not let this in: '-[Where] ],
+    [ '~w: a host with this policy refuses it: '-[Where] ],
     explained(error(Formal, _)).
 prolog:message(typhon(over_limit(Agent, What))) -->
     [ 'Agent ~w is ended: it has used more ~w than its host allows'-
@@ -220,12 +220,12 @@ prolog:message(typhon(not_back(Kind, Key))) -->
     [ 'The journal has ~w ~w, which cannot be restored; it stays there'
       -[Kind, Key] ].
 prolog:message(typhon(journal_in_words(Agent))) -->
-    [ 'What ~w has cannot all be written: in the journal that is in words'
+    [ '~w holds terms that cannot be written: the journal has them as text'
       -[Agent] ].
 prolog:message(typhon(not_from(Peer, Agent, From))) -->
     { named(Agent, Agent1), named(From, From1) },
-    [ 'A message for ~w from ~w, which ~w has no right to speak for, is not \c
-       delivered'-[Agent1, From1, Peer] ].
+    [ 'A message for ~w from ~w is not delivered: ~w has no right to send \c
+       in the name of that agent'-[Agent1, From1, Peer] ].
 prolog:message(typhon(undeliverable(resource_error(frame_bytes), Agent, From,
                                     _))) -->
     !,
@@ -249,7 +249,7 @@ prolog:message(typhon(log(Host, Agent, What))) -->
 prolog:message(typhon(log_unheard(Endpoint))) -->
     [ 'The log server at ~w does not answer'-[Endpoint] ],
     reason(Endpoint),
-    [ '. What happens until it does is not logged'-[] ].
+    [ '. Events are not logged until it does'-[] ].
 prolog:message(typhon(log_heard(Endpoint, Count))) -->
     [ 'The log server at ~w answers again: ~D events are not in the log'-
       [Endpoint, Count] ].
@@ -286,12 +286,12 @@ prolog:message(typhon(checked(Program, Errors, Doubts, Undefined))) -->
     [ '~d calls of what others must define'-[Undefined] ].
 prolog:message(typhon(place_reloaded(Place, File))) -->
     { host_property(Host, place(Place)) -> true ; Host = Place },
-    [ '~w is loaded anew into the place of ~w'-[File, Host] ].
+    [ '~w is reloaded into the place of ~w'-[File, Host] ].
 prolog:message(typhon(stuck_worker(Worker))) -->
     [ 'Worker ~p does not stop: its agent neither ends nor yields'-
       [Worker] ].
 prolog:message(typhon(goal_failed(Goal))) -->
-    [ 'This should not have failed: ~p'-[Goal] ].
+    [ 'This goal failed unexpectedly: ~p'-[Goal] ].
 prolog:message(typhon(run_failed(Agent))) -->
     [ 'The step of agent ~w was not completed'-[Agent] ].
 
@@ -324,8 +324,8 @@ message_from(Message, From) -->
     term_told(Message),
     [ ' from ~w'-[From1] ].
 
-%   named(+Name, -Shown): to whom a message was sent, and from whom it is said to
-%   be, may be any term.
+%   named(+Name, -Shown): the recipient of a message, and its claimed sender,
+%   may be any term.
 
 named(Name, Name) :-
     atom(Name),
@@ -349,7 +349,7 @@ meant(Kind, Name) -->
 
 %   elsewhere(+Host, -Address) is semidet.
 %
-%   Host, a name or an address, is of a network of this process, and in another
+%   Host, a name or an address, is in a network of this process, but in another
 %   process.
 
 elsewhere(Host, Address) :-

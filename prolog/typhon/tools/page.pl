@@ -8,11 +8,10 @@
 :- autoload('page/server', [server_start/2, server_stop/0]).
 :- use_module('../kernel/base/options', [check_options/2]).
 
-/** <module> A page to watch and to work a network
+/** <module> A web page to watch and control a network
 
-What serves it is loaded when it is started: a process without a page does
-not load libraries of HTTP.
-This is the interface of the layer.
+The server is loaded when the page is started: a process without a page does
+not load the libraries of HTTP.  This is the interface of the layer.
 
 *Threading*: any thread.
 */
@@ -32,14 +31,14 @@ typhon_options:declared(page_option, world(X), callable, X).
 %!  page_stop is det.
 %
 %   Serve a page that shows the hosts of this process, of the networks that it
-%   has started, and all to which one comes from these along links, and the
-%   agents there, live; and by which people can work with them.  The link to
-%   it is printed: it gives all rights of this process.  Options:
+%   has started, and of all that links from these lead to, and the agents there,
+%   live, and that lets users control them.  The link to the page is printed; it
+%   gives all rights of this process.  Options:
 %
 %     - port(+Port): default 8080; 0 for any
-%     - host(+Address): show the network of this host, too, of another process
+%     - host(+Address): also show the network of this host of another process
 %     - bind(+Interface): default localhost
-%     - read_only(+Boolean): only to look at; default `false`
+%     - read_only(+Boolean): the page changes nothing; default `false`
 %     - overlays(+Files): of agent programs, or studies, whose overlays are
 %       shown, beside those of the programs in agents/
 %     - world(+Goal): a view World shows the picture that call(Goal, Svg)
@@ -47,7 +46,7 @@ typhon_options:declared(page_option, world(X), callable, X).
 %
 %   page_stop/0 succeeds also where there is no page.
 %
-%   @error permission_error(start, page, Port) if there is one already, on Port
+%   @error permission_error(start, page, Port): there is a page already, at Port
 %   @error domain_error(page_option, Option)
 %   @error existence_error(host, Address), host_unreachable(Address)
 
@@ -57,7 +56,7 @@ page_start(Options) :-
 
 %!  page_serve(+Options, -Link:atom) is det.
 %
-%   The same; Link is not printed.
+%   As page_start/1, but Link is returned and not printed.
 
 page_serve(Options, Link) :-
     check_options(page_option, Options),
@@ -71,8 +70,8 @@ page_stop :-
 
 %!  page_export(+Log, +File, +Options) is det.
 %
-%   Write a page to File that replays the log file Log, in the same views: it
-%   stands for itself, and can be put beside a paper.  Options:
+%   Write a page to File that replays the log file Log, in the same views.  File
+%   is self-contained, so it can be published with a paper.  Options:
 %
 %     - title(+Text): default the name of the log
 %     - overlays(+Files): of agent programs, or studies, whose overlays are

@@ -9,7 +9,7 @@ A problem, see typhon_parts, is raised and printed as
 
     error(Formal, at(Location, Text, Others))
 
-where Text says what to do about it, and Others are problems found with it.
+where Text proposes a fix, and Others are problems found with it.
 
 *Threading*: pure.
 */
@@ -43,7 +43,7 @@ given_up(clause) --> !,
 given_up(Choice) -->
     [ 'the choices of ~p'-[Choice] ].
 
-%   As editors understand it.
+%   The location is printed in the form that editors recognise.
 
 prolog:message_location(at(Location, _, _)) -->
     place(Location).
@@ -129,7 +129,8 @@ typhon_programs:advice(options(payload)) -->
     ['write payload(Name, [provides([Name/Arity, ...])])'].
 typhon_programs:advice(undeclared(Name/Arity)) -->
     { term_to_atom(Name/Arity, Atom) },
-    ['what an agent changes is its state: write agent(Name, [state([',
+    ['predicates that an agent changes are its state: \c
+      write agent(Name, [state([',
      Atom, '])])'].
 typhon_programs:advice(offered([])) -->
     ['a place or a payload must offer it'].
@@ -140,14 +141,14 @@ typhon_programs:advice(of_library(Library)) -->
     ['library(', Library, ') defines it: write :- use_module(library(',
      Library, ')) in the program'].
 typhon_programs:advice(commits(Choice)) -->
-    ['what stops an agent commits it: '],
+    ['a stop discards choice points: '],
     instead(Choice).
 typhon_programs:advice(inside(Name/Arity)) -->
     { term_to_atom(Name/Arity, Atom) },
     ['an agent cannot stop inside ', Atom, ': '],
     outside(Name/Arity).
 
-%   instead(+Choice)//: what to write for a choice that is given up.
+%   instead(+Choice)//: how to write a choice that a stop discards.
 
 instead(clause) --> !,
     ['write ( Goal -> ... ; ... ), which travels, instead of two clauses'].
@@ -156,7 +157,7 @@ instead((;)/2) --> !,
 instead(_) -->
     ['collect them with findall/3, and go through the list by recursion'].
 
-%   outside(+PI)//: what to write for a goal that must run to its end.
+%   outside(+PI)//: what to write instead of a goal that must run to its end.
 
 outside(PI) --> { repeats(PI) }, !,
     ['write a recursive predicate instead'].

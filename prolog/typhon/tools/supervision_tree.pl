@@ -10,26 +10,26 @@
 :- use_module('../options/supervision', [agent_relations/1]).
 :- use_module(inventory, [survey/4, survey_agents/2, survey_order/2]).
 
-/** <module> Supervisors, their children and what they monitor, as trees
+/** <module> Trees of supervisors, their children and monitored agents
 
-A child of an agent is one that follows it, see monitor/2; below an agent stand
-its children, and agents that it monitors and that are no children.  Two that
-monitor each other, as a supervisor and its standby, would be below each other:
-the one with more below it is on top.
+A child of an agent is one that follows it, see monitor/2; below an agent are
+its children, and other agents that it monitors.  Two agents that monitor each
+other, such as a supervisor and its standby, would be below each other: the one
+with more agents below it is at the top.
 
 *Threading*: any thread that may wait.
 */
 
-%   So many agents of each process are known by more than their id.
+%   At most this many agents of each process have more than their id.
 
 most(5000).
 
 %!  supervision_tree(+Places, -Trees:list, -Silent:list) is det.
 %
-%   Trees are terms node(Id, Relation, Glance, Below): Relation is `top`, `child`
-%   or `monitored`, Glance as of agent_glance/2, or `none`, and Below the list of
-%   nodes below it.  Places and Silent are as of survey/4.  Agents that are not
-%   related to others are left out.
+%   Trees are terms node(Id, Relation, Glance, Below): Relation is `top`,
+%   `child` or `monitored`, Glance is as of agent_glance/2, or `none`, and Below
+%   are the nodes below it.  Places and Silent are as of survey/4.  Agents
+%   without relations are left out.
 
 supervision_tree(Places, Trees, Silent) :-
     most(Most),
@@ -46,8 +46,8 @@ forest(Relations, Agents, Trees) :-
     empty_assoc(None),
     grown(Tops, top, Below-Glances, None, _, Trees).
 
-%   below(+Relations, -Below, -Related): Below is an assoc of the Relation-Id
-%   below each agent, Related one of the agents that are below another.
+%   below(+Relations, -Below, -Related): Below is an assoc from an agent to the
+%   Relation-Id below it, Related an assoc of the agents that are below another.
 
 below(Relations, Below, Related) :-
     findall(Relation-true, member(Relation, Relations), Pairs),
@@ -75,14 +75,14 @@ edge(Relations, _, Children, Parent, monitored, Id) :-
     Parent \== Id,
     \+ get_assoc(Id, Children, true).
 
-%   Where two follow each other the one that monitors is the parent.
+%   If two agents follow each other, the one that monitors is the parent.
 
 child(Id, Parent, Known) :-
     \+ ( get_assoc(monitors(Id, Parent), Known, true),
          \+ get_assoc(monitors(Parent, Id), Known, true) ).
 
-%   tops(+Below, +Related, -Tops): agents with others below them.  Those that are
-%   not below another come first; then those with most below them.
+%   tops(+Below, +Related, -Tops): agents with others below them.  Agents that
+%   are not below another come first, then agents with most below them.
 
 tops(Below, Related, Tops) :-
     assoc_to_keys(Below, Parents),
@@ -97,8 +97,8 @@ top_key(Below, Related, Id, key(Is, Fewer, Order)) :-
     Fewer is -Count,
     survey_order(Id, Order).
 
-%   grown(+Ids, +Relation, +Known, +Placed0, -Placed, -Nodes): each agent has one
-%   place.
+%   grown(+Ids, +Relation, +Known, +Placed0, -Placed, -Nodes): each agent is in
+%   one place only.
 
 grown([], _, _, Placed, Placed, []).
 grown([Id|Ids], Relation, Known, Placed0, Placed, Nodes) :-

@@ -4,10 +4,10 @@
             print_tree/1                % +Places
           ]).
 
-/** <module> Hosts, agents and supervision as tables for people
+/** <module> Tables of hosts, agents and supervision
 
-*Threading*: any thread.  A table is a snapshot: what goes away while it is
-made is left out.
+*Threading*: any thread.  A table is a snapshot: hosts and agents that disappear
+while it is made are left out.
 */
 
 :- use_module(library(apply), [foldl/4, maplist/2, maplist/3, maplist/4]).
@@ -21,7 +21,7 @@ made is left out.
               [survey/4, survey_agents/2, survey_hosts/4, survey_order/2]).
 :- autoload(supervision_tree, [supervision_tree/3]).
 
-%   So many lines are still read by a person.
+%   Longer tables are not readable.
 
 longest_table(60).
 
@@ -31,7 +31,7 @@ longest_table(60).
 
 %!  print_hosts(+Places) is det.
 %
-%   As hosts/0, the processes of the addresses Places among them.
+%   As hosts/0, and also for the processes at the addresses Places.
 
 print_hosts(Places) :-
     survey(0, Places, Seen, Silent),
@@ -57,7 +57,7 @@ host_agents(Capacity, Load, Agents) :-
     format(atom(Agents), '~w of ~w', [Load, Capacity]).
 host_agents(_, Load, Load).
 
-%   Enough of them to recognise the network.
+%   Some neighbours are enough to recognise the network.
 
 host_neighbours(Neighbours, Text) :-
     maplist(short_name, Neighbours, Names),
@@ -74,12 +74,12 @@ host_neighbours(Neighbours, Text) :-
 
 %!  print_agents(+Places, +Ids) is det.
 %
-%   As agents/0, the processes of the addresses Places among them.  Ids is
-%   `full`, or `short`: names where they are unique.
+%   As agents/0, and also for the processes at the addresses Places.  Ids is
+%   `full`, or `short`: names if they are unique.
 
 print_agents(Places, Ids) :-
     longest_table(Longest),
-    Most is Longest+1,          % tells whether the last name is unique
+    Most is Longest+1,          % shows whether the last name is unique
     survey(Most, Places, Seen, Silent),
     agents_seen(Seen, Agents, Count),
     first_few(Longest, Agents, Shown, _),
@@ -123,8 +123,8 @@ shown_id(_, _, Id, Id).
 
 %!  print_tree(+Places) is det.
 %
-%   Agents that monitor others, those below them indented, in the processes of
-%   the addresses Places among others.
+%   Print agents that monitor others, with those below them indented, also for
+%   the processes at the addresses Places.
 
 print_tree(Places) :-
     supervision_tree(Places, Trees, Silent),
@@ -200,7 +200,7 @@ print_row(Sides, Widths, Cells) :-
     without_trailing_blanks(Line, Text),
     format('~s~n', [Text]).
 
-%   Those at the begin show what is below what.
+%   Leading blanks are kept, since they show the depth in a tree.
 
 without_trailing_blanks(Line, Text) :-
     string_concat(x, Line, Marked),

@@ -159,23 +159,23 @@ part_setting(atom_chars,typhon_guard_texts,positive_integer,1000,'Now typhon_gua
 part_setting(ball_cells,typhon_guard_arguments,positive_integer,10000,'Now typhon_guard_calls:ball_cells','options/guard/guard_calls').
 part_setting(ball_cells,typhon_guard_calls,positive_integer,10000,'Parts of a term that an untrusted agent throws, at most','options/guard/guard_calls').
 part_setting(births,typhon_birth,positive_integer,20000,'Agents whose proofs of ownership are kept','options/identity/birth').
-part_setting(browsers,typhon_page_browsers,positive_integer,32,'So many browsers may look at a page at a time','tools/page/browsers').
+part_setting(browsers,typhon_page_browsers,positive_integer,32,'Browsers that may be connected to a page at a time','tools/page/browsers').
 part_setting(cells,typhon_cells,positive_integer,16,'Processes for agents of untrusted owners, at most','options/cell/cells').
 part_setting(certificates,typhon_base_key_files,positive_integer,256,'Now typhon_keys:certificates','options/keys').
 part_setting(certificates,typhon_keys,positive_integer,256,'Certificates whose holder is cached','options/keys').
 part_setting(channel_seconds,typhon_channel,number,300,'Seconds for which posts are kept for a process that has left, and is not known to keep a journal','options/journal/channel').
 part_setting(clause_cells,typhon_guard_limits,positive_integer,200000,'Clauses that untrusted agents add have at most so many parts','options/guard/guard_limits').
 part_setting(clause_cells,typhon_refusing,positive_integer,200000,'Now typhon_guard_limits:clause_cells','options/guard/guard_limits').
-part_setting(connections,typhon_page_reception,positive_integer,64,'A page has so many clients at a time','tools/page/server').
+part_setting(connections,typhon_page_reception,positive_integer,64,'Clients of a page at a time','tools/page/server').
 part_setting(delay,typhon_telling,number,0.05,'Seconds for which events gather before they are sent','options/watch/event_sender').
 part_setting(entries,typhon_fipa_directory,positive_integer,10000,'Now typhon_fipa_managers:entries','bridges/fipa/managers').
 part_setting(entries,typhon_fipa_managers,positive_integer,10000,'Descriptions in a directory of FIPA','bridges/fipa/managers').
 part_setting(events,typhon_telling,positive_integer,10000,'Events that may wait for a slow watch','options/watch/telling').
-part_setting(frame_events,typhon_page_browsers,positive_integer,2000,'A page tells its browsers of so many events at a time','tools/page/browsers').
-part_setting(frame_seconds,typhon_page_browsers,number,0.05,'A page tells its browsers of events once in so many seconds','tools/page/browsers').
+part_setting(frame_events,typhon_page_browsers,positive_integer,2000,'Events in a text that a page sends','tools/page/browsers').
+part_setting(frame_seconds,typhon_page_browsers,number,0.05,'Seconds between two texts with events that a page sends','tools/page/browsers').
 part_setting(functors,typhon_cells,positive_integer,20000,'Functors that the cells of an owner may bring into the process','options/cell/cell_functors').
-part_setting(head_bytes,typhon_page_reception,positive_integer,16384,'The head of a request is no longer','tools/page/server').
-part_setting(heartbeat_seconds,typhon_page_browsers,number,5,'A page says so often that it is there, when nothing happens','tools/page/browsers').
+part_setting(head_bytes,typhon_page_reception,positive_integer,16384,'Bytes of the head of a request, at most','tools/page/server').
+part_setting(heartbeat_seconds,typhon_page_browsers,number,5,'Seconds without events after which a page sends a heartbeat','tools/page/browsers').
 part_setting(hold_seconds,typhon_saving,number,30,'A network that is saved has so long to come to rest','network/saving').
 part_setting(idle,typhon_cells,number,60,'Seconds after which a cell that no agent uses ends','options/cell/cells').
 part_setting(kill_seconds,typhon_processes,number,10,'A process that was killed has so long to be gone','network/processes').
@@ -200,14 +200,14 @@ part_setting(python,typhon_helper_python,atom,'','Now typhon_helper_process:pyth
 part_setting(python,typhon_nxt_helper,atom,'','Now typhon_nxt_link:python','bridges/nxt/link').
 part_setting(python,typhon_nxt_link,atom,'','The Python of the helpers of bricks; \'\' for that of all helpers','bridges/nxt/link').
 part_setting(queue,typhon_subscribers,positive_integer,1000,'Messages of bridges that may wait for an agent','bridges/common/subscribers').
-part_setting(renew_seconds,typhon_page_sources,number,3,'A page that is looked at finds new hosts within so many seconds','tools/page/sources').
-part_setting(request_bytes,typhon_page_server,positive_integer,4000000,'A page takes no larger request than this','tools/page/server').
-part_setting(request_seconds,typhon_page_reception,positive_integer,20,'The head of a request takes no longer, and no longer its body','tools/page/server').
+part_setting(renew_seconds,typhon_page_sources,number,3,'Seconds between searches of a page for new hosts','tools/page/sources').
+part_setting(request_bytes,typhon_page_server,positive_integer,4000000,'Bytes of a request to a page, at most','tools/page/server').
+part_setting(request_seconds,typhon_page_reception,positive_integer,20,'Seconds for the head of a request, and for its body','tools/page/server').
 part_setting(rest_seconds,typhon_carrier,number,1,'Now typhon_node_process:rest_seconds','network/node_process').
 part_setting(rest_seconds,typhon_node_process,number,1,'Agents of a network have so long to come to rest when it stops','network/node_process').
 part_setting(restart_seconds,typhon_restarts,number,60,'The time that this number is for','network/restarts').
 part_setting(restarts,typhon_restarts,nonneg,10,'A process of a network is started again so often','network/restarts').
-part_setting(seconds,typhon_inventory,number,2,'A table waits so long for the other processes of a network','tools/inventory').
+part_setting(seconds,typhon_inventory,number,2,'Seconds for which a table waits for other processes of a network','tools/inventory').
 part_setting(seconds,typhon_survey,number,2,'Now typhon_inventory:seconds','tools/inventory').
 part_setting(silent_seconds,typhon_postgresql,positive_integer,10,'Seconds without data after which the machine of a database server is taken to be gone','options/journal/postgresql').
 part_setting(ssh,typhon_children,atom,ssh,'The program that reaches other machines','network/children').

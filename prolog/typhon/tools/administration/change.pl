@@ -14,14 +14,14 @@
                 agent_program/4, agent_state/2, with_agent/2 ]).
 :- use_module('../../kernel/lifecycle', [order_give/3]).
 
-/** <module> Agents are changed from outside
+/** <module> Changes of agents from outside
 
-A program is read where the order is given, and goes along with it; the
-agent gets a module below that of the new program, with the state that it
-has.
+The process that gives the order reads a new program and sends it with the
+order.  The agent gets a module below that of the new program, with its present
+state.
 
-*Threading*: any thread that may wait; the order is carried out by the worker
-that has the agent.
+*Threading*: any thread that may wait; the worker that has the agent carries out
+the order.
 */
 
 :- multifile
@@ -37,7 +37,7 @@ change_agent(Agent, Change) :-
     once(change_order(Change, Order)),
     order_give(Agent, change(Order), _).
 
-%   change_order(+Change, -Order): what is sent to an agent that is to Change:
+%   change_order(+Change, -Order): the order that is sent for Change:
 %   facts(Clauses) or program(Hash, Sent).
 
 typhon_names:known(agent_change, facts('Clauses')).
@@ -85,7 +85,7 @@ change_made(program(Hash, Sent), Id) :-
     agent_module(Id, Place, Hash, state(Declared, Clauses), Module),
     with_agent(Id, agent_program(Id, Hash, Module, Life)).
 
-%   A part of its host may forbid it: no other host would admit it.
+%   A part of the host may forbid it, since no other host would admit the agent.
 
 may_change(Id, Sent) :-
     (   agent(Id, Host, _, _, _),
@@ -104,8 +104,8 @@ not_static(program(_, _, _, Static), Clause) :-
     ;   true
     ).
 
-%   What the agent has made part of its state itself, or has of a payload, may
-%   be added to as well.
+%   Clauses may also be added to predicates that the agent has made part of its
+%   state itself, or has from a payload.
 
 in_state(Program, Module, Clause) :-
     clause_parts(Clause, Head, _),

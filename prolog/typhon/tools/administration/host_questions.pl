@@ -20,9 +20,9 @@
                 parts_load/1, peer_may/3, place_offer/2, process_ask/6,
                 remote/2, scheduler_limit/2 ]).
 
-/** <module> Hosts anywhere: what they are, their links, and changes
+/** <module> Properties, links and changes of hosts, here and elsewhere
 
-A host of another process is asked by a request of kind `hosting`.
+A host of another process gets a request of kind `hosting`.
 
 *Threading*: any thread.  Requests are answered in the threads of
 connections.  A change, and the start and the end of a host, exclude each other
@@ -65,7 +65,7 @@ property(remote(Host, Name, Endpoint), Property) :-
     (   Properties == none
     ->  host_unknown(Host)
     ;   findall(Property, member(Property, Properties), Found),
-        member(Property, Found)         % leaves no choice where one is asked
+        member(Property, Found)         % no choice point for one property
     ).
 
 local_property(address(Address), Name) :-
@@ -108,7 +108,7 @@ must_be_cost(Cost) :-
     ;   domain_error(cost, Cost)
     ).
 
-%   First what may fail, so that no half of a link is left.
+%   The change that may fail comes first, so that no half of a link is left.
 
 make_link(A, B, Change) :-
     ends(A, B, Near, Far),
@@ -121,7 +121,7 @@ unlink_hosts(A, B) :-
     one_way(Near, Far, unlink),
     one_way(Far, Near, unlink).
 
-%   ends(+A, +B, -Near, -Far): their addresses, that of a host of this process
+%   ends(+A, +B, -Near, -Far): the addresses, that of a host of this process
 %   first.
 
 ends(A, B, Near, Far) :-
@@ -169,7 +169,7 @@ hosting_question(link(Cost), Name, To, link(Name, To, Cost)).
 hosting_question(unlink, Name, To, unlink(Name, To)).
 
                 /*******************************
-                *             ASKING           *
+                *           REQUESTS           *
                 *******************************/
 
 ask(Endpoint, Host, Question, Answer) :-

@@ -16,7 +16,7 @@
               [ agent_ask/4, agent_ask_here/4, agent_named/2, held_parts/3,
                 question_answered/2 ]).
 
-/** <module> What can be seen of an agent
+/** <module> Properties of agents
 
 *Threading*: any thread.
 */
@@ -37,7 +37,7 @@ property_of_agent(Agent, Property0) :-
     call(Ask, Id, Question, 10, answer(Properties)),
     one_of(Property, Properties).
 
-%   One of all agents here may have left meanwhile: it is not followed.
+%   An agent that leaves during the enumeration is not followed.
 
 known_as(Agent, Agent, agent_ask_here) :-
     var(Agent),
@@ -46,7 +46,7 @@ known_as(Agent, Agent, agent_ask_here) :-
 known_as(Agent, Id, agent_ask) :-
     agent_named(Agent, Id).
 
-%   Those there are follow from the clauses.
+%   The clauses of property/2 give the other names.
 
 typhon_names:known(agent_property, mailbox(_)).
 typhon_names:known(agent_property, Property) :-
@@ -67,7 +67,7 @@ named_host(Name, Address) :-
           error(existence_error(host, _), _),
           fail).
 
-%   A mailbox may be long: it comes only if it is wanted.
+%   A mailbox may be long, so it is sent only on request.
 
 question(Property, Question) :-
     var(Property),
@@ -77,7 +77,7 @@ question(mailbox(_), mailbox) :-
     !.
 question(_, properties).
 
-%   There is one property of each name: people are not asked for more.
+%   A property has one value, so no choice point is left.
 
 one_of(Property, Properties) :-
     (   var(Property)
@@ -86,7 +86,7 @@ one_of(Property, Properties) :-
     ).
 
                 /*******************************
-                *             HERE             *
+                *          THIS PROCESS        *
                 *******************************/
 
 typhon_questions:here(properties, Agent, Asker) :-

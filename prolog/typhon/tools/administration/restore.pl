@@ -62,7 +62,7 @@ load_agent(File, Agent, Options) :-
 
 %!  restore_point(+File, +Image) is det.
 %
-%   Write a restore point of what is not an agent of a running host: Image is
+%   Write a restore point of an agent that is on no running host: Image is
 %   image(Name, Program, Life, State, Goals, Mail), Program as of code_sent/2.
 
 restore_point(File, Image) :-
@@ -79,7 +79,7 @@ format_version(1).
 %   write_image(+File, +Image), read_image(+File, -Image): Image is
 %   image(Name, Sent, Life, State, Goals, Mail), Sent as of code_sent/2.
 
-%   A former restore point in File stays if this one cannot be written.
+%   If the text cannot be made, an earlier restore point in File is kept.
 
 write_image(File, Image) :-
     with_output_to(string(Text), forall(line(Image, Line), write_line(Line))),

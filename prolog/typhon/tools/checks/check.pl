@@ -14,7 +14,7 @@
 :- use_module(doubts, [apart_problem/3, program_doubts/3, unknown_problems/2]).
 :- use_module(goal_lines, [problem_at_goal/2]).
 
-/** <module> What is wrong with a program, for people
+/** <module> Implementation of agent_check/1 and agent_check/2
 
 *Threading*: any thread.
 */
@@ -48,7 +48,7 @@ check_program(Spec, Options) :-
     ).
 
 %   objection(+Options, +Program, -Objection) is nondet: an option of the
-%   process has an objection Where-Formal to program(Rules, Libraries), where
+%   process objects to program(Rules, Libraries) by Objection, Where-Formal.
 %   Rules are pairs Rule-Location.  Where is unbound if it is not known.
 
 no_objections(Options, Spec, Located) :-
@@ -91,8 +91,8 @@ payload_problems(Located, Errors, Warnings) :-
     payload_terms(Located, _, Errors0),
     moves(Errors0, Located, Errors, Warnings).
 
-%   moves(+Errors0, +Located, -Errors, -Warnings): as of a program, but that a
-%   payload may change what it provides.
+%   moves(+Errors0, +Located, -Errors, -Warnings): as for a program, but a
+%   payload may change the predicates that it provides.
 
 moves([Error|Errors], _, [Error|Errors], []).
 moves([], Located, Errors, Warnings) :-

@@ -5,29 +5,30 @@
               [append/3, intersection/3, member/2, memberchk/2, union/3]).
 :- use_module('../../kernel/program', [body_calls/2, built_in/1, is_mobile/2]).
 
-/** <module> Choices that an agent gives up, and seems to count on
+/** <module> Choice points that a stop discards, and the program seems to rely
+on
 
-A control predicate commits: what was left to try when an agent stops is
-not tried later.  Whoever writes
+A control predicate commits: choice points that exist when an agent stops are
+discarded.  The author of
 
     member(Host, Hosts), move(Host), look_around, fail
 
-expects another hop for each of Hosts, and gets one.  That is a problem
-here when, in one conjunction of a clause,
+expects another hop for each of Hosts, and gets one hop.  That is reported as a
+problem when, in one conjunction of a clause,
 
-  1. a goal leaves choices,
-  2. after it, and no cut, an agent can stop,
-  3. after that, and no cut, stands a goal that is there to fail.
+  1. a goal leaves choice points,
+  2. after it, without a cut in between, an agent can stop,
+  3. after that, without a cut in between, a goal is meant to fail.
 
-What leaves choices is a goal that is known to (member/2, between/3, sense/1
-and the like, where they bind a variable that occurs there for the first
-time, or a predicate of several facts that is called so), a disjunction, and
-another clause with a head that is at least as general, unless something
-before the stop may be there to choose between the two.  Before a plain
-`fail` it is also retract/1, and any predicate that may have several clauses.
-What is there to fail is fail/0, a comparison, a type test, \+, memberchk/2,
-forall/2, sense/1 and take/1; and the stop itself, if it is a receive with a
-timeout.  What stands in a condition is there for this condition.
+Choice points are left by goals that are known to leave them (member/2,
+between/3, sense/1 and others, if they bind a variable that occurs there for the
+first time, or a predicate of several facts that is called so), by a
+disjunction, and by another clause whose head is at least as general, unless a
+goal before the stop may be meant to choose between the two clauses.  Before a
+plain `fail` this also holds for retract/1, and for any predicate that may have
+several clauses.  Goals that are meant to fail are fail/0, a comparison, a type
+test, \+, memberchk/2, forall/2, sense/1 and take/1; and the stop itself, if it
+is a receive with a timeout.  A goal in a condition belongs to that condition.
 
 *Threading*: pure.
 */
@@ -35,7 +36,7 @@ timeout.  What stands in a condition is there for this condition.
 %!  lost_choice(+Clauses, +Own, -Problem) is nondet.
 %
 %   Clauses are rules, each with its location; Own is own(State, Mobile): the
-%   predicate indicators of what is mutable, and of what can reach a control
+%   indicators of mutable predicates, and of predicates that can reach a control
 %   predicate.  There is at most one Problem for each clause,
 %   problem(lost_choice(Choice, Control, Test), Location, commits(Choice)),
 %   of three predicate indicators; Choice may be `clause`.
@@ -67,16 +68,16 @@ other_clause(Later, Head, Left) :-
                 *            A BODY            *
                 *******************************/
 
-%   walk(+Body, +Program, +Path0, -Path)//: what is lost in Body, as
-%   lost(Choice, Control, Test).
+%   walk(+Body, +Program, +Path0, -Path)//: the choice points that Body
+%   discards, as lost(Choice, Control, Test).
 %
-%   A path is path(Seen, Left, Lost), or `dead` behind a fail/0.  Seen is a
-%   term of the variables so far.  Left are choices Kind-PI that are there
-%   now, Lost those that were given up, as Kind-PI-Control.  Kind is
+%   A path is path(Seen, Left, Lost), or `dead` after a fail/0.  Seen is a term
+%   with the variables so far.  Left are the present choice points Kind-PI, Lost
+%   those that were discarded, as Kind-PI-Control.  Kind is
 %
 %     - sure: there is more than one solution
 %     - other: another clause, or the other side of a disjunction
-%     - chosen: the same, but a goal was there to choose
+%     - chosen: the same, but a goal may have chosen between them
 %     - maybe: there may be more than one solution
 
 walk(_, _, dead, dead) -->
@@ -133,8 +134,8 @@ walk(Goal, Program, Path0, Path) -->
     fails(Goal, Path1),
     { goes_on(Goal, Program, Path1, Path) }.
 
-%   condition(+If, +Program, +Path0, -Path)//: when If fails, nothing before
-%   it is tried again.
+%   condition(+If, +Program, +Path0, -Path)//: when If fails, no goal before it
+%   is retried.
 
 condition(If, Program, Path0, Path) -->
     { Path0 = path(Seen, _, _) },
@@ -154,8 +155,8 @@ fails(Goal, path(_, Left, Lost)) -->
 fails(_, _) -->
     [].
 
-%   failing(+Goal, +Left, -Kinds) is semidet: if Goal fails, choices of Kinds
-%   were meant, and not those that are Left.
+%   failing(+Goal, +Left, -Kinds) is semidet: the failure of Goal is meant for
+%   discarded choice points of Kinds, and not for those that are Left.
 
 failing(Goal, Left, [sure,other,chosen,maybe]) :-
     is_fail(Goal),
@@ -180,8 +181,8 @@ stopped(Goal, own(_, Mobile)-_, path(Seen, Left, Lost0),
     append(Given, Lost0, Lost).
 stopped(Goal, _, path(Seen, Left, Lost), path(Seen-Goal, Left, Lost)).
 
-%   goes_on(+Goal, +Program, +Path0, -Path): behind Goal, which does not
-%   matter any more as a stop.
+%   goes_on(+Goal, +Program, +Path0, -Path): the path after Goal; stopped/4 has
+%   dealt with its stop.
 
 goes_on(Goal, _, _, dead) :-
     is_fail(Goal),
@@ -217,10 +218,10 @@ joined(path(Seen1, Left1, Lost1), path(Seen2, Left2, Lost2),
     union(Lost1, Lost2, Lost).
 
                 /*******************************
-                *    WHAT A GOAL IS THERE FOR  *
+                *       PURPOSE OF A GOAL      *
                 *******************************/
 
-%   As far as can be known without running it; doubtful goals are not reported.
+%   As far as it is known statically; doubtful goals are not reported.
 
 indicator(Goal, Name/Arity) :-
     functor(Goal, Name, Arity).
@@ -228,7 +229,7 @@ indicator(Goal, Name/Arity) :-
 is_fail(fail).
 is_fail(false).
 
-%   is_test(+Goal) is semidet: it is there to fail.
+%   is_test(+Goal) is semidet: Goal is meant to fail.
 
 is_test(Goal) :-
     indicator(Goal, PI),
@@ -239,7 +240,7 @@ is_test(Goal) :-
                     memberchk/2, forall/2, sense/1, take/1, receive/2,
                     receive_until/2 ]).
 
-%   chooses(+Goal) is semidet: it may be there to choose between clauses.
+%   chooses(+Goal) is semidet: Goal may be meant to choose between clauses.
 
 chooses(Goal) :-
     is_test(Goal),
@@ -277,8 +278,8 @@ solutions(Goal, _, own(State, _)-Clauses, maybe) :-
     ;   true
     ).
 
-%   finds(+Goal, -What) is semidet: Goal has several solutions where What is
-%   not bound.
+%   finds(+Goal, -What) is semidet: Goal has several solutions if What is
+%   unbound.
 
 finds(member(X, List), X) :- \+ subsumes_term([_], List).
 finds(select(X, _, _), X).
@@ -296,8 +297,8 @@ finds(sense(Fact), Fact).
 finds(pheromone(Problem, Source, _), [Problem,Source]).
 finds(neighbour(Host, _), Host).
 
-%   facts(+Goal, +Clauses, -What): Goal has several clauses, all facts, and
-%   What would choose one.
+%   facts(+Goal, +Clauses, -What): Goal has several clauses, all facts, and What
+%   would choose one of them.
 
 facts(Goal, Clauses, What) :-
     compound(Goal),

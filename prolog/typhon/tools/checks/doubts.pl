@@ -12,19 +12,19 @@
                 library_directive/2, near_built_in/2, part/3 ]).
 :- use_module(choices, [lost_choice/3]).
 
-/** <module> What a program says, and hardly means
+/** <module> Warnings: likely mistakes in a program
 
 Doubts do not keep a program from running.  They are problems as in
 typhon_parts.
 
-*Threading*: pure, but that a library is looked up.
+*Threading*: pure, except that a library is looked up.
 */
 
 %!  program_doubts(+Located, +Kinds, -Warnings:list) is det.
 %
-%   What the agent program Located, terms with their locations, hardly means.
-%   Kinds are those of its predicates: where they are none, its clauses are
-%   faulty.
+%   Warnings are the likely mistakes in the agent program Located, terms with
+%   their locations.  Kinds are those of its predicates; without any, its
+%   clauses are faulty.
 
 program_doubts(_, [], []) :-
     !.
@@ -44,9 +44,9 @@ doubtful(Parts, Kinds, Problem) :-
 
 %!  apart_problem(+Rules, +Known, -Problem) is nondet.
 %
-%   A predicate has clauses of others between its own.  Rules have their
-%   locations; Known is Directives-State, State being the predicate indicators
-%   of what is mutable.
+%   PI has clauses of other predicates between its own.  Rules have their
+%   locations; Known is Directives-State, where State are the indicators of
+%   mutable predicates.
 
 apart_problem(Rules, Directives-State,
               problem(discontiguous(PI), Location, discontiguous(PI))) :-
@@ -54,7 +54,7 @@ apart_problem(Rules, Directives-State,
     \+ memberchk(PI, State),
     \+ declared_discontiguous(Directives, PI).
 
-%   One that is changed is neither in the program nor in State.
+%   A changed predicate is neither in the program nor in State.
 
 undeclared_problem(Rules, State,
                    problem(undeclared_state(PI), Location, undeclared(PI))) :-
@@ -63,13 +63,15 @@ undeclared_problem(Rules, State,
     \+ defined(Rules, PI),
     \+ hidden(PI).
 
-%   What the vocabulary keeps in an agent is none of the program's business.
+%   The vocabulary keeps such predicates in an agent; programs do not declare
+%   them.
 
 hidden(Name/_) :-
     sub_atom(Name, 0, _, _, $).
 
 %   apart(+Clauses, -PI, -Location) is nondet: a clause of PI is at Location,
-%   others are before it, and what is directly before it is none.
+%   others are before it, and the clause directly before it is of another
+%   predicate.
 
 apart(Clauses, PI, Location) :-
     append(Before, [Clause-Location|_], Clauses),
@@ -97,16 +99,17 @@ changed(Clauses, PI, Location) :-
     member(changes(PI), Calls).
 
                 /*******************************
-                *  WHAT NOTHING HERE DEFINES   *
+                *     UNDEFINED PREDICATES     *
                 *******************************/
 
-%   A place or a payload may define it, or the name is mistyped.
+%   A place or a payload may define them, or the name is mistyped.
 
 %!  unknown_problems(+Located, -Problems:list) is det.
 %
-%   Problems are unknown_procedure(PI) for each predicate that the agent
-%   program Located calls, and neither it nor Prolog nor the vocabulary
-%   defines.  What the program changes is its state, declared or not.
+%   Problems are unknown_procedure(PI) for each predicate that the agent program
+%   Located calls, and that neither the program nor Prolog nor the vocabulary
+%   defines.  Predicates that the program changes are its state, declared or
+%   not.
 
 unknown_problems(Located, Problems) :-
     file_parts(agent, Located, Parts, _),
@@ -160,9 +163,9 @@ exported(Module, PI) :-
 
 %!  unknown_advice(+PI, +Own:list, -Advice) is det.
 %
-%   Advice, see typhon_problem_text, says what to do about a call of PI in a program
-%   whose own predicates are Own: import library(typhon), or call what has the
-%   same name and another arity, or a name like it.
+%   Advice, see typhon_problem_text, proposes a fix for a call of PI in a
+%   program whose own predicates are Own: import library(typhon), or call a
+%   predicate with the same name and another arity, or with a similar name.
 
 unknown_advice(PI, _, of_library(typhon)) :-
     exported(typhon, PI),

@@ -5,11 +5,11 @@
 :- autoload(library(readutil), [read_file_to_string/3]).
 :- use_module('../../kernel/program', [source_clause/2]).
 
-/** <module> The line of the goal that is meant
+/** <module> The line of the goal that a problem is about
 
-Problems are found by clauses, and stand where these begin.  Before one is
-printed or raised its clause is read again, with the positions of its parts,
-for the line of the goal, or of the variable, that it is about.
+Problems are found clause by clause, and have the line at which the clause
+begins.  Before a problem is printed or raised, its clause is read again with
+the positions of its parts, for the line of its goal or variable.
 
 *Threading*: any thread.
 */
@@ -21,7 +21,7 @@ typhon_programs:problem_at_goal(Problem0, Problem) :-
 
 %!  problem_at_goal(+Problem0, -Problem) is det.
 %
-%   Problem is Problem0 at the line of its goal.  It stays where it is if that
+%   Problem is Problem0 at the line of its goal.  Its line is unchanged if that
 %   goal is not found, as in clauses that were not read from a file.
 
 problem_at_goal(problem(Formal, File:Line0, Advice),
@@ -85,7 +85,7 @@ is_target(change(Name/Arity), Part, At, Offset) :-
     functor(Head, Name, Arity),
     begins(At, Offset).
 
-%   calls(+Term, +PI) is semidet: it has the name, and so many arguments, or
+%   calls(+Term, +PI) is semidet: Term has the name, and as many arguments, or
 %   fewer if some are added to it.
 
 calls(Term, Name/Arity) :-
@@ -93,8 +93,8 @@ calls(Term, Name/Arity) :-
     functor(Term, Name, N),
     N =< Arity.
 
-%   part(+Term, +Layout, -Part, -At) is nondet: Part, of Term, stands At; what
-%   comes first is first.
+%   part(+Term, +Layout, -Part, -At) is nondet: Part of Term is at At; in the
+%   order of the text.
 
 part(Term, Layout, Part, At) :-
     nonvar(Layout),
@@ -125,7 +125,7 @@ argument(List, list_position(_, _, Ats, At), Tail, At) :-
 begins(Layout, Offset) :-
     arg(1, Layout, Offset).
 
-%   Offset is that of a character.
+%   Offset counts characters.
 
 line_at(File, Offset, Line) :-
     read_file_to_string(File, Text, [encoding(utf8)]),

@@ -10,11 +10,12 @@
 
 /** <module> Warnings about programs that are read
 
-What is doubtful about a program is printed when it is read, and not again
-while it is the same.  Calls of what it does not define are kept until an agent
-is created from it: what that agent brings, or finds, may define them.
+Warnings about a program are printed when it is read, and not again until it
+changes.  Warnings about calls of predicates that it does not define are kept
+until an agent is created from it: payloads of the agent, or its place, may
+define them.
 
-*Threading*: any thread.  One mutex is held to remember.
+*Threading*: any thread.  A mutex protects the record.
 */
 
 :- multifile
@@ -23,8 +24,8 @@ is created from it: what that agent brings, or finds, may define them.
     typhon_loaded:unknown/3,
     typhon_on_demand:joins/2.
 
-%   File or hash of clauses, Sources, Hash, Unknown: warnings of the program were
-%   printed, but not yet those of the calls Unknown.
+%   Columns: file, or hash of clauses; Sources; Hash; Unknown.  The warnings of
+%   the program were printed, except those of the calls Unknown.
 
 :- dynamic warned/4.
 
@@ -67,7 +68,7 @@ typhon_loaded:unknown(Hash, State, Offered) :-
     warned(Key, Sources, Hash, Unknown),
     Unknown = [_|_],
     assertz(warned(Key, Sources, Hash, [])),
-    retract(warned(Key, Sources, Hash, Unknown)), % another thread may have
+    retract(warned(Key, Sources, Hash, Unknown)), % one thread succeeds
     !,
     forall(( member(Problem, Unknown),
              Problem = problem(unknown_procedure(PI), _, _),

@@ -22,9 +22,10 @@
 :- use_module(overlays, [mechanism_file/2]).
 :- use_module(protocol, [name_text/2, text/2]).
 
-/** <module> What browsers may do, where a page is not for looking only
+/** <module> Orders of browsers, on a page that is not read-only
 
-Each is what a program would do with library(typhon).  Terms come as text.
+Each order does what a program would do with library(typhon).  Terms are sent as
+text.
 
   | do            | with                                                    |
   | ------------- | ------------------------------------------------------- |
@@ -45,7 +46,7 @@ Each is what a program would do with library(typhon).  Terms come as text.
   | network_stop  | `network`                                               |
   | mechanism     | `mechanism`, `predicate`, `arguments`: `hosts` or texts |
 
-An answer is _{done, said}: what came of it, and what was printed.
+An answer is _{done, said}: the result, and the printed messages.
 
 *Threading*: any thread that may wait.
 */
@@ -53,7 +54,7 @@ An answer is _{done, said}: what came of it, and what was printed.
 %!  act(+Message:dict, -Answer:dict) is det.
 %
 %   @error domain_error(page_order, What), existence_error(page_field, Key), and
-%   those of what is done
+%   the errors of the order
 
 act(Message, _{done:Done, said:Said}) :-
     name_in(do, Message, What),
@@ -170,7 +171,7 @@ two_hosts(Message, A, B) :-
 discard(File) :-
     ( exists_file(File) -> delete_file(File) ; true ).
 
-%   The answer of another process may be lost with it.
+%   The process may end before its answer is sent, so its thread runs the stop.
 
 stop_at(local(Name)) :-
     host_stop(Name).
@@ -182,7 +183,7 @@ stop_at(remote(Address, Name, _)) :-
     prolog:error_message//1.
 
 prolog:error_message(page_failed(What)) -->
-    [ '~w: this was not possible'-[What] ].
+    [ '~w failed'-[What] ].
 
                 /*******************************
                 *          MECHANISMS          *
@@ -191,11 +192,11 @@ prolog:error_message(page_failed(What)) -->
 %   mechanism_run(+Mechanism, +Name, +Arguments:list, -Results) is det.
 %
 %   Call the predicate Name of the operator of Mechanism.  An argument is text,
-%   read as Prolog; a list of addresses; or empty, if it is to be told: Results
-%   are texts of these.
+%   read as Prolog; a list of addresses; or empty for an output: Results are the
+%   texts of these.
 %
 %   @error existence_error(mechanism, Mechanism), existence_error(procedure, PI)
-%   @error page_failed(PI), and what the operator raises
+%   @error page_failed(PI), and the errors of the operator
 
 mechanism_run(Mechanism, Name, Arguments, Results) :-
     operator(Mechanism, Module),

@@ -18,31 +18,31 @@
 
 /** <module> The connected browsers, and the events that they get
 
-Events go into one queue.  A thread takes what has come together there, makes
-one text of it, twenty times a second at the most, and puts that into the
-queues of all browsers.  A browser that does not take them fast enough loses
-some, and gets their number.
+Events go into one queue.  A server takes the events that have gathered there,
+converts them into one text, at most twenty times a second, and puts that into
+the queues of all browsers.  Events that a browser does not read fast enough are
+dropped, and it gets their number.
 
-*Threading*: any thread tells; a server makes texts; each browser has a thread,
-which sends them, and one that notices when it goes.
+*Threading*: any thread adds events; the server makes texts; each browser has a
+thread that sends them, and one that detects when it disconnects.
 */
 
 :- meta_predicate browser_serve(1, +).
 
 :- setting(browsers, positive_integer, 32,
-           "So many browsers may look at a page at a time").
+           "Browsers that may be connected to a page at a time").
 :- setting(frame_seconds, number, 0.05,
-           "A page tells its browsers of events once in so many seconds").
+           "Seconds between two texts with events that a page sends").
 :- setting(frame_events, positive_integer, 2000,
-           "A page tells its browsers of so many events at a time").
+           "Events in a text that a page sends").
 :- setting(heartbeat_seconds, number, 5,
-           "A page says so often that it is there, when nothing happens").
+           "Seconds without events after which a page sends a heartbeat").
 
 :- dynamic
     browser/3,                  % Queue, Thread, Skipped: events
     teller/1.                   % Server
 
-%   Of events, and of texts for one browser.
+%   The sizes of the queue of events, and of the queue of texts for one browser.
 
 queue_size(20 000).
 frames_waiting(40).
@@ -54,7 +54,7 @@ frames_waiting(40).
 %!  browsers_start is det.
 %!  browsers_stop is det.
 %
-%   Browsers that are connected when it stops are notified, and go within
+%   Connected browsers get a close frame, and their connections end within
 %   seconds.
 
 browsers_start :-
@@ -76,7 +76,7 @@ stop(Teller) :-
     Deadline is Now+5,
     wait_until_gone(Deadline).
 
-%   One whose queue is full hangs: its connection is broken off.
+%   The thread of a browser whose queue is full blocks, so it is interrupted.
 
 send_away(Browser) :-
     browser(Browser, Thread, _),
@@ -101,8 +101,8 @@ wait_until_gone(_) :-
 
 %!  browsers_tell(+Event) is det.
 %
-%   Event, as of watch/3, is sent to all browsers.  Waits while too many
-%   others are still to be sent.
+%   Send Event, as of watch/3, to all browsers.  Waits while too many others are
+%   still to be sent.
 
 browsers_tell(Event) :-
     (   teller(Teller)
@@ -119,7 +119,7 @@ browsers_there :-
     !.
 
 %   The state is frame(Due, Count, Events), the newest first: they are sent when
-%   Due has come and nothing more waits, or when there are enough.
+%   Due has come and no more events wait, or when there are enough.
 
 :- public gathers/3.
 
@@ -164,8 +164,8 @@ tell_frame(Events, _) :-
     length(Events, Count),
     forall(browser(Browser, _, _), give(Browser, Text, Count)).
 
-%   Only the teller puts anything into the queue of a browser, so what
-%   fits now fits then.
+%   Only the server puts texts into the queue of a browser, so a text for which
+%   there is space now still fits later.
 
 give(Browser, Text, Count) :-
     (   has_room(Browser)
@@ -174,7 +174,8 @@ give(Browser, Text, Count) :-
     ;   with_mutex(typhon_page, skipped(Browser, Count))
     ).
 
-%   It may have gone.  A check meanwhile whether there are any finds it.
+%   The browser may have gone.  The new fact is added first, so that a
+%   concurrent check always finds the browser.
 
 skipped(Browser, Count) :-
     (   browser(Browser, Thread, Skipped)
@@ -211,9 +212,9 @@ put(Browser, Text) :-
 
 %!  browser_serve(:Scene, +WebSocket) is det.
 %
-%   Tell a browser all that happens, until it goes, or all stops, and close
-%   WebSocket.  What comes first says call(Scene, Dict); events from then on
-%   may be in it already.
+%   Send a browser all events until it disconnects, or the page stops, and close
+%   WebSocket.  The first text is the Dict of call(Scene, Dict); it may already
+%   include later events.
 
 browser_serve(Scene, WebSocket) :-
     setup_call_cleanup(
@@ -222,7 +223,7 @@ browser_serve(Scene, WebSocket) :-
         ( forget(Queue),
           catch(close(WebSocket, [force(true)]), error(_, _), true) )).
 
-%   It has gone, or is sent away.
+%   The browser has disconnected, or its thread was ended.
 
 ended(error(io_error(_, _), _)) :- !.
 ended(error(socket_error(_, _), _)) :- !.
@@ -257,8 +258,8 @@ forget(Queue) :-
     with_mutex(typhon_page, retractall(browser(Queue, _, _))),
     message_queue_destroy(Queue).
 
-%   A browser has nothing to say here but that it goes: whatever it sends is
-%   not read, and is the end.
+%   A browser sends nothing here but a close frame: any data that it sends are
+%   not read, and end the connection.
 
 while_it_listens(Queue, WebSocket) :-
     setup_call_cleanup(

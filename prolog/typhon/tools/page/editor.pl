@@ -18,17 +18,17 @@
               [ delete_directory_and_contents/1, directory_file_path/3,
                 make_directory_path/1 ]).
 
-/** <module> What is written at a browser, and printed for it
+/** <module> Texts that a browser sends, and messages printed for it
 
-Text that comes from a browser becomes a file, in a folder that is there as
-long as the page, so that it is read, checked and reported on as other programs
-are.  The same text is the same file.
+A text that a browser sends becomes a file, in a folder that exists as long as
+the page, so that it is read, checked and reported on like other programs.  The
+same text always becomes the same file.
 
 Messages of a thread that serves a browser are kept for that browser, and not
 printed at the terminal.
 
-*Threading*: any thread; each text has a folder of its own, messages are those
-of the thread.
+*Threading*: any thread; each text has its own folder, messages are those of the
+thread.
 */
 
 :- dynamic folder/1.
@@ -47,8 +47,8 @@ editor_stop :-
 
 %!  program_at(+Message:dict, -Spec) is det.
 %
-%   Spec is the program that Message means: a file of its `text`, or what
-%   `program` says, a file or a term as agents(census).
+%   Spec is the program in Message: a file with its `text`, or its `program`, a
+%   file or a term like agents(census).
 
 program_at(Message, File) :-
     get_dict(text, Message, Text),
@@ -81,8 +81,8 @@ text_file(Text, Name, File) :-
 
 %!  problem_dicts(+Messages, -Dicts) is det.
 %
-%   Dicts are _{kind, line, text} of messages as of saying/2; the line is 0
-%   where there is none.
+%   Dicts are _{kind, line, text} for messages as of saying/2; the line is 0 if
+%   the message has none.
 
 problem_dicts(Messages, Dicts) :-
     maplist(problem_dict, Messages, Dicts).
@@ -109,7 +109,7 @@ line_in(_:Line, Line) :-
     integer(Line).
 line_in(file(_, Line, _, _), Line).
 
-%   The line is reported separately.
+%   The line is reported in a field of its own.
 
 without_place(Text0, Text) :-
     string_concat("program.pl:", Rest, Text0),
@@ -122,7 +122,7 @@ without_place(Text, Text).
 
 %!  without_folder(+Text, -Short) is det.
 %
-%   Where files of the editor are is of no interest.
+%   Short is Text without the folder of the editor, which users need not see.
 
 without_folder(Text, Short) :-
     folder(Folder),
@@ -150,8 +150,8 @@ without_folder(Text, Text).
 %!  name_in(+Key, +Message:dict, -Name:atom) is det.
 %!  term_in(+Key, +Message:dict, +Default, -Term) is det.
 %
-%   What stands in Message under Key; a term is read as Prolog, and where it is
-%   missing or empty it is Default.
+%   Text, Name or Term is the field Key of Message; a term is read as Prolog,
+%   and is Default if the field is missing or empty.
 %
 %   @error existence_error(page_field, Key), page_syntax(Key, Error)
 
@@ -204,7 +204,7 @@ lines_text(Lines, Text) :-
                    print_message_lines(current_output, '', Lines)),
     split_string(Text0, "", " \n", [Text]).
 
-%   From where on it makes no sense.
+%   Place is the position of the syntax error.
 
 place_text(string(Text, Position), Place) :-
     integer(Position),
@@ -238,8 +238,8 @@ place_text(_, '').
 %!  saying(:Goal, -Messages:list) is semidet.
 %
 %   As once(Goal).  Messages are the errors and warnings that it prints in this
-%   thread, terms said(Kind, Term, Text).  They are not printed, and what only
-%   informs is neither.
+%   thread, terms said(Kind, Term, Text).  They are not printed, and neither are
+%   informational messages.
 
 saying(Goal, Messages) :-
     retractall(said(_, _, _)),
@@ -262,8 +262,8 @@ keep(Kind, Term, Lines) :-
 
 %!  on_console(:Goal) is semidet.
 %
-%   As once(Goal), with the output of the process.  Threads hand their output
-%   down to those that they create, and that of a request ends with it.
+%   As once(Goal), with the output of the process.  Threads inherit their output
+%   from their creator, and the output of a request ends with the request.
 
 on_console(Goal) :-
     current_output(Out),

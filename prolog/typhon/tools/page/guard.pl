@@ -11,12 +11,12 @@
 :- use_module(library(option), [option/2]).
 :- use_module('../../kernel/wire', [random_hex/2]).
 
-/** <module> Access to a page, and what a browser may do with it
+/** <module> Access to a page, and headers that restrict its browser
 
-The token gives access.  It is the first part of each path, so
-that scripts and styles of the page, whose addresses are relative, are
-guarded as well, and no cookie goes to other servers of the machine.  What
-another site makes a browser send is refused by its origin.
+The token gives access.  It is the first part of each path, so scripts and
+styles of the page, whose addresses are relative, are protected as well, and no
+cookie is sent to other servers of the machine.  Requests that another site
+makes a browser send are refused by their origin.
 
 *Threading*: any thread.
 */
@@ -28,7 +28,7 @@ token_new(Token) :-
 
 %!  token_right(+Given, +Token) is semidet.
 %
-%   In a time that does not tell how much of Given is right.
+%   The time does not depend on how much of Given is right.
 
 token_right(Given, Token) :-
     atom_codes(Given, A),
@@ -43,8 +43,8 @@ differences([A|As], [B|Bs], Sum0, Sum) :-
 
 %!  request_own(+Request) is semidet.
 %
-%   No other site has made a browser send Request: where there is an origin,
-%   it is the server itself.
+%   No other site has made a browser send Request: its origin, if there is one,
+%   is this server.
 
 request_own(Request) :-
     (   option(origin(Origin), Request)
@@ -63,7 +63,7 @@ authority(Host, Request, Authority) :-
 
 %!  request_within(+Request, +Bytes) is semidet.
 %
-%   The body of Request has a length, and is no longer.
+%   The body of Request has a known length, of at most Bytes.
 
 request_within(Request, Bytes) :-
     memberchk(content_length(Length), Request),
@@ -72,8 +72,9 @@ request_within(Request, Bytes) :-
 
 %!  guarding_headers is det.
 %
-%   Print headers: nothing from elsewhere, no script but our files, no frame
-%   around it, and the address, with the token, goes nowhere.
+%   Print headers: nothing is loaded from elsewhere, only our files run as
+%   scripts, no frame may enclose the page, and its address, with the token, is
+%   sent to no other site.
 
 guarding_headers :-
     forall(header(Name, Value), format('~w: ~w\r\n', [Name, Value])).
@@ -88,7 +89,7 @@ header('Cross-Origin-Opener-Policy', 'same-origin').
 header('Cross-Origin-Resource-Policy', 'same-origin').
 header('Cache-Control', 'no-store').
 
-%   A server that is stopped forgets connections that wait for more.
+%   A stopped server drops connections that wait for further requests.
 
 header('Connection', close).
 
@@ -117,9 +118,9 @@ policy('trusted-types \'none\'').
 
 %!  page_file(+Names:list(atom), -File, -Type) is semidet.
 %
-%   File is what the last parts of an address mean, and of Type.  No name
-%   leads out of the folder, hidden files are not served, and a zero, at which
-%   the system would end the name, is in no name.
+%   File is the file for the last parts of an address, and has Type.  No name
+%   leads out of the folder, hidden files are not served, and a name with a
+%   zero, at which the system would end the name, is refused.
 
 page_file([''], File, Type) :-
     !,

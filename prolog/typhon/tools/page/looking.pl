@@ -24,27 +24,27 @@
 :- use_module(editor, [name_in/3, on_console/1, text_in/3]).
 :- use_module(sources, [sources_look/1, sources_tree/1]).
 
-/** <module> Questions of browsers, and the answers
+/** <module> Queries of browsers, and the answers
 
   | ask        | with    | answer                                        |
   | ---------- | ------- | --------------------------------------------- |
-  | survey     |         | all that there is, as in the first message    |
-  | agent      | `agent` | all that can be seen of it, or its outcome    |
-  | host       | `host`  | all that can be seen of it                    |
-  | networks   |         | those that this process has started           |
-  | mechanisms |         | the operators of `agents/`, and what they take |
+  | survey     |         | all hosts and agents, as in the first message |
+  | agent      | `agent` | all properties of it, or its outcome          |
+  | host       | `host`  | all properties of it                          |
+  | networks   |         | the networks that this process has started    |
+  | mechanisms |         | the operators of `agents/`, and their arguments |
   | programs   |         | names of agent programs that are found        |
-  | tree       |         | supervisors and what is below them             |
+  | tree       |         | supervisors and the agents below them         |
   | world      |         | the picture of the world, SVG                 |
   | replay     | `title`, `text` | the log of that text, see module `replay` |
 
-Nothing here changes anything.
+A query changes nothing.
 
-With the option world(Goal) the page has a view of what surrounds the agents,
-as the rooms of a building, or fields.  call(Goal, Svg) gives its picture now,
-the text of an SVG document, which a browser asks for twice a second while it
-shows the view.  It shows it as an image: no script in it runs, and nothing that
-it refers to is loaded.
+With the option world(Goal) the page has a view of the surroundings of the
+agents, such as a floor plan, or fields.  call(Goal, Svg) gives its present
+picture, the text of an SVG document, which a browser requests twice a second
+while it shows the view.  The browser shows it as an image: no script in it
+runs, and nothing that it refers to is loaded.
 
 *Threading*: any thread that may wait; several may call Goal.  One thread at a
 time starts and stops the world.
@@ -62,7 +62,7 @@ look(Message, Answer) :-
 look(Message, _) :-
     domain_error(question, Message).
 
-%   So many facts, and messages, are still read.
+%   Longer lists of facts, or messages, are not readable.
 
 most(300).
 
@@ -166,8 +166,8 @@ mail_row(Message, [FromText, Text]) :-
         text(Message, Text)
     ).
 
-%   Its listing has comments where facts and goals begin, which are shown
-%   apart; and an arrow where it stands.
+%   The listing has comments where facts and goals begin, which the page shows
+%   elsewhere, and an arrow at the present goal.
 
 program_dict(Agent, _{lines:Lines, here:Here}) :-
     with_output_to(string(Text), agent_listing(Agent)),
@@ -274,7 +274,7 @@ network_dict(_{name:Name, hosts:HostTexts, seed:Seed, processes:Pids}) :-
 %!  world_stop is det.
 %!  world_shown is semidet.
 %
-%   While a page is served; world_shown/0 is true if it has a world.
+%   Set and remove the world of the page; the page has a world.
 
 world_start(Options) :-
     (   option(world(Goal), Options)
@@ -288,7 +288,7 @@ world_stop :-
 world_shown :-
     shown(_).
 
-%   @error existence_error(page_view, world), and what Goal raises
+%   @error existence_error(page_view, world), and the errors of Goal
 
 world_picture(Svg) :-
     (   shown(Goal)

@@ -19,39 +19,40 @@
 :- use_module(protocol, [event_row/2, name_text/2, number_told/2, text/2]).
 :- use_module('../../kernel/program', []).        % where agents(Name) is found
 
-/** <module> What the page knows of the programs in agents/
+/** <module> Overlays and mechanisms: what the page reads in agents/
 
-An agent program, or the file of a study, declares what the map shows with facts
+An agent program, or the file of a study, declares what the map shows by facts
 
     overlay(Title, Kind, When, Value).
 
-When something happens that is an instance of When, which is log(Term),
-leave(Fact) or take(Fact), Value is shown on the host where it happened:
+When an event happens that is an instance of When, which is log(Term),
+leave(Fact) or take(Fact), Value is shown on the host of the event:
 
-  - a number or another term: that; `none` ends what is shown
+  - a number or another term: that; `none` removes the value
   - Host-Term: Term on Host
   - (A,B)-Term: Term on the link of A and B, if Kind is `link`
   - add(N), Host-add(N): the sum of such numbers
 
-Kind is `bar` for numbers that are compared, `label` for words, `colour` for
-words that stand for kinds, `link` for what belongs to links.  These facts are
-read as data, never called: the file is not loaded for them, and agents that
-have them do nothing with them.
+Kind is `bar` for numbers to compare, `label` for words, `colour` for words that
+denote kinds, `link` for values of links.  These facts are read as data, never
+called: the file is not loaded for them, and agents that have them do not use
+them.
 
-The operator of a mechanism is the module by which people use it.  What its
-predicates take is read from their comments: no mechanism is known by name.
+The operator of a mechanism is the module by which users control it.  The
+arguments of its predicates are read from their comments: no mechanism is known
+by name.
 
-*Threading*: starting and stopping are done by one thread at a time; any
-thread asks. Files are read again each time.
+*Threading*: one thread at a time starts and stops; any thread queries.  Files
+are read again each time.
 */
 
-:- dynamic shown/1.                     % what a page that is served shows
+:- dynamic shown/1.                     % overlays of the page that is served
 
 %!  overlays_start(+Files) is det.
 %!  overlays_stop is det.
 %!  overlays_shown(-Dicts) is det.
 %
-%   While a page is served, it shows those of agents/ and of Files.
+%   A page shows the overlays of agents/ and of Files while it is served.
 
 overlays_start(Files) :-
     overlays_declared(Files, Overlays),
@@ -68,9 +69,9 @@ overlays_shown(Dicts) :-
 
 %!  overlays_declared(+Files, -Overlays:list) is det.
 %
-%   The facts overlay/4 in Files, and in all files below agents/; of each file
-%   for itself, not of what it includes.  Terms that cannot be read are passed
-%   over.
+%   Overlays are the facts overlay/4 in Files, and in all files below agents/,
+%   each file without the files that it includes.  Terms that cannot be read are
+%   skipped.
 %
 %   @error existence_error(source_sink, File)
 
@@ -116,7 +117,7 @@ is_overlay(Term) :-
 
 %!  overlay_dicts(+Overlays, -Dicts:list) is det.
 %
-%   What the page has to know of them: each title once.
+%   Dicts describe them for the page: each title once.
 
 overlay_dicts(Overlays, Dicts) :-
     findall(Title-Kind, member(overlay(Title, Kind, _, _), Overlays), Known),
@@ -129,9 +130,9 @@ overlay_dict(Title-Kind, _{name:Name, kind:KindText}) :-
 %!  event_rows(+Events, -Rows:list) is det.
 %!  event_rows(+Events, +Overlays, -Rows:list) is det.
 %
-%   Events, as of watch/3, as they are sent to the browser; each is followed by
-%   rows of what it changes in Overlays, those of the page that is served:
-%   [Time, Host, Agent, "show" or "add", Title, Where, Value].
+%   Rows are Events, as of watch/3, in the form for the browser.  After each
+%   event are rows for its changes of Overlays, by default those of the page
+%   that is served: [Time, Host, Agent, "show" or "add", Title, Where, Value].
 
 event_rows(Events, Rows) :-
     (   shown(Overlays)
@@ -197,7 +198,7 @@ value(Term, Kind, Text) => Kind = "show", text(Term, Text).
 
 %!  program_names(-Names:list(string)) is det.
 %
-%   Agent programs that are found by agents(Name), as one writes them.
+%   Names of agent programs that are found, in the form agents(Name).
 
 program_names(Names) :-
     findall(Name, program_name(Name), Names0),
@@ -226,7 +227,7 @@ folder(Dir) :-
                        [ file_type(directory), solutions(all),
                          file_errors(fail) ]).
 
-%   The first term that is no comment tells.
+%   The first term that is not a comment decides.
 
 is_program(File) :-
     catch(setup_call_cleanup(
@@ -257,7 +258,7 @@ operator_in(Dir, Name, File) :-
 
 %!  mechanism_dicts(-Dicts) is det.
 %
-%   Each is _{name, predicates}, predicates being _{name, arguments, about}:
+%   Each is _{name, predicates}, where predicates are _{name, arguments, about}:
 %   arguments are pairs of `+` or `-` and a name, `about` is the comment.
 
 mechanism_dicts(Dicts) :-
@@ -287,7 +288,8 @@ read_comments(In, Comments) :-
         read_comments(In, Rest)
     ).
 
-%   %!  name(+A, -B) is det.  Several heads may share what follows.
+%   A comment `%!  name(+A, -B) is det.`  Several heads may share the text
+%   below.
 
 predicate_dict(Comment, _{name:Name, arguments:Arguments, about:About}) :-
     string_concat("%!", _, Comment),
@@ -328,7 +330,7 @@ heads([Line|Lines], Text, All0, All) :-
     heads(Lines, Text, All1, All).
 heads(Text, Text, All, All).
 
-%   A variable is called by its name.
+%   A variable in a head is bound to its name.
 
 head_parts(Text, Name, Arguments) :-
     catch(term_string(Term, Text, [variable_names(Bindings)]),

@@ -18,10 +18,10 @@
 :- use_module('../../kernel/base/error_text', [abridged/3]).
 :- use_module('../../kernel/host', [address_parts/3]).
 
-/** <module> What server and browser say to each other
+/** <module> The protocol of server and browser
 
-Over a WebSocket at `feed` the server tells in JSON what happens, at most
-twenty times a second; the browser says nothing there.  First comes
+Over a WebSocket at `feed` the server sends events in JSON, at most twenty times
+a second; the browser sends nothing there.  The first message is
 
     {"snapshot": {"time": T, "read_only": B, "hosts": [Host, ...],
                   "agents": [Agent, ...], "overlays": [Overlay, ...],
@@ -33,8 +33,8 @@ twenty times a second; the browser says nothing there.  First comes
     Agent: {"id": Id, "host": Address, "program": Name, "status": Word,
             "doing": Text, "hops": N, "mail": N}
 
-where the state of a host whose process is not heard any more is `lost`;
-then lists of what happens, where arguments are text, but for numbers:
+where the state of a host whose process has ended or is silent is `lost`.  Then
+lists of events follow; their arguments are texts, except numbers:
 
     {"events": [[Time, Host, Agent, Kind, Argument ...], ...]}
 
@@ -60,14 +60,14 @@ then lists of what happens, where arguments are text, but for numbers:
 and every few seconds, when there is nothing else to send, {"tick": Time}, so
 that a browser notices when the server is gone.
 
-What the browser wants it posts to `ask`, as {"ask": What, ...} to look and
-as {"do": What, ...} to act; the answer is {"answer": ...} or {"error": Text}.
+The browser posts requests to `ask`: {"ask": What, ...} for queries and
+{"do": What, ...} for orders; the answer is {"answer": ...} or {"error": Text}.
 The modules `looking` and `acting` have a clause for each What.
 
 *Threading*: pure.
 */
 
-%   No argument of an event is longer, and no other term.
+%   The maximal length of a term as text.
 
 longest(2000).
 
@@ -141,7 +141,7 @@ skipped_row(Count, [null, "", "", "skipped", Count]).
 %!  name_text(+Atomic, -Text:string) is det.
 %!  text(+Term, -Text:string) is det.
 %
-%   An id or an address as it is; a term as one would write it.
+%   An id or an address is unchanged; a term is written as in Prolog.
 
 name_text(none, Text) =>
     Text = "".
@@ -156,7 +156,7 @@ text(Term, Text) :-
 
 %!  number_told(+Number, -Told) is det.
 %
-%   Number, or as text one that JSON has not: infinite, or none.
+%   Told is Number, or a text for an infinite number or NaN, which JSON lacks.
 
 number_told(Number, Told) :-
     (   float(Number),
@@ -223,7 +223,7 @@ agent_glance_dict(agent(Id, glance(Host, Program, Doing, Hops, Mail)), Dict) :-
     Dict = _{id:IdText, host:HostText, program:ProgramText, status:Status,
              doing:DoingText, hops:Hops, mail:Mail}.
 
-%   The first word of what it does.
+%   The status is the first word of the activity.
 
 status_word(Doing, Word) :-
     split_string(Doing, " ,:", "", [Word|_]).
@@ -248,7 +248,7 @@ times_stop :-
 
 %!  times_of(+Hosts) is det.
 %
-%   Hosts, as of survey_hosts/4, say what clocks they have.
+%   Note the clocks of Hosts, terms as of survey_hosts/4.
 
 times_of(Hosts) :-
     with_mutex(typhon_page_protocol,
@@ -264,8 +264,8 @@ note(host(Address, _, _, _, _, _, _, clock(Epoch, Rate))) =>
 note(_) =>
     true.
 
-%   That of hosts without a network, the time of day, says too much.  Virtual
-%   time stands for itself.
+%   The time of day, as of hosts without a network, has too many digits, so the
+%   page has its own origin.  Virtual time is shown as it is.
 
 choose(_) :-
     reference(_, _),
@@ -285,8 +285,8 @@ choose(_) :-
 %!  page_time(+Stamp, -Time) is det.
 %!  page_time(+Host, +HostTime, -Time) is det.
 %
-%   Time of the page at Stamp, in real time, `null` if it has no clock that
-%   goes on; or when the clock of Host, an address, shows HostTime.
+%   Time of the page at Stamp, in real time, or `null` in virtual time; or when
+%   the clock of Host, an address, shows HostTime.
 
 page_time(Stamp, Time) :-
     reference(Epoch, Rate),

@@ -25,15 +25,15 @@
      "overlays": [{"name": Title, "kind": Kind}, ...],
      "events": [[Time, Host, Agent, Kind, Argument ...], ...]}
 
-where texts in events are numbers of `names`, and numbers stand in lists of
-one: ids come again and again.  Which hosts are linked is in a log only if
-links came or went; else hosts between which an agent hopped are taken for
+where texts in events are indexes into `names`, since ids are frequent, and
+numbers are in lists of length one.  A log has the links of hosts only if links
+were made or broken; otherwise hosts between which an agent hopped are taken for
 linked.
 
-A file of its own needs no server and fetches nothing: scripts, styles and the
-log stand in it.  Modules are data URLs, which an import map names; so what
-they import from `./x.js` they import from `typhon/x.js` there.  By its
-Content-Security-Policy scripts run that were written here, and no others.
+An exported file needs no server and fetches nothing: it contains scripts,
+styles and the log.  Modules are data URLs, named by an import map, so an import
+from `./x.js` becomes one from `typhon/x.js`.  The Content-Security-Policy
+allows only the scripts that were written into the file.
 
 *Threading*: any thread.
 */
@@ -63,7 +63,7 @@ replay_dict(LogFile, Options, Dict) :-
 
 %!  replay_of_text(+Title, +Text, -Dict) is det.
 %
-%   The same of the text of a log, which a browser sends.
+%   As replay_dict/3, for the text of a log that a browser sends.
 
 replay_of_text(Title, Text, Dict) :-
     setup_call_cleanup(
@@ -74,7 +74,7 @@ replay_of_text(Title, Text, Dict) :-
         ( close(Out, [force(true)]),
           delete_file(File) )).
 
-%   watched(+Logged, -Event): as watch/3 would tell it.
+%   watched(+Logged, -Event): Event is in the form of watch/3.
 
 watched(event(Time, Host, Agent, What), event(Time, Host, Agent, Told)) :-
     told(What, Told).
@@ -97,7 +97,7 @@ is_address(Address) :-
     sub_atom(Address, _, _, _, @),
     !.
 
-%   used(+Rows, +Declared, -Used): those overlays that show something.
+%   used(+Rows, +Declared, -Used): the overlays that have a row.
 
 used(Rows, Declared, Used) :-
     findall(Title,
@@ -142,7 +142,7 @@ other_host(link(Host, _), Host).
 links(Events, Links) :-
     (   member(event(_, _, none, Link), Events),
         functor(Link, link, _)
-    ->  Links = []                      % and told as they come
+    ->  Links = []                      % the events have them
     ;   findall(From-To,
                 ( member(event(_, Here, _, arrived(There, _)), Events),
                   Here \== There,
@@ -156,7 +156,7 @@ links(Events, Links) :-
                 *             NAMES            *
                 *******************************/
 
-%   intern(+Rows, -Names, -Short): texts are sent once.
+%   intern(+Rows, -Names, -Short): each text is sent once.
 
 intern(Rows, Names, Short) :-
     empty_assoc(Known),
@@ -199,8 +199,7 @@ library('uPlot.iife.min.js').
 %
 %   @error existence_error(source_sink, LogFile), permission_error(open,
 %   source_sink, File)
-%   @error existence_error(page_tool, Name) where `make page-tools` has to be
-%   called first
+%   @error existence_error(page_tool, Name) before `make page-tools`
 
 replay_export(LogFile, File, Options) :-
     replay_dict(LogFile, Options, Replay),
@@ -240,7 +239,7 @@ file_text(Name, Text) :-
     ;   existence_error(page_tool, Name)
     ).
 
-%   modules(+Files, +Known0, -Known): File-Text, with what they import.
+%   modules(+Files, +Known0, -Known): File-Text for the files and their imports.
 
 modules([], Known, Known).
 modules([File|Files], Known, Modules) :-
@@ -265,7 +264,7 @@ module_pair(File-Text, Name-Address) :-
     atom_concat('typhon/', File, Name),
     string_concat("data:text/javascript;base64,", Encoded, Address).
 
-%   What agents say can end no script.
+%   Text of agents must not be able to end the script element.
 
 without_tags(Json, Text) :-
     replaced(Json, "<", "\\u003c", Text).
@@ -316,4 +315,4 @@ write_script(_, style(_)).
                 *******************************/
 
 prolog:error_message(existence_error(page_tool, Name)) -->
-    [ '~w is missing; `make page-tools` gets it'-[Name] ].
+    [ '~w is missing; run `make page-tools` to get it'-[Name] ].

@@ -33,18 +33,18 @@
 
 /** <module> The server of the page
 
-One for a process.  Every address begins with the token: `/TOKEN/` is the
-page, `/TOKEN/feed` the WebSocket, `/TOKEN/ask` where questions and orders are
-posted; other names are those of files.  `/?token=TOKEN` leads to the page, and
-`feed?token=TOKEN`, as `metrics?token=TOKEN`, will do, too.
+There is one for a process.  Every address begins with the token: `/TOKEN/` is
+the page, `/TOKEN/feed` the WebSocket; queries and orders are posted to
+`/TOKEN/ask`; other names are those of files.  `/?token=TOKEN` redirects to the
+page, and `feed?token=TOKEN` and `metrics?token=TOKEN` are also valid.
 
-It does not use http_dispatch, so that other HTTP servers of this process and
-this one do not see each other's handlers.
+It does not use http_dispatch, so that this server and other HTTP servers of the
+process do not see each other's handlers.
 
-The head of a request is read into memory before the library of HTTP looks at
-it: it has a bounded size, and has to be there in time, from its first byte to
-its last, see typhon_http_server.  The body, which is read when the token is
-known to be right, has to be there in time, too.
+The head of a request is read into memory before the HTTP library parses it: its
+size is bounded, and so is the time from its first byte to its last, see
+typhon_http_server.  The body is read after the token has been verified, within
+a bounded time, too.
 
 *Threading*: starting and stopping exclude each other by a mutex.  Each client
 has a thread, another accepts connections.
@@ -53,7 +53,7 @@ has a thread, another accepts connections.
 :- use_module(library(http/http_stream), []). % else WebSockets are HTTP/1.0
 
 :- setting(request_bytes, positive_integer, 4 000 000,
-           "A page takes no larger request than this").
+           "Bytes of a request to a page, at most").
 :- dynamic
     serving/3.                  % Port, Token, ReadOnly
 
@@ -62,7 +62,7 @@ has a thread, another accepts connections.
 %
 %   Options are those of page_start/1; Link is the address of the page.
 %
-%   @error permission_error(start, page, Link) if there is one already
+%   @error permission_error(start, page, Port) if there is a page already
 
 server_start(Options, Link) :-
     with_mutex(typhon_page_server, start(Options, Link)).
@@ -98,7 +98,7 @@ server_stop :-
 
 stop :-
     (   retract(serving(_, _, _))
-    ->  browsers_stop,                  % they are notified before they go
+    ->  browsers_stop,                  % first, so that they get a close frame
         reception_close,
         put_away
     ;   true
@@ -129,7 +129,7 @@ serve(In, Request) :-
                      page was started, leads here; this address does not')
     ).
 
-%   admitted(+Parts, +Request, -Rest, -Token): with the token.
+%   admitted(+Parts, +Request, -Rest, -Token): the request has the token.
 
 admitted([Given|Rest], _, Rest, Token) :-
     Rest = [_|_],
@@ -162,7 +162,7 @@ route(Names, _, _, Request) =>
         memberchk(Method, [get, head]),
         page_file(Names, File, Type)
     ->  send_file(File, Type)
-    ;   refuse(404, 'There is nothing of this name')
+    ;   refuse(404, 'There is no file of this name')
     ).
 
 :- public feed/1.               % called by the library
@@ -226,7 +226,7 @@ answer_to(In, Request, _{answer:Answer}) :-
     ;   look(Message, Answer)
     ).
 
-%   This is the only way to act.
+%   All orders pass this check.
 
 may_act(What) :-
     (   serving(_, _, false)
@@ -243,17 +243,17 @@ told(Error, _{error:Text}) :-
                 *******************************/
 
 :- setting(typhon_page_reception:connections, positive_integer, 64,
-           "A page has so many clients at a time").
+           "Clients of a page at a time").
 :- setting(typhon_page_reception:request_seconds, positive_integer, 20,
-           "The head of a request takes no longer, and no longer its body").
+           "Seconds for the head of a request, and for its body").
 :- setting(typhon_page_reception:head_bytes, positive_integer, 16 384,
-           "The head of a request is no longer").
+           "Bytes of the head of a request, at most").
 
 :- meta_predicate with_body(+, +, -, 0).
 
 %   reception_open(+Address): serve clients that connect to Address,
-%   Interface:Port, by serve(In, Request), which prints an answer as handlers of
-%   library(http) do; In has the body.
+%   Interface:Port, by serve(In, Request), which prints an answer like the
+%   handlers of library(http); In has the body.
 
 reception_open(Address) :-
     setting(typhon_page_reception:connections, Most),
@@ -282,11 +282,11 @@ client(In, Out) :-
                http_wrapper(Handler, Head, Out, Close, [])),
     switched(Close, In, Out).
 
-%   http_wrapper/5 adds the request, which its declaration does not say.
+%   http_wrapper/5 adds the request, against its meta-predicate declaration.
 
 handler(In, typhon_page_server:serve(In)).
 
-%   The rest of the connection is a WebSocket.
+%   After the upgrade the connection is a WebSocket.
 
 switched(switch_protocol(Goal, _), In, Out) :-
     !,

@@ -23,20 +23,20 @@
 :- use_module(browsers, [browsers_tell/1, browsers_there/0]).
 :- use_module(protocol, [times_of/1]).
 
-/** <module> What a page shows: which hosts, and what happens on them
+/** <module> The hosts that a page shows, and their events
 
-There is a watch for each process, and another where more hosts have come to
-light there.  Events are collected only while a browser is connected.
+There is a watch for each process, and a further one when more hosts are found
+there.  Events are collected only while a browser is connected.
 
-*Threading*: any thread looks; one mutex for watches.  While a browser is
-connected a thread looks for new hosts every few seconds.
+*Threading*: any thread may query; a mutex protects the watches.  While a
+browser is connected, a thread searches for new hosts every few seconds.
 */
 
 :- setting(renew_seconds, number, 3,
-           "A page that is looked at finds new hosts within so many seconds").
+           "Seconds between searches of a page for new hosts").
 
 :- dynamic
-    place/1,                    % Address: where to begin
+    place/1,                    % Address: where the search begins
     finder/1,                   % Server
     own/1,                      % Watch
     watched/2.                  % Address, Watch
@@ -44,8 +44,8 @@ connected a thread looks for new hosts every few seconds.
 %!  sources_start(+Options) is det.
 %!  sources_stop is det.
 %
-%   A page shows this process, the networks that it has started, and with the
-%   option host(Host) that host, and all to which one comes from these.
+%   A page shows this process, the networks that it has started, with the option
+%   host(Host) also that host, and all hosts that links from these lead to.
 %   Events are sent to browsers.
 %
 %   @error existence_error(host, Host), host_unreachable(Address)
@@ -90,7 +90,7 @@ sources_look(scene(Hosts, Agents)) :-
 
 %!  sources_metrics(-Text:string) is det.
 %
-%   All that the page shows in numbers, see metrics/2.
+%   Text has the metrics of all hosts of the page, see metrics/2.
 
 sources_metrics(Text) :-
     look(0, _, Hosts),
@@ -107,10 +107,10 @@ sources_tree(Trees) :-
     supervision_tree(Places, Trees, _).
 
                 /*******************************
-                *             FIND             *
+                *            SEARCH            *
                 *******************************/
 
-%   Without a browser it waits until one connects.
+%   Without a browser the server waits until one connects.
 
 :- public finds/3.
 
@@ -139,7 +139,7 @@ telling_errors(Goal) :-
                 *            WATCH             *
                 *******************************/
 
-%   Watch what hosts there are by now.
+%   Watch all hosts that are known now.
 
 renew :-
     look(0, _, Hosts),
@@ -147,7 +147,7 @@ renew :-
     with_mutex(typhon_page_sources, idle(Watches)),
     maplist(end_watch, Watches).
 
-%   All their hosts have stopped.
+%   All hosts of these watches have stopped.
 
 idle(Watches) :-
     findall(Watch, ( own(Watch), \+ watched(_, Watch) ), Watches),
@@ -170,7 +170,7 @@ watch_hosts(Hosts) :-
     group_pairs_by_key(Pairs, Groups),
     forall(member(_-Addresses, Groups), watch_some(Addresses)).
 
-%   A process that has gone meanwhile is seen as lost the next time.
+%   The next search reports a process that has ended meanwhile as lost.
 
 watch_some(Addresses) :-
     (   catch(watch(Addresses, typhon_page_sources:heard, Watch),
@@ -187,15 +187,15 @@ heard(Event) :-
     browsers_tell(Event),
     changed(Event).
 
-%   A host that has stopped may be started again, as another.
+%   A host that has stopped may be started again as a new host.
 
 changed(event(_, Host, _, stopped)) =>
     retractall(watched(Host, _)).
 changed(_) =>
     true.
 
-%   Watch nothing any more, if When: a browser that connects meanwhile finds the
-%   hosts watched, or watches them after this.
+%   End all watches if When: a browser that connects meanwhile finds the hosts
+%   watched, or watches them after this.
 
 :- meta_predicate rest(0).
 

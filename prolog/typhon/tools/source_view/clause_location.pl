@@ -8,14 +8,14 @@
               [ body_goals/4, clause_parts/3, code_module/2, code_places/2,
                 code_program/2, goals_body/2, place/3, plain_goals/2 ]).
 
-/** <module> In which clause a goal stands
+/** <module> The clause that a goal comes from
 
-Nothing in a goal list says where its goals come from: marks would grow
-with recursion, and travel.  But a list [Goal|Goals] begins with an instance
-of what is left of a clause, and after that comes what is left of one that
-called it.  So it can be found out afterwards, when something is the matter:
-the machine takes a clause body apart as it runs it, see typhon_machine, and
-point/3 has all the lists of goals that it can have left of one.
+A goal list does not record where its goals come from: marks would grow with
+recursion, and move with the agent.  But a list [Goal|Goals] begins with an
+instance of the rest of a clause, followed by the rest of a clause that called
+it.  So the clause can be found when it is needed, after a fault: the machine
+takes a clause body apart as it runs it, see typhon_machine, and point/3
+enumerates all the lists of goals that can remain of a body.
 
 Places are as in typhon_fault.
 
@@ -32,7 +32,7 @@ typhon_on_demand:joins(fault, stands).
 typhon_fault:handled(Hash, Agent, Goal, Fault, Where) :-
     where_handled(Hash, Agent, Goal, Fault, Where).
 
-%   main/0 need not be called.
+%   main/0 may be called by no clause.
 
 typhon_fault:stands(Hash, Agent, Fault, Where) :-
     Fault = fault(Goal, _, _),
@@ -42,8 +42,8 @@ typhon_fault:stands(Hash, Agent, Fault, Where) :-
 typhon_fault:stands(Hash, Agent, Fault, Where) :-
     fault_where(Hash, Agent, Fault, Where).
 
-%   fault_where(+Hash, +Agent, +Fault, -Where): Agent is the module of the agent.
-%   What could be at more than three places is nowhere.
+%   fault_where(+Hash, +Agent, +Fault, -Where): Agent is the module of the
+%   agent. Where is [] if more than three places are possible.
 
 fault_where(Hash, Agent, fault(Goal, Goals, Natives), Where) :-
     code_module(Hash, Module),
@@ -57,9 +57,9 @@ fault_where(Hash, Agent, fault(Goal, Goals, Natives), Where) :-
     first_two(Numbers0, Numbers),
     maplist(maplist(shown(Hash, All)), Numbers, Where).
 
-%   where_handled(+Hash, +Agent, +Goal, +Fault, -Where) is semidet: no clause of
-%   the program called Goal, which has failed with Fault.  Fails if no clause is
-%   for it.
+%   where_handled(+Hash, +Agent, +Goal, +Fault, -Where) is semidet: Goal, which
+%   has failed with Fault, was called by no clause of the program.  Fails if no
+%   clause has a head for it.
 
 where_handled(Hash, Agent, Goal, Fault, Where) :-
     all_clauses(Hash, Agent, All),
@@ -98,8 +98,8 @@ first_two([A,B|_], [A,B]) :-
     !.
 first_two(Few, Few).
 
-%   A clause is c(N, PI), the N-th of the program, or of the agent's own if N
-%   is 0.
+%   A clause is c(N, PI), the N-th of the program, or one of the agent's state
+%   if N is 0.
 
 shown(_, _, c(0, PI), At) =>
     At = at(PI, state).
@@ -124,8 +124,8 @@ of_predicate(All, Name/Arity, Ns) :-
                 *        NATIVE CLAUSES        *
                 *******************************/
 
-%   native_places(+References, +Module, -Places): of a predicate that calls
-%   itself the innermost clause only.
+%   native_places(+References, +Module, +All, -Places): for a recursive
+%   predicate only the innermost clause.
 
 native_places(References, Module, All, Places) :-
     findall(PI-I, ( member(Reference, References),
@@ -135,9 +135,9 @@ native_places(References, Module, All, Places) :-
     once_each(Pairs, none, Places0),
     maplist(native_place(All), Places0, Places).
 
-%   last_called(+Places0, +Raising, +Goal, +All, -Places): the clause whose
-%   last goal is Raising has no frame any more.  It is the one that calls it,
-%   if there is but one.
+%   last_called(+Places0, +Raising, +Goal, +All, -Places): a clause whose last
+%   goal is Raising has no frame any more.  It is the clause that calls Raising,
+%   if there is only one.
 
 last_called(Places0, Raising, Goal, All, Places) :-
     (   calls_it(Raising, Goal, Places0, All, Clause),
@@ -167,7 +167,7 @@ of(_, _).
 
 native_clause(Reference, Module, PI, I) :-
     catch(( clause_property(Reference, predicate(Home:PI)),
-            Home == Module,             % if bound, it is any that sees it
+            Home == Module,             % a bound module matches also importers
             nth_clause(_, I, Reference)
           ),
           error(_, _), fail).           % erased
@@ -189,8 +189,8 @@ native_place(All, PI-I, [c(N, PI)]) :-
                 *        MOBILE CLAUSES        *
                 *******************************/
 
-%   mobile_places(+Inner, +All, +Goals, -Places): where the first of Goals
-%   stands, unless two places are known already.
+%   mobile_places(+Inner, +All, +Goals, -Places): the clause of the first of
+%   Goals, unless two places are known already.
 
 mobile_places([_,_|_], _, _, Places) =>
     Places = [].
@@ -214,7 +214,7 @@ places_of(_, _, Places) =>
     Places = [].
 
 %   stands(+Goals, +All, -Left, -Clause) is nondet: Goals begins with an
-%   instance of what comes from some point of Clause on; Left comes after.
+%   instance of the rest of Clause from some point on; Left follows.
 
 stands(Goals, All, Left, c(N, Name/Arity)) :-
     member(N-(Head:-Body), All),
@@ -230,8 +230,8 @@ after(Sequel, Goals, End, Left) :-
     subsumes_term(Sequel, Begin),
     ( End == open -> true ; Left == [] ).
 
-%   likely(+Found0, +All, -Found): those after which comes what can come, and
-%   of these the ones of which most is left.
+%   likely(+Found0, +All, -Found): entries whose following goals are possible,
+%   and among these those with the longest rest of a clause.
 
 likely(Found0, All, Found) :-
     findall(Count-Entry,
@@ -255,8 +255,8 @@ may_follow(Goals, All) :-
     returns(Goals, All, _, _),
     !.
 
-%   returns(+Goals, +All, -Call, -Clause) is nondet: Goals begins with what
-%   comes after Call in Clause.
+%   returns(+Goals, +All, -Call, -Clause) is nondet: Goals begins with the goals
+%   after Call in Clause.
 
 returns(Goals, All, Call, c(N, Name/Arity)) :-
     member(N-(Head:-Body), All),
@@ -264,9 +264,9 @@ returns(Goals, All, Call, c(N, Name/Arity)) :-
     after(Sequel, Goals, End, _),
     functor(Head, Name, Arity).
 
-%   callers(+Left, +All, +Clause, -Callers): the callers of Clause, Left being
-%   what comes after it.  After a last call nothing does: then it is known
-%   only if no other clause calls that predicate.
+%   callers(+Left, +All, +Clause, -Callers): the callers of Clause, where Left
+%   are the goals after it.  After a last call Left is empty: then the caller is
+%   known only if no other clause calls that predicate.
 
 callers(Left, All, c(_, Name/Arity), Callers) :-
     functor(Head, Name, Arity),
@@ -294,7 +294,7 @@ calls(All, General, c(N, Name/Arity)) :-
                 *            POINTS            *
                 *******************************/
 
-%   goals_normal(+Goals0, -Goals): Goals0 as a clause body would be.
+%   goals_normal(+Goals0, -Goals): Goals0 in the form of a clause body.
 
 goals_normal(Goals0, Goals) :-
     goals_body(Goals0, Body),
@@ -310,15 +310,15 @@ body_list(Body, Goals) :-
 
 %!  point(+Body, -Sequel, -End) is nondet.
 %
-%   Sequel is what the machine still has to do of Body when it has come to the
-%   first goal of Sequel.  End is `open` if what comes after the body follows,
-%   `closed` inside a condition.
+%   Sequel are the goals that the machine still has to run of Body when it has
+%   reached the first goal of Sequel.  End is `open` if the goals after the body
+%   follow, `closed` inside a condition.
 
 point(Body, Sequel, End) :-
     body_list(Body, Goals),
     point_in(Goals, [], open, Sequel, End).
 
-%   point_in(+Goals, +After, +End0, -Sequel, -End): After comes after Goals.
+%   point_in(+Goals, +After, +End0, -Sequel, -End): After follows Goals.
 
 point_in(Goals, After0, End0, Sequel, End) :-
     append(_, [Goal|Goals1], Goals),
@@ -336,8 +336,8 @@ part_point(continued, Goals, After, End0, Sequel, End) :-
 part_point(apart, Goals, _, _, Sequel, End) :-
     point_in(Goals, [], closed, Sequel, End).
 
-%   part(+Goal, -Part, -How) is nondet: the machine goes on in Part, with what
-%   comes after Goal, or runs it apart.
+%   part(+Goal, -Part, -How) is nondet: the machine continues in Part, with the
+%   goals after Goal, or runs it apart.
 
 part((If->_), If, apart).
 part((_->Then), Then, continued).
@@ -361,8 +361,8 @@ part_of_or(Or, Part, How) :-
         How = continued
     ).
 
-%   goal_level(+Goal, +Goals, -Left): Left begins with Goal, in Goals or in what
-%   is apart in the first of them; it is Goals if Goal is not to be found.
+%   goal_level(+Goal, +Goals, -Left): Left begins with Goal, in Goals or in a
+%   part of the first of them that runs apart; it is Goals if Goal is not found.
 
 goal_level(Goal, [First|Goals], Left) :-
     (   First == Goal

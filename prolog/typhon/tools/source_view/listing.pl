@@ -15,7 +15,7 @@
 :- use_module(variable_names,
               [clause_bindings/3, goals_bindings/4, stands_in/3]).
 
-/** <module> What an agent is, as text
+/** <module> Listings of agents as text
 
 *Threading*: any thread.
 */
@@ -51,8 +51,8 @@ typhon_questions:here(program, Agent, Asker) :-
 
 %!  show_goals(+Agent, +Facts, +Goals, -Shown) is det.
 %
-%   Shown are Goals, which Agent with these Facts has left, with '$VAR'(Name)
-%   for variables whose names in the program are known.
+%   Shown are Goals, the remaining goals of Agent, which has these Facts, with
+%   '$VAR'(Name) for variables whose names in the program are known.
 %
 %   @error existence_error(agent, Agent)
 
@@ -110,8 +110,8 @@ portray(Clause, Bindings) :-
                 *            CLAUSES           *
                 *******************************/
 
-%   list_clauses(+Clauses, +Names, +Before, +Places): an empty line between
-%   those of different predicates.
+%   list_clauses(+Clauses, +Names, +Before, +Places): print an empty line
+%   between clauses of different predicates.
 
 list_clauses(Clauses, Names, Before, Places) :-
     forall(nth1(I, Clauses, Clause),
@@ -145,7 +145,7 @@ list_clause(Clause, Bindings, N, Places) :-
 list_clause(Clause, Bindings, _, _) :-
     portray(Clause, Bindings).
 
-%   The mark is a goal of its own, so it stands in a line of its own.
+%   The mark is a goal of its own, so it is printed on a line of its own.
 
 marked(Clause, At, (Head:-Body)) :-
     clause_parts(Clause, Head, Body0),

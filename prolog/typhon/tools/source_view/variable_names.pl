@@ -10,24 +10,24 @@
 :- use_module('../../kernel/program', [clause_parts/3, control/1]).
 :- use_module(clause_location, [body_list/2, point/3]).
 
-/** <module> Which clause goals come from, and the names of their variables
+/** <module> The clauses of remaining goals, and the names of their variables
 
-Clauses and goals of agents are terms.  Which names the variables of a clause
-had is kept with its place, see typhon_places; those of the goals that are left
-follow from the clauses that these come from.
+Clauses and goals of agents are terms.  The names of the variables of a clause
+are kept with its place, see typhon_places; those of remaining goals follow from
+the clauses that the goals come from.
 
 Bindings are Name=Variable, as of read_term/2.
 
-The goals that an agent has left do not say which clauses they came from.  But
-those at the front are the end of the body of the clause in which it stands,
-which can be found again.
+The remaining goals of an agent do not record their clauses.  But the first of
+them are the end of the body of the clause that the agent runs, so this clause
+can be found.
 
 *Threading*: pure.
 */
 
 %!  clause_bindings(+Clause, +Names, -Bindings) is det.
 %
-%   Names are those of the variables of Clause, or [].
+%   Names are the names of the variables of Clause, or [].
 
 clause_bindings(Clause, Names, Bindings) :-
     term_variables(Clause, Variables),
@@ -39,9 +39,10 @@ named_nth(Variables, Name-I, Name=Variable) :-
 
 %!  goals_bindings(+Clauses, +Lists, +Goals, -Bindings) is det.
 %
-%   The names of variables of Goals, which an agent with these Clauses has left.
-%   Lists are the names of each of the first of Clauses.  A name that several
-%   clauses give to different variables has a number after it but once.
+%   Bindings are the names of variables of Goals, the remaining goals of an
+%   agent with these Clauses.  Lists are the names for the first of Clauses.  If
+%   several clauses give a name to different variables, all but one get a
+%   number.
 
 goals_bindings(Clauses, Lists, Goals, Bindings) :-
     goals_bindings(Goals, Clauses, Lists, [], Bindings).
@@ -62,8 +63,8 @@ goals_bindings(Goals, Clauses, Lists, Bindings0, Bindings) :-
 goals_bindings([_|Goals], Clauses, Lists, Bindings0, Bindings) :-
     goals_bindings(Goals, Clauses, Lists, Bindings0, Bindings).
 
-%   sequel(+Place, +Clauses, +Lists, -Names, -Variables, -Sequel): a copy of
-%   what is left of a clause, with the copies of all its variables.
+%   sequel(+Place, +Clauses, +Lists, -Names, -Variables, -Sequel): a copy of the
+%   rest of a clause, with the copies of all its variables.
 
 sequel(N-I, Clauses, Lists, Names, Variables, Sequel) :-
     nth1(N, Clauses, Clause),
@@ -76,7 +77,7 @@ sequel(N-I, Clauses, Lists, Names, Variables, Sequel) :-
     length(Before, Done),
     append(Before, Sequel, Goals).
 
-%   What has begun to run already looks different.
+%   A goal that has begun to run is no instance of the goal in the clause.
 
 instance(General, Goal) :-
     (   subsumes_term(General, Goal)
@@ -84,8 +85,8 @@ instance(General, Goal) :-
     ;   true
     ).
 
-%   add_names(+Names, +Values, +Left, +Bindings0, -Bindings): of those Values
-%   that are among the variables Left.
+%   add_names(+Names, +Values, +Left, +Bindings0, -Bindings): add names of the
+%   Values that are among the variables Left.
 
 add_names([Name|Names], [Value|Values], Left, Bindings0, Bindings) :-
     !,
@@ -141,14 +142,14 @@ show_name(Name, Variable) :-
     ( var(Variable) -> Variable = '$VAR'(Name) ; true ).
 
                 /*******************************
-                *       WHERE IT STANDS        *
+                *        PRESENT CLAUSE        *
                 *******************************/
 
 %!  stands_in(+Clauses, +Goals, -Places:list) is det.
 %
-%   Places are N-I: the goals that are left go on with the I-th goal of the
-%   N-th clause.  There are several where clauses end alike, and none where no
-%   clause does, as with what was called by call/1.
+%   Places are N-I: the remaining goals continue with the I-th goal of the N-th
+%   clause.  There are several if clauses end alike, and none if no clause does,
+%   as for a goal that was called by call/1.
 
 stands_in(Clauses, Goals, Places) :-
     (   found(Clauses, Goals, near, Places0)
@@ -162,9 +163,9 @@ stands_in(Clauses, Goals, Places) :-
     ;   Places = []
     ).
 
-%   found(+Clauses, +Goals, +How, -Places): How is `near` if the agent stands
-%   at one of the Places itself, `far` if in something called from a condition,
-%   or from what is caught, there.
+%   found(+Clauses, +Goals, +How, -Places): How is `near` if the agent is at one
+%   of the Places itself, `far` if it runs a goal called from a condition, or
+%   from catch/3, there.
 
 found(Clauses, Goals, How, Places) :-
     findall(Length-(N-I), ends_so(Goals, Clauses, How, N, I, Length), Found),
@@ -186,8 +187,8 @@ ends_so(Goals, Clauses, How, N, I, Length) :-
     length(Before, Done),
     I is Done+1.
 
-%   goes_on(+Left, +First, +How, -Pattern): the first of the goals Left is what
-%   First has become.
+%   goes_on(+Left, +First, +How, -Pattern): the first of the goals Left is the
+%   present form of First.
 
 goes_on([Goal|_], First, How, Pattern) :-
     goes_on_as(Goal, First, How, Pattern).
@@ -229,15 +230,15 @@ goes_on_as(Goal, First, How, Pattern) :-
     Pattern = Pattern0.
 goes_on_as(_, First, _, First).
 
-%   inner(+Goals, -Inner): in the middle of a condition, or of what is caught.
+%   inner(+Goals, -Inner): the goals inside a condition, or inside catch/3.
 
 inner([Goal|_], Inner) :-
     nonvar(Goal),
     begins(Goal, Body, _),
     body_list(Body, Inner).
 
-%   begins(+Goal, -Body, -Pattern): Goal begins with Body; Pattern is what it
-%   is like when it has begun.
+%   begins(+Goal, -Body, -Pattern): Goal begins with Body; Pattern is its form
+%   after it has begun.
 
 begins((If->Then;Else), If, (_->Then;Else)).
 begins((If*->Then;Else), If, (_*->Then;Else)).
