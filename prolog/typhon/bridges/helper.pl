@@ -1,11 +1,11 @@
 :- module(typhon_helper, []).
 
-/** <module> Helpers: processes that do for us what others do better
+/** <module> Helpers: external processes for tasks outside of Prolog
 
 A helper is a process at the other end of two pipes, nearly always a Python
-program that begins with `bridges/lib/helper.py`.  It knows a robot, a
-broker or a middleware; we ask it, and it tells us what happens there.  This
-is the door of the layer; it knows nothing of hosts and agents.
+program that begins with `bridges/lib/helper.py`.  It communicates with a robot,
+a broker or a middleware, answers requests and reports events.  This is the
+interface of the layer, which is independent of hosts and agents.
 
     ?- helper_python([], Python),
        helper_file('mqtt/bridge.py', File),
@@ -13,12 +13,12 @@ is the door of the layer; it knows nothing of hosts and agents.
                    [restart(always)]),
        helper_ask(mqtt(alpha), _{do:connect, url:URL}, 5, Answer).
 
-Answer is ok(Reply), a dict or whatever JSON there is, or what went wrong,
-see helper_ask/4.  What a helper says unasked, {"event": ...}, goes to the
-hook typhon_helper_owner:heard(Name, Dict), and what one that was started
-again has to be told first comes from the hook
-typhon_helper_owner:again(Name, Request).  Names are ground terms of the
-caller's choice, one for each helper.
+Answer is ok(Reply), a dict or another JSON value, or a description of the
+error, see helper_ask/4.  Unsolicited messages of a helper, {"event": ...}, are
+passed to the hook typhon_helper_owner:heard(Name, Dict).  A helper that was
+started again first gets the requests of the hook
+typhon_helper_owner:again(Name, Request).  Names are ground terms chosen by the
+caller, one for each helper.
 */
 
 :- reexport(helper/owner, [json_value/1]).

@@ -26,46 +26,45 @@
 
 /** <module> The beginning and the end of bridges
 
-What bridges consist of is loaded when the first of its kind is started.
-Their hosts may be in other processes; files are then those of the machine
-there.
+The modules of a bridge are loaded when the first bridge of its kind is started.
+The host of a bridge may be in another process; files are then those of that
+machine.
 
 A service is a bridge on a host.  Its predicates are in the place of the host as
-if an agent had delivered them, so that agents find them there, and nowhere
-else; they go when the service ends, or its host.
+if an agent had delivered them, so agents find them on this host only; they are
+removed when the service or its host ends.
 
-*Threading*: any thread; a service that is ended twice at a time is ended once.
+*Threading*: any thread; a service that two threads end is ended once.
 */
 
 :- multifile
     starts/4,                   % Bridge, Host, What, Options: of this process
     has/3,                      % Bridge, Host, Property: hosts of this process
-    delivers/3,                 % Host, Name, Source: a payload that is Python
+    delivers/3,                 % Host, Name, Source: a payload of Python code
     typhon_words:python_delivered/3.
 
 %!  python_start(+Host, +File, +Options) is det.
 %
 %   From now on the functions that File, or each of a list of files, defines
 %   are predicates of the place of Host: f(A, B) of Python is f(A, B, Result).
-%   One whose arguments have defaults is several predicates.  Left out are
-%   functions whose names begin with `_` or that come from elsewhere; a file
-%   that has `__all__` offers what is in it.  Files share one process.
-%   Options:
+%   A function whose arguments have defaults is several predicates.  Functions
+%   whose names begin with `_`, or that are imported, are left out; a file with
+%   `__all__` offers the functions in it.  Files share one process.  Options:
 %
 %     - timeout(Seconds): of each call, default 10
-%     - threads(N): so many calls at a time, default 8
+%     - threads(N): number of simultaneous calls, default 8
 %     - queue(N): messages that may wait for an agent, default 1000
 %     - python(Program): default see helper_python/2
 %
-%   An agent that waits for a call holds up no other, as with all that takes
-%   its time.  When the process ends calls under way raise an
-%   error, and it is started again.
+%   An agent that waits for a call blocks no other agent, as with all calls that
+%   take time.  When the process ends, open calls raise an error, and the
+%   process is started again.
 %
 %   @error existence_error(source_sink, File), existence_error(host, Host)
 %   @error python_error(Class, Message) if File raises it
-%   @error permission_error(define, vocabulary, PI) if agents know such a
-%          predicate, permission_error(deliver, procedure, PI) if the place
-%          has one
+%   @error permission_error(define, vocabulary, PI) if the vocabulary of agents
+%          has such a predicate, permission_error(deliver, procedure, PI) if the
+%          place has one
 %   @error permission_error(start, python, Host) if it is started
 
 python_start(Host, File, Options) :-
@@ -73,7 +72,7 @@ python_start(Host, File, Options) :-
 
 %!  python_stop(+Host) is det.
 %
-%   The functions are gone.  Calls under way raise an error.
+%   Remove the functions.  Open calls raise an error.
 %
 %   @error existence_error(python, Host)
 
@@ -87,10 +86,11 @@ python_stop(Host) :-
 %     - user(User), password(Password): if they are not in the URL
 %     - client(Id): the name of this client; default is that the broker
 %       chooses one
-%     - clean(Boolean): whether the broker forgets this client when it goes,
-%       default `true`; `false` needs client(Id)
-%     - will(Topic, Payload), will(Topic, Payload, Options): what the broker
-%       is to publish when the connection is lost; Options as of publish/3
+%     - clean(Boolean): whether the broker drops the state of this client when
+%       it disconnects, default `true`; `false` needs client(Id)
+%     - will(Topic, Payload), will(Topic, Payload, Options): the message that
+%       the broker publishes when the connection is lost; Options as of
+%       publish/3
 %     - keepalive(Seconds): default 60
 %     - ca(File), cert(File), key(File), insecure(Boolean): for TLS; the
 %       certificates to trust, default those of the system, those of this
@@ -101,12 +101,12 @@ python_stop(Host) :-
 %       default 1000
 %     - largest(Bytes): of payloads, default 4 MB
 %     - timeout(Seconds): of each request, default 10
-%     - wait(Boolean): whether to wait for the connection, default `true`.
-%       Without, Host is connected when the broker can be reached.
+%     - wait(Boolean): whether to wait for the connection, default `true`.  With
+%       `false`, Host is connected when the broker can be reached.
 %     - python(Program): default see helper_python/2
 %
-%   When the connection is lost, it is made again, and what agents have
-%   subscribed to is asked for again.
+%   A lost connection is made again, and the subscriptions of agents are
+%   renewed.
 %
 %   @error mqtt_error(unreachable(URL), Host), mqtt_error(refused, Host),
 %   mqtt_error(tls, Host)
@@ -119,7 +119,7 @@ mqtt_start(Host, URL, Options) :-
 
 %!  mqtt_stop(+Host) is det.
 %
-%   The connection is closed, and what agents have subscribed to forgotten.
+%   Close the connection, and remove the subscriptions of agents.
 %
 %   @error existence_error(mqtt, Host)
 
@@ -129,13 +129,13 @@ mqtt_stop(Host) :-
 %!  ros_start(+Host, +Where, +Options) is det.
 %
 %   Agents on Host can use ROS: publish, subscribe, call and offer services,
-%   send goals, see doc/bridges-ros.md.  Where is `ros2`, then Host is a node
-%   of ROS 2, or a URL as 'ws://robot:9090/', that of a rosbridge server, of
-%   ROS 1 or 2.  Options:
+%   send goals, see doc/bridges-ros.md.  Where is `ros2`: then Host is a node of
+%   ROS 2; or the URL of a rosbridge server of ROS 1 or 2, such as
+%   'ws://robot:9090/'.  Options:
 %
-%     - messages(Form): what comes in is a `dict`, default, or `terms`, a
+%     - messages(Form): incoming messages are a `dict`, default, or `terms`, a
 %       list of Name=Value
-%     - deadline(Seconds): for what is asked of ROS, default 5
+%     - deadline(Seconds): for requests to ROS, default 5
 %     - connect_deadline(Seconds): for this call, default 20 for `ros2`,
 %       which starts a process, 5 for a server
 %
@@ -143,13 +143,13 @@ mqtt_stop(Host) :-
 %
 %     - node(Name): default typhon_Host
 %     - domain(N): default is that of the environment variable ROS_DOMAIN_ID
-%     - reach(Reach): what is to be found: `localhost`, default, or `subnet`
-%     - python(File): which has rclpy; default that of `make tools-ros`
+%     - reach(Reach): which nodes are found: `localhost`, default, or `subnet`
+%     - python(File): a Python with rclpy; default that of `make tools-ros`
 %
 %   and for a server
 %
-%     - silence(Seconds): when it has not even answered a ping for so long
-%       it is gone; default 30
+%     - silence(Seconds): a server that has not even answered a ping for so long
+%       counts as gone; default 30
 %
 %   @error existence_error(host, Host), permission_error(start, ros, Host)
 %   @error domain_error(ros_option, Option), domain_error(ros, Where)
@@ -163,7 +163,7 @@ ros_start(Host, Where, Options) :-
 
 %!  ros_stop(+Host) is det.
 %
-%   Nothing is published, heard, offered and waited for there any more.
+%   End all publishers, subscriptions, services and waiting requests there.
 %
 %   @error existence_error(ros, Host)
 
@@ -177,9 +177,9 @@ ros_stop(Host) :-
 %     - way(Where): as of ros_start/3
 %     - connected(Boolean): whether there is a connection now
 %     - heard(Topic, Type), published(Topic, Type), offered(Service, Type)
-%     - ignored(Count): frames that were passed over
+%     - ignored(Count): frames that were skipped
 %
-%   Unbound, Host is each host of this process that has ROS.
+%   An unbound Host is each host of this process that has ROS.
 %
 %   @error existence_error(host, Host)
 
@@ -195,22 +195,22 @@ ros_property(Host, Property) :-
 
 %!  fipa_start(+Host, +URL, +Options) is det.
 %
-%   Host is a platform of FIPA from now on.  Others reach it at URL,
-%   `http://Host:Port/Path`; where the port is 0 it is any, and
-%   fipa_property/2 tells which, in the process of Host.  Agents on Host, and
-%   those of its process, send messages to fipa(Name, Addresses); those for
-%   its agents come from fipa(Name).  The place of Host has reply/3.  Options:
+%   Host is a platform of FIPA from now on.  Other platforms reach it at URL,
+%   `http://Host:Port/Path`; port 0 means any port, and fipa_property/2 returns
+%   the actual URL in the process of Host.  Agents on Host, and those of its
+%   process, send messages to fipa(Name, Addresses); messages for its agents
+%   come from fipa(Name).  The place of Host has reply/3.  Options:
 %
 %     - name(+Atom): of the platform, default the name of the host
 %     - bind(+Interface): on which it listens, default 127.0.0.1
-%     - queue(+N): messages that wait for one address, or in one mailbox,
-%       at the most, default 1000; what is too much is not taken
-%     - connections(+N): from others at a time, default 64
+%     - queue(+N): messages that may wait for one address, or in one mailbox,
+%       default 1000; further messages are refused
+%     - connections(+N): simultaneous connections from others, default 64
 %     - max_bytes(+N): of a message with its envelope, default 2,000,000
-%     - seconds(+N): in which a message has to come, or be taken, default 10
+%     - seconds(+N): for receiving a message, or sending one, default 10
 %
-%   @error permission_error(start, fipa, Host) if it is one already, or its
-%   time is virtual: others do not wait for that
+%   @error permission_error(start, fipa, Host) if it is one already, or its time
+%   is virtual, for which other platforms do not wait
 %   @error existence_error(host, Host)
 %   @error domain_error(http_url, URL), domain_error(fipa_option, Option)
 %   @error socket_error(Code, Message)
@@ -220,7 +220,7 @@ fipa_start(Host, Url, Options) :-
 
 %!  fipa_stop(+Host) is det.
 %
-%   Host is no platform any more.  What has not gone out is lost.  So it is
+%   Host is no platform any more.  Unsent messages are lost.  The same happens
 %   when the host stops.
 %
 %   @error existence_error(fipa, Host)
@@ -228,7 +228,7 @@ fipa_start(Host, Url, Options) :-
 fipa_stop(Host) :-
     stop(fipa, Host).
 
-%   Where it is allowed.
+%   Payloads of Python code need an option of the host.
 
 typhon_words:python_delivered(Host, Name, Source) :-
     host_option(Host, python(true)),
@@ -263,8 +263,8 @@ stop_at(local(Name), Bridge) :-
 stop_at(remote(Host, Name, _), Bridge) :-
     remote(Host, typhon_starting:stop(Bridge, Name)).
 
-%   properties_at(+Where, +Bridge-Property, +Host, -Properties): those that
-%   match
+%   properties_at(+Where, +Bridge-Property, +Host, -Properties): all properties
+%   that match.
 
 properties_at(local(Name), Bridge-Property, _, Properties) :-
     findall(Property, has(Bridge, Name, Property), Properties).
@@ -291,7 +291,7 @@ load(Bridge) :-
                 *******************************/
 
 :- multifile
-    ends/2,                     % Service, Host: release what it holds
+    ends/2,                     % Service, Host: release its resources
     typhon_hosting:evacuate/2.
 
 :- dynamic
@@ -299,14 +299,14 @@ load(Bridge) :-
 
 %!  service(?Service, ?Host) is nondet.
 %
-%   The services of the hosts of this process.
+%   Service runs on Host, a host of this process.
 
 %!  service_begin(+Service, +Host, +PIs:list, +Module) is det.
 %
-%   From now on there is Service on Host: the predicates PIs of Module.
+%   Begin Service on Host, with the predicates PIs of Module.
 %
 %   @error permission_error(start, Service, Host) if there is one
-%   @error those of service_offer/4
+%   @error the errors of service_offer/4
 
 service_begin(Service, Host, PIs, Module) :-
     with_mutex(typhon_starting,
@@ -324,13 +324,13 @@ service_begin(Service, Host, PIs, Module) :-
 
 %!  service_offer(+Name, +Host, +PIs:list, +Clauses:list) is det.
 %
-%   The place offers PIs, defined by Clauses, instead of what it offered under
-%   Name, which is service(Service) or that of a payload.
+%   The place offers PIs, defined by Clauses, and no longer those that it
+%   offered under Name, which is service(Service) or the name of a payload.
 %
-%   @error permission_error(define, vocabulary, PI) if all agents know such a
-%          predicate
-%   @error permission_error(deliver, procedure, PI) if the place has it
-%          otherwise
+%   @error permission_error(define, vocabulary, PI) if the vocabulary of agents
+%          has such a predicate
+%   @error permission_error(deliver, procedure, PI) if the place has it from
+%          another source
 
 service_offer(Name, Host, PIs, Clauses) :-
     forall(member(PI, PIs), unknown(PI)),
@@ -354,7 +354,7 @@ service_end(Service, Host) :-
     ;   existence_error(Service, Host)
     ).
 
-%   Nothing is asked of it any more when it ends.
+%   The service gets no further calls before it ends.
 
 end(Service, Host) :-
     host(Host, _, Place),
@@ -364,7 +364,7 @@ end(Service, Host) :-
           print_error(warning, error(Formal, Context))),
     debug(typhon(bridge), '~w is no longer on ~w', [Service, Host]).
 
-%   After the agents have gone.
+%   Services end after the agents have left.
 
 typhon_hosting:evacuate(Host, _) :-
     end_all(Host).

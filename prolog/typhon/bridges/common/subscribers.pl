@@ -26,26 +26,26 @@
 
 /** <module> Subscribers of services
 
-Agents subscribe to a Key, as a topic.  They receive what comes until they
-unsubscribe, leave the host, end, or are faulty; an agent whose hop fails stays
-subscribed.  A goal of remote/2 has no agent: what it subscribes to is stored as
-facts until the service ends.
+Agents subscribe to a Key, such as a topic.  They receive its messages until
+they unsubscribe, leave the host, end, or are faulty; an agent whose hop fails
+stays subscribed.  A goal of remote/2 has no agent: messages of its
+subscriptions are stored as facts until the service ends.
 
-*Threading*: any thread; subscribers_tell/5 is for the thread that reads what
-comes, and does not wait.  The hook wanted/4 is run inside a mutex, so that
-its calls are in order, and must not wait.
+*Threading*: any thread; the thread that reads incoming messages calls
+subscribers_tell/5, which does not wait.  The hook wanted/4 runs inside a mutex,
+so that its calls are in order, and must not wait.
 */
 
 :- multifile
     wanted/4,                   % Service, Host, Key, Boolean: an agent came
-                                % back; or the last subscriber is gone
+                                % back; or the last subscriber has left
     typhon_events:told/4,
     typhon_options:declared/4.
 
 :- dynamic
-    subscribed/6,               % Text, Agent, Service, Host, How, Key: asked
+    subscribed/6,               % Text, Agent, Service, Host, How, Key: indexed
                                 % by Text, see inbox_key/2
-    away/2,                     % Agent, subscribed(...): it has set out
+    away/2,                     % Agent, subscribed(...): it has departed
     hearing/1.                  % Host
 
 :- setting(queue, positive_integer, 1000,
@@ -65,14 +65,14 @@ subscriber(Host, Agent) :-
 
 %!  subscribe(+Service, +Host, +Key, +Agent, +Options) is det.
 %
-%   Agent wants what comes for Key, an atom or another ground term; if it has
-%   wanted it before, then in another way.  Options:
+%   Agent subscribes to Key, an atom or another ground term; a second
+%   subscription replaces the first.  Options:
 %
 %     - as(How): `message`, a message Service-Message, default; `fact`, a fact
-%       Service-Message in the tuple space; `latest`, of facts for the same
+%       Service-Message in the tuple space; `latest`, of facts on the same
 %       thing only the latest
-%     - queue(N): when so many messages wait for the agent, or so many facts
-%       are there, what comes is dropped, and counted; default is the setting
+%     - queue(N): if so many messages wait for the agent, or so many facts are
+%       there, further ones are dropped, and counted; default is the setting
 %
 %   @error domain_error(subscription_option, Option)
 
@@ -105,7 +105,7 @@ option_type(queue(X), positive_integer, X).
 
 %!  unsubscribe(+Service, +Host, +Key, +Agent) is semidet.
 %
-%   Agent does not want Key any more.  Fails if it did not.
+%   Agent is not subscribed to Key any more.  Fails if it was not.
 
 unsubscribe(Service, Host, Key, Agent) :-
     inbox_key(Key, Text),
@@ -135,10 +135,10 @@ subscription(Service, Host, Key) :-
 %
 %!  subscribers_tell_new(+Service, +Host, +Key, +Message, +Same) is det.
 %
-%   Message has come for Key.  Same is a pattern: it unifies with messages
-%   that this one replaces where only the latest is wanted.  Told as new are
-%   only the last subscribers, or those within a second before that: a
-%   greeting to new subscribers is not for others.
+%   Deliver Message, which has arrived for Key.  Same is a pattern that unifies
+%   with the messages that this one replaces where only the latest is kept.
+%   subscribers_tell_new/5 delivers only to the newest subscribers, those within
+%   a second before the last: a greeting to new subscribers is not for others.
 
 subscribers_tell(Service, Host, Key, Message, Same) :-
     inbox_key(Key, Text),
@@ -165,7 +165,7 @@ tell_all(Pairs, Service, Host, Key, What) :-
 tell(How, Service-Key, Host-Agent, What) :-
     inbox_put(How, Service-Key, Host-Agent, What),
     !.
-tell(_, Service-Key, Host-Agent, _) :-  % it is not here any more
+tell(_, Service-Key, Host-Agent, _) :-  % it has left
     ignore(unsubscribe(Service, Host, Key, Agent)).
 
 %!  subscribers_drop(+Service, +Host, +Key, +Message) is det.
@@ -199,7 +199,7 @@ forget(_, _).
                 *    AGENTS THAT LEAVE OR END  *
                 *******************************/
 
-%   Events of a host are listened to while it has subscribers.
+%   Events of a host are received while it has subscribers.
 
 hear(Host) :-
     (   hearing(Host)
@@ -260,8 +260,8 @@ unsubscribe_all(Agent, Host) :-
     unsubscribe_all(Agent, Host).
 unsubscribe_all(_, _).
 
-%   Those that set out and are elsewhere: with each that sets out two are
-%   looked at.
+%   Remove agents that have departed and arrived elsewhere: each departure
+%   checks two of them.
 
 sweep :-
     sweep_one,

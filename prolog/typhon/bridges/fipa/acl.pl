@@ -30,15 +30,16 @@ protocol('fipa-request')]).  Its string representation is that of FIPA00070.
   | reply_by                                   | a time stamp              |
   | language, ontology, protocol, encoding,    | an atom                   |
   | conversation_id, reply_with, in_reply_to   |                           |
-  | others, as 'x-colour'                      | an atom                   |
+  | others, such as 'x-colour'               | an atom                   |
 
-In messages that are read the conversation comes first, so that an agent can
-wait for messages of one: `receive(_-acl(P, [conversation_id(Id)|_]))`.
+In messages that are read the conversation is the first parameter, so that an
+agent can wait for messages of one conversation:
+`receive(_-acl(P, [conversation_id(Id)|_]))`.
 
-Where a message is written, `reply-with` and the like may be written so as
-well; a content that is a list or a compound term is taken for SL, and the
-language is `fipa-sl` unless another one is given; an atom, a string or a
-number is a content as it stands.
+In a message to be written, names like `reply-with` are also accepted.  A
+content that is a list or a compound term is written in SL, with the language
+`fipa-sl` unless another one is given; an atom, a string or a number is written
+unchanged.
 
 *Threading*: pure.
 */
@@ -72,14 +73,14 @@ performative(subscribe).
 
 %!  acl_parameter(+Acl, ?Parameter) is semidet.
 %
-%   The first of its parameters that unifies.
+%   Parameter is the first parameter of Acl that unifies.
 
 acl_parameter(acl(_, Parameters), Parameter) :-
     memberchk(Parameter, Parameters).
 
 %!  acl_with(+Acl, +Parameters:list, -With) is det.
 %
-%   With is Acl with these Parameters, in place of those of the same names.
+%   With is Acl with these Parameters, which replace those of the same names.
 
 acl_with(acl(Performative, Old), Parameters, acl(Performative, New)) :-
     foldl(put_parameter, Parameters, Old, New).
@@ -105,7 +106,7 @@ acl_reply(Acl, Performative, Content, Reply) :-
 %!  acl_text(+Acl, -Text:string) is det.
 %!  acl_text(-Acl, +Text) is det.
 %
-%   @error domain_error(performative, P): only of a message that is written
+%   @error domain_error(performative, P): only for a message that is written
 %   @error type_error(fipa_parameter, Parameter)
 %   @error syntax_error(fipa_text), syntax_error(fipa_message)
 
@@ -157,7 +158,7 @@ read_parameter(Key-Sexp, Parameter) :-
     read_value(Kind, Sexp, Value),
     Parameter =.. [Name,Value].
 
-%   Names of the standard are spelt as in Prolog, with underscores.
+%   Names of the standard have underscores in Prolog.
 
 key_name(Key, Name) :-
     known(Key, Name0, _),
@@ -203,7 +204,7 @@ read_value(text, Sexp, Text) :-
 aid_of(Sexp, Aid) :-
     aid_sexp(Aid, Sexp).
 
-%   A content that claims to be SL and is not stays a string.
+%   A content that is declared as SL but is not stays a string.
 
 understood(Parameters0, Parameters) :-
     memberchk(language(Language), Parameters0),

@@ -33,7 +33,7 @@ accepts it, returned/4 is called with About.
 
 idle_seconds(10).
 
-%   Addresses at a time.
+%   Maximal number of simultaneous addresses.
 
 max_carriers(64).
 
@@ -86,7 +86,7 @@ forget(Host, Address, Queue) :-
 
 %!  carriage_queued(+Host, -Count) is det.
 %
-%   Count letters wait.
+%   Count letters are queued.
 
 carriage_queued(Host, Count) :-
     aggregate_all(sum(Size),
@@ -130,7 +130,7 @@ carry_on(Host, Address, Queue, Limits, Way) :-
     ;   carry_on(Host, Address, Queue, Limits, Way)
     ).
 
-%   Threads that add to the queue hold the mutex.
+%   The mutex is held, and threads that add to the queue take it.
 
 idle(Host, Address, Queue) :-
     message_queue_property(Queue, size(0)),
@@ -173,8 +173,8 @@ why(Code, Why) :-
     ;   format(string(Why), '~p', [Code])
     ).
 
-%   exchange(+Url, +Letter, !Way, -Code): a connection that is kept
-%   may have been closed by the other side just now: then a new one is tried.
+%   exchange(+Url, +Letter, !Way, -Code): the other side may just have closed a
+%   connection that was kept: then a new one is tried.
 
 exchange(Url, Letter, Way, Code) :-
     kept(Url, Way, In, Out),

@@ -23,16 +23,16 @@
               [ platform/4, platform_aid/3, platform_count/2,
                 platform_local/3, platform_met/2, platform_way/2 ]).
 
-/** <module> Messages between our agents and those of other platforms
+/** <module> Messages between agents of this platform and of others
 
-Messages of other platforms are posted to their agent as all messages are,
-wherever it is, or handled by a manager.  Messages to other platforms go to
-the addresses of their receiver.  If a message cannot be delivered the AMS
+A message of another platform is posted to its agent like all messages, wherever
+the agent is, or is handled by a manager.  A message to another platform is sent
+to the addresses of its receiver.  If a message cannot be delivered, the AMS
 sends a failure to its sender.
 
 *Threading*: any thread.  exchange_send/4 does not wait for other platforms.
 Requests are handled in the thread of the client, which may wait for a
-connection to another of our processes.
+connection to another process of the network.
 */
 
 :- multifile
@@ -143,7 +143,7 @@ message(request(_, _, Type, Body, _), _, Message) =>
     receivers(Acl, Envelope, Receivers),
     Message = message(Acl, Receivers).
 
-%   JADE's requests have the whole URL.
+%   Requests of JADE have the whole URL.
 
 at(Target, Url) :-
     http_url(Url, _, Path),
@@ -245,7 +245,7 @@ to_agent(Local, Host, Acl) :-
     post(Id, fipa(From), Mail).
 
 %   An id names the process of its agent.  Messages from outside must not open
-%   connections to processes that were never met.
+%   connections to processes that have never been connected.
 
 known_agent(Local, Id) :-
     agent_named(Local, Id),
@@ -271,7 +271,7 @@ why(resource_error(fipa_queue), "its mailbox is full") :- !.
 why(Formal, Why) :-
     format(string(Why), '~p', [Formal]).
 
-%   Messages that post/3 accepted and could not deliver later.
+%   Messages that post/3 accepted, and that could not be delivered later.
 
 typhon_dead_letters:returned(fipa(_), Id, Acl) :-
     acl_parameter(Acl, via(Address)),
@@ -305,7 +305,7 @@ fail_to_sender(Host, Sender, To, Acl, Why) :-
         answer(Host, ams, Acl, Failure)
     ).
 
-%   The form of JADE, whose agents match it.
+%   The form is that of JADE, whose agents match it.
 
 failure(Sender, To, Acl0, Why, Failure) :-
     acl_with(Acl0, [ language('fipa-sl'),

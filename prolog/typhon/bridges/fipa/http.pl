@@ -17,20 +17,20 @@
 :- use_module('../../kernel/host', [alarm_in/3]).
 :- use_module('../common', [http_head/4, with_bytes/3]).
 
-/** <module> HTTP, as far as a message transport needs it
+/** <module> HTTP for the message transport of FIPA
 
 Requests and responses on byte streams, each of bounded size: a head of at most
-16 kB, a body of known length.  Heads are read by the library, when they are
-there.  Clients of library(http/http_open) cannot be used: answers of JADE have
-no length, and the connection is kept.
+16 kB, a body of known length.  The HTTP library parses a head after it was read
+as a whole.  Clients of library(http/http_open) cannot be used: answers of JADE
+have no length, and the connection is kept.
 
-The caller bounds the time of the whole by within/2, since a deadline for each
-byte would cost more than the rest of a head.  within/2 is like
-call_with_time_limit/2; but the library of that may keep 9.0.4 from halting once
-it is loaded.  This uses the alarms of hosts.
+The caller limits the whole time by within/2, since a deadline for each byte
+would cost more than all else of a head.  within/2 is like
+call_with_time_limit/2, but the library of that may keep SWI-Prolog 9.0.4 from
+halting once it is loaded, so within/2 uses the alarms of hosts.
 
-*Threading*: any thread, one for each stream; within/2 while a host runs.  The
-timer signals it.
+*Threading*: any thread, one for each stream; within/2 only while a host runs.
+The timer signals the thread.
 */
 
 :- multifile
@@ -77,10 +77,10 @@ http_url(Url, Host:Port, Path) :-
 
 %!  http_request(+In, +Out, +MaxBytes, -Request) is semidet.
 %
-%   Read the next request from In, Request being request(Method, Target,
-%   ContentType, Body, KeepAlive): an atom as `post`, two more, a string of
-%   bytes and a boolean.  Fails at the end of In.  A body must have a length; a
-%   client that expects `100 Continue` gets it on Out.
+%   Read the next request from In: request(Method, Target, ContentType, Body,
+%   KeepAlive), an atom like `post`, two more atoms, a string of bytes and a
+%   boolean.  Fails at the end of In.  A body must have a length; a client that
+%   expects `100 Continue` gets it on Out.
 %
 %   @error syntax_error(http_request), syntax_error(http_length)
 %   @error resource_error(http_head), resource_error(http_body)
@@ -128,7 +128,7 @@ body(Fields, In, Out, MaxBytes, Body) :-
         read_string(In, Length, Body),
         string_length(Body, Length)
     ->  true
-    ;   syntax_error(http_length)       % it ended before
+    ;   syntax_error(http_length)       % In ended before
     ).
 body(_, _, _, _, "").
 
@@ -141,7 +141,8 @@ go_on(Fields, Out) :-
 
 %!  http_respond(+Out, +Code, +KeepAlive:boolean) is det.
 %
-%   JADE reads answers by lines, and looks for the next one by its first.
+%   The answer has a text line, since JADE reads answers by lines and recognises
+%   the next answer by its first line.
 
 http_respond(Out, Code, KeepAlive) :-
     reason(Code, Reason),
@@ -174,7 +175,7 @@ connection(false, close).
 
 %!  http_post(+Out, +Url, +ContentType, +Body:string) is det.
 %
-%   Body is a string of bytes.
+%   Write a request; Body is a string of bytes.
 
 http_post(Out, Url, ContentType, Body) :-
     http_url(Url, Host:Port, Path),
@@ -189,8 +190,8 @@ http_post(Out, Url, ContentType, Body) :-
 
 %!  http_response(+In, -Code, -KeepAlive:boolean) is semidet.
 %
-%   Fails at the end of In.  JADE's answers have no length: the rest of the
-%   last one is skipped.
+%   Read a response.  Fails at the end of In.  Answers of JADE have no length,
+%   so the rest of the previous answer is skipped.
 %
 %   @error resource_error(http_head), syntax_error(http_response)
 
@@ -247,7 +248,7 @@ skip_body(_, _).
 
 %!  within(+Seconds, :Goal) is semidet.
 %
-%   Run Goal once.
+%   Run Goal once, for at most Seconds.
 %
 %   @throws time_limit_exceeded
 
@@ -261,7 +262,7 @@ within(Seconds, Goal) :-
           once(Goal) ),
         retractall(busy(Key, _))).
 
-%   A signal that comes just before a thread blocks does not wake it.
+%   A signal just before a thread blocks does not wake it, so it is repeated.
 
 typhon_scheduler:fire(Key, fipa_late) :-
     !,

@@ -15,19 +15,19 @@
 
 /** <module> A message and its envelope, as bytes
 
-A message travels as multipart/mixed (RFC 2046): its envelope and its text.
+A message is sent as multipart/mixed (RFC 2046): its envelope and its text.
 Text that is not ASCII is UTF-8, which the envelope declares.
 
-The envelope is what the transport reads (FIPA00084, FIPA00071), in XML; here
-it is a list of parameters:
+The transport reads the envelope (FIPA00084, FIPA00071), which is XML; here it
+is a list of parameters:
 
   - to(Aids), intended_receiver(Aids), from(Aid)
   - acl_representation(Atom), payload_length(Bytes), payload_encoding(Atom),
     date(Text)
 
-One with a document type is refused before it is parsed, so there are no
-entities that grow, and none that stand for files.  The time of the parser for
-attributes and digits grows faster than their length, so both are bounded.
+An envelope with a document type is refused before it is parsed, so no entity
+can expand, or refer to a file.  The time of the parser for attributes and
+digits grows faster than their length, so both are bounded.
 
 *Threading*: pure, but for the date and the boundary.
 */
@@ -35,7 +35,7 @@ attributes and digits grows faster than their length, so both are bounded.
 %!  letter_write(+Text:string, +From, +To, -Type:string, -Body:string) is det.
 %
 %   Body is Text, a message in the string representation, with its envelope
-%   for the agent identifier To; Type is the content type of that.
+%   for the agent identifier To; Type is the content type of Body.
 
 letter_write(Text, From, To, Type, Body) :-
     text_bytes(Text, Bytes, Encoding),
@@ -65,7 +65,7 @@ text_bytes(Text, Bytes, 'UTF-8') :-
 
 %!  letter_read(+Type, +Body:string, -Envelope, -Text:string) is det.
 %
-%   @error syntax_error(fipa_multipart) and what envelope_xml/2 raises
+%   @error syntax_error(fipa_multipart), and the errors of envelope_xml/2
 %   @error syntax_error(fipa_representation) if Text is not in the string
 %   representation
 %   @error syntax_error(fipa_encoding)
@@ -115,7 +115,7 @@ decoded(_, _, _) :-
                 *          ENVELOPES           *
                 *******************************/
 
-%   Characters of an envelope; digits of a number in one.
+%   Maximal characters of an envelope; maximal digits of a number in it.
 
 max_envelope(65 536).
 max_digits(15).
@@ -161,7 +161,7 @@ dom(Text, Dom) :-
                  [ space(remove), max_errors(0), syntax_errors(quiet) ]),
         close(In)).
 
-%   Later params, of platforms on the way, replace what earlier ones say.
+%   Platforms on the way add params, which replace earlier ones.
 
 envelope_dom(Envelope, Dom) :-
     member(element(envelope, _, Parts), Dom),
@@ -277,7 +277,7 @@ url_element(Url, element(url, [], [Url])).
                 *            PARTS             *
                 *******************************/
 
-%   For each part the rest is copied.
+%   The number is bounded, since each part copies the rest.
 
 max_parts(16).
 
@@ -312,7 +312,7 @@ boundary(ContentType, Boundary) :-
     Length > 0,
     Length =< 70.
 
-%   The line break before a boundary belongs to it.
+%   The line break before a boundary belongs to the boundary.
 
 split(Text, Mark, Most, [Piece|Pieces]) :-
     sub_string(Text, Before, _, After, Mark),

@@ -18,26 +18,25 @@
 
 /** <module> The managers of a platform: AMS and DF
 
-They take requests of FIPA00023, in SL0: register, deregister, modify,
-search, and of the AMS get-description.  The AMS knows the agents of this
-process, and those born here, without registration; others may register with
-it as well.
+They handle requests of FIPA00023, in SL0: register, deregister, modify, search,
+and, the AMS only, get-description.  The AMS lists the agents of this process,
+and those created here, without registration; other agents may register, too.
 
-In a directory, any ground term, each name has one description, which may be
-there only until some time.  The DF also describes the agents of this process
-that offer services, see typhon_directory, and did not register themselves.
+In a directory, any ground term, each name has one description, which may
+expire. The DF also describes the agents of this process that offer services,
+see typhon_directory, and did not register themselves.
 
-*Threading*: any thread; a mutex serializes changes of directories.
+*Threading*: any thread; a mutex serialises changes of directories.
 */
 
-%   Of a search.
+%   Of one search.
 
 max_results(1000).
 
 %!  manager_answer(+Host, +Manager, +Acl, -Reply) is semidet.
 %
 %   Reply, Performative-Content, is the answer of Manager, `ams` or `df`, to
-%   Acl.  Fails if Acl needs no answer, being one itself.
+%   Acl. Fails if Acl is itself an answer.
 
 manager_answer(Host, Manager, Acl, Reply) :-
     Acl = acl(Performative, _),
@@ -139,7 +138,7 @@ refuse_if(Goal, Reason) :-
     ;   true
     ).
 
-%   A description says whose it is.
+%   The name in a description is that of its owner.
 
 described(Description, Manager, Name) :-
     kind(Description, Manager),
@@ -177,7 +176,7 @@ living(Host, Name) :-
     ),
     !.
 
-%   An agent that lives here is not taken off the list by others.
+%   Others cannot deregister an agent that is in this process.
 
 registered(Manager, Host, Name) :-
     Directory =.. [Manager,Host],
@@ -206,7 +205,7 @@ until(Description, Until) :-
                 *            SEARCHES          *
                 *******************************/
 
-%   A negative number means all.
+%   A negative number means all results.
 
 constraint(More, Max) :-
     max_results(Most),
@@ -284,7 +283,7 @@ text(Term, Text) :-
 
 %   directory_add(+Directory, +Name, +Description, +Until) is det.
 %
-%   Replaces the description of Name.  Until is a time stamp, or `inf`.
+%   Replace the description of Name.  Until is a time stamp, or `inf`.
 %
 %   @error resource_error(fipa_directory)
 
@@ -345,8 +344,9 @@ directory_forget(Directory) :-
 
 %   description_matches(+Template, +Description) is semidet.
 %
-%   By the rules of FIPA00023: Description has every parameter of Template; of
-%   a set each element, in any order, of a sequence in this order.
+%   The rules are those of FIPA00023: Description has every parameter of
+%   Template, of a set each element in any order, of a sequence all elements in
+%   order.
 
 description_matches(Template, Description), aid(Template) =>
     aid(Description),

@@ -15,11 +15,10 @@
 :- use_module('../../kernel/base/bounds', [bounded/2]).
 :- use_module(sexp, [aid_addresses/2, aid_name/2]).
 
-/** <module> Platforms, as others see them
+/** <module> Platforms of FIPA: names, addresses and counts
 
-A host with a message transport is a platform of FIPA: it has a name and a
-URL.  An agent of it is called Id@Platform, the managers are ams@Platform and
-df@Platform.
+A host with a message transport is a platform of FIPA: it has a name and a URL.
+Its agents are called Id@Platform, the managers ams@Platform and df@Platform.
 
 *Threading*: any thread.
 */
@@ -46,8 +45,8 @@ platform_remove(Host) :-
 %!  platform_aid(+Host, +Local, -Aid) is det.
 %!  platform_local(+Host, +Name, -Local) is semidet.
 %
-%   Aid is that of Local on the platform of Host, Local being an agent's id,
-%   `ams` or `df`; Name is the name of Local there.
+%   Aid is the identifier of Local, an agent's id, `ams` or `df`, on the
+%   platform of Host; Name is the name of Local there.
 
 platform_aid(Host, Local, fipa(Name, [Url])) :-
     platform(Host, Platform, Url, _),
@@ -76,9 +75,9 @@ key(Host, What, Key) :-
 %!  platform_count(+Host, +What) is det.
 %!  platform_counts(+Host, -Counts:list) is det.
 %
-%   What is `sent` or `received`, of messages; `failed`, of those not
-%   delivered; `dropped`, since there were too many; `refused`, of requests
-%   that were no message.
+%   What is `sent` or `received`, for messages; `failed`, for messages that were
+%   not delivered; `dropped`, for messages beyond a limit; `refused`, for
+%   requests without a valid message.
 
 platform_count(Host, What) :-
     key(Host, What, Key),
@@ -99,8 +98,8 @@ platform_counts(Host, Counts) :-
 %!  platform_met(+Name, +Addresses:list) is det.
 %!  platform_way(+Aid, -Addresses:list) is det.
 %
-%   Remember the Addresses of an agent of another platform; find those of
-%   Aid: given in it, or else remembered.
+%   Remember the Addresses of an agent of another platform; return the addresses
+%   of Aid, those given in it, or else the remembered ones.
 %
 %   @error existence_error(fipa_address, Name)
 

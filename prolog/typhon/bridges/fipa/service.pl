@@ -22,10 +22,11 @@
 
 /** <module> A host as a platform of FIPA
 
-The time between the first byte and the last of a request is limited, and so
-are the clients at a time, see typhon_http_server.
+The time between the first byte of a request and the last is limited, and so is
+the number of clients, see typhon_http_server.
 
-*Threading*: any thread; one accepts connections, and each client has one.
+*Threading*: any thread; one thread accepts connections, and each client has
+one.
 */
 
 :- multifile
@@ -100,11 +101,11 @@ typhon_starting:ends(fipa, Host) :-
 
 %!  fipa_property(?Host, ?Property) is nondet.
 %
-%   Of a host that is a platform: name(Atom), url(URL), the full name of
-%   one of its agents, name(Id, Name), queued(N), messages that wait to go
-%   out, and counts since it was started: sent(N), received(N); failed(N),
-%   messages that were not delivered; dropped(N), because there were too
-%   many; refused(N), requests that were no message.
+%   Properties of a host that is a platform: name(Atom), url(URL); name(Id,
+%   Name), the full name of one of its agents; queued(N), messages to be sent;
+%   and counts since its start: sent(N), received(N); failed(N), messages that
+%   were not delivered; dropped(N), messages beyond a limit; refused(N),
+%   requests without a valid message.
 
 fipa_property(Host, Property) :-
     check_name(fipa_property, Property),
@@ -131,7 +132,7 @@ property(Count, Host, _, _) :-
                 *             BRIDGE           *
                 *******************************/
 
-%   The host's own platform, that of the receiver, or any.
+%   The platform is that of the host, else that of the receiver, else any.
 
 typhon_external_recipients:carried(Host, To, From, Message) :-
     aid(To),
@@ -152,16 +153,17 @@ way(_, _, Host) :-
                 *      INCOMING REQUESTS       *
                 *******************************/
 
-%   Between two requests, at most.
+%   Maximal time between two requests.
 
 idle_seconds(60).
 
-%   So that a client that sends too much can read the answer.
+%   Input that is still read, so that a client that sends too much gets the
+%   answer.
 
 max_drained(16000000).
 
-%   reception_open(+Host, +Address, +Limits, -Port): listen at Address,
-%   Interface:Port, for Host.  Limits has connections(N), max_bytes(N) and
+%   reception_open(+Host, +Address, +Limits, -Port): accept clients for Host at
+%   Address, Interface:Port.  Limits has connections(N), max_bytes(N) and
 %   seconds(S).
 
 reception_open(Host, Interface:Port, Limits, Port) :-

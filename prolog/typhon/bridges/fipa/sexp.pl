@@ -20,24 +20,24 @@
 
 /** <module> S-expressions, the syntax of ACL and SL, and agent identifiers in it
 
-Both languages of FIPA are lists in parentheses.  Here they are read and
-written; typhon_fipa_acl and typhon_fipa_sl define their meaning.  An
-S-expression is a Prolog list of others, string(String) for quoted
-text, or an atom for any other word, as it was written.
+Both languages of FIPA consist of lists in parentheses.  This module reads and
+writes them; typhon_fipa_acl and typhon_fipa_sl define their meaning.  An
+S-expression is a Prolog list of S-expressions, string(String) for quoted text,
+or an atom for any other word, as it was written.
 
-In quotes only a quote is escaped: a backslash before anything else is one,
-as JADE has it, too.  A string that ends with one can only be written with
-its length in front.
+In quotes only a quote is escaped: a backslash before anything else is a
+backslash, as in JADE.  A string that ends with a backslash can only be written
+with its length in front.
 
 An agent of any platform is fipa(Name, Addresses): its name, an atom like
-'seller@jadeplat', and the URLs at which it takes messages, the best first.
-Resolvers and other parameters of an identifier are not kept.  Where nothing
-but the name matters fipa(Name) is enough.
+'seller@jadeplat', and the URLs of its message transports, the best first.
+Resolvers and other parameters of an identifier are dropped.  If only the name
+matters, fipa(Name) is enough.
 
 *Threading*: pure.
 */
 
-%   A list in a list in a list.
+%   Maximal nesting of lists.
 
 max_depth(200).
 
@@ -86,7 +86,7 @@ item(_, string(String)) -->
     "\"",
     !,
     { length(Ds, Digits),
-      Digits < 9,                       % more take time, and do not fit
+      Digits < 9,                       % more digits take time, and do not fit
       number_codes(Bytes, [D|Ds])
     },
     counted(Bytes, Codes),
@@ -188,9 +188,8 @@ add_bytes(Code, Bytes0, Bytes) :-
 
 %!  sexp_word(+Text) is semidet.
 %
-%   Text, an atom or a string, can stand without quotes, and is a word for
-%   both languages: not a number, a date, a variable or the name of a
-%   parameter.
+%   Text, an atom or a string, needs no quotes, and is a word in both languages:
+%   not a number, a date, a variable or the name of a parameter.
 
 sexp_word(Text) :-
     atom_codes(Text, [First|Codes]),
@@ -210,7 +209,8 @@ plain(Code) :-
 %!  utc_text(+Stamp, -Text:atom) is det.
 %!  utc_text(-Stamp, +Text) is semidet.
 %
-%   A time as FIPA writes it, to the millisecond: `20261122T081127162Z`.
+%   Text is a time in the form of FIPA, to the millisecond:
+%   `20261122T081127162Z`.
 
 utc_text(Stamp, Text) :-
     nonvar(Text),
@@ -315,8 +315,8 @@ aid_sexp(Aid, _) :-
 %!  text_sexp(+Text, -Sexp) is det.
 %!  sexp_atom(+Sexp, -Atom) is det.
 %
-%   Sexp is Text as a word if it can be one, else quoted.  Atom is the text of
-%   a word or quoted text; of a list, its written form.
+%   Sexp is Text as a word if it can be one, else quoted.  Atom is the text of a
+%   word or quoted text; for a list, its written form.
 
 text_sexp(Text, Sexp) :-
     (   sexp_word(Text)

@@ -10,9 +10,8 @@
 
 /** <module> The content language SL, as terms
 
-A content is a list of expressions.  SL0 is all that the managers of
-platforms speak; the rest of SL has the same form, and is read and written
-as well.
+A content is a list of expressions.  The managers of platforms use only SL0; the
+rest of SL has the same form, and is read and written, too.
 
   | SL                                         | Prolog                 |
   | ------------------------------------------ | ---------------------- |
@@ -27,8 +26,8 @@ as well.
   | `(f a b)`                                  | f(a, b)                |
   | `(f :k a :l b)`                            | f(k:a, l:b)            |
 
-An atom that is no word of SL, as 'two words', is written in quotes and so
-comes back as a string.
+An atom that is no word of SL, as 'two words', is written in quotes and so is
+read as a string.
 
 *Threading*: pure.
 */
@@ -130,7 +129,7 @@ read_word(Word, Term) :-
     Term = Number.
 read_word(Word, Word).
 
-%   Word may be a number, and is short enough to be read quickly.
+%   Word may be a number, and is short enough to be parsed quickly.
 
 numeral(Word) :-
     atom_length(Word, Length),

@@ -19,42 +19,43 @@
 
 /** <module> The server that owns the process of a helper
 
-The owner starts the process, and writes to it in the order in which
-requests come.  One that is to run `always` and has ended is started again
-at once, and if it ends soon, again after 0.1 seconds, then twice as long, up
-to 10; otherwise, or if it has said that this would not help, it is started
-when there is a request.
+The owner starts the process, and writes to it in the order of the requests.  If
+its restart mode is `always`, a process that has ended is started again at once;
+if it ends soon again, after 0.1 seconds, then after twice that time, up to 10
+seconds.  Otherwise, or if it has reported that a restart would not help, it is
+started with the next request.
 
-Requests and answers are JSON objects with the same id; what has no id but
-an `event` was said unasked.
+Requests and answers are JSON objects with the same id; an object without id but
+with an `event` is unsolicited.
 
-In JSON numbers, strings, lists and dicts are what they are in Prolog, the atoms
-`null`, `true` and `false`, too, which are None, True and False to Python; other
-atoms are strings.  What comes in is made of the same, strings being strings.
+Numbers, strings, lists and dicts are the same in JSON and in Prolog, and so are
+the atoms `null`, `true` and `false`, which are None, True and False in Python;
+other atoms become strings.  Incoming values have the same form; strings stay
+strings.
 
-*Threading*: own/4 is called by the server.  It runs again/2, which must not
-wait for the helper, nor may heard/2, which the thread runs that reads what the
-helper writes.
+*Threading*: the server calls own/4.  It runs again/2, which must not wait for
+the helper; nor may heard/2, which runs in the thread that reads the output of
+the helper.
 */
 
 :- multifile
-    again/2,                    % Name, Request: what to tell first, in this
-                                % order, to one that was started again
+    again/2,                    % Name, Request: first requests, in this order,
+                                % to a helper that was started again
     prolog:message//1.
 
-soon(5).                        % seconds, for a process to end
+soon(5).                        % seconds: a process that ends earlier failed
 
 %!  own_state(+When, -State) is det.
 %!  own(+Me, +Message, +State0, -State) is det.
 %
-%   Handle a Message to the server Me, owner(Name, Command, When, Role, Told):
-%   a request(Id, Line), note(Line), `told`, that a line is in the queue Told,
-%   or `quit`.
+%   Handle a Message to the server Me, owner(Name, Command, When, Role, Told): a
+%   request(Id, Line), note(Line), `told`, for a line in the queue Told, or
+%   `quit`.
 %
 %   State is up(Process, Since, Wait), or down(Time, Wait, Answer): the process
-%   is started at Time, or when it is `asked` for something, or `never`; until
-%   then requests get Answer.  Wait is for how long it is down next time, if it
-%   ends soon.
+%   is started at Time, or with the next request (`asked`), or `never`; until
+%   then requests get Answer.  Wait is the next delay before a restart, if the
+%   process ends soon.
 
 own_state(asked, down(asked, 0, closed)).
 own_state(always, until(0, down(0, first, closed))).
@@ -67,7 +68,7 @@ own(Me, Message, State0, Next) :-
     ;   Next = State
     ).
 
-%   It has had another thread.
+%   The server may have been restarted in a new thread: kill the old process.
 
 handle(begin, _, State0, State) =>
     server_self(Owner),
@@ -91,7 +92,7 @@ handle(timeout, Me, down(_, Wait, _), State) =>
 handle(ended(Status), Me, up(Process, Since, Wait), State) =>
     process_release(Process),
     ended(Status, Me, Since, Wait, State).
-handle(ended(_), _, State0, State) =>   % of a process that was killed
+handle(ended(_), _, State0, State) =>   % the process was killed
     State = State0.
 handle(call(quit, Caller), _, State0, State) =>
     answer_all(closed),
@@ -123,7 +124,7 @@ down(always, Wait0, Answer, down(Time, Wait, Answer)) :-
     Time is Now+Wait0,
     Wait is min(10, 2*Wait0).
 
-%   A helper that is started again first gets the state it needs.
+%   A restarted helper first gets the state that it needs.
 
 begin_again(Me, Wait, State) :-
     begin(Me, Wait, State),
@@ -132,7 +133,7 @@ begin_again(Me, Wait, State) :-
            ( request_line(Request, Line),
              write_told(State, Line) )).
 
-%   One that has lived for a while is replaced at once.
+%   A process that has run for a while is restarted at once.
 
 ended(Status, Me, Since, Wait, State) :-
     Me = owner(Name, _, When, _, _),
@@ -145,7 +146,7 @@ ended(Status, Me, Since, Wait, State) :-
         again(Wait1, Me, Answer, State)
     ).
 
-%   It lacks something, and every request is answered so.
+%   The process lacks a prerequisite, so every request gets this answer.
 
 unfit(said(Dict)) :-
     get_dict(again, Dict, false).
@@ -156,7 +157,7 @@ again(now, Me, _, State) :-
 again(Wait, owner(_, _, When, _, _), Answer, State) :-
     down(When, Wait, Answer, State).
 
-%   The first time at once.
+%   The first restart is immediate.
 
 again_when(asked, _, _, 0) :-
     !.
@@ -182,7 +183,7 @@ write_request(down(_, _, Answer), _, Caller, _) :-
 
 write_told(up(Process, _, _), Line) :-
     process_write(Process, Line).
-write_told(down(_, _, _), _).           % to no caller
+write_told(down(_, _, _), _).           % no caller waits
 
 stop(up(Process, _, _)) :-
     request_line(_{do:quit}, Line),
@@ -199,17 +200,17 @@ prolog:message(typhon(helper_ended(Name, Status))) -->
                 *******************************/
 
 :- multifile
-    heard/2.                    % Name, Dict: the helper has said it unasked
+    heard/2.                    % Name, Dict: an unsolicited message
 
 :- dynamic
     awaited/3,                  % Id, Caller, Owner: written, not yet answered
-    complaint/2.                % Owner, Dict: an error, but of no request
+    complaint/2.                % Owner, Dict: an error without a request
 
 %!  request_line(+Request:dict, -Line:string) is det.
 %!  request_line(+Request:dict, +Seconds, -Id, -Line:string) is det.
 %
-%   Line says Request, that needs no answer; or with a new Id, and how
-%   long it may take.
+%   Line is Request, which needs no answer; or Request with a new Id, and its
+%   time limit.
 
 request_line(Request, Line) :-
     json_text(Request, Line).
@@ -221,7 +222,7 @@ request_line(Request0, Seconds, Id, Line) :-
 
 %!  said(+Name, +Owner, +Dict) is det.
 %
-%   What the helper Name of Owner has said.
+%   Handle Dict, a message of the helper Name of Owner.
 
 said(_, Owner, Dict) :-
     get_dict(id, Dict, Id),
@@ -252,8 +253,8 @@ answer_of(Dict, said(Dict)).
 %!  answer_awaited(+Id, +Caller) is det.
 %!  answer_unwanted(+Id) is det.
 %
-%   The answer to Id, which is asked by the owner now, is for Caller; it is for
-%   no caller any more.
+%   Caller waits for the answer to Id, which the owner sends now; no caller
+%   waits for it any more.
 
 answer_awaited(Id, Caller) :-
     server_self(Owner),
@@ -265,8 +266,8 @@ answer_unwanted(Id) :-
 %   answer_all(+Answer) is det.
 %   answer_died(+Answer0, -Answer) is det.
 %
-%   What the owner has asked gets Answer: Answer0, or what the process had said
-%   of itself before it ended.
+%   All open requests of the owner get Answer: Answer0, or the error that the
+%   process reported before it ended.
 
 answer_all(Answer) :-
     server_self(Owner),

@@ -21,14 +21,14 @@
 
 /** <module> The process of a helper
 
-It reads lines from its standard input, and writes lines to its standard
-output.  It ends when its standard input does, and so never outlives this
-process.  It leads a session of its own: the interrupt key of a terminal is
-not for it.
+The process reads lines from its standard input, and writes lines to its
+standard output.  It ends when its standard input ends, so it never outlives
+this process.  It leads its own session, so the interrupt key of a terminal does
+not reach it.
 
-*Threading*: a process belongs to a server.  A thread of its own reads what it
-writes, waits for its end, and sends ended(Status) to the owner.
-process_kill_of/1 may be called by any thread.
+*Threading*: a process belongs to a server.  Its own thread reads its output,
+waits for its end, and sends ended(Status) to the owner.  Any thread may call
+process_kill_of/1.
 */
 
 :- meta_predicate process_begin(+, +, +, 1, -).
@@ -43,11 +43,11 @@ process_kill_of/1 may be called by any thread.
    retractall(bridges(_)),
    assertz(bridges(Bridges)).
 
-end_seconds(2).                 % between the end of its output and its own
+end_seconds(2).                 % between the end of its output and its end
 
 %!  helper_file(+Relative, -File) is det.
 %
-%   File is that of the folder `bridges`.
+%   File is in the folder `bridges`.
 
 helper_file(Relative, File) :-
     bridges(Bridges),
@@ -55,9 +55,9 @@ helper_file(Relative, File) :-
 
 %!  process_begin(+Command, +Owner, +Role, :Heard, -Process) is det.
 %
-%   Command is command(Program, Args), for process_create/3.  For each line
-%   that is a JSON object call(Heard, Dict) is run by the thread that reads,
-%   whose alias is made of Role; while it runs nothing else is read.
+%   Command is command(Program, Args), for process_create/3.  For each line that
+%   is a JSON object the reading thread, whose alias is made from Role, runs
+%   call(Heard, Dict); meanwhile it reads nothing else.
 %
 %   @error existence_error(python, Program)
 
@@ -85,8 +85,8 @@ no_program(Formal, Program) :-
 
 %!  process_write(+Process, +Line) is det.
 %
-%   May wait for one that does not read.  If it has ended, nothing is
-%   written, and ended(Status) is on its way.
+%   May wait for a process that does not read.  If the process has ended,
+%   nothing is written, and the owner will get ended(Status).
 
 process_write(process(In, _), Line) :-
     catch(( write(In, Line), nl(In), flush_output(In) ),
@@ -95,14 +95,14 @@ process_write(process(In, _), Line) :-
 
 %!  process_end(+Process) is det.
 %
-%   The order to end.  ended(Status) will come.
+%   Order the process to end.  The owner will get ended(Status).
 
 process_end(process(In, _)) :-
     catch(close(In, [force(true)]), error(_, _), true).
 
 %!  process_release(+Process) is det.
 %
-%   Gives up what belonged to one that has ended.
+%   Release the resources of a process that has ended.
 
 process_release(process(In, Reader)) :-
     process_end(process(In, Reader)),
@@ -111,8 +111,8 @@ process_release(process(In, Reader)) :-
 %!  process_kill_of(+Owner) is det.
 %!  process_pid(?Owner, ?Pid) is nondet.
 %
-%   End the process of Owner at once, if there is one; the
-%   processes that run.
+%   Kill the process of Owner at once, if there is one; Pid is a running process
+%   of Owner.
 
 process_kill_of(Owner) :-
     with_mutex(typhon_helper_pid,
@@ -155,8 +155,8 @@ line(Line, Heard) :-
 line(Line, _) :-
     debug(typhon(helper), 'a helper says ~s', [Line]).
 
-%   A signal must not go to another process that has got the same number: the
-%   fact is retracted in the same step as the process is reaped.
+%   A signal must not reach another process with the same number: the fact is
+%   retracted in the same critical section in which the process is reaped.
 
 wait(Owner, Pid, _, Status) :-
     with_mutex(typhon_helper_pid, ended(Owner, Pid, Status)),
@@ -187,9 +187,9 @@ ended(Owner, Pid, Status) :-
 
 %!  helper_python(+Options, -Program) is det.
 %
-%   Program is for process_create/3: that of python(Name) in Options, of the
-%   setting, or that of the system, if it can be: one in the PATH may be a
-%   front that hides the modules of the system, and is slow to start.
+%   Program, for process_create/3, is that of python(Name) in Options, that of
+%   the setting, or else that of the system: the python3 in PATH may be a front
+%   end that hides the modules of the system, and is slow to start.
 
 helper_python(Options, Python) :-
     (   option(python(Name), Options)

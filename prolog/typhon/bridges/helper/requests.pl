@@ -20,29 +20,30 @@
 /** <module> Requests to helpers, and their answers
 
 Every helper has a server that owns its process, see typhon_helper_owner.
-Answers, in whatever order, go to the waiting callers.
+Answers, in any order, are passed to the waiting callers.
 
-A helper ends what it does at the deadline of the request.  The caller waits two
-seconds longer, then kills a helper that has not answered, so nothing hangs.
+A helper stops working on a request at its deadline.  The caller waits two
+seconds longer, then kills a helper that has not answered, so no call blocks
+for ever.
 
-*Threading*: any thread may ask.  An answer that comes too late is dropped.
+*Threading*: any thread may send requests.  A late answer is dropped.
 */
 
 :- dynamic
-    helper/4.                   % Text, Owner, Queue of what was told,
-                                % Name: asked by Text, see the_helper/3
+    helper/4.                   % Text, Owner, Queue of told lines, Name:
+                                % indexed by Text, see the_helper/3
 
 grace_seconds(2).
 stop_seconds(5).
-most_told(1000).                % that are to be written
+most_told(1000).                % lines that wait to be written
 
 %!  helper_open(+Name, +Command, +Options) is det.
 %
-%   From now on there is a helper Name.  Command is command(Program, Args),
-%   for process_create/3.  Options:
+%   Begin a helper Name.  Command is command(Program, Args), for
+%   process_create/3. Options:
 %
-%     - restart(When): `asked`, default: the process is started when there
-%       is a request, also after it has ended; or `always`
+%     - restart(When): `asked`, default: the process is started with a request,
+%       also after it has ended; or `always`
 %
 %   @error permission_error(open, helper, Name) if there is one
 
@@ -69,8 +70,8 @@ open_helper(Name, Command, When) :-
 
 %!  helper_close(+Name) is det.
 %
-%   End the helper, which may do first what it does on `quit`.  Requests that
-%   are still open are answered `closed`.
+%   End the helper, which may first carry out `quit`.  Open requests get the
+%   answer `closed`.
 %
 %   @error existence_error(helper, Name)
 
@@ -93,7 +94,7 @@ close_helper(Name) :-
 
 %!  helper_pid(?Name, ?Pid) is nondet.
 %
-%   The helpers that have a process now.
+%   The helper Name has the process Pid now.
 
 helper_pid(Name, Pid) :-
     helper(_, Owner, _, Name0),
@@ -106,13 +107,12 @@ helper_pid(Name, Pid) :-
 %   Answer is
 %
 %     - ok(Reply)
-%     - said(Dict): an error of the helper, with its `error`, a string that
-%       says which, and its `message`; `bad_request` and `timeout` are among
-%       them
+%     - said(Dict): an error of the helper, with its kind as a string, `error`,
+%       and its `message`; kinds include `bad_request` and `timeout`
 %     - died(Status): the process ended, Status as of process_wait/2
-%     - stuck: it had to be killed
+%     - stuck: the process had to be killed
 %     - closed: the helper was closed meanwhile
-%     - error(Formal, Context): it could not be started
+%     - error(Formal, Context): the process could not be started
 %
 %   @error existence_error(helper, Name)
 
@@ -161,7 +161,8 @@ pass(Name, Owner, Message) :-
     ;   existence_error(helper, Name)
     ).
 
-%   An index on compound terms is not safe where other threads retract.
+%   Index on text: an index on compound terms is unsafe if other threads
+%   retract.
 
 the_helper(Name, Owner, Told) :-
     text(Name, Text),
@@ -182,8 +183,8 @@ text(Name, Text) :-
 
 %!  helper_failure(+Answer, +Name, +Request) is failure.
 %
-%   Raise the error that an Answer other than ok(Reply) means, where there
-%   is nothing better to say.
+%   Raise the error for an Answer other than ok(Reply), if the caller has no
+%   better error.
 %
 %   @error timeout_error(Request, Name), helper_died(Status, Name),
 %   existence_error(helper, Name), helper_error(Kind, Name)
@@ -212,9 +213,9 @@ prolog:error_message(existence_error(helper, Name)) -->
     [ 'There is no helper ~p'-[Name] ].
 prolog:error_message(timeout_error(Request, Name)) -->
     { helper(_, _, _, Name) },
-    [ 'The helper ~p did not do ~p in time'-[Name, Request] ].
+    [ 'The helper ~p did not answer ~p in time'-[Name, Request] ].
 prolog:error_message(helper_died(Status, Name)) -->
     [ 'The helper ~p ended: ~p'-[Name, Status] ].
 prolog:error_message(helper_error(Kind, Name)) -->
-    [ 'The helper ~p says ~w'-[Name, Kind] ].
+    [ 'The helper ~p reports ~w'-[Name, Kind] ].
 

@@ -16,10 +16,10 @@
               [ subscribers_drop/4, subscribers_tell/5,
                 subscribers_tell_new/5, subscription/3 ]).
 
-/** <module> What comes from brokers, and what may be sent to them
+/** <module> Messages from brokers, and checks of topics, payloads and URLs
 
-*Threading*: the thread that reads from the helper passes it on; the rest is
-pure.
+*Threading*: the thread that reads from the helper delivers messages; the rest
+is pure.
 */
 
 :- multifile
@@ -30,12 +30,12 @@ pure.
     up/2.                       % Host, Since: there is a connection; Since
                                 % is 0 if no message can have been missed
 
-missed_seconds(5).              % in which what is retained comes again
+missed_seconds(5).              % in which retained messages arrive again
 
 %!  connection(+Host) is semidet.
 %!  connection_gone(+Host) is det.
 %
-%   There is a connection to the broker, as far as is known; or none.
+%   There is a connection to the broker, as far as is known; it is gone.
 
 connection(Host) :-
     up(Host, _),
@@ -89,7 +89,8 @@ tell(Retain, Host, Filter0, Kind0, Message, Same) :-
     ;   subscribers_tell(mqtt, Host, mqtt(Filter, Kind), Message, Same)
     ).
 
-%   What is retained may have changed meanwhile, so all want it.
+%   After a reconnection all subscribers get retained messages, which may have
+%   changed meanwhile.
 
 came_back(Host) :-
     up(Host, Since),
@@ -102,12 +103,12 @@ came_back(Host) :-
                 *******************************/
 
 longest(65535).                 % bytes
-deepest(200).                   % levels: many brokers hang up beyond
+deepest(200).                   % levels: many brokers disconnect beyond
 
 %!  mqtt_topic(+Term, -Topic:atom) is det.
 %!  mqtt_filter(+Term, -Filter:atom) is det.
 %
-%   Term is text.  In filters a level may be `+`, and the last one `#`.
+%   Term is text.  In a filter a level may be `+`, and the last one `#`.
 %
 %   @error type_error(text, Term), domain_error(mqtt_topic, Term),
 %   domain_error(mqtt_filter, Term)
@@ -144,7 +145,7 @@ text(Term, Atom) :-
     ;   type_error(text, Term)
     ).
 
-%   Brokers disconnect clients that send anything else.
+%   Brokers disconnect clients that send other texts.
 
 fits(Text) :-
     Text \== '',
@@ -178,9 +179,9 @@ string_bytes(Text, Length) :-
 
 %!  mqtt_payload(+Term, +Kind, -Payload) is det.
 %
-%   Payload is for the helper.  Text is itself, numbers are written, dicts and
-%   lists become JSON; if Kind is `json` all do, if it is `bytes` Term is text
-%   of characters up to 255.
+%   Payload is for the helper.  Text is unchanged, numbers are written, dicts
+%   and lists become JSON; if Kind is `json` all terms do; if it is `bytes` Term
+%   is a text of characters up to 255.
 %
 %   @error type_error(mqtt_payload, Culprit), instantiation_error
 
@@ -214,9 +215,9 @@ mqtt_payload(Term, _, Text) :-
 
 %!  mqtt_url(+URL, -Parts:dict) is det.
 %
-%   URL is mqtt://User:Password@Host:Port, or mqtts:// for TLS; all but the
-%   host may be missing.  Parts are `host`, `port`, `tls`, and `user` and
-%   `password` where they are said.
+%   URL is mqtt://User:Password@Host:Port, or mqtts:// for TLS; all but the host
+%   may be missing.  Parts are `host`, `port`, `tls`, and `user` and `password`
+%   if URL has them.
 %
 %   @error domain_error(mqtt_url, URL)
 

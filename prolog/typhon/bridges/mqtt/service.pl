@@ -15,9 +15,9 @@
               [ connection/1, connection_gone/1, mqtt_filter/2,
                 mqtt_payload/3, mqtt_topic/2, mqtt_url/2 ]).
 
-/** <module> The connection of a host to a broker, and what its agents can call
+/** <module> The connection of a host to a broker, and the predicates of agents
 
-*Threading*: any thread; what agents call, in the thread that runs the agent.
+*Threading*: any thread; predicates of agents run in the thread of the agent.
 */
 
 :- multifile
@@ -73,7 +73,7 @@ option_type(timeout(X), between(0.001, 3600), X).
 option_type(wait(X), boolean, X).
 option_type(python(X), atom, X).
 
-%   What the helper has to know, also when it is started again.
+%   Request is what the helper needs, also after a restart.
 
 request(Options, Parts, Request) :-
     option(clean(Clean), Options, true),
@@ -115,10 +115,10 @@ will(_, false).
 
 %   mqtt_message(+Topic, +Payload, +Options, +Kind, -Message:dict) is det.
 %
-%   What is to be published.  Options are those of publish/3, Kind is what
-%   the payload is if they do not say.
+%   Message is to be published.  Options are those of publish/3, Kind is the
+%   default kind of the payload.
 %
-%   @error those of mqtt_topic/2 and mqtt_payload/3
+%   @error the errors of mqtt_topic/2 and mqtt_payload/3
 
 mqtt_message(Topic0, Payload0, Options, Kind0, Message) :-
     check_options(mqtt_publish_option, Options),
@@ -146,7 +146,7 @@ typhon_starting:ends(mqtt, Host) :-
 
 %   mqtt_default(+Host, +Option, +Default) is det.
 %
-%   As option/3, of what Host was started with.
+%   As option/3, for the options with which Host was started.
 %
 %   @error existence_error(mqtt, Host) if it was stopped meanwhile
 
@@ -163,9 +163,9 @@ mqtt_default(Host, Option, Default) :-
 %   mqtt_ask(+Host, +Request, +Seconds) is det.
 %   mqtt_note(+Host, +Request) is det.
 %
-%   @error mqtt_error(Problem, Host), Problem being one of unreachable, refused,
-%   tls, failed; timeout_error(mqtt(What), Host),
-%   and what helper_failure/3 says
+%   @error mqtt_error(Problem, Host), where Problem is unreachable, refused, tls
+%   or failed; timeout_error(mqtt(What), Host), and the errors of
+%   helper_failure/3
 
 mqtt_ask(Host, Request, Seconds) :-
     helper_ask(mqtt(Host), Request, Seconds, Answer),
@@ -199,10 +199,10 @@ formal(timeout, Host, Request, timeout_error(mqtt(What), Host)) :-
 
 %   mqtt_publish(+Host, +Message, +Wait:boolean, +Seconds) is det.
 %
-%   What may be lost is not waited for, as long as there is a connection: a
-%   question for each would be half as fast.
+%   A message that may be lost (QoS 0) is not acknowledged, as long as there is
+%   a connection: a request for each would halve the rate.
 %
-%   @error those of mqtt_ask/3
+%   @error the errors of mqtt_ask/3
 
 mqtt_publish(Host, Message, false, _) :-
     get_dict(qos, Message, 0),
@@ -213,7 +213,7 @@ mqtt_publish(Host, Message, false, _) :-
 mqtt_publish(Host, Message, Wait, Seconds) :-
     mqtt_ask(Host, Message.put(_{do:publish, wait:Wait}), Seconds).
 
-%   Surely not too big.
+%   Message is certainly not too large.
 
 fits(Host, Message) :-
     get_dict(payload, Message, Text),
@@ -260,11 +260,11 @@ typhon_helper_owner:again(mqtt(Host), Request) :-
 %       are bytes
 %     - wait(Boolean): whether to wait until the broker has it, default `false`
 %
-%   What is published while there is no connection is kept for it.
+%   Messages that are published while there is no connection are kept for it.
 %
 %   @error domain_error(mqtt_topic, Topic), type_error(mqtt_payload, Payload),
-%   resource_error(mqtt_pending) if too much is kept,
-%   resource_error(mqtt_payload) if it is too big
+%   resource_error(mqtt_pending) if too many are kept,
+%   resource_error(mqtt_payload) if Payload is too large
 
 publish(Topic, Payload) :-
     publish(Topic, Payload, []).
@@ -280,17 +280,19 @@ publish(Topic, Payload, Options) :-
 %!  subscribe(+Filter) is det.
 %!  subscribe(+Filter, +Options) is det.
 %
-%   What is published under topics that match Filter comes to the agent as
-%   mqtt-message(Topic, Payload, Options), Topic being an atom and Options
-%   qos(N) and retain(Boolean), until it unsubscribes, leaves the host, or
-%   ends.  What it cannot take in comes as mqtt-dropped(mqtt(Filter, Kind),
-%   Count), and what is too big as mqtt-too_big(Topic, Bytes).  Options:
+%   The agent gets messages on topics that match Filter as
+%   mqtt-message(Topic, Payload, Options), where Topic is an atom and Options
+%   are qos(N) and retain(Boolean), until it unsubscribes, leaves the host, or
+%   ends. Messages that do not fit in its queue are reported by
+%   mqtt-dropped(mqtt(Filter, Kind), Count), messages that are too large by
+%   mqtt-too_big(Topic, Bytes). Options:
 %
-%     - qos(N): as which it comes at the most, default 0
-%     - payload(Kind): `auto`, by which JSON objects and lists come as dicts
-%       and lists and all else as strings; `json`: all JSON as terms; `text`;
-%       or `bytes`: a string of characters up to 255.  What is no UTF-8 is
-%       always bytes.
+%     - qos(N): maximal quality of service of the messages, default 0
+%     - payload(Kind): `auto`, JSON objects and lists become dicts and lists,
+%     other
+%       payloads strings; `json`, all payloads become terms; `text`; or `bytes`,
+%       a string of characters up to 255.  A payload that is not UTF-8 is always
+%       bytes.
 %     - as(How), queue(N): as of subscribe/5 of typhon_subscribers
 %
 %   @error domain_error(mqtt_filter, Filter)
@@ -337,7 +339,7 @@ unsubscribe(Filter0) :-
     ;   existence_error(mqtt_subscription, Filter)
     ).
 
-%   An agent wants a filter in one way.
+%   An agent has one subscription to a filter.
 
 unsubscribe_others(Filter, Key, Host, Agent) :-
     forall(( kind(Kind), Other = mqtt(Filter, Kind), Other \== Key ),

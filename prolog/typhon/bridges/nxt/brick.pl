@@ -36,23 +36,24 @@
 %!  nxt_connect(+Brick, +Port, +Options) is det.
 %
 %   Connect to the NXT at Port and call it Brick, an atom.  Port is a device
-%   as '/dev/rfcomm0', or a URL of pyserial as 'socket://localhost:5000'.
-%   It has answered when this succeeds.  Options:
+%   such as '/dev/rfcomm0', or a URL of pyserial such as
+%   'socket://localhost:5000'. The brick has answered when this succeeds.
+%   Options:
 %
 %     - deadline(Seconds)
 %       For every later call; default 3.
 %     - connect_deadline(Seconds)
-%       For this one; default 15.
+%       For this call; default 15.
 %     - confirm(Boolean)
-%       Whether the brick has to acknowledge what has no other answer, as
-%       motor commands; default `true`.  Without, these are faster (a
-%       Bluetooth link needs a tenth of a second to turn round), and
-%       succeed though the brick is silent or refuses.
+%       Whether the brick must acknowledge commands that have no other answer,
+%       such as motor commands; default `true`.  With `false`, these are faster
+%       (a Bluetooth link needs a tenth of a second to change direction), and
+%       succeed even if the brick is silent or refuses.
 %     - baudrate(N)
 %     - python(Program)
 %       For the helper; default see the setting typhon_nxt_link:python.
 %
-%   @error permission_error(connect, nxt_brick, Brick) if it is connected
+%   @error permission_error(connect, nxt_brick, Brick) if Brick is connected
 %   @error See nxt_failure/4
 
 nxt_connect(Brick, Port) :-
@@ -80,7 +81,7 @@ option_type(python(X), atom, X).
 
 %!  nxt_disconnect(+Brick) is det.
 %
-%   The motors go on as they are.
+%   The motors keep running as they are.
 %
 %   @error existence_error(nxt_brick, Brick)
 
@@ -97,9 +98,9 @@ nxt_brick(Brick, Port) :-
 
 %!  nxt_command(+Brick, +Command, +Args, -Values) is det.
 %
-%   Send any telegram.  Command is its name in LEGO's document, as
-%   'GETBATTERYLEVEL', Args and Values are dicts; bridges/nxt/telegram.py
-%   has the table of their fields.  Data are atoms of hexadecimal digits.
+%   Send any telegram.  Command is its name in LEGO's document, such as
+%   'GETBATTERYLEVEL'; Args and Values are dicts; bridges/nxt/telegram.py has
+%   the table of their fields.  Data are atoms of hexadecimal digits.
 %
 %   @error See nxt_failure/4
 
@@ -120,7 +121,7 @@ unacknowledged('PLAYSOUNDFILE').
 
 %!  nxt_battery(+Brick, -MilliVolts:integer) is det.
 %
-%   The voltage of the battery.
+%   MilliVolts is the voltage of the battery.
 
 nxt_battery(Brick, MilliVolts) :-
     nxt_command(Brick, 'GETBATTERYLEVEL', _{}, Values),
@@ -128,8 +129,8 @@ nxt_battery(Brick, MilliVolts) :-
 
 %!  nxt_info(+Brick, -Info:list) is det.
 %
-%   Info has name(Atom), address(Atom), signal(Integer), the strength of
-%   Bluetooth, free_flash(Bytes), firmware(Major, Minor) and
+%   Info has name(Atom), address(Atom), signal(Integer), the strength of the
+%   Bluetooth signal, free_flash(Bytes), firmware(Major, Minor) and
 %   protocol(Major, Minor).
 
 nxt_info(Brick, Info) :-
@@ -156,8 +157,8 @@ colons(Hex, Address) :-
 
 %!  nxt_set_name(+Brick, +Name:atom) is det.
 %
-%   Give the brick another name, of at most 15 ASCII characters, which it
-%   keeps and shows.  It stays Brick here.
+%   Give the brick another name, of at most 15 ASCII characters, which it keeps
+%   and displays.  In this process it is still called Brick.
 
 nxt_set_name(Brick, Name) :-
     nxt_text(15, Name),
@@ -165,8 +166,8 @@ nxt_set_name(Brick, Name) :-
 
 %!  nxt_keep_alive(+Brick, -Seconds:number) is det.
 %
-%   Let the brick not fall asleep.  It will after so many seconds without a
-%   command; 0 is never.
+%   Keep the brick from falling asleep.  It will fall asleep after Seconds
+%   without a command; 0 means never.
 
 nxt_keep_alive(Brick, Seconds) :-
     nxt_command(Brick, 'KEEPALIVE', _{}, Values),
@@ -197,7 +198,7 @@ nxt_sound_file(Brick, File, Loop) :-
 
 %!  nxt_sound_stop(+Brick) is det.
 %
-%   Whatever sounds on Brick is broken off.
+%   Stop any sound of Brick.
 
 nxt_sound_stop(Brick) :-
     nxt_command(Brick, 'STOPSOUNDPLAYBACK', _{}, _).
@@ -208,10 +209,10 @@ nxt_sound_stop(Brick) :-
 
 %!  nxt_write(+Brick, +Column, +Row, +Text) is det.
 %
-%   Write on the display, which has rows 0 to 7 of columns 0 to 15.  What
-%   does not fit into the row is cut off.  The firmware has no command for
-%   it: the pixels are written into the memory of its display module, and
-%   its menus may write over them.
+%   Write on the display, which has rows 0 to 7 of columns 0 to 15.  Text beyond
+%   the end of the row is cut off.  The firmware has no command for this: the
+%   pixels are written into the memory of its display module, and its menus may
+%   overwrite them.
 
 nxt_write(Brick, Column, Row, Text0) :-
     must_be(between(0, 15), Column),
@@ -237,7 +238,7 @@ nxt_clear(Brick) :-
 
 %!  nxt_message_write(+Brick, +Inbox, +Text) is det.
 %
-%   Send up to 58 bytes to box 0 to 9 of the program that runs there.
+%   Send up to 58 bytes to box 0 to 9 of the program that is running.
 %
 %   @error nxt_error(refused(no_active_program), Brick)
 
@@ -249,8 +250,8 @@ nxt_message_write(Brick, Inbox, Text) :-
 
 %!  nxt_message_read(+Brick, +Inbox, +Remove:boolean, -Text:atom) is semidet.
 %
-%   Read from a box of the program that runs there; programs write for us
-%   into 10 to 19.  Fails if it is empty.
+%   Read from a box of the running program; programs write messages for this
+%   process into 10 to 19.  Fails if the box is empty.
 
 nxt_message_read(Brick, Inbox, Remove, Text) :-
     must_be(between(0, 19), Inbox),

@@ -18,9 +18,9 @@
 
 /** <module> Files and programs of a brick
 
-Names have up to 15 characters, a dot and up to 3 more.  Files pass in
-pieces, each of which is a call of its own with its deadline, so that others
-can use the brick meanwhile.
+Names have up to 15 characters, a dot and up to 3 more.  Files are transferred
+in pieces, each by a call with its own deadline, so that other callers can use
+the brick meanwhile.
 
 *Threading*: any thread; see typhon_nxt_link.
 */
@@ -29,8 +29,7 @@ piece_bytes(56).                % a telegram has at most 64
 
 %!  nxt_files(+Brick, +Pattern, -Files:list) is det.
 %
-%   Files are the files as Name-Size.  Pattern is '*.*', 'name.*', '*.ext'
-%   or a name.
+%   Files are Name-Size.  Pattern is '*.*', 'name.*', '*.ext' or a name.
 
 nxt_files(Brick, Pattern, Files) :-
     nxt_text(19, Pattern),
@@ -53,7 +52,7 @@ more_files(Brick, File, [Name-Size|Files]) :-
     ;   Files = []
     ).
 
-%   No cleanup handler: in one no deadline could be kept.
+%   Not setup_call_cleanup/3: a deadline is not observed in a cleanup handler.
 
 :- meta_predicate with_handle(+, +, 0).
 
@@ -71,7 +70,7 @@ close_handle(Brick, Handle) :-
 
 %!  nxt_file_exists(+Brick, +File) is semidet.
 %
-%   True if Brick has a file of that name.
+%   Brick has a file with that name.
 
 nxt_file_exists(Brick, File) :-
     nxt_files(Brick, File, [_|_]).
@@ -100,9 +99,9 @@ read_pieces(Brick, Handle, Left, Bytes) :-
 
 %!  nxt_file_write(+Brick, +File, +Bytes:list) is det.
 %
-%   Replaces a file of that name.
+%   Write a file; replaces a file with that name.
 %
-%   @error nxt_error(refused(Status), Brick), as no_space
+%   @error nxt_error(refused(Status), Brick), with a Status such as no_space
 
 nxt_file_write(Brick, File, Bytes) :-
     nxt_text(19, File),
@@ -158,7 +157,7 @@ nxt_download(Brick, File, Local) :-
 
 %!  nxt_program_start(+Brick, +File) is det.
 %
-%   Start a program, as 'demo.rxe'.
+%   Start a program, such as 'demo.rxe'.
 %
 %   @error nxt_error(refused(Status), Brick), Status out_of_range or
 %          request_failed if there is no such program
@@ -176,7 +175,7 @@ nxt_program_stop(Brick) :-
 
 %!  nxt_program(+Brick, -File) is semidet.
 %
-%   File is the program that runs.  Fails if none does.
+%   File is the running program.  Fails if none is running.
 
 nxt_program(Brick, File) :-
     catch(nxt_command(Brick, 'GETCURRENTPROGRAMNAME', _{}, Values),

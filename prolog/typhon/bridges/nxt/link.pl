@@ -28,12 +28,12 @@
 
 /** <module> Requests to bricks, and their answers
 
-Every brick that is connected has a helper, which holds its serial line:
+Every connected brick has a helper, which holds its serial line:
 `python3 bridges/nxt/bridge.py PORT`, see there for the lines that it reads and
-writes.  One that died is replaced by the next request.  A helper serves its
-requests one after the other; different bricks have different helpers.
+writes.  A helper that died is replaced by the next request.  A helper serves
+its requests one after the other; different bricks have different helpers.
 
-*Threading*: any thread may ask; see typhon_helper_requests.
+*Threading*: any thread may send requests; see typhon_helper_requests.
 */
 
 :- dynamic
@@ -41,7 +41,7 @@ requests one after the other; different bricks have different helpers.
 
 %!  link_open(+Brick, +Port, +Options) is det.
 %
-%   @error permission_error(connect, nxt_brick, Brick) if it is connected
+%   @error permission_error(connect, nxt_brick, Brick) if Brick is connected
 
 link_open(Brick, Port, Options) :-
     nxt_command_line(Port, Options, Command),
@@ -57,7 +57,7 @@ open_link(Brick, Port, Options, Command) :-
 
 %!  link_close(+Brick) is det.
 %
-%   End the helper.  Requests that are still open get an error.
+%   End the helper.  Open requests get an error.
 %
 %   @error existence_error(nxt_brick, Brick)
 
@@ -89,8 +89,8 @@ the_brick(Brick, Port, Options) :-
 %!  link_request(+Brick, +What, +Fields, -Reply) is det.
 %!  link_request(+Brick, +What, +Fields, +Seconds, -Reply) is det.
 %
-%   Have the helper of Brick do What, a command of LEGO's document or what
-%   the helper can do, with the dict Fields.  Reply is a dict.  Seconds is
+%   The helper of Brick carries out What, a command of LEGO's document or a
+%   function of the helper, with the dict Fields.  Reply is a dict.  Seconds is
 %   the deadline, default that of the brick.
 %
 %   @error existence_error(nxt_brick, Brick)
@@ -112,7 +112,7 @@ link_request(Brick, What, Fields, Seconds, Reply) :-
     ;   nxt_failure(Answer, Brick, Port, What)
     ).
 
-%   Texts are names here, and become atoms.
+%   Texts are names in this protocol, and become atoms.
 
 answer_atoms(ok(Reply0), ok(Reply)) :-
     !,
@@ -147,7 +147,7 @@ atoms_pair(Key-Value0, Key-Value) :-
 
 %!  nxt_python(+Options, -Program) is det.
 %
-%   As helper_python/2, where there may be a setting for bricks.
+%   As helper_python/2, but with the setting for bricks, if there is one.
 
 nxt_python(Options, Python) :-
     (   option(python(_), Options)
@@ -228,8 +228,8 @@ nxt_text(Length, Text) :-
 
 %   nxt_failure(+Answer, +Brick, +Port, +What) is failure.
 %
-%   Raise the error that an answer of the helper, or its missing, means. The
-%   context is context(nxt(Brick, What), Text), Text being the words of the
+%   Raise the error for an answer of the helper, or for a missing answer.  The
+%   context is context(nxt(Brick, What), Text), where Text is the message of the
 %   helper.
 %
 %   @error existence_error(nxt_port, Port) if there is no such port
@@ -239,14 +239,14 @@ nxt_text(Length, Text) :-
 %   @error nxt_error(refused(Status), Brick), Status being the name of the
 %          status byte
 %   @error nxt_error(line_lost, Brick)
-%   @error nxt_error(garbage, Brick) if there was an answer that is none
+%   @error nxt_error(garbage, Brick) for an invalid answer
 %   @error nxt_error(open_failed, Brick) for other reasons
 %   @error nxt_error(helper_died(Status), Brick), Status as of
 %          process_wait/2, or `stuck` if it had to be killed
 %   @error existence_error(python_module, serial)
 %   @error existence_error(python, Program)
 %   @error existence_error(nxt_brick, Brick) if it was disconnected meanwhile
-%   @error domain_error(nxt_request, What) if the helper does not take it
+%   @error domain_error(nxt_request, What) if the helper rejects the request
 
 nxt_failure(Answer, Brick, Port, What) :-
     failure(Answer, Brick, Port, What, Formal, Text),
@@ -285,8 +285,8 @@ formal(Kind, _, Brick, _, _, nxt_error(Kind, Brick)).
                 *            VALUES            *
                 *******************************/
 
-%   Speeds, accelerations, lamps, offsets, and replies not yet read, by the
-%   names of SWI-PRO-NXT.
+%   Speeds, accelerations, lamps, offsets, and replies not yet read, for the
+%   predicates of SWI-PRO-NXT.
 
 :- dynamic
     value/3.                    % Brick, Key, Value
@@ -295,8 +295,8 @@ formal(Kind, _, Brick, _, _, nxt_error(Kind, Brick)).
 %!  link_value(+Brick, +Key, +Default, -Value) is det.
 %!  link_unset(+Brick, ?Key) is det.
 %
-%   Remember a value for Brick, which survives a lost connection; return it, or
-%   Default; forget it.
+%   Store a value for Brick, which survives a lost connection; return it, or
+%   Default; delete it.
 
 link_set(Brick, Key, Value) :-
     with_mutex(typhon_nxt_values,
@@ -332,7 +332,7 @@ prolog:error_message(permission_error(connect, nxt_brick, Brick)) -->
 prolog:error_message(timeout_error(nxt(What), Brick)) -->
     [ 'Brick ~w did not answer ~w in time'-[Brick, What] ].
 prolog:error_message(domain_error(nxt_request, What)) -->
-    [ 'No brick can be asked for such a ~w'-[What] ].
+    [ 'A brick does not support the request ~w'-[What] ].
 prolog:error_message(nxt_error(Problem, Brick)) -->
     problem(Problem, Brick).
 
@@ -341,7 +341,7 @@ problem(refused(Status), Brick) -->
 problem(line_lost, Brick) -->
     [ 'The line to brick ~w was lost'-[Brick] ].
 problem(garbage, Brick) -->
-    [ 'What brick ~w answered makes no sense'-[Brick] ].
+    [ 'The answer of brick ~w is invalid'-[Brick] ].
 problem(open_failed, Brick) -->
     [ 'The port of brick ~w cannot be opened'-[Brick] ].
 problem(low_battery(Volts), Brick) -->

@@ -22,9 +22,9 @@
 
 /** <module> Motors
 
-A motor is `a`, `b` or `c` ('A', 'B' and 'C' will do); Motors are one, a
-list of them, or `all`.  Power is -100 to 100 per cent.  A motor that has
-come to its limit is let go, and may roll on for some degrees.
+A motor is `a`, `b` or `c` ('A', 'B' and 'C' are also accepted); Motors are one,
+a list of them, or `all`.  Power is -100 to 100 per cent.  A motor that has
+reached its limit is released, and may roll on for some degrees.
 
 *Threading*: any thread; see typhon_nxt_link.
 */
@@ -37,15 +37,15 @@ come to its limit is let go, and may roll on for some degrees.
 %   Begin to turn.  Options:
 %
 %     - regulated(Boolean)
-%       Whether Power is a speed, which the brick holds under load; default
+%       Whether Power is a speed, which the brick maintains under load; default
 %       `false`.
 %     - brake(Boolean)
 %       Brake between the pulses of the current; default as regulated.
 %     - degrees(N)
-%       Turn so far; default 0, for ever.
+%       Turn by that angle; default 0, without end.
 %     - sync(Ratio)
-%       Two motors turn together: at 0 alike, at 50 the first one stands, at
-%       100 it turns against the other; -50 and -100 are for the other one.
+%       Two motors turn together: at 0 alike, at 50 the first one stands, at 100
+%       it turns against the other; -50 and -100 do the same to the other one.
 %     - state(State)
 %       `running` (default), `ramp_up` or `ramp_down`.
 %
@@ -142,11 +142,11 @@ nxt_turn(Brick, Motors, Power0, Degrees0) :-
 %!  nxt_turn_to(+Brick, +Motor, +Power, +Angle:integer) is det.
 %!  nxt_turn_to(+Brick, +Motor, +Power, +Angle:integer, +Seconds) is det.
 %
-%   Turn to Angle as nxt_tacho/3 tells it.  With Seconds, the longest time
-%   for it, Motor slows down as it comes near, and when this is true it is
-%   held there, at most two degrees off.  Without, this only begins to turn.
+%   Turn to Angle, as measured by nxt_tacho/3.  With Seconds, the maximal time,
+%   Motor slows down as it comes near, and when the call succeeds it is held
+%   there, at most two degrees off.  Without Seconds this only begins to turn.
 %
-%   @error timeout_error(nxt(turn_to), Brick); then Motor has been stopped
+%   @error timeout_error(nxt(turn_to), Brick); Motor has then been stopped
 
 nxt_turn_to(Brick, Motor, Power0, Angle) :-
     must_be(between(-100, 100), Power0),
@@ -185,9 +185,9 @@ near(Brick, Motor, Power, Angle, Deadline) :-
         near(Brick, Motor, Power, Angle, Deadline)
     ).
 
-%   A per cent is 10 degrees in a second, and the brick may need a tenth of
-%   a second to answer and as long again to slow down.  Below 6 per cent a
-%   motor may not turn at all.
+%   One per cent is 10 degrees in a second, and the brick may need a tenth of a
+%   second to answer and as long again to slow down.  Below 6 per cent a motor
+%   may not turn at all.
 
 approach(Error, Power, Speed) :-
     Wanted is max(6, abs(Error)//4),
@@ -208,7 +208,7 @@ in_vain(What, Brick, Motor) :-
 
 %!  nxt_stop(+Brick, +Motors) is det.
 %
-%   Stop, and hold against what turns them.
+%   Stop, and hold the position.
 
 nxt_stop(Brick, Motors) :-
     motor_ports(Motors, Ports),
@@ -217,7 +217,7 @@ nxt_stop(Brick, Motors) :-
 
 %!  nxt_float(+Brick, +Motors) is det.
 %
-%   Let go: no current, no brake.
+%   Release: no current, no brake.
 
 nxt_float(Brick, Motors) :-
     motor_ports(Motors, Ports),
@@ -226,7 +226,7 @@ nxt_float(Brick, Motors) :-
 
 %!  nxt_tacho(+Brick, +Motor, -Degrees:integer) is det.
 %
-%   How far Motor has turned since nxt_tacho_reset/2.
+%   Degrees is the angle by which Motor has turned since nxt_tacho_reset/2.
 
 nxt_tacho(Brick, Motor, Degrees) :-
     output_state(Brick, Motor, State),
@@ -238,7 +238,7 @@ output_state(Brick, Motor, State) :-
 
 %!  nxt_tacho_reset(+Brick, +Motors) is det.
 %
-%   The motors stand at 0 degrees now. Motors is one, a list, or `all`.
+%   Set the angle of the motors to 0 degrees.  Motors is one, a list, or `all`.
 
 nxt_tacho_reset(Brick, Motors) :-
     ( Motors == all -> Ports = [0,1,2] ; motor_ports(Motors, Ports) ),
@@ -248,7 +248,7 @@ nxt_tacho_reset(Brick, Motors) :-
 
 %!  nxt_motor(+Brick, +Motor, -State:list) is det.
 %
-%   State is what the brick says of Motor: power(P), mode(Bits),
+%   State is what the brick reports on Motor: power(P), mode(Bits),
 %   regulation(none, speed or sync), turn_ratio(R), state(idle, ramp_up,
 %   running or ramp_down), limit(Degrees), tacho(D), block(D) and
 %   rotation(D).
@@ -269,7 +269,7 @@ regulation_name(N, N).
 
 %!  nxt_moves(+Brick, +Motor) is semidet.
 %
-%   True if Motor is driven, or rolls: then it is looked at twice.
+%   Motor is driven, or rolls; the latter takes two measurements.
 
 nxt_moves(Brick, Motor) :-
     output_state(Brick, Motor, State),
@@ -283,7 +283,7 @@ nxt_moves(Brick, Motor) :-
 
 %!  nxt_await(+Brick, +Motors, +Seconds:number) is det.
 %
-%   Wait until none of Motors moves.
+%   Wait until all Motors rest.
 %
 %   @error timeout_error(nxt(await), Brick)
 

@@ -19,12 +19,12 @@
 
 /** <module> Motors and sensors by the names of SWI-PRO-NXT
 
-Motors are 'A', 'B' and 'C'.  Speeds are per cent, clipped to -100 to 100,
-accelerations per cent in a second.  Forward is the direction of positive
+Motors are 'A', 'B' and 'C'.  Speeds are in per cent, clipped to -100 to 100,
+accelerations in per cent per second.  Forward is the direction of positive
 power, and anticlockwise.
 
-Ports of sensors are 1 to 4.  Light and sound are per cent, touch is 1 or 0,
-distances are centimetres, 255 if there is nothing; colour, compass,
+Ports of sensors are 1 to 4.  Light and sound are in per cent, touch is 1 or 0,
+distances are in centimetres, 255 without an obstacle; colour, compass,
 gyroscope, infrared seeker and accelerometer are those of HiTechnic.
 
 *Threading*: any thread; see typhon_nxt_link.
@@ -150,8 +150,8 @@ ramp(Name, Ports, Now, Power, Rate) :-
 %!  rotate_nxt(+Name, +P, +Angle, +Dir) is det.
 %!  rotateto_nxt(+Name, +P, +Angle, +Sign) is det.
 %
-%   Turn by Angle degrees, Dir being 'A', anticlockwise, or 'C', clockwise;
-%   or to an angle, Sign being + or -.  The motor turns at the speed of
+%   Turn by Angle degrees, where Dir is 'A', anticlockwise, or 'C', clockwise;
+%   or to an angle, where Sign is + or -.  The motor turns at the speed of
 %   set_motorspeed_nxt/3, else 50, and has arrived when the call succeeds.
 
 rotate_nxt(Name, P, Angle, Dir) :-
@@ -180,7 +180,7 @@ sign_of('C', -1).
 sign_of(+, 1).
 sign_of(-, -1).
 
-%   The deadline is three times as long as it should take.
+%   The deadline is three times the expected duration.
 
 turn_to(Name, P, To, Now) :-
     link_value(Name, speed(P), 50, Speed),
@@ -191,7 +191,7 @@ turn_to(Name, P, To, Now) :-
 %!  reverse_nxt(+Name, +P) is det.
 %!  reverse_nxt(+Name, +P1, +P2) is det.
 %
-%   Turn the other way at the same speed.
+%   Turn in the other direction at the same speed.
 
 reverse(Name, P) :-
     nxt_motor(Name, P, State),
@@ -201,7 +201,7 @@ reverse(Name, P) :-
 %!  set_motorspeed_nxt(+Name, +P, +Speed) is det.
 %!  set_motorspeed_nxt(+Name, +P1, +P2, +S1, +S2) is det.
 %
-%   Set the speed: of a motor that turns at once, of others for rotate_nxt/4.
+%   Set the speed: of a turning motor at once, of others for rotate_nxt/4.
 
 set_motorspeed(Name, P, Speed) :-
     clipped(Speed, Power),
@@ -218,7 +218,7 @@ set_motorspeed(Name, P, Speed) :-
 %!  set_acceleration_nxt(+Name, +P, +Acceleration) is det.
 %!  set_acceleration_nxt(+Name, +P1, +P2, +A1, +A2) is det.
 %
-%   Per cent in a second.  A move then takes time to reach its speed.
+%   In per cent per second.  A move then takes time to reach its speed.
 
 set_acceleration(Name, P, Acceleration) :-
     must_be(positive_integer, Acceleration),
@@ -322,12 +322,12 @@ type(i2c, _, _, 0x0B, 0).
 %!  read_irseeker_nxt(+Name, +P, -R) is det.
 %!  read_irseeker_nxt(+Name, +P1, +P2, -R1, -R2) is det.
 %
-%   R is what the sensor at P measures: light as of nxt_light/4 and loudness,
-%   per cent; the distance in centimetres, 255 if there is nothing; 1 if the
-%   touch sensor is pressed, else 0; the number of the colour, as of
+%   R is the measurement of the sensor at P: light as of nxt_light/4 and
+%   loudness, in per cent; the distance in centimetres, 255 without an obstacle;
+%   1 if the touch sensor is pressed, else 0; the number of the colour, as of
 %   nxt_colour_number/3; the direction, as of nxt_compass/3; the rate of
-%   turning, as of nxt_gyro/3, less the offset of set_gyroffset_nxt/2; where
-%   the infrared light is, as of nxt_infrared/3.
+%   turning, as of nxt_gyro/3, less the offset of set_gyroffset_nxt/2; the
+%   direction of the infrared light, as of nxt_infrared/3.
 
 light(Name, Port, R) :-
     link_value(Name, lamp(Port), on, Lamp),
@@ -348,14 +348,14 @@ turning(Name, Port, R) :-
 
 %!  read_accel_nxt(+Name, +P, -X, -Y, -Z) is det.
 %
-%   The acceleration, as of nxt_accelerometer/5.
+%   X, Y and Z are the acceleration, as of nxt_accelerometer/5.
 
 read_accel_nxt(Name, P, X, Y, Z) :-
     nxt_accelerometer(Name, P, X, Y, Z).
 
 %!  read_sensorport_nxt(+Name, +P, -R) is det.
 %
-%   R is the raw value, 0 to 1023, for whatever sensor the port is set up.
+%   R is the raw value, 0 to 1023, of the sensor for which the port is set up.
 
 read_sensorport_nxt(Name, P, R) :-
     nxt_input(Name, P, Values),
@@ -363,7 +363,7 @@ read_sensorport_nxt(Name, P, R) :-
 
 %!  floodlight_nxt(+Name, +P, +OnOff) is det.
 %
-%   Switch the lamp of the light sensor `on` (as at first) or `off`.
+%   Switch the lamp of the light sensor `on`, its initial state, or `off`.
 
 floodlight_nxt(Name, P, OnOff) :-
     (   memberchk(OnOff, [on, off])
@@ -387,7 +387,7 @@ stop_compasscalibration_nxt(Name, P) :-
 
 %!  set_gyroffset_nxt(+Name, +P) is det.
 %
-%   The value that the gyroscope has now, at rest, is read as 0 from now on.
+%   The present value of the gyroscope, at rest, is read as 0 from now on.
 
 set_gyroffset_nxt(Name, P) :-
     link_unset(Name, gyro(P)),

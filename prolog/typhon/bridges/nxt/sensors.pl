@@ -24,10 +24,9 @@
 
 /** <module> Sensors
 
-Ports are 1 to 4, as printed on the brick.  A port is set up for the sensor
-that is read, which is remembered, so that only the first reading takes
-the time that it needs; two agents that take one port for different sensors
-make each other wait.
+Ports are 1 to 4, as printed on the brick.  A port is set up for the sensor that
+is read, and this is remembered, so only the first reading needs the time for
+that; two agents that use one port for different sensors delay each other.
 
 *Threading*: any thread; see typhon_nxt_link.
 */
@@ -36,9 +35,9 @@ per_cent(0x80).                 % mode
 
 %!  nxt_sensor(+Brick, +Port, +Type, +Mode, -Values) is det.
 %
-%   Values is a dict with raw, normalized and scaled, as the firmware gives
-%   them to sensors of Type in Mode, numbers of LEGO's document.  Waits until
-%   they are valid.
+%   Values is a dict with raw, normalized and scaled, the values of the firmware
+%   for sensors of Type in Mode, numbers of LEGO's document.  Waits until they
+%   are valid.
 
 nxt_sensor(Brick, Port, Type, Mode, Values) :-
     input(Port, Input),
@@ -53,7 +52,7 @@ input(Port, Input) :-
 
 %!  nxt_input(+Brick, +Port, -Values) is det.
 %
-%   What the brick says of Port, whatever it is set up for, in a dict.
+%   Values is a dict with the state of Port, for any kind of sensor.
 
 nxt_input(Brick, Port, Values) :-
     input(Port, Input),
@@ -61,7 +60,7 @@ nxt_input(Brick, Port, Values) :-
 
 %!  nxt_touch(+Brick, +Port, -Pressed:boolean) is det.
 %
-%   Whether the touch sensor is pressed.
+%   Pressed is true if the touch sensor is pressed.
 
 nxt_touch(Brick, Port, Pressed) :-
     nxt_sensor(Brick, Port, 1, 0x20, Values),
@@ -93,7 +92,7 @@ scaled(Brick, Port, Type, PerCent) :-
 %!  nxt_sound(+Brick, +Port, -PerCent:integer) is det.
 %!  nxt_sound(+Brick, +Port, +Scale, -PerCent:integer) is det.
 %
-%   100 is loud.  Scale is `db` (default), or `dba`, as ears hear it.
+%   100 is loud.  Scale is `db` (default), or `dba`, adjusted to human hearing.
 
 nxt_sound(Brick, Port, PerCent) :-
     nxt_sound(Brick, Port, db, PerCent).
@@ -160,10 +159,10 @@ nxt_gyro(Brick, Port, Value) :-
 
 %!  nxt_i2c(+Brick, +Port, +Bytes:list, +Count:integer, -Answer:list) is det.
 %
-%   Send up to 16 Bytes to a sensor: its address, a register, and what shall
-%   be written there.  Answer are Count bytes, up to 15.
+%   Send up to 16 Bytes to a sensor: its address, a register, and the values to
+%   write there.  Answer has Count bytes, up to 15.
 %
-%   @error nxt_error(refused(bus_error), Brick) if nothing has the address
+%   @error nxt_error(refused(bus_error), Brick) if no device has the address
 
 nxt_i2c(Brick, Port, Bytes, Count, Answer) :-
     input(Port, Input),
@@ -175,8 +174,8 @@ nxt_i2c(Brick, Port, Bytes, Count, Answer) :-
 
 %!  nxt_ultrasonic(+Brick, +Port, -CentiMetres) is det.
 %
-%   Distance to what is ahead, or `inf` if there is nothing, which can be
-%   compared with numbers.
+%   CentiMetres is the distance to an obstacle ahead, or `inf` without an
+%   obstacle, which can be compared with numbers.
 
 nxt_ultrasonic(Brick, Port, CentiMetres) :-
     nxt_i2c(Brick, Port, [0x02,0x42], 1, [Byte]),
@@ -192,8 +191,8 @@ nxt_compass(Brick, Port, Degrees) :-
 
 %!  nxt_compass_calibrate(+Brick, +Port, +OnOff) is det.
 %
-%   Between `on` and `off` the compass has to be turned slowly, once and a
-%   half round.
+%   Between `on` and `off` the compass must be turned slowly, one and a half
+%   times.
 
 nxt_compass_calibrate(Brick, Port, OnOff) :-
     (   calibration(OnOff, Mode)
@@ -223,8 +222,8 @@ ten_bits(High, Low, Value) :-
 
 %!  nxt_infrared(+Brick, +Port, -Direction:integer) is det.
 %
-%   HiTechnic's infrared seeker (version 2): 1 is far left, 5 is ahead, 9
-%   is far right, 0 is nothing.  Modulated light is looked for.
+%   HiTechnic's infrared seeker (version 2): 1 is far left, 5 is ahead, 9 is far
+%   right, 0 is no signal.  It detects modulated light.
 
 nxt_infrared(Brick, Port, Direction) :-
     nxt_i2c(Brick, Port, [0x10,0x49], 1, [Direction]).

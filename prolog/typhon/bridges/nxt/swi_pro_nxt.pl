@@ -32,17 +32,17 @@
 
 /** <module> The names of SWI-PRO-NXT
 
-The predicates by which Tartarus drove its robots, over this bridge and
-LEGO's own firmware; no program is needed on the brick.  Name is an atom
-that the caller chooses.  Wrong arguments raise type and domain errors;
-what else may go wrong, see nxt_failure/4.
+These are the predicates by which Tartarus controlled its robots, implemented
+over this bridge and LEGO's own firmware; no program is needed on the brick.
+Name is an atom chosen by the caller.  Wrong arguments raise type and domain
+errors; for other errors see nxt_failure/4.
 
 *Threading*: any thread; see typhon_nxt_link.
 */
 
 %!  setup_nxt(+Name) is det.
 %
-%   There is nothing to be put on the brick any more.
+%   Does nothing: no program is needed on the brick any more.
 
 setup_nxt(Name) :-
     must_be(atom, Name).
@@ -51,9 +51,8 @@ setup_nxt(Name) :-
 %!  connect2_nxt(+Name, +Link, +Port, -Response) is det.
 %!  connect_nxt(+Name, +Link, +Port) is det.
 %
-%   Connect.  Link is a device or URL as of nxt_connect/2, then Port does
-%   not matter; or a host name, then Port is its TCP port.  Response is
-%   `started`.
+%   Connect.  Link is a device or URL as of nxt_connect/2, then Port is ignored;
+%   or a host name, then Port is its TCP port.  Response is `started`.
 
 initialize_nxt(Name, Link, Port, started) :-
     connect_nxt(Name, Link, Port).
@@ -72,7 +71,7 @@ connect_nxt(Name, Link, Port) :-
 
 %!  close_nxt(+Name) is det.
 %
-%   Disconnect, and forget what was set for Name.
+%   Disconnect, and delete the values stored for Name.
 
 close_nxt(Name) :-
     nxt_disconnect(Name),
@@ -81,9 +80,9 @@ close_nxt(Name) :-
 %!  write_nxt(+Name, +Msg) is det.
 %!  written_nxt(+Name, +Msg) is det.
 %
-%   Send a telegram: Msg is a command of LEGO's document, or Command-Args
-%   with the dict of its fields, see nxt_command/4.  What write_nxt/2 brings
-%   back is kept for read_res_nxt/2.
+%   Send a telegram: Msg is a command of LEGO's document, or Command-Args with
+%   the dict of its fields, see nxt_command/4.  The reply to write_nxt/2 is kept
+%   for read_res_nxt/2.
 
 write_nxt(Name, Msg) :-
     send(Name, Msg, Values),
@@ -104,8 +103,8 @@ send(Name, Msg, Values) :-
 %!  read_nxt(+Name, -Values) is semidet.
 %!  check_res_nxt(+Name, -Values) is semidet.
 %
-%   Values is the dict that the last write_nxt/2 brought back.  read_nxt/2
-%   fails if there is none; check_res_nxt/2 prints it.
+%   Values is the dict of the reply to the last write_nxt/2.  read_nxt/2 fails
+%   if there is none; check_res_nxt/2 prints it.
 %
 %   @error existence_error(nxt_reply, Name)
 
@@ -144,7 +143,7 @@ clear_lcd_nxt(Name) :-
 
 %!  beep_nxt(+Name, +Type) is det.
 %
-%   1 is a beep, 2 two of them, 3 a sequence that rises, 4 a buzz.
+%   1 is a beep, 2 two beeps, 3 a rising sequence, 4 a buzz.
 
 beep_nxt(Name, Type) :-
     must_be(integer, Type),
@@ -158,7 +157,7 @@ beep(2, [600-150, 600-150]).
 beep(3, [523-100, 659-100, 784-100, 1047-150]).
 beep(4, [220-500]).
 
-%   A tone ends the one before.
+%   A new tone ends the previous one, so wait for its end.
 
 beep_tone(Name, Hertz-MilliSeconds) :-
     nxt_tone(Name, Hertz, MilliSeconds),
@@ -167,7 +166,7 @@ beep_tone(Name, Hertz-MilliSeconds) :-
 
 %!  wait_nxt(+Name, +Time) is det.
 %
-%   Wait for Time milliseconds.  The robot goes on with what it does.
+%   Wait for Time milliseconds.  The robot continues what it does.
 
 wait_nxt(Name, Time) :-
     must_be(atom, Name),
@@ -207,7 +206,7 @@ exists_nxt(Name, File, R) :-
 
 %!  download_nxt(+Name, +File, +Path) is det.
 %
-%   Put File of the directory Path on the brick, as it is.
+%   Copy File of the directory Path to the brick, unchanged.
 
 download_nxt(Name, File, Path) :-
     must_be(atom, File),
@@ -217,8 +216,7 @@ download_nxt(Name, File, Path) :-
 
 %!  get_files_nxt(+Name, -Files) is det.
 %
-%   Files is an atom of all names, with blanks between, which is printed,
-%   too.
+%   Files is an atom of all names, separated by blanks; it is also printed.
 
 get_files_nxt(Name, Files) :-
     nxt_files(Name, '*.*', Pairs),

@@ -15,16 +15,15 @@
 
 /** <module> Python on a host
 
-The functions of files are predicates of the place.  On hosts with the option
-python(true) an agent may deliver a payload that was read from a `.py` file:
-the place has its functions as predicates then, until undeliver/1.  They run in
-the process that python_start/3 has started, or in one that is started for
-them.
+The functions of files are predicates of the place.  On a host with the option
+python(true) an agent may deliver a payload that was read from a `.py` file: the
+place has its functions as predicates until undeliver/1.  They run in the
+process that python_start/3 has started, or in one that is started for them.
 
-Python code can do whatever the user of this process may do.
+Python code can do all that the user of this process may do.
 
-*Threading*: any thread; a call waits for its answer, others do not.  What
-Python says unasked is passed on by the thread that reads it.
+*Threading*: any thread; a call waits for its answer, others do not.  The thread
+that reads from Python delivers its unsolicited messages.
 */
 
 :- multifile
@@ -76,7 +75,7 @@ option_type(python(X), atom, X).
 
 %   python_begin(+Host, +Options) is det.
 %
-%   Python without functions yet.
+%   Start Python, without functions yet.
 
 python_begin(Host, Options) :-
     service_begin(python, Host, [], typhon_python),
@@ -90,10 +89,10 @@ python_begin(Host, Options) :-
 
 %   python_load(+Host, +Request, -PIs:list, -Clauses:list) is det.
 %
-%   Python gets a module, now and when it is started again; Clauses call its
+%   Load a module into Python, now and after each restart; Clauses call its
 %   functions.
 %
-%   @error those of python_ask/4
+%   @error the errors of python_ask/4
 
 python_load(Host, Request, PIs, Clauses) :-
     load_seconds(Seconds),
@@ -105,7 +104,7 @@ python_load(Host, Request, PIs, Clauses) :-
 
 %   python_forget(+Host, +Name) is det.
 %
-%   Python needs the module Name no longer.
+%   The module Name is not needed in Python any more.
 
 python_forget(Host, Name) :-
     retractall(loaded(Host, Name, _)),
@@ -125,7 +124,7 @@ typhon_starting:ends(python, Host) :-
     retractall(loaded(Host, _, _)).
 
                 /*******************************
-                *       WHAT PYTHON SAYS       *
+                *     MESSAGES FROM PYTHON     *
                 *******************************/
 
 typhon_helper_owner:heard(python(Host), Dict) :-
@@ -166,7 +165,7 @@ typhon_words:python_undelivered(Host, Name) :-
     module_name(Name, Module),
     python_forget(Host, Module).
 
-%   It replaces no file of that name.
+%   The name differs from that of any file, so the payload replaces no file.
 
 module_name(Name, Module) :-
     atom_concat('payload ', Name, Module).
@@ -177,9 +176,9 @@ module_name(Name, Module) :-
 
 %   python_functions(+Module, +Functions, -PIs:list, -Clauses:list) is det.
 %
-%   The clauses by which functions of a Python module are called, as `load` of
-%   bridges/python/bridge.py tells them: a predicate for each number of
-%   arguments, the result being one more.
+%   Clauses call the functions of a Python module, which are described as by
+%   `load` of bridges/python/bridge.py: there is a predicate for each number of
+%   arguments, with the result as one more argument.
 
 python_functions(Module, Functions, PIs, Clauses) :-
     findall(Name/Arity-Clause,
@@ -200,8 +199,8 @@ function(Module, Function, Name/Arity, Clause) :-
     append(Args, [Result], All),
     Clause = (Head :- typhon_python_service:run(Module, Name, Args, Result)).
 
-%   run(+Module, +Function, +Args, -Result): where an agent stands, or in
-%   remote/2.
+%   run(+Module, +Function, +Args, -Result): runs on the host of the agent, or
+%   in remote/2.
 
 :- public run/4.
 
@@ -210,7 +209,7 @@ run(Module, Function, Args, Result) :-
     maplist(json_value, Args),
     (   seconds(Host, Seconds)
     ->  true
-    ;   existence_error(python, Host)   % it was stopped
+    ;   existence_error(python, Host)   % the service was stopped
     ),
     agent_value(Agent, Caller),
     python_ask(Host,
@@ -225,7 +224,7 @@ agent_value(Agent, Agent).
 
 %   python_ask(+Host, +Request, +Seconds, -Reply) is det.
 %
-%   @error python_error(Class, Message) what Python has raised
+%   @error python_error(Class, Message): an exception of Python
 %   @error timeout_error(python(What), Host)
 %   @error helper_died(Status, python(Host))
 %   @error existence_error(helper, python(Host))
@@ -266,4 +265,4 @@ what(Request, What) :-
 prolog:error_message(python_error(Class, Message)) -->
     [ 'Python: ~w: ~w'-[Class, Message] ].
 prolog:error_message(timeout_error(python(What), Host)) -->
-    [ 'Python on ~w has not done ~w in time'-[Host, What] ].
+    [ 'Python on ~w has not completed ~w in time'-[Host, What] ].

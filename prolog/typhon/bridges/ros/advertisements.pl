@@ -13,20 +13,20 @@
 
 /** <module> Advertisements and subscriptions, until they are withdrawn
 
-A host has told ROS that it publishes on a topic, Key advertise(Topic), that
-it wants to hear one, topic(Topic), or that it has a service,
-service(Service).  It repeats them to a server that comes back.
+A host has advertised a topic in ROS, Key advertise(Topic), subscribed to one,
+topic(Topic), or advertised a service, service(Service).  It repeats these
+operations to a server that was down.
 
 *Threading*: any thread.
 */
 
 %!  claim(+Host, +Key, +Op) is det.
 %
-%   Op holds under Key, from now on if it did not before.  A server that is
-%   down gets it when it comes back.
+%   Op is in force under Key, from now on if it was not before.  A server that
+%   is down gets it when it is back.
 %
-%   @error permission_error(use, ros_topic(Type), Topic) if it is in use with
-%          messages of another Type, and those of way_say/2
+%   @error permission_error(use, ros_topic(Type), Topic) if Topic is in use with
+%          messages of another Type, and the errors of way_say/2
 
 claim(Host, _, Op) :-
     conflict(Op, Host, Topic, Other),
@@ -54,7 +54,7 @@ conflict(Op, Host, Topic, Other) :-
 of_topic(advertise(Topic, Type), Topic, Type).
 of_topic(subscribe(Topic, Type), Topic, Type).
 
-%   ROS 1 leaves out the part in the middle, and servers of ROS 2 take both.
+%   ROS 1 omits the middle part of a type, and servers of ROS 2 accept both.
 
 same_type(Type, Type) :-
     !.
@@ -78,7 +78,7 @@ ends(Type, Package/Name) :-
 
 :- dynamic
     standing/3,                 % Host, Key, Op
-    ended/3.                    % Host, Key, Op: the last so many
+    ended/3.                    % Host, Key, Op: the most recent ones
 
 %!  standing(?Host, ?Key, ?Op) is nondet.
 %!  standing_begin(+Host, +Key, +Op) is det.
@@ -86,7 +86,8 @@ ends(Type, Package/Name) :-
 %!  standing_again(+Host, +Key, -Op) is semidet.
 %!  standing_forget(+Host) is det.
 %
-%   What holds; it holds from now on, or no longer, or again as it did last.
+%   Op is in force; it is from now on; it is no longer; it is again as it last
+%   was; delete all of Host.
 %
 %   @error resource_error(ros_standing)
 

@@ -25,13 +25,14 @@
 
 /** <module> The connection of a host to ROS
 
-A node of our own, or a rosbridge server: both take the same frames.
+The connection is a node of Typhon, or a rosbridge server: both use the same
+frames.
 
 A helper, bridges/ros/node.py, is the node; it runs in the Python that
-`make tools-ros` has made.
+`make tools-ros` has installed.
 
-*Threading*: any thread.  A caller that waits for an answer has a queue of its
-own, so what comes too late is dropped.
+*Threading*: any thread.  A caller that waits for an answer has its own queue,
+so late answers are dropped.
 */
 
 :- multifile
@@ -44,7 +45,7 @@ own, so what comes too late is dropped.
 %
 %   Where is `ros2` or a URL.
 %
-%   @error those of node_open/2 and rosbridge_open/4
+%   @error the errors of node_open/2 and rosbridge_open/4
 
 way_open(Host, Where, Options) :-
     kind(Where, Kind),
@@ -105,9 +106,9 @@ connected(server, Host) :-
 
 %!  way_say(+Host, +Op) is det.
 %
-%   Say Op; our own node says what is wrong with it.
+%   Send Op; the node of Typhon reports errors in it.
 %
-%   @error existence_error(ros, Host), those of node_say/3 and
+%   @error existence_error(ros, Host), the errors of node_say/3 and
 %          rosbridge_send/3
 
 way_say(Host, Op) :-
@@ -124,8 +125,8 @@ say(server, Host, Frame, Seconds) :-
 
 %!  way_note(+Host, +Op) is det.
 %
-%   Say Op if that needs no waiting.  What is not said then, because nothing
-%   is there or too much waits, need not be.
+%   Send Op if that is possible without waiting.  If there is no connection, or
+%   the queue is full, it is dropped, as it is not essential.
 
 way_note(Host, Op) :-
     op_frame(Op, Frame),
@@ -144,7 +145,7 @@ note(server, Host, Frame) :-
 
 %!  way_await(+Host, +Id, +Op, +Seconds, -Answer) is det.
 %
-%   Say Op, and wait for what comes for Id, see answer_await/5.
+%   Send Op, and wait for the answer to Id, see answer_await/5.
 
 way_await(Host, Id, Op, Seconds, Answer) :-
     answer_await(Host, Id, way_say(Host, Op), Seconds, Answer).
@@ -160,8 +161,8 @@ way_await(Host, Id, Op, Seconds, Answer) :-
 
 %   answer_await(+Host, +Id, :Ask, +Seconds, -Answer) is det.
 %
-%   Run Ask once, and wait for what another thread gives to answer_come/2.
-%   Answer is that, lost(Why), or `timeout`.
+%   Run Ask once, and wait for an answer that another thread passes to
+%   answer_come/2.  Answer is that, lost(Why), or `timeout`.
 
 answer_await(Host, Id, Ask, Seconds, Answer) :-
     setup_call_cleanup(
@@ -180,7 +181,7 @@ wait(Queue, Seconds, Answer) :-
 
 %!  answer_come(+Id, +Answer) is semidet.
 %
-%   Fails if no caller waits for it any more.
+%   Pass Answer to the caller; fails if none waits for it any more.
 
 answer_come(Id, Answer) :-
     retract(awaited(Id, _, Queue)),
@@ -198,7 +199,7 @@ answers_fail(Host, Why) :-
     forall(member(Id, Ids), ignore(answer_come(Id, lost(Why)))).
 
                 /*******************************
-                *      A NODE OF OUR OWN       *
+                *       THE NODE OF TYPHON     *
                 *******************************/
 
 %   node_open(+Host, +Options) is det.
@@ -235,7 +236,7 @@ command(Host, Options, ['-u', File, '--node', Node, '--reach', Reach|Args]) :-
     ;   Args = []
     ).
 
-%   A name of ROS has no other characters.
+%   Other characters are not allowed in names of ROS.
 
 default_node(Host, Node) :-
     atom_codes(Host, Codes0),
@@ -251,7 +252,8 @@ node_code(_, 0'_).
 
 %!  node_python(+Options, -Python) is det.
 %
-%   That of python(File) in Options, or where bridges/ros/install makes it.
+%   Python is that of python(File) in Options, or the one that
+%   bridges/ros/install makes.
 %
 %   @error existence_error(ros_python, File)
 
@@ -283,11 +285,11 @@ node_close(Host) :-
 
 %   node_say(+Host, +Frame:dict, +Seconds) is det.
 %
-%   The node has done what Frame says.
+%   The node carries out Frame.
 %
 %   @error existence_error(ros_type, Type), existence_error(ros_field, Field)
 %   @error type_error(ros_field(Field, Type), Value)
-%   @error ros_error(failed, Host), and those of helper_failure/3
+%   @error ros_error(failed, Host), and the errors of helper_failure/3
 
 node_say(Host, Frame, Seconds) :-
     helper_ask(ros(Host), _{do:frame, frame:Frame}, Seconds, Answer),
@@ -331,5 +333,5 @@ node_note(Host, Frame) :-
     helper_note(ros(Host), _{do:frame, frame:Frame}).
 
 prolog:error_message(existence_error(ros_python, File)) -->
-    [ 'There is no Python with rclpy at ~w (make tools-ros puts it \c
-       there)'-[File] ].
+    [ 'There is no Python with rclpy at ~w (run make tools-ros to \c
+       install it)'-[File] ].

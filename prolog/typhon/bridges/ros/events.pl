@@ -14,19 +14,19 @@
 :- use_module(advertisements, [standing/3, standing_again/3, standing_end/3]).
 :- use_module(messages, [frame_event/2, json_value/3, op_frame/2]).
 
-/** <module> What is heard of ROS
+/** <module> Events from ROS, and their recipients
 
-Finds whom it concerns.  Agents get messages
+Agents get messages
 
-  | topic(Topic, Message)       | for which they have subscribed        |
-  | request(Id, Service, Request) | of a service that they offer        |
-  | feedback(Id, Feedback)      | of their goal Id                      |
-  | result(Id, Status, Result)  | likewise: the last one of it          |
-  | error(Text)                 | what is wrong with what they have said |
+  | topic(Topic, Message)         | of topics to which they have subscribed |
+  | request(Id, Service, Request) | for a service that they offer          |
+  | feedback(Id, Feedback)        | on their goal Id                       |
+  | result(Id, Status, Result)    | on their goal Id: the last message     |
+  | error(Text)                   | an error in a message that they sent   |
 
 from `ros`, and dropped(Key, Count), see typhon_inbox.
 
-*Threading*: the thread that reads from the server or our node.
+*Threading*: the thread that reads from the server or the node.
 */
 
 :- multifile
@@ -41,12 +41,12 @@ from `ros`, and dropped(Key, Count), see typhon_inbox.
 
 :- dynamic
     ignored/2,                  % Host, Count
-    away/1.                     % Host: has lost ROS
+    away/1.                     % Host: has lost the connection to ROS
 
-most_complaints(1000).          % that may wait for an agent
+most_complaints(1000).          % complaints that may wait for an agent
 
                 /*******************************
-                *          FROM WHERE          *
+                *            SOURCES           *
                 *******************************/
 
 typhon_ros_rosbridge:heard(Host, Read) :-
@@ -71,7 +71,7 @@ hear(Event, Host) :-
     !.
 hear(_, _).
 
-%   A server that comes back, or a node that is started again, knows nothing.
+%   A server that was down, or a restarted node, has no record of the host.
 
 typhon_ros_rosbridge:up(Host, _) :-
     retract(away(Host)),
@@ -117,7 +117,7 @@ lose_goals(Host, Why) :-
     ).
 
                 /*******************************
-                *            TO WHOM           *
+                *          RECIPIENTS          *
                 *******************************/
 
 happens(message(Topic, JSON), Host) :-
@@ -160,8 +160,8 @@ happens(unknown(What), Host) :-
     assertz(ignored(Host, 1)),
     print_message(warning, typhon(ros_ignored(Host, What))).
 
-%   A caller need not wait for an agent whose queue is full, nor take it from
-%   others.
+%   If the queue of the agent is full the call fails at once: its caller need
+%   not wait, and it takes no space from others.
 
 typhon_inbox:dropped(ros, Host, request(Id, Service, _)) :-
     request_end(Host, Id, Service),
@@ -176,7 +176,7 @@ goal_over(Host, Id, Agent, Status, Result) :-
                      result(Id, _, _)),
     ignore(unsubscribe(ros, Host, goal(Id), Agent)).
 
-%   Of what the complaint is tells its id.
+%   The id of a complaint identifies the operation.
 
 complaint(Level, _, Text, Host) :-
     \+ memberchk(Level, [error, warning]),
@@ -208,7 +208,7 @@ complain(Agent, Host, Text) :-
 
 %!  ros_ignored(+Host, -Count) is det.
 %
-%   How much has come that was no frame for us.
+%   Count frames were received that are not valid frames for a client.
 
 ros_ignored(Host, Count) :-
     (   ignored(Host, Count0)
@@ -221,7 +221,7 @@ typhon_starting:ends(ros, Host) :-
     retractall(away(Host)).
 
                 /*******************************
-                *       WHO WANTS IT STILL     *
+                *         SUBSCRIBERS          *
                 *******************************/
 
 typhon_subscribers:wanted(ros, Host, Key, Wanted) :-
@@ -239,7 +239,7 @@ wanted(false, goal(Id), Host) =>
 wanted(false, Topic, Host) =>
     ignore(standing_end(Host, topic(Topic), _)),
     way_note(Host, unsubscribe(Topic)).
-wanted(true, goal(Id), Host) =>         % it was cancelled meanwhile
+wanted(true, goal(Id), Host) =>         % the goal was cancelled meanwhile
     subscribers_tell(ros, Host, goal(Id),
                      result(Id, failed, "cancelled: the agent had set out"),
                      result(Id, _, _)).

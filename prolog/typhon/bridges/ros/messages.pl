@@ -14,26 +14,26 @@
                 type_error/2 ]).
 :- use_module(library(uuid), [uuid/1]).
 
-/** <module> Messages as terms, and the names that come with them
+/** <module> Messages of ROS as terms, names, and frames
 
 A message is a dict, or a list of its fields, Name=Value, Name-Value or
-Name(Value); values are numbers, `true` and `false`, text, lists of values,
-and messages.  What ROS sends is a dict with text as strings, or, as
-asked for, a list of Name=Value in the order of the names.
+Name(Value); values are numbers, `true` and `false`, text, lists of values, and
+messages.  A message from ROS is a dict with text as strings or, if requested, a
+list of Name=Value in the order of the names.
 
-Names are checked before anything is sent: a server may not report what is
-wrong with them.
+Names are checked before they are sent, since a server may not report errors in
+them.
 
 Frames to and from ROS are terms, op_frame/2 and frame_event/2, and the dicts
-of rosbridge 2.0 with the actions of ROS 2.  A server behind a WebSocket and our
-own helper with rclpy take and give the same dicts.
+of rosbridge 2.0 with the actions of ROS 2.  A server behind a WebSocket and the
+helper with rclpy use the same dicts.
 
 *Threading*: any thread; no state.
 */
 
 %!  value_json(+Message, -JSON) is det.
 %
-%   JSON is what json_write_dict/3 takes.
+%   JSON is a term for json_write_dict/3.
 %
 %   @error type_error(ros_message, Message), type_error(ros_value, Value)
 %   @error duplicate_key(Field)
@@ -101,7 +101,7 @@ value(List, Values) :-
 value(Value, _) :-
     type_error(ros_value, Value).
 
-%   JSON has no other numbers.
+%   JSON has no infinite numbers and no NaN.
 
 finite(Number) :-
     (   float_class(Number, Class),
@@ -121,7 +121,7 @@ json_value(terms, JSON, Message) :-
 terms(Dict, Fields) :-
     is_dict(Dict),
     !,
-    dict_pairs(Dict, _, Pairs),         % in the order of their names
+    dict_pairs(Dict, _, Pairs),         % sorted by name
     maplist(term_field, Pairs, Fields).
 terms(List, Terms) :-
     is_list(List),
@@ -138,10 +138,10 @@ term_field(Name-JSON, Name=Value) :-
 
 %!  ros_name(+Kind, +Name, -Atom) is det.
 %
-%   Name is text as `/robot/cmd_vel`, `cmd_vel` or `~/cmd_vel`: words of
-%   letters, digits and `_`, none of which begins with a digit.
+%   Name is text such as `/robot/cmd_vel`, `cmd_vel` or `~/cmd_vel`: words of
+%   letters, digits and `_` that do not begin with a digit.
 %
-%   @error domain_error(ros_name(Kind), Name), Kind being topic, service,
+%   @error domain_error(ros_name(Kind), Name), where Kind is topic, service,
 %          action or node
 
 ros_name(Kind, Name, Atom) :-
@@ -182,7 +182,7 @@ rest --> [].
 
 %!  ros_type(+Kind, +Type, -Atom) is det.
 %
-%   Type is text as `std_msgs/msg/String`, or as ROS 1 writes it,
+%   Type is text such as `std_msgs/msg/String`, or in the form of ROS 1,
 %   `std_msgs/String`; Kind is msg, srv or action.
 %
 %   @error domain_error(ros_type(Kind), Type)
@@ -210,8 +210,8 @@ text(Text, Atom) :-
 
 %!  ros_id(-Id:atom) is det.
 %
-%   An id that no other client of a server has: some servers keep those of
-%   all clients in one table.
+%   No other client of a server has Id: some servers keep the ids of all clients
+%   in one table.
 
 ros_id(Id) :-
     uuid(Uuid),
@@ -256,12 +256,12 @@ op_frame(cancel(Id, Action),
 %
 %     - message(Topic, JSON)
 %     - answer(Id, Answer): to a call; Answer is ok(JSON) or failed(Text)
-%     - request(Id, Service, JSON): a call of what we offer
+%     - request(Id, Service, JSON): a call of a service that the host offers
 %     - feedback(Id, JSON), result(Id, Status, JSON): of a goal; Status is
 %       `succeeded`, `canceled`, `aborted` or `failed`, then JSON is text
-%     - dropped(Topic, Count): messages that came too fast for our own node
+%     - dropped(Topic, Count): messages that came too fast for the node
 %     - status(Level, Id, Text): a complaint; Id may be `none`
-%     - unknown(What): not for us, or not as it should be
+%     - unknown(What): not for a client, or invalid
 
 frame_event(Frame, Event) :-
     get_dict(op, Frame, Op),
@@ -303,7 +303,7 @@ event("status", Frame, status(Level, Id, Text)) :-
     ;   Id = none
     ).
 
-%   Servers leave out what has no fields, or send an empty list for it.
+%   Servers omit a message without fields, or send an empty list for it.
 
 optional(Key, Frame, Dict) :-
     (   get_dict(Key, Frame, Value),
@@ -324,7 +324,7 @@ outcome(Frame, ok(Values)) :-
 outcome(Frame, failed(Text)) :-
     text(values, Frame, Text).
 
-%   As action_msgs/msg/GoalStatus counts.
+%   The numbers are those of action_msgs/msg/GoalStatus.
 
 goal_outcome(failed(Text), _, failed, Text).
 goal_outcome(ok(Values), Frame, Status, Values) :-
@@ -337,7 +337,7 @@ goal_outcome(ok(Values), Frame, Status, Values) :-
 goal_status(5, canceled).
 goal_status(6, aborted).
 
-%   An id may be a number; it is given back as it came.
+%   An id may be a number; it is returned unchanged.
 
 name(Key, Frame, Name) :-
     get_dict(Key, Frame, Value),

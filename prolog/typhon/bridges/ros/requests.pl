@@ -34,10 +34,10 @@
 /** <module> Services, parameters and actions
 
 The parameters of a node of ROS 2 are services of the node, so they are the same
-whether the host is a node itself or uses a server.
+for a host that is a node and for one that uses a server.
 
-*Threading*: the thread that runs the agent, which waits for answers; the
-tables of open requests and goals are for any thread.
+*Threading*: the thread that runs the agent, which waits for answers; any thread
+may use the tables of open requests and goals.
 */
 
 :- multifile
@@ -59,7 +59,7 @@ typhon_options:declared(ros_call_option, deadline(X), between(0.01, 3600), X).
 %   @error existence_error(ros_field, Field), type_error(ros_field(F, T), V)
 %   @error existence_error(ros_service, Service)
 %   @error timeout_error(ros_call, Service)
-%   @error ros_error(refused, Service): it says it has failed
+%   @error ros_error(refused, Service): the service reports a failure
 %   @error ros_error(not_connected, Host), ros_error(lost, Host)
 
 ros_call(Service, Type, Request, Response) :-
@@ -108,12 +108,12 @@ answered(timeout, _, Service, _) :-
 
 %!  ros_offer(+Service, +Type, +Options) is det.
 %
-%   The agent has a service from now on.  For each call it gets a message
+%   The agent offers Service from now on.  For each call it gets a message
 %   `ros-request(Id, Service, Request)`, which it answers by ros_answer/2 or
 %   ros_refuse/1.  Options are queue(N) of subscribe/5.
 %
-%   @error permission_error(offer, ros_service, Service) if an agent here
-%          does
+%   @error permission_error(offer, ros_service, Service) if an agent on this
+%          host offers it
 %   @error domain_error(ros_name(service), Service)
 %   @error domain_error(ros_type(srv), Type), existence_error(ros_type, Type)
 
@@ -133,7 +133,7 @@ ros_offer(Service0, Type0, Options) :-
 
 %!  ros_withdraw(+Service) is det.
 %
-%   The agent has the service no longer.  Calls that it has not answered
+%   The agent does not offer Service any more.  Calls that it has not answered
 %   fail.
 %
 %   @error existence_error(ros_offer, Service)
@@ -149,10 +149,11 @@ ros_withdraw(Service0) :-
 %!  ros_answer(+Id, +Response) is det.
 %!  ros_refuse(+Id) is det.
 %
-%   Answer a call; or have it fail.
+%   Answer a call; let it fail.
 %
-%   @error existence_error(ros_request, Id) if it is answered, or its caller
-%          gone
+%   @error existence_error(ros_request, Id) if it has been answered, or its
+%   caller
+%          is gone
 %   @error type_error(ros_message, Response), and others of ros_publish/3
 
 ros_answer(Id, Response) :-
@@ -180,14 +181,14 @@ respond(Host, Id, JSON, Result) :-
 %!  ros_parameter(+Node, +Name, -Value) is det.
 %!  ros_set_parameter(+Node, +Name, +Value) is det.
 %
-%   The parameters of Node, the value of one, and give it another.  A value
-%   is `true` or `false`, a number, a string, or a list of them.  An integer
-%   is not taken for a parameter that is a float.
+%   Names are the parameters of Node; Value is the value of one; set a new
+%   value. A value is `true` or `false`, a number, a string, or a list of these.
+%   A parameter that is a float does not accept an integer.
 %
 %   @error existence_error(ros_service, Service) if there is no such Node
 %   @error existence_error(ros_parameter, Name)
 %   @error ros_error(refused, Name)
-%   @error type_error(ros_parameter, Value), and those of ros_call/4
+%   @error type_error(ros_parameter, Value), and the errors of ros_call/4
 
 ros_parameters(Node, Names) :-
     ask(Node, list_parameters, 'ListParameters', _{prefixes:[], depth:0},
@@ -226,7 +227,7 @@ ask(Node0, Name, Type, Request, JSON) :-
     atom_concat('rcl_interfaces/srv/', Type, FullType),
     call_json(Host, Service, FullType, Request, JSON).
 
-%   As rcl_interfaces/msg/ParameterType counts; 0 is none.
+%   The numbers are those of rcl_interfaces/msg/ParameterType; 0 is no value.
 
 said_value(1, bool_value).
 said_value(2, integer_value).
@@ -261,11 +262,11 @@ of_type(Type, Value) :-
 
 %!  ros_goal(+Action, +Type, +Goal, -Id:atom) is det.
 %
-%   Send a goal to an action server, and go on.  The agent gets messages
+%   Send a goal to an action server, without waiting.  The agent gets messages
 %   `ros-feedback(Id, Feedback)`, and at last `ros-result(Id, Status, Result)`.
-%   Status is `succeeded`, `canceled`, `aborted`, or `failed`, then Result is
-%   text: the server is not there, or has refused the goal, or is gone.  The
-%   goal of an agent that leaves or ends is cancelled.
+%   Status is `succeeded`, `canceled`, `aborted`, or `failed`.  If it is
+%   `failed`, Result is text: the server is not there, has refused the goal, or
+%   is gone.  The goal of an agent that leaves or ends is cancelled.
 %
 %   @error domain_error(ros_name(action), Action)
 %   @error domain_error(ros_type(action), Type)
@@ -287,9 +288,9 @@ ros_goal(Action0, Type0, Goal, Id) :-
 
 %!  ros_cancel(+Id) is det.
 %
-%   Ask the server to give the goal up.  The result tells whether it has.
+%   Request the server to cancel the goal.  The result reports whether it has.
 %
-%   @error existence_error(ros_goal, Id) if it is over, or of another host
+%   @error existence_error(ros_goal, Id) if it has ended, or is of another host
 
 ros_cancel(Id) :-
     subscriber(Host, _),
@@ -331,7 +332,7 @@ goal_action(Host, Id, Action) :-
 %!  request_open(+Host, +Id, -Service) is semidet.
 %!  request_end(+Host, ?Id, ?Service) is semidet.
 %
-%   The first fails if too many wait already.
+%   request_begin/3 fails if too many requests are open.
 
 request_begin(Host, Id, Service) :-
     aggregate_all(count, request(_, Host, _), Count),

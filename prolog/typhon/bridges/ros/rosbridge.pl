@@ -15,19 +15,19 @@
 
 /** <module> The connection to a rosbridge server
 
-A thread connects, and reads; when the connection is lost it connects
-again, after a tenth of a second, then twice as long, up to ten.  A second
-thread writes what waits in its queue, which is bounded: a sender of more than
-the server reads waits, and gets an error in the end.
+A thread connects, and reads; when the connection is lost it connects again,
+after a tenth of a second, then after twice that time, up to ten seconds.  A
+second thread writes the messages in its queue, which is bounded: a caller that
+sends faster than the server reads waits, and gets an error in the end.
 
-*Threading*: rosbridge_send/3 may be called in any thread.  The hooks are
-run by the thread that reads, which reads nothing meanwhile. No `server`: it
-waits for a stream, and the thread that writes ends with its connection.
+*Threading*: any thread may call rosbridge_send/3.  The reading thread runs the
+hooks, and reads nothing meanwhile.  It is no `server`, since it waits for a
+stream, and the writing thread ends with its connection.
 */
 
 :- multifile
     heard/2,                    % Host, Read: as of socket_read/2
-    up/2,                       % Host, Frame: to be said first of all
+    up/2,                       % Host, Frame: is sent first
     down/2.                     % Host, Why: `stopped` if it was closed here
 
 :- dynamic
@@ -40,14 +40,14 @@ longest_queue(1000).
 first_wait(0.1).
 longest_wait(10).
 bye_seconds(1).
-soon(5).                        % seconds, for a connection to end
+soon(5).                        % seconds: a connection that ends earlier failed
 
 %!  rosbridge_open(+Host, +URL, +Seconds, +Silence) is det.
 %
-%   Connect, within Seconds, and stay connected.  A server that has said
-%   nothing for Silence seconds, pings included, is gone.
+%   Connect, within Seconds, and stay connected.  A server that has sent nothing
+%   for Silence seconds, not even answers to pings, is gone.
 %
-%   @error What socket_open/3 raises, timeout_error(connect, URL)
+%   @error the errors of socket_open/3, timeout_error(connect, URL)
 
 rosbridge_open(Host, URL, Seconds, Silence) :-
     setup_call_cleanup(
@@ -73,7 +73,7 @@ first_attempt(Link, Seconds, Result) :-
     ;   Result = error(timeout_error(connect, URL), _)
     ).
 
-%   A thread that is about to end may still have the name.
+%   A thread that is about to end may still have its alias.
 
 alias(Role, Host, Alias) :-
     flag(typhon_ros_thread, N, N+1),
@@ -86,8 +86,7 @@ rosbridge_up(Host) :-
 
 %!  rosbridge_send(+Host, +Frame:dict, +Seconds) is det.
 %
-%   Frame is on its way when it fits in the queue, at most
-%   Seconds from now.
+%   Put Frame into the queue of the writer; waits at most Seconds for space.
 %
 %   @error ros_error(not_connected, Host), resource_error(ros_queue)
 
@@ -108,7 +107,7 @@ pass(Writer, Message, Seconds) :-
 
 %!  rosbridge_close(+Host) is det.
 %
-%   The connection ends after a second if the server does not close it.
+%   The connection is closed after a second if the server does not close it.
 
 rosbridge_close(Host) :-
     (   taken(Host, Reader)
@@ -116,7 +115,7 @@ rosbridge_close(Host) :-
     ;   true
     ).
 
-%   One of the callers gets it.
+%   Only one of concurrent callers succeeds.
 
 taken(Host, Reader) :-
     reader(Host, Reader),
@@ -137,8 +136,8 @@ close_down(Host, Reader) :-
 
 %   When Prolog halts it aborts its threads.  library(http/websocket) swallows
 %   that: the connection would seem closed, and the reader would connect again.
-%   So connections are closed before.  A wait with a deadline might not end in
-%   a hook of halt/0 on 9.0.4; this one polls.
+%   So connections are closed earlier.  On 9.0.4 a wait with a deadline might
+%   not end in a hook of halt/0, so this one polls.
 
 :- at_halt(close_all).
 
@@ -200,7 +199,8 @@ connected(Link, Wait) :-
     ),
     pause(Link, Pause).
 
-%   A server that closes connections at once is asked after the longer pause.
+%   The pause before the next connection to a server that closes connections at
+%   once is the longer one.
 
 pause_after(Start, Wait, Pause) :-
     get_time(Now),
@@ -219,15 +219,15 @@ pause(Link, Pause) :-
         connected(Link, Longer)
     ).
 
-%   The thread that connects waits for the first attempt.
+%   The connecting thread waits for the result of the first attempt.
 
 tell(Asker, Result) :-
     catch(thread_send_message(Asker, attempt(Result)),
           error(existence_error(_, _), _),
           true).
 
-%   Not by a cleanup handler, which must not wait; so a caller that is
-%   interrupted while it tidies up does that again.
+%   There is no cleanup handler, since that must not wait; so a thread that is
+%   interrupted during tidy/3 repeats it.
 
 served(Link, Socket) :-
     Link = link(Host, _, Silence, _),
@@ -239,8 +239,8 @@ served(Link, Socket) :-
     ignore(lost(Host, Why)),
     ( var(Ball) -> true ; throw(Ball) ).
 
-%   The reader of a host that is closed, or of a process that halts, is not
-%   known any more.
+%   After the host was closed, or while the process halts, its reader is not
+%   registered any more.
 
 lost(Host, Why) :-
     thread_self(Me),
@@ -263,7 +263,7 @@ served_until(link(Host, _, Silence, Asker), Socket, Writer, Why) :-
     tell(Asker, true),
     catch(read_on(Host, Socket, Why), error(Why, _), true).
 
-%   What changes while these frames are sent may be sent twice.
+%   Frames for changes during this may be sent twice.
 
 said_to([], _, _).
 said_to([Frame|Frames], Writer, Seconds) :-
@@ -297,7 +297,7 @@ writes(Socket, Every, Reader) :-
     thread_self(Me),
     thread_send_message(Reader, written(Me)).
 
-%   It ends by itself when the server is gone.
+%   The writer ends by itself when the server is gone.
 
 write_on(Socket, Every) :-
     thread_self(Me),
@@ -311,7 +311,7 @@ write_on(Socket, Every) :-
     ;   true
     ).
 
-%   The server answers a ping; its end of the connection answers a bye.
+%   The server answers a ping by a pong, and a bye by closing its end.
 
 say(Message, socket(_, Out)) :-
     socket_message(Message, WebSocketMessage),
@@ -321,8 +321,8 @@ socket_message(write(Text), text(Text)).
 socket_message(ping, ping('')).
 socket_message(bye, close(1000, "")).
 
-%   A writer whose server does not read blocks, also after an interrupt, because
-%   the library then writes the rest.
+%   A writer whose server does not read blocks again after an interrupt, because
+%   the library then writes the rest, so the interrupt is repeated.
 
 writer_end(Writer) :-
     thread_self(Me),

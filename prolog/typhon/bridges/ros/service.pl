@@ -24,11 +24,11 @@
 
 /** <module> A host with ROS
 
-What this module exports are the predicates that agents find there.  It starts
+This module exports the predicates that agents find on the host.  It is started
 by ros_start/3.
 
-*Threading*: any thread; what agents call, in the thread that runs the agent,
-which waits until the node of Typhon has taken a message, or it fits in the
+*Threading*: any thread; predicates of agents run in the thread of the agent,
+which waits until the node of Typhon has accepted a message, or it fits in the
 queue to a server.
 */
 
@@ -102,18 +102,19 @@ property(ignored(Count), Host) :-
 
 %!  ros_publish(+Topic, +Type, +Message) is det.
 %
-%   Publish Message, a dict or a list as of value_json/2; fields that are
-%   missing have the values that ROS gives them.
+%   Publish Message, a dict or a list as of value_json/2; missing fields have
+%   the default values of ROS.
 %
 %   @error domain_error(ros_name(topic), Topic)
 %   @error domain_error(ros_type(msg), Type), existence_error(ros_type, Type)
-%   @error permission_error(use, ros_topic(Type), Topic) if it is in use here
-%          with messages of another Type
+%   @error permission_error(use, ros_topic(Type), Topic) if Topic is in use on
+%   this
+%          host with messages of another Type
 %   @error type_error(ros_message, Message), type_error(ros_value, Value)
 %   @error existence_error(ros_field, Field), type_error(ros_field(F, T), V)
 %   @error ros_error(not_connected, Host), resource_error(ros_queue)
 %
-%   A server does not say what is wrong with a message; some send a status,
+%   A server does not report errors in a message directly; some send a status,
 %   which the agent gets as a message `ros-error(Text)`.
 
 ros_publish(Topic0, Type0, Message) :-
@@ -128,16 +129,16 @@ ros_publish(Topic0, Type0, Message) :-
 %!  ros_subscribe(+Topic, ?Type) is det.
 %!  ros_subscribe(+Topic, ?Type, +Options) is det.
 %
-%   From now on the agent gets what is published on Topic, as messages
-%   `ros-topic(Topic, Message)`, or as Options say: see subscribe/5.  If Type
-%   is unbound it is that of a topic which is there.
+%   The agent gets messages on Topic from now on, as `ros-topic(Topic,
+%   Message)`, or in the form given by Options, see subscribe/5.  An unbound
+%   Type becomes that of an existing topic.
 %
 %   @error domain_error(ros_name(topic), Topic)
 %   @error domain_error(ros_type(msg), Type), existence_error(ros_type, Type)
 %   @error permission_error(use, ros_topic(Type), Topic)
 %   @error existence_error(ros_topic, Topic)
 %   @error domain_error(subscription_option, Option)
-%   @error existence_error(running_agent, here) if it is for no agent
+%   @error existence_error(running_agent, here) if no agent subscribes
 
 ros_subscribe(Topic, Type) :-
     ros_subscribe(Topic, Type, []).
@@ -178,8 +179,8 @@ ros_unsubscribe(Topic0) :-
 %!  ros_topics(-Pairs:list) is det.
 %!  ros_services(-Services:list) is det.
 %
-%   Topic-Type of all topics that are known; the names of all services.  A
-%   server needs the node `rosapi` beside it for this.
+%   Pairs are Topic-Type of all known topics; Services are the names of all
+%   services.  A server needs the node `rosapi` beside it for this.
 %
 %   @error existence_error(ros_service, '/rosapi/topics')
 
@@ -201,17 +202,17 @@ ros_services(Services) :-
                 *******************************/
 
 prolog:message(typhon(ros_lost(Host, Why))) -->
-    [ '~w has lost ROS (~p), and looks for it again'-[Host, Why] ].
+    [ '~w has lost ROS (~p), and tries to reconnect'-[Host, Why] ].
 prolog:message(typhon(ros_found(Host))) -->
     [ '~w has ROS again'-[Host] ].
 prolog:message(typhon(ros_ignored(Host, What))) -->
-    [ '~w has heard of ROS what it does not understand: ~p (more of it is \c
+    [ '~w has received an unknown frame from ROS: ~p (more of them are \c
        only counted)'-[Host, What] ].
 prolog:message(typhon(ros_complaint(Host, Text))) -->
-    [ 'ROS complains to ~w: ~w'-[Host, Text] ].
+    [ 'ROS reports to ~w: ~w'-[Host, Text] ].
 
 prolog:error_message(existence_error(ros, Host)) -->
-    [ '~w has no ROS (ros_start/3 gives it some)'-[Host] ].
+    [ '~w has no ROS (start it by ros_start/3)'-[Host] ].
 prolog:error_message(existence_error(ros_type, Type)) -->
     [ 'There is no type ~w among those that are installed'-[Type] ].
 prolog:error_message(existence_error(ros_topic, Topic)) -->
@@ -221,7 +222,7 @@ prolog:error_message(existence_error(ros_service, Service)) -->
 prolog:error_message(existence_error(ros_field, Field)) -->
     [ 'The message has no field ~w'-[Field] ].
 prolog:error_message(existence_error(ros_subscription, Topic)) -->
-    [ 'This agent does not hear ~w'-[Topic] ].
+    [ 'This agent has no subscription to ~w'-[Topic] ].
 prolog:error_message(type_error(ros_field(Field, Type), Value)) -->
     [ 'The field ~w is ~w, not ~p'-[Field, Type, Value] ].
 prolog:error_message(permission_error(use, ros_topic(Type), Topic)) -->
@@ -237,4 +238,4 @@ prolog:error_message(ros_error(not_connected, Host)) -->
 prolog:error_message(ros_error(lost, Host)) -->
     [ '~w has lost ROS meanwhile'-[Host] ].
 prolog:error_message(resource_error(ros_queue)) -->
-    [ 'ROS does not take so much' ].
+    [ 'The send queue to ROS is full' ].

@@ -9,10 +9,10 @@
 
 /** <module> WebSockets with bounded messages
 
-Those of library(http/websocket), but a message that is longer than the setting
-`typhon_ros_rosbridge:longest` is skipped and not kept.
-library(http/http_stream) is there because without it the request says HTTP/1.0,
-which servers refuse.
+These are the WebSockets of library(http/websocket), but a message that is
+longer than the setting `typhon_ros_rosbridge:longest` is skipped and not
+stored. library(http/http_stream) is loaded since without it the request has
+HTTP/1.0, which servers refuse.
 
 *Threading*: one thread reads, another writes.
 */
@@ -24,10 +24,11 @@ which servers refuse.
 
 %!  socket_open(+URL, +Silence, -Socket) is det.
 %
-%   Silence is how many seconds a server may say nothing at all.  Without nodelay a
-%   frame would wait until the server has acknowledged the one before.
+%   Silence is the time in seconds for which a server may send nothing at all.
+%   Without nodelay a frame would wait until the server has acknowledged the
+%   previous one.
 %
-%   @error What http_open/3 and http_open_websocket/3 raise
+%   @error the errors of http_open/3 and http_open_websocket/3
 
 socket_open(URL, Silence, socket(In, Out)) :-
     http_open_websocket(URL, Pair, [timeout(Silence), nodelay(true)]),
@@ -35,8 +36,8 @@ socket_open(URL, Silence, socket(In, Out)) :-
 
 %!  socket_read(+Socket, -Read) is det.
 %
-%   Waits for a message.  Read is text(String), too_long(Characters), `binary`,
-%   or end(Why).  Answers pings.
+%   Wait for a message.  Read is text(String), too_long(Characters), `binary`,
+%   or end(Why).  Pings are answered.
 %
 %   @error timeout_error(read, Stream)
 
