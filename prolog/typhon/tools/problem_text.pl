@@ -164,8 +164,8 @@ outside(PI) --> { repeats(PI) }, !,
 outside((\+)/1) --> !,
     ['write ( Goal -> fail ; true ) instead'].
 outside(PI) --> { cleans_up(PI) }, !,
-    ['what it holds open cannot travel: let it end before the agent stops, \c
-      and catch errors with catch/3'].
+    ['open resources cannot travel: let the goal end before the agent \c
+      stops, and catch errors with catch/3'].
 outside(call_with_time_limit/_) --> !,
     ['receive/2 has a time limit'].
 outside(_) -->

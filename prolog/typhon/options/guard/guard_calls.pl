@@ -21,8 +21,8 @@
 
 /** <module> Goals that untrusted agents call
 
-These checks need what is known only at run time: the goals with which an agent
-arrives, goals that it constructs, and closures with their arguments.
+These checks need facts that exist only at run time: the goals with which an
+agent arrives, goals that it constructs, and closures with their arguments.
 
 *Threading*: the thread that runs the agent, or installs it; see
 typhon_guard_bodies.

@@ -16,8 +16,8 @@ all of the queue: the changes become one transaction, then the output items are
 sent, in their order.  So a thread that only sends does not wait for the disk.
 
 Where a commit waits for the disk to sync, a thread of its own commits; entries
-that gather meanwhile are the next transaction.  Otherwise a thread that wants
-output to leave commits itself.  Entries without a waiting thread are committed
+that gather meanwhile are the next transaction.  Otherwise a thread that has
+output to send commits itself.  Entries without a waiting thread are committed
 after some milliseconds.  After a failed commit the changes and the output are
 kept, and the commit is tried again each second.
 

@@ -26,7 +26,7 @@ The item of an agent is
 
     agent(Host, Hash, Life, State, Status, Goals)
 
-where Status is one at which the agent rests, or `under way`.  The program is an
+where Status is one at which the agent rests, or in transit.  The program is an
 item once for all its agents.
 
 A small state is a part of this item.  In place of a large one the item has

@@ -21,8 +21,8 @@
 
 /** <module> The predicates by which agents monitor others
 
-The home of a monitoring agent keeps its monitors, since the home knows where
-the agent is, and when it ends.
+The home of a monitoring agent keeps its monitors, since the home has
+its location, and gets news of its end.
 
 *Threading*: the thread that runs the agent; waits for the home, if that is
 another process.

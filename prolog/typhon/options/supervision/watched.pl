@@ -21,10 +21,11 @@
 /** <module> Agents that are monitored, at their home
 
 The home of an agent gets its outcome when it ends.  If a process is gone, all
-known processes are asked for the monitored agents that are not at home, twice,
-a second apart.  An agent that no process has, and of which the home received no
-news meanwhile, is lost, and is ended if it reappears.  While processes live
-this costs nothing: hops of agents, monitored or not, take the same time.
+known processes get a request for the monitored agents that are not at home,
+twice, a second apart.  An agent that no process has, and of which the home
+received no news meanwhile, is lost, and is ended if it reappears.  While
+processes live this costs nothing: hops of agents, monitored or not, take the
+same time.
 
 *Threading*: a worker sends the requests to all processes.
 */

@@ -17,10 +17,10 @@
 
 /** <module> The trail: signed links of hosts that have had an agent
 
-Where processes have keys, each process signs what it has received of an agent
-from another process, what it handed on, and what the agent has entered there.
-Each link is signed together with the signature of the previous link.  The links
-are a fact in the state of the agent:
+Where processes have keys, each process signs an agent as it received it from
+another process, the agent as it handed it on, and the results that the agent
+has entered there.  Each link is signed together with the signature of the
+previous link.  The links are a fact in the state of the agent:
 
     '$trail'(At, Chain, Certificates, Pending)
 
@@ -43,7 +43,7 @@ the last one, and the hash What that was handed on, or `none`.  An event is
 
 What is a hash of the agent: its program, the number of its hops, its state and
 its goals.  The id of the agent is also signed.  A host is accounted for if the
-next host received what it handed on, at the address to which it was handed.
+next host received the same hash, at the address to which it was handed.
 What an agent did while it was on a host is only claimed by that host; and a
 host that an agent visits twice can cut out the links in between.
 
