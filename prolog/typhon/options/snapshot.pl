@@ -27,7 +27,7 @@
 /** <module> Snapshots of all that a process knows
 
 A snapshot has the items of all tables that outlive the process, see
-typhon_durable, and those that only repeatable time needs.
+typhon_durable.  The coming events of repeatable time are saved apart from it.
 
 When agents get no turn any more, running agents stop at their next effect, as
 they do for an order.  Agents in transit arrive, or stay; messages and news that

@@ -13,8 +13,8 @@ trustworthy as the process that sends it.
 
 The birth of an agent is shown to its home, and to the processes to which it
 went, and to no other process: any other could send in its name from then on.
-So messages of an agent away from home go through its home, unless the location
-of the recipient was learned here.
+So messages of an agent away from home go through its home, unless the recipient
+has the owner of this process, or has been in it.
 
 *Threading*: any thread; no state.
 */
