@@ -70,7 +70,7 @@ typhon_creation:at_birth(monitor(Parent, [shared(self)]), Id) :-
 %   monitor(Parent, [shared(self)]): it does not outlive its parent, even if that
 %   ends before it can monitor the new agent.
 %
-%   On a host with a policy Shared must be `false` or `self`.
+%   Where the policy is not `trusted`, Shared must be `false` or `self`.
 %
 %   @error existence_error(agent, Agent): Agent is not an id
 %   @error permission_error(call, sandboxed, monitor(Agent, Options))
@@ -100,8 +100,8 @@ is_checked :-
 %!  dispose(+Agent) is det.
 %!  dispose(+Agent, +Options) is det.
 %
-%   As agent_dispose/1,2.  On a host with a policy Agent must follow this one,
-%   as by follows(true) at its creation.
+%   As agent_dispose/1,2.  Where the policy is not `trusted`, Agent must follow
+%   this one, as by follows(true) at its creation.
 %
 %   @error permission_error(call, sandboxed, dispose(Agent, Options))
 %   @error as agent_dispose/2

@@ -389,7 +389,7 @@ called_back(Goal, Agent, Outcome) :-
     catch(ignore(call(Goal, Agent, Outcome)), Ball,
           ( is_abort(Ball) -> throw(Ball) ; print_error(warning, Ball) )).
 
-%   A worker cannot stop the workers, as the last release does.
+%   The last release stops the workers, which a worker cannot do.
 
 release(N) :-
     atom_concat(typhon_monitor_, N, Alias),
