@@ -21,28 +21,29 @@
               [ ord_list_to_rbtree/2, rb_delete/3, rb_insert/4, rb_min/3,
                 rb_size/2 ]).
 
-/** <module> What the timer is to do, and when
+/** <module> Alarms of the timer
 
-An alarm is a fact: at Stamp, fire(Agent, Token) is to be called.
+An alarm is a fact: call fire(Agent, Token) at Stamp.
 
-An alarm that is not needed any more does no harm, and is not cleared: the
-modules that set alarms define by over/2 which are, and these are forgotten
-when as many have been set as there were alarms.  Thus there are never more
-than twice those that count, and some hundreds.
+An alarm that is no longer needed does no harm and is not deleted at once.  The
+modules that set alarms define by over/2 which alarms are obsolete.  Obsolete
+alarms are deleted after as many new alarms have been set as there were alarms.
+So there are never more than twice as many alarms as are needed, plus some
+hundreds.
 
-The stamps of new alarms are put in a queue, from which the timer hears of
-them.  It keeps an index of all stamps that alarms are set to, and some more,
-and makes it anew when Left more have been set; then the alarms that are over
-are forgotten.  The index is index(Stamps, Left), a tree, or
-least(Stamp, Left), only the first, where a tree would fill the stack.  Then
-the next is looked for when that has gone off.
+The stamps of new alarms are put in a queue, from which the timer reads them.
+The timer keeps an index of the stamps of all alarms, and of some alarms that
+are gone.  After Left more alarms have been set it deletes obsolete alarms and
+rebuilds the index.  The index is a tree, index(Stamps, Left), or, where a tree
+would fill the stack, least(Stamp, Left) with the first stamp alone; then the
+next stamp is searched for when that alarm has gone off.
 
 *Threading*: any thread; the index is on the stack of the timer.
 */
 
 :- multifile
     typhon_scheduler:fire/2,            % Agent, Token: an alarm went off
-    typhon_scheduler:over/2,            % Agent, Token: it is not needed any more
+    typhon_scheduler:over/2,            % Agent, Token: it is obsolete
     prolog:message//1.
 
 :- dynamic
@@ -50,13 +51,16 @@ the next is looked for when that has gone off.
     new/1.                              % Queue of stamps
 
 %!  alarms_begin is det.
-%!  alarms_end is det.
 %
-%   From the one to the other alarms can be added; then all are forgotten.
+%   Alarms can be added from now on.
 
 alarms_begin :-
     message_queue_create(New),
     assertz(new(New)).
+
+%!  alarms_end is det.
+%
+%   Delete all alarms. No alarm can be added until alarms_begin/0.
 
 alarms_end :-
     findall(New, new(New), Queues),
@@ -66,7 +70,7 @@ alarms_end :-
 
 %!  alarm_add(+Stamp, +Agent, +Token) is semidet.
 %
-%   Fails if there is this alarm already.
+%   Fails if this alarm is set already.
 
 alarm_add(Stamp, Agent, Token) :-
     \+ alarm(Stamp, Agent, Token),
@@ -77,10 +81,9 @@ alarm_add(Stamp, Agent, Token) :-
           true).                        % ending
 
 %!  alarms_renew(+Stamp) is det.
-%!  alarm_stamp(?Stamp, +Agent, ?Token) is nondet.
 %
-%   The timer hears once more of the alarms that are not later; there is this
-%   alarm.
+%   Put the stamps of all alarms that are not later than Stamp in the timer's
+%   queue again.
 
 alarms_renew(Stamp) :-
     new(New),
@@ -89,12 +92,16 @@ alarms_renew(Stamp) :-
     maplist(thread_send_message(New), Stamps).
 alarms_renew(_).
 
+%!  alarm_stamp(?Stamp, +Agent, ?Token) is nondet.
+%
+%   This alarm is set.
+
 alarm_stamp(Stamp, Agent, Token) :-
     alarm(Stamp, Agent, Token).
 
 %!  alarms_new(-Count) is det.
 %
-%   So many stamps the timer has not heard of.
+%   Count stamps are in the queue, and the timer has not read them yet.
 
 alarms_new(Count) :-
     (   new(New),
@@ -106,8 +113,8 @@ alarms_new(Count) :-
 
 %!  alarms_go_off(+Stamp) is det.
 %
-%   Call fire/2 for each alarm set to Stamp.  An alarm goes off once, whatever
-%   signals the thread.
+%   Call fire/2 for each alarm set to Stamp.  An alarm goes off exactly once,
+%   even if signals arrive in the thread.
 
 alarms_go_off(Stamp) :-
     findall(Alarm, clause(alarm(Stamp, _, _), true, Alarm), Alarms),
@@ -127,7 +134,7 @@ alarm_take(Alarm, Agent, Token) :-
 
 %!  alarms_number(-Count) is det.
 %
-%   This is slow: clauses are counted.
+%   There are Count alarms. This is slow: clauses are counted.
 
 alarms_number(Count) :-
     (   predicate_property(alarm(_, _, _), number_of_clauses(Count0))
@@ -162,7 +169,7 @@ tree(Stamps) :-
     pairs_keys_values(Pairs, Set, Set),
     ord_list_to_rbtree(Pairs, Stamps).
 
-%   Forget the alarms that are over.
+%   Delete obsolete alarms.
 
 alarms_thin :-
     forall(clause(alarm(_, Agent, Token), true, Alarm),
@@ -174,7 +181,7 @@ forget_if_over(Alarm, Agent, Token) :-
     ;   true
     ).
 
-%   The least stamp, without a list of all, or `inf`.
+%   Stamp is the least stamp, or `inf`. Makes no list of all stamps.
 
 alarm_least(Stamp) :-
     Least = least(inf),
@@ -183,10 +190,9 @@ alarm_least(Stamp) :-
     arg(1, Least, Stamp).
 
 %!  index_update(+Index0, -Index) is det.
-%!  index_delete(+Index0, +Stamp, -Index) is det.
 %
-%   With the stamps of new alarms, which are taken from their queue; without
-%   Stamp.
+%   Index is Index0 with the stamps of new alarms, which are taken from their
+%   queue.
 
 index_update(Index0, Index) :-
     (   new(New),
@@ -210,6 +216,10 @@ index_insert(index(Stamps0, Left0), Stamp, index(Stamps, Left)) :-
     Left is Left0-1,
     rb_insert(Stamps0, Stamp, Stamp, Stamps).
 
+%!  index_delete(+Index0, +Stamp, -Index) is det.
+%
+%   Index is Index0 without Stamp.
+
 index_delete(least(_, Left), _, least(Stamp, Left)) :-
     alarm_least(Stamp).
 index_delete(index(Stamps0, Left), Stamp, index(Stamps, Left)) :-
@@ -220,7 +230,7 @@ index_delete(index(Stamps0, Left), Stamp, index(Stamps, Left)) :-
 
 %!  index_first(+Index, -Stamp) is det.
 %
-%   `inf` if there is none.
+%   Stamp is the first stamp, or `inf` if the index is empty.
 
 index_first(least(Stamp, _), Stamp).
 index_first(index(Stamps, _), Stamp) :-

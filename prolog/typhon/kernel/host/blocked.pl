@@ -10,20 +10,20 @@
 :- use_module(library(settings), [setting/2, setting/4]).
 :- use_module(turns, [turn_in/3]).
 
-/** <module> What is done when native goals block workers
+/** <module> Workers that native goals block
 
-A native goal that blocks occupies its worker.  Which goals block is seen when
-they do: each thread notes when its turn began (module `turns`), and a worker
-whose turn has lasted for `blocked_seconds` is blocked.  The pool may grow
-beyond its maximum by as many workers as are blocked, and a warning names
+A native goal that blocks occupies its worker.  Which goals block is known only
+at run time: each thread records when its turn began (module `turns`), and a
+worker whose turn has lasted for `blocked_seconds` is blocked.  The pool may
+grow beyond its maximum by as many workers as are blocked, and a warning names
 their agents.
 
-At `blocked_workers` workers, or when no thread can be made, work of the kinds
-that block is held until workers are free again; agents of one program are of
-one kind.  The pool may then grow by its maximum for the other kinds.
+At `blocked_workers` workers, or when no thread can be created, work of the
+kinds that block is held until workers are free again; agents of one program
+are of one kind.  The pool may then grow by its maximum for the other kinds.
 
-*Threading*: workers call blocked_held/1.  The rest is for the thread of the
-timer alone.
+*Threading*: workers call blocked_held/1.  Only the thread of the timer calls
+the other predicates.
 */
 
 :- multifile
@@ -46,8 +46,8 @@ timer alone.
 
 %!  blocked_room(+Workers:list, +Max, -Room) is det.
 %
-%   The run queue is stuck, and all Workers are busy: so many more may be
-%   added, at most Max that are not blocked.
+%   The run queue is stuck, and all Workers are busy: Room more workers may be
+%   added.  At most Max workers are not blocked.
 
 blocked_room(Workers, Max, Room) :-
     length(Workers, Count),
@@ -89,7 +89,8 @@ warn(Count, Blocked) :-
 
 %!  blocked_full(+Workers:list, +Why) is det.
 %
-%   The run queue is stuck, and no worker can be added.
+%   The run queue is stuck, and no worker can be added: hold work of the kinds
+%   that block.
 
 blocked_full(Workers, Why) :-
     length(Workers, Count),
@@ -117,7 +118,7 @@ kind(What, Kind) :-
 
 %!  blocked_held(+Work) is semidet.
 %
-%   Work is of a kind that is held, and is kept here.
+%   Work is of a kind that is held; keep it in this module.
 
 blocked_held(Work) :-
     kind_held(_),
@@ -136,13 +137,16 @@ keep(Kind, Work) :-
     assertz(held(Work)).
 
 %!  blocked_holds is semidet.
-%!  blocked_release(-Works:list) is det.
 %
-%   Some kind of work is held; none is any more, and Works may be done now.
+%   Some kind of work is held.
 
 blocked_holds :-
     kind_held(_),
     !.
+
+%!  blocked_release(-Works:list) is det.
+%
+%   Hold no kind of work any more. Works are those that were held.
 
 blocked_release(Works) :-
     with_mutex(typhon_blocked, release(Works)).
@@ -153,6 +157,8 @@ release(Works) :-
     retractall(held(_)).
 
 %!  blocked_forget is det.
+%
+%   As blocked_release/1, but drop the work.
 
 blocked_forget :-
     blocked_release(_),

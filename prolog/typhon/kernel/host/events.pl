@@ -12,14 +12,14 @@
 
 /** <module> Events, and their listeners
 
-Modules report events here, by event/4, and need not know the
-listeners: the log of a host, tracers of an agent, watches.
+Modules report events here, by event/4, and need not know the listeners: the
+log of a host, tracers of an agent, watches.
 
-  | kind     | what                                                       |
+  | kind     | events                                                     |
   | -------- | ---------------------------------------------------------- |
   | life     | `created`, ended(Outcome)                                  |
-  | bad_ends | faulty(Error), and ended(failed) of one that is kept       |
-  | faults   | fault(Fault), and ended(Outcome) of one that was kept      |
+  | bad_ends | faulty(Error), and ended(failed) of an agent that is kept  |
+  | faults   | fault(Fault), and ended(Outcome) of an agent that was kept |
   | hops     | left(To), arrived(From, Seconds), stayed(To), cloned(Id)   |
   | messages | sent(To, Message), received(From, Message)                 |
   | facts    | leave(Fact), take(Fact)                                    |
@@ -28,14 +28,13 @@ listeners: the log of a host, tracers of an agent, watches.
   | hosts    | `started`, `stopped`, refused(Agent, Reason)               |
   | goals    | goal(Goal): only of agents that are traced                 |
 
-An event of a host, not of an agent, has the agent `none`.
+An event that concerns a host, and no agent, has the agent `none`.
 
-Listeners are noted by kind, and by the host or the agent whose events they
-want.  As long as a kind has no listener, an event of it costs less than
-a tenth of a microsecond.
+A listener is registered for a kind, and for the host or the agent whose events
+it gets.  As long as a kind has no listener, an event of it costs less than a
+tenth of a microsecond.
 
-*Threading*: any thread reports events, and listeners must not make it
-wait.
+*Threading*: any thread reports events. A listener must not make it wait.
 */
 
 :- multifile
@@ -44,7 +43,8 @@ wait.
 
 :- dynamic hears/3.             % Kind, Host or agent, Listener
 
-%   A log can have these.  Goals are only for tracers of an agent.
+%   A log can have events of these kinds.  Goals are only for tracers of an
+%   agent.
 
 error:has_type(event_kind, Kind) :-
     nonvar(Kind),
@@ -52,7 +52,7 @@ error:has_type(event_kind, Kind) :-
 
 %!  log_kind(?Wanted, -Kind) is nondet.
 %
-%   What a log may be asked for, and the kind of events that it is.
+%   A log can be configured with Wanted, and then gets events of Kind.
 
 log_kind(messages(content), messages).
 log_kind(Kind, Kind) :-
@@ -60,7 +60,7 @@ log_kind(Kind, Kind) :-
 
 %!  event(+Kind, +Host, +Agent, +What) is det.
 %
-%   What has happened to Agent on Host, the name of a host of this process.
+%   Report the event What of Agent on Host, the name of a host of this process.
 
 event(Kind, Host, Agent, What) :-
     (   hears(Kind, _, _)
@@ -76,7 +76,7 @@ event_heard(Kind) :-
     hears(Kind, _, _),
     !.
 
-%   Events that are printed for one agent are in the log, too.
+%   An event that is printed for one agent also goes to the log.
 
 tell(Kind, Host, Agent, What) :-
     hears(Kind, Agent, _),
@@ -96,7 +96,7 @@ listener(Kind, _, Agent, Listener) :-
 listener(Kind, _, Agent, log) :-
     hears(Kind, Agent, _).
 
-%   A listener that fails is no reason for an agent to stop.
+%   An error or a failure of a listener does not stop the agent.
 
 tell_one(Listener, Host, Agent, What) :-
     catch(ignore(told(Listener, Host, Agent, What)),
@@ -104,16 +104,19 @@ tell_one(Listener, Host, Agent, What) :-
           print_error(warning, error(Formal, Context))).
 
 %!  events_hear(+Kinds:list, +Key, +Listener) is det.
-%!  events_forget(+Key) is det.
 %
-%   Listener, of which told/4 knows, hears of events of Kinds on a host, or
-%   of an agent, Key; forget the listeners for Key.
+%   Register Listener, which told/4 defines, for events of Kinds on the host,
+%   or of the agent, Key.
 
 events_hear(Kinds, Key, Listener) :-
     with_mutex(typhon_events,
                forall(( member(Kind, Kinds),
                         \+ hears(Kind, Key, Listener) ),
                       assertz(hears(Kind, Key, Listener)))).
+
+%!  events_forget(+Key) is det.
+%
+%   Remove all listeners for Key.
 
 events_forget(Key) :-
     (   hears(_, _, _)
@@ -123,7 +126,7 @@ events_forget(Key) :-
 
 %!  events_unheard(+Listener) is det.
 %
-%   Listener hears nothing any more.
+%   Remove Listener for all keys.
 
 events_unheard(Listener) :-
     retractall(hears(_, _, Listener)).

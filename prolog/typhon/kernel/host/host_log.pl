@@ -12,16 +12,16 @@
 :- use_module(host_names, [address_parts/3]).
 :- use_module(hosts, [host/3, host_option/2]).
 
-/** <module> What of events leaves the process, and goes to a log server
+/** <module> Events that a host sends to its log server
 
-A log hears when agents begin and end, what they log, and of those kinds of
-events that the option of its host names.
+A log gets events when agents begin and end, the terms that agents log, and the
+kinds of events that the option of its host names.
 
-Logs and watches get events without the content of messages.  They get it,
-bounded in size, where the option log(Address, Kinds) of the host has
+Logs and watches get events without the content of messages.  They get the
+content, bounded in size, where the option log(Address, Kinds) of the host has
 messages(content) among Kinds.
 
-*Threading*: any thread; that of an endpoint does not wait for a connection.
+*Threading*: any thread; a thread of an endpoint does not wait for a connection.
 */
 
 :- multifile
@@ -29,7 +29,8 @@ messages(content) among Kinds.
     typhon_hosting:begins/1.
 
 :- dynamic
-    unheard/2.                  % Endpoint, Key: of the flag that counts
+    unheard/2.                  % Endpoint, Key: the flag that counts
+                                % lost events
 
 typhon_hosting:begins(Host) :-
     log_server(Host, Log, Kinds),
@@ -50,11 +51,8 @@ typhon_events:told(log, Host, Agent, What) :-
     host_log(Host, Agent, Shown).
 
 %!  host_log(+Host, +Agent, +What) is det.
-%!  host_log_event(+Host, +Agent, +What, -Post) is semidet.
-%!  host_logs(+Host) is semidet.
 %
-%   Send an event to the log server of Host, if it has one; what is to be
-%   posted there, Endpoint-Event; whether it has one.
+%   Send an event to the log server of Host, if it has one.
 
 host_log(Host, Agent, What) :-
     host_log_event(Host, Agent, What, Endpoint-Event),
@@ -64,8 +62,8 @@ host_log(Host, Agent, What) :-
           lost(Formal, Context, Endpoint)).
 host_log(_, _, _).
 
-%   A log server that is not there is reported once, and again when it is: what
-%   has happened meanwhile is lost.
+%   A log server that cannot be reached is reported once, and again when it is
+%   back: events in between are lost.
 
 lost(unreachable(_), _, Endpoint) :-
     !,
@@ -94,11 +92,20 @@ heard(Endpoint) :-
     print_message(warning, typhon(log_heard(Endpoint, Count))).
 heard(_).
 
+%!  host_log_event(+Host, +Agent, +What, -Post) is semidet.
+%
+%   Post is Endpoint-Event, to be posted to the log server of Host.  Fails if
+%   Host has no log server.
+
 host_log_event(Host, Agent, What, Endpoint-event(Log, Address, Agent, What)) :-
     log_server(Host, Log, _),
     !,
     host(Host, Address, _),
     address_parts(Log, _, Endpoint).
+
+%!  host_logs(+Host) is semidet.
+%
+%   Host has a log server.
 
 host_logs(Host) :-
     log_server(Host, _, _),
@@ -115,7 +122,8 @@ host_logs(Host) :-
 
 %!  event_shown(+Host, +What, -Shown) is det.
 %
-%   Shown is What as logs and watches get it, an event on Host, as of event/4.
+%   What is an event on Host, as of event/4, and Shown is what logs and watches
+%   get of it.
 
 event_shown(Host, sent(To, Message), Shown) =>
     (   shows_content(Host)
@@ -136,8 +144,8 @@ shows_content(Host) :-
     host_option(Host, log(_, Kinds)),
     memberchk(messages(content), Kinds).
 
-%   content(+Message, -Content): Message itself, or if its text is too long, a
-%   string that is the beginning of it and ends with three dots.
+%   content(+Message, -Content): Content is Message, or, if its text is too
+%   long, a string with the beginning of the text and three dots.
 
 content(Message, Content) :-
     setting(content_characters, Longest),

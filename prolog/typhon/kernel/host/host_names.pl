@@ -10,9 +10,9 @@
 
 /** <module> Names and addresses of hosts
 
-The one relation between what a caller writes for a host and where that host
-is.  A bare name is first looked for in this process, and then in the other
-processes of the networks that this process started.
+Maps the name or address that a caller gives to the location of the host.  A
+bare name is looked up first in this process, and then in the other processes
+of the networks that this process started.
 
 *Threading*: any thread.
 */
@@ -23,7 +23,7 @@ processes of the networks that this process started.
     typhon_names:known/2,
     error:has_type/2.
 
-%   Those of other processes by their addresses.
+%   Completion gets hosts of other processes by their addresses.
 
 typhon_names:known(host, Name) :-
     host(Name, _, _).
@@ -81,7 +81,7 @@ host_resolve(Name, remote(Address, Name, Endpoint)) :-
     the_only(Addresses, Name, Address),
     address_parts(Address, _, Endpoint).
 
-%   A host of this process that is being stopped is in no other process.
+%   A host of this process that is about to stop is not looked up elsewhere.
 
 in_other_process(Name, Address) :-
     elsewhere(Name, Address),

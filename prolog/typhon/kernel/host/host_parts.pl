@@ -14,13 +14,13 @@
 
 /** <module> The parts of a host: what options add to it
 
-An option joins the acts of a host by a clause of the hook
+An option adds code to the operations of a host by a clause of the hook
 
     part(Phase, Host, Order, Closure)
 
-that holds while the option is on for Host.  The clauses of this hook are
-asked when the options of the host change, and never in between: an act looks
-up one list of closures, and a host without options has none.
+which succeeds while the option is on for Host.  The clauses of this hook are
+called when the options of the host change, and at no other time: an operation
+looks up one list of closures, and a host without options has none.
 
   | phase         | called with                  | when                        |
   | ------------- | ---------------------------- | --------------------------- |
@@ -28,13 +28,13 @@ up one list of closures, and a host without options has none.
   |               |                              | typhon_gate                 |
   | admit_program | From, Entrant, Host, Verdict | its program is here, too    |
   | view          | (a module)                   | an agent is installed, see  |
-  |               |                              | typhon_agent_module             |
-  | module        | Module                       | its module begins to get    |
-  |               |                              | its state                   |
-  | comes         | Id, Host, Module, Hash       | the agent stands on Host    |
-  |               |                              | from now on                 |
-  | goes          | Id, Host, Module             | it does no longer; Module   |
-  |               |                              | is the one that it has now  |
+  |               |                              | typhon_agent_module         |
+  | module        | Module                       | before the state of an      |
+  |               |                              | agent is put in Module      |
+  | comes         | Id, Host, Module, Hash       | the agent is on Host from   |
+  |               |                              | now on                      |
+  | goes          | Id, Host, Module             | it has left; Module is its  |
+  |               |                              | present module              |
   | turn          | Turn, Goals, Outcome         | runs the machine, within    |
   |               |                              | limits, see typhon_turn     |
   | acts          | Agent, Act                   | an agent, or `none`, is     |
@@ -49,52 +49,57 @@ up one list of closures, and a host without options has none.
   | permit        | Proof, Right                 | a peer uses a right, see    |
   |               |                              | typhon_peer_rights          |
   | security      | Host, Peer, Proof, What      | a security event, see there |
-  | payload       | From, Payload, Host, Reason  | is refused, see             |
+  | payload       | From, Payload, Host, Reason  | a payload is refused, see   |
   |               |                              | typhon_payloads             |
   | new_program   | Host, Id, Sent               | Id gets another program,    |
   |               |                              | sent as of code_receive/2;  |
-  |               |                              | raises what forbids it      |
+  |               |                              | an error forbids it         |
 
-Those that admit succeed with a verdict which is not `ok`.  Of `turn` there is
-one.  `acts` raises an error if the agent must not.  A peer has a right
-if all that permit succeed.  Other closures amend what goes from one host to
-another, and are called with Host, About, Term0, Term:
+A closure of `admit` or `admit_program` fails where it has no objection, and
+else returns a verdict other than `ok`.  There is only one closure of `turn`.
+A closure of `acts` raises an error if the agent is not allowed to act.  A peer
+has a right if all closures of `permit` succeed.  The closures of the following
+phases change a term that is passed from one host to another.  They are called
+with Host, About, Term0, Term:
 
   | phase   | Term    | About                      | when                     |
   | ------- | ------- | -------------------------- | ------------------------ |
-  | departs | state   | hop(Id, Hash, Hops, Goals, | it goes to the address   |
-  |         |         | To)                        | To, of another process   |
-  | arrives | state   | hop(Id, Hash, Hops, Goals, | it comes to Address from |
-  |         |         | from(Peer, Address))       | the process at Peer      |
-  | papers  | program | program(Id, Hash,          | what is sent to Endpoint |
-  |         |         | Endpoint)                  | with an agent            |
+  | departs | state   | hop(Id, Hash, Hops, Goals, | the agent leaves for the |
+  |         |         | To)                        | address To, of another   |
+  |         |         |                            | process                  |
+  | arrives | state   | hop(Id, Hash, Hops, Goals, | it arrives at Address    |
+  |         |         | from(Peer, Address))       | from the process at Peer |
+  | papers  | program | program(Id, Hash,          | its program is sent to   |
+  |         |         | Endpoint)                  | Endpoint                 |
   | created | state   | Peer                       | the process at Peer      |
   |         |         |                            | creates an agent here    |
-  | cloned  | state   | Id                         | of a clone of Id         |
-  | copied  | state   | Id                         | of a restore point of Id |
-  | deliver | mail    | Id                         | comes for Id             |
-  | tuple   | mark    | Agent                      | `none` at first, of a    |
-  |         |         |                            | fact that Agent leaves   |
+  | cloned  | state   | Id                         | Id is cloned             |
+  | copied  | state   | Id                         | a restore point of Id is |
+  |         |         |                            | used                     |
+  | deliver | mail    | Id                         | a message arrives for Id |
+  | tuple   | mark    | Agent                      | Agent leaves a fact; the |
+  |         |         |                            | mark is `none` at first  |
 
 State is as of agent_state/2.
 
-Closures of a phase are called in the order of their numbers.
+The closures of a phase are called in ascending order of their numbers.
 
-What an option keeps of a host follows the life of the host by the hooks
+An option that has data for each host follows the life of the host by the hooks
 
-    check(Options)              before it starts: raises what is wrong
+    check(Options)              before it starts: raises an error if Options
+                                are wrong
     begins(Host, Place, Options)  it has a place, and is not reachable yet; if
-                                this raises, the host does not start
-    changeable(Option)          host_change/2 takes Option
-    changes(Option, Host)       it is about to be put
+                                this raises an error, it does not start
+    changeable(Option)          host_change/2 accepts Option
+    changes(Option, Host)       Option is about to be set
     compiled(Host)              its parts are those of its new options
     untrusted(Option)           with Option a host admits agents that it does
                                 not trust
     unnoted(Option)             it is not restored with the host
-    limit(Host, What, Most)     agents on Host may use so much of What
-    ends(Host)                  it is no more
+    limit(Host, What, Most)     agents on Host may use up to Most of What
+    ends(Host)                  it has stopped
 
-*Threading*: any thread reads; all else holds the mutex of host_start/2.
+*Threading*: any thread reads; all changes hold the mutex of host_start/2.
 */
 
 :- multifile
@@ -115,14 +120,14 @@ What an option keeps of a host follows the life of the host by the hooks
 
 %!  parts(?Phase, ?Host, ?Closures:list) is nondet.
 %
-%   Host has these Closures in Phase: a fact, so that what has no parts costs
-%   one lookup.  The first one counts, and there is none without closures.
+%   Host has these Closures in Phase.  This is a fact, so that a host without
+%   parts costs one lookup.  The first fact counts, and none has an empty list.
 
 %!  parts_call(+Phase, +Host, +Args:list) is det.
 %
 %   Call all closures of Host with Args; bindings are undone.
 %
-%   @error what a closure raises
+%   @error those of the closures
 
 parts_call(Phase, Host, Args) :-
     (   parts(Phase, Host, Closures)
@@ -132,7 +137,8 @@ parts_call(Phase, Host, Args) :-
 
 %!  amended(+Phase, +Host, +About, +Term0, -Term) is det.
 %
-%   Term is Term0 as the parts of Host amend it, one after the other.
+%   Term is Term0 after all parts of Host in Phase have changed it, one after
+%   another.
 
 amended(Phase, Host, About, Term0, Term) :-
     (   parts(Phase, Host, Closures)
@@ -147,7 +153,7 @@ amended_by([Closure|Closures], Host, About, Term0, Term) :-
 
 %!  parts_load(+Options) is det.
 %
-%   All that a host with Options needs is loaded.
+%   Load all code that a host with Options needs.
 
 parts_load(Options) :-
     options_load(host_option, Options),
@@ -158,10 +164,9 @@ parts_load(Options) :-
     ).
 
 %!  parts_compile(+Host) is det.
-%!  parts_forget(+Host) is det.
 %
-%   The options of Host have changed; Host is no more.  The new list is there
-%   before the old one goes.
+%   The options of Host have changed: compile its parts.  The new list is added
+%   before the old one is removed.
 
 parts_compile(Host) :-
     findall(Phase-Closures, parts(Phase, Host, Closures), Olds),
@@ -176,6 +181,10 @@ in_order(Host, Phase, Closures) :-
     bagof(Order-Closure, part(Phase, Host, Order, Closure), Pairs0),
     keysort(Pairs0, Pairs),
     pairs_values(Pairs, Closures).
+
+%!  parts_forget(+Host) is det.
+%
+%   Remove the parts of Host, which has stopped.
 
 parts_forget(Host) :-
     retractall(parts(_, Host, _)).

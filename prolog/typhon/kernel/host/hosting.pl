@@ -39,19 +39,19 @@
 
 /** <module> Starting and stopping hosts
 
-A host holds a place, a clock, an entry in the scheduler, and with the
-other users of the process its endpoint, see typhon_runtime.
+A host owns a place, a clock, and an entry in the scheduler.  It shares the
+endpoint with the other users of the process, see typhon_runtime.
 
-*Threading*: host_start/2 and host_stop/1 exclude each other by a mutex.
+*Threading*: a mutex serializes host_start/2 and host_stop/1.
 */
 
 :- setting(stop_seconds, number, 2,
            "Agents have so long to come to an effect when their host stops").
 
 :- multifile
-    begins/1,                   % Name: is there, listeners may join
+    begins/1,                   % Name: it exists, listeners may join
     starts/2,                   % Name, Options: an option has started the host
-    evacuate/2.                 % Name, Deadline: no agent is left on the host
+    evacuate/2.                 % Name, Deadline: end all agents on the host
 
 :- meta_predicate hosts_exclusively(0).
 
@@ -65,51 +65,52 @@ other users of the process its endpoint, see typhon_runtime.
 %   Start a host in this process.  Options:
 %
 %     - port(+Port): of the endpoint of the process, 0 for any.  A later
-%       host may have a port of its own, for which the process listens, too,
-%       as long as the host runs
+%       host may have a port of its own: the process listens at it, too, as
+%       long as the host runs
 %     - bind(+Interface): default localhost; only for the first host
 %     - tls(+Directory): the keys of this process, see doc/keys.md; all its
 %       connections are TLS 1.3, both sides with certificates; only for the
 %       first host
-%     - trail(+Boolean): whether it signs what it receives and hands on of
-%       agents, see agent_trail/2; default `true` where there are keys
-%     - authors(+Names): admit only agents whose program one of these has
-%       signed, see doc/keys.md; needs tls(Directory)
-%     - capacity(+N): that many agents at the most, or `inf`
-%     - tokens(+List): an agent must carry one of them to be let in
-%     - concurrency(+N): that many agents run at a time, default `inf`
+%     - trail(+Boolean): whether the host signs the agents that it receives and
+%       sends, see agent_trail/2; default `true` where the process has keys
+%     - authors(+Names): admit only agents whose program is signed by one of
+%       Names, see doc/keys.md; needs tls(Directory)
+%     - capacity(+N): at most N agents, or `inf`
+%     - tokens(+List): admit only agents that carry one of these tokens
+%     - concurrency(+N): at most N agents run at a time, default `inf`
 %     - consult(+Files): clause files consulted into its place
 %     - services(+Modules): modules whose exports its place offers
-%     - place(+Module): a module all of whose predicates it offers
-%     - log(+Address), log(+Address, +Kinds): the log server.  It hears of
-%       the beginnings and ends of agents, of what they log themselves, and
-%       of Kinds: a list out of `hops`, `messages` or messages(content),
-%       `facts`, `faults`, `links` and `hosts`, see watch/3
+%     - place(+Module): a module all of whose predicates its place offers
+%     - log(+Address), log(+Address, +Kinds): the log server.  It gets events
+%       when agents begin and end, the terms that agents log, and the events of
+%       Kinds: a list of `hops`, `messages` or messages(content), `facts`,
+%       `faults`, `links` and `hosts`, see watch/3
 %     - remote(+Boolean): whether remote/2 is answered, default `true`
 %     - python(+Boolean): whether agents may deliver Python, see doc/bridges.md,
 %       default `false`
-%     - clock(virtual): time is virtual, see doc/time.md; so it is then
-%       for all hosts of the process, which cannot be reached from others
+%     - clock(virtual): time is virtual, see doc/time.md, for all hosts of the
+%       process, which other processes cannot reach
 %     - clock(+Epoch, +Rate): see typhon_time
-%     - hop_time(uniform(Min, Max)): delay added to hops out of it
+%     - hop_time(uniform(Min, Max)): a delay drawn from it is added to each hop
 %     - seed(+Integer): for the choices of migration strategies
-%     - journal(+Where): what happens in this process outlives it, see
-%       doc/journal.md; only for the first host.  Where is a directory, or
-%       postgresql(Url), or such a URL.  Whatever the journal knows
-%       is there again, other hosts, too: host_start/2 may then be called for
-%       these once, and changes nothing
-%     - sync(+How): `normal`, the default, if the journal is to survive the
-%       end of the process, `full` if a power cut, too
-%     - policy(+Policy): what agents may do here: `trusted`, everything,
+%     - journal(+Where): the state of this process outlives it, see
+%       doc/journal.md; only for the first host.  Where is a directory,
+%       postgresql(Url), or such a URL.  All hosts that are in the journal are
+%       restored, other hosts, too: host_start/2 may then be called once for
+%       each of these, and changes nothing
+%     - sync(+How): `normal`, the default, if the journal must survive the
+%       end of the process, `full` if also a power cut
+%     - policy(+Policy): what agents may do on this host: `trusted`, everything,
 %       which is the default; `guarded`, what cannot harm others, see
 %       typhon_guard and doc/security.md; or a file of rules
-%     - cell(+Kind): with a policy agents run in processes that the system walls
-%       in: `owner`, one for each owner of agents, the default where the system
-%       can do it, `host`, one for all, or `none`, see doc/security.md
+%     - cell(+Kind): with a policy, agents run in processes that the operating
+%       system confines: `owner`, one for each owner of agents, the default
+%       where the system supports it, `host`, one for all, or `none`, see
+%       doc/security.md
 %     - peer(+Rules): which processes may do what, see typhon_access
-%     - audit(+File): refusals and orders are noted there
-%     - quota(+List): how much agents may use, each, those of one owner, and
-%       all, see typhon_quotas
+%     - audit(+File): refusals and orders are recorded there
+%     - quota(+List): how much agents may use: each agent, the agents of one
+%       owner, and all agents, see typhon_quotas
 %
 %   @error permission_error(start, host, Name) if it runs already
 %   @error domain_error(host_option, Option)
@@ -129,7 +130,7 @@ host_start(Name, Options) :-
     forall(member(log(_, Kinds), Options), must_be(list(event_kind), Kinds)),
     with_mutex(typhon_hosting, start(Name, Options)).
 
-%   An address has it before its `@`.
+%   In an address the name ends at the first `@`.
 
 must_be_name(Name) :-
     (   Name \== '',
@@ -152,8 +153,7 @@ start(Name, Options) :-
 
 %!  host_restart(+Name, +Options) is det.
 %
-%   As host_start/2, of a host that there was before: its start is not
-%   reported.
+%   As host_start/2, for a host that existed before: no event reports its start.
 
 host_restart(Name, Options) :-
     with_mutex(typhon_hosting, restart(Name, Options)).
@@ -170,7 +170,7 @@ start_new(Name, Options) :-
     event(hosts, Name, none, started).
 
 stand_new(Name, Options) :-
-    parts_load(Options),                % it may come from a journal
+    parts_load(Options),                % the host may be from a journal
     kind_of_time(Options, Kind),
     append(Kind, Options, Options1),
     runtime_acquire(host(Name), Options1, Endpoint),
@@ -178,17 +178,22 @@ stand_new(Name, Options) :-
           ( runtime_release(host(Name)), throw(Ball) )).
 
 %!  host_begin(+Name, +Options) is det.
-%!  host_end(+Name) is det.
-%!  hosts_exclusively(:Goal) is semidet.
 %
-%   For options, in the course of host_start/2: start another host; stop one;
-%   call Goal once while no other thread starts or stops hosts.
+%   For options, in the course of host_start/2: start another host.
 
 host_begin(Name, Options) :-
     hosts_exclusively(start_new(Name, Options)).
 
+%!  host_end(+Name) is det.
+%
+%   For options, in the course of host_start/2: stop a host.
+
 host_end(Name) :-
     hosts_exclusively(stop(Name)).
+
+%!  hosts_exclusively(:Goal) is semidet.
+%
+%   As once(Goal), while no other thread starts or stops hosts.
 
 hosts_exclusively(Goal) :-
     with_mutex(typhon_hosting, Goal).
@@ -199,21 +204,22 @@ hosts_exclusively(Goal) :-
 
 %!  hosts_go_on is det.
 %
-%   What was restored goes on.
+%   Resume all that was restored.
 
 hosts_go_on :-
     forall(typhon_durable:go_on, true).
 
 %!  hosts_rest is det.
 %
-%   All hosts of the process stop, also where time is held.  What is in its
-%   journal rests there, and nothing leaves the process any more, until its
-%   endpoint has stopped.
+%   Stop all hosts of the process, also where time is held.  The contents of
+%   its journal stay there, and nothing leaves the process until its endpoint
+%   has stopped.
 
 hosts_rest :-
     in_own_thread(with_mutex(typhon_hosting, rest)).
 
-%   Agents that are kept back do not find that others are gone.
+%   Turns stay paused until all hosts have stopped, so that no agent observes
+%   that other agents are gone.
 
 rest :-
     durable_close,
@@ -225,7 +231,7 @@ rest :-
     ;   durable_end
     ).
 
-%   A network gives its hosts a clock of whatever kind it has.
+%   A host of a network has a clock, whatever the kind of time of the network.
 
 kind_of_time(Options, [time(Kind)]) :-
     time_wanted(Options, Kind),
@@ -272,9 +278,9 @@ place_parts(Options, Files, Services) :-
 
 %!  host_stop(+Name) is det.
 %
-%   Dispose of the agents on Name, a host of this process, and release all it
-%   holds.  If the process has a journal, and Name is its last host, they rest
-%   there instead.
+%   Dispose of the agents on Name, a host of this process, and release all its
+%   resources.  If the process has a journal, and Name is its last host, the
+%   agents stay in the journal instead.
 %
 %   @error existence_error(host, Name)
 
@@ -294,7 +300,7 @@ stop_one(Name0) :-
     host(Name, Address, Place),
     close_last(Name),
     (   durable_closed
-    ->  events_forget(Name)             % an agent at rest does not end
+    ->  events_forget(Name)             % an agent in the journal does not end
     ;   true
     ),
     host_close(Name),
@@ -313,8 +319,8 @@ stop_one(Name0) :-
     debug(typhon(host), '~w is stopped', [Address]),
     runtime_release(host(Name)).
 
-%   With the last host the process is at its end: what is in the store stays
-%   there, to go on when it is started again.
+%   With the last host the process ends: the store keeps its contents, and the
+%   next start resumes them.
 
 close_last(Name) :-
     (   host(Other, _, _),
@@ -334,10 +340,8 @@ local_name(Host, Name) :-
                 *         HOST OPTIONS         *
                 *******************************/
 
-%   What may be said of a host that is started.
-%
-%   What it means is described at host_start/2, which of it may be changed later
-%   at host_change/2.
+%   The options of host_start/2, where they are described; host_change/2
+%   describes which of them can be changed later.
 
 :- multifile typhon_options:declared/4.
 
@@ -364,7 +368,7 @@ host_option_type(python(X), boolean, X).
 
 %!  host_listed(+ListOrOne, -List) is det.
 %
-%   What is not a list is the only one in it.
+%   A term that is not a list stands for a list of that term alone.
 
 host_listed(List, List) :-
     is_list(List),

@@ -32,25 +32,25 @@
 
 /** <module> Hosts of this process
 
-The records of hosts: name, address, place, options, how many agents stand
-on them and how long hops take.
+The records of hosts: name, address, place, options, the number of agents on
+them, and the times of hops.
 
-*Threading*: any thread.  Load and statistics are flags, which change under
-one mutex: flag/3 would lock for each of them.
+*Threading*: any thread.  Load and statistics are flags that change under one
+mutex: flag/3 would lock for each of them.
 */
 
 :- dynamic
     host/3,                     % Name, Address, Place
     option/2,                   % Name, Option
     door/4,                     % Name, Tokens, Capacity, Flag: while
-                                % it is open
+                                % it admits agents
     load_key/2,                 % Name, Flag
     hop_keys/3,                 % Name, Direction, Flags
     host_plain/2.               % Name, Plain
 
 %!  host(?Name, ?Address, ?Place) is nondet.
 %
-%   The hosts of this process, in the order in which they were started.
+%   The hosts of this process, in the order of their start.
 
 %!  host_add(+Name, +Address, +Place, +Options) is det.
 
@@ -70,12 +70,9 @@ open_door(Name) :-
     assertz(door(Name, Tokens, Capacity, Key)).
 
 %!  host_plain(?Name, -Plain) is nondet.
-%!  host_plain_leaves(+Name, -Since:float) is semidet.
 %
-%   Nothing comes between what happens on Name and the kernel: the host is open,
-%   has no parts and asks for no token.  Plain is what a hop has to know of it,
-%   one fact.  A hop from there to another process begins now, at Since; fails if
-%   Name is not plain, or hops are delayed.
+%   The host admits agents, has no parts, and asks for no token, so the kernel
+%   alone handles its hops.  Plain is one fact with all that a hop needs of it.
 
 note_plain(Name) :-
     (   \+ parts(_, Name, _),
@@ -89,6 +86,11 @@ note_plain(Name) :-
                                        Capacity, Load, In, Out)))
     ;   true
     ).
+
+%!  host_plain_leaves(+Name, -Since:float) is semidet.
+%
+%   A hop from Name to another process begins now, at Since.  Fails if Name is
+%   not plain, or delays hops.
 
 host_plain_leaves(Name, Since) :-
     host_plain(Name, plain(_, _, none, Epoch, Rate, _, _, _, _)),
@@ -122,7 +124,7 @@ make_hop_keys(Name, Direction) :-
     Flags =.. [flags|Keys],
     assertz(hop_keys(Name, Direction, Flags)).
 
-%   How many stand there, and how long hops took.
+%   The load of a host and the times of its hops.
 
 :- durable(counts, Name, 0, Values, counts_item(Name, Values),
            counts_restore(Name, Values)).
@@ -142,13 +144,16 @@ count_key(Name, Key) :-
     arg(_, Flags, Key).
 
 %!  host_close(+Name) is det.
-%!  host_closed(+Name) is semidet.
 %
-%   From now on no agent is admitted: it is about to stop.
+%   Name, which is about to stop, admits no agent from now on.
 
 host_close(Name) :-
     retractall(host_plain(Name, _)),
     retractall(door(Name, _, _, _)).
+
+%!  host_closed(+Name) is semidet.
+%
+%   Name admits no agents.
 
 host_closed(Name) :-
     \+ door(Name, _, _, _).
@@ -172,8 +177,8 @@ host_option(Name, Option) :-
 
 %!  host_note(+Name) is det.
 %
-%   What its options are by now outlives the process.  As host_add/4 and
-%   host_put/2 do, if changes are queued already.
+%   Make the present options of Name durable. host_add/4 and host_put/2 do so,
+%   too, if changes are queued already.
 
 host_note(Name) :-
     (   durable_on
@@ -187,9 +192,9 @@ host_note(Name) :-
 
 %!  host_put(+Name, +Option) is det.
 %
-%   Option replaces that of its name.  The new comes before the old goes: a
-%   host is never without.  It is not plain until the parts are those of the
-%   new options.
+%   Replace the option of the same name.  The new one is added before the old
+%   one is removed, so readers always find one.  The host is not plain until
+%   its parts are those of the new options.
 
 host_put(Name, Option) :-
     functor(Option, OptionName, Arity),
@@ -204,7 +209,7 @@ host_put(Name, Option) :-
     (   door(Name, Tokens, Capacity, Key)
     ->  open_door(Name),
         once(retract(door(Name, Tokens, Capacity, Key)))
-    ;   true                            % it stops
+    ;   true                            % the host is stopping
     ),
     note_plain(Name),
     host_note(Name).
@@ -215,8 +220,8 @@ host_put(Name, Option) :-
 
 %!  host_enter(+Name, +Tokens, -Answer) is det.
 %
-%   An agent with Tokens asks to enter.  Answer is `ok`, and a place is taken
-%   for it, or refused(Reason).
+%   An agent with Tokens asks to enter.  Answer is `ok`, and it counts in the
+%   load, or refused(Reason).
 
 host_enter(Name, Tokens, Answer) :-
     (   door(Name, Wanted, Capacity, Load)
@@ -231,7 +236,7 @@ host_enter(Name, Tokens, Answer) :-
 shown(Wanted, Tokens) :-
     member(Token, Wanted),
     member(Shown, Tokens),
-    subsumes_term(Token, Shown),        % no master key, which would fit all
+    subsumes_term(Token, Shown),        % an unbound token does not match
     !.
 
 room_taken(Capacity, Key, Answer) :-
@@ -250,9 +255,9 @@ count_load(Key, Change) :-
 
 %!  host_came(+Where, +Since) is semidet.
 %
-%   An agent has come to Where, Name-Plain as of host_plain/2, by a hop that began
-%   at Since, in host time; fails, and it has not, if there is no capacity, or the
-%   host is plain no longer.
+%   Count an agent that arrives at Where, Name-Plain as of host_plain/2, by a
+%   hop that began at Since, in host time.  Fails and counts nothing if the
+%   host is full or no longer plain.
 
 host_came(Where, Since) :-
     Where = _-plain(_, _, _, Epoch, Rate, _, _, In, _),
@@ -261,15 +266,18 @@ host_came(Where, Since) :-
     with_mutex(typhon_host_flags, came(Where, In, Seconds)).
 
 %!  host_again(+Name) is det.
-%!  host_leave(+Name) is det.
 %
-%   An agent on Name counts again, whatever its capacity; or no longer.
+%   An agent on Name counts again in its load, even beyond its capacity.
 
 host_again(Name) :-
     (   load_key(Name, Key)
     ->  with_mutex(typhon_host_flags, count_load(Key, 1))
     ;   true                            % stopped meanwhile
     ).
+
+%!  host_leave(+Name) is det.
+%
+%   An agent no longer counts in the load of Name.
 
 host_leave(Name) :-
     (   load_key(Name, Key)
@@ -288,21 +296,18 @@ host_load(Name, Load) :-
                 *******************************/
 
 %!  host_hop(+Name, +Direction, +Seconds) is det.
-%!  host_left(+Name, +Since) is det.
-%!  host_passes(+From, +Where, +Since, -Seconds:float) is semidet.
-%!  host_passed(+Here, +There, +Seconds) is det.
 %
-%   A hop into (`in`) or out of (`out`) Name took Seconds of host time; an agent
-%   on Name has gone to another process by one that began at Since.  An agent has
-%   passed from a host of this process that is plain as From says to Where, see
-%   host_came/2, by one that began at Since; fails, and it has not, where that
-%   does.  An agent on Here is on There now, where its place was taken before.
+%   A hop into (`in`) or out of (`out`) Name took Seconds of host time.
 
 host_hop(Name, Direction, Seconds) :-
     hop_keys(Name, Direction, Flags),
     !,
     with_mutex(typhon_host_flags, add_hop(Flags, Seconds)).
 host_hop(_, _, _).
+
+%!  host_left(+Name, +Since) is det.
+%
+%   An agent has left Name for another process, by a hop that began at Since.
 
 host_left(Name, Since) :-
     host_plain(Name, plain(_, _, _, Epoch, Rate, _, Load, _, Out)),
@@ -318,6 +323,11 @@ host_left(Name, Since) :-
     host_leave(Name).
 host_left(_, _).                        % stopped meanwhile
 
+%!  host_passes(+From, +Where, +Since, -Seconds:float) is semidet.
+%
+%   Count a hop that began at Since from a plain host of this process, From as
+%   of host_plain/2, to Where, as of host_came/2.  Fails where that fails.
+
 host_passes(plain(_, _, _, Epoch, Rate, _, Load0, _, Out), Where, Since,
             Seconds) :-
     Where = _-plain(_, _, _, _, _, _, _, In, _),
@@ -332,9 +342,10 @@ passes(Where, Load0, Out, In, Seconds) :-
     left(Load0, Out, Seconds),
     add_hop(In, Seconds).
 
-%   place_taken(+Where, +Count): Count agents stand there, and one more from now
-%   on.  A host that stops is not plain any more, and then waits until its load is 0:
-%   where it is still plain after the load has grown, the stop waits for the agent.
+%   place_taken(+Where, +Count): the load of Where, which is Count, grows by
+%   one.  A host that stops is first no longer plain, and then waits until its
+%   load is 0.  So if it is still plain after its load has grown, the stop
+%   waits for the agent.
 
 place_taken(Name-Plain, Count) :-
     Plain = plain(_, _, _, _, _, Capacity, Load, _, _),
@@ -347,7 +358,10 @@ place_taken(Name-Plain, Count) :-
         fail
     ).
 
-%   A host that stops waits until its load is 0, so that is counted last.
+%!  host_passed(+Here, +There, +Seconds) is det.
+%
+%   An agent on Here is on There now, where it has entered before.  The load of
+%   Here is changed last: a host that stops waits until its load is 0.
 
 host_passed(Here, There, Seconds) :-
     host_hop(Here, out, Seconds),
@@ -366,7 +380,7 @@ left(Load, Out, Seconds) :-
     count_load(Load, -1),
     add_hop(Out, Seconds).
 
-%   In virtual time hops mostly take none.
+%   In virtual time most hops take no time.
 
 add_hop(flags(Count, Min, Sum, Max), Seconds) :-
     get_flag(Count, N0), N is N0+1, set_flag(Count, N),

@@ -8,9 +8,9 @@
 :- use_module(library(lists), [member/2]).
 :- use_module(events, [event/4]).
 
-/** <module> The links of hosts of this process, and what they cost
+/** <module> The links of hosts of this process, and their costs
 
-One direction of each: the other is known to the other host.
+A link is recorded in one direction; the other host records the other.
 
 *Threading*: any thread; one mutex for changes.
 */
@@ -23,11 +23,10 @@ One direction of each: the other is known to the other host.
     cost/3.                     % Name, Address, Cost: of a link, if not 1
 
 %!  host_link(+Name, +Address, +Cost) is det.
-%!  host_unlink(?Name, ?Address) is det.
 %
-%   One direction of a link; nothing to do where it is so already.  Cost is
-%   a number, or `same`: as it is, 1 for a new link.  Listeners get
-%   changes in the order in which they were made.
+%   Make one direction of a link; does nothing if it exists.  Cost is a number,
+%   or `same`: the present cost, 1 for a new link.  Listeners get changes in
+%   the order in which they were made.
 
 host_link(Name, Address, Cost) :-
     with_mutex(typhon_links,
@@ -59,7 +58,7 @@ link_item(Key, Name, Address, Cost) :-
     host_link_cost(Name, Address, Cost),
     link_key(Name, Address, Key).
 
-%   It was there before, so it is not reported.
+%   No event: the link existed before.
 
 link_restore(Name, Address, Cost) :-
     with_mutex(typhon_links,
@@ -70,7 +69,7 @@ link_restore(Name, Address, Cost) :-
                  set_cost(Cost, Name, Address),
                  note_link(Name, Address) )).
 
-%   A caller meanwhile finds the old cost or the new one.
+%   A concurrent caller finds the old cost or the new one.
 
 set_cost(same, _, _) :-
     !.
@@ -81,6 +80,10 @@ set_cost(Cost, Name, Address) :-
     once(retract(cost(Name, Address, _))).
 set_cost(Cost, Name, Address) :-
     assertz(cost(Name, Address, Cost)).
+
+%!  host_unlink(?Name, ?Address) is det.
+%
+%   Remove one direction of links; does nothing if there is none.
 
 host_unlink(Name, Address) :-
     with_mutex(typhon_links, unlink(Name, Address)).
@@ -121,7 +124,7 @@ host_neighbours(Name, Addresses) :-
     findall(Address, neighbour(Name, Address), Addresses0),
     once_each(Addresses0, Addresses).
 
-%   While links are made elsewhere 9.0.4 may yield one twice in a row.
+%   While other threads make links, 9.0.4 may return one twice in a row.
 
 once_each([A,B|Rest], Set) :-
     A == B,

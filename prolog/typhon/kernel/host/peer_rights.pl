@@ -13,16 +13,16 @@
 
 The rights are
 
-  - agents: create agents here, and let them come
+  - agents: create agents here, and send agents here
   - messages: send messages to agents here
-  - orders: dispose of them, move, change them; link the host
+  - orders: dispose of agents, move and change them; link the host
   - remote: run goals here, see remote/2
-  - inspect: look at agents, events and the properties of the host
+  - inspect: read agents, events and the properties of the host
 
-A peer has all of them, but `remote` only with our own proof: the cookie, or,
-where processes have keys, our own certificate.  The parts of a host in the
-phase `permit` decide otherwise, and those in the phase `security` record what
-concerns its security; see typhon_host_parts.
+A peer has all of these rights, but `remote` only if it proves that it has our
+own secret: the cookie, or, where processes have keys, our own certificate.
+The parts of a host in the phase `permit` can decide otherwise, and those in
+the phase `security` record security events; see typhon_host_parts.
 
 *Threading*: any thread.
 */
@@ -31,8 +31,8 @@ concerns its security; see typhon_host_parts.
 
 %!  peer_may(+Peer, +Host, +Right) is semidet.
 %
-%   The process at the address Peer has Right on Host.  That it does not is a
-%   security event.
+%   The process at the address Peer has Right on Host.  A denial is a security
+%   event.
 
 peer_may(Peer, Host, Right) :-
     (   permitted(Peer, Host, Right)
@@ -57,8 +57,9 @@ proof_may(Proof, _, remote) :-
     endpoint_own_proof(Proof),
     !.
 
-%   A peer that may not run goals here must not end the process by a record
-%   either.  The codec of a session is chosen when the session begins.
+%   A peer that may not run goals here must not be able to end the process by a
+%   binary record either.  The codec of a session is chosen when the session
+%   begins.
 
 typhon_handshake:text_only(Proof) :-
     (   host(Host, _, _)
@@ -71,9 +72,9 @@ typhon_handshake:text_only(Proof) :-
 %!  security_event(+Host, +Peer, +What) is det.
 %!  security_event(+Host, +Peer, +Proof, +What) is det.
 %
-%   What the process at the address Peer did, or was refused, concerns the
-%   security of Host.  Proof is how Peer has proved itself, which
-%   security_event/3 looks up.  What is one of
+%   Report What, which the process at the address Peer did, or was refused, on
+%   Host.  Proof is how Peer has proved its identity; security_event/3 looks it
+%   up.  What is one of
 %
 %   | refused(Agent, Reason)   | Host did not admit Agent, see typhon_gate    |
 %   | refused(Right)           | Peer does not have that Right               |

@@ -26,11 +26,11 @@ The place of a host is a module: the facts, services, delivered payloads
 and robot interface of the host.  Agents that stand on the host find its
 predicates through the import chain agent, place, vocabulary, system.
 
-make/0 loads files anew that have changed since they were consulted into a
-place. Agents that stand there meet the new clauses with their next call.
+make/0 reloads files that have changed since they were consulted into a place.
+Agents on the host use the new clauses from their next call on.
 
-Files that are consulted into a place offer predicates to all agents, also to
-those that see nothing else of the place, by directives
+A file that is consulted into a place offers predicates to all agents, also to
+guarded agents, which see nothing else of the place, by directives
 
     :- service(p/1).
 
@@ -60,7 +60,7 @@ place_create(Host, Files, Services, Place) :-
     set_module(Place:class(temporary)),
     set_module(Place:base(typhon_vocabulary)),
     dynamic(Place:'$tuple'/1),
-    (   atom(Host)                      % else it is not of a host
+    (   atom(Host)                      % else the place belongs to no host
     ->  assertz(place_host(Place, Host))
     ;   true
     ),
@@ -73,7 +73,7 @@ place_create(Host, Files, Services, Place) :-
 
 %!  place_offer(+Place, +Service) is det.
 %
-%   From now on Place offers a service, as of place_create/4.
+%   Place offers Service from now on, as of place_create/4.
 
 place_offer(Place, module(Module)) :-
     !,
@@ -88,10 +88,9 @@ place_offer(Place, Service) :-
     Place:use_module(Service).
 
 %!  service(+PIs) is det.
-%!  place_service(?Place, ?PI) is nondet.
 %
 %   A directive in a file that is consulted into a place: all agents may call
-%   PIs, predicates like p/1 with commas between.
+%   PIs, predicate indicators with commas between.
 
 service(PIs) :-
     prolog_load_context(module, Place),
@@ -105,7 +104,7 @@ serve(Place, PI) :-
     assertz(place_service(Place, PI)),
     forall(serves(Place, PI), true).
 
-%   A file may be consulted into many places: each time as another source.
+%   A file may be consulted into many places: each time as a source of its own.
 
 consult_into(Place, Spec) :-
     absolute_file_name(Spec, File,
@@ -123,7 +122,7 @@ load(Place, Id, File) :-
         ),
         close(In)).
 
-%   What other files load is a file of its own, and make/0 knows it.
+%   make/0 itself reloads files that consulted files load.
 
 prolog:make_hook(before, _) :-
     findall(loaded(Place, Id, File),
@@ -184,9 +183,10 @@ unload(_).
 
 %!  place_deliver(+Place, +Payload, -PIs) is det.
 %
-%   Install the clauses of payload(Name, PIs, Clauses).  A payload of the
-%   same name is replaced: the new clauses come before the old ones go, so
-%   whoever calls it meanwhile meets some.  On an error nothing has changed.
+%   Install the clauses of payload(Name, PIs, Clauses).  A payload of the same
+%   name is replaced: the new clauses are added before the old ones are
+%   removed, so that concurrent callers find clauses.  On an error nothing
+%   changes.
 %
 %   @error permission_error(deliver, procedure, PI) if the place defines
 %          PI otherwise
@@ -217,8 +217,8 @@ deliver(Place, Name, PIs, Clauses) :-
     ),
     debug(typhon(host), '~w has payload ~w', [Place, Name]).
 
-%   Fails for what is no payload of agents: services come with the program that
-%   starts them.
+%   Fails for payloads that are not of agents: the program that starts a
+%   service brings its payload.
 
 payload_key(Place, Name, Host, Key) :-
     atom(Name),
@@ -287,7 +287,7 @@ remove(Place, Name) :-
                 *       WHAT OUTLIVES IT       *
                 *******************************/
 
-%   As they would be delivered once more.
+%   A payload is restored by delivering it again.
 
 :- durable(payload, Key, 0, payload(Host, Payload),
            payload_item(Key, Host, Payload), payload_restore(Host, Payload)).
@@ -308,7 +308,7 @@ clauses_of(Place, PIs, Clauses) :-
               clause(Place:Head, Body) ),
             Clauses).
 
-%   What goals and files have made of the place itself.
+%   Predicates that goals and files have defined in the place itself.
 
 :- durable(place, Host, 0, state(PIs, Clauses), place_item(Host, PIs, Clauses),
            place_restore(Host, PIs, Clauses)).

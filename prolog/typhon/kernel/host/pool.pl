@@ -19,16 +19,16 @@
 
 /** <module> The runtime `real`: a pool of few threads for many agents
 
-Work waits in the run queue.  A worker takes it, runs it to the point where
-the agent has to wait, and takes the next.
+Work waits in the run queue.  A worker takes work, runs the agent until it has
+to wait, and takes the next.
 
-The pool grows when the queue is stuck: work waits, and for `stuck_seconds` no
-worker has begun a turn.  There are at most `max_workers` that are not blocked
-by native goals, see module `blocked`.  A worker that is idle for long ends,
+The pool grows when the queue is stuck: work waits, and no worker has begun a
+turn for `stuck_seconds`.  At most `max_workers` workers are not blocked by
+native goals, see module `blocked`.  A worker that has been idle for long ends
 if there are enough others.
 
-*Threading*: any thread.  The mutex of the scheduler makes the pool, and its
-end, whole: when the run queue is gone no worker is added.
+*Threading*: any thread.  The mutex of the scheduler makes starting and
+stopping the pool atomic: no worker is added after the run queue is gone.
 */
 
 :- multifile
@@ -64,8 +64,7 @@ end, whole: when the run queue is gone no worker is added.
                 *        START AND STOP        *
                 *******************************/
 
-%   Start workers and timer, or end them; nothing to do where they run, or do
-%   not.
+%   Start or stop workers and timer; does nothing where that is done already.
 
 typhon_time:starts(real) :-
     with_mutex(typhon_scheduler, start).
@@ -98,7 +97,7 @@ stop :-
     turns_go_on(_).
 stop.
 
-%   Workers are asked, then those that are busy are interrupted.
+%   Workers get the order to stop; then those that are busy are interrupted.
 
 end_workers(Queue) :-
     findall(Worker, worker(Worker), Workers),
@@ -136,7 +135,7 @@ waits(Queue) :-
     message_queue_property(Queue, size(Size)),
     Size > 0.
 
-%   This thread is of no pool, and gets no turn that may take long.
+%   This thread is not in the pool, and gets only turns that are short.
 
 typhon_time:here(real, Agents, Turn) :-
     run_queue(_),
@@ -171,7 +170,7 @@ workers_count(Count) :-
     !.
 workers_count(0).
 
-%   @error resource_error(What) where no thread can be made
+%   @error resource_error(What) where no thread can be created
 
 add_worker(Queue) :-
     flag(typhon_worker, N, N+1),
@@ -180,8 +179,8 @@ add_worker(Queue) :-
                   [ alias(Alias), at_exit(typhon_pool:replace_worker) ]),
     assertz(worker(Worker)).
 
-%   A worker that was aborted in the middle of a goal.  If no thread can be
-%   made now, the pool grows when the queue is stuck.
+%   Called when a worker was aborted in the middle of a goal.  If no thread can
+%   be created now, the pool grows when the queue is stuck.
 
 replace_worker :-
     thread_self(Me),
@@ -208,7 +207,7 @@ serve(Queue, Seconds) :-
         serve(Work, Queue, Seconds)
     ;   timer_check,
         (   superfluous
-        ->  look_if_work_waits(Queue)   % it may have been woken for this
+        ->  look_if_work_waits(Queue)   % it may have been woken for that work
         ;   serve(Queue)
         )
     ).
@@ -235,7 +234,7 @@ superfluous(Me) :-
     thread_detach(Me),
     debug(typhon(scheduler), '~w ends, of ~D workers', [Me, Count]).
 
-%   No other thread joins one that is a worker for a while.
+%   Thread becomes a worker for a while, and no other thread joins it.
 
 typhon_time:adopt(real, Thread) :-
     with_mutex(typhon_scheduler, adopt(Thread)).
@@ -254,15 +253,15 @@ leave(Me) :-
     (   run_queue(_),
         retract(worker(Me))
     ->  thread_at_exit(thread_detach(Me))   % an abort is not reported then
-    ;   true                            % stopping the pool waits for it
+    ;   true                            % stopping the pool joins it
     ).
 
                 /*******************************
                 *            GROWTH            *
                 *******************************/
 
-%   A worker has taken work, or ends.  What was queued while a worker was idle
-%   may find none when its turn comes.
+%   Called when a worker has taken work, or ends.  Work that was queued while a
+%   worker was idle may find no idle worker when its turn comes.
 
 look_if_last(Queue) :-
     (   message_queue_property(Queue, size(0))
@@ -278,7 +277,8 @@ look_if_work_waits(Queue) :-
     ;   true
     ).
 
-%   One alarm at a time; to write the flag takes a mutex of the system.
+%   One alarm at a time. get_flag/2 first, as writing the flag takes a system
+%   mutex.
 
 look_soon :-
     (   get_flag(typhon_pool_looks, 1)
@@ -315,7 +315,7 @@ typhon_scheduler:fire(pool, release) :-
     ;   release_later
     ).
 
-%   grow_if_stuck(+Queue, +Since, -Seconds): look again in so many Seconds.
+%   grow_if_stuck(+Queue, +Since, -Seconds): check again in Seconds.
 
 grow_if_stuck(Queue, Since, Seconds) :-
     findall(Worker, worker(Worker), Workers),
@@ -333,7 +333,7 @@ turn_since(Workers, Since) :-
     Began > Since,
     !.
 
-%   Fails when the pool is full, or there is no thread, or little memory.
+%   Fails when the pool is full, no thread can be created, or memory is short.
 
 grow(Queue, Workers) :-
     run_queue(Queue),
@@ -356,7 +356,7 @@ add_if_possible(Queue, Workers) :-
         fail
     ).
 
-%   While kinds of work are held.
+%   Check again later while kinds of work are held.
 
 release_later :-
     (   blocked_holds,

@@ -17,26 +17,27 @@
 
 /** <module> Goals in the place of any host
 
-remote/2 is for administrators: whoever holds the cookie can run any goal
+remote/2 is for administrators: a process that has the cookie can run any goal
 on a host, unless the host was started with remote(false).
 
-*Threading*: the goal runs in the thread that calls, or in a worker of the
-other process.
+*Threading*: the goal runs in the calling thread, or in a worker of the other
+process.
 */
 
 :- multifile typhon_endpoint:requested/4.
 
 %!  remote(+Host, +Goal) is semidet.
 %
-%   once(Goal) in the place of Host, here or in another process.  Bindings come
-%   back; failure and errors, too: an error of another process that would do
-%   something when it is printed comes as error(raised_elsewhere(Ball), _). A
-%   goal M:G is run in module M instead, with the place only as its context.
-%   leave/1, sense/1 and take/1 work on the tuple space of Host.
+%   once(Goal) in the place of Host, in this or another process. Bindings,
+%   failure and errors are returned; an error of another process that would
+%   call something when it is printed is returned as
+%   error(raised_elsewhere(Ball), _). A goal M:G runs in module M instead, and
+%   has the place only as its context. leave/1, sense/1 and take/1 work on the
+%   tuple space of Host.
 %
 %   @error permission_error(remote, host, Host) if the host refuses
 %   @error host_unreachable(Host), permission_error(authenticate, host, Host)
-%   @error connection_lost(Host): whether Goal ran is not known
+% connection_lost(Host): it is not known whether Goal ran
 
 remote(Host, Goal) :-
     host_resolve(Host, Where),
@@ -68,8 +69,8 @@ run_here(Name, Goal) :-
 
 %!  host_unknown(+Address) is failure.
 %
-%   The process of Address has said that it has no such host: say which
-%   ones it has.
+%   The process of Address has no such host: raise an error that lists its
+%   hosts.
 %
 %   @error existence_error(host, Address)
 
@@ -87,8 +88,7 @@ host_unknown(Address) :-
 
 %!  host_do(+Name, +Goal) is semidet.
 %
-%   As remote/2 on a host of this process, whether it is refused to others
-%   or not.
+%   As remote/2 on a host of this process, even if it has remote(false).
 
 host_do(Name, Goal) :-
     host(Name, _, Place),
@@ -113,7 +113,8 @@ serve(Name, Goal, ReplyTo) :-
     catch(outcome(Name, Goal, Answer), Ball, raised(Ball, Answer)),
     endpoint_reply(ReplyTo, Answer).
 
-%   What cannot travel goes as text: the caller must get an answer.
+%   A term that cannot be sent is replaced by its text: the caller must get an
+%   answer.
 
 raised(Ball, raised(Portable)) :-
     catch(( mobile_term(Ball), Portable = Ball ),

@@ -28,42 +28,40 @@
 
 /** <module> What the hosts of a process share
 
-The endpoint and the scheduler run as long as anybody in the process uses
-them: hosts, log servers.  The first user starts them, the last one stops
-them.  Higher layers join by the
-hooks beginning/1 and ending/1.
+The endpoint and the scheduler run as long as the process has users of them:
+hosts, log servers.  The first user starts them, the last one stops them.
+Higher layers join by the hooks beginning/1 and ending/1.
 
-A process without hosts is a guest in the network for as long as a question
-takes: it has an endpoint of its own until the answer is there.
+A process without hosts becomes a guest in the network to ask a question: it
+has an endpoint of its own until it has the answer.
 
-*Threading*: a mutex makes users come and go one at a time.  Questions are for
-any thread that may wait.  The platform's own are no guests: stopping it waits
-for them.
+*Threading*: a mutex serializes the arrival and departure of users.  Any thread
+that may wait can ask questions.  Threads of the platform do not become guests:
+stopping the platform waits for them.
 */
 
 :- multifile
     beginning/1,                        % Kind of the runtime that has started
-    ending/1.                           % before or after both have stopped
+    ending/1.                           % before or after endpoint and time stop
 
 :- dynamic user/2.              % Name of a user, Endpoint
 
-%   When this is loaded, or a saved state with it begins: the process may
-%   have threads when a host is started.
+%   Done when this module is loaded, or a saved state with it starts: once a
+%   host runs, the process may have threads.
 
 :- initialization(functors_room).
 
 %!  runtime_acquire(+User, +Options) is det.
 %!  runtime_acquire(+User, +Options, -Endpoint) is det.
 %
-%   User, any ground term, needs endpoint and time.  Endpoint is the address
-%   at which he is reached.  Options port(P) and bind(Interface) are for the
-%   first user, as is tls(Directory), by default that of the environment
-%   variable `TYPHON_TLS`; of later ones interface and keys may only be what
-%   they are, and
-%   another port is listened to as long as one of them needs it.  The same
-%   goes for time(Kind), see typhon_time; without it any
-%   will do.  Where the runtime is apart, the endpoint reaches no other process,
-%   and ports mean nothing.
+%   User, any ground term, needs endpoint and time.  Endpoint is the address at
+%   which it is reached.  The first user decides with port(P), bind(Interface)
+%   and tls(Directory), which is by default that of the environment variable
+%   `TYPHON_TLS`.  Later users cannot change interface and keys.  For another
+%   port the process listens there, too, as long as a user needs it.
+%   time(Kind), see typhon_time, cannot be changed either; a user without it
+%   accepts any kind.  Where the runtime is apart the endpoint reaches no other
+%   process, and ports have no meaning.
 %
 %   @error permission_error(change, endpoint, Option)
 %   @error permission_error(change, kind_of_time, Kind)
@@ -137,12 +135,15 @@ disagrees(bind(Interface)) :-
     \+ atomic_list_concat([Interface,_], ':', Endpoint).
 
 %   runtime_user(?User) is nondet.
-%!  runtime_release(+User) is det.
 %
-%   User uses endpoint and time; does so no more.
+%   User uses endpoint and time.
 
 runtime_user(User) :-
     user(User, _).
+
+%!  runtime_release(+User) is det.
+%
+%   User no longer uses endpoint and time.
 
 runtime_release(User) :-
     in_own_thread(with_mutex(typhon_runtime, release(User))).
@@ -182,7 +183,7 @@ released(_) :-
 %   As endpoint_call/5; errors name the process as Host.
 %
 %   @error host_unreachable(Host)
-%   @error permission_error(authenticate, host, Host): the process there has
+%   @error permission_error(authenticate, host, Host): that process has
 %   another cookie than this one
 %   @error those of endpoint_call/5
 
@@ -201,8 +202,8 @@ unreachable(Endpoint, Host) :-
 
 %!  as_guest(:Goal) is semidet.
 %
-%   Run Goal once; if this process has no endpoint, or has it for the sake of
-%   other guests only, it has one meanwhile.
+%   As once(Goal).  If this process has no endpoint, or has it only for other
+%   guests, it has one while Goal runs.
 
 as_guest(Goal) :-
     (   runtime_user(User),

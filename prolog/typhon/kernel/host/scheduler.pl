@@ -23,20 +23,21 @@
 
 /** <module> The scheduler: agents that are ready, and their turns
 
-An agent that is ready is among the work to be done once; an agent that
-sleeps, waits or is resident is not here at all.  Module `time` decides which
+The scheduler queues work: agents that are ready, and goals.  It has no record
+of an agent that sleeps, waits or is resident.  Module `time` decides which
 thread does the work, and when alarms go off.
 
-Work is agent(Agent), agent(Host, Agent) for one that has a turn on Host, or
-goal(Goal).  Errors are printed, and do not reach the worker.
+Work is agent(Agent), agent(Host, Agent) for an agent that has a turn on Host,
+or goal(Goal).  Errors are printed, and do not reach the worker.
 
-A host may have a limit on the number of its agents that run at a time.  An
-agent that is ready takes a turn there, or is parked until one that runs gives
-it its own.
+A host may limit the number of its agents that run at a time.  An agent that is
+ready takes one of these turns, or is parked until an agent that runs releases
+one.
 
 Higher layers define agents by the hooks run/1, fire/2, over/2 and kind/2.
 
-*Threading*: any thread; no two have the same agent.  One mutex for limits.
+*Threading*: any thread; no two threads run the same agent.  One mutex for
+limits.
 */
 
 :- meta_predicate
@@ -49,14 +50,14 @@ Higher layers define agents by the hooks run/1, fire/2, over/2 and kind/2.
 
 %!  work_do(+Work, :Again) is det.
 %
-%   Do Work; call(Again, Work2) for what may be done now that it is done.
+%   Do Work; call(Again, Work2) for work that becomes possible when it is done.
 
 work_do(Work, Again) :-
     catch(do(Work, Again), Ball, survive(Ball)).
 
 %!  work_survives(:Turn) is semidet.
 %
-%   Call Turn, whose errors do not reach the caller.
+%   Call Turn, and catch and print its errors.
 
 work_survives(Turn) :-
     catch(Turn, Ball, survive(Ball)).
@@ -99,8 +100,8 @@ survive(Ball) :-
 %   limit_set(+Host, +Concurrency, -Work:list) is det.
 %
 %   From now on at most Concurrency agents of Host run at a time; `inf` is no
-%   limit.  Parked agents that may run are in Work, as of limit_enter/3.
-%   Running ones are not stopped.
+%   limit.  Work lists the parked agents that may run, as of limit_enter/3.
+%   Running agents are not stopped.
 
 limit_set(Host, inf, Work) :-
     !,
@@ -128,7 +129,7 @@ unpark(Host, Concurrency, [agent(Host, Agent)|Work]) :-
     unpark(Host, Concurrency, Work).
 unpark(_, _, []).
 
-%   The agents that wait for a turn, and how many have one.
+%   The agents that wait for a turn, and the number of agents that have one.
 
 :- durable(turns, Host, Running, Agents, turns_item(Host, Running, Agents),
            turns_restore(Host, Running, Agents)).
@@ -146,7 +147,7 @@ turns_restore(Host, Running, Agents) :-
 
 %   limit_clear(+Host, -Agents) is det.
 %
-%   Host has no limit any more; Agents were parked.
+%   Remove the limit of Host. Agents were parked.
 
 limit_clear(Host, Agents) :-
     with_mutex(typhon_park,
@@ -157,25 +158,27 @@ limit_clear(Host, Agents) :-
 %   limited(+Host) is semidet.
 %   limited(+Host1, +Host2) is semidet.
 %
-%   There is a limit on Host; on one of them, or both.
+%   Host has a limit; one of the two hosts has a limit.
 
 limited(Host) :-
     limit(Host, _),
     !.
 
 limited(Host1, Host2) :-
-    limit(_, _),                        % mostly none at all
+    limit(_, _),                        % usually no host has one
     ( limit(Host1, _) ; limit(Host2, _) ),
     !.
 
 %!  limit_parked(?Agent) is nondet.
 %
-%   Agent waits for its turn.
+%   Agent waits for a turn.
 
 limit_parked(Agent) :-
     parked(_, Agent).
 
 %!  scheduler_forget is det.
+%
+%   Remove all limits and parked agents.
 
 scheduler_forget :-
     with_mutex(typhon_park,
@@ -184,9 +187,8 @@ scheduler_forget :-
 
 %   limit_enter(+Host, +Agent, -Work) is semidet.
 %
-%   Agent, which stands on Host, may run: Work is agent(Agent), or
-%   agent(Host, Agent) if it has a turn to give back.
-%   Fails when it is parked.
+%   Agent, which is on Host, may run: Work is agent(Agent), or agent(Host,
+%   Agent) if it has a turn to release.  Fails when the agent is parked.
 
 limit_enter(Host, Agent, Work) :-
     limit(Host, _),
@@ -204,11 +206,11 @@ take_turn(Host, Agent, Work) :-
         ;   assertz(parked(Host, Agent)),
             fail
         )
-    ;   Work = agent(Agent)             % cleared since we looked
+    ;   Work = agent(Agent)             % the limit was removed meanwhile
     ).
 
-%   pass_turn(+Host, -Agent): an agent that had a turn on Host gives it back;
-%   if one is parked there the turn is that Agent's.
+%   pass_turn(+Host, -Agent): an agent releases its turn on Host, and Agent,
+%   which was parked there, gets it.  Fails if no agent is parked.
 
 pass_turn(Host, Agent) :-
     \+ crowded(Host),
@@ -219,7 +221,7 @@ pass_turn(Host, _) :-
     flag(Key, Running, max(0, Running-1)),
     fail.
 
-%   Its limit has become lower.
+%   More agents run than the limit, which has been lowered.
 
 crowded(Host) :-
     limit(Host, Limit),
@@ -240,11 +242,11 @@ running_key(Host, Key) :-
 
 :- multifile
     run/1,                      % Agent: run it until it has to wait
-    run_on/4,                   % Agent, Host, Context, Goals: run it, which has
-                                % no status, from there
+    run_on/4,                   % Agent, Host, Context, Goals: run it, which
+                                % has no status, from Goals
     fire/2,                     % Agent, Token: an alarm went off
-    over/2,                     % Agent, Token: this alarm is not needed any more
-    kind/2.                     % Agent, Kind: agents that may block alike
+    over/2,                     % Agent, Token: this alarm is obsolete
+    kind/2.                     % Agent, Kind: its kind, see typhon_blocked
 
 %!  scheduler_limit(+Host, +Concurrency) is det.
 %
@@ -255,6 +257,8 @@ scheduler_limit(Host, Concurrency) :-
     forall(member(One, Work), time_work(One)).
 
 %!  scheduler_unlimit(+Host) is det.
+%
+%   Remove the limit of Host and schedule its parked agents.
 
 scheduler_unlimit(Host) :-
     limit_clear(Host, Agents),
@@ -262,7 +266,7 @@ scheduler_unlimit(Host) :-
 
 %!  schedule(+Host, +Agent) is det.
 %
-%   Agent, which stands on Host, is ready to run.
+%   Agent, which is on Host, is ready to run.
 
 schedule(Host, Agent) :-
     (   limit_enter(Host, Agent, Work)
@@ -284,19 +288,18 @@ schedule_stays(Here, There) :-
 %!  schedule_here(+Host, +Kind, :Turn) is semidet.
 %
 %   Call Turn, which runs an agent of that Kind, in this thread.  Fails if such
-%   turns may take long, or have to wait for others.
+%   turns may be long, or Host has a limit.
 
 schedule_here(Host, Kind, Turn) :-
     \+ limited(Host),
     time_here(Kind, Turn).
 
 %!  schedule_adopt(+Thread) is det.
-%!  schedule_leave is det.
 %
-%   Thread runs an agent by schedule_here/3, and has nothing else to do any
-%   more: it is a worker, until it calls schedule_leave/0.
+%   Thread runs an agent by schedule_here/3, and has no other duties any more:
+%   it is a worker, until it calls schedule_leave/0.
 
-blocks(60).                             % seconds for which it is believed to
+blocks(60).                             % seconds: its kind is not short
 
 schedule_adopt(Thread) :-
     blocks(Seconds),
@@ -304,17 +307,21 @@ schedule_adopt(Thread) :-
            turns_not_short(Kind, Seconds)),
     time_adopt(Thread).
 
+%!  schedule_leave is det.
+%
+%   This thread is no longer a worker, see schedule_adopt/1.
+
 schedule_leave :-
     time_leave.
 
 %!  scheduler_call(:Goal) is det.
 %
-%   Run Goal once in a worker, some time soon.
+%   Queue Goal; a worker runs it once.
 
 scheduler_call(Goal) :-
     time_work(goal(Goal)).
 
-%   What is loaded on demand is loaded by workers.
+%   Workers load code on demand.
 
 :- multifile typhon_on_demand:worker_call/1.
 

@@ -11,15 +11,15 @@
 
 /** <module> The runtime `single`: no thread but that of the caller
 
-In a Prolog without threads, as in a browser, agents have their turns while the
-caller waits for something: for the end of an agent, an answer, or nothing but
-the time, see agents_run/1.  Work is done in the order in which it came; where
-there is none the thread sleeps until the next alarm.  A hop ends a turn, so that
-the caller, alarms and other agents come in between.
+In a Prolog without threads, such as in a browser, agents have their turns
+while the caller waits: for the end of an agent, an answer, or only for time to
+pass, see agents_run/1.  Work is done in the order in which it was queued; when
+the queue is empty the thread sleeps until the next alarm.  A hop ends a turn,
+so that the caller, alarms and other agents get their turns in between.
 
-The hosts of the process have no endpoint that others could reach.
+The hosts of the process have no endpoint that other processes could reach.
 
-*Threading*: there is one.
+*Threading*: there is one thread.
 */
 
 :- multifile
@@ -68,13 +68,13 @@ typhon_time:hold(single, _) :-
 typhon_time:let_go(single, Agents) :-
     turns_go_on(Agents).
 
-typhon_time:signal(single, _).          % what works is not interrupted
+typhon_time:signal(single, _).          % running work is not interrupted
 
                 /*******************************
                 *            WAITING           *
                 *******************************/
 
-%   A goal of an agent cannot wait: while it runs no other agent does.
+%   A goal of an agent cannot wait: while it runs, no other agent runs.
 
 typhon_time:wait(single, Queue, Message, Stamp) :-
     (   nb_current(typhon_single, works)
@@ -86,11 +86,11 @@ typhon_time:wait(single, Queue, Message, Stamp) :-
 
 %   comes(+Queue, +Stamp, +Index) is semidet.
 %
-%   Agents have their turns until there is a message in Queue; fails at Stamp.
-%   Alarms that are due come before work, so that agents which are always ready
-%   hold up neither those that sleep nor the caller.
+%   Run agents until there is a message in Queue; fails at Stamp.  Alarms that
+%   are due come before work, so that agents that are always ready delay
+%   neither agents that sleep nor the caller.
 %
-%   @error no_agent_can_run if nothing can come any more
+%   @error no_agent_can_run if no message can come any more
 
 comes(Queue, Stamp, Index0) :-
     (   there(Queue)
@@ -103,8 +103,8 @@ comes(Queue, Stamp, Index0) :-
         comes(Queue, Stamp, Index)
     ).
 
-%   next(+Now, +First, +Stamp, -Next) is semidet: what is done next, First being
-%   the stamp of the first alarm.
+%   next(+Now, +First, +Stamp, -Next) is semidet: Next is done next, First
+%   being the stamp of the first alarm.
 
 next(Now, First, _, alarm(First)) :-
     due(First, Now),

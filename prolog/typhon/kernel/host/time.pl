@@ -36,22 +36,21 @@
 
 /** <module> The runtime: which threads do the work, and what time it is
 
-Work, alarms and waiting callers are served by a runtime of some Kind.  The
-kernel has `real`, a pool of threads, see typhon_pool, and, in a Prolog without
-threads, `single`, see typhon_single, both in the time of day.  A process has
-one kind for as long as it has hosts.  Stamps are seconds: those of the time of
-day, or those of the clock of the runtime.
+A runtime of some Kind does the work, fires the alarms, and serves callers that
+wait.  The kernel has `real`, a pool of threads, see typhon_pool, and, in a
+Prolog without threads, `single`, see typhon_single; both use the time of day.
+A process has one kind as long as it has hosts.  Stamps are seconds: of the
+time of day, or of the clock of the runtime.
 
-A runtime defines the hooks below for its Kind.  It has to have those of the
-first group; of the others each describes a property that a runtime may lack.
+A runtime defines the hooks below for its Kind.  It must define those of the
+first group; each of the others describes a property that a runtime may lack.
 
-A host has a clock: host seconds are (real time - Epoch) * Rate.  The
-default, epoch 0 and rate 1, is the time of day.  Hosts of one network
-share epoch and rate, so that agents and experiments are written in host
-seconds and run as fast as Rate says.
+A host has a clock: host seconds are (real time - Epoch) * Rate.  The default,
+epoch 0 and rate 1, is the time of day.  Hosts of one network share epoch and
+rate, so that agents and experiments are written in host seconds and run as
+fast as Rate says.
 
-*Threading*: any thread; time_start/1 and time_stop/0 are called by one at a
-time.
+*Threading*: any thread; callers serialize time_start/1 and time_stop/0.
 */
 
 :- meta_predicate
@@ -70,13 +69,13 @@ time.
     let_go/2.                   % Kind, Agents: see time_let_go/1
 
 :- multifile
-    clock/2,                    % Kind, Now: call(Now, Stamp) is the time, not
-                                % that of day
+    clock/2,                    % Kind, Now: call(Now, Stamp) is the time, if
+                                % not that of day
     wanted/2,                   % Option, Kind: see time_wanted/2
     apart/2,                    % Kind, Address: see time_apart/2
     repeats/2,                  % Kind, Mark: see time_repeats/2
-    here/3,                     % Kind, Agents, Turn: see time_here/2; with it go
-    adopt/2,                    % Kind, Thread: see time_adopt/1
+    here/3,                     % Kind, Agents, Turn: see time_here/2; needs
+    adopt/2,                    % Kind, Thread: see time_adopt/1, and
     leave/1,                    % Kind: see time_leave/0
     due/4,                      % Kind, Agent, Token, Stamp: see time_due/3
     seed/2,                     % Kind, Seed: see time_seed/1
@@ -91,12 +90,11 @@ time.
 
 %!  time_kind(?Kind) is semidet.
 %
-%   The runtime of this process runs, and is of that Kind.
+%   The runtime of this process runs, and is of Kind.
 
 %!  time_start(+Kind) is det.
-%!  time_stop is det.
 %
-%   Nothing to do where it runs already, or not.
+%   Start the runtime; does nothing if it runs already.
 
 time_start(Kind) :-
     time_kind(Kind),
@@ -105,6 +103,10 @@ time_start(Kind) :-
     starts(Kind),
     forall(clock(Kind, Now), assertz(own_clock(Now))),
     assertz(time_kind(Kind)).
+
+%!  time_stop is det.
+%
+%   Stop the runtime; does nothing if none runs.
 
 time_stop :-
     (   retract(time_kind(Kind))
@@ -119,7 +121,7 @@ time_stop :-
 
 %!  time_default(-Kind) is det.
 %
-%   The kind of hosts that ask for none.
+%   The kind for hosts whose options name none.
 
 time_default(Kind) :-
     (   current_prolog_flag(threads, true)
@@ -129,7 +131,7 @@ time_default(Kind) :-
 
 %!  time_wanted(+Options, -Kind) is semidet.
 %
-%   The options of a host ask for another Kind than the default.
+%   The options of a host name another Kind than the default.
 
 time_wanted(Options, Kind) :-
     options_load(host_option, Options),
@@ -139,8 +141,8 @@ time_wanted(Options, Kind) :-
 
 %!  time_apart(?Kind, -Address) is semidet.
 %
-%   A process with that Kind of runtime reaches no other: Address is that of its
-%   endpoint.
+%   A process with that Kind of runtime cannot reach other processes.  Address
+%   is that of its endpoint.
 
 time_apart(Kind, Address) :-
     apart(Kind, Address),
@@ -148,8 +150,8 @@ time_apart(Kind, Address) :-
 
 %!  time_repeats(?Kind, -Mark) is semidet.
 %
-%   What happens follows from the programs alone: the same ids come again, which
-%   have Mark.
+%   Runs are reproducible from the programs alone: the same ids are made again,
+%   and contain Mark.
 
 time_repeats(Kind, Mark) :-
     repeats(Kind, Mark),
@@ -160,6 +162,8 @@ time_repeats(Kind, Mark) :-
                 *******************************/
 
 %!  time_now(-Stamp:float) is det.
+%
+%   The time now, of the clock of the runtime.
 
 time_now(Stamp) :-
     own_clock(Now),
@@ -169,15 +173,18 @@ time_now(Stamp) :-
     get_time(Stamp).
 
 %!  alarm_set(+Stamp, +Agent, +Token) is det.
-%!  alarm_in(+Seconds, +Agent, +Token) is det.
 %
-%   Have fire(Agent, Token) called at Stamp, or in Seconds.
+%   Set an alarm that calls fire(Agent, Token) at Stamp.
 
 alarm_set(Stamp, Agent, Token) :-
     time_kind(Kind),
     !,
     alarm(Kind, Stamp, Agent, Token).
 alarm_set(_, _, _).
+
+%!  alarm_in(+Seconds, +Agent, +Token) is det.
+%
+%   Set an alarm that calls fire(Agent, Token) in Seconds.
 
 alarm_in(Seconds, Agent, Token) :-
     time_now(Now),
@@ -186,8 +193,8 @@ alarm_in(Seconds, Agent, Token) :-
 
 %!  time_due(+Agent, +Token, -Stamp) is semidet.
 %
-%   When the alarm goes off.  Where time_stands/1 has a term for all alarms,
-%   this fails.
+%   The alarm goes off at Stamp.  Fails where time_stands/1 has a term for all
+%   alarms.
 
 time_due(Agent, Token, Stamp) :-
     time_kind(Kind),
@@ -196,8 +203,8 @@ time_due(Agent, Token, Stamp) :-
 
 %!  time_wait(+Queue, -Message, +Stamp) is semidet.
 %
-%   Take the first Message of Queue, from which no other thread takes.  Fails if
-%   there is none before Stamp, a number or `inf`.
+%   Take the first Message of Queue, from which no other thread takes.  Fails
+%   if there is none before Stamp, a number or `inf`.
 
 time_wait(Queue, Message, Stamp) :-
     (   time_kind(Kind)
@@ -207,7 +214,7 @@ time_wait(Queue, Message, Stamp) :-
 
 %!  time_day_wait(+Queue, -Message, +Stamp) is semidet.
 %
-%   As time_wait/3, Stamp being of the time of day.
+%   As time_wait/3, but Stamp is of the time of day.
 
 time_day_wait(Queue, Message, inf) :-
     !,
@@ -217,8 +224,8 @@ time_day_wait(Queue, Message, Stamp) :-
 
 %!  agents_run(+Seconds) is det.
 %
-%   Wait for so many Seconds, while agents have their turns; in a runtime
-%   without threads also `inf`: until no agent has anything to do any more.
+%   Wait for Seconds, while agents run.  In a runtime without threads Seconds
+%   may be `inf`: until no agent has anything left to do.
 %
 %   @error type_error(number, Seconds)
 
@@ -238,8 +245,7 @@ agents_run(Seconds) :-
 
 %!  time_seed(+Seed:integer) is det.
 %
-%   What agents draw by library(random) follows from Seed, where what happens
-%   follows from the programs.
+%   Seed library(random) for agents, in a runtime that makes runs reproducible.
 
 time_seed(Seed) :-
     (   time_kind(Kind),
@@ -254,7 +260,7 @@ time_seed(Seed) :-
 
 %!  time_work(+Work) is det.
 %
-%   Work, see module `work`, is done some time soon.
+%   Queue Work, see typhon_scheduler.
 
 time_work(Work) :-
     time_kind(Kind),
@@ -264,7 +270,7 @@ time_work(_).                           % stopping
 
 %!  time_alone is semidet.
 %
-%   Nothing else waits to be done: the thread may go on.
+%   No other work waits: the thread may go on with its agent.
 
 time_alone :-
     time_kind(Kind),
@@ -272,18 +278,17 @@ time_alone :-
 
 %!  time_here(+Agents, :Turn) is semidet.
 %
-%   Call Turn, which is one of an agent of the kind Agents, in this thread,
-%   which has other things to do, too; fails where it is to be done by workers.
+%   Call Turn, of an agent of the kind Agents, in this thread, which also has
+%   other duties.  Fails where workers must do it.
 
 time_here(Agents, Turn) :-
     time_kind(Kind),
     here(Kind, Agents, Turn).
 
 %!  time_adopt(+Thread) is det.
-%!  time_leave is det.
 %
-%   Thread, which runs an agent by time_here/2, does work until it has done so;
-%   this thread has.
+%   Thread, which runs an agent by time_here/2, is a worker until it calls
+%   time_leave/0.
 
 time_adopt(Thread) :-
     time_kind(Kind),
@@ -291,6 +296,10 @@ time_adopt(Thread) :-
     adopt(Kind, Thread).
 time_adopt(Thread) :-
     thread_detach(Thread).              % stopping
+
+%!  time_leave is det.
+%
+%   This thread is no longer a worker, see time_adopt/1.
 
 time_leave :-
     (   time_kind(Kind)
@@ -300,7 +309,7 @@ time_leave :-
 
 %!  time_signal(:Goal) is det.
 %
-%   Run Goal in all threads that do work, in the middle of whatever they do.
+%   Run Goal in all threads that do work, as a signal.
 
 time_signal(Goal) :-
     time_kind(Kind),
@@ -313,19 +322,18 @@ time_signal(_).
                 *******************************/
 
 %!  time_hold(+Seconds) is semidet.
-%!  time_stands(-Standing) is det.
-%!  time_let_go(-Agents:list) is det.
-%!  time_again(+Standing, -Agents:list) is det.
 %
-%   No agent gets a turn any more, and no alarm goes off; fails if that cannot
-%   be had in Seconds of the time of day.  Then Standing is all that the runtime
-%   knows of what comes next, or the Kind of one that knows nothing.  It goes
-%   on: Agents have missed their turn.  What comes next is as Standing says;
-%   Agents have their turns.
+%   From now on no agent gets a turn, and no alarm goes off.  Fails if that
+%   cannot be reached within Seconds of the time of day.
 
 time_hold(Seconds) :-
     time_kind(Kind),
     hold(Kind, Seconds).
+
+%!  time_stands(-Standing) is det.
+%
+%   While time is held: Standing is all that the runtime has planned, or its
+%   Kind if it has no such term.
 
 time_stands(Standing) :-
     time_kind(Kind),
@@ -334,11 +342,19 @@ time_stands(Standing) :-
     ;   Standing = Kind
     ).
 
+%!  time_let_go(-Agents:list) is det.
+%
+%   End time_hold/1. Agents have missed their turn.
+
 time_let_go(Agents) :-
     (   time_kind(Kind)
     ->  let_go(Kind, Agents)
-    ;   Agents = []                     % it has ended meanwhile
+    ;   Agents = []                     % the runtime has stopped meanwhile
     ).
+
+%!  time_again(+Standing, -Agents:list) is det.
+%
+%   Plan what Standing contains. Agents must be scheduled.
 
 time_again(Standing, Agents) :-
     (   time_kind(Kind),
@@ -355,7 +371,7 @@ time_again(Standing, Agents) :-
 
 %!  clock(?Host, ?Epoch, ?Rate) is nondet.
 %
-%   The clocks that are set, as by clock_set/3.
+%   The clocks that clock_set/3 has set.
 
 %!  clock_set(+Host, +Epoch, +Rate) is det.
 %
@@ -377,6 +393,8 @@ clock_clear(Host) :-
     retractall(clock(Host, _, _)).
 
 %!  host_time(+Host, -Seconds:float) is semidet.
+%
+%   The clock of Host shows Seconds. Fails if Host has no clock.
 
 host_time(Host, Seconds) :-
     clock(Host, Epoch, Rate),

@@ -16,20 +16,19 @@
 
 /** <module> The timer: a server that sets alarms off
 
-It has an index of the stamps of all alarms and waits for the first of them.
-What sets an alarm first notes what the alarm is for: over/2 may be asked at
-once.
+The timer has an index of the stamps of all alarms and waits for the first of
+them.  A module records the purpose of an alarm before it sets it: the timer
+may call over/2 at once.
 
-Most alarms never go off, so setting one seldom wakes the timer: only one
-that comes before the next does, and many that it has not heard of yet.
+Most alarms never go off, so setting one seldom wakes the timer: only if it is
+earlier than the next one, or if the timer has many new stamps to read.
 
-Whatever happens to the timer, no alarm is lost with it: it begins again with
-a new index.
+No alarm is lost if the timer fails: it starts again with a new index.
 
-*Threading*: alarms from any thread.  The flag typhon_next says what the timer
-waits for; it is written before the timer looks for new alarms for the last
-time, and read by a thread that adds one after that: so one of the two sees the
-other.
+*Threading*: any thread sets alarms.  The flag typhon_next holds the stamp that
+the timer waits for.  The timer writes it before it looks for new alarms for
+the last time, and a thread that adds an alarm reads it after that: so one of
+the two sees the other.
 */
 
 :- multifile
@@ -44,15 +43,18 @@ other.
                 *******************************/
 
 %!  timer_start is det.
-%!  timer_stop is det.
 %
-%   The timer begins; it ends, and all alarms are forgotten.
+%   Start the timer.
 
 timer_start :-
     alarms_begin,
     announce(inf),
     server_start(timer, typhon_timer:timed, none, Timer),
     assertz(timer(Timer)).
+
+%!  timer_stop is det.
+%
+%   Stop the timer and delete all alarms.
 
 timer_stop :-
     (   retract(timer(Timer))
@@ -63,7 +65,7 @@ timer_stop :-
 
 %!  timer_check is det.
 %
-%   If there should be a timer, but is none, make one.
+%   If the timer has been started, and has lost its thread, create another.
 
 timer_check :-
     (   timer(Timer)
@@ -77,7 +79,7 @@ timer_check :-
 
 %!  timer_alarm(+Stamp, +Agent, +Token) is det.
 %
-%   Have fire(Agent, Token) called at Stamp, of the time of day.
+%   Set an alarm that calls fire(Agent, Token) at Stamp, of the time of day.
 
 timer_alarm(Stamp0, Agent, Token) :-
     Stamp is float(Stamp0),
@@ -103,7 +105,7 @@ urgent(_) :-
 
 %!  alarms_overdue is det.
 %
-%   Those that could not go off while the process was still do so.
+%   Set off the alarms that were due while turns were paused.
 
 alarms_overdue :-
     (   timer(Timer)
@@ -113,7 +115,8 @@ alarms_overdue :-
     ;   true
     ).
 
-%   How many alarms, and how many stamps in the index; for tests.
+%   alarm_count(-Alarms, -Indexed): the numbers of alarms, and of stamps in the
+%   index; for tests.
 
 :- public alarm_count/2.
 
@@ -128,8 +131,9 @@ alarm_count(Alarms, Indexed) :-
 
 :- public timed/3.
 
-%   Only its wait is interrupted when Prolog halts: 9.0.4 reports an exception
-%   that comes in the middle of a predicate written in C, and loses it.
+%   Only the wait of the timer is interrupted when Prolog halts: 9.0.4 reports
+%   an exception that arrives in the middle of a predicate written in C, and
+%   loses it.
 
 timed(Message, Index, Next) :-
     sig_atomic(handled(Message, Index, Next)).
@@ -167,7 +171,7 @@ rung(Stamp, Index0, Index) :-
     Stamp =< Now,
     !,
     (   turns_paused
-    ->  true                            % they go off when that is over
+    ->  true                            % they go off after the pause
     ;   alarms_go_off(Stamp)
     ),
     index_delete(Index0, Stamp, Index).

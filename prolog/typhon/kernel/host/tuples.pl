@@ -17,32 +17,29 @@
 
 The tuple space of a host is the predicate '$tuple'/1 of its place.
 
-*Threading*: any thread.  tuple_take/2 is atomic; a mutex keeps others from
-leaving a fact while tuple_leave_new/3 looks.
+*Threading*: any thread. tuple_take/2 is atomic; tuple_leave_new/3 checks and
+adds under a mutex.
 */
 
 :- multifile
-    counted/2.                  % By, Change: of its facts one more, or less,
-                                % is there: 1 or -1
+    counted/2.                  % By, Change: the number of its facts grows by
+                                % Change, 1 or -1
 
 :- public leave_due/2.
 
-:- dynamic due/5.               % Place, N, Fact, By, Thread: left when its
-                                % turn is over
+:- dynamic due/5.               % Place, N, Fact, By, Thread: Thread puts it
+                                % there when its turn is over
 
 %!  tuple_leave(+Place, +Fact) is det.
 %!  tuple_leave(+Place, +Fact, +By) is det.
-%!  tuple_leave_new(+Place, +Fact, +By) is semidet.
-%!  tuple_sense(+Place, ?Fact) is nondet.
-%!  tuple_take(+Place, ?Fact) is semidet.
 %
-%   Put, put if there is none that unifies, read and take a fact.  Of many
-%   agents that take one fact, or leave it as a new one, one succeeds.  By is
-%   `none`, or a ground term of an option, which counts such facts.
+%   Put Fact in the tuple space.  By is `none`, or a ground term of an option
+%   that counts such facts.
 %
-%   With a journal a fact has a number, under which it is there; this, and By,
-%   stand in the body of the clause, and the journal has By, too.  What an agent
-%   leaves others find when it stops; what it takes is gone at once.
+%   With a journal a fact has a number, the key of its item.  The number and By
+%   are in the body of the clause; the item contains By, too.  Other agents
+%   find the facts that an agent leaves when the agent stops; the facts that it
+%   takes are gone at once.
 
 tuple_leave(Place, Fact) :-
     tuple_leave(Place, Fact, none).
@@ -55,6 +52,11 @@ tuple_leave(Place, Fact, By) :-
     ->  leave_noted(Place, Fact, By)
     ;   with_mutex(typhon_tuples, put_tuple(Place, none, Fact, By))
     ).
+
+%!  tuple_leave_new(+Place, +Fact, +By) is semidet.
+%
+%   As tuple_leave/3, but fails if there is a fact that unifies.  Of several
+%   agents that do so with one fact, one succeeds.
 
 tuple_leave_new(Place, Fact, By) :-
     must_be(callable, Fact),
@@ -84,14 +86,14 @@ leave_due(Place, N) :-
     with_mutex(typhon_tuples,
                (   retract(due(Place, N, Fact, By, _))
                ->  put_tuple(Place, N, Fact, By)
-               ;   true                 % it took it again
+               ;   true                 % the agent has taken it again
                )).
 
 put_tuple(Place, N, Fact, By) :-
     tuple_body(N, By, Body),
     assertz(Place:('$tuple'(Fact) :- Body)).
 
-%   tuple_body(?N, ?By, ?Body): what is true anyhow.
+%   tuple_body(?N, ?By, ?Body): Body is always true, and holds N and By.
 
 tuple_body(none, none, true) :- !.
 tuple_body(N, none, integer(N)) :- !.
@@ -102,12 +104,21 @@ count(none, _) :-
 count(By, Change) :-
     forall(counted(By, Change), true).
 
+%!  tuple_sense(+Place, ?Fact) is nondet.
+%
+%   Fact is in the tuple space.
+
 tuple_sense(Place, Fact) :-
     Place:'$tuple'(Fact).
 tuple_sense(Place, Fact) :-
     effects_deferred,
     thread_self(Me),
     due(Place, _, Fact, _, Me).
+
+%!  tuple_take(+Place, ?Fact) is semidet.
+%
+%   Remove a fact that unifies.  Of several agents that take one fact, one
+%   succeeds.
 
 tuple_take(Place, Fact) :-
     retract(Place:('$tuple'(Fact) :- Body0)),
@@ -129,7 +140,7 @@ tuple_take(Place, Fact) :-
     deferred_drop(tuple, Host, N),
     count(By, -1).
 
-%   A journal has facts by their numbers.
+%   The facts in a journal, by number.
 
 :- durable(tuple, Host, N, Noted, tuple_item(Host, N, Noted),
            tuple_restore(Host, N, Noted)).
@@ -153,7 +164,7 @@ noted(none, Fact, Fact) :-
     !.
 noted(By, Fact, '$by'(By, Fact)).
 
-%   A saved network has them as they would be left once more.
+%   The facts in a saved network: they are left again.
 
 :- durable(fact, Host, By, Fact, tuple_on(Host, Fact, _, By),
            fact_restore(Host, By, Fact)).

@@ -23,25 +23,25 @@
 
 Each thread that runs agents has two flags, which it sets when a turn begins:
 the agent, and the time of day.  This costs a fifth of a microsecond, and any
-thread may look.  That a turn is over is not noted: ask only for agents that
-run.
+thread may read them.  The end of a turn is not recorded: ask only for agents
+that run.
 
-The thread that reads an agent may run it at once, rather than wake a worker,
-as long as its turns are short.  Those of a kind are taken for short until one
-was not, and again after a while.  Inferences tell whether a turn was long,
-for on a busy machine any may take long; but of one kind hardly two of a few,
-unless they wait for something.
+The thread that reads an agent from a connection may run it at once, rather
+than wake a worker, as long as its turns are short.  Turns of a kind count as
+short until one was long, and count again after a while.  A turn is long by the
+inferences it takes: on a busy machine any turn may take long by the clock, but
+hardly two of a few turns of one kind, unless they wait for something.
 
-While turns are paused no alarm goes off, and no agent begins a turn: those
-whose turn has come are kept until they go on.
+While turns are paused no alarm goes off, and no agent begins a turn: agents
+that get a turn are kept until the pause ends.
 
-While a worker runs an agent, or a thread runs a goal in the place of a
-host, the vocabulary has to know the host and the agent: the context, a global
-variable of the thread.
+While a worker runs an agent, or a thread runs a goal in the place of a host,
+the vocabulary needs the host and the agent: the context, a global variable of
+the thread.
 
 *Threading*: turn_begins/1 in the thread that runs the agent; any thread asks.
-One mutex for kinds that are not short, one for the pause, whose thread ends
-it.
+One mutex for kinds that are not short.  One for the pause: the thread that
+pauses turns ends the pause.
 */
 
 :- meta_predicate turn_if_short(+, 0).
@@ -50,11 +50,11 @@ it.
     keys/3,                     % Thread number, flag of agent, of time
     slow/2,                     % Kind, Until
     paused/0,
-    kept/1.                     % Agent: its turn has come
+    kept/1.                     % Agent: it got a turn during the pause
 
 %!  turn_begins(+What) is det.
 %
-%   This thread runs What from now on, an agent or the goal of that name.
+%   This thread runs What from now on, an agent or a goal of that name.
 
 turn_begins(What) :-
     (   nb_current(typhon_turn_keys, keys(AgentKey, TimeKey))
@@ -65,7 +65,7 @@ turn_begins(What) :-
     set_flag(TimeKey, Now),
     set_flag(AgentKey, What).
 
-%   Numbers of threads are used again, flags never go.
+%   Thread numbers are reused, and flags are never deleted.
 
 make_keys(AgentKey, TimeKey) :-
     thread_self(Me),
@@ -80,8 +80,8 @@ make_keys(AgentKey, TimeKey) :-
 
 %!  turn_of(+Agent, -Thread, -Seconds:float) is semidet.
 %
-%   Agent, which runs, does so in Thread, and has not stopped for so many
-%   Seconds of the time of day.
+%   Agent, which runs, has been running in Thread for Seconds of the time of
+%   day.
 
 turn_of(Agent, Thread, Seconds) :-
     findall(At-Number,
@@ -97,7 +97,7 @@ turn_of(Agent, Thread, Seconds) :-
 
 %!  turns_now(-Agent, -Thread, -Seconds:float) is nondet.
 %
-%   The last turn of each thread that there is, which may be over.
+%   The last turn of each thread that exists. It may be over.
 
 turns_now(Agent, Thread, Seconds) :-
     get_time(Now),
@@ -109,7 +109,7 @@ turns_now(Agent, Thread, Seconds) :-
 
 %!  turn_in(+Thread, -What, -Since:float) is semidet.
 %
-%   The last turn of Thread, which may be over, is one of What, and began at
+%   The last turn of Thread, which may be over, was one of What and began at
 %   Since.
 
 turn_in(Thread, What, Since) :-
@@ -129,25 +129,25 @@ latest(Turns, Latest) :-
                 *          SHORT TURNS         *
                 *******************************/
 
-%   A turn is short that takes so many inferences, as many as make some
-%   wake-ups, and so many seconds.
+%   short(-Inferences, -Seconds): a turn is short below both.  These inferences
+%   cost as much as some wake-ups.
 
 short(20000, 0.004).
 
-%   Two turns that waited are of a few if there were so many inferences between
-%   them: a turn takes some thousand.
+%   Two turns that waited are "of a few" if fewer inferences than these lie
+%   between them: a turn takes some thousand.
 
 few_turns(5000).
 
-%   For so many seconds it is remembered that a turn was long, or waited.
+%   remembered(?What, -Seconds): how long it is remembered that a turn was
+%   long, or waited.
 
 remembered(long, 1).
 remembered(waits, 10).
 
 %!  turn_if_short(+Kind, :Turn) is semidet.
 %
-%   Call Turn, which is one of an agent of that Kind; fails if that may take
-%   long.
+%   Call Turn, of an agent of that Kind. Fails if such a turn may be long.
 
 turn_if_short(Kind, Turn) :-
     (   slow(Kind, Until)
@@ -182,7 +182,7 @@ remember(What, Kind) :-
 
 %!  turns_not_short(+Kind, +Seconds) is det.
 %
-%   For so long no turn of that Kind is taken for short.
+%   No turn of that Kind counts as short for Seconds.
 
 turns_not_short(Kind, Seconds) :-
     get_time(Now),
@@ -203,14 +203,16 @@ slow_until(Kind, Until, Now) :-
                 *******************************/
 
 %!  turns_paused is semidet.
-%!  turns_pause is det.
-%!  turns_go_on(-Agents:list) is det.
 %
-%   Agents are those that were kept, whose turn it is.
+%   Turns are paused.
 
 turns_paused :-
     paused,
     !.
+
+%!  turns_pause is det.
+%
+%   Pause turns.
 
 turns_pause :-
     with_mutex(typhon_turns,
@@ -218,6 +220,10 @@ turns_pause :-
                ->  true
                ;   assertz(paused)
                )).
+
+%!  turns_go_on(-Agents:list) is det.
+%
+%   End the pause. Agents got a turn during the pause and must be scheduled.
 
 turns_go_on(Agents) :-
     with_mutex(typhon_turns,
@@ -227,7 +233,7 @@ turns_go_on(Agents) :-
 
 %!  turn_later(+Agent) is semidet.
 %
-%   Turns are paused: that of Agent comes later.
+%   Turns are paused: keep Agent until the pause ends.
 
 turn_later(Agent) :-
     paused,
@@ -240,26 +246,31 @@ turn_later(Agent) :-
 :- meta_predicate in_context(+, 0).
 
 %!  context_set(+Host, +Agent, +Module) is det.
-%!  context_clear is det.
 %
-%   The running agent: its host, id and module.
+%   This thread runs Agent, whose module is Module, on Host.
 
 context_set(Host, Agent, Module) :-
-    nb_linkval(typhon_turns, context(Host, Agent, Module)),  % new, ground
+    nb_linkval(typhon_turns, context(Host, Agent, Module)),  % a new ground term
     turn_begins(Agent).
+
+%!  context_clear is det.
+%
+%   This thread runs no agent.
 
 context_clear :-
     nb_linkval(typhon_turns, none).
 
 %!  context_now(?Host, -Agent) is semidet.
 %
-%   The running agent, `none` for another goal on Host.  Fails if there is
-%   none.
+%   Agent is the running agent, or `none` for another goal on Host.  Fails if
+%   neither runs.
 
 context_now(Host, Agent) :-
     nb_current(typhon_turns, context(Host, Agent, _)).
 
 %!  context(-Host, -Agent, -Module) is det.
+%
+%   The host, the id and the module of the running agent.
 %
 %   @error existence_error(running_agent, here)
 
