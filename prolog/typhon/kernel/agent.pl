@@ -1,8 +1,9 @@
 :- module(typhon_agent, []).
 
-/** <module> What an agent is
+/** <module> Agents
 
-The records of the agents that stand in this process.
+The records, modules, mailboxes and images of the agents in this process, and
+the gate that an agent passes on its way into a host.
 This is the interface of the layer: higher layers import from here.
 */
 

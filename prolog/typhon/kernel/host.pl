@@ -2,7 +2,8 @@
 
 /** <module> Hosts
 
-Places, clocks, threads for agents, and goals in the place of any host.
+A host is a module, its place, in which goals run for agents; it has a clock,
+and a scheduler that gives threads to its agents.
 This is the interface of the layer: higher layers import from here.
 */
 

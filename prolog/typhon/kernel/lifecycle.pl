@@ -1,8 +1,8 @@
 :- module(typhon_lifecycle, []).
 
-/** <module> How agents live
+/** <module> The lifecycle of agents
 
-They are created, run from one effect to the next, take orders, and end.
+Agents are created, run in turns, take orders, and end.
 This is the interface of the layer: higher layers import from here.
 */
 

@@ -2,8 +2,8 @@
 
 /** <module> Programs
 
-Clause files are read, checked and installed here, and the machine runs
-what they say.  Nothing here knows of hosts or sockets.
+Clause files are read, checked and installed here, and the machine executes
+the clauses.  This layer does not know of hosts or sockets.
 This is the interface of the layer: higher layers import from here.
 */
 

@@ -1,8 +1,9 @@
 :- module(typhon_travel, []).
 
-/** <module> How agents and their mail get about
+/** <module> The travel of agents and messages
 
-Transfers, which are transactions, and what is known of where agents went.
+Agents and messages are transferred between hosts in transactions; the home of
+an agent records where the agent is.
 This is the interface of the layer: higher layers import from here.
 */
 

@@ -1,14 +1,14 @@
 :- module(typhon_vocabulary, []).
 
-/** <module> What is visible to agents
+/** <module> The vocabulary: predicates that are visible to agents
 
-This module is the import parent of all places.  It defines nothing: it
-brings together what modules declare by vocabulary/1 of typhon_mobile, and
-libraries without state that agents may use without asking.
+This module is the import parent of all places.  It defines nothing: it imports
+the predicates that modules declare by vocabulary/1 of typhon_mobile, and
+libraries without state that agents may call without permission.
 
 This is the interface of the layer: higher layers only load it.
 
-*Threading*: nothing happens here.
+*Threading*: not applicable, as this module only imports.
 */
 
 :- set_module(base(system)).

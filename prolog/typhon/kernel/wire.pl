@@ -2,8 +2,8 @@
 
 /** <module> The wire
 
-Processes that know the same cookie exchange terms, each once and in order.
-Nothing here knows of agents.
+Processes that have the same cookie exchange terms, each once and in order.
+This layer does not know of agents.
 This is the interface of the layer: higher layers import from here.
 */
 

@@ -22,37 +22,49 @@
 :- use_module('../host', [host/3, parts/3, parts_call/3, place_host/2]).
 :- use_module(agents, [agent_here/5]).
 
-/** <module> The module of an agent
+/** <module> The module that holds the state of an agent
 
-Everything dynamic in this temporary module is the agent's state.  Its
-program is found through the import chain, see typhon_code and typhon_place.
+Each agent has a temporary module; its dynamic predicates are the state of the
+agent.  The program of the agent is found through the import chain, see
+typhon_code and typhon_place.
 
-An option may rewrite what agents bring to a host, for example to check what
-they call.  Then an agent does not hang below the place of the host, but below
+An option may rewrite the agents that come to a host, for example to check
+their calls.  Such an agent does not import from the place of the host, but from
 a view of it, a module that the option has made: the part of the host in the
 phase `view`, see typhon_host_parts.  The option defines the hooks
 
-    variant(View, Variant)      agents that hang below View have this variant,
-                                a term that the option knows
+    variant(View, Variant)      agents that import from View have this variant,
+                                a term that the option chooses
     program(Variant, Hash, Module)
                                 Module has the installed program of that hash
     state(Variant, State0, State)
+                                an agent comes with State0
     goals(Variant, Program, Goals0, Goals)
-                                an agent with the program in the module
-                                Program comes with State0 and Goals0
+                                an agent whose program is in the module Program
+                                comes with Goals0
     clauses(Variant, Clauses0, Clauses)
-                                clauses are added to its state
-    declares(Variant, PI)       a payload provides PI
+                                clauses are added to the state of an agent
+    declares(Variant, PI)       a payload defines PI
     called(Variant, Module, Closure, Extra, Goal)
-                                Goal is what the agent in Module calls by
+                                the agent in Module calls Goal by
                                 '$checked'(Closure, Extra, ...)
 
-They raise errors to refuse it.  An agent keeps its variant while it stays on
-the host, whatever becomes of the options of the host.
+A hook raises an error to refuse.  An agent keeps its variant as long as it is
+on the host, even if the options of the host change.
 
-*Threading*: any thread; the module of an agent that runs belongs to its
-worker.
+*Threading*: any thread; while an agent runs only its worker uses the module.
 */
+
+%!  agent_module(+Id, +Place, +Hash, +State, -Module) is semidet.
+%
+%   Make a module with the state of an agent.  Errors in the state are found
+%   here; then no module is left behind.  Fails if there is no program of that
+%   Hash.
+%
+%   @arg State is state(Empty, Clauses): the indicators of the dynamic
+%        predicates that have no clauses, and the clauses of the others.
+%   @error what assertz/1 raises
+%   @error what a variant raises, see typhon_agent_module
 
 %!  agent_module(+Id, +Place, +Hash, +State, -Module) is semidet.
 %!  agent_module(+Id, +Place, +Program, +Clauses) is det.
@@ -79,6 +91,11 @@ agent_module(Id, Place, Hash, State0, Module) :-
           error(Formal, Context),
           ( '$destroy_module'(Module),
             throw(error(Formal, Context)) )).
+
+%!  agent_module(+Id, +Place, +Program, +Clauses) is det.
+%
+%   As agent_module/5, on a host without parts and where no module Id exists.
+%   Program is the module of the program.
 
 agent_module(Id, Place, Program, Clauses) :-
     hung(Id, Program, Place),
@@ -109,7 +126,7 @@ below(Place, _, Program, State, Program, Place, State).
 
 %!  agent_code(+Module, -Program) is det.
 %
-%   The module of the program as the agent has it where it stands.
+%   Program is the module that has the agent's program on this host.
 
 agent_code(Module, Program) :-
     import_module(Module, Program),
@@ -117,7 +134,7 @@ agent_code(Module, Program) :-
 
 %   agent_goals(+Module, +Goals0, -Goals)
 %
-%   Goals are what the agent is to do where it stands.
+%   Goals are Goals0 as the agent runs them on this host.
 %
 %   @error what a variant raises
 
@@ -131,8 +148,8 @@ agent_goals(_, Goals, Goals).
 
 %!  agent_standing(+Id, +Place, +Hash, +Begin, -Agent) is semidet.
 %
-%   As agent_module/5, for one that has goals: Begin is State-Goals0, Agent is
-%   Module-Goals.
+%   As agent_module/5, for an agent that has goals: Begin is State-Goals0,
+%   Agent is Module-Goals.
 
 agent_standing(Id, Place, Hash, State-Goals0, Module-Goals) :-
     agent_module(Id, Place, Hash, State, Module),
@@ -142,7 +159,7 @@ agent_standing(Id, Place, Hash, State-Goals0, Module-Goals) :-
 
 %!  agent_clauses(+Module, +Clauses0, -Clauses) is det.
 %
-%   Clauses may be added to the state of the agent.
+%   Clauses are Clauses0 as they may be added to the state of the agent.
 %
 %   @error what a variant raises
 
@@ -152,7 +169,7 @@ agent_clauses(Module, Clauses0, Clauses) :-
     ;   Clauses = Clauses0
     ).
 
-%   A copy that waits for the end of its hop has a module already.
+%   A copy of an agent that waits for the end of its hop has the module Id.
 
 free_module(Id, Module) :-
     (   agent_here(Id, _, Id, _, _)
@@ -167,14 +184,15 @@ declare_all([PI|PIs], Module) :-
 
 %!  agent_add(+Clauses, +Module) is det.
 %
-%   Clauses, as of agent_clauses/3, are part of the state of the agent.
+%   Add Clauses, as of agent_clauses/3, to the state of the agent.
 
 agent_add(Clauses, Module) :-
     add_clauses(Clauses, Module).
 
-%   The first rule of what is not dynamic yet would be compiled like one that
-%   stays, and clause/2 of 9.0.4 does not give it back as it was: a variable
-%   that is unified first, and used later, would be two.
+%   The predicate of a rule is declared dynamic first.  Otherwise the first rule
+%   would be compiled like a static one, and clause/2 of 9.0.4 would not return
+%   it as it was: a variable that is unified first and used later would be two
+%   variables.
 
 add_clauses([], _).
 add_clauses([Clause|Clauses], Module) :-
@@ -196,7 +214,7 @@ agent_state(Module, state(Empty, Clauses)) :-
         Clauses = Items
     ).
 
-%   The internal forms of predicate_property/2, which is ten times slower.
+%   Uses the internal forms of predicate_property/2, which is ten times slower.
 
 state_item(Module, Item) :-
     '$c_current_predicate'(_, Module:Head),
@@ -222,14 +240,15 @@ split([Item|Items], Empty, Clauses) :-
 
 %!  agent_changed(+Module, +Since:integer, -Changed:list, -Until) is det.
 %
-%   Changed has the clauses of the predicates of the state that have changed
-%   since the state was Until before; begin with 0.
+%   Changed has the clauses of those predicates of the state that have changed
+%   since the generation Since; Until is the Since of the next call.  The first
+%   call passes 0.
 
 agent_changed(Module, Since, Changed, Until) :-
     findall(Clause, changed(Module, Since, Clause), Changed),
     latest(Changed, Since, Until).
 
-%   The number first: few have changed.
+%   The generation is tested first because few predicates have changed.
 
 changed(Module, Since, Last-(Head:-Body)) :-
     '$c_current_predicate'(_, Module:Head),
@@ -245,11 +264,11 @@ latest([Last-_|Changed], Until0, Until) :-
     latest(Changed, Until1, Until).
 
 %!  agent_links(+Module, +Place0, +Place, -Links) is semidet.
-%!  agent_relink(+Module, +Links) is det.
 %
-%   With these Links what an agent does not have it finds in Place, and no longer
-%   in Place0.  Fails if Module has more than its state, which is to travel, and
-%   links to what is the same everywhere: its program and the vocabulary.
+%   Links is Above0-Above: the modules from which the agent in Module imports on
+%   Place0, and is to import on Place.  Fails if Module holds anything but the
+%   state that travels and links to its program and the vocabulary, which are
+%   the same on both places.
 
 agent_links(Module, Place0, Place, Above0-Above) :-
     (   typhon_agent_module:variant(_, _)
@@ -260,12 +279,17 @@ agent_links(Module, Place0, Place, Above0-Above) :-
     \+ ( '$c_current_predicate'(_, Module:Head),
          bound_here(Module, Above0, Head) ).
 
+%!  agent_relink(+Module, +Links) is det.
+%
+%   Let the agent in Module import as Links, of agent_links/4, say.
+
 agent_relink(Module, Above0-Above) :-
     delete_import_module(Module, Above0),
     add_import_module(Module, Above, end).
 
-%   Both places run the same variant, or the program as it is.  Of a module
-%   that is given import_module/2 of 9.0.4 looks only whether it is the first.
+%   Both places run the same variant, or both the unchanged program.  If its
+%   second argument is bound, import_module/2 of 9.0.4 tests only the first
+%   import module.
 
 stands_below(Place0, Place, Module, Above0, Above) :-
     above(Place0, Above0, Variant),
@@ -313,7 +337,7 @@ agent_handles(Program, Module) :-
 %!  attach_free(+Module, +Hash, +PIs) is det.
 %
 %   @error permission_error(attach, procedure, PI) if the agent has a
-%          predicate of that name already
+%          predicate PI already
 
 attach_free(Module, Hash, PIs) :-
     code_module(Hash, Program),
@@ -369,8 +393,8 @@ detach_clauses(Module, PIs) :-
 
 %   place_variant(+Place, -View, -Variant) is semidet.
 %
-%   What agents hang below that come to Place now.  Fails for places where
-%   programs run as they are.
+%   View is the module from which agents that come to Place now import.  Fails
+%   for places that run unchanged programs.
 
 place_variant(Place, View, Variant) :-
     (   variant(_, _)

@@ -37,9 +37,9 @@
                 mail_all/2, mail_keep/2, mail_put/2 ]).
 :- use_module(life, [life_carried/2]).
 
-/** <module> Agents that stand in this process
+/** <module> The records of the agents in this process
 
-The records of agents, each with one owner: this module.  An agent is
+Only this module changes these records.  An agent has
 
   - a module of its name with its state, see typhon_agent_module;
   - a life, see typhon_life;
@@ -50,30 +50,30 @@ The records of agents, each with one owner: this module.  An agent is
     under way the goals are Hole-Goals, see typhon_machine;
   - a mailbox, and orders, see typhon_mailbox.
 
-The goals of the record may be frames, see typhon_chunks, which mean something
-in this process alone: what is asked for the goals of an agent, or notes them,
-sees the goals of its program.
+The goals of a record may be frames, see typhon_chunks, which have a meaning
+only in this process: the predicates that return the goals of an agent or note
+them in the journal convert frames to goals of its program.
 
-An agent that was handed over to another process, see typhon_hand_over, is only
-the frame that was sent and a mailbox, until the other process has accepted it.
-What looks at such an agent thaws it: it has a record again, as one that is in
-transit.
+For an agent that was handed over to another process, see typhon_hand_over, this
+process keeps only the sent frame and a mailbox until the other process has
+accepted the agent.  A predicate that reads such an agent thaws it: the agent
+gets a record again, with the status of an agent in transit.
 
-Changes of the database are what a hop costs most of.  So an agent that
-runs has no status at all: whoever removes `ready` has it.
+Database changes are the largest cost of a hop.  So an agent that runs has no
+status clause: the thread that retracts `ready` owns the agent.
 
-The tables must be asked by id, or by atoms: an index on compound terms,
-which Prolog makes by itself, is not safe where other threads retract
+The tables must be called with a bound id, or with atoms: the index on compound
+terms, which Prolog makes by itself, is not safe if other threads retract
 (9.0.4 aborts in deleteActiveClauseFromBucket).
 
-*Threading*: what changes a record runs inside with_agent/2.
+*Threading*: predicates that change a record run inside with_agent/2.
 */
 
 :- multifile
     typhon_code:in_use/1,
-    put_down/3,                 % Id, Status, Goals: to be noted
-    state_ends/2,               % Id, Module: is about to be destroyed
-    thaw/1.                     % Id: is under way and gets a record
+    put_down/3,                 % Id, Status, Goals: note them
+    state_ends/2,               % Id, Module: Module will be destroyed now
+    thaw/1.                     % Id: is under way and needs a record
 
 :- dynamic
     stands/6,                   % Id, Host, Module, Hash, Life, Until
@@ -82,8 +82,8 @@ which Prolog makes by itself, is not safe where other threads retract
 
 %!  agent(?Id, ?Host, ?Module, ?Hash, ?Life) is nondet.
 %
-%   The agents of this process: where they stand, the module of their
-%   state, the hash of their program, and their life.
+%   The agents of this process: Id is on Host, its state is in Module, its
+%   program has that Hash.
 
 agent(Id, Host, Module, Hash, Life) :-
     nonvar(Id),
@@ -101,14 +101,14 @@ agent(Id, Host, Module, Hash, Life) :-
 
 %!  agent_here(?Id, ?Host, ?Module, ?Hash, ?Life) is nondet.
 %
-%   As agent/5, without those that are under way as a frame.
+%   As agent/5, without the agents that are under way as a frame.
 
 agent_here(Id, Host, Module, Hash, Life) :-
     stands(Id, Host, Module, Hash, Life, _).
 
 %!  agent_on(+Id, -Host) is semidet.
 %
-%   Id is in this process, on Host, or is under way from there.
+%   Id is in this process: on Host, or under way from there.
 
 agent_on(Id, Host) :-
     (   stands(Id, Host0, _, _, _, _)
@@ -124,10 +124,8 @@ typhon_code:in_use(Hash) :-
     !.
 
 %!  agent_enter(+Agent, +Status, +Goals) is det.
-%!  agent_remove(+Id, -Mail:list, -Orders:list) is semidet.
 %
-%   Begin the record of an agent, Agent being its agent/5; forget it, with
-%   its module.
+%   Add the record of Agent, an agent/5 term.
 
 agent_enter(agent(Id, Host, Module, Hash, Life), Status, Goals) :-
     assertz(stands(Id, Host, Module, Hash, Life, 0)),
@@ -135,6 +133,10 @@ agent_enter(agent(Id, Host, Module, Hash, Life), Status, Goals) :-
     assertz(status(Id, Status, Goals)),
     parts_call(comes, Host, [Id, Host, Module, Hash]),
     life_carried(Life, Id).
+
+%!  agent_remove(+Id, -Mail:list, -Orders:list) is semidet.
+%
+%   Remove the record of Id, and its module.
 
 agent_remove(Id, Mail, Orders) :-
     retract(stands(Id, Host, Module, _, _, _)),
@@ -156,16 +158,18 @@ state_destroy(Id, Module) :-
     '$destroy_module'(Module).
 
 %!  agent_mobile(+Id, -Host, -Module, -Hash, -Life, -Until:integer) is semidet.
-%!  agent_move(+Id, +Host, +Module, +Life, +Until:integer) is det.
 %
-%   As agent/5, for an agent that is to travel; the agent is on Host from now
-%   on, with its state in Module; another module that it had is no more.  Until
-%   says that its state can travel as it was then, see agent_changed/4; it is 0
-%   until the first look.
+%   As agent/5, for an agent that is to travel.  Its state was found fit to
+%   travel as of generation Until, see agent_changed/4; 0 if it was not checked.
 
 agent_mobile(Id, Host, Module, Hash, Life, Until) :-
     stands(Id, Host, Module, Hash, Life, Until),
     !.
+
+%!  agent_move(+Id, +Host, +Module, +Life, +Until:integer) is det.
+%
+%   Id is on Host from now on, with its state in Module; its old module, if it
+%   is another, is destroyed.
 
 agent_move(Id, Host, Module, Life, Until) :-
     stands(Id, From, Old, Hash, _, _),
@@ -184,11 +188,9 @@ agent_move(Id, Host, Module, Life, Until) :-
                 *******************************/
 
 %!  agent_status(?Id, ?Status, ?Goals) is nondet.
-%!  agent_rests(+Id, ?Status, -Goals) is nondet.
-%!  agent_runs(+Id) is semidet.
 %
-%   Those that are under way have a record then; the status is `running`.  The
-%   second is for what only passes Goals on: they may be frames.
+%   Status is `running` for an agent without a status clause.  Agents that are
+%   under way as a frame get a record first.
 
 agent_status(Id, Status, Goals) :-
     forall(agent(Id, _, _, _, _), true),
@@ -201,11 +203,15 @@ status_now(Id, running, []) :-
     stands(Id, _, _, _, _, _),
     \+ status(Id, _, _).
 
+%!  agent_rests(+Id, ?Status, -Goals) is nondet.
+%
+%   As agent_status/3, for callers that only pass Goals on: they may be frames.
+
 agent_rests(Id, Status, Goals) :-
     status(Id, Status, Goals).
 
-%   goals_shown(+Goals0, -Goals): of an agent that is held or under way there
-%   are no frames.
+%   goals_shown(+Goals0, -Goals): the goals of an agent that is held or under
+%   way are never frames.
 
 goals_shown([Goal|Goals0], Goals) =>
     plain_goals([Goal|Goals0], Goals).
@@ -215,16 +221,17 @@ goals_shown(hop(Hole-Goals0, Since), Shown) =>
 goals_shown(Goals0, Goals) =>
     Goals = Goals0.
 
+%!  agent_runs(+Id) is semidet.
+
 agent_runs(Id) :-
     stands(Id, _, _, _, _, _),
     \+ status(Id, _, _),
     !.
 
 %!  agent_put(+Id, +Status, +Goals) is det.
-%!  agent_note(+Id, +Status, +Goals) is det.
 %
-%   This is the status of Id from now on.  Before others can see it, it is noted
-%   in the unit of work, which ends here; the second only notes it.
+%   Set the status of Id.  Before other threads can see it, it is noted in the
+%   unit of work, which ends here.
 
 agent_put(Id, Status, Goals) :-
     (   durable_on
@@ -235,6 +242,10 @@ agent_put(Id, Status, Goals) :-
     retractall(status(Id, _, _)),
     assertz(status(Id, Status, Goals)).
 
+%!  agent_note(+Id, +Status, +Goals) is det.
+%
+%   Note the status of Id in the unit of work, and do not set it.
+
 agent_note(Id, Status, Goals) :-
     (   durable_on
     ->  goals_shown(Goals, Shown),
@@ -244,7 +255,7 @@ agent_note(Id, Status, Goals) :-
 
 %!  agent_rest(+Id, +Status, +Goals) is det.
 %
-%   Id, which was running, rests, unless an order has come meanwhile.
+%   Id stops running and gets Status, or is ready if it has got an order since.
 
 agent_rest(Id, Status, Goals) :-
     (   agent_ordered(Id)
@@ -254,8 +265,8 @@ agent_rest(Id, Status, Goals) :-
 
 %!  agent_take(+Id, -Goals, -Order) is semidet.
 %
-%   Id, which is ready, runs from now on, Order being `none`, or obeys the
-%   oldest order.
+%   Id, which is ready, is running from now on and Order is `none`; or it is
+%   obeying its oldest order, Order.
 
 agent_take(Id, Goals, Order) :-
     retract(status(Id, ready, Goals0)),
@@ -270,8 +281,8 @@ agent_take(Id, Goals, Order) :-
 
 %!  agent_claim(+Id, ?Status, -Goals) is semidet.
 %
-%   Id, whose status was Status, belongs to the caller from now on: an order from
-%   outside can no longer end it.
+%   Id had that Status.  Only the caller may change Id from now on: an order
+%   from outside can no longer end it.
 
 agent_claim(Id, Status, Goals) :-
     retract(status(Id, Status, Goals)),
@@ -282,18 +293,16 @@ agent_claim(Id, Status, Goals) :-
                 *******************************/
 
 %!  agent_comes(+Id, +Host, +Module, +Hash, +Life) is det.
-%!  agent_handed(+Id, +Hops, +Way, +Frame) is semidet.
-%!  agent_under_way(?Id, ?Hops, -Host, -Hash, -Way, -Frame) is nondet.
-%!  agent_gone(+Id, +Hops, -Mail:list) is semidet.
-%!  agent_thawed(+Id, +Module, +Life, +Status, +Goals) is det.
 %
-%   Id has come to Host, which is plain, and runs.  Id, which runs, is under way
-%   from now on; its record and its module are no more; fails if it has an order,
-%   or was ended.  Those that are under way.  Id has gone, and Mail came for it
-%   meanwhile.  It has a record again.
+%   Add a record of Id, which comes to Host, a plain host, and runs.
 
 agent_comes(Id, Host, Module, Hash, Life) :-
     assertz(stands(Id, Host, Module, Hash, Life, 0)).
+
+%!  agent_handed(+Id, +Hops, +Way, +Frame) is semidet.
+%
+%   Id, which runs, is under way as Frame from now on; its record and its module
+%   are removed.  Fails if Id has an order or was ended.
 
 agent_handed(Id, Hops, Way, Frame) :-
     stands(Id, Host, Module, Hash, _, _),
@@ -304,13 +313,23 @@ agent_handed(Id, Hops, Way, Frame) :-
     retract(stands(Id, _, _, _, _, _)),
     '$destroy_module'(Module).
 
+%!  agent_under_way(?Id, ?Hops, -Host, -Hash, -Way, -Frame) is nondet.
+
 agent_under_way(Id, Hops, Host, Hash, Way, Frame) :-
     under_way(Id, Hops, Host, Hash, Way, Frame).
+
+%!  agent_gone(+Id, +Hops, -Mail:list) is semidet.
+%
+%   Id is no longer under way; Mail has come for it meanwhile.
 
 agent_gone(Id, Hops, Mail) :-
     retract(under_way(Id, Hops, _, _, _, _)),
     !,
     mail_all(Id, Mail).
+
+%!  agent_thawed(+Id, +Module, +Life, +Status, +Goals) is det.
+%
+%   Id, which was under way, has a record again.
 
 agent_thawed(Id, Module, Life, Status, Goals) :-
     under_way(Id, _, Host, Hash, _, _),
@@ -320,16 +339,19 @@ agent_thawed(Id, Module, Life, Status, Goals) :-
     retractall(under_way(Id, _, _, _, _, _)).
 
 %!  agent_ready(+Id, +Goals) is semidet.
-%!  agent_wakes(+Id, +Goals) is semidet.
 %
-%   Id goes on with Goals when its turn comes.  The second is for one that has
-%   rested with these goals.  Fails if it was ended meanwhile.
+%   Id continues with Goals in its next turn.  Fails if it was ended meanwhile.
 
 agent_ready(Id, Goals) :-
     stands(Id, Host, _, _, _, _),
     !,
     agent_put(Id, ready, Goals),
     schedule(Host, Id).
+
+%!  agent_wakes(+Id, +Goals) is semidet.
+%
+%   As agent_ready/2, for an agent that rested with these Goals: the journal has
+%   them already.
 
 agent_wakes(Id, Goals) :-
     stands(Id, Host, _, _, _, _),
@@ -353,8 +375,8 @@ agent_put_life(Id, Life) :-
 
 %!  agent_program(+Id, +Hash, +Module, +Life) is det.
 %
-%   The agent has the program Hash from now on, with its state in Module; its
-%   other module is no more.
+%   Id has the program Hash from now on, with its state in Module; its old
+%   module is destroyed.
 
 agent_program(Id, Hash, Module, Life) :-
     stands(Id, Host, Old, _, _, _),
@@ -363,7 +385,8 @@ agent_program(Id, Hash, Module, Life) :-
     forget_first(Id),
     state_destroy(Id, Old).
 
-%   Others always find one.  Not by clause reference: see typhon_prolog_faults.
+%   Remove the older of two records: readers always find at least one.  Not by
+%   clause reference: see typhon_prolog_faults.
 
 forget_first(Id) :-
     retract(stands(Id, _, _, _, _, _)),
@@ -375,8 +398,8 @@ forget_first(Id) :-
 
 %!  agent_mail(+Id, +Messages:list) is semidet.
 %
-%   Put Messages in the mailbox and wake the agent if it waits for one.  Fails if
-%   there is no such agent.
+%   Put Messages in the mailbox and wake the agent if it waits for one of them.
+%   Fails if the agent is not in this process.
 
 agent_mail(Id, Messages) :-
     agent_on(Id, Host),

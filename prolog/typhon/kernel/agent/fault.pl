@@ -21,20 +21,21 @@
 :- use_module(agents, [agent/5]).
 :- use_module(life, [life_hops/2]).
 
-/** <module> What is the matter with an agent
+/** <module> Faults of agents
 
 A fault is
 
     fault(Outcome, Goal, Where, Address, Hops, Stamp)
 
-`failed` or raised(Error); the goal that failed or raised, and where it
-stands: a list of up to two lists of places, in one of the first, called from
-the one of the second; on which host that was, after how many hops, and when. A
-place is at(PI, Place): a clause of the predicate PI, Place being its File:Line,
-clause(N) for the N-th clause of PI where that is not known, or `state` for a
-rule of the agent's own.  All of it can travel.  It comes first among the goals of an agent
-that is faulty, as '$fault'(Fault): the machine stops there, wherever the
-agent is brought, until that is taken away.
+`failed` or raised(Error); the goal that failed or raised the error, and its
+location: a list of up to two lists of places, the possible places of the goal
+and the possible places of its caller; the address of the host, the number of
+hops made, and the time.  A place is at(PI, Place): a clause of the predicate
+PI, Place being its File:Line, clause(N) for the N-th clause of PI if the line
+is not known, or `state` for a rule of the agent's state.  All of it can travel.
+It comes first among the goals of an agent that is faulty, as '$fault'(Fault):
+the machine stops there, on whichever host the agent is, until the goal is
+removed.
 
 *Threading*: agent_fault/5 in the worker that ran the agent.
 */
@@ -43,14 +44,14 @@ agent is brought, until that is taken away.
     stands/4,                   % +Hash, +Module, +Fault, -Where
     handled/5,                  % +Hash, +Module, +Goal, +Fault, -Where: of a
                                 % Goal that no clause of the program called
-    advice/3.                   % +PI, +Hash, -Text: what may have been meant by
-                                % a predicate that does not exist
+    advice/3.                   % +PI, +Hash, -Text: suggests names in place of
+                                % PI, a predicate that does not exist
 
 %!  agent_fault(+Id, +Outcome, +Goals0, -Fault, -Goals) is semidet.
 %
 %   The machine has run Goals0 of Id with that Outcome, `failed` or
-%   raised(Error): Goals are left, from the one on that was the matter.
-%   Fails if there is no such agent any more.
+%   raised(Error): Goals are the goals that are left, from the faulty one on.
+%   Fails if the agent no longer exists.
 
 agent_fault(Id, Outcome0, Goals0,
             fault(Outcome, Goal, Where, Address, Hops, Stamp), Goals) :-
@@ -66,8 +67,8 @@ agent_fault(Id, Outcome0, Goals0,
     life_hops(Life, Hops),
     get_time(Stamp).
 
-%   advised(+Outcome0, +Module, +Hash, -Outcome): the context of the error that
-%   a procedure does not exist says what may have been meant.
+%   advised(+Outcome0, +Module, +Hash, -Outcome): add a suggestion of other
+%   names to the context of an error that a procedure does not exist.
 
 advised(raised(error(existence_error(procedure, Module:PI), Context0)),
         Module, Hash,
@@ -83,7 +84,7 @@ advised(raised(error(existence_error(procedure, Module:PI), Context0)),
     once(advice(PI, Hash, Text)).
 advised(Outcome, _, _, Outcome).
 
-%   Prolog has no clauses that hold a cyclic term.
+%   Goals are stored in clauses, and a clause cannot hold a cyclic term.
 
 can_be_kept(Goals, Goals) :-
     acyclic_term(Goals),
@@ -108,7 +109,8 @@ agent_handled(Id, Goal0, fault(failed, Goal, Where, Address, Hops, Stamp)) :-
     life_hops(Life, Hops),
     get_time(Stamp).
 
-%   An agent is not lost because the place of its goal is not known.
+%   An error while the location is looked up must not cost the agent: the
+%   location is reported as unknown.
 
 where(Hash, Module, Fault, Where) :-
     on_demand_load(fault, stands),
@@ -119,12 +121,12 @@ where(Hash, Module, Fault, Where) :-
 where(_, _, _, []).
 
 %!  fault_outcome(+Fault, -Outcome) is det.
-%!  fault_error(+Fault, -Error) is det.
-%!  fault_stamp(+Fault, -Stamp:float) is det.
-%
-%   Error is `failed` for those that failed.
 
 fault_outcome(fault(Outcome, _, _, _, _, _), Outcome).
+
+%!  fault_error(+Fault, -Error) is det.
+%
+%   Error is `failed` for a goal that failed.
 
 fault_error(Fault, Error) :-
     fault_outcome(Fault, Outcome),
@@ -132,6 +134,8 @@ fault_error(Fault, Error) :-
     ->  Error = Error0
     ;   Error = failed
     ).
+
+%!  fault_stamp(+Fault, -Stamp:float) is det.
 
 fault_stamp(fault(_, _, _, _, _, Stamp), Stamp).
 
@@ -157,27 +161,25 @@ place_shown(_, Place) =>
 
 %!  fault_told(+Fault, -Goal, -Where, -Address, -Hops) is det.
 %
-%   The text of the report.
+%   The parts of Fault that a report shows.
 
 fault_told(fault(_, Goal, Where, Address, Hops, _), Goal, Where, Address,
            Hops).
 
 %!  is_faulty(?Goals, ?Fault, ?Left) is semidet.
 %
-%   Goals are those of an agent that is faulty: Fault, and then Left.
+%   Goals are the goals of an agent that is faulty: Fault, then Left.
 
 is_faulty(['$fault'(Fault)|Left], Fault, Left).
 
                 /*******************************
-                *             WORDS             *
+                *      PRINTABLE FALLBACK      *
                 *******************************/
-
-%   An error or a goal may hold what cannot travel.  That is replaced by words,
-%   so that it is still the same error, and shows what was there.
 
 %!  in_words(+Term, -Portable) is det.
 %
-%   Portable is Term, with an atom in place of each part that cannot travel.
+%   Portable is Term, with an atom in place of each part that cannot travel.  So
+%   an error or a goal keeps its form, and the atom describes the replaced part.
 
 in_words(Term, Portable) :-
     catch(mobile_term(Term), error(_, _), fail),

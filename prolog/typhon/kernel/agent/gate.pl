@@ -10,13 +10,13 @@
                 host_load/2, parts/3, security_event/3, security_event/4 ]).
 :- use_module(life, [life_tokens/2]).
 
-/** <module> Admission: which agents a host lets in
+/** <module> Admission: which agents a host accepts
 
 Every agent that begins on a host, or comes to it, passes gate/4: when it is
 created, cloned or restored there, and at the end of a hop, from this process or
-from another.  The reasons to refuse an agent are tried in the same order on
-each path: those of options, see typhon_host_parts, then token and capacity.  A
-refusal is a security event, and reported as an event, here and nowhere else.
+from another.  The reasons to refuse an agent are tested in the same order on
+each path: those of options, see typhon_host_parts, then token and capacity.
+Each refusal is logged as a security event and reported as an event, only here.
 
 The agent is
 
@@ -24,33 +24,33 @@ The agent is
 
 its id, or the name from which its id will be made; the hash of its program;
 its life; its state, as of agent_state/2, or module(Module); the messages that
-it brings.  Where it comes from is
+it brings.  Its source is
 
   - here: it begins, in this process
   - going: it hops within this process
   - from(Peer, Program, Shown): the process at Peer has sent it with Program,
-    as of code_receive/2, or `known`.  Shown is `newborn`, or papers(Papers):
-    what proves that Peer may bring it.
+    as of code_receive/2, or `known`.  Shown is `newborn`, or papers(Papers),
+    which prove that Peer may bring it.
 
-*Threading*: any thread.  Of many agents that enter at once none is one too
-many for the capacity of the host.
+*Threading*: any thread.  Agents that enter at the same time never exceed the
+capacity of the host.
 */
 
 :- meta_predicate gate(+, +, 1, -).
 
 :- multifile
-    forbidden/2.                % Ball, Reason: to install an agent raised Ball,
-                                % so the host refuses it
+    forbidden/2.                % Ball, Reason: installing the agent raised
+                                % Ball, which means a refusal for Reason
 
 %!  gate(+Host, +Entrant, :Install, -Verdict) is det.
 %
-%   Let an agent in.  Entrant is From-Agent.  If nothing is against it, a place
-%   on Host is reserved and call(Install, Verdict) installs the agent.  The
-%   place is given back unless Verdict is `ok`.  Other verdicts are
+%   Admit an agent.  Entrant is Source-Agent.  If there is no reason to refuse
+%   it, a slot on Host is reserved and call(Install, Verdict) installs the
+%   agent.  The slot is released unless Verdict is `ok`.  Other verdicts are
 %   refused(Reason), `need_program`, and those of Install.
 %
-%   Signals wait while the agent is between reserved and installed.  The process
-%   has no capacity for more agents while its memory is short.
+%   Signals are deferred from reservation to installation.  While memory is
+%   short the process has no capacity for more agents.
 %
 %   @error what Install raises, unless it means that Host refuses the agent
 
@@ -92,8 +92,8 @@ not_installed(Ball, Host, _) :-
                 *            REASONS           *
                 *******************************/
 
-%   against(+From, +Entrant, +Host, -Verdict): the first reason counts.  It is
-%   followed by those of host_enter/3: token, capacity.
+%   against(+From, +Entrant, +Host, -Verdict): the first reason found.
+%   host_enter/3 tests the remaining reasons afterwards: token, capacity.
 
 against(from(_, _, _), _, Host, refused(unknown_host)) :-
     \+ open(Host),
@@ -109,7 +109,7 @@ against(From, Entrant, Host, Verdict) :-
     parts(admit_program, Host, Closures),
     first_reason(Closures, From, Entrant, Host, Verdict).
 
-%   A request may name anything as the host.
+%   A request of a peer may name any term as the host.
 
 open(Host) :-
     atom(Host),
@@ -135,7 +135,7 @@ lacks_program(Program, Hash) :-
 
 %!  gate_refused(+Host, +From, +Agent, +Reason) is det.
 %
-%   Host has refused Agent.
+%   Log and report that Host has refused Agent.
 
 gate_refused(Host, From, Agent, Reason) :-
     (   atom(Host),
@@ -146,7 +146,7 @@ gate_refused(Host, From, Agent, Reason) :-
     ;   true
     ).
 
-%   A peer can write goals of any size.
+%   The goal comes from a peer, so it may be of any size.
 
 shown(policy(Goal), policy(Name/Arity)) :-
     compound(Goal),
@@ -156,7 +156,8 @@ shown(policy(Goal), policy(Name/Arity)) :-
     compound_name_arity(Goal, Name, Arity).
 shown(Reason, Reason).
 
-%   A thread that reads from a peer may run an agent of this process, too.
+%   Own process and proof are passed explicitly: the thread may be one that
+%   reads from a peer while it runs an agent of this process.
 
 noted(from(Peer, _, _), Host, What) :-
     !,

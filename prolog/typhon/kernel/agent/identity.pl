@@ -23,30 +23,31 @@
 
 /** <module> The ids of agents, and their mutexes
 
-An id is Name.Mark.Number@Home: from what the agent was made, the process,
-the how manieth in it, and the address of the host on which it was born.  An
-option may add to Mark how the process can prove that the agent is its own, as
-in visitor.7k234tum-alpha.0@..
+An id is Name.Mark.Number@Home: the name from which the agent was made, a mark
+of the process, the number of the agent in it, and the address of the host on
+which it was born.  An option may add to Mark a means by which the process can
+prove that the agent is its own, as in visitor.7k234tum-alpha.0@..
 
-Where an agent comes from is what no agent can choose:
+The origin of an agent, which no agent can choose, is
 
-  - home(Endpoint): the process in which it was born, or the agent of which it
-    is a clone
-  - what options say instead
+  - home(Endpoint): the process in which the agent, or the agent of which it is
+    a clone, was born
+  - another term, which an option defines
 
-What cannot be told from the id is a fact '$owner'(Origin) among the state of
-the agent, so it goes along.  An agent that is guarded cannot touch it.
+If the id does not show the origin, the state of the agent has a fact
+'$owner'(Origin), which travels with it.  A guarded agent cannot access this
+fact.
 
-There are 64 mutexes: the id of an agent chooses one.
+There are 64 mutexes: the id of an agent selects its mutex.
 
-*Threading*: any thread.  Nothing inside with_agent/2 may block.
+*Threading*: any thread.  A goal inside with_agent/2 must not block.
 */
 
 %!  agent_id(+Name, +Home, -Id) is det.
 %
 %   A new id: unique among processes and restarts.
 %
-%   @error representation_error(agent_name): no journal could have it
+%   @error representation_error(agent_name) if the id cannot be a journal key
 
 agent_id(Name, Home, Id) :-
     flag(typhon_agent_id, N, N+1),
@@ -59,8 +60,8 @@ agent_id(Name, Home, Id) :-
     ).
 
 :- multifile
-    ids_anew/0,                 % what is known of old ids is forgotten
-    id_anew/1,                  % what is known of Id is
+    ids_anew/0,                 % ids repeat: discard all data on old ids
+    id_anew/1,                  % Id repeats: discard all data on it
     mark_suffix/1,              % Suffix: of the marks of this process
     origin/4,                   % Host, Hash, State, Origin: not its home
     typhon_runtime:beginning/1.
@@ -99,7 +100,7 @@ make_mark :-
 
 %!  agent_name(+Id, -Name:atom, -Number:integer) is det.
 %
-%   Id was made from Name, as the one of that Number in its process.
+%   Id was made from Name, as agent number Number of its process.
 
 agent_name(Id, Name, Number) :-
     sub_atom(Id, Before, _, _, '@'),
@@ -112,10 +113,8 @@ agent_name(Id, Name, Number) :-
     atom_number(Last, Number).
 
 %!  agent_home(+Id, -Home) is semidet.
-%!  agent_home_endpoint(+Id, -Endpoint) is semidet.
 %
-%   Home is the address of the host on which Id was born, Endpoint that of
-%   its process.
+%   Home is the address of the host on which Id was born.
 
 agent_home(Id, Home) :-
     atom(Id),
@@ -123,6 +122,10 @@ agent_home(Id, Home) :-
     !,
     B1 is B+1,
     sub_atom(Id, B1, _, 0, Home).
+
+%!  agent_home_endpoint(+Id, -Endpoint) is semidet.
+%
+%   Endpoint is that of the process in which Id was born.
 
 agent_home_endpoint(Id, Endpoint) :-
     atom(Id),
@@ -132,8 +135,8 @@ agent_home_endpoint(Id, Endpoint) :-
 
 %!  agent_origin(+Host, +Id, +Hash, +State, -Origin) is semidet.
 %
-%   Origin is where the agent Id on Host comes from, Hash being that of its
-%   program, State as of agent_state/2, or module(Module).
+%   Origin is the origin of the agent Id on Host.  Hash is that of its program,
+%   State as of agent_state/2, or module(Module).
 
 agent_origin(Host, _, Hash, State, Origin) :-
     origin(Host, Hash, State, Origin),
@@ -149,7 +152,7 @@ agent_origin(_, Id, _, _, home(Endpoint)) :-
 
 %!  origin_key(+Origin, -Key:atom) is det.
 %
-%   An atom for tables.
+%   Key names Origin in tables.
 
 origin_key(Origin, Key) :-
     Origin =.. Parts,
@@ -157,7 +160,7 @@ origin_key(Origin, Key) :-
 
 %!  origin_said(+State, -Origin) is semidet.
 %
-%   State has a fact that says so; Origin may be anything.
+%   State has a fact with that Origin, which may be any term.
 
 origin_said(module(Module), Origin) :-
     '$c_current_predicate'(_, Module:'$owner'(_)),
@@ -167,9 +170,9 @@ origin_said(state(_, Clauses), Origin) :-
 
 %!  origin_inherited(+Id, +State0, -State) is det.
 %
-%   State0 is that of Id, which stands here, State that of a clone of it.  The
-%   id of the clone will say that it was born here: where Id was born, if
-%   elsewhere, is a fact among its state.
+%   State0 is the state of Id, an agent of this process; State is that of a
+%   clone.  The id of the clone will name this process as its home, so if Id was
+%   born elsewhere, State has a fact with its home.
 
 origin_inherited(Id, State, State) :-
     State = state(_, Clauses),
@@ -184,8 +187,8 @@ origin_inherited(Id, state(Empty, Clauses),
 
 %!  origin_passed(+Parent, +Endpoint, +State0, -State) is det.
 %
-%   State is that of an agent which Parent, Id-Module, creates at Endpoint: where
-%   it comes from is where Parent does.
+%   State is the state of an agent that Parent, Id-Module, creates at Endpoint.
+%   The new agent has the origin of Parent.
 
 origin_passed(_-Module, _, state(PIs, Clauses),
               state(PIs, ['$owner'(Origin)|Clauses])) :-
@@ -204,8 +207,8 @@ origin_passed(Id-_, _, state(PIs, Clauses),
 
 %!  must_be_agent_name(@Name) is det.
 %
-%   What stands before the first `@` of an id is no part of an address.  Names are
-%   printed as they are, in messages of every process that the agent comes to.
+%   A name has no `@`: the first `@` of an id ends the name.  It is printable,
+%   because every process that the agent comes to prints it in messages.
 %
 %   @error type_error(atom, Name), domain_error(agent_name, Name)
 
@@ -220,9 +223,9 @@ must_be_agent_name(Name) :-
 
 %!  is_printable(+Text) is semidet.
 %
-%   Text, an atom or string, has no control characters, and none that do not show,
-%   such as those that change the direction of text.  For split_string/4 a zero
-%   byte is padding.
+%   Text, an atom or string, has no control characters, and no invisible ones,
+%   such as those that change the direction of text.  Zero bytes are tested
+%   apart because split_string/4 ignores them as padding.
 
 is_printable(Text) :-
     \+ sub_atom(Text, _, _, _, '\000\'),
@@ -242,7 +245,7 @@ is_hidden(Code) :-
     Code =< Last,
     !.
 
-%   Controls, directions, separators of lines, halves of characters, and tags.
+%   Controls, directions, line separators, surrogate halves, and tags.
 
 hidden(0, 31).
 hidden(127, 159).
@@ -272,14 +275,14 @@ with_agent(Id, Goal) :-
 
 %!  agents_passed is det.
 %
-%   A thread that was inside with_agent/2 when this was called has left it.
+%   Wait until each thread that is inside with_agent/2 now has left it.
 
 agents_passed :-
     forall(shard(_, Mutex), with_mutex(Mutex, true)).
 
 :- dynamic shard/2.
 
-%   A saved state has them already where it runs this again.
+%   A saved state runs this directive again, but has the clauses already.
 
 make_shards :-
     shard(_, _),

@@ -26,15 +26,15 @@
 :- use_module(life,
               [is_life/1, life_clone/3, life_hop/3, life_hops/2]).
 
-/** <module> What of an agent goes over the wire
+/** <module> The image of an agent, which goes over the wire
 
     image(Id, Hash, Life, State, Goals, Mail, Since)
 
-Hash names its program, Mail is a list of From-Message, the oldest first,
-and Since the host time at which it set out, or From-Since where a listener
-wants to know from which host.
+Hash names the agent's program, Mail is a list of From-Message, the oldest
+first, and Since the host time of its departure, or From-Since if a listener of
+this process needs the host that the agent left.
 
-Its program goes along to processes that lack it as far as is known.
+The program is sent along unless the receiving process is known to have it.
 
 *Threading*: any thread; image_enter/4 inside with_agent/2.
 */
@@ -44,10 +44,8 @@ Its program goes along to processes that lack it as far as is known.
 :- dynamic has_program/2.       % Endpoint, Hash: was sent there
 
 %!  image_hop(+Id, -Hops, +Goals, ?Mail, +Since, -Image) is det.
-%!  image_clone(+Id, +CloneId, +Goals, +Since, -Image) is det.
 %
-%   Image is what Id is now, on its way with that many hops; or what its
-%   clone is to be elsewhere.
+%   Image is the image of Id on its next hop, number Hops.
 
 image_hop(Id, Hops, Goals, Mail, Since,
           image(Id, Hash, Life, State, Goals, Mail, Start)) :-
@@ -55,6 +53,10 @@ image_hop(Id, Hops, Goals, Mail, Since,
     life_hop(Life0, Life, Hops),
     agent_state(Module, State),
     start(Host, Since, Start).
+
+%!  image_clone(+Id, +CloneId, +Goals, +Since, -Image) is det.
+%
+%   Image is the image of a clone of Id, to be sent elsewhere.
 
 image_clone(Id, CloneId, Goals, Since,
             image(CloneId, Hash, Life, State, Goals, [], Start)) :-
@@ -76,14 +78,14 @@ start(Host, Since, Start) :-
 
 %!  image_entrant(+Image, -Entrant) is det.
 %
-%   Entrant is what gate/4 has to know of Image.
+%   Entrant is the form of Image that gate/4 takes.
 
 image_entrant(image(Id, Hash, Life, State, _, Mail, _),
               entrant(Id, Hash, Life, State, Mail)).
 
 %!  image_amended(+Phase, +Host, +Where, +Image0, -Image) is det.
 %
-%   Image is Image0 with the state that options of Host amend, see
+%   Image is Image0 with its state amended by options of Host, see
 %   typhon_host_parts: Where is To in the phase `departs`, and
 %   from(Peer, Address) in the phase `arrives`.
 
@@ -102,18 +104,18 @@ image_hash(image(_, Hash, _, _, _, _, _), Hash).
 
 %!  image_held(+Image, -Held) is det.
 %
-%   Held is Image as it is handed over: its goals follow their hole, which is
-%   filled already.
+%   Held is Image as a hand-over sends it: its goals are Hole-Goals, with the
+%   hole filled already.
 
 image_held(image(Id, Hash, Life, State, Goals, Mail, Start),
            image(Id, Hash, Life, State, true-Goals, Mail, Start)).
 
 %!  image_label(+Image, -Label) is det.
 %
-%   What one has to know of Image before it is installed: Label is
-%   label(Id, Hops, Since, From), From being `none` or the host that it left.
-%   What is not an agent is refused.  Whether the state can be installed is seen
-%   when its module is made.
+%   Label is what is read of Image before it is installed: label(Id, Hops,
+%   Since, From), From being `none` or the host that the agent left.  A term
+%   that is no image is refused.  Whether the state can be installed is known
+%   only when its module is made.
 %
 %   @error type_error(agent_image, Name)
 
@@ -165,7 +167,7 @@ is_start(Start) :-
     atom(From),
     number(Since).
 
-%   The whole would be too long for a message.
+%   The name or functor of Image: the whole would be too long for a message.
 
 image_name(image(Id, _, _, _, _, _, _), Name) :-
     atom(Id),
@@ -182,13 +184,16 @@ image_name(Image, Name/Arity) :-
 image_name(Image, Image).
 
 %!  image_module(+Image, +Place, -Agent) is semidet.
-%!  image_enter(+Image, +Host, +Agent, +More:list) is det.
 %
-%   Install the agent in two steps: make its module, as agent_standing/5, and
-%   then its record, with its mail and More.  It is ready, but not scheduled.
+%   First step of installing an agent: make its module, as agent_standing/5.
 
 image_module(image(Id, Hash, _, State, Goals, _, _), Place, Agent) :-
     agent_standing(Id, Place, Hash, State-Goals, Agent).
+
+%!  image_enter(+Image, +Host, +Agent, +More:list) is det.
+%
+%   Second step: make the record of the agent, with its mail and More.  The
+%   agent is ready, but not scheduled.
 
 image_enter(image(Id, Hash, Life, _, _, Mail0, _), Host, Module-Goals, More) :-
     agent_enter(agent(Id, Host, Module, Hash, Life), ready, Goals),
@@ -203,10 +208,9 @@ image_enter(image(Id, Hash, Life, _, _, Mail0, _), Host, Module-Goals, More) :-
                 *******************************/
 
 %!  program_sent(+Endpoint, +Hash, -Sent) is det.
-%!  program_missing(+Endpoint, +Hash) is det.
 %
-%   Sent is what goes to Endpoint with an agent of that program: as of
-%   code_sent/2, or `known`. The process lacks the program after all.
+%   Sent goes to Endpoint with an agent of that program: as of code_sent/2, or
+%   `known`.
 
 program_sent(Endpoint, Hash, known) :-
     has_program(Endpoint, Hash),
@@ -216,10 +220,14 @@ program_sent(Endpoint, Hash, Sent) :-
     bound_programs,
     assertz(has_program(Endpoint, Hash)).
 
+%!  program_missing(+Endpoint, +Hash) is det.
+%
+%   The process at Endpoint has reported that it lacks the program.
+
 program_missing(Endpoint, Hash) :-
     retractall(has_program(Endpoint, Hash)).
 
-%   What is forgotten is sent once more.
+%   A program that is no longer in the table is sent once more.
 
 most_programs(10000).
 

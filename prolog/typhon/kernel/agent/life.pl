@@ -23,17 +23,17 @@
 :- use_module(library(lists), [member/2]).
 :- use_module('../base/on_demand', [on_demand_load/2, on_demand_missing/2]).
 
-/** <module> What an agent takes along besides its state
+/** <module> The life of an agent: data that it carries besides its state
 
 A life is
 
     life(Parent, Hops, Lifetime, Tokens, Payloads, Static, Extras)
 
-the agent of which it is a clone or `none`, how often it moved, after how
-many hops it ends or `inf`, what it shows to hosts that ask for a token, a
-list of Name-PIs, whether it may not move, and a list of what options let it
-carry.  It goes over the wire and into restore points as it is; no other module
-takes it apart.
+the agent of which it is a clone or `none`, the number of its hops, the number
+of hops after which it ends or `inf`, the tokens that it shows to hosts that
+require one, a list of Name-PIs, whether it must not move, and a list of terms
+that options let it carry.  A life goes over the wire and into restore points as
+it is; only this module accesses its arguments.
 
 *Threading*: pure, but for life_carried/2 and agent_extras_load/1, which load
 code.
@@ -42,7 +42,7 @@ code.
 :- multifile
     not_cloned/1,               % Extra: a clone does not carry it
     carries/3.                  % Name, Id, Extra: the agent is in this process
-                                % now, and carries Extra, of that functor
+                                % now, and carries Extra, of functor name Name
 
 %!  is_life(@Term) is semidet.
 
@@ -56,8 +56,8 @@ is_life(life(Parent, Hops, Lifetime, Tokens, Payloads, Static, Extras)) :-
     atom(Static),
     is_list(Extras).
 
-%   A life that comes from another process could name predicates of a module,
-%   which would go when the payload is detached.
+%   A life from another process could name predicates of other modules, which
+%   would be abolished when the payload is detached.
 
 all_carried([]).
 all_carried([Payload|Payloads]) :-
@@ -77,7 +77,7 @@ is_indicator(PI) :-
 %!  make_life(+Lifetime, +Tokens:list, +Payloads:list, +Static:boolean,
 %!            -Life) is det.
 %
-%   Life is that of an agent which begins, and is no clone.
+%   Life is the life of a new agent that is no clone.
 
 make_life(Lifetime, Tokens, Payloads, Static,
           life(none, 0, Lifetime, Tokens, Payloads, Static, [])).
@@ -105,7 +105,8 @@ set_extras_of_life(Extras, life(P, H, L, T, Ps, S, _),
 
 %!  life_may_move(+Life, -May) is det.
 %
-%   May is `go`, `static` if it never may, or `end`: it has made all its hops.
+%   May is `go`, `static` if it must not move, or `end` if it has made all its
+%   hops.
 
 life_may_move(life(_, _, inf, _, _, false, _), May) :-
     !,
@@ -122,7 +123,7 @@ life_may_move(Life, May) :-
 
 %!  life_hop(+Life0, -Life, -Hops:integer) is det.
 %
-%   One hop more, which makes Hops.
+%   Life is Life0 with one more hop, number Hops.
 
 life_hop(life(Parent, Hops0, Most, Tokens, Payloads, Static, Extras),
          life(Parent, Hops, Most, Tokens, Payloads, Static, Extras), Hops) :-
@@ -130,7 +131,7 @@ life_hop(life(Parent, Hops0, Most, Tokens, Payloads, Static, Extras),
 
 %!  life_goes(+Life0, -Life, -Hops:integer) is semidet.
 %
-%   As life_hop/3, of an agent that may move and carries no extras.
+%   As life_hop/3, for an agent that may move and carries no extras.
 
 life_goes(life(Parent, Hops0, Most, Tokens, Payloads, false, []),
           life(Parent, Hops, Most, Tokens, Payloads, false, []), Hops) :-
@@ -160,7 +161,7 @@ life_before(life(Parent, Hops, Most, Tokens, Payloads, Static, Extras),
 
 %!  life_clone(+Id, +Life0, -Life) is det.
 %
-%   Life0 is that of Id, Life that of a clone of it.
+%   Life is the life of a clone of Id, whose life is Life0.
 
 life_clone(Id, life(_, _, Most, Tokens, Payloads, Static, Extras0),
            life(Id, 0, Most, Tokens, Payloads, Static, Extras)) :-
@@ -168,8 +169,8 @@ life_clone(Id, life(_, _, Most, Tokens, Payloads, Static, Extras0),
 
 %!  life_carried(+Life, +Id) is det.
 %
-%   The agent Id, with this Life, is in this process now: options learn of what
-%   it carries for them.
+%   The agent Id, with this Life, is in this process now: pass the extras that
+%   it carries to their options.
 
 life_carried(Life, Id) :-
     life_extras(Life, Extras),
@@ -181,10 +182,8 @@ life_carried(Life, Id) :-
     ).
 
 %!  agent_extras_missing(@Life) is semidet.
-%!  agent_extras_load(+Life) is det.
 %
-%   An agent with this Life, any term, carries what an option knows that is not
-%   loaded; load it.  Not for the thread of a connection.
+%   Life, any term, has an extra whose option is not loaded.
 
 agent_extras_missing(Life) :-
     is_life(Life),
@@ -192,11 +191,15 @@ agent_extras_missing(Life) :-
     on_demand_missing(carries, Name),
     !.
 
+%!  agent_extras_load(+Life) is det.
+%
+%   Load the options of all extras.  Not for the thread of a connection.
+
 agent_extras_load(Life) :-
     forall(extra(Life, Name, _), on_demand_load(carries, Name)).
 
-%   extra(+Life, ?Name, -Extra) is nondet: Extra, of that functor.  Peers may have
-%   written it.
+%   extra(+Life, ?Name, -Extra) is nondet: Life has Extra, of functor name Name.
+%   Extras may come from a peer, so they may be any terms.
 
 extra(Life, Name, Extra) :-
     life_extras(Life, Extras),

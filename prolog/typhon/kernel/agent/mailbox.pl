@@ -23,22 +23,21 @@
               [ durable_drop/3, durable_drop_all/2, durable_number/1,
                 durable_on/0, durable_put/4, enqueue_changes/0 ]).
 
-/** <module> What waits for an agent: its mailbox, and orders
+/** <module> The mailbox and the orders of an agent
 
-A mailbox is a message queue, made for the first message and gone with the
-agent.  A table of messages that all agents share would not do: while other
-threads add clauses to it, listing those of one agent yields some twice
-(9.0.4, retract/1, clause/2 and the bare call alike).  It would be slower,
-too.
+A mailbox is a message queue, made for the first message and removed with the
+agent.  One table of messages for all agents would not do: while other threads
+add clauses to it, enumerating those of one agent yields some twice (9.0.4,
+retract/1, clause/2 and the bare call alike).  It would be slower, too.
 
-Each message has a number, under which it is in the journal, if there is one.
-What is put in the journal before it can be taken cannot be taken twice.
+Each message has a number, its key in the journal, if there is one.  A message
+is in the journal before it can be taken, so it cannot be taken twice.
 
 *Threading*: inside with_agent/2 of the agent, see typhon_agents; only
-mail_put/2 may add to a queue, and no thread waits at one.
+mail_put/2 may add to a queue, and no thread waits for one.
 */
 
-%   The name by which users set it.
+%   Named after typhon_creation because users set it by that name.
 
 :- setting(typhon_creation:faulty_mail, nonneg, 1000,
            "Messages kept for an agent that is faulty").
@@ -103,8 +102,8 @@ put_all([Message|Messages], Queue) :-
 
 %!  mail_keep(+Id, +Messages:list) is det.
 %
-%   As mail_put/2, for an agent that is faulty: its mailbox holds so many, and no
-%   more.  That it is full is reported once.
+%   As mail_put/2, for an agent that is faulty: messages beyond the setting are
+%   dropped.  A full mailbox is reported once.
 
 mail_keep(_, []).
 mail_keep(Id, [Message|Messages]) :-
@@ -122,7 +121,7 @@ mail_keep(Id, [Message|Messages]) :-
 
 %!  mail_take(+Id, ?Message) is semidet.
 %
-%   The oldest message that unifies.
+%   Take the oldest message that unifies with Message.
 
 mail_take(Id, Message) :-
     box(Id, Queue),
@@ -133,9 +132,8 @@ mail_take(Id, Message) :-
     ).
 
 %!  mail_all(+Id, -Messages:list) is det.
-%!  mail_list(+Id, -Messages:list) is det.
 %
-%   All messages, the oldest first.  mail_all/2 takes the mailbox away.
+%   All messages, the oldest first.  Removes the mailbox.
 
 mail_all(Id, Messages) :-
     (   retract(box(Id, Queue))
@@ -145,6 +143,10 @@ mail_all(Id, Messages) :-
         message_queue_destroy(Queue)
     ;   Messages = []
     ).
+
+%!  mail_list(+Id, -Messages:list) is det.
+%
+%   All messages, the oldest first.
 
 mail_list(Id, Messages) :-
     (   box(Id, Queue)
@@ -160,7 +162,7 @@ bare([mail(Message, _)|Numbered], [Message|Messages]) :-
 
 %!  mail_waits(+Id) is semidet.
 %
-%   Id may have messages: at least it had some.
+%   Id may have messages: it has had some.
 
 mail_waits(Id) :-
     box(Id, _),
@@ -176,9 +178,9 @@ mail_count(_, 0).
 
 %!  mail_back(+Id, +Messages:list) is det.
 %
-%   Messages were there before those that are there now.  They cannot be taken
-%   before the caller has noted what becomes of the agent: it is sealed with
-%   that.
+%   Put Messages before those in the mailbox.  This does not end the unit of
+%   work: the caller does, once it has noted the new status of the agent, and no
+%   message can be taken before.
 
 mail_back(_, []) :-
     !.
@@ -197,22 +199,24 @@ mail_back(Id, Older) :-
                 *******************************/
 
 %!  agent_order(+Id, +Order) is det.
-%!  agent_unorder(+Id, ?Order) is semidet.
-%!  agent_unorder_all(+Id, -Orders:list) is det.
-%!  agent_ordered(+Id) is semidet.
-%!  agent_orders(+Id, -Orders:list) is det.
 %
-%   Note an order; take the oldest that unifies; take all; whether there is one;
-%   all there are.
+%   Add an order.
 
 agent_order(Id, Order) :-
     assertz(order(Id, Order)).
+
+%!  agent_unorder(+Id, ?Order) is semidet.
+%
+%   Take the oldest order that unifies with Order.
 
 agent_unorder(Id, Order) :-
     retract(order(Id, Order)),
     !.
 
-%   One by one, as above.
+%!  agent_unorder_all(+Id, -Orders:list) is det.
+%
+%   Take all orders, each by a call of its own: one enumeration could yield some
+%   twice, see above.
 
 agent_unorder_all(Id, Orders) :-
     (   retract(order(Id, Order))
@@ -221,9 +225,15 @@ agent_unorder_all(Id, Orders) :-
     ;   Orders = []
     ).
 
+%!  agent_ordered(+Id) is semidet.
+%
+%   Id has an order.
+
 agent_ordered(Id) :-
     order(Id, _),
     !.
+
+%!  agent_orders(+Id, -Orders:list) is det.
 
 agent_orders(Id, Orders) :-
     findall(Order, order(Id, Order), Orders).

@@ -22,32 +22,33 @@
               [attach_clauses/2, attach_free/3, detach_clauses/2]).
 :- use_module(life, [life_payloads/2, set_payloads_of_life/3]).
 
-/** <module> What agents carry: payloads, and the results they have given
+/** <module> Payloads and results of agents
 
-A payload is payload(Name, PIs, Clauses).  Its clauses are part of the
-agent's state, its name and predicates are noted in its life.  Options may mark
-it by facts among the state; and parts of the host, see typhon_host_parts, may
-refuse it when it is attached or delivered, called with From, Payload, Host,
--Reason: From is `new`, or module(Module) if it is that of this agent.
+A payload is payload(Name, PIs, Clauses).  Its clauses are part of the agent's
+state, its name and predicates are noted in the agent's life.  Options may mark
+it by facts in the state.  Parts of the host, see typhon_host_parts, may refuse
+a payload when it is attached or delivered; they are called with From, Payload,
+Host, -Reason: From is `new`, or module(Module) if the agent has it already.
 
-Results are facts '$legacy'(Item) among the state of an agent, so they travel with
+Results are facts '$legacy'(Item) in the state of an agent, so they travel with
 it.  An item is
 
-  - result(Term): the result it has given, the last one
-  - cloned(Endpoint): it was cloned in that process
+  - result(Term): the last result that the agent has given
+  - cloned(Endpoint): the agent was cloned in that process
 
-They are its own: a clone begins without.
+A clone starts without these facts.
 
-*Threading*: the worker that has the agent adds; the rest as typhon_agents.
+*Threading*: the worker that runs the agent adds; the rest as typhon_agents.
 */
 
 :- multifile
-    mark/2,                     % Payload, Mark: goes with it
-    unmarked/2.                 % Module, Name: of a payload that is detached
+    mark/2,                     % Payload, Mark: a fact that goes with it
+    unmarked/2.                 % Module, Name: remove the marks of a payload
+                                % that is detached
 
 %!  payload_marks(+Payload, -Marks:list) is det.
 %
-%   The facts that go with Payload among the state of an agent.
+%   Marks are the facts in the state of an agent that go with Payload.
 
 payload_marks(Payload, Marks) :-
     findall(Mark, mark(Payload, Mark), Marks).
@@ -55,9 +56,9 @@ payload_marks(Payload, Marks) :-
 %!  agent_attach(+Id, +Payload) is det.
 %
 %   @error permission_error(attach, procedure, PI)
-%   @error permission_error(attach, payload, Name) if it carries another of that
-%          name, so that agent_detach/2 would not know which is meant
-%   @error move_refused(Address, Reason) its host does not want it
+%   @error permission_error(attach, payload, Name) if the agent carries another
+%          of that name: agent_detach/2 could not tell them apart
+%   @error move_refused(Address, Reason) if its host refuses Payload
 
 agent_attach(Id, Payload) :-
     Payload = payload(Name, PIs, _),
@@ -73,7 +74,7 @@ agent_attach(Id, Payload) :-
 
 %!  not_carried(+Name, +Payloads:list) is det.
 %
-%   None of Payloads, as of life_payloads/2, is called Name.
+%   No payload among Payloads, as of life_payloads/2, has this Name.
 %
 %   @error permission_error(attach, payload, Name)
 
@@ -103,10 +104,10 @@ put_payloads(Id, Life0, Payloads) :-
 
 %!  agent_payload(+Id, +Name, -Payload) is det.
 %
-%   As it is now, to be delivered to its host: its clauses may have changed.
+%   Payload, with its present clauses, for delivery to the host of the agent.
 %
 %   @error existence_error(payload, Name)
-%   @error move_refused(Address, Reason) its host does not want it
+%   @error move_refused(Address, Reason) if its host refuses Payload
 
 agent_payload(Id, Name, Payload) :-
     agent(Id, Host, Module, _, Life),
@@ -149,9 +150,8 @@ payload_clause(Module, PIs, (Head:-Body)) :-
            "The result of an agent is no longer than this").
 
 %!  result_put(+Module, +Term) is det.
-%!  cloned_put(+Module, +Endpoint) is det.
 %
-%   The result is now Term, which can travel; it was cloned at Endpoint.
+%   Term, which can travel, is the result from now on.
 %
 %   @error resource_error(result_bytes)
 
@@ -165,7 +165,7 @@ result_put(Module, Term) :-
     ;   resource_error(result_bytes)
     ).
 
-%   There is always one.
+%   Adds the new result before it removes the old one: readers always find one.
 
 put_result(Module, Term) :-
     Module:'$legacy'(result(_)),
@@ -174,6 +174,10 @@ put_result(Module, Term) :-
     once(retract(Module:'$legacy'(result(_)))).
 put_result(Module, Term) :-
     assertz(Module:'$legacy'(result(Term))).
+
+%!  cloned_put(+Module, +Endpoint) is det.
+%
+%   Note that the agent was cloned at Endpoint.
 
 cloned_put(Module, Endpoint) :-
     dynamic(Module:'$legacy'/1),

@@ -26,11 +26,11 @@
 :- use_module(transfer, [transfer_let_go/4]).
 :- use_module(whereabouts, [agent_heard_of/2, agent_seen/4]).
 
-/** <module> Agents arrive
+/** <module> Arrival of agents
 
-The other half of a hop, see typhon_hop: install what comes, whole or not at
-all, and answer.  A transfer that comes again is recognised by what is known
-anyhow: the agent stands here, has gone on, or has ended.
+The receiving half of a hop, see typhon_hop: install the agent completely or not
+at all, and answer.  A transfer that comes again is recognised without a record
+of its own: the agent is here, has gone on, or has ended.
 
 *Threading*: the reader threads of the endpoint.
 */
@@ -41,8 +41,9 @@ anyhow: the agent stands here, has gone on, or has ended.
     typhon_endpoint:requested/4,
     typhon_endpoint:returned/0.
 
-%   With a journal the answer waits for the commit; or until the code is there
-%   for what the agent carries.  What is taken over carries nothing.
+%   The answer is deferred if there is a journal, until the commit, or if code
+%   must be loaded first for extras of the agent.  An agent that taken_over/4
+%   takes has no extras.
 
 typhon_endpoint:handed(hop, hop(Name, Image, Program), Peer, Verdict) :-
     (   durable_on
@@ -61,7 +62,7 @@ handed(installed(Id), Name, accepted) :-
     endpoint_afterwards(go_on(Name, Id)).
 handed(Answer, _, Answer).
 
-%   holed(+Image0, -Image): what was handed over has its hole.
+%   holed(+Image0, -Image): bind the hole of an agent that was handed over.
 
 holed(image(Id, Hash, Life, State, Hole-Goals, Mail, Start), Image) :-
     !,
@@ -117,8 +118,8 @@ arrive_noted(Name, Image, Program, Label, Peer, Answer) :-
     ;   arrive(Name, Image, Program, Label, Peer, Answer)
     ).
 
-%   The agent must not run before the answer is on its way: what it sends
-%   comes behind it.
+%   The agent starts after the answer is queued, so that what it sends follows
+%   the answer.
 
 answer(installed(Id), Name, ReplyTo) :-
     !,
@@ -152,7 +153,8 @@ arrive(Name, Image, Papers, HopId, Peer, Answer) :-
         answer_to(Verdict, In, Name, Label, Peer, Answer)
     ).
 
-%   What proves that the peer may bring the agent may come with the program.
+%   Program may come wrapped with papers, which prove that the peer may bring
+%   the agent.
 
 papers_program(Papers, Program) :-
     (   subsumes_term(papers(_, _), Papers)
@@ -189,9 +191,9 @@ gone_on(Id, Hops) :-
     ).
 
 %   install(+Name, +Label, +Image, +From, -In, -Verdict): all or nothing; In is
-%   in(Address, Gone).  The host was stopped, or the program thrown out, since
-%   the gate looked; or there are two agents of this id, one of which was taken
-%   for dead: the one that is here stays.
+%   in(Address, Gone).  Since the gate tested, the host may have been stopped or
+%   the program discarded.  If an agent of this id is here already, one of the
+%   two was presumed dead: the one that is here stays.
 
 install(Name, Label, Image0, HopId-Peer, In, Verdict) :-
     (   host(Name, Address, Place)
@@ -203,7 +205,7 @@ install(Name, Label, Image0, HopId-Peer, In, Verdict) :-
     ;   Verdict = refused(unknown_host)
     ).
 
-%   All is noted, and sealed, before the agent can be found here.
+%   All changes are noted and queued before other threads can find the agent.
 
 install(Id, Hops, Image, HopId, Name, Place, Gone, Verdict) :-
     installed(Id, Hops, Image, HopId, Name, Place, Gone, Verdict),
@@ -242,7 +244,7 @@ ordered([Order|Orders], Id) :-
     agent_order(Id, Order),
     ordered(Orders, Id).
 
-%   Our own copy, still waiting for the answer, is out of date.
+%   The copy of the agent here that still waits for an answer is out of date.
 
 let_go(Id, Mail, Orders, Gone) :-
     (   transfer_let_go(Id, Mail0, Orders0, Gone0)
@@ -267,7 +269,7 @@ report_arrival(Name, Address, label(Id, Hops, Since, From), Peer) :-
     ;   true                            % the host is being stopped
     ).
 
-%   If there was no listener when it left, only the process is known.
+%   Without a listener in the process that it left, only that process is known.
 
 came_from(none, Peer, Peer) :-
     !.

@@ -22,13 +22,13 @@
 :- use_module(dead_letters, [mail_lost/3]).
 :- use_module(routing, [one_letter/2, way_in/2, way_out/3, way_send/3]).
 
-/** <module> Mail that waits for a way to its agent, and is tried again
+/** <module> Letters that wait and are tried again
 
-Letters that cannot be passed on for the moment wait here, in order, and what
-comes later for the same agent waits behind them.  They are tried again: for as
-long as the next process may be alive, and for a while longer, since the news
-that the agent had left it may be under way.  While they are being tried they
-are with the worker that tries; there is one at a time for each agent.
+A letter that cannot be sent now waits here, and later letters for the same
+agent wait behind it, in order.  They are tried again as long as the next
+process may be alive, and a while longer, since the news that the agent has left
+that process may be under way.  While they are tried, a worker holds them; at
+most one worker for each agent.
 
 *Threading*: inside with_agent/2 of the agent, but for retries_go_on/0 and
 post_tried/0.
@@ -48,7 +48,7 @@ post_tried/0.
 
 %!  backlog(+Id) is semidet.
 %
-%   Letters for Id wait.
+%   There are letters that wait for Id.
 
 backlog(Id) :-
     waits(Id, _, _, _),
@@ -61,8 +61,8 @@ backlog_add(Id, Letter) :-
     durable_put(wait, Id, N, Letter),
     add(Id, Letter).
 
-%   A journal has them one by one; a saved network has those of an agent
-%   together.
+%   A journal has letters one by one; a saved network has all letters of an
+%   agent as one item.
 
 :- durable(wait, Id, _, Letter, letter_item(Id, Letter), add(Id, Letter)).
 :- durable(backlog, Id, Tries, Letters, backlog_item(Id, Tries, Letters),
@@ -72,7 +72,7 @@ letter_item(Id, Letter) :-
     backlog_item(Id, _, Letters),
     member(Letter, Letters).
 
-%   No thread tries them now.
+%   Called while no thread tries letters: the queue is emptied and filled again.
 
 backlog_item(Id, Tries, Letters) :-
     waits(Id, Queue, Tries, _),
@@ -93,18 +93,17 @@ add(Id, Letter) :-
     thread_send_message(Queue, Letter).
 
 %   backlog_begin(+Id, -Letters:list, -Tries) is semidet.
-%   backlog_again(+Id, +Letters:list, +Tries) is det.
-%   backlog_done(+Id) is semidet.
 %
-%   All letters are taken out to be tried, which was done in vain Tries times
-%   before; they are put back, in front of what came meanwhile; or they have
-%   found their way.  The last fails if other letters wait now.
-
+%   Take out all letters to try them; Tries attempts have failed before.
 backlog_begin(Id, Letters, Tries) :-
     retract(waits(Id, Queue, Tries, idle)),
     !,
     fifo_empty(Queue, Letters),
     assertz(waits(Id, Queue, Tries, tried)).
+
+%   backlog_again(+Id, +Letters:list, +Tries) is det.
+%
+%   Put Letters back, before those that have come meanwhile.
 
 backlog_again(Id, Letters, Tries) :-
     retract(waits(Id, Queue, _, tried)),
@@ -120,6 +119,10 @@ note_letter(Id, Letter) :-
     durable_number(N),
     durable_put(wait, Id, N, Letter).
 
+%   backlog_done(+Id) is semidet.
+%
+%   The letters that were taken out have been sent.  Fails if others wait now.
+
 backlog_done(Id) :-
     retract(waits(Id, Queue, _, tried)),
     !,
@@ -131,7 +134,7 @@ backlog_done(Id) :-
 
 %!  post_tried is semidet.
 %
-%   A thread has messages in hand.
+%   A thread is trying letters.
 
 post_tried :-
     waits(_, _, _, tried),
@@ -139,8 +142,8 @@ post_tried :-
 
 %   backlog_leaves(+Id) is det.
 %
-%   The letters that are being tried are about to leave, to be noted elsewhere;
-%   what has come meanwhile stays.
+%   Drop from the journal the letters that are being tried, which will be noted
+%   elsewhere; those that have come meanwhile stay.
 
 backlog_leaves(Id) :-
     durable_drop_all(wait, Id),
@@ -153,8 +156,8 @@ backlog_leaves(Id) :-
 
 %!  backlog_all(+Id, -Letters:list) is det.
 %
-%   The letters for Id, which has arrived.  Those that are being tried just
-%   now find it by themselves.
+%   Take the letters for Id, which has arrived.  A thread that is trying letters
+%   finds the agent by itself.
 
 backlog_all(Id, Letters) :-
     (   retract(waits(Id, Queue, _, idle))
@@ -164,7 +167,7 @@ backlog_all(Id, Letters) :-
     ;   Letters = []
     ).
 
-%   No thread is left to try them.
+%   The scheduler has stopped, so no thread can try them.
 
 typhon_runtime:ending(after) :-
     retract(waits(_, Queue, _, _)),
@@ -175,16 +178,16 @@ typhon_runtime:ending(after) :-
                 *             TRIES            *
                 *******************************/
 
-%   The pause before a backlog is tried again, for the next time.  The
-%   process is taken for gone after some tries.
+%   The pause before the next attempt.  A process is presumed gone after
+%   most_tries/1 attempts.
 
 pause(Tries, Seconds) :-
     Seconds is min(2.0, 0.05*2**min(Tries, 10)).
 
 most_tries(6).
 
-%   The end of a process that was never met is not reported: it is waited
-%   for as long as for a home that has news to hear.
+%   The end of a process that was never connected is not reported.  It is waited
+%   for as long as news wait for an unreachable home.
 
 unknown_tries(Tries) :-
     most_tries(Least),
@@ -194,7 +197,7 @@ unknown_tries(Tries) :-
 
 %!  retry_later(+Id, +Letter, +Way) is det.
 %
-%   Letter waits, Way being why, see way_out/3; inside with_agent/2.
+%   Letter waits; Way, see way_out/3, is the reason.  Inside with_agent/2.
 
 retry_later(Id, _, wait(Letter)) :-
     !,
@@ -229,7 +232,7 @@ typhon_durable:go_on :-
 
 %!  retries_go_on is det.
 %
-%   Letters that wait are tried before long.
+%   Try all letters that wait soon.
 
 retries_go_on :-
     forall(backlog(Id), try_later(Id, 0)).
@@ -243,8 +246,9 @@ try(Id) :-
     ;   true
     ).
 
-%   That it has left, and where it is now, is one entry, made before others can
-%   add to what waits: what they note must not come before it.
+%   Inside one with_agent/2: that the letter has left the backlog and where it
+%   is now is one journal entry, which must precede what other threads note of
+%   the backlog.
 
 tried(Id, Letter, Tries) :-
     with_agent(Id, ( catch(left(Id, Letter, Way), error(Formal, _),
@@ -260,7 +264,7 @@ left(Id, Letter, Way) :-
     backlog_leaves(Id),
     step(Id, Letter, Way).
 
-%   Where a connection has to be made first nothing is noted.
+%   The letter needs a new connection; nothing is noted before it is sent.
 
 sent_on(to(Endpoint, Letter1), Id, Letter, Tries) :-
     !,

@@ -17,58 +17,60 @@
 :- use_module('../base/deferred',
               [deferred_call/1, effects_deferred/0, deferred_put/4]).
 
-/** <module> Posts that survive the processes that send and take them
+/** <module> Posts that survive the end of their sender or receiver
 
-Where changes are durable a post to another process is kept until that has it
-for good.  A back end does so: it defines the hook queued/3, and sends
+If changes are durable, a post to another process is kept until that process has
+committed it.  A back end does so: it defines the hook queued/3, and sends
 
     channel(Process, To, Before, N, Kind, Term)
 
 the post of number N of Process to the endpoint To; Before is the number of the
-one before, or first(M) if all up to M are known to have come.  Any process
-takes each once, in order, and notes its arrival together with its effects.  A
-process that lacks one sends again(To), one that has one had(To, N).
+post before, or first(M) if all up to M are known to have arrived.  The receiver
+takes each post once, in order, and notes its arrival together with its effects.
+It sends again(To) if a post is missing, and had(To, N) when it has taken one.
 
-With a journal what an agent logs is part of its turn: it is noted with the
-turn, and goes to the log server once, whichever process dies.  What else a host
-tells its log server it tells at once, see typhon_host_log.
+With a journal, what an agent logs is part of its turn: it is noted with the
+turn, and goes to the log server once, whichever process ends.  Other events of
+a host go to the log server at once, see typhon_host_log.
 
-*Threading*: any thread posts, and never waits for a connection; what comes in
-is taken by the threads of connections; a worker says what has come.  The worker
-that runs the agent logs.
+*Threading*: any thread posts, and never waits for a connection; connection
+threads take incoming posts; a worker acknowledges them.  The worker that runs
+the agent logs.
 */
 
 :- multifile
     queued/3,                   % Endpoint, Kind, Term: will be sent
-    undelivered/4,              % Kind, Term, Endpoint, Formal: never will be
+    undelivered/4,              % Kind, Term, Endpoint, Formal: cannot be sent
     typhon_endpoint:received/3,
     typhon_runtime:ending/1,
     typhon_scheduler:fire/2.
 
 :- dynamic
-    seen/2,                     % Key, N: of a channel to here
-    told/1.                     % Key: that is about to be said
+    seen/2,                     % Key, N: last post taken from a channel
+    told/1.                     % Key: an acknowledgement is scheduled
 
 ack_seconds(0.02).
 
-%   A frame has so many bytes beside the term that was noted.
+%   Bytes of a frame besides those of the noted term, at most.
 
 around(1000).
 
 %!  durable_post(+Endpoint, +Kind, +Term) is det.
-%!  post_must_fit(+Change) is det.
 %
-%   Post Term to Endpoint, once, whatever dies, together with the changes of
-%   this unit of work so far, which ends; what Change notes can be sent in a
-%   frame.
-%
-%   @error resource_error(frame_bytes) Term is too long for a frame
+%   Post Term to Endpoint exactly once, even if a process ends, together with
+%   the changes of this unit of work so far, which ends here.
 
 durable_post(Endpoint, Kind, Term) :-
     (   queued(Endpoint, Kind, Term)
     ->  true
     ;   existence_error(back_end, Endpoint)
     ).
+
+%!  post_must_fit(+Change) is det.
+%
+%   The term that Change notes fits in a frame.
+%
+%   @error resource_error(frame_bytes) if it does not
 
 post_must_fit(Change) :-
     durable_bytes(Change, Count),
@@ -80,7 +82,7 @@ post_must_fit(Change) :-
     ).
 
                 /*******************************
-                *         WHAT COMES IN        *
+                *        INCOMING POSTS        *
                 *******************************/
 
 typhon_endpoint:received(channel,
@@ -107,7 +109,8 @@ taken(Key, Before, N, Kind, Term, Peer, new) :-
     crash_point(after_take).
 taken(_, _, _, _, _, _, gap).
 
-%   A process that has lost its state begins where the sender says.
+%   A process that has lost its state starts at the number that the sender
+%   names.
 
 in_order(first(Before), Key) :-
     (   seen(Key, Seen)
@@ -150,7 +153,7 @@ typhon_runtime:ending(after) :-
     retractall(told(_)).
 
                 /*******************************
-                *            LOGGED            *
+                *           LOGGING            *
                 *******************************/
 
 :- multifile
@@ -161,8 +164,8 @@ typhon_runtime:ending(after) :-
 
 %!  agent_logs(+Host, +Agent, +What) is det.
 %
-%   Agent, which stands on Host, has said What, which can travel, to the log
-%   server of Host, which it has.
+%   Agent, which is on Host, logs What, which can travel.  Host has a log
+%   server.
 
 agent_logs(Host, Agent, What) :-
     (   effects_deferred
@@ -195,7 +198,7 @@ typhon_durable:go_on :-
     forall(member(said(Host, N, Agent, What), All),
            go(Host, N, Agent, What)).
 
-%   There is no log server there any more, or it cannot take this.
+%   The log server is gone, or cannot take the event: print it here.
 
 typhon_durable_posts:undelivered(log, event(_, Host, Agent, What), _, _) :-
     print_message(informational, typhon(log(Host, Agent, What))).

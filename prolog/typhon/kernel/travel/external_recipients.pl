@@ -9,12 +9,12 @@
 :- use_module(dead_letters, [mail_lost/3]).
 :- use_module(senders, [mail_believed/5, sender_ours/1, shown/5]).
 
-/** <module> Messages for recipients that are no agents
+/** <module> Messages for recipients that are not agents
 
-A bridge, as library(typhon/fipa), takes messages for recipients beyond it,
-which are compound terms.  If there is none in this process the message goes
-to the one that at(To, Host) names, or else to the home of the sender: so
-an agent can be away from the bridge and still answer.
+A bridge, as library(typhon/fipa), takes messages for recipients outside Typhon,
+which are compound terms.  If this process has no bridge for the recipient, the
+message goes to the process of the host in at(To, Host), or else to the home of
+the sender.  So an agent can answer from a process without the bridge.
 
 *Threading*: any thread; may wait for a connection.
 */
@@ -25,11 +25,11 @@ an agent can be away from the bridge and still answer.
 
 %!  post_abroad(+Host, +To, +From, +Message) is det.
 %
-%   Message of the agent From, which stands on Host, goes to To.  The bridge
-%   of Host comes first, then others of the process.
+%   Send Message of the agent From, which is on Host, to To.  The bridge of Host
+%   is tried first, then the other bridges of the process.
 %
-%   @error type_error(receiver, To) if there is no bridge for it here, and no
-%   other process to ask
+%   @error type_error(receiver, To) if no bridge here takes it and no other
+%   process can be asked
 %   @error host_unreachable(Host), type_error(mobile_term, Culprit)
 %   @error what the bridge raises
 
@@ -52,7 +52,7 @@ hint(To0, To, Hint) =>
     To = To0,
     Hint = none.
 
-%   elsewhere(+Hint, +From, -Endpoint): processes that may have a bridge.
+%   elsewhere(+Hint, +From, -Endpoint): a process that may have a bridge.
 
 elsewhere(Hint, From, Endpoint) :-
     Hint \== none,
@@ -64,7 +64,8 @@ elsewhere(_, From, Endpoint) :-
     agent_home_endpoint(From, Endpoint),
     \+ endpoint_address(Endpoint).
 
-%   Where others do not take it from us the home of From knows the way.
+%   If other processes do not accept messages of From from this process, the
+%   home of From gets the hint along with the recipient, to forward the message.
 
 send_on(Endpoint, To0, To1, From, Message) :-
     ( sender_ours(From) -> To = To1 ; To = To0 ),
@@ -73,7 +74,7 @@ send_on(Endpoint, To0, To1, From, Message) :-
           error(unreachable(_), _),
           throw(error(host_unreachable(Endpoint), _))).
 
-%   A bridge may take long, and the reader must not.
+%   A bridge may take long, and must not block the reader thread.
 
 typhon_endpoint:received(message, abroad(To, From, Message), Peer) :-
     comes(To, From, Message, [], Peer).
@@ -90,7 +91,7 @@ comes(To, From, Message, Births, Peer) :-
     ;   scheduler_call(typhon_external_recipients:carry_on(To, From, Message, Peer))
     ).
 
-%   To may say where its bridge is.
+%   To may be at(To, Host), which names the host of the bridge.
 
 carry_on(To0, From, Message, Peer) :-
     hint(To0, To, Hint),

@@ -25,20 +25,21 @@
 :- use_module(whereabouts,
               [agent_comes_anew/3, agent_came/4, agent_went/5]).
 
-/** <module> The short way of a hop
+/** <module> Hand-over: the short form of a hop
 
 An agent that leaves a host without parts, see typhon_host_parts, for another
-process is handed over: what is kept of it is the frame that was sent, and that
-the frame is settled says that the agent has arrived.  No request is open, no
-goals are copied, and no module is kept.
+process is handed over.  The source keeps only the sent frame, and settlement of
+the frame means that the agent has arrived.  No request is open, no goals are
+copied, and no module is kept.
 
-All else that can become of it, and whatever looks at it meanwhile, _thaws_ it:
-the frame is read, and the agent is in transit as one that was sent by request,
-see typhon_transfer, to which the rest is left.
+In any other case, and when a predicate reads the agent meanwhile, the agent is
+_thawed_: the frame is decoded, and the agent is in transit like one that was
+sent by request, see typhon_transfer, which does the rest.
 
-What comes to a host without parts is taken over in one step, and goes on in the
-thread that has read it, if its turns are short.  All that is unusual fails, and
-nothing has changed: then the agent comes in like any other, see typhon_arrival.
+An agent that comes to a host without parts is taken over in one step, and
+continues in the thread that has read it, if its turns are short.  In any
+unusual case this step fails without changes; then the agent arrives like any
+other, see typhon_arrival.
 
 *Threading*: hand_over/5 in a worker; the rest in the threads of the endpoint.
 */
@@ -46,14 +47,14 @@ nothing has changed: then the agent comes in like any other, see typhon_arrival.
 :- multifile
     typhon_agents:thaw/1,
     typhon_endpoint:handed_over/2,
-    result/2.                   % Result, Transfer: the agent, in transit, is to
-                                % be treated as the answer says
+    result/2.                   % Result, Transfer: the agent is in transit;
+                                % treat Result as the answer to its request
 
 %!  hand_over(+Id, +Host, +Where, +Hole, +Goals) is semidet.
 %
 %   Send Id, which moves from Host, to Where, as of host_resolve/2, where it
-%   goes on with Goals, Hole bound to `true`.  Fails, and nothing has changed,
-%   if it has to go by request: options are in use, there is no connection, its
+%   continues with Goals, Hole bound to `true`.  Fails without changes if the
+%   agent has to go by request: options are in use, there is no connection, its
 %   terms cannot travel, it may not move, or it has an order.
 
 hand_over(Id, Host, remote(Address, Name, Endpoint), Hole, Goals) :-
@@ -78,8 +79,8 @@ hand_over(Id, Host, remote(Address, Name, Endpoint), Hole, Goals) :-
         fail
     ).
 
-%   An agent that was ended meanwhile has no mailbox any more: its mail is lost,
-%   and its senders learn that.
+%   An agent that was ended meanwhile has no mailbox: its mail is posted on, so
+%   that the senders get a report.
 
 mail_returned(Id, Mail) :-
     (   agent_here(Id, _, _, _, _)
@@ -87,7 +88,7 @@ mail_returned(Id, Mail) :-
     ;   post_on(Id, Mail)
     ).
 
-%   What is wrong is reported where it goes by request.
+%   Errors fail here; they are reported when the agent goes by request.
 
 framed(Endpoint, Name, Hash, Image, Frame) :-
     acyclic_term(Image),
@@ -96,8 +97,7 @@ framed(Endpoint, Name, Hash, Image, Frame) :-
     catch(endpoint_hand(Endpoint, hop, hop(Name, Image, Program), Frame),
           error(_, _), fail).
 
-%   The agent may be back before anything else is done here, so all else is
-%   done before.
+%   Sends the frame last: the agent may be back before another goal runs here.
 
 leave(Transfer, Since, Frame) :-
     Transfer = hop(Id, Dest, Hops),
@@ -125,8 +125,8 @@ settled(Result, Transfer) :-
     ignore(with_agent(Id, thawed(Id))),
     result(Result, Transfer).
 
-%   Where it went is known before it is gone, and mail that came meanwhile
-%   is on its way before any that comes now.
+%   The destination is noted before the agent is removed, and mail that came
+%   meanwhile is sent before any that comes later.
 
 moved_on(hop(Id, dest(Address, _, Endpoint), Hops), Host, Since) :-
     agent_under_way(Id, Hops, Host, _, way(_, Since, Process), _),
@@ -141,9 +141,8 @@ moved_on(hop(Id, dest(Address, _, Endpoint), Hops), Host, Since) :-
 typhon_agents:thaw(Id) :-
     sig_atomic(with_agent(Id, thawed(Id))).
 
-%   thawed(+Id) is semidet: inside with_agent/2.  Its state, its goals and the
-%   mail it had are those of the frame; the hop is not counted before it is
-%   made.
+%   thawed(+Id) is semidet: inside with_agent/2.  The state, goals and mail are
+%   those of the frame; the hop does not count before the agent has arrived.
 
 thawed(Id) :-
     agent_under_way(Id, Hops, Host, _, way(Dest, Since, _), Frame),
@@ -164,8 +163,8 @@ thawed(Id) :-
 
 %!  taken_over(+Host, +Image, +Program, +Peer) is semidet.
 %
-%   The process at Peer hands over an agent to Host; all of that may be
-%   anything. It is here now, and goes on afterwards.
+%   The process at Peer hands over an agent to Host; the arguments may be any
+%   terms.  The agent is here now, and continues after this call.
 %
 %   @error what is wrong with its clauses
 
@@ -187,7 +186,7 @@ taken_over(Host, Image, known, Peer) :-
     ),
     endpoint_afterwards(go_on(Id, Host-Hash, context(Program, Id), Goals)).
 
-%   An agent that brings no messages, and that no option lets carry anything.
+%   Image is that of an agent that brings no messages and carries no extras.
 
 comes(image(Id, Hash, Life, State, Hole-Goals, Mail, Since), Id, Hash, Life,
       Hops, Clauses, Goals, Since) :-
@@ -205,7 +204,7 @@ comes(image(Id, Hash, Life, State, Hole-Goals, Mail, Since), Id, Hash, Life,
     is_list(Clauses),
     Hole = true.
 
-%   Signals are held back, see reader.pl: between these steps none comes.
+%   Signals are deferred, see reader.pl: none interrupts these steps.
 
 come(Id, Hops, Where, Hash-Program, Life, Clauses, Since, Home) :-
     Where = Host-Plain,

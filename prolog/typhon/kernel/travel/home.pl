@@ -25,18 +25,17 @@
 :- use_module('../agent', [agent_home_endpoint/2]).
 :- use_module(outcomes, [results_keep/2]).
 
-/** <module> What a home knows of its agents
+/** <module> The home's records of its agents
 
-The home of an agent, the process in which it was born, always knows where
-it went and how it ended, and notifies waiting callers.  Older news
-never replace newer ones: they are ordered by the number of hops.  Of the
-outcomes the oldest are forgotten.  A home that was started again knows of
-its agents what they tell it.
+The home of an agent is the process in which it was born.  It records where the
+agent went and how it ended, and notifies waiting callers.  Older news never
+replace newer ones: they are ordered by the number of hops.  The oldest outcomes
+are discarded.  A home that was restarted learns of its agents by their news.
 
 *Threading*: any thread; one mutex.
 */
 
-%   The name by which users set it.
+%   Named after typhon_whereabouts because users set it by that name.
 
 :- setting(typhon_whereabouts:outcomes, positive_integer, 20000,
            "Outcomes of ended agents kept by their home").
@@ -45,9 +44,9 @@ its agents what they tell it.
     born/4,                     % Id, Address, Hops, Process: its home is
                                 % here, and it has not ended
     outcome/3,                  % Id, Outcome, Hops
-    faulty/3,                   % Id, Outcome, Age: no caller waits for its end
-                                % any more; Outcome is `none` if it was
-                                % resumed since
+    faulty/3,                   % Id, Outcome, Age: its callers were notified of
+                                % Outcome; `none` if the agent was resumed
+                                % since
     waiter/3.                   % Id, Token, Asker
 
 :- multifile
@@ -81,7 +80,7 @@ put_born(Id, Address, Hops, Process) :-
 typhon_bounds:forgotten(outcome(Id, _, _)) :-
     durable_drop_all(outcome, Id).
 
-%   At the address of another process there may be another by then.
+%   After a restore another process may have the address.
 
 :- durable(born, Id, 0, born(Address, Hops, Process),
            born_item(Id, Address, Hops, Process),
@@ -98,7 +97,7 @@ born_item(Id, Address, Hops, Process) :-
 
 %!  home_knows(+Id, -Address, -Hops, -Process) is semidet.
 %
-%   Id, which has not ended, was last told to be at Address, in Process.
+%   Id, which has not ended, was last reported at Address, in Process.
 
 home_knows(Id, Address, Hops, Process) :-
     born(Id, Address0, Hops0, Process0),
@@ -115,7 +114,7 @@ home_agents(Ids) :-
 
 %!  home_agents_at(+Endpoint, -Ids:list(atom)) is det.
 %
-%   Those of home_agents/1 that were last known to be in the process at
+%   The agents of home_agents/1 that were last known to be in the process at
 %   Endpoint.
 
 home_agents_at(Endpoint, Ids) :-
@@ -126,19 +125,18 @@ home_agents_at(Endpoint, Ids) :-
     sort(Ids0, Ids).
 
 %!  agent_outcome(+Id, -Outcome) is semidet.
-%!  ended_after(+Id, -Hops) is semidet.
 
 agent_outcome(Id, Outcome) :-
     outcome(Id, Outcome, _).
+
+%!  ended_after(+Id, -Hops) is semidet.
 
 ended_after(Id, Hops) :-
     outcome(Id, _, Hops).
 
 %!  home_moved(+Id, +Address, +Hops, +Process) is det.
-%!  home_ended(+Id, +Outcome, +Hops, +Results:list) is det.
 %
-%   News of Id: it has gone to Address, in Process, or has ended, after Hops
-%   hops, and leaves Results.
+%   Record that Id has gone to Address, in Process, by hop number Hops.
 
 home_moved(Id, Address, Hops, Process) :-
     debug(typhon(hop), '~w hop ~D: home hears that it is on ~w',
@@ -147,8 +145,9 @@ home_moved(Id, Address, Hops, Process) :-
 
 %!  home_left(+Id, +Address, +Hops, +Process) is semidet.
 %
-%   As home_moved/4, of one that has left this process, which is noted.  Fails
-%   if the home does not know it, or knows something newer.
+%   As home_moved/4, for an agent that has left this process; the caller notes
+%   it in the journal.  Fails if the home does not know the agent, or has newer
+%   news.
 
 home_left(Id, Address, Hops, Process) :-
     with_mutex(typhon_born, left(Id, Address, Hops, Process)).
@@ -160,8 +159,8 @@ left(Id, Address, Hops, Process) :-
     assertz(born(Id, Address, Hops, Process)),
     forget_first(Id).
 
-%   The new fact comes before the old one goes: others read meanwhile.  An
-%   agent that the home does not know was born before that was started again.
+%   Adds the new fact before it removes the old one, because other threads read
+%   meanwhile.  An agent without a fact was born before the home was restarted.
 
 moved(Id, Address, Hops, Process) :-
     born(Id, _, Hops0, _),
@@ -183,13 +182,17 @@ forget_first(Id) :-
     retract(born(Id, _, _, _)),
     !.
 
+%!  home_ended(+Id, +Outcome, +Hops, +Results:list) is det.
+%
+%   Record that Id has ended after Hops hops, with Results.
+
 home_ended(Id, Outcome, Hops, Results) :-
     debug(typhon(agent), '~w: home hears that it ended after ~D hops, ~p',
           [Id, Hops, Outcome]),
     with_mutex(typhon_born, ended(Id, Outcome, Hops, Results, Askers)),
     forall(member(Asker, Askers), tell_asker(Asker, Outcome)).
 
-%   A copy that was given up in doubt says nothing of an agent that is
+%   The end of a copy that was given up in doubt is ignored if the agent is
 %   known to have gone on.
 
 ended(Id, _, Hops, _, []) :-
@@ -212,8 +215,9 @@ ended(Id, Outcome0, Hops, Results, Askers) :-
     bounded(outcome(_, _, _), typhon_whereabouts:outcomes),
     waiters(Id, Askers).
 
-%   An agent that is disposed of while faulty has ended as it had before.  One
-%   with another end was resumed; that may be reported later.
+%   An agent that is disposed of while faulty ends with the outcome of its
+%   fault.  Any other outcome means that it was resumed; that news may come
+%   later.
 
 last_outcome(disposed, Told, Told) :-
     Told \== none,
@@ -221,10 +225,9 @@ last_outcome(disposed, Told, Told) :-
 last_outcome(Outcome, _, Outcome).
 
 %!  home_faulty(+Id, +Outcome, +Stamp, +Address, +Hops, +Process) is det.
-%!  home_resumed(+Id, +Stamp, +Hops) is det.
 %
-%   News of Id: it has come to that Outcome, but is kept at Address, in
-%   Process, after Hops hops; or it goes on after the fault of that Stamp.
+%   Record that Id is faulty with that Outcome, and is kept at Address, in
+%   Process, after Hops hops.
 
 home_faulty(Id, Outcome, Stamp, Address, Hops, Process) :-
     debug(typhon(agent), '~w: home hears that it is faulty, ~p',
@@ -243,7 +246,10 @@ has_fault(Id, Outcome, Stamp, Hops, Askers) :-
     waiters(Id, Askers).
 has_fault(_, _, _, _, []).
 
-%   That it was resumed may be heard before that it was faulty: ages tell.
+%!  home_resumed(+Id, +Stamp, +Hops) is det.
+%
+%   Record that Id was resumed after the fault of that Stamp.  This news may
+%   overtake that of the fault: the ages show the order.
 
 home_resumed(Id, Stamp, Hops) :-
     debug(typhon(agent), '~w: home hears that it is resumed', [Id]),
@@ -260,7 +266,7 @@ put_fault(Id, Outcome, Age) :-
     retractall(faulty(Id, _, _)),
     durable_assertz(faulty(Id, Outcome, Age)).
 
-%   One by one: see typhon_mailbox.
+%   Retracts waiters one by one, see typhon_mailbox.
 
 waiters(Id, Askers) :-
     (   retract(waiter(Id, _, Asker))
@@ -275,8 +281,8 @@ waiters(Id, Askers) :-
 
 %!  outcome_wait(+Id, +Seconds, +Asker) is det.
 %
-%   Tell Asker the outcome of Id, whose home is here, when it is known;
-%   `timeout` after Seconds and `unknown` if there is no such agent.
+%   Report to Asker the outcome of Id, whose home is here, when it is known;
+%   `timeout` after Seconds, and `unknown` if there is no such agent.
 %
 %   @arg Asker is queue(Queue, Tag), reply(ReplyTo) or call(Closure), which is
 %   called in the thread that reports the end, and must be quick

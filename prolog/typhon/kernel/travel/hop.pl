@@ -28,37 +28,38 @@
 
 /** <module> A hop is a transaction
 
-Between hosts of one process see typhon_within, and for the short way between
-plain hosts typhon_hand_over; this is of hops whose agent the source keeps.
-The source freezes the agent and sends its image: state, payloads, goals,
-mail.  The receiver installs it and answers, see typhon_arrival, and only
-then does the source let its copy go, see typhon_transfer.  An agent that
-comes back before the answer proves that it had arrived.
+This module makes hops in which the source keeps the agent until the answer.
+See typhon_within for hops between hosts of one process, and typhon_hand_over
+for the short form between plain hosts.  The source freezes the agent and sends
+its image: state, payloads, goals, mail.  The receiver installs it and answers,
+see typhon_arrival; only then does the source remove its copy, see
+typhon_transfer.  An agent that comes back before the answer has arrived.
 
-  | answer       | the source                                       |
-  | ------------ | ------------------------------------------------ |
-  | accepted     | forgets the agent; mail that came later follows  |
-  | refused(Why) | raises move_refused(Host, Why) at the move       |
-  | need_program | sends again, with the program                    |
-  | unreachable  | raises host_unreachable(Host) at the move        |
-  | lost         | asks whether it got away, see typhon_in_doubt    |
+  | answer       | the source                                            |
+  | ------------ | ----------------------------------------------------- |
+  | accepted     | removes the agent; forwards mail that came meanwhile  |
+  | refused(Why) | raises move_refused(Host, Why) at the move            |
+  | need_program | sends again, with the program                         |
+  | unreachable  | raises host_unreachable(Host) at the move             |
+  | lost         | asks whether the agent arrived, see typhon_in_doubt   |
 
 *Threading*: hop/6 in a worker; answers in the reader threads of the
 endpoint, which never wait.
 */
 
 :- multifile
-    sent_again/2,               % Endpoint, Id: they lack what proves it
+    sent_again/2,               % Endpoint, Id: the image is sent again, as the
+                                % receiver lacks the program and what proves it
     typhon_in_doubt:again/1,
     typhon_hand_over:result/2.
 
 %!  hop(+Id, +Where, +Hole, +Goals, +Since, -Next) is det.
 %
-%   Send Id to Where, as of host_resolve/2, where it goes on with Goals,
-%   Hole bound to `true`.  Next is `stop`, or elsewhere(Goals) if this worker
-%   is to go on with it there.
+%   Send Id to Where, as of host_resolve/2, where it continues with Goals, Hole
+%   bound to `true`.  Next is `stop`, or elsewhere(Goals) if this worker is to
+%   continue the agent there.
 %
-%   @arg Since is the host time at which it set out
+%   @arg Since is the host time of its departure
 %   @error type_error(mobile_term, Culprit)
 %   @error move_refused(Address, Reason), of a host of this process
 
@@ -74,7 +75,8 @@ hop(Id, Where, Hole, Goals0, Since, stop) :-
 
 %!  hop_clone(+Id, +Where, +CloneId, +Who, +Hole, +Goals) is det.
 %
-%   Send a clone of Id to Where; Id waits for the answer, Goals its goals.
+%   Send a clone of Id to Where; Id waits for the answer, and Goals are its
+%   goals.
 
 hop_clone(Id, Where, CloneId, Who, Hole, Goals0) :-
     plain_goals(Goals0, Goals),
@@ -88,23 +90,23 @@ hop_clone(Id, Where, CloneId, Who, Hole, Goals0) :-
     clone_born(Id, CloneId),
     set_out(Transfer, Hole-Goals-Who, Mail, Since, Image).
 
-%   A host of this process may be stopped while an agent is on its way to
-%   it: that changes nothing of its address.
+%   The host of this process may be stopped while an agent is on its way to it;
+%   its address stays the same.
 
 destination(local(Name), dest(Address, Name, Endpoint)) :-
     endpoint_address(Endpoint),
     address_parts(Address, Name, Endpoint).
 destination(remote(Address, Name, Endpoint), dest(Address, Name, Endpoint)).
 
-%   The mail is taken when the agent is frozen.
+%   Mail stays unbound until the agent is frozen.
 
 image(Transfer, Held, Mail, Since, Image) :-
     copy_term(Held, Going),
     transfer_image(Transfer, Going, Mail, Since, Image),
     mobile_term(Image).
 
-%   An interrupt comes before or after both, or an agent would wait for the
-%   answer to what was never sent.
+%   An interrupt comes before or after both steps; between them it would leave
+%   an agent that waits for the answer to an image that was never sent.
 
 set_out(Transfer, Held, Mail, Since, Image) :-
     sig_atomic(freeze_and_send(Transfer, Held, Mail, Since, Image)).
@@ -116,8 +118,8 @@ freeze_and_send(Transfer, Held, Mail, Since, Image) :-
     ;   true                            % it was ended meanwhile
     ).
 
-%   send(+Transfer, +Image): what cannot be sent, such as too long a frame,
-%   stays.
+%   send(+Transfer, +Image): if the image cannot be sent, for example because
+%   its frame is too long, the agent stays.
 
 send(Transfer, Image0) :-
     arg(2, Transfer, dest(Address, Name, Endpoint)),
@@ -146,8 +148,9 @@ send(Transfer, Image0) :-
           error(Formal, _),
           not_sent(Formal, Transfer)).
 
-%   Without a journal it needs no answer: that its frame is settled is one, see
-%   typhon_hand_over.  Fails where there is no connection.
+%   Without a journal the hop needs no answer: settlement of its frame means
+%   that it was accepted, see typhon_hand_over.  Fails if there is no
+%   connection.
 
 handed(Endpoint, hop(Name, Image0, Program), Transfer) :-
     image_held(Image0, Image),
@@ -155,7 +158,7 @@ handed(Endpoint, hop(Name, Image0, Program), Transfer) :-
     catch(sig_atomic(endpoint_hand_over(Hand, Transfer)),
           error(session_closed, _), fail).
 
-%   Known by number, see typhon_hop_ids.
+%   The request has the id of the hop, see typhon_hop_ids.
 
 hop_request(Transfer, Name, Image, Program, Request) :-
     transfer_traveller(Transfer, Who, _),
@@ -173,7 +176,7 @@ not_sent(Formal, Transfer) :-
     ;   transfer_stays(Transfer, Formal)
     ).
 
-%   Once more, whoever was asked before.
+%   Send the agent once more.
 
 typhon_in_doubt:again(Transfer) :-
     again(Transfer).

@@ -15,38 +15,33 @@
                 durable_put/4 ]).
 :- use_module('../wire', [endpoint_process/1]).
 
-/** <module> Hops that are known by number
+/** <module> Ids of hops
 
-A process that keeps a journal may ask for a hop again after it was started
-again, when the agent has arrived long since, and has ended or gone on.  So
-each of its hops to another process has a number,
+A process that keeps a journal may, after a restart, request a hop again when
+the agent has long arrived, and has ended or gone on.  So each of its hops to
+another process has an id,
 
     hop_id(Process, N, Least)
 
-and the other keeps those that it has let in until it hears, with the next
-hop, that the first has no open one less than Least to it any more.
+and the receiver keeps the ids of the hops that it has accepted.  It discards
+those below Least: with the next hop the sender reports that it has no open hop
+to the receiver with a number less than Least.
 
-*Threading*: any thread; of an agent that is under way one at a time.
+*Threading*: any thread; only one at a time for an agent that is under way.
 */
 
 :- multifile typhon_runtime:ending/1.
 
 :- dynamic
-    under_way/4,                    % Endpoint, N, Agent, Hops: under way; the
-                                % oldest first
+    under_way/4,                % Endpoint, N, Agent, Hops: the oldest first
     last/1,                     % Sent
     again/1,                    % Agent: it was sent before
-    done/2.                     % Process, N: was let in here
+    done/2.                     % Process, N: was accepted here
 
 %!  hop_id_begin(+Agent, +Hops, +Endpoint, -Sent) is det.
-%!  hop_id_restore(+Agent, +Hops, +Endpoint, +Sent) is det.
-%!  hop_id_end(+Agent, ?Hops) is det.
-%!  hop_id_again(+Agent) is det.
-%!  hop_id_repeated(+Agent) is semidet.
 %
-%   Agent sets out for Endpoint, with so many Hops, at Sent, from which the
-%   number follows; did so before a restart; has arrived, or stays; it is not
-%   known whether it had arrived already when it is sent next; which is so.
+%   Agent departs for Endpoint on its hop number Hops, at the time Sent, from
+%   which the id is made.
 
 hop_id_begin(Agent, Hops, Endpoint, Sent) :-
     (   durable_on
@@ -56,7 +51,7 @@ hop_id_begin(Agent, Hops, Endpoint, Sent) :-
     ;   get_time(Sent)
     ).
 
-%   No two are the same.
+%   Sent is the present time, and later than any before: no two are the same.
 
 stamp(Sent) :-
     get_time(Now),
@@ -70,9 +65,17 @@ hop_id_add(Agent, Hops, Endpoint, Sent) :-
     N is truncate(Sent*1000000),
     assertz(under_way(Endpoint, N, Agent, Hops)).
 
+%!  hop_id_restore(+Agent, +Hops, +Endpoint, +Sent) is det.
+%
+%   As hop_id_begin/4, for a hop that began before a restart.
+
 hop_id_restore(Agent, Hops, Endpoint, Sent) :-
     hop_id_add(Agent, Hops, Endpoint, Sent),
     hop_id_again(Agent).
+
+%!  hop_id_end(+Agent, ?Hops) is det.
+%
+%   The hop is over: Agent has arrived, or stays.
 
 hop_id_end(Agent, Hops) :-
     (   retract(under_way(_, _, Agent, Hops))
@@ -80,9 +83,17 @@ hop_id_end(Agent, Hops) :-
     ;   true
     ).
 
+%!  hop_id_again(+Agent) is det.
+%
+%   When Agent is sent next it may have arrived already.
+
 hop_id_again(Agent) :-
     retractall(again(Agent)),
     assertz(again(Agent)).
+
+%!  hop_id_repeated(+Agent) is semidet.
+%
+%   Agent may have arrived by an earlier attempt, see hop_id_again/1.
 
 hop_id_repeated(Agent) :-
     again(Agent),
@@ -90,7 +101,7 @@ hop_id_repeated(Agent) :-
 
 %!  hop_id_label(+Agent, +Endpoint, -Label) is det.
 %
-%   Label is hop_id(Process, N, Least), or `none`.
+%   Label is hop_id(Process, N, Least), or `none` if the hop has no id.
 
 hop_id_label(Agent, Endpoint, hop_id(Process, N, Least)) :-
     under_way(Endpoint, N, Agent, _),
@@ -111,13 +122,16 @@ is_hop_id(Label) :-
     durable_key(Process, N).
 
 %!  hop_id_known(+Label) is semidet.
-%!  hop_id_done(+Label) is det.
 %
-%   Label was already accepted; mark Label accepted.
+%   Label was already accepted.
 
 hop_id_known(hop_id(Process, N, _)) :-
     done(Process, N),
     !.
+
+%!  hop_id_done(+Label) is det.
+%
+%   Mark Label accepted.
 
 hop_id_done(none).
 hop_id_done(hop_id(Process, N, Least)) :-
@@ -131,7 +145,7 @@ hop_id_done(hop_id(Process, N, Least)) :-
     ;   true
     ).
 
-%   The oldest come first, but for those that came in another order.
+%   The oldest facts come first, unless the hops arrived in another order.
 
 forget_below(Process, Least) :-
     (   done(Process, Old),
@@ -141,7 +155,7 @@ forget_below(Process, Least) :-
     ;   true
     ).
 
-%   The number that comes from the database has 32 bits.
+%   The number is in the term because the key of the database has 32 bits.
 
 :- durable(done, Process, _, N, done(Process, N)).
 

@@ -23,15 +23,16 @@
 
 /** <module> Transfers in doubt
 
-The process to which an agent was sent is gone before it has answered.  If
-the home knows of this hop or a later one the agent got away in time.  If it
-does not, the news may be under way, or the home was started again, or died
-together with that process: all known processes are asked.  If none has seen
-the agent it has not survived there, and goes on here.
+A transfer is in doubt if the process to which the agent was sent is gone before
+it has answered.  If the home of the agent knows of this hop or a later one, the
+agent had left that process in time.  If not, the news may be under way, or the
+home was restarted, or died together with that process: all known processes are
+asked.  If none has seen the agent, it has not survived there, and continues
+here.
 
-Where the other process keeps a journal no other need be asked: it is asked
-again, until it is there again.  It knows the agents that it has admitted.  The
-same goes for one that is there, where we have been started again ourselves.
+If the other process keeps a journal, only that process is asked, again and
+again until it is back: it knows the agents that it has admitted.  The same
+holds for a process that is alive, if this process was restarted.
 
 *Threading*: resolve_in_doubt/1 in reader threads, which never wait; surveys in
 a worker.
@@ -45,14 +46,14 @@ a worker.
            "Seconds until processes that did not answer are asked again").
 
 :- multifile
-    again/1,                    % Transfer: ask once more
+    again/1,                    % Transfer: request it once more
     typhon_durable:go_on/0,
     typhon_endpoint:requested/4,
     typhon_scheduler:fire/2.
 
 %!  resolve_in_doubt(+Transfer) is det.
 %
-%   Find out whether the agent has arrived, some time.
+%   Start to find out whether the agent has arrived.
 
 resolve_in_doubt(Transfer) :-
     transfer_traveller(Transfer, Who, Hops),
@@ -64,13 +65,13 @@ resolve_in_doubt(Transfer) :-
     setting(settle_seconds, Seconds),
     alarm_in(Seconds, Id, again(Transfer)).
 resolve_in_doubt(_) :-
-    \+ endpoint_address(_),             % this process ends: no process to ask
+    \+ endpoint_address(_),             % this process ends: nothing to ask
     !.
 resolve_in_doubt(Transfer) :-
     transfer_traveller(Transfer, Id, Hops),
     debug(typhon(hop), '~w hop ~D: in doubt', [Id, Hops]),
     setting(typhon_news:news_pause, Pause),
-    Seconds is 4*Pause,                 % what the home is to hear may pause
+    Seconds is 4*Pause,                 % news for the home may pause, too
     alarm_in(Seconds, Id, doubted(Transfer)).
 
 typhon_scheduler:fire(_, doubted(Transfer)) :-
@@ -78,7 +79,7 @@ typhon_scheduler:fire(_, doubted(Transfer)) :-
     transfer_traveller(Transfer, Id, Hops),
     agent_reached(Id, Hops, home_said(Transfer)).
 
-%   Only the process that was asked knows, and it will answer.
+%   The receiver keeps a journal, or is alive: only it can answer, and it will.
 
 lasts(Transfer) :-
     arg(2, Transfer, dest(_, _, Endpoint)),
@@ -132,9 +133,9 @@ typhon_scheduler:fire(_, settle(Transfer)) :-
     ;   transfer_stays(Transfer, given_up)
     ).
 
-%   survey(+Transfer, +HomeSaid): in a worker.  Where the home has lived on
-%   and knows nothing, processes that do not answer are not waited for; else
-%   they might have the agent.
+%   survey(+Transfer, +HomeSaid): in a worker.  If the home has run all the time
+%   and does not know the hop, processes that do not answer do not matter; if
+%   not, they might have the agent.
 
 survey(Transfer, HomeSaid) :-
     transfer_traveller(Transfer, Id, Hops),
@@ -166,12 +167,12 @@ no_answer(Peer, Said) :-
                 *         HAS IT ARRIVED?      *
                 *******************************/
 
-%   agent_reached(+Id, +Hops, :OnAnswer): ask the home of Id.
+%   agent_reached(+Id, +Hops, :OnAnswer)
 %
-%   Call OnAnswer with answer(Reached): `true` or `false`, whether Id has made
-%   so many hops as far as its home knows, or `unknown`: the home was started
-%   after Id was born there; or with what endpoint_request/4 says if the home
-%   does not answer.
+%   Ask the home of Id.  Call OnAnswer with answer(Reached): `true` or `false`,
+%   whether Id has made Hops hops as far as its home knows, or `unknown` if the
+%   home was started after Id was born there; or with the result of
+%   endpoint_request/4 if the home does not answer.
 
 agent_reached(Id, Hops, OnAnswer) :-
     agent_home_endpoint(Id, Home),
@@ -185,8 +186,8 @@ typhon_endpoint:requested(whereabouts, reached(Id, Hops), _, ReplyTo) :-
     reached(Id, Hops, Reached),
     endpoint_reply(ReplyTo, Reached).
 
-%   In this order: an agent that leaves or ends meanwhile is noted before it is
-%   gone.
+%   The tables are read in this order because an agent that leaves or ends
+%   meanwhile is noted in the later ones before it is removed from the first.
 
 reached(Id, Hops, true) :-
     (   hops_here(Id, Hops0)
@@ -213,11 +214,8 @@ hops_here(Id, Hops) :-
                 *******************************/
 
 %!  in_doubt(+Status) is semidet.
-%!  out_of_touch(+Status) is semidet.
 %
-%   The answer is overdue, or the connection on which it should come is
-%   broken; or both: then an order to end is not put off any longer.  Before
-%   that it follows the agent.
+%   The answer is overdue, or the connection on which it should come is broken.
 %
 %   @arg Status is transit(Address, Sent) or cloning(Address, Sent)
 
@@ -226,6 +224,11 @@ in_doubt(Status) :-
     ;   overdue(Status)
     ),
     !.
+
+%!  out_of_touch(+Status) is semidet.
+%
+%   The answer is overdue and the connection is broken: then an order to end the
+%   agent is no longer put off.  Before that it follows the agent.
 
 out_of_touch(Status) :-
     overdue(Status),

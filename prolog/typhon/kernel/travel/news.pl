@@ -13,16 +13,15 @@
 
 /** <module> News for the homes of agents
 
-Where an agent is and how it ended, told to the process in which it was
-born.  Of each agent only the newest news are kept until they are sent, and
-each home has one courier, which takes along all there are: a home that does
-not answer costs one attempt at a time, whatever the number of agents and
-of their hops.  Where an agent is waits a moment for more such news, which one
-frame carries then: until the home hears of it, the processes that the agent left
-forward what it is sent.
+News report to the home of an agent where the agent is and how it ended.  Only
+the newest news of each agent are kept until they are sent.  Each home has one
+courier, a task that sends all news there are: a home that does not answer costs
+one attempt at a time, whatever the number of agents and of their hops.  News of
+a location wait a moment for more of them, to share a frame: until the home has
+them, the processes that the agent left forward its messages.
 
-*Threading*: any thread tells; a courier is a call of a worker, or an alarm
-that waits for the next.
+*Threading*: any thread adds news; a courier is a call of a worker, or an alarm
+that waits for the next attempt.
 */
 
 :- setting(news_seconds, number, 300,
@@ -37,21 +36,21 @@ that waits for the next.
 
 :- dynamic
     news/3,                     % Home, Id, News: the newest, not yet sent
-    in_hand/2,                  % Home, All: what its courier has set out with
-    courier/1,                  % Home: a thread carries its news, or will
+    in_hand/2,                  % Home, All: news that its courier is sending
+    courier/1,                  % Home: a thread sends its news, or will
     pauses/1.                   % Home: its courier waits for more of them
 
-%   So many are sent at a time, and the longest pause between attempts.  News
-%   with results may be long.
+%   The weight of the news in one frame, at most.  News with results may be
+%   long.
 
 load(500).
 weight(ended(_, _, _, _), 50) :- !.
 weight(_, 1).
-longest_pause(10).              % seconds
+longest_pause(10).              % seconds between attempts
 
 %!  news_tell(+Home, +Id, +News) is det.
 %
-%   Let Home, an endpoint, have News of Id, some time soon.
+%   Send News of Id to Home, an endpoint, soon.
 
 news_tell(Home, _, News) :-
     durable_on,
@@ -72,7 +71,7 @@ sets_out(none, _).
 
 %!  news_carried(+Home) is semidet.
 %
-%   A thread has news for Home in hand, or is about to have.
+%   A thread is sending news to Home, or will do so.
 
 news_carried(Home) :-
     courier(Home),
@@ -80,13 +79,13 @@ news_carried(Home) :-
 
 %!  news_hurry is det.
 %
-%   What waits for other news is sent now: while turns are paused no alarm goes
+%   Send now the news that wait for more: while turns are paused no alarm goes
 %   off.
 
 news_hurry :-
     forall(pauses(Home), typhon_scheduler:fire(Home, news_paused)).
 
-%   Where an agent is it will tell again.
+%   Only news of a location need not last: the agent will report again.
 
 news_lasts(News) :-
     \+ News = located(_, _, _).
@@ -95,8 +94,8 @@ note(Home, Id, News, Courier) :-
     keep(Home, Id, News),
     courier_of(Home, News, Courier).
 
-%   courier_of(+Home, +News, -Courier): it is to set out `now`, after a pause,
-%   `soon`, or is `there` already.
+%   courier_of(+Home, +News, -Courier): when the courier starts: `now`, `soon`,
+%   after a pause, or it is `there` already.
 
 courier_of(Home, News, Courier) :-
     courier(Home),
@@ -116,7 +115,7 @@ when_due(News, _, now) :-
 when_due(_, Home, soon) :-
     assertz(pauses(Home)).
 
-%   after(+Home, -Courier): it has sent what it had in hand.
+%   after(+Home, -Courier): the courier has sent its news; when it starts next.
 
 after(Home, Courier) :-
     retractall(in_hand(Home, _)),
@@ -137,9 +136,9 @@ keep(Home, Id, News) :-
     retractall(news(Home, Id, _)),
     assertz(news(Home, Id, News)).
 
-%   Neither the order in which they are sent nor what came while a courier was
-%   away with them says which are newer: the end notice may overtake the arrival
-%   notice.
+%   Ages show which news are newer.  The order of sending does not, nor the time
+%   at which they were added while the courier was sending: the end notice may
+%   overtake the arrival notice.
 
 newer(News, Known) :-
     age(News, Age),
@@ -150,13 +149,12 @@ age(located(_, _, Hops), age(Hops, 0, 0, 0)).
 age(faulty(_, _, Stamp, _, Hops), age(Hops, 1, Stamp, 0)).
 age(resumed(_, Stamp, Hops), age(Hops, 1, Stamp, 1)).
 age(ended(_, _, Hops, _), age(Hops, 2, 0, 0)).
-age(ended(_, _, Hops), age(Hops, 2, 0, 0)).  % one of fewer hops, of a copy
-                                             % that was given up in doubt
+age(ended(_, _, Hops), age(Hops, 2, 0, 0)).  % fewer hops: a copy that was
+                                             % given up in doubt
 
-%   The process is about to end: what can be sent soon is, the rest is given up;
-%   all homes together have that time.  A courier may be too slow to send what
-%   it has in hand, which the home may hear twice.
-
+%   The process is about to end: send what can be sent before one deadline for
+%   all homes, and give up the rest.  News that a courier is sending are sent
+%   again, in case it is too slow; so the home may get them twice.
 typhon_runtime:ending(before) :-
     get_time(Now),
     setting(typhon_endpoint:flush_time, Seconds),
@@ -179,8 +177,8 @@ take_all(Home, All) :-
 take_all(Home, All) :-
     take(Home, All).
 
-%   carry(+Home, +Try): until nothing is left.  Try is try(Since, Pause): it
-%   has not worked since then, 0 if it has, and the pause after this one.
+%   carry(+Home, +Try): send until nothing is left.  Try is try(Since, Pause):
+%   attempts have failed since then, or 0, and the pause after this one.
 
 carry(Home, Try) :-
     with_mutex(typhon_news, set_out(Home, All)),
@@ -192,8 +190,8 @@ carry(Home, Try) :-
         carried(Answer, Home, All, Try)
     ).
 
-%   posted(:Post, +Home, +All): what is too long for one frame goes in two.
-%   If the notice of an end is too long, at least the end is reported.
+%   posted(:Post, +Home, +All): news too long for one frame are sent in two.  If
+%   an end notice is too long, it is sent without results.
 
 posted(Post, Home, All) :-
     shown_news(Home, All, Shown),

@@ -16,16 +16,16 @@
 :- use_module('../host', [process_ask/6]).
 :- use_module('../agent', [agent/5, cloned_put/2]).
 
-/** <module> What agents have left, and where they were cloned
+/** <module> Results of ended agents, and their clones
 
-The home of an agent keeps what it left with its outcome: its result, and
-the processes in which it was cloned.  The clones themselves are known to
+The home of an agent keeps its results with its outcome: the result, and the
+processes in which the agent was cloned.  The clones themselves are recorded in
 the process in which they were born, which is their home.  So no notice is sent
-when a clone is made, and a search for a family goes from the
-results of each of its members to the homes of the next.  Of both tables the
-oldest entries are forgotten.
+when a clone is made, and a search for all clones goes from the results of an
+agent to the homes of its clones, and so on.  The oldest entries of both tables
+are discarded.
 
-*Threading*: any thread.  Asking waits.
+*Threading*: any thread.  results_ask/4 and clones_ask/3 wait for the answer.
 */
 
 :- multifile
@@ -54,7 +54,7 @@ typhon_identity:id_anew(Id) :-
 
 %!  results_keep(+Id, +Items:list) is det.
 %
-%   Id has left Items, as of result_facts/2.
+%   Id has ended with Items, as of result_facts/2.
 
 results_keep(Id, Items) :-
     forall(member(Item, Items),
@@ -63,8 +63,8 @@ results_keep(Id, Items) :-
 
 %!  results_ask(+Where, +Id, +Kind, -Items:list) is det.
 %
-%   What the home of Id, at the endpoint Where or `here`, knows of its results:
-%   items of the name Kind.
+%   Items are the results of Id of the name Kind in the process at the endpoint
+%   Where, the home of Id, or `here`.
 %
 %   @error host_unreachable(Where), connection_lost(Where)
 
@@ -72,9 +72,8 @@ results_ask(Where, Id, Kind, Items) :-
     ask(Where, left(Id, Kind), Items).
 
 %!  clone_born(+Parent, +Clone) is det.
-%!  clone_unborn(+Parent, +Clone) is det.
 %
-%   Clone is one of Parent, which stands here; it could not begin elsewhere.
+%   Record Clone, a clone of Parent, which is here.
 
 typhon_bounds:forgotten(left(Id, _)) :-
     durable_drop_all(left, Id).
@@ -96,19 +95,25 @@ clone_born(Parent, Clone) :-
     ;   true                            % everything is being stopped
     ).
 
+%!  clone_unborn(+Parent, +Clone) is det.
+%
+%   Remove the record: Clone could not begin in another process.
+
 clone_unborn(Parent, Clone) :-
     durable_retractall(clone_of(Parent, Clone)).
 
 %!  clones_ask(+Endpoint, +Parent, -Clones:list) is det.
 %
-%   The clones of Parent that were born at Endpoint, in this order.
+%   Clones are the clones of Parent born at Endpoint, in the order of their
+%   birth.
 %
 %   @error as results_ask/4
 
 clones_ask(Endpoint, Parent, Clones) :-
     ask(Endpoint, clones(Parent), Clones).
 
-%   When the last host was stopped no other process is asked.
+%   After the last host was stopped there is no endpoint; no process is asked
+%   for clones that are recorded here.
 
 ask(Where, Question, Answer) :-
     (   Where == here
@@ -128,7 +133,7 @@ typhon_endpoint:requested(results, Question, _Peer, ReplyTo) :-
     known(Question, Answer),
     endpoint_reply(ReplyTo, Answer).
 
-%   While others are added 9.0.4 may list a fact twice.
+%   list_to_set/2, because 9.0.4 may yield a fact twice while others are added.
 
 known(left(Id, Kind), Items) :-
     functor(Item, Kind, 1),

@@ -26,18 +26,17 @@
 
 /** <module> Messages
 
-A message is put in the mailbox of an agent that stands in this process,
-also while it is under way out of it: it then follows.  Otherwise it goes
-where the agent went, or to its home, which knows.
+A message is put in the mailbox of an agent of this process, also if the agent
+is under way to another: the message follows it.  Otherwise the message goes to
+the process to which the agent went, or to the home of the agent.
 
-What travels is letter(Mail, Left).  Mail is a list of
-mail(Origin, From, Message), the oldest first; Origin is the endpoint at
-which it was sent, to which it is reported if the agent cannot be found.  What
-follows an agent together stays together, so that whatever waited for one
-that hops without pause reaches it at once, and not each message after a
-chase of its own.
+The unit of transport is letter(Mail, Left).  Mail is a list of
+mail(Origin, From, Message), the oldest first; Origin is the endpoint of the
+sender, which gets a report if the agent cannot be found.  Messages that follow
+an agent together stay together: so all that wait for an agent that hops without
+pause reach it at once, and not each message after a chase of its own.
 
-A letter that cannot be passed on waits, see typhon_backlog.
+A letter that cannot be sent now waits, see typhon_backlog.
 
 *Threading*: any thread.  post/3 and post_via/4 may wait for a connection,
 post_on/2 and the hooks never do.
@@ -50,13 +49,13 @@ post_on/2 and the hooks never do.
 
 :- dynamic said/4.              % Id, N, From, Message: before a restart
 
-%   An agent that hops without pause is given up in the end.
+%   A bound on forwarding, for an agent that hops without pause.
 
 max_forwards(12800).
 
 %!  post(+Id, +From, +Message) is det.
 %
-%   @error existence_error(agent, Id) if it is known that there is none
+%   @error existence_error(agent, Id) if the agent is known not to exist
 %   @error type_error(mobile_term, Culprit)
 %   @error host_unreachable(Host)
 %   @error resource_error(frame_bytes)
@@ -75,7 +74,7 @@ post(Id, From, Message) :-
     ;   unit_of_work(post_now(Id, From, Message))
     ).
 
-%   What has left, and where it waits, is one entry.
+%   That the message has left, and that it waits, is one journal entry.
 
 post_now(Id, From, Message) :-
     with_agent(Id, ( post_way(Id, From, Message, Way0),
@@ -88,7 +87,7 @@ waits(wait(Letter), Id, done) :-
     retry_later(Id, Letter, wait(Letter)).
 waits(Way, _, Way).
 
-%   An agent that stands here needs no frame.
+%   A message for an agent of this process needs no frame.
 
 may_travel(Id, _) :-
     agent_on(Id, _),
@@ -96,7 +95,7 @@ may_travel(Id, _) :-
 may_travel(_, Change) :-
     post_must_fit(Change).
 
-%   What an agent says goes when its turn is over, and noted.
+%   A message that an agent sends leaves after its turn, which has noted it.
 
 :- public post_noted/4.
 
@@ -138,8 +137,7 @@ new_letter(From, Message, letter([mail(Origin, From, Message)], Max)) :-
 
 %!  post_via(+Id, +Endpoint, +From, +Message) is det.
 %
-%   As post/3, where the agent is believed to be in the process at
-%   Endpoint.
+%   As post/3; the agent is believed to be in the process at Endpoint.
 
 post_via(Id, Endpoint, From, Message) :-
     mobile_term(Message),
@@ -196,7 +194,7 @@ letter_comes(Id, Births, Mail0, Left, Peer) :-
     ;   pass_on(Id, letter(Mail, Left))
     ).
 
-%   Letters that have come together are one for each agent.
+%   Letters that come in one batch are merged into one for each agent.
 
 typhon_endpoint:together(message, Letters, Fewer) :-
     maplist(letter_to, Letters, Pairs),
@@ -214,7 +212,7 @@ one_message(Id-Letters, message(Id, Mail, Left)) :-
 
 %!  post_waiting(+Id, -Messages:list) is det.
 %
-%   The messages that waited here for Id, which has arrived; inside
+%   Take the messages that waited here for Id, which has arrived; inside
 %   with_agent/2.
 
 post_waiting(Id, Messages) :-
@@ -230,12 +228,12 @@ messages_in(Letters, Messages) :-
             Messages).
 
                 /*******************************
-                *             WAYS             *
+                *            ROUTING           *
                 *******************************/
 
 %   way(+Id, +Letter, -Way): one step, inside with_agent/2.  Way is `done`,
-%   to(Endpoint, Letter) if a connection has to be made first, wait(Letter)
-%   if it is better to wait, or nowhere.
+%   to(Endpoint, Letter) if a connection has to be made first, wait(Letter) if
+%   it is better to wait, or `nowhere`.
 
 way(Id, letter(Mail, _), done) :-
     way_in(Id, Mail),
@@ -250,7 +248,7 @@ way_on(Id, Letter, done) :-
 way_on(Id, Letter, Way) :-
     way_out(Id, Letter, Way).
 
-%   go(+Way, +Id): in a thread that may wait, and wants to know.
+%   go(+Way, +Id): in a thread that may wait; errors are raised to the caller.
 
 go(done, _).
 go(to(Endpoint, Letter), Id) :-

@@ -27,9 +27,9 @@ mail(Origin, From, Message), the oldest first.
 they never wait.  way_send/3 may wait for a connection.
 */
 
-%   A letter that has been forwarded so often at once chases its agent in vain
-%   for the moment, or the processes that should know do not know yet: it waits
-%   a little.
+%   After so many forwards without a pause the letter chases its agent in vain,
+%   or processes lack news of the agent that are under way: the letter waits a
+%   little.
 
 forwards_at_once(64).
 
@@ -48,7 +48,8 @@ letter_parts(letter(Mail, Left), Mail, Left).
 
 %!  way_in(+Id, +Mail) is semidet.
 %
-%   Put Mail in the mailbox of Id, which stands here, as far as it fits.
+%   Put the part of Mail that Id, an agent of this process, accepts into its
+%   mailbox.
 
 way_in(Id, Mail) :-
     fitting(Id, Mail, Fitting),
@@ -79,7 +80,7 @@ way_out(Id, letter(Mail, Left), Way) :-
     Letter = letter(Mail, Left1),
     forwards_at_once(Most),
     (   (   Left1 mod Most =:= 0
-        ;   Endpoint == here            % on its way in
+        ;   Endpoint == here            % the agent is on its way in
         )
     ->  Way = wait(Letter)
     ;   sent(Endpoint, Id, Letter, endpoint_post_up)
@@ -88,8 +89,8 @@ way_out(Id, letter(Mail, Left), Way) :-
     ).
 way_out(_, _, nowhere).
 
-%   An agent that is not here has left a record, or the home knows.  The
-%   endpoint is `here` if it is that of this process.
+%   Where the agent went as far as this process knows, or its home.  Endpoint is
+%   `here` if it is that of this process.
 
 next_endpoint(Id, Endpoint) :-
     whereabouts(Id, Address),
@@ -106,8 +107,8 @@ next_endpoint(Id, Endpoint) :-
 
 %!  way_send(+Endpoint, +Id, +Letter) is det.
 %
-%   Where a forwarding address leads to a process that is gone, the home
-%   may know better.
+%   If the process at Endpoint, a forwarding address, is gone, the letter goes
+%   to the home of the agent.
 %
 %   @error host_unreachable(Endpoint)
 
@@ -126,8 +127,8 @@ send_home(Failed, Id, Letter) :-
     ;   throw(error(host_unreachable(Failed), _))
     ).
 
-%   sent(+Endpoint, +Id, +Letter, :Post): to Endpoint, but for what has to go
-%   by another way.
+%   sent(+Endpoint, +Id, +Letter, :Post): send to Endpoint, but for the messages
+%   that have to go through another process.
 
 sent(Endpoint, Id, letter(Mail, Left), Post) :-
     mail_parts(Endpoint, Id, Mail, Parts),
@@ -142,8 +143,8 @@ part_sent(Endpoint, Id, Mail, Left) :-
           error(unreachable(_), _),
           mail_lost(host_unreachable(Endpoint), Id, Mail)).
 
-%   posted(+Endpoint, +Id, +Letter, :Post): what is too long for one frame goes
-%   in two. With a journal it is sent as soon as can be.
+%   posted(+Endpoint, +Id, +Letter, :Post): a letter too long for one frame is
+%   sent in two.  With a journal the post is durable, and sent when possible.
 
 posted(Endpoint, Id, letter(Mail, Left), Post) :-
     message(Endpoint, Id, Mail, Left, Message),

@@ -38,16 +38,16 @@
 
 /** <module> Agents under way
 
-A transfer is hop(Id, Dest, Hops), its id the agent with its number of hops,
-or clone(Id, Dest, CloneId).  A destination is
-dest(Address, Name, Endpoint).  While it lasts, the agent is frozen here; it
-ends in that the agent has arrived, or stays.
+A transfer is hop(Id, Dest, Hops), with the id of the agent and the number of
+the hop, or clone(Id, Dest, CloneId).  Dest is dest(Address, Name, Endpoint).
+During the transfer the agent is frozen in this process; the transfer ends when
+the agent has arrived, or stays.
 
-What is held back is Hole-Goals, for a clone Hole-Goals-Who.  Frozen, the
-goals of an agent are hop(Held, Hops, Mail, Since) or
+The held goals are Hole-Goals, for a clone Hole-Goals-Who.  While the agent is
+frozen its goals are hop(Held, Hops, Mail, Since) or
 clone(Held, CloneId, Since).
 
-*Threading*: any thread; what is said to be inside with_agent/2 is.
+*Threading*: any thread; inside with_agent/2 where a comment says so.
 */
 
 :- multifile
@@ -57,20 +57,18 @@ clone(Held, CloneId, Since).
 
 :- dynamic
     given_up/2,                 % Id, Hops: disposed of while in doubt
-    waits/2.                    % Id, Asker: for a move that it ordered
+    waits/2.                    % Id, Asker: for the end of an ordered move
 
 %!  transfer_traveller(+Transfer, -Id, -Hops) is det.
 %
-%   The agent under way, and its hop.
+%   Id is the agent under way, on its hop number Hops.
 
 transfer_traveller(hop(Id, _, Hops), Id, Hops).
 transfer_traveller(clone(_, _, CloneId), CloneId, 1).
 
 %!  transfer_image(+Transfer, +Held, +Mail, +Since, -Image) is det.
-%!  transfer_image(+Transfer, -Image) is semidet.
 %
-%   What is sent; binds the hole, and the number of hops.  Once more from the
-%   frozen record, in any thread: fails if the agent was given up.
+%   Image is the image to send; binds the hole, and the number of the hop.
 
 transfer_image(hop(Id, _, Hops), Hole-Goals, Mail, Since, Image) :-
     ignore(Hole = true),                % else the move was an order
@@ -79,7 +77,11 @@ transfer_image(clone(Id, _, CloneId), Hole-Goals-Who, _, Since, Image) :-
     Hole = (Who=clone(Id)),
     image_clone(Id, CloneId, Goals, Since, Image).
 
-%   An answer that comes meanwhile would take away the module that is read.
+%!  transfer_image(+Transfer, -Image) is semidet.
+%
+%   The image once more, from the frozen record, in any thread.  Fails if the
+%   agent was given up.  The mutex of the agent keeps an answer from removing
+%   the module while it is read.
 
 transfer_image(Transfer, Image) :-
     arg(1, Transfer, Id),
@@ -93,7 +95,7 @@ frozen(clone(Id, _, CloneId), Held, [], Since) :-
 
 %!  transfer_freeze(+Transfer, +Held, -Mail, +Since) is semidet.
 %
-%   The transfer begins; inside with_agent/2.  Fails if the agent was ended.
+%   Begin the transfer; inside with_agent/2.  Fails if the agent was ended.
 
 transfer_freeze(hop(Id, dest(Address, _, Endpoint), Hops), Held, Mail,
                 Since) :-
@@ -142,8 +144,8 @@ arrived(clone(Id, dest(Address, _, Endpoint), CloneId)) :-
     agent_left_noted(CloneId, Address, 1, Endpoint),
     ignore(with_agent(Id, clone_back(Id, CloneId, parent(CloneId)))).
 
-%   Where it went is known before it is gone, and mail that came meanwhile
-%   is on its way before any that comes now.
+%   The destination is noted before the agent is removed, and mail that came
+%   meanwhile is sent before any that comes later.
 
 moved_on(Id, Hops, Address, Endpoint, Orders, Gone) :-
     agent_status(Id, transit(_, _), hop(_, Hops, _, Since)),
@@ -159,8 +161,8 @@ moved_on(Id, Hops, Address, Endpoint, Orders, Gone) :-
 
 %!  transfer_let_go(+Id, -Mail, -Orders, :Gone) is semidet.
 %
-%   Forget Id, which is in transit; inside with_agent/2.  Gone is to be
-%   called outside.
+%   Remove Id, which is in transit; inside with_agent/2.  Gone must be called
+%   outside.
 
 transfer_let_go(Id, Mail, Orders, Gone) :-
     agent_status(Id, transit(_, _), hop(_, _, _, Since)),
@@ -188,10 +190,9 @@ follow(Id, Order) :-
                 *******************************/
 
 %!  transfer_stays(+Transfer, +Error) is det.
-%!  transfer_unreachable(+Transfer) is det.
 %
-%   The agent stays; Error is raised at its move.  If the move was ordered
-%   from outside there is no hole, see move_failed/2.
+%   The agent stays; Error is raised at its move.  A move that was ordered from
+%   outside has no hole, see move_failed/2.
 
 transfer_stays(Transfer, Error) :-
     transfer_traveller(Transfer, Who, Hop),
@@ -213,6 +214,10 @@ stays(clone(Id, dest(Address, _, _), CloneId), Error) :-
     clone_unborn(Id, CloneId),
     agent_ended(CloneId, failed, 1, []),
     ignore(with_agent(Id, clone_back(Id, CloneId, stays(Address, Error)))).
+
+%!  transfer_unreachable(+Transfer) is det.
+%
+%   As transfer_stays/2, with the error host_unreachable(Address).
 
 transfer_unreachable(Transfer) :-
     arg(2, Transfer, dest(Address, _, _)),
@@ -237,13 +242,13 @@ clone_back(Id, CloneId, Answer) :-
 
 %!  transfer_given_up(+Id, +Frozen) is det.
 %
-%   Id was disposed of in doubt: should it have arrived, the order follows
-%   it.
+%   Id was disposed of in doubt: if it turns out to have arrived, the order
+%   follows it.
 
 transfer_given_up(Id, hop(_, Hops, _, _)) :-
     durable_assertz(given_up(Id, Hops)).
 
-%   The oldest first, before other agents set out.
+%   Restores the oldest hops first, before other agents depart.
 
 typhon_durable:restored :-
     findall(Sent-Transfer,
@@ -258,13 +263,13 @@ typhon_durable:restored :-
              arg(2, Transfer, dest(_, _, Endpoint)) ),
            hop_id_restore(Who, Hops, Endpoint, Sent)).
 
-%   The term says nothing; older journals have one.
+%   The third argument is unused; older journals have a term there.
 
 :- durable(given_up, Id, Hops, _, given_up(Id, Hops)).
 
 %!  transfer_open(?Transfer) is nondet.
 %
-%   Id, which is under way, has not been heard of.
+%   The agent of Transfer is under way, and there is no answer yet.
 
 transfer_open(Transfer) :-
     agent_status(Id, Status, Frozen),
@@ -288,12 +293,12 @@ transfer_held(clone(Held-_, _, _), Held).
                 *         ORDERED MOVES         *
                 *******************************/
 
-%   A caller of agent_move/3 waits until the agent is there.  The process in
-%   which the agent takes the order knows how its next hop ends.
+%   A caller of agent_move/3 waits until the agent has arrived.  The process in
+%   which the agent takes the order notifies it of the end of the next hop.
 
 %!  move_awaited(+Id, +Asker) is det.
 %
-%   Id is about to move on an order; Asker waits for the outcome.
+%   Id is about to move on an order; Asker waits for its end.
 
 move_awaited(Id, Asker) :-
     assertz(waits(Id, Asker)).
@@ -301,7 +306,7 @@ move_awaited(Id, Asker) :-
 %!  move_over(+Id, +Answer) is semidet.
 %
 %   The move of Id is over: all that wait for it get Answer, answer(arrived),
-%   error(Formal), or `none` if Id has ended.  Fails if none waits.
+%   error(Formal), or `none` if Id has ended.  Fails if no caller waits.
 
 move_over(Id, Answer) :-
     retract(waits(Id, Asker)),          % one by one: others add to the table
@@ -311,8 +316,8 @@ move_over(Id, Answer) :-
 
 %!  move_failed(+Id, +Formal) is det.
 %
-%   Id stays: the callers that wait get error(Formal).  If none waits, this
-%   process reports it.
+%   Id stays: the callers that wait get error(Formal).  If there are none, this
+%   process prints a warning.
 
 move_failed(Id, Formal) :-
     (   move_over(Id, error(Formal))

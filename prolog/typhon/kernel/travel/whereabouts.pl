@@ -34,20 +34,20 @@
                 home_knows/4, home_left/4, home_moved/4, home_resumed/3 ]).
 :- use_module(news, [news_tell/3]).
 
-/** <module> Where agents went
+/** <module> Whereabouts: forwarding addresses of agents
 
-Every process keeps forwarding addresses of the agents that left it, and
-tells their homes, see typhon_home.  The oldest forwarding addresses are
-forgotten.
+Every process keeps forwarding addresses of the agents that left it, and sends
+news to their homes, see typhon_home.  The oldest forwarding addresses are
+discarded.
 
-Of those that had come to it and ended there, a process keeps that they did:
-whoever does not know whether one got away to it may ask.
+A process also records which agents came to it and ended there: a sender in
+doubt may ask whether its agent arrived.
 
-An agent is in a process, not at an address: when another process has the
-address now, the agent has died with the one it went to, or has moved on.
+An agent is in a process, not at an address: if another process has the address
+now, the agent has ended with the process that had it before, or has moved on.
 
-*Threading*: any thread; one mutex.  Telling the home is left to a courier,
-see typhon_news, since it may have to connect.
+*Threading*: any thread; one mutex.  A courier sends news to the home, see
+typhon_news, since that may have to connect.
 */
 
 :- setting(forwards, positive_integer, 20000,
@@ -71,24 +71,26 @@ see typhon_news, since it may have to connect.
                 *******************************/
 
 %!  agent_seen(+Id, +Address, +Hops, +Peer) is det.
-%!  agent_came(+Id, +Address, +Hops, +Peer) is det.
 %
 %   Id has arrived at Address, a host of this process, from Peer, which is
-%   `here` if that was this process.  The second is for agents that were not
-%   born in this process.
+%   `here` if that was this process.
 
 agent_seen(Id, _, _, _) :-
-    home_knows(Id, _, _, _),            % it is here, and so are we
+    home_knows(Id, _, _, _),            % this process is its home
     !.
 agent_seen(Id, Address, Hops, Peer) :-
     agent_came(Id, Address, Hops, Peer).
+
+%!  agent_came(+Id, +Address, +Hops, +Peer) is det.
+%
+%   As agent_seen/4, for agents that were not born in this process.
 
 agent_came(Id, Address, Hops, Peer) :-
     agent_home_endpoint(Id, Home),
     (   endpoint_address(Home)
     ->  true
     ;   retractall(forward(Id, _, _, _)),
-        (   Home == Peer                % it knows when it has our answer
+        (   Home == Peer                % our answer informs it
         ->  true
         ;   news_tell(Home, Id, located(Id, Address, Hops))
         )
@@ -99,10 +101,8 @@ typhon_identity:id_anew(Id) :-
     retractall(ended_here(Id, _)).
 
 %!  agent_left(+Id, +Address, +Hops, +Peer) is det.
-%!  agent_went(+Id, +Address, +Hops, +Peer, +Process) is det.
 %
-%   Id has left this process for Address, a host at the endpoint Peer, in
-%   Process.
+%   Id has left this process for Address, a host at the endpoint Peer.
 
 agent_left(Id, Address, Hops, Peer) :-
     (   endpoint_address(Peer)
@@ -110,6 +110,10 @@ agent_left(Id, Address, Hops, Peer) :-
     ;   process_at(Peer, Process),
         agent_went(Id, Address, Hops, Peer, Process)
     ).
+
+%!  agent_went(+Id, +Address, +Hops, +Peer, +Process) is det.
+%
+%   As agent_left/4; Process is the process at Peer.
 
 agent_went(Id, Address, Hops, _, Process) :-
     home_left(Id, Address, Hops, Process),
@@ -123,8 +127,8 @@ agent_went(Id, Address, Hops, Peer, Process) :-
     ;   remember_forward(Id, Address, Hops, Process)
     ).
 
-%   That it ended there may be heard before that it has come: to follow it
-%   would lead back here.  What ended after fewer hops was a copy that was
+%   The end notice may overtake the arrival notice: a forwarding address would
+%   then lead back here.  An end after fewer hops is that of a copy that was
 %   given up in doubt.
 
 left_home(Id, Address, Hops, Process) :-
@@ -144,7 +148,7 @@ process_at(Endpoint, Process) :-
 
 %!  agent_left_noted(+Id, +Address, +Hops, +Peer) is det.
 %
-%   Note that Id has left; in the journal that stands in its own place.
+%   Note in the journal that Id has left, in place of its record.
 
 agent_left_noted(Id, Address, Hops, Peer) :-
     (   durable_on,
@@ -161,7 +165,7 @@ typhon_identity:ids_anew :-
 typhon_bounds:forgotten(forward(Id, _, _, _)) :-
     durable_drop(agent, Id, 0).
 
-%   The process may be another by then.
+%   After a restore another process may have the address.
 
 :- durable(gone, Id, 0, gone(Address, Hops, Process),
            ( Process = unknown, forward(Id, Address, Hops, _) ),
@@ -196,8 +200,8 @@ put_forward(Id, Address, Hops, Process) :-
 
 %!  agent_ends(+Id, +Hops) is det.
 %
-%   Note that Id ends here after Hops hops.  Its record still stands: at no
-%   time may it seem as if it had never come.
+%   Note that Id ends here after Hops hops.  Called while the record of Id still
+%   exists: at no time may it seem as if Id had never come.
 
 agent_ends(_, 0) :-
     !.                                  % it has no sender
@@ -207,14 +211,14 @@ agent_ends(Id, Hops) :-
 
 %!  ended_agent(?Id) is nondet.
 %
-%   Id had come to this process, and ended here.
+%   Id had come to this process, and has ended here.
 
 ended_agent(Id) :-
     ended_here(Id, _).
 
 %!  agent_ended(+Id, +Outcome, +Hops, +Results:list) is det.
 %
-%   Let the home of Id know that it ended after Hops hops, and what it leaves.
+%   Report to the home of Id that Id ended after Hops hops, and its Results.
 
 agent_ended(Id, Outcome, Hops, Results) :-
     end_news(Results, Id, Outcome, Hops, News),
@@ -225,14 +229,16 @@ end_news([], Id, Outcome, Hops, ended(Id, Outcome, Hops)) :-
 end_news(Results, Id, Outcome, Hops, ended(Id, Outcome, Hops, Results)).
 
 %!  agent_faulty(+Id, +Outcome, +Stamp, +Address, +Hops) is det.
-%!  agent_resumed(+Id, +Stamp, +Hops) is det.
 %
-%   Let the home of Id know that it has come to that Outcome at Address, a
-%   host of this process, but is kept there; or that it goes on after the
-%   fault of that Stamp.
+%   Report to the home of Id that Id is faulty with that Outcome, and is kept at
+%   Address, a host of this process.
 
 agent_faulty(Id, Outcome, Stamp, Address, Hops) :-
     tell_home(Id, faulty(Id, Outcome, Stamp, Address, Hops)).
+
+%!  agent_resumed(+Id, +Stamp, +Hops) is det.
+%
+%   Report to the home of Id that Id was resumed after the fault of that Stamp.
 
 agent_resumed(Id, Stamp, Hops) :-
     tell_home(Id, resumed(Id, Stamp, Hops)).
@@ -246,8 +252,8 @@ tell_home(Id, News) :-
 
 %!  agent_resumed_from(+Id, +Stamp, +Hops) is det.
 %
-%   As agent_resumed/3, for a caller in another process: what it asks the
-%   home next comes after that.  May wait for a connection.
+%   As agent_resumed/3, for a caller in another process: the home takes later
+%   requests of this process after the report.  May wait for a connection.
 
 agent_resumed_from(Id, Stamp, Hops) :-
     agent_home_endpoint(Id, Home),
@@ -255,7 +261,7 @@ agent_resumed_from(Id, Stamp, Hops) :-
     ->  home_resumed(Id, Stamp, Hops)
     ;   catch(endpoint_post(Home, whereabouts, [resumed(Id, Stamp, Hops)]),
               error(unreachable(_), _),
-              true)                     % and will be told
+              true)                     % it will get the news later
     ).
 
 typhon_endpoint:received(whereabouts, All, Peer) :-
@@ -305,23 +311,25 @@ error:has_type(typhon_payloads, Item) :-
                 *******************************/
 
 %!  agent_heard_of(+Id, -Hops) is nondet.
-%!  agent_last_seen(+Id, -Hops) is nondet.
 %
-%   Id, which is not in this process, has made Hops hops at least; and it has not
-%   ended here.
+%   Id, which is not in this process, has made at least Hops hops.
 
 agent_heard_of(Id, Hops) :-
     agent_last_seen(Id, Hops).
 agent_heard_of(Id, Hops) :-
     ended_here(Id, Hops).
 
+%!  agent_last_seen(+Id, -Hops) is nondet.
+%
+%   As agent_heard_of/2, for agents that have not ended here.
+
 agent_last_seen(Id, Hops) :-
     last_seen(Id, _, Hops, _).
 
 %!  agent_comes_anew(+Id, +Hops, -Home) is semidet.
 %
-%   As far as is known Id, which is not in this process, has not made Hops hops
-%   before; Home is `here` if it was born in this process, else `elsewhere`.
+%   As far as this process knows, Id, which is not in it, has not made Hops hops
+%   before.  Home is `here` if Id was born in this process, else `elsewhere`.
 
 agent_comes_anew(Id, Hops, Home) :-
     home_knows(Id, _, Hops0, _),
@@ -335,8 +343,8 @@ agent_comes_anew(Id, Hops, elsewhere) :-
 
 %!  whereabouts(+Id, -Address) is semidet.
 %
-%   The last that this process knows of an agent that is not in it.  Fails if
-%   the process to which it went is no more.
+%   Address is the last known host of an agent that is not in this process.
+%   Fails if the process to which the agent went is gone.
 
 whereabouts(Id, Address) :-
     last_seen(Id, Address0, _, Process),

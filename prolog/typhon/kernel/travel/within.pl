@@ -19,20 +19,20 @@
 
 /** <module> Hops between hosts of one process
 
-Nothing has to be sent, answered or doubted: the record of the agent changes
-in one step.  Its mail and its orders stay where they are, and mostly its
-state does, too.  What the agent can see of a hop is as ever: what could not
-travel does not, and its place is another.  Only the length of a frame does
-not matter here.
+No image is sent, and no transfer can be in doubt: the record of the agent
+changes in one step.  Its mail and orders stay where they are, and mostly its
+state does, too.  To the agent the hop is like any other: terms that cannot
+travel do not, and its place changes.  Only the length of a frame has no bound
+here.
 
 *Threading*: in a worker, which has the agent.
 */
 
 %!  hop_within(+Id, +Name, +Hole, +Goals, +Since, -Next) is det.
 %
-%   Id, which set out at Since, is on host Name of this process, with Goals,
+%   Id, which departed at Since, is on host Name of this process, with Goals,
 %   its Hole bound to `true`; or it was ended meanwhile.  Next is `stop`, or
-%   elsewhere(Goals) if it still has its worker.
+%   elsewhere(Goals) if it keeps its worker.
 %
 %   @error type_error(mobile_term, Culprit)
 %   @error move_refused(Address, Reason)
@@ -53,8 +53,9 @@ hop_within(Id, Name, Hole, Goals, Since, Next) :-
     ).
 hop_within(_, _, _, _, _, stop).        % it was ended
 
-%   passed(+Id, +Hosts, +Going, +Held, +Hops, -Next) is semidet: between plain
-%   hosts, where there is capacity.  All else fails, and nothing has changed.
+%   passed(+Id, +Hosts, +Going, +Held, +Hops, -Next) is semidet: for plain
+%   hosts, and if there is capacity.  In all other cases it fails without
+%   changes.
 
 passed(Id, Hosts, Going, Held, Hops, Next) :-
     with_agent(Id, pass(Id, Hosts, Going, Held, Next, Seconds)),
@@ -98,8 +99,9 @@ moved(Id, _, _, _, _, _, Verdict) :-
     ;   Verdict = ended
     ).
 
-%   An agent that was ordered to move has no hole.  An order to end it finds it
-%   counted where it stands.
+%   An agent that was ordered to move has no hole.  Here and Name are counted
+%   inside with_agent/2, so that an order to end the agent finds it counted on
+%   the host where it is.
 
 move(Id, Here-Name, going(Module0, Hash, Life, Until, Since), Hole-Goals0,
      Next, Seconds) :-
@@ -131,7 +133,7 @@ goes_on(elsewhere(_), _, _).
 goes_on(stop, Id, Goals) :-
     agent_put(Id, ready, Goals).
 
-%   One of them may have been stopped meanwhile.
+%   One of the hosts may have been stopped meanwhile.
 
 seconds(Here, Name, Since, Seconds) :-
     (   ( host_time(Here, Now) ; host_time(Name, Now) )
@@ -139,7 +141,7 @@ seconds(Here, Name, Since, Seconds) :-
     ;   Seconds = 0.0
     ).
 
-%   The agent has moved, whatever goes wrong now.
+%   The agent has moved: errors in reporting are only printed.
 
 told(Id, Here-Name, Hops, Seconds, Next) :-
     catch(arrived(Id, Here, Name, Hops, Seconds, Next),
@@ -158,7 +160,7 @@ arrived(Id, Here, Name, Hops, Seconds, Next) :-
     ->  schedule(Name, Id)
     ;   true
     ).
-arrived(_, _, _, _, _, _).              % it is being stopped
+arrived(_, _, _, _, _, _).              % the host is being stopped
 
 came(Id, Here, Name, Seconds) :-
     (   event_heard(hops),
