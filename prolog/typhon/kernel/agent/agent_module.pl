@@ -66,19 +66,6 @@ on the host, even if the options of the host change.
 %   @error what assertz/1 raises
 %   @error what a variant raises, see typhon_agent_module
 
-%!  agent_module(+Id, +Place, +Hash, +State, -Module) is semidet.
-%!  agent_module(+Id, +Place, +Program, +Clauses) is det.
-%
-%   The second is for a host without parts, where there is no module Id; Program
-%   is that of the program. Make a module with the state of an agent.  What is
-%   wrong with the state is found here, and nothing is left behind then.  Fails
-%   if there is no program of that Hash.
-%
-%   @arg State is state(Empty, Clauses): what is dynamic without having
-%        clauses, and the clauses of all else.
-%   @error what assertz/1 raises
-%   @error what a variant raises, see typhon_agent_module
-
 agent_module(Id, Place, Hash, State0, Module) :-
     code_module(Hash, Program0),
     below(Place, Hash, Program0, State0, Program, Above, State),

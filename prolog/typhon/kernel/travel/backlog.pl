@@ -95,6 +95,7 @@ add(Id, Letter) :-
 %   backlog_begin(+Id, -Letters:list, -Tries) is semidet.
 %
 %   Take out all letters to try them; Tries attempts have failed before.
+
 backlog_begin(Id, Letters, Tries) :-
     retract(waits(Id, Queue, Tries, idle)),
     !,

@@ -155,6 +155,7 @@ age(ended(_, _, Hops), age(Hops, 2, 0, 0)).  % fewer hops: a copy that was
 %   The process is about to end: send what can be sent before one deadline for
 %   all homes, and give up the rest.  News that a courier is sending are sent
 %   again, in case it is too slow; so the home may get them twice.
+
 typhon_runtime:ending(before) :-
     get_time(Now),
     setting(typhon_endpoint:flush_time, Seconds),

@@ -71,10 +71,6 @@ results_keep(Id, Items) :-
 results_ask(Where, Id, Kind, Items) :-
     ask(Where, left(Id, Kind), Items).
 
-%!  clone_born(+Parent, +Clone) is det.
-%
-%   Record Clone, a clone of Parent, which is here.
-
 typhon_bounds:forgotten(left(Id, _)) :-
     durable_drop_all(left, Id).
 typhon_bounds:forgotten(clone_of(_, Clone)) :-
@@ -85,6 +81,10 @@ typhon_bounds:forgotten(clone_of(_, Clone)) :-
 :- durable(flag, Name, N, '',
            ( member(Name, [results, clones]), flag(Name, N, N) ),
            set_flag(Name, N)).
+
+%!  clone_born(+Parent, +Clone) is det.
+%
+%   Record Clone, a clone of Parent, which is here.
 
 clone_born(Parent, Clone) :-
     durable_assertz(clone_of(Parent, Clone)),

@@ -5,20 +5,20 @@
 
 /** <module> Accepting connections
 
-Every client has a thread of its own and, until it has proved itself, one of
-a bounded number of slots. When all are taken a newcomer gets that of
-another: of an address from which no peer has proved itself, before others; of
-the address that holds most slots; of one that has sent nothing yet; of the one
-that came first. So a client that only wants to hold slots holds them as long
-as no other wants them.
+Each client has a thread of its own and, until it has proved itself, one of a
+bounded number of slots. If all are taken, a new client gets the slot of
+another, by these rules in this order: of an address from which no peer has
+proved itself; of the address that holds most slots; of a client that has sent
+nothing yet; of the oldest. So a client that only occupies slots keeps them only
+as long as no other client needs them.
 
-Most unknown clients speak another protocol. One whose first byte is there, and
-is not that of a greeting, gets neither slot nor thread.
+Most unknown clients speak another protocol. A client whose first byte has
+arrived, and is not that of a greeting, gets neither slot nor thread.
 
 *Threading*: accept_all/2 is the goal of a thread, which is woken by a
-signal: closing the socket would not wake it. The slots are guarded by a
-mutex: the acceptor gives and takes them, the thread of a client reports how
-far it has come and returns its own.
+signal: closing the socket would not wake it. A mutex guards the slots: the
+acceptor gives and takes them, the thread of a client reports its progress and
+returns its own.
 */
 
 :- use_module(library(error), [syntax_error/1]).
@@ -40,14 +40,14 @@ far it has come and returns its own.
     stranger/4,                         % Thread, Ip, Since, Stage
     proved/1.                           % Ip, of a peer; the newest last
 
-%   Addresses that are remembered.
+%   The number of addresses kept in proved/1.
 
 proved_addresses(256).
 
 %!  accept_all(+Socket, +Me)
 %
-%   Serve all that connect to Socket, Me being our hello, until stopped by
-%   a signal.
+%   Serve all clients that connect to Socket until stopped by a signal.  Me is
+%   the hello of this process.
 
 accept_all(Socket, Me) :-
     refusals_begin,
@@ -57,8 +57,8 @@ accept_all(Socket, Me) :-
 
 %!  accept_no_more is det.
 %
-%   All threads of the endpoint have ended: close what some had not begun
-%   with.
+%   Close the streams of clients whose threads had not begun with them. Called
+%   when all threads of the endpoint have ended.
 
 accept_no_more :-
     forall(stranger(Thread, _, _, _), take_slot(Thread)).
@@ -68,7 +68,7 @@ accept(Socket, Me) :-
     atomic_list_concat([A, B, C, D], '.', Ip),
     sig_atomic(admit(Client, Ip, Me)).
 
-%   Out of descriptors, most likely, which unproved clients may hold.
+%   Most likely descriptors are used up: unproved clients may hold them.
 
 accept_failed(Formal) :-
     refused(anywhere, Formal),
@@ -145,8 +145,8 @@ free_slot :-
     setting(strangers, Max),
     Count < Max.
 
-%   A thread that was interrupted on its first or last steps may not have
-%   said that it ended.
+%   A thread that was interrupted in its first or last steps may not have
+%   reported its end.
 
 bury(Thread) :-
     take_slot(Thread),
@@ -171,7 +171,8 @@ victim(Thread, Ip) :-
             Ranked),
     keysort(Ranked, [_-(Thread-Ip)|_]).
 
-%   The streams of a client that is new are still ours.
+%   The streams of a client whose thread has not begun with them are closed
+%   here.
 
 take_slot(Thread) :-
     retract(stranger(Thread, _, _, Stage)),
@@ -189,7 +190,7 @@ address_rank(Ip, Slots, Known, Free) :-
     length(Slots, Count),
     Free is -Count.
 
-%   A new client has not had a chance to send anything.
+%   A new client has had no time to send anything.
 
 stage_rank(silent, Spoke) =>
     Spoke = 0.
@@ -204,9 +205,9 @@ serve(In, Out, Ip, Me) :-
     call_cleanup(incoming(In, Out, Ip, typhon_acceptor:stage(Ip), Me),
                  leave).
 
-%   stage(+Ip, +Stage): this client has come so far: its streams are its
-%   thread's own, and it is `silent`; it is `heard`; it has `proved` itself, or
-%   is `refused`.  Fails if its slot is another's now.
+%   stage(+Ip, +Stage): the client of this thread has come so far: `silent`, its
+%   streams belong to its thread; `heard`; `proved`; or `refused`.  Fails if the
+%   slot of the client was given to another.
 
 stage(Ip, Stage) :-
     sig_atomic(slot(reach(Stage, Ip))).

@@ -13,25 +13,25 @@
 
 /** <module> The endpoint: one per process
 
-An endpoint sends terms to the endpoints of other processes, and of its
-own, over TCP. It knows nothing of agents. Its address is an atom
-`Interface:Port`. Its process has a random id; with the number of this start
-it shows peers whether they meet the same process again. What arrives goes to
-hooks, one clause per kind of message, in the module that owns the kind:
+An endpoint sends terms to the endpoints of other processes, and to itself,
+over TCP. It does not know of agents. Its address is an atom `Interface:Port`.
+Its process has a random id, which together with the number of this start shows
+peers whether they meet the same process again. Arriving terms go to hooks, one
+clause for each kind of message, in the module that owns the kind:
 
   - received(+Kind, +Term, +Peer)
-  - together(+Kind, +Terms, -Fewer): posts that have come together, made
-    fewer; fails where they are to be taken one by one
+  - together(+Kind, +Terms, -Fewer): merge posts that have come in one frame;
+    fails if they are to be taken one by one
   - requested(+Kind, +Term, +Peer, +ReplyTo)
   - connection(+Peer, +State)
   - lent(+Thread) and returned, see typhon_lending
 
-Peer is the address the sender listens to.
+Peer is the address at which the sender listens.
 
-*Threading*: everything may be called from any thread. The hooks run in the
-thread of a connection and must be quick: while one runs, nothing else of
-that peer is read. They may post, request and reply. own_place/4 and
-own_start_next/1 run under the mutex of the endpoint.
+*Threading*: any thread may call everything. The hooks run in the thread of a
+connection and must be quick: while one runs, no other frame of that peer is
+read. They may post, request and reply. own_place/4 and own_start_next/1 run
+under the mutex of the endpoint.
 */
 
 :- use_module(library(apply), [maplist/2]).
@@ -82,22 +82,23 @@ own_start_next/1 run under the mutex of the endpoint.
            "Seconds endpoint_stop/0 waits for the last frames to arrive").
 
 :- dynamic
-    closed/0,                           % no peer is let in yet
+    closed/0,                           % peers are not accepted yet
     running/4,                          % Address, Socket, Acceptor, Manager
     further/3.                          % Address, Socket, Acceptor
 
 %!  endpoint_start(+Interface, +Port, -Address) is det.
+
+endpoint_start(Interface, Port, Address) :-
+    endpoint_start(Interface, Port, [], Address).
+
 %!  endpoint_start(+Interface, +Port, +Options, -Address) is det.
 %
 %   Listen at Port of Interface; Port 0 is any free one. Options are for
 %   transports, see typhon_transport.
 %
-%   @error permission_error(start, endpoint, Address) one is running.
-%   @error socket_error(Code, Text): the port is taken, the interface unknown;
-%   the context names both
-
-endpoint_start(Interface, Port, Address) :-
-    endpoint_start(Interface, Port, [], Address).
+%   @error permission_error(start, endpoint, Address) if one is running
+%   @error socket_error(Code, Text): the port is taken, or the interface is
+%   unknown; the context names both
 
 endpoint_start(Interface, Port, Options, Address) :-
     must_be(atom, Interface),
@@ -132,7 +133,7 @@ start(Interface0, Port0, Address) :-
     debug(typhon(session), 'endpoint: starts at ~w, start ~w',
           [Address, Start]).
 
-%   With a journal no peer is let in before it was read.
+%   If there is a journal, peers are accepted only after it was read.
 
 until_opened :-
     retractall(closed),
@@ -150,7 +151,7 @@ accept_open(Socket, Me) :-
 
 %!  endpoint_open is det.
 %
-%   What the journal knows was read: peers are let in.
+%   The journal was read: accept peers.
 
 endpoint_open :-
     running(Address, _, Acceptor, _),
@@ -166,7 +167,7 @@ endpoint_open :-
 %
 %   Have an endpoint that reaches only itself, see messaging.pl.
 %
-%   @error permission_error(start, endpoint, Address) one is running.
+%   @error permission_error(start, endpoint, Address) if one is running
 
 endpoint_start_alone(Address) :-
     with_mutex(typhon_endpoint, start_alone(Address)).
@@ -178,9 +179,9 @@ start_alone(_) :-
 start_alone(Address) :-
     alone_begin(Address).
 
-%   listen(+Interface, +Port, -Address, -Socket): a port is free again as soon
-%   as no process listens there.  Processes that begin here would, too, if the
-%   socket had no stream.
+%   listen(+Interface, +Port, -Address, -Socket): reuseaddr lets a new process
+%   listen at the port as soon as the old one has stopped.  The socket gets a
+%   stream because child processes would inherit it otherwise.
 
 listen(Interface, Port, Address, Socket) :-
     (   Port =:= 0
@@ -198,7 +199,7 @@ listen(Interface, Port, Address, Socket) :-
             blame(Error, Interface, Port) )),
     atomic_list_concat([Interface, Bound], :, Address).
 
-%   Which port is taken, or which interface is none of ours.
+%   Name the port that is taken, or the interface that is not of this machine.
 
 blame(error(socket_error(Code, Text), _), Interface, Port) :-
     !,
@@ -218,10 +219,10 @@ our_hello(Start, Address, Me) :-
     hello(Process, Start, Address, Me).
 
 %!  endpoint_listen(+Port, -Address) is det.
-%!  endpoint_listen_end(+Address) is det.
 %
-%   Listen at a further Port, too, until the endpoint stops at the latest.
-%   A peer that connects there reaches the endpoint as at its first port.
+%   Listen at a further Port, too, until endpoint_listen_end/1 or the end of the
+%   endpoint. A peer that connects there reaches the endpoint as at its first
+%   port.
 %
 %   @error existence_error(endpoint, running)
 
@@ -242,6 +243,8 @@ listen_too(Port, Address) :-
     assertz(further(Address, Socket, Acceptor)),
     debug(typhon(session), 'endpoint: listens at ~w, too', [Address]).
 
+%!  endpoint_listen_end(+Address) is det.
+
 endpoint_listen_end(Address) :-
     with_mutex(typhon_endpoint, listen_no_more(Address)).
 
@@ -254,9 +257,9 @@ listen_no_more(_).
 
 %!  endpoint_stop is det.
 %
-%   Take no more connections, let the last frames arrive where there is a
-%   connection, close all. Requests without an answer are lost. May be
-%   called in a clean-up handler: the wait with a deadline is in another
+%   Accept no more connections, wait until the last frames have arrived at peers
+%   that are connected, close everything.  Requests without an answer are lost.
+%   May be called in a clean-up handler: the wait with a deadline is in another
 %   thread, see manager_connect/1.
 
 endpoint_stop :-
@@ -288,7 +291,7 @@ stop :-
 
 %!  endpoint_address(?Address) is semidet.
 %
-%   Address is that of this process: the first, if unbound.
+%   Address is one of this process: the first, if unbound.
 
 endpoint_address(Address) :-
     running(Address, _, _, _).
@@ -300,8 +303,8 @@ endpoint_address(Address) :-
 
 %!  endpoint_proof(-Proof) is semidet.
 %
-%   In a hook: how the peer whose frame is being handled has proved itself,
-%   see typhon_transport. Fails in other threads.
+%   In a hook: the proof of the peer whose frame is being handled, see
+%   typhon_transport. Fails in other threads.
 
 endpoint_proof(Proof) :-
     transport_proof(Proof).
@@ -316,9 +319,10 @@ endpoint_proof(Proof) :-
 
 %!  own_place(+Interface0, +Port0, -Interface, -Port) is det.
 %
-%   Where to listen. A process that has a journal keeps the id that it had when
-%   that was last open, and listens where it did.  Peers see it in the first
-%   letter of the id, see endpoint_lasting/1.
+%   The interface and port to listen at.  A process that has a journal keeps the
+%   id and the place that it had when the journal was last open.  Peers
+%   recognise such a process by the first letter of its id, see
+%   endpoint_lasting/1.
 
 own_place(Interface0, Port0, Interface, Port) :-
     durable_opened(_),
@@ -345,13 +349,16 @@ own_place(Interface, Port, Interface, Port) :-
     ).
 
 %!  own_start(-Start) is semidet.
-%!  own_start_next(-Start) is det.
 %
-%   How often this process has begun to listen.
+%   The number of times that this process has started to listen.
 
 own_start(Start) :-
     starts(Start),
     !.
+
+%!  own_start_next(-Start) is det.
+%
+%   Count one more start.
 
 own_start_next(Start) :-
     (   retract(starts(Start0))

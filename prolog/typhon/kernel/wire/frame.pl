@@ -19,26 +19,27 @@ A frame is a head of fifteen bytes and a body. The head has, big-endian, the
 length of the body in four bytes, a check in three, and two counts of four
 bytes each, counts(Received, Settled): how many frames of the other side this
 side has received, and how many of them are settled, see unacked.pl. Counts
-wrap around. A frame without body says nothing but its counts.
+wrap around. A frame without body carries only its counts.
 
 The body is a string of codes 0..255, one term in one of two codecs:
 
   - `fast` is the internal record format. It is only for peers of one
-    word size, byte order and a tried range of versions: a record of
-    another word size does not raise, it aborts the process.
+    word size, byte order and a tested range of versions: a record of
+    another word size does not raise an error, it aborts the process.
   - `text` is canonical text in UTF-8, independent of the operators and
     flags of both sides.
 
 The check detects damage of body and counts in transit before the bytes are
-decoded: a damaged record aborts the process, too. It is no proof of anything.
+decoded, because a damaged record also aborts the process. It proves nothing
+about the sender.
 
-Before the body of a request or an answer that may turn out to be more than
-the other side can decode, long ones and all text, stands a mark with its
-number, so that no caller waits for an answer that could not be read.
+A request or answer that the other side may be unable to decode, a long one or
+any text, has a mark with its number before the body: so no caller waits for an
+answer that could not be read.
 
 Writing, reading, checking and keeping a small frame costs more than its
-content. So of the frames that wait, frame(Bytes, Token, Settled), posts are
-loose(Bytes, Settled), and up to a hundred of them become one frame,
+content. So posts that wait are loose(Bytes, Settled), other frames that wait
+frame(Bytes, Token, Settled), and up to a hundred posts become one frame,
 bundle(Parts).
 
 *Threading*: no state; every predicate may be called from any thread. The
@@ -72,7 +73,7 @@ frame_write(Out, counts(Received, Settled), Bytes) :-
     write(Out, Head),
     write(Out, Bytes).
 
-%   Each bit of the counts matters to the 24 bits of the check.
+%   A change of any bit of the counts changes the 24 bits of the check.
 
 frame_check(Bytes, R, S, Check) :-
     check_bytes(Bytes, Hash),
@@ -80,14 +81,14 @@ frame_check(Bytes, R, S, Check) :-
 
 %!  frame_overhead(?Bytes) is det.
 %
-%   The head of a frame takes so many.
+%   The length of the head of a frame.
 
 frame_overhead(15).
 
 %!  count_ahead(+Counted, +Count, -Ahead) is semidet.
 %
-%   Count, as it stands in a head, is Ahead frames more than Counted; fails if
-%   it is less, as in a frame that was written long ago.
+%   Count, as read in a head, is Ahead frames more than Counted; fails if it is
+%   less, as in a frame that was written long ago.
 
 count_ahead(Counted, Count, Ahead) :-
     Ahead is (Count-Counted) /\ 0xffffffff,
@@ -98,10 +99,10 @@ count_ahead(Counted, Count, Ahead) :-
 %   Read one frame. Bytes is `end_of_file` when In ends where a frame
 %   would begin.
 %
-%   @error syntax_error(truncated_frame) In ends inside the frame.
-%   @error syntax_error(damaged_frame) its bytes are not those of its check;
-%   the context is check(Read, Found). In is where the next frame begins.
-%   @error resource_error(frame_bytes) the frame is longer than MaxBytes.
+%   @error syntax_error(truncated_frame) if In ends inside the frame
+%   @error syntax_error(damaged_frame) if the check does not match the bytes;
+%   the context is check(Read, Found), and In is at the next frame
+%   @error resource_error(frame_bytes) if the frame is longer than MaxBytes
 
 frame_read(In, MaxBytes, Counts, Bytes) :-
     read_string(In, 15, Head),
@@ -136,9 +137,9 @@ frame_body(In, Length, _, Bytes) :-
 
 %!  check_bytes(+Bytes, -Check) is det.
 %
-%   Check is an integer of 24 bits. That of a record is what costs least
-%   and the same for all peers that may exchange records, see byte_order/1 in
-%   handshake.pl; that of a text is the same everywhere.
+%   Check is an integer of 24 bits.  For a record it is the cheapest hash, which
+%   is the same for all peers that may exchange records, see byte_order/1 in
+%   handshake.pl; for a text it is the same everywhere.
 
 check_bytes(Bytes, Check) :-
     (   string_code(1, Bytes, 0'#)      % a text
@@ -153,12 +154,12 @@ check_bytes(Bytes, Check) :-
 %   Bytes are Term in Codec, `fast` or `text`.
 %
 %   @error type_error(mobile_term, Culprit) as mobile_term/1. The codec
-%   `fast` only notices blobs: ask mobile_term/1 about foreign terms.
+%   `fast` detects only blobs: test foreign terms with mobile_term/1 first.
 
 term_bytes(fast, Term, Bytes) :-
     rational(Term),
     \+ integer(Term),
-    !,                                  % 10.1.12 reads 3 from that of 1r3
+    !,                                  % 10.1.12 decodes 1r3 as 3
     term_bytes(text, Term, Bytes).
 term_bytes(fast, Term, Bytes) :-
     (   serialized(Term, Body)
@@ -184,7 +185,7 @@ serialized(Term, Bytes) :-
 %   The inverse of term_bytes/3. Never call this on the bytes of a peer
 %   that has not proved itself.
 %
-%   @error syntax_error(Message) the text is damaged.
+%   @error syntax_error(Message) if the text is damaged
 
 bytes_term(fast, Bytes, Term) :-
     (   string_code(1, Bytes, Mark)
@@ -209,8 +210,8 @@ marked_term(_, Bytes, Term) :-
 		 *             MARKS            *
 		 *******************************/
 
-%   A mark is `#` before text, `!` before a record, which never begins so;
-%   then what the term is, and its number in eighteen digits.
+%   A mark is `#` before text, `!` before a record, as no record begins with
+%   either; then the kind of the term, and its number in eighteen digits.
 
 marked(Code, Term, Body, Bytes) :-
     term_mark(Term, Kind, Id),
@@ -233,7 +234,7 @@ unmarked(Bytes, Body) :-
 
 %!  bytes_mark(+Bytes, -Mark) is semidet.
 %
-%   Mark is request(Id) or answer(Id), if that is what Bytes say they are.
+%   Mark is request(Id) or answer(Id), if Bytes are marked so.
 
 bytes_mark(Bytes, Mark) :-
     sub_string(Bytes, 0, 20, _, Text),
@@ -249,12 +250,12 @@ mark_kind(?, Id, request(Id)).
 mark_kind(=, Id, answer(Id)).
 
 		 /*******************************
-		 *      WHAT CAN TRAVEL         *
+			 *        MOBILE TERMS          *
 		 *******************************/
 
 %!  mobile_term(+Term) is det.
 %
-%   True when Term can travel.
+%   Term can travel.
 %
 %   @error type_error(mobile_term, Culprit) for a stream or another blob,
 %   an attributed variable, or a cyclic term inside Term.
@@ -299,7 +300,7 @@ member_culprit([Arg|Args], Culprit) :-
 		 *            BUNDLES           *
 		 *******************************/
 
-%   A bundle is no more than can be under way, see unacked.pl.
+%   A bundle is smaller than the space for frames under way, see unacked.pl.
 
 longest_part(512).
 most_parts(100).
@@ -316,9 +317,9 @@ bundle_fits(Bytes) :-
 
 %!  bundle_next(+Queue, +Codec, +Space, -Frame, -Many) is semidet.
 %
-%   Take the next Frame of Queue, frame(Bytes, Token, Settled): fails where
-%   there is none, or not one of Space bytes, a number or `inf`. Many is `true`
-%   if it is a bundle.
+%   Take the next Frame of Queue, frame(Bytes, Token, Settled): fails if there
+%   is none, or if it is longer than Space, a number of bytes or `inf`.  Many is
+%   `true` if it is a bundle.
 
 bundle_next(Queue, Codec, Space, Frame, Many) :-
     thread_peek_message(Queue, Next),
@@ -341,8 +342,8 @@ bundled([Bytes], _, Settled, frame(Bytes, none, Settled), false) :-
 bundled(Parts, Codec, Settled, frame(Bytes, none, Settled), true) :-
     term_bytes(Codec, bundle(Parts), Bytes).
 
-%   What is settled is as of the last part: all that was sent before it has
-%   gone by then.
+%   Settled is that of the last part: all frames put before it have been sent by
+%   then.
 
 parts(Most, Space0, Queue, Settled0, Parts, Settled) :-
     (   Most > 0,
@@ -367,7 +368,7 @@ space_left(Space0, Length, Space) :-
 
 %!  bundle_parts(+Bundle, -Parts:list) is semidet.
 %
-%   Fails for what is not a bundle, be it that a peer calls it so.
+%   Fails if Bundle is malformed: a peer may send any term as a bundle.
 
 bundle_parts(bundle(Parts), Parts) :-
     is_list(Parts),

@@ -8,20 +8,20 @@
             lent_away/0
           ]).
 
-/** <module> The reader's thread is lent to work that a frame has brought
+/** <module> Lending the thread of a reader to the work of a frame
 
-To wake another thread costs as much as the rest of a hop.  So the thread that
-has read and counted a frame may run the agent that it brought, for an unknown
-time: a goal of endpoint_afterwards/1.
+Waking another thread costs as much as the rest of a hop.  So the thread that
+has read and counted a frame may run the agent that came in it, for an unknown
+time: as a goal of endpoint_afterwards/1.
 
-Meanwhile the connection belongs to a token, a message in a queue of the thread.
-When the goal ends the thread takes it back, and reads on.  A goal that lasts is
-found by the connection manager, which takes the token instead: then the session
-loses this connection and gets another one, with a thread of its own, and the
-one that was lent is no longer of the wire.
+Meanwhile a token owns the connection, a message in a queue of the thread.  When
+the goal ends the thread takes the token back, and reads on.  If the goal takes
+long, the connection manager takes the token: then the session loses this
+connection and gets another one, with a thread of its own, and the lent thread
+no longer belongs to the wire.
 
-A request to end a thread that is lent takes effect when it is back: what it
-runs must not be interrupted for the sake of a connection.
+A request to end a lent thread takes effect when the thread is back: its goal
+must not be interrupted for the sake of a connection.
 
 *Threading*: lending_open/4 to lent_away/0 are for the thread of a connection.
 The token goes to the thread that takes it first.
@@ -50,9 +50,9 @@ The token goes to the thread that takes it first.
     lendable/3,                         % Thread, Queue, connection(...)
     seen/4.                             % Thread, Turn, Since, Processor time
 
-%   While threads are lent the manager checks so often.  One is missed that has
-%   worked for so long in one turn, or has been away for so long: it may wait
-%   for something, or for a processor.
+%   While threads are lent the manager checks at this interval.  A lent thread
+%   is overdue after so much processor time in one turn, or so much time
+%   altogether: it may wait for something, or for a processor.
 
 look_seconds(0.02).
 most_work(0.01).
@@ -61,11 +61,11 @@ most_time(0.2).
 %!  endpoint_afterwards(:Goal) is det.
 %
 %   In a hook: call(Goal, here) in this thread when the hook has ended and its
-%   frame is counted.  If that fails, or more is to be read first, or this is no
-%   reader, call(Goal, later) leaves the work to others; that does not fail.
-%   Goal does not raise. Where it lasts, the hook lent(Thread) says that Thread
-%   is not of the endpoint any more, and returned, there, that Thread is about
-%   to end.
+%   frame is counted.  If that fails, or more must be read first, or this is no
+%   reader, call(Goal, later) leaves the work to other threads; it does not
+%   fail.  Goal does not raise.  If Goal takes long, the hook lent(Thread)
+%   reports that Thread has left the endpoint, and the hook returned, in Thread,
+%   that Thread is about to end.
 
 endpoint_afterwards(Goal) :-
     (   nb_current(typhon_lending, idle)
@@ -75,16 +75,15 @@ endpoint_afterwards(Goal) :-
 
 %!  lending_anew is det.
 %
-%   No thread is lent as yet.
+%   Reset: no thread is lent.
 
 lending_anew :-
     flag(typhon_lending, _, 0),
     retractall(seen(_, _, _, _)).
 
 %!  lending_open(+Session, +In, +Out, -Queue) is det.
-%!  lending_close is det.
 %
-%   This thread begins to read, and has done so.  Its token is in Queue.
+%   This thread begins to read.  Its token goes to Queue.
 
 lending_open(Session, In, Out, Queue) :-
     thread_self(Me),
@@ -93,6 +92,10 @@ lending_open(Session, In, Out, Queue) :-
     nb_setval(typhon_turns_lent, 0),
     nb_setval(typhon_end, none),
     nb_setval(typhon_lending, idle).
+
+%!  lending_close is det.
+%
+%   This thread stops reading.
 
 lending_close :-
     nb_getval(typhon_lending, State),
@@ -103,8 +106,8 @@ lending_close :-
     ;   true
     ).
 
-%   left(+State): what is left to do for a thread that stops reading in this
-%   State.
+%   left(+State): finish the work that a thread has left when it stops reading
+%   in this State.
 
 left(idle).
 left(away).
@@ -118,13 +121,13 @@ left(lent) :-                           % it was aborted
 
 %!  lend(+Queue, :More, :Tell) is semidet.
 %
-%   Call what a hook has left; fails if there is nothing. More says whether
-%   there is more to read first. Tell is called when the thread is back, and
-%   before the work is left to others: the peer learns what was accepted before
-%   they act.
+%   Call the goal that a hook has left; fails if there is none.  More is true if
+%   there is more to read first.  Tell is called when the thread is back, and
+%   also before the work is left to other threads: the peer must get the answers
+%   before it gets what these threads send.
 %
-%   Throws wire_thread_end(Why) if it is to end, as when the connection is no
-%   longer ours.
+%   Throws wire_thread_end(Why) if the thread is to end, as when the connection
+%   no longer belongs to it.
 
 lend(Queue, More, Tell) :-
     nb_getval(typhon_lending, wants(Goal)),
@@ -144,7 +147,7 @@ lend(Queue, More, Tell) :-
 leave(Goal, Tell) :-
     sig_atomic(( call(Tell), call(Goal, later) )).
 
-%   From the first step on a request to end this thread has to wait.
+%   From the first step on a request to end this thread is deferred.
 
 give(Queue) :-
     nb_linkval(typhon_lending, lent),
@@ -154,7 +157,7 @@ give(Queue) :-
     thread_send_message(Queue, token(Turn)),
     look_in_time.
 
-%   A thread that was missed waits until all is done that is done in its stead.
+%   An overdue thread waits until its release is complete.
 
 take_back(Queue) :-
     (   thread_get_message(Queue, token(_), [timeout(0)])
@@ -178,17 +181,20 @@ end_if_asked :-
     ).
 
 %!  lent is semidet.
-%!  lent_away is semidet.
 %
-%   This thread is lent, or was for so long that it has no connection.
+%   This thread is lent.
 
 lent :-
     nb_current(typhon_lending, lent).
 
+%!  lent_away is semidet.
+%
+%   This thread was lent for so long that it has lost its connection.
+
 lent_away :-
     nb_current(typhon_lending, away).
 
-%   That it is to end is kept until it is back.
+%   A request to end this thread is kept until the thread is back.
 
 typhon_threads:not_now(Why) :-
     lent,
@@ -198,7 +204,7 @@ typhon_threads:not_now(Why) :-
                  *            LOOKING           *
                  *******************************/
 
-%   While threads are lent the manager checks which do not come back.
+%   While threads are lent the manager looks for those that are overdue.
 
 look_in_time :-
     (   get_flag(typhon_lending, 1)
@@ -260,10 +266,10 @@ lent_to(Thread, Turn) :-
                  *           RELEASE            *
                  *******************************/
 
-%   release(+Thread, +Turn) is semidet: it is on its own, and the session
-%   without connection.  A thread that waits for the end of Thread goes on.
-%   Should Thread come back before the connection is gone, it sees to that
-%   itself.
+%   release(+Thread, +Turn) is semidet: Thread no longer belongs to the
+%   endpoint, and its session is without connection.  A caller that waits for
+%   the end of Thread goes on.  If Thread comes back before its connection is
+%   closed, it waits for the release.
 
 typhon_threads:overdue(Thread) :-
     lent_to(Thread, Turn),
@@ -280,12 +286,12 @@ released(Thread, Turn, Connection) :-
     catch(thread_get_message(Queue, token(Turn), [timeout(0)]),
           error(_, _), fail),
     !,
-    call_cleanup(                       % it waits for this, whatever a hook does
+    call_cleanup(                       % Thread waits for this in any case
         forall(typhon_endpoint:lent(Thread), true),
         ( wire_thread_leaves(Thread),
           thread_send_message(Queue, released) )).
 
-%   Another thread may have given the session another connection by now.
+%   Another thread may have given the session a new connection by now.
 
 part(Thread, connection(Session, In, Out)) :-
     session_adopting(Session, session_lost(Session, Thread)),

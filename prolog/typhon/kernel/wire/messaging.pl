@@ -18,13 +18,13 @@
 /** <module> Messages to the endpoints of other processes
 
 A post goes one way, a request is answered. Both go over the session to
-which the address leads; where there is none that is up, a connection is
+which the address leads; if there is none that is up, a connection is
 made first. A caller may wait for one answer, or for those of many peers
-under one deadline.
+with one deadline.
 
-*Threading*: everything may be called from any thread. endpoint_post/3 may
-block it, unless it is in a hook of the endpoint; endpoint_call/5 and
-endpoint_ask_all/6 wait, and are not for the threads of the endpoint.
+*Threading*: any thread may call everything. endpoint_post/3 may block it,
+unless it is in a hook of the endpoint; endpoint_call/5 and endpoint_ask_all/6
+wait, and are not for the threads of the endpoint.
 */
 
 :- use_module(library(error), [existence_error/2, must_be/2]).
@@ -53,9 +53,9 @@ endpoint_ask_all/6 wait, and are not for the threads of the endpoint.
 
 %!  endpoint_post(+Address, +Kind, +Term) is det.
 %
-%   Send Term, one way. It arrives once, in the order of the posts of this
-%   thread, as long as both processes live. May block while it connects. What
-%   goes to this process is taken by this thread, at once.
+%   Send Term, one way.  It arrives once, in the order of the posts of this
+%   thread, as long as both processes live.  May block while it connects.  A
+%   post to this process is handled by this thread, at once.
 %
 %   @error unreachable(Address)
 %   @error type_error(mobile_term, Culprit)
@@ -95,9 +95,9 @@ endpoint_post_up(Address, Kind, Term) :-
 
 %!  endpoint_post_by(+Deadline, +Address, +Kind, +Term) is semidet.
 %
-%   As endpoint_post_up/3; a connection is waited for until Deadline. If it goes
-%   again Term waits for the next. Not for hooks nor clean-up handlers, see
-%   manager_connect/2.
+%   As endpoint_post_up/3, but waits for a connection until Deadline. If the
+%   connection breaks, Term waits for the next. Not for hooks nor clean-up
+%   handlers, see manager_connect/2.
 
 endpoint_post_by(_, Address, Kind, Term) :-
     endpoint_post_up(Address, Kind, Term),
@@ -113,8 +113,8 @@ post(Session, Kind, Term) :-
           error(session_closed, _),
           fail).
 
-%   way(+Address, -Session): nothing has to be waited for. In a hook there
-%   must be no waiting: what is sent there waits in the session for the next
+%   way(+Address, -Session): a session in which a frame can be sent without
+%   waiting. A hook must not wait: its frames wait in the session for the next
 %   connection, which cannot be made while its thread is in a hook.
 
 way(Address, Session) :-
@@ -125,7 +125,7 @@ way(Address, Session) :-
     route(Address, Session),
     !.
 
-%   What is asked now must not overtake what waits to be asked.
+%   A new request must not overtake requests that wait for Address.
 
 open_way(Address, Session) :-
     route_up(Address, Session),
@@ -148,9 +148,9 @@ check_running :-
 
 %!  endpoint_request(+Address, +Kind, +Term, :OnAnswer) is det.
 %
-%   Ask; call(OnAnswer, Result) once, in some thread of the endpoint, where
-%   it must be quick. Result is answer(Term), `unreachable` (it certainly
-%   never arrived) or `lost` (it may have). Does not block.
+%   Send a request; call(OnAnswer, Result) once, in some thread of the endpoint,
+%   where it must be quick. Result is answer(Term), `unreachable` (the request
+%   certainly never arrived) or `lost` (it may have). Does not block.
 
 endpoint_request(Address, Kind, Term, OnAnswer) :-
     alone(_),
@@ -167,7 +167,7 @@ endpoint_request(Address, Kind, Term, OnAnswer) :-
     mobile_term(Term),
     unsent_request(Address, Kind, Term, OnAnswer).
 
-%   Where this endpoint is alone what is asked is taken at once, as a copy.
+%   If this endpoint is alone a request is handled at once, as a copy.
 
 alone_request(Address, Kind, Term, OnAnswer) :-
     alone(Address),
@@ -183,30 +183,38 @@ alone_request(_, _, _, OnAnswer) :-
     request_answer(unreachable, OnAnswer).
 
 %!  endpoint_hand(+Address, +Kind, +Term, -Hand) is semidet.
-%!  endpoint_hand_over(+Hand, +Token) is det.
-%!  endpoint_hand_to(+Hand, -Process) is det.
-%!  endpoint_handed(+Hand, -Term) is det.
 %
-%   Hand is the frame by which Term is handed over to the process at Address:
-%   fails if there is no connection, or something else waits to be asked there.
-%   Send it: what becomes of it comes to the hook handed_over(Token, Result), in
-%   a thread of the endpoint. The Process to which it goes, and the Term in it.
-%   Term holds neither attributed variables nor cycles.
-%
-%   Hand is hand(Session, Bytes). It can be kept in clauses.
+%   Hand is the frame by which Term is handed over to the process at Address.
+%   Fails if there is no connection, or requests wait for Address.  Term holds
+%   neither attributed variables nor cycles.  Hand is hand(Session, Bytes), and
+%   can be kept in clauses.
 %
 %   @error resource_error(frame_bytes), type_error(mobile_term, Culprit)
-%   @error session_closed
 
 endpoint_hand(Address, Kind, Term, hand(Session, Bytes)) :-
     open_way(Address, Session),
     session_hand_bytes(Session, Kind, Term, Bytes).
 
+%!  endpoint_hand_over(+Hand, +Token) is det.
+%
+%   Send Hand.  The hook handed_over(Token, Result) gets the result, in a thread
+%   of the endpoint.
+%
+%   @error session_closed
+
 endpoint_hand_over(hand(Session, Bytes), Token) :-
     session_hand(Session, Bytes, Token).
 
+%!  endpoint_hand_to(+Hand, -Process) is det.
+%
+%   Hand goes to Process.
+
 endpoint_hand_to(hand(Session, _), Process) :-
     session_peer(Session, Process, _).
+
+%!  endpoint_handed(+Hand, -Term) is det.
+%
+%   Hand hands over Term.
 
 endpoint_handed(hand(Session, Bytes), Term) :-
     session_codec(Session, Codec),
@@ -214,8 +222,8 @@ endpoint_handed(hand(Session, Bytes), Term) :-
 
 %!  endpoint_reply(+ReplyTo, +Term) is det.
 %
-%   Answer a request, from any thread, any time later. A second answer
-%   goes unnoticed.
+%   Answer a request, from any thread, at any later time. A second answer
+%   is ignored.
 
 endpoint_reply(ReplyTo, Term) :-
     catch(request_reply(ReplyTo, Term),
@@ -225,8 +233,7 @@ endpoint_reply(ReplyTo, Term) :-
 %!  endpoint_reply_later(+ReplyTo, +Term) is det.
 %
 %   As endpoint_reply/2, with the next frame to that peer or a millisecond
-%   later; for answers that no caller waits for in earnest. Only worth while
-%   in a hook.
+%   later; for answers that are not urgent. Of use only in a hook.
 
 endpoint_reply_later(ReplyTo, Term) :-
     catch(request_reply_later(ReplyTo, Term),
@@ -242,8 +249,8 @@ endpoint_reply_later(ReplyTo, Term) :-
 
 %!  endpoint_call(+Address, +Kind, +Term, -Answer, +Timeout) is det.
 %
-%   Ask and wait, at most Timeout seconds. Answer is answer(Term). The
-%   connection counts as lost when it has been down for some seconds: the
+%   Send a request and wait, at most Timeout seconds.  Answer is answer(Term).
+%   The connection counts as lost when it has been down for some seconds: the
 %   caller prefers an error to waiting for the peer to come back.
 %
 %   @error unreachable(Address), connection_lost(Address)
@@ -261,8 +268,8 @@ endpoint_call(Address, Kind, Term, Answer, Timeout) :-
         message_queue_destroy(Queue)),
     call_result(Result, Address, Answer).
 
-%   await(+Queue, +Address, +Deadline, +Up, -Result): at the time Up the
-%   connection was not down.
+%   await(+Queue, +Address, +Deadline, +Up, -Result): Up is the last time at
+%   which the connection was not down.
 
 await(Queue, Address, Deadline, Up0, Result) :-
     get_time(Now),
@@ -299,10 +306,10 @@ call_result(late, Address, _) :-
 %!  endpoint_ask_all(+Addresses, +Kind, +Term, :Further, +Seconds, -Results)
 %!      is det.
 %
-%   Ask the endpoints at Addresses, and those that turn up meanwhile: of an
-%   answer call(Further, Answer, More) gives More addresses. Each is asked
-%   once. Results are Address-Result in no order, Result being one of
-%   endpoint_request/4, or `late` where there was none after Seconds.
+%   Ask the endpoints at Addresses, and further ones: for each answer
+%   call(Further, Answer, More) gives More addresses.  Each is asked once.
+%   Results are Address-Result in no order, Result being one of
+%   endpoint_request/4, or `late` if there was none after Seconds.
 
 endpoint_ask_all(Addresses, Kind, Term, Further, Seconds, Results) :-
     must_be(number, Seconds),
@@ -356,7 +363,7 @@ more(answer(Answer), Further, Asked, New) :-
     subtract(Set, Asked, New).
 more(_, _, _, []).
 
-%   A request without a waiting caller must not keep a session busy.
+%   A request whose caller no longer waits must not keep a session busy.
 
 forget(Queue, Address) :-
     OnAnswer = typhon_messaging:told(Queue, Address),

@@ -14,12 +14,12 @@
             session_control/2           % +Session, +Term
           ]).
 
-/** <module> What is sent in a session: every frame once
+/** <module> Sending in a session: each frame arrives once
 
-A frame is kept until it is acknowledged, see unacked.pl, and goes over
+A frame is kept until it is acknowledged, see unacked.pl, and is sent over
 another connection if one breaks, see resumption.pl.
 
-Here is what senders call; writer.pl writes.
+This module has the predicates that senders call; writer.pl writes.
 
 *Threading*: any thread may send.
 */
@@ -43,21 +43,21 @@ Here is what senders call; writer.pl writes.
 %   Send Term: it arrives once, and in the order of this thread's sends.
 %   Never blocks on the network.
 %
-%   @error session_closed the peer is gone for good
-%   @error resource_error(frame_bytes) Term is too long for a frame
+%   @error session_closed if the peer is gone for good
+%   @error resource_error(frame_bytes) if Term is too long for a frame
 
 session_send(Session, Term) :-
     send(Session, Term, now).
 
 %!  session_answer(+Session, +Term) is det.
 %
-%   As session_send/2, of what a caller waits for: while the store is full
-%   it waits, too. When the store has been closed it is dropped.
+%   As session_send/2, for answers: while the store is full their callers wait,
+%   too. If the store has been closed the answer is dropped.
 
 session_answer(Session, Term) :-
     unless_closed(send(Session, Term, anyhow)).
 
-%   When the store has been closed no peer may learn what happens.
+%   After the store was closed peers must not learn of further events.
 
 :- meta_predicate unless_closed(0).
 
@@ -83,7 +83,7 @@ session_send_with(Session, Term) :-
     answers_left(Own),
     !,
     (   Own == Session
-    ->  session_send(Session, Term)     % so that they go, too
+    ->  session_send(Session, Term)     % so that the answers go, too
     ;   session_push(Own),
         session_send_with(Session, Term)
     ).
@@ -96,17 +96,20 @@ session_send_with(Session, Term) :-
     goes(Session, Bytes, Token, now).
 
 %!  session_hand_bytes(+Session, +Kind, +Term, -Bytes) is det.
-%!  session_hand(+Session, +Bytes, +Token) is det.
 %
-%   Bytes are the frame that hands over Term; send it, and learn by Token what
-%   became of it: see request.pl.  The caller of session_hand/3 holds signals
-%   back.
+%   Bytes are the frame that hands over Term.
 %
 %   @error resource_error(frame_bytes), type_error(mobile_term, Culprit)
-%   @error session_closed
 
 session_hand_bytes(Session, Kind, Term, Bytes) :-
     frame_bytes(Session, hand(Kind, Term), Bytes).
+
+%!  session_hand(+Session, +Bytes, +Token) is det.
+%
+%   Send Bytes, which hand over a term; Token identifies the result, see
+%   request.pl.  The caller defers signals.
+%
+%   @error session_closed
 
 session_hand(Session, Bytes, Token) :-
     answers_first(Session),
@@ -114,7 +117,8 @@ session_hand(Session, Bytes, Token) :-
 
 %!  session_mark(+Session, +Token) is det.
 %
-%   Hand over nothing: Token tells that all that was sent before has arrived.
+%   Hand over an empty frame: its result, under Token, means that all frames
+%   sent before have arrived.
 %
 %   @error session_closed
 
@@ -123,12 +127,9 @@ session_mark(Session, Token) :-
     session_locked(Session, put_frame(Session, Bytes, Token, flush)).
 
 %!  session_object(+Session, +Answer) is det.
-%!  session_owes is det.
 %
-%   For the thread of the connection, of the frame that it is about to count:
-%   the peer learns that it is not accepted, but Answer; the peer waits for the
-%   count of it, which goes with whatever is sent next, see
-%   session_send_later/2. An objection never waits for a commit: the count would
+%   For the thread of the connection: reject the frame that it is about to
+%   count, with Answer.  An objection never waits for a commit: the count would
 %   overtake it.
 
 session_object(Session, Answer) :-
@@ -139,15 +140,21 @@ session_object(Session, Answer) :-
                                  put_frame(Session, Bytes, none, flush))),
     session_owes.
 
+%!  session_owes is det.
+%
+%   For the thread of the connection: the peer waits for the count of the frame
+%   that is about to be counted.  It goes with the next frame, see
+%   session_send_later/2.
+
 session_owes :-
     nb_getval(typhon_later, Count),
     Count1 is Count+1,
     nb_linkval(typhon_later, Count1),
     nb_linkval(typhon_owing, true).
 
-%   What a reader has left goes along, or before what is sent to other peers:
-%   the next process must not report an agent before the answer that it has come
-%   to this one has left.
+%   Answers that a reader has left go with this frame, or before a frame to
+%   another peer: the process that gets this frame must not report an agent
+%   before the answer has left that the agent has arrived here.
 
 answers_first(Session) :-
     answers_left(Own),
@@ -165,12 +172,10 @@ answers_left(Session) :-
     nb_current(typhon_later_in, Session).
 
 %!  session_send_later(+Session, +Term) is det.
-%!  session_later(-Count) is det.
-%!  session_push(+Session) is det.
 %
-%   Send Term with whatever is sent next.  Only the thread of the connection
-%   may leave something: it says session_push/1 when it begins, and again
-%   before long when Count frames have been left.  Others send at once.
+%   Send Term with the next frame.  Only the thread of the connection may leave
+%   frames: it calls session_push/1 when it begins, and again soon if frames
+%   have been left.  Other threads send at once.
 
 session_send_later(Session, Term) :-
     nb_current(typhon_later, Count),
@@ -185,8 +190,16 @@ session_send_later(Session, Term) :-
 session_send_later(Session, Term) :-
     session_answer(Session, Term).
 
+%!  session_later(-Count) is det.
+%
+%   The number of frames that this thread has left.
+
 session_later(Count) :-
     nb_getval(typhon_later, Count).
+
+%!  session_push(+Session) is det.
+%
+%   Send the frames that this thread has left.
 
 session_push(Session) :-
     ( output_waits -> flush_sends ; true ),
@@ -214,10 +227,9 @@ frame_bytes(Session, Term, Bytes) :-
     ).
 
 %!  session_control(+Session, +Term) is det.
-%!  session_acknowledge(+Session) is det.
 %
-%   Send Term, or nothing but counts, outside the count, before all that waits:
-%   dropped when the session is down, and where a newer one of its kind follows.
+%   Send Term outside the count, before all frames that wait.  It is dropped if
+%   the session is down, or if a newer term of its kind follows.
 
 session_control(Session, Term) :-
     session_codec(Session, Codec),
@@ -226,21 +238,25 @@ session_control(Session, Term) :-
     functor(Term, Kind, _),
     session_locked(Session, put_control(Session, Kind, Bytes)).
 
+%!  session_acknowledge(+Session) is det.
+%
+%   As session_control/2, with nothing but counts.
+
 session_acknowledge(Session) :-
     session_locked(Session, put_control(Session, acknowledge, "")).
 
                 /*******************************
-                *       WHAT IS COMMITTED      *
+                *           COMMITTED          *
                 *******************************/
 
-%   let_out(+Session, +Bytes, +Token, +When): as put_frame/4, When as of
-%   send_after_commit/2.
+%   let_out(+Session, +Bytes, +Token, +When): as put_frame/4, after the commit.
+%   When is that of send_after_commit/2.
 
 let_out(Session, Bytes, Token, When) :-
     session_must_exist(Session, _, _),
     send_after_commit(frame(Session, Bytes, Token), When).
 
-%   All are written, then all go.
+%   All frames are written to buffers before the first buffer is flushed.
 
 typhon_durable_changes:committed(Frames) :-
     forall(member(Frame, Frames), let_out(Frame)),
@@ -252,4 +268,4 @@ typhon_durable_changes:committed(Frames) :-
 let_out(frame(Session, Bytes, Token)) :-
     catch(session_locked(Session, put_frame(Session, Bytes, Token, buffer)),
           error(session_closed, _),
-          true).                        % callers have got a result
+          true).                        % its requests have their results

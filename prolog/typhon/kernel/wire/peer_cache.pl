@@ -15,12 +15,12 @@
             endpoint_own_proof/1        % ?Proof
           ]).
 
-/** <module> What is known of peers: addresses and proofs
+/** <module> Peers: addresses, processes and proofs
 
-Which process was last met at an address, and whether it has left: nothing
-listens there any more, or it said goodbye. A process that is silent, and
-one behind a cut network, has not left. Where no peer could be reached, the
-last error. A bounded number of addresses is kept, the oldest are discarded.
+Records which process was last met at an address, and whether it has left:
+nothing listens there any more, or it has sent `bye`. A process that is silent,
+or behind a cut network, has not left. If no peer could be reached, the last
+error is recorded. The number of addresses is bounded, the oldest are discarded.
 
 *Threading*: any thread; a mutex serializes changes.
 */
@@ -50,14 +50,17 @@ last error. A bounded number of addresses is kept, the oldest are discarded.
 %   State is `met`, or `gone` if it has left.
 
 %!  contact_met(+Address, +Process) is det.
-%!  contact_gone(+Address) is det.
 %
-%   Process is at Address; none is there any more.
+%   Record that Process is at Address.
 
 contact_met(Address, Process) :-
     with_mutex(typhon_contacts,
                ( note(Address, Process, met),
                  retractall(missed(Address, _)) )).
+
+%!  contact_gone(+Address) is det.
+%
+%   Record that no process is at Address any more.
 
 contact_gone(Address) :-
     with_mutex(typhon_contacts,
@@ -66,7 +69,7 @@ contact_gone(Address) :-
 
 %!  contact_missed(+Address, +Formal) is det.
 %
-%   No process could be reached at Address, because of the error Formal.
+%   Record that no process could be reached at Address because of error Formal.
 
 contact_missed(Address, Formal) :-
     with_mutex(typhon_contacts,
@@ -74,16 +77,22 @@ contact_missed(Address, Formal) :-
                  assertz(missed(Address, Formal)),
                  bounded(missed(_, _), typhon_peer_cache:contacts) )).
 
-%!  contact_expect(+Address) is det.
-%!  contact_expect_no_more(+Address) is det.
 %!  contact_expected(+Address) is semidet.
 %
-%   If no process is at Address one soon will be: its owner starts it again.
+%   If no process is at Address, one soon will be: its owner restarts it.
+
+%!  contact_expect(+Address) is det.
+%
+%   Make contact_expected/1 true.
 
 contact_expect(Address) :-
     with_mutex(typhon_contacts,
                ( retractall(contact_expected(Address)),
                  assertz(contact_expected(Address)) )).
+
+%!  contact_expect_no_more(+Address) is det.
+%
+%   Make contact_expected/1 false.
 
 contact_expect_no_more(Address) :-
     with_mutex(typhon_contacts, retractall(contact_expected(Address))).
@@ -104,7 +113,7 @@ note(Address, Process, State) :-
     note_lasting(Process, Address),
     forget_oldest.
 
-%   That a process will be there again must survive a restart.
+%   That a process will be restarted must survive a restart of this one.
 
 note_lasting(Process, Address) :-
     sub_atom(Process, 0, _, _, j),
@@ -130,7 +139,7 @@ forget_oldest :-
 
 %!  endpoint_peer(?Address, ?Property) is nondet.
 %
-%   Property of the peer at Address: process(Id), the one last met there,
+%   Property of the peer at Address: process(Id), the last one met there,
 %   state(up or down), pending(Frames), codec(fast or text), proof(cookie or
 %   certificate(Name)).
 
@@ -155,16 +164,19 @@ peer_property(proof(Proof), Session) :-
     session_proof(Session, Proof).
 
 %!  endpoint_left(+Address) is semidet.
-%!  endpoint_gone(+Address) is semidet.
 %
-%   As far as this process knows there is no process at Address any more to
-%   which it can have talked: none listened there when it last tried to
-%   connect, or the one that did said goodbye. Not true of a process that
-%   has been stopped, or is behind a network that is cut.
+%   As far as this process knows, the process at Address with which it may have
+%   communicated is no longer there: none listened there at the last attempt to
+%   connect, or the one that did has sent `bye`.  False for a process that has
+%   been suspended, or is behind a network that is cut.
 
 endpoint_left(Address) :-
     contact(Address, _, gone),
     \+ route_up(Address, _).
+
+%!  endpoint_gone(+Address) is semidet.
+%
+%   As endpoint_left/1, for a process that will not be restarted.
 
 endpoint_gone(Address) :-
     endpoint_left(Address),
@@ -172,8 +184,8 @@ endpoint_gone(Address) :-
 
 %!  endpoint_lasting(+Address) is semidet.
 %
-%   The process that was last met at Address keeps a journal: it is not gone
-%   when it ends, for it will be started again.
+%   The process that was last met at Address keeps a journal: when it ends it is
+%   not gone, because it will be restarted.
 
 endpoint_lasting(Address) :-
     contact(Address, Process, _),
@@ -182,9 +194,9 @@ endpoint_lasting(Address) :-
 
 %!  endpoint_missed(+Address, ?Formal) is semidet.
 %
-%   Why no process could be reached at Address when that was last tried: `late`,
-%   or the formal term of an error, as permission_error(authenticate, peer, Why)
-%   or socket_error(Code, Text).
+%   Formal is the reason why no process could be reached at Address at the last
+%   attempt: `late`, or the formal term of an error, as
+%   permission_error(authenticate, peer, Why) or socket_error(Code, Text).
 
 endpoint_missed(Address, Formal) :-
     missed(Address, Formal0),
@@ -197,9 +209,9 @@ endpoint_missed(Address, Formal) :-
 
 %!  endpoint_proof(+Peer, -Proof) is det.
 %
-%   Proof is by what the process at the address Peer is known, `cookie` on plain
-%   TCP, see typhon_transport.  In the thread of a connection that is what was
-%   proved in it, whatever address the peer claims.
+%   Proof is the proof of the process at the address Peer, `cookie` on plain
+%   TCP, see typhon_transport.  In the thread of a connection it is the proof
+%   given on it, whatever address the peer claims.
 
 endpoint_proof(_, Proof) :-
     transport_proof(Proof0),
@@ -215,7 +227,8 @@ endpoint_proof(Peer, Proof) :-
 
 %!  endpoint_own_proof(?Proof) is semidet.
 %
-%   A process with this proof has our keys, or, on plain TCP, our cookie.
+%   A process with this proof has the keys, or, on plain TCP, the cookie, of
+%   this process.
 
 endpoint_own_proof(Proof) :-
     transport_own(Proof).

@@ -5,18 +5,19 @@
 
 /** <module> Reading the frames of a session
 
-The reader counts the frames that it has handled, acknowledges them now and
-then, and is also the watchdog of the connection: it pings a peer that owes
-us something and is silent, and gives it up when no answer comes.
+The reader counts the frames that it has handled, acknowledges them at
+intervals, and is also the watchdog of the connection: it pings a silent peer
+from which an answer or acknowledgement is due, and closes the connection if the
+peer does not respond.
 
-A frame that was damaged on its way ends the connection: over the next one
-it comes again. A frame that comes damaged in the same way three times was
-sent so, and is skipped. A frame that cannot be decoded counts as received:
-asking for it again would not help. A caller that waits for an answer learns
-it at once, here or there.
+A frame that was damaged in transit ends the connection: it is sent again over
+the next one. A frame that arrives damaged in the same way three times was sent
+damaged, and is skipped. A frame that cannot be decoded counts as received:
+requesting it again would not help. If a caller waits for an answer because of
+it, in this process or the other, the caller gets `lost` at once.
 
 *Threading*: runs in the thread of the connection, see connection.pl. Signals
-are held back while a frame is being handled and counted.
+are deferred while a frame is being handled and counted.
 */
 
 :- use_module(library(apply), [maplist/3, partition/4]).
@@ -48,7 +49,7 @@ are held back while a frame is being handled and counted.
 :- dynamic
     damaged/4.                          % Key, Count, Which, Times
 
-%   After so many bytes the reader acknowledges them, or after ack_frames/1.
+%   The reader acknowledges after so many bytes, or after ack_frames/1 frames.
 
 ack_bytes(32768).
 
@@ -56,10 +57,10 @@ ack_bytes(32768).
 %
 %   Handle all frames until In ends.
 %
-%   @error timeout_error(read, In) the peer is silent for too long
+%   @error timeout_error(read, In) if the peer is silent for too long
 %   @error resource_error(frame_bytes), syntax_error(truncated_frame),
 %   syntax_error(damaged_frame)
-%   @error domain_error(acknowledged, Count) more than was sent
+%   @error domain_error(acknowledged, Count) if that is more than was sent
 
 read_frames(Session, In, Out) :-
     setting(silence, Silence),
@@ -68,7 +69,7 @@ read_frames(Session, In, Out) :-
     byte_count(In, Bytes),
     nb_setval(typhon_reader, true),
     session_push(Session),
-    session_owes,                       % what was received before
+    session_owes,                       % the count of frames received before
     setup_call_cleanup(
         lending_open(Session, In, Out, Queue),
         read_or_skip(Session, In, Max, state(Bytes, 0, Queue)),
@@ -99,7 +100,7 @@ read_all(Session, In, Max, State) :-
     more_first(In, More),
     repeat,
     (   lend(Queue, More, tell(Session))
-    ->  true                            % and told
+    ->  true                            % and tell/1 was called
     ;   push_late(Session, In)
     ),
     (   next(In, Max, Counts, Bytes)
@@ -114,8 +115,8 @@ read_all(Session, In, Max, State) :-
         fail
     ).
 
-%   After what a hook has left to do: what it says to the peer has taken the
-%   answers along, else they go now.
+%   Called after the goal that a hook has left: frames that the goal has sent to
+%   the peer have taken the answers along, else they are sent now.
 
 tell(Session) :-
     session_later(Late),
@@ -124,8 +125,8 @@ tell(Session) :-
     ;   true
     ).
 
-%   more_first(+In, -More): More says whether there is more to read first.  That
-%   counts where there are processors for the threads that work.
+%   more_first(+In, -More): More is true if there is more to read first.  It
+%   always fails if there are no processors for worker threads.
 
 more_first(In, More) :-
     (   current_prolog_flag(cpu_count, Processors),
@@ -134,11 +135,10 @@ more_first(In, More) :-
     ;   More = fail
     ).
 
-%   Answers that were left in the buffer go with the next frame that
-%   is sent, or now: when there are many, or nothing comes in for a
-%   moment in which the agent that was answered for may well move on. On
-%   9.2 an exception in the middle of wait_for_input/3 ruins the stacks: the
-%   signal that brings it is held back.
+%   Answers that were left in the buffer are sent with the next frame, or
+%   now: when there are many, or nothing comes in for a moment in which the
+%   agent of an answer may well move on. On 9.2 an exception in the middle of
+%   wait_for_input/3 corrupts the stacks: the signal that raises it is deferred.
 
 late_answers(16).
 late_seconds(0.001).
@@ -155,7 +155,7 @@ push_late(Session, In) :-
     ;   session_push(Session)
     ).
 
-%   skip(+Session, +Which): throws as long as it may be an accident.
+%   skip(+Session, +Which): throws as long as the damage may be an accident.
 
 skip(Session, Which) :-
     session_key(Session, Key),
@@ -179,7 +179,7 @@ times_damaged(Key, Count, Which, Times) :-
     forget_damage,
     assertz(damaged(Key, Count, Which, Times)).
 
-%   That of sessions which are over is not asked for any more.
+%   Damage in sessions that are over is no longer needed.
 
 forget_damage :-
     predicate_property(damaged(_, _, _, _), number_of_clauses(Count)),
@@ -188,18 +188,19 @@ forget_damage :-
     once(retract(damaged(_, _, _, _))).
 forget_damage.
 
-%   Fails when nothing begins to come. The time out of a peek loses nothing.
+%   Fails if no frame begins within the time-out.  A time-out of peek_byte/2
+%   loses no byte.
 
 next(In, Max, Counts, Bytes) :-
     catch(peek_byte(In, _), error(timeout_error(_, _), _), fail),
     frame_read(In, Max, Counts, Bytes).
 
-%   Three silences in a row while we wait for something is one too many.
+%   Three silences in a row are too many while an answer is due.
 
 silent(Session, In, State) :-
     (   session_untold(Session, 0)
     ->  true
-    ;   acknowledge(Session, In, State) % it need not keep them any longer
+    ;   acknowledge(Session, In, State) % the peer need not keep the frames
     ),
     arg(2, State, Silent),
     (   \+ session_unfinished(Session)
@@ -211,8 +212,8 @@ silent(Session, In, State) :-
     ;   throw(error(timeout_error(read, In), _))
     ).
 
-%   The counts of a frame come before what it says: an agent may come back in
-%   it that they settle.
+%   The counts of a frame are handled before its body: the body may bring back
+%   an agent whose departure the counts settle.
 
 handle(Frame, Counts, Session, In, State) :-
     session_acked(Session, Counts, Settled),
@@ -274,7 +275,7 @@ acknowledge(Session, In, State) :-
 
 %!  frame_term(+Codec, +Bytes, -Frame) is det.
 %
-%   Frame is what Bytes say, `none` if there are none, or
+%   Frame is the term of Bytes, `none` if Bytes are empty, or
 %   unreadable(Formal, Mark).
 
 frame_term(_, "", none) :-
@@ -291,9 +292,8 @@ unreadable(Formal, Bytes, unreadable(Formal, Mark)) :-
     ).
 
 %!  take_frame(+Frame, +Session) is det.
-%!  take_bundle(+Frame, +Session) is semidet.
 %
-%   Dispatch Frame; if it is a bundle, dispatch the frames in it.
+%   Dispatch Frame.
 
 take_frame(unreadable(Formal, Mark), Session) :-
     !,
@@ -302,6 +302,10 @@ take_frame(unreadable(Formal, Mark), Session) :-
     spoil(Mark, Session).
 take_frame(Frame, Session) :-
     dispatch(Session, Frame).
+
+%!  take_bundle(+Frame, +Session) is semidet.
+%
+%   Dispatch the frames in Frame; fails if it is not a bundle.
 
 take_bundle(Frame, Session) :-
     bundle_parts(Frame, Parts),
@@ -321,7 +325,7 @@ spoil(request(Id), Session) :-
 spoil(answer(Id), Session) :-
     !,
     dispatch(Session, spoilt(Id)).
-spoil(_, Session) :-                    % it may have been handed over
+spoil(_, Session) :-                    % it may be a hand-over
     session_object(Session, spoilt).
 
 :- multifile prolog:message//1.

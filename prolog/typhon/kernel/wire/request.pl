@@ -19,19 +19,19 @@
 /** <module> Requests and posts, and the frames that carry them
 
     post(Kind, Term)          one way
-    request(Id, Kind, Term)   wants an answer
-    answer(Id, Term)          here it is
-    spoilt(Id)                the request was taken, and went wrong
-    hand(Kind, Term)          this is yours, if you accept it
+    request(Id, Kind, Term)   needs an answer
+    answer(Id, Term)          answers request Id
+    spoilt(Id)                request Id arrived, but its hook failed
+    hand(Kind, Term)          hands over Term if the receiver accepts it
     objection(Number, Answer) the frame of that Number is not accepted
 
 Posts and requests go to the hooks of typhon_endpoint, answers to the caller.
-What is handed over needs no answer: that its frame is settled says that it was
-accepted. An objection is `spoilt`, an answer of the hook, or `deferred`: then
-the frame is a request from now on, under its negated number.
+A hand-over needs no answer: settlement of its frame means that it was accepted.
+The Answer of an objection is `spoilt`, an answer of the hook, or `deferred`:
+then the frame is a request from now on, under its negated number.
 
 *Threading*: dispatch/2 runs in the thread of a connection, the hooks with
-it. The table of open requests is shared; retract/1 takes a request out, so
+it. The table of open requests is shared; retract/1 removes a request, so
 it is answered once.
 */
 
@@ -70,14 +70,14 @@ request_send(Session, Kind, Term, OnAnswer) :-
 
 %!  request_answer(+Result, :OnAnswer) is det.
 %
-%   Give Result to the caller. Never raises: what goes wrong is reported.
+%   Give Result to the caller. Never raises: errors of OnAnswer are reported.
 
 request_answer(Result, OnAnswer) :-
     reporting(call(OnAnswer, Result), answer).
 
 %!  request_forget(:OnAnswer) is det.
 %
-%   No caller waits for this answer any more.
+%   Forget the open requests with this OnAnswer: their callers no longer wait.
 
 request_forget(OnAnswer) :-
     retractall(open_request(_, _, OnAnswer)).
@@ -103,7 +103,7 @@ request_reply_later(alone(OnAnswer), Term) :-
 
 %!  session_unfinished(+Session) is semidet.
 %
-%   There is something to send, or some request has no answer yet.
+%   A frame is not acknowledged, or some request has no answer yet.
 
 session_unfinished(Session) :-
     session_pending(Session, Pending),
@@ -116,8 +116,8 @@ session_unfinished(Session) :-
 
 %!  requests_lost(+Session, +Unsent) is det.
 %
-%   The peer is gone for good and the frames Unsent never left: conclude all
-%   requests to it.
+%   The peer is gone for good and the frames Unsent were never sent: conclude
+%   all requests to it.
 
 requests_lost(Session, Unsent) :-
     session_key(Session, Key),
@@ -130,7 +130,7 @@ requests_lost(Session, Unsent) :-
 %
 %   Settled is settled(Token, Number, Result), see settled_now/5: call the
 %   hook handed_over(Token, Result), where Result is `accepted`, `lost`,
-%   `unsent`, or what the peer answered.
+%   `unsent`, or the answer of the peer.
 
 handed_over(settled(Token, Number, Result), Session) :-
     (   Result == deferred
@@ -159,14 +159,14 @@ answered_late(Token, lost) :-
 
 %!  request_take(+Session, +Id, -OnAnswer) is semidet.
 %
-%   No answer to request Id of Session is awaited any more.
+%   Remove request Id of Session from the open requests.
 
 request_take(Session, Id, OnAnswer) :-
     session_key(Session, Key),
     retract(open_request(Id, Key, OnAnswer)),
     !.
 
-%   Only the peer that was asked can answer.
+%   The Key ensures that only the peer that was asked can answer.
 
 conclude(Result, Id, Key) :-
     (   integer(Id),
@@ -177,7 +177,7 @@ conclude(Result, Id, Key) :-
 
 %!  dispatch(+Session, +Frame) is det.
 %
-%   Never raises: what goes wrong in a hook is reported.
+%   Never raises: errors in a hook are reported.
 
 dispatch(Session, post(Kind, Term)) :-
     !,
@@ -223,12 +223,13 @@ verdict(deferred, Kind, Term, Peer, Session) :-
     session_received(Session, Count),
     Id is -(Count+1),
     dispatch_request(Id, Kind, Term, Peer, Session),
-    session_owes.                       % an answer has gone without its count
+    session_owes.                       % the answer was sent without the count
 verdict(Answer, _, _, _, Session) :-
     session_object(Session, Answer).
 
-%   answers_deferred(+Session, +Id, +Answer) is semidet: Id is of a frame that
-%   the peer has deferred, and does not count before its answer.
+%   answers_deferred(+Session, +Id, +Answer) is semidet: Id is that of a frame
+%   that the peer has deferred, and has answered before it has counted the
+%   frame.
 
 answers_deferred(Session, Id, Answer) :-
     integer(Id),
@@ -245,8 +246,8 @@ dispatch_request(Id, Kind, Term, Peer, Session) :-
 
 %!  dispatch_all(+Session, +Frames:list) is det.
 %
-%   As dispatch/2 for Frames that have come in one.  Posts of one kind that
-%   follow each other may be made fewer by the hook together/3.
+%   As dispatch/2 for Frames that have come in one frame.  The hook together/3
+%   may merge successive posts of one kind.
 
 dispatch_all(_, []) :-
     !.
@@ -273,12 +274,15 @@ together(Kind, Terms, Fewer) :-
     !.
 
 %!  take_post(+Kind, +Term, +Peer) is det.
-%!  take_request(+Kind, +Term, +Peer, +ReplyTo) is semidet.
 %
-%   Call the hook for what Peer sent.  The latter fails if none takes it.
+%   Call the hook for a post of Peer.
 
 take_post(Kind, Term, Peer) :-
     reporting(typhon_endpoint:received(Kind, Term, Peer), Kind).
+
+%!  take_request(+Kind, +Term, +Peer, +ReplyTo) is semidet.
+%
+%   Call the hook for a request of Peer.  Fails if no hook takes it.
 
 take_request(Kind, Term, Peer, ReplyTo) :-
     attempt(typhon_endpoint:requested(Kind, Term, Peer, ReplyTo), Kind).
@@ -323,8 +327,8 @@ attempt(Goal, Kind) :-
         fail
     ).
 
-%   taken_later(+Hook) is semidet: it is defined by code that is not loaded
-%   yet. A worker loads it and calls the hook.
+%   taken_later(+Hook) is semidet: Hook is defined by code that is not loaded
+%   yet. A worker loads the code and calls the hook.
 
 taken_later(typhon_endpoint:Hook) :-
     functor(Hook, Seam, _),
@@ -335,8 +339,8 @@ taken_later(typhon_endpoint:Hook) :-
 
 %!  endpoint_later(:Goal) is semidet.
 %
-%   In a hook: call Goal once in a worker, for a peer that has proved itself as
-%   it has in this thread, whatever address it claims.  Fails if there are no
+%   In a hook: call Goal once in a worker, with the proof that the peer has
+%   given in this thread, whatever address it claims.  Fails if there are no
 %   workers.
 
 :- meta_predicate endpoint_later(0).
@@ -359,7 +363,8 @@ load_and_take(requested(Kind, Term, Peer, ReplyTo)) :-
     ;   spoil(ReplyTo, Kind)
     ).
 
-%   The thread is to end: that is not the hook's fault, nor to be kept from it.
+%   The exception ends the thread: it is not an error of the hook, and must not
+%   be caught.
 
 is_order(wire_thread_end(_)).
 

@@ -28,16 +28,16 @@
             debug_frame/4               % +Way, +Session, +Term, +Bytes
           ]).
 
-/** <module> Sessions: what joins two processes, and over which connection
+/** <module> Sessions between processes, and their connections
 
-A session joins this process to another for the life of both, over however
-many connections, one at a time. outbox.pl sends in it; resumption.pl gives
-it its connections.
+A session joins this process to another for the life of both, over any number
+of connections, one at a time. outbox.pl sends in it; resumption.pl gives it its
+connections.
 
 A session is session(Key, Codec, Mutex, Adoption, peer(Process, Address, Proof),
 Window). Key names the peer. Mutex guards the sending side; a thread that gives
-the session a new connection holds Adoption. No other module takes the term
-apart. Its window is that of unacked.pl.
+the session a new connection holds Adoption. Only this module accesses the
+arguments of the term. Window is that of unacked.pl.
 
 *Threading*: any thread; a mutex serializes sessions and routes, the mutex of
 a session its connection and its window.
@@ -65,46 +65,56 @@ a session its connection and its window.
     route/2.                            % Address, Session
 
 %!  session(?Key, -Session) is nondet.
+%
+%   The sessions.
+
 %!  route(?Address, ?Session) is nondet.
+%
+%   Address leads to Session.
+
 %!  route_key(?Address, ?Key) is nondet.
 %
-%   The sessions there are, and which addresses lead to each.
+%   Address leads to the session of Key.
 
 route_key(Address, Key) :-
     route(Address, session(Key, _, _, _, _, _)).
 
 %!  session_key(+Session, -Key) is det.
-%!  session_codec(+Session, -Codec) is det.
-%!  session_window(+Session, -Window) is det.
-%!  session_window(+Session, -Key, -Window) is det.
-%!  session_peer(+Session, -Process, -Address) is det.
-%
-%   Address is where the peer says it listens.
 
 session_key(session(Key, _, _, _, _, _), Key).
 
+%!  session_codec(+Session, -Codec) is det.
+
 session_codec(session(_, Codec, _, _, _, _), Codec).
+
+%!  session_window(+Session, -Window) is det.
 
 session_window(session(_, _, _, _, _, Window), Window).
 
+%!  session_window(+Session, -Key, -Window) is det.
+
 session_window(session(Key, _, _, _, _, Window), Key, Window).
+
+%!  session_peer(+Session, -Process, -Address) is det.
+%
+%   Address is where the peer claims to listen.
 
 session_peer(session(_, _, _, _, peer(Process, Address, _), _), Process,
              Address).
 
 %!  session_proof(+Session, -Proof) is det.
 %
-%   How the peer has proved itself, see typhon_transport.
+%   Proof is that of the peer, see typhon_transport.
 
 session_proof(session(_, _, _, _, peer(_, _, Proof), _), Proof).
 
 %!  session_open(+Key, +Peer, +Codec, :Open, -Session) is det.
 %
-%   The session with the peer Key, a new one on first contact, with the window
-%   of which call(Open, Window) is true. Peer is Hello-Proof.
+%   Session is the session with the peer Key.  On first contact it is created,
+%   with the window that call(Open, Window) returns.  Peer is Hello-Proof.
 %
-%   @error permission_error(authenticate, peer, other) the session is
-%   that of another peer, which knows its key
+%   @error permission_error(authenticate, peer, other) if the session is
+%   that of another peer, whose key this peer uses
 
 session_open(Key, Hello-Proof, Codec, Open, Session) :-
     with_mutex(typhon_session,
@@ -128,9 +138,8 @@ open_session(Key, Hello, Proof, Codec, Open, Session) :-
 
 %!  session_forget(+Session) is semidet.
 %
-%   There is no such session any more; fails when there is none already.
-%   The mutexes are left to the garbage collector: another thread may wait
-%   for them.
+%   Remove Session; fails if it was removed already. The mutexes are left to the
+%   garbage collector: another thread may wait for them.
 
 session_forget(Session) :-
     session_key(Session, Key),
@@ -141,7 +150,7 @@ session_forget(Session) :-
 
 %!  session_must_exist(+Session, -Key, -Window) is det.
 %
-%   Session has not been closed; another may have its key by now.
+%   Session has not been closed; another session may have its key by now.
 %
 %   @error session_closed
 
@@ -153,29 +162,32 @@ session_must_exist(Session, Key, Window) :-
     ).
 
 %!  session_locked(+Session, :Goal) is semidet.
-%!  session_held(+Session, :Goal) is semidet.
 %
-%   Run once(Goal) alone with the sending side of Session: in one step. The
-%   second is for threads that hold signals back anyway.
+%   Run once(Goal) under the mutex of the sending side of Session, with signals
+%   deferred.
 
 session_locked(session(_, _, Mutex, _, _, _), Goal) :-
     sig_atomic(with_mutex(Mutex, Goal)).
+
+%!  session_held(+Session, :Goal) is semidet.
+%
+%   As session_locked/2, for threads that have deferred signals already.
 
 session_held(session(_, _, Mutex, _, _, _), Goal) :-
     with_mutex(Mutex, Goal).
 
 %!  session_adopting(+Session, :Goal) is semidet.
 %
-%   Run Goal, which gives Session a new connection, one at a time.
+%   Run Goal, which gives Session a new connection.  One thread at a time.
 
 session_adopting(session(_, _, _, Adoption, _, _), Goal) :-
     with_mutex(Adoption, Goal).
 
 %!  route_add(+Address, +Session) is det.
 %
-%   Address leads to Session from now on, if that has not been forgotten.
-%   The connection manager receives displaced(Key) of the session it led to
-%   before.
+%   Address leads to Session from now on, unless Session was removed.  The
+%   connection manager receives displaced(Key) of the session to which Address
+%   led before.
 
 route_add(Address, Session) :-
     route(Address, Session),
@@ -188,7 +200,7 @@ route_add(Address, Session) :-
                ;   true
                )).
 
-%   The manager checks whether another address leads to the displaced one.
+%   The manager tests whether another address leads to the displaced session.
 
 reroute(Address, Session) :-
     findall(Old-Key,
@@ -209,36 +221,41 @@ reroute(Address, Session) :-
 
 %!  transport(?Key, ?Thread, -Out) is nondet.
 %
-%   What is sent in the session is written to Out, of Thread.
+%   Frames of the session are written to Out, a stream of Thread.
 
 %!  transport_thread(?Key, ?Thread) is nondet.
 %
-%   Thread has the connection, be it that nothing can be written to it.
+%   Thread serves the connection of the session, even if it is not writable.
 
 transport_thread(Key, Thread) :-
     serving(Key, Thread, _).
 
 %!  transport_attach(+Key, +Thread, +Out) is det.
-%!  transport_stop(+Key, +Thread) is det.
-%!  transport_detach(+Key, +Thread) is det.
 %
-%   Thread has a connection for the session; nothing is written to it any
-%   more; the session has lost it.
+%   The session has a new connection, served by Thread.
 
 transport_attach(Key, Thread, Out) :-
     get_time(Now),
     assertz(serving(Key, Thread, Now)),
     assertz(transport(Key, Thread, Out)).
 
+%!  transport_stop(+Key, +Thread) is det.
+%
+%   Nothing is written to the connection from now on.
+
 transport_stop(Key, Thread) :-
     retractall(transport(Key, Thread, _)).
+
+%!  transport_detach(+Key, +Thread) is det.
+%
+%   The session has lost the connection.
 
 transport_detach(Key, Thread) :-
     retractall(serving(Key, Thread, _)).
 
 %!  transport_broken(+Key, +Thread) is det.
 %
-%   A connection that cannot be written to is none; its thread notices, or
+%   A connection that cannot be written to is lost: its thread detects that, or
 %   ends on the signal.
 
 transport_broken(Key, Thread) :-
@@ -280,8 +297,8 @@ route_up(Address, Session) :-
 
 %!  frame_fits(+Length) is semidet.
 %
-%   A frame may have so many bytes: the peer would refuse a longer one, again
-%   and again.
+%   A frame may have Length bytes. The peer would refuse a longer one, and again
+%   each time that it is sent.
 
 frame_fits(Length) :-
     Length =< 65536,
@@ -292,9 +309,8 @@ frame_fits(Length) :-
 
 %!  debug_frame(+Way, +Session, +Term, +Bytes) is det.
 %
-%   With the debug topic typhon(frame) print a frame where it is sent and where
-%   it is taken. Way is `to` or `from` the peer. Costs next to nothing if the
-%   topic is off.
+%   With the debug topic typhon(frame) print a frame when it is sent or taken.
+%   Way is `to` or `from` the peer. Costs next to nothing if the topic is off.
 
 debug_frame(Way, Session, Term, Bytes) :-
     (   debugging(typhon(frame))
@@ -306,7 +322,7 @@ debug_frame(Way, Session, Term, Bytes) :-
     ;   true
     ).
 
-%   Its name and what of it is no more than a word.
+%   The name of a frame and its atomic arguments.
 
 frame_words(Term, Words) :-
     compound(Term),

@@ -7,16 +7,16 @@
             objection_answered/3        % +Key, +Number, +Answer
           ]).
 
-/** <module> What was handed over with a frame, and what became of it
+/** <module> Settlement of frames that hand over a term
 
-A frame that the peer has received is _settled_ when the peer counts it among
-those that it has accepted. If the peer does not accept it, it sends an
-objection before it counts the frame. What was handed over is Number-Token: the
-number of the frame, and what the caller wants to learn of it by.
+A received frame is _settled_ when the peer counts it among those that it has
+accepted. If the peer does not accept a frame, it sends an objection before it
+counts the frame. A hand-over is Number-Token: the number of the frame, and the
+term by which the caller identifies its result.
 
 *Threading*: for the thread of the connection, and, when that has ended, for the
 thread that closes the session; settled_now/5 under the mutex of the session.
-Any thread may look at unsettled/3.
+Any thread may call unsettled/3.
 */
 
 :- use_module(library(lists), [append/3, member/2]).
@@ -28,15 +28,14 @@ Any thread may look at unsettled/3.
 
 %!  unsettled(?Key, ?Number, -Token) is nondet.
 %
-%   The peer Key has received the frame of that Number, and not settled it.
+%   The peer Key has received the frame of that Number, but has not settled it.
 
 %!  settled_now(+Handed:list, +Key, +Count, -Settled:list, ?Rest) is det.
-%!  settled_late(+Key, +Count, -Settled:list) is det.
 %
-%   The peer has received Handed, and settled all up to Count, none if that is
-%   `none`: Settled are those that are settled by that, settled(Token, Number,
-%   Result), Result being `accepted` or an objection. The same of what had been
-%   received before.
+%   The peer has received the frames of Handed, and has settled all frames up to
+%   Count, or none if that is `none`.  Settled lists the hand-overs that this
+%   settles, settled(Token, Number, Result), Result being `accepted` or an
+%   objection.
 
 settled_now([], _, _, Settled, Settled).
 settled_now([N-Token|Handed], Key, Count, Settled, Rest) :-
@@ -48,6 +47,10 @@ settled_now([N-Token|Handed], Key, Count, Settled, Rest) :-
         Settled = More
     ),
     settled_now(Handed, Key, Count, More, Rest).
+
+%!  settled_late(+Key, +Count, -Settled:list) is det.
+%
+%   As settled_now/5, for frames that the peer had received before.
 
 settled_late(Key, Count, Settled) :-
     unsettled(Key, _, _),
@@ -66,9 +69,9 @@ settled(N, Token, Key, settled(Token, N, Result)) :-
 
 %!  settled_never(+Key, +Lost:list, -Handed:list) is det.
 %
-%   The session is over. Of what was received, or is among Lost, which may have
-%   been, Handed says what is known, handed(Token, Result): Result is `lost` or
-%   an objection.
+%   The session is over. Handed lists the results of hand-overs that were not
+%   settled, or are among Lost, which the peer may have received:
+%   handed(Token, Result), Result being `lost` or an objection.
 
 settled_never(Key, Lost, Handed) :-
     findall(N-Token, unsettled(Key, N, Token), Unsettled),
@@ -83,17 +86,20 @@ known(Key, N, Result) :-
     ( objection(Key, N, Answer) -> Result = Answer ; Result = lost ).
 
 %!  objection_add(+Key, +Number, +Answer) is det.
-%!  objection_answered(+Key, +Number, +Answer) is semidet.
 %
-%   The peer does not accept the frame of that Number, but says Answer, if it
-%   has said nothing before; it has answered the frame that it had deferred,
-%   before it has counted it: this is what it objects.
+%   The peer rejects the frame of that Number with Answer.  Only its first
+%   objection counts.
 
 objection_add(Key, Number, Answer) :-
     (   objection(Key, Number, _)
     ->  true
     ;   assertz(objection(Key, Number, Answer))
     ).
+
+%!  objection_answered(+Key, +Number, +Answer) is semidet.
+%
+%   The peer has answered a frame that it had deferred, before it has counted
+%   it: Answer replaces the objection.
 
 objection_answered(Key, Number, Answer) :-
     retract(objection(Key, Number, deferred)),

@@ -18,15 +18,15 @@
 /** <module> The threads of an endpoint, and their messages to the manager
 
 Every thread of an endpoint is made here and is joined when it ends, so
-that none outlives the endpoint. A thread has an alias that tells what it is
-and for which peer, with a unique number: what is meant for one never reaches
-the next. All threads report events and requests to the connection manager
-through one queue, among them that they end. It exists while the endpoint
-runs.
+that none outlives the endpoint. The alias of a thread names its role and its
+peer, and has a unique number: so a signal or message for one thread never
+reaches its successor. All threads report events, among them their ends, and
+send requests to the connection manager through one queue, which exists while
+the endpoint runs.
 
 *Threading*: wire_thread_join/1 and manager_receive/2 are for the connection
-manager, the rest may be called from any thread. Opening and closing the queue
-is serialized by the caller.
+manager, any thread may call the rest. The caller serializes opening and closing
+of the queue.
 */
 
 :- use_module('../base/error_text', [error_told/3]).
@@ -37,21 +37,22 @@ is serialized by the caller.
     in_background(0, +).
 
 :- multifile
-    not_now/1,                          % Why: this thread will obey it later
-    overdue/1.                          % Thread: do without it, if you can
+    not_now/1,                          % Why: this thread will end later
+    overdue/1.                          % Thread: release it, if it is lent
 
 :- dynamic wire_thread/1.       % Thread
 
 %!  wire_thread_create(:Goal, +Name, -Thread) is det.
+
+wire_thread_create(Goal, Name, Thread) :-
+    wire_thread_create(Goal, Name, Thread, true).
+
 %!  wire_thread_create(:Goal, +Name, -Thread, :Before) is det.
 %
 %   Run Goal in a new thread; Name, `Role` or Role-Whom, goes into its
 %   alias. Goal reports its own errors; the exception wire_thread_end(Why)
-%   ends it quietly. Before is called here, in between: Thread is known, and
-%   has not begun.
-
-wire_thread_create(Goal, Name, Thread) :-
-    wire_thread_create(Goal, Name, Thread, true).
+%   ends it quietly. Before is called in the present thread, when Thread exists
+%   but has not begun.
 
 wire_thread_create(Goal, Name, Thread, Before) :-
     thread_alias(Name, Alias),
@@ -86,7 +87,7 @@ ended :-
 
 %!  in_background(:Goal, +Name) is det.
 %
-%   Run Goal in a new thread or, where none can be made, here.
+%   Run Goal in a new thread or, if none can be made, in the present one.
 
 in_background(Goal, Name) :-
     catch(wire_thread_create(Goal, Name, _), error(_, _), ignore(Goal)).
@@ -108,7 +109,7 @@ wire_thread_end(Thread, Why) :-
     wire_thread_join(Thread).
 
 %   A signal that comes just before the thread blocks in a system call does
-%   not wake it: insist.
+%   not wake it: repeat the signal.
 
 insist(Thread, Why, Wait) :-
     (   wire_thread(Thread),
@@ -126,7 +127,7 @@ insist(Thread, Why, Wait) :-
 
 %!  wire_thread_leaves(+Thread) is det.
 %
-%   Thread is no longer of the endpoint: others see to its end.
+%   Thread no longer belongs to the endpoint, which will not end or join it.
 
 wire_thread_leaves(Thread) :-
     retractall(wire_thread(Thread)).
@@ -198,13 +199,16 @@ wire_threads_end :-
     manager_queue/1.                    % Queue
 
 %!  manager_queue_open is det.
-%!  manager_queue_close(-Unheard) is det.
 %
-%   Create the queue; destroy it. Unheard are the messages that were left in it.
+%   Create the queue.
 
 manager_queue_open :-
     message_queue_create(Queue),
     assertz(manager_queue(Queue)).
+
+%!  manager_queue_close(-Unheard) is det.
+%
+%   Destroy the queue.  Unheard are the messages that were left in it.
 
 manager_queue_close(Unheard) :-
     with_mutex(typhon_manager_queue, close_queue(Unheard)).
@@ -214,7 +218,7 @@ close_queue(Unheard) :-
     findall(Message, unheard(Queue, Message), Unheard),
     message_queue_destroy(Queue).
 
-%   Without a time-out: in a clean-up handler that may never end, see
+%   No time-out: in a clean-up handler a wait with one may never end, see
 %   manager_connect/1.
 
 unheard(Queue, Message) :-
@@ -227,7 +231,7 @@ unheard(Queue, Message) :-
 
 %!  manager_notify(+Message) is semidet.
 %
-%   Send Message to the connection manager; fails when there is none.
+%   Send Message to the connection manager; fails if there is none.
 
 manager_notify(Message) :-
     with_mutex(typhon_manager_queue,

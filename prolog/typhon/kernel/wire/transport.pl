@@ -16,38 +16,38 @@
             alone_end/0
           ]).
 
-/** <module> What carries the bytes of connections
+/** <module> Transports: how connections carry bytes and peers prove themselves
 
-The bytes of a connection are those of its TCP stream, and its peer proves that
-it knows the cookie. An option may carry them otherwise, by the hooks
+On plain TCP the bytes of a connection are those of its stream, and its peer
+proves that it knows the cookie. An option may define another transport by the
+hooks
 
     begins(Options, Transport, Own, Unknown)
                                 an endpoint starts with Options: its connections
-                                are of Transport, its peers know it as Own, and
-                                a peer of which nothing is known is Unknown
-    ends(Transport)             it has stopped
-    disagrees(Option)           an endpoint that runs does not have Option
-    first_byte(Byte, Transport) with Byte a client of Transport begins; `plain`
-                                is one without any
+                                use Transport, its proof to peers is Own, and a
+                                peer without session has the proof Unknown
+    ends(Transport)             the endpoint has stopped
+    disagrees(Option)           a running endpoint does not have Option
+    first_byte(Byte, Transport) Byte is the first of a client of Transport;
+                                `plain` is a client without transport
     misfit(Client, Own, Line, Why)
-                                a client of one transport has met an endpoint of
-                                another: the Line that it gets, and why it is
-                                turned away
+                                a client of transport Client has connected to an
+                                endpoint of transport Own: it gets Line, and is
+                                refused because of Why
     opens(Transport, Role, In, Out, TIn, TOut, Proof)
-                                what is said to the peer goes through TIn and
-                                TOut, which read and write In and Out; the peer
-                                has proved itself by Proof
-    closes                      close what that has opened in this thread, if
-                                anything: an exception has taken the bindings
-                                away
+                                the connection uses TIn and TOut, which read and
+                                write In and Out; the peer has given Proof
+    closes                      close the streams, if any, that opens/7 has
+                                opened in this thread: an exception has removed
+                                their bindings
 
 All but the first three are called in the thread of a connection.
 
 An endpoint that is alone has no connections: a process without peers needs no
 sockets and no threads.
 
-A transport that reads ahead has bytes of which its stream knows nothing:
-transport_input/2 looks at both.
+A transport may have read bytes ahead that its stream does not report:
+transport_input/2 tests both.
 
 *Threading*: the caller serializes begin and end; the rest as the hooks.
 */
@@ -71,10 +71,8 @@ transport_input/2 looks at both.
 :- dynamic current/3.           % Transport, Own, Unknown: not plain TCP
 
 %!  transport_begin(+Options) is det.
-%!  transport_end is det.
-%!  transport_disagrees(+Option) is semidet.
 %
-%   The endpoint starts with Options, and has stopped; it does not have Option.
+%   The endpoint starts with Options.
 %
 %   @error what begins/4 raises
 
@@ -89,27 +87,37 @@ transport_begin(Options) :-
     ;   true
     ).
 
+%!  transport_end is det.
+%
+%   The endpoint has stopped.
+
 transport_end :-
     (   retract(current(Transport, _, _))
     ->  forall(ends(Transport), true)
     ;   true
     ).
 
+%!  transport_disagrees(+Option) is semidet.
+%
+%   The endpoint does not have Option.
+
 transport_disagrees(Option) :-
     disagrees(Option),
     !.
 
 %!  transport_own(-Proof) is det.
-%!  transport_unknown(-Proof) is det.
 %
-%   How this process proves itself to others; as what a peer counts of which
-%   nothing is known.
+%   Proof is that of this process.
 
 transport_own(Proof) :-
     (   current(_, Own, _)
     ->  Proof = Own
     ;   Proof = cookie
     ).
+
+%!  transport_unknown(-Proof) is det.
+%
+%   Proof is that of a peer without session.
 
 transport_unknown(Proof) :-
     (   current(_, _, Unknown)
@@ -123,8 +131,9 @@ transport_unknown(Proof) :-
 
 %!  transport_first(+Byte, +Out) is det.
 %
-%   A client begins with Byte: that is of our transport. If not we report that,
-%   in a line that fits in any buffer.
+%   Byte is the first of a client of the transport of this endpoint.  For
+%   another client write a line to Out that fits in any buffer, and raise an
+%   error.
 %
 %   @error permission_error(authenticate, peer, Why)
 
@@ -148,9 +157,9 @@ client(_, other).
 
 %!  transport_open(+Role, +In, +Out, -TIn, -TOut, -Proof) is det.
 %
-%   What is said to the peer goes through TIn and TOut from now on: In and Out
-%   themselves on plain TCP. Proof is how the peer has proved itself, or will:
-%   `cookie` there.
+%   From now on the connection uses TIn and TOut: In and Out themselves on plain
+%   TCP. Proof is the proof that the peer has given, or will give: `cookie` on
+%   plain TCP.
 %
 %   @error what opens/7 raises
 
@@ -166,14 +175,14 @@ transport_open(Role, In, Out, TIn, TOut, Proof) :-
 
 %!  transport_close is det.
 %
-%   Close what transport_open/6 has opened in this thread, if anything.
+%   Close the streams that transport_open/6 has opened in this thread, if any.
 
 transport_close :-
     forall(closes, true).
 
 %!  transport_proof(-Proof) is semidet.
 %
-%   In the thread of a connection: how the peer has proved itself.
+%   In the thread of a connection: the proof of the peer.
 
 transport_proof(Proof) :-
     nb_current(typhon_proof, Proof),
@@ -181,8 +190,8 @@ transport_proof(Proof) :-
 
 %!  transport_as(+Proof, :Goal) is semidet.
 %
-%   Call Goal for the peer of a connection, in a thread that has none: the peer
-%   has proved itself by Proof there, `none` if there was no connection.
+%   Call Goal on behalf of the peer of a connection, in a thread that has none.
+%   Proof is the proof of the peer there, `none` if there was no connection.
 
 :- meta_predicate transport_as(+, 0).
 
@@ -192,15 +201,15 @@ transport_as(Proof, Goal) :-
 
 %!  transport_forget is det.
 %
-%   This thread has no connection any more, and goes on as another.
+%   This thread no longer has a connection, and goes on with other work.
 
 transport_forget :-
     nb_setval(typhon_proof, none).
 
 %!  transport_input(+In, +Seconds) is semidet.
 %
-%   In the thread of a connection: there is something to read from In, or will
-%   be within Seconds.
+%   In the thread of a connection: bytes can be read from In, or will arrive
+%   within Seconds.
 
 transport_input(In, Seconds) :-
     (   nb_current(typhon_below, Below)
@@ -215,14 +224,15 @@ transport_input(In, Seconds) :-
 :- dynamic alone/1.                     % Address
 
 %!  alone(?Address) is semidet.
-%!  alone_begin(+Address) is det.
-%!  alone_end is det.
 %
-%   The endpoint of this process is alone, and has this Address; from now on, and
-%   no longer.
+%   The endpoint of this process is alone, and has this Address.
+
+%!  alone_begin(+Address) is det.
 
 alone_begin(Address) :-
     assertz(alone(Address)).
+
+%!  alone_end is det.
 
 alone_end :-
     retractall(alone(_)).

@@ -25,17 +25,17 @@ Frames are numbered by counting on both sides. The window of a session is
 
     window(Sent, Waiting, Received, Told, Acked, AckedBytes, Settled)
 
-No other module takes it apart. It holds two queues of frames, and the names of
-five flags: how many frames of the peer were received; how many of them the peer
-has been told of; how many of ours it has received, and how many bytes of its
-connection; and which count of settled frames was written last.
+Only this module accesses its arguments: two queues of frames, and the names of
+five flags: how many frames of the peer were received; how many of them were
+acknowledged; how many of our frames the peer has received, and how many bytes
+of its connection; and the last count of settled frames that was written.
 
 A frame is frame(Bytes, Token, Settled). Frames that were written to some
-connection and that the peer has not received are in Sent, those that never were
-in Waiting. A Token that is not `none` or `loose` is what was handed over with
-the frame, see settlement.pl. Settled is how many frames of the peer were
-settled when the frame was put: so a frame that has waited behind an objection
-does not settle what the objection is about. How many frames the peer has
+connection and that the peer has not received are in Sent, those that were never
+written in Waiting. A Token other than `none` or `loose` is that of a hand-over,
+see settlement.pl. Settled is the number of frames of the peer that were settled
+when the frame was put: so a frame that has waited behind an objection does not
+settle the frame of the objection. The number of frames that the peer has
 received is a count of its own: it opens the window.
 
 *Threading*: the mutex of the session guards its window: a caller of unacked_*
@@ -81,22 +81,20 @@ unacked_open(Window) :-
 		 *            FRAMES            *
 		 *******************************/
 
-%   Bytes that may be under way without a chance of blocking in write.
+%   Bytes that may be under way without a risk that write blocks.
 
 under_way(65536).
 
 %!  ack_frames(-Count) is det.
 %
-%   After so many frames the reader acknowledges them.
+%   The reader acknowledges after so many frames.
 
 ack_frames(32).
 
 %!  unacked_sent(+Window, +Out, +Bytes, +Token, -Counts) is semidet.
-%!  unacked_waits(+Window, +Bytes, +Token) is det.
 %
-%   A frame is about to be written to Out, with Counts in its head: fails where
-%   others wait, or it might block; it waits until others are written, and if
-%   Token is `loose` it may go with others in one frame then.
+%   The frame is about to be written to Out, with Counts in its head.  Fails if
+%   other frames wait, or writing might block.
 
 unacked_sent(Window, Out, Bytes, Token, counts(Count, Count)) :-
     Window = window(Sent, Waiting, Received, Told, _, _, Settled),
@@ -109,8 +107,8 @@ unacked_sent(Window, Out, Bytes, Token, counts(Count, Count)) :-
     set_flag(Told, Count),
     set_flag(Settled, Count).
 
-%   space(+Most, +Window, +Out, -Space): so many bytes can be written to Out,
-%   where Most is `room`, or `all`: as many as there are.
+%   space(+Most, +Window, +Out, -Space): the bytes that can be written to Out
+%   without blocking if Most is `room`, or `inf` if it is `all`.
 
 space(room, window(_, _, _, _, _, AckedBytes, _), Out, Space) :-
     byte_count(Out, Written),
@@ -118,6 +116,10 @@ space(room, window(_, _, _, _, _, AckedBytes, _), Out, Space) :-
     under_way(Max),
     Space is Max-(Written-Acked).
 space(all, _, _, inf).
+
+%!  unacked_waits(+Window, +Bytes, +Token) is det.
+%
+%   The frame waits.  If Token is `loose` it may later be bundled with others.
 
 unacked_waits(window(_, Waiting, Received, _, _, _, _), Bytes, Token) :-
     get_flag(Received, Count),
@@ -128,16 +130,19 @@ unacked_waits(window(_, Waiting, Received, _, _, _, _), Bytes, Token) :-
     thread_send_message(Waiting, Frame).
 
 %!  unacked_waiting(+Session) is semidet.
-%!  unacked_owed(+Session, -Waiting) is semidet.
 %
-%   Some frame waits; what was written is so much that the peer is sure to
-%   acknowledge some of it, and so many wait: it tells every bundle, and all
-%   else after ack_frames/1.
+%   Some frame waits.
 
 unacked_waiting(Session) :-
     session_window(Session, window(_, Waiting, _, _, _, _, _)),
     fifo_size(Waiting, Size),
     Size > 0.
+
+%!  unacked_owed(+Session, -Waiting) is semidet.
+%
+%   So much was written that the peer is sure to acknowledge some of it: it
+%   acknowledges each bundle, and other frames after ack_frames/1.  The number
+%   of frames that wait is Waiting.
 
 unacked_owed(Session, Size) :-
     session_window(Session, Key, window(Sent, Waiting, _, _, _, _, _)),
@@ -150,12 +155,9 @@ unacked_owed(Session, Size) :-
     message_queue_property(Waiting, size(Size)).
 
 %!  unacked_next(+Session, +Out, +Most, -Counts, -Bytes) is semidet.
-%!  unacked_counts(+Session, +Frame, -Counts, -Bytes) is det.
 %
-%   The frame that has waited longest is about to be written to Out, if there is
-%   room for it, or Most is `all`; Frame is about to be written once more.  It
-%   settles what was received when it was put, and no more, since an objection
-%   may wait behind it.
+%   The frame that has waited longest is about to be written to Out.  Fails if
+%   there is no room for it, unless Most is `all`.
 
 unacked_next(Session, Out, Most, Counts, Bytes) :-
     session_codec(Session, Codec),
@@ -173,6 +175,11 @@ unacked_next(Session, Out, Most, Counts, Bytes) :-
     ),
     unacked_counts(Session, Frame, Counts, Bytes).
 
+%!  unacked_counts(+Session, +Frame, -Counts, -Bytes) is det.
+%
+%   Frame is about to be written, maybe once more.  It settles only frames that
+%   were received when it was put, since an objection may wait behind it.
+
 unacked_counts(Session, frame(Bytes, _, Settled), counts(Count, Settled),
                Bytes) :-
     session_window(Session, window(_, _, Received, Told, _, _, SettledFlag)),
@@ -183,9 +190,9 @@ unacked_counts(Session, frame(Bytes, _, Settled), counts(Count, Settled),
 %!  unacked_control(+Window, +Out, +Most, +Bytes, -Counts) is semidet.
 %
 %   Bytes are about to be written outside the count, if there is room, or Most
-%   is `all`.  The peer does not acknowledge them: they are not under way.  They
-%   go before what waits: where that may be an objection, that is, where Most is
-%   `all`, they settle no more than what was written before.
+%   is `all`.  The peer does not acknowledge them, so they are not under way.
+%   They precede frames that wait: if these may include an objection, that is,
+%   if Most is `all`, they settle no more than was written before.
 
 unacked_control(Window, Out, Most, Bytes, counts(Count, Settled)) :-
     Window = window(_, _, Received, Told, _, AckedBytes, SettledFlag),
@@ -206,8 +213,8 @@ unacked_control(Window, Out, Most, Bytes, counts(Count, Settled)) :-
 
 %!  unacked_told(+Window) is semidet.
 %
-%   Nothing waits. Fails if something was received that no frame has settled:
-%   one that is outside the count settles it now.
+%   To be called if nothing waits. Fails if no frame has settled the last frames
+%   received: one outside the count must settle them now.
 
 unacked_told(window(_, _, Received, _, _, _, Settled)) :-
     get_flag(Received, Count),
@@ -219,10 +226,10 @@ unacked_told(window(_, _, Received, _, _, _, Settled)) :-
 
 %!  unacked_resumed(+Session, +Count, +Bytes, -Frames) is det.
 %
-%   The session has a new connection, to which Bytes were written: the peer
-%   has received Count of our frames, of which none is settled by that; Frames
-%   are what was written, and has to be once more. A peer that has forgotten
-%   the session, and we have not, knows of more than was sent.
+%   The session has a new connection, to which Bytes were written. The peer has
+%   received Count of our frames; that settles none. Frames have to be written
+%   once more. The Count of a peer that has forgotten the session, while this
+%   process has not, may exceed what was sent.
 
 unacked_resumed(Session, Count, Bytes, Frames) :-
     session_window(Session, Key, Window),
@@ -236,7 +243,7 @@ unacked_resumed(Session, Count, Bytes, Frames) :-
     set_flag(Acked, Count1),
     set_flag(AckedBytes, Bytes),
     has_bundle(Key, Count1),
-    set_flag(Told, -1),                 % the reader begins with telling it
+    set_flag(Told, -1),                 % the reader acknowledges at its start
     fifo_empty(Sent, Frames),
     forall(member(Frame, Frames), thread_send_message(Sent, Frame)),
     (   Frames = [frame(_, _, First)|_]
@@ -246,8 +253,9 @@ unacked_resumed(Session, Count, Bytes, Frames) :-
 
 %!  unacked_close(+Session, -Waiting, -Handed) is det.
 %
-%   The session is over; the frames Waiting were never written. Handed is what
-%   became of tokens, handed(Token, Result): `unsent`, `lost`, or an objection.
+%   The session is over; the frames Waiting were never written. Handed lists the
+%   results of hand-overs, handed(Token, Result): `unsent`, `lost`, or an
+%   objection.
 
 unacked_close(Session, Waiting, Handed) :-
     session_window(Session, Key, Window),
@@ -277,10 +285,11 @@ hands_over(Token) :-
 
 %!  session_acked(+Session, +Counts, -Settled:list) is det.
 %
-%   A frame of the peer has these Counts, see frame.pl. Settled is what is
-%   settled by that, see settled_now/5. For the thread of the connection.
+%   A frame of the peer has these Counts, see frame.pl. Settled lists the
+%   hand-overs that they settle, see settled_now/5. For the thread of the
+%   connection.
 %
-%   @error domain_error(acknowledged, Count) more than was sent
+%   @error domain_error(acknowledged, Count) if that is more than was sent
 
 session_acked(Session, counts(Received, Count), Settled) :-
     session_window(Session, Key, Window),
@@ -310,7 +319,7 @@ acked(Ahead, Key, Window, SettledCount, Settled, Late) :-
     set_flag(AckedBytes, Bytes1),
     has_bundle(Key, Count).
 
-%   has_bundle(+Key, +Count): the peer has so many frames.
+%   has_bundle(+Key, +Count): the peer has received Count frames.
 
 has_bundle(Key, Count) :-
     (   bundled(Key, Last),
@@ -319,8 +328,8 @@ has_bundle(Key, Count) :-
     ;   true
     ).
 
-%   gone(+Ahead, +Count, +Sent, -Handed, +Bytes0, -Bytes): the peer has Ahead
-%   frames more than Count, of so many bytes, with which Handed was handed over.
+%   gone(+Ahead, +Count, +Sent, -Handed, +Bytes0, -Bytes): the peer has received
+%   Ahead frames more than Count, of so many bytes; Handed are their hand-overs.
 
 gone(0, _, _, [], Bytes, Bytes) :-
     !.
@@ -339,8 +348,8 @@ gone(Ahead, N0, Sent, Handed, Bytes0, Bytes) :-
 
 %!  session_objected(+Session, +Number, +Answer) is det.
 %
-%   The peer does not accept the frame of that Number, but says Answer. What is
-%   not about a frame under way is ignored.
+%   The peer rejects the frame of that Number with Answer.  An objection to a
+%   frame that is not under way is ignored.
 
 session_objected(Session, Number, Answer) :-
     session_window(Session, Key, window(_, _, _, _, Acked, _, _)),
@@ -355,7 +364,7 @@ session_objected(Session, Number, Answer) :-
     ;   true
     ).
 
-%   session_sent(+Session, -Count): so many frames have been written, or less if
+%   session_sent(+Session, -Count): Count frames have been written, or more if
 %   another thread is about to write some.
 
 session_sent(Session, Count) :-
@@ -366,7 +375,7 @@ session_sent(Session, Count) :-
 
 %!  session_pending(+Session, -Count) is det.
 %
-%   Count frames are not acknowledged, or are handed over and not settled.
+%   Count frames are not acknowledged, or are hand-overs that are not settled.
 
 session_pending(Session, Count) :-
     session_window(Session, Key, window(Sent, Waiting, _, _, _, _, _)),
@@ -375,21 +384,26 @@ session_pending(Session, Count) :-
     ( unsettled(Key, _, _) -> Count is S+W+1 ; Count is S+W ).
 
 %!  session_received(+Session, -Count) is det.
-%!  session_untold(+Session, -Count) is det.
-%!  session_count(+Session, -Untold) is det.
 %
-%   Count frames of the peer have been received; of Count it does not know that;
-%   one more has been received, and of Untold it does not know then.
+%   Count frames of the peer have been received.
 
 session_received(Session, Count) :-
     session_window(Session, window(_, _, Received, _, _, _, _)),
     get_flag(Received, Count).
+
+%!  session_untold(+Session, -Count) is det.
+%
+%   Count of these frames are not acknowledged.
 
 session_untold(Session, Count) :-
     session_window(Session, window(_, _, Received, Told, _, _, _)),
     get_flag(Received, All),
     get_flag(Told, Known),
     Count is All-Known.
+
+%!  session_count(+Session, -Untold) is det.
+%
+%   Count one more frame as received.  Untold are not acknowledged then.
 
 session_count(Session, Untold) :-
     session_window(Session, window(_, _, Received, Told, _, _, _)),

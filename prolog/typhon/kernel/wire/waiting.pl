@@ -15,16 +15,16 @@
             peers_flush/1               % +Seconds
           ]).
 
-/** <module> Waiting for a connection, and until all has arrived
+/** <module> Waiting for a connection, and for the arrival of frames
 
-What waits for a connection to an address waits in order. A thread that cannot
-go on waits at a queue of its own, and receives `met` or `missed`. A request
-holds no thread: it is sent, or answered. All of them are numbered: the result
-of an attempt to connect does not concern those that came after it began.
+Threads and requests that wait for a connection to an address wait in order. A
+thread waits at a queue of its own, and receives `met` or `missed`. A request
+holds no thread: it is sent, or answered. All are numbered: the result of an
+attempt to connect does not concern those that came after it began.
 
-*Threading*: any thread adds to what waits. The connection manager, which
-receives wanted_at(Address), sends it, and removes what it has sent only then:
-as long as a request waits for an address, nothing of the same thread may
+*Threading*: any thread adds to the table. The connection manager, which
+receives wanted_at(Address), sends a request first and removes it then: as long
+as a request waits for an address, no later message of the same thread may
 overtake it. The thread that removes a request answers it. manager_connect/1,2
 and the flushes are for any thread that may wait.
 */
@@ -56,19 +56,22 @@ and the flushes are for any thread that may wait.
                                         % request(Kind, Term, OnAnswer)
 
 %!  waiting(?Address) is semidet.
-%!  unsent(?Address) is semidet.
 %
-%   Something waits for Address; a request does.
+%   A thread or request waits for Address.
 
 waiting(Address) :-
     waiting(Address, _, _),
     !.
 
+%!  unsent(?Address) is semidet.
+%
+%   A request waits for Address.
+
 unsent(Address) :-
     waiting(Address, _, request(_, _, _)),
     !.
 
-%   What waits for Address.
+%   What, thread(Queue) or a request, waits for Address.
 
 waiting_add(Address, What) :-
     flag(typhon_runtime, Number, Number+1),
@@ -80,15 +83,15 @@ waiting_add(Address, What) :-
 
 %!  asked(-Number) is det.
 %
-%   What has begun to wait has a lower Number.
+%   All entries of the table have a lower Number; later ones will not.
 
 asked(Number) :-
     flag(typhon_runtime, Number, Number).
 
 %!  waiting_met(+Address, +Session) is det.
 %
-%   There is a Session: send in it all that waits for Address. For the
-%   connection manager only.
+%   Session leads to Address: send all requests and wake all threads that wait
+%   for Address.  For the connection manager only.
 
 waiting_met(Address, Session) :-
     oldest(Address, Number, What),
@@ -118,7 +121,7 @@ tell(Queue, Result) :-
           error(existence_error(_, _), _),
           true).
 
-%   The caller may have given up meanwhile.
+%   The caller may have given up the request meanwhile.
 
 sent(Address, Number, What) :-
     (   retract(waiting(Address, Number, _))
@@ -128,8 +131,8 @@ sent(Address, Number, What) :-
     ;   true
     ).
 
-%   not_sent(+Formal, +Context, +Address, +OnAnswer) fails if the next process
-%   at Address is to be asked.
+%   not_sent(+Formal, +Context, +Address, +OnAnswer): fails if the request is to
+%   go to the next process at Address.
 
 not_sent(session_closed, _, Address, OnAnswer) :-
     !,
@@ -141,8 +144,8 @@ not_sent(Formal, Context, _, OnAnswer) :-
 
 %!  waiting_missed(?Address, +Asked) is det.
 %
-%   There is no way to Address: say so, to those with a number below Asked, see
-%   asked/1, or to all if that is `inf`.
+%   Address cannot be reached: report that to all with a number below Asked, see
+%   asked/1, or to all if Asked is `inf`.
 
 waiting_missed(Address, Asked) :-
     findall(A-Number,
@@ -194,28 +197,33 @@ connected(Address, Options) :-
                 *******************************/
 
 %!  unsent_request(+Address, +Kind, +Term, :OnAnswer) is det.
-%!  unsent_forget(:OnAnswer) is det.
 %
-%   As endpoint_request/4, when there is a connection with Address; no caller
-%   waits for this answer any more.
+%   As endpoint_request/4, when there is a connection with Address.
 
 unsent_request(Address, Kind, Term, OnAnswer) :-
     waiting_add(Address, request(Kind, Term, OnAnswer)).
+
+%!  unsent_forget(:OnAnswer) is det.
+%
+%   Forget the requests with this OnAnswer: their callers no longer wait.
 
 unsent_forget(OnAnswer) :-
     retractall(waiting(_, _, request(_, _, OnAnswer))).
 
 %!  unsent_closed(+Address, +Kind, +Term, :OnAnswer) is det.
-%!  unsent_again(+Session, +Unsent) is det.
 %
-%   The peer is gone for good, and was not asked this; nor what is among the
-%   frames Unsent.  If a process is expected there soon, that waits for it.
+%   The peer is gone for good, and did not get this request.  If a process is
+%   expected at Address soon, the request waits for it.
 
 unsent_closed(Address, Kind, Term, OnAnswer) :-
     (   contact_expected(Address)
     ->  unsent_request(Address, Kind, Term, OnAnswer)
     ;   request_answer(unreachable, OnAnswer)
     ).
+
+%!  unsent_again(+Session, +Unsent) is det.
+%
+%   As unsent_closed/4, for the requests among the frames Unsent of Session.
 
 unsent_again(Session, Unsent) :-
     session_peer(Session, _, Address),
@@ -231,16 +239,18 @@ unsent_again(_, _).
                 *******************************/
 
 %!  endpoint_flush(+Seconds) is semidet.
-%!  endpoint_flush(+Seconds, +Peers:list) is semidet.
 %
-%   Wait until all that was posted has arrived, or all to these addresses;
-%   fails after Seconds.
+%   Wait until all frames sent so far have arrived; fails after Seconds.
 
 endpoint_flush(Seconds) :-
     must_be(number, Seconds),
     get_time(Now),
     Deadline is Now+Seconds,
     forall(session(_, Session), session_flush(Session, Deadline)).
+
+%!  endpoint_flush(+Seconds, +Peers:list) is semidet.
+%
+%   As endpoint_flush/1, for frames to the addresses Peers.
 
 endpoint_flush(Seconds, Peers) :-
     get_time(Now),
@@ -251,9 +261,9 @@ endpoint_flush(Seconds, Peers) :-
 
 %!  peers_flush(+Seconds) is semidet.
 %
-%   As endpoint_flush/1, for a process about to end: nothing is waited for that
-%   cannot arrive, as no process listens at the address of the peer any more.
-%   Not for hooks nor clean-up handlers, see manager_connect/2.
+%   As endpoint_flush/1, for a process about to end: it does not wait for frames
+%   that cannot arrive, because no process listens at the address of the peer
+%   any more.  Not for hooks nor clean-up handlers, see manager_connect/2.
 
 peers_flush(Seconds) :-
     get_time(Now),
@@ -262,7 +272,7 @@ peers_flush(Seconds) :-
              reachable(Session, Deadline) ),
            session_flush(Session, Deadline)).
 
-%   One connection may just be replaced by another.
+%   A session without connection may just be changing from one to another.
 
 reachable(Session, _) :-
     session_key(Session, Key),
@@ -277,10 +287,10 @@ reachable(Session, Deadline) :-
 
 %   session_flush(+Session, +Deadline) is semidet.
 %
-%   Wait until all that was sent before has arrived, or the session is closed,
-%   as when its peer has died; fails at Deadline, a time stamp.  What is waited
-%   for is a frame without content, with which Queue is handed over: it comes
-%   after all else, and the peer settles it at once.
+%   Wait until all frames sent before have arrived, or the session is closed, as
+%   when its peer has died; fails at Deadline, a time stamp.  Sends a frame
+%   without content, which hands over Queue: it arrives after all others, and
+%   the peer settles it at once.
 
 session_flush(Session, Deadline) :-
     setup_call_cleanup(

@@ -10,23 +10,22 @@
 /** <module> Writing to the connection of a session
 
 Writing must never block the thread of a reader, or two readers could wait
-for each other, nor hold a thread that is not ours. A frame is therefore
-written by its sender only if it and all that is under way fit in
-what the buffers of the kernel hold; else it waits, and a thread of the
-session, the _pusher_, writes until nothing waits. It writes first what is
-outside the count, a _control_, then what the peer lacks of an earlier
-connection, then what waits.
+for each other, nor a thread of a caller. A sender therefore writes a frame
+itself only if the frame and all that is under way fit in the buffers of the
+operating system; else the frame waits, and a thread of the session, the
+_pusher_, writes until nothing waits. It writes first frames outside the count,
+called _controls_, then frames of an earlier connection that the peer lacks,
+then frames that wait.
 
-To write a small frame costs more than all else that is done for it. So
-posts are held while so much is under way that the peer is sure to acknowledge
-some of it; when that has come they go in one frame. The peer would not read
-them before, anyway. What is sent after them takes them along.
+Writing a small frame costs more than all other work for it. So posts are held
+while so much is under way that the peer is sure to acknowledge some of it, and
+go in one frame after the acknowledgement. The peer would not read them before,
+anyway. A frame that is sent after them takes them along.
 
 *Threading*: a thread that calls a predicate of this module holds the mutex of
 the session, which guards the order, except for session_release/1 and
 writer_end/1: these are for the thread of the connection, or the one that acts
-in its place. While a session is up and has no pusher, nothing waits but what is
-held.
+in its place. While a session is up and has no pusher, only held posts wait.
 */
 
 :- use_module(library(debug), [debug/3]).
@@ -46,7 +45,7 @@ held.
 
 :- dynamic
     pusher/2,                           % Key, Thread: it alone may write
-    control/3.                          % Key, Kind, Bytes: before what waits
+    control/3.                          % Key, Kind, Bytes: written first
 
                 /*******************************
                 *           SENDERS            *
@@ -54,8 +53,8 @@ held.
 
 %!  put_frame(+Session, +Bytes, +Token, +Flush) is det.
 %
-%   Write Bytes, or have them wait; Flush is `flush` or `buffer`.  Token is
-%   `loose` if Bytes may be held, and go with others when they have to wait.
+%   Write Bytes, or let them wait; Flush is `flush` or `buffer`.  If Token is
+%   `loose`, Bytes may be held, and be bundled with others.
 %
 %   @error session_closed
 
@@ -71,8 +70,8 @@ put_frame(Session, Bytes, Token, Flush) :-
         see_to(Session, Key)
     ).
 
-%   holds(+Session, +Key): the peer will acknowledge some of what is under way,
-%   and not too much waits; or there is a pusher.
+%   holds(+Session, +Key): the peer will acknowledge some of the frames under
+%   way, and not too many wait; or there is a pusher.
 
 most_held(256).
 
@@ -86,7 +85,7 @@ holds(Session, Key) :-
     ).
 
 %   writable(+Key, -Thread, -Out): Out can be written to. The stream of a pusher
-%   is left alone: even to look at it might block.
+%   is not used: even inspecting it might block.
 
 writable(Key, Thread, Out) :-
     transport(Key, Thread, Out),
@@ -105,9 +104,9 @@ write_out(buffer, Out, Counts, Bytes) :-
 
 %!  put_control(+Session, +Kind, +Bytes) is det.
 %
-%   Write Bytes outside the count, before all that waits: they are dropped when
-%   the session is down, and where newer ones of their Kind follow.  Posts that
-%   are held may wait: they settle nothing.
+%   Write Bytes outside the count, before all frames that wait.  They are
+%   dropped if the session is down, or if newer ones of their Kind follow.  Held
+%   posts do not prevent writing them at once, because posts settle nothing.
 
 put_control(Session, Kind, Bytes) :-
     session_window(Session, Key, Window),
@@ -126,7 +125,7 @@ control_add(Key, Kind, Bytes) :-
 
 %!  session_release(+Session) is det.
 %
-%   The peer has acknowledged something: what is held goes.
+%   The peer has acknowledged something: send the posts that are held.
 
 session_release(Session) :-
     (   unacked_waiting(Session)
@@ -135,7 +134,7 @@ session_release(Session) :-
     ;   true
     ).
 
-%   Something waits: it is written, or a connection made.
+%   Some frame waits: write it, or request a connection.
 
 see_to(Session, Key) :-
     (   pusher(Key, _)
@@ -159,7 +158,7 @@ push_what_waits(Session, Key) :-
 
 %!  flush_out(+Key) is det.
 %
-%   What was put into the buffer goes.
+%   Flush the frames that were written to the buffer.
 
 flush_out(Key) :-
     (   writable(Key, Thread, Out)
@@ -169,8 +168,8 @@ flush_out(Key) :-
     ;   true
     ).
 
-%   write_waiting(+Session, +Out, +Most): write what waits as far as there is
-%   room, or, where Most is `all`, until nothing waits.  Many small frames go in
+%   write_waiting(+Session, +Out, +Most): write frames that wait as far as there
+%   is room, or, if Most is `all`, until none waits.  Many small frames go in
 %   one write: the buffer is flushed when it is full and at the end.
 
 write_waiting(Session, Out, Most) :-
@@ -196,7 +195,7 @@ next_frame(Session, Out, Most, Counts, Bytes) :-
 %!  writer_begin(+Session, +Key, +Thread, +Out, +Again) is det.
 %
 %   The session has a new connection, Out of Thread: write the frames Again, and
-%   what waits.
+%   those that wait.
 
 writer_begin(Session, Key, Thread, Out, Again) :-
     (   Again == [],
@@ -205,8 +204,8 @@ writer_begin(Session, Key, Thread, Out, Again) :-
     ;   pusher_start(Session, Key, Thread, Out, Again)
     ).
 
-%   Where no thread can be made the connection is given up: what waits must not
-%   be overtaken, and is sent over the next.
+%   If no thread can be made the connection is given up: the frames that wait
+%   must not be overtaken, and are sent over the next connection.
 
 pusher_start(Session, Key, Thread, Out, Again) :-
     catch(( wire_thread_create(push(Session, Key, Thread, Out, Again),
@@ -230,7 +229,7 @@ write_again(Frame, Session, Out) :-
     session_locked(Session, unacked_counts(Session, Frame, Counts, Bytes)),
     frame_write(Out, Counts, Bytes).
 
-%   A pusher that has written all has ended already.
+%   A pusher that has written all frames has removed its fact already.
 
 pushed(Key, Thread) :-
     thread_self(Me),
@@ -245,7 +244,7 @@ push_waiting(Session, Key, Out) :-
     session_locked(Session, nothing_waits(Session, Key)),
     !.
 
-%   The last frame settles all that was received meanwhile.
+%   The last frame settles all frames received meanwhile.
 
 nothing_waits(Session, Key) :-
     \+ control(Key, _, _),
@@ -260,7 +259,7 @@ nothing_waits(Session, Key) :-
 %!  writer_end(+Key) is det.
 %
 %   The connection is stopped: end the pusher of the session, if any, and wait
-%   for that; forget the controls, which were for this connection.
+%   for its end; drop the controls, which were for this connection.
 
 writer_end(Key) :-
     (   retract(pusher(Key, Pusher))
