@@ -188,7 +188,7 @@ pause(Tries, Seconds) :-
 most_tries(6).
 
 %   The end of a process that was never connected is not reported.  It is waited
-%   for as long as news wait for an unreachable home.
+%   for as long as news waits for an unreachable home.
 
 unknown_tries(Tries) :-
     most_tries(Least),

@@ -29,7 +29,7 @@
 
 The home of an agent is the process in which it was born.  It records where the
 agent went and how it ended, and notifies waiting callers.  Older news never
-replace newer ones: they are ordered by the number of hops.  The oldest outcomes
+replaces newer news: the number of hops gives the order.  The oldest outcomes
 are discarded.  A home that was restarted learns of its agents by their news.
 
 *Threading*: any thread; one mutex.

@@ -13,12 +13,12 @@
 
 /** <module> News for the homes of agents
 
-News report to the home of an agent where the agent is and how it ended.  Only
-the newest news of each agent are kept until they are sent.  Each home has one
-courier, a task that sends all news there are: a home that does not answer costs
+News reports to the home of an agent where the agent is and how it ended.  Only
+the newest news of each agent is kept until it is sent.  Each home has one
+courier, a task that sends all news there is: a home that does not answer costs
 one attempt at a time, whatever the number of agents and of their hops.  News of
-a location wait a moment for more of them, to share a frame: until the home has
-them, the processes that the agent left forward its messages.
+a location waits a moment for more news, to share a frame: until the home has
+it, the processes that the agent left forward its messages.
 
 *Threading*: any thread adds news; a courier is a call of a worker, or an alarm
 that waits for the next attempt.
@@ -38,7 +38,7 @@ that waits for the next attempt.
     news/3,                     % Home, Id, News: the newest, not yet sent
     in_hand/2,                  % Home, All: news that its courier is sending
     courier/1,                  % Home: a thread sends its news, or will
-    pauses/1.                   % Home: its courier waits for more of them
+    pauses/1.                   % Home: its courier waits for more news
 
 %   The weight of the news in one frame, at most.  News with results may be
 %   long.
@@ -79,7 +79,7 @@ news_carried(Home) :-
 
 %!  news_hurry is det.
 %
-%   Send now the news that wait for more: while turns are paused no alarm goes
+%   Send now the news that waits for more: while turns are paused no alarm goes
 %   off.
 
 news_hurry :-
@@ -136,8 +136,8 @@ keep(Home, Id, News) :-
     retractall(news(Home, Id, _)),
     assertz(news(Home, Id, News)).
 
-%   Ages show which news are newer.  The order of sending does not, nor the time
-%   at which they were added while the courier was sending: the end notice may
+%   Ages show which news is newer.  The order of sending does not, nor the time
+%   at which it was added while the courier was sending: the end notice may
 %   overtake the arrival notice.
 
 newer(News, Known) :-
@@ -153,8 +153,8 @@ age(ended(_, _, Hops), age(Hops, 2, 0, 0)).  % fewer hops: a copy that was
                                              % given up in doubt
 
 %   The process is about to end: send what can be sent before one deadline for
-%   all homes, and give up the rest.  News that a courier is sending are sent
-%   again, in case it is too slow; so the home may get them twice.
+%   all homes, and give up the rest.  News that a courier is sending is sent
+%   again, in case it is too slow; so the home may get it twice.
 
 typhon_runtime:ending(before) :-
     get_time(Now),
@@ -191,7 +191,7 @@ carry(Home, Try) :-
         carried(Answer, Home, All, Try)
     ).
 
-%   posted(:Post, +Home, +All): news too long for one frame are sent in two.  If
+%   posted(:Post, +Home, +All): news too long for one frame is sent in two.  If
 %   an end notice is too long, it is sent without results.
 
 posted(Post, Home, All) :-

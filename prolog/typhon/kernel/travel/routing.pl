@@ -28,7 +28,7 @@ they never wait.  way_send/3 may wait for a connection.
 */
 
 %   After so many forwards without a pause the letter chases its agent in vain,
-%   or processes lack news of the agent that are under way: the letter waits a
+%   or processes lack news of the agent that is under way: the letter waits a
 %   little.
 
 forwards_at_once(64).
