@@ -29,8 +29,9 @@
 /** <module> Arrival of agents
 
 The receiving half of a hop, see typhon_hop: install the agent completely or not
-at all, and answer.  A transfer that comes again is recognised without a record
-of its own: the agent is here, has gone on, or has ended.
+at all, and answer.  A transfer that comes again is recognised by other records
+of the agent, which is here, has gone on, or has ended, and by its id, see
+typhon_hop_ids.
 
 *Threading*: the reader threads of the endpoint.
 */

@@ -21,7 +21,7 @@
     post(Kind, Term)          one way
     request(Id, Kind, Term)   needs an answer
     answer(Id, Term)          answers request Id
-    spoilt(Id)                request Id arrived, but its hook failed
+    spoilt(Id)                request Id arrived, but was not served
     hand(Kind, Term)          hands over Term if the receiver accepts it
     objection(Number, Answer) the frame of that Number is not accepted
 

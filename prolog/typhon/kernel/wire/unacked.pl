@@ -364,7 +364,7 @@ session_objected(Session, Number, Answer) :-
     ;   true
     ).
 
-%   session_sent(+Session, -Count): Count frames have been written, or more if
+%   session_sent(+Session, -Count): Count frames have been written, or fewer if
 %   another thread is about to write some.
 
 session_sent(Session, Count) :-
