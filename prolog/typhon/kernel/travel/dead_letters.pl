@@ -8,22 +8,23 @@
 :- use_module('../host', [scheduler_call/1]).
 :- use_module(home, [agent_outcome/2]).
 
-/** <module> Messages that cannot be delivered
+/** <module> Dead letters: messages that cannot be delivered
 
 *Threading*: any thread.
 */
 
 :- multifile
-    returned/3,                 % From, Id, Message: its bridge takes it back
+    returned/3,                 % From, Id, Message: the bridge of From takes
+                                % it back
     error:has_type/2,
     typhon_durable_posts:undelivered/4,
     typhon_endpoint:received/3.
 
 %!  mail_lost(+Formal, +Id, +Mail) is det.
 %
-%   Said here and where it was sent.  That an agent has ended is nothing
-%   special.  A message of a bridge from a sender that is no agent, as
-%   fipa(Name), is given back to that where it was sent.
+%   Report that Mail cannot be delivered, here and to the process that sent it,
+%   unless Id has ended, which is normal.  A message of a bridge, whose sender
+%   is no agent, as fipa(Name), is returned to the bridge of its process.
 
 mail_lost(Formal, Id, Mail) :-
     partition(is_brought, Mail, Brought, Sent),
@@ -42,7 +43,7 @@ is_brought(mail(_, From, _)) :-
 was_sent_here(mail(Origin, _, _)) :-
     endpoint_address(Origin).
 
-%   The bridge may have to wait.
+%   In a worker, because the bridge may have to wait.
 
 give_back(Formal, Id, Mail) :-
     forall(member(One, Mail),
@@ -66,7 +67,7 @@ tell_origin(Origin, Formal, Id, Mail) :-
             member(mail(Origin, From, Message), Mail), Lost),
     catch(endpoint_post(Origin, message, lost(Formal, Id, Lost)),
           error(unreachable(_), _),
-          true).                        % gone, and it was said here
+          true).                        % it was reported here
 
 report(Formal, Id, [mail(_, From, Message)|More]) :-
     (   More == []

@@ -10,28 +10,30 @@
 
 /** <module> Which process may speak for which agent
 
-As far as the kernel knows each process may speak for each agent. Where an
-option checks that, a process shows with what its agents say what entitles it
-to, and what must not be said by this process goes through another.
+In the kernel each process may speak for each agent. If an option checks that, a
+process sends with the messages of its agents a proof of its right to do so, and
+messages for which it has no right go through another process.
 
 *Threading*: any thread.
 */
 
 :- multifile
-    ours/1,                     % Id: others take what it says from us
+    ours/1,                     % Id: other processes accept messages of Id
+                                % from this process
     speaks/3,                   % Peer, Shown, Id
     believes/5,                 % Peer, Id, Shown, Mail, Believed
     shows/4,                    % Endpoint, Ids, There, Shown
     by_parts/4.                 % Endpoint, Id, Mail, Parts
 
-:- dynamic senders_checked/0.   % while there are processes that must not
+:- dynamic senders_checked/0.   % rights of some processes are restricted
 
 %!  senders_checked is semidet.
-%!  senders_check(+Boolean) is det.
-%!  sender_ours(+Id) is semidet.
 %
-%   There are processes that must not speak for each agent; from now on there
-%   are; other processes take from this one what the agent Id says.
+%   There are processes that must not speak for each agent.
+
+%!  senders_check(+Boolean) is det.
+%
+%   Set or reset senders_checked/0.
 
 senders_check(true) :-
     (   senders_checked
@@ -41,6 +43,10 @@ senders_check(true) :-
 senders_check(false) :-
     retractall(senders_checked).
 
+%!  sender_ours(+Id) is semidet.
+%
+%   Other processes accept messages of the agent Id from this process.
+
 sender_ours(Id) :-
     (   senders_checked
     ->  ours(Id)
@@ -49,8 +55,8 @@ sender_ours(Id) :-
 
 %!  speaks_for(+Peer, +Shown, +Id) is semidet.
 %
-%   The process at the address Peer, which shows Shown, may speak for the agent
-%   Id.
+%   The process at the address Peer, which has sent Shown, may speak for the
+%   agent Id.
 
 speaks_for(Peer, Shown, Id) :-
     (   senders_checked
@@ -60,8 +66,8 @@ speaks_for(Peer, Shown, Id) :-
 
 %!  mail_believed(+Peer, +Id, +Shown, +Mail, -Believed) is det.
 %
-%   Of Mail, a list of mail(Origin, From, Message) that has come from Peer for
-%   the agent Id, Believed is from the sender that it names.
+%   Believed are those of Mail, a list of mail(Origin, From, Message) from Peer
+%   for the agent Id, that are from the sender which they name.
 
 mail_believed(Peer, Id, Shown, Mail, Believed) :-
     (   senders_checked
@@ -71,9 +77,9 @@ mail_believed(Peer, Id, Shown, Mail, Believed) :-
 
 %!  shown(+Endpoint, +Ids, +There, +Term, -Sent) is det.
 %
-%   What is sent to Endpoint instead of Term: shown(Shown, Term), where there
-%   is something to show of the agents Ids, if that is their home, or of the
-%   agents There; or Term.
+%   Sent goes to Endpoint in place of Term: shown(Shown, Term) if there is a
+%   proof for the agents Ids, if Endpoint is their home, or for the agents
+%   There; else Term.
 
 shown(Endpoint, Ids, There, Term, Sent) :-
     (   senders_checked,
@@ -84,8 +90,8 @@ shown(Endpoint, Ids, There, Term, Sent) :-
 
 %!  mail_parts(+Endpoint, +Id, +Mail, -Parts) is det.
 %
-%   Parts are Via-Some, Some of Mail, which is for Id at Endpoint, and Via the
-%   endpoint to which it goes at first.
+%   Parts are Via-Some: Some of Mail, which is for Id at Endpoint, goes to the
+%   endpoint Via first.
 
 mail_parts(Endpoint, Id, Mail, Parts) :-
     (   senders_checked,

@@ -14,9 +14,8 @@
 
 /** <module> Attempts to connect, and their times
 
-For each address that is to be reached there is one attempt: it has yet to
-begin, is being made, or pauses until it is made again. connection_manager.pl
-decides about its result.
+Each wanted address has one attempt: it is queued, is being made, or pauses
+until it is made again. connection_manager.pl handles its result.
 
 *Threading*: the thread of the connection manager owns the table.
 */
@@ -38,15 +37,15 @@ decides about its result.
 %
 %   State is `queued`, trying(Thread, Start, Asked) or pausing(Until, Asked):
 %   requests from before the last try have a number below Asked. Pause is the
-%   one that comes next. Callers have waited Since then, `unset` before the
+%   next pause. Callers have waited since the time Since, `unset` before the
 %   first try begins, `none` if no caller waits.
 
 first_pause(0.02).
 longest_pause(2).
 longest_pause_of_expected(0.2).
 
-%   Where there are many processes they may all be busy at once, as they are
-%   when they begin: then it takes longer until silence means something.
+%   With many processes all may be busy at once, as at their start: then a peer
+%   may be silent for longer before it counts as unreachable.
 
 patience(Seconds) :-
     setting(typhon_connection_manager:connect_time, Seconds0),
@@ -77,8 +76,8 @@ attempt_want(Address) :-
 
 %!  attempt_begun(+Address, +Thread, +Asked) is det.
 %
-%   Thread tries to reach Address. The time of those that wait begins with
-%   the first time.
+%   Thread tries to reach Address. The time of waiting callers starts with the
+%   first try.
 
 attempt_begun(Address, Thread, Asked) :-
     attempt(Address, _, Pause, Since0),
@@ -97,9 +96,9 @@ attempt_asked(pausing(_, Asked), Asked).
 
 %!  attempt_greeted(+Thread) is det.
 %
-%   The attempt of Thread has been answered: a peer is there, and slow, as
-%   all are where many begin at once. The time begins again, unless it has
-%   gone wrong often.
+%   The peer has answered the attempt of Thread: it exists, and is slow, as all
+%   are when many start at once.  The time starts again, unless many attempts
+%   have failed.
 
 attempt_greeted(Thread) :-
     (   attempt(Address, trying(Thread, _, Asked), Pause, Since),
@@ -113,8 +112,8 @@ attempt_greeted(Thread) :-
 
 %!  attempt_pause(+Address, +Pause, +Since) is det.
 %
-%   Try again after about Pause seconds, the next time after twice as many,
-%   but not later than there is time for a caller that waits Since then.
+%   Try again after about Pause seconds, and the next time after twice as many,
+%   but before the deadline of a caller that has waited since Since.
 
 attempt_pause(Address, Pause, Since) :-
     get_time(Now),
@@ -154,10 +153,10 @@ attempt_end(Address) :-
 
 %!  attempt_next(+Me, -Address) is semidet.
 %
-%   Address is tried next, Me being our hello. Where many processes begin at
-%   once all would be late together, and of each pair both would connect. So
-%   few attempts are begun at a time, by each process in an order of its own:
-%   most peers come by themselves before it is their turn.
+%   Address is tried next; Me is the hello of this process. If many processes
+%   start at once all would be late together, and both processes of each pair
+%   would connect. So few attempts are made at a time, by each process in an
+%   order of its own: most peers connect by themselves before it is their turn.
 
 attempt_next(Me, Address) :-
     attempt(_, queued, _, _),
@@ -178,7 +177,8 @@ crowded :-
     length(Young, Count),
     Count >= Many.
 
-%   young(-Until): an attempt that may soon have ended.
+%   young(-Until): there is an attempt that has begun recently, and may soon
+%   end.
 
 young(Until) :-
     crowd_seconds(Seconds),
@@ -194,7 +194,7 @@ young(Until) :-
 %!  attempt_over(+Address, +Since, +Formal) is semidet.
 %
 %   After the failure Formal, `late` if there was no answer, the caller that has
-%   waited for Address Since then waits no more: its time is over, or another
+%   waited for Address since Since gets a result: its time is over, or another
 %   attempt would fail, too.
 
 attempt_over(Address, Since, Formal) :-
@@ -207,7 +207,7 @@ attempt_over(Address, Since, Formal) :-
         Deadline =< Now
     ).
 
-%   It is being started again.
+%   The process is being restarted.
 
 soon_there(socket_error(econnrefused, _), Address) :-
     contact_expected(Address).
@@ -233,8 +233,8 @@ deadline(Address, Since, Deadline) :-
 
 %!  attempt_due(-Time) is nondet.
 %
-%   When something has to be done. A silent attempt is given up in time for
-%   another one: it may be the connection that is dead.
+%   Time is when the state of some attempt must change. A silent attempt ends in
+%   time for another one: its connection may be dead.
 
 attempt_due(Time) :-
     attempt(Address, State, _, Since),
@@ -254,7 +254,8 @@ due(trying(_, Start, _), Address, Since, Until) :-
 
 %!  attempts_due(-Due) is det.
 %
-%   Due are those that have tried or paused for long enough, Address-State.
+%   Due are the attempts that have tried or paused for long enough,
+%   Address-State.
 
 attempts_due(Due) :-
     get_time(Now),

@@ -33,7 +33,7 @@ closes the streams.
               [transport_close/0, transport_first/2, transport_open/6]).
 
 :- multifile
-    harmless/1,                 % Formal: a break that is no news
+    harmless/1,                 % Formal: a break that need not be reported
     typhon_handshake:greeted/0.
 
 :- meta_predicate
@@ -42,10 +42,10 @@ closes the streams.
 
 %!  incoming(+In, +Out, +Ip, :Stage, +Me) is det.
 %
-%   Serve the client at Ip, whose streams are In and Out; Me is our hello.
-%   Stage is called with `silent`, from when on we see to the streams, with
-%   `heard` when the client has said something, and with `proved` or `refused`.
-%   If it fails, that was all.
+%   Serve the client at Ip, whose streams are In and Out; Me is the hello of
+%   this process.  Stage is called with `silent`, from when on this thread
+%   closes the streams, with `heard` when the client has sent something, and
+%   with `proved` or `refused`.  If a call fails the connection ends.
 
 incoming(In, Out, Ip, Stage, Me0) :-
     get_time(Start),
@@ -75,15 +75,15 @@ await_word(In, Out) :-
 
 turned_away(Ip, Formal, Stage) :-
     debug(typhon(connect), '~w: it came in vain: ~p', [Ip, Formal]),
-    (   nb_current(typhon_proved, true) % it came to us by another way
+    (   nb_current(typhon_proved, true) % it came by another connection
     ->  true
     ;   call(Stage, refused)
     ->  refused(Ip, Formal)
-    ;   true                            % the thread that took its slot has counted it
+    ;   true                            % the evicting thread has counted it
     ).
 
-%   The peer at Ip can be reached at the address it says it listens to,
-%   unless that is meaningless here.
+%   The address at which the peer claims to listen leads to its session, unless
+%   that address is meaningless here; Ip replaces 0.0.0.0.
 
 reachable(_, _, Session) :-
     own_session(Session),
@@ -175,7 +175,7 @@ with_streams(Open, In, Out, Goal) :-
           close_stream(Out),
           close_stream(In) )).
 
-%   A thread that was lent finds them closed.
+%   The streams of a thread that was lent may be closed already.
 
 close_stream(Stream) :-
     catch(close(Stream, [force(true)]),
@@ -201,8 +201,8 @@ open_streams(Socket, In, Out) :-
 		 *            SERVING           *
 		 *******************************/
 
-%   Read until the connection breaks; how is of no interest, since what is
-%   missing will be sent again.
+%   Read until the connection breaks.  The reason is only reported: missing
+%   frames are sent again over the next connection.
 
 serve(Session, In, Out) :-
     thread_self(Me),
@@ -212,7 +212,7 @@ serve(Session, In, Out) :-
               report_break(Session, Formal)),
         lost(Session, Me)).
 
-%   For a thread that was lent another one may be about to do that.
+%   If this thread was lent another one may be about to do the same.
 
 lost(Session, Me) :-
     lent_away,
@@ -221,11 +221,11 @@ lost(Session, Me) :-
 lost(Session, Me) :-
     session_lost(Session, Me).
 
-%   A break is nothing special, but what the peer does may be.
+%   A broken connection is normal, but a violation of the protocol is reported.
 
 report_break(Session, Formal) :-
     session_peer(Session, _, Address),
-    (   nb_current(typhon_proved, true) % it came to us by another way
+    (   nb_current(typhon_proved, true) % it came by another connection
     ->  Level = silent
     ;   (   memberchk(Formal,
                       [ io_error(_, _), socket_error(_, _),

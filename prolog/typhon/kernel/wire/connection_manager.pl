@@ -3,22 +3,22 @@
             manager_unhandled/1         % +Messages
           ]).
 
-/** <module> The connection manager: connects, and connects again
+/** <module> The connection manager: connects and reconnects
 
-One thread per endpoint keeps its sessions alive. It connects to the addresses
-that are wanted, connects sessions with something to send or to receive again,
-and forgets others.
+One thread of the endpoint keeps its sessions alive. It connects to the
+addresses that are wanted, reconnects sessions with frames to send or to
+receive, and closes others.
 
 For each wanted address attempts to connect are made, with growing pauses,
-until a session is up, whichever side made its connection. Waiting threads
-learn that it is up, or that there can be none. Failures that may pass, as when
-a peer breaks off during the handshake, are retried while there is time. All
-others are reported at once, a refused connection first of all, unless a
+until a session is up, whichever side made its connection. Waiting threads are
+notified that it is up, or that there can be none. Failures that may pass, as
+when a peer breaks off during the handshake, are retried while there is time.
+All others are reported at once, a refused connection above all, unless a
 process is expected there soon.
 
 *Threading*: keep/1 is the goal of the manager's thread, which owns the tables
-below. Others talk to it through manager_notify/1. It never waits: what may
-take a while is done by a thread in the background.
+below. Other threads send it messages by manager_notify/1. It never waits: work
+that may take long is done by a background thread.
 */
 
 :- use_module(library(debug), [debug/3]).
@@ -54,7 +54,8 @@ take a while is done by a thread in the background.
 
 %!  manager_unhandled(+Messages) is det.
 %
-%   Answer those that asked too late, and run what was to be done later.
+%   The endpoint has stopped with these Messages unhandled: answer the callers
+%   that still wait, and run the goals that were due later.
 
 manager_unhandled(Messages) :-
     waiting_missed(_, inf),
@@ -62,7 +63,8 @@ manager_unhandled(Messages) :-
 
 %!  keep(+Me) is det.
 %
-%   The goal of the thread, Me being our hello. Ends on the message `stop`.
+%   The goal of the thread. Me is the hello of this process. Ends on the message
+%   `stop`.
 
 keep(Me) :-
     nb_setval(typhon_keeper, true),
@@ -109,11 +111,11 @@ hear(wanted(Key), _) :-
     ;   true
     ).
 hear(displaced(Key), Me) :-             % another process has its address
-    (   route_key(_, Key)               % is it at that, too?
+    (   route_key(_, Key)               % it may have other addresses
     ->  hear(wanted(Key), Me)
     ;   gone(Key)
     ).
-hear(gone(Key), _) :-                   % it said goodbye
+hear(gone(Key), _) :-                   % it has sent `bye`
     forall(route_key(Address, Key), contact_gone(Address)),
     gone(Key).
 hear(later(Time, Goal), _) :-           % Goal is quick
@@ -123,7 +125,7 @@ hear(overdue, Me) :-
     run_errands(Now),
     handle_overdue(Me).
 
-%   What others have asked to be done at some time.
+%   Run the goals of later/2 messages that are due.
 
 run_errands(Now) :-
     findall(Time-Goal, ( errand(Time, Goal), Time =< Now ), Due),
@@ -131,9 +133,8 @@ run_errands(Now) :-
            ( retractall(errand(Time, Goal)),
              call(Goal) )).
 
-%   A session with nothing pending is kept for the sake of its counts: the
-%   peer may be cut off only, and come back with frames that have arrived
-%   before.
+%   A session with nothing pending is kept because of its counts: the peer may
+%   only be cut off, and return with frames that have arrived before.
 
 down(Session) :-
     session_unfinished(Session),
@@ -172,7 +173,8 @@ gone(Key) :-
     ;   true
     ).
 
-%   Every caller that waits for an answer gets a result, whatever happens.
+%   Signals are deferred so that every caller that waits for an answer gets a
+%   result.
 
 part(Session) :-
     sig_atomic(( session_adopting(Session,
@@ -187,7 +189,7 @@ part(Session) :-
 
 %!  address_wanted(+Address) is det.
 %
-%   Something waits for Address, or did a moment ago.
+%   A caller waits for Address, or did a moment ago.
 
 address_wanted(Address) :-
     (   up(Address, Session)
@@ -218,7 +220,7 @@ up(Address, Session) :-
 
 %!  begin_attempts(+Me) is det.
 %
-%   Begin the attempts whose turn has come, Me being our hello.
+%   Begin the attempts that are next. Me is the hello of this process.
 
 begin_attempts(Me) :-
     (   attempt_next(Me, Address)
@@ -241,7 +243,7 @@ try(Address, Me) :-
 
 %!  attempt_ended(+Thread, +Formal) is det.
 %
-%   The attempt of Thread, if it is one, has ended without connection.
+%   The attempt of Thread, if it is one, has ended without a connection.
 
 attempt_ended(Thread, Formal) :-
     (   attempt(Address, trying(Thread, _, _), _, _)
@@ -249,7 +251,7 @@ attempt_ended(Thread, Formal) :-
     ;   true
     ).
 
-%   The session may be up all the same, by a connection of the peer's.
+%   The session may be up nevertheless, by a connection that the peer has made.
 
 verdict(Address, _) :-
     up(Address, _),
@@ -265,7 +267,7 @@ verdict(Address, Formal) :-
     ;   go_on(Address, Pause, Since)
     ).
 
-%   Requests made since the attempt began get another one.
+%   Requests made since the attempt began get another attempt.
 
 others(Address, _) :-
     waiting(Address),
@@ -281,7 +283,7 @@ go_on(Address, Pause, Since) :-
     ;   attempt_pause(Address, Pause, Since)
     ).
 
-%   No caller waits, and no session needs it.
+%   No caller waits for Address, and no session needs it.
 
 pointless(Address, none) :-
     \+ ( route(Address, Session),
@@ -289,7 +291,7 @@ pointless(Address, none) :-
 
 %!  handle_overdue(+Me) is det.
 %
-%   Do what is due.
+%   End or begin the attempts that are due.
 
 handle_overdue(Me) :-
     attempts_due(Due),
@@ -321,13 +323,14 @@ late(pausing(_, _), Address, Me) :-
 
 %!  session_is_up(+Key) is det.
 %
-%   The session Key has a connection: so have all addresses that lead to it.
+%   The session Key has a connection, which serves all addresses that lead to
+%   it.
 
 session_is_up(Key) :-
     findall(Address, route_key(Address, Key), Addresses),
     forall(member(Address, Addresses), met(Address)).
 
-%   It may be down again: what is sent in it comes through when it is up the
+%   The session may be down again: its frames are then sent when it is up the
 %   next time.
 
 met(Address) :-
@@ -346,7 +349,7 @@ missed(Address, Asked, Formal) :-
 
 %!  give_up is det.
 %
-%   The endpoint stops: no peer can be reached any more.
+%   The endpoint stops: report all addresses as unreachable.
 
 give_up :-
     waiting_missed(_, inf),

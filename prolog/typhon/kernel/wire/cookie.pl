@@ -3,7 +3,7 @@
             random_hex/2                % +Count, -Hex
           ]).
 
-/** <module> The cookie: what all processes of a network know
+/** <module> The cookie: a secret that all processes of a network share
 
 *Threading*: any thread. The cookie is kept with the time stamp of its file
 in one fact; two threads that read it at once store the same.
@@ -20,7 +20,7 @@ in one fact; two threads that read it at once store the same.
 
 %!  random_hex(+Count, -Hex:atom) is det.
 %
-%   Hex are Count random bytes, good enough for secrets.
+%   Hex are Count random bytes, of a quality for secrets.
 
 random_hex(Count, Hex) :-
     setup_call_cleanup(
@@ -32,13 +32,13 @@ random_hex(Count, Hex) :-
 
 %!  cookie(-Cookie:string) is det.
 %
-%   Cookie is the secret all processes of a network share: the value of
+%   Cookie is the secret that all processes of a network share: the value of
 %   the environment variable `TYPHON_COOKIE`, or the content of the file
 %   `TYPHON_COOKIE_FILE`, by default `~/.typhon.cookie`. The file is made
 %   with random content on first use.
 %
-%   @error permission_error(use, cookie_file, File) others may read or write
-%   it, or there is no cookie in it; the context says which.
+%   @error permission_error(use, cookie_file, File) if others may read or write
+%   it, or it has no cookie; the context says which
 
 cookie(Cookie) :-
     getenv('TYPHON_COOKIE', Value),
@@ -84,8 +84,8 @@ read_cookie(File, Cookie) :-
 unfit(File, Why) :-
     throw(error(permission_error(use, cookie_file, File), context(_, Why))).
 
-%   Prolog cannot ask for the mode of a file; ls can, wherever there are
-%   modes: -rw-------
+%   Prolog has no predicate for the mode of a file; ls prints it, as -rw-------,
+%   on all systems with modes.
 
 check_private(_) :-
     current_prolog_flag(windows, true),

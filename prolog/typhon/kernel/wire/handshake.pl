@@ -13,22 +13,22 @@
 /** <module> The handshake: peers prove that they know the cookie
 
 Both ends of a connection prove that they know a shared secret, the cookie,
-before either decodes a term of the other. Four short lines pass:
+before either decodes a term of the other. They exchange four short lines:
 
     client: typhon 3 <nonce> <hello>
     server: typhon 3 <nonce> <hello>
     client: <proof>
     server: <proof>
 
-The lines have a fixed format and are read byte by byte under one deadline,
+The lines have a fixed format and are read byte by byte with one deadline,
 never with read/1. A hello is hello(Process, Start, Address, Version, Word,
 Order): the random id of the process, the number of this start of its
 endpoint, its listening address, its Prolog version, word size and byte order.
 
 A proof is the HMAC-SHA256 under the cookie of the prover's role and both
 first lines: it cannot be replayed, reflected, or moved to other hellos. The
-server proves nothing to a client that has not. A client of another version
-of the protocol receives ours, as `typhon 3`.
+server proves nothing to a client that has not proved itself. A client of
+another version of the protocol receives the version of the server, `typhon 3`.
 
 *Threading*: any thread. One thread owns the streams of a connection while
 lines are exchanged.
@@ -45,8 +45,8 @@ lines are exchanged.
 
 %!  hello(+Process, +Start, +Address, -Hello) is det.
 %
-%   Hello is what this process says of itself. Without records it claims
-%   no byte order, which agrees with that of no peer.
+%   Hello is that of this process. If records are switched off its byte order is
+%   `none`, which matches that of no peer.
 
 hello(Process, Start, Address,
       hello(Process, Start, Address, Version, Word, Order)) :-
@@ -54,8 +54,8 @@ hello(Process, Start, Address,
     current_prolog_flag(address_bits, Word),
     byte_order(Order).
 
-%   1.5 is 0x3ff8 and zeros: a record shows which end comes first. Beside
-%   the order stands the check of these bytes, which must agree as well.
+%   1.5 is 0x3ff8 and zeros, so a record of it shows the byte order. Order also
+%   has the check of these bytes, which must match, too.
 
 byte_order(none) :-
     setting(records, false),
@@ -77,9 +77,9 @@ hello_peer(hello(Process, Start, Address, _, _, _), Process, Start, Address).
 
 %!  hello_to(+Proof, +Hello0, -Hello) is det.
 %
-%   Hello is Hello0 as a peer gets it that proves itself by Proof: without a
-%   byte order if no record of such a peer may be decoded, since a record with
-%   one wrong byte can end the process.  See the hook text_only/1.
+%   Hello is Hello0 as it is sent to a peer with that Proof: without a byte
+%   order if no record of such a peer may be decoded, since a record with one
+%   wrong byte can end the process.  See the hook text_only/1.
 
 hello_to(Proof, hello(Process, Start, Address, Version, Word, _),
          hello(Process, Start, Address, Version, Word, none)) :-
@@ -111,8 +111,8 @@ line_hello(Line, Hello) :-
 
 %!  hello_codec(+Hello, +PeerHello, -Codec) is det.
 %
-%   Codec is `fast` only where it is known to be safe, else `text`. It is
-%   the same whichever of the two hellos is one's own.
+%   Codec is `fast` only if that is known to be safe, else `text`. The order of
+%   the two hellos does not matter.
 
 hello_codec(hello(_, _, _, Version1, Word1, Order1),
             hello(_, _, _, Version2, Word2, Order2), Codec) :-
@@ -132,8 +132,8 @@ one_record_format(V1, V2) :-
     between(Low, High, V2),
     !.
 
-%   Versions First..Last read each other's records (tried both ways). 9.0.4
-%   and 10.1.12 do not: of integers of 63 bits and more.
+%   Versions First..Last read each other's records (tested both ways). 9.0.4
+%   and 10.1.12 do not: integers of 63 bits and more differ.
 
 record_format(90000, 90299).
 
@@ -142,7 +142,7 @@ record_format(90000, 90299).
 %   Read a line of at most 512 bytes before Deadline, a time stamp.
 %
 %   @error timeout_error(read, In)
-%   @error syntax_error(line) it is too long
+%   @error syntax_error(line) if it is too long
 %   @error syntax_error(end_of_file)
 
 line_read(In, Deadline, Line) :-
@@ -178,31 +178,30 @@ line_write(Out, Line) :-
 :- setting(handshake_time, number, 5,
            "Seconds a peer has to prove itself").
 
-%   greeted: the server has sent its hello, which is still to be proved.
+%   greeted: hook, called when the server has sent its hello, yet to be proved.
 
 :- meta_predicate
     authenticate(+, +, +, +, 1, -).
 
 :- multifile
     greeted/0,
-    text_only/1,                        % Proof: a peer of that proof is not
-                                        % trusted with records
-    other_line/2.                       % Line, Why: of a server that speaks
-                                        % otherwise
-
+    text_only/1,                        % Proof: records of a peer with that
+                                        % proof are not decoded
+    other_line/2.                       % Line, Why: Line is that of a server
+                                        % with another protocol
 
 %!  authenticate(+Role, +In, +Out, +Hello, :Cookie, -PeerHello) is det.
 %
-%   Prove ourselves to the peer at the other end of In and Out and see its
-%   proof, Role being `client` or `server`. Stops listening after
-%   `handshake_time` seconds in all. call(Cookie, Secret) gives what both
-%   must know: a client that does not even greet costs us neither that nor
-%   a nonce.
+%   Prove this process to the peer at the other end of In and Out and verify the
+%   proof of the peer, Role being `client` or `server`.  Raises an error
+%   after `handshake_time` seconds in all. call(Cookie, Secret) returns the
+%   shared secret. A server calls it, and makes its nonce, only after the client
+%   has greeted, so that a silent client costs neither.
 %
 %   @error permission_error(authenticate, peer, Why) Why: cookie, protocol,
-%   version(Theirs), and what options say
+%   version(Theirs), and reasons of options
 %   @error timeout_error(read, In)
-%   @error syntax_error(Message) what comes is no hello.
+%   @error syntax_error(Message) if a line is no hello
 
 authenticate(Role, In, Out, Hello, Cookie, PeerHello) :-
     must_be(oneof([client, server]), Role),
@@ -233,8 +232,8 @@ greeting_hello(Line, Hello) :-
     ;   syntax_error(hello)
     ).
 
-%   The server does not answer another protocol, but tells another version of
-%   this one which version it has.
+%   The server does not answer another protocol, but sends its version to a
+%   client of another version of this protocol.
 
 exchange_greetings(client, In, Out, Deadline, Hello, Ours, Theirs) :-
     greet(Out, Hello, Ours),
@@ -258,8 +257,8 @@ check_protocol(Line) :-
     ;   permission_error(authenticate, peer, What)
     ).
 
-%   speaks(+Line, -What): `ours`, version(Number), what an option knows of a
-%   server that speaks otherwise, or `protocol`.
+%   speaks(+Line, -What): `ours`, version(Number), the reason of an option that
+%   recognises Line, or `protocol`.
 
 speaks(Line, What) :-
     protocol(Protocol),
@@ -285,8 +284,8 @@ exchange_proofs(server, In, Out, Deadline, Theirs, Ours) :-
     check_proof(In, Deadline, Theirs),
     line_write(Out, Ours).
 
-%   A proof is good for one pair of nonces: how long the comparison takes
-%   tells nothing of use.
+%   A proof is valid for one pair of nonces: the duration of the comparison
+%   reveals nothing of use.
 
 check_proof(In, Deadline, Expected) :-
     line_read(In, Deadline, Proof),

@@ -7,35 +7,36 @@
 /** <module> Reporting refused connections
 
 A port scan or a flood must not fill the log, and must not go unnoticed. The
-first few of a burst are reported one by one; of the rest one message a second
-reports how many there were, from where, and why. A burst is over after a
+first few refusals of a burst are reported one by one; for the rest one message
+a second reports their number, addresses and reasons. A burst is over after a
 second without refusals.
 
-*Threading*: any thread; one mutex guards what is to be reported. The
-connection manager calls report/0 when a second is over.
+*Threading*: any thread; one mutex guards the counts. The connection manager
+calls report/0 when a second is over.
 */
 
 :- use_module(library(apply), [foldl/4]).
 :- use_module(library(lists), [member/2]).
 :- use_module(threads, [manager_notify/1]).
 
-%   Why, Text: of an option.
+%   Why, Text: the text of a reason that an option defines.
 
 :- multifile text/2.
 
 :- dynamic
     text/2,
-    burst/1,                            % Told: so many one by one
+    burst/1,                            % Told: number reported one by one
     tally/3.                            % Ip, Why, Count: not yet reported
 
-%   So many one by one, and so many pairs of where and why.
+%   The most that are reported one by one, and the most pairs of address and
+%   reason.
 
 singly(5).
 groups(16).
 
 %!  refused(+Ip, +Why) is det.
 %
-%   A client at Ip was turned away. Why is the formal term of an error,
+%   A client at Ip was refused. Why is the formal term of an error,
 %   `silent` (its slot was needed), `crowd` (there was no slot), or
 %   version(V).
 
@@ -85,13 +86,13 @@ plan :-
 
 %!  refusals_begin is det.
 %
-%   An endpoint begins, with a burst of its own.
+%   An endpoint begins: report what is left, and begin a new burst.
 
 refusals_begin :-
     report,
     retractall(burst(_)).
 
-%   Report those that were not reported one by one.
+%   Report the refusals that were not reported one by one.
 
 report :-
     sig_atomic(with_mutex(typhon_refusals, take(Groups))),
@@ -113,7 +114,7 @@ take(Groups) :-
     ;   plan
     ).
 
-%   reason(+Formal, -Why): without what differs from case to case.
+%   reason(+Formal, -Why): Why has no details that differ from case to case.
 
 reason(permission_error(authenticate, peer, Why), Why) :-
     !.
@@ -173,8 +174,8 @@ ours(several, 'for several reasons').
 
 %!  refusal_text(+Why, -Text:atom) is semidet.
 %
-%   What Why of permission_error(authenticate, peer, Why) means, if an option
-%   knows.
+%   Text describes Why of permission_error(authenticate, peer, Why), if it is a
+%   reason that an option defines.
 
 refusal_text(Why, Text) :-
     text(Why, Text),

@@ -9,22 +9,23 @@
             own_session/1               % +Session
           ]).
 
-/** <module> Resumption: a session goes from connection to connection
+/** <module> Resumption: a session moves from connection to connection
 
-Two endpoints that have completed the handshake find their session, or open
-one, and give it the new connection. Over it each reports how many frames it
+Two endpoints that have completed the handshake look up their session, or open
+one, and give it the new connection. On it each reports how many frames it
 has received, and sends the rest again.
 
 Both ends may connect at the same time, and a connection may be dead on one
 side only. So a new connection replaces an old one, and of two processes the
 one with the smaller key, the arbiter, decides in which order that happens: it
-speaks first, and about one connection at a time. Of two that were begun
-together it refuses the later; the other process takes what the arbiter offers.
+sends its count first, and on one connection at a time. Of two connections that
+were begun together it refuses the later; the other process accepts the
+connection on which the arbiter sends its count.
 
 *Threading*: meet/7, session_install/4 and session_left/0 run in the thread of
-the connection. The thread that gives a session another connection or none
-retires and closes it, inside session_adopting/2 or after all threads have
-ended.
+the connection. A thread that gives a session another connection, or ends it,
+retires and closes the session, inside session_adopting/2 or after all threads
+have ended.
 */
 
 :- use_module(library(apply), [maplist/3]).
@@ -53,9 +54,9 @@ ended.
 %!  session_install(+Session, +Thread, +Out, +PeerCount) is det.
 %
 %   Thread has a new connection for Session, Out; the peer has received
-%   PeerCount frames. What it lacks is sent again. The connection manager
-%   receives up(Key) in the same step: whatever becomes of Thread, waiting
-%   threads are notified.
+%   PeerCount frames. The frames that it lacks are sent again. The connection
+%   manager receives up(Key) in the same step: so waiting threads are notified
+%   even if Thread ends.
 %
 %   @error session_closed
 
@@ -74,8 +75,8 @@ install(Session, Key, Thread, Out, PeerCount) :-
 
 %   session_down(+Session, +Thread)
 %
-%   The connection of Thread is no more. For that thread only, or one that
-%   sees to it in its place.
+%   The connection of Thread is lost. For that thread only, or one that acts in
+%   its place.
 
 session_down(Session, Thread) :-
     session_key(Session, Key),
@@ -87,8 +88,8 @@ session_down(Session, Thread) :-
 
 %!  session_lost(+Session, +Thread) is det.
 %
-%   If the session still has the connection of Thread, that is no more, and
-%   the hooks connection/2 are called.
+%   If the session still has the connection of Thread, detach it, and call the
+%   hooks connection/2.
 
 session_lost(Session, Thread) :-
     session_key(Session, Key),
@@ -102,7 +103,7 @@ session_lost(Session, Thread) :-
 %
 %   This thread is about to close its connection.  It may have been signalled
 %   to end after session_install/4 and before it began to serve: then the
-%   session must not go on writing to what is closed.
+%   session must stop writing to the closed stream.
 
 session_left :-
     thread_self(Me),
@@ -111,7 +112,7 @@ session_left :-
 
 %!  session_retire(+Session) is det.
 %
-%   End the connection of Session, if any, and wait for that.
+%   End the connection of Session, if any, and wait for its end.
 
 session_retire(Session) :-
     session_key(Session, Key),
@@ -121,10 +122,10 @@ session_retire(Session) :-
 
 %!  session_close(+Session, -Unsent) is semidet.
 %
-%   Forget a session that has no connection; inside session_adopting/2, so
-%   that it gets none. Fails when it is forgotten already. Unsent are
-%   the terms that were never written to any, and what became of what was handed
-%   over, handed(Token, Result).
+%   Remove a session that has no connection; inside session_adopting/2, so
+%   that it gets none. Fails if it was removed already. Unsent are the terms of
+%   frames that were never written to any connection, and the results of
+%   hand-overs, handed(Token, Result).
 
 session_close(Session, Unsent) :-
     session_locked(Session, forget(Session, Waiting, Handed)),
@@ -149,12 +150,12 @@ forget(Session, Waiting, Handed) :-
 
 %!  prove(+Role, +In, +Out, +Me, -Peer) is det.
 %
-%   Me is our hello, Peer that of the peer, which has proved itself. Role is
-%   server(Start), for a connection accepted at the time Start, or
-%   client(Start), for one begun then.
+%   Me is the hello of this process, Peer that of the peer, which has proved
+%   itself. Role is server(Start), for a connection accepted at the time Start,
+%   or client(Start), for one begun then.
 %
-%   A server tells a client that its proof is wrong, so that it need not try
-%   again.
+%   A server reports to a client that its proof is wrong, so that the client
+%   does not try again.
 
 prove(client(_), In, Out, Me, Peer) :-
     authenticate(client, In, Out, Me, cookie, Peer).
@@ -167,9 +168,9 @@ prove(server(_), In, Out, Me, Peer) :-
 
 %!  meet(+Role, +In, +Out, +Me, +Peer, -Session, :Known) is semidet.
 %
-%   Peer is Hello-Proof. Give the connection to the session with Peer.
-%   call(Known, Session) notes the addresses that lead to it before that: a
-%   connection is one for all of them.
+%   Give the connection to the session with the peer; Peer is Hello-Proof.
+%   Before, call(Known, Session) notes the addresses that lead to the session:
+%   it has one connection for all of them.
 
 meet(Role, In, Out, Me, Peer-Proof, Session, Known) :-
     hello_codec(Me, Peer, Codec),
@@ -181,7 +182,7 @@ meet(Role, In, Out, Me, Peer-Proof, Session, Known) :-
           [Key, Address, Codec]),
     adopt(MyKey, Key, Role, Session, In, Out).
 
-%   A process that connects to itself has a session for either end.
+%   A process that connects to itself has one session for each end.
 
 session_keys(Role, Me, Peer, MyKey, Key) :-
     hello_peer(Me, P1, S1, _),
@@ -220,8 +221,9 @@ adopt(_, _, _, Session, In, Out) :-
                        say_count(Session, Out),
                        install(Session, Out, Count) )).
 
-%   We have met by another connection since this one was begun. The peer has
-%   said its count over that; when it learns that this is closed it has it.
+%   If another connection has been made since this one was begun, this one is
+%   not needed.  The peer got the count on the other one, and has it when it
+%   detects that this one is closed.
 
 needed(Role, Session) :-
     arg(1, Role, Start),
@@ -230,8 +232,8 @@ needed(Role, Session) :-
     throw(wire_thread_end(met)).
 needed(_, _).
 
-%   The hooks run in the same step: the layer that sent to a process that has
-%   died sends again when it learns of the next.
+%   The hooks run in the same step: when a process has died, the layer that sent
+%   to it sends again when it is notified of its successor.
 
 install(Session, Out, Count) :-
     thread_self(Me),
