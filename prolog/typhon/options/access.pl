@@ -109,7 +109,8 @@ rights(Rights) :-
                 *             AUDIT            *
                 *******************************/
 
-%   note(+File, +Host, +Peer, +Proof, +What): see security_event/4.
+%   note(+File, +Host, +Peer, +Proof, +What): Proof is
+%   how Peer has proved itself; What is as of security_event/3.
 
 note(File, Host, Peer, Proof, What0) :-
     get_time(Time),

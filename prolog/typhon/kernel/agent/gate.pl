@@ -4,10 +4,9 @@
           ]).
 :- use_module('../base/bounds', [memory_short/1]).
 :- use_module('../program', [code_module/2, code_receive/2]).
-:- use_module('../wire', [endpoint_address/1, endpoint_own_proof/1]).
 :- use_module('../host',
               [ event/4, host/3, host_closed/1, host_enter/3, host_leave/1,
-                host_load/2, parts/3, security_event/3, security_event/4 ]).
+                host_load/2, parts/3, security_event/2, security_event/3 ]).
 :- use_module(life, [life_tokens/2]).
 
 /** <module> Admission: which agents a host accepts
@@ -163,6 +162,4 @@ noted(from(Peer, _, _), Host, What) :-
     !,
     security_event(Host, Peer, What).
 noted(_, Host, What) :-
-    endpoint_address(Own),
-    endpoint_own_proof(Proof),
-    security_event(Host, Own, Proof, What).
+    security_event(Host, What).

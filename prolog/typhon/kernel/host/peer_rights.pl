@@ -1,11 +1,12 @@
 :- module(typhon_peer_rights,
           [ peer_may/3,                 % +Peer, +Host, +Right
-            security_event/3,           % +Host, +Peer, +What
-            security_event/4            % +Host, +Peer, +Proof, +What
+            security_event/2,           % +Host, +What
+            security_event/3            % +Host, +Peer, +What
           ]).
 :- use_module(library(debug), [debug/3]).
 :- use_module(library(lists), [member/2]).
-:- use_module('../wire', [endpoint_own_proof/1, endpoint_proof/2]).
+:- use_module('../wire',
+              [endpoint_address/1, endpoint_own_proof/1, endpoint_proof/2]).
 :- use_module(host_parts, [parts/3]).
 :- use_module(hosts, [host/3, host_option/2]).
 
@@ -69,20 +70,25 @@ typhon_handshake:text_only(Proof) :-
     ),
     !.
 
+%!  security_event(+Host, +What) is det.
 %!  security_event(+Host, +Peer, +What) is det.
-%!  security_event(+Host, +Peer, +Proof, +What) is det.
 %
-%   Report What, which the process at the address Peer did, or was refused, on
-%   Host.  Proof is how Peer has proved its identity; security_event/3 looks it
-%   up.  What is one of
+%   Report What, which this process, or the process at the address Peer, did, or
+%   was refused, on Host.  What is one of
 %
 %   | refused(Agent, Reason)   | Host did not admit Agent, see typhon_gate    |
 %   | refused(Right)           | Peer does not have that Right               |
 %   | refused(Id, from(Other)) | Id got no message of Peer's in Other's name |
+%   | over(Agent, What)        | Agent passed this limit, and ended          |
 %   | cell(Agent, Reason)      | the process that ran Agent was ended, since |
 %   |                          | it did what it must not, or ended itself    |
 %   | order(Agent, Order)      | Peer gave that order to Agent               |
 %   | remote(Goal)             | Peer had Goal run                           |
+
+security_event(Host, What) :-
+    endpoint_address(Own),
+    endpoint_own_proof(Proof),
+    security_event(Host, Own, Proof, What).
 
 security_event(Host, Peer, What) :-
     endpoint_proof(Peer, Proof),

@@ -1,15 +1,16 @@
 :- module(typhon_turn,
           [ turn_unit/1,                % :Goal
             turn_settled/0,
-            turn_bounded/1              % +Host
+            turn_bounded/1,             % +Host
+            turn_over_limit/3           % +Host, +Id, +What
           ]).
 :- use_module('../base/durable_changes', [unit_of_work/1]).
 :- use_module('../program',
               [ answer_at/3, fault_note/1, machine_ready/1, machine_run/3,
                 plain_goals/2 ]).
 :- use_module('../host',
-              [ context_clear/0, context_set/3, event/4, parts/3, turn_later/1,
-                turns_paused/0 ]).
+              [ context_clear/0, context_set/3, event/4, parts/3,
+                security_event/2, turn_later/1, turns_paused/0 ]).
 :- use_module('../agent',
               [ agent/5, agent_claim/3, agent_code/2, agent_handles/2,
                 agent_here/5, agent_ordered/1, agent_ready/2, agent_rest/3,
@@ -284,9 +285,18 @@ broken_off(Ball, Id) :-
     throw(Ball).
 
 over_limit(Id, raised(error(resource_error(What), _))) :-
+    agent(Id, Host, _, _, _),
     !,
-    print_message(warning, typhon(over_limit(Id, What))).
+    turn_over_limit(Host, Id, What).
 over_limit(_, _).
+
+%!  turn_over_limit(+Host, +Id, +What) is det.
+%
+%   Report that an agent of Host ends, as it has passed the limit What.
+
+turn_over_limit(Host, Id, What) :-
+    security_event(Host, over(Id, What)),
+    print_message(warning, typhon(over_limit(Id, What))).
 
 %   conclude(+Outcome, +Goals0, +Turn, -Next): the run from Goals0 came to
 %   Outcome.  Next is as of effect/5.

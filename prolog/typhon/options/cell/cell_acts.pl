@@ -9,9 +9,8 @@
 :- use_module(library(lists), [member/2]).
 :- use_module(library(solution_sequences), [limit/2]).
 :- use_module('../../kernel/program', [clause_parts/3]).
-:- use_module('../../kernel/wire', [endpoint_address/1, endpoint_own_proof/1]).
 :- use_module('../../kernel/host',
-              [host/3, parts_call/3, place_service/2, security_event/4]).
+              [host/3, parts_call/3, place_service/2, security_event/2]).
 :- use_module('../../kernel/agent',
               [agent_add/2, agent_clauses/3, agent_variant/2, in_words/2]).
 :- use_module(cell_frames, [cell_word/2, state_predicate/2]).
@@ -95,23 +94,12 @@ cell_answer(Goal, Kind, Host, agent(Id, _, _, _, _), Answer) :-
     ->  catch(( asked_of(Of, Host, Id, Name/Arity, Module),
                 solutions(Kind, Goal, Module, Answer) ),
               error(Formal, Where),
-              ( excess_audited(Formal, Host, Id),
-                raised(error(Formal, Where), Answer) ))
+              raised(error(Formal, Where), Answer))
     ;   in_words(Goal, Shown),
-        refusal_audited(Host, Id, policy(Shown)),
+        security_event(Host, refused(Id, policy(Shown))),
         refusal_counted,
         raised(error(permission_error(call, sandboxed, Goal), _), Answer)
     ).
-
-excess_audited(resource_error(What), Host, Id) :-
-    !,
-    refusal_audited(Host, Id, quota(What)).
-excess_audited(_, _, _).
-
-refusal_audited(Host, Id, Why) :-
-    endpoint_address(Own),
-    endpoint_own_proof(Proof),
-    security_event(Host, Own, Proof, refused(Id, Why)).
 
 most_refused(100).
 

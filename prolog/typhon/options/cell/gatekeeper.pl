@@ -5,9 +5,8 @@
 :- use_module('../../kernel/base/durable_changes', [durable_on/0]).
 :- use_module('../../kernel/program',
               [code_sent/2, fault_note/1, plain_goals/2]).
-:- use_module('../../kernel/wire', [endpoint_address/1, endpoint_own_proof/1]).
 :- use_module('../../kernel/host',
-              [context_now/2, host/3, place_service/2, security_event/4]).
+              [context_now/2, host/3, place_service/2, security_event/2]).
 :- use_module('../../kernel/agent',
               [ agent/5, agent_home/2, agent_origin/5, agent_put/3,
                 agent_state/2, agent_variant/2, life_hops/2, life_parent/2,
@@ -156,10 +155,8 @@ finished(outcome(Outcome, Note), Cell, agent(Id, _, _, _, _), Outcome) :-
     cell_give(Cell),
     retractall(repeated(Id)),
     fault_note(Note).
-finished(over(What), Cell, agent(Id, Host, _, _, _),
-         raised(error(resource_error(What), _))) :-
-    cell_end(Cell, _),
-    end_audited(Host, Id, over(What)).
+finished(over(What), Cell, _, raised(error(resource_error(What), _))) :-
+    cell_end(Cell, _).
 finished(broken(Why), Cell, Agent, Outcome) :-
     cell_end(Cell, Status),
     ( Why = ended(_) -> Reason = Status ; Reason = Why ),
@@ -174,13 +171,8 @@ finished(broken(Why), Cell, Agent, Outcome) :-
     ended(Agent, Reason, Outcome).
 
 ended(agent(Id, Host, _, _, _), Reason, Outcome) :-
-    end_audited(Host, Id, Reason),
+    security_event(Host, cell(Id, Reason)),
     print_message(warning, typhon(cell_ended(Id, Host, Reason, Outcome))).
-
-end_audited(Host, Id, Reason) :-
-    endpoint_address(Own),
-    endpoint_own_proof(Proof),
-    security_event(Host, Own, Proof, cell(Id, Reason)).
 
 %   in_cell(+Cell, +Policy, +OwnerAndAgent, +Goals, -Result): Result is
 %   outcome(Outcome, Note), over(What) or broken(Why).

@@ -14,7 +14,7 @@
               [ alarm_in/3, context_now/2, context_set/3, scheduler_call/1,
                 turn_of/3, turns_now/3 ]).
 :- use_module('../../kernel/agent', [agent/5, agent_status/3]).
-:- use_module('../../kernel/lifecycle', [agent_end/3]).
+:- use_module('../../kernel/lifecycle', [agent_end/3, turn_over_limit/3]).
 :- use_module(quota_agents, [quota_owner/3, quota_text/2, quota_until/3]).
 :- use_module(quota_table,
               [ quota/3, quota_any/1, quota_overrun/1, quota_passed_now/1,
@@ -310,8 +310,9 @@ too_long(Id, Until) :-
 
 stop(Agent, What) :-
     Outcome = raised(error(resource_error(What), _)),
-    (   agent_end(Agent, at_rest, Outcome)
-    ->  print_message(warning, typhon(over_limit(Agent, What)))
+    (   agent(Agent, Host, _, _, _),
+        agent_end(Agent, at_rest, Outcome)
+    ->  turn_over_limit(Host, Agent, What)
     ;   turn_of(Agent, Thread, _)
     ->  stop_in(Thread, Agent, What)
     ;   true
