@@ -5,7 +5,7 @@
             cell_violation/1            % +What
           ]).
 :- use_module(library(apply), [maplist/2]).
-:- use_module(library(error), [resource_error/1]).
+:- use_module(library(error), [permission_error/3, resource_error/1]).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(solution_sequences), [limit/2]).
 :- use_module('../../kernel/program', [clause_parts/3]).
@@ -88,18 +88,30 @@ cell_turn_begins :-
 
 cell_answer(Goal, Kind, Host, agent(Id, _, _, _, _), Answer) :-
     callable(Goal),
+    catch(asked(Goal, Kind, Host, Id, Answer), error(Formal, Where),
+          ( refusal_noted(Formal, Host, Id),
+            in_words(error(Formal, Where), Portable),
+            Answer = raised(Portable) )).
+
+asked(Goal, Kind, Host, Id, Answer) :-
     functor(Goal, Name, Arity),
     (   may_ask(Kind, Host, Name/Arity, Of),
         arguments_allowed(Goal)
-    ->  catch(( asked_of(Of, Host, Id, Name/Arity, Module),
-                solutions(Kind, Goal, Module, Answer) ),
-              error(Formal, Where),
-              raised(error(Formal, Where), Answer))
-    ;   in_words(Goal, Shown),
-        security_event(Host, refused(Id, policy(Shown))),
-        refusal_counted,
-        raised(error(permission_error(call, sandboxed, Goal), _), Answer)
+    ->  asked_of(Of, Host, Id, Name/Arity, Module),
+        solutions(Kind, Goal, Module, Answer)
+    ;   permission_error(call, sandboxed, Goal)
     ).
+
+%   An agent that a host does not admit is in the audit already.
+
+refusal_noted(permission_error(call, sandboxed, Goal), Host, Id) =>
+    in_words(Goal, Shown),
+    security_event(Host, refused(Id, policy(Shown))),
+    refusal_counted.
+refusal_noted(move_refused(_, _), _, _) =>
+    refusal_counted.
+refusal_noted(_, _, _) =>
+    true.
 
 most_refused(100).
 
@@ -111,9 +123,6 @@ refusal_counted :-
         nb_setval(typhon_cell_refused, Count1)
     ;   cell_violation(refused)
     ).
-
-raised(Error, raised(Portable)) :-
-    in_words(Error, Portable).
 
 most_solutions(10 000).
 

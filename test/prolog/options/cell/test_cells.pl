@@ -172,16 +172,16 @@ test(many_agents_share_a_cell, Sum-Cells == 5050-1) :-
            used_cells(Cells) )).
 
 test(services_one_by_one_and_so_often,
-     Outcomes-Refused = [ done, done,
+     Outcomes-Passed = [ done, done,
                           raised(error(resource_error(calls(twice/2)), _)),
                           raised(error(existence_error(procedure, _), _)) ]
-                        -[quota(calls(twice/2))]) :-
+                        -[calls(twice/2)]) :-
     Often = forall(between(1, 10, X), twice(X, _)),
     no_leaks(with_tmp_dir(bridge_called(
                                         [ (twice(2, Y), Y == 4),
                                           forall(between(1, 3, _), twice(2, 4)),
                                           Often, thrice(2, _) ],
-                                        Ended, Refused))),
+                                        Ended, Passed))),
     findall(Outcome, member(_-Outcome, Ended), Outcomes).
 
 test(a_supervisor_starts_its_children_again, [Outcome,Last] == [done,disposed]) :-
@@ -225,9 +225,10 @@ used_cells(Count) :-
 %   Of a bridge with two predicates the place offers one, and an agent may call
 %   it three times in a second.
 
-%   Ended are the outcomes of Calls, Refused what the audit says was refused.
+%   Ended are the outcomes of Calls, Passed the quotas that the audit says were
+%   passed.
 
-bridge_called(Calls, Ended, Refused, Dir) :-
+bridge_called(Calls, Ended, Passed, Dir) :-
     directory_file_path(Dir, place, File),
     directory_file_path(Dir, audit, Audit),
     setup_call_cleanup(
@@ -239,7 +240,7 @@ bridge_called(Calls, Ended, Refused, Dir) :-
                ( service_begin(bridge, c, [twice/2,thrice/2], test_cells),
                  findall(Call-Outcome, called(Calls, Call, Outcome), Ended) )),
     read_file_to_terms(Audit, Entries, []),
-    findall(Why, member(audit(_, c, _, _, refused(_, Why)), Entries), Refused).
+    findall(What, member(audit(_, c, _, _, over(_, What)), Entries), Passed).
 
 called(Calls, Call, Outcome) :-
     member(Call, Calls),
