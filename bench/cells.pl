@@ -3,7 +3,7 @@
 :- use_module(traveller).
 :- use_module(library(typhon)).
 :- use_module(library(typhon/options/cell/cells), [cells_list/1]).
-:- use_module(library(lists), [member/2, sum_list/2]).
+:- use_module(library(lists), [member/2, nth0/3, sum_list/2]).
 :- use_module(library(readutil), [read_file_to_string/3]).
 
 /*  What cells cost: memory and start of one; a turn in a cell, there and back,
@@ -11,7 +11,11 @@ and a message from there; hops of an agent between another process and a host wi
 cells, against the same where the host guards without, and where it does not
 guard.  And what is left of the speed of agents that hop between a host of the same
 process, which has no cells, and another process, while hogs come to the host
-with cells, one after the other. */
+with cells, one after the other.
+
+A figure is the median of the ratios of pairs that were measured one after the
+other, and every second time in the other order: what else the machine does changes
+from one minute to the next. */
 
 :- initialization(main, main).
 
@@ -28,14 +32,13 @@ main([Placement]) :-
 costs(Peer) :-
     with_inn(owner, inside),
     travelled(1, 2000, Peer, _),        % warm up
-    findall(Rates, ( between(1, 3, _), trips(Peer, Rates) ), All),
-    mean(1, All, Plain), mean(2, All, Guarded), mean(3, All, Cell),
-    mean(4, All, Turn), mean(5, All, Message), mean(6, All, Here),
-    ratio('a turn in a cell, there and back', Turn, Plain, us, 'a plain hop'),
-    ratio('a hop to or from a host with cells', Cell, Plain, us,
+    findall(Us, ( between(1, 5, Round), trips(Round, Peer, Us) ), All),
+    pairs(All, 'a turn in a cell, there and back', turn, plain, us,
           'a plain hop'),
-    ratio('the same', Cell, Guarded, us, 'a hop where the host guards'),
-    ratio('a message from a cell', Message, Here, us,
+    pairs(All, 'a hop to or from a host with cells', cell, plain, us,
+          'a plain hop'),
+    pairs(All, 'the same', cell, guarded, us, 'a hop where the host guards'),
+    pairs(All, 'a message from a cell', message, here, us,
           'one from a host that guards').
 
 inside :-
@@ -69,11 +72,42 @@ private_of(Pid, Bytes) :-
     sum_list(KBs, Sum),
     Bytes is 1024*Sum.
 
-trips(Peer, us(Plain, Guarded, Cell, Turn, Message, Here)) :-
-    hop_us(here, Peer, Plain),
-    with_inn(none, ( hop_us(inn, Peer, Guarded), message_us(Here) )),
-    with_inn(owner, ( done([main]), hop_us(inn, Peer, Cell), turn_us(Turn),
-                      message_us(Message) )).
+trips(Round, Peer, [plain-Plain,guarded-Guarded,here-Here,cell-Cell,turn-Turn,
+                    message-Message]) :-
+    in_turns(Round,
+             ( hop_us(here, Peer, Plain),
+               with_inn(none, ( hop_us(inn, Peer, Guarded),
+                                message_us(Here) )) ),
+             with_inn(owner, ( done([main]), hop_us(inn, Peer, Cell),
+                               turn_us(Turn), message_us(Message) ))).
+
+in_turns(Round, A, B) :-
+    (   Round mod 2 =:= 1
+    ->  once(A), once(B)
+    ;   once(B), once(A)
+    ).
+
+%   pairs(+Rounds, +Name, +A, +B, +Unit, +What): a round is a list of Name-Value.
+
+pairs(Rounds, Name, A, B, Unit, What) :-
+    findall(VA-VB, ( member(Round, Rounds), memberchk(A-VA, Round),
+                     memberchk(B-VB, Round) ), Pairs),
+    findall(R, ( member(VA-VB, Pairs), R is VA/VB ), Ratios),
+    findall(VA, member(VA-_, Pairs), As),
+    findall(VB, member(_-VB, Pairs), Bs),
+    median(Ratios, Ratio),
+    median(As, MedianA),
+    median(Bs, MedianB),
+    format(atom(Note), '~3g ~w against ~3g (~w)',
+           [MedianA, Unit, MedianB, What]),
+    figure(Name, Ratio, times, Note).
+
+median(Values, Median) :-
+    msort(Values, Sorted),
+    length(Sorted, Length),
+    Middle is Length//2,
+    nth0(Middle, Sorted, Median0),
+    Median is float(Median0).
 
 with_inn(Kind, Goal) :-
     with_inn(Kind, 5, Goal).
@@ -115,12 +149,6 @@ done(Clauses) :-
     agent_create(clauses([(:- agent(one, []))|Clauses]), A, [host(inn)]),
     agent_join(A, done, 300).
 
-mean(I, All, Mean) :-
-    findall(X, ( member(Us, All), arg(I, Us, X) ), Xs),
-    sum_list(Xs, Sum),
-    length(Xs, Count),
-    Mean is Sum/Count.
-
                 /*******************************
                 *             HOGS             *
                 *******************************/
@@ -131,20 +159,17 @@ beside_all_hogs(Placement, Peer) :-
                     beside_hog(What, Clauses, Peer, Placement))).
 
 beside_hog(What, Clauses, Peer, Placement) :-
-    findall(Alone-Beside,
-            ( between(1, 3, _), rates(Clauses, Peer, Alone, Beside) ),
-            Pairs),
-    findall(A, member(A-_, Pairs), As), sum_list(As, Alone3),
-    findall(B, member(_-B, Pairs), Bs), sum_list(Bs, Beside3),
-    Alone1 is Alone3/3,
-    Beside1 is Beside3/3,
+    findall([alone-Alone,beside-Beside],
+            ( between(1, 7, Round),
+              in_turns(Round,
+                       travelled(10, 4000, Peer, rates(Alone, _)),
+                       beside_hogs(inn, Clauses,
+                                   travelled(10, 4000, Peer,
+                                             rates(Beside, _)))) ),
+            Rounds),
     atomic_list_concat(['hops of ten agents beside a hog in a cell, of ', What,
                         ', ', Placement], Name),
-    ratio(Name, Beside1, Alone1, '1/s', 'alone').
-
-rates(Clauses, Peer, Alone, Beside) :-
-    travelled(10, 4000, Peer, rates(Alone, _)),
-    beside_hogs(inn, Clauses, travelled(10, 4000, Peer, rates(Beside, _))).
+    pairs(Rounds, Name, beside, alone, '1/s', alone).
 
 hog(nothing, [ main ]).
 hog('a large number', [ (main :- between(1, inf, _),
@@ -156,4 +181,4 @@ hog(What, Clauses) :-
 :- dynamic user:message_hook/3.
 
 user:message_hook(typhon(over_limit(_, _)), _, _).
-user:message_hook(typhon(cell_lost(_, _, _)), _, _).
+user:message_hook(typhon(cell_ended(_, _, _, _)), _, _).

@@ -1,5 +1,5 @@
-%   The table of threats in doc/security.md names tests, `suite:test`, and what they
-%   try: they are there.
+%   The table of threats in doc/security.md names tests, `suite:test`, and what
+%   they try: they are there.
 
 :- module(test_threats, []).
 :- use_module('../lib/common').

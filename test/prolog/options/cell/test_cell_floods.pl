@@ -91,8 +91,8 @@ created_again_and_again(Outcome, Lines, Agents) :-
     standing(c, Agents).
 
 %   The cell writes frames of 5,000 new functors until it is ended; an agent of
-%   the same owner has no turn then.  Before: not all came; After: the process has
-%   few more.
+%   the same owner has no turn then.  Before: not all came; After: the process
+%   has few more.
 
 functors_charged([First,Next], Before, After, Lines) :-
     statistics(functors, Count0),

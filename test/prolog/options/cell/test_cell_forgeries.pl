@@ -208,7 +208,8 @@ request('an owner in the state',
                          '$owner'(root), main ]), _, []),
         raised(move_refused(_, policy(_)))).
 request('an owner as a fact',
-        create(clauses([(:- agent(x, [])), main]), _, [facts(['$owner'(root)])]),
+        create(clauses([(:- agent(x, [])), main]), _,
+               [facts(['$owner'(root)])]),
         raised(existence_error(state, _, _))).
 request('a program of a file', create('/etc/passwd', _, []),
         raised(permission_error(call, sandboxed, _))).
