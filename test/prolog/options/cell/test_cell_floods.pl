@@ -8,6 +8,7 @@
 :- use_module(library(filesex), [directory_file_path/3]).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(process), [process_kill/2]).
+:- use_module(library(readutil), [read_file_to_string/3]).
 :- use_module(library(typhon)).
 :- use_module(library(typhon/options/cell/cells), [cells_list/1]).
 
@@ -39,8 +40,8 @@ test(new_functors_are_charged_to_the_owner_until_its_turns_end,
      [ ended(lost(cell(violation(functors)))),
        ended(lost(cell(violation(functors)))), true, true, 2 ]) :-
     with_settings([typhon_cells:functors=30 000],
-                  with_inmates(functors_charged([First,Next], Before, After,
-                                                Lines))).
+                  with_inmates(listening(functors_charged([First,Next], Before,
+                                                          After, Lines), _))).
 test(a_limit_that_the_cell_has_found_is_audited,
      Outcome = ended(raised(error(resource_error(stack), _)))) :-
     with_inmates(attempt(test_send(over(stack)), Outcome)).
@@ -149,9 +150,19 @@ killed_in_service(Queue, Outcome, Beside) :-
     agent_create(clauses(Clauses), A, [host(c)]),
     thread_get_message(Queue, begun),
     cells_list(Cells),
-    forall(( member(cell(_, Pid, Key), Cells), Key \== spare ),
-           process_kill(Pid, kill)),
+    once(( member(cell(_, Pid, Key), Cells), Key \== spare )),
+    started_by(Pid, Inside),
+    process_kill(Pid, kill),
+    wait_until(forall(member(P, Inside), is_dead(P)), 30),
     thread_send_message(Queue, go),
     agent_join(A, Outcome0, 30),
     Outcome = ended(Outcome0),
     attempt(true, Beside).
+
+%   The system kills these when Pid has been killed.
+
+started_by(Pid, Pids) :-
+    format(atom(File), '/proc/~w/task/~w/children', [Pid, Pid]),
+    read_file_to_string(File, Text, []),
+    split_string(Text, " ", " ", Parts),
+    findall(P, ( member(Part, Parts), number_string(P, Part) ), Pids).

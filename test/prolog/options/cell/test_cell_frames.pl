@@ -1,0 +1,66 @@
+:- module(test_cell_frames, []).
+:- use_module('../../../lib/common').
+:- needs([cells]).
+:- use_module('../../../lib/cell_inmate').
+:- use_module(library(plunit)).
+:- use_module(library(typhon)).
+
+/** <module> Frames that no cell should send
+
+*Threading*: one test at a time.
+*/
+
+:- begin_tests(cell_frames).
+
+test(no_frame_deceives_the_gatekeeper, Through == []) :-
+    findall(Name-test_send(Frame)-ended(lost(cell(Reason))),
+            frame(Name, Frame, Reason), Checks),
+    with_inmates(through(Checks, Through)).
+
+:- end_tests(cell_frames).
+
+%   frame(-Name, -Frame, -Reason): the cell is ended for this Reason.
+
+frame('no term', text("garbage("), violation(syntax_error(_))).
+frame('more than a term', text("told(0,[]). told(0,[])."),
+      violation(syntax_error(end_of_file_expected))).
+frame('a term and half of another', text("told(0,[]). told("),
+      violation(syntax_error(end_of_file_expected))).
+frame('a term and a comment', text("told(0,[]). % x"),
+      violation(syntax_error(end_of_file_expected))).
+frame('a term and a byte that is none', text("told(0,[]).\n\000\"),
+      violation(syntax_error(end_of_file_expected))).
+frame('nothing', text(""), violation(syntax_error(no_term))).
+frame('a comment alone', text("% x"), violation(syntax_error(no_term))).
+frame('an end that is none', text("end_of_file."),
+      violation(syntax_error(no_term))).
+frame('no end', bytes([0,0,0,9,0'a]), violation(_)).
+frame('longer than any', bytes([255,255,255,255]),
+      violation(syntax_error(frame_too_large))).
+frame('a record', record(outcome(0, done, none, [])), violation(_)).
+frame('half a record', text("\u0083\u0003\u0001"), violation(_)).
+frame('too deep', deep(200 000), violation(_)).
+frame('a number of many digits', digits("f(a7,", '7', 200 000),
+      violation(syntax_error(long_number))).
+frame('of base 36', digits("36'", 'z', 100 000),
+      violation(syntax_error(long_number))).
+frame('of digits with blanks between', digits("", '7 7', 100 000),
+      violation(syntax_error(long_number))).
+frame('another frame', frame(nonsense), violation(frame)).
+frame('a variable', frame(_), violation(frame)).
+frame('another turn', outcome_of(-1, done, none, []), violation(frame)).
+frame('a turn that is a variable', outcome_of(_, done, none, []),
+      violation(frame)).
+frame('a request of another turn', frame(request(0, true)), violation(frame)).
+frame('acts that are no list', told(x), violation(frame)).
+frame('an act that is none', told([1]), violation(frame)).
+frame('an act that is a variable', told([_]), violation(frame)).
+frame('to lack what it has, again and again', lacks(3), violation(frame)).
+frame('the turn before', turn_by(-1), violation(frame)).
+frame('the next turn', turn_by(1), violation(frame)).
+frame('a limit that a cell does not look at', over(seconds), violation(frame)).
+frame('a limit that is none', over(_), violation(frame)).
+frame('a record of a clause', record((halt :- true)), violation(_)).
+frame('a dictionary', text("told(0,[_{a:1}])."), violation(_)).
+frame('an act of a turn that is over', frame(told(0, [log(x)])),
+      violation(frame)).
