@@ -38,18 +38,18 @@
 
 /** <module> How agents begin
 
-From a program, here or in another process, from a restore point, or as the
-clone of another.  What begins is
+An agent begins from a program, in this or another process, from a restore
+point, or as the clone of another agent.  Its description is
 
     start(Hash, Life, State, Goals, Mail)
 
-*Threading*: any thread; agents for others are created in the reader threads
-of the endpoint.
+*Threading*: any thread; the reader threads of the endpoint create agents that
+other processes order.
 */
 
 :- multifile
-    first_goal/3,               % Options, Parent, Goal: the agent begins with it
-    at_birth/2,                 % Goal, Id: done in place of Goal, with which Id
+    first_goal/3,               % Options, Parent, Goal: begins with it
+    at_birth/2,                 % Goal, Id: done instead of Goal, with which Id
                                 % begins
     typhon_options:declared/4,
     typhon_endpoint:requested/4.
@@ -58,28 +58,28 @@ of the endpoint.
 %!  agent_create(+Program, -Agent, +Options) is det.
 %
 %   Create an agent.  Program is a file specification, as agents(census),
-%   or clauses(Terms), the terms as they would stand in a file.  Options:
+%   or clauses(Terms), the terms as they would be written in a file.  Options:
 %
-%     - name(+Atom): from which the id is made; default that of the program
-%     - host(+Host): where, also in another process; default the first
+%     - name(+Atom): the id is made from it; default that of the program
+%     - host(+Host): the host, also of another process; default the first
 %       host of this process
-%     - tokens(+List): that it shows to hosts that ask for one
+%     - tokens(+List): tokens for hosts that ask for one
 %     - payloads(+Specs): attached from the start
 %     - facts(+Clauses): added to its initial state, which its program, or
 %       one of the payloads, declares
-%     - lifetime(+Hops): at the next move after so many it is disposed of
+%     - lifetime(+Hops): its next move after these many hops disposes of it
 %     - static(+Boolean): whether it may not move
 %
-%   @error uninstantiation_error(Agent): what it is called says name(Atom)
+%   @error uninstantiation_error(Agent): use name(Atom) to name the agent
 %   @error existence_error(host, Host)
 %   @error existence_error(state, PI, Declared): facts of a predicate that is
 %   not among the Declared ones
 %   @error permission_error(attach, payload, Name),
-%   permission_error(attach, procedure, PI): a payload of that name, or a
-%   predicate that one provides, is there already
+%   permission_error(attach, procedure, PI): there is already a payload of that
+%   name, or a predicate that one provides
 %   @error move_refused(Host, Reason), host_unreachable(Host)
 %   @error any problem of the program, see typhon_programs
-%   @error representation_error(agent_name): the journal cannot have it
+%   @error representation_error(agent_name): the journal cannot store the name
 
 agent_create(Program, Agent) :-
     agent_create(Program, Agent, []).
@@ -89,9 +89,10 @@ agent_create(Spec, Agent, Options) :-
 
 %!  agent_create_by(+Parent, +Program, -Agent, +Options) is det.
 %
-%   As agent_create/3, for the agent Parent, which runs here, or for `none`:
-%   Program may be `self`, that of Parent, whose state is then what facts(Clauses)
-%   says; the default host is the one on which Parent stands; Agent has its owner.
+%   As agent_create/3, for the agent Parent, which runs here, or for `none`.
+%   Program may be `self`: the program of Parent, with the state
+%   facts(Clauses).  The default host is that of Parent.  Agent has the owner
+%   of Parent.
 %
 %   @error as agent_create/3
 
@@ -133,10 +134,11 @@ from_parent(Parent, Target, State0, State) :-
     !,
     origin_passed(Parent-Module, Endpoint, State0, State).
 
-%   may_be_offered(+Target, +Clauses, +Problem) is semidet: a place of this
-%   process defines what the program with these Clauses calls, or others may,
-%   which are not seen from here: the host elsewhere, or what it attaches.
-%   Where another name is meant they hardly do.
+%   may_be_offered(+Target, +Clauses, +Problem) is semidet: a predicate that
+%   the program with these Clauses calls, and that nothing known here defines,
+%   may exist all the same.  A place of this process defines it; or, where no
+%   other name looks similar, the target host in another process, or a payload
+%   that the program attaches, may define it.
 
 may_be_offered(_, _, problem(unknown_procedure(Name/Arity), _, _)) :-
     functor(Head, Name, Arity),
@@ -272,7 +274,7 @@ typhon_endpoint:requested(agent, create(HostName, Name, Start, Program), Peer,
     ;   call(Answers)
     ).
 
-%   What is done at birth may load code.
+%   A goal that is done at birth may load code.
 
 begins_with_more(Start) :-
     subsumes_term(start(_, _, _, [_,_|_], _), Start),
@@ -321,7 +323,7 @@ must_be_state(State) :-
 
 %!  agent_begin(+Options, +Name, +Start, -Agent) is det.
 %
-%   Create an agent on the host of Options, as of agent_create/3.
+%   Create an agent on the host that Options name, as of agent_create/3.
 
 agent_begin(Options, Name, Start, Agent) :-
     target(Options, none, Where),
@@ -329,8 +331,8 @@ agent_begin(Options, Name, Start, Agent) :-
 
 %!  agent_clone_here(+Id, +Goals, ?CloneId) is det.
 %
-%   Make a clone of Id beside it, with Goals to do.  CloneId may be one of
-%   clone_id/2.
+%   Create a clone of Id on the same host, with Goals to run.  CloneId may be
+%   one of clone_id/2.
 %
 %   @error move_refused(Host, Reason)
 
@@ -361,14 +363,15 @@ clone_id(Id, CloneId) :-
                 *             START            *
                 *******************************/
 
-%   start(+Host, +Name, +Start, +From, -Answer): let an agent begin on Host, a
-%   host of this process.  Answer is created(Id) or what else gate/4 says.
+%   start(+Host, +Name, +Start, +From, -Answer): create an agent on Host, a
+%   host of this process.  Answer is created(Id), or another verdict of gate/4.
 
 start(Host, Name, Start, From, Answer) :-
     unit_of_work(started(Host, Name, Start, From, none, Answer)),
     sync_changes.
 
-%   Of is `none`, or clone(Parent, Id).
+%   started(+Host, +Name, +Start, +From, +Of, -Answer): Of is `none`, or
+%   clone(Parent, Id).
 
 started(Host, Name, Start, From, Of, Answer) :-
     Start = start(Hash, Life, State, _, Mail),
@@ -385,9 +388,9 @@ born(Host, Name, Start, Of, Id, Goals, Verdict) :-
     ->  id_of(Of, Name, Address, Id),
         (   with_agent(Id, born(Id, Host, Place, Start, Goals))
         ->  Verdict = ok
-        ;   Verdict = need_program      % it was thrown out meanwhile
+        ;   Verdict = need_program      % it was evicted meanwhile
         )
-    ;   Verdict = refused(unknown_host) % it is being stopped
+    ;   Verdict = refused(unknown_host) % the host is stopping
     ).
 
 id_of(clone(_, Id), _, _, Id) :-
@@ -408,7 +411,7 @@ begun_here(Host, Id, Goals0, Of) :-
     debug(typhon(agent), '~w: created on ~w', [Id, Address]),
     with_agent(Id, begin(Goals, Id)).
 
-%   Before it can be ordered to move.
+%   Goals of at_birth/2 are done before orders can move the agent.
 
 first_done([Goal|Goals0], Id, Goals) :-
     callable(Goal),
@@ -417,13 +420,13 @@ first_done([Goal|Goals0], Id, Goals) :-
     first_done(Goals0, Id, Goals).
 first_done(Goals, _, Goals).
 
-%   Before it runs, and has clones of its own.
+%   A clone is recorded before it runs and can have clones of its own.
 
 descends(none).
 descends(clone(Parent, Id)) :-
     clone_born(Parent, Id).
 
-%   An agent that only waits for messages does so from birth.
+%   An agent that only handles messages is resident from the start.
 
 begin([], Id) :-
     agent(Id, _, Module, Hash, _),

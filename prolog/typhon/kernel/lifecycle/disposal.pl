@@ -25,19 +25,20 @@
 
 /** <module> Agents are disposed of, by force if need be, or with their host
 
-An agent that rests ends at once, one that runs at its next effect.  The
-caller waits for that, for a moment; in a thread of its own, for it
-may be a cleanup handler.  One that comes to no effect, since it loops, or
-waits for something outside, is interrupted if that is wanted: in the thread
-that runs it, so no other agent notices.
+An agent at rest ends at once, one that runs at its next effect.  The caller
+waits a moment for that, in a thread of its own, as the caller may be a cleanup
+handler.  An agent that comes to no effect, because it loops or waits for
+something outside, is interrupted if the caller asks for force: in the thread
+that runs it, so that no other agent is affected.
 
-When a host stops, so do its agents, and those that do not come to an effect are
-interrupted.  Those that are about to arrive elsewhere may do so; but where the
-journal has been closed they are under way in it, and are not waited for.
+When a host stops its agents end, and those that do not come to an effect are
+interrupted.  Agents that are about to arrive elsewhere may arrive; but where
+the journal has been closed they are under way in the journal, and the host
+does not wait for them.
 
 *Threading*: agent_dispose/2 in any thread but those of the endpoint.
-Questions are answered in the threads of connections, too.  interrupt/1 is a
-signal.  Evacuation is for the thread that stops the host.
+Questions are answered in the threads of connections, too. interrupt/1 is a
+signal.  Evacuation runs in the thread that stops the host.
 */
 
 :- multifile
@@ -52,16 +53,17 @@ signal.  Evacuation is for the thread that stops the host.
 %!  agent_dispose(+Agent) is det.
 %!  agent_dispose(+Agent, +Options) is det.
 %
-%   Agent ends, wherever it is: at once if it rests, else at its next effect.
-%   If it has not come to one within a second (the setting
-%   `typhon_disposal:heed_seconds`) a warning says so; the order stands.
+%   End Agent, wherever it is: at once if it is at rest, else at its next
+%   effect.  If it has not come to an effect within a second (the setting
+%   `typhon_disposal:heed_seconds`) a warning is printed; the order stands.
 %   Option:
 %
-%     - force(+Seconds): if it has not ended by then (of the time of day), it
-%       is interrupted in the middle of what it does.  Then it has ended when
-%       agent_dispose/2 returns.  Less than no time is none.
+%     - force(+Seconds): if it has not ended within Seconds (of the time of
+%       day), interrupt it in the middle of its goal.  Then it has ended when
+%       agent_dispose/2 returns.  Negative Seconds count as 0.
 %
-%   Agents that dispose of another do not wait for its end, but with force.
+%   An agent that disposes of another agent does not wait for its end, but with
+%   force.
 %
 %   @error existence_error(agent, Agent), ambiguous_agent(Agent, Ids)
 %   @error timeout_error(order, Agent) if it cannot be interrupted, since it
@@ -91,7 +93,7 @@ patience(Options, Patience) :-
     ;   Patience = warn
     ).
 
-%   give_order(+Agent, +Question, -Said) fails if there is no such agent.
+%   give_order(+Agent, +Question, -Said): fails if there is no such agent.
 
 give_order(Agent, Question, Said) :-
     agent_ask(Agent, Question, 10, Answer),
@@ -102,10 +104,11 @@ said(error(Formal), _) :-
     harmless_error(error(Formal, _), Ball),
     throw(Ball).
 
-%   see_to_it(+Said, +Agent, +Patience)
+%   see_to_it(+Said, +Agent, +Patience): wait for the end of Agent, if it has
+%   only noted the order.
 
 see_to_it(ended, _, _).
-see_to_it(noted, Agent, _) :-           % it will when this goal has ended
+see_to_it(noted, Agent, _) :-           % it ends when this goal has ended
     context_now(_, Agent),
     !.
 see_to_it(noted, Agent, Patience) :-
@@ -129,8 +132,8 @@ see_to_end(force(Seconds), Agent) :-
                   ; force(Agent, Deadline)
                   )).
 
-%   ends_within(+Agent, +Seconds) is semidet.  One that came to rest when
-%   there was no worker to run it, or is faulty, ends now.
+%   ends_within(+Agent, +Seconds) is semidet.  An agent that came to rest when
+%   there was no worker to run it, or that is faulty, ends now.
 
 ends_within(Agent, Seconds) :-
     catch(ignore(agent_urge(Agent, order(end), Seconds, _)),
@@ -143,7 +146,8 @@ ends_within(Agent, _) :-
     ;   true
     ).
 
-%   It may be caught between two goals, or hop to where it is not known yet.
+%   Repeated: the signal may arrive between two goals, or the agent may hop to
+%   where it is not known yet.
 
 force(Agent, Deadline) :-
     (   \+ give_order(Agent, force, _)
@@ -186,9 +190,9 @@ taken(Agent, Said) :-
 
 :- public interrupt/1.
 
-%   Only inside the goals of Agent: what the platform does with it outside
-%   them must not be split.  This is the one exception that the agent's own
-%   catch/3 cannot stop.
+%   Only inside the goals of Agent: operations of the platform on the agent
+%   must not be split.  The agent's own catch/3 cannot stop this exception
+%   alone.
 
 interrupt(Agent) :-
     (   context_now(_, Agent),
@@ -214,9 +218,9 @@ typhon_hosting:evacuate(Host, Deadline) :-
 under_way(transit(_, _)).
 under_way(cloning(_, _)).
 
-%   Nearly always all rest, and nothing is waited for.  Else it looks again
-%   every 10 ms: a notification would make each arrival, return and end of a
-%   turn check for a waiting caller.
+%   Nearly always all agents are at rest, and nothing is waited for.  Else this
+%   polls every 10 ms: with a notification each arrival, return and end of a
+%   turn would have to check for a waiting caller.
 
 evacuate(Host, Deadline) :-
     evacuated(Host, Deadline),
@@ -230,8 +234,8 @@ evacuate(Host, Deadline) :-
         evacuate(Host, Deadline)
     ).
 
-%   Load counts an agent that ends until that is reported, and one that arrives
-%   before it is installed.
+%   An agent that ends counts in the load until its end is reported, and an
+%   agent that arrives counts before it is installed.
 
 last_seconds(1).                        % for an agent that ends at the deadline
 
@@ -255,7 +259,7 @@ end_or_order(Host, Deadline) :-
     ;   true
     ).
 
-%   A ready agent rests, whatever its orders.
+%   An agent that is `ready` is at rest, whatever its orders.
 
 stays(Id) :-
     agent_status(Id, Status, _),
@@ -265,7 +269,7 @@ stays(Id) :-
         \+ Status = transit(_, _)
     ).
 
-%   That is the one exception that the agent's own catch/3 cannot stop.
+%   The agent's own catch/3 cannot stop this exception alone.
 
 interrupt(Host, Ids) :-
     forall(member(Id, Ids),
@@ -292,16 +296,12 @@ stop_running(Host) :-
                 *         RESCHEDULING         *
                 *******************************/
 
-%   Agents that were restored go on.
-%
-%   Agents that were about to run are scheduled, those that have mail are woken,
-%   and for those that sleep or wait an alarm is set.
-
 %!  agent_reschedule(+Id) is det.
 %
-%   Id, which has been put where it was, is scheduled if it was about to run,
-%   and woken when its time has come.  Others are let in already, and what they
-%   send may have woken it: an agent that runs by now must not be run by two.
+%   Resume Id, which was restored: schedule it if it was about to run, wake it
+%   if it has mail, and set an alarm if it sleeps or waits for a time.  Other
+%   agents run already, and their messages may have woken it: an agent that
+%   runs by now must not be run by two workers.
 
 agent_reschedule(Id) :-
     (   with_agent(Id, ( agent_status(Id, Status, Goals),
@@ -329,7 +329,7 @@ goes_on(resident, Goals, Id) :-
 goes_on(waiting(_, _), Goals, Id) :-
     has_mail(Id, Goals).
 
-%   It runs, and sees for itself.
+%   An agent that runs looks for mail itself.
 
 has_mail(Id, Goals) :-
     mail_count(Id, Count),

@@ -25,8 +25,8 @@
 
 /** <module> What each control predicate does
 
-The machine stops an agent at a control predicate; here is what becomes of
-it: it goes on at once, waits, travels or ends.
+The machine stops an agent at a control predicate; this module carries the
+predicate out: the agent goes on at once, waits, travels or ends.
 
 *Threading*: effects happen in the worker that has the agent, alarms in the
 timer.
@@ -42,7 +42,7 @@ timer.
 %   @arg Where is Id-Host
 %   @arg Next is go(Goals) if the agent goes on at once, elsewhere(Goals) if
 %        it does so on another host, else `stop`
-%   @error what is to be raised at the control predicate
+%   @error an error to be raised at the control predicate
 
 effect(move(Host), Hole, Goals, Id-Here, Next) :-
     destination(Host, Dest),
@@ -109,13 +109,14 @@ effect(dispose, _, _, Id-_, stop) :-
 effect('$fault'(Fault), '$fault'(Fault), Goals, Id-_, stop) :-
     agent_stays(Id, Goals).
 
-%   Its parent knows of a clone as soon as there is one.
+%   The parent has the id of its clone from the moment the clone exists.
 
 noted_with(CloneId, Hole-Goals-Who, Id) :-
     \+ \+ ( Hole = (Who=parent(CloneId)),
             agent_note(Id, ready, Goals) ).
 
-%   Goals that wait are kept in clauses, where variables have no attributes.
+%   Goals that wait are stored in clauses, which cannot hold attributes of
+%   variables.
 
 can_be_kept(Goals) :-
     (   term_attvars(Goals, [Var|_])
@@ -128,7 +129,7 @@ infinite(Seconds) :- Seconds == infinite.
 infinite(Seconds) :- float(Seconds), Seconds =:= inf.
 
 %   receive(+Message, +Until, +Again, ...): take a message or wait for it;
-%   Again is the goal that does it when the agent is woken.
+%   Again is the goal that repeats this when the agent is woken.
 
 receive(Message, Until, Again, Hole, Goals, Id-Here, Next) :-
     with_agent(Id, take_or_wait(Message, Until, Again, Hole, Goals,
@@ -143,7 +144,7 @@ receive(Message, Until, Again, Hole, Goals, Id-Here, Next) :-
 taken(true, From-Message, Id-Here) :-
     !,
     event(messages, Here, Id, received(From, Message)).
-taken(_, _, _).                         % the time is over
+taken(_, _, _).                         % timeout
 
 take_or_wait(Message, _, _, true, Goals, Id-_, _, go(Goals)) :-
     mail_take(Id, Message),
@@ -163,7 +164,8 @@ take_or_wait(Message, Until, Again, Again, Goals, Id-Here, Stamp, stop) :-
     ),
     agent_rest(Id, waiting(Message, Until), Goals).
 
-%   As soon as it rests somebody may end it, and stop the host with its clock.
+%   As soon as the agent rests another thread may end it, and stop the host
+%   with its clock: so the stamp is computed before.
 
 wait(Id, Host, Status, Until, Goals) :-
     can_be_kept(Goals),
@@ -197,7 +199,7 @@ typhon_scheduler:over(Id, until(Until)) :-
 typhon_scheduler:over(Id, leave) :-
     \+ agent_status(Id, leaving(_, _), _).
 
-%   Agents of one program are apt to block alike.
+%   Agents of one program tend to block alike.
 
 typhon_scheduler:kind(Id, Program) :-
     agent_here(Id, _, _, Program, _).
@@ -235,7 +237,7 @@ dest_address(local(Name), Address) :-
     host_address(Name, Address).
 dest_address(remote(Address, _, _), Address).
 
-%   On hosts with a seed it follows from that, from the agent and from the
+%   On a host with a seed the delay follows from the seed, the agent and the
 %   number of its hops.
 
 hop_delay(Id, Here, Min, Max, Delay) :-
@@ -250,7 +252,7 @@ hop_delay(Id, Here, Min, Max, Delay) :-
 hop_delay(_, _, Min, Max, Delay) :-
     Delay is Min+random_float*(Max-Min).
 
-%   A name that no host has is like one that the other process lacks.
+%   A name that no host has is handled like a host that another process lacks.
 
 destination(Host, Dest) :-
     catch(host_resolve(Host, Dest),
@@ -259,7 +261,8 @@ destination(Host, Dest) :-
 
 %!  effect_depart(+Id, +Where, +Hole, +Goals, +Since, -Next) is det.
 %
-%   The delay of the hop is over.  What cannot travel is found now.
+%   The delay of the hop is over: send the agent.  Errors for terms that cannot
+%   be sent are raised at this point.
 
 effect_depart(Id, Dest, Hole, Goals, Since, Next) :-
     catch(hop(Id, Dest, Hole, Goals, Since, Next),
@@ -270,7 +273,7 @@ effect_depart(Id, Dest, Hole, Goals, Since, Next) :-
           )).
 
 cannot_depart(Hole, Id, _, error(Formal, _)) :-
-    Hole == ordered,                    % else it is a variable of the goals
+    Hole == ordered,                    % else a variable of Goals
     !,
     move_failed(Id, Formal).
 cannot_depart(Hole, _, Dest, Error) :-
@@ -282,7 +285,7 @@ where_address(remote(Address, _, _), Address).
 
 %!  effect_order(+Id, +Here, +Host, +Goals) is det.
 %
-%   Id, which stands on Here and is to do Goals, is told to move to Host.
+%   Id, which is on Here and has Goals left, takes the order to move to Host.
 
 effect_order(Id, Here, Host, Goals) :-
     host_resolve(Host, Dest),

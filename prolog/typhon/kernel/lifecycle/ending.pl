@@ -26,13 +26,13 @@
                 transfer_given_up/2 ]).
 :- use_module(questions, [question_answered/2]).
 
-/** <module> How agents end, or are kept as they were
+/** <module> How agents end, or are kept when they are faulty
 
-An agent that is faulty stands on its host with its goals, state and mail,
-and does not count there.  When an order comes it stirs: it is `ready` and
-counts until the order is done.  As its goals begin with its fault, see
-typhon_fault, it is faulty again wherever it comes to run: after an order, a
-move, or out of a restore point.  Only agent_resume/1 takes that away.
+A faulty agent stays on its host with its goals, state and mail, and does not
+count in the load.  When an order arrives it becomes `ready`, and counts, until
+the order is done.  As its goals begin with its fault, see typhon_fault, it is
+faulty again wherever it runs next: after an order, after a move, or from a
+restore point.  Only agent_resume/1 removes the fault.
 
 *Threading*: any thread.  The thread that removes the record of an agent,
 inside with_agent/2, reports its end.
@@ -44,7 +44,7 @@ inside with_agent/2, reports its end.
 
 %!  agent_end(+Id, +Outcome) is semidet.
 %
-%   Id ends.
+%   End Id.
 
 agent_end(Id, Outcome) :-
     unit_of_work(( with_agent(Id, remove(Id, Last)),
@@ -52,7 +52,7 @@ agent_end(Id, Outcome) :-
 
 %!  agent_end(+Id, :Test, +Outcome) is semidet.
 %
-%   Id ends if call(Test, Status) is true of it.
+%   End Id if call(Test, Status) succeeds for its status.
 
 agent_end(Id, Test, Outcome) :-
     unit_of_work(( with_agent(Id, ( agent_status(Id, Status, _),
@@ -87,7 +87,8 @@ unanswered(Id, Orders) :-
 
 %!  agent_forgotten(+Id, :Test) is semidet.
 %
-%   If call(Test, Status) is true of Id, it is here no more, and has not ended.
+%   If call(Test, Status) succeeds for Id, remove its record.  It is no longer
+%   here, and has not ended.
 
 agent_forgotten(Id, Test) :-
     with_agent(Id, ( agent_status(Id, Status, _),
@@ -98,7 +99,7 @@ agent_forgotten(Id, Test) :-
     host_leave(Host),
     unanswered(Id, Orders).
 
-%   That it has ended badly is known.
+%   The bad end was reported when the agent became faulty.
 
 told(last(Host, Hops, faulty(_), Goals, Results, _), Id, _) :-
     !,
@@ -126,15 +127,15 @@ tell_of_doubt(_, _).
 
 %!  agent_fails(+Id, +Outcome, +Goals0) is det.
 %
-%   Id has done Goals0 with that Outcome, `failed` or raised(Error): it is
-%   told, and kept as it was.
+%   Id ran Goals0 with that Outcome, `failed` or raised(Error): report this,
+%   and keep the agent as it was.
 
 agent_fails(Id, Outcome, Goals0) :-
     (   agent_fault(Id, Outcome, Goals0, Fault, Left)
     ->  report(Id, Fault),
         is_faulty(Goals, Fault, Left),
         agent_stays(Id, Goals)
-    ;   true                            % it was ended meanwhile
+    ;   true                            % it has ended meanwhile
     ).
 
 report(Id, Fault) :-
@@ -160,14 +161,15 @@ print_fault(raised(Error), Id, Fault) :-
 
 %!  agent_stays(+Id, +Goals) is det.
 %
-%   Id is faulty, as its Goals say.  Of too many the oldest go.
+%   Id is faulty: Goals begin with its fault.  If there are too many faulty
+%   agents the oldest end.
 
 agent_stays(Id, Goals) :-
     is_faulty(Goals, Fault, _),
     (   with_agent(Id, faulty_keep(Id, Goals, Kept, At))
     ->  faulty_tell(Id, Fault, At),
         bound_faulty(Kept)
-    ;   true                            % it was ended meanwhile
+    ;   true                            % it has ended meanwhile
     ).
 
 bound_faulty(Kept) :-
@@ -187,16 +189,16 @@ is_kept(faulty(_)).
 
 :- dynamic kept/1.                      % Id, the oldest first
 
-%   The name under which people know it.
+%   The setting keeps its old name, typhon_creation:faulty, which users know.
 
 :- setting(typhon_creation:faulty, nonneg, 100,
            "Faulty agents kept for inspection").
 
 %   faulty_keep(+Id, +Goals, -Kept, -At) is semidet.
 %
-%   Id, which was running or obeyed an order, is faulty, as Goals say.  Kept
-%   is `false` if another order has come meanwhile.  At says where it is, and
-%   after how many hops: a moment later it may be elsewhere.
+%   Id, which was running or obeyed an order, is faulty: Goals begin with its
+%   fault.  Kept is `false` if another order has arrived meanwhile.  At is its
+%   host and the number of its hops: a moment later it may be elsewhere.
 
 faulty_keep(Id, Goals, Kept, at(Host, Hops)) :-
     agent(Id, Host, _, _, Life),
@@ -214,9 +216,8 @@ faulty_keep(Id, Goals, Kept, at(Host, Hops)) :-
     !.
 
 %!  faulty_stirs(+Id) is det.
-%   faulty_gone(+Id) is det.
 %
-%   Id, which is faulty, counts again on its host; or has ended.
+%   Id, which is faulty, counts again in the load of its host.
 
 faulty_stirs(Id) :-
     retractall(kept(Id)),
@@ -224,12 +225,16 @@ faulty_stirs(Id) :-
     !,
     host_again(Host).
 
+%   faulty_gone(+Id) is det.
+%
+%   Id, which was faulty, has ended.
+
 faulty_gone(Id) :-
     retractall(kept(Id)).
 
 %   faulty_tell(+Id, +Fault, +At) is det.
 %
-%   Let its home know.
+%   Report the fault to the home of Id.
 
 faulty_tell(Id, Fault, at(Host, Hops)) :-
     host(Host, Address, _),
@@ -237,11 +242,11 @@ faulty_tell(Id, Fault, at(Host, Hops)) :-
     fault_outcome(Fault, Outcome),
     fault_stamp(Fault, Stamp),
     agent_faulty(Id, Outcome, Stamp, Address, Hops).
-faulty_tell(_, _, _).                   % it has gone, with its host
+faulty_tell(_, _, _).                   % its host has stopped
 
 %   faulty_oldest(-Id) is semidet.
 %
-%   There are too many: Id is the first to go.
+%   There are more faulty agents than the setting allows; Id is the oldest.
 
 faulty_oldest(Id) :-
     setting(typhon_creation:faulty, Max),
@@ -256,30 +261,36 @@ faulty_oldest(Id) :-
 
 %   Agents that are held in the middle of their goals.
 %
-%   The engine of a turn, see typhon_turn, may put an agent down before any
-%   goal. The agent then has the status `held`, and when it is to go on
-%   `resumed`, until a worker has it.  In place of its goals there is
+%   The engine of a turn, see typhon_turn, may suspend an agent before any
+%   goal.  The agent then has the status `held`, and `resumed` from when it may
+%   go on until a worker has it.  In place of its goals there is
 %
 %       held(State, Goals)
 %
-%   State being what the engine needs to go on, and Goals what comes next.  It
-%   holds no thread, and is ended as others that rest are.  Orders wait for its
-%   next effect.
+%   where the engine needs State to go on, and Goals come next.  A held agent
+%   occupies no thread, and is ended as other agents at rest are.  Orders wait
+%   for its next effect.
 
-:- multifile dropped/1.         % State: the agent ends, and goes on no more
+:- multifile dropped/1.         % State: the agent ends, and does not go on
 
 %!  held_put(+Id, +State, +Goals:list) is det.
-%!  held_parts(+Held, -State, -Goals:list) is semidet.
-%!  held_on(+Id, +Held) is det.
 %
-%   Id, which was running, is held; what Held is; it is to go on.
+%   Id, which was running, is held.
 
 held_put(Id, State, Goals) :-
     agent_put(Id, held, held(State, Goals)).
 
+%!  held_parts(+Held, -State, -Goals:list) is semidet.
+%
+%   Held, the goals of an agent, is a term held(State, Goals).
+
 held_parts(Held, State, Goals) :-
     nonvar(Held),
     Held = held(State, Goals).
+
+%!  held_on(+Id, +Held) is det.
+%
+%   Id is no longer held, and goes on from Held.
 
 held_on(Id, Held) :-
     agent_put(Id, resumed, Held),
@@ -287,8 +298,8 @@ held_on(Id, Held) :-
     !,
     schedule(Host, Id).
 
-%   dropped_if_held(+Goals) is det: an agent ends in the place of whose goals
-%   there was Goals.
+%   dropped_if_held(+Goals) is det: an agent with Goals ends.  Release its
+%   State if it was held.
 
 dropped_if_held(Goals) :-
     (   held_parts(Goals, State, _),

@@ -12,9 +12,10 @@
 :- use_module(questions,
               [agent_ask/4, agent_once_named/2, question_answered/2]).
 
-/** <module> Waiting for the end of agents, and what they leave
+/** <module> Waiting for the end of agents, and for their results
 
-The home of an agent is asked, see typhon_home, which answers when it knows.
+The caller asks the home of the agent, see typhon_home, which answers when it
+has the outcome.
 
 *Threading*: any thread.
 */
@@ -27,12 +28,12 @@ The home of an agent is asked, see typhon_home, which answers when it knows.
 %   number or `inf`).  Outcome is `done`, `failed`, raised(Error), `disposed`
 %   or `timeout`.
 %
-%   Who may be family(Agent): Agent, all its clones, and theirs; that is until
-%   the last has ended.  Then Outcome is a list of pairs Agent-Outcome, each
-%   before its clones, and these in the order in which they were born in a
-%   process.  At the timeout the outcome of those that have not ended is
-%   `timeout`; one whose home does not know it any more has the outcome
-%   `unknown`.
+%   Who is an agent, or family(Agent): Agent, its clones, and theirs; then this
+%   waits until the last of them has ended.  Outcome is then a list of pairs
+%   Agent-Outcome, each agent before its clones, and these in the order in
+%   which they were born in a process.  At the timeout the outcome of agents
+%   that have not ended is `timeout`; an agent that its home no longer
+%   remembers has the outcome `unknown`.
 %
 %   @error existence_error(agent, Agent), ambiguous_agent(Agent, Ids)
 %   @error host_unreachable(Home), connection_lost(Home): for a family, of
@@ -79,7 +80,7 @@ join(Endpoint, Agent, Seconds, Outcome) :-
     home_here(Agent, Endpoint),
     !,
     setup_call_cleanup(
-        message_queue_create(Queue),    % an interrupt leaves nothing
+        message_queue_create(Queue),    % deleted even after an interrupt
         ( outcome_wait(Agent, Seconds, queue(Queue, join)),
           outcome_heard(Queue, Outcome)
         ),
@@ -92,7 +93,7 @@ join(Endpoint, Agent, Seconds, Outcome) :-
     process_ask(Endpoint, Endpoint, join, join(Agent, Seconds), Outcome,
                 Limit).
 
-%   A caller in the thread of virtual time must not wait: no time would pass.
+%   In the thread of virtual time a plain wait would stop time.
 
 outcome_heard(Queue, Outcome) :-
     time_wait(Queue, outcome(join, Outcome0), inf),
@@ -104,8 +105,7 @@ outcome_heard(_, timeout).
                 *            FAMILIES          *
                 *******************************/
 
-%   members(+Agents, +Until, -Outcomes): of them, and of those that were
-%   cloned from them.
+%   members(+Agents, +Until, -Outcomes): of Agents, and of their clones.
 
 members([], _, []).
 members([Agent|Agents], Until, [Agent-Outcome|Outcomes]) :-
@@ -127,7 +127,7 @@ seconds_left(Until, Seconds) :-
     time_now(Now),
     Seconds is max(0, Until-Now).
 
-%   clones(+Agent, +Outcome, -Clones)
+%   clones(+Agent, +Outcome, -Clones): the agents that were cloned from Agent.
 
 clones(Agent, Outcome, Clones) :-
     left(Agent, Outcome, cloned, Items),
@@ -143,10 +143,10 @@ clones(Agent, Outcome, Clones) :-
 
 %!  agent_result(+Agent, -Term, +Timeout) is semidet.
 %
-%   Term is the last that Agent has given with result/1, when it has ended,
-%   wherever and however; fails if it has not within Timeout seconds, a
-%   number or `inf`.  Its home keeps the results of the last 20,000 agents
-%   (the setting typhon_outcomes:results).
+%   Wait at most Timeout seconds, a number or `inf`, until Agent has ended,
+%   wherever and however.  Term is the last term that it gave with result/1.
+%   Fails after a timeout.  Its home keeps the results of the last 20,000
+%   agents (the setting typhon_outcomes:results).
 %
 %   @error existence_error(result, Agent) if it has given none
 %   @error existence_error(agent, Agent), ambiguous_agent(Agent, Ids)
@@ -163,8 +163,8 @@ agent_result(Agent, Term, Timeout) :-
     ;   existence_error(result, Agent)
     ).
 
-%   home_here(+Agent, +Home): its home is this process, or was when it had
-%   another endpoint.
+%   home_here(+Agent, +Home): the home of Agent is this process, or was when
+%   this process had another endpoint.
 
 home_here(_, Home) :-
     endpoint_address(Home),
@@ -172,8 +172,8 @@ home_here(_, Home) :-
 home_here(Agent, _) :-
     agent_outcome(Agent, _).
 
-%   left(+Agent, +Outcome, +Kind, -Items): what Agent has left, or is going to
-%   leave: an agent that has not ended, or is kept since it is faulty, is asked.
+%   left(+Agent, +Outcome, +Kind, -Items): the results of Agent.  An agent that
+%   has not ended, or is kept because it is faulty, is asked; else its home.
 
 left(Agent, Outcome, Kind, Items) :-
     may_stand(Outcome),

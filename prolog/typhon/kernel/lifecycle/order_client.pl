@@ -23,14 +23,14 @@
 
 /** <module> Orders and messages from outside
 
-An order is put as a question, see typhon_questions, so that it finds the
-agent; what becomes of it there see typhon_orders.
+An order is sent as a question, see typhon_questions, so that it finds the
+agent; typhon_orders describes how the agent takes it.
 
 *Threading*: any thread.
 */
 
 :- multifile
-    attach_order/2,             % Payload, Order: what attaches it
+    attach_order/2,             % Payload, Order: attaches Payload
     typhon_options:declared/4.
 
 %!  agent_move(+Agent, +Host) is det.
@@ -38,11 +38,11 @@ agent; what becomes of it there see typhon_orders.
 %
 %   Order Agent to move to Host.  It takes the order at its next effect.
 %   agent_move/2 returns when the order is given, before the agent has moved:
-%   it succeeds also if Host cannot be reached or refuses the agent, which
-%   then stays, and its process prints a warning.  Option:
+%   it succeeds also if Host cannot be reached or refuses the agent, which then
+%   stays, and its process prints a warning.  Option:
 %
-%     - wait(+Seconds): return when the agent is on Host, and raise an error
-%       if it stays, if it ends first, or if neither is known within Seconds.
+%     - wait(+Seconds): return when the agent is on Host; raise an error if
+%       it stays, if it ends first, or if neither is known within Seconds.
 %       After a timeout the order stands.
 %
 %   @error existence_error(agent, Agent), existence_error(host, Host),
@@ -67,16 +67,14 @@ agent_move(Agent, Host, Options) :-
 typhon_options:declared(move_option, wait(Seconds), number, Seconds).
 
 %!  agent_clone(+Agent, -Clone) is det.
-%!  payload_attach(+Agent, +Payload) is det.
-%!  payload_detach(+Agent, +Name) is det.
 %
-%   Orders from outside.  An agent that runs takes them at its next effect,
-%   for which these predicates wait, for 10 seconds at the most.
-%
-%   An agent that is faulty obeys as others do, and is faulty still.
+%   Order Agent to clone itself.  This is an order from outside, as those of
+%   payload_attach/2 and payload_detach/2.  An agent that runs takes such an
+%   order at its next effect; the caller waits for that, for 10 seconds at
+%   most.  A faulty agent obeys as others do, and stays faulty.
 %
 %   @error existence_error(agent, Agent), ambiguous_agent(Agent, Ids) if Agent
-%   is a name that several have
+%          is a name that several agents have
 %   @error timeout_error(order, Agent)
 
 agent_clone(Agent, Clone) :-
@@ -84,8 +82,12 @@ agent_clone(Agent, Clone) :-
     order_give(Agent, clone, Clone0),
     Clone = Clone0.
 
+%!  payload_attach(+Agent, +Payload) is det.
+%
+%   Order Agent to attach Payload, see agent_clone/2.
+
 payload_attach(Agent, Spec) :-
-    agent_named(Agent, Id),             % before a file is read for it
+    agent_named(Agent, Id),             % before the payload file is read
     once(payload_load(Spec, Payload)),
     (   attach_order(Payload, Order0)
     ->  Order = Order0
@@ -93,13 +95,17 @@ payload_attach(Agent, Spec) :-
     ),
     order_give(Id, Order, _).
 
+%!  payload_detach(+Agent, +Name) is det.
+%
+%   Order Agent to detach the payload Name, see agent_clone/2.
+
 payload_detach(Agent, Name) :-
     must_be(atom, Name),
     order_give(Agent, detach(Name), _).
 
 %!  agent_resume(+Agent) is det.
 %
-%   Let Agent, which is faulty, try again: it goes on with the goal that
+%   Order Agent, which is faulty, to try again: it goes on with the goal that
 %   failed or raised an error, and is no longer faulty.  It counts on its host
 %   then, even where that is full.
 %
@@ -123,8 +129,8 @@ order_give(Agent, Order, Result) :-
 
 %!  agent_answer(+Agent, +Question, -Answer) is det.
 %
-%   As agent_ask/4, for 10 seconds at the most, but Agent may be a name; an
-%   error is raised.
+%   As agent_ask/4, for 10 seconds at most, but Agent may be a name, and an
+%   error that is the answer is raised.
 %
 %   @error existence_error(agent, Agent), ambiguous_agent(Agent, Ids)
 %   @error timeout_error(order, Agent)
@@ -150,10 +156,10 @@ answered(error(Formal), _) :-
 
 %!  agent_send(+Agent, +Message) is det.
 %
-%   Send Message to Agent, wherever it is: its id, or its name, where it is
-%   the only agent known here of that name.  at(Agent, Host) says where it
-%   is believed to be.  Does not wait for it to arrive.  Messages from
-%   outside are from `user`.
+%   Send Message to Agent, wherever it is.  Agent is its id, or its name, where
+%   it is the only agent known here of that name. at(Agent, Host) adds the host
+%   on which it probably is.  Does not wait for the message to arrive.
+%   Messages from outside are from `user`.
 %
 %   @error existence_error(agent, Agent), ambiguous_agent(Agent, Ids)
 %   @error host_unreachable(Host)
@@ -170,7 +176,7 @@ agent_send(at(Agent, Host), Message) :-
     sync_changes.
 agent_send(Agent, Message) :-
     (   atom(Agent),
-        agent(Agent, _, _, _, _)        % then this process is no guest
+        agent(Agent, _, _, _, _)        % then this process is not a guest
     ->  sender(From),
         post(Agent, From, Message)
     ;   agent_named(Agent, Id),

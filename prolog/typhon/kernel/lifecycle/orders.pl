@@ -23,11 +23,11 @@
 /** <module> Orders are taken and obeyed
 
 An order that has found its agent, see typhon_order_client, is noted in its
-record. The agent takes it at its next effect.  The caller that waits for its
-result is noted with it: asked(Order, Asker).
+record. The agent takes it at its next effect. If a caller waits for the
+result, the order is noted as asked(Order, Asker).
 
-*Threading*: orders are taken in any thread, in the reader threads if they
-come from another process, and obeyed by the worker that has the agent.
+*Threading*: any thread takes orders, a reader thread those from another
+process. The worker that has the agent obeys them.
 */
 
 :- multifile
@@ -60,9 +60,9 @@ at_once(dispose).
 
 %!  order_take(+Id, +Order) is semidet.
 %
-%   Order comes to Id.  Fails if there is no such agent in this process. Besides
-%   those of typhon_order_client there is evacuate(Host): it ends an agent on
-%   Host, of this process, unless it has left it meanwhile.
+%   Order arrives for Id. Fails if there is no such agent in this process.
+%   Besides the orders of typhon_order_client there is evacuate(Host): end the
+%   agent if it is still on Host, of this process.
 
 order_take(Id, dispose) :-
     agent_end(Id, at_rest, disposed),
@@ -87,7 +87,8 @@ order_take(Id, Order) :-
     ;   true
     ).
 
-%   An agent under way may be out of reach soon.
+%   The peer to which the agent is under way may soon be unreachable, and then
+%   it can be ended here.
 
 look_again_later(Id) :-
     (   under_way(Id)
@@ -154,8 +155,8 @@ idle(sleeping(_)).
 idle(waiting(_, _)).
 idle(resident).
 
-%   Orders to an agent that left in the meantime follow it, but for what was
-%   meant for agents that stay.
+%   Orders for an agent that has left meanwhile follow it, but for evacuation,
+%   which is only for agents that stay.
 
 typhon_transfer:forward_order(_, evacuate(_)) :-
     !.
@@ -185,7 +186,7 @@ forward(Agent, Order, Answer) :-
 
 %!  order_obey(+Order, +Id, +Goals) is det.
 %
-%   Id, which is ready to do Goals, takes an order.
+%   Id, which is ready to run Goals, obeys Order.
 
 order_obey(Order, Id, Goals) :-
     debug(typhon(agent), '~w: obeys ~W', [Id, Order, [max_depth(3)]]),
@@ -205,7 +206,7 @@ obey(move(Host), Id, Goals) :-
               ( move_failed(Id, Formal),
                 go_on(Id, Goals)
               ))
-    ;   ignore(move_over(Id, none))     % it was ended meanwhile
+    ;   ignore(move_over(Id, none))     % it has ended meanwhile
     ).
 obey(asked(arrive(Host), Asker), Id, Goals) :-
     !,
@@ -243,7 +244,7 @@ answered(Asker, Answer) :-
           error(Formal, _),
           question_answered(Asker, error(Formal))).
 
-%   When a host has been stopping for long it ends agents that still obey.
+%   A host that has been stopping for long ends agents that still obey orders.
 
 go_on(Id, Goals) :-
     (   is_faulty(Goals, _, _)

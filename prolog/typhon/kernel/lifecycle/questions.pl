@@ -24,18 +24,18 @@
 
 /** <module> Questions that find an agent, by its id or its name
 
-A question is put to the process in which the agent stands.  A process
-that knows better says where the agent went.  What can be asked is defined
-by clauses for the hook here/3: properties and orders.
+A question is sent to the process in which the agent is believed to be.  A
+process from which the agent has left answers with its next location.  The
+clauses of the hook here/3 define the questions: properties and orders.
 
 Where only one of the agents known here is called `bob`, `bob` stands for its
-id.  Known are agents that stand in this process, were born in it, or were
-created from here elsewhere, and those that modules above know, as the agents
-of a network.  If no living agent has the name, it stands for the last one
-that has ended, as long as that is remembered.
+id.  Agents are known here if they are in this process, were born in it, or
+were created from here elsewhere, and also if modules above know them, such as
+the agents of a network.  If no living agent has the name, it stands for the
+last ended agent of that name, as long as that is remembered.
 
-*Threading*: any thread asks.  Questions of others are answered in the
-reader threads, which never wait.
+*Threading*: any thread asks.  Reader threads, which never wait, answer the
+questions of other processes.
 */
 
 :- meta_predicate answer_of(+, 1, +, -).
@@ -45,17 +45,13 @@ reader threads, which never wait.
     typhon_endpoint:requested/4,
     typhon_transfer:answered/2.
 
-%   here(+Question, +Agent, +Asker) is semidet: fails if Agent does not stand
-%   in this process.  Else Asker gets the answer, then or later.
+%   here(+Question, +Agent, +Asker) is semidet: answer Question to Asker, at
+%   once or later.  Fails if Agent is not in this process.
 
 %!  agent_ask(+Agent, +Question, +Seconds, -Answer) is semidet.
-%!  agent_ask_here(+Agent, +Question, +Seconds, -Answer) is semidet.
-%!  agent_urge(+Agent, +Question, +Seconds, -Answer) is semidet.
 %
-%   Put Question to Agent.  Answer is answer(Term) or error(Formal).  Fails if
-%   there is no such agent; agent_ask_here/4 also if it is not in this process.
-%   agent_urge/4 waits by the time of day, even where time is virtual, and does
-%   not let it run.
+%   Ask Agent.  Answer is answer(Term) or error(Formal).  Fails if there is no
+%   such agent.
 %
 %   @error host_unreachable(Endpoint)
 %   @error timeout_error(order, Agent)
@@ -65,10 +61,19 @@ agent_ask(Agent, Question, Seconds, Answer) :-
     Deadline is Now+Seconds,
     ask(Agent, Question, by(Deadline), Answer).
 
+%!  agent_ask_here(+Agent, +Question, +Seconds, -Answer) is semidet.
+%
+%   As agent_ask/4, but fails also if the agent is not in this process.
+
 agent_ask_here(Agent, Question, Seconds, Answer) :-
     time_now(Now),
     Deadline is Now+Seconds,
     answer_of(Agent, here(Question, Agent), by(Deadline), Answer).
+
+%!  agent_urge(+Agent, +Question, +Seconds, -Answer) is semidet.
+%
+%   As agent_ask/4, but waits by the time of day even where time is virtual,
+%   and does not let virtual time run.
 
 agent_urge(Agent, Question, Seconds, Answer) :-
     get_time(Now),
@@ -109,7 +114,7 @@ ask(Where, Agent, Question, Deadline, Left, Answer) :-
         Answer = Answer0
     ).
 
-%   It runs away from us: wait a little.
+%   The agent moves faster than the question: wait a little.
 
 pause(Deadline, Agent) :-
     seconds_left(Deadline, Seconds),
@@ -128,11 +133,11 @@ ask_at(Endpoint, Agent, Question, Deadline, Answer) :-
     process_ask(Endpoint, Endpoint, agent, question(Agent, Question), Answer,
                 Seconds).
 
-%   answer_of(+Agent, :Asks, +Deadline, -Answer): call(Asks, Asker) asks it.
+%   answer_of(+Agent, :Asks, +Deadline, -Answer): call(Asks, Asker) asks Agent.
 
 answer_of(Agent, Asks, Deadline, Answer) :-
     setup_call_cleanup(
-        message_queue_create(Queue),    % what comes too late goes with it
+        message_queue_create(Queue),    % late answers are deleted with it
         ( call(Asks, queue(Queue)),
           wait_for(Queue, Deadline, Agent, Answer)
         ),
@@ -188,7 +193,7 @@ answer(Question, Agent, Asker) :-
     ;   not_here(Agent, Asker)
     ).
 
-%   A worker loads the code that answers.
+%   A worker loads the code that answers, and then answers.
 
 answered_later(Question, Agent, Asker) :-
     functor(Question, Kind, _),
@@ -215,6 +220,8 @@ not_here(Agent, Asker) :-
     question_answered(Asker, Answer).
 
 %!  question_answered(+Asker, +Answer) is det.
+%
+%   Send Answer to Asker.
 
 question_answered(queue(Queue), Answer) :-
     catch(thread_send_message(Queue, Answer),
@@ -229,7 +236,7 @@ typhon_transfer:answered(Asker, Answer) :-
                 *            NAMES             *
                 *******************************/
 
-%   The name under which people know it.
+%   The setting keeps its old name, typhon_named:met, which users know.
 
 :- setting(typhon_named:met, positive_integer, 1000,
            "Now typhon_questions:met").
@@ -238,7 +245,7 @@ typhon_transfer:answered(Asker, Answer) :-
 
 :- multifile
     elsewhere/1,                % Id: an agent of another process
-    ended_elsewhere/2,          % +Name, -Id: one that ended
+    ended_elsewhere/2,          % +Name, -Id: an agent that ended
     typhon_names:known/2.
 
 :- dynamic
@@ -250,20 +257,18 @@ typhon_names:known(agent, Id) :-
 
 %!  agent_met(+Id) is det.
 %
-%   Id was created from here in another process.
+%   Record Id, which this process has created in another process.
 
 agent_met(Id) :-
     assertz(met(Id, alive)),
     bounded(met(_, _), typhon_questions:met).
 
 %!  agent_named(+Agent, -Id) is det.
-%!  agent_once_named(+Agent, -Id) is det.
 %
-%   Id is Agent itself, or the only agent known here that is called Agent;
-%   in agent_once_named/2, if there is none, the last one that has ended.
+%   Id is Agent itself, or the only agent known here that is called Agent.
 %
-%   @error existence_error(agent, Agent); of agent_named/2 with the id of the
-%   agent if Agent is the name of one that has ended
+%   @error existence_error(agent, Agent), with the id of the agent if Agent is
+%          the name of an agent that has ended
 %   @error ambiguous_agent(Agent, Ids)
 
 agent_named(Agent, Id) :-
@@ -280,11 +285,19 @@ agent_named(Name, Id) :-
     ).
 
 has_ended(Id) :-
-    agent_outcome(Id, _),               % the message says which
+    agent_outcome(Id, _),               % the message has its outcome
     !,
     existence_error(agent, Id).
 has_ended(Id) :-
     throw(error(existence_error(agent, Id), context(_, 'it has ended'))).
+
+%!  agent_once_named(+Agent, -Id) is det.
+%
+%   As agent_named/2, but if no living agent has the name Id is the last ended
+%   agent that had it.
+%
+%   @error existence_error(agent, Agent)
+%   @error ambiguous_agent(Agent, Ids)
 
 agent_once_named(Agent, Id) :-
     is_id(Agent),
@@ -320,7 +333,7 @@ the_only([], Name, _) :-
 the_only([Id|Ids], Name, _) :-
     throw(error(ambiguous_agent(Name, [Id|Ids]), _)).
 
-%   The end of an agent that was created elsewhere is not reported here.
+%   This process gets no report when an agent that it created elsewhere ends.
 
 living(Name, Ids) :-
     called(Name, living, Ids0),

@@ -22,21 +22,21 @@
 
 /** <module> Turns: the life of an agent on a host
 
-A worker of the scheduler runs an agent from one effect of the machine to
-the next, see typhon_effect.  Orders from outside are obeyed in between.
+A worker of the scheduler runs an agent from one effect of the machine to the
+next, see typhon_effect.  Orders from outside are obeyed in between.
 
-A turn is turn(Id, Host, Context): the agent, the host on which it stands, and
-the context of the machine.  It starts with goals(Goals), or with
-resumed(State) where an option put the agent down in the middle of its goals.
-Its engine is `machine`, or a closure of an option that runs the agent in its
-place, called with Turn, Start, Outcome and Goals0.
+A turn is turn(Id, Host, Context): the agent, its host, and the context of the
+machine.  It starts with goals(Goals), or with resumed(State) where an option
+suspended the agent in the middle of its goals.  Its engine is `machine`, or a
+closure of an option that runs the agent instead, called with Turn, Start,
+Outcome and Goals0.
 
-Options change turns at the hooks below, and as the part `turn` of a host, see
-typhon_host_parts, and nowhere else.  A hook that no option defines costs one
-call that fails.
+Options change turns by the hooks below, and by the part `turn` of a host, see
+typhon_host_parts, and in no other way.  A hook that no option defines costs
+one call that fails.
 
-*Threading*: in the worker that has the agent.  While its status is `running` an
-agent belongs to one worker.
+*Threading*: in the worker that has the agent.  While its status is `running`
+an agent belongs to one worker.
 */
 
 :- meta_predicate
@@ -55,7 +55,7 @@ agent belongs to one worker.
 
 %   turn_engine(+Agent, +Start, -Engine) is det.
 %
-%   What runs Agent, agent(Id, Host, Hash, Life), from here.
+%   Engine runs Agent, agent(Id, Host, Hash, Life), from Start.
 
 turn_engine(Agent, Start, Engine) :-
     (   engine(Agent, Start, Engine0)
@@ -66,8 +66,8 @@ turn_engine(Agent, Start, Engine) :-
 %   turn_run(+Engine, +Turn, +Start, -Outcome, -Goals0) is det.
 %
 %   Run the agent to its next stop, from Goals0.  Outcome is that of
-%   machine_run/3, `held` if the agent was put down in the middle of its goals,
-%   or over(Resource) if it passed a limit.
+%   machine_run/3, `held` if the agent was suspended in the middle of its
+%   goals, or over(Resource) if it passed a limit.
 
 turn_run(machine, Turn, goals(Goals), Outcome, Goals) :-
     !,
@@ -94,12 +94,8 @@ bounded_run(Turn, Goals, Outcome) :-
     ).
 
 %!  turn_unit(:Goal) is det.
-%!  turn_concluded(+Turn, +Outcome, :Conclude, -Next) is det.
-%!  turn_settled is det.
 %
-%   Run Goal, in which the agent acts, in the unit of work of this turn;
-%   call(Conclude, Next), which does what Outcome asks for, ends the unit; it
-%   ends before.
+%   Run Goal, in which the agent acts, in the unit of work of this turn.
 
 turn_unit(Goal) :-
     (   unit(Run, _)
@@ -107,26 +103,36 @@ turn_unit(Goal) :-
     ;   call(Goal)
     ).
 
+%   turn_concluded(+Turn, +Outcome, :Conclude, -Next) is det.
+%
+%   call(Conclude, Next) carries out Outcome and ends the unit of work.
+
 turn_concluded(turn(Id, _, _), Outcome, Conclude, Next) :-
     (   unit(_, Whole)
     ->  call(Whole, Id, Outcome, call(Conclude, Next), Next)
     ;   call(Conclude, Next)
     ).
 
+%!  turn_settled is det.
+%
+%   End the unit of work now.
+
 turn_settled :-
     ignore(settle).
 
 %   turn_broken(-Outcome) is det.
-%   turn_overruled(+Host, -Outcome) is semidet.
 %
-%   How an agent ends that was interrupted in the middle of a goal; that it
-%   ends in this way whatever it catches, as it passed a limit on Host.
+%   Outcome of an agent that was interrupted in the middle of a goal.
 
 turn_broken(Outcome) :-
     (   limit_passed(Passed)
     ->  Outcome = Passed
     ;   Outcome = disposed
     ).
+
+%   turn_overruled(+Host, -Outcome) is semidet.
+%
+%   The agent passed a limit on Host, and ends with Outcome whatever it catches.
 
 turn_overruled(Host, Outcome) :-
     parts(turn, Host, _),
@@ -166,7 +172,7 @@ typhon_scheduler:run(Id) :-
     ;   turn_over(Id)                   % has ended
     ).
 
-%   An agent that has just come by the short way is running already.
+%   An agent that has just arrived by the short path is running already.
 
 typhon_scheduler:run_on(Id, Host, Context, Goals) :-
     (   turns_paused
@@ -230,9 +236,9 @@ task_goals(_, [true]).
 
 %   not_completed(+Id, +Goals) is semidet.
 %
-%   What Id does from Goals to its next stop failed, in the kernel or in an
-%   option.  Left `running` it would hold up host_stop/1 for ever.  Fails if it
-%   rests, goes on elsewhere or has ended: there is nothing to keep.
+%   A step of Id from Goals failed, in the kernel or in an option.  An agent
+%   left `running` would delay host_stop/1 for ever.  Fails if it rests, goes
+%   on elsewhere or has ended: then there is nothing to repair.
 
 not_completed(Id, Goals) :-
     turn_settled,
@@ -273,8 +279,8 @@ go_on(elsewhere(Goals), Id) :-
     perform(run(goals(Goals)), Id).
 
 %   An agent whose worker is interrupted is in the middle of a goal, and cannot
-%   go on.  Not in a cleanup handler: while an exception is pending 9.0.4
-%   catches no other.
+%   go on.  This is not done in a cleanup handler: while an exception is
+%   pending 9.0.4 catches no other.
 
 broken_off(Ball, Id) :-
     sig_atomic(( context_clear,
@@ -298,8 +304,8 @@ turn_over_limit(Host, Id, What) :-
     security_event(Host, over(Id, What)),
     print_message(warning, typhon(over_limit(Id, What))).
 
-%   conclude(+Outcome, +Goals0, +Turn, -Next): the run from Goals0 came to
-%   Outcome.  Next is as of effect/5.
+%   conclude(+Outcome, +Goals0, +Turn, -Next): carry out Outcome of the run
+%   from Goals0.  Next is as of effect/5.
 
 conclude(done, _, Turn, Next) :-
     finish(Turn, Next).
@@ -314,7 +320,7 @@ conclude(raised(Error), Goals0, turn(Id, _, _), stop) :-
     agent_fails(Id, raised(Error), Goals0).
 conclude(effect(Control, Hole, Goals), _, turn(Id, Host, _), Next) :-
     (   agent_ordered(Id),
-        term_attvars(Goals, [])         % else see effect/5
+        term_attvars(Goals, [])         % else effect/5 raises an error
     ->  Hole = Control,
         with_agent(Id, agent_ready(Id, Goals)),
         Next = stop
@@ -324,7 +330,7 @@ conclude(effect(Control, Hole, Goals), _, turn(Id, Host, _), Next) :-
                         Next))
     ).
 
-%   An agent that passed a limit ends, whatever it would catch.
+%   An agent that passed a limit ends, whatever it catches.
 
 raised_at(_, _, _, Id-Host, stop) :-
     turn_overruled(Host, Outcome),
@@ -337,8 +343,8 @@ ends_over(Id, Outcome) :-
     over_limit(Id, Outcome),
     ignore(agent_end(Id, Outcome)).
 
-%   No goals are left: take the next message, or stay resident, or end.  That
-%   on_message/2 does not want a message, or fails, is no reason to end.
+%   No goals are left: take the next message, stay resident, or end.  An agent
+%   does not end because on_message/2 fails.
 
 finish(turn(Id, _, context(Program, Module)), Next) :-
     agent_handles(Program, Module),
@@ -348,7 +354,7 @@ finish(turn(Id, _, context(Program, Module)), Next) :-
 finish(turn(Id, _, _), stop) :-
     ignore(agent_end(Id, done)).
 
-%   An order comes first.
+%   An order is taken before a message.
 
 next_message(Id, Next) :-
     (   \+ agent_ordered(Id),

@@ -19,11 +19,10 @@ Variants of programs, see typhon_agent_module, contain
 
     '$checked'(Goal)            '$checked'(Closure, A, ...)
 
-where it is known only at run time what is called, and begin with
-'$uncaught'(Ball) what is done when something was caught.  The machine unfolds
-checked goals, so that an agent can stop in there; inside what Prolog runs to
-its end they are called as they stand.  For agents that run their program as
-it is they are call/N.
+for goals that are known only at run time, and call '$uncaught'(Ball) first
+where an exception was caught.  The machine unfolds checked goals, so that an
+agent can stop in them; inside goals that Prolog runs to their end they are
+called natively.  For agents that run their program unchanged they are call/N.
 
 *Threading*: the thread that runs the agent.
 */
@@ -43,7 +42,7 @@ it is they are call/N.
 %!  '$checked'(:Closure, ?A, ?B, ?C, ?D, ?E, ?F) is nondet.
 %!  '$checked'(:Closure, ?A, ?B, ?C, ?D, ?E, ?F, ?H) is nondet.
 %
-%   @error what the variant of the agent raises
+%   @error those of the variant of the agent
 
 '$checked'(G) :-
     context_module(M),
@@ -80,8 +79,8 @@ it is they are call/N.
 
 :- public native/4.
 
-%   native(+Module, +Closure, +Extra, -Goal): the sleep/1 of the system would
-%   hold the thread.
+%   native(+Module, +Closure, +Extra, -Goal): sleep/1 is refused, as that of
+%   the system would occupy the thread.
 
 native(Module, Closure, Extra, Goal) :-
     called(Module, Closure, Extra, Goal),
@@ -105,9 +104,8 @@ typhon_machine:checked(context(_, Module), Checked, Goal) :-
 
 %!  '$uncaught'(?Ball) is det.
 %
-%   Ball, which was caught, is one that an agent may catch.  What interrupts it,
-%   and that its stack is full, it may not: it is raised again, before the
-%   agent goes on.
+%   The agent caught Ball.  It may not catch an interrupt or a full stack:
+%   these are raised again before the agent goes on.
 
 '$uncaught'(Ball) :-
     uncaught(Ball),

@@ -9,7 +9,7 @@
 :- use_module('../agent', [agent_variant/2]).
 :- use_module('../lifecycle', [agent_create_by/4]).
 
-/** <module> What an agent says to create another
+/** <module> The predicate by which an agent creates another
 
 *Threading*: the thread that runs the agent; waits for the answer of another
 process.
@@ -19,9 +19,9 @@ process.
 
 %!  create(+Program, -Agent, +Options) is det.
 %
-%   As agent_create/3; the new agent begins on this host unless host(Host) says
-%   where, and has the owner of this one.  Program may also be `self`, the
-%   program of this agent: its state is then what facts(Clauses) says.  Where
+%   As agent_create/3.  The new agent begins on this host unless host(Host)
+%   names another, and has the owner of this agent.  Program may also be
+%   `self`, the program of this agent, with the state facts(Clauses).  Where
 %   programs are checked Program is `self`, clauses(Terms) or agents(Path),
 %   payloads are clauses or payloads(Path), and a new agent counts as a clone.
 %
@@ -37,7 +37,7 @@ create(Program, Agent, Options) :-
     ;   agent_create_by(Id, Program, Agent, Options)
     ).
 
-%   may_name(+Program) is semidet: no file of this machine, but of agents/.
+%   may_name(+Program) is semidet: Program is no file outside of agents/.
 
 may_name(Program) :-
     nonvar(Program),
@@ -47,7 +47,7 @@ names(self).
 names(clauses(_)).
 names(agents(Path)) :- is_below(Path).
 
-%   may_attach(+Options) is semidet: no file, but of payloads/.
+%   may_attach(+Options) is semidet: payloads are no files outside of payloads/.
 
 may_attach(Options) :-
     is_list(Options),

@@ -46,52 +46,65 @@
                 result_put/2, life_hops/2, life_parent/2 ]).
 :- use_module('../travel', [agent_logs/3, post/3, post_abroad/4]).
 
-/** <module> What an agent can say
+/** <module> The vocabulary of agents
 
-The vocabulary of agents, found through the place of the host on which
-they stand.  The control predicates at the end are here only to say that they were called where an agent cannot stop:
-the machine takes care of them everywhere else.
+Agents find these predicates through the place of their host.  The control
+predicates at the end only raise an error when an agent calls them where it
+cannot stop; everywhere else the machine handles them.
 
-*Threading*: whatever thread runs the agent; see typhon_turns.
+*Threading*: any thread that runs the agent; see typhon_turns.
 */
 
 :- vocabulary(typhon_words).
 
 :- multifile
-    enters/3,                   % Module, Id, Result: it is kept, and signed
+    enters/3,                   % Module, Id, Result: it is stored and signed
     python_delivered/3,         % Host, Name, Source: a payload, where allowed
     python_undelivered/2.       % Host, Name
 
 %!  self(-Id) is det.
-%!  here(-Host) is det.
-%!  home(-Host) is det.
-%!  parent(-Id) is semidet.
-%!  hops(-Count) is det.
-%!  now(-Time:float) is det.
 %
-%   The agent, the address of the host on which it stands and of that
-%   where it was born, the agent of which it is a clone (fails if it is
-%   none), how often it moved, and the time on the clock of the host.
+%   The id of this agent.
 
 self(Id) :-
     context_agent(Id).
+
+%!  here(-Host) is det.
+%
+%   The address of the host of this agent.
 
 here(Address) :-
     context_host(Host),
     host(Host, Address, _).
 
+%!  home(-Host) is det.
+%
+%   The address of the host where this agent was born.
+
 home(Address) :-
     context_agent(Id),
     agent_home(Id, Address).
+
+%!  parent(-Id) is semidet.
+%
+%   The agent of which this one is a clone; fails if it is no clone.
 
 parent(Parent) :-
     life(Life),
     life_parent(Life, Parent),
     Parent \== none.
 
+%!  hops(-Count) is det.
+%
+%   The number of moves of this agent.
+
 hops(Count) :-
     life(Life),
     life_hops(Life, Count).
+
+%!  now(-Time:float) is det.
+%
+%   The time on the clock of the host.
 
 now(Time) :-
     context_host(Host),
@@ -102,15 +115,16 @@ life(Life) :-
     agent(Id, _, _, _, Life).
 
 %!  neighbours(-Hosts:list(atom)) is det.
-%!  neighbour(?Host, -Cost:number) is nondet.
-%!  host_load(-Count:integer) is det.
 %
-%   The addresses of linked hosts, what it costs to go to one of them, 1
-%   unless it was set, and how many agents stand here.
+%   The addresses of linked hosts.
 
 neighbours(Hosts) :-
     context_host(Host),
     host_neighbours(Host, Hosts).
+
+%!  neighbour(?Host, -Cost:number) is nondet.
+%
+%   The cost of the link to Host, 1 unless it was set.
 
 neighbour(Host, Cost) :-
     context_host(Here),
@@ -125,25 +139,29 @@ linked(Host, Here, Host) :-
 linked(Host, _, Address) :-
     host_address(Host, Address).
 
+%!  host_load(-Count:integer) is det.
+%
+%   The number of agents on this host.
+
 host_load(Count) :-
     context_host(Host),
     host_load(Host, Count).
 
 %!  send(+Agent, +Message) is det.
 %
-%   As agent_send/2; it is from this agent.  If Agent has ended the message is
-%   lost with a warning, not an error; without one if the host of this agent is
-%   about to stop.  The sender from outside is `user`, which has no mailbox:
-%   answers to it are printed.
+%   As agent_send/2; the sender is this agent.  If Agent has ended the message
+%   is lost with a warning, not an error; without a warning if the host of this
+%   agent is about to stop.  `user`, the sender of messages from outside, has
+%   no mailbox: answers to it are printed.
 %
-%   A compound term, as fipa(Name, Addresses), is a recipient beyond a bridge of
-%   this host.
+%   A compound term, as fipa(Name, Addresses), is a recipient beyond a bridge
+%   of this host.
 
 send(at(Agent, _), Message), \+ compound(Agent) =>
     send(Agent, Message).
 send(External, Message), compound(External) =>
     context(Host, Id, Module),
-    (   agent_variant(Module, _)        % not in the name of this host
+    (   agent_variant(Module, _)        % not in the name of the host
     ->  permission_error(call, sandboxed, send(External, Message))
     ;   true
     ),
@@ -163,8 +181,8 @@ send(Agent, Message) =>
           error(existence_error(agent, Agent), _),
           lost(Host, Agent, Id, Message)).
 
-%   On a host that stops, resting agents end first, and running ones cannot
-%   know: messages to those are dropped without a warning.
+%   On a host that stops, agents at rest end first, which running agents cannot
+%   know: messages to ended agents are dropped without a warning.
 
 lost(Host, _, _, _) :-
     host_closed(Host),
@@ -175,18 +193,18 @@ lost(_, Agent, Id, Message) :-
                                        Id, Message))).
 
 %!  leave(+Fact) is det.
-%!  leave_new(+Fact) is semidet.
-%!  sense(?Fact) is nondet.
-%!  take(?Fact) is semidet.
 %
-%   Put a fact in the tuple space of the host, put it if none is there that
-%   unifies, read one, take one away.  Of many that take the same fact, or
-%   leave it as a new one, one succeeds.
+%   Put a fact in the tuple space of the host.
 
 leave(Fact) :-
     may_leave(Fact, Host, Place, By),
     tuple_leave(Place, Fact, By),
     shared(Host, leave(Fact)).
+
+%!  leave_new(+Fact) is semidet.
+%
+%   As leave/1, but fails if there is a fact that unifies.  Of several agents
+%   that do so with one fact, one succeeds.
 
 leave_new(Fact) :-
     may_leave(Fact, Host, Place, By),
@@ -200,9 +218,18 @@ may_leave(Fact, Host, Place, By) :-
     mobile_term(Fact),
     amended(tuple, Host, Agent, none, By).
 
+%!  sense(?Fact) is nondet.
+%
+%   Read a fact in the tuple space of the host.
+
 sense(Fact) :-
     place(_, Place),
     tuple_sense(Place, Fact).
+
+%!  take(?Fact) is semidet.
+%
+%   Remove a fact from the tuple space of the host.  Of several agents that
+%   take one fact, one succeeds.
 
 take(Fact) :-
     place(Host, Place),
@@ -222,12 +249,10 @@ says(Host, Term) :-
     parts_call(acts, Host, [Agent, say(Term)]).
 
 %!  attach(+Payload) is det.
-%!  detach(+Name) is det.
 %
-%   Take up the clauses of a payload file, or lay them down again.
+%   Add the clauses of a payload file to this agent.
 %
 %   @error permission_error(attach, procedure, PI)
-%   @error existence_error(payload, Name)
 
 attach(Spec) :-
     payload_load(Spec, Payload),
@@ -236,16 +261,21 @@ attach(Spec) :-
     parts_call(acts, Host, [Id, attach]),
     agent_attach(Id, Payload).
 
+%!  detach(+Name) is det.
+%
+%   Remove the clauses of the payload Name from this agent.
+%
+%   @error existence_error(payload, Name)
+
 detach(Name) :-
     must_be(atom, Name),
     context_agent(Id),
     agent_detach(Id, Name).
 
 %!  deliver(+Name) is det.
-%!  undeliver(+Name) is det.
 %
-%   Install an attached payload in the place of the host, where all agents
-%   and services can call it, or remove it.
+%   Install an attached payload in the place of the host, where all agents and
+%   services can call it.
 %
 %   @error existence_error(payload, Name)
 %   @error permission_error(deliver, procedure, PI)
@@ -268,6 +298,12 @@ deliver_python(Host, Name, Source) :-
     ;   permission_error(deliver, python, Name)
     ).
 
+%!  undeliver(+Name) is det.
+%
+%   Remove a delivered payload from the place of the host.
+%
+%   @error existence_error(payload, Name)
+
 undeliver(Name) :-
     must_be(atom, Name),
     place(Host, Place),
@@ -276,7 +312,7 @@ undeliver(Name) :-
 
 %!  log(+What) is det.
 %
-%   An event at the log server of the host; printed if it has none.
+%   Send an event to the log server of the host; print it if there is none.
 
 log(What) :-
     context_host(Host),
@@ -291,9 +327,9 @@ log(What) :-
 
 %!  enter(+Result) is det.
 %
-%   Result goes into the trail of this agent, signed by the host on which it
-%   stands: later ones cannot take it away or change it unseen, see
-%   agent_trail/2.  They can read it, unless it is sealed, see seal/3.
+%   Add Result to the trail of this agent, signed by its host: later hosts
+%   cannot remove or change it undetected, see agent_trail/2.  They can read
+%   it, unless it is sealed, see seal/3.
 %
 %   @error type_error(mobile_term, Culprit)
 %   @error existence_error(keys, here)
@@ -311,7 +347,7 @@ enter(Result) :-
 
 %!  result(+Term) is det.
 %
-%   The result of this agent is Term; the last one given counts.
+%   The result of this agent is Term, which replaces an earlier one.
 %   agent_result/3 returns it when the agent has ended.
 %
 %   @error type_error(mobile_term, Culprit)
@@ -325,8 +361,8 @@ result(Term) :-
 
 %!  message_failed(+From, +Message) is det.
 %
-%   on_message/2 has failed; the agent stays.  There may have been a clause
-%   for the message.
+%   on_message/2 has failed; report that.  The agent goes on.  There may have
+%   been a clause for the message.
 
 message_failed(From, Message) :-
     context(Host, Id, _),
@@ -343,9 +379,9 @@ message_failed(From, Message) :-
 
 %!  move(+Host) is det.
 %
-%   Go to Host and go on there with the next goal; at once if the agent
-%   stands there.  Choice points left of it are given up, as they are at
-%   all predicates below.
+%   Move to Host and go on there with the next goal; go on at once if the agent
+%   is there already.  Choice points left of it are discarded, as at all
+%   predicates below.
 %
 %   @error move_refused(Host, Reason): capacity, token or unknown_host
 %   @error host_unreachable(Host)
@@ -357,8 +393,8 @@ move(_) :-
 %!  clone(-Who) is det.
 %!  clone(+Host, -Who) is det.
 %
-%   The agent goes on with Who = parent(CloneId), a clone of it, here or
-%   on Host, with Who = clone(ParentId).
+%   Clone this agent, here or on Host.  This agent goes on with Who =
+%   parent(CloneId), the clone with Who = clone(ParentId).
 
 clone(_) :-
     misplaced(clone/1).
@@ -367,14 +403,15 @@ clone(_, _) :-
 
 %!  sleep(+Seconds) is det.
 %
-%   Go on after that much host time, at once if Seconds is negative.  It is
-%   not the sleep/1 of the system: an agent that sleeps holds no thread.
+%   Go on after Seconds of host time, at once if Seconds is negative.  This is
+%   not the sleep/1 of the system: an agent that sleeps occupies no thread.
 
 %!  receive(?Message) is det.
 %!  receive(?Message, +Timeout) is semidet.
 %
-%   Take the oldest message From-Term that unifies with Message, or wait
-%   for one, for Timeout seconds of host time at the most.  Others wait.
+%   Take the oldest message From-Term that unifies with Message, or wait for
+%   one, for at most Timeout seconds of host time.  Other messages stay in the
+%   mailbox.
 
 receive(_) :-
     misplaced(receive/1).
@@ -383,7 +420,7 @@ receive(_, _) :-
 
 %!  dispose is det.
 %
-%   The agent ends.
+%   End this agent.
 
 dispose :-
     misplaced(dispose/0).
