@@ -8,23 +8,23 @@
 :- autoload(library(readutil), [read_file_to_string/3]).
 :- use_module(library(settings), [setting/2]).
 
-/** <module> What keeps a process in bounds: memory, and tables that forget
+/** <module> Bounds of a process: memory, and tables that forget
 
-A process that may have only so much address space (ulimit -v, prlimit --as)
-ends when an allocation fails, whichever thread it was for.  So the numbers of
-agents and of workers do not grow while less than a quarter is left.
+A process with a limited address space (ulimit -v, prlimit --as) ends when an
+allocation fails in any of its threads.  So the numbers of agents and of
+workers do not grow while less than a quarter is left.
 
 *Threading*: any thread.
 */
 
-:- dynamic short/0.             % it was so when it was looked at last
+:- dynamic short/0.             % memory was short at the last check
 
 %!  memory_short is semidet.
 %!  memory_short(+Count) is semidet.
 %
-%   The address space of this process is bounded, and less than a quarter of it
-%   is left.  With Count, how many there are of what grows, this is looked at
-%   for one in 256, and for each while memory is short.
+%   The address space of this process is limited, and less than a quarter of it
+%   is left.  With Count, the number of items of a growing table, this is
+%   checked only for one item in 256, and for each item while memory is short.
 
 memory_short(Count) :-
     (   short
@@ -41,7 +41,7 @@ memory_short :-
     left(Limit, Left),
     Left < Limit//4.
 
-%   left(-Limit, -Left): fails where there is no limit, or none that is known.
+%   left(-Limit, -Left): fails where there is no limit, or it is not known.
 
 left(Limit, Left) :-
     limit(Limit),
@@ -74,7 +74,7 @@ size(Size) :-
 file_text(File, Text) :-
     catch(read_file_to_string(File, Text, []), error(_, _), fail).
 
-%   What was freed remains part of the address space.
+%   Freed memory remains part of the address space, and can be reused.
 
 reusable(Bytes) :-
     (   predicate_property(malloc_property(_), defined)
@@ -103,8 +103,8 @@ free_pages(Bytes) :-
 
 %!  bounded(:Fact, +Setting) is det.
 %
-%   A fact like Fact was added.  Now and then forget the oldest of what
-%   exceeds Setting, module:name.  Two threads may count at once, and count one.
+%   A fact like Fact was added.  Sometimes delete the oldest facts beyond
+%   Setting, module:name.  Two threads may count at once, and count one fact.
 
 bounded(Fact, Setting) :-
     Setting = Module:Name,
@@ -120,7 +120,7 @@ bounded(Fact, Setting) :-
     ;   true
     ).
 
-%   Modules that hold it elsewhere are notified.
+%   Report the fact to modules that have related data.
 
 forget(Fact) :-
     (   retract(Fact)

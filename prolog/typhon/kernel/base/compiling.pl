@@ -7,23 +7,26 @@
 
 /** <module> How the library is compiled
 
-Arithmetic is compiled; debug/3 is kept. Predicates are imported or declared by
-autoload/2, and not searched for: where they were, library(settings) would load
+Arithmetic is compiled; debug/3 is kept. Predicates are imported, or declared
+by autoload/2, and not searched for: with a search library(settings) would load
 library(predicate_options), which takes as long as ten of our modules.
 
-*Threading*: any thread; flags are those of the thread.
+*Threading*: any thread; the flags are those of the thread.
 */
 
 %!  compiling_begin(-Flags:list) is det.
-%!  compiling_end(+Flags:list) is det.
 %
-%   Files that this thread loads from now on are compiled like that; Flags are
-%   again what they were.
+%   Files that this thread loads from now on are compiled in that way. Flags
+%   are for compiling_end/1.
 
 compiling_begin(Flags) :-
     findall(Name=Value,
             ( flag(Name, _), current_prolog_flag(Name, Value) ), Flags),
     forall(flag(Name, Value), set_prolog_flag(Name, Value)).
+
+%!  compiling_end(+Flags:list) is det.
+%
+%   Restore Flags.
 
 compiling_end(Flags) :-
     forall(member(Name=Value, Flags), set_prolog_flag(Name, Value)).

@@ -17,13 +17,13 @@
 
 /** <module> Effects of an agent are deferred until it stops
 
-What an agent does between two stops is one unit of work: it happens as a whole
-or not at all.  So what an agent sends, leaves and takes is deferred until the
-agent stops.  Then all of it is queued together with the
-agent's new state, inside unit_of_work/1, and only then released to others.
-Without an open back end nothing is deferred.
+The actions of an agent between two stops are one unit of work: all of them
+take effect, or none.  So the messages that an agent sends, and the facts that
+it leaves and takes, are deferred until the agent stops.  Then all of them are
+queued together with the agent's new state, inside unit_of_work/1, and only
+then released to others.  Without an open back end nothing is deferred.
 
-*Threading*: each thread has its own.
+*Threading*: each thread has its own deferred effects.
 */
 
 :- meta_predicate
@@ -36,7 +36,8 @@ Without an open back end nothing is deferred.
 
 %!  defer_effects(:Goal) is det.
 %
-%   Run Goal, in which an agent acts, as part of this thread's unit of work.
+%   Run Goal, in which an agent acts, and defer its effects to the end of this
+%   thread's unit of work.
 
 defer_effects(Goal) :-
     (   durable_on
@@ -48,7 +49,7 @@ defer_effects(Goal) :-
 
 %!  effects_deferred is semidet.
 %
-%   This thread is in defer_effects/1, and durable_on/0.
+%   This thread is in defer_effects/1, and a back end is open.
 
 effects_deferred :-
     durable_on,
@@ -59,7 +60,7 @@ effects_deferred :-
 %!  deferred_drop(+Kind, +Key, +N) is det.
 %
 %   As durable_change/1, durable_put/4 and durable_drop/3; inside
-%   defer_effects/1 the change is deferred to the end of the unit.
+%   defer_effects/1 the change is deferred to the end of the unit of work.
 
 deferred_put(Kind, Key, N, Term) :-
     (   durable_on
@@ -83,16 +84,14 @@ deferred_change(Change) :-
 
 %!  deferred_call(:Goal) is det.
 %
-%   Call Goal when the changes of this unit of work are queued.
+%   Call Goal after the changes of this unit of work are queued.
 
 deferred_call(Goal) :-
     assertz(after(Goal)).
 
 %!  deferred_any is semidet.
-%!  deferred_commit is det.
-%!  deferred_release is det.
 %
-%   Something was deferred; queue its changes; call its goals.
+%   This thread has deferred effects.
 
 deferred_any :-
     (   change(_)
@@ -100,8 +99,16 @@ deferred_any :-
     ),
     !.
 
+%!  deferred_commit is det.
+%
+%   Queue the deferred changes of this thread.
+
 deferred_commit :-
     forall(retract(change(Change)), durable_change(Change)).
+
+%!  deferred_release is det.
+%
+%   Call the deferred goals of this thread.
 
 deferred_release :-
     (   after(_)

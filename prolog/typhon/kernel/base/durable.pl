@@ -18,14 +18,15 @@
 
 /** <module> Tables that outlive the process
 
-What outlives a process is items, item(Kind, Key, N, Term): a journal notes
-them as they change, a saved network holds all of them.  The owner of a table
-declares it once.  A table of facts needs no more than the item of a fact:
+Data that outlives the process consists of items, item(Kind, Key, N, Term): a
+journal records them as they change, a saved network holds all of them.  The
+owner of a table declares it once.  A table of facts needs only the item of a
+fact:
 
     :- durable(outcome, Id, _, Outcome-Hops, outcome(Id, Outcome, Hops)).
 
-Where the items are not facts, as of a mailbox, which is a queue, the owner
-says how they are listed, and how one is put back:
+Where the items are not facts, as in a mailbox, which is a queue, the owner
+declares how to list them, and how to restore one:
 
     :- durable(mail, Id, N, Message, mail_item(Id, N, Message),
                mail_restore(Id, N, Message)).
@@ -44,8 +45,8 @@ N is 0, and Term is '', where the table has none.
 :- multifile
     restored/0,                 % all items of a journal are restored
     recover/0,                  % the items of a journal are to be restored
-    tidy/0,                     % no peer is let in yet
-    go_on/0.                    % what was restored goes on
+    tidy/0,                     % no peer is admitted yet
+    go_on/0.                    % resume all that was restored
 
 :- dynamic
     item_table/6,               % Kind, Key, N, Term, Dump, Restore
@@ -54,9 +55,9 @@ N is 0, and Term is '', where the table has none.
 %!  durable(+Kind, ?Key, ?N, ?Term, :Fact) is det.
 %!  durable(+Kind, ?Key, ?N, ?Term, :Dump, :Restore) is det.
 %
-%   Directives.  The items of this Kind are the facts Fact; or they are what
-%   Dump enumerates, and Restore puts one back.  Several tables may have one
-%   Kind: an item goes to the first that takes it.
+%   Directives.  The items of this Kind are the facts Fact; or Dump enumerates
+%   them, and Restore restores one.  Several tables may have one Kind: the
+%   first one that accepts an item restores it.
 
 durable(Kind, Key, N, Term, Module:Fact) :-
     once_there(fact_table(Fact, Module, Kind, Key, N, Term)),
@@ -65,7 +66,7 @@ durable(Kind, Key, N, Term, Module:Fact) :-
 durable(Kind, Key, N, Term, Dump, Restore) :-
     once_there(item_table(Kind, Key, N, Term, Dump, Restore)).
 
-%   A file may be loaded again.
+%   A file may be loaded again, and declares its tables again.
 
 once_there(Table) :-
     copy_term(Table, General),
@@ -77,9 +78,9 @@ once_there(Table) :-
 
 %!  durable_kinds(+Last:list, -Kinds:list) is det.
 %
-%   The kinds of all declared tables, also of options that are not loaded, in the
-%   order in which items are restored: those of Last look up what the others
-%   restore.
+%   The kinds of all declared tables, also of options that are not loaded, in
+%   the order in which items are restored: to restore those of Last needs the
+%   others.
 
 durable_kinds(Last, Kinds) :-
     findall(Kind,
@@ -93,8 +94,8 @@ durable_kinds(Last, Kinds) :-
 
 %!  durable_order(+Kind, -Order) is det.
 %
-%   `any` if the items of Kind have no numbers, else `numbers`: they are restored
-%   by these.
+%   Order is `numbers` if the items of Kind have numbers, and are restored in
+%   ascending order, else `any`.
 
 durable_order(Kind, Order) :-
     (   item_table(Kind, _, _, _, _, _),
@@ -104,10 +105,8 @@ durable_order(Kind, Order) :-
     ).
 
 %!  durable_assertz(:Fact) is det.
-%!  durable_retractall(:Fact) is det.
 %
-%   Add Fact to a table of facts, as its newest item; remove those that match
-%   Fact, the key of which is bound.
+%   Add Fact to a table of facts, as its newest item.
 %
 %   @error representation_error(_): no item can have this key
 
@@ -120,6 +119,12 @@ durable_assertz(Module:Fact) :-
     ;   true
     ),
     assertz(Module:Fact).
+
+%!  durable_retractall(:Fact) is det.
+%
+%   Remove the facts that match Fact, the key of which is bound.
+%
+%   @error representation_error(_): no item can have this key
 
 durable_retractall(Module:Fact) :-
     (   durable_on
@@ -144,7 +149,7 @@ no_term(Term) :-
 
 %!  durable_restore(+Kind, +Key, +N, +Term) is semidet.
 %
-%   Put the item where it was.  Fails if no table takes it.
+%   Restore the item. Fails if no table accepts it.
 
 durable_restore(Kind, Key, N, Term) :-
     on_demand_load(durable, Kind),

@@ -36,16 +36,16 @@
 
 /** <module> Changes that outlive the process
 
-A module that changes something durable adds the change to the queue before
-others can see it.  Changes that belong together are made inside
-unit_of_work/1: they become one entry, which is committed as a whole.  Entries
-are committed in order, so the store always holds a state that existed.
+A module that changes durable data adds the change to the queue before others
+can see it.  Changes that belong together are made inside unit_of_work/1: they
+become one entry, which is committed as a whole.  Entries are committed in
+order, so the store always holds a state that existed.
 
 Output that may follow from a change leaves the process after the commit:
-send_after_commit/2.  sync_changes/0 waits for the commit.
+send_after_commit/2. sync_changes/0 waits for the commit.
 
 The back end, which has the store and commits, is an option: it defines the
-hooks below.  Without an open back end each change costs one look at
+hooks below.  Without an open back end each change costs one call of
 durable_on/0.
 
 *Threading*: any thread.  The changes of one item are made one after another,
@@ -58,10 +58,10 @@ inside the mutex that guards its owner.
     durable_item/5,
     close_store/0,
     begin_commits/0,            % the store is open
-    end_commits/0,              % commit what is in the queue, and stop
+    end_commits/0,              % commit the queue, and stop
     queue_entry/1,              % Changes: to be committed together
     queue_send/1,               % Item: to be sent after them
-    commit_queue/0,             % now, and return when it is done
+    commit_queue/0,             % commit now, and return when it is done
     flush_sends/0,              % commit soon
     commit_error/1,             % Error: of the last commit
     back_end_error/2,           % Why, Formal: `closed`, `key`
@@ -84,17 +84,23 @@ inside the mutex that guards its owner.
                 *******************************/
 
 %!  durable_open(+Where, +Sync, +Seconds) is det.
-%!  durable_opened(-Place) is semidet.
-%!  durable_item(+Kind, +Order, -Key, -N, -Value) is nondet.
 %
-%   Open the store at Where; the name of the store that is open, as in errors;
-%   its items of Kind.  The back end defines the last two.
+%   Open the store at Where.
 %
 %   @arg Sync is `full` if commits survive a power cut, or `normal`
 %   @arg Seconds is how long to wait until another process closes it
-%   @arg Order is `numbers` if lower numbers come first, or `any`
 %   @error existence_error(back_end, Where): none is loaded; and those of the
 %          back end
+
+%!  durable_opened(-Place) is semidet.
+%
+%   A store is open; Place is its name in errors. The back end defines this.
+
+%!  durable_item(+Kind, +Order, -Key, -N, -Value) is nondet.
+%
+%   The items of Kind in the open store. The back end defines this.
+%
+%   @arg Order is `numbers` if lower numbers come first, or `any`
 
 durable_open(Where, Sync, Seconds) :-
     on_demand_load(open_store, any),
@@ -104,13 +110,8 @@ durable_open(Where, Sync, Seconds) :-
     ).
 
 %!  durable_begin is det.
-%!  durable_close is det.
-%!  durable_end is det.
 %
-%   The store is open and was read: changes are queued from now on; all is
-%   committed, and no output leaves the process from now on, see
-%   sync_changes/0; output leaves again, and the store is closed, so that
-%   another process can open it.
+%   The store is open and was read: queue changes from now on.
 
 durable_begin :-
     begin_commits,
@@ -119,21 +120,36 @@ durable_begin :-
     get_flag(typhon_durable_number, N),
     durable_bound(N).
 
+%!  durable_close is det.
+%
+%   Commit all changes.  From now on no output leaves the process, see
+%   sync_changes/0.
+
 durable_close :-
     enqueue_changes,
     retractall(durable_on),
     ignore(end_commits).
+
+%!  durable_end is det.
+%
+%   Close the store, so that another process can open it.  Output leaves the
+%   process again.
 
 durable_end :-
     retractall(output_waits),
     ignore(close_store).
 
 %!  durable_on is semidet.
+%
+%   Changes are queued: between durable_begin/0 and durable_close/0.
+
 %!  output_waits is semidet.
+%
+%   Output waits for the commit: between durable_begin/0 and durable_end/0.
+
 %!  durable_closed is semidet.
 %
-%   Changes are queued, between begin and close; output waits for the commit,
-%   between begin and end; it is between close and end.
+%   Between durable_close/0 and durable_end/0.
 
 durable_closed :-
     output_waits,
@@ -142,9 +158,9 @@ durable_closed :-
 %!  durable_number(-N:integer) is det.
 %!  durable_number_after(+N:integer) is det.
 %
-%   A number greater than all before; N is one of these.  It is 0 without a back
-%   end.  Numbers stay unique after a restart: an item that is put every 10,000
-%   numbers holds where they begin.
+%   N is greater than all numbers before; all later numbers are greater than N.
+%   Without a back end N is 0.  Numbers stay unique after a restart: an item
+%   that is written every 10,000 numbers holds where they begin.
 
 durable_number(N) :-
     (   durable_on
@@ -172,7 +188,8 @@ durable_number_after(N) :-
 %
 %   Items can have this key, and this number.  Key and N may be any term.  A
 %   commit that the database refuses is repeated for ever, and all later ones
-%   wait: keys that others choose, as ids of agents, are checked first.
+%   wait: so keys that other processes choose, such as ids of agents, are
+%   checked first.
 
 durable_key(Key) :-
     atom(Key),
@@ -186,8 +203,8 @@ durable_key(Key, N) :-
     N < 1<<63,
     durable_key(Key).
 
-%   No character is 0 or half of a UTF-16 pair.  The first clause is the quick
-%   test: a URI takes the key as it is.
+%   No character is 0 or half of a UTF-16 pair.  The first clause is the fast
+%   test: the key is unchanged in a URI.
 
 is_text(Key) :-
     uri_encoded(fragment, Key, Encoded),
@@ -202,12 +219,16 @@ is_text(Key) :-
                 *******************************/
 
 %!  durable_put(+Kind, +Key, +N, +Term) is det.
+%
+%   Set the item to Term.
+%
+%   @error representation_error(_): no item can have this key
+
 %!  durable_drop(+Kind, +Key, +N) is det.
 %!  durable_drop_all(+Kind, +Key) is det.
 %!  durable_drop_below(+Kind, +Key, +N) is det.
 %
-%   Set the item to Term; delete it; delete all items of this key; delete those
-%   with numbers less than N.
+%   Delete the item; all items of this key; those with numbers less than N.
 %
 %   @error representation_error(_): no item can have this key
 
@@ -227,7 +248,7 @@ durable_drop_all(Kind, Key) :-
 durable_drop_below(Kind, Key, N) :-
     drop(Key, N, drop_below(Kind, Key, N)).
 
-%   No item has another key.
+%   An item with another key cannot exist, so there is nothing to delete.
 
 drop(Key, N, Change) :-
     (   durable_on,
@@ -256,13 +277,18 @@ durable_drop_at_once(Kind, Key, N) :-
     ).
 
 %!  durable_putting(+Kind, +Key, +N, +Term, -Change) is det.
-%!  durable_bytes(+Change, -Count) is det.
-%!  durable_change(+Change) is det.
 %
-%   Change puts this item; its bytes are Count; add it to the unit of work, or
-%   queue it alone.
+%   Change sets the item to Term.
 %
 %   @error representation_error(_): no item can have this key
+
+%!  durable_bytes(+Change, -Count) is det.
+%
+%   The term of the item that Change sets takes Count bytes.
+
+%!  durable_change(+Change) is det.
+%
+%   Add Change to the unit of work, or queue it alone.
 
 durable_putting(Kind, Key, N, Term, put(Kind, Key, N, Bytes)) :-
     (   durable_key(Key, N)
@@ -282,9 +308,9 @@ durable_change(Change) :-
 
 %!  unit_of_work(:Goal) is semidet.
 %
-%   As once(Goal).  Its changes are one entry, queued when it succeeds, or by
-%   enqueue_changes/0 before.  If it fails or raises an error, changes not yet
-%   queued are dropped.
+%   As once(Goal).  Its changes become one entry, queued when Goal succeeds, or
+%   by enqueue_changes/0 before.  If Goal fails or raises an error, changes
+%   that are not yet queued are dropped.
 
 unit_of_work(Goal) :-
     (   \+ durable_on
@@ -352,12 +378,12 @@ commit_changes :-
 
 %!  send_after_commit(+Item, +When) is det.
 %
-%   Where output_waits/0: give Item to committed/1 when all earlier changes are
-%   committed, in the order of these calls.
+%   While output waits, see output_waits/0: pass Item to committed/1 when all
+%   earlier changes are committed, in the order of these calls.
 %
-%   @arg When is `now` if a caller waits for it, `anyhow` if so and errors are
-%        not wanted, `later` if the sender calls flush_sends/0 before long, or
-%        sends something else
+%   @arg When is `now` if a caller waits for it, `anyhow` if a caller waits and
+%        errors are not wanted, `later` if the sender calls flush_sends/0
+%        before long, or sends something else
 %   @error resource_error(_): the store is full, and Item is not sent, When
 %          being `now`
 %   @error existence_error(_, open): it was closed
@@ -383,7 +409,8 @@ may_wait(_).
 
 %!  flush_sends is det.
 %
-%   Commit soon, and send what waits for it.  The back end defines it.
+%   Commit soon, and send the output that waits for it.  The back end defines
+%   this.
 
                 /*******************************
                 *          CRASH POINTS        *
@@ -391,7 +418,7 @@ may_wait(_).
 
 %!  crash_point(+Name) is det.
 %
-%   The process has come to the step Name.  Tests define reached/1 to kill it
+%   The process has reached the step Name.  Tests define reached/1 to kill it
 %   there.
 
 crash_point(Name) :-

@@ -15,11 +15,11 @@
 
 /** <module> Errors from elsewhere as text
 
-What an agent raises, and what another process answers, is data.  Handed to
-print_message/2 it would be a program: format(Format, Args) is printed with
-these arguments, and ~@ calls one.  So what the hook lines//1 has to say of an
-error is made text here: no hook for printing (portray/1, attributes) sees a part
-of it, and a large term is not written.
+An error that an agent raises, and an error that another process answers, is
+data.  To print_message/2 it would be a program: format(Format, Args) is
+printed with these arguments, and ~@ calls one.  So the lines of the hook
+lines//1 for an error are made text here: no hook for printing (portray/1,
+attributes) sees a part of it, and a large term is not written.
 
 An error that another process answers is raised in the thread that asked, and
 the top level prints it: with the translations of SWI-Prolog and of its
@@ -34,7 +34,7 @@ libraries, which take some errors for programs.
 
 %!  print_error(+Kind, +Error) is det.
 %
-%   Print an exception, wherever it comes from.
+%   Print an exception of any origin.
 
 print_error(Kind, Error) :-
     print_message(Kind, typhon(raised(Error))).
@@ -44,7 +44,7 @@ prolog:message(typhon(raised(Error))) -->
 
 %!  is_abort(@Ball) is semidet.
 %
-%   Ball ends the thread that catches it: it was aborted.
+%   Ball is the exception of an abort: it ends the thread that catches it.
 
 is_abort(Ball) :-
     nonvar(Ball),
@@ -84,7 +84,7 @@ error_text(Error, Text) :-
 message(Error) -->
     lines(Error),
     !.
-message(Error) -->                      % nothing that translates is loaded
+message(Error) -->                      % no loaded code translates it
     [ '~p'-[Error] ].
 
 large_text(Term, Text) :-
@@ -94,8 +94,8 @@ large_text(Term, Text) :-
     ;   Text = "a large term"
     ).
 
-%   plainly(:Message, -Text): Text is what its lines say, written without
-%   hooks.
+%   plainly(:Message, -Text): Text is the text of the lines of Message, written
+%   without hooks.
 
 :- meta_predicate plainly(//, -).
 
@@ -114,7 +114,7 @@ plain_options([quoted(true), numbervars(true), portray(false)]).
 
 %!  term_told(+Term, -Lines, ?Rest) is det.
 %
-%   Term, as data: no hook has a part in how it is printed.
+%   Lines print Term as data: no hook is called.
 
 term_told(Term) -->
     { is_tree(Term, 200 000) },
@@ -126,10 +126,13 @@ term_told(Term) -->
     [ '~w'-[Text] ].
 
 %!  is_remark(@Text) is semidet.
+%
+%   Text is a remark that may be in the context of an error.
+
 %!  context_indicator(+PI, -Name, -Arity) is semidet.
 %
-%   Text is a remark, and PI, that is Name/Arity, a predicate indicator, that may
-%   stand in the context of an error.
+%   PI, that is Name/Arity, is a predicate indicator that may be in the context
+%   of an error.
 
 context_indicator(PI0, Name, Arity) :-
     nonvar(PI0),
@@ -160,15 +163,15 @@ is_remark(Text) :-
                 *           ABRIDGED           *
                 *******************************/
 
-%   Terms as text that has an end.
+%   Text of bounded length for terms.
 
 %!  abridged(+Term, +Longest:integer, -Text:string) is det.
 %
 %   Text is Term as it would be written in a program, variables as `_` where
-%   they occur once and letters elsewhere.  Of more than Longest characters
-%   only the beginning is there, and three dots after it.  What is deep or
-%   cyclic is cut off on the way, so that a large term costs no more than its
-%   text.
+%   they occur once and as letters elsewhere.  If it is longer than Longest
+%   characters, only its beginning is there, followed by three dots.  Deep and
+%   cyclic terms are cut off during the traversal, so that a large term costs
+%   no more than its text.
 
 abridged(Term, Longest, Text) :-
     copy_term(Term, Copy, _),
@@ -202,9 +205,9 @@ named(Term) :-
 
 %!  harmless_error(+Ball0, -Ball) is det.
 %
-%   Ball is to be raised here in place of Ball0, which was raised elsewhere:
-%   the same error, with as much of its context as is text, if printing it calls
-%   nothing.  Else it is error(raised_elsewhere(Ball0), _).
+%   Ball is to be raised here in place of Ball0, which another process raised:
+%   the same error, with the part of its context that is text, if printing it
+%   calls nothing.  Else it is error(raised_elsewhere(Ball0), _).
 
 harmless_error(Ball0, Ball) :-
     (   harmless(Ball0, Ball1)
@@ -224,7 +227,7 @@ harmless(Ball, Ball) :-
     is_tree(Ball, 50 000),
     \+ translated(Ball).
 
-%   Of these two SWI-Prolog looks into the context, or the culprit.
+%   For these two SWI-Prolog reads the context, or the culprit.
 
 harmless_formal(resource_error(What)) :-
     !,
@@ -248,8 +251,8 @@ harmless_context(Context0, Context) :-
     Context = context(PI, Text).
 harmless_context(_, _).
 
-%   translated(+Ball): a hook or SWI-Prolog translates it.  The two that are not
-%   in its tables are in translate_message//1 itself.
+%   translated(+Ball): a hook or SWI-Prolog translates it.  The first two are
+%   not in its tables, but in translate_message//1 itself.
 
 translated(format(_, _)) :-
     !.
@@ -261,8 +264,9 @@ translated(Ball) :-
           error(permission_error(_, _, _), _), true),   % it is protected
     !.
 
-%   takes(+Term, ?Any, :Hook): a clause for Hook, which is about Any, takes
-%   Term. One that takes anything does if the clauses do to which it hands it.
+%   takes(+Term, ?Any, :Hook): a clause of Hook, whose argument Any is the
+%   term, accepts Term.  A clause that accepts any term counts if the predicate
+%   to which it passes the term accepts it.
 
 takes(Term, Any, Hook) :-
     predicate_property(Hook, defined),

@@ -6,18 +6,18 @@
 
 /** <module> Message queues as plain queues
 
-A message queue keeps terms in order at little cost, and its owner may add
-and take as from any other store.
+A message queue keeps terms in order at little cost, and its owner may add and
+take as in any other store.
 
-What is taken by a pattern is not looked at before: on 9.0.4, also 10.1,
-thread_peek_message/2 that has passed over a message leaves a reference to
-what is no more, and a garbage collection while it reads the next one damages
+Code that takes by a pattern must not peek first: on 9.0.4, also 10.1,
+thread_peek_message/2 that has passed over a message leaves a reference to a
+freed term, and a garbage collection while it reads the next message damages
 the stacks of the thread.
 
-A Prolog that was built without threads, as that for WebAssembly, has no message
-queues and mutexes.  There the end of this module defines those of their predicates that
-the kernel uses, and puts them in module `user`, where all modules find them.  A
-queue is then what its name says: nothing can come to it while the caller waits.
+A Prolog that was built without threads, such as that for WebAssembly, has no
+message queues and mutexes.  There the end of this module defines those of
+their predicates that the kernel uses, in module `user`, where all modules find
+them.  Such a queue cannot wait: no message can arrive while the caller waits.
 
 *Threading*: only for queues with one reader at a time.
 */
@@ -33,7 +33,7 @@ fifo_empty(Queue, Messages) :-
     ;   Messages = []
     ).
 
-%   The first, if it unifies.
+%   Take the first message, if it unifies.
 
 fifo_first(Queue, Message) :-
     thread_peek_message(Queue, First),
@@ -42,7 +42,7 @@ fifo_first(Queue, Message) :-
 
 %!  fifo_size(+Queue, -Size) is det.
 %
-%   Size messages are in Queue: none if it has just been destroyed.
+%   Queue holds Size messages; 0 if it has just been destroyed.
 
 fifo_size(Queue, Size) :-
     catch(message_queue_property(Queue, size(Size0)),
@@ -55,14 +55,14 @@ fifo_size(_, 0).
 %!  fifo_take(+Queue, ?Message) is semidet.
 %
 %   Take the first message of Queue that unifies; no thread may add to it
-%   meanwhile.  Not in sig_atomic/1: if there is none among many this is a
+%   meanwhile.  Not in sig_atomic/1: if none of many messages unifies this is a
 %   wait that expires, see typhon_own_thread.
 %
-%   Such a wait costs as much as taking out, and putting back, a dozen.
+%   Such a wait costs as much as to take out and put back a dozen messages.
 
 fifo_take(Queue, Message) :-
     thread_peek_message(Queue, First),
-    (   First = Message                 % nearly always
+    (   First = Message                 % nearly always true
     ->  thread_get_message(Queue, _)
     ;   fifo_take_later(Queue, Message)
     ).
@@ -74,8 +74,8 @@ fifo_take_later(Queue, Message) :-
     ;   sig_atomic(turn(Size, first, Queue, Message))
     ).
 
-%   turn(+Size, +Seen, +Queue, ?Message): Seen is `first` as long as none has
-%   been put back, then `none`, or `found`.
+%   turn(+Size, +Seen, +Queue, ?Message): Seen is `first` as long as no message
+%   has been put back, then `none`, or `found`.
 
 turn(0, Seen, _, _) :-
     !,
@@ -86,7 +86,7 @@ turn(Size, Seen0, Queue, Message) :-
     (   Seen0 \== found,
         Next = Message
     ->  (   Seen0 == first
-        ->  true                        % the others are in order
+        ->  true                        % the other messages are in order
         ;   turn(Left, found, Queue, Message)
         )
     ;   thread_send_message(Queue, Next),

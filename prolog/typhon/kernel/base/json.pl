@@ -26,8 +26,8 @@ json_text(Term, Text) :-
 
 %!  json_dict(+Text, -Term) is det.
 %
-%   What JSON says: dicts, without a tag everywhere, lists, strings, numbers,
-%   `true`, `false` and `null`.
+%   Term is the value of the JSON text: dicts, none with a tag, lists, strings,
+%   numbers, `true`, `false` and `null`.
 %
 %   @error syntax_error(json(Problem))
 

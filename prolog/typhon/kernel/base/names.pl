@@ -10,12 +10,11 @@
 :- use_module(library(lists), [append/3, last/2, member/2]).
 :- autoload(library(solution_sequences), [limit/2]).
 
-/** <module> Names that people mistype
+/** <module> Names that users mistype
 
-The names of a kind (hosts, programs, options, topologies) are
-given by the modules that own them, with clauses for known/2.  From that
-follow what a message proposes, what it lists, and what the top level
-completes.
+The modules that own a kind of names (hosts, programs, options, topologies)
+define the names by clauses of known/2.  Messages use them for proposals and
+lists, and the top level for completion.
 
 *Threading*: any thread.
 */
@@ -23,17 +22,17 @@ completes.
 :- multifile
     known/2.                    % Kind, Name: an atom, or a term like ring('N')
 
-%   More names than these are not looked through.
+%   Longer lists of names are not searched.
 
 most_names(2000).
 
-%   More than these are not listed.
+%   Longer lists of names are not shown.
 
 most_listed(40).
 
 %!  names(+Kind, -Names:list) is det.
 %
-%   Names are those there are of Kind, each once.
+%   Names are all names of Kind, each once.
 
 names(Kind, Names) :-
     most_names(Most),
@@ -42,10 +41,10 @@ names(Kind, Names) :-
 
 %!  names_near(+Name:atom, +Names:list, -Near:list) is det.
 %
-%   Up to three of Names that a person may have meant by Name, as dwim_match/2
-%   has it.  An id or address also counts by what stands before the first `.`
-%   or `@`, a path by its last part: `census` finds 'census.4f2a1@alpha@...',
-%   and 'survey/census'.
+%   Near are up to three of Names that the user may have meant by Name, by
+%   dwim_match/2.  An id or address is also compared by the part before the
+%   first `.` or `@`, a path by its last part: `census` finds
+%   'census.4f2a1@alpha@...', and 'survey/census'.
 
 names_near(Name, Names, Near) :-
     findall(Known,
@@ -83,7 +82,7 @@ form(Name, Short) :-
 %!  names_proposed(+Name, +Names:list, -Text:atom) is det.
 %
 %   Text asks whether one of Names was meant by Name; it is empty if none of
-%   them looks like it.
+%   them is similar.
 
 names_proposed(Name, Names, Text) :-
     atom(Name),
@@ -96,7 +95,7 @@ names_proposed(_, _, '').
 
 %!  names_listed(+Names:list, -Text:atom) is det.
 %
-%   Text says what there is, and is empty if that is too much.
+%   Text lists Names; it is empty if there are too many.
 
 names_listed(Names, Text) :-
     most_listed(Most),
@@ -117,7 +116,7 @@ names_joined(Names, Separator, Text) :-
 
 %!  names_some(+Names:list, +Most, -Text:atom) is det.
 %
-%   Text is the first Most of Names, and how many more there are.
+%   Text is the first Most of Names, and the number of the others.
 
 names_some(Names, Most, Text) :-
     length(Names, Count),
@@ -130,7 +129,7 @@ names_some(Names, Most, Text) :-
     ;   names_joined(Names, ', ', Text)
     ).
 
-%   ring('N') as ring(N), state(S) as state(_).
+%   name_text(+Name, -Text): ring('N') as ring(N), state(S) as state(_).
 
 name_text(Name, Text) :-
     copy_term(Name, Copy),

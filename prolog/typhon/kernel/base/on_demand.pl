@@ -10,31 +10,32 @@
 
 /** <module> Code that is loaded when it is used first
 
-A process has the kernel, and what it uses beside: a part, as a network or an
-option, is loaded when one of its predicates is called, an option of it is
-given, or a peer asks for it.  The index, which `doc/layers.pl -- index` makes
-of the sources, says which part is behind which name.
+A process loads the kernel, and other parts on demand: a part, such as a
+network or an option, is loaded when one of its predicates is called, one of
+its options is given, or a peer asks for it. The index, which
+`doc/layers.pl -- index` makes from the sources, maps names to parts.
 
-Where nothing names a part, it says itself when it is needed, by the hook
-joins(Seam, What): the kernel, or another part, calls on_demand_load/2 for
-these.
+Where no name leads to a part, the part itself declares when it is needed, by
+the hook joins(Seam, What): the kernel, or another part, calls on_demand_load/2
+for these.
 
-  | untrusted | any  | a host admits agents that it does not trust |
-  | keys      | any  | the process has keys                        |
-  | spied     | program | a predicate of a program is spied or traced |
-  | environment | Variable | it is set when an endpoint starts     |
-  | program   | read | a program is read from a file or from clauses |
-  | fault     | stands | an agent has failed, or raised an error |
+  | untrusted   | any      | a host admits agents that it does not trust |
+  | keys        | any      | the process has keys                        |
+  | spied       | program  | a predicate of a program is spied or traced |
+  | environment | Variable | Variable is set when an endpoint starts     |
+  | program     | read     | a program is read from a file or clauses    |
+  | fault       | stands   | an agent has failed, or raised an error     |
 
 Other threads run meanwhile, and call hooks. So clauses of hooks are compiled
-when the rest of their file is there: a hook works as soon as it is seen.
+when the rest of their file is loaded: a hook works from the moment it is
+visible.
 
-*Threading*: any thread, but those of the endpoint, which pass the goal on to
-a worker by on_demand_later/1.
+*Threading*: any thread but those of the endpoint, which pass the goal to a
+worker by on_demand_later/1.
 */
 
 :- multifile
-    joins/2,                    % Seam, What: the part joins there, too
+    joins/2,                    % Seam, What: load the part there, too
     worker_call/1.              % Goal: call it once in a worker
 
 :- dynamic
@@ -66,7 +67,7 @@ on_demand_load(Seam, What) :-
 
 %!  on_demand_call(+Seam, +What, +Goal) is nondet.
 %
-%   Call Goal, which is Module:Plain, when these are loaded.
+%   Load these parts and call Goal, which is Module:Plain.
 
 on_demand_call(Seam, What, Module:Goal) :-
     on_demand_load(Seam, What),
@@ -80,7 +81,7 @@ load(Part) :-
         compiling_end(Flags)),
     assertz(loaded(Part)).
 
-%   Settings can be set before they are loaded.
+%   Settings of parts that are not loaded can be set.
 
 :- multifile settings:current_setting/6.
 
@@ -95,7 +96,7 @@ path(File, Path) :-
 
 %!  on_demand_later(:Goal) is semidet.
 %
-%   Call Goal once in a worker; fails if there are none.
+%   Queue Goal for a worker, which calls it once; fails if there are no workers.
 
 :- meta_predicate on_demand_later(0).
 
@@ -115,9 +116,9 @@ on_demand_later(Goal) :-
     hold_hook/2,
     held_hooks/1.
 
-%   hold_hook(+Module, +Clause) is semidet: Clause, for a hook of Module, one of
-%   ours, is compiled later; not in the kernel, which is loaded before there are
-%   threads.
+%   hold_hook(+Module, +Clause) is semidet: compile Clause, for a hook of
+%   Module, one of ours, later. Not in the kernel, which is loaded before there
+%   are threads.
 
 hold_hook(Module, Clause) :-
     atom(Module),

@@ -17,14 +17,15 @@
 
 /** <module> Unknown options are errors; settings that have been renamed
 
-Each list of options belongs to a domain, as `host_option`.  What options it
-may have is declared by the module that takes them, with clauses for
+Each list of options belongs to a domain, as `host_option`. The module that
+accepts the options declares them by clauses for
 
     declared(Domain, Option, Type, Value)
 
-which stand in the files of an option if they are about it alone: checking such
-an option loads these. Type is that of Value, a part of Option, as of must_be/2.
-Where there are several clauses for an option, one has to agree.
+which are in the files of an optional part if they are about that part alone:
+checking such an option loads the part. Type is that of Value, a part of
+Option, as of must_be/2. If there are several clauses for an option, one has to
+agree.
 
 *Threading*: any thread.
 */
@@ -46,8 +47,8 @@ typhon_names:known(Domain, Name) :-
 %!  check_options(+Domain, +Options) is det.
 %!  check_option(+Domain, +Option) is det.
 %
-%   @error type_error(list, Options), domain_error(Domain, Option), and what
-%   must_be/2 says of values
+%   @error type_error(list, Options), domain_error(Domain, Option), and errors
+%          of must_be/2 for values
 
 check_options(Domain, Options) :-
     must_be(list, Options),
@@ -72,7 +73,7 @@ wrong_option(Domain, Option) :-
 
 %!  options_load(+Domain, +Options:list) is det.
 %
-%   What Options are about is loaded.  check_option/2 does so, too.
+%   Load the parts that define Options. check_option/2 does so, too.
 
 options_load(Domain, Options) :-
     forall(( member(Option, Options), functor(Option, Name, _) ),
@@ -80,8 +81,8 @@ options_load(Domain, Options) :-
 
 %!  check_name(+Domain, +Term) is det.
 %
-%   Term, if it is bound, has name and arity of something there is in Domain,
-%   as what stands for a property.
+%   If Term is bound, its name and arity exist in Domain. For terms such as
+%   properties.
 %
 %   @error domain_error(Domain, Term)
 
@@ -99,7 +100,7 @@ check_name(Domain, Term) :-
 
 %!  blaming(+What, :Goal) is semidet.
 %
-%   Run Goal once; an error that it raises says that What is at fault.
+%   As once(Goal); an error that it raises names What as the culprit.
 
 blaming(What, Goal) :-
     catch(Goal, error(Formal, _), blame(Formal, What)),
@@ -113,7 +114,7 @@ blame(Formal, What) :-
                 *            SETTINGS          *
                 *******************************/
 
-%   A setting whose comment is "Now Module:Name" is the old name of that one.
+%   A setting with the comment "Now Module:Name" is the old name of Module:Name.
 
 :- listen(settings(changed(Old, _, Value)), setting_changed(Old, Value)).
 
@@ -145,7 +146,7 @@ prolog:error_message(domain_error(Domain, Culprit)) -->
     },
     [ 'There is no ~w ~p~w~w'-[Kind, Culprit, Meant, All] ].
 
-%   Where there is an option of that name, it is written in another way.
+%   There is an option of that name: show how it is written.
 
 meant(Domain, Name, _, Text) :-
     findall(Option,
@@ -158,7 +159,7 @@ meant(Domain, Name, _, Text) :-
 meant(_, Name, Names, Text) :-
     names_proposed(Name, Names, Text).
 
-%   An option may be written Name=Value, too, but not here.
+%   Name=Value is accepted by other libraries, but not here.
 
 culprit_name(Name=_, Name) :-
     !.

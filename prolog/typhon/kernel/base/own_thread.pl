@@ -6,21 +6,20 @@
             abort_quietly/0
           ]).
 
-/** <module> How things and threads are stopped
+/** <module> How modules and threads are stopped
 
 In SWI-Prolog 9.0.4 a thread that runs a cleanup handler, sig_atomic/1 or a
-directive leaves its signals pending. If one is, which garbage collection
-alone sees to, then a wait with a deadline that expires does not end: it
-spins for ever. Programs like to stop things in cleanup handlers, and
-stopping has to wait. So whatever stops something does it in a thread of its
-own.
+directive leaves its signals pending. If one is pending that only garbage
+collection handles, a wait with a deadline that expires does not end: it spins
+for ever. Programs often stop hosts in cleanup handlers, and stopping has to
+wait. So code that stops something does it in a thread of its own.
 
-Stopping must also be possible when no more threads can be made: while
-hosts run, a helper stands by for that.
+Stopping must also be possible when no more threads can be created: while hosts
+run, a helper thread is ready for that.
 
-*Threading*: any thread. thread_join/2 and waits without a deadline are
-sound in all of them. Goals in a thread of its own, or in the helper, need
-no other: so the helper never waits for itself.
+*Threading*: any thread. thread_join/2 and waits without a deadline are safe in
+all of them. Goals in a thread of their own, or in the helper, call nested
+goals directly: so the helper never waits for itself.
 */
 
 :- use_module(server,
@@ -32,7 +31,7 @@ no other: so the helper never waits for itself.
 
 :- dynamic
     helper/1,                   % Server
-    asked/1.                    % Server: it was asked for something
+    asked/1.                    % Server: it has got a goal
 
 %!  in_own_thread(:Goal) is semidet.
 %
@@ -62,8 +61,8 @@ in_own_thread(Goal) :-
 in_own_thread(Goal) :-
     once(Goal).
 
-%   There may be several of a role, and one that is about to end still has its
-%   name.
+%   Several threads may have one role, and a thread that is about to end still
+%   has its alias.
 
 alias(Role, Alias) :-
     flag(typhon_own_thread, N, N+1),
@@ -84,10 +83,8 @@ conclude(Status) :-
                 *******************************/
 
 %!  own_thread_start is det.
-%!  own_thread_stop is det.
 %
-%   The helper begins; and ends when it has done what it was asked for,
-%   which may be this.
+%   Start the helper.
 
 own_thread_start :-
     current_prolog_flag(threads, false),
@@ -96,7 +93,11 @@ own_thread_start :-
     server_start(helper, typhon_own_thread:help, idle, Helper),
     assertz(helper(Helper)).
 
-%   One that was asked may run this, or wait for the thread that does.
+%!  own_thread_stop is det.
+%
+%   Stop the helper after the goal that it runs. That goal may be this call, or
+%   may wait for the thread that calls this: so it is not waited for if the
+%   helper has been used.
 
 own_thread_stop :-
     (   with_mutex(typhon_own_thread, retract(helper(Helper)))
@@ -107,7 +108,7 @@ own_thread_stop :-
     ;   true
     ).
 
-%   ask_helper(:Goal, -Result) fails if there is none.
+%   ask_helper(:Goal, -Result): fails if there is no helper.
 
 ask_helper(Goal, Result) :-
     with_mutex(typhon_own_thread,
@@ -133,9 +134,9 @@ help(call(Goal, Caller), State, State) :-
 
 %!  stop_thread(+Thread) is det.
 %
-%   Join Thread, which has been told to end.  After a second it is aborted,
-%   in the middle of whatever it does, again and again; after another one it
-%   is left to itself, and a message says so.
+%   Join Thread, which has got the order to end. After a second it is aborted,
+%   in the middle of its goal, again and again; after another second it is
+%   given up, and a message reports that.
 
 stop_thread(Thread) :-
     stop_thread(1000, Thread).
@@ -165,9 +166,8 @@ interrupt(Tries, Thread) :-
 
 %!  abort_quietly
 %
-%   As abort/0, which cannot be caught for good, but input that was typed
-%   ahead is not discarded.  Where it is not sure which exception that is,
-%   abort/0 raises it.
+%   As abort/0, which no goal can catch for good, but does not discard input
+%   that was typed ahead. Where this exception is not known, abort/0 raises it.
 
 abort_quietly :-
     current_prolog_flag(version, Version),

@@ -14,11 +14,11 @@
 
 /** <module> Random choices that can be repeated
 
-A generator whose state is a small ground term, handed from choice to
-choice. The generators of the system keep their state in the thread, so
-the choices of an agent would depend on the worker that happens to run
-it, and on what else that worker ran before. A state that is a term
-travels with the agent, and a run can be repeated from its seed alone.
+A generator whose state is a small ground term, passed from choice to choice.
+The generators of the system keep their state in the thread, so the choices of
+an agent would depend on the worker that happens to run it, and on the earlier
+work of that worker. A state that is a term travels with the agent, and a run
+can be repeated from its seed alone.
 
 The method is that of P. L'Ecuyer, Efficient and portable combined
 random number generators, CACM 31(6), 1988: two multiplicative
@@ -54,9 +54,9 @@ chance_seed(Seed, chance(A, B)) :-
 
 %!  chance_hash(+Term, -Seed) is det.
 %
-%   Seed belongs to the ground Term, and is the same in every process: of
-%   term_hash/2, which has 24 bits or, since SWI-Prolog 9.1, 32, those that
-%   versions and word sizes have in common.
+%   Seed belongs to the ground Term, and is the same in every process: it is
+%   made from those bits of term_hash/2 (24 bits, or 32 since SWI-Prolog 9.1)
+%   that all versions and word sizes have in common.
 
 chance_hash(Term, Seed) :-
     term_hash(Term, Hash),

@@ -8,26 +8,26 @@
 :- use_module(library(error), [type_error/2]).
 :- autoload(library(process), [process_create/3]).
 
-/** <module> Faults of SWI-Prolog, and what keeps them away
+/** <module> Faults of SWI-Prolog, and their workarounds
 
-They are those of 9.0.4; most are there in 10.1, too.
+The faults are those of 9.0.4; most of them are also in 10.1.
 
-*Threading*: as said below; any thread otherwise.
+*Threading*: as documented below; any thread otherwise.
 */
 
                 /*******************************
                 *  REFERENCES TO NO CLAUSES    *
                 *******************************/
 
-%   Loading, for one, leaves references to erased clauses on the stacks of the
-%   thread that does it. As long as there are some, 9.0.4 collects atoms
-%   whenever it collects clauses: every dozen hops, for a quarter of what they
+%   Loading, among other operations, leaves references to erased clauses on the
+%   stacks of its thread. As long as there are some, 9.0.4 collects atoms
+%   whenever it collects clauses: every dozen hops, for a quarter of their
 %   cost. For the same reason no table that changes with each hop is changed by
 %   clause references.
 
 %!  forget_erased is det.
 %
-%   Forget those that no table holds any more.
+%   Clear the references to erased clauses that no table holds any more.
 
 forget_erased :-
     garbage_collect,
@@ -37,22 +37,22 @@ forget_erased :-
                 *           FUNCTORS           *
                 *******************************/
 
-%   A functor that one thread makes while another makes the table of all
-%   functors larger may be missing in the new table, on 9.0.4 and on 10.1. A
-%   thread that names it later gets a second one, and a term of the one never
-%   unifies with the same term of the other: a predicate that is there is not
-%   found. The table grows at each power of two, for ever, as no functor goes
-%   away.
+%   A functor that one thread creates while another enlarges the table of all
+%   functors may be missing in the new table, on 9.0.4 and on 10.1. A thread
+%   that uses the functor later gets a second one, and a term of the one never
+%   unifies with the same term of the other: a predicate that exists is not
+%   found. The table grows at each power of two, without end, as functors are
+%   never deleted.
 %
-%   So it grows before threads begin, beyond what the programs of most hosts
-%   need. A process that has read library(typhon) has 8,700 functors, one that
-%   begins with a saved state of it 7,800: there the table grew, at 8,192, just
-%   when its first agents were read.
+%   So the table grows before threads begin, beyond the needs of the programs
+%   of most hosts. A process that has loaded library(typhon) has 8,700
+%   functors, one that starts from a saved state 7,800: there the table grew,
+%   at 8,192, just when its first agents were read.
 
 %!  functors_room is det.
 %
-%   The table does not grow for the next 16,000 functors: 0.5 MB and 2 ms, once.
-%   No other thread makes functors meanwhile.
+%   Make room for the next 16,000 functors: 0.5 MB and 2 ms, once. No other
+%   thread may create functors meanwhile.
 
 functors_room :-
     between(50, inf, Arity),
@@ -66,14 +66,15 @@ functors_room :-
                 *          PROCESSES           *
                 *******************************/
 
-%   Of the pipes to a process that begins, any other that begins in that moment
-%   gets the ends, too (SWI-Prolog 9.0.4 to 10.1): it holds them open for as
-%   long as it lives, and a reader that waits until a pipe ends waits for both.
+%   Of the pipes to a process that starts, any other process that starts at
+%   that moment inherits the ends, too (SWI-Prolog 9.0.4 to 10.1): it keeps
+%   them open as long as it lives, and a reader that waits for the end of a
+%   pipe waits for both.
 
 %!  installed_swipl(+Home, -Program:atom) is semidet.
 %
-%   The program of the Prolog that has this Home.  The flag `executable` may name a
-%   saved state instead, which runs its own goal.
+%   Program is that of the Prolog with this Home. The flag `executable` may
+%   name a saved state instead, which runs its own goal.
 
 installed_swipl(Home, Swipl) :-
     current_prolog_flag(arch, Arch),
@@ -82,8 +83,8 @@ installed_swipl(Home, Swipl) :-
 
 %!  spawn(+Program, +Args:list, +Options:list) is det.
 %
-%   As process_create/3. Its pipes are known to this process and the new one
-%   alone, if all that begin here are begun so.
+%   As process_create/3. No third process inherits its pipes, if all processes
+%   that start here are started by spawn/3.
 %
 %   @error as process_create/3
 
@@ -94,14 +95,15 @@ spawn(Program, Args, Options) :-
                 *       TERMS FROM BYTES       *
                 *******************************/
 
-%   fast_term_serialized/2 is not safe with threads, on 9.0.4 and on
-%   10.1: atoms that only the new term has are lost if another thread collects
-%   atoms while it is made. The collector walks the global stack from term to
-%   term, to find atoms that are in use; where the new term is not complete yet
-%   there is what was there before, of which some looks as if it were the head
-%   of something large, and it goes on beyond the end.
+%   fast_term_serialized/2 is not safe with threads, on 9.0.4 and on 10.1:
+%   atoms that occur only in the new term are lost if another thread collects
+%   atoms while the term is made. The collector walks the global stack from
+%   term to term, to find atoms that are in use; where the new term is not
+%   complete yet it finds old contents, some of which look like the head of a
+%   large term, and it goes on beyond the end.
 %
-%   Where there is nothing but unbound variables it walks on.
+%   So the space is first filled with unbound variables, over which it walks
+%   correctly.
 %
 %   Bytes may say that a variable has attributes, such as a goal that runs when
 %   the variable is bound. No such term is read.
@@ -122,9 +124,9 @@ fast_bytes_term(Bytes, Term) :-
     ;   type_error(mobile_term, attributed_variable)
     ).
 
-%   words(+Bytes, -Words): the term takes so many on the global stack at most.
-%   No byte makes more than one and a half; for large ones it is read from the
-%   head, where it follows the kind and the number of bytes.
+%   words(+Bytes, -Words): the term takes at most Words words on the global
+%   stack. No byte makes more than one and a half; for large terms the number
+%   is read from the head, where it follows the kind and the number of bytes.
 
 words(Bytes, Words) :-
     string_length(Bytes, Length),

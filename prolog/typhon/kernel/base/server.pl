@@ -18,19 +18,20 @@ A server handles one message after another:
 
     call(Handle, Message, State0, State)
 
-State may be until(Stamp, State) if the message `timeout` is to come when no
-other has come until Stamp, `inf` for never.  Other messages are those of
-server_cast/2, call(Request, Caller) of server_call/4, which server_answer/2
-answers, `begin` before all others, and `stop` as the last one.  Handle may
-fail for `begin` and `stop`.
+State may be until(Stamp, State): then the server gets the message `timeout`
+when no other message has arrived until Stamp, `inf` for never.  Other messages
+are those of server_cast/2, call(Request, Caller) of server_call/4, which
+server_answer/2 answers, `begin` before all others, and `stop` as the last one.
+Handle may fail for `begin` and `stop`.
 
 A call for which Handle raises an error, or fails, gets that error, and the
-server goes on.  After any other message that raises something it prints that,
-and begins again with its first State.  If its thread is aborted, another
-thread begins with that State and the same queue, and an error message says
-so; if none can be made, server_cast/2 and server_check/1 try again.
+server goes on.  If Handle raises an error for another message the server
+prints it, and begins again with its first State.  If its thread is aborted,
+another thread begins with that State and the same queue, and an error message
+reports that; if no thread can be created, server_cast/2 and server_check/1 try
+again.
 
-*Threading*: any thread.  A server may stop itself.
+*Threading*: any thread. A server may stop itself.
 */
 
 :- meta_predicate
@@ -42,7 +43,7 @@ so; if none can be made, server_cast/2 and server_check/1 try again.
 :- dynamic
     server/4,                   % Queue, Role, Handle, State: the first
     serving/2,                  % Queue, Thread
-    unserved/1.                 % Queue: that it has no thread was reported
+    unserved/1.                 % Queue: its lack of a thread was reported
 
                 /*******************************
                 *        START AND STOP        *
@@ -51,10 +52,10 @@ so; if none can be made, server_cast/2 and server_check/1 try again.
 %!  server_start(+Role:atom, :Handle, +State, -Server) is det.
 %!  server_start(+Role:atom, :Handle, +State, +Options, -Server) is det.
 %
-%   Options may have max_size(N): server_cast/2 waits while so many messages
-%   wait.  Role goes into the alias of the thread.
+%   Options may have max_size(N): server_cast/2 waits while N messages wait.
+%   Role is part of the alias of the thread.
 %
-%   @error resource_error(What) if no thread can be made
+%   @error resource_error(What) if no thread can be created
 
 server_start(Role, Handle, State, Server) :-
     server_start(Role, Handle, State, [], Server).
@@ -79,16 +80,19 @@ make_thread(Queue) :-
     retractall(unserved(Queue)).
 
 %!  server_stop(+Server) is det.
-%!  server_leave(+Server) is det.
 %
-%   The server handles what has come until now, and ends; server_leave/1 does
-%   not wait for that.  What comes later is dropped; calls raise an error.
+%   Stop the server when it has handled all messages that have arrived until
+%   now, and wait for that.  Later messages are dropped; calls raise an error.
 
 server_stop(Queue) :-
     (   forgotten(Queue, Thread)
     ->  stop(Thread, Queue)
     ;   true
     ).
+
+%!  server_leave(+Server) is det.
+%
+%   As server_stop/1, but does not wait.
 
 server_leave(Queue) :-
     (   forgotten(Queue, Thread)
@@ -156,7 +160,7 @@ server_cast(Queue, Message) :-
 %
 %   Seconds may be `inf`.  Fails if there is no answer in time.
 %
-%   @error existence_error(server, Server), and what Handle raises
+%   @error existence_error(server, Server), and errors that Handle raises
 
 server_call(Queue, Request, Seconds, Answer) :-
     setup_call_cleanup(
@@ -189,11 +193,11 @@ server_answer(Caller, Answer) :-
 
 answer(Caller, Result) :-
     catch(thread_send_message(Caller, Result),
-          error(existence_error(_, _), _), true).  % it waits no longer
+          error(existence_error(_, _), _), true).  % the caller no longer waits
 
 %!  server_check(+Server) is det.
 %
-%   If Server has lost its thread, make another, if that is possible now.
+%   If Server has lost its thread, create another, if that is possible now.
 
 server_check(Queue) :-
     (   serving(Queue, _)
@@ -227,7 +231,7 @@ no_thread(Formal, Queue) :-
 
 %!  server_self(-Server) is semidet.
 %
-%   This thread is that of Server.
+%   This thread belongs to Server.
 
 server_self(Server) :-
     nb_current(typhon_server, Server).
@@ -275,7 +279,7 @@ serve_next(Next, Handle, Queue, End) :-
 ending('$stop').
 ending('$leave').
 
-%   No wait is longer than a day: the system may not know so late a time.
+%   A wait is not longer than a day: the system may not support very late times.
 
 next(inf, Queue, Message) :-
     !,
@@ -307,7 +311,7 @@ end('$stop', _).
 end('$leave', Queue) :-
     close_queue(Queue).
 
-%   In the thread, at its end: nothing is left to do if it was stopped.
+%   Called in the thread, at its end. Does nothing if the server was stopped.
 
 ended(Queue) :-
     thread_self(Me),

@@ -6,22 +6,22 @@
 
 /** <module> The canonical text of a term
 
-Text that any SWI-Prolog of any word size reads back as the same term,
-whatever operators and flags either side has set: functional notation,
-special floats spelled out, UTF-8. What is not ASCII stands in quotes, and
-if it is no letter, as an escape sequence: versions do not agree which
-characters need quotes, and 10.1 writes some there that it cannot read.
+Text that any SWI-Prolog of any word size reads back as the same term, whatever
+operators and flags either side has set: functional notation, special floats
+spelled out, UTF-8. Characters beyond ASCII are in quotes, and those that are
+no letters are escape sequences: versions do not agree which characters need
+quotes, and 10.1 writes some there that it cannot read.
 
-*Threading*: no shared state. The flags that govern writing and reading are
-local to a thread and are put back.
+*Threading*: no shared state. The flags for writing and reading are local to a
+thread and are restored.
 */
 
 :- autoload(library(error), [resource_error/1, syntax_error/1]).
 :- autoload(library(memfile), [free_memory_file/1, memory_file_to_string/3,
                                  new_memory_file/1, open_memory_file/4]).
 
-% Terms are read in a module of their own: it inherits from system, so
-% that operators in user do not reach it, and has system's switched off.
+% Terms are read in a module of their own: it inherits from system, so that
+% operators in user do not reach it, and switches off those of system.
 
 bare_syntax :-
     Module = typhon_text_syntax,
@@ -67,8 +67,8 @@ portable_bytes(Term, Bytes) :-
         ),
         free_memory_file(File)).
 
-%   All other characters are several bytes in UTF-8, as which a null stream
-%   counts them.
+%   All other characters take several bytes in UTF-8: a null stream counts the
+%   bytes.
 
 is_ascii(Text) :-
     setup_call_cleanup(
@@ -79,11 +79,11 @@ is_ascii(Text) :-
 
 %!  write_portable(+Out, +Term, +Options) is det.
 %
-%   As write_term/3, quoted, such that every version reads it.
+%   As write_term/3, quoted, such that every version can read it.
 %
 %   @error resource_error(c_stack) if arguments are more than 10,000 deep: a
-%   stack of 8 MB reads about that. A portray goal that is out of stack aborts
-%   the process, so it is not called.
+%          stack of 8 MB reads about that. A portray goal that runs out of
+%          stack aborts the process, so it is not called.
 
 write_portable(Out, Term, Options) :-
     (   within_depth(Term, 10 000)
@@ -94,7 +94,7 @@ write_portable(Out, Term, Options) :-
     ;   resource_error(c_stack)
     ).
 
-%   The tail of a list is as deep as the list.
+%   The tail of a list is no deeper than the list.
 
 within_depth(Term, _) :-
     \+ compound(Term),
@@ -110,7 +110,7 @@ within_depth(Term, Depth) :-
     Below is Depth-1,
     forall(arg(_, Term, Arg), within_depth(Arg, Below)).
 
-%   portable(+Term, +Options): the portray goal.  False if Term has no
+%   portable(+Term, +Options): the portray goal. Fails if Term has no
 %   characters beyond ASCII outside of its arguments.
 
 portable(Term, _) :-
@@ -144,7 +144,7 @@ write_codes(Quote, Codes) :-
     forall(member(Code, Codes), write_code(Code, Quote)),
     put_char(Quote).
 
-%   Not as \xHH\, which cannot be read if it begins with d8 to df.
+%   Not as \xHH\, which cannot be read back if HH begins with d8 to df.
 
 write_code(Code, Quote) :-
     plain_code(Code),
@@ -210,7 +210,8 @@ read_text(In, Term) :-
     ;   syntax_error(end_of_file_expected)
     ).
 
-%   Apart, as check/0 of 9.2 takes double_quotes/1 for a boolean.
+%   A predicate of its own, as check/0 of 9.2 takes double_quotes/1 for a
+%   boolean.
 
 syntax([ module(typhon_text_syntax),
          double_quotes(string),
@@ -218,7 +219,7 @@ syntax([ module(typhon_text_syntax),
          syntax_errors(error)
        ]).
 
-%   What a program may have set for itself must not change the text.
+%   Flags that a program has set for itself must not change the text.
 
 plain_flag(float_format, '').
 plain_flag(character_escapes, true).
@@ -242,7 +243,8 @@ changed_flag(Flag, Value) :-
     current_prolog_flag(Flag, Value),
     Value \== Plain.
 
-%   In threads of 9.2 none longer than 0 bytes can be written.
+%   In threads of 9.2 this limit is 0, so that no integer beyond it can be
+%   written.
 
 long_integers :-
     (   current_prolog_flag(max_integer_size, 0)

@@ -5,16 +5,16 @@
           ]).
 :- use_module(library(lists), [member/2]).
 
-/** <module> Terms that are larger than they look, or without end
+/** <module> Large and cyclic terms
 
 *Threading*: pure.
 */
 
 %!  is_tree(+Term, +Most) is semidet.
 %
-%   Term is acyclic, and has Most parts at the most when what is shared in it
-%   is written out: forty cells may be a term of 2^40 parts.  Each eight
-%   characters of a text, and each eight bytes of an integer, are a part, too.
+%   Term is acyclic, and has at most Most parts when shared parts are written
+%   out: forty cells may be a term of 2^40 parts.  Each eight characters of a
+%   text, and each eight bytes of an integer, count as a part, too.
 
 is_tree(Term, Most) :-
     acyclic_term(Term),
@@ -44,7 +44,7 @@ tree(Term, N0, N) :-
     ),
     N >= 0.
 
-%   The name of a dict is no atom.
+%   The name of a dict is not an atom.
 
 name_parts(Name, Parts) :-
     (   atom(Name)
@@ -65,7 +65,7 @@ arguments(I, Arity, Term, N0, N) :-
     ;   N = N0
     ).
 
-%   What else may be long: strings and integers.
+%   Strings and integers may be long, too.
 
 text_parts(Term, Parts) :-
     (   integer(Term)
@@ -84,7 +84,7 @@ is_small(Integer) :-
 
 %!  atoms_length(+Term, -Length:integer) is det.
 %
-%   Length is how many characters the atoms in Term have, which is acyclic.
+%   Length is the sum of the lengths of the atoms in Term, which is acyclic.
 
 atoms_length(Term, Length) :-
     atoms_length(Term, 0, Length).
@@ -109,9 +109,9 @@ atoms_below(I, Term, N0, N) :-
 
 %!  is_in_itself(+Term) is semidet.
 %
-%   Term is a part of one of its own arguments, which is more than to have a
-%   part that is: a mark in place of one argument is then found below those
-%   that Term has had.
+%   Term is a part of one of its own arguments.  This is a stronger condition
+%   than being cyclic: a mark that replaces one argument is then found below
+%   the former arguments of Term.
 
 is_in_itself(Term) :-
     cyclic_term(Term),

@@ -7,15 +7,15 @@
 
 /** <module> Errors of public predicates
 
-An error that a public predicate raises is a mistake of its caller: the top
-level prints its message, in one line, and neither a backtrace of this
-library nor the debugger. On 9.0.4 an error that passes a cleanup handler or
-a choice point, and that nothing catches, opens the debugger at the top
-level. So public predicates catch their errors and raise them again, with a
-context that library(prolog_stack) leaves as it is.
+An error of a public predicate is a mistake of its caller: the top level prints
+its message, in one line, and neither a backtrace of this library nor the
+debugger. On 9.0.4 an error that passes a cleanup handler or a choice point,
+and that nothing catches, opens the debugger at the top level. So public
+predicates catch their errors and raise them again, with a context that
+library(prolog_stack) does not change.
 
-After `debug(typhon(errors))` errors come with the backtrace of where they
-were raised.
+After `debug(typhon(errors))` errors have the backtrace of where they were
+raised.
 
 *Threading*: any thread.
 */
@@ -30,7 +30,7 @@ were raised.
     prolog:prolog_exception_hook/5,
     user:prolog_exception_hook/4.
 
-%   The topic exists, so that debug/1 does not warn.
+%   Create the topic, so that debug/1 does not warn.
 
 :- nodebug(typhon(errors)).
 
@@ -52,8 +52,8 @@ wrap_exports(Module) :-
     module_property(Module, exports(PIs)),
     forall(member(PI, PIs), wrap(Module, PI)).
 
-%   A predicate that is module transparent is called in the context of its
-%   caller: 9.2 does not do that by itself.
+%   A module transparent predicate is called in the context of its caller: 9.2
+%   does not do that by itself.
 
 wrap(Module, Name/Arity) :-
     functor(Head, Name, Arity),
@@ -88,7 +88,8 @@ raise_again(Formal, Context0) :-
     nb_setval(typhon_raised, Context),
     throw(error(Formal, Context)).
 
-%   Other contexts, as of syntax errors, print a place and get no backtrace.
+%   Other contexts, such as those of syntax errors, print a place and get no
+%   backtrace.
 
 without_stack(Context, Context) :-
     nonvar(Context),
@@ -105,7 +106,7 @@ raised_by(prolog_stack(_), raised(_)) :-
 raised_by(Caller, raised(Caller)) :-
     is_indicator(Caller),
     !.
-raised_by(Caller, Caller).              % it says more than where
+raised_by(Caller, Caller).              % its context is more than the place
 
 is_indicator(_:_).
 is_indicator(_/_).
@@ -114,7 +115,7 @@ is_indicator(_/_).
                 *             HOOKS            *
                 *******************************/
 
-%   Before that of library(prolog_stack), which would add a backtrace.
+%   Before the hook of library(prolog_stack), which would add a backtrace.
 
 :- asserta((user:prolog_exception_hook(Error, Error, _, _) :-
                 typhon_user_errors:raised_again(Error))).

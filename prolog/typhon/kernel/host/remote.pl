@@ -37,7 +37,7 @@ process.
 %
 %   @error permission_error(remote, host, Host) if the host refuses
 %   @error host_unreachable(Host), permission_error(authenticate, host, Host)
-% connection_lost(Host): it is not known whether Goal ran
+%   @error connection_lost(Host): it is not known whether Goal ran
 
 remote(Host, Goal) :-
     host_resolve(Host, Where),

@@ -10,9 +10,9 @@
 
 /** <module> Clause bodies as lists of goals, and back
 
-The machine runs lists of goals; programs are made of clause bodies.  While
-a list is run, `'$cut'(Barrier)` stands for a cut of the clause it came
-from.
+The machine runs lists of goals; programs consist of clause bodies.  In a list
+that is being run, `'$cut'(Barrier)` stands for a cut of the clause from which
+the goals come.
 
 *Threading*: pure.
 */
@@ -59,7 +59,7 @@ mark_cuts(Body, _, Body).
 
 %!  plain_goal(+Goal0, -Goal) is det.
 %
-%   `'$cut'(_)` becomes `!` again: what a suspended agent shows.
+%   Replace `'$cut'(_)` by `!`, as a suspended agent is shown.
 
 plain_goal(Goal, Goal) :-
     var(Goal),
@@ -88,6 +88,8 @@ plain_goal(catch(A0,C,R), catch(A,C,R)) :-
 plain_goal(Goal, Goal).
 
 %!  goals_body(+Goals, -Body) is det.
+%
+%   The inverse of body_goals/4, where Goals has no cuts.
 
 goals_body([], true).
 goals_body([Goal|Goals], Body) :-
@@ -99,8 +101,8 @@ goals_body([Goal|Goals], Body) :-
 
 %!  called_goal(+Goal, -Called) is semidet.
 %
-%   Called is what Goal, call/N with N > 1, calls.  Fails if nothing can be
-%   called so.
+%   Called is the goal that Goal, call/N with N > 1, calls.  Fails if it cannot
+%   be called.
 
 called_goal(Goal, Called) :-
     Goal =.. [_,Closure|Extra],
@@ -145,6 +147,6 @@ special(dispose, control).
 special(sleep_until(_), control).
 special(receive_until(_, _, _), control).
 special(receive_until(_, _), control).  % in old restore points
-special('$fault'(_), control).          % stays as it was: see typhon_ending
+special('$fault'(_), control).          % not changed here: see typhon_ending
 special_of(call, call).                 % with more than one argument
 special_of('$checked', checked).        % see typhon_checked

@@ -12,7 +12,7 @@
 
 /** <module> The code of a chunk
 
-What a clause becomes, see typhon_chunks.
+Translates a clause to native code, see typhon_chunks.
 
 *Threading*: pure, but for the destructive change of a term of its own.
 */
@@ -57,8 +57,8 @@ among(Variables, Variable) :-
                 *            FRAMES            *
                 *******************************/
 
-%   frame_at(+Nodes, +Outer, +Env, -Place, -Vars): the frame of Nodes and then
-%   Outer is made if it is not there yet.
+%   frame_at(+Nodes, +Outer, +Env, -Place, -Vars): the frame of Nodes, followed
+%   by Outer.  It is made if it does not exist yet.
 
 frame_at(Nodes, Outer, Env, Place, Vars) :-
     append(Nodes, Outer, [N-_|_]),
@@ -80,8 +80,8 @@ frame_at(Nodes, Outer, Env, Place, Vars) :-
         block(Own, After, tail, later, Env, Code)
     ).
 
-%   at(+N, +Env, -Place, -Vars): the number of a place in a program
-%   says its clause, too, and whether a cut is left there.
+%   at(+N, +Env, -Place, -Vars): Place, the number of a place in a program,
+%   also encodes its clause, and whether a cut is left there.
 
 at(N, env(Module, _, Places, I/Count, Args, _), Place, Vars) :-
     memberchk(place(N, Variables, _, _, _), Places),
@@ -108,12 +108,12 @@ rest(Nodes, Outer, Env, Goals) :-
 kind(Goal, env(Module, Own, _, _, _, _), Kind) :-
     goal_kind(Goal, Module-Own, Kind).
 
-%   block(+Nodes, +Outer, +Mode, +Phase, +Env, -Code): Code runs Nodes.  If Mode
-%   is `tail` it goes on with Outer, and with K; `through` leaves that to what
-%   comes after it, and cannot stop.  Phase is `lead` or `first` in the clause
-%   of a predicate, `later` in a frame.  What fails in the lead need not be
-%   noted: no cut came before, so that another clause is tried, and if that
-%   comes to nothing, something in it has failed last.
+%   block(+Nodes, +Outer, +Mode, +Phase, +Env, -Code): Code runs Nodes.  In
+%   Mode `tail` it goes on with Outer, and with K; in Mode `through` the code
+%   after it does that, and the block cannot stop.  Phase is `lead` or `first`
+%   in the clause of a predicate, `later` in a frame.  A failure in the lead
+%   need not be noted: no cut came before, so another clause is tried, and if
+%   all of them fail, a goal in them has failed last.
 
 block([], Outer, tail, _, Env, Code) =>
     Env = env(_, _, _, _, args(K, X, Base, Out, _), _),
@@ -188,8 +188,8 @@ join(Code, none, Code) :-
     !.
 join(Code, Rest, (Code,Rest)).
 
-%   branches(+Branches, +Nodes, ...): if no branch can stop what comes after is
-%   Rest, else each goes on with it.
+%   branches(+Branches, +Nodes, ...): if no branch can stop, the code after
+%   them is Rest; else each branch goes on with it.
 
 branches(Branches, Nodes, Outer, Mode, Phase, Env, Codes, Rest) :-
     Env = env(Module, Own, _, _, _, _),
@@ -215,7 +215,7 @@ after_cut(lead, first) :-
     !.
 after_cut(Phase, Phase).
 
-%   A branch may have cut.
+%   A branch may have cut: after it the phase is not `lead`.
 
 after_branches(Branches, lead, first) :-
     sub_term(Cut, Branches),
@@ -224,8 +224,8 @@ after_branches(Branches, lead, first) :-
     !.
 after_branches(_, Phase, Phase).
 
-%   unless_ruled(+Heads, +Node, +Env, +Code0, -Code): Code0 if none of Heads
-%   holds rules in the state of the agent.
+%   unless_ruled(+Heads, +Node, +Env, +Code0, -Code): run Code0 if no predicate
+%   of Heads has rules in the state of the agent.
 
 unless_ruled([], _, _, Code, Code) :-
     !.
@@ -248,8 +248,8 @@ unless_ruled(Heads, N-_, Env, Code, Ruling) :-
                 *        NATIVE GOALS          *
                 *******************************/
 
-%   noted(+Node, +Rest, +Phase, +Env, -Called): Goal is called, and its failure
-%   noted.  Rest is the code that comes then.
+%   noted(+Node, +Rest, +Phase, +Env, -Called): Called calls the goal of Node,
+%   and notes its failure.  Rest is the code after it.
 
 noted(N-(Variable = Term), _, _, Env, Called), fresh(Variable, Term, N, Env) =>
     Called = (Variable = Term).
@@ -269,10 +269,11 @@ called(N-Goal, Rest, Phase, Env, Called) :-
     live(Goal, Rest, Live),
     Called = ( Native *-> Live ; Fails ).
 
-%   live(+Goal, +Rest, -Code): a variable that Rest does not need is dead while
-%   Goal runs, but for its failure.  So garbage collection undoes what Goal has
-%   bound it to, and if Goal raises an error then, the fault would not show that.
-%   Code needs the variable.  Foreign predicates raise before they bind.
+%   live(+Goal, +Rest, -Code): while Goal runs, a variable that Rest does not
+%   use is dead, but for the failure of Goal.  Then garbage collection undoes
+%   the binding that Goal made, and if Goal raises an error the fault would not
+%   show that binding.  Code uses the variable to keep it alive.  Foreign
+%   predicates raise errors before they bind variables.
 
 live(Goal, _, true) :-
     '$get_predicate_attribute'(system:Goal, foreign, 1),
@@ -286,7 +287,8 @@ live(Goal, Rest, Code) :-
 
 needs(Variable, Code, (Variable == Variable, Code)).
 
-%   This cannot fail.
+%   fresh(+Variable, +Term, +N, +Env): Variable is new at N and not in Term, so
+%   Variable = Term cannot fail.
 
 fresh(Variable, Term, N, Env) :-
     new(N, Env, New),
@@ -294,7 +296,8 @@ fresh(Variable, Term, N, Env) :-
     among(New, Variable),
     \+ occurs(Variable, Term).
 
-%   This is quick, and cannot fail either, if Number is an integer.
+%   added(...): a sum with a small integer is fast, and cannot fail either, if
+%   Number is an integer.
 
 added(Variable, Expression, N, Env, Number) :-
     nonvar(Expression),
@@ -309,8 +312,8 @@ new(N, Env, New) :-
     arg(3, Env, Places),
     memberchk(place(N, _, New, _, _), Places).
 
-%   What fails_at/3 is called with has the variables that are new in the goal,
-%   too, for what reads them where an error is raised, and no barrier.
+%   The arguments of fails_at/3 include the variables that are new in the goal,
+%   which are read where an error is raised, and have no barrier.
 
 fails(N, Phase, Env, typhon_faults:Fails) :-
     ( Phase == lead -> Name = test_fails ; Name = fails_at ),
@@ -328,9 +331,9 @@ but_for(Barrier, Variable, Other) :-
     ;   Other = Variable
     ).
 
-%   native(+N, +Goal, +Env, -Native): arithmetic that the compiler would do in
-%   the clause is called, so that an error has a frame.  Variables are kept even
-%   if they occur but once, so that they can be read then.
+%   native(+N, +Goal, +Env, -Native): arithmetic that would be compiled into
+%   the clause is called instead, so that an error has a frame.  Variables are
+%   kept even if they occur only once, so that they can be read after an error.
 
 native(_, Variable is Expression, _, Native) :-
     !,
@@ -354,8 +357,9 @@ kept([], Native, Native).
 kept([Variable|Variables], Native0, (Variable = _, Native)) :-
     kept(Variables, Native0, Native).
 
-%   With the flag optimise arithmetic is compiled in the clause, and var(X) of a
-%   new X wrongly: after a condition with it X may not be set, which crashes.
+%   With the flag `optimise` arithmetic is compiled into the clause, and var(X)
+%   of a new X is compiled wrongly: after a condition with it X may be
+%   uninitialized, which crashes.
 
 inlined(Goal) :-
     current_prolog_flag(optimise, true),
@@ -363,9 +367,9 @@ inlined(Goal) :-
     memberchk(Name/Arity, [ var/1, nonvar/1, (<)/2, (>)/2, (=<)/2, (>=)/2,
                             (=:=)/2, (=\=)/2 ]).
 
-%   test(+Node, +Env, -Code): of what fails in a condition the machine makes
-%   nothing in the end; of an error in it the place is told by what would be
-%   called then.
+%   test(+Node, +Env, -Code): the machine ignores in the end which goal of a
+%   condition failed.  The call that would note the failure also gives the
+%   place of an error.
 
 test(N-Goal, Env, Code) :-
     node_parts(Goal, N, Parts),
@@ -392,7 +396,7 @@ test(none, _-Goal, _, Code), harmless(Goal) =>
 test(none, N-Goal, Env, Code) =>
     called(N-Goal, true, lead, Env, Code).
 
-%   It raises no error.
+%   Goal raises no error.
 
 harmless(Goal) :-
     \+ inlined(Goal),

@@ -16,21 +16,19 @@
 /** <module> Frames of chunks and the goals that they stand for
 
 A place of a program is (Number*Count+Clause)*2, for the goal of that number in
-a clause (see typhon_clause_places), of which there are Count, and 1 more if a
-cut of the clause is left there.  What an agent has left at a place is read from
-the clause when it is asked for first.  Then it is in two tables of the
-program's module: '$goals'/4, from frames to goals, and, if that saves time,
-'$frame'/5, from goals to frames.
+a clause (see typhon_clause_places), of which there are Count, plus 1 if a cut
+of the clause is left there.  The goals that are left at a place are computed
+from the clause when they are first asked for.  Then two tables of the
+program's module hold them: '$goals'/4, from frames to goals, and, if that
+saves time, '$frame'/5, from goals to frames.
 
 *Threading*: any thread; one mutex when a place is added.
 */
 
 %!  plain_goals(+Goals0, -Goals) is det.
-%!  suspended_goals(+Goals0, -Goals) is det.
 %
-%   `'$cut'(_)` becomes `!` again, and frames become the goals for which they
-%   stand: what a suspended agent shows.  In the second, frames stay that hold no
-%   cut: it would cut to where the run began, and the next begins elsewhere.
+%   Replace `'$cut'(_)` by `!`, and frames by the goals for which they stand,
+%   as a suspended agent is shown.
 
 plain_goals([], []).
 plain_goals([Goal|Goals0], [Goal|Goals]) :-
@@ -44,6 +42,11 @@ plain_goals(['$k'(Place, Vars)|Goals0], Goals) :-
 plain_goals([Goal0|Goals0], [Goal|Goals]) :-
     plain_goal(Goal0, Goal),
     plain_goals(Goals0, Goals).
+
+%!  suspended_goals(+Goals0, -Goals) is det.
+%
+%   As plain_goals/2, but keep frames without a cut.  A cut in a frame would
+%   cut to where this run began, and the next run begins elsewhere.
 
 suspended_goals([], []).
 suspended_goals([Goal|Goals0], [Goal|Goals]) :-
@@ -63,7 +66,7 @@ suspended_goals([Goal0|Goals0], [Goal|Goals]) :-
 
 %!  frame_goals(+Place, +Vars, -Goals, ?Rest) is det.
 %
-%   Goals are those of a frame that holds no cut, and then Rest.
+%   Goals are those of a frame that holds no cut, followed by Rest.
 
 frame_goals(Place, Vars, Goals, Rest) :-
     functor(Vars, Module, _),
@@ -75,9 +78,9 @@ frame_goals(Place, Vars, Goals, Rest) :-
 %!  place_left(+Place, +Vars, -Goal, -Goals) is det.
 %!  place_marked(+Place, +Vars, -Left) is det.
 %
-%   The goal at a place, and the goals that are left there, with cuts as the
-%   machine has them; Left is Goals-Rest.  Vars is the name of the module alone
-%   if they are not known.
+%   Goal is the goal at Place; Goals, or Left = Goals-Rest, are the goals that
+%   are left there, with cuts as the machine has them.  Vars is only the name
+%   of the module if the variables are not known.
 
 place_marked(Place, Vars, Goals-Rest) :-
     functor(Vars, Module, _),
@@ -93,9 +96,9 @@ place_marked(Place, Vars, Goals-Rest) :-
         place_marked(Place, Vars, Goals-Rest)
     ).
 
-%   The tables '$goals' and '$frame' have the places that were asked for, the
-%   first of them last.  Rules of `=>` would not do: a call while the first of them
-%   is added finds none, and raises an error where one of `:-` fails.
+%   The tables '$goals' and '$frame' hold the places that were asked for, the
+%   first of them last.  They cannot be rules with `=>`: a call while the first
+%   rule is being added finds none and raises an error; with `:-` it fails.
 
 place_plain(Place, Vars, Goals, Rest) :-
     functor(Vars, Module, Arity),
@@ -130,10 +133,11 @@ add_place(Module, Place, General, Goals, Plain, List, Rest) :-
     ;   true
     ).
 
-%   untouched(+New, +Others, -Code): a frame does not hold the variables that are
-%   New in its goals.  So Code succeeds if they are unbound, without attributes,
-%   different, and occur nowhere else, as where the agent stopped at its place.
-%   Numbers in their stead show that: term_variables/2 takes twice as long.
+%   untouched(+New, +Others, -Code): a frame does not hold the variables that
+%   are New in its goals.  So Code succeeds if these are unbound, without
+%   attributes, different from each other, and occur nowhere else, as when the
+%   agent stopped at the place.  Code binds them to numbers to check that:
+%   term_variables/2 would take twice as long.
 
 untouched([], _, true) :-
     !.
@@ -160,7 +164,7 @@ among(Variables, Variable) :-
 is_frame(Module, Place, Vars) :-
     \+ \+ clause(Module:'$k'(Place, Vars, _, _, _, _), _).
 
-%   It begins with native goals, as far as can be seen.
+%   worth(+Goals): they begin with native goals, as far as can be seen.
 
 worth([A,B,C|_]) :-
     maplist(plain_goal, [A,B,C]).
@@ -169,7 +173,7 @@ plain_goal(Goal) :-
     callable(Goal),
     \+ special(Goal, _).
 
-%   Cuts go to where the run began.
+%   Cuts go to the choice point at which the run began.
 
 barrier(Goals, Barrier) :-
     sub_term(Cut, Goals),

@@ -62,7 +62,8 @@ own_kind(open, _, mobile).
 own_kind(outside(Heads), _, leaf(Heads)).
 own_kind(state, Head, leaf([Head])).
 
-%   parts_tests(+Parts, -Tests) is semidet: the parts that must not stop.
+%   parts_tests(+Parts, -Tests) is semidet: Tests are the parts that must not
+%   stop.
 
 parts_tests(both(_, _), []).
 parts_tests(either(_, _), []).
@@ -71,8 +72,9 @@ parts_tests(if(->, _-If, _, _, _), [If]).
 parts_tests(if(*->, _-If, _, _, _), [If]) :-    % else more might be noted
     node_parts(If, 0, none).
 
-%   testable(+Own, +Goal, -Heads) is semidet: Goal cannot stop, unless one of
-%   Heads has rules in the state, and the machine has no part in it.
+%   testable(+Own, +Goal, -Heads) is semidet: Goal cannot stop unless a
+%   predicate of Heads has rules in the state, and the machine runs no part of
+%   it.
 
 testable(Own, Goal, Heads) :-
     node_parts(Goal, 0, Parts),

@@ -10,15 +10,15 @@
 
 /** <module> Programs compiled in chunks, from stop to stop
 
-The machine (typhon_machine) says what a program means.  What runs is mostly
-this: each clause of a predicate in which an agent may stop becomes native
-clauses, when an agent runs the program first.
+The machine (typhon_machine) defines the meaning of a program.  Usually
+compiled code runs instead: each clause of a predicate in which an agent may
+stop is compiled to native clauses when an agent first runs the program.
 
     'run p'(A1, ..., AN, K, X, Base, Out)
 
-runs a call of p/N and then the goals K; the last three are those of run/4 of
-the machine.  Where the clause calls another such predicate, what is left of it
-is put before K as a frame
+runs a call of p/N and then the goals K; the last three arguments are those of
+run/4 of the machine.  Where the clause calls another such predicate, the rest
+of the clause is put before K as a frame
 
     '$k'(Place, 'program 7'(V1, ..., VM))
 
@@ -31,27 +31,28 @@ program.  These tables are in that module:
     '$goals'(Place, Vars, Goals, Rest)  the goals that a frame stands for
     '$frame'(First, Goals, Base, Frame, Rest)  the frame for goals
 
-Frames mean something in this process alone, and only where the program runs
-compiled.  What goes to another process, is noted, shown, or run otherwise are
-the goals that they stand for (plain_goals/2), and of these a frame is made
-again if that saves time.  The last two tables have what was asked for.
+Frames have a meaning only in this process, and only where the program runs
+compiled.  Goals that are sent to another process, noted, shown, or run in
+another way are converted to the goals that the frames stand for
+(plain_goals/2), and a frame is made of these again if that saves time.  The
+last two tables hold only places that were asked for.
 
-A goal that cannot stop is called as it stands, and
+A goal that cannot stop is called natively, and
 
     ( Goal *-> true ; typhon_faults:fails_at(Place, Vars, K) )
 
 notes its failure.  If-then-else, `\+`, once/1 and ignore/1 are compiled if
-their tests cannot stop, disjunctions always.  The machine runs the other
-constructs, such as catch/3, and call/1, one by one, and what a chunk has left
-if a predicate that it calls has rules in the agent's state.
+their tests cannot stop; disjunctions always.  The machine runs the other
+constructs, such as catch/3 and call/1, one by one.  It also runs the rest of a
+chunk if a predicate that the chunk calls has rules in the agent's state.
 
 *Threading*: one mutex while a program is compiled.
 */
 
 %!  chunks_ready(+Module) is semidet.
 %
-%   Module is that of a program, compiled now or before.  If that broke off, as
-%   memory was short, the machine runs the program.
+%   Module is that of a program: it is compiled now, or was before.  If
+%   compiling ran out of memory this fails, and the machine runs the program.
 
 chunks_ready(Module) :-
     '$get_predicate_attribute'(Module:'$goals'(_, _, _, _), defined, 1),
@@ -89,7 +90,7 @@ compile(Module, program(_, State, _, Clauses)) :-
     append([['$go'/4],Tables|Made], Static),
     maplist(qualified(Module), Static, PIs),
     compile_predicates(PIs),
-    dynamic(Module:'$goals'/4).         % says that all is there
+    dynamic(Module:'$goals'/4).         % marks that all is there
 
 qualified(Module, PI, Module:PI).
 
@@ -150,7 +151,8 @@ clause_compiled(I-Clause, Later, Count, Module, Own,
     clause_code(own(Module, Own, I/Count), (Head:-Body), Phase,
                 args(K, X, Base, Out, Barrier), Code-Frames).
 
-%   phase(+PI, +Later, -Phase): of Later clauses, one is for all calls.
+%   phase(+PI, +Later, -Phase): `lead` if one of the Later clauses matches all
+%   calls.
 
 phase(Name/Arity, Later, lead) :-
     functor(General, Name, Arity),
@@ -160,9 +162,8 @@ phase(Name/Arity, Later, lead) :-
     !.
 phase(_, _, first).
 
-%   add_predicate(+Module, +All, +Kind, -PIs): what calls 'run p' comes to its
-%   clauses, or first notes that the head of none matches, and where a cut
-%   cuts to.
+%   add_predicate(+Module, +All, +Kind, -PIs): a call of 'run p' first records
+%   where a cut cuts to, and notes a failure if no clause head matches.
 
 add_predicate(Module, All, (Name/Arity)-Condition, PIs) :-
     functor(Head, Name, Arity),
@@ -185,8 +186,8 @@ add_predicate(Module, All, (Name/Arity)-Condition, PIs) :-
         PIs = [RunPI,DoPI|HeadPIs]
     ).
 
-%   barriers(+Clauses, -Barriers): [_] if Clauses are to know where a cut cuts
-%   to, else [].
+%   barriers(+Clauses, -Barriers): [_] if Clauses contain cuts, which need a
+%   barrier, else [].
 
 barriers(Clauses, [_]) :-
     member(compiled(_, Barrier, _, Code, _), Clauses),
@@ -204,7 +205,7 @@ entry(true, [], _, Do, Entry) =>
 entry(Matches, [], Fails, Do, Entry) =>
     Entry = (\+ Matches -> Fails ; Do).
 
-%   Some clause is for all calls.
+%   One of Clauses matches all calls.
 
 total(Clauses) :-
     member(compiled(Head, _, _, _, _), Clauses),

@@ -9,9 +9,9 @@
 /** <module> Places in a clause, by number
 
 Each goal of a clause has a number, in the order of the text.  When the machine
-comes to it, certain goals of the clause are left: those from there on, and in a
-condition what remains of the condition.  This depends on nothing but the
-clause.  So a number and the values of variables stand for a list of goals.
+comes to a goal, certain goals of the clause are left: those from there on, and
+within a condition the rest of the condition.  They depend on the clause alone.
+So a number and the values of variables stand for a list of goals.
 
 A node is N-Goal.  A place is place(N, Old, New, Goal, Goals): at Goal, the
 machine has Goals left of the clause; Old are those of their variables that
@@ -42,8 +42,9 @@ nodes_goals([], []).
 nodes_goals([_-Goal|Nodes], [Goal|Goals]) :-
     nodes_goals(Nodes, Goals).
 
-%   size(+Goal, -Size): so many numbers it takes.  Its parts are not numbered for
-%   that: numbering asks for sizes, and deep clauses would take for ever.
+%   size(+Goal, -Size): Goal takes Size numbers.  Its parts are not numbered
+%   for that: numbering asks for sizes, and deep clauses would take exponential
+%   time.
 
 size(Goal, Size) :-
     (   nonvar(Goal),
@@ -70,9 +71,10 @@ sum_sizes([Part|Parts], Size0, Size) :-
 
 %!  node_parts(+Goal, +N, -Parts) is det.
 %
-%   Parts are the nodes that Goal consists of: both(A, B), either(A, B), not(A),
-%   if(Arrow, If, Then, Else, Failing), or `none`.  Failing is a node, too: what
-%   the machine says has failed where no branch is taken, if Else is `fail`.
+%   Parts are the nodes that Goal consists of: both(A, B), either(A, B),
+%   not(A), if(Arrow, If, Then, Else, Failing), or `none`.  Failing is a node,
+%   too: the goal that, in the machine, has failed where no branch is taken, if
+%   Else is `fail`.
 
 node_parts(Goal, N, Parts) :-
     (   nonvar(Goal),
@@ -117,8 +119,9 @@ next(N, Goal, Next) :-
     size(Goal, Size),
     Next is N+Size.
 
-%   places(+Nodes, +Outer, +Within, +Seen)//: of Nodes, after which come Outer.
-%   Within is `top`, or within(Construct, Nodes, Within) inside a condition.
+%   places(+Nodes, +Outer, +Within, +Seen)//: the places of Nodes, which Outer
+%   follows.  Within is `top`, or within(Construct, Nodes, Within) inside a
+%   condition.
 
 places([], _, _, _) -->
     [].

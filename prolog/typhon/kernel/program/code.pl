@@ -30,18 +30,18 @@
 
 /** <module> Programs installed in this process
 
-The static clauses of a program live once in a process, in a module that
-all its agents share, however many there are and however often they come
-back.  The predicates in it are transparent: they run in the context of
-the agent that calls them, so that state, place and meta-calls resolve in
-the module of the agent.  A goal in a body that is neither defined in the
-program nor by the system is therefore compiled as call(Goal).
+The static clauses of a program exist once in a process, in a module that all
+its agents share, however many there are and however often they come back.  Its
+predicates are transparent: they run in the context of the calling agent, so
+that state, place and meta-calls resolve in the module of the agent.  A goal in
+a body that neither the program nor the system defines is therefore compiled as
+call(Goal).
 
 A mobile predicate p/N has, besides its native form, clauses
-`'mobile p'(A1, ..., AN, Goals, Rest, Barrier)`: facts that unfold a call
-into a goal list, see typhon_machine.  The table '$mobile'/6 leads to them.
+`'mobile p'(A1, ..., AN, Goals, Rest, Barrier)`: facts that unfold a call into
+a goal list, see typhon_machine.  The table '$mobile'/6 maps calls to them.
 
-*Threading*: one mutex protects the table; reading it needs none.
+*Threading*: one mutex protects the table; readers need none.
 */
 
 :- setting(programs, nonneg, 256,
@@ -49,24 +49,24 @@ into a goal list, see typhon_machine.  The table '$mobile'/6 leads to them.
 
 :- multifile
     in_use/1,                   % Hash: an agent of this process runs it
-    installed/2,                % Name, Module: a program of that name now is
-    retiring/1,                 % Hash: not needed any more
+    installed/2,                % Name, Module: a program of that name is now
+    retiring/1,                 % Hash: no longer needed
     wrapped/3,                  % ?Sent, ?Sent0, ?Extra: Sent is Sent0 with an
                                 % Extra of an option
-    extra/2,                    % Hash, Extra: is sent with the program
-    extra_comes/2.              % Extra, Hash: has come with it
+    extra/2,                    % Hash, Extra: sent with the program
+    extra_comes/2.              % Extra, Hash: arrived with it
 
 :- dynamic
     code_module/2,              % Hash, Module
     code_program/2,             % Hash, Program
-    stands/2,                   % Hash, Places: where that is known
-    retired/2.                  % Hash, Module: goes at the next eviction
+    stands/2,                   % Hash, Places: where they are known
+    retired/2.                  % Hash, Module: deleted at the next eviction
 
 %!  code_install(+Hash, +Program) is det.
 %!  code_install(+Hash, +Program, +Kinds) is det.
 %
-%   Make Program available; nothing to do where it is already.  Kinds is
-%   what mobile_predicates/3 finds, where that is known.
+%   Make Program available; does nothing if it is already.  Kinds is the result
+%   of mobile_predicates/3, where that is known.
 
 code_install(Hash, Program) :-
     (   code_module(Hash, _)
@@ -89,13 +89,9 @@ rule_at_no_place(Clause, (Head:-Body)-none) :-
     clause_parts(Clause, Head, Body).
 
 %!  code_sent(+Hash, -Sent) is semidet.
-%!  code_receive(+Hash, +Sent) is det.
 %
-%   Sent is what others need to have the program: the program, or
-%   Program-Places, or one of these with extras of options.  The second is as
-%   code_install/2, for a program that a peer sent under this Hash.
-%
-%   @error domain_error(program_of_hash(Hash), Program)
+%   Sent is sent to other processes for the program: the program, or
+%   Program-Places, or one of these with extras of options.
 
 code_sent(Hash, Sent) :-
     code_program(Hash, Program),
@@ -105,6 +101,13 @@ code_sent(Hash, Sent) :-
     ),
     findall(Extra, extra(Hash, Extra), Extras),
     code_wrapped(Extras, Sent0, Sent).
+
+%!  code_receive(+Hash, +Sent) is det.
+%
+%   As code_install/2, for a program that a peer sent under this Hash, see
+%   code_sent/2.
+%
+%   @error domain_error(program_of_hash(Hash), Program)
 
 code_receive(Hash, Sent) :-
     code_unwrapped(Sent, Sent0, Extras),
@@ -144,8 +147,7 @@ receive(Hash, Program) :-
 %!  code_wrapped(+Extras, +Sent0, -Sent) is det.
 %!  code_unwrapped(+Sent, -Sent0, -Extras:list) is det.
 %
-%   Sent is Sent0, a program with its places or without, with Extras that
-%   options have added.
+%   Sent is Sent0, a program with or without its places, with Extras of options.
 
 code_wrapped([], Sent, Sent).
 code_wrapped([Extra|Extras], Sent0, Sent) :-
@@ -171,11 +173,9 @@ is_extra(Term) :-
     wrapped(_, _, Term).
 
 %!  code_stands(+Hash, +Places) is det.
-%!  code_places(+Hash, -Places) is det.
 %
-%   Places say where the clauses of the program stand, see typhon_places; []
-%   if that is not known.  Of two files with the same clauses the first one
-%   counts.
+%   Places are the places of the clauses of the program, see typhon_places.  If
+%   there are two files with the same clauses the first one counts.
 
 code_stands(Hash, Places) :-
     ( Places == [] ; stands(Hash, _) ),
@@ -185,8 +185,12 @@ code_stands(Hash, Places) :-
                (   code_program(Hash, _),
                    \+ stands(Hash, _)
                ->  assertz(stands(Hash, Places))
-               ;   true                 % is retired already, or was quicker
+               ;   true                 % retired, or another thread was first
                )).
+
+%!  code_places(+Hash, -Places) is det.
+%
+%   The places of the clauses of the program; [] if they are not known.
 
 code_places(Hash, Places) :-
     (   stands(Hash, Places0)
@@ -203,9 +207,12 @@ code_names(Hash, Lists) :-
     clauses_names(Places, Lists).
 
 %!  code_module(?Hash, -Module) is semidet.
+%
+%   Module is that of an installed program.
+
 %!  code_program(?Hash, -Program) is semidet.
 %
-%   The module of an installed program, and the whole of it.
+%   Program is an installed program.
 
 install(Hash, _, _) :-
     code_module(Hash, _),
@@ -224,7 +231,7 @@ install(Hash, Program, Kinds) :-
 
 %!  code_make(+Program, +Kinds, -Module) is det.
 %
-%   A module with the clauses of Program, which the caller has to keep.
+%   Module is a new module with the clauses of Program. The caller owns it.
 
 code_make(Program, Kinds, Module) :-
     flag(typhon_code_module, N, N+1),
@@ -235,7 +242,7 @@ code_make(Program, Kinds, Module) :-
 
 %!  code_clear is det.
 %
-%   Forget all programs.  No agent may be left.
+%   Delete all programs. No agent may be left.
 
 code_clear :-
     with_mutex(typhon_code,
@@ -246,8 +253,8 @@ code_clear :-
                  maplist('$destroy_module', Modules)
                )).
 
-%   Retire what is unused.  It goes one round later, so that an agent on
-%   its way in never finds its program gone.
+%   Retire unused programs.  They are deleted one round later, so that an agent
+%   that is arriving always finds its program.
 
 evict :-
     predicate_property(code_module(_,_), number_of_clauses(Count)),
@@ -288,8 +295,8 @@ fill(Module, program(_, State, Libraries, Clauses), Kinds) :-
     findall(Module:PI, member(PI-_, Kinds), PIs),
     compile_predicates(PIs).
 
-%   Of the control predicates the system has one, too, which would be found
-%   where an agent cannot stop, and hold the thread.
+%   The system defines sleep/1, too.  A native goal of an agent must not find
+%   it: it would occupy the thread.
 
 no_system_sleep(Module) :-
     redefine_system_predicate(Module:sleep(_)),
@@ -323,7 +330,8 @@ declare_mobile(Kind, Module, Name, Arity) :-
     assertz(Module:'$mobile'(Head, Mobile, Goals, Rest, Barrier,
                                Condition)).
 
-%   condition(+Kind, -Condition): when it is unfolded, see typhon_machine.
+%   condition(+Kind, -Condition): the predicate is unfolded if Condition holds,
+%   see typhon_machine.
 
 condition(outside(PIs), outside(Heads)) :-
     !,
@@ -356,8 +364,8 @@ add_mobile(_, Module, Head, Body) :-
 
 %!  native_body(+Body0, +Module, +Own, -Body) is det.
 %
-%   Goals that depend on where the agent is are called in its context.  Own
-%   is an assoc of the kinds of the program's predicates.
+%   Goals whose definition depends on the place of the agent are called in its
+%   context.  Own is an assoc of the kinds of the program's predicates.
 
 native_body(Body, _, _, call(Body)) :-
     var(Body),
@@ -390,8 +398,8 @@ bound_here(Goal, _, Own) :-
     functor(Goal, Name, Arity),
     get_assoc(Name/Arity, Own, Kind),
     !,
-    Kind \== state.                     % also if a library has it as well
-bound_here(Goal, _, _) :-               % not what could be autoloaded
+    Kind \== state.                     % even if a library defines it as well
+bound_here(Goal, _, _) :-               % goals that could be autoloaded are not
     '$get_predicate_attribute'(system:Goal, system, 1).
 bound_here(Goal, Module, _) :-
     '$get_predicate_attribute'(Module:Goal, imported, _).

@@ -14,19 +14,18 @@
 
 /** <module> Where a run of the machine came to its end
 
-When a goal fails, the machine notes it, and when an error is about to
-leave the run, the goals that it leaves are read from the frames of the
-machine, which are still there then.  What is noted last is what ended the
-run: a fault
+When a goal fails, the machine notes it.  When an error is about to leave the
+run, the hook reads the goals that the error abandons from the frames of the
+machine, which still exist then.  The last note is what ended the run: a fault
 
     fault(Goal, Goals, natives(Raising, Clauses))
 
-of the goal that failed or raised, the goals that were left to run from it
-on, the goal that raised the error natively and references to the clauses in
-which that was, the innermost first.
+with the goal that failed or raised an error, the goals that were left to run
+from it on, the goal that raised the error natively, and references to the
+clauses in which that was, innermost first.
 
-Nothing of this costs an agent anything that neither fails nor raises, and
-one that catches its errors half a microsecond.
+Agents that neither fail nor raise errors pay nothing for this, and agents that
+catch their errors half a microsecond.
 
 *Threading*: a global variable, so local to each thread.
 */
@@ -38,14 +37,14 @@ one that catches its errors half a microsecond.
     user:prolog_exception_hook/4,
     prolog:prolog_exception_hook/5.
 
-%   What is noted is copied.  More cells than these only when the run will
-%   end with this failure.
+%   A note is copied.  A larger one is made only when the run will end with
+%   this failure.
 
 most_cells(400).
 
 %!  fails(+Goal, +Goals) is failure.
 %
-%   Goal has failed, Goals would have come next.
+%   Note that Goal has failed, and that Goals would have come next.
 
 fails(Goal, Goals) :-
     prolog_current_choice(Choice),
@@ -59,8 +58,8 @@ fails(Goal, Goals) :-
 
 %!  fails_at(+Place, +Vars, +Goals) is failure.
 %
-%   In a chunk the goal at Place has failed, see typhon_chunks.  What it is, is
-%   found out when the fault is asked for.
+%   Note that in a chunk the goal at Place has failed, see typhon_chunks.  The
+%   goal itself is computed only when the fault is asked for.
 
 fails_at(Place, Vars, Goals) :-
     most_cells(Most),
@@ -81,7 +80,7 @@ fails_at(Place, Vars, Goals) :-
 
 %!  test_fails(+Place, +Vars, +Goals) is failure.
 %
-%   In a chunk a goal of a condition has failed.
+%   In a chunk a goal of a condition has failed: only marks the place.
 
 test_fails(_, _, _) :-
     fail.
@@ -99,7 +98,7 @@ may_be_noted(Term, Choice) :-
     ;   final(Choice)
     ).
 
-%   Nothing is left to be tried in this run.
+%   No choice point of this run is left.
 
 final(Choice) :-
     prolog_choice_attribute(Choice, frame, Frame),
@@ -110,7 +109,8 @@ final(Choice) :-
     prolog_choice_attribute(Choice, parent, Parent),
     final(Parent).
 
-%   catch/3, whose failure fails_inside/2 continues, and what `*->` has cut.
+%   A choice point of catch/3, after whose failure fails_inside/2 goes on, or
+%   one that `*->` has cut.
 
 passes_failure(Choice) :-
     prolog_choice_attribute(Choice, type, Type),
@@ -122,8 +122,8 @@ passes_failure(Choice) :-
 
 %!  fails_inside(+Frame, +Goals) is failure.
 %
-%   What was noted has failed in a part of a construct, which Frame, that is
-%   Left-Framed, continues.
+%   The noted goal has failed in a part of a construct.  Frame is Left-Framed:
+%   Framed is the construct in which Left is left to run.  Note that, too.
 
 fails_inside(Left-Framed, Goals) :-
     nb_getval(typhon_fault, failed-fault(Goal, Sub, _)),
@@ -148,14 +148,15 @@ prolog:prolog_exception_hook(_, _, Frame, Catcher, _) :-
     note_raised(Frame),
     fail.
 
-%   Names are qualified as seen from where the hook runs.
+%   The hook sees names qualified from its own module.
 
 frame_of(Frame, PI) :-
     prolog_frame_attribute(Frame, predicate_indicator, PI0),
     ( PI0 = PI ; PI0 = typhon_machine:PI ),
     !.
 
-%   What a hook binds is undone when it fails.
+%   The bindings of a hook that fails are undone, so the note is a global
+%   variable.
 
 note_raised(Frame) :-
     native_goal(Frame, Raising),
@@ -180,8 +181,8 @@ raising(Frame, Goal, Goals, Outer) :-
 raising(Frame, Goal, [Goal|Goals], Outer) :-
     outer(Frame, called(Goal, Goals, _, _, _), Outer).
 
-%   A native goal has variables of its own for those that are new in it; what
-%   has no clause is the goal itself, if it has its name.
+%   A native goal has variables of its own for those that are new in it; a
+%   predicate without clauses is the goal itself, if the names are the same.
 
 same_goal(Frame, Raising, Goal) :-
     (   \+ prolog_frame_attribute(Frame, clause, _),
@@ -191,13 +192,13 @@ same_goal(Frame, Raising, Goal) :-
     ;   true
     ).
 
-%   Goals are looked up in the module that asks.
+%   The attribute `goal` is qualified relative to the calling module.
 
 outer(Frame, Goal, Outer) :-
     @(prolog_frame_attribute(Frame, parent_goal(Outer), Goal),
       typhon_machine).
 
-%   framed(+Frame, +Goals0, -Goals): what of constructs is outside.
+%   framed(+Frame, +Goals0, -Goals): Goals0 within the constructs around Frame.
 
 framed(Frame, Goals0, Goals) :-
     (   outer(Frame, inside(_, Sub-Framed, Goals1, _, _), Outer)
@@ -228,9 +229,9 @@ chunk_name('$k') :- !.
 chunk_name(Name) :- sub_atom(Name, 0, _, _, 'run '), !.
 chunk_name(Name) :- sub_atom(Name, 0, _, _, 'do ').
 
-%   chunk_place(+Frame, +PC, -Place, -Vars, -Goals): after each goal in the
-%   clause comes what is done when it fails, with the place as a number.  What
-%   that is called with is read from the frame.
+%   chunk_place(+Frame, +PC, -Place, -Vars, -Goals): in the clause, each goal
+%   is followed by the call that notes its failure, which has the place as a
+%   number.  The other arguments of that call are read from the frame.
 
 chunk_place(Frame, PC, Place, Vars, Goals) :-
     prolog_frame_attribute(Frame, clause, Clause),
@@ -273,7 +274,7 @@ from_frame(Frame, Slots, Variable) :-
     prolog_frame_attribute(Frame, argument(Argument), Variable).
 from_frame(_, _, _).
 
-%   What raised the error itself is mostly no more than this.
+%   The goal that raised the error itself, if it is not too large.
 
 native_goal(Frame, Goal) :-
     prolog_frame_attribute(Frame, goal, Goal0),
@@ -309,14 +310,14 @@ native_clauses(Most, Frame, Clauses) :-
 
 %!  fault(+Outcome, +Goals0, -Fault) is det.
 %
-%   What ended the last run of this thread, which began with Goals0 and had
-%   that Outcome, `failed` or raised(_).
+%   Fault is the end of the last run of this thread, which began with Goals0
+%   and had that Outcome, `failed` or raised(_).
 
 fault(Outcome, Goals0, fault(Goal, Goals, Clauses)) :-
     functor(Outcome, How, _),
     (   nb_current(typhon_fault, How-fault(Goal0, Goals1, Clauses))
     ->  true
-    ;   Goals0 = [Goal0|_],             % too little memory to note anything
+    ;   Goals0 = [Goal0|_],             % memory was too short for a note
         Goals1 = unknown,
         Clauses = natives(none, [])
     ),
@@ -336,15 +337,18 @@ noted_goal('$k'(Place, Vars), Goals, Goal) :-
 noted_goal(Goal, _, Goal).
 
 %!  fault_noted(-Note) is det.
-%!  fault_note(+Note) is det.
 %
-%   What this thread, or engine, has noted; note it in another.
+%   Note is the last note of this thread, or engine.
 
 fault_noted(Note) :-
     (   nb_current(typhon_fault, Note0)
     ->  Note = Note0
     ;   Note = none
     ).
+
+%!  fault_note(+Note) is det.
+%
+%   Set the last note of this thread, or engine.
 
 fault_note(Note) :-
     nb_setval(typhon_fault, Note).

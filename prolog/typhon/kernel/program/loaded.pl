@@ -15,11 +15,11 @@
 /** <module> Programs that were read lately
 
 A program file is read, checked and analysed when the first agent is created
-from it, and again when it, or a file that it includes, has changed; a program
-of clauses once for all that are variants of it.  What a library that it
-imports defines is taken as it was then.
+from it, and again when it, or a file that it includes, has changed.  A program
+of clauses is read once for all variants of it.  The exports of a library that
+the program imports are taken as they were at that time.
 
-*Threading*: any thread.  One mutex is held to remember; to look needs none.
+*Threading*: any thread. One mutex to add a program; readers need none.
 */
 
 :- setting(files, nonneg, 64, "Programs remembered as they were read").
@@ -55,7 +55,7 @@ load(clauses(Terms), Loaded) :-
     catch(variant_sha1(Terms, Hash), error(type_error(_, _), _), fail),
     !,
     load(Hash, clauses(Terms), Loaded).
-load(Spec, Loaded) :-                   % what no program can have is in it
+load(Spec, Loaded) :-                   % invalid clauses: an error follows
     read_program(Spec, Loaded, _, _).
 
 in_file(Spec) :-
@@ -97,10 +97,10 @@ remember(Key, Sources, Loaded) :-
 
 %!  program_unknown(+Hash, +State:list, :Offered) is det.
 %
-%   An agent of the program of this Hash is created, State being the predicates
-%   of its state.  Print, once for each program, which predicates it calls that
-%   nothing defines; call(Offered, Problem) is true of a problem that need not
-%   be printed.
+%   An agent of the program of this Hash is created, with State, the predicates
+%   of its state.  Print, once for each program, the predicates that it calls
+%   and that nothing defines.  A problem for which call(Offered, Problem)
+%   succeeds is not printed.
 
 program_unknown(Hash, State, Offered) :-
     forall(unknown(Hash, State, Offered), true).

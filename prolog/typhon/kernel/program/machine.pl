@@ -15,36 +15,36 @@
                 suspended_goals/2 ]).
 :- use_module(chunks, [chunks_ready/1]).
 :- multifile
-    elsewhere/3,                % Context, Goals, Outcome: another process has
-                                % run them
+    elsewhere/3,                % Context, Goals, Outcome: another process runs
+                                % them
     checked/3.                  % Context, Goal, Called: it may be called
 :- use_module(faults, [fails/2, fails_inside/2]).
 
 /** <module> The machine: agents that can stop in the middle of a clause
 
-The control state of an agent is a list of goals still to run.  The
-machine takes goals from its front.  Control constructs and mobile
-predicates (those that can reach a control predicate, see typhon_mobile)
-are unfolded into the list; every other goal is called natively.  At a
-control predicate the machine stops and returns the goals that remain as a
-plain term: it can be printed, stored, sent and run again elsewhere.
+The control state of an agent is a list of goals still to run.  The machine
+takes goals from its front.  It unfolds control constructs and mobile
+predicates (those that can reach a control predicate, see typhon_mobile) into
+the list; it calls every other goal natively.  At a control predicate the
+machine stops and returns the remaining goals as a plain term: it can be
+printed, stored, sent and run again elsewhere.
 
-A suspended goal list holds only what the programmer wrote.  Three rules
-make this possible:
+A suspended goal list holds only what the programmer wrote.  Three rules make
+this possible:
 
-  - A control predicate commits.  Choice points left of it are given up,
-    so `!` in a suspended list can only cut what is done after it is
-    resumed: to the base of the run.
-  - Conditions and catch/3 are _frames_: what remains of a condition
-    stands as the condition of the remaining if-then-else, what remains
-    of a catch/3 inside that catch/3.  The else branch and the recovery
-    survive the suspension.
+  - A control predicate commits. Choice points left of it are discarded,
+    so `!` in a suspended list can only cut choice points that are made after
+    it is resumed: to the base of the run.
+  - Conditions and catch/3 are _frames_: the rest of a condition is the
+    condition of the remaining if-then-else, the rest of a catch/3 is
+    inside that catch/3. The else branch and the recovery survive the
+    suspension.
   - The control predicate itself is replaced by a _hole_, a variable:
-    the caller that resumes the agent binds it to `true`, `fail`, `throw(Error)` or
-    any other goal.
+    the caller that resumes the agent binds it to `true`, `fail`, `throw(Error)`
+    or any other goal.
 
-*Threading*: pure with respect to the agent; any thread may run any
-machine.  Two threads must not run the same agent.
+*Threading*: pure with respect to the agent; any thread may run any machine.
+Two threads must not run the same agent.
 */
 
 %!  machine_run(+Context, +Goals, -Outcome) is det.
@@ -57,13 +57,12 @@ machine.  Two threads must not run the same agent.
 %        effect(Control, Hole, Goals), where Control is the control
 %        predicate reached and Goals what is left to run.  Goals contains
 %        the variable Hole where Control stood.  Where an option runs the
-%        agent elsewhere, Outcome is also `held`, when that comes later, or
-%        lost(Why).
-
+%        agent elsewhere, Outcome is also `held`, if its outcome will come
+%        later, or lost(Why).
 %
-%   What was the matter if it failed or raised is noted, see typhon_faults,
-%   which knows the frames of machine_run/3, first_outcome/3, catching/7,
-%   inside/5, called/5 and raises/3.
+%   The cause of `failed` or raised(_) is noted, see typhon_faults, which knows
+%   the frames of machine_run/3, first_outcome/3, catching/7, inside/5,
+%   called/5 and raises/3.
 
 machine_run(Context, Goals, Outcome) :-
     catch(first_outcome(Goals, Context, Outcome), Ball, Raised = true),
@@ -74,7 +73,8 @@ machine_run(Context, Goals, Outcome) :-
 
 %!  machine_ready(+Context) is det.
 %
-%   Compile the program, so that no limit of the run counts that.
+%   Compile the program, so that compiling does not count in the limits of a
+%   run.
 
 machine_ready(context(Program, _)) :-
     (   chunks_ready(Program)
@@ -82,7 +82,7 @@ machine_ready(context(Program, _)) :-
     ;   true
     ).
 
-%   Exceptions that end a thread are not the agent's business.
+%   Exceptions that end a thread are not passed on to the agent.
 
 raised(Ball, Outcome) :-
     (   is_abort(Ball)
@@ -113,7 +113,7 @@ engine(context(Program, Agent), X) :-
 outcome(exit, done).
 outcome(effect(Control, Hole, [First|Goals0]), Outcome) :-
     Outcome = effect(Control, Hole, [First|Goals]),
-    var(First),                         % mostly the hole
+    var(First),                         % usually the hole
     !,
     suspended_goals(Goals0, Goals).
 outcome(effect(Control, Hole, Goals0), effect(Control, Hole, Goals)) :-
@@ -121,7 +121,7 @@ outcome(effect(Control, Hole, Goals0), effect(Control, Hole, Goals)) :-
 
 %!  machine_inside is semidet.
 %
-%   This thread is inside machine_run/3, as a signal may find it.
+%   This thread is inside machine_run/3; for signals.
 
 machine_inside :-
     prolog_current_frame(Frame),
@@ -143,7 +143,7 @@ run([Goal|Goals], Context, Base, Out) :-
 
 %!  continue(+Goals, +Context, +Base, -Out) is nondet.
 %
-%   As run/4.  Goals that are the rest of a clause are run as the chunk that
+%   As run/4, but goals that are the rest of a clause are run as the chunk that
 %   they stand for.
 
 continue([Goal|Goals], X, Base, Out) :-
@@ -215,7 +215,7 @@ special(control, Goal, Goals, _, _, effect(Goal, Hole, [Hole|Goals])).
 special(call, Goal, Goals, X, Base, Out) :-
     (   called_goal(Goal, Called)
     ->  step(call(Called), Goals, X, Base, Out)
-    ;   called(Goal, Goals, X, Base, Out)       % which raises
+    ;   called(Goal, Goals, X, Base, Out)       % which raises an error
     ).
 special(checked, Goal, Goals, X, Base, Out) :-
     arg(1, X, Program),
@@ -223,8 +223,8 @@ special(checked, Goal, Goals, X, Base, Out) :-
     checked(context(Program, Agent), Goal, Called),
     step(call(Called), Goals, X, Base, Out).
 
-%   called(+Goal, ...): a goal that is no construct is unfolded by a clause
-%   of the program or of the agent's own rules, or called natively.
+%   called(+Goal, ...): a goal that is no construct.  It is unfolded by a
+%   clause of the program or of the agent's own rules, or called natively.
 
 called(Goal, Goals, X, Base, Out) :-
     arg(2, X, Agent),
@@ -285,7 +285,7 @@ either(Or, Else, Goals, X, Base, Out) =>
     ;   step(Else, Goals, X, Base, Out)
     ).
 
-%   Without an else it is the whole that fails.
+%   Without an else branch the whole construct fails.
 
 otherwise(Else, If, Goals, X, Base, Out) :-
     (   Else == fail
@@ -294,8 +294,8 @@ otherwise(Else, If, Goals, X, Base, Out) :-
     ).
 
 %   inside(+Goal, +Frame, +Goals, +X, -Out): run Goal as the part of a
-%   construct that Frame continues, see proceed/7.  Frame and Goals are there
-%   until it has ended.
+%   construct that Frame continues, see proceed/7.  Faults are read from this
+%   call's Prolog frame, so Frame and Goals stay alive until Goal has ended.
 
 inside(Goal, Frame, Goals, X, Out) :-
     prolog_current_choice(Base),
@@ -305,8 +305,8 @@ inside(Goal, Frame, Goals, X, Out) :-
 stood(_, _).
 
 %   each_inside(+Goal, +Frame, +Goals, +X, -Out) is nondet: likewise, for each
-%   solution of Goal.  A cut in Goal cannot be to the choice of *->, which is no
-%   more when Goal is asked for its second solution.
+%   solution of Goal.  A cut in Goal cannot cut to the choice point of *->,
+%   which no longer exists when the second solution of Goal is computed.
 
 each_inside(Goal, Frame, Goals, X, Out) :-
     prolog_current_choice(Other),       % the other clause
@@ -316,8 +316,8 @@ each_inside(Goal, Frame, Goals, X, Out) :-
 each_inside(_, _, _, _, _) :-
     fail.
 
-%   What is not caught here is not touched: else the place where it was
-%   raised would be lost.
+%   Errors that are not caught here pass unchanged: to catch and rethrow them
+%   would lose the place where they were raised.
 
 catching(Goal, Catcher, Recovery, Goals, X, Base, Out) :-
     Frame = Sub-catch(Sub,Catcher,Recovery),
@@ -334,8 +334,8 @@ recovered(caught(_), Recovery, Goals, _, X, Base, Out) =>
 recovered(Out0, _, Goals, Frame, X, Base, Out) =>
     proceed(Out0, true, Goals, Frame, X, Base, Out).
 
-%   proceed(+Out0, +Then, +Goals, +Frame, ...): a sub run has ended or
-%   stopped.  Frame is Sub-Goal: the goal that continues the rest Sub.
+%   proceed(+Out0, +Then, +Goals, +Frame, ...): a sub run has ended or stopped.
+%   Frame is Sub-Goal: Goal continues the rest Sub of the sub run.
 
 proceed(exit, Then, Goals, _, X, Base, Out) :-
     step(Then, Goals, X, Base, Out).
@@ -346,8 +346,8 @@ proceed(effect(Control, Hole, Sub), _, Goals, Rest-Frame, _, _,
 
 %!  answer_at(+Control, +Answer, -Goal) is det.
 %
-%   Goal is what a hole is bound to where its Control fails or raises: Answer
-%   is `fail` or throw(Error).
+%   Bind the hole to Goal to make Control fail or raise an error: Answer is
+%   `fail` or throw(Error).
 
 answer_at(Control, Answer, '$at'(Control, Answer)).
 
@@ -356,11 +356,9 @@ raises(Error, Control, Goals) :-
     stood(Control, Goals).
 
 %!  ruled(+Heads, +Context) is semidet.
-%!  handed(+Place, +Vars, +Goals, +Context, +Base, -Out) is nondet.
 %
-%   For chunks: one of Heads is a predicate of the agent's state that holds
-%   rules, so that it may stop; then the machine runs what the chunk has left
-%   at Place, and Goals.
+%   For chunks: one of Heads is a predicate of the agent's state that has
+%   rules, so that it may stop.
 
 ruled([Head|Heads], X) :-
     arg(2, X, Agent),
@@ -371,11 +369,15 @@ ruled([Head|Heads], X) :-
     ;   ruled(Heads, X)
     ).
 
+%!  handed(+Place, +Vars, +Goals, +Context, +Base, -Out) is nondet.
+%
+%   For chunks: the machine runs the rest of the chunk at Place, and Goals.
+
 handed(Place, Vars, Goals, X, Base, Out) :-
     place_marked(Place, Vars, Left-Goals),
     run(Left, X, Base, Out).
 
-%   mobile(+Condition, +Agent): must this static predicate be unfolded?
+%   mobile(+Condition, +Agent): this static predicate must be unfolded.
 
 mobile(mobile, _).
 mobile(open, _).
@@ -388,7 +390,7 @@ has_rule([Head|Heads], Agent) :-
     ;   has_rule(Heads, Agent)
     ).
 
-%   Goal is a predicate of the agent's own state that holds rules.
+%   Goal is a predicate of the agent's own state that has rules.
 
 state_rule(Agent, Goal) :-
     '$c_current_predicate'(_, Agent:Goal),
@@ -400,7 +402,7 @@ has_rules(Goal) :-
     predicate_property(Goal, dynamic),
     \+ predicate_property(Goal, imported_from(_)).
 
-%   A goal that is called natively, such as what is under \+.
+%   A goal that is called natively, such as the goal under \+.
 
 native(Goal, Goals, X) :-
     inside(Goal, _-(\+ Goal), Goals, X, Out),

@@ -28,16 +28,15 @@ A static predicate of an agent program is
     payloads, the place): unfolded as long as one of them holds rules;
   - `native` otherwise: called at full speed.
 
-on_message/2 is at least `open`: if it fails, the machine knows which of its
-goals did.
+on_message/2 is at least `open`, so that if it fails the machine can report
+which of its goals failed.
 
-A mobile goal under a construct that must run it to its end, such as
-findall/3, forall/2 or \+, is a problem.
+A mobile goal under a construct that must run it to its end, such as findall/3,
+forall/2 or \+, is a problem.
 
-What agents can call besides is declared by the modules that define it,
-vocabulary/1.
+Modules declare by vocabulary/1 the other predicates that agents can call.
 
-*Threading*: pure, but for what is remembered of library predicates, and for
+*Threading*: pure, but for a cache of facts about library predicates, and for
 declarations, which are made while modules are loaded.
 */
 
@@ -69,7 +68,8 @@ add_calls(calls(PI, New, _), Calls0, Calls) :-
     ),
     put_assoc(PI, Calls0, All, Calls).
 
-%   reach(+Own, +Calls, +Mobile0, -Mobile): the least fixed point.
+%   reach(+Own, +Calls, +Mobile0, -Mobile): the least fixed point of Mobile0
+%   under Calls.
 
 reach(Own, Calls, Mobile0, Mobile) :-
     findall(PI,
@@ -124,8 +124,8 @@ kind_of(Reached, Calls, Kind) :-
     ;   Kind = outside(Outside)
     ).
 
-%   closure(+Agenda, +Calls, +Seen, -Reached): what is called at the level
-%   of the machine; what runs natively needs no unfolding.
+%   closure(+Agenda, +Calls, +Seen, -Reached): the predicates that the machine
+%   itself may call; a predicate that is called natively needs no unfolding.
 
 closure([], _, Seen, Seen).
 closure([PI|Agenda0], Calls, Seen, Reached) :-
@@ -153,7 +153,8 @@ misplaced(Located, Mobile,
     member(call(PI, inside(Context)), Calls),
     is_mobile(PI, Mobile).
 
-%   An agent that changed a predicate of its program would only hide it.
+%   A static predicate is changed: in the agent's module that would only hide
+%   it.
 
 changed(Located, Own,
         problem(permission_error(modify, static_procedure, PI), Location,
@@ -205,7 +206,7 @@ body_call(Goal, Mode, Call) :-
         extended(Closure, Extra, inside(Name/Arity), Call)
     ).
 
-%   What follows these may call rules that are not there yet.
+%   Goals after these may call rules that do not exist yet.
 
 adds_rules(assert(Clause)) :- may_be_rule(Clause).
 adds_rules(asserta(Clause)) :- may_be_rule(Clause).
@@ -225,7 +226,7 @@ changes(Goal, changes(Name/Arity)) :-
     Head \= _:_,
     functor(Head, Name, Arity).
 
-%   Constructs the machine knows.
+%   The parts of constructs that the machine runs.
 
 part((A,B), [A,B]).
 part((A;B), [A,B]).
@@ -263,7 +264,8 @@ meta_argument(Goal, PI, Closure, Extra) :-
     arg(I, Goal, Closure),
     length(Extra, N).
 
-%   meta(+PI, -Meta) is semidet: known for good, and slow to find out.
+%   meta(+PI, -Meta) is semidet: cached, as it never changes, and is slow to
+%   compute.
 
 :- dynamic meta_known/2.
 
@@ -300,8 +302,8 @@ closure_arity(//, 2).
 
 %!  vocabulary(+Module) is det.
 %
-%   Directive, behind `:- module(Module, Exports)`: agents find Exports on every
-%   host.
+%   A directive after `:- module(Module, Exports)`: agents can call Exports on
+%   every host.
 
 vocabulary(Module) :-
     (   vocabulary_module(Module)
@@ -333,7 +335,7 @@ built_in(Name/Arity) :-
 
 %!  near_built_in(+PI, -Near) is nondet.
 %
-%   Near, of another name or arity than PI, is built in, and looks like it.
+%   Near is built in, and its name or arity is similar to that of PI.
 
 near_built_in(Name/Arity, Near/NearArity) :-
     functor(Head, Name, Arity),

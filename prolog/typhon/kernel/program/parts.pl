@@ -18,25 +18,18 @@
 :- use_module(bodies, [control/1]).
 :- use_module('../base/names', [names_near/3]).
 
-/** <module> What a program or payload file consists of, and what is wrong there
+/** <module> The parts of a program or payload file, and its problems
 
-A problem is problem(Formal, Location, Advice): an ISO error, where it
-stands and what to do about it, see typhon_problem_text.
+A problem is problem(Formal, Location, Advice): an ISO error, its place, and
+how to fix it, see typhon_problem_text.
 
 *Threading*: pure.
 */
 
 %!  file_parts(+Kind, +Located, -Parts, -Problems:list) is det.
-%!  part(+What, +Parts, -Value) is det.
 %
-%   Parts of the terms of a file that declares an agent or a payload, Kind;
-%   the one of Problems is that it does not.  What is one of
-%
-%     - name, options: of the declaration
-%     - directives: the others, each with its location
-%     - clauses: each with its location
-%     - rules: the same as (Head:-Body)
-%     - state: predicate indicators of what is mutable
+%   Parts are the parts of the terms of a file that declares an agent or a
+%   payload, Kind.  Problems has one element if the file does not declare that.
 
 file_parts(Kind, Located, parts(Name, Options, Directives, Clauses, Rules,
                                 State), Problems) :-
@@ -45,6 +38,16 @@ file_parts(Kind, Located, parts(Name, Options, Directives, Clauses, Rules,
     maplist(located_rule, Clauses, Rules),
     findall(PI, state_indicator(Options, Directives, PI), State0),
     sort(State0, State).
+
+%!  part(+What, +Parts, -Value) is det.
+%
+%   What is one of
+%
+%     - name, options: of the declaration
+%     - directives: the others, each with its location
+%     - clauses: each with its location
+%     - rules: the same as (Head:-Body)
+%     - state: indicators of the predicates that agents may change
 
 part(name, parts(Name, _, _, _, _, _), Name).
 part(options, parts(_, Options, _, _, _, _), Options).
@@ -64,7 +67,7 @@ declared(Kind, Located, unknown, [], Located,
     (   member((:- Directive)-Location0, Located),
         compound(Directive),
         compound_name_arity(Directive, Kind, _)
-    ->  Location = Location0            % meant to be one
+    ->  Location = Location0            % meant as a declaration
     ;   Located = [_-Location0|_]
     ->  Location = Location0
     ;   Location = clause(0)
@@ -86,7 +89,7 @@ state_indicator(_, Directives, PI) :-
 
 %!  in_state(+State, +Rule) is semidet.
 %
-%   Rule, with its location, is one of a predicate of State.
+%   Rule, with its location, belongs to a predicate of State.
 
 in_state(State, (Head:-_)-_) :-
     callable(Head),
@@ -95,7 +98,7 @@ in_state(State, (Head:-_)-_) :-
 
 %!  library_directive(+Parts, -Library) is nondet.
 %
-%   Library is imported, as in library_import/2.
+%   The file imports Library, as of library_import/2.
 
 library_directive(Parts, Library) :-
     part(directives, Parts, Directives),
@@ -103,9 +106,8 @@ library_directive(Parts, Library) :-
     library_import(Directive, Library).
 
 %!  located_clause(+Located, -Clause) is det.
-%!  clause_indicator(+Clauses, -PI) is nondet.
 %
-%   The clause without its location; predicates that have Clauses.
+%   Clause is Located without its location.
 
 located_clause(Term-_, Clause) :-
     (   clause_parts(Term, Head, Body),
@@ -113,6 +115,10 @@ located_clause(Term-_, Clause) :-
     ->  Clause = (Head:-Body)
     ;   clause_parts(Term, Clause, _)
     ).
+
+%!  clause_indicator(+Clauses, -PI) is nondet.
+%
+%   PI is a predicate of one of Clauses.
 
 clause_indicator(Clauses, Name/Arity) :-
     member(Clause, Clauses),
@@ -124,13 +130,8 @@ clause_indicator(Clauses, Name/Arity) :-
                 *******************************/
 
 %!  directive_problem(+Directives, -Problem) is nondet.
-%!  clause_problem(+Clauses, -Problem) is nondet.
-%!  entry_problem(+Located, +Clauses, -Problem) is semidet.
-%!  option_problem(+Kind, +Located, -Problem) is nondet.
 %
-%   Problems with the directives, the clauses, the entries and the options
-%   of a program, or of a payload: Kind is `agent` or `payload`.  Directives,
-%   Clauses and Located are pairs Term-Location; for entries Clauses are rules.
+%   A problem with a directive. Directives are pairs Term-Location.
 
 directive_problem(Directives, problem(Formal, Location, Advice)) :-
     member((:- Directive)-Location, Directives),
@@ -163,8 +164,8 @@ faulty_directive(Directive, Formal, Advice) :-
     ).
 faulty_directive(Directive, domain_error(directive, Directive), directive).
 
-%   faulty_indicator(+PIs, -Formal, -Advice) is nondet: PIs are meant to be
-%   dynamic.
+%   faulty_indicator(+PIs, -Formal, -Advice) is nondet: a problem of PIs, the
+%   argument of dynamic/1.
 
 faulty_indicator(PIs, instantiation_error, indicator) :-
     var(PIs),
@@ -191,6 +192,10 @@ faulty_indicator(Name/Arity, Formal, redefined) :-
     taken(Head, Formal).
 faulty_indicator(PI, type_error(predicate_indicator, PI), indicator).
 
+%!  clause_problem(+Clauses, -Problem) is nondet.
+%
+%   A problem with a clause. Clauses are pairs Term-Location.
+
 clause_problem(Clauses, problem(Formal, Location, Advice)) :-
     member(Term-Location, Clauses),
     clause_parts(Term, Head, Body),
@@ -214,7 +219,7 @@ faulty_clause(Head, _, Formal, redefined) :-
 faulty_clause(_, Body, type_error(callable, Body), body) :-
     \+ is_body(Body).
 
-%   taken(+Head, -Formal): it means something to the machine or to Prolog.
+%   taken(+Head, -Formal): the machine or Prolog defines Head already.
 
 taken(Head, permission_error(modify, control_predicate, Name/Arity)) :-
     control(Head),
@@ -234,6 +239,11 @@ is_body((A->B)) :- !, is_body(A), is_body(B).
 is_body((A*->B)) :- !, is_body(A), is_body(B).
 is_body(Body) :- callable(Body).
 
+%!  entry_problem(+Located, +Clauses, -Problem) is semidet.
+%
+%   The entries of a program are missing.  Located are pairs Term-Location,
+%   Clauses its rules.
+
 entry_problem(Located, Clauses,
               problem(existence_error(entry, main/0), Location, entry(Near))) :-
     findall(Name/Arity,
@@ -249,6 +259,11 @@ entry_problem(Located, Clauses,
 
 is_entry(main/0).
 is_entry(on_message/2).
+
+%!  option_problem(+Kind, +Located, -Problem) is nondet.
+%
+%   A problem with the options of an `agent` or a `payload`, Kind.  Located are
+%   pairs Term-Location.
 
 option_problem(Kind, Located, problem(Formal, Location, Advice)) :-
     member(Term-Location, Located),

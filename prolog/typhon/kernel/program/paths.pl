@@ -6,11 +6,11 @@
 
 /** <module> Where agent programs and payloads are found
 
-Defines the file search paths `agents` and `payloads`.  agents(census) is
-agents/census.pl in the working directory, else in the directory this pack
-is installed in.  More directories are declared as for any search path, by
-adding clauses to user:file_search_path/2.  Where library(typhon) is not that
-of an installed pack, `library` leads to the one that is loaded.
+Defines the file search paths `agents` and `payloads`. agents(census) is
+agents/census.pl in the working directory, else in the directory of this pack.
+More directories are declared as for any search path, by clauses for
+user:file_search_path/2.  Where library(typhon) is not that of an installed
+pack, `library` also finds the one that is loaded.
 
 *Threading*: any thread.
 */
@@ -22,7 +22,7 @@ of an installed pack, `library` leads to the one that is loaded.
 
 :- dynamic root/1.
 
-%   The pack is four folders up, whatever these are called.
+%   The root of the pack is four folders up, whatever their names.
 
 :- module_property(typhon_paths, file(Source)),
    file_directory_name(Source, Dir),
@@ -41,8 +41,8 @@ user:file_search_path(agents, Dir) :-
 user:file_search_path(payloads, Dir) :-
     program_directory(payloads, Dir).
 
-%   In a clone library(typhon) is no library of a pack: agents whose programs
-%   import it must find the one that is loaded.
+%   In a clone of the repository library(typhon) belongs to no pack: agents
+%   whose programs import it must find the one that is loaded.
 
 :- module_property(typhon_paths, file(Source)),
    file_directory_name(Source, Dir),
@@ -70,7 +70,7 @@ program_directory(Kind, Dir) :-
 %   that of the file Includer.  The extension `.pl` may be left out.
 %
 %   @error existence_error(source_sink, Spec), or permission_error(open,
-%   source_sink, File) if it is there, and may not be read
+%   source_sink, File) if it exists, and may not be read
 
 program_file(Spec, File) :-
     must_be(callable, Spec),
@@ -97,8 +97,8 @@ not_to_be_read(Spec, _) :-
 
 %!  files_beside(+File:atom, +Dir, -Files:list) is semidet.
 %
-%   What might have been written for the name File of a clause file that is not
-%   there, relative to Dir.
+%   Files are names, relative to Dir, that the user may have meant by File, a
+%   clause file that does not exist.
 
 files_beside(File, Dir, Files) :-
     file_directory_name(File, Folder),
@@ -115,8 +115,8 @@ in_folder('.', Base, Base) :-
 in_folder(Folder, Base, Name) :-
     directory_file_path(Folder, Base, Name).
 
-%   Names as they would stand in agents(Name), for programs in folders, too,
-%   but not for what these include.
+%   Names as in agents(Name), also of programs in folders, but not of the files
+%   that these include.
 
 typhon_names:known(Alias, Name) :-
     member(Alias-Kind, [agents-agent, payloads-payload]),

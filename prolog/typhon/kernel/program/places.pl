@@ -9,14 +9,14 @@
 :- use_module(library(lists),
               [append/3, member/2, memberchk/2, nth1/3, same_length/2]).
 
-/** <module> Where the clauses of a program stand
+/** <module> The places of the clauses of a program
 
-Places say of each clause of a program, in order, in which line of which
-file it stands: a list of File-Lines, one for each run of clauses from one
-file, short enough to travel with the program; and after these, where they are
-known, names(Lists) with the names of the variables of each clause, in the order
-of term_variables/2.  Programs that do not come from a file have none: [].  Two
-programs that differ in nothing else are the same.
+Places hold the file and the line of each clause of a program, in order.  They
+are a list of File-Lines, one for each run of clauses from one file, short
+enough to be sent with the program.  Where the names of variables are known,
+names(Lists) follows, with the names of the variables of each clause, in the
+order of term_variables/2.  Programs that do not come from a file have no
+places: [].  Two programs that differ only in places are the same.
 
 *Threading*: pure.
 */
@@ -38,8 +38,8 @@ in_file(Rest, _, [], Rest).
 
 %!  places_named(+Places0, +Clauses, +Sources, -Places) is det.
 %
-%   Places are Places0, of Clauses, with the names of variables that Sources
-%   has, see source_terms/5.
+%   Places are Places0, of Clauses, with the names of variables from Sources,
+%   see source_terms/5.
 
 places_named([], _, _, Places) =>
     Places = [].
@@ -59,8 +59,8 @@ names_of(Sources, Location, Clause, Names) :-
 
 %!  clauses_names(+Places, -Lists) is det.
 %
-%   Lists of the names of variables, one for each clause; [] where they are not
-%   known.
+%   Lists are lists of names of variables, one for each clause; [] if they are
+%   not known.
 
 clauses_names(Places, Lists) :-
     (   memberchk(names(Lists0), Places)
@@ -94,7 +94,7 @@ is_part(Part) :-
     ;   run_of_lines(Part)
     ).
 
-%   Names are printed as they are.
+%   Names are printed unquoted, so they must be names of variables.
 
 is_names(Names) :-
     is_list(Names),

@@ -31,25 +31,25 @@
 
 /** <module> Agent programs and payloads
 
-An agent program is a clause file that begins with `:- agent(Name, Opts)`,
-a payload one that begins with `:- payload(Name, Opts)`.  What is read
-becomes a plain term:
+An agent program is a clause file that begins with `:- agent(Name, Opts)`, a
+payload one that begins with `:- payload(Name, Opts)`.  It is read into a plain
+term:
 
-  - program(Name, State, Libraries, Clauses): the immutable part.  State
-    are the predicate indicators of what is mutable, Libraries what
-    use_module/1,2 named, Clauses the static clauses as Head:-Body.
+  - program(Name, State, Libraries, Clauses): the immutable part. State
+    are the predicate indicators of the mutable part, Libraries the
+    imports by use_module/1,2, Clauses the static clauses as Head:-Body.
   - payload(Name, Predicates, Clauses)
 
 A payload that was read from a file vision.py is called `vision`; its one
-clause is a fact 'vision.py'(Source).  So it travels as any other payload,
-and is text for a host without Python.
+clause is a fact 'vision.py'(Source).  So it is sent as any other payload, and
+is text for a host without Python.
 
-*Threading*: any thread; nothing is stored here.
+*Threading*: any thread; this module has no state.
 */
 
 :- multifile
-    payload_was_read/2,         % Spec, Payload: of a file
-    problem_at_goal/2,          % +Problem0, -Problem: at the line of its goal
+    payload_was_read/2,         % Spec, Payload: was read from a file
+    problem_at_goal/2,          % +Problem0, -Problem: with the line of its goal
     advice//1.                  % +Advice: parts of the text, none where the
                                 % error says enough
 
@@ -60,11 +60,11 @@ and is text for a host without Python.
 %
 %   @arg Initial are the clauses of its state predicates: the state of an
 %        agent at birth.
-%   @arg Kinds is what mobile_predicates/3 finds.
-%   @arg Places say where its clauses stand, see typhon_places.
-%   @arg Sources is what it was read from, see source_terms/5.
-%   @arg Doubtful is doubtful(Located, Kinds, Once), for warnings of what
-%        does not keep it from running: the terms as read, and problems that
+%   @arg Kinds is the result of mobile_predicates/3.
+%   @arg Places are the places of its clauses, see typhon_places.
+%   @arg Sources are the files that were read, see source_terms/5.
+%   @arg Doubtful is doubtful(Located, Kinds, Once), for warnings that do
+%        not keep it from running: the terms as read, and problems that
 %        were found in reading.
 %   @error The first problem that keeps the program from running, with the
 %        others in its context, see problem_error/3.
@@ -138,16 +138,19 @@ no_problems(Problems) :-
     throw(Error).
 
 %!  problem_error(+Problem, +Others:list, -Error) is det.
-%!  advice_text(+Advice, -Text:atom) is det.
 %
-%   Error is Problem, and tells Others as well: error(Formal, at(Location, Text,
-%   Others)), where Text says what to do about it. A context/2 of Prolog's own
-%   would be replaced by a trace of the reader's calls when the error is not
+%   Error is Problem, with Others in its context: error(Formal, at(Location,
+%   Text, Others)), where Text is how to fix it.  Prolog would replace a
+%   context/2 of its own by a backtrace of the reader when the error is not
 %   caught.
 
 problem_error(problem(Formal, Location, Advice), Others,
               error(Formal, at(Location, Text, Others))) :-
     advice_text(Advice, Text).
+
+%!  advice_text(+Advice, -Text:atom) is det.
+%
+%   Text is how to fix the problem.
 
 advice_text(Advice, Text) :-
     phrase(advice(Advice), Parts),
@@ -156,7 +159,7 @@ advice_text(Advice, Text) :-
 %!  program_terms(+Located, -Program, -Initial, -Kinds, -Places,
 %!                -Errors:list) is det.
 %
-%   As program_read/7, of terms with their locations; Errors, in the order of
+%   As program_read/7, for terms with their locations.  Errors, in the order of
 %   the file, keep the program from running.
 
 program_terms(Located, program(Name, State, Libraries, Static), Initial,
@@ -186,7 +189,7 @@ faulty(Located, Parts, Problem) :-
     ;   option_problem(agent, Located, Problem)
     ).
 
-%   A program whose clauses are faulty is not looked at any further.
+%   If clauses are faulty the program is not analysed further.
 
 moves([], Static, Kinds, Errors) :-
     !,
@@ -195,7 +198,7 @@ moves(Errors, _, [], Errors).
 
 %!  payload_terms(+Located, -Payload, -Errors:list) is det.
 %
-%   Payload as payload_load/2 reads it, and what keeps it from being used.
+%   Payload as of payload_load/2. Errors keep it from being used.
 
 payload_terms(Located, payload(Name, PIs, Clauses), Errors) :-
     file_parts(payload, Located, Parts, Errors0),
@@ -214,7 +217,7 @@ payload_terms(Located, payload(Name, PIs, Clauses), Errors) :-
     append(Provided, Defined, PIs0),
     sort(PIs0, PIs).
 
-%   What is no list is a problem of the declaration.
+%   Options that are no list are a problem of the declaration.
 
 provided(Options, Provided) :-
     (   memberchk(provides(Provided0), Options),
@@ -225,7 +228,7 @@ provided(Options, Provided) :-
 
 %!  in_file_order(+Problems, +Located, -Ordered) is det.
 %
-%   Those that stand nowhere in Located come first.
+%   Problems whose location is not in Located come first.
 
 in_file_order(Problems0, Located, Problems) :-
     maplist(position(Located), Problems0, Keyed0),

@@ -15,23 +15,23 @@
 :- use_module('../base/names', [names_near/3]).
 :- use_module(paths, [files_beside/3, included_file/3, program_file/2]).
 
-/** <module> Clause files as terms that know where they stood
+/** <module> Clause files as terms with their locations
 
-Agent programs and payloads are read here, from a file or from a list of
-terms, into pairs Term-Location.  A location is `File:Line`, or clause(N)
-for the N-th term of a list.  Reading never runs anything that stands in
-the file: directives are terms like the others, and only `:- include(F)`
-is followed.  Grammar rules are translated.  Operators that the file
-imports from libraries are known from there on.
+Agent programs and payloads are read here, from a file or from a list of terms,
+into pairs Term-Location.  A location is `File:Line`, or clause(N) for the N-th
+term of a list.  Reading never runs anything in the file: directives are terms
+like the others, and only `:- include(F)` is followed.  Grammar rules are
+translated.  Operators that the file imports from libraries are known from
+there on.
 
-What cannot be read, or looks like a slip of the pen, is a problem as in
-typhon_parts, and reading goes on behind it.  A syntax error stands at
+A term that cannot be read, or looks like a typing error, is a problem as in
+typhon_parts, and reading goes on after it.  The location of a syntax error is
 file(File, Line, LinePos, CharNo).
 
-What was read can be compared with what would be read now, by its
-owner.  A file has changed when its size or its time has.  One that was changed
-within two seconds before it was read may change again without either: it
-is not settled, and must not be relied on.
+A result of reading can be compared with the present files.  A file has changed
+when its size or its time has changed.  A file that was changed within two
+seconds before it was read may change again without changing either: it is not
+settled, and callers must not rely on it.
 
 *Threading*: any thread.
 */
@@ -39,11 +39,11 @@ is not settled, and must not be relied on.
 %!  source_terms(+Spec, -Located:list(pair), -Sources:list, -Errors:list,
 %!               -Warnings:list) is det.
 %
-%   Located are the terms of Spec, each as Term-Location, in order; Sources
-%   is what they were read from, for source_same/1, with the names of their
-%   variables, for places/4.  Errors are terms that
-%   cannot be read and files that cannot be included, Warnings variables
-%   that occur once; both are problems, in order.
+%   Located are the terms of Spec, each as Term-Location, in order.  Sources
+%   are the files that were read, for source_same/1, with the names of their
+%   variables, for places_named/4.  Errors are terms that cannot be read and
+%   files that cannot be included, Warnings variables that occur once; both are
+%   problems, in order.
 %
 %   @arg Spec is a file specification as census, 'census.pl' or
 %        agents(census), or clauses(Terms).
@@ -54,7 +54,7 @@ source_terms(Spec, Located, Sources, Errors, Warnings) :-
     items(Spec, Items),
     sorted_out(Items, Located, Sources, Errors, Warnings).
 
-%   items(+Spec, -Items): what is found, in order: term(Term, Location),
+%   items(+Spec, -Items): Items are, in order, term(Term, Location),
 %   names(names(Location, Names)), source(Source), error(Problem) and
 %   warning(Problem).
 
@@ -91,8 +91,8 @@ number_terms([Term|Terms], N, [Item|Items]) :-
     N1 is N+1,
     number_terms(Terms, N1, Items).
 
-%   file_items(+File, +Reading, -Items, ?Rest): Reading is
-%   reading(Files, Module), Files being those that include it.
+%   file_items(+File, +Reading, -Items, ?Rest): Reading is reading(Files,
+%   Module), where Files include File.
 
 file_items(File, reading(Files, Module),
            [source(file(File, Stamp, Now))|Items], Rest) :-
@@ -116,8 +116,8 @@ scratch_module(Module) :-
     set_module(Module:class(temporary)),
     set_module(Module:base(system)).
 
-%   read_items(+In, +Reading, -Items, ?Rest): the first of the files of
-%   Reading is the one that is read.
+%   read_items(+In, +Reading, -Items, ?Rest): the first of the files of Reading
+%   is read from In.
 
 read_items(In, Reading, Items, Rest) :-
     read_one(In, Reading, Read),
@@ -150,7 +150,7 @@ read_located(In, File, Module, read(Term, File:Line, Named, Once)) :-
     stream_position_data(line_count, Position, Line),
     findall(Name, ( member(Name=_, Bindings), may_be_slip(Name) ), Once).
 
-%   A variable that is marked by an underscore is meant to occur once.
+%   A variable that begins with an underscore is meant to occur once.
 
 may_be_slip(Name) :-
     \+ sub_atom(Name, 0, _, _, '_').
@@ -203,7 +203,7 @@ includes(Term, Spec) :-
     nonvar(Directive),
     Directive = include(Spec).
 
-%   A file that includes itself, or one that is not there, is a problem.
+%   A file that includes itself, or that does not exist, is a problem.
 
 include_file(Spec, Location, Reading, Items, Rest) :-
     Reading = reading([File|Files], _),
@@ -235,7 +235,7 @@ grammar_rule(Term0, Location, Item) :-
           Item = error(problem(Formal, Location, grammar))).
 grammar_rule(Term, Location, term(Term, Location)).
 
-%   A library that is not there is reported by typhon_programs.
+%   typhon_programs reports a library that does not exist.
 
 import_operators((:- Directive), Module) :-
     library_import(Directive, _),
@@ -249,9 +249,9 @@ import_operators(_, _).
 
 %!  source_clause(+Location, -Clause) is semidet.
 %
-%   Clause is clause(Term, Layout, Names) of the term that stands at Location,
-%   File:Line, as read_term/2 has its subterm_positions and variable_names.
-%   Fails if it is not there any more, or cannot be read by itself.
+%   Clause is clause(Term, Layout, Names) of the term at Location, File:Line,
+%   with subterm_positions and variable_names of read_term/2.  Fails if it is
+%   no longer there, or cannot be read by itself.
 
 source_clause(File:Line, Clause) :-
     exists_file(File),
@@ -286,7 +286,7 @@ clause_at(In, Line, Module, Clause) :-
 
 %!  source_settled(+Sources) is semidet.
 %
-%   Whatever changes Sources after they were read will show.
+%   source_same/1 will detect any later change of Sources.
 
 source_settled(Sources) :-
     \+ ( member(file(_, stamp(_, Time), Read), Sources),
@@ -294,7 +294,7 @@ source_settled(Sources) :-
 
 %!  source_same(+Sources) is semidet.
 %
-%   To read once more would be to read the same from the same files.
+%   Reading again would give the same terms from the same files.
 
 source_same(Sources) :-
     maplist(same, Sources).
@@ -304,7 +304,7 @@ same(file(File, Stamp, _)) :-
 same(names(_, _)).
 same(include(Spec, File, Path)) :-
     catch(included_file(Spec, File, Now), error(_, _), fail),
-    Now == Path.                        % if bound, 10.1 looks for any
+    Now == Path.                        % if bound, 10.1 would search
 
                 /*******************************
                 *             FORMS            *
