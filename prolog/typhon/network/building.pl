@@ -28,10 +28,11 @@
 :- use_module(wiring,
               [wire_goals/3, wire_hosts/4, wire_instead/3, wire_links/3]).
 
-/** <module> Networks as they are planned
+/** <module> Building networks from plans
 
-Processes, the log, hosts, links, what places offer, and what changes links, in
-this order; or, where a journal knows them, as they were.
+Starts processes, the log, hosts, links, the contents of places, and the
+dynamics of links, in this order.  A network that is in a journal is restored
+as it was.
 
 *Threading*: the thread that starts or stops the network.
 */
@@ -40,9 +41,9 @@ this order; or, where a journal knows them, as they were.
 
 %!  network_build(+Network, +Plan, +Kept, :Change, -Clock) is det.
 %
-%   Network is what Plan says, or what is Kept of it, see kept_plan/4; its links
-%   change by call(Change, link(I, J)) and such.  When this throws, what was
-%   started is there still.
+%   Build Network from Plan, or from what is Kept of it, see kept_plan/4.  Its
+%   links change by call(Change, link(I, J)) or call(Change, unlink(I, J)).  If
+%   this throws, the parts that were started still run.
 
 network_build(Network, Plan, Kept, Change, Clock) :-
     plan_processes(Plan, P, Machines),
@@ -61,9 +62,9 @@ network_build(Network, Plan, Kept, Change, Clock) :-
     debug(typhon(network), '~w is built, ~w processes', [Network, P]),
     lasting_restarts(Network, P, Plan, [Clock|Log]).
 
-%   furnished(+Kept, +Network, +P, +Plan, +Clock, +Common, -Time): what a
-%   journal knows need not be done again; links may have changed by themselves
-%   until Time.
+%   furnished(+Kept, +Network, +P, +Plan, +Clock, +Common, -Time): start the
+%   hosts and links.  A network in a journal is already furnished; its links
+%   are those of Time, until which the dynamics may have changed them.
 
 furnished(kept(built, _), Network, P, Plan, Clock, Common, Time) :-
     !,
@@ -84,7 +85,7 @@ furnished(_, Network, P, Plan, Clock, Common, 0) :-
     wire_goals(Network, P, Goals),
     kept_note(Plan, Clock, built).
 
-%   It begins now.
+%   A clock that starts now.
 
 clock(Plan, clock(Epoch, Rate)) :-
     time_now(Epoch),
@@ -94,15 +95,15 @@ clock(Plan, clock(Epoch, Rate)) :-
     ;   Rate = 1
     ).
 
-%   What the clock shows.
+%   Time is the time on the clock.
 
 shown(clock(Epoch, Rate), Time) :-
     time_now(Now),
     Time is (Now-Epoch)*Rate.
 
 %   known_log(+Kept, +Network, -Clock, +Plan, -Log), clock_and_log(+Network,
-%   +Plan, ?Clock, ?Log): of a network that is known from a journal the clock
-%   goes on, and the log is there before its hosts are.
+%   +Plan, ?Clock, ?Log): for a network that is known from a journal the clock
+%   goes on, and the log is started before its hosts.
 
 known_log(kept(_, Clock), Network, Clock, Plan, Log) :-
     start_log(Network, Clock, Plan, append, Log).
@@ -126,7 +127,7 @@ start_log(_, _, _, _, []).
 
 %!  log_option(+Plan, +Address, -Option) is det.
 %
-%   The option of its hosts that have the log server at Address.
+%   Option is the host option for the log server at Address.
 
 log_option(Plan, Address, Option) :-
     (   plan_log(Plan, _, [Kind|Kinds])
@@ -150,13 +151,9 @@ start_dynamics(Network, Clock, Plan, Time, Change) :-
                                 % or dynamics(Dynamics)
 
 %!  network_endpoint(+Network, +Plan, +Port, -Interface) is det.
-%!  network_log(+Network, +File, +Options, -Address) is det.
-%!  network_dynamics(+Network, +Dynamics) is det.
-%!  part(?Network, ?Part) is nondet.
 %
-%   This process is reached at Interface, and at Port if that is not 0; there is
-%   a log server, with options as of log_serve/2; it has these dynamics.
-%   Part is log(Address, File) or dynamics(Dynamics).
+%   Start the endpoint of this process at Interface, and at Port if that is not
+%   0.
 
 network_endpoint(Network, Plan, Port, Interface) :-
     interface(Plan, Interface),
@@ -173,21 +170,26 @@ interface(Plan, Interface) :-
     ;   Interface = localhost
     ).
 
+%!  network_log(+Network, +File, +Options, -Address) is det.
+%
+%   Start a log server, with options as of log_serve/2.
+
 network_log(Network, Spec, Options, Address) :-
     absolute_file_name(Spec, File),
     atom_concat(Network, '_log', Name),
     log_serve([file(File), name(Name)|Options], Address),
     assertz(part(Network, log(Address, File))).
 
+%!  network_dynamics(+Network, +Dynamics) is det.
+%
+%   Record the dynamics of Network.
+
 network_dynamics(Network, Dynamics) :-
     assertz(part(Network, dynamics(Dynamics))).
 
 %!  dynamics_end(+Network) is det.
-%!  log_end(+Network) is det.
-%!  endpoint_end(+Network) is det.
-%!  equipment_forget(+Network) is det.
 %
-%   What there is of these ends; nothing of it is known any more.
+%   Stop the dynamics of Network, if it has any.
 
 dynamics_end(Network) :-
     (   retract(part(Network, dynamics(Dynamics)))
@@ -195,14 +197,26 @@ dynamics_end(Network) :-
     ;   true
     ).
 
+%!  log_end(+Network) is det.
+%
+%   Stop the log server of Network, if it has one.
+
 log_end(Network) :-
     (   retract(part(Network, log(Address, _)))
     ->  log_serve_end(Address)
     ;   true
     ).
 
+%!  endpoint_end(+Network) is det.
+%
+%   Stop using the endpoint for Network.
+
 endpoint_end(Network) :-
     runtime_release(network(Network)).
+
+%!  equipment_forget(+Network) is det.
+%
+%   Delete the records of log and dynamics of Network.
 
 equipment_forget(Network) :-
     retractall(part(Network, _)).

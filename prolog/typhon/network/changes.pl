@@ -11,18 +11,16 @@
 :- use_module('../kernel/host', [alarm_set/3, scheduler_call/1]).
 :- use_module(dynamics, [dynamics_event/4]).
 
-/** <module> Links change when their time has come
+/** <module> Links of a network change over time
 
-The decisions of module `dynamics` are pure: the times of a run differ, in
-real time, only by how late the thread is that applies them.
+The decisions of module `dynamics` are pure: in real time, the times of a run
+differ only by the delay of the thread that applies them.
 
-The next event, and the state after it, is the one message of a queue: a term
-of some thousand cells is copied there five times as quickly as it would be
-into a clause.
+The next event, and the state after it, is the only message of a queue: a term
+of some thousand cells is copied there five times as fast as into a clause.
 
-*Threading*: the next event of a whole network is an alarm; a worker does
-what is due. Hosts in other processes are reached from there by what OnChange
-does.
+*Threading*: an alarm is set for the next event of a whole network; a worker
+applies it. OnChange reaches hosts in other processes from there.
 */
 
 :- meta_predicate
@@ -37,15 +35,15 @@ does.
 :- dynamic
     dynamics/3,                 % Dynamics, Clock, OnChange
     due/2,                      % Dynamics, Queue: of the next event
-    changing/2,                 % Dynamics, Thread: makes changes just now
-    stopping/2.                 % Dynamics, Queue: hears of the end of that
+    changing/2,                 % Dynamics, Thread: is applying changes
+    stopping/2.                 % Dynamics, Queue: gets `done` after them
 
 %!  dynamics_start(+State, +Clock, :OnChange, -Dynamics) is det.
 %
-%   Carries the events of State out, each when the clock that started with
-%   the State says so: Clock is clock(Epoch, Rate), Epoch the beginning.
-%   OnChange is called with each change. An error in it is printed, and the
-%   next change follows. Dynamics is for dynamics_stop/1.
+%   Apply the events of State when they are due. Clock is clock(Epoch, Rate),
+%   and Epoch is the start of State. OnChange is called with each change. An
+%   error in it is printed, and the next change follows. Dynamics is a handle
+%   for dynamics_stop/1.
 
 dynamics_start(State, Clock, OnChange, Dynamics) :-
     new_name(Dynamics),
@@ -75,11 +73,9 @@ next(Dynamics, State0) :-
     ).
 
 %!  dynamics_kept(+Dynamics, +Seconds, -Then) is semidet.
-%!  dynamics_again(+Name, +Then, +Clock, :OnChange, -Dynamics) is det.
 %
-%   What comes next, or `none`: it does so when the alarm goes off, which the
-%   caller sets.  Fails if changes are made just now, for longer
-%   than Seconds.  Dynamics has that Name, if it is free.
+%   Then is the next event, or `none`. Fails if changes are being applied, for
+%   longer than Seconds.
 
 dynamics_kept(Dynamics, Seconds, Then) :-
     setup_call_cleanup(
@@ -96,6 +92,11 @@ dynamics_kept(Dynamics, Seconds, Then) :-
     ->  Then = Then0
     ;   Then = none
     ).
+
+%!  dynamics_again(+Name, +Then, +Clock, :OnChange, -Dynamics) is det.
+%
+%   Dynamics goes on with Then, as of dynamics_kept/3, when the alarm goes off,
+%   which the caller sets. Dynamics has that Name, if it is free.
 
 dynamics_again(Name, Then, Clock, OnChange, Dynamics) :-
     (   dynamics(Name, _, _)
@@ -116,7 +117,7 @@ typhon_scheduler:fire(Dynamics, links) :-
 typhon_scheduler:over(Dynamics, links) :-
     \+ dynamics(Dynamics, _, _).
 
-%   In a worker: what is done for hosts of other processes may take long.
+%   In a worker: changes of hosts in other processes may take long.
 
 step(Dynamics) :-
     thread_self(Me),
@@ -148,8 +149,8 @@ make(_, Change) :-
 
 %!  dynamics_stop(+Dynamics) is det.
 %
-%   No change begins after this. One that hangs, because a process does, is
-%   interrupted after a second.
+%   No change begins after this. A change that hangs, because a process hangs,
+%   is interrupted after a second.
 
 dynamics_stop(Dynamics) :-
     retractall(dynamics(Dynamics, _, _)),
@@ -178,7 +179,7 @@ await_change(Dynamics, Queue) :-
         await_change(Dynamics, Queue)
     ).
 
-%   The signal may come when the change is over.
+%   The signal may arrive after the change: then it does nothing.
 
 interrupt(Dynamics) :-
     (   nb_current(typhon_changing, Dynamics)

@@ -66,7 +66,7 @@ placed(_, Lines, Lines).
 
 %!  output_heard(+Child, +Line) is det.
 %
-%   The child Network-P has printed Line.
+%   Print Line, which the child Network-P has printed.
 
 output_heard(Child, Line) :-
     string_concat("\u0001", Said, Line),

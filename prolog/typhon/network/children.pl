@@ -21,26 +21,26 @@
 :- use_module('../options/keys', [own_keys/1]).
 :- use_module(child_output, [output_heard/2]).
 
-/** <module> Processes that carry the hosts of a network
+/** <module> Child processes that run the hosts of a network
 
 A child runs node_process.pl, on this machine or through ssh on another. It
-gets what it must know in one line on its standard input, the cookie among it,
-which therefore is in no argument list and no environment of ssh. It says in
-one line on its standard output where its endpoint listens. Whatever it prints
-later is printed here, see module `child_output`. One that cannot begin says
-why in such a line, and ends.
+gets its parameters in one line on its standard input. The cookie is one of
+them, so that it is in no argument list and no environment of ssh. The child
+prints the address of its endpoint in one line on its standard output. Its
+later output is printed here, see module `child_output`. A child that cannot
+start prints the reason in such a line, and ends.
 
-Its standard input stays open as long as it is wanted. The end of it is
-the order to stop, and it comes by itself when this process dies.
+The standard input of a child stays open as long as the child is needed. The
+end of input is the order to stop, and also happens when this process dies.
 
-Children are leaders of sessions of their own: the interrupt key of a
-terminal stops the query there, not the network.
+Children are leaders of sessions of their own: the interrupt key of a terminal
+stops the query there, not the network.
 
-*Threading*: one thread per child reads its output and waits for its end.
-It calls OnEvent with up(Tag, Endpoint, Pid) when the child is ready, Pid
-being that of the child on its machine, with failed(Tag, Error) if it cannot
-become ready, and with down(Tag, Status) when it has ended. No `server`: it
-waits for a stream.
+*Threading*: one thread per child reads its output and waits for its end. It
+calls OnEvent with up(Tag, Endpoint, Pid) when the child is ready, Pid being
+that of the child on its machine, with failed(Tag, Error) if the child cannot
+become ready, and with down(Tag, Status) when it has ended. It is no `server`,
+as it waits for a stream.
 */
 
 :- meta_predicate
@@ -70,16 +70,15 @@ waits for a stream.
 %!  child_start(+Tag, +Machine, +Interface, :OnEvent, -Child) is det.
 %!  child_start(+Tag, +Machine, +Interface, +Options, :OnEvent, -Child) is det.
 %
-%   Machine is `local`, a target of ssh, or machine(Target, Options) with
-%   the options swipl(Program), default `swipl`, node(File), the place of
+%   Machine is `local`, a target of ssh, or machine(Target, Options) with the
+%   options swipl(Program), default `swipl`, node(File), the path of
 %   node_process.pl there, default the same as here, and bind(Interface), the
-%   interface at which the child listens, default the host of Target.
-%   A local child listens at Interface. Options are for the child: port(Port),
-%   at which it listens, journal(Directory, How), see doc/journal.md, which is
-%   of its machine, and hosts(Options), in place of what the journal knows of
-%   them.
+%   interface at which the child listens, default the host of Target. A local
+%   child listens at Interface. Options are for the child: port(Port), at which
+%   it listens, journal(Directory, How), see doc/journal.md, on its machine,
+%   and hosts(Options), which replace those that the journal has.
 %
-%   @error type_error(machine, Machine), and what process_create/3 throws
+%   @error type_error(machine, Machine), and errors of process_create/3
 
 child_start(Tag, Machine, Interface, OnEvent, Child) :-
     child_start(Tag, Machine, Interface, [], OnEvent, Child).
@@ -100,9 +99,9 @@ child_start(Tag, Machine, Interface, Options, OnEvent,
           [Pid, Tag, Program, Args]),
     catch(tell(In, node(Cookie, Bind, Seconds, Keys, Options)),
           error(io_error(_, _), _),
-          true).                % it has ended already: down(Tag, _) follows
+          true).                % it has ended: down(Tag, _) follows
 
-%   A process with TLS can talk only to others with TLS.
+%   A process with TLS can connect only to others with TLS.
 
 keys(Keys) :-
     (   own_keys(Directory)
@@ -110,7 +109,7 @@ keys(Keys) :-
     ;   Keys = none
     ).
 
-%   Tags need not be unique, and may be any term.
+%   Tags need not be unique, and may be any term: an alias has a number.
 
 follower_alias(Tag, Alias) :-
     flag(typhon_follower, N, N+1),
@@ -149,7 +148,7 @@ command(Machine, _, Program, [Target|Command], Bind) :-
     node_args(File, Args),
     maplist(shell_word, [Swipl|Args], Command).
 
-%   swipl(-Program): a saved state that stands alone would run its goal again,
+%   swipl(-Program): a stand-alone saved state would run its own goal again,
 %   which starts processes, and so without end.
 
 swipl(Swipl) :-
@@ -161,7 +160,7 @@ swipl(Swipl) :-
     ;   Swipl = Executable
     ).
 
-%   node_process.pl was called carrier.pl.
+%   Options may name node_process.pl by its old name, carrier.pl.
 
 named_now(File0, File) :-
     (   atom_concat(Dir, '/carrier.pl', File0)
@@ -226,7 +225,7 @@ line(Line, Tag, OnEvent) :-
 
 %!  child_close(+Child) is det.
 %
-%   The order to stop: the child's standard input ends.
+%   Order the child to stop: close its standard input.
 
 child_close(child(_, In, _)) :-
     catch(close(In, [force(true)]), error(Formal, _),
@@ -234,17 +233,17 @@ child_close(child(_, In, _)) :-
 
 %!  child_kill(+Child) is det.
 %
-%   Ends the process at once. What has a child's output open still, as a
-%   program that it started may, is no longer waited for.
+%   Kill the process at once. If another process, such as a program that the
+%   child started, still has its output open, the thread stops reading it.
 
 child_kill(child(Pid, _, Thread)) :-
     catch(process_kill(Pid, kill), error(existence_error(_, _), _), true),
     catch(thread_signal(Thread, typhon_children:stop_reading),
           error(existence_error(_, _), _), true).
 
-%   The signal may come before the thread reads, and after: the output may
-%   end first, or another signal. Only while it reads there is something to
-%   catch the ball.
+%   The signal may arrive before the thread reads, or after: the output may end
+%   first, or another signal arrive. Only while it reads does the thread catch
+%   the ball.
 
 stop_reading :-
     (   nb_current(typhon_reading, true)
@@ -255,7 +254,7 @@ stop_reading :-
 
 %!  child_release(+Child) is det.
 %
-%   Gives up what belonged to a child that is down.
+%   Release the resources of a child that is down.
 
 child_release(child(_, _, Thread)) :-
     thread_join(Thread, Status),

@@ -19,9 +19,9 @@
 
 /** <module> Links that come and go
 
-A model says how the links of a network change. Each host acts by itself,
-again and again after an Interval in host seconds, uniform(Min,Max), drawn
-anew each time:
+A model defines how the links of a network change. Each host acts on its own,
+again and again after an Interval in host seconds, uniform(Min,Max), drawn anew
+each time:
 
   - links(Interval, Drop, Add)
     It drops one of its links, drawn at random, with probability Drop, and
@@ -40,18 +40,19 @@ Models with a name, after the experiments of the thesis:
 | dynamic_1    | toggle(uniform(10,20), 0.5, 0.7)       | section 5.5   |
 | dynamic_2    | links(uniform(10,20), 0.5, 0.7)        | section 5.5   |
 
-Section 4.4.7 begins with a mesh of 50 hosts and reports degrees from 0 to
-27. One link dropped at a time never leads there (a mesh stays above degree
-44 for ever, as more is added than dropped); each link by itself does: so
-there are two readings. For Dynamic I the thesis prints no probabilities
-and no intervals for either network of chapter 5; those of Dynamic II and
-of section 4.4.7 are taken. Different ones are given by the general forms.
+Section 4.4.7 begins with a mesh of 50 hosts and reports degrees from 0 to 27.
+If one link is dropped at a time, degrees never become so low (a mesh stays
+above degree 44 for ever, as more links are added than dropped); if each link
+is dropped by itself, they do: so there are two readings. For Dynamic I the
+thesis prints no probabilities and no intervals for either network of chapter
+5; those of Dynamic II and of section 4.4.7 are used. Others can be given by
+the general forms.
 
-The decisions are pure: a state is a term, and the sequence of events
-follows from the seed. The times of a run differ only by how late the
-thread that applies the events is.
+The decisions are pure: a state is a term, and the sequence of events follows
+from the seed. The times of a run differ only by the delay of the thread that
+applies the events.
 
-*Threading*: pure; module `changes` carries events out.
+*Threading*: pure; module `changes` applies the events.
 */
 
                 /*******************************
@@ -114,8 +115,8 @@ probability(P) :-
 
 %!  dynamics_state(+Model, +N, +Edges, +Seed, -State) is det.
 %
-%   State is the beginning of a network of N hosts with Edges, pairs I-J of
-%   host numbers. The time of the first event of each host is drawn.
+%   State is the start of a network of N hosts with Edges, pairs I-J of host
+%   numbers. The time of the first event of each host is drawn.
 
 dynamics_state(Model, N, Edges, Seed,
                state(Model, N, Own, Links, Due, Chance)) :-
@@ -135,8 +136,8 @@ dynamics_state(Model, N, Edges, Seed,
 ends(A, B, A, B).
 ends(A, B, B, A).
 
-%   Only some models ask for the links of the beginning: a state is copied for
-%   each event.
+%   Only some models need the initial links: without them the state, which is
+%   copied for each event, is smaller.
 
 own_links(toggle(_, _, _), Links, Links).
 own_links(links(_, _, _), _, none).
@@ -149,9 +150,9 @@ schedule(Model, Now, Host, Due0-Chance0, Due-Chance) :-
 
 %!  dynamics_event(+State0, -Time, -Changes, -State) is semidet.
 %
-%   At Time, in host seconds after the beginning, the links of one host
-%   change as Changes says: link(I,J) and unlink(I,J), in this order to be
-%   done. Fails when nothing can ever change.
+%   At Time, in host seconds after the start, the links of one host change by
+%   Changes, terms link(I,J) and unlink(I,J), to be applied in this order.
+%   Fails when nothing can ever change.
 
 dynamics_event(state(Model, N, Own, Links0, Due0, Chance0), Time, Changes,
                state(Model, N, Own, Links, Due, Chance)) :-
@@ -162,10 +163,8 @@ dynamics_event(state(Model, N, Own, Links0, Due0, Chance0), Time, Changes,
     schedule(Model, Time, Host, Due1-Chance1, Due-Chance).
 
 %!  dynamics_until(+State0, +Time, -State) is det.
-%!  dynamics_edges(+State, -Edges) is det.
 %
-%   State is what State0 has become before Time; the links that stand then,
-%   pairs I-J, I < J.
+%   State is the state that follows from State0 before Time.
 
 dynamics_until(State0, Time, State) :-
     (   dynamics_event(State0, Next, _, State1),
@@ -173,6 +172,10 @@ dynamics_until(State0, Time, State) :-
     ->  dynamics_until(State1, Time, State)
     ;   State = State0
     ).
+
+%!  dynamics_edges(+State, -Edges) is det.
+%
+%   Edges are the links in State, pairs I-J with I < J.
 
 dynamics_edges(state(_, _, _, Links, _, _), Edges) :-
     findall(I-J,
@@ -191,8 +194,8 @@ change_end(Op, I, J, Links0, Links) :-
     call(Op, Ns0, J, Ns),
     put_assoc(I, Links0, Ns, Links).
 
-%   changes(+Model, +Host, -Changes, +Chance0, -Chance): what a host
-%   host(I, N, Neighbours, Own) does when its time has come.
+%   changes(+Model, +Host, -Changes, +Chance0, -Chance): Changes of Host,
+%   host(I, N, Neighbours, Own), when its event is due.
 
 changes(links(_, Drop, Add), host(I, N, Ns, _), Changes, Chance0, Chance) :-
     dropped(Drop, Ns, Gone, Chance0, Chance1),
@@ -233,8 +236,8 @@ drop_one(P, J, Gone0-Chance0, Gone-Chance) :-
     ;   Gone0 = Gone
     ).
 
-%   A link that was dropped in this very event is not made again in it:
-%   the host it led to counts as a neighbour still.
+%   A link that this event has dropped is not made again in the same event: its
+%   other host still counts as a neighbour.
 
 added(P, I, N, Ns, New, Chance0, Chance) :-
     chance_true(P, Bool, Chance0, Chance1),

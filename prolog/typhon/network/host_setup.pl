@@ -8,22 +8,22 @@
 :- use_module(library(lists), [member/2]).
 :- use_module(topology, [number_name/2]).
 
-/** <module> What the places of a network are furnished with
+/** <module> The contents of the places of a network
 
-Places is an item, or a list of such:
+Places is an item, or a list of items:
 
   - a file: text, a path of atoms a/b, or Alias(Name) where there is a search
     path of that name; it is consulted into the places of all hosts
   - any other term: a goal, which is called once in the place of each host;
-    one without arguments is written call(Name)
-  - Host-Items: of the host of that name or number alone
+    a goal without arguments is written call(Name)
+  - Host-Items: items for the host of that name or number alone
 
-*Threading*: pure, but that it looks for search paths.
+*Threading*: pure, but for the lookup of search paths.
 */
 
 %!  host_setup_check(+Places, +Names) is det.
 %
-%   @arg Names are those of the hosts
+%   @arg Names are the names of the hosts
 %   @error type_error(callable, Item), existence_error(host, Host)
 
 host_setup_check(Places, Names) :-
@@ -56,13 +56,15 @@ host_name(Host, Name) :-
     ).
 
 %!  host_setup_files(+Places, +Name, -Files) is det.
-%!  host_setup_goals(+Places, +Name, -Goals) is det.
 %
-%   What is consulted into the place of host Name, and what is called there,
-%   in order.
+%   Files are consulted into the place of host Name, in order.
 
 host_setup_files(Places, Name, Files) :-
     findall(Item, ( item(Places, Name, Item), is_file(Item) ), Files).
+
+%!  host_setup_goals(+Places, +Name, -Goals) is det.
+%
+%   Goals are called in the place of host Name, in order.
 
 host_setup_goals(Places, Name, Goals) :-
     findall(Item, ( item(Places, Name, Item), \+ is_file(Item) ), Goals).

@@ -28,28 +28,26 @@
 
 /** <module> Networks that outlive their processes
 
-Each process of a network with a journal has one of its own: this process, if
-it carries the hosts, or its children.  All that was there is restored before
-anything of it goes on, so that all find each other.
+Each process of a network with a journal has a journal of its own: this
+process, if it runs the hosts, or its children.  Everything is restored before
+any of it resumes, so that agents and hosts find each other.
 
-Beside these journals there is a text of one term,
+Besides these journals there is a file with the text of one term,
 
     network(Version, How, Plan, Clock)
 
-How is `begun`, or `built` when all that the plan says was done.  A network that
-is started again is to be the same: what its options leave open is as before,
-what they say otherwise is an error, but for options that may change.
+How is `begun`, or `built` when the whole plan has been carried out.  A network
+that is started again must be the same: options that are not given are as
+before, options that differ are an error, but for options that may change.
 
 *Threading*: the thread that starts or stops the network, and that of module
 `restarts`.
 */
 
 %!  lasting_open(+Plan, +P, +Machines) is det.
-%!  lasting_back(+Plan, +Log) is det.
 %
-%   If this process carries the network of Plan, and that has a journal: it is
-%   open; what it knows is there again, its hosts with the option Log.  In
-%   between the process begins to listen, which it must not have done before.
+%   Open the journal of Plan, if it has one and this process runs its hosts.
+%   The process must not listen yet; it begins to listen after this.
 %
 %   @error as hosts_journal/2
 
@@ -58,6 +56,11 @@ lasting_open(Plan, 1, [local]) :-
     !,
     hosts_journal(Where, [sync(How)]).
 lasting_open(_, _, _).
+
+%!  lasting_back(+Plan, +Log) is det.
+%
+%   Restore the contents of the journal that lasting_open/3 has opened, the
+%   hosts with the option Log.  The process listens already.
 
 lasting_back(Plan, Log) :-
     (   own(Plan)
@@ -73,8 +76,8 @@ own(Plan) :-
 
 %!  lasting_child(+Plan, ?Log, +P, -Options) is det.
 %
-%   Options of the child that carries part P, see child_start/6.  Hosts that
-%   its journal knows have another Log from now on, if that is a list.
+%   Options for the child that runs part P, see child_start/6.  If Log is a
+%   list the hosts in its journal have this Log from now on.
 
 lasting_child(Plan, Log, P, Options) :-
     (   plan_journal(Plan, P, Where, How)
@@ -85,7 +88,7 @@ lasting_child(Plan, Log, P, Options) :-
 
 %!  lasting_goes_on(+Network, +P, +Plan) is det.
 %
-%   All is there.
+%   Everything is restored: resume it.
 
 lasting_goes_on(Network, P, Plan) :-
     (   plan_option(Plan, journal(_))
@@ -95,8 +98,8 @@ lasting_goes_on(Network, P, Plan) :-
 
 %!  lasting_restarts(+Network, +P, +Plan, +Common) is det.
 %
-%   Children that die are started again, if the plan says so.  Their hosts are
-%   what their journals know, or else what they were at the beginning.
+%   Restart children that die, if the plan has restart(true).  Their hosts are
+%   those in their journals, or else those of the plan.
 
 lasting_restarts(Network, P, Plan, Common) :-
     (   plan_option(Plan, restart(true))
@@ -117,18 +120,21 @@ again(Network, Plan, Count, Common, P) :-
     ).
 
 %!  lasting_rests(+Plan) is semidet.
-%!  lasting_over(+Plan) is det.
 %
-%   The hosts of this process stop, and what is in its journal rests there.
-%   Fails if that is not the journal of this network, or other hosts are here:
-%   then those of the network end for good, as any do, and nothing is kept of
-%   it.
+%   Stop the hosts of this process; the contents of its journal stay there.
+%   Fails if that is not the journal of this network, or if there are other
+%   hosts: then the hosts of the network end for good, as usual, and nothing is
+%   kept.
 
 lasting_rests(Plan) :-
     own(Plan),
     plan_shape(Plan, Names, _),
     \+ ( host(Other, _, _), \+ memberchk(Other, Names) ),
     hosts_rest.
+
+%!  lasting_over(+Plan) is det.
+%
+%   Delete the record of the network, if its journal is open here.
 
 lasting_over(Plan) :-
     (   own(Plan)
@@ -147,7 +153,7 @@ version(1).
 
 %!  kept_plan(+Topology, +Options, -Plan, -Kept) is det.
 %
-%   As network_plan/3. Kept is `none`, or kept(How, Clock) if the journal is
+%   As network_plan/3.  Kept is `none`, or kept(How, Clock) if the journal is
 %   that of a network that was started before.
 %
 %   @error journal_of_another(Place, Was, Is), journal_damaged(Place, Why),
@@ -167,7 +173,8 @@ kept_plan(Topology, Options, Plan, Kept) :-
 kept_plan(Topology, Options, Plan, none) :-
     network_plan(Topology, Options, Plan).
 
-%   unchanged(+Option, +Place, +Plan0): Option is as it was.
+%   unchanged(+Option, +Place, +Plan0): Option is the same as in Plan0, or may
+%   change.
 
 unchanged(Option, _, _) :-
     may_change(Option),
@@ -195,7 +202,7 @@ may_change(log(_)).
 may_change(log(_, _)).
 may_change(tls(_)).
 
-%   What is left open is as it was.
+%   Options that are not given are as before.
 
 filled(Options, Plan0, All) :-
     plan_options(Plan0, Kept),
@@ -246,16 +253,15 @@ read_kept(Where, How, Plan, Clock) :-
     ).
 
 %!  kept_note(+Plan, +Clock, +How) is det.
-%!  kept_end(+Plan) is det.
 %
-%   The network of Plan, if it has a journal, is as far as How; it is no more.
+%   Record How far the network of Plan is built, if it has a journal.
 %
 %   @error permission_error(open, journal, Place)
 
 kept_note(Plan0, Clock, How) :-
     plan_option(Plan0, journal(Where)),
     !,
-    plan_without(Plan0, journal(_), Plan),      % there may be a password in it
+    plan_without(Plan0, journal(_), Plan),      % it may contain a password
     version(Version),
     format(string(Text), '~k.~n', [network(Version, How, Plan, Clock)]),
     journal_record_put(Where, Text).

@@ -21,10 +21,10 @@
 :- use_module(saving, [saved_read/2]).
 :- use_module(wiring, [wire_hosts/4, wired_hosts/2]).
 
-/** <module> Networks out of restore points
+/** <module> Networks from restore points
 
-Hosts are started as they were at the end, and filled, while time does not run
-yet.  No event reports that what was there before has begun.
+Hosts are started as they were when the network was saved, and filled, while
+time does not run yet.  No event reports that they have started.
 
 *Threading*: as network_start/3.
 */
@@ -90,7 +90,7 @@ again(Saved, Options, Network) :-
     forall(between(1, P, At), go_on(Network, At, Kind, Terms)),
     network_goes_on(Network, Clock).
 
-%   Where its hosts were, if this process is to have them.
+%   The port of the hosts when they were saved, if this process runs them.
 
 own_port(1-[local], Terms, Port) :-
     !,
@@ -104,7 +104,7 @@ port_of(P, Terms, Port) :-
     memberchk(host(P, _, _, Address, _), Terms),
     port(Address, Port).
 
-%   So much later is it now, by the time of day.
+%   Shift is the time since then, by the time of day.
 
 shift(virtual, _, 0).
 shift(real, Then, Shift) :-
@@ -130,8 +130,9 @@ log_again(_, log(_, File, _), Network, Plan, clock(Epoch, Rate),
     network_log(Network, File, [mode(append), clock(Epoch, Rate)], Address),
     log_option(Plan, Address, Option).
 
-%   When nothing stands in the way any more, as the first network would if it
-%   were still there; and before something happens.
+%   Cut the log back to its Size at the save.  This is done when nothing can
+%   fail any more, as a running network with that name would make it fail; and
+%   before any event.
 
 log_cut(Options, log(Address, File, Size)) :-
     (   ( memberchk(log(_), Options) ; Address == none )
@@ -139,7 +140,7 @@ log_cut(Options, log(Address, File, Size)) :-
     ;   log_goes_on(File, Size)
     ).
 
-%   Where they were before.
+%   Hosts get their former addresses.
 
 hosts_again(Network, P, Terms, clock(Epoch, Rate), log(Log, _, _),
             LogOptions) :-
@@ -175,7 +176,7 @@ fill(Network, P, Kind, Terms) :-
     findall(Item, member(P:Item, Terms), Items),
     node_order(Network, P, fill(Kind, Items), ok).
 
-%   In virtual time the alarms are among what time knows.
+%   In virtual time the alarms are part of the saved time.
 
 due_again(Dynamics-Due, Network, Clock, Kind, Shift) :-
     links_again(Dynamics, Network, Clock, Kind, Shift),

@@ -23,18 +23,18 @@
 
 /** <module> The log server
 
-A log server is a host that takes no part: it has an address, and hosts
-post events there without waiting. It stamps each with the time of its
-arrival, in host seconds of the clock that it was given, and writes it to a
-file, see module `log_file`.
+A log server has an address, like a host, and hosts post events to it without
+waiting. It stamps each event with its time of arrival, in host seconds of the
+clock that it was given, and writes it to a file, see module `log_file`.
 
-What hosts post is event(Log, Host, Agent, What) of kind `log`. Log is the
-address of the server; its name tells servers of one process apart.
+Hosts post terms event(Log, Host, Agent, What) of kind `log`. Log is the
+address of the server; its name distinguishes servers of one process.
 
-*Threading*: events arrive in the threads of the endpoint, which stamp them
-and pass them on in one step, so the stamps ascend in the file. One thread
-per server writes. Its queue is bounded: senders of more than the disk can take
-wait in the end, nothing is dropped. It flushes whenever nothing more waits.
+*Threading*: events arrive in the threads of the endpoint, which stamp them and
+pass them on in one step, so the stamps ascend in the file. One thread per
+server writes. Its queue is bounded: senders that are faster than the disk wait
+in the end, and nothing is dropped. The thread flushes the file whenever its
+queue is empty.
 */
 
 :- multifile
@@ -46,7 +46,7 @@ wait in the end, nothing is dropped. It flushes whenever nothing more waits.
 
 :- dynamic
     server/4,                   % Name, Writer, File, Clock
-    homeless/1.                 % Name of a server that events came for
+    homeless/1.                 % Name of a missing server that got events
 
 %!  log_serve(+Options, -Address) is det.
 %
@@ -119,9 +119,9 @@ typhon_log_file:about_to_read(File) :-
     forall(server(_, Writer, File, _),
            in_own_thread(log_writer_flush(Writer))).
 
-%   What this process posts to itself comes in order, so a request that is
-%   answered shows that the posts before it have arrived.  Once its journal is
-%   closed it does not ask any more.
+%   Messages that this process posts to itself arrive in order, so a request
+%   that is answered shows that the posts before it have arrived. After its
+%   journal is closed no request is sent.
 
 arrived(Name) :-
     (   server(Name, _, _, _),
@@ -195,21 +195,21 @@ log_writer_start(Spec, Mode, File, Writer) :-
 
 %!  log_writer_flush(+Writer) is det.
 %
-%   What was sent before is in the file, unless it cannot be written; or five
-%   seconds have passed.
+%   Return when all earlier events are in the file, unless it cannot be
+%   written; or after five seconds.
 
 log_writer_flush(Writer) :-
     catch(ignore(server_call(Writer, flush, 5, _)),
           error(existence_error(_, _), _),
-          true).                        % it has ended, and written all
+          true).                        % it has ended, and has written all
 
 :- public written/4.
 
 %   written(+File, +Message, +State0, -State): State is open(Stream, Unsure),
-%   where the last Unsure events may be in memory only; or lost(Count,
-%   Again), where the file could not be written, is tried again at the time
-%   Again, and Count events are lost.  The beginning and the end are
-%   reported, not each event.  When nothing more waits it is flushed.
+%   where the last Unsure events may be in memory only; or lost(Count, Again),
+%   where the file could not be written, the server retries at the time Again,
+%   and Count events are lost. The first failure and the recovery are reported,
+%   not each event. The file is flushed when the queue is empty.
 
 written(File, event(Time, Host, Agent, What), State0, until(0, State)) :-
     write_event(State0, File, event(Time, Host, Agent, What), State).
@@ -254,8 +254,7 @@ next_try(Again) :-
     get_time(Now),
     Again is Now+1.
 
-%   What is left in the buffer must not be written later, in the middle of
-%   a line.
+%   The rest of the buffer must not be written later, in the middle of a line.
 
 broken(Stream, Count, File, Error, lost(Count, Again)) :-
     close(Stream, [force(true)]),

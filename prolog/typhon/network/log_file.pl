@@ -15,23 +15,21 @@ One fact per line,
     event(Time, Host, Agent, What).
 
 The file is plain ASCII, whatever characters the events hold, and needs no
-operators: consult/1 reads it back on every system. log_read/2 reads it
-line by line, so a line cut short by a crash costs that line and no other.
+operators: consult/1 reads it back on every system. log_read/2 reads it line by
+line, so a line cut short by a crash costs only that line.
 
-*Threading*: any thread; a stream is one thread's.
+*Threading*: any thread; a stream belongs to one thread.
 */
 
 :- multifile
     about_to_read/1,
     prolog:message//1.
 
-%   about_to_read(+File): what this process is about to write to it is there
-%   afterwards.
+%   about_to_read(+File): write all events of this process that are for File.
 
 %!  log_open(+File, +Mode, -Stream) is det.
-%!  log_write(+Stream, +Event) is det.
 %
-%   Write events to File, begun anew (`write`) or not (`append`).
+%   Open File to write events, new (`write`) or at its end (`append`).
 %
 %   @error existence_error(directory, Dir), permission_error(open,
 %   source_sink, File)
@@ -49,14 +47,16 @@ log_open(File, Mode, Stream) :-
     ).
 
 %!  log_size(+File, -Size) is det.
-%!  log_goes_on(+File, +Size) is det.
 %
-%   How long it is, with all that has arrived; it is as it was when it had that
-%   Size, or empty if it never had.
+%   Size is the size of File in bytes, with all events that have arrived.
 
 log_size(File, Size) :-
     forall(about_to_read(File), true),
     size_file(File, Size).
+
+%!  log_goes_on(+File, +Size) is det.
+%
+%   Truncate File to Size, or empty it if it is shorter.
 
 log_goes_on(File, Size0) :-
     size_file(File, Now),
@@ -70,7 +70,7 @@ log_goes_on(File, Size0) :-
           set_end_of_stream(Out) ),
         close(Out)).
 
-%   The last line has no end: the server that wrote it was killed.
+%   The last line is incomplete: the server that wrote it was killed.
 
 cut_short(File) :-
     size_file(File, Size),
@@ -100,6 +100,10 @@ not_writable(File) :-
     Text = 'the log cannot be written there',
     throw(error(permission_error(open, source_sink, File),
                 context(log_server_start/2, Text))).
+
+%!  log_write(+Stream, +Event) is det.
+%
+%   Write Event.
 
 log_write(Stream, Event) :-
     write_canonical(Stream, Event),

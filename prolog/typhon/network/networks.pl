@@ -36,18 +36,17 @@
 
 /** <module> Networks of hosts
 
-A network is a number of hosts and the links between them, started and
-stopped by one call. Its hosts live in this process, or in child processes
-on this machine and others. They share a clock, which shows 0 when the
-hosts are about to start.
+A network is a set of hosts and the links between them, started and stopped by
+one call. Its hosts live in this process, or in child processes on this machine
+and others. They share a clock, which shows 0 when the hosts are about to
+start.
 
-Starting is all or nothing: what was started is stopped again when
-something fails. Stopping ends what starting began, also when a child hangs
-or has died.
+Starting is all or nothing: if something fails, the parts that were started are
+stopped again. Stopping works also when a child hangs or has died.
 
-*Threading*: any thread may call. A network belongs to the process that
-started it. It has the threads of modules `children`, `dynamics` and `log`, and
-none of its own.
+*Threading*: any thread may call. A network belongs to the process that started
+it. It uses the threads of modules `children` and `log`, and has none of its
+own.
 */
 
 :- multifile
@@ -83,8 +82,8 @@ started(Plan, Kept, Network) :-
 
 %!  network_begin(?Name, +Plan, :Build, -Network) is det.
 %
-%   Build a network by call(Build, Network), or leave nothing behind.  It has
-%   that Name, if it is given and free.
+%   Build a network by call(Build, Network); undo everything if that fails. The
+%   network has that Name, if it is given and free.
 
 network_begin(Name, Plan, Build, Network) :-
     (   atom(Name),
@@ -119,7 +118,7 @@ unless_built(_, Network) :-
 
 %!  network_goes_on(+Network, +Clock) is det.
 %
-%   It is built.
+%   Record that the network is built.
 
 network_goes_on(Network, Clock) :-
     assertz(clock_of(Network, Clock)),
@@ -163,7 +162,7 @@ end(Network) :-
     retractall(network(Network, _)),
     retractall(costs(Network, _)).
 
-%   What rests in a journal is there when it is started again.
+%   The contents of a journal are restored when the network is started again.
 
 stop_own(Network) :-
     network(Network, Plan),
@@ -173,7 +172,7 @@ stop_own(Network) :-
         lasting_over(Plan)
     ).
 
-%   What goes wrong in one step must not leave the others undone.
+%   An error in one step must not prevent the others.
 
 step(Goal) :-
     catch(Goal, error(Formal, Context),
@@ -202,7 +201,7 @@ network_clock(Network, Clock) :-
 %!  network_standing(+Network, -Standing) is det.
 %
 %   Standing is standing(Plan, Clock, Log, Dynamics), with log(Address, File)
-%   or `none`, and `none` where there are no dynamics.
+%   or `none`, and dynamics or `none`.
 %
 %   @error existence_error(network, Network)
 
@@ -313,13 +312,15 @@ appointments_at(Network, Time, Goal) :-
     alarm_set(Stamp, Network, at(N)).
 
 %!  appointments(+Network, -Due:list) is det.
-%!  appointments_again(+Network, +Due:list) is det.
 %
-%   What is still to be called: pairs N-Goal; their alarms, at(N), are set
-%   by the caller.
+%   Due are the goals that are still to be called: pairs N-Goal.
 
 appointments(Network, Due) :-
     findall(N-Goal, due(Network, N, Goal), Due).
+
+%!  appointments_again(+Network, +Due:list) is det.
+%
+%   Restore Due, as of appointments/2. The caller sets their alarms, at(N).
 
 appointments_again(Network, Due) :-
     forall(member(N-Goal, Due),

@@ -28,31 +28,31 @@
 :- use_module('../kernel/travel', [agent_outcome/2, home_agents/1]).
 :- use_module(child_output, [output_begin/0, output_end/0]).
 
-/** <module> A process that carries hosts of a network
+/** <module> A process that runs hosts of a network
 
-What a network orders for its hosts is done by direct call in its own process,
-and by request in a child. Whole lists go in one order: a
-network of a thousand hosts is a few requests.
+A network gives orders for its hosts: by direct call in its own process, by
+request in a child. One order takes whole lists, so that a network of a
+thousand hosts needs few requests.
 
-A child is started by the module `children` as `swipl -g node_main
-node_process.pl`. The first line of its standard input is node(Cookie,
-Interface, StopSeconds, Keys, Options). When the endpoint listens, and what is
-in its journal, if it has one, is there again, one line is written:
+Module `children` starts a child as `swipl -g node_main node_process.pl`. The
+first line of its standard input is node(Cookie, Interface, StopSeconds, Keys,
+Options). When the endpoint listens, and the contents of its journal, if it has
+one, are restored, it prints one line:
 
     typhon_node_process <Interface>:<Port> <Pid>
 
-If that cannot be the line is `typhon_node_process_error <Error>`, and the
-process ends.
+If that is not possible the line is `typhon_node_process_error <Error>`, and
+the process ends.
 
-From then on orders come over the wire, as requests of kind `node`. The
-process stops in order, hosts first, then what is still to be sent, when
-its standard input ends or on SIGTERM and SIGINT, and at the latest
-StopSeconds later it is gone, whatever hangs.
+From then on orders arrive over the wire, as requests of kind `node`. The
+process stops in order when its standard input ends or on SIGTERM and SIGINT:
+hosts first, then its output is sent. At the latest StopSeconds later it ends,
+even if something hangs.
 
-*Threading*: order_do/2 in any thread. In a child the main thread carries
-orders out, one after the other; that the process is alive the thread of the
-connection says itself. One thread waits for the end of standard input, and
-one for the order to stop: it sees to it that there is an end.
+*Threading*: order_do/2 in any thread. In a child the main thread carries out
+orders, one after another; the thread of the connection itself answers that the
+process is alive. One thread waits for the end of standard input, and one for
+the order to stop: it makes sure that the process ends.
 */
 
 :- multifile
@@ -60,7 +60,7 @@ one for the order to stop: it sees to it that there is an end.
     typhon_endpoint:requested/4.
 
 :- dynamic
-    at_rest/0,                  % agents have had their time to come to rest
+    at_rest/0,                  % agents have had the time to come to rest
     child/0.                    % this process is one
 
 :- setting(typhon_carrier:rest_seconds, number, 1,
@@ -77,15 +77,15 @@ one for the order to stop: it sees to it that there is an end.
 %   Orders and their answers:
 %
 %     - hosts(Specs)
-%       Starts a host for each Name-Options, or none. Answer is the list
-%       of their addresses.
+%       Starts a host for each Name-Options; if one fails, none. Answer is the
+%       list of their addresses.
 %     - go_on
-%       What was in the journal of the process goes on; `ok`.
+%       Resumes the contents of the journal of the process; `ok`.
 %     - stop(Names)
-%       Stops these hosts; `ok`. One that is gone already is no error. If
-%       they are all, what is in the journal rests there.
+%       Stops these hosts; `ok`. A host that is gone already is no error. If
+%       they are all hosts, the contents of the journal stay there.
 %     - stop
-%       Stops all hosts of the process, so; `ok`.
+%       Stops all hosts of the process in the same way; `ok`.
 %     - flush(Seconds, Peers)
 %       `ok` when all that the process has sent to the endpoints Peers has
 %       arrived, else `late`.
@@ -95,35 +95,35 @@ one for the order to stop: it sees to it that there is an end.
 %     - places(Pairs)
 %       Calls the goal of each Name-Goal in the place of the host; `ok`.
 %     - expect(Endpoints), expect_no_more(Endpoints)
-%       A process at one of Endpoints that ends is started again, or no more;
-%       `ok`.
+%       A process at one of Endpoints that ends will be restarted, or no
+%       longer; `ok`.
 %     - neighbours(Names)
 %       Answer is the list of their lists of neighbours; `[]` for a host
 %       that is gone.
 %     - hold(Seconds)
-%       No agent gets a turn any more; `ok`, or `late`.
+%       No agent gets a turn from now on; `ok`, or `late`.
 %     - rest(Seconds, Peers)
-%       No agent runs or is under way any more, and nothing is queued for the
-%       endpoints Peers; `ok`, or `late`.
+%       Waits until no agent runs or is under way, and nothing is queued for
+%       the endpoints Peers; `ok`, or `late`.
 %     - kept(Names)
-%       Answer is kept(Time, Specs, Items): what time knows of what comes next,
-%       the options of these hosts, Name-Options, and all else that the process
-%       knows of them.
+%       Answer is kept(Time, Specs, Items): the plans of the runtime, see
+%       time_stands/1, the options of these hosts, Name-Options, and all other
+%       items of the process.
 %     - let_go
-%       It goes on; `ok`.
+%       Ends hold(_); `ok`.
 %     - again(Specs)
-%       As hosts(Specs), of hosts that there were before.
+%       As hosts(Specs), for hosts that existed before.
 %     - fill(Kind, Items)
-%       They know what they did; `ok`.
+%       Restores Items; `ok`.
 %     - goes_on(Kind, Time, Agents)
-%       What comes next does so, Agents go on; `ok`.
+%       Restores the plans of the runtime, and resumes Agents; `ok`.
 %     - agents
 %       Answer is the list of the agents that were born in the process and
 %       have not ended.
 %     - ended(Name)
-%       Answer is the list of those of that name that have.
+%       Answer is the list of those of that name that have ended.
 %
-%   @error what host_start/2 throws, and goals of places(Pairs); where such
+%   @error errors of host_start/2, and of goals of places(Pairs); where such
 %   a goal fails, place_goal_failed(Name, Goal)
 
 order_do(hosts(Specs), Addresses) :-
@@ -199,8 +199,8 @@ addresses(Specs, Addresses) :-
             ( member(Name-_, Specs), host_property(Name, address(Address)) ),
             Addresses).
 
-%   start_all(+Specs, :Start, +Started): what was there before, of a journal, is
-%   not undone.
+%   start_all(+Specs, :Start, +Started): if one host fails, stop the others.
+%   Hosts that a journal had before are not stopped.
 
 start_all([], _, _).
 start_all([Name-Options|Specs], Start, Started0) :-
@@ -238,7 +238,7 @@ node_main :-
     set_stream(user_output, encoding(utf8)),
     set_stream(user_output, buffer(line)),
     read_term(user_input, node(Cookie, Interface, Seconds, Keys, Options), []),
-    skip(user_input, 0'\n),     % the column of input is that of output
+    skip(user_input, 0'\n),     % column of input = column of output
     setenv('TYPHON_COOKIE', Cookie),
     with_keys(Keys),
     thread_create(see_to_end(Seconds), _,
@@ -257,8 +257,8 @@ node_main :-
     serve,
     stop.
 
-%   The process that had the journal may be about to end, as the children of a
-%   process that has died do.
+%   Wait for the journal: the process that had it may be about to end, as the
+%   children of a process that has died do.
 
 begin(Interface, Seconds, Options) :-
     option(port(Port), Options, 0),
@@ -287,7 +287,7 @@ with_keys(none).
 with_keys(keys(Directory)) :-
     setenv('TYPHON_TLS', Directory).
 
-%   This module loads only what it needs: agents need the rest.
+%   This module loads only what it needs itself: agents need the rest.
 
 load_platform :-
     (   exists_source(library(typhon))
@@ -304,7 +304,7 @@ relative_library(File, Library) :-
 on_stop_signal(_) :-
     thread_send_message(typhon_end, stop).
 
-%   Nothing more is expected on standard input but its end.
+%   Only the end of standard input is expected.
 
 watch_input :-
     repeat,
@@ -345,7 +345,7 @@ serve :-
         serve
     ).
 
-%   The context of an error may hold what cannot travel: its text does.
+%   The context of an error may hold terms that cannot be sent: its text can.
 
 answer(Order, Answer) :-
     catch(answer_(Order, Answer), Error, raised(Error, Answer)).
@@ -363,8 +363,8 @@ raised(Error, raised(Formal, Text)) :-
     ;   Formal = system_error(Text)
     ).
 
-%   Children whose parent has died end at the same time: no agent is to find
-%   that one of them was quicker.
+%   Children whose parent has died end at the same time: with turns paused, no
+%   agent observes that one of them was faster.
 
 hold :-
     (   output_waits
@@ -380,8 +380,8 @@ come_to_rest :-
     setting(rest_seconds, Seconds),
     ignore(agents_at_rest(Seconds, [])).
 
-%   What rests in a journal is safe, whatever goes wrong with what is left in
-%   memory.
+%   The contents of a journal are safe, whatever goes wrong with the rest of
+%   the memory.
 
 stop :-
     (   output_waits

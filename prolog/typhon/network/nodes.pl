@@ -30,10 +30,10 @@
 
 The processes of a network are numbered from 1. Either there is one, this
 process, or each is a child. Orders (see module `node_process`) are done here
-in the first case and go over the wire in the second.
+in the first case and are sent over the wire in the second.
 
 *Threading*: any thread may give orders. The thread that follows a process
-reports that it is down: as a fact, and to callers that wait for an answer.
+reports its end: as a fact, and to callers that wait for an answer.
 */
 
 :- multifile
@@ -55,17 +55,17 @@ reports that it is down: as a fact, and to callers that wait for an answer.
                 *******************************/
 
 %!  node_came(+Network, +P, +Where, +Pid) is det.
-%!  node_went(+Network, +P, +Status) is det.
-%!  node_again(+Network, +P) is det.
-%!  nodes_forget(+Network) is det.
 %
-%   Process P is up, Where being `local` or the endpoint of a child; it is
-%   down; it was, and is about to be started again; all are forgotten.
+%   Process P is up. Where is `local`, or the endpoint of a child.
 
 node_came(Network, P, Where, Pid) :-
     assertz(up(Network, P, Where, Pid)),
     debug(typhon(network), 'process ~w of ~w is up: ~w, ~w',
           [P, Network, Where, Pid]).
+
+%!  node_went(+Network, +P, +Status) is det.
+%
+%   Process P is down.
 
 node_went(Network, P, Status) :-
     assertz(down(Network, P, Status)),
@@ -73,9 +73,17 @@ node_went(Network, P, Status) :-
           [P, Network, Status]),
     forall(waiting(Network, P, Queue), answered(Queue, P, down)).
 
+%!  node_again(+Network, +P) is det.
+%
+%   Process P, which was down, is about to be started again.
+
 node_again(Network, P) :-
     retractall(up(Network, P, _, _)),
     retractall(down(Network, P, _)).
+
+%!  nodes_forget(+Network) is det.
+%
+%   Delete all records of the processes of Network.
 
 nodes_forget(Network) :-
     retractall(up(Network, _, _, _)),
@@ -84,7 +92,7 @@ nodes_forget(Network) :-
 %!  node(?Network, ?P, ?Pid) is nondet.
 %!  node(?Network, ?P, ?Pid, ?Where) is nondet.
 %
-%   Process P of Network is up; Pid is its process on its machine.
+%   Process P of Network is up; Pid is its process id on its machine.
 
 node(Network, P, Pid) :-
     node(Network, P, Pid, _).
@@ -110,8 +118,8 @@ node_gone(Network, P) :-
 %   Process P does Order.
 %
 %   @error existence_error(carrier, Network-P) when it is not up, or ends
-%   before it has answered; timeout_error(answer, Network-P); what order_do/2
-%   throws there
+%   before it has answered; timeout_error(answer, Network-P); errors of
+%   order_do/2 there
 
 node_order(Network, P, Order, Answer) :-
     up(Network, P, local, _),
@@ -124,8 +132,8 @@ node_order(Network, P, Order, Answer) :-
 
 %!  nodes_order(+Network, +Ps, +Order, +Seconds, -Answers) is det.
 %
-%   As node_order/4, of all processes Ps at the same time, with one answer of
-%   each, in Seconds.
+%   As node_order/4, for all processes Ps at the same time: one answer of each,
+%   within Seconds.
 
 nodes_order(Network, [P], Order, _, [Answer]) :-
     up(Network, P, local, _),
@@ -154,13 +162,13 @@ result(late, Node, _) :-
 
 %!  nodes_ask(+Network, +Ps, +Order, +Seconds, :Watch, -Results) is det.
 %
-%   What children Ps answer, P-Result in order of arrival. While some have
-%   not answered, call(Watch, Those) again and again. Result is one of
-%   endpoint_request/4, `down` or `late`. The endpoint alone cannot tell a
-%   peer that is dead from one that will be back.
+%   Results are the answers of children Ps, P-Result in order of arrival. While
+%   some have not answered, call(Watch, Those) is called again and again.
+%   Result is a result of endpoint_request/4, `down` or `late`. The endpoint
+%   alone cannot distinguish a dead peer from a peer that will return.
 
 nodes_ask(Network, Ps, Order, Seconds, Watch, Results) :-
-    functor(Order, What, _),            % options of hosts may be secret
+    functor(Order, What, _),            % options of hosts may contain secrets
     debug(typhon(network), 'processes ~w of ~w: ~w', [Ps, Network, What]),
     deadline(Seconds, Deadline),
     setup_call_cleanup(
@@ -174,7 +182,7 @@ nodes_ask(Network, Ps, Order, Seconds, Watch, Results) :-
 
 %!  nodes_tell(+Network, +Ps, +Order) is det.
 %
-%   Processes Ps are to do Order, when they come to it.  Never waits.
+%   Send Order to processes Ps. Never waits.
 
 nodes_tell(Network, Ps, Order) :-
     forall(( member(P, Ps), node(Network, P, _, Where) ),
@@ -188,7 +196,7 @@ tell(Endpoint, Order) :-
 
 %!  nodes_peers(+Network, -Peers:list) is det.
 %
-%   The endpoints of this process, and of the children that are left.
+%   Peers are the endpoints of this process, and of the children that are up.
 
 nodes_peers(Network, Peers) :-
     findall(Peer,
@@ -198,7 +206,7 @@ nodes_peers(Network, Peers) :-
 
 %!  unwatched(+Ps) is det.
 %
-%   Without a watch.
+%   A Watch for nodes_ask/6 that does nothing.
 
 unwatched(_).
 
@@ -248,7 +256,7 @@ prolog:error_message(existence_error(carrier, Network-P)) -->
 
 %!  deadline(+Seconds, -Deadline) is det.
 %
-%   The time stamp that is so many seconds ahead.
+%   Deadline is the time stamp in Seconds from now.
 
 deadline(Seconds, Deadline) :-
     get_time(Now),

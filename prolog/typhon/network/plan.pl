@@ -35,10 +35,9 @@
 :- use_module(topology,
               [topology_costs/2, topology_edges/4, topology_names/2]).
 
-/** <module> What a network is to be
+/** <module> The plan of a network
 
-A plan is all that follows from the arguments of network_start/3, and from a
-seed.
+A plan is derived from the arguments of network_start/3, and from a seed.
 
 *Threading*: pure, but for the seed that is drawn where none is given.
 */
@@ -48,8 +47,8 @@ seed.
 %!  network_plan(+Topology, +Options, -Plan) is det.
 %
 %   @error domain_error(network_option, Option), domain_error(topology, T),
-%   permission_error(set, network_option, Option): it is about journals, and not
-%   for the whole network, or without one
+%   permission_error(set, network_option, Option): an option about journals
+%   that is not for the whole network, or is given without a journal
 
 network_plan(Topology, Options0, plan(Names, Edges, Costs, Options)) :-
     check_options(network_option, Options0),
@@ -66,7 +65,7 @@ network_plan(Topology, Options0, plan(Names, Edges, Costs, Options)) :-
 
 %!  plan_option(+Plan, ?Option) is semidet.
 %
-%   An option that was given, or drawn.
+%   Option was given, or drawn.
 
 plan_option(plan(_, _, _, Options), Option) :-
     option(Option, Options).
@@ -92,7 +91,7 @@ option_type(journal(postgresql(Url)), atom, Url).
 option_type(sync(How), oneof([full, normal]), How).
 option_type(restart(Restart), boolean, Restart).
 
-%   What the type alone does not say.
+%   Checks beyond the type of the value.
 
 check_option(hosts(Options)) =>
     check_options(host_option, Options).
@@ -141,7 +140,7 @@ check_rate(Rate) :-
                 context(_, 'write clock(virtual), or clock(Rate) with the \c
                             host seconds per second'))).
 
-%   A journal is a process', not a host's.
+%   A journal belongs to a process, not to a host.
 
 check_journal(Options) :-
     memberchk(hosts(Own), Options),
@@ -161,7 +160,7 @@ misplaced(Option, Why) :-
     throw(error(permission_error(set, network_option, Option),
                 context(_, Why))).
 
-%   What is virtual happens in one process, and ends with it.
+%   A network in virtual time runs in one process, and ends with it.
 
 check_virtual(Options) :-
     memberchk(clock(virtual), Options),
@@ -194,7 +193,7 @@ seeded(Options, Seed, [seed(Seed)|Options]) :-
 
 %!  plan_unkept(+Plan0, -Plan) is det.
 %
-%   Without what is said of journals, and of processes that are started again.
+%   Plan is Plan0 without the options for journals and restarts.
 
 plan_unkept(plan(Names, Edges, Costs, Options0),
             plan(Names, Edges, Costs, Options)) :-
@@ -216,8 +215,7 @@ plan_time(Plan, Kind) :-
 
 %!  plan_log(+Plan, -File, -Kinds:list) is semidet.
 %
-%   Where its events are written, and of which kinds beside the lives of
-%   agents.
+%   Events are written to File: of Kinds, besides the lives of agents.
 
 plan_log(Plan, File, Kinds) :-
     plan_option(Plan, log(File, Kinds)),
@@ -227,7 +225,7 @@ plan_log(Plan, File, []) :-
 
 %!  plan_processes(+Plan, -P, -Machines) is det.
 %
-%   P processes carry the network, blocks of them on each of Machines.
+%   P processes run the network, blocks of them on each of Machines.
 
 plan_processes(plan(Names, _, _, Options), P, Machines) :-
     (   option(machines([Machine|Rest]), Options)
@@ -254,7 +252,7 @@ plan_hosts(Plan, P, Common, Hosts) :-
               with_files(Plan, Name, HostOptions0, HostOptions) ),
             Hosts).
 
-%   The files of places(Places) come after those of hosts(Own).
+%   The files of places(Places) are consulted after those of hosts(Own).
 
 with_files(Plan, Name, Options0, Options) :-
     plan_option(Plan, places(Places)),
@@ -268,7 +266,7 @@ with_files(_, _, Options, Options).
 
 %!  plan_host_setup(+Plan, -Goals) is det.
 %
-%   What is to be called in the places of hosts when they are there: pairs
+%   Goals are called in the places of hosts when these have started: pairs
 %   I-Goal.
 
 plan_host_setup(Plan, Goals) :-
@@ -280,7 +278,7 @@ plan_host_setup(Plan, Goals) :-
               member(Goal, All) ),
             Goals).
 
-%   What hosts(Own) says comes before what the network says.
+%   Options of hosts(Own) come before those of the network.
 
 host_options(Plan, I, Common, HostOptions) :-
     plan_option(Plan, seed(Seed)),
@@ -301,13 +299,8 @@ overridden(Own, Option) :-
     memberchk(General, Own).
 
 %!  plan_links(+Plan, -Links) is det.
-%!  plan_costs(+Plan, -Costs) is det.
-%!  plan_change(+Costs, +Change0, -Change) is det.
 %
-%   Links are terms link(I, J, Cost).  Change0 is link(I, J) or unlink(I, J),
-%   Change has the cost of the link besides.  It belongs to the pair of
-%   hosts: a link that comes again costs what it did.  Costs is the part of
-%   Plan that says so, since copying a plan takes longer than the change.
+%   Links are terms link(I, J, Cost).
 
 plan_links(Plan, Links) :-
     Plan = plan(_, Edges, _, _),
@@ -315,8 +308,8 @@ plan_links(Plan, Links) :-
 
 %!  plan_links_at(+Plan, +Time, -Links) is semidet.
 %
-%   The links at Time, in host seconds after the beginning. Fails where links
-%   do not come and go.
+%   Links are the links at Time, in host seconds after the start.  Fails where
+%   links do not change.
 
 plan_links_at(Plan, Time, Links) :-
     plan_dynamics(Plan, Time, State),
@@ -328,11 +321,22 @@ links_of(Edges, Plan, Links) :-
             ( member(I-J, Edges), cost(Plan, I-J, Cost) ),
             Links).
 
+%!  plan_costs(+Plan, -Costs) is det.
+%
+%   Costs is the part of Plan with the costs of links: to copy a plan takes
+%   longer than a change of a link.
+
 plan_costs(Plan, plan([], [], Costs, Options)) :-
     Plan = plan(_, _, Costs, _),
     findall(Option,
             ( member(Option, [cost(_), seed(_)]), plan_option(Plan, Option) ),
             Options).
+
+%!  plan_change(+Costs, +Change0, -Change) is det.
+%
+%   Change0 is link(I, J) or unlink(I, J).  Change has the cost of the link
+%   besides.  The cost belongs to the pair of hosts: a link that is made again
+%   costs the same.
 
 plan_change(Costs, Change0, Change) :-
     Change0 =.. [Action, A, B],
@@ -361,7 +365,7 @@ common_cost(Cost, _, _, Cost).
 
 %!  plan_dynamics(+Plan, +Time, -State) is semidet.
 %
-%   What changes its links, if something does, as it is at Time.
+%   State is the state of its dynamics at Time. Fails if there are none.
 
 plan_dynamics(plan(Names, Edges, _, Options), Time, State) :-
     option(dynamic(Spec), Options),
@@ -376,8 +380,8 @@ plan_dynamics(plan(Names, Edges, _, Options), Time, State) :-
 
 %!  plan_journal(+Plan, +P, -Where, -How) is semidet.
 %
-%   The journal of process P, if there is to be one: where it is, and how it is
-%   synced.
+%   Process P has a journal at Where, synced as How says.  Fails without a
+%   journal.
 
 plan_journal(Plan, P, Part, How) :-
     plan_option(Plan, journal(Where)),
@@ -388,16 +392,20 @@ plan_journal(Plan, P, Part, How) :-
     ).
 
 %!  plan_options(+Plan, -Options) is det.
-%!  plan_shape(+Plan, -Names, -Edges) is semidet.
 %
-%   All options that were given, or drawn; the hosts, and the links it begins
-%   with. plan_shape/3 fails if Plan is none.
+%   Options are all options that were given, or drawn.
 
 plan_options(plan(_, _, _, Options), Options).
+
+%!  plan_shape(+Plan, -Names, -Edges) is semidet.
+%
+%   Names are the hosts, Edges the initial links. Fails if Plan is not a plan.
 
 plan_shape(plan(Names, Edges, _, _), Names, Edges).
 
 %!  plan_without(+Plan0, +Option, -Plan) is det.
+%
+%   Plan is Plan0 without Option.
 
 plan_without(plan(Names, Edges, Costs, Options0), Option,
              plan(Names, Edges, Costs, Options)) :-

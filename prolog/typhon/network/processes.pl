@@ -21,13 +21,13 @@
                 restarts_tell/3 ]).
 :- use_module(wiring, [wired_host/3]).
 
-/** <module> The processes that carry a network begin and end
+/** <module> Starting and stopping the processes of a network
 
-See module `children` for what a child is, and `orders` for its orders.
+Module `children` describes the children, `node_process` their orders.
 
-*Threading*: the threads that follow the children tell what happens to them:
-as facts, and as messages to a queue that starting and stopping wait on, and
-in between the thread of module `restarts`, if there is one.
+*Threading*: the threads that follow the children report their events: as
+facts, and as messages to a queue on which starting and stopping wait; in
+between, to the server of module `restarts`, if there is one.
 */
 
 :- multifile
@@ -48,13 +48,13 @@ in between the thread of module `restarts`, if there is one.
 
 :- dynamic
     queue/2,                    % Network, Queue
-    wanted/1,                   % Network: its processes are to stay
+    wanted/1,                   % Network: its processes must stay
     child/3,                    % Network, P, Child
     lasting/1,                  % Network: its processes have journals
     start/4,                    % Network, P, Machine, Interface
     at/3.                       % Network, P, Endpoint: where it listens
 
-%   A warning names so many hosts, and so many agents.
+%   The most hosts, and the most agents, that a warning names.
 
 most_named(10).
 
@@ -64,14 +64,14 @@ most_named(10).
 
 %!  nodes_start(+Network, +P, +Machines, +Interface, :Options) is det.
 %
-%   Starts P processes, blocks of them on each of Machines. With `[local]`
-%   and P = 1 the hosts are in this process. Options(P, List) are those of
-%   child_start/6 for each. When this throws, what was started waits for
-%   nodes_stop/1.
+%   Starts P processes, blocks of them on each of Machines. With `[local]` and
+%   P = 1 the hosts are in this process. Options(P, List) are those of
+%   child_start/6 for each process. If this throws, nodes_stop/1 stops the
+%   processes that were started.
 %
 %   @error timeout_error(start, Network),
-%   system_error(process_ended(Status)), what a child says that cannot
-%   begin, and as child_start/6
+%   system_error(process_ended(Status)), the error of a child that cannot
+%   start, and as child_start/6
 
 nodes_start(Network, 1, [local], _, _) :-
     !,
@@ -98,8 +98,8 @@ nodes_start(Network, P, Machines, Interface, Options) :-
         )),
     assertz(wanted(Network)).
 
-%   Networks are often started in the setup of a cleanup, where a wait with
-%   a deadline of its own would not do: see typhon_own_thread.
+%   An alarm, as networks are often started in the setup of a cleanup, where a
+%   wait with a deadline of its own would hang: see typhon_own_thread.
 
 alarm(Seconds, Queue) :-
     thread_self(Me),
@@ -170,10 +170,9 @@ wait_up(P, Network, Queue) :-
 
 %!  nodes_restart(+Network, :Options, :Restore) is det.
 %
-%   Processes that die are started again from now on, see module `restarts`,
-%   with the options Options(P, List) and the port that they had; then
-%   Restore(P) is called. Nothing is to be done where the hosts are in this
-%   process.
+%   From now on processes that die are restarted, see module `restarts`, with
+%   the options Options(P, List) and the port that they had; then Restore(P) is
+%   called. Does nothing where the hosts are in this process.
 
 nodes_restart(Network, Options, Restore) :-
     (   queue(Network, Queue)
@@ -185,7 +184,7 @@ nodes_restart(Network, Options, Restore) :-
     ;   true
     ).
 
-%   P hears that the others are started again.
+%   Tell P that the other processes are restarted if they end.
 
 expect(Network, P) :-
     findall(Endpoint, at(Network, _, Endpoint), Endpoints),
@@ -227,15 +226,15 @@ restart(Network, _, _, give_up(P)) :-
 
 %!  nodes_stop(+Network) is det.
 %
-%   Ends the processes that nodes_start/4 began to start, in order if
-%   they can, else by force. This process stays, of course.
+%   Ends the processes that nodes_start/5 began to start: in order if possible,
+%   else by force. This process goes on.
 %
-%   First no agent runs in any of the children any more that would find that
-%   others are gone, and those that hang are killed: the others need not wait
-%   for them. Then their hosts stop, and what they have sent arrives, at the
-%   log for one, and only then they end: so none waits for another that is gone.
-%   Where there are journals their contents stay, and no event reports
-%   it: a child does that when it ends.
+%   First agents are stopped in all children, so that none observes that others
+%   are gone, and children that hang are killed: the others need not wait for
+%   them. Then the hosts of the children stop, and all that they have sent
+%   arrives, for example at the log. Only then do the children end: so none
+%   waits for another that is gone. Where there are journals their contents
+%   stay, and no event reports the end: a child stops its hosts when it ends.
 
 nodes_stop(Network) :-
     retractall(wanted(Network)),
@@ -261,8 +260,8 @@ nodes_stop(Network) :-
     retractall(at(Network, _, _)),
     nodes_forget(Network).
 
-%   An agent on its way to a process that has died stays so, as does one in a
-%   goal that takes longer: so it stays in a journal.
+%   An agent on its way to a dead process, or in a goal that takes longer, does
+%   not come to rest. It stays in that state in a journal.
 
 rest_children(Network) :-
     order_children(Network, hold(0), kill_hanging(Network)),
@@ -272,8 +271,8 @@ rest_children(Network) :-
     nodes_ask(Network, Ps, rest(Rest, []), Seconds, kill_hanging(Network),
                  _).
 
-%   One by one: other threads may start children meanwhile, see
-%   typhon_mailbox.
+%   One by one: other threads may start children meanwhile. For the fault of
+%   findall/3 with retract/1 see typhon_mailbox.
 
 release_children(Network) :-
     retract(child(Network, _, Child)),
@@ -282,7 +281,7 @@ release_children(Network) :-
     release_children(Network).
 release_children(_).
 
-%   One may begin to hang after it has said that it is alive.
+%   Asked again and again: a child may begin to hang after an answer.
 
 kill_hanging(Network, Ps) :-
     setting(answer_seconds, Seconds),
@@ -293,7 +292,7 @@ kill_hanging(Network, Ps) :-
     ;   ignore(kill_all(Network, Hanging))
     ).
 
-%   kill_all(+Network, +Ps) fails when not all are gone in time.
+%   kill_all(+Network, +Ps): fails when not all have ended in time.
 
 kill_all(Network, Ps) :-
     forall(( member(P, Ps), child(Network, P, Child) ),
@@ -305,8 +304,8 @@ kill_all(Network, Ps) :-
 children_up(Network, Ps) :-
     findall(P, ( child(Network, P, _), node(Network, P, _) ), Ps).
 
-%   All children that are up do Order, watched by Watch; one that cannot is
-%   left to later.
+%   Send Order to all children that are up, watched by Watch. Errors are
+%   ignored: a child that cannot do it is ended later.
 
 order_children(Network, Order, Watch) :-
     setting(typhon_children:stop_seconds, Seconds),
@@ -335,7 +334,7 @@ left(Network, P) :-
     child(Network, P, _),
     \+ node_gone(Network, P).
 
-%   wait_down(+Network, +Ps, +Seconds) fails when one of Ps is left.
+%   wait_down(+Network, +Ps, +Seconds): fails when one of Ps is left.
 
 wait_down(Network, Ps, Seconds) :-
     queue(Network, Queue),

@@ -14,16 +14,16 @@
               [server_cast/2, server_start/4, server_stop/1]).
 :- use_module(nodes, [deadline/2, message_before/3]).
 
-/** <module> Processes of a network that die are started again
+/** <module> Restarts of the processes of a network
 
-At once, but not more than so many times within so many seconds: what dies
-whenever it is started would not be better for it. From when one dies until its
-hosts are there again it is absent: requests to the whole network
-wait meanwhile.
+A process that dies is restarted at once, but only a limited number of times
+within a time: a process that dies whenever it is started would not benefit
+from more. A process is absent from its death until its hosts are back:
+requests to the whole network wait meanwhile.
 
-*Threading*: one server for each such network. Nothing in it waits for a child
-to come up: that is a message, as is its end. Callers that wait for an
-absent one do so in threads of their own.
+*Threading*: one server for each such network. It never waits for a child to
+come up: that is a message, as is its end. Callers that wait for an absent
+process do so in threads of their own.
 */
 
 :- multifile
@@ -46,18 +46,17 @@ absent one do so in threads of their own.
     restoring/2,                % Network, Thread that calls Do(restore(_))
     absent/2,                   % Network, P
     death/3,                    % Network, P, Time
-    waiting/2.                  % Network, Queue: until none is absent
+    waiting/2.                  % Network, Queue: until no process is absent
 
 %!  restarts_begin(+Network, +Queue, :Do) is det.
-%!  restarts_end(+Network) is det.
 %
-%   From now on events come by restarts_tell/3, first those in Queue: up(P),
-%   down(P, Status) and failed(P, Error). Do(start(P)) is to start P again,
-%   Do(restore(P)) what is done when it is up, Do(kill(P)) what ends one that
-%   cannot begin, Do(give_up(P)) what follows when it is not started again. From
-%   restarts_end/1 on nothing of this is done any more.
+%   From now on restarts_tell/3 sends events to the server, after those in
+%   Queue: up(P), down(P, Status) and failed(P, Error). Do(start(P)) starts P
+%   again, Do(restore(P)) restores its hosts when it is up, Do(kill(P)) kills a
+%   process that cannot start, and Do(give_up(P)) is called when P is not
+%   restarted.
 %
-%   @error resource_error(What) if no thread can be made
+%   @error resource_error(What) if no thread can be created
 
 restarts_begin(Network, Queue, Do) :-
     atom_concat(restarts_, Network, Role),
@@ -74,6 +73,10 @@ hand_on(Queue, Server) :-
     ;   true
     ).
 
+%!  restarts_end(+Network) is det.
+%
+%   From now on no process is restarted.
+
 restarts_end(Network) :-
     with_mutex(typhon_restarts, retract(restarter(Network, Server))),
     !,
@@ -89,7 +92,7 @@ restarts_end(_).
 
 %!  restarts_tell(+Network, +Queue, +Event) is det.
 %
-%   Event goes to the server of Network, and before that begins to Queue.
+%   Send Event to the server of Network, or, before it begins, to Queue.
 
 restarts_tell(Network, Queue, Event) :-
     with_mutex(typhon_restarts,
@@ -98,8 +101,7 @@ restarts_tell(Network, Queue, Event) :-
                ;   thread_send_message(Queue, Event)
                )).
 
-%   Only what is being restored is interrupted: that may wait for one that
-%   hangs.
+%   Only a restore is interrupted: it may wait for a process that hangs.
 
 interrupt :-
     (   nb_current(typhon_restoring, true)
@@ -108,8 +110,9 @@ interrupt :-
     ;   true
     ).
 
-%   Starting are terms Deadline-P.  A server whose thread was ended finds in
-%   absent/2 what it had started, and in death/3 what has died before.
+%   Starting are terms Deadline-P. A server whose thread was replaced finds in
+%   absent/2 the processes that it had started, and in death/3 the earlier
+%   deaths.
 
 handle(begin, state(Network, Do, _), Next) :-
     !,
@@ -151,7 +154,7 @@ handled(up(P), state(Network, Do, Starting0), state(Network, Do, Starting)) :-
     not_starting(P, Starting0, Starting),
     (   Starting \== Starting0
     ->  restored(P, Network, Do)
-    ;   true                            % it came before this server began
+    ;   true                            % it was up before this server began
     ).
 handled(failed(_, Error), State, State) :-
     print_error(error, Error).
@@ -173,7 +176,7 @@ not_starting(P, Starting0, Starting) :-
     ;   Starting = Starting0
     ).
 
-%   once_more(+Network, +P) fails if it has died too often.
+%   once_more(+Network, +P): fails if P has died too often.
 
 once_more(Network, P) :-
     get_time(Now),
@@ -186,8 +189,8 @@ once_more(Network, P) :-
     Count < Most,
     assertz(death(Network, P, Now)).
 
-%   One that is up but cannot be what it was is no use: it is as if it had
-%   died.
+%   A process that is up but cannot be restored is useless: it is treated as if
+%   it had died.
 
 restored(P, Network, Do) :-
     (   catch(restore(Network, Do, P), Ball, not_restored(Ball))
@@ -202,7 +205,7 @@ restore(Network, Do, P) :-
                        restore_p(Network, Do, P),
                        retractall(restoring(Network, Me))).
 
-%   What ends the network after this has looked finds the thread in
+%   A thread that ends the network after this check finds this thread in
 %   restoring/2.
 
 restore_p(Network, Do, P) :-
@@ -228,10 +231,8 @@ not_restored(Ball) :-
                 *******************************/
 
 %!  restarts_absent(+Network, +P) is det.
-%!  restarts_back(+Network) is det.
 %
-%   P has died, and is absent, if those of Network are started again; wait until
-%   none is absent, so long as an order may take.
+%   P has died, and is absent, if the processes of Network are restarted.
 
 restarts_absent(Network, P) :-
     (   restarter(Network, _),
@@ -251,6 +252,11 @@ tell_waiting(Network) :-
     forall(waiting(Network, Queue),
            catch(thread_send_message(Queue, back),
                  error(existence_error(_, _), _), true)).
+
+%!  restarts_back(+Network) is det.
+%
+%   Wait until no process of Network is absent, at most as long as an order may
+%   take.
 
 restarts_back(Network) :-
     absent(Network, _),

@@ -25,8 +25,8 @@
 
 /** <module> Restore points of whole networks
 
-All processes hold what they do; then each says what it knows, and goes on.
-That is written when they have gone on.  See module `loading` for the way back.
+All processes are held; then each returns its state, and is released.  The file
+is written after that.  Module `loading` loads it.
 
 A file has one clause per line, in canonical text:
 
@@ -35,10 +35,9 @@ A file has one clause per line, in canonical text:
     end(Sum).
 
 Sum is the SHA-256 of all lines before.  The file gets its name when it is
-complete: the one that was there before stays until then.
+complete: an old file of that name stays until then.
 
-*Threading*: any thread, also that of virtual time, for what is called by
-network_at/3.
+*Threading*: any thread, also that of virtual time, for goals of network_at/3.
 */
 
 :- multifile
@@ -57,8 +56,8 @@ save_network(Network, File) :-
     network_standing(Network, Standing),
     once(one_at_a_time(save(Network, Standing, File))).
 
-%   In virtual time one waits for the other anyway, and may be asked to do so in
-%   the thread of that.
+%   In virtual time calls are serialized anyway, and the thread of virtual time
+%   may be one of the callers.
 
 :- meta_predicate one_at_a_time(0).
 
@@ -114,8 +113,8 @@ cut(Network, Ps, Standing, Terms) :-
                 *******************************/
 
 %   When no agent gets a turn, and running turns have ended, a message may
-%   be on its way still.  It goes from process to process, each time to where
-%   its agent has been later: through each of them once at the most.
+%   still be on its way.  It is forwarded from process to process, each time to
+%   a later location of its agent: so through each of them at most once.
 
 hold(Network, Ps, Deadline) :-
     hold_here(Network),
@@ -129,8 +128,8 @@ hold(Network, Ps, Deadline) :-
                  all_do(Network, Ps, rest(Peers), Deadline) ))
     ).
 
-%   Links and appointments are the business of this process, also where hosts
-%   are in others.
+%   Links and appointments belong to this process, also where hosts are in
+%   others.
 
 hold_here(Network) :-
     carried_here(Network),
@@ -158,7 +157,7 @@ order(hold, Seconds, hold(Seconds)).
 order(rest(Peers), Seconds, rest(Seconds, Peers)).
 order(flush(Peers), Seconds, flush(Seconds, Peers)).
 
-%   They have a little longer to say that it took too long.
+%   The processes get a little longer to report that they are late.
 
 answers(Network, Ps, Order, Deadline, Answers) :-
     seconds_to(Deadline, Seconds0),
@@ -173,8 +172,8 @@ seconds_to(Deadline, Seconds) :-
                 *         WHAT THERE IS        *
                 *******************************/
 
-%   about(+Network, +Standing, +Deadline, -About): what the processes do not
-%   know.
+%   about(+Network, +Standing, +Deadline, -About): the part of the state that
+%   only this process has.
 
 about(Network, standing(Plan, Clock, Log0, Dynamics0), Deadline,
       [network(Network, Plan), clock(Now, Clock), Log, Dynamics|Due]) :-
@@ -200,7 +199,7 @@ dynamics(Dynamics, Deadline, Network, dynamics(Dynamics, Stamp, Then)) :-
     ;   throw(error(timeout_error(save, Network), _))
     ).
 
-%   What has just gone off, and is not done yet, is to go off at once.
+%   An alarm that has just gone off, and has not been handled, is due at once.
 
 due(Owner, Token, Stamp) :-
     (   time_due(Owner, Token, Stamp0)
@@ -208,7 +207,7 @@ due(Owner, Token, Stamp) :-
     ;   Stamp = 0
     ).
 
-%   part(+Network, +Deadline, +P, -Terms)
+%   part(+Network, +Deadline, +P, -Terms): the state of process P.
 
 part(Network, Deadline, P, [time(P, Time)|Terms]) :-
     wired(Network, Hosts),
@@ -247,7 +246,7 @@ saved_write(Spec, Terms) :-
             blamed(File, New, Ball, Told),
             throw(Told) )).
 
-%   The file New is not in use yet.
+%   Errors name File, as New is only a temporary name.
 
 blamed(File, New, error(Formal0, Context), error(Formal, Context)) :-
     Formal0 =.. Parts0,
@@ -283,7 +282,8 @@ sum_of(Bytes, Sum) :-
 %!  saved_read(+File, -Terms:list) is det.
 %
 %   @error existence_error(source_sink, File)
-%   @error network_damaged(File, Why): what it is not, or `cut_short`, `changed`
+%   @error network_damaged(File, Why): why it is no saved network, or
+%          `cut_short`, `changed`
 %   @error network_version(File, Version): written by another version
 
 saved_read(Spec, Terms) :-
@@ -311,7 +311,7 @@ must_be_there(File) :-
     ;   existence_error(source_sink, File)
     ).
 
-%   What is not ours is not parsed.
+%   A file of another format is not parsed.
 
 must_be_ours([First|_], File) :-
     sub_string(First, 0, _, _, "typhon_saved("),

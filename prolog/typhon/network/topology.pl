@@ -33,15 +33,15 @@ A topology is a term. Its hosts are numbered from 1, its edges are pairs
   - edges(List): as listed, pairs A-B of positive integers or atoms, or
     A-B-cost(C) where the link costs C
 
-In random(N, P) every pair of hosts is linked with probability P. Where
-that leaves the network in pieces, each piece is tied to the one before
-it by one link between hosts drawn from the two, for an agent that starts
-in a piece of a network would never see the rest of it. Above P = ln(N)/N
-there is rarely anything to tie.
+In random(N, P) every pair of hosts is linked with probability P. If the
+network is then in pieces, each piece is linked to the one before it by one
+link between hosts drawn from the two, as an agent that starts in a piece of a
+network would never see the rest of it. Above P = ln(N)/N this is rarely
+necessary.
 
-Host I is named `n<I>`. In edges(List) integer I stands for `n<I>` too,
-an atom for the host of that name, and hosts are numbered in the order in
-which the list first names them.
+Host I is named `n<I>`. In edges(List) integer I stands for `n<I>` too, an atom
+for the host of that name, and hosts are numbered in the order in which the
+list first names them.
 
 *Threading*: pure.
 */
@@ -125,8 +125,8 @@ numbered_names(N, Names) :-
 
 %!  topology_costs(+Topology, -Costs) is det.
 %
-%   The costs of links that Topology tells, pairs (I-J)-Cost with I < J,
-%   each edge once.
+%   Costs are the costs of links in Topology, pairs (I-J)-Cost with I < J, each
+%   edge once.
 %
 %   @error as topology_edges/4
 
@@ -241,12 +241,15 @@ tie(_, _, []).
                 *******************************/
 
 %   listed_names(+List, -Names:list(atom)) is det.
-%   listed_edge(+Names, +Edge, -Pair) is det.
-%   listed_costs(+Names, +List, -Costs) is det.
 %
-%   The names of the hosts; Pair is I-J with I < J, as of the numbers of
-%   hosts; Costs are terms Pair-Cost, sorted, one for each edge of which the
-%   List tells the cost.
+%   Names are the names of the hosts. The following predicates are likewise for
+%   edges(List).
+%
+%   listed_edge(+Names, +Edge, -Pair) is det: Pair is I-J with I < J, the
+%   numbers of the hosts.
+%
+%   listed_costs(+Names, +List, -Costs) is det: Costs are terms Pair-Cost,
+%   sorted, one for each edge of which List has the cost.
 %
 %   @error type_error(edge, Edge), type_error(host_name, End),
 %   domain_error(edge, A-A), domain_error(cost, C)
@@ -282,7 +285,7 @@ end_name(End, Name) :-
     ;   type_error(host_name, End)
     ).
 
-%   edge_cost(+Edge, -Pair, -Cost): Cost is `none` if Edge does not say.
+%   edge_cost(+Edge, -Pair, -Cost): Cost is `none` if Edge has none.
 
 edge_cost(Pair-Cost0, Pair1, Cost) :-
     nonvar(Cost0),
@@ -317,7 +320,7 @@ listed_costs(Names, List, Costs) :-
 
 %!  number_name(+Number, -Name) is det.
 %
-%   The name of the host of that Number, if it was not named.
+%   Name is the default name of the host of that Number.
 
 number_name(I, Name) :-
     atom_concat(n, I, Name).

@@ -26,12 +26,12 @@
 
 /** <module> The hosts of a network and the links between them
 
-Knows which host, by number, name and address, is in which process, and
-gives the processes their orders about hosts and links.
+Records for each host its number, name, address and process, and gives the
+processes orders about hosts and links.
 
-*Threading*: wire_change/2 runs in the thread of the dynamics, beside callers
-that ask for properties; wire_again/5 in that of module `restarts`, and not
-beside a change.
+*Threading*: wire_change/2 runs in the worker that applies the dynamics,
+concurrently with callers that ask for properties; wire_again/5 runs in that of
+module `restarts`, and never concurrently with a change.
 */
 
 :- meta_predicate wire_resting_own(+, 0).
@@ -56,8 +56,8 @@ typhon_names:known(host, Address) :-
 %!  wire_hosts(+Network, +P, +How, +Hosts) is det.
 %
 %   Starts Hosts, terms host(At, I, Name, Options), At one of the processes
-%   1..P. Each process gets one order, How being its name: `hosts`, or `again`
-%   for those that there were before.
+%   1..P. Each process gets one order, named How: `hosts`, or `again` for hosts
+%   that existed before.
 %
 %   @error as node_order/4
 
@@ -77,13 +77,16 @@ order_hosts(Network, P, How, Hosts, Addresses) :-
     node_order(Network, P, Order, Addresses).
 
 %!  wire_links(+Network, +P, +Links) is det.
-%!  wire_instead(+Network, +P, +Links) is det.
 %
-%   Makes Links, terms link(I, J, Cost); instead of what links there are. Each
-%   of the processes 1..P hears in one order of all the ends of links in it.
+%   Makes Links, terms link(I, J, Cost). Each of the processes 1..P gets one
+%   order for all the ends of links in it.
 
 wire_links(Network, P, Links) :-
     order_links(Network, P, link, Links).
+
+%!  wire_instead(+Network, +P, +Links) is det.
+%
+%   As wire_links/3, and removes all other links.
 
 wire_instead(Network, P, Links) :-
     numbered_edges(Network, Edges),
@@ -107,7 +110,7 @@ order_halves(Network, P, Action, Halves) :-
 
 %!  wire_go_on(+Network, +P) is det.
 %
-%   What was in the journals of the processes 1..P goes on.
+%   Resume the contents of the journals of the processes 1..P.
 
 wire_go_on(Network, P) :-
     forall(between(1, P, At), node_order(Network, At, go_on, ok)).
@@ -132,9 +135,9 @@ order_goals(Network, P, Goals) :-
 
 %!  wire_again(+Network, +P, +Hosts, +Links, +Goals) is det.
 %
-%   Process P was started again: what of Hosts and Links belongs to it is made
-%   there, with the links that have changed meanwhile as they are now, and
-%   Goals are called.
+%   Process P was restarted: start its hosts of Hosts again, and make its links
+%   of Links, but those that have changed meanwhile as they are now; then call
+%   Goals.
 %
 %   @error as node_order/4
 
@@ -167,8 +170,8 @@ half_link(Network, Link, P, half(Name, Address, Cost)) :-
 
 %!  wire_change(+Network, +Change) is det.
 %
-%   Change is link(I, J, Cost) or unlink(I, J, _). A process that is down was
-%   reported when it went down, and is left alone.
+%   Change is link(I, J, Cost) or unlink(I, J, _). A process that is down is
+%   skipped: it was reported when it went down.
 
 wire_change(Network, Change) :-
     with_mutex(typhon_wiring, change(Network, Change)).
@@ -188,8 +191,8 @@ alive_order(Network, P, Order, Answer) :-
     !.
 alive_order(_, _, _, none).
 
-%   present_order(+Network, +P, +Order, -Answer) fails for a process that is
-%   down for good. One that dies may be there again in a moment.
+%   present_order(+Network, +P, +Order, -Answer): fails for a process that is
+%   down for good. A process that dies may be back in a moment.
 
 present_order(Network, P, Order, Answer) :-
     between(1, 2, _),
@@ -218,8 +221,8 @@ wire_stop_own(Network) :-
 %!  wire_resting_own(+Network, :Goal) is semidet.
 %
 %   As once(Goal), which stops the hosts in this process, if there are any.
-%   Meanwhile no agent runs here that would find that others are gone. In
-%   virtual time none does anyway.
+%   Meanwhile no agent runs here, so that none observes that others are gone.
+%   In virtual time no agent runs anyway.
 
 wire_resting_own(Network, Goal) :-
     current_prolog_flag(pid, Pid),
@@ -253,14 +256,14 @@ wired(Network, Hosts) :-
 
 %!  wired_host(+Network, +P, -Name) is nondet.
 %
-%   Process P has a host of that name.
+%   Process P has a host called Name.
 
 wired_host(Network, P, Name) :-
     host(Network, _, Name, P, _).
 
 %!  wired_hosts(+Network, -Addresses) is det.
 %
-%   In the order of their numbers.
+%   Addresses of the hosts, in the order of their numbers.
 
 wired_hosts(Network, Addresses) :-
     findall(I-Address, host(Network, I, _, _, Address), Pairs),
@@ -269,9 +272,9 @@ wired_hosts(Network, Addresses) :-
 
 %!  wired_edges(+Network, -Edges) is det.
 %
-%   The links of this moment between hosts of Network, pairs of addresses,
-%   by number. Those that only hosts in a process that is down would know
-%   are missing.
+%   Edges are the present links between hosts of Network, pairs of addresses,
+%   by number. Links that only hosts in a process that is down have are
+%   missing.
 
 wired_edges(Network, Edges) :-
     numbered_edges(Network, Numbered),
@@ -299,8 +302,8 @@ half_edge(Network, I-J) :-
 
 %!  wired_agents(+Network, -Agents) is det.
 %
-%   Agents that were born on hosts of Network and have not ended. Those born
-%   in a process that is down are missing.
+%   Agents were born on hosts of Network and have not ended. Those born in a
+%   process that is down are missing.
 
 wired_agents(Network, Agents) :-
     findall(Agent,
@@ -313,8 +316,8 @@ wired_agents(Network, Agents) :-
 
 %!  wired_ended(+Network, +Name, -Agents) is det.
 %
-%   Agents of that Name that were born on hosts of Network in other processes,
-%   and have ended, as far as these remember.
+%   Agents of that Name that were born on hosts of Network in other processes
+%   and have ended, as far as these processes remember them.
 
 wired_ended(Network, Name, Agents) :-
     findall(Agent,

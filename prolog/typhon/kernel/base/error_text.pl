@@ -125,10 +125,6 @@ term_told(Term) -->
     { large_text(Term, Text) },
     [ '~w'-[Text] ].
 
-%!  is_remark(@Text) is semidet.
-%
-%   Text is a remark that may be in the context of an error.
-
 %!  context_indicator(+PI, -Name, -Arity) is semidet.
 %
 %   PI, that is Name/Arity, is a predicate indicator that may be in the context
@@ -152,6 +148,10 @@ context_indicator(PI0, Name, Arity) :-
         atom(N),
         Name = Name0
     ).
+
+%!  is_remark(@Text) is semidet.
+%
+%   Text is a remark that may be in the context of an error.
 
 is_remark(Text) :-
     ( atom(Text) ; string(Text) ),
