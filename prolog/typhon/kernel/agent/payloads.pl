@@ -147,7 +147,7 @@ payload_clause(Module, PIs, (Head:-Body)) :-
 :- setting(typhon_result_facts:result_bytes, positive_integer, 1000000,
            "Now typhon_payloads:result_bytes").
 :- setting(result_bytes, positive_integer, 1000000,
-           "The result of an agent is no longer than this").
+           "The longest result of an agent, in bytes").
 
 %!  result_put(+Module, +Term) is det.
 %

@@ -139,7 +139,7 @@ ended_after(Id, Hops) :-
 %   Record that Id has gone to Address, in Process, by hop number Hops.
 
 home_moved(Id, Address, Hops, Process) :-
-    debug(typhon(hop), '~w hop ~D: home hears that it is on ~w',
+    debug(typhon(hop), '~w hop ~D: home records that it is on ~w',
           [Id, Hops, Address]),
     with_mutex(typhon_born, moved(Id, Address, Hops, Process)).
 
@@ -187,7 +187,7 @@ forget_first(Id) :-
 %   Record that Id has ended after Hops hops, with Results.
 
 home_ended(Id, Outcome, Hops, Results) :-
-    debug(typhon(agent), '~w: home hears that it ended after ~D hops, ~p',
+    debug(typhon(agent), '~w: home records that it ended after ~D hops, ~p',
           [Id, Hops, Outcome]),
     with_mutex(typhon_born, ended(Id, Outcome, Hops, Results, Askers)),
     forall(member(Asker, Askers), tell_asker(Asker, Outcome)).
@@ -230,7 +230,7 @@ last_outcome(Outcome, _, Outcome).
 %   Process, after Hops hops.
 
 home_faulty(Id, Outcome, Stamp, Address, Hops, Process) :-
-    debug(typhon(agent), '~w: home hears that it is faulty, ~p',
+    debug(typhon(agent), '~w: home records that it is faulty, ~p',
           [Id, Outcome]),
     with_mutex(typhon_born,
                ( moved(Id, Address, Hops, Process),
@@ -252,7 +252,7 @@ has_fault(_, _, _, _, []).
 %   overtake that of the fault: the ages show the order.
 
 home_resumed(Id, Stamp, Hops) :-
-    debug(typhon(agent), '~w: home hears that it is resumed', [Id]),
+    debug(typhon(agent), '~w: home records that it is resumed', [Id]),
     with_mutex(typhon_born, resumed(Id, Hops-Stamp)).
 
 resumed(Id, Age) :-

@@ -39,7 +39,7 @@ a worker.
 */
 
 :- setting(shown_seconds, number, 3,
-           "An agent under way for longer is shown as in doubt").
+           "Seconds under way after which an agent is shown as in doubt").
 :- setting(typhon_hop:doubt_seconds, number, 3,
            "Now typhon_in_doubt:shown_seconds").
 :- setting(settle_seconds, number, 1,
@@ -59,7 +59,7 @@ resolve_in_doubt(Transfer) :-
     transfer_traveller(Transfer, Who, Hops),
     lasts(Transfer),
     !,
-    debug(typhon(hop), '~w hop ~D: in doubt, is asked for again', [Who, Hops]),
+    debug(typhon(hop), '~w hop ~D: in doubt, is sent again', [Who, Hops]),
     hop_id_again(Who),
     arg(1, Transfer, Id),
     setting(settle_seconds, Seconds),

@@ -25,9 +25,9 @@ that waits for the next attempt.
 */
 
 :- setting(news_seconds, number, 300,
-           "News for a home that cannot be reached are kept so long").
+           "Seconds that news for an unreachable home is kept").
 :- setting(news_pause, number, 0.005,
-           "Where an agent is waits so long for other news of its home").
+           "Seconds that news of a location waits for more news").
 
 :- multifile
     typhon_durable_posts:undelivered/4,

@@ -53,7 +53,7 @@ typhon_news, since that may have to connect.
 :- setting(forwards, positive_integer, 20000,
            "Forwarding addresses kept by a process").
 :- setting(endings, positive_integer, 20000,
-           "Agents that came to a process and ended there, as far as it knows").
+           "Records of agents that came to a process and ended there").
 
 :- dynamic
     forward/4,                  % Id, Address, Hops, Process

@@ -28,7 +28,7 @@ until it is made again. connection_manager.pl handles its result.
 :- setting(typhon_connection_manager:connect_time, number, 5,
            "Seconds until a peer is reported as unreachable").
 :- setting(typhon_connection_manager:return_time, number, 30,
-           "The same, of one that is started again whenever it ends").
+           "Seconds until a restarting peer is reported as unreachable").
 
 :- dynamic
     attempt/4.                          % Address, State, Pause, Since

@@ -74,7 +74,7 @@ await_word(In, Out) :-
     ).
 
 turned_away(Ip, Formal, Stage) :-
-    debug(typhon(connect), '~w: it came in vain: ~p', [Ip, Formal]),
+    debug(typhon(connect), '~w: a client was refused: ~p', [Ip, Formal]),
     (   nb_current(typhon_proved, true) % it came by another connection
     ->  true
     ;   call(Stage, refused)
@@ -248,7 +248,7 @@ prolog:message(typhon(endpoint, foreign(Address, Formal))) -->
 prolog:message(typhon(endpoint, foreign(Address, Formal))) -->
     { arg(3, Formal, other) },
     !,
-    [ 'Endpoint: no connection with ~w: it says that it is another one'
+    [ 'Endpoint: no connection with ~w: it claims to be another process'
       -[Address] ].
 prolog:message(typhon(endpoint, foreign(Address, Formal))) -->
     { arg(3, Formal, version(Theirs)) },

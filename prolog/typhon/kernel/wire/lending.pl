@@ -277,7 +277,7 @@ typhon_threads:overdue(Thread) :-
 
 release(Thread, Turn) :-
     sig_atomic(released(Thread, Turn, Connection)),
-    debug(typhon(session), '~w does not come back: the connection goes',
+    debug(typhon(session), '~w is overdue: its connection is closed',
           [Thread]),
     in_background(part(Thread, Connection), lender).
 

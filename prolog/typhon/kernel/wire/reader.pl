@@ -44,7 +44,7 @@ are deferred while a frame is being handled and counted.
 :- use_module(writer, [session_release/1]).
 
 :- setting(silence, number, 5,
-           "Seconds of silence before a peer is asked for a sign of life").
+           "Seconds of silence before a peer is pinged").
 
 :- dynamic
     damaged/4.                          % Key, Count, Which, Times
@@ -331,7 +331,7 @@ spoil(_, Session) :-                    % it may be a hand-over
 :- multifile prolog:message//1.
 
 prolog:message(typhon(endpoint, skipped(Address))) -->
-    [ 'Endpoint: skipped a frame of ~w that is damaged where it comes from'
+    [ 'Endpoint: skipped a frame that ~w has sent damaged'
       -[Address] ].
 prolog:message(typhon(endpoint, unreadable(Address, Formal))) -->
     [ 'Endpoint: a frame of ~w cannot be read: ~p'-[Address, Formal] ].

@@ -162,14 +162,14 @@ why(Why) -->
     [ '~p'-[Why] ].
 
 ours(cookie, 'it does not know our cookie').
-ours(protocol, 'it speaks something else').
+ours(protocol, 'it uses another protocol').
 ours(hung_up, 'it hung up').
 ours(broken, 'the connection broke').
 ours(slow, 'it took too long').
-ours(silent, 'others wanted its place').
-ours(crowd, 'there are too many').
-ours(line, 'it said too much').
-ours(other, 'it says that it is another one').
+ours(silent, 'its slot was given to another client').
+ours(crowd, 'all slots are taken').
+ours(line, 'it sent a line that is too long').
+ours(other, 'it claims to be another process').
 ours(several, 'for several reasons').
 
 %!  refusal_text(+Why, -Text:atom) is semidet.
