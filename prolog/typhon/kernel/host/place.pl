@@ -87,6 +87,10 @@ place_offer(Place, Service) :-
 place_offer(Place, Service) :-
     Place:use_module(Service).
 
+%!  place_service(?Place, ?PI) is nondet.
+%
+%   All agents on the host of Place may call PI.
+
 %!  service(+PIs) is det.
 %
 %   A directive in a file that is consulted into a place: all agents may call
