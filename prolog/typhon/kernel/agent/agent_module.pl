@@ -35,10 +35,8 @@ phase `view`, see typhon_host_parts.  The option defines the hooks
 
     variant(View, Variant)      agents that import from View have this variant,
                                 a term that the option chooses
-    program(Variant, Hash, Module)
-                                Module has the installed program of that hash
-    state(Variant, State0, State)
-                                an agent comes with State0
+    program(Variant, Hash, Module)  Module has the program of that hash
+    state(Variant, State0, State)   an agent comes with State0
     goals(Variant, Program, Goals0, Goals)
                                 an agent whose program is in the module Program
                                 comes with Goals0
@@ -119,9 +117,7 @@ agent_code(Module, Program) :-
     import_module(Module, Program),
     !.
 
-%   agent_goals(+Module, +Goals0, -Goals)
-%
-%   Goals are Goals0 as the agent runs them on this host.
+%   agent_goals(+Module, +Goals0, -Goals): as the agent runs them on this host.
 %
 %   @error what a variant raises
 
@@ -268,7 +264,7 @@ agent_links(Module, Place0, Place, Above0-Above) :-
 
 %!  agent_relink(+Module, +Links) is det.
 %
-%   Let the agent in Module import as Links, of agent_links/4, say.
+%   The agent in Module imports from now on as Links, of agent_links/4.
 
 agent_relink(Module, Above0-Above) :-
     delete_import_module(Module, Above0),

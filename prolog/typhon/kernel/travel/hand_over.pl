@@ -181,7 +181,7 @@ taken_over(Host, Image, known, Peer) :-
     debug(typhon(hop), '~w hop ~D: is on ~w, from ~w',
           [Id, Hops, Address, Peer]),
     (   Home == here
-    ->  true                            % and so are we
+    ->  true                            % this process is its home
     ;   agent_came(Id, Address, Hops, Peer)
     ),
     endpoint_afterwards(go_on(Id, Host-Hash, context(Program, Id), Goals)).

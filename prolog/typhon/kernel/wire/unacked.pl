@@ -226,10 +226,10 @@ unacked_told(window(_, _, Received, _, _, _, Settled)) :-
 
 %!  unacked_resumed(+Session, +Count, +Bytes, -Frames) is det.
 %
-%   The session has a new connection, to which Bytes were written. The peer has
-%   received Count of our frames; that settles none. Frames have to be written
-%   once more. The Count of a peer that has forgotten the session, while this
-%   process has not, may exceed what was sent.
+%   The session has a new connection, to which Bytes were written.  The peer has
+%   received Count frames of this process; that settles none.  Frames have to be
+%   written once more.  The Count of a peer that has forgotten the session,
+%   while this process has not, may exceed what was sent.
 
 unacked_resumed(Session, Count, Bytes, Frames) :-
     session_window(Session, Key, Window),
