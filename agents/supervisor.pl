@@ -5,8 +5,8 @@
 :- use_module(library(typhon)).
 :- include(supervision/places).
 
-/*  Starts children, and starts them again when they end, as the supervisors of
-    OTP do.  Facts say what is wanted:
+/*  Starts children, and restarts them when they end, as the supervisors of
+    OTP do. Facts configure it:
 
       child(Name, Program, Options)   in the order in which they are started.
                       Options are those of create/3, restart(permanent),
@@ -38,7 +38,7 @@ supervise :-
     start_all(Names),
     serve.
 
-%   What was not possible yet is tried again once in a second.
+%   Failed starts are retried once a second.
 
 serve :-
     patience(Patience),
@@ -264,8 +264,8 @@ stand_by :-
     ;   true
     ).
 
-%   elsewhere(+Wanted, -Host): a process takes along the agents whose home it is,
-%   too.  So Host is Wanted or a neighbour, in a process other than those.
+%   elsewhere(+Wanted, -Host): agents are lost with their home process, too.
+%   So Host is Wanted or a neighbour, in a process other than those.
 
 elsewhere(Wanted, Host) :-
     apart_from_here(Wanted, Host),

@@ -64,8 +64,8 @@ cloned(Peer, Count) :-
     agent_create(clauses([ (:- agent(spreader, [state([left/1])])),
                            (main :- left(N), spread(N)),
                            (spread(0) :- !),
-                           (spread(N) :- clone(Peer, Who),
-                                         ( Who = clone(_) -> true
+                           (spread(N) :- clone(Peer, Branch),
+                                         ( Branch = clone(_) -> true
                                          ; N1 is N-1, spread(N1) )) ]),
                  Agent, [facts([left(Count)])]),
     agent_join(Agent, done, 300).

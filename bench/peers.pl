@@ -17,8 +17,8 @@ bare trip of the same bytes, Erlang and JADE.
 All are run in turn, Rounds times; medians count, of rates and of ratios
 within a round.  Rates are those of one traveller and of ten at once, and
 those by the processor time of both processes.  What travels, and what is
-promised about it, differs: see the heads of the files in bench/peers.  Who
-is not installed is skipped. */
+promised about it, differs: see the heads of the files in bench/peers.  Platforms
+that are not installed are skipped. */
 
 :- initialization(main, main).
 

@@ -31,9 +31,9 @@
     When that is used up it backs off: children of it de-allocate the
     robots, and it rests for a while, so that others can complete.
 
-    What stands here is the whole in few lines; each step has a file of its
-    own in the folder `allocator`, which calls none that is included after
-    it.  doc/allocation.md has the steps of the thesis beside them.
+    This file is an overview; each step is a file in the folder `allocator`,
+    which calls no predicate of a file that is included after it.
+    doc/allocation.md compares them with the steps of the thesis.
 
     Facts: task(Name, Teams, Details), see common/requirements.pl;
     setting(Name, Value) replaces a default.  Its payload defines
@@ -44,12 +44,12 @@
         stage(Stage)            `waiting`, `searching`, `resting`,
                                 `executing`, for questions from outside
 
-    The other facts are said in the files that own them.
+    The other facts are described in the files that own them.
 */
 
 default(cd, 5).
 default(alpha_k, 0.01).         % below it the resource is used up
-default(chi, 10).               % the resource of one that knows nothing
+default(chi, 10).               % the resource of a new allocator
 default(bi_min, 10).            % seconds, of constant back-off
 default(bi_max, 500).
 default(beta, 1).               % of the first back-off; or 0
@@ -81,8 +81,8 @@ prepare :-
     log(begun(Name)),
     set_out.
 
-%   Until all its robots have done their part; those that fail meanwhile
-%   are replaced.
+%   Continues until all its robots have done their part; robots that fail
+%   meanwhile are replaced.
 
 accomplish :-
     search,

@@ -30,15 +30,15 @@
         status(Ref)                 status(Phase), `none` if not held
         release(Ref)                released
 
-    A Need is need(Task, Requirements, Details).  Refused are needs for
-    which the robot is `unfit`, all while it is `failed`, and those that it
-    could serve were it not `reserved` or `executing` for another.
-    But a robot that is reserved for a task goes over to a more urgent one.
+    A Need is need(Task, Requirements, Details).  Refused are needs for which
+    the robot is `unfit`, all while it is `failed`, and those that it could
+    serve were it not `reserved` or `executing` for another. But a reserved
+    robot accepts a more urgent task.
 
     The contact gets done(Ref) after the execution, lost(Ref, Why) if the
     reservation has ended otherwise, and from time to time still(Ref), to be
-    answered by yes(Ref) or no(Ref).  Without an answer the reservation
-    ends: whoever reserved the robot and died does not keep it.
+    answered by yes(Ref) or no(Ref).  Without an answer the reservation ends,
+    so an agent that has died does not keep the robot.
 */
 
 default(watch, 60).             % seconds from one question to the next

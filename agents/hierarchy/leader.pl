@@ -10,8 +10,8 @@
 
         serve(Round, Hosts)     asked by a customer; answered by served(Round)
 
-    What workers are, what a leader sees on a host and how that changes parameters
-    says a payload, the mechanism.  It provides
+    A payload, the mechanism, defines the workers, the observations of a
+    leader on a host, and the changes of parameters.  It provides
 
         crew(+Round, +Hosts, +Settings, -Orders)
                                 workers, each order(Program, Options), for

@@ -2,10 +2,11 @@
 :- include('../lib/keep').
 :- include(orders).
 
-/*  The entity on top of a hierarchy (thesis section 8.2): sees what all leaders have
-    measured of a round, and changes the parameters of the levels below.  It decides as a
-    leader does that has no observer, by the same payload (leader.pl), but of all reports
-    together.  The fact leaders(Count) says how many there are.
+/*  The entity on top of a hierarchy (thesis section 8.2): sees what all
+    leaders have measured of a round, and changes the parameters of the levels
+    below.  It decides by the same payload as a leader without an observer
+    (leader.pl), but from all reports together. The fact leaders(Count) is the
+    number of leaders.
 */
 
 on_message(Leader, report(Round, Report)) :-

@@ -7,8 +7,8 @@
     A step of life is an execution.  Progress, which is rewarded, is a plan
     that is longer than any that has been executed at this host; each host
     remembers, progress(Length).  So an agent has to be ahead of the others,
-    and none has to be asked.  Where the length of plans says nothing of what
-    they are worth, cloning is of no use.
+    without asking them. Where the length of a plan does not measure its
+    value, cloning is of no use.
 
     A clone goes on with all its parent knows.  When its lifetime is over,
     without progress that prolongs it, it ends.

@@ -10,9 +10,8 @@
 :- include(sharing).
 :- include(breeding).
 
-/*  Algorithm 1 of the thesis: agents that learn by what hosts tell them of
-    the actions they try there, and by what they tell each other when they
-    meet.
+/*  Algorithm 1 of the thesis: agents that learn from the feedback of hosts to
+    their actions, and from each other when they meet.
 
     Executor      has the plan executed by the trainer of the host
     Collector     goes from host to host, and takes into its bag what others
@@ -21,7 +20,7 @@
     Converger     has reached the goal, and looks for an agent that has
                   reached it in a better way
 
-    How a plan is made, a payload says: the learning algorithm.  It provides
+    A payload, the learning algorithm, makes plans. It provides
 
         plan(+Start, +Units, -Plan)   Units are pairs Unit-Weight, in the
                                       standard order, Start the sensor

@@ -10,7 +10,7 @@
         shared(units(Units, solution(Actions) or none)), shared(nothing)
                             the answer
 
-    Where two are in one queue the later one has asked the earlier one.
+    Of two agents in one queue the later one has asked the earlier one.
 */
 
 %   visit(+Wanted, -Gain): the agent comes to the end of the queue, asks the
@@ -87,8 +87,8 @@ deadline(Seconds, Until) :-
     now(Now),
     Until is Now + Seconds.
 
-%   await(+Agent, ?Reply, +Seconds): fails at the deadline.  What others
-%   want is answered meanwhile.
+%   await(+Agent, ?Reply, +Seconds): fails at the deadline.  Requests of
+%   others are answered meanwhile.
 
 await(Agent, Reply, Seconds) :-
     deadline(Seconds, Until),

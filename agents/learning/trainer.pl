@@ -6,9 +6,9 @@
 :- include(resources).
 
 /*  The static agent of a host: executes actions on what is to be learnt
-    there, and gives feedback (thesis section 4.2.2).  What that is, a
-    payload says, the problem.  The tuple trainer(Id) tells agents where to
-    ask; the program that creates the trainer leaves it.
+    there, and gives feedback (thesis section 4.2.2). A payload, the problem,
+    defines them.  The tuple trainer(Id) tells agents where to ask; the
+    program that creates the trainer leaves it.
 
         execute(Plan, Xi)   asked by an agent: Plan is a list of actions.
                             These are executed, then others at random, until

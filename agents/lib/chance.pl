@@ -3,15 +3,15 @@
 
 :- dynamic chance/1.
 
-%!  seed_chance(+Who) is det.
+%!  seed_chance(+Subject) is det.
 %
 %   The state of typhon_prng is that of the parameter `seed`, an integer,
-%   and of Who, or any.
+%   and of Subject, or any.
 
-seed_chance(Who) :-
+seed_chance(Subject) :-
     parameter(seed, Seed0),
     (   integer(Seed0)
-    ->  typhon_prng:chance_hash(Seed0-Who, Seed)
+    ->  typhon_prng:chance_hash(Seed0-Subject, Seed)
     ;   Seed is random(1<<30)
     ),
     typhon_prng:chance_seed(Seed, Chance),

@@ -3,7 +3,7 @@
 
 %!  keep(+Fact) is det.
 %
-%   Fact takes the place of all facts of its name and arity.
+%   Fact replaces all facts of its name and arity.
 
 keep(Fact) :-
     functor(Fact, Name, Arity),

@@ -4,13 +4,13 @@
 /*  The stigmergic cloning controller: for agents whose number is to
     follow the demand for them (thesis section 6.2).
 
-    An agent lives by going from queue to queue.  On its turn it does what
-    its program says, is charged, and moves on after a tick.  After a reward
-    it clones itself into the free slots of the queue if it can afford it.
-    Clones die when their lifetime is over, which falls by one with each
-    tick in a queue; the agent that was created, not cloned, never dies.
+    An agent moves from queue to queue. On its turn it runs visit/1 of its
+    program, its resource is charged, and it moves on after a tick. After a
+    reward it clones itself into the free slots of the queue if its resource
+    suffices. Clones die when their lifetime is over, which falls by one with
+    each tick in a queue; the agent that was created, not cloned, never dies.
 
-    The program that includes this file calls live/0 and says two things:
+    The program that includes this file calls live/0 and defines:
 
         visit(-Reward)      what it does on its turn at a host; Reward is 1
                             if that was a service, else 0

@@ -16,8 +16,8 @@
     How many may be there at a time is the capacity of the host: an agent
     that finds no free slot is refused at its move and stays where it was.
 
-    An agent that ended on its turn without a word would stop all others;
-    after so many seconds the queue goes on without it.
+    An agent that ended on its turn without a message would block all others;
+    after a time-out the queue continues without it.
 */
 
 default(patience, 60).

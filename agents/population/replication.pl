@@ -110,8 +110,8 @@ multiply(0, Role) :-
     Role = parent.
 multiply(Count, Role) :-
     log(state(replicate)),
-    clone_if_room(Who),
-    multiplied(Who, Count, Role).
+    clone_if_room(Branch),
+    multiplied(Branch, Count, Role).
 
 multiplied(refused, _, parent).
 multiplied(clone(_), _, clone) :-

@@ -1,13 +1,13 @@
 :- agent(alone, [state([tasks/2])]).
 :- include('../sync/execution').
 
-/*  Executes the tasks of a sequence on the host where it is, one after the
-    other, and heeds no other agent: what robots do that are not synchronised.
+/*  Executes the tasks of a sequence on its host, one after the other, without
+    regard to other agents: the behaviour of robots that are not synchronised.
 
     The fact tasks(Sequence, Tasks) says what is to be done, as a list of
-    Task-Goal in order.  It begins at the message `begin`, and gives up at
-    the first task that fails or raises something.  The log tells of each
-    task what it tells when a worker executes it.
+    Task-Goal in order.  It begins at the message `begin`, and gives up at the
+    first task that fails or raises something.  It logs the same events of a
+    task as a worker does.
 */
 
 main :-

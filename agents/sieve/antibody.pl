@@ -6,9 +6,9 @@
 :- include(idiotypic).
 
 /*  A mobile agent that carries an antibody: a solution to some problems
-    (thesis chapter 3).  It patrols the network, follows the danger signals
-    of antigens that its antibody can neutralize, and offers it to the guard
-    of the host under attack.  The guard tells it what came of that.
+    (thesis chapter 3).  It patrols the network, follows the danger signals of
+    antigens that its antibody can neutralize, and offers it to the guard of
+    the host under attack.  The guard sends it the result.
 
     Facts: antibody(Antibody); gamma(Gamma), its endurance potential;
     memory(Memory), the antigens it has neutralized, with the feedback;
@@ -122,8 +122,8 @@ multiply :-
     parameter(crowd, Crowd),
     Load < Crowd,
     !,
-    clone_if_room(Who),
-    multiplied(Who).
+    clone_if_room(Branch),
+    multiplied(Branch).
 multiply.
 
 multiplied(refused).

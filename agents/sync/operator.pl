@@ -21,9 +21,9 @@
 
 /** <module> Sequences of tasks, for users and programs
 
-Starts a sequence of tasks on hosts, changes it while it runs, and takes
-back what was done (thesis sections 5.4 and 5.6.6).  What is said here is
-said to hosts alone, by their tuple spaces: the agents find it there.
+Starts a sequence of tasks on hosts, changes it while it runs, and takes back
+what was done (thesis sections 5.4 and 5.6.6).  The predicates only change the
+tuple spaces of hosts; the agents find the changes there.
 
 Hosts are addresses, so all this works from any process that has the
 cookie, and not only where the network was started.

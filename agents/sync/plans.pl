@@ -3,8 +3,7 @@
 
 /*  Plans that change while they are carried out: beyond the thesis.  Of two
     plans, that of a host and that of a travelling agent, the newer one
-    replaces the older one.  So a change that is put at a few hosts comes to
-    all others.
+    replaces the older one.  So a change at a few hosts spreads to all others.
 
     Of plan(Sequence, Version, Tasks) Version is a number that is greater the
     newer the plan is; the tuple of a host is the newest plan that was brought

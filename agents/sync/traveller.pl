@@ -5,15 +5,14 @@
 :- include(plans).
 :- include(dependence).
 
-/*  Algorithm 2 of the thesis: agents that know nothing of each other
-    execute a sequence of tasks on hosts, and go on to the next task at the
-    same time.  Lines are those of the algorithm.
+/*  Algorithm 2 of the thesis: independent agents execute a sequence of tasks
+    on hosts, and proceed to the next task at the same time.  Lines are those
+    of the algorithm.
 
-    The fact plan(Sequence, Version, Tasks) says what is to be done: the
-    name of the sequence, and a list of Task-Goal in order.  Goal is the
-    task's code, handed over at each host.  What Version is for stands in
-    plans.pl, what after/3 is for in dependence.pl; both can be passed over.
-    The fact drive(Task, Potential,
+    The fact plan(Sequence, Version, Tasks) says what is to be done: the name
+    of the sequence, and a list of Task-Goal in order.  Goal is the task's
+    code, handed over at each host.  plans.pl explains Version, dependence.pl
+    explains after/3; both can be skipped. The fact drive(Task, Potential,
     History) is there for each task.  Facts setting(Name, Value) replace the
     defaults below.
 

@@ -2,20 +2,20 @@
 :- include(execution).
 
 /*  The worker of a host for one sequence of tasks, named by the fact
-    sequence(Sequence): executes the tasks that travelling agents hand
-    over, one at a time.  The tuple worker(Sequence, Id) says that it is
-    free.  Tasks of other sequences may be handed over, too: then Sequence
-    is the name of a pool (dependence.pl).
+    sequence(Sequence): executes the tasks that travelling agents hand over,
+    one at a time.  The tuple worker(Sequence, Id) marks it as free.  Tasks of
+    other sequences may be handed over, too: then Sequence is the name of a
+    pool (dependence.pl).
 
-    While Task executes the host has the tuple
-    task(Sequence, Task, executing, Time), put there by the agent that handed it over;
-    afterwards it says `completed`, or, of a task that fails or raises
-    something, failed(atomic): it will be done again.  Where the tuple is
-    gone by then, the task has been failed from outside.
+    While Task executes the host has the tuple task(Sequence, Task, executing,
+    Time), put there by the agent that handed it over; afterwards it says
+    `completed`, or, of a task that fails or raises something, failed(atomic):
+    it will be done again.  If the tuple is gone by then, an operator has
+    failed the task.
 
     After a failure the worker is not free for a second, and twice as long
-    after each one that follows, up to 32 seconds: agents come by at any time,
-    and would have a task that cannot succeed executed without end.
+    after each one that follows, up to 32 seconds: agents arrive at any time,
+    and would repeat a task that cannot succeed without end.
 
         failures(Count)         so many in a row
 */

@@ -164,19 +164,19 @@ received(received(From, _), From).
 
 %   The k-th with the k-th of the same sender and receiver.
 
-pair([Who-From|Sent], [Who-To|Received], Letters) :-
+pair([Ends-From|Sent], [Ends-To|Received], Letters) :-
     !,
     (   To < From-0.1                   % its sending was not logged
-    ->  pair([Who-From|Sent], Received, Letters)
-    ;   Who = A-B,
+    ->  pair([Ends-From|Sent], Received, Letters)
+    ;   Ends = A-B,
         Letters = [letter(A, From, B, To)|More],
         pair(Sent, Received, More)
     ).
-pair([Who-From|Sent], [Other-To|Received], Letters) :-
+pair([Ends-From|Sent], [Other-To|Received], Letters) :-
     !,
-    (   Who @< Other
+    (   Ends @< Other
     ->  pair(Sent, [Other-To|Received], Letters)
-    ;   pair([Who-From|Sent], Received, Letters)
+    ;   pair([Ends-From|Sent], Received, Letters)
     ).
 pair(_, _, []).
 

@@ -60,9 +60,9 @@ tell(Id, Events) :-
 of_agent(Id, event(_, _, Id, _)).
 of_agent(Id, event(_, _, _, cloned(Id))).
 
-tell_event(event(Time, Host, Who, What), Id, Zero) :-
+tell_event(event(Time, Host, Subject, What), Id, Zero) :-
     short_name(Host, Where),
-    text(Who, Id, What, Text),
+    text(Subject, Id, What, Text),
     Shown is Time-Zero,
     format('~t~4f~12|  ~w~t~12+ ~w~n', [Shown, Where, Text]).
 

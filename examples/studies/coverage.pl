@@ -41,7 +41,7 @@ label(hops, "Hops until every host was seen").
 label(time, "Host seconds until then").
 label(left, "Hosts that it has not seen").
 
-claim("who remembers is faster", [], least(time, strategy=conscientious)).
+claim("conscientious is faster", [], least(time, strategy=conscientious)).
 claim("larger grids take longer", [], rises(time, along(side))).
 claim("chance needs three times as many hops in the largest grid", [],
       at([side=9], at([strategy=random], hops)

@@ -72,7 +72,7 @@ measure(Name, View, Value) :-
 
 claim("each robot of a sequence executes each of its tasks once", [ours],
       faulty =:= 0).
-claim("nobody else executes any", [ours], strangers =:= 0).
+claim("no other robot executes any", [ours], strangers =:= 0).
 claim("no task begins before all have completed the one before", [ours],
       overlaps =:= 0).
 claim("all tasks are executed in order", [ours], disorder =:= 0).

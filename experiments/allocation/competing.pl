@@ -56,5 +56,5 @@ so_many(Measure, Line, Text0-Test, Text, [line(Line), ours],
     member(Measure, [communications, time]),
     string_concat(Text0, ", of two to five", Text).
 
-alone([why("An auction that nobody disturbs takes three floods and the \c
+alone([why("An undisturbed auction takes three floods and the \c
 execution; an agent has to meet ten robots, host by host.")]).

@@ -232,8 +232,8 @@ prolog:error_message(existence_error(key, Name, Case)) -->
       pairs_keys(Pairs, Names) },
     no_parameter('A case', Name, Names).
 
-no_parameter(Who, Name, Names0) -->
+no_parameter(Owner, Name, Names0) -->
     { sort(Names0, Names),
       names_proposed(Name, Names, Meant),
       atomic_list_concat(Names, ', ', Known) },
-    [ '~w has no parameter ~q~w; it has ~w'-[Who, Name, Meant, Known] ].
+    [ '~w has no parameter ~q~w; it has ~w'-[Owner, Name, Meant, Known] ].

@@ -50,8 +50,8 @@ lines_picture(Study, Name-Title, Options, Runs0, Directory, Height-Variables) :-
     heights(Title, Count, Variables0, Height, Variables).
 
 %   heights(+Title, +Panels, +Variables0, -Height, -Variables): what is above
-%   the panels has as much room as the lines of title, subtitle and key need, and
-%   below each panel there is room for labels that are rotated.
+%   the panels is as high as the lines of title, subtitle and key need, and
+%   below each panel there is space for labels that are rotated.
 
 heights(Title, Panels, Variables0, Height, Variables) :-
     memberchk('SUBTITLE'-Subtitle0, Variables0),

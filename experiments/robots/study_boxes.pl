@@ -113,7 +113,7 @@ pushing_newcomer(View, Host) :-
     number(Start).
 
 %   Rows for the picture, and for people: box, its name, robots, begun,
-%   allocated, completed, back-offs, seconds rested, who; box, rests from, for
+%   allocated, completed, back-offs, seconds rested, team; box, rests from, for
 %   so long; robot, box, reserved, executes from, released; robot, its name,
 %   when it came.
 
@@ -132,7 +132,7 @@ measure(robots, View, Rows) :-
                                memberchk(Host-Time, View.joined),
                                robot_name(Host, Name) ), Rows).
 
-job_row(View, [I, Box, Count, Begun, Allocated, End, Backoffs, Rested, Who]) :-
+job_row(View, [I, Box, Count, Begun, Allocated, End, Backoffs, Rested, Team]) :-
     nth1(I, View.jobs, job(Box, Begun, Allocated, End, Hosts, Rests)),
     length(Hosts, Count),
     length(Rests, Backoffs),
@@ -140,7 +140,7 @@ job_row(View, [I, Box, Count, Begun, Allocated, End, Backoffs, Rested, Who]) :-
     findall(Name, ( member(Host, Hosts), robot_name(Host, Name) ), Names0),
     msort(Names0, Names),
     atomic_list_concat(Names, ' ', Text),
-    atom_string(Text, Who).
+    atom_string(Text, Team).
 
 rest(View, [I, From, Seconds]) :-
     nth1(I, View.jobs, job(_, _, _, _, _, Rests)),

@@ -26,7 +26,7 @@ fixed(round, 16, tuned("40 hops; see omega")).
 fixed(omega, 200,
       tuned("printed: 1000 hops; these are the lives of five rounds")).
 fixed(reading, similar,
-      tuned("who is better: by feedback for similar antigens")).
+      tuned("better agent: by feedback for similar antigens")).
 fixed(patience, 1.2,
       tuned("until a danger signal has died down: 3 hops, as it spreads")).
 fixed(gather, 1.2, assumed("from the first offer to the choice: 3 hops")).

@@ -12,8 +12,8 @@
       - bid(Task, Offer): what it proposes when there is a call for proposals,
         if it takes part in contract nets.  If this fails it refuses.
 
-    Of a content [action(Who, Action)], as SL has it, Action is performed, and
-    the answer says result(action(Who, Action), Result), or done(...) where
+    Of a content [action(Agent, Action)], as SL has it, Action is performed, and
+    the answer says result(action(Agent, Action), Result), or done(...) where
     Result is `done`.  Any other content is performed as it is, and Result is
     the answer.  Needs reply/3, which is in the place of hosts that are
     platforms, or the payload fipa/reply.
@@ -101,13 +101,15 @@ fipa_performed(Action, Content, Performative, Answer) :-
         fipa_part_reason(Content, "it cannot be done", Answer)
     ).
 
-fipa_part_result([action(Who, Action)|_], done, [done(action(Who, Action))]) :-
+fipa_part_result([action(Agent, Action)|_], done,
+                 [done(action(Agent, Action))]) :-
     !.
-fipa_part_result([action(Who, Action)|_], Result,
-                 [result(action(Who, Action), Result)]) :-
+fipa_part_result([action(Agent, Action)|_], Result,
+                 [result(action(Agent, Action), Result)]) :-
     !.
 fipa_part_result(_, Result, Result).
 
-fipa_part_reason([action(Who, Action)|_], Why, [action(Who, Action), Why]) :-
+fipa_part_reason([action(Agent, Action)|_], Why,
+                 [action(Agent, Action), Why]) :-
     !.
 fipa_part_reason(_, Why, Why).

@@ -1,7 +1,7 @@
 :- payload(climb, [provides([plan/3, better/2])]).
 :- include(confirm).
 
-/*  A learning algorithm for noisy measurements unit(Who, Settings, Value):
+/*  A learning algorithm for noisy measurements unit(Source, Settings, Value):
     climbs from the best settings known to those near it that promise most.
 
     The model says how much each level in each place adds to the value.  It
@@ -43,17 +43,17 @@ samples(Units, Samples) :-
     findall(Settings-Value, member(unit(_, Settings, Value)-_, Units), Raw),
     summary(Raw, Summary),
     list_to_assoc(Summary, Means),
-    findall(Who-Difference,
-            ( member(unit(Who, Settings, Value)-_, Units),
+    findall(Source-Difference,
+            ( member(unit(Source, Settings, Value)-_, Units),
               get_assoc(Settings, Means, mean(_, Mean)),
               Difference is Value - Mean ),
             Differences),
     grouped(Differences, Groups),
-    findall(Who-Level, ( member(Who-Values, Groups),
+    findall(Source-Level, ( member(Source-Values, Groups),
                          mean(Values, _, Level) ), Levels),
     findall(Settings-Value,
-            ( member(unit(Who, Settings, Value0)-_, Units),
-              memberchk(Who-Level, Levels),
+            ( member(unit(Source, Settings, Value0)-_, Units),
+              memberchk(Source-Level, Levels),
               Value is Value0 - Level ),
             Samples).
 

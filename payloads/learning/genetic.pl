@@ -1,7 +1,7 @@
 :- payload(genetic, [provides([plan/3, better/2, plans/1])]).
 :- include(confirm).
 
-/*  A genetic algorithm for measurements unit(Who, Genes, Value): lists of
+/*  A genetic algorithm for measurements unit(Source, Genes, Value): lists of
     genes of one length, and how fit somebody found them, with noise.
 
     The population of an agent are the fittest of what it knows, by its own

@@ -1,7 +1,7 @@
 :- payload(lottery, [provides([plan/3, better/2, plans/1])]).
 :- include(confirm).
 
-/*  Random search, for measurements unit(Who, Settings, Value): what any
+/*  Random search, for measurements unit(Source, Settings, Value): what any
     learning algorithm for them has to be compared with.
 
     The plan is to try settings drawn at random, each level among those that

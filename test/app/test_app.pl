@@ -138,7 +138,7 @@ test(not_a_topology) :-
                  "blob(2)", "network --help lists the shapes").
 test(no_such_file) :-
     typhon_error([host, alpha, '--consult', '/no/such.pl'], "/no/such.pl").
-test(nobody_there) :-
+test(no_process_there) :-
     free_port(Port),
     format(atom(Address), 'alpha@127.0.0.1:~d', [Port]),
     atom_concat('diagnose ', Address, Advice),
@@ -406,7 +406,7 @@ test(works) :-
                 ( typhon_lines([diagnose, Address], Lines),
                   assertion(has_line(Lines, '*ok*authentication*codec*'))
                 )).
-test(nobody_there, Status == exit(1)) :-
+test(no_process_there, Status == exit(1)) :-
     free_port(Port),
     format(atom(Address), 'alpha@127.0.0.1:~d', [Port]),
     typhon([diagnose, Address], Status, Out, _),

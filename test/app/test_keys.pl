@@ -32,10 +32,10 @@ with_keys(Goal, Tmp) :-
 
 :- begin_tests(keys_on_the_command_line).
 
-test(a_host_with_keys_is_asked_by_who_has_some) :-
+test(a_host_with_keys_answers_clients_with_keys) :-
     with_keys(asked).
 
-test(what_cannot_be_is_one_line) :-
+test(impossible_orders_give_one_line) :-
     with_keys(refused).
 
 :- end_tests(keys_on_the_command_line).

@@ -4,10 +4,9 @@
 
 /** <module> A suite that attacks
 
-Agents travel, write to each other, clone themselves and carry tokens
-between processes whose connections are cut and held, which are stopped and
-killed; then what there is is compared with what must be.  See
-doc/chaos.md.
+Agents travel, send messages, clone themselves and carry tokens between
+processes that are suspended and killed, and whose connections are cut and
+blocked; then the result is compared with the invariants. See doc/chaos.md.
 
 *Threading*: the main thread; see chaos_cluster.
 */
@@ -29,10 +28,10 @@ doc/chaos.md.
 
 %!  chaos(+Options, -Reports) is det.
 %
-%   Run the scenarios, one after the other, and print what came of them.
-%   Options are those of the command line, and swipl(Program): what processes
-%   run, by default what runs this.  A report is report(Scenario, Figures,
-%   Findings), see chaos_report.
+%   Run the scenarios, one after the other, and print the results. Options are
+%   those of the command line, and swipl(Program): the Prolog of the
+%   processes, by default that of this process.  A report is report(Scenario,
+%   Figures, Findings), see chaos_report.
 
 chaos(Options, Reports) :-
     set_prolog_flag(stack_limit, 8 000 000 000),

@@ -21,11 +21,11 @@
 
 Each process, see chaos_peer, is known by a name, has some hosts, and can be
 reached by the others through a proxy only.  A process that was killed and
-started again is another life of the same name; every life has a ledger and
-a file of what it printed.
+restarted is another life of the same name; every life has a ledger and a file
+of its output.
 
-No call waits longer than it says: its result is yes(Goal), `no`,
-raised(Formal), `died` if the process was killed meanwhile, or `hung`.
+Each call has a time-out: its result is yes(Goal), `no`, raised(Formal),
+`died` if the process was killed meanwhile, or `hung`.
 
 *Threading*: for the main thread.  A thread for each process reads what it
 answers, and puts it in the queue `chaos_answers`.
@@ -82,7 +82,8 @@ open_place(Dir, Name) :-
     assertz(place(Name, Port, Known, Hosts, Dir)),
     cluster_proxy([listen, Name, Known, Port], ok).
 
-%   What was stopped cannot be told to end, and must not be left so.
+%   A suspended process cannot be asked to end, and must not be left
+%   suspended.
 
 end_all :-
     forall(retract(running(_, Pid, In, Out, Reader)),
@@ -201,7 +202,7 @@ put_answer(Term) :-
 
 %!  cluster_kill(+Name) is det.
 %
-%   As if the power had gone.
+%   Kill the process by SIGKILL.
 
 cluster_kill(Name) :-
     retract(running(Name, Pid, In, Out, Reader)),
@@ -224,7 +225,7 @@ cluster_signal(Name, Signal) :-
 
 %!  cluster_busy(+Seconds) is det.
 %
-%   Keep a processor busy beside it all; Seconds is an integer.
+%   Keep a processor busy meanwhile; Seconds is an integer.
 
 cluster_busy(Seconds) :-
     format(atom(Command), 'ulimit -t ~d; while :; do :; done', [Seconds]),

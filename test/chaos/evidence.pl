@@ -3,9 +3,9 @@
             evidence/2                  % +Dir, -Evidence
           ]).
 
-/** <module> What is there when all is over
+/** <module> The state at the end of a run
 
-Waits until nothing happens any more, and gathers what the verdict needs.
+Waits until the agents rest, and collects the data for the verdict.
 
 *Threading*: for the main thread.
 */
@@ -20,9 +20,8 @@ call_seconds(60).
 %!  settle(+Seconds, +Expected, -Rest) is det.
 %
 %   Wait until no more agents are restless, and no more messages have not
-%   come, than was Expected; or until nothing has changed for a while; but
-%   not longer than Seconds.  Of processes that have died it is not known how
-%   many messages they had.
+%   come, than was Expected; or until nothing has changed for a while; but not
+%   longer than Seconds.  The number of messages of dead processes is unknown.
 %
 %   @arg Expected, Rest are rest(Agents, Messages)
 
@@ -126,7 +125,7 @@ answers(Goal, Template, List) :-
     cluster_call_all(Goal, Seconds, Results),
     findall(Template, member(_-yes(Goal), Results), List).
 
-%   The homes of those that should have ended are asked.
+%   The homes of agents that should have ended are queried.
 
 outcomes(Agents, Events, Outcomes) :-
     findall(Name-Id, ending(Agents, Events, Name, Id), Pairs),
@@ -155,8 +154,8 @@ ending(_, Events, Name, Id) :-
            atom_concat(@, Host, Home),
            sub_atom(Id, _, _, 0, Home) )).
 
-%   What a killed process was just writing does not count, nor what an interrupted
-%   writer wrote: only that, not what comes after it.
+%   An incomplete line of a killed process or of an interrupted writer is
+%   skipped, but not the lines after it.
 
 events(Dir, Events) :-
     cluster_lives(Lives),

@@ -13,10 +13,10 @@
             clone_key/3                 % +Parent, +Number, -Key
           ]).
 
-/** <module> What is known of a run, in tables
+/** <module> Tables of the facts of a run
 
-A life, of a process, is Name-Number.  Clones are among those created: their
-parents tell of them.
+A life, of a process, is Name-Number.  Clones are among the created agents:
+their parents report them.
 
 *Threading*: for one thread at a time.
 */
@@ -57,7 +57,7 @@ facts_clear :-
                           disposed(_, _), outcome(_, _) ]),
            retractall(Fact)).
 
-%   A clone may be there, and gone, before its parent hears of it.
+%   A clone may begin and end before its parent is notified.
 
 begun(Parent, N, Heard, Begun) :-
     (   event(Parent, _, cloning(N), Time, _)
@@ -83,7 +83,7 @@ death_of(Name, Time) :-
 %!  undone(?Key, ?Event, ?Tick) is nondet.
 %
 %   The agent Key has done Event, its step Tick, in a process that has died
-%   since, and has gone on elsewhere as it was before that.
+%   since, and has continued elsewhere in its state before that step.
 
 undone(Key, Event, Tick) :-
     event(Key, Tick, Event, Time, Life),

@@ -6,12 +6,12 @@
             heal/1                      % +Scenario
           ]).
 
-/** <module> What is done to the network, and when
+/** <module> The schedule of faults
 
-A schedule is a list of Time-Event, ordered, times in seconds from the
-start.  It follows from the scenario, the seed, the seconds and the names of
-the processes alone.  An event is a fault, or something that is asked of the
-agents, see chaos_work:
+A schedule is a list of Time-Event, ordered, times in seconds from the start.
+It follows from the scenario, the seed, the seconds and the names of the
+processes alone.  An event is a fault, or an order to the agents, see
+chaos_work:
 
   | cut(P, How)            | close the connections that go to P: fin, rst   |
   | after(P, Way, Bytes)   | after so many more bytes                       |
@@ -86,8 +86,8 @@ times(Now, Pause, Kind, Seconds, Names, Events) :-
         times(Next, Pause, Kind, Seconds, Names, Rest)
     ).
 
-%   kind(+Kind, +Name, +Time, -Next, -Events, ?Rest): what lasts has an end;
-%   the next of its kind comes after it.
+%   kind(+Kind, +Name, +Time, -Next, -Events, ?Rest): a fault with a duration
+%   has an end; the next fault of its kind comes after it.
 
 kind(cut, P, T, T, [T-cut(P, How)|Rest], Rest) :-
     random_member(How, [fin,rst]).
@@ -179,7 +179,7 @@ lives(Name) :-
 
 %!  heal(+Scenario) is det.
 %
-%   No more faults.  Dead processes come back, but in `deaths`.
+%   End all faults, and restart dead processes, except in `deaths`.
 
 heal(Scenario) :-
     proxy([heal]),

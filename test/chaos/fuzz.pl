@@ -1,4 +1,4 @@
-/*  A fuzzer: what comes over the wire is not what it should be.
+/*  A fuzzer of the wire protocol.
 
     swipl test/chaos/fuzz.pl -- [--count N] [--seed N] [--tls]
 

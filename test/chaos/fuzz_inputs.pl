@@ -5,8 +5,8 @@
 
 /** <module> Malformed and hostile input
 
-All of it is drawn from the random generator of the thread, so that a seed
-stands for an input.
+All inputs are drawn from the random generator of the thread, so that a seed
+determines an input.
 
 *Threading*: no state.
 */
@@ -25,8 +25,8 @@ stands for an input.
 
 %!  stranger_input(-Input) is det.
 %
-%   Input is send(Codes, End), what a client sends that does not know the
-%   cookie, where End is `close`, `linger` or `drip`.
+%   Input is send(Codes, End), the input of a client without the cookie, where
+%   End is `close`, `linger` or `drip`.
 
 stranger_input(send(Codes, End)) :-
     random_between(1, 12, Kind),
@@ -107,8 +107,8 @@ random_word(Word) :-
 
 %!  peer_frames(+Codec, -Frames) is det.
 %
-%   Frames are lists of codes, what a peer may send that knows the cookie
-%   and not its business. No record is damaged behind a right check.
+%   Frames are lists of codes, the frames of a faulty peer that has the
+%   cookie. No record with a valid checksum is damaged.
 
 peer_frames(Codec, Frames) :-
     random_between(1, 8, Count),

@@ -2,20 +2,20 @@
           [ fuzz/2                      % +Options, -Faults
           ]).
 
-/** <module> Nonsense for a host, and what came of it
+/** <module> Malformed input for a host, and its effects
 
-Most inputs come from strangers, one in eight from a peer that knows the
-cookie and not its business; while another process asks the victim for a
-service now and then. Where the victim has keys half of the strangers do not
-speak TLS, some have made their certificate themselves, and the others, as the
-peers, have one of the authority.
+Most inputs come from unauthenticated clients, one in eight from a faulty peer
+that has the cookie; another process requests a service of the victim now and
+then. If the victim has keys, half of the clients do not speak TLS, some have
+a self-signed certificate, and the others, as the peers, have one of the
+authority.
 
-At the end the process must be alive and serve; no stranger may have got in;
-and no slot, session, request, agent, thread or queue may be left of all
-that.
+At the end the process must be alive and serve; no unauthenticated client may
+have been accepted; and no slot, session, request, agent, thread or queue may
+be left.
 
-What is left out: a damaged record behind a right check kills the process.
-Only a peer that knows the cookie can send that.
+Not tested: a damaged record with a valid checksum, which kills the process.
+Only a peer with the cookie can send it.
 
 *Threading*: the main thread.
 */
@@ -82,7 +82,7 @@ fuzz(Ways, Victim, Honest, Count, Seed, Progress, Faults) :-
                ( attack(Count, Seed, Progress, Faults),
                  tell(Faults) )).
 
-%   Beside faults stand the last words of the victim.
+%   The last output of the victim is added to faults.
 
 tell([]) :-
     !.
@@ -108,12 +108,12 @@ attack(Count, Seed, Progress, Faults) :-
     ;   Faults = Faults0
     ).
 
-%   Letters to made-up addresses are tried for a while.
+%   Messages to invented addresses are retried for a while.
 
 gives_up_soon :-
     peer_do(victim, set_setting(typhon_news:news_seconds, 2)).
 
-%   A hundred inputs, and a look; to the first fault.
+%   Checks the victim after each hundred inputs, up to the first fault.
 
 batches(From, Last, _, _, _, [], _) :-
     From > Last,
@@ -233,8 +233,8 @@ close_streams(In, Out) :-
     close(Out, [force(true)]),
     close(In, [force(true)]).
 
-%   A peer says its nonsense over one connection, and goodbye over another,
-%   after which nothing of it should be left.
+%   A peer sends its malformed frames over one connection, and goodbye over
+%   another, after which the victim should have no state of it.
 
 peer(Seed, Port) :-
     format(atom(Process), 'fuzz~d', [Seed]),
@@ -305,7 +305,7 @@ say_frames(Frames, _, Out) :-
           error(_, _),
           true).
 
-%   The end of the connection shows that it was heard.
+%   The end of the connection shows that the input was read.
 
 goodbye(Codec, In, Out) :-
     term_bytes(Codec, bye, Bytes),

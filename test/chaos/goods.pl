@@ -3,7 +3,7 @@
             token_finding/2             % +Tuples, -Finding
           ]).
 
-/** <module> Messages and tokens: is everything there, and once
+/** <module> Messages and tokens: does each exist, exactly once
 
 *Threading*: for one thread at a time, see chaos_facts.
 */
@@ -33,7 +33,7 @@ message_finding(Mail, Finding) :-
     group_pairs_by_key(Got1, Got),
     message_finding(Said, Got, Finding).
 
-%   What could not be sent has not been said, and is said again.
+%   A message that could not be sent does not count, and is sent again.
 
 said(Mail, _, m(From, To, K)-Time) :-
     member(sent(From, To, K, Time), Mail).
@@ -87,8 +87,7 @@ message_finding(_, Got, Finding) :-
     A > B,
     Finding = finding(Kind, From-To:[A,B]).
 
-%   What an agent says once more, as it does not know that it has said it, comes
-%   once more.
+%   An agent that repeats a step sends its message again, so it arrives twice.
 
 sent_again(m(From, To, K), Gets) :-
     aggregate_all(count, undone(From, said(To, K), _), Undone),
@@ -110,8 +109,8 @@ passed([M0-_|Got0], M, Got) :-
     passed(Got0, M, Got).
 passed(Got, _, Got).
 
-%   A message for an agent that was lost, or is in doubt, is no loss of its
-%   own.
+%   A message for an agent that was lost, or is in doubt, is not counted as
+%   lost.
 
 lost_message(m(From, To, K), Time, finding(Kind, m(From, To, K))) :-
     created(To, _, Id, Home, _),
@@ -187,8 +186,8 @@ wrong_token(Tokens, Token, Kind) :-
     ;   Kind = token_lost
     ).
 
-%   The agent that has dropped it goes on with it, as if it had not; the one that
-%   has found it there has carried it away.
+%   The agent that dropped the token repeats the step with it; the agent that
+%   found it there has carried it away.
 
 dropped_again(Token, Copies) :-
     aggregate_all(count, undone(_, drops(Token), _), Undone),

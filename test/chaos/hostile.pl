@@ -3,9 +3,9 @@
     swipl test/chaos/hostile.pl -- [--count N] [--seed N] [--cell KIND]
 
 Each agent has a seed of its own, from the one given on: `--count 1 --seed I`
-repeats one.  Harm that was done is printed with the seeds between which it was
-seen; the exit status is then 1.  A process that has gone is harm, too: the
-seeds it had come to are the last that were printed. */
+repeats one.  Harm is printed with the seeds between which it was detected;
+the exit status is then 1. The end of the process is harm, too: its seeds are
+the last that were printed. */
 
 :- use_module('../lib/common').
 :- use_module(hostile_run).
@@ -16,7 +16,7 @@ seeds it had come to are the last that were printed. */
 :- multifile user:message_hook/3.
 :- dynamic user:message_hook/3.
 
-%   What happens to hostile agents need not be told.
+%   Messages about hostile agents are not printed.
 
 user:message_hook(Term, Kind, _) :-
     memberchk(Kind, [error, warning, informational]),

@@ -12,9 +12,9 @@
 
 Every predicate of the system, of libraries that are loaded and of the
 platform itself is mixed into programs, with arguments that are apt to do
-harm, written out or made up at run time.  They are let loose on a host that
-guards.  Beside it stands an agent on a host that does not; now and then it
-is looked at whether it still answers, and whether the process is as it was.
+harm, written out or made up at run time.  They run on a guarded host. Another
+agent runs on an unguarded host of the process; from time to time the test
+checks that it still answers, and that the state of the process is unchanged.
 
 *Threading*: the thread that calls hostile/2.
 */
@@ -73,7 +73,7 @@ bystander(Canary) :-
                                 secret(S), send(From, answer(N, S))) ]),
                  Canary, [host(home)]).
 
-%   world(-World): what must not change.
+%   world(-World): the state that must not change.
 
 world(world(Ops, Flags, Files, Users)) :-
     aggregate_all(count, current_op(_, _, _), Ops),
@@ -122,7 +122,7 @@ harm(_, _, stream(S)) :-
     member(S, [user_input, user_output, user_error]),
     \+ is_stream(S).
 
-%   Somebody asks it, and still gets what was right before.
+%   A caller still gets the correct answer.
 
 answers(Canary, Batch) :-
     agent_create(clauses([ (:- agent(asker, [])),

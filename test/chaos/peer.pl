@@ -8,7 +8,8 @@ takes terms ask(Tag, Goal) on standard input, runs once(Goal) in a thread
 for each, and prints answer(Tag, Result): yes(Goal), `no` or
 raised(Error).  Ends with its input.  Options:
 
-    --port=R --known-as=P    the endpoint listens at R, but says P: a proxy
+    --port=R --known-as=P    the endpoint listens at R, but announces P: a
+    proxy
                              stands before it
     --ledger=File            where chaos_note/3 writes
 
@@ -63,9 +64,9 @@ raised(Ball, raised(Ball)).
 
 %!  chaos_note(+Agent, +Tick, +Event) is det.
 %
-%   A service of all hosts: what an agent did, written down outside of it.
-%   A line is in the hands of the system when this returns: it outlives the
-%   process.
+%   A service of all hosts: records an action of an agent outside of it. The
+%   line has been passed to the operating system when this returns, so it
+%   survives the process.
 
 chaos_note(Agent, Tick, Event) :-
     get_time(Now),
@@ -95,8 +96,8 @@ open_hosts(Names, Port) :-
 on_all_hosts(Goal) :-
     forall(host_property(Host, state(running)), remote(Host, Goal)).
 
-%   census(-Agents): agent(Id, State, Hops, Facts) of those that stand here,
-%   without what is only ballast.
+%   census(-Agents): agent(Id, State, Hops, Facts) of the agents in this
+%   process, without their ballast.
 
 census(Agents) :-
     findall(Address, host_property(_, address(Address)), Addresses),
@@ -129,8 +130,8 @@ tuples(Tuples) :-
             Lists),
     append(Lists, Tuples).
 
-%   outcomes(+Ids, -Pairs): how those of Ids ended that have. News of the last
-%   ends may be under way: a courier pauses for up to ten seconds.
+%   outcomes(+Ids, -Pairs): the outcomes of those of Ids that have ended. News
+%   of the last ends may be under way: a courier pauses for up to ten seconds.
 
 outcomes(Ids, Pairs) :-
     get_time(Now),
@@ -145,7 +146,7 @@ outcome(Id, Deadline, Outcome) :-
     catch(agent_join(Id, Outcome, Seconds), error(Formal, _),
           Outcome = error(Formal)).
 
-%   What the timer holds: its stack, in kB.
+%   The stack of the timer, in kB.
 
 timer_size(Size) :-
     catch(( thread_property(Timer, alias(Alias)),
@@ -156,8 +157,8 @@ timer_size(Size) :-
     !.
 timer_size(0).
 
-%   close_hosts(-Left): stop all hosts and say what is left of threads and
-%   message queues after at most five seconds.
+%   close_hosts(-Left): stop all hosts and return the threads and message
+%   queues that are left after at most five seconds.
 
 close_hosts(Left) :-
     findall(Host, host_property(Host, state(running)), Hosts),

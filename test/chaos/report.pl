@@ -7,7 +7,7 @@
             report_print/2              % +Reports, +Options
           ]).
 
-/** <module> What is printed and kept of a run
+/** <module> The report of a run
 
 A report is report(Scenario, Figures, Findings), Figures being Name-Number
 in the order of the table.
@@ -99,7 +99,7 @@ report_count(report(_, _, Findings), Kind, Count) :-
 
 %!  report_print(+Reports, +Options) is det.
 %
-%   The table, and how to repeat what went wrong.
+%   The table, and the commands that repeat failures.
 
 report_print(Reports, Options) :-
     line('', [Report,Text]>>( Report = report(Text, _, _) ), Reports),
@@ -155,8 +155,8 @@ again(report(Scenario, Figures, _), Options) :-
                 *           MESSAGES           *
                 *******************************/
 
-%   messages(+Dir, +Lives, -Messages): Count-Kind for what the processes
-%   have printed, numbers and names left out.
+%   messages(+Dir, +Lives, -Messages): Count-Kind of the lines that the
+%   processes have printed, without numbers and names.
 
 messages(Dir, Lives, Messages) :-
     findall(Kind,

@@ -62,7 +62,8 @@ main(Argv) :-
     ;   halt(0)
     ).
 
-%   As in the test suite: what has read the library before begins otherwise.
+%   As in the test suite: a process that has loaded the library before begins
+%   differently.
 
 quickly(Options, Reports, Dir) :-
     quick_swipl(Dir, Swipl),

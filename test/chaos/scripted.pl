@@ -4,9 +4,9 @@
 
     swipl test/chaos/scripted.pl [-- scenario ...]
 
-does all that test/prolog/kernel/travel/test_scripted.pl samples, prints a line
-for each kind of disturbance, and ends with the number of those after which
-the agents were not as doc/agents.md says.
+runs all cases that test/prolog/kernel/travel/test_scripted.pl samples, prints
+a line for each kind of disturbance, and ends with the number of cases that
+violate the guarantees of doc/agents.md.
 
 *Threading*: the main thread.
 */

@@ -18,8 +18,8 @@
 
 Four processes, a supervisor, another one that stands by, and eight children.
 In each round children end and hop, the supervisor hops, and one process is
-killed at any time.  When all rests each child must run exactly once, and there
-must be the two supervisors.
+killed at any time.  At the end each child must run exactly once, and both
+supervisors must exist.
 
 *Threading*: the main thread.
 */
@@ -105,7 +105,7 @@ rounds(Wrong, N, _, _, Wrong) :-
     Done is N-1,
     format('~D rounds~n', [Done]).
 
-%   The killed process is there again before the others rest, or after it.  An
+%   The killed process is restarted before the others rest, or afterwards.  An
 %   agent that was on its way to it may be under way as long as it is dead.
 
 round(N, Wrong) :-
@@ -164,7 +164,7 @@ act(supervisor_hops, Peer, To) :-
     ;   of_one(Peer, Id, \+ child(Id), agent_move(Id, Host))
     ).
 
-%   An agent may end or hop while it is ordered about.
+%   An agent may end or hop while it receives an order.
 
 of_one(Peer, Id, Which, Goal) :-
     agents_of(Peer, Ids),
@@ -184,8 +184,8 @@ child(Id) :-
                 *            VERDICT           *
                 *******************************/
 
-%   rests(+Round, +Acts, +Peers, -Wrong): the second look is when the supervisor
-%   has handled all that came before.
+%   rests(+Round, +Acts, +Peers, -Wrong): the second check is after the
+%   supervisor has handled all earlier messages.
 
 rests(N, Acts, Peers, Wrong) :-
     (   catch(( wait_until(well(Peers), 60), answered(Peers),
@@ -198,7 +198,7 @@ rests(N, Acts, Peers, Wrong) :-
         forall(member(Peer, Peers), evidence(Peer))
     ).
 
-%   What a process has printed, and what it holds of agents and monitors.
+%   The output of a process, and its agents and monitors.
 
 evidence(Peer) :-
     forall(( peer_messages(Peer, Lines), member(Line, Lines) ),

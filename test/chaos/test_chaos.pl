@@ -139,7 +139,7 @@ test(in_doubt, true(Kinds == [stuck])) :-
     kinds(false, [ less(standing, agent(_, ids, _, _, _)),
                    more(standing, agent(a, ids, in_doubt, 0, [tick(2)])) ],
           Kinds).
-test(in_doubt_to_who_died_when_it_was_sending_it_back,
+test(in_doubt_to_a_process_that_died_while_sending_it_back,
      true(Kinds == [in_doubt])) :-
     kinds(true, [ less(lives, life(b, 2, _, _)),
                   less(standing, agent(_, idt, _, _, _)),
@@ -158,7 +158,7 @@ test(born_elsewhere, [forall(member(Hops-Wrong, [1-[], 2-[], 3-[count]])),
                    more(standing, agent(b, idc, resident, Hops,
                                         [me('s+1'), tick(1), steps(1)])) ],
           Kinds).
-test(clone_that_is_said_not_to_be,
+test(clone_reported_as_refused,
      [ forall(member(Told/Seen/Kind,
                      [ 52/[b-1]/died, 49.5/[b-1]/doubled, 60/[b-2]/doubled,
                        52/[a-1,b-1]/doubled ])),
@@ -170,7 +170,8 @@ test(clone_that_is_said_not_to_be,
                   more(standing, agent(a, ids, resident, 0,
                                        [me(s), tick(3), steps(0)]))
                 | More ], Kinds).
-test(end_nobody_heard_of, [ forall(member(Life-Wrong, [(b-1)-[],(a-1)-[outcome]])),
+test(end_without_notice,
+     [ forall(member(Life-Wrong, [(b-1)-[],(a-1)-[outcome]])),
                             true(Kinds == Wrong) ]) :-
     kinds(true, [ more(agents, agent(e, sprinter, ide, a-1, 1)),
                   more(events, e(e, 1, end, 49, Life)),
@@ -225,7 +226,7 @@ test(token_twice_though_one_was_dropped_in_a_process_that_died,
                   more(standing, agent(a, idt, resident, 1,
                                        [me(t), tick(4), steps(1), token(-1)])),
                   more(tuples, token(-1)) ], Kinds).
-test(message_said_again, true(Kinds == [again])) :-
+test(message_repeated, true(Kinds == [again])) :-
     kinds(true, [ less(events, e(s, 1, got(_, _), _, _)),
                   more(events, e(s, 1, got(t, 1), 49, a-1)),
                   more(events, e(t, 3, said(s, 1), 52, a-1)),

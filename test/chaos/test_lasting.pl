@@ -6,8 +6,8 @@
 
 :- begin_tests(lasting).
 
-%   A little of what `make chaos` does for long. It is over when so much has
-%   happened; the time is for what hangs.
+%   A short form of `make chaos`. It ends after a number of faults; the time
+%   limit is for hanging runs.
 
 test('processes with journals die at their steps: no agent is lost or doubled',
      Wrong == []) :-

@@ -3,7 +3,7 @@
 :- use_module(library(plunit)).
 :- use_module(supervised, [supervised/2]).
 
-/** <module> Some rounds of what `make chaos` does to supervisors for long
+/** <module> A short form of the attack of `make chaos` on supervisors
 
 *Threading*: the main thread.
 */

@@ -3,11 +3,12 @@
             finding_kind/3              % ?Kind, ?Severity, ?Meaning
           ]).
 
-/** <module> What must be, compared with what is
+/** <module> Comparison of the invariants with the result of a run
 
-A finding is finding(Kind, What).  Where no process was killed nothing is
-excused; else what was lost is, if the process it was in, or on its way to,
-was killed afterwards, see doc/agents.md.  Nothing excuses two of one thing.
+A finding is finding(Kind, What).  If no process was killed nothing is
+excused; otherwise a loss is excused if the process that held the item, or its
+destination, was killed afterwards, see doc/agents.md. Duplicates are never
+excused.
 
 *Threading*: for one thread at a time, see chaos_facts.
 */
@@ -129,7 +130,7 @@ standing_as(Key, State, Hops, Facts) :-
     created(Key, _, Id, _, _),
     standing(Id, _, State, Hops, Facts).
 
-%   copies(+Count, +Key, -Kind): what is wrong with so many.
+%   copies(+Count, +Key, -Kind): the violation of a wrong count.
 
 copies(0, Key, Kind) :-
     \+ has_ended(Key),
@@ -152,8 +153,8 @@ has_ended(Key) :-
     created(Key, victim, Id, _, _),
     outcome(Id, disposed).
 
-%   unwanted(+Told, +Seen, -Kind): its parent heard that there is no clone,
-%   which is true where it died before that.
+%   unwanted(+Told, +Seen, -Kind): its parent was notified that there is no
+%   clone, which is correct if the clone died before.
 
 unwanted(Told, Seen, died) :-
     forall(member(_-at(Name-Number, _), Seen),
@@ -163,8 +164,8 @@ unwanted(Told, Seen, died) :-
     !.
 unwanted(_, _, doubled).
 
-%   Whoever was sent somewhere from outside says nothing of it beforehand,
-%   nor does a clone, or one to be disposed of.
+%   An agent that is moved by an order does not announce it, nor does a clone,
+%   or an agent that is to be disposed of.
 
 excused(Key) :-
     last_trace(Key, Event, Time, Name-Number),
@@ -179,7 +180,7 @@ excused(Key) :-
         death_of(_, Dead),
         Dead >= Time-1
     ;   created(Key, victim, _, Home, _),
-        \+ alive(Home)                  % which knew of its end, if anybody did
+        \+ alive(Home)                  % had the news of its end, if any
     ),
     !.
 
@@ -197,7 +198,7 @@ home_of(Host, Name) :-
     sub_atom(Host, 0, _, _, Name),
     !.
 
-%   Where it went, or the processes that would know, are gone for good.
+%   Its destination, or the processes with the information, are gone for good.
 
 depends_on_the_dead(Key) :-
     gone(Name),
@@ -278,7 +279,7 @@ ended_as(Key, Outcome) :-
     !,
     Outcome == disposed.
 ended_as(Key, disposed) :-
-    created(Key, victim, _, _, _),      % whoever ordered it was not told
+    created(Key, victim, _, _, _),      % the caller of the order got no answer
     !.
 ended_as(Key, Outcome) :-
     event(Key, _, end, _, _),
@@ -327,7 +328,7 @@ call_kind(_, _, calm, Kind) :-
     Kind = refused.
 call_kind(_, _, _, error).
 
-%   What we ask at the end for our own sake, of processes that are well.
+%   Calls of the suite itself at the end, to healthy processes.
 
 looks(halt).
 looks(census(_)).

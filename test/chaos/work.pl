@@ -10,7 +10,7 @@
             work_calls/1                % -Calls
           ]).
 
-/** <module> What the agents are asked to do meanwhile
+/** <module> The work of the agents during an attack
 
 Creates the agents, and carries out the events of the schedule that concern
 them:
@@ -20,8 +20,8 @@ them:
   | dispose(Q)            | the oldest victim; Q, a process or `any`, says so|
   | settlers(P)           | P was started again: travellers, to live there   |
   | order(P, X)           | P tells a sleeper to go somewhere                |
-  | look(P, X)            | P asks where some agent is                       |
-  | tell(P, X)            | P writes to some agent                           |
+  | look(P, X)            | P asks where an agent is                       | |
+  tell(P, X)            | P writes to some agent                           |
 
 X, a number from 0 to 1, says which agent.  Nothing here waits for a process
 while the schedule runs.
@@ -42,8 +42,8 @@ while the schedule runs.
     victim/3,                           % Key, Id, Tries: waits for its fate
     disposed/2,                         % Key, Time
     doing/2,                            % Tag, What
-    posted/3,                           % Who, Key, Number
-    sent/4,                             % Who, Key, Number, Asked: certainly
+    posted/3,                           % Sender, Key, Number
+    sent/4,                             % Sender, Key, Number, Asked: certainly
     failure/3.                          % What, Name, Result
 
 %   population(?Kind, ?Program, -Share, -Facts): so many of a hundred.
@@ -222,19 +222,19 @@ some(Kinds, X, Key, Id) :-
 write_to(P, Key, Id) :-
     cluster_lives(Lives),
     (   member(life(P, Number, _, inf), Lives)
-    ->  atomic_list_concat([P, '.', Number], Who),
-        (   retract(posted(Who, Key, K0))
+    ->  atomic_list_concat([P, '.', Number], Sender),
+        (   retract(posted(Sender, Key, K0))
         ->  true
         ;   K0 = 0
         ),
         K is K0+1,
-        assertz(posted(Who, Key, K)),
+        assertz(posted(Sender, Key, K)),
         get_time(Now),
-        ask(P, agent_send(Id, m(Who, K)), tell(Who, Key, K, Now))
+        ask(P, agent_send(Id, m(Sender, K)), tell(Sender, Key, K, Now))
     ;   true
     ).
 
-%   What is asked of the dead has not been asked.
+%   Calls to dead processes do not count.
 
 ask(Name, Goal, What) :-
     call_seconds(Seconds),
@@ -249,7 +249,7 @@ ask(Name, Goal, What) :-
 
 %!  work_answers is det.
 %
-%   Take in what has been answered.
+%   Process the answers.
 
 work_answers :-
     cluster_answers(Answers),
@@ -276,10 +276,10 @@ answered(Result, dispose(Key, Id, Tries), Name) :-
 answered(yes(agent_join(_, disposed, _)), join(_, Key), _) :-
     get_time(Now),
     assertz(disposed(Key, Now)).
-answered(yes(_), tell(Who, Key, K, Asked), _) :-
-    assertz(sent(Who, Key, K, Asked)).
+answered(yes(_), tell(Sender, Key, K, Asked), _) :-
+    assertz(sent(Sender, Key, K, Asked)).
 
-%   An order of which nothing was heard may have been carried out.
+%   An order without an answer may have been carried out.
 
 disposed_of(yes(_), _).
 disposed_of(raised(existence_error(agent, _)), Tries) :-
@@ -322,7 +322,8 @@ note_call(What, Name, Result) :-
 %!  work_halt is det.
 %!  work_roll_call is det.
 %
-%   Have the agents stop; have everybody write to everybody once more.
+%   Order the agents to stop; let each process send each agent one more
+%   message.
 
 work_halt :-
     await_all,
@@ -357,7 +358,7 @@ await_all :-
 %
 %   agent(Key, Kind, Id, Life, Time) of all that were created, Life being
 %   Name-Number of the process that is its home; Key-Time of those that were
-%   to be disposed of; sent(Who, Key, Number, Time) for what
+%   to be disposed of; sent(Sender, Key, Number, Time) for what
 %   the processes wrote to the agents; call(What, Name, Result) for each call
 %   that did not succeed.
 
@@ -366,7 +367,7 @@ work_agents(Agents) :-
             agent(Key, Kind, Id, Life, Time), Agents).
 
 work_mail(Mail) :-
-    findall(sent(Who, Key, K, Time), sent(Who, Key, K, Time), Mail).
+    findall(sent(Sender, Key, K, Time), sent(Sender, Key, K, Time), Mail).
 
 work_disposed(Pairs) :-
     findall(Key-Time, disposed(Key, Time), Pairs).

@@ -243,11 +243,11 @@ test(finds_a_predicate) :-
     once(nth1(N, Places, 'predicates.html#agent_join/3')),
     N =< 2.                             % below its page
 
-test(finds_the_words_of_others,
+test(finds_predicates_of_prolog,
      [forall(member(Word, ["supervisor", "neighbor"]))]) :-
     search(Word, _, [_|_]).
 
-test(says_that_there_is_nothing) :-
+test(reports_no_matches) :-
     search("zebra", Text, []),
     once(sub_string(Text, _, _, _, "No matching documents")).
 

@@ -181,7 +181,7 @@ test(other_files_are_not_checked,
      [condition(program(node, _)), true(Problems == [])]) :-
     with_program("main :- move(X), forall(a, move(b)).\n",
                  vscode_shows(Problems)).
-test(without_prolog_it_says_so, [condition(program(node, _))]) :-
+test(missing_prolog_is_reported, [condition(program(node, _))]) :-
     wrong(Text),
     with_program(Text, vscode_warns(Warning)),
     assertion(sub_string(Warning, 0, _, _, "/nowhere/swipl does not run")).

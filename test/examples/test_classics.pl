@@ -247,7 +247,7 @@ way(From, To, Path, Km, Way) :-
 
 :- begin_tests(classics).
 
-test(hello_is_said_on_each_host, Logged == Expected) :-
+test(hello_is_logged_on_each_host, Logged == Expected) :-
     findall(hello_from(Host),
             ( member(N, [2, 3, 4]), format(atom(Host), 'n~d@virtual:0', [N]) ),
             Expected),
@@ -262,7 +262,7 @@ test(sum_is_that_of_the_numbers, Found == Sum) :-
 test(dictionary_keeps_words_on_shelves) :-
     virtually(mesh(5), defined, _).
 
-test(game_is_won_by_who_thinks, nondet) :-
+test(game_is_won_by_the_thinker, nondet) :-
     plays([anna-novice, bert-thinker], [won(o, _)]).
 
 test(game_of_two_novices_is_won_by_the_first, nondet) :-

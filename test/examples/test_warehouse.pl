@@ -60,7 +60,7 @@ test(robots_drive_as_fast_as_they_can) :-
     assertion(near(X, 1.5)),
     assertion(near(Y, 0)).
 
-test(they_stop_when_they_hear_nothing) :-
+test(robots_stop_without_commands) :-
     beam(Floor0),
     after([ floor_drive(r1, 1-0), floor_step(1), floor_step(1), floor_step(1) ],
           Floor0, Floor),

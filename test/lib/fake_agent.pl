@@ -78,14 +78,14 @@ fake_host:receive(Message, Seconds) :-
         fail
     ).
 
-fake_host:clone(Who) :-
+fake_host:clone(Branch) :-
     (   retract(fake_host:answer(Answer))
     ->  true
     ;   Answer = parent(child)
     ),
     (   Answer = error(_, _)
     ->  throw(Answer)
-    ;   Who = Answer
+    ;   Branch = Answer
     ).
 
 fake_host:move(Host) :-

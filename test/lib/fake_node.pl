@@ -32,7 +32,7 @@ node(Program, Facts) :-
     atomic_list_concat(['agents/allocation/', Program, '.pl'], File),
     findall(peer(Host, Node),
             member(Host-Node, [here-me, a-na, b-nb, c-nc]), Peers),
-    append([Peers, [agenda(0, []), next_id(1), gone(nobody)], Facts], All),
+    append([Peers, [agenda(0, []), next_id(1), gone(none)], Facts], All),
     fake_agent(File, All, [robot(robot)]),
     retractall(fake_agent:tell(_, _)),
     assertz((fake_agent:tell(Agent, Message) :-

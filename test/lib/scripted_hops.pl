@@ -224,8 +224,8 @@ clause_of(walker, (walk(K, []) :- !, step(K))).
 clause_of(walker, (walk(K, [Host|Hosts]) :- step(K), go(Host), K1 is K+1,
                                             walk(K1, Hosts))).
 clause_of(parent, (main :- route([Host]),
-                           catch(clone(Host, Who), error(E, _), Who = E),
-                           Who =.. [What|_], step(What))).
+                           catch(clone(Host, Branch), error(E, _), Branch = E),
+                           Branch =.. [What|_], step(What))).
 clause_of(refused, (main :- route([Host]),
                             catch(move(Host), error(E, _), true),
                             step(E))).

@@ -248,9 +248,9 @@ bounced(Peer, Id, Hops, Pace) :-
 cloner(Peer, Host, Id) :-
     Clauses =
     [ (:- agent(cloner, [state([there/1])])),
-      (main :- there(There), clone(There, Who), who(Who)),
-      (who(parent(Clone)) :- self(Self), leave(parent_of(Self, Clone))),
-      (who(clone(_)) :- receive(_-go))
+      (main :- there(There), clone(There, Branch), branch(Branch)),
+      (branch(parent(Clone)) :- self(Self), leave(parent_of(Self, Clone))),
+      (branch(clone(_)) :- receive(_-go))
     ],
     peer_do(Peer, agent_create(clauses(Clauses), Id,
                                [host(Peer), facts([there(Host)])])).

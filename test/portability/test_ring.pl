@@ -232,7 +232,7 @@ test(a_crowd, Outcomes == Done) :-
     maplist(joined, Agents, Outcomes),
     findall(done, member(_, Agents), Done).
 
-test(nobody_stays) :-
+test(no_agent_stays) :-
     forall(host(_, Address),
            wait_until(remote(Address, host_load(0)), 5)).
 

@@ -91,7 +91,7 @@ test(lists_targets, Status == exit(0)) :-
 test(install_does_nothing, Status-Output == exit(0)-"") :-
     run(path(make), [install], [], Status, Output).
 
-test(check_says_that_all_is_well,
+test(check_reports_success,
      Status-Output == exit(0)-"check: no mistakes found\n") :-
     run(path(make), [check], [], Status, Output).
 

@@ -1,13 +1,13 @@
 % Expects: lib; deadline, messages, held_robots.
 % Gives: attend/0, heed/2.
 
-/*  What an allocator does about messages that come from robots elsewhere,
-    whatever it is doing.
+/*  How an allocator handles messages of robots on other hosts, in any of its
+    stages.
 */
 
 %!  attend is det.
 %
-%   Heeds all messages that have come, and the time.
+%   Handles all messages that have arrived, and checks the deadline.
 %
 %   @throws missed
 
@@ -48,7 +48,7 @@ heed(finish, _) :-
     forall(held(_, _, Ref, _, started), mark(Ref, done)).
 heed(_, _).
 
-%   What a robot said that was told to start, or asked how it is.
+%   The answer of a robot to a start or a status request.
 
 answered(refused(Why), Host, Ref) :-
     !,

@@ -9,7 +9,7 @@
 
 %!  back_off is det.
 %
-%   Robots that are executing are of no use to others as yet.
+%   Robots that are executing are kept: no other task can use them yet.
 
 back_off :-
     deallocate([reserved, done]),
@@ -43,7 +43,7 @@ theta(Theta) :-
     hop_time(HopTime),
     reach_time(Found, HopTime, Theta).
 
-%   As the host keeps it: the mean of the hops to it.
+%   The host measures it: the mean time of hops to it.
 
 hop_time(Seconds) :-
     here(Host),

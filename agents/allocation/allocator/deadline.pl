@@ -9,7 +9,7 @@
 
 %!  set_deadline(+Seconds) is det.
 %
-%   So many Seconds from now, or `never`.
+%   The deadline is Seconds from now, or `never`.
 
 set_deadline(never) :-
     !,
@@ -36,7 +36,7 @@ check_deadline :-
 
 %!  soon(+Seconds0, -Seconds) is det.
 %
-%   Not beyond the deadline.
+%   Seconds is Seconds0, or less, so that it ends at the deadline.
 
 soon(Seconds, Seconds) :-
     until(never),

@@ -1,13 +1,14 @@
 % Expects: task/3; lib, common; trail, messages, held_robots, news, migration.
 % Gives: deallocate/1.
 
-/*  How robots are let go: by children that go back the way their parent
+/*  How robots are released: by children that go back the way their parent
     came, free the robots, and die.
 
     A child goes by the trail of its parent, with short cuts, to the robot
     that is nearest; where links have gone it looks for the way
-    conscientiously.  It has so much time: robots it has not reached by then
-    ask the allocator, which answers that they are free, or not at all.
+    conscientiously.  Its time is limited: robots that it has not reached by
+    then ask the allocator, which answers that they are free, or does not
+    answer.
 */
 
 %!  deallocate(+Phases:list) is det.
@@ -61,12 +62,12 @@ shares(Count, List, [Share|Shares]) :-
     Count1 is max(1, Count - 1),
     shares(Count1, Rest, Shares).
 
-%   Where there is no place for a child, robots are written to.
+%   If the host has no capacity for a child, the robots get messages.
 
 spawn_children([]).
 spawn_children([Share|Shares]) :-
-    clone_if_room(Who),
-    spawned(Who, Share),
+    clone_if_room(Branch),
+    spawned(Branch, Share),
     spawn_children(Shares).
 
 spawned(parent(_), _).
@@ -98,8 +99,8 @@ release_all(Robots, Until) :-
     length(Trail, Far),
     release_all(Robots, Far, Until).
 
-%   release_all(+Robots, +Distance, +Until): it has been so near to one of
-%   Robots, along the trail.
+%   release_all(+Robots, +Distance, +Until): Distance is the least distance to
+%   one of Robots so far, along the trail.
 
 release_all([], _, _) :-
     !.
@@ -132,7 +133,7 @@ way_on(Robots, Distance0, Host, Distance) :-
 way_on(_, Distance, Host, Distance) :-
     next_host(conscientious, Host).
 
-%   A host that does not let it in is not on the way any more.
+%   A host that refuses the child is removed from the trail.
 
 arrived(Arrived, _, _-Distance, Distance) :-
     var(Arrived),

@@ -11,10 +11,10 @@
         avoided(Host)           where a robot was lost that had begun, since
                                 the allocator set out, or last backed off
 
-    Such a robot is not asked again before the allocator has backed off.  On
-    the spot one whose execution fails at once would be reserved again, with
-    another reward and without a hop, so that the mobility resource would grow
-    without end.
+    Such a robot is not asked again before the allocator has backed off.
+    Otherwise a robot on the current host whose execution fails at once would
+    be reserved again, with another reward and without a hop, so that the
+    mobility resource would grow without end.
 */
 
 :- dynamic held/5, achieved/1, avoided/1.

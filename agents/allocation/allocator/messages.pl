@@ -1,14 +1,14 @@
 % Expects: lib, common; trail.
 % Gives: ask/4, post/3, count_message/1.
 
-/*  Between an allocator and robots.  A message to or from one that is
-    elsewhere counts once for each link of the way the allocator came from
-    there, without detours.
+/*  Messages between an allocator and robots. A message to or from a robot on
+    another host counts once for each link of the way by which the allocator
+    came from there, without detours.
 */
 
 %!  ask(+Robot, +Ref, +Question, -Answer) is det.
 %
-%   Of a robot on the spot.  Answer is `silence` if there is none.
+%   Asks a robot on this host. Answer is `silence` if there is none.
 
 ask(Robot, Ref, Question, Answer) :-
     parameter(patience, Seconds),
@@ -20,7 +20,7 @@ ask(Robot, Ref, Question, Answer) :-
 
 %!  post(+Host, +Robot, +Message) is semidet.
 %
-%   To the robot at Host.  Fails as tell/2.
+%   Sends Message to the robot at Host. Fails as tell/2.
 
 post(Host, Robot, Message) :-
     count_message(Host),
@@ -28,7 +28,7 @@ post(Host, Robot, Message) :-
 
 %!  count_message(+Host) is det.
 %
-%   To or from the robot at Host.
+%   Counts a message to or from the robot at Host.
 
 count_message(Host) :-
     trail(Trail),

@@ -1,7 +1,7 @@
 % Expects: lib, common; trail, held_robots, news, sojourn, rewards.
 % Gives: set_out/0, restart/0, migrate/0, pause/0.
 
-/*  How an allocator gets about: thesis section 7.4.1, Agent Migration.
+/*  How an allocator migrates: thesis section 7.4.1, Agent Migration.
 */
 
 %!  set_out is det.

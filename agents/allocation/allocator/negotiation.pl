@@ -2,9 +2,9 @@
 %   rewards.
 % Gives: negotiate/0.
 
-/*  With the robot on the spot: its agent says what the task would cost, the
-    payload of the allocator whether it agrees, and then the robot is
-    reserved.
+/*  Negotiation with the robot on this host: its agent returns the cost of the
+    task, the payload of the allocator decides whether it agrees, and then the
+    robot is reserved.
 */
 
 %!  negotiate is det.

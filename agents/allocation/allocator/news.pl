@@ -1,19 +1,18 @@
 % Expects: task/3; lib, common; held_robots.
 % Gives: exchange/0, learn/3, promising/1; its state.
 
-/*  What allocators tell each other of robots: beyond the thesis, which names it
-    in section 7.8.
+/*  News of robots that allocators share: beyond the thesis, which names it in
+    section 7.8.
 
-    They meet seldom, so they leave what they know at the hosts that they come
-    by, in the tuple robots(News), and take along what is newer there.  An item
-    is news(Host, Requirements, Verdict, Time): since Time the robot at Host,
+    They meet seldom, so they leave their news at the hosts that they visit,
+    in the tuple robots(News), and take newer items from there.  An item is
+    news(Host, Requirements, Verdict, Time): since Time the robot at Host,
     which meets Requirements, is `free` or `taken`.
 
-    Of neighbours that are known to be free the allocator goes to the one of
-    which it heard last; what it found out itself is newer than what sent it
-    there, so it does not come back in vain.  The setting `sharing` is `none`
-    (of the thesis), `own` (an allocator uses what it has seen itself) or
-    `shared`.
+    The allocator goes to the neighbour with the newest `free` item; its own
+    observation there is newer than that item, so it does not return in vain.
+    The setting `sharing` is `none` (of the thesis), `own` (an allocator uses
+    what it has seen itself) or `shared`.
 */
 
 :- use_module(library(lists)).
@@ -21,7 +20,7 @@
 
 %!  exchange is det.
 %
-%   With the host, if there is something to tell or to learn.
+%   Exchanges news with the host, if either has newer items.
 
 exchange :-
     parameter(sharing, shared),
@@ -40,7 +39,7 @@ exchange.
 
 %!  learn(+Host, +Requirements, +Verdict) is det.
 %
-%   From now on.
+%   Records Verdict with the current time.
 
 learn(Host, Requirements, Verdict) :-
     (   parameter(sharing, none)

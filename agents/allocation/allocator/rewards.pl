@@ -48,7 +48,7 @@ decay :-
 %!  endow is det.
 %!  replenish is det.
 %
-%   What it begins with, and begins anew with after a back-off: equation 7.4.
+%   The initial resource, and the resource after a back-off: equation 7.4.
 
 endow :-
     parameter(chi, Chi),
@@ -63,7 +63,7 @@ replenish :-
 
 %!  exhausted is semidet.
 %
-%   Of the resource next to nothing is left: it has to back off.
+%   The resource is used up: the allocator has to back off.
 
 exhausted :-
     chi(Chi),

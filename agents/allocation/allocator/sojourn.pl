@@ -19,7 +19,7 @@ begin_sojourn :-
 
 %!  note(+What) is det.
 %
-%   One more of what sojourn/4 counts.
+%   Increments the count of What in sojourn/4.
 
 note(What) :-
     sojourn(Visited, Hops, Rewards, Penalties),
@@ -53,8 +53,8 @@ discovered(Count) :-
 
 %!  frequency(+What, -Times, -Frequency) is det.
 %
-%   How many rewards or penalties, and how many per hop: mu.  Where it begins
-%   it has not yet moved.
+%   The number of rewards or penalties, and their number per hop: mu. On its
+%   first host the agent has not yet moved.
 
 frequency(reward, Rewards, Frequency) :-
     sojourn(_, Hops, Rewards, _),

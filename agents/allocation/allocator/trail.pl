@@ -1,12 +1,12 @@
 % Expects: nothing.
 % Gives: stepped/5, links/3, nearer/6; state trail/1.
 
-/*  The way back, trail(Hosts): the hosts that an agent came by, the last one
-    first.  What is said here of trails is pure.
+/*  The way back, trail(Hosts): the hosts that an agent has visited, the last
+    one first. The predicates on trails are pure.
 
-    A trail forgets detours: where it comes to a host that is on the trail, or
-    linked with one, what lies between is left out, unless there is a host
-    among it that it has to go back to.
+    A trail omits detours: when the agent comes to a host on the trail, or
+    linked with one, the hosts in between are removed, unless the agent has to
+    go back to one of them.
 */
 
 :- use_module(library(lists)).

@@ -1,7 +1,7 @@
 % Expects: heard/2 and perform/2, which do what has come or is due.
 % Gives: node_loop/0, at/2, after/2; its state.
 
-/*  What a node does when.
+/*  The agenda of a node.
 
         agenda(Next, Dues)      Dues are pairs Due-Key, the first to be due
                                 first; Next is the next Key

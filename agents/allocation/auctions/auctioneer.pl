@@ -13,7 +13,7 @@
 
 %!  to_owner(+Job, +Body) is semidet.
 %
-%   What nodes tell the auctioneer of this node.
+%   Handles a message of a node to the auctioneer of this node.
 
 to_owner(Job, bids(Round, List)) :-
     bids(Job, Round, List).
@@ -22,7 +22,7 @@ to_owner(Job, report(Round, Host, Phase)) :-
 
 %!  auction_due(+What) is semidet.
 %
-%   What the auctioneer has put on the agenda.
+%   Handles an item that the auctioneer has put on the agenda.
 
 auction_due(close(Job, Round)) :-
     close_auction(Job, Round).
@@ -69,7 +69,7 @@ open_auction(Job) :-
     at(Close, close(Job, Round)),
     publish(announce(Job, Round, offer(Name, Me, Places, Details, Close))).
 
-%   bids(+Job, +Round, +List): List of Host-Bids; what comes late is lost.
+%   bids(+Job, +Round, +List): List of Host-Bids; late bids are dropped.
 
 bids(Job, Round, List) :-
     job(Job, _, Round, bidding, _, _),
@@ -106,7 +106,7 @@ award(Job, Round, Winners) :-
                 *           REPORTS            *
                 *******************************/
 
-%   report(+Phase, +Job, +Round, +Host): what has become of an award.
+%   report(+Phase, +Job, +Round, +Host): the result of an award.
 
 report(Phase, Job, Round, Host) :-
     retract(member(Job, Host, Number, Round, Before, _)),
@@ -163,7 +163,7 @@ begin_execution(Job) :-
     phase_of(Job, executing),
     members(Job, Hosts),
     (   allocated(Job)
-    ->  true                            % somebody had to be replaced
+    ->  true                            % a robot had to be replaced
     ;   assertz(allocated(Job)),
         job(Job, task(Name, _, _), _, _, _, _),
         log(allocated(Name, Hosts))
@@ -231,7 +231,7 @@ renew_later(Job, Since) :-
     parameter(renew, Seconds),
     after(Seconds, renew(Job, Since)).
 
-%   A contractor that has let a whole period pass without a sign of life is lost.
+%   A contractor without a sign of life for a whole period is lost.
 
 renew(Job, Since) :-
     renewal(Job, Since),

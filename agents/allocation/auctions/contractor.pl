@@ -21,7 +21,7 @@
 
 %!  to_robot(+Body) is semidet.
 %
-%   What auctioneers tell the contractor of this host.
+%   Handles a message of an auctioneer to the contractor of this host.
 
 to_robot(announce(Job, Round, Offer)) :-
     invited(Job, Round, Offer).
@@ -36,7 +36,7 @@ to_robot(release(Job, Round, Hosts)) :-
 
 %!  contract_due(+What) is semidet.
 %
-%   What the contractor has put on the agenda.
+%   Handles an item that the contractor has put on the agenda.
 
 contract_due(lapse(Job)) :-
     lapse(Job).
@@ -77,7 +77,7 @@ engaged(offer(_, _, _, Details, _), Now) :-
 
 %!  answered(+Answer, +Ref, +Robot) is semidet.
 %
-%   What the robot says.
+%   Handles the answer of the robot.
 
 answered(bid(Cost), ref(Job, Round, Number), _) :-
     !,
@@ -144,7 +144,8 @@ phase(Job, Phase) :-
     assertz(contract(Job, Round, Ref, Details, Phase, Until)),
     inform(Job, Round, Phase).
 
-%   What the robot answers to reserve/3.  The contract may be gone again.
+%   The answer of the robot to reserve/3. The contract may have ended
+%   meanwhile.
 
 reserved(Ref, _) :-
     contract(Job, _, Ref, _, reserving, _),

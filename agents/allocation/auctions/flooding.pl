@@ -16,9 +16,9 @@
 
     Each node passes a flood on once, to all neighbours but the one it came
     from: over N hosts with E links it takes 2E - (N-1) messages.  Two nodes
-    often send each other the same.  The later one has got the earlier
-    message, though it is not yet due: its own would find the flood known,
-    so it is counted, and spared the computer.
+    often send each other the same.  The later node already has the earlier
+    message, though it is not yet due: its own message would be a duplicate,
+    so it is counted but not sent.
 
         peer(Host, Node)        each node there is
         wave(Flood, Due, Froms) floods known, -1 once they are passed on;
@@ -142,7 +142,7 @@ spread(From, Froms, Id, Body, Now) :-
     body_kind(Body, Kind),
     count(Kind, Count).
 
-%   What is counted, and spared the computer, occupies the channel.
+%   A message that is counted but not sent also occupies the channel.
 
 spare(Tos, Count, Now) :-
     length(Tos, Sent),

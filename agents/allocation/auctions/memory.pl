@@ -1,7 +1,7 @@
 % Expects: nothing.
 % Gives: make_room/2, first_id/0, new_id/1; its state.
 
-/*  What a node remembers for a while, and how it numbers what it sends.
+/*  Bounded memory of a node, and the numbers of its messages.
 
         kept(Name, Count)       how many facts of a name are remembered
         next_id(Id)

@@ -49,7 +49,7 @@ default(level, 10).             % of a broadcast tree
 default(memory, 1000).          % floods that a node knows again
 default(jobs, 100).             % jobs of others that it remembers
 
-%   What others say may come before its peers do: it waits.
+%   Messages of other nodes may arrive before the list of peers: they wait.
 
 main :-
     first_id,

@@ -1,8 +1,8 @@
 % Expects: nothing.
 % Gives: count/2, log_communications/0; state sent/2.
 
-/*  What an agent has sent, or how often it has moved: the inter-node
-    communications of thesis section 7.6.  sent(Kind, Count).
+/*  Counts of messages and moves of an agent: the inter-node communications of
+    thesis section 7.6.  sent(Kind, Count).
 */
 
 :- dynamic sent/2.
@@ -23,7 +23,7 @@ count(Kind, Times) :-
 
 %!  log_communications is det.
 %
-%   Tells the log what was counted since the last time.
+%   Logs the counts since the last call.
 
 log_communications :-
     forall(retract(sent(Kind, Count)), log(communications(Kind, Count))).

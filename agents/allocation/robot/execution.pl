@@ -11,9 +11,9 @@
 start(Ref, Goal, Answer) :-
     hold(Ref, _, _, _, reserved),
     !,
-    catch(clone(Who), error(move_refused(_, Reason), _),
-          Who = refused(Reason)),
-    begin(Who, Ref, Goal, Answer).
+    catch(clone(Branch), error(move_refused(_, Reason), _),
+          Branch = refused(Reason)),
+    begin(Branch, Ref, Goal, Answer).
 start(Ref, _, Answer) :-
     (   hold(Ref, _, _, _, _)
     ->  Answer = started
@@ -41,7 +41,7 @@ outcome(Ball, Outcome) :-
 
 %!  finished(+Outcome, +Ref) is det.
 %
-%   What the hand says.
+%   Handles the message of the hand.
 
 finished(done, Ref) :-
     !,

@@ -9,7 +9,7 @@
 
 %!  verdict(+Need, -Verdict) is det.
 %
-%   What would come of it now.
+%   Verdict is the answer to a request of Need at this time.
 
 verdict(Need, refused(unfit)) :-
     \+ able(Need, _),
@@ -71,7 +71,7 @@ lose(_).
 
 %!  free is semidet.
 %
-%   It ends, and what the robot was executing is stopped.
+%   The reservation ends, and the execution of the robot is stopped.
 
 free :-
     retract(hold(_, Owner, need(Task, _, _), _, Phase)),

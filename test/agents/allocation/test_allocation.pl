@@ -334,7 +334,7 @@ test(start_without_reservation,
      Acts == [send(x, answer(r, refused(none)))]) :-
     robot([]),
     say(x, start(r, true), Acts).
-test(start_with_no_room, Acts == [send(x, answer(r, refused(capacity)))]) :-
+test(start_without_capacity, Acts == [send(x, answer(r, refused(capacity)))]) :-
     robot([]),
     reserved(r, x),
     fake_clone(error(move_refused(here, capacity), _)),
@@ -348,7 +348,7 @@ test(executed, Acts == [log(executed(here, owner, r)), send(x, done(r))]) :-
     say(child, finished(r, done), Acts),
     say(x, status(r), [send(x, answer(r, status(done)))]),
     hold(r, done).
-test(hand_of_another_time_is_not_heard, Acts == []) :-
+test(message_of_an_earlier_hand_is_ignored, Acts == []) :-
     robot([]),
     reserved(r, x),
     say(x, start(r, true), _),
@@ -389,7 +389,7 @@ test(state_changes, Acts == [send(x, answer(r, bid(3)))]) :-
     say(x, ask(r, Need), [send(x, answer(r, refused(unfit)))]),
     say(user, state(battery=0.2), []),
     say(x, ask(r, Need), Acts).
-test(asks_whether_it_is_still_wanted, Asked-Time == [send(x, still(r))]-60) :-
+test(asks_whether_it_is_still_needed, Asked-Time == [send(x, still(r))]-60) :-
     robot([]),
     reserved(r, x),
     fake_agent:due(Time, _),
@@ -551,7 +551,7 @@ test(backs_off) :-
     fake_agent:trail([here]),
     restarted(3, 5, 0.01, Chi),
     chi(Chi).
-test(newer_news_is_taken_along_and_left) :-
+test(newer_news_is_carried_and_left) :-
     allocator([ setting(sharing, shared), news(b, [push], taken, 5),
                 news(a, [lift], free, 7) ]),
     fake_host:leave(robots([ news(b, [push], free, 6),
@@ -583,7 +583,7 @@ test(what_is_taken_and_freed_is_news) :-
     fake_at(9),
     fake_agent:deallocate([reserved]),
     fake_agent:news(here, [push], free, 9).
-test(executing_robots_are_not_let_go) :-
+test(executing_robots_are_not_released) :-
     allocator([ held(b, q, x, 1, started), setting(backoff, constant) ]),
     fake_agent:back_off,
     fake_agent:held(b, q, x, 1, started),
@@ -596,7 +596,7 @@ test(child_goes_back, Acts == [ move(b), send(q, release(x)),
     fake_neighbours([b, a, c]),
     catch(fake_agent:deallocate([reserved]), disposed, true),
     did(Acts).
-test(child_leaves_out_who_refuses_it) :-
+test(child_skips_a_host_that_refuses_it) :-
     allocator([ held(a, p, y, 2, reserved), held(b, q, x, 1, reserved) ]),
     fake_clone(clone(me)),
     fake_neighbours([b, a, c]),
@@ -608,7 +608,7 @@ test(child_leaves_out_who_refuses_it) :-
     memberchk(log(communications(child, 1)), Sums),
     memberchk(log(communications(refusal, Count)), Sums),
     Count > 200.
-test(no_room_for_a_child) :-
+test(no_capacity_for_a_child) :-
     allocator([ held(a, p, y, 2, reserved), held(b, q, x, 1, reserved) ]),
     fake_clone(error(move_refused(here, capacity), _)),
     fake_agent:deallocate([reserved]),
@@ -621,7 +621,7 @@ test(shares, Shares == [[a, b, c], [d, e]]) :-
 test(no_more_shares_than_robots, Shares == [[a], [b]]) :-
     allocator([]),
     fake_agent:shares(5, [a, b], Shares).
-test(robot_asks_whether_it_is_wanted) :-
+test(robot_asks_whether_it_is_needed) :-
     allocator([held(a, p, y, 2, reserved)]),
     fake_mail(p-still(y)),
     fake_mail(q-still(x)),

@@ -267,7 +267,7 @@ disposed_executing(Hosts, File) :-
 %   Robots that are not reached hear it from the allocator that rests, or
 %   hear nothing of one that has ended.
 
-test(children_reach_nobody) :-
+test(children_reach_no_robot) :-
     allocation(ring(4), [hop_time(uniform(0.1, 0.2))],
                [watch-5, patience-5], childless).
 

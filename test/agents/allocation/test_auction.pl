@@ -51,7 +51,7 @@ test(the_first_to_be_due_counts_not_the_first_to_come) :-
     Bodies == [c-start(x)],
     at(5),
     bodies([]).
-test(what_both_ends_of_a_link_send_is_counted_and_spared) :-
+test(duplicate_from_both_ends_of_a_link_is_counted_but_not_sent) :-
     node(murdoch, []),
     link(a, 3, flood(77, start(x))),
     link(b, 2, flood(77, start(x))),
@@ -75,7 +75,7 @@ test(messages_over_one_channel_wait_for_each_other, Dues == [11, 12, 13, 14]) :-
     findall(Due, ( retract(fake_host:did(send(_, link(Due0, _, _)))),
                    Due is integer(Due0) ),
             Dues).
-test(what_is_spared_occupies_the_channel, Dues == [11, 13, 14]) :-
+test(suppressed_duplicate_occupies_the_channel, Dues == [11, 13, 14]) :-
     node(murdoch, [ setting(hop_time, uniform(2, 2)),
                     setting(sending, one_by_one(0.5)) ]),
     at(5),
@@ -86,7 +86,7 @@ test(what_is_spared_occupies_the_channel, Dues == [11, 13, 14]) :-
     findall(Due, ( retract(fake_host:did(send(_, link(Due0, _, _)))),
                    Due is integer(Due0) ),
             Dues).
-test(what_is_passed_on_late_is_not_late) :-
+test(delay_of_the_computer_does_not_add_up) :-
     node(murdoch, [setting(hop_time, uniform(1, 1))]),
     at(10),                             % it was due at 3
     link(a, 3, flood(77, start(x))),
@@ -97,13 +97,13 @@ test(known_floods_are_bounded, Count == 3) :-
     node(murdoch, [setting(memory, 3)]),
     forall(between(1, 50, I), link(a, 0, flood(I, start(x)))),
     aggregate_all(count, fake_agent:wave(_, _, _), Count).
-test(who_has_no_node_gets_nothing) :-
+test(host_without_a_node_gets_nothing) :-
     node(murdoch, []),
     hears(peers([a-na, c-nc]), user),
     fake_agent:flood(start(x)),
     bodies([a-_, c-_]),
     fact(sent(start, 2)).
-test(who_is_gone_is_forgotten) :-
+test(host_that_is_gone_is_forgotten) :-
     node(murdoch, [gone(nb)]),
     fake_agent:flood(start(x)),
     bodies([a-_, c-_]),
@@ -111,7 +111,7 @@ test(who_is_gone_is_forgotten) :-
     fact(sent(start, 3)),               % it was tried
     fake_agent:flood(start(y)),
     fact(sent(start, 5)).
-test(counts_are_told_once, Logged == [communications(start, 3)]) :-
+test(counts_are_logged_once, Logged == [communications(start, 3)]) :-
     node(murdoch, []),
     fake_agent:flood(start(x)),
     hears(account, user),
@@ -188,7 +188,7 @@ test(without_the_parent_bids_are_flooded) :-
     sent([b-flood(Id, Body), c-flood(Id, Body)]),
     Body == flooded(owner(Job, bids(1, [x-[1-3]]))),
     fact(sent(bid, 2)).
-test(with_nobody_at_the_parent_bids_are_flooded) :-
+test(with_no_node_at_the_parent_bids_are_flooded) :-
     planted([gone(na)]),
     from_child(b, [x-[1-3]]),
     sent(_),

@@ -120,7 +120,7 @@ passed_on(Network) :-
 
 :- begin_tests(auction_flood_network).
 
-test(what_comes_before_its_peers_are_known_is_passed_on) :-
+test(message_before_the_peers_are_known_is_passed_on) :-
     no_leaks(setup_call_cleanup(
                  network_start(line(3), Network, []),
                  passed_on(Network),

@@ -96,7 +96,7 @@ test(a_winner_reserves_its_robot_for_the_auctioneer) :-
     hears(answer(ref(Job, 1, 1), reserved), robot),
     bodies(Then),
     memberchk(b-owner(Job, report(1, here, reserved)), Then).
-test(a_winner_that_was_taken_says_so) :-
+test(a_winner_whose_robot_is_taken_refuses) :-
     winner([]),
     sent(_),
     job(Job),
@@ -172,7 +172,7 @@ test(a_contract_that_is_renewed_does_not) :-
     at(110),
     sent(Sent),
     memberchk(robot-release(_), Sent).
-test(who_missed_the_start_is_started_by_a_renewal) :-
+test(missed_start_is_repeated_by_a_renewal) :-
     reserved([]),
     job(Job),
     link(a, 0, flood(79, renew(Job, executing))),
@@ -185,7 +185,7 @@ test(a_lost_robot_is_reported) :-
     hears(lost(ref(Job, 1, 1), preempted), robot),
     bodies(Bodies),
     memberchk(a-owner(Job, report(1, here, lost(preempted))), Bodies).
-test(the_robot_is_told_whether_it_is_still_needed) :-
+test(the_robot_learns_whether_it_is_still_needed) :-
     reserved([]),
     job(Job),
     hears(still(ref(Job, 1, 1)), robot),
@@ -365,7 +365,7 @@ test(a_refusal_is_auctioned_again) :-
     said(a, award(Job, 2, [x-1])),
     report(Job, 2, x, reserved),
     said(a, start(Job)).
-test(who_does_not_answer_is_released_and_replaced) :-
+test(silent_winner_is_released_and_replaced) :-
     auctioneer([], Job),
     award(Job),
     report(Job, 1, y, reserved),
@@ -421,7 +421,7 @@ test(contracts_are_renewed) :-
     sent(_),
     at(50),
     said(a, renew(Job, executing)).
-test(who_lets_renewals_pass_is_lost) :-
+test(contractor_that_misses_renewals_is_lost) :-
     auctioneer([setting(renew, 20)], Job),
     executing(Job),
     forall(member(Time, [30, 50]), ( at(Time), report(Job, 1, y, executing) )),

@@ -135,7 +135,7 @@ test(it_waits_for_the_order_to_begin, Acts == []) :-
     learner([start-order], []),
     \+ fake_agent:main,
     acts(Acts).
-test(it_begins_when_told, First == send(t, execute([], 3))) :-
+test(it_begins_on_the_order, First == send(t, execute([], 3))) :-
     learner([start-order], []),
     fake_mail(user-begin),
     feeds_back([], reached([])),
@@ -187,7 +187,7 @@ test(of_many_the_first_with_something_new_is_taken,
     findall(Other-Count, member(log(shared(Other, Count)), Acts0), Shared),
     once(append(Before, [log(shared(_, _))|_], Acts0)),
     findall(Other, member(send(Other, share(_)), Before), Asked).
-test(who_does_not_answer_is_taken_out_of_the_queue,
+test(silent_agent_is_removed_from_the_queue,
      Asked-Tuples == 1-[trainer(t)]) :-
     learner([], [queued(o)]),
     feeds_back([], unreached),
@@ -196,14 +196,15 @@ test(who_does_not_answer_is_taken_out_of_the_queue,
     did(Acts),
     aggregate_all(count, member(send(o, _), Acts), Asked),
     tuples(Tuples).
-test(so_is_who_was_in_a_process_that_died, Tuples == [trainer(t)]) :-
+test(agent_of_a_dead_process_is_removed_from_the_queue,
+     Tuples == [trainer(t)]) :-
     learner([], [queued(o)]),
     feeds_back([], unreached),
     feeds_back([], reached([x])),
     fake_dead(o),
     lives,
     tuples(Tuples).
-test(who_asks_from_a_process_that_died_gets_nothing) :-
+test(no_answer_to_an_agent_of_a_dead_process) :-
     learner([], []),
     feeds_back([], reached([])),
     fake_dead(p),
@@ -222,7 +223,7 @@ test(it_answers_while_it_waits,
     did(Acts),
     findall(To-What, ( member(send(To, What), Acts), What = shared(_) ),
             Answers).
-test(nothing_is_said_without_sharing, Acts == [send(t, execute([], 3))]) :-
+test(no_messages_without_sharing, Acts == [send(t, execute([], 3))]) :-
     learner([sharing-false], [queued(o)]),
     feeds_back([], reached([])),
     fake_mail(p-noise),
@@ -286,7 +287,7 @@ test(without_an_algorithm_nothing_is_better, Executions == 1) :-
     shares(o, [c-1], solution([c])),
     lives,
     fake_agent:count(Executions).
-test(an_error_of_the_algorithm_is_no_reason_to_wait,
+test(it_does_not_wait_after_an_error_of_the_algorithm,
      error(existence_error(procedure, _))) :-
     learner([], []),
     feeds_back([a-1], unreached),
@@ -345,16 +346,16 @@ forwards(Count, Plan) :-
 
 :- begin_tests(trainer).
 
-test(it_answers_who_asks, To-Kind == a-feedback) :-
+test(it_answers_requests, To-Kind == a-feedback) :-
     trainer([seed-1]),
     fake_agent:on_message(a, execute([forward], 1)),
     did([send(To, Feedback)]),
     functor(Feedback, Kind, 3).
-test(who_has_gone_to_a_process_that_died) :-
+test(agent_that_moved_to_a_dead_process) :-
     trainer([seed-1]),
     fake_dead(a),
     once(fake_agent:on_message(a, execute([forward], 1))).
-test(it_tells_those_who_look_on, Log == tried(a, [forward, turn_left])) :-
+test(it_logs_for_observers, Log == tried(a, [forward, turn_left])) :-
     trainer([seed-1, trace-true]),
     fake_agent:on_message(a, execute([forward, turn_left], 2)),
     did([log(Log)|_]).
@@ -397,7 +398,7 @@ test(goal_missed_by_one, Outcome == unreached) :-
     trainer([seed-1]),
     way(Way),
     trains(Way, 10, _, feedback(_, _, Outcome)).
-test(it_tells_where_it_began, Start == sv(Light, 0, up, 5)) :-
+test(feedback_has_the_start, Start == sv(Light, 0, up, 5)) :-
     trainer([seed-1]),
     trains([forward], 1, _, feedback(Start, _, _)),
     Light is 100/(1 + sqrt(50)).

@@ -135,15 +135,15 @@ test(equation_4_7,                      % of the light
     sensed(at(0, 2, up), Vector0),
     sensed(at(0, 4, right), Vector),
     weight(Vector0, Vector, Weight).
-test(only_gains_are_told, Actions == [[forward], [forward]]) :-
+test(only_gains_are_shared, Actions == [[forward], [forward]]) :-
     units([forward, backward, forward], at(5, 0, up), Units),
     told_actions(Units, Actions).
-test(what_is_told, Unit-Weight == unit(V0, [forward], V)-W) :-
+test(content_of_shared_units, Unit-Weight == unit(V0, [forward], V)-W) :-
     units([forward], at(5, 0, up), [Unit-Weight]),
     sensed(at(5, 0, up), V0),
     sensed(at(5, 1, up), V),
     weight(V0, V, W).
-test(turns_are_told_with_the_move_that_follows,
+test(turns_are_shared_with_the_next_move,
      Unit == unit(V0, [turn_left,forward], V)) :-
     units([turn_left, forward], at(5, 0, up), [Unit-_]),
     sensed(at(5, 0, up), V0),
@@ -166,7 +166,7 @@ test(so_are_turns_before_a_bump, Actions == [[forward]]) :-
 test(turning_away_from_a_wall_is_a_gain, Actions == [[turn_left]]) :-
     units([turn_left], at(5, 0, right), Units),
     told_actions(Units, Actions).
-test(what_is_told_can_be_done_again, Bad == []) :-
+test(shared_units_can_be_repeated, Bad == []) :-
     findall(Unit,
             ( between(1, 200, _),
               random_walk(30, Walk),

@@ -146,7 +146,7 @@ test(more_than_the_page_before_weighs) :-
                            step(sv(a,t,0.7), y, sv(a,s,0.5), Down) ],
                          Units),
     Units == [unit(a,s,0.5)-0, unit(a,t,0.7)-Up, unit(a,s,0.5)-0].
-test(nothing_executed_nothing_told, Units == []) :-
+test(nothing_executed_nothing_shared, Units == []) :-
     fake_agent:shareable([], Units).
 
 :- end_tests(settings).
@@ -156,7 +156,8 @@ test(nothing_executed_nothing_told, Units == []) :-
                 *******************************/
 
 samples(List, Units) :-
-    findall(unit(Who, Settings, Value)-0, member(Who-Settings-Value, List),
+    findall(unit(Printer, Settings, Value)-0,
+            member(Printer-Settings-Value, List),
             Units0),
     sort(Units0, Units).
 
@@ -185,9 +186,9 @@ test(luck_is_not_enough) :-
     plan(climb, [p-[1,a]-0.5, p-[1,b]-0.3, p-[2,b]-0.83|Often], Plan),
     once(append(_, [use(Best),again,again,again], Plan)),
     Best == [2,a].
-test(who_measures_more_is_levelled) :-
-    findall(Who-[1,X]-V,
-            ( member(Who-Level, [high-0.2, low-0.0]), member(X-V0,
+test(printers_with_more_measurements_are_levelled) :-
+    findall(Printer-[1,X]-V,
+            ( member(Printer-Level, [high-0.2, low-0.0]), member(X-V0,
               [a-0.5, b-0.55]), V is V0 + Level ),
             Both),
     findall(low-[2,c]-V, member(V, [0.6, 0.61, 0.6]), More),

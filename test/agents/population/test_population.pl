@@ -147,7 +147,7 @@ test(dies_in_the_queue) :-
     Time =:= 8,                         % 3 ticks, and one for the answer
     did(Acts),
     Acts == [send(q, join), log(state(death)), send(q, quit)].
-test(a_turn_may_be_under_way_to_who_dies) :-
+test(a_turn_may_be_under_way_to_a_dying_agent) :-
     member_of(10, 0, []),
     fake_mail(q-gone),
     catch(fake_agent:die, disposed, true),
@@ -178,7 +178,7 @@ test(dies_during_its_turn) :-
     close_to(Time, 0.4),
     did(Acts),
     Acts == [log(state(death)), send(q, quit)].
-test(who_is_refused_has_left_the_head, Acts == [send(q, leave)]) :-
+test(refused_agent_has_left_the_head, Acts == [send(q, leave)]) :-
     member_of(10, 10, []),
     fake_refusal(next),
     \+ fake_agent:depart,
@@ -212,7 +212,7 @@ test(no_clone_without_reward, Acts == []) :-
     member_of(25, 10, []),
     fake_agent:replicate(0, 1, parent),
     did(Acts).
-test(unless_told_so, Resource =:= 15) :-
+test(clones_without_reward_if_configured, Resource =:= 15) :-
     member_of(25, 10, [setting(replication, always)]),
     fake_agent:replicate(0, 1, parent),
     account(Resource, _).
@@ -231,7 +231,7 @@ test(several_clones, Resource-Count == 70-3) :-
     account(Resource, _),
     did(Acts),
     aggregate_all(count, member(log(state(replicate)), Acts), Count).
-test(no_room_after_all, Role-Resource == parent-90) :-
+test(slot_is_taken_meanwhile, Role-Resource == parent-90) :-
     member_of(100, 10, []),
     fake_clone(parent(child)),
     fake_clone(error(move_refused(here, capacity), _)),
@@ -271,15 +271,15 @@ test(first_come_first_served,
     told([a-join, b-join, c-join, a-leave, b-leave, c-leave], Told).
 test(only_the_head_has_a_turn, Told == [a-turn(1), c-turn(1)]) :-
     told([a-join, b-join, c-join, b-leave, a-leave, c-leave], Told).
-test(who_comes_back_goes_to_the_tail,
+test(returning_agent_goes_to_the_tail,
      Told == [a-turn(1), b-turn(2), c-turn(2), a-turn(1)]) :-
     told([ a-join, b-join, c-join, a-leave, a-join, b-leave, c-leave,
            a-leave ], Told).
 test(alone_it_has_the_next_turn_too, Told == [a-turn(1), a-turn(1)]) :-
     told([a-join, a-leave, a-join, a-leave], Told).
-test(nobody_is_in_the_queue_twice, Told == [a-turn(1)]) :-
+test(no_agent_is_in_the_queue_twice, Told == [a-turn(1)]) :-
     told([a-join, a-join, a-leave], Told).
-test(who_is_not_there_cannot_leave, Told == [a-turn(1)]) :-
+test(absent_agent_cannot_leave, Told == [a-turn(1)]) :-
     told([b-leave, a-join], Told).
 test(dying_agents_get_an_answer, Told == [a-turn(1), a-gone, b-turn(1)]) :-
     told([a-join, b-join, a-quit, b-leave], Told).

@@ -107,7 +107,7 @@ test(equation_3_5, Gammas == [1.0, 0.5]) :-     % 0.75 - 0.5 * 1/(3 - 1)
     met(current, a, 0-0.5, [1.0-[a-31, b-1, c-1], 0.75-[a-30]], Gammas).
 test(equals_do_nothing, Gammas == [1.0, 1.0]) :-
     gammas(current, a, [1.0-[a-30], 1.0-[a-30]], Gammas).
-test(who_never_met_the_antigen_is_left_alone, Gammas == [1.0, 1.0]) :-
+test(agent_without_the_antigen_is_unaffected, Gammas == [1.0, 1.0]) :-
     gammas(current, a, [1.0-[a-31], 1.0-[b-30]], Gammas).
 test(unmatched_antigens_divide_the_effect, Gammas == [1.25, 0.5]) :-
     gammas(current, a, [1.0-[a-31], 1.0-[a-30, b-1, c-1]], Gammas).
@@ -204,7 +204,7 @@ release(Host, Settings, Name-Memory, Agent) :-
 
 :- begin_tests(sieve_host).
 
-test(left_alone_a_host_helps_itself) :-
+test(host_without_help_draws_an_antibody) :-
     sieve(ring(1), [], [patience-20], alone).
 
 alone([Host], File) :-

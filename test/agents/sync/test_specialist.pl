@@ -352,7 +352,7 @@ born(Agent, Hosts, Name, Place) :-
 
 test(queue_and_worker_once, Loads == [3, 2, 2]) :-
     furnished(two_sequences(Loads)).
-test(start_where_told, Places == [agent1-3, agent2-1, agent3-3]) :-
+test(start_on_given_hosts, Places == [agent1-3, agent2-1, agent3-3]) :-
     furnished(start_at(Places)).
 test(no_tasks, error(type_error(pair, floor))) :-
     population_start(house, [], [floor], [], _).

@@ -256,7 +256,7 @@ pooled(Facts, Tuples) :-
 
 :- begin_tests(several).
 
-test(worker_of_a_pool_is_told_the_sequence,
+test(worker_of_a_pool_gets_the_sequence,
      Acts == [send(w, execute(house, 1, floor)), log(reward(1, 100, 15))]) :-
     pooled([], []),
     fake_agent:visit(1),
@@ -473,7 +473,7 @@ test(task_before_those_that_are_done_is_next) :-
 
 :- begin_tests(worker).
 
-test(says_it_is_free, Tuples == [worker(house, me)]) :-
+test(announces_that_it_is_free, Tuples == [worker(house, me)]) :-
     worker([]),
     fake_agent:main,
     tuples(Tuples).

@@ -33,25 +33,25 @@ wander :-
     ).
 
 tell_all([]).
-tell_all([Who-Id|Friends]) :-
-    tell(Who, Id),
+tell_all([Friend-Id|Friends]) :-
+    tell(Friend, Id),
     tell_all(Friends).
 
-% What could not be sent has not been said.
+% A message that could not be sent does not count.
 
-tell(Who, Id) :-
-    (   retract(said(Who, K0))
+tell(Friend, Id) :-
+    (   retract(said(Friend, K0))
     ->  true
     ;   K0 = 0
     ),
     K is K0+1,
-    assertz(said(Who, K)),
+    assertz(said(Friend, K)),
     me(Me),
-    note(said(Who, K)),
-    catch(send(Id, m(Me, K)), error(Why, _), unsaid(Who, K, Why)).
+    note(said(Friend, K)),
+    catch(send(Id, m(Me, K)), error(Why, _), unsaid(Friend, K, Why)).
 
-unsaid(Who, K, Why) :-
-    note(unsaid(Who, K, Why)),
-    retract(said(Who, K)),
+unsaid(Friend, K, Why) :-
+    note(unsaid(Friend, K, Why)),
+    retract(said(Friend, K)),
     K0 is K-1,
-    assertz(said(Who, K0)).
+    assertz(said(Friend, K0)).

@@ -9,28 +9,28 @@
 main :-
     (   halted
     ->  true
-    ;   multiply(Who),
-        continue(Who)
+    ;   multiply(Branch),
+        continue(Branch)
     ).
 
-multiply(Who) :-
+multiply(Branch) :-
     retract(made(N0)),
     !,
     N is N0+1,
     assertz(made(N)),
     note(cloning(N)),
-    catch(divide(Who), error(Why, _), Who = refused(Why)).
+    catch(divide(Branch), error(Why, _), Branch = refused(Why)).
 
-divide(Who) :-
+divide(Branch) :-
     random(X),
     (   X < 0.4
-    ->  clone(Who)
+    ->  clone(Branch)
     ;   another_host(Host),
-        clone(Host, Who)
+        clone(Host, Branch)
     ).
 
-% The number of what was refused is not used again: should there be a clone
-% of that number all the same, it is one too many.
+% The number of a refused clone is not used again: a clone of that number
+% would be a duplicate.
 
 continue(parent(Clone)) :-
     made(N),

@@ -1,20 +1,20 @@
-% What agents have in common that can be written to: m(Who, K) is the K-th
-% message from Who to this agent.
+% Common part of agents that receive messages: m(Sender, K) is the K-th
+% message from Sender to this agent.
 
 hear :-
-    (   receive(_-m(Who, K), 0)
-    ->  heard_from(Who, K),
+    (   receive(_-m(Sender, K), 0)
+    ->  heard_from(Sender, K),
         hear
     ;   true
     ).
 
-heard_from(Who, K) :-
+heard_from(Sender, K) :-
     retract(heard(N0)),
     !,
     N is N0+1,
     assertz(heard(N)),
-    note(got(Who, K)).
+    note(got(Sender, K)).
 
-on_message(_, m(Who, K)) :-
-    heard_from(Who, K).
+on_message(_, m(Sender, K)) :-
+    heard_from(Sender, K).
 on_message(_, _).

@@ -1,4 +1,4 @@
-% Waits in all the ways there are. Where it is, others decide.
+% Waits in all possible ways. Orders from outside decide where it is.
 
 :- agent(sleeper, [state([me/1, tick/1, steps/1, hosts/1, heard/1])]).
 :- include(steps).
@@ -17,7 +17,7 @@ wait :-
     Seconds is X/4,
     (   X < 0.3
     ->  sleep(Seconds)
-    ;   receive(_-m(Who, K), Seconds)
-    ->  heard_from(Who, K)
+    ;   receive(_-m(Sender, K), Seconds)
+    ->  heard_from(Sender, K)
     ;   true
     ).

@@ -1,8 +1,8 @@
-% What all agents under attack have in common.
+% Common part of all agents under attack.
 %
-% Whatever an agent does it counts, tick/1, in its state, and notes in the
-% ledger of the process it stands in: an agent that was lost, doubled or put
-% back to an older state shows in the sequence of its ticks.
+% An agent counts its actions in its state, tick/1, and writes them to the
+% ledger of its process: the sequence of ticks reveals an agent that was lost,
+% duplicated or reset to an older state.
 
 note(Event) :-
     retract(tick(N0)),
@@ -16,7 +16,7 @@ halted :-
     sense(halt),
     !.
 
-% To another host, or not. An error is no reason to do the journey again.
+% Moves to another host, or stays. After an error the journey is not repeated.
 
 journey :-
     another_host(Host),

@@ -4,10 +4,10 @@
 
 /** <module> Processes with journals are killed, again and again
 
-Whatever dies whenever, no agent is lost and nothing happens twice: each agent
+Whenever processes die, no agent is lost and nothing is duplicated: each agent
 ends once with the right count, the counts at the hosts agree with them, each
-token is there once, each message has come once, and those of one that stays
-in order.
+token exists once, each message has arrived once, and messages of a static
+agent arrive in order.
 
 *Threading*: the main thread.
 */
@@ -61,7 +61,7 @@ attacked(Nodes, Options, Wrong) :-
     evidence(Ball, Wrong, Ends, Nodes).
 
 %   evidence(?Ball, +Wrong, +Ends, +Nodes): if anything is wrong, or does not
-%   answer, the processes say what they hold.
+%   answer, the processes print their pending data.
 
 evidence(Ball, Wrong, _, _) :-
     var(Ball),
@@ -82,8 +82,8 @@ evidence(Ball, _, Ends, Nodes) :-
                 *             WORK             *
                 *******************************/
 
-%   Created before there is war: a creation that was not answered may have
-%   been one.
+%   Agents are created before faults begin, because a creation without an
+%   answer may have succeeded.
 
 people(Hosts, Agents, Each, people(Hoppers, Porters, Talkers, Sinks)) :-
     findall(Sink, ( member(H, Hosts), begins(sink, H, [], Sink) ), Sinks),

@@ -2,7 +2,7 @@
           [ agents_end/3                % +Agents, +Deadline, -Ends
           ]).
 
-/** <module> How agents end whose processes die
+/** <module> The ends of agents whose processes die
 
 *Threading*: the thread that asks waits.
 */
@@ -19,7 +19,7 @@ agents_end(Agents, Deadline, Ends) :-
     findall(Agent-End, ( member(Agent, Agents), ends(Agent, Deadline, End) ),
             Ends).
 
-%   Whoever is asked may be dead just now.
+%   The process that is asked may be dead at the moment.
 
 ends(Agent, Deadline, End) :-
     get_time(Now),

@@ -9,14 +9,14 @@ which it takes terms:
 
   - dies(P): at each step of the journal, see crash_point/1, it kills itself
     with probability P from now on
-  - power(P): after each commit it sees to it that the power seems to fail
-    during the next one, with probability P
+  - power(P): after each commit it arranges, with probability P, a simulated
+    power failure during the next one
   - cut: its connections break
-  - look: it prints what it holds for others, then `looked`
+  - look: it prints its pending data for others, then `looked`
 
-When the power is about to fail the files of the journal, in which all is
-synced now, are copied; then it dies while it commits once more.  It says
-nothing to anybody meanwhile.  See power.pl for what comes then.
+Before the simulated power failure the files of the journal, which are fully
+synced, are copied; then it dies during one more commit. It sends nothing
+meanwhile. power.pl does the rest.
 
 *Threading*: the main thread; steps in any.
 */
@@ -101,7 +101,7 @@ main([Name, Port0, Dir, Sync, Seed0]) :-
         fail
     ).
 
-%   It may die before it is there again.
+%   It may die before it has restarted.
 
 obey_first :-
     read_term(orders(Orders), []),
@@ -121,7 +121,7 @@ obey(look) :-
     forall(held(What), format(user_error, '~q~n', [What])),
     format(user_error, 'looked~n', []).
 
-%   What is held here for others, and by whom.
+%   Pending data for others, and its owners.
 
 held(out(E, N, K, T)) :- typhon_channel:out(E, N, K, T).
 held(had(E, N)) :- typhon_channel:had(E, N).

@@ -7,15 +7,15 @@
             peace/0
           ]).
 
-/** <module> Processes that keep journals, and what happens to them
+/** <module> Processes with journals, and their faults
 
-Each is started again when it dies.  While there is war they kill themselves
-at the steps of the journal, the power fails, and something happens to one of
-them now and then: it is killed, or all are; it stands still for a while; its
+Each is restarted when it dies. While faults are on they kill themselves at
+the steps of the journal, the power fails, and from time to time one of them
+has a fault: it is killed, or all are; it is suspended for a while; its
 connections break; its disk is full.
 
-*Threading*: each process is looked after by a thread, and another one makes
-war; the rest is for one thread.
+*Threading*: a thread supervises each process, and another one causes faults;
+the rest is for one thread.
 */
 
 :- use_module(power, [power_cut/1]).
@@ -49,8 +49,8 @@ war; the rest is for one thread.
 
 %!  with_nodes(+Options, -Nodes, :Goal, -Told) is semidet.
 %
-%   Call Goal while there are processes as in Options; Told are
-%   What-Times for all that has happened to them.
+%   Call Goal while processes run as in Options; Told are What-Times for all
+%   their faults.
 
 with_nodes(Options, Nodes, Goal, Told) :-
     option(processes(Count), Options, 3),
@@ -78,7 +78,7 @@ node(Options, Number, node(Name, Port, Journal, Sync, Swipl)) :-
 
 %!  nodes_said(+Nodes, -Lines:list(string)) is det.
 %
-%   What the processes have printed.
+%   The output of the processes.
 
 nodes_said(Nodes, Lines) :-
     findall(Line,
@@ -135,7 +135,7 @@ watch_over(Node) :-
     assertz(guard(Guard)),
     thread_get_message(ready(Node)).
 
-%   Errors of the thread that looks after a process must be seen.
+%   Errors of the thread that supervises a process must be printed.
 
 guard(Node, Asker) :-
     catch(keep(Node, Asker), Ball, true),
@@ -180,7 +180,8 @@ died(Status, Said) :-
     format(user_error, 'ended by itself: ~p~n~w~n', [Status, Text]),
     count(ended(Status)).
 
-%   A process that may write no more to a file gets an error, and is not killed.
+%   A process that exceeds its file size limit gets an error, and is not
+%   killed.
 
 start(node(Name, Port, Dir, Sync, Swipl), Pid, In, Out, Err) :-
     node_file(File),
@@ -208,8 +209,7 @@ told(In, Term) :-
 %!  peace is det.
 %
 %   Options: crash(P), power(P), kill(Seconds) between what happens from
-%   outside, and faults(List): this; most(N): nothing more when so much has
-%   happened.
+%   outside, and faults(List): this; most(N): no more faults after N.
 
 war(Options) :-
     option(crash(P), Options, 0.001),
@@ -242,7 +242,8 @@ disarm :-
 
 %!  nodes_look(+Nodes) is det.
 %
-%   The processes print what they hold; return when they have, if they can.
+%   The processes print their pending data; returns when they have done so, if
+%   they can.
 
 nodes_look(Nodes) :-
     with_mutex(lasting_orders, forall(child(_, _, In), told(In, look))),

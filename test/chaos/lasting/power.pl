@@ -5,14 +5,14 @@
 
 /** <module> The power fails while a journal is written
 
-Of a file that was synced once, and written since, a disk that loses power has
-in each of its sectors what was there or what was written; of those that are
-new also neither.  How long it is then is uncertain, too.
+After a power failure each sector of a file that was written since its last
+sync holds the old or the new data, or, if the sector is new, anything. The
+length of the file is uncertain, too.
 
 SQLite syncs twice within a commit: the head of its log, where it begins that
 anew, before anything follows it there, and the log before anything of it goes
-to the database.  What comes later has not happened if what came before such a
-sync is not there.
+to the database.  Later writes have not happened if the writes before such a
+sync are missing.
 
 *Threading*: any thread.
 */
@@ -47,8 +47,8 @@ power_copy(Dir) :-
 
 %!  power_cut(+Dir) is semidet.
 %
-%   Make of the files in Dir, whose process is dead, what a power cut would
-%   have left.  Fails if there was none.
+%   Change the files in Dir, whose process is dead, to a state that a power
+%   failure could have left. Fails if there was none.
 
 power_cut(Dir) :-
     copies(Dir, Copies),
@@ -118,7 +118,7 @@ mix(Synced, Written, File) :-
                             Out) )),
         close(Out)).
 
-%   A file that was cut short since may be as long as before.
+%   A file that was truncated since may have its old length.
 
 most(Least, Length, Most) :-
     (   Length > Least
@@ -131,7 +131,7 @@ between_by(From, To, Step, N) :-
     between(0, Count, I),
     N is From+I*Step.
 
-%   What is beside what is written in a sector stays as it is.
+%   The other bytes of a sector are unchanged.
 
 put_sector(Start, Size, Synced-Least, Written-Length, Share, Out) :-
     (   Start+Size =< Length,

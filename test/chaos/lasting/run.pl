@@ -7,9 +7,9 @@
         [--kill SECONDS] [--faults '[kill,kill_all,stop,cut,full]']
         [--sync normal|full] [--limit SECONDS]
 
-Round after round until so many seconds are over, each with the next seed,
-with sync(normal) and sync(full) in turn if none is given.  The exit status is
-0 if nothing was lost or doubled.
+Runs rounds until the given seconds are over, each with the next seed, with
+sync(normal) and sync(full) in turn if none is given. The exit status is 0 if
+nothing was lost or duplicated.
 
 *Threading*: the main thread.
 */
@@ -47,7 +47,7 @@ main(Argv) :-
     ;   halt(1)
     ).
 
-%   Processes that have the library read are there again sooner.
+%   Processes with a saved state of the library restart sooner.
 
 quickly(Options0, Wrong, Dir) :-
     quick_swipl(Dir, Swipl),

@@ -3,7 +3,7 @@
                                         % +Deadline, -Wrong
           ]).
 
-/** <module> What is wrong when all is over
+/** <module> Violations at the end of a run
 
 *Threading*: the main thread.
 */
@@ -16,8 +16,8 @@
 
 %!  wrong(+People, +Ends, +Hosts, +Each, +Deadline, -Wrong) is nondet.
 %
-%   Wrong is what should not be so: People, each of whom had to hop Each times,
-%   came to these Ends.  Messages may come until Deadline.
+%   Wrong is a violation: People, each of which had to hop Each times, have
+%   these Ends.  Messages may come until Deadline.
 
 wrong(_, Ends, _, _, _, ended(Agent, End)) :-
     member(Agent-End, Ends),
@@ -41,18 +41,18 @@ wrong(_, _, Hosts, _, _, tokens(Found, Expected)) :-
 wrong(people(Hoppers, _, Talkers, Sinks), _, _, Each, Deadline, Wrong) :-
     settled(Sinks, Hoppers, Talkers, Each, Deadline, Facts),
     wrong_mail(Facts, Hoppers, Talkers, Each, Wrong).
-wrong(_, _, Hosts, _, _, left(H, Who)) :-
+wrong(_, _, Hosts, _, _, left(H, Source)) :-
     member(H, Hosts),
     \+ catch(wait_until(( left(H, Now), Now == [] ), 20), error(_, _), fail),
-    left(H, Who),
-    Who \== [].
+    left(H, Source),
+    Source \== [].
 
 %   An agent that has arrived elsewhere may still be asked for here.
 
-left(Host, Who) :-
+left(Host, Source) :-
     again(remote(Host, findall(A-S, ( typhon:agent_property(A, state(S)),
                                       \+ typhon:agent_property(A, program(sink))
-                                    ), Who))).
+                                    ), Source))).
 
 result_of(Agent, Result) :-
     again(catch(( agent_result(Agent, Result0, 5) -> true
@@ -85,23 +85,23 @@ settled(Sinks, Hoppers, Talkers, Each, Deadline, Facts) :-
 facts(Sink, Facts) :-
     again(agent_property(Sink, facts(Facts))).
 
-wrong_mail(Facts, _, _, _, order(Who, N0, N)) :-
-    member(wrong(Who, N0, N), Facts).
-wrong_mail(Facts, Hoppers, _, Each, hops(Who, Count-Sum)) :-
-    member(Who, Hoppers),
-    (   member(hops(Who, Count, Sum), Facts)
+wrong_mail(Facts, _, _, _, order(Source, N0, N)) :-
+    member(wrong(Source, N0, N), Facts).
+wrong_mail(Facts, Hoppers, _, Each, hops(Source, Count-Sum)) :-
+    member(Source, Hoppers),
+    (   member(hops(Source, Count, Sum), Facts)
     ->  true
     ;   Count = 0, Sum = 0
     ),
     Told is Each//4,
     Expected is 4*Told*(Told+1)//2,
     Count-Sum \== Told-Expected.
-wrong_mail(Facts, _, Talkers, Each, heard(Who, N)) :-
-    member(Who, Talkers),
-    ( member(heard(Who, N), Facts) -> true ; N = 0 ),
+wrong_mail(Facts, _, Talkers, Each, heard(Source, N)) :-
+    member(Source, Talkers),
+    ( member(heard(Source, N), Facts) -> true ; N = 0 ),
     N =\= min(Each, 200).
 
-%   It may be started again just now.
+%   It may be restarting at the moment.
 
 again(Goal) :-
     wait_until(catch(Goal, error(_, _), fail), 60).

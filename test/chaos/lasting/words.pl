@@ -4,10 +4,11 @@
 
 /** <module> Numbered words, between agents whose processes are killed
 
-A speaker says numbered words to another agent, which says each back; some travel
-meanwhile, so words come in any order, but each once.  All is over when each has
-said all its words, has heard all of them back, and all of its speaker; if
-that does not come the processes say what they have in hand.
+A speaker sends numbered words to another agent, which echoes each; some
+agents travel meanwhile, so words arrive in any order, but each once. The run
+is complete when each agent has sent all its words, and received all echoes
+and all words of its speaker; if it does not complete, the processes print
+their pending data.
 
 *Threading*: the main thread.
 */
@@ -56,8 +57,8 @@ said(Nodes, Options, Wrong) :-
     findall(W, wrong(Ends, W), Wrong0),
     evidence(Wrong0, Ends, Nodes, Wrong).
 
-%   evidence(+Wrong0, +Ends, +Nodes, -Wrong): if anything is wrong, what agents
-%   that are left know, and, printed, what processes hold.
+%   evidence(+Wrong0, +Ends, +Nodes, -Wrong): if anything is wrong, the facts
+%   of the remaining agents, and, printed, the pending data of processes.
 
 evidence([], _, _, []) :-
     !.
@@ -92,7 +93,8 @@ introduced(Talkers) :-
            agent_send(A, friend(B))),
     wait_until(\+ ( member(A, Talkers), \+ has_friend(A) ), 60).
 
-%   What the driver sends dies with a process, as it keeps no journal.
+%   Messages of the driver are lost with a process, since the driver has no
+%   journal.
 
 has_friend(Agent) :-
     agent_property(Agent, facts(Facts)),

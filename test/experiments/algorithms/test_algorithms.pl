@@ -102,7 +102,7 @@ learner(Facts) :-
 
 :- begin_tests(breeding).
 
-test(nobody_clones_who_was_not_told, Acts-Tuples == []-[]) :-
+test(no_cloning_unless_configured, Acts-Tuples == []-[]) :-
     learner([]),
     fake_agent:bred(unreached, 5),
     did(Acts),
@@ -115,7 +115,7 @@ test(progress_is_rewarded, Tuples == [progress(5)]) :-
     fake_agent:resource(Resource),
     Resource < 25,                      % a clone was paid for
     tuples(Tuples).
-test(who_is_not_ahead_is_not, Acts-Tuples == []-[progress(5)]) :-
+test(no_reward_without_progress, Acts-Tuples == []-[progress(5)]) :-
     learner([setting(cloning, true)]),
     leave_progress(5),
     fake_agent:bred(unreached, 5),
@@ -146,7 +146,7 @@ test(dies_when_it_is_over, Acts == [log(state(death))]) :-
     grow_old(1),
     catch(fake_agent:bred(unreached, 5), disposed, true),
     did(Acts).
-test(who_has_reached_the_goal_has_no_clones, Acts == []) :-
+test(no_clones_after_the_goal, Acts == []) :-
     learner([setting(cloning, true)]),
     fake_agent:bred(reached([]), 5),
     did(Acts).

@@ -92,7 +92,7 @@ test(never_measured_is_not_known, Share == 0-0-false) :-
     three(Values),
     quietly_outcome_of(Values, Outcome),
     claim(Outcome, "never measured", Share).
-test(a_mistake_is_told_and_the_others_stay, Share == 0-1-false) :-
+test(an_error_is_reported_and_other_claims_are_kept, Share == 0-1-false) :-
     study_messages(outcome_of([values(1, 10, 20)], Outcome), Text),
     assertion(once(sub_string(Text, _, _, _, "Claim \"a mistake\""))),
     claim(Outcome, "a mistake", Share).

@@ -86,7 +86,7 @@ test(a_word_that_is_mistyped) :-
     study_messages(more_problems(['labl(m, "M").'], Problems), Text),
     assertion(Problems == []),
     says(Text, ["labl/2 is no word of studies (did you mean label/2?)"]).
-test(all_is_told) :-
+test(all_errors_are_reported) :-
     with_study_file([ 'study(toy, "A toy").', 'vary(b, 1).',
                       'measure(m, _, 1).', 'plot(p, bars([])).',
                       'claim("small", [], n < 1).',

@@ -79,13 +79,13 @@ test(unknown, error(study_parameter(_, d))) :-
     cases([], [d-1], [a], _).
 test(what_a_case_does_not_have, error(existence_error(key, aa, _))) :-
     cases(['derive(d, Case, D) :- D = Case.aa.'], [], [d], _).
-test(what_a_case_does_not_have_is_told) :-
+test(missing_parameter_is_reported) :-
     dict_pairs(Case, case, [delta-1, hosts-2]),
     catch(_ = Case.dleta, Error, true),
     message_to_codes(Error, Text),
     assertion(once(sub_string(Text, _, _, _,
                               "no parameter dleta (did you mean delta?)"))).
-test(unknown_is_told, Status-true == exit(1)-true) :-
+test(unknown_parameter_is_reported, Status-true == exit(1)-true) :-
     base(Base),
     with_study_file(Base, told(Status, Text)),
     once(sub_string(Text, _, _, _,

@@ -169,7 +169,7 @@ test(own_variables) :-
           "array Names[2] = [\"a\", \"b\\\"c\"]", "load \"own.gp\"" ])).
 test(what_a_run_has_drawn) :-
     with_pictures(copied).
-test(what_cannot_be_drawn_is_told) :-
+test(impossible_plot_is_reported) :-
     with_pictures(said(Text)),
     forall(member(Part, [ "Picture none is not drawn: there is nothing",
                           "Picture wrong is not drawn:", "missing/2" ]),

@@ -258,11 +258,11 @@ test(collected_anyway) :-
     with_toy(collected_anyway).
 test(no_such_agent) :-
     with_study_file([ ':- use_module(library(typhon)).',
-                      'study(lost, "Nobody is there").',
+                      'study(lost, "No such agent").',
                       'network(_, ring(2), []).',
                       'run(_, Network) :-',
                       '    network_property(Network, hosts([Host|_])),',
-                      '    agent_create(agents(nobody), _, [host(Host)]).',
+                      '    agent_create(agents(missing), _, [host(Host)]).',
                       'measure(m, _, 1).' ],
                     no_such_agent).
 test(interrupted, forall(member(Signal-Status, [int-130, term-143]))) :-
@@ -271,7 +271,7 @@ test(stuck) :-
     with_toy(ends_what_is_stuck).
 test(two_sessions) :-
     with_toy(together).
-test(nobody_waits_for_a_long_run) :-
+test(other_runs_do_not_wait_for_a_long_run) :-
     with_study_file([ 'study(long, "The third waits for the last").',
                       'vary(n, [1, 2, 3, 4, 5, 6]).',
                       'measure(m, Log, 1) :- work(Log.case.n).',
@@ -291,7 +291,7 @@ test(changed_meanwhile) :-
 no_such_agent(Dir, File) :-
     study_command(Dir, [File, '--runs', '1'], exit(1), Text),
     says(Text, "study.pl, seed 1"),
-    says(Text, "There is no file agents(nobody)").
+    says(Text, "There is no file agents(missing)").
 
 by_two(Dir, File) :-
     study_command(Dir, [File, '--runs', '1', '--jobs', '2'], exit(0), _).

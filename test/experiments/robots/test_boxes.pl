@@ -115,9 +115,9 @@ test(never_allocated, fail) :-
     together([job(a, 0, 1, 5, [], []), job(b, 0, none, none, [], [])], a-b).
 test(yields) :-
     yields([job(a, 0, 1, 5, [], [3-1]), job(b, 0, 6, 9, [], [])], a-b).
-test(yields_to_nobody, fail) :-
+test(yields_to_no_other, fail) :-
     yields([job(a, 0, 1, 5, [], [3-1]), job(b, 0, 4, 9, [], [])], a-b).
-test(nobody_yields, fail) :-
+test(none_yields, fail) :-
     yields([job(a, 0, 1, 5, [], []), job(b, 0, 6, 9, [], [])], a-b).
 test(from_dock, Centimetres == 5) :-
     terms(Terms),

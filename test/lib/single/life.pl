@@ -42,8 +42,10 @@ travels(Outcome-Result) :-
     create([ (:- agent(traveller, [state([seen/1])])),
              (main :- receive(_-go(Host)), home(Home), move(Host),
                       assertz(seen(Host)), leave(was(here)), sense(was(Where)),
-                      clone(Who),
-                      ( Who = parent(_) -> move(Home), result(Where) ; true )) ],
+                      clone(Branch),
+                      ( Branch = parent(_)
+                      -> move(Home), result(Where)
+                      ;  true )) ],
            Agent, [host(a)]),
     agent_send(Agent, go(B)),
     agent_join(Agent, Outcome, 10),

@@ -32,8 +32,10 @@ traveller(Outcome) :-
         clauses([ (:- agent(traveller, [state([seen/1])])),
                   (main :- receive(_-go(Host)), home(Home), move(Host),
                            assertz(seen(Host)), leave(was(here)),
-                           leave(was(there)), clone(Who),
-                           ( Who = parent(_) -> move(Home), log(back) ; true ))
+                           leave(was(there)), clone(Branch),
+                           ( Branch = parent(_)
+                           -> move(Home), log(back)
+                           ;  true ))
                 ]),
         Agent, [host(a)]),
     agent_send(Agent, go(B)),

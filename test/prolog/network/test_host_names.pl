@@ -70,7 +70,7 @@ linked([Network]) :-
     host_stop(alpha),
     assertion(There == [Second]).
 
-test(stopping_a_host_of_another_process_is_an_error_that_says_so) :-
+test(stopping_a_host_of_another_process_is_an_error) :-
     with_networks(1, stopped_from_here).
 
 stopped_from_here([Network]) :-

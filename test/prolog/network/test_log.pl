@@ -240,11 +240,11 @@ test(nothing_is_left_behind) :-
                garbage_collect,           % the queues of closed sessions
                garbage_collect_clauses,
                garbage_collect_atoms )).
-test(events_for_nobody_are_told_once,
-     Messages == [no_log_server(nobody, h)]) :-
-    quietly(( arrives('nobody@127.0.0.1:1', h, a, 1),
-              arrives('nobody@127.0.0.1:1', h, a, 2) ), Messages).
-test(a_full_disk_is_told_once,
+test(events_without_a_log_server_are_reported_once,
+     Messages == [no_log_server(missing, h)]) :-
+    quietly(( arrives('missing@127.0.0.1:1', h, a, 1),
+              arrives('missing@127.0.0.1:1', h, a, 2) ), Messages).
+test(a_full_disk_is_reported_once,
      [ condition(exists_file_device('/dev/full')), true(Count == 1) ]) :-
     quietly(( log_server_start([file('/dev/full')], Address),
               hundred(Address, _),

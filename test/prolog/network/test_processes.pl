@@ -43,11 +43,11 @@ disposed(Agent) :-
 
 %   A host that is not in one of the processes.
 
-nobody(Nobody) :-
+missing_host(Missing) :-
     member(Host, [alpha,beta]),
     ( Host == alpha -> address(alpha, There) ; there(beta, There) ),
     atom_concat(Host, Rest, There),
-    atom_concat(nowhere, Rest, Nobody).
+    atom_concat(nowhere, Rest, Missing).
 
 :- begin_tests(processes, [setup(world_start), cleanup(world_end)]).
 
@@ -71,7 +71,7 @@ test(create_where_there_is_no_such_host, error(existence_error(host, _))) :-
     atom_concat(beta, Rest, B),
     atom_concat(nowhere, Rest, Nowhere),
     create([main], _, [host(Nowhere)]).
-test(create_where_nobody_answers,
+test(create_where_no_process_answers,
      error(host_unreachable('x@127.0.0.1:1'))) :-
     create([main], _, [host('x@127.0.0.1:1')]).
 test(join_one_created_elsewhere, true(O == done)) :-
@@ -97,7 +97,7 @@ test(join_one_that_went_away, true(O == done)) :-
     wait_until(stands(A, B), 10),
     agent_send(A, go),
     joined(A, O).
-test(join_nobody_there, error(existence_error(agent, _))) :-
+test(join_agent_of_a_missing_process, error(existence_error(agent, _))) :-
     there(beta, B),
     atom_concat('x.1.2@', B, A),
     agent_join(A, _, 10).
@@ -142,7 +142,8 @@ test(resumed_elsewhere_and_done_at_once, true(Os == [done])) :-
               joined(A, O) ),
             Os0),
     sort(Os0, Os).
-test(says_in_which_line_wherever_it_is, true(Name:Line == 'far.pl':4)) :-
+test(line_of_a_fault_is_reported_from_anywhere,
+     true(Name:Line == 'far.pl':4)) :-
     there(beta, B),
     with_tmp_dir(test_processes:far(B, A)),
     joined(A, failed),
@@ -224,11 +225,11 @@ test(errors_of_orders_come_back,
     there(beta, B),
     create([on_message(_, _)], A, [host(B)]),
     call_cleanup(payload_attach(A, payload(x, [s/1], [])), disposed(A)).
-test(order_to_nobody_there, error(existence_error(agent, _))) :-
+test(order_to_agent_of_a_missing_process, error(existence_error(agent, _))) :-
     there(beta, B),
     atom_concat('x.1.2@', B, A),
     agent_dispose(A).
-test(order_where_nobody_answers, error(host_unreachable(_))) :-
+test(order_where_no_process_answers, error(host_unreachable(_))) :-
     agent_dispose('x.1.2@y@127.0.0.1:1').
 test(save_elsewhere_load_here, true(F-H == [s(1),s(2)]-Here)) :-
     there(beta, B), address(alpha, Here),
@@ -299,7 +300,7 @@ test(in_order, true(Ns == Sent)) :-
 test(answers, true(O == done)) :-
     there(beta, B),
     create([(on_message(W, ask(X)) :- Y is X*2, send(W, Y))], A, [host(B)]),
-    create([(main :- s(Who), send(Who, ask(21)), receive(Who-42))], C,
+    create([(main :- s(Other), send(Other, ask(21)), receive(Other-42))], C,
            [facts([s(A)])]),
     joined(C, O),
     disposed(A).
@@ -316,7 +317,7 @@ test(find_one_that_went_away, true(Ns == [1,2,3])) :-
     wait_until(has_all(A, 3), 10),
     findall(N, fact_of(A, s(N)), Ns),
     disposed(A).
-test(from_a_process_that_has_never_heard_of_it, true(Ns == [1])) :-
+test(from_a_process_that_does_not_know_it, true(Ns == [1])) :-
     there(beta, B),
     collector(Cs),
     create([(main :- to(X), move(X)), to(B)|Cs], A),
@@ -359,7 +360,7 @@ test(to_one_that_has_ended_is_lost_quietly) :-
     joined(A, done),
     agent_send(A, hello),
     peer_do(beta, true).
-test(to_nobody_there_is_reported_there) :-
+test(message_to_unknown_agent_is_reported_there) :-
     there(beta, B),
     atom_concat('x.1.2@', B, A),
     agent_send(A, hello),
@@ -420,11 +421,11 @@ test(host_property, true(S-N == running-B)) :-
     there(beta, B),
     host_property(B, state(S)),
     host_property(B, address(N)).
-test(host_property_of_nobody, error(existence_error(host, _))) :-
+test(host_property_of_unknown_host, error(existence_error(host, _))) :-
     there(beta, B), atom_concat(beta, Rest, B),
     atom_concat(nowhere, Rest, Nowhere),
     host_property(Nowhere, state(_)).
-test(host_property_where_nobody_answers, error(host_unreachable(_))) :-
+test(host_property_where_no_process_answers, error(host_unreachable(_))) :-
     host_property('x@127.0.0.1:1', state(_)).
 test(link, true(A-C == [B]-[H])) :-
     there(beta, B), address(alpha, H),
@@ -441,13 +442,14 @@ test(link_two_others, true(X-Y == [C]-[B])) :-
     host_property(C, neighbours(Y)),
     unlink(C, B),
     host_property(B, neighbours([])).
-test(no_half_of_a_link_to_nobody, [ forall(nobody(Nobody)),
-                                    true(Errors-N-L == [E,E,E,E]-[]-[]) ]) :-
+test(no_half_of_a_link_to_a_missing_host,
+     [ forall(missing_host(Missing)),
+       true(Errors-N-L == [E,E,E,E]-[]-[]) ]) :-
     there(beta, B),
     address(alpha, H),
-    E = existence_error(host, Nobody),
+    E = existence_error(host, Missing),
     findall(Error,
-            ( member(X-Y, [H-Nobody,Nobody-H,B-Nobody,Nobody-B]),
+            ( member(X-Y, [H-Missing,Missing-H,B-Missing,Missing-B]),
               catch(link(X, Y), error(Error, _), true) ),
             Errors),
     host_property(H, neighbours(N)),

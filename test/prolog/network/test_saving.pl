@@ -539,7 +539,7 @@ test(virtual_time_is_one,
     with_tmp_dir(loaded_beside).
 test(no_such_file, error(existence_error(source_sink, _))) :-
     network_load('/no/such/file', _, []).
-test(an_option_that_nobody_knows,
+test(unknown_option,
      error(domain_error(network_load_option, foo))) :-
     network_load('/no/such/file', _, [foo]).
 test(damaged, [ forall(member(How-Why, [ another-no_network,

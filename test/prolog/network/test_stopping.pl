@@ -41,11 +41,11 @@ walks([ (main :- anywhere(Host), move(Host), main), Anywhere ]) :-
 dozes([ (main :- anywhere(Host), sleep(0.005), move(Host), main), Anywhere ]) :-
     anywhere(Anywhere).
 
-talks([ (main :- anywhere(Host), clone(Host, Who), met(Who)),
+talks([ (main :- anywhere(Host), clone(Host, Other), met(Other)),
         (met(parent(Clone)) :- send(Clone, hello), tour),
         (met(clone(Parent)) :- send(Parent, hello), tour),
-        (tour :- anywhere(Host), move(Host), receive(Who-hello),
-                 send(Who, hello), tour),
+        (tour :- anywhere(Host), move(Host), receive(Other-hello),
+                 send(Other, hello), tour),
         Anywhere ]) :-
     anywhere(Anywhere).
 

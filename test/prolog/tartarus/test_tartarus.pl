@@ -49,7 +49,7 @@ test(a_visitor_is_listed_where_it_went) :-
                  printed(B, ["====Agent list====", Row]),
                  says(A, "list_agent(L), writeln(agents(L))."),
                  printed(A, ["agents([])"]) )).
-test(who_is_back_before_its_move_has_returned_is_not_lost) :-
+test(agent_back_before_its_move_has_returned_is_not_lost) :-
     ports(2, [P1,P2]),
     Walker = [ ":- dynamic walker/3, left/2, next/1.",
                "walker(guid, (Ip,_), main) :-",
@@ -122,7 +122,7 @@ test(there_and_back_and_a_clone_speaks) :-
                  says(B, "isexist_agent(N, L, H), writeln(N/L/H)."),
                  line("thanos1/(localhost,~w)/thanos_task", [P2], L5),
                  printed(B, [L5]) )).
-test(who_shows_no_token_is_refused_and_stays) :-
+test(agent_without_token_is_refused_and_stays) :-
     ports(2, [P1,P2]),
     with_nodes([[ ":- dynamic h/3.", "h(guid, _, main) :- writeln(here(guid))."],
                 []],
@@ -155,8 +155,8 @@ test(a_dead_platform_and_the_same_one) :-
                  line("move_agent(fly, ('127.0.0.1',~w)).", [P1], Same),
                  says(A, Same),
                  printed(A, ["Agent is already on same platform."]),
-                 says(A, "move_agent(nobody, (localhost,1)), writeln(true1)."),
-                 printed(A, ["Move agent Failed for :nobody", "true1"]) )).
+                 says(A, "move_agent(missing, (localhost,1)), writeln(true1)."),
+                 printed(A, ["Move agent Failed for :missing", "true1"]) )).
 test(goals_after_a_move_run_on_where_it_was) :-
     ports(2, [P1,P2]),
     line("h(guid, (_,~w), main) :- !,", [P1], L1),
@@ -218,7 +218,7 @@ test(first) :-
                              "sum:1"]),
                  printed(A, ["Time taken to get acknowledgement by agent add:"])
                )).
-test(without_a_token_nobody_is_let_in) :-
+test(without_a_token_no_agent_is_admitted) :-
     ports(2, [P1,P2]),
     with_nodes([[":- dynamic h/3.", "h(guid, _, main)."], []], [A,B],
                ( line("start_tartarus(~w).", [P1], S1),
@@ -260,9 +260,9 @@ test(a_static_agent_is_reached_at_its_port) :-
 
 :- begin_tests(messages).
 
-test(to_whoever_is_there) :-
+test(to_any_agent_there) :-
     ports(2, [P1,P2]),
-    with_nodes([[], [ "hear(Who, (_,_), W) :- writeln(got(Who, W)).",
+    with_nodes([[], [ "hear(Sender, (_,_), W) :- writeln(got(Sender, W)).",
                       "bad(_, _) :- fail." ]],
                [A,B],
                ( up(A, P1, 1), up(B, P2, 1),
@@ -277,7 +277,7 @@ test(to_whoever_is_there) :-
                  says(A, Bad),
                  printed(A, ["accepted"]),
                  printed(B, ["Message bad(platform,1) failed"]) )).
-test(to_nobody) :-
+test(to_unknown_agent) :-
     ports(2, [P1,P2]),
     with_nodes([[]], [A],
                ( up(A, P1, 1),
@@ -518,7 +518,7 @@ test(python) :-
                   "catch(python_call(twice, none, R), error(E, _), \c
                          (functor(E, N, _), writeln(N)))." ],
             ["r:42", "r:5", "process_error"]).
-test(what_is_not_here_says_so) :-
+test(missing_features_are_reported) :-
     answers([], ["digitalWrite(1, 1)."],
             ["pins are not reached from here"]).
 test(subtitles) :-

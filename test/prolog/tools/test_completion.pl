@@ -57,7 +57,7 @@ test(by_id_in_quotes) :-
                   string_concat(Line, ")", Text),
                   term_string(agent_send(Id), Text),
                   agent_property(Id, state(_)) )).
-test(who_shares_a_name_by_id) :-
+test(agents_sharing_a_name_by_id) :-
     with_agents(( completed("agent_send(t", Texts),
                   length(Texts, Count),
                   forall(member(Text, Texts),

@@ -108,11 +108,11 @@ test(vocabulary_is_known) :-
     seen(Text, comes_from(clone(_, _), typhon_words)),
     seen(Text, comes_from(next_host(_, _), typhon_migration)).
 
-test(only_what_nobody_defines_is_undefined, PIs == [nonsense/0]) :-
+test(only_undefined_predicates_are_marked, PIs == [nonsense/0]) :-
     census(Text),
     seen(Text, shown_as(undefined, PIs)).
 
-test(nobody_need_call_what_the_platform_calls, PIs == []) :-
+test(entry_points_count_as_called, PIs == []) :-
     census(Text),
     seen(Text, shown_as(unreferenced, PIs)).
 
@@ -125,7 +125,7 @@ test(directive_is_known) :-
                          ":- payload(a, [provides([b/1])])."]),
            seen(Text, shown_as(undefined, []))).
 
-test(what_agents_say_is_built_in) :-
+test(vocabulary_is_built_in) :-
     census(Text),
     forall(member(Part-Goal, [ "move"-move(_), "here"-here(_),
                                "sleep"-sleep(_), "next_host"-next_host(_, _),

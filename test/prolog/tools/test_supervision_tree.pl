@@ -46,7 +46,7 @@ test(children, true) :-
     with_hosts([alpha],
                ( supervisor([b,a], [], _),
                  has_shape([], [supervisor-top-[a-child-[], b-child-[]]]) )).
-test(what_is_monitored_and_no_child, true) :-
+test(monitored_agents_that_are_no_children, true) :-
     with_hosts([alpha],
                ( watcher(w, W), watcher(a, A),
                  agent_send(W, of(A)),

@@ -197,7 +197,7 @@ one_has(Lines, Text) :-
 
 :- begin_tests(other_process, [setup(start_delta), cleanup(stop_delta)]).
 
-test(who_has_no_host_creates_and_orders_agents_there, Answers == Wanted) :-
+test(process_without_hosts_creates_and_orders_agents, Answers == Wanted) :-
     nb_getval(test_delta, Delta),
     format(atom(Create), 'agent_create(hi, A, [host(~q), name(bob)]).',
            [Delta]),

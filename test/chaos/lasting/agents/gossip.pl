@@ -1,5 +1,5 @@
-% Says words to a friend, says back those it hears, travels if it has a route,
-% and notes what comes twice.
+% Sends words to a friend, echoes the words that it receives, travels if it
+% has a route, and records duplicates.
 
 :- agent(gossip, [state([todo/1, route/1, said/1, back/1, heard/1, friend/1,
                          early/2, wrong/1])]).
@@ -58,9 +58,9 @@ listen(Seconds) :-
     ;   true
     ).
 
-take_in(word(Who, N)) :-
+take_in(word(Sender, N)) :-
     count(heard, N),
-    send(Who, echo(N)).
+    send(Sender, echo(N)).
 take_in(echo(N)) :-
     count(back, N).
 

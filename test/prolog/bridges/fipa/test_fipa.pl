@@ -62,7 +62,7 @@ test(talk_across_platforms) :-
           property(alpha, name(Me, Mine)),
           assertion(Outcome == inform-[said(fipa(Mine, []), [f("x", 1)])]) )).
 
-test(have_the_names_that_people_use) :-
+test(have_short_names) :-
     with_platforms(_, Url,
         ( echo(beta, _),
           does(fipa_request(fipa('echo@b', [Url]), "x", 10, Outcome), Outcome),
@@ -76,7 +76,7 @@ test(of_one_platform_need_no_address) :-
 
 %   The word `send` does, with whom a message is from.
 
-test(answer_who_wrote) :-
+test(answer_the_sender) :-
     with_platforms(_, Url,
         ( agent_create(clauses([ (:- agent(polite, [])),
                                  (on_message(From, acl(request, _)) :-
@@ -121,7 +121,7 @@ wrong(send(fipa(x, ['http://h/']), hello), type_error(fipa_message, hello)).
 wrong(send(fipa(x, ['http://h/']), acl(inform, [content(f(_))])), type_error(_, _)).
 wrong(send(somebody(x), hello), type_error(receiver, somebody(x))).
 
-test(are_told_what_is_wrong, [forall(wrong(Goal, Expected))]) :-
+test(get_errors, [forall(wrong(Goal, Expected))]) :-
     with_platform([], _,
         ( does(catch(Goal, error(Formal, _), true), Formal),
           assertion(subsumes_term(Expected, Formal)) )).
@@ -135,17 +135,17 @@ test(cannot_without_a_platform) :-
                      error(Formal1, _), true), Formal1),
           assertion(Formal1 = existence_error(procedure, _)) )).
 
-test(hear_of_failures) :-
+test(receive_failures) :-
     with_platforms(_, Url,
         ( free_port(Port),
-          format(atom(Nobody), 'http://127.0.0.1:~d/acc', [Port]),
-          does(( fipa_request(fipa('nobody@b', [Url]), "x", 10, One),
-                 fipa_request(fipa('x@y', [Nobody]), "x", 10, Two) ),
+          format(atom(Missing), 'http://127.0.0.1:~d/acc', [Port]),
+          does(( fipa_request(fipa('unknown@b', [Url]), "x", 10, One),
+                 fipa_request(fipa('x@y', [Missing]), "x", 10, Two) ),
                One-Two),
           assertion(One = failure-[action(_, _), _]),
           Two = failure-[_, Error],
-          compound_name_arguments(Error, 'MTS-error', [Who, _]),
-          assertion(Who == fipa('x@y', [Nobody])),
+          compound_name_arguments(Error, 'MTS-error', [Refused, _]),
+          assertion(Refused == fipa('x@y', [Missing])),
           property(alpha, failed(1)),
           property(beta, failed(1)) )).
 
@@ -155,8 +155,8 @@ test(are_found_at_any_address) :-
     with_platforms(_, Url,
         ( echo(beta, _),
           free_port(Port),
-          format(atom(Nobody), 'http://127.0.0.1:~d/acc', [Port]),
-          does(fipa_request(fipa('echo@b', [Nobody, Url]), "x", 10, Outcome),
+          format(atom(Missing), 'http://127.0.0.1:~d/acc', [Port]),
+          does(fipa_request(fipa('echo@b', [Missing, Url]), "x", 10, Outcome),
                Outcome),
           assertion(Outcome = inform-_) )).
 
@@ -202,7 +202,7 @@ test(write_from_anywhere) :-
                    None),
               assertion(None = failure-_) )))).
 
-test(do_what_they_are_asked_for) :-
+test(perform_requests) :-
     with_platforms(_, Url,
         ( participant(one, 3),
           participant(two, 2),
@@ -215,15 +215,15 @@ test(do_what_they_are_asked_for) :-
                  length(Proposals, Count),
                  msort(Proposals, [Best|_]),
                  fipa_award(Proposals, Best, 10, Outcome),
-                 fipa_call([One, Two], [action(One, fly())], 10, Nobody) ),
-               [Sum, Failure, Refusal, Count, Outcome, Nobody]),
+                 fipa_call([One, Two], [action(One, fly())], 10, Missing) ),
+               [Sum, Failure, Refusal, Count, Outcome, Missing]),
           assertion(Sum == inform-[result(action(fipa('one@b', [Url]),
                                                  add(1, 2)), 3)]),
           assertion(Failure = failure-[action(_, _), _]),
           assertion(Refusal = refuse-[action(_, _), _]),
           assertion(Count == 2),
           assertion(Outcome = inform-[result(_, 4)]),
-          assertion(Nobody == []) )).
+          assertion(Missing == []) )).
 
 participant(Name, Price) :-
     agent_create(
@@ -314,7 +314,7 @@ test(ams) :-
           asked('ams@a', search(All), inform-[result(_, None)]),
           assertion(None == []) )).
 
-test(what_they_do_not_understand) :-
+test(not_understood) :-
     with_platform([], _,
         ( asked('ams@a', dance(), Dance),
           assertion(Dance = refuse-[_, 'unsupported-function'(dance)]),

@@ -50,7 +50,7 @@ jade_manager(Name, fipa(Full, [Url])) :-
 :- begin_tests(fipa_jade, [ condition(jade_there), setup(jade_start),
                             cleanup(jade_stop) ]).
 
-test(asks_us) :-
+test(jade_requests_succeed) :-
     with_platform(Url,
         ( worker(_, []),
           jade([request, 'worker@here', Url,
@@ -60,7 +60,7 @@ test(asks_us) :-
                                 "((result (action (agent-identifier \c
                                  :name worker@here) (double 21)) 42))" ]) )).
 
-test(asks_us_in_vain) :-
+test(jade_requests_fail) :-
     with_platform(Url,
         ( worker(_, []),
           jade([request, 'worker@here', Url, '((action x (double y)))'], No),
@@ -81,7 +81,7 @@ text("quotes \"and\" \\ backslashes \\\"").
 text("Z\u00FCrich, 10 \u20AC, \U0001F600").
 text("(not) an :expression ?x #5\"").
 
-test(hears_what_we_say, [forall(text(Text))]) :-
+test(jade_receives_our_messages, [forall(text(Text))]) :-
     with_platform(Url,
         ( worker(_, []),
           jade([ask, 'REQUEST', 'worker@here', Url, plain, Text], Answer),
@@ -134,8 +134,8 @@ manager_says(Manager, Action, Content) :-
 
 test(sends_us_failures) :-
     with_platform(_,
-        ( jade_manager(nobody, Nobody),
-          does(fipa_request(Nobody, "x", 20, Outcome), Outcome),
+        ( jade_manager(nobody, Missing),
+          does(fipa_request(Missing, "x", 20, Outcome), Outcome),
           assertion(( Outcome = failure-[_, Error],
                       compound_name_arity(Error, 'MTS-error', 2) )) )).
 
@@ -155,7 +155,7 @@ test(sees_our_managers) :-
 %   Registered by itself, found by its service, called where it has gone: to a
 %   process that knows nothing of FIPA.
 
-test(reaches_who_has_moved) :-
+test(jade_reaches_an_agent_that_has_moved) :-
     no_leaks(with_peers([away], with_platform(Url, reached_away(Url)))).
 
 reached_away(Url) :-

@@ -117,8 +117,8 @@ test(too_deep, error(resource_error(fipa_depth))) :-
     string_codes(Text, Codes),
     sl_text(_, Text).
 
-test(cannot_be_said, [ forall(member(Term, [_, f(_), [a|_], 1r3, k:v])),
-                       error(_) ]) :-
+test(unwritable_content, [ forall(member(Term, [_, f(_), [a|_], 1r3, k:v])),
+                           error(_) ]) :-
     sl_text([Term], _).
 
 %   A number of a million digits would take minutes.

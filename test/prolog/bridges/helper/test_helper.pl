@@ -39,14 +39,14 @@ asked(Error) :-
 
 %   Also while it is down, until it is started once more.
 
-test(whoever_asks_hears_why_it_ends, Errors == ["no_thing"]) :-
+test(each_caller_gets_the_reason_of_the_end, Errors == ["no_thing"]) :-
     no_leaks(with_complaining(
         findall(Error, ( between(1, 5, _), is_down, asked(Error) ), All))),
     sort(All, Errors).
 
 %   Nor does a message say that it is started again.
 
-test(what_lacks_something_is_not_started_again,
+test(helper_without_its_packages_is_not_restarted,
      Errors-Messages == ["no_thing","no_thing"]-[]) :-
     Says = 'echo \'{"error":"no_thing","message":"why","again":false}\'; \c
             exit 3',

@@ -70,12 +70,12 @@ error_of(Goal, Formal) :-
 
 :- begin_tests(mqtt_messages, [setup(start_shared), cleanup(stop_shared)]).
 
-test(from_a_stranger, Ms == [message('lab/t', "21.5",
-                                     [qos(0),retain(false)])]) :-
+test(from_another_client, Ms == [message('lab/t', "21.5",
+                                         [qos(0),retain(false)])]) :-
     at_broker([], ( reader(subscribe('lab/+'), 1, A),
                     says('lab/t', '21.5'),
                     got(A, Ms) )).
-test(to_a_stranger, Lines == ["lab/x 1 hello"]) :-
+test(to_another_client, Lines == ["lab/x 1 hello"]) :-
     shared(Broker),
     at_broker([], stranger_hears(Broker, ['-t', '#', '-C', 1, '-q', 1,
                                           '-F', '%t %q %p'],
@@ -115,7 +115,7 @@ test(filters, Topics == [a, 'a/b', 'a/b', 'a/b/c', 'x/b']) :-
                     got(A, Ms) )),
     findall(T, member(message(T, _, _), Ms), Topics0),
     msort(Topics0, Topics).
-test(everybody_who_wants_it, Counts == [1,1,1]) :-
+test(all_subscribers_get_it, Counts == [1,1,1]) :-
     at_broker([], ( maplist(reader_of, ['e/x','e/x','e/+'], As),
                     says('e/x', m),
                     maplist(got_count, As, Counts) )).
@@ -128,8 +128,8 @@ test(terms, Ps =@= [_{a:[1,"b",null]}, [1,2], "text", "7", "[no json"]) :-
                     got(A, Ms) )),
     payloads(Ms, Ps0),
     maplist(plain, Ps0, Ps).
-test(as_one_wants_it, Kinds == [ "{\"a\": 1}", "\000\\xff\", 7, "seven",
-                                 "\u00e4" ]) :-
+test(in_the_requested_form, Kinds == [ "{\"a\": 1}", "\000\\xff\", 7, "seven",
+                                       "\u00e4" ]) :-
     at_broker([],
               ( reader(( subscribe(text, [payload(text)]),
                          subscribe(bytes, [payload(bytes)]),
@@ -299,7 +299,7 @@ plain(Value, Value).
 
 :- begin_tests(mqtt_agents, [setup(start_shared), cleanup(stop_shared)]).
 
-test(who_leaves_is_unsubscribed, Mail == []) :-
+test(leaving_agent_is_unsubscribed, Mail == []) :-
     shared(Broker),
     broker_url(Broker, URL),
     quietly(with_hosts([alpha,beta],
@@ -308,7 +308,7 @@ test(who_leaves_is_unsubscribed, Mail == []) :-
                          wait_until(unsubscribed(Broker, 'leave/me'), 10),
                          says('leave/me', m),
                          agent_property(A, mailbox(Mail)) ))).
-test(so_it_is_with_another_process) :-
+test(agent_leaving_for_another_process_is_unsubscribed) :-
     shared(Broker),
     broker_url(Broker, URL),
     quietly(setup_call_cleanup(
@@ -325,8 +325,8 @@ test(so_it_is_with_another_process) :-
                   mqtt_stop(Near) ),
                 network_stop(N))),
     assertion(Mail == []).
-test(who_stays_gets_it, Ms == [message('stay/x', "m",
-                                       [qos(0),retain(false)])]) :-
+test(remaining_agent_gets_it, Ms == [message('stay/x', "m",
+                                             [qos(0),retain(false)])]) :-
     shared(Broker),
     broker_url(Broker, URL),
     quietly(with_hosts([alpha,beta-[capacity(0)]],
@@ -338,12 +338,12 @@ test(who_stays_gets_it, Ms == [message('stay/x', "m",
                          wait_until(again(Broker), 10),
                          says('stay/x', m),
                          got(A, Ms) ))).
-test(who_ends_is_unsubscribed) :-
+test(ended_agent_is_unsubscribed) :-
     shared(Broker),
     at_broker([], ( create([ (main :- subscribe('the/end')) ], A),
                     joined(A, done),
                     wait_until(unsubscribed(Broker, 'the/end'), 10) )).
-test(who_is_faulty_is_unsubscribed) :-
+test(faulty_agent_is_unsubscribed) :-
     shared(Broker),
     at_broker([], ( create([ (main :- subscribe('the/fault'),
                               atom_length(_, _)) ], A),
@@ -455,11 +455,11 @@ test(options) :-
                               error(E, _), true)),
              assertion(nonvar(E)),
              assertion(E = Expected) )).
-test(nobody_listens, E == mqtt_error(unreachable, alpha)) :-
+test(no_broker_listens, E == mqtt_error(unreachable, alpha)) :-
     free_port(Port),
     format(atom(URL), 'mqtt://127.0.0.1:~d', [Port]),
     with_hosts([alpha], catch(mqtt_start(alpha, URL, []), error(E, _), true)).
-test(who_listens_is_silent, E == timeout_error(mqtt(connect), alpha)) :-
+test(silent_broker, E == timeout_error(mqtt(connect), alpha)) :-
     tcp_socket(Socket),
     tcp_bind(Socket, '127.0.0.1':Port),
     tcp_listen(Socket, 5),
@@ -478,7 +478,7 @@ test(stopped, [A,B] == [gone, existence_error(mqtt, alpha)]) :-
     ( E = existence_error(procedure, _) -> A = gone ; A = E ).
 test(no_paho, E == existence_error(python_module, paho)) :-
     with_tmp_dir(no_paho(E, [])).
-test(publish_waits_in_vain_without_a_broker,
+test(publish_times_out_without_a_broker,
      Es == [timeout_error(mqtt(publish), alpha),
             timeout_error(mqtt(publish), alpha)]) :-
     free_port(Port),

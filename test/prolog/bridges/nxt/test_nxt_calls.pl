@@ -44,7 +44,7 @@ test(diagnose_nothing, Status-Found == exit(1)-true) :-
     ->  Found = true
     ;   Found = Out
     ).
-test(which_motor_must_be_said) :-
+test(motor_must_be_bound) :-
     with_brick(_, Port,
                connected(lizzy, Port, [],
                          ( catch(nxt_run(lizzy, _, 50), error(E, _), true),

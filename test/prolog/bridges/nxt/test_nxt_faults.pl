@@ -30,7 +30,7 @@ error_of(Goal, Formal, Context) :-
 test(no_such_port, E-W == existence_error(nxt_port, Port)-nxt(b, open)) :-
     Port = '/dev/no_such_nxt',
     no_leaks(error_of(nxt_connect(b, Port), E, context(W, _))).
-test(nobody_listens, E == existence_error(nxt_port, Port)) :-
+test(no_process_listens, E == existence_error(nxt_port, Port)) :-
     free_port(Number),
     format(atom(Port), 'socket://127.0.0.1:~d', [Number]),
     error_of(nxt_connect(b, Port), E, _).
@@ -113,7 +113,7 @@ test(refused) :-
                                                 nxt(b, 'GETBATTERYLEVEL'),
                                                 _))
                                )))).
-test(late_replies_are_nobodys, MilliVolts == 8000) :-
+test(late_replies_are_dropped, MilliVolts == 8000) :-
     with_peer(Peer, Port,
               connected(b, Port, [deadline(30)],
                         ( peer_tell(Peer, 'raw 0500020b00e803'),
@@ -223,7 +223,7 @@ test(killed, E == nxt_error(helper_died(killed(9)), b)) :-
                         ))),
     assertion(MilliVolts == 8000),
     assertion(Other \== Pid).
-test(killed_while_nobody_asks, MilliVolts == 8000) :-
+test(killed_while_idle, MilliVolts == 8000) :-
     with_peer(Peer, Port,
               connected(b, Port, [],
                         ( helper_pid(Pid),
@@ -296,7 +296,7 @@ test(one_after_the_other, Heard == [ '000b', '000b', '000b', '000b' ]) :-
                           numlist(1, 4, Ns),
                           maplist(hear(Peer), Ns, Heard)
                         ))).
-test(nobody_gets_anothers_answer) :-
+test(answers_are_not_mixed_up) :-
     with_brick(Brick, Port,
                connected(b, Port, [deadline(30)],
                          ( brick_ask(Brick, 'set 4 99', ok),
@@ -314,7 +314,7 @@ test(two_bricks_at_once) :-
                                   connected(fast, Port2, [],
                                             at_once(Slow, Fast))))).
 
-test(threads_say_whose_they_are, Count == 2) :-
+test(threads_are_named_after_their_brick, Count == 2) :-
     with_brick(_, Port,
                connected(b, Port, [deadline(30)],
                          ( nxt_battery(b, _),

@@ -74,7 +74,7 @@ test(what_is_no_json,
      Results =@= [ [1,"a"], [1], "\000\\xff\", [0,1,2], _{'1':"one"}]) :-
     with_python([], maplist(odd, [tuple, set, bytes, range, key], Results0)),
     maplist(untagged, Results0, Results).
-test(what_cannot_be_told) :-
+test(unconvertible_results) :-
     with_python([],
                 ( error_of(odd(nan, _), NaN),
                   error_of(odd(object, _), Object),
@@ -89,7 +89,7 @@ test(long_lists, [Length, Error] = [1000002, python_error('OverflowError', _)]) 
     with_python([], ( remote(alpha, ( long(1000002, List),
                                       length(List, Length) )),
                       error_of(odd(endless, _), Error) )).
-test(what_cannot_be_asked,
+test(unconvertible_arguments,
      [ X, Y, Z, V ] == [ type_error(json_value, f(x)),
                          type_error(json_value, 1r3),
                          type_error(json_value, g), instantiation_error ]) :-
@@ -268,7 +268,7 @@ test(crash_again_and_again, R == 5) :-
                                    ( error_of(leave_process(1, _), _),
                                      wait_until(again, 10) )),
                             remote(alpha, echo(5, R)) ), _)).
-test(what_is_asked_while_it_is_started_again_waits_for_its_functions, R == 2) :-
+test(calls_during_a_restart_wait_for_the_functions, R == 2) :-
     with_tmp_dir(slow_to_load(R)).
 test(stuck) :-
     with_python([timeout(0.2)],
@@ -324,7 +324,7 @@ test(many_at_a_time, Outcomes == [done,done,done,done]) :-
                 ( findall(A, ( between(1, 4, _),
                                create([ (main :- meet(true)) ], A) ), As),
                   maplist(joined, As, Outcomes) )).
-test(who_waits_holds_up_nobody, Waiting == 10) :-
+test(waiting_call_does_not_block_others, Waiting == 10) :-
     with_python([timeout(20), threads(20)],
                 ( findall(A, ( between(1, 10, _),
                                create([ (main :- held(_)) ], A) ), As),
@@ -335,7 +335,7 @@ test(who_waits_holds_up_nobody, Waiting == 10) :-
                   remote(alpha, let_go(_)),
                   maplist(joined, As, Outcomes) )),
     forall(member(O, Outcomes), assertion(O == done)).
-test(nobody_gets_anothers_answer) :-
+test(answers_are_not_mixed_up) :-
     with_python([threads(8)],
                 ( numlist(1, 20, Ns),
                   maplist(asker, Ns, As),
@@ -377,7 +377,7 @@ test(to_another, R == "hello") :-
                   joined(A, done),
                   agent_result(A, R, 5) )).
 test(to_no_agent, R == 1) :-
-    with_python([], ( remote(alpha, post_to(nobody, hello, null)),
+    with_python([], ( remote(alpha, post_to(missing, hello, null)),
                       remote(alpha, echo(1, R)) )).
 test(one_that_has_left_is_not_followed, Mail == []) :-
     functions(File),

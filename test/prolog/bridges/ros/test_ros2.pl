@@ -118,7 +118,7 @@ soon(Goal) :-
 
 :- begin_tests(ros2, [setup(begin_host), cleanup(end_host)]).
 
-test(published_and_heard) :-
+test(published_and_received) :-
     agent(Agent),
     does(alpha, Agent, ros_subscribe('/out', 'std_msgs/msg/String')),
     Text = "h\u00e9 \"you\"\n",
@@ -291,7 +291,7 @@ test(an_agent_that_leaves_takes_nothing_along) :-
     wait_until(( remote(alpha, ros_services(Services)),
                  \+ memberchk('/left/set', Services) ), 5).
 
-test(a_node_that_dies_is_started_again_and_told_all) :-
+test(a_dead_node_is_restarted_with_all_registrations) :-
     agent(Agent),
     does(alpha, Agent, ros_subscribe('/out', 'std_msgs/msg/String')),
     helper_pid(ros(alpha), Pid),

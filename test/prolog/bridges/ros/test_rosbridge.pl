@@ -66,7 +66,7 @@ says(Op, Frame) :-
 
 :- begin_tests(rosbridge_topics).
 
-test(published_and_heard_as_dicts) :-
+test(published_and_received_as_dicts) :-
     on_a_host(Agent, [],
         ( does(alpha, Agent, ros_subscribe('/chatter', 'std_msgs/String')),
           does(alpha, Agent, ros_publish('/chatter', 'std_msgs/String',
@@ -161,7 +161,7 @@ test(messages_are_for_agents_only,
      error(existence_error(running_agent, here))) :-
     on_a_host(_, [], remote(alpha, ros_subscribe('/t', 'std_msgs/String'))).
 
-test(what_there_is_no_room_for_is_counted) :-
+test(dropped_messages_are_counted) :-
     on_a_host(Agent, [],
         ( agent_create(clauses([(:- agent(deaf, [])),
                                 (main :- ros_subscribe('/t',
@@ -268,7 +268,7 @@ test(what_can_go_wrong) :-
                  X = X,
                  assertion(Formal == Expected) ))).
 
-test(a_late_answer_is_for_nobody) :-
+test(a_late_answer_is_dropped) :-
     on_a_host(Agent, [],
         ( wrong(alpha, Agent,
                 ros_call('/slow', 'a/B', [], _, [deadline(0.2)]), _),
@@ -325,7 +325,7 @@ test(a_service_that_fails) :-
           wait_until(remote(alpha, take(did(Agent, Result))), 5),
           assertion(Result == raised(ros_error(refused, '/no'))) )).
 
-test(who_leaves_with_open_calls_refuses_them) :-
+test(leaving_agent_refuses_its_open_calls) :-
     on_a_host(Agent, [],
         ( puppet(alpha, Server),
           does(alpha, Server, ros_offer('/no', 'std_srvs/Empty', [])),
@@ -373,7 +373,7 @@ test(a_goal_is_cancelled) :-
           does(alpha, Agent, ros_cancel(Id)),
           gets(alpha, Agent, result(Id, canceled, _)) )).
 
-test(who_leaves_cancels) :-
+test(leaving_agent_cancels_its_goals) :-
     on_a_host(Agent, [],
         ( does(alpha, Agent, ros_goal('/fibonacci', 'a/Fibonacci',
                                       [order=1000], Id)),
@@ -381,7 +381,7 @@ test(who_leaves_cancels) :-
           says("cancel_action_goal", Frame),
           assertion(atom_string(Id, Frame.id)) )).
 
-test(who_set_out_and_stayed_is_told) :-
+test(agent_that_stayed_is_notified) :-
     on_a_host(Agent, [],
         ( does(alpha, Agent, ros_subscribe('/t', 'std_msgs/String')),
           does(alpha, Agent, ros_goal('/fibonacci', 'a/Fibonacci',
@@ -497,7 +497,7 @@ test(properties_of_a_host_in_another_process) :-
     assertion(memberchk(connected(true), Ps)),
     assertion(E == existence_error(host, nowhere)).
 
-test(a_program_that_halts_says_nothing, Said-Status == ""-exit(0)) :-
+test(a_program_that_halts_prints_nothing, Said-Status == ""-exit(0)) :-
     with_rosbridge(URL, with_tmp_dir(halted(URL, Said, Status))).
 
 halted(URL, Said, Status, Dir) :-
@@ -525,7 +525,7 @@ test(stopped_and_started_again) :-
           ros_start(alpha, URL, []),
           does(alpha, Agent, ros_subscribe('/t', 'std_msgs/String')) )).
 
-test(a_server_that_comes_back_is_told_all_again) :-
+test(a_server_that_returns_gets_all_registrations) :-
     quiet(on_a_host(Agent, [],
         ( does(alpha, Agent, ros_subscribe('/t', 'std_msgs/String')),
           does(alpha, Agent, ros_publish('/p', 'std_msgs/String', [data=x])),
@@ -552,7 +552,7 @@ test(calls_and_goals_under_way_fail_when_the_server_goes) :-
           assertion(Result == raised(ros_error(lost, alpha))),
           gets(alpha, Agent, result(Id, failed, _)) ))).
 
-test(without_a_server_what_is_said_is_an_error) :-
+test(publishing_without_a_server_is_an_error) :-
     quiet(no_leaks(with_rosbridge(URL,
         on_hosts(Agent, URL, [],
             ( wait_until(rosbridge_clients(1), 5),  % it knows us, too
@@ -569,7 +569,7 @@ test(without_a_server_what_is_said_is_an_error) :-
               says("subscribe", Frame),
               assertion(Frame.topic == "/t") ))))).
 
-test(a_status_reaches_whom_it_concerns) :-
+test(a_status_reaches_the_agent_concerned) :-
     on_a_host(Agent, [],
         ( does(alpha, Agent, ros_publish('/t', 'no_msgs/Such', [data=x])),
           gets(alpha, Agent, error(Text)),
@@ -632,7 +632,7 @@ test(a_server_that_does_not_read) :-
                 error(Formal, _), true),
           assertion(Formal == resource_error(ros_queue)) )))).
 
-test(a_server_that_says_nothing, error(timeout_error(connect, URL))) :-
+test(a_silent_server, error(timeout_error(connect, URL))) :-
     no_leaks(with_silent_port(URL, with_alpha(
         ros_start(alpha, URL, [connect_deadline(0.3)])))).
 

@@ -80,8 +80,8 @@ refused(Path, Reason, Option, Told, Audited, Events, Dir) :-
           changed(Option),
           watched(attempt(Way, Source, Agent, Inn, Told), Events) ),
         host_stop(inn)),
-    findall(Peer-Proof-Who-Why,
-            audit_line(File, Peer, Proof, refused(Who, Why)), Audited).
+    findall(Peer-Proof-Refused-Why,
+            audit_line(File, Peer, Proof, refused(Refused, Why)), Audited).
 
 changed(all(Options)) :-
     !,
@@ -180,7 +180,7 @@ watched(Goal, Events) :-
         watch(inn, note_event, Watch),
         once(Goal),
         with_settings([typhon_watches:last_seconds=20], unwatch(Watch))),
-    findall(Who-Why, event(event(_, _, none, refused(Who, Why))), Events).
+    findall(Refused-Why, event(event(_, _, none, refused(Refused, Why))), Events).
 
 note_event(Event) :-
     assertz(event(Event)).
@@ -216,18 +216,18 @@ expected(Path, Reason, move_refused(Inn, Reason), Peer-certificate(Name)) :-
     typhon_host:address_parts(HomeAddress, _, Own),
     typhon_host:address_parts(Inn, inn, Own).
 
-is_guest(Who) :-
-    atom(Who),
-    sub_atom(Who, 0, _, _, guest).
+is_guest(Refused) :-
+    atom(Refused),
+    sub_atom(Refused, 0, _, _, guest).
 
 deviates(Path, Reason, got(Told, Audited, Events)) :-
     cell(Path, Reason, Option),
     with_tmp_dir(refused(Path, Reason, Option, Told, Audited, Events)),
     expected(Path, Reason, Refusal, Proved),
     \+ ( Told = Refusal,
-         Audited = [Proved-Who-Reason],
-         Events = [Who-Reason],
-         is_guest(Who) ).
+         Audited = [Proved-Refused-Reason],
+         Events = [Refused-Reason],
+         is_guest(Refused) ).
 
 %   What the process far sends may be anything.
 
@@ -291,7 +291,7 @@ far_start(start(Hash, Life, State, [], []), Code) :-
 
 :- begin_tests(gate).
 
-test(every_refusal_is_told_audited_and_an_event, Deviations == []) :-
+test(every_refusal_is_reported_audited_and_an_event, Deviations == []) :-
     no_leaks(with_processes(
                  findall(Path-Reason-Got, deviates(Path, Reason, Got),
                          Deviations))).

@@ -32,10 +32,10 @@ test(nothing_unifies, true(Rest == [a-1])) :-
     \+ mail_take(me, b-_),
     mail_all(me, Rest).
 test(no_mailbox, true(All-List == []-[])) :-
-    \+ mail_take(nobody, _),
-    mail_all(nobody, All),
-    mail_list(nobody, List).
-test(a_look_takes_nothing, true(Twice == [[1,2],[1,2]])) :-
+    \+ mail_take(unknown, _),
+    mail_all(unknown, All),
+    mail_list(unknown, List).
+test(peeking_removes_nothing, true(Twice == [[1,2],[1,2]])) :-
     filled(me, [1,2]),
     mail_list(me, First),
     mail_all(me, Second),

@@ -28,19 +28,19 @@ lost(Name) :-
 :- begin_tests(functors_are_the_same_for_all_threads,
                [cleanup(retractall(made(_, _)))]).
 
-test(there_is_room_for_many, true(Room >= 12000)) :-
+test(table_is_reserved_for_many, true(Free >= 12000)) :-
     functors_room,
     statistics(functors, Count),
     next_power(Count, Power),
-    Room is Power-Count.
+    Free is Power-Count.
 test(a_second_time_makes_none, true(Count1-Count0 =< 1)) :-
     statistics(functors, Count0),
     functors_room,
     statistics(functors, Count1).
 test(a_process_has_it_before_it_can_have_threads,
-     Status-Out == exit(0)-"room") :-
+     Status-Out == exit(0)-"free") :-
     project_file('prolog/typhon.pl', Typhon),
-    run_swipl([ '-g', 'statistics(functors, N), N > 0x4001, write(room)',
+    run_swipl([ '-g', 'statistics(functors, N), N > 0x4001, write(free)',
                 '-t', halt, Typhon ],
               [timeout(60)], Status, Out, _).
 test(four_threads_make_some, Lost == []) :-

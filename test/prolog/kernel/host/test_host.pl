@@ -333,7 +333,7 @@ test(unlink, true(A-B == []-[])) :-
                  host_property(beta, neighbours(B)) )).
 test(to_itself, error(domain_error(other_host, alpha))) :-
     with_hosts([alpha], link(alpha, alpha)).
-test(to_nobody, error(existence_error(host, nowhere))) :-
+test(to_a_missing_host, error(existence_error(host, nowhere))) :-
     with_hosts([alpha], link(alpha, nowhere)).
 test(stopped_hosts_are_no_neighbours, true(A == [])) :-
     with_hosts([alpha,beta],
@@ -361,7 +361,7 @@ try(Result) :-
     catch(( create([on_message(_, _)], _), Result = ok ),
           error(move_refused(_, Result), _), true).
 
-test(room_again, R == ok) :-
+test(capacity_is_freed, R == ok) :-
     with_hosts([alpha-[capacity(1)]],
                ( stays([], A),
                  try(capacity),
@@ -761,9 +761,9 @@ walker([Home|_]) :-
 %   In which state an agent is when it is asked until when it waits: as soon as
 %   it rests its host may be stopped, unnoticed.
 
-asked_in(Who, Goal) :-
+asked_in(Caller, Goal) :-
     findall(State, agent_property(_, state(State)), States),
-    thread_send_message(Who, asked_in(States)),
+    thread_send_message(Caller, asked_in(States)),
     call(Goal).
 
 :- begin_tests(stopping).
@@ -791,7 +791,7 @@ footprint(Threads, Queues, Modules, Files) :-
 
 %   They get the order to end before they have begun.
 
-test(who_helps_to_stop_hosts_has_ended_then, true(Threads == Before)) :-
+test(helper_threads_of_a_stop_have_ended, true(Threads == Before)) :-
     footprint(Before, _, _, _),
     forall(between(1, 300, _), ( own_thread_start, own_thread_stop )),
     aggregate_all(count, thread_property(_, status(_)), Threads).
@@ -806,7 +806,7 @@ test(a_thousand_residents, true(N == 1000)) :-
                               create([on_message(_, _)], A) ), As),
                  host_stop(alpha) )),
     aggregate_all(count, ( member(A, As), agent_join(A, disposed, 10) ), N).
-test(who_has_left_lives_on, true(Elsewhere == [])) :-
+test(agent_that_has_left_continues, true(Elsewhere == [])) :-
     with_tmp_dir(test_host:ended_elsewhere(Elsewhere)).
 test(one_of_two_hosts, true(S == resident)) :-
     with_hosts([alpha,beta],
@@ -865,7 +865,7 @@ test(has_ended_when_its_host_has_stopped, O == disposed) :-
                                host_stop(alpha),
                                agent_join(A, O, 10) ))),
         unwrap_predicate(typhon_ending:told/3, slow)).
-test(until_when_it_waits_is_known_before_it_rests,
+test(deadline_is_set_before_the_agent_rests,
      [ forall(member(Wait, [sleep(60), receive(_, 60), move(beta)])),
        States == [running] ]) :-
     thread_self(Me),

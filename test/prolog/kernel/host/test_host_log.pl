@@ -37,7 +37,7 @@ comes_back(Port, Dir) :-
 
 :- begin_tests(host_log).
 
-test(told_once_and_again_when_it_is_there,
+test(reported_once_and_again_after_recovery,
      true(Count >= 6)) :-
     free_port(Port),
     at(Port, Endpoint),
@@ -47,7 +47,7 @@ test(told_once_and_again_when_it_is_there,
                            with_tmp_dir(test_host_log:comes_back(Port)) ),
                          Messages)),
     told(Messages, [log_unheard(Endpoint), log_heard(Endpoint, Count)]).
-test(each_host_that_begins_is_told, Count == 2) :-
+test(each_host_that_starts_is_logged, Count == 2) :-
     free_port(Port),
     at(Port, Endpoint),
     atom_concat('log@', Endpoint, Log),

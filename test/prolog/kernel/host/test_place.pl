@@ -65,7 +65,7 @@ changes(Dir, File) :-
 %   What cannot be read is said; the place stays, and is made again when the
 %   file is mended.
 
-test(mistakes_are_told) :-
+test(errors_are_reported) :-
     with_tmp_dir(mistakes).
 
 mistakes(Dir) :-
@@ -84,7 +84,7 @@ mistakes(Dir, _) :-
 %   An agent runs on with the program with which it was created; one that
 %   is created later has the new one, without make/0.
 
-test(programs_are_those_of_their_time) :-
+test(agents_keep_the_program_of_their_creation) :-
     with_tmp_dir(programs).
 
 programs(Dir) :-

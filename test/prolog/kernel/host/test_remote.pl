@@ -42,7 +42,7 @@ test(tuple_space, true(X == 2)) :-
                  remote(alpha, take(p(1))), remote(alpha, sense(p(X))) )).
 test(vocabulary_of_a_host, true(N-L == []-0)) :-
     with_hosts([alpha], remote(alpha, ( neighbours(N), host_load(L), here(_) ))).
-test(nobody_is_self, error(existence_error(running_agent, here))) :-
+test(no_agent_is_self, error(existence_error(running_agent, here))) :-
     with_hosts([alpha], remote(alpha, self(_))).
 test(in_a_module_of_its_own, true(X == c)) :-
     with_hosts([alpha], remote(alpha, lists:last([a,b,c], X))).

@@ -56,12 +56,12 @@ elapsed(Goal, Seconds) :-
 
 test(done, O-M == done-[]) :-
     ends([main], O, M).
-test(failed_is_told,
+test(failure_is_reported,
      true(O-M = failed-[warning-typhon(agent_failed(_, _))])) :-
     ends([(main :- fail)], O, M).
 test(nothing_to_do_but_wait, F == []) :-
     lives([], F).
-test(who_only_waits_does_so_from_birth, States == [resident]) :-
+test(agent_without_main_is_resident_from_birth, States == [resident]) :-
     with_hosts([alpha],
                ( findall(S, ( between(1, 300, _),
                               create([on_message(_, _)], A),
@@ -90,7 +90,7 @@ test(name_that_is_none, [ forall(member(Name, ['', 'a@b', 'a\e[31mb',
                                                'a\nb', 'a\u202eb'])),
                           error(domain_error(agent_name, Name)) ]) :-
     with_hosts([alpha], create([main], _, [name(Name)])).
-test(home_can_be_told_from_the_id, true(sub_atom(A, _, _, 0, Home))) :-
+test(id_contains_the_home, true(sub_atom(A, _, _, 0, Home))) :-
     with_hosts([alpha],
                ( create([main], A), joined(A, _),
                  address(alpha, Address),
@@ -135,10 +135,10 @@ test(facts_that_cannot_travel, error(type_error(mobile_term, _))) :-
                ( current_output(S), create([main], _, [facts([s(S)])]) )).
 test(faulty_facts, error(type_error(callable, 3))) :-
     with_hosts([alpha], create([main], _, [facts([3])])).
-test(refused_for_want_of_room,
+test(refused_by_a_full_host_at_creation,
      error(move_refused(_, capacity))) :-
     with_hosts([alpha-[capacity(0)]], create([main], _)).
-test(refused_for_want_of_a_token, error(move_refused(_, token))) :-
+test(refused_without_a_token_at_creation, error(move_refused(_, token))) :-
     with_hosts([alpha-[tokens([red])]], create([main], _, [tokens([blue])])).
 test(admitted_with_a_token, O == done) :-
     with_hosts([alpha-[tokens([red,green])]],
@@ -184,7 +184,7 @@ test(vocabulary_after_a_move, true(F == [s(B,A,1)])) :-
                                                 assertz(s(H,O,N)))]), Id),
                  wait_state(Id, resident),
                  agent_property(Id, facts(F)) )).
-test(nobody_but_an_agent_has_a_self,
+test(only_agents_have_a_self,
      error(existence_error(running_agent, here))) :-
     with_hosts([alpha], typhon_vocabulary:self(_)).
 
@@ -224,7 +224,7 @@ test(admitted_with_a_token, F == [s(there)]) :-
     with_hosts([alpha,beta-[tokens([red])]],
                lives_([(main :- move(beta), assertz(s(there)))],
                       [tokens([red])], F)).
-test(nobody_at_that_address, true(F = [s(host_unreachable(X)),s(X)])) :-
+test(no_process_at_that_address, true(F = [s(host_unreachable(X)),s(X)])) :-
     lives([ (main :- move_to('gamma@127.0.0.1:1')),
             (move_to(X) :- catch(move(X), error(E, _), assertz(s(E))),
                            assertz(s(X))) ], F).
@@ -388,15 +388,15 @@ residents(N) :-
     findall(A, agent_property(A, state(resident)), As),
     length(As, N).
 
-test(no_room_for_a_clone, true(F = [s(move_refused(_, capacity))])) :-
+test(no_capacity_for_a_clone, true(F = [s(move_refused(_, capacity))])) :-
     with_hosts([alpha-[capacity(1)]],
                lives_([(main :- catch(clone(_), error(E, _), assertz(s(E))))],
                       [], F)).
-test(no_room_for_a_clone_there, true(F = [s(move_refused(_, capacity))])) :-
+test(no_capacity_for_a_clone_there, true(F = [s(move_refused(_, capacity))])) :-
     with_hosts([alpha,beta-[capacity(0)]],
                lives_([(main :- catch(clone(beta, _), error(E, _),
                                       assertz(s(E))))], [], F)).
-test(clone_to_nobody, true(F = [s(host_unreachable(_))])) :-
+test(clone_to_a_missing_host, true(F = [s(host_unreachable(_))])) :-
     lives([(main :- catch(clone('gamma@127.0.0.1:1', _), error(E, _),
                           assertz(s(E))))], F).
 test(payloads_are_cloned, F == [s(7),s(7)]) :-
@@ -490,7 +490,7 @@ test(bindings_of_a_message, F == [s(7-user)]) :-
     with_hosts([alpha],
                mailed([(main :- receive(From-add(X, 3)), Y is X+3,
                                 assertz(s(Y-From)))], [add(4,3)], F)).
-test(a_message_nobody_wants_does_not_wake, S == waiting) :-
+test(unmatched_message_does_not_wake, S == waiting) :-
     with_hosts([alpha],
                ( create([(main :- receive(_-a))], A),
                  wait_state(A, waiting),
@@ -671,7 +671,8 @@ test(join_for_ever, O == disposed) :-
                  thread_join(T, exited(O)) )).
 test(join_after_it_moved, O == done) :-
     ends([(main :- move(beta), sleep(0.05))], O, []).
-test(join_nobody, error(existence_error(agent, 'x.1@alpha@127.0.0.1:1'))) :-
+test(join_unknown_agent,
+     error(existence_error(agent, 'x.1@alpha@127.0.0.1:1'))) :-
     with_hosts([alpha-[]],
                ( address(alpha, Address),
                  atom_concat('x.1@', Address, Id),
@@ -745,7 +746,7 @@ test(dispose, [forall(in_state(State, _, _)), O == disposed]) :-
                  joined(A, O),
                  gone(A),
                  wait_until(host_property(alpha, load(0)), 5) )).
-test(late_answers_are_left_to_nobody, Left == 0) :-
+test(late_answers_leave_nothing, Left == 0) :-
     with_hosts([alpha],
                ( create([(main :- leave(begun), shell('sleep 0.5')),
                          on_message(_, _)], A),
@@ -817,7 +818,7 @@ test(move_that_is_refused,
 test(move_to_nowhere, error(existence_error(host, nowhere))) :-
     with_hosts([alpha],
                ( create([on_message(_, _)], A), agent_move(A, nowhere) )).
-test(order_to_nobody,
+test(order_to_unknown_agent,
      [forall(member(Order, [agent_dispose(foo), agent_clone(foo, _),
                             agent_move(foo, alpha),
                             agent_save(foo, '/nowhere/x'),
@@ -835,7 +836,7 @@ test(many_orders_are_taken_in_turn, Ps == [p5,p4,p3,p2,p1]) :-
                  forall(member(P, [p1,p2,p3,p4,p5]),
                         payload_attach(A, payload(P, [], []))),
                  agent_property(A, payloads(Ps)) )).
-test(one_that_hops_all_the_time_obeys, O == disposed) :-
+test(hopping_agent_takes_orders, O == disposed) :-
     with_hosts([alpha,beta],
                ( create([(main :- move(beta), move(alpha), main)], A),
                  forall(between(1, 20, N),
@@ -877,7 +878,8 @@ test(unknown, [fail]) :-
                ( address(alpha, Address),
                  atom_concat('x.1@', Address, A),
                  agent_property(A, _) )).
-test(unknown_to_nobody, error(host_unreachable('127.0.0.1:1'))) :-
+test(unknown_agent_of_a_missing_process,
+     error(host_unreachable('127.0.0.1:1'))) :-
     with_hosts([alpha], agent_property('x.1@alpha@127.0.0.1:1', _)).
 test(no_id, error(existence_error(agent, foo))) :-
     with_hosts([alpha], agent_property(foo, _)).
@@ -1065,7 +1067,7 @@ test(deliver_what_is_not_attached,
 test(undeliver_what_is_not_there,
      true(F = [s(existence_error(payload, x))])) :-
     lives([(main :- catch(undeliver(x), error(E, _), assertz(s(E))))], F).
-test(which_payload_must_be_said,
+test(payload_must_be_bound,
      [ forall(member(Goal, [detach(X), deliver(X), undeliver(X)])),
        F == [s(instantiation_error)] ]) :-
     lives([(main :- catch(Goal, error(E, _), assertz(s(E))))], F).

@@ -68,7 +68,7 @@ gone(Agent) :-
 
 :- begin_tests(disposal).
 
-test(says_that_it_runs_on, Ms == [warning-typhon(runs_on(A, 0.1))]) :-
+test(running_agent_is_reported, Ms == [warning-typhon(runs_on(A, 0.1))]) :-
     with_settings([typhon_disposal:heed_seconds=0.1],
                   with_hosts([alpha],
                              ( start(loops, A),
@@ -177,7 +177,7 @@ test(on_a_host_with_turns, O == done) :-
 
 %   Others that are as busy, on the same host, go on, and end.
 
-test(nobody_else_is_disturbed, Os == [done,done,done]) :-
+test(other_agents_are_not_disturbed, Os == [done,done,done]) :-
     with_hosts([alpha],
                ( findall(B, ( member(_, [1,2,3]),
                               create([ (main :- count(2000000)),
@@ -205,12 +205,12 @@ test(result_given_before, X == 1) :-
                  wait_until(running_for(A, 0.02), 10),
                  agent_dispose(A, [force(0)]),
                  agent_result(A, X, 5) )).
-test(others_who_ask_are_told, true(E = existence_error(agent, _))) :-
+test(waiting_callers_get_the_outcome, true(E = existence_error(agent, _))) :-
     with_hosts([alpha], ( start(loops, A), clone_in_vain(A, E) )).
 
 %   A caller that has given up waiting is no reason not to answer the next.
 
-test(others_who_ask_later_are_told, true(E = existence_error(agent, _))) :-
+test(later_callers_get_the_outcome, true(E = existence_error(agent, _))) :-
     with_settings([typhon_disposal:heed_seconds=0.01],
                   with_hosts([alpha],
                              ( start(loops, A),
@@ -261,7 +261,7 @@ test(virtual_host_that_stops, O == done) :-
 
 %   B rests, and so ends first; A still runs, and speaks to him.
 
-test(what_is_said_in_vain_while_a_host_stops, Ms == []) :-
+test(no_false_warning_while_a_host_stops, Ms == []) :-
     setup_call_cleanup(
         message_queue_create(Queue, [alias(disposal_test)]),
         with_settings([typhon_hosting:stop_seconds=60],
@@ -329,7 +329,7 @@ test(warning, true(sub_string(All, _, _, _, "runs on"))) :-
 
 %   Its home would not answer.
 
-test(who_ends_while_all_are_looked_at_is_not_asked_for_elsewhere, Found == []) :-
+test(agent_that_ends_during_a_listing_is_not_queried_elsewhere, Found == []) :-
     with_peers([a, b],
                ( peer_host(b, B),
                  peer_do(a, agent_create(clauses([ (:- agent(r)),

@@ -250,7 +250,7 @@ test(resumed_after_a_fact, true(O-S == done-[s(2)])) :-
          facts(A, S),
          agent_resume(A),
          joined(A, O) )).
-test(resumed_before_its_home_has_heard, true(Os == [done])) :-
+test(resumed_before_its_home_has_the_news, true(Os == [done])) :-
     on([alpha,beta],
        ( findall(O,
                  ( between(1, 500, _),
@@ -280,7 +280,7 @@ test(fails_again_and_again, true(Os == [failed,failed,failed])) :-
        ( faulty([(main :- receive(_-x, 0), s(1))], A),
          findall(O, ( between(1, 3, _), agent_resume(A), joined(A, O) ),
                  Os) )).
-test(who_joins_after_it_was_resumed_waits, true(O1-O2 == timeout-done)) :-
+test(join_after_resume_waits, true(O1-O2 == timeout-done)) :-
     on([alpha],
        ( faulty([(main :- s(1), receive(_))], A),
          agent_change(A, facts([s(1)])),
@@ -335,25 +335,25 @@ test(mail_is_kept_for_it, true(M-O == [user-1,user-2]-done)) :-
          agent_change(A, facts([s(1)])),
          agent_resume(A),
          joined(A, O) )).
-test(of_mail_only_so_much, true(M-W == [user-1,user-2]-1)) :-
+test(mail_is_bounded, true(M-W == [user-1,user-2]-1)) :-
     with_settings([typhon_creation:faulty_mail=2],
         with_hosts([alpha],
                    listening(( faulty([(main :- s(1))], A),
                                maplist(agent_send(A), [1,2,3,4]),
                                agent_property(A, mailbox(M)) ), Told))),
     aggregate_all(count, member(_-typhon(mailbox_full(_, 2)), Told), W).
-test(it_takes_no_room, true(O == done)) :-
+test(it_takes_no_capacity, true(O == done)) :-
     on([alpha-[capacity(1)]],
        ( faulty([(main :- receive(_, 0))], _),
          create([main], B), joined(B, O) )).
-test(resume_who_is_not_faulty, error(permission_error(resume, agent, _))) :-
+test(resume_healthy_agent, error(permission_error(resume, agent, _))) :-
     on([alpha], ( create([on_message(_, _)], A),
                   wait_state(A, resident),
                   agent_resume(A) )).
-test(resume_who_runs, error(permission_error(resume, agent, _))) :-
+test(resume_running_agent, error(permission_error(resume, agent, _))) :-
     on([alpha], ( create([(main :- sleep(0.01), main)], A),
                   agent_resume(A) )).
-test(resume_nobody, error(existence_error(agent, foo))) :-
+test(resume_unknown_agent, error(existence_error(agent, foo))) :-
     on([alpha], agent_resume(foo)).
 test(change_to_nothing_known, error(domain_error(agent_change, age(3)))) :-
     on([alpha], ( create([on_message(_, _)], A), agent_change(A, age(3)) )).
@@ -365,7 +365,7 @@ test(changed_program_has_a_state_of_its_own,
     on([alpha], ( create([on_message(_, _), s(1)], A),
                   agent_change(A, program(clauses([ (:- agent(new)),
                                                     main, s(2) ]))) )).
-test(one_that_does_well_is_changed, true(F == [s(new),s(old)])) :-
+test(healthy_agent_is_changed, true(F == [s(new),s(old)])) :-
     on([alpha], ( create([s(old), on_message(_, x)], A),
                   agent_change(A, program(clauses(
                       [ (:- agent(new, [state([s/1])])),
@@ -386,7 +386,7 @@ test(goals_outlive_the_program_of_an_agent_that_waits,
                   agent_send(A, go),
                   wait_until(fact_of(A, s(2)), 10),
                   facts(A, F) )).
-test(an_order_that_came_before_the_end_is_obeyed, true(O == failed)) :-
+test(order_before_the_end_is_taken, true(O == failed)) :-
     on([alpha,beta],
        setup_call_cleanup(
            message_queue_create(Queue, [alias(queue_of_test)]),

@@ -22,7 +22,7 @@ bob(Agent, Options) :-
 
 :- begin_tests(names).
 
-test(a_name_that_one_agent_has_serves) :-
+test(unique_name_is_accepted) :-
     with_hosts([alpha, beta],
                ( bob(Id),
                  agent_send(bob, hello),
@@ -59,7 +59,7 @@ test(the_last_one_that_has_ended) :-
                  create([main], B, [name(bob)]), agent_join(B, _, 5),
                  agent_join(bob, Outcome, 5),
                  assertion(Outcome == done) )).
-test(a_name_that_two_have_tells_both) :-
+test(ambiguous_name_lists_both) :-
     with_hosts([alpha],
                ( bob(A), bob(B), bob(_, [name(bobby)]),
                  msort([A, B], Both),
@@ -73,7 +73,7 @@ test(a_name_that_two_have_tells_both) :-
                  agent_dispose(A),
                  agent_send(bob, only_b),
                  wait_until(fact_of(B, got(only_b)), 5) )).
-test(a_name_that_nobody_has,
+test(unknown_name,
      [ forall(member(Goal, [ agent_send(tim, x), agent_dispose(tim),
                              agent_join(tim, _, 1),
                              agent_property(tim, hops(_)) ])),
@@ -152,7 +152,7 @@ came_and_ended :-
     agent_join(ede, Outcome, 10),
     assertion(Outcome == done).
 
-test(order_to_an_agent_that_has_ended_says_so,
+test(order_to_an_ended_agent_reports_its_end,
      [ forall(member(Goal, [ agent_send(bob, x), agent_move(bob, alpha),
                              agent_dispose(bob),
                              agent_property(bob, hops(_)) ])) ]) :-

@@ -48,7 +48,7 @@ test(pattern, X == 2) :-
     virtually(( create([(main :- result(p(1,2)))], A),
                 agent_result(A, p(1,X), 10),
                 \+ agent_result(A, p(2,_), 10) )).
-test(as_often_as_one_asks, Xs == [1,1]) :-
+test(repeatedly, Xs == [1,1]) :-
     virtually(( create([(main :- result(1))], A),
                 findall(X, ( member(_, [a,b]), agent_result(A, X, 10) ),
                         Xs) )).
@@ -93,7 +93,7 @@ test(no_such_agent, error(existence_error(agent, 'x.1@alpha@127.0.0.1:1'))) :-
                       throw(error(existence_error(agent,
                                   'x.1@alpha@127.0.0.1:1'), _))) )).
 test(clones_give_their_own, Xs == [parent,none]) :-
-    virtually(( create([ (main :- result(parent), clone(Who), go(Who)),
+    virtually(( create([ (main :- result(parent), clone(Branch), go(Branch)),
                          go(parent(_)), go(clone(_)) ], A),
                 agent_join(family(A), [A-done,B-done], 10),
                 findall(X, ( member(C, [A,B]),

@@ -64,7 +64,7 @@ bad(mail([hello]), Id, type_error(agent_image, Id)).
 bad(goals(main), Id, type_error(agent_image, Id)).
 bad(since(long_ago), Id, type_error(agent_image, Id)).
 bad(life(young), Id, type_error(agent_image, Id)).
-bad(id(nobody), _, type_error(agent_image, nobody)).
+bad(id(unknown), _, type_error(agent_image, unknown)).
 bad(id(Id), _, type_error(agent_image, Id)) :-
     member(Char, ['\e', '\n', '\000\', '\u202e']),
     atomic_list_concat([a, Char, '.x.0@far@127.0.0.1:1'], Id).

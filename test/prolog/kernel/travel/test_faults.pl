@@ -27,7 +27,7 @@ test(order_to_end_follows) :-
     with_doubt([a, b], disposed_then_back).
 test(clone_in_doubt) :-
     with_doubt([a, b], clone_then_back).
-test(end_is_heard_before_the_answer,
+test(end_arrives_before_the_answer,
      true(Outcome = raised(error(existence_error(agent, _), _)))) :-
     with_peers([a, b], ended_first(Outcome)).
 
@@ -126,9 +126,11 @@ test(agent_goes_on_at_its_source, forall(born(Born))) :-
     with_doubt([a, b, c], restarted(Born)).
 test(agent_that_got_away_is_not_doubled) :-
     with_doubt([a, b, c], got_away).
-test(nor_when_its_home_died_too, forall(home_of_lost(Home))) :-
+test(agent_that_got_away_is_not_doubled_if_its_home_died_too,
+     forall(home_of_lost(Home))) :-
     with_doubt([a, b, c, d], got_away_from(Home)).
-test(nor_when_it_has_ended_since, forall(home_of_lost(Home))) :-
+test(agent_that_got_away_is_not_doubled_if_it_has_ended,
+     forall(home_of_lost(Home))) :-
     with_doubt([a, b, c, d], got_away_and_ended(Home)).
 test(move_to_a_dead_host_raises) :-
     with_peers([a, b], dead_host).
@@ -233,7 +235,7 @@ dead_host :-
 
 :- begin_tests(departing).
 
-test(who_is_disposed_of_does_not_go_on) :-
+test(disposed_agent_does_not_continue) :-
     with_peers([ a-[host([hop_time(uniform(0.005, 0.01))])], b ],
                disposed_while_leaving(60)).
 
@@ -350,9 +352,9 @@ accounted_for(Id) :-
 
 :- begin_tests(strangers).
 
-test(disturb_nobody, forall(stranger(Stranger))) :-
+test(do_not_disturb_others, forall(stranger(Stranger))) :-
     with_peers([a, b], visited_by(Stranger)).
-test(silent_ones_do_not_block) :-
+test(silent_processes_do_not_block) :-
     with_peers([a, b], visited_by_silence).
 
 :- end_tests(strangers).

@@ -64,7 +64,7 @@ hosts_stop(Ids) :-
 
 :- begin_tests(guests).
 
-test(keep_nobody, forall(burden(Kind, _))) :-
+test(keep_no_process_alive, forall(burden(Kind, _))) :-
     with_guests(Kind, 4, others_travel).
 test(end_with_their_host, forall(burden(Kind, _))) :-
     with_guests(Kind, 4, hosts_stop).

@@ -188,8 +188,8 @@ test(by_an_unknown_host) :-
                  sub_atom(B, Before, _, After, '@'),
                  sub_atom(B, _, After, 0, Endpoint),
                  Before > 0,
-                 atom_concat('nobody@', Endpoint, Nobody),
-                 refused_at(Nobody, unknown_host, []) )).
+                 atom_concat('missing@', Endpoint, Missing),
+                 refused_at(Missing, unknown_host, []) )).
 test(two_that_change_places) :-
     with_peers([ a-[host([capacity(1)])],
                  b-[host([capacity(1)])],

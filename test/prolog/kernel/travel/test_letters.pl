@@ -18,13 +18,13 @@ live.  When it does not, that is said where the message was sent.
 
 test(mail_waits_for_its_way) :-
     with_cut(waits_for_way).
-test(mail_in_order_behind_what_waits) :-
+test(mail_in_order_behind_waiting_mail) :-
     with_cut(waits_in_order).
-test(mail_in_order_behind_what_was_tried_in_vain) :-
+test(mail_in_order_behind_failed_attempts) :-
     with_cut(waits_behind_tried).
 test(mail_in_order_where_the_agent_comes_to_it) :-
     with_cut(waits_where_it_comes).
-test(told_to_the_sender_when_the_process_is_dead) :-
+test(reported_to_the_sender_when_the_process_is_dead) :-
     with_peers([a, b, c], told_when_dead).
 
 :- end_tests(unreachable_process).

@@ -80,7 +80,7 @@ test(any_term, true(F =@= [s(f(X,X,_,"text",1.5,[a|b],7777777777777777777777))])
 test(what_cannot_travel, error(type_error(mobile_term, _))) :-
     with_hosts([alpha],
                ( collector(A, []), current_output(S), agent_send(A, S) )).
-test(to_nobody, error(existence_error(agent, foo))) :-
+test(to_unknown_agent, error(existence_error(agent, foo))) :-
     with_hosts([alpha], agent_send(foo, hello)).
 test(to_an_unbound, error(instantiation_error)) :-
     with_hosts([alpha], agent_send(_, hello)).
@@ -93,19 +93,19 @@ test(to_a_faulty_one_is_kept, true(M == [user-hello])) :-
                            joined(A, _),
                            agent_send(A, hello),
                            agent_property(A, mailbox(M)) ), _)).
-test(to_nobody_from_an_agent,
+test(to_unknown_agent_from_an_agent,
      true(O-M = done-[warning-typhon(undeliverable(_, foo, _, hello))])) :-
     with_hosts([alpha],
                listening(( create([(main :- send(foo, hello))], A),
                            joined(A, O) ), M)).
-test(to_who_is_outside,
+test(to_the_user,
      true(M = [informational-typhon(told(_, hello))])) :-
     with_hosts([alpha],
                listening(( create([(main :- send(user, hello))], A),
                            joined(A, done) ), M)).
-test(to_an_address_where_nobody_is, error(host_unreachable('127.0.0.1:1'))) :-
+test(to_an_address_without_a_process, error(host_unreachable('127.0.0.1:1'))) :-
     with_hosts([alpha], agent_send('x.1.2@gamma@127.0.0.1:1', hello)).
-test(from_elsewhere_to_a_process_never_met_is_not_kept_for_ever,
+test(message_for_a_process_never_reached_is_dropped_at_last,
      true(M = [warning-typhon(undeliverable(_, Id, x, hello))])) :-
     Id = 'x.1.2@gamma@127.0.0.1:none',
     with_hosts([alpha],

@@ -126,19 +126,19 @@ act(hurry) :-
 test(the_newest, Kept == [News2]) :-
     at(1, News1), at(2, News2),
     told([News1, News2], Kept).
-test(whatever_is_told_last, Kept == [News2]) :-
+test(newest_news_counts_in_any_order, Kept == [News2]) :-
     at(1, News1), at(2, News2),
     told([News2, News1], Kept).
 test(an_end, Kept == [End]) :-
     at(2, News), end(2, End),
     told([News, End], Kept).
-test(an_end_that_is_told_first, Kept == [End]) :-
+test(end_that_arrives_first, Kept == [End]) :-
     at(2, News), end(2, End),
     told([End, News], Kept).
-test(an_end_told_while_the_courier_is_away, Kept == [End]) :-
+test(end_queued_while_the_courier_is_away, Kept == [End]) :-
     at(2, News), end(2, End),
     told_under_way(News, End, Kept).
-test(an_end_the_courier_has_with_it, Kept == [End]) :-
+test(end_carried_by_the_courier, Kept == [End]) :-
     at(2, News), end(2, End),
     told_under_way(End, News, Kept).
 test(a_copy_given_up_in_doubt, Kept == [News]) :-
@@ -147,13 +147,13 @@ test(a_copy_given_up_in_doubt, Kept == [News]) :-
 test(places_go_together_after_a_pause, Posts == [10]) :-
     findall(tell(I, News), ( between(1, 10, I), at(I, News) ), Acts),
     sent_with_pause(0.3, Acts, Posts).
-test(an_end_does_not_wait_and_takes_along_what_does, Posts == [2]) :-
+test(end_is_sent_at_once_with_all_waiting_news, Posts == [2]) :-
     at(1, News), end(1, End),
     sent_with_pause(60, [tell(x, News), tell(y, End)], Posts).
-test(what_waits_is_sent_when_it_has_to_be, Posts == [1]) :-
+test(waiting_news_are_sent_on_demand, Posts == [1]) :-
     at(1, News),
     sent_with_pause(60, [tell(x, News), hurry], Posts).
-test(in_the_hands_of_one_who_is_slower_than_the_end_of_the_process) :-
+test(news_of_a_slow_courier_at_the_end_of_the_process) :-
     with_peers([a, b], last_news).
 
 :- end_tests(news).

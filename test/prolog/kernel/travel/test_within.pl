@@ -34,7 +34,7 @@ test(it_stands_nowhere_else, true(Loads-In-Out == [0,1]-1-1)) :-
                  maplist(load, [alpha,beta], Loads),
                  host_property(beta, hop_time(in, stats(In, _, _, _))),
                  host_property(alpha, hop_time(out, stats(Out, _, _, _))) )).
-test(refused_it_takes_no_room, true(Loads == [1,0])) :-
+test(refused_agent_takes_no_capacity, true(Loads == [1,0])) :-
     with_hosts([alpha,beta-[tokens([red])]],
                ( create([(main :- catch(move(beta), _, true)),
                          on_message(_, _)], A),
@@ -75,7 +75,7 @@ test(services_are_those_of_the_new_place, true(F == [s(a),s(b)])) :-
                  include([s(_)]>>true, F0, F) )).
 test(what_a_place_holds_is_not_the_agents, true(At == beta)) :-
     with_tmp_dir(device(At)).
-test(it_never_seems_not_to_have_come, true(Answer == answer(true))) :-
+test(arrival_is_visible_at_once, true(Answer == answer(true))) :-
     with_hosts([alpha,beta],
                ( create([(main :- move(beta)), on_message(_, _)], A),
                  wait_state(A, resident),
@@ -88,7 +88,7 @@ test(what_does_not_travel_stays_behind, true(F == [s(gone)])) :-
                           on_message(_, _) ], A),
                  wait_state(A, resident),
                  agent_property(A, facts(F)) )).
-test(an_order_that_cannot_be_obeyed, true(At-Ended == alpha-disposed)) :-
+test(order_that_cannot_be_executed, true(At-Ended == alpha-disposed)) :-
     with_hosts([alpha-[hop_time(uniform(0.01, 0.02))],beta],
                ( create([ (main :- current_output(S), assertz(s(S))),
                           on_message(_, _) ], A),

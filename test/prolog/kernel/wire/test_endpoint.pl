@@ -229,7 +229,7 @@ test(too_long_for_a_frame, error(resource_error(frame_bytes))) :-
 
 :- end_tests(two_processes_talk).
 
-:- begin_tests(nobody_there).
+:- begin_tests(no_peer_there).
 
 test(refused, error(unreachable('127.0.0.1:1'))) :-
     with_endpoint(endpoint_post('127.0.0.1:1', note, x)).
@@ -253,7 +253,7 @@ test(twice, error(permission_error(start, endpoint, _))) :-
 %   a peer begins to listen: later callers get the result of a later attempt.  The
 %   caller that waits must not give up before the process of the peer has started.
 
-test(who_asks_since_hears_of_a_later_attempt,
+test(later_request_gets_the_result_of_a_later_attempt,
      [First,Then,Answer] == [unreachable,posted,answer(x)]) :-
     free_port(Port),
     atomic_list_concat(['127.0.0.1', Port], :, A),
@@ -271,7 +271,7 @@ test(who_asks_since_hears_of_a_later_attempt,
                       posted(T2, Then),
                       thread_get_message(Me, Answer, [timeout(20)]) ))))).
 
-:- end_tests(nobody_there).
+:- end_tests(no_peer_there).
 
 :- begin_tests(every_frame_once_over_breaking_connections).
 
@@ -305,7 +305,7 @@ test(half_open, [Notes == [1, 2]]) :-
                       proxy_release(Proxy, up),
                       endpoint_flush(10) )),
               ask(A, notes, x, Notes) ))).
-test(flush_says_when_not, fail) :-
+test(flush_fails_if_not_acknowledged, fail) :-
     with_proxied_peer(Proxy, A,
         ( post_notes(A, 1, 1),
           endpoint_flush(5),
@@ -334,7 +334,7 @@ test(both_connect_at_once) :-
 %   The old connection is no more, the new one has yet to begin: that is ours,
 %   as nothing is on its way from the peer.
 
-test(what_is_posted_by_some_time_waits_for_the_next_connection,
+test(post_before_its_deadline_waits_for_the_next_connection,
      [Up,Last,Notes] == [false,true,[0,1]]) :-
     with_endpoint(with_peer(A,
         ( endpoint_post(A, note, 0),
@@ -359,7 +359,7 @@ truth(Goal, Truth) :-
 
 %   The keeper has it in hand: it is done with it when it answers.
 
-test(who_gives_up_while_it_is_sent_leaves_nothing_open, Open == 0) :-
+test(caller_that_gives_up_during_a_send_leaves_nothing_open, Open == 0) :-
     with_endpoint(with_peer(A,
         ( with_held(
               typhon_request:request_send(_, _, _, _),
@@ -377,7 +377,7 @@ gives_up(Address) :-
 %   Another thread may have a connection with the peer already, or it cannot be
 %   written to: the thread that has installed it is ended in that moment.
 
-test(told_of_a_connection_whatever_becomes_of_its_thread) :-
+test(connection_is_reported_even_if_its_thread_ends) :-
     with_endpoint(with_peer(A,
         ( wrap_predicate(typhon_resumption:session_install(_, _, _, _),
                          told_to_end, Wrapped,
@@ -560,14 +560,14 @@ test(request_is_lost, error(connection_lost(_))) :-
                     ( thread_get_message(Me, Result, [timeout(20)]),
                       assertion(Result == lost) )),
           throw(error(connection_lost(A), _)) ))).
-test(then_nobody_is_there, error(unreachable(_))) :-
+test(then_no_process_is_there, error(unreachable(_))) :-
     with_endpoint(with_peer(0, Pid, A,
         ( ask(A, echo, x, x),
           process_kill(Pid, kill),
           process_wait(Pid, _),
           wait_until(endpoint_peer(A, state(down)), 5),
           endpoint_post(A, note, x) ))).
-test(its_successor_hears_nothing_old, Notes == [new]) :-
+test(successor_gets_no_old_messages, Notes == [new]) :-
     free_port(Port),
     with_endpoint(with_peer(Port, Pid, A,
         ( ask(A, echo, x, x),
@@ -579,7 +579,7 @@ test(its_successor_hears_nothing_old, Notes == [new]) :-
           with_peer(Port, _, A,
                     ( endpoint_post(A, note, new),
                       ask(A, notes, x, Notes) )) ))).
-test(who_waits_for_what_it_had_not_got_goes_on, Result == true) :-
+test(caller_of_an_undelivered_request_continues, Result == true) :-
     free_port(Port),
     with_endpoint(with_peer(Port, Pid, A,
         ( ask(A, echo, x, x),
@@ -599,7 +599,7 @@ test(who_waits_for_what_it_had_not_got_goes_on, Result == true) :-
                       ;   Result = late
                       ),
                       thread_join(Thread, _) )) ))).
-test(it_says_goodbye, Result == lost) :-
+test(goodbye_is_sent, Result == lost) :-
     with_endpoint(with_peer_in(In, A,
         ( thread_self(Me),
           ask(A, echo, x, x),
@@ -609,7 +609,7 @@ test(it_says_goodbye, Result == lost) :-
           flush_output(In),
           thread_get_message(Me, Result, [timeout(20)]) ))).
 
-test(is_gone_when_nobody_listens, Before-After == false-true) :-
+test(is_gone_when_no_process_listens, Before-After == false-true) :-
     with_endpoint(with_peer(0, Pid, A,
         ( ask(A, echo, x, x),
           gone(A, Before),
@@ -618,7 +618,7 @@ test(is_gone_when_nobody_listens, Before-After == false-true) :-
           wait_until(endpoint_peer(A, state(down)), 5),
           catch(endpoint_post(A, note, x), error(unreachable(_), _), true),
           gone(A, After) ))).
-test(is_gone_when_it_said_goodbye) :-
+test(is_gone_after_goodbye) :-
     with_endpoint(with_peer_in(In, A,
         ( ask(A, echo, x, x),
           format(In, "end.~n", []),
@@ -634,7 +634,7 @@ test(is_not_gone_when_stopped, State-Gone == down-false) :-
               endpoint_peer(A, state(State)),
               gone(A, Gone),
               process_kill(Pid, cont) )))).
-test(somebody_is_there_again, Process == New) :-
+test(another_process_is_there_again, Process == New) :-
     free_port(Port),
     with_endpoint(with_peer(Port, Pid, A,
         ( ask(A, echo, x, x),

@@ -145,7 +145,7 @@ test(the_rest_can, [forall(special(Term))]) :-
    directory_file_path(Dir, '../../../lib/atoms_collected.pl', File),
    assertz(readers(File)).
 
-test(large_terms_with_atoms_that_nobody_else_has, Said-Status == "well\n"-exit(0)) :-
+test(large_terms_with_atoms_of_no_other_use, Said-Status == "well\n"-exit(0)) :-
     readers(File),
     current_prolog_flag(executable, Swipl),
     setup_call_cleanup(

@@ -109,13 +109,13 @@ gone(Thread) :-
 
 :- begin_tests(lending, [cleanup(no_threads_left)]).
 
-test(by_who_has_read_it, T1 == T2) :-
+test(by_the_thread_that_read_it, T1 == T2) :-
     alone(Me, ( post(Me, quick(1)),
                 wait_until(ran(quick(1)), 5) )),
     hook(quick(1), T1),
     run(quick(1), here, T2).
 
-test(by_others_where_nobody_reads, How == later) :-
+test(by_others_where_no_thread_reads, How == later) :-
     alone(_, endpoint_afterwards(go(quick(1)))),
     run(quick(1), How, _).
 
@@ -131,7 +131,7 @@ test(each_once_in_order, Ran == All) :-
     ;   Ran = Ran0
     ).
 
-test(who_waits_does_not_keep_others, [Words == All]) :-
+test(waiting_agent_does_not_block_others, [Words == All]) :-
     numlist(1, 50, All),
     with_queue(Queue,
                alone(Me, ( post(Me, waits(Queue, 1)),
@@ -188,7 +188,7 @@ test(endpoint_stops_while_one_waits, true(Seconds < 20)) :-
 
 %   What was open when the endpoint stopped is not open in the next one.
 
-test(who_waits_is_missed_after_a_stop, true(ran(meanwhile))) :-
+test(waiting_agent_is_handed_over_after_a_stop, true(ran(meanwhile))) :-
     with_queue(Queue,
                ( alone(Me1, ( post(Me1, waits(Queue, 1)),
                               wait_until(ran(waits(_, 1)), 5) )),

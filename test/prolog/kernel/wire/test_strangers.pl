@@ -97,20 +97,20 @@ newcomer(I, Seconds) :-
 slots(Count) :-
     aggregate_all(count, typhon_acceptor:stranger(_, _, _, _), Count).
 
-:- begin_tests(silent_strangers_lock_nobody_out).
+:- begin_tests(silent_clients_lock_no_peer_out).
 
-test(newcomers_get_in, [forall(member(Slots-Silent, [32-32, 32-200,
-                                                     128-200]))]) :-
+test(newcomers_are_accepted, [forall(member(Slots-Silent, [32-32, 32-200,
+                                                           128-200]))]) :-
     no_leaks(with_endpoint(patiently(
         with_settings([typhon_acceptor:strangers=Slots], crowded(Silent))))).
-test(newcomers_get_in_at_once) :-
+test(newcomers_are_accepted_at_once) :-
     with_endpoint(patiently(with_settings([typhon_acceptor:strangers=16],
         with_silent(16, _,
             ( wait_until(silent(16), 30),
               numlist(1, 6, Newcomers),
               concurrent_maplist(newcomer, Newcomers, Times),
               maplist(soon, Times) ))))).
-test(who_talks_stays) :-
+test(talking_client_stays) :-
     with_endpoint(patiently(with_settings([typhon_acceptor:strangers=4],
         with_silent(4, [Talker|_],
             ( say("ty", Talker),
@@ -138,9 +138,9 @@ crowded(Silent) :-
           maplist(soon, Times) )),
     wait_until(slots(0), 30).
 
-:- end_tests(silent_strangers_lock_nobody_out).
+:- end_tests(silent_clients_lock_no_peer_out).
 
-:- begin_tests(who_goes_first, [cleanup(forget_all)]).
+:- begin_tests(order_of_eviction, [cleanup(forget_all)]).
 
 test(of_the_address_with_most, V == c) :-
     slots([a-x-1-silent, b-x-2-heard, c-y-3-silent, d-y-4-silent,
@@ -149,7 +149,7 @@ test(the_silent_one, V == b) :-
     slots([a-x-1-heard, b-x-2-silent, c-x-3-silent], [], V).
 test(the_oldest, V == b) :-
     slots([a-x-2-heard, b-x-1-heard], [], V).
-test(not_where_somebody_proved_himself, V == d) :-
+test(not_of_an_address_with_an_authenticated_peer, V == d) :-
     slots([a-x-1-silent, b-x-2-silent, c-x-3-silent, d-y-4-heard], [x], V).
 test(addresses_are_bounded, Count == 256) :-
     forget_all,
@@ -168,7 +168,7 @@ forget_all :-
     retractall(typhon_acceptor:stranger(_, _, _, _)),
     retractall(typhon_acceptor:proved(_)).
 
-:- end_tests(who_goes_first).
+:- end_tests(order_of_eviction).
 
 :- begin_tests(no_slot_is_lost).
 
@@ -209,7 +209,7 @@ dies(I) :-
 
 :- end_tests(no_slot_is_lost).
 
-:- begin_tests(strangers_are_told_of).
+:- begin_tests(refused_clients_are_reported).
 
 test(few_lines_all_counted, Sum == 500) :-
     get_time(T0),
@@ -229,11 +229,11 @@ test(once_also_where_a_slot_is_taken, Sum == 50) :-
                                                  30) ))),
         unwrap_predicate(typhon_refusals:refused/2, slow)),
     noted_so_far(Sum).
-test(told_at_the_end, Sum == 20) :-
+test(reported_at_the_end, Sum == 20) :-
     with_endpoint(( forall(between(1, 20, _), shouts("\n")),
                     wait_until(noted(20), 30) )),
     counted(Sum).
-test(told_of_those_at_the_very_end, Sum == 20) :-
+test(last_refusals_are_reported, Sum == 20) :-
     setup_call_cleanup(
         wrap_predicate(typhon_threads:wire_threads_end, last, End,
                        ( End,
@@ -267,4 +267,4 @@ noted_so_far(Sum) :-
     sum_list(Counts, More),
     Sum is Told+More.
 
-:- end_tests(strangers_are_told_of).
+:- end_tests(refused_clients_are_reported).

@@ -123,10 +123,10 @@ with_late_callers(Goal) :-
 
 :- public wait_if_called/2.
 
-wait_if_called(Role, Who) :-
+wait_if_called(Role, Waiter) :-
     (   functor(Role, server, _)
     ->  thread_self(Me),
-        thread_send_message(Who, called(Me)),
+        thread_send_message(Waiter, called(Me)),
         thread_get_message(Me, go, [timeout(20)])
     ;   true
     ).
@@ -145,7 +145,7 @@ test(two_connect_to_each_other, Late == []) :-
 test(of_two_connections_begun_together_the_first_stays, Kept == true) :-
     as_process('0000000000000000',
         with_endpoint(with_peers(1, [A], with_late_callers(second(A, Kept))))).
-test(who_is_offered_a_connection_takes_it) :-
+test(offered_connection_is_accepted) :-
     as_process(ffffffffffffffff,
         with_endpoint(with_peers(1, [A],
             setup_call_cleanup(
@@ -161,7 +161,7 @@ test(sixteen_connect_to_all, Missed == []) :-
                        thread_get_message(reached(Answer)),
                        Answer \= answer([]),
                        M = Answer ), Missed) ))).
-test(a_place_at_the_door_comes_free, Outcome = outcome(ok, _)) :-
+test(slot_of_an_unproved_client_comes_free, Outcome = outcome(ok, _)) :-
     retractall(test_wire:place_wanted),
     with_settings([typhon_acceptor:strangers=1],
         with_endpoint(with_peers(1, [A],
@@ -176,12 +176,12 @@ test(a_place_at_the_door_comes_free, Outcome = outcome(ok, _)) :-
                   ),
                   close(Stranger, [force(true)])),
               read(Out, Outcome) )))).
-test(nobody_is_there, Answers == Expected) :-
+test(no_process_is_there, Answers == Expected) :-
     numlist(1, 300, Numbers),
     maplist([_, unreachable]>>true, Numbers, Expected),
     with_endpoint(( send_all('127.0.0.1:1', Numbers),
                     maplist(answered, Numbers, Answers) )).
-test(a_wrong_cookie_is_told_at_once) :-
+test(a_wrong_cookie_is_reported_at_once) :-
     project_file('prolog/typhon/kernel/wire', File),
     with_endpoint(( endpoint_address(A),
                     format(atom(Goal),
@@ -430,7 +430,7 @@ test(answer_to_one_that_was_cut_off_meanwhile, Answer == answer(x)) :-
               endpoint_request(A, later, x, thread_send_message(Me)),
               proxy_cut(Proxy),
               thread_get_message(Me, Answer, [timeout(20)]) )))).
-test(nobody_waits_for_a_late_answer, Open == 0) :-
+test(late_answer_is_dropped, Open == 0) :-
     with_endpoint(with_peers(1, [A],
         ( catch(endpoint_call(A, never, x, _, 0.2),
                 error(timeout_error(_, _), _), true),

@@ -44,15 +44,15 @@ test(an_agent_does_what_agents_do,
                              findall(F, sense(F), Fs), host_load(_),
                              assertz(s(1)), sleep(0.01), assertz(s(2)),
                              aggregate_all(count, s(_), Seen),
-                             take(f(X)), clone(Who), talk(Who, M),
+                             take(f(X)), clone(Branch), talk(Branch, M),
                              result(r(Me, H, B, N, [H|Ns], Fs, Seen, f(X), M))),
                     (talk(parent(_), got(Me, M)) :- self(Me), receive(_-M)),
                     (talk(clone(P), _) :- send(P, clone), dispose) ], Result),
            arg(1, Result, Id) )).
 test(a_parent_is_known, Parent == Id) :-
-    cell(( create([ (main :- clone(Who), tell(Who)),
-                    (tell(parent(C)) :- send(C, who), receive(_-P), result(P)),
-                    (tell(clone(P)) :- receive(_-who), parent(Q), send(P, Q)) ],
+    cell(( create([ (main :- clone(Branch), tell(Branch)),
+                    (tell(parent(C)) :- send(C, above), receive(_-P), result(P)),
+                    (tell(clone(P)) :- receive(_-above), parent(Q), send(P, Q)) ],
                   Id, [host(c)]),
            agent_result(Id, Parent, 30) )).
 test(messages_are_handled, Said == [hello(1),hello(2)]) :-
@@ -105,7 +105,7 @@ test(rules_hold_in_the_cell,
 test(rules_refuse_at_the_gate,
      error(move_refused(_, policy(shell(ls))))) :-
     cell(create([(main :- shell(ls))], _, [host(c)])).
-test(faults_are_told_where_they_were,
+test(faults_have_their_position,
      Outcome-Place = raised(error(instantiation_error, _))-(foo/1:1)) :-
     cell(( create([ (main :- foo(X), result(X)),
                     (foo(X) :- atom_length(_, X)) ], A, [host(c)]),
@@ -204,9 +204,9 @@ test(a_supervisor_starts_its_children_again, [Outcome,Last] == [done,disposed]) 
                                      ; sleep(0.02), child(S1, A) )) ], S, B),
                        agent_join(S, Outcome, 30),
                        agent_join(B, Last, 30) ), _) )).
-test(the_gatekeeper_is_asked_for_each_word, Own == [clone/1,clone/2,deliver/1,
-                                                    dispose/0,move/1,receive/1,
-                                                    receive/2,undeliver/1]) :-
+test(the_gatekeeper_checks_each_predicate, Own == [clone/1,clone/2,deliver/1,
+                                                   dispose/0,move/1,receive/1,
+                                                   receive/2,undeliver/1]) :-
     findall(PI, ( vocabulary_word(_, PI), \+ cell_word(_, PI) ), PIs),
     sort(PIs, Own).
 

@@ -310,12 +310,12 @@ test(services_cannot_be_changed_or_read, Rs == [[],[],[],[x],[x]]-[1,2]) :-
     with_tmp_dir(changes_of_services(Rs)).
 test(rules_in_a_file, Os == [done,refused]) :-
     with_tmp_dir(by_rules(Os)).
-test(says_beforehand, Ms = [_]) :-
+test(check_reports_refusals_beforehand, Ms = [_]) :-
     listening(\+ agent_check(clauses([(:- agent(x, [])), (main :- halt)]),
                              [policy(guarded)]),
               Ms0),
     findall(W, member(error-typhon(not_let_in(W, _)), Ms0), Ms).
-test(check_of_what_would_be_let_in) :-
+test(check_of_admissible_programs) :-
     listening(agent_check(clauses([(:- agent(x, [])), (main :- self(_))]),
                           [policy(guarded)]),
               _).
@@ -466,8 +466,8 @@ test(results_without_end, true(memberchk(What, [seconds, stack]))) :-
     Outcome = raised(error(resource_error(What), _)).
 %   Nothing that it does when it has caught an interrupt keeps it there.
 
-test(who_catches_its_end_ends_at_once, [ forall(stays(Clauses)),
-                                         true(Seconds < 3) ]) :-
+test(agent_that_catches_its_end_ends_at_once, [ forall(stays(Clauses)),
+                                                true(Seconds < 3) ]) :-
     quota_of(seconds, Quotas),
     get_time(T0),
     with_hosts([g-[policy(guarded), cell(none), quota(Quotas)]],
@@ -480,7 +480,7 @@ test(who_catches_its_end_ends_at_once, [ forall(stays(Clauses)),
 %   process if it came to that.
 %   Its limit is four times the quota: more than it fills between two looks.
 
-test(nobody_comes_to_the_brim_of_its_stack,
+test(no_agent_fills_its_stack,
      [ forall(brim(Clauses)), setup(stack_limit(Old, 60 000 000)),
        cleanup(set_prolog_flag(stack_limit, Old)),
        Outcome = raised(error(resource_error(stack), _)) ]) :-

@@ -98,7 +98,7 @@ changed_program(Authority, _) :-
     assertion(Before == done),
     assertion(subsumes_term(refused(move_refused(_, unsigned)), After)).
 
-test(a_host_is_no_author_and_who_is_revoked_neither) :-
+test(hosts_and_revoked_authors_cannot_sign) :-
     with_authority([alpha], [alice], no_author).
 
 no_author(Authority) :-

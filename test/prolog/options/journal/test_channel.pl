@@ -183,7 +183,7 @@ sent_nowhere(Id) :-
     nb_getval(channel_pid, Pid),
     remote(Beta, true),
     atom_concat(beta, Place, Beta),
-    atom_concat(nobody, Place, Nowhere),
+    atom_concat(missing, Place, Nowhere),
     noting_entries,
     stop_process(Pid),
     agent_move(Id, Nowhere),

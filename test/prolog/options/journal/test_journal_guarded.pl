@@ -78,9 +78,9 @@ stands(Agent, Host, State) :-
 
 :- begin_tests(journal_guarded).
 
-test(who_had_it_is_known_though_they_died_meanwhile) :-
+test(trail_survives_the_death_of_its_hosts) :-
     no_leaks(with_three(test_journal_guarded:killed)).
-test(who_is_not_let_in_any_more_stays_in_the_journal_as_a_whole) :-
+test(agent_that_is_refused_at_restart_stays_in_the_journal) :-
     with_tmp_dir(refused_later).
 
 :- end_tests(journal_guarded).

@@ -194,7 +194,7 @@ test(what_it_cannot_solve_is_no_trail, First == e) :-
            reaches(d, flood),
            unlink(c, d),
            follow(d, fire, [d, First|_]) )).
-test(what_is_asked_for_must_be_solved_whole, Found == []) :-
+test(problem_must_be_subsumed_as_a_whole, Found == []) :-
     line([a, b],
          ( emit(a, fire(1)),
            reaches(b, fire(_)),

@@ -45,7 +45,7 @@ test(what_is_passed_cannot_be_passed_again_and_again, O == messages) :-
 
 %   In a probe it could not be ended in time.
 
-test(goals_that_somebody_wants_to_see, O == messages) :-
+test(traced_goals, O == messages) :-
     with_hosts([g-[quota([messages(20)])]],
                listening(( create([ (main :- receive(_),
                                              forall(between(1, 50, _), say)),
@@ -58,7 +58,7 @@ test(goals_that_somebody_wants_to_see, O == messages) :-
 test(what_people_log_is_not_counted) :-
     with_hosts([g-[quota([log(2)])]],
                listening(remote(g, forall(between(1, 5, X), log(X))), _)).
-test(nobody_steps, error(permission_error(step, agent, _))) :-
+test(agents_cannot_be_stepped, error(permission_error(step, agent, _))) :-
     with_hosts([g-[quota([messages(20)])]],
                ( create([ (main :- receive(_)) ], A, [host(g)]),
                  wait_state(A, waiting),
@@ -66,7 +66,7 @@ test(nobody_steps, error(permission_error(step, agent, _))) :-
 
 %   It runs where another one has ended so, on a host without quotas.
 
-test(what_another_one_passed, Told == []) :-
+test(quota_passed_by_another_agent, Told == []) :-
     with_hosts([g-[quota([messages(5)])], t],
                listening(( talker(10, Talker),
                            created([host(g)], 8, Talker, As),
@@ -121,18 +121,18 @@ test(state_where_it_comes_later, O == state) :-
 
 :- begin_tests(lifetime).
 
-test(who_waits_for_ever, O-T == lifetime-100.0) :-
+test(agent_that_waits_for_ever, O-T == lifetime-100.0) :-
     with_hosts([g-[clock(virtual), quota([lifetime(100)])]],
                listening(( create([ (main :- receive(_)) ], A, [host(g)]),
                            agent_join(A, Outcome, 1000),
                            host_time_of(g, T) ), _)),
     over(O, Outcome).
-test(who_sleeps_without_end, O == lifetime) :-
+test(agent_that_sleeps_without_end, O == lifetime) :-
     with_hosts([g-[clock(virtual), quota([lifetime(100)])]],
                listening(( create([ (main :- sleep(7), main) ], A, [host(g)]),
                            agent_join(A, Outcome, 1000) ), _)),
     over(O, Outcome).
-test(who_runs, O == lifetime) :-
+test(running_agent, O == lifetime) :-
     with_hosts([g-[quota([lifetime(0.3)])]],
                listening(( create([ (main :- lp), (lp :- lp) ], A, [host(g)]),
                            joined(A, Outcome) ), _)),
@@ -143,13 +143,13 @@ test(begins_anew_where_it_comes_again, R == 10) :-
                           (lap(N) :- sleep(8), move(t), move(g), M is N-1,
                                      lap(M)) ], A, [host(g)]),
                  agent_result(A, R, 1000) )).
-test(counts_for_who_stands_there_when_it_is_changed, O == lifetime) :-
+test(change_counts_for_present_agents, O == lifetime) :-
     with_hosts([g],
                listening(( create([on_message(_, _)], A, [host(g)]),
                            host_change(g, quota([lifetime(0.2)])),
                            joined(A, Outcome) ), _)),
     over(O, Outcome).
-test(nobody_is_ended_where_it_is_lifted, State == resident) :-
+test(no_agent_is_ended_after_the_quota_is_lifted, State == resident) :-
     with_hosts([g-[clock(virtual), quota([lifetime(5)])]],
                ( create([on_message(_, _)], A, [host(g)]),
                  host_change(g, quota([])),
@@ -166,14 +166,14 @@ host_time_of(Host, Time) :-
 
 %   An agent that does not look at what it gets until it sees that it may.
 
-test(what_does_not_fit_is_told, Xs == [1,2,3,4,5]) :-
+test(overflow_is_reported, Xs == [1,2,3,4,5]) :-
     with_hosts([g-[quota([mailbox(5)])]],
                listening(( sleeper(g, A),
                            forall(between(1, 10, X), agent_send(A, X)),
                            wait_until(lost(A, 5), 10),
                            remote(g, leave(go)),
                            agent_result(A, Xs, 5) ), _)).
-test(there_is_room_again, Xs == [1,2,3,4,5,6]) :-
+test(space_is_freed, Xs == [1,2,3,4,5,6]) :-
     with_hosts([g-[quota([mailbox(1)])]],
                ( create([ (main :- numlist(1, 6, Ns), each(Ns, Xs), result(Xs)),
                           each([], []),
@@ -184,7 +184,7 @@ test(there_is_room_again, Xs == [1,2,3,4,5,6]) :-
                         ( agent_send(A, X), wait_until(fact_of(A, s(X)), 5) )),
                  agent_send(A, 6),
                  agent_result(A, Xs, 5) )).
-test(it_stays_where_there_is_room_for_its_mail,
+test(agent_stays_where_its_mail_fits,
      R-M = error(move_refused(_, quota(mailbox)), _)-[1,2,3]) :-
     with_hosts([g-[quota([mailbox(2)])], t],
                ( create([ (main :- receive(_-go), catch(move(g), E, true),
@@ -202,14 +202,14 @@ test(the_same_between_processes,
                                 result(E-[A,B,C])) ], A),
               forall(member(X, [1,2,3,to(There)]), agent_send(A, X)),
               agent_result(A, R-M, 5) )))).
-test(where_it_was_sent_one_hears_of_it) :-
+test(overflow_is_reported_to_the_sender) :-
     no_leaks(with_peers([p-[host([quota([mailbox(1)])])]],
         with_host_here(
             ( peer_host(p, There),
               create([ (main :- sleep(1000)) ], A, [host(There)]),
               listening(( forall(between(1, 5, X), agent_send(A, X)),
                           wait_until(lost(A, 4), 10) ), _) )))).
-test(who_sends_is_not_ended_by_it, R == sent) :-
+test(sender_is_not_ended_by_overflow, R == sent) :-
     with_hosts([g-[quota([mailbox(1)])]],
                listening(( sleeper(g, A),
                            create([ (main :- s(B), send(B, 1), send(B, 2),
@@ -287,7 +287,7 @@ test(so_many_of_one_owner, R-Ours == refused-3) :-
               visitors(p, [ (main :- s(H), move(H), receive(_)) ], 1, [V]),
               wait_until(agent_property(V, state(waiting)), 5),
               disposed(V) )))).
-test(clones_count_as_who_was_cloned, R = move_refused(_, quota(agents))) :-
+test(clones_count_for_their_owner, R = move_refused(_, quota(agents))) :-
     no_leaks(with_peers([p],
         with_host_here([quota([owner(agents(3))])],
             ( visitors(p, [ (main :- s(H), move(H), many(0)),
@@ -298,7 +298,7 @@ test(clones_count_as_who_was_cloned, R = move_refused(_, quota(agents))) :-
                             (on(W, _, N) :- nonvar(W), !, M is N+1, many(M)),
                             (on(_, E, _) :- result(E)) ], 1, [V]),
               agent_result(V, R, 10) )))).
-test(who_has_most_ends_first, [Hog,Other] == [resource_error(messages),done]) :-
+test(largest_user_ends_first, [Hog,Other] == [resource_error(messages),done]) :-
     no_leaks(with_peers([p],
         with_host_here([quota([host(messages(50))])],
             listening(( visitors(p, [ (main :- s(H), move(H), lp),
@@ -328,7 +328,7 @@ test(seconds_of_all, O == resource_error(seconds)) :-
 %   One second by the clock; without pauses it would be nearly one of a processor,
 %   too, unless others have it.
 
-test(who_does_not_stop_lets_others_go_first, O == resource_error(seconds)) :-
+test(busy_agent_yields_to_others, O == resource_error(seconds)) :-
     with_hosts([g-[quota([seconds(1)])]],
                listening(( create([ (main :- sleep(0.02), main) ], B, [host(g)]),
                            statistics(process_cputime, T0),
@@ -370,7 +370,7 @@ test(each_has_its_own, [A,B] == [resource_error(tuples),done]) :-
     with_hosts([g-[quota([tuples(5)])]],
                listening(( leaver(10, C), joined(C, raised(error(A, _))),
                            leaver(5, D), joined(D, B) ), _)).
-test(what_is_taken_makes_room, O == done) :-
+test(taking_a_fact_frees_space, O == done) :-
     with_hosts([g-[quota([tuples(5)])]],
                ( create([ (main :- forall(between(1, 20, X),
                                           ( leave(f(X)), take(f(X)) ))) ], A,
@@ -387,7 +387,7 @@ test(others_may_take_it, O == done) :-
                           forall(between(1, 5, X), remote(g, take(f(_, X)))),
                           agent_send(A, on) )),
                  joined(A, O) )).
-test(who_fills_the_space_goes, [A,B] == [resource_error(tuples),done]) :-
+test(agent_that_fills_the_space_ends, [A,B] == [resource_error(tuples),done]) :-
     no_leaks(with_peers([p],
         with_host_here([quota([host(tuples(20))])],
             listening(( visitors(p, [ (main :- s(H), move(H),
@@ -399,7 +399,7 @@ test(who_fills_the_space_goes, [A,B] == [resource_error(tuples),done]) :-
 %   The agents that left them are known when the process was started again, and what of
 %   theirs is taken then does not count any more.
 
-test(who_left_them_is_known_later,
+test(owner_of_facts_is_kept,
      [ condition(missing([journal], [])), O == tuples-done ]) :-
     no_leaks(with_tmp_dir(left_before(O))).
 

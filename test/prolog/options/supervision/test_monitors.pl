@@ -102,7 +102,7 @@ test(not_known) :-
     with_hosts([alpha],
                ( watcher(W, [], []),
                  address(alpha, H),
-                 atom_concat('nobody.x.1@', H, A),
+                 atom_concat('unknown.x.1@', H, A),
                  monitors(W, A),
                  once_only(W, down(A, unknown)) )).
 test(no_id, F == existence_error(agent, bob)) :-
@@ -273,7 +273,7 @@ test(the_watcher_ends_badly, O == disposed) :-
                  shares(W, A),
                  agent_dispose(W),
                  joined(A, O) )).
-test(a_good_end_is_told) :-
+test(outcome_done_is_reported) :-
     with_hosts([alpha],
                ( watcher(W, [], []),
                  sleeper(A, []),
@@ -326,8 +326,8 @@ test(a_goal_that_raises, [cleanup(forget)]) :-
                  agent_monitor(A, note),
                  listening(( ends(A, true), told(A, done),
                              wait_until(was_told(_, _), 5) ), _) )).
-test(no_such_agent, error(existence_error(agent, nobody))) :-
-    with_hosts([alpha], agent_monitor(nobody, note)).
+test(no_such_agent, error(existence_error(agent, unknown))) :-
+    with_hosts([alpha], agent_monitor(unknown, note)).
 test(of_another_process_as_a_guest, [cleanup(forget)]) :-
     no_leaks(with_peers([p1],
                  ( peer_host(p1, There),

@@ -75,7 +75,7 @@ once_broken(Negotiated) :-
 
 :- begin_tests(tls).
 
-test(who_has_a_good_certificate_of_ours_gets_in_nobody_else) :-
+test(only_valid_certificates_of_the_authority_are_accepted) :-
     with_authority([alpha, beta, gone, old, self], [alice], strangers_come).
 
 strangers_come(Ours) :-
@@ -109,7 +109,7 @@ came(ours, alice, tls(his(wrong_use))-tls(wrong_use)).
 came(ours, self, tls(his(foreign))-tls(self_made)).
 came(others, beta, tls(foreign)-tls(his(foreign))).
 
-test(who_is_interrupted_when_he_has_just_met_a_peer_leaves_nothing_open) :-
+test(thread_interrupted_after_a_handshake_leaves_nothing_open) :-
     with_authority([alpha, beta], [], interrupted).
 
 interrupted(Ours) :-
@@ -148,7 +148,7 @@ revoked_meanwhile(Ours, Address) :-
     tries([tls(Dir)], Address, After),
     assertion(Before-After == (ok-ok)-(tls(his(revoked))-tls(revoked))).
 
-test(a_hook_knows_who_the_peer_is) :-
+test(a_hook_gets_the_proof_of_the_peer) :-
     with_authority([alpha, beta], [], peer_is_known).
 
 peer_is_known(Ours) :-
@@ -162,7 +162,7 @@ asked_by(Peer, Proof, Address) :-
     peer_do(Peer, typhon_wire:endpoint_call(Endpoint, who_am_i, x,
                                             answer(Proof), 10)).
 
-test(goals_of_others_are_not_run_for_a_certificate_unless_the_host_says_so,
+test(remote_goals_need_the_option_not_only_a_certificate,
      By-Then == permission_error(remote, host, alpha)-none) :-
     with_authority([alpha, beta], [], goals_of_beta(By, Then)).
 
@@ -204,14 +204,14 @@ s_client(Dir, Args0, Said, Address) :-
           ( Line == "typhon tls" -> Said = yes ; Said = no ) ),
         ( close(In, [force(true)]), close(Out), process_wait(Pid, _) )).
 
-test(tls_1_3_without_typhon_is_welcome_and_no_more, Said == yes) :-
+test(tls_1_3_client_that_does_not_speak_typhon_is_refused, Said == yes) :-
     with_authority([alpha, beta], [], new_protocol(Said)).
 
 new_protocol(Said, Ours) :-
     keys_of(beta, Ours, Dir),
     with_secure_host(Ours, s_client(Dir, ['-tls1_3'], Said)).
 
-test(who_dribbles_is_turned_away, Why == slow) :-
+test(slow_handshake_is_refused, Why == slow) :-
     setting(typhon_handshake:handshake_time, Old),
     setup_call_cleanup(
         set_setting(typhon_handshake:handshake_time, 1),
@@ -284,7 +284,7 @@ much_both_ways(Rounds, Address) :-
     forall(member(Agent, Agents),
            ( agent_join(Agent, Outcome, 100), assertion(Outcome == done) )).
 
-test(who_stays_long_gives_the_connection_back) :-
+test(idle_connection_is_returned) :-
     with_authority([alpha, beta], [], long_stay).
 
 long_stay(Ours) :-

@@ -275,7 +275,7 @@ test(what_is_left_and_taken) :-
                 agent_join(A, done, 5) ), Said)),
     Said = [ alpha-leave(f(1)), alpha-take(f(1)), alpha-ended(done) ].
 
-test(who_could_not_go) :-
+test(refused_move) :-
     no_leaks(setup_call_cleanup(
         ( host_start(alpha, [clock(virtual)]),
           host_start(full, [clock(virtual), capacity(0)]) ),
@@ -317,7 +317,7 @@ test(unknown_kind, error(domain_error(trace_kind, jumps))) :-
 test(no_list, error(type_error(list, hops))) :-
     two(( traveller_on(alpha, A), agent_trace(A, hops) )).
 
-test(nobody_any_more, error(existence_error(agent, _))) :-
+test(no_reports_after_the_tracer_ends, error(existence_error(agent, _))) :-
     two(( traveller_on(alpha, A), agent_dispose(A),
           agent_trace(A, [hops]) )).
 

@@ -55,11 +55,11 @@ toured(Agent, Trail) :-
 
 :- begin_tests(trails).
 
-test(who_had_it_is_told_in_order) :-
+test(trail_lists_hosts_in_order) :-
     with_three(true, test_trails:honest).
-test(what_a_host_has_taken_away_is_missed) :-
+test(removed_result_is_detected) :-
     with_three(true, test_trails:taken_away).
-test(what_a_host_has_made_of_it_stops_nobody) :-
+test(tampered_agent_is_still_admitted) :-
     with_three(true, test_trails:made_of_it).
 
 test(of_a_long_way_the_end_is_known,
@@ -212,7 +212,7 @@ forged(Links, Forged, unaccounted(alpha)) :-         % beta has seen another sta
     changed(1, received(At), received(At, another), Links, Forged).
 forged(Links, Forged, since(3)) :-      % what was before beta is gone
     append(Forged, [_], Links).
-forged(Links, Forged, unaccounted(nobody)) :-
+forged(Links, Forged, unaccounted(mallory)) :-
     changed(0, handed(_, What), handed(another, What), Links, Forged).
 forged(Links, Forged, unaccounted(beta)) :-          % not even a text
     append(Before, [link(_, _, _)|After], Links),

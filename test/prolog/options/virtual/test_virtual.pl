@@ -62,7 +62,7 @@ test(stands_still_while_a_program_works, true(Times == [0.0,0.0,5.0])) :-
                    agent_join(A, done, 60),
                    shows(N, T3) )),
     Times = [T1,T2,T3].
-test(nothing_runs_before_somebody_waits, true(Seen == [no,yes])) :-
+test(nothing_runs_before_a_caller_waits, true(Seen == [no,yes])) :-
     with_virtual([], N,
                  ( first_host(N, Host),
                    sleeper(N, leave(mark), A),
@@ -146,7 +146,7 @@ test(in_real_time_too, true(Heard == [a])) :-
                               ),
                               network_stop(N))),
                  heard(Queue, Heard) )).
-test(who_is_called_cannot_wait, true(Heard == [timeout-1.0])) :-
+test(called_goal_cannot_wait, true(Heard == [timeout-1.0])) :-
     with_virtual([], N,
                  with_queue(Queue,
                             ( sleeper(N, sleep(5), A),
@@ -296,9 +296,9 @@ test(other_processes_are_not_reached, true(Outcome == done)) :-
                                                 E = host_unreachable(_))]),
                               A),
                  agent_join(A, Outcome, 20) )).
-test(what_does_not_end_is_told) :-
+test(endless_goal_is_reported) :-
     told_of(( repeat, fail ), virtual_stuck(_, _)).
-test(what_goes_on_for_ever_is_told) :-
+test(endless_instant_is_reported) :-
     told_of(spin, virtual_busy(_)).
 test(nothing_is_due) :-
     listening(with_virtual([], N, nothing_due(N)), _).

@@ -51,7 +51,7 @@ test(all_processes_of_a_network) :-
     msort(Found0, Found),
     assertion(Found == All).
 
-test(who_is_silent, Silent == [Endpoint]) :-
+test(silent_process, Silent == [Endpoint]) :-
     no_leaks(( network_start(ring(4), Network, [processes(2)]),
                network_property(Network, hosts([_, _, _, H4])),
                atomic_list_concat([_, Endpoint], @, H4),

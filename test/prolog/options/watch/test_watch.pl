@@ -14,10 +14,10 @@
 :- use_module(library(process), [process_kill/2]).
 :- use_module(library(typhon)).
 
-:- dynamic told/2.              % Who, Event
+:- dynamic told/2.              % Watcher, Event
 
-note(Who, Event) :-
-    assertz(told(Who, Event)).
+note(Watcher, Event) :-
+    assertz(told(Watcher, Event)).
 
 %   watching(+Hosts, :Goal, -Events): Goal is done while Hosts are watched.
 
@@ -27,9 +27,9 @@ note(Who, Event) :-
 :- use_module(library(yall)).
 
 watching(Hosts, Goal, Events) :-
-    gensym(who, Who),
-    watching(Hosts, note(Who), Goal, Who),
-    events(Who, Events).
+    gensym(watcher, Watcher),
+    watching(Hosts, note(Watcher), Goal, Watcher),
+    events(Watcher, Events).
 
 watching(Hosts, OnEvent, Goal, _) :-
     setup_call_cleanup(
@@ -37,8 +37,8 @@ watching(Hosts, OnEvent, Goal, _) :-
         once(Goal),
         with_settings([typhon_watches:last_seconds=20], unwatch(Watch))).
 
-events(Who, Events) :-
-    findall(Event, told(Who, Event), Events).
+events(Watcher, Events) :-
+    findall(Event, told(Watcher, Event), Events).
 
 %   The first takes until `go` comes to the gate.
 
@@ -50,22 +50,22 @@ with_gate(Goal) :-
         once(Goal),
         message_queue_destroy(Gate)).
 
-slowly(Who, Event) :-
-    (   told(Who, _)
+slowly(Watcher, Event) :-
+    (   told(Watcher, _)
     ->  true
     ;   thread_get_message(watch_gate, go, [timeout(20)])
     ),
-    note(Who, Event).
+    note(Watcher, Event).
 
-numbers(Who, Numbers) :-
-    findall(N, told(Who, event(_, _, _, leave(f(N)))), Numbers).
+numbers(Watcher, Numbers) :-
+    findall(N, told(Watcher, event(_, _, _, leave(f(N)))), Numbers).
 
 %   So many events have happened.
 
-all_accounted(Who, Count) :-
-    aggregate_all(count, ( told(Who, event(_, _, _, What)),
+all_accounted(Watcher, Count) :-
+    aggregate_all(count, ( told(Watcher, event(_, _, _, What)),
                            What \= skipped(_) ), Heard),
-    aggregate_all(sum(C), told(Who, event(_, _, _, skipped(C))), Skipped),
+    aggregate_all(sum(C), told(Watcher, event(_, _, _, skipped(C))), Skipped),
     Heard+Skipped =:= Count.
 
 :- begin_tests(watch).
@@ -92,7 +92,7 @@ test(what_an_agent_does) :-
                         Beta-arrived(Alpha, _), Beta-leave(fact(1)),
                         Beta-take(fact(1)), Beta-log(was(here)),
                         Beta-sent(user), Beta-ended(done) ]),
-    assertion(maplist([event(_, _, Who, _), Who]>>true, Events, [A|_])),
+    assertion(maplist([event(_, _, Watcher, _), Watcher]>>true, Events, [A|_])),
     findall(Time, member(event(Time, _, _, _), Events), Times),
     assertion(msort(Times, Times)),
     get_time(Now),
@@ -136,7 +136,7 @@ test(clones_and_refused_moves) :-
     assertion(Hops = [left(Beta), stayed(Beta)]).
 
 clone_and_stay(A, Clone) :-
-    create([ (main :- clone(Who), after(Who)),
+    create([ (main :- clone(Watcher), after(Watcher)),
              (after(parent(C)) :- result(C),
                                   catch(move(beta), error(_, _), true)),
              after(clone(_)) ], A, [host(alpha)]),
@@ -211,7 +211,7 @@ test(two_watch_and_one_ends) :-
             [Ones, Twos], Ids),
     assertion(Ids == [[A], [A, B]]).
 
-test(an_exception_is_told_once, Warnings-Count == 1-4) :-
+test(an_exception_is_reported_once, Warnings-Count == 1-4) :-
     flag(calls, _, 0),
     with_hosts([alpha],
                listening(watching(alpha, raises,
@@ -230,7 +230,7 @@ raises(_) :-
 
 %   The agent begins, leaves 5000 facts and ends.
 
-test(who_is_slow_is_told_what_he_misses) :-
+test(slow_watcher_gets_the_number_of_lost_events) :-
     with_settings([typhon_telling:events = 100],
                   with_hosts([alpha], with_gate(slow_watcher))),
     numbers(slow, Got),
@@ -279,7 +279,7 @@ test(one_that_hangs_is_ended) :-
 hang(Queue, _) :-
     thread_get_message(Queue, _).
 
-test(nobody_hears_any_more) :-
+test(no_events_after_unwatch) :-
     with_hosts([alpha, beta],
                ( watching([alpha, beta], true, _),
                  \+ typhon_events:hears(_, _, _),
@@ -468,7 +468,7 @@ senders(Peer, Count) :-
                           Count0)),
     Count = Count0.
 
-test(who_watches_and_dies_is_forgotten) :-
+test(dead_watcher_is_forgotten) :-
     with_peers([a, b], dies).
 
 dies :-
@@ -479,7 +479,7 @@ dies :-
     wait_until(senders(b, 0), 20),
     assertion(peer_do(b, \+ typhon_events:event_heard(hops))).
 
-test(who_is_slow_keeps_no_other_process) :-
+test(slow_watcher_does_not_delay_other_processes) :-
     with_gate(with_peer([setup(set_setting(typhon_telling:events, 100))],
                         slow_for)).
 

@@ -195,7 +195,7 @@ fine('p :- go, fail.').                                      % meant to fail
 
 test(no_false_alarm, [forall(fine(Text)), L == []]) :-
     loses(Text, L).
-test(says_what_to_write) :-
+test(suggests_a_fix) :-
     printed(['p :- member(H, [a,b]), move(H), fail.'], T1),
     shows(T1, "a.pl:3: move/1 gives up the choices of member/2: \c
                fail/0 does not come back to them"),
@@ -236,17 +236,17 @@ test(all_that_cannot_be_read, Lines == [3,5,7]) :-
     findall(Line, member(Line-_, Found), Lines).
 test(that_does_not_end, [true(F = [_-syntax_error(_)])]) :-
     found(['p :- "'], F).
-test(creation_tells_them_all) :-
+test(creation_reports_all_errors) :-
     creation_text(['p :- a b.', 'q :- c d.'], Text),
     shows(Text, "a.pl:3:7: Syntax error"),
     shows(Text, "a.pl:4:7: Syntax error").
-test(creation_says_where) :-
+test(creation_reports_positions) :-
     creation_text(['p :- forall(s(X), move(X)).', 'q.', 'move(_).'], Text),
     shows(Text, "a.pl:5: No permission"),
     creation_text(['p :- forall(s(X), move(X)).', 'q.'], Text2),
     shows(Text2, "a.pl:3: No permission"),
     shows(Text2, "recursive predicate").
-test(creation_tells_more_than_one) :-
+test(creation_reports_more_than_one) :-
     creation_text(['p :- forall(s(X), move(X)).', 'q :- \\+ move(a).'], Text),
     shows(Text, "a.pl:3: No permission"),
     shows(Text, "a.pl:4: No permission").

@@ -152,8 +152,8 @@ open_replay :-
         fail
     ).
 
-hold(Who) :-
-    thread_send_message(Who, replay_is(open)),
+hold(Thread) :-
+    thread_send_message(Thread, replay_is(open)),
     thread_get_message(close_replay).
 
 close_replay :-

@@ -629,7 +629,7 @@ weight([_, _, _, "skipped", N], N) :-
     !.
 weight(_, 1).
 
-test(nobody_is_watched_for_nobody) :-
+test(no_events_are_collected_without_a_browser) :-
     with_settings([typhon_page_sources:renew_seconds=0.2],
         page(Base,
              ( with_feed(Base, Feed,
