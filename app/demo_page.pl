@@ -5,12 +5,12 @@
     swipl app/demo_page.pl [--port=8080] [--seed=1]
 
 Sixty hosts in four processes, whose links come and go.  Two mechanisms are at
-work there: agents bring sequences of tasks forward in step, hosts being set
-back now and then; and antigens attack hosts, which release antibodies.  Prints
-the link to the page, and runs until Ctrl-C.
+work there: agents execute sequences of tasks in step, while hosts lose tasks
+now and then; and antigens attack hosts, which release antibodies.  Prints the
+link to the page, and runs until Ctrl-C.
 
-*Threading*: the network is started by the main thread; what attacks and what
-sets back happens in another, until that is stopped.
+*Threading*: the network is started by the main thread; attacks and failures
+are caused by another thread, until that is stopped.
 */
 
 :- use_module('../prolog/typhon',

@@ -14,13 +14,13 @@
 :- use_module(library(process), [process_create/3, process_wait/2]).
 :- use_module(library(readutil), [read_line_to_string/2]).
 
-/** <module> A demonstration: parcels, robots of ROS 2, agents that know both
+/** <module> A demonstration: agents that let ROS 2 robots carry parcels
 
 There are two robots, simulated by a node of ROS 2 in a process of its own,
 and three hosts: one beside each robot, one where tasks come from.  Each task
 is given to an allocator (thesis chapter 7): an agent that looks for a free
-robot, reserves it and has it carry a parcel.  Where the parcels are in the
-end, the simulation says.
+robot, reserves it and has it carry a parcel.  The simulation reports the
+final positions of the parcels.
 
 *Threading*: the main thread.
 */
@@ -49,7 +49,7 @@ main(_) :-
         demo,
         end_world(World)).
 
-%   What others do with ROS on this machine is not disturbed.
+%   Other uses of ROS on this machine are not disturbed.
 
 domain :-
     (   getenv('ROS_DOMAIN_ID', _)

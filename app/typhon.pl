@@ -7,9 +7,8 @@
 `--help` lists the commands, `COMMAND --help` the options of one.  Expected
 errors are one line and exit status 1.
 
-The whole interface stands in the tables of commands.pl; run/3 has one
-clause for each command, and does nothing that a program could not do with
-library(typhon).
+The whole interface stands in the tables of commands.pl; run/3 has one clause
+for each command, and uses only predicates of library(typhon).
 
 *Threading*: the main thread only.  A command that runs until it is
 stopped waits for a message, which the handlers of SIGINT and SIGTERM send.
@@ -106,7 +105,7 @@ dispatch(Argv) :-
     ;   overview
     ).
 
-%   argv_options/4 would end the process itself, and propose nothing.
+%   argv_options/4 would end the process itself, without suggestions.
 
 check_options(Argv, Command) :-
     findall(Option, option(Command, Option, _, _, _), Options),

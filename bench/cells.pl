@@ -6,16 +6,16 @@
 :- use_module(library(lists), [member/2, nth0/3, sum_list/2]).
 :- use_module(library(readutil), [read_file_to_string/3]).
 
-/*  What cells cost: memory and start of one; a turn in a cell, there and back,
-and a message from there; hops of an agent between another process and a host with
-cells, against the same where the host guards without, and where it does not
-guard.  And what is left of the speed of agents that hop between a host of the same
-process, which has no cells, and another process, while hogs come to the host
-with cells, one after the other.
+/*  The cost of cells: memory and start of a cell; a turn in a cell, both
+ways, and a message from it; hops of an agent between another process and a
+host with cells, compared with a guarded host without cells, and with an
+unguarded host.  And the speed of agents that hop between a host without cells
+in the same process and another process, while hogs come to the host with
+cells, one after the other.
 
-A figure is the median of the ratios of pairs that were measured one after the
-other, and every second time in the other order: what else the machine does changes
-from one minute to the next. */
+A figure is the median of the ratios of pairs that are measured one after the
+other, every second pair in the other order, because the load of the machine
+changes from one minute to the next. */
 
 :- initialization(main, main).
 

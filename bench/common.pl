@@ -15,7 +15,7 @@
 :- use_module(library(lists), [append/3, member/2]).
 :- use_module(library(apply), [exclude/3]).
 
-/** <module> What the benchmarks share
+/** <module> Common predicates of the benchmarks
 
 A benchmark is a process that prints facts figure(Name, Value, Unit, Note)
 on its standard output; bench/run.pl starts it and makes the table.

@@ -5,9 +5,10 @@
 :- use_module(library(gensym), [gensym/2]).
 :- use_module(library(lists), [member/2, memberchk/2, numlist/3]).
 
-/*  What agents cost between their stops: the compiled program beside plain Prolog
-(a stop is a call of a fact) and beside the machine, which runs agents that are
-stepped or guarded.  Microseconds of processor time from stop to stop.
+/*  The cost of agents between their stops: compiled programs compared with
+    plain Prolog (a stop is a call of a fact) and with the interpreter, which
+    runs stepped and guarded agents.  Microseconds of processor time from stop
+    to stop.
 
     swipl bench/compiled.pl -- 4000 */
 

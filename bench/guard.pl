@@ -4,10 +4,10 @@
 :- use_module(library(typhon)).
 :- use_module(library(lists), [member/2, sum_list/2]).
 
-/*  What it costs that hosts guard: hops between two processes where both
-guard, against the same where none does, in turns in one run; and what is left
-of the speed of agents on a host that guards while hogs come there, one after
-the other, each of which is ended when it has passed its quota. */
+/*  The cost of guarded hosts: hops between two guarded processes, compared
+    with unguarded ones, alternately in one run; and the speed of agents on a
+    guarded host while hogs come there, one after the other, each of which is
+    ended when it has passed its quota. */
 
 :- initialization(main, main).
 

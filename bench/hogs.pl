@@ -4,7 +4,7 @@
           ]).
 :- use_module(library(typhon)).
 
-/** <module> Agents that use up what they can get
+/** <module> Agents that use up resources
 
 *Threading*: a thread creates one each half second.
 */

@@ -83,7 +83,7 @@ latency(Peer, Median, P99) :-
     nth0(I50, Sorted, M), nth0(I99, Sorted, P),
     Median is M*1.0e6, P99 is P*1.0e6.
 
-%   What goes over the wire, by the stream's own count.
+%   Bytes on the wire, as counted by the stream.
 
 bytes(Placement, Peer) :-
     once_round(Peer, First),

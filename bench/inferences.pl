@@ -4,9 +4,9 @@
 :- use_module(library(aggregate), [aggregate_all/3]).
 :- use_module(library(lists), [member/2]).
 
-/*  What hops and messages cost in inferences of all threads of this process:
-hardly more or less where others use the machine.  Of hops between processes
-those of one side, on which half of them begin and half end.
+/*  Inferences of hops and messages in all threads of this process, which
+    hardly depend on other load of the machine. For hops between processes
+    they are those of one side, on which half of the hops begin and half end.
 
     swipl bench/inferences.pl -- 4000 */
 

@@ -8,13 +8,13 @@
 :- use_module(library(process), [process_create/3, process_wait/2]).
 :- use_module(library(readutil), [read_line_to_string/2]).
 
-/*  What a journal costs: the hops of bench/hops.pl without one, and with one
-in both processes; and how long a process with many agents takes to be there
-again.  Hops are counted for some seconds, one way after the other, in rounds
-of which the median counts: that of the ratios, too, each of one round.
+/*  The cost of a journal: the hops of bench/hops.pl without a journal, and
+    with one in both processes; and the time in which a process with many
+    agents restarts. Hops are counted for some seconds, alternately, in
+    rounds; the result is the median, also of the ratios, each of one round.
 
-Of agents with large states what a turn that changes one fact costs, and how
-many messages per second one takes that keeps them all.
+For agents with large states: the cost of a turn that changes one fact, and
+the messages per second of an agent that stores them all.
 
     swipl bench/journal.pl -- unpinned
     swipl bench/journal.pl -- states */

@@ -9,10 +9,10 @@
 
     swipl bench/run.pl -- keys
 
-By turns; the best of each counts, as what disturbs only makes them slower.
-Beside the time by the clock stands the time that both processors took. The
-one agent takes all the links along that are kept, of a hundred each has up to
-eight. */
+Alternately; the best of each counts, since disturbances only make hops
+slower. Both the time by the clock and the processor time are printed. The
+single agent carries all links that are kept; of a hundred agents each has up
+to eight. */
 
 :- initialization(main, main).
 

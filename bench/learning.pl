@@ -4,15 +4,15 @@
 :- use_module('../agents/learning/operator', [learning_start/5]).
 :- use_module(library(lists), [member/2, nth0/3]).
 
-/*  What a hop of an agent that learns costs: 25 of them on 30 hosts, in a
+/*  The cost of a hop of an agent that learns: 25 agents on 30 hosts, in a
 maze of 13 by 13, until all have reached the light, at 30 times the speed.
 
     swipl bench/learning.pl -- 1
 
 The argument is the number of processes.  The processor time is that of all
-processes, and everything is in it: what trainers execute, what agents ask
-and answer, how they make plans.  It is compared with that of agents that
-only travel and wait, as often and as long, in the same network. */
+processes, including the executions of trainers, the messages of agents, and
+the making of plans.  It is compared with that of agents that only travel and
+wait, as often and as long, in the same network. */
 
 :- initialization(main, main).
 

@@ -3,7 +3,7 @@
 :- use_module(library(ordsets), [ord_subtract/3]).
 :- use_module(library(typhon)).
 
-/*  What monitors and supervisors cost.
+/*  The cost of monitors and supervisors.
 
     swipl bench/monitors.pl -- Monitors
 

@@ -9,16 +9,16 @@
 :- use_module(library(socket)).
 :- use_module(library(solution_sequences), [distinct/2]).
 
-/*  Our hops beside what others do with two processes on one machine: the
-bare trip of the same bytes, Erlang and JADE.
+/*  Our hops compared with other platforms, between two processes of one
+    machine: the bare trip of the same bytes, Erlang and JADE.
 
     swipl bench/peers.pl -- Rounds
 
 All are run in turn, Rounds times; medians count, of rates and of ratios
 within a round.  Rates are those of one traveller and of ten at once, and
-those by the processor time of both processes.  What travels, and what is
-promised about it, differs: see the heads of the files in bench/peers.  Platforms
-that are not installed are skipped. */
+those by the processor time of both processes.  The payload and the guarantees
+differ: see the heads of the files in bench/peers.  Platforms that are not
+installed are skipped. */
 
 :- initialization(main, main).
 
@@ -113,7 +113,7 @@ free_port(Port) :-
     tcp_bind(Socket, '127.0.0.1':Port),
     tcp_close_socket(Socket).
 
-%   A peer that writes nothing for two minutes is given up.
+%   A peer that writes nothing for two minutes is killed.
 
 run(Round, [Program|Args]) :-
     process_create(Program, Args,

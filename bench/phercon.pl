@@ -11,10 +11,10 @@
     swipl bench/phercon.pl -- Runs
 
 On a connected random network of mean degree 6 there is one agent to ten
-hosts.  They move all the time, a hop takes about one second of host time,
-and what they find at a host they serve.  Requests come to random hosts, one
-in 20 seconds for each agent on the average; for PherCon they emit a
-pheromone, once, with the default span and period.  In each of the Runs all
+hosts.  They move all the time, a hop takes about one second of host time, and
+they serve the requests that they find at a host.  Requests come to random
+hosts, one in 20 seconds for each agent on the average; for PherCon they emit
+a pheromone, once, with the default span and period.  In each of the Runs all
 strategies have the same network, the same agents and the same requests.
 
 Time is from the request to its service, in host seconds.  Hops are those
@@ -165,8 +165,8 @@ ask(I, Strategy, Hosts, Agents, Chance0,
     I1 is I - 1,
     ask(I1, Strategy, Hosts, Agents, Chance, Asked).
 
-%   Before the request is there: an agent that took it at once would withdraw
-%   what comes only then.
+%   Emitted before the request exists: otherwise an agent that takes it at
+%   once would withdraw a pheromone that is emitted later.
 
 call_for(phercon(_), Host, I) :-
     !,

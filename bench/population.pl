@@ -2,7 +2,8 @@
 :- use_module(library(typhon)).
 :- use_module(library(lists), [member/2]).
 
-/*  Many agents in one process: birth, memory, and what they cost others. */
+/*  Many agents in one process: creation, memory, and their effect on others.
+    */
 
 :- initialization(main, main).
 

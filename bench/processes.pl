@@ -3,8 +3,9 @@
 :- use_module(library(typhon)).
 :- use_module(library(lists), [append/3, member/2]).
 
-/*  What a hop costs in a network of many processes beside one of two: a host
-in each, on a ring, and eight agents for each that go round it. */
+/*  The cost of a hop in a network of many processes compared with two: a ring
+    with one host in each process, and eight agents per process that go round
+    it. */
 
 :- initialization(main, main).
 

@@ -10,15 +10,16 @@
 :- use_module(library(pairs), [pairs_keys/2]).
 :- use_module(library(solution_sequences), [distinct/2]).
 
-/*  Which module takes how much of a hop.
+/*  The share of each module in the cost of a hop.
 
     swipl bench/profile.pl -- [--hops N] [--rounds N] [--agents N]
 
 Two tables, of hops between two processes and between two hosts of one: the
-processor time of a hop in microseconds, by module and by thread.  The times of threads
-are those of runs without profiler, medians of all rounds; how each is made
-up is what sampled.pl saw of one after the other in as many runs more.  Take
-a module of few microseconds for what it is: a handful of samples. */
+processor time of a hop in microseconds, by module and by thread.  The times
+of threads are those of runs without profiler, medians of all rounds; their
+composition is sampled by sampled.pl, one thread after the other, in as many
+further runs. A module of few microseconds is based on a handful of samples.
+*/
 
 :- initialization(main, main).
 

@@ -12,20 +12,20 @@
 
 /** <module> In which modules threads of this process spend their time
 
-The profiler of SWI-Prolog looks at one thread of a process at a time. It is
-begun and ended in that thread, by a signal. It looks every five
-milliseconds of real time: by processor time it would look when any thread
-of the process works, and find the one that it looks at waiting. So what a
-thread does in the predicates it waits in cannot be seen: it is the
-processor time that is left over. A thread that has to wait for a processor
-or a mutex counts as at work. So that what wakes others up does not look
-dear, because these run in its stead, patient_threads/0 makes them wait.
+The profiler of SWI-Prolog samples one thread of a process at a time. It is
+started and stopped in that thread, by a signal. It samples every five
+milliseconds of real time: with processor time it would sample when any thread
+of the process works, and often find its own thread waiting. So work inside
+the predicates in which a thread waits is not visible: it is the remaining
+processor time. A thread that waits for a processor or a mutex counts as
+working. A thread that wakes others would look expensive, because these
+preempt it; patient_threads/0 prevents this.
 
-What the system and its libraries do counts for the module that called them,
-and garbage collection for itself. What the profiler takes for its own books
-is known to it, and left out. A thread can be looked at once only: what the
-profiler made for it must not be freed while a look may be under way, and
-while frames of the thread still lead to it.
+Time in the system and its libraries counts for the module that called them,
+garbage collection separately. The profiler knows its own overhead, which is
+excluded. A thread can be sampled only once: the data of the profiler must not
+be freed while a sample may be under way, and while frames of the thread still
+refer to it.
 
 *Threading*: one thread at a time asks.
 */
@@ -36,8 +36,7 @@ while frames of the thread still lead to it.
 %!  patient_threads is det.
 %
 %   From now on workers and readers do not preempt when they are woken: a
-%   policy of Linux for what calculates. The main thread, which does the
-%   looking, still does.
+%   Linux policy for batch work. The main thread, which samples, still does.
 
 patient_threads :-
     forall(( member(Role, [worker,reader]), thread_time(Role, Thread, _) ),
@@ -77,8 +76,8 @@ alias_role(typhon_out_, reader).
 
 %!  sampling_begin(+Role) is det.
 %
-%   From now on the thread of Role is looked at that has worked most. It has
-%   never been looked at.
+%   From now on the thread of Role that has worked most is sampled. It has not
+%   been sampled before.
 
 sampling_begin(Role) :-
     findall(Seconds-Thread, thread_time(Role, Thread, Seconds), Pairs),
@@ -96,11 +95,11 @@ begin(Asker) :-
 %!  sampling_end(-Cpu-Seen, -Spent) is det.
 %
 %   Cpu is the processor time of the thread since sampling_begin/1, in
-%   seconds, Seen how long it seemed to work: more than Cpu where it had to
-%   wait to go on. Spent are facts spent(Source, How, Seconds), How `itself` or
-%   `called`: in what it called of the system. Source is a file such as
-%   `wire/reader`, `agent` for programs of agents, `garbage collection`,
-%   `waiting` or `not known`.
+%   seconds, Seen the time in which it seemed to work: more than Cpu if it had
+%   to wait for a processor. Spent are facts spent(Source, How, Seconds), How
+%   `itself` or `called`: in what it called of the system. Source is a file
+%   such as `wire/reader`, `agent` for programs of agents, `garbage
+%   collection`, `waiting` or `not known`.
 
 sampling_end(Cpu-Seen, [spent(waiting, called, Waiting)|Spent]) :-
     retract(sampled(Thread, Cpu0)),

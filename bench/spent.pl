@@ -5,7 +5,7 @@
 :- use_module(library(lists), [member/2]).
 :- use_module('../prolog/typhon', [host_property/2, remote/2]).
 
-/** <module> What hops cost
+/** <module> The cost of hops
 
 *Threading*: any thread; no state.
 */

@@ -3,9 +3,9 @@
 :- use_module(library(process), [process_create/3]).
 :- use_module(library(readutil), [read_line_to_string/2]).
 
-/*  What it costs to load library(typhon): processor time and resident memory of
-a process that does nothing else, the medians of some runs, and those of one
-with a host. */
+/*  The cost of loading library(typhon): processor time and resident memory of
+    a process that does nothing else, medians of some runs, also with a host.
+    */
 
 :- initialization(main, main).
 

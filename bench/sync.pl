@@ -114,9 +114,9 @@ rated(Events, run(Sequence, Agents, Hops, Cpu),
     Services is Count / (End - Begin),
     HopRate is Hops / (Last - Begin).
 
-%   How long the worker's message takes: from the reward, which follows it
-%   in the agent, to the end of the task.  Where the worker was faster than
-%   the agent's own next step there is nothing to tell.
+%   How long the worker's message takes: from the reward, which follows it in
+%   the agent, to the end of the task.  If the worker was faster than the
+%   agent's own next step there is nothing to measure.
 
 waiting(Processes, Events) :-
     empty_assoc(None),

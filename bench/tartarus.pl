@@ -7,9 +7,9 @@
 :- use_module(library(socket)).
 
 /*  Programs written for Tartarus: hops per second of an agent that goes round
-a ring of four platforms, each a process of its own, and how many agents of
-35 come home from a thousand hops between two platforms without a pause.  Of
-the original these are known: 740, and none.
+a ring of four platforms, each a process of its own, and how many of 35 agents
+return from a thousand hops between two platforms without a pause. The figures
+of the original are known: 740, and none.
 
     swipl bench/tartarus.pl -- 2000 */
 

@@ -11,9 +11,9 @@
 
 /** <module> The bare trip
 
-Two processes of one thread each throw a term to and fro over one
-connection by fast_term_serialized/2: it has what a hop of the agent of
-traveller.pl sends. No threads, no agents, no answers.
+Two single-threaded processes send a term back and forth over one connection
+by fast_term_serialized/2: it has the contents of a hop of the agent of
+traveller.pl. No threads, no agents, no answers.
 
 *Threading*: one thread has the streams.
 */
@@ -22,8 +22,8 @@ traveller.pl sends. No threads, no agents, no answers.
 
 %!  with_pong(+Prefix, :Goal) is det.
 %
-%   Call Goal(Streams) while a second process throws back what comes.
-%   Prefix is put before its command line.
+%   Call Goal(Streams) while a second process returns all terms. Prefix is put
+%   before its command line.
 
 with_pong(Prefix, Goal) :-
     tcp_socket(Server),
@@ -128,7 +128,7 @@ hear(In-_, Term) :-
 
 %!  trip_bytes(-Bytes) is det.
 %
-%   What is sent at a time.
+%   The size of one term.
 
 trip_bytes(Bytes) :-
     image(Image),

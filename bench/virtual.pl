@@ -3,9 +3,9 @@
 :- use_module(library(lists), [member/2]).
 
 /*  Hops between hosts of one process, by an agent that does nothing else: in
-virtual time and in real time, with and without a delay, and with much that
-it carries.  Another goes to neighbours at random and replaces a fact, alone,
-among others, and with delayed hops.  Processor time counts.
+virtual time and in real time, with and without a delay, and with a large
+state.  Another goes to neighbours at random and replaces a fact, alone, among
+others, and with delayed hops.  Processor time counts.
 
     swipl bench/virtual.pl -- 20000 */
 

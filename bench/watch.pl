@@ -6,12 +6,12 @@
 :- use_module(library(apply), [maplist/3]).
 :- use_module(library(lists), [member/2, nth0/3]).
 
-/*  What it costs to be watched.
+/*  The cost of a watch.
 
     swipl bench/watch.pl -- Pairs
 
-Rounds that are watched and rounds that are not take turns, so that what else
-the machine does meets both; told is the median of the ratios of such pairs. */
+Rounds with and without a watch alternate, so that other load affects both;
+the result is the median of the ratios of such pairs. */
 
 :- initialization(main, main).
 
@@ -37,8 +37,8 @@ between_processes(Pairs, Peer) :-
                 *        NOBODY WATCHES        *
                 *******************************/
 
-%   A hop within a process is the cheapest; it asks three times whether
-%   somebody hears.
+%   A hop within a process is the cheapest; it checks three times for
+%   listeners.
 
 unheard(There) :-
     travelled(1, 10000, There, _),      % warm up

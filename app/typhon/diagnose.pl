@@ -6,9 +6,8 @@
 
 /** <module> Why a host cannot be reached
 
-Goes one step after the other along the way to a host, from this Prolog to
-an answer, says what it found, and stops with advice at the step that does
-not work.
+Tests the connection to a host step by step, from this Prolog to an answer,
+prints each result, and stops with advice at the step that fails.
 
 *Threading*: the calling thread.  A TCP connect cannot be given a deadline,
 so it is tried in a thread of its own, which a dead network may hold for a
@@ -28,8 +27,8 @@ connect_deadline(5).                    % seconds
 
 %!  diagnose(+Address) is semidet.
 %
-%   Prints what works on the way to the host Address, or with `none` what
-%   can be said without one.  Fails at the first step that does not work.
+%   Prints the working steps to the host Address, or with `none` the steps
+%   that need no host.  Fails at the first step that does not work.
 
 diagnose(Address) :-
     findall(Step-Advice, step(Step, Advice), Steps),

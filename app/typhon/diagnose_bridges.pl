@@ -4,8 +4,8 @@
 
 /** <module> Why a bridge does not work here
 
-Goes from the Python of the helper to what it speaks with, and stops with
-advice at the step that does not work.
+Tests the steps from the Python of the helper to its server, and stops with
+advice at the step that fails.
 
 *Threading*: the calling thread.
 */

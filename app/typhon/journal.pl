@@ -13,9 +13,9 @@
 :- use_module(library(lists), [append/3, member/2]).
 :- use_module(library(option), [option/2]).
 
-/** <module> What is in a journal
+/** <module> The contents of a journal
 
-Of a process that does not run: one that runs has it for itself.
+The process must not be running: a running process locks its journal.
 
 *Threading*: the main thread.
 */

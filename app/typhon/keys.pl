@@ -12,8 +12,8 @@ Certificates for hosts and authors, made by the `openssl` command. The
 authority is a directory:
 
     ca.pem ca.key crl.pem       its certificate, its key, revoked ones
-    openssl.cnf database ...    what openssl goes on from
-    NAME/                       what the host or author NAME needs
+    openssl.cnf database ...    state of openssl
+    NAME/                       files of the host or author NAME
 
 A directory NAME holds `cert.pem`, `key.pem`, `ca.pem` and `crl.pem`: it goes
 to the machine of NAME, and nothing else does. All keys are RSA:
@@ -176,8 +176,8 @@ must_be_authority(Directory) :-
 
 %!  keys_revoke(+Name, +Directory) is det.
 %
-%   Certificates of Name are worth nothing, from when a host has the new
-%   `crl.pem`. Those under Directory have it at once.
+%   Certificates of Name are invalid for a host from when it has the new
+%   `crl.pem`. The directories under Directory get it at once.
 %
 %   @error existence_error(key, Name)
 

@@ -6,7 +6,7 @@
 :- use_module(library(pairs), [group_pairs_by_key/2, pairs_values/2]).
 :- use_module('../../prolog/typhon/tools/event_text', [own_event/1]).
 
-/** <module> Which agent was where, and when
+/** <module> Positions of agents over time
 
 From the events of a log, see typhon_events, to lines in space and time:
 

@@ -7,16 +7,16 @@
 :- use_module('../../prolog/typhon/tools/event_text',
               [happening/3, short_name/2]).
 
-/** <module> The story of an agent, as a log tells it
+/** <module> The history of an agent, from a log
 
 *Threading*: any thread.
 */
 
 %!  story(+File, +Agent) is det.
 %
-%   Print what happened to Agent, in words, in the order of the log File.
-%   Agent is an id, what stands before the `@` in it, or the name from which it
-%   was made; if several have that, the story of each is printed.
+%   Print the events of Agent as text, in the order of the log File. Agent is
+%   an id, what stands before the `@` in it, or the name from which it was
+%   made; if several have that, the story of each is printed.
 %
 %   @error typhon_usage(not_in_log(Agent, File, Names)): those whom it knows
 

@@ -2,7 +2,7 @@
           [ complain/2                  % +Command, +Error
           ]).
 
-/** <module> What the command line says to mistakes
+/** <module> Error messages of the command line
 
 *Threading*: the main thread only.
 */

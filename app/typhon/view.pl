@@ -13,7 +13,7 @@
 :- use_module(library(pairs), [pairs_values/2]).
 :- use_module('../../prolog/typhon/tools/event_text', [short_name/2]).
 
-/** <module> Where things are in the picture of a log
+/** <module> Layout of the picture of a log
 
 A view is view(Scale, Rows, Lanes, Colours, Bottom), in pixels: Scale is
 scale(First, Left, PerSecond), Rows a list of row(Host, Top, Lanes, Height),

@@ -1,6 +1,6 @@
 :- payload(energy, [provides([cost/3])]).
 
-/*  What a task costs a robot: the share of its charge.
+/*  The cost of a task for a robot: the share of its charge.
 
     Needs the robot's property battery=Charge, and the task's detail
     energy(Joules), in the same unit.  A robot that has not enough is unfit.

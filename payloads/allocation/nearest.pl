@@ -1,10 +1,10 @@
 :- payload(nearest, [provides([cost/3])]).
 
-/*  What a task costs a robot: the way to where it is to be done.
+/*  The cost of a task for a robot: the distance to its place.
 
-    Needs the robot's property position=p(X, Y), and the task's detail
-    at(p(X, Y)).  A task that is nowhere costs nothing, and so does one for
-    a robot that does not know where it is.
+    Needs the robot's property position=p(X, Y), and the task's detail at(p(X,
+    Y)).  A task without a place costs nothing, nor does any task for a robot
+    without a position.
 */
 
 cost(need(_, _, Details), Properties, Cost) :-

@@ -1,8 +1,8 @@
 :- payload(thrifty, [provides([agreed/3])]).
 
 /*  The negotiation of an allocator that begins with low offers: a robot may
-    cost as much as the task's detail budget(Cost), and twice as much with
-    every back-off, for a task that is never done costs more.
+    cost up to the task's detail budget(Cost), which doubles with every
+    back-off, because a task that is never done is more expensive.
 */
 
 agreed(Cost, Details, Backoffs) :-

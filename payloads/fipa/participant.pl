@@ -1,11 +1,11 @@
 :- payload(fipa_participant, [provides([fipa_take_part/1, fipa_contract/4])]).
 
 /*  The other side of FIPA's request protocol (FIPA00026) and contract net
-    (FIPA00029).  An agent with this payload says
+    (FIPA00029).  An agent with this payload defines
 
         on_message(_, Acl) :- fipa_take_part(Acl).
 
-    and what it can do:
+    and
 
       - perform(Action, Result): do it.  If this fails the request is refused;
         if it raises, it is a failure.
@@ -19,8 +19,8 @@
     platforms, or the payload fipa/reply.
 */
 
-%   What it has proposed to do: the conversation, with whom, the message, and
-%   when it is forgotten.
+%   A proposal of this agent: the conversation, the initiator, the message,
+%   and the time of its expiry.
 
 fipa_contract(none, none, none, 0).
 
@@ -30,7 +30,7 @@ fipa_contract_seconds(600).
 
 %!  fipa_take_part(+Acl) is semidet.
 %
-%   Fails for what belongs to none of these protocols.
+%   Fails for messages of other protocols.
 
 fipa_take_part(Acl) :-
     Acl = acl(Performative, Parameters),

@@ -1,7 +1,8 @@
 :- payload(fipa_reply, [provides([reply/3])]).
 
 /*  An answer to a message of FIPA's ACL.  Hosts with library(typhon/fipa)
-    have it in their place; an agent that answers from elsewhere brings it along.
+    have it in their place; an agent that answers from other hosts attaches
+    it.
 */
 
 :- include(answer).

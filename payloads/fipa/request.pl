@@ -1,15 +1,15 @@
 :- payload(fipa_request, [provides([fipa_request/4])]).
 
-/*  The initiator of FIPA's request protocol (FIPA00026): asks somebody to do
-    something, and waits for what comes of it.
+/*  The initiator of FIPA's request protocol (FIPA00026): requests an action
+    of another agent, and waits for the result.
 */
 
 %!  fipa_request(+To, +Content, +Seconds, -Outcome) is det.
 %
-%   Outcome is inform-Answer, refuse-Why, failure-Why or
-%   'not-understood'-Why, as To has it, or `timeout`.  That To agrees first is
-%   only passed over.  A failure may also be one of the AMS: To cannot be
-%   reached.  Seconds are those of the host.
+%   Outcome is inform-Answer, refuse-Why, failure-Why or 'not-understood'-Why,
+%   the answer of To, or `timeout`. A preceding `agree` of To is skipped.  A
+%   failure may also be one of the AMS: To cannot be reached.  Seconds are
+%   those of the host.
 
 fipa_request(To, Content, Seconds, Outcome) :-
     N is random(1<<60),

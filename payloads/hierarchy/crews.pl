@@ -1,7 +1,8 @@
 :- payload(crews, [provides([crew/4, seen/2, decided/4])]).
 
-/*  Leaders of agents that learn and share (agents/hierarchy/leader.pl): workers are
-    agents(learning/learner), and what is learnt is how much work a part has.
+/*  Leaders of agents that learn and share (agents/hierarchy/leader.pl):
+    workers are agents(learning/learner), and the mechanism learns how much
+    work a part has.
 
     Agents that share take the less time, the more they are: nearly in proportion.
     So the work of a part is the time of its last worker times their number, and workers
@@ -46,7 +47,8 @@ decided(Reports, Memory, Memory, Orders) :-
     Least is max(1, Workers // (2*Count)),
     divided(Parts, Least, All, Workers, Orders).
 
-%   Each of the parts gets its share of what those before it have left.
+%   Each part gets its share of the workers that the parts before it have
+%   left.
 
 divided([], _, _, _, []).
 divided([part(Leader, Work, _)|Parts], Least, All, Workers,

@@ -1,15 +1,15 @@
 :- payload(steps, [provides([crew/4, seen/2, decided/4])]).
 
-/*  Leaders of synchronised execution (agents/hierarchy/leader.pl): workers are
-    agents(sync/traveller), a round is a sequence of tasks, and what is learnt is the
-    penalty bias.
+/*  Leaders of synchronised execution (agents/hierarchy/leader.pl): workers
+    are agents(sync/traveller), a round is a sequence of tasks, and the
+    mechanism learns the penalty bias.
 
-    No task may begin before all hosts have the one before.  From what hosts say of when
-    tasks were completed follow the time from the first host of a task to its last one, its
-    spread, and the time until the next task is first completed.  The latter is
-    nearly proportional to 1/delta (doc/analysis.md), so delta follows: the next
-    task should come one spread after the last host.  It falls fast and rises slowly:
-    executions that overlap cannot be undone.
+    No task may begin before all hosts have the one before.  The completion
+    times on the hosts give the time from the first host of a task to its last
+    one, its spread, and the time until the next task is first completed.  The
+    latter is nearly proportional to 1/delta (doc/analysis.md), so delta
+    follows: the next task should come one spread after the last host.  It
+    falls fast and rises slowly: executions that overlap cannot be undone.
 */
 
 crew(Round, Hosts, Settings, Orders) :-

@@ -4,16 +4,16 @@
 /*  A learning algorithm for noisy measurements unit(Source, Settings, Value):
     climbs from the best settings known to those near it that promise most.
 
-    The model says how much each level in each place adds to the value.  It
-    is fitted to all measurements, but those count more that are near the
-    best settings, so that it is right there, where places depend on each
-    other.  What is known of settings are their own measurements, and the
-    model as one more, for a single measurement may be luck.  Where somebody
-    measures higher than others throughout, that is taken away before.
+    The model says how much each level in each place adds to the value.  It is
+    fitted to all measurements, but those count more that are near the best
+    settings, so that it is right there, where places depend on each other.
+    The estimate for settings combines their own measurements with the model
+    as one more, for a single measurement may be luck. A constant offset of a
+    source that measures higher than others is removed before.
 
-    The plan is to try what differs from the best settings in one place or
-    two and promises most, then to use the best ones and measure them again.
-    A level that was seldom tried promises more than the model says.
+    The plan tries the most promising settings that differ from the best ones
+    in one place or two, then uses the best ones and measures them again. A
+    level that was seldom tried is estimated higher than by the model.
 */
 
 plan(_, Units, Plan) :-
@@ -129,7 +129,7 @@ apart(X, Y, Apart) :-
     Apart is min(1, abs(X - Y)/3).
 apart(_, _, 1).
 
-%   One place after the other: what the others do not explain.
+%   One place after the other: the part that the others do not explain.
 
 fitted(0, _, _, _, Effects, Effects) :-
     !.
@@ -157,7 +157,7 @@ explained([Key|Levels], Place, Effects, Sum0, Sum) :-
     Sum1 is Sum0 + Added,
     explained(Levels, Place, Effects, Sum1, Sum).
 
-%   Half a measurement says that it adds nothing.
+%   Half a measurement with the effect 0 is added.
 
 effect(Place, Level-Rests, Effects0, Effects) :-
     weighed(Rests, 0, Sum, 0, Weight),

@@ -2,11 +2,11 @@
 :- include(confirm).
 
 /*  A genetic algorithm for measurements unit(Source, Genes, Value): lists of
-    genes of one length, and how fit somebody found them, with noise.
+    genes of one length, and their measured fitness, with noise.
 
-    The population of an agent are the fittest of what it knows, by its own
-    executions and by those of others that it met.  So agents are islands, and
-    sharing is migration; as the bag is emptied with each plan, immigrants
+    The population of an agent are the fittest individuals that it knows, from
+    its own executions and from agents that it met.  So agents are islands,
+    and sharing is migration; as the bag is emptied with each plan, immigrants
     are parents in one generation and then live on in their children.
 
     The plan is to try children of the population, then to use its fittest
@@ -14,8 +14,8 @@
     child has each gene of one of them; and now and then a gene mutates to
     another that was ever seen in its place.
 
-    What somebody measured once may be luck: fitness is the mean, drawn to
-    the average of all as if this had been measured once, too.
+    A single measurement may be luck: fitness is the mean of all measurements
+    and of the overall average, which counts as one measurement.
 */
 
 members(16).                    % of the population
@@ -23,7 +23,7 @@ children(4).                    % in a generation
 tournament(3).
 mutation(0.15).                 % of a gene
 
-%   So many generations there have been: the seed of the next one.
+%   The number of generations so far: the seed of the next one.
 
 plans(0).
 

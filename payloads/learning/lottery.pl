@@ -1,15 +1,15 @@
 :- payload(lottery, [provides([plan/3, better/2, plans/1])]).
 :- include(confirm).
 
-/*  Random search, for measurements unit(Source, Settings, Value): what any
-    learning algorithm for them has to be compared with.
+/*  Random search, for measurements unit(Source, Settings, Value): the
+    baseline for all learning algorithms for them.
 
     The plan is to try settings drawn at random, each level among those that
     were ever used in its place, then to use the settings with the best mean
     and to measure them again.
 */
 
-%   So many plans have been made: the seed of the next one.
+%   The number of plans so far: the seed of the next one.
 
 plans(0).
 

@@ -4,12 +4,12 @@
 /*  The maze world (thesis section 4.3): a robot is to find its way from
     (50,0) to the light at (0,50).  It is a problem for agents(learning).
 
-    A state is at(X, Y, Heading), where X and Y run from 0 to the size of
-    the maze.  A sensor vector is sv(Light, Obstacle, Heading, Cell):
-    Obstacle is 1 if an obstacle or the boundary is straight ahead, else 0.
-    The light is 100/(1 + distance), finite and brightest at the goal, and 0
-    when there is an obstacle ahead.  Cell is what tells cells of the same
-    light apart; setting(signature, false) makes it 0 everywhere.
+    A state is at(X, Y, Heading), where X and Y run from 0 to the size of the
+    maze.  A sensor vector is sv(Light, Obstacle, Heading, Cell): Obstacle is
+    1 if an obstacle or the boundary is straight ahead, else 0. The light is
+    100/(1 + distance), finite and brightest at the goal, and 0 when there is
+    an obstacle ahead.  Cell distinguishes cells of the same light;
+    setting(signature, false) makes it 0 everywhere.
 
     The norm of equation 4.7 is that of the light alone: as a number in a
     vector the heading would give turns a weight.
@@ -160,7 +160,7 @@ turning(none, Vector, from(Vector)) :-
     !.
 turning(Turned, _, Turned).
 
-%   However often it turned, one turn does it.
+%   Several turns are replaced by one.
 
 told(from(Vector0), Vector1, Action, Vector,
      unit(Vector0, [Turn,Action], Vector)) :-

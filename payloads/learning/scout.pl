@@ -10,7 +10,7 @@
     is one with the most links.
 */
 
-%   So many plans have been made: the seed of the next one.
+%   The number of plans so far: the seed of the next one.
 
 plans(0).
 

@@ -12,12 +12,12 @@
         again               with the same settings once more
         use(Settings)       with these; in plans only
 
-    A sensor vector is sv(Printer, Settings, Quality).  The quality, from 0
-    to about 1, is that of this page as the printer itself measures it, with
-    noise; what it would be without noise cannot be sensed.  So the goal is
-    reached when several pages on end, printed with the same settings, have
-    been good on average.  Luck may help: nothing else tells a printer that
-    its settings are good.
+    A sensor vector is sv(Printer, Settings, Quality).  The quality, from 0 to
+    about 1, is that of this page as the printer itself measures it, with
+    noise; the quality without noise cannot be sensed.  So the goal is reached
+    when several pages on end, printed with the same settings, have been good
+    on average.  This may be luck: a printer has no other evidence that its
+    settings are good.
 
     Units are unit(Printer, Settings, Quality), one for each page, good or
     bad, for a learning algorithm can do something with both.  The weight of
@@ -137,8 +137,9 @@ unit(sv(Printer, Settings, Quality), Weight0,
                 *          PRINTERS            *
                 *******************************/
 
-%   What a printer is like: makes(Density, Heat, Wear) says how far its
-%   best density and heat lie from the others', and what no setting mends.
+%   The properties of a printer, makes(Density, Heat, Wear): the deviation of
+%   its best density and heat from those of others, and a loss of quality that
+%   no setting compensates.
 
 printer(Name) :-
     here(Host),

@@ -3,12 +3,12 @@
                         lane_face/2, lane_check/2, lane_driven/2 ]) ]).
 
 /*  Driving along black lines (thesis section 7.7), on a robot that keeps to
-    them: what its program does is to take the right turn where lines meet.
+    them: the program only has to choose the turn at junctions.
 
     The wheels, 56 mm wide and 112 mm apart, are motors b, left, and c; the
-    compass is on port 2, sensors of colour look at the floor ahead of them
-    on ports 3 and 4.  All runs are limited: a robot whose program is ended
-    stops by itself.  A robot that gets lost stops, and raises robot_lost(How).
+    compass is on port 2, sensors of colour look at the floor ahead of them on
+    ports 3 and 4.  All runs are limited: a robot whose program is ended stops
+    by itself.  A robot that loses its way stops, and raises robot_lost(How).
 
     A way is a list of Metres-Turn: after so many metres comes a junction,
     where it turns `left` or `right` or goes `straight`; the last one is

@@ -2,12 +2,12 @@
            [ provides([ cost/3, carry/2, drive_to/2, take_up/0,
                         put_down/0 ]) ]).
 
-/*  How a robot of ROS with two wheels carries something, and what that costs.
+/*  How a two-wheeled ROS robot carries a load, and the cost of this.
 
-    Needs a host with ROS, and there the tuple rover(Name): the robot takes
-    geometry_msgs/Twist on /Name/cmd_vel and tells its geometry_msgs/Pose on
-    /Name/pose, of which the latest is in the tuple space, too; /Name/load and
-    /Name/unload are std_srvs/Trigger.
+    Needs a host with ROS, and there the tuple rover(Name): the robot accepts
+    geometry_msgs/Twist on /Name/cmd_vel and publishes its geometry_msgs/Pose
+    on /Name/pose, of which the latest is in the tuple space, too; /Name/load
+    and /Name/unload are std_srvs/Trigger.
 */
 
 near(0.15).                     % metres
@@ -92,7 +92,7 @@ place_of(Pose, p(X, Y), Heading) :-
     get_dict(w, Orientation, W),
     Heading is 2*atan2(Z, W).
 
-%   Turn to where it is, and go the faster the better that is ahead.
+%   Turn towards the goal, and drive faster the better the heading is.
 
 steer(p(X0, Y0), Heading, p(X, Y), Fastest, Speed, Turn) :-
     Distance is sqrt((X-X0)**2 + (Y-Y0)**2),

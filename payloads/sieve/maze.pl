@@ -21,10 +21,10 @@
                                 behind, left, right
         after(Action)           what the robot has just done
 
-    joined by commas.  Of the clauses whose readings all hold the first one
-    says what to do; where there is none the robot goes forward.  Against a
-    wall it stays where it is, and has lost a step.  Programs are
-    interpreted: they can do nothing but this.
+    joined by commas.  The first clause whose readings all hold determines the
+    action; without one the robot goes forward. Against a wall it does not
+    move, and loses a step. Programs are interpreted: they can do nothing
+    else.
 */
 
 %   obstacle(?Kind, ?Steps, ?Rows): the robot stands at ^, heading up, and
@@ -97,8 +97,8 @@ known_by(corridor, [ first_bend-[left], second_bend-[right],
 known_by(box, [ facing-[left,right], trapped-[left], right_end-[right],
                 end-[right], abreast-[right] ]).
 
-%   sight(?Sight, ?Squares, ?Goal, ?Last): what is ahead, left and right,
-%   to which sides the goal lies, and what the robot has just done.
+%   sight(?Sight, ?Squares, ?Goal, ?Last): the squares ahead, left and right,
+%   the directions of the goal, and the last action of the robot.
 
 sight(facing,      [wall,free,free], [ahead],        nothing).
 sight(cornered,    [wall,free,wall], [ahead,right],  nothing).

@@ -16,8 +16,9 @@
 
 /** <module> Learning without a network: for tests of problems and algorithms
 
-The trainer is the real one, on a host that is a few facts.  Each algorithm
-is in a module of its own.  All comes from seeds, so that it can be repeated.
+The trainer is the real one, on a host that consists of a few facts. Each
+algorithm has its own module. Seeds determine everything, so runs are
+repeatable.
 
 *Threading*: one thread at a time.
 */
@@ -77,9 +78,9 @@ execution(Plan, Start, Units, Outcome) :-
 %
 %   An agent for each of Modules; they execute in turn, at Hosts in turn, at
 %   most Most times each.  Before its plan each gets, with probability 0.6,
-%   all that another one has by its own executions.  Reached has
-%   Count-Pages for each that has come to the goal, by Count executions
-%   that gave so many units.
+%   all units that another agent has by its own executions. Reached has
+%   Count-Pages for each agent that has reached the goal, after Count
+%   executions with so many units.
 
 group(Seed, Modules, Hosts, Most, Reached) :-
     seeded(Seed),

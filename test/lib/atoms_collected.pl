@@ -4,9 +4,9 @@
 
     swipl test/lib/atoms_collected.pl -- TIMES
 
-Three threads read terms with atoms of their own, so many times each,
-while another collects atoms without a pause.  Prints `well`; where an atom is
-lost it says so, or the process crashes.
+Three threads read terms with atoms of their own, so many times each, while
+another collects atoms without a pause.  Prints `well`; if an atom is lost it
+reports this, or the process crashes.
 
 *Threading*: the main thread waits for the others.
 */
@@ -33,7 +33,7 @@ collect :-
     garbage_collect_atoms,
     fail.
 
-%   What was on the stack before looks as if it were the head of something large.
+%   Earlier contents of the stack look like the head of a large term.
 
 read_often(Times) :-
     thread_self(Me),

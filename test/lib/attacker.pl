@@ -1,19 +1,19 @@
 :- module(test_attacker, []).
 
-/** <module> A process that takes agents in and sends what it likes
+/** <module> A process that accepts agents and sends forged ones
 
     swipl test/lib/attacker.pl DIRECTORY
 
-It speaks the wire protocol, with the keys in DIRECTORY, and knows nothing of
-agents: the image of one is a term that it keeps, alters and sends.  It prints
-its address, and reads commands:
+It speaks the wire protocol, with the keys in DIRECTORY, and does not run
+agents: the image of an agent is a term that it keeps, alters and sends.  It
+prints its address, and reads commands:
 
-  - had: prints had(Count), how many images have come
+  - had: prints had(Count), the number of images received
   - send(Endpoint, Host, N, Change): sends the image that came as the N-th to
     Host, and prints the answer.  Change is `none`; `next`, with one hop more;
     or unlinked(I), with one hop more and without the I-th link of its trail
 
-All else ends it.
+Any other command ends it.
 
 *Threading*: the main thread reads; images come in the reader threads of the
 endpoint.

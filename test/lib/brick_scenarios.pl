@@ -1,10 +1,10 @@
 :- module(test_brick_scenarios, [scenario/2]).  % ?Name, ?Steps
 
-/** <module> What a brick answers, byte by byte
+/** <module> The answers of a brick, byte by byte
 
-Typed in from LEGO's documents; nothing here comes from an encoder of ours.
-Steps are Request-Reply, silent(Request), tell(Line) and advance(Seconds);
-blanks only make long telegrams readable. See test_brick.pl.
+Copied from LEGO's documents by hand, not made by an encoder of ours. Steps
+are Request-Reply, silent(Request), tell(Line) and advance(Seconds); blanks
+only make long telegrams readable. See test_brick.pl.
 */
 
 %!  scenario(?Name, ?Steps) is nondet.

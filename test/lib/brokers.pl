@@ -14,8 +14,8 @@
 
 /** <module> MQTT brokers for tests, and clients of other programs
 
-A broker is a real mosquitto at a port of its own.  Strangers are
-mosquitto_pub and mosquitto_sub.
+A broker is a real mosquitto at its own port. Other clients are mosquitto_pub
+and mosquitto_sub.
 
 *Threading*: one test at a time.
 */
@@ -45,9 +45,9 @@ mosquitto_pub and mosquitto_sub.
 %!  broker_again(+Broker) is det.
 %!  broker_signal(+Broker, +Signal) is det.
 %
-%   Options are lines of its configuration; `anonymous(false)` leaves out that
-%   anybody may come.  One that was stopped by broker_signal/2 and `term` can
-%   be started again, at its port.
+%   Options are lines of its configuration; `anonymous(false)` omits the line
+%   that admits anonymous clients.  One that was stopped by broker_signal/2
+%   and `term` can be started again, at its port.
 
 broker_start(Options, broker(Port, Dir)) :-
     tmp_file(typhon_broker, Dir),
@@ -90,7 +90,7 @@ broker_stop(broker(Port, Dir)) :-
     forall(retract(running(Port, Pid)), end(Pid, kill)),
     delete_directory_and_contents(Dir).
 
-%   A signal that comes while mosquitto is about to begin is lost.
+%   A signal is lost while mosquitto starts.
 
 end(Pid, Signal) :-
     process_kill(Pid, Signal),

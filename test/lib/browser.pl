@@ -18,7 +18,7 @@
             browser_complaints/2        % +Browser, -Texts
           ]).
 
-/** <module> A Chromium that tests look through
+/** <module> A Chromium for tests
 
 Driven by chromedriver, in the words of the W3C's WebDriver.
 
@@ -44,7 +44,7 @@ Driven by chromedriver, in the words of the W3C's WebDriver.
 with_browser(Browser, Goal) :-
     with_tmp_dir(browsing(Browser, Goal)).
 
-%   Chromium leaves behind where it has listened, and on a busy machine writes
+%   Chromium leaves files in its directory, and on a busy machine still writes
 %   there for a moment after its driver has ended.
 
 browsing(Browser, Goal, Dir) :-
@@ -72,8 +72,8 @@ session(Port, browser(Base)) :-
 end_session(browser(Base)) :-
     catch(http_delete(Base, _, [json_object(dict)]), error(_, _), true).
 
-%   A port of its own choice is free for IPv6, and where somebody has it for
-%   IPv4 the driver ends; also where the one we chose was taken meanwhile.
+%   The driver chooses a port that is free for IPv6, and ends if the port is
+%   in use for IPv4, or if the port that we chose was taken meanwhile.
 
 driver(Dir, Pid, Out, Port) :-
     between(1, 10, _),
@@ -163,7 +163,7 @@ browser_run(Browser, Script, Arguments, Result) :-
 %!  browser_wait(+Browser, +Script) is det.
 %!  browser_wait(+Browser, +Script, +Seconds) is det.
 %
-%   Until Script returns something that is true there.
+%   Wait until Script returns a true value.
 
 browser_wait(Browser, Script) :-
     browser_wait(Browser, Script, 15).
@@ -278,7 +278,7 @@ pointed(up, _{type:"pointerUp", button:0}).
 %!  browser_size(+Browser, +Width, +Height) is det.
 %!  browser_theme(+Browser, +Theme) is det.
 %
-%   What the page sees, in pixels; `light` or `dark`.
+%   The size of the window, in pixels; `light` or `dark`.
 
 browser_size(Browser, Width, Height) :-
     cdp(Browser, "Emulation.setDeviceMetricsOverride",
@@ -294,7 +294,7 @@ cdp(Browser, Command, Parameters) :-
 
 %!  browser_shot(+Browser, +File) is det.
 %
-%   What is to be seen, as PNG.
+%   A screenshot, as PNG.
 
 browser_shot(Browser, File) :-
     asked(Browser, screenshot, Encoded),
@@ -308,7 +308,7 @@ browser_shot(Browser, File) :-
 %!  browser_tab(+Browser, -Tab) is det.
 %!  browser_goto_tab(+Browser, +Tab) is det.
 %
-%   Those there are; a new one, to which one goes; go to one there is.
+%   The open tabs; open a new tab and switch to it; switch to a tab.
 
 browser_tabs(Browser, Tabs) :-
     asked(Browser, 'window/handles', Tabs).
@@ -323,8 +323,8 @@ browser_goto_tab(Browser, Tab) :-
 
 %!  browser_complaints(+Browser, -Texts) is det.
 %
-%   What the console of the page has said since it was asked last: errors,
-%   and what its policy has refused.
+%   The messages in the console of the page since the last call: errors, and
+%   violations of its policy.
 
 browser_complaints(Browser, Texts) :-
     command(Browser, 'se/log', _{type:"browser"}, Entries),

@@ -5,8 +5,8 @@
     sh -c 'ulimit -v KILOBYTES; exec swipl test/lib/clone_bomb.pl'
 
 An agent clones itself, and so do its clones, until the host refuses a clone.
-Then the bomb is stopped; when its agents are gone another agent begins
-there, and ends, and `well` is printed.
+Then the bomb is stopped; after its agents have ended another agent runs there
+to its end, and `well` is printed.
 
 *Threading*: the main thread waits for the others.
 */

@@ -3,10 +3,10 @@
             with_sshd/1                 % :Goal
           ]).
 
-/** <module> A cluster of one machine
+/** <module> A cluster on one machine
 
-Daemons of Slurm and of ssh, with ports, keys and files of their own in a
-temporary directory; they are gone afterwards.
+Daemons of Slurm and of ssh, with their own ports, keys and files in a
+temporary directory, which is removed afterwards.
 
 *Threading*: the main thread.
 */
@@ -155,8 +155,8 @@ process_user(User) :-
 
 %!  with_sshd(:Goal) is semidet.
 %
-%   Call Goal(Dir, Ssh) while this machine lets us in: Ssh is the command
-%   that goes there, with its options.
+%   Call Goal(Dir, Ssh) while an ssh daemon of this machine runs: Ssh is the
+%   command that logs in, with its options.
 
 with_sshd(Goal) :-
     with_tmp_dir(sshd(Goal)).

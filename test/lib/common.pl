@@ -16,15 +16,15 @@
             free_port/1                 % -Port
           ]).
 
-/** <module> What all test suites share
+/** <module> Common predicates of all test suites
 
-A suite begins with `:- use_module('../lib/common')`, after which library(typhon),
-agents(X) and payloads(X) are those of this tree, and the cookie of the
-endpoints is a private one; then `:- needs(Names)` if it needs what not every
-machine has.
+A suite begins with `:- use_module('../lib/common')`, after which
+library(typhon), agents(X) and payloads(X) are those of this tree, and the
+cookie of the endpoints is a private one; then `:- needs(Names)` if it needs
+packages that not every machine has.
 
-*Threading*: the predicates may be called in any thread.  no_leaks/1 looks at
-the whole process, so nothing else should be coming and going meanwhile.
+*Threading*: the predicates may be called in any thread.  no_leaks/1 checks
+the whole process, so no other test should run meanwhile.
 */
 
 :- use_module(library(filesex),
@@ -69,8 +69,8 @@ user:file_search_path(library, Dir) :-
 %!  needs(+Names) is det.
 %
 %   The suite needs the packages or groups Names of .ci/packages. As a
-%   directive: where something of them is missing the suite is skipped, and
-%   test/run.pl says what is missing.
+%   directive: if a package is missing the suite is skipped, and test/run.pl
+%   reports it.
 
 :- dynamic needed/1.
 
@@ -80,7 +80,8 @@ needs(Names) :-
 %!  missing(-Packages:list(string)) is det.
 %!  missing(+Names, -Packages:list(string)) is det.
 %
-%   What the suite needs, or is of Names, and this machine does not have.
+%   Packages that the suite needs, or of Names, that this machine does not
+%   have.
 
 missing(Packages) :-
     findall(Name, ( needed(Names), member(Name, Names) ), Names),
@@ -127,7 +128,7 @@ make_tmp_dir(Dir) :-
 
 %!  shell_script(+File, +Line) is det.
 %
-%   File is a program: the shell that does Line.
+%   File becomes a program: a shell script with Line.
 
 shell_script(File, Line) :-
     setup_call_cleanup(
@@ -152,9 +153,9 @@ set(Setting=Value) :-
 
 %!  wait_until(:Goal, +Seconds) is det.
 %
-%   Waits for Goal to become true, trying it again and again.  It sleeps in
-%   between: waits for messages that are this short have been seen to spin
-%   for ever on a busy machine.
+%   Waits for Goal to become true, by polling.  It sleeps in between: waits
+%   for messages that are this short have been seen to spin for ever on a busy
+%   machine.
 %
 %   @error timeout_error(wait_until, Goal)
 
@@ -201,7 +202,7 @@ left_behind(Before) :-
     ;   throw(error(leaked(Things), _))
     ).
 
-%   What has no reference any more is there until it is collected.
+%   Unreferenced objects exist until they are collected.
 
 leaked(Before, Things) :-
     garbage_collect_clauses,
@@ -264,8 +265,8 @@ stat(File, State, Parent) :-
 
 %!  stop_process(+Pid) is det.
 %
-%   Pid stands still when this is true: the signal takes its time, for each
-%   thread.
+%   Pid is suspended when this succeeds: the signal takes effect in each
+%   thread separately.
 
 stop_process(Pid) :-
     process_kill(Pid, stop),

@@ -10,8 +10,8 @@
 
 listens to Port, prints its address, and reads commands: `restart` starts the
 endpoint anew and prints its new address; greet(Address, Time) posts to
-Address at Time, a time stamp, and prints outcome(Outcome, Seconds); all else
-ends it.
+Address at Time, a time stamp, and prints outcome(Outcome, Seconds); any other
+command ends it.
 
 Posts of kind `note` are remembered; at `back` N are posted to the sender.
 Requests are
@@ -25,8 +25,8 @@ Requests are
     asks it for one, in a thread of its own
   - ask(Address, Size), of kind `ask_back`: asks Address for a string, in a
     thread of its own
-  - reach(Addresses): posts to all of them at once; the answer are those that
-    could not be reached
+  - reach(Addresses): posts to all of them at once; the answer lists those
+    that could not be reached
   - string(Size): the answer is one
 */
 
@@ -99,7 +99,7 @@ cross(Address, Size, N) :-
 
 %!  big_string(+Size, -String) is det.
 %
-%   Made of two halves: nothing longer is made on the way.
+%   Made of two halves: no longer string is made in between.
 
 big_string(0, "") :-
     !.

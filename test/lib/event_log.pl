@@ -14,7 +14,7 @@
 
 %!  logged(+File, -Events:list) is det.
 %
-%   What was logged so far, in order, event(Time, Host, Agent, What).
+%   The events so far, in order, event(Time, Host, Agent, What).
 
 logged(File, Events) :-
     new_lines(File, 0, _, Lines),

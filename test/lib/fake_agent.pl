@@ -14,16 +14,15 @@
 :- use_module(library(lists)).
 :- use_module(library(readutil)).
 
-/** <module> An agent on a host that is a few facts
+/** <module> An agent on a simulated host
 
-Agent programs become clauses of module fake_agent, which are called like
-any others: the vocabulary of agents is that of module fake_host here.
-Nothing moves or waits.  sleep/1 sets the clock forward; receive/2 finds a
-message or fails, at the time until which it would have waited; clone/1
-answers what fake_clone/1 said, move/1 raises an error where fake_refusal/1
-said so, next_host/2 always chooses `next`, and what is sent may be answered
-as fake_reply/2 said.  here/1 is `here` until the
-agent moves.
+Agent programs become clauses of module fake_agent, which are called like any
+others: the vocabulary of agents is that of module fake_host here. Nothing
+moves or waits.  sleep/1 sets the clock forward; receive/2 finds a message or
+fails, at the time until which it would have waited; clone/1 returns the
+answer set by fake_clone/1, move/1 raises an error for hosts of
+fake_refusal/1, next_host/2 always chooses `next`, and fake_reply/2 defines
+answers to messages.  here/1 is `here` until the agent moves.
 
 *Threading*: one agent at a time.
 */
@@ -157,10 +156,10 @@ load_clause(Clause, _) :-
 %!  fake_refusal(+Host) is det.
 %!  fake_neighbours(+Hosts) is det.
 %
-%   What the clock shows; a From-Message for the agent, and one that comes,
-%   once, when it has sent Sent, a To-Message; that the process of Id is
-%   gone; what comes of the agent's next clone (an error is raised), that
-%   Host refuses it, and which hosts are near, wherever it is.
+%   Set the clock; add a From-Message for the agent; add a Message that
+%   arrives, once, when it has sent Sent, a To-Message; mark the process of Id
+%   as gone; set the answer to the agent's next clone (an error is raised);
+%   let Host refuse it; and set its neighbours, on any host.
 
 fake_at(Time) :-
     retractall(fake_host:time(_)),
@@ -188,7 +187,7 @@ fake_neighbours(Hosts) :-
 %!  did(-Acts) is det.
 %!  tuples(-Tuples) is det.
 %
-%   What the agent did, in order, and what is at the host.
+%   The actions of the agent, in order, and the tuples of the host.
 
 did(Acts) :-
     findall(Act, fake_host:did(Act), Acts).

@@ -16,17 +16,17 @@
 
 /** <module> One node of an auction, alone
 
-It is a few facts: what it hears is said to it, what it sends is recorded,
-and time passes when the test says so. It is at host `here` with neighbours
-a, b and c; the robot of the host is agent `robot`.
+A simulated node: the test delivers its messages, records the messages that it
+sends, and advances the time. It is at host `here` with neighbours a, b and c;
+the robot of the host is agent `robot`.
 
 *Threading*: one node at a time.
 */
 
 %!  node(+Program, +Facts) is det.
 %
-%   A node of Program, `murdoch` or `anta`, with Facts; gone(Agent) is one of
-%   an agent that is not there any more.
+%   A node of Program, `murdoch` or `anta`, with Facts; gone(Agent) marks an
+%   agent that has ended.
 
 node(Program, Facts) :-
     atomic_list_concat(['agents/allocation/', Program, '.pl'], File),
@@ -44,8 +44,8 @@ node(Program, Facts) :-
 %!  link(+From, +Due, +Load) is det.
 %!  at(+Time) is det.
 %
-%   The node gets a message of an agent, or one over the link from a host,
-%   or it is Time; and it does what is due then.
+%   Deliver a message of an agent, or a message over the link from a host, or
+%   set the time; then the node performs what is due.
 
 hears(Message, From) :-
     once(fake_agent:heard(Message, From)),
@@ -62,9 +62,9 @@ at(Time) :-
 %!  bodies(-Pairs) is det.
 %!  logged(-What:list) is det.
 %
-%   What the node has sent since the last time: To-Load, a host and what
-%   went over the link to it, or robot-Message. With bodies/1 a Load that is
-%   flooded is shown as what is in it. And what it has logged.
+%   Messages of the node since the last call: To-Load, a host and the load of
+%   the link to it, or robot-Message. With bodies/1 a flooded Load is shown as
+%   its body. And the events that it has logged.
 
 sent(Pairs) :-
     findall(To-Load,
@@ -89,7 +89,7 @@ logged(What) :-
 
 %!  fact(?Fact) is semidet.
 %
-%   What the node knows.
+%   Facts of the node.
 
 fact(Fact) :-
     once(fake_agent:Fact).

@@ -15,8 +15,8 @@
 
 /** <module> Hosts and agents for tests
 
-Hosts that are there while a goal runs and leave nothing behind, agents
-from a list of clauses, and what was printed meanwhile.
+Hosts that run during a goal and leave nothing behind, agents from a list of
+clauses, and captured messages.
 
 *Threading*: one test at a time.
 */
@@ -88,8 +88,8 @@ listening(Goal, Messages) :-
 %!  was_told(+Kind, ?Message) is semidet.
 %!  were_told(+Kind, ?Message) is nondet.
 %
-%   The Goal of listening/2 can wait until there was this Message; each of
-%   those there were.
+%   Goals of listening/2 can wait for a Message; enumerate the messages so
+%   far.
 
 was_told(Kind, Message) :-
     heard(Kind, Message),
@@ -116,8 +116,7 @@ create(Clauses, Agent, Options) :-
 
 %!  joined(+Agent, -Outcome) is det.
 %
-%   Outcome is how Agent ended, `timeout` after a time that is more than
-%   long enough.
+%   Outcome is the outcome of Agent, or `timeout` after a generous time.
 
 joined(Agent, Outcome) :-
     agent_join(Agent, Outcome, 20).

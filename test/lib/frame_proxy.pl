@@ -11,9 +11,9 @@
 
 /** <module> Proxies that let frames pass by a script
 
-A proxy of each endpoint knows frames by their heads only. Those from A to B
-are numbered from 1 on over all connections of the two since script/2, and
-Link is A-B, each the name of an endpoint or the address of one without a
+The proxy of each endpoint recognises frames by their heads only. Those from A
+to B are numbered from 1 on over all connections of the two since script/2,
+and Link is A-B, each the name of an endpoint or the address of one without a
 proxy. An event
 
     at(Link, Number, When, Action)
@@ -25,7 +25,7 @@ half of it has passed (`inside`), or `after` it. Actions are
   - mute: nothing more passes on this connection, in either direction
   - hold(Seconds): the frame, and what comes after it, waits
   - stop: it waits until go_on/0
-  - crash(Name): call(Crash, Name); what has not passed of the frame is lost
+  - crash(Name): call(Crash, Name); the rest of the frame is lost
 
 *Threading*: the threads of the relays pass frames on. The other predicates are
 for the main thread of a test.
@@ -69,7 +69,7 @@ frame_proxy_stop(Proxy) :-
 
 %!  script(+Events, :Crash) is det.
 %
-%   The next frame of each link has number 1, and Events are still to happen.
+%   The next frame of each link has number 1, and Events are pending.
 
 script(Events, Crash) :-
     with_mutex(frame_proxy, new_script(Events, Crash)).
@@ -107,7 +107,7 @@ has_crashed(Name) :-
 
 %!  go_on is det.
 %
-%   What events `stop` have stopped goes on.
+%   Resume the frames that events `stop` hold.
 
 go_on :-
     forall(retract(stopped(Thread)),
@@ -137,7 +137,7 @@ link(up, Proxy, Connection, Client-Name) :-
 link(down, Proxy, Connection, Name-Client) :-
     link(up, Proxy, Connection, Client-Name).
 
-%   Each side says three lines, the first `typhon Version ...` with its
+%   Each side sends three lines, the first `typhon Version ...` with its
 %   address, the last `resume ...`.
 
 handshake(Direction, Connection, In, Out, HeadBytes) :-

@@ -9,7 +9,7 @@
 /** <module> A JADE platform for tests, in a JVM of its own
 
 Its agents are in fipa/Peer.java, which is compiled when it is started.  It
-does what jade/2 says, one thing after the other.
+executes the commands of jade/2 in order.
 
 *Threading*: one test at a time.
 */
@@ -98,7 +98,7 @@ jade(Words, Answer) :-
     flush_output(In),
     answer(Answer).
 
-%   JADE itself says things there, too.
+%   JADE itself prints there, too.
 
 answer(Answer) :-
     jvm(_, _, Out, _, _),

@@ -28,9 +28,9 @@ suite_mark(Name, Mark) :-
 %!  kill_left_behind(+Mark, -Names) is det.
 %!  kill_all_left_behind is det.
 %
-%   Kill those of one suite, or of all that this process has run.  What is
-%   about to end anyway has half a minute for it; kill_all_left_behind/0 does
-%   not wait.
+%   Kill the processes of one suite, or of all suites of this process.
+%   Processes that are about to end have half a minute; kill_all_left_behind/0
+%   does not wait.
 
 kill_left_behind(Mark, Names) :-
     catch(( wait_until(marked_processes(Mark, []), 30),

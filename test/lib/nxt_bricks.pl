@@ -42,7 +42,7 @@ digits, without the two bytes of length.
 
 %!  python(-Executable) is det.
 %
-%   The interpreter of the system, not one that hides it in PATH.
+%   The interpreter of the system, not another one earlier in PATH.
 
 python('/usr/bin/python3') :-
     exists_file('/usr/bin/python3'),

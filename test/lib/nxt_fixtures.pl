@@ -8,10 +8,10 @@
             helper_pid/1                % -Pid
           ]).
 
-/** <module> Far ends for the bridge to NXT bricks
+/** <module> Peers of the bridge to NXT bricks
 
-A peer is nxt_peer.py, which answers what a test says; a brick is the
-simulated one.  Both are processes of their own behind pseudo-terminals.
+A peer is nxt_peer.py, whose answers a test defines; a brick is the simulated
+one.  Both are processes of their own behind pseudo-terminals.
 
 *Threading*: one test at a time.
 */
@@ -56,7 +56,7 @@ end_python(In, Out, Pid) :-
 
 %!  peer_tell(+Peer, +Line) is det.
 %
-%   What it shall do at the next telegram.
+%   Set its reaction to the next telegram.
 
 peer_tell(far(In, _), Line) :-
     format(In, '~w~n', [Line]),
@@ -91,7 +91,7 @@ answer(far(_, Out), Term) :-
 
 %!  brick_ask(+Brick, +Line, -Answer) is det.
 %
-%   What the simulated brick says to a line, a term.
+%   The answer of the simulated brick to a line, a term.
 
 brick_ask(Brick, Line, Answer) :-
     peer_tell(Brick, Line),

@@ -8,7 +8,7 @@
             told/3                      % +Feed, +Pattern, -Event
           ]).
 
-/** <module> Pages, as programs see them
+/** <module> Clients of the page
 
 *Threading*: any thread.
 */
@@ -61,8 +61,8 @@ got(Address, Options, Status) :-
 %!  frame(+Feed, -Frame:dict) is det.
 %!  told(+Feed, +Pattern:list, -Event:list) is det.
 %
-%   Event is the next one that begins like Pattern, after its time; others are
-%   passed over.
+%   Event is the next event that begins like Pattern, after its time; others
+%   are skipped.
 
 with_feed(Base, Feed, Goal) :-
     atom_concat(http, Rest, Base),

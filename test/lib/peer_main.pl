@@ -8,9 +8,8 @@ carries out the goals that come on standard input, one after the other, and
 answers each with a line: yes(Goal), `no` or raised(Error). Ends with its
 input. Options:
 
-    --port=R --known-as=P    the endpoint listens at port R, but says P: a
-                             proxy stands before it
-    --codec=text             speak text to everybody
+    --port=R --known-as=P    the endpoint listens at port R, but announces P:
+    a proxy stands before it --codec=text             speak text to everybody
 
 *Threading*: the main thread carries out the goals.
 */
@@ -80,7 +79,7 @@ raised(Ball, raised(Ball)).
                 *        WHAT TESTS ASK        *
                 *******************************/
 
-%   What stands in this process, whatever others know.
+%   The agents in this process, whatever other processes know.
 
 agent_here(Id) :-
     typhon_agents:agent(Id, _, _, _, _).
@@ -88,7 +87,8 @@ agent_here(Id) :-
 status_here(Id) :-
     typhon_agents:agent_status(Id, _, _).
 
-%   The agent is under way as a frame; to look at its properties would change that.
+%   The agent is under way as a frame; reading its properties would change
+%   that.
 
 handed_over(Id) :-
     typhon_agents:under_way(Id, _, _, _, _, _),
@@ -115,8 +115,8 @@ connected_to(Host) :-
     typhon_host_names:address_parts(Host, _, Endpoint),
     typhon_wire:endpoint_peer(Endpoint, state(up)).
 
-%   Somebody tries, or some connection has yet to be that of a session or to
-%   be refused.
+%   A thread is connecting, or a connection is neither assigned to a session
+%   nor refused yet.
 
 connecting :-
     typhon_attempts:attempt(_, _, _, _),
@@ -155,7 +155,7 @@ try_move(Host, Options, Error) :-
            remote(Name, take(tried(Error0))) )),
     Error = error(Error0).
 
-%   A goal that others need not wait for; background: it has not ended.
+%   Runs a goal in another thread; `background`: it has not ended.
 
 :- dynamic background/0.
 
@@ -169,18 +169,18 @@ send_in_background(Id, Count) :-
     thread_create(forall(between(1, Count, I), agent_send(Id, n(I))), _,
                   [detached(true)]).
 
-%   Attempts to connect that come to nothing do so soon.
+%   Attempts to connect fail soon.
 
 hurried :-
     set_setting(typhon_connection_manager:connect_time, 0.3).
 
-%   This process makes no connections: others do.
+%   This process opens no connections: others do.
 
 calls_nobody :-
     wrap_predicate(typhon_connection:connect(_, _, _), calls_nobody, _,
                    throw(error(socket_error(econnreset, reset), _))).
 
-%   Letters for Id wait here, and have been tried.
+%   Messages for Id wait here after a failed attempt.
 
 kept(Id) :-
     typhon_backlog:backlog(Id).
@@ -192,7 +192,7 @@ tried_in_vain(Id) :-
 news_kept(Count) :-
     aggregate_all(count, typhon_news:news(_, _, _), Count).
 
-%   Count the letters that come.
+%   Count the messages that arrive.
 
 :- dynamic message_seen/0.
 
@@ -203,7 +203,7 @@ count_messages :-
 messages_seen(Count) :-
     aggregate_all(count, message_seen, Count).
 
-%   Count the programs in the frames that come.
+%   Count the programs in the frames that arrive.
 
 :- dynamic program_seen/0.
 
@@ -219,20 +219,20 @@ count_programs :-
 programs_seen(Count) :-
     aggregate_all(count, program_seen, Count).
 
-%   What arrives is installed, and its source never hears of it.
+%   Arrivals are installed, but not answered.
 
 silence_answers :-
     wrap_predicate(typhon_messaging:endpoint_reply_later(_, _), mute, _,
                    true),
     settle_nothing.
 
-%   What comes is received; that it is settled is not said.
+%   Frames are acknowledged as received, but not as settled.
 
 settle_nothing :-
     wrap_predicate(typhon_frame:frame_write(_, Counts, _), unsettled, Wrapped,
                    ( setarg(2, Counts, 0), Wrapped )).
 
-%   The answers to what arrives are kept until give_answers/0.
+%   Answers to arrivals are held back until give_answers/0.
 
 :- dynamic answer_kept/2.               % ReplyTo, Answer
 

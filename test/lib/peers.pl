@@ -13,9 +13,9 @@
 
 /** <module> Processes with hosts in them, for tests
 
-A peer is another Prolog process, known by an atom, that carries out goals.
-It talks to the test through pipes, so that tests can do to its endpoint
-what they like.
+A peer is another Prolog process, known by an atom, that carries out goals. It
+communicates with the test through pipes, so that tests can disturb its
+endpoint.
 
 *Threading*: for the main thread of a test, but for peer_crash/1.
 */
@@ -149,7 +149,7 @@ peer_restart(Peer) :-
 %!  peer_crash(+Peer) is det.
 %
 %   From any thread: Peer ends at once, and no process listens at its address
-%   when this is true. peer_kill/1 and peer_restart/1 are to follow.
+%   when this succeeds. The caller then calls peer_kill/1 and peer_restart/1.
 
 peer_crash(Peer) :-
     (   frame_proxy(Peer, Proxy)
@@ -171,7 +171,7 @@ peer_kill(Peer) :-
 
 %!  peer_signal(+Peer, +Signal) is det.
 %
-%   When it returns Peer has stopped, if that is what `stop` should do.
+%   After `stop`, Peer is suspended when it returns.
 
 peer_signal(Peer, Signal) :-
     peer(Peer, Pid, _, _),
@@ -220,7 +220,7 @@ peer_try(Peer, Goal, Outcome) :-
 
 %!  peer_messages(+Peer, -Lines:list(string)) is det.
 %
-%   What Peer has printed.
+%   The output of Peer.
 
 peer_messages(Peer, Lines) :-
     messages(Peer, File),

@@ -13,8 +13,8 @@
 
 %!  greeting(+Process, -Line:string) is det.
 %
-%   What a client called Process says first, without the end of the line. It
-%   claims no byte order: so terms go as text.
+%   The first line of a client with the id Process, without the end of the
+%   line. It announces no byte order, so terms are sent as text.
 
 greeting(Process, Line) :-
     current_prolog_flag(version, Version),
@@ -25,7 +25,8 @@ greeting(Process, Line) :-
 
 %!  prove_oneself(+In, +Out, +Process) is semidet.
 %
-%   Both sides prove that they know the cookie. Fails if the other side does not.
+%   Both sides prove that they have the cookie. Fails if the other side does
+%   not.
 
 prove_oneself(In, Out, Process) :-
     greeting(Process, Client),

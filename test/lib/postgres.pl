@@ -8,7 +8,7 @@
             postgres_relay/1            % +Order
           ]).
 
-/** <module> A server of PostgreSQL for the time of a suite
+/** <module> A PostgreSQL server for a suite
 
 It has its data in a temporary directory, and listens at a socket there.
 
@@ -55,7 +55,7 @@ postgres_stop :-
 %!  postgres_crash is det.
 %!  postgres_again is det.
 %
-%   It ends at once, as `pg_ctl stop -m immediate` has it; it runs again.
+%   Stop it at once, as `pg_ctl stop -m immediate`; restart it.
 
 postgres_crash :-
     retract(running(Dir, Pid, Err)),

@@ -42,7 +42,7 @@ claims(Study, Claims) :-
 
 %!  odd_claims(+Study, -Problems:list) is det.
 %
-%   What in the claims is no test, or that there are none.
+%   Parts of claims that are not tests, or the absence of claims.
 
 odd_claims(Study, Problems) :-
     claims(Study, Claims),

@@ -2,12 +2,12 @@
           [ quick_swipl/2               % +Dir, -Program
           ]).
 
-/** <module> A Prolog that need not read library(typhon)
+/** <module> A Prolog with a saved state of library(typhon)
 
-To read the library takes 0.3 seconds, and suites start hundreds of processes
-that do.  So test/run.pl makes a program that has read it, see quick_start,
-and runs the suites by that.  What a suite starts as the `executable` of its
-own process is this program, too; in all else it is a `swipl`.
+Loading the library takes 0.3 seconds, and suites start hundreds of processes
+that load it. So test/run.pl makes a saved state with the library, see
+quick_start, and runs the suites with it. The `executable` of a suite's
+process is this program, too; otherwise it behaves as `swipl`.
 
 *Threading*: any thread.
 */

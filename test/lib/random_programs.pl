@@ -12,11 +12,11 @@
               [ code_install/3, code_module/2, fault/3, machine_run/3,
                 plain_goals/2, program_load/5 ]).
 
-/** <module> Random agent programs, and whether all engines run them alike
+/** <module> Random agent programs, run by all engines for comparison
 
 Each program is run by the machine alone, by chunks, and by both in turn.  At
-each stop the goals and the state that are left go to a new agent: as goals,
-or, as within a process, with frames in their stead.
+each stop the remaining goals and the state are passed to a new agent: as
+goals, or, as within a process, as frames.
 */
 
                 /*******************************

@@ -12,8 +12,8 @@
 /** <module> Connections through the test process
 
 A relay listens at an address of its own and connects each client to a target,
-both being atoms 'Interface:Port'. What passes is up to the pump: a closure
-that is called as
+both being atoms 'Interface:Port'. The pump passes the bytes: a closure that
+is called as
 
     call(Pump, Relay, Connection, Direction, In, Out)
 
@@ -73,7 +73,7 @@ relay_cut(Relay) :-
 %!  relay_admit(+Relay) is det.
 %
 %   From relay_refuse/1 to relay_admit/1 no process listens at the address:
-%   clients are refused as they are by a machine whose process is dead.
+%   clients are refused as by a machine whose process is dead.
 
 relay_refuse(Relay) :-
     (   retract(listener(Relay, Socket, Thread))
@@ -102,7 +102,7 @@ cut :-
 
 %!  carry(+Out, +Text) is det.
 %
-%   Text, a string or list of octets, is on its way when this is true.
+%   Writes and flushes Text, a string or list of octets.
 
 carry(Out, Text) :-
     format(Out, "~s", [Text]),

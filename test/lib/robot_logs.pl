@@ -17,7 +17,7 @@
 :- use_module('../../experiments/engine/picture', [picture/4]).
 :- use_module('../../experiments/engine/studies', [study_call/2]).
 
-/** <module> Studies of robots: what they say of logs made by hand, and runs
+/** <module> Studies of robots, applied to hand-made logs and to runs
 
 *Threading*: one test at a time.
 */

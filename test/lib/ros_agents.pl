@@ -8,7 +8,8 @@
 :- use_module(common).
 :- use_module(library(typhon)).
 
-/** <module> Agents that carry out messages, and report what they get
+/** <module> Agents that execute goals in messages, and report received
+    messages
 
 *Threading*: any thread; one at a time for each agent.
 */

@@ -17,11 +17,11 @@
 
 /** <module> A stand-in for rosbridge_server
 
-Serves what rosbridge_suite's server does of the protocol, as its sources and
-its document say: topics among its clients, the services `/add_two_ints`,
+Serves the protocol of rosbridge_suite's server, according to its sources and
+document: topics among its clients, the services `/add_two_ints`,
 `/rosapi/topics` and `/slow`, services that clients advertise, and the action
 `/fibonacci`.  A frame with a field missing, or of another type than that
-server checks for, is answered with a status, and noted; so are all others.
+server checks for, is answered with a status. All frames are recorded.
 
 *Threading*: a thread for each client; tables that all share.
 */
@@ -80,7 +80,7 @@ rosbridge_clients(Count) :-
 %!  rosbridge_say(+What) is det.
 %!  rosbridge_cut is det.
 %
-%   Say a frame, or any text, to all clients; leave them all.
+%   Send a frame, or any text, to all clients; disconnect them all.
 
 rosbridge_say(What) :-
     forall(client(Client, _), say(Client, What)).

@@ -9,21 +9,22 @@
                                         % +Act
           ]).
 
-/** <module> What agents do while the frames of their hops are disturbed
+/** <module> Hops of agents with disturbed frames
 
 Three processes a, b and c, each behind a proxy that knows frames. A scenario
-is a small story of an agent that is created on a. Program is `known`, or
-`new`, if the processes have not met the program before, or `forgotten` by them.
+is a sequence of actions of an agent that is created on a. Program is `known`,
+`new`, if the processes do not have the program, or `forgotten`, if they have
+discarded it.
 
   - there_and_back: it goes to b and comes back
   - ring: it goes to b, to c, and comes back
   - clone: it makes a clone on b
-  - refused: it wants to a host of b that does not admit it
+  - refused: it tries to move to a host of b that refuses it
   - follow: it goes to b, and ten messages are sent to it from a meanwhile
   - chase: it goes to b, and they are sent from c
 
-Each agent leaves step(Tag, What) in the tuple space of the host it is on, so
-that what is lost or done twice shows.
+Each agent leaves step(Tag, What) in the tuple space of the host it is on,
+which reveals lost and repeated steps.
 
 *Threading*: for the main thread of a test.
 */
@@ -245,7 +246,7 @@ clause_of(_, (step(What) :- tag(Tag), leave(step(Tag, What)))).
 
 %   disturbed(+Scenario, +Program, +Events, -Happened) is det.
 %
-%   The story is as if there were no Events, which kill no process.
+%   The result is the same as without Events, which kill no process.
 %
 %   Throws error(violated(What), _).
 
@@ -268,7 +269,7 @@ forget(_).
 
 %   stopped(+Scenario, +Program, +Event, +Act, -Happened) is det.
 %
-%   The story is as if there were no Event, or nothing after some point of it.
+%   The result is the same as without Event, or ends at some point.
 %
 %   Throws error(violated(What), _).
 
@@ -286,7 +287,7 @@ stopped(Scenario, Program, Event, Act, Happened) :-
     steps(Tag, Steps),
     demand(ended_by(Act, Scenario, Outcome, Steps), steps(Outcome, Steps)).
 
-%   What needs the frame that waits ends later.
+%   Goals that need the held frame end later.
 
 act(Act, Id) :-
     goal(Act, Id, Goal),
@@ -333,7 +334,7 @@ steps(Tag, Steps) :-
             ( peer_host(Peer, _), peer_do(Peer, steps_here(Tag, Whats)) ),
             Steps).
 
-%   No process has anything of the agent any more, not even a doubt.
+%   No process has any data of the agent, not even in doubt.
 
 resolved(Tag) :-
     wait_until(\+ ( peer_host(Peer, _),
@@ -415,9 +416,9 @@ finds_it_gone(Tag, Peer) :-
 is_gone(host_unreachable).
 is_gone(host_unreachable(_)).
 
-%   agrees(+Scenario, +Peer, +Frames, +Steps): what doc/agents.md says when Peer
-%   dies. Of an agent that was let in, or of which it is not known, nothing
-%   need be left.
+%   agrees(+Scenario, +Peer, +Frames, +Steps): the guarantees of doc/agents.md
+%   when Peer dies. An agent that Peer had accepted, or whose arrival is
+%   unknown, may be lost.
 
 agrees(clone, Peer, _, [a-A, b-B, c-[]]) :-
     !,
@@ -455,7 +456,7 @@ ends(ring, a, 3).
 ends(follow, b, end(_)).
 ends(chase, b, end(_)).
 
-%   Messages are lost with a process that has got them.
+%   Messages are lost with a process that has received them.
 
 messages_agree(Scenario, Peer, Frames, All) :-
     findall(I, ( member(I, All), integer(I) ), Numbers),
@@ -470,8 +471,8 @@ messages_agree(Scenario, Peer, Frames, All) :-
     ;   true
     ).
 
-%   may_be_lost(+Scenario, +Peer, +Frames, +All): a process that has not let the
-%   agent go has it still.
+%   may_be_lost(+Scenario, +Peer, +Frames, +All): a process that has not
+%   released the agent still has it.
 
 may_be_lost(_, a, _, []) :-             % it had not left
     !.
@@ -489,8 +490,8 @@ may_be_lost(Scenario, Peer, Frames, _) :-
 last_before_home(there_and_back, 1).
 last_before_home(ring, 2).
 
-%   hears(+Scenario, +Peer, -Other): that the agent has come to Peer, from which
-%   it follows that it is lost with Peer.
+%   hears(+Scenario, +Peer, -Other): Other is notified of the arrival at Peer,
+%   which implies that the agent is lost with Peer.
 
 hears(there_and_back, b, a).
 hears(ring, b, a).

@@ -6,7 +6,7 @@
 :- use_module(library(apply), [maplist/3]).
 :- use_module(common, [project_file/2]).
 
-/** <module> What single/life.pl prints
+/** <module> The output of single/life.pl
 
 *Threading*: no state.
 */
@@ -18,8 +18,8 @@ life_file(File) :-
 
 %!  life_came(+Text, -Unexpected) is det.
 %
-%   Unexpected is unexpected(More, Missing): facts that Text has, printed by that
-%   file, and should not have, and those that it lacks.
+%   Unexpected is unexpected(More, Missing): facts in Text, printed by that
+%   file, that are not expected, and expected facts that it lacks.
 
 life_came(Text, Unexpected) :-
     split_string(Text, "\n", "\n", Lines),

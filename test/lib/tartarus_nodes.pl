@@ -18,7 +18,7 @@
 /** <module> Platforms of Tartarus, each a process of its own
 
 A node is a Prolog top level that has loaded library(tartarus) and a program;
-tests type at it, and look at what it prints.
+tests type queries, and check the output.
 
 *Threading*: one test at a time.
 */
@@ -111,7 +111,7 @@ in_order([Text|Texts], From, All) :-
 
 %!  prints(+Node, -Text:string) is det.
 %
-%   All it has printed so far.
+%   Its output so far.
 
 prints(node(_, _, File), Text) :-
     read_file_to_string(File, Text, []).

@@ -3,7 +3,7 @@
             top_level_goes_on/0
           ]).
 
-/** <module> What is printed for queries that are typed at the top level
+/** <module> Output of the top level for typed queries
 
 *Threading*: any thread.
 */
@@ -37,8 +37,8 @@ typed(Lines, Dir, Written) :-
 
 %!  top_level_goes_on is semidet.
 %
-%   After two errors that have nothing to do with us. That of 9.2.9 opens the
-%   debugger at the second.
+%   The top level continues after two errors of unrelated goals. SWI-Prolog
+%   9.2.9 opens the debugger at the second.
 
 top_level_goes_on :-
     with_tmp_dir(goes_on).

@@ -7,14 +7,14 @@
 
 /** <module> Compare transcripts in documents with the top level
 
-A session is what stands in a document: queries after `?- `, continued
-after `|`, each followed by its output. The queries are typed at a top
-level that has loaded library(typhon) and runs in a terminal.
+A session is a block of a document: queries after `?- `, continued after `|`,
+each followed by its output. The queries are typed at a top level that has
+loaded library(typhon) and runs in a terminal.
 
-Ports, marks of agents, numbers of threads and variables, and long floats
-are not compared, nor are the bindings of `$Var`. A line `...` stands for
-any lines. Reports (of errors, and what agents say) may come at any time of
-their session.
+Ports, marks of agents, numbers of threads and variables, and long floats are
+not compared, nor are the bindings of `$Var`. A line `...` stands for any
+lines. Reports (errors, and output of agents) may appear at any time of their
+session.
 
 *Threading*: a thread reads the output of the top level, as a wait on a stream
 with a deadline may lose the beginning of a line.
@@ -147,7 +147,7 @@ ask(top(_, In, Queue, _, Dir), Goal, Lines) :-
     append(Reports, Answer, Lines0),
     maplist(at_home(Dir), Lines0, Lines).
 
-%   Of what was typed a part is left, or 10.1 has written it anew after a report.
+%   A part of the typed text may remain, or 10.1 may redraw it after a report.
 
 empty(Line) :-
     string_concat(_, Line, "next."),
@@ -169,8 +169,8 @@ lines_until(Mark, Queue, Deadline, Goal, Lines) :-
         lines_until(Mark, Queue, Deadline, Goal, More)
     ).
 
-%   A report that comes between two queries stands behind the prompt, or in the
-%   middle of what is typed then.
+%   A report between two queries appears after the prompt, or in the middle of
+%   the typed text.
 
 without_echo(Line0, Goal, Line) :-
     (   string_concat("?- ", Line1, Line0)
@@ -199,8 +199,8 @@ at_home(Dir, Line0, Line) :-
                 *           SESSIONS           *
                 *******************************/
 
-%   session(+Steps, +Line, +Top, -Difference): answers must come with their
-%   goals, reports (of errors, and what agents say) at any time.
+%   session(+Steps, +Line, +Top, -Difference): answers must appear with their
+%   goals, reports (errors, and output of agents) at any time.
 
 session(Steps, Line, Top, Line:Difference) :-
     foldl(step(Top), Steps, []-[], Differences-Reports),
@@ -238,8 +238,8 @@ wanted_answer(Goal, Lines, Wanted) :-
     subtract(Answers, ["", "..."], Shown),
     answer_lines(Goal, Shown, Wanted).
 
-%   A question may be asked again until the answer is as it should be:
-%   agents take their time.
+%   A query may be repeated until the answer is as expected, since agents need
+%   time.
 
 answer(Goal, Wanted, Top, Tries, Answer, Reports) :-
     ask(Top, Goal, Lines),

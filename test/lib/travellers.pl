@@ -29,7 +29,7 @@
 %!  travel(+Peer, +Route, +Hops) is semidet.
 %!  travel(+Peer, +Route, +Hops, +Options) is semidet.
 %
-%   An agent that is made on Peer goes round Route for so many hops, and
+%   An agent that is created on Peer goes round Route for Hops hops, and
 %   leaves step(Id, K) at every step: true if it does each once and ends.
 
 travel(Peer, Route, Hops) :-
@@ -42,9 +42,9 @@ travel(Peer, Route, Hops, Options) :-
 %!  set_out(+Peer, +Route, +Hops, -Id) is det.
 %!  set_out(+Peer, +Route, +Hops, -Id, +Options) is det.
 %
-%   Make that agent.  A stop `sit` of its route is not a host: it waits
-%   there for a message.  From where it cannot get away it tries again: a
-%   connection that is cut while it is being made counts as none.
+%   Make that agent.  A stop `sit` of its route is not a host: it waits there
+%   for a message.  It retries failed moves: a connection that is cut during
+%   its handshake counts as none.
 
 set_out(Peer, Route, Hops, Id) :-
     set_out(Peer, Route, Hops, Id, []).

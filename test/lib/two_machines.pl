@@ -1,5 +1,4 @@
-/* What the processes of test_two_machines.pl run, each in a network
-   namespace of its own.
+/* The processes of test_two_machines.pl, each in its own network namespace.
 */
 
 :- use_module(common).

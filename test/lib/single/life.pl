@@ -1,9 +1,8 @@
 :- use_module(library(lists), [member/2]).
 :- use_module(library(typhon/kernel)).
 
-/*  What agents do where there are no threads, sockets and processes: main/0
-prints what came of it, a fact for each step, see test_single.pl and
-test_wasm.pl. */
+/*  Agents without threads, sockets and processes: main/0 prints a fact for
+    each step, see test_single.pl and test_wasm.pl. */
 
 main :-
     host_start(a),
@@ -132,7 +131,7 @@ rests(Answer) :-
     agent_property(Agent, facts(Answer)),
     agent_dispose(Agent).
 
-%   What browsers do not have, and whether there is another thread.
+%   Features that browsers lack, and whether there is another thread.
 
 foreign_parts(Parts) :-
     findall(Name,
