@@ -8,8 +8,7 @@ takes terms ask(Tag, Goal) on standard input, runs once(Goal) in a thread
 for each, and prints answer(Tag, Result): yes(Goal), `no` or
 raised(Error).  Ends with its input.  Options:
 
-    --port=R --known-as=P    the endpoint listens at R, but announces P: a
-    proxy
+    --port=R --known-as=P    the endpoint listens at R, but announces P: a proxy
                              stands before it
     --ledger=File            where chaos_note/3 writes
 

@@ -20,8 +20,8 @@ them:
   | dispose(Q)            | the oldest victim; Q, a process or `any`, says so|
   | settlers(P)           | P was started again: travellers, to live there   |
   | order(P, X)           | P tells a sleeper to go somewhere                |
-  | look(P, X)            | P asks where an agent is                       | |
-  tell(P, X)            | P writes to some agent                           |
+  | look(P, X)            | P asks where an agent is                         |
+  | tell(P, X)            | P writes to an agent                             |
 
 X, a number from 0 to 1, says which agent.  Nothing here waits for a process
 while the schedule runs.

@@ -9,7 +9,8 @@ answers each with a line: yes(Goal), `no` or raised(Error). Ends with its
 input. Options:
 
     --port=R --known-as=P    the endpoint listens at port R, but announces P:
-    a proxy stands before it --codec=text             speak text to everybody
+                             a proxy stands before it
+    --codec=text             send text to all peers
 
 *Threading*: the main thread carries out the goals.
 */
