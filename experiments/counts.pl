@@ -3,9 +3,9 @@
 
         swipl experiments/counts.pl -- 5.5 --set topology=grid --runs 3
 
-    Logs of studies have neither, as they are most of what happens, so the runs
-    are made again.  Memory is looked at each `every` host seconds; the greatest
-    values are printed.  With --list it only prints which runs it would make.
+    Logs of studies have neither, because of their number, so the runs are
+    repeated. Memory is sampled each `every` host seconds; the greatest values
+    are printed.  With --list it only prints which runs it would make.
 */
 
 :- module(counts, []).

@@ -1,9 +1,9 @@
-/*  Studies: many runs of agents, what was measured, claimed and drawn.
+/*  Studies: many runs of agents, with measures, claims and plots.
 
         swipl experiments/study.pl -- 5.6 --runs 10
         swipl experiments/study.pl -- my_study.pl --set agents=20
 
-    `--help` lists the options; doc/studies.md tells how to write a study.
+    `--help` lists the options; doc/studies.md explains how to write a study.
 */
 
 :- module(study, []).
@@ -106,7 +106,7 @@ command(Names, Options) :-
         perform(Plans, Options)
     ).
 
-%   What a study may be told by --set.
+%   The parameters that --set may change.
 
 print_help(Study) :-
     study_title(Study, Name, Title),

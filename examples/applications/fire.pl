@@ -5,9 +5,9 @@
     swipl examples/applications/fire.pl [--signs=fixed] [--rule=single]
         [--growth=0.0117] [--people=3] [--speed=5] [--port=8080] [--seed=1]
 
-A room burns after 20 s.  Detectors ask their neighbours before there is an alarm;
-signs lead round the smoke.  fire/building.pl is the world, fire/room.pl the agent
-of each cell, doc/applications.md says more.
+A room burns after 20 s.  Detectors ask their neighbours before there is an
+alarm; signs lead round the smoke.  fire/building.pl is the world,
+fire/room.pl the agent of each cell; see doc/applications.md.
 */
 
 :- use_module(fire/scene).

@@ -6,10 +6,10 @@
         [--broker=mqtt://localhost] [--days=90] [--speed=5] [--port=8080]
         [--seed=1]
 
-Six fields have a season of ninety days.  A gardener for each goes there, learns
-from moisture sensors what the crop takes, and opens the valve.  Speed is in hours
-of the world in a second.  irrigation/fields.pl is the world, irrigation/gardener.pl the agent,
-doc/applications.md says more.
+Six fields have a season of ninety days.  A gardener for each moves there,
+estimates the need of the crop from moisture sensors, and opens the valve.
+Speed is in hours of the world in a second.  irrigation/fields.pl is the
+world, irrigation/gardener.pl the agent; see doc/applications.md.
 */
 
 :- use_module(irrigation/scene).

@@ -5,10 +5,10 @@
     swipl examples/applications/solar.pl [--strategy=first] [--capacity=30]
         [--days=7] [--speed=5] [--port=8080] [--seed=1]
 
-Ten houses exchange what their panels give, by auctions of an agent that goes from
-house to house.  Speed is in quarters of an hour of the world in a second.
-solar/street.pl is the world, solar/auctioneer.pl and solar/house.pl are agents,
-doc/applications.md says more.
+Ten houses exchange the energy of their panels, by auctions of an agent that
+goes from house to house.  Speed is in quarters of an hour of the world in a
+second. solar/street.pl is the world, solar/auctioneer.pl and solar/house.pl
+are agents; see doc/applications.md.
 */
 
 :- use_module(solar/scene).

@@ -10,7 +10,7 @@
 :- use_module(library(main), [argv_options/3]).
 :- use_module(library(option), [option/3]).
 
-/** <module> What the applications have in common: a network, a page, an end
+/** <module> Common part of the applications: a network, a page, an end
 
     swipl examples/applications/NAME.pl [--speed=5] [--port=8080] [--seed=1]
 
@@ -68,7 +68,7 @@ report(Status) :-
 
 %!  stage_option(?Name, -Type, -Help) is nondet.
 %
-%   What all applications understand.
+%   Options of all applications.
 
 stage_option(speed, number,
              "So many steps of the world in a second; 0: virtual time [5]").

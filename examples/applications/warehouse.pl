@@ -7,8 +7,8 @@
         [--port=8080] [--seed=1]
 
 A pallet is carried by one robot, a beam by two or three at the same time.
-warehouse/floor.pl is the world, warehouse/rosbridge.pl what it is reached by,
-warehouse/dispatch.pl says what is done for an order, doc/applications.md says more.
+warehouse/floor.pl is the world, warehouse/rosbridge.pl its server,
+warehouse/dispatch.pl executes orders; see doc/applications.md.
 */
 
 :- use_module(warehouse/scene).

@@ -1,4 +1,4 @@
-% What matters when several agents look for something?
+% Which parameters matter when several agents search?
 %     swipl experiments/study.pl -- examples/studies/search.pl --runs 2
 
 :- use_module(library(typhon)).

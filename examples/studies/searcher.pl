@@ -1,4 +1,4 @@
-% One of several that look for what is to be seen.    See search.pl beside this.
+% One of several agents that search. See search.pl.
 
 :- agent(searcher, [state([pause/1])]).
 

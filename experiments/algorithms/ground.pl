@@ -1,11 +1,11 @@
 %   Learning beyond the thesis: other problems, other algorithms.
 %
 %   Expects of the study that includes this: the parameters `problem`, a
-%   payload of learning; `algorithms`, which the agents have in turn;
-%   `agents`; `limit`, host seconds after which no agent is waited for;
-%   `settings`.  It may have `sharing`, `cloning`, and `exchange`,
-%   at(Time, Old, New): the first of the agents lays down Old then and takes
-%   up New.  Gives: network/3, run/2, view/2, and the measures of one run.
+%   payload of learning; `algorithms`, assigned to the agents in turn;
+%   `agents`; `limit`, host seconds after which the run ends; `settings`.  It
+%   may have `sharing`, `cloning`, and `exchange`, at(Time, Old, New): the
+%   first of the agents replaces Old by New then.  Gives: network/3, run/2,
+%   view/2, and the measures of one run.
 
 :- use_module('../../agents/learning/operator',
               [learning_exchange/3, learning_start/5]).
@@ -48,7 +48,7 @@ run(Case, Network) :-
     Hosts = [Host|_],
     forall(member(Agent, Agents), joined(Host, Case.limit, Agent)).
 
-%   Which printers there are follows from the seed.
+%   The seed determines the printers.
 
 setting(Case, printers-Seed) :-
     get_dict(seed, Case, Seed).
@@ -56,7 +56,7 @@ setting(Case, Name-Value) :-
     member(Name, [rho_max, sharing, cloning]),
     get_dict(Name, Case, Value).
 
-%   One that has converged meanwhile is not there any more.
+%   An agent that has converged meanwhile no longer exists.
 
 exchange(Case, Network, [First|_]) :-
     get_dict(exchange, Case, at(Time, Old, New)),

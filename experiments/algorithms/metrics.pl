@@ -7,7 +7,7 @@
 :- use_module(library(lists),
               [last/2, max_list/2, member/2, memberchk/2, sum_list/2]).
 
-/** <module> What a run of agents that learn shows
+/** <module> Measures of a run of learning agents
 
 *Threading*: pure.
 */
@@ -76,8 +76,8 @@ first([first(_, Time, _)|_], Events, First) :-
     aggregate_all(count, by(Events, Time, executed(_, _, _, _)), First).
 first([], _, none).
 
-%   Each page is a unit of its own, and the last execution of an agent tells
-%   how many it has.
+%   Each page is a unit, and the last execution of an agent has the number of
+%   its units.
 
 pages(Events, Until, Pages) :-
     findall(Agent-Size,

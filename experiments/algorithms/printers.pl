@@ -7,7 +7,7 @@
 
 /** <module> How good settings are without noise
 
-No agent in the network can know this: it is asked when a run is over.  The
+No agent in the network can know this: it is computed after the run.  The
 clauses of payloads(learning/settings) are in this module, as in an agent.
 
 *Threading*: one thread at a time.

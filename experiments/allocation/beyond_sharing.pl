@@ -1,4 +1,4 @@
-%   Beyond the thesis: allocators that share what they know of robots.
+%   Beyond the thesis: allocators that share news of robots.
 
 :- include(ground).
 

@@ -1,5 +1,5 @@
-%   Chapter 7: what sections 7.6.1 and 7.6.3 say of the proposed mechanism
-%   beside the others.
+%   Chapter 7: statements of sections 7.6.1 and 7.6.3 on the proposed
+%   mechanism compared with the others.
 %
 %   Gives: competing/3, beside/6.
 
@@ -45,7 +45,7 @@ beside(Measure, What, Order, Text, at([mechanism=proposed], Test)) :-
 auction(murdoch, "Murdoch").
 auction(anta, "ANTA").
 
-%   Of an allocator that is alone, too; and of several that compete.
+%   For a single allocator, too; and for several that compete.
 
 so_many(_, Line, Text0-Test, Text, [line(Line)|Notes], Test) :-
     alone(Notes),

@@ -3,7 +3,7 @@
           ]).
 :- use_module('../../agents/allocation/reservations', [reservation_faults/2]).
 
-/** <module> A run in which robots were treated badly is none
+/** <module> Runs with reservation faults are rejected
 
 *Threading*: pure.
 */

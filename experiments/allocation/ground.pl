@@ -1,4 +1,4 @@
-%   Chapter 7: what one run of a mechanism is, and what is measured of it.
+%   Chapter 7: one run of a mechanism, and its measures.
 %
 %   Expects the parameter `mechanism`.  Gives: what `robots` does, run/2,
 %   view/2, and the measures that have a label here.

@@ -13,7 +13,7 @@
 :- use_module(library(lists), [member/2, memberchk/2]).
 :- use_module(library(pairs), [pairs_values/2]).
 
-/** <module> What is compared: ways to allocate tasks
+/** <module> The mechanisms that are compared
 
   | proposed | the allocators of the thesis                       |
   | constant | the same, with equation 7.7 instead of 7.6         |
@@ -64,10 +64,9 @@ start(Backoff, Task, Host, Case) :-
                                beta-Case.beta, sharing-Case.sharing ]) ],
                   _).
 
-%   Nodes do not end: they and the robots are looked at.  A robot that the
-%   last message does not reach, for it has no link just then, is free when
-%   its contract lapses.  That message takes less than the time between two
-%   looks.
+%   Nodes do not end: they and the robots are polled. A robot that the last
+%   message does not reach, because it has no link at the time, is free when
+%   its contract lapses. That message takes less than the polling interval.
 
 auctions_end(Auctions, Network, Limit) :-
     Limit > 0,
@@ -82,7 +81,7 @@ over(auctions(Mechanism, Auctioneers, Hosts)) :-
     auction_open(Mechanism, Auctioneers, []),
     forall(member(Host, Hosts), robot_status(Host, free)).
 
-%   Until nothing is left that nodes have not logged.
+%   Waits until the nodes have logged everything.
 
 log_counts(Mechanism, Hosts, Network) :-
     auction_account(Mechanism, Hosts),

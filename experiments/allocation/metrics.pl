@@ -12,7 +12,7 @@
 :- use_module(library(lists),
               [max_list/2, member/2, memberchk/2, min_list/2, sum_list/2]).
 
-/** <module> What an event log says about allocations
+/** <module> Measures of allocations, from an event log
 
 Of events event(Time, Host, Agent, What), which all mechanisms log alike.
 
@@ -60,7 +60,7 @@ completed(Events, Completed) :-
 
 %!  backoffs(+Events, -Seconds:list) is det.
 %
-%   How long each back-off was to be.
+%   The planned duration of each back-off.
 
 backoffs(Events, Intervals) :-
     findall(Seconds, happened(Events, backoff(Seconds)), Intervals).

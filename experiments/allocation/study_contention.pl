@@ -15,7 +15,8 @@ vary(beta, [0, 1]).
 vary(mechanism, [proposed, murdoch, anta]).
 vary(allocators, [1, 2, 3, 5]).
 
-%   Agents send next to nothing: no matter how, it is the same run.
+%   Agents send hardly any messages, so the kind of sending does not change
+%   their run.
 
 skip(Case) :-
     Case.mechanism == proposed,

@@ -12,7 +12,7 @@
 :- use_module(library(lists),
               [last/2, member/2, memberchk/2, nth1/3, subtract/3]).
 
-/** <module> Which robot was allocated to which sequence, and executed it when
+/** <module> Allocation of robots to sequences, and times of executions
 
 A timetable is timetable(Tasks, Sequences, Communications): the number of
 tasks of each sequence, and sequence(Name, Robots, times(Allocated,
@@ -76,7 +76,7 @@ counted(overlaps).
 counted(disorder).
 counted(both).
 
-%   wrong(+Name, +Timetable): once for each thing that is not as it should be.
+%   wrong(+Name, +Timetable): once for each violation.
 
 wrong(faulty, timetable(Tasks, Sequences, _)) :-
     member(sequence(_, Robots, _, Executions), Sequences),

@@ -37,7 +37,7 @@ run(Case, Network) :-
 label(false_alarms, "False alarms in half an hour").
 label(delay, "Seconds from the fire to the alarm").
 
-%   What sounds within the two minutes until a reset is one alarm.
+%   Alarms within the two minutes until a reset count as one.
 
 measure(false_alarms, Log, Count) :-
     findall(Time, ( member(event(Time, _, _, alarm(_)), Log.events),

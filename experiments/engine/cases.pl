@@ -15,8 +15,8 @@
 
 /** <module> The cases of a study
 
-All combinations of what varies.  A parameter may be said by a study and by
-a file that it includes: then what the study itself says counts.
+All combinations of the varied parameters. If a study and a file that it
+includes both define a parameter, the study takes precedence.
 
 *Threading*: no state; any thread.
 */
@@ -26,10 +26,10 @@ a file that it includes: then what the study itself says counts.
 
 %!  study_cases(+Study, +Given:list(pair), -Cases:list(dict)) is det.
 %
-%   All combinations of what varies, but for those to be skipped, in the
-%   order of the file: what is named first varies slowest, and what is
-%   sampled, together, fastest.  Given, pairs
-%   Name-Value, take the place of what the file says; a list is varied.
+%   All combinations of the varied parameters, without the skipped ones, in
+%   the order of the file: the first parameter varies slowest, and the sampled
+%   ones, together, fastest. Given, pairs Name-Value, override the file; a
+%   list is varied.
 %
 %   @error study_parameter(Study, Name) for a name the study does not have
 
@@ -55,8 +55,8 @@ values(given, Values, Values) :- is_list(Values), !.
 values(Why, _, _) :- memberchk(Why, [derived, sampled, design]), !, fail.
 values(_, Value, [Value]).
 
-%   points(+Parameters, -Points): what is drawn of all that is sampled; one
-%   point without values if nothing is.
+%   points(+Parameters, -Points): the points of all sampled parameters; one
+%   point without values if there are none.
 
 points(Parameters, Points) :-
     findall(Name-Range, member(parameter(Name, Range, sampled), Parameters),
@@ -98,8 +98,9 @@ derive(Study, Name, Case0, Case) :-
 %   Parameters are parameter(Name, Value, Why) in the order of the file. Why
 %   is as the file has it, `varied` or `given` (then Value may be a list),
 %   `derived` (then Value is not bound), `sampled` (then it is a range), or
-%   `default`: those of the engine, for studies that have a network.  Of what
-%   is sampled there is `design`, too, which is no parameter of cases.
+%   `default`: those of the engine, for studies that have a network.  If
+%   parameters are sampled there is also `design`, which is no parameter of
+%   cases.
 
 parameters(Study, Given, Parameters) :-
     findall(Name, said(Study, Name, _, _, _), Names0),
@@ -125,7 +126,7 @@ counts(Study, _, Name, Value, Why) :-
     ),
     best(Pairs, Value-Why).
 
-%   What varies is not fixed; of what is fixed twice the last counts.
+%   A varied parameter is not fixed; of several fixed values the last counts.
 
 best(Pairs, Value-varied) :-
     findall(Values, member(Values-varied, Pairs), Varied),
@@ -185,7 +186,7 @@ study_parameter(Study, Name) :-
 
 %!  varied(+Study, +Cases, -Names:list(atom)) is det.
 %
-%   Names of the parameters that vary: those that the file says, and others
+%   Names of the parameters that vary: those that the file varies, and others
 %   of which Cases have several values.
 
 varied(Study, Cases, Names) :-
@@ -207,7 +208,7 @@ several(Name, [Case|Cases]) :-
 
 %!  case_name(+Study, +Case, -Name:atom) is det.
 %
-%   What varies, for people: delta=0.5,topology=ring.
+%   The varied parameters as text: delta=0.5,topology=ring.
 
 case_name(Study, Case, Name) :-
     varied(Study, [], Names),

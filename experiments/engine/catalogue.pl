@@ -12,10 +12,10 @@
 :- use_module('../../prolog/typhon/kernel/program', [files_beside/3]).
 :- use_module(studies, [study_call/2, study_load/2, study_title/3]).
 
-/** <module> The studies that are there
+/** <module> The available studies
 
-Below `experiments` they are the files figure_*.pl and table_*.pl, what the thesis has,
-beyond_*.pl, what goes beyond it, and study_*.pl, what stands behind them:
+Below `experiments` they are the files figure_*.pl and table_*.pl, of the
+thesis, beyond_*.pl, beyond the thesis, and study_*.pl, background studies:
 readings of the thesis, values it does not print, demos.
 
 *Threading*: the thread that loads studies.
@@ -45,7 +45,7 @@ begins(File, Starts) :-
     sub_atom(Base, 0, _, _, Start),
     !.
 
-%   One that does not load is reported, and does not cost the others.
+%   A study that does not load is reported, and does not affect the others.
 
 loads(File, Study) :-
     catch(study_load(File, Study), error(Formal, Context),
@@ -80,7 +80,7 @@ number_or_text(Part, Key) :-
 %!  studies_named(+Names:list(atom), -Files:list(atom)) is det.
 %
 %   A name is that of a file, of a study or of one of its plots, a folder
-%   below `experiments`, or `thesis`: its figures, and what goes beyond.
+%   below `experiments`, or `thesis`: its figures, and the studies beyond.
 %
 %   @error existence_error(study, Name)
 

@@ -31,11 +31,10 @@ case.  Tests are
     Name=Value, says
   - some(Test): of at least one point
   - (A, B), (A ; B), \+ A
-  - holds(Goal): call(Goal, Points) in the study, for what is not said
-    with these words
+  - holds(Goal): call(Goal, Points) in the study, for all other tests
 
-Of a test nothing may be known: no point has the values that it compares.
-Then it does not hold, and neither does \+ of it.
+A test is not known if no point has the values that it compares. Then neither
+the test nor its negation holds.
 
 *Threading*: pure.
 */

@@ -10,7 +10,7 @@
 :- use_module(expressions, [context/2, line/3, selected/3, value/4]).
 :- use_module(statistics, [holm/2, rank_test/5]).
 
-/** <module> What rank tests say of a claim
+/** <module> Rank tests of claims
 
 A claim that compares cases is more than chance if the runs of one case tend to
 have lower ranks than those of the other.  Each pair of cases that it compares

@@ -24,7 +24,7 @@
 :- use_module(studies, [study_call/2, study_name/3, study_title/3]).
 :- use_module(tables, [outcome_save/4]).
 
-/** <module> What runs that are there say: tables, claims, pictures, the page
+/** <module> Evaluation of existing runs: tables, claims, pictures, the page
 
 *Threading*: the main thread.
 */
@@ -34,8 +34,8 @@
 
 %!  figures(+Plans, +Options) is det.
 %
-%   Print what came out of the runs of Plans that are there, and write it
-%   below the directory of out_directory/2.
+%   Print the results of the existing runs of Plans, and write them below the
+%   directory of out_directory/2.
 
 figures(Plans, Options) :-
     out_directory(Options, Out),
@@ -111,7 +111,7 @@ checks(Study, Cases, Runs, Rows, Options, Checks) :-
     cross_check(Virtual, OnSockets, Measures, Checks).
 checks(_, _, _, _, _, []).
 
-%   A name that no run has given.
+%   A name that has no value in any run.
 
 never_measured(Study, Runs, Where, Name) :-
     Runs = [_|_],

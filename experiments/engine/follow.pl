@@ -4,7 +4,7 @@
 :- use_module(library(lists), [append/3]).
 :- use_module(library(readutil), [read_stream_to_codes/2]).
 
-/** <module> Looking on while a file grows
+/** <module> Reading a growing file
 
 *Threading*: no state; any thread.
 */

@@ -9,7 +9,7 @@
 :- use_module(expressions, [context/2, selected/3, value/4]).
 :- use_module(numbers, [number_text/2]).
 
-/** <module> What a claim has looked at, as text
+/** <module> The values that a claim compares, as text
 
 *Threading*: pure.
 */
@@ -66,8 +66,7 @@ led_to(at(Where, _), Case0, Case) :-
     Case = Case0.put(Other).
 led_to(_, Case, Case).
 
-%   plain(+Expression, -Plain): written as its reader would say it, at/2 by the
-%   values alone.
+%   plain(+Expression, -Plain): in readable form, at/2 by the values alone.
 
 plain(at(Where, E), Plain) :-
     !,
@@ -84,7 +83,7 @@ where_text(Where, Text) :-
     maplist(condition, Where, Values),
     words(Values, Text).
 
-%   A number or a truth value says nothing without the name of its parameter.
+%   A number or a truth value needs the name of its parameter.
 
 condition(Name=Value, Name=Value) :-
     ( number(Value) ; memberchk(Value, [true, false]) ),
@@ -100,8 +99,8 @@ words(Terms, Text) :-
 word(Term, Word) :-
     format(atom(Word), '~w', [Term]).
 
-%   The last parameter that varies makes the values of a line, all others
-%   name it.  What is the same everywhere is said once.
+%   The last parameter that varies makes the values of a line, all others name
+%   it.  Common values are written once.
 
 text([], _, 'no value') :-
     !.

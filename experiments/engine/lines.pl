@@ -203,7 +203,7 @@ value_at(Runs, Where, Measure, Number) :-
     get_dict(Measure, Measures, Number),
     number(Number).
 
-%   What the thesis prints for a case that is drawn.
+%   The printed value of the thesis for a case in the plot.
 
 printed_row(Study, shown(Runs, X, Positions), Measure, Where, [At, Number]) :-
     study_call(Study, printed(Measure, Said, Number)),
@@ -316,7 +316,7 @@ ticked(Positions, Ticked) :-
     findall(At-At, ( between(Low, High, I), tick_at(I, Step, At) ), Ticked).
 ticked(Positions, Positions).
 
-%   Numbers are where they are: their labels must not overlap.
+%   Numbers have fixed positions: their labels must not overlap.
 
 far_apart(Positions) :-
     Positions = [First-_|_],

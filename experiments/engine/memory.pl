@@ -8,12 +8,12 @@
 :- use_module(library(aggregate), [aggregate_all/3]).
 :- use_module(library(lists), [max_list/2, sum_list/2]).
 
-/** <module> Memory of agents and hosts while a run goes on
+/** <module> Memory of agents and hosts during a run
 
-Looks again and again, in host time, at all that is in this process: the bytes
-of the clauses that each agent carries beside its program, and of the tuples of
-each host, as Prolog counts them.  Goals that are still to run, mail and records
-of the kernel are not in it: they are as long for each agent.
+Samples, in host time, the bytes of the clauses that each agent of this
+process carries beside its program, and of the tuples of each host, as Prolog
+counts them.  Goals that are still to run, mail and records of the kernel are
+not in it: they are as long for each agent.
 
 *Threading*: one run at a time in a process; the thread of alarms writes.
 */
@@ -22,7 +22,7 @@ of the kernel are not in it: they are as long for each agent.
 
 %!  memory_watch(+Seconds, +Network) is det.
 %
-%   From now on look each time when so many host seconds have passed.
+%   Sample at intervals of so many host seconds from now on.
 
 memory_watch(Seconds, Network) :-
     retractall(peak(_, _)),

@@ -11,7 +11,7 @@
 :- use_module(numbers, [spread/4]).
 :- use_module(studies, [study_call/2]).
 
-/** <module> What came out of the runs of a study
+/** <module> Results of the runs of a study
 
 *Threading*: pure.
 */
@@ -33,8 +33,8 @@
 %       of the medians of all runs; Found is what the medians were, as text.
 %       Seeds of which a case is missing are not counted, and none are if
 %       in none there is anything to compare.
-%     - `tests`: a list of Text-Comparisons, what rank tests say of each
-%       claim, see claim_comparisons/3.
+%     - `tests`: a list of Text-Comparisons, the rank tests of each claim, see
+%       claim_comparisons/3.
 
 outcome(Study, Cases, Runs,
         outcome{names:Names, rows:Rows, claims:Claims, tests:Tests}) :-
@@ -105,7 +105,7 @@ tested(Study, OfSeeds, Text, Comparisons) :-
 
 %!  case_numbers(+Runs, +Case, +Measure, -Numbers:list(number)) is det.
 %
-%   What Measure is in the runs of Case in which it is a number.
+%   The values of Measure in the runs of Case in which it is a number.
 
 case_numbers(Runs, Case, Measure, Numbers) :-
     findall(Value,

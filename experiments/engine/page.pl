@@ -14,7 +14,7 @@
 :- use_module(store, [run_facts/2]).
 :- use_module(studies, [study_call/2, study_title/3]).
 
-/** <module> One page that binds studies together
+/** <module> One page for all studies
 
 It needs no server: pictures and data are files beside it.
 

@@ -10,7 +10,7 @@
 :- use_module(series, [runs_over_time/3]).
 :- use_module(studies, [study_call/2]).
 
-/** <module> What is drawn
+/** <module> Plots
 
 A picture is
 
@@ -22,14 +22,13 @@ A picture is
   - over_time(Options): medians of series (see series.pl) against time, and a
     band from the least to the greatest run.  Options are as of lines, without
     x(P).
-  - script(File, Tables, Options): what gnuplot does with File, beside the
-    study.  Tables are NAME-Goal: call(Goal, Runs, Rows) in the study, for
-    the data file NAME.dat; options size(W,H), seed(first): only the runs
-    of the first seed, and variables(Goal): call(Goal, Runs, Pairs) of
-    gnuplot variables Name-Value.
-  - file(File, Where): what a run has drawn itself, an SVG file in its
-    directory: the first run of the case that is as Where, a list of
-    Name=Value, says.
+  - script(File, Tables, Options): gnuplot runs File, in the folder of the
+    study.  Tables are NAME-Goal: call(Goal, Runs, Rows) in the study, for the
+    data file NAME.dat; options size(W,H), seed(first): only the runs of the
+    first seed, and variables(Goal): call(Goal, Runs, Pairs) of gnuplot
+    variables Name-Value.
+  - file(File, Where): an SVG file that a run has written to its directory: of
+    the first run of the case in which Where, a list of Name=Value, holds.
 
 Runs are run(Case, Seed, Measures).
 
@@ -42,8 +41,8 @@ Runs are run(Case, Seed, Measures).
 %!  picture(+Study, +Plot, +Runs, +Directory) is det.
 %
 %   Plot is plot(Name, Title, Picture).  Writes Name.svg and Name.png in
-%   Directory, and what they were drawn from.  A picture that cannot be drawn
-%   is reported, and does not cost the others.
+%   Directory, and their data. A picture that cannot be drawn is reported, and
+%   does not affect the others.
 
 picture(Study, plot(Name, Title, Picture), Runs, Directory) :-
     (   catch(drawn(Picture, Study, Name, Title, Runs, Directory),

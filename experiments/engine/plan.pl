@@ -14,10 +14,11 @@
 :- use_module(cases, [case_name/3, study_cases/3]).
 :- use_module(cross_check, [real_case/4]).
 
-/** <module> Which runs the options of a command ask for, and where they are
+/** <module> The runs that the options of a command select, and their
+    directories
 
-A plan is a term plan(Study, Given, Cases): what --set has given, and the
-cases that follow.
+A plan is a term plan(Study, Given, Cases): the values of --set, and the
+resulting cases.
 
 *Threading*: no state; any thread.
 */
@@ -35,7 +36,7 @@ plans(Studies, Options, Plans) :-
             ( member(Study, Studies), study_cases(Study, Given, Cases) ),
             Plans).
 
-%   given(+Options, -Given): what --set says, as pairs; the last counts.
+%   given(+Options, -Given): the values of --set, as pairs; the last counts.
 
 given(Options, Given) :-
     findall(Name-Value,
@@ -53,8 +54,8 @@ setting(Text, Name, Value) :-
     ;   domain_error('NAME=VALUE', Text)
     ).
 
-%   What is no term is text, as is what Prolog takes for a variable; but what
-%   should be one is not.
+%   A value that is not a term, or is a variable, is text; a malformed
+%   compound term is an error.
 
 value(Text, Value) :-
     catch(term_to_atom(Value, Text), error(syntax_error(_), _), fail),

@@ -8,9 +8,9 @@
 :- use_module(run, [run_again/4]).
 :- use_module(studies, [study_title/3]).
 
-/** <module> Replays: runs that one can look at
+/** <module> Replays of runs
 
-A run is made again for this, as the logs of others do not tell of hops.
+A run is repeated for this, since other logs have no hops.
 
 *Threading*: the main thread.
 */
@@ -22,7 +22,7 @@ A run is made again for this, as the logs of others do not tell of hops.
 %
 %   With replays(true) in Options, write replay.html into the directory of the
 %   first study of each folder with a network: its first case, with the first
-%   seed.  What cannot be made is reported.
+%   seed.  Failures are reported.
 
 replays_save(Plans, Options, Out) :-
     (   option(replays(true), Options),

@@ -23,16 +23,16 @@
 :- use_module(statistics, [mean/2, mean_interval/4]).
 :- use_module(studies, [study_call/2, study_title/3]).
 
-/** <module> Tables for people
+/** <module> Printed tables
 
 *Threading*: no state; any thread.
 */
 
 %!  print_outcome(+Stream, +Study, +Outcome) is det.
 %
-%   A line for each case: medians, and from which to which; and for each claim
-%   in how many runs it held, what was found, and what rank tests say.  Outcome
-%   has two keys more: `given`, what --set has given, and
+%   A line for each case: medians with the least and greatest run; and for
+%   each claim the number of runs in which it held, its values, and its rank
+%   tests. Outcome has two more keys: `given`, the values of --set, and
 %   `checks`, see cross_check/4.
 
 print_outcome(Stream, Study, Outcome) :-
@@ -64,7 +64,7 @@ row_cells(Row, Names, Measures, Cells) :-
 
 %!  shown_measures(+Study, +Rows, -Measures:list(atom)) is det.
 %
-%   Those that have a label, if any has one.
+%   The measures that have a label, if any has one.
 
 shown_measures(Study, Rows, Measures) :-
     findall(Name, ( member(row(_, _, Spreads), Rows),
@@ -80,7 +80,8 @@ shown_measures(Study, Rows, Measures) :-
 %!  case_texts(+Case, +Names, -Texts) is det.
 %!  spread_text(+Row, +Measure, -Text) is det.
 %
-%   What Names are in Case; the median of Measure, and from which to which.
+%   The values of Names in Case; the median of Measure, with the least and
+%   greatest run.
 
 case_texts(Case, Names, Texts) :-
     findall(Text, ( member(Name, Names), get_dict(Name, Case, Value),
@@ -108,7 +109,7 @@ print_claim(Stream, Tests, claim(Text, _, Held, Of, OfMedians, Found)) :-
 
 %!  evidence(+Text, +Tests, -Evidence:atom) is semidet.
 %
-%   What rank tests say of the claim Text; fails if it compares no cases.
+%   The rank tests of the claim Text; fails if it compares no cases.
 
 evidence(Text, Tests, Evidence) :-
     memberchk(Text-Comparisons, Tests),

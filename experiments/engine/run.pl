@@ -26,8 +26,8 @@ exception in the caller ends the run, and the network is stopped.
 
 %!  run_make(+Study, +Case, +Seed, +Directory) is det.
 %
-%   Make the run of Case with Seed, and write what was measured and its log
-%   below Directory, which must be there.
+%   Make the run of Case with Seed, and write its measures and its log below
+%   Directory, which must exist.
 %
 %   @error study_goal_failed(Name/Arity) if network/3, run/2 or view/2 fails
 %   @error study_measures(Name, Values) if there is more than one value
@@ -125,9 +125,9 @@ run_log(Study, Case0, Seed, File, Log) :-
 %
 %!  run_again(+Study, +Case, +Seed, +File, :Begin) is semidet.
 %
-%   Make the run for its log in File alone, in which there is all that can be
-%   logged.  Fails if the study has no network.  When that has started,
-%   call(Begin, Network) is called first.
+%   Repeat the run only for its log in File, which has all kinds of events.
+%   Fails if the study has no network.  When that has started, call(Begin,
+%   Network) is called first.
 
 run_again(Study, Case, Seed, File) :-
     run_again(Study, Case, Seed, File, =(_)).
@@ -159,7 +159,7 @@ network_run(Study, Case, LogOption, Begin, Hosts) :-
           still_there(Pids, Network) ),
         network_stop(Network)).
 
-%   What a network has measured that has lost a process is of another one.
+%   The measures of a network that has lost a process are not valid.
 
 still_there(Pids, Network) :-
     network_property(Network, processes(Left)),

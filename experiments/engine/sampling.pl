@@ -9,10 +9,10 @@
 :- use_module(library(apply), [maplist/3]).
 :- use_module(library(lists), [nth0/3, numlist/3]).
 
-/** <module> Values of parameters that are drawn
+/** <module> Sampled parameters
 
-Where parameters are many, or are numbers of which any may matter, all
-combinations are too many.  A design draws some instead:
+For many or continuous parameters all combinations are too many. A design
+samples some instead:
 
   - random(N), random(N, Seed)
     N points, each parameter independently.  The first of N points are those of
@@ -55,7 +55,7 @@ design(latin_hypercube(Count, Seed), latin_hypercube, Count, Seed).
 %
 %   Ranges are pairs Name-Range.  Points are lists of pairs Name-Value.  Each
 %   parameter is drawn by a generator of its own, which follows from its name,
-%   so what is drawn for one does not depend on the others.
+%   so the values of one do not depend on the others.
 
 sampled_points(Ranges, Design, Points) :-
     design(Design, How, Count, Seed),

@@ -9,7 +9,7 @@
 :- use_module(library(lists), [member/2, memberchk/2]).
 :- use_module(library(pairs), [pairs_keys_values/3]).
 
-/** <module> What is measured at each step of time
+/** <module> Measures over time
 
 A series is a measure whose value is a list of pairs Time-Number.  Studies make
 them with counted/4 and stepped/4, which they need not import.

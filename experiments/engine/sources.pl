@@ -14,7 +14,7 @@
 :- use_module(library(terms), [mapargs/3]).
 :- use_module(studies, [study_at_work/1]).
 
-/** <module> What a run is made by
+/** <module> The sources that determine a run
 
 Of a study and the files that it includes count the clauses of network/3,
 run/2, view/2 and measure/3, and of what these mention; of other files that
@@ -23,8 +23,8 @@ unless nothing of what is imported is mentioned.  The agents beside a study
 count, and those in the directory of one that counts, in `agents/lib` and in
 `payloads`; the platform as a whole; of the engine what makes a run.
 
-What a study says of cases, which runs are known by, and of what is shown of
-them, claims, plots, labels, does not count: it may change, and the runs stay.
+The definitions of cases, which identify runs, and of claims, plots and labels
+do not count: they may change without repeating runs.
 
 *Threading*: one thread.
 */

@@ -22,16 +22,16 @@
 :- use_module(sources, [sources_hash/2, text_hash/2]).
 :- use_module(studies, [study_title/3]).
 
-/** <module> Where runs are kept
+/** <module> The store of runs
 
 A run is a term run(Study, Case, Seed).  It is kept in a directory below
-Root/STUDY, whose name tells people the case and the seed, and has a hash of
-all parameters and one of all sources. What was made from other sources is
-not found, and so never mixed in.
+Root/STUDY, whose name has the case and the seed, a hash of all parameters and
+one of all sources. Runs of other sources are not found, and so never mixed
+in.
 
 While it is made this is Directory.MACHINE.PID.part, and if it fails
-Directory.failed: then the file `output` says why.  Sessions that make the
-same run at once do not disturb each other.
+Directory.failed: then the file `output` has the reason.  Sessions that make
+the same run at once do not disturb each other.
 
 *Threading*: one thread in a process.
 */
@@ -82,8 +82,7 @@ log_file(Directory, File) :-
 
 %!  run_result(+Root, +Run, -Measures:dict) is semidet.
 %
-%   What was measured, and the `directory` of the run; fails if it is not
-%   there.
+%   The measures, and the `directory` of the run; fails if it does not exist.
 
 run_result(Root, Run, Measures) :-
     run_directory(Root, Run, Directory),
@@ -151,8 +150,8 @@ part_install(Part, Directory, Logs) :-
 
 %!  part_fail(+Part, +Directory, +Why:string, -Failure) is det.
 %
-%   Add Why to what the run has printed, and keep that: Failure is
-%   failed(Where, Cause), the directory and the first line of Why.
+%   Add Why to the output of the run, and keep that: Failure is failed(Where,
+%   Cause), the directory and the first line of Why.
 
 part_fail(Part, Directory, Why, failed(Failed, Cause)) :-
     failed_directory(Directory, Failed),
@@ -179,7 +178,7 @@ part_remove(Directory) :-
 
 %!  left_parts_remove(+Root, +Study) is det.
 %
-%   Remove what processes of this machine have left that were killed.
+%   Remove the remains of killed processes of this machine.
 
 left_parts_remove(Root, Study) :-
     study_title(Study, Name, _),

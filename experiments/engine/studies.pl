@@ -16,8 +16,8 @@
 
 /** <module> A study is a short file
 
-A study says what varies, what is fixed, what one run is, what is measured,
-what is claimed and what is drawn.  Its words are
+A study defines parameters, one run, measures, claims and plots. Its
+predicates are
 
     study(Name, Title).
     text(Paragraph).
@@ -78,8 +78,8 @@ word(plot/3).
 word(progress/3).
 word(real/2).
 
-%   A study may say library(typhon) wherever it is.  It is this platform, the
-%   one that the engine has loaded, also where another is installed.
+%   library(typhon) in a study is the platform that the engine has loaded,
+%   even if another one is installed.
 
 :- prolog_load_context(directory, Engine),
    absolute_file_name('../../prolog', Platform,
@@ -260,7 +260,7 @@ mistyped(Study, Name/Arity, Words) :-
     names_near(Name, All, Words),
     Words \== [].
 
-%   Which measures there are is only known if all their clauses say it.
+%   The measures are known only if all their clauses name them.
 
 unknown(Study, Name) :-
     findall(Measure, clause(Study:measure(Measure, _, _), _), Measures),

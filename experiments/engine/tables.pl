@@ -15,19 +15,18 @@
 
 /** <module> Data for other programs: CSV, and JSON a line
 
-A file has a row for each of what it is about, a column for each thing, and a
-header, as pandas.read_csv and read.csv of R expect it; what is not known is
-empty.  NAME.jsonl has the same rows, each as an object; what is not known is
-null.
+A file has a header and a row for each item, as pandas.read_csv and read.csv
+of R expect it; unknown values are empty. NAME.jsonl has the same rows, each
+as an object; unknown values are null.
 
 *Threading*: no state; any thread.
 */
 
 %!  outcome_save(+Study, +Outcome, +Runs, +Directory) is det.
 %
-%   Write, as .csv and .jsonl: `runs`, what each run has measured; `steps`, what
-%   was measured at each step of time, if anything was; `summary`, of each
-%   case and measure the mean, its confidence interval, the median and the
+%   Write, as .csv and .jsonl: `runs`, the measures of each run; `steps`, the
+%   measures at each step of time, if there are any; `summary`, of each case
+%   and measure the mean, its confidence interval, the median and the
 %   extremes; `tests`, the comparisons of claims; `claims`; `parameters`.
 
 outcome_save(Study, Outcome, Runs, Directory) :-
@@ -171,7 +170,8 @@ save_json(Out, Header, Row) :-
 
 pair(Name, Value, Name=Value).
 
-%   What is a number as text, as the value of a parameter, is a number.
+%   A number as text, such as the value of a parameter, is written as a
+%   number.
 
 json_value('', null) :-
     !.

@@ -6,9 +6,9 @@
 :- use_module(follow, [new_lines/4]).
 :- use_module(progress, [progress/4, progress_done/1]).
 
-/** <module> Looking on while a run goes on
+/** <module> Progress of a run
 
-*Threading*: a thread looks on while the caller works.
+*Threading*: a thread reads the log while the caller works.
 */
 
 :- meta_predicate
@@ -16,8 +16,8 @@
 
 %!  watching(+Log, +What, +Total, :Goal) is semidet.
 %
-%   Call Goal once.  Meanwhile it is shown on user_error how many of Total
-%   events of the file Log are What.
+%   Call Goal once.  Meanwhile user_error shows the number of events What in
+%   the file Log, out of Total.
 
 watching(Log, What, Total, Goal) :-
     setup_call_cleanup(

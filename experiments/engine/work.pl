@@ -21,7 +21,7 @@
 
 Workers are processes that get one run after the other on their standard
 input, and answer each with a term on their standard output.  So a run does
-not pay for the start of Prolog, and one that crashes takes nothing with it.
+not include the start of Prolog, and a crash does not affect other runs.
 
 *Threading*: the main thread, which waits for any of the workers.  Whatever
 exception makes it leave, they are ended: asked by SIGTERM, and killed by a
@@ -38,9 +38,9 @@ thread that stands by if they are still there ten seconds later.
 
 %!  runs_make(+Runs, +Root, +Options, -Failed:integer) is det.
 %
-%   Make what is not there yet of Runs, of which Failed fail.  What sessions
-%   that were killed have begun is removed.  Progress is shown, and failures
-%   are reported, on user_error.  Options:
+%   Make the missing runs of Runs, of which Failed fail. Partial runs of
+%   killed sessions are removed.  Progress is shown, and failures are
+%   reported, on user_error.  Options:
 %
 %     - jobs(Count)
 %       So many processes at a time; default 2.
@@ -64,8 +64,8 @@ runs_make(Runs, Root, Options, Failed) :-
     tell_counts,
     aggregate_all(count, failed_by(_), Failed).
 
-%   A single run in real time is made here, and its events are counted
-%   meanwhile, if the study says which.
+%   A single run in real time is made in this process, and its events are
+%   counted, if the study has progress/3.
 
 make_missing([Run], desk(_, Root, Logs), _) :-
     watched(Run, What, Total),
@@ -125,7 +125,7 @@ show(Done, Begin-Total) :-
     format(atom(Note), 'runs~w', [Left]),
     progress(user_error, Done, Total, Note).
 
-%   As long as those that are done have taken on average.
+%   The average time of the finished runs.
 
 time_left(Done, Total, _, '') :-
     ( Done =:= 0 ; Done =:= Total ),
@@ -163,7 +163,7 @@ worker_start(Out) :-
                      process(Pid) ]),
     assertz(worker(Out, In, Pid)).
 
-%   One that has died meanwhile is noticed by its silence.
+%   A worker that has died is noticed when it does not answer.
 
 hand_over(Out, Run, desk(_, Root, Logs)) :-
     Run = run(Study, Case, Seed),
@@ -204,7 +204,7 @@ one_ready(Outs, Out) :-
     ;   one_ready(Outs, Out)
     ).
 
-%   A whole line: what is left of it would look like the next answer.
+%   Reads a whole line: a rest would look like the next answer.
 
 answer(Out, Answer) :-
     catch(( read_line_to_string(Out, Line),
@@ -224,7 +224,7 @@ worker_end(Out, Status) :-
     close(Out, [force(true)]),
     retractall(worker(Out, _, _)).
 
-%   They are asked, and killed if they do not heed it.
+%   They get SIGTERM, and are killed if they do not end.
 
 end_workers :-
     retractall(busy(_, _, _)),

@@ -26,10 +26,10 @@
 
 %!  work is det.
 %
-%   Make the runs that come on standard input, until it ends: terms
-%   make(File, Pairs, Seed, Directory, Logs), of the study in File, the
-%   case with Pairs.  Each is answered by answer(Outcome) on standard output.
-%   What runs print goes to the file `output`.
+%   Make the runs that come on standard input, until it ends: terms make(File,
+%   Pairs, Seed, Directory, Logs), of the study in File, the case with Pairs.
+%   Each is answered by answer(Outcome) on standard output. Output of runs
+%   goes to the file `output`.
 
 work :-
     stream_property(Answers, alias(user_output)),
@@ -54,9 +54,9 @@ answers(Answers) :-
 
 %!  run_here(+Run, +Root, +Options, -Outcome) is det.
 %
-%   Make Run in this process, if it is not there: Outcome is `kept`, `made`
-%   or failed(Directory, Cause); the file `output` there says why.  Options
-%   has logs(Boolean).
+%   Make Run in this process, if it does not exist: Outcome is `kept`, `made`
+%   or failed(Directory, Cause); the file `output` there has the reason.
+%   Options has logs(Boolean).
 
 run_here(Run, Root, Options, Outcome) :-
     option(logs(Logs), Options, false),
@@ -91,7 +91,7 @@ make(Run, Directory, Logs, How, Outcome) :-
 make_in(run(Study, Case, Seed), Part) :-
     run_make(Study, Case, Seed, Part).
 
-%   The sender has seen the same sources: they have not changed since.
+%   The sources have not changed since the sender computed their hash.
 
 must_be_of(run(Study, _, _), Directory) :-
     sources_hash(Study, Hash),

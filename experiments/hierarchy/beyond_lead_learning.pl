@@ -1,4 +1,4 @@
-%   A hierarchy above agents that learn and share, while what is to be learnt changes.
+%   A hierarchy above agents that learn and share, while the problem changes.
 
 :- include(ground).
 :- use_module('../../agents/hierarchy/operator', [hierarchy_serve/4]).

@@ -1,5 +1,5 @@
-%   Figures 4.7, 4.8 and 4.11: the ways of five agents, how they came to
-%   them, and all they tried.
+%   Figures 4.7, 4.8 and 4.11: the ways of five agents, their executions, and
+%   all actions tried.
 
 :- include(ground).
 :- include(single).

@@ -1,4 +1,4 @@
-%   Figures 4.9, 4.10 and 4.12: what the density of agents does.
+%   Figures 4.9, 4.10 and 4.12: effects of the density of agents.
 
 :- include(ground).
 :- include(sets).

@@ -1,4 +1,4 @@
-%   Chapter 4: agents learn the way through a maze, and share what they know.
+%   Chapter 4: agents learn the way through a maze, and share their units.
 %
 %   Expects of the study that includes this: the parameters `network`, a
 %   number of hosts, or `obstacle`, where there is one in the maze; and

@@ -7,17 +7,17 @@
           ]).
 :- use_module(library(lists), [member/2, memberchk/2]).
 
-/** <module> The maze world of the agents, looked at from outside
+/** <module> The maze world of the agents, for evaluation
 
-What actions do there is what the payload says that agents and trainers
-use.  Cells are terms X-Y, Settings pairs Name-Value as agents get them.
+The payload of agents and trainers defines the effects of actions.  Cells are
+terms X-Y, Settings pairs Name-Value as agents get them.
 
 *Threading*: any thread; each has settings of its own while it looks.
 */
 
 :- thread_local setting/2.      % Name, Value
 
-%   What a payload file begins with.
+%   The directive at the start of a payload file.
 
 payload(maze, _).
 
@@ -34,8 +34,8 @@ with_settings(Settings, Goal) :-
 
 %!  maze_path(+Settings, +Actions, -Cells:list) is det.
 %
-%   Where a robot comes by that performs Actions from the start on.  Each
-%   cell is listed once for each time that it moves there.
+%   The cells of a robot that performs Actions from the start. Each cell is
+%   listed once for each move to it.
 
 maze_path(Settings, Actions, Cells) :-
     with_settings(Settings,

@@ -18,7 +18,7 @@
 :- use_module(library(ordsets), [ord_intersection/3, ord_union/3]).
 :- use_module(library(pairs), [pairs_keys_values/3]).
 
-/** <module> What an event log says about agents that learn
+/** <module> Measures of learning agents, from an event log
 
 *Threading*: pure.
 */

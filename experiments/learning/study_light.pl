@@ -1,4 +1,4 @@
-%   What depends on how bright the light is, which the thesis does not say.
+%   Effects of the brightness of the light, which the thesis does not print.
 
 :- include(ground).
 

@@ -13,10 +13,10 @@
 :- use_module(library(assoc), [empty_assoc/1, get_assoc/3, put_assoc/4]).
 :- use_module(library(lists), [member/2, memberchk/2]).
 
-/** <module> Shortest ways through a maze, and what they are near to
+/** <module> Shortest ways through a maze, and their distance to lines
 
-That a way is near the diagonal says little where most shortest ways are:
-so it can be compared with some that are drawn at random.
+Most shortest ways are near the diagonal, so a way has to be compared with
+random ones.
 
 *Threading*: any thread; no state.
 */

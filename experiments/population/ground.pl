@@ -1,5 +1,5 @@
 %   Chapter 6: one kind of agent for each task executes a sequence on a mesh,
-%   in the number that is asked for.
+%   and regulates its number.
 %
 %   Expects of the study that includes this: the parameter `crash`, how many
 %   hosts lose task 2.  Gives: the parameters, network/3 and run/2.

@@ -20,7 +20,7 @@
                sum_list/2]).
 :- use_module(library(ordsets), [ord_add_element/3, ord_del_element/3]).
 
-/** <module> What an event log says about populations
+/** <module> Measures of populations, from an event log
 
 Steps are terms step(Time, Counts, Total) in order of time: from Time on
 there are Counts agents of each kind, Total in all.
@@ -31,9 +31,9 @@ there are Counts agents of each kind, Total in all.
 %!  track_start(+Tasks, -State) is det.
 %!  track(+Event, +State0, -State) is det.
 %
-%   State is where a network stands after the event(Time, Host, Agent, What)
-%   facts of its log so far: what is completed where, and how many agents
-%   there are of kinds that have a number.
+%   State is the state of a network after the event(Time, Host, Agent, What)
+%   facts of its log so far: the completed tasks of each host, and the number
+%   of agents of each numbered kind.
 
 track_start(Tasks, state(Done, 0)) :-
     maplist(none_done, Tasks, Done).
@@ -115,8 +115,8 @@ agent_kind(Agent, Kind) :-
 
 %!  populations(+Events, +Kinds:list(integer), -Steps) is det.
 %
-%   Events are in order of time.  What was before time 0 is in the first
-%   step, at time 0.
+%   Events are in order of time.  Events before time 0 are in the first step,
+%   at time 0.
 
 populations(Events, Kinds, [step(0, Counts0, Total)|Steps]) :-
     maplist(zero, Kinds, Zeros),

@@ -11,7 +11,7 @@
 :- use_module(library(lists),
               [append/2, append/3, member/2, nth1/3, reverse/2]).
 
-/** <module> What population.gp reads
+/** <module> Data of population.gp
 
 Each table has a block for each number of hosts, the smaller first.
 

@@ -9,7 +9,7 @@
 :- use_module(library(pairs), [pairs_values/2]).
 :- use_module(metrics, [agent_kind/2]).
 
-/** <module> The states that an event log tells of the agents of chapter 6
+/** <module> States of the agents of chapter 6, from an event log
 
 *Threading*: pure.
 */

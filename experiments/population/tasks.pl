@@ -1,8 +1,8 @@
 %   Chapter 6: when tasks were executed, and how many agents there were.
 %
-%   Gives: view/2, measures, labels, and what the thesis says of both figures.
-%   Views are dicts; `executions` are the first of each task at each host,
-%   `again` all others.
+%   Gives: view/2, measures, labels, and the claims of the thesis on both
+%   figures. Views are dicts; `executions` are the first of each task at each
+%   host, `again` all others.
 
 :- use_module('../sync/metrics',
               [executions/2, from_start/2, out_of_order/2, overlaps/2,

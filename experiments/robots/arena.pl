@@ -14,9 +14,9 @@
 
 /** <module> The arena: simulated robots in a process of their own
 
-A child process, `bridges/nxt/world.py`, has the robots, each with a
-simulated brick at the end of a serial line, and the things that they carry
-or push.  Whoever drives a robot knows nothing of the arena, only the line.
+A child process, `bridges/nxt/world.py`, has the robots, each with a simulated
+brick at the end of a serial line, and the objects that they carry or push.
+Programs that drive a robot use only its line.
 
 *Threading*: one thread asks an arena at a time.
 */
@@ -69,8 +69,8 @@ arena_start(Scene, Options, Arena, Bricks) :-
           ( arena_stop(Arena),
             throw(Ball) )).
 
-%   Not the first Python of the path: only that of the system is sure to
-%   have the package for serial lines.
+%   Not the first Python of the path: only the Python of the system is sure to
+%   have pyserial.
 
 python('/usr/bin/python3') :-
     exists_file('/usr/bin/python3'),

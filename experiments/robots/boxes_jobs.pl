@@ -41,7 +41,7 @@ side(2, 1.2, -90).
 %!  job_task(+Job, -Task) is det.
 %
 %   Task is for task_allocate/4.  Each place behind the box is a team of one
-%   robot, so a robot learns from what is asked of it where to push.
+%   robot, so the request tells a robot where to push.
 %
 %   @error those of a payload file, see agent_check/1
 
@@ -54,7 +54,7 @@ job_task(job(Name, Location, Needs), task(Name, Teams, [goal(Goal)])) :-
     distance(Metres),
     goal(Program, Location, Metres, Goal).
 
-%   A robot that got lost stands still, and is out of order.
+%   A robot that has lost its way stands still, and is out of order.
 
 goal([Lane, Push, Dock], Location, Metres, Goal) :-
     Goal = ( hold(_, _, need(_, Requirements, _), _, _),

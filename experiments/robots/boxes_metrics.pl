@@ -11,7 +11,7 @@
               [append/3, last/2, max_list/2, member/2, memberchk/2]).
 :- use_module(library(solution_sequences), [distinct/2]).
 
-/** <module> What the logs say about boxes that were pushed
+/** <module> Measures of pushed boxes, from the logs
 
 Events are event(Time, Host, Agent, What), sorted by time; a robot is named
 by the address of its host.  Terms are those

@@ -12,9 +12,9 @@
 
 /** <module> Hosts that have robots
 
-The place of such a host offers library(typhon/nxt), the robot interface,
-and in its tuple space brick(Brick) names the brick that is connected there.
-That is all that a program which comes to the host must know.
+The place of such a host offers library(typhon/nxt), the robot interface, and
+in its tuple space brick(Brick) names the brick that is connected there. An
+arriving program needs no other information.
 
 *Threading*: no state; any thread.
 */
@@ -54,10 +54,10 @@ crew_leave :-
 
 %!  crew_task(+Name, +Spec, -Task) is det.
 %
-%   Task is Name-Goal, where Goal carries the payload file Spec with it:
-%   the agent that calls it takes up the payload, calls the predicate that
-%   has the name of the payload and no arguments, and lays it down again,
-%   also when that fails or raises something.
+%   Task is Name-Goal, where Goal carries the payload file Spec with it: the
+%   agent that calls it attaches the payload, calls the predicate that has the
+%   name of the payload and no arguments, and detaches it, also after a
+%   failure or an error.
 %
 %   @error those of a payload file, see agent_check/1
 

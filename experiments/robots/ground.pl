@@ -8,7 +8,7 @@
 %
 %   Expects of the study that includes this: the parameter `every`, arena
 %   seconds from one state of its log to the next.  Gives: the options of the
-%   network, and what the two worlds have in common.
+%   network, and the common predicates of the two worlds.
 
 :- use_module('../../prolog/typhon', [network_at/3, remote/2]).
 :- use_module('../../prolog/typhon/kernel/base/own_thread', [in_own_thread/1]).

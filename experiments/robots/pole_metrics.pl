@@ -9,7 +9,7 @@
 :- use_module(library(aggregate), [aggregate/3, aggregate_all/3]).
 :- use_module(library(lists), [append/3, member/2]).
 
-/** <module> What the logs say about a pole that was carried
+/** <module> Measures of a carried pole, from the logs
 
 A state is state(Time, Pole), where Pole is the term that the arena gives:
 
@@ -37,10 +37,10 @@ pole_states(Terms, Moments, States) :-
 
 %!  host_time(+Moments, +ArenaTime, -HostTime) is det.
 %
-%   What the clocks of the hosts show when that of the arena shows ArenaTime.
-%   Moments is a list of pairs ArenaTime-HostTime in order, of which there
-%   is at least one.  Between two of them time passes evenly, before and
-%   after them equally fast at both.
+%   The time of the hosts when the arena has ArenaTime. Moments is a list of
+%   pairs ArenaTime-HostTime in order, of which there is at least one.
+%   Between two of them time passes evenly, before and after them equally fast
+%   at both.
 
 host_time([Arena-Host|Moments], Time, HostTime) :-
     ( Moments == [] ; Time =< Arena ),

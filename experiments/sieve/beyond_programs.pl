@@ -1,4 +1,4 @@
-%   Programs in the sieve: which are left, and how good they are.
+%   Programs in the sieve: the surviving ones, and their quality.
 
 :- include(ground).
 :- use_module('../../prolog/typhon/kernel/program/paths', []).

@@ -1,5 +1,5 @@
-%   Populations of antibodies of five bits, round by round: what Figures 3.3
-%   to 3.5 have in common.
+%   Populations of antibodies of five bits, round by round: common part of
+%   Figures 3.3 to 3.5.
 
 :- include(ground).
 :- use_module(kinds_panels, [kind_panels/2]).

@@ -8,7 +8,7 @@
 :- use_module(library(lists),
               [append/2, max_list/2, member/2]).
 
-/** <module> What rounds.gp reads: values of several runs, round by round
+/** <module> Data of rounds.gp: values of several runs, round by round
 
 A panel is panel(Title, Series), Series a list of series(Label, Points), and
 Points are pairs Round-Values, a value for each run.  All panels have so many

@@ -13,7 +13,7 @@
 :- use_module(library(lists), [member/2, nth1/3]).
 :- use_module(library(pairs), [pairs_keys_values/3]).
 
-/** <module> What is attacked in each round, and what came of it
+/** <module> The attacks of each round, and their results
 
 A plan is a list of Antigens-Count: in so many rounds each of Antigens
 attacks.  Kinds are antibodies; bits are an atom, as '11110'.  What happened

@@ -1,5 +1,5 @@
 %   Which of two antibodies is the better one: readings of section 3.4.2, and
-%   what becomes of Figures 3.3 to 3.5 with each.
+%   Figures 3.3 to 3.5 with each.
 
 :- include(kinds).
 :- use_module(rounds, [count/5]).

@@ -1,5 +1,5 @@
-%   Pictures of single runs, one below the other: what gallery.gp and run.gp
-%   read.
+%   Pictures of single runs, one below the other: data of gallery.gp and
+%   run.gp.
 %
 %   Expects: ground.pl, and row_title/3.  Gives: the measure `drawn`, and
 %   the tables `starts`, `hosts`, `names`, `bands`, `taus` with a block for
@@ -41,7 +41,7 @@ of_runs(Subtitle, Runs, [ 'SUBTITLE'-Text, rows-Count, end-End, most-Most,
     findall(Time, ( member(run(_, _, Ms), Runs), failed_at(Ms, Time) ),
             Failed).
 
-%   healed_title(+Name, +Delta, +Measures, -Title): what came of a failure.
+%   healed_title(+Name, +Delta, +Measures, -Title): the result of a failure.
 
 healed_title(Name, Delta, Ms, Title) :-
     format(string(Title), "{/:Bold ~w (δ = ~w)}   ~d of ~d lost executions \c

@@ -7,9 +7,9 @@
 :- use_module('../../agents/sync/operator', [task_fail/4, tasks_fail/4]).
 :- use_module(library(lists)).
 
-%   A failure is atomic(Task, Count, During), or cascaded: so many hosts
-%   lose Task, or it and all later ones, when the first host is seen to
-%   execute During.  One looks every second.
+%   A failure is atomic(Task, Count, During), or cascaded: so many hosts lose
+%   Task, or it and all later ones, when the first host is seen to execute
+%   During. The hosts are polled every second.
 
 prepare_failure(Case, _, _) :-
     Case.failure == none,

@@ -24,8 +24,8 @@ fixed(late, 34, tuned("the last visit at which no potential is zero")).
 
 rewarded_at(few, [1, 2, 3, 5, 8, 13, 21]).
 
-%   A list of step(N, Potential, Theta, Change), N from 0: what an agent is
-%   left with after visit N, and what it was rewarded or penalised with.
+%   A list of step(N, Potential, Theta, Change), N from 0: the potential of an
+%   agent after visit N, and its reward or penalty.
 
 view(Log, steps(Log.case, [step(0, Maximum, Theta, 0)|Steps])) :-
     _{theta:Theta, maximum:Maximum} :< Log.case,

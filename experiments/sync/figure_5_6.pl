@@ -1,4 +1,4 @@
-%   Figure 5.6: what the penalty bias does.
+%   Figure 5.6: effects of the penalty bias.
 
 :- include(ground).
 

@@ -1,4 +1,4 @@
-%   Figure 5.7: what the numbers of agents (a) and hosts (b) do.
+%   Figure 5.7: effects of the numbers of agents (a) and hosts (b).
 
 :- include(ground).
 

@@ -1,8 +1,8 @@
 %   Chapter 5: a sequence of tasks, executed in step on all hosts.
 %
 %   Expects of the study that includes this: the parameters `topology` and
-%   `delta`, or best_delta/2 derived from the topology, and what it says of
-%   others.  Gives: network/3, run/2, view/2 and the measures of one run.
+%   `delta`, or best_delta/2 derived from the topology, and its other
+%   definitions.  Gives: network/3, run/2, view/2 and the measures of one run.
 
 :- use_module('../../prolog/typhon', [agent_join/3, network_property/2]).
 :- use_module('../../agents/sync/operator', [sequence_start/5]).
@@ -42,7 +42,7 @@ label(tree, "Tree").
 label(grid, "Grid").
 label(delta, "penalty bias δ").
 
-%   best_delta(?Topology, ?Delta): what the thesis found best for each
+%   best_delta(?Topology, ?Delta): the best value of the thesis for each
 %   (section 5.6.1).
 
 best_delta(star_bus, 0.2).
@@ -60,7 +60,7 @@ network(Case, Topology, Options) :-
     findall(dynamic(Model), model(Case, Model), More),
     Options = [hop_time(uniform(Min, Max))|More].
 
-%   A study may say what is meant by a name of `links`.
+%   A study may define names of `links`.
 
 :- discontiguous model/2.
 
@@ -95,7 +95,7 @@ run(Case, Network) :-
     prepare_failure(Case, Network, Hosts),
     forall(member(Agent, Agents), agent_join(Agent, done, Case.limit)).
 
-%   A study may say how potentials are, or leave it to the agents.
+%   A study may define potentials, or leave them to the agents.
 
 potential(Case, Name-Value) :-
     member(Name, [delta, theta, maximum, window]),

@@ -10,7 +10,7 @@
 :- use_module(library(lists),
               [last/2, max_list/2, max_member/2, member/2, memberchk/2]).
 
-/** <module> What an event log says about self-healing
+/** <module> Measures of self-healing, from an event log
 
 The measures of thesis section 5.6.6, pure like those of sync_metrics.  A
 failure is a term failure(Time, Host, Task).
@@ -20,7 +20,7 @@ failure is a term failure(Time, Host, Task).
 
 %!  failures(+Events, -Failures) is det.
 %
-%   The losses that the log tells, in order of time.
+%   The losses in the log, in order of time.
 
 failures(Events, Failures) :-
     findall(failure(Time, Host, Task),
@@ -32,9 +32,9 @@ failures(Events, Failures) :-
 %
 %   Phases are lists of executions, each of which can be looked at as a
 %   sequence of tasks in step.  After an atomic failure (Kind is
-%   atomic(_,_,_)) the tasks go on, so what was healed is a phase by itself;
-%   after a cascaded one they begin again, so the phases are before and
-%   after.  Without failures there is one phase.
+%   atomic(_,_,_)) the tasks continue, so the repeated executions are a phase
+%   of their own; after a cascaded one they begin again, so the phases are
+%   before and after.  Without failures there is one phase.
 
 phases(_, Executions, [], [Executions]) :-
     !.

@@ -24,7 +24,7 @@
 :- use_module(library(ordsets), [ord_add_element/3, ord_del_element/3]).
 :- use_module(library(pairs), [pairs_values/2]).
 
-/** <module> What an event log says about synchronisation
+/** <module> Measures of synchronisation, from an event log
 
 The measures of thesis chapter 5, as pure predicates over lists of
 event(Time, Host, Agent, What).  A task's execution begins where the log

@@ -1,4 +1,4 @@
-%   Where agents start, and whether chance leads them.
+%   Effects of the starts of agents, and of random choices.
 
 :- include(ground).
 

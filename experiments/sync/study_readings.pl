@@ -1,5 +1,6 @@
-%   Other readings of equation 5.2: how many penalties in a row take a potential
-%   to zero.  Computed; the agents do what is called `agents`.
+%   Other readings of equation 5.2: how many penalties in a row take a
+%   potential to zero.  Computed; the reading of the agents is called
+%   `agents`.
 
 :- include('../../agents/sync/potential').
 :- use_module(library(lists)).

@@ -3,9 +3,9 @@
 
 /*  The detector and the exit sign of one cell of a building.
 
-    In the tuple space of its host are smoke(PerMetre), what its detector reads,
-    and, left by this agent, sign(To) and alarm.  It tells its neighbours what it
-    reads, what it takes for true, and how many seconds of walking lead to an
+    In the tuple space of its host are smoke(PerMetre), what its detector
+    reads, and, left by this agent, sign(To) and alarm.  It sends its
+    neighbours its reading, its confirmed value, and the walking time to an
     exit from there: air(Cell, Reading, Smoke, Seconds, To).
 
     rule(Rule) says when there is an alarm, above 0.035 per metre (0.15 dB/m,
@@ -173,7 +173,7 @@ walk(gradient, Smoke, Age, Seconds) :-
                 *            GOSSIP            *
                 *******************************/
 
-%   What one detector alone sees is not taken for smoke.
+%   The reading of a single detector does not count as smoke.
 
 believed(Reading, Now, Smoke) :-
     (   rule(gossip),

@@ -17,12 +17,12 @@
 :- use_module(library(lists), [member/2, memberchk/2, nth0/3]).
 :- use_module(library(option), [option/2, option/3]).
 
-/** <module> The building, its hosts, and what is between them
+/** <module> The building, its hosts, and the connection between them
 
-Each cell is a host of its own.  Once in a second the world goes on, leaves what
-detectors read in the tuple spaces of hosts, and people look there for signs and
-alarms.  A fire of 500 kW destroys the box of its cell:
-its agent is silent from then on.
+Each cell is a host of its own.  Once in a second the world advances, leaves
+the readings of detectors in the tuple spaces of hosts, and people read signs
+and alarms there.  A fire of 500 kW destroys the box of its cell: its agent is
+silent from then on.
 
 Detectors read with a noise of 0.002 per metre.  Assumptions: some are dead; dust
 or steam makes others read up to 0.5 per metre more, for half a minute in the

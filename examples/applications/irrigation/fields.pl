@@ -17,8 +17,8 @@ Water in the root zone of a field by FAO Irrigation and Drainage Paper 56
     TAW = 1000 (FC - WP) Zr,  RAW = p TAW               eq. 82, 83
     Ks = (TAW - D)/((1 - p) TAW)  if D > RAW, else 1    eq. 84
 
-What is more than field capacity drains.  A term field(Number, Soil, D, Totals)
-is a field; Soil = soil(FC, WP, Zr, Kc, Efficiency, Bias), Totals =
+Water above field capacity drains.  A term field(Number, Soil, D, Totals) is a
+field; Soil = soil(FC, WP, Zr, Kc, Efficiency, Bias), Totals =
 totals(Irrigated, Drained, Stressed), in mm, mm and hours.
 
 Sources: FC - WP from loamy sand to silt loam and p = 0.5 (FAO-56, tables 19 and
@@ -88,8 +88,8 @@ field_hour(Evaporation-Rain, Opened, Field0, Field) :-
 %!  field_moisture(+Field, -Share) is det.
 %!  field_map(+Field, -Map) is det.
 %
-%   Share is water by volume.  Map is what a survey of the soil says, map(FC, WP,
-%   Zr): it does not know what the crop takes.
+%   Share is water by volume.  Map is a survey of the soil, map(FC, WP, Zr),
+%   without the need of the crop.
 
 field_stress(field(_, soil(FC, WP, Zr, _, _, _), D, _), Ks) :-
     TAW is 1000*(FC-WP)*Zr,

@@ -15,8 +15,9 @@
 
     At the field there are MQTT's subscribe/2 and publish/2, those of
     library(typhon/mqtt) or of a simulation.  The topic field/N/moisture has
-    JSON once in an hour, of the form _{hour:H, moisture:Share, et0:Mm, rain:Mm};
-    what is published at field/N/valve, _{mm:Mm}, opens the valve for so long.
+    JSON once in an hour, of the form _{hour:H, moisture:Share, et0:Mm,
+    rain:Mm}; a message at field/N/valve, _{mm:Mm}, opens the valve for that
+    amount.
 */
 
 overlay('crop takes, of ET0', bar, log(calibrated(Host, Kc)), Host-Kc).
@@ -105,9 +106,9 @@ reading(Reading) :-
 reading(Reading) :-
     receive(_-reading(Reading)).
 
-%   The balance says what the depletion should be; the reading corrects it, and
-%   the crop, if the balance is wrong in one direction again and again.  Of hours
-%   without a reading only the mean is known.
+%   The balance predicts the depletion; the reading corrects it, and the need
+%   of the crop, if the balance is repeatedly wrong in one direction.  Of
+%   hours without a reading only the mean is known.
 
 calibrate(Reading, Before) :-
     _{hour:Hour, moisture:Moisture, et0:Et0, rain:Rain} :< Reading,

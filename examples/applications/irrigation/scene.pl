@@ -15,7 +15,7 @@
 :- use_module(library(lists), [member/2, sum_list/2]).
 :- use_module(library(option), [option/2, option/3]).
 
-/** <module> Fields, their hosts, and what is between them
+/** <module> Fields, their hosts, and the connection between them
 
 Six fields, each with a host, a moisture sensor and a valve, and the office, whose
 links to them break now and then.  Sensors and valves speak MQTT: with a broker the

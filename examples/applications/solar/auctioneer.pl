@@ -1,13 +1,13 @@
 :- agent(auctioneer, [state([home/1, seen/1, order/3, deal/3])]).
 :- include(clearing).
 
-/*  Holds an auction of energy in each period: goes from house to house for bids,
-    clears the market at the battery, its home, and goes round again with what each
-    house may take or has to give, and the price.
+/*  Holds an auction of energy in each period: goes from house to house for
+    bids, clears the market at the battery, its home, and goes round again
+    with the grant of each house, and the price.
 
-    It knows no map: from each host it goes to a neighbour where it has not been in
-    this round, else back the way it came, so a broken link makes the way longer, and
-    only houses that cannot be reached are left out.
+    It needs no map: from each host it goes to a neighbour where it has not
+    been in this round, else back the way it came, so a broken link makes the
+    way longer, and only houses that cannot be reached are left out.
 */
 
 overlay('price, ct', label, log(cleared(Price, _, _)), Price).
@@ -48,7 +48,7 @@ clear :-
     log(cleared(Ct, Traded, Hops)).
 clear.
 
-%   The fuller the battery, the less it pays for more, and asks for what it has.
+%   The fuller the battery, the lower are its buying and selling prices.
 
 step(Ct, Kwh) :-
     sense(battery(_, Level, Capacity, In, Out)),

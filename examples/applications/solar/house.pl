@@ -1,11 +1,11 @@
 :- agent(house, [state([keeper/1, house/1, moment/1, least/1])]).
 
-/*  Asks for the energy that a house lacks, and offers what it has to spare.
+/*  Requests the energy that a house lacks, and offers its surplus.
 
-    In the tuple space of its host are meter(Period, Own, Water), what the panel gave
-    beyond the load in the last period, and what the boiler still has to take, in
-    kWh; and, left by this agent, trader(Agent) and grant(Kwh, Ct).  What was in the
-    last period it expects in the next one.
+    In the tuple space of its host are meter(Period, Own, Water), what the
+    panel gave beyond the load in the last period, and what the boiler still
+    has to take, in kWh; and, left by this agent, trader(Agent) and grant(Kwh,
+    Ct).  It expects the values of the last period in the next one.
 
     By auction it answers `bids` with bids(Bids), and waits for grant(Kwh, Ct).  Load
     is worth the tariff of the grid; the boiler the more the less time it has left.

@@ -1,8 +1,8 @@
 :- agent(keeper, [state([given/2])]).
 
-/*  Lets houses have energy of the battery, and room in it, in the order in which
-    they ask.  In the tuple space is battery(Period, Level, Capacity, In, Out): what it
-    can take and give in this period, in kWh.
+/*  Grants energy and free capacity of the battery in the order of requests.
+    In the tuple space is battery(Period, Level, Capacity, In, Out): the
+    energy that it can take and give in this period, in kWh.
 */
 
 overlay('granted, kWh', bar, log(granted(House, Kwh)), House-add(abs(Kwh))).

@@ -14,11 +14,11 @@
 :- use_module(library(lists), [member/2, nth1/3]).
 :- use_module(library(option), [option/3]).
 
-/** <module> The street, its hosts, and what is between them
+/** <module> The street, its hosts, and the connection between them
 
-Ten houses and the battery are hosts in a ring.  Once in a period the world leaves
-what meters read in the tuple spaces of houses, and at the battery what that can
-take and give; and it takes the grants that are there by the end of the period.
+Ten houses and the battery are hosts in a ring.  Once in a period the world
+leaves meter readings in the tuple spaces of houses, and the limits of the
+battery in its own; and it takes the grants at the end of the period.
 
 *Threading*: the world is one fact, replaced in one step; any thread looks.  A
 mutex keeps the end of the scene apart from a period that passes.

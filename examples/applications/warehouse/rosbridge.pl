@@ -14,7 +14,7 @@
 
 /** <module> A rosbridge server before simulated robots
 
-What rosbridge_server does of its protocol as far as robots need it: topics that
+The part of the protocol of rosbridge_server that robots need: topics that
 clients publish and subscribe to, and services of the robots.  So hosts are
 connected with simulated robots by ros_start/3, as with real ones.
 

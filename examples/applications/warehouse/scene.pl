@@ -19,7 +19,7 @@
 :- use_module(library(lists), [append/3, member/2, memberchk/2, nth0/3]).
 :- use_module(library(option), [option/2, option/3]).
 
-/** <module> A warehouse: robots, orders, and what is between them
+/** <module> A warehouse: robots, orders, and the connection between them
 
 An office and robots, each a host; all are linked.  The robots are simulated, and
 stand behind a rosbridge server: poses, commands and calls go through
@@ -28,9 +28,9 @@ virtual time each move waits until all frames have come through.
 
 Assumptions: a hop takes 0.2 to 0.4 s; an order comes every ten seconds.
 
-*Threading*: the floor is one fact, replaced in one step under a mutex of its own,
-since what robots hear comes in other threads.  Another mutex keeps the end of the
-scene apart from time that passes.
+*Threading*: the floor is one fact, replaced in one step under its own mutex,
+since commands to robots arrive in other threads.  Another mutex keeps the end
+of the scene apart from time that passes.
 */
 
 :- dynamic
@@ -212,7 +212,7 @@ lies_at(Id, Place) :-
                 *       ROBOTS OVER ROS        *
                 *******************************/
 
-%   Those that stand still say so once in a second.
+%   Robots that stand still publish their pose once in a second.
 
 publish_poses(Tick, Names) :-
     floor(Floor),
@@ -236,7 +236,7 @@ heard(Topic, Message) :-
     field(Message, angular, z, Turn),
     change(floor_drive(Name, Speed-Turn)).
 
-%   What is left out is 0 in ROS.
+%   Omitted fields are 0 in ROS.
 
 field(Message, Vector, Axis, Value) :-
     (   get_dict(Vector, Message, Dict),
