@@ -5,7 +5,7 @@
 :- use_module(rounds, [count/5]).
 :- use_module(library(lists), [member/2, min_list/2]).
 
-study(comparisons, "Who is the better one? Four readings").
+study(comparisons, "Which agent is better? Four readings").
 text("\"Past performance\" may be the feedback for the present antigen, for \c
 antigens similar to it, for all antigens that both agents know, or for all \c
 that an agent knows. Each figure's own sentence is looked at.").

@@ -19,13 +19,13 @@ class Refused(Exception):
 
 
 class File:
-    def __init__(self, content=b'', room=0, data=False):
+    def __init__(self, content=b'', limit=0, data=False):
         self.content = bytearray(content)
-        self.room = room or len(content)
+        self.size_limit = limit or len(content)
         self.data = data                # may be appended to
 
     def size(self):
-        return len(self.content) if self.data else self.room
+        return len(self.content) if self.data else self.size_limit
 
 
 class Handle:
@@ -43,7 +43,7 @@ class Flash:
         self.modules = list(modules)
 
     def free(self):
-        used = sum(f.room for n, f in self.files.items() if n not in FACTORY)
+        used = sum(f.size_limit for n, f in self.files.items() if n not in FACTORY)
         return CAPACITY - used
 
     # ---- handles
@@ -90,7 +90,7 @@ class Flash:
             raise Refused(EXISTS)
         if size > self.free():
             raise Refused(full)
-        file = File(room=size, data=data)
+        file = File(limit=size, data=data)
         number = self.open(Handle('write', name, file))
         self.files[name] = file
         return number
@@ -99,10 +99,10 @@ class Flash:
         file = self.known(name)
         if self.being(name, 'write', 'read'):
             raise Refused(BUSY)
-        room = file.room - len(file.content)
-        if not file.data or not room:
+        left = file.size_limit - len(file.content)
+        if not file.data or not left:
             raise Refused(NO_APPEND)
-        return self.open(Handle('write', name, file)), room
+        return self.open(Handle('write', name, file)), left
 
     def read(self, number, count):
         """The bytes, padded, and whether there were so many."""
@@ -115,9 +115,9 @@ class Flash:
     def write(self, number, data):
         """How many bytes were written, and whether all."""
         file = self.handle(number, 'write').file
-        room = file.room - len(file.content)
-        file.content += data[:room]
-        return min(room, len(data)), room >= len(data)
+        left = file.size_limit - len(file.content)
+        file.content += data[:left]
+        return min(left, len(data)), left >= len(data)
 
     def delete(self, name):
         self.known(name)

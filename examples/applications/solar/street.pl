@@ -146,9 +146,9 @@ planned(T, Flow, House, Flow-plan(Heated, Must, Spare, Lack, Gives, Takes)) :-
 
 balanced(In, Out, Battery0, Battery, Given-Taken) :-
     Battery0 = battery(Level0, Capacity, Lost0),
-    battery_limits(Battery0, Room, Stock),
+    battery_limits(Battery0, Free, Stock),
     efficiency(Share),
-    Charge is min(max(0, In-Out), Room),
+    Charge is min(max(0, In-Out), Free),
     Discharge is min(max(0, Out-In), Stock),
     part(Out+Charge, In, Given),
     part(In+Discharge, Out, Taken),

@@ -30,8 +30,8 @@ import java.util.Vector;
         java Peer MtpPort MainPort
 
     On it live `echo`, which answers requests by what they say, `bidder1` and
-    `bidder2`, who take part in contract nets for 10 and for 7, and `driver`,
-    who does what the commands say.  */
+    `bidder2`, which take part in contract nets for 10 and for 7, and `driver`,
+    which executes the commands.  */
 
 public class Peer {
     static Agent driver;
