@@ -212,7 +212,7 @@ forged(Links, Forged, unaccounted(alpha)) :-         % beta has seen another sta
     changed(1, received(At), received(At, another), Links, Forged).
 forged(Links, Forged, since(3)) :-      % what was before beta is gone
     append(Forged, [_], Links).
-forged(Links, Forged, unaccounted(mallory)) :-
+forged(Links, Forged, unaccounted(nobody)) :-
     changed(0, handed(_, What), handed(another, What), Links, Forged).
 forged(Links, Forged, unaccounted(beta)) :-          % not even a text
     append(Before, [link(_, _, _)|After], Links),
