@@ -195,7 +195,7 @@ arrived(owner(Job, Body), _, _) :-
 arrived(robots(Job, Hosts, Body), _, _) :-
     tell_robots(Job, Hosts, Body).
 
-%   What is flooded because the tree is broken concerns those it is for.
+%   A flooded message because of a broken tree concerns only its receivers.
 
 everywhere(owner(Job, Body)) :-
     Job = job(Owner, _),

@@ -42,15 +42,13 @@ started the hosts.
 %
 %     - settings(+Pairs)
 %       Name-Value, to replace what auctions/participant.pl has as a default.
-%     - diameter(+Links)
-%       Of the network; default what it is now. It is the setting `level`,
-%       and with the longest time of a hop it makes the settings `window`
-%       and `answer`, host seconds to wait for bids and for answers: there
-%       and back again, to one neighbour after the other if nodes send one by
-%       one, and slack.
-%     - slack(+Seconds)
-%       Of host time, for what the computer takes to pass on some thousand
-%       messages; default what is half a second on a clock on the wall.
+%     - diameter(+Links) Of the network; by default its current diameter. It
+%       is the setting `level`, and with the longest time of a hop it makes
+%       the settings `window` and `answer`, host seconds to wait for bids and
+%       for answers: there and back again, to one neighbour after the other if
+%       nodes send one by one, and slack.
+%     - slack(+Seconds) Of host time, for what the computer takes to pass on
+%       some thousand messages; by default half a real second.
 %
 %   To be called by one at a time.
 %
@@ -266,8 +264,8 @@ gone(existence_error(node, _)).
 
 %!  auction_account(+Mechanism, +Hosts) is det.
 %
-%   Has the nodes at Hosts log what they have sent, as
-%   communications(Kind, Count), and begin to count anew. Does not wait.
+%   Let the nodes at Hosts log their counts, as communications(Kind, Count),
+%   and begin to count anew. Does not wait.
 %
 %   @error existence_error(node, Host), host_unreachable(Host)
 

@@ -16,7 +16,7 @@
 
 Starts leaders of the parts of a network, and an observer above them (thesis
 section 8.2), and asks them for rounds of work.  The workers are those of
-another mechanism, which a payload knows; leader.pl says what it provides.
+another mechanism, which a payload defines; leader.pl describes it.
 
 *Threading*: any thread; no state.
 */

@@ -3,7 +3,7 @@
 
 %!  orders(+Reports, -Orders) is det.
 %
-%   What the mechanism decides, which remembers what it has learnt.
+%   The decision of the mechanism, whose memory is updated.
 
 orders(Reports, Orders) :-
     ( memory(Memory0) -> true ; Memory0 = none ),

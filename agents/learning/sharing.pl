@@ -14,11 +14,11 @@
 */
 
 %   visit(+Wanted, -Gain): the agent comes to the end of the queue, asks the
-%   others in it one after the other until one of them has something new,
-%   and answers while it stays.  Wanted is `anything`, or `better`: only of
-%   those with a better solution.  Gain is gain(Before, After), the weights
-%   of the bag, or `none`.  What is new goes into the bag at once: an agent
-%   that waits should have nothing large among its goals.
+%   others in it one after the other until one of them has something new, and
+%   answers while it stays.  Wanted is `anything`, or `better`: only of those
+%   with a better solution.  Gain is gain(Before, After), the weights of the
+%   bag, or `none`.  New units are put into the bag at once: the goals of a
+%   waiting agent should be small.
 
 visit(_, none) :-
     parameter(sharing, false),

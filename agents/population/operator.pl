@@ -74,9 +74,9 @@ furnish(Sequence, Host) :-
 %!  population_join(+Sequence, +Host) is det.
 %!  population_leave(+Sequence, +Host) is det.
 %
-%   From now on Host has a part in Sequence, or none.  What it has completed
-%   stays so, and what it executes is not interrupted.  The agents find a host
-%   that joins late, and have it execute what it lacks, in order.
+%   From now on Host has a part in Sequence, or none.  Completed tasks stay
+%   completed, and a running task is not interrupted. The agents find a host
+%   that joins late, and let it execute its missing tasks, in order.
 %
 %   @error host_unreachable(Host), existence_error(host, Host)
 

@@ -102,8 +102,8 @@ affordable(Length, Count) :-
     clones(Rounding, Pressure, Resource, Maximum, Count0),
     conferred(Resource, Count0, Minimum, _, Count).
 
-%   What is conferred is taken clone by clone: where agents that are about
-%   to join the queue have taken a slot, fewer are made.
+%   The resource is conferred clone by clone: where agents that are about to
+%   join the queue have taken a slot, fewer are made.
 
 multiply(0, Role) :-
     !,

@@ -31,8 +31,8 @@ clones(floor, Pressure, Resource, Maximum, Count) :-
 
 %!  conferred(+Resource0, +Count0, +Minimum, -Resource, -Count) is det.
 %
-%   Equation 6.3: what is left to an agent that gives Minimum to each of
-%   Count clones.  Count is Count0, or 0 where it has not enough.
+%   Equation 6.3: the resource of an agent after it has given Minimum to each
+%   of Count clones.  Count is Count0, or 0 where it has not enough.
 
 conferred(Resource0, Count, Minimum, Resource, Count) :-
     Resource is Resource0 - Count*Minimum,

@@ -175,8 +175,8 @@ appoint(_, false).
                 *          GENERATION          *
                 *******************************/
 
-%   What is found at random neutralizes the antigen, and goes out to do so
-%   elsewhere.  Fails where nothing is found that might.
+%   A random antibody neutralizes the antigen, and is released as a new agent.
+%   Fails if none with enough affinity is found.
 
 generate(attack(Antigen, Host, _), Begin) :-
     chance(Chance0),

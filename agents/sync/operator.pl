@@ -39,10 +39,9 @@ host, and may stop, as in sleep(1).
 
 %!  sequence_start(+Sequence, +Hosts, +Tasks, +Options, -Agents) is det.
 %
-%   Hosts get a worker for Sequence, where they have none; other hosts have
-%   no part in it.  Agents are the ids of agents that have all been told to
-%   begin.  What has been completed on Hosts before, stays completed.
-%   Options:
+%   Hosts get a worker for Sequence, where they have none; other hosts have no
+%   part in it.  Agents are the ids of agents that have all been told to
+%   begin.  Tasks completed on Hosts before stay completed. Options:
 %
 %     - agents(+Count): how many agents; default 10, or one on each of
 %       `starts`

@@ -40,8 +40,8 @@ main :-
 fertile :-
     mood(active).
 
-%   The statements S1 to S4 of the thesis.  S4 asks for the previous task,
-%   too: else what was never done would be passed over.
+%   The statements S1 to S4 of the thesis.  S4 also requires the previous
+%   task: otherwise missing tasks would be skipped.
 
 visit(0) :-
     \+ takes_part,

@@ -51,7 +51,7 @@ view(First-Last, Hosts0, Stays, Colours,
 
 %!  view_frame(+View, -Left, -Top, -Width, -Height) is det.
 %
-%   What is inside the axes.
+%   The rectangle inside the axes.
 
 view_frame(view(scale(_, Left, _), _, _, _, Bottom), Left, Top, Wide, High) :-
     width(Width),

@@ -9,8 +9,8 @@
 
       - perform(Action, Result): do it.  If this fails the request is refused;
         if it raises, it is a failure.
-      - bid(Task, Offer): what it proposes when there is a call for proposals,
-        if it takes part in contract nets.  If this fails it refuses.
+      - bid(Task, Offer): its proposal after a call for proposals, if it takes
+        part in contract nets.  If this fails it refuses.
 
     Of a content [action(Agent, Action)], as SL has it, Action is performed, and
     the answer says result(action(Agent, Action), Result), or done(...) where

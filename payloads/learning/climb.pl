@@ -199,7 +199,7 @@ predicted([Level|Levels], Place, Effects, Value0, Value, Doubt0, Doubt) :-
     Next is Place + 1,
     predicted(Levels, Next, Effects, Value1, Value, Doubt1, Doubt).
 
-%   Levels are known from what was tried at random.
+%   The levels are those of random trials.
 
 near(Settings, model(_, Effects), Near) :-
     assoc_to_keys(Effects, Keys),

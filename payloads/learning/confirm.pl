@@ -17,8 +17,8 @@ repeated(Settings, [use(Settings)|Again]) :-
 
 %!  better(+Actions, +Others) is semidet.
 %
-%   What was good with fewer pages was good sooner: with less of a search
-%   on one printer.
+%   Settings that were good after fewer pages needed less of a search on one
+%   printer.
 
 better(Actions, Others) :-
     length(Actions, Length),

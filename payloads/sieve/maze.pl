@@ -223,7 +223,7 @@ robot_senses(Side, Heading, X, Y, Rows, What) :-
     ;   What = wall(Side)
     ).
 
-%   What is off the board is wall.
+%   Squares off the board are walls.
 
 board_free(Rows, X, Y) :-
     X >= 0,

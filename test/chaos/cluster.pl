@@ -303,8 +303,9 @@ cluster_wait(Stamp) :-
         fail
     ).
 
-%   pump(+Stamp): take in one answer, if there is one by then.  What is not
-%   answered in time hangs; what has been answered and is not taken in does not.
+%   pump(+Stamp): take in one answer, if there is one by then.  A call without
+%   an answer in time counts as hung, but not if its answer is still in the
+%   queue.
 
 pump(Stamp) :-
     (   thread_get_message(chaos_answers, Message, [deadline(Stamp)])

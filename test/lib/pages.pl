@@ -72,7 +72,7 @@ with_feed(Base, Feed, Goal) :-
         once(Goal),
         close_feed(Feed)).
 
-%   What is not yet passed over.
+%   Events that are not yet skipped.
 
 open_feed(Address, feed(Socket, [])) :-
     http_open_websocket(Address, Socket, []).

@@ -61,7 +61,7 @@ mark(Ref, Phase) :-
 
 %!  give_up(+Host, +Ref, +Why) is semidet.
 %
-%   The robot at Host is lost, which is logged.  What was done stays done.
+%   The robot at Host is lost, which is logged.  Completed parts count.
 
 give_up(Host, Ref, Why) :-
     retract(held(Host, Robot, Ref, Team, Phase)),

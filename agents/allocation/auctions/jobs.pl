@@ -20,7 +20,8 @@
 
 %!  open_places(+Job, +Task, -Places:list(pair)) is det.
 %
-%   Places are (Number-Requirements)-Count: what is not yet awarded.
+%   Places are (Number-Requirements)-Count: the places that are not yet
+%   awarded.
 
 open_places(Job, task(_, Teams, _), Places) :-
     findall(Number, member(Job, _, Number, _, _, _), Taken),

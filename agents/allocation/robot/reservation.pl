@@ -45,7 +45,7 @@ urgency(need(_, _, Details), Priority) :-
 
 %!  reserve(+Verdict, +Hold, -Answer) is det.
 %
-%   Hold, a hold/5, takes the place of what was held, if Verdict is a bid.
+%   Hold, a hold/5, replaces the previous reservation, if Verdict is a bid.
 
 reserve(bid(_), Hold, reserved) :-
     !,

@@ -14,8 +14,8 @@ main :-
         main
     ).
 
-% A token is in one hand or on one host. What was dropped is noted: should it
-% not have been, as all that was done since, others may have it already.
+% A token is in one hand or on one host. A drop is recorded: if it is undone
+% together with all later steps, another agent may already have the token.
 
 trade :-
     random(X),
