@@ -25,7 +25,7 @@ solution(Exercise, File) :-
     format(atom(Relative), 'doc/course/solutions/~w.pl', [Exercise]),
     project_file(Relative, File).
 
-%   What is wrong with it; what students see meanwhile is of no interest here.
+%   Its problems; output for students is ignored.
 
 wrongs(Exercise, File, Wrongs) :-
     no_leaks(listening(findall(Text-Why, wrong(Exercise, File, Text, Why),

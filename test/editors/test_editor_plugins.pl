@@ -118,7 +118,7 @@ snippet(Prefix, Text) :-
     Prefix = Dict.prefix,
     Text = Dict.text.
 
-%   What is no program by itself is put into one.
+%   Fragments are put into a program.
 
 whole(Prefix, Text, Text) :-
     memberchk(Prefix, ["agent", "resident", "payload"]),

@@ -61,7 +61,7 @@ run(Name, Facts, [Host|_]) :-
                 *        WHAT THEY DO          *
                 *******************************/
 
-%   What it has as its result.
+%   Its result.
 
 gives(Name, Facts, Result, [Host|_]) :-
     create(Name, Host, [facts(Facts)], Agent),

@@ -160,7 +160,7 @@ test(release_is_reproducible, [condition(a_clone), true(First == Second)]) :-
     sleep(1.1),
     with_tmp_dir(released(Second)).
 
-%   A commit of what is there, so that files that are changed do not matter.
+%   A commit of the working tree, so that changed files do not matter.
 
 a_clone :-
     absolute_file_name(path(git), _, [access(execute), file_errors(fail)]).

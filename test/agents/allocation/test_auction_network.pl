@@ -15,9 +15,9 @@
 
 /** <module> Murdoch and ANTA on small networks
 
-What is counted is compared with what follows from the graph.  Every test
-looks in the log for robots that were reserved twice, or still are at the
-end; where hosts die those of these are left out.
+Counts are compared with the values that follow from the graph.  Every test
+looks in the log for robots that were reserved twice, or still are at the end;
+where hosts die those of these are left out.
 */
 
 %   auctions(+Mechanism, +Topology, +Options, +Robots, :Goal): Goal(Hosts,
@@ -71,7 +71,7 @@ so_far(File, Whats) :-
     logged(File, Events),
     findall(What, member(event(_, _, _, What), Events), Whats).
 
-%   all(+File, +Pattern, ?Found): what is logged, which may lag, comes to be
+%   all(+File, +Pattern, ?Found): the logged events, which may lag, become
 %   Found.
 
 all(File, Pattern, Found) :-
@@ -96,9 +96,8 @@ time_passes(Hosts, Seconds) :-
     network_property(Network, hosts(Hosts)),
     network_advance(Network, Seconds).
 
-%   What is counted to the last message is so in virtual time: in real time, a
-%   bid that comes late because others keep the computer busy is passed on by
-%   itself.
+%   Exact counts need virtual time: in real time, a bid that comes late
+%   because others keep the computer busy is passed on by itself.
 
 to_the_last([clock(virtual), auction([slack(5)]), hop_time(uniform(0.2, 0.4))]).
 
@@ -367,7 +366,7 @@ quick([slack(15), settings([renew-50, contract-160, bi_min-5])]).
 
 patient([slack(60), settings([renew-100, contract-400, bi_min-5])]).
 
-%   What is wrong is said at once.
+%   Errors are raised at once.
 
 :- begin_tests(auction_operator).
 
@@ -459,7 +458,7 @@ killed(Mechanism, Hosts, File) :-
 
 :- end_tests(auction_dead).
 
-%   Whoever holds the cookie may post a task at any host.
+%   Any process with the cookie may post a task at any host.
 
 post_from(Peer, Mechanism, Host) :-
     project_file('agents/allocation/auctions', File),

@@ -17,7 +17,7 @@ payload(_, _).
 
 /** <module> Agents that learn the maze on small networks
 
-What they converge to is walked through in a maze of this process.
+Their solutions are executed in a maze of this process.
 */
 
 :- dynamic setting/2.

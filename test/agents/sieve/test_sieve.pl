@@ -176,7 +176,7 @@ sieve_in(Topology, Options, Settings, Goal, Dir) :-
           once(call(Goal, Hosts, File)) ),
         network_stop(Network)).
 
-%   What was logged so far, in order.
+%   The events so far, in order.
 
 told(File, Whats) :-
     logged(File, Events),
@@ -222,7 +222,7 @@ alone([Host], File) :-
     told(File, Later),
     memberchk(served(Antigen, Antibody, _, 1), Later).
 
-%   Whoever is chosen: the better one clones.
+%   Whichever agent is chosen, the better one clones.
 
 test(the_better_one_clones_the_same_one_is_redundant) :-
     sieve(ring(1), [], [gather-10, patience-400], better).
@@ -315,7 +315,7 @@ attacks(Hosts, File) :-
     Served > 0,
     memberchk(born(clone, _), All).
 
-%   Another application: what is sieved are programs.
+%   Another application: programs are sieved.
 
 test(programs_are_sieved) :-
     sieve(ring(1), [],

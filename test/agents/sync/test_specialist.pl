@@ -250,7 +250,7 @@ test(only_active_it_clones, Moods == [active]) :-
                 *            NETWORK           *
                 *******************************/
 
-%   Ten hosts in two processes, three tasks.  What is seen is the log.
+%   Ten hosts in two processes, three tasks.  The log is checked.
 
 on_network(Goal, Dir) :-
     atomic_list_concat([Dir, '/events.pl'], Log),

@@ -80,7 +80,7 @@ test(frame, Bytes == [3,0, 0x02,0x0c,0x00, 5,0, 0x02,0x0b,0x00,0x78,0x1e]) :-
           ( send_bytes(Line, [2,0, 0x00,0x0c, 2,0, 0x00]),
             send_bytes(Line, [0x0b]),
             receive_bytes(Line, 12, Bytes) )).
-%   It is the silence that makes a brick forget what it was sent.
+%   After a silence a brick drops a partial telegram.
 
 test(half_a_frame_is_forgotten, Reply == '0288007c011d01') :-
     still(Brick, Line,

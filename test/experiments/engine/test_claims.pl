@@ -135,7 +135,7 @@ six(Points) :-
 seven(Points) :-
     length(Points, 7).
 
-%   What is derived follows when something else varies.
+%   Derived parameters change with the others.
 
 :- dynamic derive/3.
 

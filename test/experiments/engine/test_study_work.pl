@@ -183,7 +183,7 @@ leaves_nothing(Signal, Status, Dir, File) :-
     below(Dir, '.part', Parts),
     assertion(Parts == []).
 
-%   What it had begun goes with the next session.
+%   The next session removes its partial run.
 
 ends_what_is_stuck(Dir, File) :-
     interrupted(term, 143, stuck, Dir, File),

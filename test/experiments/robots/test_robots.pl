@@ -295,7 +295,7 @@ carried_in_real_time(Dir) :-
                      get_dict(Name, Ms, _))),
     assertion(Ms.carried > 0.2).
 
-%   What is left behind is reported by test/run.pl.
+%   test/run.pl reports processes that are left behind.
 
 interrupted(Status, Dir) :-
     project_file('experiments/study.pl', Script),

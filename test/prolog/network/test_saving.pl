@@ -339,7 +339,7 @@ beside_itself(Dir) :-
                  ( network_save(N, File),
                    network_load(File, _, []) )).
 
-%   What is stopped says nothing.
+%   Stopped processes print nothing.
 
 hanging([Error,alive], Dir) :-
     atom_concat(Dir, '/file', File),
@@ -445,7 +445,7 @@ by_appointment(Whole, Text, Dir) :-
     no_leaks(on_from(File, Rest)),
     read_file_to_string(Log, Text, []).
 
-%   What is logged after that, alone.
+%   Only events after that time.
 
 another_log(Rest, Text, Dir) :-
     atom_concat(Dir, '/log.pl', Log),
@@ -488,7 +488,7 @@ ids([A,B], Dir) :-
 idler(Agent) :-
     agent_create(clauses([ (:- agent(a)), (main :- receive(_)) ]), Agent).
 
-%   What is unified first, and used later.
+%   Unified first, and used later.
 
 twice(X, Dir) :-
     atom_concat(Dir, '/file.net', File),

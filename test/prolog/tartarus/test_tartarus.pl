@@ -8,7 +8,7 @@
 
 /** <module> Programs written for Tartarus, as their users ran them
 
-Each platform is a process; what is typed and printed is what counts.
+Each platform is a process; tests compare typed input and output.
 
 *Threading*: one test at a time.
 */

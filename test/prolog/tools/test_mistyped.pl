@@ -17,7 +17,7 @@
 :- use_module('../../../agents/sieve/operator').
 :- use_module('../../../agents/sync/operator').
 
-/** <module> What is printed for a mistyped name
+/** <module> Messages for mistyped names
 
 */
 
@@ -43,7 +43,7 @@ says(Goal, Parts) :-
 
 :- begin_tests(options).
 
-%   Unknown names, and what they are said to be.
+%   Unknown names, and their suggestions.
 
 unknown(host_start(a, [capacty(1)]), host_option, capacity).
 unknown(host_start(a, [tokens([]), consut(f)]), host_option, consult).

@@ -9,7 +9,7 @@
 :- use_module(library(plunit)).
 :- use_module(library(typhon)).
 
-/** <module> Supervisors and what they monitor as trees
+/** <module> Trees of supervisors and monitored agents
 
 *Threading*: one test at a time.
 */

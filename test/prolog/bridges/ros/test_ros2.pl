@@ -299,7 +299,7 @@ test(a_dead_node_is_restarted_with_all_registrations) :-
             wait_until(( helper_pid(ros(alpha), New), New \== Pid ), 10),
             wait_until(comes_back(Agent, "again"), 30) )).
 
-%   What was said before may come late.
+%   Earlier messages may arrive late.
 
 comes_back(Agent, Text) :-
     published_until_heard(Agent, '/in', 'std_msgs/msg/String', _{data:Text},

@@ -1,7 +1,8 @@
 :- module(test_gate, []).
 
 % Each reason to refuse an agent, on each path by which an agent can come: the
-% same reason reaches the program, the audit file and whoever watches the host.
+% same reason reaches the program, the audit file and the watchers of the
+% host.
 
 :- use_module('../../../lib/authority').
 :- use_module('../../../lib/common').

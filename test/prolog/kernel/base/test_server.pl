@@ -8,7 +8,7 @@
 
 /** <module> Tests of servers
 
-The server of these tests has a list of what it was told, the newest first.
+The server of these tests has a list of its messages, the newest first.
 
 *Threading*: the main thread, and the threads of the servers.
 */

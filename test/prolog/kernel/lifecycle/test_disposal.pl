@@ -358,7 +358,7 @@ again(B) :-
 
 :- begin_tests(top_level).
 
-%   What was typed before the interrupt is read after it.
+%   Text typed before the interrupt is read after it.
 
 test(typed_ahead, [ forall(member(End, ["agent_dispose(A, [force(0)])",
                                         "host_stop(alpha)"])),

@@ -6,7 +6,7 @@
 :- use_module(library(lists), [member/2]).
 :- use_module(library(plunit)).
 
-/** <module> Agents that come from another process, and what they do there
+/** <module> Agents of processes without hosts
 
 An agent that arrives is run by the thread that has read it.  One that blocks or
 never ends keeps no other from arriving or leaving, and its host can be stopped.

@@ -310,7 +310,7 @@ programs_sent_once :-
     peer_do(b, programs_seen(Seen)),
     Seen == 1.
 
-%   b forgets what is not used, and asks for it when it is needed.
+%   b discards unused programs, and requests them when they are needed.
 
 programs_evicted :-
     peer_host(a, A),

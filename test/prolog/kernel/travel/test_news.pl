@@ -90,7 +90,7 @@ slow_courier :-
               ),
               Posted )).
 
-%   What is wrapped cannot be written in an answer.
+%   Wrapped predicates cannot be written in an answer.
 
 wrapped(Peer, Head, Wrapped, Body) :-
     peer_do(Peer, \+ \+ wrap_predicate(Head, test_news, Wrapped, Body)).

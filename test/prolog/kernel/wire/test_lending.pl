@@ -1,6 +1,6 @@
 :- module(test_lending, []).
 
-/** <module> Tests of readers that run what they have brought in
+/** <module> Tests of readers that run the agents that they have read
 
 The endpoint is connected to itself: what it posts is read by a thread of its
 own.
@@ -85,7 +85,7 @@ post(Me, Errand) :-
 say(Me, Word) :-
     over_the_wire(Me, post(word, Word)).
 
-%   What is posted to oneself is taken at once, else.
+%   Otherwise posts to the own endpoint are handled at once.
 
 over_the_wire(Me, Frame) :-
     once(route(Me, Session)),
@@ -186,7 +186,7 @@ test(endpoint_stops_while_one_waits, true(Seconds < 20)) :-
     Seconds is T1-T0,
     assertion(lent(Thread)).
 
-%   What was open when the endpoint stopped is not open in the next one.
+%   Lent threads of a stopped endpoint are not open in the next one.
 
 test(waiting_agent_is_handed_over_after_a_stop, true(ran(meanwhile))) :-
     with_queue(Queue,

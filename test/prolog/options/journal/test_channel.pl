@@ -59,7 +59,8 @@ got(Id, Expected) :-
 
 :- begin_tests(channel).
 
-%   What is wrapped stays so: to unwrap what a thread is in is not safe.
+%   Predicates stay wrapped: unwrapping a predicate that a thread executes is
+%   not safe.
 
 :- dynamic
     interrupted/0,                      % once, before a courier is sent out
@@ -220,7 +221,7 @@ test('what an agent has said waits where it is noted no more that it was said') 
 
 :- end_tests(channel).
 
-%   What is too long for a frame keeps no other from getting through.
+%   A message that is too long for a frame does not block others.
 
 :- begin_tests(channel_frames).
 

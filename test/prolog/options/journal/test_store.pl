@@ -33,7 +33,7 @@ whole(Dir) :-
     Items == [k-1-one],
     ( var(E) -> true ; throw(error(E, C)) ).
 
-%   The longest, and what is written with more bytes.
+%   The longest keys, and characters of several bytes.
 
 test('each key that may be is another one, and found') :-
     with_tmp_dir(keys).

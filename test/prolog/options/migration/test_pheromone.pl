@@ -36,7 +36,7 @@ emit(Host, Problem) :-
 emit(Host, Problem, Options) :-
     remote(Host, emit(Problem, Options)).
 
-%   What is at Host: Strength-Name of the source.
+%   The pheromones at Host: Strength-Name of the source.
 
 at(Host, Problem, Found) :-
     remote(Host, findall(S-Source, pheromone(Problem, Source, S), Found0)),

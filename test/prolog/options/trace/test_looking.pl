@@ -28,7 +28,7 @@ in_network(Options, Goal) :-
                  once(call(Goal, Network)),
                  network_stop(Network))).
 
-%   In virtual time others run while somebody waits.
+%   In virtual time others run while a caller waits.
 
 later :-
     agent_create(clauses([ (:- agent(waiter, [])), (main :- sleep(1)) ]), A),

@@ -324,7 +324,7 @@ nothing_due(N) :-
     sleeper(N, receive(never), A),
     told_while(agent_join(A, _, inf), virtual_nothing_due).
 
-%   Whoever waits in Goal is interrupted when the warning has been heard.
+%   The thread that waits in Goal is interrupted after the warning.
 
 told_while(Goal, Message) :-
     thread_create(catch(Goal, enough, true), Thread),

@@ -1,6 +1,6 @@
 :- module(test_overview, []).
 
-% What is there before events come, and the same events in a log.
+% The overview before events arrive, and the same events in a log.
 
 :- use_module('../../../lib/common').
 :- use_module('../../../lib/fixtures').

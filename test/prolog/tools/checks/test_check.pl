@@ -173,7 +173,7 @@ test(other_side_of_a_disjunction,
 test(in_a_rule_of_the_state, L == [lost_choice(repeat/0, move/1, fail/0)]) :-
     loses('s(X) :- repeat, move(X), fail.', L).
 
-%   What is well: each with why.
+%   Correct programs, each with the reason.
 
 fine('p :- retract(s(H)), !, move(H), p. p :- log(done).').  % cut
 fine('p :- neighbours(Hs), member(H, Hs), move(H).').        % the first will do

@@ -79,7 +79,7 @@ view(Name) :-
            [Name]),
     see(Shown).
 
-%   A text that somebody can read in an element.
+%   A visible text in an element.
 
 reads(Selector, Text) :-
     format(string(Script),
@@ -212,7 +212,7 @@ scene(it_is_opened) :-
     reads("#details .program .here", "("),
     reads("#details .terms", "seen(").
 
-%   A row that changes while somebody presses on it is the same row.
+%   A row that changes during a click is the same row.
 
 scene(its_row_stays_what_it_is) :-
     sees("globalThis.row = document.querySelector('#table-agent .row[id]');
@@ -238,7 +238,7 @@ scene(what_is_opened_stays_what_it_is) :-
     see("return typhon.app.chosen.host"),
     sees("return typhon.app.chosen.host", Host).
 
-%   A list waits while somebody presses, and goes on afterwards.
+%   A list waits during a click, and is updated afterwards.
 
 scene(a_list_waits_for_a_press) :-
     at(Browser, _, _),

@@ -179,7 +179,7 @@ test(loaded_when_wanted, Status-Err == exit(0)-"") :-
               [], Status, _, Err).
 
 %   More half requests than a page has connections, and some whose next byte
-%   always comes soon: whoever has the token is answered.
+%   always comes soon: a client with the token is answered.
 
 test(half_requests_do_not_stop_the_owner, Statuses == [200, 200, 200]) :-
     no_leaks(page(Base,
