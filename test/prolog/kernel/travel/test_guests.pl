@@ -6,7 +6,7 @@
 :- use_module(library(lists), [member/2]).
 :- use_module(library(plunit)).
 
-/** <module> Agents of processes without hosts
+/** <module> Agents that come from another process
 
 An agent that arrives is run by the thread that has read it.  One that blocks or
 never ends keeps no other from arriving or leaving, and its host can be stopped.
@@ -64,7 +64,7 @@ hosts_stop(Ids) :-
 
 :- begin_tests(guests).
 
-test(keep_no_process_alive, forall(burden(Kind, _))) :-
+test(do_not_block_others, forall(burden(Kind, _))) :-
     with_guests(Kind, 4, others_travel).
 test(end_with_their_host, forall(burden(Kind, _))) :-
     with_guests(Kind, 4, hosts_stop).

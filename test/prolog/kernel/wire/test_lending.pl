@@ -131,7 +131,7 @@ test(each_once_in_order, Ran == All) :-
     ;   Ran = Ran0
     ).
 
-test(waiting_agent_does_not_block_others, [Words == All]) :-
+test(waiting_handler_does_not_block_others, [Words == All]) :-
     numlist(1, 50, All),
     with_queue(Queue,
                alone(Me, ( post(Me, waits(Queue, 1)),
@@ -186,9 +186,9 @@ test(endpoint_stops_while_one_waits, true(Seconds < 20)) :-
     Seconds is T1-T0,
     assertion(lent(Thread)).
 
-%   Lent threads of a stopped endpoint are not open in the next one.
+%   A thread lent by a stopped endpoint does not count in the next one.
 
-test(waiting_agent_is_handed_over_after_a_stop, true(ran(meanwhile))) :-
+test(waiting_handler_is_replaced_after_a_restart, true(ran(meanwhile))) :-
     with_queue(Queue,
                ( alone(Me1, ( post(Me1, waits(Queue, 1)),
                               wait_until(ran(waits(_, 1)), 5) )),
