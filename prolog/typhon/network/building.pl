@@ -150,6 +150,10 @@ start_dynamics(Network, Clock, Plan, Time, Change) :-
     part/2.                     % Network, log(Address, File),
                                 % or dynamics(Dynamics)
 
+%!  part(?Network, ?Part) is nondet.
+%
+%   Network has Part: log(Address, File) or dynamics(Dynamics).
+
 %!  network_endpoint(+Network, +Plan, +Port, -Interface) is det.
 %
 %   Start the endpoint of this process at Interface, and at Port if that is not

@@ -267,6 +267,10 @@ kept_note(Plan0, Clock, How) :-
     journal_record_put(Where, Text).
 kept_note(_, _, _).
 
+%   kept_end(+Plan) is det.
+%
+%   The network of Plan has ended for good: delete its record.
+
 kept_end(Plan) :-
     (   plan_option(Plan, journal(Where))
     ->  journal_record_drop(Where)

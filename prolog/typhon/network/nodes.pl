@@ -51,7 +51,7 @@ reports its end: as a fact, and to callers that wait for an answer.
     waiting/3.                  % Network, P, Queue: for an answer of P
 
                 /*******************************
-                *           CARRIERS           *
+                *          PROCESSES           *
                 *******************************/
 
 %!  node_came(+Network, +P, +Where, +Pid) is det.

@@ -109,7 +109,7 @@ cut(Network, Ps, Standing, Terms) :-
     append([About|Parts], Terms).
 
                 /*******************************
-                *            TO HOLD           *
+                *           HOLDING            *
                 *******************************/
 
 %   When no agent gets a turn, and running turns have ended, a message may
@@ -169,7 +169,7 @@ seconds_to(Deadline, Seconds) :-
     Seconds is max(0.1, Deadline-Now).
 
                 /*******************************
-                *         WHAT THERE IS        *
+                *          THE STATE           *
                 *******************************/
 
 %   about(+Network, +Standing, +Deadline, -About): the part of the state that

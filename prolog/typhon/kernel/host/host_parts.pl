@@ -75,7 +75,7 @@ with Host, About, Term0, Term:
   |         |         |                            | creates an agent here    |
   | cloned  | state   | Id                         | Id is cloned             |
   | copied  | state   | Id                         | a restore point of Id is |
-  |         |         |                            | used                     |
+  |         |         |                            | made                     |
   | deliver | mail    | Id                         | a message arrives for Id |
   | tuple   | mark    | Agent                      | Agent leaves a fact; the |
   |         |         |                            | mark is `none` at first  |

@@ -10,7 +10,7 @@
 :- use_module(host_parts, [parts/3]).
 :- use_module(hosts, [host/3, host_option/2]).
 
-/** <module> What other processes may do on a host
+/** <module> The rights of other processes on a host
 
 The rights are
 

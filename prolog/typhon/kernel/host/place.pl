@@ -23,7 +23,7 @@
 /** <module> Places: what a host offers to the agents on it
 
 The place of a host is a module: the facts, services, delivered payloads
-and robot interface of the host.  Agents that stand on the host find its
+and robot interface of the host.  Agents on the host find its
 predicates through the import chain agent, place, vocabulary, system.
 
 make/0 reloads files that have changed since they were consulted into a place.
@@ -150,6 +150,10 @@ reload(Place, Id, File) :-
     catch(load(Place, Id, File), error(Formal, Context),
           print_error(error, error(Formal, Context))),
     print_message(informational, typhon(place_reloaded(Place, File))).
+
+%!  place_service(?Place, ?PI) is nondet.
+%
+%   Place offers PI to all agents, see service/1.
 
 %!  place_host(?Place, ?Host) is nondet.
 %
@@ -288,7 +292,7 @@ remove(Place, Name) :-
     forall(member(PI, PIs), abolish(Place:PI)).
 
                 /*******************************
-                *       WHAT OUTLIVES IT       *
+                *        DURABLE STATE         *
                 *******************************/
 
 %   A payload is restored by delivering it again.

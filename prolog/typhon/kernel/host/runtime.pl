@@ -26,7 +26,7 @@
               [ time_apart/2, time_default/1, time_kind/1, time_start/1,
                 time_stop/0 ]).
 
-/** <module> What the hosts of a process share
+/** <module> The endpoint and the runtime that the hosts of a process share
 
 The endpoint and the scheduler run as long as the process has users of them:
 hosts, log servers.  The first user starts them, the last one stops them.

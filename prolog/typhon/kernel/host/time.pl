@@ -34,7 +34,7 @@
 :- use_module(library(lists), [member/2]).
 :- use_module('../base/options', [options_load/2]).
 
-/** <module> The runtime: which threads do the work, and what time it is
+/** <module> The runtime: the threads that do the work, and time
 
 A runtime of some Kind does the work, fires the alarms, and serves callers that
 wait.  The kernel has `real`, a pool of threads, see typhon_pool, and, in a
@@ -75,7 +75,8 @@ fast as Rate says.
     apart/2,                    % Kind, Address: see time_apart/2
     repeats/2,                  % Kind, Mark: see time_repeats/2
     here/3,                     % Kind, Agents, Turn: see time_here/2; needs
-    adopt/2,                    % Kind, Thread: see time_adopt/1, and
+                                % adopt/2 and leave/1
+    adopt/2,                    % Kind, Thread: see time_adopt/1
     leave/1,                    % Kind: see time_leave/0
     due/4,                      % Kind, Agent, Token, Stamp: see time_due/3
     seed/2,                     % Kind, Seed: see time_seed/1

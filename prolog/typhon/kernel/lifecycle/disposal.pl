@@ -161,7 +161,7 @@ force(Agent, Deadline) :-
     ).
 
                 /*******************************
-                *       WHERE IT STANDS        *
+                *           ANSWERS            *
                 *******************************/
 
 typhon_questions:here(dispose, Agent, Asker) :-

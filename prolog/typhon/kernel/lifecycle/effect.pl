@@ -23,7 +23,7 @@
 :- use_module(creation, [agent_clone_here/3, clone_id/2]).
 :- use_module(ending, [agent_end/2, agent_stays/2]).
 
-/** <module> What each control predicate does
+/** <module> The effects of control predicates
 
 The machine stops an agent at a control predicate; this module carries the
 predicate out: the agent goes on at once, waits, travels or ends.

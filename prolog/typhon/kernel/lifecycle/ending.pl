@@ -184,7 +184,7 @@ bound_faulty(Kept) :-
 is_kept(faulty(_)).
 
                 /*******************************
-                *      KEPT AS THEY WERE       *
+                *        FAULTY AGENTS         *
                 *******************************/
 
 :- dynamic kept/1.                      % Id, the oldest first

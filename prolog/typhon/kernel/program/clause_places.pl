@@ -43,8 +43,7 @@ nodes_goals([_-Goal|Nodes], [Goal|Goals]) :-
     nodes_goals(Nodes, Goals).
 
 %   size(+Goal, -Size): Goal takes Size numbers.  Its parts are not numbered
-%   for that: numbering asks for sizes, and deep clauses would take exponential
-%   time.
+%   for that: numbering asks for sizes, and deep clauses would take for ever.
 
 size(Goal, Size) :-
     (   nonvar(Goal),
