@@ -56,7 +56,7 @@ as it waits for a stream.
 
 :- setting(ssh, atom, ssh, "The program that reaches other machines").
 :- setting(stop_seconds, number, 5,
-           "A child has so long to end in order, then it is killed").
+           "Seconds for a child to end in order before it is killed").
 
 :- dynamic
     node_file/1.                % File

@@ -66,7 +66,7 @@ the order to stop: it makes sure that the process ends.
 :- setting(typhon_carrier:rest_seconds, number, 1,
            "Now typhon_node_process:rest_seconds").
 :- setting(rest_seconds, number, 1,
-           "Agents of a network have so long to come to rest when it stops").
+           "Seconds for agents to come to rest when their network stops").
 
                 /*******************************
                 *            ORDERS            *
@@ -395,4 +395,4 @@ stop :-
     halt(0).
 
 prolog:error_message(place_goal_failed(Host, Goal)) -->
-    [ 'What was to be called in the place of ~w fails: ~p'-[Host, Goal] ].
+    [ 'The goal for the place of ~w failed: ~p'-[Host, Goal] ].

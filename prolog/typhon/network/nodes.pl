@@ -40,7 +40,7 @@ reports its end: as a fact, and to callers that wait for an answer.
     prolog:error_message//1.
 
 :- setting(typhon_processes:order_seconds, number, 60,
-           "A process has so long to answer an order").
+           "Seconds for a process to answer an order").
 
 :- meta_predicate
     nodes_ask(+, +, +, +, 1, -).
@@ -248,7 +248,7 @@ take(_, Ps, Ps, Others, Others).
                 *******************************/
 
 prolog:error_message(existence_error(carrier, Network-P)) -->
-    [ 'Process ~w of ~w is not there'-[P, Network] ].
+    [ 'Process ~w of ~w is not running'-[P, Network] ].
 
                 /*******************************
                 *          DEADLINES           *

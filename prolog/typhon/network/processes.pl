@@ -35,11 +35,11 @@ between, to the server of module `restarts`, if there is one.
     prolog:message//1.
 
 :- setting(start_seconds, number, 60,
-           "The processes of a network have so long to start").
+           "Seconds for the processes of a network to start").
 :- setting(answer_seconds, number, 2,
-           "A process that is to end and says nothing for so long is killed").
+           "Seconds of silence after which a stopping process is killed").
 :- setting(kill_seconds, number, 10,
-           "A process that was killed has so long to be gone").
+           "Seconds for a killed process to end").
 
 :- meta_predicate
     nodes_start(+, +, +, +, 2),

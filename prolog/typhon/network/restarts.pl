@@ -37,9 +37,9 @@ process do so in threads of their own.
     interrupt/0.                % goal of a signal
 
 :- setting(restarts, nonneg, 10,
-           "A process of a network is started again so often").
+           "Restarts of a process within restart_seconds").
 :- setting(restart_seconds, number, 60,
-           "The time that this number is for").
+           "Seconds within which the setting restarts counts").
 
 :- dynamic
     restarter/2,                % Network, Server
@@ -282,4 +282,4 @@ prolog:message(typhon(node_given_up(Network, P, Most, Seconds))) -->
     [ 'Process ~w of ~w is not started again: it has died ~D times within \c
        ~w seconds'-[P, Network, Most, Seconds] ].
 prolog:message(typhon(node_back(Network, P))) -->
-    [ 'Process ~w of ~w is there again'-[P, Network] ].
+    [ 'Process ~w of ~w is running again'-[P, Network] ].

@@ -44,7 +44,7 @@ complete: an old file of that name stays until then.
     prolog:error_message//1.
 
 :- setting(hold_seconds, number, 30,
-           "A network that is saved has so long to come to rest").
+           "Seconds for a network to come to rest before it is saved").
 
 %!  save_network(+Network, +File) is det.
 %

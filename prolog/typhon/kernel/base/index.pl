@@ -153,7 +153,7 @@ part_file('tools/source_view','tools/source_view/listing').
 %   File declares the setting Module:Name.
 
 part_setting(again_seconds,typhon_monitors,number,1,'Seconds until a lost request to the home of an agent is repeated','options/supervision/monitors').
-part_setting(answer_seconds,typhon_processes,number,2,'A process that is to end and says nothing for so long is killed','network/processes').
+part_setting(answer_seconds,typhon_processes,number,2,'Seconds of silence after which a stopping process is killed','network/processes').
 part_setting(atom_chars,typhon_guard_limits,positive_integer,1000,'Atoms that untrusted agents make have at most so many characters','options/guard/guard_limits').
 part_setting(atom_chars,typhon_guard_texts,positive_integer,1000,'Now typhon_guard_limits:atom_chars','options/guard/guard_limits').
 part_setting(ball_cells,typhon_guard_arguments,positive_integer,10000,'Now typhon_guard_calls:ball_cells','options/guard/guard_calls').
@@ -176,9 +176,9 @@ part_setting(frame_seconds,typhon_page_browsers,number,0.05,'Seconds between two
 part_setting(functors,typhon_cells,positive_integer,20000,'Functors that the cells of an owner may bring into the process','options/cell/cell_functors').
 part_setting(head_bytes,typhon_page_reception,positive_integer,16384,'Bytes of the head of a request, at most','tools/page/server').
 part_setting(heartbeat_seconds,typhon_page_browsers,number,5,'Seconds without events after which a page sends a heartbeat','tools/page/browsers').
-part_setting(hold_seconds,typhon_saving,number,30,'A network that is saved has so long to come to rest','network/saving').
+part_setting(hold_seconds,typhon_saving,number,30,'Seconds for a network to come to rest before it is saved','network/saving').
 part_setting(idle,typhon_cells,number,60,'Seconds after which a cell that no agent uses ends','options/cell/cells').
-part_setting(kill_seconds,typhon_processes,number,10,'A process that was killed has so long to be gone','network/processes').
+part_setting(kill_seconds,typhon_processes,number,10,'Seconds for a killed process to end','network/processes').
 part_setting(last_seconds,typhon_watches,number,2,'Seconds that unwatch/1 waits for earlier events','options/watch/watches').
 part_setting(links,typhon_trail,positive_integer,32,'Links that are kept of the trail of an agent','options/trail/trail').
 part_setting(longest,typhon_ros_rosbridge,nonneg,4000000,'Characters of one message from a rosbridge server','bridges/ros/websocket').
@@ -190,7 +190,7 @@ part_setting(most,typhon_ros_open_requests,positive_integer,1000,'Now typhon_ros
 part_setting(most,typhon_ros_requests,positive_integer,1000,'Requests of ROS that may wait for the answers of agents','bridges/ros/requests').
 part_setting(most,typhon_ros_standing,positive_integer,1000,'Now typhon_ros_advertisements:most','bridges/ros/advertisements').
 part_setting(offers,typhon_offers,positive_integer,100,'Offers of an agent','options/directory/offers').
-part_setting(order_seconds,typhon_processes,number,60,'A process has so long to answer an order','network/nodes').
+part_setting(order_seconds,typhon_processes,number,60,'Seconds for a process to answer an order','network/nodes').
 part_setting(patience,typhon_telling,number,30,'Seconds that a disconnected watching process has to answer','options/watch/event_sender').
 part_setting(patience,typhon_virtual,number,10,'Virtual time that stands still for so long is reported','options/virtual').
 part_setting(pause,typhon_overuse,number,0.8,'Now typhon_quota_enforcer:pause','options/quotas/quota_enforcer').
@@ -204,13 +204,13 @@ part_setting(renew_seconds,typhon_page_sources,number,3,'Seconds between searche
 part_setting(request_bytes,typhon_page_server,positive_integer,4000000,'Bytes of a request to a page, at most','tools/page/server').
 part_setting(request_seconds,typhon_page_reception,positive_integer,20,'Seconds for the head of a request, and for its body','tools/page/server').
 part_setting(rest_seconds,typhon_carrier,number,1,'Now typhon_node_process:rest_seconds','network/node_process').
-part_setting(rest_seconds,typhon_node_process,number,1,'Agents of a network have so long to come to rest when it stops','network/node_process').
-part_setting(restart_seconds,typhon_restarts,number,60,'The time that this number is for','network/restarts').
-part_setting(restarts,typhon_restarts,nonneg,10,'A process of a network is started again so often','network/restarts').
+part_setting(rest_seconds,typhon_node_process,number,1,'Seconds for agents to come to rest when their network stops','network/node_process').
+part_setting(restart_seconds,typhon_restarts,number,60,'Seconds within which the setting restarts counts','network/restarts').
+part_setting(restarts,typhon_restarts,nonneg,10,'Restarts of a process within restart_seconds','network/restarts').
 part_setting(seconds,typhon_inventory,number,2,'Seconds for which a table waits for other processes of a network','tools/inventory').
 part_setting(seconds,typhon_survey,number,2,'Now typhon_inventory:seconds','tools/inventory').
 part_setting(silent_seconds,typhon_postgresql,positive_integer,10,'Seconds without data after which the machine of a database server is taken to be gone','options/journal/postgresql').
 part_setting(ssh,typhon_children,atom,ssh,'The program that reaches other machines','network/children').
-part_setting(start_seconds,typhon_processes,number,60,'The processes of a network have so long to start','network/processes').
-part_setting(stop_seconds,typhon_children,number,5,'A child has so long to end in order, then it is killed','network/children').
+part_setting(start_seconds,typhon_processes,number,60,'Seconds for the processes of a network to start','network/processes').
+part_setting(stop_seconds,typhon_children,number,5,'Seconds for a child to end in order before it is killed','network/children').
 part_setting(virtual_events,typhon_telling,positive_integer,1000000,'The same in virtual time, which runs ahead of all watches','options/watch/telling').

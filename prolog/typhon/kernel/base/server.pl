@@ -327,10 +327,10 @@ ended(Queue) :-
 
 prolog:message(typhon(server_error(Ball))) -->
     { thread_self(Me) },
-    [ 'An error in the thread ~w, which goes on: '-[Me], nl ],
+    [ 'Error in the thread ~w, which continues: '-[Me], nl ],
     error_told(Ball).
 prolog:message(typhon(server_ended(Role))) -->
-    [ 'The thread of the ~w has ended; another goes on'-[Role] ].
+    [ 'The thread of the ~w has ended and was replaced'-[Role] ].
 prolog:message(typhon(no_server(Role, Formal))) -->
-    [ 'The thread of the ~w has ended, and no other can be made now (~p)'-
+    [ 'The thread of the ~w has ended, and no other can be created now (~p)'-
       [Role, Formal] ].

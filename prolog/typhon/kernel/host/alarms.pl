@@ -250,7 +250,7 @@ index_size(index(Stamps, _), Size) :-
                 *******************************/
 
 prolog:message(typhon(alarm(Ball))) -->
-    [ 'An alarm met with an error; the others go on', nl ],
+    [ 'An alarm raised an error; other alarms are not affected', nl ],
     error_told(Ball).
 prolog:message(typhon(no_index(Count))) -->
     [ 'The timer has no memory for an index of ~D alarms, and is slow'-

@@ -31,9 +31,9 @@ the other predicates.
     prolog:message//1.
 
 :- setting(typhon_scheduler:blocked_seconds, number, 1,
-           "A worker is blocked if its turn has lasted for so long").
+           "Seconds of a turn after which its worker is blocked").
 :- setting(typhon_scheduler:blocked_workers, positive_integer, 768,
-           "When there are so many workers, work that blocks is held").
+           "Number of workers from which work that blocks is held").
 :- setting(typhon_held:held_seconds, number, 1,
            "Now typhon_scheduler:blocked_seconds").
 :- setting(typhon_held:held_workers, positive_integer, 768,
@@ -174,7 +174,7 @@ prolog:message(typhon(workers_blocked(Count, Blocked))) -->
       [Length, Count], nl ],
     blocked_agents(Blocked).
 prolog:message(typhon(pool_full(Count, Why, Blocked))) -->
-    [ '~D workers are blocked or busy, and there cannot be more (~w).'-
+    [ '~D workers are blocked or busy, and no more can be added (~w).'-
       [Count, Why], nl,
       'Agents of the programs that block wait until workers are free.'-[],
       nl ],
@@ -186,6 +186,6 @@ blocked_agents(Blocked) -->
       !,
       length(More, Count)
     },
-    [ 'Blocked are ~p and ~D more'-[First, Count] ].
+    [ 'Blocked: ~p and ~D more'-[First, Count] ].
 blocked_agents(Blocked) -->
-    [ 'Blocked are ~p'-[Blocked] ].
+    [ 'Blocked: ~p'-[Blocked] ].

@@ -118,7 +118,7 @@ host_logs(Host) :-
 :- setting(typhon_event_shown:content_characters, positive_integer, 200,
            "Now typhon_host_log:content_characters").
 :- setting(content_characters, positive_integer, 200,
-           "Of longer messages the text begins with so many characters").
+           "The text of longer messages is cut to this many characters").
 
 %!  event_shown(+Host, +What, -Shown) is det.
 %

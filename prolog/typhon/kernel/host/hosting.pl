@@ -46,7 +46,7 @@ endpoint with the other users of the process, see typhon_runtime.
 */
 
 :- setting(stop_seconds, number, 2,
-           "Agents have so long to come to an effect when their host stops").
+           "Seconds for agents to come to an effect when their host stops").
 
 :- multifile
     begins/1,                   % Name: it exists, listeners may join

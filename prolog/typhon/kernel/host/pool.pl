@@ -50,11 +50,11 @@ stopping the pool atomic: no worker is added after the run queue is gone.
 :- setting(typhon_scheduler:min_workers, positive_integer, 2,
            "Workers kept when idle").
 :- setting(typhon_scheduler:max_workers, positive_integer, 256,
-           "Workers at the most, not counting those that are blocked").
+           "Maximum number of workers, not counting blocked ones").
 :- setting(typhon_scheduler:idle_seconds, number, 10,
            "Idle workers beyond the minimum end").
 :- setting(typhon_scheduler:stuck_seconds, number, 0.01,
-           "The pool grows when the run queue has not moved for so long").
+           "Seconds without a new turn after which the pool grows").
 
 :- dynamic
     run_queue/1,                % Queue

@@ -153,4 +153,4 @@ again(Work) :-
     typhon_time:work(single, Work).
 
 prolog:error_message(no_agent_can_run) -->
-    [ 'What is waited for does not come: no agent is ready, and no alarm set' ].
+    [ 'This wait cannot end: no agent is ready, and no alarm is set' ].

@@ -46,9 +46,9 @@ signal.  Evacuation runs in the thread that stops the host.
     typhon_questions:here/3.
 
 :- setting(heed_seconds, number, 1,
-           "An agent that is disposed of and runs on for so long is reported").
+           "Seconds after which an agent that still runs is reported").
 :- setting(force_seconds, number, 10,
-           "An agent that is interrupted has so long to be gone").
+           "Seconds for an interrupted agent to end").
 
 %!  agent_dispose(+Agent) is det.
 %!  agent_dispose(+Agent, +Options) is det.

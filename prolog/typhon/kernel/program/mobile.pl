@@ -270,8 +270,7 @@ meta_argument(Goal, PI, Closure, Extra) :-
 :- dynamic meta_known/2.
 
 :- setting(known, positive_integer, 10 000,
-           "Of so many predicates is remembered which of their arguments \c
-            are goals").
+           "Number of predicates whose meta arguments are remembered").
 
 meta(PI, Meta) :-
     (   meta_known(PI, Meta0)
