@@ -3,9 +3,7 @@
             memory_short/1,             % +Count
             bounded/2                   % :Fact, +Setting
           ]).
-:- use_module(library(aggregate), [aggregate_all/3]).
-:- use_module(library(lists), [member/2]).
-:- autoload(library(readutil), [read_file_to_string/3]).
+:- use_module(library(lists), [member/2, sum_list/2]).
 :- use_module(library(settings), [setting/2]).
 
 /** <module> Bounds of a process: memory, and tables that forget
@@ -72,13 +70,17 @@ size(Size) :-
     Size is Kilobytes*1024.
 
 file_text(File, Text) :-
-    catch(read_file_to_string(File, Text, []), error(_, _), fail).
+    catch(setup_call_cleanup(open(File, read, In),
+                             read_string(In, _, Text),
+                             close(In)),
+          error(_, _), fail).
 
 %   Freed memory remains part of the address space, and can be reused.
 
 reusable(Bytes) :-
     (   predicate_property(malloc_property(_), defined)
-    ->  aggregate_all(sum(Free), free_pages(Free), Bytes)
+    ->  findall(Free, free_pages(Free), Frees),
+        sum_list(Frees, Bytes)
     ;   Bytes = 0
     ).
 

@@ -1,6 +1,7 @@
 :- module(typhon_compiling,
           [ compiling_begin/1,          % -Flags
-            compiling_end/1             % +Flags
+            compiling_end/1,            % +Flags
+            compiling_load/1            % +Files
           ]).
 :- use_module(library(debug), []).      % from 9.2 on it defines a flag
 :- use_module(library(lists), [member/2]).
@@ -30,6 +31,16 @@ compiling_begin(Flags) :-
 
 compiling_end(Flags) :-
     forall(member(Name=Value, Flags), set_prolog_flag(Name, Value)).
+
+%!  compiling_load(+Files:list) is det.
+%
+%   Load Files like that; what they export is not imported here.
+
+compiling_load(Files) :-
+    setup_call_cleanup(
+        compiling_begin(Flags),
+        forall(member(File, Files), use_module(File, [])),
+        compiling_end(Flags)).
 
 flag(optimise, true).
 flag(optimise_debug, false).

@@ -4,8 +4,7 @@
             on_demand_call/3,           % +Seam, +What, +Goal
             on_demand_later/1           % :Goal
           ]).
-:- use_module(library(lists), [member/2]).
-:- use_module(compiling, [compiling_begin/1, compiling_end/1]).
+:- use_module(compiling, [compiling_load/1]).
 :- use_module(index, [part_file/2, part_joins/3, part_setting/6]).
 
 /** <module> Code that is loaded when it is used first
@@ -75,10 +74,7 @@ on_demand_call(Seam, What, Module:Goal) :-
 
 load(Part) :-
     findall(Path, ( part_file(Part, File), path(File, Path) ), Paths),
-    setup_call_cleanup(
-        compiling_begin(Flags),
-        forall(member(Path, Paths), use_module(Path, [])),
-        compiling_end(Flags)),
+    compiling_load(Paths),
     assertz(loaded(Part)).
 
 %   Settings of parts that are not loaded can be set.

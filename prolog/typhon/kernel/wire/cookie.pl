@@ -11,10 +11,8 @@ in one fact; two threads that read it at once store the same.
 
 :- autoload(library(filesex),
             [chmod/2, delete_directory_and_contents/1, link_file/3]).
-:- autoload(library(readutil), [read_line_to_string/2]).
 :- use_module(library(apply), [maplist/2]).
 :- use_module(library(sha), [hash_atom/2]).
-:- use_module('../base/prolog_faults', [spawn/3]).
 
 :- dynamic known_cookie/3.      % File, Time, Cookie
 
@@ -71,10 +69,9 @@ read_cookie(File, Cookie) :-
     check_private(File),
     setup_call_cleanup(
         open(File, read, In),
-        read_line_to_string(In, Line),
+        read_string(In, "\n", "\r", _, Line),
         close(In)),
-    (   string(Line),
-        string_length(Line, Length),
+    (   string_length(Line, Length),
         Length >= 16
     ->  Cookie = Line
     ;   unfit(File, 'its first line has less than 16 characters; without \c
@@ -85,22 +82,31 @@ unfit(File, Why) :-
     throw(error(permission_error(use, cookie_file, File), context(_, Why))).
 
 %   Prolog has no predicate for the mode of a file; ls prints it, as -rw-------,
-%   on all systems with modes.
+%   on all systems with modes. A pipe needs no library(process), which is as
+%   large as three modules of ours.
 
 check_private(_) :-
     current_prolog_flag(windows, true),
     !.
 check_private(File) :-
+    shell_word(File, Word),
+    atom_concat('exec ls -lnd -- ', Word, Command),
     setup_call_cleanup(
-        spawn(path(ls), ['-lnd', '--', File], [stdout(pipe(Out))]),
-        read_line_to_string(Out, Line),
+        open(pipe(Command), read, Out),
+        read_string(Out, "\n", "\r", _, Line),
         close(Out)),
-    (   string(Line),
-        sub_string(Line, 4, 6, _, "------")
+    (   sub_string(Line, 4, 6, _, "------")
     ->  true
     ;   format(atom(Why), 'others may use it: chmod 600 ~w', [File]),
         unfit(File, Why)
     ).
+
+%   A quote ends the word for a moment.
+
+shell_word(Text, Word) :-
+    atomic_list_concat(Parts, '\'', Text),
+    atomic_list_concat(Parts, '\'\\\'\'', Inside),
+    atomic_list_concat(['\'', Inside, '\''], Word).
 
 %   The file appears complete and private, or not at all: it is written in
 %   a closed directory and linked to its name, which fails for all but the

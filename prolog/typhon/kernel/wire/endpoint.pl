@@ -42,6 +42,7 @@ under the mutex of the endpoint.
 :- autoload(library(socket),
               [ tcp_bind/2, tcp_close_socket/1, tcp_listen/2,
                 tcp_open_socket/3, tcp_setopt/2, tcp_socket/1 ]).
+:- use_module('../base/compiling', [compiling_load/1]).
 :- use_module('../base/durable_changes',
               [ durable_item/5, durable_opened/1, durable_put/4,
                 sync_changes/0 ]).
@@ -115,6 +116,7 @@ start(Options, Interface, Port, Address) :-
           ( transport_end, throw(Ball) )).
 
 start(Interface0, Port0, Address) :-
+    compiling_load([library(socket)]),
     cookie(_),
     own_place(Interface0, Port0, Interface1, Port),
     until_opened,

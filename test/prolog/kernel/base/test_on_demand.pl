@@ -37,6 +37,13 @@ test(a_plain_host_has_no_code_of_options, Out == "[]") :-
                                    typhon_spying ]), \c
                        module_property(M, file(_)) ), Ms), \c
           print(Ms)', Out).
+test(a_plain_host_loads_no_large_library, Out == "[],0") :-
+    seen('host_start(a), \c
+          ( predicate_property(\'$autoload\':library_index(_, _, _), \c
+                               number_of_clauses(N)) -> true ; N = 0 ), \c
+          findall(M, ( member(M, [ process, predicate_options, readutil ]), \c
+                       module_property(M, file(_)) ), Ms), \c
+          print((Ms,N))', Out).
 test(an_option_of_a_host_loads_its_code, Out == "guarded") :-
     seen('host_start(a, [policy(guarded)]), \c
           module_property(typhon_guard, file(_)), \c

@@ -15,6 +15,9 @@ test(value, Cookie == "value of the environment") :-
     with_env('TYPHON_COOKIE', 'value of the environment', cookie(Cookie)).
 test(made_on_first_use) :-
     with_tmp_dir(made_on_first_use).
+test(name_with_a_quote,
+     error(permission_error(use, cookie_file, _))) :-
+    with_tmp_dir(others_may_read_quoted).
 test(others_may_read, error(permission_error(use, cookie_file, _))) :-
     with_tmp_dir(others_may_read(0o640)).
 test(others_may_write, error(permission_error(use, cookie_file, _))) :-
@@ -45,6 +48,11 @@ others_may_read(Mode, Dir) :-
     directory_file_path(Dir, cookie, File),
     with_env('TYPHON_COOKIE_FILE', File,
              ( cookie(_), chmod(File, Mode), sleep_past(File), cookie(_) )).
+
+others_may_read_quoted(Dir) :-
+    directory_file_path(Dir, 'it''s; odd', Odd),
+    make_directory(Odd),
+    others_may_read(0o640, Odd).
 
 %   The cookie of a file that has not changed is not read again.
 
