@@ -55,12 +55,10 @@ effects_deferred :-
     durable_on,
     nb_current(typhon_deferred, true).
 
-%!  deferred_change(+Change) is det.
 %!  deferred_put(+Kind, +Key, +N, +Term) is det.
-%!  deferred_drop(+Kind, +Key, +N) is det.
 %
-%   As durable_change/1, durable_put/4 and durable_drop/3; inside
-%   defer_effects/1 the change is deferred to the end of the unit of work.
+%   As durable_put/4; inside defer_effects/1 the change is deferred, see
+%   deferred_change/1.
 
 deferred_put(Kind, Key, N, Term) :-
     (   durable_on
@@ -69,12 +67,22 @@ deferred_put(Kind, Key, N, Term) :-
     ;   true
     ).
 
+%!  deferred_drop(+Kind, +Key, +N) is det.
+%
+%   As durable_drop/3; inside defer_effects/1 the change is deferred, see
+%   deferred_change/1.
+
 deferred_drop(Kind, Key, N) :-
     (   durable_on,
         durable_key(Key, N)
     ->  deferred_change(drop(Kind, Key, N))
     ;   true
     ).
+
+%!  deferred_change(+Change) is det.
+%
+%   As durable_change/1; inside defer_effects/1 the change is deferred to the
+%   end of the unit of work.
 
 deferred_change(Change) :-
     (   nb_current(typhon_deferred, true)

@@ -123,8 +123,6 @@ durable_assertz(Module:Fact) :-
 %!  durable_retractall(:Fact) is det.
 %
 %   Remove the facts that match Fact, the key of which is bound.
-%
-%   @error representation_error(_): no item can have this key
 
 durable_retractall(Module:Fact) :-
     (   durable_on

@@ -92,6 +92,13 @@ inside the mutex that guards its owner.
 %   @error existence_error(back_end, Where): none is loaded; and those of the
 %          back end
 
+durable_open(Where, Sync, Seconds) :-
+    on_demand_load(open_store, any),
+    (   open_store(Where, Sync, Seconds)
+    ->  true
+    ;   existence_error(back_end, Where)
+    ).
+
 %!  durable_opened(-Place) is semidet.
 %
 %   A store is open; Place is its name in errors. The back end defines this.
@@ -101,13 +108,6 @@ inside the mutex that guards its owner.
 %   The items of Kind in the open store. The back end defines this.
 %
 %   @arg Order is `numbers` if lower numbers come first, or `any`
-
-durable_open(Where, Sync, Seconds) :-
-    on_demand_load(open_store, any),
-    (   open_store(Where, Sync, Seconds)
-    ->  true
-    ;   existence_error(back_end, Where)
-    ).
 
 %!  durable_begin is det.
 %
@@ -224,14 +224,6 @@ is_text(Key) :-
 %
 %   @error representation_error(_): no item can have this key
 
-%!  durable_drop(+Kind, +Key, +N) is det.
-%!  durable_drop_all(+Kind, +Key) is det.
-%!  durable_drop_below(+Kind, +Key, +N) is det.
-%
-%   Delete the item; all items of this key; those with numbers less than N.
-%
-%   @error representation_error(_): no item can have this key
-
 durable_put(Kind, Key, N, Term) :-
     (   durable_on
     ->  durable_putting(Kind, Key, N, Term, Change),
@@ -239,11 +231,23 @@ durable_put(Kind, Key, N, Term) :-
     ;   true
     ).
 
+%!  durable_drop(+Kind, +Key, +N) is det.
+%
+%   Delete the item.
+
 durable_drop(Kind, Key, N) :-
     drop(Key, N, drop(Kind, Key, N)).
 
+%!  durable_drop_all(+Kind, +Key) is det.
+%
+%   Delete all items of this key.
+
 durable_drop_all(Kind, Key) :-
     drop(Key, 0, drop_all(Kind, Key)).
+
+%!  durable_drop_below(+Kind, +Key, +N) is det.
+%
+%   Delete the items of this key with numbers less than N.
 
 durable_drop_below(Kind, Key, N) :-
     drop(Key, N, drop_below(Kind, Key, N)).
@@ -282,14 +286,6 @@ durable_drop_at_once(Kind, Key, N) :-
 %
 %   @error representation_error(_): no item can have this key
 
-%!  durable_bytes(+Change, -Count) is det.
-%
-%   The term of the item that Change sets takes Count bytes.
-
-%!  durable_change(+Change) is det.
-%
-%   Add Change to the unit of work, or queue it alone.
-
 durable_putting(Kind, Key, N, Term, put(Kind, Key, N, Bytes)) :-
     (   durable_key(Key, N)
     ->  fast_term_serialized(Term, Bytes)
@@ -297,8 +293,16 @@ durable_putting(Kind, Key, N, Term, put(Kind, Key, N, Bytes)) :-
         throw(error(Formal, _))
     ).
 
+%!  durable_bytes(+Change, -Count) is det.
+%
+%   The term of the item that Change sets takes Count bytes.
+
 durable_bytes(put(_, _, _, Bytes), Count) :-
     string_length(Bytes, Count).
+
+%!  durable_change(+Change) is det.
+%
+%   Add Change to the unit of work, or queue it alone.
 
 durable_change(Change) :-
     (   nb_current(typhon_durable_unit, true)
