@@ -8,7 +8,7 @@ This is the interface of the layer: higher layers import from here.
 */
 
 :- use_module(program/paths, []).
-:- reexport(program/paths, [files_beside/3, program_file/2]).
+:- reexport(program/paths, [files_beside/3, path_below/1, program_file/2]).
 :- reexport(program/source,
             [ clause_parts/3, declaration/4, indicator_in/2, source_clause/2,
               source_same/1, source_terms/5 ]).

@@ -1,7 +1,8 @@
 :- module(typhon_paths,
           [ program_file/2,             % +Spec, -File
             included_file/3,            % +Spec, +Includer, -File
-            files_beside/3              % +File, +Dir, -Files
+            files_beside/3,             % +File, +Dir, -Files
+            path_below/1                % @Path
           ]).
 
 /** <module> Where agent programs and payloads are found
@@ -55,6 +56,21 @@ user:file_search_path(payloads, Dir) :-
    ->  true
    ;   asserta(user:file_search_path(library, Prolog))
    ).
+
+%!  path_below(@Path) is semidet.
+%
+%   Path, Name or Folder/Name, does not leave the folder in which it is looked
+%   for.
+
+path_below(Path) :-
+    atomic(Path),
+    \+ sub_atom(Path, _, _, _, '..'),
+    \+ is_absolute_file_name(Path).
+path_below(Path) :-
+    compound(Path),
+    Path = Folder/Name,
+    path_below(Folder),
+    path_below(Name).
 
 program_directory(Kind, Dir) :-
     (   working_directory(Parent, Parent)

@@ -4,7 +4,7 @@
 :- use_module(library(apply), [maplist/2]).
 :- use_module(library(error), [permission_error/3]).
 :- use_module(library(option), [option/3]).
-:- use_module('../program', [vocabulary/1]).
+:- use_module('../program', [path_below/1, vocabulary/1]).
 :- use_module('../host', [context/3, parts_call/3]).
 :- use_module('../agent', [agent_variant/2]).
 :- use_module('../lifecycle', [agent_create_by/4]).
@@ -45,7 +45,7 @@ may_name(Program) :-
 
 names(self).
 names(clauses(_)).
-names(agents(Path)) :- is_below(Path).
+names(agents(Path)) :- path_below(Path).
 
 %   may_attach(+Options) is semidet: payloads are no files outside of payloads/.
 
@@ -58,10 +58,4 @@ may_attach(Options) :-
 
 attaches(payload(_, _, _)).
 attaches(clauses(_)).
-attaches(payloads(Path)) :- is_below(Path).
-
-is_below(Path) :-
-    ground(Path),
-    format(atom(Below), '~w', [Path]),
-    \+ is_absolute_file_name(Below),
-    \+ sub_atom(Below, _, _, _, '..').
+attaches(payloads(Path)) :- path_below(Path).

@@ -31,7 +31,8 @@
 :- use_module(library(error),
               [existence_error/2, must_be/2, permission_error/3]).
 :- use_module(library(lists), [member/2]).
-:- use_module('../program', [payload_load/2, payload_python/3, vocabulary/1]).
+:- use_module('../program',
+              [payload_load/2, payload_python/3, path_below/1, vocabulary/1]).
 :- use_module('../wire', [mobile_term/1]).
 :- use_module('../host',
               [ context/3, context_agent/1, context_host/1, context_now/2,
@@ -250,14 +251,19 @@ says(Host, Term) :-
 
 %!  attach(+Payload) is det.
 %
-%   Add the clauses of a payload file to this agent.
+%   Add the clauses of a payload file to this agent.  Where programs are checked
+%   Payload is payloads(Path).
 %
 %   @error permission_error(attach, procedure, PI)
 
 attach(Spec) :-
+    context(Host, Id, Module),
+    (   agent_variant(Module, _),
+        \+ ( nonvar(Spec), Spec = payloads(Path), path_below(Path) )
+    ->  permission_error(call, sandboxed, attach(Spec))
+    ;   true
+    ),
     payload_load(Spec, Payload),
-    context_agent(Id),
-    context_host(Host),
     parts_call(acts, Host, [Id, attach]),
     agent_attach(Id, Payload).
 

@@ -1,5 +1,7 @@
 :- module(typhon_cell_acts,
-          [ cell_turn_begins/0,
+          [ cell_outcome/1,             % @Outcome
+            cell_fault/3,               % +Note, +Outcome, -Fault
+            cell_turn_begins/0,
             cell_changes_made/3,        % +Changes, +Host, +Module
             cell_answer/5,              % +Goal, +Kind, +Host, +Agent, -Answer
             cell_violation/1            % +What
@@ -15,7 +17,7 @@
               [agent_add/2, agent_clauses/3, agent_variant/2, in_words/2]).
 :- use_module(cell_frames, [cell_word/2, state_predicate/2]).
 
-/** <module> What an agent in a cell changes in its state, and asks of its host
+/** <module> What comes from a cell: outcomes, changes of the state, and acts
 
 None of it is trusted: clauses are looked at as those of an agent that arrives,
 and a goal is called only if it is a word of the vocabulary or a service of the
@@ -23,6 +25,60 @@ place.
 
 *Threading*: in the worker that has the agent.
 */
+
+                /*******************************
+                *           OUTCOMES           *
+                *******************************/
+
+%!  cell_outcome(@Outcome) is semidet.
+%
+%   It is one of machine_run/3.
+
+cell_outcome(done).
+cell_outcome(failed).
+cell_outcome(raised(Error)) :-
+    nonvar(Error),
+    Error \== '$aborted',
+    Error \= unwind(_).
+cell_outcome(effect(Control, Hole, Goals)) :-
+    var(Hole),
+    nonvar(Control),
+    is_control(Control),
+    is_list(Goals),
+    maplist(is_goal, Goals).
+
+is_goal(Goal) :-
+    var(Goal),
+    !.
+is_goal(Goal) :-
+    callable(Goal),
+    Goal \= '$fault'(_).
+
+is_control(move(_)).
+is_control(clone(_)).
+is_control(clone(_, _)).
+is_control(sleep(_)).
+is_control(sleep_until(Until)) :- number(Until).
+is_control(receive(_)).
+is_control(receive(_, _)).
+is_control(receive_until(_, Until, _)) :- number(Until).
+is_control(dispose).
+
+%!  cell_fault(+Note, +Outcome, -Fault) is det.
+%
+%   Fault is as typhon_faults notes it, without references to clauses; `none` if
+%   Note is no such fault of Outcome.
+
+cell_fault(note(How, fault(Goal, Goals, natives(Raising, []))), Outcome,
+           How-fault(Goal, Goals, natives(Raising, []))) :-
+    functor(Outcome, How, _),
+    ( Goals == unknown -> true ; is_list(Goals) ),
+    !.
+cell_fault(_, _, none).
+
+                /*******************************
+                *            CHANGES           *
+                *******************************/
 
 %!  cell_changes_made(+Changes, +Host, +Module) is semidet.
 %
@@ -95,8 +151,7 @@ cell_answer(Goal, Kind, Host, agent(Id, _, _, _, _), Answer) :-
 
 asked(Goal, Kind, Host, Id, Answer) :-
     functor(Goal, Name, Arity),
-    (   may_ask(Kind, Host, Name/Arity, Of),
-        arguments_allowed(Goal)
+    (   may_ask(Kind, Host, Name/Arity, Of)
     ->  asked_of(Of, Host, Id, Name/Arity, Module),
         solutions(Kind, Goal, Module, Answer)
     ;   permission_error(call, sandboxed, Goal)
@@ -157,25 +212,6 @@ may_ask(acts, Host, PI, place(Place)) :-
 asked_of(vocabulary, _, _, _, typhon_vocabulary).
 asked_of(place(Place), Host, Id, PI, Place) :-
     parts_call(acts, Host, [Id, service(PI)]).
-
-%   The policy has looked at them in the cell; what the cell says does not count.
-
-arguments_allowed(attach(Spec)) :-
-    !,
-    nonvar(Spec),
-    Spec = payloads(Path),
-    ground(Path),
-    is_inside(Path).
-arguments_allowed(_).
-
-is_inside(Path) :-
-    atom(Path),
-    !,
-    \+ sub_atom(Path, _, _, _, '..'),
-    \+ is_absolute_file_name(Path).
-is_inside(A/B) :-
-    is_inside(A),
-    is_inside(B).
 
 %!  cell_violation(+What).
 %

@@ -93,22 +93,25 @@ server_running(Server) :-
                 *             TURNS            *
                 *******************************/
 
-%!  cell_take(+Key, +Agent, -Cell) is semidet.
+%!  cell_take(+Key, +Agent, -Cell) is det.
 %!  cell_wait(+Key, +Host, +Agent) is det.
 %!  cell_left(+Agent) is det.
 %!  cell_give(+Cell) is det.
 %
-%   Agent has Cell, one of Key that no agent uses; Agent, which is ready, is
-%   scheduled when there is one; Agent is not here any more; Cell is free again.
+%   Agent has Cell, one of Key that no agent uses, or `none`; Agent, which is
+%   ready, is scheduled when there is one; Agent is not here any more; Cell is
+%   free again.
 
 cell_take(Key, Agent, Cell) :-
     with_mutex(typhon_cells, take(Key, Agent, Cell)).
 
 take(Key, Agent, Cell) :-
     retractall(woken(Agent, _)),
-    bound(Cell, Key),
-    retract(idle(Cell, _)),
-    !.
+    (   bound(Cell0, Key),
+        retract(idle(Cell0, _))
+    ->  Cell = Cell0
+    ;   Cell = none
+    ).
 
 cell_wait(Key, Host, Agent) :-
     with_mutex(typhon_cells, wait(Key, Host, Agent, Next)),
@@ -195,11 +198,14 @@ go_on(wanted) :-
 %   killed(Signal). The second does not wait for that.
 
 cell_end(Cell, Reason) :-
+    ended(Cell, Reason),
+    go_on(wanted).
+
+ended(Cell, Reason) :-
     (   with_mutex(typhon_cells, forgotten(Cell, Process))
     ->  cell_process_end(Process, Reason)
     ;   Reason = exit(unknown)
-    ),
-    go_on(wanted).
+    ).
 
 cell_break(Cell) :-
     (   with_mutex(typhon_cells, forgotten(Cell, Process)),
@@ -258,7 +264,7 @@ cells_list(Cells) :-
 :- public serves/3.
 
 serves(call(begin, Caller), _, Next) :-
-    spare_ready,
+    ( spare(_) -> true ; spare_start ),
     server_answer(Caller, true),
     look_later(Next).
 serves(wanted, _, Next) :-
@@ -272,13 +278,13 @@ serves(ended_host(Host), _, Next) :-
     atom_concat(Host, ' ', Prefix),
     forall(( bound(Cell, Key),
              once(( Key == Host ; sub_atom(Key, 0, _, _, Prefix) )) ),
-           cell_end_now(Cell)),
+           ended(Cell, _)),
     look_later(Next).
 serves(timeout, _, Next) :-
     forall(idle_long(Cell), end_idle(Cell)),
     serves(wanted, none, Next).
 serves(stop, _, _) :-
-    forall(process(Cell, _, _, _, _), cell_end_now(Cell)),
+    forall(process(Cell, _, _, _, _), ended(Cell, _)),
     retractall(waits(_, _, _, _)),
     retractall(woken(_, _)),
     cell_filter_forget.
@@ -307,9 +313,7 @@ provide :-
     ->  spare_start,
         provide
     ;   \+ spare(_),
-        count(Count),
-        setting(cells, Most),
-        Count < Most
+        below_most
     ->  spare_start
     ;   true
     ).
@@ -324,17 +328,16 @@ bind_spare(Next) :-
 %   room is semidet: one more process may be started.
 
 room :-
-    count(Count),
-    setting(cells, Most),
-    (   Count < Most
+    (   below_most
     ->  true
     ;   oldest_idle(Cell)
     ->  end_idle(Cell)
     ).
 
-count(Count) :-
-    findall(Cell, process(Cell, _, _, _, _), Cells),
-    length(Cells, Count).
+below_most :-
+    predicate_property(process(_, _, _, _, _), number_of_clauses(Count)),
+    setting(cells, Most),
+    Count < Most.
 
 %   The one for which an agent is scheduled is not idle for long.
 
@@ -357,18 +360,6 @@ end_idle(Cell) :-
     ->  cell_process_end(Process, _)
     ;   true                            % was taken meanwhile
     ).
-
-cell_end_now(Cell) :-
-    (   with_mutex(typhon_cells, forgotten(Cell, Process))
-    ->  cell_process_end(Process, _)
-    ;   true
-    ).
-
-spare_ready :-
-    spare(_),
-    !.
-spare_ready :-
-    spare_start.
 
 %   @error cell_unavailable(Cause)
 

@@ -1,5 +1,5 @@
 :- module(typhon_gatekeeper, []).
-:- use_module(library(apply), [foldl/4, maplist/2]).
+:- use_module(library(apply), [foldl/4]).
 :- use_module(library(lists), [append/2, member/2, reverse/2]).
 :- use_module(library(readutil), [read_file_to_string/3]).
 :- use_module('../../kernel/base/durable_changes', [durable_on/0]).
@@ -13,8 +13,8 @@
                 origin_key/2, with_agent/2 ]).
 :- use_module('../../kernel/lifecycle', [turn_settled/0]).
 :- use_module(cell_acts,
-              [ cell_answer/5, cell_changes_made/3, cell_turn_begins/0,
-                cell_violation/1 ]).
+              [ cell_answer/5, cell_changes_made/3, cell_fault/3,
+                cell_outcome/1, cell_turn_begins/0, cell_violation/1 ]).
 :- use_module(cell_frames).
 :- use_module(cell_functors, [functors_charged/3, functors_left/1]).
 :- use_module(cell_hosts, [walled/2]).
@@ -101,7 +101,7 @@ run(Kind, Policy, Agent, Goals, Outcome) :-
     ->  key(Kind, Policy, Agent, Owner, Key),
         State = state(unfinished),
         setup_call_cleanup(
-            taken(Key, Id, Cell),
+            cell_take(Key, Id, Cell),
             run_in(Cell, keys(Key, Policy, Owner), Agent, Goals, State, Outcome),
             left(State, Cell))
     ;   Reason = violation(functors),
@@ -111,12 +111,6 @@ run(Kind, Policy, Agent, Goals, Outcome) :-
     !.
 run(_, _, agent(Id, _, _, _, _), _, _) :-
     throw(error(system_error(no_turn(Id)), _)).
-
-taken(Key, Id, Cell) :-
-    (   cell_take(Key, Id, Cell0)
-    ->  Cell = Cell0
-    ;   Cell = none
-    ).
 
 run_in(none, keys(Key, _, _), Agent, Goals, _, held) :-
     !,
@@ -333,8 +327,8 @@ heard(over(_, What), _, Agent, _, Acts, over(What)) :-
     memberchk(What, [cells,stack,state]),
     carried_out(Acts, Agent, _).
 heard(outcome(_, Outcome, Note, Changes), Cell, Agent, _, Acts, Result) :-
-    is_outcome(Outcome),
-    note_fault(Note, Outcome, Fault),
+    cell_outcome(Outcome),
+    cell_fault(Note, Outcome, Fault),
     carried_out(Acts, Agent, Told),
     ( Told = raised(_) -> Result = outcome(Told, none)
     ; Result = outcome(Outcome, Fault) ),
@@ -369,45 +363,6 @@ answered(well, Goal, Kind, Agent, Answer) :-
 answered(raised(Error), _, _, _, raised(Error)).
 
 agent(agent(_, Host, Module, _, _), Host, Module).
-
-is_outcome(done).
-is_outcome(failed).
-is_outcome(raised(Error)) :-
-    nonvar(Error),
-    Error \== '$aborted',
-    Error \= unwind(_).
-is_outcome(effect(Control, Hole, Goals)) :-
-    var(Hole),
-    nonvar(Control),
-    is_control(Control),
-    is_list(Goals),
-    maplist(is_goal, Goals).
-
-is_goal(Goal) :-
-    var(Goal),
-    !.
-is_goal(Goal) :-
-    callable(Goal),
-    Goal \= '$fault'(_).
-
-is_control(move(_)).
-is_control(clone(_)).
-is_control(clone(_, _)).
-is_control(sleep(_)).
-is_control(sleep_until(Until)) :- number(Until).
-is_control(receive(_)).
-is_control(receive(_, _)).
-is_control(receive_until(_, Until, _)) :- number(Until).
-is_control(dispose).
-
-%   The fault as typhon_faults notes it, without references to clauses.
-
-note_fault(note(How, fault(Goal, Goals, natives(Raising, []))), Outcome,
-           How-fault(Goal, Goals, natives(Raising, []))) :-
-    functor(Outcome, How, _),
-    ( Goals == unknown -> true ; is_list(Goals) ),
-    !.
-note_fault(_, _, none).
 
                 /*******************************
                 *           MESSAGES           *

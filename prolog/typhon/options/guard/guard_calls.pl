@@ -8,6 +8,7 @@
 :- use_module(library(lists), [member/2]).
 :- use_module(library(settings), [setting/2, setting/4]).
 :- use_module('../../kernel/base/trees', [is_tree/2]).
+:- use_module('../../kernel/program', [path_below/1]).
 :- use_module('../../kernel/host', [context_now/2, parts/3]).
 :- use_module('../../kernel/agent', [agent_code/2]).
 :- use_module(allowed, [allowed/3, makes_clause/1, own_name/1]).
@@ -226,8 +227,7 @@ looked_at(size(I), _, Goal, Goal) :-
 looked_at(payload, _, attach(Spec), attach(Spec)) :-
     nonvar(Spec),
     Spec = payloads(Path),
-    ground(Path),
-    inside(Path),
+    path_below(Path),
     !.
 looked_at(_, _, Goal, _) :-
     refuse(Goal).
@@ -255,15 +255,6 @@ ends_thread(time_limit_exceeded(_)).
 sink(string(_)).
 sink(codes(_)).
 sink(chars(_)).
-
-inside(Path) :-
-    (   atom(Path)
-    ->  \+ sub_atom(Path, _, _, _, '..'),
-        \+ is_absolute_file_name(Path)
-    ;   Path = A/B,
-        inside(A),
-        inside(B)
-    ).
 
 :- setting(typhon_guard_arguments:ball_cells, positive_integer, 10 000,
            "Now typhon_guard_calls:ball_cells").
