@@ -40,7 +40,7 @@ the predicates by which that speaks to the gatekeeper.
 %   quotas.
 
 with_inmates(Goal) :-
-    with_inmates([], [seconds(20)], Goal).
+    with_inmates([], [seconds(60)], Goal).
 
 with_inmates(Options, Quotas, Goal) :-
     with_tmp_dir(in_cell(Options, Quotas, Goal)).
@@ -137,7 +137,7 @@ inmate(First, Goal,
 attempt(Goal, Outcome) :-
     inmate(true, Goal, Clauses),
     agent_create(clauses(Clauses), A, [host(c)]),
-    agent_join(A, End, 60),
+    agent_join(A, End, 300),
     (   End == done,
         catch(agent_result(A, Result, 5), error(existence_error(_, _), _), fail)
     ->  Outcome = Result
