@@ -211,6 +211,7 @@ part_setting(seconds,typhon_inventory,number,2,'Seconds for which a table waits 
 part_setting(seconds,typhon_survey,number,2,'Now typhon_inventory:seconds','tools/inventory').
 part_setting(silent_seconds,typhon_postgresql,positive_integer,10,'Seconds without data after which the machine of a database server is taken to be gone','options/journal/postgresql').
 part_setting(ssh,typhon_children,atom,ssh,'The program that reaches other machines','network/children').
+part_setting(start,typhon_cells,number,120,'Seconds in which a cell has to load its program','options/cell/cell_process').
 part_setting(start_seconds,typhon_processes,number,60,'Seconds for the processes of a network to start','network/processes').
 part_setting(stop_seconds,typhon_children,number,5,'Seconds for a child to end in order before it is killed','network/children').
 part_setting(virtual_events,typhon_telling,positive_integer,1000000,'The same in virtual time, which runs ahead of all watches','options/watch/telling').

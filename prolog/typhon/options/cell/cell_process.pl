@@ -28,6 +28,9 @@ The system kills it when the thread ends that has started it.
 :- setting(typhon_cells:memory, positive_integer, 1 500 000 000,
            "Bytes of address space that a cell may have").
 
+:- setting(typhon_cells:start, number, 120,
+           "Seconds in which a cell has to load its program").
+
 :- multifile prolog:error_message//1.
 
 :- dynamic
@@ -38,19 +41,32 @@ The system kills it when the thread ends that has started it.
 %   Process, process(Pid, In, Out, Err), waits for its first frame.
 %
 %   @error cell_unavailable(Cause)
+%   @error timeout_error(start, cell): a slow machine may have cells later, so
+%   its agents must not run without
 
 cell_process_start(Process) :-
     filter_file(Filter),
     launch(Filter, Process),
-    Process = process(Pid, In, _, Err),
-    (   comes_up(In)
-    ->  true
-    ;   kill(Pid),
-        read_stream_to_codes(Err, Codes),
-        cell_process_end(Process, _),
-        failure(Codes, Text),
-        unavailable(Text)
+    Process = process(_, In, _, _),
+    setting(typhon_cells:start, Seconds),
+    set_stream(In, timeout(Seconds)),
+    catch(cell_frame_read(In, Frame), error(Formal, _), Frame = error(Formal)),
+    (   Frame == ready
+    ->  set_stream(In, timeout(infinite))
+    ;   not_ready(Frame, Process)
     ).
+
+not_ready(error(timeout_error(_, _)), Process) :-
+    !,
+    cell_process_end(Process, _),
+    throw(error(timeout_error(start, cell), _)).
+not_ready(_, Process) :-
+    Process = process(Pid, _, _, Err),
+    kill(Pid),
+    read_stream_to_codes(Err, Codes),
+    cell_process_end(Process, _),
+    failure(Codes, Text),
+    unavailable(Text).
 
 %!  cell_process_end(+Process, -Reason) is det.
 %
@@ -64,15 +80,7 @@ cell_process_end(process(Pid, In, Out, Err), Reason) :-
 kill(Pid) :-
     catch(process_kill(Pid, kill), error(_, _), true).
 
-%   A cell has half a minute to load its program.
-
-comes_up(In) :-
-    set_stream(In, timeout(30)),
-    catch(cell_frame_read(In, Frame), error(_, _), fail),
-    Frame == ready,
-    set_stream(In, timeout(infinite)).
-
-failure([], 'it did not come up within 30 seconds, or ended without a message') :-
+failure([], 'it ended without a message') :-
     !.
 failure(Codes, Text) :-
     string_codes(Text, Codes).

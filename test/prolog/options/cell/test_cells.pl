@@ -349,6 +349,10 @@ test(without_bubblewrap_a_policy_warns_once, Out-Warned == "done"-1) :-
     assertion(Status == exit(0)),
     findall(x, sub_string(Err, _, _, _, "no cell can be started"), Xs),
     length(Xs, Warned).
+test(a_slow_start_of_a_cell_is_no_reason_to_do_without,
+     error(timeout_error(start, cell))) :-
+    with_settings([typhon_cells:start=0.5],
+                  with_tmp_dir(started_by_slow_bubblewrap)).
 test(a_trusted_host_has_no_cells, error(existence_error(host_option, policy))) :-
     host_start(c, [cell(owner)]).
 test(inferences_are_not_counted_in_cells,
@@ -387,6 +391,16 @@ test(where_cells_are_impossible_a_policy_warns, Outcome-Count == done-1) :-
               Messages),
     was_warned(permission_error(_, cell, _), Messages, Count).
 :- end_tests(cell_processes).
+
+started_by_slow_bubblewrap(Dir) :-
+    directory_file_path(Dir, bwrap, File),
+    shell_script(File, "exec sleep 100"),
+    getenv('PATH', Path),
+    atomic_list_concat([Dir,Path], :, Slow),
+    setup_call_cleanup(
+        setenv('PATH', Slow),
+        host_start(c, [policy(guarded)]),
+        setenv('PATH', Path)).
 
 %   left_in(-Files, +Dir): Dir is where a process makes temporary files that halts
 %   while a host has cells.
