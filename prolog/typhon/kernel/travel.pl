@@ -9,6 +9,7 @@ This is the interface of the layer: higher layers import from here.
 
 :- reexport(travel/hop, [hop/6, hop_clone/6]).
 :- reexport(travel/hand_over, [hand_over/5]).
+:- reexport(travel/within, [hop_at_once/6]).
 :- reexport(travel/transfer, 
             [ move_awaited/2, move_failed/2, move_over/2, transfer_given_up/2,
               transfer_held/2 ]).

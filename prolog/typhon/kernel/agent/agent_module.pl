@@ -6,7 +6,7 @@
             agent_clauses/3,            % +Module, +Clauses0, -Clauses
             agent_add/2,                % +Clauses, +Module
             agent_state/2,              % +Module, -State
-            agent_changed/4,            % +Module, +Since, -Clauses, -Until
+            agent_state_mobile/3,       % +Module, +Since, -Until
             agent_links/4,              % +Module, +Place0, +Place, -Links
             agent_relink/2,             % +Module, +Links
             agent_handles/2,            % +Program, +Module
@@ -19,6 +19,7 @@
 :- use_module(library(error), [permission_error/3]).
 :- use_module(library(lists), [member/2, memberchk/2]).
 :- use_module('../program', [code_module/2, plain_goals/2]).
+:- use_module('../wire', [mobile_term/1]).
 :- use_module('../host', [host/3, parts/3, parts_call/3, place_host/2]).
 :- use_module(agents, [agent_here/5]).
 
@@ -221,30 +222,38 @@ split([Item|Items], Empty, Clauses) :-
         split(Items, Empty, Clauses1)
     ).
 
-%!  agent_changed(+Module, +Since:integer, -Changed:list, -Until) is det.
+%!  agent_state_mobile(+Module, +Since:integer, -Until:integer) is det.
 %
-%   Changed has the clauses of those predicates of the state that have changed
-%   since the generation Since; Until is the Since of the next call.  The first
-%   call passes 0.
+%   The clauses of the predicates of the state that have changed since the
+%   generation Since can travel; Until is the Since of the next call.  The first
+%   call passes 0.  Mostly one fact has changed: to check a few clauses one by
+%   one is quicker than to collect them.
+%
+%   @error type_error(mobile_term, Culprit)
 
-agent_changed(Module, Since, Changed, Until) :-
-    findall(Clause, changed(Module, Since, Clause), Changed),
-    latest(Changed, Since, Until).
+agent_state_mobile(Module, Since, Until) :-
+    Latest = latest(Since),
+    (   '$c_current_predicate'(_, Module:Head),
+        '$get_predicate_attribute'(Module:Head, last_modified_generation, Last),
+        Last > Since,                   % first: few have changed
+        '$get_predicate_attribute'(Module:Head, (dynamic), 1),
+        \+ '$get_predicate_attribute'(Module:Head, imported, _),
+        '$get_predicate_attribute'(Module:Head, number_of_clauses, Count),
+        clauses_mobile(Count, Module:Head),
+        arg(1, Latest, Last0),
+        Last > Last0,
+        nb_setarg(1, Latest, Last),
+        fail
+    ;   arg(1, Latest, Until)
+    ).
 
-%   The generation is tested first because few predicates have changed.
-
-changed(Module, Since, Last-(Head:-Body)) :-
-    '$c_current_predicate'(_, Module:Head),
-    '$get_predicate_attribute'(Module:Head, last_modified_generation, Last),
-    Last > Since,
-    '$get_predicate_attribute'(Module:Head, (dynamic), 1),
-    \+ '$get_predicate_attribute'(Module:Head, imported, _),
-    clause(Module:Head, Body).
-
-latest([], Until, Until).
-latest([Last-_|Changed], Until0, Until) :-
-    Until1 is max(Last, Until0),
-    latest(Changed, Until1, Until).
+clauses_mobile(Count, Module:Head) :-
+    (   Count > 4
+    ->  findall(Head-Body, clause(Module:Head, Body), Clauses),
+        mobile_term(Clauses)
+    ;   \+ ( clause(Module:Head, Body),
+             \+ mobile_term(Head-Body) )
+    ).
 
 %!  agent_links(+Module, +Place0, +Place, -Links) is semidet.
 %

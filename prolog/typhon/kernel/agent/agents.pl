@@ -10,6 +10,8 @@
             agent_mobile/6,             % +Id, -Host, -Module, -Hash, -Life,
                                         % -Until
             agent_move/5,               % +Id, +Host, +Module, +Life, +Until
+            agent_passes/6,             % +Id, +Host, +Module, +Hash, +Life,
+                                        % +Until
             agent_put_life/2,           % +Id, +Life
             agent_program/4,            % +Id, +Hash, +Module, +Life
             agent_put/3,                % +Id, +Status, +Goals
@@ -160,7 +162,8 @@ state_destroy(Id, Module) :-
 %!  agent_mobile(+Id, -Host, -Module, -Hash, -Life, -Until:integer) is semidet.
 %
 %   As agent/5, for an agent that is to travel.  Its state was found fit to
-%   travel as of generation Until, see agent_changed/4; 0 if it was not checked.
+%   travel as of generation Until, see agent_state_mobile/3; 0 if it was not
+%   checked.
 
 agent_mobile(Id, Host, Module, Hash, Life, Until) :-
     stands(Id, Host, Module, Hash, Life, Until),
@@ -182,6 +185,14 @@ agent_move(Id, Host, Module, Life, Until) :-
     ->  true
     ;   state_destroy(Id, Old)
     ).
+
+%!  agent_passes(+Id, +Host, +Module, +Hash, +Life, +Until:integer) is det.
+%
+%   As agent_move/5, between plain hosts, for an agent that keeps its module.
+
+agent_passes(Id, Host, Module, Hash, Life, Until) :-
+    assertz(stands(Id, Host, Module, Hash, Life, Until)),
+    forget_first(Id).
 
                 /*******************************
                 *            STATUS            *

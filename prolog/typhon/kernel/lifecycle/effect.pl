@@ -19,7 +19,8 @@
                 agent_wakes/2, life_hops/2, life_may_move/2, mail_take/2,
                 with_agent/2 ]).
 :- use_module('../travel',
-              [hand_over/5, hop/6, hop_clone/6, move_failed/2, move_over/2]).
+              [ hand_over/5, hop/6, hop_at_once/6, hop_clone/6, move_failed/2,
+                move_over/2 ]).
 :- use_module(creation, [agent_clone_here/3, clone_id/2]).
 :- use_module(ending, [agent_end/2, agent_stays/2]).
 
@@ -49,6 +50,8 @@ effect(move(Host), Hole, Goals, Id-Here, Next) :-
     (   Dest == local(Here)
     ->  Hole = true,
         Next = go(Goals)
+    ;   hop_at_once(Id, Here, Dest, Hole, Goals, Next0)
+    ->  Next = Next0
     ;   hand_over(Id, Here, Dest, Hole, Goals)
     ->  Next = stop
     ;   parts_call(acts, Here, [Id, move]),

@@ -1,5 +1,7 @@
 :- module(typhon_within,
-          [ hop_within/6                % +Id, +Name, +Hole, +Goals, +Since,
+          [ hop_at_once/6,              % +Id, +Here, +Where, +Hole, +Goals,
+                                        % -Next
+            hop_within/6                % +Id, +Name, +Hole, +Goals, +Since,
                                         % -Next
           ]).
 :- use_module(library(debug), [debug/3]).
@@ -8,12 +10,13 @@
 :- use_module('../host',
               [ address_parts/3, event/4, event_heard/1, host/3, host_passed/3,
                 host_passes/4, host_plain/2, host_time/2, schedule/2,
-                schedule_stays/2 ]).
+                schedule_stays/2, time_now/1 ]).
 :- use_module('../agent',
-              [ agent/5, agent_changed/4, agent_links/4, agent_mobile/6,
-                agent_move/5, agent_put/3, agent_relink/2, agent_runs/1,
-                agent_standing/5, agent_state/2, agent_status/3, gate/4,
-                life_hop/3, with_agent/2 ]).
+              [ agent/5, agent_links/4, agent_mobile/6, agent_move/5,
+                agent_passes/6, agent_put/3, agent_relink/2, agent_runs/1,
+                agent_standing/5, agent_state/2, agent_state_mobile/3,
+                agent_status/3, gate/4, life_goes/3, life_hop/3,
+                with_agent/2 ]).
 :- use_module(transfer, [move_over/2]).
 :- use_module(whereabouts, [agent_seen/4]).
 
@@ -28,6 +31,27 @@ here.
 *Threading*: in a worker, which has the agent.
 */
 
+%!  hop_at_once(+Id, +Here, +Where, +Hole, +Goals, -Next) is semidet.
+%
+%   As hop_within/6, between plain hosts, for an agent that moves from Here, may
+%   move and carries no extras, if hops are not delayed and no listener hears of
+%   them.  In all other cases it fails without changes.
+
+hop_at_once(Id, Here, local(Name), Hole, Goals, Next) :-
+    host_plain(Here, From),
+    From = plain(_, _, none, Epoch, Rate, _, _, _, _),
+    host_plain(Name, To),
+    \+ event_heard(hops),
+    agent_mobile(Id, Here, Module, Hash, Life0, Until0),
+    life_goes(Life0, Life, Hops),
+    !,
+    time_now(Now),
+    Since is (Now-Epoch)*Rate,
+    agent_state_mobile(Module, Until0, Until),
+    mobile_term(Life-Goals),
+    Going = going(Module, Hash, Life, Until, Since),
+    sig_atomic(passed(Id, Here-From, Name-To, Going, Hole-Goals, Hops, Next)).
+
 %!  hop_within(+Id, +Name, +Hole, +Goals, +Since, -Next) is det.
 %
 %   Id, which departed at Since, is on host Name of this process, with Goals,
@@ -41,10 +65,13 @@ hop_within(Id, Name, Hole, Goals, Since, Next) :-
     agent_mobile(Id, Here, Module, Hash, Life0, Until0),
     !,
     life_hop(Life0, Life, Hops),
-    agent_changed(Module, Until0, Changed, Until),
-    mobile_term(Changed-Life-Goals),    % of the state only what has changed
+    agent_state_mobile(Module, Until0, Until),  % only what has changed
+    mobile_term(Life-Goals),
     Going = going(Module, Hash, Life, Until, Since),
-    (   sig_atomic(passed(Id, Here-Name, Going, Hole-Goals, Hops, Next0))
+    (   host_plain(Here, From),
+        host_plain(Name, To),
+        sig_atomic(passed(Id, Here-From, Name-To, Going, Hole-Goals, Hops,
+                          Next0))
     ->  Next = Next0
     ;   gate(Name, going-entrant(Id, Hash, Life, module(Module), []),
              moved(Id, Here-Name, Going, Hole-Goals, Hops, Next),
@@ -53,18 +80,19 @@ hop_within(Id, Name, Hole, Goals, Since, Next) :-
     ).
 hop_within(_, _, _, _, _, stop).        % it was ended
 
-%   passed(+Id, +Hosts, +Going, +Held, +Hops, -Next) is semidet: for plain
+%   passed(+Id, +From, +To, +Going, +Held, +Hops, -Next) is semidet: for plain
 %   hosts, and if there is capacity.  In all other cases it fails without
 %   changes.
 
-passed(Id, Hosts, Going, Held, Hops, Next) :-
-    with_agent(Id, pass(Id, Hosts, Going, Held, Next, Seconds)),
-    told(Id, Hosts, Hops, Seconds, Next).
+passed(Id, From, To, Going, Held, Hops, Next) :-
+    with_agent(Id, pass(Id, From, To, Going, Held, Next, Seconds)),
+    From = Here-_,
+    To = Name-plain(Address, _, _, _, _, _, _, _, _),
+    told(Id, Here-Name, Address, Hops, Seconds, Next).
 
-pass(Id, Here-Name, going(Module, _, Life, Until, Since), Hole-Goals, Next,
-     Seconds) :-
-    host_plain(Here, From),
-    host_plain(Name, To),
+pass(Id, Here-From, Name-To, going(Module, Hash, Life, Until, Since),
+     Hole-Goals, Next, Seconds) :-
+    host_plain(Here, From),             % it still is
     agent_runs(Id),
     arg(2, From, Place0),
     arg(2, To, Place),
@@ -73,7 +101,7 @@ pass(Id, Here-Name, going(Module, _, Life, Until, Since), Hole-Goals, Next,
     !,
     agent_relink(Module, Links),
     ignore(Hole = true),
-    agent_move(Id, Name, Module, Life, Until),
+    agent_passes(Id, Name, Module, Hash, Life, Until),
     next(running, Here-Name, Goals, Next),
     goes_on(Next, Id, Goals).
 
@@ -92,7 +120,11 @@ went(refused(Reason), Id, Here-Name, Hops, _) :-
 moved(Id, Hosts, Going, Held, Hops, Next, ok) :-
     with_agent(Id, move(Id, Hosts, Going, Held, Next, Seconds)),
     !,
-    told(Id, Hosts, Hops, Seconds, Next).
+    Hosts = _-Name,
+    (   host(Name, Address, _)
+    ->  told(Id, Hosts, Address, Hops, Seconds, Next)
+    ;   true                            % it is being stopped
+    ).
 moved(Id, _, _, _, _, _, Verdict) :-
     (   agent(Id, _, _, _, _)
     ->  Verdict = refused(unknown_host)
@@ -143,14 +175,12 @@ seconds(Here, Name, Since, Seconds) :-
 
 %   The agent has moved: errors in reporting are only printed.
 
-told(Id, Here-Name, Hops, Seconds, Next) :-
-    catch(arrived(Id, Here, Name, Hops, Seconds, Next),
+told(Id, Hosts, Address, Hops, Seconds, Next) :-
+    catch(arrived(Id, Hosts, Address, Hops, Seconds, Next),
           error(Formal, Context),
           print_error(error, error(Formal, Context))).
 
-arrived(Id, Here, Name, Hops, Seconds, Next) :-
-    host(Name, Address, _),
-    !,
+arrived(Id, Here-Name, Address, Hops, Seconds, Next) :-
     debug(typhon(hop), '~w hop ~D: is on ~w, of this process',
           [Id, Hops, Address]),
     agent_seen(Id, Address, Hops, here),
@@ -160,7 +190,6 @@ arrived(Id, Here, Name, Hops, Seconds, Next) :-
     ->  schedule(Name, Id)
     ;   true
     ).
-arrived(_, _, _, _, _, _).              % the host is being stopped
 
 came(Id, Here, Name, Seconds) :-
     (   event_heard(hops),
