@@ -42,7 +42,7 @@ module `restarts`, and never concurrently with a change.
 
 :- dynamic
     host/5,                     % Network, I, Name, P, Address
-    changed/3.                  % Network, I-J, Change: the last of this pair
+    changed/4.                  % Network, I, J, Change: the last of this pair
 
 typhon_host_names:elsewhere(Name, Address) :-
     host(_, _, Name, _, Address).
@@ -150,13 +150,13 @@ links_again(Network, P, Links) :-
     findall(Half,
             ( member(Link, Links),
               Link = link(I, J, _),
-              \+ changed(Network, I-J, _),
+              \+ changed(Network, I, J, _),
               half_link(Network, Link, P, Half)
-            ; changed(Network, _, link(I, J, Cost)),
+            ; changed(Network, _, _, link(I, J, Cost)),
               half_link(Network, link(I, J, Cost), P, Half) ),
             Made),
     findall(Half,
-            ( changed(Network, _, unlink(I, J, Cost)),
+            ( changed(Network, _, _, unlink(I, J, Cost)),
               half_link(Network, unlink(I, J, Cost), P, Half) ),
             Gone),
     order_halves(Network, P, link, Made),
@@ -178,8 +178,8 @@ wire_change(Network, Change) :-
 
 change(Network, Change) :-
     Change =.. [Action, I, J, _],
-    retractall(changed(Network, I-J, _)),
-    assertz(changed(Network, I-J, Change)),
+    retractall(changed(Network, I, J, _)),
+    assertz(changed(Network, I, J, Change)),
     forall(half_link(Network, Change, P, Half),
            ( Order =.. [Action, [Half]],
              alive_order(Network, P, Order, _) )).
@@ -242,7 +242,7 @@ rest(Network, P) :-
 
 wire_forget(Network) :-
     retractall(host(Network, _, _, _, _)),
-    retractall(changed(Network, _, _)).
+    retractall(changed(Network, _, _, _)).
 
 %!  wired(+Network, -Hosts) is det.
 %
