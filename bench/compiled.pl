@@ -1,7 +1,7 @@
 :- use_module(common).
 :- use_module(library(typhon)).
 :- use_module(library(typhon/kernel/program),
-              [ code_install/3, code_module/2, machine_run/3, program_load/5 ]).
+              [ code_install/3, code_module/2, machine_run/3, program_load/6 ]).
 :- use_module(library(gensym), [gensym/2]).
 :- use_module(library(lists), [member/2, memberchk/2, numlist/3]).
 
@@ -85,7 +85,7 @@ goals([N|Ns], (X = f(N), functor(X, _, _), Goals)) :-
 
 compared(Name, Clauses, Stops) :-
     plain(Clauses, Plain),
-    program_load(clauses(Clauses), Program, Facts, Hash, Kinds),
+    program_load(clauses(Clauses), Program, Facts, Hash, Kinds, _),
     code_install(Hash, Program, Kinds),
     code_module(Hash, Module),
     Program = program(_, State, _, _),

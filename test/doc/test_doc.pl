@@ -27,7 +27,7 @@
 :- use_module(library(readutil), [read_file_to_string/3, read_file_to_terms/3]).
 :- use_module(library(typhon)).
 :- use_module(library(typhon/kernel/program),
-              [payload_load/2, program_load/5]).
+              [payload_load/2, program_load/6]).
 
 document(File) :-
     member(Pattern, ['README.md', 'doc/*.md', 'doc/course/*.md']),
@@ -110,7 +110,7 @@ check_block(_, _).
 check_file(Lines, File) :-
     member(Line, Lines),
     (   string_concat(":- agent(", _, Line)
-    ->  program_load(File, _, _, _, _)
+    ->  program_load(File, _, _, _, _, _)
     ;   string_concat(":- payload(", _, Line)
     ->  payload_load(File, _)
     ),

@@ -14,7 +14,7 @@
 :- use_module(library(typhon)).
 :- use_module(library(typhon/kernel/base/json), [json_dict/2]).
 :- use_module(library(typhon/kernel/program),
-              [payload_load/2, program_load/5, vocabulary_word/2]).
+              [payload_load/2, program_load/6, vocabulary_word/2]).
 
 program(Name, Path) :-
     absolute_file_name(path(Name), Path, [access(execute), file_errors(fail)]).
@@ -149,7 +149,7 @@ problem_of(Text, Error, File) :-
 loads(Text, File) :-
     (   sub_string(Text, 0, _, _, ":- payload(")
     ->  payload_load(File, _)
-    ;   program_load(File, _, _, _, _)
+    ;   program_load(File, _, _, _, _, _)
     ).
 
 json_file(Relative, Dict) :-

@@ -146,7 +146,7 @@ serve(Port) :-
     ).
 
 start(Port) :-
-    endpoint_start(localhost, Port, Address),
+    endpoint_start(localhost, Port, [], Address),
     format("~w~n", [Address]),
     flush_output.
 

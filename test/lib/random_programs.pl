@@ -10,7 +10,7 @@
               [random/1, random_between/3, random_member/2]).
 :- use_module(library(typhon/kernel/program),
               [ code_install/3, code_module/2, fault/3, machine_run/3,
-                plain_goals/2, program_load/5 ]).
+                plain_goals/2, program_load/6 ]).
 
 /** <module> Random agent programs, run by all engines for comparison
 
@@ -173,7 +173,7 @@ tests(Count, X, (Test,Tests)) :-
 %   seen of a run.
 
 engines_differ(Clauses, differs(Engine, Log, Reference)) :-
-    program_load(clauses(Clauses), Program, Initial, Hash, Kinds),
+    program_load(clauses(Clauses), Program, Initial, Hash, Kinds, _),
     code_install(Hash, Program, Kinds),
     code_module(Hash, Module),
     run_log(machine, Module, Initial, Reference),

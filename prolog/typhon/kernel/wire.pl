@@ -10,7 +10,7 @@ This is the interface of the layer: higher layers import from here.
 :- reexport(wire/endpoint,
             [ endpoint_address/1, endpoint_listen/2,
               endpoint_listen_end/1, endpoint_open/0, endpoint_process/1,
-              endpoint_proof/1, endpoint_start/3, endpoint_start/4,
+              endpoint_start/4,
               endpoint_start_alone/1, endpoint_stop/0 ]).
 :- reexport(wire/messaging,
             [ endpoint_ask_all/6, endpoint_call/5, endpoint_hand/4,

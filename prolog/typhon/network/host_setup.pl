@@ -6,6 +6,7 @@
 :- use_module(library(apply), [maplist/2]).
 :- use_module(library(error), [existence_error/2, must_be/2]).
 :- use_module(library(lists), [member/2]).
+:- use_module('../kernel/host', [host_listed/2]).
 :- use_module(topology, [number_name/2]).
 
 /** <module> The contents of the places of a network
@@ -27,7 +28,7 @@ Places is an item, or a list of items:
 %   @error type_error(callable, Item), existence_error(host, Host)
 
 host_setup_check(Places, Names) :-
-    listed(Places, Items),
+    host_listed(Places, Items),
     maplist(check_item(Names), Items).
 
 check_item(Names, Item) :-
@@ -42,11 +43,6 @@ check_item(Names, Item) :-
     ->  true
     ;   must_be(callable, Item)
     ).
-
-listed(Items, Items) :-
-    is_list(Items),
-    !.
-listed(Item, [Item]).
 
 host_name(Host, Name) :-
     (   integer(Host)
@@ -70,7 +66,7 @@ host_setup_goals(Places, Name, Goals) :-
     findall(Item, ( item(Places, Name, Item), \+ is_file(Item) ), Goals).
 
 item(Places, Name, Item) :-
-    listed(Places, Items),
+    host_listed(Places, Items),
     member(Item0, Items),
     (   Item0 = Host-Own
     ->  host_name(Host, Name),

@@ -63,8 +63,6 @@ the order to stop: it makes sure that the process ends.
     at_rest/0,                  % agents have had the time to come to rest
     child/0.                    % this process is one
 
-:- setting(typhon_carrier:rest_seconds, number, 1,
-           "Now typhon_node_process:rest_seconds").
 :- setting(rest_seconds, number, 1,
            "Seconds for agents to come to rest when their network stops").
 

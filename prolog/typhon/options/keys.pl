@@ -234,8 +234,6 @@ hex_octets(Hex, Octets) :-
     loaded/3,                           % File, Stamp, Loaded
     found/4.                            % Hash, Pem, Stamp, Found
 
-:- setting(typhon_base_key_files:certificates, positive_integer, 256,
-           "Now typhon_keys:certificates").
 :- setting(certificates, positive_integer, 256,
            "Certificates whose holder is cached").
 

@@ -41,7 +41,6 @@ place and its options, as text.  Long values are shortened.
 answers, since there may be many agents.
 */
 
-:- setting(typhon_survey:seconds, number, 2, "Now typhon_inventory:seconds").
 :- setting(seconds, number, 2,
            "Seconds for which a table waits for other processes of a network").
 

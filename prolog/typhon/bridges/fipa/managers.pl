@@ -274,8 +274,6 @@ text(Term, Text) :-
                 *         DIRECTORIES          *
                 *******************************/
 
-:- setting(typhon_fipa_directory:entries, positive_integer, 10000,
-           "Now typhon_fipa_managers:entries").
 :- setting(entries, positive_integer, 10000,
            "Descriptions in a directory of FIPA").
 

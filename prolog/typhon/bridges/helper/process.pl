@@ -180,8 +180,6 @@ ended(Owner, Pid, Status) :-
                 *            PYTHON            *
                 *******************************/
 
-:- setting(typhon_helper_python:python, atom, '',
-           "Now typhon_helper_process:python").
 :- setting(python, atom, '',
            "The Python of helpers; '' for that of the system").
 

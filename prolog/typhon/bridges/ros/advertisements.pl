@@ -71,8 +71,6 @@ ends(Type, Package/Name) :-
                 *            TABLE             *
                 *******************************/
 
-:- setting(typhon_ros_standing:most, positive_integer, 1000,
-           "Now typhon_ros_advertisements:most").
 :- setting(most, positive_integer, 1000,
            "Topics and services that a host may use, each in its way").
 

@@ -304,8 +304,6 @@ ros_cancel(Id) :-
                 *            TABLES            *
                 *******************************/
 
-:- setting(typhon_ros_open_requests:most, positive_integer, 1000,
-           "Now typhon_ros_requests:most").
 :- setting(most, positive_integer, 1000,
            "Requests of ROS that may wait for the answers of agents").
 

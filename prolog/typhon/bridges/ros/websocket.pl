@@ -17,8 +17,6 @@ HTTP/1.0, which servers refuse.
 *Threading*: one thread reads, another writes.
 */
 
-:- setting(typhon_ros_socket:longest, nonneg, 4 000 000,
-           "Now typhon_ros_rosbridge:longest").
 :- setting(typhon_ros_rosbridge:longest, nonneg, 4 000 000,
            "Characters of one message from a rosbridge server").
 

@@ -144,8 +144,6 @@ payload_clause(Module, PIs, (Head:-Body)) :-
 
 :- multifile prolog:error_message//1.
 
-:- setting(typhon_result_facts:result_bytes, positive_integer, 1000000,
-           "Now typhon_payloads:result_bytes").
 :- setting(result_bytes, positive_integer, 1000000,
            "The longest result of an agent, in bytes").
 

@@ -161,14 +161,11 @@ part_setting(ball_cells,typhon_guard_calls,positive_integer,10000,'Parts of a te
 part_setting(births,typhon_birth,positive_integer,20000,'Agents whose proofs of ownership are kept','options/identity/birth').
 part_setting(browsers,typhon_page_browsers,positive_integer,32,'Browsers that may be connected to a page at a time','tools/page/browsers').
 part_setting(cells,typhon_cells,positive_integer,16,'Processes for agents of untrusted owners, at most','options/cell/cells').
-part_setting(certificates,typhon_base_key_files,positive_integer,256,'Now typhon_keys:certificates','options/keys').
 part_setting(certificates,typhon_keys,positive_integer,256,'Certificates whose holder is cached','options/keys').
 part_setting(channel_seconds,typhon_channel,number,300,'Seconds for which posts are kept for a process that has left, and is not known to keep a journal','options/journal/channel').
 part_setting(clause_cells,typhon_guard_limits,positive_integer,200000,'Clauses that untrusted agents add have at most so many parts','options/guard/guard_limits').
-part_setting(clause_cells,typhon_refusing,positive_integer,200000,'Now typhon_guard_limits:clause_cells','options/guard/guard_limits').
 part_setting(connections,typhon_page_reception,positive_integer,64,'Clients of a page at a time','tools/page/server').
 part_setting(delay,typhon_telling,number,0.05,'Seconds for which events gather before they are sent','options/watch/event_sender').
-part_setting(entries,typhon_fipa_directory,positive_integer,10000,'Now typhon_fipa_managers:entries','bridges/fipa/managers').
 part_setting(entries,typhon_fipa_managers,positive_integer,10000,'Descriptions in a directory of FIPA','bridges/fipa/managers').
 part_setting(events,typhon_telling,positive_integer,10000,'Events that may wait for a slow watch','options/watch/telling').
 part_setting(frame_events,typhon_page_browsers,positive_integer,2000,'Events in a text that a page sends','tools/page/browsers').
@@ -182,33 +179,26 @@ part_setting(kill_seconds,typhon_processes,number,10,'Seconds for a killed proce
 part_setting(last_seconds,typhon_watches,number,2,'Seconds that unwatch/1 waits for earlier events','options/watch/watches').
 part_setting(links,typhon_trail,positive_integer,32,'Links that are kept of the trail of an agent','options/trail/trail').
 part_setting(longest,typhon_ros_rosbridge,nonneg,4000000,'Characters of one message from a rosbridge server','bridges/ros/websocket').
-part_setting(longest,typhon_ros_socket,nonneg,4000000,'Now typhon_ros_rosbridge:longest','bridges/ros/websocket').
 part_setting(memory,typhon_cells,positive_integer,1500000000,'Bytes of address space that a cell may have','options/cell/cell_process').
 part_setting(met,typhon_fipa_platform,positive_integer,10000,'Agents of other platforms whose addresses are remembered','bridges/fipa/platform').
 part_setting(most,typhon_ros_advertisements,positive_integer,1000,'Topics and services that a host may use, each in its way','bridges/ros/advertisements').
-part_setting(most,typhon_ros_open_requests,positive_integer,1000,'Now typhon_ros_requests:most','bridges/ros/requests').
 part_setting(most,typhon_ros_requests,positive_integer,1000,'Requests of ROS that may wait for the answers of agents','bridges/ros/requests').
-part_setting(most,typhon_ros_standing,positive_integer,1000,'Now typhon_ros_advertisements:most','bridges/ros/advertisements').
 part_setting(offers,typhon_offers,positive_integer,100,'Offers of an agent','options/directory/offers').
 part_setting(order_seconds,typhon_processes,number,60,'Seconds for a process to answer an order','network/nodes').
 part_setting(patience,typhon_telling,number,30,'Seconds that a disconnected watching process has to answer','options/watch/event_sender').
 part_setting(patience,typhon_virtual,number,10,'Virtual time that stands still for so long is reported','options/virtual').
-part_setting(pause,typhon_overuse,number,0.8,'Now typhon_quota_enforcer:pause','options/quotas/quota_enforcer').
 part_setting(pause,typhon_quota_enforcer,between(0.0,1.0),0.8,'Agents that run for long where there are quotas pause for this part of the time while others run','options/quotas/quota_enforcer').
 part_setting(python,typhon_helper_process,atom,'','The Python of helpers; \'\' for that of the system','bridges/helper/process').
-part_setting(python,typhon_helper_python,atom,'','Now typhon_helper_process:python','bridges/helper/process').
 part_setting(python,typhon_nxt_helper,atom,'','Now typhon_nxt_link:python','bridges/nxt/link').
 part_setting(python,typhon_nxt_link,atom,'','The Python of the helpers of bricks; \'\' for that of all helpers','bridges/nxt/link').
 part_setting(queue,typhon_subscribers,positive_integer,1000,'Messages of bridges that may wait for an agent','bridges/common/subscribers').
 part_setting(renew_seconds,typhon_page_sources,number,3,'Seconds between searches of a page for new hosts','tools/page/sources').
 part_setting(request_bytes,typhon_page_server,positive_integer,4000000,'Bytes of a request to a page, at most','tools/page/server').
 part_setting(request_seconds,typhon_page_reception,positive_integer,20,'Seconds for the head of a request, and for its body','tools/page/server').
-part_setting(rest_seconds,typhon_carrier,number,1,'Now typhon_node_process:rest_seconds','network/node_process').
 part_setting(rest_seconds,typhon_node_process,number,1,'Seconds for agents to come to rest when their network stops','network/node_process').
 part_setting(restart_seconds,typhon_restarts,number,60,'Seconds within which the setting restarts counts','network/restarts').
 part_setting(restarts,typhon_restarts,nonneg,10,'Restarts of a process within restart_seconds','network/restarts').
 part_setting(seconds,typhon_inventory,number,2,'Seconds for which a table waits for other processes of a network','tools/inventory').
-part_setting(seconds,typhon_survey,number,2,'Now typhon_inventory:seconds','tools/inventory').
 part_setting(silent_seconds,typhon_postgresql,positive_integer,10,'Seconds without data after which the machine of a database server is taken to be gone','options/journal/postgresql').
 part_setting(ssh,typhon_children,atom,ssh,'The program that reaches other machines','network/children').
 part_setting(start,typhon_cells,number,120,'Seconds in which a cell has to load its program','options/cell/cell_process').

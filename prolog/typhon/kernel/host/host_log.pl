@@ -115,8 +115,6 @@ host_logs(Host) :-
                 *           CONTENT            *
                 *******************************/
 
-:- setting(typhon_event_shown:content_characters, positive_integer, 200,
-           "Now typhon_host_log:content_characters").
 :- setting(content_characters, positive_integer, 200,
            "The text of longer messages is cut to this many characters").
 

@@ -238,8 +238,6 @@ typhon_transfer:answered(Asker, Answer) :-
 
 %   The setting keeps its old name, typhon_named:met, which users know.
 
-:- setting(typhon_named:met, positive_integer, 1000,
-           "Now typhon_questions:met").
 :- setting(met, positive_integer, 1000,
            "Agents created elsewhere that are known by their names").
 

@@ -6,10 +6,10 @@
             place_marked/3              % +Place, +Vars, -Left
           ]).
 :- use_module(library(apply), [exclude/3, foldl/4, maplist/2]).
-:- use_module(library(lists), [append/3, member/2, memberchk/2, nth0/3]).
+:- use_module(library(lists), [append/3, memberchk/2, nth0/3]).
 :- use_module(library(occurs), [sub_term/2]).
 :- use_module(bodies, [plain_goal/2, special/2]).
-:- use_module(clause_places, [clause_places/5]).
+:- use_module(clause_places, [among/2, clause_places/5]).
 :- use_module(code, [code_module/2, code_program/2]).
 :- use_module(source, [clause_parts/3]).
 
@@ -155,11 +155,6 @@ unbound(Variable, Code, (var(Variable),Code)).
 
 numbered(Variable, N0-Code, N-(Variable=N,Code)) :-
     N is N0+1.
-
-among(Variables, Variable) :-
-    member(Other, Variables),
-    Other == Variable,
-    !.
 
 is_frame(Module, Place, Vars) :-
     \+ \+ clause(Module:'$k'(Place, Vars, _, _, _, _), _).

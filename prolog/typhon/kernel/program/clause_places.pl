@@ -1,6 +1,7 @@
 :- module(typhon_clause_places,
           [ clause_places/5,            % +Head, +Body, -Barrier, -Nodes, -Places
-            node_parts/3                % +Goal, +N, -Parts
+            node_parts/3,               % +Goal, +N, -Parts
+            among/2                     % +Variables, +Variable
           ]).
 :- use_module(library(apply), [exclude/3, include/3]).
 :- use_module(library(lists), [append/3, member/2]).
@@ -169,6 +170,8 @@ place(N, Goal, Nodes, Within, Seen, place(N, Old, New, Goal, Goals)) :-
     include(among(Before), Variables, Old),
     term_variables(Goal, InGoal),
     exclude(among(Before), InGoal, New).
+
+%!  among(+Variables:list, @Variable) is semidet.
 
 among(Variables, Variable) :-
     member(Other, Variables),

@@ -1,6 +1,5 @@
 :- module(typhon_code,
-          [ code_install/2,             % +Hash, +Program
-            code_install/3,             % +Hash, +Program, +Kinds
+          [ code_install/3,             % +Hash, +Program, +Kinds
             code_receive/2,             % +Hash, +Sent
             sent_program/2,             % +Sent, -Program
             code_unwrapped/3,           % +Sent, -Sent0, -Extras
@@ -62,18 +61,10 @@ a goal list, see typhon_machine.  The table '$mobile'/6 maps calls to them.
     stands/2,                   % Hash, Places: where they are known
     retired/2.                  % Hash, Module: deleted at the next eviction
 
-%!  code_install(+Hash, +Program) is det.
 %!  code_install(+Hash, +Program, +Kinds) is det.
 %
 %   Make Program available; does nothing if it is already.  Kinds is the result
 %   of mobile_predicates/3, where that is known.
-
-code_install(Hash, Program) :-
-    (   code_module(Hash, _)
-    ->  true
-    ;   program_kinds(Program, Kinds),
-        code_install(Hash, Program, Kinds)
-    ).
 
 code_install(Hash, Program, Kinds) :-
     (   code_module(Hash, _)
@@ -140,7 +131,8 @@ receive(Hash, Program) :-
         Program = program(_, State, Libraries, Clauses),
         maplist(is_list, [State, Libraries, Clauses]),
         program_hash(Program, Hash)
-    ->  code_install(Hash, Program)
+    ->  program_kinds(Program, Kinds),
+        code_install(Hash, Program, Kinds)
     ;   domain_error(program_of_hash(Hash), Program)
     ).
 

@@ -1,7 +1,5 @@
 :- module(typhon_loaded,
-          [ program_load/5,             % +Spec, -Program, -Initial, -Hash,
-                                        % -Kinds
-            program_load/6,             % +Spec, -Program, -Initial, -Hash,
+          [ program_load/6,             % +Spec, -Program, -Initial, -Hash,
                                         % -Kinds, -Places
             program_unknown/3           % +Hash, +State, :Offered
           ]).
@@ -35,13 +33,10 @@ the program imports are taken as they were at that time.
 
 :- meta_predicate program_unknown(+, +, 1).
 
-%!  program_load(+Spec, -Program, -Initial, -Hash, -Kinds) is det.
 %!  program_load(+Spec, -Program, -Initial, -Hash, -Kinds, -Places) is det.
 %
 %   As program_read/7, with the hash of Program.  Warnings are printed.
 
-program_load(Spec, Program, Initial, Hash, Kinds) :-
-    program_load(Spec, Program, Initial, Hash, Kinds, _).
 
 program_load(Spec, Program, Initial, Hash, Kinds, Places) :-
     load(Spec, loaded(Program, Initial, Hash, Kinds, Places)).

@@ -36,8 +36,6 @@ are discarded.
 
 :- setting(results, positive_integer, 20000,
            "Results of ended agents, kept by their home").
-:- setting(typhon_legacies:legacies, positive_integer, 20000,
-           "Now typhon_outcomes:results").
 :- setting(clones, positive_integer, 20000,
            "Clones of which their home knows the parent").
 

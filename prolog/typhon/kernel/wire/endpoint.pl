@@ -1,13 +1,11 @@
 :- module(typhon_endpoint,
-          [ endpoint_start/3,           % +Interface, +Port, -Address
-            endpoint_start/4,           % +Interface, +Port, +Options, -Address
+          [ endpoint_start/4,           % +Interface, +Port, +Options, -Address
             endpoint_start_alone/1,     % +Address
             endpoint_open/0,
             endpoint_stop/0,
             endpoint_listen/2,          % +Port, -Address
             endpoint_listen_end/1,      % +Address
             endpoint_address/1,         % ?Address
-            endpoint_proof/1,           % -Proof
             endpoint_process/1          % -Id
           ]).
 
@@ -62,7 +60,7 @@ under the mutex of the endpoint.
 :- use_module(session, [session/2]).
 :- use_module(transport,
               [ alone/1, alone_begin/1, alone_end/0, transport_begin/1,
-                transport_end/0, transport_proof/1 ]).
+                transport_end/0 ]).
 :- use_module(waiting, [peers_flush/1]).
 
 :- multifile
@@ -86,11 +84,6 @@ under the mutex of the endpoint.
     closed/0,                           % peers are not accepted yet
     running/4,                          % Address, Socket, Acceptor, Manager
     further/3.                          % Address, Socket, Acceptor
-
-%!  endpoint_start(+Interface, +Port, -Address) is det.
-
-endpoint_start(Interface, Port, Address) :-
-    endpoint_start(Interface, Port, [], Address).
 
 %!  endpoint_start(+Interface, +Port, +Options, -Address) is det.
 %
@@ -302,14 +295,6 @@ endpoint_address(Address) :-
     further(Address, _, _).
 endpoint_address(Address) :-
     alone(Address).
-
-%!  endpoint_proof(-Proof) is semidet.
-%
-%   In a hook: the proof of the peer whose frame is being handled, see
-%   typhon_transport. Fails in other threads.
-
-endpoint_proof(Proof) :-
-    transport_proof(Proof).
 
 		 /*******************************
 		 *          PROCESS ID          *

@@ -5,7 +5,6 @@
             contact_expect/1,           % +Address
             contact_expect_no_more/1,   % +Address
             contact_expected/1,         % +Address
-            contact/3,                  % ?Address, ?Process, ?State
             endpoint_peer/2,            % ?Address, ?Property
             endpoint_gone/1,            % +Address
             endpoint_left/1,            % +Address
@@ -40,14 +39,10 @@ error is recorded. The number of addresses is bounded, the oldest are discarded.
            "Addresses of which the last process met is remembered").
 
 :- dynamic
-    contact/3,                          % Address, Process, met or gone
+    contact/3,                          % Address, Process last met there or
+                                        % `none`, `met` or `gone`
     missed/2,                           % Address, Formal
     contact_expected/1.                 % Address
-
-%!  contact(?Address, ?Process, ?State) is nondet.
-%
-%   Process was the last one met at Address, `none` if there never was one.
-%   State is `met`, or `gone` if it has left.
 
 %!  contact_met(+Address, +Process) is det.
 %

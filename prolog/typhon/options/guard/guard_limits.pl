@@ -237,7 +237,5 @@ readable(Text) :-
     Length =< Max,
     made(Length).
 
-:- setting(typhon_refusing:clause_cells, positive_integer, 200 000,
-           "Now typhon_guard_limits:clause_cells").
 :- setting(typhon_guard_texts:atom_chars, positive_integer, 1000,
            "Now typhon_guard_limits:atom_chars").

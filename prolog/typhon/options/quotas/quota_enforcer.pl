@@ -38,9 +38,6 @@ the enforcer, too_long/2 in a worker; interrupt/2 and pause/2 are signals.
 :- setting(pause, between(0.0, 1.0), 0.8,
            "Agents that run for long where there are quotas pause for this \c
             part of the time while others run").
-:- setting(typhon_overuse:pause, number, 0.8,
-           "Now typhon_quota_enforcer:pause").
-
 :- multifile
     typhon_host_parts:part/4,
     typhon_scheduler:fire/2,

@@ -12,7 +12,7 @@
               [ endpoint_address/1, endpoint_ask_all/6, endpoint_reply/2 ]).
 :- use_module('../../kernel/host',
               [ address_parts/3, as_guest/1, host/3, host_link_cost/3,
-                host_load/2, host_neighbours/2, host_option/2,
+                host_listed/2, host_load/2, host_neighbours/2, host_option/2,
                 host_resolve/2, host_time/2, scheduler_call/1 ]).
 :- use_module('../../network', [network_hosts/2]).
 :- use_module('../../kernel/program', [code_program/2]).
@@ -47,7 +47,7 @@ answer, since an answer may be long.
 %   @error existence_error(host, Host), ambiguous_host(Name, Addresses)
 
 watched_places(Hosts, Places) :-
-    listed(Hosts, List),
+    host_listed(Hosts, List),
     findall(Endpoint-What,
             ( member(One, List), watched(One, Endpoint, What) ),
             Pairs0),
@@ -58,11 +58,6 @@ watched_places(Hosts, Places) :-
               wanted(Whats, Wanted),
               whose(Whats, Whose) ),
             Places).
-
-listed(Hosts, Hosts) :-
-    is_list(Hosts),
-    !.
-listed(Host, [Host]).
 
 watched(One, Endpoint, What) :-
     must_be(atom, One),

@@ -7,7 +7,7 @@
 :- use_module(library(pairs), [pairs_keys_values/3]).
 :- use_module(library(typhon/kernel/program),
               [ code_clear/0, code_install/3, code_module/2, fault/3,
-                goals_body/2, machine_run/3, plain_goals/2, program_load/5 ]).
+                goals_body/2, machine_run/3, plain_goals/2, program_load/6 ]).
 
 /** <module> Tests of typhon_chunks: programs run as the machine runs them
 
@@ -134,7 +134,7 @@ test(a_failure_inside_catch_is_noted_with_long_goals, Goal == (\+ n(1))) :-
                 (p(X) :- \+ n(X), move(a), Body),
                 n(1) ],
     assertion(\+ engines_differ(Clauses, _)),
-    program_load(clauses(Clauses), Program, _, Hash, Kinds),
+    program_load(clauses(Clauses), Program, _, Hash, Kinds, _),
     code_install(Hash, Program, Kinds),
     code_module(Hash, Module),
     next(Module, [main], Outcome),
@@ -143,7 +143,7 @@ test(a_failure_inside_catch_is_noted_with_long_goals, Goal == (\+ n(1))) :-
 test(a_stop_in_a_negation_is_the_fault_of_that, Goals =@= [\+ r(_),\+ r(_)]) :-
     Clauses = [ (:- agent(negation, [state([r/1])])),
                 (main :- \+ r(_), move(a)) ],
-    program_load(clauses(Clauses), Program, _, Hash, Kinds),
+    program_load(clauses(Clauses), Program, _, Hash, Kinds, _),
     code_install(Hash, Program, Kinds),
     code_module(Hash, Module),
     nb_setval(random_program, Module),
@@ -169,7 +169,7 @@ test(a_long_failure_before_a_silent_choice_has_its_name,
                           (main :- a(X, L), n(X), move(L)),
                           (a(1, Long)), (a(2, _) :- fail),
                           n(5) ],
-              program_load(clauses(Clauses), Program, _, Hash, Kinds),
+              program_load(clauses(Clauses), Program, _, Hash, Kinds, _),
               code_install(Hash, Program, Kinds),
               code_module(Hash, Module),
               nb_setval(random_program, Module),
@@ -190,7 +190,7 @@ test(a_fault_outlives_garbage_collection,
                 (main :- Main, move(a)),
                 (q(2) :- garbage_collect, atom_length(_, _)),
                 t(_) ],
-    program_load(clauses(Clauses), Program, _, Hash, Kinds),
+    program_load(clauses(Clauses), Program, _, Hash, Kinds, _),
     code_install(Hash, Program, Kinds),
     code_module(Hash, Module),
     nb_setval(random_program, Module),
@@ -207,7 +207,7 @@ test(a_fault_outlives_garbage_collection,
 test(frames_are_looked_up_while_the_first_is_added, Outcome == done) :-
     Clauses = [ (:- agent(adding, [])),
                 (main :- move(a), X = f(_), functor(X, _, _), atom(a)) ],
-    program_load(clauses(Clauses), Program, _, Hash, Kinds),
+    program_load(clauses(Clauses), Program, _, Hash, Kinds, _),
     code_install(Hash, Program, Kinds),
     code_module(Hash, Module),
     set_module(chunks_agent:base(Module)),
@@ -235,7 +235,7 @@ nested(N, ( (t(N),Nested -> true ; fail) -> t(N) ; t(0) )) :-
 %   stopped(+Clauses, -Module, -Goals): what is left at the first stop.
 
 stopped(Clauses, Module, Goals) :-
-    program_load(clauses(Clauses), Program, _, Hash, Kinds),
+    program_load(clauses(Clauses), Program, _, Hash, Kinds, _),
     code_install(Hash, Program, Kinds),
     code_module(Hash, Module),
     set_module(chunks_agent:base(Module)),
@@ -261,7 +261,7 @@ frame_of(Module, Goals, Frame, Rest) :-
 %   the goals of the frame that is made of Goals.
 
 program_frames(Clauses, Frames) :-
-    program_load(clauses(Clauses), Program, _, Hash, Kinds),
+    program_load(clauses(Clauses), Program, _, Hash, Kinds, _),
     code_install(Hash, Program, Kinds),
     code_module(Hash, Module),
     findall('$k'(Place, Vars)-Goals-Again,

@@ -6,7 +6,7 @@
 :- use_module(library(random)).
 :- use_module(library(typhon/kernel/program),
               [ code_clear/0, code_install/3, code_module/2, machine_run/3,
-                program_load/5 ]).
+                program_load/6 ]).
 :- use_module(library(typhon/kernel/base/text), [term_text/2, text_term/2]).
 
 /** <module> Tests of typhon_machine: stopping and going on anywhere
@@ -26,7 +26,7 @@ module, as on another host.
 
 travel(Terms, Reply, Outcome, Trace, Stops) :-
     program_load(clauses([(:- agent(test, [state([t_/1,n/1,rule/1])]))|Terms]),
-                 Program, Initial, Hash, Kinds),
+                 Program, Initial, Hash, Kinds, _),
     code_install(Hash, Program, Kinds),
     code_module(Hash, Module),
     fresh(Module, Initial, Agent),
@@ -189,7 +189,7 @@ test(goals_are_what_the_programmer_wrote,
      Goals =@= [(_->writeln(x);true), (a, ! ; b), !, main]) :-
     program_load(clauses([(:- agent(g)),
                           (main :- ( sleep(1) -> writeln(x) ; true ),
-                                   ( a, ! ; b ), !, main)]), P, _, H, Kinds),
+                                   ( a, ! ; b ), !, main)]), P, _, H, Kinds, _),
     code_install(H, P, Kinds),
     code_module(H, M),
     machine_run(context(M, M), [main], effect(sleep(1), _, Goals)).
@@ -198,7 +198,7 @@ test(a_tail_recursive_agent_does_not_grow, O-N-L == done-100000-2) :-
                           (main :- n(0), !),
                           (main :- retract(n(N)), N1 is N-1, assertz(n(N1)),
                                    move(there), main),
-                          n(100000)]), P, [Fact], H, Kinds),
+                          n(100000)]), P, [Fact], H, Kinds, _),
     code_install(H, P, Kinds),
     code_module(H, M),
     fresh(M, [Fact], A),

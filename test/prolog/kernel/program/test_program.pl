@@ -7,7 +7,7 @@
 :- use_module(library(readutil)).
 :- use_module(library(typhon)).
 :- use_module(library(typhon/kernel/program),
-              [payload_load/2, program_hash/2, program_load/5]).
+              [payload_load/2, program_hash/2, program_load/6]).
 
 /** <module> Tests of agent programs: what loads, what does not, and why
 
@@ -19,7 +19,7 @@ people see them.
 %   program_load(+Spec, -Program, -Initial): whatever is remembered.
 
 program_load(Spec, Program, Initial) :-
-    program_load(Spec, Program, Initial, _, _).
+    program_load(Spec, Program, Initial, _, _, _).
 
 %   with_file(+Lines, :Goal): Goal(File) for a file of these lines.
 
@@ -400,7 +400,7 @@ test(reading_leaves_nothing) :-
 %   from it.
 
 loads(File, Fact) :-
-    program_load(File, program(_, _, _, Clauses), _, _, _),
+    program_load(File, program(_, _, _, Clauses), _, _, _, _),
     last(Clauses, Fact).
 
 remembered(File) :-

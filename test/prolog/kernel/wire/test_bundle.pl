@@ -36,7 +36,7 @@ has_note(Note) :-
 with_peer(Address, Goal) :-
     project_file('test/lib/endpoint_peer.pl', File),
     no_leaks(setup_call_cleanup(
-        endpoint_start(localhost, 0, _),
+        endpoint_start(localhost, 0, [], _),
         with_swipl(['-g', 'set_setting(typhon_reader:silence,100)',
                     '-g', 'serve(0)', File], _, _, Out,
                    ( read_line_to_string(Out, Line),
@@ -114,7 +114,7 @@ test(to_oneself_are_taken_at_once, true(Found == [1-Me, 2-Me])) :-
     forget_notes,
     thread_self(Me),
     setup_call_cleanup(
-        endpoint_start(localhost, 0, Own),
+        endpoint_start(localhost, 0, [], Own),
         ( post_notes(Own, 1, 2),
           findall(Note-Thread, note(Note, Thread), Found) ),
         endpoint_stop).

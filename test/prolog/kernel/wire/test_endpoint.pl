@@ -47,7 +47,7 @@ with_endpoint(Goal) :-
     retractall(note(_)),
     retractall(seen(_, _)),
     setup_call_cleanup(
-        endpoint_start(localhost, 0, _),
+        endpoint_start(localhost, 0, [], _),
         once(Goal),
         endpoint_stop).
 
@@ -247,7 +247,7 @@ test(listens_and_is_silent, error(unreachable(_))) :-
         with_settings([typhon_handshake:handshake_time=0.3],
                      with_listener(5, A, endpoint_post(A, note, x))))).
 test(twice, error(permission_error(start, endpoint, _))) :-
-    with_endpoint(endpoint_start(localhost, 0, _)).
+    with_endpoint(endpoint_start(localhost, 0, [], _)).
 
 %   An attempt has been refused, and the connection manager has yet to hear of it, as
 %   a peer begins to listen: later callers get the result of a later attempt.  The
@@ -705,7 +705,7 @@ crowd :-
 
 other_cookie(Address) :-
     project_file('prolog/typhon/kernel/wire', File),
-    format(atom(Goal), "use_module('~w'),endpoint_start(localhost,0,_),\c
+    format(atom(Goal), "use_module('~w'),endpoint_start(localhost,0,[],_),\c
                         catch(endpoint_post('~w',note,x),\c
                               error(unreachable(_),_),\c
                               halt(3)),halt(0)", [File, Address]),
@@ -731,7 +731,7 @@ test(processes_do_not_keep_the_port) :-
         ( with_endpoint(( endpoint_address(Address), begun(Pid, In, Out) )),
           atomic_list_concat(['127.0.0.1', Port0], :, Address),
           atom_number(Port0, Port),
-          endpoint_start(localhost, Port, Address) ),
+          endpoint_start(localhost, Port, [], Address) ),
         ( endpoint_stop,
           close(In),
           close(Out),

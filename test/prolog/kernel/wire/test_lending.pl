@@ -68,7 +68,7 @@ alone(Me, Goal) :-
     forall(member(T, [hook(_, _), run(_, _, _), lent(_), back(_)]),
            retractall(T)),
     setup_call_cleanup(
-        endpoint_start(localhost, 0, Me),
+        endpoint_start(localhost, 0, [], Me),
         ( manager_connect(Me), once(Goal) ),
         endpoint_stop).
 

@@ -28,7 +28,7 @@ user:message_hook(typhon(endpoint, Message), _, _) :-
 
 with_endpoint(Goal) :-
     retractall(told(_)),
-    setup_call_cleanup(endpoint_start(localhost, 0, _),
+    setup_call_cleanup(endpoint_start(localhost, 0, [], _),
                        once(Goal),
                        endpoint_stop).
 

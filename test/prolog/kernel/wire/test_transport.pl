@@ -43,8 +43,8 @@ typhon_transport:opens(marked, server, In, Out, In, Out, mark(client)) :-
     put_byte(Out, 0'm),
     flush_output(Out).
 
-typhon_endpoint:requested(proof, mine, _, ReplyTo) :-
-    endpoint_proof(Proof),
+typhon_endpoint:requested(proof, mine, Peer, ReplyTo) :-
+    endpoint_proof(Peer, Proof),
     endpoint_reply(ReplyTo, Proof).
 
 :- meta_predicate with_endpoint(+, 1).

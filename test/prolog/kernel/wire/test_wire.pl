@@ -42,7 +42,7 @@ user:message_hook(typhon(endpoint, turned_away(_, silent)), _, _) :-
 with_endpoint(Goal) :-
     retractall(endpoint_peer:note(_)),
     setup_call_cleanup(
-        endpoint_start(localhost, 0, _),
+        endpoint_start(localhost, 0, [], _),
         once(Goal),
         endpoint_stop).
 
@@ -185,7 +185,7 @@ test(a_wrong_cookie_is_reported_at_once) :-
     project_file('prolog/typhon/kernel/wire', File),
     with_endpoint(( endpoint_address(A),
                     format(atom(Goal),
-                           "use_module('~w'),endpoint_start(localhost,0,_),\c
+                           "use_module('~w'),endpoint_start(localhost,0,[],_),\c
                             settings:set_setting(typhon_connection_manager:connect_time,60),\c
                             catch(endpoint_post('~w',note,x),\c
                                   error(unreachable(_),_),\c

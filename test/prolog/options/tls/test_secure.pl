@@ -14,7 +14,7 @@
 :- use_module(library(settings), [set_setting/2, setting/2]).
 :- use_module(library(socket)).
 :- use_module(library(typhon)).
-:- use_module(library(typhon/kernel/wire), [endpoint_proof/1, endpoint_reply/2]).
+:- use_module(library(typhon/kernel/wire), [endpoint_proof/2, endpoint_reply/2]).
 
 :- use_module('../../../../app/typhon/keys', [keys_revoke/2]).
 
@@ -26,8 +26,8 @@
 user:message_hook(typhon(endpoint, turned_away(_, Why)), _, _) :-
     assertz(told(Why)).
 
-typhon_endpoint:requested(who_am_i, _, _, ReplyTo) :-
-    endpoint_proof(Proof),
+typhon_endpoint:requested(who_am_i, _, Peer, ReplyTo) :-
+    endpoint_proof(Peer, Proof),
     endpoint_reply(ReplyTo, Proof).
 
 :- meta_predicate with_secure_host(+, 1).
