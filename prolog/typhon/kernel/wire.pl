@@ -31,5 +31,4 @@ This is the interface of the layer: higher layers import from here.
             [line_read/3, line_write/2]).
 :- reexport(wire/cookie, [cookie/1, random_hex/2]).
 :- reexport(wire/threads, [manager_notify/1]).
-:- reexport(wire/transport, [transport_disagrees/1]).
-:- reexport(wire/refusals, [refusal_text/2]).
+:- reexport(wire/transport, [refusal_text/2, transport_disagrees/1]).

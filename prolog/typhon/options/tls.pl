@@ -12,9 +12,9 @@ This is the interface of the layer.
 
 :- multifile
     typhon_handshake:other_line/2,
-    typhon_refusals:text/2,
     typhon_transport:first_byte/2,
-    typhon_transport:misfit/4.
+    typhon_transport:misfit/4,
+    typhon_transport:refusal/2.
 
 %   A TLS record begins with this byte.  The line is sent to clients of the
 %   other kind.
@@ -32,7 +32,7 @@ typhon_handshake:other_line("typhon tls", tls(wanted)).
 
 %   The problem with a peer, as a text.
 
-typhon_refusals:text(tls(Why), Text) :-
+typhon_transport:refusal(tls(Why), Text) :-
     (   said(Why, Text0)
     ->  Text = Text0
     ;   flaw(Why, Flaw)

@@ -155,8 +155,6 @@ part_file('tools/source_view','tools/source_view/listing').
 part_setting(again_seconds,typhon_monitors,number,1,'Seconds until a lost request to the home of an agent is repeated','options/supervision/monitors').
 part_setting(answer_seconds,typhon_processes,number,2,'Seconds of silence after which a stopping process is killed','network/processes').
 part_setting(atom_chars,typhon_guard_limits,positive_integer,1000,'Atoms that untrusted agents make have at most so many characters','options/guard/guard_limits').
-part_setting(atom_chars,typhon_guard_texts,positive_integer,1000,'Now typhon_guard_limits:atom_chars','options/guard/guard_limits').
-part_setting(ball_cells,typhon_guard_arguments,positive_integer,10000,'Now typhon_guard_calls:ball_cells','options/guard/guard_calls').
 part_setting(ball_cells,typhon_guard_calls,positive_integer,10000,'Parts of a term that an untrusted agent throws, at most','options/guard/guard_calls').
 part_setting(births,typhon_birth,positive_integer,20000,'Agents whose proofs of ownership are kept','options/identity/birth').
 part_setting(browsers,typhon_page_browsers,positive_integer,32,'Browsers that may be connected to a page at a time','tools/page/browsers').

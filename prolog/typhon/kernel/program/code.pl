@@ -95,7 +95,7 @@ code_sent(Hash, Sent) :-
 
 %!  code_receive(+Hash, +Sent) is det.
 %
-%   As code_install/2, for a program that a peer sent under this Hash, see
+%   As code_install/3, for a program that a peer sent under this Hash, see
 %   code_sent/2.
 %
 %   @error domain_error(program_of_hash(Hash), Program)

@@ -7,8 +7,18 @@
 /** <module> The thread of one connection
 
 A connection has one thread, which opens its streams, gives the connection to
-the session of the peer, see resumption.pl, reads frames until it breaks, and
-closes the streams.
+the session of the peer, reads frames until it breaks, and closes the streams.
+
+Two endpoints that have completed the handshake look up their session, or open
+one, and give it the new connection. On it each reports how many frames it
+has received, and sends the rest again.
+
+Both ends may connect at the same time, and a connection may be dead on one
+side only. So a new connection replaces an old one, and of two processes the
+one with the smaller key, the arbiter, decides in which order that happens: it
+sends its count first, and on one connection at a time. Of two connections that
+were begun together it refuses the later; the other process accepts the
+connection on which the arbiter sends its count.
 
 *Threading*: incoming/5 and outgoing/2 are the goals of threads of the wire.
 */
@@ -20,17 +30,23 @@ closes the streams.
               [ tcp_close_socket/1, tcp_connect/2, tcp_open_socket/3,
                 tcp_setopt/2, tcp_socket/1 ]).
 :- use_module(peer_cache, [contact_gone/1, contact_met/2]).
-:- use_module(handshake, [hello_peer/4, hello_to/3]).
+:- use_module(cookie, [cookie/1]).
+:- use_module(handshake,
+              [ authenticate/6, hello_codec/3, hello_peer/4, hello_to/3,
+                line_read/3, line_write/2 ]).
 :- use_module(threads, [manager_notify/1]).
 :- use_module(lending, [lent_away/0]).
-:- use_module(resumption,
-              [ meet/7, own_session/1, prove/5, session_left/0,
-                session_lost/2 ]).
 :- use_module(reader, [read_frames/3]).
-:- use_module(refusals, [refusal_text/2, refused/2]).
-:- use_module(session, [route_add/2, session_adopting/2, session_peer/3]).
+:- use_module(session,
+              [ route_add/2, session_adopting/2, session_key/2, session_open/5,
+                session_peer/3, session_up_since/2 ]).
 :- use_module(transport,
-              [transport_close/0, transport_first/2, transport_open/6]).
+              [ refusal_text/2, transport_close/0, transport_first/2,
+                transport_open/6 ]).
+:- use_module(unacked, [session_received/2, unacked_open/1]).
+:- use_module(writer,
+              [ connection_is/2, session_install/4, session_left/0,
+                session_lost/2, session_retire/1 ]).
 
 :- multifile
     harmless/1,                 % Formal: a break that need not be reported
@@ -38,6 +54,7 @@ closes the streams.
 
 :- meta_predicate
     incoming(+, +, +, 1, +),
+    meet(+, +, +, +, +, -, 1),
     with_streams(0, ?, ?, 0).
 
 %!  incoming(+In, +Out, +Ip, :Stage, +Me) is det.
@@ -45,7 +62,7 @@ closes the streams.
 %   Serve the client at Ip, whose streams are In and Out; Me is the hello of
 %   this process.  Stage is called with `silent`, from when on this thread
 %   closes the streams, with `heard` when the client has sent something, and
-%   with `proved` or `refused`.  If a call fails the connection ends.
+%   with `proved` or refused(Formal).  If a call fails the connection ends.
 
 incoming(In, Out, Ip, Stage, Me0) :-
     get_time(Start),
@@ -77,9 +94,7 @@ turned_away(Ip, Formal, Stage) :-
     debug(typhon(connect), '~w: a client was refused: ~p', [Ip, Formal]),
     (   nb_current(typhon_proved, true) % it came by another connection
     ->  true
-    ;   call(Stage, refused)
-    ->  refused(Ip, Formal)
-    ;   true                            % the evicting thread has counted it
+    ;   ignore(call(Stage, refused(Formal)))
     ).
 
 %   The address at which the peer claims to listen leads to its session, unless
@@ -196,6 +211,120 @@ open_streams(Socket, In, Out) :-
     set_stream(Out, encoding(octet)),
     set_stream(In, buffer_size(65536)),
     set_stream(Out, buffer_size(65536)).
+
+		 /*******************************
+		 *     AFTER THE HANDSHAKE      *
+		 *******************************/
+
+%   prove(+Role, +In, +Out, +Me, -Peer) is det.
+%
+%   Me is the hello of this process, Peer that of the peer, which has proved
+%   itself. Role is server(Start), for a connection accepted at the time Start,
+%   or client(Start), for one begun then.
+%
+%   A server reports to a client that its proof is wrong, so that the client
+%   does not try again.
+
+prove(client(_), In, Out, Me, Peer) :-
+    authenticate(client, In, Out, Me, cookie, Peer).
+prove(server(_), In, Out, Me, Peer) :-
+    catch(authenticate(server, In, Out, Me, cookie, Peer),
+          error(permission_error(authenticate, peer, cookie), Context),
+          ( line_write(Out, refused),
+            throw(error(permission_error(authenticate, peer, cookie),
+                        Context)) )).
+
+%   meet(+Role, +In, +Out, +Me, +Peer, -Session, :Known) is semidet.
+%
+%   Give the connection to the session with the peer; Peer is Hello-Proof.
+%   Before, call(Known, Session) notes the addresses that lead to the session:
+%   it has one connection for all of them.
+
+meet(Role, In, Out, Me, Peer-Proof, Session, Known) :-
+    hello_codec(Me, Peer, Codec),
+    session_keys(Role, Me, Peer, MyKey, Key),
+    session_open(Key, Peer-Proof, Codec, unacked_open, Session),
+    call(Known, Session),
+    hello_peer(Peer, _, _, Address),
+    debug(typhon(session), '~w: a connection, with ~w, ~w',
+          [Key, Address, Codec]),
+    adopt(MyKey, Key, Role, Session, In, Out).
+
+%   A process that connects to itself has one session for each end.
+
+session_keys(Role, Me, Peer, MyKey, Key) :-
+    hello_peer(Me, P1, S1, _),
+    hello_peer(Peer, P2, S2, _),
+    (   P1-S1 == P2-S2
+    ->  own_keys(Role, MyKey, Key)
+    ;   atomic_list_concat([P1, S1], '.', MyKey),
+        atomic_list_concat([P2, S2], '.', Key)
+    ).
+
+own_keys(client(_), self_client, self_server).
+own_keys(server(_), self_server, self_client).
+
+%   own_session(+Session) is semidet.
+%
+%   Session joins this process to itself.
+
+own_session(Session) :-
+    session_key(Session, Key),
+    own_keys(_, Key, _),
+    !.
+
+adopt(MyKey, Key, Role, Session, In, Out) :-
+    MyKey @< Key,
+    !,
+    session_adopting(Session,
+                     ( needed(Role, Session),
+                       session_retire(Session),
+                       say_count(Session, Out),
+                       hear_count(In, Count),
+                       install(Session, Out, Count) )).
+adopt(_, _, _, Session, In, Out) :-
+    hear_count(In, Count),
+    session_adopting(Session,
+                     ( session_retire(Session),
+                       say_count(Session, Out),
+                       install(Session, Out, Count) )).
+
+%   If another connection has been made since this one was begun, this one is
+%   not needed.  The peer got the count on the other one, and has it when it
+%   detects that this one is closed.
+
+needed(Role, Session) :-
+    arg(1, Role, Start),
+    session_up_since(Session, Start),
+    !,
+    throw(wire_thread_end(met)).
+needed(_, _).
+
+%   The hooks run in the same step: when a process has died, the layer that sent
+%   to it sends again when it is notified of its successor.
+
+install(Session, Out, Count) :-
+    thread_self(Me),
+    sig_atomic(( session_install(Session, Me, Out, Count),
+                 connection_is(Session, up) )).
+
+say_count(Session, Out) :-
+    session_received(Session, Count),
+    format(string(Line), "resume ~d", [Count]),
+    line_write(Out, Line).
+
+hear_count(In, Count) :-
+    setting(typhon_handshake:handshake_time, Seconds),
+    get_time(Now),
+    Deadline is Now+Seconds,
+    line_read(In, Deadline, Line),
+    (   string_concat("resume ", Digits, Line),
+        number_string(Count, Digits),
+        integer(Count),
+        Count >= 0
+    ->  true
+    ;   syntax_error(resume)
+    ).
 
 		 /*******************************
 		 *            SERVING           *

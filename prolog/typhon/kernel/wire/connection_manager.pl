@@ -34,7 +34,7 @@ that may take long is done by a background thread.
 :- use_module(peer_cache,
               [contact_gone/1, contact_missed/2]).
 :- use_module(request, [requests_lost/2, session_unfinished/1]).
-:- use_module(resumption, [session_close/2, session_retire/1]).
+:- use_module(writer, [session_close/2, session_retire/1]).
 :- use_module(session,
               [ route/2, route_key/2, route_up/2, session/2,
                 session_adopting/2, session_key/2, session_up/1 ]).

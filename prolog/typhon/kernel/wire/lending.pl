@@ -33,7 +33,7 @@ The token goes to the thread that takes it first.
 :- use_module(threads,
               [ in_background/2, manager_notify/1, wire_thread_leaves/1,
                 wire_thread_obey/1 ]).
-:- use_module(resumption, [session_lost/2]).
+:- use_module(writer, [session_lost/2]).
 :- use_module(transport, [transport_forget/0]).
 
 :- meta_predicate

@@ -17,7 +17,7 @@
 /** <module> Sending in a session: each frame arrives once
 
 A frame is kept until it is acknowledged, see unacked.pl, and is sent over
-another connection if one breaks, see resumption.pl.
+another connection if one breaks, see writer.pl.
 
 This module has the predicates that senders call; writer.pl writes.
 

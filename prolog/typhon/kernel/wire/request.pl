@@ -12,8 +12,7 @@
             dispatch_all/2,             % +Session, +Frames
             take_post/3,                % +Kind, +Term, +Peer
             take_request/4,             % +Kind, +Term, +Peer, +ReplyTo
-            endpoint_later/1,           % :Goal
-            connection_is/2             % +Session, +State
+            endpoint_later/1            % :Goal
           ]).
 
 /** <module> Requests and posts, and the frames that carry them
@@ -42,8 +41,7 @@ it is answered once.
 :- use_module(outbox,
               [ session_answer/2, session_object/2, session_owes/0,
                 session_send/2, session_send_later/2 ]).
-:- use_module(session,
-              [route/2, session_key/2, session_peer/3]).
+:- use_module(session, [session_key/2, session_peer/3]).
 :- use_module(transport, [transport_as/2, transport_proof/1]).
 :- use_module(settlement, [objection_answered/3]).
 :- use_module(unacked,
@@ -286,20 +284,6 @@ take_post(Kind, Term, Peer) :-
 
 take_request(Kind, Term, Peer, ReplyTo) :-
     attempt(typhon_endpoint:requested(Kind, Term, Peer, ReplyTo), Kind).
-
-%!  connection_is(+Session, +State) is det.
-%
-%   Call the hooks connection/2: the connection is `up` or `down`, for each
-%   address that leads to the peer.
-
-connection_is(Session, State) :-
-    session_peer(Session, _, Claimed),
-    findall(Address, ( Address = Claimed ; route(Address, Session) ),
-            Addresses0),
-    sort(Addresses0, Addresses),
-    forall(( member(Peer, Addresses),
-             clause(typhon_endpoint:connection(Peer, State), Body) ),
-           reporting(typhon_endpoint:Body, connection)).
 
 spoil(reply_to(Session, Id), Kind) :-
     reporting(session_answer(Session, spoilt(Id)), Kind).

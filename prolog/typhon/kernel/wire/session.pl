@@ -31,7 +31,7 @@
 /** <module> Sessions between processes, and their connections
 
 A session joins this process to another for the life of both, over any number
-of connections, one at a time. outbox.pl sends in it; resumption.pl gives it its
+of connections, one at a time. outbox.pl sends in it; connection.pl gives it its
 connections.
 
 A session is session(Key, Codec, Mutex, Adoption, peer(Process, Address, Proof),

@@ -11,6 +11,7 @@
             transport_as/2,             % +Proof, :Goal
             transport_forget/0,
             transport_input/2,          % +In, +Seconds
+            refusal_text/2,             % +Why, -Text
             alone/1,                    % ?Address
             alone_begin/1,              % +Address
             alone_end/0
@@ -34,6 +35,8 @@ hooks
                                 a client of transport Client has connected to an
                                 endpoint of transport Own: it gets Line, and is
                                 refused because of Why
+    refusal(Why, Text)          Text describes Why of misfit/4, or of an error
+                                of opens/7
     opens(Transport, Role, In, Out, TIn, TOut, Proof)
                                 the connection uses TIn and TOut, which read and
                                 write In and Out; the peer has given Proof
@@ -64,10 +67,12 @@ transport_input/2 tests both.
     disagrees/1,                        % Option
     first_byte/2,                       % Byte, Transport
     misfit/4,                           % Client, Own, Line, Why
+    refusal/2,                          % Why, Text
     opens/7,                            % Transport, Role, In, Out, TIn, TOut,
                                         % Proof
     closes/0.
 
+:- dynamic refusal/2.
 :- dynamic current/3.           % Transport, Own, Unknown: not plain TCP
 
 %!  transport_begin(+Options) is det.
@@ -154,6 +159,15 @@ client(Byte, Transport) :-
     first_byte(Byte, Transport),
     !.
 client(_, other).
+
+%!  refusal_text(+Why, -Text:atom) is semidet.
+%
+%   Text describes Why of permission_error(authenticate, peer, Why), if it is a
+%   reason that an option defines.
+
+refusal_text(Why, Text) :-
+    refusal(Why, Text),
+    !.
 
 %!  transport_open(+Role, +In, +Out, -TIn, -TOut, -Proof) is det.
 %

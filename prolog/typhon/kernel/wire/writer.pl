@@ -3,11 +3,15 @@
             put_control/3,              % +Session, +Kind, +Bytes
             session_release/1,          % +Session
             flush_out/1,                % +Key
-            writer_begin/5,             % +Session, +Key, +Thread, +Out, +Again
-            writer_end/1                % +Key
+            session_install/4,          % +Session, +Thread, +Out, +PeerCount
+            session_lost/2,             % +Session, +Thread
+            session_left/0,
+            session_retire/1,           % +Session
+            session_close/2,            % +Session, -Unsent
+            connection_is/2             % +Session, +State
           ]).
 
-/** <module> Writing to the connection of a session
+/** <module> The connection of a session: written to, and replaced
 
 Writing must never block the thread of a reader, or two readers could wait
 for each other, nor a thread of a caller. A sender therefore writes a frame
@@ -22,26 +26,36 @@ while so much is under way that the peer is sure to acknowledge some of it, and
 go in one frame after the acknowledgement. The peer would not read them before,
 anyway. A frame that is sent after them takes them along.
 
-*Threading*: a thread that calls a predicate of this module holds the mutex of
-the session, which guards the order, except for session_release/1 and
-writer_end/1: these are for the thread of the connection, or the one that acts
-in its place. While a session is up and has no pusher, only held posts wait.
+A session moves from connection to connection. On the new one the frames are
+sent again that the peer lacks. A session that is closed gets no other.
+
+*Threading*: a thread that calls put_frame/4, put_control/3 or flush_out/1 holds
+the mutex of the session, which guards the order. session_release/1,
+session_install/4 and session_left/0 are for the thread of the connection, or
+the one that acts in its place. A thread that gives a session another
+connection, or ends it, retires and closes the session, inside
+session_adopting/2 or after all threads have ended. While a session is up and
+has no pusher, only held posts wait.
 */
 
+:- use_module(library(apply), [maplist/3]).
 :- use_module(library(debug), [debug/3]).
-:- use_module(library(lists), [member/2]).
+:- use_module(library(lists), [append/3, member/2]).
 :- use_module('../base/error_text', [print_error/2]).
-:- use_module(frame, [frame_write/3]).
+:- use_module(frame, [bytes_term/3, frame_write/3]).
 :- use_module(session,
-              [ session_key/2, session_locked/2, session_must_exist/3,
-                session_up/1, session_window/3, transport/3,
-                transport_broken/2 ]).
+              [ route/2, session/2, session_codec/2, session_forget/1,
+                session_key/2, session_locked/2, session_must_exist/3,
+                session_peer/3, session_up/1, session_window/3, transport/3,
+                transport_attach/3, transport_broken/2, transport_detach/2,
+                transport_stop/2, transport_thread/2 ]).
 :- use_module(threads,
               [manager_notify/1, wire_thread_create/3, wire_thread_end/2]).
 :- use_module(unacked,
-              [ unacked_control/5, unacked_counts/4, unacked_next/5,
-                unacked_owed/2, unacked_sent/5, unacked_told/1,
-                unacked_waiting/1, unacked_waits/3 ]).
+              [ unacked_close/3, unacked_control/5, unacked_counts/4,
+                unacked_next/5, unacked_owed/2, unacked_resumed/4,
+                unacked_sent/5, unacked_told/1, unacked_waiting/1,
+                unacked_waits/3 ]).
 
 :- dynamic
     pusher/2,                           % Key, Thread: it alone may write
@@ -192,7 +206,7 @@ next_frame(Session, Out, Most, Counts, Bytes) :-
                 *          THE PUSHER          *
                 *******************************/
 
-%!  writer_begin(+Session, +Key, +Thread, +Out, +Again) is det.
+%   writer_begin(+Session, +Key, +Thread, +Out, +Again) is det.
 %
 %   The session has a new connection, Out of Thread: write the frames Again, and
 %   those that wait.
@@ -256,7 +270,7 @@ nothing_waits(Session, Key) :-
         fail
     ).
 
-%!  writer_end(+Key) is det.
+%   writer_end(+Key) is det.
 %
 %   The connection is stopped: end the pusher of the session, if any, and wait
 %   for its end; drop the controls, which were for this connection.
@@ -267,3 +281,115 @@ writer_end(Key) :-
     ;   true
     ),
     retractall(control(Key, _, _)).
+
+                /*******************************
+                *      ANOTHER CONNECTION      *
+                *******************************/
+
+%!  session_install(+Session, +Thread, +Out, +PeerCount) is det.
+%
+%   Thread has a new connection for Session, Out; the peer has received
+%   PeerCount frames. The frames that it lacks are sent again. The connection
+%   manager receives up(Key) in the same step: so waiting threads are notified
+%   even if Thread ends.
+%
+%   @error session_closed
+
+session_install(Session, Thread, Out, PeerCount) :-
+    session_locked(Session,
+                   install(Session, Key, Thread, Out, PeerCount)),
+    debug(typhon(session), '~w: up; it has ~D frames', [Key, PeerCount]).
+
+install(Session, Key, Thread, Out, PeerCount) :-
+    session_must_exist(Session, Key, _),
+    byte_count(Out, Bytes),
+    unacked_resumed(Session, PeerCount, Bytes, Again),
+    transport_attach(Key, Thread, Out),
+    writer_begin(Session, Key, Thread, Out, Again),
+    ignore(manager_notify(up(Key))).
+
+%   session_down(+Session, +Thread)
+%
+%   The connection of Thread is lost. For that thread only, or one that acts in
+%   its place.
+
+session_down(Session, Thread) :-
+    session_key(Session, Key),
+    session_locked(Session, transport_stop(Key, Thread)),
+    writer_end(Key),
+    session_locked(Session, transport_detach(Key, Thread)),
+    ignore(manager_notify(wanted(Key))),
+    debug(typhon(session), '~w: down', [Key]).
+
+%!  session_lost(+Session, +Thread) is det.
+%
+%   If the session still has the connection of Thread, detach it, and call the
+%   hooks connection/2.
+
+session_lost(Session, Thread) :-
+    session_key(Session, Key),
+    (   transport_thread(Key, Thread)
+    ->  session_down(Session, Thread),
+        connection_is(Session, down)
+    ;   true
+    ).
+
+%!  session_left is det.
+%
+%   This thread is about to close its connection.  It may have been signalled
+%   to end after session_install/4 and before it began to serve: then the
+%   session must stop writing to the closed stream.
+
+session_left :-
+    thread_self(Me),
+    forall(( transport_thread(Key, Me), session(Key, Session) ),
+           session_lost(Session, Me)).
+
+%!  session_retire(+Session) is det.
+%
+%   End the connection of Session, if any, and wait for its end.
+
+session_retire(Session) :-
+    session_key(Session, Key),
+    forall(transport_thread(Key, Thread),
+           ( wire_thread_end(Thread, replaced),
+             session_lost(Session, Thread) )).  % a lent thread is elsewhere
+
+%!  session_close(+Session, -Unsent) is semidet.
+%
+%   Remove a session that has no connection; inside session_adopting/2, so
+%   that it gets none. Fails if it was removed already. Unsent are the terms of
+%   frames that were never written to any connection, and the results of
+%   hand-overs, handed(Token, Result).
+
+session_close(Session, Unsent) :-
+    session_locked(Session, forget(Session, Waiting, Handed)),
+    session_codec(Session, Codec),
+    maplist(frame_term(Codec), Waiting, Terms),
+    append(Terms, Handed, Unsent).
+
+frame_term(Codec, Frame, Term) :-
+    arg(1, Frame, Bytes),
+    bytes_term(Codec, Bytes, Term).
+
+forget(Session, Waiting, Handed) :-
+    session_forget(Session),
+    unacked_close(Session, Waiting, Handed).
+
+%!  connection_is(+Session, +State) is det.
+%
+%   Call the hooks connection/2: the connection is `up` or `down`, for each
+%   address that leads to the peer.
+
+connection_is(Session, State) :-
+    session_peer(Session, _, Claimed),
+    findall(Address, ( Address = Claimed ; route(Address, Session) ),
+            Addresses0),
+    sort(Addresses0, Addresses),
+    forall(( member(Peer, Addresses),
+             clause(typhon_endpoint:connection(Peer, State), Body) ),
+           reported(typhon_endpoint:Body)).
+
+reported(Hook) :-
+    catch(ignore(Hook), error(Formal, Context),
+          print_error(error, error(Formal, Context))).

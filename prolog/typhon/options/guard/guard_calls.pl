@@ -255,6 +255,3 @@ ends_thread(time_limit_exceeded(_)).
 sink(string(_)).
 sink(codes(_)).
 sink(chars(_)).
-
-:- setting(typhon_guard_arguments:ball_cells, positive_integer, 10 000,
-           "Now typhon_guard_calls:ball_cells").

@@ -236,6 +236,3 @@ readable(Text) :-
     most_characters(Max),
     Length =< Max,
     made(Length).
-
-:- setting(typhon_guard_texts:atom_chars, positive_integer, 1000,
-           "Now typhon_guard_limits:atom_chars").

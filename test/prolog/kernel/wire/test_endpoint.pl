@@ -340,9 +340,9 @@ test(post_before_its_deadline_waits_for_the_next_connection,
         ( endpoint_post(A, note, 0),
           endpoint_flush(20),
           typhon_session:route(A, Session),
-          typhon_resumption:session_retire(Session),
+          typhon_writer:session_retire(Session),
           with_held(
-              typhon_resumption:say_count(_, _),
+              typhon_connection:say_count(_, _),
               thread_create(typhon_waiting:manager_connect(A), Connects),
               ( truth(endpoint_post_up(A, note, 1), Up),
                 thread_create(( thread_send_message(endpoint_gate, posts),
@@ -379,7 +379,7 @@ gives_up(Address) :-
 
 test(connection_is_reported_even_if_its_thread_ends) :-
     with_endpoint(with_peer(A,
-        ( wrap_predicate(typhon_resumption:session_install(_, _, _, _),
+        ( wrap_predicate(typhon_writer:session_install(_, _, _, _),
                          told_to_end, Wrapped,
                          ( Wrapped, test_endpoint:told_to_end )),
           assertz(test_endpoint:to_end),

@@ -115,11 +115,11 @@ as_process(Id, Goal) :-
 with_late_callers(Goal) :-
     thread_self(Me),
     setup_call_cleanup(
-        wrap_predicate(typhon_resumption:session_keys(Role, _, _, _, _),
+        wrap_predicate(typhon_connection:session_keys(Role, _, _, _, _),
                        late,
                        Keys, ( test_wire:wait_if_called(Role, Me), Keys )),
         Goal,
-        unwrap_predicate(typhon_resumption:session_keys/5, late)).
+        unwrap_predicate(typhon_connection:session_keys/5, late)).
 
 :- public wait_if_called/2.
 
