@@ -30,7 +30,6 @@ This is the interface of the layer: higher layers import from here.
                 time_hold/1, time_kind/1, time_let_go/1, time_now/1,
                 time_repeats/2, time_seed/1, time_signal/1, time_stands/1,
                 time_wait/3, time_wanted/2 ]).
-:- reexport('host/peer_rights').
 :- reexport(host/turns,
             [ context/3, context_agent/1, context_clear/0, context_host/1,
               context_now/2, context_set/3, turn_later/1, turn_of/3,
@@ -48,4 +47,4 @@ This is the interface of the layer: higher layers import from here.
             [ host_begin/2, host_end/1, host_listed/2, host_restart/2, host_start/1,
               host_start/2, host_stop/1, hosts_exclusively/1, hosts_go_on/0,
               hosts_rest/0 ]).
-:- reexport(host/remote, [host_do/2, host_unknown/1, remote/2]).
+:- reexport('host/remote').

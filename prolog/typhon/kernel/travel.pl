@@ -24,7 +24,7 @@ This is the interface of the layer: higher layers import from here.
               [ agent_ended/4, agent_ends/2, agent_faulty/5, agent_resumed/3,
                 agent_resumed_from/3, ended_agent/1, whereabouts/2 ]).
 :- reexport(travel/post, [post/3, post_on/2, post_via/4]).
-:- reexport(travel/dead_letters, [mail_lost/3]).
+:- reexport(travel/routing, [mail_lost/3]).
 :- reexport(travel/backlog, [post_tried/0, retries_go_on/0]).
 :- reexport(travel/senders, [senders_check/1, speaks_for/3]).
 :- reexport(travel/news, [news_carried/1, news_hurry/0]).

@@ -12,7 +12,7 @@
 
 The option peer(Rules) of a host is a list of Peer-Rights.  Peer is `cookie`,
 certificate(Name), or a pattern of these; Rights is `all` or a list of rights,
-see typhon_peer_rights; the right `inspect` is called `watch` here.  The first
+see typhon_remote; the right `inspect` is called `watch` here.  The first
 rule that matches the proof of a peer applies; a peer without a matching rule
 has no right.
 
@@ -61,7 +61,7 @@ forbids(Rules, from(Peer, _, _), _, _, refused(peer)) :-
     endpoint_proof(Peer, Proof),
     \+ permits(Rules, Proof, agents).
 
-%   permits(+Rules, +Proof, +Right): see typhon_peer_rights.
+%   permits(+Rules, +Proof, +Right): see typhon_remote.
 
 permits(Rules, Proof, Right) :-
     member(Peer-Rights, Rules),

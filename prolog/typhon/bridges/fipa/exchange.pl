@@ -37,7 +37,7 @@ connection to another process of the network.
 
 :- multifile
     typhon_fipa_carriage:returned/4,
-    typhon_dead_letters:returned/3.
+    typhon_routing:returned/3.
 
                 /*******************************
                 *              OUT             *
@@ -273,7 +273,7 @@ why(Formal, Why) :-
 
 %   Messages that post/3 accepted, and that could not be delivered later.
 
-typhon_dead_letters:returned(fipa(_), Id, Acl) :-
+typhon_routing:returned(fipa(_), Id, Acl) :-
     acl_parameter(Acl, via(Address)),
     platform(Host, _, _, _),
     host_address(Host, Address),

@@ -47,7 +47,7 @@ looks up one list of closures, and a host without options has none.
   | adds_clause   | Module, Clause               | a running agent, whose      |
   |               |                              | state is in Module, adds it |
   | permit        | Proof, Right                 | a peer uses a right, see    |
-  |               |                              | typhon_peer_rights          |
+  |               |                              | typhon_remote               |
   | security      | Host, Peer, Proof, What      | a security event, see there |
   | payload       | From, Payload, Host, Reason  | a payload is refused, see   |
   |               |                              | typhon_payloads             |

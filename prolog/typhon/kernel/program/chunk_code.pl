@@ -6,8 +6,9 @@
 :- use_module(library(apply), [exclude/3, foldl/4, maplist/3]).
 :- use_module(library(lists), [append/3, member/2, memberchk/2]).
 :- use_module(library(occurs), [sub_term/2]).
-:- use_module(chunk_kinds, [cannot_stop/2, goal_kind/3]).
-:- use_module(clause_places, [among/2, clause_places/5, node_parts/3]).
+:- use_module(clause_places,
+              [ among/2, cannot_stop/2, clause_places/5, goal_kind/3,
+                node_parts/3 ]).
 :- use_module(code, [native_body/4]).
 
 /** <module> The code of a chunk

@@ -19,8 +19,8 @@
 :- use_module('../host', [alarm_in/3, scheduler_call/1]).
 :- use_module('../agent', [with_agent/2]).
 :- use_module(home, [agent_outcome/2]).
-:- use_module(dead_letters, [mail_lost/3]).
-:- use_module(routing, [one_letter/2, way_in/2, way_out/3, way_send/3]).
+:- use_module(routing,
+              [mail_lost/3, one_letter/2, way_in/2, way_out/3, way_send/3]).
 
 /** <module> Letters that wait and are tried again
 

@@ -6,7 +6,7 @@
               [endpoint_address/1, endpoint_post/3, mobile_term/1]).
 :- use_module('../host', [address_parts/3, scheduler_call/1]).
 :- use_module('../agent', [agent_home_endpoint/2]).
-:- use_module(dead_letters, [mail_lost/3]).
+:- use_module(routing, [mail_lost/3]).
 :- use_module(senders, [mail_believed/5, sender_ours/1, shown/5]).
 
 /** <module> Messages for recipients that are not agents

@@ -162,7 +162,7 @@ typhon_programs:payload_was_read(Spec, Payload) :-
 %   Write the signature of a program or payload beside its file, with the keys
 %   in that directory.
 %
-%   @error the errors of program_load/5 and payload_load/2
+%   @error the errors of program_load/6 and payload_load/2
 
 file_sign(Spec, Keys) :-
     program_file(Spec, File),

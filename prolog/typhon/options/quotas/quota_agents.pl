@@ -25,7 +25,7 @@ when it may stay, and bounds the size of its state.
 
 On a host with the quota `mailbox` at most that many messages wait for an agent.
 Further messages become dead letters, which are reported here and where they
-were sent, see typhon_dead_letters.  Those of one second are reported together,
+were sent, see typhon_routing.  Those of one second are reported together,
 so that a flood of messages is not a flood of warnings.
 
 *Threading*: any thread.  Agents arrive and leave inside with_agent/2.  Agents
