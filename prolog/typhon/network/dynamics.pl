@@ -14,7 +14,7 @@
 :- use_module(library(ordsets),
               [ord_add_element/3, ord_del_element/3, ord_subtract/3]).
 :- use_module('../kernel/base/prng',
-              [ chance_member/4, chance_seed/2, chance_true/4,
+              [ chance_below/4, chance_member/4, chance_seed/2, chance_true/4,
                 chance_uniform/5 ]).
 
 /** <module> Links that come and go
@@ -242,11 +242,24 @@ drop_one(P, J, Gone0-Chance0, Gone-Chance) :-
 added(P, I, N, Ns, New, Chance0, Chance) :-
     chance_true(P, Bool, Chance0, Chance1),
     (   Bool == true,
-        numlist(1, N, All),
         ord_add_element(Ns, I, Taken),
-        ord_subtract(All, Taken, Others),
-        chance_member(J, Others, Chance1, Chance)
-    ->  New = [J]
+        length(Taken, Count),
+        Free is N-Count,
+        Free > 0
+    ->  chance_below(Free, Index, Chance1, Chance),
+        First is Index+1,
+        not_taken(Taken, First, J),
+        New = [J]
     ;   New = [],
         Chance = Chance1
     ).
+
+%   not_taken(+Taken, +K, -J): J is the K-th number from 1 on that is not in the
+%   ordered list Taken.  A list of the others would be as long as the network.
+
+not_taken([Number|Taken], K, J) :-
+    Number =< K,
+    !,
+    K1 is K+1,
+    not_taken(Taken, K1, J).
+not_taken(_, K, K).
