@@ -1,5 +1,5 @@
-% Expects: heard/2 and perform/2, which handle messages and due items. Gives:
-% node_loop/0, at/2, after/2; its state.
+% Expects: heard/2 and perform/2, which handle messages and due items.
+% Gives: node_loop/0, at/2, after/2; its state.
 
 /*  The agenda of a node.
 
