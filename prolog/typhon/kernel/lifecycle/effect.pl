@@ -50,7 +50,8 @@ effect(move(Host), Hole, Goals, Id-Here, Next) :-
     (   Dest == local(Here)
     ->  Hole = true,
         Next = go(Goals)
-    ;   hop_at_once(Id, Here, Dest, Hole, Goals, Next0)
+    ;   Dest = local(Name),
+        hop_at_once(Id, Here, Name, Hole, Goals, Next0)
     ->  Next = Next0
     ;   hand_over(Id, Here, Dest, Hole, Goals)
     ->  Next = stop

@@ -1,5 +1,5 @@
 :- module(typhon_within,
-          [ hop_at_once/6,              % +Id, +Here, +Where, +Hole, +Goals,
+          [ hop_at_once/6,              % +Id, +Here, +Name, +Hole, +Goals,
                                         % -Next
             hop_within/6                % +Id, +Name, +Hole, +Goals, +Since,
                                         % -Next
@@ -31,13 +31,13 @@ here.
 *Threading*: in a worker, which has the agent.
 */
 
-%!  hop_at_once(+Id, +Here, +Where, +Hole, +Goals, -Next) is semidet.
+%!  hop_at_once(+Id, +Here, +Name, +Hole, +Goals, -Next) is semidet.
 %
 %   As hop_within/6, between plain hosts, for an agent that moves from Here, may
 %   move and carries no extras, if hops are not delayed and no listener hears of
 %   them.  In all other cases it fails without changes.
 
-hop_at_once(Id, Here, local(Name), Hole, Goals, Next) :-
+hop_at_once(Id, Here, Name, Hole, Goals, Next) :-
     host_plain(Here, From),
     From = plain(_, _, none, Epoch, Rate, _, _, _, _),
     host_plain(Name, To),
