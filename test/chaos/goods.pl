@@ -161,11 +161,19 @@ order_kind(From, To, Kind) :-
 
 token_finding(Tuples, finding(Kind, Token)) :-
     findall(K, member(token(K), Tuples), There),
-    findall(K, ( standing(_, _, _, _, Facts), member(token(K), Facts) ),
-            Carried),
-    append(There, Carried, Tokens0),
+    findall(K, ( carried(K, State), State \== in_doubt ), Carried),
+    append(There, Carried, Sure),
+    findall(K, ( carried(K, in_doubt), \+ memberchk(K, Sure) ), Doubtful),
+    append(Sure, Doubtful, Tokens0),
     msort(Tokens0, Tokens),
     wrong_token(Tokens, Token, Kind).
+
+%   carried(-Token, -State): an agent that carries Token stands in this State. A
+%   copy in doubt does not go on: the agent may have dropped its token elsewhere.
+
+carried(K, State) :-
+    standing(_, _, State, _, Facts),
+    member(token(K), Facts).
 
 wrong_token(Tokens, Token, Kind) :-
     findall(K-x, member(K, Tokens), Pairs),

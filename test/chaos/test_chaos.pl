@@ -148,6 +148,17 @@ test(in_doubt_to_a_process_that_died_while_sending_it_back,
                   more(events, e(t, 4, go('a1@x:1'), 49, b-1)) ],
           Kinds0),
     subtract(Kinds0, [again], Kinds).
+test(in_doubt_to_a_dead_process_where_it_ended,
+     true(Kinds == [in_doubt])) :-
+    kinds(true, [ less(lives, life(b, 2, _, _)),
+                  less(standing, agent(_, idt, _, _, _)),
+                  more(standing, agent(a, idt, in_doubt, 0,
+                                       [me(t), tick(1), steps(0), token(-1)])),
+                  more(events, e(t, 4, drops(-1), 48, b-1)),
+                  more(events, e(t, 5, end, 48, b-1)),
+                  more(tuples, token(-1)) ],
+          Kinds0),
+    subtract(Kinds0, [again,count], Kinds).
 test(born_elsewhere, [forall(member(Hops-Wrong, [1-[], 2-[], 3-[count]])),
                       true(Kinds == Wrong)]) :-
     kinds(false, [ more(events, e(s, 3, clone(1, idc), 60, a-1)),

@@ -139,7 +139,9 @@ copies(0, Key, Kind) :-
     ;   Kind = lost
     ).
 copies(1, Key, undead) :-
-    has_ended(Key).
+    has_ended(Key),
+    \+ ( standing_as(Key, in_doubt, _, _),
+         depends_on_the_dead(Key) ).
 copies(Count, _, doubled) :-
     Count > 1.
 
