@@ -390,6 +390,13 @@ connection_is(Session, State) :-
              clause(typhon_endpoint:connection(Peer, State), Body) ),
            reported(typhon_endpoint:Body)).
 
+%   A hook that fails or raises an error is reported, and the others are called.
+
 reported(Hook) :-
-    catch(ignore(Hook), error(Formal, Context),
-          print_error(error, error(Formal, Context))).
+    catch(( Hook -> Problem = none ; Problem = failed ),
+          error(Formal, Context),
+          Problem = error(Formal, Context)),
+    (   Problem == none
+    ->  true
+    ;   print_message(error, typhon(endpoint, hook(connection, Problem)))
+    ).

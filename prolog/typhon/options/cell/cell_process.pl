@@ -41,8 +41,8 @@ The system kills it when the thread ends that has started it.
 %   Process, process(Pid, In, Out, Err), waits for its first frame.
 %
 %   @error cell_unavailable(Cause)
-%   @error timeout_error(start, cell): a slow machine may have cells later, so
-%   its agents must not run without
+%   @error timeout_error(start_cell, Seconds): a slow machine may have cells
+%   later, so its agents must not run without them
 
 cell_process_start(Process) :-
     filter_file(Filter),
@@ -59,7 +59,8 @@ cell_process_start(Process) :-
 not_ready(error(timeout_error(_, _)), Process) :-
     !,
     cell_process_end(Process, _),
-    throw(error(timeout_error(start, cell), _)).
+    setting(typhon_cells:start, Seconds),
+    throw(error(timeout_error(start_cell, Seconds), _)).
 not_ready(_, Process) :-
     Process = process(Pid, _, _, Err),
     kill(Pid),
@@ -197,6 +198,9 @@ prolog:error_message(cell_unavailable(Cause)) -->
     { cell_needs(Text) },
     [ 'No cell can be started: ~w'-[Cause], nl,
       '~w; with cell(none) agents run in this process'-[Text] ].
+prolog:error_message(timeout_error(start_cell, Seconds)) -->
+    [ 'A cell has not loaded its program within ~w seconds: raise the \c
+       setting typhon_cells:start on a slow machine'-[Seconds] ].
 
 %!  cell_needs(-Text) is det.
 %

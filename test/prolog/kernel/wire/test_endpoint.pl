@@ -17,7 +17,9 @@
 
 :- dynamic
     note/1,                             % Note, posted to us
-    seen/2.                             % Peer, State
+    seen/2,                             % Peer, State
+    trouble/1,                          % How: a hook fails or raises
+    reported/1.                         % Problem of a hook of connections
 
 :- multifile
     typhon_endpoint:received/3,
@@ -30,6 +32,17 @@ typhon_endpoint:requested(echo, Term, _, ReplyTo) :-
     endpoint_reply(ReplyTo, Term).
 typhon_endpoint:connection(Peer, State) :-
     assertz(seen(Peer, State)).
+typhon_endpoint:connection(_, up) :-
+    \+ trouble(fails),
+    (   trouble(raises)
+    ->  throw(error(trouble, _))
+    ;   true
+    ).
+
+:- multifile user:message_hook/3.
+
+user:message_hook(typhon(endpoint, hook(connection, Problem)), error, _) :-
+    assertz(reported(Problem)).
 
 		 /*******************************
 		 *           FIXTURES           *
@@ -386,6 +399,15 @@ test(connection_is_reported_even_if_its_thread_ends) :-
           typhon_waiting:manager_connect(A),
           wait_until(\+ endpoint_peer(A, state(up)), 30),
           assertion(seen(A, up)) ))).
+
+test(hook_of_connections_that_fails_or_raises_is_reported,
+     [ forall(member(How-Problem, [fails-failed, raises-error(trouble, _)])),
+       true(Problems = [Problem|_]) ]) :-
+    setup_call_cleanup(
+        assertz(test_endpoint:trouble(How)),
+        with_endpoint(with_peer(A, ask(A, echo, x, x))),
+        retractall(test_endpoint:trouble(_))),
+    findall(Reported, retract(test_endpoint:reported(Reported)), Problems).
 
 all_there(Address, Count, Notes) :-
     ask(Address, notes, x, Notes),

@@ -18,7 +18,7 @@
 test(nothing_of_the_system_is_reached, Through == []) :-
     findall(Name-Goal-Expected, check(Name, Goal, Expected), Checks),
     with_inmates(through(Checks, Through)).
-test(what_an_owner_leaves_in_its_cell_another_does_not_find,
+test(data_of_an_owner_is_not_in_the_cell_of_another,
      [Left,Seen] = [yes(_),yes(test_see(_, [no,no,no]))]) :-
     no_leaks(with_peers([p-[host([])]],
                         with_inmates(left_to_another(Left, Seen)))).

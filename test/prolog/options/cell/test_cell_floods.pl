@@ -12,15 +12,15 @@
 :- use_module(library(typhon)).
 :- use_module(library(typhon/options/cell/cells), [cells_list/1]).
 
-/** <module> What an agent with all rights inside its cell says too often, or
-again, or when it is dead
+/** <module> Floods, repetitions and late frames of an agent that has all rights
+inside its cell
 
 *Threading*: one test at a time.
 */
 
 :- begin_tests(cell_floods).
 
-test(what_has_no_end_ends_by_the_clock, Through == []) :-
+test(endless_frames_end_by_the_quota_of_seconds, Through == []) :-
     Over = ended(raised(error(resource_error(seconds), _))),
     findall(What-test_send(What)-Over, endless(What), Checks),
     with_inmates([], [seconds(1)],
@@ -50,7 +50,7 @@ test(an_outcome_sent_in_again_makes_no_second_clone, Agents == 2) :-
 test(an_old_image_of_an_agent_that_has_gone_on_is_refused,
      [Outcome,There] = [ended(lost(cell(violation(frame)))),1]) :-
     with_hosts([t], with_inmates(sent_late(Outcome, There))).
-test(a_request_of_a_cell_that_ends_is_answered_to_nobody,
+test(request_of_an_ended_cell_is_dropped,
      [Outcome,Beside] = [ended(lost(cell(exit(0)))),yes(true)]) :-
     with_inmates(( attempt(test_send(last_words), Outcome),
                    attempt(true, Beside) )).
@@ -60,7 +60,7 @@ test(an_answer_to_a_cell_that_was_killed_meanwhile,
 
 :- end_tests(cell_floods).
 
-%   What an inmate writes without end.
+%   Frames that an inmate writes without end.
 
 endless(endless(told)).
 endless(endless(requests)).

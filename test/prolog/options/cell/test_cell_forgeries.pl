@@ -18,7 +18,7 @@ test(no_act_without_an_answer_passes_the_rules, Through == []) :-
     made(act, Through).
 test(no_request_passes_the_rules, Through == []) :-
     made(request, Through).
-test(what_comes_after_the_outcome_ends_the_cell,
+test(frames_after_the_outcome_end_the_cell,
      [One,Next,After] = [ended(done), ended(lost(cell(violation(frame)))),
                          yes(true)]) :-
     with_inmates(maplist(attempt, [test_send(twice), true, true],

@@ -350,7 +350,7 @@ test(without_bubblewrap_a_policy_warns_once, Out-Warned == "done"-1) :-
     findall(x, sub_string(Err, _, _, _, "no cell can be started"), Xs),
     length(Xs, Warned).
 test(a_slow_start_of_a_cell_is_no_reason_to_do_without,
-     error(timeout_error(start, cell))) :-
+     error(timeout_error(start_cell, _))) :-
     with_settings([typhon_cells:start=0.5],
                   with_tmp_dir(started_by_slow_bubblewrap)).
 test(a_trusted_host_has_no_cells, error(existence_error(host_option, policy))) :-
