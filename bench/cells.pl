@@ -1,9 +1,10 @@
 :- use_module(common).
+:- use_module('../experiments/engine/numbers', [median/2]).
 :- use_module(hogs).
 :- use_module(traveller).
 :- use_module(library(typhon)).
 :- use_module(library(typhon/options/cell/cells), [cells_list/1]).
-:- use_module(library(lists), [member/2, nth0/3, sum_list/2]).
+:- use_module(library(lists), [member/2, sum_list/2]).
 :- use_module(library(readutil), [read_file_to_string/3]).
 
 /*  The cost of cells: memory and start of a cell; a turn in a cell, both
@@ -101,13 +102,6 @@ pairs(Rounds, Name, A, B, Unit, What) :-
     format(atom(Note), '~3g ~w against ~3g (~w)',
            [MedianA, Unit, MedianB, What]),
     figure(Name, Ratio, times, Note).
-
-median(Values, Median) :-
-    msort(Values, Sorted),
-    length(Sorted, Length),
-    Middle is Length//2,
-    nth0(Middle, Sorted, Median0),
-    Median is float(Median0).
 
 with_inn(Kind, Goal) :-
     with_inn(Kind, 5, Goal).

@@ -1,10 +1,10 @@
 :- use_module(common).
+:- use_module('../experiments/engine/numbers', [median/2]).
 :- use_module(traveller).
 :- use_module(library(typhon)).
 :- use_module(library(aggregate), [aggregate_all/3]).
-:- use_module(library(apply), [maplist/3]).
 :- use_module(library(filesex), [delete_directory_and_contents/1]).
-:- use_module(library(lists), [member/2, nth0/3]).
+:- use_module(library(lists), [member/2]).
 :- use_module(library(process), [process_create/3, process_wait/2]).
 :- use_module(library(readutil), [read_line_to_string/2]).
 
@@ -60,16 +60,6 @@ told('the same for each time that the disk alone syncs', '',
      round(_, _, full(_, V), Syncs), V/Syncs, '').
 told('the disk alone syncs, times per second', '1/s',
      round(_, _, _, Syncs), Syncs, '').
-
-median(Values0, Median) :-
-    maplist(number, Values0, Values1),
-    msort(Values1, Values),
-    length(Values, Count),
-    Middle is Count//2,
-    nth0(Middle, Values, Median).
-
-number(Value, Number) :-
-    Number is float(Value).
 
 rates(Sync, One, Hundred) :-
     with_directory(rates(Sync, One, Hundred)).

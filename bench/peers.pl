@@ -1,8 +1,9 @@
 :- use_module(common).
+:- use_module('../experiments/engine/numbers', [median/2]).
 :- use_module(trip, [trip_bytes/1]).
 :- use_module(library(filesex), [delete_directory_and_contents/1,
                                  directory_file_path/3]).
-:- use_module(library(lists), [list_to_set/2, member/2, nth0/3]).
+:- use_module(library(lists), [list_to_set/2, member/2]).
 :- use_module(library(process), [process_create/3, process_kill/2,
                                  process_wait/2]).
 :- use_module(library(readutil), [read_line_to_string/2]).
@@ -178,9 +179,3 @@ rate(Round, What, Many, second, Rate) :-
     rates(Round, What, Many, Rate, _).
 rate(Round, What, Many, cpu, Rate) :-
     rates(Round, What, Many, _, Rate).
-
-median(Numbers, Median) :-
-    msort(Numbers, Sorted),
-    length(Sorted, Count),
-    Middle is Count//2,
-    nth0(Middle, Sorted, Median).

@@ -1,5 +1,6 @@
 :- use_module(common).
-:- use_module(library(lists), [member/2, nth1/3]).
+:- use_module('../experiments/engine/numbers', [median/2]).
+:- use_module(library(lists), [member/2]).
 :- use_module(library(process), [process_create/3]).
 :- use_module(library(readutil), [read_line_to_string/2]).
 
@@ -36,12 +37,6 @@ measured(What, Seconds-Bytes) :-
     findall(B, member(_-B, Runs), Bs),
     median(Ss, Seconds),
     median(Bs, Bytes).
-
-median(Values, Median) :-
-    msort(Values, Sorted),
-    length(Sorted, Length),
-    Middle is (Length+1)//2,
-    nth1(Middle, Sorted, Median).
 
 run(What, Seconds, Bytes) :-
     goal(What, Goal),

@@ -1,10 +1,11 @@
 :- use_module(common).
+:- use_module('../experiments/engine/numbers', [median/2]).
 :- use_module(traveller).
 :- use_module(library(typhon)).
 :- use_module(library(typhon/kernel/host), [event/4]).
 :- use_module(library(typhon/options/watch), [metrics/2, overview/3]).
 :- use_module(library(apply), [maplist/3]).
-:- use_module(library(lists), [member/2, nth0/3]).
+:- use_module(library(lists), [member/2]).
 
 /*  The cost of a watch.
 
@@ -128,9 +129,3 @@ median_of(Goal, Ms) :-
     findall(Seconds, ( between(1, 9, _), seconds(Goal, Seconds) ), All),
     median(All, Median),
     Ms is Median*1000.
-
-median(List, Median) :-
-    msort(List, Sorted),
-    length(Sorted, Count),
-    Middle is Count//2,
-    nth0(Middle, Sorted, Median).

@@ -2,7 +2,7 @@
           [ median/2,                   % +Numbers, -Median
             spread/4,                   % +Numbers, -Least, -Median, -Most
             spread_text/4,              % +Least, +Median, +Most, -Text
-           number_text/2               % +Number, -Text
+            number_text/2              % +Number, -Text
           ]).
 :- use_module(library(apply), [maplist/3]).
 :- use_module(library(lists), [last/2, nth0/3]).
