@@ -25,7 +25,7 @@ would have the signals blocked that the thread has, SIGINT for one.
 :- use_module(library(apply), [exclude/3, foldl/4, maplist/3]).
 :- use_module(library(filesex), [directory_file_path/3, directory_member/3]).
 :- use_module(library(lists),
-              [append/2, member/2, nth1/3, selectchk/3, sum_list/2]).
+              [ append/2, last/2, member/2, nth1/3, selectchk/3, sum_list/2 ]).
 :- use_module(library(main), [main/0]).
 :- use_module(library(pairs), [map_list_to_pairs/3, pairs_values/2]).
 :- use_module(library(process),
@@ -302,7 +302,38 @@ end_suite(Job, Status, Suite) :-
     Suite = suite(Base, Passed, Failures, Skipped),
     get_time(End),
     Seconds is End-Start,
-    report(Suite, Problems, Seconds, Log).
+    spent(Spent),
+    report(Suite, Problems, Seconds, Spent, Log).
+
+%   spent(-Seconds) is det.
+%
+%   The processor time of the suite that has just been waited for, and of the
+%   processes that it waited for.  0.0 where there is no /proc.
+
+spent(Seconds) :-
+    (   nb_current(spent, Before)
+    ->  true
+    ;   Before = 0
+    ),
+    (   children_ticks(Ticks)
+    ->  true
+    ;   Ticks = Before
+    ),
+    nb_setval(spent, Ticks),
+    Seconds is (Ticks-Before)/100.0.
+
+%   Behind the name of the program, which may hold spaces, come 13 others.
+
+children_ticks(Ticks) :-
+    catch(read_file_to_string('/proc/self/stat', Text, []), error(_, _), fail),
+    split_string(Text, ")", " \n", Parts),
+    last(Parts, Rest),
+    split_string(Rest, " ", "", Words),
+    nth1(14, Words, User),
+    nth1(15, Words, System),
+    number_string(U, User),
+    number_string(S, System),
+    Ticks is U+S.
 
 suite_results(File, _, Suite) :-
     exists_file(File),
@@ -328,8 +359,9 @@ late_problem(_, Mark, Problem) :-
                 *            REPORTS           *
                 *******************************/
 
-report(suite(Base, Passed, Failures, Skipped), Problems, Seconds, Log) :-
-    format('~w~t~30|~t~d~36| passed~t~1f~52| s', [Base, Passed, Seconds]),
+report(suite(Base, Passed, Failures, Skipped), Problems, Seconds, Spent, Log) :-
+    format('~w~t~30|~t~d~36| passed~t~1f~52| s~t~1f~62| s of processor',
+           [Base, Passed, Seconds, Spent]),
     length(Failures, Failed),
     (   Failed > 0
     ->  format('   ~d FAILED', [Failed])
