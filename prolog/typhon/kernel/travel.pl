@@ -26,6 +26,7 @@ This is the interface of the layer: higher layers import from here.
 :- reexport(travel/post, [post/3, post_on/2, post_via/4]).
 :- reexport(travel/routing, [mail_lost/3]).
 :- reexport(travel/backlog, [post_tried/0, retries_go_on/0]).
-:- reexport(travel/senders, [senders_check/1, speaks_for/3]).
+:- reexport(travel/sender_authorization,
+            [peer_may_send_for/3, senders_check/1]).
 :- reexport(travel/news, [news_carried/1, news_hurry/0]).
 :- reexport(travel/external_recipients, [post_abroad/4]).

@@ -7,7 +7,8 @@
 :- use_module('../host', [address_parts/3, scheduler_call/1]).
 :- use_module('../agent', [agent_home_endpoint/2]).
 :- use_module(routing, [mail_lost/3]).
-:- use_module(senders, [mail_believed/5, sender_ours/1, shown/5]).
+:- use_module(sender_authorization,
+              [mail_accepted/5, sender_accepted/1, with_proof/5]).
 
 /** <module> Messages for recipients that are not agents
 
@@ -56,7 +57,7 @@ hint(To0, To, Hint) =>
 
 elsewhere(Hint, From, Endpoint) :-
     Hint \== none,
-    sender_ours(From),
+    sender_accepted(From),
     address_parts(Hint, _, Endpoint),
     \+ endpoint_address(Endpoint),
     !.
@@ -68,8 +69,8 @@ elsewhere(_, From, Endpoint) :-
 %   home of From gets the hint along with the recipient, to forward the message.
 
 send_on(Endpoint, To0, To1, From, Message) :-
-    ( sender_ours(From) -> To = To1 ; To = To0 ),
-    shown(Endpoint, [From], [], abroad(To, From, Message), Sent),
+    ( sender_accepted(From) -> To = To1 ; To = To0 ),
+    with_proof(Endpoint, [From], [], abroad(To, From, Message), Sent),
     catch(endpoint_post(Endpoint, message, Sent),
           error(unreachable(_), _),
           throw(error(host_unreachable(Endpoint), _))).
@@ -85,8 +86,8 @@ typhon_endpoint:received(message, shown(Births, abroad(To, From, Message)),
 comes(To, From, Message, Births, Peer) :-
     must_be(compound, To),
     must_be(atom, From),
-    mail_believed(Peer, To, Births, [mail(Peer, From, Message)], Believed),
-    (   Believed == []
+    mail_accepted(Peer, To, Births, [mail(Peer, From, Message)], Accepted),
+    (   Accepted == []
     ->  true
     ;   scheduler_call(typhon_external_recipients:carry_on(To, From, Message, Peer))
     ).

@@ -8,7 +8,7 @@
 :- use_module('../base/durable_changes', [durable_on/0]).
 :- use_module('../wire', [endpoint_post/3, endpoint_post_by/4]).
 :- use_module(durable_posts, [durable_post/3]).
-:- use_module(senders, [shown/5]).
+:- use_module(sender_authorization, [with_proof/5]).
 :- use_module('../host', [alarm_in/3, scheduler_call/1]).
 
 /** <module> News for the homes of agents
@@ -202,7 +202,7 @@ posted(Post, Home, All) :-
 
 shown_news(Home, All, Shown) :-
     findall(Id, ( member(News, All), arg(1, News, Id) ), Ids),
-    shown(Home, Ids, [], All, Shown).
+    with_proof(Home, Ids, [], All, Shown).
 
 posted_in_parts([ended(Id, Outcome, Hops, _)], Post, Home) :-
     !,

@@ -21,7 +21,7 @@
 :- use_module(backlog,
               [backlog/1, backlog_add/2, backlog_all/2, retry_later/3]).
 :- use_module(durable_posts, [post_must_fit/1]).
-:- use_module(senders, [mail_believed/5, senders_checked/0]).
+:- use_module(sender_authorization, [mail_accepted/5, senders_checked/0]).
 :- use_module(routing, [one_letter/2, way_in/2, way_out/3, way_send/3]).
 
 /** <module> Messages
@@ -185,7 +185,7 @@ letter_comes(Id, Births, Mail0, Left, Peer) :-
     must_be(atom, Id),
     must_be(nonneg, Left),
     must_be(list(typhon_mail), Mail0),
-    mail_believed(Peer, Id, Births, Mail0, Mail),
+    mail_accepted(Peer, Id, Births, Mail0, Mail),
     (   Mail == []
     ->  true
     ;   agent_on(Id, Host),

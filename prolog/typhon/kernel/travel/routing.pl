@@ -18,7 +18,8 @@
 :- use_module('../agent', [agent/5, agent_home_endpoint/2, agent_mail/2]).
 :- use_module(durable_posts, [durable_post/3]).
 :- use_module(home, [agent_outcome/2]).
-:- use_module(senders, [mail_parts/4, senders_checked/0, shown/5]).
+:- use_module(sender_authorization,
+              [mail_routes/4, senders_checked/0, with_proof/5]).
 :- use_module(whereabouts, [whereabouts/2]).
 
 /** <module> The next step of a letter, and letters that have none
@@ -142,7 +143,7 @@ send_home(Failed, Id, Letter) :-
 %   that have to go through another process.
 
 sent(Endpoint, Id, letter(Mail, Left), Post) :-
-    mail_parts(Endpoint, Id, Mail, Parts),
+    mail_routes(Endpoint, Id, Mail, Parts),
     (   Parts = [To-_]
     ->  posted(To, Id, letter(Mail, Left), Post)
     ;   Post == endpoint_post           % else it has to wait for that
@@ -177,7 +178,7 @@ message(Endpoint, Id, Mail, Left, Message) :-
     ->  There = [Id]
     ;   There = []
     ),
-    shown(Endpoint, [Id|Froms], There, message(Id, Mail, Left), Message).
+    with_proof(Endpoint, [Id|Froms], There, message(Id, Mail, Left), Message).
 message(_, Id, Mail, Left, message(Id, Mail, Left)).
 
 sent_halves(Endpoint, Id, letter(Mail, Left), Post, Context) :-

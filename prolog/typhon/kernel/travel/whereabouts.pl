@@ -28,7 +28,7 @@
 :- use_module('../host', [address_parts/3]).
 :- use_module('../agent',
               [agent_home_endpoint/2, is_result_fact/1]).
-:- use_module(senders, [speaks_for/3]).
+:- use_module(sender_authorization, [peer_may_send_for/3]).
 :- use_module(home,
               [ agent_outcome/2, ended_after/2, home_ended/4, home_faulty/6,
                 home_knows/4, home_left/4, home_moved/4, home_resumed/3 ]).
@@ -273,15 +273,15 @@ typhon_endpoint:received(whereabouts, shown(Births, All), Peer) :-
     hear_news(All, Births, Peer).
 
 hear_news(All, Births, Peer) :-
-    include(news_believed(Peer, Births), All, Believed),
+    include(news_accepted(Peer, Births), All, Accepted),
     process_at(Peer, Process),
-    maplist(news(Process), Believed).
+    maplist(news(Process), Accepted).
 
-news_believed(Peer, Births, News) :-
+news_accepted(Peer, Births, News) :-
     must_be(compound, News),
     arg(1, News, Id),
     must_be(atom, Id),
-    speaks_for(Peer, Births, Id).
+    peer_may_send_for(Peer, Births, Id).
 
 news(Process, located(Id, Address, Hops)) :-
     must_be(nonneg, Hops),

@@ -36,24 +36,24 @@ has the owner of this process, or has been in it.
 :- multifile
     typhon_keys:begin/0,
     typhon_keys:end/0,
-    typhon_senders:ours/1,
-    typhon_senders:speaks/3,
-    typhon_senders:believes/5,
-    typhon_senders:shows/4,
-    typhon_senders:by_parts/4.
+    typhon_sender_authorization:accept_mail/5,
+    typhon_sender_authorization:may_send_for/3,
+    typhon_sender_authorization:peers_accept/1,
+    typhon_sender_authorization:proof_for/4,
+    typhon_sender_authorization:split_mail/4.
 
 typhon_keys:begin :-
     senders_check(true).
 typhon_keys:end :-
     senders_check(false).
 
-typhon_senders:ours(Id) :-
+typhon_sender_authorization:peers_accept(Id) :-
     agent_owned(Id).
 
-typhon_senders:speaks(Peer, Births, Id) :-
-    speaks_for(Peer, Births, Id).
+typhon_sender_authorization:may_send_for(Peer, Births, Id) :-
+    may_send_for(Peer, Births, Id).
 
-speaks_for(Peer, Births, Id) :-
+may_send_for(Peer, Births, Id) :-
     endpoint_proof(Peer, Proof),
     once(may_speak(Proof, Births, Id)).
 
@@ -79,8 +79,8 @@ birth_among(t(Births), Id, Birth) :-
 
 %   Messages that are not accepted are reported as security events.
 
-typhon_senders:believes(Peer, Id, Births, Mail, Believed) :-
-    (   speaks_for(Peer, Births, Id)
+typhon_sender_authorization:accept_mail(Peer, Id, Births, Mail, Believed) :-
+    (   may_send_for(Peer, Births, Id)
     ->  Believed = Mail
     ;   by_id(Births, ById),
         findall(From, member(mail(_, From, _), Mail), Froms0),
@@ -107,7 +107,7 @@ is_from(Good, mail(_, From, _)) :-
 believed(Peer, Births, From) :-
     (   atom(From),
         agent_home(From, _)
-    ->  speaks_for(Peer, Births, From)
+    ->  may_send_for(Peer, Births, From)
     ;   nonvar(From)
     ).
 
@@ -123,7 +123,7 @@ noted(Peer, Id, From) :-
                 *             BIRTHS           *
                 *******************************/
 
-typhon_senders:shows(Endpoint, Ids, There, Births) :-
+typhon_sender_authorization:proof_for(Endpoint, Ids, There, Births) :-
     findall(Birth, to_show(Endpoint, Ids, There, Birth), Births0),
     Births0 \== [],
     sort(Births0, Births).
@@ -141,7 +141,7 @@ of_others(Id) :-
     atom(Id),
     \+ agent_owned(Id).
 
-typhon_senders:by_parts(Endpoint, Id, Mail, Parts) :-
+typhon_sender_authorization:split_mail(Endpoint, Id, Mail, Parts) :-
     of_others(Id),
     \+ birth_shown(Id, _),
     maplist(via(Endpoint), Mail, Pairs),

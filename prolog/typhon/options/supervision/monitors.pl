@@ -20,7 +20,7 @@
                 runtime_release/1, scheduler_call/1 ]).
 :- use_module('../../kernel/agent', [agent_home/2, agent_home_endpoint/2]).
 :- use_module('../../kernel/travel',
-              [outcome_wait/3, post_on/2, speaks_for/3]).
+              [outcome_wait/3, peer_may_send_for/3, post_on/2]).
 :- use_module('../../kernel/lifecycle', [agent_dispose/1, agent_named/2]).
 :- use_module(watched, [orphans_end/1, watched_add/2]).
 
@@ -184,7 +184,7 @@ over(Id, _) :-
 
 typhon_endpoint:requested(monitor, by(Id, Request), Peer, ReplyTo) :-
     must_be(atom, Id),
-    speaks_for(Peer, [], Id),
+    peer_may_send_for(Peer, [], Id),
     for_peer(Request, Id, Peer),
     endpoint_reply(ReplyTo, ok).
 typhon_endpoint:requested(monitor, monitor_add(Ends, Id), Peer, ReplyTo) :-
