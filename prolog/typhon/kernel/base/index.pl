@@ -107,7 +107,7 @@ part_file('options/directory','options/directory/offers').
 part_file('options/guard','options/guard').
 part_file('options/identity','options/identity/authors').
 part_file('options/identity','options/identity/birth').
-part_file('options/identity','options/identity/speakers').
+part_file('options/identity','options/identity/sender_rights').
 part_file('options/journal','options/journal/channel').
 part_file('options/journal','options/journal/committing').
 part_file('options/journal','options/journal/journaled_agents').

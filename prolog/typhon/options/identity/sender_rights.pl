@@ -1,4 +1,4 @@
-:- module(typhon_speakers, []).
+:- module(typhon_sender_rights, []).
 
 /** <module> Which processes may send messages in the name of an agent
 
@@ -55,14 +55,14 @@ typhon_sender_authorization:may_send_for(Peer, Births, Id) :-
 
 may_send_for(Peer, Births, Id) :-
     endpoint_proof(Peer, Proof),
-    once(may_speak(Proof, Births, Id)).
+    once(has_right(Proof, Births, Id)).
 
-may_speak(Proof, _, _) :-
+has_right(Proof, _, _) :-
     endpoint_own_proof(Proof).
-may_speak(certificate(Name), _, Id) :-
+has_right(certificate(Name), _, Id) :-
     atom(Id),
     agent_owned(Id, Name).
-may_speak(_, Births, Id) :-
+has_right(_, Births, Id) :-
     birth_among(Births, Id, Birth),
     birth_good(Birth).
 
@@ -79,15 +79,15 @@ birth_among(t(Births), Id, Birth) :-
 
 %   Messages that are not accepted are reported as security events.
 
-typhon_sender_authorization:accept_mail(Peer, Id, Births, Mail, Believed) :-
+typhon_sender_authorization:accept_mail(Peer, Id, Births, Mail, Accepted) :-
     (   may_send_for(Peer, Births, Id)
-    ->  Believed = Mail
+    ->  Accepted = Mail
     ;   by_id(Births, ById),
         findall(From, member(mail(_, From, _), Mail), Froms0),
         sort(Froms0, Froms),
-        include(believed(Peer, t(ById)), Froms, Good),
-        partition(is_from(Good), Mail, Believed, Forged),
-        forall(member(mail(_, From, _), Forged), noted(Peer, Id, From))
+        include(sender_accepted(Peer, t(ById)), Froms, Good),
+        partition(is_from(Good), Mail, Accepted, Forged),
+        forall(member(mail(_, From, _), Forged), report_forged(Peer, Id, From))
     ).
 
 by_id(Births, ById) :-
@@ -104,14 +104,14 @@ by_id(Births, ById) :-
 is_from(Good, mail(_, From, _)) :-
     ord_memberchk(From, Good).
 
-believed(Peer, Births, From) :-
+sender_accepted(Peer, Births, From) :-
     (   atom(From),
         agent_home(From, _)
     ->  may_send_for(Peer, Births, From)
     ;   nonvar(From)
     ).
 
-noted(Peer, Id, From) :-
+report_forged(Peer, Id, From) :-
     print_message(warning, typhon(not_from(Peer, Id, From))),
     (   atom(Id),
         agent(Id, Host, _, _, _)
@@ -124,25 +124,25 @@ noted(Peer, Id, From) :-
                 *******************************/
 
 typhon_sender_authorization:proof_for(Endpoint, Ids, There, Births) :-
-    findall(Birth, to_show(Endpoint, Ids, There, Birth), Births0),
+    findall(Birth, birth_to_show(Endpoint, Ids, There, Birth), Births0),
     Births0 \== [],
     sort(Births0, Births).
 
-to_show(Endpoint, Ids, There, Birth) :-
+birth_to_show(Endpoint, Ids, There, Birth) :-
     (   member(Id, Ids),
-        of_others(Id),
+        of_other_owner(Id),
         agent_home_endpoint(Id, Endpoint)
     ;   member(Id, There),
-        of_others(Id)
+        of_other_owner(Id)
     ),
     birth_shown(Id, Birth).
 
-of_others(Id) :-
+of_other_owner(Id) :-
     atom(Id),
     \+ agent_owned(Id).
 
 typhon_sender_authorization:split_mail(Endpoint, Id, Mail, Parts) :-
-    of_others(Id),
+    of_other_owner(Id),
     \+ birth_shown(Id, _),
     maplist(via(Endpoint), Mail, Pairs),
     keysort(Pairs, Sorted),
@@ -150,7 +150,7 @@ typhon_sender_authorization:split_mail(Endpoint, Id, Mail, Parts) :-
 
 via(Endpoint, Mail, Via-Mail) :-
     Mail = mail(Origin, From, _),
-    (   of_others(From),
+    (   of_other_owner(From),
         endpoint_address(Origin),
         agent_home_endpoint(From, Home),
         \+ endpoint_address(Home)
