@@ -2,25 +2,26 @@
 
 /** <module> Programs written for Tartarus
 
-The names of Tartarus, of all its three generations, over library(typhon):
-programs written for it run as they are.
+This library defines the predicates of the three generations of Tartarus by
+library(typhon): programs written for Tartarus run unchanged.
 
     ?- use_module(library(tartarus)).
 
-A platform is a host called `tartarus` whose place is module `user`.  Agents
-are what they were there: clauses in `user` whose first argument is the name
-of the agent.  When one moves, a small agent of Typhon carries these clauses,
-so that it is neither lost nor doubled.
+A platform is a host called `tartarus` whose place is module `user`.  As in
+Tartarus, an agent is a set of clauses in `user` whose first argument is its
+name.  When it moves, a small agent of Typhon carries these clauses, so that the
+agent is neither lost nor duplicated.
 
-  | starting and stopping, what is printed | tartarus/platform |
+  | starting and stopping, printing        | tartarus/platform |
   | agents: records, threads, saving       | tartarus/lives    |
   | agents: their clauses                  | tartarus/clauses  |
   | agents: creating, running, ending      | tartarus/agents   |
-  | from platform to platform, in what time | tartarus/moves   |
+  | moves between platforms, their times   | tartarus/moves    |
   | messages, log servers                  | tartarus/messages |
   | speech, Python, robots, pins           | tartarus/devices  |
 
-Local definitions win: programs may have predicates of these names.
+Local definitions take precedence: programs may define predicates of these
+names.
 */
 
 :- use_module(typhon/kernel/base/user_errors, [user_errors/1]).
@@ -72,8 +73,8 @@ Local definitions win: programs may have predicates of these names.
                 *    consult('platform.pl')    *
                 *******************************/
 
-%   Programs consult the file of the platform, wherever it was.  Where it is
-%   not, this library stands for it.
+%   Programs consult the file of the platform under some path.  If there is no
+%   such file, this library is loaded in its place.
 
 :- multifile user:prolog_load_file/2.
 :- dynamic user:prolog_load_file/2.

@@ -36,7 +36,7 @@
 
 /** <module> Agents of a platform
 
-Creating, running and ending them, and what they own.
+Creating, running and ending agents, and their tokens and payloads.
 
 *Threading*: any thread.
 */
@@ -52,9 +52,9 @@ Creating, running and ending them, and what they own.
 %!  agent_create(?Name, ?Location, +Handler) is det.
 %!  agent_create(?Name, +Handler) is det.
 %
-%   Create an agent, which does not run yet.  Name, if unbound, is made of six
-%   letters; Location, or what is unbound in it, is that of this platform.  An
-%   agent of that name that is here is replaced.
+%   Create an agent, which does not run yet.  An unbound Name is bound to six
+%   letters; unbound parts of Location are those of this platform.  An agent of
+%   that name on this platform is replaced.
 
 create_mobile_agent(Name, Handler, Tokens) :-
     atom(Handler),
@@ -109,7 +109,7 @@ located(Location) :-
     ;   must([check(ma7, 'the location is (IP,Port)', fail)])
     ).
 
-%   The same place may be written in two ways, as localhost and 127.0.0.1.
+%   An address may be written in two ways, as localhost and 127.0.0.1.
 
 completed(Location, Location) :-
     !.
@@ -117,7 +117,7 @@ completed((Ip,Port), (Here,Port)) :-
     nonvar(Ip),
     same_location((Ip,Port), (Here,Port)).
 
-%   What another platform has is seen there.
+%   Another platform checks its handlers itself.
 
 present(Location, Handler) :-
     (   is_here(Location)
@@ -192,8 +192,8 @@ static_agent(Name, Location, Handler, Tokens) :-
 %!  execute_agent(+Name, +Location, +Handler, +Start) is det.
 %!  agent_execute(+Name, +Location, +Handler, +Start) is det.
 %
-%   Let Handler of Name run in a thread of its own, from `main` or Start.
-%   What the handler raises, or that it fails, goes unsaid.
+%   Run Handler of Name in a thread of its own, from `main` or Start.  Errors
+%   and failure of the handler are not reported.
 
 execute_agent(Name, Location, Handler) :-
     agent_execute(Name, Location, Handler, main).
@@ -212,7 +212,7 @@ agent_execute(Name, Location, Handler, Start) :-
 
 %!  purge_agent(+Name) is det.
 %
-%   End an agent.  Its threads go on to their end.
+%   End an agent.  Its threads run to their end.
 
 purge_agent(Name) :-
     life_end(Name).
@@ -251,8 +251,8 @@ known(Name) :-
 
 %!  add_payload(+Name, +Indicators) is semidet.
 %
-%   Of each predicate, (Name,Arity), the clauses about `guid` are copied for
-%   the agent.  It travels with all that are about the agent, then.
+%   Copy the clauses of each predicate, (Name,Arity), about `guid` for the
+%   agent.  From then on it travels with all clauses of the predicate about it.
 
 add_payload(Name, Indicators) :-
     known(Name),
@@ -284,8 +284,9 @@ remove_payload(Name, Indicators) :-
 %!  list_agent(-Agents:list) is det.
 %!  agent_list_new(-Names:list) is det.
 %
-%   The agents here.  list_agent/0 and agent_list_new/1 have the oldest first;
-%   list_agent/1, (Name,Handler,Port), the newest, as in Tartarus.
+%   List the agents of this platform.  As in Tartarus, list_agent/0 and
+%   agent_list_new/1 begin with the oldest, and list_agent/1, whose elements are
+%   (Name,Handler,Port), with the newest.
 
 list_agent :-
     told("================Agent list===============~n", []),
@@ -316,7 +317,7 @@ tartarus_platform:status :-
 
 %!  isexist_agent(?Name, ?Location, ?Handler) is semidet.
 %
-%   The oldest that matches.
+%   True of the oldest agent of this platform that matches.
 
 isexist_agent(Name, Location, Handler) :-
     record(Name, Handler, Own),
@@ -339,8 +340,8 @@ matches(Location, Own) :-
 %!  get_new_name(+Base, -Name) is det.
 %!  get_new_name_alpha(-Name) is det.
 %
-%   A name that is new here: the base with a number and the place, or six
-%   letters.
+%   Name is not the name of an agent of this platform: it is Base with a number
+%   and the place, or six letters.
 
 get_new_name(Base, Name) :-
     gensym(Base, Numbered),

@@ -12,16 +12,16 @@
 /** <module> Clauses of agents in module `user`
 
 The clauses of an agent are those of its handler and its payload whose first
-argument is its name.  The templates from which they are made have `guid`
-there.  Where Tartarus replaced text, atoms in terms are replaced: what the
-authors of programs meant.
+argument is its name.  They are copies of templates, which have `guid` there.
+Tartarus replaced text; this module replaces atoms in terms, as the authors of
+programs intended.
 
-*Threading*: any thread; a mutex serialises what makes predicates dynamic.
+*Threading*: any thread; a mutex serialises changes of predicates to dynamic.
 */
 
 %!  body(+Name, +Indicators, -Clauses) is det.
 %
-%   The clauses about Name of these predicates, as Head :- Body.
+%   Clauses are the clauses of these predicates about Name, as Head :- Body.
 %
 %   @arg Indicators is a list of pairs (Predicate,Arity)
 
@@ -80,7 +80,7 @@ install((Head:-Body)) :-
 body_erase(Name, Indicators) :-
     maplist(erase_of(Name), Indicators).
 
-%   One by one, by reference: others add meanwhile.
+%   Clauses are erased by reference, since other threads add clauses meanwhile.
 
 erase_of(Name, (Predicate,Arity)) :-
     functor(Head, Predicate, Arity),
@@ -95,8 +95,8 @@ erase_of(Name, (Predicate,Arity)) :-
 gone(Ref) :-
     catch(erase(Ref), error(existence_error(_, _), _), true).
 
-%   A predicate of a program that is not declared dynamic becomes so, with
-%   the clauses it has.
+%   A predicate of a program that is not declared dynamic becomes dynamic, and
+%   keeps its clauses.
 
 make_dynamic(Head) :-
     (   is_own(Head),
@@ -121,7 +121,8 @@ is_static(Head) :-
     is_own(Head),
     \+ predicate_property(user:Head, dynamic).
 
-%   As a definition in a file does: a library may have the same name.
+%   As for a definition in a file, a predicate of a library that has the same
+%   name is overridden.
 
 override_import(Head) :-
     (   functor(Head, Predicate, Arity),
@@ -130,9 +131,9 @@ override_import(Head) :-
     ;   true
     ).
 
-%   is_own(+Head): module `user` defines the predicate.  Only
-%   current_predicate/1 does not load a library that has one of that name:
-%   predicate_property/2 would import it.
+%   is_own(+Head): module `user` defines the predicate.  current_predicate/1
+%   comes first, because predicate_property/2 would load a library that has a
+%   predicate of that name, and import it.
 
 is_own(Head) :-
     functor(Head, Predicate, Arity),
@@ -141,7 +142,7 @@ is_own(Head) :-
 
 %!  renamed(+Old, +New, +Term0, -Term) is det.
 %
-%   Term is Term0 with the atom New wherever Old is an argument.
+%   Term is Term0 with the atom New in place of each argument Old.
 
 renamed(Old, New, Term0, Term) :-
     (   Term0 == Old

@@ -12,9 +12,9 @@
 
 /** <module> Speech, Python, robots, pins
 
-Robots are driven by library(typhon/nxt), which has the names that end in
-`_nxt`.  Pins of a Raspberry Pi and windows of XPCE are not reached from here:
-these predicates say what to use instead.
+The predicates whose names end in `_nxt` drive robots; library(typhon/nxt)
+defines them.  This library does not support pins of a Raspberry Pi and windows
+of XPCE: their predicates raise errors that name a replacement.
 
 *Threading*: any thread.
 */
@@ -36,8 +36,8 @@ subtitles(off).
 %!  subt_on is det.
 %!  subt_off is det.
 %
-%   Say Text, where espeak-ng or espeak is installed and speech is on, and
-%   print it if subtitles are on.
+%   Speak Text if espeak-ng or espeak is installed and speech is on, and print
+%   it if subtitles are on.
 
 tts(Text) :-
     (   subtitles(on)
@@ -69,9 +69,9 @@ switch(Fact) :-
 %!  python_call(+File, +Function, -Result:atom) is semidet.
 %
 %   Call a function of the Python module File with Argument as text without
-%   quotes.  Result is the last line of what it returns.
+%   quotes.  Result is the last line of its result.
 %
-%   @error process_error(Class, exit(1)): what Python has raised
+%   @error process_error(Class, exit(1)): Python has raised an exception
 %   @error existence_error(host, tartarus_gate) without a platform
 
 python_call(File, Function, Argument, Result) :-
@@ -90,14 +90,14 @@ python(File, Function, Arguments, Result) :-
           throw(error(process_error(Class, exit(1)), context(_, Message)))),
     atom_string(Result, Line).
 
-%   The functions of bridges/tartarus/tartarus.py, on the host of the platform
-%   that is none of the user.
+%   The functions of bridges/tartarus/tartarus.py run on the host
+%   `tartarus_gate`, which programs do not use.
 
 in_python(Goal) :-
     bridge(File),
     catch(python_start(tartarus_gate, File, [timeout(3600)]),
           error(permission_error(start, python, _), _),
-          true),                        % it is started
+          true),                        % it has been started before
     remote(tartarus_gate, Goal).
 
 :- dynamic bridge/1.

@@ -24,32 +24,33 @@
 :- use_module(clauses, [body/3, body_copy/2, body_erase/2, body_install/1]).
 :- use_module(platform, [here/1, must/1, port_closed/1, wrong/2]).
 
-/** <module> Agents here: records, threads, beginning and end
+/** <module> Agents of this platform: records, threads, beginning and end
 
-An agent is a record, as facts of module `user`, since programs look at them,
-and clauses of that module, see module `clauses`.
+An agent consists of a record and of clauses, see module `clauses`.  The record
+is facts of module `user`, since programs read them.
 
-Record and clauses come and go together.  An agent that moved leaves its clauses
-behind until its last thread here is through: that may need them.  They are not
-those of the agent any more: if it comes back meanwhile, it brings its own.
+Record and clauses are added and removed together.  After an agent has moved,
+its clauses stay here until its last thread here has ended, since the thread may
+need them.  They no longer belong to the agent: if it comes back meanwhile, it
+brings its own clauses.
 
-Each call of a handler has a thread, which reads, sleeps and loops as it
-likes; it is never ended.  What has to wait until an agent's last thread is
-through is a thread of its own, which is notified.
+Each call of a handler has a thread, which may read, sleep and loop; no other
+thread ends it.  Goals that must wait for the end of the last thread of an agent
+run in threads of their own, which are notified.
 
-Agents are saved as text: of an agent its clauses, of a platform its agents
+Agents are saved as text: an agent as its clauses, a platform as its agents
 without their tokens.
 
 *Threading*: any thread; a mutex for beginning and end, and one for threads.
 */
 
-:- dynamic left/3.                      % Name, Id, Indicators: clauses that go
+:- dynamic left/3.                      % Name, Id, Indicators: clauses to erase
 
 %!  life_begin(+Name, +Location, +Handler, +Tokens) is det.
 %!  life_begin(+Name, +Location, +Handler, +Tokens, +Payload, +Clauses) is det.
 %
-%   An agent begins, from the template of its handler or with Clauses.  An
-%   agent of that name ends.
+%   Add an agent, with the template of its handler or with Clauses.  An agent of
+%   that name ends.
 
 life_begin(Name, Location, Handler, Tokens) :-
     with_mutex(tartarus_lives,
@@ -70,7 +71,7 @@ anew(Name, Location, Handler, Tokens) :-
 
 %!  life_end(+Name) is det.
 %
-%   Name, if it is here, ends.
+%   End the agent Name, if it is on this platform.
 
 life_end(Name) :-
     with_mutex(tartarus_lives, forget(Name, Indicators)),
@@ -86,8 +87,8 @@ forget(_, []).
 
 %!  life_elsewhere(+Name, +Life) is det.
 %
-%   Name goes on on another platform; or has come back from there already, and
-%   has another life here.
+%   Remove Name, which has moved to another platform.  It may have come back
+%   already: then Life is not its present one, and it stays.
 
 life_elsewhere(Name, Life) :-
     flag(tartarus_left, Id, Id+1),
@@ -124,7 +125,7 @@ sweep(_, _).
 
 %!  record(?Name, ?Handler, ?Location) is nondet.
 %
-%   The oldest first.
+%   The agents of this platform, the oldest first.
 
 record(Name, Handler, Location) :-
     user:agent_GUID(Name, Handler, Location).
@@ -142,8 +143,8 @@ record_remove(Name) :-
 
 %!  record_life(+Name, ?Life) is semidet.
 %
-%   Life stands for Name from now until it ends or moves: if it comes again,
-%   that is another life.
+%   Life identifies the stay of Name from now until it ends or moves: if it
+%   comes back, it has another Life.
 
 record_life(Name, Life) :-
     clause(user:agent_GUID(Name, _, _), true, Life0),
@@ -181,7 +182,7 @@ set_tokens(Name, Tokens) :-
 
 %!  record_static(+Name, ?Key) is semidet.
 %
-%   Name has a port of its own: note its Key, or say what it is.
+%   Name has a port of its own: store its Key if it is bound, else return it.
 
 record_static(Name, Key) :-
     (   nonvar(Key)
@@ -199,13 +200,13 @@ record_static(Name, Key) :-
 
 :- dynamic
     last/2,                     % Name, Thread: runs its handler, the newest
-    waits/2.                    % Thread, Queue: to be told of its end
+    waits/2.                    % Thread, Queue: is notified of its end
 
 %!  run_handler(+Name, +Handler, +Start, +When) is det.
 %
-%   Call Handler(Name, Location, Start) in a new thread, When is `now` or
-%   `in_turn`: when the last thread of Name, if it runs, is through.  Failure
-%   says nothing, and an error only under debug(tartarus(handler)).
+%   Call Handler(Name, Location, Start) in a new thread.  When is `now`, or
+%   `in_turn`: after the last thread of Name, if it runs, has ended.  Failure is
+%   not reported, and an error only under debug(tartarus(handler)).
 
 run_handler(Name, Handler, Start, When) :-
     record_location(Name, Location),
@@ -229,7 +230,7 @@ handle(Name, Before, Goal) :-
           catch(ignore(user:Goal), Ball, unsaid(Ball, Name)) ),
         through(Name)).
 
-%   An abort ends the thread, as it has to when the process ends.
+%   An abort must end the thread, since the end of the process aborts it.
 
 unsaid('$aborted', _) :-
     throw('$aborted').
@@ -290,7 +291,7 @@ unwait(Queue) :-
 
 %!  save_agent(+Name, +File) is semidet.
 %
-%   The clauses of an agent, as listing/1 writes them.
+%   Write the clauses of an agent to File, as listing/1 does.
 
 save_agent(Name, File) :-
     body_of(Name, Indicators, Clauses),
@@ -320,7 +321,7 @@ written(Out, Clause) :-
 %!  save_tartarus_state(+File) is det.
 %!  load_tartarus_state(+File) is semidet.
 %
-%   The agents of a platform.  Those that are loaded run, from `main`.
+%   Write the agents of the platform to File; read and run them, from `main`.
 
 save_tartarus_state(File) :-
     setup_call_cleanup(

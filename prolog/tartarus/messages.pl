@@ -19,11 +19,11 @@
 /** <module> Messages, and log servers
 
 A message is a goal for another platform, as a list [Functor,Agent|Arguments].
-It is called there in a thread of its own; the sender knows only whether it
-was accepted.
+It is called there in a thread of its own; the sender learns only whether it was
+accepted.
 
-Any platform is a log server, and there may be three: what it is sent it prints
-and appends to a file in its working directory.
+Any platform can be a log server, and there may be three.  A log server prints
+the entries sent to it, and appends them to a file in its working directory.
 
 *Threading*: any thread; accept/3 and logged/3 in workers, one entry at a time.
 */
@@ -127,7 +127,7 @@ deliver(Agent, Functor, Arguments) :-
     Goal =.. [Functor,Agent|Arguments],
     run_apart(tartarus_messages:handle(Goal)).
 
-%   Only here is seen what becomes of it.
+%   No caller gets failure or an error, so it is reported here.
 
 handle(Goal) :-
     catch(user:Goal, Error, true),

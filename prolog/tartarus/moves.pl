@@ -28,28 +28,28 @@
               [ here/1, location_address/2, must/1, same_location/2, told/2,
                 verbosely/2, verbosity/1, wrong/2 ]).
 
-/** <module> From platform to platform, and how long that takes
+/** <module> Moves of agents between platforms, and their times
 
-What an agent is made of travels as a bundle, which a carrier, an agent of
-Typhon, takes to the other platform and hands over there.  So the bundle
-arrives once or not at all, whatever happens to the connection; only when it
-is in the agent goes here.
+The parts of an agent travel as a bundle, which a carrier, an agent of Typhon,
+takes to the other platform and installs there.  So the bundle arrives once or
+not at all, whatever happens to the connection; the agent is removed here only
+after the bundle has arrived.
 
-A hop takes the time from sending to knowing that it has arrived, on the side
-that sends; from sending to arriving on the other, by the clocks of both.
+The sender measures a hop from sending to the acknowledgement of the arrival;
+the receiver from sending to arrival, by the clocks of both.
 
-*Threading*: move_agent/2 and clone_agent/3 return when it is known whether the
-agent was let in; land/1 is called by carriers, in a worker; times are for any
-thread.
+*Threading*: move_agent/2 and clone_agent/3 return when the agent has been
+admitted or refused; carriers call land/1, in a worker; any thread may read the
+times.
 */
 
 :- dynamic turned_back/2.               % Carrier, Why
 
 %!  move_agent(+Name, +Location) is det.
 %
-%   Let an agent go to another platform, where its handler runs from `main`.
-%   The goals that follow run on, here.  What goes wrong is printed: the agent
-%   stays, then.
+%   Move an agent to another platform, where its handler runs from `main`.  The
+%   goals that follow run here.  If the move fails, the reason is printed and
+%   the agent stays.
 
 move_agent(Name, Location) :-
     must([ check(mov1, 'the agent is an atom', atom(Name)),
@@ -81,8 +81,8 @@ moved(stays, _, _).
 
 %!  clone_agent(+Name, +Location, -Clone) is semidet.
 %
-%   A copy goes to Location, which may be here, and runs there from `main`;
-%   the original goes on.  Clone is Name with a number.
+%   Send a copy to Location, which may be this platform, where it runs from
+%   `main`; the original continues.  Clone is Name with a number.
 
 clone_agent(Name, Location, Clone) :-
     must([ check(clo1, 'the port is an integer',
@@ -191,7 +191,7 @@ result(Outcome, _, missed(Outcome)).
 
 %!  land(+Bundle) is det.
 %
-%   An agent has come: it is installed and runs.
+%   Install and run the agent in Bundle, which has arrived.
 
 land(bundle(Name, Handler, Payload, Clauses, Tokens, From, Time)) :-
     here(Here),
@@ -214,7 +214,7 @@ arrived(Name) :-
 
 :- dynamic hop/6.                       % Way, Agent, From, To, Date, Seconds
 
-%   So many of either way are kept.
+%   About so many hops of each direction are kept.
 
 kept(10000).
 
@@ -262,7 +262,7 @@ out_hop_time(Agent, From, To, Date, Seconds) :-
 %!  in_hop_times_details(-List) is det.
 %!  out_hop_times_details(-List) is det.
 %
-%   The hops so far: (Agent,Seconds), or (Agent,From,To,Date,Seconds).
+%   List are the kept hops: (Agent,Seconds), or (Agent,From,To,Date,Seconds).
 
 in_hop_times_info(List) :-
     findall((Agent,Seconds), in_hop_time(Agent, Seconds), List).
@@ -285,7 +285,7 @@ details(Way, List) :-
 %!  out_hop_time_stat(-Max, -Min, -Mean) is det.
 %!  overall_hop_time_stat(-Max, -Min, -Mean) is det.
 %
-%   0 each before the first hop.
+%   The longest, the shortest and the mean time; 0 each before the first hop.
 
 in_hop_time_stat(Max, Min, Mean) :-
     seconds(in, Seconds),

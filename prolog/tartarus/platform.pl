@@ -29,15 +29,16 @@
 
 /** <module> Platforms
 
-A platform is known by a pair (Ip,Port), as its user wrote it.  Under it is a
-host called `tartarus`, whose place is module `user`; agents that leave are
-born on another, `tartarus_gate`, which asks for no token.
+A platform is identified by a pair (Ip,Port), as its user wrote it.  It is a
+host called `tartarus`, whose place is module `user`.  The carriers of agents
+that leave are created on a second host, `tartarus_gate`, which asks for no
+token.
 
 *Threading*: any thread; one mutex.
 */
 
 :- multifile
-    closing/0,                          % agents and what they hold go
+    closing/0,                          % remove agents and their resources
     status/0.                           % print a section of the status
 :- dynamic
     closing/0,
@@ -56,8 +57,8 @@ born on another, `tartarus_gate`, which asks for no token.
 %!  platform_start(+Ip, +Port) is semidet.
 %
 %   Start the platform of this process, and print its banner.  Without a token
-%   no agent is admitted.  Fails when the port is taken.  Ports above 65535 are
-%   those modulo 65536.
+%   no agent is admitted.  Fails if the port is in use.  Ports above 65535 are
+%   reduced modulo 65536.
 
 start_tartarus(Port) :-
     platform_start(localhost, Port).
@@ -92,7 +93,7 @@ start(Ip, Port, Verbosity) :-
                   [Ip, Port, Formal]),
             fail )),
     set_verbosity(Verbosity),
-    set_stream(user_output, buffer(line)),      % what threads print, too
+    set_stream(user_output, buffer(line)),      % also for threads
     assertz(user:platform_Ip(Ip)),
     assertz(user:platform_port(Port)),
     format(atom(Line), '~`=t~48|', []),
@@ -116,7 +117,7 @@ nobody_yet([Token]) :-
 
 %!  close_tartarus is semidet.
 %
-%   Threads of handlers that run go on.
+%   Stop the platform.  Threads of handlers continue.
 
 close_tartarus :-
     with_mutex(tartarus_platform, close),
@@ -136,7 +137,7 @@ close :-
 
 %!  reset_tartarus is semidet.
 %
-%   Agents and asserted files go; the platform goes on, at the same port.
+%   Remove agents and asserted files; the platform continues at the same port.
 
 reset_tartarus :-
     here(_),
@@ -168,7 +169,7 @@ set_token(Token) :-
 
 %!  verbose(+Bit) is det.
 %
-%   Whether arrivals, creations and hop times are printed: 0 or 1.
+%   Print arrivals, creations and hop times if Bit is 1, and not if it is 0.
 
 verbose(Bit) :-
     must([check(v1, 'the argument is 0 or 1', memberchk(Bit, [0,1]))]),
@@ -191,7 +192,7 @@ print_tartarus_status :-
 
 %!  assert_file_to_tartarus(+File) is semidet.
 %
-%   The clauses of File are asserted into `user`, dynamic.
+%   Assert the clauses of File into `user`, as dynamic predicates.
 
 assert_file_to_tartarus(File) :-
     must([check(f1, 'the file exists', exists_source_file(File))]),
@@ -242,7 +243,7 @@ here((Ip,Port)) :-
 
 %!  location_address(+Location, -Address) is det.
 %
-%   Address is that of the host which is the platform at Location.
+%   Address is the address of the host of the platform at Location.
 
 location_address((Ip,Port0), Address) :-
     interface(Ip, Interface),
@@ -264,7 +265,7 @@ same_location(Location1, Location2) :-
 %!  port_open(+Port, -Key) is det.
 %!  port_closed(+Key) is det.
 %
-%   This process listens at a further Port.
+%   Make this process listen at a further Port; close that port.
 
 port_open(Port0, Key) :-
     Port is Port0 mod 65536,
@@ -287,7 +288,7 @@ verbosity(0).
 %!  told(+Format, +Arguments) is det.
 %!  verbosely(+Format, +Arguments) is det.
 %
-%   Print a line, or more, as format/2; the latter if the platform is verbose.
+%   Print lines as format/2 does; verbosely/2 only if the platform is verbose.
 
 told(Format, Arguments) :-
     format(user_output, Format, Arguments),
@@ -302,7 +303,7 @@ verbosely(Format, Arguments) :-
 %!  verbosity(?Bit) is semidet.
 %!  set_verbosity(+Bit) is det.
 %
-%   0 or 1.
+%   Bit is 1 if the platform is verbose, else 0.
 
 set_verbosity(Bit) :-
     retractall(verbosity(_)),
@@ -310,7 +311,7 @@ set_verbosity(Bit) :-
 
 %!  wrong(+Format, +Arguments) is det.
 %
-%   Say on the standard error what is wrong.
+%   Print an error on the standard error.
 
 wrong(Format, Arguments) :-
     print_message(error, format(Format, Arguments)).
@@ -318,7 +319,7 @@ wrong(Format, Arguments) :-
 %!  must(:Checks) is det.
 %
 %   Checks is a list of check(Code, Text, Goal).  Those whose Goal fails are
-%   told, then the thread that calls is aborted.
+%   printed, and then the calling thread is aborted.
 
 must(Module:Checks) :-
     findall(Code-Text,
