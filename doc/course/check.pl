@@ -1,6 +1,6 @@
 :- module(course_check, []).
 
-/** <module> Checks and marks what students hand in
+/** <module> Check and mark the programs of students
 
     swipl doc/course/check.pl -- round.pl        one program
     swipl doc/course/check.pl -- anna bert       all programs in folders
@@ -117,8 +117,7 @@ check_all(Files, Options) :-
     ;   true
     ).
 
-%   The process prints a term for each criterion, and what else it has to say
-%   to the user.
+%   The process prints a term for each criterion; its messages go to the user.
 
 checked(Options, File, row(File, Exercise, Held, Of, Verdicts)) :-
     file_exercise(File, Exercise),
@@ -176,7 +175,7 @@ report_one(Text, Why) :-
                 *          THE CHECK           *
                 *******************************/
 
-%   What the program prints goes where the messages go.
+%   The output of the program goes to the stream of messages.
 
 check_here(File) :-
     stream_property(Out, alias(user_output)),

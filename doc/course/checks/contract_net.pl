@@ -126,7 +126,7 @@ result_names(Expected, Contractors, awarded(Task, Contractor, Cost)) :-
     nth1(N, Contractors, Contractor).
 result_names(Result, _, Result).
 
-%   Kind is what it costs, or what else its contractor does.
+%   Kind is the cost of the task, or another behaviour of its contractor.
 
 contractor(Host-Kind, Agent) :-
     agent_create(clauses([ (:- agent(contractor, [state([kind/1])])),

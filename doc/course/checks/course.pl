@@ -12,11 +12,11 @@
             expect/3                    % +What, +Found, +Expected
           ]).
 
-/** <module> What the checks of all lessons share
+/** <module> Common parts of the checks of all lessons
 
 A check is a clause `course:criterion(Exercise, Text, Goal)`, in the file of
-its lesson: call(Goal, File) is true if the program in File does what Text
-says.  All runs are made in virtual time.
+its lesson: call(Goal, File) is true if the program in File meets the criterion
+that Text describes.  All runs are made in virtual time.
 
 *Threading*: the main thread.
 */
@@ -63,8 +63,8 @@ exercise(customer, 7).
 
 %!  exercise_verdict(+Exercise, +File, -Verdict) is nondet.
 %
-%   Verdict is verdict(Text, Found) for each criterion; Found is `ok`, or says
-%   why it does not hold.
+%   Verdict is verdict(Text, Found) for each criterion; Found is `ok`, or the
+%   reason why it does not hold.
 
 exercise_verdict(Exercise, File, verdict(Text, Found)) :-
     criterion(Exercise, Text, Goal),
@@ -110,7 +110,7 @@ on_host(File, Host, Facts, Agent) :-
 
 %!  ended(+Agent, -Result) is det.
 %
-%   Agent ends as programs should, and Result is what it gave.
+%   Agent ends with `done`, and Result is its result.
 %
 %   @error course_expected(What, Found, Expected)
 

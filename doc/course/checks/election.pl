@@ -1,6 +1,6 @@
 :- module(course_election, []).
 
-% Lesson 3: hosts that choose one of them.
+% Lesson 3: hosts that elect a leader.
 
 :- use_module(course).
 :- use_module('../../../prolog/typhon').

@@ -1,6 +1,6 @@
 :- module(course_faults, []).
 
-% Lesson 6: what can fail, and how agents live with it.
+% Lesson 6: faults, and agents that tolerate them.
 
 :- use_module(course).
 :- use_module('../../../prolog/typhon').
@@ -22,7 +22,7 @@ course:criterion(patrol, 'skips nothing where nothing is the matter',
 patrols(Closed, File) :-
     in_network(star(4), [], patrol(File, Closed)).
 
-%   A host that has been stopped refuses: there is no such host any more.
+%   A stopped host refuses agents: it does not exist any more.
 
 patrol(File, Closed, [Home|Hosts]) :-
     findall(Host, ( member(Host, Hosts), is_among(Host, Closed) ), Shut),

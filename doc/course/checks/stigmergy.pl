@@ -1,6 +1,6 @@
 :- module(course_stigmergy, []).
 
-% Lesson 2: agents that work together by what they leave on hosts.
+% Lesson 2: agents that cooperate by facts and pheromones on hosts.
 
 :- use_module(course).
 :- use_module('../../../prolog/typhon').
@@ -120,7 +120,7 @@ no_smell(_, Hosts, _) :-
     remote(Last, findall(P, pheromone(P, _, _), Smells)),
     expect('what can be smelt', Smells, []).
 
-%   The agent is there before the fire is.
+%   The agent arrives before the fire begins.
 
 :- meta_predicate burning(+, 3).
 

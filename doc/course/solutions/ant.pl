@@ -1,4 +1,4 @@
-% ant.pl: looks for food, and marks the way back, the more the less it cost
+% ant.pl: looks for food, and marks the way back, a cheap one more strongly
 
 :- agent(ant, []).
 

@@ -1,4 +1,4 @@
-% contractor.pl: offers what its host can do, and does it
+% contractor.pl: offers the tasks of its host, and does those awarded to it
 
 :- agent(contractor, []).
 

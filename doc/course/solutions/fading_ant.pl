@@ -1,4 +1,4 @@
-% fading_ant.pl: as ant.pl; what is there of a trail fades when one is laid
+% fading_ant.pl: as ant.pl; the trails of a host fade when an ant marks one
 
 :- agent(fading_ant, []).
 

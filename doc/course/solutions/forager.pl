@@ -1,12 +1,12 @@
-% forager.pl: carries food to where it was born
+% forager.pl: carries food to the host where it was created
 
 :- agent(forager, []).
 
 main :-
     search(60, 0).
 
-%   search(+Patience, +Brought): Patience is how many hosts it looks at before
-%   it gives up.
+%   search(+Patience, +Brought): Patience is the number of hosts that the ant
+%   visits before it gives up.
 
 search(0, Brought) :-
     !,

@@ -1,4 +1,4 @@
-% foreman.pl: starts a worker again until it is done, but not too often
+% foreman.pl: restarts a worker until it is done, but not too often
 
 :- agent(foreman, [state([job/1, most/1])]).
 

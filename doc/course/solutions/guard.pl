@@ -1,4 +1,4 @@
-% guard.pl: waits for a worker, and takes over when that is silent
+% guard.pl: waits for a worker, and takes over when the worker is silent
 
 :- agent(guard, []).
 

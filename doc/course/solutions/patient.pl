@@ -1,4 +1,4 @@
-% patient.pl: tries again and again to come to a host
+% patient.pl: tries repeatedly to move to a host
 
 :- agent(patient, [state([goal/1])]).
 

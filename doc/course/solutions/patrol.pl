@@ -1,4 +1,4 @@
-% patrol.pl: visits a list of hosts, and skips those that do not let it in
+% patrol.pl: visits a list of hosts, and skips those that refuse it
 
 :- agent(patrol, [state([todo/1])]).
 

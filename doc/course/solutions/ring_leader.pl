@@ -8,7 +8,7 @@ main :-
     run(Mine),
     announce(Home, Mine).
 
-%   run(+Mine): true when the candidate is back, and was not beaten.
+%   run(+Mine): succeeds if the candidate comes back unbeaten.
 
 run(Mine) :-
     next(Next),

@@ -1,4 +1,4 @@
-% shopper.pl: asks for the price on each host, and buys where it is lowest
+% shopper.pl: reads the price on each host, and buys at the lowest price
 
 :- agent(shopper, [state([task/2])]).
 

@@ -1,4 +1,4 @@
-% tally.pl: adds up what it is sent
+% tally.pl: adds up numbers in messages
 
 :- agent(tally, [state([sum/1])]).
 

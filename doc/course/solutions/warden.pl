@@ -1,4 +1,4 @@
-% warden.pl: monitors agents, and says how each of them ended
+% warden.pl: monitors agents, and lists the outcome of each
 
 :- agent(warden, [state([wards/1])]).
 
