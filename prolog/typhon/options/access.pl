@@ -12,9 +12,9 @@
 
 The option peer(Rules) of a host is a list of Peer-Rights.  Peer is `cookie`,
 certificate(Name), or a pattern of these; Rights is `all` or a list of rights,
-see typhon_remote; the right `inspect` is called `watch` here.  The first
-rule that matches the proof of a peer applies; a peer without a matching rule
-has no right.
+see typhon_remote.  Rules call the right `inspect` `watch`.  The first rule that
+matches the proof of a peer applies; a peer without a matching rule has no
+right.
 
 With the option audit(File) each security event appends a line to File,
 
@@ -109,8 +109,8 @@ rights(Rights) :-
                 *             AUDIT            *
                 *******************************/
 
-%   note(+File, +Host, +Peer, +Proof, +What): Proof is
-%   how Peer has proved itself; What is as of security_event/3.
+%   note(+File, +Host, +Peer, +Proof, +What): Proof is how Peer has proved its
+%   identity; What is as of security_event/3.
 
 note(File, Host, Peer, Proof, What0) :-
     get_time(Time),
@@ -122,7 +122,7 @@ note(File, Host, Peer, Proof, What0) :-
           error(Formal, Context),
           print_error(error, error(Formal, Context))).
 
-%   brief(+Term0, -Term): large subterms of Term0 are replaced by abridged text.
+%   brief(+Term0, -Term): replace large subterms of Term0 by abridged text.
 %   Otherwise a peer, or a cell, could fill the disk with large entries.
 
 brief(Term0, Term) :-
@@ -140,8 +140,8 @@ brief(Term0, Term) :-
 brief(Term0, large(Text)) :-
     abridged(Term0, 100, Text).
 
-%   The entry holds text of the peer, so it is quoted to be read again, and its
-%   depth is limited.
+%   The entry holds text that the peer chose: quoting keeps the log readable by
+%   read/1, and the limit of the depth bounds the entry.
 
 append_line(File, Entry) :-
     setup_call_cleanup(

@@ -8,21 +8,21 @@
                 virtual_end/0, virtual_loop/1, virtual_now/1,
                 virtual_standing/1, virtual_steps/1 ]).
 
-/** <module> The runtime `virtual`: nothing waits
+/** <module> The runtime `virtual`: simulated time
 
-One thread does all work, in the order in which it came.  When there is no
-more, the clock jumps to the next alarm.  What is done thus follows from the
-programs alone: not from how busy the machine is, nor from other threads.
+One thread runs all work in the order in which it was queued.  When the queue is
+empty the clock jumps to the next alarm.  So a run depends on the programs
+alone, not on the load of the machine nor on other threads.
 
-Time runs while a caller waits, in time_wait/3, and stands still from the
-moment at which what it waits for is there.  So a program that starts agents,
-waits, looks, and waits again finds the same each time.
+Time runs only while a caller waits, in time_wait/3, and stops as soon as the
+message for which it waits is in its queue.  So a program that starts agents,
+waits, inspects them, and waits again gets the same results in each run.
 
-A native goal takes no time.  One that does not end, and agents that go on
-for ever at one instant, are reported.
+A native goal takes no virtual time.  A native goal that does not end, and
+agents that never leave one instant, are reported.
 
-*Threading*: any thread may call, and what two of them do at the same time
-comes in any order; with one there is no chance.
+*Threading*: any thread may call.  Calls of two threads at the same time are
+queued in any order; runs are repeatable only if a single thread calls.
 */
 
 :- multifile
@@ -65,8 +65,8 @@ typhon_time:clock(virtual, typhon_virtual_loop:virtual_now).
                 *         START AND STOP       *
                 *******************************/
 
-%   Time begins at 0.0, and stands still.  It ends, also if it is held, and what
-%   was to be done is forgotten; a goal that runs is interrupted.
+%   Time begins at 0.0 and stands still.  Stopping also works while time is
+%   held: queued work is discarded, and a running goal is interrupted.
 
 typhon_time:starts(virtual) :-
     message_queue_create(Queue),
@@ -88,27 +88,24 @@ typhon_time:stops(virtual) :-
                 *        WORK AND ALARMS       *
                 *******************************/
 
-%   What is to be done as soon as time runs, and what at Stamp.  Of two
-%   alarms at the same Stamp the one that was set first goes off first.
-
 typhon_time:work(virtual, Work) :-
-    tell(do(Work)).
+    send_loop(do(Work)).
 
 typhon_time:alarm(virtual, Stamp0, Agent, Token) :-
     Stamp is float(Stamp0),
-    tell(alarm(Stamp, Agent-Token)).
+    send_loop(alarm(Stamp, Agent-Token)).
 
 typhon_time:seed(virtual, Seed) :-
-    tell(do(goal(set_random(seed(Seed))))).
+    send_loop(do(goal(set_random(seed(Seed))))).
 
 typhon_time:alone(virtual) :-
     virtual_alone.
 
-tell(Message) :-
+send_loop(Message) :-
     (   loop(_, Queue)
     ->  catch(thread_send_message(Queue, Message),
               error(existence_error(_, _), _), true)
-    ;   true                            % it has ended
+    ;   true                            % virtual time has ended
     ).
 
 typhon_time:signal(virtual, Goal) :-
@@ -123,35 +120,35 @@ signal(Goal) :-
                 *            HOLDING           *
                 *******************************/
 
-%   Where time stands is known, see virtual_standing/1.  When it is let go, or
-%   goes on from such a term, it stands until a caller waits.  What is called in
-%   the thread of virtual time itself holds it anyway.
+%   The state of virtual time is the term of virtual_standing/1.  After let_go,
+%   or after this state was restored, time stands still until a caller waits.  A
+%   goal in the thread of virtual time holds time by running.
 
 typhon_time:hold(virtual, Seconds) :-
     (   own_thread
     ->  true
-    ;   asked(ask(hold(Reply)), Reply, [timeout(Seconds)], held)
+    ;   ask_loop(ask(hold(Reply)), Reply, [timeout(Seconds)], held)
     ).
 
-typhon_time:stands(virtual, Standing) :-
+typhon_time:stands(virtual, State) :-
     (   own_thread
-    ->  virtual_standing(Standing)
-    ;   asked(held(standing(Reply)), Reply, [], Standing)
+    ->  virtual_standing(State)
+    ;   ask_loop(held(state(Reply)), Reply, [], State)
     ).
 
 typhon_time:let_go(virtual, []) :-
     (   own_thread
     ->  true
-    ;   tell(held(let_go))
+    ;   send_loop(held(let_go))
     ).
 
 own_thread :-
     loop(Thread, _),
     thread_self(Thread).
 
-typhon_time:again(virtual, Standing, Agents) :-
-    asked(ask(again(Standing, Reply)), Reply, [], done),
-    findall(Agent, has_turn(Standing, Agent), Agents).
+typhon_time:again(virtual, State, Agents) :-
+    ask_loop(ask(restore(State, Reply)), Reply, [], done),
+    findall(Agent, has_turn(State, Agent), Agents).
 
 has_turn(virtual(_, _, _, _, Messages), Agent) :-
     member(do(Work), Messages),
@@ -159,11 +156,11 @@ has_turn(virtual(_, _, _, _, Messages), Agent) :-
 has_turn(_, Agent) :-
     limit_parked(Agent).
 
-asked(Question, Reply, Options, Answer) :-
+ask_loop(Request, Reply, Options, Answer) :-
     loop(_, Loop),
     setup_call_cleanup(
         message_queue_create(Reply),
-        ( thread_send_message(Loop, Question),
+        ( thread_send_message(Loop, Request),
           thread_get_message(Reply, Answer, Options)
         ),
         message_queue_destroy(Reply)).
@@ -172,17 +169,18 @@ asked(Question, Reply, Options, Answer) :-
                 *            WAITING           *
                 *******************************/
 
-%   Time runs until there is a message in Queue, or until Stamp.  A goal of an
-%   agent cannot wait: while it runs no time passes.
+%   Time runs until Queue holds a message, or until Stamp.  In the thread of
+%   virtual time a wait for an empty queue fails at once: no time passes while a
+%   goal runs there.
 
 typhon_time:wait(virtual, Queue, Message, Stamp) :-
-    (   there(Queue)
+    (   has_messages(Queue)
     ->  true
-    ;   comes(Queue, Stamp)
+    ;   wait_until_message(Queue, Stamp)
     ),
     thread_get_message(Queue, Message).
 
-comes(Queue, Stamp) :-
+wait_until_message(Queue, Stamp) :-
     loop(Thread, Loop),
     \+ thread_self(Thread),
     setup_call_cleanup(
@@ -190,40 +188,42 @@ comes(Queue, Stamp) :-
         ( thread_send_message(Loop, ask(wait(Reply, Queue, Stamp))),
           answer(Reply, Answer)
         ),
-        ( tell(ask(no_longer(Reply))),
+        ( send_loop(ask(cancel(Reply))),
           message_queue_destroy(Reply)
         )),
     Answer == there.
 
-there(Queue) :-
+has_messages(Queue) :-
     message_queue_property(Queue, size(Size)),
     Size > 0.
 
-%   Meanwhile this thread looks whether something goes on.
+%   The waiting thread watches the progress of virtual time, as the thread of
+%   virtual time cannot do that while a goal runs.
 
 answer(Reply, Answer) :-
     setting(patience, Seconds),
-    course(Course),
+    progress(Progress),
     (   thread_get_message(Reply, Answer0, [timeout(Seconds)])
     ->  Answer = Answer0
-    ;   complain(Course),
+    ;   report_no_progress(Progress),
         answer(Reply, Answer)
     ).
 
-course(course(Now, Steps)) :-
+progress(progress(Now, Steps)) :-
     virtual_now(Now),
     virtual_steps(Steps).
 
-complain(course(Now, Steps0)) :-
-    course(course(Now, Steps)),
+report_no_progress(progress(Now, Steps0)) :-
+    progress(progress(Now, Steps)),
     !,
-    (   Steps-Steps0 =< 1               % it may just have begun
+    (   Steps-Steps0 =< 1               % the step may just have begun
     ->  signal(typhon_virtual:report_work)
     ;   print_message(warning, typhon(virtual_busy(Now)))
     ).
-complain(_).
+report_no_progress(_).
 
-%   In the thread of virtual time, in the middle of what keeps it.
+%   Runs as a signal in the thread of virtual time, within the goal that blocks
+%   it.
 
 report_work :-
     (   virtual_doing(Work)

@@ -20,127 +20,141 @@
 
 /** <module> The thread of virtual time
 
-It takes from one queue what is to be done, in order:
+The thread reads these messages from one queue:
 
-  | do(Work)                        | see module `work`                     |
-  | alarm(Stamp, Agent-Token)       | of two at one Stamp the first goes    |
-  |                                 | off first                             |
-  | ask(wait(Reply, Waited, Stamp)) | a caller waits for a message in       |
-  |                                 | Waited, until Stamp; Reply gets       |
+  | do(Work)                        | run Work, see module `work`           |
+  | alarm(Stamp, Agent-Token)       | set an alarm; alarms at the same      |
+  |                                 | Stamp fire in the order in which they |
+  |                                 | were set                              |
+  | ask(wait(Reply, Waited, Stamp)) | a caller waits for a message in the   |
+  |                                 | queue Waited, until Stamp; Reply gets |
   |                                 | `there` or `late`                     |
-  | ask(no_longer(Reply))           | it does not any more                  |
-  | ask(stop)                       |                                       |
-  | ask(hold(Reply))                | Reply gets `held`: nothing is done    |
-  |                                 | until held(let_go)                    |
-  | held(standing(Reply))           | meanwhile: Reply gets where time      |
-  |                                 | stands                                |
-  | ask(again(Standing, Reply))     | time is as it was; Reply gets `done`  |
+  | ask(cancel(Reply))              | the caller of wait(Reply, _, _) has   |
+  |                                 | stopped waiting                       |
+  | ask(stop)                       | end the thread                        |
+  | ask(hold(Reply))                | pause until held(let_go); Reply gets  |
+  |                                 | `held`                                |
+  | held(state(Reply))              | during a pause: Reply gets the state  |
+  |                                 | of virtual time                       |
+  | ask(restore(State, Reply))      | restore that state; Reply gets `done` |
 
-Without a waiting caller it only answers questions: time stands still.
+Virtual time stands still while no caller waits.  The thread then reads ask(_)
+alone; work and alarms stay in the queue.
 
 *Threading*: the heap of alarms and the list of waiting callers are on the
 stack of this thread. The time and the number of steps are flags, which any
-thread may ask for. No `server`: it takes messages by their form, not in order.
+thread may read. The thread is no `server`: it selects messages by their form.
 */
 
 :- multifile
-    typhon_scheduler:fire/2,            % Agent, Token: an alarm went off
-    typhon_scheduler:over/2,            % Agent, Token: it is not needed
+    typhon_scheduler:fire/2,            % Agent, Token: an alarm fires
+    typhon_scheduler:over/2,            % Agent, Token: the alarm is obsolete
     prolog:message//1.
 
 %!  virtual_begin is det.
-%!  virtual_end is det.
 %
-%   Time is 0.0; it is about to end, and does so where what runs is aborted.
-%   At other times it goes on after that.
+%   Set virtual time and the count of steps to zero.
 
 virtual_begin :-
     flag(typhon_virtual_now, _, 0.0),
     flag(typhon_virtual_steps, _, 0),
     flag(typhon_virtual_ends, _, 0).
 
+%!  virtual_end is det.
+%
+%   From now on an abort of the running work ends the loop.  Before this call
+%   the loop survives an abort.
+
 virtual_end :-
     flag(typhon_virtual_ends, _, 1).
 
 %!  virtual_loop(+Queue) is det.
 %
-%   Until ask(stop) comes. What agents draw by library(random) comes from the
-%   generator of this thread: it begins alike each time, or see time_seed/1.
+%   Process Queue until it yields ask(stop).  Agents run in this thread, so
+%   library(random) uses its generator.  It starts from a fixed seed to make
+%   runs repeatable; time_seed/1 sets another one.
 
 virtual_loop(Queue) :-
     set_random(seed(1)),
     empty_heap(Alarms),
-    stand(Queue, alarms(0, Alarms)).
+    wait_for_request(Queue, alarms(0, Alarms)).
 
 %!  virtual_now(-Stamp:float) is det.
-%!  virtual_steps(-Count) is det.
+%
+%   Stamp is the virtual time, in seconds since the loop began.
 
 virtual_now(Stamp) :-
     get_flag(typhon_virtual_now, Stamp).
 
+%!  virtual_steps(-Count:integer) is det.
+%
+%   Count is the number of steps that the loop has run.
+
 virtual_steps(Count) :-
     get_flag(typhon_virtual_steps, Count).
 
-%   Only this thread counts.
+%   Only this thread writes the flag, so reading and writing it need no lock.
 
-one_step_more :-
+count_step :-
     get_flag(typhon_virtual_steps, Steps0),
     Steps is Steps0+1,
     set_flag(typhon_virtual_steps, Steps).
 
 %!  virtual_doing(-Work) is semidet.
 %
-%   What this thread is about to do, if it is that of virtual time.
+%   Work is the work that the calling thread runs.  Fails in every thread but
+%   that of virtual time.
 
 virtual_doing(Work) :-
     nb_current(typhon_virtual_work, doing(Work, _, _, _)).
 
 %!  virtual_alone is semidet.
 %
-%   What this thread does now may go on as if it had come again: nothing else
-%   is to be done, and no caller has what it waits for.
+%   The work that the calling thread runs may run its next step at once, which
+%   counts as a step of the loop.  Queueing that step would change nothing, as
+%   the queue is empty and no caller's wait is satisfied.
 
 virtual_alone :-
     nb_current(typhon_virtual_work, doing(_, 0, Waiting, Queue)),
-    \+ there(Queue),
-    \+ ( member(Waits, Waiting), has_got(Waits) ),
-    one_step_more.
+    \+ has_messages(Queue),
+    \+ ( member(Waits, Waiting), is_satisfied(Waits) ),
+    count_step.
 
-%!  virtual_standing(-Standing) is semidet.
+%!  virtual_standing(-State) is semidet.
 %
-%   Where time stands, if this is its thread: a term from which it can go on, as
-%   it would have,
+%   State is the state of virtual time, from which ask(restore(_, _)) continues:
 %
 %       virtual(Now, Random, Count, Alarms, Messages)
 %
-%   the time, the state of the generator, the number of the next alarm, those
-%   alarms that are waited for, and what is still to be heard in the queue,
-%   without questions.
+%   Now is the time, Random the state of the random generator, Count the number
+%   of the next alarm, Alarms the pending alarms that are not obsolete, and
+%   Messages the content of the queue without requests.  Fails in every thread
+%   but that of virtual time.
 
-virtual_standing(Standing) :-
+virtual_standing(State) :-
     nb_current(typhon_virtual_alarms, Queue-Alarms),
-    standing(Queue, Alarms, Standing).
+    loop_state(Queue, Alarms, State).
 
-standing(Queue, alarms(Count, Heap),
-         virtual(Now, Random, Count, Alarms, Messages)) :-
+loop_state(Queue, alarms(Count, Heap),
+           virtual(Now, Random, Count, Alarms, Messages)) :-
     virtual_now(Now),
     random_property(state(Random)),
     heap_to_list(Heap, All0),
     exclude(is_over, All0, Alarms),
     fifo_empty(Queue, All),
     forall(member(Message, All), thread_send_message(Queue, Message)),
-    exclude(is_question, All, Messages).
+    exclude(is_request, All, Messages).
 
 is_over(_-(Agent-Token)) :-
     catch(typhon_scheduler:over(Agent, Token), error(_, _), fail).
 
-is_question(ask(_)).
-is_question(held(_)).
+is_request(ask(_)).
+is_request(held(_)).
 
-%   What is in the queue comes after what was in it then.
+%   The restored messages precede those that the queue holds now.
 
-standing_again(virtual(Now, Random, Count, Alarms, Messages), Queue,
-               alarms(Count, Heap)) :-
+restore_state(virtual(Now, Random, Count, Alarms, Messages), Queue,
+              alarms(Count, Heap)) :-
     flag(typhon_virtual_now, _, Now),
     set_random(state(Random)),
     list_to_heap(Alarms, Heap),
@@ -152,144 +166,147 @@ standing_again(virtual(Now, Random, Count, Alarms, Messages), Queue,
                 *           THE LOOP           *
                 *******************************/
 
-%   stand(+Queue, +Alarms): no caller waits.  Alarms is alarms(Count, Heap), by
-%   the keys at(Stamp, Number).
+%   wait_for_request(+Queue, +Alarms): time stands still until a caller sends a
+%   request.  Alarms is alarms(Count, Heap); the keys of Heap are
+%   at(Stamp, Number).
 
-stand(Queue, Alarms) :-
-    thread_get_message(Queue, ask(Ask)),
-    asked(Ask, [], Queue, Alarms).
+wait_for_request(Queue, Alarms) :-
+    thread_get_message(Queue, ask(Request)),
+    handle_request(Request, [], Queue, Alarms).
 
-asked(stop, Waiting, _, _) :-
+handle_request(stop, Waiting, _, _) :-
     !,
-    late(Waiting).
-asked(wait(Reply, Waited, Stamp), Waiting0, Queue, Alarms) :-
+    reply_late(Waiting).
+handle_request(wait(Reply, Waited, Stamp), Waiting0, Queue, Alarms) :-
     !,
-    satisfied([waits(Reply, Waited, Stamp)|Waiting0], Waiting),
-    go(Waiting, Queue, Alarms).
-asked(hold(Reply), Waiting, Queue, Alarms) :-
+    notify_satisfied([waits(Reply, Waited, Stamp)|Waiting0], Waiting),
+    run(Waiting, Queue, Alarms).
+handle_request(hold(Reply), Waiting, Queue, Alarms) :-
     !,
-    forget_held(Queue),
+    drop_stale_held(Queue),
     (   send(Reply, held)
     ->  hold(Queue, Alarms)
     ;   true                            % the caller has given up
     ),
-    go(Waiting, Queue, Alarms).
-asked(again(Standing, Reply), Waiting, Queue, _) :-
+    run(Waiting, Queue, Alarms).
+handle_request(restore(State, Reply), Waiting, Queue, _) :-
     !,
-    standing_again(Standing, Queue, Alarms),
+    restore_state(State, Queue, Alarms),
     ignore(send(Reply, done)),
-    go(Waiting, Queue, Alarms).
-asked(no_longer(Reply), Waiting0, Queue, Alarms) :-
+    run(Waiting, Queue, Alarms).
+handle_request(cancel(Reply), Waiting0, Queue, Alarms) :-
     exclude(is_of(Reply), Waiting0, Waiting),
-    go(Waiting, Queue, Alarms).
+    run(Waiting, Queue, Alarms).
 
-%   What was sent when time was not held.
+%   A held(_) that was sent outside a pause would end the pause that begins now.
 
-forget_held(Queue) :-
+drop_stale_held(Queue) :-
     thread_peek_message(Queue, held(_)),
     !,
     thread_get_message(Queue, held(_)),
-    forget_held(Queue).
-forget_held(_).
+    drop_stale_held(Queue).
+drop_stale_held(_).
 
 hold(Queue, Alarms) :-
-    thread_get_message(Queue, held(What)),
-    (   What = standing(Reply)
-    ->  standing(Queue, Alarms, Standing),
-        ignore(send(Reply, Standing)),
+    thread_get_message(Queue, held(Request)),
+    (   Request = state(Reply)
+    ->  loop_state(Queue, Alarms, State),
+        ignore(send(Reply, State)),
         hold(Queue, Alarms)
     ;   true
     ).
 
 is_of(Reply, waits(Reply, _, _)).
 
-%   go(+Waiting, +Queue, +Alarms)
-%   go(+Count, +Waiting, +Queue, +Alarms)
+%   run(+Waiting, +Queue, +Alarms)
+%   run(+Count, +Waiting, +Queue, +Alarms)
 %
-%   The second knows that Count messages at least are in Queue: only this thread
-%   takes any, and to ask costs half a microsecond.
+%   Queue holds at least Count messages, as only this thread removes any.
+%   Passing Count on saves a query of the size, which takes half a microsecond.
 
-go([], Queue, Alarms) :-
+run([], Queue, Alarms) :-
     !,
-    stand(Queue, Alarms).
-go(Waiting, Queue, Alarms) :-
+    wait_for_request(Queue, Alarms).
+run(Waiting, Queue, Alarms) :-
     message_queue_property(Queue, size(Count)),
     (   Count > 0
-    ->  go(Count, Waiting, Queue, Alarms)
-    ;   jump(Waiting, Queue, Alarms)
+    ->  run(Count, Waiting, Queue, Alarms)
+    ;   advance(Waiting, Queue, Alarms)
     ).
 
-go(_, [], Queue, Alarms) :-
+run(_, [], Queue, Alarms) :-
     !,
-    stand(Queue, Alarms).
-go(0, Waiting, Queue, Alarms) :-
+    wait_for_request(Queue, Alarms).
+run(0, Waiting, Queue, Alarms) :-
     !,
-    go(Waiting, Queue, Alarms).
-go(Count, Waiting, Queue, Alarms) :-
+    run(Waiting, Queue, Alarms).
+run(Count, Waiting, Queue, Alarms) :-
     thread_get_message(Queue, Message),
     Left is Count-1,
     step(Message, Left, Waiting, Queue, Alarms).
 
 step(do(Work), Left, Waiting0, Queue, Alarms) :-
-    one_step_more,
+    count_step,
     nb_linkval(typhon_virtual_work, doing(Work, Left, Waiting0, Queue)),
     nb_linkval(typhon_virtual_alarms, Queue-Alarms),
-    catch(( work_do(Work, again(Queue)),
+    catch(( work_do(Work, requeue(Queue)),
             Done = true ),
           Ball,
-          go_on(Ball, Left, Waiting0, Queue, Alarms)),
+          after_exception(Ball, Left, Waiting0, Queue, Alarms)),
     (   Done == true
-    ->  next(Left, Waiting0, Queue, Alarms)
+    ->  after_work(Left, Waiting0, Queue, Alarms)
     ;   true
     ).
 step(alarm(Stamp, What), Left, Waiting, Queue, alarms(Count0, Heap0)) :-
     add_to_heap(Heap0, at(Stamp, Count0), What, Heap),
     Count is Count0+1,
-    go(Left, Waiting, Queue, alarms(Count, Heap)).
-step(ask(Ask), _, Waiting, Queue, Alarms) :-
-    asked(Ask, Waiting, Queue, Alarms).
+    run(Left, Waiting, Queue, alarms(Count, Heap)).
+step(ask(Request), _, Waiting, Queue, Alarms) :-
+    handle_request(Request, Waiting, Queue, Alarms).
 step(held(_), Left, Waiting, Queue, Alarms) :-
-    go(Left, Waiting, Queue, Alarms).   % it is not any more
+    run(Left, Waiting, Queue, Alarms).  % the pause is over
 
-next(Left, Waiting0, Queue, Alarms) :-
+after_work(Left, Waiting0, Queue, Alarms) :-
     nb_linkval(typhon_virtual_work, none),
-    satisfied(Waiting0, Waiting),
-    go(Left, Waiting, Queue, Alarms).
+    notify_satisfied(Waiting0, Waiting),
+    run(Left, Waiting, Queue, Alarms).
 
-%   A goal that catches an abort is to be aborted when it has recovered.  So
-%   this is where the loop goes on, to the end of time.
+%   Prolog raises an abort that catch/3 has caught again when the recovery goal
+%   ends.  So the loop runs on inside the recovery goal, until virtual time
+%   ends.
 
-go_on(Ball, Left, Waiting, Queue, Alarms) :-
+after_exception(Ball, Left, Waiting, Queue, Alarms) :-
     aborted(Ball),
     flag(typhon_virtual_ends, 0, 0),
     !,
-    next(Left, Waiting, Queue, Alarms).
-go_on(Ball, _, Waiting, _, _) :-
-    late(Waiting),
+    after_work(Left, Waiting, Queue, Alarms).
+after_exception(Ball, _, Waiting, _, _) :-
+    reply_late(Waiting),
     throw(Ball).
 
 aborted('$aborted').
 aborted(unwind(abort)).
 
-again(Queue, Work) :-
+requeue(Queue, Work) :-
     thread_send_message(Queue, do(Work)).
 
-%   There is nothing more to do at this instant.
+%   advance(+Waiting, +Queue, +Alarms): the queue is empty, so time jumps to the
+%   next alarm or to the first end of a wait.
 
-jump(Waiting, Queue, alarms(Count, Heap)) :-
+advance(Waiting, Queue, alarms(Count, Heap)) :-
     first_end(Waiting, End),
     (   min_of_heap(Heap, at(Stamp, _), _),
         before(Stamp, End)
-    ->  get_from_heap(Heap, _, What, Heap1),
-        pass_to(Stamp),
-        go_off(What),
-        satisfied(Waiting, Waiting1),
-        go(Waiting1, Queue, alarms(Count, Heap1))
+    ->  get_from_heap(Heap, _, Alarm, Heap1),
+        set_time(Stamp),
+        fire_alarm(Alarm),
+        notify_satisfied(Waiting, Waiting1),
+        run(Waiting1, Queue, alarms(Count, Heap1))
     ;   number(End)
-    ->  pass_to(End),
+    ->  set_time(End),
         partition(ends_at(End), Waiting, Late, Waiting1),
-        late(Late),
-        go(Waiting1, Queue, alarms(Count, Heap))
+        reply_late(Late),
+        run(Waiting1, Queue, alarms(Count, Heap))
     ;   print_message(warning, typhon(virtual_nothing_due)),
         thread_get_message(Queue, Message),
         step(Message, 0, Waiting, Queue, alarms(Count, Heap))
@@ -313,32 +330,32 @@ ends_at(End, waits(_, _, End0)) :-
     number(End0),
     End0 =< End.
 
-pass_to(Stamp) :-
+set_time(Stamp) :-
     flag(typhon_virtual_now, Now, max(Now, float(Stamp))).
 
-go_off(Agent-Token) :-
+fire_alarm(Agent-Token) :-
     debug(typhon(scheduler), 'alarm ~p of ~p', [Token, Agent]),
     catch(ignore(typhon_scheduler:fire(Agent, Token)), error(Formal, Where),
           print_error(error, error(Formal, Where))).
 
-there(Queue) :-
+has_messages(Queue) :-
     message_queue_property(Queue, size(Size)),
     Size > 0.
 
-%   satisfied(+Waiting0, -Waiting): callers that have what they wait for are
-%   notified.
+%   notify_satisfied(+Waiting0, -Waiting): notify the callers whose queue holds
+%   a message; Waiting are the others.
 
-satisfied(Waiting, Waiting) :-
-    \+ ( member(Waits, Waiting), has_got(Waits) ),
+notify_satisfied(Waiting, Waiting) :-
+    \+ ( member(Waits, Waiting), is_satisfied(Waits) ),
     !.
-satisfied(Waiting0, Waiting) :-
-    partition(has_got, Waiting0, Happy, Waiting),
-    forall(member(waits(Reply, _, _), Happy), reply(Reply, there)).
+notify_satisfied(Waiting0, Waiting) :-
+    partition(is_satisfied, Waiting0, Satisfied, Waiting),
+    forall(member(waits(Reply, _, _), Satisfied), reply(Reply, there)).
 
-has_got(waits(_, Queue, _)) :-
-    catch(there(Queue), error(existence_error(_, _), _), true).
+is_satisfied(waits(_, Queue, _)) :-
+    catch(has_messages(Queue), error(existence_error(_, _), _), true).
 
-late(Waiting) :-
+reply_late(Waiting) :-
     forall(member(waits(Reply, _, _), Waiting), reply(Reply, late)).
 
 reply(Reply, Answer) :-
