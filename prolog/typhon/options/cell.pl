@@ -1,9 +1,9 @@
 :- module(typhon_cell, []).
 
-/** <module> Cells: the system's wall around agents of untrusted owners
+/** <module> Cells: processes for agents of untrusted owners
 
-The option cell(Kind) of hosts, see doc/security.md.  This is the interface of
-the layer.
+The interface of the option cell(Kind) of hosts, see doc/security.md.  The
+operating system isolates the process of a cell.
 */
 
 :- use_module(cell/cell_hosts, []).

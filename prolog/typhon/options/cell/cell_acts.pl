@@ -17,13 +17,14 @@
               [agent_add/2, agent_clauses/3, agent_variant/2, in_words/2]).
 :- use_module(cell_frames, [cell_word/2, state_predicate/2]).
 
-/** <module> What comes from a cell: outcomes, changes of the state, and acts
+/** <module> Checking and carrying out the messages of a cell
 
-None of it is trusted: clauses are looked at as those of an agent that arrives,
-and a goal is called only if it is a word of the vocabulary or a service of the
+A cell sends outcomes, changes of the state of an agent, and goals.  None of
+them is trusted: clauses are checked like those of an agent that arrives, and a
+goal is called only if its predicate is of the vocabulary or a service of the
 place.
 
-*Threading*: in the worker that has the agent.
+*Threading*: in the worker that runs the turn of the agent.
 */
 
                 /*******************************
@@ -32,7 +33,7 @@ place.
 
 %!  cell_outcome(@Outcome) is semidet.
 %
-%   It is one of machine_run/3.
+%   Outcome is a valid outcome of machine_run/3.
 
 cell_outcome(done).
 cell_outcome(failed).
@@ -66,8 +67,8 @@ is_control(dispose).
 
 %!  cell_fault(+Note, +Outcome, -Fault) is det.
 %
-%   Fault is as typhon_faults notes it, without references to clauses; `none` if
-%   Note is no such fault of Outcome.
+%   Fault is the fault in the form of typhon_faults, without references to
+%   clauses, or `none` if Note is no valid fault of Outcome.
 
 cell_fault(note(How, fault(Goal, Goals, natives(Raising, []))), Outcome,
            How-fault(Goal, Goals, natives(Raising, []))) :-
@@ -82,10 +83,10 @@ cell_fault(_, _, none).
 
 %!  cell_changes_made(+Changes, +Host, +Module) is semidet.
 %
-%   These clauses take the place of those that the predicates of the state had.
-%   Fails if Changes are none.
+%   Replace the clauses of predicates of the state.  Changes is a list of
+%   Name/Arity-Clauses; fails if it is not.
 %
-%   @error cell_violation(What) the policy does not allow them
+%   @error cell_violation(What) the policy forbids a change
 
 cell_changes_made(Changes, Host, Module) :-
     is_list(Changes),
@@ -129,18 +130,19 @@ allowed(Module, Head, PI, Clauses, Allowed) :-
 
 %!  cell_turn_begins is det.
 %
-%   A turn begins in this thread: none of its requests was refused yet.
+%   A turn begins in this thread: reset its count of refused requests.
 
 cell_turn_begins :-
     nb_setval(typhon_cell_refused, 0).
 
 %!  cell_answer(+Goal, +Kind, +Host, +Agent, -Answer) is det.
 %
-%   The agent whose turn it is calls Goal, Kind being as of cell_word/2.  For
-%   those that have no answer Answer has no solutions.
+%   Call Goal for the agent whose turn it is.  Kind is that of cell_word/2.
+%   Answer is solutions(Goals), with an empty list for the kind `tells`, or
+%   raised(Error).
 %
-%   @error cell_violation(refused) So many requests of one turn were refused, each
-%   of them a line of the audit
+%   @error cell_violation(refused) too many requests of this turn were refused.
+%   Each refusal writes a line to the audit log
 
 cell_answer(Goal, Kind, Host, agent(Id, _, _, _, _), Answer) :-
     callable(Goal),
@@ -157,7 +159,7 @@ asked(Goal, Kind, Host, Id, Answer) :-
     ;   permission_error(call, sandboxed, Goal)
     ).
 
-%   An agent that a host does not admit is in the audit already.
+%   The host that refuses a move has written that to its audit log already.
 
 refusal_noted(permission_error(call, sandboxed, Goal), Host, Id) =>
     in_words(Goal, Shown),
@@ -194,8 +196,6 @@ solutions(_, Goal, Module, solutions(Goals)) :-
     ;   resource_error(solutions)
     ).
 
-%   What is in the vocabulary, or offered by the place.
-
 may_ask(Kind, _, PI, vocabulary) :-
     cell_word(Kind0, PI),
     !,
@@ -215,9 +215,7 @@ asked_of(place(Place), Host, Id, PI, Place) :-
 
 %!  cell_violation(+What).
 %
-%   A cell has said what it must not.
-%
-%   @error cell_violation(What)
+%   @error cell_violation(What) the cell has broken the protocol or a limit
 
 cell_violation(What) :-
     throw(error(cell_violation(What), _)).

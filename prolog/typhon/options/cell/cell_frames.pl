@@ -15,47 +15,51 @@
 :- use_module('../../kernel/base/text', [term_text/2, text_term/2]).
 :- use_module('../../kernel/program', [clause_parts/3]).
 
-/** <module> What a gatekeeper and a cell say to each other
+/** <module> The protocol between the gatekeeper and a cell
 
 Each frame is a length, four bytes, the most significant first, and the
-canonical text of one term.  There is no other codec: a record with one wrong
-byte can end the process that decodes it.
+canonical text of one term.  A binary codec is no option: one wrong byte in a
+recorded term can end the process that decodes it.
 
 The gatekeeper sends
 
-    host(Rules, PIs, Limits)    bind the cell to a host: `guarded`, or the text
-                                of its rules; what its place offers; and how
-                                much agents may use, What-Most
+    host(Rules, PIs, Limits)    bind the cell to a host.  Rules is `guarded` or
+                                the text of its rules; PIs are the services of
+                                its place; Limits are the limits of agents,
+                                What-Most
     turn(N, Id, Hash, Program, State, Known, Forget, Goals)
                                 run Goals of the agent Id.  Program is as of
                                 code_receive/2 or `known`, State as of
                                 agent_state/2 or `same`; Known are facts that
                                 do not change in a turn; Forget are agents
-                                that have left
-    answer(N, Answer)           to a request: solutions(Goals), raised(Error),
-                                or changed(State, Answer)
+                                that have left the host
+    answer(N, Answer)           answer a request: solutions(Goals),
+                                raised(Error), or changed(State, Answer)
 
 and the cell sends
 
-    ready                       once
-    told(N, Goals)              words of the agent, in the turn N, that have no
-                                answer.  If one raises an error the next answer
-                                says so, or the turn ends with that
-    request(N, Goal)            a word that has an answer
-    changing(N, Goal, Changes)  the same for words that change the state; the
-                                agent has made these Changes before
-    lacks(N)                    the program or the state of the turn N
-    over(N, What)               in the turn N the agent has passed this limit, and
-                                the cell ends
+    ready                       the cell has started
+    told(N, Goals)              the agent has called these Goals in the turn N;
+                                they have no answer.  If one raises an error
+                                the next answer reports it, or the turn ends
+                                with it
+    request(N, Goal)            the agent has called Goal, which has an answer
+    changing(N, Goal, Changes)  the same for a Goal that changes the state;
+                                the agent has made Changes before
+    lacks(N)                    the cell does not have the program or the
+                                state for the turn N
+    over(N, What)               in the turn N the agent has exceeded the limit
+                                What; the cell ends
     outcome(N, Outcome, Note, Changes)
                                 the turn N is over, see machine_run/3
 
-Changes are PI-Clauses, the clauses that a predicate of the state has now.
+Changes are PI-Clauses, where Clauses are all clauses that the predicate PI of
+the state has now.
 
 *Threading*: no state.
 */
 
-%   No state within the default of the quota `state` is larger.
+%   A state within the default of the quota `state` fits into a frame.
 
 most_bytes(8 388 608).
 
@@ -80,7 +84,7 @@ cell_frame_write(Out, Term) :-
 
 %!  cell_frame_read(+In, -Term) is det.
 %
-%   Term is `end_of_file` where In ends.
+%   Term is `end_of_file` at the end of In.
 
 cell_frame_read(In, Term) :-
     (   cell_frame_text(In, Text)
@@ -90,11 +94,11 @@ cell_frame_read(In, Term) :-
 
 %!  cell_text_heard(+Text, -Term) is det.
 %
-%   Text is of a frame that a cell has written: a number of 30,000 digits is
-%   refused, as reading one takes a time that grows with the square of its length,
-%   and cannot be interrupted.
+%   Term is the term of a frame that a cell has written as Text.  A number of
+%   30,000 digits is refused: reading it takes time quadratic in its length and
+%   cannot be interrupted.
 %
-%   @error syntax_error(Message) it is not the text of one term
+%   @error syntax_error(Message) Text is not the text of one term
 
 cell_text_heard(Text, Term) :-
     no_long_number(Text),
@@ -103,9 +107,10 @@ cell_text_heard(Text, Term) :-
 
 %!  cell_frame_text(+In, -Text:string) is semidet.
 %
-%   Fails where In ends.
+%   Fails at the end of In.
 %
-%   @error syntax_error(Message) the frame is too large: nothing of it was read
+%   @error syntax_error(Message) the frame is truncated, or too large: then
+%   nothing of its body was read
 
 cell_frame_text(In, Bytes) :-
     read_string(In, 4, Head),
@@ -127,9 +132,10 @@ frame_body(In, Length, Bytes) :-
                 *         LONG NUMBERS         *
                 *******************************/
 
-%   no_long_number(+Bytes): a number of 30,000 digits has a part of 15,000 that
-%   begins at a multiple of that.  Digits may be of any base, and blanks may stand
-%   between them: text of as many letters and blanks alone is refused, too.
+%   no_long_number(+Bytes): any number of 30,000 digits contains one of the
+%   blocks of 15,000 characters that begin at a multiple of 15,000.  Digits may
+%   be of any base and separated by blanks, so a block of letters and blanks is
+%   refused, too.
 %
 %   @error syntax_error(long_number)
 
@@ -153,9 +159,10 @@ digits(Bytes, Before, Digits) :-
     split_string(Digits, "", " _0123456789abcdefghijklmnopqrstuvwxyz\c
                               ABCDEFGHIJKLMNOPQRSTUVWXYZ", [""]).
 
-%   number_begins(+Bytes, +Before, +Digits): the word that goes on with Digits
-%   begins with a digit, or after 36' or the like.  One that begins before the
-%   last 15,000 characters was looked at there.
+%   number_begins(+Bytes, +Before, +Digits): the token that contains Digits
+%   begins with a digit, or follows a base such as 36'.  A token that begins
+%   more than 15,000 characters before fills an earlier block, which was checked
+%   then.
 
 number_begins(Bytes, Before, Digits) :-
     From is max(0, Before-15 000),
@@ -184,10 +191,14 @@ word_begins(Rest, First, First, Rest).
 
 %!  cell_word(?Kind, ?PI) is nondet.
 %
-%   What an agent in a cell asks the gatekeeper: Kind is `fixed` if the answer is
-%   the same for a whole turn, and goes into the cell with it; `tells` if there
-%   is no answer; `looks` if nothing changes; `acts`; or `changes` if that changes
-%   the state of the agent.
+%   The gatekeeper carries out calls of PI for an agent in a cell.  Kind is
+%
+%     - `fixed`: the answer does not change during a turn; the gatekeeper sends
+%       it with the turn
+%     - `tells`: the call has no answer
+%     - `looks`: the call changes nothing
+%     - `acts`: the call changes the host
+%     - `changes`: the call changes the state of the agent
 
 cell_word(fixed, self/1).
 cell_word(fixed, here/1).
@@ -231,12 +242,10 @@ cell_word(changes, detach/1).
                 *            STATE             *
                 *******************************/
 
-%   What the platform has among the state of an agent, names with `$`, stays
-%   with the gatekeeper.
-
 %!  cell_state(+State0, -State) is det.
 %
-%   State is what of State0 goes into a cell.
+%   State is the part of State0 that a cell may see: predicates of the platform,
+%   whose names begin with `$`, stay with the gatekeeper.
 
 cell_state(state(Empty0, Clauses0), state(Empty, Clauses)) :-
     exclude(reserved_indicator, Empty0, Empty),
@@ -254,6 +263,8 @@ reserved(Name) :-
     sub_atom(Name, 0, _, _, $).
 
 %!  state_predicate(+Module, -Head) is nondet.
+%
+%   Head is of a predicate of the agent's state that a cell may see.
 
 state_predicate(Module, Head) :-
     '$c_current_predicate'(_, Module:Head),
@@ -265,7 +276,8 @@ state_predicate(Module, Head) :-
 %!  state_mark(+Module, -Mark) is det.
 %!  state_changes(+Module, +Mark, -Changes:list) is det.
 %
-%   The state has another Mark when it has changed, in these predicates.
+%   Mark differs whenever the state of Module has changed.  Changes, PI-Clauses,
+%   are the predicates that have changed since Mark.
 
 state_mark(Module, Latest/Count) :-
     findall(Last, ( state_predicate(Module, Head), modified(Module, Head, Last) ),

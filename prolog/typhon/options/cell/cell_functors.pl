@@ -6,16 +6,17 @@
 :- use_module(cell_acts, [cell_violation/1]).
 :- use_module(cell_frames, [cell_text_heard/2]).
 
-/** <module> How many functors the owner of a cell brings into this process
+/** <module> Limit of the functors that frames of cells create in this process
 
-A functor is never freed, nor is the atom that is its name: 160 bytes each.  No
-quota counts those of frames, so they are charged to the owner of the agents of
-the cell, for as long as the process lives.  An owner that has no more left has
-no turns in cells any more: one frame can hold some hundred thousand, and is
-counted only when it has been read.
+Prolog never frees a functor, nor the atom that is its name: 160 bytes each.  No
+quota counts the functors of frames, so they are charged to the owner of the
+agents of the cell, as long as the process lives.  Agents of an owner that has
+exceeded the limit get no turns in cells.  One frame can hold some hundred
+thousand functors, which are counted only after the frame has been read.
 
-Other threads make functors as well.  So those of a frame are looked at if there
-are more in the process than before, and each is charged to an owner once.
+Other threads create functors as well.  So the functors of a frame are counted
+if the process has more functors than before, and each is charged to an owner
+once.
 
 *Threading*: any thread; a mutex protects the tables.
 */
@@ -29,7 +30,7 @@ are more in the process than before, and each is charged to an owner once.
 
 %!  functors_left(+Owner:atom) is semidet.
 %
-%   Agents of Owner may have turns in cells.
+%   Owner has not exceeded the limit: its agents may have turns in cells.
 
 functors_left(Owner) :-
     (   count(Owner, Count)
@@ -40,9 +41,10 @@ functors_left(Owner) :-
 
 %!  functors_charged(+Owner:atom, +Text:string, -Frame) is det.
 %
-%   Frame is that of cell_text_heard/2; its functors are charged to Owner.
+%   Frame is the term that cell_text_heard/2 reads from Text.  Its functors are
+%   charged to Owner.
 %
-%   @error cell_violation(functors) they are more than Owner has left
+%   @error cell_violation(functors) Owner has exceeded the limit
 
 functors_charged(Owner, Text, Frame) :-
     sig_atomic(read_and_charge(Owner, Text, Frame)),
@@ -61,14 +63,15 @@ read_and_charge(Owner, Text, Frame) :-
     ;   true
     ).
 
-%   What was read before the error is not known.
+%   After a syntax error the functors read so far are unknown, so all functors
+%   that the process has created meanwhile are charged.
 
 charge_unread(Owner, Before) :-
     statistics(functors, After),
     New is After-Before,
     with_mutex(typhon_cell_functors, counted(Owner, New)).
 
-%   The functors of a program are made when it is loaded, from Name/Arity too.
+%   Loading the program of create/3 creates its functors, also from Name/Arity.
 
 declares_predicates(request(_, Goal)) :-
     compound(Goal),
@@ -87,7 +90,7 @@ charge(Term, Owner) :-
     charge(Name, Arity, Owner),
     charge_arguments(1, Arity, Term, Owner).
 
-%   The tail of a list is its last argument.
+%   The last call is a tail call, so that a long list needs no deep stack.
 
 charge_arguments(I, Arity, Term, Owner) :-
     I < Arity,
@@ -112,5 +115,6 @@ charge(Name, Arity, Owner) :-
 counted(Owner, New) :-
     ( count(Owner, Count0) -> true ; Count0 = 0 ),
     Count is Count0+New,
-    assertz(count(Owner, Count)),       % readers hold no mutex: new before old
+    % functors_left/1 reads without the mutex, so the new fact precedes the old.
+    assertz(count(Owner, Count)),
     ignore(retract(count(Owner, Count0))).

@@ -8,8 +8,9 @@
 
 /** <module> Which hosts have cells
 
-Those with a policy, where the system can wall their agents in.  Where it cannot,
-or the host shall have none, a warning names the risk, once in a process.
+A host with a policy runs its agents in cells if the operating system supports
+that.  If it does not, or if the host has cell(none), a warning names the risk,
+once in a process.
 
 *Threading*: under the mutex of host_start/2.
 */
@@ -25,11 +26,12 @@ or the host shall have none, a warning names the risk, once in a process.
 
 :- dynamic
     walled/2,                   % Host, Kind: `owner` or `host`
-    warned/1.                   % Why: hosts of this process have no cells
+    warned/1.                   % Why: reason for no cells, reported already
 
 %!  walled(?Host, -Kind) is nondet.
 %
-%   Untrusted agents on Host run in cells, of their `owner` or of the `host`.
+%   Untrusted agents on Host run in cells: one for each owner if Kind is
+%   `owner`, one for all of them if Kind is `host`.
 
 typhon_options:declared(host_option, cell(Kind), oneof([none,owner,host]),
                         Kind).
@@ -72,7 +74,7 @@ is_untrusted(Options) :-
     typhon_host_parts:untrusted(Option),
     !.
 
-%   Where the option does not say it, a host has cells if it can.
+%   Without the option cell(_) a host has cells where they are available.
 
 wall(Host, Options) :-
     memberchk(cell(Kind), Options),
@@ -82,7 +84,7 @@ wall(Host, Options) :-
     ;   wall(Host, Kind, Options)
     ).
 wall(Host, Options) :-
-    catch(( attempted, wall(Host, owner, Options) ), error(Formal, _),
+    catch(( known_unavailable, wall(Host, owner, Options) ), error(Formal, _),
           unwalled(Formal, Host)).
 
 wall(Host, Kind, Options) :-
@@ -90,9 +92,10 @@ wall(Host, Kind, Options) :-
     cells_begin(Host),
     assertz(walled(Host, Kind)).
 
-%   What failed once in this process fails again.
+%   Once no cell could be started in this process, later attempts would fail,
+%   too.
 
-attempted :-
+known_unavailable :-
     (   warned(cell_unavailable(Cause))
     ->  throw(error(cell_unavailable(Cause), _))
     ;   true
@@ -112,8 +115,8 @@ warn(Host, Why) :-
         print_message(warning, typhon(no_cells(Host, Why)))
     ).
 
-%   Inferences are counted by the thread that runs the machine.  While an agent
-%   waits for a cell no other thread may let time pass.
+%   This thread counts inferences, but a cell runs the machine in another
+%   process. Virtual time would pass while the agent waits for its cell.
 
 possible(Options) :-
     memberchk(quota(Quotas), Options),

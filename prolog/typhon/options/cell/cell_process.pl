@@ -15,14 +15,16 @@
 
 /** <module> The process of a cell
 
-The system walls it in: no network, no files but those of SWI-Prolog and of this
-library, read-only, and a small /tmp, no other process, no capabilities, few
-system calls, and limits of memory, threads and files; see cell.sh and
-filter.py.  All that it shares with this process is a pipe each way.
+The operating system isolates it: no network, no files but those of SWI-Prolog
+and of this library, read-only, and a small /tmp, no other process, no
+capabilities, few system calls, and limits of memory, threads and files; see
+cell.sh and filter.py.  The cell shares only a pipe for each direction with this
+process.
 
-The system kills it when the thread ends that has started it.
+The operating system kills a cell when the thread that has started it ends.
 
-*Threading*: one thread, the server of cells, starts processes; any ends them.
+*Threading*: one thread, the server of cells, starts processes; any thread may
+end them.
 */
 
 :- setting(typhon_cells:memory, positive_integer, 1 500 000 000,
@@ -38,11 +40,13 @@ The system kills it when the thread ends that has started it.
 
 %!  cell_process_start(-Process) is det.
 %
-%   Process, process(Pid, In, Out, Err), waits for its first frame.
+%   Process is process(Pid, In, Out, Err), a cell that waits for its first
+%   frame.
 %
-%   @error cell_unavailable(Cause)
-%   @error timeout_error(start_cell, Seconds): a slow machine may have cells
-%   later, so its agents must not run without them
+%   @error cell_unavailable(Cause) the machine cannot start cells
+%   @error timeout_error(start_cell, Seconds) the cell was not ready in time.
+%   This is no cell_unavailable(_): a slow machine may start cells later, so its
+%   agents must not run without them
 
 cell_process_start(Process) :-
     filter_file(Filter),
@@ -71,7 +75,8 @@ not_ready(_, Process) :-
 
 %!  cell_process_end(+Process, -Reason) is det.
 %
-%   Reason is exit(Status) or killed(Signal).
+%   Kill Process and wait for its end.  Reason is exit(Status) or
+%   killed(Signal).
 
 cell_process_end(process(Pid, In, Out, Err), Reason) :-
     kill(Pid),
@@ -109,8 +114,8 @@ launch(Filter, process(Pid, In, Out, Err)) :-
     set_stream(Out, encoding(octet)),
     set_stream(Out, buffer(full)).
 
-%   The program has the vocabulary that this process has, and reads programs that
-%   are signed.
+%   The program loads the vocabulary of this process, and the option `identity`
+%   to read signed programs.
 
 program(Library, Goal) :-
     setof(File, vocabulary_file(Library, File), Files),
@@ -128,7 +133,7 @@ vocabulary_file(Library, File) :-
     atom_concat(Library, Rest, Path),
     atom_concat('/typhon', Rest, File).
 
-%   This process may be a saved state.
+%   The executable of this process may be a saved state, which is no SWI-Prolog.
 
 swipl(Home, Swipl) :-
     installed_swipl(Home, Swipl),
@@ -152,7 +157,8 @@ source(Name, Path) :-
                 *            FILTER            *
                 *******************************/
 
-%   The filter is made once.  cell.sh opens it, as the user of this process.
+%   The filter is compiled once.  cell.sh opens its file as the user of this
+%   process.
 
 filter_file(File) :-
     filter(File),
@@ -185,6 +191,8 @@ must_have(Command, How) :-
     ).
 
 %!  cell_filter_forget is det.
+%
+%   Delete the file of the filter; the next cell compiles it again.
 
 cell_filter_forget :-
     forall(retract(filter(File)),
@@ -204,7 +212,7 @@ prolog:error_message(timeout_error(start_cell, Seconds)) -->
 
 %!  cell_needs(-Text) is det.
 %
-%   What to do where no cell can be started.
+%   Text tells users how to make cells available.
 
 cell_needs('A cell needs bubblewrap (apt install bubblewrap) that is not setuid, and \c
             that it may make user namespaces: allow them \c

@@ -21,17 +21,17 @@
 :- use_module(cell_process,
               [cell_filter_forget/0, cell_process_end/2, cell_process_start/1]).
 
-/** <module> Which agent runs in which cell
+/** <module> The pool of cells
 
-A cell that has served agents of one key, an atom, serves no other: `spare`
-ones, which have served none, are started ahead.  One agent at a time has its
-turn in a cell; others of the key wait, ready but not scheduled.
+A cell that has run agents of one key, an atom, runs no agents of another key.
+`spare` cells, which have run none, are started ahead.  A cell runs one turn at
+a time; other agents of the key wait, ready but not scheduled.
 
-The system kills a cell when the thread ends that has started it.  So a server
-starts them all.
+The operating system kills a cell when the thread that has started it ends.  So
+one server starts all cells.
 
-*Threading*: any thread; a mutex protects the tables.  The thread that has taken
-a cell alone uses its streams, and gives it back or ends it.
+*Threading*: any thread; a mutex protects the tables.  Only the thread that has
+taken a cell uses its streams; it returns the cell or ends it.
 */
 
 :- setting(cells, positive_integer, 16,
@@ -41,13 +41,13 @@ a cell alone uses its streams, and gives it back or ends it.
 
 :- dynamic
     server/1,                   % Server
-    user/1,                     % Host: has agents in cells
+    user/1,                     % Host: runs its agents in cells
     process/5,                  % Cell, Pid, In, Out, Err
     spare/1,                    % Cell
     bound/2,                    % Cell, Key
     idle/2,                     % Cell, Since
-    waits/4,                    % Key, Number, Host, Agent
-    woken/2,                    % Agent, Key: is scheduled for an idle cell
+    waits/4,                    % Key, Number, Host, Agent: for a cell of Key
+    woken/2,                    % Agent, Key: scheduled for an idle cell
     knows/3.                    % Cell, What, Value
 
                 /*******************************
@@ -57,9 +57,10 @@ a cell alone uses its streams, and gives it back or ends it.
 %!  cells_begin(+Host) is det.
 %!  cells_end(+Host) is det.
 %
-%   Host has agents in cells from now on; no longer.
+%   Host begins to run its agents in cells; Host stops that, and its cells end.
+%   The first starts a spare cell, which shows whether cells are available.
 %
-%   @error cell_unavailable(Cause): no cell can be started here
+%   @error cell_unavailable(Cause) the machine cannot start cells
 
 cells_begin(Host) :-
     with_mutex(typhon_cells_users, begin(Host)).
@@ -94,13 +95,9 @@ server_running(Server) :-
                 *******************************/
 
 %!  cell_take(+Key, +Agent, -Cell) is det.
-%!  cell_wait(+Key, +Host, +Agent) is det.
-%!  cell_left(+Agent) is det.
-%!  cell_give(+Cell) is det.
 %
-%   Agent has Cell, one of Key that no agent uses, or `none`; Agent, which is
-%   ready, is scheduled when there is one; Agent is not here any more; Cell is
-%   free again.
+%   Take an idle cell of Key for a turn of Agent.  Cell is `none` if all are
+%   busy.
 
 cell_take(Key, Agent, Cell) :-
     with_mutex(typhon_cells, take(Key, Agent, Cell)).
@@ -113,21 +110,28 @@ take(Key, Agent, Cell) :-
     ;   Cell = none
     ).
 
+%!  cell_wait(+Key, +Host, +Agent) is det.
+%
+%   Schedule Agent, which is ready, when a cell of Key is idle.
+
 cell_wait(Key, Host, Agent) :-
     with_mutex(typhon_cells, wait(Key, Host, Agent, Next)),
-    go_on(Next).
+    dispatch(Next).
 
 wait(Key, Host, Agent, Next) :-
     flag(typhon_cell_waits, N, N+1),
     assertz(waits(Key, N, Host, Agent)),
     next_of(Key, Next).
 
-%   An agent that was scheduled and does not come makes room for the next.
+%!  cell_left(+Agent) is det.
+%
+%   Agent has left its host.  If it was scheduled for an idle cell, the next
+%   agent that waits for this cell is scheduled instead.
 
 cell_left(Agent) :-
     (   ( waits(_, _, _, Agent) ; woken(Agent, _) )
     ->  with_mutex(typhon_cells, left(Agent, Next)),
-        go_on(Next)
+        dispatch(Next)
     ;   true
     ).
 
@@ -139,7 +143,9 @@ left(Agent, Next) :-
     ;   Next = none
     ).
 
-%   next_of(+Key, -Next): which agent to schedule, where a cell is idle.
+%   next_of(+Key, -Next): Next is run(Host, Agent) if an idle cell of Key can
+%   run a waiting agent, `wanted` if a cell must be started for Key, else
+%   `none`.
 
 next_of(Key, Next) :-
     (   bound(Cell, Key),
@@ -159,9 +165,13 @@ first(Key, run(Host, Agent)) :-
     retractall(waits(Key, N, _, _)),
     assertz(woken(Agent, Key)).
 
+%!  cell_give(+Cell) is det.
+%
+%   Return Cell, which cell_take/3 has taken.
+
 cell_give(Cell) :-
     with_mutex(typhon_cells, give(Cell, Next)),
-    go_on(Next).
+    dispatch(Next).
 
 give(Cell, Next) :-
     bound(Cell, Key),
@@ -181,10 +191,10 @@ unserved(Key) :-
     \+ bound(_, Key),
     !.
 
-go_on(none).
-go_on(run(Host, Agent)) :-
+dispatch(none).
+dispatch(run(Host, Agent)) :-
     schedule(Host, Agent).
-go_on(wanted) :-
+dispatch(wanted) :-
     (   server(Server),
         server_cast(Server, wanted)
     ->  true
@@ -194,12 +204,13 @@ go_on(wanted) :-
 %!  cell_end(+Cell, -Reason) is det.
 %!  cell_break(+Cell) is det.
 %
-%   The caller has Cell, and ends it, or it has ended: Reason is exit(Status) or
-%   killed(Signal). The second does not wait for that.
+%   End Cell, which the caller has taken and which may have ended already.
+%   Reason is exit(Status) or killed(Signal).  cell_break/1 does not wait for
+%   the end.
 
 cell_end(Cell, Reason) :-
     ended(Cell, Reason),
-    go_on(wanted).
+    dispatch(wanted).
 
 ended(Cell, Reason) :-
     (   with_mutex(typhon_cells, forgotten(Cell, Process))
@@ -223,6 +234,8 @@ forgotten(Cell, process(Pid, In, Out, Err)) :-
     retractall(knows(Cell, _, _)).
 
 %!  cell_streams(+Cell, -In, -Out) is semidet.
+%
+%   Fails if Cell has ended.
 
 cell_streams(Cell, In, Out) :-
     process(Cell, _, In, Out, _),
@@ -232,7 +245,8 @@ cell_streams(Cell, In, Out) :-
 %!  cell_learns(+Cell, +What, +Value) is det.
 %!  cell_forgets(+Cell, +What) is det.
 %
-%   What the gatekeeper has sent to Cell.  What is an atom.
+%   Remember what the gatekeeper has sent to Cell, to send it once.  What is an
+%   atom.
 
 cell_knows(Cell, What, Value) :-
     knows(Cell, What, Value).
@@ -249,7 +263,7 @@ cell_forgets(Cell, What) :-
 
 %!  cells_list(-Cells) is det.
 %
-%   Cells are cell(Cell, Pid, Key), Key being `spare` for some.
+%   Cells are cell(Cell, Pid, Key).  Key is `spare` for a cell without a key.
 
 cells_list(Cells) :-
     findall(cell(Cell, Pid, Key),
@@ -266,11 +280,11 @@ cells_list(Cells) :-
 serves(call(begin, Caller), _, Next) :-
     ( spare(_) -> true ; spare_start ),
     server_answer(Caller, true),
-    look_later(Next).
+    set_timer(Next).
 serves(wanted, _, Next) :-
     catch(provide, error(Formal, _),
           print_message(error, error(Formal, _))),
-    look_later(Next).
+    set_timer(Next).
 serves(ended(Process), _, Next) :-
     cell_process_end(Process, _),
     serves(wanted, none, Next).
@@ -279,7 +293,7 @@ serves(ended_host(Host), _, Next) :-
     forall(( bound(Cell, Key),
              once(( Key == Host ; sub_atom(Key, 0, _, _, Prefix) )) ),
            ended(Cell, _)),
-    look_later(Next).
+    set_timer(Next).
 serves(timeout, _, Next) :-
     forall(idle_long(Cell), end_idle(Cell)),
     serves(wanted, none, Next).
@@ -289,9 +303,10 @@ serves(stop, _, _) :-
     retractall(woken(_, _)),
     cell_filter_forget.
 
-%   Once a second while agents wait for what is not there.
+%   The server retries once a second while agents wait for a cell that does not
+%   exist yet.
 
-look_later(until(Stamp, none)) :-
+set_timer(until(Stamp, none)) :-
     get_time(Now),
     (   unserved(_)
     ->  Stamp is Now+1
@@ -301,12 +316,12 @@ look_later(until(Stamp, none)) :-
     ;   Stamp = inf
     ).
 
-%   provide: each key for whose agents there is no cell gets one, as long as
-%   there is room.
+%   provide: give a cell to each key whose agents have none, within the limit of
+%   processes; then start a spare cell.
 
 provide :-
     (   with_mutex(typhon_cells, bind_spare(Next))
-    ->  go_on(Next),
+    ->  dispatch(Next),
         provide
     ;   unserved(_),
         room
@@ -325,7 +340,8 @@ bind_spare(Next) :-
     assertz(bound(Cell, Key)),
     give(Cell, Next).
 
-%   room is semidet: one more process may be started.
+%   room is semidet: one more process may be started.  At the limit, the cell
+%   that is idle longest ends.
 
 room :-
     (   below_most
@@ -339,7 +355,7 @@ below_most :-
     setting(cells, Most),
     Count < Most.
 
-%   The one for which an agent is scheduled is not idle for long.
+%   A cell for which an agent is scheduled is about to be used.
 
 oldest_idle(Cell) :-
     findall(Since-Cell0,
@@ -358,7 +374,7 @@ end_idle(Cell) :-
     (   with_mutex(typhon_cells, ( retract(idle(Cell, _)),
                                    forgotten(Cell, Process) ))
     ->  cell_process_end(Process, _)
-    ;   true                            % was taken meanwhile
+    ;   true                            % taken meanwhile
     ).
 
 %   @error cell_unavailable(Cause)

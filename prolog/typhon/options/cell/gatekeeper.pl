@@ -26,24 +26,25 @@
 /** <module> Turns of agents in cells
 
 With the option cell(Kind) each run of the machine for an agent of the host is a
-turn in a cell: `owner`, in one of the owner of the agent, see typhon_birth, or
-`host`, in one of all agents of the host.  The record of the agent, its mail,
-home, and state stay here, so the rest of the platform does not know of cells.
-What the agent asks of its host in a turn is a request, which is carried out as
-an act of the agent whose turn it is: the cell cannot name another one.  What
-comes back is its outcome, and what has changed in its state.
+turn in a cell.  Kind `owner` gives each owner of agents cells of its own, see
+typhon_birth; with `host` all agents of the host share cells.  The record of the
+agent, its mail, home, and state stay in this process, so the rest of the
+platform does not know of cells.  Calls of host predicates in a turn become
+requests of the cell.  The gatekeeper carries them out for the agent whose turn
+it is: a cell cannot name another agent.  The turn returns an outcome and the
+changes of the state.
 
 If the cell dies in a turn the agent ends with lost(cell(Reason)).  With a
-journal it runs again in another cell, once, from where its turn began, if it had
-changed nothing outside the cell: words without an answer wait until the turn
-ends, or needs an answer.
+journal the turn is repeated once in another cell, from its beginning, if it has
+changed nothing outside the cell.  So that this holds more often, calls without
+an answer are carried out when the turn ends or needs an answer.
 
-None of its clauses and goals is ever called here; what comes from a cell is
-checked as it is when an agent arrives.  A cell that says anything else ends,
-and with it the agent.
+This process never calls a clause or goal of the agent.  Messages of a cell are
+checked like an agent that arrives.  A cell that sends anything else ends, and
+with it the agent.
 
-*Threading*: in the worker that has the agent.  It may be interrupted; then the
-cell ends, too.
+*Threading*: in the worker that runs the turn.  Interrupting the worker ends the
+cell, too.
 */
 
 :- multifile
@@ -52,7 +53,7 @@ cell ends, too.
     typhon_machine:elsewhere/3,
     prolog:message//1.
 
-:- dynamic repeated/1.           % Id: its turn runs for the second time
+:- dynamic repeated/1.           % Id: its turn is being repeated
 
 typhon_host_parts:part(goes, Host, 10, typhon_gatekeeper:goes) :-
     walled(Host, _).
@@ -69,8 +70,8 @@ goes(Id, _, _) :-
                 *             TURNS            *
                 *******************************/
 
-%   An agent whose policy is not that of its host came before that changed. One
-%   that was ended meanwhile has no record, and runs nowhere.
+%   An agent keeps the policy under which it arrived when its host changes its
+%   own. An agent that has been ended meanwhile has no record and must not run.
 
 typhon_machine:elsewhere(context(_, Module), Goals0, Outcome) :-
     walled(_, _),
@@ -91,8 +92,8 @@ policy(Module, Policy) :-
     ;   Policy = trusted
     ).
 
-%   A worker may be interrupted: what is not finished then ends the cell, which
-%   may be in the middle of a goal.
+%   When the worker is interrupted before the turn is finished the cell ends, as
+%   it may be in the middle of a goal.
 
 run(Kind, Policy, Agent, Goals, Outcome) :-
     Agent = agent(Id, _, _, _, _),
@@ -180,7 +181,9 @@ in_cell(Cell, Policy, Owner-Agent, Goals, Result) :-
           error(Formal, Context),
           broken(Formal, Context, Result)).
 
-%   A cell that has died is heard of by the end of what it says.
+%   Writing to a cell that has died raises an io_error.  It is ignored here:
+%   reading from the cell then yields end_of_file, after the frames it sent
+%   before.
 
 begun(Cell, Policy, Agent, N, Goals) :-
     catch(( cell_bound(Cell, Policy, Agent),
@@ -199,8 +202,8 @@ broken(resource_error(c_stack), _, broken(violation(too_deep))) :-
 broken(Formal, Context, _) :-
     throw(error(Formal, Context)).
 
-%   The first agent binds the cell to its host; what the place offers later, and
-%   other limits, are sent when they are there.
+%   The first turn binds the cell to the host.  Later changes of the services or
+%   of the limits are sent with the next turn.
 
 cell_bound(Cell, Policy, agent(_, Host, _, _, _)) :-
     host(Host, _, Place),
@@ -224,7 +227,7 @@ send(Cell, Frame) :-
     cell_frame_write(Out, Frame).
 
 %   turn_sent(+Cell, +N, +Agent, +Goals, +How): How is `again` if the cell has
-%   not got what it was thought to have.
+%   answered that it lacks the program or the state, else `new`.
 
 turn_sent(Cell, N, agent(Id, Host, Module, Hash, Life), Goals, How) :-
     ( How == again -> cell_forgets(Cell, Id), cell_forgets(Cell, Hash) ; true ),
@@ -259,14 +262,14 @@ known(Id, Host, Life, Known) :-
     Known = [self(Id), here(Address), home(Home), hops(Hops)|Last].
 
                 /*******************************
-                *       WHAT A CELL SAYS       *
+                *       FRAMES OF A CELL       *
                 *******************************/
 
-%   turn_heard(+Cell, +NAndOwner, +Agent, +Goals, +Acts, -Result): Acts is acts(Told,
-%   Later, Done).  Told is raised(Error) if a word that has no answer has raised
-%   Error, else `well`; Later are lists of such words, the last one first, that
-%   are not carried out yet; Done is `nothing`, or `something` that changes the
-%   host was.
+%   turn_heard(+Cell, +NAndOwner, +Agent, +Goals, +Acts, -Result): Acts is
+%   acts(Told, Later, Done).  Told is raised(Error) if a call without an answer
+%   has raised Error, else `well`.  Later are lists of such calls that are not
+%   carried out yet, the last list first.  Done is `something` if the turn may
+%   have changed the host, else `nothing`.
 
 turn_heard(Cell, N-Owner, Agent, Goals, Acts, Result) :-
     cell_streams(Cell, In, _),
@@ -334,7 +337,7 @@ heard(outcome(_, Outcome, Note, Changes), Cell, Agent, _, Acts, Result) :-
     ; Result = outcome(Outcome, Fault) ),
     Agent = agent(Id, Host, Module, _, _),
     cell_changes_made(Changes, Host, Module),
-    (   Outcome = raised(_)             % it may not have sent its changes
+    (   Outcome = raised(_)             % the cell may have sent no changes
     ->  cell_forgets(Cell, Id)
     ;   state_mark(Module, Mark),
         cell_learns(Cell, Id, Module-Mark)
@@ -355,7 +358,8 @@ done(acts(_, [], Done), Goal, Done) :-
     !.
 done(_, _, something).
 
-%   After an error nothing is done until the agent has heard of it.
+%   After an error no further call is carried out until the agent has received
+%   that error.
 
 answered(well, Goal, Kind, Agent, Answer) :-
     agent(Agent, Host, _),

@@ -16,21 +16,21 @@
 
 /** <module> The program of a cell
 
-It runs turns of agents for the gatekeeper, see typhon_gatekeeper, with a host
-of its own that has the same policy.  What an agent asks of its host is a
-request; all else happens here.
+The cell runs turns of agents for the gatekeeper, see typhon_gatekeeper, on a
+host of its own that has the same policy.  Calls of host predicates become
+requests to the gatekeeper; all other goals run in the cell.
 
-Nothing outside relies on what this process does: an agent that has escaped from
-its rules may do here whatever the system lets the process do.
+No other process relies on the cell: an agent that has escaped from its rules
+may do whatever the operating system allows this process.
 
-*Threading*: one thread, and no other can be made.
+*Threading*: one thread; creating others is disabled.
 */
 
 :- dynamic
-    stands/2,                   % Id, Module: agents whose state is here
-    limit/2,                    % What, Most: an agent may use so much
-    offered/1,                  % PI: what the place of the host offers
-    told/1.                     % Goal: an act of this turn, not sent yet
+    agent_here/2,                   % Id, Module: holds the state of agent Id
+    limit/2,                    % What, Most: limit of an agent
+    offered/1,                  % PI: service of the place of the host
+    told/1.                     % Goal: call without an answer, not sent yet
 
 %   cell_main
 %
@@ -66,8 +66,8 @@ connection(In, Out) :-
     open_null_stream(Null),
     set_stream(Null, alias(user_output)).
 
-%   Without the option itself: quotas, of which it would load the defaults, are
-%   the business of the gatekeeper.
+%   The host is started without the option policy(_), which would load the
+%   default quotas: the gatekeeper enforces quotas.
 
 twin_start :-
     host_start(cell),
@@ -76,7 +76,7 @@ twin_start :-
 
 guarded_by(Policy) :-
     forall(typhon_host_parts:changes(policy(Policy), cell), true),
-    host_change(cell, seed(0)).         % its parts are made anew
+    host_change(cell, seed(0)).         % compiles the parts of the host anew
 
 serve(In, Out) :-
     repeat,
@@ -98,7 +98,7 @@ handle(host(Rules, PIs, Limits), _) :-
     offer(PIs).
 handle(turn(N, Id, Hash, Program, State, Known, Forget, Goals), Out) :-
     forall(member(Gone, Forget), forget(Gone)),
-    (   catch(standing(Id, Hash, Program, State, Module), error(Formal, _),
+    (   catch(agent_ready(Id, Hash, Program, State, Module), error(Formal, _),
               cell_frame_write(Out, outcome(N, raised(error(Formal, _)), none,
                                             [])))
     ->  ( var(Module) -> true ; turn(N, Id, Known, Goals, Module, Out) )
@@ -115,12 +115,13 @@ rules_file(File, Text) :-
                 *            AGENTS            *
                 *******************************/
 
-%   standing(+Id, +Hash, +Program, +State, -Module) is semidet.
+%   agent_ready(+Id, +Hash, +Program, +State, -Module) is semidet: fails if the
+%   cell lacks the program or the state.
 
-standing(Id, _, known, same, Module) :-
+agent_ready(Id, _, known, same, Module) :-
     !,
-    stands(Id, Module).
-standing(Id, Hash, Program, State, Module) :-
+    agent_here(Id, Module).
+agent_ready(Id, Hash, Program, State, Module) :-
     State = state(_, _),
     (   Program == known
     ->  code_module(Hash, _)
@@ -130,10 +131,10 @@ standing(Id, Hash, Program, State, Module) :-
     host(cell, _, Place),
     agent_module(Id, Place, Hash, State, Module),
     state_bounded(Module),
-    assertz(stands(Id, Module)).
+    assertz(agent_here(Id, Module)).
 
 forget(Id) :-
-    (   retract(stands(Id, Module))
+    (   retract(agent_here(Id, Module))
     ->  '$destroy_module'(Module)
     ;   true
     ).
@@ -155,7 +156,8 @@ turn(N, Id, Known, Goals, Module, Out) :-
           cell_frame_write(Out, outcome(N, raised(error(resource_error(What),
                                                         _)), none, []))).
 
-%   What cannot travel is an error at the control predicate, as elsewhere.
+%   An outcome that cannot travel raises an error at the control predicate, as
+%   it does outside of cells.
 
 run(Context, Goals0, Outcome, Note) :-
     machine_run(Context, Goals0, Outcome1),
@@ -191,8 +193,8 @@ noted(_, none).
                 *            LIMITS            *
                 *******************************/
 
-%   The gatekeeper counts what comes to it.  Here is limited what would not come
-%   to an end before, or not fit in.
+%   The gatekeeper enforces the quotas.  These limits end an agent whose turn
+%   would never reach the gatekeeper, or would not fit into a frame.
 
 limits_put(Limits) :-
     retractall(limit(_, _)),
@@ -211,8 +213,9 @@ state_bounded(Module) :-
     ;   true
     ).
 
-%   A term may be larger than it looks; the gatekeeper counts only its part that
-%   the quota is about.
+%   A term that shares subterms grows when it is written as text.  The limit has
+%   a reserve: the gatekeeper counts only the part of the term that the quota
+%   covers.
 
 small_and_mobile(Term) :-
     (   limit(cells, Most),
@@ -222,9 +225,9 @@ small_and_mobile(Term) :-
     ;   mobile_term(Term)
     ).
 
-%   An agent that passes a limit ends where it would catch that, and the cell
-%   with it: 9.0.4 does not survive a stack that is filled to the brim again and
-%   again.
+%   An agent that exceeds a limit ends, and the cell with it, before the agent
+%   can catch the error: SWI-Prolog 9.0.4 crashes if its stack overflows
+%   repeatedly.
 
 catches_check :-
     wrap_predicate(typhon_checked:'$uncaught'(Ball), cell, Wrapped,
@@ -262,7 +265,7 @@ words_ask :-
            wrap_predicate(Module:Head, cell, _,
                           typhon_cell_inside:ask(Head))).
 
-%   What the place of the host offers is asked in the same way.
+%   Services of the place of the host become requests in the same way.
 
 offer(PIs) :-
     forall(( member(PI, PIs), \+ offered(PI) ), assertz(offered(PI))),
@@ -309,12 +312,13 @@ ask(Kind, Goal, N, _, Module) :-
     asked(Kind, Goal, N, Module, Answer),
     answered(Answer, Goal).
 
-%   most_told(-Batch, -Most): so many acts go in one frame; so many are under way
-%   at most, and the next waits for its answer, which says what went wrong.
+%   most_told(-Batch, -Most): Batch calls without an answer share a frame.
+%   After Most such calls the next one waits for an answer, which reports
+%   errors.
 
 most_told(50, 500).
 
-%   The first after a while goes at once, lest it waits for a long goal.
+%   The first call after a pause is sent at once: a long goal may follow it.
 
 tell_some(N, Count, Since) :-
     get_time(Now),
@@ -336,7 +340,8 @@ tell_all(N, Count) :-
     get_time(Now),
     nb_setval(cell_untold, told(Count, Now)).
 
-%   What may raise an error that the agent could catch waits for its answer.
+%   A call that may raise an error which the agent could catch waits for its
+%   answer.
 
 needs_no_answer(Goal) :-
     term_size(Goal, Cells),
