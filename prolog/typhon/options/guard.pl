@@ -53,7 +53,7 @@ host_start/2 those of views.
     view_now/2,                 % Host, View
     view/3,                     % View, Host, Policy
     variant/3,                  % Hash, Policy, Module
-    retired/1.                  % Module: goes next time
+    retired/1.                  % Module: destroyed at the next retirement
 
 typhon_options:declared(host_option, policy(Policy), atom, Policy).
 typhon_options:declared(check_option, policy(Policy), atom, Policy).
@@ -139,30 +139,30 @@ typhon_host_parts:part(admit, Host, 30, typhon_guard:forbids(Policy)) :-
     Policy \== trusted.
 
 typhon_host_parts:part(new_program, Host, 30,
-                       typhon_guard:may_have(Policy)) :-
+                       typhon_guard:may_receive(Policy)) :-
     once(host_option(Host, policy(Policy))),
     Policy \== trusted.
 
 :- public
     forbids/5,
-    may_have/4.
+    may_receive/4.
 
 forbids(Policy, From, Entrant, _, refused(Reason)) :-
-    catch(( looked_through(From, Entrant, Policy), fail ), error(Formal, Where),
+    catch(( check_entrant(From, Entrant, Policy), fail ), error(Formal, Where),
           forbidden(error(Formal, Where), Reason)).
 
-%   looked_through(+From, +Entrant, +Policy): check the program alone.  A
+%   check_entrant(+From, +Entrant, +Policy): check the program alone.  A
 %   program that comes with the agent is checked before it is installed, since
 %   that loads its libraries.  State and goals are checked when the agent is
 %   installed.
 %
 %   @error the errors that forbidden/2 lists
 
-looked_through(_, entrant(_, Hash, _, _, _), Policy) :-
+check_entrant(_, entrant(_, Hash, _, _, _), Policy) :-
     code_module(Hash, _),
     !,
     guarded_module(Policy, Hash, _).
-looked_through(from(_, Sent, _), _, Policy) :-
+check_entrant(from(_, Sent, _), _, Policy) :-
     check_sent(Policy, Sent).
 
 %   forbidden(+Ball, -Reason): Ball is an error by which a host refuses code.
@@ -174,9 +174,10 @@ forbidden(error(permission_error(call, sandboxed, Culprit), _),
           policy(Culprit)).
 forbidden(error(resource_error(clause_cells), _), policy(clause_cells)).
 
-%   may_have(+Policy, +Host, +Id, +Sent): the agent Id may get that program.
+%   may_receive(+Policy, +Host, +Id, +Sent): the agent Id may get the program
+%   Sent.
 
-may_have(Policy, _, _, Sent) :-
+may_receive(Policy, _, _, Sent) :-
     check_sent(Policy, Sent).
 
 %   check_sent(+Policy, +Sent): check a program that is not installed yet, since
@@ -188,7 +189,7 @@ check_sent(Policy, Sent) :-
     (   sent_program(Sent, Program),
         acyclic_term(Program)
     ->  guard_program(Policy, Program, _)
-    ;   true                            % not a program, or it comes later
+    ;   true                            % no program, or it follows later
     ).
 
                 /*******************************

@@ -12,7 +12,7 @@
               [context/3, context_host/1, context_now/2, host/3, parts_call/3]).
 :- autoload(offers, [offer_add/4, offer_remove/2, search/4]).
 
-/** <module> The predicates by which agents offer and find services
+/** <module> Vocabulary of agents that offer and find services
 
 *Threading*: the thread that runs the agent; find/3 waits for other processes.
 */

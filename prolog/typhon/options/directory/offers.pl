@@ -53,19 +53,21 @@ typhon_identity:ids_anew :-
 typhon_host_parts:ends(Host) :-
     retractall(offer(_, _, Host, _, _, _)).
 
-%!  offer_add(+Host, +Agent, +Service, +Properties) is det.
+%!  offer_add(+Host, +Agent, +Service, +Properties:list) is det.
 %!  offer_remove(+Agent, +Service) is det.
 %
-%   Agent, which is on Host, offers Service; it withdraws the offer.
+%   Add an offer of Agent, which is on Host, in place of an older offer of the
+%   same Service; remove its offer.
 %
-%   @error resource_error(offers)
+%   @error resource_error(offers) Agent has as many offers as the setting
+%   `offers` allows
 
 offer_add(Host, Agent, Service, Properties) :-
     with_mutex(typhon_offers, add(Host, Agent, Service, Properties)).
 
 add(Host, Agent, Service, Properties) :-
     remove(Agent, Service),
-    forall(lapsed(Agent, N), drop(Agent, N)),
+    forall(is_lapsed(Agent, N), drop(Agent, N)),
     check_count(Agent),
     agent_hops(Agent, Host, Hops),
     flag(typhon_offer, N, N+1),
@@ -85,7 +87,7 @@ sweep(N) :-
     N < At,
     !.
 sweep(N) :-
-    forall(lapsed(Agent, Old), drop(Agent, Old)),
+    forall(is_lapsed(Agent, Old), drop(Agent, Old)),
     aggregate_all(count, offer(_, _, _, _, _, _), Count),
     Next is N+max(100, Count),
     retractall(sweep_at(_)),
@@ -101,11 +103,11 @@ drop(Agent, N) :-
     retractall(offer(Agent, N, _, _, _, _)),
     durable_drop(offer, Agent, N).
 
-lapsed(Agent, N) :-
+is_lapsed(Agent, N) :-
     offer(Agent, N, Host, Hops, _, _),
-    \+ stands(Agent, Host, Hops).
+    \+ is_valid_for(Agent, Host, Hops).
 
-stands(Agent, Host, Hops) :-
+is_valid_for(Agent, Host, Hops) :-
     agent_hops(Agent, Host, Hops),
     \+ agent_status(Agent, faulty(_), _).
 
@@ -121,7 +123,7 @@ agent_hops(Agent, Host, Hops) :-
 offers_on(Host, Offers) :-
     findall(Agent-offer(Service, Properties),
             ( offer(Agent, _, Host, Hops, Service, Properties),
-              stands(Agent, Host, Hops) ),
+              is_valid_for(Agent, Host, Hops) ),
             Offers).
 
                 /*******************************
@@ -136,8 +138,9 @@ search(Address, Radius, Wanted, Found) :-
     level([Address], [Address], Radius, 0, Wanted, Levels),
     append(Levels, Found).
 
-%   level(+Hosts, +Seen, +Radius, +Count, +Wanted, -Levels): the offers found on
-%   Hosts, and on farther ones; Count have been found on nearer ones.
+%   level(+Hosts, +Seen, +Radius, +Count, +Wanted, -Levels): Levels are the
+%   offers found on Hosts and on farther hosts, one list for each distance.
+%   Nearer hosts had Count offers.
 
 level([], _, _, _, _, []) :-
     !.
@@ -215,8 +218,8 @@ reply(Hosts, Look, ReplyTo) :-
     seen_on(Hosts, Look, Answers),
     endpoint_reply(ReplyTo, Answers).
 
-%   seen_on(+Hosts, +Look, -Answers): of those of Hosts that are in this
-%   process.
+%   seen_on(+Hosts, +Look, -Answers): Answers are at(Host, Neighbours, Offers),
+%   for the hosts of this process among Hosts.
 
 seen_on(Hosts, look(Pattern, Properties), Answers) :-
     findall(at(Address, Neighbours, Offers),

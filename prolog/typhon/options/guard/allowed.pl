@@ -13,21 +13,24 @@
 
 /** <module> Predicates that untrusted agents may call
 
-The check is by name alone, so that it does not depend on where an agent is.
-Allowed are the predicates that library(sandbox) takes for safe whatever their
-arguments are, except those that could still reach another agent, the process
-or its measurements; the vocabulary of agents; and the predicates of some
-libraries without state.  A program gets these libraries with the vocabulary, or
-imports them.
+The check uses the name alone, so that its result is the same on every host.
+The allowed predicates are
 
-*Threading*: the tables are made when the first policy is read.
+  - those that library(sandbox) considers safe for all arguments, except those
+    that could still reach another agent, the process or its measurements
+  - the vocabulary of agents
+  - the predicates of some libraries without state, which a program gets with
+    the vocabulary, or imports
+
+*Threading*: any thread; a mutex protects the tables, which the first
+policy_read/1 fills.
 */
 
 :- dynamic
-    seen_own/1,                 % Head: found to be one of own_name/1; bounded
+    seen_own/1,                 % Head: own_name/1 is true of it; bounded
     rule/3,                     % Head, Policy, allow or refuse
     free/1,                     % Head
-    runs/2.                     % Head, Spec: as of meta_predicate/1
+    runs/2.                     % Head, Spec: runs goals; meta_predicate/1
 
 %!  allowed(+Policy, +Goal, -How) is semidet.
 %
@@ -41,7 +44,7 @@ allowed(Policy, Goal, _) :-
     !,
     fail.
 allowed(_, Goal, How) :-
-    looked_at(Goal, Kind),
+    needs_check(Goal, Kind),
     !,
     How = look(Kind).
 allowed(_, Goal, How) :-
@@ -54,29 +57,29 @@ allowed(_, Goal, free) :-
 allowed(Policy, Goal, free) :-
     rule(Goal, Policy, allow).
 
-%   looked_at(?Goal, ?Kind)
+%   needs_check(?Goal, ?Kind): the safety of Goal depends on its arguments,
+%   which typhon_guard_calls checks as Kind demands.
 
-looked_at(assert(_), clause).
-looked_at(asserta(_), clause).
-looked_at(assertz(_), clause).
-looked_at(retract(_), pattern).
-looked_at(retractall(_), head).
-looked_at(clause(_, _), head).
-looked_at(throw(_), ball).
-looked_at(format(_, _, _), format).
-looked_at(attach(_), payload).
-looked_at(functor(_, _, _), size(3)).
-looked_at(functor(_, _, _, _), size(3)).
-looked_at(compound_name_arity(_, _, _), size(3)).
-looked_at(length(_, _), size(2)).
-looked_at(Goal, text) :-
+needs_check(assert(_), clause).
+needs_check(asserta(_), clause).
+needs_check(assertz(_), clause).
+needs_check(retract(_), pattern).
+needs_check(retractall(_), head).
+needs_check(clause(_, _), head).
+needs_check(throw(_), ball).
+needs_check(format(_, _, _), format).
+needs_check(attach(_), payload).
+needs_check(functor(_, _, _), size(3)).
+needs_check(functor(_, _, _, _), size(3)).
+needs_check(compound_name_arity(_, _, _), size(3)).
+needs_check(length(_, _), size(2)).
+needs_check(Goal, text) :-
     makes_atoms(Goal).
-looked_at(term_to_atom(_, _), term_text).
-looked_at(term_string(_, _), term_text).
-looked_at(atom_to_term(_, _, _), term_text).
+needs_check(term_to_atom(_, _), term_text).
+needs_check(term_string(_, _), term_text).
+needs_check(atom_to_term(_, _, _), term_text).
 
-%   makes_atoms(?Goal): the longer its arguments, the longer are the atoms
-%   that it makes.
+%   makes_atoms(?Goal): Goal makes atoms whose length grows with its arguments.
 
 makes_atoms(atom_concat(_, _, _)).
 makes_atoms(atomic_list_concat(_, _)).
@@ -122,7 +125,7 @@ withheld(Head) :-
                 abolish_all_tables/0, thread_self/1, statistics/2,
                 is_stream/1, blob/2, current_prolog_flag/2, current_op/3,
                 import_module/2, strip_module/3, current_type/3,
-                variant_sha1/2, variant_hash/2, % of shared terms without end
+                variant_sha1/2, variant_hash/2, % endless for shared subterms
                 name/2, atomic_concat/3, get_attr/3, get_attrs/2, del_attr/2,
                 del_attrs/1, copy_term/3,
                 setarg/3,               % checked terms must not change
@@ -153,7 +156,9 @@ runs_of_system(setof(?, ^, -)).
 runs_of_system(aggregate_all(?, 0, -)).
 runs_of_system(aggregate_all(?, ?, 0, -)).
 
-%!  allowed_library(+Library) is semidet.
+%!  allowed_library(?Library) is nondet.
+%
+%   Programs of untrusted agents may import Library.
 
 allowed_library(library(Name)) :-
     member(Name, [ aggregate, apply, assoc, error, lists, option, ordsets,
@@ -176,8 +181,8 @@ own_name(Head) :-
 
 %!  makes_clause(?Head) is nondet.
 %
-%   assertz/1, or the reader, would take a fact with that head for another
-%   clause.
+%   assertz/1, or the reader, takes a fact with this head for a clause of
+%   another predicate.
 
 makes_clause((:-_)).
 makes_clause((_:-_)).
@@ -293,5 +298,5 @@ fill :-
     forall(( runs_head(Head, Spec), \+ withheld(Head), \+ runs(Head, _) ),
            assertz(runs(Head, Spec))),
     forall(( free_head(Head), \+ withheld(Head), \+ runs(Head, _),
-             \+ looked_at(Head, _), \+ free(Head) ),
+             \+ needs_check(Head, _), \+ free(Head) ),
            assertz(free(Head))).

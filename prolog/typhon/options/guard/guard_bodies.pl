@@ -30,8 +30,8 @@ counted.
 
 %!  guard_parts(+Most) is det.
 %
-%   The next term that this thread guards has at most Most goals, shared goals
-%   being counted each time that they occur.
+%   Limit the next term that this thread guards to Most goals.  A shared goal
+%   counts at each of its occurrences.
 
 guard_parts(Most) :-
     nb_setval(typhon_guard_parts, Most).
@@ -46,6 +46,8 @@ part_counted :-
     ).
 
 %!  guard(+Body0, +Own, -Body) is det.
+%
+%   Body is the guarded form of Body0.
 %
 %   @error permission_error(call, sandboxed, Culprit)
 %   @error resource_error(clause_cells), see guard_parts/1
@@ -101,8 +103,8 @@ guarded(Goal, _, Goal) :-
 guarded(Goal, _, _) :-
     refuse(Goal).
 
-%   Else a ball that interrupts the agent would be raised again only when the
-%   recovery has ended, and it need not end.
+%   Without '$uncaught'(Ball) an exception that interrupts the agent would be
+%   raised again only after the recovery goal, which need not end.
 
 guard_recovery(Recovery0, Ball, Own, ('$uncaught'(Ball),Recovery)) :-
     (   nonvar(Recovery0),
@@ -140,7 +142,7 @@ passes(Goal) :-
 
 %!  is_control(@Goal) is semidet.
 %
-%   Goal is one at which an agent stops.
+%   Goal stops the agent, which continues after it in a later turn.
 
 is_control(Goal) :-
     control(Goal),
@@ -148,7 +150,8 @@ is_control(Goal) :-
     Name \== call,
     \+ sub_atom(Name, 0, _, _, $).
 
-%   Goal has a name that only the agent or a service of its place can define.
+%   Only the agent itself, or a service of its place, can define a predicate
+%   with the name of an unknown goal.
 
 unknown(Goal) :-
     Goal \= _:_,
@@ -156,6 +159,8 @@ unknown(Goal) :-
     \+ allowed(guarded, Goal, _).
 
 %!  is_own(+Goal, +Own) is semidet.
+%
+%   Goal calls a static predicate of the agent, which Own names.
 
 is_own(Goal, own(heads(Own), _)) :-
     callable(Goal),
@@ -249,8 +254,8 @@ extended(Closure, Extra, Goal) :-
 %!  is_lambda(@Closure) is semidet.
 %!  guard_lambda(+Lambda0, +N, +Own, -Lambda) is det.
 %
-%   Lambda, to be called with N arguments, is Lambda0 with a guarded body, for
-%   its parameters may be goals.
+%   Lambda is Lambda0 with a guarded body, for calls with N arguments.  The body
+%   is guarded because arguments may become goals in it.
 
 is_lambda(Closure) :-
     nonvar(Closure),

@@ -65,7 +65,7 @@ guard_call(Policy, Module, Closure, Extra, Goal) :-
     own_only(Goal0, Module, Goal).
 
 %   checked(+Extra, +Own, +Closure, -Goal): the body of a lambda expression is
-%   guarded, for its parameters may be goals.
+%   guarded because its parameters may be goals.
 
 checked([], Own, Goal0, Goal) :-
     !,
@@ -92,7 +92,7 @@ guard_called(Own, Goal0, Goal) :-
     ;   refuse_cyclic(Goal0)
     ).
 
-%   A small term that shares much may be written out to an endless goal.
+%   A small term with many shared subterms may expand to a huge goal.
 
 count_parts :-
     clause_cells(Max),
@@ -107,7 +107,7 @@ guard_now(Goal0, Own, Goal) :-
     Own = own(_, Policy),
     allowed(Policy, Goal0, look(Kind)),
     !,
-    looked_at(Kind, Policy, Goal0, Goal).
+    check_arguments(Kind, Policy, Goal0, Goal).
 guard_now(Goal0, Own, Goal) :-
     guard(Goal0, Own, Goal).
 
@@ -129,7 +129,7 @@ refuse_cyclic(Goal) :-
 %   state, not the predicates of a place or the clauses of its program.
 
 own_only(Goal0, Module, Goal) :-
-    touches(Goal0, Head),
+    accesses_state(Goal0, Head),
     !,
     ( adds(Goal0, Clause) -> adding(Module, Clause) ; true ),
     (   '$c_current_predicate'(_, Module:Head)
@@ -143,10 +143,10 @@ own_only(Goal0, Module, Goal) :-
     ).
 own_only(Goal, _, Goal).
 
-touches(Goal, Head) :- adds(Goal, Clause), clause_of(Clause, Head).
-touches(retract(Clause), Head) :- clause_of(Clause, Head).
-touches(retractall(Head), Head).
-touches(clause(Head, _), Head).
+accesses_state(Goal, Head) :- adds(Goal, Clause), clause_of(Clause, Head).
+accesses_state(retract(Clause), Head) :- clause_of(Clause, Head).
+accesses_state(retractall(Head), Head).
+accesses_state(clause(Head, _), Head).
 
 adds(assert(Clause), Clause).
 adds(asserta(Clause), Clause).
@@ -155,8 +155,8 @@ adds(assertz(Clause), Clause).
 clause_of((Head:-_), Head) :- !.
 clause_of(Head, Head).
 
-%   adding(+Module, +Clause): options of the host may count the clauses that an
-%   agent adds to its state.
+%   adding(+Module, +Clause): tell options of the host, such as quotas, that the
+%   agent adds Clause to its state.
 
 adding(Module, Clause) :-
     (   context_now(Host, Agent),
@@ -170,18 +170,18 @@ adding(Module, Clause) :-
                 *          ARGUMENTS           *
                 *******************************/
 
-%   looked_at(+Kind, +Policy, +Goal0, -Goal): check the arguments of a goal, now
-%   that they are known: clauses to add or remove, balls to throw, and texts.
-%   Kind is as of allowed/3.
+%   check_arguments(+Kind, +Policy, +Goal0, -Goal): check the arguments of a
+%   goal, now that they are known: clauses to add or remove, balls to throw, and
+%   texts. Kind is as of allowed/3.
 %
 %   @error permission_error(call, sandboxed, Culprit)
 
-looked_at(clause, _, Goal, Goal) :-
+check_arguments(clause, _, Goal, Goal) :-
     arg(1, Goal, Fact),
     clause_cells(Max),
     allowed_fact(Fact, Max),
     !.
-looked_at(clause, Policy, Goal0, Goal) :-
+check_arguments(clause, Policy, Goal0, Goal) :-
     Goal0 =.. [Name,Clause0],
     must_be_tree(Clause0),
     nonvar(Clause0),
@@ -189,47 +189,47 @@ looked_at(clause, Policy, Goal0, Goal) :-
     !,
     guard_clauses(Policy, [Clause0], [Clause]),
     Goal =.. [Name,Clause].
-looked_at(pattern, _, Goal, Goal) :-
+check_arguments(pattern, _, Goal, Goal) :-
     Goal = retract(Clause),
     nonvar(Clause),
     ( Clause = (Head:-_) -> true ; Head = Clause ),
     unqualified(Head),
     !.
-looked_at(head, _, Goal, Goal) :-
+check_arguments(head, _, Goal, Goal) :-
     arg(1, Goal, Head),
     unqualified(Head),
     own_name(Head),
     !.
-looked_at(ball, _, throw(Ball), throw(Ball)) :-
+check_arguments(ball, _, throw(Ball), throw(Ball)) :-
     nonvar(Ball),
     \+ ends_thread(Ball),
     setting(ball_cells, Max),
     is_tree(Ball, Max),
     !.
-looked_at(format, _, Goal, Goal) :-
+check_arguments(format, _, Goal, Goal) :-
     Goal = format(Sink, Format, Args),
     nonvar(Sink),
     sink(Sink),
     must_be_tree(Format-Args),
     harmless_format(Format),
     !.
-looked_at(text, _, Goal, Goal) :-
+check_arguments(text, _, Goal, Goal) :-
     short_text(Goal),
     !.
-looked_at(term_text, _, Goal, Goal) :-
+check_arguments(term_text, _, Goal, Goal) :-
     must_be_tree(Goal),
     readable_text(Goal),
     !.
-looked_at(size(I), _, Goal, Goal) :-
+check_arguments(size(I), _, Goal, Goal) :-
     arg(I, Goal, Size),
     \+ too_many(Size),
     !.
-looked_at(payload, _, attach(Spec), attach(Spec)) :-
+check_arguments(payload, _, attach(Spec), attach(Spec)) :-
     nonvar(Spec),
     Spec = payloads(Path),
     path_below(Path),
     !.
-looked_at(_, _, Goal, _) :-
+check_arguments(_, _, Goal, _) :-
     refuse(Goal).
 
 unqualified(Head) :-

@@ -37,12 +37,14 @@ predicate today would call that of the system tomorrow.
 
 %!  guard_program(+Policy, +Program0, -Program) is det.
 %
+%   Program is Program0 rewritten for Policy.
+%
 %   @error permission_error(call, sandboxed, Goal) if Goal is not allowed: a
 %          goal, `:- use_module(Library)`, or the name of a predicate
 
 guard_program(Policy, program(Name, State, Libraries0, Clauses0),
               program(Name, State, Libraries, Clauses)) :-
-    exclude(without, Libraries0, Libraries),
+    exclude(is_typhon, Libraries0, Libraries),
     maplist(library_allowed, Libraries),
     maplist(state_allowed, State),
     heads(Clauses0, Own),
@@ -57,10 +59,10 @@ guard_refuses(Policy, Clauses, Clause, Formal) :-
     catch(( guard_clause(own(heads(Own), Policy), Clause, _), fail ),
           error(Formal, _), true).
 
-%   Untrusted agents have the vocabulary of this library alone; they cannot call
-%   its other predicates.
+%   Importing library(typhon) is harmless and has no effect: untrusted agents
+%   can call only its vocabulary, which they have already.
 
-without(Library-_) :-
+is_typhon(Library-_) :-
     Library == library(typhon).
 
 library_allowed(Library-Imports) :-
@@ -117,11 +119,13 @@ guard_clause(Own, Clause0, Clause) :-
     ).
 
 %!  guard_state(+Policy, +State0, -State) is det.
-%!  guard_clauses(+Policy, +Clauses0, -Clauses) is det.
+%!  guard_clauses(+Policy, +Clauses0:list, -Clauses:list) is det.
 %!  guard_declares(+Policy, +PI) is det.
 %
-%   Guard the state of an agent, as of agent_state/2; guard clauses, as those of
-%   a payload; check a predicate that a payload defines.
+%   Guard the state of an agent, see agent_state/2; guard clauses, such as those
+%   of a payload; check a predicate that a payload defines.
+%
+%   @error permission_error(call, sandboxed, Culprit)
 
 guard_state(Policy, state(PIs, Clauses0), state(PIs, Clauses)) :-
     maplist(declared_allowed, PIs),
@@ -141,7 +145,7 @@ guard_fact(_, Own, Clause0, Clause) :-
 
 %!  allowed_fact(+Fact, +Max) is semidet.
 %
-%   Fact, which has at most Max parts, may be a fact of an untrusted agent.
+%   Fact may be a fact of an untrusted agent: it has at most Max parts.
 
 allowed_fact(Fact, Max) :-
     callable(Fact),

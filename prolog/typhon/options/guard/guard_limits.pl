@@ -15,9 +15,9 @@
 
 /** <module> Limits on the size of terms and texts of untrusted agents
 
-Limits apply to clauses, shared subterms counted each time; to format strings;
-to texts that become atoms; and to texts that are read as terms.  The module
-also raises the error when something is refused.
+Limits apply to clauses, where a shared subterm counts at each occurrence; to
+format strings; to texts that become atoms; and to texts that are read as terms.
+The module also raises the error of refused code.
 
 *Threading*: any thread; no state.
 */
@@ -29,8 +29,8 @@ also raises the error when something is refused.
 
 %!  must_be_tree(+Term) is det.
 %
-%   Term is acyclic, and not larger than clauses may be when its shared subterms
-%   are written out.
+%   Term is acyclic, and no larger than a clause may be.  A shared subterm
+%   counts at each of its occurrences.
 %
 %   @error resource_error(clause_cells)
 
@@ -42,13 +42,15 @@ must_be_tree(Term) :-
     ).
 
 %!  clause_cells(-Max:integer) is det.
+%
+%   A clause of an untrusted agent has at most Max parts.
 
 clause_cells(Max) :-
     setting(clause_cells, Max).
 
 %!  refuse(+Culprit)
 %
-%   A large term is reported by its name.
+%   Refuse Culprit.  The error holds only the name of a large term.
 %
 %   @error permission_error(call, sandboxed, Culprit)
 
@@ -139,8 +141,8 @@ all_solutions(atom_concat(A, B, _), Length, Made), var(A), var(B) =>
 all_solutions(_, Length, Made) =>
     Made = Length.
 
-%   made(+Length): the running agent makes atoms with Length characters in all.
-%   Options of its host may count them.
+%   made(+Length): tell options of the host, such as quotas, that the running
+%   agent makes atoms with Length characters in all.
 
 made(Length) :-
     (   context_now(Host, Agent),
@@ -164,19 +166,20 @@ joined_length(atomic_list_concat(List, Separator, _), Length) :-
     Length is Length1+Count*Length2.
 joined_length(Goal, Length) :-
     compound_name_arguments(Goal, _, Args),
-    together(argument_length, Args, Length).
+    sum_lengths(argument_length, Args, Length).
 
-:- meta_predicate together(2, +, -).
+:- meta_predicate sum_lengths(2, +, -).
 
-together(Goal, List, Length) :-
+sum_lengths(Goal, List, Length) :-
     maplist(Goal, List, Lengths),
     sum_list(Lengths, Length).
 
-%   An argument that is neither atomic nor a list is a type error of the goal.
+%   For an argument that is neither atomic nor a list the goal itself raises a
+%   type error, so its length does not matter.
 
 argument_length(Arg, Length) :-
     (   is_list(Arg)
-    ->  together(item_length, Arg, Length)
+    ->  sum_lengths(item_length, Arg, Length)
     ;   compound(Arg)
     ->  parts_length(Arg, Length)
     ;   item_length(Arg, Length)
@@ -190,7 +193,7 @@ item_length(Item, Length) :-
     ;   Length = 0
     ).
 
-%   The size is found as is_tree/2 counts, without writing a large integer.
+%   is_tree/2 bounds the size of a large integer without writing it.
 
 number_length(Number, Length) :-
     most_characters(Max),
@@ -199,19 +202,19 @@ number_length(Number, Length) :-
     ;   Length is Max+1
     ).
 
-%   Arguments that are components of a URI, or partial lists.
+%   Term holds the components of a URI, or is a partial list.
 
 parts_length(Term, Length) :-
     most_characters(Max),
     is_tree(Term, Max),
     compound_name_arguments(Term, _, Args),
-    together(argument_length, Args, Length).
+    sum_lengths(argument_length, Args, Length).
 
 %!  readable_text(+Goal) is semidet.
 %
-%   Goal reads a text as a term, or writes a term as an atom.  The text is as
-%   short as an atom may be, since it may become one, and has no quasi
-%   quotation, which would call a parser by name.
+%   Goal reads a text as a term, or writes a term as an atom.  The text must not
+%   be longer than an atom may be, since it may become one, and must hold no
+%   quasi quotation, which would call a parser by name.
 
 readable_text(term_to_atom(Term, Text)) :-
     (   var(Text)
