@@ -9,13 +9,12 @@
           ]).
 :- use_module('../kernel/base/on_demand', [on_demand_call/3]).
 
-/** <module> The journal: the state of a process outlives the process
+/** <module> The journal: durable state of a process
 
 The journal records agents as they change and commits the changes that the
-kernel queues, see typhon_durable_changes, in batches to a database.  It
-restores all of it when the process is started again.  Its modules are loaded
-with the first journal, by this interface of the layer or by hooks of the
-kernel.
+kernel queues, see typhon_durable_changes, in batches to a database.  A process
+that is started again restores its state from the journal.  This interface, or
+hooks of the kernel, load the modules of the journal with its first use.
 
 *Threading*: any thread.
 */
@@ -53,7 +52,8 @@ journal_place(Where, Place) :-
 %!  journal_record_put(+Where, +Text) is det.
 %!  journal_record_drop(+Where) is det.
 %
-%   The common record of journals that belong together is a text beside them.
+%   Read, write or delete the common record of journals that belong together.
+%   The record is a text beside the journals.  Reading fails if there is none.
 
 journal_record(Where, Text) :-
     journal_call(typhon_database:journal_record(Where, Text)).

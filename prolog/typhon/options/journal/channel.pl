@@ -31,7 +31,7 @@ frame in a queue.
 a time sends to an endpoint.
 */
 
-:- meta_predicate engaging(+, 0).
+:- meta_predicate changing_posts(+, 0).
 
 :- multifile
     typhon_durable_posts:queued/3,
@@ -43,10 +43,10 @@ a time sends to an endpoint.
 
 :- dynamic
     out/4,                      % Endpoint, N, Kind, Term: the oldest first
-    had/2,                      % Endpoint, N: all up to N were received
+    had/2,                      % Endpoint, N: the peer has received all up to N
     sent/2,                     % Endpoint, N: all up to N were sent; missing
                                 % if sending is to start again
-    courier/1.                  % Endpoint: a thread sends
+    courier/1.                  % Endpoint: a worker sends, or will soon
 
 :- setting(channel_seconds, number, 300,
            "Seconds for which posts are kept for a process that has left, and \c
@@ -56,25 +56,25 @@ batch(100).
 longest_pause(1).               % seconds between attempts
 
 typhon_durable_posts:queued(Endpoint, Kind, Term) :-
-    engaging(Endpoint,
-             ( durable_number(N),
-               durable_putting(out, Endpoint, N, item(Kind, Term), Change),
-               post_must_fit(Change),
-               durable_change(Change),
-               enqueue_changes,
-               assertz(out(Endpoint, N, Kind, Term)) )).
+    changing_posts(
+        Endpoint,
+        ( durable_number(N),
+          durable_putting(out, Endpoint, N, item(Kind, Term), Change),
+          post_must_fit(Change),
+          durable_change(Change),
+          enqueue_changes,
+          assertz(out(Endpoint, N, Kind, Term)) )).
 
-%   engaging(+Endpoint, :Goal): Goal changes the posts for Endpoint; then a
-%   courier is started unless there is one.  A thread that is ended in between
-%   must not leave a courier/1 fact without a courier: all other threads would
-%   rely on it.
+%   changing_posts(+Endpoint, :Goal): Goal changes the posts for Endpoint.  Then
+%   start a courier unless there is one.  Nothing may interrupt the thread in
+%   between: a courier/1 fact without a courier stops all posts to Endpoint.
 
-engaging(Endpoint, Goal) :-
+changing_posts(Endpoint, Goal) :-
     sig_atomic(( with_mutex(typhon_channel,
-                            ( Goal, engage(Endpoint, Courier) )),
+                            ( Goal, claim_courier(Endpoint, Courier) )),
                  set_out(Courier, Endpoint) )).
 
-engage(Endpoint, Courier) :-
+claim_courier(Endpoint, Courier) :-
     (   ( courier(Endpoint) ; \+ out(Endpoint, _, _, _) )
     ->  Courier = there
     ;   assertz(courier(Endpoint)),
@@ -83,19 +83,20 @@ engage(Endpoint, Courier) :-
 
 set_out(there, _).
 set_out(wanted, Endpoint) :-
-    scheduler_call(typhon_channel:carry(Endpoint, try(0, 0.05))).
+    scheduler_call(typhon_channel:send_posts(Endpoint, try(0, 0.05))).
 
-%   carry(+Endpoint, +Try): runs in a worker until all is sent.  Try is
-%   try(Since, Pause): attempts have failed since then, 0 if the last succeeded;
-%   Pause is the delay after this attempt.
+%   send_posts(+Endpoint, +Try): runs in a worker until all posts are sent.  Try
+%   is try(Since, Pause): attempts have failed since the stamp Since, 0 if the
+%   last one succeeded; Pause is the delay in seconds after this attempt, should
+%   it fail.
 
-carry(Endpoint, Try) :-
+send_posts(Endpoint, Try) :-
     with_mutex(typhon_channel, next(Endpoint, Items)),
     (   Items == []
     ->  true
     ;   catch(send_all(Items, Endpoint), error(Formal, _), true),
         (   var(Formal)
-        ->  carry(Endpoint, try(0, 0.05))
+        ->  send_posts(Endpoint, try(0, 0.05))
         ;   not_sent(Formal, Endpoint, Try)
         )
     ).
@@ -103,7 +104,7 @@ carry(Endpoint, Try) :-
 next(Endpoint, Items) :-
     (   sent(Endpoint, Sent)
     ->  Before0 = Sent
-    ;   had_until(Endpoint, Had),
+    ;   received_until(Endpoint, Had),
         Sent = Had,
         Before0 = first(Had)
     ),
@@ -119,7 +120,7 @@ next(Endpoint, Items) :-
     ;   true
     ).
 
-had_until(Endpoint, N) :-
+received_until(Endpoint, N) :-
     (   had(Endpoint, N0)
     ->  N = N0
     ;   N = -1
@@ -130,8 +131,9 @@ chained([item(N, Kind, Term)|Found], Before,
         [item(Before, N, Kind, Term)|Items]) :-
     chained(Found, N, Items).
 
-%   Posts that were sent over a connection are lost with it.  If sending was
-%   started again meanwhile, this post does not count, and the rest is not sent.
+%   A connection that breaks loses the posts sent over it, and sending starts
+%   again. If that has happened meanwhile, this post counts as not sent, and the
+%   courier drops the rest of its list.
 
 send_all([], _).
 send_all([item(Before, N, Kind, Term)|Items], Endpoint) :-
@@ -151,7 +153,7 @@ put_sent(Endpoint, Before, N) :-
     assertz(sent(Endpoint, N)).
 
 not_sent(existence_error(_, _), Endpoint, _) :-
-    all_ends,
+    is_ending,
     !,
     with_mutex(typhon_channel, retractall(courier(Endpoint))).
 not_sent(unreachable(_), Endpoint, try(Since, _)) :-
@@ -166,8 +168,8 @@ not_sent(unreachable(_), Endpoint, try(Since, _)) :-
 not_sent(resource_error(frame_bytes), Endpoint, _) :-
     !,
     with_mutex(typhon_channel, next_is_dropped(Endpoint, Dropped)),
-    say_undelivered(Dropped, Endpoint, resource_error(frame_bytes)),
-    carry(Endpoint, try(0, 0.05)).
+    report_undelivered(Dropped, Endpoint, resource_error(frame_bytes)),
+    send_posts(Endpoint, try(0, 0.05)).
 not_sent(Formal, Endpoint, try(Since0, Pause)) :-
     debug(typhon(mail), 'nothing can be posted to ~w: ~p', [Endpoint, Formal]),
     with_mutex(typhon_channel, retractall(sent(Endpoint, _))),
@@ -196,19 +198,19 @@ next_is_dropped(_, []).                 % sending starts again
 
 typhon_scheduler:fire(Endpoint, channel(Try)) :-
     !,
-    scheduler_call(typhon_channel:carry(Endpoint, Try)).
+    scheduler_call(typhon_channel:send_posts(Endpoint, Try)).
 
-%   This process sends nothing any more.  If another thing does not exist, such
-%   as the queue of a connection that breaks, the next attempt uses another.
+%   This process is ending and can send nothing.  Other existence errors, such
+%   as that of the queue of a breaking connection, end with the next connection.
 
-all_ends :-
+is_ending :-
     \+ endpoint_address(_),
     !.
-all_ends :-
+is_ending :-
     output_waits,
     \+ durable_on.
 
-%   A process that is gone, and keeps no journal, will not receive the posts.
+%   Endpoint is gone and keeps no journal, so it will never receive the posts.
 
 give_up(Endpoint) :-
     with_mutex(typhon_channel,
@@ -217,7 +219,7 @@ give_up(Endpoint) :-
                  retractall(sent(Endpoint, _)),
                  retractall(had(Endpoint, _)),
                  retractall(courier(Endpoint)) )),
-    say_undelivered(Lost, Endpoint, host_unreachable(Endpoint)).
+    report_undelivered(Lost, Endpoint, host_unreachable(Endpoint)).
 
 forget_all(Endpoint) :-
     (   out(Endpoint, N, _, _)
@@ -228,7 +230,7 @@ forget_all(Endpoint) :-
     ;   true
     ).
 
-say_undelivered(Lost, Endpoint, Formal) :-
+report_undelivered(Lost, Endpoint, Formal) :-
     forall(member(Kind-Term, Lost),
            ignore(typhon_durable_posts:undelivered(Kind, Term, Endpoint,
                                                    Formal))).
@@ -238,28 +240,28 @@ say_undelivered(Lost, Endpoint, Formal) :-
                 *******************************/
 
 typhon_endpoint:received(channel, again(To), _) :-
-    begin_anew(To).
+    send_again(To).
 typhon_endpoint:received(channel, had(To, N), _) :-
     must_be(integer, N),
-    with_mutex(typhon_channel, has_come(To, N)).
+    with_mutex(typhon_channel, posts_received(To, N)).
 
-begin_anew(To) :-
-    engaging(To, retractall(sent(To, _))).
+send_again(To) :-
+    changing_posts(To, retractall(sent(To, _))).
 
-has_come(To, N) :-
+posts_received(To, N) :-
     retractall(had(To, _)),
     assertz(had(To, N)),
-    come(To, N),
+    drop_received(To, N),
     N1 is N+1,
     durable_drop_below(out, To, N1).
 
-come(To, N) :-
+drop_received(To, N) :-
     (   out(To, N0, _, _),
         !,
         N0 =< N
     ->  retract(out(To, N0, _, _)),
         !,
-        come(To, N)
+        drop_received(To, N)
     ;   true
     ).
 
@@ -267,12 +269,13 @@ come(To, N) :-
                 *        BREAKS AND ENDS       *
                 *******************************/
 
-%   The previous connection may have broken, or the peer may have died.
+%   Posts sent over the previous connection may be lost, so sending starts
+%   again.
 
 typhon_endpoint:connection(Endpoint, up) :-
     (   endpoint_address(Endpoint)
     ->  true
-    ;   begin_anew(Endpoint)
+    ;   send_again(Endpoint)
     ).
 
 :- durable(out, Endpoint, N, item(Kind, Term), out(Endpoint, N, Kind, Term)).
@@ -280,7 +283,7 @@ typhon_endpoint:connection(Endpoint, up) :-
 typhon_durable:go_on :-
     findall(Endpoint, out(Endpoint, _, _, _), All),
     sort(All, Endpoints),
-    forall(member(Endpoint, Endpoints), begin_anew(Endpoint)).
+    forall(member(Endpoint, Endpoints), send_again(Endpoint)).
 
 typhon_runtime:ending(after) :-
     retractall(out(_, _, _, _)),

@@ -40,7 +40,7 @@ must not commit.
     queue/3,                            % Entries, Committer, Sync
     unsaved/2,                          % Changes and items that wait for them
     committer/1,                        % Server
-    told/1.                             % Error: reported; commits fail
+    reported/1.                         % Error: commits fail with it
 
 %   Delay before an idle commit, and before a failed commit is tried again.
 
@@ -78,7 +78,7 @@ typhon_durable_changes:end_commits :-
           print_message(error, error(Formal, Context))),
     retractall(queue(_, _, _)),
     retractall(unsaved(_, _)),
-    retractall(told(_)),
+    retractall(reported(_)),
     message_queue_destroy(Entries).
 
                 /*******************************
@@ -110,14 +110,14 @@ wake(How) :-
     ->  true
     ;   set_flag(typhon_journal_awake, Urgency),
         queue(_, Committer, _),
-        ignore(server_cast(Committer, How))     % else it is closed
+        ignore(server_cast(Committer, How))     % fails after the end
     ).
 
 urgency(idle, 1).
 urgency(now, 2).
 
 typhon_durable_changes:commit_error(Error) :-
-    told(Error),
+    reported(Error),
     !.
 
 typhon_durable_changes:back_end_error(closed, existence_error(journal, open)).
@@ -142,7 +142,7 @@ typhon_durable_changes:commit_queue :-
 
 commit :-
     sig_atomic(( with_mutex(typhon_commit, commit_all),
-                 once_more )).
+                 commit_if_wanted )).
 
 typhon_durable_changes:flush_sends :-
     queue(_, _, full),
@@ -171,9 +171,9 @@ commit_locked :-
     set_flag(typhon_journal_wanted, 0),
     call_cleanup(catch(commit_all, error(_, _), true),
                  mutex_unlock(typhon_commit)),
-    once_more.
+    commit_if_wanted.
 
-once_more :-
+commit_if_wanted :-
     (   get_flag(typhon_journal_wanted, 1)
     ->  commit_or_leave
     ;   true
@@ -183,7 +183,7 @@ commit_all :-
     queue(Entries, _, _),
     !,
     fifo_empty(Entries, New),
-    parted(New, Changes0, Items0),
+    split_entries(New, Changes0, Items0),
     (   retract(unsaved(Changes1, Items1))
     ->  append(Changes1, Changes0, Changes2),
         append(Items1, Items0, Items)
@@ -193,36 +193,36 @@ commit_all :-
     save(Changes2, Items),
     (   Items == []
     ->  true
-    ;   go(Items)
+    ;   release(Items)
     ).
-commit_all.
+commit_all.                             % closed meanwhile
 
-go(Items) :-
+release(Items) :-
     catch(ignore(typhon_durable_changes:committed(Items)), error(Formal, Context),
           print_message(error, error(Formal, Context))).
 
-parted([], [], []).
-parted([item(Item)|Entries], Changes, [Item|Items]) :-
+split_entries([], [], []).
+split_entries([item(Item)|Entries], Changes, [Item|Items]) :-
     !,
-    parted(Entries, Changes, Items).
-parted([Entry|Entries], Changes, Items) :-
+    split_entries(Entries, Changes, Items).
+split_entries([Entry|Entries], Changes, Items) :-
     append(Entry, Others, Changes),
-    parted(Entries, Others, Items).
+    split_entries(Entries, Others, Items).
 
 save([], _) :-
     !.
 save(Changes0, Items) :-
-    settled(Changes0, Changes),
+    last_changes(Changes0, Changes),
     crash_point(before_commit),
     catch(store_commit(Changes), error(Formal, Context),
           ( assertz(unsaved(Changes, Items)),
             throw(error(Formal, Context)) )),
-    retractall(told(_)),
+    retractall(reported(_)),
     crash_point(after_commit).
 
-%   settled(+Changes0, -Changes): only the last change of each item is kept.
+%   last_changes(+Changes0, -Changes): keep only the last change of each item.
 
-settled(Changes0, Changes) :-
+last_changes(Changes0, Changes) :-
     reverse(Changes0, Newest),
     length(Newest, Count),
     (   Count =< 32
@@ -277,10 +277,10 @@ commit_now(State, Next) :-
           not_committed(error(Formal, Context), State, Next)).
 
 not_committed(Error, State, until(Stamp, State)) :-
-    (   told(_)
+    (   reported(_)
     ->  true
     ;   print_message(error, Error),
-        assertz(told(Error))
+        assertz(reported(Error))
     ),
     set_flag(typhon_journal_awake, 2),
     again_seconds(Seconds),

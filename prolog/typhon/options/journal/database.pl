@@ -48,7 +48,8 @@ not know which.  The modules of both define the hooks, for a Base of their own.
 
 %!  database(+Where, -Place:atom, -Base) is det.
 %
-%   Place is the name of the journal in errors, Base its handle for the rest.
+%   Place is the name of the journal in errors, Base its handle for the
+%   predicates below.
 %
 %   @arg Where is a directory, postgresql(Url), or such a Url
 %   @error domain_error(postgresql_url, Url)
@@ -89,34 +90,35 @@ journal_part(Dir0, P, Part) :-
 
 %!  database_found(+Base) is semidet.
 %
-%   There is a journal.
+%   Base holds a journal.
 
 %!  database_connect(+Base, +Seconds, -Connection, -Age) is det.
 %
-%   Open the journal, or a new one: Age is `old` or `new`.  If another process
-%   has it, wait at most Seconds.
+%   Open the journal, or create it: Age is `old` or `new`.  Wait at most Seconds
+%   for another process to close it.
 
 %!  database_lock(+Base, +Sync, +Connection) is det.
 %
-%   Begin a transaction; no other process can open the journal any more.
+%   Begin a transaction.  From now on no other process can open the journal.
 
 %!  database_tables(+Base, +Connection) is det.
 %
-%   Make the tables of a new journal.
+%   Create the tables of a new journal.
 
 %!  database_stamp(+Base, +Connection, -Stamp) is det.
 %!  database_same(+Base, +Sync, +Stamp, +Connection) is semidet.
 %
-%   Stamp identifies the last process that opened the journal; it is still the
-%   same, on another connection.
+%   Stamp identifies the last process that opened the journal.  database_same/4
+%   checks on a new Connection that no other process has opened it since.
 
 %!  database_forgets(+Base, +Sync, +Connection, -Seconds) is semidet.
 %
-%   The server may lose commits of the last Seconds when it dies alone.
+%   The server may lose the commits of the last Seconds when it dies while this
+%   process survives.
 
 %!  database_wrong(+Base, +Connection, -Why) is semidet.
 %
-%   The journal is damaged.
+%   The journal is damaged; Why is the report of the database.
 
                 /*******************************
                 *            RECORD            *
@@ -126,7 +128,8 @@ journal_part(Dir0, P, Part) :-
 %!  journal_record_put(+Where, +Text) is det.
 %!  journal_record_drop(+Where) is det.
 %
-%   The common record of journals that belong together is a text beside them.
+%   Read, write or delete the common record of journals that belong together.
+%   The record is a text beside the journals.  Reading fails if there is none.
 
 journal_record(Where, Text) :-
     database(Where, Place, Base),
@@ -146,12 +149,12 @@ journal_record_drop(Where) :-
 
 %!  in_terms_of(+Place, +Base, :Goal) is semidet.
 %
-%   As Goal, but errors of the driver become errors of the journal.
+%   Call Goal; turn errors of the driver into errors of the journal at Place.
 
 in_terms_of(Place, Base, Goal) :-
     catch(Goal, error(odbc(State, _, Text), _),
           (   means(Base, State, Text, What)
-          ->  blame(What, Text, Place)
+          ->  throw_meaning(What, Text, Place)
           ;   throw(error(journal_damaged(Place, Text), _))
           )).
 
@@ -163,15 +166,15 @@ means(Base, _, Text, What) :-
 means(postgresql(_), State, _, unreachable) :-
     sub_atom(State, 0, _, _, '08').     % the class of connections
 
-blame(locked, _, Place) :-
+throw_meaning(locked, _, Place) :-
     not_opened(Place, 'another process has it').
-blame(unwritable, _, Place) :-
+throw_meaning(unwritable, _, Place) :-
     not_opened(Place, 'it cannot be written').
-blame(full, _, _) :-
+throw_meaning(full, _, _) :-
     throw(error(resource_error(journal_space), _)).
-blame(missing(Package), Text, _) :-
+throw_meaning(missing(Package), Text, _) :-
     throw(error(existence_error(package, Package), context(_, Text))).
-blame(unreachable, Text, Place) :-
+throw_meaning(unreachable, Text, Place) :-
     throw(error(journal_unreachable(Place, Text), _)).
 
 not_opened(Place, Why) :-

@@ -26,13 +26,13 @@ The item of an agent is
 
     agent(Host, Hash, Life, State, Status, Goals)
 
-where Status is one at which the agent rests, or in transit.  The program is an
-item once for all its agents.
+where Status is a status in which the agent rests, or in transit.  All agents of
+a program share one item that holds it.
 
-A small state is a part of this item.  In place of a large one the item has
-`log`, and the state is in the items state(Id, N): the whole state for N=0, and
-lists of changes, see typhon_state_log, for N=1, 2 and so on.  When the changes
-have become as long as the state, the whole state replaces them all.
+A small state is a part of this item.  For a large state the item holds `log`,
+and the state is in the items state(Id, N): the whole state for N=0, and lists
+of changes, see typhon_state_log, for N=1, 2 and so on.  When the changes have
+become as long as the state, the whole state replaces them all.
 
 A turn is one unit of work: the effects of the agent are recorded together with
 its next goals, and released after that.  As soon as the agent rests another
@@ -55,12 +55,12 @@ ones.
     code_noted/1,               % Hash
     logged/5,                   % Id, Module, N: number of the next changes,
                                 % Bytes of the state, and of the changes; the
-                                % module is `none` if the state is to be
-                                % noted anew
-    stored/3.                   % Id, N, Item: of the state of an agent that is
-                                % not restored yet
+                                % module is `none` if the whole state must be
+                                % recorded next
+    stored/3.                   % Id, N, Item: part of the state of an agent
+                                % that is not restored yet
 
-%   Cells of the smallest state with a log: about 4 kB in the journal.
+%   A state with more cells has a log.  So many cells take about 4 kB.
 
 large(2000).
 
@@ -117,19 +117,20 @@ noted(elsewhere(Goals), Id) :-
                 *            RECORDS           *
                 *******************************/
 
-%   A held agent stays in the journal as it was before.
+%   A transient status is not recorded: the journal keeps the previous record of
+%   the agent.
 
 typhon_agents:put_down(Id, Status, Goals) :-
-    \+ passing(Status),
+    \+ is_transient(Status),
     agent(Id, Host, Module, Hash, Life),
     !,
     note_code(Hash),
     note_state(Id, Module, State),
     note_item(Id, agent, 0, agent(Host, Hash, Life, State, Status, Goals), _).
 
-passing(held).
-passing(resumed).
-passing(arriving).
+is_transient(held).
+is_transient(resumed).
+is_transient(arriving).
 
 %   note_state(+Id, +Module, -State): State is the part of the agent's item that
 %   holds its state.
@@ -196,7 +197,8 @@ note_item(Id, Kind, N, Term0, Count) :-
     durable_bytes(Change, Count),
     durable_change(Change).
 
-%   The module is about to be destroyed: the agent has ended, or has another.
+%   The module is about to be destroyed: the agent has ended, or uses another
+%   one.
 
 typhon_agents:state_ends(Id, Module) :-
     logged(Id, Module, _, _, _),
@@ -208,8 +210,8 @@ typhon_agents:state_ends(Id, Module) :-
     ;   durable_drop_all(state, Id)
     ).
 
-%   Changes that were taken from a log were not recorded: the whole state is
-%   recorded with the next item of the agent.
+%   These Changes were taken from the log and not recorded, so the log is
+%   incomplete: record the whole state with the next item of the agent.
 
 typhon_durable_changes:dropped(Changes) :-
     forall(member(put(state, Id, _, _), Changes),
@@ -225,9 +227,9 @@ typhon_runtime:ending(after) :-
                 *           PROGRAMS           *
                 *******************************/
 
-%   Other threads see at once that the program is recorded, so it is recorded at
-%   once: the unit of work that brings it may fail, or be committed after
-%   theirs.
+%   Record the program outside the present unit of work: other threads rely on
+%   the code_noted/1 fact at once, and the present unit may fail, or be
+%   committed after theirs.
 
 note_code(Hash) :-
     code_noted(Hash),
@@ -278,7 +280,7 @@ code_back(Hash) :-
 
 :- durable(state, Id, N, Item, stored(Id, N, Item)).
 
-%   The items come in the order of their numbers.
+%   The facts stored/3 are in the order of their numbers.
 
 state_back(log, Id, State) =>
     findall(Changes, ( stored(Id, N, Changes), N > 0 ), All),
@@ -292,8 +294,7 @@ state_back(State0, _, State) =>
 
 %!  states_unused(-Ids:list) is det.
 %
-%   Ids have states in the journal that no agent needs, or whose agents were not
-%   restored.
+%   The journal has states of Ids that no restored agent has used.
 
 states_unused(Ids) :-
     findall(Id, stored(Id, _, _), All),

@@ -50,6 +50,8 @@ environment applies, such as PGPASSWORD, or the defaults of the server.
                 *******************************/
 
 %!  postgresql_url(+Text) is semidet.
+%
+%   Text is the URL of a PostgreSQL database.
 
 postgresql_url(Text) :-
     member(Scheme, ['postgresql://', 'postgres://']),
@@ -200,7 +202,7 @@ server_connect(Driver, Connection) :-
     format(atom(Bounded), '~w;pqopt={~w}', [Driver, Options]),
     sql_connect(Bounded, Connection).
 
-tell_bounds(Connection) :-
+set_server_limits(Connection) :-
     forall(bound(Name, Value),
            do(Connection, 'select set_config(name, \'~d\', false) \c
                            from pg_settings \c
@@ -223,7 +225,7 @@ bound(keepalives_count, 3).
 begin(Schema, Seconds, Connection, Age) :-
     Wait is max(1000, truncate(1000*Seconds)),
     do(Connection, 'set lock_timeout=~d', [Wait]),
-    tell_bounds(Connection),
+    set_server_limits(Connection),
     do(Connection,
        'select pg_advisory_lock(hashtext(\'typhon\'), hashtext(\'~w\'))',
        [Schema]),
@@ -243,9 +245,9 @@ has_table(Schema, Table, Connection) :-
     !,
     Count > 0.
 
-%   With any setting the end of this process cannot undo an answered commit.  A
-%   power cut cannot undo it if the server has written it before the answer, as
-%   it does for this transaction.
+%   The end of this process never undoes a commit that the server has answered.
+%   A power cut does not undo it if the server writes the commit before it
+%   answers, which this transaction demands.
 
 typhon_database:database_lock(postgresql(_), Sync, Connection) :-
     sync(Sync, Connection),

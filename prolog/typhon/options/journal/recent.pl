@@ -9,11 +9,11 @@
 
 /** <module> Recent commits that the server may lose
 
-A server that answers before it has written loses the last commits when it dies
-alone.  So changes that were committed in the last Seconds are kept, and
-committed once more when the server is back.  A change states the new value of
-an item: to apply the last changes twice, in order, has the same result as to
-apply them once.
+A server that answers before it has written to its disk loses the last commits
+when it dies.  So this process keeps the changes that it has committed in the
+last Seconds, and commits them again when the server is back.  A change states
+the new value of an item, so applying the last changes twice, in order, has the
+same result as applying them once.
 
 *Threading*: one thread at a time, the one that commits.
 */
@@ -21,12 +21,12 @@ apply them once.
 :- dynamic
     keeps/1,                            % Seconds
     recent/2,                           % Stamp, Changes: the oldest first
-    doubtful/0.                         % the server may have lost them
+    doubtful/0.                         % the server may have lost recent/2
 
 %!  recent_begin(+Seconds:number) is det.
 %!  recent_end is det.
 %
-%   Keep changes that were committed in the last Seconds; keep none.
+%   Begin to keep the changes that were committed in the last Seconds; end that.
 
 recent_begin(Seconds) :-
     recent_end,
@@ -38,11 +38,8 @@ recent_end :-
     retractall(doubtful).
 
 %!  recent_doubtful is det.
-%!  recent_before(+Changes:list, -All:list) is det.
-%!  recent_committed(+Changes:list) is det.
 %
-%   The server may have lost commits; All is to be committed now: Changes, and
-%   before them the changes that may have been lost; All has been committed.
+%   The server may have lost the recent commits.
 
 recent_doubtful :-
     (   keeps(_),
@@ -51,6 +48,11 @@ recent_doubtful :-
     ;   true
     ).
 
+%!  recent_before(+Changes:list, -All:list) is det.
+%
+%   All is what to commit now: the changes that the server may have lost, and
+%   then Changes.
+
 recent_before(Changes, All) :-
     (   doubtful
     ->  findall(Recent, recent(_, Recent), Before),
@@ -58,6 +60,10 @@ recent_before(Changes, All) :-
         append(Lists, All)
     ;   All = Changes
     ).
+
+%!  recent_committed(+Changes:list) is det.
+%
+%   The changes that recent_before/2 gave for Changes have been committed.
 
 recent_committed(Changes) :-
     keeps(Seconds),

@@ -46,7 +46,7 @@ sent again.
     typhon_runtime:ending/1.
 
 :- dynamic
-    restored/1,                 % Name: was started from the journal
+    restored/1,                 % Name: host started from the journal
     superfluous/2,              % Kind, Key: no agent needs it
     left/2.                     % Id, Hash: an agent that was not restored
 
@@ -110,7 +110,7 @@ typhon_code:in_use(Hash) :-
 typhon_runtime:ending(after) :-
     retractall(left(_, _)).
 
-%   The items are made as agents come to rest, see typhon_journaled_agents.
+%   typhon_journaled_agents writes these items.
 
 :- durable(agent, Id, 0, Record, fail, record_back(Id, Record)).
 
@@ -121,7 +121,7 @@ record_back(Id, Record) :-
     host_again(Host),
     debug(typhon(agent), '~w: is there again, on ~w', [Id, Host]).
 
-%   This runs before any request can need the items.
+%   This runs before the process accepts requests, which might need the items.
 
 typhon_durable:tidy :-
     forall(retract(superfluous(Kind, Key)), durable_drop_all(Kind, Key)),
@@ -216,7 +216,7 @@ not_here(Where, Why) :-
     journal_place(Where, Place),
     throw(error(permission_error(open, journal, Place), context(_, Why))).
 
-%   known(?Name, -Options) is nondet: the host is in the journal.
+%   known(?Name, -Options) is nondet: the journal holds the host Name.
 
 known(Name, Options) :-
     durable_item(host, numbers, Name, _, Options).
@@ -236,11 +236,11 @@ with_known(Known, Options, All) :-
 %!  hosts_journal(+Where, +Options) is det.
 %!  hosts_back(+Options) is det.
 %
-%   The steps by which a host with the option journal(Where) starts, for callers
-%   that act in between, or have no host yet.  After hosts_journal/2 the journal
-%   is open, and the process may start its endpoint.  hosts_back/1 restores all
-%   of it, its hosts with Options in place of theirs, and accepts peers.  Then
-%   the caller must call hosts_go_on/0.
+%   The two steps by which a host with the option journal(Where) starts, for
+%   callers that act between them, or have no host yet.  hosts_journal/2 opens
+%   the journal; then the process may start its endpoint.  hosts_back/1 restores
+%   the journal and accepts peers; Options override those of the restored hosts.
+%   Then the caller must call hosts_go_on/0.
 %
 %   @arg Options of hosts_journal/2 are sync(How), as of host_start/2, and
 %        wait(Seconds): how long to wait for another process that has the

@@ -14,7 +14,7 @@
 :- use_module(library(error), [existence_error/2]).
 :- use_module(library(lists), [append/3]).
 
-/** <module> SQL statements, by library(odbc)
+/** <module> SQL statements through library(odbc)
 
 The driver fixes the length of a parameter when a statement is first executed.
 So there is one statement for each of some lengths, and shorter values are
@@ -28,6 +28,8 @@ padded.
     statement/3.                        % Name, Size, Statement
 
 %!  sql_load is det.
+%
+%   Load library(odbc).
 %
 %   @error existence_error(package, 'swi-prolog-odbc')
 

@@ -22,7 +22,7 @@ change does not depend on the size of the state:
     of the clauses that existed at the last query and are variants of Clause,
     the one after K others, once those earlier in Erased are gone.
   - set(Name/Arity, Clauses): the predicate is dynamic, and has these clauses
-  - gone(Name/Arity): it is not dynamic any more
+  - gone(Name/Arity): the predicate is no longer dynamic
 
 A listener of the predicate, see prolog_listen/2, reports its clauses as they
 are added and erased.  A predicate has no listener before the first query that
@@ -38,7 +38,7 @@ The log is a temporary module of its own, with
   - added(Ref, Name, Arity, End): since then, at the `first` or `last` end
   - erased(Name, Arity, K, Clause), in this order
   - unsure(Name, Arity): a report was lost
-  - looked(Generation): of the newest change at the last query
+  - queried_until(Generation): generation of the newest change at the last query
 
 Thread-local predicates are recorded whole each time.  Versions 9 and 10 of
 SWI-Prolog crash when such a predicate has a listener and its module is
@@ -50,7 +50,7 @@ destroyed.
 %!  state_log_begin(+Module) is det.
 %!  state_log_end(+Module) is det.
 %
-%   Begin a log of changes relative to the present state; end it.
+%   Begin a log of the changes from now on; end it.
 
 state_log_begin(Module) :-
     log_of(Module, Log),
@@ -61,7 +61,7 @@ state_log_begin(Module) :-
               listened(Head, Module, Log) ),
             Generations),
     max_list([0|Generations], Until),
-    assertz(Log:looked(Until)).
+    assertz(Log:queried_until(Until)).
 
 listened(Head, Module, Log) :-
     functor(Head, Name, Arity),
@@ -90,7 +90,7 @@ forget_all(Log) :-
 declare(Log) :-
     set_module(Log:class(temporary)),
     dynamic([ Log:counted/4, Log:added/4, Log:erased/4, Log:unsure/2,
-              Log:looked/1 ]).
+              Log:queried_until/1 ]).
 
 %   Counting takes time linear in the clauses, so many changes share one count.
 
@@ -202,14 +202,14 @@ clause_term(Head, Body, Clause) =>
 state_log_changes(Module, Changes) :-
     log_of(Module, Log),
     current_module(Log),
-    looked_through(Module, Log, Changes).
+    changes_since_query(Module, Log, Changes).
 
-looked_through(Module, Log, Changes) :-
-    retract(Log:looked(Since)),
+changes_since_query(Module, Log, Changes) :-
+    retract(Log:queried_until(Since)),
     findall(Change, gone(Module, Log, Change), Gone),
     findall(Head-Last, changed_since(Since, Module, Head, Last), Heads),
     changes(Heads, Module, Log, Since, Until, Gone, Changes),
-    assertz(Log:looked(Until)).
+    assertz(Log:queried_until(Until)).
 
 gone(Module, Log, gone(Name/Arity)) :-
     Log:counted(Name, Arity, _, _),

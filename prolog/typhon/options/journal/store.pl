@@ -153,7 +153,8 @@ sample(Sample) :-
 %!  journal_place(+Where, -Place:atom) is det.
 %!  journal_found(+Where) is semidet.
 %
-%   Place is the name of the journal in errors; the journal exists.
+%   Place is the name of the journal in errors.  journal_found/1 succeeds if the
+%   journal exists.
 %
 %   @arg Where is a directory, postgresql(Url), or such a Url
 %   @error domain_error(postgresql_url, Url)
@@ -168,6 +169,8 @@ journal_found(Where) :-
 
 %!  store_sync(-Sync) is semidet.
 %!  store_close is det.
+%
+%   Sync is that of the open store; close the store.
 
 typhon_durable_changes:durable_opened(Place) :-
     connection(Place, _).
@@ -220,8 +223,8 @@ commit_all(Changes) :-
           ( catch(sql_execute(rollback, []), error(_, _), true),
             throw(error(Formal, Context)) )).
 
-%   When a server is back the lock of this process is lost, and perhaps also
-%   commits; another process may have opened the journal meanwhile.
+%   A server that was restarted has lost the lock of this process, and perhaps
+%   commits.  Another process may have opened the journal meanwhile.
 
 connect_again :-
     connection(Place, Old),
