@@ -12,9 +12,10 @@
 
 /** <module> Migration: how agents choose the next host
 
-Strategies by which agents choose among neighbours, the memory that these need,
-and pheromones.  This is the interface of the layer, and its vocabulary; the
-modules are loaded when an agent calls it, or a pheromone arrives.
+Strategies by which agents choose among neighbours, the memory of these
+strategies, and pheromones.  This is the interface of the layer, and its
+vocabulary; the other modules are loaded when an agent calls the interface, or a
+pheromone arrives.
 
 *Threading*: the thread that runs the agent.
 */
@@ -36,9 +37,9 @@ next_host(Strategy, Host) :-
 %   pheromone.  Agents follow it by the migration strategy phercon(Problem).
 %   Options:
 %
-%     - span(Hops): how far it spreads; default 3
-%     - strength(Number): next to the source; default 100
-%     - period(Seconds): of host time, see pheromone_until/5; default 10
+%     - span(Hops): distance in hops up to which it spreads; default 3
+%     - strength(Number): strength next to the source; default 100
+%     - period(Seconds): period of host time, see pheromone_until/5; default 10
 %
 %   Emitting again renews the pheromones that are left.
 %

@@ -6,34 +6,35 @@
 :- use_module(quotas/quota_table, [quota/3, quotas_drop/1, quotas_put/3]).
 :- use_module(quotas/usage, [usage_forget/1]).
 
-/** <module> Quotas: how much agents may use on a host
+/** <module> Quotas: limits of the resources that agents use on a host
 
 The option quota(List) of hosts.  Quotas are What(Most), for each agent on the
 host:
 
-  - inferences(N), seconds(S): between two stops
-  - stack(Bytes), state(Bytes)
+  - inferences(N), seconds(S): inferences and run time between two stops
+  - stack(Bytes), state(Bytes): size of its stack and of its state
   - cells(N): size of a term that it sends, logs, leaves or returns as its
-  result
+    result
   - clones(N): agents of its program and owner on the host when it clones,
-    and clones made of these in a second
-  - payloads(N): that it carries when it attaches one
+    and clones that these make in a second
+  - payloads(N): payloads that it carries
   - tuples(N): facts that it has left in the tuple space
   - mailbox(N): messages that wait for it
-  - lifetime(S): by the clock of the host, since its arrival
-  - calls(PI, N): of a service of the place, in a second
-  - messages(N), log(N), facts(N), hops(N): sent, logged, left and begun in a
-    second
+  - lifetime(S): seconds since its arrival, by the clock of the host
+  - calls(PI, N): calls of a service of the place, in a second
+  - messages(N), log(N), facts(N), hops(N): messages that it sends, entries that
+    it logs, facts that it leaves and hops that it begins, in a second
 
 and owner(What(Most)) for all agents on the host that have the same owner, see
 typhon_birth, together, and host(What(Most)) for all agents on the host.
 Further quotas are owner(agents(N)), the number of agents on the host, and
-host(tuples(N)), the facts in the tuple space.  The largest user ends first: if
-a quota of the host is passed, an agent of the owner that uses most.
+host(tuples(N)), the facts in the tuple space.  If a quota of an owner or of the
+host is exceeded, the agents that use most end first, among those of the owner
+that uses most.
 
-A host that admits untrusted agents has defaults for quotas that the option does
-not name.  A host without quotas has none of the parts below.  This is the
-interface of the layer.
+A host that admits untrusted agents has default quotas where the option names
+none.  Quotas cost nothing on a host without quotas: it has none of the parts
+that the modules define.  This is the interface of the layer.
 
 *Threading*: under the mutex of host_start/2.
 */
@@ -48,11 +49,11 @@ interface of the layer.
     typhon_on_demand:joins/2,
     typhon_options:declared/4.
 
-:- dynamic changed/1.           % Host: its agents do not have the new quotas
+:- dynamic changed/1.           % Host: its agents need the new quotas
 
 typhon_options:declared(host_option, quota(List), list, List).
 
-%   Hosts that admit untrusted agents have quotas in any case.
+%   Hosts that admit untrusted agents have quotas also without the option.
 
 typhon_on_demand:joins(untrusted, any).
 

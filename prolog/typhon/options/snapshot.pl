@@ -24,33 +24,34 @@
                 retries_go_on/0 ]).
 :- use_module('../kernel/lifecycle', [agent_reschedule/1, held_parts/3]).
 
-/** <module> Snapshots of all that a process knows
+/** <module> Snapshots of the state of a process
 
-A snapshot has the items of all tables that outlive the process, see
-typhon_durable.  The coming events of repeatable time are saved apart from it.
+A snapshot holds the items of all durable tables, see typhon_durable.  The
+pending events of repeatable time are saved separately.
 
-When agents get no turn any more, running agents stop at their next effect, as
-they do for an order.  Agents in transit arrive, or stay; messages and news that
-are being handled reach their destination, or wait.
+While time is paused no agent gets a new turn.  Running agents stop at their
+next effect, as they do for an order.  Agents in transit arrive, or return to
+their source.  Messages and news under way reach their destination, or wait.
 
 *Threading*: any thread, while time is paused; the thread that paused it waits
 until the agents rest.
 */
 
-%   last(-Kinds): kinds that need others restored first.
+%   last(-Kinds): kinds that are restored after all others, as they depend on
+%   them.
 
 last([ payload, backlog, program, stands, mail, order, turns, counts ]).
 
-%   repeated(?Kind): restored only where time is repeatable; in other processes
-%   these counters have their own values.
+%   repeated(?Kind): items of Kind are restored only where time is repeatable.
+%   Other processes keep their own values of these counters.
 
 repeated(flag).
 repeated(turns).
 repeated(counts).
 
-%   journaled(?Kind): in a journal alone.  A saved network has the same facts in
-%   other items (agent, state, tuple, wait), or they concern a process that
-%   another one does not have.
+%   journaled(?Kind): items of Kind are only in a journal.  A saved network has
+%   the same facts in other items (agent, state, tuple, wait), or they make
+%   sense only in the process that has recorded them.
 
 journaled(agent).
 journaled(done).
@@ -72,11 +73,12 @@ kind(Kind) :-
 
 %!  process_dump(+Hosts:list, -Items:list) is det.
 %
-%   Items are all that this process knows, except items of other hosts than
-%   Hosts, of agents that are there, and of agents that left from there.
+%   Items are the state of this process, item(Kind, Key, N, Term).  Items that
+%   concern a host not in Hosts, an agent on such a host, or an agent that left
+%   from there, are excluded.
 %
 %   @error type_error(mobile_term, Culprit)
-%   @error permission_error(save, agent, Id) if Id runs
+%   @error permission_error(save, agent, Id) the agent Id runs
 
 process_dump(Hosts, Items) :-
     others(Hosts, Others),
@@ -92,7 +94,7 @@ process_dump(Hosts, Items) :-
 others(Hosts, Others) :-
     findall(Host, ( host(Host, _, _), \+ memberchk(Host, Hosts) ), Others).
 
-%   is_of(+Hosts, +Kind, +Key, +Term): the item is about one of Hosts.
+%   is_of(+Hosts, +Kind, +Key, +Term): the item concerns one of Hosts.
 
 is_of([Host|Hosts], Kind, Key, Term) :-
     about(Kind, Key, Term, About),
@@ -123,9 +125,9 @@ can_be_written(Kind, Key, Term) :-
 
 %!  process_restore(+Kind, +Items:list) is det.
 %
-%   Restore Items in a process whose hosts have been started again and whose
-%   time is of that Kind.  Facts that it had of these agents, from when they ran
-%   on here, are dropped.
+%   Restore Items in a process whose hosts have been started again.  Kind is the
+%   kind of its time.  Facts about these agents that the process has collected
+%   since the snapshot are dropped.
 %
 %   @error domain_error(saved_item, Item)
 
@@ -188,7 +190,7 @@ rests(_, Held, _, ready, Goals) :-
     !.
 rests(Status, Goals, _, Status, Goals).
 
-%   The callers of orders do not wait for their answers any more.
+%   The callers of saved orders are gone, so no answer is sent.
 
 :- durable(order, Id, 0, Order, order_item(Id, Order), agent_order(Id, Order)).
 
@@ -197,16 +199,16 @@ order_item(Id, Order) :-
     agent_orders(Id, Orders),
     member(Order0, Orders),
     Order0 \= asked(question(_), _),
-    unasked(Order0, Order).
+    without_caller(Order0, Order).
 
-unasked(asked(Order, _), asked(Order, queue(none))) :-
+without_caller(asked(Order, _), asked(Order, queue(none))) :-
     !.
-unasked(Order, Order).
+without_caller(Order, Order).
 
 %!  process_go_on(+Kind, +Agents:list, +Scheduled:list) is det.
 %
-%   Agents continue.  With repeatable time the runtime has the alarms, and some
-%   agents are already Scheduled.
+%   Let Agents continue.  With repeatable time the runtime has restored the
+%   alarms, and the agents in Scheduled are already scheduled.
 
 process_go_on(Kind, Agents, Scheduled0) :-
     time_repeats(Kind, _),
@@ -227,8 +229,8 @@ process_go_on(_, Agents, _) :-
 
 %!  agents_at_rest(+Seconds, +Peers) is semidet.
 %
-%   No agent of this process runs or is in transit any more, and nothing is
-%   queued for the endpoints Peers; fails if that is not so within Seconds.
+%   Wait until no agent of this process runs or is in transit, and nothing is
+%   queued for the endpoints Peers.  Fails if that takes longer than Seconds.
 
 agents_at_rest(Seconds, Peers) :-
     get_time(Now),
@@ -236,16 +238,16 @@ agents_at_rest(Seconds, Peers) :-
     agents_passed,
     rest_before(Deadline, Peers).
 
-%   This polls every 10 ms: a notification would make each turn and each
-%   departure check for a waiting caller.
+%   Polling every 10 ms costs less than a notification, for which each turn and
+%   each departure would have to check for a waiting caller.
 
 rest_before(Deadline, Peers) :-
     forall(( agent_status(Id, running, _), \+ agent_ordered(Id) ),
            ignore(with_agent(Id, stops(Id)))),
     news_hurry,
-    (   \+ restless(Peers),
-        agents_passed,                  % messages follow agents that left
-        \+ restless(Peers)
+    (   \+ is_busy(Peers),
+        agents_passed,                  % a message may have followed an agent
+        \+ is_busy(Peers)
     ->  true
     ;   get_time(Now),
         Now < Deadline,
@@ -260,14 +262,14 @@ stops(Id) :-
     agent_status(Id, running, _),
     agent_order(Id, asked(question(rest), queue(none))).
 
-restless(_) :-
+is_busy(_) :-
     agent_status(_, Status, _),
     moves(Status),
     !.
-restless(_) :-
+is_busy(_) :-
     post_tried,
     !.
-restless(Peers) :-
+is_busy(Peers) :-
     member(Peer, Peers),
     news_carried(Peer),
     !.
@@ -280,7 +282,7 @@ moves(cloning(_, _)).
 
 %!  agents_go_on(+Agents:list) is det.
 %
-%   Agents whose turn was missed are scheduled.
+%   Schedule Agents, whose turns were dropped while time was paused.
 
 agents_go_on(Agents) :-
     forall(( member(Id, Agents), agent(Id, Host, _, _, _) ),

@@ -96,12 +96,12 @@ spread(Host, From, Signal) :-
             ( member(To, Neighbours), To \== From, To \== Source,
               address_parts(To, Name, Endpoint) ),
             Hosts),
-    tell(Hosts, smelt(Here, Signal)).
+    inform(Hosts, smelt(Here, Signal)).
 
 %   One worker informs all hosts of this process, one after the other: waking a
 %   worker takes longer than its work at a host.
 
-tell(Hosts, News) :-
+inform(Hosts, News) :-
     endpoint_address(Own),
     findall(Name, member(Name-Own, Hosts), Names),
     (   Names == []
@@ -150,8 +150,8 @@ heard(withdrawn(Source, Problem), Host, Place) :-
     ;   true
     ).
 
-%   store(+Place, +Now, +Pheromone) is semidet: fails if a better pheromone is
-%   there.
+%   store(+Place, +Now, +Pheromone) is semidet: fails if Place has a better
+%   pheromone.
 
 store(Place, Now, Pheromone) :-
     Pheromone = pheromone(Problem, Source, Strength, _, Until),
@@ -187,7 +187,7 @@ spread_withdrawal(Host, Source, Problem) :-
             ( member(To, Neighbours), To \== Source,
               address_parts(To, Name, Endpoint) ),
             Hosts),
-    tell(Hosts, withdrawn(Source, Problem)).
+    inform(Hosts, withdrawn(Source, Problem)).
 
                 /*******************************
                 *           FOLLOWING          *

@@ -29,8 +29,8 @@ runs with the same seed make the same choices.  All strategies keep the memory
 in the same way, so an agent may change from one to another on its way.
 
 The chosen host counts as visited from the moment of the choice, before the
-agent is there.  If it then refuses the agent, it is the last one that the agent
-will try again.
+agent is there.  So if that host refuses the agent, the agent tries all other
+neighbours before it tries this host again.
 
 Further strategies are added by clauses of the two hooks below.
 
@@ -56,7 +56,7 @@ Further strategies are added by clauses of the two hooks below.
 
 %!  strategy_memory(+Seed:integer, -Memory) is det.
 %
-%   Memory is that of an agent that has visited no host.
+%   Memory is the memory of an agent that has visited no host.
 %
 %   @error type_error(integer, Seed)
 
@@ -66,9 +66,9 @@ strategy_memory(Seed, memory(Chance, [])) :-
 %!  next_host(+Strategy, +Neighbours, +Here, +Memory0, -Host, -Memory)
 %!      is semidet.
 %
-%   Host is the one of Neighbours to which the agent goes from Here.  Here, then
-%   Host, are the most recently visited in Memory.  Fails when there is no
-%   neighbour.  The order of Neighbours does not matter.
+%   Host is the neighbour to which the agent goes from Here.  In Memory, Host is
+%   the most recently visited host, and Here the one before.  Fails if
+%   Neighbours is empty.  The order of Neighbours does not matter.
 %
 %   @error domain_error(migration_strategy, Strategy),
 %   domain_error(probability, E)

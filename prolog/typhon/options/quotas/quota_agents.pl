@@ -29,9 +29,9 @@ were sent, see typhon_routing.  Those of one second are reported together,
 so that a flood of messages is not a flood of warnings.
 
 *Threading*: any thread.  Agents arrive and leave inside with_agent/2.  Agents
-that arrive at the same moment may pass a quota together, each one agent too
-many.  Whether a message fits is also decided inside with_agent/2; workers
-report those that do not fit.
+that arrive at the same moment may exceed a quota, by one agent for each thread.
+Mailboxes are also checked inside with_agent/2; workers report the messages that
+do not fit.
 */
 
 :- multifile
@@ -39,7 +39,7 @@ report those that do not fit.
     typhon_host_parts:part/4.
 
 :- dynamic
-    stands/4,                   % Id, Host, Owner: an atom, Until or inf
+    admitted/4,                 % Id, Host, Owner: an atom, Until or inf
     text/2.                     % Id, Characters: of atoms in its state
 
                 /*******************************
@@ -81,7 +81,8 @@ brought(_, entrant(_, _, _, _, Mail), Count) :-
     length(Mail, Count).
 
 %   owned(+From, +Agent, +State0, +Host, -Id, -State): Id and State determine
-%   the owner.  The id of an agent that begins here shows this process alone.
+%   the owner.  An agent that is being created has no id yet; its owner depends
+%   only on this process, so any id of this process serves.
 
 owned(going, Id, State, _, Id, State).
 owned(here, _, State, Host, Id, State) :-
@@ -110,25 +111,25 @@ comes(Id, Host, Module, Hash) :-
     (   agent_origin(Host, Id, Hash, module(Module), Owner)
     ->  origin_key(Owner, Key),
         until(Host, Until),
-        assertz(stands(Id, Host, Key, Until)),
+        assertz(admitted(Id, Host, Key, Until)),
         ends_at(Until, Host, Id)
     ;   true
     ).
 
 goes(Id, _, Module) :-
     set_module(Module:program_space(0)),
-    retractall(stands(Id, _, _, _)),
+    retractall(admitted(Id, _, _, _)),
     retractall(text(Id, _)).
 
 %!  quota_agents_again(+Host) is det.
 %
-%   The quotas of Host have changed, also for the agents on it.
+%   The quotas of Host have changed: apply them to the agents on it.
 
 quota_agents_again(Host) :-
     forall(agent(Id, Host, _, _, _),
-           ignore(with_agent(Id, stands_on(Id, Host)))).
+           ignore(with_agent(Id, readmit(Id, Host)))).
 
-stands_on(Id, Host) :-
+readmit(Id, Host) :-
     agent(Id, Host, Module, Hash, _),
     !,
     goes(Id, Host, Module),
@@ -151,21 +152,26 @@ ends_at(Until, Host, Id) :-
     alarm_set(Stamp, Id, stays(Until)).
 
 %!  quota_owner(?Id, ?Host, -Owner:atom) is nondet.
-%!  quota_owned(+Host, ?Owner:atom, -Count) is det.
-%!  quota_until(+Id, ?Host, -Until:number) is semidet.
 %
-%   Id is on Host, which has quotas, and belongs to Owner; Count agents of
-%   Owner, or of all owners, are on Host; Id may be on Host until that time of
-%   the clock of the host.
+%   The agent Id is on Host, which has quotas, and belongs to Owner.
 
 quota_owner(Id, Host, Owner) :-
-    stands(Id, Host, Owner, _).
+    admitted(Id, Host, Owner, _).
+
+%!  quota_owned(+Host, ?Owner:atom, -Count:integer) is det.
+%
+%   Owner has Count agents on Host.  If Owner is unbound Count includes the
+%   agents of all owners.
 
 quota_owned(Host, Owner, Count) :-
-    aggregate_all(count, stands(_, Host, Owner, _), Count).
+    aggregate_all(count, admitted(_, Host, Owner, _), Count).
+
+%!  quota_until(+Id, ?Host, -Until:number) is semidet.
+%
+%   The lifetime of Id on Host ends at Until, a time of the clock of Host.
 
 quota_until(Id, Host, Until) :-
-    stands(Id, Host, _, Until),
+    admitted(Id, Host, _, Until),
     Until \== inf,
     !.
 
@@ -192,10 +198,10 @@ state_bounded(Host, Module) :-
     ;   true
     ).
 
-%   The size of a clause does not include the text of its atoms, which is stored
-%   elsewhere.  So the text of added clauses is counted.  Removed clauses are
-%   not subtracted: when the count passes the quota, the present text is
-%   counted.
+%   The size of a clause does not include the text of its atoms, which Prolog
+%   stores elsewhere.  So the text of added clauses is counted.  Removed clauses
+%   are not subtracted: when the count exceeds the quota, the present text is
+%   counted again.
 
 typhon_host_parts:part(adds_clause, Host, 10,
                        typhon_quota_agents:text_added(Most)) :-
@@ -248,7 +254,8 @@ state_clause(Module, Head, Body) :-
 
 %!  quota_text(+Id, -Characters:integer) is det.
 %
-%   Count of the text added to the state of Id; it may include removed text.
+%   Characters is the length of the text added to the state of Id.  It may
+%   include text that was removed since.
 
 quota_text(Id, Characters) :-
     (   text(Id, Count)
@@ -275,7 +282,7 @@ typhon_host_parts:part(deliver, Host, 10, typhon_quota_agents:fits(Most)) :-
 :- public fits/5.
 
 %   fits(+Most, +Host, +Id, +Mail, -Fitting): the mailbox of Id has space for
-%   Fitting, a prefix of Mail, as of typhon_routing; the rest becomes dead
+%   Fitting, a prefix of Mail, see typhon_routing; the rest becomes dead
 %   letters.
 
 fits(Most, _, Id, Mail, Fitting) :-
@@ -289,8 +296,9 @@ fits(Most, _, Id, Mail, Fitting) :-
     ;   Fitting = Mail
     ).
 
-%   The fact is added before the thread looks for others: a reporting thread
-%   finds it, or has taken all others.
+%   The thread adds its fact before it looks for other facts.  So either a
+%   reporting thread finds this fact too, or it has taken all others, and this
+%   thread sets a new alarm.
 
 refuse(Id, Mail) :-
     assertz(refused(Id, Mail), Ref),

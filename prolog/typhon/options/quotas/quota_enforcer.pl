@@ -21,18 +21,17 @@
                 quota_shared/4 ]).
 :- use_module(usage, [usage_begin/0]).
 
-/** <module> Enforcement: turns of agents with quotas, and agents that exceed
-them
+/** <module> Enforcement of quotas
 
-A turn is limited in its inferences, and the stored goals of an agent in their
-size.  While hosts have quotas of resources that are not counted when they are
-used, a server checks ten times a second: how long an agent has run without a
-stop, how large its stack is, and how much of these, and of state, the agents
-of one owner, or all agents of a host, use together.  An agent ends when its
+The module limits the inferences of a turn and the size of the stored goals of
+an agent.  While hosts have quotas of resources that are not counted as they are
+used, a server checks ten times a second how long each agent has run without a
+stop, the size of its stack, and the sums of run time, stack and state for the
+agents of an owner and for all agents of a host.  An agent also ends when its
 lifetime on a host has expired.
 
-*Threading*: run/3 in the worker that has the agent, look/0 in the thread of
-the enforcer, too_long/2 in a worker; interrupt/2 and pause/2 are signals.
+*Threading*: run/3 in the worker that runs the turn, look/0 in the thread of the
+enforcer, lifetime_over/2 in a worker; interrupt/2 and pause/2 are signals.
 */
 
 :- setting(pause, between(0.0, 1.0), 0.8,
@@ -57,18 +56,18 @@ typhon_host_parts:part(turn, Host, 10, typhon_quota_enforcer:run) :-
 
 run(turn(Id, Host, Context), Goals, Outcome) :-
     Context = context(_, Module),
-    context_set(Host, Id, Module),      % begins its time
+    context_set(Host, Id, Module),      % starts the clock of its turn
     usage_begin,
     far_limit(Host),
     within_inferences(Host, Context, Goals, Outcome0),
     over(Outcome0, Outcome1),
     storable(Outcome1, Host, Outcome).
 
-%   An agent that passes the quota of stack is interrupted long before its stack
-%   is full.  An agent that fills its stack while it catches all exceptions
-%   leaves no space for exceptions, and then SWI-Prolog 9.0.4 ends the process.
-%   A limit near the quota would make this worse, since the stack would be full
-%   sooner.
+%   The enforcer interrupts an agent that exceeds the quota of stack long before
+%   its stack is full.  An agent that fills its stack while it catches all
+%   exceptions leaves no space for exceptions, and then SWI-Prolog 9.0.4 ends
+%   the process.  A stack limit near the quota would be worse, since the stack
+%   would fill up sooner.
 
 far_limit(Host) :-
     (   quota(Host, stack, Most),
@@ -108,8 +107,9 @@ over(Outcome, Outcome).
 quota_named(program_space, state) :- !.
 quota_named(What, What).
 
-%   storable(+Outcome0, +Host, -Outcome): what remains of the agent is stored as
-%   a tree, while other threads wait for it, so its size is checked as a tree.
+%   storable(+Outcome0, +Host, -Outcome): the remaining goals of the agent are
+%   stored as a tree, while other threads wait for its mutex.  So their size is
+%   checked as a tree.
 
 storable(Outcome0, Host, Outcome) :-
     (   kept(Outcome0, Kept),
@@ -162,12 +162,12 @@ is_needed :-
 :- public enforces/3.
 
 enforces(begin, State, Next) :-
-    look_later(State, Next).
+    set_timer(State, Next).
 enforces(timeout, State, Next) :-
     look,
-    look_later(State, Next).
+    set_timer(State, Next).
 
-look_later(State, until(Stamp, State)) :-
+set_timer(State, until(Stamp, State)) :-
     get_time(Now),
     Stamp is Now+0.1.
 
@@ -192,7 +192,7 @@ turn(Agent, Host, Thread, Seconds) :-
 %   exceeds(+Agent, +Host, +Thread, +Seconds, -Act) is semidet.
 %
 %   The limit of a stack is above its quota, see far_limit/1.  An agent that
-%   runs for long without a stop pauses while other agents do not.  Thread
+%   runs for long without a stop pauses if agents run that have not.  Thread
 %   priorities would do the same if operating systems respected them.
 
 exceeds(Agent, Host, Thread, _, stop_in(Thread, Agent, stack)) :-
@@ -250,9 +250,9 @@ used(state, Host, Used) :-
               quota_text(Agent, Text), Bytes is Size+Text ),
             Used).
 
-%   too_much(+Whose, +Used, +Most, -Agent): Agent uses most among the agents of
-%   an owner that exceeds Most; or, if all agents together exceed it, among
-%   those of the owner that uses most.
+%   too_much(+Whose, +Used, +Most, -Agent): Most is exceeded, by an owner if
+%   Whose is `owner`, or by all agents of the host.  Agent uses most among the
+%   agents of that owner, or of the owner that uses most.
 
 too_much(Whose, Used, Most, Agent) :-
     keysort(Used, Sorted),
@@ -280,16 +280,17 @@ sum(Its, Sum) :-
 
 typhon_scheduler:fire(Id, stays(Until)) :-
     !,
-    scheduler_call(typhon_quota_enforcer:too_long(Id, Until)).
+    scheduler_call(typhon_quota_enforcer:lifetime_over(Id, Until)).
 
 typhon_scheduler:over(Id, stays(Until)) :-
     \+ quota_until(Id, _, Until).
 
-:- public too_long/2.
+:- public lifetime_over/2.
 
-%   An agent in transit may come back to this host, so the alarm is set again.
+%   stop/2 cannot end an agent in transit, which may yet return to this host.
+%   So the alarm is set again.
 
-too_long(Id, Until) :-
+lifetime_over(Id, Until) :-
     (   quota_until(Id, _, Until)
     ->  stop(Id, lifetime),
         (   quota_until(Id, _, Until)
@@ -303,7 +304,7 @@ too_long(Id, Until) :-
                 *             STOP             *
                 *******************************/
 
-%   stop(+Agent, +What): end Agent if it rests, or interrupt it.
+%   stop(+Agent, +What): end Agent if it rests, interrupt it if it runs.
 
 stop(Agent, What) :-
     Outcome = raised(error(resource_error(What), _)),

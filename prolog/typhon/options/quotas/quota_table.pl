@@ -15,13 +15,14 @@
 :- use_module('../../kernel/base/own_thread', [abort_quietly/0]).
 :- use_module('../../kernel/program', [machine_inside/0]).
 
-/** <module> The quotas in force, and what happens when one is passed
+/** <module> The quotas in force, and the errors of agents that exceed them
 
-See typhon_quotas.  An agent cannot catch the error of a passed quota: it ends,
-with the outcome raised(error(resource_error(What), _)).
+See typhon_quotas.  An agent that exceeds a quota ends with the outcome
+raised(error(resource_error(What), _)), even if it catches this error.
 
-*Threading*: any thread; quotas change under the mutex of host_start/2.  The
-quota that the running agent has passed is a global variable of its thread.
+*Threading*: any thread; quotas change under the mutex of host_start/2.  A
+global variable of the thread holds the quota that the running agent has
+exceeded.
 */
 
 :- multifile typhon_names:known/2.
@@ -31,8 +32,8 @@ quota that the running agent has passed is a global variable of its thread.
     quota_shared/4,             % Host, Whose: owner or host, What, Most
     quota_any/1.                % Host: it has at least one of them
 
-%   kind(?What, -Whose): whether What is a quota of an agent, an owner or a
-%   host.
+%   kind(?What, -Whose): What may be a quota of each agent, of each owner or of
+%   the host, as the list Whose says.
 
 kind(inferences, [agent]).
 kind(cells,      [agent]).
@@ -63,14 +64,14 @@ typhon_names:known(quota, Name) :-
 %!  quota_shared(?Host, ?Whose, ?What, -Most) is nondet.
 %!  quota_any(?Host) is nondet.
 %
-%   A host of this process has a quota of each agent; of the agents of one
-%   owner, or of all agents, together; or any quota.
+%   Host limits What for each agent; for the agents of each `owner` or for all
+%   agents of the `host` together; Host has any quota.
 
 %!  quotas_put(+Host, +Quotas:list, -Changed:boolean) is det.
 %!  quotas_drop(+Host) is det.
 %
-%   Set the quotas of Host, Changed if they differ; delete them.  Of two quotas
-%   of the same kind the first is used.
+%   Set the quotas of Host; delete them.  Changed is `true` if the quotas differ
+%   from those before.  Of two quotas of the same kind the first one applies.
 %
 %   @error domain_error(quota, Quota), type_error(number, Most)
 
@@ -158,15 +159,16 @@ what_most(Quota, What, Most) :-
 
 %!  quota_begin is det.
 %
-%   The turn of an agent begins.
+%   The turn of an agent begins in this thread: it has exceeded no quota yet.
 
 quota_begin :-
     nb_setval(typhon_over, none).
 
 %!  quota_passed(+What)
 %
-%   The running agent ends with its turn, even if it catches this error; after a
-%   second error it ends at once, since a turn may have no end.
+%   The running agent has exceeded the quota What.  It ends with its turn, even
+%   if it catches this error; a second error aborts it at once, since a turn may
+%   have no end.
 %
 %   @error resource_error(What)
 
@@ -182,7 +184,7 @@ quota_passed(What) :-
 
 %!  quota_overrun(+What)
 %
-%   As quota_passed/1, but the agent of the interrupted thread ends at once.
+%   As quota_passed/1, but abort the agent at once.  Called by a signal.
 
 quota_overrun(What) :-
     nb_setval(typhon_over, What),
@@ -190,8 +192,9 @@ quota_overrun(What) :-
 
 %!  quota_passed_now(-What) is semidet.
 %
-%   The agent that this thread ran has passed this quota.  The query clears it,
-%   so that it does not count against the next agent of this thread.
+%   The agent that this thread ran has exceeded the quota What.  The query
+%   clears that, so that it does not count against the next agent of this
+%   thread.
 
 quota_passed_now(What) :-
     nb_current(typhon_over, What),

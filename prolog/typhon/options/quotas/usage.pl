@@ -11,12 +11,12 @@
               [ quota/3, quota_any/1, quota_begin/0, quota_passed/1,
                 quota_shared/4 ]).
 
-/** <module> Counts of what agents do
+/** <module> Counters for the quotas of acts, clones and tuples
 
-Acts that are limited by the second are counted when they are done: for the
-agent and, where there are such quotas, for its owner and for all agents on the
-host.  Where there are quotas of tuples, the facts in the tuple space are
-counted by agent, by owner, and in all; facts stay when their agent leaves.
+Acts with a quota for each second are counted for the agent and, where such
+quotas exist, for its owner and for all agents on the host.  Where quotas of
+tuples exist, the facts in the tuple space are counted for each agent, for each
+owner, and in all; a fact still counts when its agent has left.
 
 *Threading*: the thread that runs the agent.  Only one thread at a time counts
 for an agent; counts that agents share are changed under a mutex.
@@ -83,7 +83,7 @@ may_attach(Host, Agent) :-
 
 %!  usage_forget(+Host) is det.
 %
-%   Host has ended.
+%   Host has ended: drop its counts.
 
 usage_forget(Host) :-
     with_mutex(typhon_usage,
@@ -98,7 +98,8 @@ usage_forget(Host) :-
                 *          IN A SECOND         *
                 *******************************/
 
-%   spend(+Host, +Agent, +What): Agent does What once more in this second.
+%   spend(+Host, +Agent, +What): count one more act What of Agent in this
+%   second.
 
 spend(_, none, _) :-
     !.
@@ -127,7 +128,8 @@ spend(Agent, What, Second, Most) :-
     ;   quota_passed(What)
     ).
 
-%   Counts of agents that have left are dropped.
+%   Agents that have left do not remove their counts, so old counts are dropped
+%   when there are many.
 
 forget_some :-
     predicate_property(spent(_, _, _, _), number_of_clauses(Count)),
@@ -179,8 +181,9 @@ one_more(Host, What, Owner, Second, Count) :-
     ),
     assertz(shared(Host, What, Owner, Second, Count)).
 
-%   An agent must not end for the acts of others: if all together exceed the
-%   quota, the most frequent one ends.
+%   An agent must not end because of the acts of others: if all agents together
+%   exceed the quota of the host, it ends only if no owner acts more often than
+%   its own.
 
 too_often(Host, What, Count, _) :-
     quota_shared(Host, owner, What, Most),
@@ -197,10 +200,10 @@ too_often(Host, What, Count, All) :-
                 *             CLONES           *
                 *******************************/
 
-%   may_clone(+Host, +Agent): the quotas bound the agents of its program and
-%   owner, of its owner, and of all on the host.  They also bound the clones
-%   made in a second: else a program would clone for ever, as fast as its
-%   surplus clones end.
+%   may_clone(+Host, +Agent): the quotas limit the number of agents with the
+%   program and owner of Agent, with its owner, and in all on the host.  They
+%   also limit the clones made in a second.  Otherwise a program would clone for
+%   ever, as fast as its surplus clones end.
 
 may_clone(Host, Agent) :-
     owner(Host, Agent, Owner),
@@ -243,7 +246,8 @@ clones_in_second(Host, Family, Count) :-
                 *             TUPLES           *
                 *******************************/
 
-%   Agents that leave facts at the same moment may each be one fact too many.
+%   Agents that leave facts at the same moment may exceed the quota, by one fact
+%   each.
 
 may_leave(_, none) :-
     !.
@@ -270,7 +274,7 @@ too_many(Host, Agent) :-
     too_many(Whose, Host, Count, Most),
     !.
 
-%   When the space is full the agents of the owner with most facts end.
+%   When the tuple space is full, only agents of the owner with most facts end.
 
 too_many(owner, _, Count, Most) :-
     Count >= Most.
@@ -285,7 +289,7 @@ left_by(Host, Kind, Id, Count) :-
     ;   Count = 0
     ).
 
-%   A fact that an agent leaves is by(Host, Agent, Owner).
+%   A fact that an agent leaves is marked with by(Host, Agent, Owner).
 
 typhon_host_parts:part(tuple, Host, 10, typhon_usage:by) :-
     tuples_bounded(Host).
@@ -320,7 +324,7 @@ more(Host, Kind, Id, Change) :-
 
 %!  usage_begin is det.
 %
-%   The turn of an agent begins.
+%   The turn of an agent begins in this thread.
 
 usage_begin :-
     quota_begin,
@@ -332,8 +336,8 @@ typhon_host_parts:part(makes_text, Host, 10, typhon_usage:atoms_made(Most)) :-
 :- public atoms_made/2.
 
 %   atoms_made(+Most, +Length): the running agent makes atoms with Length
-%   characters in all.  Their text is not on the stack, but counts as if it
-%   were, between two stops of the agent.
+%   characters in all.  The text of atoms is not on the stack, but the text made
+%   since the last stop of the agent counts like its stack.
 %
 %   @error resource_error(stack)
 
