@@ -36,11 +36,10 @@ is not revoked.  Holder is host(Name) or author(Name).
 
 The keys are RSA: on SWI-Prolog 9.0.4 library(crypto) crashes when it signs with
 elliptic-curve keys.  Signatures are compared byte by byte with the expected
-content, since rsa_verify/4 prints a message on each invalid one.
+content, since rsa_verify/4 prints a message for each invalid signature.
 
 The keys of this process are those with which its endpoint was started.  The
-options tls, identity and trail are built on them.  This is the interface of the
-layer.
+options tls, identity and trail use them.  This is the interface of the layer.
 
 *Threading*: any thread; own keys begin and end under the mutex of the endpoint,
 another mutex serialises the cache of files.
@@ -48,7 +47,7 @@ another mutex serialises the cache of files.
 
 :- multifile
     begin/0,                            % the process has keys
-    end/0.                              % it has none any more
+    end/0.                              % the process drops its keys
 
 :- dynamic own_keys/1.          % Directory
 
@@ -56,8 +55,8 @@ another mutex serialises the cache of files.
 %!  own_keys_begin(+Directory) is det.
 %!  own_keys_end is det.
 %
-%   This process has the keys in Directory, an absolute path; it uses them from
-%   now on; it uses none any more.
+%   Directory, an absolute path, holds the keys of this process; begin to use
+%   these keys; stop using keys.
 
 own_keys_begin(Directory) :-
     assertz(own_keys(Directory)),
@@ -82,6 +81,8 @@ keys_certificate(Directory, Certificate) :-
                  *******************************/
 
 %!  keys_sign(+Directory, +Text, -Signature) is det.
+%
+%   Signature signs Text with the keys in Directory.
 
 keys_sign(Directory, Text, signature(Certificate, Hex)) :-
     keys_certificate(Directory, Certificate),
@@ -181,12 +182,12 @@ revoked(List, Certificate) :-
 %!  keys_seal(+Directory, +Text, +Certificate, -Sealed) is det.
 %!  keys_unseal(+Directory, +Sealed, -Text) is det.
 %
-%   Sealed can be read only with the private key that belongs to Certificate: it
-%   holds a new AES-256 key, encrypted with the public key, and Text, encrypted
-%   by that AES key with GCM.
+%   Encrypt Text for the holder of Certificate; decrypt it.  Sealed holds a new
+%   AES-256 key, encrypted with the public key of Certificate, and Text,
+%   encrypted by that AES key with GCM.
 %
-%   @error permission_error(unseal, term, Sealed): it is for another process, or
-%   is damaged
+%   @error permission_error(unseal, term, Sealed) Sealed is for another process,
+%   or is damaged
 
 keys_seal(Directory, Text, Pem, sealed(ForUs, Nonce, Tag, Cipher)) :-
     known_certificate(Directory, Pem, Certificate, _),
@@ -212,7 +213,7 @@ unsealed(Directory, sealed(ForUs0, Nonce, Tag, Cipher0), Text) :-
     rsa_private_decrypt(Private, ForUs, KeyHex, [padding(pkcs1_oaep)]),
     hex_bytes(KeyHex, Key),
     hex_octets(Cipher0, Cipher),
-    length(Tag, 16),                    % shorter ones prove less
+    length(Tag, 16),                    % shorter tags prove less
     crypto_data_decrypt(Cipher, 'aes-256-gcm', Key, Nonce, Text, [tag(Tag)]).
 
 octets_hex(Octets, Hex) :-

@@ -3,9 +3,9 @@
 /** <module> TLS: the option tls(Directory) of hosts
 
 The module of TLS connections, typhon_secure, is loaded when the endpoint starts
-with this option, or where the environment variable `TYPHON_TLS` is set.  This
-module is the part for processes without TLS: it reports peers that use TLS.
-This is the interface of the layer.
+with this option, or with the environment variable `TYPHON_TLS`.  This module,
+the interface of the layer, serves also processes without TLS: it reports peers
+that use TLS.
 
 *Threading*: any thread; no state.
 */
@@ -16,10 +16,12 @@ This is the interface of the layer.
     typhon_transport:misfit/4,
     typhon_transport:refusal/2.
 
-%   A TLS record begins with this byte.  The line is sent to clients of the
-%   other kind.
+%   A TLS record begins with the byte 0x16.
+
 
 typhon_transport:first_byte(0x16, tls).
+
+%   The server sends this line to a client of the other kind.
 
 typhon_transport:misfit(plain, tls, "typhon tls", tls(missing)).
 typhon_transport:misfit(tls, plain, "typhon plain", tls(unknown)).
@@ -29,8 +31,6 @@ typhon_handshake:other_line("typhon tls", tls(wanted)).
                  /*******************************
                  *         DESCRIPTIONS         *
                  *******************************/
-
-%   The problem with a peer, as a text.
 
 typhon_transport:refusal(tls(Why), Text) :-
     (   said(Why, Text0)

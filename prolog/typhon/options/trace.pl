@@ -10,10 +10,10 @@
 
 /** <module> Tracing, stepping and spying
 
-These predicates print what an agent does, event by event or goal by goal,
-wherever it goes.  This is the interface of the layer; its modules are loaded
-in each process to which a traced agent comes, and when a predicate of a program
-gets a spy point, see typhon_spying.
+These predicates print the events or the goals of an agent, on whatever host it
+runs.  This is the interface of the layer.  Its modules are loaded in each
+process where a traced agent arrives, and when a predicate of a program gets a
+spy point, see typhon_spying.
 
 *Threading*: any thread that may wait.
 */
@@ -23,14 +23,17 @@ gets a spy point, see typhon_spying.
 %!  agent_trace(+Agent, +What) is det.
 %!  agent_notrace(+Agent) is det.
 %
-%   Print what Agent does from now on, wherever it is and goes, and write it to
-%   the log of the host where it happens, if that has one.  What is a list of
-%   `hops`; `messages`; `facts`, those that it leaves in and takes from the
-%   tuple spaces of hosts; and `goals`, those that the machine runs, without the
-%   goals inside a predicate that Prolog runs to its end.  Clones are traced,
-%   too.
+%   From now on this process prints the events of Agent, on whatever host it is.
+%   A host with a log also writes the events to its log.  What is a list of
 %
-%   agent_notrace/1 ends this, and lets a held agent continue, see agent_step/1.
+%     - `hops`
+%     - `messages`
+%     - `facts` that Agent leaves in tuple spaces of hosts, or takes from them
+%     - `goals` that the machine runs, without the goals inside a predicate that
+%       Prolog runs to its end
+%
+%   Clones are traced, too.  agent_notrace/1 ends tracing and stepping, see
+%   agent_step/1, and lets a held agent continue.
 %
 %   @error existence_error(agent, Agent)
 %   @error domain_error(trace_kind, Kind)
@@ -43,15 +46,16 @@ agent_notrace(Agent) :-
 
 %!  agent_step(+Agent) is det.
 %
-%   Agent runs its next goal and is held before the one after it, wherever that
-%   is; that goal is printed.  An agent that is not held yet is held at its next
-%   goal; if it runs now, at the goal after its next effect.  If it stops for
-%   another reason, waits for a message or ends, that is printed.
-%   agent_notrace/1 lets it continue.
+%   Agent runs its next goal and is held before the goal after it, on whatever
+%   host that is.  This process prints the goal before which it is held.  An
+%   agent that is not held yet is held at its next goal; if it runs now, at the
+%   goal after its next effect.  If Agent stops for another reason, waits for a
+%   message or ends, that is printed instead.  agent_notrace/1 lets it continue.
 %
 %   @error existence_error(agent, Agent)
-%   @error timeout_error(order, Agent): it reached no goal within 10 seconds
-%   @error permission_error(step, agent, Agent) on a host that limits turns
+%   @error timeout_error(order, Agent) Agent reached no goal within 10 seconds
+%   @error permission_error(step, agent, Agent) Agent is on a host that limits
+%   turns
 
 agent_step(Agent) :-
     on_demand_call(order, watched, typhon_stepping:agent_step(Agent)).

@@ -4,16 +4,16 @@
 
 If the endpoint has keys, a connection begins with a TLS 1.3 handshake, and both
 sides send a certificate.  It must be signed by the authority of the directory,
-valid for hosts, not expired and not revoked.  All that follows, also the
-cookie, is encrypted.
+valid for hosts, not expired and not revoked.  TLS encrypts the rest of the
+connection, including the cookie.
 
 A directory holds `cert.pem` and `key.pem` of this process, `ca.pem` of the
 authority, and `crl.pem`, its revocations.  They are read for each connection,
-so a host that is revoked meanwhile is refused from then on.
+so a revocation takes effect with the next connection.
 
-OpenSSL lets one thread read while another writes after the session tickets of
-the handshake have arrived; these come with the first line of the server, which
-is read before any thread writes frames.
+OpenSSL lets one thread read while another one writes only after the session
+tickets of the handshake have arrived.  They arrive with the first line of the
+server, which is read before any thread writes frames.
 
 *Threading*: the caller serialises begin and end; a handshake runs in the thread
 of its connection.  The connection manager limits its duration.
@@ -47,7 +47,7 @@ of its connection.  The connection manager limits its duration.
 
 typhon_options:declared(host_option, tls(Directory), atom, Directory).
 
-%   A process without hosts, a guest, gets the option from the environment.
+%   A guest, a process without hosts, gets the option from the environment.
 
 typhon_on_demand:joins(environment, 'TYPHON_TLS').
 
@@ -59,8 +59,8 @@ typhon_transport:begins(Options, tls, Own, certificate(unknown)) :-
     ),
     begin(Directory, Own).
 
-%   begin(+Directory, -Own): from now on all connections use TLS, with the keys
-%   in Directory.
+%   begin(+Directory, -Own): all connections begun after this use TLS, with the
+%   keys in Directory.
 %
 %   @error existence_error(file, File)
 %   @error ssl_error(Code, Library, Function, Reason)
@@ -119,7 +119,7 @@ revoked(Directory, Options) :-
     ).
 
 %   verified(+SSL, +Certificate, +Chain, +First, +Verdict): succeeds only for
-%   the verdict `verified`; the reason of any other is kept for the report.
+%   the verdict `verified`; records the reason of another verdict for the error.
 
 :- public verified/5.
 
@@ -147,15 +147,15 @@ verdict(Verdict, _, Why) =>
                  *          HANDSHAKE           *
                  *******************************/
 
-%   Proof is certificate(Name).
+%   The proof of the peer is certificate(Name).
 %
-%   @error permission_error(authenticate, peer, tls(Why)): Why is the problem
-%   with the peer: its certificate is `expired`, `revoked`, `foreign`, of
-%   another authority, `self_made`, self-signed, or `wrong_use`, not one of a
-%   host; his(What), a problem that the peer reports with our certificate;
-%   `plain`, it does not use TLS; or a reason given by OpenSSL
+%   @error permission_error(authenticate, peer, tls(Why)) Why is `expired` or
+%   `revoked`; `foreign`: another authority has signed the certificate of the
+%   peer; `self_made`: the certificate is self-signed; `wrong_use`: it is no
+%   certificate of a host; his(What): the peer rejects the certificate of this
+%   process; `plain`: the peer does not use TLS; or a reason given by OpenSSL
 %   @error syntax_error(end_of_file)
-%   @error timeout_error(read, tls): the handshake took too long
+%   @error timeout_error(read, tls) the handshake took too long
 
 typhon_transport:opens(tls, Role, In, Out, SIn, SOut, certificate(Name)) :-
     own_keys(Directory),
@@ -174,8 +174,8 @@ handshake(Role, Directory, In, Out, SIn, SOut, Name) :-
     welcome(Role, SIn, SOut).
 
 %   A client finishes the handshake before the server has checked its
-%   certificate.  So it sends nothing until the server accepts the certificate
-%   or reports why not.
+%   certificate.  So the client sends nothing until the server accepts the
+%   certificate or reports why it does not.
 
 welcome(server, _, SOut) :-
     line_write(SOut, "typhon tls").
@@ -198,7 +198,8 @@ peer_name(SIn, Name) :-
     certificate_field(Certificate, subject(Subject)),
     memberchk('CN'=Name, Subject).
 
-%   A peer that sends a byte now and then would never cause a timeout.
+%   A timeout of the stream is not enough: a peer that sends a byte now and then
+%   would never cause it.
 
 :- meta_predicate in_time(0).
 :- public too_late/0.
@@ -255,7 +256,7 @@ refuse(Reason) :-
 refuse(Reason) :-
     permission_error(authenticate, peer, tls(Reason)).
 
-%   alert(+Reason, -Why): the peer rejects our certificate.
+%   alert(+Reason, -Why): the peer rejects the certificate of this process.
 
 alert(Reason, Why) :-
     said(Part, Why),
@@ -280,9 +281,9 @@ opened(over(SIn, SOut), [SOut, SIn]).
 opened(under(In, Out), Streams) :-
     findall(Stream, above(In, Out, Stream), Streams).
 
-%   above(+In, +Out, -Stream): Stream was just made by ssl_negotiate/5.  A
-%   thread that is interrupted at that point has no reference to these streams,
-%   and the connection closes only when they are closed.
+%   above(+In, +Out, -Stream): ssl_negotiate/5 has created Stream.  A thread
+%   that is interrupted at that point has no reference to these streams, and the
+%   connection closes only when they are closed.
 
 above(In, Out, Stream) :-
     member(Mode, [append, write, read]),
@@ -295,7 +296,7 @@ above(In, Out, Stream) :-
 close_stream(Stream) :-
     catch(close(Stream, [force(true)]), error(_, _), true).
 
-%   Errors by which a connection ends when its peer is gone, or reports so.
+%   These errors occur when the peer has closed the connection.
 
 typhon_connection:harmless(ssl_error(_, _, _, 'unexpected eof while reading')).
 typhon_connection:harmless(ssl_error(_, _, _, 'tlsv1 alert decode error')).

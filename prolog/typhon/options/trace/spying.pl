@@ -9,12 +9,12 @@
 :- use_module('../../kernel/program',
               [clause_parts/3, code_module/2, code_program/2]).
 
-/** <module> Spy points on programs, by their own names
+/** <module> Spy points on programs, by the names of programs
 
 spy(census:tour/0), nospy/1 and trace/1,2 work for predicates of programs as for
-those of modules.  census is the name of a program if there is no predicate
-tour/0 in a module of that name, and the spy point also holds for programs that
-are loaded later.  The kind of the predicate decides how this is done:
+those of modules.  census is the name of a program if no module of that name
+defines tour/0.  The spy point also applies to programs that are loaded later.
+Its effect depends on the kind of the predicate:
 
   - Agents are held at a spied goal, as by agent_step/1: a thread of an agent
     cannot read from the terminal.
@@ -34,13 +34,13 @@ typhon_on_demand:joins(spied, program).
 
 :- dynamic
     spied/4,                    % Program, Name, Arity, `hold` or `print`
-    native/4.                   % Program, Name, Arity, Ports: to be traced
+    native/4.                   % Program, Name, Arity, Ports: traced by Prolog
 
 %!  spied_program(+Hash) is semidet.
 %!  spied(+Hash, +Goal, -Action) is semidet.
 %
-%   A predicate of the program is spied; Goal calls one, and Action is `hold` or
-%   `print`.
+%   The program Hash has a spied predicate; Goal calls such a predicate, and
+%   Action is `hold` or `print`.
 
 spied_program(Hash) :-
     spied(_, _, _, _),
@@ -92,8 +92,9 @@ prolog:debug_control_hook(debugging) :-
 unspy(Program, Name, Arity, Action) :-
     retractall(spied(Program, Name, Arity, Action)).
 
-%   meant(+Program, +PI, -Text) is semidet: a program of that name is here, but
-%   without PI; Text proposes predicates that it has.
+%   meant(+Program, +PI, -Text) is semidet: this process has a program with the
+%   name Program that does not define PI; Text proposes predicates that it does
+%   define.
 
 meant(Program, PI, Text) :-
     findall(Own, own(Program, Own), PIs0),

@@ -22,18 +22,17 @@
 
 /** <module> Stepping: agents that are held before each goal
 
-A stepped agent, or one whose goals are traced, runs in a probe: an engine in
-which the machine stops before each goal that it looks up.  Between two goals a
-probe is a term that holds no thread, but all choice points.  A stepped agent is
+An agent that is stepped, or whose goals are traced, runs in a probe: an engine
+in which the machine stops before each goal that it looks up.  Between two goals
+the engine keeps all choice points and occupies no thread.  A stepped agent is
 held before each goal, see typhon_ending, in the state probe(Probe, Seen); Seen
-is true if a caller has got its position.
+is true if a caller has received its position.
 
 The machine looks goals up in the table '$mobile'/6 of the program's module.  A
-probe gives it this module instead, whose table yields the goal and then looks
-it up in the table of the program.  A goal that Prolog runs to its end is one
-step.
+probe passes this module instead, whose table yields the goal and then looks it
+up in the table of the program.  A goal that Prolog runs to its end is one step.
 
-*Threading*: any thread sends requests; the worker that has the agent runs its
+*Threading*: any thread sends requests; the worker that runs the agent runs its
 probe.
 */
 
@@ -43,7 +42,7 @@ probe.
     typhon_turn:engine/3,
     typhon_turn:over/1.
 
-:- dynamic asker/2.             % Id, Asker: waits until it is held or stops
+:- dynamic asker/2.             % Id, Asker: waits until Id is held or stops
 
                 /*******************************
                 *           REQUESTS           *
@@ -55,30 +54,30 @@ probe.
 
 agent_step(Agent) :-
     agent_answer(Agent, step, Answer),
-    where(Answer, Agent, What),
+    position(Answer, Agent, What),
     print_message(help, typhon(stepped(Agent, What))).
 
-where(not_held, Agent, What) :-
+position(not_held, Agent, What) :-
     !,
     order_give(Agent, watched(step), _),
     agent_answer(Agent, step, Answer),
-    where(Answer, Agent, What).
-where(again, Agent, What) :-
+    position(Answer, Agent, What).
+position(again, Agent, What) :-
     !,
     agent_answer(Agent, step, Answer),
-    where(Answer, Agent, What).
-where(bounded, Agent, _) :-
+    position(Answer, Agent, What).
+position(bounded, Agent, _) :-
     !,
     permission_error(step, agent, Agent).
-where(gone, Agent, What) :-
+position(gone, Agent, What) :-
     !,
     (   agent_property(Agent, host(_))
-    ->  where(again, Agent, What)
+    ->  position(again, Agent, What)
     ;   agent_join(Agent, Outcome, 5)
     ->  What = ended(Outcome)
     ;   existence_error(agent, Agent)
     ).
-where(What, _, What).
+position(What, _, What).
 
 typhon_questions:here(step, Agent, Asker) :-
     with_agent(Agent, step(Agent, Asker, Answer)),
@@ -141,7 +140,7 @@ typhon_turn:engine(agent(_, Host, Hash, Life), goals(_),
                    typhon_stepping:probe) :-
     ( traced_goals(Life) ; spied_program(Hash) ),
     !,
-    \+ turn_bounded(Host).             % a limit could not end a probe in time
+    \+ turn_bounded(Host).             % no limit could end a probe in time
 
 typhon_ending:dropped(probe(Probe, _)) :-
     probe_stop(Probe).
@@ -172,7 +171,7 @@ probed_to(goal(Goal, Goals), Probe, Turn, Outcome, Goals0) :-
         Outcome = held
     ).
 
-%   Orders that arrived while it ran, and that it obeys without an effect.
+%   Carry out orders that arrived while Id ran and that need no effect of Id.
 
 held_obeys(Id) :-
     at_once(Order),
@@ -237,7 +236,8 @@ askers(Id, Askers) :-
 answer(Askers, Answer) :-
     forall(member(Asker, Askers), question_answered(Asker, answer(Answer))).
 
-%   Callers that wait for the next goal of Id get the answer that it rests.
+%   Id has stopped without reaching a goal: answer the callers that wait for its
+%   next goal.
 
 typhon_turn:over(Id) :-
     asker(Id, _),
@@ -247,7 +247,7 @@ typhon_turn:over(Id) :-
 
 stopped(Id, Askers, Answer) :-
     (   agent_status(Id, Status, _)
-    ->  (   runs(Status)                % it may still reach a goal
+    ->  (   runs(Status)                % Id may still reach a goal
         ->  Askers = []
         ;   askers(Id, Askers),
             rests(Status, Answer)
@@ -270,10 +270,10 @@ rests(Status, rests(State)) :-
 %   probe_stop(+Probe)
 %
 %   Probe runs Goals as machine_run/3 does.  A Step is goal(Goal, Goals), the
-%   next goal and those after it, as far as the machine has them; or, at the
-%   end, outcome(Outcome, Goals0), with the goals at which the turn began.
-%   After that, or when it is stopped, the probe is gone; its fault is noted in
-%   the thread that took the outcome.
+%   next goal and the goals after it that the machine has already unfolded; or,
+%   at the end, outcome(Outcome, Goals0), with the goals at which the turn
+%   began.  The probe ends with its outcome, or when it is stopped.  Its fault
+%   is noted in the thread that has received the outcome.
 
 probe_start(context(Program, Agent), Goals, Probe) :-
     (   nb_current(typhon_turns, Context)
@@ -282,7 +282,7 @@ probe_start(context(Program, Agent), Goals, Probe) :-
     ),
     engine_create(Step, run(Context, Program, Agent, Goals, Step), Probe).
 
-%   An engine has its own global variables, so these are set again.
+%   An engine has its own global variables, so these variables are set again.
 
 run(Context, Program, Agent, Goals, outcome(Outcome, Goals)-Note) :-
     nb_setval(typhon_turns, Context),
@@ -298,7 +298,8 @@ stops_at(Outcome) :-
     ;   true
     ).
 
-%   An agent that is woken repeats these controls to check the time.
+%   An agent that is woken repeats these controls to check the time.  They are
+%   no new steps.
 
 again(sleep_until(_)).
 again(receive_until(_, _)).

@@ -30,8 +30,8 @@ Kinds, and `step` if the agent is held before each goal.  The order
 watched(Change) changes them, where Change is trace(To, Kinds), `step` or
 none(To).
 
-*Threading*: any thread sends orders; events are printed in the thread in which
-they arrive.  The thread that has the agent, or holds its mutex, changes
+*Threading*: any thread sends orders; the thread in which an event arrives
+prints it.  Only the thread that runs the agent, or holds its mutex, changes its
 tracers.
 */
 
@@ -84,8 +84,8 @@ me(To) :-
                 *            TRACERS           *
                 *******************************/
 
-%   A traced agent is now in this process.  An untrusted peer may have written
-%   its tracers.
+%   A traced agent has arrived in this process.  Its tracers may come from an
+%   untrusted peer, so they are checked.
 
 typhon_life:carries(trace, Id, trace(To, Kinds0)) :-
     atom(To),
@@ -94,7 +94,8 @@ typhon_life:carries(trace, Id, trace(To, Kinds0)) :-
     events_hear([life, bad_ends|Kinds], Id, trace(To)).
 typhon_life:carries(step, _, step).     % checked by typhon_stepping
 
-%   No caller has the id of the clone, so none would let it continue.
+%   A clone is not stepped: no caller knows its id, so no caller would let it
+%   continue.
 
 typhon_life:not_cloned(Extra) :-
     Extra == step.
@@ -102,8 +103,8 @@ typhon_life:not_cloned(Extra) :-
 %!  traced_goals(+Life) is semidet.
 %!  traced_stepwise(+Life) is semidet.
 %
-%   Goals of an agent with this Life are traced, or it is held before each goal;
-%   it is held.
+%   Goals of an agent with this Life are traced, or the agent is stepped; the
+%   agent is stepped.
 
 traced_goals(Life) :-
     life_extras(Life, Extras),
@@ -122,7 +123,7 @@ traced_stepwise(Life) :-
 
 %!  traced_step(+Id) is det.
 %
-%   Hold Id, which the calling thread runs, before each goal.
+%   From now on hold Id before each goal.  The calling thread runs Id.
 
 traced_step(Id) :-
     with_agent(Id, change(step, Id)).
@@ -149,7 +150,7 @@ changed(none(To), Extras0, Extras) :-
 
 is_of(To, trace(To, _)).
 
-%   A held agent that needs no hold any more continues.
+%   A held agent that is no longer stepped continues.
 
 release(Extras, Id) :-
     (   \+ memberchk(step, Extras),
@@ -160,8 +161,9 @@ release(Extras, Id) :-
 
 %!  traced_held(+Id) is det.
 %
-%   Orders usually wait for an effect.  If Id is held, it carries out orders for
-%   tracers now, and requests that followed it get the answer `again`.
+%   Orders usually wait for an effect of the agent.  If Id is held, its orders
+%   to change tracers are carried out now, and requests that have followed Id
+%   get the answer `again`.
 
 traced_held(Id) :-
     with_agent(Id, ( agent_status(Id, held, _),
@@ -196,8 +198,8 @@ typhon_events:told(trace(To), Host, Agent, What0) :-
 
 %!  goal_shown(+Id, +Goal, -Shown) is det.
 %
-%   Shown is Goal with '$VAR'(Name) in place of variables, as far as the clause
-%   of the program of Id is known from which the goal comes.
+%   Shown is Goal with '$VAR'(Name) for variables, if the clause of the program
+%   of Id from which Goal comes is known.
 
 goal_shown(Id, Goal, Shown) :-
     agent(Id, _, _, Hash, _),
@@ -207,7 +209,7 @@ goal_shown(Id, Goal, Shown) :-
     goal_named(Clauses, Lists, Goal, Shown).
 goal_shown(_, Goal, Goal).
 
-%   The answer is ignored: a process that is gone does not print the event.
+%   The answer does not matter: a process that is gone prints no events.
 
 heard(_).
 

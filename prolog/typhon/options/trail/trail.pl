@@ -15,46 +15,47 @@
 :- use_module('../../kernel/base/text', [term_text/2]).
 :- use_module('../../kernel/host', [host_option/2]).
 
-/** <module> The trail: signed links of hosts that have had an agent
+/** <module> The trail: a chain of signatures of the hosts that an agent visits
 
-Where processes have keys, each process signs an agent as it received it from
-another process, the agent as it handed it on, and the results that the agent
-has entered there.  Each link is signed together with the signature of the
-previous link.  The links are a fact in the state of the agent:
+Each process that has keys signs an agent as it received it from another
+process, the agent as it handed it on, and the results that the agent has
+entered there.  Each link is signed together with the signature of the previous
+link.  The links are a fact in the state of the agent:
 
     '$trail'(At, Chain, Certificates, Pending)
 
-Chain is one string, which is not parsed on the way, so its cost in transit and
-storage depends little on the number of links.  Each link is the text of
-N-Events, the N-th event and perhaps others, with its signature, and the number
-C of the certificate pem(C, Last, Pem) of the signer; Last is the last link of
-that signer.  Link(Text, Hex, C) is
+Chain is one string, which hosts do not parse, so its cost in transit and
+storage depends little on the number of links.  A link link(Text, Hex, C) has
+the Text of N-Events, the N-th event and perhaps its successors, the signature
+Hex, and the number C of the certificate pem(C, Last, Pem) of the signer; Last
+is the last link of that signer.  In Chain a link is
 
     00000123Hex C Text
 
-with the number of characters that follow the first eight; the oldest comes
-first.  At is at(Next, Made, Kept, Hex, Handed): the number of the next event,
-the number of links that were made, the number that are left, the signature of
-the last one, and the hash What that was handed on, or `none`.  An event is
+The first eight digits are the number of characters that follow.  The oldest
+link comes first.  At is at(Next, Made, Kept, Hex, Handed): the number of the
+next event, the number of links that were made, the number of links in Chain,
+the signature of the last link, and the hash What of a last event handed(To,
+What), or `none`.  An event is
 
   - handed(To, What)
-  - received(At, What), or received(At) if What is the one that was handed on
+  - received(At, What), or received(At) if What is the hash that was handed on
   - entered(Result)
 
 What is a hash of the agent: its program, the number of its hops, its state and
 its goals.  The id of the agent is also signed.  A host is accounted for if the
-next host received the same hash, at the address to which it was handed.
-What an agent did while it was on a host is only claimed by that host; and a
-host that an agent visits twice can cut out the links in between.
+next host received the same hash, at the address to which it was handed.  A
+trail does not prove what an agent did on a host: that is a claim of that host.
+A host that an agent visits twice can cut out the links in between.
 
-Signing costs more than all else.  A received event is Pending, or `none`, and
-is signed together with the next event on the same host; it is a claim of that
-host in either case.
+Signing is the most expensive part.  So a received event is Pending at first,
+and is signed together with the next event on the same host; it is a claim of
+that host in either case.  Pending is `none` if there is no such event.
 
-The oldest links are dropped when there are more than `links`.
+The oldest links are dropped when Chain has more than the setting `links`.
 
-A host that has an agent can change its trail at will.  An inconsistent trail
-stays as it is, and gets no further links.
+A host can change the trail of an agent at will while the agent is there.  An
+inconsistent trail stays as it is, and gets no further links.
 
 *Threading*: the thread that sends, receives or runs the agent.
 */
@@ -78,10 +79,10 @@ typhon_host_parts:part(Phase, _, 10, typhon_trail:Closure) :-
 
 closure(departs, departs).
 closure(arrives, arrives).
-closure(cloned, without).
-closure(copied, without).
+closure(cloned, without_trail).
+closure(copied, without_trail).
 
-:- public departs/4, arrives/4, without/4.
+:- public departs/4, arrives/4, without_trail/4.
 
 departs(Host, hop(Id, Hash, Hops, Goals, To), State0, State) :-
     trail_link(handed(To), of(Host, Id, Hash, Hops), State0, Goals, State).
@@ -92,7 +93,7 @@ arrives(Host, hop(Id, Hash, Hops, Goals, from(_, Address)), State0, State) :-
 
 %   A clone begins its own trail, and so does an agent from a restore point.
 
-without(_, _, state(Empty, Clauses0), state(Empty, Clauses)) :-
+without_trail(_, _, state(Empty, Clauses0), state(Empty, Clauses)) :-
     exclude(of_trail, Clauses0, Clauses).
 
 of_trail(Clause) :-
@@ -103,47 +104,47 @@ of_trail(Clause) :-
 
 %!  trail_link(+Event, +Label, +State0, +Goals, -State) is det.
 %
-%   State is State0, as of agent_state/2, with one more link, or State0 itself
-%   if there are no keys, or the option of the host is off.  Event is handed(To)
-%   or received(At), Label is of(Host, Id, Hash, Hops).
+%   State is State0, see agent_state/2, with Event added to the trail; or State0
+%   itself if the process has no keys, or the host has the option trail(false).
+%   Event is handed(To) or received(At), Label is of(Host, Id, Hash, Hops).
 
 trail_link(Event, Label, State0, Goals, State) :-
     own_keys(Keys),
     State0 = state(Empty, Clauses0),
-    taken_out(Clauses0, Raw0, Rest),
-    of_ours(Event, Raw0, Raw1),
+    split_trail(Clauses0, Raw0, Rest),
+    drop_foreign_pending(Event, Raw0, Raw1),
     Label = of(Host, Id, _, _),
     (   host_option(Host, trail(false))
-    ->  settled(Keys, Id, Raw1, Raw)
+    ->  sign_pending(Keys, Id, Raw1, Raw)
     ;   event(Event, Label, Rest, Goals, Happened),
-        happens(Happened, Keys, Id, Raw1, Raw)
+        add_event(Happened, Keys, Id, Raw1, Raw)
     ),
     Raw \== Raw0,
     !,
     State = state(Empty, [Raw|Rest]).
 trail_link(_, _, State, _, State).
 
-taken_out(Clauses, Raw, Rest) :-
+split_trail(Clauses, Raw, Rest) :-
     Raw = '$trail'(_, _, _, _),
     selectchk(Raw, Clauses, Rest),
     !.
-taken_out(Clauses, Raw, Clauses) :-
+split_trail(Clauses, Raw, Clauses) :-
     no_trail(Raw).
 
 no_trail('$trail'(at(0, 0, 0, none, none), "", [], none)).
 
-%   of_ours(+Event, +Raw0, -Raw): drop the pending event of the previous host.
-%   A host that hands on an agent has signed its own events; this process does
-%   not sign them for it.
+%   drop_foreign_pending(+Event, +Raw0, -Raw): drop the pending event of the
+%   previous host. A host that hands on an agent has signed its own events; this
+%   process does not sign them for it.
 
-of_ours(received(_), '$trail'(At, Chain, Pems, _),
-        '$trail'(At, Chain, Pems, none)) :-
+drop_foreign_pending(received(_), '$trail'(At, Chain, Pems, _),
+                     '$trail'(At, Chain, Pems, none)) :-
     !.
-of_ours(_, Raw, Raw).
+drop_foreign_pending(_, Raw, Raw).
 
-%   hangs_together(+Raw): Raw has the right form, so a link can be added.
+%   is_consistent(+Raw): Raw has the form to which a link can be added.
 
-hangs_together(Raw) :-
+is_consistent(Raw) :-
     ground(Raw),
     Raw = '$trail'(at(Next, Made, Kept, Last, Handed), Chain, Pems, Pending),
     maplist(integer, [Next, Made, Kept]),
@@ -154,12 +155,12 @@ hangs_together(Raw) :-
 
 event(Event0, of(_, _, Hash, Hops), Clauses, Goals, Event) :-
     Event0 =.. [Name, Where],
-    sum(what(Hash, Hops, Clauses, Goals), What),
+    term_sum(what(Hash, Hops, Clauses, Goals), What),
     Event =.. [Name, Where, What].
 
-%   The hash does not depend on the names of variables.
+%   The hash does not depend on the identity of variables.
 
-sum(Term, Sum) :-
+term_sum(Term, Sum) :-
     copy_term(Term, Copy),
     numbervars(Copy, 0, _, [functor_name('$typhon_variable')]),
     term_text(Copy, Text),
@@ -169,11 +170,11 @@ text_sum(Text, Sum) :-
     sha_hash(Text, Bytes, [algorithm(sha256), encoding(octet)]),
     hash_atom(Bytes, Sum).
 
-%   happens(+Event, +Keys, +Id, +Raw0, -Raw): Event becomes pending, or is
+%   add_event(+Event, +Keys, +Id, +Raw0, -Raw): Event becomes pending, or is
 %   signed together with the pending event.
 
-happens(received(Where, What), _, _, Raw0, Raw) :-
-    hangs_together(Raw0),
+add_event(received(Where, What), _, _, Raw0, Raw) :-
+    is_consistent(Raw0),
     !,
     Raw0 = '$trail'(At, Chain, Pems, none),
     (   arg(5, At, What)
@@ -181,22 +182,22 @@ happens(received(Where, What), _, _, Raw0, Raw) :-
     ;   Pending = received(Where, What)
     ),
     Raw = '$trail'(At, Chain, Pems, Pending).
-happens(Event, Keys, Id, Raw0, Raw) :-
+add_event(Event, Keys, Id, Raw0, Raw) :-
     Raw0 = '$trail'(_, _, _, Pending),
     ( Pending == none -> Events = [Event] ; Events = [Pending, Event] ),
-    linked(Events, Keys, Id, Raw0, Raw).
+    add_link(Events, Keys, Id, Raw0, Raw).
 
-%   settled(+Keys, +Id, +Raw0, -Raw): no event is pending in Raw.
+%   sign_pending(+Keys, +Id, +Raw0, -Raw): no event is pending in Raw.
 
-settled(Keys, Id, Raw0, Raw) :-
+sign_pending(Keys, Id, Raw0, Raw) :-
     Raw0 = '$trail'(_, _, _, Pending),
     (   Pending == none
     ->  Raw = Raw0
-    ;   linked([Pending], Keys, Id, Raw0, Raw)
+    ;   add_link([Pending], Keys, Id, Raw0, Raw)
     ).
 
-linked(Events, Keys, Id, Raw0, Raw) :-
-    hangs_together(Raw0),
+add_link(Events, Keys, Id, Raw0, Raw) :-
+    is_consistent(Raw0),
     Raw0 = '$trail'(at(N, Made0, Kept0, Last, _), Chain0, Pems0, _),
     term_text(N-Events, Text),
     trail_signed(Id, Text, Last, Signed),
@@ -213,7 +214,7 @@ linked(Events, Keys, Id, Raw0, Raw) :-
     include(signed_since(First), Pems1, Pems),
     ( last(Events, handed(_, What)) -> Handed = What ; Handed = none ),
     Raw = '$trail'(at(Next, Made, Kept, Hex, Handed), Chain, Pems, none).
-linked(_, _, _, Raw, Raw).
+add_link(_, _, _, Raw, Raw).
 
 shown(Pem, Link, Pems0, C, [pem(C, Link, Pem)|Pems]) :-
     select(pem(C0, _, Pem0), Pems0, Pems),
@@ -251,7 +252,7 @@ typhon_words:enters(Module, Id, Result) :-
 trail_enter(Module, Id, Result) :-
     (   own_keys(Keys)
     ->  raw(Module, Raw0),
-        happens(entered(Result), Keys, Id, Raw0, Raw),
+        add_event(entered(Result), Keys, Id, Raw0, Raw),
         dynamic(Module:'$trail'/4),
         retractall(Module:'$trail'(_, _, _, _)),
         assertz(Module:Raw)
@@ -265,7 +266,7 @@ trail_enter(Module, Id, Result) :-
 trail_of(Module, Id, Raw) :-
     raw(Module, Raw0),
     (   own_keys(Keys)
-    ->  settled(Keys, Id, Raw0, Raw)
+    ->  sign_pending(Keys, Id, Raw0, Raw)
     ;   Raw = Raw0
     ).
 
@@ -316,7 +317,8 @@ framed(Chain, Start, Link, End) :-
 %!  chain_links(+Text, -Links:list) is semidet.
 %
 %   Links are ordered, the oldest first.  Text may be any term: a rest that has
-%   no valid frame becomes a link without signature; fails if Text is no string.
+%   no valid frame becomes a link without signature; fails if Text is no
+%   string.
 
 chain_links(Chain, Links) :-
     string(Chain),

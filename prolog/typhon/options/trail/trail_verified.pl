@@ -39,14 +39,10 @@ typhon_questions:here(trail, Agent, Asker) :-
 
 %!  trail_verified(+Id, +Raw, -Trail) is det.
 %
-%   Trail is trail(Steps, Verdict).  A step is step(N, Name, What): Name is the
-%   host whose keys have signed it, and What is handed(To), received(At) or
-%   entered(Result).  Verdict is `whole`, or unaccounted(Name): on the host
-%   Name, or after it, state or code changed without a signature; Name is
-%   `nobody` if that is so from the beginning.  Verdict is since(N) if all is
-%   well from the N-th link on, and earlier links are gone.
+%   Trail is trail(Steps, Verdict), as of agent_trail/2.  In unaccounted(Name)
+%   Name is `nobody` if no step is valid.
 %
-%   @error existence_error(keys, here)
+%   @error existence_error(keys, here) this process has no keys
 
 trail_verified(Id, Raw, trail(Steps, Verdict)) :-
     (   own_keys(Keys)
@@ -63,8 +59,9 @@ trail_verified(Id, Raw, trail(Steps, Verdict)) :-
         Verdict = unaccounted(nobody)
     ).
 
-%   If the oldest links are gone, only the second one that is left proves the
-%   first, since it was signed together with the signature of the first.
+%   If the oldest links were dropped, the first link left cannot be verified by
+%   itself. Its successor proves it, since that was signed together with its
+%   signature.
 
 all_steps([Link|Links], With, Steps, Verdict) :-
     events(Link, N, Events),
@@ -80,9 +77,9 @@ all_steps([Link|Links], With, Steps, Verdict) :-
 all_steps(Links, With, Steps, Verdict) :-
     steps(Links, With, none, Steps, Verdict).
 
-%   steps(+Links, +With, +Before, -Steps, -Verdict): Before is `none`, since(N,
-%   Link) or before(N, Link, Event, Name), where N is the number of the next
-%   event.
+%   steps(+Links, +With, +Before, -Steps, -Verdict): Before describes the
+%   verified links: `none`, since(N, Link) or before(N, Link, Event, Name),
+%   where N is the number of the next event.
 
 steps([], With, Before, [], Verdict) :-
     (   is_all(With, Before)
@@ -141,7 +138,7 @@ follow([], _, _, _, After, _, Steps, After, Steps).
 follow([Event|Events], N, Link, With, Before, Name,
        [step(N, Name, Told)|Steps], After, Rest) :-
     follows(Before, Event, With, Name),
-    told(Event, Told),
+    public_form(Event, Told),
     N1 is N+1,
     follow(Events, N1, Link, With, before(N1, Link, Event, Name), Name, Steps,
            After, Rest).
@@ -151,7 +148,7 @@ follows(none, Event, with(Keys, Id, _, _), Name) :-
     \+ is_received(Event, _),
     (   agent_home_endpoint(Id, Home),
         endpoint_address(Home)
-    ->  own_name(Keys, Name)            % it began in this process
+    ->  own_name(Keys, Name)            % the agent began in this process
     ;   true
     ).
 follows(before(_, _, Earlier, Before), Event, _, Name) :-
@@ -171,8 +168,8 @@ own_name(Keys, Name) :-
     keys_certificate(Keys, Own),
     keys_holder(Keys, Own, host(Name)).
 
-told(received(At, _), received(At)) :-
+public_form(received(At, _), received(At)) :-
     !.
-told(handed(To, _), handed(To)) :-
+public_form(handed(To, _), handed(To)) :-
     !.
-told(Event, Event).
+public_form(Event, Event).
