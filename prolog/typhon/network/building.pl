@@ -30,9 +30,8 @@
 
 /** <module> Building networks from plans
 
-Starts processes, the log, hosts, links, the contents of places, and the
-dynamics of links, in this order.  A network that is in a journal is restored
-as it was.
+Start processes, the log, hosts, links, the contents of places, and the dynamics
+of links, in this order.  A network with a journal is restored from it.
 
 *Threading*: the thread that starts or stops the network.
 */
@@ -41,9 +40,10 @@ as it was.
 
 %!  network_build(+Network, +Plan, +Kept, :Change, -Clock) is det.
 %
-%   Build Network from Plan, or from what is Kept of it, see kept_plan/4.  Its
-%   links change by call(Change, link(I, J)) or call(Change, unlink(I, J)).  If
-%   this throws, the parts that were started still run.
+%   Build Network from Plan, or restore it, if Kept is not `none`, see
+%   kept_plan/4.  The dynamics change links by call(Change, link(I, J)) or
+%   call(Change, unlink(I, J)).  Clock is clock(Epoch, Rate).  After an
+%   exception the parts that were started still run.
 
 network_build(Network, Plan, Kept, Change, Clock) :-
     plan_processes(Plan, P, Machines),
@@ -56,26 +56,27 @@ network_build(Network, Plan, Kept, Change, Clock) :-
                    lasting_child(Plan, Log)),
     clock_and_log(Network, Plan, Clock, Log),
     lasting_back(Plan, Log),
-    furnished(Kept, Network, P, Plan, Clock, [Clock|Log], Time),
+    start_hosts(Kept, Network, P, Plan, Clock, [Clock|Log], Time),
     start_dynamics(Network, Clock, Plan, Time, Change),
     lasting_goes_on(Network, P, Plan),
     debug(typhon(network), '~w is built, ~w processes', [Network, P]),
     lasting_restarts(Network, P, Plan, [Clock|Log]).
 
-%   furnished(+Kept, +Network, +P, +Plan, +Clock, +Common, -Time): start the
-%   hosts and links.  A network in a journal is already furnished; its links
-%   are those of Time, until which the dynamics may have changed them.
+%   start_hosts(+Kept, +Network, +P, +Plan, +Clock, +Common, -Time): start the
+%   hosts and links.  The journal has restored the contents of places.  The
+%   dynamics go on meanwhile, so a restored network gets the links of the
+%   present Time.
 
-furnished(kept(built, _), Network, P, Plan, Clock, Common, Time) :-
+start_hosts(kept(built, _), Network, P, Plan, Clock, Common, Time) :-
     !,
     plan_hosts(Plan, P, Common, Hosts),
     wire_hosts(Network, P, hosts, Hosts),
-    shown(Clock, Time),
+    clock_time(Clock, Time),
     (   plan_links_at(Plan, Time, Links)
     ->  wire_instead(Network, P, Links)
     ;   true
     ).
-furnished(_, Network, P, Plan, Clock, Common, 0) :-
+start_hosts(_, Network, P, Plan, Clock, Common, 0) :-
     kept_note(Plan, Clock, begun),
     plan_hosts(Plan, P, Common, Hosts),
     wire_hosts(Network, P, hosts, Hosts),
@@ -85,7 +86,7 @@ furnished(_, Network, P, Plan, Clock, Common, 0) :-
     wire_goals(Network, P, Goals),
     kept_note(Plan, Clock, built).
 
-%   A clock that starts now.
+%   The clock starts now.
 
 clock(Plan, clock(Epoch, Rate)) :-
     time_now(Epoch),
@@ -95,15 +96,13 @@ clock(Plan, clock(Epoch, Rate)) :-
     ;   Rate = 1
     ).
 
-%   Time is the time on the clock.
-
-shown(clock(Epoch, Rate), Time) :-
+clock_time(clock(Epoch, Rate), Time) :-
     time_now(Now),
     Time is (Now-Epoch)*Rate.
 
 %   known_log(+Kept, +Network, -Clock, +Plan, -Log), clock_and_log(+Network,
-%   +Plan, ?Clock, ?Log): for a network that is known from a journal the clock
-%   goes on, and the log is started before its hosts.
+%   +Plan, ?Clock, ?Log): a restored network continues with its clock, and its
+%   log starts before the processes, which restore hosts that log.
 
 known_log(kept(_, Clock), Network, Clock, Plan, Log) :-
     start_log(Network, Clock, Plan, append, Log).

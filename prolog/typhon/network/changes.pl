@@ -13,14 +13,14 @@
 
 /** <module> Links of a network change over time
 
-The decisions of module `dynamics` are pure: in real time, the times of a run
-differ only by the delay of the thread that applies them.
+The decisions of module `dynamics` are pure: in real time, runs differ only by
+the delay with which a thread applies the events.
 
-The next event, and the state after it, is the only message of a queue: a term
-of some thousand cells is copied there five times as fast as into a clause.
+The next event, with the state after it, is the only message of a queue: copying
+a term of some thousand cells there is five times as fast as into a clause.
 
-*Threading*: an alarm is set for the next event of a whole network; a worker
-applies it. OnChange reaches hosts in other processes from there.
+*Threading*: one alarm is set for the next event of a whole network; a worker
+applies it, and calls OnChange, which reaches hosts in other processes.
 */
 
 :- meta_predicate
@@ -34,7 +34,7 @@ applies it. OnChange reaches hosts in other processes from there.
 
 :- dynamic
     dynamics/3,                 % Dynamics, Clock, OnChange
-    due/2,                      % Dynamics, Queue: of the next event
+    due/2,                      % Dynamics, Queue: holds the next event
     changing/2,                 % Dynamics, Thread: is applying changes
     stopping/2.                 % Dynamics, Queue: gets `done` after them
 
@@ -74,8 +74,8 @@ next(Dynamics, State0) :-
 
 %!  dynamics_kept(+Dynamics, +Seconds, -Then) is semidet.
 %
-%   Then is the next event, or `none`. Fails if changes are being applied, for
-%   longer than Seconds.
+%   Then is the next event, or `none`. Waits while changes are being applied,
+%   and fails if that takes longer than Seconds.
 
 dynamics_kept(Dynamics, Seconds, Then) :-
     setup_call_cleanup(
@@ -95,8 +95,9 @@ dynamics_kept(Dynamics, Seconds, Then) :-
 
 %!  dynamics_again(+Name, +Then, +Clock, :OnChange, -Dynamics) is det.
 %
-%   Dynamics goes on with Then, as of dynamics_kept/3, when the alarm goes off,
-%   which the caller sets. Dynamics has that Name, if it is free.
+%   Restore dynamics whose next event is Then, as of dynamics_kept/3. The caller
+%   sets the alarm for this event. Dynamics is Name, if no dynamics have that
+%   name.
 
 dynamics_again(Name, Then, Clock, OnChange, Dynamics) :-
     (   dynamics(Name, _, _)
@@ -117,7 +118,7 @@ typhon_scheduler:fire(Dynamics, links) :-
 typhon_scheduler:over(Dynamics, links) :-
     \+ dynamics(Dynamics, _, _).
 
-%   In a worker: changes of hosts in other processes may take long.
+%   Runs in a worker: changes of hosts in other processes may take long.
 
 step(Dynamics) :-
     thread_self(Me),
@@ -134,23 +135,23 @@ change_links(Dynamics) :-
     (   dynamics(Dynamics, _, OnChange),
         due(Dynamics, Queue),
         thread_get_message(Queue, then(Changes, State), [timeout(0)])
-    ->  forall(member(Change, Changes), make(OnChange, Change)),
+    ->  forall(member(Change, Changes), apply_change(OnChange, Change)),
         next(Dynamics, State)
     ;   true
     ).
 
-make(OnChange, Change) :-
+apply_change(OnChange, Change) :-
     debug(typhon(network), 'dynamics: ~p', [Change]),
     catch(call(OnChange, Change), error(Formal, Context),
           print_error(warning, error(Formal, Context))),
     !.
-make(_, Change) :-
+apply_change(_, Change) :-
     print_message(warning, typhon(link_not_changed(Change))).
 
 %!  dynamics_stop(+Dynamics) is det.
 %
-%   No change begins after this. A change that hangs, because a process hangs,
-%   is interrupted after a second.
+%   Stop Dynamics: no change begins after this. A change that hangs, because a
+%   process hangs, is interrupted after a second.
 
 dynamics_stop(Dynamics) :-
     retractall(dynamics(Dynamics, _, _)),
@@ -179,7 +180,7 @@ await_change(Dynamics, Queue) :-
         await_change(Dynamics, Queue)
     ).
 
-%   The signal may arrive after the change: then it does nothing.
+%   The signal may arrive after the change; then it has no effect.
 
 interrupt(Dynamics) :-
     (   nb_current(typhon_changing, Dynamics)

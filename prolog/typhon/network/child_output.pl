@@ -30,8 +30,8 @@ thread that follows it.
 %!  output_begin is det.
 %!  output_end is det.
 %
-%   From output_begin/0 on messages of this process are sent to its parent,
-%   until output_end/0, after which they are dropped.
+%   Between these calls messages of this process are sent to its parent; after
+%   output_end/0 they are dropped.
 
 output_end :-
     assertz(ended).

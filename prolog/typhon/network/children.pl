@@ -24,23 +24,23 @@
 /** <module> Child processes that run the hosts of a network
 
 A child runs node_process.pl, on this machine or through ssh on another. It
-gets its parameters in one line on its standard input. The cookie is one of
-them, so that it is in no argument list and no environment of ssh. The child
-prints the address of its endpoint in one line on its standard output. Its
-later output is printed here, see module `child_output`. A child that cannot
-start prints the reason in such a line, and ends.
+reads its parameters from one line of its standard input. The cookie is one of
+them, so that no argument list and no environment of ssh shows it. The child
+prints the address of its endpoint in one line on its standard output. This
+process prints the later output of the child, see module `child_output`. A child
+that cannot start prints the reason in such a line, and ends.
 
 The standard input of a child stays open as long as the child is needed. The
-end of input is the order to stop, and also happens when this process dies.
+end of input orders the child to stop. It also occurs when this process dies.
 
-Children are leaders of sessions of their own: the interrupt key of a terminal
-stops the query there, not the network.
+Each child leads a session of its own, so the interrupt key of a terminal
+interrupts the query of this process, not the network.
 
 *Threading*: one thread per child reads its output and waits for its end. It
-calls OnEvent with up(Tag, Endpoint, Pid) when the child is ready, Pid being
-that of the child on its machine, with failed(Tag, Error) if the child cannot
-become ready, and with down(Tag, Status) when it has ended. It is no `server`,
-as it waits for a stream.
+calls OnEvent with up(Tag, Endpoint, Pid) when the child is ready, where Pid is
+the process id on the machine of the child, with failed(Tag, Error) if the child
+cannot start, and with down(Tag, Status) when it has ended. The thread is no
+`server`, as it waits for a stream.
 */
 
 :- meta_predicate
@@ -70,13 +70,18 @@ as it waits for a stream.
 %!  child_start(+Tag, +Machine, +Interface, :OnEvent, -Child) is det.
 %!  child_start(+Tag, +Machine, +Interface, +Options, :OnEvent, -Child) is det.
 %
-%   Machine is `local`, a target of ssh, or machine(Target, Options) with the
-%   options swipl(Program), default `swipl`, node(File), the path of
-%   node_process.pl there, default the same as here, and bind(Interface), the
-%   interface at which the child listens, default the host of Target. A local
-%   child listens at Interface. Options are for the child: port(Port), at which
-%   it listens, journal(Directory, How), see doc/journal.md, on its machine,
-%   and hosts(Options), which replace those that the journal has.
+%   Start a child. Machine is `local`, a target of ssh, or machine(Target,
+%   Options) with the options
+%
+%     - swipl(Program): default `swipl`
+%     - node(File): path of node_process.pl on that machine, default as here
+%     - bind(Interface): interface at which the child listens, default the host
+%       of Target
+%
+%   A local child listens at Interface. Options are for the child: port(Port),
+%   at which it listens, journal(Directory, How), see doc/journal.md, on its
+%   machine, and hosts(Options), which override the options of hosts in the
+%   journal.
 %
 %   @error type_error(machine, Machine), and errors of process_create/3
 
@@ -97,9 +102,9 @@ child_start(Tag, Machine, Interface, Options, OnEvent,
     thread_create(follow(Tag, Pid, Out, OnEvent), Thread, [alias(Alias)]),
     debug(typhon(network), 'process ~w of ~w is started: ~w, ~p',
           [Pid, Tag, Program, Args]),
-    catch(tell(In, node(Cookie, Bind, Seconds, Keys, Options)),
+    catch(send_term(In, node(Cookie, Bind, Seconds, Keys, Options)),
           error(io_error(_, _), _),
-          true).                % it has ended: down(Tag, _) follows
+          true).                % the child has ended: down(Tag, _) follows
 
 %   A process with TLS can connect only to others with TLS.
 
@@ -115,7 +120,7 @@ follower_alias(Tag, Alias) :-
     flag(typhon_follower, N, N+1),
     format(atom(Alias), 'typhon_follower_~w_~d', [Tag, N]).
 
-tell(In, Term) :-
+send_term(In, Term) :-
     set_stream(In, encoding(utf8)),
     format(In, '~k.~n', [Term]),
     flush_output(In).
@@ -148,8 +153,8 @@ command(Machine, _, Program, [Target|Command], Bind) :-
     node_args(File, Args),
     maplist(shell_word, [Swipl|Args], Command).
 
-%   swipl(-Program): a stand-alone saved state would run its own goal again,
-%   which starts processes, and so without end.
+%   swipl(-Program): Program is not a stand-alone saved state. That would run
+%   its own goal, which starts processes, and so on without end.
 
 swipl(Swipl) :-
     current_prolog_flag(executable, Executable),
@@ -233,17 +238,18 @@ child_close(child(_, In, _)) :-
 
 %!  child_kill(+Child) is det.
 %
-%   Kill the process at once. If another process, such as a program that the
-%   child started, still has its output open, the thread stops reading it.
+%   Kill the process of Child at once. The thread stops reading the output,
+%   which another process, such as a program that the child started, may hold
+%   open.
 
 child_kill(child(Pid, _, Thread)) :-
     catch(process_kill(Pid, kill), error(existence_error(_, _), _), true),
     catch(thread_signal(Thread, typhon_children:stop_reading),
           error(existence_error(_, _), _), true).
 
-%   The signal may arrive before the thread reads, or after: the output may end
-%   first, or another signal arrive. Only while it reads does the thread catch
-%   the ball.
+%   The signal may arrive before the thread reads, or after it has read: the
+%   output may end first, or another signal arrive. The thread catches the
+%   exception only while it reads.
 
 stop_reading :-
     (   nb_current(typhon_reading, true)

@@ -17,21 +17,21 @@
               [ chance_below/4, chance_member/4, chance_seed/2, chance_true/4,
                 chance_uniform/5 ]).
 
-/** <module> Links that come and go
+/** <module> Models of links that change
 
-A model defines how the links of a network change. Each host acts on its own,
-again and again after an Interval in host seconds, uniform(Min,Max), drawn anew
-each time:
+A model defines how the links of a network change. Each host acts independently.
+It acts again and again after an Interval, uniform(Min,Max) in host seconds,
+from which each delay is drawn:
 
   - links(Interval, Drop, Add)
-    It drops one of its links, drawn at random, with probability Drop, and
-    then makes a link to a host it has none with, drawn at random, with
-    probability Add. Drop may be each(P): then every one of its links is
-    dropped with probability P by itself.
+    The host drops one of its links, drawn at random, with probability Drop.
+    Then it makes a link to a host to which it has none, drawn at random, with
+    probability Add. With each(P) for Drop each of its links is dropped with
+    probability P, independently.
   - toggle(Interval, Drop, Add)
-    It draws one of the links that the network began with at this host.
-    If the link stands it is dropped with probability Drop, if not it is
-    made again with probability Add. No other link is ever made.
+    The host draws one of the links that it had at the start of the network.
+    If the link exists it is dropped with probability Drop, else it is made
+    with probability Add. No other links are made.
 
 Models with a name, after the experiments of the thesis:
 
@@ -41,16 +41,15 @@ Models with a name, after the experiments of the thesis:
 | dynamic_2    | links(uniform(10,20), 0.5, 0.7)        | section 5.5   |
 
 Section 4.4.7 begins with a mesh of 50 hosts and reports degrees from 0 to 27.
-If one link is dropped at a time, degrees never become so low (a mesh stays
-above degree 44 for ever, as more links are added than dropped); if each link
-is dropped by itself, they do: so there are two readings. For Dynamic I the
-thesis prints no probabilities and no intervals for either network of chapter
-5; those of Dynamic II and of section 4.4.7 are used. Others can be given by
-the general forms.
+Dropping one link at a time never leads to such degrees: a mesh stays above
+degree 44, as more links are added than dropped. Dropping each link
+independently does. Hence the two models. For Dynamic I the thesis prints no
+probabilities, and for neither network of chapter 5 intervals; the values of
+Dynamic II and of section 4.4.7 are used. The general forms allow other values.
 
 The decisions are pure: a state is a term, and the sequence of events follows
-from the seed. The times of a run differ only by the delay of the thread that
-applies the events.
+from the seed. Runs differ only by the delay with which a thread applies the
+events.
 
 *Threading*: pure; module `changes` applies the events.
 */
@@ -115,8 +114,8 @@ probability(P) :-
 
 %!  dynamics_state(+Model, +N, +Edges, +Seed, -State) is det.
 %
-%   State is the start of a network of N hosts with Edges, pairs I-J of host
-%   numbers. The time of the first event of each host is drawn.
+%   State is the initial state of a network of N hosts with Edges, pairs I-J of
+%   host numbers. The time of the first event of each host is drawn.
 
 dynamics_state(Model, N, Edges, Seed,
                state(Model, N, Own, Links, Due, Chance)) :-
@@ -150,9 +149,9 @@ schedule(Model, Now, Host, Due0-Chance0, Due-Chance) :-
 
 %!  dynamics_event(+State0, -Time, -Changes, -State) is semidet.
 %
-%   At Time, in host seconds after the start, the links of one host change by
-%   Changes, terms link(I,J) and unlink(I,J), to be applied in this order.
-%   Fails when nothing can ever change.
+%   At Time, in host seconds after the start, the links of one host change:
+%   Changes are terms link(I,J) and unlink(I,J), to be applied in this order.
+%   State is the state after them. Fails if no link can ever change.
 
 dynamics_event(state(Model, N, Own, Links0, Due0, Chance0), Time, Changes,
                state(Model, N, Own, Links, Due, Chance)) :-
@@ -164,7 +163,7 @@ dynamics_event(state(Model, N, Own, Links0, Due0, Chance0), Time, Changes,
 
 %!  dynamics_until(+State0, +Time, -State) is det.
 %
-%   State is the state that follows from State0 before Time.
+%   State is the state after all events of State0 before Time.
 
 dynamics_until(State0, Time, State) :-
     (   dynamics_event(State0, Next, _, State1),
@@ -194,8 +193,8 @@ change_end(Op, I, J, Links0, Links) :-
     call(Op, Ns0, J, Ns),
     put_assoc(I, Links0, Ns, Links).
 
-%   changes(+Model, +Host, -Changes, +Chance0, -Chance): Changes of Host,
-%   host(I, N, Neighbours, Own), when its event is due.
+%   changes(+Model, +Host, -Changes, +Chance0, -Chance): Changes are those of
+%   the next event of Host, host(I, N, Neighbours, Own).
 
 changes(links(_, Drop, Add), host(I, N, Ns, _), Changes, Chance0, Chance) :-
     dropped(Drop, Ns, Gone, Chance0, Chance1),
@@ -236,8 +235,8 @@ drop_one(P, J, Gone0-Chance0, Gone-Chance) :-
     ;   Gone0 = Gone
     ).
 
-%   A link that this event has dropped is not made again in the same event: its
-%   other host still counts as a neighbour.
+%   An event does not make again a link that it has dropped: the host at the
+%   other end still counts as a neighbour.
 
 added(P, I, N, Ns, New, Chance0, Chance) :-
     chance_true(P, Bool, Chance0, Chance1),
@@ -255,7 +254,8 @@ added(P, I, N, Ns, New, Chance0, Chance) :-
     ).
 
 %   not_taken(+Taken, +K, -J): J is the K-th number from 1 on that is not in the
-%   ordered list Taken.  A list of the others would be as long as the network.
+%   ordered list Taken.  A list of all such numbers would be as long as the
+%   network.
 
 not_taken([Number|Taken], K, J) :-
     Number =< K,

@@ -13,16 +13,18 @@
 
 Places is an item, or a list of items:
 
-  - a file: text, a path of atoms a/b, or Alias(Name) where there is a search
-    path of that name; it is consulted into the places of all hosts
+  - a file: text, a path of atoms a/b, or Alias(Name) for a search path Alias;
+    it is consulted into the places of all hosts
   - any other term: a goal, which is called once in the place of each host;
     a goal without arguments is written call(Name)
-  - Host-Items: items for the host of that name or number alone
+  - Host-Items: items only for the host with the name or number Host
 
 *Threading*: pure, but for the lookup of search paths.
 */
 
 %!  host_setup_check(+Places, +Names) is det.
+%
+%   Check the form of Places, and that it names only hosts of the network.
 %
 %   @arg Names are the names of the hosts
 %   @error type_error(callable, Item), existence_error(host, Host)

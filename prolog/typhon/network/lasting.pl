@@ -28,17 +28,18 @@
 
 /** <module> Networks that outlive their processes
 
-Each process of a network with a journal has a journal of its own: this
-process, if it runs the hosts, or its children.  Everything is restored before
-any of it resumes, so that agents and hosts find each other.
+Each process that runs hosts of a network with a journal has a journal of its
+own: this process, or each of its children.  All journals are restored
+before any agent resumes, so that agents and hosts find each other.
 
-Besides these journals there is a file with the text of one term,
+Besides these journals a record holds the text of one term,
 
     network(Version, How, Plan, Clock)
 
 How is `begun`, or `built` when the whole plan has been carried out.  A network
-that is started again must be the same: options that are not given are as
-before, options that differ are an error, but for options that may change.
+that is started again must be the same.  Options that are not given keep their
+values.  Options with other values raise an error, unless they may
+change.
 
 *Threading*: the thread that starts or stops the network, and that of module
 `restarts`.
@@ -47,7 +48,7 @@ before, options that differ are an error, but for options that may change.
 %!  lasting_open(+Plan, +P, +Machines) is det.
 %
 %   Open the journal of Plan, if it has one and this process runs its hosts.
-%   The process must not listen yet; it begins to listen after this.
+%   The endpoint of the process must start after this.
 %
 %   @error as hosts_journal/2
 
@@ -59,16 +60,16 @@ lasting_open(_, _, _).
 
 %!  lasting_back(+Plan, +Log) is det.
 %
-%   Restore the contents of the journal that lasting_open/3 has opened, the
-%   hosts with the option Log.  The process listens already.
+%   Restore the contents of the journal that lasting_open/3 has opened.  The
+%   hosts get the options Log.  The endpoint of the process runs already.
 
 lasting_back(Plan, Log) :-
-    (   own(Plan)
+    (   has_own_journal(Plan)
     ->  hosts_back(Log)
     ;   true
     ).
 
-own(Plan) :-
+has_own_journal(Plan) :-
     plan_processes(Plan, 1, [local]),
     plan_journal(Plan, 1, Where, _),
     journal_place(Where, Place),
@@ -76,8 +77,8 @@ own(Plan) :-
 
 %!  lasting_child(+Plan, ?Log, +P, -Options) is det.
 %
-%   Options for the child that runs part P, see child_start/6.  If Log is a
-%   list the hosts in its journal have this Log from now on.
+%   Options for the child P, see child_start/6.  If Log is a list of options, it
+%   replaces those of the hosts in the journal of the child.
 
 lasting_child(Plan, Log, P, Options) :-
     (   plan_journal(Plan, P, Where, How)
@@ -88,7 +89,7 @@ lasting_child(Plan, Log, P, Options) :-
 
 %!  lasting_goes_on(+Network, +P, +Plan) is det.
 %
-%   Everything is restored: resume it.
+%   All processes have restored their journals: resume their agents.
 
 lasting_goes_on(Network, P, Plan) :-
     (   plan_option(Plan, journal(_))
@@ -98,18 +99,18 @@ lasting_goes_on(Network, P, Plan) :-
 
 %!  lasting_restarts(+Network, +P, +Plan, +Common) is det.
 %
-%   Restart children that die, if the plan has restart(true).  Their hosts are
-%   those in their journals, or else those of the plan.
+%   Restart children that die, if the plan has restart(true).  A restarted child
+%   has the hosts of its journal, or without a journal those of the plan.
 
 lasting_restarts(Network, P, Plan, Common) :-
     (   plan_option(Plan, restart(true))
     ->  nodes_restart(Network,
                          lasting_child(Plan, none),
-                         again(Network, Plan, P, Common))
+                         restore_process(Network, Plan, P, Common))
     ;   true
     ).
 
-again(Network, Plan, Count, Common, P) :-
+restore_process(Network, Plan, Count, Common, P) :-
     plan_hosts(Plan, Count, Common, Hosts),
     (   plan_option(Plan, journal(_))
     ->  wire_again(Network, P, Hosts, [], []),
@@ -121,23 +122,23 @@ again(Network, Plan, Count, Common, P) :-
 
 %!  lasting_rests(+Plan) is semidet.
 %
-%   Stop the hosts of this process; the contents of its journal stay there.
-%   Fails if that is not the journal of this network, or if there are other
-%   hosts: then the hosts of the network end for good, as usual, and nothing is
-%   kept.
+%   Stop the hosts of this process, and keep the contents of its journal.  Fails
+%   if the open journal is not that of this network, or if the process has hosts
+%   that are not in the network.  Then the caller ends the hosts of the network
+%   for good.
 
 lasting_rests(Plan) :-
-    own(Plan),
+    has_own_journal(Plan),
     plan_shape(Plan, Names, _),
     \+ ( host(Other, _, _), \+ memberchk(Other, Names) ),
     hosts_rest.
 
 %!  lasting_over(+Plan) is det.
 %
-%   Delete the record of the network, if its journal is open here.
+%   Delete the record of the network, if this process has opened its journal.
 
 lasting_over(Plan) :-
-    (   own(Plan)
+    (   has_own_journal(Plan)
     ->  kept_end(Plan)
     ;   true
     ).
@@ -153,8 +154,8 @@ version(1).
 
 %!  kept_plan(+Topology, +Options, -Plan, -Kept) is det.
 %
-%   As network_plan/3.  Kept is `none`, or kept(How, Clock) if the journal is
-%   that of a network that was started before.
+%   Plan is that of network_plan/3.  Kept is kept(How, Clock) if the journal
+%   holds a network, else `none`.
 %
 %   @error journal_of_another(Place, Was, Is), journal_damaged(Place, Why),
 %   journal_version(Place, Version)
@@ -173,8 +174,8 @@ kept_plan(Topology, Options, Plan, Kept) :-
 kept_plan(Topology, Options, Plan, none) :-
     network_plan(Topology, Options, Plan).
 
-%   unchanged(+Option, +Place, +Plan0): Option is the same as in Plan0, or may
-%   change.
+%   unchanged(+Option, +Place, +Plan0): Option has the value that it has in
+%   Plan0, or may change.
 
 unchanged(Option, _, _) :-
     may_change(Option),
@@ -202,7 +203,7 @@ may_change(log(_)).
 may_change(log(_, _)).
 may_change(tls(_)).
 
-%   Options that are not given are as before.
+%   Options that are not given keep the values of Plan0.
 
 filled(Options, Plan0, All) :-
     plan_options(Plan0, Kept),
@@ -254,14 +255,14 @@ read_kept(Where, How, Plan, Clock) :-
 
 %!  kept_note(+Plan, +Clock, +How) is det.
 %
-%   Record How far the network of Plan is built, if it has a journal.
+%   Record that the network of Plan is `begun` or `built`, if it has a journal.
 %
 %   @error permission_error(open, journal, Place)
 
 kept_note(Plan0, Clock, How) :-
     plan_option(Plan0, journal(Where)),
     !,
-    plan_without(Plan0, journal(_), Plan),      % it may contain a password
+    plan_without(Plan0, journal(_), Plan),      % may contain a password
     version(Version),
     format(string(Text), '~k.~n', [network(Version, How, Plan, Clock)]),
     journal_record_put(Where, Text).

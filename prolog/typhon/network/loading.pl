@@ -21,10 +21,10 @@
 :- use_module(saving, [saved_read/2]).
 :- use_module(wiring, [wire_hosts/4, wired_hosts/2]).
 
-/** <module> Networks from restore points
+/** <module> Loading networks from restore points
 
-Hosts are started as they were when the network was saved, and filled, while
-time does not run yet.  No event reports that they have started.
+Hosts are started with their saved options, and their contents restored, before
+time runs.  No event reports their start.
 
 *Threading*: as network_start/3.
 */
@@ -48,7 +48,7 @@ load_network(File, Network, Options) :-
     ),
     Saved = saved(Name, Plan, _, _, _, _),
     must_be_alone(Plan, Name),
-    network_begin(Name, Plan, again(Saved, Options), Network).
+    network_begin(Name, Plan, rebuild(Saved, Options), Network).
 
 typhon_options:declared(network_load_option, log(File), ground, File).
 
@@ -73,7 +73,7 @@ must_be_alone(Plan, Name) :-
                 *             BUILD            *
                 *******************************/
 
-again(Saved, Options, Network) :-
+rebuild(Saved, Options, Network) :-
     Saved = saved(_, Plan, clock(Then, Clock0), Log, Due, Terms),
     plan_time(Plan, Kind),
     plan_processes(Plan, P, Machines),
@@ -90,7 +90,7 @@ again(Saved, Options, Network) :-
     forall(between(1, P, At), go_on(Network, At, Kind, Terms)),
     network_goes_on(Network, Clock).
 
-%   The port of the hosts when they were saved, if this process runs them.
+%   Port is the saved port of the hosts, if this process runs them, else 0.
 
 own_port(1-[local], Terms, Port) :-
     !,
@@ -104,7 +104,7 @@ port_of(P, Terms, Port) :-
     memberchk(host(P, _, _, Address, _), Terms),
     port(Address, Port).
 
-%   Shift is the time since then, by the time of day.
+%   Shift is the number of seconds since the network was saved.
 
 shift(virtual, _, 0).
 shift(real, Then, Shift) :-
@@ -130,9 +130,9 @@ log_again(_, log(_, File, _), Network, Plan, clock(Epoch, Rate),
     network_log(Network, File, [mode(append), clock(Epoch, Rate)], Address),
     log_option(Plan, Address, Option).
 
-%   Cut the log back to its Size at the save.  This is done when nothing can
-%   fail any more, as a running network with that name would make it fail; and
-%   before any event.
+%   Truncate the log to its Size at the save.  This happens before any new
+%   event, and only when no step can fail any more: after an error the old log
+%   must still be complete.
 
 log_cut(Options, log(Address, File, Size)) :-
     (   ( memberchk(log(_), Options) ; Address == none )
@@ -140,13 +140,13 @@ log_cut(Options, log(Address, File, Size)) :-
     ;   log_goes_on(File, Size)
     ).
 
-%   Hosts get their former addresses.
+%   Hosts must get their saved addresses, as agents and links refer to them.
 
 hosts_again(Network, P, Terms, clock(Epoch, Rate), log(Log, _, _),
             LogOptions) :-
     findall(host(At, I, Name, Options),
             ( member(host(At, I, Name, Address, Options0), Terms),
-              exclude(is_anew(Log), Options0, Options1),
+              exclude(is_replaced(Log), Options0, Options1),
               port(Address, Port),
               append([clock(Epoch, Rate), port(Port)|LogOptions], Options1,
                      Options) ),
@@ -160,12 +160,12 @@ hosts_again(Network, P, Terms, clock(Epoch, Rate), log(Log, _, _),
         throw(error(existence_error(host, Missing), _))
     ).
 
-is_anew(Log, log(Log)).
-is_anew(Log, log(Log, _)).
-is_anew(_, clock(_, _)).
-is_anew(_, port(_)).
-is_anew(_, journal(_)).
-is_anew(_, sync(_)).
+is_replaced(Log, log(Log)).
+is_replaced(Log, log(Log, _)).
+is_replaced(_, clock(_, _)).
+is_replaced(_, port(_)).
+is_replaced(_, journal(_)).
+is_replaced(_, sync(_)).
 
 port(Address, Port) :-
     address_parts(Address, _, Endpoint),
@@ -176,7 +176,7 @@ fill(Network, P, Kind, Terms) :-
     findall(Item, member(P:Item, Terms), Items),
     node_order(Network, P, fill(Kind, Items), ok).
 
-%   In virtual time the alarms are part of the saved time.
+%   In virtual time the saved state of time includes the alarms.
 
 due_again(Dynamics-Due, Network, Clock, Kind, Shift) :-
     links_again(Dynamics, Network, Clock, Kind, Shift),

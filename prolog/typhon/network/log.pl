@@ -23,18 +23,18 @@
 
 /** <module> The log server
 
-A log server has an address, like a host, and hosts post events to it without
-waiting. It stamps each event with its time of arrival, in host seconds of the
-clock that it was given, and writes it to a file, see module `log_file`.
+A log server has an address, like a host. Hosts post events to it and do not
+wait. The server stamps each event with its time of arrival, in host seconds of
+its clock, and writes it to a file, see module `log_file`.
 
 Hosts post terms event(Log, Host, Agent, What) of kind `log`. Log is the
 address of the server; its name distinguishes servers of one process.
 
-*Threading*: events arrive in the threads of the endpoint, which stamp them and
-pass them on in one step, so the stamps ascend in the file. One thread per
-server writes. Its queue is bounded: senders that are faster than the disk wait
-in the end, and nothing is dropped. The thread flushes the file whenever its
-queue is empty.
+*Threading*: events arrive in the threads of the endpoint. A thread stamps an
+event and queues it under a mutex, so the stamps ascend in the file. One thread
+per server writes. Its queue is bounded: senders that are faster than the disk
+wait, and no event is dropped. The thread flushes the file whenever its queue is
+empty.
 */
 
 :- multifile
@@ -46,7 +46,7 @@ queue is empty.
 
 :- dynamic
     server/4,                   % Name, Writer, File, Clock
-    homeless/1.                 % Name of a missing server that got events
+    missing/1.                  % Name: no such server; reported
 
 %!  log_serve(+Options, -Address) is det.
 %
@@ -89,7 +89,7 @@ start(Name, File, Options, Address) :-
     runtime_acquire(log(Name), EndpointOptions, Endpoint),
     catch(log_writer_start(File, Mode, Absolute, Writer), Error,
           ( runtime_release(log(Name)), throw(Error) )),
-    retractall(homeless(Name)),
+    retractall(missing(Name)),
     assertz(server(Name, Writer, Absolute, Clock)),
     atomic_list_concat([Name, @, Endpoint], Address),
     debug(typhon(network), 'log server ~w writes ~p', [Address, File]).
@@ -119,9 +119,9 @@ typhon_log_file:about_to_read(File) :-
     forall(server(_, Writer, File, _),
            in_own_thread(log_writer_flush(Writer))).
 
-%   Messages that this process posts to itself arrive in order, so a request
-%   that is answered shows that the posts before it have arrived. After its
-%   journal is closed no request is sent.
+%   Messages that this process posts to itself arrive in order, so the answer to
+%   a request shows that the posts before it have arrived. When the journal is
+%   closed no request can be sent.
 
 arrived(Name) :-
     (   server(Name, _, _, _),
@@ -157,10 +157,10 @@ stamp(Name, Host, Agent, What) :-
     Time is round((Now - Epoch) * Rate * 1000000) / 1000000.0,
     ignore(server_cast(Writer, event(Time, Host, Agent, What))).
 stamp(Name, _, _, _) :-
-    homeless(Name),
+    missing(Name),
     !.
 stamp(Name, Host, _, _) :-
-    assertz(homeless(Name)),
+    assertz(missing(Name)),
     print_message(warning, typhon(no_log_server(Name, Host))).
 
                 /*******************************
@@ -195,21 +195,21 @@ log_writer_start(Spec, Mode, File, Writer) :-
 
 %!  log_writer_flush(+Writer) is det.
 %
-%   Return when all earlier events are in the file, unless it cannot be
-%   written; or after five seconds.
+%   Wait until all earlier events are in the file, or have been dropped because
+%   it cannot be written; at most five seconds.
 
 log_writer_flush(Writer) :-
     catch(ignore(server_call(Writer, flush, 5, _)),
           error(existence_error(_, _), _),
-          true).                        % it has ended, and has written all
+          true).                        % Writer has written all, and has ended
 
 :- public written/4.
 
-%   written(+File, +Message, +State0, -State): State is open(Stream, Unsure),
-%   where the last Unsure events may be in memory only; or lost(Count, Again),
-%   where the file could not be written, the server retries at the time Again,
-%   and Count events are lost. The first failure and the recovery are reported,
-%   not each event. The file is flushed when the queue is empty.
+%   written(+File, +Message, +State0, -State): State is open(Stream, Unsure), if
+%   the last Unsure events may be only in memory; or lost(Count, Again), if the
+%   file could not be written, Count events are lost, and the server retries at
+%   the time Again. Only the first failure and the recovery are reported, not
+%   each event. The file is flushed when the queue is empty.
 
 written(File, event(Time, Host, Agent, What), State0, until(0, State)) :-
     write_event(State0, File, event(Time, Host, Agent, What), State).
@@ -225,14 +225,14 @@ flush(open(Stream, Unsure), File, State) :-
     !,
     catch(( flush_output(Stream), State = open(Stream, 0) ),
           error(Formal, Context),
-          broken(Stream, Unsure, File, error(Formal, Context), State)).
+          after_error(Stream, Unsure, File, error(Formal, Context), State)).
 flush(State, _, State).
 
 write_event(open(Stream, Unsure0), File, Event, State) :-
     Unsure is Unsure0+1,
     catch(( log_write(Stream, Event), State0 = open(Stream, Unsure) ),
           error(Formal, Context),
-          broken(Stream, Unsure, File, error(Formal, Context), State0)),
+          after_error(Stream, Unsure, File, error(Formal, Context), State0)),
     (   Unsure mod 1000 =:= 0
     ->  flush(State0, File, State)
     ;   State = State0
@@ -256,7 +256,7 @@ next_try(Again) :-
 
 %   The rest of the buffer must not be written later, in the middle of a line.
 
-broken(Stream, Count, File, Error, lost(Count, Again)) :-
+after_error(Stream, Count, File, Error, lost(Count, Again)) :-
     close(Stream, [force(true)]),
     print_message(error, typhon(log_not_written(File, Error))),
     next_try(Again).

@@ -14,9 +14,9 @@ One fact per line,
 
     event(Time, Host, Agent, What).
 
-The file is plain ASCII, whatever characters the events hold, and needs no
-operators: consult/1 reads it back on every system. log_read/2 reads it line by
-line, so a line cut short by a crash costs only that line.
+The file is plain ASCII for all characters of events, and uses no operators, so
+consult/1 reads it on every system. log_read/2 reads it line by line, so a line
+cut short by a crash costs only that line.
 
 *Threading*: any thread; a stream belongs to one thread.
 */
@@ -25,7 +25,8 @@ line, so a line cut short by a crash costs only that line.
     about_to_read/1,
     prolog:message//1.
 
-%   about_to_read(+File): write all events of this process that are for File.
+%   about_to_read(+File) is a hook: write the pending events of this process
+%   that belong to File.
 
 %!  log_open(+File, +Mode, -Stream) is det.
 %
@@ -48,7 +49,7 @@ log_open(File, Mode, Stream) :-
 
 %!  log_size(+File, -Size) is det.
 %
-%   Size is the size of File in bytes, with all events that have arrived.
+%   Size is the size of File in bytes, including all events that have arrived.
 
 log_size(File, Size) :-
     forall(about_to_read(File), true),
@@ -70,7 +71,7 @@ log_goes_on(File, Size0) :-
           set_end_of_stream(Out) ),
         close(Out)).
 
-%   The last line is incomplete: the server that wrote it was killed.
+%   The last line of File is incomplete: the process that wrote it was killed.
 
 cut_short(File) :-
     size_file(File, Size),
@@ -103,7 +104,7 @@ not_writable(File) :-
 
 %!  log_write(+Stream, +Event) is det.
 %
-%   Write Event.
+%   Write Event as one line.
 
 log_write(Stream, Event) :-
     write_canonical(Stream, Event),

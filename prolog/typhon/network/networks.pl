@@ -37,12 +37,11 @@
 /** <module> Networks of hosts
 
 A network is a set of hosts and the links between them, started and stopped by
-one call. Its hosts live in this process, or in child processes on this machine
-and others. They share a clock, which shows 0 when the hosts are about to
-start.
+one call. Its hosts run in this process, or in child processes on this machine
+and others. They share a clock, which starts at 0 when the hosts start.
 
-Starting is all or nothing: if something fails, the parts that were started are
-stopped again. Stopping works also when a child hangs or has died.
+Starting is all or nothing: after an error the parts that were started are
+stopped. Stopping works also if a child hangs or has died.
 
 *Threading*: any thread may call. A network belongs to the process that started
 it. It uses the threads of modules `children` and `log`, and has none of its
@@ -82,8 +81,8 @@ started(Plan, Kept, Network) :-
 
 %!  network_begin(?Name, +Plan, :Build, -Network) is det.
 %
-%   Build a network by call(Build, Network); undo everything if that fails. The
-%   network has that Name, if it is given and free.
+%   Build a network by call(Build, Network); stop all its parts if that fails.
+%   The network gets Name if that is bound and unused.
 
 network_begin(Name, Plan, Build, Network) :-
     (   atom(Name),
@@ -126,7 +125,8 @@ network_goes_on(Network, Clock) :-
 
 %!  network_change(+Network, +Change) is det.
 %
-%   Change is link(I, J) or unlink(I, J).
+%   Change a link of Network. Change is link(I, J) or unlink(I, J), where I and
+%   J are numbers of hosts.
 
 network_change(Network, Change0) :-
     costs(Network, Costs),
@@ -162,7 +162,7 @@ end(Network) :-
     retractall(network(Network, _)),
     retractall(costs(Network, _)).
 
-%   The contents of a journal are restored when the network is started again.
+%   A journal keeps its contents, which the next start of the network restores.
 
 stop_own(Network) :-
     network(Network, Plan),
@@ -200,8 +200,8 @@ network_clock(Network, Clock) :-
 
 %!  network_standing(+Network, -Standing) is det.
 %
-%   Standing is standing(Plan, Clock, Log, Dynamics), with log(Address, File)
-%   or `none`, and dynamics or `none`.
+%   Standing is standing(Plan, Clock, Log, Dynamics). Log is log(Address, File)
+%   or `none`; Dynamics is the handle of the dynamics, or `none`.
 %
 %   @error existence_error(network, Network)
 
@@ -313,14 +313,14 @@ appointments_at(Network, Time, Goal) :-
 
 %!  appointments(+Network, -Due:list) is det.
 %
-%   Due are the goals that are still to be called: pairs N-Goal.
+%   Due are the pending goals of network_at/3: pairs N-Goal.
 
 appointments(Network, Due) :-
     findall(N-Goal, due(Network, N, Goal), Due).
 
 %!  appointments_again(+Network, +Due:list) is det.
 %
-%   Restore Due, as of appointments/2. The caller sets their alarms, at(N).
+%   Restore Due, see appointments/2. The caller sets their alarms at(N).
 
 appointments_again(Network, Due) :-
     forall(member(N-Goal, Due),

@@ -30,29 +30,29 @@
 
 /** <module> A process that runs hosts of a network
 
-A network gives orders for its hosts: by direct call in its own process, by
-request in a child. One order takes whole lists, so that a network of a
-thousand hosts needs few requests.
+A network gives orders about its hosts: by a call for hosts in its own process,
+by a request for hosts in a child. One order takes whole lists, so that a
+network of a thousand hosts needs few requests.
 
 Module `children` starts a child as `swipl -g node_main node_process.pl`. The
 first line of its standard input is node(Cookie, Interface, StopSeconds, Keys,
-Options). When the endpoint listens, and the contents of its journal, if it has
-one, are restored, it prints one line:
+Options). When the endpoint listens, and the journal, if any, is restored, the
+child prints one line:
 
     typhon_node_process <Interface>:<Port> <Pid>
 
-If that is not possible the line is `typhon_node_process_error <Error>`, and
+If the child cannot start, the line is `typhon_node_process_error <Error>`, and
 the process ends.
 
-From then on orders arrive over the wire, as requests of kind `node`. The
-process stops in order when its standard input ends or on SIGTERM and SIGINT:
-hosts first, then its output is sent. At the latest StopSeconds later it ends,
-even if something hangs.
+After that orders arrive over the wire, as requests of kind `node`. The process
+stops in order when its standard input ends, or on SIGTERM and SIGINT: hosts
+stop first, then the process sends its output. The process ends at most
+StopSeconds later, even if a thread hangs.
 
 *Threading*: order_do/2 in any thread. In a child the main thread carries out
-orders, one after another; the thread of the connection itself answers that the
-process is alive. One thread waits for the end of standard input, and one for
-the order to stop: it makes sure that the process ends.
+orders, one after another; only the order `alive` is answered by the thread of
+the connection. One thread waits for the end of standard input. Another one
+waits for the order to stop, and kills the process if it does not end in time.
 */
 
 :- multifile
@@ -60,8 +60,8 @@ the order to stop: it makes sure that the process ends.
     typhon_endpoint:requested/4.
 
 :- dynamic
-    at_rest/0,                  % agents have had the time to come to rest
-    child/0.                    % this process is one
+    at_rest/0,                  % the order rest(_, _) has been carried out
+    child/0.                    % this process is a child
 
 :- setting(rest_seconds, number, 1,
            "Seconds for agents to come to rest when their network stops").
@@ -75,13 +75,13 @@ the order to stop: it makes sure that the process ends.
 %   Orders and their answers:
 %
 %     - hosts(Specs)
-%       Starts a host for each Name-Options; if one fails, none. Answer is the
-%       list of their addresses.
+%       Starts a host for each Name-Options, or, if one start fails, none.
+%       Answer is the list of their addresses.
 %     - go_on
 %       Resumes the contents of the journal of the process; `ok`.
 %     - stop(Names)
-%       Stops these hosts; `ok`. A host that is gone already is no error. If
-%       they are all hosts, the contents of the journal stay there.
+%       Stops these hosts; `ok`. Ignores hosts that do not exist. If Names are
+%       all hosts of the process, the journal keeps its contents.
 %     - stop
 %       Stops all hosts of the process in the same way; `ok`.
 %     - flush(Seconds, Peers)
@@ -93,20 +93,20 @@ the order to stop: it makes sure that the process ends.
 %     - places(Pairs)
 %       Calls the goal of each Name-Goal in the place of the host; `ok`.
 %     - expect(Endpoints), expect_no_more(Endpoints)
-%       A process at one of Endpoints that ends will be restarted, or no
-%       longer; `ok`.
+%       From now on a process at one of Endpoints that ends will be restarted,
+%       or will not; `ok`.
 %     - neighbours(Names)
-%       Answer is the list of their lists of neighbours; `[]` for a host
-%       that is gone.
+%       Answer is the list of the neighbours of each host, `[]` for a host
+%       that does not exist.
 %     - hold(Seconds)
-%       No agent gets a turn from now on; `ok`, or `late`.
+%       Pauses time: no agent gets a turn; `ok`, or `late`.
 %     - rest(Seconds, Peers)
 %       Waits until no agent runs or is under way, and nothing is queued for
 %       the endpoints Peers; `ok`, or `late`.
 %     - kept(Names)
-%       Answer is kept(Time, Specs, Items): the plans of the runtime, see
-%       time_stands/1, the options of these hosts, Name-Options, and all other
-%       items of the process.
+%       Answer is kept(Time, Specs, Items): the state of time, see
+%       time_stands/1, Name-Options for each of these hosts, and the items of
+%       process_dump/2.
 %     - let_go
 %       Ends hold(_); `ok`.
 %     - again(Specs)
@@ -114,12 +114,12 @@ the order to stop: it makes sure that the process ends.
 %     - fill(Kind, Items)
 %       Restores Items; `ok`.
 %     - goes_on(Kind, Time, Agents)
-%       Restores the plans of the runtime, and resumes Agents; `ok`.
+%       Restores the state of time, and resumes Agents; `ok`.
 %     - agents
-%       Answer is the list of the agents that were born in the process and
+%       Answer is the list of the agents that were created in the process and
 %       have not ended.
 %     - ended(Name)
-%       Answer is the list of those of that name that have ended.
+%       Answer is the list of the ended agents named Name.
 %
 %   @error errors of host_start/2, and of goals of places(Pairs); where such
 %   a goal fails, place_goal_failed(Name, Goal)
@@ -171,7 +171,7 @@ order_do(unlink(Halves), ok) :-
     forall(member(half(Name, Address, _), Halves),
            host_unlink(Name, Address)).
 order_do(places(Pairs), ok) :-
-    forall(member(Name-Goal, Pairs), furnish(Name, Goal)).
+    forall(member(Name-Goal, Pairs), call_in_place(Name, Goal)).
 order_do(expect(Endpoints), ok) :-
     forall(member(Endpoint, Endpoints), contact_expect(Endpoint)).
 order_do(expect_no_more(Endpoints), ok) :-
@@ -197,8 +197,8 @@ addresses(Specs, Addresses) :-
             ( member(Name-_, Specs), host_property(Name, address(Address)) ),
             Addresses).
 
-%   start_all(+Specs, :Start, +Started): if one host fails, stop the others.
-%   Hosts that a journal had before are not stopped.
+%   start_all(+Specs, :Start, +Started): if one host cannot start, stop those
+%   that were started here, but not the hosts that the journal has restored.
 
 start_all([], _, _).
 start_all([Name-Options|Specs], Start, Started0) :-
@@ -213,7 +213,7 @@ start_all([Name-Options|Specs], Start, Started0) :-
         throw(Error)
     ).
 
-furnish(Name, Goal) :-
+call_in_place(Name, Goal) :-
     (   host_do(Name, Goal)
     ->  true
     ;   throw(error(place_goal_failed(Name, Goal), _))
@@ -228,7 +228,7 @@ stop_host(Name) :-
 
 %!  node_main
 %
-%   Never returns: the process ends.
+%   The main goal of a child.  Never returns: the process ends.
 
 node_main :-
     load_platform,
@@ -236,10 +236,10 @@ node_main :-
     set_stream(user_output, encoding(utf8)),
     set_stream(user_output, buffer(line)),
     read_term(user_input, node(Cookie, Interface, Seconds, Keys, Options), []),
-    skip(user_input, 0'\n),     % column of input = column of output
+    skip(user_input, 0'\n),     % resets the column, which input and output share
     setenv('TYPHON_COOKIE', Cookie),
     with_keys(Keys),
-    thread_create(see_to_end(Seconds), _,
+    thread_create(ensure_end(Seconds), _,
                   [alias(typhon_end), detached(true)]),
     on_signal(term, _, typhon_node_process:on_stop_signal),
     on_signal(int, _, typhon_node_process:on_stop_signal),
@@ -255,8 +255,8 @@ node_main :-
     serve,
     stop.
 
-%   Wait for the journal: the process that had it may be about to end, as the
-%   children of a process that has died do.
+%   Wait for the journal: the process that holds it may be about to end, like
+%   the children of a process that has died.
 
 begin(Interface, Seconds, Options) :-
     option(port(Port), Options, 0),
@@ -285,7 +285,8 @@ with_keys(none).
 with_keys(keys(Directory)) :-
     setenv('TYPHON_TLS', Directory).
 
-%   This module loads only what it needs itself: agents need the rest.
+%   Agents need the whole library; this module imports only the modules that it
+%   calls.
 
 load_platform :-
     (   exists_source(library(typhon))
@@ -302,7 +303,7 @@ relative_library(File, Library) :-
 on_stop_signal(_) :-
     thread_send_message(typhon_end, stop).
 
-%   Only the end of standard input is expected.
+%   The parent writes nothing more: wait for the end of standard input.
 
 watch_input :-
     repeat,
@@ -313,7 +314,7 @@ watch_input :-
     hold,
     thread_send_message(typhon_end, stop).
 
-see_to_end(Seconds) :-
+ensure_end(Seconds) :-
     thread_get_message(stop),
     thread_send_message(main, stop),
     thread_self(Me),
@@ -343,7 +344,8 @@ serve :-
         serve
     ).
 
-%   The context of an error may hold terms that cannot be sent: its text can.
+%   The context of an error may hold terms that cannot be sent, so its text is
+%   sent.
 
 answer(Order, Answer) :-
     catch(answer_(Order, Answer), Error, raised(Error, Answer)).
@@ -361,8 +363,8 @@ raised(Error, raised(Formal, Text)) :-
     ;   Formal = system_error(Text)
     ).
 
-%   Children whose parent has died end at the same time: with turns paused, no
-%   agent observes that one of them was faster.
+%   Children whose parent has died end at about the same time.  Time is paused,
+%   so that no agent observes that one of them ended first.
 
 hold :-
     (   output_waits
@@ -378,8 +380,7 @@ come_to_rest :-
     setting(rest_seconds, Seconds),
     ignore(agents_at_rest(Seconds, [])).
 
-%   The contents of a journal are safe, whatever goes wrong with the rest of
-%   the memory.
+%   An error here cannot harm the contents of the journal, which are committed.
 
 stop :-
     (   output_waits

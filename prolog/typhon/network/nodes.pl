@@ -28,12 +28,12 @@
 
 /** <module> The processes of a network, and orders to them
 
-The processes of a network are numbered from 1. Either there is one, this
-process, or each is a child. Orders (see module `node_process`) are done here
-in the first case and are sent over the wire in the second.
+The processes of a network are numbered from 1. Either this process is the only
+one, or each is a child. Orders (see module `node_process`) are carried out here
+in the first case and sent over the wire in the second.
 
-*Threading*: any thread may give orders. The thread that follows a process
-reports its end: as a fact, and to callers that wait for an answer.
+*Threading*: any thread may give orders. The thread that follows a child records
+its end as a fact, and reports it to callers that wait for an answer.
 */
 
 :- multifile
@@ -115,11 +115,12 @@ node_gone(Network, P) :-
 
 %!  node_order(+Network, +P, +Order, -Answer) is det.
 %
-%   Process P does Order.
+%   Process P carries out Order and returns Answer.
 %
-%   @error existence_error(carrier, Network-P) when it is not up, or ends
-%   before it has answered; timeout_error(answer, Network-P); errors of
-%   order_do/2 there
+%   @error existence_error(carrier, Network-P) P is not up, or ends before it
+%   has answered
+%   @error timeout_error(answer, Network-P)
+%   @error the errors of order_do/2 in P
 
 node_order(Network, P, Order, Answer) :-
     up(Network, P, local, _),
@@ -132,8 +133,8 @@ node_order(Network, P, Order, Answer) :-
 
 %!  nodes_order(+Network, +Ps, +Order, +Seconds, -Answers) is det.
 %
-%   As node_order/4, for all processes Ps at the same time: one answer of each,
-%   within Seconds.
+%   As node_order/4, for all processes Ps at the same time. Answers are in the
+%   order of Ps. Each process must answer within Seconds.
 
 nodes_order(Network, [P], Order, _, [Answer]) :-
     up(Network, P, local, _),
@@ -162,13 +163,14 @@ result(late, Node, _) :-
 
 %!  nodes_ask(+Network, +Ps, +Order, +Seconds, :Watch, -Results) is det.
 %
-%   Results are the answers of children Ps, P-Result in order of arrival. While
-%   some have not answered, call(Watch, Those) is called again and again.
-%   Result is a result of endpoint_request/4, `down` or `late`. The endpoint
-%   alone cannot distinguish a dead peer from a peer that will return.
+%   Send Order to the children Ps. Results are pairs P-Result, in the order of
+%   their arrival. Result is a result of endpoint_request/4, `down` if the child
+%   has ended, which the endpoint alone cannot know, or `late`. Before each
+%   second of waiting call(Watch, Waiting) is called with the children that have
+%   not answered.
 
 nodes_ask(Network, Ps, Order, Seconds, Watch, Results) :-
-    functor(Order, What, _),            % options of hosts may contain secrets
+    functor(Order, What, _),            % arguments may contain secrets
     debug(typhon(network), 'processes ~w of ~w: ~w', [Ps, Network, What]),
     deadline(Seconds, Deadline),
     setup_call_cleanup(
@@ -182,16 +184,16 @@ nodes_ask(Network, Ps, Order, Seconds, Watch, Results) :-
 
 %!  nodes_tell(+Network, +Ps, +Order) is det.
 %
-%   Send Order to processes Ps. Never waits.
+%   Send Order to processes Ps, and do not wait for answers.
 
 nodes_tell(Network, Ps, Order) :-
     forall(( member(P, Ps), node(Network, P, _, Where) ),
-           tell(Where, Order)).
+           send_order(Where, Order)).
 
-tell(local, Order) :-
+send_order(local, Order) :-
     !,
     order_do(Order, _).
-tell(Endpoint, Order) :-
+send_order(Endpoint, Order) :-
     endpoint_request(Endpoint, node, Order, typhon_nodes:unwatched).
 
 %!  nodes_peers(+Network, -Peers:list) is det.
@@ -221,7 +223,7 @@ send(Network, P, Order, Queue) :-
 answered(Queue, P, Result) :-
     catch(thread_send_message(Queue, P-Result),
           error(existence_error(_, _), _),
-          true).                % no caller waits any more
+          true).                % the caller has stopped waiting
 
 answers([], _, _, _, []) :-
     !.
@@ -256,7 +258,7 @@ prolog:error_message(existence_error(carrier, Network-P)) -->
 
 %!  deadline(+Seconds, -Deadline) is det.
 %
-%   Deadline is the time stamp in Seconds from now.
+%   Deadline is the stamp of the time Seconds from now.
 
 deadline(Seconds, Deadline) :-
     get_time(Now),
@@ -264,7 +266,7 @@ deadline(Seconds, Deadline) :-
 
 %!  message_before(+Queue, ?Message, +Deadline) is semidet.
 %
-%   Take Message from Queue; fails when there is none before Deadline.
+%   Take Message from Queue. Fails if none arrives before Deadline.
 
 message_before(Queue, Message, Deadline) :-
     get_time(Now),

@@ -39,16 +39,18 @@
 
 A plan is derived from the arguments of network_start/3, and from a seed.
 
-*Threading*: pure, but for the seed that is drawn where none is given.
+*Threading*: pure, except that a seed is drawn if none is given.
 */
 
 :- multifile typhon_options:declared/4.
 
 %!  network_plan(+Topology, +Options, -Plan) is det.
 %
-%   @error domain_error(network_option, Option), domain_error(topology, T),
-%   permission_error(set, network_option, Option): an option about journals
-%   that is not for the whole network, or is given without a journal
+%   Check Options and derive Plan.
+%
+%   @error domain_error(network_option, Option), domain_error(topology, T)
+%   @error permission_error(set, network_option, Option) an option of the
+%   journal is set for single hosts, or without a journal
 
 network_plan(Topology, Options0, plan(Names, Edges, Costs, Options)) :-
     check_options(network_option, Options0),
@@ -65,7 +67,7 @@ network_plan(Topology, Options0, plan(Names, Edges, Costs, Options)) :-
 
 %!  plan_option(+Plan, ?Option) is semidet.
 %
-%   Option was given, or drawn.
+%   Plan has Option: it was given, or, for seed(_), drawn.
 
 plan_option(plan(_, _, _, Options), Option) :-
     option(Option, Options).
@@ -91,7 +93,7 @@ option_type(journal(postgresql(Url)), atom, Url).
 option_type(sync(How), oneof([full, normal]), How).
 option_type(restart(Restart), boolean, Restart).
 
-%   Checks beyond the type of the value.
+%   check_options/2 has checked the types of the values before.
 
 check_option(hosts(Options)) =>
     check_options(host_option, Options).
@@ -215,7 +217,8 @@ plan_time(Plan, Kind) :-
 
 %!  plan_log(+Plan, -File, -Kinds:list) is semidet.
 %
-%   Events are written to File: of Kinds, besides the lives of agents.
+%   Hosts log to File the lives of agents and events of Kinds.  Fails without a
+%   log.
 
 plan_log(Plan, File, Kinds) :-
     plan_option(Plan, log(File, Kinds)),
@@ -225,7 +228,7 @@ plan_log(Plan, File, []) :-
 
 %!  plan_processes(+Plan, -P, -Machines) is det.
 %
-%   P processes run the network, blocks of them on each of Machines.
+%   P processes run the network; each of Machines runs a block of them.
 
 plan_processes(plan(Names, _, _, Options), P, Machines) :-
     (   option(machines([Machine|Rest]), Options)
@@ -240,7 +243,8 @@ plan_processes(plan(Names, _, _, Options), P, Machines) :-
 %!  plan_hosts(+Plan, +P, +Common, -Hosts) is det.
 %
 %   Hosts are terms host(At, I, Name, HostOptions), with the options Common.
-%   Host I of N is in process At = (I-1)*P//N + 1: blocks of nearly one size.
+%   Host I of N is in process At = (I-1)*P//N + 1, so that all processes have
+%   nearly the same number of hosts.
 
 plan_hosts(Plan, P, Common, Hosts) :-
     Plan = plan(Names, _, _, _),
@@ -266,8 +270,8 @@ with_files(_, _, Options, Options).
 
 %!  plan_host_setup(+Plan, -Goals) is det.
 %
-%   Goals are called in the places of hosts when these have started: pairs
-%   I-Goal.
+%   Goals are pairs I-Goal: Goal is called in the place of host I after its
+%   start.
 
 plan_host_setup(Plan, Goals) :-
     Plan = plan(Names, _, _, _),
@@ -308,8 +312,8 @@ plan_links(Plan, Links) :-
 
 %!  plan_links_at(+Plan, +Time, -Links) is semidet.
 %
-%   Links are the links at Time, in host seconds after the start.  Fails where
-%   links do not change.
+%   Links are the links at Time, in host seconds after the start.  Fails for a
+%   network without dynamics.
 
 plan_links_at(Plan, Time, Links) :-
     plan_dynamics(Plan, Time, State),
@@ -323,8 +327,8 @@ links_of(Edges, Plan, Links) :-
 
 %!  plan_costs(+Plan, -Costs) is det.
 %
-%   Costs is the part of Plan with the costs of links: to copy a plan takes
-%   longer than a change of a link.
+%   Costs is the part of Plan that holds the costs of links: copying a whole
+%   plan takes longer than changing a link.
 
 plan_costs(Plan, plan([], [], Costs, Options)) :-
     Plan = plan(_, _, Costs, _),
@@ -334,9 +338,9 @@ plan_costs(Plan, plan([], [], Costs, Options)) :-
 
 %!  plan_change(+Costs, +Change0, -Change) is det.
 %
-%   Change0 is link(I, J) or unlink(I, J).  Change has the cost of the link
-%   besides.  The cost belongs to the pair of hosts: a link that is made again
-%   costs the same.
+%   Change0 is link(I, J) or unlink(I, J).  Change is the same with the cost of
+%   the link as third argument.  The cost belongs to the pair of hosts: a link
+%   that is made again costs the same.
 
 plan_change(Costs, Change0, Change) :-
     Change0 =.. [Action, A, B],
@@ -365,7 +369,8 @@ common_cost(Cost, _, _, Cost).
 
 %!  plan_dynamics(+Plan, +Time, -State) is semidet.
 %
-%   State is the state of its dynamics at Time. Fails if there are none.
+%   State is the state of the dynamics at Time.  Fails for a network without
+%   dynamics.
 
 plan_dynamics(plan(Names, Edges, _, Options), Time, State) :-
     option(dynamic(Spec), Options),
@@ -380,8 +385,8 @@ plan_dynamics(plan(Names, Edges, _, Options), Time, State) :-
 
 %!  plan_journal(+Plan, +P, -Where, -How) is semidet.
 %
-%   Process P has a journal at Where, synced as How says.  Fails without a
-%   journal.
+%   Process P has a journal at Where.  How is `full` or `normal`, as in the
+%   option sync(How).  Fails without a journal.
 
 plan_journal(Plan, P, Part, How) :-
     plan_option(Plan, journal(Where)),
@@ -393,7 +398,7 @@ plan_journal(Plan, P, Part, How) :-
 
 %!  plan_options(+Plan, -Options) is det.
 %
-%   Options are all options that were given, or drawn.
+%   Options are all options of Plan, including a seed that was drawn.
 
 plan_options(plan(_, _, _, Options), Options).
 

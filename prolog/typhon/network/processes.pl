@@ -25,9 +25,10 @@
 
 Module `children` describes the children, `node_process` their orders.
 
-*Threading*: the threads that follow the children report their events: as
-facts, and as messages to a queue on which starting and stopping wait; in
-between, to the server of module `restarts`, if there is one.
+*Threading*: the threads that follow the children report their events as facts,
+and as messages to a queue from which the thread reads that starts or stops the
+network. In between, the messages go to the server of module `restarts`, if
+there is one.
 */
 
 :- multifile
@@ -54,7 +55,7 @@ between, to the server of module `restarts`, if there is one.
     start/4,                    % Network, P, Machine, Interface
     at/3.                       % Network, P, Endpoint: where it listens
 
-%   The most hosts, and the most agents, that a warning names.
+%   A warning names at most so many hosts, and so many agents.
 
 most_named(10).
 
@@ -64,14 +65,14 @@ most_named(10).
 
 %!  nodes_start(+Network, +P, +Machines, +Interface, :Options) is det.
 %
-%   Starts P processes, blocks of them on each of Machines. With `[local]` and
-%   P = 1 the hosts are in this process. Options(P, List) are those of
-%   child_start/6 for each process. If this throws, nodes_stop/1 stops the
-%   processes that were started.
+%   Start P processes; each of Machines runs a block of them. With `[local]` and
+%   P = 1 the hosts run in this process. call(Options, I, List) returns the
+%   options of child_start/6 for process I. After an exception nodes_stop/1
+%   stops the processes that were started.
 %
-%   @error timeout_error(start, Network),
-%   system_error(process_ended(Status)), the error of a child that cannot
-%   start, and as child_start/6
+%   @error timeout_error(start, Network)
+%   @error system_error(process_ended(Status))
+%   @error the error of a child that cannot start, and those of child_start/6
 
 nodes_start(Network, 1, [local], _, _) :-
     !,
@@ -98,8 +99,9 @@ nodes_start(Network, P, Machines, Interface, Options) :-
         )),
     assertz(wanted(Network)).
 
-%   An alarm, as networks are often started in the setup of a cleanup, where a
-%   wait with a deadline of its own would hang: see typhon_own_thread.
+%   Networks are often started in the setup of a cleanup, where a wait with a
+%   deadline may hang, see typhon_own_thread.  So another thread waits and sends
+%   `late`.
 
 alarm(Seconds, Queue) :-
     thread_self(Me),
@@ -125,18 +127,18 @@ event(up(Network-P, Endpoint, Pid)) :-
     node_came(Network, P, Endpoint, Pid),
     retractall(at(Network, P, _)),
     assertz(at(Network, P, Endpoint)),
-    tell(Network, up(P)).
+    notify(Network, up(P)).
 event(failed(Network-P, Error)) :-
-    tell(Network, failed(P, Error)).
+    notify(Network, failed(P, Error)).
 event(down(Network-P, Status)) :-
     (   wanted(Network)
-    ->  is_missed(Network, P, Status)
+    ->  report_lost_process(Network, P, Status)
     ;   true
     ),
     node_went(Network, P, Status),
-    tell(Network, down(P, Status)).
+    notify(Network, down(P, Status)).
 
-is_missed(Network, P, Status) :-
+report_lost_process(Network, P, Status) :-
     restarts_absent(Network, P),
     (   node(Network, P, Pid, Endpoint)
     ->  findall(Name, wired_host(Network, P, Name), Names),
@@ -146,7 +148,7 @@ is_missed(Network, P, Status) :-
     ;   true
     ).
 
-tell(Network, Event) :-
+notify(Network, Event) :-
     queue(Network, Queue),
     restarts_tell(Network, Queue, Event).
 
@@ -170,9 +172,10 @@ wait_up(P, Network, Queue) :-
 
 %!  nodes_restart(+Network, :Options, :Restore) is det.
 %
-%   From now on processes that die are restarted, see module `restarts`, with
-%   the options Options(P, List) and the port that they had; then Restore(P) is
-%   called. Does nothing where the hosts are in this process.
+%   From now on restart processes that die, see module `restarts`. A restarted
+%   process P gets its former port and the options of call(Options, P, List);
+%   then call(Restore, P) is called. Has no effect if the hosts are in this
+%   process.
 
 nodes_restart(Network, Options, Restore) :-
     (   queue(Network, Queue)
@@ -226,15 +229,14 @@ restart(Network, _, _, give_up(P)) :-
 
 %!  nodes_stop(+Network) is det.
 %
-%   Ends the processes that nodes_start/5 began to start: in order if possible,
-%   else by force. This process goes on.
+%   End the child processes of Network: in order if possible, else by force.
 %
-%   First agents are stopped in all children, so that none observes that others
-%   are gone, and children that hang are killed: the others need not wait for
-%   them. Then the hosts of the children stop, and all that they have sent
-%   arrives, for example at the log. Only then do the children end: so none
-%   waits for another that is gone. Where there are journals their contents
-%   stay, and no event reports the end: a child stops its hosts when it ends.
+%   First all children pause their agents, so that no agent observes the end of
+%   another process. Children that hang are killed, so that others need not wait
+%   for them. Then the hosts of the children stop, and their messages arrive,
+%   for example at the log. Only then do the children end, so that none waits
+%   for a child that has ended. With journals the hosts stop only when their
+%   child ends: the journals keep their contents, and no event reports the end.
 
 nodes_stop(Network) :-
     retractall(wanted(Network)),
@@ -260,8 +262,8 @@ nodes_stop(Network) :-
     retractall(at(Network, _, _)),
     nodes_forget(Network).
 
-%   An agent on its way to a dead process, or in a goal that takes longer, does
-%   not come to rest. It stays in that state in a journal.
+%   An agent on its way to a dead process, or in a long goal, does not come to
+%   rest. A journal keeps its last recorded state.
 
 rest_children(Network) :-
     order_children(Network, hold(0), kill_hanging(Network)),
@@ -271,8 +273,8 @@ rest_children(Network) :-
     nodes_ask(Network, Ps, rest(Rest, []), Seconds, kill_hanging(Network),
                  _).
 
-%   One by one: other threads may start children meanwhile. For the fault of
-%   findall/3 with retract/1 see typhon_mailbox.
+%   Facts are retracted one by one, as other threads may add children meanwhile:
+%   typhon_mailbox describes the fault of findall/3 with retract/1.
 
 release_children(Network) :-
     retract(child(Network, _, Child)),
@@ -281,7 +283,7 @@ release_children(Network) :-
     release_children(Network).
 release_children(_).
 
-%   Asked again and again: a child may begin to hang after an answer.
+%   Called repeatedly, as a child may begin to hang after it has answered once.
 
 kill_hanging(Network, Ps) :-
     setting(answer_seconds, Seconds),
@@ -292,7 +294,7 @@ kill_hanging(Network, Ps) :-
     ;   ignore(kill_all(Network, Hanging))
     ).
 
-%   kill_all(+Network, +Ps): fails when not all have ended in time.
+%   kill_all(+Network, +Ps): fails if not all Ps have ended in time.
 
 kill_all(Network, Ps) :-
     forall(( member(P, Ps), child(Network, P, Child) ),
@@ -304,8 +306,8 @@ kill_all(Network, Ps) :-
 children_up(Network, Ps) :-
     findall(P, ( child(Network, P, _), node(Network, P, _) ), Ps).
 
-%   Send Order to all children that are up, watched by Watch. Errors are
-%   ignored: a child that cannot do it is ended later.
+%   Send Order to all children that are up; for Watch see nodes_ask/6. Errors
+%   are only reported: a child that cannot carry out Order ends later.
 
 order_children(Network, Order, Watch) :-
     setting(typhon_children:stop_seconds, Seconds),
@@ -314,8 +316,8 @@ order_children(Network, Order, Watch) :-
     forall(( member(P-Result, Results), Result \== answer(done(ok)) ),
            print_message(warning, typhon(node_order(P, Order, Result)))).
 
-%   The children kill themselves when they cannot end in order within
-%   stop_seconds, so those that are left after that are really stuck.
+%   A child that cannot end in order within stop_seconds kills itself. So
+%   children that are left after that are stuck.
 
 end_children(Network) :-
     setting(typhon_children:stop_seconds, Seconds),
@@ -323,18 +325,19 @@ end_children(Network) :-
     wait_down(Network, Ps, Seconds + 1),
     !.
 end_children(Network) :-
-    findall(P, left(Network, P), Ps),
+    findall(P, remains(Network, P), Ps),
     kill_all(Network, Ps),
     !.
 end_children(Network) :-
-    forall(( left(Network, P), retract(child(Network, P, _)) ),
+    forall(( remains(Network, P), retract(child(Network, P, _)) ),
            print_message(error, typhon(node_stays(Network, P)))).
 
-left(Network, P) :-
+remains(Network, P) :-
     child(Network, P, _),
     \+ node_gone(Network, P).
 
-%   wait_down(+Network, +Ps, +Seconds): fails when one of Ps is left.
+%   wait_down(+Network, +Ps, +Seconds): fails if one of Ps has not ended in
+%   time.
 
 wait_down(Network, Ps, Seconds) :-
     queue(Network, Queue),
@@ -343,7 +346,7 @@ wait_down(Network, Ps, Seconds) :-
 
 await_down(Network, Ps, Queue, Deadline) :-
     (   member(P, Ps),
-        left(Network, P)
+        remains(Network, P)
     ->  message_before(Queue, down(_, _), Deadline),
         await_down(Network, Ps, Queue, Deadline)
     ;   true

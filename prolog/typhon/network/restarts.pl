@@ -17,13 +17,13 @@
 /** <module> Restarts of the processes of a network
 
 A process that dies is restarted at once, but only a limited number of times
-within a time: a process that dies whenever it is started would not benefit
-from more. A process is absent from its death until its hosts are back:
-requests to the whole network wait meanwhile.
+within some time: more restarts would not help a process that dies after each
+start. A process is absent from its death until its hosts are restored.
+Meanwhile requests to the whole network wait.
 
-*Threading*: one server for each such network. It never waits for a child to
-come up: that is a message, as is its end. Callers that wait for an absent
-process do so in threads of their own.
+*Threading*: one server for each such network. The start and the end of a child
+are messages to it, so it never waits for a child. Callers that wait for an
+absent process do so in their own threads.
 */
 
 :- multifile
@@ -43,18 +43,18 @@ process do so in threads of their own.
 
 :- dynamic
     restarter/2,                % Network, Server
-    restoring/2,                % Network, Thread that calls Do(restore(_))
+    restoring/2,                % Network, Thread: calls Do(restore(_))
     absent/2,                   % Network, P
     death/3,                    % Network, P, Time
     waiting/2.                  % Network, Queue: until no process is absent
 
 %!  restarts_begin(+Network, +Queue, :Do) is det.
 %
-%   From now on restarts_tell/3 sends events to the server, after those in
-%   Queue: up(P), down(P, Status) and failed(P, Error). Do(start(P)) starts P
-%   again, Do(restore(P)) restores its hosts when it is up, Do(kill(P)) kills a
-%   process that cannot start, and Do(give_up(P)) is called when P is not
-%   restarted.
+%   Start the server of Network. From now on restarts_tell/3 sends it the events
+%   up(P), down(P, Status) and failed(P, Error); it gets the events in Queue
+%   first. The server calls Do with start(P) to start P again, with restore(P)
+%   to restore the hosts of P when it is up, with kill(P) to kill a process that
+%   does not come up, and with give_up(P) when it will not restart P.
 %
 %   @error resource_error(What) if no thread can be created
 
@@ -64,18 +64,18 @@ restarts_begin(Network, Queue, Do) :-
                  Server),
     with_mutex(typhon_restarts,
                ( assertz(restarter(Network, Server)),
-                 hand_on(Queue, Server) )).
+                 forward_events(Queue, Server) )).
 
-hand_on(Queue, Server) :-
+forward_events(Queue, Server) :-
     (   thread_get_message(Queue, Event, [timeout(0)])
     ->  server_cast(Server, Event),
-        hand_on(Queue, Server)
+        forward_events(Queue, Server)
     ;   true
     ).
 
 %!  restarts_end(+Network) is det.
 %
-%   From now on no process is restarted.
+%   Stop the server of Network: from now on no process is restarted.
 
 restarts_end(Network) :-
     with_mutex(typhon_restarts, retract(restarter(Network, Server))),
@@ -101,7 +101,8 @@ restarts_tell(Network, Queue, Event) :-
                ;   thread_send_message(Queue, Event)
                )).
 
-%   Only a restore is interrupted: it may wait for a process that hangs.
+%   Interrupt a restore, which may wait for a process that hangs, and no other
+%   work of the thread.
 
 interrupt :-
     (   nb_current(typhon_restoring, true)
@@ -110,9 +111,9 @@ interrupt :-
     ;   true
     ).
 
-%   Starting are terms Deadline-P. A server whose thread was replaced finds in
-%   absent/2 the processes that it had started, and in death/3 the earlier
-%   deaths.
+%   The state is state(Network, Do, Starting). Starting are terms Deadline-P. If
+%   the thread of the server was replaced, absent/2 still has the processes that
+%   it was starting, and death/3 the earlier deaths.
 
 handle(begin, state(Network, Do, _), Next) :-
     !,
@@ -140,7 +141,7 @@ start_deadline(Deadline) :-
 
 handled(down(P, _), state(Network, Do, Starting0), State) :-
     not_starting(P, Starting0, Starting),
-    (   once_more(Network, P)
+    (   may_restart(Network, P)
     ->  debug(typhon(network), 'process ~w of ~w is started again',
               [P, Network]),
         catch(ignore(call(Do, start(P))), error(Formal, Context),
@@ -148,13 +149,13 @@ handled(down(P, _), state(Network, Do, Starting0), State) :-
         start_deadline(Deadline),
         State = state(Network, Do, [Deadline-P|Starting])
     ;   State = state(Network, Do, Starting),
-        given_up(P, Network, Do)
+        give_up(P, Network, Do)
     ).
 handled(up(P), state(Network, Do, Starting0), state(Network, Do, Starting)) :-
     not_starting(P, Starting0, Starting),
     (   Starting \== Starting0
     ->  restored(P, Network, Do)
-    ;   true                            % it was up before this server began
+    ;   true                            % P was up before this server began
     ).
 handled(failed(_, Error), State, State) :-
     print_error(error, Error).
@@ -163,7 +164,7 @@ handled(timeout, state(Network, Do, Starting0), state(Network, Do, Starting)) :-
     not_starting(P, Starting0, Starting),
     ignore(call(Do, kill(P))).
 
-given_up(P, Network, Do) :-
+give_up(P, Network, Do) :-
     setting(restarts, Most),
     setting(restart_seconds, Seconds),
     print_message(error, typhon(node_given_up(Network, P, Most, Seconds))),
@@ -176,9 +177,10 @@ not_starting(P, Starting0, Starting) :-
     ;   Starting = Starting0
     ).
 
-%   once_more(+Network, +P): fails if P has died too often.
+%   may_restart(+Network, +P): record a death of P; fails if P has died too
+%   often.
 
-once_more(Network, P) :-
+may_restart(Network, P) :-
     get_time(Now),
     setting(restart_seconds, Seconds),
     setting(restarts, Most),
@@ -189,8 +191,8 @@ once_more(Network, P) :-
     Count < Most,
     assertz(death(Network, P, Now)).
 
-%   A process that is up but cannot be restored is useless: it is treated as if
-%   it had died.
+%   A process that is up but cannot be restored is useless, so it is killed,
+%   which counts as another death.
 
 restored(P, Network, Do) :-
     (   catch(restore(Network, Do, P), Ball, not_restored(Ball))
@@ -205,8 +207,8 @@ restore(Network, Do, P) :-
                        restore_p(Network, Do, P),
                        retractall(restoring(Network, Me))).
 
-%   A thread that ends the network after this check finds this thread in
-%   restoring/2.
+%   No race with the end of the network: a thread that ends it after this check
+%   finds this thread in restoring/2, and interrupts it.
 
 restore_p(Network, Do, P) :-
     nb_setval(typhon_restoring, true),
@@ -220,7 +222,7 @@ not_restored(stop_restoring) :-
     !.
 not_restored(error(existence_error(carrier, _), _)) :-
     !,
-    fail.                               % it has died again
+    fail.                               % the process has died again
 not_restored(Ball) :-
     nb_setval(typhon_restoring, false),
     print_error(error, Ball),
@@ -232,7 +234,7 @@ not_restored(Ball) :-
 
 %!  restarts_absent(+Network, +P) is det.
 %
-%   P has died, and is absent, if the processes of Network are restarted.
+%   P has died: record it as absent, if the processes of Network are restarted.
 
 restarts_absent(Network, P) :-
     (   restarter(Network, _),
@@ -255,8 +257,8 @@ tell_waiting(Network) :-
 
 %!  restarts_back(+Network) is det.
 %
-%   Wait until no process of Network is absent, at most as long as an order may
-%   take.
+%   Wait until no process of Network is absent, but at most the setting
+%   `typhon_processes:order_seconds`.
 
 restarts_back(Network) :-
     absent(Network, _),

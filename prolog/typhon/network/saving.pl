@@ -25,8 +25,8 @@
 
 /** <module> Restore points of whole networks
 
-All processes are held; then each returns its state, and is released.  The file
-is written after that.  Module `loading` loads it.
+All processes pause; then each returns its state, and resumes.  The file is
+written after that.  Module `loading` loads it.
 
 A file has one clause per line, in canonical text:
 
@@ -34,8 +34,9 @@ A file has one clause per line, in canonical text:
     ...
     end(Sum).
 
-Sum is the SHA-256 of all lines before.  The file gets its name when it is
-complete: an old file of that name stays until then.
+Sum is the SHA-256 of all lines before it.  The file is written under a
+temporary name and renamed when it is complete; an old file of its name stays
+until then.
 
 *Threading*: any thread, also that of virtual time, for goals of network_at/3.
 */
@@ -56,8 +57,8 @@ save_network(Network, File) :-
     network_standing(Network, Standing),
     once(one_at_a_time(save(Network, Standing, File))).
 
-%   In virtual time calls are serialized anyway, and the thread of virtual time
-%   may be one of the callers.
+%   In virtual time no mutex is needed, as holding time serializes calls; and
+%   the thread of virtual time may be a caller, which must not wait for a mutex.
 
 :- meta_predicate one_at_a_time(0).
 
@@ -75,7 +76,7 @@ save(Network, Standing, File) :-
     restarts_back(Network),
     setup_call_cleanup(
         true,
-        cut(Network, Ps, Standing, Terms),
+        collect_state(Network, Ps, Standing, Terms),
         let_go(Network, Ps)),
     saved_write(File, Terms).
 
@@ -96,10 +97,10 @@ not_shared(Network) :-
     permission_error(save, host, Address).
 not_shared(_).
 
-carried_here(Network) :-
+runs_here(Network) :-
     node(Network, _, _, local).
 
-cut(Network, Ps, Standing, Terms) :-
+collect_state(Network, Ps, Standing, Terms) :-
     setting(hold_seconds, Seconds),
     get_time(Now),
     Deadline is Now+Seconds,
@@ -112,15 +113,16 @@ cut(Network, Ps, Standing, Terms) :-
                 *           HOLDING            *
                 *******************************/
 
-%   When no agent gets a turn, and running turns have ended, a message may
-%   still be on its way.  It is forwarded from process to process, each time to
-%   a later location of its agent: so through each of them at most once.
+%   When no agent gets a turn, and running turns have ended, a message may still
+%   be on its way.  Each forwarding leads it to a later location of its agent,
+%   so it passes each process at most once.  Hence one round of flushes for each
+%   process suffices.
 
 hold(Network, Ps, Deadline) :-
     hold_here(Network),
     all_do(Network, Ps, hold, Deadline),
     all_do(Network, Ps, rest([]), Deadline),
-    (   carried_here(Network)
+    (   runs_here(Network)
     ->  true
     ;   nodes_peers(Network, Peers),
         forall(member(_, [here|Ps]),
@@ -128,18 +130,18 @@ hold(Network, Ps, Deadline) :-
                  all_do(Network, Ps, rest(Peers), Deadline) ))
     ).
 
-%   Links and appointments belong to this process, also where hosts are in
+%   Dynamics and appointments run in this process, also if the hosts run in
 %   others.
 
 hold_here(Network) :-
-    carried_here(Network),
+    runs_here(Network),
     !.
 hold_here(_) :-
     order_do(hold(0), ok).
 
 let_go(Network, Ps) :-
     nodes_tell(Network, Ps, let_go),
-    (   carried_here(Network)
+    (   runs_here(Network)
     ->  true
     ;   order_do(let_go, ok)
     ).
@@ -157,7 +159,7 @@ order(hold, Seconds, hold(Seconds)).
 order(rest(Peers), Seconds, rest(Seconds, Peers)).
 order(flush(Peers), Seconds, flush(Seconds, Peers)).
 
-%   The processes get a little longer to report that they are late.
+%   The processes get one more second to report that they are late.
 
 answers(Network, Ps, Order, Deadline, Answers) :-
     seconds_to(Deadline, Seconds0),
@@ -172,8 +174,8 @@ seconds_to(Deadline, Seconds) :-
                 *          THE STATE           *
                 *******************************/
 
-%   about(+Network, +Standing, +Deadline, -About): the part of the state that
-%   only this process has.
+%   about(+Network, +Standing, +Deadline, -About): About is the part of the
+%   state that only this process has.
 
 about(Network, standing(Plan, Clock, Log0, Dynamics0), Deadline,
       [network(Network, Plan), clock(Now, Clock), Log, Dynamics|Due]) :-
@@ -199,7 +201,7 @@ dynamics(Dynamics, Deadline, Network, dynamics(Dynamics, Stamp, Then)) :-
     ;   throw(error(timeout_error(save, Network), _))
     ).
 
-%   An alarm that has just gone off, and has not been handled, is due at once.
+%   An alarm that has fired, but has not been handled, is due at once.
 
 due(Owner, Token, Stamp) :-
     (   time_due(Owner, Token, Stamp0)
@@ -207,7 +209,7 @@ due(Owner, Token, Stamp) :-
     ;   Stamp = 0
     ).
 
-%   part(+Network, +Deadline, +P, -Terms): the state of process P.
+%   part(+Network, +Deadline, +P, -Terms): Terms are the state of process P.
 
 part(Network, Deadline, P, [time(P, Time)|Terms]) :-
     wired(Network, Hosts),
@@ -243,18 +245,18 @@ saved_write(Spec, Terms) :-
             rename_file(New, File) ),
           Ball,
           ( catch(delete_file(New), error(_, _), true),
-            blamed(File, New, Ball, Told),
+            names_file(File, New, Ball, Told),
             throw(Told) )).
 
-%   Errors name File, as New is only a temporary name.
+%   Errors name File in place of its temporary name New.
 
-blamed(File, New, error(Formal0, Context), error(Formal, Context)) :-
+names_file(File, New, error(Formal0, Context), error(Formal, Context)) :-
     Formal0 =.. Parts0,
     append(Kind, [New], Parts0),
     !,
     append(Kind, [File], Parts),
     Formal =.. Parts.
-blamed(_, _, Ball, Ball).
+names_file(_, _, Ball, Ball).
 
 header(typhon_saved(Version, Prolog, Platform)) :-
     format_version(Version),
@@ -281,10 +283,12 @@ sum_of(Bytes, Sum) :-
 
 %!  saved_read(+File, -Terms:list) is det.
 %
+%   Terms are the saved terms, without the header.
+%
 %   @error existence_error(source_sink, File)
-%   @error network_damaged(File, Why): why it is no saved network, or
-%          `cut_short`, `changed`
-%   @error network_version(File, Version): written by another version
+%   @error network_damaged(File, Why) Why is `no_network`, `cut_short` or
+%   `changed`
+%   @error network_version(File, Version) the file has another format
 
 saved_read(Spec, Terms) :-
     absolute_file_name(Spec, File),

@@ -33,13 +33,12 @@ A topology is a term. Its hosts are numbered from 1, its edges are pairs
   - edges(List): as listed, pairs A-B of positive integers or atoms, or
     A-B-cost(C) where the link costs C
 
-In random(N, P) every pair of hosts is linked with probability P. If the
-network is then in pieces, each piece is linked to the one before it by one
-link between hosts drawn from the two, as an agent that starts in a piece of a
-network would never see the rest of it. Above P = ln(N)/N this is rarely
-necessary.
+In random(N, P) every pair of hosts is linked with probability P. If the network
+is not connected, each component is linked to the one before it, by one link
+between hosts drawn from the two: otherwise an agent could never leave the
+component in which it starts. Above P = ln(N)/N this is rarely necessary.
 
-Host I is named `n<I>`. In edges(List) integer I stands for `n<I>` too, an atom
+Host I is named `n<I>`. In edges(List) integer I stands for `n<I>`, too, an atom
 for the host of that name, and hosts are numbered in the order in which the
 list first names them.
 
@@ -48,8 +47,8 @@ list first names them.
 
 %!  topology_edges(+Topology, +Seed:integer, -N, -Edges) is det.
 %
-%   Topology has N hosts and the links Edges. Only random(_,_) draws on
-%   Seed; the same Seed gives the same Edges.
+%   Topology has N hosts and the links Edges. Only random(_,_) depends on Seed;
+%   the same Seed gives the same Edges.
 %
 %   @error type_error(Type, X), domain_error(topology, Topology),
 %   domain_error(probability, P), domain_error(edge, A-A)
@@ -76,7 +75,7 @@ topology_edges(Topology, Seed, N, Edges) :-
 
 %!  topology_names(+Topology, -Names:list(atom)) is det.
 %
-%   The name of each host, in the order of their numbers.
+%   Names are the names of the hosts, in the order of their numbers.
 %
 %   @error as topology_edges/4
 
@@ -125,8 +124,8 @@ numbered_names(N, Names) :-
 
 %!  topology_costs(+Topology, -Costs) is det.
 %
-%   Costs are the costs of links in Topology, pairs (I-J)-Cost with I < J, each
-%   edge once.
+%   Costs are the costs that Topology lists: pairs (I-J)-Cost with I < J, each
+%   edge at most once.
 %
 %   @error as topology_edges/4
 
@@ -213,7 +212,7 @@ draw_edge(P, Edge, Edges0-Chance0, Edges-Chance) :-
     ;   Edges = Edges0
     ).
 
-%   pieces(+Hosts, +Edges, -Pieces): the connected components.
+%   pieces(+Hosts, +Edges, -Pieces): Pieces are the connected components.
 
 pieces(Hosts, Edges, Pieces) :-
     findall(J-I, member(I-J, Edges), Back),

@@ -26,12 +26,12 @@
 
 /** <module> The hosts of a network and the links between them
 
-Records for each host its number, name, address and process, and gives the
-processes orders about hosts and links.
+The module records for each host its number, name, address and process, and
+gives the processes orders about hosts and links.
 
 *Threading*: wire_change/2 runs in the worker that applies the dynamics,
-concurrently with callers that ask for properties; wire_again/5 runs in that of
-module `restarts`, and never concurrently with a change.
+concurrently with callers that query properties; wire_again/5 runs in the server
+of module `restarts`.  A mutex excludes changes while wire_again/5 makes links.
 */
 
 :- meta_predicate wire_resting_own(+, 0).
@@ -55,9 +55,9 @@ typhon_names:known(host, Address) :-
 
 %!  wire_hosts(+Network, +P, +How, +Hosts) is det.
 %
-%   Starts Hosts, terms host(At, I, Name, Options), At one of the processes
-%   1..P. Each process gets one order, named How: `hosts`, or `again` for hosts
-%   that existed before.
+%   Start Hosts, terms host(At, I, Name, Options), where At is one of the
+%   processes 1..P. Each process gets one order, named How: `hosts`, or `again`
+%   for hosts that existed before.
 %
 %   @error as node_order/4
 
@@ -78,15 +78,15 @@ order_hosts(Network, P, How, Hosts, Addresses) :-
 
 %!  wire_links(+Network, +P, +Links) is det.
 %
-%   Makes Links, terms link(I, J, Cost). Each of the processes 1..P gets one
-%   order for all the ends of links in it.
+%   Make Links, terms link(I, J, Cost). Each of the processes 1..P gets one
+%   order for all ends of links at its hosts.
 
 wire_links(Network, P, Links) :-
     order_links(Network, P, link, Links).
 
 %!  wire_instead(+Network, +P, +Links) is det.
 %
-%   As wire_links/3, and removes all other links.
+%   As wire_links/3, but also remove all other links.
 
 wire_instead(Network, P, Links) :-
     numbered_edges(Network, Edges),
@@ -117,7 +117,7 @@ wire_go_on(Network, P) :-
 
 %!  wire_goals(+Network, +P, +Goals) is det.
 %
-%   Calls Goals, pairs I-Goal, in the places of hosts I.
+%   Call each Goal of Goals, pairs I-Goal, in the place of host I.
 %
 %   @error as node_order/4
 
@@ -135,9 +135,9 @@ order_goals(Network, P, Goals) :-
 
 %!  wire_again(+Network, +P, +Hosts, +Links, +Goals) is det.
 %
-%   Process P was restarted: start its hosts of Hosts again, and make its links
-%   of Links, but those that have changed meanwhile as they are now; then call
-%   Goals.
+%   Process P was restarted: start those of Hosts that belong to P, make its
+%   links, and call those of Goals that belong to P. Links are the initial
+%   links; later changes apply to them.
 %
 %   @error as node_order/4
 
@@ -170,8 +170,8 @@ half_link(Network, Link, P, half(Name, Address, Cost)) :-
 
 %!  wire_change(+Network, +Change) is det.
 %
-%   Change is link(I, J, Cost) or unlink(I, J, _). A process that is down is
-%   skipped: it was reported when it went down.
+%   Change a link of Network. Change is link(I, J, Cost) or unlink(I, J, _). A
+%   process that is down is skipped without a warning: its end was reported.
 
 wire_change(Network, Change) :-
     with_mutex(typhon_wiring, change(Network, Change)).
@@ -192,7 +192,8 @@ alive_order(Network, P, Order, Answer) :-
 alive_order(_, _, _, none).
 
 %   present_order(+Network, +P, +Order, -Answer): fails for a process that is
-%   down for good. A process that dies may be back in a moment.
+%   not restarted. A process that dies while it has the order gets a second
+%   chance, as it may be restarted.
 
 present_order(Network, P, Order, Answer) :-
     between(1, 2, _),
@@ -208,7 +209,8 @@ one_node(Network, P) :-
 
 %!  wire_stop_own(+Network) is det.
 %
-%   Stops the hosts in this process; those of children end with them.
+%   Stop the hosts in this process.  The hosts of children end with their
+%   processes.
 
 wire_stop_own(Network) :-
     current_prolog_flag(pid, Pid),
@@ -220,9 +222,9 @@ wire_stop_own(Network) :-
 
 %!  wire_resting_own(+Network, :Goal) is semidet.
 %
-%   As once(Goal), which stops the hosts in this process, if there are any.
-%   Meanwhile no agent runs here, so that none observes that others are gone.
-%   In virtual time no agent runs anyway.
+%   Call once(Goal), which stops the hosts in this process, if there are any.
+%   Meanwhile no agent runs here, so that no agent observes that others are
+%   gone. In virtual time no agent runs then anyway.
 
 wire_resting_own(Network, Goal) :-
     current_prolog_flag(pid, Pid),
@@ -239,6 +241,8 @@ rest(Network, P) :-
     node_order(Network, P, rest(Seconds, []), _).
 
 %!  wire_forget(+Network) is det.
+%
+%   Delete the records of the hosts and links of Network.
 
 wire_forget(Network) :-
     retractall(host(Network, _, _, _, _)),
@@ -246,7 +250,7 @@ wire_forget(Network) :-
 
 %!  wired(+Network, -Hosts) is det.
 %
-%   Hosts are terms host(P, I, Name, Address), by number.
+%   Hosts are terms host(P, I, Name, Address), in the order of I.
 
 wired(Network, Hosts) :-
     findall(I-host(P, I, Name, Address), host(Network, I, Name, P, Address),
@@ -263,7 +267,7 @@ wired_host(Network, P, Name) :-
 
 %!  wired_hosts(+Network, -Addresses) is det.
 %
-%   Addresses of the hosts, in the order of their numbers.
+%   Addresses are those of the hosts, in the order of their numbers.
 
 wired_hosts(Network, Addresses) :-
     findall(I-Address, host(Network, I, _, _, Address), Pairs),
@@ -272,8 +276,8 @@ wired_hosts(Network, Addresses) :-
 
 %!  wired_edges(+Network, -Edges) is det.
 %
-%   Edges are the present links between hosts of Network, pairs of addresses,
-%   by number. Links that only hosts in a process that is down have are
+%   Edges are the present links between hosts of Network: pairs of addresses, in
+%   the order of the numbers. Links between hosts whose processes are down are
 %   missing.
 
 wired_edges(Network, Edges) :-
@@ -302,8 +306,8 @@ half_edge(Network, I-J) :-
 
 %!  wired_agents(+Network, -Agents) is det.
 %
-%   Agents were born on hosts of Network and have not ended. Those born in a
-%   process that is down are missing.
+%   Agents were created on hosts of Network and have not ended. Agents created
+%   in a process that is down are missing.
 
 wired_agents(Network, Agents) :-
     findall(Agent,
@@ -316,8 +320,8 @@ wired_agents(Network, Agents) :-
 
 %!  wired_ended(+Network, +Name, -Agents) is det.
 %
-%   Agents of that Name that were born on hosts of Network in other processes
-%   and have ended, as far as these processes remember them.
+%   Agents are the ended agents named Name that were created on hosts of Network
+%   in other processes, as far as these processes remember them.
 
 wired_ended(Network, Name, Agents) :-
     findall(Agent,
