@@ -2,10 +2,10 @@
 
 /** <module> The common part of bridges
 
-A bridge makes something outside, a broker or a middleware, a service of the
-place of a host: agents on it find predicates, and incoming data reach them as
-messages or as facts.  This is the interface of the layer.  A bridge `echo` in
-outline:
+A bridge makes an external system, such as a broker or a middleware, a service
+of the place of a host.  Agents on the host call its predicates, and incoming
+data reach them as messages or as facts.  This is the interface of the layer.  A
+bridge `echo` in outline:
 
     % echo_start(Host, What, Options), see typhon_starting, comes here
     typhon_starting:starts(echo, Host, What, Options) :-

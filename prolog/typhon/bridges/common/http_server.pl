@@ -29,16 +29,16 @@ Servers of library(http/thread_httpd) do not bound the head of a request, and
 their timeouts apply to one wait, not to a whole request.  So this module has
 its own threads, heads and bodies; the library parses a head from memory.
 
-Each client has a thread, up to a bound.  At the bound, a new client displaces
-one that has not sent a whole request: of the address that has most connections;
-among these, one between two requests before one in the middle of a request;
-among these, the oldest.  So half requests can hold connections only while no
-other client needs them, and clients of one address do not displace those of
-others that have fewer.  If every client is being served, the new one is
-refused.
+Each client has a thread, up to a maximum.  At the maximum, a new client
+displaces a client that has not sent a whole request.  It is chosen among the
+clients of the address with most connections; there, a client between two
+requests before a client in the middle of a request; and among these, the
+oldest.  So incomplete requests occupy connections only while no other client
+needs them, and clients of one address do not displace those of an address with
+fewer.  If every client is being served, the new one is refused.
 
-The threads of one owner, a crew, are ended and joined with it; a thread that
-ends earlier is joined at that time.
+The threads of one owner are a crew, which ends with its owner.  A thread of a
+crew that ends earlier is detached.
 
 *Threading*: an acceptor, and a thread for each client.
 */
@@ -54,12 +54,12 @@ ends earlier is joined at that time.
 %!  http_server_open(+Server, +Address, +Most, :Serve) is det.
 %!  http_server_close(+Server) is det.
 %
-%   From now on call(Serve, In, Out) serves each client that connects to
-%   Address, Interface:Port, at most Most at a time, on byte streams that are
+%   Start Server, a ground term, at Address, Interface:Port.  For each client,
+%   at most Most at a time, call(Serve, In, Out) runs on byte streams, which are
 %   closed afterwards.  Serve reports its progress by client_becomes/1; a new
-%   client is `reading`.  In is `none` for a client that is to be refused: then
-%   Serve runs in the acceptor and must not wait.  http_server_close/1 ends all
-%   threads of Server, a ground term.
+%   client is `reading`.  For a client to be refused In is `none`: then Serve
+%   runs in the acceptor and must not wait.  http_server_close/1 ends all
+%   threads of Server.
 %
 %   @error socket_error(Code, Message)
 
@@ -78,8 +78,8 @@ http_server_open(Server, Interface:Port, Most, Serve) :-
           ( tcp_close_socket(Socket), throw(Ball) )),
     assertz(listens(Server, Socket)).
 
-%   Processes that are started later must not inherit the socket: the port would
-%   be in use for as long as they run.
+%   A process that is started later must not inherit the socket: it would occupy
+%   the port as long as it runs.
 
 close_on_exec(Socket) :-
     tcp_open_socket(Socket, Stream),
@@ -116,7 +116,7 @@ admit(Server, Client, Ip, Most, Serve) :-
     ->  functor(Server, Name, _),
         catch(crew_start(Server, Name,
                          typhon_http_server:serve(Server, Ip, Serve, In, Out),
-                         typhon_http_server:left(In, Out)),
+                         typhon_http_server:client_ended(In, Out)),
               error(_, _),
               send_away(Serve, In, Out))
     ;   send_away(Serve, In, Out)
@@ -148,16 +148,21 @@ serve(Server, Ip, Serve, In, Out) :-
     catch(ignore(call(Serve, In, Out)), error(Formal, _),
           debug(typhon(clients), '~w: a client goes: ~p', [Server, Formal])).
 
-left(In, Out) :-
+client_ended(In, Out) :-
     thread_self(Me),
     retractall(client(_, Me, _, _, _)),
     close_streams(In, Out).
 
 %!  client_becomes(+State) is semidet.
 %
-%   The client of this thread is `idle`, between two requests; `reading` one;
-%   `busy`, being served; or `apart`, not counted any more.  Fails if it has
-%   been displaced.
+%   Set the state of the client of this thread:
+%
+%     - `idle`: between two requests
+%     - `reading`: in the middle of a request
+%     - `busy`: being served
+%     - `apart`: no longer counted, nor displaced
+%
+%   Fails if the client has been displaced.
 
 client_becomes(State) :-
     sig_atomic(becomes(State)).
@@ -209,6 +214,8 @@ give_way :-
                 *******************************/
 
 %!  http_deadline(+Seconds, -Deadline) is det.
+%
+%   Deadline is the time stamp Seconds from now.
 
 http_deadline(Seconds, Deadline) :-
     get_time(Now),
@@ -216,8 +223,8 @@ http_deadline(Seconds, Deadline) :-
 
 %!  http_before(+Deadline, +In) is det.
 %
-%   Reading of the next byte fails after Deadline; with `none` the caller limits
-%   the time.
+%   Set the timeout of In to the time left until Deadline.  With `none` the
+%   caller limits the time.
 %
 %   @error timeout_error(read, In)
 
@@ -233,7 +240,8 @@ http_before(Deadline, In) :-
 
 %!  http_head(+In, +Most, +Deadline, -Bytes:list) is semidet.
 %
-%   Bytes are all up to and including an empty line.  Fails at the end of In.
+%   Bytes are the head of a request: all bytes up to and including an empty
+%   line. Fails at the end of In.
 %
 %   @error resource_error(http_head) if there are more than Most bytes,
 %   timeout_error(read, In)
@@ -284,10 +292,10 @@ with_bytes(Write, In, Goal) :-
 
 %!  crew_start(+Owner, +Role:atom, :Goal, :Release) is det.
 %
-%   Run Goal in a new thread, and Release when the thread ends, even if it has
-%   not reached Goal.
+%   Run Goal in a new thread of the crew of Owner.  Release runs when the thread
+%   ends, even if it has not reached Goal.
 %
-%   @error resource_error(threads) or the like
+%   @error the errors of thread_create/3
 
 crew_start(Owner, Role, Goal, Release) :-
     flag(typhon_crew, Number, Number+1),
@@ -306,18 +314,19 @@ work(Goal) :-
         catch(( thread_get_message(crew_begin),
                 ignore(Goal) ),
               Ball,
-              told(Ball)),
+              report_end(Ball)),
         ended).
 
-told(crew_end) :-
+report_end(crew_end) :-
     !.
-told(Ball) :-
+report_end(Ball) :-
     is_abort(Ball),
     !.
-told(Ball) :-
+report_end(Ball) :-
     print_message(error, Ball).
 
-%   The thread that retracts the fact detaches or joins the thread.
+%   Exactly one thread retracts the fact, and that one detaches or joins the
+%   thread.
 
 ended :-
     thread_self(Me),
@@ -328,7 +337,7 @@ ended :-
 
 %!  crew_end(+Owner) is det.
 %
-%   End all threads of Owner, also busy ones.
+%   End and join all threads of the crew of Owner, also busy ones.
 
 crew_end(Owner) :-
     in_own_thread(typhon_http_server:end_all(Owner)).

@@ -12,14 +12,15 @@
 
 /** <module> Incoming messages of services, and dropped ones
 
-A message for an agent is put in its mailbox if fewer than Max messages wait
-there.  Others are dropped and counted, and when half of the queue is free
-again, or the next message fits, the agent first gets Service-dropped(Key,
-Count). Facts are treated in the same way, but the fact Service-dropped(Key,
-Count) has the count of all dropped facts.
+A message for an agent goes to its mailbox if fewer than Max messages wait
+there.  Otherwise it is dropped and counted: there is a gap.  When half of the
+mailbox is free again, or the next message fits, the agent first gets
+Service-dropped(Key, Count).  Facts are treated in the same way, but the fact
+Service-dropped(Key, Count) has the count of all dropped facts.
 
-*Threading*: the thread that reads incoming messages calls inbox_put/4.  While
-there are gaps, the thread that runs an agent reports that it takes a message.
+*Threading*: the thread that reads incoming messages calls inbox_put/4.  While a
+host has gaps, the threads that run its agents report each message that an agent
+takes.
 */
 
 :- multifile
@@ -32,13 +33,14 @@ there are gaps, the thread that runs an agent reports that it takes a message.
 
 %!  inbox_put(+How, +Source, +Whom, +What) is semidet.
 %
-%   How is how(As, Max), Source is Service-Key, Whom Host-Agent and What
-%   Message-Same, as of subscribers_tell/5.  Fails if Agent is not on Host.
+%   Deliver a message or fact.  How is how(As, Max), Source is Service-Key, Whom
+%   is Host-Agent and What is Message-Same, see subscribers_tell/5.  Fails if
+%   Agent is not on Host.
 
 inbox_put(how(message, Max), Service-Key, Host-Agent, Message-_) =>
     Gap = gap(Agent, Service, Key, Host, Max),
     gap_taken(Gap, Count),
-    told_first(Count, Service, Key, Messages, [Service-Message]),
+    prepend_dropped(Count, Service, Key, Messages, [Service-Message]),
     with_agent(Agent, put(Agent, Host, Max, Messages, Done)),
     done(Done, Gap, Count),
     (   Done == full
@@ -64,10 +66,10 @@ inbox_put(how(latest, Max), Service-Key, Host-Agent, Message-Same) =>
                 *           MESSAGES           *
                 *******************************/
 
-told_first(0, _, _, Messages, Messages) :-
+prepend_dropped(0, _, _, Messages, Messages) :-
     !.
-told_first(Count, Service, Key, [Service-dropped(Key, Count)|Messages],
-           Messages).
+prepend_dropped(Count, Service, Key, [Service-dropped(Key, Count)|Messages],
+                Messages).
 
 put(Agent, Host, Max, Messages, Done) :-
     agent(Agent, Host, _, _, _),
@@ -82,7 +84,7 @@ put(Agent, Host, Max, Messages, Done) :-
 done(put, Gap, Count) :-
     (   Count =:= 0
     ->  true
-    ;   with_mutex(typhon_inbox, unheard(Gap))
+    ;   with_mutex(typhon_inbox, stop_listening(Gap))
     ).
 done(full, Gap, Count0) :-
     Count is Count0+1,
@@ -92,7 +94,8 @@ done(full, Gap, Count0) :-
                 *             GAPS             *
                 *******************************/
 
-%   A thread that takes a gap reports it, or puts it back.
+%   gap_taken(+Gap, -Count): remove the gap and return its count.  The caller
+%   must report the gap or restore it.
 
 gap_taken(gap(Agent, Service, Key, Host, Max), Count) :-
     (   gap(Agent, Service, _, _, _, _, _),
@@ -111,7 +114,7 @@ add(gap(Agent, Service, Key, Host, Max), Count) :-
     inbox_key(Key, Text),
     assertz(gap(Agent, Service, Text, Host, Max, Count, Key)).
 
-unheard(gap(_, _, _, Host, _)) :-
+stop_listening(gap(_, _, _, Host, _)) :-
     (   gap(_, _, _, Host, _, _, _)
     ->  true
     ;   events_unheard(inbox(Host))
@@ -119,8 +122,8 @@ unheard(gap(_, _, _, Host, _)) :-
 
 %!  inbox_key(+Key, -Text:atom) is det.
 %
-%   Tables that threads share are indexed by atoms: an index on compound terms
-%   is not safe, see typhon_agents.
+%   Text is Key as an atom, for tables that threads share: an index on compound
+%   terms is not safe there, see typhon_agents.
 
 inbox_key(Key, Key) :-
     atom(Key),
@@ -130,14 +133,14 @@ inbox_key(Key, Text) :-
 
 %!  gap_forget(+Service, +Key, +Agent) is det.
 %
-%   Agent is not subscribed any more.
+%   Agent is no longer subscribed: drop its gap.
 
 gap_forget(Service, Key, Agent) :-
     Gap = gap(Agent, Service, Key, _, _),
     gap_taken(Gap, Count),
     (   Count =:= 0
     ->  true
-    ;   with_mutex(typhon_inbox, unheard(Gap))
+    ;   with_mutex(typhon_inbox, stop_listening(Gap))
     ).
 
 typhon_events:told(inbox(_), Host, Agent, received(_, _)) :-
@@ -147,7 +150,7 @@ typhon_events:told(inbox(_), Host, Agent, received(_, _)) :-
     Gap = gap(Agent, Service, Key, Host, Max),
     gap_taken(Gap, Count),
     Count > 0,
-    with_mutex(typhon_inbox, unheard(Gap)),
+    with_mutex(typhon_inbox, stop_listening(Gap)),
     with_agent(Agent, ignore(agent_mail(Agent,
                                         [Service-dropped(Key, Count)]))).
 
@@ -159,7 +162,9 @@ leave(Host, Place, Fact) :-
     tuple_leave(Place, Fact),
     event(facts, Host, none, leave(Fact)).
 
-%   Count is that of all facts if these are few, else of those of Service.
+%   facts(+Place, +Service, +Max, -Count): Count is the number of facts of
+%   Service. Where the tuple space has few facts, the number of all facts
+%   serves, which is found at once.
 
 facts(Place, Service, Max, Count) :-
     predicate_property(Place:'$tuple'(_), number_of_clauses(All)),

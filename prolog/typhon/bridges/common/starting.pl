@@ -24,17 +24,17 @@
 :- use_module('../../kernel/base/own_thread', [in_own_thread/1]).
 :- autoload(subscribers, [subscribers_forget/2]).
 
-/** <module> The beginning and the end of bridges
+/** <module> Starting and stopping bridges
 
 The modules of a bridge are loaded when the first bridge of its kind is started.
-The host of a bridge may be in another process; files are then those of that
-machine.
+If the host of a bridge is in another process, files are those of the machine of
+that process.
 
 A service is a bridge on a host.  Its predicates are in the place of the host as
 if an agent had delivered them, so agents find them on this host only; they are
 removed when the service or its host ends.
 
-*Threading*: any thread; a service that two threads end is ended once.
+*Threading*: any thread; if two threads end a service, one of them does it.
 */
 
 :- multifile
@@ -45,34 +45,35 @@ removed when the service or its host ends.
 
 %!  python_start(+Host, +File, +Options) is det.
 %
-%   From now on the functions that File, or each of a list of files, defines
-%   are predicates of the place of Host: f(A, B) of Python is f(A, B, Result).
-%   A function whose arguments have defaults is several predicates.  Functions
-%   whose names begin with `_`, or that are imported, are left out; a file with
-%   `__all__` offers the functions in it.  Files share one process.  Options:
+%   Make the functions of a Python file predicates of the place of Host.  File
+%   is a file or a list of files.  The function f(A, B) becomes f(A, B, Result).
+%   A function whose arguments have defaults becomes several predicates.
+%   Functions whose names begin with `_`, and imported functions, are left out;
+%   a file with `__all__` offers exactly the functions listed there.  All files
+%   of a host share one process.  Options:
 %
 %     - timeout(Seconds): of each call, default 10
 %     - threads(N): number of simultaneous calls, default 8
 %     - queue(N): messages that may wait for an agent, default 1000
 %     - python(Program): default see helper_python/2
 %
-%   An agent that waits for a call blocks no other agent, as with all calls that
-%   take time.  When the process ends, open calls raise an error, and the
-%   process is started again.
+%   An agent that waits for a call blocks no other agent.  When the process
+%   ends, open calls raise an error, and the process is started again.
 %
 %   @error existence_error(source_sink, File), existence_error(host, Host)
-%   @error python_error(Class, Message) if File raises it
+%   @error python_error(Class, Message) if File raises an exception
 %   @error permission_error(define, vocabulary, PI) if the vocabulary of agents
 %          has such a predicate, permission_error(deliver, procedure, PI) if the
 %          place has one
-%   @error permission_error(start, python, Host) if it is started
+%   @error permission_error(start, python, Host) if Python is started on Host
+%   already
 
 python_start(Host, File, Options) :-
     start(python, Host, File, Options).
 
 %!  python_stop(+Host) is det.
 %
-%   Remove the functions.  Open calls raise an error.
+%   Remove the functions of python_start/3.  Open calls raise an error.
 %
 %   @error existence_error(python, Host)
 
@@ -81,36 +82,37 @@ python_stop(Host) :-
 
 %!  mqtt_start(+Host, +URL, +Options) is det.
 %
-%   Connect Host to the broker at URL, as mqtt_url/2.  Options:
+%   Connect Host to the broker at URL, see mqtt_url/2.  Options:
 %
 %     - user(User), password(Password): if they are not in the URL
-%     - client(Id): the name of this client; default is that the broker
-%       chooses one
+%     - client(Id): the name of this client; by default the broker chooses one
 %     - clean(Boolean): whether the broker drops the state of this client when
 %       it disconnects, default `true`; `false` needs client(Id)
 %     - will(Topic, Payload), will(Topic, Payload, Options): the message that
 %       the broker publishes when the connection is lost; Options as of
 %       publish/3
 %     - keepalive(Seconds): default 60
-%     - ca(File), cert(File), key(File), insecure(Boolean): for TLS; the
-%       certificates to trust, default those of the system, those of this
-%       client, and whether any name of the broker will do, default `false`
-%     - payload(Kind): default of subscribe/2 and publish/3, itself `auto`
+%     - ca(File): for TLS, the trusted certificates, default those of the
+%       system
+%     - cert(File), key(File): for TLS, certificate and key of this client
+%     - insecure(Boolean): for TLS, whether to accept any name of the broker,
+%       default `false`
+%     - payload(Kind): default of subscribe/2 and publish/3; default `auto`
 %     - queue(N): default of subscribe/2
-%     - pending(N): how many messages are kept while there is no connection,
+%     - pending(N): number of messages to keep while there is no connection,
 %       default 1000
 %     - largest(Bytes): of payloads, default 4 MB
 %     - timeout(Seconds): of each request, default 10
 %     - wait(Boolean): whether to wait for the connection, default `true`.  With
-%       `false`, Host is connected when the broker can be reached.
+%       `false`, Host connects when the broker can be reached.
 %     - python(Program): default see helper_python/2
 %
-%   A lost connection is made again, and the subscriptions of agents are
-%   renewed.
+%   The bridge renews a lost connection and the subscriptions of agents.
 %
 %   @error mqtt_error(unreachable(URL), Host), mqtt_error(refused, Host),
 %   mqtt_error(tls, Host)
-%   @error permission_error(start, mqtt, Host) if it is started
+%   @error permission_error(start, mqtt, Host) if MQTT is started on Host
+%   already
 %   @error existence_error(python_module, paho)
 %   @error domain_error(mqtt_url, URL), domain_error(mqtt_option, Option)
 
@@ -128,10 +130,10 @@ mqtt_stop(Host) :-
 
 %!  ros_start(+Host, +Where, +Options) is det.
 %
-%   Agents on Host can use ROS: publish, subscribe, call and offer services,
-%   send goals, see doc/bridges-ros.md.  Where is `ros2`: then Host is a node of
-%   ROS 2; or the URL of a rosbridge server of ROS 1 or 2, such as
-%   'ws://robot:9090/'.  Options:
+%   Connect Host to ROS.  Agents on it can publish, subscribe, call and offer
+%   services, and send goals, see doc/bridges-ros.md.  Where is `ros2`, and then
+%   Host is a node of ROS 2; or it is the URL of a rosbridge server of ROS 1 or
+%   2, such as 'ws://robot:9090/'.  Options:
 %
 %     - messages(Form): incoming messages are a `dict`, default, or `terms`, a
 %       list of Name=Value
@@ -148,8 +150,8 @@ mqtt_stop(Host) :-
 %
 %   and for a server
 %
-%     - silence(Seconds): a server that has not even answered a ping for so long
-%       counts as gone; default 30
+%     - silence(Seconds): a server that has sent nothing for so long, not even
+%       answers to pings, counts as gone; default 30
 %
 %   @error existence_error(host, Host), permission_error(start, ros, Host)
 %   @error domain_error(ros_option, Option), domain_error(ros, Where)
@@ -163,7 +165,8 @@ ros_start(Host, Where, Options) :-
 
 %!  ros_stop(+Host) is det.
 %
-%   End all publishers, subscriptions, services and waiting requests there.
+%   Disconnect Host from ROS: end all its publishers, subscriptions, services
+%   and waiting requests.
 %
 %   @error existence_error(ros, Host)
 
@@ -195,22 +198,23 @@ ros_property(Host, Property) :-
 
 %!  fipa_start(+Host, +URL, +Options) is det.
 %
-%   Host is a platform of FIPA from now on.  Other platforms reach it at URL,
+%   Make Host a platform of FIPA.  Other platforms reach it at URL,
 %   `http://Host:Port/Path`; port 0 means any port, and fipa_property/2 returns
 %   the actual URL in the process of Host.  Agents on Host, and those of its
 %   process, send messages to fipa(Name, Addresses); messages for its agents
-%   come from fipa(Name).  The place of Host has reply/3.  Options:
+%   come from fipa(Name).  The place of Host gets the predicate reply/3.
+%   Options:
 %
-%     - name(+Atom): of the platform, default the name of the host
-%     - bind(+Interface): on which it listens, default 127.0.0.1
+%     - name(+Atom): name of the platform, default the name of the host
+%     - bind(+Interface): interface on which it listens, default 127.0.0.1
 %     - queue(+N): messages that may wait for one address, or in one mailbox,
 %       default 1000; further messages are refused
 %     - connections(+N): simultaneous connections from others, default 64
-%     - max_bytes(+N): of a message with its envelope, default 2,000,000
-%     - seconds(+N): for receiving a message, or sending one, default 10
+%     - max_bytes(+N): size of a message with its envelope, default 2,000,000
+%     - seconds(+N): time limit for receiving or sending a message, default 10
 %
-%   @error permission_error(start, fipa, Host) if it is one already, or its time
-%   is virtual, for which other platforms do not wait
+%   @error permission_error(start, fipa, Host) if Host is a platform already, or
+%   has virtual time, for which other platforms do not wait
 %   @error existence_error(host, Host)
 %   @error domain_error(http_url, URL), domain_error(fipa_option, Option)
 %   @error socket_error(Code, Message)
@@ -220,7 +224,7 @@ fipa_start(Host, Url, Options) :-
 
 %!  fipa_stop(+Host) is det.
 %
-%   Host is no platform any more.  Unsent messages are lost.  The same happens
+%   Host stops being a platform.  Unsent messages are lost.  The same happens
 %   when the host stops.
 %
 %   @error existence_error(fipa, Host)
@@ -263,8 +267,8 @@ stop_at(local(Name), Bridge) :-
 stop_at(remote(Host, Name, _), Bridge) :-
     remote(Host, typhon_starting:stop(Bridge, Name)).
 
-%   properties_at(+Where, +Bridge-Property, +Host, -Properties): all properties
-%   that match.
+%   properties_at(+Where, +Bridge-Property, +Host, -Properties): Properties are
+%   all properties that unify with Property.
 
 properties_at(local(Name), Bridge-Property, _, Properties) :-
     findall(Property, has(Bridge, Name, Property), Properties).
@@ -305,7 +309,8 @@ load(Bridge) :-
 %
 %   Begin Service on Host, with the predicates PIs of Module.
 %
-%   @error permission_error(start, Service, Host) if there is one
+%   @error permission_error(start, Service, Host) if Host has this service
+%   already
 %   @error the errors of service_offer/4
 
 service_begin(Service, Host, PIs, Module) :-
@@ -324,8 +329,9 @@ service_begin(Service, Host, PIs, Module) :-
 
 %!  service_offer(+Name, +Host, +PIs:list, +Clauses:list) is det.
 %
-%   The place offers PIs, defined by Clauses, and no longer those that it
-%   offered under Name, which is service(Service) or the name of a payload.
+%   The place of Host offers PIs, defined by Clauses, in place of the predicates
+%   that it offered under Name, which is service(Service) or the name of a
+%   payload.
 %
 %   @error permission_error(define, vocabulary, PI) if the vocabulary of agents
 %          has such a predicate
@@ -346,7 +352,9 @@ unknown(Name/Arity) :-
 
 %!  service_end(+Service, +Host) is det.
 %
-%   @error existence_error(Service, Host) if it is not there
+%   End Service on Host, and remove its predicates and subscriptions.
+%
+%   @error existence_error(Service, Host) if Host does not have this service
 
 service_end(Service, Host) :-
     (   retract(service(Service, Host))
@@ -354,7 +362,8 @@ service_end(Service, Host) :-
     ;   existence_error(Service, Host)
     ).
 
-%   The service gets no further calls before it ends.
+%   The predicates are removed first, so that the service gets no calls while it
+%   ends.
 
 end(Service, Host) :-
     host(Host, _, Place),

@@ -27,9 +27,9 @@
 /** <module> Subscribers of services
 
 Agents subscribe to a Key, such as a topic.  They receive its messages until
-they unsubscribe, leave the host, end, or are faulty; an agent whose hop fails
-stays subscribed.  A goal of remote/2 has no agent: messages of its
-subscriptions are stored as facts until the service ends.
+they unsubscribe, leave the host, end, or become faulty; an agent whose hop
+fails stays subscribed.  A goal of remote/2 has no agent, so messages of its
+subscriptions are stored as facts, until the service ends.
 
 *Threading*: any thread; the thread that reads incoming messages calls
 subscribers_tell/5, which does not wait.  The hook wanted/4 runs inside a mutex,
@@ -37,23 +37,23 @@ so that its calls are in order, and must not wait.
 */
 
 :- multifile
-    wanted/4,                   % Service, Host, Key, Boolean: an agent came
-                                % back; or the last subscriber has left
+    wanted/4,                   % Service, Host, Key, Boolean: a subscriber
+                                % came back; or the last one has left
     typhon_events:told/4,
     typhon_options:declared/4.
 
 :- dynamic
     subscribed/6,               % Text, Agent, Service, Host, How, Key: indexed
                                 % by Text, see inbox_key/2
-    away/2,                     % Agent, subscribed(...): it has departed
-    hearing/1.                  % Host
+    away/2,                     % Agent, subscribed(...): Agent has departed
+    hearing/1.                  % Host: its events are received
 
 :- setting(queue, positive_integer, 1000,
            "Messages of bridges that may wait for an agent").
 
 %!  subscriber(-Host, -Agent) is det.
 %
-%   The running agent and its host; Agent is `none` in goals of remote/2.
+%   Agent is the running agent, `none` in goals of remote/2, and Host its host.
 %
 %   @error existence_error(running_agent, here)
 
@@ -68,11 +68,12 @@ subscriber(Host, Agent) :-
 %   Agent subscribes to Key, an atom or another ground term; a second
 %   subscription replaces the first.  Options:
 %
-%     - as(How): `message`, a message Service-Message, default; `fact`, a fact
-%       Service-Message in the tuple space; `latest`, of facts on the same
-%       thing only the latest
-%     - queue(N): if so many messages wait for the agent, or so many facts are
-%       there, further ones are dropped, and counted; default is the setting
+%     - as(How): `message` (default): as a message Service-Message; `fact`: as a
+%       fact Service-Message in the tuple space; `latest`: as such a fact, which
+%       replaces an older fact about the same subject
+%     - queue(N): when so many messages wait for the agent, or the tuple space
+%       has so many facts, further ones are dropped and counted; default is the
+%       setting `queue`
 %
 %   @error domain_error(subscription_option, Option)
 
@@ -105,7 +106,7 @@ option_type(queue(X), positive_integer, X).
 
 %!  unsubscribe(+Service, +Host, +Key, +Agent) is semidet.
 %
-%   Agent is not subscribed to Key any more.  Fails if it was not.
+%   End the subscription of Agent to Key.  Fails if there is none.
 
 unsubscribe(Service, Host, Key, Agent) :-
     inbox_key(Key, Text),
@@ -132,13 +133,12 @@ subscription(Service, Host, Key) :-
     Key = Key0.
 
 %!  subscribers_tell(+Service, +Host, +Key, +Message, +Same) is det.
-%
 %!  subscribers_tell_new(+Service, +Host, +Key, +Message, +Same) is det.
 %
-%   Deliver Message, which has arrived for Key.  Same is a pattern that unifies
-%   with the messages that this one replaces where only the latest is kept.
-%   subscribers_tell_new/5 delivers only to the newest subscribers, those within
-%   a second before the last: a greeting to new subscribers is not for others.
+%   Deliver Message, which has arrived for Key.  Same is a pattern of the
+%   messages that this one replaces for subscribers with as(latest).
+%   subscribers_tell_new/5 delivers a message that is meant for new subscribers:
+%   only to those that subscribed at most a second before the last one.
 
 subscribers_tell(Service, Host, Key, Message, Same) :-
     inbox_key(Key, Text),
@@ -165,7 +165,7 @@ tell_all(Pairs, Service, Host, Key, What) :-
 tell(How, Service-Key, Host-Agent, What) :-
     inbox_put(How, Service-Key, Host-Agent, What),
     !.
-tell(_, Service-Key, Host-Agent, _) :-  % it has left
+tell(_, Service-Key, Host-Agent, _) :-  % the agent has left
     ignore(unsubscribe(Service, Host, Key, Agent)).
 
 %!  subscribers_drop(+Service, +Host, +Key, +Message) is det.
@@ -181,12 +181,12 @@ subscribers_drop(Service, Host, Key, Message) :-
 
 %!  subscribers_forget(+Service, +Host) is det.
 %
-%   Remove all subscriptions.
+%   Remove all subscriptions to Service on Host.
 
 subscribers_forget(Service, Host) :-
     with_mutex(typhon_subscribers,
                ( forget(Service, Host),
-                 deafen(Host) )).
+                 stop_hearing(Host) )).
 
 forget(Service, Host) :-
     retract(subscribed(_, Agent, Service, Host, _, Key)),
@@ -208,7 +208,7 @@ hear(Host) :-
         events_hear([life,bad_ends,hops], Host, subscribers(Host))
     ).
 
-deafen(Host) :-
+stop_hearing(Host) :-
     (   subscribed(_, _, _, Host, _, _)
     ->  true
     ;   retractall(hearing(Host)),
@@ -220,7 +220,7 @@ typhon_events:told(subscribers(_), Host, Agent, What) :-
 
 happens(left(_), Host, Agent) =>
     with_mutex(typhon_subscribers,
-               ( sweep, sets_out(Agent, Host) )).
+               ( sweep, departs(Agent, Host) )).
 happens(stayed(_), _, Agent) =>
     with_mutex(typhon_subscribers, comes_back(Agent)).
 happens(ended(_), Host, Agent) =>
@@ -230,13 +230,13 @@ happens(faulty(_), Host, Agent) =>
 happens(_, _, _) =>
     true.
 
-sets_out(Agent, Host) :-
+departs(Agent, Host) :-
     retract(subscribed(Text, Agent, Service, Host, How, Key)),
     !,
     assertz(away(Agent, subscribed(Text, Agent, Service, Host, How, Key))),
     gone(Service, Host, Key, Agent),
-    sets_out(Agent, Host).
-sets_out(_, _).
+    departs(Agent, Host).
+departs(_, _).
 
 comes_back(Agent) :-
     retract(away(Agent, Subscribed)),
@@ -260,8 +260,8 @@ unsubscribe_all(Agent, Host) :-
     unsubscribe_all(Agent, Host).
 unsubscribe_all(_, _).
 
-%   Remove agents that have departed and arrived elsewhere: each departure
-%   checks two of them.
+%   Remove agents that have departed and arrived elsewhere.  Each departure adds
+%   one agent and checks two, so the table stays small.
 
 sweep :-
     sweep_one,

@@ -23,7 +23,7 @@ protocol('fipa-request')]).  Its string representation is that of FIPA00070.
   | parameter                                  | value                     |
   | ------------------------------------------ | ------------------------- |
   | sender                                     | fipa(Name, Addresses)     |
-  | receiver, reply_to                         | a list of such            |
+  | receiver, reply_to                         | a list of these terms     |
   | content                                    | a list of terms if the    |
   |                                            | language is SL, else a    |
   |                                            | string                    |
@@ -46,7 +46,7 @@ unchanged.
 
 %!  performative(?Performative) is nondet.
 %
-%   The communicative acts of FIPA00037.
+%   Performative is a communicative act of FIPA00037.
 
 performative('accept-proposal').
 performative(agree).
@@ -73,14 +73,14 @@ performative(subscribe).
 
 %!  acl_parameter(+Acl, ?Parameter) is semidet.
 %
-%   Parameter is the first parameter of Acl that unifies.
+%   Parameter is the first parameter of Acl that unifies with it.
 
 acl_parameter(acl(_, Parameters), Parameter) :-
     memberchk(Parameter, Parameters).
 
 %!  acl_with(+Acl, +Parameters:list, -With) is det.
 %
-%   With is Acl with these Parameters, which replace those of the same names.
+%   With is Acl with Parameters, which replace parameters of the same names.
 
 acl_with(acl(Performative, Old), Parameters, acl(Performative, New)) :-
     foldl(put_parameter, Parameters, Old, New).
@@ -106,7 +106,9 @@ acl_reply(Acl, Performative, Content, Reply) :-
 %!  acl_text(+Acl, -Text:string) is det.
 %!  acl_text(-Acl, +Text) is det.
 %
-%   @error domain_error(performative, P): only for a message that is written
+%   Text is the string representation of Acl.
+%
+%   @error domain_error(performative, P) only for a message that is written
 %   @error type_error(fipa_parameter, Parameter)
 %   @error syntax_error(fipa_text), syntax_error(fipa_message)
 
@@ -121,7 +123,7 @@ acl_text(Acl, Text) :-
     ->  downcase_atom(Head, Performative)
     ;   syntax_error(fipa_message)
     ),
-    understood(Parameters0, Parameters1),
+    parse_content(Parameters0, Parameters1),
     conversation_first(Parameters1, Parameters),
     Acl = acl(Performative, Parameters).
 acl_text(Acl, Text) :-
@@ -158,7 +160,7 @@ read_parameter(Key-Sexp, Parameter) :-
     read_value(Kind, Sexp, Value),
     Parameter =.. [Name,Value].
 
-%   Names of the standard have underscores in Prolog.
+%   In Prolog the names of the standard have underscores in place of hyphens.
 
 key_name(Key, Name) :-
     known(Key, Name0, _),
@@ -204,16 +206,16 @@ read_value(text, Sexp, Text) :-
 aid_of(Sexp, Aid) :-
     aid_sexp(Aid, Sexp).
 
-%   A content that is declared as SL but is not stays a string.
+%   A content that is declared as SL but is no SL stays a string.
 
-understood(Parameters0, Parameters) :-
+parse_content(Parameters0, Parameters) :-
     memberchk(language(Language), Parameters0),
     is_sl(Language),
     selectchk(content(Text), Parameters0, Rest),
     catch(sl_text(Terms, Text), error(_, _), fail),
     !,
     Parameters = [content(Terms)|Rest].
-understood(Parameters, Parameters).
+parse_content(Parameters, Parameters).
 
 is_sl(Language) :-
     downcase_atom(Language, Down),

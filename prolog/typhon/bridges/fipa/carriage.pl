@@ -13,11 +13,12 @@
 :- use_module('../common', [crew_end/1, crew_start/4]).
 :- use_module(http, [http_post/4, http_response/3, http_url/3, within/2]).
 
-/** <module> Outgoing messages
+/** <module> Sending messages to other platforms
 
-Each address to which messages are sent has a queue and a carrier, a thread
-that owns the connection.  So messages for one address stay in order, and a
-slow peer delays no other.  An idle carrier ends after a while.
+Each address to which messages are sent has a queue and a carrier, a thread that
+owns the connection.  So messages for one address stay in order, and a slow
+platform delays no messages to others.  A carrier that is idle for some seconds
+ends.
 
 A letter is letter(ContentType, Body, About).  If none of its addresses
 accepts it, returned/4 is called with About.
@@ -66,15 +67,15 @@ queue(Host, Address, Limits, _, Message) :-
     ->  true
     ;   resource_error(fipa_destinations)
     ),
-    sig_atomic(hire(Host, Address, Limits, Queue)),
+    sig_atomic(start_carrier(Host, Address, Limits, Queue)),
     thread_send_message(Queue, Message).
 
-hire(Host, Address, Limits, Queue) :-
+start_carrier(Host, Address, Limits, Queue) :-
     message_queue_create(Queue),
     assertz(carrier(Host, Address, Queue)),
     catch(crew_start(carriage(Host), fipa_carrier,
-                     typhon_fipa_carriage:carry(Host, Address, Queue,
-                                                Limits),
+                     typhon_fipa_carriage:carrier_run(Host, Address, Queue,
+                                                      Limits),
                      typhon_fipa_carriage:gone(Host, Address, Queue)),
           error(Formal, Context),
           ( forget(Host, Address, Queue),
@@ -106,11 +107,11 @@ carriage_close(Host) :-
                 *            CARRIERS          *
                 *******************************/
 
-carry(Host, Address, Queue, Limits) :-
+carrier_run(Host, Address, Queue, Limits) :-
     Way = way(none),
     setup_call_cleanup(
         true,
-        carry_on(Host, Address, Queue, Limits, Way),
+        carrier_loop(Host, Address, Queue, Limits, Way),
         disconnect(Way)).
 
 gone(Host, Address, Queue) :-
@@ -120,17 +121,18 @@ gone(Host, Address, Queue) :-
                ;   true
                )).
 
-carry_on(Host, Address, Queue, Limits, Way) :-
+carrier_loop(Host, Address, Queue, Limits, Way) :-
     idle_seconds(Idle),
     (   thread_get_message(Queue, send(Urls, Letter), [timeout(Idle)])
     ->  sent(Urls, Host, Letter, Limits, Way),
-        carry_on(Host, Address, Queue, Limits, Way)
+        carrier_loop(Host, Address, Queue, Limits, Way)
     ;   with_mutex(typhon_fipa_carriage, idle(Host, Address, Queue))
     ->  true
-    ;   carry_on(Host, Address, Queue, Limits, Way)
+    ;   carrier_loop(Host, Address, Queue, Limits, Way)
     ).
 
-%   The mutex is held, and threads that add to the queue take it.
+%   The caller holds the mutex, which threads take that add to the queue: so no
+%   message gets into a queue that is about to be destroyed.
 
 idle(Host, Address, Queue) :-
     message_queue_property(Queue, size(0)),
@@ -173,8 +175,8 @@ why(Code, Why) :-
     ;   format(string(Why), '~p', [Code])
     ).
 
-%   exchange(+Url, +Letter, !Way, -Code): the other side may just have closed a
-%   connection that was kept: then a new one is tried.
+%   exchange(+Url, +Letter, !Way, -Code): Way holds the open connection.  The
+%   other side may have closed it just now; then a new connection is tried.
 
 exchange(Url, Letter, Way, Code) :-
     kept(Url, Way, In, Out),
@@ -197,8 +199,8 @@ post(In, Out, Url, letter(Type, Body, _), Code, KeepAlive) :-
     http_post(Out, Url, Type, Body),
     http_response(In, Code, KeepAlive).
 
-%   kept(+Url, +Way, -In, -Out): Way has an open connection.  Pending input is
-%   the rest of an earlier answer.
+%   kept(+Url, +Way, -In, -Out): Way has an open connection to Url.  Pending
+%   input is the rest of an earlier answer.
 
 kept(Url, way(open(Address, In, Out)), In, Out) :-
     http_url(Url, Address, _),

@@ -25,10 +25,10 @@
 
 /** <module> Messages between agents of this platform and of others
 
-A message of another platform is posted to its agent like all messages, wherever
-the agent is, or is handled by a manager.  A message to another platform is sent
-to the addresses of its receiver.  If a message cannot be delivered, the AMS
-sends a failure to its sender.
+A message from another platform is posted to its receiver like all messages, on
+whatever host that agent is, or handled by a manager.  A message to another
+platform is sent to the addresses of its receiver.  If a message cannot be
+delivered, the AMS sends a failure to its sender.
 
 *Threading*: any thread.  exchange_send/4 does not wait for other platforms.
 Requests are handled in the thread of the client, which may wait for a
@@ -40,18 +40,18 @@ connection to another process of the network.
     typhon_routing:returned/3.
 
                 /*******************************
-                *              OUT             *
+                *           SENDING            *
                 *******************************/
 
 %!  exchange_send(+Host, +Local, +To, +Acl) is det.
 %
-%   Send Acl to the agent identifier To, from Local, an agent's id or a
-%   manager, through Host.  The sender is always Local, whatever Acl says; the
-%   receiver is To unless Acl has one.
+%   Send Acl to the agent identifier To, from Local, an agent's id or a manager,
+%   through Host.  The sender is always Local, also if Acl names another one;
+%   the receiver is To unless Acl names one.
 %
 %   @error existence_error(fipa_address, Name) if no address of To is known
-%   @error resource_error(fipa_message_bytes), and what acl_text/2,
-%   carriage_send/4 raise
+%   @error resource_error(fipa_message_bytes), and the errors of acl_text/2 and
+%   carriage_send/4
 
 exchange_send(Host, Local, To, Acl0) :-
     must_be_acl(Acl0),
@@ -67,11 +67,11 @@ exchange_send(Host, Local, To, Acl0) :-
     ->  acl_text(Read, Text),
         platform_count(Host, sent),
         accept(Host, To, Read)
-    ;   send_abroad(Host, Local, To, Acl, Text),
+    ;   send_to_platform(Host, Local, To, Acl, Text),
         platform_count(Host, sent)
     ).
 
-send_abroad(Host, Local, To, Acl, Text) :-
+send_to_platform(Host, Local, To, Acl, Text) :-
     platform_way(To, Addresses),
     platform(Host, _, _, Limits),
     acl_parameter(Acl, sender(Sender)),
@@ -101,25 +101,25 @@ typhon_fipa_carriage:returned(Host, about(Local, To, Acl), Url, Why) :-
     fail_to(Host, Local, To, Acl, Text).
 
                 /*******************************
-                *              IN              *
+                *          RECEIVING           *
                 *******************************/
 
 %!  exchange_received(+Host, +Request, -Code) is det.
 %
-%   Deliver the message in Request, as of http_request/5.  Code is the status of
-%   the response.
+%   Deliver the message in Request, as of http_request/4.  Code is the HTTP
+%   status of the response.
 
 exchange_received(Host, Request, Code) :-
     platform(Host, _, Url, _),
     catch(message(Request, Url, Message), error(Formal, _),
           Message = bad(Formal)),
-    taken(Message, Host, Code).
+    handle(Message, Host, Code).
 
-taken(message(Acl, Receivers), Host, Code) =>
+handle(message(Acl, Receivers), Host, Code) =>
     forall(member(Receiver, Receivers),
            accept(Host, Receiver, Acl)),
     Code = 200.
-taken(bad(Why), Host, Code) =>
+handle(bad(Why), Host, Code) =>
     debug(typhon(fipa), '~w: a request is no message: ~p', [Host, Why]),
     platform_count(Host, refused),
     (   integer(Why)
@@ -143,7 +143,7 @@ message(request(_, _, Type, Body, _), _, Message) =>
     receivers(Acl, Envelope, Receivers),
     Message = message(Acl, Receivers).
 
-%   Requests of JADE have the whole URL.
+%   JADE sends the whole URL as the target of a request.
 
 at(Target, Url) :-
     http_url(Url, _, Path),
@@ -244,8 +244,8 @@ to_agent(Local, Host, Acl) :-
     aid_name(Sender, From),
     post(Id, fipa(From), Mail).
 
-%   An id names the process of its agent.  Messages from outside must not open
-%   connections to processes that have never been connected.
+%   The id of an agent names its process.  Messages of other platforms must not
+%   make this process connect to processes to which it has never been connected.
 
 known_agent(Local, Id) :-
     agent_named(Local, Id),
@@ -271,7 +271,7 @@ why(resource_error(fipa_queue), "its mailbox is full") :- !.
 why(Formal, Why) :-
     format(string(Why), '~p', [Formal]).
 
-%   Messages that post/3 accepted, and that could not be delivered later.
+%   post/3 has accepted this message, but it could not be delivered later.
 
 typhon_routing:returned(fipa(_), Id, Acl) :-
     acl_parameter(Acl, via(Address)),

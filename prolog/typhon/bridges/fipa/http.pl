@@ -25,9 +25,9 @@ as a whole.  Clients of library(http/http_open) cannot be used: answers of JADE
 have no length, and the connection is kept.
 
 The caller limits the whole time by within/2, since a deadline for each byte
-would cost more than all else of a head.  within/2 is like
-call_with_time_limit/2, but the library of that may keep SWI-Prolog 9.0.4 from
-halting once it is loaded, so within/2 uses the alarms of hosts.
+would be the most expensive part of reading a head.  within/2 is like
+call_with_time_limit/2, but once library(time) is loaded it may keep SWI-Prolog
+9.0.4 from halting, so within/2 uses the alarms of hosts.
 
 *Threading*: any thread, one for each stream; within/2 only while a host runs.
 The timer signals the thread.
@@ -43,7 +43,7 @@ The timer signals the thread.
 
 max_head(16384).
 
-%   The longest unused rest of an answer that is skipped.
+%   The longest rest of an answer that is skipped.
 
 max_skipped(65536).
 
@@ -124,15 +124,15 @@ body(Fields, In, Out, MaxBytes, Body) :-
     must_be(nonneg, Length),
     (   Length > MaxBytes
     ->  resource_error(http_body)
-    ;   go_on(Fields, Out),
+    ;   send_continue(Fields, Out),
         read_string(In, Length, Body),
         string_length(Body, Length)
     ->  true
-    ;   syntax_error(http_length)       % In ended before
+    ;   syntax_error(http_length)       % In has ended too early
     ).
 body(_, _, _, _, "").
 
-go_on(Fields, Out) :-
+send_continue(Fields, Out) :-
     (   memberchk(expect(_), Fields)
     ->  format(Out, 'HTTP/1.1 100 Continue\r\n\r\n', []),
         flush_output(Out)
@@ -141,8 +141,8 @@ go_on(Fields, Out) :-
 
 %!  http_respond(+Out, +Code, +KeepAlive:boolean) is det.
 %
-%   The answer has a text line, since JADE reads answers by lines and recognises
-%   the next answer by its first line.
+%   Write a response.  Its body is a line of text, since JADE reads answers by
+%   lines and recognises the next answer by its first line.
 
 http_respond(Out, Code, KeepAlive) :-
     reason(Code, Reason),
@@ -248,7 +248,7 @@ skip_body(_, _).
 
 %!  within(+Seconds, :Goal) is semidet.
 %
-%   Run Goal once, for at most Seconds.
+%   Call once(Goal), for at most Seconds.
 %
 %   @throws time_limit_exceeded
 
@@ -262,7 +262,8 @@ within(Seconds, Goal) :-
           once(Goal) ),
         retractall(busy(Key, _))).
 
-%   A signal just before a thread blocks does not wake it, so it is repeated.
+%   A signal that arrives just before a thread blocks does not wake it, so the
+%   signal is repeated.
 
 typhon_scheduler:fire(Key, fipa_late) :-
     !,

@@ -13,13 +13,13 @@
 :- use_module(library(utf8), [utf8_codes//1]).
 :- use_module(sexp, [aid_addresses/2, aid_name/2, utc_text/2]).
 
-/** <module> A message and its envelope, as bytes
+/** <module> Encoding of messages and their envelopes
 
 A message is sent as multipart/mixed (RFC 2046): its envelope and its text.
 Text that is not ASCII is UTF-8, which the envelope declares.
 
-The transport reads the envelope (FIPA00084, FIPA00071), which is XML; here it
-is a list of parameters:
+The envelope (FIPA00084, FIPA00071) tells the transport the receivers.  It is
+XML, and a list of parameters in this program:
 
   - to(Aids), intended_receiver(Aids), from(Aid)
   - acl_representation(Atom), payload_length(Bytes), payload_encoding(Atom),
@@ -64,6 +64,8 @@ text_bytes(Text, Bytes, 'UTF-8') :-
     string_codes(Bytes, ByteCodes).
 
 %!  letter_read(+Type, +Body:string, -Envelope, -Text:string) is det.
+%
+%   Decode Body, whose content type is Type, to Envelope and Text.
 %
 %   @error syntax_error(fipa_multipart), and the errors of envelope_xml/2
 %   @error syntax_error(fipa_representation) if Text is not in the string
@@ -115,7 +117,8 @@ decoded(_, _, _) :-
                 *          ENVELOPES           *
                 *******************************/
 
-%   Maximal characters of an envelope; maximal digits of a number in it.
+%   An envelope has at most max_envelope characters, a number in it max_digits
+%   digits.
 
 max_envelope(65 536).
 max_digits(15).
@@ -161,7 +164,7 @@ dom(Text, Dom) :-
                  [ space(remove), max_errors(0), syntax_errors(quiet) ]),
         close(In)).
 
-%   Platforms on the way add params, which replace earlier ones.
+%   Platforms that forward a message add params, which replace earlier ones.
 
 envelope_dom(Envelope, Dom) :-
     member(element(envelope, _, Parts), Dom),
@@ -277,7 +280,8 @@ url_element(Url, element(url, [], [Url])).
                 *            PARTS             *
                 *******************************/
 
-%   The number is bounded, since each part copies the rest.
+%   The number of parts is bounded, since splitting off each part copies the
+%   rest.
 
 max_parts(16).
 
@@ -324,7 +328,7 @@ split(Text, Mark, Most, [Piece|Pieces]) :-
     split(Rest, Mark, Less, Pieces).
 split(Text, _, _, [Text]).
 
-%   A piece begins with the end of the line of its boundary.
+%   A piece begins with the end of the boundary line.
 
 piece_part(Piece0, Type-Bytes) :-
     without_return(Piece0, Piece),

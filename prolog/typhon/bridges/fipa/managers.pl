@@ -18,9 +18,10 @@
 
 /** <module> The managers of a platform: AMS and DF
 
-They handle requests of FIPA00023, in SL0: register, deregister, modify, search,
-and, the AMS only, get-description.  The AMS lists the agents of this process,
-and those created here, without registration; other agents may register, too.
+The managers handle requests of FIPA00023, in SL0: register, deregister, modify,
+search and, for the AMS only, get-description.  The AMS lists the agents of this
+process, and those created here, without registration; other agents may
+register, too.
 
 In a directory, any ground term, each name has one description, which may
 expire. The DF also describes the agents of this process that offer services,
@@ -29,7 +30,7 @@ see typhon_directory, and did not register themselves.
 *Threading*: any thread; a mutex serialises changes of directories.
 */
 
-%   Of one search.
+%   One search returns at most so many results.
 
 max_results(1000).
 
@@ -77,7 +78,7 @@ about(raised(Ball), _, _) =>
 
 %!  manager_end(+Host) is det.
 %
-%   Remove all registrations.
+%   Remove all registrations of the managers of Host.
 
 manager_end(Host) :-
     directory_forget(ams(Host)),
@@ -138,7 +139,7 @@ refuse_if(Goal, Reason) :-
     ;   true
     ).
 
-%   The name in a description is that of its owner.
+%   A description belongs to the agent with the name in it.
 
 described(Description, Manager, Name) :-
     kind(Description, Manager),
@@ -176,7 +177,8 @@ living(Host, Name) :-
     ),
     !.
 
-%   Others cannot deregister an agent that is in this process.
+%   An agent of this process that has not registered itself cannot be modified
+%   or deregistered.
 
 registered(Manager, Host, Name) :-
     Directory =.. [Manager,Host],
@@ -342,9 +344,9 @@ directory_forget(Directory) :-
 
 %   description_matches(+Template, +Description) is semidet.
 %
-%   The rules are those of FIPA00023: Description has every parameter of
-%   Template, of a set each element in any order, of a sequence all elements in
-%   order.
+%   Description matches Template by the rules of FIPA00023: it has every
+%   parameter of Template.  A set matches if it has each element, in any order;
+%   a sequence if it has the elements in their order.
 
 description_matches(Template, Description), aid(Template) =>
     aid(Description),

@@ -18,7 +18,7 @@
 /** <module> Platforms of FIPA: names, addresses and counts
 
 A host with a message transport is a platform of FIPA: it has a name and a URL.
-Its agents are called Id@Platform, the managers ams@Platform and df@Platform.
+Its agents are named Id@Platform, the managers ams@Platform and df@Platform.
 
 *Threading*: any thread.
 */
@@ -33,6 +33,9 @@ Its agents are called Id@Platform, the managers ams@Platform and df@Platform.
 %!  platform(?Host, ?Name, ?Url, ?Limits) is nondet.
 %!  platform_add(+Host, +Name, +Url, +Limits) is det.
 %!  platform_remove(+Host) is semidet.
+%
+%   Host is a platform; make it one, with counts of 0; remove it.  Limits is a
+%   list of options.
 
 platform_add(Host, Name, Url, Limits) :-
     forall(counted(What), ( key(Host, What, Key), flag(Key, _, 0) )),
@@ -46,7 +49,7 @@ platform_remove(Host) :-
 %!  platform_local(+Host, +Name, -Local) is semidet.
 %
 %   Aid is the identifier of Local, an agent's id, `ams` or `df`, on the
-%   platform of Host; Name is the name of Local there.
+%   platform of Host; Name is the name of Local on that platform.
 
 platform_aid(Host, Local, fipa(Name, [Url])) :-
     platform(Host, Platform, Url, _),
@@ -75,9 +78,10 @@ key(Host, What, Key) :-
 %!  platform_count(+Host, +What) is det.
 %!  platform_counts(+Host, -Counts:list) is det.
 %
-%   What is `sent` or `received`, for messages; `failed`, for messages that were
-%   not delivered; `dropped`, for messages beyond a limit; `refused`, for
-%   requests without a valid message.
+%   Count one more What; return all counts, What(N).  What is `sent` or
+%   `received`, for messages; `failed`, for messages that were not delivered;
+%   `dropped`, for messages beyond a limit; `refused`, for requests without a
+%   valid message.
 
 platform_count(Host, What) :-
     key(Host, What, Key),

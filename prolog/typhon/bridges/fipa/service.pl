@@ -22,7 +22,7 @@
 
 /** <module> A host as a platform of FIPA
 
-The time between the first byte of a request and the last is limited, and so is
+The time between the first and the last byte of a request is limited, and so is
 the number of clients, see typhon_http_server.
 
 *Threading*: any thread; one thread accepts connections, and each client has
@@ -101,11 +101,15 @@ typhon_starting:ends(fipa, Host) :-
 
 %!  fipa_property(?Host, ?Property) is nondet.
 %
-%   Properties of a host that is a platform: name(Atom), url(URL); name(Id,
-%   Name), the full name of one of its agents; queued(N), messages to be sent;
-%   and counts since its start: sent(N), received(N); failed(N), messages that
-%   were not delivered; dropped(N), messages beyond a limit; refused(N),
-%   requests without a valid message.
+%   Property is a property of Host, which is a platform:
+%
+%     - name(Atom), url(URL)
+%     - name(Id, Name): Name is the full name of the agent Id
+%     - queued(N): messages to be sent
+%     - sent(N), received(N): messages since its start
+%     - failed(N): messages that were not delivered
+%     - dropped(N): messages beyond a limit
+%     - refused(N): requests without a valid message
 
 fipa_property(Host, Property) :-
     check_name(fipa_property, Property),
@@ -132,7 +136,8 @@ property(Count, Host, _, _) :-
                 *             BRIDGE           *
                 *******************************/
 
-%   The platform is that of the host, else that of the receiver, else any.
+%   The message goes through the platform of the host, else through that of the
+%   receiver, else through any platform of this process.
 
 typhon_external_recipients:carried(Host, To, From, Message) :-
     aid(To),
@@ -153,12 +158,12 @@ way(_, _, Host) :-
                 *      INCOMING REQUESTS       *
                 *******************************/
 
-%   Maximal time between two requests.
+%   Maximal time in seconds between two requests.
 
 idle_seconds(60).
 
-%   Input that is still read, so that a client that sends too much gets the
-%   answer.
+%   Maximal number of bytes that are read from a client that sends too much, so
+%   that it gets the answer.
 
 max_drained(16000000).
 
@@ -232,8 +237,8 @@ bad_request(syntax_error(http_length), 411) :- !.
 bad_request(timeout_error(_, _), 408) :- !.
 bad_request(_, 400).
 
-%   A connection that is closed with unread input is reset, and the client
-%   loses the answer.
+%   Closing a connection with unread input resets it, and the client loses the
+%   answer.
 
 drained(413, In) :-
     !,

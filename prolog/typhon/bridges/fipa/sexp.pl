@@ -18,16 +18,16 @@
               [resource_error/1, syntax_error/1, type_error/2]).
 :- use_module(library(lists), [member/2]).
 
-/** <module> S-expressions, the syntax of ACL and SL, and agent identifiers in it
+/** <module> S-expressions, the syntax of ACL and SL, and agent identifiers
 
 Both languages of FIPA consist of lists in parentheses.  This module reads and
 writes them; typhon_fipa_acl and typhon_fipa_sl define their meaning.  An
 S-expression is a Prolog list of S-expressions, string(String) for quoted text,
 or an atom for any other word, as it was written.
 
-In quotes only a quote is escaped: a backslash before anything else is a
-backslash, as in JADE.  A string that ends with a backslash can only be written
-with its length in front.
+In quoted text a backslash escapes only a quote; elsewhere it is a backslash, as
+in JADE.  A string that ends with a backslash can only be written with its
+length in front.
 
 An agent of any platform is fipa(Name, Addresses): its name, an atom like
 'seller@jadeplat', and the URLs of its message transports, the best first.
@@ -43,6 +43,8 @@ max_depth(200).
 
 %!  sexp_text(+Sexp, -Text:string) is det.
 %!  sexp_text(-Sexp, +Text:string) is det.
+%
+%   Text is the written form of Sexp.
 %
 %   @error syntax_error(fipa_text)
 %   @error resource_error(fipa_depth)
@@ -86,7 +88,7 @@ item(_, string(String)) -->
     "\"",
     !,
     { length(Ds, Digits),
-      Digits < 9,                       % more digits take time, and do not fit
+      Digits < 9,                       % no message is longer
       number_codes(Bytes, [D|Ds])
     },
     counted(Bytes, Codes),
@@ -248,6 +250,8 @@ number_of(Count, Number) -->
                 *******************************/
 
 %!  aid(@Term) is semidet.
+%
+%   Term is an agent identifier, fipa(Name) or fipa(Name, Addresses).
 
 aid(Term) :-
     subsumes_term(fipa(_), Term),
@@ -269,6 +273,8 @@ text(Text) :-
 
 %!  aid_name(+Aid, -Name:atom) is det.
 %!  aid_addresses(+Aid, -Addresses:list(atom)) is det.
+%
+%   Name is the name in Aid; Addresses are its addresses, `[]` if it has none.
 
 aid_name(fipa(Text), Name) =>
     atom_string(Name, Text).
@@ -282,6 +288,8 @@ aid_addresses(fipa(_, Texts), Addresses) =>
 
 %!  aid_sexp(+Aid, -Sexp) is det.
 %!  aid_sexp(-Aid, +Sexp) is semidet.
+%
+%   Sexp is the S-expression of the agent identifier Aid.
 %
 %   @error type_error(fipa_agent, Aid)
 

@@ -35,6 +35,8 @@ read as a string.
 %!  sl_text(+Terms:list, -Text:string) is det.
 %!  sl_text(-Terms, +Text) is det.
 %
+%   Text is the written form of the content Terms.
+%
 %   @error syntax_error(fipa_text), syntax_error(fipa_content)
 %   @error type_error(fipa_term, Term)
 %   @error resource_error(fipa_depth)

@@ -19,11 +19,11 @@
 
 /** <module> The server that owns the process of a helper
 
-The owner starts the process, and writes to it in the order of the requests.  If
-its restart mode is `always`, a process that has ended is started again at once;
+The owner starts the process, and writes the requests to it in their order.  In
+the restart mode `always` the owner restarts a process that has ended at once;
 if it ends soon again, after 0.1 seconds, then after twice that time, up to 10
-seconds.  Otherwise, or if it has reported that a restart would not help, it is
-started with the next request.
+seconds.  In the mode `asked`, or if the process has reported that a restart
+would not help, the owner restarts it with the next request.
 
 Requests and answers are JSON objects with the same id; an object without id but
 with an `event` is unsolicited.
@@ -33,8 +33,8 @@ the atoms `null`, `true` and `false`, which are None, True and False in Python;
 other atoms become strings.  Incoming values have the same form; strings stay
 strings.
 
-*Threading*: the server calls own/4.  It runs again/2, which must not wait for
-the helper; nor may heard/2, which runs in the thread that reads the output of
+*Threading*: the server calls own/4 and the hook again/2.  The hook heard/2 runs
+in the thread that reads the output of the helper.  Neither hook may wait for
 the helper.
 */
 
@@ -68,7 +68,8 @@ own(Me, Message, State0, Next) :-
     ;   Next = State
     ).
 
-%   The server may have been restarted in a new thread: kill the old process.
+%   If the server was restarted in a new thread, kill the process of the old
+%   one.
 
 handle(begin, _, State0, State) =>
     server_self(Owner),
@@ -133,7 +134,7 @@ begin_again(Me, Wait, State) :-
            ( request_line(Request, Line),
              write_told(State, Line) )).
 
-%   A process that has run for a while is restarted at once.
+%   Fail the open requests, and restart the process as its mode demands.
 
 ended(Status, Me, Since, Wait, State) :-
     Me = owner(Name, _, When, _, _),
@@ -146,7 +147,8 @@ ended(Status, Me, Since, Wait, State) :-
         again(Wait1, Me, Answer, State)
     ).
 
-%   The process lacks a prerequisite, so every request gets this answer.
+%   The process has reported that it lacks a prerequisite.  Then every request
+%   gets this report as its answer.
 
 unfit(said(Dict)) :-
     get_dict(again, Dict, false).
@@ -157,7 +159,8 @@ again(now, Me, _, State) :-
 again(Wait, owner(_, _, When, _, _), Answer, State) :-
     down(When, Wait, Answer, State).
 
-%   The first restart is immediate.
+%   again_when(+When, +Since, +Wait, -Wait1): the first restart is immediate,
+%   and so is that of a process which has run for some time.
 
 again_when(asked, _, _, 0) :-
     !.
@@ -232,7 +235,7 @@ said(_, Owner, Dict) :-
     (   retract(awaited(Id, Caller, _))
     ->  answer_of(Dict, Answer),
         server_answer(Caller, Answer)
-    ;   true                            % no caller waits any more
+    ;   true                            % the caller has stopped waiting
     ).
 said(Name, _, Dict) :-
     get_dict(event, Dict, _),
@@ -253,8 +256,8 @@ answer_of(Dict, said(Dict)).
 %!  answer_awaited(+Id, +Caller) is det.
 %!  answer_unwanted(+Id) is det.
 %
-%   Caller waits for the answer to Id, which the owner sends now; no caller
-%   waits for it any more.
+%   Caller waits for the answer to the request Id, which the owner is about to
+%   write; the caller of Id has stopped waiting.
 
 answer_awaited(Id, Caller) :-
     server_self(Owner),
@@ -266,8 +269,8 @@ answer_unwanted(Id) :-
 %   answer_all(+Answer) is det.
 %   answer_died(+Answer0, -Answer) is det.
 %
-%   All open requests of the owner get Answer: Answer0, or the error that the
-%   process reported before it ended.
+%   Give all open requests of the owner Answer.  In answer_died/2 it is the
+%   error that the process reported before it ended, else Answer0.
 
 answer_all(Answer) :-
     server_self(Owner),
@@ -290,6 +293,8 @@ answer_died(Answer0, Answer) :-
                 *******************************/
 
 %!  json_value(+Term) is det.
+%
+%   Term can be written as JSON.
 %
 %   @error instantiation_error, type_error(json_value, Culprit)
 

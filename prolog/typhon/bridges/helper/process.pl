@@ -43,11 +43,11 @@ process_kill_of/1.
    retractall(bridges(_)),
    assertz(bridges(Bridges)).
 
-end_seconds(2).                 % between the end of its output and its end
+end_seconds(2).                 % between the end of its output and its exit
 
 %!  helper_file(+Relative, -File) is det.
 %
-%   File is in the folder `bridges`.
+%   File is the absolute path of the file Relative in the folder `bridges`.
 
 helper_file(Relative, File) :-
     bridges(Bridges),
@@ -55,9 +55,9 @@ helper_file(Relative, File) :-
 
 %!  process_begin(+Command, +Owner, +Role, :Heard, -Process) is det.
 %
-%   Command is command(Program, Args), for process_create/3.  For each line that
-%   is a JSON object the reading thread, whose alias is made from Role, runs
-%   call(Heard, Dict); meanwhile it reads nothing else.
+%   Start a process.  Command is command(Program, Args), for process_create/3.
+%   For each line that is a JSON object the reading thread, whose alias contains
+%   Role, runs call(Heard, Dict); it reads the next line after that.
 %
 %   @error existence_error(python, Program)
 
@@ -85,8 +85,9 @@ no_program(Formal, Program) :-
 
 %!  process_write(+Process, +Line) is det.
 %
-%   May wait for a process that does not read.  If the process has ended,
-%   nothing is written, and the owner will get ended(Status).
+%   Write Line to the process, which may block if the process does not read.  If
+%   the process has ended nothing is written, and the owner will get
+%   ended(Status).
 
 process_write(process(In, _), Line) :-
     catch(( write(In, Line), nl(In), flush_output(In) ),
@@ -155,8 +156,8 @@ line(Line, Heard) :-
 line(Line, _) :-
     debug(typhon(helper), 'a helper says ~s', [Line]).
 
-%   A signal must not reach another process with the same number: the fact is
-%   retracted in the same critical section in which the process is reaped.
+%   The process is reaped, and its fact retracted, in one critical section.
+%   Otherwise process_kill_of/1 could kill a new process with the same number.
 
 wait(Owner, Pid, _, Status) :-
     with_mutex(typhon_helper_pid, ended(Owner, Pid, Status)),
@@ -185,9 +186,10 @@ ended(Owner, Pid, Status) :-
 
 %!  helper_python(+Options, -Program) is det.
 %
-%   Program, for process_create/3, is that of python(Name) in Options, that of
-%   the setting, or else that of the system: the python3 in PATH may be a front
-%   end that hides the modules of the system, and is slow to start.
+%   Program, for process_create/3, is the Python of python(Name) in Options,
+%   that of the setting, or that of the system.  The python3 in PATH is not
+%   preferred: it may be a front end that hides the modules of the system, and
+%   is slow to start.
 
 helper_python(Options, Python) :-
     (   option(python(Name), Options)

@@ -31,7 +31,7 @@ for ever.
 
 :- dynamic
     helper/4.                   % Text, Owner, Queue of told lines, Name:
-                                % indexed by Text, see the_helper/3
+                                % indexed by Text, see find_helper/3
 
 grace_seconds(2).
 stop_seconds(5).
@@ -42,10 +42,11 @@ most_told(1000).                % lines that wait to be written
 %   Begin a helper Name.  Command is command(Program, Args), for
 %   process_create/3. Options:
 %
-%     - restart(When): `asked`, default: the process is started with a request,
-%       also after it has ended; or `always`
+%     - restart(When): `asked` (default): a request starts the process, also
+%       after it has ended; or `always`: the process starts at once, and again
+%       when it ends
 %
-%   @error permission_error(open, helper, Name) if there is one
+%   @error permission_error(open, helper, Name) if the helper Name exists
 
 helper_open(Name, Command, Options) :-
     option(restart(When), Options, asked),
@@ -70,7 +71,7 @@ open_helper(Name, Command, When) :-
 
 %!  helper_close(+Name) is det.
 %
-%   End the helper, which may first carry out `quit`.  Open requests get the
+%   End the helper, which gets the request `quit` before.  Open requests get the
 %   answer `closed`.
 %
 %   @error existence_error(helper, Name)
@@ -103,8 +104,8 @@ helper_pid(Name, Pid) :-
 
 %!  helper_ask(+Name, +Request, +Seconds, -Answer) is det.
 %
-%   Request is a dict; the helper gets it with an `id`, and `timeout`.
-%   Answer is
+%   Send Request, a dict, to the helper, which gets it with an `id` and a
+%   `timeout`. Answer is
 %
 %     - ok(Reply)
 %     - said(Dict): an error of the helper, with its kind as a string, `error`,
@@ -117,7 +118,7 @@ helper_pid(Name, Pid) :-
 %   @error existence_error(helper, Name)
 
 helper_ask(Name, Request, Seconds, Answer) :-
-    the_helper(Name, Owner, _),
+    find_helper(Name, Owner, _),
     request_line(Request, Seconds, Id, Line),
     grace_seconds(Grace),
     Longest is Seconds+Grace,
@@ -136,14 +137,15 @@ ask(Name, Owner, Request, Seconds, Answer) :-
 %!  helper_tell(+Name, +Request) is det.
 %!  helper_note(+Name, +Request) is det.
 %
-%   As helper_ask/4, but without an answer; dropped if no process is running.
-%   helper_tell/2 waits while many requests are to be written, so that a fast
-%   caller cannot fill the memory; helper_note/2 never waits.
+%   As helper_ask/4, but without an answer.  The request is dropped if no
+%   process is running.  helper_tell/2 waits while many requests are to be
+%   written, so that a fast caller cannot fill the memory; helper_note/2 never
+%   waits.
 %
 %   @error existence_error(helper, Name)
 
 helper_tell(Name, Request) :-
-    the_helper(Name, Owner, Told),
+    find_helper(Name, Owner, Told),
     request_line(Request, Line),
     catch(thread_send_message(Told, Line),
           error(existence_error(_, _), _),
@@ -151,7 +153,7 @@ helper_tell(Name, Request) :-
     pass(Name, Owner, told).
 
 helper_note(Name, Request) :-
-    the_helper(Name, Owner, _),
+    find_helper(Name, Owner, _),
     request_line(Request, Line),
     pass(Name, Owner, note(Line)).
 
@@ -161,10 +163,10 @@ pass(Name, Owner, Message) :-
     ;   existence_error(helper, Name)
     ).
 
-%   Index on text: an index on compound terms is unsafe if other threads
-%   retract.
+%   The table is indexed by text: an index on compound terms is unsafe if other
+%   threads retract facts.
 
-the_helper(Name, Owner, Told) :-
+find_helper(Name, Owner, Told) :-
     text(Name, Text),
     (   helper(Text, Owner0, Told0, _)
     ->  Owner = Owner0,
@@ -183,8 +185,7 @@ text(Name, Text) :-
 
 %!  helper_failure(+Answer, +Name, +Request) is failure.
 %
-%   Raise the error for an Answer other than ok(Reply), if the caller has no
-%   better error.
+%   Raise the general error for an Answer of helper_ask/4 other than ok(Reply).
 %
 %   @error timeout_error(Request, Name), helper_died(Status, Name),
 %   existence_error(helper, Name), helper_error(Kind, Name)

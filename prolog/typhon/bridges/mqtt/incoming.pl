@@ -27,15 +27,16 @@ is pure.
     prolog:message//1.
 
 :- dynamic
-    up/2.                       % Host, Since: there is a connection; Since
-                                % is 0 if no message can have been missed
+    up/2.                       % Host, Since: Host is connected; Since is 0
+                                % if no message can have been missed
 
-missed_seconds(5).              % in which retained messages arrive again
+missed_seconds(5).              % for which retained messages arrive again
 
 %!  connection(+Host) is semidet.
 %!  connection_gone(+Host) is det.
 %
-%   There is a connection to the broker, as far as is known; it is gone.
+%   Host is connected to the broker, by the latest report of the helper; record
+%   that Host is not connected.
 
 connection(Host) :-
     up(Host, _),
@@ -84,7 +85,7 @@ tell(Retain, Host, Filter0, Kind0, Message, Same) :-
     atom_string(Filter, Filter0),
     atom_string(Kind, Kind0),
     (   Retain == true,
-        \+ came_back(Host)
+        \+ reconnected(Host)
     ->  subscribers_tell_new(mqtt, Host, mqtt(Filter, Kind), Message, Same)
     ;   subscribers_tell(mqtt, Host, mqtt(Filter, Kind), Message, Same)
     ).
@@ -92,7 +93,7 @@ tell(Retain, Host, Filter0, Kind0, Message, Same) :-
 %   After a reconnection all subscribers get retained messages, which may have
 %   changed meanwhile.
 
-came_back(Host) :-
+reconnected(Host) :-
     up(Host, Since),
     missed_seconds(Seconds),
     get_time(Now),
@@ -108,7 +109,8 @@ deepest(200).                   % levels: many brokers disconnect beyond
 %!  mqtt_topic(+Term, -Topic:atom) is det.
 %!  mqtt_filter(+Term, -Filter:atom) is det.
 %
-%   Term is text.  In a filter a level may be `+`, and the last one `#`.
+%   Topic is Term, a text, as an atom.  In a filter a level may be `+`, and the
+%   last level `#`.
 %
 %   @error type_error(text, Term), domain_error(mqtt_topic, Term),
 %   domain_error(mqtt_filter, Term)
@@ -179,9 +181,9 @@ string_bytes(Text, Length) :-
 
 %!  mqtt_payload(+Term, +Kind, -Payload) is det.
 %
-%   Payload is for the helper.  Text is unchanged, numbers are written, dicts
-%   and lists become JSON; if Kind is `json` all terms do; if it is `bytes` Term
-%   is a text of characters up to 255.
+%   Payload is Term in the form for the helper.  With the Kind `auto` text is
+%   unchanged, numbers are written, dicts and lists become JSON; with `json` all
+%   terms become JSON; with `bytes` Term is a text of characters up to 255.
 %
 %   @error type_error(mqtt_payload, Culprit), instantiation_error
 
@@ -215,9 +217,9 @@ mqtt_payload(Term, _, Text) :-
 
 %!  mqtt_url(+URL, -Parts:dict) is det.
 %
-%   URL is mqtt://User:Password@Host:Port, or mqtts:// for TLS; all but the host
-%   may be missing.  Parts are `host`, `port`, `tls`, and `user` and `password`
-%   if URL has them.
+%   URL is mqtt://User:Password@Host:Port, or mqtts:// for TLS; only the host is
+%   required.  Parts has the keys `host`, `port` and `tls`, and `user` and
+%   `password` if URL has them.
 %
 %   @error domain_error(mqtt_url, URL)
 

@@ -15,7 +15,7 @@
               [ connection/1, connection_gone/1, mqtt_filter/2,
                 mqtt_payload/3, mqtt_topic/2, mqtt_url/2 ]).
 
-/** <module> The connection of a host to a broker, and the predicates of agents
+/** <module> MQTT on a host: connection, publishing and subscribing
 
 *Threading*: any thread; predicates of agents run in the thread of the agent.
 */
@@ -28,7 +28,7 @@
     prolog:error_message//1.
 
 :- dynamic
-    started/3.                  % Host, Options, Request: to connect
+    started/3.                  % Host, Options, Request: connects to the broker
 
 typhon_starting:starts(mqtt, Host, URL, Options) :-
     check_options(mqtt_option, Options),
@@ -73,7 +73,7 @@ option_type(timeout(X), between(0.001, 3600), X).
 option_type(wait(X), boolean, X).
 option_type(python(X), atom, X).
 
-%   Request is what the helper needs, also after a restart.
+%   Request is the request by which the helper connects, also after a restart.
 
 request(Options, Parts, Request) :-
     option(clean(Clean), Options, true),
@@ -199,8 +199,8 @@ formal(timeout, Host, Request, timeout_error(mqtt(What), Host)) :-
 
 %   mqtt_publish(+Host, +Message, +Wait:boolean, +Seconds) is det.
 %
-%   A message that may be lost (QoS 0) is not acknowledged, as long as there is
-%   a connection: a request for each would halve the rate.
+%   While there is a connection, a message that may be lost (QoS 0) is sent
+%   without waiting for an answer of the helper, as that would halve the rate.
 %
 %   @error the errors of mqtt_ask/3
 
@@ -213,7 +213,8 @@ mqtt_publish(Host, Message, false, _) :-
 mqtt_publish(Host, Message, Wait, Seconds) :-
     mqtt_ask(Host, Message.put(_{do:publish, wait:Wait}), Seconds).
 
-%   Message is certainly not too large.
+%   Message is not too large, whatever its characters: UTF-8 needs up to four
+%   bytes.
 
 fits(Host, Message) :-
     get_dict(payload, Message, Text),
@@ -251,16 +252,19 @@ typhon_helper_owner:again(mqtt(Host), Request) :-
 %!  publish(+Topic, +Payload) is det.
 %!  publish(+Topic, +Payload, +Options) is det.
 %
-%   Options:
+%   Publish Payload on Topic.  Options:
 %
-%     - qos(0, 1 or 2): default 0
-%     - retain(Boolean): whether the broker keeps it for later subscribers
+%     - qos(QoS): quality of service, 0 (default), 1 or 2
+%     - retain(Boolean): whether the broker keeps the message for later
+%       subscribers, default `false`
 %     - payload(Kind): `auto`, by which dicts and lists are written as JSON and
-%       all else as text; `json`; `text`; or `bytes`, text whose characters
+%       other terms as text; `json`; `text`; or `bytes`, text whose characters
 %       are bytes
-%     - wait(Boolean): whether to wait until the broker has it, default `false`
+%     - wait(Boolean): whether to wait until the broker has the message, default
+%       `false`
 %
-%   Messages that are published while there is no connection are kept for it.
+%   While there is no connection messages are kept, and sent after the next
+%   connection.
 %
 %   @error domain_error(mqtt_topic, Topic), type_error(mqtt_payload, Payload),
 %   resource_error(mqtt_pending) if too many are kept,
@@ -289,14 +293,14 @@ publish(Topic, Payload, Options) :-
 %
 %     - qos(N): maximal quality of service of the messages, default 0
 %     - payload(Kind): `auto`, JSON objects and lists become dicts and lists,
-%     other
-%       payloads strings; `json`, all payloads become terms; `text`; or `bytes`,
-%       a string of characters up to 255.  A payload that is not UTF-8 is always
-%       bytes.
+%       other payloads strings; `json`, all payloads become terms; `text`; or
+%       `bytes`, a string of characters up to 255.  A payload that is not UTF-8
+%       is always bytes.
 %     - as(How), queue(N): as of subscribe/5 of typhon_subscribers
 %
 %   @error domain_error(mqtt_filter, Filter)
-%   @error permission_error(subscribe, mqtt_filter, Filter): the broker refuses
+%   @error permission_error(subscribe, mqtt_filter, Filter) the broker refuses
+%   the subscription
 
 subscribe(Filter) :-
     subscribe(Filter, []).
@@ -328,6 +332,8 @@ with_queue(Options, Max, [queue(Max)|Options]).
 
 %!  unsubscribe(+Filter) is det.
 %
+%   End the subscription of the agent to Filter.
+%
 %   @error existence_error(mqtt_subscription, Filter)
 
 unsubscribe(Filter0) :-
@@ -339,7 +345,8 @@ unsubscribe(Filter0) :-
     ;   existence_error(mqtt_subscription, Filter)
     ).
 
-%   An agent has one subscription to a filter.
+%   A subscription with another kind of payload replaces the first: an agent has
+%   one subscription to a filter.
 
 unsubscribe_others(Filter, Key, Host, Agent) :-
     forall(( kind(Kind), Other = mqtt(Filter, Kind), Other \== Key ),

@@ -35,23 +35,25 @@
 %!  nxt_connect(+Brick, +Port) is det.
 %!  nxt_connect(+Brick, +Port, +Options) is det.
 %
-%   Connect to the NXT at Port and call it Brick, an atom.  Port is a device
+%   Connect to the NXT at Port and name it Brick, an atom.  Port is a device
 %   such as '/dev/rfcomm0', or a URL of pyserial such as
 %   'socket://localhost:5000'. The brick has answered when this succeeds.
 %   Options:
 %
 %     - deadline(Seconds)
-%       For every later call; default 3.
+%       Time limit of every later call; default 3.
 %     - connect_deadline(Seconds)
-%       For this call; default 15.
+%       Time limit of this call; default 15.
 %     - confirm(Boolean)
 %       Whether the brick must acknowledge commands that have no other answer,
 %       such as motor commands; default `true`.  With `false`, these are faster
 %       (a Bluetooth link needs a tenth of a second to change direction), and
 %       succeed even if the brick is silent or refuses.
 %     - baudrate(N)
+%       Default 115200.
 %     - python(Program)
-%       For the helper; default see the setting typhon_nxt_link:python.
+%       The Python of the helper; default see the setting
+%       typhon_nxt_link:python.
 %
 %   @error permission_error(connect, nxt_brick, Brick) if Brick is connected
 %   @error See nxt_failure/4
@@ -81,7 +83,7 @@ option_type(python(X), atom, X).
 
 %!  nxt_disconnect(+Brick) is det.
 %
-%   The motors keep running as they are.
+%   Close the connection.  The motors keep running.
 %
 %   @error existence_error(nxt_brick, Brick)
 
@@ -146,7 +148,7 @@ nxt_info(Brick, Info) :-
              protocol(Version.protocol_major, Version.protocol_minor)
            ].
 
-%   001653010203 is 00:16:53:01:02:03.
+%   colons(+Hex, -Address): 001653010203 becomes 00:16:53:01:02:03.
 
 colons(Hex, Address) :-
     findall(Byte,
@@ -166,8 +168,8 @@ nxt_set_name(Brick, Name) :-
 
 %!  nxt_keep_alive(+Brick, -Seconds:number) is det.
 %
-%   Keep the brick from falling asleep.  It will fall asleep after Seconds
-%   without a command; 0 means never.
+%   Keep the brick from switching off.  It will switch off after Seconds without
+%   a command; 0 means never.
 
 nxt_keep_alive(Brick, Seconds) :-
     nxt_command(Brick, 'KEEPALIVE', _{}, Values),

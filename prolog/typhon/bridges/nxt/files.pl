@@ -52,7 +52,8 @@ more_files(Brick, File, [Name-Size|Files]) :-
     ;   Files = []
     ).
 
-%   Not setup_call_cleanup/3: a deadline is not observed in a cleanup handler.
+%   setup_call_cleanup/3 cannot be used: Prolog observes no deadline in a
+%   cleanup handler.
 
 :- meta_predicate with_handle(+, +, 0).
 
@@ -76,6 +77,8 @@ nxt_file_exists(Brick, File) :-
     nxt_files(Brick, File, [_|_]).
 
 %!  nxt_file_read(+Brick, +File, -Bytes:list) is det.
+%
+%   Bytes are the content of File on the brick.
 %
 %   @error nxt_error(refused(file_not_found), Brick)
 
@@ -129,6 +132,8 @@ write_pieces(Bytes, Left, Brick, Handle) :-
 
 %!  nxt_file_delete(+Brick, +File) is det.
 %
+%   Delete File on the brick.
+%
 %   @error nxt_error(refused(file_not_found), Brick)
 
 nxt_file_delete(Brick, File) :-
@@ -167,6 +172,8 @@ nxt_program_start(Brick, File) :-
     nxt_command(Brick, 'STARTPROGRAM', _{name:File}, _).
 
 %!  nxt_program_stop(+Brick) is det.
+%
+%   Stop the running program.
 %
 %   @error nxt_error(refused(no_active_program), Brick)
 

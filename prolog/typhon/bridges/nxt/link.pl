@@ -28,10 +28,10 @@
 
 /** <module> Requests to bricks, and their answers
 
-Every connected brick has a helper, which holds its serial line:
-`python3 bridges/nxt/bridge.py PORT`, see there for the lines that it reads and
-writes.  A helper that died is replaced by the next request.  A helper serves
-its requests one after the other; different bricks have different helpers.
+Every connected brick has a helper, which owns its serial line: `python3
+bridges/nxt/bridge.py PORT`.  That file describes the lines that it reads and
+writes.  The next request restarts a helper that has died.  A helper serves its
+requests one after the other; different bricks have different helpers.
 
 *Threading*: any thread may send requests; see typhon_helper_requests.
 */
@@ -40,6 +40,8 @@ its requests one after the other; different bricks have different helpers.
     brick/3.                    % Brick, Port, Options
 
 %!  link_open(+Brick, +Port, +Options) is det.
+%
+%   Begin the helper of Brick at Port.
 %
 %   @error permission_error(connect, nxt_brick, Brick) if Brick is connected
 
@@ -68,19 +70,23 @@ link_close(Brick) :-
     ).
 
 %!  link_brick(?Brick, ?Port) is nondet.
+%
+%   Brick is connected at Port.
 
 link_brick(Brick, Port) :-
     brick(Brick, Port, _).
 
 %!  link_option(+Brick, ?Option) is nondet.
 %
+%   Brick was connected with Option.
+%
 %   @error existence_error(nxt_brick, Brick)
 
 link_option(Brick, Option) :-
-    the_brick(Brick, _, Options),
+    connected_brick(Brick, _, Options),
     member(Option, Options).
 
-the_brick(Brick, Port, Options) :-
+connected_brick(Brick, Port, Options) :-
     (   brick(Brick, Port, Options)
     ->  true
     ;   existence_error(nxt_brick, Brick)
@@ -97,12 +103,12 @@ the_brick(Brick, Port, Options) :-
 %   @error See nxt_failure/4
 
 link_request(Brick, What, Fields, Reply) :-
-    the_brick(Brick, _, Options),
+    connected_brick(Brick, _, Options),
     option(deadline(Seconds), Options, 3),
     link_request(Brick, What, Fields, Seconds, Reply).
 
 link_request(Brick, What, Fields, Seconds, Reply) :-
-    the_brick(Brick, Port, _),
+    connected_brick(Brick, Port, _),
     catch(helper_ask(nxt(Brick), Fields, Seconds, Answer0),
           error(existence_error(helper, _), _),
           existence_error(nxt_brick, Brick)),
@@ -112,7 +118,7 @@ link_request(Brick, What, Fields, Seconds, Reply) :-
     ;   nxt_failure(Answer, Brick, Port, What)
     ).
 
-%   Texts are names in this protocol, and become atoms.
+%   In this protocol strings are names, so they become atoms.
 
 answer_atoms(ok(Reply0), ok(Reply)) :-
     !,
@@ -147,7 +153,7 @@ atoms_pair(Key-Value0, Key-Value) :-
 
 %!  nxt_python(+Options, -Program) is det.
 %
-%   As helper_python/2, but with the setting for bricks, if there is one.
+%   As helper_python/2, but the setting for bricks, if set, is the default.
 
 nxt_python(Options, Python) :-
     (   option(python(_), Options)
@@ -205,6 +211,8 @@ bytes([]) -->
     [].
 
 %!  nxt_text(+Length:integer, +Text) is det.
+%
+%   Text is an atom of 1 to Length ASCII characters.
 %
 %   @error domain_error(nxt_text(Length), Text) if Text is not an atom of 1
 %          to Length ASCII characters
@@ -285,8 +293,8 @@ formal(Kind, _, Brick, _, _, nxt_error(Kind, Brick)).
                 *            VALUES            *
                 *******************************/
 
-%   Speeds, accelerations, lamps, offsets, and replies not yet read, for the
-%   predicates of SWI-PRO-NXT.
+%   The predicates of SWI-PRO-NXT keep speeds, accelerations, lamps, offsets,
+%   and replies not yet read.
 
 :- dynamic
     value/3.                    % Brick, Key, Value

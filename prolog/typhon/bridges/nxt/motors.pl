@@ -22,9 +22,9 @@
 
 /** <module> Motors
 
-A motor is `a`, `b` or `c` ('A', 'B' and 'C' are also accepted); Motors are one,
-a list of them, or `all`.  Power is -100 to 100 per cent.  A motor that has
-reached its limit is released, and may roll on for some degrees.
+A motor is `a`, `b` or `c` ('A', 'B' and 'C' are also accepted); Motors is a
+motor, a list of motors, or `all`.  Power is -100 to 100 per cent.  A motor that
+has reached its limit is released, and may roll on for some degrees.
 
 *Threading*: any thread; see typhon_nxt_link.
 */
@@ -34,7 +34,7 @@ reached its limit is released, and may roll on for some degrees.
 %!  nxt_run(+Brick, +Motors, +Power) is det.
 %!  nxt_run(+Brick, +Motors, +Power, +Options) is det.
 %
-%   Begin to turn.  Options:
+%   Begin to turn Motors.  Options:
 %
 %     - regulated(Boolean)
 %       Whether Power is a speed, which the brick maintains under load; default
@@ -42,10 +42,11 @@ reached its limit is released, and may roll on for some degrees.
 %     - brake(Boolean)
 %       Brake between the pulses of the current; default as regulated.
 %     - degrees(N)
-%       Turn by that angle; default 0, without end.
+%       Turn by N degrees; default 0: without limit.
 %     - sync(Ratio)
-%       Two motors turn together: at 0 alike, at 50 the first one stands, at 100
-%       it turns against the other; -50 and -100 do the same to the other one.
+%       Synchronise two motors: at 0 both turn alike, at 50 the first one does
+%       not turn, at 100 it turns in the opposite direction; -50 and -100 do the
+%       same to the second one.
 %     - state(State)
 %       `running` (default), `ramp_up` or `ramp_down`.
 %
@@ -125,8 +126,8 @@ nth_motor(c, 2).
 
 %!  nxt_turn(+Brick, +Motors, +Power, +Degrees:integer) is det.
 %
-%   Begin to turn by Degrees, at a speed of Power; backwards if one of the
-%   two is negative.  nxt_await/3 waits for the end.
+%   Begin to turn Motors by Degrees, at a speed of Power; backwards if one of
+%   the two is negative.  nxt_await/3 waits for the end.
 
 nxt_turn(Brick, Motors, Power0, Degrees0) :-
     must_be(between(-100, 100), Power0),
@@ -142,11 +143,12 @@ nxt_turn(Brick, Motors, Power0, Degrees0) :-
 %!  nxt_turn_to(+Brick, +Motor, +Power, +Angle:integer) is det.
 %!  nxt_turn_to(+Brick, +Motor, +Power, +Angle:integer, +Seconds) is det.
 %
-%   Turn to Angle, as measured by nxt_tacho/3.  With Seconds, the maximal time,
-%   Motor slows down as it comes near, and when the call succeeds it is held
-%   there, at most two degrees off.  Without Seconds this only begins to turn.
+%   Turn Motor to Angle, as measured by nxt_tacho/3.  Without Seconds the call
+%   only begins to turn.  With Seconds, the time limit, Motor slows down near
+%   Angle, and when the call succeeds it is held at most two degrees off.
 %
-%   @error timeout_error(nxt(turn_to), Brick); Motor has then been stopped
+%   @error timeout_error(nxt(turn_to), Brick) the time limit was exceeded, and
+%   Motor was stopped
 
 nxt_turn_to(Brick, Motor, Power0, Angle) :-
     must_be(between(-100, 100), Power0),
@@ -162,9 +164,9 @@ nxt_turn_to(Brick, Motor, Power, Angle, Seconds) :-
     must_be(between(0.0, 36000), Seconds),
     get_time(Now),
     Deadline is Now+Seconds,
-    near(Brick, Motor, Power, Angle, Deadline).
+    turn_until_near(Brick, Motor, Power, Angle, Deadline).
 
-near(Brick, Motor, Power, Angle, Deadline) :-
+turn_until_near(Brick, Motor, Power, Angle, Deadline) :-
     nxt_tacho(Brick, Motor, Now),
     Error is Angle-Now,
     get_time(Time),
@@ -174,20 +176,20 @@ near(Brick, Motor, Power, Angle, Deadline) :-
         nxt_tacho(Brick, Motor, Then),
         (   abs(Angle-Then) =< 2
         ->  true
-        ;   near(Brick, Motor, Power, Angle, Deadline)
+        ;   turn_until_near(Brick, Motor, Power, Angle, Deadline)
         )
     ;   Time > Deadline
     ->  nxt_stop(Brick, Motor),
-        in_vain(turn_to, Brick, Motor)
+        time_out(turn_to, Brick, Motor)
     ;   approach(Error, Power, Speed),
         nxt_run(Brick, Motor, Speed, [regulated(true)]),
         sleep(0.01),
-        near(Brick, Motor, Power, Angle, Deadline)
+        turn_until_near(Brick, Motor, Power, Angle, Deadline)
     ).
 
-%   One per cent is 10 degrees in a second, and the brick may need a tenth of a
-%   second to answer and as long again to slow down.  Below 6 per cent a motor
-%   may not turn at all.
+%   Speed is proportional to Error: one per cent is 10 degrees in a second, and
+%   the brick may need a tenth of a second to answer and as long again to slow
+%   down.  Below 6 per cent a motor may not turn at all.
 
 approach(Error, Power, Speed) :-
     Wanted is max(6, abs(Error)//4),
@@ -198,17 +200,17 @@ rest(Brick, Motor, Deadline) :-
     ->  true
     ;   get_time(Now),
         Now > Deadline
-    ->  in_vain(turn_to, Brick, Motor)
+    ->  time_out(turn_to, Brick, Motor)
     ;   rest(Brick, Motor, Deadline)
     ).
 
-in_vain(What, Brick, Motor) :-
+time_out(What, Brick, Motor) :-
     throw(error(timeout_error(nxt(What), Brick),
                 context(nxt(Brick, What), Motor))).
 
 %!  nxt_stop(+Brick, +Motors) is det.
 %
-%   Stop, and hold the position.
+%   Stop Motors, and hold their positions.
 
 nxt_stop(Brick, Motors) :-
     motor_ports(Motors, Ports),
@@ -217,7 +219,7 @@ nxt_stop(Brick, Motors) :-
 
 %!  nxt_float(+Brick, +Motors) is det.
 %
-%   Release: no current, no brake.
+%   Release Motors: no current, no brake.
 
 nxt_float(Brick, Motors) :-
     motor_ports(Motors, Ports),
@@ -238,7 +240,7 @@ output_state(Brick, Motor, State) :-
 
 %!  nxt_tacho_reset(+Brick, +Motors) is det.
 %
-%   Set the angle of the motors to 0 degrees.  Motors is one, a list, or `all`.
+%   Set the angle of Motors to 0 degrees.
 
 nxt_tacho_reset(Brick, Motors) :-
     ( Motors == all -> Ports = [0,1,2] ; motor_ports(Motors, Ports) ),
@@ -248,10 +250,9 @@ nxt_tacho_reset(Brick, Motors) :-
 
 %!  nxt_motor(+Brick, +Motor, -State:list) is det.
 %
-%   State is what the brick reports on Motor: power(P), mode(Bits),
-%   regulation(none, speed or sync), turn_ratio(R), state(idle, ramp_up,
-%   running or ramp_down), limit(Degrees), tacho(D), block(D) and
-%   rotation(D).
+%   State is the report of the brick about Motor: power(P), mode(Bits),
+%   regulation(none, speed or sync), turn_ratio(R), state(idle, ramp_up, running
+%   or ramp_down), limit(Degrees), tacho(D), block(D) and rotation(D).
 
 nxt_motor(Brick, Motor, State) :-
     output_state(Brick, Motor, Dict),
@@ -269,7 +270,8 @@ regulation_name(N, N).
 
 %!  nxt_moves(+Brick, +Motor) is semidet.
 %
-%   Motor is driven, or rolls; the latter takes two measurements.
+%   Motor is driven, or rolls.  If it is not driven, the call compares two
+%   measurements of its angle.
 
 nxt_moves(Brick, Motor) :-
     output_state(Brick, Motor, State),
@@ -283,7 +285,7 @@ nxt_moves(Brick, Motor) :-
 
 %!  nxt_await(+Brick, +Motors, +Seconds:number) is det.
 %
-%   Wait until all Motors rest.
+%   Wait until no motor of Motors moves.
 %
 %   @error timeout_error(nxt(await), Brick)
 
@@ -304,7 +306,7 @@ await(Brick, Deadline, Motor) :-
     ->  true
     ;   get_time(Now),
         Now > Deadline
-    ->  in_vain(await, Brick, Motor)
+    ->  time_out(await, Brick, Motor)
     ;   sleep(0.02),
         await(Brick, Deadline, Motor)
     ).

@@ -43,8 +43,8 @@ gyroscope, infrared seeker and accelerometer are those of HiTechnic.
 %     - speed(Sign)
 %       a move forward or backward: the speed is the last argument.
 %
-%   So `init_light_nxt(b, 1, 3)` is for two ports, and
-%   `read_touch_nxt(b, 1, 3, R1, R3)` has their values.
+%   So `init_light_nxt(b, 1, 3)` sets up two ports, and
+%   `read_touch_nxt(b, 1, 3, R1, R3)` returns their values.
 
 term_expansion(family(Name, Most, Kind), Terms) :-
     findall(Term, family_term(Name, Most, Kind, Term), Terms).
@@ -112,8 +112,8 @@ clipped(Speed, Power) :-
     must_be(number, Speed),
     Power is max(-100, min(100, round(Speed))).
 
-%   The firmware has no command for accelerations, so the power changes in
-%   steps.
+%   The firmware has no command for accelerations, so move/3 changes the power
+%   in steps.
 
 move(Name, Ports, Power0) :-
     Power is Power0,
@@ -145,14 +145,16 @@ ramp(Name, Ports, Now, Power, Rate) :-
 %!  stop_nxt(+Name, +P) is det.
 %!  stop_nxt(+Name, +P1, +P2) is det.
 %
-%   Switch the current off; stop and hold.
+%   Release the motors: no current, no brake; stop them and hold their
+%   positions.
 
 %!  rotate_nxt(+Name, +P, +Angle, +Dir) is det.
 %!  rotateto_nxt(+Name, +P, +Angle, +Sign) is det.
 %
-%   Turn by Angle degrees, where Dir is 'A', anticlockwise, or 'C', clockwise;
-%   or to an angle, where Sign is + or -.  The motor turns at the speed of
-%   set_motorspeed_nxt/3, else 50, and has arrived when the call succeeds.
+%   Turn the motor P by Angle degrees, where Dir is 'A', anticlockwise, or 'C',
+%   clockwise; or to Angle, with the Sign + or -.  The motor turns at the speed
+%   of set_motorspeed_nxt/3, or 50 by default, and has arrived when the call
+%   succeeds.
 
 rotate_nxt(Name, P, Angle, Dir) :-
     must_be(number, Angle),
@@ -191,7 +193,7 @@ turn_to(Name, P, To, Now) :-
 %!  reverse_nxt(+Name, +P) is det.
 %!  reverse_nxt(+Name, +P1, +P2) is det.
 %
-%   Turn in the other direction at the same speed.
+%   Turn the motors in the other direction at the same speed.
 
 reverse(Name, P) :-
     nxt_motor(Name, P, State),
@@ -201,7 +203,8 @@ reverse(Name, P) :-
 %!  set_motorspeed_nxt(+Name, +P, +Speed) is det.
 %!  set_motorspeed_nxt(+Name, +P1, +P2, +S1, +S2) is det.
 %
-%   Set the speed: of a turning motor at once, of others for rotate_nxt/4.
+%   Set the speed of motors.  A turning motor changes its speed at once; for
+%   others the speed is used by rotate_nxt/4.
 
 set_motorspeed(Name, P, Speed) :-
     clipped(Speed, Power),
@@ -218,7 +221,8 @@ set_motorspeed(Name, P, Speed) :-
 %!  set_acceleration_nxt(+Name, +P, +Acceleration) is det.
 %!  set_acceleration_nxt(+Name, +P1, +P2, +A1, +A2) is det.
 %
-%   In per cent per second.  A move then takes time to reach its speed.
+%   Set the acceleration of motors, in per cent per second.  A move then takes
+%   time to reach its speed.
 
 set_acceleration(Name, P, Acceleration) :-
     must_be(positive_integer, Acceleration),
@@ -236,7 +240,8 @@ is_moving(Name, P, R) :-
 %!  getmode_nxt(+Name, +P, -R) is det.
 %!  getmode_nxt(+Name, +P1, +P2, -R1, -R2) is det.
 %
-%   R is 1 for forward, 2 backward, 3 stopped, 4 without current.
+%   R is 1 for a motor that turns forward, 2 for backward, 3 if it is stopped, 4
+%   if it has no current.
 
 motor_mode(Name, P, R) :-
     nxt_motor(Name, P, State),
@@ -283,8 +288,8 @@ mode(_, _, _, 3).
 %!  init_irseeker_nxt(+Name, +P1, +P2) is det.
 %!  init_accel_nxt(+Name, +P1) is det.
 %
-%   Set the ports up for sensors of this kind; the lamps of light sensors as
-%   floodlight_nxt/3 has set them.
+%   Set up the ports for sensors of the kind in the name.  Lamps of light
+%   sensors are switched as floodlight_nxt/3 has set them.
 
 init(Kind, Name, Ports) :-
     must_be(atom, Name),
@@ -363,7 +368,8 @@ read_sensorport_nxt(Name, P, R) :-
 
 %!  floodlight_nxt(+Name, +P, +OnOff) is det.
 %
-%   Switch the lamp of the light sensor `on`, its initial state, or `off`.
+%   Switch the lamp of the light sensor `on`, which is its initial state, or
+%   `off`.
 
 floodlight_nxt(Name, P, OnOff) :-
     (   memberchk(OnOff, [on, off])
@@ -387,7 +393,7 @@ stop_compasscalibration_nxt(Name, P) :-
 
 %!  set_gyroffset_nxt(+Name, +P) is det.
 %
-%   The present value of the gyroscope, at rest, is read as 0 from now on.
+%   Take the present value of the gyroscope, which must be at rest, as its zero.
 
 set_gyroffset_nxt(Name, P) :-
     link_unset(Name, gyro(P)),

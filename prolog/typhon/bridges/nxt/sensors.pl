@@ -24,9 +24,9 @@
 
 /** <module> Sensors
 
-Ports are 1 to 4, as printed on the brick.  A port is set up for the sensor that
-is read, and this is remembered, so only the first reading needs the time for
-that; two agents that use one port for different sensors delay each other.
+Ports are 1 to 4, as printed on the brick.  The first reading of a sensor sets
+up its port, which takes time; later readings do not.  Two agents that use one
+port for different sensors delay each other.
 
 *Threading*: any thread; see typhon_nxt_link.
 */
@@ -35,9 +35,9 @@ per_cent(0x80).                 % mode
 
 %!  nxt_sensor(+Brick, +Port, +Type, +Mode, -Values) is det.
 %
-%   Values is a dict with raw, normalized and scaled, the values of the firmware
-%   for sensors of Type in Mode, numbers of LEGO's document.  Waits until they
-%   are valid.
+%   Values is a dict with the keys `raw`, `normalized` and `scaled`, the values
+%   that the firmware measures for a sensor of Type in Mode, numbers of LEGO's
+%   document.  Waits until the values are valid.
 
 nxt_sensor(Brick, Port, Type, Mode, Values) :-
     input(Port, Input),
@@ -69,7 +69,7 @@ nxt_touch(Brick, Port, Pressed) :-
 %!  nxt_light(+Brick, +Port, -PerCent:integer) is det.
 %!  nxt_light(+Brick, +Port, +Lamp, -PerCent:integer) is det.
 %
-%   100 is bright.  Lamp is `on` (default) or `off`.
+%   PerCent is the brightness; 100 is bright.  Lamp is `on` (default) or `off`.
 
 nxt_light(Brick, Port, PerCent) :-
     nxt_light(Brick, Port, on, PerCent).
@@ -92,7 +92,8 @@ scaled(Brick, Port, Type, PerCent) :-
 %!  nxt_sound(+Brick, +Port, -PerCent:integer) is det.
 %!  nxt_sound(+Brick, +Port, +Scale, -PerCent:integer) is det.
 %
-%   100 is loud.  Scale is `db` (default), or `dba`, adjusted to human hearing.
+%   PerCent is the loudness; 100 is loud.  Scale is `db` (default), or `dba`,
+%   adjusted to human hearing.
 
 nxt_sound(Brick, Port, PerCent) :-
     nxt_sound(Brick, Port, db, PerCent).

@@ -42,7 +42,7 @@ errors; for other errors see nxt_failure/4.
 
 %!  setup_nxt(+Name) is det.
 %
-%   Does nothing: no program is needed on the brick any more.
+%   Has no effect: this bridge needs no program on the brick.
 
 setup_nxt(Name) :-
     must_be(atom, Name).
@@ -51,8 +51,9 @@ setup_nxt(Name) :-
 %!  connect2_nxt(+Name, +Link, +Port, -Response) is det.
 %!  connect_nxt(+Name, +Link, +Port) is det.
 %
-%   Connect.  Link is a device or URL as of nxt_connect/2, then Port is ignored;
-%   or a host name, then Port is its TCP port.  Response is `started`.
+%   Connect to a brick and name it Name.  Link is a device or URL as of
+%   nxt_connect/2, and then Port is ignored; or a host name, and then Port is
+%   its TCP port.  Response is `started`.
 
 initialize_nxt(Name, Link, Port, started) :-
     connect_nxt(Name, Link, Port).
@@ -132,7 +133,8 @@ check_res_nxt(Name, Values) :-
 %!  write_lcd_nxt(+Name, +X, +Y, +Atom) is det.
 %!  clear_lcd_nxt(+Name) is det.
 %
-%   X is a column, 0 to 15, Y a row, 0 to 7.
+%   Write Atom on the display, from column X, 0 to 15, in row Y, 0 to 7; clear
+%   the display.
 
 write_lcd_nxt(Name, X, Y, Atom) :-
     must_be(atomic, Atom),
@@ -143,7 +145,8 @@ clear_lcd_nxt(Name) :-
 
 %!  beep_nxt(+Name, +Type) is det.
 %
-%   1 is a beep, 2 two beeps, 3 a rising sequence, 4 a buzz.
+%   Play a sound: Type is 1 for a beep, 2 for two beeps, 3 for a rising
+%   sequence, 4 for a buzz.
 
 beep_nxt(Name, Type) :-
     must_be(integer, Type),

@@ -15,15 +15,16 @@
 
 /** <module> Python on a host
 
-The functions of files are predicates of the place.  On a host with the option
-python(true) an agent may deliver a payload that was read from a `.py` file: the
-place has its functions as predicates until undeliver/1.  They run in the
-process that python_start/3 has started, or in one that is started for them.
+The functions of Python files are predicates of the place.  On a host with the
+option python(true) an agent may deliver a payload that was read from a `.py`
+file: the place has its functions as predicates until undeliver/1.  They run in
+the process that python_start/3 has started, or else in one that is started for
+them.
 
 Python code can do all that the user of this process may do.
 
-*Threading*: any thread; a call waits for its answer, others do not.  The thread
-that reads from Python delivers its unsolicited messages.
+*Threading*: any thread; a thread waits only for the answer of its own call.
+The thread that reads from Python delivers its unsolicited messages.
 */
 
 :- multifile
@@ -38,7 +39,7 @@ that reads from Python delivers its unsolicited messages.
 
 :- dynamic
     started/2,                  % Host, Options
-    loaded/3.                   % Host, Name, Request: the modules
+    loaded/3.                   % Host, Name, Request: loads the module Name
 
 load_seconds(30).
 
@@ -104,7 +105,7 @@ python_load(Host, Request, PIs, Clauses) :-
 
 %   python_forget(+Host, +Name) is det.
 %
-%   The module Name is not needed in Python any more.
+%   Remove the module Name from the Python process.
 
 python_forget(Host, Name) :-
     retractall(loaded(Host, Name, _)),
@@ -165,7 +166,7 @@ typhon_words:python_undelivered(Host, Name) :-
     module_name(Name, Module),
     python_forget(Host, Module).
 
-%   The name differs from that of any file, so the payload replaces no file.
+%   No file has such a name, so a payload replaces no module of a file.
 
 module_name(Name, Module) :-
     atom_concat('payload ', Name, Module).
@@ -176,9 +177,9 @@ module_name(Name, Module) :-
 
 %   python_functions(+Module, +Functions, -PIs:list, -Clauses:list) is det.
 %
-%   Clauses call the functions of a Python module, which are described as by
-%   `load` of bridges/python/bridge.py: there is a predicate for each number of
-%   arguments, with the result as one more argument.
+%   Clauses call the Functions of a Python module, in the form of the answer to
+%   `load` in bridges/python/bridge.py.  Each number of arguments gives a
+%   predicate, with the result as one more argument.
 
 python_functions(Module, Functions, PIs, Clauses) :-
     findall(Name/Arity-Clause,
@@ -224,7 +225,7 @@ agent_value(Agent, Agent).
 
 %   python_ask(+Host, +Request, +Seconds, -Reply) is det.
 %
-%   @error python_error(Class, Message): an exception of Python
+%   @error python_error(Class, Message) Python has raised an exception
 %   @error timeout_error(python(What), Host)
 %   @error helper_died(Status, python(Host))
 %   @error existence_error(helper, python(Host))

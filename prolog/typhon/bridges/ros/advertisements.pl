@@ -11,19 +11,20 @@
 :- use_module('../../kernel/base/bounds', [bounded/2]).
 :- use_module(connection, [way_say/2]).
 
-/** <module> Advertisements and subscriptions, until they are withdrawn
+/** <module> Advertisements and subscriptions of a host in ROS
 
-A host has advertised a topic in ROS, Key advertise(Topic), subscribed to one,
-topic(Topic), or advertised a service, service(Service).  It repeats these
-operations to a server that was down.
+An entry of the table is an operation Op that is in force under a Key: the host
+has advertised a topic, advertise(Topic), subscribed to a topic, topic(Topic),
+or advertised a service, service(Service).  The host repeats these operations to
+a server that was down.
 
 *Threading*: any thread.
 */
 
 %!  claim(+Host, +Key, +Op) is det.
 %
-%   Op is in force under Key, from now on if it was not before.  A server that
-%   is down gets it when it is back.
+%   Put Op in force under Key, unless it is already.  A server that is down gets
+%   it when it is up again.
 %
 %   @error permission_error(use, ros_topic(Type), Topic) if Topic is in use with
 %          messages of another Type, and the errors of way_say/2
@@ -76,7 +77,7 @@ ends(Type, Package/Name) :-
 
 :- dynamic
     standing/3,                 % Host, Key, Op
-    ended/3.                    % Host, Key, Op: the most recent ones
+    ended/3.                    % Host, Key, Op: ended; bounded
 
 %!  standing(?Host, ?Key, ?Op) is nondet.
 %!  standing_begin(+Host, +Key, +Op) is det.
@@ -84,10 +85,10 @@ ends(Type, Package/Name) :-
 %!  standing_again(+Host, +Key, -Op) is semidet.
 %!  standing_forget(+Host) is det.
 %
-%   Op is in force; it is from now on; it is no longer; it is again as it last
-%   was; delete all of Host.
+%   Op is in force under Key; put it in force; end it; put the Op that ended
+%   last under Key in force again; delete all entries of Host.
 %
-%   @error resource_error(ros_standing)
+%   @error resource_error(ros_standing) Host has too many entries
 
 standing_begin(Host, Key, Op) :-
     with_mutex(typhon_ros_advertisements, begin(Host, Key, Op)).

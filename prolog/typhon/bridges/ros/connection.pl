@@ -25,10 +25,10 @@
 
 /** <module> The connection of a host to ROS
 
-The connection is a node of Typhon, or a rosbridge server: both use the same
-frames.
+A host is connected through a node of Typhon, or through a rosbridge server;
+both use the same frames.
 
-A helper, bridges/ros/node.py, is the node; it runs in the Python that
+The node is a helper, bridges/ros/node.py, which runs in the Python that
 `make tools-ros` has installed.
 
 *Threading*: any thread.  A caller that waits for an answer has its own queue,
@@ -43,7 +43,7 @@ so late answers are dropped.
 
 %!  way_open(+Host, +Where, +Options) is det.
 %
-%   Where is `ros2` or a URL.
+%   Connect Host.  Where is `ros2` or a URL.
 %
 %   @error the errors of node_open/2 and rosbridge_open/4
 
@@ -64,6 +64,8 @@ open_way(server, Host, URL, Options) :-
     rosbridge_open(Host, URL, Seconds, Silence).
 
 %!  way_close(+Host) is det.
+%
+%   Disconnect Host.
 
 way_close(Host) :-
     (   way(Host, Kind, _, _)
@@ -78,12 +80,16 @@ close_way(server, Host) :-
     rosbridge_close(Host).
 
 %!  way_option(+Host, ?Option, +Default) is det.
+%
+%   As option/3, for the options with which Host was connected.
+%
+%   @error existence_error(ros, Host)
 
 way_option(Host, Option, Default) :-
-    the_way(Host, _, Options),
+    host_way(Host, _, Options),
     option(Option, Options, Default).
 
-the_way(Host, Kind, Options) :-
+host_way(Host, Kind, Options) :-
     (   way(Host, Kind0, _, Options0)
     ->  Kind = Kind0,
         Options = Options0
@@ -91,6 +97,8 @@ the_way(Host, Kind, Options) :-
     ).
 
 %!  way_state(?Host, -Where, -Connected:boolean) is nondet.
+%
+%   Host uses ROS at Where, and is connected now or not.
 
 way_state(Host, Where, Connected) :-
     way(Host, Kind, Where, _),
@@ -106,13 +114,13 @@ connected(server, Host) :-
 
 %!  way_say(+Host, +Op) is det.
 %
-%   Send Op; the node of Typhon reports errors in it.
+%   Send Op.  The node of Typhon reports errors in Op; a server does not.
 %
 %   @error existence_error(ros, Host), the errors of node_say/3 and
 %          rosbridge_send/3
 
 way_say(Host, Op) :-
-    the_way(Host, Kind, Options),
+    host_way(Host, Kind, Options),
     option(deadline(Seconds), Options, 5),
     op_frame(Op, Frame),
     debug(typhon(ros), '~w says ~p', [Host, Op]),
@@ -125,8 +133,8 @@ say(server, Host, Frame, Seconds) :-
 
 %!  way_note(+Host, +Op) is det.
 %
-%   Send Op if that is possible without waiting.  If there is no connection, or
-%   the queue is full, it is dropped, as it is not essential.
+%   Send Op, which is not essential, if that needs no waiting.  Op is dropped if
+%   Host is not connected, or the queue is full.
 
 way_note(Host, Op) :-
     op_frame(Op, Frame),
@@ -135,7 +143,7 @@ way_note(Host, Op) :-
           debug(typhon(ros), '~w has not said ~p: ~p', [Host, Op, Formal])).
 
 note(Host, Frame) :-
-    the_way(Host, Kind, _),
+    host_way(Host, Kind, _),
     note(Kind, Host, Frame).
 
 note(node, Host, Frame) :-
@@ -161,8 +169,8 @@ way_await(Host, Id, Op, Seconds, Answer) :-
 
 %   answer_await(+Host, +Id, :Ask, +Seconds, -Answer) is det.
 %
-%   Run Ask once, and wait for an answer that another thread passes to
-%   answer_come/2.  Answer is that, lost(Why), or `timeout`.
+%   Run Ask once, and wait for the answer that another thread passes to
+%   answer_come/2. Answer is that answer, lost(Why), or `timeout`.
 
 answer_await(Host, Id, Ask, Seconds, Answer) :-
     setup_call_cleanup(
@@ -181,7 +189,7 @@ wait(Queue, Seconds, Answer) :-
 
 %!  answer_come(+Id, +Answer) is semidet.
 %
-%   Pass Answer to the caller; fails if none waits for it any more.
+%   Pass Answer to the caller that waits for Id.  Fails if no caller waits.
 
 answer_come(Id, Answer) :-
     retract(awaited(Id, _, Queue)),
@@ -236,7 +244,7 @@ command(Host, Options, ['-u', File, '--node', Node, '--reach', Reach|Args]) :-
     ;   Args = []
     ).
 
-%   Other characters are not allowed in names of ROS.
+%   ROS allows only letters, digits and `_` in names, so others become `_`.
 
 default_node(Host, Node) :-
     atom_codes(Host, Codes0),
@@ -252,8 +260,8 @@ node_code(_, 0'_).
 
 %!  node_python(+Options, -Python) is det.
 %
-%   Python is that of python(File) in Options, or the one that
-%   bridges/ros/install makes.
+%   Python is that of python(File) in Options, or by default the Python that
+%   bridges/ros/install has installed.
 %
 %   @error existence_error(ros_python, File)
 

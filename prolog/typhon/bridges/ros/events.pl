@@ -71,7 +71,8 @@ hear(Event, Host) :-
     !.
 hear(_, _).
 
-%   A server that was down, or a restarted node, has no record of the host.
+%   A server that was down, or a restarted node, has no record of the host: it
+%   gets all operations in force again.
 
 typhon_ros_rosbridge:up(Host, _) :-
     retract(away(Host)),
@@ -160,8 +161,8 @@ happens(unknown(What), Host) :-
     assertz(ignored(Host, 1)),
     print_message(warning, typhon(ros_ignored(Host, What))).
 
-%   If the queue of the agent is full the call fails at once: its caller need
-%   not wait, and it takes no space from others.
+%   A request that does not fit in the queue of the agent fails at once: its
+%   caller need not wait, and it takes no place from other requests.
 
 typhon_inbox:dropped(ros, Host, request(Id, Service, _)) :-
     request_end(Host, Id, Service),
@@ -176,7 +177,7 @@ goal_over(Host, Id, Agent, Status, Result) :-
                      result(Id, _, _)),
     ignore(unsubscribe(ros, Host, goal(Id), Agent)).
 
-%   The id of a complaint identifies the operation.
+%   The id of a complaint identifies the operation about which ROS complains.
 
 complaint(Level, _, Text, Host) :-
     \+ memberchk(Level, [error, warning]),
@@ -208,7 +209,7 @@ complain(Agent, Host, Text) :-
 
 %!  ros_ignored(+Host, -Count) is det.
 %
-%   Count frames were received that are not valid frames for a client.
+%   Host has received Count frames that are not valid for a client.
 
 ros_ignored(Host, Count) :-
     (   ignored(Host, Count0)
@@ -239,7 +240,7 @@ wanted(false, goal(Id), Host) =>
 wanted(false, Topic, Host) =>
     ignore(standing_end(Host, topic(Topic), _)),
     way_note(Host, unsubscribe(Topic)).
-wanted(true, goal(Id), Host) =>         % the goal was cancelled meanwhile
+wanted(true, goal(Id), Host) =>         % the goal has been cancelled
     subscribers_tell(ros, Host, goal(Id),
                      result(Id, failed, "cancelled: the agent had set out"),
                      result(Id, _, _)).

@@ -33,7 +33,7 @@ helper with rclpy use the same dicts.
 
 %!  value_json(+Message, -JSON) is det.
 %
-%   JSON is a term for json_write_dict/3.
+%   JSON is Message as a term for json_write_dict/3.
 %
 %   @error type_error(ros_message, Message), type_error(ros_value, Value)
 %   @error duplicate_key(Field)
@@ -112,7 +112,7 @@ finite(Number) :-
 
 %!  json_value(+Form, +JSON, -Message) is det.
 %
-%   JSON is as of json_read_dict/2, Form is `dict` or `terms`.
+%   Message is JSON, a term of json_read_dict/2, in the Form `dict` or `terms`.
 
 json_value(dict, JSON, JSON).
 json_value(terms, JSON, Message) :-
@@ -138,8 +138,9 @@ term_field(Name-JSON, Name=Value) :-
 
 %!  ros_name(+Kind, +Name, -Atom) is det.
 %
-%   Name is text such as `/robot/cmd_vel`, `cmd_vel` or `~/cmd_vel`: words of
-%   letters, digits and `_` that do not begin with a digit.
+%   Atom is Name as an atom.  Name is text such as `/robot/cmd_vel`, `cmd_vel`
+%   or `~/cmd_vel`: words of letters, digits and `_` that do not begin with a
+%   digit.
 %
 %   @error domain_error(ros_name(Kind), Name), where Kind is topic, service,
 %          action or node
@@ -182,8 +183,8 @@ rest --> [].
 
 %!  ros_type(+Kind, +Type, -Atom) is det.
 %
-%   Type is text such as `std_msgs/msg/String`, or in the form of ROS 1,
-%   `std_msgs/String`; Kind is msg, srv or action.
+%   Atom is Type as an atom.  Type is text such as `std_msgs/msg/String`, or in
+%   the form of ROS 1, `std_msgs/String`; Kind is msg, srv or action.
 %
 %   @error domain_error(ros_type(Kind), Type)
 
@@ -210,8 +211,8 @@ text(Text, Atom) :-
 
 %!  ros_id(-Id:atom) is det.
 %
-%   No other client of a server has Id: some servers keep the ids of all clients
-%   in one table.
+%   Id is new and unique among all clients of a server: some servers keep the
+%   ids of all clients in one table.
 
 ros_id(Id) :-
     uuid(Uuid),
@@ -222,6 +223,8 @@ ros_id(Id) :-
                 *******************************/
 
 %!  op_frame(+Op, -Frame:dict) is det.
+%
+%   Frame is the frame of rosbridge for the operation Op.
 
 op_frame(advertise(Topic, Type),
          _{op:advertise, id:Id, topic:Topic, type:Type}) :-
@@ -258,10 +261,12 @@ op_frame(cancel(Id, Action),
 %     - answer(Id, Answer): to a call; Answer is ok(JSON) or failed(Text)
 %     - request(Id, Service, JSON): a call of a service that the host offers
 %     - feedback(Id, JSON), result(Id, Status, JSON): of a goal; Status is
-%       `succeeded`, `canceled`, `aborted` or `failed`, then JSON is text
-%     - dropped(Topic, Count): messages that came too fast for the node
+%       `succeeded`, `canceled`, `aborted` or `failed`; if it is `failed`, JSON
+%       is text
+%     - dropped(Topic, Count): the node has dropped Count messages that arrived
+%       too fast
 %     - status(Level, Id, Text): a complaint; Id may be `none`
-%     - unknown(What): not for a client, or invalid
+%     - unknown(What): the frame is invalid, or not for a client
 
 frame_event(Frame, Event) :-
     get_dict(op, Frame, Op),
@@ -303,7 +308,7 @@ event("status", Frame, status(Level, Id, Text)) :-
     ;   Id = none
     ).
 
-%   Servers omit a message without fields, or send an empty list for it.
+%   For a message without fields servers send an empty list, or nothing.
 
 optional(Key, Frame, Dict) :-
     (   get_dict(Key, Frame, Value),
@@ -337,7 +342,7 @@ goal_outcome(ok(Values), Frame, Status, Values) :-
 goal_status(5, canceled).
 goal_status(6, aborted).
 
-%   An id may be a number; it is returned unchanged.
+%   An id may be a number, and stays a number.
 
 name(Key, Frame, Name) :-
     get_dict(Key, Frame, Value),

@@ -48,10 +48,11 @@ typhon_options:declared(ros_call_option, deadline(X), between(0.01, 3600), X).
 %!  ros_call(+Service, +Type, +Request, -Response) is semidet.
 %!  ros_call(+Service, +Type, +Request, -Response, +Options) is semidet.
 %
-%   Call a service.  Request is as the message of ros_publish/3.  Options:
+%   Call Service.  Request and Response have the form of a message of
+%   ros_publish/3.  Options:
 %
 %     - deadline(Seconds)
-%       Default is that of ros_start/3.
+%       Time limit of the call; default is that of ros_start/3.
 %
 %   @error domain_error(ros_name(service), Service)
 %   @error domain_error(ros_type(srv), Type), existence_error(ros_type, Type)
@@ -59,7 +60,7 @@ typhon_options:declared(ros_call_option, deadline(X), between(0.01, 3600), X).
 %   @error existence_error(ros_field, Field), type_error(ros_field(F, T), V)
 %   @error existence_error(ros_service, Service)
 %   @error timeout_error(ros_call, Service)
-%   @error ros_error(refused, Service): the service reports a failure
+%   @error ros_error(refused, Service) the service reports a failure
 %   @error ros_error(not_connected, Host), ros_error(lost, Host)
 
 ros_call(Service, Type, Request, Response) :-
@@ -78,6 +79,10 @@ ros_call(Service0, Type0, Request, Response, Options) :-
     json_value(Form, Answer, Response).
 
 %!  call_json(+Host, +Service, +Type, +Request, -Response) is det.
+%
+%   Call Service; Request and Response are JSON.
+%
+%   @error the errors of ros_call/5
 
 call_json(Host, Service, Type, Request, Response) :-
     way_option(Host, deadline(Seconds), 5),
@@ -108,12 +113,12 @@ answered(timeout, _, Service, _) :-
 
 %!  ros_offer(+Service, +Type, +Options) is det.
 %
-%   The agent offers Service from now on.  For each call it gets a message
+%   The agent offers Service.  For each call it gets a message
 %   `ros-request(Id, Service, Request)`, which it answers by ros_answer/2 or
-%   ros_refuse/1.  Options are queue(N) of subscribe/5.
+%   ros_refuse/1.  Options may hold queue(N), see subscribe/5.
 %
 %   @error permission_error(offer, ros_service, Service) if an agent on this
-%          host offers it
+%          host offers Service already
 %   @error domain_error(ros_name(service), Service)
 %   @error domain_error(ros_type(srv), Type), existence_error(ros_type, Type)
 
@@ -133,8 +138,7 @@ ros_offer(Service0, Type0, Options) :-
 
 %!  ros_withdraw(+Service) is det.
 %
-%   The agent does not offer Service any more.  Calls that it has not answered
-%   fail.
+%   The agent stops offering Service.  Calls that it has not answered fail.
 %
 %   @error existence_error(ros_offer, Service)
 
@@ -149,11 +153,10 @@ ros_withdraw(Service0) :-
 %!  ros_answer(+Id, +Response) is det.
 %!  ros_refuse(+Id) is det.
 %
-%   Answer a call; let it fail.
+%   Answer the call Id by Response; let it fail.
 %
-%   @error existence_error(ros_request, Id) if it has been answered, or its
-%   caller
-%          is gone
+%   @error existence_error(ros_request, Id) if the call has been answered, or
+%   its caller is gone
 %   @error type_error(ros_message, Response), and others of ros_publish/3
 
 ros_answer(Id, Response) :-
@@ -181,9 +184,9 @@ respond(Host, Id, JSON, Result) :-
 %!  ros_parameter(+Node, +Name, -Value) is det.
 %!  ros_set_parameter(+Node, +Name, +Value) is det.
 %
-%   Names are the parameters of Node; Value is the value of one; set a new
-%   value. A value is `true` or `false`, a number, a string, or a list of these.
-%   A parameter that is a float does not accept an integer.
+%   Names are the parameters of Node; Value is the value of the parameter Name;
+%   set it to Value.  A value is `true` or `false`, a number, a string, or a
+%   list of these.  A parameter that is a float does not accept an integer.
 %
 %   @error existence_error(ros_service, Service) if there is no such Node
 %   @error existence_error(ros_parameter, Name)
@@ -198,9 +201,9 @@ ros_parameters(Node, Names) :-
 ros_parameter(Node, Name, Value) :-
     must_be(atom, Name),
     ask(Node, get_parameters, 'GetParameters', _{names:[Name]}, JSON),
-    (   JSON.values = [Said|_],
-        said_value(Said.type, Key)
-    ->  Value = Said.get(Key)
+    (   JSON.values = [Parameter|_],
+        value_key(Parameter.type, Key)
+    ->  Value = Parameter.get(Key)
     ;   existence_error(ros_parameter, Name)
     ).
 
@@ -208,12 +211,12 @@ ros_set_parameter(Node, Name, Value) :-
     must_be(atom, Name),
     must_be(ground, Value),
     (   value_type(Value, Type)
-    ->  said_value(Type, Key),
-        dict_pairs(Said, _, [type-Type,Key-Value])
+    ->  value_key(Type, Key),
+        dict_pairs(Parameter, _, [type-Type,Key-Value])
     ;   type_error(ros_parameter, Value)
     ),
     ask(Node, set_parameters, 'SetParameters',
-        _{parameters:[_{name:Name, value:Said}]}, JSON),
+        _{parameters:[_{name:Name, value:Parameter}]}, JSON),
     JSON.results = [Result|_],
     (   Result.successful == true
     ->  true
@@ -229,15 +232,15 @@ ask(Node0, Name, Type, Request, JSON) :-
 
 %   The numbers are those of rcl_interfaces/msg/ParameterType; 0 is no value.
 
-said_value(1, bool_value).
-said_value(2, integer_value).
-said_value(3, double_value).
-said_value(4, string_value).
-said_value(5, byte_array_value).
-said_value(6, bool_array_value).
-said_value(7, integer_array_value).
-said_value(8, double_array_value).
-said_value(9, string_array_value).
+value_key(1, bool_value).
+value_key(2, integer_value).
+value_key(3, double_value).
+value_key(4, string_value).
+value_key(5, byte_array_value).
+value_key(6, bool_array_value).
+value_key(7, integer_array_value).
+value_key(8, double_array_value).
+value_key(9, string_array_value).
 
 value_type(List, Type) :-
     is_list(List),
@@ -262,11 +265,12 @@ of_type(Type, Value) :-
 
 %!  ros_goal(+Action, +Type, +Goal, -Id:atom) is det.
 %
-%   Send a goal to an action server, without waiting.  The agent gets messages
-%   `ros-feedback(Id, Feedback)`, and at last `ros-result(Id, Status, Result)`.
-%   Status is `succeeded`, `canceled`, `aborted`, or `failed`.  If it is
-%   `failed`, Result is text: the server is not there, has refused the goal, or
-%   is gone.  The goal of an agent that leaves or ends is cancelled.
+%   Send Goal to an action server, and do not wait for the result.  The agent
+%   gets messages `ros-feedback(Id, Feedback)`, and finally `ros-result(Id,
+%   Status, Result)`.  Status is `succeeded`, `canceled`, `aborted`, or
+%   `failed`.  If it is `failed`, Result is text: the server does not exist, has
+%   refused the goal, or is gone.  The goal of an agent that leaves or ends is
+%   cancelled.
 %
 %   @error domain_error(ros_name(action), Action)
 %   @error domain_error(ros_type(action), Type)
@@ -288,9 +292,11 @@ ros_goal(Action0, Type0, Goal, Id) :-
 
 %!  ros_cancel(+Id) is det.
 %
-%   Request the server to cancel the goal.  The result reports whether it has.
+%   Request the server to cancel the goal Id.  The result of the goal reports
+%   whether it was cancelled.
 %
-%   @error existence_error(ros_goal, Id) if it has ended, or is of another host
+%   @error existence_error(ros_goal, Id) if the goal has ended, or is of another
+%   host
 
 ros_cancel(Id) :-
     subscriber(Host, _),
@@ -314,6 +320,8 @@ ros_cancel(Id) :-
 %!  goal_begin(+Host, +Id, +Agent, +Action) is det.
 %!  goal_end(+Host, ?Id, -Agent, -Action) is semidet.
 %!  goal_action(+Host, +Id, -Action) is semidet.
+%
+%   Record the open goal Id of Agent; remove it; look up its Action.
 
 goal_begin(Host, Id, Agent, Action) :-
     assertz(goal(Id, Host, Agent, Action)).
@@ -330,6 +338,7 @@ goal_action(Host, Id, Action) :-
 %!  request_open(+Host, +Id, -Service) is semidet.
 %!  request_end(+Host, ?Id, ?Service) is semidet.
 %
+%   Record the open request Id for Service; look it up; remove it.
 %   request_begin/3 fails if too many requests are open.
 
 request_begin(Host, Id, Service) :-

@@ -15,20 +15,22 @@
 
 /** <module> The connection to a rosbridge server
 
-A thread connects, and reads; when the connection is lost it connects again,
+A thread connects and reads.  When the connection is lost it connects again,
 after a tenth of a second, then after twice that time, up to ten seconds.  A
 second thread writes the messages in its queue, which is bounded: a caller that
-sends faster than the server reads waits, and gets an error in the end.
+sends faster than the server reads waits, and gets an error after its time
+limit.
 
 *Threading*: any thread may call rosbridge_send/3.  The reading thread runs the
-hooks, and reads nothing meanwhile.  It is no `server`, since it waits for a
-stream, and the writing thread ends with its connection.
+hooks, and reads nothing meanwhile.  The reading thread is no `server`, since it
+waits for a stream.  The writing thread is none, since it ends with its
+connection.
 */
 
 :- multifile
     heard/2,                    % Host, Read: as of socket_read/2
-    up/2,                       % Host, Frame: is sent first
-    down/2.                     % Host, Why: `stopped` if it was closed here
+    up/2,                       % Host, Frame: to be sent first
+    down/2.                     % Host, Why: `stopped` if closed by this process
 
 :- dynamic
     heard/2,
@@ -44,8 +46,8 @@ soon(5).                        % seconds: a connection that ends earlier failed
 
 %!  rosbridge_open(+Host, +URL, +Seconds, +Silence) is det.
 %
-%   Connect, within Seconds, and stay connected.  A server that has sent nothing
-%   for Silence seconds, not even answers to pings, is gone.
+%   Connect Host within Seconds, and keep it connected.  A server that has sent
+%   nothing for Silence seconds, not even answers to pings, counts as gone.
 %
 %   @error the errors of socket_open/3, timeout_error(connect, URL)
 
@@ -73,20 +75,23 @@ first_attempt(Link, Seconds, Result) :-
     ;   Result = error(timeout_error(connect, URL), _)
     ).
 
-%   A thread that is about to end may still have its alias.
+%   An alias has a number, as a thread that is about to end may still have its
+%   alias.
 
 alias(Role, Host, Alias) :-
     flag(typhon_ros_thread, N, N+1),
     atomic_list_concat([typhon_ros, Role, Host, N], '_', Alias).
 
 %!  rosbridge_up(?Host) is nondet.
+%
+%   Host is connected now.
 
 rosbridge_up(Host) :-
     writer(Host, _).
 
 %!  rosbridge_send(+Host, +Frame:dict, +Seconds) is det.
 %
-%   Put Frame into the queue of the writer; waits at most Seconds for space.
+%   Put Frame into the queue of the writer.  Waits at most Seconds for space.
 %
 %   @error ros_error(not_connected, Host), resource_error(ros_queue)
 
@@ -107,7 +112,8 @@ pass(Writer, Message, Seconds) :-
 
 %!  rosbridge_close(+Host) is det.
 %
-%   The connection is closed after a second if the server does not close it.
+%   Close the connection of Host.  If the server does not close its end within a
+%   second the connection is cut.
 
 rosbridge_close(Host) :-
     (   taken(Host, Reader)
@@ -115,7 +121,7 @@ rosbridge_close(Host) :-
     ;   true
     ).
 
-%   Only one of concurrent callers succeeds.
+%   taken(+Host, -Reader) succeeds for only one of concurrent callers.
 
 taken(Host, Reader) :-
     reader(Host, Reader),
@@ -135,9 +141,9 @@ close_down(Host, Reader) :-
     thread_join(Reader, _).
 
 %   When Prolog halts it aborts its threads.  library(http/websocket) swallows
-%   that: the connection would seem closed, and the reader would connect again.
-%   So connections are closed earlier.  On 9.0.4 a wait with a deadline might
-%   not end in a hook of halt/0, so this one polls.
+%   the abort: the connection would seem closed, and the reader would connect
+%   again.  So this hook closes connections before that.  On 9.0.4 a wait with a
+%   deadline might not end in a hook of halt/0, so the hook polls.
 
 :- at_halt(close_all).
 
@@ -193,14 +199,14 @@ connected(Link, Wait) :-
         catch(served(Link, Socket), error(Kind, Where),
               print_error(error, error(Kind, Where))),
         pause_after(Start, Wait, Pause)
-    ;   tell(Asker, error(Formal, Context)),
+    ;   report_attempt(Asker, error(Formal, Context)),
         debug(typhon(ros), '~w: ~w is not there: ~p', [Host, URL, Formal]),
         Pause = Wait
     ),
     pause(Link, Pause).
 
-%   The pause before the next connection to a server that closes connections at
-%   once is the longer one.
+%   After a connection that lasted, the pause before the next one is short.  A
+%   server that closes connections at once gets the longer pause.
 
 pause_after(Start, Wait, Pause) :-
     get_time(Now),
@@ -219,15 +225,15 @@ pause(Link, Pause) :-
         connected(Link, Longer)
     ).
 
-%   The connecting thread waits for the result of the first attempt.
+%   The thread in rosbridge_open/4 waits for the result of the first attempt.
 
-tell(Asker, Result) :-
+report_attempt(Asker, Result) :-
     catch(thread_send_message(Asker, attempt(Result)),
           error(existence_error(_, _), _),
           true).
 
-%   There is no cleanup handler, since that must not wait; so a thread that is
-%   interrupted during tidy/3 repeats it.
+%   A cleanup handler cannot be used, since it must not wait.  So a thread that
+%   is interrupted during tidy/3 repeats it.
 
 served(Link, Socket) :-
     Link = link(Host, _, Silence, _),
@@ -239,8 +245,8 @@ served(Link, Socket) :-
     ignore(lost(Host, Why)),
     ( var(Ball) -> true ; throw(Ball) ).
 
-%   After the host was closed, or while the process halts, its reader is not
-%   registered any more.
+%   rosbridge_close/1, or the halt of the process, has removed the reader from
+%   reader/2. Then the connection has not been lost, but stopped.
 
 lost(Host, Why) :-
     thread_self(Me),
@@ -256,20 +262,21 @@ tidy(Host, Writer, Socket) :-
 
 served_until(link(Host, _, Silence, Asker), Socket, Writer, Why) :-
     findall(Frame, up(Host, Frame), Before),
-    said_to(Before, Writer, Silence),
+    send_all(Before, Writer, Silence),
     assertz(writer(Host, Writer)),
     findall(Frame, ( up(Host, Frame), \+ memberchk(Frame, Before) ), Since),
-    said_to(Since, Writer, Silence),
-    tell(Asker, true),
+    send_all(Since, Writer, Silence),
+    report_attempt(Asker, true),
     catch(read_on(Host, Socket, Why), error(Why, _), true).
 
-%   Frames for changes during this may be sent twice.
+%   A frame for a change that occurs meanwhile may be sent twice, but not
+%   missed.
 
-said_to([], _, _).
-said_to([Frame|Frames], Writer, Seconds) :-
+send_all([], _, _).
+send_all([Frame|Frames], Writer, Seconds) :-
     json_text(Frame, Text),
     pass(Writer, write(Text), Seconds),
-    said_to(Frames, Writer, Seconds).
+    send_all(Frames, Writer, Seconds).
 
 read_on(Host, Socket, Why) :-
     socket_read(Socket, Read),
@@ -297,7 +304,7 @@ writes(Socket, Every, Reader) :-
     thread_self(Me),
     thread_send_message(Reader, written(Me)).
 
-%   The writer ends by itself when the server is gone.
+%   The writer ends by itself when writing fails, as the server is gone.
 
 write_on(Socket, Every) :-
     thread_self(Me),
@@ -321,8 +328,8 @@ socket_message(write(Text), text(Text)).
 socket_message(ping, ping('')).
 socket_message(bye, close(1000, "")).
 
-%   A writer whose server does not read blocks again after an interrupt, because
-%   the library then writes the rest, so the interrupt is repeated.
+%   If the server does not read, the writer blocks again after an interrupt,
+%   because the library then writes the rest.  So the interrupt is repeated.
 
 writer_end(Writer) :-
     thread_self(Me),

@@ -102,20 +102,19 @@ property(ignored(Count), Host) :-
 
 %!  ros_publish(+Topic, +Type, +Message) is det.
 %
-%   Publish Message, a dict or a list as of value_json/2; missing fields have
-%   the default values of ROS.
+%   Publish Message, a dict or a list, see value_json/2.  Missing fields get the
+%   default values of ROS.
 %
 %   @error domain_error(ros_name(topic), Topic)
 %   @error domain_error(ros_type(msg), Type), existence_error(ros_type, Type)
 %   @error permission_error(use, ros_topic(Type), Topic) if Topic is in use on
-%   this
-%          host with messages of another Type
+%          this host with messages of another Type
 %   @error type_error(ros_message, Message), type_error(ros_value, Value)
 %   @error existence_error(ros_field, Field), type_error(ros_field(F, T), V)
 %   @error ros_error(not_connected, Host), resource_error(ros_queue)
 %
-%   A server does not report errors in a message directly; some send a status,
-%   which the agent gets as a message `ros-error(Text)`.
+%   A server does not report errors in a message directly.  Some servers send a
+%   status, which the agent gets as a message `ros-error(Text)`.
 
 ros_publish(Topic0, Type0, Message) :-
     subscriber(Host, Agent),
@@ -129,9 +128,9 @@ ros_publish(Topic0, Type0, Message) :-
 %!  ros_subscribe(+Topic, ?Type) is det.
 %!  ros_subscribe(+Topic, ?Type, +Options) is det.
 %
-%   The agent gets messages on Topic from now on, as `ros-topic(Topic,
+%   Subscribe the agent to Topic.  It gets messages as `ros-topic(Topic,
 %   Message)`, or in the form given by Options, see subscribe/5.  An unbound
-%   Type becomes that of an existing topic.
+%   Type is unified with that of the existing topic.
 %
 %   @error domain_error(ros_name(topic), Topic)
 %   @error domain_error(ros_type(msg), Type), existence_error(ros_type, Type)
@@ -166,6 +165,8 @@ topic_type(Topic, Type, Type) :-
 
 %!  ros_unsubscribe(+Topic) is det.
 %
+%   End the subscription of the agent to Topic.
+%
 %   @error existence_error(ros_subscription, Topic)
 
 ros_unsubscribe(Topic0) :-
@@ -180,7 +181,7 @@ ros_unsubscribe(Topic0) :-
 %!  ros_services(-Services:list) is det.
 %
 %   Pairs are Topic-Type of all known topics; Services are the names of all
-%   services.  A server needs the node `rosapi` beside it for this.
+%   services.  A rosbridge server can only answer if the node `rosapi` runs.
 %
 %   @error existence_error(ros_service, '/rosapi/topics')
 

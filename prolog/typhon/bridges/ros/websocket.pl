@@ -9,9 +9,9 @@
 
 /** <module> WebSockets with bounded messages
 
-These are the WebSockets of library(http/websocket), but a message that is
-longer than the setting `typhon_ros_rosbridge:longest` is skipped and not
-stored. library(http/http_stream) is loaded since without it the request has
+WebSockets of library(http/websocket), except that a message longer than the
+setting `typhon_ros_rosbridge:longest` is skipped and not stored.
+library(http/http_stream) is loaded since without it requests have the version
 HTTP/1.0, which servers refuse.
 
 *Threading*: one thread reads, another writes.
@@ -22,9 +22,9 @@ HTTP/1.0, which servers refuse.
 
 %!  socket_open(+URL, +Silence, -Socket) is det.
 %
-%   Silence is the time in seconds for which a server may send nothing at all.
-%   Without nodelay a frame would wait until the server has acknowledged the
-%   previous one.
+%   Connect to URL.  Reading raises a timeout when the server has sent nothing
+%   for Silence seconds.  Without nodelay a frame would wait until the server
+%   has acknowledged the previous one.
 %
 %   @error the errors of http_open/3 and http_open_websocket/3
 
@@ -34,8 +34,8 @@ socket_open(URL, Silence, socket(In, Out)) :-
 
 %!  socket_read(+Socket, -Read) is det.
 %
-%   Wait for a message.  Read is text(String), too_long(Characters), `binary`,
-%   or end(Why).  Pings are answered.
+%   Wait for a message, and answer pings meanwhile.  Read is text(String),
+%   too_long(Characters), `binary`, or end(Why).
 %
 %   @error timeout_error(read, Stream)
 
@@ -76,6 +76,8 @@ rest(In, Count0, Count) :-
     ).
 
 %!  socket_close(+Socket) is det.
+%
+%   Close both streams of Socket.
 
 socket_close(socket(In, Out)) :-
     catch(close(Out, [force(true)]), error(_, _), true),
