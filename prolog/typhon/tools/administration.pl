@@ -19,20 +19,27 @@
             [property_of_agent/2, show_status/2]).
 :- autoload('administration/restore', [load_agent/3, save_agent/2]).
 
-/** <module> Administration: properties of hosts and agents, and changes
+/** <module> Administration: properties and changes of hosts and agents
 
-This is the interface of the layer.  Its modules are loaded when they are used
-here, or when another process requests them.
+This is the interface of the layer.  Its modules are loaded when this process
+calls them, or another process sends a request.
 
 *Threading*: any thread that may wait.
 */
 
 %!  host_property(?Name, ?Property) is nondet.
 %
-%   Property is address(A), state(running), capacity(N), load(N),
-%   neighbours(L), hop_time(Direction, stats(Count,Min,Mean,Max)) (host
-%   seconds) or place(M).  Name may be that of a host of another process of a
-%   network that this process started, or any address.
+%   Host Name has Property:
+%
+%     - address(Address), state(running), place(Module)
+%     - capacity(N): maximal number of agents, or `inf`
+%     - load(N): number of agents
+%     - neighbours(Addresses)
+%     - hop_time(Direction, stats(Count,Min,Mean,Max)): duration of hops in host
+%       seconds; Direction is `in` or `out`
+%
+%   Name is the name of a host of this process, or of another process of a
+%   network that this process has started, or any address.
 %
 %   @error existence_error(host, Name), ambiguous_host(Name, Addresses)
 %   @error domain_error(host_property, Property)
@@ -42,11 +49,10 @@ host_property(Name, Property) :-
 
 %!  host_change(+Host, +Option) is det.
 %
-%   Change an option of a running host, here or elsewhere: tokens, capacity,
-%   authors, concurrency, hop_time, log, audit, peer, policy, python, quota,
-%   remote, seed or trail, as of host_start/2, or services, to which the given
-%   ones are added.  Agents on the host stay, also if fewer are admitted from
-%   now on.
+%   Change an option of a running host, in this or another process: tokens,
+%   capacity, authors, concurrency, hop_time, log, audit, peer, policy, python,
+%   quota, remote, seed or trail, as of host_start/2; or add services.  Agents
+%   on the host stay, also if the host would no longer admit them.
 %
 %   @error existence_error(host, Host)
 %   @error permission_error(change, host_option, Option)
@@ -58,10 +64,10 @@ host_change(Host, Option) :-
 %!  link(+A, +B, +Options) is det.
 %!  unlink(+A, +B) is det.
 %
-%   Make or break the overlay link between two hosts, in both directions; either
-%   may be in another process.  Agents get the cost of a link by neighbour/2: 1,
-%   or the Number of the option cost(Number), which also changes the cost of an
-%   existing link.  Breaking a link discards its cost.
+%   Make or remove the overlay link between two hosts, in both directions.  The
+%   hosts may be in other processes.  Agents get the cost of a link by
+%   neighbour/2: 1, or the Number of the option cost(Number), which also changes
+%   the cost of an existing link.  Removing a link discards its cost.
 %
 %   @error existence_error(host, Host), ambiguous_host(Name, Addresses)
 %   @error domain_error(link_option, Option)
@@ -77,21 +83,27 @@ unlink(A, B) :-
 
 %!  agent_property(?Agent, ?Property) is nondet.
 %
-%   Property is host(Address), program(Name), state(State), hops(N),
-%   home(Address), goals(List), facts(Clauses), payloads(Names),
-%   mailbox(Messages) or fault(Fault).  State is `running`, `sleeping`,
-%   `waiting`, `resident`, `held` (see agent_step/1), `in_transit`, `in_doubt`
-%   or faulty(Error), where Error is `failed` after a failure.  Only a faulty
-%   agent has a fault: fault(Error, Goal, Place, Host), the goal that failed or
-%   raised the error, its place, as File:Line, or Name/Arity:N for the N-th
-%   clause of a predicate, or `unknown`, and the host.  In goals and messages,
-%   terms that cannot travel are replaced by text.  A running agent has
-%   busy(Seconds): the time, by the time of day, since its last stop.  A host
-%   may be given by its name, as in host(alpha).  If Agent is unbound, the
-%   agents of this process are enumerated.
+%   Agent has Property:
+%
+%     - program(Name), hops(N), goals(List), facts(Clauses), payloads(Names),
+%       mailbox(Messages)
+%     - host(Address), home(Address): a query may use the name of a host in
+%       place of its address, as in host(alpha)
+%     - state(State): State is `running`, `sleeping`, `waiting`, `resident`,
+%       `held` (see agent_step/1), `in_transit`, `in_doubt` or faulty(Error),
+%       where Error is `failed` after a failure
+%     - fault(fault(Error, Goal, Place, Host)): of a faulty agent; the goal that
+%       failed or raised the error, its place and the host.  Place is File:Line,
+%       Name/Arity:N for the N-th clause of a predicate, or `unknown`
+%     - busy(Seconds): of a running agent; seconds of real time since its last
+%       stop
+%
+%   Text replaces terms in goals and messages that cannot travel.  If Agent is
+%   unbound, the agents of this process are enumerated.  Fails for the id of an
+%   agent that has ended.
 %
 %   @error existence_error(agent, Agent), ambiguous_agent(Agent, Ids) if Agent
-%   is a name; fails for the id of an agent that has ended
+%   is a name
 %   @error domain_error(agent_property, Property) if Property is unknown
 
 agent_property(Agent, Property) :-
@@ -101,16 +113,17 @@ agent_property(Agent, Property) :-
 %
 %   Change Agent, faulty or not, at its next effect:
 %
-%     - facts(+Clauses): are added to its state, of predicates that its
-%       program or a payload declares, or that it has made itself
-%     - program(+Spec): is its program from now on, see agent_create/2.  Its
-%       state is unchanged, and so are its remaining goals: the rest of a
-%       clause is that of the old clause.
+%     - facts(+Clauses): add Clauses to its state.  They are of predicates that
+%       its program or a payload declares as state, or that Agent has made
+%       itself
+%     - program(+Spec): replace its program, see agent_create/2.  Its state and
+%       its remaining goals stay: the rest of a clause is that of the old clause
 %
 %   @error domain_error(agent_change, Change)
-%   @error permission_error(attach, procedure, PI) for a fact of a predicate
-%          of the program, and a program that has one of the state
-%   @error existence_error(state, PI, Declared) for a fact of any other
+%   @error permission_error(attach, procedure, PI) the program defines the
+%          predicate of a fact, or the new program defines one of the state
+%   @error existence_error(state, PI, Declared) the predicate of a fact is not
+%          declared as state
 %   @error any problem of the program
 %   @error existence_error(agent, Agent)
 %   @error timeout_error(order, Agent)
@@ -129,10 +142,11 @@ status_shown(Status, State) :-
 %!  agent_load(+File, -Agent) is det.
 %!  agent_load(+File, -Agent, +Options) is det.
 %
-%   A restore point: Agent as it is at its next effect, as text.  The agent that
-%   is made from it continues where the first one was, under its own id, on the
-%   first host of this process or on that of the option host(Host), also in
-%   another process.
+%   Write a restore point to File: Agent as it is at its next effect, as text.
+%   agent_load/2,3 creates an agent from it, with an id of its own, which
+%   continues where Agent was saved.  It is created on the first host of this
+%   process, or on that of the option host(Host), which may be in another
+%   process.
 %
 %   @error type_error(mobile_term, Culprit)
 %   @error domain_error(restore_point, File)

@@ -10,10 +10,10 @@
 
 /** <module> Summaries of agents for tables
 
-A summary of each agent of this process, without its goals and facts, which may
-be large.
+A summary of an agent of this process has no goals and facts, which may be
+large.
 
-*Threading*: any thread.  Nothing is locked: an agent that leaves meanwhile is
+*Threading*: any thread.  No mutex is held: an agent that leaves meanwhile is
 left out.
 */
 
@@ -91,7 +91,7 @@ formal(error(Formal, _), Formal) :-
     !.
 formal(Ball, Ball).
 
-%   Longer texts are not readable in a table.
+%   A longer text would not fit in a table.
 
 short_text(Term, Text) :-
     copy_term(Term, Copy, _),

@@ -19,20 +19,20 @@
 /** <module> Predicates of agents, for the top level, help/1 and editors
 
 `move(beta)` is for programs of agents.  Called at the top level or in a module,
-it is an error that names the predicate to call instead; the correction of
-Prolog itself would propose the predicate of the module that implements it.
+it raises an error that names the predicate to call instead.  Prolog itself
+would propose the predicate of the module that implements it.
 
-Editors parse a program by library(prolog_xref) and library(prolog_colour), as
-PceEmacs, Sweep for Emacs and the language server lsp_server do.  For a file
-with `:- agent(Name, Options)` this module gives them the vocabulary of agents
-as built-in predicates, main/0 and on_message/2 as called, and the state among
-its predicates; for a payload, the predicates that it provides.  Loading is not
-affected.
+Editors such as PceEmacs, Sweep for Emacs and the language server lsp_server
+parse a program by library(prolog_xref) and library(prolog_colour).  For a file
+with `:- agent(Name, Options)` this module declares to them the vocabulary of
+agents as built-in predicates, main/0 and on_message/2 as called, and the state
+as predicates of the file; for a payload, the predicates that it provides.
+Loading a file is not affected.
 
-Prolog's apropos/1 searches only its own manual: matches among the exports of
-library(typhon) and the vocabulary of agents are added.  Its help/1 prints a
-comment once for each predicate that the comment documents: of several equal
-ones, one is shown.  The modules of Prolog for this are loaded at the first
+Prolog's apropos/1 searches only its own manual; this module adds matches among
+the exports of library(typhon) and the vocabulary of agents.  Prolog's help/1
+prints a comment once for each predicate that the comment documents; this module
+removes the repetitions.  The modules of Prolog for this are loaded at the first
 request.
 
 *Threading*: any thread; editors: see prolog_load_context/2.
@@ -51,7 +51,8 @@ words_only(Query, Module, PI) :-
     \+ predicate_property(Module:Goal, visible),
     !.
 
-%   goal(+Query, +Module, -Goal) is nondet: Query, or a goal that it calls.
+%   goal(+Query, +Module, -Goal) is nondet: Goal is Query, or a goal that Query
+%   calls.
 
 goal(Query, _, Query) :-
     callable(Query).
@@ -65,7 +66,8 @@ goal(Query, Module, Goal) :-
 
 %!  word_told(+Spec, -Text, ?Rest) is semidet.
 %
-%   Text for an unknown procedure Spec that is in the vocabulary of agents.
+%   Text is the error message for the unknown procedure Spec, which is in the
+%   vocabulary of agents.
 
 word_told(Spec) -->
     { own_module(Spec, PI),
@@ -84,7 +86,8 @@ instead(PI) -->
 instead(_) -->
     [].
 
-%   outside(+PI, -Text): the call that does the same from outside of agents.
+%   outside(+PI, -Text): Text is the call that has the same effect outside of
+%   agents.
 
 outside(move/1, 'agent_move(Agent, Host)').
 outside(clone/1, 'agent_clone(Agent, Clone)').
@@ -114,8 +117,8 @@ outside(PI, Text) :-
 
 %!  directive_meant(+Directive, -Directives) is semidet.
 %
-%   Directive declares an agent or a payload, and means Directives to the
-%   cross-referencer.
+%   Directive declares an agent or a payload; Directives express the same for
+%   the cross-referencer.
 
 directive_meant(Directive, Directives) :-
     declared(Directive, Kind, Options),
@@ -184,7 +187,7 @@ part(comments, pldoc_process).
 
 %!  help_shown(+HTML) is semidet.
 %
-%   Show HTML, a page of help/1, without its repetitions, if it has any.
+%   Show HTML, a page of help/1, without its repetitions.  Fails if it has none.
 
 help_shown(HTML) :-
     begins(Mark),
@@ -199,8 +202,9 @@ help_shown(HTML) :-
 
 begins('<div class="navhdr">').
 
-%   once_each(+Pieces0, +Before, -Pieces): without pieces that begin like one of
-%   Before.  The last piece may end with the end of the page.
+%   once_each(+Pieces0, +Before, -Pieces): drop pieces that begin with one of
+%   the pieces before.  The last piece may be longer, as it also has the end of
+%   the page.
 
 once_each([], _, []).
 once_each([Piece|Pieces0], Before, Pieces) :-
@@ -218,9 +222,9 @@ once_each([Piece|Pieces0], Before, Pieces) :-
 
 %!  apropos_completed(+Told, -Pairs, -Count) is semidet.
 %
-%   Told is the message of apropos/1; Pairs are the first matches of Typhon,
-%   then those of the manual, as many as are shown, and Count is the number of
-%   all.
+%   Told is the message of apropos/1.  Pairs are the matches to show: first
+%   those of Typhon, then those of the manual.  Count is the number of all
+%   matches.
 
 apropos_completed(no_apropos_match(Query), Pairs, Count) :-
     matches(Query, Ours),
@@ -237,8 +241,8 @@ apropos_completed(apropos_matches(Manual, Count0), Pairs, Count) :-
     length(Ours, Length),
     Count is Count0+Length.
 
-%   asked(-Query): the message does not have the query, but the frame of
-%   apropos/1 does.
+%   asked(-Query): the message does not hold the query, so it is read from the
+%   stack frame of apropos/1.
 
 asked(Query) :-
     part(help, Help),
@@ -256,8 +260,9 @@ asking(Help, Query,
        system:setup_call_catcher_cleanup(
                   _, system:once(Help:apropos_no_trace(Query)), _, _)).
 
-%   matches(+Query, -Pairs): PI-Summary of predicates of Typhon that have all
-%   words of Query in name or summary; matches of the name first.
+%   matches(+Query, -Pairs): Pairs are PI-Summary of the predicates of Typhon
+%   that have all words of Query in name or summary; those with all words in the
+%   name come first.
 
 matches(Query, Pairs) :-
     query_text(Query, Text),

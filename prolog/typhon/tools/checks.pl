@@ -14,20 +14,21 @@ checked or read from a file for the first time.
 
 %!  agent_check(+Spec) is det.
 %
-%   Print errors and warnings of an agent program, or of a payload.  Errors
-%   would keep it from loading.  Warnings are
+%   Print errors and warnings of an agent program, or of a payload.  A program
+%   with errors does not load.  Warnings are about
 %
 %     - variables that occur once, and clauses of a predicate with others in
 %       between
-%     - predicates that it changes, and does not declare as its state
-%     - choice points that a stop discards, and that it seems to rely on
+%     - predicates that the program changes, and does not declare as its state
+%     - choice points that a stop discards, and on which the program seems to
+%       rely
 %     - for an agent, calls of predicates that neither the program nor the
 %       vocabulary defines, so that a place or a payload must offer them
 %
 %   If a part cannot be read, only syntax errors are reported.  agent_create/3
 %   raises the errors, and prints the warnings once for each program, until its
-%   file changes; those of the last kind unless a payload of the agent or the
-%   place of a host of this process defines the predicate.
+%   file changes.  It omits a warning of the last kind if a payload of the
+%   agent, or the place of a host of this process, defines the predicate.
 
 agent_check(Spec) :-
     check_program(Spec).

@@ -9,15 +9,16 @@
 
 /** <module> Completion of names at the top level
 
-Where the name of a host, an agent, a network or a program is expected, the tab
-key completes it; elsewhere the completion of Prolog applies.
+In an argument that expects the name of a host, an agent, a network or a
+program, the tab key completes such names; elsewhere the completion of Prolog
+applies.
 
 *Threading*: the thread of the top level.
 */
 
 %!  completed(+Before, +After, -Delete, -Completions) is semidet.
 %
-%   The cursor is between Before and After; arguments as of
+%   The cursor is between Before and After.  The arguments are those of
 %   prolog:complete_input/4.
 
 completed(Before, After, Delete, Completions) :-
@@ -57,8 +58,8 @@ wanted(Functor, 1, Kind) :-
     atom_concat(Kind, '_', Begin),
     sub_atom(Functor, 0, _, _, Begin).
 
-%   offered(+Kind, +Style, +Names, -Name): an agent is offered by its short name
-%   if that is unique, else by its id.
+%   offered(+Kind, +Style, +Names, -Name): for an agent, Name is its short name
+%   if that is unique, else its id.
 
 offered(agent, plain, Ids, Name) :-
     !,
@@ -79,8 +80,8 @@ short(Id, Short) :-
     !,
     sub_atom(Id, 0, Before, _, Short).
 
-%   completion(+Style, +Kind, +Name, +After, -Text): Text is Name as it is
-%   typed.
+%   completion(+Style, +Kind, +Name, +After, -Text): Text is Name in the syntax
+%   in which users type it.
 
 completion(quoted, _, Name, After, Text) :-
     (   sub_atom(After, 0, _, _, '\'')
@@ -102,8 +103,8 @@ typed(_, Name, Name).
                 *      BACK FROM THE CURSOR    *
                 *******************************/
 
-%   started(-Style, -Text)//: Text is the typed part of a name, after a quote or
-%   plain.
+%   started(-Style, -Text)//: Text is the part of a name that was typed, after a
+%   quote if Style is `quoted`.
 
 started(quoted, Text) -->
     typed_codes(in_quotes, Codes),
@@ -135,8 +136,9 @@ reversed_text(Codes, Text) :-
     reverse(Codes, Forward),
     atom_codes(Text, Forward).
 
-%   argument(+N, -Functor, -Argument)//: the position is Argument, a number, of
-%   a term with that Functor; N counts.
+%   argument(+N, -Functor, -Argument)//: the cursor is in the argument number
+%   Argument of a term with the name Functor.  N counts the arguments, back from
+%   the cursor.
 
 argument(N, Functor, Argument) -->
     [Code],

@@ -11,8 +11,8 @@
 
 /** <module> The hooks of the top level, help/1 and editors
 
-The modules that implement them are loaded at the first call; a process without
-a top level does not load them.
+The modules that implement these hooks are loaded at the first call, so a
+process without a top level does not load them.
 
 *Threading*: any thread.
 */
@@ -20,10 +20,11 @@ a top level does not load them.
 %!  hosts is det.
 %
 %   Print a table of the hosts of this process, of the networks that it has
-%   started, and of all that links from these lead to, in other processes, too:
-%   their address, state, number of agents, capacity, number of arrivals, and
-%   neighbours.  The table names processes that have not answered within two
-%   seconds (the setting `typhon_inventory:seconds`).
+%   started, and of all hosts that links from these lead to, also in other
+%   processes.  The table has the address, state, number of agents, capacity,
+%   number of arrivals, and neighbours of each host.  It names processes that
+%   have not answered within two seconds (the setting
+%   `typhon_inventory:seconds`).
 
 hosts :-
     print_hosts([]).
@@ -49,9 +50,9 @@ agents :-
 :- dynamic
     user:expand_query/4.
 
-%   Names of Typhon come before those of Prolog, whether the clauses of Prolog's
-%   hook are loaded yet or not.  A saved state does not keep a wrapped
-%   predicate.
+%   Names of Typhon come before those of Prolog.  The hook is wrapped, since the
+%   clauses of Prolog may be loaded before this module or after it.  A saved
+%   state does not keep a wrapped predicate.
 
 complete_names :-
     wrap_predicate(
@@ -105,7 +106,7 @@ prolog:message(help(typhon(Pairs, Count))) -->
 :- dynamic
     user:term_expansion/2.
 
-%   Only the cross-referencer expands a declaration.
+%   Only the cross-referencer expands a declaration; loading a file does not.
 
 user:term_expansion((:- Directive), Directives) :-
     current_prolog_flag(xref, true),

@@ -4,9 +4,9 @@
 
 /** <module> Texts of errors of ISO and SWI-Prolog
 
-Errors of ISO and of SWI-Prolog have clauses here, those of this library have
-clauses of prolog:error_message//1; all others are written as terms.  See
-typhon_error_text.
+This module has clauses for the errors of ISO and of SWI-Prolog.  Errors of this
+library have clauses of prolog:error_message//1; all other errors are written as
+terms.  See typhon_error_text.
 
 *Threading*: pure.
 */
@@ -46,7 +46,8 @@ formal(Formal) -->
 formal(Formal) -->
     [ 'Unknown error term: ~p'-[Formal] ].
 
-%   The lines for errors that this library translates.
+%   typhon_error_text:formal_lines//1 fails for errors that this library does
+%   not translate.
 
 typhon_error_text:formal_lines(Formal) -->
     formal_told(Formal).
@@ -58,7 +59,7 @@ formal_told(Formal) -->
     ),
     !.
 
-%   ours(:Hook)//: the lines are those of a clause of this library for Hook.
+%   ours(:Hook)//: the text is that of a clause of this library for Hook.
 
 ours(prolog:Hook, Lines, Rest) :-
     Hook =.. List0,
@@ -174,7 +175,7 @@ syntax(What, Text) :-
     atom_concat(Upper, Words, Text).
 syntax(What, What).
 
-%   The location of an error, and a remark, if SWI-Prolog has added them.
+%   SWI-Prolog may have added the location of an error, and a remark.
 
 location(Context) -->
     { var(Context) },

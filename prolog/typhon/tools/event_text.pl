@@ -16,8 +16,8 @@ the error, and the clause.
 
 %!  happening(+What, -Text, ?Rest) is det.
 %
-%   The text of an event, see typhon_events, as a message: an act of an agent,
-%   or an event that concerns it.
+%   Text is the message for an event, see typhon_events: an act of an agent, or
+%   an event that concerns an agent or a host.
 
 happening(What) -->
     { own(What, If, Text), call(If) },
@@ -29,16 +29,16 @@ happening(What) -->
 
 %!  own_event(+What) is semidet.
 %
-%   What is an event of the platform.  Agents may log any term; a logged term
-%   with the same form is taken for one.
+%   What is an event of the platform.  Agents may log any term, so a logged term
+%   of the same form is mistaken for an event.
 
 own_event(What) :-
     own(What, If, _),
     call(If),
     !.
 
-%   own(+What, -If, -Text): What is an event if the goal If succeeds; Text, the
-%   body of a grammar rule, describes it.
+%   own(+What, -If, -Text): What is an event if the goal If succeeds.  Text, the
+%   body of a grammar rule, is its message.
 
 own(created, true, [ 'begins' ]).
 own(ended(Outcome), true, ([ 'ends, ' ], term_told(Outcome))).
@@ -85,7 +85,8 @@ named(Format, Name) -->
 
 %!  short_name(+Name, -Short) is det.
 %
-%   Short is the part before the address in the name of an agent or a host.
+%   Short is the part before `@` in the id of an agent or the address of a host;
+%   other names are unchanged.
 
 short_name(Name, Short) :-
     atom(Name),
@@ -126,7 +127,7 @@ prolog:message(typhon(message_undone(Agent, From, Message, Fault))) -->
     [ ' from ~w what on_message/2 says; it '-[From] ],
     failed_last(Fault).
 
-%   Agent and place, as "Agent x at beta (hop 3): ".
+%   agent_at(+Agent, +Fault)//: the text is as "Agent x at beta (hop 3): ".
 
 agent_at(Agent, Fault) -->
     { fault_told(Fault, _, _, Address, Hops),
@@ -134,7 +135,7 @@ agent_at(Agent, Fault) -->
     },
     [ 'Agent ~w at ~w (hop ~D): '-[Agent, Host, Hops] ].
 
-%   An undefined predicate is not reported as missing in the agent's module.
+%   An undefined predicate is reported without the module of the agent.
 
 raised(error(existence_error(procedure, Agent:PI), Context), Agent) -->
     !,
@@ -206,7 +207,8 @@ goal_told(Goal0) -->
     [ '~W'-[Goal, [ quoted(true), portray(false), max_depth(10),
                     spacing(next_argument), numbervars(true) ]] ].
 
-%   The clause of the goal, and of its caller.
+%   clauses_told(+Where)//: the text names the clause of the goal and that of
+%   its caller.
 
 clauses_told([]) -->
     [].

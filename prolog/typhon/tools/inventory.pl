@@ -30,15 +30,15 @@
 /** <module> Inventory of the processes of a network, and of one host
 
 Each process reports its hosts and the agents on them in one answer.  Requests
-are sent to the processes of networks started here, and to those of hosts that
-links lead to, all at once; a process that has not answered by the deadline is
-reported as silent.
+go to all processes of networks that this process has started, and of hosts that
+links lead to, at the same time.  A process that has not answered by the
+deadline is silent.
 
 The report on one host has the facts in its tuple space, the clauses of its
 place and its options, as text.  Long values are shortened.
 
-*Threading*: any thread that may wait, but not those of the endpoint.  A worker
-answers, since there may be many agents.
+*Threading*: any thread that may wait, except threads of the endpoint.  A worker
+answers a request, since the answer may be long.
 */
 
 :- setting(seconds, number, 2,
@@ -49,15 +49,20 @@ answers, since there may be many agents.
 
 %!  survey(+Most, +Places, -Seen, -Silent) is det.
 %
-%   Seen are terms seen(Hosts, Agents, Count), one for each process: Hosts are
-%   terms host(Address, State, Load, Capacity, Arrived, Neighbours, Costs,
-%   Clock), where Costs are those of the links to Neighbours, in their order,
-%   and Clock is clock(Epoch, Rate), or `virtual`; Agents are the first Most, in
-%   the order of survey_order/2, of Count agents, terms agent(Id, Glance), see
-%   agent_glance/2; if Most is 0 they are not counted.  Requests are sent to
-%   this process, to those of the networks started here, to those at the
-%   addresses Places, and to others that these name.  Silent are Endpoint-Why of
-%   the processes without an answer, where Why is `gone`, `lost` or `late`.
+%   Seen has a term seen(Hosts, Agents, Count) for each process that has
+%   answered:
+%
+%     - Hosts are terms host(Address, State, Load, Capacity, Arrived,
+%       Neighbours, Costs, Clock).  Costs are the costs of the links to
+%       Neighbours, in their order.  Clock is clock(Epoch, Rate) or `virtual`
+%     - Agents are terms agent(Id, Glance), see agent_glance/2: the first Most
+%       of Count agents, in the order of survey_order/2.  If Most is 0 they are
+%       not counted
+%
+%   The survey includes this process, the processes of networks that it has
+%   started, those at the addresses Places, and others to which links of their
+%   hosts lead. Silent are pairs Endpoint-Why of the processes without an
+%   answer, where Why is `gone`, `lost` or `late`.
 
 survey(Most, Places, [Here|Seen], Silent) :-
     look(Most, Here),
@@ -192,8 +197,8 @@ link_cost(Name, Neighbour, Cost) :-
 
 %!  survey_hosts(+Places, +Seen, +Silent, -Hosts) is det.
 %
-%   Hosts are all hosts of a survey, also those of silent processes that were
-%   named by others: their state is `gone`, or `silent`.
+%   Hosts are all hosts of a survey.  They include hosts of silent processes to
+%   which links lead; these have the state `gone` or `silent`.
 
 survey_hosts(Places, Seen, Silent, Hosts) :-
     findall(Host, ( member(seen(Some, _, _), Seen), member(Host, Some) ),
@@ -225,8 +230,8 @@ state_unseen(late, silent).
 
 %!  survey_agents(+Seen, -Agents) is det.
 %
-%   Agents has each agent of a survey once.  An agent in transit may be reported
-%   twice; the entry with more hops is kept.
+%   Agents has each agent of a survey once.  Two processes may report an agent
+%   in transit; the entry with more hops is kept.
 
 survey_agents(Seen, Agents) :-
     findall(Some, member(seen(_, Some, _), Seen), Lists),
@@ -241,7 +246,8 @@ hops_left(agent(_, glance(_, _, _, Hops, _)), Left) :-
 
 %!  survey_order(+Text, -Key) is det.
 %
-%   Keys sort numbers inside names by value: n2 before n10.
+%   Key sorts texts with numbers in them by the values of the numbers: n2 before
+%   n10.
 
 survey_order(Text, Key) :-
     atom_codes(Text, Codes),
@@ -262,7 +268,7 @@ parts([Text]) -->
                 *           ONE HOST           *
                 *******************************/
 
-%   Longer lists and texts are not readable.
+%   Longer lists and texts would not be readable.
 
 most(tuples, 300).
 most(clauses, 300).
@@ -347,7 +353,8 @@ own_predicate(Place, Head) :-
     functor(Head, Name, _),
     \+ sub_atom(Name, 0, _, _, $).
 
-%   Services that agents offer on the host.
+%   offer_text(+Name, -Text): Text describes a service that an agent offers on
+%   the host.
 
 offer_text(Name, Text) :-
     host_offers(Name, Offers),
@@ -356,7 +363,8 @@ offer_text(Name, Text) :-
     text(Properties, PropertiesText),
     format(string(Text), '~s, by ~w: ~s', [ServiceText, Agent, PropertiesText]).
 
-%   Services of the place that come from modules: predicates by name.
+%   service_text(+Place, -Text): Text names a module, or a predicate of a
+%   module, that is a service of the place.
 
 service_text(Place, Text) :-
     import_module(Place, Module),

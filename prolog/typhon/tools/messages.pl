@@ -2,10 +2,10 @@
 
 /** <module> Texts of errors
 
-The texts of the errors that the predicates of library(typhon) raise, and of
-reports about agents.  For a mistyped name of a host, an agent or an agent
-program they suggest similar names.  The modules of the wire, of networks and of
-the log have the texts of their own messages.
+This module has the texts of the errors that the predicates of library(typhon)
+raise, and of reports about agents.  For a mistyped name of a host, an agent or
+an agent program they suggest similar names.  The modules of the wire, of
+networks and of the log have the texts of their own messages.
 
 *Threading*: print_message/2 calls the hooks in any thread.
 */
@@ -121,8 +121,8 @@ prolog:error_message(connection_lost(Address)) -->
 prolog:error_message(type_error(mobile_term, Culprit)) -->
     [ 'This term cannot travel: ~p'-[Culprit] ].
 
-%   The reason why Host, the address of a host or a process, was not reached, if
-%   this process has tried.
+%   reason(+Host)//: the text tells why this process could not reach Host, the
+%   address of a host or a process.
 
 reason(Host) -->
     { endpoint_of(Host, Endpoint),
@@ -170,7 +170,8 @@ program_alias(Spec, Alias, Name) :-
     memberchk(Alias, [agents, payloads]),
     program_path(Name0, Name).
 
-%   As in agents(census), and agents(survey/census).
+%   program_path(+Path, -Name): Path is the argument in agents(census) or
+%   agents(survey/census).
 
 program_path(Name, Name) :-
     atom(Name),

@@ -30,23 +30,24 @@ typhon_options:declared(page_option, world(X), callable, X).
 %!  page_start(+Options) is det.
 %!  page_stop is det.
 %
-%   Serve a page that shows the hosts of this process, of the networks that it
-%   has started, and of all that links from these lead to, and the agents there,
-%   live, and that lets users control them.  The link to the page is printed; it
-%   gives all rights of this process.  Options:
+%   Serve a page that shows live, and lets users control, the hosts of this
+%   process, of the networks that it has started, and of all hosts that links
+%   from these lead to, and the agents on them.  The link to the page is
+%   printed; it gives all rights of this process.  Options:
 %
 %     - port(+Port): default 8080; 0 for any
 %     - host(+Address): also show the network of this host of another process
 %     - bind(+Interface): default localhost
-%     - read_only(+Boolean): the page changes nothing; default `false`
-%     - overlays(+Files): of agent programs, or studies, whose overlays are
-%       shown, beside those of the programs in agents/
-%     - world(+Goal): a view World shows the picture that call(Goal, Svg)
-%       gives, twice a second; Goal is qualified by its module
+%     - read_only(+Boolean): whether the page lets users only watch; default
+%       `false`
+%     - overlays(+Files): files of agent programs, or studies, whose overlays
+%       are shown, besides those of the programs in agents/
+%     - world(+Goal): a view World shows, twice a second, the picture that
+%       call(Goal, Svg) returns; Goal is qualified by its module
 %
-%   page_stop/0 succeeds also where there is no page.
+%   page_stop/0 succeeds also without a page.
 %
-%   @error permission_error(start, page, Port): there is a page already, at Port
+%   @error permission_error(start, page, Port) there is a page already, at Port
 %   @error domain_error(page_option, Option)
 %   @error existence_error(host, Address), host_unreachable(Address)
 
@@ -74,8 +75,8 @@ page_stop :-
 %   is self-contained, so it can be published with a paper.  Options:
 %
 %     - title(+Text): default the name of the log
-%     - overlays(+Files): of agent programs, or studies, whose overlays are
-%       shown, beside those of the programs in agents/
+%     - overlays(+Files): files of agent programs, or studies, whose overlays
+%       are shown, besides those of the programs in agents/
 %
 %   @error existence_error(source_sink, Log), permission_error(open,
 %   source_sink, File)

@@ -148,7 +148,7 @@ typhon_programs:advice(inside(Name/Arity)) -->
     ['an agent cannot stop inside ', Atom, ': '],
     outside(Name/Arity).
 
-%   instead(+Choice)//: how to write a choice that a stop discards.
+%   instead(+Choice)//: the advice for a choice that a stop discards.
 
 instead(clause) --> !,
     ['write ( Goal -> ... ; ... ), which travels, instead of two clauses'].
@@ -157,7 +157,8 @@ instead((;)/2) --> !,
 instead(_) -->
     ['collect them with findall/3, and go through the list by recursion'].
 
-%   outside(+PI)//: what to write instead of a goal that must run to its end.
+%   outside(+PI)//: the advice for a stop inside a goal that must run to its
+%   end.
 
 outside(PI) --> { repeats(PI) }, !,
     ['write a recursive predicate instead'].

@@ -8,9 +8,9 @@
 
 /** <module> Source view: goals of agents in the text of their programs
 
-The modules find the clause that a goal comes from, and the names that its
-variables have there.  This is the interface of the layer.  Its modules are
-loaded when an agent is listed, or when one is faulty.
+The layer finds the clause from which a goal comes, and the names of its
+variables in that clause.  This is its interface.  Its modules are loaded when
+an agent is listed, or becomes faulty.
 
 *Threading*: any thread.
 */
@@ -19,8 +19,8 @@ loaded when an agent is listed, or when one is faulty.
 %
 %   Print the program of Agent, with the names of variables if it was read from
 %   a file, its facts, and its remaining goals, as clauses.  An arrow marks the
-%   next goal; if several clauses end in the same way, there is one in each of
-%   them. The goals of an agent that is running are not known, see agent_step/1.
+%   next goal; if several clauses end in the same way, each of them has an
+%   arrow.  The goals of a running agent are not known, see agent_step/1.
 %
 %   @error existence_error(agent, Agent)
 
@@ -39,9 +39,9 @@ goals_shown(Agent, Facts, Goals, Shown) :-
 
 %!  goal_named(+Clauses, +Lists, +Goal, -Named) is det.
 %
-%   Named is Goal with '$VAR'(Name) for variables, if all the clauses that could
-%   have called it agree on their names.  Lists are lists of the names of
-%   variables, for the first of Clauses.
+%   Named is Goal with '$VAR'(Name) for variables, if all clauses that could
+%   have called Goal agree on their names.  Lists has the names of variables of
+%   the first clauses of Clauses, one list for each clause.
 
 goal_named(Clauses, Lists, Goal, Named) :-
     name_goal(Clauses, Lists, Goal, Named).

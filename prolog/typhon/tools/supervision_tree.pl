@@ -12,24 +12,24 @@
 
 /** <module> Trees of supervisors, their children and monitored agents
 
-A child of an agent is one that follows it, see monitor/2; below an agent are
-its children, and other agents that it monitors.  Two agents that monitor each
-other, such as a supervisor and its standby, would be below each other: the one
-with more agents below it is at the top.
+A child of an agent follows it, see monitor/2.  The tree has the children of an
+agent, and other agents that it monitors, below it.  Two agents that monitor
+each other, such as a supervisor and its standby, would be below each other;
+then the agent with more agents below it is at the top.
 
 *Threading*: any thread that may wait.
 */
 
-%   At most this many agents of each process have more than their id.
+%   So many agents of each process have a summary; others have only their id.
 
 most(5000).
 
 %!  supervision_tree(+Places, -Trees:list, -Silent:list) is det.
 %
 %   Trees are terms node(Id, Relation, Glance, Below): Relation is `top`,
-%   `child` or `monitored`, Glance is as of agent_glance/2, or `none`, and Below
-%   are the nodes below it.  Places and Silent are as of survey/4.  Agents
-%   without relations are left out.
+%   `child` or `monitored`, Glance is that of agent_glance/2, or `none`, and
+%   Below are the nodes below the agent.  Places and Silent are those of
+%   survey/4.  Agents without relations are left out.
 
 supervision_tree(Places, Trees, Silent) :-
     most(Most),
@@ -44,10 +44,11 @@ forest(Relations, Agents, Trees) :-
     below(Relations, Below, Related),
     tops(Below, Related, Tops),
     empty_assoc(None),
-    grown(Tops, top, Below-Glances, None, _, Trees).
+    tree_nodes(Tops, top, Below-Glances, None, _, Trees).
 
 %   below(+Relations, -Below, -Related): Below is an assoc from an agent to the
-%   Relation-Id below it, Related an assoc of the agents that are below another.
+%   pairs Relation-Id of the agents below it.  Related is an assoc of the agents
+%   that are below another.
 
 below(Relations, Below, Related) :-
     findall(Relation-true, member(Relation, Relations), Pairs),
@@ -81,8 +82,8 @@ child(Id, Parent, Known) :-
     \+ ( get_assoc(monitors(Id, Parent), Known, true),
          \+ get_assoc(monitors(Parent, Id), Known, true) ).
 
-%   tops(+Below, +Related, -Tops): agents with others below them.  Agents that
-%   are not below another come first, then agents with most below them.
+%   tops(+Below, +Related, -Tops): Tops are the agents with others below them:
+%   first those that are below no other, then those with most agents below them.
 
 tops(Below, Related, Tops) :-
     assoc_to_keys(Below, Parents),
@@ -97,18 +98,18 @@ top_key(Below, Related, Id, key(Is, Fewer, Order)) :-
     Fewer is -Count,
     survey_order(Id, Order).
 
-%   grown(+Ids, +Relation, +Known, +Placed0, -Placed, -Nodes): each agent is in
-%   one place only.
+%   tree_nodes(+Ids, +Relation, +Known, +Placed0, -Placed, -Nodes): Placed are
+%   the agents that have a node already, so that each agent gets only one.
 
-grown([], _, _, Placed, Placed, []).
-grown([Id|Ids], Relation, Known, Placed0, Placed, Nodes) :-
+tree_nodes([], _, _, Placed, Placed, []).
+tree_nodes([Id|Ids], Relation, Known, Placed0, Placed, Nodes) :-
     (   get_assoc(Id, Placed0, true)
     ->  Nodes = Nodes1,
         Placed1 = Placed0
     ;   node(Id, Relation, Known, Placed0, Placed1, Node),
         Nodes = [Node|Nodes1]
     ),
-    grown(Ids, Relation, Known, Placed1, Placed, Nodes1).
+    tree_nodes(Ids, Relation, Known, Placed1, Placed, Nodes1).
 
 node(Id, Relation, Known, Placed0, Placed, node(Id, Relation, Glance, Below)) :-
     Known = Lists-Glances,
@@ -117,8 +118,8 @@ node(Id, Relation, Known, Placed0, Placed, node(Id, Relation, Glance, Below)) :-
     (   get_assoc(Id, Lists, List)
     ->  of_relation(child, List, Children),
         of_relation(monitored, List, Others),
-        grown(Children, child, Known, Placed1, Placed2, Below1),
-        grown(Others, monitored, Known, Placed2, Placed, Below2),
+        tree_nodes(Children, child, Known, Placed1, Placed2, Below1),
+        tree_nodes(Others, monitored, Known, Placed2, Placed, Below2),
         append(Below1, Below2, Below)
     ;   Below = [],
         Placed = Placed1

@@ -6,8 +6,8 @@
 
 /** <module> Tables of hosts, agents and supervision
 
-*Threading*: any thread.  A table is a snapshot: hosts and agents that disappear
-while it is made are left out.
+*Threading*: any thread.  A table is a snapshot: hosts and agents that end while
+it is made are left out.
 */
 
 :- use_module(library(apply), [foldl/4, maplist/2, maplist/3, maplist/4]).
@@ -21,7 +21,7 @@ while it is made are left out.
               [survey/4, survey_agents/2, survey_hosts/4, survey_order/2]).
 :- autoload(supervision_tree, [supervision_tree/3]).
 
-%   Longer tables are not readable.
+%   A longer table would not be readable.
 
 longest_table(60).
 
@@ -31,7 +31,7 @@ longest_table(60).
 
 %!  print_hosts(+Places) is det.
 %
-%   As hosts/0, and also for the processes at the addresses Places.
+%   As hosts/0, but also for the processes at the addresses Places.
 
 print_hosts(Places) :-
     survey(0, Places, Seen, Silent),
@@ -74,12 +74,12 @@ host_neighbours(Neighbours, Text) :-
 
 %!  print_agents(+Places, +Ids) is det.
 %
-%   As agents/0, and also for the processes at the addresses Places.  Ids is
-%   `full`, or `short`: names if they are unique.
+%   As agents/0, but also for the processes at the addresses Places.  Ids is
+%   `full` for ids, or `short` for names where they are unique.
 
 print_agents(Places, Ids) :-
     longest_table(Longest),
-    Most is Longest+1,          % shows whether the last name is unique
+    Most is Longest+1,          % tells whether the last name is unique
     survey(Most, Places, Seen, Silent),
     agents_seen(Seen, Agents, Count),
     first_few(Longest, Agents, Shown, _),
@@ -92,7 +92,8 @@ print_agents(Places, Ids) :-
     print_more(More),
     print_silent(Silent).
 
-%   agents_seen(+Seen, -Agents, -Count): the first of Count agents, in order.
+%   agents_seen(+Seen, -Agents, -Count): Agents are the first of Count agents,
+%   in order.
 
 agents_seen(Seen, Agents, Count) :-
     survey_agents(Seen, Different),
@@ -123,8 +124,8 @@ shown_id(_, _, Id, Id).
 
 %!  print_tree(+Places) is det.
 %
-%   Print agents that monitor others, with those below them indented, also for
-%   the processes at the addresses Places.
+%   Print the agents that monitor others, with the agents below them indented,
+%   also for the processes at the addresses Places.
 
 print_tree(Places) :-
     supervision_tree(Places, Trees, Silent),

@@ -14,14 +14,14 @@
                 agent_program/4, agent_state/2, with_agent/2 ]).
 :- use_module('../../kernel/lifecycle', [order_give/3]).
 
-/** <module> Changes of agents from outside
+/** <module> Changes of agents by users
 
 The process that gives the order reads a new program and sends it with the
-order.  The agent gets a module below that of the new program, with its present
-state.
+order.  The agent gets a new module that inherits from that of the new program,
+with its present state.
 
-*Threading*: any thread that may wait; the worker that has the agent carries out
-the order.
+*Threading*: any thread that may wait; the worker that runs the agent carries
+out the order.
 */
 
 :- multifile
@@ -37,11 +37,11 @@ change_agent(Agent, Change) :-
     once(change_order(Change, Order)),
     order_give(Agent, change(Order), _).
 
-%   change_order(+Change, -Order): the order that is sent for Change:
-%   facts(Clauses) or program(Hash, Sent).
-
 typhon_names:known(agent_change, facts('Clauses')).
 typhon_names:known(agent_change, program('Spec')).
+
+%   change_order(+Change, -Order): Order is facts(Clauses) or
+%   program(Hash, Sent).
 
 change_order(facts(Clauses), facts(Clauses)) :-
     !,
@@ -85,7 +85,8 @@ change_made(program(Hash, Sent), Id) :-
     agent_module(Id, Place, Hash, state(Declared, Clauses), Module),
     with_agent(Id, agent_program(Id, Hash, Module, Life)).
 
-%   A part of the host may forbid it, since no other host would admit the agent.
+%   A part of the host may forbid the program, as it would for an agent that
+%   arrives with it.
 
 may_change(Id, Sent) :-
     (   agent(Id, Host, _, _, _),
@@ -104,8 +105,8 @@ not_static(program(_, _, _, Static), Clause) :-
     ;   true
     ).
 
-%   Clauses may also be added to predicates that the agent has made part of its
-%   state itself, or has from a payload.
+%   The state also includes dynamic predicates that the agent has made itself,
+%   or has from a payload.
 
 in_state(Program, Module, Clause) :-
     clause_parts(Clause, Head, _),

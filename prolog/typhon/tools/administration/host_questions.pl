@@ -20,13 +20,12 @@
                 parts_load/1, peer_may/3, place_offer/2, process_ask/6,
                 remote/2, scheduler_limit/2 ]).
 
-/** <module> Properties, links and changes of hosts, here and elsewhere
+/** <module> Properties, links and changes of hosts of any process
 
-A host of another process gets a request of kind `hosting`.
+Another process gets a request of kind `hosting` about its hosts.
 
-*Threading*: any thread.  Requests are answered in the threads of
-connections.  A change, and the start and the end of a host, exclude each other
-by a mutex.
+*Threading*: any thread.  Threads of connections answer requests.  A mutex
+excludes changes of a host while hosts start or end.
 */
 
 :- multifile
@@ -108,7 +107,7 @@ must_be_cost(Cost) :-
     ;   domain_error(cost, Cost)
     ).
 
-%   The change that may fail comes first, so that no half of a link is left.
+%   The change that may fail comes first, so that no half of a link remains.
 
 make_link(A, B, Change) :-
     ends(A, B, Near, Far),
@@ -121,8 +120,8 @@ unlink_hosts(A, B) :-
     one_way(Near, Far, unlink),
     one_way(Far, Near, unlink).
 
-%   ends(+A, +B, -Near, -Far): the addresses, that of a host of this process
-%   first.
+%   ends(+A, +B, -Near, -Far): Near and Far are the addresses of A and B.  Near
+%   is a host of this process if one of them is.
 
 ends(A, B, Near, Far) :-
     must_be(atom, A),

@@ -37,7 +37,8 @@ property_of_agent(Agent, Property0) :-
     call(Ask, Id, Question, 10, answer(Properties)),
     one_of(Property, Properties).
 
-%   An agent that leaves during the enumeration is not followed.
+%   The enumeration asks only this process: agents that leave meanwhile are left
+%   out.
 
 known_as(Agent, Agent, agent_ask_here) :-
     var(Agent),
@@ -46,13 +47,13 @@ known_as(Agent, Agent, agent_ask_here) :-
 known_as(Agent, Id, agent_ask) :-
     agent_named(Agent, Id).
 
-%   The clauses of property/2 give the other names.
+%   mailbox(_) has no clause of property/2, unlike the other properties.
 
 typhon_names:known(agent_property, mailbox(_)).
 typhon_names:known(agent_property, Property) :-
     clause(property(Property, _), _).
 
-%   A host may be given by its name.
+%   Users may give the name of a host in place of its address.
 
 by_address(host(Name), Property), named_host(Name, Address) =>
     Property = host(Address).

@@ -19,8 +19,8 @@
 
 /** <module> Restore points: agents as text
 
-One fact per line.  The clauses of the program, the state and the goals
-still to run can be read, compared and edited.
+A file has one fact per line, so that people can read, compare and edit the
+clauses of the program, the state and the remaining goals.
 
 *Threading*: any thread.
 */
@@ -62,8 +62,9 @@ load_agent(File, Agent, Options) :-
 
 %!  restore_point(+File, +Image) is det.
 %
-%   Write a restore point of an agent that is on no running host: Image is
-%   image(Name, Program, Life, State, Goals, Mail), Program as of code_sent/2.
+%   Write a restore point of an agent that is on no running host.  Image is
+%   image(Name, Program, Life, State, Goals, Mail), with Program as of
+%   code_sent/2.
 
 restore_point(File, Image) :-
     write_image(File, Image).
@@ -77,9 +78,10 @@ typhon_options:declared(load_option, host(Host), atom, Host).
 format_version(1).
 
 %   write_image(+File, +Image), read_image(+File, -Image): Image is
-%   image(Name, Sent, Life, State, Goals, Mail), Sent as of code_sent/2.
-
-%   If the text cannot be made, an earlier restore point in File is kept.
+%   image(Name, Sent, Life, State, Goals, Mail), with Sent as of code_sent/2.
+%
+%   The text is complete before File is opened: if it cannot be made, an earlier
+%   restore point in File is kept.
 
 write_image(File, Image) :-
     with_output_to(string(Text), forall(line(Image, Line), write_line(Line))),

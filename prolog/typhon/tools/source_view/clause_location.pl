@@ -8,14 +8,14 @@
               [ body_goals/4, clause_parts/3, code_module/2, code_places/2,
                 code_program/2, goals_body/2, place/3, plain_goals/2 ]).
 
-/** <module> The clause that a goal comes from
+/** <module> The clause from which a goal comes
 
-A goal list does not record where its goals come from: marks would grow with
+A goal list does not record the clauses of its goals: such marks would grow with
 recursion, and move with the agent.  But a list [Goal|Goals] begins with an
 instance of the rest of a clause, followed by the rest of a clause that called
-it.  So the clause can be found when it is needed, after a fault: the machine
+it.  So the clause can be found when it is needed, after a fault.  The machine
 takes a clause body apart as it runs it, see typhon_machine, and point/3
-enumerates all the lists of goals that can remain of a body.
+enumerates all lists of goals that can remain of a body.
 
 Places are as in typhon_fault.
 
@@ -32,7 +32,7 @@ typhon_on_demand:joins(fault, stands).
 typhon_fault:handled(Hash, Agent, Goal, Fault, Where) :-
     where_handled(Hash, Agent, Goal, Fault, Where).
 
-%   main/0 may be called by no clause.
+%   Usually no clause calls main/0.
 
 typhon_fault:stands(Hash, Agent, Fault, Where) :-
     Fault = fault(Goal, _, _),
@@ -43,7 +43,7 @@ typhon_fault:stands(Hash, Agent, Fault, Where) :-
     fault_where(Hash, Agent, Fault, Where).
 
 %   fault_where(+Hash, +Agent, +Fault, -Where): Agent is the module of the
-%   agent. Where is [] if more than three places are possible.
+%   agent.  Where is [] if more than three places are possible.
 
 fault_where(Hash, Agent, fault(Goal, Goals, Natives), Where) :-
     code_module(Hash, Module),
@@ -57,9 +57,9 @@ fault_where(Hash, Agent, fault(Goal, Goals, Natives), Where) :-
     first_two(Numbers0, Numbers),
     maplist(maplist(shown(Hash, All)), Numbers, Where).
 
-%   where_handled(+Hash, +Agent, +Goal, +Fault, -Where) is semidet: Goal, which
-%   has failed with Fault, was called by no clause of the program.  Fails if no
-%   clause has a head for it.
+%   where_handled(+Hash, +Agent, +Goal, +Fault, -Where) is semidet: no clause of
+%   the program called Goal, which has failed with Fault.  Fails if no clause
+%   has a head for Goal.
 
 where_handled(Hash, Agent, Goal, Fault, Where) :-
     all_clauses(Hash, Agent, All),
@@ -98,8 +98,8 @@ first_two([A,B|_], [A,B]) :-
     !.
 first_two(Few, Few).
 
-%   A clause is c(N, PI), the N-th of the program, or one of the agent's state
-%   if N is 0.
+%   A clause is c(N, PI): the N-th clause of the program, or, if N is 0, a
+%   clause of the agent's state.
 
 shown(_, _, c(0, PI), At) =>
     At = at(PI, state).
@@ -114,7 +114,7 @@ shown(Hash, All, c(N, PI), At) =>
     ->  true
     ).
 
-%   of_predicate(+All, +PI, -Ns): the numbers of its clauses.
+%   of_predicate(+All, +PI, -Ns): Ns are the numbers of the clauses of PI.
 
 of_predicate(All, Name/Arity, Ns) :-
     functor(Head, Name, Arity),
@@ -124,8 +124,8 @@ of_predicate(All, Name/Arity, Ns) :-
                 *        NATIVE CLAUSES        *
                 *******************************/
 
-%   native_places(+References, +Module, +All, -Places): for a recursive
-%   predicate only the innermost clause.
+%   native_places(+References, +Module, +All, -Places): of a recursive predicate
+%   Places has only the innermost clause.
 
 native_places(References, Module, All, Places) :-
     findall(PI-I, ( member(Reference, References),
@@ -136,8 +136,8 @@ native_places(References, Module, All, Places) :-
     maplist(native_place(All), Places0, Places).
 
 %   last_called(+Places0, +Raising, +Goal, +All, -Places): a clause whose last
-%   goal is Raising has no frame any more.  It is the clause that calls Raising,
-%   if there is only one.
+%   goal is Raising has lost its stack frame.  It is the clause that calls
+%   Raising, if only one does.
 
 last_called(Places0, Raising, Goal, All, Places) :-
     (   calls_it(Raising, Goal, Places0, All, Clause),
@@ -189,14 +189,16 @@ native_place(All, PI-I, [c(N, PI)]) :-
                 *        MOBILE CLAUSES        *
                 *******************************/
 
-%   mobile_places(+Inner, +All, +Goals, -Places): the clause of the first of
-%   Goals, unless two places are known already.
+%   mobile_places(+Inner, +All, +Goals, -Places): Places has the clause of the
+%   first of Goals, unless Inner has two places already.
 
 mobile_places([_,_|_], _, _, Places) =>
     Places = [].
 mobile_places(_, All, Goals0, Places) =>
     goals_normal(Goals0, Goals),
-    findall(Left-c(N, PI), stands(Goals, All, Left, c(N, PI)), Found0),
+    findall(Left-c(N, PI),
+            begins_with_rest(Goals, All, Left, c(N, PI)),
+            Found0),
     likely(Found0, All, Found),
     places_of(Found, All, Places).
 
@@ -213,10 +215,10 @@ places_of(Found, _, Places), Found = [_,_|_] =>
 places_of(_, _, Places) =>
     Places = [].
 
-%   stands(+Goals, +All, -Left, -Clause) is nondet: Goals begins with an
-%   instance of the rest of Clause from some point on; Left follows.
+%   begins_with_rest(+Goals, +All, -Left, -Clause) is nondet: Goals begins with
+%   an instance of the rest of Clause from some point on, followed by Left.
 
-stands(Goals, All, Left, c(N, Name/Arity)) :-
+begins_with_rest(Goals, All, Left, c(N, Name/Arity)) :-
     member(N-(Head:-Body), All),
     point(Body, Sequel, End),
     after(Sequel, Goals, End, Left),
@@ -230,8 +232,8 @@ after(Sequel, Goals, End, Left) :-
     subsumes_term(Sequel, Begin),
     ( End == open -> true ; Left == [] ).
 
-%   likely(+Found0, +All, -Found): entries whose following goals are possible,
-%   and among these those with the longest rest of a clause.
+%   likely(+Found0, +All, -Found): Found are the entries whose following goals
+%   are possible, and among these those with the longest rest of a clause.
 
 likely(Found0, All, Found) :-
     findall(Count-Entry,
@@ -264,9 +266,9 @@ returns(Goals, All, Call, c(N, Name/Arity)) :-
     after(Sequel, Goals, End, _),
     functor(Head, Name, Arity).
 
-%   callers(+Left, +All, +Clause, -Callers): the callers of Clause, where Left
-%   are the goals after it.  After a last call Left is empty: then the caller is
-%   known only if no other clause calls that predicate.
+%   callers(+Left, +All, +Clause, -Callers): Callers are the callers of Clause;
+%   Left are the goals after it.  After a last call Left is empty: then the
+%   caller is known only if no other clause calls that predicate.
 
 callers(Left, All, c(_, Name/Arity), Callers) :-
     functor(Head, Name, Arity),
@@ -294,7 +296,8 @@ calls(All, General, c(N, Name/Arity)) :-
                 *            POINTS            *
                 *******************************/
 
-%   goals_normal(+Goals0, -Goals): Goals0 in the form of a clause body.
+%   goals_normal(+Goals0, -Goals): Goals are Goals0 in the form of a clause
+%   body.
 
 goals_normal(Goals0, Goals) :-
     goals_body(Goals0, Body),
@@ -310,9 +313,9 @@ body_list(Body, Goals) :-
 
 %!  point(+Body, -Sequel, -End) is nondet.
 %
-%   Sequel are the goals that the machine still has to run of Body when it has
-%   reached the first goal of Sequel.  End is `open` if the goals after the body
-%   follow, `closed` inside a condition.
+%   Sequel are the goals of Body that remain when the machine has reached the
+%   first goal of Sequel.  End is `open` if the goals after the body follow,
+%   `closed` inside a condition.
 
 point(Body, Sequel, End) :-
     body_list(Body, Goals),
@@ -336,8 +339,9 @@ part_point(continued, Goals, After, End0, Sequel, End) :-
 part_point(apart, Goals, _, _, Sequel, End) :-
     point_in(Goals, [], closed, Sequel, End).
 
-%   part(+Goal, -Part, -How) is nondet: the machine continues in Part, with the
-%   goals after Goal, or runs it apart.
+%   part(+Goal, -Part, -How) is nondet: How is `continued` if the machine
+%   continues in Part, with the goals after Goal, `apart` if it runs Part
+%   separately.
 
 part((If->_), If, apart).
 part((_->Then), Then, continued).
@@ -362,7 +366,8 @@ part_of_or(Or, Part, How) :-
     ).
 
 %   goal_level(+Goal, +Goals, -Left): Left begins with Goal, in Goals or in a
-%   part of the first of them that runs apart; it is Goals if Goal is not found.
+%   part of the first of Goals that runs apart; Left is Goals if Goal is not
+%   found.
 
 goal_level(Goal, [First|Goals], Left) :-
     (   First == Goal

@@ -13,13 +13,13 @@
 /** <module> The clauses of remaining goals, and the names of their variables
 
 Clauses and goals of agents are terms.  The names of the variables of a clause
-are kept with its place, see typhon_places; those of remaining goals follow from
-the clauses that the goals come from.
+are stored with its place, see typhon_places; those of remaining goals follow
+from the clauses from which the goals come.
 
 Bindings are Name=Variable, as of read_term/2.
 
-The remaining goals of an agent do not record their clauses.  But the first of
-them are the end of the body of the clause that the agent runs, so this clause
+The remaining goals of an agent do not record their clauses.  But the first
+goals are the end of the body of the clause that the agent runs, so this clause
 can be found.
 
 *Threading*: pure.
@@ -40,9 +40,9 @@ named_nth(Variables, Name-I, Name=Variable) :-
 %!  goals_bindings(+Clauses, +Lists, +Goals, -Bindings) is det.
 %
 %   Bindings are the names of variables of Goals, the remaining goals of an
-%   agent with these Clauses.  Lists are the names for the first of Clauses.  If
-%   several clauses give a name to different variables, all but one get a
-%   number.
+%   agent with Clauses.  Lists has the names of variables of the first clauses,
+%   one list for each.  If several clauses give the same name to different
+%   variables, all but one of these get a number.
 
 goals_bindings(Clauses, Lists, Goals, Bindings) :-
     goals_bindings(Goals, Clauses, Lists, [], Bindings).
@@ -63,8 +63,9 @@ goals_bindings(Goals, Clauses, Lists, Bindings0, Bindings) :-
 goals_bindings([_|Goals], Clauses, Lists, Bindings0, Bindings) :-
     goals_bindings(Goals, Clauses, Lists, Bindings0, Bindings).
 
-%   sequel(+Place, +Clauses, +Lists, -Names, -Variables, -Sequel): a copy of the
-%   rest of a clause, with the copies of all its variables.
+%   sequel(+Place, +Clauses, +Lists, -Names, -Variables, -Sequel): Sequel is a
+%   copy of the rest of a clause, and Variables are the copies of all its
+%   variables.
 
 sequel(N-I, Clauses, Lists, Names, Variables, Sequel) :-
     nth1(N, Clauses, Clause),
@@ -77,7 +78,8 @@ sequel(N-I, Clauses, Lists, Names, Variables, Sequel) :-
     length(Before, Done),
     append(Before, Sequel, Goals).
 
-%   A goal that has begun to run is no instance of the goal in the clause.
+%   A goal that has begun to run may have another form than the goal in the
+%   clause.
 
 instance(General, Goal) :-
     (   subsumes_term(General, Goal)
@@ -85,8 +87,8 @@ instance(General, Goal) :-
     ;   true
     ).
 
-%   add_names(+Names, +Values, +Left, +Bindings0, -Bindings): add names of the
-%   Values that are among the variables Left.
+%   add_names(+Names, +Values, +Left, +Bindings0, -Bindings): add the names of
+%   those Values that are among the variables Left.
 
 add_names([Name|Names], [Value|Values], Left, Bindings0, Bindings) :-
     !,
@@ -111,8 +113,8 @@ free_name(Name, N, Bindings, Free) :-
 
 %!  name_goal(+Clauses, +Lists, +Goal, -Named) is det.
 %
-%   Named is Goal with '$VAR'(Name) for variables, if all the clauses that could
-%   have called it agree on their names.
+%   Named is Goal with '$VAR'(Name) for variables, if all clauses that could
+%   have called Goal agree on their names.
 
 name_goal(Clauses, Lists, Goal, Named) :-
     term_variables(Goal, [_|_]),
@@ -142,14 +144,14 @@ show_name(Name, Variable) :-
     ( var(Variable) -> Variable = '$VAR'(Name) ; true ).
 
                 /*******************************
-                *        PRESENT CLAUSE        *
+                *        CURRENT CLAUSE        *
                 *******************************/
 
 %!  stands_in(+Clauses, +Goals, -Places:list) is det.
 %
-%   Places are N-I: the remaining goals continue with the I-th goal of the N-th
-%   clause.  There are several if clauses end alike, and none if no clause does,
-%   as for a goal that was called by call/1.
+%   Places are pairs N-I: the remaining goals continue with the I-th goal of the
+%   N-th clause.  Several places are possible if clauses end in the same way,
+%   and none if no clause ends so, as for a goal that call/1 has called.
 
 stands_in(Clauses, Goals, Places) :-
     (   found(Clauses, Goals, near, Places0)
@@ -163,9 +165,9 @@ stands_in(Clauses, Goals, Places) :-
     ;   Places = []
     ).
 
-%   found(+Clauses, +Goals, +How, -Places): How is `near` if the agent is at one
-%   of the Places itself, `far` if it runs a goal called from a condition, or
-%   from catch/3, there.
+%   found(+Clauses, +Goals, +How, -Places): How is `near` if the agent runs the
+%   clause of one of the Places itself, `far` if it runs a goal that a
+%   condition, or catch/3, has called there.
 
 found(Clauses, Goals, How, Places) :-
     findall(Length-(N-I), ends_so(Goals, Clauses, How, N, I, Length), Found),
@@ -181,38 +183,38 @@ ends_so(Goals, Clauses, How, N, I, Length) :-
     length(End, Length),
     length(Left, Length),
     append(Left, _, Goals),
-    goes_on(Left, First, How, Pattern),
+    current_form(Left, First, How, Pattern),
     End = [_|After],
     subsumes_term([Pattern|After], Left),
     length(Before, Done),
     I is Done+1.
 
-%   goes_on(+Left, +First, +How, -Pattern): the first of the goals Left is the
-%   present form of First.
+%   current_form(+Left, +First, +How, -Pattern): the first of the goals Left is
+%   the form that First has at run time.
 
-goes_on([Goal|_], First, How, Pattern) :-
-    goes_on_as(Goal, First, How, Pattern).
+current_form([Goal|_], First, How, Pattern) :-
+    current_form_as(Goal, First, How, Pattern).
 
-goes_on_as(Hole, First, _, _) :-
+current_form_as(Hole, First, _, _) :-
     var(Hole),
     !,
     nonvar(First),
     control(First).
-goes_on_as(sleep_until(_), First, _, Pattern) :-
+current_form_as(sleep_until(_), First, _, Pattern) :-
     !,
     subsumes_term(sleep(_), First),
     Pattern = sleep_until(_).
-goes_on_as(receive_until(_, _), First, _, Pattern) :-
+current_form_as(receive_until(_, _), First, _, Pattern) :-
     !,
     subsumes_term(receive(_, _), First),
     First = receive(Message, _),
     Pattern = receive_until(Message, _).
-goes_on_as(receive_until(_, _, _), First, _, Pattern) :-
+current_form_as(receive_until(_, _, _), First, _, Pattern) :-
     !,
     subsumes_term(receive(_, _), First),
     First = receive(Message, _),
     Pattern = receive_until(Message, _, _).
-goes_on_as(Goal, First, How, Pattern) :-
+current_form_as(Goal, First, How, Pattern) :-
     begins(Goal, Now, _),
     nonvar(First),
     begins(First, Before, Pattern0),
@@ -228,9 +230,10 @@ goes_on_as(Goal, First, How, Pattern) :-
         L =:= N-I+1
     ),
     Pattern = Pattern0.
-goes_on_as(_, First, _, First).
+current_form_as(_, First, _, First).
 
-%   inner(+Goals, -Inner): the goals inside a condition, or inside catch/3.
+%   inner(+Goals, -Inner): Inner are the goals inside the condition, or the
+%   catch/3, with which Goals begins.
 
 inner([Goal|_], Inner) :-
     nonvar(Goal),
