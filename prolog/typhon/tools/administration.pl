@@ -98,7 +98,7 @@ unlink(A, B) :-
 %     - busy(Seconds): of a running agent; seconds of real time since its last
 %       stop
 %
-%   Text replaces terms in goals and messages that cannot travel.  If Agent is
+%   In goals and messages, text replaces terms that cannot travel.  If Agent is
 %   unbound, the agents of this process are enumerated.  Fails for the id of an
 %   agent that has ended.
 %

@@ -6,7 +6,7 @@
             virtual_steps/1,            % -Count
             virtual_doing/1,            % -Work
             virtual_alone/0,
-            virtual_standing/1          % -Standing
+            virtual_standing/1          % -State
           ]).
 :- use_module(library(apply), [exclude/3, partition/4]).
 :- use_module(library(debug), [debug/3]).
