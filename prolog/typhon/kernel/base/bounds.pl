@@ -39,7 +39,7 @@ memory_short :-
     left(Limit, Left),
     Left < Limit//4.
 
-%   left(-Limit, -Left): fails where there is no limit, or it is not known.
+%   left(-Limit, -Left): bytes; fails if there is no limit, or it is unknown.
 
 left(Limit, Left) :-
     limit(Limit),
@@ -75,7 +75,8 @@ file_text(File, Text) :-
                              close(In)),
           error(_, _), fail).
 
-%   Freed memory remains part of the address space, and can be reused.
+%   Memory that malloc has freed remains part of the address space, and malloc
+%   can reuse it.
 
 reusable(Bytes) :-
     (   predicate_property(malloc_property(_), defined)
@@ -84,7 +85,7 @@ reusable(Bytes) :-
     ;   Bytes = 0
     ).
 
-%   A Prolog without tcmalloc has no such predicate.
+%   A Prolog without tcmalloc has no malloc_property/1.
 
 free_pages(Bytes) :-
     member(Name, [ 'tcmalloc.pageheap_free_bytes',
@@ -97,16 +98,18 @@ free_pages(Bytes) :-
                 *           BOUNDED            *
                 *******************************/
 
-%   Tables that forget the oldest.
+%   Tables that delete their oldest facts.
 
 :- meta_predicate bounded(0, +).
 
-:- multifile forgotten/1.               % Fact
+:- multifile forgotten/1.               % Fact: it was deleted
 
 %!  bounded(:Fact, +Setting) is det.
 %
-%   A fact like Fact was added.  Sometimes delete the oldest facts beyond
-%   Setting, module:name.  Two threads may count at once, and count one fact.
+%   Call this after each assertz of a fact.  Each hundredth call deletes the
+%   oldest facts that match Fact, until at most as many remain as the setting
+%   Setting, module:name, allows.  The counter needs no lock: if two threads
+%   count at once, one call more or less makes no difference.
 
 bounded(Fact, Setting) :-
     Setting = Module:Name,

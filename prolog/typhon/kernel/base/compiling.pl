@@ -17,8 +17,8 @@ library(predicate_options), which takes as long as ten of our modules.
 
 %!  compiling_begin(-Flags:list) is det.
 %
-%   Files that this thread loads from now on are compiled in that way. Flags
-%   are for compiling_end/1.
+%   Files that this thread loads from now on are compiled with these flags.
+%   Flags restores the former ones, see compiling_end/1.
 
 compiling_begin(Flags) :-
     findall(Name=Value,
@@ -34,7 +34,7 @@ compiling_end(Flags) :-
 
 %!  compiling_load(+Files:list) is det.
 %
-%   Load Files like that; what they export is not imported here.
+%   Load Files with these flags, and import nothing from them.
 
 compiling_load(Files) :-
     setup_call_cleanup(

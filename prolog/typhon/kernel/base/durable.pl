@@ -43,9 +43,9 @@ N is 0, and Term is '', where the table has none.
     durable_retractall(0).
 
 :- multifile
-    restored/0,                 % all items of a journal are restored
-    recover/0,                  % the items of a journal are to be restored
-    tidy/0,                     % no peer is admitted yet
+    restored/0,                 % called when all items are restored
+    recover/0,                  % restore the items of the journal
+    tidy/0,                     % called before any peer is admitted
     go_on/0.                    % resume all that was restored
 
 :- dynamic
@@ -60,15 +60,15 @@ N is 0, and Term is '', where the table has none.
 %   first one that accepts an item restores it.
 
 durable(Kind, Key, N, Term, Module:Fact) :-
-    once_there(fact_table(Fact, Module, Kind, Key, N, Term)),
+    add_once(fact_table(Fact, Module, Kind, Key, N, Term)),
     durable(Kind, Key, N, Term, Module:Fact, Module:assertz(Fact)).
 
 durable(Kind, Key, N, Term, Dump, Restore) :-
-    once_there(item_table(Kind, Key, N, Term, Dump, Restore)).
+    add_once(item_table(Kind, Key, N, Term, Dump, Restore)).
 
-%   A file may be loaded again, and declares its tables again.
+%   A file that is loaded again declares its tables again.
 
-once_there(Table) :-
+add_once(Table) :-
     copy_term(Table, General),
     (   call(General),
         General =@= Table
@@ -79,8 +79,8 @@ once_there(Table) :-
 %!  durable_kinds(+Last:list, -Kinds:list) is det.
 %
 %   The kinds of all declared tables, also of options that are not loaded, in
-%   the order in which items are restored: to restore those of Last needs the
-%   others.
+%   the order in which items are restored.  Those of Last come last, because
+%   their items refer to items of the others.
 
 durable_kinds(Last, Kinds) :-
     findall(Kind,
@@ -134,7 +134,7 @@ durable_retractall(Module:Fact) :-
 
 %!  durable_dump(+Kind, -Key, -N, -Term) is nondet.
 %
-%   The items of this kind.
+%   Enumerate the items of this kind.
 
 durable_dump(Kind, Key, N, Term) :-
     item_table(Kind, Key, N, Term, Dump, _),

@@ -57,7 +57,7 @@ inside the mutex that guards its owner.
     durable_opened/1,
     durable_item/5,
     close_store/0,
-    begin_commits/0,            % the store is open
+    begin_commits/0,            % the store is open: begin to commit
     end_commits/0,              % commit the queue, and stop
     queue_entry/1,              % Changes: to be committed together
     queue_send/1,               % Item: to be sent after them
@@ -252,7 +252,7 @@ durable_drop_all(Kind, Key) :-
 durable_drop_below(Kind, Key, N) :-
     drop(Key, N, drop_below(Kind, Key, N)).
 
-%   An item with another key cannot exist, so there is nothing to delete.
+%   No item has an invalid key, so there is nothing to delete.
 
 drop(Key, N, Change) :-
     (   durable_on,
@@ -354,7 +354,7 @@ enqueue_changes :-
 %   Return when all earlier changes are committed.
 %
 %   @error resource_error(_): the store is full
-%   @error existence_error(_, open): it was closed
+%   @error existence_error(_, open): the store was closed
 
 sync_changes :-
     (   durable_on
@@ -385,12 +385,12 @@ commit_changes :-
 %   While output waits, see output_waits/0: pass Item to committed/1 when all
 %   earlier changes are committed, in the order of these calls.
 %
-%   @arg When is `now` if a caller waits for it, `anyhow` if a caller waits and
-%        errors are not wanted, `later` if the sender calls flush_sends/0
-%        before long, or sends something else
-%   @error resource_error(_): the store is full, and Item is not sent, When
-%          being `now`
-%   @error existence_error(_, open): it was closed
+%   @arg When is `now` if a caller waits for it; `anyhow` if a caller waits and
+%        the error of the last commit shall not be raised; `later` if the
+%        sender soon calls flush_sends/0, or sends another item
+%   @error resource_error(_): the store is full, When is `now`, and Item is not
+%          sent
+%   @error existence_error(_, open): the store was closed
 
 send_after_commit(Item, When) :-
     enqueue_changes,

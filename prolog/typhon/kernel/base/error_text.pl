@@ -15,17 +15,17 @@
 
 /** <module> Errors from elsewhere as text
 
-An error that an agent raises, and an error that another process answers, is
-data.  To print_message/2 it would be a program: format(Format, Args) is
-printed with these arguments, and ~@ calls one.  So the lines of the hook
-lines//1 for an error are made text here: no hook for printing (portray/1,
-attributes) sees a part of it, and a large term is not written.
+An error that an agent raises, or that another process answers, is untrusted
+data.  print_message/2 would run parts of it: it prints format(Format, Args)
+with these arguments, and ~@ calls one of them.  So this module converts an
+error to text by the hook lines//1.  No hook for printing (portray/1,
+attributes) sees a part of the error, and a large term is not written.
 
 An error that another process answers is raised in the thread that asked, and
-the top level prints it: with the translations of SWI-Prolog and of its
-libraries, which take some errors for programs.
+the top level prints it by the translations of SWI-Prolog and its libraries.
+Some of these call parts of an error; harmless_error/2 finds such errors.
 
-*Threading*: pure, but for a flag, which is local to the thread.
+*Threading*: pure, except for a flag that is local to the thread.
 */
 
 :- multifile
@@ -55,7 +55,7 @@ ends_thread(unwind(_)).                 % SWI-Prolog 9.3 and later
 
 %!  error_told(+Error, -Lines, ?Rest) is det.
 %
-%   The lines of a message, as of prolog:message//1.
+%   Lines are the message, as of prolog:message//1.
 
 error_told(Error) -->
     { error_text(Error, Text),
@@ -166,12 +166,10 @@ is_remark(Text) :-
 %   Text of bounded length for terms.
 
 %!  abridged(+Term, +Longest:integer, -Text:string) is det.
-%
-%   Text is Term as it would be written in a program, variables as `_` where
-%   they occur once and as letters elsewhere.  If it is longer than Longest
-%   characters, only its beginning is there, followed by three dots.  Deep and
-%   cyclic terms are cut off during the traversal, so that a large term costs
-%   no more than its text.
+%   Text is Term as written in a program: a variable that occurs once as `_`,
+%   the others as letters.  Text longer than Longest characters is cut off, and
+%   ends with three dots.  Deep and cyclic terms are cut off during the
+%   traversal, so that a large term costs no more than its text.
 
 abridged(Term, Longest, Text) :-
     copy_term(Term, Copy, _),
@@ -199,15 +197,15 @@ named(Term) :-
                 *******************************/
 
 :- multifile
-    formal_lines//1,            % +Formal: of an error of ISO, SWI-Prolog or this
-                                % library
+    formal_lines//1,            % +Formal: of an error of ISO, SWI-Prolog or
+                                % this library
     prolog:error_message//1.
 
 %!  harmless_error(+Ball0, -Ball) is det.
 %
-%   Ball is to be raised here in place of Ball0, which another process raised:
-%   the same error, with the part of its context that is text, if printing it
-%   calls nothing.  Else it is error(raised_elsewhere(Ball0), _).
+%   Ball is to be raised here in place of Ball0, which another process raised.
+%   If printing Ball0 calls no goal, Ball is the same error with the part of
+%   its context that is text.  Else it is error(raised_elsewhere(Ball0), _).
 
 harmless_error(Ball0, Ball) :-
     (   harmless(Ball0, Ball1)
@@ -227,7 +225,7 @@ harmless(Ball, Ball) :-
     is_tree(Ball, 50 000),
     \+ translated(Ball).
 
-%   For these two SWI-Prolog reads the context, or the culprit.
+%   SWI-Prolog's messages for these two read the context, or the culprit, too.
 
 harmless_formal(resource_error(What)) :-
     !,
@@ -251,8 +249,8 @@ harmless_context(Context0, Context) :-
     Context = context(PI, Text).
 harmless_context(_, _).
 
-%   translated(+Ball): a hook or SWI-Prolog translates it.  The first two are
-%   not in its tables, but in translate_message//1 itself.
+%   translated(+Ball): a hook or SWI-Prolog translates it.  The first two
+%   clauses are of translate_message//1 itself, not of a table.
 
 translated(format(_, _)) :-
     !.
@@ -260,15 +258,15 @@ translated(message_lines(_)) :-
     !.
 translated(Ball) :-
     translating(Ball, Term, Any, Hook),
-    catch(takes(Term, Any, Hook),
+    catch(accepts(Term, Any, Hook),
           error(permission_error(_, _, _), _), true),   % it is protected
     !.
 
-%   takes(+Term, ?Any, :Hook): a clause of Hook, whose argument Any is the
+%   accepts(+Term, ?Any, :Hook): a clause of Hook, whose argument Any is the
 %   term, accepts Term.  A clause that accepts any term counts if the predicate
 %   to which it passes the term accepts it.
 
-takes(Term, Any, Hook) :-
+accepts(Term, Any, Hook) :-
     predicate_property(Hook, defined),
     clause(Hook, Body),
     (   var(Any),
@@ -276,7 +274,7 @@ takes(Term, Any, Hook) :-
         callable(Goal),
         arg(_, Goal, Arg),
         Arg == Any
-    ->  takes(Term, Any, Module:Goal)
+    ->  accepts(Term, Any, Module:Goal)
     ;   \+ Any \= Term
     ),
     !.

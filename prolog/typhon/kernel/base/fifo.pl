@@ -6,8 +6,8 @@
 
 /** <module> Message queues as plain queues
 
-A message queue keeps terms in order at little cost, and its owner may add and
-take as in any other store.
+A message queue keeps terms in order at little cost.  Here its owner adds and
+takes terms as in any other store, without other threads.
 
 Code that takes by a pattern must not peek first: on 9.0.4, also 10.1,
 thread_peek_message/2 that has passed over a message leaves a reference to a
@@ -33,7 +33,7 @@ fifo_empty(Queue, Messages) :-
     ;   Messages = []
     ).
 
-%   Take the first message, if it unifies.
+%   Take the first message if it unifies with Message.
 
 fifo_first(Queue, Message) :-
     thread_peek_message(Queue, First),
@@ -58,7 +58,7 @@ fifo_size(_, 0).
 %   meanwhile.  Not in sig_atomic/1: if none of many messages unifies this is a
 %   wait that expires, see typhon_own_thread.
 %
-%   Such a wait costs as much as to take out and put back a dozen messages.
+%   That wait costs as much as to take out and put back a dozen messages.
 
 fifo_take(Queue, Message) :-
     thread_peek_message(Queue, First),
@@ -71,27 +71,27 @@ fifo_take_later(Queue, Message) :-
     message_queue_property(Queue, size(Size)),
     (   Size > 16
     ->  thread_get_message(Queue, Message, [timeout(0)])
-    ;   sig_atomic(turn(Size, first, Queue, Message))
+    ;   sig_atomic(rotate(Size, first, Queue, Message))
     ).
 
-%   turn(+Size, +Seen, +Queue, ?Message): Seen is `first` as long as no message
-%   has been put back, then `none`, or `found`.
+%   rotate(+Size, +Seen, +Queue, ?Message): Seen is `first` as long as no
+%   message has been put back, then `none`, or `found`.
 
-turn(0, Seen, _, _) :-
+rotate(0, Seen, _, _) :-
     !,
     Seen == found.
-turn(Size, Seen0, Queue, Message) :-
+rotate(Size, Seen0, Queue, Message) :-
     thread_get_message(Queue, Next),
     Left is Size-1,
     (   Seen0 \== found,
         Next = Message
     ->  (   Seen0 == first
         ->  true                        % the other messages are in order
-        ;   turn(Left, found, Queue, Message)
+        ;   rotate(Left, found, Queue, Message)
         )
     ;   thread_send_message(Queue, Next),
         seen(Seen0, Seen),
-        turn(Left, Seen, Queue, Message)
+        rotate(Left, Seen, Queue, Message)
     ).
 
 seen(first, none).

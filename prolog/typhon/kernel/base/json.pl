@@ -3,10 +3,10 @@
             json_text/2                 % +Term, -Text
           ]).
 
-/** <module> JSON, wherever this Prolog has it
+/** <module> JSON by the library of this SWI-Prolog
 
-library(http/json) until SWI-Prolog 9.3, library(json) since, where the old
-name prints a message.
+That is library(http/json) until SWI-Prolog 9.3, and library(json) since.  The
+newer versions print a message where the old name is loaded.
 
 *Threading*: no state.
 */
@@ -19,7 +19,7 @@ name prints a message.
 
 %!  json_text(+Term, -Text:string) is det.
 %
-%   One line; Term is as of json_write_dict/3.
+%   One line; Term is as in json_write_dict/3.
 
 json_text(Term, Text) :-
     atom_json_dict(Text, Term, [as(string), width(0)]).

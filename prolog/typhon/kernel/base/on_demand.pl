@@ -7,7 +7,7 @@
 :- use_module(compiling, [compiling_load/1]).
 :- use_module(index, [part_file/2, part_joins/3, part_setting/6]).
 
-/** <module> Code that is loaded when it is used first
+/** <module> Code that is loaded on first use
 
 A process loads the kernel, and other parts on demand: a part, such as a
 network or an option, is loaded when one of its predicates is called, one of
@@ -34,12 +34,12 @@ worker by on_demand_later/1.
 */
 
 :- multifile
-    joins/2,                    % Seam, What: load the part there, too
+    joins/2,                    % Seam, What: the part is loaded there, too
     worker_call/1.              % Goal: call it once in a worker
 
 :- dynamic
     loaded/1,                   % Part
-    directory/1.                % of the parts
+    directory/1.                % Directory of the parts
 
 :- module_property(typhon_on_demand, file(Source)),
    file_directory_name(Source, Base),
@@ -66,7 +66,7 @@ on_demand_load(Seam, What) :-
 
 %!  on_demand_call(+Seam, +What, +Goal) is nondet.
 %
-%   Load these parts and call Goal, which is Module:Plain.
+%   Load the parts that define Seam for What, and call Goal, Module:Plain.
 
 on_demand_call(Seam, What, Module:Goal) :-
     on_demand_load(Seam, What),

@@ -17,15 +17,15 @@
 
 /** <module> Unknown options are errors; settings that have been renamed
 
-Each list of options belongs to a domain, as `host_option`. The module that
-accepts the options declares them by clauses for
+Each list of options belongs to a domain, such as `host_option`. The module
+that accepts the options declares them by clauses for
 
     declared(Domain, Option, Type, Value)
 
-which are in the files of an optional part if they are about that part alone:
+A declaration that is about an optional part alone is in a file of that part:
 checking such an option loads the part. Type is that of Value, a part of
-Option, as of must_be/2. If there are several clauses for an option, one has to
-agree.
+Option, as in must_be/2. If several clauses declare an option, one of them has
+to accept it.
 
 *Threading*: any thread.
 */
@@ -146,7 +146,7 @@ prolog:error_message(domain_error(Domain, Culprit)) -->
     },
     [ 'There is no ~w ~p~w~w'-[Kind, Culprit, Meant, All] ].
 
-%   There is an option of that name: show how it is written.
+%   An option has that name: show its form.
 
 meant(Domain, Name, _, Text) :-
     findall(Option,
@@ -159,7 +159,7 @@ meant(Domain, Name, _, Text) :-
 meant(_, Name, Names, Text) :-
     names_proposed(Name, Names, Text).
 
-%   Name=Value is accepted by other libraries, but not here.
+%   Other libraries accept Name=Value; this one does not.
 
 culprit_name(Name=_, Name) :-
     !.

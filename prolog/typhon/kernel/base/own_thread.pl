@@ -14,8 +14,8 @@ collection handles, a wait with a deadline that expires does not end: it spins
 for ever. Programs often stop hosts in cleanup handlers, and stopping has to
 wait. So code that stops something does it in a thread of its own.
 
-Stopping must also be possible when no more threads can be created: while hosts
-run, a helper thread is ready for that.
+Stopping must also be possible when no more threads can be created: so a helper
+thread is ready while hosts run.
 
 *Threading*: any thread. thread_join/2 and waits without a deadline are safe in
 all of them. Goals in a thread of their own, or in the helper, call nested
@@ -31,7 +31,7 @@ goals directly: so the helper never waits for itself.
 
 :- dynamic
     helper/1,                   % Server
-    asked/1.                    % Server: it has got a goal
+    asked/1.                    % Server: a goal was given to it
 
 %!  in_own_thread(:Goal) is semidet.
 %
@@ -61,8 +61,8 @@ in_own_thread(Goal) :-
 in_own_thread(Goal) :-
     once(Goal).
 
-%   Several threads may have one role, and a thread that is about to end still
-%   has its alias.
+%   Aliases are numbered: several threads may have one role, and a thread that
+%   is about to end still has its alias.
 
 alias(Role, Alias) :-
     flag(typhon_own_thread, N, N+1),
@@ -96,8 +96,8 @@ own_thread_start :-
 %!  own_thread_stop is det.
 %
 %   Stop the helper after the goal that it runs. That goal may be this call, or
-%   may wait for the thread that calls this: so it is not waited for if the
-%   helper has been used.
+%   may wait for the thread that calls this: so this does not wait for the
+%   helper if a goal was ever given to it.
 
 own_thread_stop :-
     (   with_mutex(typhon_own_thread, retract(helper(Helper)))
@@ -134,9 +134,9 @@ help(call(Goal, Caller), State, State) :-
 
 %!  stop_thread(+Thread) is det.
 %
-%   Join Thread, which has got the order to end. After a second it is aborted,
-%   in the middle of its goal, again and again; after another second it is
-%   given up, and a message reports that.
+%   Join Thread, which was asked to end. If it has not ended after a second, it
+%   is aborted in the middle of its goal, repeatedly. After another second this
+%   prints a warning and detaches the thread.
 
 stop_thread(Thread) :-
     stop_thread(1000, Thread).
@@ -166,8 +166,8 @@ interrupt(Tries, Thread) :-
 
 %!  abort_quietly
 %
-%   As abort/0, which no goal can catch for good, but does not discard input
-%   that was typed ahead. Where this exception is not known, abort/0 raises it.
+%   As abort/0, which no goal can catch for good, but keeps input that was typed
+%   ahead. From 9.3 until 10 the exception is not known, so abort/0 raises it.
 
 abort_quietly :-
     current_prolog_flag(version, Version),

@@ -22,12 +22,12 @@ The faults are those of 9.0.4; most of them are also in 10.1.
 %   Loading, among other operations, leaves references to erased clauses on the
 %   stacks of its thread. As long as there are some, 9.0.4 collects atoms
 %   whenever it collects clauses: every dozen hops, for a quarter of their
-%   cost. For the same reason no table that changes with each hop is changed by
+%   cost. For the same reason tables that change with each hop do not use
 %   clause references.
 
 %!  forget_erased is det.
 %
-%   Clear the references to erased clauses that no table holds any more.
+%   Clear the references to erased clauses that no table holds.
 
 forget_erased :-
     garbage_collect,
@@ -66,15 +66,15 @@ functors_room :-
                 *          PROCESSES           *
                 *******************************/
 
-%   Of the pipes to a process that starts, any other process that starts at
-%   that moment inherits the ends, too (SWI-Prolog 9.0.4 to 10.1): it keeps
-%   them open as long as it lives, and a reader that waits for the end of a
-%   pipe waits for both.
+%   A process that starts inherits the pipe ends of all processes that start at
+%   the same moment (SWI-Prolog 9.0.4 to 10.1). It keeps them open as long as it
+%   lives, so a reader of such a pipe sees the end only when both processes have
+%   ended.
 
 %!  installed_swipl(+Home, -Program:atom) is semidet.
 %
-%   Program is that of the Prolog with this Home. The flag `executable` may
-%   name a saved state instead, which runs its own goal.
+%   Program is the executable of the Prolog with this Home. The flag
+%   `executable` may name a saved state instead, which runs its own goal.
 
 installed_swipl(Home, Swipl) :-
     current_prolog_flag(arch, Arch),
@@ -97,16 +97,16 @@ spawn(Program, Args, Options) :-
 
 %   fast_term_serialized/2 is not safe with threads, on 9.0.4 and on 10.1:
 %   atoms that occur only in the new term are lost if another thread collects
-%   atoms while the term is made. The collector walks the global stack from
-%   term to term, to find atoms that are in use; where the new term is not
-%   complete yet it finds old contents, some of which look like the head of a
-%   large term, and it goes on beyond the end.
+%   atoms while the term is made. To find the atoms in use, the collector walks
+%   the global stack from term to term. In the incomplete new term it finds old
+%   contents; some of them look like the head of a large term, and the collector
+%   skips to a place beyond the end.
 %
-%   So the space is first filled with unbound variables, over which it walks
-%   correctly.
+%   So the space is first filled with unbound variables, which the collector
+%   passes correctly.
 %
-%   Bytes may say that a variable has attributes, such as a goal that runs when
-%   the variable is bound. No such term is read.
+%   Bytes may contain a variable with attributes, such as a goal that runs when
+%   the variable is bound. Such a term is refused.
 
 %!  fast_bytes_term(+Bytes, -Term) is det.
 %
@@ -125,8 +125,8 @@ fast_bytes_term(Bytes, Term) :-
     ).
 
 %   words(+Bytes, -Words): the term takes at most Words words on the global
-%   stack. No byte makes more than one and a half; for large terms the number
-%   is read from the head, where it follows the kind and the number of bytes.
+%   stack. A byte makes at most one and a half. Large terms state the number in
+%   their head, after the kind and the number of bytes.
 
 words(Bytes, Words) :-
     string_length(Bytes, Length),
@@ -136,7 +136,7 @@ words(Bytes, Words) :-
         number_at(I, Bytes, 0, Words, _)
     ).
 
-%   Seven bits a byte, the highest first; the last byte has no eighth bit.
+%   Seven bits a byte, the highest first. The eighth bit of the last byte is 0.
 
 number_at(I, Bytes, N0, N, End) :-
     string_code(I, Bytes, Code),

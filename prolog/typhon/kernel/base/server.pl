@@ -27,8 +27,8 @@ Handle may fail for `begin` and `stop`.
 A call for which Handle raises an error, or fails, gets that error, and the
 server goes on.  If Handle raises an error for another message the server
 prints it, and begins again with its first State.  If its thread is aborted,
-another thread begins with that State and the same queue, and an error message
-reports that; if no thread can be created, server_cast/2 and server_check/1 try
+another thread begins with that State and the same queue, and prints an error
+message; if no thread can be created, server_cast/2 and server_check/1 try
 again.
 
 *Threading*: any thread. A server may stop itself.
@@ -41,7 +41,7 @@ again.
 :- multifile prolog:message//1.
 
 :- dynamic
-    server/4,                   % Queue, Role, Handle, State: the first
+    server/4,                   % Queue, Role, Handle, first State
     serving/2,                  % Queue, Thread
     unserved/1.                 % Queue: its lack of a thread was reported
 
@@ -81,11 +81,11 @@ make_thread(Queue) :-
 
 %!  server_stop(+Server) is det.
 %
-%   Stop the server when it has handled all messages that have arrived until
-%   now, and wait for that.  Later messages are dropped; calls raise an error.
+%   Stop the server after the messages that have arrived until now, and wait
+%   for that.  Later messages are dropped; calls raise an error.
 
 server_stop(Queue) :-
-    (   forgotten(Queue, Thread)
+    (   unregister(Queue, Thread)
     ->  stop(Thread, Queue)
     ;   true
     ).
@@ -95,12 +95,12 @@ server_stop(Queue) :-
 %   As server_stop/1, but does not wait.
 
 server_leave(Queue) :-
-    (   forgotten(Queue, Thread)
+    (   unregister(Queue, Thread)
     ->  leave(Thread, Queue)
     ;   true
     ).
 
-forgotten(Queue, Thread) :-
+unregister(Queue, Thread) :-
     with_mutex(typhon_server,
                ( retract(server(Queue, _, _, _)),
                  retractall(unserved(Queue)),
@@ -165,8 +165,8 @@ server_cast(Queue, Message) :-
 server_call(Queue, Request, Seconds, Answer) :-
     setup_call_cleanup(
         message_queue_create(Caller),
-        ( called(Queue, call(Request, Caller)),
-          awaited(Seconds, Caller, Result)
+        ( send_call(Queue, call(Request, Caller)),
+          await_result(Seconds, Caller, Result)
         ),
         message_queue_destroy(Caller)),
     (   Result = raised(Ball)
@@ -174,16 +174,16 @@ server_call(Queue, Request, Seconds, Answer) :-
     ;   Result = answer(Answer)
     ).
 
-called(Queue, Call) :-
+send_call(Queue, Call) :-
     (   server_cast(Queue, Call)
     ->  true
     ;   throw(error(existence_error(server, Queue), _))
     ).
 
-awaited(inf, Caller, Result) :-
+await_result(inf, Caller, Result) :-
     !,
     thread_get_message(Caller, Result).
-awaited(Seconds, Caller, Result) :-
+await_result(Seconds, Caller, Result) :-
     thread_get_message(Caller, Result, [timeout(Seconds)]).
 
 %!  server_answer(+Caller, +Answer) is det.
@@ -197,15 +197,15 @@ answer(Caller, Result) :-
 
 %!  server_check(+Server) is det.
 %
-%   If Server has lost its thread, create another, if that is possible now.
+%   If Server has lost its thread, create another, if that is possible.
 
 server_check(Queue) :-
     (   serving(Queue, _)
     ->  true
-    ;   with_mutex(typhon_server, serve_again(Queue))
+    ;   with_mutex(typhon_server, replace_thread(Queue))
     ).
 
-serve_again(Queue) :-
+replace_thread(Queue) :-
     server(Queue, Role, _, _),
     \+ serving(Queue, _),
     !,
@@ -213,7 +213,7 @@ serve_again(Queue) :-
             print_message(error, typhon(server_ended(Role))) ),
           error(Formal, _),
           no_thread(Formal, Queue)).
-serve_again(_).
+replace_thread(_).
 
 no_thread(permission_error(create, thread, _), _) :-
     !.                                  % Prolog is halting
@@ -238,17 +238,18 @@ server_self(Server) :-
 
 serve(Queue, Handle, State) :-
     nb_setval(typhon_server, Queue),
-    catch(serve_from(begin, State, Handle, Queue, End), Ball, survive(Ball)),
+    catch(serve_from(begin, State, Handle, Queue, End), Ball,
+          report_error(Ball)),
     (   var(End)
     ->  serve(Queue, Handle, State)
     ;   end(End, Queue)
     ).
 
-survive(Ball) :-
-    go_on(Ball),
+report_error(Ball) :-
+    rethrow_abort(Ball),
     print_message(error, typhon(server_error(Ball))).
 
-go_on(Ball) :-
+rethrow_abort(Ball) :-
     (   is_abort(Ball)
     ->  throw(Ball)
     ;   true
@@ -265,7 +266,7 @@ serve_from(Message, State, Handle, _, Message) :-
     !,
     ignore(call(Handle, stop, State, _)).
 serve_from(Message, State, Handle, Queue, End) :-
-    handled(Message, Handle, State, Next),
+    handle_message(Message, Handle, State, Next),
     serve_next(Next, Handle, Queue, End).
 
 serve_next(Next, Handle, Queue, End) :-
@@ -292,13 +293,13 @@ next(Stamp, Queue, Message) :-
     ;   Message = timeout
     ).
 
-handled(call(Request, Caller), Handle, State0, State) :-
+handle_message(call(Request, Caller), Handle, State0, State) :-
     !,
     catch(must_handle(call(Request, Caller), Handle, State0, State), Ball,
           ( answer(Caller, raised(Ball)),
-            go_on(Ball),
+            rethrow_abort(Ball),
             State = State0 )).
-handled(Message, Handle, State0, State) :-
+handle_message(Message, Handle, State0, State) :-
     must_handle(Message, Handle, State0, State).
 
 must_handle(Message, Handle, State0, State) :-

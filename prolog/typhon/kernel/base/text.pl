@@ -8,9 +8,9 @@
 
 Text that any SWI-Prolog of any word size reads back as the same term, whatever
 operators and flags either side has set: functional notation, special floats
-spelled out, UTF-8. Characters beyond ASCII are in quotes, and those that are
-no letters are escape sequences: versions do not agree which characters need
-quotes, and 10.1 writes some there that it cannot read.
+spelled out, UTF-8. Characters beyond ASCII are quoted, because versions
+disagree on those that need quotes. Those that are not letters are written as
+escape sequences, because 10.1 cannot read some of them in quotes.
 
 *Threading*: no shared state. The flags for writing and reading are local to a
 thread and are restored.
@@ -67,8 +67,8 @@ portable_bytes(Term, Bytes) :-
         ),
         free_memory_file(File)).
 
-%   All other characters take several bytes in UTF-8: a null stream counts the
-%   bytes.
+%   Characters beyond ASCII take several bytes in UTF-8: a null stream counts
+%   the bytes.
 
 is_ascii(Text) :-
     setup_call_cleanup(
@@ -144,7 +144,8 @@ write_codes(Quote, Codes) :-
     forall(member(Code, Codes), write_code(Code, Quote)),
     put_char(Quote).
 
-%   Not as \xHH\, which cannot be read back if HH begins with d8 to df.
+%   Codes are not written as \xHH\, which cannot be read back if HH begins with
+%   d8 to df.
 
 write_code(Code, Quote) :-
     plain_code(Code),
@@ -210,8 +211,8 @@ read_text(In, Term) :-
     ;   syntax_error(end_of_file_expected)
     ).
 
-%   A predicate of its own, as check/0 of 9.2 takes double_quotes/1 for a
-%   boolean.
+%   The options are in a predicate, because check/0 of 9.2 takes
+%   double_quotes/1 for a boolean.
 
 syntax([ module(typhon_text_syntax),
          double_quotes(string),
@@ -219,7 +220,7 @@ syntax([ module(typhon_text_syntax),
          syntax_errors(error)
        ]).
 
-%   Flags that a program has set for itself must not change the text.
+%   The text does not depend on flags that the user's program has set.
 
 plain_flag(float_format, '').
 plain_flag(character_escapes, true).
@@ -243,8 +244,7 @@ changed_flag(Flag, Value) :-
     current_prolog_flag(Flag, Value),
     Value \== Plain.
 
-%   In threads of 9.2 this limit is 0, so that no integer beyond it can be
-%   written.
+%   In threads of 9.2 this limit is 0, and no integer beyond it can be written.
 
 long_integers :-
     (   current_prolog_flag(max_integer_size, 0)

@@ -52,8 +52,8 @@ wrap_exports(Module) :-
     module_property(Module, exports(PIs)),
     forall(member(PI, PIs), wrap(Module, PI)).
 
-%   A module transparent predicate is called in the context of its caller: 9.2
-%   does not do that by itself.
+%   The wrapper calls a module transparent predicate in the context of its
+%   caller, because 9.2 does not.
 
 wrap(Module, Name/Arity) :-
     functor(Head, Name, Arity),
@@ -88,8 +88,8 @@ raise_again(Formal, Context0) :-
     nb_setval(typhon_raised, Context),
     throw(error(Formal, Context)).
 
-%   Other contexts, such as those of syntax errors, print a place and get no
-%   backtrace.
+%   Other contexts, such as those of syntax errors, hold a place in a file, and
+%   get no backtrace.
 
 without_stack(Context, Context) :-
     nonvar(Context),
@@ -106,7 +106,7 @@ raised_by(prolog_stack(_), raised(_)) :-
 raised_by(Caller, raised(Caller)) :-
     is_indicator(Caller),
     !.
-raised_by(Caller, Caller).              % its context is more than the place
+raised_by(Caller, Caller).              % it holds more than a predicate
 
 is_indicator(_:_).
 is_indicator(_/_).
@@ -115,7 +115,8 @@ is_indicator(_/_).
                 *             HOOKS            *
                 *******************************/
 
-%   Before the hook of library(prolog_stack), which would add a backtrace.
+%   These clauses run before the hook of library(prolog_stack), which would add
+%   a backtrace.
 
 :- asserta((user:prolog_exception_hook(Error, Error, _, _) :-
                 typhon_user_errors:raised_again(Error))).
