@@ -36,7 +36,7 @@ The timer keeps an index of the stamps of all alarms, and of some alarms that
 are gone.  After Left more alarms have been set it deletes obsolete alarms and
 rebuilds the index.  The index is a tree, index(Stamps, Left), or, where a tree
 would fill the stack, least(Stamp, Left) with the first stamp alone; then the
-next stamp is searched for when that alarm has gone off.
+timer searches for the next stamp after each alarm.
 
 *Threading*: any thread; the index is on the stack of the timer.
 */
@@ -78,7 +78,7 @@ alarm_add(Stamp, Agent, Token) :-
     !,
     assertz(alarm(Stamp, Agent, Token)),
     catch(thread_send_message(New, Stamp), error(existence_error(_, _), _),
-          true).                        % ending
+          true).                        % the timer is stopping
 
 %!  alarms_renew(+Stamp) is det.
 %
@@ -181,7 +181,7 @@ forget_if_over(Alarm, Agent, Token) :-
     ;   true
     ).
 
-%   Stamp is the least stamp, or `inf`. Makes no list of all stamps.
+%   Stamp is the least stamp, or `inf`. A list of all stamps would not fit.
 
 alarm_least(Stamp) :-
     Least = least(inf),

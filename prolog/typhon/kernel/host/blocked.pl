@@ -146,7 +146,7 @@ blocked_holds :-
 
 %!  blocked_release(-Works:list) is det.
 %
-%   Hold no kind of work any more. Works are those that were held.
+%   Stop holding work. Works is the work that was held.
 
 blocked_release(Works) :-
     with_mutex(typhon_blocked, release(Works)).

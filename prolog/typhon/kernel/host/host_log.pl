@@ -120,8 +120,8 @@ host_logs(Host) :-
 
 %!  event_shown(+Host, +What, -Shown) is det.
 %
-%   What is an event on Host, as of event/4, and Shown is what logs and watches
-%   get of it.
+%   What is an event on Host, as in event/4; Shown is the form of it that logs
+%   and watches get.
 
 event_shown(Host, sent(To, Message), Shown) =>
     (   shows_content(Host)

@@ -23,7 +23,7 @@ of the networks that this process started.
     typhon_names:known/2,
     error:has_type/2.
 
-%   Completion gets hosts of other processes by their addresses.
+%   Completion proposes the hosts of other processes by their addresses.
 
 typhon_names:known(host, Name) :-
     host(Name, _, _).
@@ -81,7 +81,7 @@ host_resolve(Name, remote(Address, Name, Endpoint)) :-
     the_only(Addresses, Name, Address),
     address_parts(Address, _, Endpoint).
 
-%   A host of this process that is about to stop is not looked up elsewhere.
+%   elsewhere/2 may still list a host of this process that is stopping.
 
 in_other_process(Name, Address) :-
     elsewhere(Name, Address),
@@ -97,7 +97,7 @@ the_only([Address|Addresses], Name, _) :-
 
 %!  host_address(+Host, -Address) is det.
 %
-%   The address of Host, as of host_resolve/2.
+%   The address of Host, as in host_resolve/2.
 
 host_address(Host, Address) :-
     host_resolve(Host, Where),

@@ -48,11 +48,11 @@ looks up one list of closures, and a host without options has none.
   |               |                              | state is in Module, adds it |
   | permit        | Proof, Right                 | a peer uses a right, see    |
   |               |                              | typhon_remote               |
-  | security      | Host, Peer, Proof, What      | a security event, see there |
+  | security      | Host, Peer, Proof, What      | see security_event/3        |
   | payload       | From, Payload, Host, Reason  | a payload is refused, see   |
   |               |                              | typhon_payloads             |
   | new_program   | Host, Id, Sent               | Id gets another program,    |
-  |               |                              | sent as of code_receive/2;  |
+  |               |                              | sent as in code_receive/2;  |
   |               |                              | an error forbids it         |
 
 A closure of `admit` or `admit_program` fails where it has no objection, and
@@ -80,7 +80,7 @@ with Host, About, Term0, Term:
   | tuple   | mark    | Agent                      | Agent leaves a fact; the |
   |         |         |                            | mark is `none` at first  |
 
-State is as of agent_state/2.
+State is as in agent_state/2.
 
 The closures of a phase are called in ascending order of their numbers.
 
@@ -121,7 +121,8 @@ An option that has data for each host follows the life of the host by the hooks
 %!  parts(?Phase, ?Host, ?Closures:list) is nondet.
 %
 %   Host has these Closures in Phase.  This is a fact, so that a host without
-%   parts costs one lookup.  The first fact counts, and none has an empty list.
+%   parts costs one lookup.  No list is empty.  While parts change there may be
+%   two facts, of which the first counts.
 
 %!  parts_call(+Phase, +Host, +Args:list) is det.
 %

@@ -49,7 +49,7 @@ endpoint with the other users of the process, see typhon_runtime.
            "Seconds for agents to come to an effect when their host stops").
 
 :- multifile
-    begins/1,                   % Name: it exists, listeners may join
+    begins/1,                   % Name: the host exists, listeners may register
     starts/2,                   % Name, Options: an option has started the host
     evacuate/2.                 % Name, Deadline: end all agents on the host
 
@@ -95,9 +95,9 @@ endpoint with the other users of the process, see typhon_runtime.
 %     - seed(+Integer): for the choices of migration strategies
 %     - journal(+Where): the state of this process outlives it, see
 %       doc/journal.md; only for the first host.  Where is a directory,
-%       postgresql(Url), or such a URL.  All hosts that are in the journal are
-%       restored, other hosts, too: host_start/2 may then be called once for
-%       each of these, and changes nothing
+%       postgresql(Url), or such a URL.  All hosts of the journal are restored;
+%       host_start/2 may then be called once for each of them, and changes
+%       nothing
 %     - sync(+How): `normal`, the default, if the journal must survive the
 %       end of the process, `full` if also a power cut
 %     - policy(+Policy): what agents may do on this host: `trusted`, everything,
@@ -108,7 +108,7 @@ endpoint with the other users of the process, see typhon_runtime.
 %       where the system supports it, `host`, one for all, or `none`, see
 %       doc/security.md
 %     - peer(+Rules): which processes may do what, see typhon_access
-%     - audit(+File): refusals and orders are recorded there
+%     - audit(+File): record refusals and orders in File
 %     - quota(+List): how much agents may use: each agent, the agents of one
 %       owner, and all agents, see typhon_quotas
 %
@@ -163,13 +163,13 @@ restart(Name, _) :-
     !,
     permission_error(start, host, Name).
 restart(Name, Options) :-
-    stand_new(Name, Options).
+    start_unreported(Name, Options).
 
 start_new(Name, Options) :-
-    stand_new(Name, Options),
+    start_unreported(Name, Options),
     event(hosts, Name, none, started).
 
-stand_new(Name, Options) :-
+start_unreported(Name, Options) :-
     parts_load(Options),                % the host may be from a journal
     kind_of_time(Options, Kind),
     append(Kind, Options, Options1),
@@ -211,9 +211,8 @@ hosts_go_on :-
 
 %!  hosts_rest is det.
 %
-%   Stop all hosts of the process, also where time is held.  The contents of
-%   its journal stay there, and nothing leaves the process until its endpoint
-%   has stopped.
+%   Stop all hosts of the process, also while time is held.  The journal keeps
+%   its contents, and the process sends nothing until its endpoint has stopped.
 
 hosts_rest :-
     in_own_thread(with_mutex(typhon_hosting, rest)).
@@ -231,7 +230,7 @@ rest :-
     ;   durable_end
     ).
 
-%   A host of a network has a clock, whatever the kind of time of the network.
+%   The clock of a host in a network works with any kind of time.
 
 kind_of_time(Options, [time(Kind)]) :-
     time_wanted(Options, Kind),

@@ -255,7 +255,7 @@ count_load(Key, Change) :-
 
 %!  host_came(+Where, +Since) is semidet.
 %
-%   Count an agent that arrives at Where, Name-Plain as of host_plain/2, by a
+%   Count an agent that arrives at Where, Name-Plain as in host_plain/2, by a
 %   hop that began at Since, in host time.  Fails and counts nothing if the
 %   host is full or no longer plain.
 
@@ -326,7 +326,8 @@ host_left(_, _).                        % stopped meanwhile
 %!  host_passes(+From, +Where, +Since, -Seconds:float) is semidet.
 %
 %   Count a hop that began at Since from a plain host of this process, From as
-%   of host_plain/2, to Where, as of host_came/2.  Fails where that fails.
+%   in host_plain/2, to Where, as in host_came/2.  Fails if the host of Where is
+%   full or no longer plain.
 
 host_passes(plain(_, _, _, Epoch, Rate, _, Load0, _, Out), Where, Since,
             Seconds) :-

@@ -58,7 +58,7 @@ link_item(Key, Name, Address, Cost) :-
     host_link_cost(Name, Address, Cost),
     link_key(Name, Address, Key).
 
-%   No event: the link existed before.
+%   This reports no event, because the link existed before.
 
 link_restore(Name, Address, Cost) :-
     with_mutex(typhon_links,

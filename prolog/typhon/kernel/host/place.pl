@@ -38,7 +38,7 @@ guarded agents, which see nothing else of the place, by directives
 */
 
 :- multifile
-    serves/2,                   % Place, PI: it offers that from now on
+    serves/2,                   % Place, PI: Place offers PI from now on
     prolog:make_hook/2.
 
 :- dynamic
@@ -73,7 +73,7 @@ place_create(Host, Files, Services, Place) :-
 
 %!  place_offer(+Place, +Service) is det.
 %
-%   Place offers Service from now on, as of place_create/4.
+%   Place offers Service from now on, as in place_create/4.
 
 place_offer(Place, module(Module)) :-
     !,
@@ -89,7 +89,7 @@ place_offer(Place, Service) :-
 
 %!  place_service(?Place, ?PI) is nondet.
 %
-%   All agents on the host of Place may call PI.
+%   All agents on the host of Place may call PI, see service/1.
 
 %!  service(+PIs) is det.
 %
@@ -134,7 +134,7 @@ prolog:make_hook(before, _) :-
             Changed),
     forall(member(loaded(Place, Id, File), Changed),
            reload(Place, Id, File)),
-    fail.                               % others have hooks, too
+    fail.                               % let other hooks run, too
 
 changed(_, File, Time) :-
     later(File, Time).
@@ -151,13 +151,9 @@ reload(Place, Id, File) :-
           print_error(error, error(Formal, Context))),
     print_message(informational, typhon(place_reloaded(Place, File))).
 
-%!  place_service(?Place, ?PI) is nondet.
-%
-%   Place offers PI to all agents, see service/1.
-
 %!  place_host(?Place, ?Host) is nondet.
 %
-%   Place is that of Host.
+%   Place is the place of Host.
 
 %!  place_destroy(+Place) is det.
 
@@ -225,8 +221,8 @@ deliver(Place, Name, PIs, Clauses) :-
     ),
     debug(typhon(host), '~w has payload ~w', [Place, Name]).
 
-%   Fails for payloads that are not of agents: the program that starts a
-%   service brings its payload.
+%   Fails for the payloads of services: the program that starts a service
+%   delivers its payload again.
 
 payload_key(Place, Name, Host, Key) :-
     atom(Name),

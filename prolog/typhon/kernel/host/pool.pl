@@ -64,7 +64,7 @@ stopping the pool atomic: no worker is added after the run queue is gone.
                 *        START AND STOP        *
                 *******************************/
 
-%   Start or stop workers and timer; does nothing where that is done already.
+%   Start or stop workers and timer; does nothing if they run, or are stopped.
 
 typhon_time:starts(real) :-
     with_mutex(typhon_scheduler, start).
@@ -125,7 +125,7 @@ enqueue(Work) :-
     ->  true
     ;   look_soon
     ).
-enqueue(_).                             % stopping
+enqueue(_).                             % the pool is stopping
 
 typhon_time:alone(real) :-
     run_queue(Queue),
@@ -135,7 +135,7 @@ waits(Queue) :-
     message_queue_property(Queue, size(Size)),
     Size > 0.
 
-%   This thread is not in the pool, and gets only turns that are short.
+%   The calling thread is not in the pool, so it gets only short turns.
 
 typhon_time:here(real, Agents, Turn) :-
     run_queue(_),
@@ -207,7 +207,7 @@ serve(Queue, Seconds) :-
         serve(Work, Queue, Seconds)
     ;   timer_check,
         (   superfluous
-        ->  look_if_work_waits(Queue)   % it may have been woken for that work
+        ->  look_if_work_waits(Queue)   % that work may have woken this worker
         ;   serve(Queue)
         )
     ).
@@ -277,8 +277,8 @@ look_if_work_waits(Queue) :-
     ;   true
     ).
 
-%   One alarm at a time. get_flag/2 first, as writing the flag takes a system
-%   mutex.
+%   Only one such alarm is set at a time. get_flag/2 comes first, because a
+%   write to a flag takes a system mutex.
 
 look_soon :-
     (   get_flag(typhon_pool_looks, 1)

@@ -49,12 +49,11 @@ process.
 
 %!  remote(+Host, +Goal) is semidet.
 %
-%   once(Goal) in the place of Host, in this or another process. Bindings,
-%   failure and errors are returned; an error of another process that would
-%   call something when it is printed is returned as
-%   error(raised_elsewhere(Ball), _). A goal M:G runs in module M instead, and
-%   has the place only as its context. leave/1, sense/1 and take/1 work on the
-%   tuple space of Host.
+%   Call once(Goal) in the place of Host, in this or another process. Bindings,
+%   failure and errors are returned. An error of another process whose message
+%   would call a goal is returned as error(raised_elsewhere(Ball), _). A goal
+%   M:G runs in module M instead, and has the place only as its context.
+%   leave/1, sense/1 and take/1 work on the tuple space of Host.
 %
 %   @error permission_error(remote, host, Host) if the host refuses
 %   @error host_unreachable(Host), permission_error(authenticate, host, Host)
@@ -214,10 +213,10 @@ typhon_handshake:text_only(Proof) :-
 %   | refused(Right)           | Peer does not have that Right               |
 %   | refused(Id, from(Other)) | Id got no message of Peer's in Other's name |
 %   | over(Agent, What)        | Agent passed this limit, and ended          |
-%   | cell(Agent, Reason)      | the process that ran Agent was ended, since |
-%   |                          | it did what it must not, or ended itself    |
+%   | cell(Agent, Reason)      | the process of Agent was ended for breaking |
+%   |                          | a rule, or ended itself                     |
 %   | order(Agent, Order)      | Peer gave that order to Agent               |
-%   | remote(Goal)             | Peer had Goal run                           |
+%   | remote(Goal)             | Peer ran Goal here                          |
 
 security_event(Host, What) :-
     endpoint_address(Own),

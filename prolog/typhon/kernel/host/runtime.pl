@@ -46,8 +46,8 @@ stopping the platform waits for them.
 
 :- dynamic user/2.              % Name of a user, Endpoint
 
-%   Done when this module is loaded, or a saved state with it starts: once a
-%   host runs, the process may have threads.
+%   This runs when the module is loaded, or a saved state with it starts: once a
+%   host runs, the process may have other threads.
 
 :- initialization(functors_room).
 

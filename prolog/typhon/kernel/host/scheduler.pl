@@ -53,14 +53,14 @@ limits.
 %   Do Work; call(Again, Work2) for work that becomes possible when it is done.
 
 work_do(Work, Again) :-
-    catch(do(Work, Again), Ball, survive(Ball)).
+    catch(do(Work, Again), Ball, report_error(Ball)).
 
 %!  work_survives(:Turn) is semidet.
 %
 %   Call Turn, and catch and print its errors.
 
 work_survives(Turn) :-
-    catch(Turn, Ball, survive(Ball)).
+    catch(Turn, Ball, report_error(Ball)).
 
 do(agent(Agent), _) :-
     run_one(Agent).
@@ -87,10 +87,10 @@ next_turn(Host, Again) :-
     ;   true
     ).
 
-survive(Ball) :-
+report_error(Ball) :-
     is_abort(Ball),
     !.
-survive(Ball) :-
+report_error(Ball) :-
     print_error(error, Ball).
 
                 /*******************************
@@ -100,7 +100,7 @@ survive(Ball) :-
 %   limit_set(+Host, +Concurrency, -Work:list) is det.
 %
 %   From now on at most Concurrency agents of Host run at a time; `inf` is no
-%   limit.  Work lists the parked agents that may run, as of limit_enter/3.
+%   limit.  Work lists the parked agents that may run, as in limit_enter/3.
 %   Running agents are not stopped.
 
 limit_set(Host, inf, Work) :-
@@ -296,10 +296,10 @@ schedule_here(Host, Kind, Turn) :-
 
 %!  schedule_adopt(+Thread) is det.
 %
-%   Thread runs an agent by schedule_here/3, and has no other duties any more:
-%   it is a worker, until it calls schedule_leave/0.
+%   Thread, which runs an agent by schedule_here/3, has no other duties any
+%   more, and is a worker until it calls schedule_leave/0.
 
-blocks(60).                             % seconds: its kind is not short
+blocks(60).                             % seconds without short turns
 
 schedule_adopt(Thread) :-
     blocks(Seconds),

@@ -9,7 +9,7 @@
 :- use_module(turns, [turns_go_on/1, turns_pause/0, turns_paused/0]).
 :- use_module(scheduler, [work_do/2]).
 
-/** <module> The runtime `single`: no thread but that of the caller
+/** <module> The runtime `single`: all work is done in the caller's thread
 
 In a Prolog without threads, such as in a browser, agents have their turns
 while the caller waits: for the end of an agent, an answer, or only for time to
@@ -78,33 +78,33 @@ typhon_time:signal(single, _).          % running work is not interrupted
 
 typhon_time:wait(single, Queue, Message, Stamp) :-
     (   nb_current(typhon_single, works)
-    ->  there(Queue)
+    ->  has_message(Queue)
     ;   index_make(Index),
-        comes(Queue, Stamp, Index)
+        run_until_message(Queue, Stamp, Index)
     ),
     thread_get_message(Queue, Message).
 
-%   comes(+Queue, +Stamp, +Index) is semidet.
+%   run_until_message(+Queue, +Stamp, +Index) is semidet.
 %
 %   Run agents until there is a message in Queue; fails at Stamp.  Alarms that
 %   are due come before work, so that agents that are always ready delay
 %   neither agents that sleep nor the caller.
 %
-%   @error no_agent_can_run if no message can come any more
+%   @error no_agent_can_run if no message can come
 
-comes(Queue, Stamp, Index0) :-
-    (   there(Queue)
+run_until_message(Queue, Stamp, Index0) :-
+    (   has_message(Queue)
     ->  true
     ;   index_update(Index0, Index1),
         index_first(Index1, First),
         get_time(Now),
         next(Now, First, Stamp, Next),
         proceed(Next, Index1, Index),
-        comes(Queue, Stamp, Index)
+        run_until_message(Queue, Stamp, Index)
     ).
 
-%   next(+Now, +First, +Stamp, -Next) is semidet: Next is done next, First
-%   being the stamp of the first alarm.
+%   next(+Now, +First, +Stamp, -Next) is semidet: Next is the next step.  First
+%   is the stamp of the first alarm, Stamp the deadline of the caller.
 
 next(Now, First, _, alarm(First)) :-
     due(First, Now),
@@ -114,7 +114,7 @@ next(Now, _, Stamp, _) :-
     !,
     fail.
 next(_, _, _, work(Work)) :-
-    work_takes(Work),
+    take_work(Work),
     !.
 next(_, inf, inf, _) :-
     throw(error(no_agent_can_run, _)).
@@ -138,11 +138,11 @@ proceed(work(Work), Index, Index) :-
 proceed(sleep(Seconds), Index, Index) :-
     sleep(Seconds).
 
-there(Queue) :-
+has_message(Queue) :-
     message_queue_property(Queue, size(Size)),
     Size > 0.
 
-work_takes(Work) :-
+take_work(Work) :-
     \+ turns_paused,
     run_queue(Queue),
     thread_get_message(Queue, Work, [timeout(0)]).

@@ -87,7 +87,7 @@ fast as Rate says.
 
 :- dynamic
     time_kind/1,                % Kind: while it runs
-    own_clock/1.                % Now, as of clock/2: while it runs
+    own_clock/1.                % Now, as in clock/2: while it runs
 
 %!  time_kind(?Kind) is semidet.
 %
@@ -267,7 +267,7 @@ time_work(Work) :-
     time_kind(Kind),
     !,
     work(Kind, Work).
-time_work(_).                           % stopping
+time_work(_).                           % the runtime is stopping
 
 %!  time_alone is semidet.
 %
@@ -296,7 +296,7 @@ time_adopt(Thread) :-
     !,
     adopt(Kind, Thread).
 time_adopt(Thread) :-
-    thread_detach(Thread).              % stopping
+    thread_detach(Thread).              % the runtime is stopping
 
 %!  time_leave is det.
 %

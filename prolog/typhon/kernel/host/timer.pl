@@ -140,33 +140,33 @@ timed(Message, Index, Next) :-
 
 handled(begin, _, Next) :-
     index_make(Index),
-    awaits(Index, Next).
+    wait_for_next(Index, Next).
 handled(timeout, Index0, Next) :-
     index_first(Index0, Stamp),
-    rung(Stamp, Index0, Index),
-    awaits(Index, Next).
+    alarms_if_due(Stamp, Index0, Index),
+    wait_for_next(Index, Next).
 handled(look, Index, Next) :-
-    awaits(Index, Next).
+    wait_for_next(Index, Next).
 handled(call(count, Caller), Index, Next) :-
     index_size(Index, Size),
     server_answer(Caller, Size),
-    awaits(Index, Next).
+    wait_for_next(Index, Next).
 
-awaits(Index0, until(Stamp, Index)) :-
+wait_for_next(Index0, until(Stamp, Index)) :-
     index_update(Index0, Index1),
     index_first(Index1, First),
     announce(First),
     (   alarms_new(0)
     ->  Stamp = First,
         Index = Index1
-    ;   awaits(Index1, until(Stamp, Index))
+    ;   wait_for_next(Index1, until(Stamp, Index))
     ).
 
 announce(Stamp) :-
     Next is min(Stamp, 1.0e300),
     set_flag(typhon_next, Next).
 
-rung(Stamp, Index0, Index) :-
+alarms_if_due(Stamp, Index0, Index) :-
     get_time(Now),
     Stamp =< Now,
     !,
@@ -175,4 +175,4 @@ rung(Stamp, Index0, Index) :-
     ;   alarms_go_off(Stamp)
     ),
     index_delete(Index0, Stamp, Index).
-rung(_, Index, Index).
+alarms_if_due(_, Index, Index).

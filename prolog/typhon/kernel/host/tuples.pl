@@ -140,7 +140,7 @@ tuple_take(Place, Fact) :-
     deferred_drop(tuple, Host, N),
     count(By, -1).
 
-%   The facts in a journal, by number.
+%   The facts in a journal; N is the number of a fact.
 
 :- durable(tuple, Host, N, Noted, tuple_item(Host, N, Noted),
            tuple_restore(Host, N, Noted)).
@@ -164,7 +164,7 @@ noted(none, Fact, Fact) :-
     !.
 noted(By, Fact, '$by'(By, Fact)).
 
-%   The facts in a saved network: they are left again.
+%   The facts in a saved network; restoring leaves them again.
 
 :- durable(fact, Host, By, Fact, tuple_on(Host, Fact, _, By),
            fact_restore(Host, By, Fact)).

@@ -29,8 +29,8 @@ that run.
 The thread that reads an agent from a connection may run it at once, rather
 than wake a worker, as long as its turns are short.  Turns of a kind count as
 short until one was long, and count again after a while.  A turn is long by the
-inferences it takes: on a busy machine any turn may take long by the clock, but
-hardly two of a few turns of one kind, unless they wait for something.
+inferences it takes.  On a busy machine any turn may take long by the clock; but
+if two of a few successive turns of one kind do, they wait for something.
 
 While turns are paused no alarm goes off, and no agent begins a turn: agents
 that get a turn are kept until the pause ends.
@@ -134,13 +134,13 @@ latest(Turns, Latest) :-
 
 short(20000, 0.004).
 
-%   Two turns that waited are "of a few" if fewer inferences than these lie
-%   between them: a turn takes some thousand.
+%   Two turns that took long by the clock are close if fewer inferences than
+%   these lie between them.  A turn takes some thousand.
 
 few_turns(5000).
 
-%   remembered(?What, -Seconds): how long it is remembered that a turn was
-%   long, or waited.
+%   remembered(?What, -Seconds): for so long a kind does not count as short
+%   after a turn that was long, or that waited.
 
 remembered(long, 1).
 remembered(waits, 10).
