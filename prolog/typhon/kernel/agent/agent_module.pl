@@ -56,21 +56,19 @@ on the host, even if the options of the host change.
 
 %!  agent_module(+Id, +Place, +Hash, +State, -Module) is semidet.
 %
-%   Make a module with the state of an agent.  Errors in the state are found
-%   here; then no module is left behind.  Fails if there is no program of that
-%   Hash.
+%   Make a module with the state of an agent.  An error in the state is raised
+%   here, and leaves no module behind.  Fails if no program has that Hash.
 %
 %   @arg State is state(Empty, Clauses): the indicators of the dynamic
 %        predicates that have no clauses, and the clauses of the others.
-%   @error what assertz/1 raises
-%   @error what a variant raises, see typhon_agent_module
+%   @error those of assertz/1, and of the hooks of a variant
 
 agent_module(Id, Place, Hash, State0, Module) :-
     code_module(Hash, Program0),
-    below(Place, Hash, Program0, State0, Program, Above, State),
+    place_imports(Place, Hash, Program0, State0, Program, Above, State),
     State = state(Empty, Clauses),
     free_module(Id, Module),
-    hung(Module, Program, Above),
+    module_create(Module, Program, Above),
     begins(Place, Module),
     catch(( declare_all(Empty, Module),
             add_clauses(Clauses, Module) ),
@@ -84,12 +82,12 @@ agent_module(Id, Place, Hash, State0, Module) :-
 %   Program is the module of the program.
 
 agent_module(Id, Place, Program, Clauses) :-
-    hung(Id, Program, Place),
+    module_create(Id, Program, Place),
     catch(add_clauses(Clauses, Id), error(Formal, Context),
           ( '$destroy_module'(Id),
             throw(error(Formal, Context)) )).
 
-hung(Module, Program, Above) :-
+module_create(Module, Program, Above) :-
     set_module(Module:class(temporary)),
     set_module(Module:base(Program)),
     add_import_module(Module, Above, end).
@@ -101,14 +99,16 @@ begins(Place, Module) :-
     ;   true
     ).
 
-%   below(+Place, +Hash, +Program0, +State0, -Program, -Above, -State)
+%   place_imports(+Place, +Hash, +Program0, +State0, -Program, -Above, -State):
+%   an agent on Place imports from Program and Above, and has State in place of
+%   State0.
 
-below(Place, Hash, _, State0, Program, View, State) :-
+place_imports(Place, Hash, _, State0, Program, View, State) :-
     place_variant(Place, View, Variant),
     !,
     typhon_agent_module:program(Variant, Hash, Program),
     typhon_agent_module:state(Variant, State0, State).
-below(Place, _, Program, State, Program, Place, State).
+place_imports(Place, _, Program, State, Program, Place, State).
 
 %!  agent_code(+Module, -Program) is det.
 %
@@ -118,9 +118,10 @@ agent_code(Module, Program) :-
     import_module(Module, Program),
     !.
 
-%   agent_goals(+Module, +Goals0, -Goals): as the agent runs them on this host.
+%   agent_goals(+Module, +Goals0, -Goals): Goals are Goals0 in the form that the
+%   agent runs on this host.
 %
-%   @error what a variant raises
+%   @error those of the hooks of a variant
 
 agent_goals(Module, Goals0, Goals) :-
     agent_variant(Module, Variant),
@@ -143,9 +144,10 @@ agent_standing(Id, Place, Hash, State-Goals0, Module-Goals) :-
 
 %!  agent_clauses(+Module, +Clauses0, -Clauses) is det.
 %
-%   Clauses are Clauses0 as they may be added to the state of the agent.
+%   Clauses are Clauses0 in the form in which they are added to the state of the
+%   agent.
 %
-%   @error what a variant raises
+%   @error those of the hooks of a variant
 
 agent_clauses(Module, Clauses0, Clauses) :-
     (   agent_variant(Module, Variant)
@@ -153,7 +155,8 @@ agent_clauses(Module, Clauses0, Clauses) :-
     ;   Clauses = Clauses0
     ).
 
-%   A copy of an agent that waits for the end of its hop has the module Id.
+%   The module Id may belong to a copy of the agent that waits for the end of
+%   its hop.
 
 free_module(Id, Module) :-
     (   agent_here(Id, _, Id, _, _)
@@ -168,7 +171,7 @@ declare_all([PI|PIs], Module) :-
 
 %!  agent_add(+Clauses, +Module) is det.
 %
-%   Add Clauses, as of agent_clauses/3, to the state of the agent.
+%   Add Clauses, as in agent_clauses/3, to the state of the agent.
 
 agent_add(Clauses, Module) :-
     add_clauses(Clauses, Module).
@@ -194,11 +197,12 @@ agent_state(Module, state(Empty, Clauses)) :-
     findall(Item, state_item(Module, Item), Items),
     (   memberchk((:- dynamic(_)), Items)
     ->  split(Items, Empty, Clauses)
-    ;   Empty = [],                     % mostly
+    ;   Empty = [],                     % usually
         Clauses = Items
     ).
 
-%   Uses the internal forms of predicate_property/2, which is ten times slower.
+%   This calls internal predicates, because predicate_property/2 is ten times
+%   slower.
 
 state_item(Module, Item) :-
     '$c_current_predicate'(_, Module:Head),
@@ -235,7 +239,7 @@ agent_state_mobile(Module, Since, Until) :-
     Latest = latest(Since),
     (   '$c_current_predicate'(_, Module:Head),
         '$get_predicate_attribute'(Module:Head, last_modified_generation, Last),
-        Last > Since,                   % first: few have changed
+        Last > Since,                   % tested first: few changed
         '$get_predicate_attribute'(Module:Head, (dynamic), 1),
         \+ '$get_predicate_attribute'(Module:Head, imported, _),
         '$get_predicate_attribute'(Module:Head, number_of_clauses, Count),
@@ -264,7 +268,7 @@ clauses_mobile(Count, Module:Head) :-
 
 agent_links(Module, Place0, Place, Above0-Above) :-
     (   typhon_agent_module:variant(_, _)
-    ->  stands_below(Place0, Place, Module, Above0, Above)
+    ->  same_variant(Place0, Place, Module, Above0, Above)
     ;   Above0 = Place0,
         Above = Place
     ),
@@ -273,27 +277,27 @@ agent_links(Module, Place0, Place, Above0-Above) :-
 
 %!  agent_relink(+Module, +Links) is det.
 %
-%   The agent in Module imports from now on as Links, of agent_links/4.
+%   The agent in Module imports from Above in place of Above0.
 
 agent_relink(Module, Above0-Above) :-
     delete_import_module(Module, Above0),
     add_import_module(Module, Above, end).
 
-%   Both places run the same variant, or both the unchanged program.  If its
-%   second argument is bound, import_module/2 of 9.0.4 tests only the first
-%   import module.
+%   Both places run the same variant, or both the unchanged program.  9.0.4's
+%   import_module/2 with a bound second argument tests only the first import
+%   module.
 
-stands_below(Place0, Place, Module, Above0, Above) :-
-    above(Place0, Above0, Variant),
-    above(Place, Above, Variant),
+same_variant(Place0, Place, Module, Above0, Above) :-
+    place_above(Place0, Above0, Variant),
+    place_above(Place, Above, Variant),
     once(( import_module(Module, Some), Some == Above0 )).
 
-above(Place, View, Variant) :-
+place_above(Place, View, Variant) :-
     place_variant(Place, View0, Variant0),
     !,
     View = View0,
     Variant = Variant0.
-above(Place, Place, none).
+place_above(Place, Place, none).
 
 bound_here(Module, Place0, Head) :-
     '$get_predicate_attribute'(Module:Head, imported, From),

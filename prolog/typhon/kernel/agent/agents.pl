@@ -73,19 +73,19 @@ terms, which Prolog makes by itself, is not safe if other threads retract
 
 :- multifile
     typhon_code:in_use/1,
-    put_down/3,                 % Id, Status, Goals: note them
-    state_ends/2,               % Id, Module: Module will be destroyed now
-    thaw/1.                     % Id: is under way and needs a record
+    put_down/3,                 % Id, Status, Goals: write them to the journal
+    state_ends/2,               % Id, Module: Module is about to be destroyed
+    thaw/1.                     % Id, which is under way, needs a record
 
 :- dynamic
     stands/6,                   % Id, Host, Module, Hash, Life, Until
-    status/3,                   % Id, Status, Goals; none: it runs
+    status/3,                   % Id, Status, Goals; no clause if Id runs
     under_way/6.                % Id, Hops, Host, Hash, Way, Frame
 
 %!  agent(?Id, ?Host, ?Module, ?Hash, ?Life) is nondet.
 %
-%   The agents of this process: Id is on Host, its state is in Module, its
-%   program has that Hash.
+%   The agents of this process: Id is on Host, its state is in Module, and Hash
+%   names its program.
 
 agent(Id, Host, Module, Hash, Life) :-
     nonvar(Id),
@@ -161,9 +161,8 @@ state_destroy(Id, Module) :-
 
 %!  agent_mobile(+Id, -Host, -Module, -Hash, -Life, -Until:integer) is semidet.
 %
-%   As agent/5, for an agent that is to travel.  Its state was found fit to
-%   travel as of generation Until, see agent_state_mobile/3; 0 if it was not
-%   checked.
+%   As agent/5, for an agent that is to travel.  Its state is known to be mobile
+%   as of generation Until, see agent_state_mobile/3; 0 if it was not checked.
 
 agent_mobile(Id, Host, Module, Hash, Life, Until) :-
     stands(Id, Host, Module, Hash, Life, Until),
@@ -221,8 +220,8 @@ status_now(Id, running, []) :-
 agent_rests(Id, Status, Goals) :-
     status(Id, Status, Goals).
 
-%   goals_shown(+Goals0, -Goals): the goals of an agent that is held or under
-%   way are never frames.
+%   goals_shown(+Goals0, -Goals): convert frames to goals.  The other forms of
+%   goals, for agents that are held or cloned, contain no frames.
 
 goals_shown([Goal|Goals0], Goals) =>
     plain_goals([Goal|Goals0], Goals).
@@ -276,14 +275,14 @@ agent_rest(Id, Status, Goals) :-
 
 %!  agent_take(+Id, -Goals, -Order) is semidet.
 %
-%   Id, which is ready, is running from now on and Order is `none`; or it is
-%   obeying its oldest order, Order.
+%   Id, which is ready, begins to run, and Order is `none`; or Id begins to obey
+%   Order, its oldest order.
 
 agent_take(Id, Goals, Order) :-
     retract(status(Id, ready, Goals0)),
     !,
     (   agent_unorder(Id, Oldest)
-    ->  goals_shown(Goals0, Goals),     % it may get another program
+    ->  goals_shown(Goals0, Goals),     % Order may change the program
         assertz(status(Id, obeying, Goals)),
         Order = Oldest
     ;   Goals = Goals0,
@@ -292,8 +291,8 @@ agent_take(Id, Goals, Order) :-
 
 %!  agent_claim(+Id, ?Status, -Goals) is semidet.
 %
-%   Id had that Status.  Only the caller may change Id from now on: an order
-%   from outside can no longer end it.
+%   Take Id if it has that Status.  From now on only the caller may change Id,
+%   and an order from outside cannot end it.
 
 agent_claim(Id, Status, Goals) :-
     retract(status(Id, Status, Goals)),
@@ -396,8 +395,8 @@ agent_program(Id, Hash, Module, Life) :-
     forget_first(Id),
     state_destroy(Id, Old).
 
-%   Remove the older of two records: readers always find at least one.  Not by
-%   clause reference: see typhon_prolog_faults.
+%   Remove the older of two records, so that readers always find at least one.
+%   Clause references are not used, see typhon_prolog_faults.
 
 forget_first(Id) :-
     retract(stands(Id, _, _, _, _, _)),
@@ -416,7 +415,7 @@ agent_mail(Id, Messages) :-
     agent_on(Id, Host),
     (   status(Id, Status, Goals)
     ->  mail_to(Status, Id, Host, Goals, Messages)
-    ;   mail_put(Id, Messages)          % it runs, or is under way
+    ;   mail_put(Id, Messages)          % Id runs, or is under way
     ).
 
 mail_to(faulty(_), Id, _, _, Messages) :-

@@ -27,14 +27,14 @@ A fault is
 
     fault(Outcome, Goal, Where, Address, Hops, Stamp)
 
-`failed` or raised(Error); the goal that failed or raised the error, and its
-location: a list of up to two lists of places, the possible places of the goal
-and the possible places of its caller; the address of the host, the number of
-hops made, and the time.  A place is at(PI, Place): a clause of the predicate
-PI, Place being its File:Line, clause(N) for the N-th clause of PI if the line
-is not known, or `state` for a rule of the agent's state.  All of it can travel.
-It comes first among the goals of an agent that is faulty, as '$fault'(Fault):
-the machine stops there, on whichever host the agent is, until the goal is
+Outcome is `failed` or raised(Error).  Goal failed, or raised the error.  Where
+is its location: a list of up to two lists of places, the possible places of
+the goal and the possible places of its caller.  Address is that of the host,
+Hops the number of hops made, and Stamp the time.  A place is at(PI, Place): a
+clause of the predicate PI, Place being its File:Line, clause(N) for the N-th
+clause of PI if the line is not known, or `state` for a rule of the agent's
+state.  All parts are mobile terms.  The first goal of a faulty agent is
+'$fault'(Fault): the machine stops there, on any host, until the goal is
 removed.
 
 *Threading*: agent_fault/5 in the worker that ran the agent.

@@ -22,13 +22,13 @@ The agent is
     entrant(Agent, Hash, Life, State, Mail)
 
 its id, or the name from which its id will be made; the hash of its program;
-its life; its state, as of agent_state/2, or module(Module); the messages that
+its life; its state, as in agent_state/2, or module(Module); the messages that
 it brings.  Its source is
 
   - here: it begins, in this process
   - going: it hops within this process
   - from(Peer, Program, Shown): the process at Peer has sent it with Program,
-    as of code_receive/2, or `known`.  Shown is `newborn`, or papers(Papers),
+    as in code_receive/2, or `known`.  Shown is `newborn`, or papers(Papers),
     which prove that Peer may bring it.
 
 *Threading*: any thread.  Agents that enter at the same time never exceed the
@@ -91,8 +91,9 @@ not_installed(Ball, Host, _) :-
                 *            REASONS           *
                 *******************************/
 
-%   against(+From, +Entrant, +Host, -Verdict): the first reason found.
-%   host_enter/3 tests the remaining reasons afterwards: token, capacity.
+%   against(+From, +Entrant, +Host, -Verdict): Verdict is the first reason to
+%   refuse the agent.  host_enter/3 tests the remaining reasons afterwards:
+%   token, capacity.
 
 against(from(_, _, _), _, Host, refused(unknown_host)) :-
     \+ open(Host),

@@ -63,7 +63,7 @@ agent_id(Name, Home, Id) :-
     ids_anew/0,                 % ids repeat: discard all data on old ids
     id_anew/1,                  % Id repeats: discard all data on it
     mark_suffix/1,              % Suffix: of the marks of this process
-    origin/4,                   % Host, Hash, State, Origin: not its home
+    origin/4,                   % Host, Hash, State, Origin: other than its home
     typhon_runtime:beginning/1.
 
 :- dynamic mark/1.
@@ -136,7 +136,7 @@ agent_home_endpoint(Id, Endpoint) :-
 %!  agent_origin(+Host, +Id, +Hash, +State, -Origin) is semidet.
 %
 %   Origin is the origin of the agent Id on Host.  Hash is that of its program,
-%   State as of agent_state/2, or module(Module).
+%   State as in agent_state/2, or module(Module).
 
 agent_origin(Host, _, Hash, State, Origin) :-
     origin(Host, Hash, State, Origin),

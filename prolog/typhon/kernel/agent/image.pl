@@ -41,7 +41,7 @@ The program is sent along unless the receiving process is known to have it.
 
 :- multifile typhon_endpoint:connection/2.
 
-:- dynamic has_program/2.       % Endpoint, Hash: was sent there
+:- dynamic has_program/2.       % Endpoint, Hash: the program was sent there
 
 %!  image_hop(+Id, -Hops, +Goals, ?Mail, +Since, -Image) is det.
 %
@@ -112,10 +112,10 @@ image_held(image(Id, Hash, Life, State, Goals, Mail, Start),
 
 %!  image_label(+Image, -Label) is det.
 %
-%   Label is what is read of Image before it is installed: label(Id, Hops,
-%   Since, From), From being `none` or the host that the agent left.  A term
-%   that is no image is refused.  Whether the state can be installed is known
-%   only when its module is made.
+%   Label is label(Id, Hops, Since, From), the parts of Image that are needed
+%   before it is installed.  From is `none`, or the host that the agent left.  A
+%   term that is no image is refused.  Errors in the state are found only when
+%   the module of the agent is made.
 %
 %   @error type_error(agent_image, Name)
 
@@ -209,7 +209,7 @@ image_enter(image(Id, Hash, Life, _, _, Mail0, _), Host, Module-Goals, More) :-
 
 %!  program_sent(+Endpoint, +Hash, -Sent) is det.
 %
-%   Sent goes to Endpoint with an agent of that program: as of code_sent/2, or
+%   Sent goes to Endpoint with an agent of that program: as in code_sent/2, or
 %   `known`.
 
 program_sent(Endpoint, Hash, known) :-
@@ -227,7 +227,7 @@ program_sent(Endpoint, Hash, Sent) :-
 program_missing(Endpoint, Hash) :-
     retractall(has_program(Endpoint, Hash)).
 
-%   A program that is no longer in the table is sent once more.
+%   A program whose entry was deleted is sent once more.
 
 most_programs(10000).
 

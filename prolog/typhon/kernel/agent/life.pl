@@ -35,7 +35,7 @@ require one, a list of Name-PIs, whether it must not move, and a list of terms
 that options let it carry.  A life goes over the wire and into restore points as
 it is; only this module accesses its arguments.
 
-*Threading*: pure, but for life_carried/2 and agent_extras_load/1, which load
+*Threading*: pure, except life_carried/2 and agent_extras_load/1, which load
 code.
 */
 

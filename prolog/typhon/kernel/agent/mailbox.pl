@@ -162,7 +162,7 @@ bare([mail(Message, _)|Numbered], [Message|Messages]) :-
 
 %!  mail_waits(+Id) is semidet.
 %
-%   Id may have messages: it has had some.
+%   Id may have messages: it has a mailbox, because messages have arrived.
 
 mail_waits(Id) :-
     box(Id, _),

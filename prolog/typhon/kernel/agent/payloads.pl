@@ -42,7 +42,7 @@ A clone starts without these facts.
 */
 
 :- multifile
-    mark/2,                     % Payload, Mark: a fact that goes with it
+    mark/2,                     % Payload, Mark: a fact that goes with Payload
     unmarked/2.                 % Module, Name: remove the marks of a payload
                                 % that is detached
 
@@ -74,7 +74,7 @@ agent_attach(Id, Payload) :-
 
 %!  not_carried(+Name, +Payloads:list) is det.
 %
-%   No payload among Payloads, as of life_payloads/2, has this Name.
+%   No payload among Payloads, as in life_payloads/2, has this Name.
 %
 %   @error permission_error(attach, payload, Name)
 
@@ -149,7 +149,7 @@ payload_clause(Module, PIs, (Head:-Body)) :-
 
 %!  result_put(+Module, +Term) is det.
 %
-%   Term, which can travel, is the result from now on.
+%   Term, which is mobile, replaces the result of the agent.
 %
 %   @error resource_error(result_bytes)
 
@@ -194,7 +194,7 @@ result_facts(Module, Items) :-
 
 %!  no_result_facts(+State0, -State) is det.
 %
-%   State, as of agent_state/2, is State0 without results.
+%   State, as in agent_state/2, is State0 without results.
 
 no_result_facts(state(Empty, Clauses0), state(Empty, Clauses)) :-
     exclude(of_result, Clauses0, Clauses).
