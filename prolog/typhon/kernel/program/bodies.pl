@@ -59,7 +59,7 @@ mark_cuts(Body, _, Body).
 
 %!  plain_goal(+Goal0, -Goal) is det.
 %
-%   Replace `'$cut'(_)` by `!`, as a suspended agent is shown.
+%   Replace `'$cut'(_)` by `!`, which suspended goals have.
 
 plain_goal(Goal, Goal) :-
     var(Goal),
@@ -89,7 +89,7 @@ plain_goal(Goal, Goal).
 
 %!  goals_body(+Goals, -Body) is det.
 %
-%   The inverse of body_goals/4, where Goals has no cuts.
+%   The inverse of body_goals/4, for Goals without cuts.
 
 goals_body([], true).
 goals_body([Goal|Goals], Body) :-
@@ -101,8 +101,8 @@ goals_body([Goal|Goals], Body) :-
 
 %!  called_goal(+Goal, -Called) is semidet.
 %
-%   Called is the goal that Goal, call/N with N > 1, calls.  Fails if it cannot
-%   be called.
+%   Called is the goal that Goal, call/N with N > 1, calls.  Fails if the
+%   closure cannot be called.
 
 called_goal(Goal, Called) :-
     Goal =.. [_,Closure|Extra],
@@ -147,6 +147,6 @@ special(dispose, control).
 special(sleep_until(_), control).
 special(receive_until(_, _, _), control).
 special(receive_until(_, _), control).  % in old restore points
-special('$fault'(_), control).          % not changed here: see typhon_ending
+special('$fault'(_), control).          % stays in place: see typhon_ending
 special_of(call, call).                 % with more than one argument
 special_of('$checked', checked).        % see typhon_checked

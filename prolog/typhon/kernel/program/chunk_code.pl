@@ -15,16 +15,16 @@
 
 Translates a clause to native code, see typhon_chunks.
 
-*Threading*: pure, but for the destructive change of a term of its own.
+*Threading*: pure, except for the destructive change of a term of its own.
 */
 
 %!  clause_code(+Own, +Clause, +Phase, +Args, -Code) is det.
 %
-%   @arg Own is own(Module, Kinds, I/Count): Clause, (Head:-Body), is the I-th of
-%        Count of the program in Module.
-%   @arg Phase says whether another clause is there for all calls, see block/6.
+%   @arg Own is own(Module, Kinds, I/Count): Clause, (Head:-Body), is clause I
+%        of Count clauses of the program in Module.
+%   @arg Phase says whether a later clause matches all calls, see block/6.
 %   @arg Args is args(K, X, Base, Out, Barrier), the variables of the code.
-%   @arg Code is Body-Frames, where each frame is frame(Place, Vars, Args, Body).
+%   @arg Code is Body-Frames, a frame being frame(Place, Vars, Args, Body).
 
 clause_code(own(Module, Own, Number), (Head:-Body), Phase, Args, Code-Frames) :-
     arg(5, Args, Barrier),
@@ -265,11 +265,12 @@ called(N-Goal, Rest, Phase, Env, Called) :-
     live(Goal, Rest, Live),
     Called = ( Native *-> Live ; Fails ).
 
-%   live(+Goal, +Rest, -Code): while Goal runs, a variable that Rest does not
-%   use is dead, but for the failure of Goal.  Then garbage collection undoes
-%   the binding that Goal made, and if Goal raises an error the fault would not
-%   show that binding.  Code uses the variable to keep it alive.  Foreign
-%   predicates raise errors before they bind variables.
+%   live(+Goal, +Rest, -Code): after the last use of a variable garbage
+%   collection may undo its binding.  A variable of Goal that Rest does not use
+%   has its last use when Goal is called.  If Goal then raised an error, the
+%   fault would not show the binding that Goal made.  Code, after Goal, uses the
+%   variable.  Foreign predicates do not need this: they raise errors before
+%   they bind variables.
 
 live(Goal, _, true) :-
     '$get_predicate_attribute'(system:Goal, foreign, 1),
@@ -292,8 +293,8 @@ fresh(Variable, Term, N, Env) :-
     among(New, Variable),
     \+ occurs(Variable, Term).
 
-%   added(...): a sum with a small integer is fast, and cannot fail either, if
-%   Number is an integer.
+%   added(...) is semidet: Expression is the sum of Number and a small integer,
+%   which is fast, and cannot fail either, if Number is an integer.
 
 added(Variable, Expression, N, Env, Number) :-
     nonvar(Expression),
@@ -309,7 +310,7 @@ new(N, Env, New) :-
     memberchk(place(N, _, New, _, _), Places).
 
 %   The arguments of fails_at/3 include the variables that are new in the goal,
-%   which are read where an error is raised, and have no barrier.
+%   because the fault of an error is read from them, and leave out the barrier.
 
 fails(N, Phase, Env, typhon_faults:Fails) :-
     ( Phase == lead -> Name = test_fails ; Name = fails_at ),
@@ -363,9 +364,8 @@ inlined(Goal) :-
     memberchk(Name/Arity, [ var/1, nonvar/1, (<)/2, (>)/2, (=<)/2, (>=)/2,
                             (=:=)/2, (=\=)/2 ]).
 
-%   test(+Node, +Env, -Code): the machine ignores in the end which goal of a
-%   condition failed.  The call that would note the failure also gives the
-%   place of an error.
+%   test(+Node, +Env, -Code): the failure of a goal in a condition is not noted.
+%   The call of test_fails/3 after the goal holds the place of an error.
 
 test(N-Goal, Env, Code) :-
     node_parts(Goal, N, Parts),

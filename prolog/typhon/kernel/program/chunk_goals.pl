@@ -27,8 +27,8 @@ saves time, '$frame'/5, from goals to frames.
 
 %!  plain_goals(+Goals0, -Goals) is det.
 %
-%   Replace `'$cut'(_)` by `!`, and frames by the goals for which they stand,
-%   as a suspended agent is shown.
+%   Replace `'$cut'(_)` by `!`, and frames by the goals for which they stand.
+%   A suspended agent is shown with these goals.
 
 plain_goals([], []).
 plain_goals([Goal|Goals0], [Goal|Goals]) :-
@@ -159,7 +159,8 @@ numbered(Variable, N0-Code, N-(Variable=N,Code)) :-
 is_frame(Module, Place, Vars) :-
     \+ \+ clause(Module:'$k'(Place, Vars, _, _, _, _), _).
 
-%   worth(+Goals): they begin with native goals, as far as can be seen.
+%   worth(+Goals) is semidet: a frame saves time.  Goals begin with three goals
+%   that are probably native.
 
 worth([A,B,C|_]) :-
     maplist(plain_goal, [A,B,C]).

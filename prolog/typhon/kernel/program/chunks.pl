@@ -51,8 +51,8 @@ chunk if a predicate that the chunk calls has rules in the agent's state.
 
 %!  chunks_ready(+Module) is semidet.
 %
-%   Module is that of a program: it is compiled now, or was before.  If
-%   compiling ran out of memory this fails, and the machine runs the program.
+%   The program in Module is compiled; compile it now if it was not.  Fails if
+%   compiling has run out of memory; the machine runs the program then.
 
 chunks_ready(Module) :-
     '$get_predicate_attribute'(Module:'$goals'(_, _, _, _), defined, 1),
@@ -90,7 +90,7 @@ compile(Module, program(_, State, _, Clauses)) :-
     append([['$go'/4],Tables|Made], Static),
     maplist(qualified(Module), Static, PIs),
     compile_predicates(PIs),
-    dynamic(Module:'$goals'/4).         % marks that all is there
+    dynamic(Module:'$goals'/4).         % marks the program as compiled
 
 qualified(Module, PI, Module:PI).
 
@@ -108,7 +108,7 @@ tables(Module) :-
     assertz(Module:('$go'(K, X, B, O) :-
                  typhon_machine:continue(K, X, B, O))).
 
-%   The kinds of typhon_mobile, as the table of the module has them.
+%   The kinds of mobile_predicates/3, from the table '$mobile'/6 of the module.
 
 kinds(Module, Clauses, Kinds) :-
     maplist(head_pi, Clauses, PIs0),

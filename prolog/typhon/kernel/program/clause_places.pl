@@ -47,8 +47,9 @@ nodes_goals([], []).
 nodes_goals([_-Goal|Nodes], [Goal|Goals]) :-
     nodes_goals(Nodes, Goals).
 
-%   size(+Goal, -Size): Goal takes Size numbers.  Its parts are not numbered
-%   for that: numbering asks for sizes, and deep clauses would take for ever.
+%   size(+Goal, -Size): Goal takes Size numbers.  This does not number its
+%   parts: numbering computes sizes, so the time for a deep clause would be
+%   exponential.
 
 size(Goal, Size) :-
     (   nonvar(Goal),

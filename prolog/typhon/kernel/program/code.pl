@@ -48,17 +48,18 @@ a goal list, see typhon_machine.  The table '$mobile'/6 maps calls to them.
 
 :- multifile
     in_use/1,                   % Hash: an agent of this process runs it
-    installed/2,                % Name, Module: a program of that name is now
-    retiring/1,                 % Hash: no longer needed
+    installed/2,                % Name, Module: a program of that name has been
+                                % installed
+    retiring/1,                 % Hash: the program is about to be deleted
     wrapped/3,                  % ?Sent, ?Sent0, ?Extra: Sent is Sent0 with an
                                 % Extra of an option
     extra/2,                    % Hash, Extra: sent with the program
-    extra_comes/2.              % Extra, Hash: arrived with it
+    extra_comes/2.              % Extra, Hash: the program arrived with Extra
 
 :- dynamic
     code_module/2,              % Hash, Module
     code_program/2,             % Hash, Program
-    stands/2,                   % Hash, Places: where they are known
+    stands/2,                   % Hash, Places: of programs with known places
     retired/2.                  % Hash, Module: deleted at the next eviction
 
 %!  code_install(+Hash, +Program, +Kinds) is det.
@@ -116,8 +117,7 @@ receive_plain(Hash, Sent) :-
 
 %!  sent_program(+Sent, -Program) is semidet.
 %
-%   Program is what code_receive/2 would install.  Whether it is well formed is
-%   not checked.
+%   Program is the program in Sent; it may be malformed.
 
 sent_program(Sent, Program) :-
     code_unwrapped(Sent, Sent0, _),

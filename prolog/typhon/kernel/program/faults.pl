@@ -12,7 +12,7 @@
 :- use_module(bodies, [goals_body/2]).
 :- use_module(chunk_goals, [place_left/4, plain_goals/2]).
 
-/** <module> Where a run of the machine came to its end
+/** <module> Where a run of the machine ended
 
 When a goal fails, the machine notes it.  When an error is about to leave the
 run, the hook reads the goals that the error abandons from the frames of the
@@ -21,8 +21,8 @@ machine, which still exist then.  The last note is what ended the run: a fault
     fault(Goal, Goals, natives(Raising, Clauses))
 
 with the goal that failed or raised an error, the goals that were left to run
-from it on, the goal that raised the error natively, and references to the
-clauses in which that was, innermost first.
+on, the goal that raised the error natively, and references to the clauses that
+were running then, innermost first.
 
 Agents that neither fail nor raise errors pay nothing for this, and agents that
 catch their errors half a microsecond.
@@ -80,7 +80,8 @@ fails_at(Place, Vars, Goals) :-
 
 %!  test_fails(+Place, +Vars, +Goals) is failure.
 %
-%   In a chunk a goal of a condition has failed: only marks the place.
+%   A goal of a condition in a chunk has failed.  This notes nothing: the call
+%   marks the place of the goal in the clause.
 
 test_fails(_, _, _) :-
     fail.
@@ -181,8 +182,10 @@ raising(Frame, Goal, Goals, Outer) :-
 raising(Frame, Goal, [Goal|Goals], Outer) :-
     outer(Frame, called(Goal, Goals, _, _, _), Outer).
 
-%   A native goal has variables of its own for those that are new in it; a
-%   predicate without clauses is the goal itself, if the names are the same.
+%   same_goal(+Frame, +Raising, ?Goal): in a chunk, a native goal has variables
+%   of its own for those that first occur in it.  If Raising, the goal of Frame,
+%   is that goal itself, a predicate without clauses, unify it with Goal, which
+%   then shows the bindings.
 
 same_goal(Frame, Raising, Goal) :-
     (   \+ prolog_frame_attribute(Frame, clause, _),
@@ -274,7 +277,8 @@ from_frame(Frame, Slots, Variable) :-
     prolog_frame_attribute(Frame, argument(Argument), Variable).
 from_frame(_, _, _).
 
-%   The goal that raised the error itself, if it is not too large.
+%   native_goal(+Frame, -Goal): the goal of Frame, which raised the error, or
+%   `none` if it is too large.
 
 native_goal(Frame, Goal) :-
     prolog_frame_attribute(Frame, goal, Goal0),
@@ -283,7 +287,7 @@ native_goal(Frame, Goal) :-
     !.
 native_goal(_, none).
 
-%   The clauses of up to Most frames.
+%   native_clauses(+Most, +Frame, -Clauses): the clauses of up to Most frames.
 
 native_clauses(0, _, []) :-
     !.

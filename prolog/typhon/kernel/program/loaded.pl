@@ -10,12 +10,12 @@
 :- use_module(programs, [program_hash/2, program_read/7]).
 :- use_module(source, [source_same/1, source_settled/1]).
 
-/** <module> Programs that were read lately
+/** <module> A cache of the programs that were read
 
 A program file is read, checked and analysed when the first agent is created
 from it, and again when it, or a file that it includes, has changed.  A program
-of clauses is read once for all variants of it.  The exports of a library that
-the program imports are taken as they were at that time.
+of clauses is read once for all variants of it.  The imports of a library are
+its exports at the time of reading.
 
 *Threading*: any thread. One mutex to add a program; readers need none.
 */
@@ -35,14 +35,13 @@ the program imports are taken as they were at that time.
 
 %!  program_load(+Spec, -Program, -Initial, -Hash, -Kinds, -Places) is det.
 %
-%   As program_read/7, with the hash of Program.  Warnings are printed.
-
+%   As program_read/7, with the hash of Program.  Prints warnings.
 
 program_load(Spec, Program, Initial, Hash, Kinds, Places) :-
     load(Spec, loaded(Program, Initial, Hash, Kinds, Places)).
 
 load(Spec, Loaded) :-
-    in_file(Spec),
+    is_file_spec(Spec),
     !,
     program_file(Spec, File),
     load(File, File, Loaded).
@@ -53,7 +52,7 @@ load(clauses(Terms), Loaded) :-
 load(Spec, Loaded) :-                   % invalid clauses: an error follows
     read_program(Spec, Loaded, _, _).
 
-in_file(Spec) :-
+is_file_spec(Spec) :-
     callable(Spec),
     Spec \= clauses(_).
 

@@ -17,7 +17,7 @@
 :- multifile
     elsewhere/3,                % Context, Goals, Outcome: another process runs
                                 % them
-    checked/3.                  % Context, Goal, Called: it may be called
+    checked/3.                  % Context, Goal, Called: Goal may call Called
 :- use_module(faults, [fails/2, fails_inside/2]).
 
 /** <module> The machine: agents that can stop in the middle of a clause
@@ -215,7 +215,7 @@ special(control, Goal, Goals, _, _, effect(Goal, Hole, [Hole|Goals])).
 special(call, Goal, Goals, X, Base, Out) :-
     (   called_goal(Goal, Called)
     ->  step(call(Called), Goals, X, Base, Out)
-    ;   called(Goal, Goals, X, Base, Out)       % which raises an error
+    ;   called(Goal, Goals, X, Base, Out)       % raises an error
     ).
 special(checked, Goal, Goals, X, Base, Out) :-
     arg(1, X, Program),
@@ -240,7 +240,7 @@ called(Goal, Goals, X, Base, Out) :-
         ;   fails(Goal, Goals)
         )
     ;   Agent:Goal
-    *-> stood(Goal, Goals),
+    *-> still_needed(Goal, Goals),
         run(Goals, X, Base, Out)
     ;   fails(Goal, Goals)
     ).
@@ -300,9 +300,9 @@ otherwise(Else, If, Goals, X, Base, Out) :-
 inside(Goal, Frame, Goals, X, Out) :-
     prolog_current_choice(Base),
     step(Goal, [], X, Base, Out),
-    stood(Frame, Goals).
+    still_needed(Frame, Goals).
 
-stood(_, _).
+still_needed(_, _).
 
 %   each_inside(+Goal, +Frame, +Goals, +X, -Out) is nondet: likewise, for each
 %   solution of Goal.  A cut in Goal cannot cut to the choice point of *->,
@@ -353,7 +353,7 @@ answer_at(Control, Answer, '$at'(Control, Answer)).
 
 raises(Error, Control, Goals) :-
     throw(Error),
-    stood(Control, Goals).
+    still_needed(Control, Goals).
 
 %!  ruled(+Heads, +Context) is semidet.
 %

@@ -36,7 +36,7 @@ forall/2 or \+, is a problem.
 
 Modules declare by vocabulary/1 the other predicates that agents can call.
 
-*Threading*: pure, but for a cache of facts about library predicates, and for
+*Threading*: pure, except for a cache of facts about library predicates, and
 declarations, which are made while modules are loaded.
 */
 
@@ -153,8 +153,8 @@ misplaced(Located, Mobile,
     member(call(PI, inside(Context)), Calls),
     is_mobile(PI, Mobile).
 
-%   A static predicate is changed: in the agent's module that would only hide
-%   it.
+%   The program changes a predicate for which it has static clauses.  A clause
+%   in the agent's module would only hide the predicate.
 
 changed(Located, Own,
         problem(permission_error(modify, static_procedure, PI), Location,
@@ -206,7 +206,7 @@ body_call(Goal, Mode, Call) :-
         extended(Closure, Extra, inside(Name/Arity), Call)
     ).
 
-%   Goals after these may call rules that do not exist yet.
+%   The goals that follow these may call rules that do not exist yet.
 
 adds_rules(assert(Clause)) :- may_be_rule(Clause).
 adds_rules(asserta(Clause)) :- may_be_rule(Clause).

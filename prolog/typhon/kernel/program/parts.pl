@@ -28,8 +28,8 @@ how to fix it, see typhon_problem_text.
 
 %!  file_parts(+Kind, +Located, -Parts, -Problems:list) is det.
 %
-%   Parts are the parts of the terms of a file that declares an agent or a
-%   payload, Kind.  Problems has one element if the file does not declare that.
+%   Parts are the parts of a file that declares an `agent` or a `payload`, Kind.
+%   Problems has one element if this declaration is missing.
 
 file_parts(Kind, Located, parts(Name, Options, Directives, Clauses, Rules,
                                 State), Problems) :-
@@ -98,7 +98,7 @@ in_state(State, (Head:-_)-_) :-
 
 %!  library_directive(+Parts, -Library) is nondet.
 %
-%   The file imports Library, as of library_import/2.
+%   The file imports Library, as in library_import/2.
 
 library_directive(Parts, Library) :-
     part(directives, Parts, Directives),

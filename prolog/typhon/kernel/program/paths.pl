@@ -81,7 +81,7 @@ program_directory(Kind, Dir) :-
 %!  program_file(+Spec, -File) is det.
 %!  included_file(+Spec, +Includer, -File) is det.
 %
-%   File is the absolute name of the clause file Spec: a term as
+%   File is the absolute name of the clause file Spec: a term such as
 %   agents(census), or a file name, relative to the working directory or to
 %   that of the file Includer.  The extension `.pl` may be left out.
 %

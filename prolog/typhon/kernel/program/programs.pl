@@ -40,9 +40,9 @@ term:
     imports by use_module/1,2, Clauses the static clauses as Head:-Body.
   - payload(Name, Predicates, Clauses)
 
-A payload that was read from a file vision.py is called `vision`; its one
-clause is a fact 'vision.py'(Source).  So it is sent as any other payload, and
-is text for a host without Python.
+A payload that was read from a file vision.py is called `vision`.  Its one
+clause is a fact 'vision.py'(Source), so it is sent as any other payload, and a
+host without Python treats it as text.
 
 *Threading*: any thread; this module has no state.
 */
@@ -172,7 +172,7 @@ program_terms(Located, program(Name, State, Libraries, Static), Initial,
     partition(in_state(State), Rules, Initial0, Static0),
     findall(Problem, faulty(Located, Parts, Problem), Errors1),
     append(Errors0, Errors1, Errors2),
-    moves(Errors2, Static0, Kinds, Errors3),
+    analyse(Errors2, Static0, Kinds, Errors3),
     in_file_order(Errors3, Located, Errors),
     maplist(located_clause, Static0, Static),
     maplist(located_clause, Initial0, Initial),
@@ -189,16 +189,16 @@ faulty(Located, Parts, Problem) :-
     ;   option_problem(agent, Located, Problem)
     ).
 
-%   If clauses are faulty the program is not analysed further.
+%   The program is not analysed if it has errors.
 
-moves([], Static, Kinds, Errors) :-
+analyse([], Static, Kinds, Errors) :-
     !,
     mobile_predicates(Static, Kinds, Errors).
-moves(Errors, _, [], Errors).
+analyse(Errors, _, [], Errors).
 
 %!  payload_terms(+Located, -Payload, -Errors:list) is det.
 %
-%   Payload as of payload_load/2. Errors keep it from being used.
+%   Payload as in payload_load/2. Errors keep it from being used.
 
 payload_terms(Located, payload(Name, PIs, Clauses), Errors) :-
     file_parts(payload, Located, Parts, Errors0),

@@ -203,7 +203,7 @@ includes(Term, Spec) :-
     nonvar(Directive),
     Directive = include(Spec).
 
-%   A file that includes itself, or that does not exist, is a problem.
+%   Reports a file that includes itself, or that does not exist.
 
 include_file(Spec, Location, Reading, Items, Rest) :-
     Reading = reading([File|Files], _),
@@ -334,7 +334,7 @@ library_import(use_module(library(L), Imports), library(L)-Imports) :-
 
 %!  indicator_in(+PIs, ?PI) is nondet.
 %
-%   PI is one of PIs, as they stand in dynamic/1.
+%   PI is one of PIs, in the form of the argument of dynamic/1.
 
 indicator_in(Var, _) :- var(Var), !, fail.
 indicator_in([A|B], PI) :- !, ( indicator_in(A, PI) ; indicator_in(B, PI) ).
