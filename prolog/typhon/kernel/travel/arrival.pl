@@ -29,8 +29,8 @@
 /** <module> Arrival of agents
 
 The receiving half of a hop, see typhon_hop: install the agent completely or not
-at all, and answer.  A transfer that comes again is recognised by other records
-of the agent, which is here, has gone on, or has ended, and by its id, see
+at all, and answer.  A repeated transfer is recognised by the records of the
+agent, which is here, has gone on, or has ended, and by the id of the hop, see
 typhon_hop_ids.
 
 *Threading*: the reader threads of the endpoint.
@@ -42,45 +42,46 @@ typhon_hop_ids.
     typhon_endpoint:requested/4,
     typhon_endpoint:returned/0.
 
-%   The answer is deferred if there is a journal, until the commit, or if code
-%   must be loaded first for extras of the agent.  An agent that taken_over/4
-%   takes has no extras.
+%   The answer is deferred if there is a journal, until the commit, and if code
+%   must be loaded first for extras of the agent.  taken_over/4 accepts no agent
+%   with extras.
 
 typhon_endpoint:handed(hop, hop(Name, Image, Program), Peer, Verdict) :-
     (   durable_on
     ->  Verdict = deferred
     ;   catch(taken_over(Name, Image, Program, Peer), error(_, _), fail)
     ->  Verdict = accepted
-    ;   carries_more(Image)
+    ;   extras_missing(Image)
     ->  Verdict = deferred
-    ;   holed(Image, Whole),
+    ;   fill_hole(Image, Whole),
         arrived(Name, Whole, Program, none, Peer, Answer),
-        handed(Answer, Name, Verdict)
+        hand_verdict(Answer, Name, Verdict)
     ).
 
-handed(installed(Id), Name, accepted) :-
+hand_verdict(installed(Id), Name, accepted) :-
     !,
     endpoint_afterwards(go_on(Name, Id)).
-handed(Answer, _, Answer).
+hand_verdict(Answer, _, Answer).
 
-%   holed(+Image0, -Image): bind the hole of an agent that was handed over.
+%   fill_hole(+Image0, -Image): an agent that was handed over has an unbound
+%   hole.
 
-holed(image(Id, Hash, Life, State, Hole-Goals, Mail, Start), Image) :-
+fill_hole(image(Id, Hash, Life, State, Hole-Goals, Mail, Start), Image) :-
     !,
     Hole = true,
     Image = image(Id, Hash, Life, State, Goals, Mail, Start).
-holed(Image, Image).
+fill_hole(Image, Image).
 
 typhon_endpoint:requested(hop, Hop, Peer, ReplyTo) :-
     (   arg(2, Hop, Image),
-        carries_more(Image),
+        extras_missing(Image),
         endpoint_later(typhon_arrival:load_and_take(Image, Hop, Peer, ReplyTo))
     ->  true
     ;   take(Hop, Peer, ReplyTo)
     ).
 
 take(hop(Name, Image0, Program), Peer, ReplyTo) :-
-    holed(Image0, Image),
+    fill_hole(Image0, Image),
     arrived(Name, Image, Program, none, Peer, Answer),
     answer(Answer, Name, ReplyTo).
 take(hop(Name, Image, Program, Label), Peer, ReplyTo) :-
@@ -90,7 +91,7 @@ take(hop(Name, Image, Program, Label), Peer, ReplyTo) :-
     ;   endpoint_reply(ReplyTo, refused(error(type_error(hop_id, Name))))
     ).
 
-carries_more(Image) :-
+extras_missing(Image) :-
     subsumes_term(image(_, _, _, _, _, _, _), Image),
     arg(3, Image, Life),
     agent_extras_missing(Life).
@@ -119,8 +120,8 @@ arrive_noted(Name, Image, Program, Label, Peer, Answer) :-
     ;   arrive(Name, Image, Program, Label, Peer, Answer)
     ).
 
-%   The agent starts after the answer is queued, so that what it sends follows
-%   the answer.
+%   The agent starts after the answer is queued, so that its messages follow the
+%   answer.
 
 answer(installed(Id), Name, ReplyTo) :-
     !,
@@ -129,7 +130,8 @@ answer(installed(Id), Name, ReplyTo) :-
 answer(Answer, _, ReplyTo) :-
     endpoint_reply(ReplyTo, Answer).
 
-%   go_on(+Name, +Id, +Where): `here`, in this thread, or `later`.
+%   go_on(+Name, +Id, +Where): run the agent `here`, in this thread, or schedule
+%   it, `later`.
 
 go_on(Name, Id, here) :-
     agent_here(Id, _, _, Hash, _),
@@ -216,7 +218,7 @@ installed(Id, Hops, Image, HopId, Name, Place, Gone, Verdict) :-
     (   overtaken(Id, Hops)
     ->  Verdict = accepted
     ;   image_module(Image, Place, Module)
-    ->  let_go(Id, Later, Orders, Gone),
+    ->  remove_old_copy(Id, Later, Orders, Gone),
         post_waiting(Id, Last),
         append(Later, Last, More),
         (   HopId == none
@@ -224,7 +226,7 @@ installed(Id, Hops, Image, HopId, Name, Place, Gone, Verdict) :-
         ;   hop_id_done(HopId)
         ),
         image_enter(Image, Name, Module, More),
-        ordered(Orders, Id),
+        add_orders(Orders, Id),
         Verdict = ok
     ;   Verdict = need_program
     ).
@@ -240,14 +242,14 @@ overtaken(Id, Hops) :-
     ;   gone_on(Id, Hops)
     ).
 
-ordered([], _).
-ordered([Order|Orders], Id) :-
+add_orders([], _).
+add_orders([Order|Orders], Id) :-
     agent_order(Id, Order),
-    ordered(Orders, Id).
+    add_orders(Orders, Id).
 
-%   The copy of the agent here that still waits for an answer is out of date.
+%   A copy of the agent that still waits here for an answer is out of date.
 
-let_go(Id, Mail, Orders, Gone) :-
+remove_old_copy(Id, Mail, Orders, Gone) :-
     (   transfer_let_go(Id, Mail0, Orders0, Gone0)
     ->  hop_id_end(Id, _),
         Mail = Mail0,
@@ -270,7 +272,8 @@ report_arrival(Name, Address, label(Id, Hops, Since, From), Peer) :-
     ;   true                            % the host is being stopped
     ).
 
-%   Without a listener in the process that it left, only that process is known.
+%   The image names the host that the agent left if the process there has a
+%   listener.  Else only that process is known.
 
 came_from(none, Peer, Peer) :-
     !.

@@ -22,7 +22,7 @@
 :- use_module(routing,
               [mail_lost/3, one_letter/2, way_in/2, way_out/3, way_send/3]).
 
-/** <module> Letters that wait and are tried again
+/** <module> Letters that wait for another attempt
 
 A letter that cannot be sent now waits here, and later letters for the same
 agent wait behind it, in order.  They are tried again as long as the next
@@ -30,7 +30,7 @@ process may be alive, and a while longer, since the news that the agent has left
 that process may be under way.  While they are tried, a worker holds them; at
 most one worker for each agent.
 
-*Threading*: inside with_agent/2 of the agent, but for retries_go_on/0 and
+*Threading*: inside with_agent/2 of the agent, except retries_go_on/0 and
 post_tried/0.
 */
 
@@ -187,8 +187,8 @@ pause(Tries, Seconds) :-
 
 most_tries(6).
 
-%   The end of a process that was never connected is not reported.  It is waited
-%   for as long as news waits for an unreachable home.
+%   The end of a process that was never connected is not reported.  A letter for
+%   it waits as long as news for an unreachable home.
 
 unknown_tries(Tries) :-
     most_tries(Least),
@@ -198,7 +198,8 @@ unknown_tries(Tries) :-
 
 %!  retry_later(+Id, +Letter, +Way) is det.
 %
-%   Letter waits; Way, see way_out/3, is the reason.  Inside with_agent/2.
+%   Keep Letter, and try it later; Way, see way_out/3, is the reason.  Inside
+%   with_agent/2.
 
 retry_later(Id, _, wait(Letter)) :-
     !,
@@ -238,7 +239,7 @@ typhon_durable:go_on :-
 retries_go_on :-
     forall(backlog(Id), try_later(Id, 0)).
 
-%   try(+Id): in a worker.
+%   try(+Id): try the letters for Id; in a worker.
 
 try(Id) :-
     (   with_agent(Id, backlog_begin(Id, Letters, Tries))
@@ -247,32 +248,32 @@ try(Id) :-
     ;   true
     ).
 
-%   Inside one with_agent/2: that the letter has left the backlog and where it
-%   is now is one journal entry, which must precede what other threads note of
-%   the backlog.
+%   One with_agent/2 makes one journal entry of two changes: the letter leaves
+%   the backlog, and it has a new place.  This entry must precede the entries of
+%   other threads about the backlog.
 
 tried(Id, Letter, Tries) :-
-    with_agent(Id, ( catch(left(Id, Letter, Way), error(Formal, _),
+    with_agent(Id, ( catch(leave_backlog(Id, Letter, Way), error(Formal, _),
                            Way = failed(Formal)),
                      (   Way = to(_, _)
                      ->  true
                      ;   conclude(Way, Id, Letter, Tries),
                          enqueue_changes
                      ) )),
-    sent_on(Way, Id, Letter, Tries).
+    send_connecting(Way, Id, Letter, Tries).
 
-left(Id, Letter, Way) :-
+leave_backlog(Id, Letter, Way) :-
     backlog_leaves(Id),
     step(Id, Letter, Way).
 
 %   The letter needs a new connection; nothing is noted before it is sent.
 
-sent_on(to(Endpoint, Letter1), Id, Letter, Tries) :-
+send_connecting(to(Endpoint, Letter1), Id, Letter, Tries) :-
     !,
     catch(( way_send(Endpoint, Id, Letter1), Way = done ), error(Formal, _),
           Way = failed(Formal)),
     with_agent(Id, conclude(Way, Id, Letter, Tries)).
-sent_on(_, _, _, _).
+send_connecting(_, _, _, _).
 
 step(Id, letter(Mail, _), done) :-
     way_in(Id, Mail),
@@ -289,33 +290,33 @@ conclude(wait(Letter), Id, _, _) :-
     backlog_again(Id, [Letter], 0),
     try_later(Id, 0).
 conclude(nowhere, Id, Letter, Tries) :-
-    in_vain(Id, Letter, Tries, existence_error(agent, Id)).
+    attempt_failed(Id, Letter, Tries, existence_error(agent, Id)).
 conclude(failed(Formal), Id, Letter, Tries) :-
-    in_vain(Id, Letter, Tries, Formal).
+    attempt_failed(Id, Letter, Tries, Formal).
 
-in_vain(Id, letter(Mail, _), Tries, Formal) :-
-    hopeless(Formal, Id, Tries),
+attempt_failed(Id, letter(Mail, _), Tries, Formal) :-
+    is_hopeless(Formal, Id, Tries),
     !,
     mail_lost(Formal, Id, Mail),
     conclude(done, Id, _, 0).
-in_vain(Id, Letter, Tries, _) :-
+attempt_failed(Id, Letter, Tries, _) :-
     Tries1 is Tries+1,
     backlog_again(Id, [Letter], Tries1),
     try_later(Id, Tries1).
 
-hopeless(existence_error(agent, Id), Id, Tries) :-
+is_hopeless(existence_error(agent, Id), Id, Tries) :-
     (   agent_outcome(Id, _)
     ->  true
     ;   most_tries(Most),
         Tries >= Most
     ).
-hopeless(host_unreachable(Endpoint), _, Tries) :-
+is_hopeless(host_unreachable(Endpoint), _, Tries) :-
     endpoint_gone(Endpoint),
     most_tries(Most),
     Tries >= Most.
-hopeless(host_unreachable(Endpoint), _, Tries) :-
+is_hopeless(host_unreachable(Endpoint), _, Tries) :-
     \+ endpoint_peer(Endpoint, process(_)),
     unknown_tries(Most),
     Tries >= Most.
-hopeless(resource_error(_), _, _).
-hopeless(existence_error(endpoint, _), _, _).   % this process ends
+is_hopeless(resource_error(_), _, _).
+is_hopeless(existence_error(endpoint, _), _, _).   % this process ends

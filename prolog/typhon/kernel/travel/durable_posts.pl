@@ -39,21 +39,22 @@ the agent logs.
 */
 
 :- multifile
-    queued/3,                   % Endpoint, Kind, Term: will be sent
-    undelivered/4,              % Kind, Term, Endpoint, Formal: cannot be sent
+    queued/3,                   % Endpoint, Kind, Term: the post will be sent
+    undelivered/4,              % Kind, Term, Endpoint, Formal: the post cannot
+                                % be sent
     typhon_endpoint:received/3,
     typhon_runtime:ending/1,
     typhon_scheduler:fire/2.
 
 :- dynamic
     seen/2,                     % Key, N: last post taken from a channel
-    told/1.                     % Key: an acknowledgement is scheduled
+    ack_scheduled/1.            % Key: an acknowledgement is scheduled
 
 ack_seconds(0.02).
 
 %   Bytes of a frame besides those of the noted term, at most.
 
-around(1000).
+frame_overhead(1000).
 
 %!  durable_post(+Endpoint, +Kind, +Term) is det.
 %
@@ -68,13 +69,13 @@ durable_post(Endpoint, Kind, Term) :-
 
 %!  post_must_fit(+Change) is det.
 %
-%   The term that Change notes fits in a frame.
+%   The term of Change fits in a frame.
 %
 %   @error resource_error(frame_bytes) if it does not
 
 post_must_fit(Change) :-
     durable_bytes(Change, Count),
-    around(More),
+    frame_overhead(More),
     Most is Count+More,
     (   frame_fits(Most)
     ->  true
@@ -92,14 +93,14 @@ typhon_endpoint:received(channel,
     must_be(integer, N),
     atomic_list_concat([Process, To], ' ', Key),
     with_mutex(typhon_channel_in,
-               taken(Key, Before, N, Kind, Term, Peer, How)),
+               take_once(Key, Before, N, Kind, Term, Peer, How)),
     answer(How, Key, To, Peer).
 
-taken(Key, _, N, _, _, _, known) :-
+take_once(Key, _, N, _, _, _, known) :-
     seen(Key, Seen),
     N =< Seen,
     !.
-taken(Key, Before, N, Kind, Term, Peer, new) :-
+take_once(Key, Before, N, Kind, Term, Peer, new) :-
     in_order(Before, Key),
     !,
     unit_of_work(( durable_put(seen, Key, 0, N),
@@ -107,9 +108,9 @@ taken(Key, Before, N, Kind, Term, Peer, new) :-
     retractall(seen(Key, _)),
     assertz(seen(Key, N)),
     crash_point(after_take).
-taken(_, _, _, _, _, _, gap).
+take_once(_, _, _, _, _, _, gap).
 
-%   A process that has lost its state starts at the number that the sender
+%   A receiver that has lost its state starts at the number that the sender
 %   names.
 
 in_order(first(Before), Key) :-
@@ -128,15 +129,15 @@ take(Kind, Term, Peer) :-
 answer(gap, _, To, Peer) :-
     endpoint_post(Peer, channel, again(To)).
 answer(_, Key, To, Peer) :-
-    (   told(Key)
+    (   ack_scheduled(Key)
     ->  true
-    ;   assertz(told(Key)),
+    ;   assertz(ack_scheduled(Key)),
         ack_seconds(Seconds),
         alarm_in(Seconds, Key, had(To, Peer))
     ).
 
-say_had(Key, To, Peer) :-
-    retractall(told(Key)),
+acknowledge(Key, To, Peer) :-
+    retractall(ack_scheduled(Key)),
     (   seen(Key, N)
     ->  catch(endpoint_post(Peer, channel, had(To, N)), error(_, _), true)
     ;   true
@@ -144,13 +145,13 @@ say_had(Key, To, Peer) :-
 
 typhon_scheduler:fire(Key, had(To, Peer)) :-
     !,
-    scheduler_call(typhon_durable_posts:say_had(Key, To, Peer)).
+    scheduler_call(typhon_durable_posts:acknowledge(Key, To, Peer)).
 
 :- durable(seen, Key, 0, N, seen(Key, N)).
 
 typhon_runtime:ending(after) :-
     retractall(seen(_, _)),
-    retractall(told(_)).
+    retractall(ack_scheduled(_)).
 
                 /*******************************
                 *           LOGGING            *
@@ -164,8 +165,7 @@ typhon_runtime:ending(after) :-
 
 %!  agent_logs(+Host, +Agent, +What) is det.
 %
-%   Agent, which is on Host, logs What, which can travel.  Host has a log
-%   server.
+%   Agent, which is on Host, logs What, a mobile term.  Host has a log server.
 
 agent_logs(Host, Agent, What) :-
     (   effects_deferred
@@ -187,7 +187,7 @@ post(Host, Agent, What) :-
               error(resource_error(frame_bytes), Context),
               print_message(warning,
                             error(resource_error(frame_bytes), Context)))
-    ;   true                            % it has none any more
+    ;   true                            % the log server was removed
     ).
 
 :- durable(logged, Host, N, Agent-What, said(Host, N, Agent, What)).

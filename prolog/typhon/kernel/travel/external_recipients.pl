@@ -12,10 +12,11 @@
 
 /** <module> Messages for recipients that are not agents
 
-A bridge, as library(typhon/fipa), takes messages for recipients outside Typhon,
-which are compound terms.  If this process has no bridge for the recipient, the
-message goes to the process of the host in at(To, Host), or else to the home of
-the sender.  So an agent can answer from a process without the bridge.
+A bridge, such as library(typhon/fipa), takes messages for recipients outside
+Typhon, which are compound terms.  If this process has no bridge for the
+recipient, the message goes to the process of the host in at(To, Host), or else
+to the home of the sender.  So an agent can answer from a process without the
+bridge.
 
 *Threading*: any thread; may wait for a connection.
 */
@@ -32,7 +33,7 @@ the sender.  So an agent can answer from a process without the bridge.
 %   @error type_error(receiver, To) if no bridge here takes it and no other
 %   process can be asked
 %   @error host_unreachable(Host), type_error(mobile_term, Culprit)
-%   @error what the bridge raises
+%   @error those of the bridge
 
 post_abroad(Host, To0, From, Message) :-
     mobile_term(Message),
@@ -78,12 +79,12 @@ send_on(Endpoint, To0, To1, From, Message) :-
 %   A bridge may take long, and must not block the reader thread.
 
 typhon_endpoint:received(message, abroad(To, From, Message), Peer) :-
-    comes(To, From, Message, [], Peer).
+    receive(To, From, Message, [], Peer).
 typhon_endpoint:received(message, shown(Births, abroad(To, From, Message)),
                          Peer) :-
-    comes(To, From, Message, Births, Peer).
+    receive(To, From, Message, Births, Peer).
 
-comes(To, From, Message, Births, Peer) :-
+receive(To, From, Message, Births, Peer) :-
     must_be(compound, To),
     must_be(atom, From),
     mail_accepted(Peer, To, Births, [mail(Peer, From, Message)], Accepted),
@@ -96,7 +97,7 @@ comes(To, From, Message, Births, Peer) :-
 
 carry_on(To0, From, Message, Peer) :-
     hint(To0, To, Hint),
-    catch(carried_or_on(Hint, To, From, Message), error(Formal, _), true),
+    catch(carry_or_forward(Hint, To, From, Message), error(Formal, _), true),
     (   nonvar(Formal)
     ->  mail_lost(Formal, To, [mail(Peer, From, Message)])
     ;   true
@@ -105,10 +106,10 @@ carry_on(To0, From, Message, Peer) :-
 carry_on(To, From, Message, Peer) :-
     mail_lost(type_error(receiver, To), To, [mail(Peer, From, Message)]).
 
-carried_or_on(_, To, From, Message) :-
+carry_or_forward(_, To, From, Message) :-
     carried(none, To, From, Message),
     !.
-carried_or_on(Hint, To, From, Message) :-
+carry_or_forward(Hint, To, From, Message) :-
     Hint \== none,
     elsewhere(Hint, From, Endpoint),
     send_on(Endpoint, To, To, From, Message).

@@ -52,7 +52,7 @@ other, see typhon_arrival.
 
 %!  hand_over(+Id, +Host, +Where, +Hole, +Goals) is semidet.
 %
-%   Send Id, which moves from Host, to Where, as of host_resolve/2, where it
+%   Send Id, which moves from Host, to Where, as in host_resolve/2, where it
 %   continues with Goals, Hole bound to `true`.  Fails without changes if the
 %   agent has to go by request: options are in use, there is no connection, its
 %   terms cannot travel, it may not move, or it has an order.
@@ -166,17 +166,17 @@ thawed(Id) :-
 %   The process at Peer hands over an agent to Host; the arguments may be any
 %   terms.  The agent is here now, and continues after this call.
 %
-%   @error what is wrong with its clauses
+%   @error those of agent_module/4
 
 taken_over(Host, Image, known, Peer) :-
     atom(Host),
     host_plain(Host, Plain),
     \+ event_heard(hops),
-    comes(Image, Id, Hash, Life, Hops, Clauses, Goals, Since),
+    is_plain_image(Image, Id, Hash, Life, Hops, Clauses, Goals, Since),
     code_module(Hash, Program),
     arg(1, Plain, Address),
-    with_agent(Id, come(Id, Hops, Host-Plain, Hash-Program, Life, Clauses,
-                        Since, Home)),
+    with_agent(Id, install(Id, Hops, Host-Plain, Hash-Program, Life, Clauses,
+                           Since, Home)),
     !,
     debug(typhon(hop), '~w hop ~D: is on ~w, from ~w',
           [Id, Hops, Address, Peer]),
@@ -186,10 +186,10 @@ taken_over(Host, Image, known, Peer) :-
     ),
     endpoint_afterwards(go_on(Id, Host-Hash, context(Program, Id), Goals)).
 
-%   Image is that of an agent that brings no messages and carries no extras.
+%   Image is that of an agent without messages and extras.
 
-comes(image(Id, Hash, Life, State, Hole-Goals, Mail, Since), Id, Hash, Life,
-      Hops, Clauses, Goals, Since) :-
+is_plain_image(image(Id, Hash, Life, State, Hole-Goals, Mail, Since), Id,
+               Hash, Life, Hops, Clauses, Goals, Since) :-
     Mail == [],
     atom(Id),
     sub_atom(Id, _, _, _, @),
@@ -206,7 +206,7 @@ comes(image(Id, Hash, Life, State, Hole-Goals, Mail, Since), Id, Hash, Life,
 
 %   Signals are deferred, see reader.pl: none interrupts these steps.
 
-come(Id, Hops, Where, Hash-Program, Life, Clauses, Since, Home) :-
+install(Id, Hops, Where, Hash-Program, Life, Clauses, Since, Home) :-
     Where = Host-Plain,
     \+ agent_on(Id, _),
     \+ backlog(Id),

@@ -216,8 +216,8 @@ ended(Id, Outcome0, Hops, Results, Askers) :-
     waiters(Id, Askers).
 
 %   An agent that is disposed of while faulty ends with the outcome of its
-%   fault.  Any other outcome means that it was resumed; that news may come
-%   later.
+%   fault.  Any other outcome means that the agent was resumed; the news of that
+%   may come later.
 
 last_outcome(disposed, Told, Told) :-
     Told \== none,

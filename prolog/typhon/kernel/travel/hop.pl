@@ -48,14 +48,14 @@ endpoint, which never wait.
 */
 
 :- multifile
-    sent_again/2,               % Endpoint, Id: the image is sent again, as the
-                                % receiver lacks the program and what proves it
+    sent_again/2,               % Endpoint, Id: the image is sent again, because
+                                % the receiver lacks the program and its proofs
     typhon_in_doubt:again/1,
     typhon_hand_over:result/2.
 
 %!  hop(+Id, +Where, +Hole, +Goals, +Since, -Next) is det.
 %
-%   Send Id to Where, as of host_resolve/2, where it continues with Goals, Hole
+%   Send Id to Where, as in host_resolve/2, where it continues with Goals, Hole
 %   bound to `true`.  Next is `stop`, or elsewhere(Goals) if this worker is to
 %   continue the agent there.
 %
@@ -201,7 +201,7 @@ typhon_hand_over:result(Answer, Transfer) :-
     answered(Transfer, answer(Answer)).
 
 answered(Transfer, answer(Answer)) :-
-    taken(Answer, Transfer).
+    handle_answer(Answer, Transfer).
 answered(Transfer, unreachable) :-
     (   may_have_arrived(Transfer)
     ->  resolve_in_doubt(Transfer)
@@ -210,12 +210,12 @@ answered(Transfer, unreachable) :-
 answered(Transfer, lost) :-
     resolve_in_doubt(Transfer).
 
-taken(accepted, Transfer) :-
+handle_answer(accepted, Transfer) :-
     transfer_arrived(Transfer).
-taken(refused(Reason), Transfer) :-
+handle_answer(refused(Reason), Transfer) :-
     arg(2, Transfer, dest(Address, _, _)),
     transfer_stays(Transfer, move_refused(Address, Reason)).
-taken(need_program, Transfer) :-
+handle_answer(need_program, Transfer) :-
     (   transfer_image(Transfer, Image)
     ->  arg(2, Transfer, dest(_, _, Endpoint)),
         debug(typhon(hop), '~w lacks the program', [Endpoint]),

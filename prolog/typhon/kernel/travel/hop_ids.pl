@@ -51,7 +51,7 @@ hop_id_begin(Agent, Hops, Endpoint, Sent) :-
     ;   get_time(Sent)
     ).
 
-%   Sent is the present time, and later than any before: no two are the same.
+%   Sent is the present time, and later than any before, so that ids differ.
 
 stamp(Sent) :-
     get_time(Now),
@@ -85,7 +85,7 @@ hop_id_end(Agent, Hops) :-
 
 %!  hop_id_again(+Agent) is det.
 %
-%   When Agent is sent next it may have arrived already.
+%   The next time that Agent is sent it may have arrived already.
 
 hop_id_again(Agent) :-
     retractall(again(Agent)),

@@ -26,13 +26,13 @@
 A transfer is in doubt if the process to which the agent was sent is gone before
 it has answered.  If the home of the agent knows of this hop or a later one, the
 agent had left that process in time.  If not, the news may be under way, or the
-home was restarted, or died together with that process: all known processes are
-asked.  If none has seen the agent, it has not survived there, and continues
-here.
+home was restarted, or died together with that process: this process asks all
+processes that it knows.  If none has seen the agent, it has not survived there,
+and continues here.
 
-If the other process keeps a journal, only that process is asked, again and
-again until it is back: it knows the agents that it has admitted.  The same
-holds for a process that is alive, if this process was restarted.
+If the other process keeps a journal, this process asks only that process, until
+it is back: it knows the agents that it has admitted.  The same holds for a
+process that is alive, if this process was restarted.
 
 *Threading*: resolve_in_doubt/1 in reader threads, which never wait; surveys in
 a worker.
@@ -141,7 +141,7 @@ survey(Transfer, HomeSaid) :-
     transfer_traveller(Transfer, Id, Hops),
     findall(Said,
             ( endpoint_peer(Peer, process(_)),
-              says(Peer, Id, Hops, Said)
+              ask_peer(Peer, Id, Hops, Said)
             ),
             All),
     (   memberchk(true, All)
@@ -152,7 +152,7 @@ survey(Transfer, HomeSaid) :-
     ;   transfer_unreachable(Transfer)
     ).
 
-says(Peer, Id, Hops, Said) :-
+ask_peer(Peer, Id, Hops, Said) :-
     catch(endpoint_call(Peer, whereabouts, reached(Id, Hops), answer(Said), 5),
           error(_, _),
           no_answer(Peer, Said)).
@@ -227,8 +227,8 @@ in_doubt(Status) :-
 
 %!  out_of_touch(+Status) is semidet.
 %
-%   The answer is overdue and the connection is broken: then an order to end the
-%   agent is no longer put off.  Before that it follows the agent.
+%   The answer is overdue and the connection is broken.  An order to end the
+%   agent, which follows the agent before that, is then carried out here.
 
 out_of_touch(Status) :-
     overdue(Status),

@@ -43,7 +43,7 @@ that waits for the next attempt.
 %   The weight of the news in one frame, at most.  News with results may be
 %   long.
 
-load(500).
+most_weight(500).
 weight(ended(_, _, _, _), 50) :- !.
 weight(_, 1).
 longest_pause(10).              % seconds between attempts
@@ -59,15 +59,15 @@ news_tell(Home, _, News) :-
     posted(durable_post, Home, [News]).
 news_tell(Home, Id, News) :-
     with_mutex(typhon_news, note(Home, Id, News, Courier)),
-    sets_out(Courier, Home).
+    start_courier(Courier, Home).
 
-sets_out(now, Home) :-
+start_courier(now, Home) :-
     scheduler_call(carry(Home, try(0, 0.5))).
-sets_out(soon, Home) :-
+start_courier(soon, Home) :-
     setting(news_pause, Seconds),
     alarm_in(Seconds, Home, news_paused).
-sets_out(there, _).
-sets_out(none, _).
+start_courier(there, _).
+start_courier(none, _).
 
 %!  news_carried(+Home) is semidet.
 %
@@ -79,8 +79,8 @@ news_carried(Home) :-
 
 %!  news_hurry is det.
 %
-%   Send now the news that waits for more: while turns are paused no alarm goes
-%   off.
+%   Send the news that waits for more news now, because no alarm goes off while
+%   turns are paused.
 
 news_hurry :-
     forall(pauses(Home), typhon_scheduler:fire(Home, news_paused)).
@@ -115,7 +115,8 @@ when_due(News, _, now) :-
 when_due(_, Home, soon) :-
     assertz(pauses(Home)).
 
-%   after(+Home, -Courier): the courier has sent its news; when it starts next.
+%   after(+Home, -Courier): the courier has sent its news.  Courier says when it
+%   starts next, as in courier_of/3, or is `none`.
 
 after(Home, Courier) :-
     retractall(in_hand(Home, _)),
@@ -182,13 +183,13 @@ take_all(Home, All) :-
 %   attempts have failed since then, or 0, and the pause after this one.
 
 carry(Home, Try) :-
-    with_mutex(typhon_news, set_out(Home, All)),
+    with_mutex(typhon_news, take_in_hand(Home, All)),
     (   All == []
     ->  true
     ;   catch(( posted(endpoint_post, Home, All), Answer = ok ),
               error(Answer, _),
               true),
-        carried(Answer, Home, All, Try)
+        sent(Answer, Home, All, Try)
     ).
 
 %   posted(:Post, +Home, +All): news too long for one frame is sent in two.  If
@@ -227,7 +228,7 @@ typhon_durable_posts:undelivered(whereabouts, All, Home, resource_error(_)) :-
     posted_in_parts(All, durable_post, Home).
 
 take(Home, All) :-
-    load(Most),
+    most_weight(Most),
     take(Most, Home, All).
 
 take(Most, Home, [News|All]) :-
@@ -239,7 +240,7 @@ take(Most, Home, [News|All]) :-
     take(Most1, Home, All).
 take(_, _, []).
 
-set_out(Home, All) :-
+take_in_hand(Home, All) :-
     take(Home, All),
     retractall(in_hand(Home, _)),
     (   All == []
@@ -247,10 +248,10 @@ set_out(Home, All) :-
     ;   assertz(in_hand(Home, All))
     ).
 
-carried(ok, Home, _, _) :-
+sent(ok, Home, _, _) :-
     with_mutex(typhon_news, after(Home, Courier)),
-    sets_out(Courier, Home).
-carried(unreachable(_), Home, All, try(Since0, Pause)) :-
+    start_courier(Courier, Home).
+sent(unreachable(_), Home, All, try(Since0, Pause)) :-
     get_time(Now),
     since(Since0, Now, Since),
     setting(news_seconds, Max),
@@ -258,13 +259,13 @@ carried(unreachable(_), Home, All, try(Since0, Pause)) :-
     ->  give_up(Home)
     ;   once_more(Home, All, try(Since, Pause))
     ).
-carried(resource_error(_), Home, All, Try) :-
+sent(resource_error(_), Home, All, Try) :-
     once_more(Home, All, Try).          % the journal is full
-carried(existence_error(_, _), Home, _, _) :-
+sent(existence_error(_, _), Home, _, _) :-
     give_up(Home).                      % this process ends
 
 once_more(Home, All, try(Since, Pause)) :-
-    with_mutex(typhon_news, forall(member(News, All), back(Home, News))),
+    with_mutex(typhon_news, forall(member(News, All), put_back(Home, News))),
     longest_pause(Longest),
     Pause1 is min(Longest, 2*Pause),
     alarm_in(Pause, Home, news(try(Since, Pause1))).
@@ -273,7 +274,7 @@ since(0, Now, Now) :-
     !.
 since(Since, _, Since).
 
-back(Home, News) :-
+put_back(Home, News) :-
     arg(1, News, Id),
     keep(Home, Id, News).
 

@@ -52,7 +52,7 @@ typhon_identity:id_anew(Id) :-
 
 %!  results_keep(+Id, +Items:list) is det.
 %
-%   Id has ended with Items, as of result_facts/2.
+%   Id has ended with Items, as in result_facts/2.
 
 results_keep(Id, Items) :-
     forall(member(Item, Items),
@@ -90,7 +90,7 @@ clone_born(Parent, Clone) :-
     (   endpoint_address(Endpoint),
         agent(Parent, _, Module, _, _)
     ->  cloned_put(Module, Endpoint)
-    ;   true                            % everything is being stopped
+    ;   true                            % the process is stopping
     ).
 
 %!  clone_unborn(+Parent, +Clone) is det.
@@ -131,7 +131,8 @@ typhon_endpoint:requested(results, Question, _Peer, ReplyTo) :-
     known(Question, Answer),
     endpoint_reply(ReplyTo, Answer).
 
-%   list_to_set/2, because 9.0.4 may yield a fact twice while others are added.
+%   list_to_set/2 removes duplicates, because 9.0.4 may yield a fact twice while
+%   other threads add facts.
 
 known(left(Id, Kind), Items) :-
     functor(Item, Kind, 1),

@@ -74,18 +74,18 @@ post(Id, From, Message) :-
     ;   unit_of_work(post_now(Id, From, Message))
     ).
 
-%   That the message has left, and that it waits, is one journal entry.
+%   One journal entry has both changes: the message has left, and it waits.
 
 post_now(Id, From, Message) :-
     with_agent(Id, ( post_way(Id, From, Message, Way0),
-                     waits(Way0, Id, Way),
+                     retry_if_waiting(Way0, Id, Way),
                      enqueue_changes )),
     go(Way, Id).
 
-waits(wait(Letter), Id, done) :-
+retry_if_waiting(wait(Letter), Id, done) :-
     !,
     retry_later(Id, Letter, wait(Letter)).
-waits(Way, _, Way).
+retry_if_waiting(Way, _, Way).
 
 %   A message for an agent of this process needs no frame.
 
@@ -95,7 +95,7 @@ may_travel(Id, _) :-
 may_travel(_, Change) :-
     post_must_fit(Change).
 
-%   A message that an agent sends leaves after its turn, which has noted it.
+%   A message that an agent sends is noted in the turn, and leaves after it.
 
 :- public post_noted/4.
 
@@ -137,13 +137,13 @@ new_letter(From, Message, letter([mail(Origin, From, Message)], Max)) :-
 
 %!  post_via(+Id, +Endpoint, +From, +Message) is det.
 %
-%   As post/3; the agent is believed to be in the process at Endpoint.
+%   As post/3, for an agent that is probably in the process at Endpoint.
 
 post_via(Id, Endpoint, From, Message) :-
     mobile_term(Message),
     (   (   agent_on(Id, _)
         ;   endpoint_address(Endpoint)
-        ;   senders_checked,            % it may not pass it on
+        ;   senders_checked,            % that process may not forward it
             agent_home(From, _)
         )
     ->  post(Id, From, Message)
@@ -165,9 +165,9 @@ post_on(Id, Messages) :-
     pass_on(Id, letter(Mail, Max)).
 
 pass_on(Id, Letter) :-
-    with_agent(Id, on_or_later(Id, Letter)).
+    with_agent(Id, forward_or_retry(Id, Letter)).
 
-on_or_later(Id, Letter) :-
+forward_or_retry(Id, Letter) :-
     way(Id, Letter, Way),
     (   Way == done
     ->  true
@@ -176,12 +176,12 @@ on_or_later(Id, Letter) :-
     enqueue_changes.
 
 typhon_endpoint:received(message, message(Id, Mail, Left), Peer) :-
-    letter_comes(Id, [], Mail, Left, Peer).
+    letter_receive(Id, [], Mail, Left, Peer).
 typhon_endpoint:received(message, shown(Births, message(Id, Mail, Left)),
                          Peer) :-
-    letter_comes(Id, Births, Mail, Left, Peer).
+    letter_receive(Id, Births, Mail, Left, Peer).
 
-letter_comes(Id, Births, Mail0, Left, Peer) :-
+letter_receive(Id, Births, Mail0, Left, Peer) :-
     must_be(atom, Id),
     must_be(nonneg, Left),
     must_be(list(typhon_mail), Mail0),
@@ -190,7 +190,7 @@ letter_comes(Id, Births, Mail0, Left, Peer) :-
     ->  true
     ;   agent_on(Id, Host),
         \+ peer_may(Peer, Host, messages)
-    ->  true                            % which is noted
+    ->  true                            % peer_may/3 has logged the refusal
     ;   pass_on(Id, letter(Mail, Left))
     ).
 
@@ -254,6 +254,6 @@ go(done, _).
 go(to(Endpoint, Letter), Id) :-
     way_send(Endpoint, Id, Letter).
 go(wait(Letter), Id) :-
-    with_agent(Id, waits(wait(Letter), Id, done)).
+    with_agent(Id, retry_if_waiting(wait(Letter), Id, done)).
 go(nowhere, Id) :-
     existence_error(agent, Id).

@@ -22,7 +22,7 @@
               [mail_routes/4, senders_checked/0, with_proof/5]).
 :- use_module(whereabouts, [whereabouts/2]).
 
-/** <module> The next step of a letter, and letters that have none
+/** <module> Routing of letters, and dead letters
 
 A letter(Mail, Left) may be forwarded Left times more.  Mail is a list of
 mail(Origin, From, Message), the oldest first.
@@ -101,8 +101,9 @@ way_out(Id, letter(Mail, Left), Way) :-
     ).
 way_out(_, _, nowhere).
 
-%   Where the agent went as far as this process knows, or its home.  Endpoint is
-%   `here` if it is that of this process.
+%   next_endpoint(+Id, -Endpoint): the process to which the agent went, as far
+%   as this process knows, or its home.  Endpoint is `here` if it is that of
+%   this process.
 
 next_endpoint(Id, Endpoint) :-
     whereabouts(Id, Address),
@@ -139,14 +140,14 @@ send_home(Failed, Id, Letter) :-
     ;   throw(error(host_unreachable(Failed), _))
     ).
 
-%   sent(+Endpoint, +Id, +Letter, :Post): send to Endpoint, but for the messages
-%   that have to go through another process.
+%   sent(+Endpoint, +Id, +Letter, :Post): send the mail of Letter to Endpoint,
+%   except messages that another process has to forward.
 
 sent(Endpoint, Id, letter(Mail, Left), Post) :-
     mail_routes(Endpoint, Id, Mail, Parts),
     (   Parts = [To-_]
     ->  posted(To, Id, letter(Mail, Left), Post)
-    ;   Post == endpoint_post           % else it has to wait for that
+    ;   Post == endpoint_post           % endpoint_post_up must not connect
     ->  forall(member(To-Part, Parts), part_sent(To, Id, Part, Left))
     ).
 
@@ -202,12 +203,13 @@ halves(Mail, Older, Newer) :-
 %!  mail_lost(+Formal, +Id, +Mail) is det.
 %
 %   Report that Mail cannot be delivered, here and to the process that sent it,
-%   unless Id has ended, which is normal.  A message of a bridge, whose sender
-%   is no agent, as fipa(Name), is returned to the bridge of its process.
+%   unless Id has ended, which is normal.  A message whose sender is not an
+%   agent, but a term such as fipa(Name), is returned to the bridge of the
+%   process that sent it.
 
 mail_lost(Formal, Id, Mail) :-
-    partition(is_brought, Mail, Brought, Sent),
-    partition(was_sent_here, Brought, Here, Elsewhere),
+    partition(is_from_bridge, Mail, Bridged, Sent),
+    partition(was_sent_here, Bridged, Here, Elsewhere),
     give_back(Formal, Id, Here),
     tell_origins(Formal, Id, Elsewhere),
     (   ( Sent == [] ; agent_outcome(Id, _) )
@@ -216,13 +218,13 @@ mail_lost(Formal, Id, Mail) :-
         tell_origins(Formal, Id, Sent)
     ).
 
-is_brought(mail(_, From, _)) :-
+is_from_bridge(mail(_, From, _)) :-
     compound(From).
 
 was_sent_here(mail(Origin, _, _)) :-
     endpoint_address(Origin).
 
-%   In a worker, because the bridge may have to wait.
+%   A worker calls the bridge, because the bridge may have to wait.
 
 give_back(Formal, Id, Mail) :-
     forall(member(One, Mail),
@@ -250,16 +252,16 @@ tell_origin(Origin, Formal, Id, Mail) :-
 
 report(Formal, Id, [mail(_, From, Message)|More]) :-
     (   More == []
-    ->  Told = undeliverable(Formal, Id, From, Message)
+    ->  Problem = undeliverable(Formal, Id, From, Message)
     ;   length(More, Others),
-        Told = undeliverable(Formal, Id, From, Message, Others)
+        Problem = undeliverable(Formal, Id, From, Message, Others)
     ),
-    print_message(warning, typhon(Told)).
+    print_message(warning, typhon(Problem)).
 
 typhon_endpoint:received(message, lost(Formal, Id, Mail), _) :-
     must_be(list(typhon_mail), Mail),
-    partition(is_brought, Mail, Brought, Sent),
-    give_back(Formal, Id, Brought),
+    partition(is_from_bridge, Mail, Bridged, Sent),
+    give_back(Formal, Id, Bridged),
     (   Sent == []
     ->  true
     ;   report(Formal, Id, Sent)

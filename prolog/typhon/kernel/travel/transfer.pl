@@ -52,7 +52,7 @@ clone(Held, CloneId, Since).
 
 :- multifile
     typhon_durable:restored/0,
-    forward_order/2,            % Id, Order: the agent has left
+    forward_order/2,            % Id, Order: Order follows Id, which has left
     answered/2.                 % Asker, Answer: of an ordered move
 
 :- dynamic
@@ -71,7 +71,7 @@ transfer_traveller(clone(_, _, CloneId), CloneId, 1).
 %   Image is the image to send; binds the hole, and the number of the hop.
 
 transfer_image(hop(Id, _, Hops), Hole-Goals, Mail, Since, Image) :-
-    ignore(Hole = true),                % else the move was an order
+    ignore(Hole = true),                % Hole is bound if the move was an order
     image_hop(Id, Hops, Goals, Mail, Since, Image).
 transfer_image(clone(Id, _, CloneId), Hole-Goals-Who, _, Since, Image) :-
     Hole = (Who=clone(Id)),
@@ -161,8 +161,8 @@ moved_on(Id, Hops, Address, Endpoint, Orders, Gone) :-
 
 %!  transfer_let_go(+Id, -Mail, -Orders, :Gone) is semidet.
 %
-%   Remove Id, which is in transit; inside with_agent/2.  Gone must be called
-%   outside.
+%   Remove Id, which is in transit; inside with_agent/2.  Call Gone after
+%   leaving with_agent/2.
 
 transfer_let_go(Id, Mail, Orders, Gone) :-
     agent_status(Id, transit(_, _), hop(_, _, _, Since)),

@@ -90,7 +90,7 @@ agent_came(Id, Address, Hops, Peer) :-
     (   endpoint_address(Home)
     ->  true
     ;   retractall(forward(Id, _, _, _)),
-        (   Home == Peer                % our answer informs it
+        (   Home == Peer                % the answer to the hop informs it
         ->  true
         ;   news_tell(Home, Id, located(Id, Address, Hops))
         )
@@ -200,8 +200,8 @@ put_forward(Id, Address, Hops, Process) :-
 
 %!  agent_ends(+Id, +Hops) is det.
 %
-%   Note that Id ends here after Hops hops.  Called while the record of Id still
-%   exists: at no time may it seem as if Id had never come.
+%   Note that Id ends here after Hops hops.  Called before the record of Id is
+%   removed, so that a sender that asks always learns that Id has come.
 
 agent_ends(_, 0) :-
     !.                                  % it has no sender

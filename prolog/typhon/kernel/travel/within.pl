@@ -24,9 +24,9 @@
 
 No image is sent, and no transfer can be in doubt: the record of the agent
 changes in one step.  Its mail and orders stay where they are, and mostly its
-state does, too.  To the agent the hop is like any other: terms that cannot
-travel do not, and its place changes.  Only the length of a frame has no bound
-here.
+state does, too.  To the agent the hop is like any other: its terms must be
+mobile, and its place changes.  Only the bound on the length of a frame does not
+apply.
 
 *Threading*: in a worker, which has the agent.
 */
@@ -34,8 +34,8 @@ here.
 %!  hop_at_once(+Id, +Here, +Name, +Hole, +Goals, -Next) is semidet.
 %
 %   As hop_within/6, between plain hosts, for an agent that moves from Here, may
-%   move and carries no extras, if hops are not delayed and no listener hears of
-%   them.  In all other cases it fails without changes.
+%   move and carries no extras, if hops are not delayed and have no listener.
+%   In all other cases it fails without changes.
 
 hop_at_once(Id, Here, Name, Hole, Goals, Next) :-
     host_plain(Here, From),
@@ -76,7 +76,7 @@ hop_within(Id, Name, Hole, Goals, Since, Next) :-
     ;   gate(Name, going-entrant(Id, Hash, Life, module(Module), []),
              moved(Id, Here-Name, Going, Hole-Goals, Hops, Next),
              Verdict),
-        went(Verdict, Id, Here-Name, Hops, Next)
+        conclude(Verdict, Id, Here-Name, Hops, Next)
     ).
 hop_within(_, _, _, _, _, stop).        % it was ended
 
@@ -88,7 +88,7 @@ passed(Id, From, To, Going, Held, Hops, Next) :-
     with_agent(Id, pass(Id, From, To, Going, Held, Next, Seconds)),
     From = Here-_,
     To = Name-plain(Address, _, _, _, _, _, _, _, _),
-    told(Id, Here-Name, Address, Hops, Seconds, Next).
+    arrival_finish_safely(Id, Here-Name, Address, Hops, Seconds, Next).
 
 pass(Id, Here-From, Name-To, going(Module, Hash, Life, Until, Since),
      Hole-Goals, Next, Seconds) :-
@@ -103,11 +103,11 @@ pass(Id, Here-From, Name-To, going(Module, Hash, Life, Until, Since),
     ignore(Hole = true),
     agent_passes(Id, Name, Module, Hash, Life, Until),
     next(running, Here-Name, Goals, Next),
-    goes_on(Next, Id, Goals).
+    ready_if_stopped(Next, Id, Goals).
 
-went(ok, _, _, _, _).
-went(ended, _, _, _, stop).
-went(refused(Reason), Id, Here-Name, Hops, _) :-
+conclude(ok, _, _, _, _).
+conclude(ended, _, _, _, stop).
+conclude(refused(Reason), Id, Here-Name, Hops, _) :-
     endpoint_address(Own),
     address_parts(Address, Name, Own),
     debug(typhon(hop), '~w hop ~D: stays, ~w', [Id, Hops, Reason]),
@@ -122,7 +122,7 @@ moved(Id, Hosts, Going, Held, Hops, Next, ok) :-
     !,
     Hosts = _-Name,
     (   host(Name, Address, _)
-    ->  told(Id, Hosts, Address, Hops, Seconds, Next)
+    ->  arrival_finish_safely(Id, Hosts, Address, Hops, Seconds, Next)
     ;   true                            % it is being stopped
     ).
 moved(Id, _, _, _, _, _, Verdict) :-
@@ -150,7 +150,7 @@ move(Id, Here-Name, going(Module0, Hash, Life, Until, Since), Hole-Goals0,
     ),
     ignore(Hole = true),
     agent_move(Id, Name, Module, Life, Until),
-    goes_on(Next, Id, Goals),
+    ready_if_stopped(Next, Id, Goals),
     seconds(Here, Name, Since, Seconds),
     host_passed(Here, Name, Seconds).
 
@@ -161,8 +161,8 @@ next(running, Here-Name, Goals, Next) :-
     ).
 next(obeying, _, _, stop).
 
-goes_on(elsewhere(_), _, _).
-goes_on(stop, Id, Goals) :-
+ready_if_stopped(elsewhere(_), _, _).
+ready_if_stopped(stop, Id, Goals) :-
     agent_put(Id, ready, Goals).
 
 %   One of the hosts may have been stopped meanwhile.
@@ -175,23 +175,23 @@ seconds(Here, Name, Since, Seconds) :-
 
 %   The agent has moved: errors in reporting are only printed.
 
-told(Id, Hosts, Address, Hops, Seconds, Next) :-
-    catch(arrived(Id, Hosts, Address, Hops, Seconds, Next),
+arrival_finish_safely(Id, Hosts, Address, Hops, Seconds, Next) :-
+    catch(arrival_finish(Id, Hosts, Address, Hops, Seconds, Next),
           error(Formal, Context),
           print_error(error, error(Formal, Context))).
 
-arrived(Id, Here-Name, Address, Hops, Seconds, Next) :-
+arrival_finish(Id, Here-Name, Address, Hops, Seconds, Next) :-
     debug(typhon(hop), '~w hop ~D: is on ~w, of this process',
           [Id, Hops, Address]),
     agent_seen(Id, Address, Hops, here),
     ignore(move_over(Id, answer(arrived))),
-    came(Id, Here, Name, Seconds),
+    arrival_event(Id, Here, Name, Seconds),
     (   Next == stop
     ->  schedule(Name, Id)
     ;   true
     ).
 
-came(Id, Here, Name, Seconds) :-
+arrival_event(Id, Here, Name, Seconds) :-
     (   event_heard(hops),
         host(Here, From, _)
     ->  event(hops, Name, Id, arrived(From, Seconds))
