@@ -48,17 +48,17 @@ other processes order.
 */
 
 :- multifile
-    first_goal/3,               % Options, Parent, Goal: begins with it
-    at_birth/2,                 % Goal, Id: done instead of Goal, with which Id
-                                % begins
+    first_goal/3,               % Options, Parent, Goal: the first goal
+    at_birth/2,                 % Goal, Id: carry out Goal, the first goal of
+                                % Id, which does not run it
     typhon_options:declared/4,
     typhon_endpoint:requested/4.
 
 %!  agent_create(+Program, -Agent) is det.
 %!  agent_create(+Program, -Agent, +Options) is det.
 %
-%   Create an agent.  Program is a file specification, as agents(census),
-%   or clauses(Terms), the terms as they would be written in a file.  Options:
+%   Create an agent.  Program is a file specification, such as agents(census),
+%   or clauses(Terms), the terms as in a file.  Options:
 %
 %     - name(+Atom): the id is made from it; default that of the program
 %     - host(+Host): the host, also of another process; default the first
@@ -134,11 +134,11 @@ from_parent(Parent, Target, State0, State) :-
     !,
     origin_passed(Parent-Module, Endpoint, State0, State).
 
-%   may_be_offered(+Target, +Clauses, +Problem) is semidet: a predicate that
-%   the program with these Clauses calls, and that nothing known here defines,
-%   may exist all the same.  A place of this process defines it; or, where no
-%   other name looks similar, the target host in another process, or a payload
-%   that the program attaches, may define it.
+%   may_be_offered(+Target, +Clauses, +Problem) is semidet: the predicate of
+%   Problem, which the program with these Clauses calls and which no code known
+%   here defines, may exist all the same.  A place of this process defines it;
+%   or, if no other name looks similar, the target host in another process, or a
+%   payload that the program attaches, may define it.
 
 may_be_offered(_, _, problem(unknown_procedure(Name/Arity), _, _)) :-
     functor(Head, Name, Arity),
@@ -241,7 +241,7 @@ start_goals(Clauses, Initial, Goals) :-
 
 create(local(Host), Name, Start, Agent) :-
     start(Host, Name, Start, here, Answer),
-    begun(Answer, Host, Agent).
+    local_agent(Answer, Host, Agent).
 create(remote(Address, HostName, Endpoint), Name, Start, Agent) :-
     Start = start(Hash, _, _, _, _),
     code_sent(Hash, Program),
@@ -250,9 +250,9 @@ create(remote(Address, HostName, Endpoint), Name, Start, Agent) :-
     created(Answer, Address, Agent),
     agent_met(Agent).
 
-begun(created(Id), _, Id) :-
+local_agent(created(Id), _, Id) :-
     !.
-begun(Answer, Host, Id) :-
+local_agent(Answer, Host, Id) :-
     host_address(Host, Address),
     created(Answer, Address, Id).
 
@@ -268,15 +268,15 @@ typhon_endpoint:requested(agent, create(HostName, Name, Start, Program), Peer,
                           ReplyTo) :-
     Answers = typhon_creation:create_answered(HostName, Name, Start, Program,
                                               Peer, ReplyTo),
-    (   begins_with_more(Start),
+    (   has_birth_goal(Start),
         endpoint_later(Answers)
     ->  true
     ;   call(Answers)
     ).
 
-%   A goal that is done at birth may load code.
+%   The hook at_birth/2 may load code.
 
-begins_with_more(Start) :-
+has_birth_goal(Start) :-
     subsumes_term(start(_, _, _, [_,_|_], _), Start),
     arg(4, Start, [Goal|_]),
     callable(Goal),
@@ -323,7 +323,7 @@ must_be_state(State) :-
 
 %!  agent_begin(+Options, +Name, +Start, -Agent) is det.
 %
-%   Create an agent on the host that Options name, as of agent_create/3.
+%   Create an agent on the host that Options name, as in agent_create/3.
 
 agent_begin(Options, Name, Start, Agent) :-
     target(Options, none, Where),
@@ -346,7 +346,7 @@ agent_clone_here(Id, Goals, CloneId) :-
     agent_name(Id, Name, _),
     started(Host, Name, start(Hash, Life, State, Goals, []), here,
             clone(Id, CloneId), Answer),
-    begun(Answer, Host, CloneId),
+    local_agent(Answer, Host, CloneId),
     event(hops, Host, Id, cloned(CloneId)).
 
 %!  clone_id(+Id, -CloneId) is det.
@@ -370,23 +370,23 @@ start(Host, Name, Start, From, Answer) :-
     unit_of_work(started(Host, Name, Start, From, none, Answer)),
     sync_changes.
 
-%   started(+Host, +Name, +Start, +From, +Of, -Answer): Of is `none`, or
-%   clone(Parent, Id).
+%   started(+Host, +Name, +Start, +From, +Of, -Answer): as start/5, without the
+%   unit of work.  Of is `none`, or clone(Parent, Id).
 
 started(Host, Name, Start, From, Of, Answer) :-
     Start = start(Hash, Life, State, _, Mail),
     gate(Host, From-entrant(Name, Hash, Life, State, Mail),
-         born(Host, Name, Start, Of, Id, Goals), Verdict),
+         install(Host, Name, Start, Of, Id, Goals), Verdict),
     (   Verdict == ok
     ->  Answer = created(Id),
-        begun_here(Host, Id, Goals, Of)
+        start_agent(Host, Id, Goals, Of)
     ;   Answer = Verdict
     ).
 
-born(Host, Name, Start, Of, Id, Goals, Verdict) :-
+install(Host, Name, Start, Of, Id, Goals, Verdict) :-
     (   host(Host, Address, Place)
     ->  id_of(Of, Name, Address, Id),
-        (   with_agent(Id, born(Id, Host, Place, Start, Goals))
+        (   with_agent(Id, install(Id, Host, Place, Start, Goals))
         ->  Verdict = ok
         ;   Verdict = need_program      % it was evicted meanwhile
         )
@@ -402,28 +402,28 @@ id_of(clone(_, Id), Name, Address, Id) :-
 id_of(none, Name, Address, Id) :-
     agent_id(Name, Address, Id).
 
-begun_here(Host, Id, Goals0, Of) :-
+start_agent(Host, Id, Goals0, Of) :-
     agent_home(Id, Address),
     agent_born(Id, Address),
-    descends(Of),
-    first_done(Goals0, Id, Goals),
+    record_clone(Of),
+    do_birth_goals(Goals0, Id, Goals),
     event(life, Host, Id, created),
     debug(typhon(agent), '~w: created on ~w', [Id, Address]),
     with_agent(Id, begin(Goals, Id)).
 
 %   Goals of at_birth/2 are done before orders can move the agent.
 
-first_done([Goal|Goals0], Id, Goals) :-
+do_birth_goals([Goal|Goals0], Id, Goals) :-
     callable(Goal),
     at_birth(Goal, Id),
     !,
-    first_done(Goals0, Id, Goals).
-first_done(Goals, _, Goals).
+    do_birth_goals(Goals0, Id, Goals).
+do_birth_goals(Goals, _, Goals).
 
 %   A clone is recorded before it runs and can have clones of its own.
 
-descends(none).
-descends(clone(Parent, Id)) :-
+record_clone(none).
+record_clone(clone(Parent, Id)) :-
     clone_born(Parent, Id).
 
 %   An agent that only handles messages is resident from the start.
@@ -438,7 +438,7 @@ begin([], Id) :-
 begin(Goals, Id) :-
     agent_ready(Id, Goals).
 
-born(Id, Host, Place, start(Hash, Life, State, Goals0, Mail), Goals) :-
+install(Id, Host, Place, start(Hash, Life, State, Goals0, Mail), Goals) :-
     agent_standing(Id, Place, Hash, State-Goals0, Module-Goals),
     agent_enter(agent(Id, Host, Module, Hash, Life), arriving, []),
     agent_mail(Id, Mail).

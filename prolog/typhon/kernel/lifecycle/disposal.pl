@@ -23,17 +23,17 @@
 :- use_module(orders, [order_take/2]).
 :- use_module(ending, [agent_end/3, agent_forgotten/2]).
 
-/** <module> Agents are disposed of, by force if need be, or with their host
+/** <module> Disposal of agents, also by force, and with their host
 
 An agent at rest ends at once, one that runs at its next effect.  The caller
 waits a moment for that, in a thread of its own, as the caller may be a cleanup
 handler.  An agent that comes to no effect, because it loops or waits for
-something outside, is interrupted if the caller asks for force: in the thread
-that runs it, so that no other agent is affected.
+something outside, is interrupted if the caller asks for force.  The interrupt
+is a signal to the thread that runs the agent, so it affects no other agent.
 
 When a host stops its agents end, and those that do not come to an effect are
-interrupted.  Agents that are about to arrive elsewhere may arrive; but where
-the journal has been closed they are under way in the journal, and the host
+interrupted.  Agents that are about to arrive elsewhere may still arrive.  If
+the journal has been closed, they are under way in the journal, and the host
 does not wait for them.
 
 *Threading*: agent_dispose/2 in any thread but those of the endpoint.
@@ -55,15 +55,14 @@ signal.  Evacuation runs in the thread that stops the host.
 %
 %   End Agent, wherever it is: at once if it is at rest, else at its next
 %   effect.  If it has not come to an effect within a second (the setting
-%   `typhon_disposal:heed_seconds`) a warning is printed; the order stands.
+%   `typhon_disposal:heed_seconds`) this prints a warning; the order stands.
 %   Option:
 %
 %     - force(+Seconds): if it has not ended within Seconds (of the time of
 %       day), interrupt it in the middle of its goal.  Then it has ended when
 %       agent_dispose/2 returns.  Negative Seconds count as 0.
 %
-%   An agent that disposes of another agent does not wait for its end, but with
-%   force.
+%   An agent that disposes of another agent waits for its end only with force.
 %
 %   @error existence_error(agent, Agent), ambiguous_agent(Agent, Ids)
 %   @error timeout_error(order, Agent) if it cannot be interrupted, since it
@@ -76,9 +75,9 @@ agent_dispose(Agent) :-
 agent_dispose(Agent, Options) :-
     check_options(dispose_option, Options),
     agent_named(Agent, Id),
-    (   give_order(Id, dispose, Said)
+    (   give_order(Id, dispose, State)
     ->  patience(Options, Patience),
-        see_to_it(Said, Id, Patience)
+        wait_for_end(State, Id, Patience)
     ;   existence_error(agent, Agent)
     ).
 
@@ -93,38 +92,38 @@ patience(Options, Patience) :-
     ;   Patience = warn
     ).
 
-%   give_order(+Agent, +Question, -Said): fails if there is no such agent.
+%   give_order(+Agent, +Question, -State): fails if there is no such agent.
 
-give_order(Agent, Question, Said) :-
+give_order(Agent, Question, State) :-
     agent_ask(Agent, Question, 10, Answer),
-    said(Answer, Said).
+    answered(Answer, State).
 
-said(answer(Said), Said).
-said(error(Formal), _) :-
+answered(answer(State), State).
+answered(error(Formal), _) :-
     harmless_error(error(Formal, _), Ball),
     throw(Ball).
 
-%   see_to_it(+Said, +Agent, +Patience): wait for the end of Agent, if it has
-%   only noted the order.
+%   wait_for_end(+State, +Agent, +Patience): wait for the end of Agent, if it
+%   has only noted the order.
 
-see_to_it(ended, _, _).
-see_to_it(noted, Agent, _) :-           % it ends when this goal has ended
+wait_for_end(ended, _, _).
+wait_for_end(noted, Agent, _) :-        % it ends when this goal has ended
     context_now(_, Agent),
     !.
-see_to_it(noted, Agent, Patience) :-
-    see_to_end(Patience, Agent).
+wait_for_end(noted, Agent, Patience) :-
+    wait_or_force(Patience, Agent).
 
-see_to_end(warn, _) :-
+wait_or_force(warn, _) :-
     context_now(_, Other),
     Other \== none,
     !.
-see_to_end(warn, Agent) :-
+wait_or_force(warn, Agent) :-
     setting(heed_seconds, Seconds),
     (   in_own_thread(ends_within(Agent, Seconds))
     ->  true
     ;   print_message(warning, typhon(runs_on(Agent, Seconds)))
     ).
-see_to_end(force(Seconds), Agent) :-
+wait_or_force(force(Seconds), Agent) :-
     get_time(Now),
     setting(force_seconds, More),
     Deadline is Now+Seconds+More,
@@ -132,8 +131,9 @@ see_to_end(force(Seconds), Agent) :-
                   ; force(Agent, Deadline)
                   )).
 
-%   ends_within(+Agent, +Seconds) is semidet.  An agent that came to rest when
-%   there was no worker to run it, or that is faulty, ends now.
+%   ends_within(+Agent, +Seconds) is semidet: Agent ends within Seconds.  After
+%   them, this ends an agent that is at rest because no worker could run it, or
+%   that is faulty.
 
 ends_within(Agent, Seconds) :-
     catch(ignore(agent_urge(Agent, order(end), Seconds, _)),
@@ -141,13 +141,13 @@ ends_within(Agent, Seconds) :-
           fail),
     !.
 ends_within(Agent, _) :-
-    (   give_order(Agent, dispose, Said)
-    ->  Said == ended
+    (   give_order(Agent, dispose, State)
+    ->  State == ended
     ;   true
     ).
 
-%   Repeated: the signal may arrive between two goals, or the agent may hop to
-%   where it is not known yet.
+%   This repeats because the signal may arrive between two goals, or the agent
+%   may hop to a process that is not known here yet.
 
 force(Agent, Deadline) :-
     (   \+ give_order(Agent, force, _)
@@ -166,8 +166,8 @@ force(Agent, Deadline) :-
 
 typhon_questions:here(dispose, Agent, Asker) :-
     catch(( order_take(Agent, dispose),
-            taken(Agent, Said),
-            Answer = answer(Said)
+            disposal_state(Agent, State),
+            Answer = answer(State)
           ),
           error(Formal, _),
           Answer = error(Formal)),
@@ -182,17 +182,16 @@ typhon_questions:here(force, Agent, Asker) :-
     ),
     question_answered(Asker, answer(ok)).
 
-taken(Agent, Said) :-
+disposal_state(Agent, State) :-
     (   agent(Agent, _, _, _, _)
-    ->  Said = noted
-    ;   Said = ended
+    ->  State = noted
+    ;   State = ended
     ).
 
 :- public interrupt/1.
 
-%   Only inside the goals of Agent: operations of the platform on the agent
-%   must not be split.  The agent's own catch/3 cannot stop this exception
-%   alone.
+%   Interrupts only goals of Agent: operations of the platform on the agent
+%   must not be split.  The agent cannot catch this exception permanently.
 
 interrupt(Agent) :-
     (   context_now(_, Agent),
@@ -218,9 +217,9 @@ typhon_hosting:evacuate(Host, Deadline) :-
 under_way(transit(_, _)).
 under_way(cloning(_, _)).
 
-%   Nearly always all agents are at rest, and nothing is waited for.  Else this
-%   polls every 10 ms: with a notification each arrival, return and end of a
-%   turn would have to check for a waiting caller.
+%   Nearly always all agents are at rest, and this does not wait.  Else it polls
+%   every 10 ms: with a notification each arrival, return and end of a turn
+%   would have to check for a waiting caller.
 
 evacuate(Host, Deadline) :-
     evacuated(Host, Deadline),
@@ -269,7 +268,7 @@ stays(Id) :-
         \+ Status = transit(_, _)
     ).
 
-%   The agent's own catch/3 cannot stop this exception alone.
+%   The agents cannot catch this exception permanently.
 
 interrupt(Host, Ids) :-
     forall(member(Id, Ids),
@@ -305,33 +304,33 @@ stop_running(Host) :-
 
 agent_reschedule(Id) :-
     (   with_agent(Id, ( agent_status(Id, Status, Goals),
-                         goes_on(Status, Goals, Id) ))
+                         resume_from(Status, Goals, Id) ))
     ->  true
     ;   true
     ),
     (   agent_status(Id, Now, _),
         alarm(Now, Stamp, Token),
         agent(Id, Host, _, _, _)
-    ->  rings(Host, Stamp, Id, Token)
+    ->  alarm_on(Host, Stamp, Id, Token)
     ;   true
     ).
 
-goes_on(ready, _, Id) :-
+resume_from(ready, _, Id) :-
     agent(Id, Host, _, _, _),
     !,
     schedule(Host, Id).
-goes_on(obeying, Goals, Id) :-
+resume_from(obeying, Goals, Id) :-
     agent_wakes(Id, Goals).
-goes_on(faulty(_), Goals, Id) :-
+resume_from(faulty(_), Goals, Id) :-
     agent_wakes(Id, Goals).
-goes_on(resident, Goals, Id) :-
-    has_mail(Id, Goals).
-goes_on(waiting(_, _), Goals, Id) :-
-    has_mail(Id, Goals).
+resume_from(resident, Goals, Id) :-
+    wake_if_mail(Id, Goals).
+resume_from(waiting(_, _), Goals, Id) :-
+    wake_if_mail(Id, Goals).
 
 %   An agent that runs looks for mail itself.
 
-has_mail(Id, Goals) :-
+wake_if_mail(Id, Goals) :-
     mail_count(Id, Count),
     Count > 0,
     agent_wakes(Id, Goals).
@@ -341,6 +340,6 @@ alarm(waiting(_, Until), Until, until(Until)) :-
 alarm(sleeping(Until), Until, until(Until)).
 alarm(leaving(_, At), At, leave).
 
-rings(Host, Until, Id, Token) :-
+alarm_on(Host, Until, Id, Token) :-
     real_time(Host, Until, Stamp),
     alarm_set(Stamp, Id, Token).

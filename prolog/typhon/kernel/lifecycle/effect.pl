@@ -139,16 +139,16 @@ receive(Message, Until, Again, Hole, Goals, Id-Here, Next) :-
     with_agent(Id, take_or_wait(Message, Until, Again, Hole, Goals,
                                 Id-Here, Stamp, Next)),
     (   Next \== stop
-    ->  taken(Hole, Message, Id-Here)
+    ->  report_received(Hole, Message, Id-Here)
     ;   number(Stamp)
     ->  alarm_set(Stamp, Id, until(Until))
     ;   true
     ).
 
-taken(true, From-Message, Id-Here) :-
+report_received(true, From-Message, Id-Here) :-
     !,
     event(messages, Here, Id, received(From, Message)).
-taken(_, _, _).                         % timeout
+report_received(_, _, _).               % timeout
 
 take_or_wait(Message, _, _, true, Goals, Id-_, _, go(Goals)) :-
     mail_take(Id, Message),
@@ -218,7 +218,7 @@ set_out(end, _, _, _, Id-_, stop) :-
     ignore(agent_end(Id, disposed)).
 set_out(go, Dest, Hole, Goals, Id-Here, Next) :-
     host_time(Here, Now),
-    leaves(Dest, Id, Here),
+    report_leaving(Dest, Id, Here),
     (   host_option(Here, hop_time(uniform(Min, Max)))
     ->  hop_delay(Id, Here, Min, Max, Delay),
         At is Now+Delay,
@@ -230,7 +230,7 @@ set_out(go, Dest, Hole, Goals, Id-Here, Next) :-
     ;   hop(Id, Dest, Hole, Goals, Now, Next)
     ).
 
-leaves(Dest, Id, Here) :-
+report_leaving(Dest, Id, Here) :-
     (   event_heard(hops)
     ->  dest_address(Dest, Address),
         event(hops, Here, Id, left(Address))
@@ -277,7 +277,7 @@ effect_depart(Id, Dest, Hole, Goals, Since, Next) :-
           )).
 
 cannot_depart(Hole, Id, _, error(Formal, _)) :-
-    Hole == ordered,                    % else a variable of Goals
+    Hole == ordered,                    % else Hole is a variable of Goals
     !,
     move_failed(Id, Formal).
 cannot_depart(Hole, _, Dest, Error) :-

@@ -48,7 +48,7 @@ inside with_agent/2, reports its end.
 
 agent_end(Id, Outcome) :-
     unit_of_work(( with_agent(Id, remove(Id, Last)),
-                   removed(Last, Id, Outcome) )).
+                   after_removal(Last, Id, Outcome) )).
 
 %!  agent_end(+Id, :Test, +Outcome) is semidet.
 %
@@ -59,7 +59,7 @@ agent_end(Id, Test, Outcome) :-
                                     call(Test, Status),
                                     remove(Id, Last)
                                   )),
-                   removed(Last, Id, Outcome) )).
+                   after_removal(Last, Id, Outcome) )).
 
 remove(Id, last(Host, Hops, Status, Goals, Results, Orders)) :-
     agent(Id, Host, Module, _, Life),
@@ -74,14 +74,14 @@ remove(Id, last(Host, Hops, Status, Goals, Results, Orders)) :-
     agent_ends(Id, Hops),
     agent_remove(Id, _, Orders).
 
-removed(Last, Id, Outcome) :-
-    told(Last, Id, Outcome),
+after_removal(Last, Id, Outcome) :-
+    report_end(Last, Id, Outcome),
     arg(6, Last, Orders),
-    unanswered(Id, Orders).
+    answer_none(Id, Orders).
 
 %   Callers that wait for an answer to an order get `none`.
 
-unanswered(Id, Orders) :-
+answer_none(Id, Orders) :-
     ignore(move_over(Id, none)),
     forall(member(asked(_, Asker), Orders), question_answered(Asker, none)).
 
@@ -97,29 +97,29 @@ agent_forgotten(Id, Test) :-
                      agent_remove(Id, _, Orders) )),
     events_forget(Id),
     host_leave(Host),
-    unanswered(Id, Orders).
+    answer_none(Id, Orders).
 
 %   The bad end was reported when the agent became faulty.
 
-told(last(Host, Hops, faulty(_), Goals, Results, _), Id, _) :-
+report_end(last(Host, Hops, faulty(_), Goals, Results, _), Id, _) :-
     !,
     events_forget(Id),
     is_faulty(Goals, Fault, _),
     fault_outcome(Fault, Outcome),
     event(faults, Host, Id, ended(Outcome)),
     agent_ended(Id, Outcome, Hops, Results).
-told(last(Host, Hops, Status, _, Results, _), Id, Outcome) :-
+report_end(last(Host, Hops, Status, _, Results, _), Id, Outcome) :-
     debug(typhon(agent), '~w: ends on ~w, ~p', [Id, Host, Outcome]),
-    tell_of_doubt(Status, Id),
+    warn_if_in_doubt(Status, Id),
     host_leave(Host),
     event(life, Host, Id, ended(Outcome)),
     events_forget(Id),
     agent_ended(Id, Outcome, Hops, Results).
 
-tell_of_doubt(transit(Address, _), Id) :-
+warn_if_in_doubt(transit(Address, _), Id) :-
     !,
     print_message(warning, typhon(ended_in_doubt(Id, Address))).
-tell_of_doubt(_, _).
+warn_if_in_doubt(_, _).
 
                 /*******************************
                 *           BAD ENDS           *
@@ -162,7 +162,7 @@ print_fault(raised(Error), Id, Fault) :-
 %!  agent_stays(+Id, +Goals) is det.
 %
 %   Id is faulty: Goals begin with its fault.  If there are too many faulty
-%   agents the oldest end.
+%   agents, this disposes of the oldest ones.
 
 agent_stays(Id, Goals) :-
     is_faulty(Goals, Fault, _),

@@ -32,8 +32,8 @@ has the outcome.
 %   waits until the last of them has ended.  Outcome is then a list of pairs
 %   Agent-Outcome, each agent before its clones, and these in the order in
 %   which they were born in a process.  At the timeout the outcome of agents
-%   that have not ended is `timeout`; an agent that its home no longer
-%   remembers has the outcome `unknown`.
+%   that have not ended is `timeout`.  Outcomes that the home has discarded are
+%   reported as `unknown`.
 %
 %   @error existence_error(agent, Agent), ambiguous_agent(Agent, Ids)
 %   @error host_unreachable(Home), connection_lost(Home): for a family, of
@@ -93,7 +93,7 @@ join(Endpoint, Agent, Seconds, Outcome) :-
     process_ask(Endpoint, Endpoint, join, join(Agent, Seconds), Outcome,
                 Limit).
 
-%   In the thread of virtual time a plain wait would stop time.
+%   A plain wait in the thread of virtual time would stop the time.
 
 outcome_heard(Queue, Outcome) :-
     time_wait(Queue, outcome(join, Outcome0), inf),
@@ -105,7 +105,8 @@ outcome_heard(_, timeout).
                 *            FAMILIES          *
                 *******************************/
 
-%   members(+Agents, +Until, -Outcomes): of Agents, and of their clones.
+%   members(+Agents, +Until, -Outcomes): Outcomes are those of Agents and of
+%   their clones.
 
 members([], _, []).
 members([Agent|Agents], Until, [Agent-Outcome|Outcomes]) :-
@@ -130,7 +131,7 @@ seconds_left(Until, Seconds) :-
 %   clones(+Agent, +Outcome, -Clones): the agents that were cloned from Agent.
 
 clones(Agent, Outcome, Clones) :-
-    left(Agent, Outcome, cloned, Items),
+    results_of(Agent, Outcome, cloned, Items),
     findall(Some,
             ( member(cloned(Endpoint), Items),
               clones_ask(Endpoint, Agent, Some) ),
@@ -157,7 +158,7 @@ agent_result(Agent, Term, Timeout) :-
     agent_once_named(Agent, Id),
     agent_join(Id, Outcome, Seconds),
     Outcome \== timeout,
-    left(Id, Outcome, result, Results),
+    results_of(Id, Outcome, result, Results),
     (   last(Results, result(Result))
     ->  Term = Result
     ;   existence_error(result, Agent)
@@ -172,25 +173,26 @@ home_here(_, Home) :-
 home_here(Agent, _) :-
     agent_outcome(Agent, _).
 
-%   left(+Agent, +Outcome, +Kind, -Items): the results of Agent.  An agent that
-%   has not ended, or is kept because it is faulty, is asked; else its home.
+%   results_of(+Agent, +Outcome, +Kind, -Items): the results of Agent.  If the
+%   agent has not ended, or is kept because it is faulty, it answers, else its
+%   home.
 
-left(Agent, Outcome, Kind, Items) :-
-    may_stand(Outcome),
+results_of(Agent, Outcome, Kind, Items) :-
+    may_be_here(Outcome),
     catch(agent_ask(Agent, results(Kind), 2, answer(Items0)), error(_, _),
           fail),
     !,
     Items = Items0.
-left(Agent, _, Kind, Items) :-
+results_of(Agent, _, Kind, Items) :-
     agent_home_endpoint(Agent, Home),
     (   home_here(Agent, Home)
     ->  results_ask(here, Agent, Kind, Items)
     ;   results_ask(Home, Agent, Kind, Items)
     ).
 
-may_stand(timeout).
-may_stand(failed).
-may_stand(raised(_)).
+may_be_here(timeout).
+may_be_here(failed).
+may_be_here(raised(_)).
 
 typhon_questions:here(results(Kind), Agent, Asker) :-
     agent(Agent, _, Module, _, _),

@@ -106,8 +106,8 @@ payload_detach(Agent, Name) :-
 %!  agent_resume(+Agent) is det.
 %
 %   Order Agent, which is faulty, to try again: it goes on with the goal that
-%   failed or raised an error, and is no longer faulty.  It counts on its host
-%   then, even where that is full.
+%   failed or raised an error, and is no longer faulty.  It counts again in the
+%   load of its host, even if the host is full.
 %
 %   @error permission_error(resume, agent, Agent) if it is not faulty
 %   @error existence_error(agent, Agent)

@@ -87,8 +87,8 @@ order_take(Id, Order) :-
     ;   true
     ).
 
-%   The peer to which the agent is under way may soon be unreachable, and then
-%   it can be ended here.
+%   The peer to which the agent is under way may soon be unreachable; then this
+%   process can end the agent.
 
 look_again_later(Id) :-
     (   under_way(Id)
@@ -155,7 +155,7 @@ idle(sleeping(_)).
 idle(waiting(_, _)).
 idle(resident).
 
-%   Orders for an agent that has left meanwhile follow it, but for evacuation,
+%   Orders for an agent that has left meanwhile follow it, except evacuation,
 %   which is only for agents that stay.
 
 typhon_transfer:forward_order(_, evacuate(_)) :-
@@ -228,7 +228,7 @@ obey(asked(resume, Asker), Id, Goals) :-
         go_on(Id, Goals)
     ).
 obey(asked(Order, Asker), Id, Goals) :-
-    catch((   done(Order, Id, Result)
+    catch((   carry_out(Order, Id, Result)
           ->  Answer = answer(Result)
           ;   domain_error(agent_order, Order)
           ),
@@ -244,7 +244,8 @@ answered(Asker, Answer) :-
           error(Formal, _),
           question_answered(Asker, error(Formal))).
 
-%   A host that has been stopping for long ends agents that still obey orders.
+%   A host that stops and has waited long enough ends agents that still obey
+%   orders.
 
 go_on(Id, Goals) :-
     (   is_faulty(Goals, _, _)
@@ -252,15 +253,15 @@ go_on(Id, Goals) :-
     ;   ignore(with_agent(Id, agent_ready(Id, Goals)))
     ).
 
-done(attach(Payload), Agent, ok) :-
+carry_out(attach(Payload), Agent, ok) :-
     agent_attach(Agent, Payload).
-done(detach(Name), Agent, ok) :-
+carry_out(detach(Name), Agent, ok) :-
     agent_detach(Agent, Name).
-done(question(_), _, again).
-done(clone, Agent, CloneId) :-
+carry_out(question(_), _, again).
+carry_out(clone, Agent, CloneId) :-
     agent_status(Agent, _, Goals),
     agent_clone_here(Agent, Goals, CloneId).
-done(Order, Agent, Result) :-
+carry_out(Order, Agent, Result) :-
     functor(Order, Kind, _),
     on_demand_load(order, Kind),
     carried_out(Order, Agent, Result).

@@ -50,8 +50,8 @@ an agent belongs to one worker.
     unit/2,                     % Run, Conclude: call(Run, Goal) runs an agent,
                                 % call(Conclude, Id, Outcome, Goal, Next) the
                                 % rest, as one unit of work
-    settle/0,                   % that unit ends here
-    over/1.                     % Id: its worker leaves it
+    settle/0,                   % end that unit now
+    over/1.                     % Id: its worker no longer runs it
 
 %   turn_engine(+Agent, +Start, -Engine) is det.
 %
@@ -132,7 +132,8 @@ turn_broken(Outcome) :-
 
 %   turn_overruled(+Host, -Outcome) is semidet.
 %
-%   The agent passed a limit on Host, and ends with Outcome whatever it catches.
+%   The agent passed a limit on Host, and ends with Outcome even if it catches
+%   the error.
 
 turn_overruled(Host, Outcome) :-
     parts(turn, Host, _),
@@ -305,7 +306,7 @@ turn_over_limit(Host, Id, What) :-
     print_message(warning, typhon(over_limit(Id, What))).
 
 %   conclude(+Outcome, +Goals0, +Turn, -Next): carry out Outcome of the run
-%   from Goals0.  Next is as of effect/5.
+%   from Goals0.  Next is as in effect/5.
 
 conclude(done, _, Turn, Next) :-
     finish(Turn, Next).
@@ -330,7 +331,7 @@ conclude(effect(Control, Hole, Goals), _, turn(Id, Host, _), Next) :-
                         Next))
     ).
 
-%   An agent that passed a limit ends, whatever it catches.
+%   An agent that passed a limit ends, even if it catches the error.
 
 raised_at(_, _, _, Id-Host, stop) :-
     turn_overruled(Host, Outcome),

@@ -857,14 +857,14 @@ test(stubborn, [ forall(( stubborn(Kind, Clauses), Kind \== reading )),
                            agent_join(A, O, 10) ))).
 test(has_ended_when_its_host_has_stopped, O == disposed) :-
     setup_call_cleanup(
-        wrap_predicate(typhon_ending:told(_, _, _), slow, Told,
+        wrap_predicate(typhon_ending:report_end(_, _, _), slow, Told,
                        ( sleep(0.4), Told )),
         impatient(with_hosts([alpha],
                              ( create([(main :- between(1, inf, _), fail)], A),
                                wait_state(A, running),
                                host_stop(alpha),
                                agent_join(A, O, 10) ))),
-        unwrap_predicate(typhon_ending:told/3, slow)).
+        unwrap_predicate(typhon_ending:report_end/3, slow)).
 test(deadline_is_set_before_the_agent_rests,
      [ forall(member(Wait, [sleep(60), receive(_, 60), move(beta)])),
        States == [running] ]) :-

@@ -377,7 +377,7 @@ come(with_agent, Hash, Sent) :-
                      =(ok), refused(policy(_))).
 come(by_order, Hash, Sent) :-
     create([on_message(_, _)], A, [host(g)]),
-    catch(typhon_orders:done(change(program(Hash, Sent)), A, _),
+    catch(typhon_orders:carry_out(change(program(Hash, Sent)), A, _),
           error(permission_error(call, sandboxed, _), _), true).
 
                 /*******************************
