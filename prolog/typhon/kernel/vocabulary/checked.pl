@@ -79,7 +79,7 @@ called natively.  For agents that run their program unchanged they are call/N.
 
 :- public native/4.
 
-%   native(+Module, +Closure, +Extra, -Goal): sleep/1 is refused, as that of
+%   native(+Module, +Closure, +Extra, -Goal): refuses sleep/1, because that of
 %   the system would occupy the thread.
 
 native(Module, Closure, Extra, Goal) :-

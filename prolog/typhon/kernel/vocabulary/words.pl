@@ -150,19 +150,19 @@ host_load(Count) :-
 
 %!  send(+Agent, +Message) is det.
 %
-%   As agent_send/2; the sender is this agent.  If Agent has ended the message
-%   is lost with a warning, not an error; without a warning if the host of this
-%   agent is about to stop.  `user`, the sender of messages from outside, has
-%   no mailbox: answers to it are printed.
+%   As agent_send/2; the sender is this agent.  A message to an ended agent is
+%   dropped with a warning, not an error; without the warning while the host of
+%   this agent stops.  `user`, the sender of messages from outside, has no
+%   mailbox: messages to it are printed.
 %
-%   A compound term, as fipa(Name, Addresses), is a recipient beyond a bridge
-%   of this host.
+%   A compound term, such as fipa(Name, Addresses), is a recipient beyond a
+%   bridge of this host.
 
 send(at(Agent, _), Message), \+ compound(Agent) =>
     send(Agent, Message).
 send(External, Message), compound(External) =>
     context(Host, Id, Module),
-    (   agent_variant(Module, _)        % not in the name of the host
+    (   agent_variant(Module, _)        % the bridge acts for the host
     ->  permission_error(call, sandboxed, send(External, Message))
     ;   true
     ),
@@ -180,15 +180,15 @@ send(Agent, Message) =>
     event(messages, Host, Id, sent(Agent, Message)),
     catch(post(Agent, Id, Message),
           error(existence_error(agent, Agent), _),
-          lost(Host, Agent, Id, Message)).
+          warn_undeliverable(Host, Agent, Id, Message)).
 
 %   On a host that stops, agents at rest end first, which running agents cannot
 %   know: messages to ended agents are dropped without a warning.
 
-lost(Host, _, _, _) :-
+warn_undeliverable(Host, _, _, _) :-
     host_closed(Host),
     !.
-lost(_, Agent, Id, Message) :-
+warn_undeliverable(_, Agent, Id, Message) :-
     print_message(warning,
                   typhon(undeliverable(existence_error(agent, Agent), Agent,
                                        Id, Message))).
@@ -200,7 +200,7 @@ lost(_, Agent, Id, Message) :-
 leave(Fact) :-
     may_leave(Fact, Host, Place, By),
     tuple_leave(Place, Fact, By),
-    shared(Host, leave(Fact)).
+    report_fact(Host, leave(Fact)).
 
 %!  leave_new(+Fact) is semidet.
 %
@@ -210,7 +210,7 @@ leave(Fact) :-
 leave_new(Fact) :-
     may_leave(Fact, Host, Place, By),
     tuple_leave_new(Place, Fact, By),
-    shared(Host, leave(Fact)).
+    report_fact(Host, leave(Fact)).
 
 may_leave(Fact, Host, Place, By) :-
     place(Host, Place),
@@ -235,9 +235,9 @@ sense(Fact) :-
 take(Fact) :-
     place(Host, Place),
     tuple_take(Place, Fact),
-    shared(Host, take(Fact)).
+    report_fact(Host, take(Fact)).
 
-shared(Host, What) :-
+report_fact(Host, What) :-
     context_now(_, Agent),
     event(facts, Host, Agent, What).
 
@@ -245,7 +245,7 @@ place(Host, Place) :-
     context_host(Host),
     host(Host, _, Place).
 
-says(Host, Term) :-
+may_say(Host, Term) :-
     context_now(_, Agent),
     parts_call(acts, Host, [Agent, say(Term)]).
 
@@ -342,7 +342,7 @@ log(What) :-
 
 enter(Result) :-
     context_host(Host),
-    says(Host, Result),
+    may_say(Host, Result),
     mobile_term(Result),
     context_agent(Id),
     agent(Id, _, Module, _, _),
@@ -361,23 +361,24 @@ enter(Result) :-
 
 result(Term) :-
     context(Host, _, Module),
-    says(Host, Term),
+    may_say(Host, Term),
     mobile_term(Term),
     result_put(Module, Term).
 
 %!  message_failed(+From, +Message) is det.
 %
-%   on_message/2 has failed; report that.  The agent goes on.  There may have
-%   been a clause for the message.
+%   Print a warning that on_message/2 has failed.  The agent goes on.  If the
+%   program has a clause for the message, the warning has the location of the
+%   goal that failed.
 
 message_failed(From, Message) :-
     context(Host, Id, _),
-    says(Host, From-Message),
+    may_say(Host, From-Message),
     (   agent_handled(Id, on_message(From, Message), Fault)
-    ->  Told = message_undone(Id, From, Message, Fault)
-    ;   Told = message_failed(Id, From, Message)
+    ->  Warning = message_undone(Id, From, Message, Fault)
+    ;   Warning = message_failed(Id, From, Message)
     ),
-    print_message(warning, typhon(Told)).
+    print_message(warning, typhon(Warning)).
 
                 /*******************************
                 *            CONTROL           *
@@ -386,8 +387,8 @@ message_failed(From, Message) :-
 %!  move(+Host) is det.
 %
 %   Move to Host and go on there with the next goal; go on at once if the agent
-%   is there already.  Choice points left of it are discarded, as at all
-%   predicates below.
+%   is there already.  Choice points left of move/1 are discarded, as those left
+%   of all predicates below.
 %
 %   @error move_refused(Host, Reason): capacity, token or unknown_host
 %   @error host_unreachable(Host)
