@@ -233,8 +233,8 @@ deadline(Address, Since, Deadline) :-
 
 %!  attempt_due(-Time) is nondet.
 %
-%   Time is when the state of some attempt must change. A silent attempt ends in
-%   time for another one: its connection may be dead.
+%   At Time the state of some attempt must change. A silent attempt ends in time
+%   for another one, because its connection may be dead.
 
 attempt_due(Time) :-
     attempt(Address, State, _, Since),

@@ -54,34 +54,34 @@ connection on which the arbiter sends its count.
 
 :- meta_predicate
     incoming(+, +, +, 1, +),
-    meet(+, +, +, +, +, -, 1),
+    join_session(+, +, +, +, +, -, 1),
     with_streams(0, ?, ?, 0).
 
 %!  incoming(+In, +Out, +Ip, :Stage, +Me) is det.
 %
 %   Serve the client at Ip, whose streams are In and Out; Me is the hello of
-%   this process.  Stage is called with `silent`, from when on this thread
-%   closes the streams, with `heard` when the client has sent something, and
-%   with `proved` or refused(Formal).  If a call fails the connection ends.
+%   this process.  Stage is called with `silent`, after which this thread closes
+%   the streams, with `heard` when the client has sent something, and with
+%   `proved` or refused(Formal).  If a call fails the connection ends.
 
 incoming(In, Out, Ip, Stage, Me0) :-
     get_time(Start),
     Role = server(Start),
     catch(with_streams(call(Stage, silent), In, Out,
-                       ( await_word(In, Out),
+                       ( await_first_byte(In, Out),
                          call(Stage, heard),
                          transport_open(server, In, Out, SIn, SOut, Proof),
                          hello_to(Proof, Me0, Me),
                          prove(Role, SIn, SOut, Me, Peer),
                          call(Stage, proved),
                          nb_setval(typhon_proved, true),
-                         meet(Role, SIn, SOut, Me, Peer-Proof, Session,
-                              reachable(Peer, Ip)),
+                         join_session(Role, SIn, SOut, Me, Peer-Proof,
+                                      Session, reachable(Peer, Ip)),
                          serve(Session, SIn, SOut) )),
           error(Formal, _),
-          turned_away(Ip, Formal, Stage)).
+          report_refused(Ip, Formal, Stage)).
 
-await_word(In, Out) :-
+await_first_byte(In, Out) :-
     setting(typhon_handshake:handshake_time, Seconds),
     set_stream(In, timeout(Seconds)),
     peek_byte(In, Byte),
@@ -90,9 +90,9 @@ await_word(In, Out) :-
     ;   transport_first(Byte, Out)
     ).
 
-turned_away(Ip, Formal, Stage) :-
+report_refused(Ip, Formal, Stage) :-
     debug(typhon(connect), '~w: a client was refused: ~p', [Ip, Formal]),
-    (   nb_current(typhon_proved, true) % it came by another connection
+    (   nb_current(typhon_proved, true) % it has proved itself
     ->  true
     ;   ignore(call(Stage, refused(Formal)))
     ).
@@ -108,14 +108,14 @@ reachable(Peer, Ip, Session) :-
     address_parts(Claimed, Interface, Port),
     (   Interface == '0.0.0.0'
     ->  atomic_list_concat([Ip, Port], :, Address),
-        leads_to(Address, Process, Session)
+        add_route(Address, Process, Session)
     ;   loopback(Interface),
         \+ loopback(Ip)
     ->  true
-    ;   leads_to(Claimed, Process, Session)
+    ;   add_route(Claimed, Process, Session)
     ).
 
-leads_to(Address, Process, Session) :-
+add_route(Address, Process, Session) :-
     route_add(Address, Session),
     contact_met(Address, Process).
 
@@ -138,8 +138,9 @@ outgoing(Address, Me0) :-
                          ( transport_open(client, In, Out, SIn, SOut, Proof),
                            hello_to(Proof, Me0, Me),
                            prove(Role, SIn, SOut, Me, Peer),
-                           meet(Role, SIn, SOut, Me, Peer-Proof, Session,
-                                found(Address, Interface, Peer)),
+                           join_session(Role, SIn, SOut, Me, Peer-Proof,
+                                        Session,
+                                        add_routes(Address, Interface, Peer)),
                            serve(Session, SIn, SOut) ))
           ),
           error(Formal, _),
@@ -150,9 +151,9 @@ typhon_handshake:greeted :-
     thread_self(Me),
     manager_notify(greeted(Me)).
 
-found(Address, Interface, Peer, Session) :-
+add_routes(Address, Interface, Peer, Session) :-
     hello_peer(Peer, Process, _, _),
-    leads_to(Address, Process, Session),
+    add_route(Address, Process, Session),
     reachable(Peer, Interface, Session).
 
 missed(Address, Formal) :-
@@ -234,13 +235,13 @@ prove(server(_), In, Out, Me, Peer) :-
             throw(error(permission_error(authenticate, peer, cookie),
                         Context)) )).
 
-%   meet(+Role, +In, +Out, +Me, +Peer, -Session, :Known) is semidet.
+%   join_session(+Role, +In, +Out, +Me, +Peer, -Session, :Known) is semidet.
 %
 %   Give the connection to the session with the peer; Peer is Hello-Proof.
 %   Before, call(Known, Session) notes the addresses that lead to the session:
 %   it has one connection for all of them.
 
-meet(Role, In, Out, Me, Peer-Proof, Session, Known) :-
+join_session(Role, In, Out, Me, Peer-Proof, Session, Known) :-
     hello_codec(Me, Peer, Codec),
     session_keys(Role, Me, Peer, MyKey, Key),
     session_open(Key, Peer-Proof, Codec, unacked_open, Session),
@@ -277,28 +278,28 @@ adopt(MyKey, Key, Role, Session, In, Out) :-
     MyKey @< Key,
     !,
     session_adopting(Session,
-                     ( needed(Role, Session),
+                     ( must_be_needed(Role, Session),
                        session_retire(Session),
-                       say_count(Session, Out),
-                       hear_count(In, Count),
+                       send_count(Session, Out),
+                       receive_count(In, Count),
                        install(Session, Out, Count) )).
 adopt(_, _, _, Session, In, Out) :-
-    hear_count(In, Count),
+    receive_count(In, Count),
     session_adopting(Session,
                      ( session_retire(Session),
-                       say_count(Session, Out),
+                       send_count(Session, Out),
                        install(Session, Out, Count) )).
 
 %   If another connection has been made since this one was begun, this one is
 %   not needed.  The peer got the count on the other one, and has it when it
 %   detects that this one is closed.
 
-needed(Role, Session) :-
+must_be_needed(Role, Session) :-
     arg(1, Role, Start),
     session_up_since(Session, Start),
     !,
     throw(wire_thread_end(met)).
-needed(_, _).
+must_be_needed(_, _).
 
 %   The hooks run in the same step: when a process has died, the layer that sent
 %   to it sends again when it is notified of its successor.
@@ -308,12 +309,12 @@ install(Session, Out, Count) :-
     sig_atomic(( session_install(Session, Me, Out, Count),
                  connection_is(Session, up) )).
 
-say_count(Session, Out) :-
+send_count(Session, Out) :-
     session_received(Session, Count),
     format(string(Line), "resume ~d", [Count]),
     line_write(Out, Line).
 
-hear_count(In, Count) :-
+receive_count(In, Count) :-
     setting(typhon_handshake:handshake_time, Seconds),
     get_time(Now),
     Deadline is Now+Seconds,
@@ -341,7 +342,7 @@ serve(Session, In, Out) :-
               report_break(Session, Formal)),
         lost(Session, Me)).
 
-%   If this thread was lent another one may be about to do the same.
+%   If this thread was lent, the connection manager may be about to do the same.
 
 lost(Session, Me) :-
     lent_away,
@@ -354,7 +355,7 @@ lost(Session, Me) :-
 
 report_break(Session, Formal) :-
     session_peer(Session, _, Address),
-    (   nb_current(typhon_proved, true) % it came by another connection
+    (   nb_current(typhon_proved, true) % an accepted connection
     ->  Level = silent
     ;   (   memberchk(Formal,
                       [ io_error(_, _), socket_error(_, _),

@@ -79,7 +79,7 @@ keep(Me) :-
         give_up,
         retractall(resting(_)),
         run_errands(inf)
-    ;   catch(( hear(Message, Me), begin_attempts(Me) ),
+    ;   catch(( handle(Message, Me), begin_attempts(Me) ),
               error(Formal, Context),
               print_error(error, error(Formal, Context))),
         fail
@@ -92,35 +92,35 @@ next_deadline(Deadline) :-
     ;   min_list(Times, Deadline)
     ).
 
-hear(wanted_at(Address), _) :-
+handle(wanted_at(Address), _) :-
     address_wanted(Address).
-hear(greeted(Thread), _) :-
+handle(greeted(Thread), _) :-
     attempt_greeted(Thread).
-hear(missed(Thread, Formal), _) :-
+handle(missed(Thread, Formal), _) :-
     attempt_ended(Thread, Formal).
-hear(ended(Thread), _) :-
+handle(ended(Thread), _) :-
     wire_thread_join(Thread),
     attempt_ended(Thread, ended).
-hear(up(Key), _) :-
+handle(up(Key), _) :-
     retractall(resting(Key)),
     session_is_up(Key).
-hear(wanted(Key), _) :-
+handle(wanted(Key), _) :-
     (   session(Key, Session),
         \+ session_up(Key)
     ->  down(Session)
     ;   true
     ).
-hear(displaced(Key), Me) :-             % another process has its address
-    (   route_key(_, Key)               % it may have other addresses
-    ->  hear(wanted(Key), Me)
+handle(displaced(Key), Me) :-           % another process has an address of Key
+    (   route_key(_, Key)               % Key may have other addresses
+    ->  handle(wanted(Key), Me)
     ;   gone(Key)
     ).
-hear(gone(Key), _) :-                   % it has sent `bye`
+handle(gone(Key), _) :-                 % the peer has sent `bye`
     forall(route_key(Address, Key), contact_gone(Address)),
     gone(Key).
-hear(later(Time, Goal), _) :-           % Goal is quick
+handle(later(Time, Goal), _) :-         % Goal is quick
     assertz(errand(Time, Goal)).
-hear(overdue, Me) :-
+handle(overdue, Me) :-
     get_time(Now),
     run_errands(Now),
     handle_overdue(Me).
@@ -133,8 +133,8 @@ run_errands(Now) :-
            ( retractall(errand(Time, Goal)),
              call(Goal) )).
 
-%   A session with nothing pending is kept because of its counts: the peer may
-%   only be cut off, and return with frames that have arrived before.
+%   A session with nothing pending is kept for its counts: the peer may be cut
+%   off only, and return with frames that have arrived before.
 
 down(Session) :-
     session_unfinished(Session),
@@ -263,18 +263,18 @@ verdict(Address, Formal) :-
     (   attempt_over(Address, Since, Formal)
     ->  attempt_asked(State, Asked),
         missed(Address, Asked, Formal),
-        others(Address, Pause)
+        next_attempt(Address, Pause)
     ;   go_on(Address, Pause, Since)
     ).
 
 %   Requests made since the attempt began get another attempt.
 
-others(Address, _) :-
+next_attempt(Address, _) :-
     waiting(Address),
     !,
     attempt_end(Address),
     attempt_want(Address).
-others(Address, Pause) :-
+next_attempt(Address, Pause) :-
     go_on(Address, Pause, none).
 
 go_on(Address, Pause, Since) :-

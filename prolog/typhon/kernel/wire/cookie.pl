@@ -101,7 +101,7 @@ check_private(File) :-
         unfit(File, Why)
     ).
 
-%   A quote ends the word for a moment.
+%   A quote inside quotes is written '\''.
 
 shell_word(Text, Word) :-
     atomic_list_concat(Parts, '\'', Text),

@@ -160,7 +160,7 @@ endpoint_open :-
 
 %!  endpoint_start_alone(+Address) is det.
 %
-%   Have an endpoint that reaches only itself, see messaging.pl.
+%   Start an endpoint that reaches only itself, see messaging.pl.
 %
 %   @error permission_error(start, endpoint, Address) if one is running
 
@@ -274,9 +274,9 @@ stop :-
     manager_notify(stop),
     wire_thread_join(Manager),
     wire_threads_end,
-    manager_queue_close(Unheard),
+    manager_queue_close(Unhandled),
     accept_no_more,
-    manager_unhandled(Unheard),
+    manager_unhandled(Unhandled),
     forall(session(_, Session),
            ( session_close(Session, Unsent),
              requests_lost(Session, Unsent) )),

@@ -255,7 +255,7 @@ mark_kind(=, Id, answer(Id)).
 
 %!  mobile_term(+Term) is det.
 %
-%   Term can travel.
+%   Term can be sent to another process.
 %
 %   @error type_error(mobile_term, Culprit) for a stream or another blob,
 %   an attributed variable, or a cyclic term inside Term.

@@ -178,7 +178,7 @@ line_write(Out, Line) :-
 :- setting(handshake_time, number, 5,
            "Seconds a peer has to prove itself").
 
-%   greeted: hook, called when the server has sent its hello, yet to be proved.
+%   greeted/0 is called when the server has sent its hello, before its proof.
 
 :- meta_predicate
     authenticate(+, +, +, +, 1, -).

@@ -3,7 +3,7 @@
             lending_anew/0,
             lending_open/4,             % +Session, +In, +Out, -Queue
             lending_close/0,
-            lend/3,                     % +Queue, :More, :Tell
+            lend/3,                     % +Queue, :More, :Flush
             lent/0,
             lent_away/0
           ]).
@@ -54,7 +54,7 @@ The token goes to the thread that takes it first.
 %   is overdue after so much processor time in one turn, or so much time
 %   altogether: it may wait for something, or for a processor.
 
-look_seconds(0.02).
+check_seconds(0.02).
 most_work(0.01).
 most_time(0.2).
 
@@ -99,53 +99,54 @@ lending_open(Session, In, Out, Queue) :-
 
 lending_close :-
     nb_getval(typhon_lending, State),
-    left(State),
+    finish_left(State),
     thread_self(Me),
     (   retract(lendable(Me, Queue, _))
     ->  message_queue_destroy(Queue)
     ;   true
     ).
 
-%   left(+State): finish the work that a thread has left when it stops reading
-%   in this State.
+%   finish_left(+State): finish the work that a thread has left when it stops
+%   reading in this State.
 
-left(idle).
-left(away).
-left(wants(Goal)) :-
+finish_left(idle).
+finish_left(away).
+finish_left(wants(Goal)) :-
     nb_setval(typhon_lending, closed),
     call(Goal, later).
-left(lent) :-                           % it was aborted
+finish_left(lent) :-                    % it was aborted
     thread_self(Me),
     lendable(Me, Queue, _),
     take_back(Queue).
 
-%!  lend(+Queue, :More, :Tell) is semidet.
+%!  lend(+Queue, :More, :Flush) is semidet.
 %
 %   Call the goal that a hook has left; fails if there is none.  More is true if
-%   there is more to read first.  Tell is called when the thread is back, and
-%   also before the work is left to other threads: the peer must get the answers
-%   before it gets what these threads send.
+%   there is more to read first.  Flush sends the answers that this thread has
+%   buffered.  It is called when the thread is back, and also before the work is
+%   left to other threads: the peer must get the answers before it gets what
+%   these threads send.
 %
 %   Throws wire_thread_end(Why) if the thread is to end, as when the connection
 %   no longer belongs to it.
 
-lend(Queue, More, Tell) :-
+lend(Queue, More, Flush) :-
     nb_getval(typhon_lending, wants(Goal)),
     (   call(More)
     ->  nb_setval(typhon_lending, idle),
-        leave(Goal, Tell)
+        leave(Goal, Flush)
     ;   give(Queue),
         (   call(Goal, here)
         ->  take_back(Queue),
-            call(Tell)
+            call(Flush)
         ;   take_back(Queue),
-            leave(Goal, Tell)
+            leave(Goal, Flush)
         ),
         end_if_asked
     ).
 
-leave(Goal, Tell) :-
-    sig_atomic(( call(Tell), call(Goal, later) )).
+leave(Goal, Flush) :-
+    sig_atomic(( call(Flush), call(Goal, later) )).
 
 %   From the first step on a request to end this thread is deferred.
 
@@ -155,7 +156,7 @@ give(Queue) :-
     Turn is Turn0+1,
     nb_linkval(typhon_turns_lent, Turn), % a number: nothing to copy
     thread_send_message(Queue, token(Turn)),
-    look_in_time.
+    check_if_needed.
 
 %   An overdue thread waits until its release is complete.
 
@@ -206,35 +207,35 @@ typhon_threads:not_now(Why) :-
 
 %   While threads are lent the manager looks for those that are overdue.
 
-look_in_time :-
+check_if_needed :-
     (   get_flag(typhon_lending, 1)
     ->  true
     ;   flag(typhon_lending, Looks, 1),
         (   Looks =:= 0
-        ->  look_later
+        ->  check_later
         ;   true
         )
     ).
 
-look_later :-
+check_later :-
     get_time(Now),
-    look_seconds(Seconds),
+    check_seconds(Seconds),
     Time is Now+Seconds,
-    ignore(manager_notify(later(Time, typhon_lending:look))).
+    ignore(manager_notify(later(Time, typhon_lending:check_lent))).
 
-:- public look/0.
+:- public check_lent/0.
 
-look :-
+check_lent :-
     flag(typhon_lending, _, 0),
     get_time(Now),
     findall(Seen, lent_now(Now, Seen), All),
-    forall(( member(Seen, All), missed(Now, Seen, Thread, Turn) ),
+    forall(( member(Seen, All), is_overdue(Now, Seen, Thread, Turn) ),
            ignore(release(Thread, Turn))),
     retractall(seen(_, _, _, _)),
     forall(member(Seen, All), assertz(Seen)),
     (   All == []
     ->  true
-    ;   look_in_time
+    ;   check_if_needed
     ).
 
 lent_now(Now, seen(Thread, Turn, Since, Work)) :-
@@ -246,7 +247,7 @@ lent_now(Now, seen(Thread, Turn, Since, Work)) :-
         worked(Thread, Work)
     ).
 
-missed(Now, seen(Thread, Turn, Since, Work0), Thread, Turn) :-
+is_overdue(Now, seen(Thread, Turn, Since, Work0), Thread, Turn) :-
     (   most_time(Time),
         Now-Since > Time
     ->  true

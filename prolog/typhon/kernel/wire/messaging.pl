@@ -72,7 +72,7 @@ endpoint_post(Address, _, _) :-
     !,
     throw(error(unreachable(Address), _)).
 endpoint_post(Address, Kind, Term) :-
-    (   way(Address, Session)
+    (   ready_session(Address, Session)
     ->  true
     ;   connect(Address, Session)
     ),
@@ -86,7 +86,7 @@ endpoint_post(Address, Kind, Term) :-
 %   As endpoint_post/3 if there is a connection; fails at once if not.
 
 endpoint_post_up(Address, Kind, Term) :-
-    open_way(Address, Session),
+    open_session(Address, Session),
     !,
     post(Session, Kind, Term).
 endpoint_post_up(Address, Kind, Term) :-
@@ -113,21 +113,21 @@ post(Session, Kind, Term) :-
           error(session_closed, _),
           fail).
 
-%   way(+Address, -Session): a session in which a frame can be sent without
-%   waiting. A hook must not wait: its frames wait in the session for the next
-%   connection, which cannot be made while its thread is in a hook.
+%   ready_session(+Address, -Session): a session in which a frame can be sent
+%   without waiting. A hook must not wait: its frames wait in the session for
+%   the next connection, which cannot be made while its thread is in a hook.
 
-way(Address, Session) :-
-    open_way(Address, Session),
+ready_session(Address, Session) :-
+    open_session(Address, Session),
     !.
-way(Address, Session) :-
+ready_session(Address, Session) :-
     in_reader,
     route(Address, Session),
     !.
 
 %   A new request must not overtake requests that wait for Address.
 
-open_way(Address, Session) :-
+open_session(Address, Session) :-
     route_up(Address, Session),
     \+ unsent(Address),
     !.
@@ -157,7 +157,7 @@ endpoint_request(Address, Kind, Term, OnAnswer) :-
     !,
     alone_request(Address, Kind, Term, OnAnswer).
 endpoint_request(Address, Kind, Term, OnAnswer) :-
-    way(Address, Session),
+    ready_session(Address, Session),
     !,
     catch(request_send(Session, Kind, Term, OnAnswer),
           error(session_closed, _),
@@ -192,7 +192,7 @@ alone_request(_, _, _, OnAnswer) :-
 %   @error resource_error(frame_bytes), type_error(mobile_term, Culprit)
 
 endpoint_hand(Address, Kind, Term, hand(Session, Bytes)) :-
-    open_way(Address, Session),
+    open_session(Address, Session),
     session_hand_bytes(Session, Kind, Term, Bytes).
 
 %!  endpoint_hand_over(+Hand, +Token) is det.
@@ -228,7 +228,7 @@ endpoint_handed(hand(Session, Bytes), Term) :-
 endpoint_reply(ReplyTo, Term) :-
     catch(request_reply(ReplyTo, Term),
           error(session_closed, _),
-          true).                        % the caller is gone
+          true).                        % the session of the caller is closed
 
 %!  endpoint_reply_later(+ReplyTo, +Term) is det.
 %
@@ -326,12 +326,12 @@ endpoint_ask_all(Addresses, Kind, Term, Further, Seconds, Results) :-
 ask(Addresses, Kind-Term, Queue) :-
     forall(member(Address, Addresses),
            endpoint_request(Address, Kind, Term,
-                            typhon_messaging:told(Queue, Address))).
+                            typhon_messaging:send_result(Queue, Address))).
 
-told(Queue, Address, Result) :-
+send_result(Queue, Address, Result) :-
     catch(thread_send_message(Queue, Address-Result),
           error(existence_error(_, _), _),
-          true).                        % the caller waits no more
+          true).                        % the caller no longer waits
 
 %   gather(+Open, +Asked, +Asking, +Deadline, -Results)
 
@@ -366,6 +366,6 @@ more(_, _, _, []).
 %   A request whose caller no longer waits must not keep a session busy.
 
 forget(Queue, Address) :-
-    OnAnswer = typhon_messaging:told(Queue, Address),
+    OnAnswer = typhon_messaging:send_result(Queue, Address),
     unsent_forget(OnAnswer),
     request_forget(OnAnswer).

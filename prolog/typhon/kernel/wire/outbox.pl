@@ -67,11 +67,11 @@ unless_closed(Goal) :-
 send(Session, Term, When) :-
     frame_bytes(Session, Term, Bytes),
     answers_first(Session),
-    goes(Session, Bytes, none, When).
+    send_bytes(Session, Bytes, none, When).
 
-goes(Session, Bytes, Token, When) :-
+send_bytes(Session, Bytes, Token, When) :-
     (   output_waits
-    ->  let_out(Session, Bytes, Token, When)
+    ->  send_committed(Session, Bytes, Token, When)
     ;   session_locked(Session, put_frame(Session, Bytes, Token, flush))
     ).
 
@@ -93,7 +93,7 @@ session_send_with(Session, Term) :-
     ->  Token = loose
     ;   Token = none
     ),
-    goes(Session, Bytes, Token, now).
+    send_bytes(Session, Bytes, Token, now).
 
 %!  session_hand_bytes(+Session, +Kind, +Term, -Bytes) is det.
 %
@@ -152,9 +152,9 @@ session_owes :-
     nb_linkval(typhon_later, Count1),
     nb_linkval(typhon_owing, true).
 
-%   Answers that a reader has left go with this frame, or before a frame to
+%   Answers that a reader has buffered go with this frame, or before a frame to
 %   another peer: the process that gets this frame must not report an agent
-%   before the answer has left that the agent has arrived here.
+%   before the peer has the answer that the agent has arrived here.
 
 answers_first(Session) :-
     answers_left(Own),
@@ -173,16 +173,16 @@ answers_left(Session) :-
 
 %!  session_send_later(+Session, +Term) is det.
 %
-%   Send Term with the next frame.  Only the thread of the connection may leave
-%   frames: it calls session_push/1 when it begins, and again soon if frames
-%   have been left.  Other threads send at once.
+%   Send Term with the next frame.  Only the thread of the connection may buffer
+%   frames: it calls session_push/1 when it begins, and again soon after it has
+%   buffered frames.  Other threads send at once.
 
 session_send_later(Session, Term) :-
     nb_current(typhon_later, Count),
     !,
     frame_bytes(Session, Term, Bytes),
     (   output_waits
-    ->  unless_closed(let_out(Session, Bytes, none, later))
+    ->  unless_closed(send_committed(Session, Bytes, none, later))
     ;   session_locked(Session, put_frame(Session, Bytes, none, buffer))
     ),
     Count1 is Count+1,
@@ -192,14 +192,14 @@ session_send_later(Session, Term) :-
 
 %!  session_later(-Count) is det.
 %
-%   The number of frames that this thread has left.
+%   The number of frames that this thread has buffered.
 
 session_later(Count) :-
     nb_getval(typhon_later, Count).
 
 %!  session_push(+Session) is det.
 %
-%   Send the frames that this thread has left.
+%   Send the frames that this thread has buffered.
 
 session_push(Session) :-
     ( output_waits -> flush_sends ; true ),
@@ -249,23 +249,23 @@ session_acknowledge(Session) :-
                 *           COMMITTED          *
                 *******************************/
 
-%   let_out(+Session, +Bytes, +Token, +When): as put_frame/4, after the commit.
-%   When is that of send_after_commit/2.
+%   send_committed(+Session, +Bytes, +Token, +When): as put_frame/4, after the
+%   commit.  When is that of send_after_commit/2.
 
-let_out(Session, Bytes, Token, When) :-
+send_committed(Session, Bytes, Token, When) :-
     session_must_exist(Session, _, _),
     send_after_commit(frame(Session, Bytes, Token), When).
 
 %   All frames are written to buffers before the first buffer is flushed.
 
 typhon_durable_changes:committed(Frames) :-
-    forall(member(Frame, Frames), let_out(Frame)),
+    forall(member(Frame, Frames), put_committed(Frame)),
     findall(Session, member(frame(Session, _, _), Frames), Sessions0),
     list_to_set(Sessions0, Sessions),
     forall(( member(Session, Sessions), session_key(Session, Key) ),
            session_locked(Session, flush_out(Key))).
 
-let_out(frame(Session, Bytes, Token)) :-
+put_committed(frame(Session, Bytes, Token)) :-
     catch(session_locked(Session, put_frame(Session, Bytes, Token, buffer)),
           error(session_closed, _),
           true).                        % its requests have their results

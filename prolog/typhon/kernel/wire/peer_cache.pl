@@ -17,8 +17,8 @@
 /** <module> Peers: addresses, processes and proofs
 
 Records which process was last met at an address, and whether it has left:
-nothing listens there any more, or it has sent `bye`. A process that is silent,
-or behind a cut network, has not left. If no peer could be reached, the last
+nothing listens there now, or it has sent `bye`. A process that is silent, or
+behind a cut network, has not left. If no peer could be reached, the last
 error is recorded. The number of addresses is bounded, the oldest are discarded.
 
 *Threading*: any thread; a mutex serializes changes.
@@ -55,7 +55,7 @@ contact_met(Address, Process) :-
 
 %!  contact_gone(+Address) is det.
 %
-%   Record that no process is at Address any more.
+%   Record that the process at Address has left.
 
 contact_gone(Address) :-
     with_mutex(typhon_contacts,
@@ -108,7 +108,8 @@ note(Address, Process, State) :-
     note_lasting(Process, Address),
     forget_oldest.
 
-%   That a process will be restarted must survive a restart of this one.
+%   After a restart this process must still know that the other one is restarted
+%   when it ends.
 
 note_lasting(Process, Address) :-
     sub_atom(Process, 0, _, _, j),
@@ -190,7 +191,7 @@ endpoint_lasting(Address) :-
 %!  endpoint_missed(+Address, ?Formal) is semidet.
 %
 %   Formal is the reason why no process could be reached at Address at the last
-%   attempt: `late`, or the formal term of an error, as
+%   attempt: `late`, or the formal term of an error, such as
 %   permission_error(authenticate, peer, Why) or socket_error(Code, Text).
 
 endpoint_missed(Address, Formal) :-

@@ -99,8 +99,8 @@ read_all(Session, In, Max, State) :-
     arg(3, State, Queue),
     more_first(In, More),
     repeat,
-    (   lend(Queue, More, tell(Session))
-    ->  true                            % and tell/1 was called
+    (   lend(Queue, More, flush_answers(Session))
+    ->  true                            % and flush_answers/1 was called
     ;   push_late(Session, In)
     ),
     (   next(In, Max, Counts, Bytes)
@@ -115,10 +115,10 @@ read_all(Session, In, Max, State) :-
         fail
     ).
 
-%   Called after the goal that a hook has left: frames that the goal has sent to
-%   the peer have taken the answers along, else they are sent now.
+%   Called after the goal that a hook has left.  The frames that the goal sent
+%   to the peer have taken the buffered answers along; else send these now.
 
-tell(Session) :-
+flush_answers(Session) :-
     session_later(Late),
     (   Late > 0
     ->  session_push(Session)
@@ -179,7 +179,7 @@ times_damaged(Key, Count, Which, Times) :-
     forget_damage,
     assertz(damaged(Key, Count, Which, Times)).
 
-%   Damage in sessions that are over is no longer needed.
+%   Facts about sessions that are over are no longer needed: drop the oldest.
 
 forget_damage :-
     predicate_property(damaged(_, _, _, _), number_of_clauses(Count)),
@@ -325,7 +325,7 @@ spoil(request(Id), Session) :-
 spoil(answer(Id), Session) :-
     !,
     dispatch(Session, spoilt(Id)).
-spoil(_, Session) :-                    % it may be a hand-over
+spoil(_, Session) :-                    % the frame may be a hand-over
     session_object(Session, spoilt).
 
 :- multifile prolog:message//1.

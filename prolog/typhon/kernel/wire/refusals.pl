@@ -20,7 +20,7 @@ report/0 when a second is over.
 :- use_module(transport, [refusal_text/2]).
 
 :- dynamic
-    burst/1,                            % Told: number reported one by one
+    burst/1,                            % Reported: number reported one by one
     tally/3.                            % Ip, Why, Count: not yet reported
 
 %   The most that are reported one by one, and the most pairs of address and
@@ -45,18 +45,18 @@ refused(Ip, Formal) :-
     ).
 
 note(Ip, Why, How) :-
-    (   burst(Told)
+    (   burst(Reported)
     ->  true
-    ;   Told = 0,
+    ;   Reported = 0,
         assertz(burst(0)),
         plan
     ),
     singly(Max),
-    (   Told < Max
+    (   Reported < Max
     ->  How = alone,
         retractall(burst(_)),
-        Told1 is Told+1,
-        assertz(burst(Told1))
+        Reported1 is Reported+1,
+        assertz(burst(Reported1))
     ;   How = together,
         add(Ip, Why)
     ).

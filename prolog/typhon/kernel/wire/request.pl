@@ -175,7 +175,7 @@ conclude(Result, Id, Key) :-
 
 %!  dispatch(+Session, +Frame) is det.
 %
-%   Never raises: errors in a hook are reported.
+%   Never raises: prints errors of hooks.
 
 dispatch(Session, post(Kind, Term)) :-
     !,
@@ -300,7 +300,7 @@ attempt(Goal, Kind) :-
     (   catch(Goal, Error, true)
     ->  (   var(Error)
         ->  true
-        ;   is_order(Error)
+        ;   is_thread_end(Error)
         ->  throw(Error)
         ;   print_message(error, typhon(endpoint, hook(Kind, Error))),
             fail
@@ -350,7 +350,7 @@ load_and_take(requested(Kind, Term, Peer, ReplyTo)) :-
 %   The exception ends the thread: it is not an error of the hook, and must not
 %   be caught.
 
-is_order(wire_thread_end(_)).
+is_thread_end(wire_thread_end(_)).
 
 :- multifile prolog:message//1.
 

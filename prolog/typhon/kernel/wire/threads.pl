@@ -10,7 +10,7 @@
             wire_threads_end/0,
             in_background/2,            % :Goal, +Name
             manager_queue_open/0,
-            manager_queue_close/1,       % -Unheard
+            manager_queue_close/1,       % -Unhandled
             manager_notify/1,              % +Message
             manager_receive/2               % -Message, +Deadline
           ]).
@@ -166,7 +166,7 @@ wire_thread_join(Thread) :-
     (   retract(wire_thread(Thread))
     ->  catch(thread_join(Thread, Status),
               error(existence_error(thread, _), _),
-              Status = true),           % a process that halts was quicker
+              Status = true),           % Prolog halts, and has joined it
         report(Status)
     ;   true
     ).
@@ -206,22 +206,22 @@ manager_queue_open :-
     message_queue_create(Queue),
     assertz(manager_queue(Queue)).
 
-%!  manager_queue_close(-Unheard) is det.
+%!  manager_queue_close(-Unhandled) is det.
 %
-%   Destroy the queue.  Unheard are the messages that were left in it.
+%   Destroy the queue.  Unhandled are the messages that were left in it.
 
-manager_queue_close(Unheard) :-
-    with_mutex(typhon_manager_queue, close_queue(Unheard)).
+manager_queue_close(Unhandled) :-
+    with_mutex(typhon_manager_queue, close_queue(Unhandled)).
 
-close_queue(Unheard) :-
+close_queue(Unhandled) :-
     retract(manager_queue(Queue)),
-    findall(Message, unheard(Queue, Message), Unheard),
+    findall(Message, take_left(Queue, Message), Unhandled),
     message_queue_destroy(Queue).
 
-%   No time-out: in a clean-up handler a wait with one may never end, see
-%   manager_connect/1.
+%   This waits without time-out: in a clean-up handler a wait with one may never
+%   end, see manager_connect/1.
 
-unheard(Queue, Message) :-
+take_left(Queue, Message) :-
     repeat,
     (   thread_peek_message(Queue, _)
     ->  thread_get_message(Queue, Message)

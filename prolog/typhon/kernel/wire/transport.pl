@@ -79,7 +79,7 @@ transport_input/2 tests both.
 %
 %   The endpoint starts with Options.
 %
-%   @error what begins/4 raises
+%   @error those of the hook begins/4
 
 transport_begin(Options) :-
     options_load(host_option, Options),
@@ -175,7 +175,7 @@ refusal_text(Why, Text) :-
 %   TCP. Proof is the proof that the peer has given, or will give: `cookie` on
 %   plain TCP.
 %
-%   @error what opens/7 raises
+%   @error those of the hook opens/7
 
 transport_open(Role, In, Out, TIn, TOut, Proof) :-
     (   current(Transport, _, _)

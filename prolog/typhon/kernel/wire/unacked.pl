@@ -237,12 +237,12 @@ unacked_resumed(Session, Count, Bytes, Frames) :-
     get_flag(Acked, Count0),
     message_queue_property(Sent, size(Size)),
     Gone is max(0, min(Count-Count0, Size)),
-    gone(Gone, Count0, Sent, Handed, 0, _),
+    take_received(Gone, Count0, Sent, Handed, 0, _),
     settled_now(Handed, Key, none, [], []),
     Count1 is max(Count0, Count),
     set_flag(Acked, Count1),
     set_flag(AckedBytes, Bytes),
-    has_bundle(Key, Count1),
+    bundle_received(Key, Count1),
     set_flag(Told, -1),                 % the reader acknowledges at its start
     fifo_empty(Sent, Frames),
     forall(member(Frame, Frames), thread_send_message(Sent, Frame)),
@@ -262,7 +262,7 @@ unacked_close(Session, Waiting, Handed) :-
     Window = window(SentQueue, WaitingQueue, _, _, Acked, _, _),
     get_flag(Acked, Count),
     message_queue_property(SentQueue, size(Size)),
-    gone(Size, Count, SentQueue, Lost, 0, _),
+    take_received(Size, Count, SentQueue, Lost, 0, _),
     fifo_empty(WaitingQueue, Waiting),
     settled_never(Key, Lost, Handed0),
     findall(handed(Token, unsent),
@@ -310,30 +310,31 @@ acked(Ahead, Key, Window, SettledCount, Settled, Late) :-
     ;   domain_error(acknowledged, Ahead)
     ),
     get_flag(Acked, Count0),
-    gone(Ahead, Count0, Sent, Handed, 0, Bytes),
+    take_received(Ahead, Count0, Sent, Handed, 0, Bytes),
     settled_now(Handed, Key, SettledCount, Settled, Late),
     Count is Count0+Ahead,
     set_flag(Acked, Count),
     get_flag(AckedBytes, Bytes0),
     Bytes1 is Bytes0+Bytes,
     set_flag(AckedBytes, Bytes1),
-    has_bundle(Key, Count).
+    bundle_received(Key, Count).
 
-%   has_bundle(+Key, +Count): the peer has received Count frames.
+%   bundle_received(+Key, +Count): the peer has received Count frames.
 
-has_bundle(Key, Count) :-
+bundle_received(Key, Count) :-
     (   bundled(Key, Last),
         Last =< Count
     ->  retractall(bundled(Key, _))
     ;   true
     ).
 
-%   gone(+Ahead, +Count, +Sent, -Handed, +Bytes0, -Bytes): the peer has received
-%   Ahead frames more than Count, of so many bytes; Handed are their hand-overs.
+%   take_received(+Ahead, +Count, +Sent, -Handed, +Bytes0, -Bytes): the peer has
+%   received Ahead frames more than Count, of so many bytes; Handed are their
+%   hand-overs.
 
-gone(0, _, _, [], Bytes, Bytes) :-
+take_received(0, _, _, [], Bytes, Bytes) :-
     !.
-gone(Ahead, N0, Sent, Handed, Bytes0, Bytes) :-
+take_received(Ahead, N0, Sent, Handed, Bytes0, Bytes) :-
     thread_get_message(Sent, frame(Frame, Token, _)),
     string_length(Frame, Length),
     frame_overhead(Head),
@@ -344,7 +345,7 @@ gone(Ahead, N0, Sent, Handed, Bytes0, Bytes) :-
     ;   Handed = Handed1
     ),
     Ahead1 is Ahead-1,
-    gone(Ahead1, N, Sent, Handed1, Bytes1, Bytes).
+    take_received(Ahead1, N, Sent, Handed1, Bytes1, Bytes).
 
 %!  session_objected(+Session, +Number, +Answer) is det.
 %

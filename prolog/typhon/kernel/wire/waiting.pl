@@ -108,7 +108,7 @@ oldest(Address, Number, What) :-
     !.
 
 met(thread(Queue), _, _) :-
-    tell(Queue, met).
+    notify(Queue, met).
 met(request(Kind, Term, OnAnswer), Address, Session) :-
     catch(request_send(Session, Kind, Term, OnAnswer),
           error(Formal, Context),
@@ -116,7 +116,7 @@ met(request(Kind, Term, OnAnswer), Address, Session) :-
 
 %   The waiting thread may have been interrupted, and its queue destroyed.
 
-tell(Queue, Result) :-
+notify(Queue, Result) :-
     catch(thread_send_message(Queue, Result),
           error(existence_error(_, _), _),
           true).
@@ -159,7 +159,7 @@ missed(Address, Number) :-
     ).
 
 missed(thread(Queue)) :-
-    tell(Queue, missed).
+    notify(Queue, missed).
 missed(request(_, _, OnAnswer)) :-
     request_answer(unreachable, OnAnswer).
 
@@ -261,9 +261,9 @@ endpoint_flush(Seconds, Peers) :-
 
 %!  peers_flush(+Seconds) is semidet.
 %
-%   As endpoint_flush/1, for a process about to end: it does not wait for frames
-%   that cannot arrive, because no process listens at the address of the peer
-%   any more.  Not for hooks nor clean-up handlers, see manager_connect/2.
+%   As endpoint_flush/1, for a process that is about to end.  Does not wait for
+%   frames to a peer at whose address no process listens now.  Not for hooks and
+%   clean-up handlers, see manager_connect/2.
 
 peers_flush(Seconds) :-
     get_time(Now),

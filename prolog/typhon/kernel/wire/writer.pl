@@ -81,7 +81,7 @@ put_frame(Session, Bytes, Token, Flush) :-
         unacked_sent(Window, Out, Bytes, Token, Counts)
     ->  written(Flush, Key, Thread, Out, Counts, Bytes)
     ;   unacked_waits(Window, Bytes, Token),
-        see_to(Session, Key)
+        write_or_connect(Session, Key)
     ).
 
 %   holds(+Session, +Key): the peer will acknowledge some of the frames under
@@ -144,13 +144,13 @@ control_add(Key, Kind, Bytes) :-
 session_release(Session) :-
     (   unacked_waiting(Session)
     ->  session_key(Session, Key),
-        session_locked(Session, see_to(Session, Key))
+        session_locked(Session, write_or_connect(Session, Key))
     ;   true
     ).
 
 %   Some frame waits: write it, or request a connection.
 
-see_to(Session, Key) :-
+write_or_connect(Session, Key) :-
     (   pusher(Key, _)
     ->  true
     ;   transport(Key, Thread, Out)
@@ -218,8 +218,8 @@ writer_begin(Session, Key, Thread, Out, Again) :-
     ;   pusher_start(Session, Key, Thread, Out, Again)
     ).
 
-%   If no thread can be made the connection is given up: the frames that wait
-%   must not be overtaken, and are sent over the next connection.
+%   If no thread can be created, this gives up the connection: other frames must
+%   not overtake the frames that wait, and the next connection sends them.
 
 pusher_start(Session, Key, Thread, Out, Again) :-
     catch(( wire_thread_create(push(Session, Key, Thread, Out, Again),
@@ -237,7 +237,7 @@ push(Session, Key, Thread, Out, Again) :-
                 push_waiting(Session, Key, Out) ),
               error(_, _),
               true),
-        session_locked(Session, pushed(Key, Thread))).
+        session_locked(Session, pusher_ended(Key, Thread))).
 
 write_again(Frame, Session, Out) :-
     session_locked(Session, unacked_counts(Session, Frame, Counts, Bytes)),
@@ -245,7 +245,7 @@ write_again(Frame, Session, Out) :-
 
 %   A pusher that has written all frames has removed its fact already.
 
-pushed(Key, Thread) :-
+pusher_ended(Key, Thread) :-
     thread_self(Me),
     (   retract(pusher(Key, Me))
     ->  transport_broken(Key, Thread)
@@ -388,11 +388,11 @@ connection_is(Session, State) :-
     sort(Addresses0, Addresses),
     forall(( member(Peer, Addresses),
              clause(typhon_endpoint:connection(Peer, State), Body) ),
-           reported(typhon_endpoint:Body)).
+           call_hook(typhon_endpoint:Body)).
 
 %   A hook that fails or raises an error is reported, and the others are called.
 
-reported(Hook) :-
+call_hook(Hook) :-
     catch(( Hook -> Problem = none ; Problem = failed ),
           error(Formal, Context),
           Problem = error(Formal, Context)),

@@ -355,7 +355,7 @@ test(post_before_its_deadline_waits_for_the_next_connection,
           typhon_session:route(A, Session),
           typhon_writer:session_retire(Session),
           with_held(
-              typhon_connection:say_count(_, _),
+              typhon_connection:send_count(_, _),
               thread_create(typhon_waiting:manager_connect(A), Connects),
               ( truth(endpoint_post_up(A, note, 1), Up),
                 thread_create(( thread_send_message(endpoint_gate, posts),
