@@ -220,8 +220,8 @@ session(Steps, Line, Top, Line:Difference) :-
 %   its port, which is ours now.
 
 by_others(Report) :-
-    sub_string(Report, _, _, _, "turned away a client at 127.0.0.1: it does \c
-                                 not know our cookie").
+    sub_string(Report, _, _, _, "refused a client at 127.0.0.1: its cookie \c
+                                 is not that of this process").
 
 step(Top, step(Goal, Expected), Differences0-Reports0, Differences-Reports) :-
     wanted_answer(Goal, Expected, Wanted),

@@ -280,7 +280,7 @@ test(another_cookie_is_no_dead_host, [ condition(top_level_goes_on),
                  sub_string(Line, _, _, _, "has another cookie") ), Xs),
     delta(_, Out),
     read_line_to_string(Out, There),
-    one_has([There], "does not know our cookie").
+    one_has([There], "its cookie is not that of this process").
 
 another_cookie(Delta, Written) :-
     format(atom(Create), 'agent_create(hi, A, [host(~q)]).', [Delta]),

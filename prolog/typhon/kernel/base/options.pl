@@ -130,7 +130,7 @@ setting_changed(Old, Value) :-
                 *******************************/
 
 prolog:message(typhon(setting_renamed(Old, New))) -->
-    [ 'The setting ~w is called ~w now'-[Old, New] ].
+    [ 'The setting ~w has been renamed; set ~w'-[Old, New] ].
 
 prolog:error_message(domain_error(Domain, Culprit)) -->
     { atom(Domain),

@@ -134,11 +134,11 @@ level(Why, Level) :-
 :- multifile prolog:message//1.
 
 prolog:message(typhon(endpoint, turned_away(Ip, Why))) -->
-    [ 'Endpoint: turned away a client at ~w: '-[Ip] ],
+    [ 'Endpoint: refused a client at ~w: '-[Ip] ],
     why(Why).
 prolog:message(typhon(endpoint, turned_away(Groups))) -->
     { foldl([Count-_, Sum0, Sum]>>(Sum is Sum0+Count), Groups, 0, Sum) },
-    [ 'Endpoint: turned away ~D more clients:'-[Sum] ],
+    [ 'Endpoint: refused ~D more clients:'-[Sum] ],
     groups(Groups).
 
 groups([]) -->
@@ -156,11 +156,11 @@ why(Why) -->
 why(Why) -->
     [ '~p'-[Why] ].
 
-ours(cookie, 'it does not know our cookie').
+ours(cookie, 'its cookie is not that of this process').
 ours(protocol, 'it uses another protocol').
-ours(hung_up, 'it hung up').
+ours(hung_up, 'it closed the connection').
 ours(broken, 'the connection broke').
-ours(slow, 'it took too long').
+ours(slow, 'it did not complete the handshake in time').
 ours(silent, 'its slot was given to another client').
 ours(crowd, 'all slots are taken').
 ours(line, 'it sent a line that is too long').

@@ -358,7 +358,7 @@ prolog:message(typhon(endpoint, unknown_frame(Frame))) -->
     [ 'Endpoint: unknown frame: ~W'
       -[Frame, [quoted(true), max_depth(8)]] ].
 prolog:message(typhon(endpoint, hook(Kind, failed))) -->
-    [ 'Endpoint: no hook takes ~q'-[Kind] ].
+    [ 'Endpoint: no hook for ~q succeeded'-[Kind] ].
 prolog:message(typhon(endpoint, hook(Kind, Error))) -->
-    [ 'Endpoint: taking ~q: '-[Kind] ],
+    [ 'Endpoint: error in a hook for ~q: '-[Kind] ],
     error_told(Error).

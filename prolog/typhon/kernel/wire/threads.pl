@@ -254,5 +254,5 @@ manager_receive(Message, Deadline) :-
 :- multifile prolog:message//1.
 
 prolog:message(typhon(endpoint, thread_died(Error))) -->
-    [ 'Endpoint: a thread died: ' ],
+    [ 'Endpoint: a thread ended with an error: ' ],
     error_told(Error).
