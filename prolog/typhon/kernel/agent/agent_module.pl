@@ -192,6 +192,8 @@ add_clauses([Clause|Clauses], Module) :-
     add_clauses(Clauses, Module).
 
 %!  agent_state(+Module, -State) is det.
+%
+%   State is state(Empty, Clauses) of the agent in Module, see agent_module/5.
 
 agent_state(Module, state(Empty, Clauses)) :-
     findall(Item, state_item(Module, Item), Items),
@@ -340,6 +342,8 @@ attach_free(Module, Hash, PIs) :-
     maplist(free(Module, Program), PIs).
 
 %!  attach_clauses(+Module, +Payload) is det.
+%
+%   Add the clauses of Payload to the state of the agent in Module.
 
 attach_clauses(Module, payload(_, PIs, Clauses0)) :-
     maplist(may_have(Module), PIs),
@@ -366,6 +370,8 @@ free(Module, Program, Name/Arity) :-
     ).
 
 %!  detach_clauses(+Module, +PIs) is det.
+%
+%   Remove the predicates PIs from the state of the agent in Module.
 
 detach_clauses(Module, PIs) :-
     forall(member(PI, PIs), abolish(Module:PI)).

@@ -232,6 +232,8 @@ goals_shown(Goals0, Goals) =>
     Goals = Goals0.
 
 %!  agent_runs(+Id) is semidet.
+%
+%   A worker runs Id.
 
 agent_runs(Id) :-
     stands(Id, _, _, _, _, _),
@@ -324,6 +326,8 @@ agent_handed(Id, Hops, Way, Frame) :-
     '$destroy_module'(Module).
 
 %!  agent_under_way(?Id, ?Hops, -Host, -Hash, -Way, -Frame) is nondet.
+%
+%   Id is under way as Frame, on its hop number Hops, from Host.
 
 agent_under_way(Id, Hops, Host, Hash, Way, Frame) :-
     under_way(Id, Hops, Host, Hash, Way, Frame).
@@ -374,6 +378,8 @@ wakes_on(Host, Id, Goals) :-
     schedule(Host, Id).
 
 %!  agent_put_life(+Id, +Life) is det.
+%
+%   Replace the life of Id.
 
 agent_put_life(Id, Life) :-
     stands(Id, Host, Module, Hash, _, Until),

@@ -121,6 +121,8 @@ where(Hash, Module, Fault, Where) :-
 where(_, _, _, []).
 
 %!  fault_outcome(+Fault, -Outcome) is det.
+%
+%   Outcome is `failed` or raised(Error).
 
 fault_outcome(fault(Outcome, _, _, _, _, _), Outcome).
 
@@ -136,6 +138,8 @@ fault_error(Fault, Error) :-
     ).
 
 %!  fault_stamp(+Fault, -Stamp:float) is det.
+%
+%   Stamp is the time of Fault, a time stamp.
 
 fault_stamp(fault(_, _, _, _, _, Stamp), Stamp).
 

@@ -99,6 +99,8 @@ image_amended(Phase, Host, Where, Image0, Image) :-
     ).
 
 %!  image_hash(+Image, -Hash) is det.
+%
+%   Hash names the program of the agent.
 
 image_hash(image(_, Hash, _, _, _, _, _), Hash).
 

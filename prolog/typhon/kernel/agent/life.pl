@@ -45,6 +45,8 @@ code.
                                 % now, and carries Extra, of functor name Name
 
 %!  is_life(@Term) is semidet.
+%
+%   Term is a life, with arguments of the right types.
 
 is_life(life(Parent, Hops, Lifetime, Tokens, Payloads, Static, Extras)) :-
     atom(Parent),

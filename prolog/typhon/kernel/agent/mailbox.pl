@@ -47,6 +47,8 @@ mail_put/2 may add to a queue, and no thread waits for one.
     order/2.                    % Id, Order: the oldest first
 
 %!  mail_put(+Id, +Messages:list) is det.
+%
+%   Add Messages, From-Message, to the mailbox of Id.
 
 mail_put(_, []) :-
     !.
@@ -169,6 +171,8 @@ mail_waits(Id) :-
     !.
 
 %!  mail_count(+Id, -Count:nonneg) is det.
+%
+%   Count messages are in the mailbox of Id.
 
 mail_count(Id, Count) :-
     box(Id, Queue),
@@ -234,6 +238,8 @@ agent_ordered(Id) :-
     !.
 
 %!  agent_orders(+Id, -Orders:list) is det.
+%
+%   Orders are the orders that Id has not taken yet, the oldest first.
 
 agent_orders(Id, Orders) :-
     findall(Order, order(Id, Order), Orders).

@@ -185,6 +185,8 @@ cloned_put(Module, Endpoint) :-
     ).
 
 %!  result_facts(+Module, -Items:list) is det.
+%
+%   Items are the results of the agent in Module.
 
 result_facts(Module, Items) :-
     (   '$c_current_predicate'(_, Module:'$legacy'(_))
@@ -202,6 +204,8 @@ no_result_facts(state(Empty, Clauses0), state(Empty, Clauses)) :-
 of_result('$legacy'(_)).
 
 %!  is_result_fact(@Item) is semidet.
+%
+%   Item has the form of a result; it may come from a peer.
 
 is_result_fact(Item) :-
     subsumes_term(result(_), Item),

@@ -71,6 +71,8 @@ text_lines([Line|Lines]) -->
     text_lines(Lines).
 
 %!  error_text(+Error, -Text:string) is det.
+%
+%   Text is the message of Error, an exception of any origin.
 
 error_text(Error, Text) :-
     (   is_tree(Error, 50 000)

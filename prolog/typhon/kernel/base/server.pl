@@ -187,6 +187,8 @@ await_result(Seconds, Caller, Result) :-
     thread_get_message(Caller, Result, [timeout(Seconds)]).
 
 %!  server_answer(+Caller, +Answer) is det.
+%
+%   Answer a call, see call(Request, Caller) above.
 
 server_answer(Caller, Answer) :-
     answer(Caller, answer(Answer)).

@@ -147,6 +147,8 @@ alarms_number(Count) :-
                 *******************************/
 
 %!  index_make(-Index) is det.
+%
+%   Delete obsolete alarms, and make an index of the others.
 
 index_make(Index) :-
     alarms_thin,
@@ -240,6 +242,8 @@ index_first(index(Stamps, _), Stamp) :-
     ).
 
 %!  index_size(+Index, -Count) is det.
+%
+%   Count stamps are in Index.
 
 index_size(least(_, _), 1).
 index_size(index(Stamps, _), Size) :-

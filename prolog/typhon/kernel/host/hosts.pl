@@ -53,6 +53,8 @@ mutex: flag/3 would lock for each of them.
 %   The hosts of this process, in the order of their start.
 
 %!  host_add(+Name, +Address, +Place, +Options) is det.
+%
+%   Add a host, which admits agents from now on.
 
 host_add(Name, Address, Place, Options) :-
     make_keys(Name),
@@ -159,6 +161,8 @@ host_closed(Name) :-
     \+ door(Name, _, _, _).
 
 %!  host_remove(+Name) is det.
+%
+%   Remove the records of Name, which has stopped.
 
 host_remove(Name) :-
     durable_drop(host, Name, 0),
@@ -171,6 +175,8 @@ host_remove(Name) :-
     parts_forget(Name).
 
 %!  host_option(?Name, ?Option) is nondet.
+%
+%   Name has Option, as in host_start/2.
 
 host_option(Name, Option) :-
     option(Name, Option).
@@ -286,6 +292,8 @@ host_leave(Name) :-
     ).
 
 %!  host_load(+Name, -Load:integer) is det.
+%
+%   Load agents are on Name, faulty ones not counted.
 
 host_load(Name, Load) :-
     load_key(Name, Key),

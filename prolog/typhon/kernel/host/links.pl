@@ -119,6 +119,8 @@ host_linked(Address) :-
     neighbour(_, Address).
 
 %!  host_neighbours(+Name, -Addresses:list(atom)) is det.
+%
+%   Addresses are the hosts to which Name has a link.
 
 host_neighbours(Name, Addresses) :-
     findall(Address, neighbour(Name, Address), Addresses0),

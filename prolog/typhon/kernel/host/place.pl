@@ -156,6 +156,8 @@ reload(Place, Id, File) :-
 %   Place is the place of Host.
 
 %!  place_destroy(+Place) is det.
+%
+%   Remove Place, and all that was loaded into it.
 
 place_destroy(Place) :-
     unload(Place),

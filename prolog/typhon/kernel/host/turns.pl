@@ -283,6 +283,10 @@ context(Host, Agent, Module) :-
     ).
 
 %!  context_agent(-Agent) is det.
+%
+%   Agent is the running agent.
+%
+%   @error as context/3
 
 context_agent(Agent) :-
     context(_, Agent, _).

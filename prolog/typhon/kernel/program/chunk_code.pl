@@ -44,6 +44,8 @@ named(Prefix, Goal, More, Named) :-
     Named =.. [NewName|NewArgs].
 
 %!  occurs(+Variable, +Term) is semidet.
+%
+%   Variable occurs in Term.
 
 occurs(Variable, Term) :-
     term_variables(Term, Variables),

@@ -177,6 +177,8 @@ place(N, Goal, Nodes, Within, Seen, place(N, Old, New, Goal, Goals)) :-
     exclude(among(Before), InGoal, New).
 
 %!  among(+Variables:list, @Variable) is semidet.
+%
+%   Variable is one of Variables.
 
 among(Variables, Variable) :-
     member(Other, Variables),

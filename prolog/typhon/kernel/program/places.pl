@@ -81,6 +81,8 @@ place([File-Lines|Places], N, Place) :-
     ).
 
 %!  is_places(@Term) is semidet.
+%
+%   Term has the form of places; it may come from a peer.
 
 is_places(Places) :-
     is_list(Places),

@@ -342,6 +342,8 @@ indicator_in((A,B), PI) :- !, ( indicator_in(A, PI) ; indicator_in(B, PI) ).
 indicator_in(Name/Arity, Name/Arity) :- atom(Name), integer(Arity).
 
 %!  clause_parts(+Clause, -Head, -Body) is det.
+%
+%   Body is `true` if Clause is a fact.
 
 clause_parts(Var, Var, true) :-
     var(Var),

@@ -55,6 +55,8 @@ backlog(Id) :-
     !.
 
 %!  backlog_add(+Id, +Letter) is det.
+%
+%   Add Letter to the backlog of Id.
 
 backlog_add(Id, Letter) :-
     durable_number(N),

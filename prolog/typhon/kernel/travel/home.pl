@@ -69,6 +69,8 @@ typhon_identity:id_anew(Id) :-
     retractall(faulty(Id, _, _)).
 
 %!  agent_born(+Id, +Address) is det.
+%
+%   Record that Id was born on the host Address of this process.
 
 agent_born(Id, Address) :-
     put_born(Id, Address, 0, here).
@@ -125,11 +127,15 @@ home_agents_at(Endpoint, Ids) :-
     sort(Ids0, Ids).
 
 %!  agent_outcome(+Id, -Outcome) is semidet.
+%
+%   Id, whose home is here, has ended with Outcome.
 
 agent_outcome(Id, Outcome) :-
     outcome(Id, Outcome, _).
 
 %!  ended_after(+Id, -Hops) is semidet.
+%
+%   Id, whose home is here, has ended after Hops hops.
 
 ended_after(Id, Hops) :-
     outcome(Id, _, Hops).

@@ -111,6 +111,8 @@ hop_id_label(Agent, Endpoint, hop_id(Process, N, Least)) :-
 hop_id_label(_, _, none).
 
 %!  is_hop_id(@Label) is semidet.
+%
+%   Label is `none` or a hop id; it may come from a peer.
 
 is_hop_id(Label) :-
     Label == none,

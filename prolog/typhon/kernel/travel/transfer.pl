@@ -116,6 +116,8 @@ transfer_freeze(clone(Id, dest(Address, _, Endpoint), CloneId), Held, [],
                 *******************************/
 
 %!  transfer_arrived(+Transfer) is det.
+%
+%   The receiver has the agent: end the transfer here.
 
 transfer_arrived(Transfer) :-
     (   durable_on

@@ -89,6 +89,8 @@ attempt_begun(Address, Thread, Asked) :-
     set(Address, trying(Thread, Now, Asked), Pause, Since).
 
 %!  attempt_asked(+State, -Asked) is det.
+%
+%   Asked is that of State, see attempt/4.
 
 attempt_asked(queued, 0).
 attempt_asked(trying(_, _, Asked), Asked).
@@ -143,6 +145,8 @@ set(Address, State, Pause, Since) :-
     assertz(attempt(Address, State, Pause, Since)).
 
 %!  attempt_end(?Address) is det.
+%
+%   Delete the attempt to connect to Address.
 
 attempt_end(Address) :-
     retractall(attempt(Address, _, _, _)).

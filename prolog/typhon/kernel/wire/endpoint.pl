@@ -239,6 +239,8 @@ listen_too(Port, Address) :-
     debug(typhon(session), 'endpoint: listens at ~w, too', [Address]).
 
 %!  endpoint_listen_end(+Address) is det.
+%
+%   Stop listening at Address, see endpoint_listen/2.
 
 endpoint_listen_end(Address) :-
     with_mutex(typhon_endpoint, listen_no_more(Address)).

@@ -88,6 +88,8 @@ hello_to(Proof, hello(Process, Start, Address, Version, Word, _),
 hello_to(_, Hello, Hello).
 
 %!  hello_line(+Hello, -Line:string) is det.
+%
+%   Line is Hello as it is sent in the handshake.
 
 hello_line(hello(Process, Start, Address, Version, Word, Order), Line) :-
     format(string(Line), "~w ~d ~w ~d ~d ~w",
@@ -166,6 +168,8 @@ line_codes(In, Deadline, Space, Codes) :-
     ).
 
 %!  line_write(+Out, +Line) is det.
+%
+%   Write Line and a newline to Out, and flush it.
 
 line_write(Out, Line) :-
     format(Out, "~w\n", [Line]),

@@ -56,6 +56,8 @@ it is answered once.
     open_request/3.                     % Id, Key, OnAnswer
 
 %!  request_send(+Session, +Kind, +Term, :OnAnswer) is det.
+%
+%   Send a request; its result goes to OnAnswer, see endpoint_request/4.
 
 request_send(Session, Kind, Term, OnAnswer) :-
     session_key(Session, Key),

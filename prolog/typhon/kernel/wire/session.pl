@@ -80,14 +80,20 @@ route_key(Address, Key) :-
     route(Address, session(Key, _, _, _, _, _)).
 
 %!  session_key(+Session, -Key) is det.
+%
+%   Key names the peer.
 
 session_key(session(Key, _, _, _, _, _), Key).
 
 %!  session_codec(+Session, -Codec) is det.
+%
+%   Codec is `fast` or `text`, see typhon_frame.
 
 session_codec(session(_, Codec, _, _, _, _), Codec).
 
 %!  session_window(+Session, -Window) is det.
+%
+%   Window is that of unacked.pl.
 
 session_window(session(_, _, _, _, _, Window), Window).
 

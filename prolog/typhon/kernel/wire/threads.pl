@@ -43,6 +43,8 @@ of the queue.
 :- dynamic wire_thread/1.       % Thread
 
 %!  wire_thread_create(:Goal, +Name, -Thread) is det.
+%
+%   As wire_thread_create/4, without Before.
 
 wire_thread_create(Goal, Name, Thread) :-
     wire_thread_create(Goal, Name, Thread, true).
@@ -93,6 +95,8 @@ in_background(Goal, Name) :-
     catch(wire_thread_create(Goal, Name, _), error(_, _), ignore(Goal)).
 
 %!  wire_thread_running(+Thread) is semidet.
+%
+%   Thread exists and has not ended.
 
 wire_thread_running(Thread) :-
     catch(thread_property(Thread, status(running)),

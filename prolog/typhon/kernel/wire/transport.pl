@@ -242,11 +242,15 @@ transport_input(In, Seconds) :-
 %   The endpoint of this process is alone, and has this Address.
 
 %!  alone_begin(+Address) is det.
+%
+%   The endpoint begins to be alone, at Address.
 
 alone_begin(Address) :-
     assertz(alone(Address)).
 
 %!  alone_end is det.
+%
+%   The endpoint that is alone stops.
 
 alone_end :-
     retractall(alone(_)).
