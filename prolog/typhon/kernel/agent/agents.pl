@@ -170,8 +170,8 @@ agent_mobile(Id, Host, Module, Hash, Life, Until) :-
 
 %!  agent_move(+Id, +Host, +Module, +Life, +Until:integer) is det.
 %
-%   Id is on Host from now on, with its state in Module; its old module, if it
-%   is another, is destroyed.
+%   Move Id to Host, with its state in Module; destroy its old module, if that
+%   is another one.
 
 agent_move(Id, Host, Module, Life, Until) :-
     stands(Id, From, Old, Hash, _, _),
@@ -313,8 +313,8 @@ agent_comes(Id, Host, Module, Hash, Life) :-
 
 %!  agent_handed(+Id, +Hops, +Way, +Frame) is semidet.
 %
-%   Id, which runs, is under way as Frame from now on; its record and its module
-%   are removed.  Fails if Id has an order or was ended.
+%   Record that Id, which runs, is under way as Frame, and remove its record and
+%   its module.  Fails if Id has an order or was ended.
 
 agent_handed(Id, Hops, Way, Frame) :-
     stands(Id, Host, Module, Hash, _, _),
@@ -334,7 +334,7 @@ agent_under_way(Id, Hops, Host, Hash, Way, Frame) :-
 
 %!  agent_gone(+Id, +Hops, -Mail:list) is semidet.
 %
-%   Id is no longer under way; Mail has come for it meanwhile.
+%   Remove the record of Id under way; Mail has come for it meanwhile.
 
 agent_gone(Id, Hops, Mail) :-
     retract(under_way(Id, Hops, _, _, _, _)),
@@ -343,7 +343,7 @@ agent_gone(Id, Hops, Mail) :-
 
 %!  agent_thawed(+Id, +Module, +Life, +Status, +Goals) is det.
 %
-%   Id, which was under way, has a record again.
+%   Give Id, which is under way as a frame, a record again.
 
 agent_thawed(Id, Module, Life, Status, Goals) :-
     under_way(Id, _, Host, Hash, _, _),
@@ -354,7 +354,8 @@ agent_thawed(Id, Module, Life, Status, Goals) :-
 
 %!  agent_ready(+Id, +Goals) is semidet.
 %
-%   Id continues with Goals in its next turn.  Fails if it was ended meanwhile.
+%   Let Id continue with Goals in its next turn.  Fails if it was ended
+%   meanwhile.
 
 agent_ready(Id, Goals) :-
     stands(Id, Host, _, _, _, _),
@@ -391,8 +392,7 @@ agent_put_life(Id, Life) :-
 
 %!  agent_program(+Id, +Hash, +Module, +Life) is det.
 %
-%   Id has the program Hash from now on, with its state in Module; its old
-%   module is destroyed.
+%   Give Id the program Hash, with its state in Module; destroy its old module.
 
 agent_program(Id, Hash, Module, Life) :-
     stands(Id, Host, Old, _, _, _),

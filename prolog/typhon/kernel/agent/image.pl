@@ -224,7 +224,7 @@ program_sent(Endpoint, Hash, Sent) :-
 
 %!  program_missing(+Endpoint, +Hash) is det.
 %
-%   The process at Endpoint has reported that it lacks the program.
+%   Record that the process at Endpoint lacks the program.
 
 program_missing(Endpoint, Hash) :-
     retractall(has_program(Endpoint, Hash)).

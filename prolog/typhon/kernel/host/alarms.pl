@@ -52,7 +52,7 @@ timer searches for the next stamp after each alarm.
 
 %!  alarms_begin is det.
 %
-%   Alarms can be added from now on.
+%   Allow alarms to be added.
 
 alarms_begin :-
     message_queue_create(New),

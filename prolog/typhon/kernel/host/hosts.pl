@@ -147,7 +147,7 @@ count_key(Name, Key) :-
 
 %!  host_close(+Name) is det.
 %
-%   Name, which is about to stop, admits no agent from now on.
+%   Stop admitting agents to Name, which is about to stop.
 
 host_close(Name) :-
     retractall(host_plain(Name, _)),
@@ -226,7 +226,7 @@ host_put(Name, Option) :-
 
 %!  host_enter(+Name, +Tokens, -Answer) is det.
 %
-%   An agent with Tokens asks to enter.  Answer is `ok`, and it counts in the
+%   Admit an agent with Tokens.  Answer is `ok`, and the agent counts in the
 %   load, or refused(Reason).
 
 host_enter(Name, Tokens, Answer) :-
@@ -273,7 +273,7 @@ host_came(Where, Since) :-
 
 %!  host_again(+Name) is det.
 %
-%   An agent on Name counts again in its load, even beyond its capacity.
+%   Count an agent on Name in its load again, even beyond its capacity.
 
 host_again(Name) :-
     (   load_key(Name, Key)
@@ -283,7 +283,7 @@ host_again(Name) :-
 
 %!  host_leave(+Name) is det.
 %
-%   An agent no longer counts in the load of Name.
+%   Stop counting an agent in the load of Name.
 
 host_leave(Name) :-
     (   load_key(Name, Key)
@@ -305,7 +305,8 @@ host_load(Name, Load) :-
 
 %!  host_hop(+Name, +Direction, +Seconds) is det.
 %
-%   A hop into (`in`) or out of (`out`) Name took Seconds of host time.
+%   Record a hop into (`in`) or out of (`out`) Name that took Seconds of host
+%   time.
 
 host_hop(Name, Direction, Seconds) :-
     hop_keys(Name, Direction, Flags),
@@ -315,7 +316,8 @@ host_hop(_, _, _).
 
 %!  host_left(+Name, +Since) is det.
 %
-%   An agent has left Name for another process, by a hop that began at Since.
+%   Count an agent that has left Name for another process, by a hop that began
+%   at Since.
 
 host_left(Name, Since) :-
     host_plain(Name, plain(_, _, _, Epoch, Rate, _, Load, _, Out)),
@@ -369,8 +371,9 @@ place_taken(Name-Plain, Count) :-
 
 %!  host_passed(+Here, +There, +Seconds) is det.
 %
-%   An agent on Here is on There now, where it has entered before.  The load of
-%   Here is changed last: a host that stops waits until its load is 0.
+%   Count an agent that moves from Here to There, where host_enter/3 has
+%   admitted it.  The load of Here is changed last: a host that stops waits
+%   until its load is 0.
 
 host_passed(Here, There, Seconds) :-
     host_hop(Here, out, Seconds),

@@ -54,14 +54,14 @@ stopping the platform waits for them.
 %!  runtime_acquire(+User, +Options) is det.
 %!  runtime_acquire(+User, +Options, -Endpoint) is det.
 %
-%   User, any ground term, needs endpoint and time.  Endpoint is the address at
-%   which it is reached.  The first user decides with port(P), bind(Interface)
-%   and tls(Directory), which is by default that of the environment variable
-%   `TYPHON_TLS`.  Later users cannot change interface and keys.  For another
-%   port the process listens there, too, as long as a user needs it.
-%   time(Kind), see typhon_time, cannot be changed either; a user without it
-%   accepts any kind.  Where the runtime is apart the endpoint reaches no other
-%   process, and ports have no meaning.
+%   Start endpoint and time for User, any ground term, unless they run already.
+%   Endpoint is the address at which User is reached.  The first user decides
+%   with port(P), bind(Interface) and tls(Directory), which is by default that
+%   of the environment variable `TYPHON_TLS`.  Later users cannot change
+%   interface and keys.  For another port the process listens there, too, as
+%   long as a user needs it.  time(Kind), see typhon_time, cannot be changed
+%   either; a user without it accepts any kind.  Where the runtime is apart the
+%   endpoint reaches no other process, and ports have no meaning.
 %
 %   @error permission_error(change, endpoint, Option)
 %   @error permission_error(change, kind_of_time, Kind)
@@ -143,7 +143,7 @@ runtime_user(User) :-
 
 %!  runtime_release(+User) is det.
 %
-%   User no longer uses endpoint and time.
+%   End the use of endpoint and time by User.  The last user stops them.
 
 runtime_release(User) :-
     in_own_thread(with_mutex(typhon_runtime, release(User))).

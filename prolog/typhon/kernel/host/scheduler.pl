@@ -266,7 +266,7 @@ scheduler_unlimit(Host) :-
 
 %!  schedule(+Host, +Agent) is det.
 %
-%   Agent, which is on Host, is ready to run.
+%   Queue Agent, which is on Host and ready to run.
 
 schedule(Host, Agent) :-
     (   limit_enter(Host, Agent, Work)
@@ -296,8 +296,8 @@ schedule_here(Host, Kind, Turn) :-
 
 %!  schedule_adopt(+Thread) is det.
 %
-%   Thread, which runs an agent by schedule_here/3, has no other duties any
-%   more, and is a worker until it calls schedule_leave/0.
+%   Make Thread a worker until it calls schedule_leave/0.  It runs an agent by
+%   schedule_here/3, and has no other duties now.
 
 blocks(60).                             % seconds without short turns
 
@@ -309,7 +309,7 @@ schedule_adopt(Thread) :-
 
 %!  schedule_leave is det.
 %
-%   This thread is no longer a worker, see schedule_adopt/1.
+%   End schedule_adopt/1: this thread is no longer a worker.
 
 schedule_leave :-
     time_leave.

@@ -288,7 +288,7 @@ time_here(Agents, Turn) :-
 
 %!  time_adopt(+Thread) is det.
 %
-%   Thread, which runs an agent by time_here/2, is a worker until it calls
+%   Make Thread, which runs an agent by time_here/2, a worker until it calls
 %   time_leave/0.
 
 time_adopt(Thread) :-
@@ -300,7 +300,7 @@ time_adopt(Thread) :-
 
 %!  time_leave is det.
 %
-%   This thread is no longer a worker, see time_adopt/1.
+%   End time_adopt/1: this thread is no longer a worker.
 
 time_leave :-
     (   time_kind(Kind)
@@ -324,8 +324,8 @@ time_signal(_).
 
 %!  time_hold(+Seconds) is semidet.
 %
-%   From now on no agent gets a turn, and no alarm goes off.  Fails if that
-%   cannot be reached within Seconds of the time of day.
+%   Stop giving turns to agents, and firing alarms.  Fails if that cannot be
+%   reached within Seconds of the time of day.
 
 time_hold(Seconds) :-
     time_kind(Kind),

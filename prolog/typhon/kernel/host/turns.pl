@@ -54,7 +54,7 @@ pauses turns ends the pause.
 
 %!  turn_begins(+What) is det.
 %
-%   This thread runs What from now on, an agent or a goal of that name.
+%   Record that this thread begins to run What, an agent or a goal of that name.
 
 turn_begins(What) :-
     (   nb_current(typhon_turn_keys, keys(AgentKey, TimeKey))
@@ -182,7 +182,7 @@ remember(What, Kind) :-
 
 %!  turns_not_short(+Kind, +Seconds) is det.
 %
-%   No turn of that Kind counts as short for Seconds.
+%   Let no turn of that Kind count as short for Seconds.
 
 turns_not_short(Kind, Seconds) :-
     get_time(Now),
@@ -247,7 +247,7 @@ turn_later(Agent) :-
 
 %!  context_set(+Host, +Agent, +Module) is det.
 %
-%   This thread runs Agent, whose module is Module, on Host.
+%   Set the context: this thread runs Agent, whose module is Module, on Host.
 
 context_set(Host, Agent, Module) :-
     nb_linkval(typhon_turns, context(Host, Agent, Module)),  % a new ground term
@@ -255,7 +255,7 @@ context_set(Host, Agent, Module) :-
 
 %!  context_clear is det.
 %
-%   This thread runs no agent.
+%   Clear the context: this thread runs no agent.
 
 context_clear :-
     nb_linkval(typhon_turns, none).

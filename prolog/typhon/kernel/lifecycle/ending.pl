@@ -161,8 +161,8 @@ print_fault(raised(Error), Id, Fault) :-
 
 %!  agent_stays(+Id, +Goals) is det.
 %
-%   Id is faulty: Goals begin with its fault.  If there are too many faulty
-%   agents, this disposes of the oldest ones.
+%   Keep Id, which is faulty: Goals begin with its fault.  If there are too many
+%   faulty agents, dispose of the oldest ones.
 
 agent_stays(Id, Goals) :-
     is_faulty(Goals, Fault, _),
@@ -217,7 +217,7 @@ faulty_keep(Id, Goals, Kept, at(Host, Hops)) :-
 
 %!  faulty_stirs(+Id) is det.
 %
-%   Id, which is faulty, counts again in the load of its host.
+%   Count Id, which is faulty, in the load of its host again.
 
 faulty_stirs(Id) :-
     retractall(kept(Id)),
@@ -275,7 +275,7 @@ faulty_oldest(Id) :-
 
 %!  held_put(+Id, +State, +Goals:list) is det.
 %
-%   Id, which was running, is held.
+%   Hold Id, which was running.
 
 held_put(Id, State, Goals) :-
     agent_put(Id, held, held(State, Goals)).
@@ -290,7 +290,7 @@ held_parts(Held, State, Goals) :-
 
 %!  held_on(+Id, +Held) is det.
 %
-%   Id is no longer held, and goes on from Held.
+%   Let Id, which is held, go on from Held.
 
 held_on(Id, Held) :-
     agent_put(Id, resumed, Held),

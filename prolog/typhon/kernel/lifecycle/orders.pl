@@ -60,9 +60,9 @@ at_once(dispose).
 
 %!  order_take(+Id, +Order) is semidet.
 %
-%   Order arrives for Id. Fails if there is no such agent in this process.
-%   Besides the orders of typhon_order_client there is evacuate(Host): end the
-%   agent if it is still on Host, of this process.
+%   Take Order for Id.  Fails if Id is not in this process.  Besides the orders
+%   of typhon_order_client there is evacuate(Host): end the agent if it is still
+%   on Host, of this process.
 
 order_take(Id, dispose) :-
     agent_end(Id, at_rest, disposed),

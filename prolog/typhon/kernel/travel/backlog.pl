@@ -236,7 +236,7 @@ typhon_durable:go_on :-
 
 %!  retries_go_on is det.
 %
-%   Try all letters that wait soon.
+%   Soon try all letters that wait.
 
 retries_go_on :-
     forall(backlog(Id), try_later(Id, 0)).

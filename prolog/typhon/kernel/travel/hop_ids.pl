@@ -40,8 +40,8 @@ to the receiver with a number less than Least.
 
 %!  hop_id_begin(+Agent, +Hops, +Endpoint, -Sent) is det.
 %
-%   Agent departs for Endpoint on its hop number Hops, at the time Sent, from
-%   which the id is made.
+%   Record that Agent departs for Endpoint on its hop number Hops, at the time
+%   Sent, from which the id is made.
 
 hop_id_begin(Agent, Hops, Endpoint, Sent) :-
     (   durable_on
@@ -75,7 +75,7 @@ hop_id_restore(Agent, Hops, Endpoint, Sent) :-
 
 %!  hop_id_end(+Agent, ?Hops) is det.
 %
-%   The hop is over: Agent has arrived, or stays.
+%   Record that the hop is over: Agent has arrived, or stays.
 
 hop_id_end(Agent, Hops) :-
     (   retract(under_way(_, _, Agent, Hops))
@@ -85,7 +85,7 @@ hop_id_end(Agent, Hops) :-
 
 %!  hop_id_again(+Agent) is det.
 %
-%   The next time that Agent is sent it may have arrived already.
+%   Record that Agent may have arrived already when it is sent the next time.
 
 hop_id_again(Agent) :-
     retractall(again(Agent)),

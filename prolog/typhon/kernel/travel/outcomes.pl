@@ -52,7 +52,7 @@ typhon_identity:id_anew(Id) :-
 
 %!  results_keep(+Id, +Items:list) is det.
 %
-%   Id has ended with Items, as in result_facts/2.
+%   Record Items, as in result_facts/2, of Id, which has ended.
 
 results_keep(Id, Items) :-
     forall(member(Item, Items),

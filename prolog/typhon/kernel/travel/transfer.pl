@@ -193,8 +193,8 @@ follow(Id, Order) :-
 
 %!  transfer_stays(+Transfer, +Error) is det.
 %
-%   The agent stays; Error is raised at its move.  A move that was ordered from
-%   outside has no hole, see move_failed/2.
+%   End the transfer of an agent that stays, and raise Error at its move.  A
+%   move that was ordered from outside has no hole, see move_failed/2.
 
 transfer_stays(Transfer, Error) :-
     transfer_traveller(Transfer, Who, Hop),
@@ -244,8 +244,8 @@ clone_back(Id, CloneId, Answer) :-
 
 %!  transfer_given_up(+Id, +Frozen) is det.
 %
-%   Id was disposed of in doubt: if it turns out to have arrived, the order
-%   follows it.
+%   Record that Id was disposed of in doubt: if it turns out to have arrived,
+%   the order follows it.
 
 transfer_given_up(Id, hop(_, Hops, _, _)) :-
     durable_assertz(given_up(Id, Hops)).
@@ -300,15 +300,17 @@ transfer_held(clone(Held-_, _, _), Held).
 
 %!  move_awaited(+Id, +Asker) is det.
 %
-%   Id is about to move on an order; Asker waits for its end.
+%   Record that Asker waits for the end of the move that Id is about to begin on
+%   an order.
 
 move_awaited(Id, Asker) :-
     assertz(waits(Id, Asker)).
 
 %!  move_over(+Id, +Answer) is semidet.
 %
-%   The move of Id is over: all that wait for it get Answer, answer(arrived),
-%   error(Formal), or `none` if Id has ended.  Fails if no caller waits.
+%   Give Answer to all callers that wait for the move of Id, which is over:
+%   answer(arrived), error(Formal), or `none` if Id has ended.  Fails if no
+%   caller waits.
 
 move_over(Id, Answer) :-
     retract(waits(Id, Asker)),          % one by one: others add to the table
@@ -318,8 +320,8 @@ move_over(Id, Answer) :-
 
 %!  move_failed(+Id, +Formal) is det.
 %
-%   Id stays: the callers that wait get error(Formal).  If there are none, this
-%   process prints a warning.
+%   Give error(Formal) to the callers that wait for the move of Id, which stays.
+%   If none waits, print a warning.
 
 move_failed(Id, Formal) :-
     (   move_over(Id, error(Formal))

@@ -72,8 +72,8 @@ typhon_news, since that may have to connect.
 
 %!  agent_seen(+Id, +Address, +Hops, +Peer) is det.
 %
-%   Id has arrived at Address, a host of this process, from Peer, which is
-%   `here` if that was this process.
+%   Record that Id has arrived at Address, a host of this process, from Peer,
+%   and report that to its home.  Peer is `here` if Id came from this process.
 
 agent_seen(Id, _, _, _) :-
     home_knows(Id, _, _, _),            % this process is its home
@@ -102,7 +102,8 @@ typhon_identity:id_anew(Id) :-
 
 %!  agent_left(+Id, +Address, +Hops, +Peer) is det.
 %
-%   Id has left this process for Address, a host at the endpoint Peer.
+%   Record that Id has left this process for Address, a host at the endpoint
+%   Peer.
 
 agent_left(Id, Address, Hops, Peer) :-
     (   endpoint_address(Peer)

@@ -146,7 +146,7 @@ accept_open(Socket, Me) :-
 
 %!  endpoint_open is det.
 %
-%   The journal was read: accept peers.
+%   Accept peers: the journal was read.
 
 endpoint_open :-
     running(Address, _, Acceptor, _),

@@ -83,7 +83,7 @@ lending_anew :-
 
 %!  lending_open(+Session, +In, +Out, -Queue) is det.
 %
-%   This thread begins to read.  Its token goes to Queue.
+%   Prepare this thread to read.  Its token goes to Queue.
 
 lending_open(Session, In, Out, Queue) :-
     thread_self(Me),
@@ -95,7 +95,7 @@ lending_open(Session, In, Out, Queue) :-
 
 %!  lending_close is det.
 %
-%   This thread stops reading.
+%   End the reading in this thread.
 
 lending_close :-
     nb_getval(typhon_lending, State),

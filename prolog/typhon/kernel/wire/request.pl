@@ -116,8 +116,8 @@ session_unfinished(Session) :-
 
 %!  requests_lost(+Session, +Unsent) is det.
 %
-%   The peer is gone for good and the frames Unsent were never sent: conclude
-%   all requests to it.
+%   Conclude all requests to the peer, which is gone permanently; the frames
+%   Unsent were never sent.
 
 requests_lost(Session, Unsent) :-
     session_key(Session, Key),

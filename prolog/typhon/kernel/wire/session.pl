@@ -191,9 +191,8 @@ session_adopting(session(_, _, _, Adoption, _, _), Goal) :-
 
 %!  route_add(+Address, +Session) is det.
 %
-%   Address leads to Session from now on, unless Session was removed.  The
-%   connection manager receives displaced(Key) of the session to which Address
-%   led before.
+%   Let Address lead to Session, unless Session was removed.  The connection
+%   manager receives displaced(Key) of the session to which Address led before.
 
 route_add(Address, Session) :-
     route(Address, Session),
@@ -238,7 +237,7 @@ transport_thread(Key, Thread) :-
 
 %!  transport_attach(+Key, +Thread, +Out) is det.
 %
-%   The session has a new connection, served by Thread.
+%   Give the session a new connection, served by Thread.
 
 transport_attach(Key, Thread, Out) :-
     get_time(Now),
@@ -247,21 +246,21 @@ transport_attach(Key, Thread, Out) :-
 
 %!  transport_stop(+Key, +Thread) is det.
 %
-%   Nothing is written to the connection from now on.
+%   Stop writing to the connection.
 
 transport_stop(Key, Thread) :-
     retractall(transport(Key, Thread, _)).
 
 %!  transport_detach(+Key, +Thread) is det.
 %
-%   The session has lost the connection.
+%   Remove the connection of the session.
 
 transport_detach(Key, Thread) :-
     retractall(serving(Key, Thread, _)).
 
 %!  transport_broken(+Key, +Thread) is det.
 %
-%   A connection that cannot be written to is lost: its thread detects that, or
+%   Give up a connection that cannot be written to: its thread detects that, or
 %   ends on the signal.
 
 transport_broken(Key, Thread) :-

@@ -87,8 +87,8 @@ known(Key, N, Result) :-
 
 %!  objection_add(+Key, +Number, +Answer) is det.
 %
-%   The peer rejects the frame of that Number with Answer.  Only its first
-%   objection counts.
+%   Record that the peer rejects the frame of that Number with Answer.  Only its
+%   first objection counts.
 
 objection_add(Key, Number, Answer) :-
     (   objection(Key, Number, _)

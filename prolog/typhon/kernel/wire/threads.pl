@@ -131,7 +131,7 @@ insist(Thread, Why, Wait) :-
 
 %!  wire_thread_leaves(+Thread) is det.
 %
-%   Thread no longer belongs to the endpoint, which will not end or join it.
+%   Remove Thread from the endpoint, which will not end or join it.
 
 wire_thread_leaves(Thread) :-
     retractall(wire_thread(Thread)).
@@ -156,7 +156,7 @@ end_once(Why) :-
 
 %!  wire_thread_obey(+Why).
 %
-%   This thread ends.
+%   End this thread.
 
 wire_thread_obey(Why) :-
     nb_setval(typhon_ending, true),

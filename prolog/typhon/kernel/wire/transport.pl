@@ -77,7 +77,7 @@ transport_input/2 tests both.
 
 %!  transport_begin(+Options) is det.
 %
-%   The endpoint starts with Options.
+%   Choose the transport of the endpoint, which starts with Options.
 %
 %   @error those of the hook begins/4
 
@@ -94,7 +94,7 @@ transport_begin(Options) :-
 
 %!  transport_end is det.
 %
-%   The endpoint has stopped.
+%   End the transport of the endpoint, which has stopped.
 
 transport_end :-
     (   retract(current(Transport, _, _))
@@ -215,7 +215,8 @@ transport_as(Proof, Goal) :-
 
 %!  transport_forget is det.
 %
-%   This thread no longer has a connection, and goes on with other work.
+%   Forget the proof: this thread no longer has a connection, and goes on with
+%   other work.
 
 transport_forget :-
     nb_setval(typhon_proof, none).

@@ -119,7 +119,8 @@ space(all, _, _, inf).
 
 %!  unacked_waits(+Window, +Bytes, +Token) is det.
 %
-%   The frame waits.  If Token is `loose` it may later be bundled with others.
+%   Let the frame wait.  If Token is `loose` it may later be bundled with
+%   others.
 
 unacked_waits(window(_, Waiting, Received, _, _, _, _), Bytes, Token) :-
     get_flag(Received, Count),
@@ -349,8 +350,8 @@ take_received(Ahead, N0, Sent, Handed, Bytes0, Bytes) :-
 
 %!  session_objected(+Session, +Number, +Answer) is det.
 %
-%   The peer rejects the frame of that Number with Answer.  An objection to a
-%   frame that is not under way is ignored.
+%   Record that the peer rejects the frame of that Number with Answer.  An
+%   objection to a frame that is not under way is ignored.
 
 session_objected(Session, Number, Answer) :-
     session_window(Session, Key, window(_, _, _, _, Acked, _, _)),

@@ -212,7 +212,7 @@ unsent_forget(OnAnswer) :-
 
 %!  unsent_closed(+Address, +Kind, +Term, :OnAnswer) is det.
 %
-%   The peer is gone for good, and did not get this request.  If a process is
+%   The peer is gone permanently, and did not get this request.  If a process is
 %   expected at Address soon, the request waits for it.
 
 unsent_closed(Address, Kind, Term, OnAnswer) :-
