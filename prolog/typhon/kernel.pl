@@ -2,11 +2,11 @@
 
 /** <module> The kernel alone
 
-Hosts and agents without options, networks, tools and bridges: what runs where
-there are no threads, sockets and processes, as in SWI-Prolog compiled to
-WebAssembly.  There agents have their turns while the caller waits, see
-agents_run/1 and typhon_single, and no other process is reached.  With threads
-it is library(typhon) without its top level.
+Hosts and agents without options, networks, bridges and most tools.  This part
+runs in a Prolog without threads, sockets and processes, such as SWI-Prolog
+compiled to WebAssembly.  There agents have their turns while the caller waits,
+see agents_run/1 and typhon_single, and other processes cannot be reached.  In
+a Prolog with threads it is library(typhon) without its top level.
 */
 
 :- use_module(kernel/base/compiling, [compiling_begin/1, compiling_end/1]).
