@@ -136,7 +136,7 @@ part_file('options/trail','options/trail/trail_verified').
 part_file('options/virtual','options/virtual').
 part_file('options/watch','options/watch/listening').
 part_file('options/watch','options/watch/metrics').
-part_file('options/watch','options/watch/telling').
+part_file('options/watch','options/watch/watch_senders').
 part_file('options/watch','options/watch/watched').
 part_file(tools,'tools/inventory').
 part_file('tools/administration','tools/administration/change').
@@ -163,9 +163,10 @@ part_setting(certificates,typhon_keys,positive_integer,256,'Certificates whose h
 part_setting(channel_seconds,typhon_channel,number,300,'Seconds for which posts are kept for a process that has left, and is not known to keep a journal','options/journal/channel').
 part_setting(clause_cells,typhon_guard_limits,positive_integer,200000,'Clauses that untrusted agents add have at most so many parts','options/guard/guard_limits').
 part_setting(connections,typhon_page_reception,positive_integer,64,'Clients of a page at a time','tools/page/server').
-part_setting(delay,typhon_telling,number,0.05,'Seconds for which events gather before they are sent','options/watch/event_sender').
+part_setting(delay,typhon_event_sender,number,0.05,'Seconds for which events gather before they are sent','options/watch/event_sender').
 part_setting(entries,typhon_fipa_managers,positive_integer,10000,'Descriptions in a directory of FIPA','bridges/fipa/managers').
-part_setting(events,typhon_telling,positive_integer,10000,'Events that may wait for a slow watch','options/watch/telling').
+part_setting(events,typhon_telling,positive_integer,10000,'Now typhon_watch_senders:events','options/watch/watch_senders').
+part_setting(events,typhon_watch_senders,positive_integer,10000,'Events that may wait for a slow watch','options/watch/watch_senders').
 part_setting(frame_events,typhon_page_browsers,positive_integer,2000,'Events in a text that a page sends','tools/page/browsers').
 part_setting(frame_seconds,typhon_page_browsers,number,0.05,'Seconds between two texts with events that a page sends','tools/page/browsers').
 part_setting(functors,typhon_cells,positive_integer,20000,'Functors that the cells of an owner may bring into the process','options/cell/cell_functors').
@@ -183,7 +184,7 @@ part_setting(most,typhon_ros_advertisements,positive_integer,1000,'Topics and se
 part_setting(most,typhon_ros_requests,positive_integer,1000,'Requests of ROS that may wait for the answers of agents','bridges/ros/requests').
 part_setting(offers,typhon_offers,positive_integer,100,'Offers of an agent','options/directory/offers').
 part_setting(order_seconds,typhon_processes,number,60,'Seconds for a process to answer an order','network/nodes').
-part_setting(patience,typhon_telling,number,30,'Seconds that a disconnected watching process has to answer','options/watch/event_sender').
+part_setting(patience,typhon_event_sender,number,30,'Seconds that a disconnected watching process has to answer','options/watch/event_sender').
 part_setting(patience,typhon_virtual,number,10,'Virtual time that stands still for so long is reported','options/virtual').
 part_setting(pause,typhon_quota_enforcer,between(0.0,1.0),0.8,'Agents that run for long where there are quotas pause for this part of the time while others run','options/quotas/quota_enforcer').
 part_setting(python,typhon_helper_process,atom,'','The Python of helpers; \'\' for that of the system','bridges/helper/process').
@@ -202,4 +203,4 @@ part_setting(ssh,typhon_children,atom,ssh,'The program that reaches other machin
 part_setting(start,typhon_cells,number,120,'Seconds in which a cell has to load its program','options/cell/cell_process').
 part_setting(start_seconds,typhon_processes,number,60,'Seconds for the processes of a network to start','network/processes').
 part_setting(stop_seconds,typhon_children,number,5,'Seconds for a child to end in order before it is killed','network/children').
-part_setting(virtual_events,typhon_telling,positive_integer,1000000,'The same in virtual time, which runs ahead of all watches','options/watch/telling').
+part_setting(virtual_events,typhon_watch_senders,positive_integer,1000000,'The same in virtual time, which runs ahead of all watches','options/watch/watch_senders').

@@ -32,9 +32,9 @@ so `some` is sent only to a waiting sender, and once.
 :- multifile
     taken_here/3.               % Id, Events, OnAnswer
 
-:- setting(typhon_telling:delay, number, 0.05,
+:- setting(delay, number, 0.05,
            "Seconds for which events gather before they are sent").
-:- setting(typhon_telling:patience, number, 30,
+:- setting(patience, number, 30,
            "Seconds that a disconnected watching process has to answer").
 
 batch(1000).
@@ -68,7 +68,7 @@ time_at(clock(Epoch, Rate), Time) :-
 
 gather(To) :-
     To = to(_, _, Signals, _),
-    setting(typhon_telling:delay, Seconds),
+    setting(delay, Seconds),
     (   thread_get_message(Signals, Message, [timeout(Seconds)])
     ->  heard(Message, To, gather(To))
     ;   pour(To)
@@ -94,7 +94,7 @@ heard(end(ReplyTo), To, _) :-
     ).
 
 is_there(to(Peer, Id, _, _)) :-
-    setting(typhon_telling:patience, Seconds),
+    setting(patience, Seconds),
     catch(endpoint_call(Peer, watched, alive(Id), answer(Answer), Seconds),
           error(_, _), fail),
     Answer == yes.

@@ -31,7 +31,7 @@ test(a_plain_host_has_no_code_of_options, Out == "[]") :-
           findall(M, ( member(M, [ typhon_networks, typhon_store, \c
                                    typhon_guard, typhon_virtual, \c
                                    typhon_quotas, typhon_trail, \c
-                                   typhon_access, typhon_telling, \c
+                                   typhon_access, typhon_watch_senders, \c
                                    typhon_tables, typhon_page_server, \c
                                    typhon_tracing, typhon_stepping, \c
                                    typhon_spying ]), \c
@@ -59,11 +59,14 @@ test(mistyped_options_are_compared_with_those_not_loaded,
 test(what_an_option_takes_is_checked, Out == "type_error(atom,1)") :-
     seen('catch(host_start(a, [policy(1)]), error(E, _), print(E))', Out).
 test(settings_can_be_set_before, Out == "7,7") :-
-    seen('set_setting(typhon_telling:events, 7), \c
-          setting(typhon_telling:events, A), host_start(a), \c
+    seen('set_setting(typhon_watch_senders:events, 7), \c
+          setting(typhon_watch_senders:events, A), host_start(a), \c
           watch(a, [_]>>true, W), unwatch(W), \c
-          findall(B, setting(typhon_telling:events, B), Bs), \c
+          findall(B, setting(typhon_watch_senders:events, B), Bs), \c
           atomic_list_concat([A|Bs], (\',\'), All), write(All)', Out).
+test(settings_keep_old_names, Out == "7") :-
+    seen('set_setting(typhon_telling:events, 7), \c
+          setting(typhon_watch_senders:events, A), write(A)', Out).
 test(a_peer_watches_first, Out == "started") :-
     seen('host_start(a), host_property(a, address(Address)), \c
           format(atom(There), "host_start(b), watch(~q, [E]>>true, W), \c
@@ -74,7 +77,7 @@ test(a_peer_watches_first, Out == "started") :-
           process_create(Swipl, [\'-g\', There, \'-t\', halt, Typhon], \c
                          [stdout(pipe(In))]), \c
           read_string(In, _, Said), write(Said), \c
-          module_property(typhon_telling, file(_))', Out).
+          module_property(typhon_watch_senders, file(_))', Out).
 test(many_threads_use_a_part_first, Out == "[true]") :-
     seen('host_start(a), \c
           findall(T, ( between(1, 8, _), \c

@@ -67,7 +67,7 @@ test(silent_process, Silent == [Endpoint]) :-
 
 test(nothing_is_missed_between_the_two) :-
     with_settings([ typhon_watches:last_seconds=20,
-                    typhon_telling:events=1 000 000 ],
+                    typhon_watch_senders:events=1 000 000 ],
                   with_hosts([alpha, beta], follow)).
 
 follow :-

@@ -231,7 +231,7 @@ raises(_) :-
 %   The agent begins, leaves 5000 facts and ends.
 
 test(slow_watcher_gets_the_number_of_lost_events) :-
-    with_settings([typhon_telling:events = 100],
+    with_settings([typhon_watch_senders:events = 100],
                   with_hosts([alpha], with_gate(slow_watcher))),
     numbers(slow, Got),
     assertion(all_accounted(slow, 5002)),
@@ -283,7 +283,8 @@ test(no_events_after_unwatch) :-
     with_hosts([alpha, beta],
                ( watching([alpha, beta], true, _),
                  \+ typhon_events:hears(_, _, _),
-                 wait_until(\+ typhon_telling:sender(_, _, _, _, _), 5) )).
+                 wait_until(\+ typhon_watch_senders:sender(_, _, _, _, _),
+                            5) )).
 
 test(unknown_watch, error(existence_error(watch, watch_of_mine))) :-
     unwatch(watch_of_mine).
@@ -480,7 +481,7 @@ dies :-
     assertion(peer_do(b, \+ typhon_events:event_heard(hops))).
 
 test(slow_watcher_does_not_delay_other_processes) :-
-    with_gate(with_peer([setup(set_setting(typhon_telling:events, 100))],
+    with_gate(with_peer([setup(set_setting(typhon_watch_senders:events, 100))],
                         slow_for)).
 
 slow_for(B) :-

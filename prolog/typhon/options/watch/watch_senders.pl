@@ -1,4 +1,4 @@
-:- module(typhon_telling, []).
+:- module(typhon_watch_senders, []).
 :- use_module(library(debug), [debug/3]).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(settings), [setting/2, setting/4]).
@@ -47,6 +47,8 @@ watch.
            "Events that may wait for a slow watch").
 :- setting(virtual_events, positive_integer, 1 000 000,
            "The same in virtual time, which runs ahead of all watches").
+:- setting(typhon_telling:events, positive_integer, 10 000,
+           "Now typhon_watch_senders:events").
 
 :- dynamic sender/5.            % Peer, Id, Thread, Signals,
                                 % watch(Wanted, Buffer)
@@ -58,8 +60,8 @@ kinds([life, faults, hops, messages, facts, said, links, hosts]).
                 *******************************/
 
 typhon_endpoint:requested(watch, watch(Id, Wanted), Peer, ReplyTo) :-
-    with_mutex(typhon_telling, tell_to(Peer, Id, Wanted, New)),
-    hear_of(New, Wanted, Peer, Id, Hosts),
+    with_mutex(typhon_watch_senders, sender_start(Peer, Id, Wanted, New)),
+    subscribe_hosts(New, Wanted, Peer, Id, Hosts),
     endpoint_address(Own),
     !,
     endpoint_reply(ReplyTo, watching(Own, New, Hosts)).
@@ -70,12 +72,12 @@ typhon_endpoint:requested(watch, unwatch(Id), Peer, ReplyTo) :-
     ;   endpoint_reply(ReplyTo, ended)
     ).
 
-tell_to(Peer, Id, Wanted, New) :-
+sender_start(Peer, Id, Wanted, New) :-
     retract(sender(Peer, Id, Thread, Signals, watch(_, Buffer))),
     !,
     assertz(sender(Peer, Id, Thread, Signals, watch(Wanted, Buffer))),
     New = false.
-tell_to(Peer, Id, Wanted, true) :-
+sender_start(Peer, Id, Wanted, true) :-
     message_queue_create(Signals),
     most(Most),
     buffer_open(Most, Signals, Buffer),
@@ -93,7 +95,7 @@ most(Most) :-
 most(Most) :-
     setting(events, Most).
 
-hear_of(New, Wanted, Peer, Id, Hosts) :-
+subscribe_hosts(New, Wanted, Peer, Id, Hosts) :-
     sender(Peer, Id, _, _, watch(_, Buffer)),
     !,
     findall(Name-(Address-clock(Epoch, Rate)),
@@ -103,9 +105,9 @@ hear_of(New, Wanted, Peer, Id, Hosts) :-
               clock(Name, Epoch, Rate) ),
             Pairs),
     forall(( New == true, member(Name-Host, Pairs) ),
-           listen(Name, Host, Buffer)),
+           subscribe_host(Name, Host, Buffer)),
     findall(Host, member(_-Host, Pairs), Hosts).
-hear_of(_, _, _, _, []).
+subscribe_hosts(_, _, _, _, []).
 
 is_wanted(all, _).
 is_wanted([Name0|Names], Name) :-
@@ -117,7 +119,7 @@ may_watch(Peer, _) :-
 may_watch(Peer, Name) :-
     peer_may(Peer, Name, inspect).
 
-listen(Name, Address-Clock, Buffer) :-
+subscribe_host(Name, Address-Clock, Buffer) :-
     kinds(Kinds),
     events_hear(Kinds, Name, watch(Buffer, Address, Clock)).
 
@@ -127,7 +129,7 @@ typhon_hosting:begins(Name) :-
     may_watch(Peer, Name),
     host(Name, Address, _),
     clock(Name, Epoch, Rate),
-    listen(Name, Address-clock(Epoch, Rate), Buffer).
+    subscribe_host(Name, Address-clock(Epoch, Rate), Buffer).
 
 typhon_endpoint:connection(Peer, down) :-
     forall(sender(Peer, _, _, Signals, _), sender_signal(Signals, now(check))).
@@ -138,7 +140,7 @@ typhon_runtime:ending(before) :-
     stop_senders.
 
 stop_senders :-
-    with_mutex(typhon_telling, retract(sender(_, _, Thread, Signals, _))),
+    with_mutex(typhon_watch_senders, retract(sender(_, _, Thread, Signals, _))),
     !,
     sender_signal(Signals, end(none)),
     stop_thread(Thread),
@@ -152,7 +154,7 @@ stop_senders.
 typhon_events:told(watch(Buffer, Address, Clock), Host, Agent, What) :-
     time_at(Clock, Time),
     event_shown(Host, What, Shown),
-    told_as(Shown, Clock, Public),
+    public_event(Shown, Clock, Public),
     catch(buffer_put(Buffer, Address-Clock,
                     event(Time, Address, Agent, Public)),
           error(existence_error(_, _), _),
@@ -160,15 +162,15 @@ typhon_events:told(watch(Buffer, Address, Clock), Host, Agent, What) :-
 
 %   Watches need the clock of a host; agents may log terms that cannot travel.
 
-told_as(started, Clock, Public) =>
+public_event(started, Clock, Public) =>
     Public = started(Clock).
-told_as(log(Term), _, Public) =>
+public_event(log(Term), _, Public) =>
     (   catch(mobile_term(Term), error(_, _), fail)
     ->  Public = log(Term)
     ;   format(atom(Text), '~q', [Term]),
         Public = log(Text)
     ).
-told_as(What, _, Public) =>
+public_event(What, _, Public) =>
     Public = What.
 
                 /*******************************
@@ -179,13 +181,14 @@ sender(Peer, Id, Signals, Buffer) :-
     setup_call_cleanup(
         true,
         sender_run(to(Peer, Id, Signals, Buffer)),
-        sender_ends(Peer, Id, Signals, Buffer)).
+        sender_end(Peer, Id, Signals, Buffer)).
 
-sender_ends(Peer, Id, Signals, Buffer) :-
+sender_end(Peer, Id, Signals, Buffer) :-
     debug(typhon(watch), '~w of ~w watches no more', [Id, Peer]),
     events_unheard(watch(Buffer, _, _)),
     thread_self(Me),
-    (   with_mutex(typhon_telling, retract(sender(Peer, Id, _, Signals, _)))
+    (   with_mutex(typhon_watch_senders,
+                   retract(sender(Peer, Id, _, Signals, _)))
     ->  thread_detach(Me)
     ;   true
     ),
