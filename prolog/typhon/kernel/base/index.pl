@@ -134,8 +134,8 @@ part_file('options/trace','options/trace/tracing').
 part_file('options/trail','options/trail/trail').
 part_file('options/trail','options/trail/trail_verified').
 part_file('options/virtual','options/virtual').
-part_file('options/watch','options/watch/listening').
 part_file('options/watch','options/watch/metrics').
+part_file('options/watch','options/watch/watch_receiver').
 part_file('options/watch','options/watch/watch_senders').
 part_file('options/watch','options/watch/watched').
 part_file(tools,'tools/inventory').

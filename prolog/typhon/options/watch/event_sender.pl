@@ -30,7 +30,7 @@ so `some` is sent only to a waiting sender, and once.
 */
 
 :- multifile
-    taken_here/3.               % Id, Events, OnAnswer
+    deliver_here/3.             % Id, Events, OnAnswer
 
 :- setting(delay, number, 0.05,
            "Seconds for which events gather before they are sent").
@@ -49,7 +49,7 @@ sender_run(To) :-
     To = to(_, _, Signals, Buffer),
     buffer_awaited(Buffer),
     thread_get_message(Signals, Message),
-    heard(Message, To, gather(To)).
+    handle_message(Message, To, gather(To)).
 
 %!  sender_signal(+Signals, +Message) is det.
 
@@ -70,23 +70,23 @@ gather(To) :-
     To = to(_, _, Signals, _),
     setting(delay, Seconds),
     (   thread_get_message(Signals, Message, [timeout(Seconds)])
-    ->  heard(Message, To, gather(To))
+    ->  handle_message(Message, To, gather(To))
     ;   pour(To)
     ).
 
-%   heard(+Message, +To, :Next)
+%   handle_message(+Message, +To, :Next)
 
-heard(some, _, Next) :-
+handle_message(some, _, Next) :-
     call(Next).
-heard(now(check), To, Next) :-
+handle_message(now(check), To, Next) :-
     !,
     (   is_there(To)
     ->  call(Next)
     ;   true
     ).
-heard(now(answered(_)), _, Next) :-
+handle_message(now(answered(_)), _, Next) :-
     call(Next).
-heard(end(ReplyTo), To, _) :-
+handle_message(end(ReplyTo), To, _) :-
     pour_out(To),
     (   ReplyTo == none
     ->  true
@@ -166,7 +166,7 @@ give(Peer, Id, Events, Signals) :-
     endpoint_address(Peer),
     !,
     OnAnswer = typhon_event_sender:answered(Signals),
-    (   taken_here(Id, Events, OnAnswer)
+    (   deliver_here(Id, Events, OnAnswer)
     ->  true
     ;   call(OnAnswer, answer(no))
     ).

@@ -11,16 +11,16 @@
 :- use_module('../../kernel/host',
               [ address_parts/3, host_unknown/1, process_ask/6,
                 runtime_acquire/2, runtime_release/1 ]).
-:- use_module(listening,
-              [ listen_on/4, listening_begin/2, listening_end/1,
-                listening_tell/2 ]).
+:- use_module(watch_receiver,
+              [ receiver_close/1, receiver_open/2, receiver_put/2,
+                receiver_run/4 ]).
 :- use_module(watched, [watched_places/2]).
 
 /** <module> Watches of this process
 
-A watch has a thread, which calls OnEvent, see module `listening`.  It receives
-its events from the senders of the processes that have the hosts, see module
-`telling`.
+A watch has a thread, which calls OnEvent, see module `watch_receiver`.  It
+receives its events from the senders of the processes that have the hosts, see
+module `watch_senders`.
 
 *Threading*: any thread may call; a watch may be ended in its own thread.
 */
@@ -30,7 +30,7 @@ its events from the senders of the processes that have the hosts, see module
 
 :- meta_predicate watch_begin(+, :, -).
 
-:- dynamic listens/2.           % Watch, Thread
+:- dynamic watch_thread/2.      % Watch, Thread
 
 %!  watch_begin(+Hosts, :OnEvent, -Watch) is det.
 %
@@ -51,20 +51,20 @@ watch_begin(Hosts, OnEvent, Watch) :-
 
 begin(Id, Hosts, OnEvent) :-
     watched_places(Hosts, Places),
-    listening_begin(Id, Queue),
-    catch(listen(Places, Id, Queue, OnEvent), Ball,
+    receiver_open(Id, Queue),
+    catch(start_thread(Places, Id, Queue, OnEvent), Ball,
           ( give_up(Places, Id, Queue),
             throw(Ball) )).
 
-listen(Places, Id, Queue, OnEvent) :-
+start_thread(Places, Id, Queue, OnEvent) :-
     findall(Asked, ( member(Place, Places), ask(Place, Id, Asked) ), All),
     atom_concat(typhon_, Id, Alias),
-    thread_create(listen_on(Id, Queue, OnEvent, All), Thread,
+    thread_create(receiver_run(Id, Queue, OnEvent, All), Thread,
                   [alias(Alias)]),
-    assertz(listens(Id, Thread)).
+    assertz(watch_thread(Id, Thread)).
 
 give_up(Places, Id, Queue) :-
-    listening_end(Id),
+    receiver_close(Id),
     message_queue_destroy(Queue),
     forall(member(place(Endpoint, _, _), Places),
            endpoint_request(Endpoint, watch, unwatch(Id), ignored)).
@@ -87,12 +87,12 @@ ask(place(Endpoint, Wanted, Hosts), Id, asked(Endpoint, Wanted, Answer)) :-
     ),
     catch(process_ask(Endpoint, Who, watch, watch(Id, Wanted), Answer, 10),
           error(Formal, Context),
-          unheard(Hosts, error(Formal, Context), Answer)),
+          process_gone(Hosts, error(Formal, Context), Answer)),
     must_have(Hosts, Answer).
 
-unheard(carried(Addresses), _, Answer) =>
+process_gone(carried(Addresses), _, Answer) =>
     Answer = gone(Addresses).
-unheard(_, Error, _) =>
+process_gone(_, Error, _) =>
     throw(Error).
 
 must_have(asked(Hosts), watching(_, _, There)) =>
@@ -113,7 +113,7 @@ must_have(carried(_), _) =>
 
 watch_end(Watch) :-
     must_be(atom, Watch),
-    (   with_mutex(typhon_watches, retract(listens(Watch, Thread)))
+    (   with_mutex(typhon_watches, retract(watch_thread(Watch, Thread)))
     ->  end(Watch, Thread)
     ;   existence_error(watch, Watch)
     ).
@@ -124,7 +124,7 @@ end(Watch, Thread) :-
     thread_self(Me),
     (   thread_property(Me, id(Id)),
         thread_property(Thread, id(Id))
-    ->  listening_end(Watch),
+    ->  receiver_close(Watch),
         thread_detach(Me)
     ;   in_own_thread(end_from_outside(Watch, Thread))
     ),
@@ -134,9 +134,9 @@ end_from_outside(Watch, Thread) :-
     setting(last_seconds, Seconds),
     setup_call_cleanup(
         message_queue_create(Done),
-        ( listening_tell(Watch, end(Done)),
+        ( receiver_put(Watch, end(Done)),
           ignore(thread_get_message(Done, done, [timeout(Seconds)]))
         ),
         message_queue_destroy(Done)),
-    listening_end(Watch),
+    receiver_close(Watch),
     stop_thread(Thread).

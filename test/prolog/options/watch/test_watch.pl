@@ -255,7 +255,7 @@ test(unwatch_from_within) :-
                  watch(alpha, once_only, Watch),
                  note(within, Watch),
                  agent_send(A, one),
-                 wait_until(\+ typhon_listening:watch(Watch, _), 5),
+                 wait_until(\+ typhon_watch_receiver:watch(Watch, _), 5),
                  agent_send(A, two) )),
     findall(E, told(only, E), Heard),
     assertion(Heard = [event(_, _, A, received(user))]),

@@ -1,8 +1,8 @@
-:- module(typhon_listening,
-          [ listening_begin/2,          % +Watch, -Queue
-            listening_end/1,            % +Watch
-            listening_tell/2,           % +Watch, +Message
-            listen_on/4                 % +Watch, +Queue, :OnEvent, +Asked
+:- module(typhon_watch_receiver,
+          [ receiver_open/2,            % +Watch, -Queue
+            receiver_close/1,           % +Watch
+            receiver_put/2,             % +Watch, +Message
+            receiver_run/4              % +Watch, +Queue, :OnEvent, +Asked
           ]).
 :- use_module(library(apply), [partition/4]).
 :- use_module(library(lists), [delete/3, member/2, min_list/2]).
@@ -24,28 +24,28 @@ events come was disconnected, the thread sends it a new request, see module
 into its queue.  It is no `server`, since an aborted watch ends.
 */
 
-:- meta_predicate listen_on(+, +, 1, +).
+:- meta_predicate receiver_run(+, +, 1, +).
 
 :- multifile
     prolog:message//1,
     typhon_endpoint:connection/2,
     typhon_endpoint:requested/4,
-    typhon_event_sender:taken_here/3.
+    typhon_event_sender:deliver_here/3.
 
 :- dynamic watch/2.             % Watch, Queue: while events are wanted
 
-%!  listening_begin(+Watch, -Queue) is det.
-%!  listening_end(+Watch) is det.
+%!  receiver_open(+Watch, -Queue) is det.
+%!  receiver_close(+Watch) is det.
 %
 %   Queue receives the events of Watch from now on; it receives none any more,
 %   and its thread ends.
 
-listening_begin(Watch, Queue) :-
+receiver_open(Watch, Queue) :-
     message_queue_create(Queue),
     assertz(watch(Watch, Queue)).
 
-listening_end(Watch) :-
-    ignore(listening_tell(Watch, over)),
+receiver_close(Watch) :-
+    ignore(receiver_put(Watch, over)),
     retractall(watch(Watch, _)).
 
                 /*******************************
@@ -54,14 +54,14 @@ listening_end(Watch) :-
 
 typhon_endpoint:requested(watched, events(Watch, Events), Peer, ReplyTo) :-
     (   is_list(Events),
-        listening_tell(Watch, events(Peer, Events, peer(ReplyTo)))
+        receiver_put(Watch, events(Peer, Events, peer(ReplyTo)))
     ->  true
     ;   endpoint_reply(ReplyTo, no)
     ).
-typhon_event_sender:taken_here(Watch, Events, OnAnswer) :-
+typhon_event_sender:deliver_here(Watch, Events, OnAnswer) :-
     endpoint_address(Own),
     !,
-    listening_tell(Watch, events(Own, Events, here(OnAnswer))).
+    receiver_put(Watch, events(Own, Events, here(OnAnswer))).
 typhon_endpoint:requested(watched, alive(Watch), _, ReplyTo) :-
     (   watch(Watch, _)
     ->  endpoint_reply(ReplyTo, yes)
@@ -69,13 +69,14 @@ typhon_endpoint:requested(watched, alive(Watch), _, ReplyTo) :-
     ).
 
 typhon_endpoint:connection(Peer, State) :-
-    forall(watch(Watch, _), ignore(listening_tell(Watch, connection(Peer, State)))).
+    forall(watch(Watch, _),
+           ignore(receiver_put(Watch, connection(Peer, State)))).
 
-%!  listening_tell(+Watch, +Message) is semidet.
+%!  receiver_put(+Watch, +Message) is semidet.
 %
-%   Fails if there is no listener.
+%   Fails if Watch has ended.
 
-listening_tell(Watch, Message) :-
+receiver_put(Watch, Message) :-
     watch(Watch, Queue),
     catch(thread_send_message(Queue, Message),
           error(existence_error(_, _), _),
@@ -85,14 +86,14 @@ listening_tell(Watch, Message) :-
                 *           THE LOOP           *
                 *******************************/
 
-%!  listen_on(+Watch, +Queue, :OnEvent, +Asked) is det.
+%!  receiver_run(+Watch, +Queue, :OnEvent, +Asked) is det.
 %
-%   Runs in the thread of Watch until listening_end/1, or the message end(Done):
-%   then earlier events are delivered, too, and `done` is sent to the queue
-%   Done. Asked are asked(Endpoint, Wanted, Answer): Answer is the answer of a
-%   sender, or gone(Hosts) if a process of a network has ended.
+%   Runs in the thread of Watch until receiver_close/1, or the message
+%   end(Done): then earlier events are delivered, too, and `done` is sent to the
+%   queue Done.  Asked are asked(Endpoint, Wanted, Answer): Answer is the answer
+%   of a sender, or gone(Hosts) if a process of a network has ended.
 
-listen_on(Watch, Queue, OnEvent, Asked) :-
+receiver_run(Watch, Queue, OnEvent, Asked) :-
     Me = me(Watch, Queue, OnEvent),
     setup_call_cleanup(
         begin(Asked, Me),
@@ -123,7 +124,7 @@ loop(Me) :-
     (   Message = end(Done)
     ->  end(Me),
         thread_send_message(Done, done)
-    ;   heard(Message, Me),
+    ;   handle_message(Message, Me),
         wanted(Me)
     ->  loop(Me)
     ;   unwatch_all(Me)
@@ -143,48 +144,49 @@ next(me(Watch, Queue, _), Message) :-
 wanted(me(Watch, _, _)) :-
     watch(Watch, _).
 
-heard(events(Peer, Events, ReplyTo), Me) =>
-    ask_for_more(ReplyTo),
+handle_message(events(Peer, Events, ReplyTo), Me) =>
+    request_more(ReplyTo),
     forall(( member(Event, Events), wanted(Me) ),
-           taken(Event, Peer, Me)).
-heard(connection(Peer, down), _), endpoint_address(Peer) =>
+           handle_event(Event, Peer, Me)).
+handle_message(connection(Peer, down), _), endpoint_address(Peer) =>
     true.                               % this process itself
-heard(connection(Peer, down), Me) =>
-    ask_again(Peer, up, Me).
-heard(connection(Peer, up), Me) =>
-    ask_again(Peer, down(_, _), Me).
-heard(due, Me) =>
+handle_message(connection(Peer, down), Me) =>
+    request_again(Peer, up, Me).
+handle_message(connection(Peer, up), Me) =>
+    request_again(Peer, down(_, _), Me).
+handle_message(due, Me) =>
     Me = me(Watch, _, _),
     get_time(Now),
     forall(( place_due(Watch, Endpoint, Again), Again =< Now ),
-           ask(Endpoint, Me)).
-heard(asked(Endpoint, Result), Me) =>
+           request_watch(Endpoint, Me)).
+handle_message(asked(Endpoint, Result), Me) =>
     Me = me(Watch, _, _),
     place_answered(Watch, Endpoint, Result, Events),
     call_on_all(Events, Me).
-heard(_, _) =>                          % over, ended(_)
+handle_message(_, _) =>                 % over, ended(_)
     true.
 
-ask_again(Peer, State, Me) :-
+request_again(Peer, State, Me) :-
     Me = me(Watch, _, _),
-    forall(place_at(Watch, Peer, State, Endpoint), ask(Endpoint, Me)).
+    forall(place_at(Watch, Peer, State, Endpoint),
+           request_watch(Endpoint, Me)).
 
-ask(Endpoint, me(Watch, Queue, _)) :-
+request_watch(Endpoint, me(Watch, Queue, _)) :-
     place_cut(Watch, Endpoint, Wanted),
     endpoint_request(Endpoint, watch, watch(Watch, Wanted),
-                     typhon_listening:told(Queue, asked, Endpoint)).
+                     typhon_watch_receiver:put_answer(Queue, asked, Endpoint)).
 
-:- public told/4.
+:- public put_answer/4.
 
-told(Queue, What, Endpoint, Result) :-
+put_answer(Queue, What, Endpoint, Result) :-
     Message =.. [What, Endpoint, Result],
     catch(thread_send_message(Queue, Message),
           error(existence_error(_, _), _),
-          true).                        % the listener has ended
+          true).                        % the watch has ended
 
-ask_for_more(peer(ReplyTo)) :-
+request_more(peer(ReplyTo)) :-
     endpoint_reply(ReplyTo, more).
-ask_for_more(here(OnAnswer)) :-
+request_more(here(OnAnswer)) :-
     call(OnAnswer, answer(more)).
 
                 /*******************************
@@ -193,35 +195,35 @@ ask_for_more(here(OnAnswer)) :-
 
 %   A host that is already known as started is not reported again.
 
-taken(event(Time, Host, none, started(Clock)), Peer, Me) =>
+handle_event(event(Time, Host, none, started(Clock)), Peer, Me) =>
     Me = me(Watch, _, _),
     (   place_started(Watch, Peer, Host, Clock)
     ->  call_on(event(Time, Host, none, started), Me)
     ;   true
     ).
-taken(event(Time, Host, none, stopped), _, Me) =>
+handle_event(event(Time, Host, none, stopped), _, Me) =>
     Me = me(Watch, _, _),
     place_stopped(Watch, Host),
     call_on(event(Time, Host, none, stopped), Me).
-taken(Event, _, Me) =>
+handle_event(Event, _, Me) =>
     call_on(Event, Me).
 
 call_on_all(Events, Me) :-
     forall(( member(Event, Events), wanted(Me) ), call_on(Event, Me)).
 
 call_on(Event, me(Watch, _, OnEvent)) :-
-    (   catch(call(OnEvent, Event), Ball, raised(Ball, Watch))
+    (   catch(call(OnEvent, Event), Ball, report_raised(Ball, Watch))
     ->  true
     ;   true
     ).
 
 %   An abort ends the thread.
 
-raised(Ball, _) :-
+report_raised(Ball, _) :-
     is_abort(Ball),
     !,
     throw(Ball).
-raised(Ball, Watch) :-
+report_raised(Ball, Watch) :-
     (   nb_current(typhon_watch_warned, true)
     ->  true
     ;   nb_setval(typhon_watch_warned, true),
@@ -237,10 +239,10 @@ raised(Ball, Watch) :-
 end(Me) :-
     unwatch_all(Me),
     Me = me(Watch, _, _),
-    findall(Endpoint, tells(Watch, Endpoint), Endpoints),
+    findall(Endpoint, sender_at(Watch, Endpoint), Endpoints),
     await_ends(Endpoints, Me).
 
-tells(Watch, Endpoint) :-
+sender_at(Watch, Endpoint) :-
     place_at(Watch, _, State, Endpoint),
     State \= down(_, _).
 
@@ -255,16 +257,17 @@ await_ends(Endpoints, Me) :-
     ->  delete(Endpoints, Endpoint, Others),
         await_ends(Others, Me)
     ;   Message = events(_, _, _)
-    ->  heard(Message, Me),
+    ->  handle_message(Message, Me),
         await_ends(Endpoints, Me)
     ;   await_ends(Endpoints, Me)
     ).
 await_ends(_, _).                       % the time is over
 
 unwatch_all(me(Watch, Queue, _)) :-
-    forall(tells(Watch, Endpoint),
+    forall(sender_at(Watch, Endpoint),
            endpoint_request(Endpoint, watch, unwatch(Watch),
-                            typhon_listening:told(Queue, ended, Endpoint))).
+                            typhon_watch_receiver:put_answer(Queue, ended,
+                                                             Endpoint))).
 
                 /*******************************
                 *           MESSAGES           *
