@@ -5,7 +5,7 @@
             metrics/2                   % +Hosts, -Text
           ]).
 :- autoload('watch/metrics', [processes_metrics/2]).
-:- autoload('watch/watched', [processes_overview/3]).
+:- autoload('watch/watched_hosts', [processes_overview/3]).
 :- autoload('watch/watches', [watch_begin/3, watch_end/1]).
 
 /** <module> Watching: events of hosts as they happen

@@ -137,7 +137,7 @@ part_file('options/virtual','options/virtual').
 part_file('options/watch','options/watch/metrics').
 part_file('options/watch','options/watch/watch_receiver').
 part_file('options/watch','options/watch/watch_senders').
-part_file('options/watch','options/watch/watched').
+part_file('options/watch','options/watch/watched_hosts').
 part_file(tools,'tools/inventory').
 part_file('tools/administration','tools/administration/change').
 part_file('tools/administration','tools/administration/host_questions').

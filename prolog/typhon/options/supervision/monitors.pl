@@ -28,8 +28,11 @@
 
 The home of a watcher keeps its monitors.  For each monitored agent it sends one
 request to the home of that agent, which answers when the agent is down, see
-typhon_watched.  If the request is lost, the home of the agent is gone, and the
-agent with it; or the home keeps a journal, and the request is sent again.
+typhon_watched_agents.  If the request is lost, the home of the agent is gone,
+and the agent with it; or the home keeps a journal, and the request is sent
+again.  Whatever reports that the agent is down, the thread that removes the
+monitor sends the message, so it is sent once.  With a journal both are one unit
+of work.
 Whatever reports that the agent is down, the thread that removes the monitor
 sends the message, so it is sent once.  With a journal both are one unit of
 work.

@@ -9,7 +9,7 @@
 :- use_module('../../kernel/host', [events_hear/3, events_unheard/1, host/3]).
 :- use_module('../../kernel/agent', [agent/5, agent_status/3]).
 :- use_module('../../tools/administration', [status_shown/2]).
-:- use_module(watched, [everywhere/5, watched_places/2]).
+:- use_module(watched_hosts, [ask_processes/5, watched_places/2]).
 
 /** <module> Metrics of a network, for Prometheus
 
@@ -21,7 +21,7 @@ from the first request for metrics on, as long as it has an endpoint.
 
 :- multifile
     typhon_events:told/4,
-    typhon_watched:answer/2,
+    typhon_watched_hosts:answer/2,
     typhon_hosting:begins/1,
     typhon_runtime:ending/1.
 
@@ -31,7 +31,7 @@ from the first request for metrics on, as long as it has an endpoint.
 
 processes_metrics(Hosts, Text) :-
     watched_places(Hosts, Places),
-    everywhere(Places, numbers, 5, Answers, Silent),
+    ask_processes(Places, numbers, 5, Answers, Silent),
     findall(Endpoint-Numbers,
             member(place(Endpoint, _, _)-Numbers, Answers),
             Processes),
@@ -76,7 +76,7 @@ sample(Name, Processes, _, sample(Suffix, [process=Endpoint|Labels], Value)) :-
                 *          ONE PROCESS         *
                 *******************************/
 
-typhon_watched:answer(numbers, Numbers) :-
+typhon_watched_hosts:answer(numbers, Numbers) :-
     counting_begin,
     findall(number(Name, Suffix, Labels, Value),
             number(Name, Suffix, Labels, Value),

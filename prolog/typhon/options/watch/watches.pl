@@ -14,7 +14,7 @@
 :- use_module(watch_receiver,
               [ receiver_close/1, receiver_open/2, receiver_put/2,
                 receiver_run/4 ]).
-:- use_module(watched, [watched_places/2]).
+:- use_module(watched_hosts, [watched_places/2]).
 
 /** <module> Watches of this process
 

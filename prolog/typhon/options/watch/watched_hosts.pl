@@ -1,6 +1,6 @@
-:- module(typhon_watched,
+:- module(typhon_watched_hosts,
           [ watched_places/2,           % +Hosts, -Places
-            everywhere/5,               % +Places, +Question, +Seconds,
+            ask_processes/5,            % +Places, +Question, +Seconds,
                                         % -Answers, -Silent
             processes_overview/3        % +Hosts, -Processes, -Silent
           ]).
@@ -49,7 +49,7 @@ answer, since an answer may be long.
 watched_places(Hosts, Places) :-
     host_listed(Hosts, List),
     findall(Endpoint-What,
-            ( member(One, List), watched(One, Endpoint, What) ),
+            ( member(One, List), host_process(One, Endpoint, What) ),
             Pairs0),
     sort(Pairs0, Pairs),
     group_pairs_by_key(Pairs, Groups),
@@ -59,7 +59,7 @@ watched_places(Hosts, Places) :-
               whose(Whats, Whose) ),
             Places).
 
-watched(One, Endpoint, What) :-
+host_process(One, Endpoint, What) :-
     must_be(atom, One),
     (   hosts_of_network(One, Addresses)
     ->  member(Address, Addresses),
@@ -69,7 +69,7 @@ watched(One, Endpoint, What) :-
         ;   What = carried(Address)
         )
     ;   host_resolve(One, Where),
-        at(Where, One, Endpoint, What)
+        process_of(Where, One, Endpoint, What)
     ).
 
 hosts_of_network(Network, Addresses) :-
@@ -77,10 +77,10 @@ hosts_of_network(Network, Addresses) :-
           error(existence_error(network, _), _),
           fail).
 
-at(local(Name), One, Endpoint, host(Name, One)) :-
+process_of(local(Name), One, Endpoint, host(Name, One)) :-
     endpoint_address(Endpoint),
     !.
-at(remote(Address, Name, Endpoint), _, Endpoint, host(Name, Address)).
+process_of(remote(Address, Name, Endpoint), _, Endpoint, host(Name, Address)).
 
 wanted(Whats, Wanted) :-
     (   memberchk(carried(_), Whats)
@@ -104,13 +104,13 @@ whose(Whats, Whose) :-
                 *  QUESTIONS TO ALL PROCESSES  *
                 *******************************/
 
-%!  everywhere(+Places, +Question, +Seconds, -Answers, -Silent) is det.
+%!  ask_processes(+Places, +Question, +Seconds, -Answers, -Silent) is det.
 %
 %   Answers are Place-Answer for the Places, see watched_places/2, that have
 %   answered within Seconds; Silent are the endpoints of the others.  The hook
 %   answer(Question, Answer) gives the answer.
 
-everywhere(Places, Question, Seconds, Answers, Silent) :-
+ask_processes(Places, Question, Seconds, Answers, Silent) :-
     partition(is_here, Places, Here, There),
     findall(Place-Answer,
             ( member(Place, Here), answer_to(Question, Answer) ), Own),
@@ -133,19 +133,19 @@ ask([], _, _, []) :-
 ask(Places, Question, Seconds, Results) :-
     findall(Endpoint, member(place(Endpoint, _, _), Places), Endpoints),
     as_guest(endpoint_ask_all(Endpoints, everywhere, Question,
-                              typhon_watched:no_further, Seconds,
+                              typhon_watched_hosts:no_forward, Seconds,
                               Results)).
 
 :- public
-    no_further/2,
-    reply/2.                    % goal of a worker
+    no_forward/2,
+    answer_request/2.           % goal of a worker
 
-no_further(_, []).
+no_forward(_, []).
 
 typhon_endpoint:requested(everywhere, Question, _, ReplyTo) :-
-    scheduler_call(typhon_watched:reply(Question, ReplyTo)).
+    scheduler_call(typhon_watched_hosts:answer_request(Question, ReplyTo)).
 
-reply(Question, ReplyTo) :-
+answer_request(Question, ReplyTo) :-
     answer_to(Question, Answer),
     endpoint_reply(ReplyTo, Answer).
 
@@ -162,7 +162,7 @@ answer_to(Question, Answer) :-
 
 processes_overview(Hosts, Processes, Silent) :-
     watched_places(Hosts, Places),
-    everywhere(Places, overview, 5, Answers, Silent),
+    ask_processes(Places, overview, 5, Answers, Silent),
     findall(Process,
             ( member(place(_, Wanted, _)-Answer, Answers),
               only(Wanted, Answer, Process) ),
@@ -184,10 +184,10 @@ only(Names, process(Endpoint, Pid, Hosts0, Agents0),
 answer(overview, process(Endpoint, Pid, Hosts, Agents)) :-
     endpoint_address(Endpoint),
     current_prolog_flag(pid, Pid),
-    findall(Host, host_seen(Host), Hosts),
-    findall(Agent, agent_seen(Agent), Agents).
+    findall(Host, host_state(Host), Hosts),
+    findall(Agent, agent_state(Agent), Agents).
 
-host_seen(host(Address, Time, Load, Options, Links)) :-
+host_state(host(Address, Time, Load, Options, Links)) :-
     host(Name, Address, _),
     host_time(Name, Time),
     host_load(Name, Load),
@@ -198,7 +198,7 @@ host_seen(host(Address, Time, Load, Options, Links)) :-
             ( member(To, Neighbours), host_link_cost(Name, To, Cost) ),
             Links).
 
-agent_seen(agent(Id, Address, Program, State, Hops)) :-
+agent_state(agent(Id, Address, Program, State, Hops)) :-
     agent(Id, Host, _, Hash, Life),
     host(Host, Address, _),
     code_program(Hash, program(Program, _, _, _)),
