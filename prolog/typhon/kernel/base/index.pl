@@ -123,7 +123,7 @@ part_file('options/quotas','options/quotas/quota_enforcer').
 part_file('options/quotas','options/quotas/quota_table').
 part_file('options/quotas','options/quotas/usage').
 part_file('options/snapshot','options/snapshot').
-part_file('options/supervision','options/supervision/gone').
+part_file('options/supervision','options/supervision/failed_processes').
 part_file('options/supervision','options/supervision/monitors').
 part_file('options/supervision','options/supervision/relations').
 part_file('options/supervision','options/supervision/watched').

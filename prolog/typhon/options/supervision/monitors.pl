@@ -48,8 +48,8 @@ process.
     typhon_durable:go_on/0,
     typhon_durable:restored/0,
     typhon_endpoint:requested/4,
-    typhon_gone_processes:concerns/0,
-    typhon_gone_processes:gone/1,
+    typhon_failed_processes:detection_needed/0,
+    typhon_failed_processes:process_failed/1,
     typhon_identity:ids_anew/0,
     typhon_runtime:ending/1,
     typhon_scheduler:fire/2.
@@ -323,11 +323,11 @@ typhon_scheduler:fire(Agent, monitor(share(Change))) :-
     !,
     shares(Agent, Change).
 
-typhon_gone_processes:concerns :-
+typhon_failed_processes:detection_needed :-
     asked(_, _),
     !.
 
-typhon_gone_processes:gone(Peer) :-
+typhon_failed_processes:process_failed(Peer) :-
     lost(Peer).
 
 typhon_durable:go_on :-

@@ -14,7 +14,7 @@
               [address_parts/3, alarm_in/3, peer_may/3, scheduler_call/1]).
 :- use_module('../../kernel/lifecycle', [agent_ask_here/4]).
 :- use_module('../../kernel/agent', [agent_on/2]).
-:- use_module(gone, [process_suspect/1]).
+:- use_module(failed_processes, [process_suspect/1]).
 :- use_module('../../kernel/travel',
               [agent_outcome/2, home_knows/4, outcome_wait/3]).
 
@@ -31,8 +31,8 @@ same time.
 */
 
 :- multifile
-    typhon_gone_processes:concerns/0,
-    typhon_gone_processes:gone/1,
+    typhon_failed_processes:detection_needed/0,
+    typhon_failed_processes:process_failed/1,
     typhon_endpoint:requested/4,
     typhon_identity:ids_anew/0,
     typhon_runtime:ending/1,
@@ -105,11 +105,11 @@ typhon_endpoint:requested(monitor, watch(Agent), _, ReplyTo) :-
                 *      PROCESSES THAT END      *
                 *******************************/
 
-typhon_gone_processes:concerns :-
+typhon_failed_processes:detection_needed :-
     asker(_, _, _),
     !.
 
-typhon_gone_processes:gone(_) :-
+typhon_failed_processes:process_failed(_) :-
     look_for_all.
 
 look_for_all :-

@@ -1,4 +1,4 @@
-:- module(typhon_gone_processes,
+:- module(typhon_failed_processes,
           [ process_suspect/1           % +Peer
           ]).
 :- use_module('../../kernel/wire',
@@ -6,7 +6,7 @@
                 endpoint_reply/2, endpoint_request/4 ]).
 :- use_module('../../kernel/host', [alarm_in/3, scheduler_call/1]).
 
-/** <module> Detection of processes that are gone
+/** <module> Detection of processes that have failed
 
 A broken connection may be made again.  So a request is sent to the process,
 which makes the endpoint try to reach it, and its state is checked until there
@@ -14,24 +14,24 @@ is a connection again, or it is known to be gone: nothing listens at its
 address, it closed the connection orderly, or another process is at its address.
 A process that keeps a journal is not gone.
 
-*Threading*: the hook concerns/0 is called in threads of connections, gone/1 in
-a worker.
+*Threading*: the hook detection_needed/0 is called in threads of connections,
+process_failed/1 in a worker.
 */
 
 :- multifile
-    concerns/0,                 % there are monitors that need this
-    gone/1,                     % Peer
+    detection_needed/0,         % there are monitors that need this
+    process_failed/1,           % Peer
     typhon_endpoint:connection/2,
     typhon_endpoint:requested/4,
     typhon_scheduler:fire/2.
 
-:- dynamic concerns/0.
+:- dynamic detection_needed/0.
 
 first_pause(0.1).
 longest_pause(5).
 
 typhon_endpoint:connection(Peer, down) :-
-    (   concerns,
+    (   detection_needed,
         \+ endpoint_address(Peer)
     ->  process_suspect(Peer)
     ;   true
@@ -43,12 +43,13 @@ typhon_endpoint:connection(_, up).
 %   There is no connection to Peer: find out whether the process is gone.
 
 process_suspect(Peer) :-
-    process(Peer, Process),
-    endpoint_request(Peer, monitor, alive, typhon_gone_processes:answered),
+    process_of(Peer, Process),
+    endpoint_request(Peer, monitor, alive,
+                     typhon_failed_processes:ignore_answer),
     first_pause(Pause),
     alarm_in(Pause, Peer, gone(Process, Pause)).
 
-process(Peer, Process) :-
+process_of(Peer, Process) :-
     (   endpoint_peer(Peer, process(Process0))
     ->  Process = Process0
     ;   Process = none
@@ -57,16 +58,16 @@ process(Peer, Process) :-
 typhon_endpoint:requested(monitor, alive, _, ReplyTo) :-
     endpoint_reply(ReplyTo, yes).
 
-:- public answered/1, concluded/1.
+:- public ignore_answer/1, report_failed/1.
 
-answered(_).
+ignore_answer(_).
 
 typhon_scheduler:fire(Peer, gone(Process, Pause)) :-
     !,
-    (   \+ concerns
+    (   \+ detection_needed
     ->  true
-    ;   is_gone(Peer, Process)
-    ->  scheduler_call(typhon_gone_processes:concluded(Peer))
+    ;   has_failed(Peer, Process)
+    ->  scheduler_call(typhon_failed_processes:report_failed(Peer))
     ;   endpoint_peer(Peer, state(up))
     ->  true
     ;   longest_pause(Longest),
@@ -74,12 +75,12 @@ typhon_scheduler:fire(Peer, gone(Process, Pause)) :-
         alarm_in(Next, Peer, gone(Process, Next))
     ).
 
-is_gone(Peer, _) :-
+has_failed(Peer, _) :-
     endpoint_gone(Peer),
     !.
-is_gone(Peer, Process) :-
-    process(Peer, Now),
+has_failed(Peer, Process) :-
+    process_of(Peer, Now),
     Now \== Process.
 
-concluded(Peer) :-
-    forall(gone(Peer), true).
+report_failed(Peer) :-
+    forall(process_failed(Peer), true).
