@@ -210,7 +210,8 @@ evidence(Peer) :-
                         agent_property(Id, facts(Facts)) ), Agents),
               findall(monitor(W, A), typhon_monitors:monitor(_, W, A), Ms),
               findall(asked(A, S), typhon_monitors:asked(A, S), As),
-              findall(watched(A), typhon_watched_agents:asker(A, _, _), Ws),
+              findall(watched(A),
+                      typhon_monitored_agents:outcome_request(A, _, _), Ws),
               format(atom(Held), '~q~n~q~n~q~n~q', [Agents, Ms, As, Ws]) )),
     format(user_error, '~w holds ~w~n', [Peer, Held]).
 

@@ -124,9 +124,9 @@ part_file('options/quotas','options/quotas/quota_table').
 part_file('options/quotas','options/quotas/usage').
 part_file('options/snapshot','options/snapshot').
 part_file('options/supervision','options/supervision/failed_processes').
+part_file('options/supervision','options/supervision/monitored_agents').
 part_file('options/supervision','options/supervision/monitors').
 part_file('options/supervision','options/supervision/relations').
-part_file('options/supervision','options/supervision/watched').
 part_file('options/tls','options/tls/secure').
 part_file('options/trace','options/trace/spying').
 part_file('options/trace','options/trace/stepping').

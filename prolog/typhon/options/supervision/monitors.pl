@@ -22,13 +22,13 @@
 :- use_module('../../kernel/travel',
               [outcome_wait/3, peer_may_send_for/3, post_on/2]).
 :- use_module('../../kernel/lifecycle', [agent_dispose/1, agent_named/2]).
-:- use_module(watched, [orphans_end/1, watched_add/2]).
+:- use_module(monitored_agents, [monitored_add/2, orphans_end/1]).
 
 /** <module> Monitors, at the home of the monitoring agents
 
 The home of a watcher keeps its monitors.  For each monitored agent it sends one
 request to the home of that agent, which answers when the agent is down, see
-typhon_watched_agents.  If the request is lost, the home of the agent is gone,
+typhon_monitored_agents.  If the request is lost, the home of the agent is gone,
 and the agent with it; or the home keeps a journal, and the request is sent
 again.  Whatever reports that the agent is down, the thread that removes the
 monitor sends the message, so it is sent once.  With a journal both are one unit
@@ -248,7 +248,7 @@ watch(Agent, Since) :-
     !,
     agent_home_endpoint(Agent, Home),
     (   endpoint_address(Home)
-    ->  watched_add(Agent, call(typhon_monitors:down(Agent)))
+    ->  monitored_add(Agent, call(typhon_monitors:down(Agent)))
     ;   endpoint_request(Home, monitor, watch(Agent),
                          typhon_monitors:said(Agent, Home))
     ).

@@ -8,7 +8,7 @@
 :- use_module('../../kernel/host', [scheduler_call/1]).
 :- use_module('../../kernel/agent', [agent_home_endpoint/2]).
 :- use_module(monitors, [monitor_set/2]).
-:- use_module(watched, [others_ask/2]).
+:- use_module(monitored_agents, [peers_ask/2]).
 
 /** <module> Relations: which agents monitor and follow which
 
@@ -31,8 +31,8 @@ most(5000).
 
 relations(Other, Relations) :-
     endpoint_address(Me),
-    here(Other, Here),
-    others_ask(relations(Other), Results),
+    relations_here(Other, Here),
+    peers_ask(relations(Other), Results),
     findall(Relation,
             ( member(Peer-answer(Some), [Me-answer(Here)|Results]),
               is_list(Some),
@@ -49,27 +49,27 @@ is_relation(Relation, Other, Home) :-
     agent_home_endpoint(Id, Home),
     !.
 
-here(Other, Relations) :-
+relations_here(Other, Relations) :-
     most(Most),
     findall(Relation, limit(Most, relation(Other, Relation)), Relations).
 
 relation(Other, Relation) :-
     monitor_set(Watcher, Other),
-    said(Watcher, Other, Id, Relation),
+    relation_of(Watcher, Other, Id, Relation),
     agent_home_endpoint(Id, Home),
     endpoint_address(Home).
 
-said(ends(Id), Other, Id, follows(Id, Other)) :-
+relation_of(ends(Id), Other, Id, follows(Id, Other)) :-
     !.
-said(Id, Other, Id, monitors(Id, Other)) :-
+relation_of(Id, Other, Id, monitors(Id, Other)) :-
     atom(Id).
 
 typhon_endpoint:requested(monitor, relations(Other), _, ReplyTo) :-
     ( var(Other) -> true ; must_be(atom, Other) ),
-    scheduler_call(typhon_relations:told(Other, ReplyTo)).
+    scheduler_call(typhon_relations:send_relations(Other, ReplyTo)).
 
-:- public told/2.                       % goal of a worker
+:- public send_relations/2.             % goal of a worker
 
-told(Other, ReplyTo) :-
-    here(Other, Relations),
+send_relations(Other, ReplyTo) :-
+    relations_here(Other, Relations),
     endpoint_reply(ReplyTo, Relations).

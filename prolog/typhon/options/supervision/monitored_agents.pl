@@ -1,7 +1,7 @@
-:- module(typhon_watched_agents,
-          [ watched_add/2,              % +Agent, +Asker
+:- module(typhon_monitored_agents,
+          [ monitored_add/2,            % +Agent, +Request
             orphans_end/1,              % +Agents
-            others_ask/2                % +Question, -Results
+            peers_ask/2                 % +Question, -Results
           ]).
 :- use_module(library(apply), [exclude/3]).
 :- use_module(library(error), [must_be/2]).
@@ -39,8 +39,8 @@ same time.
     typhon_scheduler:fire/2.
 
 :- dynamic
-    asker/3,                    % Agent, N, Asker: waits for its end
-    looks_again/0.              % an alarm is set for another round
+    outcome_request/3,          % Agent, N, Request
+    search_set/0.               % an alarm is set for another round
 
 typhon_identity:ids_anew :-
     forget.
@@ -49,28 +49,29 @@ typhon_runtime:ending(after) :-
     forget.
 
 forget :-
-    retractall(asker(_, _, _)),
-    retractall(looks_again).
+    retractall(outcome_request(_, _, _)),
+    retractall(search_set).
 
 pause(1).                       % seconds between two rounds
 patience(5).                    % seconds for the answers
 
-%!  watched_add(+Agent, +Asker) is det.
+%!  monitored_add(+Agent, +Request) is det.
 %
-%   Send Asker once the outcome of Agent, whose home is here, as of
+%   Send Request once the outcome of Agent, whose home is here, as of
 %   outcome_wait/3, or lost(Host).
 %
-%   @arg Asker is reply(ReplyTo) or call(Closure)
+%   @arg Request is reply(ReplyTo) or call(Closure)
 
-watched_add(Agent, Asker) :-
-    flag(typhon_watched_agent, N, N+1),
-    assertz(asker(Agent, N, Asker)),
-    outcome_wait(Agent, inf, call(typhon_watched_agents:over(Agent, N))),
-    ( asker(Agent, N, _) -> went_to(Agent) ; true ).
+monitored_add(Agent, Request) :-
+    flag(typhon_monitored_agent, N, N+1),
+    assertz(outcome_request(Agent, N, Request)),
+    outcome_wait(Agent, inf,
+                 call(typhon_monitored_agents:agent_down(Agent, N))),
+    ( outcome_request(Agent, N, _) -> check_process(Agent) ; true ).
 
 %   A connection that is already down will not report that it breaks.
 
-went_to(Agent) :-
+check_process(Agent) :-
     home_knows(Agent, Address, _, Process),
     Process \== here,
     !,
@@ -78,93 +79,93 @@ went_to(Agent) :-
     (   endpoint_peer(Endpoint, process(Process)),
         endpoint_peer(Endpoint, state(up))
     ->  true
-    ;   is_gone(Address, Process)
-    ->  scheduler_call(typhon_watched_agents:look_for_all)
+    ;   has_failed(Address, Process)
+    ->  scheduler_call(typhon_monitored_agents:search_missing)
     ;   process_suspect(Endpoint)
     ).
-went_to(_).
+check_process(_).
 
-:- public over/3.
+:- public agent_down/3.
 
-over(Agent, N, Outcome) :-
-    (   retract(asker(Agent, N, Asker))
-    ->  answer(Asker, Outcome)
+agent_down(Agent, N, Outcome) :-
+    (   retract(outcome_request(Agent, N, Request))
+    ->  send_outcome(Request, Outcome)
     ;   true
     ).
 
-answer(call(Closure), Outcome) :-
+send_outcome(call(Closure), Outcome) :-
     call(Closure, Outcome).
-answer(reply(ReplyTo), Outcome) :-
+send_outcome(reply(ReplyTo), Outcome) :-
     endpoint_reply(ReplyTo, Outcome).
 
 typhon_endpoint:requested(monitor, watch(Agent), _, ReplyTo) :-
     must_be(atom, Agent),
-    watched_add(Agent, reply(ReplyTo)).
+    monitored_add(Agent, reply(ReplyTo)).
 
                 /*******************************
                 *      PROCESSES THAT END      *
                 *******************************/
 
 typhon_failed_processes:detection_needed :-
-    asker(_, _, _),
+    outcome_request(_, _, _),
     !.
 
 typhon_failed_processes:process_failed(_) :-
-    look_for_all.
+    search_missing.
 
-look_for_all :-
+search_missing :-
     absent(Absent),
     (   Absent == []
     ->  true
     ;   missing(Absent, Missing),
         pause(Seconds),
-        alarm_in(Seconds, watched, missing(Missing))
+        alarm_in(Seconds, monitored, missing(Missing))
     ).
 
 typhon_scheduler:fire(_, missing(Missing)) :-
     !,
-    scheduler_call(typhon_watched_agents:look_again(Missing)).
+    scheduler_call(typhon_monitored_agents:search_again(Missing)).
 
-:- public look_for_all/0, look_again/1.
+:- public search_missing/0, search_again/1.
 
-look_again(Before) :-
+search_again(Before) :-
     absent(Now),
     findall(One, ( member(One, Before), memberchk(One, Now) ), Still),
     missing(Still, Lost),
-    all_lost(Lost),
-    look_later.
+    report_all_lost(Lost),
+    search_later.
 
 %   An agent may have been in transit during the first round.
 
-all_lost([]) :-
+report_all_lost([]) :-
     !.
-all_lost(Lost) :-
+report_all_lost(Lost) :-
     findall(Agent, member(at(Agent, _, _, _), Lost), Agents),
     orphans_end(Agents),
     forall(member(at(Agent, Address, _, _), Lost),
-           lost(Agent, Address)).
+           report_lost(Agent, Address)).
 
 %   An agent that moves to a process that dies is there according to its home,
 %   while its source keeps it in doubt: the search continues until its home has
 %   other news.
 
-look_later :-
+search_later :-
     absent(Absent),
-    (   \+ looks_again,
+    (   \+ search_set,
         member(at(_, Address, _, Process), Absent),
-        is_gone(Address, Process)
-    ->  assertz(looks_again),
+        has_failed(Address, Process)
+    ->  assertz(search_set),
         pause(Seconds),
-        alarm_in(Seconds, watched, look)
+        alarm_in(Seconds, monitored, search)
     ;   true
     ).
 
-typhon_scheduler:fire(_, look) :-
+typhon_scheduler:fire(_, search) :-
     !,
-    retractall(looks_again),
-    scheduler_call(typhon_watched_agents:look_for_all).
+    retractall(search_set),
+    scheduler_call(typhon_monitored_agents:search_missing).
 
-is_gone(Address, Process) :-
+has_failed(Address, Process) :-
     address_parts(Address, _, Endpoint),
     (   endpoint_gone(Endpoint)
     ->  true
@@ -173,10 +174,10 @@ is_gone(Address, Process) :-
         Now \== Process
     ).
 
-lost(Agent, Address) :-
-    (   retract(asker(Agent, _, Asker))
-    ->  answer(Asker, lost(Address)),
-        lost(Agent, Address)
+report_lost(Agent, Address) :-
+    (   retract(outcome_request(Agent, _, Request))
+    ->  send_outcome(Request, lost(Address)),
+        report_lost(Agent, Address)
     ;   true
     ).
 
@@ -185,7 +186,7 @@ lost(Agent, Address) :-
 
 absent(Absent) :-
     findall(at(Agent, Address, Hops, Process),
-            ( asker(Agent, _, _),
+            ( outcome_request(Agent, _, _),
               \+ agent_on(Agent, _),
               \+ agent_outcome(Agent, _),
               home_knows(Agent, Address, Hops, Process) ),
@@ -199,29 +200,29 @@ missing([], []) :-
     !.
 missing(Absent, Missing) :-
     findall(Agent, member(at(Agent, _, _, _), Absent), Agents),
-    others_ask(have(Agents), Results),
+    peers_ask(have(Agents), Results),
     exclude(may_be_found(Results), Absent, Missing).
 
-%!  others_ask(+Question, -Results:list) is det.
+%!  peers_ask(+Question, -Results:list) is det.
 %
 %   Ask all known processes, and wait: Results are as of endpoint_ask_all/6.
 
-others_ask(Question, Results) :-
-    others(Peers),
+peers_ask(Question, Results) :-
+    other_processes(Peers),
     ask(Peers, Question, Results).
 
 ask(Peers, Question, Results) :-
     patience(Seconds),
-    endpoint_ask_all(Peers, monitor, Question, typhon_watched_agents:none,
-                     Seconds, Results).
+    endpoint_ask_all(Peers, monitor, Question,
+                     typhon_monitored_agents:no_forward, Seconds, Results).
 
-:- public none/2.
+:- public no_forward/2.
 
-none(_, []).
+no_forward(_, []).
 
-%   others(-Peers:ordset): known processes that are not gone.
+%   other_processes(-Peers:ordset): known processes that are not gone.
 
-others(Peers) :-
+other_processes(Peers) :-
     findall(Peer,
             ( endpoint_peer(Peer, process(_)),
               \+ endpoint_address(Peer),
@@ -257,17 +258,17 @@ typhon_endpoint:requested(monitor, have(Agents), _, ReplyTo) :-
 orphans_end(Agents) :-
     end_everywhere(Agents, []),
     pause(Seconds),
-    alarm_in(Seconds, watched, orphans(Agents, Seconds)).
+    alarm_in(Seconds, monitored, orphans(Agents, Seconds)).
 
 last_pause(64).
 
 typhon_scheduler:fire(_, orphans(Agents, Seconds)) :-
     !,
-    scheduler_call(typhon_watched_agents:end_everywhere(Agents, [])),
+    scheduler_call(typhon_monitored_agents:end_everywhere(Agents, [])),
     Next is 2*Seconds,
     last_pause(Last),
     (   Next =< Last
-    ->  alarm_in(Next, watched, orphans(Agents, Next))
+    ->  alarm_in(Next, monitored, orphans(Agents, Next))
     ;   true
     ).
 
@@ -277,7 +278,7 @@ typhon_scheduler:fire(_, orphans(Agents, Seconds)) :-
 
 end_everywhere(Agents, Asked) :-
     forall(member(Agent, Agents), end_here(Agent)),
-    others(Peers0),
+    other_processes(Peers0),
     ord_subtract(Peers0, Asked, Peers),
     endpoint_address(Me),
     ord_union([[Me], Peers, Asked], All),
@@ -286,8 +287,8 @@ end_everywhere(Agents, Asked) :-
 typhon_endpoint:requested(monitor, end(Agents, Asked), Peer, ReplyTo) :-
     must_be(list(atom), Agents),
     must_be(list(atom), Asked),
-    scheduler_call(typhon_watched_agents:end_asked(Agents, Asked, Peer,
-                                                   ReplyTo)).
+    scheduler_call(typhon_monitored_agents:end_asked(Agents, Asked, Peer,
+                                                     ReplyTo)).
 
 end_asked(Agents0, Asked0, Peer, ReplyTo) :-
     exclude(may_not_end(Peer), Agents0, Agents),
