@@ -23,12 +23,12 @@
 :- use_module(guard,
               [ guarding_headers/0, page_file/3, request_own/1,
                 request_within/2, token_new/1, token_right/2 ]).
-:- use_module(looking,
-              [ first_sight/1, look/2, world_shown/0, world_start/1,
-                world_stop/0 ]).
 :- use_module(overlays,
               [ overlays_shown/1, overlays_start/1, overlays_stop/0 ]).
 :- use_module(protocol, [times_start/0, times_stop/0]).
+:- use_module(queries,
+              [ present_scene/1, query_answer/2, world_shown/0,
+                world_start/1, world_stop/0 ]).
 :- use_module(sources, [sources_metrics/1, sources_start/1, sources_stop/0]).
 
 /** <module> The server of the page
@@ -172,7 +172,7 @@ feed(WebSocket) :-
 
 first_frame(_{snapshot:Scene}) :-
     serving(_, _, ReadOnly),
-    on_console(first_sight(Seen)),
+    on_console(present_scene(Seen)),
     overlays_shown(Overlays),
     ( world_shown -> World = true ; World = false ),
     Scene = Seen.put(_{ read_only:ReadOnly, overlays:Overlays,
@@ -223,7 +223,7 @@ answer_to(In, Request, _{answer:Answer}) :-
     (   get_dict(do, Message, What)
     ->  may_act(What),
         act(Message, Answer)
-    ;   look(Message, Answer)
+    ;   query_answer(Message, Answer)
     ).
 
 %   All orders pass this check.

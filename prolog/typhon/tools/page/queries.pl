@@ -1,6 +1,6 @@
-:- module(typhon_page_looking,
-          [ look/2,                     % +Message, -Answer
-            first_sight/1,              % -Dict
+:- module(typhon_page_queries,
+          [ query_answer/2,             % +Message, -Answer
+            present_scene/1,            % -Dict
             world_start/1,              % +Options
             world_stop/0,
             world_shown/0
@@ -50,49 +50,49 @@ runs, and nothing that it refers to is loaded.
 time starts and stops the world.
 */
 
-%!  look(+Message:dict, -Answer) is det.
+%!  query_answer(+Message:dict, -Answer) is det.
 %
 %   @error domain_error(question, What)
 
-look(Message, Answer) :-
+query_answer(Message, Answer) :-
     get_dict(ask, Message, Text),
     atom_string(What, Text),
-    on_console(asked(What, Message, Answer)),
+    on_console(answer(What, Message, Answer)),
     !.
-look(Message, _) :-
+query_answer(Message, _) :-
     domain_error(question, Message).
 
 %   Longer lists of facts, or messages, are not readable.
 
 most(300).
 
-asked(survey, _, Dict) :-
-    first_sight(Dict).
-asked(agent, Message, Dict) :-
+answer(survey, _, Dict) :-
+    present_scene(Dict).
+answer(agent, Message, Dict) :-
     name_in(agent, Message, Agent),
     agent_dict(Agent, Dict).
-asked(host, Message, Dict) :-
+answer(host, Message, Dict) :-
     name_in(host, Message, Host),
     host_dict(Host, Dict).
-asked(networks, _, Dicts) :-
+answer(networks, _, Dicts) :-
     findall(Dict, network_dict(Dict), Dicts).
-asked(mechanisms, _, Dicts) :-
+answer(mechanisms, _, Dicts) :-
     mechanism_dicts(Dicts).
-asked(programs, _, Names) :-
+answer(programs, _, Names) :-
     program_names(Names).
-asked(tree, _, Dicts) :-
+answer(tree, _, Dicts) :-
     sources_tree(Trees),
     maplist(node_dict, Trees, Dicts).
-asked(world, _, Svg) :-
+answer(world, _, Svg) :-
     world_picture(Svg).
-asked(replay, Message, Dict) :-
+answer(replay, Message, Dict) :-
     text_in(title, Message, Title),
     text_in(text, Message, Text),
     replay_of_text(Title, Text, Dict).
 
-%!  first_sight(-Dict) is det.
+%!  present_scene(-Dict) is det.
 
-first_sight(Dict) :-
+present_scene(Dict) :-
     sources_look(Scene),
     get_time(Now),
     page_time(Now, Time),
@@ -125,21 +125,23 @@ goals_named(_, Properties, Properties).
 
 agent_shown(Properties, Key, Value) :-
     member(Property, Properties),
-    shown(Property, Key, Value).
+    property_shown(Property, Key, Value).
 
-shown(host(Host), host, Text) :- name_text(Host, Text).
-shown(program(Name), name, Text) :- name_text(Name, Text).
-shown(home(Home), home, Text) :- name_text(Home, Text).
-shown(state(State), state, Text) :- text(State, Text).
-shown(busy(Seconds), busy, Seconds).
-shown(hops(Hops), hops, Hops).
-shown(payloads(Names), payloads, Texts) :- maplist(name_text, Names, Texts).
-shown(goals(Goals), goals, Texts) :- first_texts(Goals, Texts).
-shown(facts(Facts), facts, Texts) :- first_texts(Facts, Texts).
-shown(facts(Facts), fact_count, Count) :- length(Facts, Count).
-shown(mailbox(Mail), mailbox, Rows) :- first_of(Mail, mail_row, Rows).
-shown(fault(fault(Error, Goal, Place, Host)), fault,
-      _{error:ErrorText, goal:GoalText, place:PlaceText, host:HostText}) :-
+property_shown(host(Host), host, Text) :- name_text(Host, Text).
+property_shown(program(Name), name, Text) :- name_text(Name, Text).
+property_shown(home(Home), home, Text) :- name_text(Home, Text).
+property_shown(state(State), state, Text) :- text(State, Text).
+property_shown(busy(Seconds), busy, Seconds).
+property_shown(hops(Hops), hops, Hops).
+property_shown(payloads(Names), payloads, Texts) :-
+    maplist(name_text, Names, Texts).
+property_shown(goals(Goals), goals, Texts) :- first_texts(Goals, Texts).
+property_shown(facts(Facts), facts, Texts) :- first_texts(Facts, Texts).
+property_shown(facts(Facts), fact_count, Count) :- length(Facts, Count).
+property_shown(mailbox(Mail), mailbox, Rows) :- first_of(Mail, mail_row, Rows).
+property_shown(fault(fault(Error, Goal, Place, Host)), fault,
+               _{ error:ErrorText, goal:GoalText, place:PlaceText,
+                  host:HostText }) :-
     maplist(text, [Error, Goal], [ErrorText, GoalText]),
     place_text(Place, PlaceText),
     name_text(Host, HostText).
@@ -268,7 +270,7 @@ network_dict(_{name:Name, hosts:HostTexts, seed:Seed, processes:Pids}) :-
                 *          THE WORLD           *
                 *******************************/
 
-:- dynamic shown/1.             % Goal of the page that is served
+:- dynamic world_goal/1.        % Goal of the page that is served
 
 %!  world_start(+Options) is det.
 %!  world_stop is det.
@@ -278,20 +280,20 @@ network_dict(_{name:Name, hosts:HostTexts, seed:Seed, processes:Pids}) :-
 
 world_start(Options) :-
     (   option(world(Goal), Options)
-    ->  assertz(shown(Goal))
+    ->  assertz(world_goal(Goal))
     ;   true
     ).
 
 world_stop :-
-    retractall(shown(_)).
+    retractall(world_goal(_)).
 
 world_shown :-
-    shown(_).
+    world_goal(_).
 
 %   @error existence_error(page_view, world), and the errors of Goal
 
 world_picture(Svg) :-
-    (   shown(Goal)
+    (   world_goal(Goal)
     ->  once(call(Goal, Text)),
         must_be(text, Text),
         format(string(Svg), '~w', [Text])
