@@ -15,7 +15,7 @@
               [ client_becomes/1, http_before/2, http_deadline/2,
                 http_head/4, http_server_close/1, http_server_open/4,
                 with_bytes/3 ]).
-:- use_module(acting, [act/2]).
+:- use_module(browser_orders, [order_run/2]).
 :- use_module(browsers, [browser_serve/2, browsers_start/0, browsers_stop/0]).
 :- use_module(editor,
               [ editor_start/0, editor_stop/0, on_console/1,
@@ -221,14 +221,14 @@ answer_to(In, Request, _{answer:Answer}) :-
                                   [value_string_as_atom(false), tag('')])),
     must_be(dict, Message),
     (   get_dict(do, Message, What)
-    ->  may_act(What),
-        act(Message, Answer)
+    ->  may_order(What),
+        order_run(Message, Answer)
     ;   query_answer(Message, Answer)
     ).
 
 %   All orders pass this check.
 
-may_act(What) :-
+may_order(What) :-
     (   serving(_, _, false)
     ->  true
     ;   permission_error(What, page, read_only)

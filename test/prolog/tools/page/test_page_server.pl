@@ -118,7 +118,9 @@ test(headers) :-
 
 test(read_only) :-
     page([read_only(true)], Base,
-         ( findall(What, clause(typhon_page_acting:does(What, _, _), _), All),
+         ( findall(What,
+                   clause(typhon_page_browser_orders:run_order(What, _, _), _),
+                   All),
            assertion(memberchk(create, All)),
            forall(member(What, All),
                   ( atom_string(What, Text),

@@ -1,5 +1,5 @@
-:- module(typhon_page_acting,
-          [ act/2                       % +Message, -Answer
+:- module(typhon_page_browser_orders,
+          [ order_run/2                 % +Message, -Answer
           ]).
 :- use_module(library(apply), [maplist/3]).
 :- use_module(library(error),
@@ -51,78 +51,78 @@ An answer is _{done, said}: the result, and the printed messages.
 *Threading*: any thread that may wait.
 */
 
-%!  act(+Message:dict, -Answer:dict) is det.
+%!  order_run(+Message:dict, -Answer:dict) is det.
 %
 %   @error domain_error(page_order, What), existence_error(page_field, Key), and
 %   the errors of the order
 
-act(Message, _{done:Done, said:Said}) :-
+order_run(Message, _{done:Done, said:Said}) :-
     name_in(do, Message, What),
-    saying(on_console(does(What, Message, Done)), Messages),
+    saying(on_console(run_order(What, Message, Done)), Messages),
     !,
     problem_dicts(Messages, Said).
-act(Message, _) :-
+order_run(Message, _) :-
     name_in(do, Message, What),
-    (   clause(does(What, _, _), _)
+    (   clause(run_order(What, _, _), _)
     ->  throw(error(page_failed(What), _))
     ;   domain_error(page_order, What)
     ).
 
-does(check, Message, checked) :-
+run_order(check, Message, checked) :-
     program_at(Message, Spec),
     agent_check(Spec).
-does(create, Message, Text) :-
+run_order(create, Message, Text) :-
     program_at(Message, Spec),
     findall(Option, option_in(Message, Option), Options0),
     term_in(options, Message, [], More),
     append(Options0, More, Options),
     agent_create(Spec, Agent, Options),
     name_text(Agent, Text).
-does(send, Message, "sent") :-
+run_order(send, Message, "sent") :-
     name_in(agent, Message, Agent),
     term_in(message, Message, _, Term),
     agent_send(Agent, Term).
-does(move, Message, "ordered") :-
+run_order(move, Message, "ordered") :-
     name_in(agent, Message, Agent),
     name_in(host, Message, Host),
     agent_move(Agent, Host).
-does(clone, Message, Text) :-
+run_order(clone, Message, Text) :-
     name_in(agent, Message, Agent),
     agent_clone(Agent, Clone),
     name_text(Clone, Text).
-does(resume, Message, "resumed") :-
+run_order(resume, Message, "resumed") :-
     name_in(agent, Message, Agent),
     agent_resume(Agent).
-does(dispose, Message, "disposed") :-
+run_order(dispose, Message, "disposed") :-
     name_in(agent, Message, Agent),
     (   get_dict(force, Message, Seconds),
         number(Seconds)
     ->  agent_dispose(Agent, [force(Seconds)])
     ;   agent_dispose(Agent)
     ).
-does(save, Message, Text) :-
+run_order(save, Message, Text) :-
     name_in(agent, Message, Agent),
     tmp_file(typhon_saved, File),
     call_cleanup(( agent_save(Agent, File),
                    read_file_to_string(File, Text, [encoding(utf8)]) ),
                  discard(File)).
-does(load, Message, Text) :-
+run_order(load, Message, Text) :-
     text_in(text, Message, Saved),
     text_file(Saved, 'saved.pl', File),
     findall(Option, host_in(Message, Option), Options),
     agent_load(File, Agent, Options),
     name_text(Agent, Text).
-does(link, Message, "linked") :-
+run_order(link, Message, "linked") :-
     two_hosts(Message, A, B),
     (   term_in(cost, Message, none, Cost),
         Cost \== none
     ->  link(A, B, [cost(Cost)])
     ;   link(A, B)
     ).
-does(unlink, Message, "unlinked") :-
+run_order(unlink, Message, "unlinked") :-
     two_hosts(Message, A, B),
     unlink(A, B).
-does(host_start, Message, Text) :-
+run_order(host_start, Message, Text) :-
     name_in(name, Message, Name),
     term_in(options, Message, [], Options),
     (   get_dict(at, Message, At0),
@@ -134,19 +134,19 @@ does(host_start, Message, Text) :-
         host_property(Name, address(Address))
     ),
     name_text(Address, Text).
-does(host_stop, Message, "stopped") :-
+run_order(host_stop, Message, "stopped") :-
     name_in(host, Message, Host),
     host_resolve(Host, Where),
     stop_at(Where).
-does(network_start, Message, Text) :-
+run_order(network_start, Message, Text) :-
     term_in(topology, Message, _, Topology),
     term_in(options, Message, [], Options),
     network_start(Topology, Network, Options),
     name_text(Network, Text).
-does(network_stop, Message, "stopped") :-
+run_order(network_stop, Message, "stopped") :-
     name_in(network, Message, Network),
     network_stop(Network).
-does(mechanism, Message, Results) :-
+run_order(mechanism, Message, Results) :-
     name_in(mechanism, Message, Mechanism),
     name_in(predicate, Message, Name),
     get_dict(arguments, Message, Arguments),
