@@ -11,8 +11,9 @@
                 payload_terms/3, problem_error/3, program_terms/6,
                 source_terms/5 ]).
 :- use_module(choices, [lost_choice/3]).
-:- use_module(doubts, [apart_problem/3, program_doubts/3, unknown_problems/2]).
 :- use_module(goal_lines, [problem_at_goal/2]).
+:- use_module(program_warnings,
+              [apart_problem/3, program_warnings/3, unknown_problems/2]).
 
 /** <module> Implementation of agent_check/1 and agent_check/2
 
@@ -29,8 +30,8 @@
 
 check_program(Spec) :-
     once(source_terms(Spec, Located, _, Unread, Once)),
-    looked_at(Unread, Located, Errors, Doubts, Undefined),
-    append([Once, Doubts, Undefined], Warnings0),
+    problems_of(Unread, Located, Errors, Likely, Undefined),
+    append([Once, Likely, Undefined], Warnings0),
     in_file_order(Warnings0, Located, Warnings),
     forall(member(P, Errors), report(error, P)),
     forall(member(P, Warnings), report(warning, P)),
@@ -69,15 +70,15 @@ report(Severity, Problem0) :-
     problem_error(Problem, [], Error),
     print_message(Severity, Error).
 
-%   looked_at(+Unread, +Located, -Errors, -Warnings, -Undefined)
+%   problems_of(+Unread, +Located, -Errors, -Warnings, -Undefined)
 
-looked_at([Error|Errors], _, [Error|Errors], [], []).
-looked_at([], Located, Errors, Warnings, Undefined) :-
+problems_of([Error|Errors], _, [Error|Errors], [], []).
+problems_of([], Located, Errors, Warnings, Undefined) :-
     (   is_payload(Located)
     ->  payload_problems(Located, Errors, Warnings),
         Undefined = []
     ;   program_terms(Located, _, _, Kinds, _, Errors),
-        program_doubts(Located, Kinds, Warnings),
+        program_warnings(Located, Kinds, Warnings),
         unknown_problems(Located, Undefined)
     ).
 

@@ -5,8 +5,9 @@
 :- use_module('../../kernel/program',
               [ advice_text/2, clause_parts/3, code_program/2, in_file_order/3,
                 problem_error/3, source_same/1 ]).
-:- use_module(doubts, [program_doubts/3, unknown_advice/3, unknown_problems/2]).
 :- use_module(goal_lines, [problem_at_goal/2]).
+:- use_module(program_warnings,
+              [program_warnings/3, unknown_advice/3, unknown_problems/2]).
 
 /** <module> Warnings about programs that are read
 
@@ -32,9 +33,9 @@ define them.
 typhon_on_demand:joins(program, read).
 
 typhon_loaded:read_anew(Key, Hash, Sources, doubtful(Located, Kinds, Once)) :-
-    program_doubts(Located, Kinds, Doubts),
+    program_warnings(Located, Kinds, Likely),
     unknown_problems(Located, Unknown),
-    append([Once, Doubts, Unknown], Warnings0),
+    append([Once, Likely, Unknown], Warnings0),
     in_file_order(Warnings0, Located, Warnings),
     warn(Key, Hash, Sources, Warnings).
 

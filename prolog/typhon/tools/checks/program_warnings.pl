@@ -1,5 +1,5 @@
-:- module(typhon_doubts,
-          [ program_doubts/3,           % +Located, +Kinds, -Warnings
+:- module(typhon_program_warnings,
+          [ program_warnings/3,         % +Located, +Kinds, -Warnings
             apart_problem/3,            % +Rules, +Known, -Problem
             unknown_problems/2,         % +Located, -Problems
             unknown_advice/3            % +PI, +Own, -Advice
@@ -14,25 +14,25 @@
 
 /** <module> Warnings: likely mistakes in a program
 
-Doubts do not keep a program from running.  They are problems as in
+These warnings do not keep a program from running.  They are problems as in
 typhon_parts.
 
 *Threading*: pure, except that a library is looked up.
 */
 
-%!  program_doubts(+Located, +Kinds, -Warnings:list) is det.
+%!  program_warnings(+Located, +Kinds, -Warnings:list) is det.
 %
 %   Warnings are the likely mistakes in the agent program Located, terms with
 %   their locations.  Kinds are those of its predicates; without any, its
 %   clauses are faulty.
 
-program_doubts(_, [], []) :-
+program_warnings(_, [], []) :-
     !.
-program_doubts(Located, Kinds, Warnings) :-
+program_warnings(Located, Kinds, Warnings) :-
     file_parts(agent, Located, Parts, _),
-    findall(Problem, doubtful(Parts, Kinds, Problem), Warnings).
+    findall(Problem, likely_mistake(Parts, Kinds, Problem), Warnings).
 
-doubtful(Parts, Kinds, Problem) :-
+likely_mistake(Parts, Kinds, Problem) :-
     part(rules, Parts, Rules),
     part(directives, Parts, Directives),
     part(state, Parts, State),
