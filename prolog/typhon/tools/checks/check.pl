@@ -10,7 +10,7 @@
                 library_directive/2, mobile_predicates/3, part/3,
                 payload_terms/3, problem_error/3, program_terms/6,
                 source_terms/5 ]).
-:- use_module(choices, [lost_choice/3]).
+:- use_module(lost_choices, [lost_choice/3]).
 :- use_module(goal_lines, [problem_at_goal/2]).
 :- use_module(program_warnings,
               [apart_problem/3, program_warnings/3, unknown_problems/2]).

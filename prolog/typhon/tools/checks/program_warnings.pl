@@ -10,7 +10,7 @@
 :- use_module('../../kernel/program',
               [ body_calls/2, built_in/1, file_parts/4, indicator_in/2,
                 library_directive/2, near_built_in/2, part/3 ]).
-:- use_module(choices, [lost_choice/3]).
+:- use_module(lost_choices, [lost_choice/3]).
 
 /** <module> Warnings: likely mistakes in a program
 

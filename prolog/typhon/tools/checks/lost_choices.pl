@@ -1,4 +1,4 @@
-:- module(typhon_choices,
+:- module(typhon_lost_choices,
           [ lost_choice/3               % +Clauses, +Own, -Problem
           ]).
 :- use_module(library(lists),
