@@ -16,8 +16,8 @@ This is the interface of the layer: higher layers import from here.
 :- reexport(host/links,
             [host_link/3, host_link_cost/3, host_neighbours/2, host_unlink/2]).
 :- reexport(host/events,
-            [ event/4, event_heard/1, events_forget/1,
-              events_hear/3, events_unheard/1 ]).
+            [ event/4, event_subscribed/1, events_forget/1,
+              events_subscribe/3, events_unsubscribe/1 ]).
 :- reexport('host/host_log').
 :- reexport(host/host_parts, [amended/5, parts/3, parts_call/3, parts_load/1]).
 :- reexport(host/place,

@@ -5,7 +5,7 @@
           ]).
 :- use_module(library(aggregate), [aggregate_all/3]).
 :- use_module('../../kernel/host',
-              [ event/4, events_hear/3, events_unheard/1, host/3,
+              [ event/4, events_subscribe/3, events_unsubscribe/1, host/3,
                 tuple_leave/2, tuple_sense/2, tuple_take/2 ]).
 :- use_module('../../kernel/agent',
               [agent/5, agent_mail/2, mail_count/2, with_agent/2]).
@@ -26,7 +26,7 @@ takes.
 :- multifile
     dropped/3,                  % Service, Host, Message: for an agent whose
                                 % queue is full; must not wait
-    typhon_events:told/4.
+    typhon_events:handle_event/4.
 
 :- dynamic
     gap/7.                      % Agent, Service, Text, Host, Max, Count, Key
@@ -109,7 +109,7 @@ gap_taken(gap(Agent, Service, Key, Host, Max), Count) :-
 add(gap(Agent, Service, Key, Host, Max), Count) :-
     (   gap(_, _, _, Host, _, _, _)
     ->  true
-    ;   events_hear([messages], Host, inbox(Host))
+    ;   events_subscribe([messages], Host, inbox(Host))
     ),
     inbox_key(Key, Text),
     assertz(gap(Agent, Service, Text, Host, Max, Count, Key)).
@@ -117,7 +117,7 @@ add(gap(Agent, Service, Key, Host, Max), Count) :-
 stop_listening(gap(_, _, _, Host, _)) :-
     (   gap(_, _, _, Host, _, _, _)
     ->  true
-    ;   events_unheard(inbox(Host))
+    ;   events_unsubscribe(inbox(Host))
     ).
 
 %!  inbox_key(+Key, -Text:atom) is det.
@@ -143,7 +143,7 @@ gap_forget(Service, Key, Agent) :-
     ;   with_mutex(typhon_inbox, stop_listening(Gap))
     ).
 
-typhon_events:told(inbox(_), Host, Agent, received(_, _)) :-
+typhon_events:handle_event(inbox(_), Host, Agent, received(_, _)) :-
     gap(Agent, Service, _, Host, Max, _, Key),
     with_agent(Agent, mail_count(Agent, Waiting)),
     Waiting =< Max//2,

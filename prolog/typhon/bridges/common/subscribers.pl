@@ -19,8 +19,8 @@
 :- use_module(library(settings), [setting/2, setting/4]).
 :- use_module('../../kernel/base/options', [check_options/2]).
 :- use_module('../../kernel/host',
-              [ context_agent/1, context_now/2, events_hear/3,
-                events_unheard/1 ]).
+              [ context_agent/1, context_now/2, events_subscribe/3,
+                events_unsubscribe/1 ]).
 :- use_module('../../kernel/agent', [agent/5]).
 :- use_module(inbox, [gap_forget/3, inbox_key/2, inbox_put/4]).
 
@@ -39,7 +39,7 @@ so that its calls are in order, and must not wait.
 :- multifile
     wanted/4,                   % Service, Host, Key, Boolean: a subscriber
                                 % came back; or the last one has left
-    typhon_events:told/4,
+    typhon_events:handle_event/4,
     typhon_options:declared/4.
 
 :- dynamic
@@ -205,17 +205,17 @@ hear(Host) :-
     (   hearing(Host)
     ->  true
     ;   assertz(hearing(Host)),
-        events_hear([life,bad_ends,hops], Host, subscribers(Host))
+        events_subscribe([life,bad_ends,hops], Host, subscribers(Host))
     ).
 
 stop_hearing(Host) :-
     (   subscribed(_, _, _, Host, _, _)
     ->  true
     ;   retractall(hearing(Host)),
-        events_unheard(subscribers(Host))
+        events_unsubscribe(subscribers(Host))
     ).
 
-typhon_events:told(subscribers(_), Host, Agent, What) :-
+typhon_events:handle_event(subscribers(_), Host, Agent, What) :-
     happens(What, Host, Agent).
 
 happens(left(_), Host, Agent) =>

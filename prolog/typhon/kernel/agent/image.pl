@@ -18,7 +18,7 @@
 :- use_module('../base/durable_changes', [durable_key/2, durable_on/0]).
 :- use_module('../program', [code_sent/2]).
 :- use_module('../wire', []).
-:- use_module('../host', [amended/5, event_heard/1, host/3, parts/3]).
+:- use_module('../host', [amended/5, event_subscribed/1, host/3, parts/3]).
 :- use_module(agents, [agent/5, agent_enter/3, agent_mail/2]).
 :- use_module(agent_module, [agent_standing/5, agent_state/2]).
 :- use_module(identity, [agent_home/2, is_printable/1, origin_inherited/3]).
@@ -70,7 +70,7 @@ image_clone(Id, CloneId, Goals, Since,
     start(Host, Since, Start).
 
 start(Host, Since, Start) :-
-    (   event_heard(hops),
+    (   event_subscribed(hops),
         host(Host, Address, _)
     ->  Start = Address-Since
     ;   Start = Since

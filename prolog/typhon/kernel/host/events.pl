@@ -1,10 +1,10 @@
 :- module(typhon_events,
           [ event/4,                    % +Kind, +Host, +Agent, +What
-            event_heard/1,              % +Kind
-            events_hear/3,              % +Kinds, +Key, +Listener
+            event_subscribed/1,         % +Kind
+            events_subscribe/3,         % +Kinds, +Key, +Listener
             log_kind/2,                 % ?Wanted, -Kind
             events_forget/1,            % +Key
-            events_unheard/1            % +Listener
+            events_unsubscribe/1        % +Listener
           ]).
 :- use_module(library(error), []).
 :- use_module(library(lists), [member/2]).
@@ -38,10 +38,10 @@ tenth of a microsecond.
 */
 
 :- multifile
-    told/4,                     % Listener, Host, Agent, What
+    handle_event/4,             % Listener, Host, Agent, What
     error:has_type/2.
 
-:- dynamic hears/3.             % Kind, Host or agent, Listener
+:- dynamic subscription/3.      % Kind, Host or agent, Listener
 
 %   A log can have events of these kinds.  Goals are only for tracers of an
 %   agent.
@@ -63,70 +63,70 @@ log_kind(Kind, Kind) :-
 %   Report the event What of Agent on Host, the name of a host of this process.
 
 event(Kind, Host, Agent, What) :-
-    (   hears(Kind, _, _)
-    ->  tell(Kind, Host, Agent, What)
+    (   subscription(Kind, _, _)
+    ->  notify_listeners(Kind, Host, Agent, What)
     ;   true
     ).
 
-%!  event_heard(+Kind) is semidet.
+%!  event_subscribed(+Kind) is semidet.
 %
 %   There is a listener for Kind in this process.
 
-event_heard(Kind) :-
-    hears(Kind, _, _),
+event_subscribed(Kind) :-
+    subscription(Kind, _, _),
     !.
 
 %   An event that is printed for one agent also goes to the log.
 
-tell(Kind, Host, Agent, What) :-
-    hears(Kind, Agent, _),
+notify_listeners(Kind, Host, Agent, What) :-
+    subscription(Kind, Agent, _),
     !,
     findall(Listener, listener(Kind, Host, Agent, Listener), Listeners0),
     sort(Listeners0, Listeners),
     forall(member(Listener, Listeners),
-           tell_one(Listener, Host, Agent, What)).
-tell(Kind, Host, Agent, What) :-
-    forall(hears(Kind, Host, Listener),
-           tell_one(Listener, Host, Agent, What)).
+           notify(Listener, Host, Agent, What)).
+notify_listeners(Kind, Host, Agent, What) :-
+    forall(subscription(Kind, Host, Listener),
+           notify(Listener, Host, Agent, What)).
 
 listener(Kind, Host, _, Listener) :-
-    hears(Kind, Host, Listener).
+    subscription(Kind, Host, Listener).
 listener(Kind, _, Agent, Listener) :-
-    hears(Kind, Agent, Listener).
+    subscription(Kind, Agent, Listener).
 listener(Kind, _, Agent, log) :-
-    hears(Kind, Agent, _).
+    subscription(Kind, Agent, _).
 
 %   An error or a failure of a listener does not stop the agent.
 
-tell_one(Listener, Host, Agent, What) :-
-    catch(ignore(told(Listener, Host, Agent, What)),
+notify(Listener, Host, Agent, What) :-
+    catch(ignore(handle_event(Listener, Host, Agent, What)),
           error(Formal, Context),
           print_error(warning, error(Formal, Context))).
 
-%!  events_hear(+Kinds:list, +Key, +Listener) is det.
+%!  events_subscribe(+Kinds:list, +Key, +Listener) is det.
 %
-%   Register Listener, which told/4 defines, for events of Kinds on the host,
-%   or of the agent, Key.
+%   Register Listener, which handle_event/4 defines, for events of Kinds on the
+%   host, or of the agent, Key.
 
-events_hear(Kinds, Key, Listener) :-
+events_subscribe(Kinds, Key, Listener) :-
     with_mutex(typhon_events,
                forall(( member(Kind, Kinds),
-                        \+ hears(Kind, Key, Listener) ),
-                      assertz(hears(Kind, Key, Listener)))).
+                        \+ subscription(Kind, Key, Listener) ),
+                      assertz(subscription(Kind, Key, Listener)))).
 
 %!  events_forget(+Key) is det.
 %
 %   Remove all listeners for Key.
 
 events_forget(Key) :-
-    (   hears(_, _, _)
-    ->  retractall(hears(_, Key, _))
+    (   subscription(_, _, _)
+    ->  retractall(subscription(_, Key, _))
     ;   true
     ).
 
-%!  events_unheard(+Listener) is det.
+%!  events_unsubscribe(+Listener) is det.
 %
 %   Remove Listener for all keys.
 
-events_unheard(Listener) :-
-    retractall(hears(_, _, Listener)).
+events_unsubscribe(Listener) :-
+    retractall(subscription(_, _, Listener)).

@@ -8,7 +8,7 @@
 :- use_module(library(settings), [setting/2, setting/4]).
 :- use_module('../base/error_text', [abridged/3, print_error/2]).
 :- use_module('../wire', [endpoint_post/3]).
-:- use_module(events, [events_hear/3, log_kind/2]).
+:- use_module(events, [events_subscribe/3, log_kind/2]).
 :- use_module(host_names, [address_parts/3]).
 :- use_module(hosts, [host/3, host_option/2]).
 
@@ -25,7 +25,7 @@ messages(content) among Kinds.
 */
 
 :- multifile
-    typhon_events:told/4,
+    typhon_events:handle_event/4,
     typhon_hosting:begins/1.
 
 :- dynamic
@@ -39,14 +39,14 @@ typhon_hosting:begins(Host) :-
     retractall(unheard(Endpoint, _)),
     findall(Kind, ( member(Wanted, Kinds), once(log_kind(Wanted, Kind)) ),
             Heard),
-    events_hear([life, bad_ends|Heard], Host, log).
+    events_subscribe([life, bad_ends|Heard], Host, log).
 
 log_server(Host, Log, []) :-
     host_option(Host, log(Log)).
 log_server(Host, Log, Kinds) :-
     host_option(Host, log(Log, Kinds)).
 
-typhon_events:told(log, Host, Agent, What) :-
+typhon_events:handle_event(log, Host, Agent, What) :-
     event_shown(Host, What, Shown),
     host_log(Host, Agent, Shown).
 

@@ -9,7 +9,7 @@
               [chance_hash/2, chance_seed/2, chance_uniform/5]).
 :- use_module('../program', [answer_at/3]).
 :- use_module('../host',
-              [ alarm_set/3, event/4, event_heard/1, host_address/2,
+              [ alarm_set/3, event/4, event_subscribed/1, host_address/2,
                 host_option/2, host_resolve/2, host_time/2, parts_call/3,
                 real_time/3, schedule/2 ]).
 :- use_module('../agent',
@@ -231,7 +231,7 @@ set_out(go, Dest, Hole, Goals, Id-Here, Next) :-
     ).
 
 report_leaving(Dest, Id, Here) :-
-    (   event_heard(hops)
+    (   event_subscribed(hops)
     ->  dest_address(Dest, Address),
         event(hops, Here, Id, left(Address))
     ;   true

@@ -10,7 +10,7 @@
                 endpoint_hand_to/2,
                 endpoint_handed/2 ]).
 :- use_module('../host',
-              [ event_heard/1, host/3, host_came/2, host_left/2,
+              [ event_subscribed/1, host/3, host_came/2, host_left/2,
                 host_plain/2, host_plain_leaves/2, real_time/3,
                 schedule_here/3, scheduler_call/1 ]).
 :- use_module('../agent',
@@ -60,7 +60,7 @@ other, see typhon_arrival.
 hand_over(Id, Host, remote(Address, Name, Endpoint), Hole, Goals) :-
     host_plain_leaves(Host, Since),
     \+ durable_on,
-    \+ event_heard(hops),
+    \+ event_subscribed(hops),
     agent_here(Id, Host, Module, Hash, Life0),
     !,
     life_goes(Life0, Life, Hops),
@@ -171,7 +171,7 @@ thawed(Id) :-
 taken_over(Host, Image, known, Peer) :-
     atom(Host),
     host_plain(Host, Plain),
-    \+ event_heard(hops),
+    \+ event_subscribed(hops),
     is_plain_image(Image, Id, Hash, Life, Hops, Clauses, Goals, Since),
     code_module(Hash, Program),
     arg(1, Plain, Address),

@@ -8,9 +8,9 @@
 :- use_module('../base/error_text', [print_error/2]).
 :- use_module('../wire', [endpoint_address/1, mobile_term/1]).
 :- use_module('../host',
-              [ address_parts/3, event/4, event_heard/1, host/3, host_passed/3,
-                host_passes/4, host_plain/2, host_time/2, schedule/2,
-                schedule_stays/2, time_now/1 ]).
+              [ address_parts/3, event/4, event_subscribed/1, host/3,
+                host_passed/3, host_passes/4, host_plain/2, host_time/2,
+                schedule/2, schedule_stays/2, time_now/1 ]).
 :- use_module('../agent',
               [ agent/5, agent_links/4, agent_mobile/6, agent_move/5,
                 agent_passes/6, agent_put/3, agent_relink/2, agent_runs/1,
@@ -41,7 +41,7 @@ hop_at_once(Id, Here, Name, Hole, Goals, Next) :-
     host_plain(Here, From),
     From = plain(_, _, none, Epoch, Rate, _, _, _, _),
     host_plain(Name, To),
-    \+ event_heard(hops),
+    \+ event_subscribed(hops),
     agent_mobile(Id, Here, Module, Hash, Life0, Until0),
     life_goes(Life0, Life, Hops),
     !,
@@ -192,7 +192,7 @@ arrival_finish(Id, Here-Name, Address, Hops, Seconds, Next) :-
     ).
 
 arrival_event(Id, Here, Name, Seconds) :-
-    (   event_heard(hops),
+    (   event_subscribed(hops),
         host(Here, From, _)
     ->  event(hops, Name, Id, arrived(From, Seconds))
     ;   true

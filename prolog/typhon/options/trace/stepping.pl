@@ -4,7 +4,7 @@
 :- use_module(library(apply), [maplist/3]).
 :- use_module(library(error), [existence_error/2, permission_error/3]).
 :- use_module(library(lists), [member/2]).
-:- use_module('../../kernel/host', [event/4, event_heard/1, host/3]).
+:- use_module('../../kernel/host', [event/4, event_subscribed/1, host/3]).
 :- use_module('../../kernel/agent',
               [ agent/5, agent_order/2, agent_status/3, agent_unorder/2,
                 in_words/2, with_agent/2 ]).
@@ -188,7 +188,7 @@ at_once(evacuate(_)).
 %   Goal; Next is `on`, or `stop` if Id is held there.
 
 probed_goal(Id, Host, Probe, Goal, Goals, Next) :-
-    (   event_heard(goals)
+    (   event_subscribed(goals)
     ->  in_words(Goal, Portable),
         event(goals, Host, Id, goal(Portable))
     ;   true

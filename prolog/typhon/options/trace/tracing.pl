@@ -14,7 +14,7 @@
 :- use_module('../../kernel/program', [code_names/2, code_program/2]).
 :- use_module('../../kernel/wire',
               [endpoint_address/1, endpoint_reply/2, endpoint_request/4]).
-:- use_module('../../kernel/host', [events_hear/3, host/3]).
+:- use_module('../../kernel/host', [events_subscribe/3, host/3]).
 :- use_module('../../kernel/agent',
               [ agent/5, agent_put_life/2, agent_status/3, agent_unorder/2,
                 life_extras/2, set_extras_of_life/3, with_agent/2 ]).
@@ -38,7 +38,7 @@ tracers.
 :- multifile
     typhon_life:carries/3,
     typhon_endpoint:requested/4,
-    typhon_events:told/4,
+    typhon_events:handle_event/4,
     typhon_life:not_cloned/1,
     typhon_names:known/2,
     typhon_orders:carried_out/3,
@@ -91,7 +91,7 @@ typhon_life:carries(trace, Id, trace(To, Kinds0)) :-
     atom(To),
     is_list(Kinds0),
     findall(Kind, ( trace_kind(Kind), memberchk(Kind, Kinds0) ), Kinds),
-    events_hear([life, bad_ends|Kinds], Id, trace(To)).
+    events_subscribe([life, bad_ends|Kinds], Id, trace(To)).
 typhon_life:carries(step, _, step).     % checked by typhon_stepping
 
 %   A clone is not stepped: no caller knows its id, so no caller would let it
@@ -186,7 +186,7 @@ typhon_orders:noted(Id) :-
                 *           REPORTS            *
                 *******************************/
 
-typhon_events:told(trace(To), Host, Agent, What0) :-
+typhon_events:handle_event(trace(To), Host, Agent, What0) :-
     host(Host, Address, _),
     ( What0 = goal(Goal) -> goal_shown(Agent, Goal, Shown), What = goal(Shown)
     ; What = What0

@@ -6,7 +6,8 @@
 :- use_module(library(lists), [last/2, member/2]).
 :- use_module('../../kernel/program', [code_program/2]).
 :- use_module('../../kernel/wire', [endpoint_address/1, endpoint_peer/2]).
-:- use_module('../../kernel/host', [events_hear/3, events_unheard/1, host/3]).
+:- use_module('../../kernel/host',
+              [events_subscribe/3, events_unsubscribe/1, host/3]).
 :- use_module('../../kernel/agent', [agent/5, agent_status/3]).
 :- use_module('../../tools/administration', [status_shown/2]).
 :- use_module(watched_hosts, [ask_processes/5, watched_places/2]).
@@ -20,7 +21,7 @@ from the first request for metrics on, as long as it has an endpoint.
 */
 
 :- multifile
-    typhon_events:told/4,
+    typhon_events:handle_event/4,
     typhon_watched_hosts:answer/2,
     typhon_hosting:begins/1,
     typhon_runtime:ending/1.
@@ -144,7 +145,7 @@ begin :-
     forall(host(Name, _, _), count_on(Name)).
 
 count_on(Name) :-
-    events_hear([life, faults, hops, messages], Name, count).
+    events_subscribe([life, faults, hops, messages], Name, count).
 
 typhon_hosting:begins(Name) :-
     counting,
@@ -152,9 +153,9 @@ typhon_hosting:begins(Name) :-
 
 typhon_runtime:ending(after) :-
     retractall(counting),
-    events_unheard(count).
+    events_unsubscribe(count).
 
-typhon_events:told(count, _, _, What) :-
+typhon_events:handle_event(count, _, _, What) :-
     count(What).
 
 count(arrived(_, Seconds)) =>

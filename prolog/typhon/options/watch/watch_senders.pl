@@ -6,8 +6,9 @@
 :- use_module('../../kernel/wire',
               [endpoint_address/1, endpoint_reply/2, mobile_term/1]).
 :- use_module('../../kernel/host',
-              [ clock/3, event_shown/3, events_hear/3, events_unheard/1,
-                host/3, peer_may/3, time_repeats/2, time_kind/1 ]).
+              [ clock/3, event_shown/3, events_subscribe/3,
+                events_unsubscribe/1, host/3, peer_may/3, time_repeats/2,
+                time_kind/1 ]).
 :- use_module(event_sender,
               [ buffer_close/1, buffer_open/3, buffer_put/3, sender_signal/2,
                 sender_run/1, time_at/2 ]).
@@ -39,7 +40,7 @@ watch.
 :- multifile
     typhon_endpoint:connection/2,
     typhon_endpoint:requested/4,
-    typhon_events:told/4,
+    typhon_events:handle_event/4,
     typhon_hosting:begins/1,
     typhon_runtime:ending/1.
 
@@ -67,7 +68,7 @@ typhon_endpoint:requested(watch, watch(Id, Wanted), Peer, ReplyTo) :-
     endpoint_reply(ReplyTo, watching(Own, New, Hosts)).
 typhon_endpoint:requested(watch, unwatch(Id), Peer, ReplyTo) :-
     (   sender(Peer, Id, _, Signals, watch(_, Buffer))
-    ->  events_unheard(watch(Buffer, _, _)),
+    ->  events_unsubscribe(watch(Buffer, _, _)),
         sender_signal(Signals, end(ReplyTo))
     ;   endpoint_reply(ReplyTo, ended)
     ).
@@ -121,7 +122,7 @@ may_watch(Peer, Name) :-
 
 subscribe_host(Name, Address-Clock, Buffer) :-
     kinds(Kinds),
-    events_hear(Kinds, Name, watch(Buffer, Address, Clock)).
+    events_subscribe(Kinds, Name, watch(Buffer, Address, Clock)).
 
 typhon_hosting:begins(Name) :-
     sender(Peer, _, _, _, watch(Wanted, Buffer)),
@@ -151,7 +152,7 @@ stop_senders.
                 *           EVENTS             *
                 *******************************/
 
-typhon_events:told(watch(Buffer, Address, Clock), Host, Agent, What) :-
+typhon_events:handle_event(watch(Buffer, Address, Clock), Host, Agent, What) :-
     time_at(Clock, Time),
     event_shown(Host, What, Shown),
     public_event(Shown, Clock, Public),
@@ -185,7 +186,7 @@ sender(Peer, Id, Signals, Buffer) :-
 
 sender_end(Peer, Id, Signals, Buffer) :-
     debug(typhon(watch), '~w of ~w watches no more', [Id, Peer]),
-    events_unheard(watch(Buffer, _, _)),
+    events_unsubscribe(watch(Buffer, _, _)),
     thread_self(Me),
     (   with_mutex(typhon_watch_senders,
                    retract(sender(Peer, Id, _, Signals, _)))

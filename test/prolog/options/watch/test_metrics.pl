@@ -80,7 +80,7 @@ received_one :-
 test(nothing_is_counted_before) :-
     with_hosts([alpha],
                ( create([main], A), joined(A, done),
-                 assertion(\+ typhon_events:event_heard(life)) )).
+                 assertion(\+ typhon_events:event_subscribed(life)) )).
 
 %   Names are data.
 

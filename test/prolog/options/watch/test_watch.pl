@@ -282,7 +282,7 @@ hang(Queue, _) :-
 test(no_events_after_unwatch) :-
     with_hosts([alpha, beta],
                ( watching([alpha, beta], true, _),
-                 \+ typhon_events:hears(_, _, _),
+                 \+ typhon_events:subscription(_, _, _),
                  wait_until(\+ typhon_watch_senders:sender(_, _, _, _, _),
                             5) )).
 
@@ -456,9 +456,9 @@ test(nothing_is_left_in_the_other_process) :-
 
 left(B) :-
     watch(B, note(left), Watch),
-    assertion(peer_do(b, once(typhon_events:event_heard(hops)))),
+    assertion(peer_do(b, once(typhon_events:event_subscribed(hops)))),
     unwatch(Watch),
-    assertion(peer_do(b, \+ typhon_events:event_heard(hops))),
+    assertion(peer_do(b, \+ typhon_events:event_subscribed(hops))),
     wait_until(senders(b, 0), 5).
 
 senders(Peer, Count) :-
@@ -478,7 +478,7 @@ dies :-
     assertion(senders(b, 1)),
     peer_kill(a),
     wait_until(senders(b, 0), 20),
-    assertion(peer_do(b, \+ typhon_events:event_heard(hops))).
+    assertion(peer_do(b, \+ typhon_events:event_subscribed(hops))).
 
 test(slow_watcher_does_not_delay_other_processes) :-
     with_gate(with_peer([setup(set_setting(typhon_watch_senders:events, 100))],
