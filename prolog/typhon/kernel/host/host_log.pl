@@ -29,17 +29,17 @@ messages(content) among Kinds.
     typhon_hosting:begins/1.
 
 :- dynamic
-    unheard/2.                  % Endpoint, Key: the flag that counts
+    missed/2.                   % Endpoint, Key: the flag that counts
                                 % lost events
 
 typhon_hosting:begins(Host) :-
     log_server(Host, Log, Kinds),
     !,
     address_parts(Log, _, Endpoint),
-    retractall(unheard(Endpoint, _)),
+    retractall(missed(Endpoint, _)),
     findall(Kind, ( member(Wanted, Kinds), once(log_kind(Wanted, Kind)) ),
-            Heard),
-    events_subscribe([life, bad_ends|Heard], Host, log).
+            Wished),
+    events_subscribe([life, bad_ends|Wished], Host, log).
 
 log_server(Host, Log, []) :-
     host_option(Host, log(Log)).
@@ -57,40 +57,40 @@ typhon_events:handle_event(log, Host, Agent, What) :-
 host_log(Host, Agent, What) :-
     host_log_event(Host, Agent, What, Endpoint-Event),
     !,
-    catch(( endpoint_post(Endpoint, log, Event), heard(Endpoint) ),
+    catch(( endpoint_post(Endpoint, log, Event), log_back(Endpoint) ),
           error(Formal, Context),
-          lost(Formal, Context, Endpoint)).
+          log_failed(Formal, Context, Endpoint)).
 host_log(_, _, _).
 
 %   A log server that cannot be reached is reported once, and again when it is
 %   back: events in between are lost.
 
-lost(unreachable(_), _, Endpoint) :-
+log_failed(unreachable(_), _, Endpoint) :-
     !,
-    with_mutex(typhon_host_log, unheard(Endpoint, Key, First)),
+    with_mutex(typhon_host_log, count_of_missed(Endpoint, Key, First)),
     flag(Key, Count, Count+1),
     (   First == true
     ->  print_message(warning, typhon(log_unheard(Endpoint)))
     ;   true
     ).
-lost(Formal, Context, _) :-
+log_failed(Formal, Context, _) :-
     print_error(warning, error(Formal, Context)).
 
-unheard(Endpoint, Key, false) :-
-    unheard(Endpoint, Key),
+count_of_missed(Endpoint, Key, false) :-
+    missed(Endpoint, Key),
     !.
-unheard(Endpoint, Key, true) :-
+count_of_missed(Endpoint, Key, true) :-
     atom_concat('typhon unheard ', Endpoint, Key),
     flag(Key, _, 0),
-    assertz(unheard(Endpoint, Key)).
+    assertz(missed(Endpoint, Key)).
 
-heard(Endpoint) :-
-    unheard(Endpoint, _),
-    with_mutex(typhon_host_log, retract(unheard(Endpoint, Key))),
+log_back(Endpoint) :-
+    missed(Endpoint, _),
+    with_mutex(typhon_host_log, retract(missed(Endpoint, Key))),
     !,
     flag(Key, Count, 0),
     print_message(warning, typhon(log_heard(Endpoint, Count))).
-heard(_).
+log_back(_).
 
 %!  host_log_event(+Host, +Agent, +What, -Post) is semidet.
 %
