@@ -42,7 +42,7 @@ mutex: flag/3 would lock for each of them.
 :- dynamic
     host/3,                     % Name, Address, Place
     option/2,                   % Name, Option
-    door/4,                     % Name, Tokens, Capacity, Flag: while
+    admits/4,                   % Name, Tokens, Capacity, Flag: while
                                 % it admits agents
     load_key/2,                 % Name, Flag
     hop_keys/3,                 % Name, Direction, Flags
@@ -61,15 +61,15 @@ host_add(Name, Address, Place, Options) :-
     forall(member(Option, Options), assertz(option(Name, Option))),
     parts_compile(Name),
     assertz(host(Name, Address, Place)),
-    open_door(Name),
+    begin_admitting(Name),
     note_plain(Name),
     host_note(Name).
 
-open_door(Name) :-
+begin_admitting(Name) :-
     asked(Name, tokens(Tokens), []),
     asked(Name, capacity(Capacity), inf),
     load_key(Name, Key),
-    assertz(door(Name, Tokens, Capacity, Key)).
+    assertz(admits(Name, Tokens, Capacity, Key)).
 
 %!  host_plain(?Name, -Plain) is nondet.
 %
@@ -78,7 +78,7 @@ open_door(Name) :-
 
 note_plain(Name) :-
     (   \+ parts(_, Name, _),
-        door(Name, [], Capacity, Load),
+        admits(Name, [], Capacity, Load),
         host(Name, Address, Place),
         asked(Name, hop_time(Delay), none),
         clock(Name, Epoch, Rate),
@@ -151,14 +151,14 @@ count_key(Name, Key) :-
 
 host_close(Name) :-
     retractall(host_plain(Name, _)),
-    retractall(door(Name, _, _, _)).
+    retractall(admits(Name, _, _, _)).
 
 %!  host_closed(+Name) is semidet.
 %
 %   Name admits no agents.
 
 host_closed(Name) :-
-    \+ door(Name, _, _, _).
+    \+ admits(Name, _, _, _).
 
 %!  host_remove(+Name) is det.
 %
@@ -212,9 +212,9 @@ host_put(Name, Option) :-
     ;   assertz(option(Name, Option))
     ),
     parts_compile(Name),
-    (   door(Name, Tokens, Capacity, Key)
-    ->  open_door(Name),
-        once(retract(door(Name, Tokens, Capacity, Key)))
+    (   admits(Name, Tokens, Capacity, Key)
+    ->  begin_admitting(Name),
+        once(retract(admits(Name, Tokens, Capacity, Key)))
     ;   true                            % the host is stopping
     ),
     note_plain(Name),
@@ -230,22 +230,22 @@ host_put(Name, Option) :-
 %   load, or refused(Reason).
 
 host_enter(Name, Tokens, Answer) :-
-    (   door(Name, Wanted, Capacity, Load)
+    (   admits(Name, Wanted, Capacity, Load)
     ->  (   Wanted \== [],
-            \+ shown(Wanted, Tokens)
+            \+ has_token(Wanted, Tokens)
         ->  Answer = refused(token)
-        ;   with_mutex(typhon_host_flags, room_taken(Capacity, Load, Answer))
+        ;   with_mutex(typhon_host_flags, count_entry(Capacity, Load, Answer))
         )
     ;   Answer = refused(unknown_host)
     ).
 
-shown(Wanted, Tokens) :-
+has_token(Wanted, Tokens) :-
     member(Token, Wanted),
     member(Shown, Tokens),
     subsumes_term(Token, Shown),        % an unbound token does not match
     !.
 
-room_taken(Capacity, Key, Answer) :-
+count_entry(Capacity, Key, Answer) :-
     get_flag(Key, Load),
     (   Load < Capacity
     ->  Load1 is Load+1,
