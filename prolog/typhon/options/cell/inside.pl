@@ -39,6 +39,7 @@ may do whatever the operating system allows this process.
 :- public cell_main/0.
 
 cell_main :-
+    priority_lower,
     set_prolog_flag(gc_thread, false),
     set_prolog_flag(threads, false),
     set_prolog_flag(stack_limit, 268 435 456),
@@ -51,6 +52,18 @@ cell_main :-
     set_stream(Null, alias(user_error)),
     cell_frame_write(Out, ready),
     serve(In, Out).
+
+%   Linux divides processors between sessions before it looks at the priority of
+%   processes (sched_autogroup), and a cell is a session of its own. So the nice
+%   value that cell.sh sets has no effect outside the session; that of the session
+%   has. Where there are no such groups that of the process has.
+
+priority_lower :-
+    catch(setup_call_cleanup(
+              open('/proc/self/autogroup', update, Out),
+              write(Out, 10),
+              close(Out)),
+          error(_, _), true).
 
 connection(In, Out) :-
     stream_property(In, alias(user_input)),

@@ -7,7 +7,7 @@
 :- use_module(library(filesex), [directory_file_path/3]).
 :- use_module(library(lists), [member/2, numlist/3, subtract/3]).
 :- use_module(library(process), [process_kill/2]).
-:- use_module(library(readutil), [read_file_to_terms/3]).
+:- use_module(library(readutil), [read_file_to_string/3, read_file_to_terms/3]).
 :- use_module(library(typhon)).
 :- use_module(library(typhon/bridges/common/starting), [service_begin/4]).
 :- use_module(library(typhon/kernel/program), [vocabulary_word/2]).
@@ -19,12 +19,14 @@
 *Threading*: one test at a time.
 */
 
-%   cell(+Goal): Goal is called while the host c has agents in cells.
+%   cell(+Goal): Goal is called while the host c has agents in cells.  These get
+%   little processor time where other processes want it, and the default of the quota
+%   is 5 seconds by the clock.
 
 :- meta_predicate cell(0).
 
 cell(Goal) :-
-    with_hosts([c-[policy(guarded), cell(owner)]], Goal).
+    with_hosts([c-[policy(guarded), cell(owner), quota([seconds(60)])]], Goal).
 
 result(Clauses, Result) :-
     create(Clauses, A, [host(c)]),
@@ -123,6 +125,11 @@ test(state_changes_from_outside, Facts == [n(1),n(2)]) :-
            agent_result(A, Facts, 30) )).
 test(services_of_the_place_are_offered, Result == [2,4]-no) :-
     with_tmp_dir(served(Result)).
+test(sessions_outside_have_processors_first,
+     [condition(exists_file('/proc/self/autogroup')), true(Nice == "10")]) :-
+    cell(( create([(main :- receive(_))], A, [host(c)]),
+           wait_state(A, waiting),
+           cell_session_nice(Nice) )).
 test(an_order_from_outside, Outcome == disposed) :-
     cell(( create([(main :- receive(_))], A, [host(c)]),
            wait_state(A, waiting),
@@ -429,8 +436,8 @@ killed(Before, Kills, How-Count, Dir) :-
                       (main :- Before, leave(f), work, result(done)),
                       (work :- between(1, 5 000 000, X), X >= 5 000 000, !) ]),
     with_peers(
-        [p-[host([ policy(guarded), cell(owner), journal(J),
-                   consult(Place) ])]],
+        [p-[host([ policy(guarded), cell(owner), quota([seconds(60)]),
+                   journal(J), consult(Place) ])]],
         ( peer_host(p, P),
           peer_do(p, agent_create(Works, A)),
           (   Before == true
@@ -452,6 +459,18 @@ kills(Kills, Last) :-
     process_kill(Pid, kill),
     Kills1 is Kills-1,
     kills(Kills1, Cell).
+
+%   cell_session_nice(-Nice): the process below bwrap is in a session of its own.
+
+cell_session_nice(Nice) :-
+    cells_list(Cells),
+    once(( member(cell(_, Pid, Key), Cells), Key \== spare )),
+    format(atom(Children), '/proc/~w/task/~w/children', [Pid, Pid]),
+    read_file_to_string(Children, Text, []),
+    split_string(Text, " ", " ", [Child|_]),
+    format(atom(Group), '/proc/~s/autogroup', [Child]),
+    read_file_to_string(Group, Line, []),
+    split_string(Line, " ", " \n", [_,_,Nice]).
 
 %   The result is `yes` if the agent may do what rules refuse.
 
