@@ -81,13 +81,13 @@ rebuild(Saved, Options, Network) :-
     network_endpoint(Network, Plan, Port, Interface),
     nodes_start(Network, P, Machines, Interface, child_port(Terms)),
     shift(Kind, Then, Shift),
-    shifted(Shift, Clock0, Clock),
-    log_again(Options, Log, Network, Plan, Clock, LogOptions),
-    hosts_again(Network, P, Terms, Clock, Log, LogOptions),
-    log_cut(Options, Log),
-    forall(between(1, P, At), fill(Network, At, Kind, Terms)),
-    due_again(Due, Network, Clock, Kind, Shift),
-    forall(between(1, P, At), go_on(Network, At, Kind, Terms)),
+    shift_clock(Shift, Clock0, Clock),
+    restart_log(Options, Log, Network, Plan, Clock, LogOptions),
+    restart_hosts(Network, P, Terms, Clock, Log, LogOptions),
+    truncate_log(Options, Log),
+    forall(between(1, P, At), restore_items(Network, At, Kind, Terms)),
+    restore_due(Due, Network, Clock, Kind, Shift),
+    forall(between(1, P, At), resume_process(Network, At, Kind, Terms)),
     network_goes_on(Network, Clock).
 
 %   Port is the saved port of the hosts, if this process runs them, else 0.
@@ -111,22 +111,22 @@ shift(real, Then, Shift) :-
     time_now(Now),
     Shift is Now-Then.
 
-shifted(0, Clock, Clock) :-
+shift_clock(0, Clock, Clock) :-
     !.
-shifted(Shift, clock(Epoch0, Rate), clock(Epoch, Rate)) :-
+shift_clock(Shift, clock(Epoch0, Rate), clock(Epoch, Rate)) :-
     Epoch is Epoch0+Shift.
 
-%   log_again(+Options, +Log, +Network, +Plan, +Clock, -HostOptions)
+%   restart_log(+Options, +Log, +Network, +Plan, +Clock, -HostOptions)
 
-log_again(Options, _, Network, Plan, clock(Epoch, Rate), [Option]) :-
+restart_log(Options, _, Network, Plan, clock(Epoch, Rate), [Option]) :-
     memberchk(log(File), Options),
     !,
     network_log(Network, File, [clock(Epoch, Rate)], Address),
     log_option(Plan, Address, Option).
-log_again(_, log(none, _, _), _, _, _, []) :-
+restart_log(_, log(none, _, _), _, _, _, []) :-
     !.
-log_again(_, log(_, File, _), Network, Plan, clock(Epoch, Rate),
-          [Option]) :-
+restart_log(_, log(_, File, _), Network, Plan, clock(Epoch, Rate),
+            [Option]) :-
     network_log(Network, File, [mode(append), clock(Epoch, Rate)], Address),
     log_option(Plan, Address, Option).
 
@@ -134,7 +134,7 @@ log_again(_, log(_, File, _), Network, Plan, clock(Epoch, Rate),
 %   event, and only when no step can fail any more: after an error the old log
 %   must still be complete.
 
-log_cut(Options, log(Address, File, Size)) :-
+truncate_log(Options, log(Address, File, Size)) :-
     (   ( memberchk(log(_), Options) ; Address == none )
     ->  true
     ;   log_goes_on(File, Size)
@@ -142,8 +142,8 @@ log_cut(Options, log(Address, File, Size)) :-
 
 %   Hosts must get their saved addresses, as agents and links refer to them.
 
-hosts_again(Network, P, Terms, clock(Epoch, Rate), log(Log, _, _),
-            LogOptions) :-
+restart_hosts(Network, P, Terms, clock(Epoch, Rate), log(Log, _, _),
+              LogOptions) :-
     findall(host(At, I, Name, Options),
             ( member(host(At, I, Name, Address, Options0), Terms),
               exclude(is_replaced(Log), Options0, Options1),
@@ -172,22 +172,22 @@ port(Address, Port) :-
     atomic_list_concat([_,Text], ':', Endpoint),
     atom_number(Text, Port).
 
-fill(Network, P, Kind, Terms) :-
+restore_items(Network, P, Kind, Terms) :-
     findall(Item, member(P:Item, Terms), Items),
     node_order(Network, P, fill(Kind, Items), ok).
 
 %   In virtual time the saved state of time includes the alarms.
 
-due_again(Dynamics-Due, Network, Clock, Kind, Shift) :-
-    links_again(Dynamics, Network, Clock, Kind, Shift),
+restore_due(Dynamics-Due, Network, Clock, Kind, Shift) :-
+    restore_dynamics(Dynamics, Network, Clock, Kind, Shift),
     findall(N-Goal, member(due(N, _, Goal), Due), Pairs),
     appointments_again(Network, Pairs),
     forall(member(due(N, Stamp, _), Due),
            due_at(Kind, Shift, Stamp, Network, at(N))).
 
-links_again(dynamics(none, _, _), _, _, _, _) :-
+restore_dynamics(dynamics(none, _, _), _, _, _, _) :-
     !.
-links_again(dynamics(Name, Stamp, Then), Network, Clock, Kind, Shift) :-
+restore_dynamics(dynamics(Name, Stamp, Then), Network, Clock, Kind, Shift) :-
     dynamics_again(Name, Then, Clock, network_change(Network), Dynamics),
     network_dynamics(Network, Dynamics),
     due_at(Kind, Shift, Stamp, Dynamics, links).
@@ -197,7 +197,7 @@ due_at(real, Shift, Stamp0, Owner, Token) :-
     Stamp is Stamp0+Shift,
     alarm_set(Stamp, Owner, Token).
 
-go_on(Network, P, Kind, Terms) :-
+resume_process(Network, P, Kind, Terms) :-
     memberchk(time(P, Time), Terms),
     findall(Id, member(P:item(stands, Id, _, _), Terms), Agents),
     node_order(Network, P, goes_on(Kind, Time, Agents), ok).

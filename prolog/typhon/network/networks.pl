@@ -92,13 +92,13 @@ network_begin(Name, Plan, Build, Network) :-
     ),
     once(
         setup_call_catcher_cleanup(
-            noted(Network, Plan),
+            record_network(Network, Plan),
             call(Build, Network),
             Catcher,
             unless_built(Catcher, Network))),
     forget_erased.
 
-noted(Network, Plan) :-
+record_network(Network, Plan) :-
     plan_costs(Plan, Costs),
     assertz(costs(Network, Costs)),
     assertz(network(Network, Plan)).

@@ -77,7 +77,7 @@ save(Network, Standing, File) :-
     setup_call_cleanup(
         true,
         collect_state(Network, Ps, Standing, Terms),
-        let_go(Network, Ps)),
+        resume_all(Network, Ps)),
     saved_write(File, Terms).
 
 %   In virtual time the work of other hosts of this process cannot be separated
@@ -119,7 +119,7 @@ collect_state(Network, Ps, Standing, Terms) :-
 %   process suffices.
 
 hold(Network, Ps, Deadline) :-
-    hold_here(Network),
+    hold_own_process(Network),
     all_do(Network, Ps, hold, Deadline),
     all_do(Network, Ps, rest([]), Deadline),
     (   runs_here(Network)
@@ -133,13 +133,13 @@ hold(Network, Ps, Deadline) :-
 %   Dynamics and appointments run in this process, also if the hosts run in
 %   others.
 
-hold_here(Network) :-
+hold_own_process(Network) :-
     runs_here(Network),
     !.
-hold_here(_) :-
+hold_own_process(_) :-
     order_do(hold(0), ok).
 
-let_go(Network, Ps) :-
+resume_all(Network, Ps) :-
     nodes_tell(Network, Ps, let_go),
     (   runs_here(Network)
     ->  true

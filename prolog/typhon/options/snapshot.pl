@@ -137,19 +137,19 @@ process_restore(Time, Items) :-
              typhon_identity:id_anew(Id) ),
            true),
     forall(( member(item(Kind, Key, N, Term), Items),
-             restored(Kind, Time) ),
-           is_again(Kind, Key, N, Term)).
+             is_restored(Kind, Time) ),
+           restore_item(Kind, Key, N, Term)).
 
-restored(Kind, Time) :-
+is_restored(Kind, Time) :-
     (   repeated(Kind)
     ->  time_repeats(Time, _)
     ;   true
     ).
 
-is_again(Kind, Key, N, Term) :-
+restore_item(Kind, Key, N, Term) :-
     durable_restore(Kind, Key, N, Term),
     !.
-is_again(Kind, Key, N, Term) :-
+restore_item(Kind, Key, N, Term) :-
     domain_error(saved_item, item(Kind, Key, N, Term)).
 
                 /*******************************
@@ -171,7 +171,7 @@ program_item(Hash, Sent) :-
 agent_item(Id, agent(Host, Hash, Life, State, Status, Goals)) :-
     agent(Id, Host, Module, Hash, Life),
     agent_status(Id, Status0, Goals0),
-    rests(Status0, Goals0, Id, Status, Goals),
+    resting(Status0, Goals0, Id, Status, Goals),
     agent_state(Module, State).
 
 agent_restore(Id, agent(Host, Hash, Life, State, Status, Goals)) :-
@@ -182,13 +182,13 @@ agent_restore(Id, agent(Host, Hash, Life, State, Status, Goals)) :-
 
 %   A held agent is stopped again at its next goal.
 
-rests(running, _, Id, _, _) :-
+resting(running, _, Id, _, _) :-
     !,
     permission_error(save, agent, Id).
-rests(_, Held, _, ready, Goals) :-
+resting(_, Held, _, ready, Goals) :-
     held_parts(Held, _, Goals),
     !.
-rests(Status, Goals, _, Status, Goals).
+resting(Status, Goals, _, Status, Goals).
 
 %   The callers of saved orders are gone, so no answer is sent.
 
@@ -236,14 +236,14 @@ agents_at_rest(Seconds, Peers) :-
     get_time(Now),
     Deadline is Now+Seconds,
     agents_passed,
-    rest_before(Deadline, Peers).
+    wait_for_rest(Deadline, Peers).
 
 %   Polling every 10 ms costs less than a notification, for which each turn and
 %   each departure would have to check for a waiting caller.
 
-rest_before(Deadline, Peers) :-
+wait_for_rest(Deadline, Peers) :-
     forall(( agent_status(Id, running, _), \+ agent_ordered(Id) ),
-           ignore(with_agent(Id, stops(Id)))),
+           ignore(with_agent(Id, order_rest(Id)))),
     news_hurry,
     (   \+ is_busy(Peers),
         agents_passed,                  % a message may have followed an agent
@@ -253,18 +253,18 @@ rest_before(Deadline, Peers) :-
         Now < Deadline,
         thread_self(Me),
         \+ thread_get_message(Me, '$typhon_never', [timeout(0.01)]),
-        rest_before(Deadline, Peers)
+        wait_for_rest(Deadline, Peers)
     ).
 
 %   An order without effect stops a running agent.
 
-stops(Id) :-
+order_rest(Id) :-
     agent_status(Id, running, _),
     agent_order(Id, asked(question(rest), queue(none))).
 
 is_busy(_) :-
     agent_status(_, Status, _),
-    moves(Status),
+    is_moving(Status),
     !.
 is_busy(_) :-
     post_tried,
@@ -274,11 +274,11 @@ is_busy(Peers) :-
     news_carried(Peer),
     !.
 
-moves(running).
-moves(obeying).
-moves(arriving).
-moves(transit(_, _)).
-moves(cloning(_, _)).
+is_moving(running).
+is_moving(obeying).
+is_moving(arriving).
+is_moving(transit(_, _)).
+is_moving(cloning(_, _)).
 
 %!  agents_go_on(+Agents:list) is det.
 %

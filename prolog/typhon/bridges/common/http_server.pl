@@ -118,8 +118,8 @@ admit(Server, Client, Ip, Most, Serve) :-
                          typhon_http_server:serve(Server, Ip, Serve, In, Out),
                          typhon_http_server:client_ended(In, Out)),
               error(_, _),
-              send_away(Serve, In, Out))
-    ;   send_away(Serve, In, Out)
+              refuse_client(Serve, In, Out))
+    ;   refuse_client(Serve, In, Out)
     ).
 
 open_streams(Socket, In, Out) :-
@@ -133,7 +133,7 @@ open_streams(Socket, In, Out) :-
              set_stream(Stream, newline(posix)),
              set_stream(Stream, close_on_exec(true)) )).
 
-send_away(Serve, In, Out) :-
+refuse_client(Serve, In, Out) :-
     catch(ignore(call(Serve, none, Out)), error(_, _), true),
     close_streams(In, Out).
 
@@ -184,8 +184,8 @@ has_slot(Server, Most) :-
     ;   victim(Server, Thread),
         retract(client(Server, Thread, _, _, State)),
         gives_way(State, _)
-    ->  catch(thread_signal(Thread, typhon_http_server:give_way), error(_, _),
-              true)
+    ->  catch(thread_signal(Thread, typhon_http_server:end_if_displaced),
+              error(_, _), true)
     ).
 
 victim(Server, Victim) :-
@@ -202,7 +202,7 @@ gives_way(reading, 1).
 
 %   The signal may have arrived before the client began, or while it ended.
 
-give_way :-
+end_if_displaced :-
     thread_self(Me),
     (   client(_, Me, _, _, _)
     ->  true
@@ -315,7 +315,7 @@ work(Goal) :-
                 ignore(Goal) ),
               Ball,
               report_end(Ball)),
-        ended).
+        release_thread).
 
 report_end(crew_end) :-
     !.
@@ -328,7 +328,7 @@ report_end(Ball) :-
 %   Exactly one thread retracts the fact, and that one detaches or joins the
 %   thread.
 
-ended :-
+release_thread :-
     thread_self(Me),
     (   retract(crew(_, Me))
     ->  thread_detach(Me)

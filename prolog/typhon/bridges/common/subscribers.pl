@@ -112,9 +112,9 @@ unsubscribe(Service, Host, Key, Agent) :-
     inbox_key(Key, Text),
     with_mutex(typhon_subscribers,
                ( once(retract(subscribed(Text, Agent, Service, Host, _, _))),
-                 gone(Service, Host, Key, Agent) )).
+                 unsubscribed(Service, Host, Key, Agent) )).
 
-gone(Service, Host, Key, Agent) :-
+unsubscribed(Service, Host, Key, Agent) :-
     gap_forget(Service, Key, Agent),
     inbox_key(Key, Text),
     (   subscribed(Text, _, Service, Host, _, _)
@@ -216,25 +216,25 @@ stop_hearing(Host) :-
     ).
 
 typhon_events:handle_event(subscribers(_), Host, Agent, What) :-
-    happens(What, Host, Agent).
+    agent_event(What, Host, Agent).
 
-happens(left(_), Host, Agent) =>
+agent_event(left(_), Host, Agent) =>
     with_mutex(typhon_subscribers,
                ( sweep, departs(Agent, Host) )).
-happens(stayed(_), _, Agent) =>
+agent_event(stayed(_), _, Agent) =>
     with_mutex(typhon_subscribers, comes_back(Agent)).
-happens(ended(_), Host, Agent) =>
-    all_gone(Agent, Host).
-happens(faulty(_), Host, Agent) =>
-    all_gone(Agent, Host).
-happens(_, _, _) =>
+agent_event(ended(_), Host, Agent) =>
+    drop_subscriptions(Agent, Host).
+agent_event(faulty(_), Host, Agent) =>
+    drop_subscriptions(Agent, Host).
+agent_event(_, _, _) =>
     true.
 
 departs(Agent, Host) :-
     retract(subscribed(Text, Agent, Service, Host, How, Key)),
     !,
     assertz(away(Agent, subscribed(Text, Agent, Service, Host, How, Key))),
-    gone(Service, Host, Key, Agent),
+    unsubscribed(Service, Host, Key, Agent),
     departs(Agent, Host).
 departs(_, _).
 
@@ -247,7 +247,7 @@ comes_back(Agent) :-
     comes_back(Agent).
 comes_back(_).
 
-all_gone(Agent, Host) :-
+drop_subscriptions(Agent, Host) :-
     (   subscribed(_, Agent, _, Host, _, _)
     ->  with_mutex(typhon_subscribers, unsubscribe_all(Agent, Host))
     ;   true
@@ -256,7 +256,7 @@ all_gone(Agent, Host) :-
 unsubscribe_all(Agent, Host) :-
     retract(subscribed(_, Agent, Service, Host, _, Key)),
     !,
-    gone(Service, Host, Key, Agent),
+    unsubscribed(Service, Host, Key, Agent),
     unsubscribe_all(Agent, Host).
 unsubscribe_all(_, _).
 

@@ -57,19 +57,19 @@ typhon_ros_rosbridge:heard(Host, Read) :-
     ;   functor(Read, What, _),
         Event = unknown(What)
     ),
-    hear(Event, Host).
+    handle_event(Event, Host).
 
 typhon_helper_owner:heard(ros(Host), Dict) :-
     get_dict(frame, Dict, Frame),
     frame_event(Frame, Event),
-    hear(Event, Host).
+    handle_event(Event, Host).
 
-hear(Event, Host) :-
+handle_event(Event, Host) :-
     service(ros, Host),
     debug(typhon(ros), '~w hears ~p', [Host, Event]),
-    happens(Event, Host),
+    deliver(Event, Host),
     !.
-hear(_, _).
+handle_event(_, _).
 
 %   A server that was down, or a restarted node, has no record of the host: it
 %   gets all operations in force again.
@@ -89,16 +89,16 @@ typhon_ros_rosbridge:down(Host, Why) :-
         print_message(warning, typhon(ros_lost(Host, Why)))
     ;   true
     ),
-    lost(Host, Why).
+    connection_lost(Host, Why).
 
 typhon_helper_owner:again(ros(Host), _) :-
-    lost(Host, node_ended),
+    connection_lost(Host, node_ended),
     fail.
 typhon_helper_owner:again(ros(Host), _{do:frame, frame:Frame}) :-
     standing(Host, _, Op),
     op_frame(Op, Frame).
 
-lost(Host, Why) :-
+connection_lost(Host, Why) :-
     answers_fail(Host, Why),
     forget_requests(Host),
     lose_goals(Host, Why).
@@ -112,7 +112,7 @@ forget_requests(Host) :-
 lose_goals(Host, Why) :-
     (   goal_end(Host, Id, Agent, _)
     ->  format(string(Text), 'lost: ~p', [Why]),
-        goal_over(Host, Id, Agent, failed, Text),
+        report_goal_end(Host, Id, Agent, failed, Text),
         lose_goals(Host, Why)
     ;   true
     ).
@@ -121,16 +121,16 @@ lose_goals(Host, Why) :-
                 *          RECIPIENTS          *
                 *******************************/
 
-happens(message(Topic, JSON), Host) :-
+deliver(message(Topic, JSON), Host) :-
     (   subscription(ros, Host, Topic)
     ->  message(Host, JSON, Message),
         subscribers_tell(ros, Host, Topic, topic(Topic, Message),
                          topic(Topic, _))
     ;   way_note(Host, unsubscribe(Topic))
     ).
-happens(answer(Id, Answer), _) :-
+deliver(answer(Id, Answer), _) :-
     ignore(answer_come(Id, Answer)).
-happens(request(Id, Service, JSON), Host) :-
+deliver(request(Id, Service, JSON), Host) :-
     (   subscription(ros, Host, service(Service)),
         request_begin(Host, Id, Service)
     ->  message(Host, JSON, Request),
@@ -138,26 +138,26 @@ happens(request(Id, Service, JSON), Host) :-
                          request(Id, Service, Request), request(Id, _, _))
     ;   way_note(Host, respond(Id, Service, _{}, false))
     ).
-happens(feedback(Id, JSON), Host) :-
+deliver(feedback(Id, JSON), Host) :-
     message(Host, JSON, Feedback),
     subscribers_tell(ros, Host, goal(Id), feedback(Id, Feedback),
                      feedback(Id, _)).
-happens(result(Id, Status, JSON), Host) :-
+deliver(result(Id, Status, JSON), Host) :-
     goal_end(Host, Id, Agent, _),
     message(Host, JSON, Result),
-    goal_over(Host, Id, Agent, Status, Result).
-happens(dropped(Topic, Count), Host) :-
+    report_goal_end(Host, Id, Agent, Status, Result).
+deliver(dropped(Topic, Count), Host) :-
     subscribers_tell(ros, Host, Topic, dropped(Topic, Count),
                      dropped(Topic, _)).
-happens(status(Level, Id, Text), Host) :-
+deliver(status(Level, Id, Text), Host) :-
     complaint(Level, Id, Text, Host).
-happens(unknown(What), Host) :-
+deliver(unknown(What), Host) :-
     retract(ignored(Host, Count0)),
     !,
     Count is Count0+1,
     assertz(ignored(Host, Count)),
     debug(typhon(ros), '~w ignores ~p', [Host, What]).
-happens(unknown(What), Host) :-
+deliver(unknown(What), Host) :-
     assertz(ignored(Host, 1)),
     print_message(warning, typhon(ros_ignored(Host, What))).
 
@@ -172,7 +172,7 @@ message(Host, JSON, Message) :-
     way_option(Host, messages(Form), dict),
     json_value(Form, JSON, Message).
 
-goal_over(Host, Id, Agent, Status, Result) :-
+report_goal_end(Host, Id, Agent, Status, Result) :-
     subscribers_tell(ros, Host, goal(Id), result(Id, Status, Result),
                      result(Id, _, _)),
     ignore(unsubscribe(ros, Host, goal(Id), Agent)).
@@ -245,11 +245,11 @@ wanted(true, goal(Id), Host) =>         % the goal has been cancelled
                      result(Id, failed, "cancelled: the agent had set out"),
                      result(Id, _, _)).
 wanted(true, service(Service), Host) =>
-    again(Host, service(Service)).
+    repeat_operation(Host, service(Service)).
 wanted(true, Topic, Host) =>
-    again(Host, topic(Topic)).
+    repeat_operation(Host, topic(Topic)).
 
-again(Host, Key) :-
+repeat_operation(Host, Key) :-
     (   standing_again(Host, Key, Op)
     ->  way_note(Host, Op)
     ;   true

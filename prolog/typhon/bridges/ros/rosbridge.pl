@@ -66,7 +66,7 @@ first_attempt(Link, Seconds, Result) :-
     Link = link(Host, URL, _, Queue),
     alias(reader, Host, Alias),
     first_wait(Wait),
-    thread_create(catch(connected(Link, Wait),
+    thread_create(catch(connect(Link, Wait),
                         typhon_ros_stop, true),
                   Reader, [alias(Alias)]),
     assertz(reader(Host, Reader)),
@@ -116,14 +116,15 @@ pass(Writer, Message, Seconds) :-
 %   second the connection is cut.
 
 rosbridge_close(Host) :-
-    (   taken(Host, Reader)
+    (   unregister_reader(Host, Reader)
     ->  in_own_thread(close_down(Host, Reader))
     ;   true
     ).
 
-%   taken(+Host, -Reader) succeeds for only one of concurrent callers.
+%   unregister_reader(+Host, -Reader) succeeds for only one of concurrent
+%   callers.
 
-taken(Host, Reader) :-
+unregister_reader(Host, Reader) :-
     reader(Host, Reader),
     retract(reader(Host, Reader)),
     !.
@@ -132,7 +133,7 @@ close_down(Host, Reader) :-
     thread_self(Me),
     catch(thread_send_message(Reader, stop(Me)),
           error(existence_error(_, _), _), true),
-    (   farewell(Host),
+    (   send_close(Host),
         bye_seconds(Seconds),
         thread_get_message(Me, stopped(Reader), [timeout(Seconds)])
     ->  true
@@ -150,19 +151,21 @@ close_down(Host, Reader) :-
 close_all :-
     findall(Host, reader(Host, _), Hosts),
     findall(Reader,
-            ( member(Host, Hosts), taken(Host, Reader), leave(Host, Reader) ),
+            ( member(Host, Hosts),
+              unregister_reader(Host, Reader),
+              order_stop(Host, Reader) ),
             Readers),
     get_time(Now),
     bye_seconds(Seconds),
     Deadline is Now+Seconds,
     await_ends(Readers, Deadline).
 
-leave(Host, Reader) :-
+order_stop(Host, Reader) :-
     thread_self(Me),
     Reader \== Me,
     catch(thread_send_message(Reader, stop(Me)),
           error(existence_error(_, _), _), fail),
-    (   farewell(Host)
+    (   send_close(Host)
     ->  true
     ;   interrupt(Reader)
     ).
@@ -178,7 +181,7 @@ await_ends(Readers, Deadline) :-
     ;   true
     ).
 
-farewell(Host) :-
+send_close(Host) :-
     writer(Host, Writer),
     catch(thread_send_message(Writer, bye, [timeout(0)]),
           error(existence_error(_, _), _), fail).
@@ -191,12 +194,12 @@ interrupt(Thread) :-
                 *            READING           *
                 *******************************/
 
-connected(Link, Wait) :-
+connect(Link, Wait) :-
     Link = link(Host, URL, Silence, Asker),
     catch(socket_open(URL, Silence, Socket), error(Formal, Context), true),
     (   nonvar(Socket)
     ->  get_time(Start),
-        catch(served(Link, Socket), error(Kind, Where),
+        catch(serve_connection(Link, Socket), error(Kind, Where),
               print_error(error, error(Kind, Where))),
         pause_after(Start, Wait, Pause)
     ;   report_attempt(Asker, error(Formal, Context)),
@@ -222,7 +225,7 @@ pause(Link, Pause) :-
     ->  thread_send_message(Caller, stopped(Me))
     ;   longest_wait(Longest),
         Longer is min(Longest, 2*Pause),
-        connected(Link, Longer)
+        connect(Link, Longer)
     ).
 
 %   The thread in rosbridge_open/4 waits for the result of the first attempt.
@@ -235,10 +238,10 @@ report_attempt(Asker, Result) :-
 %   A cleanup handler cannot be used, since it must not wait.  So a thread that
 %   is interrupted during tidy/3 repeats it.
 
-served(Link, Socket) :-
+serve_connection(Link, Socket) :-
     Link = link(Host, _, Silence, _),
     writer_begin(Host, Silence, Socket, Writer),
-    catch(served_until(Link, Socket, Writer, Why), Ball, true),
+    catch(serve_until_end(Link, Socket, Writer, Why), Ball, true),
     catch(tidy(Host, Writer, Socket), typhon_ros_stop,
           tidy(Host, Writer, Socket)),
     debug(typhon(ros), '~w: the connection has ended: ~p', [Host, Why]),
@@ -260,14 +263,14 @@ tidy(Host, Writer, Socket) :-
     writer_end(Writer),
     socket_close(Socket).
 
-served_until(link(Host, _, Silence, Asker), Socket, Writer, Why) :-
+serve_until_end(link(Host, _, Silence, Asker), Socket, Writer, Why) :-
     findall(Frame, up(Host, Frame), Before),
     send_all(Before, Writer, Silence),
     assertz(writer(Host, Writer)),
     findall(Frame, ( up(Host, Frame), \+ memberchk(Frame, Before) ), Since),
     send_all(Since, Writer, Silence),
     report_attempt(Asker, true),
-    catch(read_on(Host, Socket, Why), error(Why, _), true).
+    catch(read_loop(Host, Socket, Why), error(Why, _), true).
 
 %   A frame for a change that occurs meanwhile may be sent twice, but not
 %   missed.
@@ -278,13 +281,13 @@ send_all([Frame|Frames], Writer, Seconds) :-
     pass(Writer, write(Text), Seconds),
     send_all(Frames, Writer, Seconds).
 
-read_on(Host, Socket, Why) :-
+read_loop(Host, Socket, Why) :-
     socket_read(Socket, Read),
     (   Read = end(Why0)
     ->  Why = Why0
     ;   catch(heard(Host, Read), error(Formal, Context),
               print_error(error, error(Formal, Context))),
-        read_on(Host, Socket, Why)
+        read_loop(Host, Socket, Why)
     ).
 
                 /*******************************
@@ -296,31 +299,31 @@ writer_begin(Host, Silence, Socket, Writer) :-
     longest_queue(Max),
     Every is Silence/3,
     thread_self(Me),
-    thread_create(writes(Socket, Every, Me), Writer,
+    thread_create(writer_run(Socket, Every, Me), Writer,
                   [alias(Alias), queue_max_size(Max)]).
 
-writes(Socket, Every, Reader) :-
-    catch(write_on(Socket, Every), typhon_ros_stop, true),
+writer_run(Socket, Every, Reader) :-
+    catch(write_loop(Socket, Every), typhon_ros_stop, true),
     thread_self(Me),
     thread_send_message(Reader, written(Me)).
 
 %   The writer ends by itself when writing fails, as the server is gone.
 
-write_on(Socket, Every) :-
+write_loop(Socket, Every) :-
     thread_self(Me),
     (   thread_get_message(Me, Message, [timeout(Every)])
     ->  true
     ;   Message = ping
     ),
-    (   catch(say(Message, Socket), error(_, _), fail),
+    (   catch(write_message(Message, Socket), error(_, _), fail),
         Message \== bye
-    ->  write_on(Socket, Every)
+    ->  write_loop(Socket, Every)
     ;   true
     ).
 
 %   The server answers a ping by a pong, and a bye by closing its end.
 
-say(Message, socket(_, Out)) :-
+write_message(Message, socket(_, Out)) :-
     socket_message(Message, WebSocketMessage),
     ws_send(Out, WebSocketMessage).
 

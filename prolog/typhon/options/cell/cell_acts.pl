@@ -90,9 +90,9 @@ cell_fault(_, _, none).
 
 cell_changes_made(Changes, Host, Module) :-
     is_list(Changes),
-    maplist(change_made(Host, Module), Changes).
+    maplist(make_change(Host, Module), Changes).
 
-change_made(Host, Module, Change) :-
+make_change(Host, Module, Change) :-
     subsumes_term(Name/Arity-_, Change),
     Change = Name/Arity-Clauses,
     atom(Name),
@@ -146,33 +146,33 @@ cell_turn_begins :-
 
 cell_answer(Goal, Kind, Host, agent(Id, _, _, _, _), Answer) :-
     callable(Goal),
-    catch(asked(Goal, Kind, Host, Id, Answer), error(Formal, Where),
-          ( refusal_noted(Formal, Host, Id),
+    catch(answer_allowed(Goal, Kind, Host, Id, Answer), error(Formal, Where),
+          ( note_refusal(Formal, Host, Id),
             in_words(error(Formal, Where), Portable),
             Answer = raised(Portable) )).
 
-asked(Goal, Kind, Host, Id, Answer) :-
+answer_allowed(Goal, Kind, Host, Id, Answer) :-
     functor(Goal, Name, Arity),
     (   may_ask(Kind, Host, Name/Arity, Of)
-    ->  asked_of(Of, Host, Id, Name/Arity, Module),
+    ->  goal_module(Of, Host, Id, Name/Arity, Module),
         solutions(Kind, Goal, Module, Answer)
     ;   permission_error(call, sandboxed, Goal)
     ).
 
 %   The host that refuses a move has written that to its audit log already.
 
-refusal_noted(permission_error(call, sandboxed, Goal), Host, Id) =>
+note_refusal(permission_error(call, sandboxed, Goal), Host, Id) =>
     in_words(Goal, Shown),
     security_event(Host, refused(Id, policy(Shown))),
-    refusal_counted.
-refusal_noted(move_refused(_, _), _, _) =>
-    refusal_counted.
-refusal_noted(_, _, _) =>
+    count_refusal.
+note_refusal(move_refused(_, _), _, _) =>
+    count_refusal.
+note_refusal(_, _, _) =>
     true.
 
 most_refused(100).
 
-refusal_counted :-
+count_refusal :-
     nb_getval(typhon_cell_refused, Count),
     most_refused(Most),
     (   Count < Most
@@ -209,8 +209,8 @@ may_ask(acts, Host, PI, place(Place)) :-
     place_service(Place, PI),
     !.
 
-asked_of(vocabulary, _, _, _, typhon_vocabulary).
-asked_of(place(Place), Host, Id, PI, Place) :-
+goal_module(vocabulary, _, _, _, typhon_vocabulary).
+goal_module(place(Place), Host, Id, PI, Place) :-
     parts_call(acts, Host, [Id, service(PI)]).
 
 %!  cell_violation(+What).

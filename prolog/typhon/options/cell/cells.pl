@@ -180,13 +180,13 @@ give(Cell, Next) :-
     assertz(idle(Cell, Now)),
     next_of(Key, Next0),
     (   Next0 == none,
-        unserved(_)
+        key_without_cell(_)
     ->  Next = wanted
     ;   Next = Next0
     ).
 give(_, none).
 
-unserved(Key) :-
+key_without_cell(Key) :-
     waits(Key, _, _, _),
     \+ bound(_, Key),
     !.
@@ -209,24 +209,24 @@ dispatch(wanted) :-
 %   the end.
 
 cell_end(Cell, Reason) :-
-    ended(Cell, Reason),
+    end_process(Cell, Reason),
     dispatch(wanted).
 
-ended(Cell, Reason) :-
-    (   with_mutex(typhon_cells, forgotten(Cell, Process))
+end_process(Cell, Reason) :-
+    (   with_mutex(typhon_cells, forget_cell(Cell, Process))
     ->  cell_process_end(Process, Reason)
     ;   Reason = exit(unknown)
     ).
 
 cell_break(Cell) :-
-    (   with_mutex(typhon_cells, forgotten(Cell, Process)),
+    (   with_mutex(typhon_cells, forget_cell(Cell, Process)),
         server(Server),
         server_cast(Server, ended(Process))
     ->  true
     ;   true
     ).
 
-forgotten(Cell, process(Pid, In, Out, Err)) :-
+forget_cell(Cell, process(Pid, In, Out, Err)) :-
     retract(process(Cell, Pid, In, Out, Err)),
     retractall(spare(Cell)),
     retractall(bound(Cell, _)),
@@ -292,13 +292,13 @@ serves(ended_host(Host), _, Next) :-
     atom_concat(Host, ' ', Prefix),
     forall(( bound(Cell, Key),
              once(( Key == Host ; sub_atom(Key, 0, _, _, Prefix) )) ),
-           ended(Cell, _)),
+           end_process(Cell, _)),
     set_timer(Next).
 serves(timeout, _, Next) :-
     forall(idle_long(Cell), end_idle(Cell)),
     serves(wanted, none, Next).
 serves(stop, _, _) :-
-    forall(process(Cell, _, _, _, _), ended(Cell, _)),
+    forall(process(Cell, _, _, _, _), end_process(Cell, _)),
     retractall(waits(_, _, _, _)),
     retractall(woken(_, _)),
     cell_filter_forget.
@@ -308,7 +308,7 @@ serves(stop, _, _) :-
 
 set_timer(until(Stamp, none)) :-
     get_time(Now),
-    (   unserved(_)
+    (   key_without_cell(_)
     ->  Stamp is Now+1
     ;   bound(_, _)
     ->  setting(idle, Idle),
@@ -323,7 +323,7 @@ provide :-
     (   with_mutex(typhon_cells, bind_spare(Next))
     ->  dispatch(Next),
         provide
-    ;   unserved(_),
+    ;   key_without_cell(_),
         room
     ->  spare_start,
         provide
@@ -334,7 +334,7 @@ provide :-
     ).
 
 bind_spare(Next) :-
-    unserved(Key),
+    key_without_cell(Key),
     retract(spare(Cell)),
     !,
     assertz(bound(Cell, Key)),
@@ -372,7 +372,7 @@ idle_long(Cell) :-
 
 end_idle(Cell) :-
     (   with_mutex(typhon_cells, ( retract(idle(Cell, _)),
-                                   forgotten(Cell, Process) ))
+                                   forget_cell(Cell, Process) ))
     ->  cell_process_end(Process, _)
     ;   true                            % taken meanwhile
     ).

@@ -104,7 +104,7 @@ run(Kind, Policy, Agent, Goals, Outcome) :-
         setup_call_cleanup(
             cell_take(Key, Id, Cell),
             run_in(Cell, keys(Key, Policy, Owner), Agent, Goals, State, Outcome),
-            left(State, Cell))
+            break_unfinished(State, Cell))
     ;   Reason = violation(functors),
         Outcome = lost(cell(Reason)),
         ended(Agent, Reason, Outcome)
@@ -115,27 +115,27 @@ run(_, _, agent(Id, _, _, _, _), _, _) :-
 
 run_in(none, keys(Key, _, _), Agent, Goals, _, held) :-
     !,
-    sig_atomic(waits(Key, Agent, Goals)).
+    sig_atomic(wait_for_cell(Key, Agent, Goals)).
 run_in(Cell, keys(Key, Policy, Owner), Agent, Goals, State, Outcome) :-
-    in_cell(Cell, Policy, Owner-Agent, Goals, Result),
-    sig_atomic(( finished(Result, Cell, Agent, Outcome0),
+    run_turn(Cell, Policy, Owner-Agent, Goals, Result),
+    sig_atomic(( finish_turn(Result, Cell, Agent, Outcome0),
                  nb_setarg(1, State, finished),
                  (   Outcome0 == again
-                 ->  waits(Key, Agent, Goals),
+                 ->  wait_for_cell(Key, Agent, Goals),
                      Outcome = held
                  ;   Outcome = Outcome0
                  ) )).
 
-waits(Key, agent(Id, Host, _, _, _), Goals) :-
+wait_for_cell(Key, agent(Id, Host, _, _, _), Goals) :-
     with_agent(Id, agent_put(Id, ready, Goals)),
     turn_settled,
     cell_wait(Key, Host, Id).
 
-left(state(unfinished), Cell) :-
+break_unfinished(state(unfinished), Cell) :-
     integer(Cell),
     !,
     cell_break(Cell).
-left(_, _).
+break_unfinished(_, _).
 
 owner(agent(Id, Host, Module, Hash, _), Owner) :-
     agent_origin(Host, Id, Hash, module(Module), Origin),
@@ -146,13 +146,13 @@ key(host, Policy, agent(_, Host, _, _, _), _, Key) :-
 key(owner, Policy, agent(_, Host, _, _, _), Owner, Key) :-
     atomic_list_concat([Host, Policy, Owner], ' ', Key).
 
-finished(outcome(Outcome, Note), Cell, agent(Id, _, _, _, _), Outcome) :-
+finish_turn(outcome(Outcome, Note), Cell, agent(Id, _, _, _, _), Outcome) :-
     cell_give(Cell),
     retractall(repeated(Id)),
     fault_note(Note).
-finished(over(What), Cell, _, raised(error(resource_error(What), _))) :-
+finish_turn(over(What), Cell, _, raised(error(resource_error(What), _))) :-
     cell_end(Cell, _).
-finished(broken(Why), Cell, Agent, Outcome) :-
+finish_turn(broken(Why), Cell, Agent, Outcome) :-
     cell_end(Cell, Status),
     ( Why = ended(_) -> Reason = Status ; Reason = Why ),
     Agent = agent(Id, _, _, _, _),
@@ -169,15 +169,15 @@ ended(agent(Id, Host, _, _, _), Reason, Outcome) :-
     security_event(Host, cell(Id, Reason)),
     print_message(warning, typhon(cell_ended(Id, Host, Reason, Outcome))).
 
-%   in_cell(+Cell, +Policy, +OwnerAndAgent, +Goals, -Result): Result is
+%   run_turn(+Cell, +Policy, +OwnerAndAgent, +Goals, -Result): Result is
 %   outcome(Outcome, Note), over(What) or broken(Why).
 
-in_cell(Cell, Policy, Owner-Agent, Goals, Result) :-
+run_turn(Cell, Policy, Owner-Agent, Goals, Result) :-
     flag(typhon_cell_turn, N, N+1),
     cell_turn_begins,
-    catch(( begun(Cell, Policy, Agent, N, Goals),
-            turn_heard(Cell, N-Owner, Agent, Goals,
-                       acts(well, [], nothing), Result) ),
+    catch(( begin_turn(Cell, Policy, Agent, N, Goals),
+            read_turn(Cell, N-Owner, Agent, Goals,
+                      acts(well, [], nothing), Result) ),
           error(Formal, Context),
           broken(Formal, Context, Result)).
 
@@ -185,9 +185,9 @@ in_cell(Cell, Policy, Owner-Agent, Goals, Result) :-
 %   reading from the cell then yields end_of_file, after the frames it sent
 %   before.
 
-begun(Cell, Policy, Agent, N, Goals) :-
-    catch(( cell_bound(Cell, Policy, Agent),
-            turn_sent(Cell, N, Agent, Goals, new) ),
+begin_turn(Cell, Policy, Agent, N, Goals) :-
+    catch(( bind_cell(Cell, Policy, Agent),
+            send_turn(Cell, N, Agent, Goals, new) ),
           error(io_error(_, _), _),
           true).
 
@@ -205,7 +205,7 @@ broken(Formal, Context, _) :-
 %   The first turn binds the cell to the host.  Later changes of the services or
 %   of the limits are sent with the next turn.
 
-cell_bound(Cell, Policy, agent(_, Host, _, _, _)) :-
+bind_cell(Cell, Policy, agent(_, Host, _, _, _)) :-
     host(Host, _, Place),
     findall(PI, place_service(Place, PI), PIs),
     findall(What-Most, typhon_host_parts:limit(Host, What, Most), Limits),
@@ -226,14 +226,14 @@ send(Cell, Frame) :-
     cell_streams(Cell, _, Out),
     cell_frame_write(Out, Frame).
 
-%   turn_sent(+Cell, +N, +Agent, +Goals, +How): How is `again` if the cell has
+%   send_turn(+Cell, +N, +Agent, +Goals, +How): How is `again` if the cell has
 %   answered that it lacks the program or the state, else `new`.
 
-turn_sent(Cell, N, agent(Id, Host, Module, Hash, Life), Goals, How) :-
+send_turn(Cell, N, agent(Id, Host, Module, Hash, Life), Goals, How) :-
     ( How == again -> cell_forgets(Cell, Id), cell_forgets(Cell, Hash) ; true ),
     program_for(Cell, Hash, Program),
     state_for(Cell, Id, Module, State),
-    known(Id, Host, Life, Known),
+    turn_facts(Id, Host, Life, Known),
     findall(Gone, cell_knows(Cell, Gone, gone), Forget),
     forall(member(Gone, Forget), cell_forgets(Cell, Gone)),
     send(Cell, turn(N, Id, Hash, Program, State, Known, Forget, Goals)),
@@ -253,7 +253,7 @@ state_for(_, _, Module, State) :-
     agent_state(Module, State0),
     cell_state(State0, State).
 
-known(Id, Host, Life, Known) :-
+turn_facts(Id, Host, Life, Known) :-
     host(Host, Address, _),
     agent_home(Id, Home),
     life_hops(Life, Hops),
@@ -265,25 +265,25 @@ known(Id, Host, Life, Known) :-
                 *       FRAMES OF A CELL       *
                 *******************************/
 
-%   turn_heard(+Cell, +NAndOwner, +Agent, +Goals, +Acts, -Result): Acts is
+%   read_turn(+Cell, +NAndOwner, +Agent, +Goals, +Acts, -Result): Acts is
 %   acts(Told, Later, Done).  Told is raised(Error) if a call without an answer
 %   has raised Error, else `well`.  Later are lists of such calls that are not
 %   carried out yet, the last list first.  Done is `something` if the turn may
 %   have changed the host, else `nothing`.
 
-turn_heard(Cell, N-Owner, Agent, Goals, Acts, Result) :-
+read_turn(Cell, N-Owner, Agent, Goals, Acts, Result) :-
     cell_streams(Cell, In, _),
-    frame_heard(In, Owner, Frame),
+    read_frame(In, Owner, Frame),
     (   is_of_turn(Frame, N),
-        heard(Frame, Cell, Agent, Goals, Acts, Next)
+        handle_frame(Frame, Cell, Agent, Goals, Acts, Next)
     ->  (   Next = more(Acts1)
-        ->  turn_heard(Cell, N-Owner, Agent, Goals, Acts1, Result)
+        ->  read_turn(Cell, N-Owner, Agent, Goals, Acts1, Result)
         ;   Result = Next
         )
     ;   cell_violation(frame)
     ).
 
-frame_heard(In, Owner, Frame) :-
+read_frame(In, Owner, Frame) :-
     (   cell_frame_text(In, Text)
     ->  functors_charged(Owner, Text, Frame)
     ;   Frame = end_of_file
@@ -297,42 +297,45 @@ is_of_turn(Frame, N) :-
     arg(1, Frame, N0),
     N0 == N.
 
-heard(end_of_file, _, _, _, acts(_, _, Done), broken(ended(Done))).
-heard(told(_, Words), _, Agent, _, acts(Told0, Later, Done), more(Acts)) :-
+handle_frame(end_of_file, _, _, _, acts(_, _, Done), broken(ended(Done))).
+handle_frame(told(_, Words), _, Agent, _, acts(Told0, Later, Done),
+             more(Acts)) :-
     is_list(Words),
     Acts0 = acts(Told0, [Words|Later], Done),
     (   durable_on
     ->  Acts = Acts0
-    ;   carried_out(Acts0, Agent, Told),
+    ;   carry_out(Acts0, Agent, Told),
         Acts = acts(Told, [], something)
     ).
-heard(request(N, Goal), Cell, Agent, _, Acts, more(acts(well, [], Done))) :-
-    carried_out(Acts, Agent, Told),
-    answered(Told, Goal, acts, Agent, Answer),
+handle_frame(request(N, Goal), Cell, Agent, _, Acts,
+             more(acts(well, [], Done))) :-
+    carry_out(Acts, Agent, Told),
+    answer_goal(Told, Goal, acts, Agent, Answer),
     done(Acts, Goal, Done),
     send(Cell, answer(N, Answer)).
-heard(changing(N, Goal, Changes), Cell, Agent, _, Acts, more(Next)) :-
+handle_frame(changing(N, Goal, Changes), Cell, Agent, _, Acts, more(Next)) :-
     Next = acts(well, [], something),
-    carried_out(Acts, Agent, Told),
+    carry_out(Acts, Agent, Told),
     agent(Agent, Host, Module),
     cell_changes_made(Changes, Host, Module),
-    answered(Told, Goal, changes, Agent, Answer),
+    answer_goal(Told, Goal, changes, Agent, Answer),
     agent_state(Module, State0),
     cell_state(State0, State),
     send(Cell, answer(N, changed(State, Answer))).
-heard(lacks(N), Cell, Agent, Goals, Acts, more(Acts)) :-
+handle_frame(lacks(N), Cell, Agent, Goals, Acts, more(Acts)) :-
     Acts = acts(well, [], _),
     \+ cell_knows(Cell, again, N),
     cell_learns(Cell, again, N),
-    turn_sent(Cell, N, Agent, Goals, again).
-heard(over(_, What), _, Agent, _, Acts, over(What)) :-
+    send_turn(Cell, N, Agent, Goals, again).
+handle_frame(over(_, What), _, Agent, _, Acts, over(What)) :-
     nonvar(What),
     memberchk(What, [cells,stack,state]),
-    carried_out(Acts, Agent, _).
-heard(outcome(_, Outcome, Note, Changes), Cell, Agent, _, Acts, Result) :-
+    carry_out(Acts, Agent, _).
+handle_frame(outcome(_, Outcome, Note, Changes), Cell, Agent, _, Acts,
+             Result) :-
     cell_outcome(Outcome),
     cell_fault(Note, Outcome, Fault),
-    carried_out(Acts, Agent, Told),
+    carry_out(Acts, Agent, Told),
     ( Told = raised(_) -> Result = outcome(Told, none)
     ; Result = outcome(Outcome, Fault) ),
     Agent = agent(Id, Host, Module, _, _),
@@ -343,13 +346,13 @@ heard(outcome(_, Outcome, Note, Changes), Cell, Agent, _, Acts, Result) :-
         cell_learns(Cell, Id, Module-Mark)
     ).
 
-carried_out(acts(Told0, Later, _), Agent, Told) :-
+carry_out(acts(Told0, Later, _), Agent, Told) :-
     reverse(Later, Lists),
     append(Lists, Words),
     foldl(told(Agent), Words, Told0, Told).
 
 told(Agent, Goal, Told0, Told) :-
-    answered(Told0, Goal, tells, Agent, Answer),
+    answer_goal(Told0, Goal, tells, Agent, Answer),
     ( Answer = raised(_) -> Told = Answer ; Told = well ).
 
 done(acts(_, [], Done), Goal, Done) :-
@@ -361,10 +364,10 @@ done(_, _, something).
 %   After an error no further call is carried out until the agent has received
 %   that error.
 
-answered(well, Goal, Kind, Agent, Answer) :-
+answer_goal(well, Goal, Kind, Agent, Answer) :-
     agent(Agent, Host, _),
     cell_answer(Goal, Kind, Host, Agent, Answer).
-answered(raised(Error), _, _, _, raised(Error)).
+answer_goal(raised(Error), _, _, _, raised(Error)).
 
 agent(agent(_, Host, Module, _, _), Host, Module).
 

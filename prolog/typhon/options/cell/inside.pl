@@ -45,9 +45,9 @@ cell_main :-
     set_prolog_flag(stack_limit, 268 435 456),
     set_setting(typhon_code:programs, 10 000),
     connection(In, Out),
-    twin_start,
-    words_ask,
-    catches_check,
+    own_host_start,
+    wrap_words,
+    check_catches,
     open_null_stream(Null),
     set_stream(Null, alias(user_error)),
     cell_frame_write(Out, ready),
@@ -82,12 +82,12 @@ connection(In, Out) :-
 %   The host is started without the option policy(_), which would load the
 %   default quotas: the gatekeeper enforces quotas.
 
-twin_start :-
+own_host_start :-
     host_start(cell),
     on_demand_load(host_option, policy),
-    guarded_by(guarded).
+    set_policy(guarded).
 
-guarded_by(Policy) :-
+set_policy(Policy) :-
     forall(typhon_host_parts:changes(policy(Policy), cell), true),
     host_change(cell, seed(0)).         % compiles the parts of the host anew
 
@@ -106,7 +106,7 @@ handle(host(Rules, PIs, Limits), _) :-
     (   Rules == guarded
     ->  true
     ;   rules_file('/tmp/policy', Rules),
-        guarded_by('/tmp/policy')
+        set_policy('/tmp/policy')
     ),
     offer(PIs).
 handle(turn(N, Id, Hash, Program, State, Known, Forget, Goals), Out) :-
@@ -183,9 +183,9 @@ run(Context, Goals0, Outcome, Note) :-
     ->  within_limits(Error0),
         in_words(Error0, Error),
         Outcome = raised(Error),
-        noted(Outcome, Note)
+        outcome_note(Outcome, Note)
     ;   Outcome = Outcome0,
-        noted(Outcome, Note)
+        outcome_note(Outcome, Note)
     ).
 
 outcome_plain(effect(Control, Hole, Goals0), Outcome) =>
@@ -194,13 +194,13 @@ outcome_plain(effect(Control, Hole, Goals0), Outcome) =>
 outcome_plain(Outcome0, Outcome) =>
     Outcome = Outcome0.
 
-noted(Outcome, note(How, Portable)) :-
+outcome_note(Outcome, note(How, Portable)) :-
     functor(Outcome, How, _),
     memberchk(How, [failed, raised]),
     fault_noted(How-fault(Goal, Goals, natives(Raising, _))),
     !,
     in_words(fault(Goal, Goals, natives(Raising, [])), Portable).
-noted(_, none).
+outcome_note(_, none).
 
                 /*******************************
                 *            LIMITS            *
@@ -242,7 +242,7 @@ small_and_mobile(Term) :-
 %   can catch the error: SWI-Prolog 9.0.4 crashes if its stack overflows
 %   repeatedly.
 
-catches_check :-
+check_catches :-
     wrap_predicate(typhon_checked:'$uncaught'(Ball), cell, Wrapped,
                    ( typhon_cell_inside:within_limits(Ball), Wrapped )).
 
@@ -270,7 +270,7 @@ over(What) :-
                 *            WORDS             *
                 *******************************/
 
-words_ask :-
+wrap_words :-
     forall(( cell_word(_, Name/Arity),
              functor(Head, Name, Arity),
              predicate_property(typhon_vocabulary:Head, imported_from(Module))
@@ -322,8 +322,8 @@ ask(tells, Goal, N, _, _) :-
 ask(Kind, Goal, N, _, Module) :-
     small_and_mobile(Goal),
     tell_all(N, 0),
-    asked(Kind, Goal, N, Module, Answer),
-    answered(Answer, Goal).
+    request_answer(Kind, Goal, N, Module, Answer),
+    unify_answer(Answer, Goal).
 
 %   most_told(-Batch, -Most): Batch calls without an answer share a frame.
 %   After Most such calls the next one waits for an answer, which reports
@@ -366,7 +366,7 @@ needs_no_answer(Goal) :-
     ;   true
     ).
 
-asked(changes, Goal, N, Module, Answer) :-
+request_answer(changes, Goal, N, Module, Answer) :-
     !,
     nb_getval(cell_connection, connection(In, Out)),
     nb_getval(cell_mark, Mark),
@@ -374,7 +374,7 @@ asked(changes, Goal, N, Module, Answer) :-
     cell_frame_write(Out, changing(N, Goal, Changes)),
     cell_frame_read(In, answer(N, changed(State, Answer))),
     state_put(Module, State).
-asked(_, Goal, N, _, Answer) :-
+request_answer(_, Goal, N, _, Answer) :-
     nb_getval(cell_connection, connection(In, Out)),
     cell_frame_write(Out, request(N, Goal)),
     cell_frame_read(In, answer(N, Answer)).
@@ -387,10 +387,10 @@ state_put(Module, state(Empty, Clauses)) :-
     state_mark(Module, Mark),
     nb_setval(cell_mark, Mark).
 
-answered(solutions(Goals), Goal) :-
+unify_answer(solutions(Goals), Goal) :-
     (   Goals = [Only]
     ->  Goal = Only
     ;   member(Goal, Goals)
     ).
-answered(raised(Error), _) :-
+unify_answer(raised(Error), _) :-
     throw(Error).

@@ -85,20 +85,20 @@ typhon_turn:settle :-
 conclude(Id, Outcome, Conclude, Next) :-
     unit_of_work(( turn_ends(Outcome, Id),
                    call(Conclude),
-                   noted(Next, Id) )),
+                   note_next(Next, Id) )),
     deferred_release.
 
 turn_ends(effect(Control, Hole, Goals), Id) :-
     !,
     \+ \+ ( Hole = Control,
-            before_it_rests(Id, Goals) ).
+            record_before_rest(Id, Goals) ).
 turn_ends(done, Id) :-
     !,
-    before_it_rests(Id, []).
+    record_before_rest(Id, []).
 turn_ends(_, _) :-
     deferred_commit.
 
-before_it_rests(Id, Goals) :-
+record_before_rest(Id, Goals) :-
     (   deferred_any
     ->  deferred_commit,
         agent_note(Id, ready, Goals),
@@ -107,10 +107,10 @@ before_it_rests(Id, Goals) :-
     ;   true
     ).
 
-noted(stop, _).
-noted(go(Goals), Id) :-
+note_next(stop, _).
+note_next(go(Goals), Id) :-
     agent_note(Id, ready, Goals).
-noted(elsewhere(Goals), Id) :-
+note_next(elsewhere(Goals), Id) :-
     agent_note(Id, ready, Goals).
 
                 /*******************************

@@ -74,7 +74,7 @@ postgresql_place(Url0, Part, Place, server(Schema, Driver)) :-
     ->  true
     ;   domain_error(postgresql_url, Url)
     ),
-    foldl(known(Url), Parts0, [], Parts),
+    foldl(add_parameter(Url), Parts0, [], Parts),
     option(schema(Schema0), Parts, typhon),
     atom_concat(Schema0, Part, Schema),
     option(dbname(Database), Parts, postgres),
@@ -118,7 +118,7 @@ decoded(Name=Encoded0, Name=Value) :-
 
 %   No value may contain a character with a meaning in a connection string.
 
-known(Url, Name=Value0, Parts, [Part|Parts]) :-
+add_parameter(Url, Name=Value0, Parts, [Part|Parts]) :-
     (   parameter(Name, _),
         atomic_list_concat([Value0], Value),
         \+ ( member(Sign, [;, '{', '}', '\n']),

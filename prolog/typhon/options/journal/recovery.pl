@@ -48,7 +48,7 @@ sent again.
 :- dynamic
     restored/1,                 % Name: host started from the journal
     superfluous/2,              % Kind, Key: no agent needs it
-    left/2.                     % Id, Hash: an agent that was not restored
+    not_restored/2.             % Id, Hash: an agent that was not restored
 
 %   last(-Kinds): kinds that need others restored first; mail and programs of
 %   agents that are not there are superfluous.
@@ -65,56 +65,56 @@ typhon_durable:recover :-
     forall(( member(Kind, Kinds),
              durable_order(Kind, Order),
              durable_item(Kind, Order, Key, N, Term) ),
-           is_back(Kind, Key, N, Term)),
+           restore_item(Kind, Key, N, Term)),
     forall(typhon_durable:restored, true).
 
 %   Programs are restored with their agents.
 
-is_back(code, Hash, _, _) :-
+restore_item(code, Hash, _, _) :-
     !,
-    (   ( agent(_, _, _, Hash, _) ; left(_, Hash) )
+    (   ( agent(_, _, _, Hash, _) ; not_restored(_, Hash) )
     ->  true
     ;   assertz(superfluous(code, Hash))
     ).
-is_back(mail, Id, _, _) :-
+restore_item(mail, Id, _, _) :-
     \+ agent(Id, _, _, _, _),
     !,
-    (   left(Id, _)
+    (   not_restored(Id, _)
     ->  true
     ;   assertz(superfluous(mail, Id))
     ).
-is_back(Kind, Key, N, Term) :-
+restore_item(Kind, Key, N, Term) :-
     catch(durable_restore(Kind, Key, N, Term), error(Formal, Context), true),
     !,
     (   var(Formal)
     ->  true
     ;   print_message(error, typhon(not_back(Kind, Key))),
         print_error(error, error(Formal, Context)),
-        stays(Kind, Key, Term)
+        note_not_restored(Kind, Key, Term)
     ).
-is_back(Kind, Key, _, Term) :-
+restore_item(Kind, Key, _, Term) :-
     print_message(error, typhon(not_back(Kind, Key))),
-    stays(Kind, Key, Term).
+    note_not_restored(Kind, Key, Term).
 
 %   An item that stays in the journal keeps all that belongs to it.
 
-stays(agent, Id, agent(_, Hash, _, _, _, _)) :-
+note_not_restored(agent, Id, agent(_, Hash, _, _, _, _)) :-
     !,
-    assertz(left(Id, Hash)).
-stays(_, _, _).
+    assertz(not_restored(Id, Hash)).
+note_not_restored(_, _, _).
 
 typhon_code:in_use(Hash) :-
-    left(_, Hash),
+    not_restored(_, Hash),
     !.
 
 typhon_runtime:ending(after) :-
-    retractall(left(_, _)).
+    retractall(not_restored(_, _)).
 
 %   typhon_journaled_agents writes these items.
 
-:- durable(agent, Id, 0, Record, fail, record_back(Id, Record)).
+:- durable(agent, Id, 0, Record, fail, restore_agent(Id, Record)).
 
-record_back(Id, Record) :-
+restore_agent(Id, Record) :-
     Record = agent(Host, _, _, _, _, _),
     host(Host, _, Place),
     agent_back(Id, Record, Place),
@@ -126,7 +126,8 @@ record_back(Id, Record) :-
 typhon_durable:tidy :-
     forall(retract(superfluous(Kind, Key)), durable_drop_all(Kind, Key)),
     states_unused(Ids),
-    forall(( member(Id, Ids), \+ left(Id, _) ), durable_drop_all(state, Id)).
+    forall(( member(Id, Ids), \+ not_restored(Id, _) ),
+           durable_drop_all(state, Id)).
 
                 /*******************************
                 *            GO ON             *
@@ -174,17 +175,17 @@ start_from(Where, Name, Options) :-
           ( durable_close, give_up_hosts, durable_end, throw(Ball) )).
 
 begin_from_journal(Name, Options) :-
-    findall(Other-Known, known(Other, Known), Hosts),
+    findall(Other-Known, journaled_host(Other, Known), Hosts),
     (   selectchk(Name-Known, Hosts, Others)
     ->  with_known(Known, Options, AllOptions)
     ;   AllOptions = Options,
         Others = Hosts
     ),
     host_begin(Name, AllOptions),
-    all_back(Others),
+    restore_all(Others),
     hosts_go_on.
 
-all_back(Hosts) :-
+restore_all(Hosts) :-
     forall(member(Name-Options, Hosts),
            ( host_begin(Name, Options),
              assertz(restored(Name)) )),
@@ -216,9 +217,9 @@ not_here(Where, Why) :-
     journal_place(Where, Place),
     throw(error(permission_error(open, journal, Place), context(_, Why))).
 
-%   known(?Name, -Options) is nondet: the journal holds the host Name.
+%   journaled_host(?Name, -Options) is nondet: the journal holds the host Name.
 
-known(Name, Options) :-
+journaled_host(Name, Options) :-
     durable_item(host, numbers, Name, _, Options).
 
 %   with_known(+Known, +Options, -All): All are Options, and those of Known that
@@ -252,6 +253,6 @@ hosts_journal(Where, Options) :-
 
 hosts_back(Options) :-
     findall(Name-All,
-            ( known(Name, Known), with_known(Known, Options, All) ),
+            ( journaled_host(Name, Known), with_known(Known, Options, All) ),
             Hosts),
-    hosts_exclusively(all_back(Hosts)).
+    hosts_exclusively(restore_all(Hosts)).

@@ -161,8 +161,8 @@ owner(Host, Agent, Owner) :-
 count(Host, What, Owner, Passed) :-
     this_second(Second),
     begin_second(Host, What, Second),
-    one_more(Host, What, Owner, Second, Count),
-    one_more(Host, What, all, Second, All),
+    count_one(Host, What, Owner, Second, Count),
+    count_one(Host, What, all, Second, All),
     (   too_often(Host, What, Count, All)
     ->  Passed = true
     ;   Passed = false
@@ -174,7 +174,7 @@ begin_second(Host, What, Second) :-
     ;   retractall(shared(Host, What, _, _, _))
     ).
 
-one_more(Host, What, Owner, Second, Count) :-
+count_one(Host, What, Owner, Second, Count) :-
     (   retract(shared(Host, What, Owner, Second, Count0))
     ->  Count is Count0+1
     ;   Count = 1
@@ -239,8 +239,8 @@ clones_in_second(Host, Family, Count) :-
     this_second(Second),
     with_mutex(typhon_usage,
                ( begin_second(Host, clones, Second),
-                 one_more(Host, clones, Family, Second, Count),
-                 one_more(Host, clones, all, Second, _) )).
+                 count_one(Host, clones, Family, Second, Count),
+                 count_one(Host, clones, all, Second, _) )).
 
                 /*******************************
                 *             TUPLES           *
@@ -304,11 +304,11 @@ by(Host, Agent, _, By) :-
 
 typhon_tuples:counted(by(Host, Agent, Owner), Change) :-
     with_mutex(typhon_usage,
-               ( more(Host, agent, Agent, Change),
-                 more(Host, owner, Owner, Change),
-                 more(Host, all, all, Change) )).
+               ( add_tuples(Host, agent, Agent, Change),
+                 add_tuples(Host, owner, Owner, Change),
+                 add_tuples(Host, all, all, Change) )).
 
-more(Host, Kind, Id, Change) :-
+add_tuples(Host, Kind, Id, Change) :-
     (   retract(left(Host, Kind, Id, Count0))
     ->  Count is Count0+Change
     ;   Count is Change

@@ -52,7 +52,7 @@ tracers.
 agent_trace(Agent, What) :-
     must_be(list, What),
     maplist(must_be_kind, What),
-    me(To),
+    own_endpoint(To),
     order_give(Agent, watched(trace(To, What)), _).
 
 must_be_kind(Kind) :-
@@ -71,10 +71,10 @@ typhon_names:known(trace_kind, Kind) :-
     trace_kind(Kind).
 
 agent_notrace(Agent) :-
-    me(To),
+    own_endpoint(To),
     order_give(Agent, watched(none(To)), _).
 
-me(To) :-
+own_endpoint(To) :-
     (   endpoint_address(To)
     ->  true
     ;   existence_error(endpoint, running)
@@ -167,16 +167,16 @@ release(Extras, Id) :-
 
 traced_held(Id) :-
     with_agent(Id, ( agent_status(Id, held, _),
-                     taken(Id, Asker, Answer) )),
+                     take_order(Id, Asker, Answer) )),
     !,
     question_answered(Asker, answer(Answer)),
     traced_held(Id).
 traced_held(_).
 
-taken(Id, Asker, ok) :-
+take_order(Id, Asker, ok) :-
     agent_unorder(Id, asked(watched(Change), Asker)),
     change(Change, Id).
-taken(Id, Asker, again) :-
+take_order(Id, Asker, again) :-
     agent_unorder(Id, asked(question(_), Asker)).
 
 typhon_orders:noted(Id) :-

@@ -202,7 +202,7 @@ add_link(Events, Keys, Id, Raw0, Raw) :-
     term_text(N-Events, Text),
     trail_signed(Id, Text, Last, Signed),
     keys_sign(Keys, Signed, signature(Pem, Hex)),
-    shown(Pem, Made0, Pems0, C, Pems1),
+    certificate_number(Pem, Made0, Pems0, C, Pems1),
     Kept1 is Kept0+1,
     setting(links, Most),
     chain_add(link(Text, Hex, C), Kept1-Chain0, Most, Kept-Chain),
@@ -216,13 +216,13 @@ add_link(Events, Keys, Id, Raw0, Raw) :-
     Raw = '$trail'(at(Next, Made, Kept, Hex, Handed), Chain, Pems, none).
 add_link(_, _, _, Raw, Raw).
 
-shown(Pem, Link, Pems0, C, [pem(C, Link, Pem)|Pems]) :-
+certificate_number(Pem, Link, Pems0, C, [pem(C, Link, Pem)|Pems]) :-
     select(pem(C0, _, Pem0), Pems0, Pems),
     Pem0 == Pem,
     integer(C0),
     !,
     C = C0.
-shown(Pem, Link, Pems, Link, [pem(Link, Link, Pem)|Pems]).
+certificate_number(Pem, Link, Pems, Link, [pem(Link, Link, Pem)|Pems]).
 
 %   A certificate is dropped with the last link of its signer.
 
