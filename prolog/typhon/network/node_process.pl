@@ -236,7 +236,7 @@ node_main :-
     set_stream(user_output, encoding(utf8)),
     set_stream(user_output, buffer(line)),
     read_term(user_input, node(Cookie, Interface, Seconds, Keys, Options), []),
-    skip(user_input, 0'\n),     % resets the column, which input and output share
+    skip(user_input, 0'\n),     % resets the column that both streams share
     setenv('TYPHON_COOKIE', Cookie),
     with_keys(Keys),
     thread_create(ensure_end(Seconds), _,

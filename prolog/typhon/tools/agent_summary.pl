@@ -3,7 +3,8 @@
           ]).
 :- use_module(library(apply), [maplist/2]).
 :- use_module('../kernel/program', [code_program/2]).
-:- use_module('../kernel/host', [address_parts/3, host/3, host_time/2, turn_of/3]).
+:- use_module('../kernel/host',
+              [address_parts/3, host/3, host_time/2, turn_of/3]).
 :- use_module('../kernel/agent',
               [agent/5, agent_status/3, life_hops/2, mail_count/2]).
 :- use_module('../kernel/travel', [in_doubt/1]).

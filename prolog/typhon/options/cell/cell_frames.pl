@@ -280,7 +280,8 @@ state_predicate(Module, Head) :-
 %   are the predicates that have changed since Mark.
 
 state_mark(Module, Latest/Count) :-
-    findall(Last, ( state_predicate(Module, Head), modified(Module, Head, Last) ),
+    findall(Last,
+            ( state_predicate(Module, Head), modified(Module, Head, Last) ),
             Lasts),
     length(Lasts, Count),
     max_list([0|Lasts], Latest).

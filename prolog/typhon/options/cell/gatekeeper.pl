@@ -103,7 +103,8 @@ run(Kind, Policy, Agent, Goals, Outcome) :-
         State = state(unfinished),
         setup_call_cleanup(
             cell_take(Key, Id, Cell),
-            run_in(Cell, keys(Key, Policy, Owner), Agent, Goals, State, Outcome),
+            run_in(Cell, keys(Key, Policy, Owner), Agent, Goals, State,
+                   Outcome),
             break_unfinished(State, Cell))
     ;   Reason = violation(functors),
         Outcome = lost(cell(Reason)),

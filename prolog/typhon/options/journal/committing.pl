@@ -198,7 +198,8 @@ commit_all :-
 commit_all.                             % closed meanwhile
 
 release(Items) :-
-    catch(ignore(typhon_durable_changes:committed(Items)), error(Formal, Context),
+    catch(ignore(typhon_durable_changes:committed(Items)),
+          error(Formal, Context),
           print_message(error, error(Formal, Context))).
 
 split_entries([], [], []).

@@ -11,7 +11,8 @@
 :- use_module('../../kernel/base/error_text', [print_error/2]).
 :- use_module('../../kernel/base/prng', [chance_member/4]).
 :- use_module('../../kernel/base/options', [check_options/2]).
-:- use_module('../../kernel/wire', [endpoint_address/1, endpoint_post/3, mobile_term/1]).
+:- use_module('../../kernel/wire',
+              [endpoint_address/1, endpoint_post/3, mobile_term/1]).
 :- use_module('../../kernel/host',
               [ address_parts/3, context_host/1, context_now/2, host/3,
                 host_neighbours/2, host_time/2, parts_call/3, scheduler_call/1,
