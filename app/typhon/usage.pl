@@ -8,7 +8,7 @@
 */
 
 :- use_module('../../prolog/typhon/kernel/base/error_text',
-              [error_told/3, print_error/2]).
+              [error_lines/3, print_error/2]).
 :- use_module('../../prolog/typhon/kernel/base/names',
               [names_listed/2, names_proposed/3]).
 :- use_module(commands, [command/4]).
@@ -50,7 +50,7 @@ no_program(Command, existence_error(source_sink, _), Context,
     sub_atom(Arguments, 0, _, _, 'PROGRAM').
 
 prolog:message(typhon_hint(Error, Hint)) -->
-    error_told(Error),
+    error_lines(Error),
     [ ' (~w)'-[Hint] ].
 
 prolog:error_message(typhon_usage(Problem)) -->

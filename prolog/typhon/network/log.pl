@@ -9,7 +9,7 @@
               [existence_error/2, must_be/2, permission_error/3]).
 :- use_module(library(option), [option/2, option/3]).
 :- use_module('../kernel/base/durable_changes', [durable_closed/0]).
-:- use_module('../kernel/base/error_text', [error_told/3, print_error/2]).
+:- use_module('../kernel/base/error_text', [error_lines/3, print_error/2]).
 :- use_module('../kernel/base/options', [check_options/2]).
 :- use_module('../kernel/base/own_thread', [in_own_thread/1]).
 :- use_module('../kernel/base/server',
@@ -298,4 +298,4 @@ reason(error(io_error(_, _), context(_, Text))) -->
     !,
     [ '~w'-[Text] ].
 reason(Error) -->
-    error_told(Error).
+    error_lines(Error).

@@ -1,6 +1,6 @@
 :- module(typhon_agent_words,
           [ words_only/3,               % +Query, +Module, -PI
-            word_told/3,                % +Spec, //
+            word_lines/3,               % +Spec, //
             directive_meant/2,          % +Directive, -Directives
             directive_coloured/2,       % +Directive, -Colours
             words_file/1,               % ?File
@@ -64,12 +64,12 @@ goal(Query, Module, Goal) :-
     arg(I, Query, Argument),
     goal(Argument, Module, Goal).
 
-%!  word_told(+Spec, -Text, ?Rest) is semidet.
+%!  word_lines(+Spec, -Text, ?Rest) is semidet.
 %
 %   Text is the error message for the unknown procedure Spec, which is in the
 %   vocabulary of agents.
 
-word_told(Spec) -->
+word_lines(Spec) -->
     { own_module(Spec, PI),
       vocabulary_word(_, PI)
     },

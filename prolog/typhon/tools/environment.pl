@@ -4,7 +4,7 @@
           ]).
 :- autoload(agent_words,
             [ apropos_completed/3, directive_coloured/2, directive_meant/2,
-              help_shown/1, word_told/3, words_file/1, words_only/3 ]).
+              help_shown/1, word_lines/3, words_file/1, words_only/3 ]).
 :- autoload(completion, [completed/4]).
 :- autoload(tables, [print_agents/2, print_hosts/1]).
 :- use_module(library(prolog_wrap), [wrap_predicate/4]).
@@ -72,7 +72,7 @@ user:expand_query(Query, _, _, _) :-
     throw(error(existence_error(procedure, PI), context(_, _))).
 
 prolog:error_message(existence_error(procedure, Spec)) -->
-    word_told(Spec).
+    word_lines(Spec).
 
                 /*******************************
                 *             HELP             *

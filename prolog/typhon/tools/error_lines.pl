@@ -41,7 +41,7 @@ typhon_error_text:lines(Ball) -->
     [ 'Unhandled exception: ~p'-[Ball] ].
 
 formal(Formal) -->
-    formal_told(Formal),
+    formal_message(Formal),
     !.
 formal(Formal) -->
     [ 'Unknown error term: ~p'-[Formal] ].
@@ -50,9 +50,9 @@ formal(Formal) -->
 %   not translate.
 
 typhon_error_text:formal_lines(Formal) -->
-    formal_told(Formal).
+    formal_message(Formal).
 
-formal_told(Formal) -->
+formal_message(Formal) -->
     { nonvar(Formal) },
     (   ours(prolog:error_message(Formal))
     ;   known(Formal)

@@ -3,8 +3,8 @@
             own_event/1,                % +What
             short_name/2                % +Name, -Short
           ]).
-:- use_module('../kernel/base/error_text', [error_told/3, term_told/3]).
-:- use_module('../kernel/agent', [fault_told/5]).
+:- use_module('../kernel/base/error_text', [error_lines/3, term_lines/3]).
+:- use_module('../kernel/agent', [fault_parts/5]).
 
 /** <module> Texts of events and of faults of agents
 
@@ -25,7 +25,7 @@ happening(What) -->
     Text.
 happening(What) -->
     [ 'logs ' ],
-    term_told(What).
+    term_lines(What).
 
 %!  own_event(+What) is semidet.
 %
@@ -41,17 +41,17 @@ own_event(What) :-
 %   body of a grammar rule, is its message.
 
 own(created, true, [ 'begins' ]).
-own(ended(Outcome), true, ([ 'ends, ' ], term_told(Outcome))).
-own(faulty(Error), true, ([ 'is faulty: ' ], term_told(Error))).
+own(ended(Outcome), true, ([ 'ends, ' ], term_lines(Outcome))).
+own(faulty(Error), true, ([ 'is faulty: ' ], term_lines(Error))).
 own(fault(fault(Error, Goal, Place, _)), true,
-    ( [ 'is faulty, ' ], term_told(Error), [ ': ' ], term_told(Goal),
+    ( [ 'is faulty, ' ], term_lines(Error), [ ': ' ], term_lines(Goal),
       [ ', at ~w'-[Place] ] )).
 own(link(To), is_name(To), named('is linked with ~w', To)).
 own(unlink(To), is_name(To), named('is not linked with ~w any more', To)).
 own(started, true, [ 'starts' ]).
 own(stopped, true, [ 'stops' ]).
 own(refused(Agent, Reason), atom(Agent),
-    ( named('refuses ~w', Agent), [ ': ' ], term_told(Reason) )).
+    ( named('refuses ~w', Agent), [ ': ' ], term_lines(Reason) )).
 own(left(To), is_name(To), named('leaves for ~w', To)).
 own(stayed(To), is_name(To), named('could not go to ~w', To)).
 own(arrived(From, Seconds), ( atom(From), number(Seconds) ),
@@ -59,12 +59,12 @@ own(arrived(From, Seconds), ( atom(From), number(Seconds) ),
 own(cloned(Clone), is_name(Clone), named('has a clone, ~w', Clone)).
 own(sent(To), atom(To), named('sends to ~w', To)).
 own(sent(To, Message), atom(To),
-    ( [ 'sends ' ], term_told(Message), named(' to ~w', To) )).
+    ( [ 'sends ' ], term_lines(Message), named(' to ~w', To) )).
 own(received(From), atom(From), named('takes a message from ~w', From)).
 own(received(From, Message), atom(From),
-    ( [ 'takes ' ], term_told(Message), named(' from ~w', From) )).
-own(leave(Fact), true, ( [ 'leaves ' ], term_told(Fact), [ ' here' ] )).
-own(take(Fact), true, ( [ 'takes ' ], term_told(Fact), [ ' up here' ] )).
+    ( [ 'takes ' ], term_lines(Message), named(' from ~w', From) )).
+own(leave(Fact), true, ( [ 'leaves ' ], term_lines(Fact), [ ' here' ] )).
+own(take(Fact), true, ( [ 'takes ' ], term_lines(Fact), [ ' up here' ] )).
 own(goal(Goal), true, goal_shown(Goal)).
 
 goal_shown(Goal) -->
@@ -123,14 +123,14 @@ prolog:message(typhon(mailbox_full(Agent, Max))) -->
 prolog:message(typhon(message_undone(Agent, From, Message, Fault))) -->
     agent_at(Agent, Fault),
     [ 'did not do with ' ],
-    term_told(Message),
+    term_lines(Message),
     [ ' from ~w what on_message/2 says; it '-[From] ],
     failed_last(Fault).
 
 %   agent_at(+Agent, +Fault)//: the text is as "Agent x at beta (hop 3): ".
 
 agent_at(Agent, Fault) -->
-    { fault_told(Fault, _, _, Address, Hops),
+    { fault_parts(Fault, _, _, Address, Hops),
       atomic_list_concat([Host|_], @, Address)
     },
     [ 'Agent ~w at ~w (hop ~D): '-[Agent, Host, Hops] ].
@@ -140,10 +140,10 @@ agent_at(Agent, Fault) -->
 raised(error(existence_error(procedure, Agent:PI), Context), Agent) -->
     !,
     [ 'Unknown procedure: ' ],
-    term_told(PI),
+    term_lines(PI),
     advised(Context).
 raised(Error, _) -->
-    error_told(Error).
+    error_lines(Error).
 
 advised(Context) -->
     { subsumes_term(context(_, _), Context),
@@ -156,19 +156,19 @@ advised(_) -->
     [].
 
 failed_last(Fault) -->
-    { fault_told(Fault, Goal, Where, _, _) },
+    { fault_parts(Fault, Goal, Where, _, _) },
     [ 'failed: the goal that failed last was ' ],
-    goal_told(Goal),
-    clauses_told(Where).
+    goal_lines(Goal),
+    clauses_lines(Where).
 
 %   The goal is reported if the error names neither the problem nor the
 %   predicate that raised it, or if the clause is not known.
 
 goal_of(Error, Fault) -->
-    { fault_told(Fault, Goal, Where, _, _) },
+    { fault_parts(Fault, Goal, Where, _, _) },
     (   { Where == [] ; needs_goal(Error), \+ stands_inside(Goal, Where) }
     ->  [ ', at ' ],
-        goal_told(Goal)
+        goal_lines(Goal)
     ;   []
     ).
 
@@ -188,52 +188,52 @@ stands_inside(Goal, [[at(Name/Arity, _)|_]|_]) :-
     functor(Goal, Name, Arity).
 
 raised_in(Fault) -->
-    { fault_told(Fault, _, Where, _, _) },
-    clauses_told(Where).
+    { fault_parts(Fault, _, Where, _, _) },
+    clauses_lines(Where).
 
-goal_told((If->true)) -->
+goal_lines((If->true)) -->
     !,
-    goal_told(once(If)).
-goal_told((If->_)) -->
+    goal_lines(once(If)).
+goal_lines((If->_)) -->
     !,
-    [ '( ' ], goal_told(If), [ ' -> ... ) without else' ].
-goal_told((If*->_)) -->
+    [ '( ' ], goal_lines(If), [ ' -> ... ) without else' ].
+goal_lines((If*->_)) -->
     !,
-    [ '( ' ], goal_told(If), [ ' *-> ... ) without else' ].
-goal_told(Goal0) -->
+    [ '( ' ], goal_lines(If), [ ' *-> ... ) without else' ].
+goal_lines(Goal0) -->
     { copy_term(Goal0, Goal),
       numbervars(Goal, 0, _, [singletons(true)])
     },
     [ '~W'-[Goal, [ quoted(true), portray(false), max_depth(10),
                     spacing(next_argument), numbervars(true) ]] ].
 
-%   clauses_told(+Where)//: the text names the clause of the goal and that of
+%   clauses_lines(+Where)//: the text names the clause of the goal and that of
 %   its caller.
 
-clauses_told([]) -->
+clauses_lines([]) -->
     [].
-clauses_told([Places|Callers]) -->
+clauses_lines([Places|Callers]) -->
     [ ', in ' ],
-    places_told(Places),
-    callers_told(Callers).
+    places_lines(Places),
+    callers_lines(Callers).
 
-callers_told([]) -->
+callers_lines([]) -->
     [].
-callers_told([Places|_]) -->
+callers_lines([Places|_]) -->
     [ ', called from ' ],
-    places_told(Places).
+    places_lines(Places).
 
-places_told([Place]) -->
-    place_told(Place).
-places_told([Place,Other|Places]) -->
-    place_told(Place),
+places_lines([Place]) -->
+    place_lines(Place).
+places_lines([Place,Other|Places]) -->
+    place_lines(Place),
     [ ' or ' ],
-    places_told([Other|Places]).
+    places_lines([Other|Places]).
 
-place_told(at(PI, File:Line)) -->
+place_lines(at(PI, File:Line)) -->
     { file_base_name(File, Base) },
     [ '~q (~w:~d)'-[PI, Base, Line] ].
-place_told(at(PI, clause(N))) -->
+place_lines(at(PI, clause(N))) -->
     [ '~q, clause ~d'-[PI, N] ].
-place_told(at(PI, state)) -->
+place_lines(at(PI, state)) -->
     [ '~q, a rule of its own'-[PI] ].

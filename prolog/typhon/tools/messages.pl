@@ -11,7 +11,7 @@ networks and of the log have the texts of their own messages.
 */
 
 :- use_module('../kernel/base/error_text',
-              [abridged/3, error_told/3, term_told/3]).
+              [abridged/3, error_lines/3, term_lines/3]).
 :- use_module('../kernel/wire', [endpoint_missed/2, refusal_text/2]).
 :- use_module('../kernel/program', [files_beside/3]).
 :- use_module('../kernel/host',
@@ -162,7 +162,7 @@ refusal(unsigned) --> !, [ 'no author that it trusts has signed its code' ].
 refusal(identity) --> !, [ 'its owner has not signed its identity' ].
 refusal(unknown_host) --> !, [ 'there is no host of that name' ].
 refusal(quota(What)) --> !, [ 'the quota of ~w would be exceeded'-[What] ].
-refusal(Reason) --> term_told(Reason).
+refusal(Reason) --> term_lines(Reason).
 
 program_alias(Spec, Alias, Name) :-
     compound(Spec),
@@ -246,7 +246,7 @@ prolog:message(typhon(undeliverable(Formal, Agent, From, Message, Others))) -->
     lost_since(Formal).
 prolog:message(typhon(log(Host, Agent, What))) -->
     [ '~w at ~w: '-[Agent, Host] ],
-    term_told(What).
+    term_lines(What).
 prolog:message(typhon(log_unheard(Endpoint))) -->
     [ 'The log server at ~w does not answer'-[Endpoint] ],
     reason(Endpoint),
@@ -277,7 +277,7 @@ prolog:message(typhon(stepped(Agent, What))) -->
     stopped(What).
 prolog:message(typhon(told(Agent, Message))) -->
     [ '~w says '-[Agent] ],
-    term_told(Message).
+    term_lines(Message).
 prolog:message(typhon(checked(Program, 0, 0, 0))) -->
     !,
     [ '~p is in order'-[Program] ].
@@ -306,7 +306,7 @@ happened(Agent, Host) -->
     [ '% ~w at ~w: '-[Who, Where] ].
 
 stopped(rests(State)) --> !, [ 'is ~w'-[State] ].
-stopped(ended(Outcome)) --> [ 'has ended, ' ], term_told(Outcome).
+stopped(ended(Outcome)) --> [ 'has ended, ' ], term_lines(Outcome).
 
 lost_since(existence_error(agent, _)) -->
     !,
@@ -318,11 +318,11 @@ lost_since(Formal) -->
     explained(error(Formal, _)).
 
 explained(Error) -->
-    error_told(Error).
+    error_lines(Error).
 
 message_from(Message, From) -->
     { named(From, From1) },
-    term_told(Message),
+    term_lines(Message),
     [ ' from ~w'-[From1] ].
 
 %   named(+Name, -Shown): the recipient of a message, and its claimed sender,

@@ -1,5 +1,5 @@
 :- module(typhon_problem_text, []).
-:- use_module('../kernel/base/error_text', [error_told/3]).
+:- use_module('../kernel/base/error_text', [error_lines/3]).
 :- use_module('../kernel/base/names', [names_joined/3]).
 :- use_module('../kernel/program', [problem_error/3]).
 
@@ -71,7 +71,7 @@ others([]) -->
 others([Problem|Others]) -->
     { problem_error(Problem, [], Error) },
     [ nl ],
-    error_told(Error),
+    error_lines(Error),
     others(Others).
 
                 /*******************************

@@ -5,7 +5,7 @@
             fault_error/2,              % +Fault, -Error
             fault_stamp/2,              % +Fault, -Stamp
             fault_shown/2,              % +Fault, -Shown
-            fault_told/5,               % +Fault, -Goal, -Where, -Address,
+            fault_parts/5,              % +Fault, -Goal, -Where, -Address,
                                         % -Hops
             is_faulty/3,                % ?Goals, ?Fault, ?Left
             in_words/2                  % +Term, -Portable
@@ -163,12 +163,12 @@ place_shown([[at(PI, At)|_]|_], Place) =>
 place_shown(_, Place) =>
     Place = unknown.
 
-%!  fault_told(+Fault, -Goal, -Where, -Address, -Hops) is det.
+%!  fault_parts(+Fault, -Goal, -Where, -Address, -Hops) is det.
 %
 %   The parts of Fault that a report shows.
 
-fault_told(fault(_, Goal, Where, Address, Hops, _), Goal, Where, Address,
-           Hops).
+fault_parts(fault(_, Goal, Where, Address, Hops, _), Goal, Where, Address,
+            Hops).
 
 %!  is_faulty(?Goals, ?Fault, ?Left) is semidet.
 %

@@ -1,8 +1,8 @@
 :- module(typhon_error_text,
-          [ error_told/3,               % +Error, -Lines, ?Rest
+          [ error_lines/3,              % +Error, -Lines, ?Rest
             error_text/2,               % +Error, -Text
             print_error/2,              % +Kind, +Error
-            term_told/3,                % +Term, -Lines, ?Rest
+            term_lines/3,               % +Term, -Lines, ?Rest
             context_indicator/3,        % +PI, -Name, -Arity
             is_remark/1,                % @Text
             is_abort/1,                 % @Ball
@@ -40,7 +40,7 @@ print_error(Kind, Error) :-
     print_message(Kind, typhon(raised(Error))).
 
 prolog:message(typhon(raised(Error))) -->
-    error_told(Error).
+    error_lines(Error).
 
 %!  is_abort(@Ball) is semidet.
 %
@@ -53,11 +53,11 @@ is_abort(Ball) :-
 ends_thread('$aborted').
 ends_thread(unwind(_)).                 % SWI-Prolog 9.3 and later
 
-%!  error_told(+Error, -Lines, ?Rest) is det.
+%!  error_lines(+Error, -Lines, ?Rest) is det.
 %
 %   Lines are the message, as of prolog:message//1.
 
-error_told(Error) -->
+error_lines(Error) -->
     { error_text(Error, Text),
       split_string(Text, "\n", "", Lines)
     },
@@ -114,16 +114,16 @@ plainly(Message, Text) :-
 
 plain_options([quoted(true), numbervars(true), portray(false)]).
 
-%!  term_told(+Term, -Lines, ?Rest) is det.
+%!  term_lines(+Term, -Lines, ?Rest) is det.
 %
 %   Lines print Term as data: no hook is called.
 
-term_told(Term) -->
+term_lines(Term) -->
     { is_tree(Term, 200 000) },
     !,
     [ '~W'-[Term, Options] ],
     { plain_options(Options) }.
-term_told(Term) -->
+term_lines(Term) -->
     { large_text(Term, Text) },
     [ '~w'-[Text] ].
 

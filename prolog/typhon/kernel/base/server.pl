@@ -10,7 +10,7 @@
             server_stop/1,              % +Server
             server_leave/1              % +Server
           ]).
-:- use_module(error_text, [error_told/3, is_abort/1]).
+:- use_module(error_text, [error_lines/3, is_abort/1]).
 
 /** <module> Servers: threads that own a queue
 
@@ -331,7 +331,7 @@ ended(Queue) :-
 prolog:message(typhon(server_error(Ball))) -->
     { thread_self(Me) },
     [ 'Error in the thread ~w, which continues: '-[Me], nl ],
-    error_told(Ball).
+    error_lines(Ball).
 prolog:message(typhon(server_ended(Role))) -->
     [ 'The thread of the ~w has ended and was replaced'-[Role] ].
 prolog:message(typhon(no_server(Role, Formal))) -->

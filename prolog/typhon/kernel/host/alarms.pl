@@ -16,7 +16,7 @@
 :- use_module(library(apply), [maplist/2]).
 :- use_module(library(debug), [debug/3]).
 :- use_module(library(pairs), [pairs_keys_values/3]).
-:- use_module('../base/error_text', [error_told/3]).
+:- use_module('../base/error_text', [error_lines/3]).
 :- autoload(library(rbtrees),
               [ ord_list_to_rbtree/2, rb_delete/3, rb_insert/4, rb_min/3,
                 rb_size/2 ]).
@@ -255,7 +255,7 @@ index_size(index(Stamps, _), Size) :-
 
 prolog:message(typhon(alarm(Ball))) -->
     [ 'An alarm raised an error; other alarms are not affected', nl ],
-    error_told(Ball).
+    error_lines(Ball).
 prolog:message(typhon(no_index(Count))) -->
     [ 'The timer has no memory for an index of ~D alarms, and is slow'-
       [Count] ].

@@ -35,7 +35,7 @@ it is answered once.
 */
 
 :- use_module(library(lists), [member/2]).
-:- use_module('../base/error_text', [error_told/3, print_error/2]).
+:- use_module('../base/error_text', [error_lines/3, print_error/2]).
 :- use_module('../base/on_demand',
               [on_demand_later/1, on_demand_load/2, on_demand_missing/2]).
 :- use_module(outbox,
@@ -363,4 +363,4 @@ prolog:message(typhon(endpoint, hook(Kind, failed))) -->
     [ 'Endpoint: no hook for ~q succeeded'-[Kind] ].
 prolog:message(typhon(endpoint, hook(Kind, Error))) -->
     [ 'Endpoint: error in a hook for ~q: '-[Kind] ],
-    error_told(Error).
+    error_lines(Error).

@@ -29,7 +29,7 @@ manager, any thread may call the rest. The caller serializes opening and closing
 of the queue.
 */
 
-:- use_module('../base/error_text', [error_told/3]).
+:- use_module('../base/error_text', [error_lines/3]).
 
 :- meta_predicate
     wire_thread_create(0, +, -),
@@ -259,4 +259,4 @@ manager_receive(Message, Deadline) :-
 
 prolog:message(typhon(endpoint, thread_died(Error))) -->
     [ 'Endpoint: a thread ended with an error: ' ],
-    error_told(Error).
+    error_lines(Error).

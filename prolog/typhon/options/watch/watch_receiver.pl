@@ -6,7 +6,7 @@
           ]).
 :- use_module(library(apply), [partition/4]).
 :- use_module(library(lists), [delete/3, member/2, min_list/2]).
-:- use_module('../../kernel/base/error_text', [error_told/3, is_abort/1]).
+:- use_module('../../kernel/base/error_text', [error_lines/3, is_abort/1]).
 :- use_module('../../kernel/wire',
               [endpoint_address/1, endpoint_reply/2, endpoint_request/4]).
 :- use_module(watch_places,
@@ -275,4 +275,4 @@ unwatch_all(me(Watch, Queue, _)) :-
 
 prolog:message(typhon(watch_raised(Watch, Ball))) -->
     [ 'The goal of ~w raises an exception; the watch goes on: '-[Watch] ],
-    error_told(Ball).
+    error_lines(Ball).
