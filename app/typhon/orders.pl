@@ -20,7 +20,7 @@ order/3 has one clause for each command, and fails when the answer is no.
                 agent_property/2, host_property/2, remote/2 ]).
 :- use_module('../../prolog/typhon/kernel/agent/identity', [agent_name/3]).
 :- use_module('../../prolog/typhon/kernel/host/host_names', [address_parts/3]).
-:- use_module('../../prolog/typhon/tools/inventory', [survey/4]).
+:- use_module('../../prolog/typhon/tools/inventory', [inventory/4]).
 
 %!  order(+Command, +Arguments, +Options) is semidet.
 
@@ -108,7 +108,7 @@ agent_argument(Name, _, _) :-
     usage(not_an_id(Name)).
 
 seen_from(Host, Agents) :-
-    survey(1000000, [Host], Seen, _),
+    inventory(1000000, [Host], Seen, _),
     findall(Id, ( member(seen(_, Here, _), Seen), member(agent(Id, _), Here) ),
             Ids),
     sort(Ids, Agents).
@@ -141,7 +141,7 @@ host_argument(Address, _, Host) :-
 host_argument(Name, Agent, Host) :-
     agent_property(Agent, host(There)),
     !,
-    survey(0, [There], Seen, _),
+    inventory(0, [There], Seen, _),
     findall(Address,
             ( member(seen(Hosts, _, _), Seen),
               member(Known, Hosts),

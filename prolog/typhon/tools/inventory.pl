@@ -1,9 +1,9 @@
 :- module(typhon_inventory,
-          [ survey/4,                   % +Most, +Places, -Seen, -Silent
-            survey_hosts/4,             % +Places, +Seen, +Silent, -Hosts
-            survey_agents/2,            % +Seen, -Agents
-            survey_order/2,             % +Text, -Key
-            host_report/2               % +Host, -CloseUp
+          [ inventory/4,                % +Most, +Places, -Seen, -Silent
+            inventory_hosts/4,          % +Places, +Seen, +Silent, -Hosts
+            inventory_agents/2,         % +Seen, -Agents
+            inventory_order/2,          % +Text, -Key
+            host_report/2               % +Host, -Report
           ]).
 :- use_module(library(apply), [exclude/3, maplist/3]).
 :- use_module(library(dcg/basics), [digits//1, string_without//2]).
@@ -47,7 +47,7 @@ answers a request, since the answer may be long.
 :- multifile
     typhon_endpoint:requested/4.
 
-%!  survey(+Most, +Places, -Seen, -Silent) is det.
+%!  inventory(+Most, +Places, -Seen, -Silent) is det.
 %
 %   Seen has a term seen(Hosts, Agents, Count) for each process that has
 %   answered:
@@ -56,16 +56,16 @@ answers a request, since the answer may be long.
 %       Neighbours, Costs, Clock).  Costs are the costs of the links to
 %       Neighbours, in their order.  Clock is clock(Epoch, Rate) or `virtual`
 %     - Agents are terms agent(Id, Glance), see agent_glance/2: the first Most
-%       of Count agents, in the order of survey_order/2.  If Most is 0 they are
-%       not counted
+%       of Count agents, in the order of inventory_order/2.  If Most is 0 they
+%       are not counted
 %
-%   The survey includes this process, the processes of networks that it has
+%   The inventory includes this process, the processes of networks that it has
 %   started, those at the addresses Places, and others to which links of their
 %   hosts lead. Silent are pairs Endpoint-Why of the processes without an
 %   answer, where Why is `gone`, `lost` or `late`.
 
-survey(Most, Places, [Here|Seen], Silent) :-
-    look(Most, Here),
+inventory(Most, Places, [Here|Seen], Silent) :-
+    own_inventory(Most, Here),
     findall(Address, ( member(Address, Places) ; known(Address) ), Known),
     further_places(Here, Linked),
     append(Known, Linked, Addresses),
@@ -142,13 +142,13 @@ typhon_endpoint:requested(survey, look(Most), _, ReplyTo) :-
     reply/2.                    % goal of a worker
 
 reply(Most, ReplyTo) :-
-    look(Most, Seen),
+    own_inventory(Most, Seen),
     endpoint_reply(ReplyTo, Seen).
 
-look(0, seen(Hosts, [], 0)) :-
+own_inventory(0, seen(Hosts, [], 0)) :-
     !,
     findall(Host, host_seen(Host), Hosts).
-look(Most, seen(Hosts, Agents, Count)) :-
+own_inventory(Most, seen(Hosts, Agents, Count)) :-
     findall(Host, host_seen(Host), Hosts),
     findall(Id-Glance, agent_glance(Id, Glance), All0),
     sort(1, @<, All0, All),
@@ -159,7 +159,7 @@ look(Most, seen(Hosts, Agents, Count)) :-
     findall(Agent, limit(Most, member(Agent, Sorted)), Agents).
 
 agent_key(Id-Glance, Key-agent(Id, Glance)) :-
-    survey_order(Id, Key).
+    inventory_order(Id, Key).
 
 host_seen(host(Address, State, Load, Capacity, Arrived, Neighbours,
                Costs, Clock)) :-
@@ -195,12 +195,12 @@ link_cost(Name, Neighbour, Cost) :-
                 *            RESULTS           *
                 *******************************/
 
-%!  survey_hosts(+Places, +Seen, +Silent, -Hosts) is det.
+%!  inventory_hosts(+Places, +Seen, +Silent, -Hosts) is det.
 %
-%   Hosts are all hosts of a survey.  They include hosts of silent processes to
+%   Hosts are all hosts of an inventory.  They include hosts of silent processes to
 %   which links lead; these have the state `gone` or `silent`.
 
-survey_hosts(Places, Seen, Silent, Hosts) :-
+inventory_hosts(Places, Seen, Silent, Hosts) :-
     findall(Host, ( member(seen(Some, _, _), Seen), member(Host, Some) ),
             Answered),
     findall(host(Address, State, '', '', '', [], [], none),
@@ -210,16 +210,16 @@ survey_hosts(Places, Seen, Silent, Hosts) :-
     append(Answered, Unseen, Hosts).
 
 unseen(Places, Seen, Silent, Address, State) :-
-    heard_of(Places, Seen, Address),
+    known_host(Places, Seen, Address),
     address_parts(Address, _, Endpoint),
     memberchk(Endpoint-Why, Silent),
     state_unseen(Why, State).
 
-heard_of(Places, _, Address) :-
+known_host(Places, _, Address) :-
     member(Address, Places).
-heard_of(_, _, Address) :-
+known_host(_, _, Address) :-
     known(Address).
-heard_of(_, Seen, Address) :-
+known_host(_, Seen, Address) :-
     member(Process, Seen),
     further_places(Process, Addresses),
     member(Address, Addresses).
@@ -228,12 +228,12 @@ state_unseen(gone, gone).
 state_unseen(lost, silent).
 state_unseen(late, silent).
 
-%!  survey_agents(+Seen, -Agents) is det.
+%!  inventory_agents(+Seen, -Agents) is det.
 %
-%   Agents has each agent of a survey once.  Two processes may report an agent
-%   in transit; the entry with more hops is kept.
+%   Agents has each agent of an inventory once.  Two processes may report an
+%   agent in transit; the entry with more hops is kept.
 
-survey_agents(Seen, Agents) :-
+inventory_agents(Seen, Agents) :-
     findall(Some, member(seen(_, Some, _), Seen), Lists),
     append(Lists, All),
     map_list_to_pairs(hops_left, All, Pairs0),
@@ -244,12 +244,12 @@ survey_agents(Seen, Agents) :-
 hops_left(agent(_, glance(_, _, _, Hops, _)), Left) :-
     Left is -Hops.
 
-%!  survey_order(+Text, -Key) is det.
+%!  inventory_order(+Text, -Key) is det.
 %
 %   Key sorts texts with numbers in them by the values of the numbers: n2 before
 %   n10.
 
-survey_order(Text, Key) :-
+inventory_order(Text, Key) :-
     atom_codes(Text, Codes),
     phrase(parts(Key), Codes).
 
@@ -274,24 +274,24 @@ most(tuples, 300).
 most(clauses, 300).
 longest(2000).
 
-%!  host_report(+Host, -CloseUp) is det.
+%!  host_report(+Host, -Report) is det.
 %
-%   CloseUp is close_up(Properties, Options, Tuples, Clauses, Services): the
+%   Report is close_up(Properties, Options, Tuples, Clauses, Services): the
 %   properties of Host as of host_property/2, and lists of strings.
 %
 %   @error existence_error(host, Host), host_unreachable(Host)
 
-host_report(Host, CloseUp) :-
+host_report(Host, Report) :-
     host_resolve(Host, Where),
-    close_up(Where, CloseUp).
+    report_at(Where, Report).
 
-close_up(local(Name), CloseUp) :-
-    seen(Name, CloseUp).
-close_up(remote(Address, Name, Endpoint), CloseUp) :-
+report_at(local(Name), Report) :-
+    own_report(Name, Report).
+report_at(remote(Address, Name, Endpoint), Report) :-
     process_ask(Endpoint, Address, close_up, host(Name), Answer, 10),
     (   Answer == none
     ->  host_unknown(Address)
-    ;   CloseUp = Answer
+    ;   Report = Answer
     ).
 
 typhon_endpoint:requested(close_up, host(Name), _Peer, ReplyTo) :-
@@ -302,7 +302,7 @@ typhon_endpoint:requested(close_up, host(Name), _Peer, ReplyTo) :-
 
 report_reply(Name, ReplyTo) :-
     (   host(Name, _, _)
-    ->  seen(Name, Answer)
+    ->  own_report(Name, Answer)
     ;   Answer = none
     ),
     endpoint_reply(ReplyTo, Answer).
@@ -311,7 +311,7 @@ report_reply(Name, ReplyTo) :-
                 *         THIS PROCESS         *
                 *******************************/
 
-seen(Name, close_up(Properties, Options, Tuples, Clauses, Services)) :-
+own_report(Name, close_up(Properties, Options, Tuples, Clauses, Services)) :-
     host(Name, _, Place),
     findall(P, ( host_property(Name, P), P \= place(_) ), Properties),
     findall(Text, ( host_option(Name, Option), text(Option, Text) ), Options),

@@ -8,7 +8,7 @@
 :- use_module(library(pairs),
               [group_pairs_by_key/2, map_list_to_pairs/3, pairs_values/2]).
 :- use_module('../options/supervision', [agent_relations/1]).
-:- use_module(inventory, [survey/4, survey_agents/2, survey_order/2]).
+:- use_module(inventory, [inventory/4, inventory_agents/2, inventory_order/2]).
 
 /** <module> Trees of supervisors, their children and monitored agents
 
@@ -29,12 +29,12 @@ most(5000).
 %   Trees are terms node(Id, Relation, Glance, Below): Relation is `top`,
 %   `child` or `monitored`, Glance is that of agent_glance/2, or `none`, and
 %   Below are the nodes below the agent.  Places and Silent are those of
-%   survey/4.  Agents without relations are left out.
+%   inventory/4.  Agents without relations are left out.
 
 supervision_tree(Places, Trees, Silent) :-
     most(Most),
-    survey(Most, Places, Seen, Silent),
-    survey_agents(Seen, Agents),
+    inventory(Most, Places, Seen, Silent),
+    inventory_agents(Seen, Agents),
     agent_relations(Relations),
     forest(Relations, Agents, Trees).
 
@@ -97,7 +97,7 @@ top_key(Below, Related, Id, key(Is, Fewer, Order)) :-
     get_assoc(Id, Below, List),
     length(List, Count),
     Fewer is -Count,
-    survey_order(Id, Order).
+    inventory_order(Id, Order).
 
 %   tree_nodes(+Ids, +Relation, +Known, +Placed0, -Placed, -Nodes): Placed are
 %   the agents that have a node already, so that each agent gets only one.
@@ -128,7 +128,7 @@ node(Id, Relation, Known, Placed0, Placed, node(Id, Relation, Glance, Below)) :-
 
 of_relation(Relation, List, Ids) :-
     findall(Order-Id,
-            ( member(Relation-Id, List), survey_order(Id, Order) ),
+            ( member(Relation-Id, List), inventory_order(Id, Order) ),
             Pairs0),
     keysort(Pairs0, Pairs),
     pairs_values(Pairs, Ids).

@@ -18,7 +18,7 @@ it is made are left out.
 :- use_module('../kernel/agent', [agent_name/3]).
 :- use_module(event_text, [short_name/2]).
 :- use_module(inventory,
-              [survey/4, survey_agents/2, survey_hosts/4, survey_order/2]).
+              [inventory/4, inventory_agents/2, inventory_hosts/4, inventory_order/2]).
 :- autoload(supervision_tree, [supervision_tree/3]).
 
 %   A longer table would not be readable.
@@ -34,8 +34,8 @@ longest_table(60).
 %   As hosts/0, but also for the processes at the addresses Places.
 
 print_hosts(Places) :-
-    survey(0, Places, Seen, Silent),
-    survey_hosts(Places, Seen, Silent, All),
+    inventory(0, Places, Seen, Silent),
+    inventory_hosts(Places, Seen, Silent, All),
     in_order(All, Sorted),
     longest_table(Longest),
     first_few(Longest, Sorted, Shown, More),
@@ -80,7 +80,7 @@ host_neighbours(Neighbours, Text) :-
 print_agents(Places, Ids) :-
     longest_table(Longest),
     Most is Longest+1,          % tells whether the last name is unique
-    survey(Most, Places, Seen, Silent),
+    inventory(Most, Places, Seen, Silent),
     agents_seen(Seen, Agents, Count),
     first_few(Longest, Agents, Shown, _),
     maplist(agent_row(Ids, Agents), Shown, Rows),
@@ -96,7 +96,7 @@ print_agents(Places, Ids) :-
 %   in order.
 
 agents_seen(Seen, Agents, Count) :-
-    survey_agents(Seen, Different),
+    inventory_agents(Seen, Different),
     in_order(Different, Agents),
     findall(N, member(seen(_, _, N), Seen), Counts),
     findall(Id, ( member(seen(_, Some, _), Seen), member(Id, Some) ), All),
@@ -158,7 +158,7 @@ in_order(Rows, Sorted) :-
 
 row_key(Row, Key) :-
     arg(1, Row, Name),
-    survey_order(Name, Key).
+    inventory_order(Name, Key).
 
 print_more(More) :-
     (   More > 0

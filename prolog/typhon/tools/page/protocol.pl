@@ -173,7 +173,7 @@ number_told(Number, Told) :-
 %!  scene_dict(+Time, +Scene, -Dict) is det.
 %
 %   Scene is scene(Hosts, Agents): terms host/8 and agent(Id, Glance), see
-%   survey/4.
+%   inventory/4.
 
 scene_dict(Time, scene(Hosts, Agents),
            _{time:Time, hosts:HostDicts, agents:AgentDicts}) :-
@@ -248,7 +248,7 @@ times_stop :-
 
 %!  times_of(+Hosts) is det.
 %
-%   Note the clocks of Hosts, terms as of survey_hosts/4.
+%   Note the clocks of Hosts, terms as of inventory_hosts/4.
 
 times_of(Hosts) :-
     with_mutex(typhon_page_protocol,

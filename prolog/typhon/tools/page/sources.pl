@@ -18,7 +18,7 @@
               [address_parts/3, runtime_acquire/2, runtime_release/1]).
 :- use_module('../administration', [host_property/2]).
 :- use_module('../../tools',
-              [supervision_tree/3, survey/4, survey_agents/2, survey_hosts/4]).
+              [supervision_tree/3, inventory/4, inventory_agents/2, inventory_hosts/4]).
 :- use_module('../../options/watch', [metrics/2, unwatch/1, watch/3]).
 :- use_module(browsers, [browsers_tell/1, browsers_there/0]).
 :- use_module(protocol, [times_of/1]).
@@ -78,15 +78,16 @@ sources_stop :-
 
 %!  sources_look(-Scene) is det.
 %
-%   Scene is scene(Hosts, Agents), as of survey_hosts/4 and survey_agents/2; all
-%   these Hosts are watched before their agents are listed.
+%   Scene is scene(Hosts, Agents), as of inventory_hosts/4 and
+%   inventory_agents/2; all these Hosts are watched before their agents are
+%   listed.
 
 sources_look(scene(Hosts, Agents)) :-
     finder(Finder),
     ignore(server_cast(Finder, browser)),
     renew,
     look(1 000 000, Seen, Hosts),
-    survey_agents(Seen, Agents).
+    inventory_agents(Seen, Agents).
 
 %!  sources_metrics(-Text:string) is det.
 %
@@ -155,8 +156,8 @@ idle(Watches) :-
 
 look(Most, Seen, Hosts) :-
     findall(Place, place(Place), Places),
-    survey(Most, Places, Seen, Silent),
-    survey_hosts(Places, Seen, Silent, Hosts),
+    inventory(Most, Places, Seen, Silent),
+    inventory_hosts(Places, Seen, Silent, Hosts),
     times_of(Hosts).
 
 unwatched(Hosts, Endpoint, Address) :-
