@@ -77,7 +77,7 @@ resolve_in_doubt(Transfer) :-
 typhon_scheduler:fire(_, doubted(Transfer)) :-
     !,
     transfer_traveller(Transfer, Id, Hops),
-    agent_reached(Id, Hops, home_said(Transfer)).
+    agent_reached(Id, Hops, home_answered(Transfer)).
 
 %   The receiver keeps a journal, or is alive: only it can answer, and it will.
 
@@ -107,17 +107,17 @@ typhon_durable:go_on :-
     forall(member(Transfer, Transfers),
            scheduler_call(typhon_in_doubt:again(Transfer))).
 
-home_said(Transfer, answer(true)) :-
+home_answered(Transfer, answer(true)) :-
     !,
     transfer_arrived(Transfer).
-home_said(Transfer, answer(Reached)) :-
+home_answered(Transfer, answer(Reached)) :-
     !,
-    scheduler_call(survey(Transfer, Reached)).
-home_said(Transfer, _) :-
+    scheduler_call(ask_peers(Transfer, Reached)).
+home_answered(Transfer, _) :-
     transfer_traveller(Transfer, Id, _),
     agent_home_endpoint(Id, Endpoint),
     (   endpoint_gone(Endpoint)
-    ->  scheduler_call(survey(Transfer, unknown))
+    ->  scheduler_call(ask_peers(Transfer, unknown))
     ;   settle_later(Transfer)
     ).
 
@@ -133,34 +133,35 @@ typhon_scheduler:fire(_, settle(Transfer)) :-
     ;   transfer_stays(Transfer, given_up)
     ).
 
-%   survey(+Transfer, +HomeSaid): in a worker.  If the home has run all the time
-%   and does not know the hop, processes that do not answer do not matter; if
-%   not, they might have the agent.
+%   ask_peers(+Transfer, +HomeAnswer): in a worker.  If the home has run all the
+%   time and does not know the hop, processes that do not answer do not matter;
+%   if not, they might have the agent.
 
-survey(Transfer, HomeSaid) :-
+ask_peers(Transfer, HomeAnswer) :-
     transfer_traveller(Transfer, Id, Hops),
-    findall(Said,
+    findall(Answer,
             ( endpoint_peer(Peer, process(_)),
-              ask_peer(Peer, Id, Hops, Said)
+              ask_peer(Peer, Id, Hops, Answer)
             ),
             All),
     (   memberchk(true, All)
     ->  transfer_arrived(Transfer)
-    ;   HomeSaid == unknown,
+    ;   HomeAnswer == unknown,
         memberchk(nothing, All)
     ->  settle_later(Transfer)
     ;   transfer_unreachable(Transfer)
     ).
 
-ask_peer(Peer, Id, Hops, Said) :-
-    catch(endpoint_call(Peer, whereabouts, reached(Id, Hops), answer(Said), 5),
+ask_peer(Peer, Id, Hops, Answer) :-
+    catch(endpoint_call(Peer, whereabouts, reached(Id, Hops),
+                        answer(Answer), 5),
           error(_, _),
-          no_answer(Peer, Said)).
+          no_answer(Peer, Answer)).
 
-no_answer(Peer, Said) :-
+no_answer(Peer, Answer) :-
     (   endpoint_gone(Peer)
-    ->  Said = false
-    ;   Said = nothing
+    ->  Answer = false
+    ;   Answer = nothing
     ).
 
                 /*******************************
