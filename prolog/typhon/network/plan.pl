@@ -282,7 +282,7 @@ plan_host_setup(Plan, Goals) :-
               member(Goal, All) ),
             Goals).
 
-%   Options of hosts(Own) come before those of the network.
+%   Options of hosts(Own) override those of the network.
 
 host_options(Plan, I, Common, HostOptions) :-
     plan_option(Plan, seed(Seed)),

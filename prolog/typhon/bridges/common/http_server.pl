@@ -351,7 +351,8 @@ end_all(Owner) :-
     ;   true
     ).
 
-%   A signal that comes just before a thread blocks does not wake it.
+%   A signal that arrives just before a thread blocks does not wake it, so the
+%   signal is repeated.
 
 end(Thread, Wait) :-
     (   thread_property(Thread, status(running))

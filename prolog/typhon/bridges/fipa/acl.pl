@@ -136,6 +136,8 @@ acl_text(Acl, Text) :-
 
 %!  must_be_acl(@Acl) is det.
 %
+%   Acl has the form acl(Performative, Parameters), with a known Performative.
+%
 %   @error type_error(fipa_message, Acl), domain_error(performative, P)
 
 must_be_acl(Acl) :-

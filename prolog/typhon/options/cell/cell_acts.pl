@@ -215,6 +215,8 @@ goal_module(place(Place), Host, Id, PI, Place) :-
 
 %!  cell_violation(+What).
 %
+%   Raise the error by which the gatekeeper ends a cell, and with it the agent.
+%
 %   @error cell_violation(What) the cell has broken the protocol or a limit
 
 cell_violation(What) :-

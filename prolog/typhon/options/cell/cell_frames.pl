@@ -65,6 +65,8 @@ most_bytes(8 388 608).
 
 %!  cell_frame_write(+Out, +Term) is det.
 %
+%   Write Term as a frame, and flush Out.
+%
 %   @error resource_error(cell_frame) Term is too large
 
 cell_frame_write(Out, Term) :-

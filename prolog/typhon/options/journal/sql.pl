@@ -47,6 +47,8 @@ odbc(Goal) :-
 %!  sql_connect(+Driver, -Connection) is det.
 %!  sql_disconnect(+Connection) is det.
 %
+%   Connect to a database; close the connection, ignoring errors.
+%
 %   @arg Driver is what odbc_driver_connect/3 expects
 %   @error odbc(State, Native, Text), as all predicates of this module
 
