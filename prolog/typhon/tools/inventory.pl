@@ -197,8 +197,8 @@ link_cost(Name, Neighbour, Cost) :-
 
 %!  inventory_hosts(+Places, +Seen, +Silent, -Hosts) is det.
 %
-%   Hosts are all hosts of an inventory.  They include hosts of silent processes to
-%   which links lead; these have the state `gone` or `silent`.
+%   Hosts are all hosts of an inventory.  They include hosts of silent processes
+%   to which links lead; these have the state `gone` or `silent`.
 
 inventory_hosts(Places, Seen, Silent, Hosts) :-
     findall(Host, ( member(seen(Some, _, _), Seen), member(Host, Some) ),

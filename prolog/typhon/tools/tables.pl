@@ -18,7 +18,8 @@ it is made are left out.
 :- use_module('../kernel/agent', [agent_name/3]).
 :- use_module(event_text, [short_name/2]).
 :- use_module(inventory,
-              [inventory/4, inventory_agents/2, inventory_hosts/4, inventory_order/2]).
+              [ inventory/4, inventory_agents/2, inventory_hosts/4,
+                inventory_order/2 ]).
 :- autoload(supervision_tree, [supervision_tree/3]).
 
 %   A longer table would not be readable.

@@ -18,7 +18,8 @@
               [address_parts/3, runtime_acquire/2, runtime_release/1]).
 :- use_module('../administration', [host_property/2]).
 :- use_module('../../tools',
-              [supervision_tree/3, inventory/4, inventory_agents/2, inventory_hosts/4]).
+              [ inventory/4, inventory_agents/2, inventory_hosts/4,
+                supervision_tree/3 ]).
 :- use_module('../../options/watch', [metrics/2, unwatch/1, watch/3]).
 :- use_module(browsers, [browsers_tell/1, browsers_there/0]).
 :- use_module(protocol, [times_of/1]).
