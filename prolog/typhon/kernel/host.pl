@@ -28,7 +28,7 @@ This is the interface of the layer: higher layers import from here.
               [ agents_run/1, alarm_in/3, alarm_set/3, clock/3, host_time/2,
                 real_time/3, time_again/2, time_apart/2, time_due/3,
                 time_hold/1, time_kind/1, time_let_go/1, time_now/1,
-                time_repeats/2, time_seed/1, time_signal/1, time_stands/1,
+                time_repeats/2, time_seed/1, time_signal/1, time_state/1,
                 time_wait/3, time_wanted/2 ]).
 :- reexport(host/turns,
             [ context/3, context_agent/1, context_clear/0, context_host/1,

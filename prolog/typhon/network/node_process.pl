@@ -18,7 +18,7 @@
                 host_option/2, host_restart/2, host_start/2, host_stop/1,
                 host_unlink/2, hosts_go_on/0, hosts_rest/0, runtime_acquire/2,
                 runtime_release/1, time_again/2, time_hold/1, time_let_go/1,
-                time_stands/1 ]).
+                time_state/1 ]).
 :- use_module('../tools/administration', [host_property/2]).
 :- use_module('../options/journal', [hosts_back/1, hosts_journal/2]).
 :- use_module('../options/snapshot',
@@ -105,7 +105,7 @@ waits for the order to stop, and kills the process if it does not end in time.
 %       the endpoints Peers; `ok`, or `late`.
 %     - kept(Names)
 %       Answer is kept(Time, Specs, Items): the state of time, see
-%       time_stands/1, Name-Options for each of these hosts, and the items of
+%       time_state/1, Name-Options for each of these hosts, and the items of
 %       process_dump/2.
 %     - let_go
 %       Ends hold(_); `ok`.
@@ -139,7 +139,7 @@ order_do(rest(Seconds, Peers), Answer) :-
     retractall(at_rest),
     assertz(at_rest).
 order_do(kept(Names), kept(Time, Specs, Items)) :-
-    time_stands(Time),
+    time_state(Time),
     findall(Name-Options,
             ( member(Name, Names),
               findall(Option, host_option(Name, Option), Options) ),

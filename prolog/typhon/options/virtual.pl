@@ -6,7 +6,7 @@
 :- use_module(virtual/virtual_loop,
               [ virtual_alone/0, virtual_begin/0, virtual_doing/1,
                 virtual_end/0, virtual_loop/1, virtual_now/1,
-                virtual_standing/1, virtual_steps/1 ]).
+                virtual_state/1, virtual_steps/1 ]).
 
 /** <module> The runtime `virtual`: simulated time
 
@@ -38,7 +38,7 @@ queued in any order; runs are repeatable only if a single thread calls.
     typhon_time:repeats/2,
     typhon_time:seed/2,
     typhon_time:signal/2,
-    typhon_time:stands/2,
+    typhon_time:state/2,
     typhon_time:starts/1,
     typhon_time:stops/1,
     typhon_time:wait/4,
@@ -120,7 +120,7 @@ signal(Goal) :-
                 *            HOLDING           *
                 *******************************/
 
-%   The state of virtual time is the term of virtual_standing/1.  After let_go,
+%   The state of virtual time is the term of virtual_state/1.  After let_go,
 %   or after this state was restored, time stands still until a caller waits.  A
 %   goal in the thread of virtual time holds time by running.
 
@@ -130,9 +130,9 @@ typhon_time:hold(virtual, Seconds) :-
     ;   ask_loop(ask(hold(Reply)), Reply, [timeout(Seconds)], held)
     ).
 
-typhon_time:stands(virtual, State) :-
+typhon_time:state(virtual, State) :-
     (   own_thread
-    ->  virtual_standing(State)
+    ->  virtual_state(State)
     ;   ask_loop(held(state(Reply)), Reply, [], State)
     ).
 

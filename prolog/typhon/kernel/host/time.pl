@@ -18,10 +18,10 @@
             time_signal/1,              % :Goal
             time_seed/1,                % +Seed
             time_hold/1,                % +Seconds
-            time_stands/1,              % -Standing
+            time_state/1,               % -State
             time_let_go/1,              % -Agents
             time_due/3,                 % +Agent, +Token, -Stamp
-            time_again/2,               % +Standing, -Agents
+            time_again/2,               % +State, -Agents
             alarm_set/3,                % +Stamp, +Agent, +Token
             alarm_in/3,                 % +Seconds, +Agent, +Token
             clock_set/3,                % +Host, +Epoch, +Rate
@@ -80,10 +80,10 @@ fast as Rate says.
     leave/1,                    % Kind: see time_leave/0
     due/4,                      % Kind, Agent, Token, Stamp: see time_due/3
     seed/2,                     % Kind, Seed: see time_seed/1
-    stands/2,                   % Kind, Standing: see time_stands/1
-    again/3.                    % Kind, Standing, Agents: see time_again/2
+    state/2,                    % Kind, State: see time_state/1
+    again/3.                    % Kind, State, Agents: see time_again/2
 
-:- dynamic stands/2.
+:- dynamic state/2.
 
 :- dynamic
     time_kind/1,                % Kind: while it runs
@@ -194,7 +194,7 @@ alarm_in(Seconds, Agent, Token) :-
 
 %!  time_due(+Agent, +Token, -Stamp) is semidet.
 %
-%   The alarm goes off at Stamp.  Fails where time_stands/1 has a term for all
+%   The alarm goes off at Stamp.  Fails where time_state/1 has a term for all
 %   alarms.
 
 time_due(Agent, Token, Stamp) :-
@@ -331,16 +331,16 @@ time_hold(Seconds) :-
     time_kind(Kind),
     hold(Kind, Seconds).
 
-%!  time_stands(-Standing) is det.
+%!  time_state(-State) is det.
 %
-%   While time is held: Standing is all that the runtime has planned, or its
+%   While time is held: State is all that the runtime has planned, or its
 %   Kind if it has no such term.
 
-time_stands(Standing) :-
+time_state(State) :-
     time_kind(Kind),
-    (   stands(Kind, Standing0)
-    ->  Standing = Standing0
-    ;   Standing = Kind
+    (   state(Kind, State0)
+    ->  State = State0
+    ;   State = Kind
     ).
 
 %!  time_let_go(-Agents:list) is det.
@@ -353,13 +353,13 @@ time_let_go(Agents) :-
     ;   Agents = []                     % the runtime has stopped meanwhile
     ).
 
-%!  time_again(+Standing, -Agents:list) is det.
+%!  time_again(+State, -Agents:list) is det.
 %
-%   Plan what Standing contains. Agents must be scheduled.
+%   Plan what State contains. Agents must be scheduled.
 
-time_again(Standing, Agents) :-
+time_again(State, Agents) :-
     (   time_kind(Kind),
-        again(Kind, Standing, Agents0)
+        again(Kind, State, Agents0)
     ->  Agents = Agents0
     ;   Agents = []
     ).

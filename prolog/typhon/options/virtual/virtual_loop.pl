@@ -6,7 +6,7 @@
             virtual_steps/1,            % -Count
             virtual_doing/1,            % -Work
             virtual_alone/0,
-            virtual_standing/1          % -State
+            virtual_state/1             % -State
           ]).
 :- use_module(library(apply), [exclude/3, partition/4]).
 :- use_module(library(debug), [debug/3]).
@@ -120,7 +120,7 @@ virtual_alone :-
     \+ ( member(Waits, Waiting), is_satisfied(Waits) ),
     count_step.
 
-%!  virtual_standing(-State) is semidet.
+%!  virtual_state(-State) is semidet.
 %
 %   State is the state of virtual time, from which ask(restore(_, _)) continues:
 %
@@ -131,7 +131,7 @@ virtual_alone :-
 %   Messages the content of the queue without requests.  Fails in every thread
 %   but that of virtual time.
 
-virtual_standing(State) :-
+virtual_state(State) :-
     nb_current(typhon_virtual_alarms, Queue-Alarms),
     loop_state(Queue, Alarms, State).
 
