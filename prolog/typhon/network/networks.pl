@@ -4,7 +4,7 @@
             networks_property/2,        % ?Network, ?Property
             network_begin/4,            % ?Name, +Plan, :Build, -Network
             network_goes_on/2,          % +Network, +Clock
-            network_standing/2,         % +Network, -Standing
+            network_state/2,            % +Network, -State
             network_change/2,           % +Network, +Change
             appointments_wait/2,        % +Network, +Seconds
             appointments_at/3,          % +Network, +Time, :Goal
@@ -198,14 +198,14 @@ network_clock(Network, Clock) :-
     ;   existence_error(network, Network)
     ).
 
-%!  network_standing(+Network, -Standing) is det.
+%!  network_state(+Network, -State) is det.
 %
-%   Standing is standing(Plan, Clock, Log, Dynamics). Log is log(Address, File)
+%   State is state(Plan, Clock, Log, Dynamics). Log is log(Address, File)
 %   or `none`; Dynamics is the handle of the dynamics, or `none`.
 %
 %   @error existence_error(network, Network)
 
-network_standing(Network, standing(Plan, Clock, Log, Dynamics)) :-
+network_state(Network, state(Plan, Clock, Log, Dynamics)) :-
     network_clock(Network, Clock),
     network(Network, Plan),
     (   part(Network, log(Address, File))

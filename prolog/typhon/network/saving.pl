@@ -18,7 +18,7 @@
 :- use_module(nodes, [node/4, nodes_order/5, nodes_peers/2, nodes_tell/3]).
 :- use_module(changes, [dynamics_kept/3]).
 :- use_module(log_file, [log_size/2]).
-:- use_module(networks, [appointments/2, network_standing/2]).
+:- use_module(networks, [appointments/2, network_state/2]).
 :- use_module(plan, [plan_processes/3]).
 :- use_module(restarts, [restarts_back/1]).
 :- use_module(wiring, [wired/2]).
@@ -54,8 +54,8 @@ until then.
 save_network(Network, File) :-
     must_be(atom, Network),
     must_be(ground, File),
-    network_standing(Network, Standing),
-    once(one_at_a_time(save(Network, Standing, File))).
+    network_state(Network, State),
+    once(one_at_a_time(save(Network, State, File))).
 
 %   In virtual time no mutex is needed, as holding time serializes calls; and
 %   the thread of virtual time may be a caller, which must not wait for a mutex.
@@ -68,15 +68,15 @@ one_at_a_time(Goal) :-
     ;   with_mutex(typhon_saving, Goal)
     ).
 
-save(Network, Standing, File) :-
-    Standing = standing(Plan, _, _, _),
+save(Network, State, File) :-
+    State = state(Plan, _, _, _),
     plan_processes(Plan, Count, _),
     numlist(1, Count, Ps),
     not_shared(Network),
     restarts_back(Network),
     setup_call_cleanup(
         true,
-        collect_state(Network, Ps, Standing, Terms),
+        collect_state(Network, Ps, State, Terms),
         resume_all(Network, Ps)),
     saved_write(File, Terms).
 
@@ -100,12 +100,12 @@ not_shared(_).
 runs_here(Network) :-
     node(Network, _, _, local).
 
-collect_state(Network, Ps, Standing, Terms) :-
+collect_state(Network, Ps, State, Terms) :-
     setting(hold_seconds, Seconds),
     get_time(Now),
     Deadline is Now+Seconds,
     hold(Network, Ps, Deadline),
-    about(Network, Standing, Deadline, About),
+    about(Network, State, Deadline, About),
     maplist(part(Network, Deadline), Ps, Parts),
     append([About|Parts], Terms).
 
@@ -174,10 +174,10 @@ seconds_to(Deadline, Seconds) :-
                 *          THE STATE           *
                 *******************************/
 
-%   about(+Network, +Standing, +Deadline, -About): About is the part of the
+%   about(+Network, +State, +Deadline, -About): About is the part of the
 %   state that only this process has.
 
-about(Network, standing(Plan, Clock, Log0, Dynamics0), Deadline,
+about(Network, state(Plan, Clock, Log0, Dynamics0), Deadline,
       [network(Network, Plan), clock(Now, Clock), Log, Dynamics|Due]) :-
     time_now(Now),
     dynamics(Dynamics0, Deadline, Network, Dynamics),
