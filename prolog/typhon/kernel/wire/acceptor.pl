@@ -33,11 +33,13 @@ returns its own.
 :- use_module(refusals, [refusals_begin/0, refused/2]).
 :- use_module(transport, [transport_first/2]).
 
-:- setting(strangers, positive_integer, 128,
+:- setting(unproved, positive_integer, 128,
            "Connections at a time that have not proved themselves").
+:- setting(strangers, positive_integer, 128,
+           "Now typhon_acceptor:unproved").
 
 :- dynamic
-    stranger/4,                         % Thread, Ip, Since, Stage
+    unproved/4,                         % Thread, Ip, Since, Stage
     proved/1.                           % Ip, of a peer; the newest last
 
 %   The number of addresses kept in proved/1.
@@ -61,7 +63,7 @@ accept_all(Socket, Me) :-
 %   when all threads of the endpoint have ended.
 
 accept_no_more :-
-    forall(stranger(Thread, _, _, _), take_slot(Thread)).
+    forall(unproved(Thread, _, _, _), take_slot(Thread)).
 
 accept(Socket, Me) :-
     tcp_accept(Socket, Client, ip(A, B, C, D)),
@@ -115,7 +117,7 @@ close_streams(In, Out) :-
 :- meta_predicate slot(0).
 
 slot(Goal) :-
-    with_mutex(typhon_strangers, Goal).
+    with_mutex(typhon_acceptor, Goal).
 
 give(In, Out, Ip, Me, Evicted) :-
     (   has_slot
@@ -126,7 +128,7 @@ give(In, Out, Ip, Me, Evicted) :-
     ),
     get_time(Now),
     wire_thread_create(serve(In, Out, Ip, Me), in-Ip, Thread,
-                       assertz(stranger(Thread, Ip, Now, new(In, Out)))).
+                       assertz(unproved(Thread, Ip, Now, new(In, Out)))).
 
 		 /*******************************
 		 *            SLOTS             *
@@ -136,13 +138,13 @@ has_slot :-
     free_slot,
     !.
 has_slot :-
-    forall(( stranger(Thread, _, _, _), \+ wire_thread_running(Thread) ),
+    forall(( unproved(Thread, _, _, _), \+ wire_thread_running(Thread) ),
            bury(Thread)),
     free_slot.
 
 free_slot :-
-    predicate_property(stranger(_, _, _, _), number_of_clauses(Count)),
-    setting(strangers, Max),
+    predicate_property(unproved(_, _, _, _), number_of_clauses(Count)),
+    setting(unproved, Max),
     Count < Max.
 
 %   A thread that was interrupted in its first or last steps may not have
@@ -158,14 +160,14 @@ evict(Ip) :-
     wire_thread_signal(Thread, evicted).
 
 victim(Thread, Ip) :-
-    findall(Ip0, stranger(_, Ip0, _, _), Ips0),
+    findall(Ip0, unproved(_, Ip0, _, _), Ips0),
     msort(Ips0, Ips),
     pairs_keys_values(Pairs, Ips, Ips),
     group_pairs_by_key(Pairs, Holders),
     findall(Rank-(Thread1-Ip1),
             ( member(Ip1-Slots, Holders),
               address_rank(Ip1, Slots, Known, Free),
-              stranger(Thread1, Ip1, Since, Stage),
+              unproved(Thread1, Ip1, Since, Stage),
               stage_rank(Stage, Spoke),
               Rank = rank(Known, Free, Spoke, Since) ),
             Ranked),
@@ -175,7 +177,7 @@ victim(Thread, Ip) :-
 %   here.
 
 take_slot(Thread) :-
-    retract(stranger(Thread, _, _, Stage)),
+    retract(unproved(Thread, _, _, Stage)),
     !,
     (   Stage = new(In, Out)
     ->  close_streams(In, Out)
@@ -219,7 +221,7 @@ stage(Ip, Stage) :-
 
 returned :-
     thread_self(Me),
-    retract(stranger(Me, _, _, _)),
+    retract(unproved(Me, _, _, _)),
     !.
 
 reach(proved, Ip) :-
@@ -228,13 +230,13 @@ reach(proved, Ip) :-
     remember(Ip).
 reach(Stage, _) :-
     thread_self(Me),
-    retract(stranger(Me, Ip, Since, _)),
+    retract(unproved(Me, Ip, Since, _)),
     !,
-    assertz(stranger(Me, Ip, Since, Stage)).
+    assertz(unproved(Me, Ip, Since, Stage)).
 
 leave :-
     thread_self(Me),
-    retractall(stranger(Me, _, _, _)).
+    retractall(unproved(Me, _, _, _)).
 
 remember(Ip) :-
     proved(Ip),

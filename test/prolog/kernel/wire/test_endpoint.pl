@@ -703,7 +703,7 @@ test(what_they_send,
                             wait_until(warned(turned_away(_, _)), 5) )),
                     ask(A, echo, x, x) )).
 test(silent_ones_are_bounded) :-
-    with_settings([typhon_acceptor:strangers=4],
+    with_settings([typhon_acceptor:unproved=4],
         with_settings([typhon_handshake:handshake_time=20],
             with_endpoint(quiet(crowd)))).
 test(wrong_cookie) :-
@@ -721,7 +721,8 @@ crowd :-
     endpoint_address(A),
     findall(S, ( between(1, 8, _), open_stranger(A, S) ), Streams),
     wait_until(aggregate_all(count, warned(turned_away(_, silent)), 4), 5),
-    wait_until(aggregate_all(count, typhon_acceptor:stranger(_, _, _, _), 4), 5),
+    wait_until(aggregate_all(count, typhon_acceptor:unproved(_, _, _, _), 4),
+               5),
     maplist(close, Streams),
     ask(A, echo, x, x).
 

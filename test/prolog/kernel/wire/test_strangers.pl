@@ -95,23 +95,23 @@ newcomer(I, Seconds) :-
     Seconds is T1-T0.
 
 slots(Count) :-
-    aggregate_all(count, typhon_acceptor:stranger(_, _, _, _), Count).
+    aggregate_all(count, typhon_acceptor:unproved(_, _, _, _), Count).
 
 :- begin_tests(silent_clients_lock_no_peer_out).
 
 test(newcomers_are_accepted, [forall(member(Slots-Silent, [32-32, 32-200,
                                                            128-200]))]) :-
     no_leaks(with_endpoint(patiently(
-        with_settings([typhon_acceptor:strangers=Slots], crowded(Silent))))).
+        with_settings([typhon_acceptor:unproved=Slots], crowded(Silent))))).
 test(newcomers_are_accepted_at_once) :-
-    with_endpoint(patiently(with_settings([typhon_acceptor:strangers=16],
+    with_endpoint(patiently(with_settings([typhon_acceptor:unproved=16],
         with_silent(16, _,
             ( wait_until(silent(16), 30),
               numlist(1, 6, Newcomers),
               concurrent_maplist(newcomer, Newcomers, Times),
               maplist(soon, Times) ))))).
 test(talking_client_stays) :-
-    with_endpoint(patiently(with_settings([typhon_acceptor:strangers=4],
+    with_endpoint(patiently(with_settings([typhon_acceptor:unproved=4],
         with_silent(4, [Talker|_],
             ( say("ty", Talker),
               wait_until(stages([heard, silent, silent, silent]), 30),
@@ -128,7 +128,7 @@ silent(Count) :-
     forall(member(Stage, Stages), Stage == silent).
 
 stages(Stages) :-
-    findall(Stage, typhon_acceptor:stranger(_, _, _, Stage), Stages0),
+    findall(Stage, typhon_acceptor:unproved(_, _, _, Stage), Stages0),
     msort(Stages0, Stages).
 
 crowded(Silent) :-
@@ -160,12 +160,12 @@ test(addresses_are_bounded, Count == 256) :-
 slots(Slots, Proved, Victim) :-
     forget_all,
     forall(member(Thread-Ip-Since-Stage, Slots),
-           assertz(typhon_acceptor:stranger(Thread, Ip, Since, Stage))),
+           assertz(typhon_acceptor:unproved(Thread, Ip, Since, Stage))),
     forall(member(Ip, Proved), assertz(typhon_acceptor:proved(Ip))),
     typhon_acceptor:victim(Victim, _).
 
 forget_all :-
-    retractall(typhon_acceptor:stranger(_, _, _, _)),
+    retractall(typhon_acceptor:unproved(_, _, _, _)),
     retractall(typhon_acceptor:proved(_)).
 
 :- end_tests(order_of_eviction).
@@ -191,7 +191,7 @@ test(stopped_at_any_moment) :-
     no_leaks(forall(between(1, 20, _),
                     with_endpoint(forall(between(1, 15, I), dies(I))))).
 test(evicted_at_any_moment) :-
-    no_leaks(with_endpoint(with_settings([typhon_acceptor:strangers=2],
+    no_leaks(with_endpoint(with_settings([typhon_acceptor:unproved=2],
         ( forall(between(1, 300, I), dies(I)),
           wait_until(slots(0), 30) )))).
 
@@ -223,7 +223,7 @@ test(once_also_where_a_slot_is_taken, Sum == 50) :-
     setup_call_cleanup(
         wrap_predicate(typhon_refusals:refused(_, _), slow, Counted,
                        ( Counted, sleep(0.01) )),
-        with_settings([typhon_acceptor:strangers=2],
+        with_settings([typhon_acceptor:unproved=2],
                       with_endpoint(( forall(between(1, 50, _), shouts("typhon\n")),
                                       wait_until(( noted_so_far(N), N >= 50 ),
                                                  30) ))),

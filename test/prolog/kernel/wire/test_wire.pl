@@ -163,7 +163,7 @@ test(sixteen_connect_to_all, Missed == []) :-
                        M = Answer ), Missed) ))).
 test(slot_of_an_unproved_client_comes_free, Outcome = outcome(ok, _)) :-
     retractall(test_wire:place_wanted),
-    with_settings([typhon_acceptor:strangers=1],
+    with_settings([typhon_acceptor:unproved=1],
         with_endpoint(with_peers(1, [A],
             ( endpoint_address(Me),
               atomic_list_concat([_, PortText], :, Me),
