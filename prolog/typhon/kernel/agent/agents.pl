@@ -78,7 +78,7 @@ terms, which Prolog makes by itself, is not safe if other threads retract
     thaw/1.                     % Id, which is under way, needs a record
 
 :- dynamic
-    stands/6,                   % Id, Host, Module, Hash, Life, Until
+    record/6,                   % Id, Host, Module, Hash, Life, Until
     status/3,                   % Id, Status, Goals; no clause if Id runs
     under_way/6.                % Id, Hops, Host, Hash, Way, Frame
 
@@ -90,37 +90,37 @@ terms, which Prolog makes by itself, is not safe if other threads retract
 agent(Id, Host, Module, Hash, Life) :-
     nonvar(Id),
     !,
-    (   stands(Id, Host, Module, Hash, Life, _)
+    (   record(Id, Host, Module, Hash, Life, _)
     ->  true
     ;   under_way(Id, _, _, _, _, _),
         thaw(Id),
-        stands(Id, Host, Module, Hash, Life, _)
+        record(Id, Host, Module, Hash, Life, _)
     ->  true
     ).
 agent(Id, Host, Module, Hash, Life) :-
     forall(under_way(Thawed, _, Host, _, _, _), ignore(thaw(Thawed))),
-    stands(Id, Host, Module, Hash, Life, _).
+    record(Id, Host, Module, Hash, Life, _).
 
 %!  agent_here(?Id, ?Host, ?Module, ?Hash, ?Life) is nondet.
 %
 %   As agent/5, without the agents that are under way as a frame.
 
 agent_here(Id, Host, Module, Hash, Life) :-
-    stands(Id, Host, Module, Hash, Life, _).
+    record(Id, Host, Module, Hash, Life, _).
 
 %!  agent_on(+Id, -Host) is semidet.
 %
 %   Id is in this process: on Host, or under way from there.
 
 agent_on(Id, Host) :-
-    (   stands(Id, Host0, _, _, _, _)
+    (   record(Id, Host0, _, _, _, _)
     ;   under_way(Id, _, Host0, _, _, _)
     ),
     !,
     Host = Host0.
 
 typhon_code:in_use(Hash) :-
-    (   stands(_, _, _, Hash, _, _)
+    (   record(_, _, _, Hash, _, _)
     ;   under_way(_, _, _, Hash, _, _)
     ),
     !.
@@ -130,7 +130,7 @@ typhon_code:in_use(Hash) :-
 %   Add the record of Agent, an agent/5 term.
 
 agent_enter(agent(Id, Host, Module, Hash, Life), Status, Goals) :-
-    assertz(stands(Id, Host, Module, Hash, Life, 0)),
+    assertz(record(Id, Host, Module, Hash, Life, 0)),
     agent_note(Id, Status, Goals),
     assertz(status(Id, Status, Goals)),
     parts_call(comes, Host, [Id, Host, Module, Hash]),
@@ -141,7 +141,7 @@ agent_enter(agent(Id, Host, Module, Hash, Life), Status, Goals) :-
 %   Remove the record of Id, and its module.
 
 agent_remove(Id, Mail, Orders) :-
-    retract(stands(Id, Host, Module, _, _, _)),
+    retract(record(Id, Host, Module, _, _, _)),
     retractall(status(Id, _, _)),
     parts_call(goes, Host, [Id, Host, Module]),
     (   durable_on
@@ -165,7 +165,7 @@ state_destroy(Id, Module) :-
 %   as of generation Until, see agent_state_mobile/3; 0 if it was not checked.
 
 agent_mobile(Id, Host, Module, Hash, Life, Until) :-
-    stands(Id, Host, Module, Hash, Life, Until),
+    record(Id, Host, Module, Hash, Life, Until),
     !.
 
 %!  agent_move(+Id, +Host, +Module, +Life, +Until:integer) is det.
@@ -174,9 +174,9 @@ agent_mobile(Id, Host, Module, Hash, Life, Until) :-
 %   is another one.
 
 agent_move(Id, Host, Module, Life, Until) :-
-    stands(Id, From, Old, Hash, _, _),
+    record(Id, From, Old, Hash, _, _),
     !,
-    assertz(stands(Id, Host, Module, Hash, Life, Until)),
+    assertz(record(Id, Host, Module, Hash, Life, Until)),
     forget_first(Id),
     parts_call(goes, From, [Id, From, Module]),
     parts_call(comes, Host, [Id, Host, Module, Hash]),
@@ -190,7 +190,7 @@ agent_move(Id, Host, Module, Life, Until) :-
 %   As agent_move/5, between plain hosts, for an agent that keeps its module.
 
 agent_passes(Id, Host, Module, Hash, Life, Until) :-
-    assertz(stands(Id, Host, Module, Hash, Life, Until)),
+    assertz(record(Id, Host, Module, Hash, Life, Until)),
     forget_first(Id).
 
                 /*******************************
@@ -210,7 +210,7 @@ status_now(Id, Status, Goals) :-
     status(Id, Status, Goals0),
     goals_shown(Goals0, Goals).
 status_now(Id, running, []) :-
-    stands(Id, _, _, _, _, _),
+    record(Id, _, _, _, _, _),
     \+ status(Id, _, _).
 
 %!  agent_rests(+Id, ?Status, -Goals) is nondet.
@@ -236,7 +236,7 @@ goals_shown(Goals0, Goals) =>
 %   A worker runs Id.
 
 agent_runs(Id) :-
-    stands(Id, _, _, _, _, _),
+    record(Id, _, _, _, _, _),
     \+ status(Id, _, _),
     !.
 
@@ -309,7 +309,7 @@ agent_claim(Id, Status, Goals) :-
 %   Add a record of Id, which comes to Host, a plain host, and runs.
 
 agent_comes(Id, Host, Module, Hash, Life) :-
-    assertz(stands(Id, Host, Module, Hash, Life, 0)).
+    assertz(record(Id, Host, Module, Hash, Life, 0)).
 
 %!  agent_handed(+Id, +Hops, +Way, +Frame) is semidet.
 %
@@ -317,12 +317,12 @@ agent_comes(Id, Host, Module, Hash, Life) :-
 %   its module.  Fails if Id has an order or was ended.
 
 agent_handed(Id, Hops, Way, Frame) :-
-    stands(Id, Host, Module, Hash, _, _),
+    record(Id, Host, Module, Hash, _, _),
     \+ agent_ordered(Id),
     \+ status(Id, _, _),
     !,
     assertz(under_way(Id, Hops, Host, Hash, Way, Frame)),
-    retract(stands(Id, _, _, _, _, _)),
+    retract(record(Id, _, _, _, _, _)),
     '$destroy_module'(Module).
 
 %!  agent_under_way(?Id, ?Hops, -Host, -Hash, -Way, -Frame) is nondet.
@@ -349,7 +349,7 @@ agent_thawed(Id, Module, Life, Status, Goals) :-
     under_way(Id, _, Host, Hash, _, _),
     !,
     assertz(status(Id, Status, Goals)),
-    assertz(stands(Id, Host, Module, Hash, Life, 0)),
+    assertz(record(Id, Host, Module, Hash, Life, 0)),
     retractall(under_way(Id, _, _, _, _, _)).
 
 %!  agent_ready(+Id, +Goals) is semidet.
@@ -358,7 +358,7 @@ agent_thawed(Id, Module, Life, Status, Goals) :-
 %   meanwhile.
 
 agent_ready(Id, Goals) :-
-    stands(Id, Host, _, _, _, _),
+    record(Id, Host, _, _, _, _),
     !,
     agent_put(Id, ready, Goals),
     schedule(Host, Id).
@@ -369,7 +369,7 @@ agent_ready(Id, Goals) :-
 %   them already.
 
 agent_wakes(Id, Goals) :-
-    stands(Id, Host, _, _, _, _),
+    record(Id, Host, _, _, _, _),
     !,
     wakes_on(Host, Id, Goals).
 
@@ -383,9 +383,9 @@ wakes_on(Host, Id, Goals) :-
 %   Replace the life of Id.
 
 agent_put_life(Id, Life) :-
-    stands(Id, Host, Module, Hash, _, Until),
+    record(Id, Host, Module, Hash, _, Until),
     !,
-    assertz(stands(Id, Host, Module, Hash, Life, Until)),
+    assertz(record(Id, Host, Module, Hash, Life, Until)),
     forget_first(Id),
     events_forget(Id),
     life_carried(Life, Id).
@@ -395,9 +395,9 @@ agent_put_life(Id, Life) :-
 %   Give Id the program Hash, with its state in Module; destroy its old module.
 
 agent_program(Id, Hash, Module, Life) :-
-    stands(Id, Host, Old, _, _, _),
+    record(Id, Host, Old, _, _, _),
     !,
-    assertz(stands(Id, Host, Module, Hash, Life, 0)),
+    assertz(record(Id, Host, Module, Hash, Life, 0)),
     forget_first(Id),
     state_destroy(Id, Old).
 
@@ -405,7 +405,7 @@ agent_program(Id, Hash, Module, Life) :-
 %   Clause references are not used, see typhon_prolog_faults.
 
 forget_first(Id) :-
-    retract(stands(Id, _, _, _, _, _)),
+    retract(record(Id, _, _, _, _, _)),
     !.
 
                 /*******************************
