@@ -22,7 +22,8 @@ This is the interface of the layer: higher layers import from here.
             [program_load/6, program_unknown/3]).
 :- reexport(program/code,
             [ code_install/3, code_receive/2, code_module/2,
-              code_names/2, code_places/2, code_program/2, code_sent/2, code_stands/2,
+              code_locate/2, code_names/2, code_places/2, code_program/2,
+              code_sent/2,
               code_clear/0, code_make/3, code_extras/2, code_unwrapped/3,
               code_wrapped/3, sent_program/2 ]).
 :- reexport(program/mobile,

@@ -17,7 +17,7 @@
 :- use_module('../base/durable_changes', [sync_changes/0, unit_of_work/1]).
 :- use_module('../program',
               [ clause_parts/3, code_install/3, code_module/2,
-                code_program/2, code_sent/2, code_stands/2, payload_load/2,
+                code_program/2, code_sent/2, code_locate/2, payload_load/2,
                 program_load/6, program_unknown/3 ]).
 :- use_module('../wire',
               [ endpoint_address/1, endpoint_later/1, endpoint_reply/2,
@@ -124,7 +124,7 @@ program_of(Spec, Parent, Program, [], Hash) :-
 program_of(Spec, _, Program, Initial, Hash) :-
     program_load(Spec, Program, Initial, Hash, Kinds, Places),
     code_install(Hash, Program, Kinds),
-    code_stands(Hash, Places).
+    code_locate(Hash, Places).
 
 from_parent(none, _, State, State) :-
     !.

@@ -8,7 +8,7 @@
             code_module/2,              % ?Hash, -Module
             code_program/2,             % ?Hash, -Program
             code_sent/2,                % +Hash, -Sent
-            code_stands/2,              % +Hash, +Places
+            code_locate/2,              % +Hash, +Places
             code_places/2,              % +Hash, -Places
             code_names/2,               % +Hash, -Lists
             code_make/3,                % +Program, +Kinds, -Module
@@ -59,7 +59,7 @@ a goal list, see typhon_machine.  The table '$mobile'/6 maps calls to them.
 :- dynamic
     code_module/2,              % Hash, Module
     code_program/2,             % Hash, Program
-    stands/2,                   % Hash, Places: of programs with known places
+    places/2,                   % Hash, Places: of programs with known places
     retired/2.                  % Hash, Module: deleted at the next eviction
 
 %!  code_install(+Hash, +Program, +Kinds) is det.
@@ -87,7 +87,7 @@ rule_at_no_place(Clause, (Head:-Body)-none) :-
 
 code_sent(Hash, Sent) :-
     code_program(Hash, Program),
-    (   stands(Hash, Places)
+    (   places(Hash, Places)
     ->  Sent0 = Program-Places
     ;   Sent0 = Program
     ),
@@ -111,7 +111,7 @@ receive_plain(Hash, Sent) :-
         Sent = Program-Places,
         is_places(Places)
     ->  receive(Hash, Program),
-        code_stands(Hash, Places)
+        code_locate(Hash, Places)
     ;   receive(Hash, Sent)
     ).
 
@@ -164,19 +164,19 @@ is_extra(Term) :-
     nonvar(Term),
     wrapped(_, _, Term).
 
-%!  code_stands(+Hash, +Places) is det.
+%!  code_locate(+Hash, +Places) is det.
 %
 %   Places are the places of the clauses of the program, see typhon_places.  If
 %   there are two files with the same clauses the first one counts.
 
-code_stands(Hash, Places) :-
-    ( Places == [] ; stands(Hash, _) ),
+code_locate(Hash, Places) :-
+    ( Places == [] ; places(Hash, _) ),
     !.
-code_stands(Hash, Places) :-
+code_locate(Hash, Places) :-
     with_mutex(typhon_code,
                (   code_program(Hash, _),
-                   \+ stands(Hash, _)
-               ->  assertz(stands(Hash, Places))
+                   \+ places(Hash, _)
+               ->  assertz(places(Hash, Places))
                ;   true                 % retired, or another thread was first
                )).
 
@@ -185,7 +185,7 @@ code_stands(Hash, Places) :-
 %   The places of the clauses of the program; [] if they are not known.
 
 code_places(Hash, Places) :-
-    (   stands(Hash, Places0)
+    (   places(Hash, Places0)
     ->  Places = Places0
     ;   Places = []
     ).
@@ -264,7 +264,7 @@ evict.
 retire(Hash) :-
     retract(code_module(Hash, Module)),
     retractall(code_program(Hash, _)),
-    retractall(stands(Hash, _)),
+    retractall(places(Hash, _)),
     assertz(retired(Hash, Module)),
     forall(retiring(Hash), true),
     debug(typhon(program), 'program ~w is retired', [Hash]).

@@ -6,7 +6,7 @@
 :- use_module(library(lists), [append/3, member/2]).
 :- use_module('../../kernel/program',
               [ clause_parts/3, code_install/3, code_program/2,
-                code_receive/2, code_sent/2, code_stands/2, program_load/6 ]).
+                code_receive/2, code_sent/2, code_locate/2, program_load/6 ]).
 :- use_module('../../kernel/wire', [mobile_term/1]).
 :- use_module('../../kernel/host', [host/3, parts/3]).
 :- use_module('../../kernel/agent',
@@ -52,7 +52,7 @@ change_order(program(Spec), program(Hash, Sent)) :-
     !,
     program_load(Spec, Program, _, Hash, Kinds, Places),
     code_install(Hash, Program, Kinds),
-    code_stands(Hash, Places),
+    code_locate(Hash, Places),
     code_sent(Hash, Sent).
 change_order(Change, _) :-
     domain_error(agent_change, Change).
