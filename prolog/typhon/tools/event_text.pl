@@ -166,7 +166,7 @@ failed_last(Fault) -->
 
 goal_of(Error, Fault) -->
     { fault_parts(Fault, Goal, Where, _, _) },
-    (   { Where == [] ; needs_goal(Error), \+ stands_inside(Goal, Where) }
+    (   { Where == [] ; needs_goal(Error), \+ goal_in_clause(Goal, Where) }
     ->  [ ', at ' ],
         goal_lines(Goal)
     ;   []
@@ -183,7 +183,7 @@ needs_goal(error(Formal, Context)) :-
 
 %   Goal calls a predicate in whose clause the error was raised.
 
-stands_inside(Goal, [[at(Name/Arity, _)|_]|_]) :-
+goal_in_clause(Goal, [[at(Name/Arity, _)|_]|_]) :-
     callable(Goal),
     functor(Goal, Name, Arity).
 

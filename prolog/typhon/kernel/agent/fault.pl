@@ -41,7 +41,7 @@ removed.
 */
 
 :- multifile
-    stands/4,                   % +Hash, +Module, +Fault, -Where
+    fault_location/4,           % +Hash, +Module, +Fault, -Where
     handled/5,                  % +Hash, +Module, +Goal, +Fault, -Where: of a
                                 % Goal that no clause of the program called
     advice/3.                   % +PI, +Hash, -Text: suggests names in place of
@@ -103,7 +103,7 @@ agent_handled(Id, Goal0, fault(failed, Goal, Where, Address, Hops, Stamp)) :-
     !,
     fault(failed, [Goal0], Fault),
     Fault = fault(Goal1, _, _),
-    on_demand_load(fault, stands),
+    on_demand_load(fault, location),
     handled(Hash, Module, Goal0, Fault, Where),
     in_words(Goal1, Goal),
     life_hops(Life, Hops),
@@ -113,8 +113,8 @@ agent_handled(Id, Goal0, fault(failed, Goal, Where, Address, Hops, Stamp)) :-
 %   location is reported as unknown.
 
 where(Hash, Module, Fault, Where) :-
-    on_demand_load(fault, stands),
-    catch(stands(Hash, Module, Fault, Where0), error(Formal, _),
+    on_demand_load(fault, location),
+    catch(fault_location(Hash, Module, Fault, Where0), error(Formal, _),
           debug(typhon(agent), 'place unknown: ~p', [Formal])),
     !,
     ( var(Where0) -> Where = [] ; Where = Where0 ).

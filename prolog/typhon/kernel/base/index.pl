@@ -29,7 +29,7 @@ part_joins(durable,program,'options/snapshot').
 part_joins(durable,stands,'options/snapshot').
 part_joins(durable,state,'options/journal').
 part_joins(environment,'TYPHON_TLS','options/tls').
-part_joins(fault,stands,'tools/source_view').
+part_joins(fault,location,'tools/source_view').
 part_joins(host_option,audit,'options/access').
 part_joins(host_option,authors,'options/identity').
 part_joins(host_option,cell,'options/cell').

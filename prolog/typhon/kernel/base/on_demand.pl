@@ -23,7 +23,7 @@ for these.
   | spied       | program  | a predicate of a program is spied or traced |
   | environment | Variable | Variable is set when an endpoint starts     |
   | program     | read     | a program is read from a file or clauses    |
-  | fault       | stands   | an agent has failed, or raised an error     |
+  | fault       | location | an agent has failed, or raised an error     |
 
 Other threads run meanwhile, and call hooks. So clauses of hooks are compiled
 when the rest of their file is loaded: a hook works from the moment it is

@@ -24,22 +24,22 @@ Places are as in typhon_fault.
 
 :- multifile
     typhon_fault:handled/5,
-    typhon_fault:stands/4,
+    typhon_fault:fault_location/4,
     typhon_on_demand:joins/2.
 
-typhon_on_demand:joins(fault, stands).
+typhon_on_demand:joins(fault, location).
 
 typhon_fault:handled(Hash, Agent, Goal, Fault, Where) :-
     where_handled(Hash, Agent, Goal, Fault, Where).
 
 %   Usually no clause calls main/0.
 
-typhon_fault:stands(Hash, Agent, Fault, Where) :-
+typhon_fault:fault_location(Hash, Agent, Fault, Where) :-
     Fault = fault(Goal, _, _),
     Goal == main,
     where_handled(Hash, Agent, Goal, Fault, Where),
     !.
-typhon_fault:stands(Hash, Agent, Fault, Where) :-
+typhon_fault:fault_location(Hash, Agent, Fault, Where) :-
     fault_where(Hash, Agent, Fault, Where).
 
 %   fault_where(+Hash, +Agent, +Fault, -Where): Agent is the module of the

@@ -13,7 +13,7 @@
 :- use_module('../administration', [agent_property/2]).
 :- use_module(clause_location, [body_list/2]).
 :- use_module(variable_names,
-              [clause_bindings/3, goals_bindings/4, stands_in/3]).
+              [clause_bindings/3, goals_bindings/4, goals_places/3]).
 
 /** <module> Listings of agents as text
 
@@ -35,7 +35,7 @@ list_agent(Agent) :-
     about(Agent, Properties),
     declarations(Name, State, Libraries),
     append(Static, Facts, Clauses),
-    stands_in(Clauses, Goals, Places),
+    goals_places(Clauses, Goals, Places),
     list_clauses(Static, Names, 0, Places),
     length(Static, Count),
     part(Facts, '% facts', list_clauses(Facts, [], Count, Places)),

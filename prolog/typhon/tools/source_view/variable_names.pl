@@ -2,7 +2,7 @@
           [ clause_bindings/3,          % +Clause, +Names, -Bindings
             goals_bindings/4,           % +Clauses, +Lists, +Goals, -Bindings
             name_goal/4,                % +Clauses, +Lists, +Goal, -Named
-            stands_in/3                 % +Clauses, +Goals, -Places
+            goals_places/3              % +Clauses, +Goals, -Places
           ]).
 :- use_module(library(aggregate), [aggregate_all/3]).
 :- use_module(library(apply), [maplist/2, maplist/3]).
@@ -50,7 +50,7 @@ goals_bindings(Clauses, Lists, Goals, Bindings) :-
 goals_bindings([], _, _, Bindings, Bindings) :-
     !.
 goals_bindings(Goals, Clauses, Lists, Bindings0, Bindings) :-
-    stands_in(Clauses, Goals, [N-I]),
+    goals_places(Clauses, Goals, [N-I]),
     sequel(N-I, Clauses, Lists, Names, Variables, Sequel),
     append(Sequel0, Rest, Goals),
     length(Sequel, Length),
@@ -147,17 +147,17 @@ show_name(Name, Variable) :-
                 *        CURRENT CLAUSE        *
                 *******************************/
 
-%!  stands_in(+Clauses, +Goals, -Places:list) is det.
+%!  goals_places(+Clauses, +Goals, -Places:list) is det.
 %
 %   Places are pairs N-I: the remaining goals continue with the I-th goal of the
 %   N-th clause.  Several places are possible if clauses end in the same way,
 %   and none if no clause ends so, as for a goal that call/1 has called.
 
-stands_in(Clauses, Goals, Places) :-
+goals_places(Clauses, Goals, Places) :-
     (   found(Clauses, Goals, near, Places0)
     ->  Places = Places0
     ;   inner(Goals, Inner),
-        stands_in(Clauses, Inner, Places0),
+        goals_places(Clauses, Inner, Places0),
         Places0 \== []
     ->  Places = Places0
     ;   found(Clauses, Goals, far, Places0)

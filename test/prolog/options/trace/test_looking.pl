@@ -9,7 +9,8 @@
 :- use_module(library(plunit)).
 :- use_module(library(readutil), [read_file_to_string/3]).
 :- use_module(library(typhon)).
-:- use_module(library(typhon/tools/source_view/variable_names), [stands_in/3]).
+:- use_module(library(typhon/tools/source_view/variable_names),
+              [goals_places/3]).
 
 %   two(:Goal): with hosts alpha and beta, in virtual time.
 
@@ -202,7 +203,7 @@ clauses([ (a :- b, move(x), c, d),
 
 stands(Goals, Places) :-
     clauses(Clauses),
-    stands_in(Clauses, Goals, Places).
+    goals_places(Clauses, Goals, Places).
 
 test(at_the_hole) :-
     stands([_, c, d, rest], [1-2]).
