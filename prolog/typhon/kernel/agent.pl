@@ -18,7 +18,7 @@ This is the interface of the layer: higher layers import from here.
 :- reexport(agent/agent_module,
               [ agent_add/2, agent_clauses/3, agent_code/2,
                 agent_handles/2, agent_links/4, agent_module/4,
-                agent_module/5, agent_relink/2, agent_standing/5,
+                agent_module/5, agent_relink/2, agent_build/5,
                 agent_state/2, agent_state_mobile/3, agent_variant/2 ]).
 :- reexport(agent/identity,
             [ agent_home/2, agent_home_endpoint/2, agent_id/3, agent_name/3,

@@ -2,7 +2,7 @@
           [ agent_module/5,             % +Id, +Place, +Hash, +State, -Module
             agent_module/4,             % +Id, +Place, +Program, +Clauses
             agent_code/2,               % +Module, -Program
-            agent_standing/5,           % +Id, +Place, +Hash, +Begin, -Agent
+            agent_build/5,              % +Id, +Place, +Hash, +Begin, -Agent
             agent_clauses/3,            % +Module, +Clauses0, -Clauses
             agent_add/2,                % +Clauses, +Module
             agent_state/2,              % +Module, -State
@@ -131,12 +131,12 @@ agent_goals(Module, Goals0, Goals) :-
     typhon_agent_module:goals(Variant, Program, Plain, Goals).
 agent_goals(_, Goals, Goals).
 
-%!  agent_standing(+Id, +Place, +Hash, +Begin, -Agent) is semidet.
+%!  agent_build(+Id, +Place, +Hash, +Begin, -Agent) is semidet.
 %
 %   As agent_module/5, for an agent that has goals: Begin is State-Goals0,
 %   Agent is Module-Goals.
 
-agent_standing(Id, Place, Hash, State-Goals0, Module-Goals) :-
+agent_build(Id, Place, Hash, State-Goals0, Module-Goals) :-
     agent_module(Id, Place, Hash, State, Module),
     catch(agent_goals(Module, Goals0, Goals), error(Formal, Context),
           ( '$destroy_module'(Module),

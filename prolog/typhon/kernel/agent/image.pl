@@ -20,7 +20,7 @@
 :- use_module('../wire', []).
 :- use_module('../host', [amended/5, event_subscribed/1, host/3, parts/3]).
 :- use_module(agents, [agent/5, agent_enter/3, agent_mail/2]).
-:- use_module(agent_module, [agent_standing/5, agent_state/2]).
+:- use_module(agent_module, [agent_build/5, agent_state/2]).
 :- use_module(identity, [agent_home/2, is_printable/1, origin_inherited/3]).
 :- use_module(payloads, [no_result_facts/2]).
 :- use_module(life,
@@ -187,10 +187,10 @@ image_name(Image, Image).
 
 %!  image_module(+Image, +Place, -Agent) is semidet.
 %
-%   First step of installing an agent: make its module, as agent_standing/5.
+%   First step of installing an agent: make its module, as agent_build/5.
 
 image_module(image(Id, Hash, _, State, Goals, _, _), Place, Agent) :-
-    agent_standing(Id, Place, Hash, State-Goals, Agent).
+    agent_build(Id, Place, Hash, State-Goals, Agent).
 
 %!  image_enter(+Image, +Host, +Agent, +More:list) is det.
 %

@@ -28,7 +28,7 @@
 :- use_module('../agent',
               [ agent/5, agent_enter/3, agent_handles/2, agent_home/2,
                 agent_id/3, agent_mail/2, agent_name/3, agent_ready/2,
-                agent_rest/3, agent_standing/5, agent_state/2, gate/4,
+                agent_rest/3, agent_build/5, agent_state/2, gate/4,
                 gate_refused/4, is_life/1, no_result_facts/2, life_clone/3,
                 mail_count/2, make_life/5, must_be_agent_name/1, not_carried/2,
                 origin_inherited/3, origin_passed/4, payload_marks/2,
@@ -439,6 +439,6 @@ begin(Goals, Id) :-
     agent_ready(Id, Goals).
 
 install(Id, Host, Place, start(Hash, Life, State, Goals0, Mail), Goals) :-
-    agent_standing(Id, Place, Hash, State-Goals0, Module-Goals),
+    agent_build(Id, Place, Hash, State-Goals0, Module-Goals),
     agent_enter(agent(Id, Host, Module, Hash, Life), arriving, []),
     agent_mail(Id, Mail).

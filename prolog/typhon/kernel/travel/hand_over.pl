@@ -16,7 +16,7 @@
 :- use_module('../agent',
               [ agent_comes/5, agent_gone/3, agent_handed/4,
                 agent_here/5, agent_module/4, agent_on/2, agent_ready/2,
-                agent_standing/5, agent_state/2, agent_thawed/5,
+                agent_build/5, agent_state/2, agent_thawed/5,
                 agent_under_way/6, life_before/2, life_came/2, life_goes/3,
                 mail_all/2, mail_back/2, mail_waits/1, program_sent/3,
                 with_agent/2 ]).
@@ -151,7 +151,7 @@ thawed(Id) :-
     Image = image(Id, Hash, Life1, State, Hole-Goals0, Mail, _),
     life_before(Life1, Life0),
     host(Host, _, Place),
-    agent_standing(Id, Place, Hash, State-Goals0, Module-Goals),
+    agent_build(Id, Place, Hash, State-Goals0, Module-Goals),
     arg(1, Dest, Address),
     real_time(Host, Since, Sent),
     agent_thawed(Id, Module, Life0, transit(Address, Sent),

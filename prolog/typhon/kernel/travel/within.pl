@@ -14,7 +14,7 @@
 :- use_module('../agent',
               [ agent/5, agent_links/4, agent_mobile/6, agent_move/5,
                 agent_passes/6, agent_put/3, agent_relink/2, agent_runs/1,
-                agent_standing/5, agent_state/2, agent_state_mobile/3,
+                agent_build/5, agent_state/2, agent_state_mobile/3,
                 agent_status/3, gate/4, life_goes/3, life_hop/3,
                 with_agent/2 ]).
 :- use_module(transfer, [move_over/2]).
@@ -146,7 +146,7 @@ move(Id, Here-Name, going(Module0, Hash, Life, Until, Since), Hole-Goals0,
         Goals = Goals0,
         agent_relink(Module, Links)
     ;   agent_state(Module0, State),
-        agent_standing(Id, Place, Hash, State-Goals0, Module-Goals)
+        agent_build(Id, Place, Hash, State-Goals0, Module-Goals)
     ),
     ignore(Hole = true),
     agent_move(Id, Name, Module, Life, Until),
