@@ -6,7 +6,7 @@
             unacked_owed/2,             % +Session, -Waiting
             unacked_next/5,             % +Session, +Out, +Most, -Counts, -Bytes
             unacked_control/5,          % +Window, +Out, +Most, +Bytes, -Counts
-            unacked_told/1,             % +Window
+            unacked_settled/1,          % +Window
             unacked_counts/4,           % +Session, +Frame, -Counts, -Bytes
             unacked_resumed/4,          % +Session, +Count, +Bytes, -Frames
             unacked_close/3,            % +Session, -Waiting, -Handed
@@ -212,12 +212,12 @@ unacked_control(Window, Out, Most, Bytes, counts(Count, Settled)) :-
     Acked is Acked0+Length+Head,
     set_flag(AckedBytes, Acked).
 
-%!  unacked_told(+Window) is semidet.
+%!  unacked_settled(+Window) is semidet.
 %
 %   To be called if nothing waits. Fails if no frame has settled the last frames
 %   received: one outside the count must settle them now.
 
-unacked_told(window(_, _, Received, _, _, _, Settled)) :-
+unacked_settled(window(_, _, Received, _, _, _, Settled)) :-
     get_flag(Received, Count),
     (   get_flag(Settled, Count)
     ->  true

@@ -54,7 +54,7 @@ has no pusher, only held posts wait.
 :- use_module(unacked,
               [ unacked_close/3, unacked_control/5, unacked_counts/4,
                 unacked_next/5, unacked_owed/2, unacked_resumed/4,
-                unacked_sent/5, unacked_told/1, unacked_waiting/1,
+                unacked_sent/5, unacked_settled/1, unacked_waiting/1,
                 unacked_waits/3 ]).
 
 :- dynamic
@@ -264,7 +264,7 @@ nothing_waits(Session, Key) :-
     \+ control(Key, _, _),
     \+ unacked_waiting(Session),
     session_window(Session, Key, Window),
-    (   unacked_told(Window)
+    (   unacked_settled(Window)
     ->  retractall(pusher(Key, _))
     ;   control_add(Key, acknowledge, ""),
         fail
