@@ -53,7 +53,7 @@ mail_put/2 may add to a queue, and no thread waits for one.
 mail_put(_, []) :-
     !.
 mail_put(Id, Messages) :-
-    tell_mail(Messages, Id),
+    log_mail(Messages, Id),
     box_of(Id, Queue),
     (   durable_on
     ->  noted(Messages, Id, Numbered),
@@ -62,10 +62,10 @@ mail_put(Id, Messages) :-
     ;   put_bare(Messages, Queue)
     ).
 
-tell_mail([], _).
-tell_mail([Message|Messages], Id) :-
+log_mail([], _).
+log_mail([Message|Messages], Id) :-
     debug(typhon(mail), '~w: gets ~p', [Id, Message]),
-    tell_mail(Messages, Id).
+    log_mail(Messages, Id).
 
 box_of(Id, Queue) :-
     box(Id, Queue),

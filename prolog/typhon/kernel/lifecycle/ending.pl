@@ -167,7 +167,7 @@ print_fault(raised(Error), Id, Fault) :-
 agent_stays(Id, Goals) :-
     is_faulty(Goals, Fault, _),
     (   with_agent(Id, faulty_keep(Id, Goals, Kept, At))
-    ->  faulty_tell(Id, Fault, At),
+    ->  report_fault(Id, Fault, At),
         bound_faulty(Kept)
     ;   true                            % it has ended meanwhile
     ).
@@ -232,17 +232,17 @@ faulty_stirs(Id) :-
 faulty_gone(Id) :-
     retractall(kept(Id)).
 
-%   faulty_tell(+Id, +Fault, +At) is det.
+%   report_fault(+Id, +Fault, +At) is det.
 %
 %   Report the fault to the home of Id.
 
-faulty_tell(Id, Fault, at(Host, Hops)) :-
+report_fault(Id, Fault, at(Host, Hops)) :-
     host(Host, Address, _),
     !,
     fault_outcome(Fault, Outcome),
     fault_stamp(Fault, Stamp),
     agent_faulty(Id, Outcome, Stamp, Address, Hops).
-faulty_tell(_, _, _).                   % its host has stopped
+report_fault(_, _, _).                  % its host has stopped
 
 %   faulty_oldest(-Id) is semidet.
 %

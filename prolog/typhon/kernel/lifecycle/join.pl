@@ -82,7 +82,7 @@ join(Endpoint, Agent, Seconds, Outcome) :-
     setup_call_cleanup(
         message_queue_create(Queue),    % deleted even after an interrupt
         ( outcome_wait(Agent, Seconds, queue(Queue, join)),
-          outcome_heard(Queue, Outcome)
+          outcome_received(Queue, Outcome)
         ),
         message_queue_destroy(Queue)).
 join(Endpoint, Agent, Seconds, Outcome) :-
@@ -95,11 +95,11 @@ join(Endpoint, Agent, Seconds, Outcome) :-
 
 %   A plain wait in the thread of virtual time would stop the time.
 
-outcome_heard(Queue, Outcome) :-
+outcome_received(Queue, Outcome) :-
     time_wait(Queue, outcome(join, Outcome0), inf),
     !,
     Outcome = Outcome0.
-outcome_heard(_, timeout).
+outcome_received(_, timeout).
 
                 /*******************************
                 *            FAMILIES          *

@@ -196,7 +196,7 @@ home_ended(Id, Outcome, Hops, Results) :-
     debug(typhon(agent), '~w: home records that it ended after ~D hops, ~p',
           [Id, Hops, Outcome]),
     with_mutex(typhon_born, ended(Id, Outcome, Hops, Results, Askers)),
-    forall(member(Asker, Askers), tell_asker(Asker, Outcome)).
+    forall(member(Asker, Askers), send_outcome(Asker, Outcome)).
 
 %   The end of a copy that was given up in doubt is ignored if the agent is
 %   known to have gone on.
@@ -241,7 +241,7 @@ home_faulty(Id, Outcome, Stamp, Address, Hops, Process) :-
     with_mutex(typhon_born,
                ( moved(Id, Address, Hops, Process),
                  has_fault(Id, Outcome, Stamp, Hops, Askers) )),
-    forall(member(Asker, Askers), tell_asker(Asker, Outcome)).
+    forall(member(Asker, Askers), send_outcome(Asker, Outcome)).
 
 has_fault(Id, Outcome, Stamp, Hops, Askers) :-
     born(Id, _, Hops0, _),
@@ -297,7 +297,7 @@ outcome_wait(Id, Seconds, Asker) :-
     with_mutex(typhon_born, wait_or_answer(Id, Seconds, Asker, Answer)),
     (   Answer == wait
     ->  true
-    ;   tell_asker(Asker, Answer)
+    ;   send_outcome(Asker, Answer)
     ).
 
 wait_or_answer(Id, _, _, Outcome) :-
@@ -320,19 +320,19 @@ wait_or_answer(_, _, _, unknown).
 typhon_scheduler:fire(Id, join(Token)) :-
     !,
     (   retract(waiter(Id, Token, Asker))
-    ->  tell_asker(Asker, timeout)
+    ->  send_outcome(Asker, timeout)
     ;   true
     ).
 
 typhon_scheduler:over(Id, join(Token)) :-
     \+ waiter(Id, Token, _).
 
-tell_asker(queue(Queue, Tag), Outcome) :-
+send_outcome(queue(Queue, Tag), Outcome) :-
     catch(thread_send_message(Queue, outcome(Tag, Outcome)),
           error(existence_error(_, _), _), true).
-tell_asker(reply(ReplyTo), Outcome) :-
+send_outcome(reply(ReplyTo), Outcome) :-
     endpoint_reply(ReplyTo, Outcome).
-tell_asker(call(Closure), Outcome) :-
+send_outcome(call(Closure), Outcome) :-
     call(Closure, Outcome).
 
 typhon_endpoint:requested(join, join(Id, Seconds), _Peer, ReplyTo) :-

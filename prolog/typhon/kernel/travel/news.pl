@@ -1,5 +1,5 @@
 :- module(typhon_news,
-          [ news_tell/3,                % +Home, +Id, +News
+          [ news_send/3,                % +Home, +Id, +News
             news_carried/1,             % +Home
             news_hurry/0
           ]).
@@ -48,16 +48,16 @@ weight(ended(_, _, _, _), 50) :- !.
 weight(_, 1).
 longest_pause(10).              % seconds between attempts
 
-%!  news_tell(+Home, +Id, +News) is det.
+%!  news_send(+Home, +Id, +News) is det.
 %
 %   Send News of Id to Home, an endpoint, soon.
 
-news_tell(Home, _, News) :-
+news_send(Home, _, News) :-
     durable_on,
     news_lasts(News),
     !,
     posted(durable_post, Home, [News]).
-news_tell(Home, Id, News) :-
+news_send(Home, Id, News) :-
     with_mutex(typhon_news, note(Home, Id, News, Courier)),
     start_courier(Courier, Home).
 

@@ -211,11 +211,11 @@ mail_lost(Formal, Id, Mail) :-
     partition(is_from_bridge, Mail, Bridged, Sent),
     partition(was_sent_here, Bridged, Here, Elsewhere),
     give_back(Formal, Id, Here),
-    tell_origins(Formal, Id, Elsewhere),
+    report_to_origins(Formal, Id, Elsewhere),
     (   ( Sent == [] ; agent_outcome(Id, _) )
     ->  true
     ;   report(Formal, Id, Sent),
-        tell_origins(Formal, Id, Sent)
+        report_to_origins(Formal, Id, Sent)
     ).
 
 is_from_bridge(mail(_, From, _)) :-
@@ -237,13 +237,13 @@ given_back(Formal, Id, Mail) :-
     ;   report(Formal, Id, [Mail])
     ).
 
-tell_origins(Formal, Id, Mail) :-
+report_to_origins(Formal, Id, Mail) :-
     findall(Origin, member(mail(Origin, _, _), Mail), Origins0),
     sort(Origins0, Origins),
     forall(( member(Origin, Origins), \+ endpoint_address(Origin) ),
-           scheduler_call(tell_origin(Origin, Formal, Id, Mail))).
+           scheduler_call(report_to_origin(Origin, Formal, Id, Mail))).
 
-tell_origin(Origin, Formal, Id, Mail) :-
+report_to_origin(Origin, Formal, Id, Mail) :-
     findall(mail(Origin, From, Message),
             member(mail(Origin, From, Message), Mail), Lost),
     catch(endpoint_post(Origin, message, lost(Formal, Id, Lost)),

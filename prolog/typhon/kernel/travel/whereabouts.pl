@@ -32,7 +32,7 @@
 :- use_module(home,
               [ agent_outcome/2, ended_after/2, home_ended/4, home_faulty/6,
                 home_knows/4, home_left/4, home_moved/4, home_resumed/3 ]).
-:- use_module(news, [news_tell/3]).
+:- use_module(news, [news_send/3]).
 
 /** <module> Whereabouts: forwarding addresses of agents
 
@@ -92,7 +92,7 @@ agent_came(Id, Address, Hops, Peer) :-
     ;   retractall(forward(Id, _, _, _)),
         (   Home == Peer                % the answer to the hop informs it
         ->  true
-        ;   news_tell(Home, Id, located(Id, Address, Hops))
+        ;   news_send(Home, Id, located(Id, Address, Hops))
         )
     ).
 
@@ -223,7 +223,7 @@ ended_agent(Id) :-
 
 agent_ended(Id, Outcome, Hops, Results) :-
     end_news(Results, Id, Outcome, Hops, News),
-    tell_home(Id, News).
+    report_to_home(Id, News).
 
 end_news([], Id, Outcome, Hops, ended(Id, Outcome, Hops)) :-
     !.
@@ -235,20 +235,20 @@ end_news(Results, Id, Outcome, Hops, ended(Id, Outcome, Hops, Results)).
 %   Address, a host of this process.
 
 agent_faulty(Id, Outcome, Stamp, Address, Hops) :-
-    tell_home(Id, faulty(Id, Outcome, Stamp, Address, Hops)).
+    report_to_home(Id, faulty(Id, Outcome, Stamp, Address, Hops)).
 
 %!  agent_resumed(+Id, +Stamp, +Hops) is det.
 %
 %   Report to the home of Id that Id was resumed after the fault of that Stamp.
 
 agent_resumed(Id, Stamp, Hops) :-
-    tell_home(Id, resumed(Id, Stamp, Hops)).
+    report_to_home(Id, resumed(Id, Stamp, Hops)).
 
-tell_home(Id, News) :-
+report_to_home(Id, News) :-
     agent_home_endpoint(Id, Home),
     (   endpoint_address(Home)
     ->  news(here, News)
-    ;   news_tell(Home, Id, News)
+    ;   news_send(Home, Id, News)
     ).
 
 %!  agent_resumed_from(+Id, +Stamp, +Hops) is det.
@@ -268,12 +268,12 @@ agent_resumed_from(Id, Stamp, Hops) :-
 typhon_endpoint:received(whereabouts, All, Peer) :-
     is_list(All),
     !,
-    hear_news(All, [], Peer).
+    receive_news(All, [], Peer).
 typhon_endpoint:received(whereabouts, shown(Births, All), Peer) :-
     must_be(list, All),
-    hear_news(All, Births, Peer).
+    receive_news(All, Births, Peer).
 
-hear_news(All, Births, Peer) :-
+receive_news(All, Births, Peer) :-
     include(news_accepted(Peer, Births), All, Accepted),
     process_at(Peer, Process),
     maplist(news(Process), Accepted).

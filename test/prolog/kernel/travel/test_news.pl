@@ -10,7 +10,7 @@
                 tcp_socket/1 ]).
 :- use_module(library(typhon)).
 :- use_module(library(typhon/kernel/travel/news),
-              [news_carried/1, news_hurry/0, news_tell/3]).
+              [news_carried/1, news_hurry/0, news_send/3]).
 :- use_module(library(prolog_wrap), [unwrap_predicate/2, wrap_predicate/4]).
 
 /** <module> News of agents for a home that cannot be reached
@@ -23,7 +23,7 @@
 
 told(All, Kept) :-
     with_silent_home(Home,
-                     ( forall(member(News, All), news_tell(Home, x, News)),
+                     ( forall(member(News, All), news_send(Home, x, News)),
                        kept(Home, Kept) )).
 
 %   told_under_way(+First, +Then, -Kept): Then comes while a courier is away
@@ -31,9 +31,9 @@ told(All, Kept) :-
 
 told_under_way(First, Then, Kept) :-
     with_silent_home(Home,
-                     ( news_tell(Home, x, First),
+                     ( news_send(Home, x, First),
                        wait_until(\+ typhon_news:news(Home, x, _), 10),
-                       news_tell(Home, x, Then),
+                       news_send(Home, x, Then),
                        kept(Home, Kept) )).
 
 %   with_silent_home(-Home, :Goal): a host is up, and Home is a port at which
@@ -117,7 +117,7 @@ posted(All) :-
     assertz(post(Count)).
 
 act(tell(Id, News)) :-
-    news_tell('127.0.0.1:1', Id, News).
+    news_send('127.0.0.1:1', Id, News).
 act(hurry) :-
     news_hurry.
 
