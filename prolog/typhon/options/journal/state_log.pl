@@ -65,7 +65,7 @@ state_log_begin(Module) :-
 
 listened(Head, Module, Log) :-
     functor(Head, Name, Arity),
-    hear(Head, Module, Log),
+    listen(Head, Module, Log),
     count(Head, Module, Count),
     assertz(Log:counted(Name, Arity, Count, 0)).
 
@@ -73,7 +73,7 @@ state_log_end(Module) :-
     log_of(Module, Log),
     (   current_module(Log)
     ->  forall(Log:counted(Name, Arity, _, _),
-               unheard(Module, Log, Name, Arity)),
+               unlisten(Module, Log, Name, Arity)),
         '$destroy_module'(Log)
     ;   true
     ).
@@ -104,25 +104,25 @@ uncounted(Count, Most) :-
 %   `clausable` has no effect on dynamic predicates; abolish/1 clears it
 %   together with the listeners, so it marks predicates with a listener.
 
-heard(Head, Module) :-
+has_listener(Head, Module) :-
     '$get_predicate_attribute'(Module:Head, clausable, 1).
 
-hear(Head, Module, _) :-
-    heard(Head, Module),
+listen(Head, Module, _) :-
+    has_listener(Head, Module),
     !.
-hear(Head, Module, _) :-
+listen(Head, Module, _) :-
     '$get_predicate_attribute'(Module:Head, (thread_local), 1),
     !.
-hear(Head, Module, Log) :-
+listen(Head, Module, Log) :-
     functor(Head, Name, Arity),
     '$set_predicate_attribute'(Module:Head, clausable, true),
     prolog_listen(Module:Name/Arity,
                   typhon_state_log:changed(Module, Log, Name, Arity)).
 
-unheard(Module, Log, Name, Arity) :-
+unlisten(Module, Log, Name, Arity) :-
     functor(Head, Name, Arity),
     (   current_module(Module),
-        heard(Head, Module)
+        has_listener(Head, Module)
     ->  prolog_unlisten(Module:Name/Arity,
                         typhon_state_log:changed(Module, Log, Name, Arity)),
         '$set_predicate_attribute'(Module:Head, clausable, false)
@@ -230,7 +230,7 @@ changed_since(Since, Module, Head, Last) :-
     predicate(Module, Head, Last),
     (   Last > Since
     ->  true
-    ;   \+ heard(Head, Module)
+    ;   \+ has_listener(Head, Module)
     ).
 
 %   predicate(+Module, -Head, -Last) is nondet: a predicate of the state, and
@@ -259,7 +259,7 @@ changes([Head-Last|Heads], Module, Log, Until0, Until, Changes0, Changes) :-
 
 change(Head, Module, Log, Change) :-
     functor(Head, Name, Arity),
-    (   heard(Head, Module),
+    (   has_listener(Head, Module),
         edited(Head, Module, Log, Change0, Counted)
     ->  Change = Change0
     ;   set_anew(Head, Module, Log, Change, Counted)
@@ -311,7 +311,7 @@ added(End, Name, Arity, Module, Log, Clauses) :-
 set_anew(Head, Module, Log, set(Name/Arity, Clauses),
          counted(Name, Arity, Count, 0)) :-
     functor(Head, Name, Arity),
-    hear(Head, Module, Log),
+    listen(Head, Module, Log),
     findall(Clause,
             ( clause(Module:Head, Body),
               clause_term(Head, Body, Clause) ),
