@@ -128,11 +128,11 @@ news(Hosts, News) :-
 
 news_at(Host, News) :-
     (   host(Host, _, Place)
-    ->  heard(News, Host, Place)
+    ->  handle_news(News, Host, Place)
     ;   true                            % the host was stopped meanwhile
     ).
 
-heard(smelt(From, Signal), Host, Place) :-
+handle_news(smelt(From, Signal), Host, Place) :-
     Signal = signal(Problem, Source, Maximum, Span, Period, Emitted, D),
     pheromone_strength(Maximum, Span, D, Strength),
     pheromone_until(Emitted, Period, Span, D, Until),
@@ -145,7 +145,7 @@ heard(smelt(From, Signal), Host, Place) :-
                signal(Problem, Source, Maximum, Span, Period, Emitted, D1))
     ;   true
     ).
-heard(withdrawn(Source, Problem), Host, Place) :-
+handle_news(withdrawn(Source, Problem), Host, Place) :-
     (   with_mutex(typhon_pheromone, remove(Place, Problem, Source))
     ->  spread_withdrawal(Host, Source, Problem)
     ;   true

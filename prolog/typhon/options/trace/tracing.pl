@@ -193,7 +193,7 @@ typhon_events:handle_event(trace(To), Host, Agent, What0) :-
     ),
     (   endpoint_address(To)
     ->  show(Address, Agent, What)
-    ;   endpoint_request(To, trace, traced(Address, Agent, What), heard)
+    ;   endpoint_request(To, trace, traced(Address, Agent, What), ignore_answer)
     ).
 
 %!  goal_shown(+Id, +Goal, -Shown) is det.
@@ -211,7 +211,7 @@ goal_shown(_, Goal, Goal).
 
 %   The answer does not matter: a process that is gone prints no events.
 
-heard(_).
+ignore_answer(_).
 
 typhon_endpoint:requested(trace, traced(Host, Agent, What), _, ReplyTo) :-
     show(Host, Agent, What),
