@@ -2,7 +2,7 @@
           [ cell_frame_write/2,         % +Out, +Term
             cell_frame_read/2,          % +In, -Term
             cell_frame_text/2,          % +In, -Text
-            cell_text_heard/2,          % +Text, -Term
+            cell_text_term/2,           % +Text, -Term
             cell_word/2,                % ?Kind, ?PI
             cell_state/2,               % +State0, -State
             state_mark/2,               % +Module, -Mark
@@ -94,7 +94,7 @@ cell_frame_read(In, Term) :-
     ;   Term = end_of_file
     ).
 
-%!  cell_text_heard(+Text, -Term) is det.
+%!  cell_text_term(+Text, -Term) is det.
 %
 %   Term is the term of a frame that a cell has written as Text.  A number of
 %   30,000 digits is refused: reading it takes time quadratic in its length and
@@ -102,7 +102,7 @@ cell_frame_read(In, Term) :-
 %
 %   @error syntax_error(Message) Text is not the text of one term
 
-cell_text_heard(Text, Term) :-
+cell_text_term(Text, Term) :-
     no_long_number(Text),
     text_term(Text, Term),
     ( Term == end_of_file -> syntax_error(no_term) ; true ).

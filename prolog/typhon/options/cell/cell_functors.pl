@@ -4,7 +4,7 @@
           ]).
 :- use_module(library(settings), [setting/2, setting/4]).
 :- use_module(cell_acts, [cell_violation/1]).
-:- use_module(cell_frames, [cell_text_heard/2]).
+:- use_module(cell_frames, [cell_text_term/2]).
 
 /** <module> Limit of the functors that frames of cells create in this process
 
@@ -41,7 +41,7 @@ functors_left(Owner) :-
 
 %!  functors_charged(+Owner:atom, +Text:string, -Frame) is det.
 %
-%   Frame is the term that cell_text_heard/2 reads from Text.  Its functors are
+%   Frame is the term that cell_text_term/2 reads from Text.  Its functors are
 %   charged to Owner.
 %
 %   @error cell_violation(functors) Owner has exceeded the limit
@@ -55,7 +55,7 @@ functors_charged(Owner, Text, Frame) :-
 
 read_and_charge(Owner, Text, Frame) :-
     statistics(functors, Before),
-    catch(cell_text_heard(Text, Frame), Error,
+    catch(cell_text_term(Text, Frame), Error,
           ( charge_unread(Owner, Before), throw(Error) )),
     statistics(functors, After),
     (   ( After > Before ; declares_predicates(Frame) )

@@ -350,9 +350,9 @@ handle_frame(outcome(_, Outcome, Note, Changes), Cell, Agent, _, Acts,
 carry_out(acts(Told0, Later, _), Agent, Told) :-
     reverse(Later, Lists),
     append(Lists, Words),
-    foldl(told(Agent), Words, Told0, Told).
+    foldl(run_word(Agent), Words, Told0, Told).
 
-told(Agent, Goal, Told0, Told) :-
+run_word(Agent, Goal, Told0, Told) :-
     answer_goal(Told0, Goal, tells, Agent, Answer),
     ( Answer = raised(_) -> Told = Answer ; Told = well ).
 

@@ -30,7 +30,7 @@ may do whatever the operating system allows this process.
     agent_here/2,                   % Id, Module: holds the state of agent Id
     limit/2,                    % What, Most: limit of an agent
     offered/1,                  % PI: service of the place of the host
-    told/1.                     % Goal: call without an answer, not sent yet
+    unsent/1.                   % Goal: call without an answer, not sent yet
 
 %   cell_main
 %
@@ -161,7 +161,7 @@ turn(N, Id, Known, Goals, Module, Out) :-
     get_time(Now),
     nb_setval(cell_untold, told(0, Now)),
     run(context(Program, Module), Goals, Outcome, Note),
-    tell_all(N, 0),
+    send_all(N, 0),
     nb_getval(cell_mark, Since),
     state_changes(Module, Since, Changes),
     catch(cell_frame_write(Out, outcome(N, Outcome, Note, Changes)),
@@ -261,7 +261,7 @@ limit_named(What, state) :- What == program_space.
 
 over(What) :-
     b_getval(cell_turn, turn(N, _, _)),
-    tell_all(N, 0),
+    send_all(N, 0),
     nb_getval(cell_connection, connection(_, Out)),
     cell_frame_write(Out, over(N, What)),
     halt(0).
@@ -311,42 +311,42 @@ ask(fixed, Goal, _, Known, _) :-
 ask(tells, Goal, N, _, _) :-
     needs_no_answer(Goal),
     nb_getval(cell_untold, told(Count, Since)),
-    most_told(_, Most),
+    most_unsent(_, Most),
     Count < Most,
     !,
     small_and_mobile(Goal),
-    assertz(told(Goal)),
+    assertz(unsent(Goal)),
     Count1 is Count+1,
     nb_setval(cell_untold, told(Count1, Since)),
-    tell_some(N, Count1, Since).
+    send_some(N, Count1, Since).
 ask(Kind, Goal, N, _, Module) :-
     small_and_mobile(Goal),
-    tell_all(N, 0),
+    send_all(N, 0),
     request_answer(Kind, Goal, N, Module, Answer),
     unify_answer(Answer, Goal).
 
-%   most_told(-Batch, -Most): Batch calls without an answer share a frame.
+%   most_unsent(-Batch, -Most): Batch calls without an answer share a frame.
 %   After Most such calls the next one waits for an answer, which reports
 %   errors.
 
-most_told(50, 500).
+most_unsent(50, 500).
 
 %   The first call after a pause is sent at once: a long goal may follow it.
 
-tell_some(N, Count, Since) :-
+send_some(N, Count, Since) :-
     get_time(Now),
-    most_told(Batch, _),
+    most_unsent(Batch, _),
     (   Count mod Batch =\= 0,
         Now-Since < 0.01
     ->  true
-    ;   tell_all(N, Count)
+    ;   send_all(N, Count)
     ).
 
-tell_all(N, Count) :-
-    findall(Goal, told(Goal), Goals),
+send_all(N, Count) :-
+    findall(Goal, unsent(Goal), Goals),
     (   Goals == []
     ->  true
-    ;   retractall(told(_)),
+    ;   retractall(unsent(_)),
         nb_getval(cell_connection, connection(_, Out)),
         cell_frame_write(Out, told(N, Goals))
     ),
