@@ -1,7 +1,7 @@
 :- module(typhon_child_output,
           [ output_begin/0,
             output_end/0,
-            output_heard/2              % +Child, +Line
+            output_line/2               % +Child, +Line
           ]).
 
 /** <module> Output of the child processes of a network
@@ -11,7 +11,7 @@ standard output and prints it. Messages are sent as terms, so that the parent
 prints them as messages, or not, according to its own verbosity. Other lines
 are printed with the name of the network and the number of the process.
 
-*Threading*: output_begin/0 in the main thread of a child, output_heard/2 in the
+*Threading*: output_begin/0 in the main thread of a child, output_line/2 in the
 thread that follows it.
 */
 
@@ -64,11 +64,11 @@ placed(Kind, Lines, ['~w:~d: '-[File, Line]|Lines]) :-
     !.
 placed(_, Lines, Lines).
 
-%!  output_heard(+Child, +Line) is det.
+%!  output_line(+Child, +Line) is det.
 %
 %   Print Line, which the child Network-P has printed.
 
-output_heard(Child, Line) :-
+output_line(Child, Line) :-
     string_concat("\u0001", Said, Line),
     catch(term_string(message(Kind, Text), Said),
           error(_, _), fail),
@@ -79,7 +79,7 @@ output_heard(Child, Line) :-
         nb_setval(typhon_child_output, Child),
         print_message(Kind, typhon(child_output(Text))),
         nb_delete(typhon_child_output)).
-output_heard(Network-P, Line) :-
+output_line(Network-P, Line) :-
     format(user_output, '[~w/~w] ~s~n', [Network, P, Line]).
 
 %   Errors, warnings and debug messages do not name their process.

@@ -19,7 +19,7 @@
 :- use_module('../kernel/base/prolog_faults', [installed_swipl/2, spawn/3]).
 :- use_module('../kernel/wire', [cookie/1]).
 :- use_module('../options/keys', [own_keys/1]).
-:- use_module(child_output, [output_heard/2]).
+:- use_module(child_output, [output_line/2]).
 
 /** <module> Child processes that run the hosts of a network
 
@@ -221,7 +221,7 @@ line(Line, Tag, OnEvent) :-
     ;   string_concat("typhon_node_process_error ", Text, Line),
         catch(term_string(Error, Text), error(_, _), fail)
     ->  call(OnEvent, failed(Tag, Error))
-    ;   output_heard(Tag, Line)
+    ;   output_line(Tag, Line)
     ).
 
                 /*******************************

@@ -11,7 +11,7 @@
                                         % -Answers
             nodes_ask/6,                % +Network, +Ps, +Order, +Seconds,
                                         % :Watch, -Results
-            nodes_tell/3,               % +Network, +Ps, +Order
+            nodes_send/3,               % +Network, +Ps, +Order
             nodes_peers/2,              % +Network, -Peers
             unwatched/1,                % +Ps
             deadline/2,                 % +Seconds, -Deadline
@@ -182,11 +182,11 @@ nodes_ask(Network, Ps, Order, Seconds, Watch, Results) :-
           message_queue_destroy(Queue)
         )).
 
-%!  nodes_tell(+Network, +Ps, +Order) is det.
+%!  nodes_send(+Network, +Ps, +Order) is det.
 %
 %   Send Order to processes Ps, and do not wait for answers.
 
-nodes_tell(Network, Ps, Order) :-
+nodes_send(Network, Ps, Order) :-
     forall(( member(P, Ps), node(Network, P, _, Where) ),
            send_order(Where, Order)).
 

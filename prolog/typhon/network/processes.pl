@@ -18,7 +18,7 @@
                 deadline/2, message_before/3, unwatched/1 ]).
 :- use_module(restarts,
               [ restarts_absent/2, restarts_begin/3, restarts_end/1,
-                restarts_tell/3 ]).
+                restarts_notify/3 ]).
 :- use_module(wiring, [wired_host/3]).
 
 /** <module> Starting and stopping the processes of a network
@@ -150,7 +150,7 @@ report_lost_process(Network, P, Status) :-
 
 notify(Network, Event) :-
     queue(Network, Queue),
-    restarts_tell(Network, Queue, Event).
+    restarts_notify(Network, Queue, Event).
 
 wait_up(0, _, _) :-
     !.

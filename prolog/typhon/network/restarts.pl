@@ -1,7 +1,7 @@
 :- module(typhon_restarts,
           [ restarts_begin/3,           % +Network, +Queue, :Do
             restarts_end/1,             % +Network
-            restarts_tell/3,            % +Network, +Queue, +Event
+            restarts_notify/3,          % +Network, +Queue, +Event
             restarts_absent/2,          % +Network, +P
             restarts_back/1             % +Network
           ]).
@@ -50,9 +50,9 @@ absent process do so in their own threads.
 
 %!  restarts_begin(+Network, +Queue, :Do) is det.
 %
-%   Start the server of Network. From now on restarts_tell/3 sends it the events
-%   up(P), down(P, Status) and failed(P, Error); it gets the events in Queue
-%   first. The server calls Do with start(P) to start P again, with restore(P)
+%   Start the server of Network. From now on restarts_notify/3 sends it the
+%   events up(P), down(P, Status) and failed(P, Error); it gets the events in
+%   Queue first. The server calls Do with start(P) to start P again, with restore(P)
 %   to restore the hosts of P when it is up, with kill(P) to kill a process that
 %   does not come up, and with give_up(P) when it will not restart P.
 %
@@ -87,14 +87,14 @@ restarts_end(Network) :-
     retractall(restoring(Network, _)),
     retractall(absent(Network, _)),
     retractall(death(Network, _, _)),
-    tell_waiting(Network).
+    notify_waiting(Network).
 restarts_end(_).
 
-%!  restarts_tell(+Network, +Queue, +Event) is det.
+%!  restarts_notify(+Network, +Queue, +Event) is det.
 %
 %   Send Event to the server of Network, or, before it begins, to Queue.
 
-restarts_tell(Network, Queue, Event) :-
+restarts_notify(Network, Queue, Event) :-
     with_mutex(typhon_restarts,
                (   restarter(Network, Server)
                ->  ignore(server_cast(Server, Event))
@@ -247,10 +247,10 @@ present(Network, P) :-
     retractall(absent(Network, P)),
     (   absent(Network, _)
     ->  true
-    ;   tell_waiting(Network)
+    ;   notify_waiting(Network)
     ).
 
-tell_waiting(Network) :-
+notify_waiting(Network) :-
     forall(waiting(Network, Queue),
            catch(thread_send_message(Queue, back),
                  error(existence_error(_, _), _), true)).

@@ -15,7 +15,7 @@
 :- use_module('../tools/administration', [host_property/2]).
 :- use_module('../kernel/wire', [mobile_term/1]).
 :- use_module(node_process, [order_do/2]).
-:- use_module(nodes, [node/4, nodes_order/5, nodes_peers/2, nodes_tell/3]).
+:- use_module(nodes, [node/4, nodes_order/5, nodes_peers/2, nodes_send/3]).
 :- use_module(changes, [dynamics_kept/3]).
 :- use_module(log_file, [log_size/2]).
 :- use_module(networks, [appointments/2, network_state/2]).
@@ -140,7 +140,7 @@ hold_own_process(_) :-
     order_do(hold(0), ok).
 
 resume_all(Network, Ps) :-
-    nodes_tell(Network, Ps, let_go),
+    nodes_send(Network, Ps, let_go),
     (   runs_here(Network)
     ->  true
     ;   order_do(let_go, ok)
