@@ -19,8 +19,8 @@ bridge `echo` in outline:
         ...
 
     % incoming data, in the thread that reads from the helper
-    typhon_helper_owner:heard(echo(Host), Dict) :-
-        subscribers_tell(echo, Host, Dict.key, said(Dict.text), said(_)).
+    typhon_helper_owner:handle_message(echo(Host), Dict) :-
+        subscribers_notify(echo, Host, Dict.key, said(Dict.text), said(_)).
 
     % the last subscriber of Key is gone
     typhon_subscribers:wanted(echo, Host, Key, false) :-
@@ -36,6 +36,6 @@ bridge `echo` in outline:
 :- reexport(common/starting,
             [ service/2, service_begin/4, service_end/2, service_offer/4 ]).
 :- reexport(common/subscribers,
-            [ subscribe/5, subscriber/2, subscribers_drop/4, subscribers_tell/5,
-              subscribers_tell_new/5, subscription/3,
+            [ subscribe/5, subscriber/2, subscribers_drop/4,
+              subscribers_notify/5, subscribers_notify_new/5, subscription/3,
               unsubscribe/4 ]).

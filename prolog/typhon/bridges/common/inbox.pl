@@ -34,7 +34,7 @@ takes.
 %!  inbox_put(+How, +Source, +Whom, +What) is semidet.
 %
 %   Deliver a message or fact.  How is how(As, Max), Source is Service-Key, Whom
-%   is Host-Agent and What is Message-Same, see subscribers_tell/5.  Fails if
+%   is Host-Agent and What is Message-Same, see subscribers_notify/5.  Fails if
 %   Agent is not on Host.
 
 inbox_put(how(message, Max), Service-Key, Host-Agent, Message-_) =>

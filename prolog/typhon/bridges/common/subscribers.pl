@@ -4,9 +4,9 @@
                                         % +Options
             unsubscribe/4,              % +Service, +Host, +Key, +Agent
             subscription/3,             % ?Service, ?Host, ?Key
-            subscribers_tell/5,         % +Service, +Host, +Key, +Message,
+            subscribers_notify/5,       % +Service, +Host, +Key, +Message,
                                         % +Same
-            subscribers_tell_new/5,     % +Service, +Host, +Key, +Message,
+            subscribers_notify_new/5,   % +Service, +Host, +Key, +Message,
                                         % +Same
             subscribers_drop/4,         % +Service, +Host, +Key, +Message
             subscribers_forget/2        % +Service, +Host
@@ -32,8 +32,8 @@ fails stays subscribed.  A goal of remote/2 has no agent, so messages of its
 subscriptions are stored as facts, until the service ends.
 
 *Threading*: any thread; the thread that reads incoming messages calls
-subscribers_tell/5, which does not wait.  The hook wanted/4 runs inside a mutex,
-so that its calls are in order, and must not wait.
+subscribers_notify/5, which does not wait.  The hook wanted/4 runs inside a
+mutex, so that its calls are in order, and must not wait.
 */
 
 :- multifile
@@ -46,7 +46,7 @@ so that its calls are in order, and must not wait.
     subscribed/6,               % Text, Agent, Service, Host, How, Key: indexed
                                 % by Text, see inbox_key/2
     away/2,                     % Agent, subscribed(...): Agent has departed
-    hearing/1.                  % Host: its events are received
+    subscribed_events/1.        % Host: its events are received
 
 :- setting(queue, positive_integer, 1000,
            "Messages of bridges that may wait for an agent").
@@ -82,7 +82,7 @@ subscribe(Service, Host, Key, Agent, Options) :-
     how(Options, Agent, How),
     inbox_key(Key, Text),
     with_mutex(typhon_subscribers,
-               ( hear(Host),
+               ( subscribe_events(Host),
                  retractall(subscribed(Text, Agent, Service, Host, _, _)),
                  assertz(subscribed(Text, Agent, Service, Host, How,
                                     Key)) )).
@@ -132,20 +132,21 @@ subscription(Service, Host, Key) :-
     subscribed(_, _, Service, Host, _, Key0),
     Key = Key0.
 
-%!  subscribers_tell(+Service, +Host, +Key, +Message, +Same) is det.
-%!  subscribers_tell_new(+Service, +Host, +Key, +Message, +Same) is det.
+%!  subscribers_notify(+Service, +Host, +Key, +Message, +Same) is det.
+%!  subscribers_notify_new(+Service, +Host, +Key, +Message, +Same) is det.
 %
 %   Deliver Message, which has arrived for Key.  Same is a pattern of the
 %   messages that this one replaces for subscribers with as(latest).
-%   subscribers_tell_new/5 delivers a message that is meant for new subscribers:
-%   only to those that subscribed at most a second before the last one.
+%   subscribers_notify_new/5 delivers a message that is meant for new
+%   subscribers: only to those that subscribed at most a second before the last
+%   one.
 
-subscribers_tell(Service, Host, Key, Message, Same) :-
+subscribers_notify(Service, Host, Key, Message, Same) :-
     inbox_key(Key, Text),
     findall(Agent-How, subscribed(Text, Agent, Service, Host, How, _), Pairs),
-    tell_all(Pairs, Service, Host, Key, Message-Same).
+    notify_all(Pairs, Service, Host, Key, Message-Same).
 
-subscribers_tell_new(Service, Host, Key, Message, Same) :-
+subscribers_notify_new(Service, Host, Key, Message, Same) :-
     inbox_key(Key, Text),
     findall(Since-(Agent-How),
             ( subscribed(Text, Agent, Service, Host, How, _),
@@ -156,16 +157,16 @@ subscribers_tell_new(Service, Host, Key, Message, Same) :-
     findall(Pair,
             ( member(Since-Pair, Subscribers), Since > Last-1 ),
             Pairs),
-    tell_all(Pairs, Service, Host, Key, Message-Same).
+    notify_all(Pairs, Service, Host, Key, Message-Same).
 
-tell_all(Pairs, Service, Host, Key, What) :-
+notify_all(Pairs, Service, Host, Key, What) :-
     forall(member(Agent-how(As, Max, _), Pairs),
-           tell(how(As, Max), Service-Key, Host-Agent, What)).
+           notify(how(As, Max), Service-Key, Host-Agent, What)).
 
-tell(How, Service-Key, Host-Agent, What) :-
+notify(How, Service-Key, Host-Agent, What) :-
     inbox_put(How, Service-Key, Host-Agent, What),
     !.
-tell(_, Service-Key, Host-Agent, _) :-  % the agent has left
+notify(_, Service-Key, Host-Agent, _) :- % the agent has left
     ignore(unsubscribe(Service, Host, Key, Agent)).
 
 %!  subscribers_drop(+Service, +Host, +Key, +Message) is det.
@@ -173,7 +174,7 @@ tell(_, Service-Key, Host-Agent, _) :-  % the agent has left
 %   Key is not available: subscribers get Message and are dropped.
 
 subscribers_drop(Service, Host, Key, Message) :-
-    subscribers_tell(Service, Host, Key, Message, Message),
+    subscribers_notify(Service, Host, Key, Message, Message),
     inbox_key(Key, Text),
     findall(Agent, subscribed(Text, Agent, Service, Host, _, _), Agents),
     forall(member(Agent, Agents),
@@ -201,17 +202,17 @@ forget(_, _).
 
 %   Events of a host are received while it has subscribers.
 
-hear(Host) :-
-    (   hearing(Host)
+subscribe_events(Host) :-
+    (   subscribed_events(Host)
     ->  true
-    ;   assertz(hearing(Host)),
+    ;   assertz(subscribed_events(Host)),
         events_subscribe([life,bad_ends,hops], Host, subscribers(Host))
     ).
 
 stop_hearing(Host) :-
     (   subscribed(_, _, _, Host, _, _)
     ->  true
-    ;   retractall(hearing(Host)),
+    ;   retractall(subscribed_events(Host)),
         events_unsubscribe(subscribers(Host))
     ).
 

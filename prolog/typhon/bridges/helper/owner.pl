@@ -33,9 +33,9 @@ the atoms `null`, `true` and `false`, which are None, True and False in Python;
 other atoms become strings.  Incoming values have the same form; strings stay
 strings.
 
-*Threading*: the server calls own/4 and the hook again/2.  The hook heard/2 runs
-in the thread that reads the output of the helper.  Neither hook may wait for
-the helper.
+*Threading*: the server calls own/4 and the hook again/2.  The hook
+handle_message/2 runs in the thread that reads the output of the helper.
+Neither hook may wait for the helper.
 */
 
 :- multifile
@@ -82,10 +82,10 @@ handle(told, Me, State0, State) =>
     Me = owner(_, _, _, _, Told),
     thread_get_message(Told, Line),
     when_asked(State0, Me, State),
-    write_told(State, Line).
+    write_line(State, Line).
 handle(note(Line), _, State0, State) =>
     State = State0,
-    write_told(State, Line).
+    write_line(State, Line).
 handle(timeout, Me, down(_, first, _), State) =>
     begin(Me, 0, State).
 handle(timeout, Me, down(_, Wait, _), State) =>
@@ -132,7 +132,7 @@ begin_again(Me, Wait, State) :-
     Me = owner(Name, _, _, _, _),
     forall(( State = up(_, _, _), again(Name, Request) ),
            ( request_line(Request, Line),
-             write_told(State, Line) )).
+             write_line(State, Line) )).
 
 %   Fail the open requests, and restart the process as its mode demands.
 
@@ -142,7 +142,7 @@ ended(Status, Me, Since, Wait, State) :-
     debug(typhon(helper), '~p ended: ~p', [Name, Status]),
     (   unfit(Answer)
     ->  State = down(asked, 0, Answer)
-    ;   tell_ended(When, Name, Status),
+    ;   report_ended(When, Name, Status),
         again_when(When, Since, Wait, Wait1),
         again(Wait1, Me, Answer, State)
     ).
@@ -174,8 +174,8 @@ again_when(always, Since, Wait, Wait1) :-
     ;   Wait1 = Wait
     ).
 
-tell_ended(asked, _, _).
-tell_ended(always, Name, Status) :-
+report_ended(asked, _, _).
+report_ended(always, Name, Status) :-
     print_message(warning, typhon(helper_ended(Name, Status))).
 
 write_request(up(Process, _, _), Id, Caller, Line) :-
@@ -184,9 +184,9 @@ write_request(up(Process, _, _), Id, Caller, Line) :-
 write_request(down(_, _, Answer), _, Caller, _) :-
     server_answer(Caller, Answer).
 
-write_told(up(Process, _, _), Line) :-
+write_line(up(Process, _, _), Line) :-
     process_write(Process, Line).
-write_told(down(_, _, _), _).           % no caller waits
+write_line(down(_, _, _), _).           % no caller waits
 
 stop(up(Process, _, _)) :-
     request_line(_{do:quit}, Line),
@@ -203,7 +203,7 @@ prolog:message(typhon(helper_ended(Name, Status))) -->
                 *******************************/
 
 :- multifile
-    heard/2.                    % Name, Dict: an unsolicited message
+    handle_message/2.           % Name, Dict: an unsolicited message
 
 :- dynamic
     awaited/3,                  % Id, Caller, Owner: written, not yet answered
@@ -240,7 +240,7 @@ said(_, Owner, Dict) :-
 said(Name, _, Dict) :-
     get_dict(event, Dict, _),
     !,
-    ignore(heard(Name, Dict)).
+    ignore(handle_message(Name, Dict)).
 said(_, Owner, Dict) :-
     get_dict(error, Dict, _),
     !,

@@ -2,7 +2,7 @@
           [ helper_open/3,              % +Name, +Command, +Options
             helper_close/1,             % +Name
             helper_ask/4,               % +Name, +Request, +Seconds, -Answer
-            helper_tell/2,              % +Name, +Request
+            helper_send/2,              % +Name, +Request
             helper_note/2,              % +Name, +Request
             helper_pid/2,               % ?Name, ?Pid
             helper_failure/3            % +Answer, +Name, +Request
@@ -35,7 +35,7 @@ for ever.
 
 grace_seconds(2).
 stop_seconds(5).
-most_told(1000).                % lines that wait to be written
+most_lines(1000).               % lines that wait to be written
 
 %!  helper_open(+Name, +Command, +Options) is det.
 %
@@ -61,7 +61,7 @@ open_helper(Name, Command, When) :-
     Name =.. Parts,
     atomic_list_concat(Parts, '_', Role),
     text(Name, Text),
-    most_told(Max),
+    most_lines(Max),
     own_state(When, State),
     sig_atomic(( message_queue_create(Told, [max_size(Max)]),
                  server_start(Role,
@@ -134,17 +134,17 @@ ask(Name, Owner, Request, Seconds, Answer) :-
         Answer = stuck
     ).
 
-%!  helper_tell(+Name, +Request) is det.
+%!  helper_send(+Name, +Request) is det.
 %!  helper_note(+Name, +Request) is det.
 %
 %   As helper_ask/4, but without an answer.  The request is dropped if no
-%   process is running.  helper_tell/2 waits while many requests are to be
+%   process is running.  helper_send/2 waits while many requests are to be
 %   written, so that a fast caller cannot fill the memory; helper_note/2 never
 %   waits.
 %
 %   @error existence_error(helper, Name)
 
-helper_tell(Name, Request) :-
+helper_send(Name, Request) :-
     find_helper(Name, Owner, Told),
     request_line(Request, Line),
     catch(thread_send_message(Told, Line),

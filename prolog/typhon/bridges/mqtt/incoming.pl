@@ -13,8 +13,8 @@
                 uri_components/2, uri_data/3, uri_encoded/3 ]).
 :- use_module('../helper', [json_value/1]).
 :- use_module('../common',
-              [ subscribers_drop/4, subscribers_tell/5,
-                subscribers_tell_new/5, subscription/3 ]).
+              [ subscribers_drop/4, subscribers_notify/5,
+                subscribers_notify_new/5, subscription/3 ]).
 
 /** <module> Messages from brokers, and checks of topics, payloads and URLs
 
@@ -23,7 +23,7 @@ is pure.
 */
 
 :- multifile
-    typhon_helper_owner:heard/2,
+    typhon_helper_owner:handle_message/2,
     prolog:message//1.
 
 :- dynamic
@@ -45,32 +45,32 @@ connection(Host) :-
 connection_gone(Host) :-
     retractall(up(Host, _)).
 
-typhon_helper_owner:heard(mqtt(Host), Dict) :-
+typhon_helper_owner:handle_message(mqtt(Host), Dict) :-
     get_dict(event, Dict, Event),
-    heard(Event, Host, Dict).
+    handle_event(Event, Host, Dict).
 
-heard("message", Host, Dict) :-
+handle_event("message", Host, Dict) :-
     _{ topic:Text, keys:Filters, kind:Kind, payload:Payload, qos:QoS,
        retain:Retain } :< Dict,
     atom_string(Topic, Text),
     Message = message(Topic, Payload, [qos(QoS),retain(Retain)]),
     forall(member(Filter, Filters),
-           tell(Retain, Host, Filter, Kind, Message, message(Topic, _, _))).
-heard("too_big", Host, Dict) :-
+           notify(Retain, Host, Filter, Kind, Message, message(Topic, _, _))).
+handle_event("too_big", Host, Dict) :-
     _{topic:Text, keys:Filters, kind:Kind, size:Size} :< Dict,
     atom_string(Topic, Text),
     forall(member(Filter, Filters),
-           tell(false, Host, Filter, Kind, too_big(Topic, Size),
-                too_big(Topic, _))).
-heard("denied", Host, Dict) :-
+           notify(false, Host, Filter, Kind, too_big(Topic, Size),
+                  too_big(Topic, _))).
+handle_event("denied", Host, Dict) :-
     _{filter:Text} :< Dict,
     atom_string(Filter, Text),
     forall(subscription(mqtt, Host, mqtt(Filter, Kind)),
            subscribers_drop(mqtt, Host, mqtt(Filter, Kind), denied(Filter))).
-heard("down", Host, _) :-
+handle_event("down", Host, _) :-
     connection_gone(Host),
     print_message(warning, typhon(mqtt_down(Host))).
-heard("up", Host, Dict) :-
+handle_event("up", Host, Dict) :-
     get_time(Now),
     (   get_dict(again, Dict, true)
     ->  Since = Now
@@ -78,16 +78,16 @@ heard("up", Host, Dict) :-
     ),
     assertz(up(Host, Since)),
     print_message(informational, typhon(mqtt_up(Host))).
-heard("refused", Host, _) :-
+handle_event("refused", Host, _) :-
     print_message(warning, typhon(mqtt_refused(Host))).
 
-tell(Retain, Host, Filter0, Kind0, Message, Same) :-
+notify(Retain, Host, Filter0, Kind0, Message, Same) :-
     atom_string(Filter, Filter0),
     atom_string(Kind, Kind0),
     (   Retain == true,
         \+ reconnected(Host)
-    ->  subscribers_tell_new(mqtt, Host, mqtt(Filter, Kind), Message, Same)
-    ;   subscribers_tell(mqtt, Host, mqtt(Filter, Kind), Message, Same)
+    ->  subscribers_notify_new(mqtt, Host, mqtt(Filter, Kind), Message, Same)
+    ;   subscribers_notify(mqtt, Host, mqtt(Filter, Kind), Message, Same)
     ).
 
 %   After a reconnection all subscribers get retained messages, which may have

@@ -10,7 +10,7 @@
 :- use_module('../helper',
               [ helper_ask/4, helper_close/1, helper_failure/3,
                 helper_file/2, helper_note/2, helper_open/3, helper_python/2,
-                helper_tell/2 ]).
+                helper_send/2 ]).
 :- use_module(incoming,
               [ connection/1, connection_gone/1, mqtt_filter/2,
                 mqtt_payload/3, mqtt_topic/2, mqtt_url/2 ]).
@@ -209,7 +209,7 @@ mqtt_publish(Host, Message, false, _) :-
     connection(Host),
     fits(Host, Message),
     !,
-    helper_tell(mqtt(Host), Message.put(_{do:publish, wait:false})).
+    helper_send(mqtt(Host), Message.put(_{do:publish, wait:false})).
 mqtt_publish(Host, Message, Wait, Seconds) :-
     mqtt_ask(Host, Message.put(_{do:publish, wait:Wait}), Seconds).
 

@@ -29,7 +29,7 @@ The thread that reads from Python delivers its unsolicited messages.
 
 :- multifile
     typhon_starting:starts/4,
-    typhon_helper_owner:heard/2,
+    typhon_helper_owner:handle_message/2,
     typhon_helper_owner:again/2,
     typhon_options:declared/4,
     typhon_starting:ends/2,
@@ -128,18 +128,18 @@ typhon_starting:ends(python, Host) :-
                 *     MESSAGES FROM PYTHON     *
                 *******************************/
 
-typhon_helper_owner:heard(python(Host), Dict) :-
+typhon_helper_owner:handle_message(python(Host), Dict) :-
     get_dict(event, Dict, Event),
-    heard(Event, Host, Dict).
+    handle_event(Event, Host, Dict).
 
-heard("post", Host, Dict) :-
+handle_event("post", Host, Dict) :-
     get_dict(to, Dict, Text),
     get_dict(message, Dict, Message),
     atom_string(Agent, Text),
     started(Host, Options),
     option(queue(Max), Options, 1000),
     inbox_put(how(message, Max), python-posts, Host-Agent, Message-_).
-heard("leave", Host, Dict) :-
+handle_event("leave", Host, Dict) :-
     get_dict(fact, Dict, Fact),
     started(Host, Options),
     option(queue(Max), Options, 1000),

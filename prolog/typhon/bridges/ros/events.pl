@@ -6,7 +6,7 @@
               [agent/5, agent_mail/2, mail_count/2, with_agent/2]).
 :- use_module('../../kernel/base/json', [atom_json_dict/3]).
 :- use_module('../common',
-              [ service/2, subscribers_tell/5, subscription/3,
+              [ service/2, subscribers_notify/5, subscription/3,
                 unsubscribe/4 ]).
 :- use_module(connection,
               [answer_come/2, answers_fail/2, way_note/2, way_option/3]).
@@ -30,10 +30,10 @@ from `ros`, and dropped(Key, Count), see typhon_inbox.
 */
 
 :- multifile
-    typhon_helper_owner:heard/2,
+    typhon_helper_owner:handle_message/2,
     typhon_helper_owner:again/2,
     typhon_inbox:dropped/3,
-    typhon_ros_rosbridge:heard/2,
+    typhon_ros_rosbridge:handle_message/2,
     typhon_ros_rosbridge:up/2,
     typhon_ros_rosbridge:down/2,
     typhon_starting:ends/2,
@@ -49,7 +49,7 @@ most_complaints(1000).          % complaints that may wait for an agent
                 *            SOURCES           *
                 *******************************/
 
-typhon_ros_rosbridge:heard(Host, Read) :-
+typhon_ros_rosbridge:handle_message(Host, Read) :-
     (   Read = text(Text),
         catch(atom_json_dict(Text, Frame, []), error(_, _), fail),
         is_dict(Frame)
@@ -59,7 +59,7 @@ typhon_ros_rosbridge:heard(Host, Read) :-
     ),
     handle_event(Event, Host).
 
-typhon_helper_owner:heard(ros(Host), Dict) :-
+typhon_helper_owner:handle_message(ros(Host), Dict) :-
     get_dict(frame, Dict, Frame),
     frame_event(Frame, Event),
     handle_event(Event, Host).
@@ -124,8 +124,8 @@ lose_goals(Host, Why) :-
 deliver(message(Topic, JSON), Host) :-
     (   subscription(ros, Host, Topic)
     ->  message(Host, JSON, Message),
-        subscribers_tell(ros, Host, Topic, topic(Topic, Message),
-                         topic(Topic, _))
+        subscribers_notify(ros, Host, Topic, topic(Topic, Message),
+                           topic(Topic, _))
     ;   way_note(Host, unsubscribe(Topic))
     ).
 deliver(answer(Id, Answer), _) :-
@@ -134,21 +134,21 @@ deliver(request(Id, Service, JSON), Host) :-
     (   subscription(ros, Host, service(Service)),
         request_begin(Host, Id, Service)
     ->  message(Host, JSON, Request),
-        subscribers_tell(ros, Host, service(Service),
-                         request(Id, Service, Request), request(Id, _, _))
+        subscribers_notify(ros, Host, service(Service),
+                           request(Id, Service, Request), request(Id, _, _))
     ;   way_note(Host, respond(Id, Service, _{}, false))
     ).
 deliver(feedback(Id, JSON), Host) :-
     message(Host, JSON, Feedback),
-    subscribers_tell(ros, Host, goal(Id), feedback(Id, Feedback),
-                     feedback(Id, _)).
+    subscribers_notify(ros, Host, goal(Id), feedback(Id, Feedback),
+                       feedback(Id, _)).
 deliver(result(Id, Status, JSON), Host) :-
     goal_end(Host, Id, Agent, _),
     message(Host, JSON, Result),
     report_goal_end(Host, Id, Agent, Status, Result).
 deliver(dropped(Topic, Count), Host) :-
-    subscribers_tell(ros, Host, Topic, dropped(Topic, Count),
-                     dropped(Topic, _)).
+    subscribers_notify(ros, Host, Topic, dropped(Topic, Count),
+                       dropped(Topic, _)).
 deliver(status(Level, Id, Text), Host) :-
     complaint(Level, Id, Text, Host).
 deliver(unknown(What), Host) :-
@@ -173,8 +173,8 @@ message(Host, JSON, Message) :-
     json_value(Form, JSON, Message).
 
 report_goal_end(Host, Id, Agent, Status, Result) :-
-    subscribers_tell(ros, Host, goal(Id), result(Id, Status, Result),
-                     result(Id, _, _)),
+    subscribers_notify(ros, Host, goal(Id), result(Id, Status, Result),
+                       result(Id, _, _)),
     ignore(unsubscribe(ros, Host, goal(Id), Agent)).
 
 %   The id of a complaint identifies the operation about which ROS complains.
@@ -194,7 +194,7 @@ complaint(_, Id, Text, Host) :-
     atom_concat('subscribe:', Topic, Id),
     subscription(ros, Host, Topic),
     !,
-    subscribers_tell(ros, Host, Topic, error(Text), error(_)).
+    subscribers_notify(ros, Host, Topic, error(Text), error(_)).
 complaint(_, _, Text, Host) :-
     print_message(warning, typhon(ros_complaint(Host, Text))).
 
@@ -241,9 +241,9 @@ wanted(false, Topic, Host) =>
     ignore(standing_end(Host, topic(Topic), _)),
     way_note(Host, unsubscribe(Topic)).
 wanted(true, goal(Id), Host) =>         % the goal has been cancelled
-    subscribers_tell(ros, Host, goal(Id),
-                     result(Id, failed, "cancelled: the agent had set out"),
-                     result(Id, _, _)).
+    subscribers_notify(ros, Host, goal(Id),
+                       result(Id, failed, "cancelled: the agent had set out"),
+                       result(Id, _, _)).
 wanted(true, service(Service), Host) =>
     repeat_operation(Host, service(Service)).
 wanted(true, Topic, Host) =>

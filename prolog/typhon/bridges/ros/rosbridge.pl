@@ -28,12 +28,12 @@ connection.
 */
 
 :- multifile
-    heard/2,                    % Host, Read: as of socket_read/2
+    handle_message/2,           % Host, Read: as of socket_read/2
     up/2,                       % Host, Frame: to be sent first
     down/2.                     % Host, Why: `stopped` if closed by this process
 
 :- dynamic
-    heard/2,
+    handle_message/2,
     up/2,
     reader/2,                   % Host, Thread
     writer/2.                   % Host, Thread: while there is a connection
@@ -285,7 +285,7 @@ read_loop(Host, Socket, Why) :-
     socket_read(Socket, Read),
     (   Read = end(Why0)
     ->  Why = Why0
-    ;   catch(heard(Host, Read), error(Formal, Context),
+    ;   catch(handle_message(Host, Read), error(Formal, Context),
               print_error(error, error(Formal, Context))),
         read_loop(Host, Socket, Why)
     ).
