@@ -1,7 +1,7 @@
 :- module(typhon_page_browsers,
           [ browsers_start/0,
             browsers_stop/0,
-            browsers_tell/1,            % +Event
+            browsers_send/1,            % +Event
             browsers_there/0,
             browser_serve/2             % :Scene, +WebSocket
           ]).
@@ -99,12 +99,12 @@ wait_until_gone(_) :-
                 *            EVENTS            *
                 *******************************/
 
-%!  browsers_tell(+Event) is det.
+%!  browsers_send(+Event) is det.
 %
 %   Send Event, as of watch/3, to all browsers.  Waits while too many others are
 %   still to be sent.
 
-browsers_tell(Event) :-
+browsers_send(Event) :-
     (   teller(Teller)
     ->  ignore(server_cast(Teller, Event))
     ;   true
@@ -141,7 +141,7 @@ gathers(stop, frame(_, _, Events), _) :-
 send_frame(Events0, Next) :-
     reverse(Events0, Events),
     get_time(Now),
-    tell_frame(Events, Now),
+    send_events(Events, Now),
     setting(frame_seconds, Seconds),
     Due is Now+Seconds,
     begin_frame(Due, Next).
@@ -151,14 +151,14 @@ begin_frame(Due, until(Beat, frame(Due, 0, []))) :-
     get_time(Now),
     Beat is Now+Pause.
 
-tell_frame(_, _) :-
+send_events(_, _) :-
     \+ browser(_, _, _),
     !.
-tell_frame([], Now) :-
+send_events([], Now) :-
     !,
     json_text(_{tick:Now}, Text),
     forall(browser(Browser, _, _), give(Browser, Text, 0)).
-tell_frame(Events, _) :-
+send_events(Events, _) :-
     event_rows(Events, Rows),
     json_text(_{events:Rows}, Text),
     length(Events, Count),

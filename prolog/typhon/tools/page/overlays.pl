@@ -16,7 +16,7 @@
 :- use_module(library(prolog_source),
               [ prolog_close_source/1, prolog_open_source/2,
                 prolog_read_source_term/4 ]).
-:- use_module(protocol, [event_row/2, name_text/2, number_told/2, text/2]).
+:- use_module(protocol, [event_row/2, name_text/2, number_json/2, text/2]).
 :- use_module('../../kernel/program', []).        % where agents(Name) is found
 
 /** <module> Overlays and mechanisms: what the page reads in agents/
@@ -186,8 +186,8 @@ value(Term, Kind, Text), var(Term) => Kind = "show", text(Term, Text).
 value(none, Kind, Value) => Kind = "show", Value = null.
 value(Number, Kind, Value), number(Number) =>
     Kind = "show",
-    number_told(Number, Value).
-value(add(Number), Kind, Value), number(Number), number_told(Number, Number) =>
+    number_json(Number, Value).
+value(add(Number), Kind, Value), number(Number), number_json(Number, Number) =>
     Kind = "add",
     Value = Number.
 value(Term, Kind, Text) => Kind = "show", text(Term, Text).

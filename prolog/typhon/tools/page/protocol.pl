@@ -6,7 +6,7 @@
             text/2,                     % +Term, -Text
             name_text/2,                % +Atomic, -Text
             place_text/2,               % +Place, -Text
-            number_told/2,              % +Number, -Told
+            number_json/2,              % +Number, -Told
             times_start/0,
             times_stop/0,
             times_of/1,                 % +Hosts
@@ -108,7 +108,7 @@ compound_name_arguments_of(What, Name, Terms) :-
 
 argument_text(Term, Text) :-
     (   number(Term)
-    ->  number_told(Term, Text)
+    ->  number_json(Term, Text)
     ;   atom(Term)
     ->  name_text(Term, Text)
     ;   text(Term, Text)
@@ -154,11 +154,11 @@ text(Term, Text) :-
     longest(Longest),
     abridged(Term, Longest, Text).
 
-%!  number_told(+Number, -Told) is det.
+%!  number_json(+Number, -Told) is det.
 %
 %   Told is Number, or a text for an infinite number or NaN, which JSON lacks.
 
-number_told(Number, Told) :-
+number_json(Number, Told) :-
     (   float(Number),
         float_class(Number, Class),
         memberchk(Class, [infinite, nan])
@@ -210,7 +210,7 @@ machine(Endpoint, Machine) :-
 
 link_row(Neighbour, Cost, [Text, Told]) :-
     name_text(Neighbour, Text),
-    number_told(Cost, Told).
+    number_json(Cost, Told).
 
 %!  agent_glance_dict(+Agent, -Dict) is det.
 %

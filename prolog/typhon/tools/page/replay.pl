@@ -77,13 +77,13 @@ replay_of_text(Title, Text, Dict) :-
 %   watched(+Logged, -Event): Event is in the form of watch/3.
 
 watched(event(Time, Host, Agent, What), event(Time, Host, Agent, Told)) :-
-    told(What, Told).
+    shown_event(What, Told).
 
-told(faulty(Error), Told) => Told = fault(Error).
-told(fault(Fault), Told) => Told = fault(Fault).
-told(What, Told), own_event(What) => Told = What.
-told(What, Told), of_network(What) => Told = What.
-told(Term, Told) => Told = log(Term).
+shown_event(faulty(Error), Told) => Told = fault(Error).
+shown_event(fault(Fault), Told) => Told = fault(Fault).
+shown_event(What, Told), own_event(What) => Told = What.
+shown_event(What, Told), of_network(What) => Told = What.
+shown_event(Term, Told) => Told = log(Term).
 
 of_network(link(Other)) :- is_address(Other).
 of_network(link(Other, Cost)) :- is_address(Other), number(Cost).

@@ -208,7 +208,8 @@ answer(In, Request) :-
     (   \+ memberchk(method(post), Request)
     ->  refuse(405, 'Only POST')
     ;   request_within(Request, Most)
-    ->  catch(answer_to(In, Request, Answer), Error, told(Error, Answer)),
+    ->  catch(answer_to(In, Request, Answer), Error,
+              error_answer(Error, Answer)),
         json_text(Answer, Text),
         text_reply('application/json', Text)
     ;   refuse(413, 'Too large, or of no known length')
@@ -234,7 +235,7 @@ may_order(What) :-
     ;   permission_error(What, page, read_only)
     ).
 
-told(Error, _{error:Text}) :-
+error_answer(Error, _{error:Text}) :-
     error_text(Error, Text0),
     without_folder(Text0, Text).
 

@@ -21,7 +21,7 @@
               [ inventory/4, inventory_agents/2, inventory_hosts/4,
                 supervision_tree/3 ]).
 :- use_module('../../options/watch', [metrics/2, unwatch/1, watch/3]).
-:- use_module(browsers, [browsers_tell/1, browsers_there/0]).
+:- use_module(browsers, [browsers_send/1, browsers_there/0]).
 :- use_module(protocol, [times_of/1]).
 
 /** <module> The hosts that a page shows, and their events
@@ -175,7 +175,7 @@ watch_hosts(Hosts) :-
 %   The next search reports a process that has ended meanwhile as lost.
 
 watch_some(Addresses) :-
-    (   catch(watch(Addresses, typhon_page_sources:heard, Watch),
+    (   catch(watch(Addresses, typhon_page_sources:forward_event, Watch),
               error(_, _), fail)
     ->  assertz(own(Watch)),
         forall(member(Address, Addresses),
@@ -183,10 +183,10 @@ watch_some(Addresses) :-
     ;   true
     ).
 
-:- public heard/1.
+:- public forward_event/1.
 
-heard(Event) :-
-    browsers_tell(Event),
+forward_event(Event) :-
+    browsers_send(Event),
     changed(Event).
 
 %   A host that has stopped may be started again as a new host.

@@ -598,11 +598,11 @@ slow(Slow, Quick, Sum, Fast) :-
     atom_length_of(1900, Text),
     thread_create(count(Quick, 0, Fast0, 3000), Reader),
     forall(between(1, 3000, N),
-           typhon_page_browsers:browsers_tell(
+           typhon_page_browsers:browsers_send(
                event(N, 'a@b:1', none, log(Text)))),
     thread_join(Reader, exited(Fast0)),
     Fast = Fast0,
-    typhon_page_browsers:browsers_tell(event(0, 'a@b:1', none, log(last))),
+    typhon_page_browsers:browsers_send(event(0, 'a@b:1', none, log(last))),
     counted(Slow, 0, 3001, Sum0),
     Sum is Sum0-1.
 
