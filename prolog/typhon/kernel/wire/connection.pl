@@ -355,17 +355,18 @@ lost(Session, Me) :-
 
 report_break(Session, Formal) :-
     session_peer(Session, _, Address),
-    (   nb_current(typhon_proved, true) % an accepted connection
-    ->  Level = silent
-    ;   (   memberchk(Formal,
-                      [ io_error(_, _), socket_error(_, _),
-                        syntax_error(truncated_frame) ])
-        ;   harmless(Formal)
-        )
+    (   is_normal_break(Formal)
     ->  Level = silent
     ;   Level = warning
     ),
     print_message(Level, typhon(endpoint, broken(Address, Formal))).
+
+is_normal_break(Formal) :-
+    memberchk(Formal, [ io_error(_, _), socket_error(_, _),
+                        syntax_error(truncated_frame) ]),
+    !.
+is_normal_break(Formal) :-
+    harmless(Formal).
 
 :- multifile prolog:message//1.
 

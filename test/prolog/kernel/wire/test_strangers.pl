@@ -15,9 +15,13 @@
 :- use_module(library(thread), [concurrent_maplist/3]).
 :- use_module(library(typhon/kernel/wire)).
 
-:- dynamic told/1.
+:- dynamic
+    told/1,
+    broken/2.                           % Level, Formal
 :- multifile user:message_hook/3.
 
+user:message_hook(typhon(endpoint, broken(_, Formal)), Level, _) :-
+    assertz(broken(Level, Formal)).
 user:message_hook(typhon(endpoint, Message), _, _) :-
     assertz(told(Message)).
 
@@ -209,6 +213,20 @@ dies(I) :-
 
 :- end_tests(no_slot_is_lost).
 
+%   breaks_off(+Text, -Level, -Formal): the message about the connection of a
+%   client that proves itself, sends Text and closes the connection.
+
+breaks_off(Text, Level, Formal) :-
+    retractall(broken(_, _)),
+    with_endpoint(
+        ( setup_call_cleanup(
+              connected(Client),
+              ( Client = streams(In, Out),
+                prove_oneself(In, Out, breaker),
+                say(Text, Client) ),
+              closed(Client)),
+          wait_until(broken(Level, Formal), 30) )).
+
 :- begin_tests(refused_clients_are_reported).
 
 test(few_lines_all_counted, Sum == 500) :-
@@ -242,6 +260,10 @@ test(last_refusals_are_reported, Sum == 20) :-
         with_endpoint(true),
         unwrap_predicate(typhon_threads:wire_threads_end/0, last)),
     counted(Sum).
+test(violation_by_an_authenticated_client, Level == warning) :-
+    breaks_off("resume 0\nno frame, but words", Level, _).
+test(end_of_an_authenticated_client_amid_a_frame, Level == silent) :-
+    breaks_off("resume 0\nabc", Level, _).
 test(another_version, Line == "typhon 3") :-
     with_endpoint(setup_call_cleanup(
         connected(Client),
