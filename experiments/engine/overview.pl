@@ -23,7 +23,7 @@ under their chapters; others come after them.
 
 overview_title(Shown, Title) :-
     (   of_the_thesis(Shown)
-    ->  Title = 'The figures and tables of a thesis, made anew'
+    ->  Title = 'Figures and tables of a thesis, reproduced'
     ;   Title = 'Studies'
     ).
 
@@ -46,19 +46,19 @@ overview(Directory, Shown) -->
     html(h1(Title)),
     explained(Shown),
     html(table([ tr([ th(study), th(title), th(figures),
-                      th('claims: held of the medians') ])
+                      th('claims that hold for the medians') ])
                | \groups(Groups, Shown, Directory) ])).
 
 explained(Shown) -->
     { of_the_thesis(Shown) },
     !,
-    html(p([ 'What the thesis of Shashi Shekhar Jha on mobile agents for networked ',
-             'robots (Indian Institute of Technology Guwahati) says of its figures ',
-             'and tables is compared with runs of the same mechanisms, which agents ',
-             'of Typhon make in virtual time. A row has a study, its figures, ',
-             'and how many of its claims hold of the medians of all runs; below, ',
-             'numbers of the thesis stand in brackets beside ours, and are ',
-             'triangles in the figures.' ])).
+    html(p([ 'Agents of Typhon run the mechanisms of the thesis of Shashi Shekhar ',
+             'Jha on mobile agents for networked robots (Indian Institute of ',
+             'Technology Guwahati) in virtual time; the results are compared with ',
+             'the figures and tables of the thesis. A row shows a study, its ',
+             'figures, and how many of its claims hold for the medians of all ',
+             'runs. Below, numbers that the thesis prints stand in brackets beside ',
+             'ours; in figures they are triangles.' ])).
 explained(_) -->
     [].
 

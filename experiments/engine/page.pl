@@ -46,7 +46,7 @@ margin:1em 0;font-size:90%}td,th{padding:.2em .7em;border-bottom:1px solid #ddd;
 text-align:left;vertical-align:top}td.n{text-align:right;white-space:nowrap}
 .no{background:#fbe9e7}.some{background:#fff8e1}.yes{background:#e8f5e9}
 .unknown{color:#666}
-img.small{height:7em;max-width:14em}
+details{overflow-x:auto}img.small{height:7em;max-width:14em}
 code{background:#f4f4f4;padding:.1em .3em}.small{color:#666;font-size:85%}').
 
 %   Not named body//2, which html_write would take for its hook.

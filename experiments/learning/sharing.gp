@@ -4,9 +4,9 @@
 #
 # times.dat: middle of a part of the run, events in it; trend.dat: two points.
 
-set label 1 "{/:Bold=15 ".TITLE."}" at screen 0.07,(1-26.0/HEIGHT)
-set label 2 sprintf("{/*0.9 seed %d; events in %.0f s each, and their linear trend}", SEED, END/30) at screen 0.07,(1-54.0/HEIGHT) tc rgb "#555555"
-set lmargin at screen 0.07; set rmargin at screen 0.98
+set label 1 "{/:Bold=15 ".TITLE."}" at screen 0.085,(1-26.0/HEIGHT)
+set label 2 sprintf("{/*0.9 seed %d; events in %.0f s each, and their linear trend}", SEED, END/30) at screen 0.085,(1-54.0/HEIGHT) tc rgb "#555555"
+set lmargin at screen 0.085; set rmargin at screen 0.98
 set tmargin at screen (1-80.0/HEIGHT)
 set border 3 lc rgb "#888888"
 set tics nomirror out scale 0.6 tc rgb "#333333"

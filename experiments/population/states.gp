@@ -20,7 +20,7 @@ do for [p=1:2] {
     set bmargin at screen (p == 1 ? 0.55 : 0.15)
     set label 2 sprintf("%d hosts", Hosts[p]) at screen 0.085,(p == 1 ? 0.88 : 0.48)
     if (p == 1) { set key at screen 0.975,0.88 right center horizontal samplen 1 } else { unset key }
-    if (p == 2) { set xlabel "seconds" tc rgb "#333333" }
+    if (p == 1) { set format x "" } else { set format x; set xlabel "seconds" tc rgb "#333333" }
     plot for [m=1:2] "states.dat" using ($1 == Hosts[p] && $4 == m ? $3 : 1/0):2 \
         with points pt 7 ps 0.8 lc rgb Colour[m] title Word[m]
     unset label
