@@ -122,7 +122,7 @@ inmate(First, Goal,
          helpers(Clauses),
          (main :- First, helpers(Cs), free(forall(member(C, Cs), assertz(C))),
                   goal(G), dare(G, R0),
-                  free(typhon_fault:in_words(R0, R)), result(R)),
+                  free(typhon_fault:printable_fallback(R0, R)), result(R)),
          (dare(G, R) :- catch(( free(G) -> R = yes(G) ; R = no ), E,
                               R = raised(E))),
          (free(G) :- call_with_depth_limit(user:G, 1 000 000, _))

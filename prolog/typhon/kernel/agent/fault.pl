@@ -8,7 +8,7 @@
             fault_parts/5,              % +Fault, -Goal, -Where, -Address,
                                         % -Hops
             is_faulty/3,                % ?Goals, ?Fault, ?Left
-            in_words/2                  % +Term, -Portable
+            printable_fallback/2        % +Term, -Portable
           ]).
 :- use_module(library(apply), [maplist/3]).
 :- use_module(library(debug), [debug/3]).
@@ -63,7 +63,7 @@ agent_fault(Id, Outcome0, Goals0,
     can_be_kept(Left, Goals),
     where(Hash, Module, Fault, Where),
     advised(Outcome0, Module, Hash, Outcome1),
-    in_words(Outcome1-Goal0, Outcome-Goal),
+    printable_fallback(Outcome1-Goal0, Outcome-Goal),
     life_hops(Life, Hops),
     get_time(Stamp).
 
@@ -90,7 +90,7 @@ can_be_kept(Goals, Goals) :-
     acyclic_term(Goals),
     !.
 can_be_kept(Goals0, Goals) :-
-    in_words(Goals0, Goals).
+    printable_fallback(Goals0, Goals).
 
 %!  agent_handled(+Id, +Goal, -Fault) is semidet.
 %
@@ -105,7 +105,7 @@ agent_handled(Id, Goal0, fault(failed, Goal, Where, Address, Hops, Stamp)) :-
     Fault = fault(Goal1, _, _),
     on_demand_load(fault, location),
     handled(Hash, Module, Goal0, Fault, Where),
-    in_words(Goal1, Goal),
+    printable_fallback(Goal1, Goal),
     life_hops(Life, Hops),
     get_time(Stamp).
 
@@ -180,30 +180,30 @@ is_faulty(['$fault'(Fault)|Left], Fault, Left).
                 *      PRINTABLE FALLBACK      *
                 *******************************/
 
-%!  in_words(+Term, -Portable) is det.
+%!  printable_fallback(+Term, -Portable) is det.
 %
 %   Portable is Term, with an atom in place of each part that cannot travel.  So
 %   an error or a goal keeps its form, and the atom describes the replaced part.
 
-in_words(Term, Portable) :-
+printable_fallback(Term, Portable) :-
     catch(mobile_term(Term), error(_, _), fail),
     !,
     Portable = Term.
-in_words(Term, 'a cyclic term') :-
+printable_fallback(Term, 'a cyclic term') :-
     is_in_itself(Term),
     !.
-in_words(Term, Words) :-
+printable_fallback(Term, Words) :-
     attvar(Term),
     !,
     copy_term(Term, _, Goals),
     attributed(Goals, Words).
-in_words(Term, Portable) :-
+printable_fallback(Term, Portable) :-
     compound(Term),
     !,
     compound_name_arguments(Term, Name, Args0),
-    maplist(in_words, Args0, Args),
+    maplist(printable_fallback, Args0, Args),
     compound_name_arguments(Portable, Name, Args).
-in_words(Term, Words) :-
+printable_fallback(Term, Words) :-
     blob(Term, Type),
     format(atom(Words), 'a ~w (~w)', [Type, Term]).
 

@@ -14,7 +14,8 @@
 :- use_module('../../kernel/host',
               [host/3, parts_call/3, place_service/2, security_event/2]).
 :- use_module('../../kernel/agent',
-              [agent_add/2, agent_clauses/3, agent_variant/2, in_words/2]).
+              [ agent_add/2, agent_clauses/3, agent_variant/2,
+                printable_fallback/2 ]).
 :- use_module(cell_frames, [cell_word/2, state_predicate/2]).
 
 /** <module> Checking and carrying out the messages of a cell
@@ -148,7 +149,7 @@ cell_answer(Goal, Kind, Host, agent(Id, _, _, _, _), Answer) :-
     callable(Goal),
     catch(answer_allowed(Goal, Kind, Host, Id, Answer), error(Formal, Where),
           ( note_refusal(Formal, Host, Id),
-            in_words(error(Formal, Where), Portable),
+            printable_fallback(error(Formal, Where), Portable),
             Answer = raised(Portable) )).
 
 answer_allowed(Goal, Kind, Host, Id, Answer) :-
@@ -162,7 +163,7 @@ answer_allowed(Goal, Kind, Host, Id, Answer) :-
 %   The host that refuses a move has written that to its audit log already.
 
 note_refusal(permission_error(call, sandboxed, Goal), Host, Id) =>
-    in_words(Goal, Shown),
+    printable_fallback(Goal, Shown),
     security_event(Host, refused(Id, policy(Shown))),
     count_refusal.
 note_refusal(move_refused(_, _), _, _) =>

@@ -10,7 +10,8 @@
               [context_set/3, host/3, host_start/1]).
 :- use_module('../../tools/administration', [host_change/2]).
 :- use_module('../../kernel/agent',
-              [agent_add/2, agent_code/2, agent_module/5, in_words/2]).
+              [ agent_add/2, agent_code/2, agent_module/5,
+                printable_fallback/2 ]).
 :- use_module('../../kernel/vocabulary', []).
 :- use_module(cell_frames).
 
@@ -181,7 +182,7 @@ run(Context, Goals0, Outcome, Note) :-
         run(Context, Goals, Outcome, Note)
     ;   Outcome0 = raised(Error0)
     ->  within_limits(Error0),
-        in_words(Error0, Error),
+        printable_fallback(Error0, Error),
         Outcome = raised(Error),
         outcome_note(Outcome, Note)
     ;   Outcome = Outcome0,
@@ -199,7 +200,7 @@ outcome_note(Outcome, note(How, Portable)) :-
     memberchk(How, [failed, raised]),
     fault_noted(How-fault(Goal, Goals, natives(Raising, _))),
     !,
-    in_words(fault(Goal, Goals, natives(Raising, [])), Portable).
+    printable_fallback(fault(Goal, Goals, natives(Raising, [])), Portable).
 outcome_note(_, none).
 
                 /*******************************

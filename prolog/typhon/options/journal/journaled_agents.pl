@@ -15,7 +15,7 @@
 :- use_module('../../kernel/program', [code_receive/2, code_sent/2]).
 :- use_module('../../kernel/agent',
               [ agent/5, agent_enter/3, agent_module/5, agent_note/3,
-                agent_state/2, in_words/2 ]).
+                agent_state/2, printable_fallback/2 ]).
 :- use_module(state_log,
               [ state_log_begin/1, state_log_changes/2, state_log_end/1,
                 state_replayed/3 ]).
@@ -191,7 +191,7 @@ note_item(Id, Kind, N, Term, Count) :-
     durable_bytes(Change, Count),
     durable_change(Change).
 note_item(Id, Kind, N, Term0, Count) :-
-    in_words(Term0, Term),
+    printable_fallback(Term0, Term),
     print_message(warning, typhon(journal_in_words(Id))),
     durable_putting(Kind, Id, N, Term, Change),
     durable_bytes(Change, Count),

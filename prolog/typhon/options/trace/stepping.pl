@@ -7,7 +7,7 @@
 :- use_module('../../kernel/host', [event/4, event_subscribed/1, host/3]).
 :- use_module('../../kernel/agent',
               [ agent/5, agent_order/2, agent_status/3, agent_unorder/2,
-                in_words/2, with_agent/2 ]).
+                printable_fallback/2, with_agent/2 ]).
 :- use_module('../../kernel/lifecycle',
               [ agent_answer/3, agent_join/3, held_on/2, held_parts/3,
                 held_put/3, order_give/3, order_take/2, question_answered/2,
@@ -189,14 +189,14 @@ at_once(evacuate(_)).
 
 probed_goal(Id, Host, Probe, Goal, Goals, Next) :-
     (   event_subscribed(goals)
-    ->  in_words(Goal, Portable),
+    ->  printable_fallback(Goal, Portable),
         event(goals, Host, Id, goal(Portable))
     ;   true
     ),
     spied_goal(Id, Host, Goal),
     (   agent(Id, _, _, _, Life),
         traced_stepwise(Life)
-    ->  maplist(in_words, [Goal|Goals], Shown),
+    ->  maplist(printable_fallback, [Goal|Goals], Shown),
         with_agent(Id, hold(Id, Host, Probe, Shown, Askers, Answer)),
         answer(Askers, Answer),
         Next = stop
@@ -207,7 +207,7 @@ spied_goal(Id, Host, Goal) :-
     agent(Id, _, _, Hash, _),
     spied(Hash, Goal, Action),
     !,
-    in_words(Goal, Portable0),
+    printable_fallback(Goal, Portable0),
     goal_shown(Id, Portable0, Portable),
     host(Host, Address, _),
     (   Action == hold
