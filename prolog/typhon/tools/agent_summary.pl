@@ -1,5 +1,5 @@
 :- module(typhon_agent_summary,
-          [ agent_glance/2              % ?Agent, -Glance
+          [ agent_summary/2             % ?Agent, -Glance
           ]).
 :- use_module(library(apply), [maplist/2]).
 :- use_module('../kernel/program', [code_program/2]).
@@ -18,13 +18,13 @@ large.
 left out.
 */
 
-%!  agent_glance(?Agent, -Glance) is nondet.
+%!  agent_summary(?Agent, -Glance) is nondet.
 %
 %   Glance is glance(Host, Program, Doing, Hops, Mail): the address of the host
 %   of Agent, the name of its program, its activity as text, the number of its
 %   hops and the number of messages that wait for it.
 
-agent_glance(Agent, glance(Address, Program, Doing, Hops, Mail)) :-
+agent_summary(Agent, glance(Address, Program, Doing, Hops, Mail)) :-
     agent(Agent, Host, _, Hash, Life),
     host(Host, Address, _),
     code_program(Hash, program(Program, _, _, _)),

@@ -20,7 +20,7 @@
                 host_unknown/1, process_ask/6, scheduler_call/1, time_kind/1,
                 tuple_sense/2 ]).
 :- use_module(administration, [host_property/2]).
-:- use_module(agent_summary, [agent_glance/2]).
+:- use_module(agent_summary, [agent_summary/2]).
 :- use_module('../kernel/wire',
               [ endpoint_address/1, endpoint_ask_all/6, endpoint_left/1,
                 endpoint_reply/2 ]).
@@ -55,7 +55,7 @@ answers a request, since the answer may be long.
 %     - Hosts are terms host(Address, State, Load, Capacity, Arrived,
 %       Neighbours, Costs, Clock).  Costs are the costs of the links to
 %       Neighbours, in their order.  Clock is clock(Epoch, Rate) or `virtual`
-%     - Agents are terms agent(Id, Glance), see agent_glance/2: the first Most
+%     - Agents are terms agent(Id, Glance), see agent_summary/2: the first Most
 %       of Count agents, in the order of inventory_order/2.  If Most is 0 they
 %       are not counted
 %
@@ -150,7 +150,7 @@ own_inventory(0, seen(Hosts, [], 0)) :-
     findall(Host, host_seen(Host), Hosts).
 own_inventory(Most, seen(Hosts, Agents, Count)) :-
     findall(Host, host_seen(Host), Hosts),
-    findall(Id-Glance, agent_glance(Id, Glance), All0),
+    findall(Id-Glance, agent_summary(Id, Glance), All0),
     sort(1, @<, All0, All),
     length(All, Count),
     maplist(agent_key, All, Keyed0),

@@ -27,7 +27,7 @@ most(5000).
 %!  supervision_tree(+Places, -Trees:list, -Silent:list) is det.
 %
 %   Trees are terms node(Id, Relation, Glance, Below): Relation is `top`,
-%   `child` or `monitored`, Glance is that of agent_glance/2, or `none`, and
+%   `child` or `monitored`, Glance is that of agent_summary/2, or `none`, and
 %   Below are the nodes below the agent.  Places and Silent are those of
 %   inventory/4.  Agents without relations are left out.
 

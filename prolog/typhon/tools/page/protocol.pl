@@ -2,7 +2,7 @@
           [ event_row/2,                % +Event, -Row
             skipped_row/2,              % +Count, -Row
             scene_dict/3,               % +Time, +Scene, -Dict
-            agent_glance_dict/2,        % +Agent, -Dict
+            agent_summary_dict/2,       % +Agent, -Dict
             text/2,                     % +Term, -Text
             name_text/2,                % +Atomic, -Text
             place_text/2,               % +Place, -Text
@@ -178,7 +178,7 @@ number_json(Number, Told) :-
 scene_dict(Time, scene(Hosts, Agents),
            _{time:Time, hosts:HostDicts, agents:AgentDicts}) :-
     maplist(host_dict, Hosts, HostDicts),
-    maplist(agent_glance_dict, Agents, AgentDicts).
+    maplist(agent_summary_dict, Agents, AgentDicts).
 
 host_dict(host(Address, State, Load, Capacity, Arrived, Neighbours, Costs,
                _),
@@ -212,11 +212,11 @@ link_row(Neighbour, Cost, [Text, Told]) :-
     name_text(Neighbour, Text),
     number_json(Cost, Told).
 
-%!  agent_glance_dict(+Agent, -Dict) is det.
+%!  agent_summary_dict(+Agent, -Dict) is det.
 %
-%   Agent is agent(Id, Glance), see agent_glance/2.
+%   Agent is agent(Id, Glance), see agent_summary/2.
 
-agent_glance_dict(agent(Id, glance(Host, Program, Doing, Hops, Mail)), Dict) :-
+agent_summary_dict(agent(Id, glance(Host, Program, Doing, Hops, Mail)), Dict) :-
     maplist(name_text, [Id, Host, Program, Doing],
             [IdText, HostText, ProgramText, DoingText]),
     status_word(DoingText, Status),

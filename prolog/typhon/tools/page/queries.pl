@@ -18,7 +18,7 @@
 :- use_module('../source_view', [agent_listing/1, goals_shown/4]).
 :- use_module(overlays, [mechanism_dicts/1, program_names/1]).
 :- use_module(protocol,
-              [ agent_glance_dict/2, name_text/2, page_time/2, place_text/2,
+              [ agent_summary_dict/2, name_text/2, page_time/2, place_text/2,
                 scene_dict/3, text/2 ]).
 :- use_module(replay, [replay_of_text/3]).
 :- use_module(editor, [name_in/3, on_console/1, text_in/3]).
@@ -247,13 +247,13 @@ hop_row(Way, stats(Count, Min, Mean, Max), [Text, Count|Times]) :-
 node_dict(node(Agent, Relation, Glance, Below), Dict) :-
     maplist(name_text, [Agent, Relation], [Id, RelationText]),
     maplist(node_dict, Below, Dicts),
-    glance_dict(Glance, Agent, Dict0),
+    summary_dict(Glance, Agent, Dict0),
     Dict = Dict0.put(_{id:Id, relation:RelationText, below:Dicts}).
 
-glance_dict(none, _, _{host:"", program:"", status:"", doing:""}) :-
+summary_dict(none, _, _{host:"", program:"", status:"", doing:""}) :-
     !.
-glance_dict(Glance, Agent, Dict) :-
-    agent_glance_dict(agent(Agent, Glance), Dict).
+summary_dict(Glance, Agent, Dict) :-
+    agent_summary_dict(agent(Agent, Glance), Dict).
 
                 /*******************************
                 *           NETWORKS           *
