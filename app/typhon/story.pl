@@ -5,7 +5,7 @@
 :- use_module(library(lists), [member/2]).
 :- use_module('../../prolog/typhon', [log_events/2]).
 :- use_module('../../prolog/typhon/tools/event_text',
-              [happening/3, short_name/2]).
+              [event_lines/3, short_name/2]).
 
 /** <module> The history of an agent, from a log
 
@@ -68,7 +68,7 @@ tell_event(event(Time, Host, Subject, What), Id, Zero) :-
 
 text(Id, Id, What, Text) :-
     !,
-    phrase(happening(What), Parts),
+    phrase(event_lines(What), Parts),
     message_text(Parts, Text).
 text(Parent, _, cloned(_), Text) :-
     short_name(Parent, Short),

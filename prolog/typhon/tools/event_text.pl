@@ -1,5 +1,5 @@
 :- module(typhon_event_text,
-          [ happening/3,                % +What, //
+          [ event_lines/3,              % +What, //
             own_event/1,                % +What
             short_name/2                % +Name, -Short
           ]).
@@ -14,16 +14,16 @@ the error, and the clause.
 *Threading*: pure; print_message/2 calls it in any thread.
 */
 
-%!  happening(+What, -Text, ?Rest) is det.
+%!  event_lines(+What, -Text, ?Rest) is det.
 %
 %   Text is the message for an event, see typhon_events: an act of an agent, or
 %   an event that concerns an agent or a host.
 
-happening(What) -->
+event_lines(What) -->
     { own(What, If, Text), call(If) },
     !,
     Text.
-happening(What) -->
+event_lines(What) -->
     [ 'logs ' ],
     term_lines(What).
 

@@ -21,7 +21,7 @@ networks and of the log have the texts of their own messages.
 :- use_module('../kernel/base/names',
               [names/2, names_joined/3, names_listed/2, names_proposed/3]).
 :- use_module('../kernel/travel', [agent_outcome/2]).
-:- use_module(event_text, [happening/3, short_name/2]).
+:- use_module(event_text, [event_lines/3, short_name/2]).
 
 :- multifile
     prolog:error_message//1,
@@ -256,16 +256,16 @@ prolog:message(typhon(log_heard(Endpoint, Count))) -->
       [Endpoint, Count] ].
 prolog:message(typhon(traced(Agent, Host, What))) -->
     happened(Agent, Host),
-    happening(What).
+    event_lines(What).
 prolog:message(typhon(stepped(Agent, held(Host, Goal)))) -->
     !,
     happened(Agent, Host),
     [ 'next is ' ],
-    happening(goal(Goal)).
+    event_lines(goal(Goal)).
 prolog:message(typhon(spied(Agent, Host, Goal))) -->
     happened(Agent, Host),
     [ 'is held before ' ],
-    happening(goal(Goal)).
+    event_lines(goal(Goal)).
 prolog:message(typhon(spy(Program, Name, Arity))) -->
     [ 'Agents of ~p are held before ~p'-[Program, Name/Arity] ].
 prolog:message(typhon(spied_none(Program, PI, Meant))) -->
