@@ -29,4 +29,4 @@ This is the interface of the layer: higher layers import from here.
 :- reexport(travel/sender_authorization,
             [peer_may_send_for/3, senders_check/1]).
 :- reexport(travel/news, [news_carried/1, news_hurry/0]).
-:- reexport(travel/external_recipients, [post_abroad/4]).
+:- reexport(travel/external_recipients, [post_external/4]).

@@ -1,5 +1,5 @@
 :- module(typhon_external_recipients,
-          [ post_abroad/4               % +Host, +To, +From, +Message
+          [ post_external/4             % +Host, +To, +From, +Message
           ]).
 :- use_module(library(error), [must_be/2, type_error/2]).
 :- use_module('../wire',
@@ -25,7 +25,7 @@ bridge.
     carried/4,                  % Host, To, From, Message: a bridge takes it
     typhon_endpoint:received/3.
 
-%!  post_abroad(+Host, +To, +From, +Message) is det.
+%!  post_external(+Host, +To, +From, +Message) is det.
 %
 %   Send Message of the agent From, which is on Host, to To.  The bridge of Host
 %   is tried first, then the other bridges of the process.
@@ -35,7 +35,7 @@ bridge.
 %   @error host_unreachable(Host), type_error(mobile_term, Culprit)
 %   @error those of the bridge
 
-post_abroad(Host, To0, From, Message) :-
+post_external(Host, To0, From, Message) :-
     mobile_term(Message),
     hint(To0, To, Hint),
     (   carried(Host, To, From, Message)

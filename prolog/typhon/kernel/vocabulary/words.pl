@@ -45,7 +45,7 @@
               [ agent/5, agent_attach/2, agent_detach/2, agent_home/2,
                 agent_handled/3, agent_payload/3, agent_variant/2,
                 result_put/2, life_hops/2, life_parent/2 ]).
-:- use_module('../travel', [agent_logs/3, post/3, post_abroad/4]).
+:- use_module('../travel', [agent_logs/3, post/3, post_external/4]).
 
 /** <module> The vocabulary of agents
 
@@ -166,7 +166,7 @@ send(External, Message), compound(External) =>
     ->  permission_error(call, sandboxed, send(External, Message))
     ;   true
     ),
-    post_abroad(Host, External, Id, Message),
+    post_external(Host, External, Id, Message),
     event(messages, Host, Id, sent(External, Message)).
 send(Agent, Message), Agent == user =>
     context(Host, Id, _),
