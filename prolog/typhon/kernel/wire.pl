@@ -23,7 +23,7 @@ This is the interface of the layer: higher layers import from here.
 :- reexport(wire/lending, [endpoint_afterwards/1]).
 :- reexport(wire/waiting, [endpoint_flush/1, endpoint_flush/2]).
 :- reexport(wire/peer_cache,
-            [ contact_expect/1, contact_expect_no_more/1, endpoint_gone/1,
+            [ peer_expect/1, peer_expect_no_more/1, endpoint_gone/1,
               endpoint_lasting/1, endpoint_left/1, endpoint_missed/2,
               endpoint_own_proof/1, endpoint_peer/2, endpoint_proof/2 ]).
 :- reexport(wire/frame, [mobile_term/1]).

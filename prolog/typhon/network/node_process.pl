@@ -11,7 +11,7 @@
 :- use_module('../kernel/base/error_text', [error_text/2, print_error/2]).
 :- use_module('../kernel/base/durable_changes', [output_waits/0]).
 :- use_module('../kernel/wire',
-              [ contact_expect/1, contact_expect_no_more/1, endpoint_address/1,
+              [ peer_expect/1, peer_expect_no_more/1, endpoint_address/1,
                 endpoint_flush/2, endpoint_reply/2 ]).
 :- use_module('../kernel/host',
               [ host/3, host_do/2, host_link/3, host_neighbours/2,
@@ -173,9 +173,9 @@ order_do(unlink(Halves), ok) :-
 order_do(places(Pairs), ok) :-
     forall(member(Name-Goal, Pairs), call_in_place(Name, Goal)).
 order_do(expect(Endpoints), ok) :-
-    forall(member(Endpoint, Endpoints), contact_expect(Endpoint)).
+    forall(member(Endpoint, Endpoints), peer_expect(Endpoint)).
 order_do(expect_no_more(Endpoints), ok) :-
-    forall(member(Endpoint, Endpoints), contact_expect_no_more(Endpoint)).
+    forall(member(Endpoint, Endpoints), peer_expect_no_more(Endpoint)).
 order_do(neighbours(Names), Lists) :-
     maplist(host_neighbours, Names, Lists).
 order_do(agents, Agents) :-

@@ -7,7 +7,7 @@
 :- use_module(library(lists), [member/2, nth1/3]).
 :- use_module(library(settings), [setting/2, setting/4]).
 :- use_module('../kernel/base/names', [names_some/3]).
-:- use_module('../kernel/wire', [contact_expect/1, contact_expect_no_more/1]).
+:- use_module('../kernel/wire', [peer_expect/1, peer_expect_no_more/1]).
 :- use_module('../kernel/travel', [home_agents_at/2]).
 :- use_module(children,
               [child_close/1, child_kill/1, child_release/1, child_start/6]).
@@ -181,7 +181,7 @@ nodes_restart(Network, Options, Restore) :-
     (   queue(Network, Queue)
     ->  findall(P, at(Network, P, _), Ps),
         forall(member(P, Ps), expect(Network, P)),
-        forall(at(Network, _, Endpoint), contact_expect(Endpoint)),
+        forall(at(Network, _, Endpoint), peer_expect(Endpoint)),
         restarts_begin(Network, Queue,
                        typhon_processes:restart(Network, Options, Restore))
     ;   true
@@ -194,7 +194,7 @@ expect(Network, P) :-
     node_order(Network, P, expect(Endpoints), ok).
 
 expect_no_more(Network, P) :-
-    forall(at(Network, P, Endpoint), contact_expect_no_more(Endpoint)).
+    forall(at(Network, P, Endpoint), peer_expect_no_more(Endpoint)).
 
 :- public restart/4.
 

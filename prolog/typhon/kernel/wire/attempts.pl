@@ -22,7 +22,7 @@ until it is made again. connection_manager.pl handles its result.
 
 :- use_module(library(lists), [min_member/2]).
 :- use_module(library(settings), [setting/2, setting/4]).
-:- use_module(peer_cache, [contact_expected/1]).
+:- use_module(peer_cache, [peer_expected/1]).
 :- use_module(session, [session/2]).
 
 :- setting(typhon_connection_manager:connect_time, number, 5,
@@ -135,7 +135,7 @@ attempt_pause(Address, Pause, Since) :-
     set(Address, pausing(Until, Asked), Longer, Since).
 
 longest_pause(Address, Longest) :-
-    (   contact_expected(Address)
+    (   peer_expected(Address)
     ->  longest_pause_of_expected(Longest)
     ;   longest_pause(Longest)
     ).
@@ -214,7 +214,7 @@ attempt_over(Address, Since, Formal) :-
 %   The process is being restarted.
 
 soon_there(socket_error(econnrefused, _), Address) :-
-    contact_expected(Address).
+    peer_expected(Address).
 
 may_pass(late).
 may_pass(ended).                        % replaced by another connection
@@ -229,7 +229,7 @@ may_pass(socket_error(Code, _)) :-
                       eaddrnotavail ]).
 
 deadline(Address, Since, Deadline) :-
-    (   contact_expected(Address)
+    (   peer_expected(Address)
     ->  setting(typhon_connection_manager:return_time, Seconds)
     ;   patience(Seconds)
     ),

@@ -29,7 +29,7 @@ connection on which the arbiter sends its count.
 :- autoload(library(socket),
               [ tcp_close_socket/1, tcp_connect/2, tcp_open_socket/3,
                 tcp_setopt/2, tcp_socket/1 ]).
-:- use_module(peer_cache, [contact_gone/1, contact_met/2]).
+:- use_module(peer_cache, [peer_gone/1, peer_met/2]).
 :- use_module(cookie, [cookie/1]).
 :- use_module(handshake,
               [ authenticate/6, hello_codec/3, hello_peer/4, hello_to/3,
@@ -117,7 +117,7 @@ reachable(Peer, Ip, Session) :-
 
 add_route(Address, Process, Session) :-
     route_add(Address, Session),
-    contact_met(Address, Process).
+    peer_met(Address, Process).
 
 loopback(localhost).
 loopback(Ip) :-
@@ -158,7 +158,7 @@ add_routes(Address, Interface, Peer, Session) :-
 
 missed(Address, Formal) :-
     (   Formal = socket_error(econnrefused, _)
-    ->  contact_gone(Address)
+    ->  peer_gone(Address)
     ;   Formal = permission_error(authenticate, peer, Why),
         ( Why = version(_) ; Why == other ; refusal_text(Why, _) )
     ->  print_message(warning, typhon(endpoint, foreign(Address, Formal)))

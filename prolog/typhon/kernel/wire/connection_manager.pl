@@ -32,7 +32,7 @@ that may take long is done by a background thread.
                 attempt_want/1, attempts_due/1 ]).
 :- use_module(connection, [outgoing/2]).
 :- use_module(peer_cache,
-              [contact_gone/1, contact_missed/2]).
+              [peer_gone/1, peer_missed/2]).
 :- use_module(request, [requests_lost/2, session_unfinished/1]).
 :- use_module(writer, [session_close/2, session_retire/1]).
 :- use_module(session,
@@ -67,7 +67,7 @@ manager_unhandled(Messages) :-
 %   `stop`.
 
 keep(Me) :-
-    nb_setval(typhon_keeper, true),
+    nb_setval(typhon_connection_manager, true),
     repeat,
     next_deadline(Deadline),
     (   manager_receive(Message, Deadline)
@@ -116,7 +116,7 @@ handle(displaced(Key), Me) :-           % another process has an address of Key
     ;   gone(Key)
     ).
 handle(gone(Key), _) :-                 % the peer has sent `bye`
-    forall(route_key(Address, Key), contact_gone(Address)),
+    forall(route_key(Address, Key), peer_gone(Address)),
     gone(Key).
 handle(later(Time, Goal), _) :-         % Goal is quick
     assertz(errand(Time, Goal)).
@@ -344,7 +344,7 @@ met(Address) :-
 missed(Address, Asked, Formal) :-
     print_message(silent,
                   typhon(endpoint, unreachable(Address, Formal))),
-    contact_missed(Address, Formal),
+    peer_missed(Address, Formal),
     waiting_missed(Address, Asked).
 
 %!  give_up is det.

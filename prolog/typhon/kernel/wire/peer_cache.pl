@@ -1,10 +1,10 @@
 :- module(typhon_peer_cache,
-          [ contact_met/2,              % +Address, +Process
-            contact_gone/1,             % +Address
-            contact_missed/2,           % +Address, +Formal
-            contact_expect/1,           % +Address
-            contact_expect_no_more/1,   % +Address
-            contact_expected/1,         % +Address
+          [ peer_met/2,                 % +Address, +Process
+            peer_gone/1,                % +Address
+            peer_missed/2,              % +Address, +Formal
+            peer_expect/1,              % +Address
+            peer_expect_no_more/1,      % +Address
+            peer_expected/1,            % +Address
             endpoint_peer/2,            % ?Address, ?Property
             endpoint_gone/1,            % +Address
             endpoint_left/1,            % +Address
@@ -39,71 +39,71 @@ error is recorded. The number of addresses is bounded, the oldest are discarded.
            "Addresses of which the last process met is remembered").
 
 :- dynamic
-    contact/3,                          % Address, Process last met there or
+    last_process/3,                     % Address, Process last met there or
                                         % `none`, `met` or `gone`
     missed/2,                           % Address, Formal
-    contact_expected/1.                 % Address
+    peer_expected/1.                    % Address
 
-%!  contact_met(+Address, +Process) is det.
+%!  peer_met(+Address, +Process) is det.
 %
 %   Record that Process is at Address.
 
-contact_met(Address, Process) :-
-    with_mutex(typhon_contacts,
+peer_met(Address, Process) :-
+    with_mutex(typhon_peer_cache,
                ( note(Address, Process, met),
                  retractall(missed(Address, _)) )).
 
-%!  contact_gone(+Address) is det.
+%!  peer_gone(+Address) is det.
 %
 %   Record that the process at Address has left.
 
-contact_gone(Address) :-
-    with_mutex(typhon_contacts,
+peer_gone(Address) :-
+    with_mutex(typhon_peer_cache,
                ( last_met(Address, Process),
                  note(Address, Process, gone) )).
 
-%!  contact_missed(+Address, +Formal) is det.
+%!  peer_missed(+Address, +Formal) is det.
 %
 %   Record that no process could be reached at Address because of error Formal.
 
-contact_missed(Address, Formal) :-
-    with_mutex(typhon_contacts,
+peer_missed(Address, Formal) :-
+    with_mutex(typhon_peer_cache,
                ( retractall(missed(Address, _)),
                  assertz(missed(Address, Formal)),
                  bounded(missed(_, _), typhon_peer_cache:contacts) )).
 
-%!  contact_expected(+Address) is semidet.
+%!  peer_expected(+Address) is semidet.
 %
 %   If no process is at Address, one soon will be: its owner restarts it.
 
-%!  contact_expect(+Address) is det.
+%!  peer_expect(+Address) is det.
 %
-%   Make contact_expected/1 true.
+%   Make peer_expected/1 true.
 
-contact_expect(Address) :-
-    with_mutex(typhon_contacts,
-               ( retractall(contact_expected(Address)),
-                 assertz(contact_expected(Address)) )).
+peer_expect(Address) :-
+    with_mutex(typhon_peer_cache,
+               ( retractall(peer_expected(Address)),
+                 assertz(peer_expected(Address)) )).
 
-%!  contact_expect_no_more(+Address) is det.
+%!  peer_expect_no_more(+Address) is det.
 %
-%   Make contact_expected/1 false.
+%   Make peer_expected/1 false.
 
-contact_expect_no_more(Address) :-
-    with_mutex(typhon_contacts, retractall(contact_expected(Address))).
+peer_expect_no_more(Address) :-
+    with_mutex(typhon_peer_cache, retractall(peer_expected(Address))).
 
 last_met(Address, Process) :-
-    contact(Address, Process0, _),
+    last_process(Address, Process0, _),
     !,
     Process = Process0.
 last_met(_, none).
 
 note(Address, Process, State) :-
-    contact(Address, Process, State),
+    last_process(Address, Process, State),
     !.
 note(Address, Process, State) :-
-    findall(Old, clause(contact(Address, _, _), true, Old), Olds),
-    assertz(contact(Address, Process, State)),
+    findall(Old, clause(last_process(Address, _, _), true, Old), Olds),
+    assertz(last_process(Address, Process, State)),
     forall(member(Old, Olds), erase(Old)),
     note_lasting(Process, Address),
     forget_oldest.
@@ -120,14 +120,14 @@ note_lasting(none, _) :-
 note_lasting(_, Address) :-
     durable_drop(lasting, Address, 0).
 
-:- durable(lasting, Address, 0, Process, contact(Address, Process, met)).
+:- durable(lasting, Address, 0, Process, last_process(Address, Process, met)).
 
 forget_oldest :-
-    predicate_property(contact(_, _, _), number_of_clauses(Count)),
+    predicate_property(last_process(_, _, _), number_of_clauses(Count)),
     setting(contacts, Max),
     Excess is Count-Max,
     forall(between(1, Excess, _),
-           ignore(retract(contact(_, _, _)))).
+           ignore(retract(last_process(_, _, _)))).
 
 		 /*******************************
 		 *          PROPERTIES          *
@@ -140,7 +140,7 @@ forget_oldest :-
 %   certificate(Name)).
 
 endpoint_peer(Address, process(Id)) :-
-    contact(Address, Id, _),
+    last_process(Address, Id, _),
     Id \== none.
 endpoint_peer(Address, Property) :-
     route(Address, Session),
@@ -167,7 +167,7 @@ peer_property(proof(Proof), Session) :-
 %   been suspended, or is behind a network that is cut.
 
 endpoint_left(Address) :-
-    contact(Address, _, gone),
+    last_process(Address, _, gone),
     \+ route_up(Address, _).
 
 %!  endpoint_gone(+Address) is semidet.
@@ -184,7 +184,7 @@ endpoint_gone(Address) :-
 %   not gone, because it will be restarted.
 
 endpoint_lasting(Address) :-
-    contact(Address, Process, _),
+    last_process(Address, Process, _),
     Process \== none,
     sub_atom(Process, 0, _, _, j).
 

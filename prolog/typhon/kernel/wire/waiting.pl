@@ -34,7 +34,7 @@ and the flushes are for any thread that may wait.
 :- use_module('../base/durable_changes', [commit_changes/0]).
 :- use_module('../base/error_text', [print_error/2]).
 :- use_module(outbox, [session_mark/2]).
-:- use_module(peer_cache, [contact_expected/1]).
+:- use_module(peer_cache, [peer_expected/1]).
 :- use_module(request,
               [ request_answer/2, request_forget/1, request_send/4,
                 request_take/3 ]).
@@ -136,7 +136,7 @@ sent(Address, Number, What) :-
 
 not_sent(session_closed, _, Address, OnAnswer) :-
     !,
-    \+ contact_expected(Address),
+    \+ peer_expected(Address),
     request_answer(unreachable, OnAnswer).
 not_sent(Formal, Context, _, OnAnswer) :-
     print_error(error, error(Formal, Context)),
@@ -183,7 +183,7 @@ manager_connect(Address, Deadline) :-
     connected(Address, [deadline(Deadline)]).
 
 connected(Address, Options) :-
-    \+ nb_current(typhon_keeper, true),
+    \+ nb_current(typhon_connection_manager, true),
     setup_call_cleanup(
         message_queue_create(Queue),
         ( waiting_add(Address, thread(Queue)),
@@ -216,7 +216,7 @@ unsent_forget(OnAnswer) :-
 %   expected at Address soon, the request waits for it.
 
 unsent_closed(Address, Kind, Term, OnAnswer) :-
-    (   contact_expected(Address)
+    (   peer_expected(Address)
     ->  unsent_request(Address, Kind, Term, OnAnswer)
     ;   request_answer(unreachable, OnAnswer)
     ).
@@ -227,7 +227,7 @@ unsent_closed(Address, Kind, Term, OnAnswer) :-
 
 unsent_again(Session, Unsent) :-
     session_peer(Session, _, Address),
-    contact_expected(Address),
+    peer_expected(Address),
     !,
     forall(( member(request(Id, Kind, Term), Unsent),
              request_take(Session, Id, OnAnswer) ),

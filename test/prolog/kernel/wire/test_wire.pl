@@ -441,7 +441,7 @@ test(contacts_are_bounded, true(Count =< 5)) :-
         with_endpoint(
             ( forall(between(1, 20, P),
                      ( atom_concat('127.0.0.1:', P, A), unreachable(A) )),
-              aggregate_all(count, typhon_peer_cache:contact(_, _, _),
+              aggregate_all(count, typhon_peer_cache:last_process(_, _, _),
                             Count) ))).
 
 queues(Count) :-
