@@ -1,9 +1,9 @@
 :- module(typhon_ros_advertisements,
           [ claim/3,                    % +Host, +Key, +Op
-            standing/3,                 % ?Host, ?Key, ?Op
-            standing_end/3,             % +Host, +Key, -Op
-            standing_again/3,           % +Host, +Key, -Op
-            standing_forget/1           % +Host
+            registration/3,             % ?Host, ?Key, ?Op
+            registration_end/3,         % +Host, +Key, -Op
+            registration_renew/3,       % +Host, +Key, -Op
+            registrations_forget/1      % +Host
           ]).
 :- use_module(library(aggregate), [aggregate_all/3]).
 :- use_module(library(error), [permission_error/3, resource_error/1]).
@@ -34,21 +34,21 @@ claim(Host, _, Op) :-
     !,
     permission_error(use, ros_topic(Other), Topic).
 claim(Host, Key, Op) :-
-    standing(Host, Key, Op),
+    registration(Host, Key, Op),
     !.
 claim(Host, Key, Op) :-
-    standing_begin(Host, Key, Op),
+    registration_begin(Host, Key, Op),
     catch(way_say(Host, Op), error(Formal, Context), true),
     (   ( var(Formal) ; Formal = ros_error(not_connected, _) )
     ->  true
-    ;   ignore(standing_end(Host, Key, _)),
+    ;   ignore(registration_end(Host, Key, _)),
         throw(error(Formal, Context))
     ).
 
 conflict(Op, Host, Topic, Other) :-
     of_topic(Op, Topic, Type),
     ( Key = advertise(Topic) ; Key = topic(Topic) ),
-    standing(Host, Key, Op0),
+    registration(Host, Key, Op0),
     of_topic(Op0, Topic, Other),
     \+ same_type(Type, Other).
 
@@ -76,49 +76,49 @@ ends(Type, Package/Name) :-
            "Topics and services that a host may use, each in its way").
 
 :- dynamic
-    standing/3,                 % Host, Key, Op
+    registration/3,             % Host, Key, Op
     ended/3.                    % Host, Key, Op: ended; bounded
 
-%!  standing(?Host, ?Key, ?Op) is nondet.
-%!  standing_begin(+Host, +Key, +Op) is det.
-%!  standing_end(+Host, +Key, -Op) is semidet.
-%!  standing_again(+Host, +Key, -Op) is semidet.
-%!  standing_forget(+Host) is det.
+%!  registration(?Host, ?Key, ?Op) is nondet.
+%!  registration_begin(+Host, +Key, +Op) is det.
+%!  registration_end(+Host, +Key, -Op) is semidet.
+%!  registration_renew(+Host, +Key, -Op) is semidet.
+%!  registrations_forget(+Host) is det.
 %
 %   Op is in force under Key; put it in force; end it; put the Op that ended
 %   last under Key in force again; delete all entries of Host.
 %
 %   @error resource_error(ros_standing) Host has too many entries
 
-standing_begin(Host, Key, Op) :-
+registration_begin(Host, Key, Op) :-
     with_mutex(typhon_ros_advertisements, begin(Host, Key, Op)).
 
 begin(Host, Key, _) :-
-    standing(Host, Key, _),
+    registration(Host, Key, _),
     !.
 begin(Host, Key, Op) :-
-    aggregate_all(count, standing(Host, _, _), Count),
+    aggregate_all(count, registration(Host, _, _), Count),
     setting(most, Most),
     (   Count < Most
-    ->  assertz(standing(Host, Key, Op))
+    ->  assertz(registration(Host, Key, Op))
     ;   resource_error(ros_standing)
     ).
 
-standing_end(Host, Key, Op) :-
+registration_end(Host, Key, Op) :-
     with_mutex(typhon_ros_advertisements, end(Host, Key, Op)).
 
 end(Host, Key, Op) :-
-    retract(standing(Host, Key, Op)),
+    retract(registration(Host, Key, Op)),
     !,
     retractall(ended(Host, Key, _)),
     assertz(ended(Host, Key, Op)),
     bounded(ended(_, _, _), typhon_ros_advertisements:most).
 
-standing_again(Host, Key, Op) :-
+registration_renew(Host, Key, Op) :-
     ended(Host, Key, Op),
     !,
-    standing_begin(Host, Key, Op).
+    registration_begin(Host, Key, Op).
 
-standing_forget(Host) :-
-    retractall(standing(Host, _, _)),
+registrations_forget(Host) :-
+    retractall(registration(Host, _, _)),
     retractall(ended(Host, _, _)).

@@ -11,7 +11,8 @@
 :- use_module(connection,
               [answer_come/2, answers_fail/2, way_note/2, way_option/3]).
 :- use_module(requests, [goal_end/4, request_begin/3, request_end/3]).
-:- use_module(advertisements, [standing/3, standing_again/3, standing_end/3]).
+:- use_module(advertisements,
+              [registration/3, registration_end/3, registration_renew/3]).
 :- use_module(messages, [frame_event/2, json_value/3, op_frame/2]).
 
 /** <module> Events from ROS, and their recipients
@@ -79,7 +80,7 @@ typhon_ros_rosbridge:up(Host, _) :-
     print_message(informational, typhon(ros_found(Host))),
     fail.
 typhon_ros_rosbridge:up(Host, Frame) :-
-    standing(Host, _, Op),
+    registration(Host, _, Op),
     op_frame(Op, Frame).
 
 typhon_ros_rosbridge:down(Host, Why) :-
@@ -95,7 +96,7 @@ typhon_helper_owner:again(ros(Host), _) :-
     connection_lost(Host, node_ended),
     fail.
 typhon_helper_owner:again(ros(Host), _{do:frame, frame:Frame}) :-
-    standing(Host, _, Op),
+    registration(Host, _, Op),
     op_frame(Op, Frame).
 
 connection_lost(Host, Why) :-
@@ -229,7 +230,7 @@ typhon_subscribers:wanted(ros, Host, Key, Wanted) :-
     wanted(Wanted, Key, Host).
 
 wanted(false, service(Service), Host) =>
-    ignore(standing_end(Host, service(Service), _)),
+    ignore(registration_end(Host, service(Service), _)),
     refuse_all(Host, Service),
     way_note(Host, withdraw(Service)).
 wanted(false, goal(Id), Host) =>
@@ -238,7 +239,7 @@ wanted(false, goal(Id), Host) =>
     ;   true
     ).
 wanted(false, Topic, Host) =>
-    ignore(standing_end(Host, topic(Topic), _)),
+    ignore(registration_end(Host, topic(Topic), _)),
     way_note(Host, unsubscribe(Topic)).
 wanted(true, goal(Id), Host) =>         % the goal has been cancelled
     subscribers_notify(ros, Host, goal(Id),
@@ -250,7 +251,7 @@ wanted(true, Topic, Host) =>
     repeat_operation(Host, topic(Topic)).
 
 repeat_operation(Host, Key) :-
-    (   standing_again(Host, Key, Op)
+    (   registration_renew(Host, Key, Op)
     ->  way_note(Host, Op)
     ;   true
     ).

@@ -18,7 +18,8 @@
               [ answers_fail/2, way_close/1, way_open/3, way_say/2,
                 way_state/3 ]).
 :- use_module(events, [ros_ignored/2]).
-:- use_module(advertisements, [claim/3, standing/3, standing_forget/1]).
+:- use_module(advertisements,
+              [claim/3, registration/3, registrations_forget/1]).
 :- use_module(requests, [call_json/5]).
 :- use_module(messages, [ros_name/3, ros_type/3, value_json/2]).
 
@@ -77,7 +78,7 @@ option_type(python(X), atom, X).
 typhon_starting:ends(ros, Host) :-
     way_close(Host),
     answers_fail(Host, stopped),
-    standing_forget(Host).
+    registrations_forget(Host).
 
 typhon_starting:has(ros, Host, Property) :-
     service(ros, Host),
@@ -88,11 +89,11 @@ property(way(Where), Host) :-
 property(connected(Connected), Host) :-
     way_state(Host, _, Connected).
 property(heard(Topic, Type), Host) :-
-    standing(Host, _, subscribe(Topic, Type)).
+    registration(Host, _, subscribe(Topic, Type)).
 property(published(Topic, Type), Host) :-
-    standing(Host, _, advertise(Topic, Type)).
+    registration(Host, _, advertise(Topic, Type)).
 property(offered(Service, Type), Host) :-
-    standing(Host, _, offer(Service, Type)).
+    registration(Host, _, offer(Service, Type)).
 property(ignored(Count), Host) :-
     ros_ignored(Host, Count).
 
