@@ -32,7 +32,7 @@
                 set_payload/2, set_tokens/2 ]).
 :- use_module(platform,
               [ here/1, location_address/2, must/1, port_open/2,
-                same_location/2, told/2, verbosely/2, wrong/2 ]).
+                same_location/2, print_lines/2, verbosely/2, print_problem/2 ]).
 
 /** <module> Agents of a platform
 
@@ -134,14 +134,14 @@ create(Location, Name, Handler, Tokens) :-
     !,
     create_here(Name, Handler, Tokens).
 create((Ip,Port), Name, Handler, Tokens) :-
-    told("Creating agent on platform with IP ~w and port number ~w~n",
-         [Ip, Port]),
+    print_lines("Creating agent on platform with IP ~w and port number ~w~n",
+                [Ip, Port]),
     location_address((Ip,Port), Address),
     catch(remote(Address,
                  tartarus_agents:create_for_other(Name, Handler, Tokens)),
           error(Formal, _),
-          ( wrong('Agent ~w cannot be created at ~w, port ~w: ~p',
-                  [Name, Ip, Port, Formal]),
+          ( print_problem('Agent ~w cannot be created at ~w, port ~w: ~p',
+                          [Name, Ip, Port, Formal]),
             fail )).
 
 create_for_other(Name, Handler, Tokens) :-
@@ -178,7 +178,7 @@ static_agent(Name, Location, Handler, Tokens) :-
     Location = (_,Port),
     life_end(Name),
     catch(port_open(Port, Key), error(Formal, _),
-          ( wrong('Port ~w cannot be opened: ~p', [Port, Formal]),
+          ( print_problem('Port ~w cannot be opened: ~p', [Port, Formal]),
             fail )),
     life_begin(Name, Location, Handler, Tokens),
     record_static(Name, Key),
@@ -206,8 +206,8 @@ agent_execute(Name, Location, Handler, Start) :-
     (   record(Name, Handler, Own),
         same_location(Own, Location)
     ->  run_handler(Name, Handler, Start, in_turn)
-    ;   wrong('There is no agent ~w with handler ~w at ~w here',
-              [Name, Handler, Location])
+    ;   print_problem('There is no agent ~w with handler ~w at ~w here',
+                      [Name, Handler, Location])
     ).
 
 %!  purge_agent(+Name) is det.
@@ -245,7 +245,7 @@ remove_token(Name, Tokens) :-
 known(Name) :-
     (   record(Name, _, _)
     ->  true
-    ;   wrong('There is no agent ~w here', [Name]),
+    ;   print_problem('There is no agent ~w here', [Name]),
         fail
     ).
 
@@ -273,7 +273,7 @@ remove_payload(Name, Indicators) :-
     (   Unknown == []
     ->  subtract(Old, Known, New),
         set_payload(Name, New)
-    ;   wrong('Agent ~w has no payload ~w', [Name, Unknown])
+    ;   print_problem('Agent ~w has no payload ~w', [Name, Unknown])
     ).
 
                 /*******************************
@@ -289,11 +289,11 @@ remove_payload(Name, Indicators) :-
 %   (Name,Handler,Port), with the newest.
 
 list_agent :-
-    told("================Agent list===============~n", []),
+    print_lines("================Agent list===============~n", []),
     forall(record(Name, Handler, (_,Port)),
-           told("Agent Name :~w, handler name:~w, residing on port:~w~n",
-                [Name, Handler, Port])),
-    told("=========================================~n", []).
+           print_lines("Agent Name :~w, handler name:~w, residing on port:~w~n",
+                       [Name, Handler, Port])),
+    print_lines("=========================================~n", []).
 
 list_agent(Agents) :-
     findall((Name,Handler,Port), record(Name, Handler, (_,Port)), Oldest),
@@ -303,15 +303,15 @@ agent_list_new(Names) :-
     findall(Name, record(Name, _, _), Names).
 
 tartarus_platform:status :-
-    told("Agent_GUID:~n", []),
+    print_lines("Agent_GUID:~n", []),
     forall(record(Name, Handler, Location),
-           told("~w|~w|~w~n", [Name, Handler, Location])),
-    told("Agent_payload:~n", []),
+           print_lines("~w|~w|~w~n", [Name, Handler, Location])),
+    print_lines("Agent_payload:~n", []),
     forall(( record(Name, _, _), record_payload(Name, Payload) ),
-           told("~w|~w~n", [Name, Payload])),
-    told("Agent_token:~n", []),
+           print_lines("~w|~w~n", [Name, Payload])),
+    print_lines("Agent_token:~n", []),
     forall(( record(Name, _, _), record_tokens(Name, Tokens) ),
-           told("~w|~w~n", [Name, Tokens])).
+           print_lines("~w|~w~n", [Name, Tokens])).
 
 :- multifile tartarus_platform:status/0.
 

@@ -8,7 +8,7 @@
           ]).
 :- use_module('../typhon', [python_start/3, remote/2]).
 :- reexport('../typhon/bridges/nxt/swi_pro_nxt').
-:- use_module(platform, [told/2]).
+:- use_module(platform, [print_lines/2]).
 
 /** <module> Speech, Python, robots, pins
 
@@ -41,7 +41,7 @@ subtitles(off).
 
 tts(Text) :-
     (   subtitles(on)
-    ->  told("~w~n", [Text])
+    ->  print_lines("~w~n", [Text])
     ;   true
     ),
     (   speech(on)

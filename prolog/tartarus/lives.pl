@@ -22,7 +22,7 @@
 :- use_module(library(listing), [portray_clause/2]).
 :- use_module(library(readutil), [read_file_to_terms/3]).
 :- use_module(clauses, [body/3, body_copy/2, body_erase/2, body_install/1]).
-:- use_module(platform, [here/1, must/1, port_closed/1, wrong/2]).
+:- use_module(platform, [here/1, must/1, port_closed/1, print_problem/2]).
 
 /** <module> Agents of this platform: records, threads, beginning and end
 
@@ -227,16 +227,16 @@ before(in_turn, Name, Thread) :-
 handle(Name, Before, Goal) :-
     call_cleanup(
         ( await(Before),
-          catch(ignore(user:Goal), Ball, unsaid(Ball, Name)) ),
+          catch(ignore(user:Goal), Ball, handle_ball(Ball, Name)) ),
         through(Name)).
 
 %   An abort must end the thread, since the end of the process aborts it.
 
-unsaid('$aborted', _) :-
+handle_ball('$aborted', _) :-
     throw('$aborted').
-unsaid(unwind(Reason), _) :-
+handle_ball(unwind(Reason), _) :-
     throw(unwind(Reason)).
-unsaid(Ball, Name) :-
+handle_ball(Ball, Name) :-
     debug(tartarus(handler), 'the handler of ~w raised ~p', [Name, Ball]).
 
 through(Name) :-
@@ -308,7 +308,7 @@ body_of(Name, Indicators, Clauses) :-
     ->  record_payload(Name, Payload),
         Indicators = [(Handler,3)|Payload],
         body(Name, Indicators, Clauses)
-    ;   wrong('There is no agent ~w here', [Name]),
+    ;   print_problem('There is no agent ~w here', [Name]),
         fail
     ).
 

@@ -14,7 +14,8 @@
 :- use_module('../typhon/kernel/base/error_text', [print_error/2]).
 :- use_module(lives, [record/3, run_apart/1]).
 :- use_module(platform,
-              [here/1, location_address/2, same_location/2, told/2, wrong/2]).
+              [ here/1, location_address/2, print_lines/2, print_problem/2,
+                same_location/2 ]).
 
 /** <module> Messages, and log servers
 
@@ -43,14 +44,14 @@ post_agent(platform, Location, Message) :-
     is_list(Message),
     catch(delivered(Location, Message, Answer),
           error(Formal, _),
-          ( wrong('No message can be sent to ~w, port ~w: ~p',
-                  [Ip, Port, Formal]),
+          ( print_problem('No message can be sent to ~w, port ~w: ~p',
+                          [Ip, Port, Formal]),
             fail )),
     (   Answer = accepted(Agent)
     ->  Message = [_,Agent|_]
-    ;   told("Ack:fail~n", []),
-        wrong('The message to ~w, port ~w was not accepted: ~p',
-              [Ip, Port, Message]),
+    ;   print_lines("Ack:fail~n", []),
+        print_problem('The message to ~w, port ~w was not accepted: ~p',
+                      [Ip, Port, Message]),
         fail
     ).
 
@@ -187,7 +188,8 @@ send(File, Name, Message) :-
     location_address(Server, Address),
     catch(remote(Address, tartarus_messages:logged(File, Entry, Done)),
           error(Formal, _),
-          ( wrong('The log server ~w cannot be reached: ~p', [Server, Formal]),
+          ( print_problem('The log server ~w cannot be reached: ~p',
+                          [Server, Formal]),
             fail )),
     Done == true.
 
@@ -199,4 +201,4 @@ logged(File, Entry, true) :-
                    open(File, append, Out, [encoding(utf8)]),
                    format(Out, "~n~w", [Entry]),
                    close(Out))),
-    told("~w~n", [Entry]).
+    print_lines("~w~n", [Entry]).

@@ -25,8 +25,8 @@
                 record_payload/2, record_static/2, record_tokens/2,
                 run_handler/4 ]).
 :- use_module(platform,
-              [ here/1, location_address/2, must/1, same_location/2, told/2,
-                verbosely/2, verbosity/1, wrong/2 ]).
+              [ here/1, location_address/2, must/1, print_lines/2,
+                print_problem/2, same_location/2, verbosely/2, verbosity/1 ]).
 
 /** <module> Moves of agents between platforms, and their times
 
@@ -62,12 +62,12 @@ move(Name, _) :-
     ;   record_static(Name, _)
     ),
     !,
-    told("Move agent Failed for :~w~n", [Name]).
+    print_lines("Move agent Failed for :~w~n", [Name]).
 move(_, Location) :-
     here(Here),
     same_location(Here, Location),
     !,
-    told("Agent is already on same platform.~n", []),
+    print_lines("Agent is already on same platform.~n", []),
     abort.
 move(Name, Location) :-
     record_life(Name, Life),
@@ -92,7 +92,7 @@ clone_agent(Name, Location, Clone) :-
         bundle(Name, Bundle0),
         renamed(Name, Clone, Bundle0, Bundle),
         sent(Bundle, Location, _)
-    ;   wrong('There is no agent ~w to be cloned', [Name]),
+    ;   print_problem('There is no agent ~w to be cloned', [Name]),
         fail
     ).
 
@@ -126,12 +126,13 @@ sent(Bundle, Location, Outcome) :-
 
 say(landed, _, _).
 say(refused, Name, _) :-
-    told("--------negative ACK received-----------~n", []),
-    told("Agent ~w was not allowed to enter the destination.~n", [Name]),
-    told("--------negative ack processed-----------~n", []).
+    print_lines("--------negative ACK received-----------~n", []),
+    print_lines("Agent ~w was not allowed to enter the destination.~n", [Name]),
+    print_lines("--------negative ack processed-----------~n", []).
 say(missed(Formal), Name, (Ip,Port)) :-
-    wrong('Agent ~w cannot go to ~w, port ~w: ~p', [Name, Ip, Port, Formal]),
-    told("Enter a valid IP address and Port number.~n", []).
+    print_problem('Agent ~w cannot go to ~w, port ~w: ~p',
+                  [Name, Ip, Port, Formal]),
+    print_lines("Enter a valid IP address and Port number.~n", []).
 
                 /*******************************
                 *            CARRIERS          *
@@ -204,8 +205,8 @@ land(bundle(Name, Handler, Payload, Clauses, Tokens, From, Time)) :-
 
 arrived(Name) :-
     (   verbosity(1)
-    ->  told("Agent bearing ~w has arrived to this platform. ~n", [Name])
-    ;   told("  ~n", [])
+    ->  print_lines("Agent bearing ~w has arrived to this platform. ~n", [Name])
+    ;   print_lines("  ~n", [])
     ).
 
                 /*******************************

@@ -16,10 +16,10 @@
             same_location/2,            % +Location, +Location
             port_open/2,                % +Port, -Key
             port_closed/1,              % +Key
-            told/2,                     % +Format, +Arguments
+            print_lines/2,              % +Format, +Arguments
             verbosely/2,                % +Format, +Arguments
             verbosity/1,                % ?Bit
-            wrong/2,                    % +Format, +Arguments
+            print_problem/2,            % +Format, +Arguments
             must/1                      % :Checks
           ]).
 :- use_module(library(apply), [maplist/2]).
@@ -86,30 +86,30 @@ started(Ip, Port, Verbosity) :-
 start(_, _, _) :-
     here(_),
     !,
-    told("~n            Platform already created~n", []).
+    print_lines("~n            Platform already created~n", []).
 start(Ip, Port, Verbosity) :-
     catch(open_platform(Ip, Port), error(Formal, _),
-          ( wrong('The platform cannot be started at ~w, port ~w: ~p',
-                  [Ip, Port, Formal]),
+          ( print_problem('The platform cannot be started at ~w, port ~w: ~p',
+                          [Ip, Port, Formal]),
             fail )),
     set_verbosity(Verbosity),
     set_stream(user_output, buffer(line)),      % also for threads
     assertz(user:platform_Ip(Ip)),
     assertz(user:platform_port(Port)),
     format(atom(Line), '~`=t~48|', []),
-    told("~w~n  Tartarus, on Typhon~n  IP = ~w, Port = ~w~n~w~n",
-         [Line, Ip, Port, Line]).
+    print_lines("~w~n  Tartarus, on Typhon~n  IP = ~w, Port = ~w~n~w~n",
+                [Line, Ip, Port, Line]).
 
 open_platform(Ip, Port0) :-
     Port is Port0 mod 65536,
     interface(Ip, Interface),
-    nobody_yet(Tokens),
+    first_tokens(Tokens),
     host_start(tartarus, [ port(Port), bind(Interface), place(user),
                            tokens(Tokens) ]),
     catch(host_start(tartarus_gate, []), Ball,
           ( host_stop(tartarus), throw(Ball) )).
 
-nobody_yet([Token]) :-
+first_tokens([Token]) :-
     (   user:platform_token(Token)
     ->  true
     ;   Token = '$tartarus_no_token'
@@ -121,7 +121,7 @@ nobody_yet([Token]) :-
 
 close_tartarus :-
     with_mutex(tartarus_platform, close),
-    told("Platform has been closed.~n", []).
+    print_lines("Platform has been closed.~n", []).
 
 close :-
     here(_),
@@ -132,7 +132,7 @@ close :-
     retractall(user:platform_Ip(_)),
     retractall(user:platform_port(_)).
 close :-
-    wrong('There is no platform in this process', []),
+    print_problem('There is no platform in this process', []),
     fail.
 
 %!  reset_tartarus is semidet.
@@ -143,9 +143,9 @@ reset_tartarus :-
     here(_),
     !,
     forall(closing, true),
-    told("-------platform restarted sucessfully-------~n", []).
+    print_lines("-------platform restarted sucessfully-------~n", []).
 reset_tartarus :-
-    wrong('There is no platform in this process', []),
+    print_problem('There is no platform in this process', []),
     fail.
 
 %!  get_tartarus_details(-Ip, -Port) is semidet.
@@ -183,12 +183,12 @@ nothing.
 
 print_tartarus_status :-
     (   here((Ip,Port))
-    ->  told("platform_Ip : ~w    platform_port : ~w~n", [Ip, Port])
-    ;   told("no platform~n", [])
+    ->  print_lines("platform_Ip : ~w    platform_port : ~w~n", [Ip, Port])
+    ;   print_lines("no platform~n", [])
     ),
     forall(status, true),
-    told("platform_token:~n", []),
-    forall(user:platform_token(Token), told("~w~n", [Token])).
+    print_lines("platform_token:~n", []),
+    forall(user:platform_token(Token), print_lines("~w~n", [Token])).
 
 %!  assert_file_to_tartarus(+File) is semidet.
 %
@@ -285,18 +285,18 @@ port_closed(Key) :-
 
 verbosity(0).
 
-%!  told(+Format, +Arguments) is det.
+%!  print_lines(+Format, +Arguments) is det.
 %!  verbosely(+Format, +Arguments) is det.
 %
 %   Print lines as format/2 does; verbosely/2 only if the platform is verbose.
 
-told(Format, Arguments) :-
+print_lines(Format, Arguments) :-
     format(user_output, Format, Arguments),
     flush_output(user_output).
 
 verbosely(Format, Arguments) :-
     (   verbosity(1)
-    ->  told(Format, Arguments)
+    ->  print_lines(Format, Arguments)
     ;   true
     ).
 
@@ -309,11 +309,11 @@ set_verbosity(Bit) :-
     retractall(verbosity(_)),
     assertz(verbosity(Bit)).
 
-%!  wrong(+Format, +Arguments) is det.
+%!  print_problem(+Format, +Arguments) is det.
 %
 %   Print an error on the standard error.
 
-wrong(Format, Arguments) :-
+print_problem(Format, Arguments) :-
     print_message(error, format(Format, Arguments)).
 
 %!  must(:Checks) is det.
@@ -327,11 +327,11 @@ must(Module:Checks) :-
             Errors),
     (   Errors == []
     ->  true
-    ;   maplist(told_error, Errors),
+    ;   maplist(print_check, Errors),
         length(Errors, Count),
-        told("errors found: ~d~n", [Count]),
+        print_lines("errors found: ~d~n", [Count]),
         abort
     ).
 
-told_error(Code-Text) :-
-    told("Error# ~w: ~w~n", [Code, Text]).
+print_check(Code-Text) :-
+    print_lines("Error# ~w: ~w~n", [Code, Text]).
