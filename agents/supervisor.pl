@@ -13,15 +13,15 @@
                       restart(transient) or restart(temporary), and
                       where(Place), see supervision/places.pl
       strategy(one_for_one), one_for_all or rest_for_one
-      intensity(Count, Seconds)       more restarts in so many seconds are too
-                      many: all children are ended, and the supervisor is
+      intensity(Count, Seconds)       after more than Count restarts in
+                      Seconds all children are ended, and the supervisor is
                       disposed of
       standby(Host)   another supervisor on Host takes over when this one is
                       lost; the two monitor each other
 
-    Messages: children, which answers children(Pairs), Name-Agent; restart(Name);
-    and `stop`, which ends the children, the last one first, and then the
-    supervisor.  A child is disposed of if its supervisor ends.
+    Messages: children, with the answer children(Pairs), Name-Agent;
+    restart(Name); and `stop`, which ends the children, the last one first,
+    and then the supervisor.  A child is disposed of if its supervisor ends.
 */
 
 main :-
@@ -93,7 +93,7 @@ handle(children, From) :-
 handle(restart(Name), _) :-
     again(Name).
 
-%   ended(+Name, +Outcome): by itself.
+%   ended(+Name, +Outcome): the child Name has ended by itself.
 
 ended(Name, Outcome) :-
     child(Name, _, Options),
@@ -117,7 +117,7 @@ too_many(TooMany) :-
     aggregate_all(count, restarted(_), Count),
     ( Count > Most -> TooMany = true ; TooMany = false ).
 
-forget_before(Since) :-                 % the oldest is the first
+forget_before(Since) :-                 % the oldest fact is the first
     restarted(Then),
     !,
     (   Then < Since
@@ -134,7 +134,7 @@ restart(true, Name) :-
 restart(false, Name) :-
     again(Name).
 
-%   again(+Name): with those that depend on it.
+%   again(+Name): restarts Name, with the children that depend on it.
 
 again(Name) :-
     findall(Child, child(Child, _, _), All),
@@ -144,7 +144,7 @@ again(Name) :-
     log_restarts(Names),
     start_all(Names).
 
-%   One line is enough for a thousand.
+%   Many restarts are logged in one line.
 
 log_restarts(Names) :-
     length(Names, Count),
@@ -216,7 +216,8 @@ of_supervisor(name(_)).
 of_supervisor(where(_)).
 of_supervisor(restart(_)).
 
-%   The last one first; each has ended before the next is disposed of.
+%   Disposes of the children in reverse order; each has ended before the next
+%   is disposed of.
 
 stop_all(Names) :-
     findall(Name-Agent, ( member(Name, Names), running(Name, Agent) ), Pairs0),
@@ -245,8 +246,8 @@ end(Agent) :-
                 *            STANDBY           *
                 *******************************/
 
-%   It has the same facts, and knows the children, since it ends those that may
-%   have outlived the primary before it starts others.
+%   The standby has the same facts, and knows the children: it ends those that
+%   may have survived the primary before it starts others.
 
 stand_by :-
     (   standby(Wanted),
@@ -264,8 +265,9 @@ stand_by :-
     ;   true
     ).
 
-%   elsewhere(+Wanted, -Host): agents are lost with their home process, too.
-%   So Host is Wanted or a neighbour, in a process other than those.
+%   elsewhere(+Wanted, -Host): Host is Wanted or a neighbour, in another
+%   process than this agent and its home: an agent is also lost with its home
+%   process.
 
 elsewhere(Wanted, Host) :-
     apart_from_here(Wanted, Host),
@@ -288,7 +290,8 @@ one_process(A, B) :-
     after_at(A, Endpoint),
     after_at(B, Endpoint).
 
-%   after_at(+Atom, -Rest): the endpoint of an address, the home of an agent.
+%   after_at(+Atom, -Rest): Rest is the endpoint of an address, or the home in
+%   the id of an agent.
 
 after_at(Atom, Rest) :-
     sub_atom(Atom, At, 1, _, @),
@@ -296,7 +299,7 @@ after_at(Atom, Rest) :-
     From is At+1,
     sub_atom(Atom, From, _, 0, Rest).
 
-%   One of the two may have hopped to a process of the other.
+%   The supervisor or the standby may have hopped to a process of the other.
 
 keep_apart :-
     (   running(standby, Standby),
@@ -347,8 +350,8 @@ watched(_, _, Primary) :-
     look_again,
     watch(Primary).
 
-%   The process of each knows that of the other, to which that may have hopped:
-%   so it can end it there if its home is lost.
+%   Each of the two knows the process of the other, which may have hopped.  So
+%   it can end the other there if the home of the other is lost.
 
 tell_where :-
     here(Here),
@@ -360,11 +363,11 @@ tell_where :-
         tell_standby(supervisor_at(Here))
     ).
 
-%   A message that says that an agent is down is lost with the process to which
-%   this one tried to hop.  To monitor an agent again changes nothing, or brings
-%   the message again.  An agent whose creation was not confirmed, or was
-%   confirmed where this one is no more, follows this one, but is not among its
-%   children: it is ended.  One that stands by says so itself.
+%   A `down` message is lost with the process to which this agent tried to hop.
+%   Monitoring an agent again has no effect, or produces the message again.
+%   An agent whose creation was not confirmed, or was confirmed at a host that
+%   this agent has left, follows this agent, but is not among its children:
+%   it is ended.  A standby reports its own address.
 
 look_again :-
     now(Now),

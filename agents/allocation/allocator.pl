@@ -27,41 +27,42 @@
     as many robots as its task needs, reserves them by negotiation with
     their static agents, has them execute the task, and de-allocates them.
 
-    It searches conscientiously as long as its mobility resource lasts.
-    When that is used up it backs off: children of it de-allocate the
-    robots, and it rests for a while, so that others can complete.
+    The allocator searches conscientiously as long as its mobility resource
+    lasts.  When the resource is exhausted, the allocator backs off: its
+    child agents de-allocate the robots, and it stays dormant for a while, so
+    that other allocators can complete their tasks.
 
     This file is an overview; each step is a file in the folder `allocator`,
     which calls no predicate of a file that is included after it.
-    doc/allocation.md compares them with the steps of the thesis.
+    doc/allocation.md compares these files with the steps of the thesis.
 
     Facts: task(Name, Teams, Details), see common/requirements.pl;
-    setting(Name, Value) replaces a default.  Its payload defines
-    agreed(+Cost, +Details, +Backoffs), which is true if a robot is to be
-    reserved for that cost.
+    setting(Name, Value) replaces a default.  The payload defines
+    agreed(+Cost, +Details, +Backoffs), which is true if the allocator
+    reserves a robot for that cost.
 
-        backoffs(Count)         beta, how often it has backed off
-        stage(Stage)            `waiting`, `searching`, `resting`,
-                                `executing`, for questions from outside
+        backoffs(Count)         beta, the number of back-offs so far
+        stage(Stage)            `waiting`, `searching`, `resting` or
+                                `executing`; other programs read it
 
     The other facts are described in the files that own them.
 */
 
 default(cd, 5).
-default(alpha_k, 0.01).         % below it the resource is used up
-default(chi, 10).               % the resource of a new allocator
+default(alpha_k, 0.01).         % at or below it the resource is exhausted
+default(chi, 10).               % mobility resource of a new allocator
 default(bi_min, 10).            % seconds, of constant back-off
 default(bi_max, 500).
 default(beta, 1).               % of the first back-off; or 0
 default(backoff, adaptive).     % or `constant`: equation 7.7 for 7.6
 default(strategy, conscientious).
 default(sharing, none).         % `own`, `shared`: see news.pl
-default(children, 1).           % among which the robots to free are shared
+default(children, 1).           % child agents that share the de-allocation
 default(child_life, 300).       % seconds
-default(patience, 20).          % seconds to wait for a robot's answer
-default(monitor, 10).           % seconds between looks at silent robots
-default(pause, 1).              % seconds, where there is no way on
-default(start, now).            % or `order`: waits for the message `begin`
+default(patience, 20).          % seconds before a robot counts as silent
+default(monitor, 10).           % seconds between status requests
+default(pause, 1).              % seconds, where no neighbour is reachable
+default(start, now).            % or `order`: wait for the message `begin`
 default(seed, random).
 
 main :-
@@ -81,8 +82,8 @@ prepare :-
     log(begun(Name)),
     set_out.
 
-%   Continues until all its robots have done their part; robots that fail
-%   meanwhile are replaced.
+%   Continues until all robots of the task have done their part; robots that
+%   fail meanwhile are replaced.
 
 accomplish :-
     search,

@@ -2,17 +2,17 @@
 :- include('auctions/participant').
 
 /*  ANTA (Lee, Zaheer, Kim): the trade message spreads as a tree, down to a
-    level; bids go up the tree, are merged on the way, and only the lowest
-    ones go on; awards go down it (thesis section 7.5).  For each round a
-    tree of its own.  Where the neighbour that should get a message is gone,
-    or has never been known, the message is flooded instead.
+    level; bids go up the tree, nodes merge them and pass on only the lowest
+    ones; awards go down the tree (thesis section 7.5).  Each round has a tree
+    of its own.  If the next neighbour on the way of a message has ended or is
+    unknown, the node floods the message instead.
 
-    A node reports to its parent once, when its children must have done so:
-    those of the last level first.  So the time for bids is divided by twice
+    A node reports to its parent once, when its children must have reported:
+    nodes of the last level first.  So the time for bids is divided by twice
     the number of levels, half for the way down, half for the way up.
 
-    State: tree(Job, Round, Parent), Parent `none` at the root;
-    way(Job, Host, Child), to which neighbour to turn to reach Host;
+    State: tree(Job, Round, Parent), Parent is `none` at the root;
+    way(Job, Host, Child), Child is the neighbour on the way to Host;
     gathered(Job, Round, Host, Bids), not yet reported.
 */
 
@@ -26,7 +26,7 @@ publish(announce(Job, Round, Offer)) :-
     to_robot(announce(Job, Round, Offer)),
     flood(announce(Job, Round, Offer, Now, 1)).
 
-%   A flood that counts levels; all others go everywhere.
+%   Trade messages are floods that count levels; other floods reach all nodes.
 
 onward(announce(Job, Round, Offer, Begin, Level0), Onward) :-
     !,
@@ -47,7 +47,7 @@ planted(Job, Round, Parent) :-
         assertz(tree(Job, Round, Parent))
     ).
 
-%   The oldest tree is about to go.
+%   Called before the oldest tree is removed.
 
 forget_ways(Most) :-
     (   kept(tree, Most),
@@ -60,7 +60,7 @@ forget_ways(Most) :-
                 *             BIDS             *
                 *******************************/
 
-%   Level is that of this node, 1 next to the root.
+%   Level is the level of this node; neighbours of the root have level 1.
 
 traded(Job, Round, Offer, Begin, Level, From) :-
     planted(Job, Round, From),
@@ -74,8 +74,9 @@ offer_bids(Job, Round, Bids) :-
     here(Here),
     take_bids(Job, Round, [Here-Bids]).
 
-%   take_bids(+Job, +Round, +List): for the report, or for the auctioneer;
-%   when the report has been made they go up at once.
+%   take_bids(+Job, +Round, +List): keeps the bids for the report, or hands
+%   them to the auctioneer.  Bids that arrive after the report are passed up
+%   at once.
 
 take_bids(Job, Round, List) :-
     Job = job(Owner, _),
@@ -101,9 +102,9 @@ gather(Job, Round, Places) :-
     ;   pass_up(Job, bids(Round, List))
     ).
 
-%   lowest(+Places, +All, -List): those that may win against all others
-%   here.  A robot that is best for two teams can be in one only, so of each
-%   team as many are kept as robots are needed in all.
+%   lowest(+Places, +All, -List): the bids that can still win.  A robot that
+%   is best for two teams can join only one, so for each team as many bids are
+%   kept as robots are needed in all teams together.
 
 lowest(Places, All, List) :-
     findall(Count, member(_-Count, Places), Counts),
@@ -143,7 +144,8 @@ pass_up(Job, Body) :-
     ;   flood(flooded(owner(Job, Body)))
     ).
 
-%   Where messages for many part, each goes on with those it is for.
+%   Where the ways of a message for several hosts part, each child gets the
+%   message for the hosts on its way.
 
 tell_robots(Job, Hosts, Body) :-
     here(Here),
@@ -176,7 +178,7 @@ pass_down([Child-Hosts|Groups], Job, Body, Left) :-
     ),
     pass_down(Groups, Job, Body, Left1).
 
-%   arrived(+Body, +From, +Now): From is the neighbour it came from.
+%   arrived(+Body, +From, +Now): From is the neighbour that sent Body.
 
 arrived(announce(Job, Round, Offer, Begin, Level), From, _) :-
     !,
@@ -195,7 +197,8 @@ arrived(owner(Job, Body), _, _) :-
 arrived(robots(Job, Hosts, Body), _, _) :-
     tell_robots(Job, Hosts, Body).
 
-%   A flooded message because of a broken tree concerns only its receivers.
+%   A message that was flooded because of a broken tree concerns only its
+%   receivers.
 
 everywhere(owner(Job, Body)) :-
     Job = job(Owner, _),

@@ -27,8 +27,8 @@
 Puts on hosts the nodes of a mechanism of thesis section 7.5, `murdoch` or
 `anta`, and posts tasks to be auctioned. Robots are those of
 allocation_operator, so are tasks, task(Name, Teams, Details). Hosts are
-addresses, so all this works from any process that holds the cookie, whoever
-started the hosts.
+addresses, so these predicates work from any process with the cookie, also if
+another process started the hosts.
 
 *Threading*: any thread; no state.
 */
@@ -38,19 +38,21 @@ started the hosts.
 %!  auction_start(+Mechanism, +Hosts, +Options) is det.
 %
 %   Each of Hosts that has none gets a node of Mechanism; nodes know those
-%   of Hosts, and speak to neighbours only. Options:
+%   of Hosts, and send messages to neighbours only. Options:
 %
 %     - settings(+Pairs)
-%       Name-Value, to replace what auctions/participant.pl has as a default.
-%     - diameter(+Links) Of the network; by default its current diameter. It
+%       Name-Value, replaces a default of auctions/participant.pl.
+%     - diameter(+Links)
+%       Diameter of the network; default its current diameter. It
 %       is the setting `level`, and with the longest time of a hop it makes
 %       the settings `window` and `answer`, host seconds to wait for bids and
-%       for answers: there and back again, to one neighbour after the other if
-%       nodes send one by one, and slack.
-%     - slack(+Seconds) Of host time, for what the computer takes to pass on
-%       some thousand messages; by default half a real second.
+%       for answers: a round trip across the network, plus the time to send to
+%       all neighbours if nodes send one message after the other, plus slack.
+%     - slack(+Seconds)
+%       Host seconds that the computer needs to pass on some thousand
+%       messages; default half a real second.
 %
-%   To be called by one at a time.
+%   Not for concurrent calls.
 %
 %   @error type_error(mechanism, X), domain_error(auction_option, Option),
 %   domain_error(setting, X)
@@ -114,9 +116,9 @@ settings(Hosts, Options, Settings) :-
             ),
             Settings).
 
-%   in_turn(+Settings, +Hosts, +Edges, -Turns): how long it takes a node to send
-%   to all its neighbours, in hops, where it sends to one after the other and
-%   has as many as there are in the mean.
+%   in_turn(+Settings, +Hosts, +Edges, -Turns): Turns is the time, in hops,
+%   that a node with the mean number of neighbours needs to send to all of
+%   them; more than 1 only if nodes send one message after the other.
 
 in_turn(Pairs, Hosts, Edges, Turns) :-
     memberchk(sending-one_by_one(Share), Pairs),
@@ -156,7 +158,7 @@ host_name(Host, Name) :-
     ;   Name = Host
     ).
 
-%   Each link is in it twice, once for each of its ends.
+%   Edges contains each link twice, once for each of its ends.
 
 edges(Hosts, Edges) :-
     findall(Host-Other,
@@ -165,7 +167,7 @@ edges(Hosts, Edges) :-
               member(Other, Others), memberchk(Other, Hosts) ),
             Edges).
 
-%   The longest of the shortest ways between hosts that are linked at all.
+%   Diameter is the greatest distance of two hosts in the same component.
 
 diameter(Hosts, Edges, Diameter) :-
     vertices_edges_to_ugraph(Hosts, Edges, Graph),
@@ -196,8 +198,8 @@ beyond(Graph, Host, Next0, Next) :-
 
 %!  auction_post(+Mechanism, +Task, +Host) is det.
 %
-%   The node at Host auctions Task from now on, until it is completed or its
-%   deadline has passed.
+%   The node at Host auctions Task until it is completed or its deadline has
+%   passed.
 %
 %   @error type_error(task, Task), existence_error(node, Host),
 %   host_unreachable(Host)
@@ -216,7 +218,7 @@ node(Mechanism, Host, Node) :-
 
 %!  auction_open(+Mechanism, +Hosts, -Tasks:list) is det.
 %
-%   Tasks are the names of those that the nodes at Hosts still auction, or
+%   Tasks are the names of the tasks that the nodes at Hosts still auction or
 %   have executed.
 %
 %   @error existence_error(node, Host), host_unreachable(Host)
@@ -235,11 +237,11 @@ auction_open(Mechanism, Hosts, Tasks) :-
 
 %!  auction_counts(+Mechanism, +Hosts, -Counts:list(pair)) is det.
 %
-%   Counts are Kind-Count, in the order of the kinds: how many messages of a
-%   kind the nodes at Hosts have sent, each over one link, since
-%   auction_account/2.  Hosts that are gone are left out.
+%   Counts are Kind-Count, ordered by kind: how many messages of a kind the
+%   nodes at Hosts have sent since auction_account/2, each message over one
+%   link.  Hosts that have ended are left out.
 %
-%   @error timeout_error(order, Node): one that is there does not answer
+%   @error timeout_error(order, Node): the node runs but does not answer
 
 auction_counts(Mechanism, Hosts, Counts) :-
     findall(Kind-Count, count_at(Mechanism, Hosts, Kind, Count), All),
@@ -264,8 +266,8 @@ gone(existence_error(node, _)).
 
 %!  auction_account(+Mechanism, +Hosts) is det.
 %
-%   Let the nodes at Hosts log their counts, as communications(Kind, Count),
-%   and begin to count anew. Does not wait.
+%   The nodes at Hosts log their counts, as communications(Kind, Count), and
+%   reset them to 0.  Does not wait for the nodes.
 %
 %   @error existence_error(node, Host), host_unreachable(Host)
 

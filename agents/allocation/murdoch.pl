@@ -1,10 +1,10 @@
 :- agent(murdoch, [state([setting/2])]).
 :- include('auctions/participant').
 
-/*  Murdoch (Gerkey and Mataric): tasks are announced, robots that can do
-    them bid, the fittest get a contract that the auctioneer renews.  As in thesis
-    section 7.5 there is no range in which a message is heard: all of them
-    are flooded, the bids, too.
+/*  Murdoch (Gerkey and Mataric): an auctioneer announces a task, robots that
+    can execute it bid, and the auctioneer awards contracts to the fittest and
+    renews them.  As in thesis section 7.5 radio range is not modelled: nodes
+    flood all messages, bids included.
 */
 
 publish(Body) :-

@@ -20,23 +20,23 @@
 /** <module> Allocating tasks to robots, for users and programs
 
 Puts the static agents of robots on hosts, and releases allocators (thesis
-chapter 7).  Hosts are addresses, so all this works from any process that
-holds the cookie, whoever started the hosts.  There is one robot for a host,
-which is named by it.
+chapter 7).  Hosts are addresses, so these predicates work from any process
+with the cookie, also if another process started the hosts.  A host has at most
+one robot; its address names the robot.
 
 A task is task(Name, Teams, Details).  Teams are pairs Count-Requirements;
 requirements and the properties of robots are described in
-common/requirements.pl.  Details are a list, in which all may be missing:
+common/requirements.pl.  Details is a list of optional terms:
 
   - priority(Number)
-    Default 0.  Robots that are reserved for a task, but do not yet execute
-    it, go over to one of greater priority.
+    Default 0.  A task of greater priority takes over robots that are reserved
+    for another task but not executing it yet.
   - deadline(Seconds)
-    From when the allocator begins.  Then the task is reported as missed,
-    and all its robots are free.
+    Counted from the start of the allocator.  After it the allocator reports
+    the task as missed and releases all its robots.
   - duration(Seconds), goal(Goal)
     What each robot executes; default sleep(Seconds), of 5 seconds.
-  - what the payloads for cost and negotiation look for
+  - terms that the payloads for cost and negotiation read
 
 *Threading*: any thread; no state.
 */
@@ -51,10 +51,10 @@ typhon_options:declared(task_option, name(X), atom, X).
 
 %!  robot_start(+Host, +Properties:list, +Options) is det.
 %
-%   Host gets a robot with Properties, if it has none.  Options:
+%   Puts a robot with Properties on Host, if Host has none.  Options:
 %
 %     - cost(Payload)
-%       Says what a task costs it: default payloads(allocation/nearest).
+%       Computes the cost of a task: default payloads(allocation/nearest).
 %     - settings(Pairs)
 %       Name-Value, for `watch` and `patience`: see robot.pl.
 %
@@ -85,8 +85,9 @@ create_robot(Host, Properties, Options) :-
 %!  robot_fail(+Host) is det.
 %!  robot_repair(+Host) is det.
 %
-%   The robot at Host has the state Name=Value from now on; it fails, which
-%   ends its reservation, and will do nothing until it is repaired.
+%   robot_state/2 sets the state Name=Value of the robot at Host.
+%   robot_fail/1 makes the robot fail: its reservation ends, and it refuses
+%   all tasks until robot_repair/1.
 %
 %   @error existence_error(robot, Host)
 
@@ -112,8 +113,8 @@ robot(Host, Robot) :-
 
 %!  robot_status(+Host, -Status) is det.
 %
-%   Status is `failed`, `free`, or reserved(Owner, Task), likewise with
-%   `executing` or `done`, Owner being the allocator.
+%   Status is `failed`, `free`, reserved(Owner, Task), executing(Owner, Task)
+%   or done(Owner, Task); Owner is the allocator.
 %
 %   @error existence_error(robot, Host)
 
@@ -136,16 +137,17 @@ status(_, free).
 
 %!  task_allocate(+Task, +Host, +Options, -Agent) is det.
 %
-%   Agent, which begins at Host, allocates Task, has it executed, and ends.
-%   Options:
+%   Creates Agent, an allocator, at Host.  Agent allocates Task, has it
+%   executed, and ends.  Options:
 %
 %     - negotiation(Payload)
-%       Which robots it wants: default payloads(allocation/willing).
+%       Decides which robots Agent reserves: default
+%       payloads(allocation/willing).
 %     - settings(Pairs)
 %       Name-Value, to replace the defaults in allocator.pl.  With
 %       start-order Agent waits for the message `begin`.
 %     - name(Name)
-%       From which the id of Agent is made.
+%       The id of Agent begins with Name.
 %
 %   @error domain_error(task_option, Option)
 %   @error type_error(task, Task), domain_error(setting, X)
@@ -171,8 +173,9 @@ settings(Names, Options, Settings) :-
 
 %!  allocation_stage(+Agent, -Stage, -Robots:list(atom)) is semidet.
 %
-%   What an allocator is doing, `waiting`, `searching`, `resting` or
-%   `executing`, and which robots it has.  Fails when it has ended.
+%   Stage is the stage of the allocator Agent, `waiting`, `searching`,
+%   `resting` or `executing`, and Robots are the hosts of the robots it holds.
+%   Fails when Agent has ended.
 
 allocation_stage(Agent, Stage, Robots) :-
     agent_property(Agent, facts(Facts)),

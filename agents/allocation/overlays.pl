@@ -1,4 +1,4 @@
-% What the page shows of robots and tasks; facts overlay/4, see doc/page.md.
+% Overlays of robots and tasks on the page; facts overlay/4, see doc/page.md.
 
 overlay('task reserved', label, log(reserved(Robot, _, Task)), Robot-Task).
 overlay('task reserved', label, log(released(Robot, _, _)), Robot-none).

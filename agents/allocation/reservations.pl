@@ -7,10 +7,10 @@
                put_assoc/4]).
 :- use_module(library(lists), [append/3, member/2, reverse/2]).
 
-/** <module> Was any robot reserved twice?
+/** <module> Check of a log for robots that were reserved twice
 
-Reads the event log of an allocation, by whatever mechanism: only what the
-robots themselves logged counts.
+Reads the event log of an allocation by any mechanism.  Only events that the
+robots logged count.
 
 *Threading*: pure.
 */
@@ -20,13 +20,13 @@ robots themselves logged counts.
 %   Events are event(Time, Host, Agent, What), in order.  Faults are
 %
 %     - twice(Robot, Owner1, Owner2, Time)
-%       Owner2 got a robot that Owner1 had reserved
+%       Owner2 reserved a robot that Owner1 had reserved
 %     - stray(Robot, Owner, Event, Time)
 %       Owner's robot was `released` or `executed`, but not reserved
 %     - held(Robot, Owner, Task)
-%       Still reserved at the end, as are those whose host has died
+%       Still reserved at the end; includes robots whose host has ended
 %
-%   the last kind after the others.
+%   in order of time, `held` last.
 
 reservation_faults(Events, Faults) :-
     empty_assoc(None),

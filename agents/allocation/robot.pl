@@ -6,23 +6,23 @@
 :- include('robot/reservation').
 :- include('robot/execution').
 
-/*  The static agent of a robot: says what the robot can do and what that
+/*  The static agent of a robot: reports what the robot can do and what that
     would cost, and holds one task at a time (thesis sections 7.3, 7.4).
-    Mobile allocators and the agents of auctions talk to it alike; no other
-    agent changes what it holds.
+    Mobile allocators and the nodes of auctions send it the same messages; no
+    other agent changes its reservation.
 
     Facts: property(Property), its capabilities and states; its payload
-    defines cost(+Need, +Properties, -Cost), which fails if the robot will
-    not do it.  The tuple robot(Id) on its host, left by the program
-    that started it, says which agent to ask.  In events the robot is named by
-    the address of its host.
+    defines cost(+Need, +Properties, -Cost), which fails if the robot refuses
+    the task.  The program that starts the robot leaves the tuple robot(Id)
+    on its host; other agents find the robot by it.  In events the address of
+    the host names the robot.
 
-    A reservation is known by its Ref, a term that the asker chose.  It is
-    kept as hold(Ref, Owner, Need, Contact, Phase): Owner is the agent whose
-    task it is, Contact the one that reserved the robot and gets what
-    happens; Phase is `reserved`, executing(Hand) or `done`.
+    A reservation is known by its Ref, a term that the requesting agent chose.
+    It is stored as hold(Ref, Owner, Need, Contact, Phase): Owner is the agent
+    that owns the task, Contact the agent that reserved the robot and gets the
+    notices below; Phase is `reserved`, executing(Hand) or `done`.
 
-    Asked by others, and answered by answer(Ref, What):
+    Requests of other agents, and What in the answer, answer(Ref, What):
 
         ask(Ref, Need)              bid(Cost) or refused(Reason)
         reserve(Ref, Owner, Need)   reserved or refused(Reason)
@@ -30,19 +30,19 @@
         status(Ref)                 status(Phase), `none` if not held
         release(Ref)                released
 
-    A Need is need(Task, Requirements, Details).  Refused are needs for which
-    the robot is `unfit`, all while it is `failed`, and those that it could
-    serve were it not `reserved` or `executing` for another. But a reserved
-    robot accepts a more urgent task.
+    A Need is need(Task, Requirements, Details).  A robot refuses needs for
+    which it is `unfit`, all needs while it is `failed`, and all others while
+    it is `reserved` or `executing` for another agent.  But a robot that is
+    reserved and not executing accepts a more urgent task.
 
     The contact gets done(Ref) after the execution, lost(Ref, Why) if the
-    reservation has ended otherwise, and from time to time still(Ref), to be
-    answered by yes(Ref) or no(Ref).  Without an answer the reservation ends,
+    reservation has ended otherwise, and periodically still(Ref), which it
+    answers by yes(Ref) or no(Ref).  Without an answer the reservation ends,
     so an agent that has died does not keep the robot.
 */
 
-default(watch, 60).             % seconds from one question to the next
-default(patience, 20).          % seconds for the answer
+default(watch, 60).             % seconds between two messages still(Ref)
+default(patience, 20).          % seconds to wait for the answer
 
 main :-
     next(Event),
@@ -115,7 +115,7 @@ heed(repair, _) :-
     retract(failed),
     log(robot(repaired)).
 
-%   The contact is asked, or has not answered.
+%   It is time to ask the contact, or the contact has not answered in time.
 
 overdue(ask) :-
     hold(Ref, _, _, Contact, _),

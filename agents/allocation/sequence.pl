@@ -20,9 +20,9 @@
 
 /** <module> A sequence of tasks on the robots that an allocator has found
 
-Chapters 7 and 6 of the thesis together: an allocator finds and reserves the
-robots, and holds them, while agents whose number regulates itself have them
-execute a sequence of tasks in step.  Then it lets them go.
+Combines chapters 7 and 6 of the thesis: an allocator finds and reserves the
+robots and holds them, while a self-regulating population of agents has them
+execute a sequence of tasks in step.  Then the allocator releases the robots.
 
 *Threading*: any thread, which waits; no state.
 */
@@ -33,24 +33,24 @@ execute a sequence of tasks in step.  Then it lets them go.
 %!                    -Robots:list(atom), -Outcome) is det.
 %
 %   Robots, the hosts of the robots that Teams require, execute Tasks, pairs
-%   Task-Goal, in order.  An allocator is released at Host; the sequence has
-%   its Name.  Outcome is `completed`, or `missed` if that is not done by
-%   the deadline; then Robots are those that had begun, or none.
+%   Task-Goal, in order.  An allocator is released at Host; the sequence is
+%   called Name.  Outcome is `completed`, or `missed` if the deadline passes
+%   first; then Robots are those that had begun, or none.
 %   Options:
 %
 %     - deadline(Seconds)
-%       Default 600 seconds of host time.  If the caller dies meanwhile, the
-%       robots are held so long and no longer.
+%       Default 600 seconds of host time.  If the caller dies, the allocator
+%       holds the robots until the deadline.
 %     - priority(Number)
 %     - allocation(Options), population(Options)
 %       For task_allocate/4 and population_start/5.
 %
-%   A robot that fails in the middle of the sequence executes no more of it.
-%   The allocator finds another one, which executes the whole sequence.
+%   A robot that fails during the sequence executes no more of it.  The
+%   allocator finds another one, which executes the whole sequence.
 %
 %   @error domain_error(sequence_allocation_option, Option)
-%   @error errors of task_allocate/4 and population_start/5, after which
-%   the robots free themselves
+%   @error errors of task_allocate/4 and population_start/5; after them the
+%   robots end their reservations by themselves
 
 sequence_allocate(Name, Teams, Host, Tasks, Options, Robots, Outcome) :-
     sequence_begin(Name, Teams, Host, Tasks, Options, Sequence),
@@ -67,7 +67,7 @@ see_through(Sequence0, Robots, Outcome) :-
         see_through(Sequence, Robots, Outcome)
     ).
 
-%   For a while, in any kind of time.
+%   Waits a moment, in real or virtual time.
 
 wait(sequence(_, Agent, _)) :-
     catch(agent_join(Agent, _, 0.1), error(existence_error(agent, _), _),
@@ -78,10 +78,10 @@ wait(sequence(_, Agent, _)) :-
 %!  sequence_proceed(+Sequence0, -Sequence) is det.
 %!  sequence_over(+Sequence, -Robots, -Outcome) is semidet.
 %
-%   The same for callers with several sequences: Sequence is to be
-%   looked at again and again until it is over.
+%   The same for callers with several sequences: sequence_proceed/2 is called
+%   repeatedly until sequence_over/3 succeeds.
 %
-%   @error as sequence_allocate/7; then Sequence0 is not to be used again
+%   @error as sequence_allocate/7; then Sequence0 is invalid
 
 sequence_begin(Name, Teams, Host, Tasks, Options,
                sequence(searching, Agent, plan(Name, Tasks, Population))) :-
@@ -144,7 +144,7 @@ next(executing(Robots, Agents), Agent, plan(Name, Tasks, _),
     maplist(dismiss, Agents),
     catch(agent_send(Agent, finish), error(_, _), true).
 
-%   Its allocator has ended.
+%   The allocator of the sequence has ended.
 
 left(searching, over([], missed)).
 left(executing(Robots, Agents), over(Robots, missed)) :-
@@ -161,7 +161,7 @@ abandon(sequence(Stage, Agent, _)) :-
     ),
     dismiss(Agent).
 
-%   All robots have answered that they hold the task.
+%   True when all robots have answered that they execute the task.
 
 held(Agent, Name, Robots) :-
     allocation_stage(Agent, executing, Robots),
@@ -170,7 +170,7 @@ held(Agent, Name, Robots) :-
 executing(Agent, Name, Host) :-
     catch(robot_status(Host, executing(Agent, Name)), error(_, _), fail).
 
-%   Its host may be gone with it.
+%   The host of a lost robot may have ended.
 
 retire(Name, Host) :-
     catch(population_leave(Name, Host), error(_, _), true).
@@ -179,7 +179,7 @@ completed(Name, Task, Host) :-
     catch(remote(Host, sense(task(Name, Task, completed, _))),
           error(_, _), fail).
 
-%   Clones of it die by themselves when there is nothing to do.
+%   Clones of Agent die by themselves when they find no work.
 
 dismiss(Agent) :-
     catch(agent_dispose(Agent), error(_, _), true).

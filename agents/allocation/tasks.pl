@@ -4,15 +4,16 @@
 :- use_module(library(apply), [maplist/2]).
 :- use_module(library(error), [type_error/2]).
 
-/** <module> What a task looks like
+/** <module> The format of tasks
 
 *Threading*: pure.
 */
 
 %!  check_task(@Task) is det.
 %
-%   Task is task(Name, Teams, Details): an atomic name, at least one team
-%   Count-Requirements, and a list.  See allocation_operator.
+%   True if Task is task(Name, Teams, Details): Name is atomic, Teams a list
+%   of at least one team, Count-Requirements, and Details a list.  See
+%   allocation_operator.
 %
 %   @error type_error(task, Task)
 

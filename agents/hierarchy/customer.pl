@@ -1,7 +1,7 @@
 :- agent(customer, [state([round/1, part/2])]).
 
-/*  Asks leaders for a round of work, and ends when all have done it.  Facts:
-    round(Round), part(Leader, Hosts).
+/*  Asks leaders for a round of work, and ends when all leaders have served it.
+    Facts: round(Round), part(Leader, Hosts).
 */
 
 main :-

@@ -4,32 +4,35 @@
 :- include(orders).
 
 /*  Leads the workers of one part of a network: the middle level of a hierarchy
-    (thesis section 8.2).  For each round of work it creates workers, waits until
-    they have ended, looks at what they have left on the hosts, and changes their
-    parameters before the next round.
+    (thesis section 8.2).  For each round of work it creates workers, waits
+    until they have ended, reads the facts that they have left on the hosts,
+    and changes their parameters before the next round.
 
-        serve(Round, Hosts)     asked by a customer; answered by served(Round)
+        serve(Round, Hosts)     request of a customer; the answer is
+                                served(Round)
 
     A payload, the mechanism, defines the workers, the observations of a
     leader on a host, and the changes of parameters.  It provides
 
         crew(+Round, +Hosts, +Settings, -Orders)
-                                workers, each order(Program, Options), for
+                                the workers, each order(Program, Options), for
                                 create/3
-        seen(+Round, -Facts)    what is on this host
+        seen(+Round, -Facts)    the observations on this host
         decided(+Reports, +Memory0, -Memory, -Orders)
                                 Reports are pairs of a leader and
-                                report(Settings, Ends, Facts): with Settings, pairs
-                                Name-Value, Ends are ended(Seconds, Outcome) of each
-                                worker, `late` if it was disposed of, and Facts were
-                                seen.  Orders are pairs of a leader and the settings
-                                that are new.  Memory, `none` at first, is what
-                                is learnt
+                                report(Settings, Ends, Facts).  Settings are
+                                its pairs Name-Value; Ends has
+                                ended(Seconds, Outcome) for each worker,
+                                Outcome is `late` if it was disposed of; Facts
+                                are the results of seen/2.  Orders are pairs
+                                of a leader and its changed settings.  Memory,
+                                at first `none`, keeps what the mechanism has
+                                learnt
 
     Facts: setting(Name, Value), of workers and of the mechanism;
-    limit(Seconds), after which workers are disposed of.  The fact decides(Agent) says
-    which agent decides: `self`, `none`, or an observer, which has the same payload
-    and the reports of all leaders.
+    limit(Seconds), after which workers are disposed of.  The fact
+    decides(Agent) names the agent that decides: `self`, `none`, or an
+    observer, which has the same payload and the reports of all leaders.
 */
 
 main :-
@@ -69,7 +72,7 @@ attend([Worker|Workers], Start, [ended(Seconds, Outcome)|Ends]) :-
     Seconds is End - Start,
     attend(Workers, Start, Ends).
 
-%   Hosts that are gone meanwhile are left out.
+%   Skips hosts that have ended meanwhile.
 
 tour([], _, Facts, Facts).
 tour([Host|Hosts], Round, Facts0, Facts) :-

@@ -2,8 +2,8 @@
 :- include('../lib/keep').
 :- include(orders).
 
-/*  The entity on top of a hierarchy (thesis section 8.2): sees what all
-    leaders have measured of a round, and changes the parameters of the levels
+/*  The entity on top of a hierarchy (thesis section 8.2): collects the reports
+    of all leaders for a round, and changes the parameters of the levels
     below.  It decides by the same payload as a leader without an observer
     (leader.pl), but from all reports together. The fact leaders(Count) is the
     number of leaders.

@@ -25,17 +25,18 @@ another mechanism, which a payload defines; leader.pl describes it.
 
 %!  hierarchy_start(+Homes:list(atom), +Mechanism, +Options, -Leaders) is det.
 %
-%   One leader on each of Homes.  Mechanism is a payload file, as
+%   Creates one leader on each of Homes.  Mechanism is a payload file, such as
 %   payloads(hierarchy/steps).  Options:
 %
 %     - decides(Level)
 %       `observer`, the default: an observer is created on the first of Homes;
-%       `leaders`: each by itself; `none`: parameters stay as they are
+%       `leaders`: each leader decides for itself; `none`: parameters do not
+%       change
 %     - limit(Seconds)
 %       Host seconds after which workers are disposed of; default 2000.
 %     - settings(Pairs)
-%       Name-Value, parameters of the mechanism and of its workers at first;
-%       `workers` is how many there are in each part
+%       Name-Value, initial parameters of the mechanism and of its workers;
+%       `workers` is the number of workers in each part
 %
 %   @error domain_error(hierarchy_option, Option), and others of agent_create/3
 
@@ -70,8 +71,8 @@ create_leader(Mechanism, Facts, Home, Leader) :-
 %!  hierarchy_serve(+Leaders:list, +Round:atom, +Parts:list(list(atom)),
 %!                  +Timeout) is semidet.
 %
-%   Each of Leaders has a round of work done on the hosts of its part, which
-%   may be others than before.  Fails if that takes longer than Timeout host
+%   Each of Leaders serves a round of work on the hosts of its part.  Parts may
+%   change from round to round.  Fails if that takes longer than Timeout host
 %   seconds.
 %
 %   @error existence_error(host, Host), host_unreachable(Host)

@@ -3,7 +3,7 @@
 
 %!  orders(+Reports, -Orders) is det.
 %
-%   The decision of the mechanism, whose memory is updated.
+%   Orders are the decision of the mechanism; its memory is updated.
 
 orders(Reports, Orders) :-
     ( memory(Memory0) -> true ; Memory0 = none ),

@@ -2,16 +2,16 @@
 % Gives: bred/2, and what population/replication gives.
 
 /*  Cloning of agents that make progress, under the controller of chapter 6
-    (thesis section 8.2); with the setting cloning-true.
+    (thesis section 8.2); enabled by the setting cloning-true.
 
     A step of life is an execution.  Progress, which is rewarded, is a plan
-    that is longer than any that has been executed at this host; each host
-    remembers, progress(Length).  So an agent has to be ahead of the others,
+    longer than any executed before at this host; the host stores that length
+    in progress(Length).  So an agent knows whether it is ahead of the others
     without asking them. Where the length of a plan does not measure its
     value, cloning is of no use.
 
-    A clone goes on with all its parent knows.  When its lifetime is over,
-    without progress that prolongs it, it ends.
+    A clone inherits all knowledge of its parent.  It ends when its lifetime
+    is over, unless progress prolongs it.
 */
 
 :- include('../population/replication').
@@ -26,9 +26,9 @@ die :-
 
 %!  bred(+Outcome, +Length) is det.
 %
-%   After an execution of a plan of Length actions.  An agent that has
-%   reached the goal needs no clones.  The queue of a host are the agents there,
-%   without the trainer.
+%   Called after an execution of a plan of Length actions.  An agent that has
+%   reached the goal needs no clones.  The queue of a host consists of the
+%   agents there, except the trainer.
 
 bred(_, _) :-
     parameter(cloning, false),

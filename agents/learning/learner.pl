@@ -13,29 +13,31 @@
 /*  Algorithm 1 of the thesis: agents that learn from the feedback of hosts to
     their actions, and from each other when they meet.
 
-    Executor      has the plan executed by the trainer of the host
-    Collector     goes from host to host, and takes into its bag what others
-                  in the same queue have to share
-    Assimilator   makes a plan of all it has
-    Converger     has reached the goal, and looks for an agent that has
-                  reached it in a better way
+    Executor      has the trainer of the host execute the plan
+    Collector     moves from host to host, and collects in its bag what other
+                  agents in the same queue share
+    Assimilator   makes a plan of its own and the collected units
+    Converger     has reached the goal, and searches for an agent with a
+                  better solution
 
     A payload, the learning algorithm, makes plans. It provides
 
         plan(+Start, +Units, -Plan)   Units are pairs Unit-Weight, in the
                                       standard order, Start the sensor
                                       vector where executions begin
-        better(+Actions, +Others)     of two that lead to the goal
+        better(+Actions, +Others)     true if the solution Actions is better
+                                      than Others
 
-    It can be exchanged while the agent lives; without one the agent waits.
+    The payload can be exchanged while the agent runs; the agent waits while
+    it has none.
 
-    What it has: shareable(Units), by its own executions, which it shares;
-    bag(Units), what others shared, until it is assimilated;
-    solution(Actions), those that led to the goal.
+    State: shareable(Units), units of its own executions, which it shares;
+    bag(Units), units shared by others and not yet assimilated;
+    solution(Actions), actions that led to the goal.
 
     On the hosts: trainer(Id), and queued(Id) for each agent in the queue,
-    in the order in which they came.  How many may be there is the capacity
-    of the host.
+    in the order of arrival.  The capacity of the host limits the length of
+    the queue.
 */
 
 main :-
@@ -124,8 +126,9 @@ rewarded(gain(Before, After), Rho0, Rho) :-
                 *          ASSIMILATOR         *
                 *******************************/
 
-%   No plan comes of it only while the learning algorithm is exchanged.  What
-%   payloads do in findall/3 is not unfolded, so it is much faster.
+%   There is no plan only while the learning algorithm is exchanged.  The
+%   machine does not unfold what payloads do in findall/3, so that is much
+%   faster.
 
 assimilator :-
     shareable(Own),
@@ -180,8 +183,8 @@ converger(Rho0) :-
                 *            MOVING            *
                 *******************************/
 
-%   hop(+Rho0, -Rho): on to another host, whatever time it takes.  A host
-%   that is full counts as visited, so another one is tried next.
+%   hop(+Rho0, -Rho): moves to another host, however long that takes.  A full
+%   host counts as visited, so that the next attempt chooses another one.
 
 hop(Rho0, Rho) :-
     (   moved

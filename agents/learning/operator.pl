@@ -16,14 +16,14 @@
 :- use_module(library(lists), [nth0/3]).
 :- use_module(library(option), [option/3]).
 
-/** <module> Agents that learn, as seen from outside
+/** <module> Agents that learn, for users and programs
 
-Puts trainers on hosts and sets learning agents out (thesis chapter 4).
-Hosts are addresses, so all this works from any process that holds the
-cookie, whoever started the hosts.
+Creates trainers on hosts, and learning agents (thesis chapter 4).
+Hosts are addresses, so these predicates work from any process with the
+cookie, also if another process started the hosts.
 
-A problem and a learning algorithm are payload files; what they provide is
-said in the programs that use them, trainer.pl and learner.pl.
+A problem and a learning algorithm are payload files; trainer.pl and
+learner.pl describe what they provide.
 
 *Threading*: any thread; no state.
 */
@@ -32,7 +32,7 @@ said in the programs that use them, trainer.pl and learner.pl.
 
 %!  learning_start(+Hosts, +Problem, +Algorithms, +Options, -Agents) is det.
 %
-%   Each of Hosts gets a trainer for Problem, where it has none.  Agents,
+%   Each of Hosts gets a trainer for Problem, if it has none.  Agents,
 %   with Algorithms in turn, all begin together.  Options:
 %
 %     - agents(Count)
@@ -41,10 +41,10 @@ said in the programs that use them, trainer.pl and learner.pl.
 %       Where they start, see starts/4.  The seed is also that of the
 %       trainers.
 %     - settings(Pairs)
-%       Name-Value, to replace what parameters.pl has as a default.
+%       Name-Value, to replace the defaults in parameters.pl.
 %
-%   For no more than N agents in the queue of a host it must have been
-%   started with the capacity N + 1, for the trainer.
+%   To limit the queue of a host to N agents, start the host with the capacity
+%   N + 1: the trainer needs one.
 %
 %   @error domain_error(learning_option, Option)
 %   @error type_error(list, X), domain_error(hosts, []),
@@ -99,8 +99,8 @@ begin(Agent) :-
 
 %!  learning_exchange(+Agents, +Name, +Algorithm) is det.
 %
-%   Agents lay down the learning algorithm that is called Name and take up
-%   Algorithm, a payload file, wherever they are.
+%   Agents replace the learning algorithm called Name by Algorithm, a payload
+%   file, at their current hosts.
 %
 %   @error existence_error(agent, Agent), and others of payload_attach/2
 

@@ -4,25 +4,25 @@
 /*  The parameters of learning agents (thesis section 4.4); facts
     setting(Name, Value) replace the defaults.
 
-    The thesis prints epsilon and rho_max.  k_d, k_r and `search` were chosen
-    once, together, so that an agent that learns the maze alone needs about
-    as many executions as in the thesis.
+    The thesis prints epsilon and rho_max.  k_d, k_r and `search` were
+    calibrated together, once, so that a single agent that learns the maze
+    needs about as many executions as in the thesis.
 */
 
 :- include('../lib/parameters').
 
-default(epsilon, 0.2).          % how often a step is random
+default(epsilon, 0.2).          % probability of a random move
 default(rho_max, 10).           % migration resource
 default(rho_min, 1).            % below it the resource is exhausted
 default(c, 0.5).                % of equation 4.3
 default(k_d, 1).                % of equation 4.5
 default(k_r, 0.5).              % of equation 4.6
-default(search, 3).             % actions that a plan leaves potential for
+default(search, 3).             % actions that Xi allows beyond the plan
 default(sharing, true).
 default(stay, 1).               % seconds in the queue of a host
 default(patience, 1).           % seconds before a refused agent tries again
 default(answer, 30).            % seconds for the answer of another agent
 default(execution, 60).         % seconds for the trainer's feedback
 default(start, now).            % or `order`: waits for the message `begin`
-default(seed, random).          % of what trainers choose
+default(seed, random).          % of the random choices of trainers
 default(trace, false).          % trainers log the actions tried

@@ -5,13 +5,13 @@
 /*  Migration resource and execution potential: thesis section 4.2.6,
     equations 4.1 to 4.6.
 
-    Intelligence is a list of pairs Unit-Weight; the weight, phi_w, is what
-    the problem says.
+    Intelligence is a list of pairs Unit-Weight; the problem defines the
+    weight, phi_w.
 
-    Three things are settled here.  By equation 4.2 a migration resource
-    never reaches 0, so it is exhausted below a threshold.  It never exceeds
-    its maximum.  Equation 4.3 divides by the weight the bag had before:
-    where that was 0 the gain counts as a doubling.
+    The thesis leaves three points open.  By equation 4.2 a migration resource
+    never reaches 0, so it counts as exhausted below a threshold.  It never
+    exceeds its maximum.  Equation 4.3 divides by the previous weight of the
+    bag: if that was 0, the gain counts as a doubling.
 */
 
 %!  bag_weight(+Bag, -Pi) is det.
@@ -28,7 +28,7 @@ bag_weight([_-Weight|Bag], Pi0, Pi) :-
 
 %!  migration_penalty(+Rho0, +Pi, +Maximum, -Rho) is det.
 %
-%   Equation 4.2: what a hop costs an agent whose bag has weight Pi.
+%   Equation 4.2: the penalty for a hop of an agent whose bag has weight Pi.
 
 migration_penalty(Rho0, Pi, _, Rho) :-
     Pi > 0,
@@ -39,7 +39,7 @@ migration_penalty(Rho0, _, Maximum, Rho) :-
 
 %!  migration_reward(+Rho0, +Before, +After, +C, +Maximum, -Rho) is det.
 %
-%   Equations 4.3 and 4.4: the bag weighed Before and weighs After.
+%   Equations 4.3 and 4.4: the weight of the bag was Before and is After.
 
 migration_reward(Rho0, Before, After, C, Maximum, Rho) :-
     gain(Before, After, Gain),
@@ -53,7 +53,7 @@ gain(_, _, 1).
 
 %!  initial_potential(+Length, +Search, +Kd, -Xi) is det.
 %
-%   What an agent has for a plan of Length actions, and Search more
+%   The execution potential for a plan of Length actions and Search more
 %   (Algorithm 1, line 5).
 
 initial_potential(Length, Search, Kd, Xi) :-
@@ -62,8 +62,8 @@ initial_potential(Length, Search, Kd, Xi) :-
 %!  action_cost(+Xi0, +Kd, -Xi) is det.
 %!  action_reward(+Xi0, +Kr, -Xi) is det.
 %
-%   Equations 4.5 and 4.6: what an action costs, and what a positive
-%   feedback gives.
+%   Equations 4.5 and 4.6: the cost of an action, and the reward for positive
+%   feedback.
 
 action_cost(Xi0, Kd, Xi) :-
     Xi is Xi0 - Kd.

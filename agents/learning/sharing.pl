@@ -6,19 +6,19 @@
     (thesis section 4.2.2).  An agent has solution/1 once it has reached the
     goal.
 
-        share(Host)         what do you have, if you are at Host, too?
+        share(Host)         asks for the units of an agent that is at Host
         shared(units(Units, solution(Actions) or none)), shared(nothing)
                             the answer
 
-    Of two agents in one queue the later one has asked the earlier one.
+    An agent asks only the agents that joined the queue before it.
 */
 
-%   visit(+Wanted, -Gain): the agent comes to the end of the queue, asks the
+%   visit(+Wanted, -Gain): the agent joins the end of the queue, asks the
 %   others in it one after the other until one of them has something new, and
-%   answers while it stays.  Wanted is `anything`, or `better`: only of those
-%   with a better solution.  Gain is gain(Before, After), the weights of the
-%   bag, or `none`.  New units are put into the bag at once: the goals of a
-%   waiting agent should be small.
+%   answers requests while it stays.  Wanted is `anything`, or `better`, which
+%   accepts only agents with a better solution.  Gain is gain(Before, After),
+%   the weights of the bag, or `none`.  New units are put into the bag at
+%   once, so that the goals of a waiting agent stay small.
 
 visit(_, none) :-
     parameter(sharing, false),
@@ -45,7 +45,7 @@ ask([Other|Others], Wanted, Gain) :-
     ;   ask(Others, Wanted, Gain)
     ).
 
-%   An agent that does not answer is no longer there, whatever the queue says.
+%   An agent that does not answer has left, even if it is still in the queue.
 
 asked(Other, Units, Solution) :-
     here(Here),
@@ -57,7 +57,7 @@ asked(Other, Units, Solution) :-
         fail
     ).
 
-%   Nothing is better while the learning algorithm is exchanged.
+%   While the learning algorithm is exchanged, no solution counts as better.
 
 wanted(anything, _).
 wanted(better, solution(Others)) :-
@@ -87,8 +87,8 @@ deadline(Seconds, Until) :-
     now(Now),
     Until is Now + Seconds.
 
-%   await(+Agent, ?Reply, +Seconds): fails at the deadline.  Requests of
-%   others are answered meanwhile.
+%   await(+Agent, ?Reply, +Seconds): fails at the deadline.  Answers requests
+%   of other agents meanwhile.
 
 await(Agent, Reply, Seconds) :-
     deadline(Seconds, Until),
@@ -116,7 +116,7 @@ heard(From, What, Until) :-
     Seconds > 0,
     receive(From-What, Seconds).
 
-%   Nothing is shared with an agent at another host.
+%   An agent shares nothing with an agent at another host.
 
 respond(share(Here), Agent) :-
     here(Here),

@@ -3,7 +3,7 @@
 
 %!  told(+Agent, +Message) is semidet.
 %
-%   Fails if its process is known to be gone.
+%   Fails if the process of Agent is known to have ended.
 
 told(Agent, Message) :-
     catch(send(Agent, Message), error(host_unreachable(_), _), fail).

@@ -5,35 +5,35 @@
 :- include(telling).
 :- include(resources).
 
-/*  The static agent of a host: executes actions on what is to be learnt
-    there, and gives feedback (thesis section 4.2.2). A payload, the problem,
-    defines them.  The tuple trainer(Id) tells agents where to ask; the
-    program that creates the trainer leaves it.
+/*  The static agent of a host: executes the actions of a problem, and gives
+    feedback (thesis section 4.2.2). A payload, the problem, defines the
+    actions.  The program that creates the trainer leaves the tuple
+    trainer(Id); agents find the trainer by it.
 
-        execute(Plan, Xi)   asked by an agent: Plan is a list of actions.
-                            These are executed, then others at random, until
-                            the execution potential Xi is used up or the
-                            goal is reached
+        execute(Plan, Xi)   request of an agent: Plan is a list of actions.
+                            The trainer executes these, then random ones,
+                            until the execution potential Xi is used up or
+                            the goal is reached
 
         feedback(Start, Units, Outcome)
                             the answer: the sensor vector at the start, the
                             shareable intelligence as pairs Unit-Weight,
-                            and reached(Actions), those that led to the
+                            and reached(Actions), the actions that led to the
                             goal, or unreached
 
     A problem is a payload file that provides
 
-        start(+Chance, -State)          how an execution begins
-        actions(-Actions)               all there are
+        start(+Chance, -State)          the initial state of an execution
+        actions(-Actions)               all actions
         act(+Action, +State0, -State)
         sensed(+State, -Vector)         the sensor vector, ground
         weight(+Vector0, +Vector, -W)   phi_w of an action between the two;
                                         W > 0 is a positive feedback
-        reached(+State)                 the goal is reached
+        reached(+State)                 true if State is the goal
         shareable(+Steps, -Units)       Steps, step(Vector0, Action, Vector,
-                                        W), are what has been executed;
-                                        Units, pairs Unit-Weight, what is
-                                        worth telling to others
+                                        W), are the executed actions;
+                                        Units, pairs Unit-Weight, the units
+                                        worth sharing
 
     Chance is a state of typhon_prng, a new one for each execution.
 */
@@ -45,9 +45,9 @@ on_message(Agent, execute(Plan, Xi)) :-
     findall(Steps-Feedback, once(execute(Plan, Xi, Steps, Feedback)),
             [Steps-Feedback]),          % not unfolded, so fast
     trace(Agent, Steps),
-    ignore(told(Agent, Feedback)).      % it may be gone
+    ignore(told(Agent, Feedback)).      % Agent may have ended
 
-%   For observers: the actions, in order.
+%   Logs the actions, in order, for observers.
 
 trace(Agent, Steps) :-
     (   parameter(trace, true)
@@ -78,7 +78,7 @@ outcome(State, Steps, reached(Actions)) :-
 outcome(_, _, unreached).
 
 %   executed(+Plan, +Xi, +At0, -Steps, -At, +Chance0, -Chance): At0 and At
-%   are at(State, Vector).  The reward of equation 4.6 is for what is found
+%   are at(State, Vector).  The reward of equation 4.6 applies only to actions
 %   beyond the plan.
 
 executed(_, Xi, At, [], At, Chance, Chance) :-

@@ -3,7 +3,7 @@
 
 %!  await_order is det.
 %
-%   With start-order the agent waits for the message `begin`.
+%   With the parameter start-order the agent waits for the message `begin`.
 
 await_order :-
     parameter(start, order),

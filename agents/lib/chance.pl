@@ -5,8 +5,8 @@
 
 %!  seed_chance(+Subject) is det.
 %
-%   The state of typhon_prng is that of the parameter `seed`, an integer,
-%   and of Subject, or any.
+%   Derives the state of typhon_prng from the parameter `seed`, an integer,
+%   and Subject; without a seed the state is random.
 
 seed_chance(Subject) :-
     parameter(seed, Seed0),
@@ -19,7 +19,7 @@ seed_chance(Subject) :-
 
 %!  seed_chance_here is det.
 %
-%   As seed_chance/1, for agents that stay: by the name of the host.
+%   As seed_chance/1 with the name of the host, for agents that do not move.
 
 seed_chance_here :-
     here(Host),
@@ -28,7 +28,7 @@ seed_chance_here :-
 
 %!  chance_turn(-Turn) is det.
 %
-%   A random number from 0 to 1.
+%   Turn is a random number from 0 to 1.
 
 chance_turn(Turn) :-
     chance(Chance0),

@@ -3,14 +3,14 @@
 
 %!  clone_if_room(-Branch) is det.
 %
-%   As clone/1; Branch is `refused` where the host has no place for a clone.
+%   As clone/1; Branch is `refused` if the host refuses the clone.
 
 clone_if_room(Branch) :-
     catch(clone(Branch), error(move_refused(_, _), _), Branch = refused).
 
 %!  forget_visits is det.
 %
-%   Clears the memory of visits: a clone chooses its own way.
+%   Clears the memory of visits, so that a clone chooses its own way.
 
 forget_visits :-
     retractall('$memory'(_)).

@@ -3,8 +3,8 @@
 
 %!  parameter(+Name, -Value) is semidet.
 %
-%   A fact setting(Name, Value), given to the agent by its creator,
-%   replaces the default(Name, Value).
+%   The fact setting(Name, Value) of the agent's creator replaces
+%   default(Name, Value).
 
 parameter(Name, Value) :-
     (   setting(Name, Value0)

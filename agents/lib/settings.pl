@@ -7,7 +7,7 @@
 :- use_module(library(lists), [member/2, memberchk/2]).
 :- use_module(library(option), [option/3]).
 
-/** <module> What replaces the defaults of agents
+/** <module> Settings that replace the defaults of agents
 
 Predicates that start a mechanism have an option settings(Pairs), of Name-Value;
 agents get them as facts, see parameters.pl.
@@ -17,8 +17,8 @@ agents get them as facts, see parameters.pl.
 
 %!  setting_facts(+Options, -Facts) is det.
 %
-%   Facts are setting(Name, Value) for each of settings(Pairs) in Options,
-%   if that is there.
+%   Facts are setting(Name, Value) for each pair of the option
+%   settings(Pairs), or empty without that option.
 %
 %   @error type_error(list(pair), Pairs)
 
@@ -28,7 +28,7 @@ setting_facts(Options, Facts) :-
 
 %!  known_settings(+Names, +Options, -Pairs) is det.
 %
-%   The Pairs of Options have no other names than Names.
+%   Pairs are those of the option settings(Pairs); all names are in Names.
 %
 %   @error type_error(list(pair), Pairs), domain_error(setting, Pair)
 
@@ -44,7 +44,7 @@ known(Names, Pair) :-
 
 %!  unknown_setting(+Names, +Pair) is failure.
 %
-%   Say that Pair is none of the settings Names, or has no such value.
+%   Raises an error: Pair has a name that is not in Names, or an invalid value.
 %
 %   @error domain_error(setting, Pair)
 

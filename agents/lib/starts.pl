@@ -6,7 +6,7 @@
 :- use_module(library(option), [option/2, option/3]).
 :- use_module(library(random), [random_between/3]).
 
-/** <module> Where the agents of a mechanism start
+/** <module> Start hosts of the agents of a mechanism
 
 *Threading*: any thread; no state.
 */
@@ -16,12 +16,12 @@
 %   Starts are Count hosts. Options:
 %
 %     - starts(+Given:list(atom))
-%       These in turn, as often as need be.
+%       Takes the hosts of Given in turn, repeatedly if Count is greater.
 %     - seed(+Integer)
-%       Without `starts` they are drawn from Hosts, different ones as long
-%       as there are any. Default: another seed each time.
+%       Without `starts` they are drawn from Hosts, without repetition until
+%       all are used. Default: another seed each time.
 %
-%   @error domain_error(hosts, []): there is none to start at
+%   @error domain_error(hosts, []): there is no host
 
 starts(0, _, _, Starts) :-
     !,

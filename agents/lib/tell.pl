@@ -3,8 +3,8 @@
 
 %!  tell(+Agent, +Message) is semidet.
 %
-%   As send/2, but without a warning.  Fails if it is known at once that
-%   Agent has ended, or cannot be reached.
+%   As send/2, but without a warning.  Fails if Agent is known to have ended
+%   or to be unreachable.
 
 tell(Agent, Message) :-
     catch(typhon:agent_send(Agent, Message), error(_, _), fail).

@@ -1,20 +1,21 @@
 % Expects: visit/1, fertile/0 of the program.
 % Gives: live/0; also parameters, keep and clones of lib, and replication.
 
-/*  The stigmergic cloning controller: for agents whose number is to
-    follow the demand for them (thesis section 6.2).
+/*  The stigmergic cloning controller: it adapts the number of agents to the
+    demand for them (thesis section 6.2).
 
     An agent moves from queue to queue. On its turn it runs visit/1 of its
     program, its resource is charged, and it moves on after a tick. After a
     reward it clones itself into the free slots of the queue if its resource
-    suffices. Clones die when their lifetime is over, which falls by one with
-    each tick in a queue; the agent that was created, not cloned, never dies.
+    suffices. Clones die when their lifetime is over, which decreases by one
+    with each tick in a queue; an agent that was created, not cloned, never
+    dies.
 
     The program that includes this file calls live/0 and defines:
 
-        visit(-Reward)      what it does on its turn at a host; Reward is 1
-                            if that was a service, else 0
-        fertile             true while it may clone
+        visit(-Reward)      the action of the agent on its turn at a host;
+                            Reward is 1 if that was a service, else 0
+        fertile             true while the agent may clone
 
     The names of the parameters are those of the thesis; facts
     setting(Name, Value) replace the defaults.
@@ -55,7 +56,7 @@ turns :-
                 *           THE QUEUE          *
                 *******************************/
 
-%   At a host without a queue it is always an agent's turn.
+%   At a host without a queue the agent never waits for its turn.
 
 await_turn(Length) :-
     sense(queue(Queue)),
@@ -71,8 +72,8 @@ await_turn(Length) :-
 await_turn(Length) :-
     host_load(Length).
 
-%   The turn lasts a tick.  Fails where the agent has to stay: then it has
-%   left the queue, and joins it again at the tail.
+%   The turn lasts a tick.  Fails if the agent cannot move: then it has left
+%   the queue, and joins it again at the tail.
 
 depart :-
     now(Since),
@@ -99,7 +100,7 @@ leave_queue.
                 *           LIFETIME           *
                 *******************************/
 
-%   left(-Seconds): until the lifetime is over, in a queue.
+%   left(-Seconds): time until the lifetime is over, in a queue.
 
 left(inf) :-
     lifetime(inf),
@@ -115,8 +116,8 @@ age(Since) :-
     Ticks is (Now - Since)/Tick,
     older(Ticks).
 
-%   A turn may be on its way to an agent that is about to die; what the queue answers
-%   comes behind it.
+%   The queue may have sent a turn to an agent that is about to die; the
+%   answer `gone` arrives after that turn.
 
 die :-
     log(state(death)),

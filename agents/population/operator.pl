@@ -15,8 +15,8 @@
 
 /** <module> Starting a population of specialists
 
-Hosts are given as addresses, so this works from any process that holds the
-cookie, whoever started the hosts.
+Hosts are given as addresses, so these predicates work from any process with
+the cookie, also if another process started the hosts.
 
 *Threading*: any thread; no state.
 */
@@ -26,11 +26,11 @@ cookie, whoever started the hosts.
 %!  population_start(+Sequence, +Hosts, +Tasks:list(pair), +Options,
 %!                   -Agents) is det.
 %
-%   Have Tasks, pairs Task-Goal in order, executed on all Hosts in step, by
-%   one kind of agent for each task (agents(sync/specialist)).  Puts a queue
-%   and a worker at each host that has none.  Agents are the first of each
-%   kind, in the order of the tasks, named agent1, agent2 ... as all their
-%   clones will be; they begin at the same time.  Options:
+%   Agents execute Tasks, pairs Task-Goal in order, on all Hosts in step; there
+%   is one kind of agent for each task (agents(sync/specialist)).  Puts a queue
+%   and a worker on each host that has none.  Agents are the first agents of
+%   each kind, in the order of the tasks; they and all their clones are named
+%   agent1, agent2 ...; they begin at the same time.  Options:
 %
 %     - starts(Hosts), seed(Seed)
 %       Where they start, see starts/4.
@@ -38,8 +38,8 @@ cookie, whoever started the hosts.
 %       Pairs Name-Value for the agents: see the programs specialist.pl and
 %       cloning.pl.
 %
-%   For no more than q_th agents in a queue the hosts must have been started
-%   with the capacity q_th + 2, for the queue and the worker.
+%   To limit a queue to q_th agents, start the hosts with the capacity
+%   q_th + 2: the queue and the worker need one each.
 %
 %   @error domain_error(population_option, Option)
 %   @error type_error(list, X), type_error(pair, X), domain_error(hosts, []),
@@ -62,7 +62,7 @@ typhon_options:declared(population_option, starts(X), list(atom), X).
 typhon_options:declared(population_option, seed(X), integer, X).
 typhon_options:declared(population_option, settings(X), list, X).
 
-%   A worker that is busy has no tuple, but its task has.
+%   A busy worker has no tuple, but its task has one.
 
 furnish(Sequence, Host) :-
     furnish(Host, queue, sense(queue(_)), agents(population/queue), []),
@@ -74,7 +74,7 @@ furnish(Sequence, Host) :-
 %!  population_join(+Sequence, +Host) is det.
 %!  population_leave(+Sequence, +Host) is det.
 %
-%   From now on Host has a part in Sequence, or none.  Completed tasks stay
+%   Host takes part in Sequence, or not any more.  Completed tasks stay
 %   completed, and a running task is not interrupted. The agents find a host
 %   that joins late, and let it execute its missing tasks, in order.
 %
@@ -87,8 +87,9 @@ population_join(Sequence, Host) :-
 population_leave(Sequence, Host) :-
     remote(Host, ( sense(left(Sequence)) -> true ; leave(left(Sequence)) )).
 
-%   furnish(+Host, +What, :Present, +Program, +Facts): the agent itself says
-%   that it is there only when it has run; until then a mark does.
+%   furnish(+Host, +What, :Present, +Program, +Facts): a new agent leaves its
+%   own tuple only when it runs; until then the tuple furnished(What) keeps
+%   other callers from creating a second one.
 
 furnish(Host, What, Present, _, _) :-
     remote(Host, ( sense(furnished(What)) ; Present )),
@@ -101,8 +102,8 @@ furnish(Host, What, _, Program, Facts) :-
           ( remote(Host, take(furnished(What))),
             throw(Error) )).
 
-%   kind(+Sequence, +Tasks, +Options, -Facts): of each task in turn, what
-%   its agents know.
+%   kind(+Sequence, +Tasks, +Options, -Facts): Facts are the initial facts of
+%   the agents for each task in turn.
 
 kind(Sequence, Tasks, Options,
      [ sequence(Sequence), task(Task, Goal), previous(Previous),

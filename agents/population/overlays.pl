@@ -1,5 +1,5 @@
-% What the page shows of populations that keep themselves; facts overlay/4,
-% see doc/page.md.
+% Overlays of self-regulating populations on the page; facts overlay/4, see
+% doc/page.md.
 
 overlay('resource of agents', bar, log(resource(Resource)), Resource).
 overlay('deaths', bar, log(state(death)), add(1)).

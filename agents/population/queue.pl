@@ -2,19 +2,19 @@
 :- include('../lib/parameters').
 
 /*  The queue of a host: travelling agents join it and have their turns one
-    after the other, first come, first served.  The tuple queue(Id) tells
-    them where to join.
+    after the other, first come, first served.  They find it by the tuple
+    queue(Id).
 
-        join             asked by an agent that has arrived, or was refused
-                         by another host: it goes to the tail
-        turn(Length)     told to the head; Length is the number of agents in
+        join             request of an agent that has arrived, or was refused
+                         by another host: it joins the tail
+        turn(Length)     sent to the head; Length is the number of agents in
                          the queue, from which the cloning pressure follows
-        leave            told by an agent that goes
-        quit             told by an agent that is about to die, answered by
-                         `gone` when no turn will come any more
+        leave            sent by an agent that moves on
+        quit             sent by an agent that is about to die; the answer
+                         `gone` means that it gets no more turns
 
-    How many may be there at a time is the capacity of the host: an agent
-    that finds no free slot is refused at its move and stays where it was.
+    The capacity of the host limits the length of the queue: the host refuses
+    an agent if there is no free slot, and the agent stays at its host.
 
     An agent that ended on its turn without a message would block all others;
     after a time-out the queue continues without it.
@@ -60,7 +60,7 @@ answer(Agent-quit) :-
     send(Agent, gone).
 answer(_).
 
-%   The new head has its turn.
+%   Gives a turn to the new head.
 
 call_head([Head|_], [Head|_]) :-
     !.

@@ -1,16 +1,16 @@
 % Expects: parameters, keep, clones of lib; fertile/0, die/0 of the program.
 % Gives: endowed/0, older/1, gain/2, replicate/3; its state.
 
-/*  What an agent pays for its clones, and how long these live: the cloning
-    resource of thesis section 6.2 in the life of an agent.
+/*  The price of clones and their lifetime: the cloning resource of thesis
+    section 6.2, applied to an agent.
 
-    The program that includes this says
+    The program that includes this file defines
 
-        fertile                 true while it may clone
-        die                     what it does when its lifetime is over
+        fertile                 true while the agent may clone
+        die                     called when its lifetime is over
 
     and calls endowed/0 when it begins, and in each step of its life
-    older/1, gain/2 and replicate/3.  The agent that was created, not
+    older/1, gain/2 and replicate/3.  An agent that was created, not
     cloned, never dies.
 
     The names of the parameters are those of the thesis.
@@ -22,10 +22,10 @@
 default(q_th, 4).               % slots of a queue
 default(cr_min, 10).            % conferred on a clone
 default(cr_max, 100).
-default(cr_start, 10).          % of an agent that is no clone
+default(cr_start, 10).          % of an agent that was created
 default(alpha_c, 0.1).          % inherent charging
 default(alpha_r, 15).           % charging by a reward
-default(c_l, 7).                % lifetime for a reward
+default(c_l, 7).                % lifetime added by a reward
 default(lifetime, 10).          % of a clone
 default(rounding, round).       % or `floor`
 default(replication, rewarded). % or `always`: also without a reward
@@ -37,7 +37,7 @@ endowed :-
 
 %!  older(+Ticks) is det.
 %
-%   So many ticks of the lifetime are over.
+%   Reduces the lifetime by Ticks.
 
 older(_) :-
     lifetime(inf),
@@ -53,8 +53,8 @@ older(Ticks) :-
 
 %!  gain(+Reward, +Length) is det.
 %
-%   A step with Reward, 1 or 0, in a queue of Length agents: equations 6.4
-%   and 6.5.
+%   Accounts for a step with Reward, 1 or 0, in a queue of Length agents:
+%   equations 6.4 and 6.5.
 
 gain(Reward, Length) :-
     parameter(q_th, Capacity),
@@ -77,9 +77,9 @@ gain(Reward, Length) :-
 
 %!  replicate(+Reward, +Length, -Role) is det.
 %
-%   After a reward, clones as many as the agent can afford into the free
-%   slots.  Role is `clone` in the clones, and `parent` in the agent that
-%   made them, if it made any.
+%   After a reward, the agent makes as many clones as it can afford in the
+%   free slots.  Role is `clone` in a clone, and `parent` in an agent that has
+%   cloned.
 
 replicate(Reward, Length, Role) :-
     fertile,
@@ -102,8 +102,8 @@ affordable(Length, Count) :-
     clones(Rounding, Pressure, Resource, Maximum, Count0),
     conferred(Resource, Count0, Minimum, _, Count).
 
-%   The resource is conferred clone by clone: where agents that are about to
-%   join the queue have taken a slot, fewer are made.
+%   Each clone takes its share of the resource when it is made: if agents that
+%   are about to join the queue have taken a slot, fewer clones are made.
 
 multiply(0, Role) :-
     !,

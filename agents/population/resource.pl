@@ -4,17 +4,18 @@
 /*  The cloning resource of an agent: thesis section 6.2, equations 6.1 to
     6.5.
 
-    Three readings of the thesis are settled here.  The number of clones is
-    rounded (`round`, half away from zero, or `floor`).  Clones are made all
-    or none, and only if the agent keeps as much as it gives to each.  The
-    constant y of equation 6.4 is 1: with y = CRmin its third case would
-    never apply, for a pressure is at most the capacity of a queue; and the
-    second case holds wherever neither of the others does.
+    The thesis leaves three points open.  The number of clones is rounded
+    (`round`, half away from zero, or `floor`).  An agent makes all clones or
+    none, and only if it keeps as much as it gives to each.  The constant y of
+    equation 6.4 is 1: with y = CRmin its third case would never apply, since
+    a pressure is at most the capacity of a queue; and the second case holds
+    wherever neither of the others does.
 */
 
 %!  pressure(+Capacity, +Length, -Pressure) is det.
 %
-%   Equation 6.1: the slots that are free in a queue of Length agents.
+%   Equation 6.1: Pressure is the number of free slots in a queue of Length
+%   agents.
 
 pressure(Capacity, Length, Pressure) :-
     Pressure is max(0, Capacity - Length).
@@ -32,7 +33,7 @@ clones(floor, Pressure, Resource, Maximum, Count) :-
 %!  conferred(+Resource0, +Count0, +Minimum, -Resource, -Count) is det.
 %
 %   Equation 6.3: the resource of an agent after it has given Minimum to each
-%   of Count clones.  Count is Count0, or 0 where it has not enough.
+%   of Count clones.  Count is Count0, or 0 if the resource does not suffice.
 
 conferred(Resource0, Count, Minimum, Resource, Count) :-
     Resource is Resource0 - Count*Minimum,
@@ -64,7 +65,7 @@ inherent(_, _, 1).
 
 %!  prolonged(+Lifetime0, +Reward, +Extension, -Lifetime) is det.
 %
-%   Equation 6.5.  A lifetime `inf` is without end.
+%   Equation 6.5.  A lifetime `inf` never ends.
 
 prolonged(inf, _, _, Lifetime) :-
     !,

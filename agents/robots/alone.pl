@@ -4,10 +4,10 @@
 /*  Executes the tasks of a sequence on its host, one after the other, without
     regard to other agents: the behaviour of robots that are not synchronised.
 
-    The fact tasks(Sequence, Tasks) says what is to be done, as a list of
-    Task-Goal in order.  It begins at the message `begin`, and gives up at the
-    first task that fails or raises something.  It logs the same events of a
-    task as a worker does.
+    The fact tasks(Sequence, Tasks) has the tasks, a list of Task-Goal in
+    order.  The agent begins at the message `begin`, and gives up at the first
+    task that fails or raises an error.  It logs the same events of a task as
+    a worker.
 */
 
 main :-

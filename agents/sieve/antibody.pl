@@ -12,10 +12,10 @@
 
     Facts: antibody(Antibody); gamma(Gamma), its endurance potential;
     memory(Memory), the antigens it has neutralized, with the feedback;
-    wins(Count), how often it was chosen; expiry(Hops), the number of hops
-    at which it dies, `inf` unless it is a clone; shunned(Attacks), where it
-    is not needed.  Its payload is the application: affinity/3 and
-    affinity_threshold/1.
+    wins(Count), the number of attacks for which a guard chose it;
+    expiry(Hops), the number of hops at which it dies, `inf` unless it is a
+    clone; shunned(Attacks), attacks that do not need it.  Its payload is the
+    application: affinity/3 and affinity_threshold/1.
 
     An agent with expiry(never) is a memory cell: it dies neither of age nor
     of suppression.
@@ -31,7 +31,7 @@ main :-
                 *            ATTACKS           *
                 *******************************/
 
-%   A guard may be gone with its offers.
+%   A guard may have ended and left its tuples.
 
 attend :-
     sense(attacked(Attack, Guard)),
@@ -54,7 +54,7 @@ wanted(Attack) :-
     affinity_threshold(Threshold),
     Psi >= Threshold.
 
-%   A memory cell has won enough.
+%   A memory cell reports no wins, so that it is not appointed again.
 
 offer(Attack, offer(Attack, Antibody, Gamma, Memory, Wins)) :-
     antibody(Antibody),
@@ -86,7 +86,7 @@ appointed(true) :-
     log(memory_cell(Antibody)).
 appointed(false).
 
-%   Those of the last attacks are enough: their signals evaporate.
+%   The last attacks are enough: signals of earlier ones have evaporated.
 
 shun(Attack) :-
     shunned(Attacks0),
@@ -115,7 +115,7 @@ meet(clone, _) :-
     keep(gamma(Start)),
     multiply.
 
-%   In a crowd there are no clones: that is what bounds their number.
+%   In a crowd an agent does not clone: this limits the number of clones.
 
 multiply :-
     host_load(Load),

@@ -4,20 +4,20 @@
 :- include('../lib/chance').
 :- include(idiotypic).
 
-/*  The guard of a host, which does not move.  Told attack(Antigen), it
-    emits a danger signal, gathers the antibodies that come, different ones
+/*  The guard of a host, a static agent.  At the message attack(Antigen) it
+    emits a danger signal, gathers antibodies that arrive, different ones
     only, has one of them neutralize the antigen, and lets all of them
-    stimulate and suppress each other (thesis section 3.4).  Where none
-    comes it makes one itself, at random, and releases it as a new agent.
-    Attacks are met one after the other.
+    stimulate and suppress each other (thesis section 3.4).  If none arrives,
+    the guard generates one at random, and releases it as a new agent.
+    It handles attacks one after the other.
 
     Facts: application(Spec), the payload for new agents, which the guard
-    carries, too; cells(Count), how many memory cells it has appointed.
+    carries, too; cells(Count), the number of memory cells it has appointed.
 
-    On the host: guard(Id), left by the program that started it; attacked(Attack, Id)
-    while offers are taken.  An attack is attack(Antigen, Host, Number),
-    which is also the problem of its danger signal: so each agent follows
-    only those it wants.
+    On the host: guard(Id), left by the program that started the guard;
+    attacked(Attack, Id) while the guard accepts offers.  An attack is
+    attack(Antigen, Host, Number), which is also the problem of its danger
+    signal: so each agent follows only the signals it wants.
 */
 
 main :-
@@ -38,7 +38,7 @@ watch(attack(Antigen), _, Number) :-
     call_for_help(Attack, Offers),
     (   settle(Offers, Attack, Begin)
     ->  true
-    ;   log(unanswered(Antigen))        % the application has no answer
+    ;   log(unanswered(Antigen))        % no antibody has enough affinity
     ),
     Number1 is Number + 1,
     watch(Number1).
@@ -128,7 +128,7 @@ select_one(Offers, Antigen, Winner) :-
     chance_turn(Turn),
     roulette(Weighted, Turn, Winner).
 
-%   What the agents know and how they are when they begin to interact.
+%   Memories and potentials of the agents when their interaction begins.
 
 cells([], _, _, _, []).
 cells([Agent-offer(_, _, Gamma0, Memory0, _)|Offers], Winner, Antigen, Xi,
@@ -157,8 +157,8 @@ tell([Agent-Offer|Offers], [cell(_, _, Memory)|Cells], [Gamma|Gammas],
     send(Agent, reply(Attack, outcome(Gamma, Memory, Wins, Cell))),
     tell(Offers, Cells, Gammas, Winner).
 
-%   As a host appoints so many and no more, there are never more memory
-%   cells than that for each host.
+%   A host appoints a limited number of memory cells, so their total number is
+%   limited, too.
 
 appoint(Wins, true) :-
     parameter(memory_wins, Enough),

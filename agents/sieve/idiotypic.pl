@@ -1,22 +1,22 @@
 % Expects: similar/2 of an application, or none; pure.
 % Gives: squashed/4, stimulated/3, learnt/4, interaction/5, fate/4, roulette/3.
 
-/*  What passes between antibodies at a host: thesis section 3.4.3,
+/*  Interaction of antibodies at a host: thesis section 3.4.3,
     equations 3.1 to 3.5, and the choice by roulette of section 3.4.1.
 
     A memory is a list Antigen-Xi, each antigen once: the antigens that an
-    agent has neutralized, and the feedback it had.
+    agent has neutralized, and the feedback for each.
 
-    Which agents are related, and which of two is the better one, the thesis
-    does not say exactly.  A reading does:
+    The thesis does not define exactly which agents are related, and which of
+    two is better.  A reading does:
 
-        similar         what counts are the antigens an agent knows that are
-                        similar to that of this attack, and the sum of the
-                        feedback for them; agents that know one are related
-        current         the same, of the antigen of this attack alone
-        total           the same, of all antigens
-        common          agents that know an antigen in common are related;
-                        what counts is the sum over all these
+        similar         an agent is compared by the sum of its feedback for
+                        antigens similar to that of this attack; agents that
+                        know such an antigen are related
+        current         the same, for the antigen of this attack alone
+        total           the same, for all antigens
+        common          agents that know a common antigen are related; they
+                        are compared by the sum over all common antigens
 */
 
 :- use_module(library(lists)).
@@ -35,14 +35,14 @@ squashed(Xi, Alpha, Beta, Squashed) :-
 
 %!  stimulated(+Gamma0, +Squashed, -Gamma) is det.
 %
-%   Equation 3.1: what a feedback does to an endurance potential.
+%   Equation 3.1: adds a feedback to an endurance potential.
 
 stimulated(Gamma0, Squashed, Gamma) :-
     Gamma is Gamma0 + Squashed.
 
 %!  learnt(+Memory0, +Antigen, +Xi, -Memory) is det.
 %
-%   Memory has the last feedback for Antigen.
+%   Memory has Xi, the last feedback, for Antigen.
 
 learnt(Memory0, Antigen, Xi, [Antigen-Xi|Memory]) :-
     (   selectchk(Antigen-_, Memory0, Memory)
@@ -56,17 +56,17 @@ learnt(Memory0, Antigen, Xi, [Antigen-Xi|Memory]) :-
 
 %!  interaction(+Reading, +Antigen, +Constants, +Cells, -Gammas) is det.
 %
-%   Equations 3.3 to 3.5: cells that meet at a host under attack by Antigen
-%   stimulate and suppress each other.  A cell is cell(Id, Gamma, Memory),
-%   Constants are kt-ku; Gammas are the potentials afterwards, in the order
-%   of Cells.  All effects follow from the potentials before.
+%   Equations 3.3 to 3.5: cells at a host under attack by Antigen stimulate and
+%   suppress each other.  A cell is cell(Id, Gamma, Memory), Constants are
+%   kt-ku; Gammas are the potentials afterwards, in the order of Cells.  All
+%   effects are computed from the potentials before the interaction.
 
 interaction(Reading, Antigen, Constants, Cells0, Gammas) :-
     relevant(Cells0, Reading, Antigen, Cells),
     gammas(Cells, Reading, Constants, Cells, Gammas).
 
-%   relevant(+Cells0, +Reading, +Antigen, -Cells): of each cell only what
-%   counts here, and of how many antigens it was.
+%   relevant(+Cells0, +Reading, +Antigen, -Cells): Cells have only the part of
+%   each memory that counts in this reading, and the size of the whole memory.
 
 relevant([], _, _, []).
 relevant([cell(Id, Gamma, Memory0)|Cells0], Reading, Antigen,
@@ -86,7 +86,8 @@ counts(current, Antigen, Antigen).
 counts(common, _, _).
 counts(total, _, _).
 
-%   An application that has no similar/2 has no similar antigens.
+%   If the application does not define similar/2, different antigens are not
+%   similar.
 
 similar_antigens(Known, Antigen) :-
     catch(similar(Known, Antigen),
@@ -115,7 +116,7 @@ effects([Other|Others], Reading, Kt-Ku, Cell, All, Gamma0, Gamma) :-
 
 %   influence(+Reading, +Cell, +All, -Influence): gamma/N of equations 3.4
 %   and 3.5.  N is the number of antigens Cell knows, less those in which it
-%   matches a related agent, and at least 1, for it divides.
+%   matches a related agent, and at least 1, because it is a divisor.
 
 influence(Reading, Cell, All, Influence) :-
     Cell = cell(_, Gamma, Memory, Count),
@@ -139,7 +140,8 @@ known_to(_, _, [_|_]).
 
 %!  advantage(+Reading, +Cell, +Other, -Advantage) is det.
 %
-%   How much better Cell is than Other; 0 if they are not related.
+%   Advantage is positive if Cell is better than Other; 0 if they are not
+%   related.
 
 advantage(common, cell(_, _, Mine, _), cell(_, _, Theirs, _), Advantage) :-
     !,
@@ -177,9 +179,9 @@ fate(_, _, _, stay).
 
 %!  roulette(+Weighted, +Turn, -Chosen) is semidet.
 %
-%   Weighted are pairs Weight-Thing, a Turn of the wheel is a number from 0
-%   to 1.  Thing is chosen in proportion to its weight.  Fails if the
-%   weights are nothing in all.
+%   Weighted are pairs Weight-Thing, Turn is a random number from 0 to 1.
+%   Thing is chosen in proportion to its weight.  Fails if the sum of the
+%   weights is 0.
 
 roulette(Weighted, Turn, Chosen) :-
     pairs_keys(Weighted, Weights),

@@ -13,22 +13,23 @@
 :- use_module(library(error), [existence_error/2, must_be/2]).
 :- use_module(library(lists), [memberchk/2]).
 
-/** <module> The idiotypic sieve, as seen from outside
+/** <module> The idiotypic sieve, for users and programs
 
-Puts guards on hosts, and attacks these with antigens (thesis chapter 3).
-Antibodies the hosts make themselves.  Hosts are addresses, so all this works
-from any process that holds the cookie, whoever started the hosts.
+Creates guards on hosts, and attacks hosts with antigens (thesis chapter 3).
+The hosts generate antibodies themselves.  Hosts are addresses, so these
+predicates work from any process with the cookie, also if another process
+started the hosts.
 
-An application is a payload file, as payloads(sieve/bits), that provides
+An application is a payload file, such as payloads(sieve/bits), that provides
 
   - affinity(+Antigen, +Antibody, -Psi), affinity_threshold(-Gamma)
-    A number, and from which on an antibody can neutralize the antigen.
+    An antibody can neutralize the antigen if Psi >= Gamma, both numbers.
   - feedback(+Antigen, +Antibody, -Xi)
-    How well it did: the argument of equation 3.2.
+    The quality of the service: the argument of equation 3.2.
   - random_antibody(+Chance0, -Antibody, -Chance)
     Drawn by typhon_prng.
   - similar(+Antigen, +Other)
-    May be missing; then antigens that differ are not similar.
+    Optional; without it different antigens are not similar.
 
 *Threading*: any thread; no state.
 */
@@ -37,9 +38,9 @@ An application is a payload file, as payloads(sieve/bits), that provides
 
 %!  sieve_start(+Hosts, +Application, +Options) is det.
 %
-%   Hosts get a guard that knows Application, where they have none.
-%   Options: settings(Pairs), Name-Value, to replace what parameters.pl has
-%   as a default, for the guards and all antibodies they release.
+%   Each of Hosts gets a guard with the payload Application, if it has none.
+%   Options: settings(Pairs), Name-Value, to replace the defaults in
+%   parameters.pl, for the guards and all antibodies they release.
 %
 %   @error domain_error(sieve_option, Option)
 %   @error type_error(list, X), existence_error(host, Host),
@@ -65,8 +66,8 @@ guarded(Application, Settings, Host) :-
 
 %!  antigen_attack(+Hosts, +Antigen) is det.
 %
-%   Antigen, a ground term, attacks each of Hosts.  A host that is under
-%   attack meets this one afterwards.
+%   Antigen, a ground term, attacks each of Hosts.  A host handles attacks one
+%   after the other.
 %
 %   @error existence_error(guard, Host), host_unreachable(Host)
 
@@ -84,8 +85,8 @@ attack(Antigen, Host) :-
 %!  antibody_release(+Host, +Application, +Antibody, +Options, -Agent)
 %!      is det.
 %
-%   Agent, at Host, carries Antibody, and has never met an antigen.  Options
-%   are those of sieve_start/3.
+%   Creates Agent at Host.  It carries Antibody and has met no antigen yet.
+%   Options are those of sieve_start/3.
 
 antibody_release(Host, Application, Antibody, Options, Agent) :-
     check_options(sieve_option, Options),

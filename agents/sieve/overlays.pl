@@ -1,4 +1,4 @@
-% What the page shows of guards and antibodies; facts overlay/4, see
+% Overlays of guards and antibodies on the page; facts overlay/4, see
 % doc/page.md.
 
 overlay('antigens that came', bar, log(attacked(_)), add(1)).

@@ -4,8 +4,9 @@
 /*  The parameters of the sieve (thesis section 3.6); facts
     setting(Name, Value) replace the defaults.
 
-    What the thesis does not print: gamma, with which an endurance potential
-    starts, is the middle between its thresholds; and all from `reading` on.
+    The thesis does not print gamma, the initial endurance potential: the
+    default is the middle between its thresholds; nor the parameters from
+    `reading` on.
 */
 
 :- include('../lib/parameters').
@@ -20,11 +21,11 @@ default(omega, 1000).           % hops a clone lives
 default(gamma, 1.0).
 default(reading, similar).      % see idiotypic.pl
 default(span, 3).               % hops a danger signal spreads
-default(patience, 4).           % seconds until it has died down
-default(calls, 1).              % so often it is emitted
+default(patience, 4).           % seconds until it has evaporated
+default(calls, 1).              % number of emissions
 default(draws, 1000).           % antibodies a host tries at random
 default(gather, 3).             % seconds from the first offer to the choice
-default(crowd, 12).             % so many agents are too many for a clone
-default(memory_cells, 0).       % so many may a host appoint
-default(memory_wins, 3).        % after so many wins
+default(crowd, 12).             % agents at a host that prevent a clone
+default(memory_cells, 0).       % memory cells that a host may appoint
+default(memory_wins, 3).        % wins that make an agent a memory cell
 default(seed, random).

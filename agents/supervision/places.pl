@@ -1,14 +1,15 @@
 % Expects: stood/2, and library(typhon)
 % Gives: places/4
 
-/*  Where a child is started: the places that are tried, the best one first.
+/*  Where a child is started: the places to try, the best one first.
 
-      same            where it was, first on host(Host) of its options, or here
-      here            on the host of the supervisor
+      same            its previous host, first host(Host) of its options, or
+                      the host of the supervisor
+      here            the host of the supervisor
       least_loaded    the neighbour with the fewest agents
       tagged(Tag)     the neighbours, or here, with the fact tag(Tag) in their
                       tuple space
-      on(Host)        that one
+      on(Host)        Host
 
     or a list of these, which are tried in this order.
 */

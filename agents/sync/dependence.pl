@@ -3,21 +3,24 @@
 
 /*  Several sequences on overlapping sets of hosts: beyond the thesis.
 
-    Hosts may have one worker for all sequences of a pool, so that no host
-    executes for two at once.  The setting `pool` of an agent names it; by
-    default each sequence has its own.  An agent that finds the worker taken
-    goes on, as at a host that executes.  A worker waits for nothing else
-    while it executes, so sequences of a pool cannot block each other.
+    A host may have one worker for all sequences of a pool, so that it never
+    executes tasks of two sequences at once.  The setting `pool` of an agent
+    names the pool; by default each sequence has its own.  An agent that finds
+    the worker busy moves on, as at a host that executes.  A worker waits for
+    nothing else while it executes, so sequences of a pool cannot block each
+    other.
 
-    A fact after(Task, Other, First) says that no host executes Task before it
-    has completed task First of the sequence Other, if it has a part in that.
+    A fact after(Task, Other, First) means that a host that takes part in the
+    sequence Other executes Task only after it has completed task First of
+    Other.
 */
 
 %!  seize(-Worker) is semidet.
 %!  give_back(+Worker) is det.
 %
-%   Of a host that has a part in the sequence.  Where the worker is that of a
-%   pool, a plan shows which sequences have.
+%   Take and put back the worker of a host that takes part in the sequence.  A
+%   worker of a pool serves several sequences; the plans on the host show
+%   which of them.
 
 seize(Worker) :-
     pool(Sequence, Pool),
@@ -40,7 +43,7 @@ pool(Sequence, Pool) :-
 
 %!  order(+Task, +Goal, -Order) is det.
 %
-%   What the worker is sent.
+%   Order is the message to the worker.
 
 order(Task, Goal, Order) :-
     pool(Sequence, Pool),
@@ -51,7 +54,7 @@ order(Task, Goal, Order) :-
 
 %!  held_up(+Task) is semidet.
 %
-%   This host has to complete a task of another sequence before Task.
+%   True if this host must complete a task of another sequence before Task.
 
 held_up(Task) :-
     after(Task, Other, First),

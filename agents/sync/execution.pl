@@ -3,8 +3,8 @@
 
 %!  executed(+Sequence, +Task, +Goal) is nondet.
 %
-%   Runs Goal, the code of Task, and logs when it begins and what it raises.
-%   Then it fails.
+%   Runs Goal, the code of Task, and logs its start and its exceptions.  An
+%   exception makes it fail.
 
 executed(Sequence, Task, Goal) :-
     log(executing(Sequence, Task)),

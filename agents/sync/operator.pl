@@ -21,16 +21,16 @@
 
 /** <module> Sequences of tasks, for users and programs
 
-Starts a sequence of tasks on hosts, changes it while it runs, and takes back
-what was done (thesis sections 5.4 and 5.6.6).  The predicates only change the
-tuple spaces of hosts; the agents find the changes there.
+Starts a sequence of tasks on hosts, changes it while it runs, and reverts
+completed tasks (thesis sections 5.4 and 5.6.6).  The predicates only change
+the tuple spaces of hosts; the agents find the changes there.
 
-Hosts are addresses, so all this works from any process that has the
+Hosts are addresses, so these predicates work from any process with the
 cookie, and not only where the network was started.
 
-A sequence is named by an atom, so are its tasks, or by a number.  A list
-of tasks is a list of Task-Goal in order.  Goal is run by the worker of each
-host, and may stop, as in sleep(1).
+An atom or a number names a task, an atom a sequence.  A list of tasks is a
+list of Task-Goal in order.  The worker of each host runs Goal, which may
+stop, as in sleep(1).
 
 *Threading*: any thread.
 */
@@ -39,20 +39,20 @@ host, and may stop, as in sleep(1).
 
 %!  sequence_start(+Sequence, +Hosts, +Tasks, +Options, -Agents) is det.
 %
-%   Hosts get a worker for Sequence, where they have none; other hosts have no
-%   part in it.  Agents are the ids of agents that have all been told to
-%   begin.  Tasks completed on Hosts before stay completed. Options:
+%   Each of Hosts gets a worker for Sequence, if it has none; other hosts take
+%   no part.  Agents are the ids of agents, all of which have been sent the
+%   message to begin.  Tasks completed on Hosts before stay completed. Options:
 %
-%     - agents(+Count): how many agents; default 10, or one on each of
+%     - agents(+Count): number of agents; default 10, or one on each of
 %       `starts`
 %     - starts(+Hosts), seed(+Integer): where they start, see starts/4
 %     - pool(+Name): hosts have one worker for all sequences of this pool,
 %       and execute one task at a time; default each sequence has its own
-%     - after(+Pairs): Task-(Other:First): a host that has a part in the
-%       sequence Other executes Task when it has completed First of that
-%     - settings(+Pairs): Name-Value, to replace what traveller.pl has as
-%       the default of `delta`, `theta`, `maximum`, `window`, `patience`:
-%       numbers above 0; or of `strategy`, which next_host/2 knows
+%     - after(+Pairs): Task-(Other:First): a host that takes part in the
+%       sequence Other executes Task only after First of Other
+%     - settings(+Pairs): Name-Value, to replace the defaults in traveller.pl
+%       of `delta`, `theta`, `maximum`, `window`, `patience`: numbers above 0;
+%       or of `strategy`, a strategy of next_host/2
 %
 %   @error type_error(pair, X), domain_error(distinct_tasks, Names)
 %   @error domain_error(sequence_option, Option)
@@ -86,7 +86,7 @@ check_tasks(Tasks) :-
     ;   domain_error(distinct_tasks, Names)
     ).
 
-%   A host with a plan has a worker, even if that is not free.
+%   A host with a plan has a worker, even if that is busy.
 
 take_part(Plan, Pool, Host) :-
     Plan = plan(Sequence, _, _),
@@ -100,7 +100,8 @@ take_part(Plan, Pool, Host) :-
     ),
     put_plan(Plan, Host).
 
-%   The worker of a pool may be busy, with a sequence of which this is not known.
+%   The worker of a pool may be busy with another sequence; then only this
+%   mark shows that it exists.
 
 mark_pool(Sequence, Sequence, _) :-
     !.
@@ -149,7 +150,7 @@ setting_fact(Setting, _) :-
     unknown_setting([delta, theta, maximum, window, patience, strategy],
                     Setting).
 
-%   One on each of `starts`, if these are given and their number is not.
+%   The default is one agent on each of `starts`, if that option is given.
 
 count(Options, Count) :-
     option(starts(Given), Options, []),
@@ -166,13 +167,12 @@ count(Options, Count) :-
 
 %!  sequence_change(+Sequence, +Hosts, +Tasks) is det.
 %
-%   Tasks are the tasks of Sequence from now on.  Said at Hosts; agents
-%   that pass there take it up and bring it to all others.  Tasks with a
-%   name that Sequence had already are taken for the same, what has been
-%   completed stays so.  Those of Hosts that have no part in Sequence are
-%   left out.
+%   Tasks replace the tasks of Sequence.  The change is written at Hosts;
+%   agents that visit them carry it to all others.  A task whose name Sequence
+%   already had counts as the same task; if completed, it stays completed.
+%   Those of Hosts that take no part in Sequence are skipped.
 %
-%   @error existence_error(sequence, Sequence): none of Hosts has a part
+%   @error existence_error(sequence, Sequence): none of Hosts takes part
 %   @error errors of sequence_start/5
 
 sequence_change(Sequence, Hosts, Tasks) :-
@@ -187,8 +187,8 @@ sequence_change(Sequence, Hosts, Tasks) :-
         maplist(put_plan(plan(Sequence, Version, Tasks)), Parts)
     ).
 
-%   The version of a plan is the time at which it was made, or a moment
-%   after the newest one found, where that comes from a faster clock.
+%   The version of a plan is its creation time, or slightly more than the
+%   newest version found, if that was made on a faster clock.
 
 new_version(Versions, Version) :-
     get_time(Now),
@@ -197,7 +197,7 @@ new_version(Versions, Version) :-
 later_than(Found, Version0, Version) :-
     Version is max(Version0, Found + 0.001).
 
-%   A sequence that is started again with the same tasks has the same plan.
+%   A sequence that is started again with the same tasks keeps its plan.
 
 version(Sequence, Hosts, Tasks, Version) :-
     findall(V-Ts, plan_at(Sequence, Hosts, _, V, Ts), Plans),
@@ -220,11 +220,12 @@ plan_at(Sequence, Hosts, Host, Version, Tasks) :-
 %!  task_fail(+Sequence, +Task, +Hosts, -Failed) is det.
 %!  tasks_fail(+Sequence, +Task, +Hosts, -Failed) is det.
 %
-%   An atomic failure: Task is completed no more at any of Hosts.  A
-%   cascaded failure: neither is any later task, and what is executing
-%   there of these will have been in vain.  Failed are those of Hosts where
-%   Task had been completed; nothing happens at the others.  Each failure
-%   is an event failed(Sequence, Task) in the log of the host.
+%   task_fail/4 is an atomic failure: Task is no longer completed at any of
+%   Hosts.  tasks_fail/4 is a cascaded failure: the same for Task and all
+%   later tasks, and executions of these are discarded when they end.  Failed
+%   are those of Hosts where Task had been completed; the others do not
+%   change.  Each failure is an event failed(Sequence, Task) in the log of the
+%   host.
 %
 %   @error host_unreachable(Host)
 
@@ -241,8 +242,8 @@ fails(Sequence, Task, Kind, Host) :-
     lose(Mark, Sequence, Tasks, Statuses, Goal),
     remote(Host, Goal).
 
-%   lost(+Kind, +Sequence, +Task, +Host, -Tasks, -Statuses): what fails are
-%   Tasks where their status is one of Statuses.
+%   lost(+Kind, +Sequence, +Task, +Host, -Tasks, -Statuses): Tasks whose status
+%   is one of Statuses fail.
 
 lost(atomic, _, Task, _, [Task], [completed]).
 lost(cascaded, Sequence, Task, Host, [Task|Later], [completed, executing]) :-
@@ -251,15 +252,15 @@ lost(cascaded, Sequence, Task, Host, [Task|Later], [completed, executing]) :-
     append(_, [Task|Later], Names),
     !.
 
-%   Where a cascade began is known to all that it took along: the first ones
-%   may have been done again when an agent comes.
+%   All tasks of a cascade are marked with its first task, since the first ones
+%   may have been completed again when an agent arrives.
 
 mark(atomic, _, failed(atomic)).
 mark(cascaded, Task, failed(cascaded(Task))).
 
-%   One goal for all, so that no agent sees a later task missing before the
-%   first one.  The new mark comes before the old one goes: an agent must
-%   not find neither.
+%   One goal for all tasks, so that no agent finds a later task missing before
+%   the first one.  The new mark is left before the old tuple is taken: an
+%   agent must always find one of them.
 
 lose(Mark, Sequence, Tasks, Statuses, Goal) :-
     Goal = ( now(Time),

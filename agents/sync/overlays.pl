@@ -1,4 +1,4 @@
-% What the page shows of agents in step; facts overlay/4, see doc/page.md.
+% Overlays of synchronised agents on the page; facts overlay/4, see doc/page.md.
 
 overlay('task executed', colour, log(executing(_, Task)), Task).
 overlay('action potential', bar, log(psi(Psi)), Psi).

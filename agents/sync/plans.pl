@@ -1,18 +1,18 @@
 % Expects: plan/3, drive/3; fill/1.
 % Gives: compare_plans/0, bring_plan/0, fill_new/0.
 
-/*  Plans that change while they are carried out: beyond the thesis.  Of two
-    plans, that of a host and that of a travelling agent, the newer one
-    replaces the older one.  So a change at a few hosts spreads to all others.
+/*  Plans that change while they are carried out: beyond the thesis.  When a
+    travelling agent visits a host, the newer of their two plans replaces the
+    older one.  So a change at a few hosts spreads to all others.
 
-    Of plan(Sequence, Version, Tasks) Version is a number that is greater the
-    newer the plan is; the tuple of a host is the newest plan that was brought
-    there.
+    In plan(Sequence, Version, Tasks) Version is a number that is greater the
+    newer the plan is; the tuple of a host is the newest plan that an agent
+    has brought.
 */
 
 %!  bring_plan is det.
 %
-%   To a host that has none.
+%   Leaves the agent's plan at a host that has none.
 
 bring_plan :-
     plan(Sequence, _, _),
@@ -37,7 +37,7 @@ compare_plans :-
     ).
 compare_plans.
 
-%   Another agent may be doing the same.
+%   Another agent may replace the same plan at the same time.
 
 replace(Sequence, Old) :-
     (   take(plan(Sequence, Old, _))
@@ -63,7 +63,7 @@ forget_removed :-
 
 %!  fill_new is det.
 %
-%   The potentials of tasks that are new to the agent are full.
+%   Tasks that are new to the agent get the full potential.
 
 fill_new :-
     plan(_, _, Tasks),

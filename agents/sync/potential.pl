@@ -4,11 +4,11 @@
 /*  Potentials, rewards and penalties of a synchronising agent (thesis
     section 5.4.1).
 
-    Three readings of the thesis are settled here.  The penalty bias is
-    added to the product, not inside it; the history is averaged over the
-    values it holds, not over the length of the window; and it keeps
-    magnitudes, so that penalties and rewards weigh alike.  Only so do
-    overlaps begin where the thesis has them, and a potential comes to
+    The thesis leaves three points open.  The penalty bias is added to the
+    product, not inside it; the history is averaged over the values it holds,
+    not over the length of the window; and it stores magnitudes, so that
+    penalties and rewards weigh alike.  Only with this reading do overlaps
+    begin at the same delta as in the thesis, and does a potential reach
     exactly zero.
 */
 

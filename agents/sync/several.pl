@@ -9,8 +9,8 @@
 :- use_module(library(pairs), [pairs_keys/2]).
 :- use_module(library(ugraphs), [top_sort/2, vertices_edges_to_ugraph/3]).
 
-/** <module> Several sequences of tasks at once, that share hosts and wait for
-each other
+/** <module> Several sequences of tasks that share hosts and wait for each
+other
 
 Beyond the thesis, which names it in section 8.2.  Each sequence has agents of
 its own, which know nothing of the others (dependence.pl).
@@ -21,15 +21,16 @@ its own, which know nothing of the others (dependence.pl).
 %!  sequences_start(+Sequences, +Options, -Agents:list(list)) is det.
 %
 %   Sequences are sequence(Name, Hosts, Tasks, Own), each as for
-%   sequence_start/5 with the options Own, and where there is no such option
-%   with Options.  Agents has for each sequence its agents.
+%   sequence_start/5; Options are the defaults for the options Own.  Agents has
+%   a list of agents for each sequence.
 %
 %   With the option pool(Name) for all of them no host executes two tasks at
-%   once.  With after(Pairs) tasks wait for tasks of other sequences; that
-%   there is an order in which all can be done is checked.
+%   once.  With after(Pairs) tasks wait for tasks of other sequences; the
+%   order of all tasks is checked for cycles.
 %
-%   @error existence_error(task, Sequence:Task): no such task to wait for
-%   @error domain_error(order_of_tasks, Tasks): tasks wait in a circle
+%   @error existence_error(task, Sequence:Task): `after` names an unknown task
+%   @error domain_error(order_of_tasks, Tasks): tasks wait for each other in a
+%   cycle
 %   @error errors of sequence_start/5
 
 sequences_start(Sequences, Options, Agents) :-

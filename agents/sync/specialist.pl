@@ -5,8 +5,8 @@
 :- include(stimulation).
 
 /*  One kind of agent for each task (thesis chapter 6).  Agents that know
-    one task and the name of the one before it, and nothing of each other,
-    execute a sequence of tasks on every host, and go on to the next task
+    one task and the name of the task before it, and nothing of each other,
+    execute a sequence of tasks on every host, and proceed to the next task
     at the same time.  Their number follows the demand for their task.
 
     Facts: sequence(Sequence); task(Task, Goal), the task and its code;
@@ -14,16 +14,16 @@
     Facts setting(Name, Value) replace the defaults here and in the cloning
     controller.
 
-    On the hosts: task(Sequence, Task, Status, Time) says what was done, and
-    worker(Sequence, Id) is there while the host's worker is free.  A host
-    that has no worker for the sequence has no part in it, nor has one with
-    the tuple left(Sequence).
+    On the hosts: task(Sequence, Task, Status, Time) records an execution, and
+    worker(Sequence, Id) is present while the host's worker is free.  A host
+    takes no part in the sequence if it has no worker for it, or has the tuple
+    left(Sequence).
 */
 
 default(psi, 100).              % the action potential at the beginning
 default(kappa, 1).
 default(omega, 5).              % length of the history
-default(threshold, 0.01).       % below it an action potential is zero
+default(threshold, 0.01).       % below it an action potential counts as zero
 default(start, now).            % or `order`: waits for the message `begin`
 
 main :-
@@ -41,7 +41,7 @@ fertile :-
     mood(active).
 
 %   The statements S1 to S4 of the thesis.  S4 also requires the previous
-%   task: otherwise missing tasks would be skipped.
+%   task: otherwise agents would skip missing tasks.
 
 visit(0) :-
     \+ takes_part,
@@ -71,7 +71,7 @@ visit(1) :-                     % S4: execution
     service(Worker).
 visit(0).
 
-%   While a worker is busy it has no tuple, but its task has.
+%   A busy worker has no tuple, but its task has one.
 
 takes_part :-
     sequence(Sequence),
@@ -95,7 +95,7 @@ lacks(Task) :-
     sequence(Sequence),
     \+ sense(task(Sequence, Task, completed, _)).
 
-%   Before the worker was free it may have done just this task.
+%   The worker may have executed this task just before it became free.
 
 seize(Worker) :-
     sequence(Sequence),
@@ -124,7 +124,7 @@ excite :-
 excite :-
     turn_to(excited).
 
-%   The first task waits for nothing: there, time counts from the start.
+%   The first task has no previous one: its times count from the start.
 
 remember :-
     arrival(Arrival),

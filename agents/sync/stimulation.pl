@@ -1,13 +1,13 @@
 % Expects: nothing; pure.
 % Gives: stimulated/5, remembered/4, normalised/2, dispersion/3.
 
-/*  The action potential of an agent that waits for its task's turn: thesis
-    section 6.3.2, equations 6.6 to 6.10.
+/*  The action potential of an agent that waits for the turn of its task:
+    thesis section 6.3.2, equations 6.6 to 6.10.
 
-    What the thesis leaves open: equation 6.6 multiplies, so a potential
-    never becomes zero by itself; below a threshold it counts as zero.  The
-    mean and the deviation are taken over the values that the history
-    holds; of fewer than two values, or equal ones, the deviation is zero.
+    The thesis leaves some points open.  Equation 6.6 multiplies, so a
+    potential never becomes zero by itself; below a threshold it counts as
+    zero.  The mean and the deviation are taken over the values in the
+    history; the deviation of fewer than two values, or of equal ones, is zero.
 */
 
 :- use_module(library(lists)).

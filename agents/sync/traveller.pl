@@ -9,27 +9,27 @@
     on hosts, and proceed to the next task at the same time.  Lines are those
     of the algorithm.
 
-    The fact plan(Sequence, Version, Tasks) says what is to be done: the name
-    of the sequence, and a list of Task-Goal in order.  Goal is the task's
-    code, handed over at each host.  plans.pl explains Version, dependence.pl
-    explains after/3; both can be skipped. The fact drive(Task, Potential,
-    History) is there for each task.  Facts setting(Name, Value) replace the
-    defaults below.
+    The fact plan(Sequence, Version, Tasks) has the name of the sequence, and
+    a list of Task-Goal in order.  Goal is the code of the task, which the
+    agent sends to the worker of each host.  plans.pl explains Version,
+    dependence.pl explains after/3; both can be skipped. There is a fact
+    drive(Task, Potential, History) for each task.  Facts setting(Name, Value)
+    replace the defaults below.
 
-    On the hosts: task(Sequence, Task, Status, Time) says what was done and
-    when.  worker(Sequence, Id) is there while the host's worker is free.
-    The agent that takes it has the host for itself until it is put back, so two
-    agents never service one host at the same time.  Where there is none,
-    because the host is executing or has no part in the sequence, an agent
-    passes.
+    On the hosts: task(Sequence, Task, Status, Time) records the status of
+    Task.  worker(Sequence, Id) is present while the host's worker is free.
+    The agent that takes this tuple has the host for itself until it is put
+    back, so two agents never service one host at the same time.  Without the
+    tuple the host is executing or takes no part in the sequence, and the
+    agent moves on.
 */
 
 default(delta, 0.5).             % penalty bias
-default(theta, 15).              % what a history starts with
+default(theta, 15).              % initial value of a history
 default(maximum, 100).           % of a potential; its initial value, too
 default(window, 15).             % length of the history
 default(strategy, conscientious). % of migration
-default(patience, 1).            % seconds before an isolated agent looks again
+default(patience, 1).            % seconds between attempts to leave a host
 default(start, now).             % or `order`: waits for the message `begin`
 
 main :-
@@ -61,8 +61,8 @@ pause :-
     parameter(patience, Seconds),
     sleep(Seconds).
 
-%   Lines 2 to 10, the task it searches for: the first that has potential
-%   left.
+%   Lines 2 to 10: Task is the task the agent searches for, the first one with
+%   potential left.
 
 current(Task) :-
     plan(_, _, Tasks),
@@ -88,9 +88,9 @@ visit(Task) :-
     ).
 visit(_).
 
-%   Having found a failure, an agent may have to begin with an earlier task
+%   If the agent finds a failure, it may have to begin with an earlier task
 %   than the one that is missing here.  A host that waits for another sequence
-%   will need the task: that is worth as much as a service.
+%   will need the task: this gives the same reward as a service.
 
 service_if(Missing, Missing, Worker) :-
     held_up(Missing),
@@ -130,10 +130,9 @@ service(Task, Worker) :-
                 *         SELF-HEALING         *
                 *******************************/
 
-%   A task below the one searched for, found missing, gets as much
-%   potential as the last reward or penalty was worth.  If it fell together
-%   with others, all from the first of these on are searched for as at the
-%   beginning.
+%   A missing task before the task searched for gets as much potential as the
+%   last reward or penalty.  After a cascaded failure all tasks from its first
+%   one on get their initial potential and history.
 
 heal(Missing, Task) :-
     plan(Sequence, _, Tasks),
@@ -155,8 +154,8 @@ heal(Missing, Task) :-
     keep(Missing, drive(Potential, [Theta0])),
     log(revived(Missing, Potential)).
 
-%   An agent that searches for just what is missing here, and has come to that
-%   in turn, knows of the failure.
+%   An agent that searches for Missing, a later task than First, has begun again
+%   with First before.
 
 begins_again(Missing, Missing, _) :-
     !.

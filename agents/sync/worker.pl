@@ -2,22 +2,22 @@
 :- include(execution).
 
 /*  The worker of a host for one sequence of tasks, named by the fact
-    sequence(Sequence): executes the tasks that travelling agents hand over,
-    one at a time.  The tuple worker(Sequence, Id) marks it as free.  Tasks of
-    other sequences may be handed over, too: then Sequence is the name of a
+    sequence(Sequence): executes the tasks that travelling agents send to it,
+    one at a time.  The tuple worker(Sequence, Id) marks it as free.  If the
+    worker also executes tasks of other sequences, Sequence is the name of a
     pool (dependence.pl).
 
-    While Task executes the host has the tuple task(Sequence, Task, executing,
-    Time), put there by the agent that handed it over; afterwards it says
-    `completed`, or, of a task that fails or raises something, failed(atomic):
-    it will be done again.  If the tuple is gone by then, an operator has
-    failed the task.
+    While Task executes, the host has the tuple task(Sequence, Task, executing,
+    Time), left by the agent that sent the task.  Afterwards its status is
+    `completed`, or failed(atomic) if the task fails or raises an error: then
+    agents will have it executed again.  If the tuple is missing by then, an
+    operator has failed the task.
 
     After a failure the worker is not free for a second, and twice as long
-    after each one that follows, up to 32 seconds: agents arrive at any time,
-    and would repeat a task that cannot succeed without end.
+    after each further failure in a row, up to 32 seconds: agents arrive at any
+    time, and would repeat without end a task that cannot succeed.
 
-        failures(Count)         so many in a row
+        failures(Count)         failures in a row
 */
 
 :- dynamic failures/1.

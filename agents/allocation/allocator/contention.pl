@@ -2,14 +2,14 @@
 %   deallocation.
 % Gives: back_off/0.
 
-/*  Backing off before others: thesis section 7.4.1, Contention Resolution.
-    The equations of backoff_interval.pl in the life of an allocator;
-    backoffs(Count), with this one, is its beta, if that begins with 1.
+/*  Back-off: thesis section 7.4.1, Contention Resolution.  This file applies
+    the equations of backoff_interval.pl to an allocator.  backoffs(Count)
+    includes the current back-off; it is beta if the parameter `beta` is 1.
 */
 
 %!  back_off is det.
 %
-%   Robots that are executing are kept: no other task can use them yet.
+%   Keeps the robots that are executing: no other task can use them yet.
 
 back_off :-
     deallocate([reserved, done]),
@@ -43,14 +43,15 @@ theta(Theta) :-
     hop_time(HopTime),
     reach_time(Found, HopTime, Theta).
 
-%   The host measures it: the mean time of hops to it.
+%   The mean hop time to this host, as the host measures it.
 
 hop_time(Seconds) :-
     here(Host),
     typhon:host_property(Host, hop_time(in, stats(_, _, Seconds, _))),
     !.
 
-%   Dormant, at the robot where it is.
+%   The allocator stays dormant at its robot until the time Until, but handles
+%   messages.
 
 rest(Until) :-
     attend,

@@ -1,15 +1,15 @@
 % Expects: lib.
 % Gives: set_deadline/1, check_deadline/0, soon/2; state until/1.
 
-/*  The time by which a task must be done, until(Time), or until(never).
-    Beyond the thesis.
+/*  The deadline of a task: the fact until(Time), or until(never).  Beyond the
+    thesis.
 */
 
 :- dynamic until/1.
 
 %!  set_deadline(+Seconds) is det.
 %
-%   The deadline is Seconds from now, or `never`.
+%   Sets the deadline Seconds from now; Seconds may be `never`.
 
 set_deadline(never) :-
     !,
@@ -36,7 +36,7 @@ check_deadline :-
 
 %!  soon(+Seconds0, -Seconds) is det.
 %
-%   Seconds is Seconds0, or less, so that it ends at the deadline.
+%   Seconds is Seconds0, or the time left until the deadline if that is less.
 
 soon(Seconds, Seconds) :-
     until(never),

@@ -1,19 +1,19 @@
 % Expects: task/3; lib, common; trail, messages, held_robots, news, migration.
 % Gives: deallocate/1.
 
-/*  How robots are released: by children that go back the way their parent
-    came, free the robots, and die.
+/*  De-allocation: child agents return along the trail of the allocator,
+    release the robots, and die.
 
-    A child goes by the trail of its parent, with short cuts, to the robot
-    that is nearest; where links have gone it looks for the way
-    conscientiously.  Its time is limited: robots that it has not reached by
-    then ask the allocator, which answers that they are free, or does not
-    answer.
+    A child follows the trail of its parent, with short cuts, to the nearest
+    robot that it must release; where links are missing it searches
+    conscientiously.  The lifetime of a child is limited: robots that no child
+    has reached by then ask the allocator.  The allocator answers that they
+    are free, or does not answer.
 */
 
 %!  deallocate(+Phases:list) is det.
 %
-%   The robots in one of Phases are free, or will soon be.
+%   Releases the robots in one of Phases, now or as soon as a child arrives.
 
 deallocate(Phases) :-
     tell_free(Phases),
@@ -50,7 +50,8 @@ release_here(Robots, Elsewhere) :-
     ask(Robot, Ref, release(Ref), _).
 release_here(Robots, Robots).
 
-%   shares(+Count, +List, -Shares): Count lists or less, none empty.
+%   shares(+Count, +List, -Shares): splits List into at most Count lists,
+%   none of them empty.
 
 shares(_, [], []) :-
     !.
@@ -62,7 +63,8 @@ shares(Count, List, [Share|Shares]) :-
     Count1 is max(1, Count - 1),
     shares(Count1, Rest, Shares).
 
-%   If the host has no capacity for a child, the robots get messages.
+%   If the host has no capacity for a child, the allocator sends messages to
+%   the robots of that share.
 
 spawn_children([]).
 spawn_children([Share|Shares]) :-
@@ -81,7 +83,7 @@ spawned(clone(_), Share) :-
                 *            A CHILD           *
                 *******************************/
 
-%   When it has freed all, it dies: apoptosis.
+%   A child that has released all its robots dies (apoptosis).
 
 child(Share) :-
     retractall(held(_, _, _, _, _)),
@@ -99,8 +101,8 @@ release_all(Robots, Until) :-
     length(Trail, Far),
     release_all(Robots, Far, Until).
 
-%   release_all(+Robots, +Distance, +Until): Distance is the least distance to
-%   one of Robots so far, along the trail.
+%   release_all(+Robots, +Distance, +Until): Distance is the least distance
+%   to one of Robots so far, in links along the trail.
 
 release_all([], _, _) :-
     !.
@@ -133,7 +135,7 @@ way_on(Robots, Distance0, Host, Distance) :-
 way_on(_, Distance, Host, Distance) :-
     next_host(conscientious, Host).
 
-%   A host that refuses the child is removed from the trail.
+%   The child removes a host that refuses it from the trail.
 
 arrived(Arrived, _, _-Distance, Distance) :-
     var(Arrived),

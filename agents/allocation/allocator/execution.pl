@@ -1,8 +1,8 @@
 % Expects: task/3; lib, common; deadline, messages, held_robots, attendance.
 % Gives: execute/1.
 
-/*  All robots are reserved: the allocator has them begin, and monitors them
-    until all are done.
+/*  Execution: the allocator starts its reserved robots, and monitors them
+    until all have executed the task.
 */
 
 %!  execute(-Outcome) is det.
@@ -30,9 +30,9 @@ start(Host, Robot, Ref, Goal) :-
     ;   give_up(Host, Ref, unreachable)
     ).
 
-%   monitor(+Asked, +Look, -Outcome): at the time Look it asks those that
-%   have not finished how they are.  Asked are the robots that have not
-%   answered since the last time.
+%   monitor(+Asked, +Look, -Outcome): at the time Look it sends status
+%   requests to the robots that have not finished.  Asked are the robots that
+%   have not answered the previous request.
 
 monitor(Outcome) :-
     look_again(Look),
@@ -63,7 +63,7 @@ look_again(Look) :-
     parameter(monitor, Seconds),
     Look is Now + Seconds.
 
-%   A robot that did not answer the last time is given up.
+%   Gives up a robot that did not answer the previous request.
 
 inquire(Asked, Asking) :-
     forall(( held(Host, Robot, Ref, _, started),

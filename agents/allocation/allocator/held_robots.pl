@@ -7,14 +7,14 @@
         held(Host, Robot, Ref, Team, Phase)
                                 Phase is `reserved`, `started` or `done`
         achieved(Team)          for each robot that has done its part and
-                                is not held any more
-        avoided(Host)           where a robot was lost that had begun, since
-                                the allocator set out, or last backed off
+                                that the allocator does not hold any more
+        avoided(Host)           where the allocator lost a robot that had
+                                started, since it set out or last backed off
 
-    Such a robot is not asked again before the allocator has backed off.
-    Otherwise a robot on the current host whose execution fails at once would
-    be reserved again, with another reward and without a hop, so that the
-    mobility resource would grow without end.
+    The allocator does not ask the robot of an avoided host again before it
+    has backed off.  Otherwise a robot on the current host whose execution
+    fails at once would be reserved again, with another reward and without a
+    hop, so that the mobility resource would grow without end.
 */
 
 :- dynamic held/5, achieved/1, avoided/1.
@@ -61,7 +61,8 @@ mark(Ref, Phase) :-
 
 %!  give_up(+Host, +Ref, +Why) is semidet.
 %
-%   The robot at Host is lost, which is logged.  Completed parts count.
+%   Removes the lost robot at Host and logs the loss.  A part that is done
+%   still counts.
 
 give_up(Host, Ref, Why) :-
     retract(held(Host, Robot, Ref, Team, Phase)),
@@ -81,7 +82,7 @@ give_up(Host, Ref, Why) :-
 
 %!  avoid_none is det.
 %
-%   All robots may be asked again.
+%   The allocator may ask all robots again.
 
 avoid_none :-
     retractall(avoided(_)).

@@ -2,13 +2,13 @@
 % Gives: ask/4, post/3, count_message/1.
 
 /*  Messages between an allocator and robots. A message to or from a robot on
-    another host counts once for each link of the way by which the allocator
-    came from there, without detours.
+    another host counts once for each link of the allocator's trail from that
+    host, without detours.
 */
 
 %!  ask(+Robot, +Ref, +Question, -Answer) is det.
 %
-%   Asks a robot on this host. Answer is `silence` if there is none.
+%   Asks a robot on this host.  Answer is `silence` if none arrives in time.
 
 ask(Robot, Ref, Question, Answer) :-
     parameter(patience, Seconds),
@@ -20,7 +20,7 @@ ask(Robot, Ref, Question, Answer) :-
 
 %!  post(+Host, +Robot, +Message) is semidet.
 %
-%   Sends Message to the robot at Host. Fails as tell/2.
+%   Sends Message to the robot at Host.  Fails like tell/2.
 
 post(Host, Robot, Message) :-
     count_message(Host),

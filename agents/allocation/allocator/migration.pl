@@ -1,14 +1,15 @@
 % Expects: lib, common; trail, held_robots, news, sojourn, rewards.
 % Gives: set_out/0, restart/0, migrate/0, pause/0.
 
-/*  How an allocator migrates: thesis section 7.4.1, Agent Migration.
+/*  Migration of an allocator: thesis section 7.4.1, Agent Migration.
 */
 
 %!  set_out is det.
 %!  restart is det.
 %
-%   Begin to search: knowing nothing, and after a back-off.  An
-%   allocator that still has robots may have to go back to them.
+%   Begin a search: without any knowledge (set_out/0), or after a back-off
+%   (restart/0).  An allocator that still holds robots keeps its trail, since
+%   it may have to return to them.
 
 set_out :-
     endow,
@@ -29,8 +30,8 @@ restart :-
 
 %!  migrate is det.
 %
-%   Where there is no way on the resource decays, too: an allocator that
-%   is cut off does not keep robots from others.
+%   The resource decays also where no neighbour is reachable: an isolated
+%   allocator must not keep robots from others.
 
 migrate :-
     decay,

@@ -4,19 +4,19 @@
 /*  The mobility resource of an allocator: thesis section 7.4.1, equations
     7.1 to 7.4.
 
-    What the thesis leaves open, or prints otherwise.  A penalty decrements
-    the resource, so equation 7.2 has a minus.  In equation 7.4 the power of
-    Cd is UR + 1, as the product has so many factors; with UR an agent that
-    knows fewer than some thirty hosts would start below the threshold.
-    UR counts the distinct robots ever found, VR those visited since the
-    agent last began to search: counted from the same time, UR could never
-    be greater than VR.
+    The thesis leaves some points open, or prints them otherwise.  A penalty
+    decrements the resource, so equation 7.2 has a minus.  In equation 7.4 the
+    power of Cd is UR + 1, as the product has so many factors; with UR an
+    agent that knows fewer than some thirty hosts would start below the
+    threshold.  UR counts the distinct robots ever found, VR the robots
+    visited since the agent last began to search: if both counts began at the
+    same time, UR could never be greater than VR.
 */
 
 %!  rewarded(+Chi0, +Frequency, +Required, +Reserved, -Chi) is det.
 %
-%   Equation 7.1: Frequency is rewards per hop, Reserved the robots held
-%   before this one, of Required ones.
+%   Equation 7.1: Frequency is the number of rewards per hop, Reserved the
+%   number of robots held before this one, Required the number needed.
 
 rewarded(Chi0, Frequency, Required, Reserved, Chi) :-
     Chi is Chi0 * (1 + Frequency*(Required - Reserved)/Required).
@@ -24,7 +24,8 @@ rewarded(Chi0, Frequency, Required, Reserved, Chi) :-
 %!  penalised(+Chi0, +Frequency, +Penalties, +Required, +Reserved, -Chi)
 %!      is det.
 %
-%   Equation 7.2: Frequency is penalties per hop, Penalties their number.
+%   Equation 7.2: Frequency is the number of penalties per hop, Penalties the
+%   number of penalties.
 
 penalised(Chi0, Frequency, Penalties, Required, Reserved, Chi) :-
     Share is Penalties/(Penalties + Required - Reserved),
@@ -47,8 +48,8 @@ decay(_, _, 1).
 
 %!  restarted(+Found, +Cd, +Threshold, -Chi) is det.
 %
-%   Equation 7.4: the resource with which an agent begins anew; that of
-%   equation 7.3 takes Found + 1 hops to bring it down to Threshold.
+%   Equation 7.4: the resource of an agent that restarts its search; equation
+%   7.3 reduces it to Threshold in Found + 1 hops.
 
 restarted(Found, Cd, Threshold, Chi) :-
     restarted(0, Found, Cd, Threshold, Chi).
@@ -64,8 +65,9 @@ restarted(Visited, Found, Cd, Chi0, Chi) :-
 
 %!  exhausted(+Chi, +Threshold) is semidet.
 %
-%   True when the agent has to back off.  Threshold is reached by as many
-%   divisions as multiplications, which round differently.
+%   True when the agent must back off.  The tolerance covers rounding: as
+%   many divisions as multiplications lead to Threshold, and they round
+%   differently.
 
 exhausted(Chi, Threshold) :-
     Chi =< Threshold * (1 + 1.0e-9).

@@ -2,9 +2,9 @@
 %   rewards.
 % Gives: negotiate/0.
 
-/*  Negotiation with the robot on this host: its agent returns the cost of the
-    task, the payload of the allocator decides whether it agrees, and then the
-    robot is reserved.
+/*  Negotiation with the robot on this host: the agent of the robot returns
+    the cost of the task, the payload of the allocator decides whether it
+    agrees, and then the allocator reserves the robot.
 */
 
 %!  negotiate is det.
@@ -19,7 +19,7 @@ negotiate :-
     approach(Open, Robot).
 negotiate.
 
-%   A robot that is unfit for one team may do for another.
+%   A robot that is unfit for one team may be fit for another.
 
 approach([], _).
 approach([Team-Requirements|Open], Robot) :-

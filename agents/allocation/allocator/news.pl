@@ -4,15 +4,15 @@
 /*  News of robots that allocators share: beyond the thesis, which names it in
     section 7.8.
 
-    They meet seldom, so they leave their news at the hosts that they visit,
-    in the tuple robots(News), and take newer items from there.  An item is
-    news(Host, Requirements, Verdict, Time): since Time the robot at Host,
-    which meets Requirements, is `free` or `taken`.
+    Allocators seldom meet, so they leave their news in the tuple
+    robots(News) of the hosts that they visit, and take newer items from
+    there.  An item is news(Host, Requirements, Verdict, Time): since Time the
+    robot at Host, which meets Requirements, is `free` or `taken`.
 
-    The allocator goes to the neighbour with the newest `free` item; its own
-    observation there is newer than that item, so it does not return in vain.
-    The setting `sharing` is `none` (of the thesis), `own` (an allocator uses
-    what it has seen itself) or `shared`.
+    The allocator moves to the neighbour with the newest `free` item.  Its own
+    observation there is newer than that item, so the same item does not
+    attract it twice.  The setting `sharing` is `none` (of the thesis), `own`
+    (an allocator uses only its own observations) or `shared`.
 */
 
 :- use_module(library(lists)).
@@ -58,7 +58,7 @@ heard_of(Host, Requirements, Verdict, Time) :-
 
 %!  promising(-Host) is semidet.
 %
-%   A neighbour that may be reserved for a team which is not complete.
+%   Host is a neighbour whose robot may be reserved for an incomplete team.
 
 promising(Host) :-
     news(_, _, free, _),

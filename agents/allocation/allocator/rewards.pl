@@ -2,15 +2,16 @@
 % Gives: endow/0, replenish/0, reward/1, penalty/0, decay/0, exhausted/0; its
 %   state.
 
-/*  The mobility resource of an allocator, chi(Chi): the equations of
-    mobility_resource.pl in its life.
+/*  The mobility resource of an allocator, chi(Chi).  This file applies the
+    equations of mobility_resource.pl to an allocator.
 */
 
 :- dynamic chi/1.
 
 %!  reward(+Reserved) is det.
 %
-%   A robot was reserved, beside so many: equation 7.1.
+%   The allocator has reserved a robot, and held Reserved robots before:
+%   equation 7.1.
 
 reward(Reserved) :-
     note(reward),
@@ -22,7 +23,8 @@ reward(Reserved) :-
 
 %!  penalty is det.
 %
-%   A robot it could use was reserved already: equation 7.2.
+%   A robot that the allocator could use is reserved for another task:
+%   equation 7.2.
 
 penalty :-
     note(penalty),
@@ -63,7 +65,7 @@ replenish :-
 
 %!  exhausted is semidet.
 %
-%   The resource is used up: the allocator has to back off.
+%   True when the allocator must back off.
 
 exhausted :-
     chi(Chi),

@@ -2,11 +2,11 @@
 % Gives: begin_sojourn/0, note/1, visited/1, discovered/1, frequency/3; its
 %   state.
 
-/*  What an allocator has met: UR, VR, Lambda, and the frequencies mu of
+/*  What an allocator has counted: UR, VR, Lambda, and the frequencies mu of
     thesis section 7.4.1.
 
         sojourn(Visited, Hops, Rewards, Penalties)
-                                since it began to search, or last rested
+                                since the search began or restarted
         found(Host)             the distinct robots ever discovered
 */
 
@@ -46,15 +46,16 @@ visited(Host) :-
 
 %!  discovered(-Found) is det.
 %
-%   UR: how many distinct robots it knows.
+%   UR: Count is the number of distinct robots found.
 
 discovered(Count) :-
     aggregate_all(count, found(_), Count).
 
 %!  frequency(+What, -Times, -Frequency) is det.
 %
-%   The number of rewards or penalties, and their number per hop: mu. On its
-%   first host the agent has not yet moved.
+%   Times is the number of rewards or penalties, Frequency that number per
+%   hop: mu.  On its first host the agent has not hopped, so the divisor is
+%   at least 1.
 
 frequency(reward, Rewards, Frequency) :-
     sojourn(_, Hops, Rewards, _),

@@ -1,12 +1,12 @@
 % Expects: nothing.
 % Gives: stepped/5, links/3, nearer/6; state trail/1.
 
-/*  The way back, trail(Hosts): the hosts that an agent has visited, the last
-    one first. The predicates on trails are pure.
+/*  The trail of an agent, trail(Hosts): the hosts that it has visited, the
+    last one first. The predicates on trails are pure.
 
-    A trail omits detours: when the agent comes to a host on the trail, or
-    linked with one, the hosts in between are removed, unless the agent has to
-    go back to one of them.
+    A trail omits detours: when the agent arrives at a host on the trail, or
+    at a neighbour of one, the hosts in between are removed, unless the agent
+    must return to one of them.
 */
 
 :- use_module(library(lists)).
@@ -14,8 +14,9 @@
 
 %!  stepped(+Host, +Neighbours, +Wanted, +Trail0, -Trail) is det.
 %
-%   The trail of an agent that was at the head of Trail0 and is at Host,
-%   which has Neighbours, and may have to go back to Wanted.
+%   Trail is the trail of an agent that moved from the head of Trail0 to Host,
+%   which has Neighbours.  It keeps the hosts Wanted, to which the agent may
+%   have to return.
 
 stepped(Host, Neighbours, Wanted, Trail0, [Host|Trail]) :-
     append(Before, [Goal|Later], Trail0),
@@ -39,8 +40,8 @@ detour([Other|Others], Host, Neighbours, Later, Trail) :-
 
 %!  links(+Host, +Trail, -Count) is det.
 %
-%   How many links there are on the way back from the head of Trail to
-%   Host; as many as to the end if it is not on it.
+%   Count is the number of links along Trail from its head to Host; the
+%   length of Trail if Host is not on it.
 
 links(Host, Trail, Count) :-
     nth0(Count0, Trail, Host),
@@ -52,10 +53,10 @@ links(_, Trail, Count) :-
 %!  nearer(+Trail, +Wanted, +Neighbours, +Distance0, -Host, -Distance)
 %!      is semidet.
 %
-%   Host is the one of Neighbours that is nearest to one of the hosts
-%   Wanted, Distance along the Trail.  Fails if that is not nearer than
-%   Distance0: where links have gone, an agent that goes only to hosts
-%   nearer than it ever was does not go round in circles.
+%   Host is the one of Neighbours that is nearest to one of the hosts Wanted;
+%   Distance is counted in links along Trail.  Fails if Distance is not less
+%   than Distance0: this keeps an agent from moving in circles where links
+%   are missing.
 
 nearer(Trail, Wanted, Neighbours, Distance0, Host, Distance) :-
     findall(Goal,

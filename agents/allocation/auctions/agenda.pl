@@ -3,16 +3,16 @@
 
 /*  The agenda of a node.
 
-        agenda(Next, Dues)      Dues are pairs Due-Key, the first to be due
-                                first; Next is the next Key
-        item(Key, What)         what is to be done
+        agenda(Next, Dues)      Dues are pairs Due-Key in order of time; Next
+                                is the next Key
+        item(Key, What)         the item, an argument of perform/2
 */
 
 :- dynamic agenda/2, item/2.
 
 %!  node_loop.
 %
-%   The life of a node.
+%   The main loop of a node: handles messages and due items.
 
 node_loop :-
     next_due(Left),
@@ -45,7 +45,7 @@ do_due.
 %!  at(+Due, +What) is det.
 %!  after(+Seconds, +What) is det.
 %
-%   Have perform(What, Due) called at host time Due.
+%   Schedule the call perform(What, Due) at host time Due, or in Seconds.
 
 at(Due, What) :-
     retract(agenda(Key, Dues0)),

@@ -2,18 +2,18 @@
 %   tell_robots/3.
 % Gives: post/1, to_owner/2, auction_due/1.
 
-/*  The side of a node that auctions tasks, the auctioneer.  It announces
-    the task, takes bids for some time, and awards contracts to those that
-    cost least, to all robots the task needs at once.  When all have
-    answered it starts them, renews their contracts, and releases them when
-    all are done.  Where there are too few bids it releases what it has and
-    backs off (thesis equations 7.5 and 7.7); where a robot is lost it
-    auctions that place again.
+/*  The auctioneer: the part of a node that auctions tasks.  It announces
+    the task, takes bids for some time, and awards contracts to the cheapest
+    bidders, to all robots that the task needs at once.  When all winners
+    have answered, it starts them, renews their contracts, and releases them
+    when all are done.  If there are too few bids, it releases its robots and
+    backs off (thesis equations 7.5 and 7.7); if a robot is lost, it auctions
+    that place again.
 */
 
 %!  to_owner(+Job, +Body) is semidet.
 %
-%   Handles a message of a node to the auctioneer of this node.
+%   Handles a message from another node to the auctioneer of this node.
 
 to_owner(Job, bids(Round, List)) :-
     bids(Job, Round, List).
@@ -41,7 +41,7 @@ auction_due(deadline(Job)) :-
 
 %!  post(+Task) is det.
 %
-%   Auctions Task from now on.
+%   Starts to auction Task.
 
 post(Task) :-
     Task = task(Name, _, Details),
@@ -120,7 +120,7 @@ report(Phase, Job, Round, Host) :-
 report(Phase, Job, Round, Host) :-
     later_phase(awarded, Phase, _),
     \+ is_over(Job, Round),
-    !,                                  % given up meanwhile
+    !,                                  % the auctioneer gave it up before
     tell_robots(Job, [Host], release(Job, Round, [Host])).
 report(_, _, _, _).
 
@@ -203,7 +203,7 @@ again(Job, Round) :-
     job(Job, _, Round, waiting, _, _),
     open_auction(Job).
 
-%   release_all(+Job, -Bids): Bids is how many there were in this round.
+%   release_all(+Job, -Count): Count is the number of bids in this round.
 
 release_all(Job, Count) :-
     job(Job, _, Round, _, _, _),
@@ -231,7 +231,7 @@ renew_later(Job, Since) :-
     parameter(renew, Seconds),
     after(Seconds, renew(Job, Since)).
 
-%   A contractor without a sign of life for a whole period is lost.
+%   A contractor that has sent no message for a whole period is lost.
 
 renew(Job, Since) :-
     renewal(Job, Since),

@@ -1,12 +1,13 @@
 % Expects: nothing; pure.
 % Gives: winners/3, becomes/3, later_phase/3.
 
-/*  Which nodes get a contract, and what becomes of it.
+/*  Which nodes get a contract, and how reports change the phase of a robot.
 */
 
 %!  winners(+Places, +Bids, -Winners) is semidet.
 %
-%   The cheapest, team by team.  Bids are Host-Bids, Winners Host-Number.
+%   Winners are the cheapest bidders, chosen team by team.  Bids are
+%   Host-Bids, Winners Host-Number.
 
 winners([], _, []).
 winners([(Number-_)-Count|Places], Bids0, Winners) :-
@@ -26,7 +27,7 @@ winners([(Number-_)-Count|Places], Bids0, Winners) :-
 
 %!  becomes(+Before, +Phase, -After) is semidet.
 %
-%   What a robot has done stays done, even if the robot is lost.
+%   A robot that has executed its part stays `done`, even if it is lost later.
 
 becomes(done, _, done) :-
     !.
@@ -35,7 +36,7 @@ becomes(Before, Phase, After) :-
 
 %!  later_phase(+Before, +Phase, -After) is semidet.
 %
-%   Reports may come in any order.
+%   After is the later of the two phases, since reports arrive in any order.
 
 later_phase(Before, Phase, After) :-
     Order = [awarded, reserved, executing, done],

@@ -1,20 +1,20 @@
 % Expects: lib, common; agenda, memory; tell_owner/2, offer_bids/3.
 % Gives: to_robot/1, answered/3, from_robot/2, contract_due/1, is_over/2.
 
-/*  The side of a node that speaks for the robot of its host.  It bids for
-    one auction at a time, and for another one only when that is over, or
-    more urgent.  The winner has a contract, which ends unless the auctioneer
-    renews it: so no robot stays reserved for an auctioneer that is gone.
+/*  The contractor: the part of a node that acts for the robot of its host.
+    It bids in one auction at a time, and in another one only when the first
+    is over, or less urgent.  The winner has a contract, which ends unless
+    the auctioneer renews it: so no robot stays reserved for an auctioneer
+    that has ended.
 
         hold(Job, Round, Offer, Until)
                                 the auction for which it has bid
         asked(Job, Round, Left, Bids)
-                                its robot has not answered all yet
+                                the robot has not answered all questions yet
         contract(Job, Round, Ref, Details, Phase, Until)
                                 Phase is `reserving`, `reserved`,
                                 `executing` or `done`
-        over(Job, Round)        what is not to be believed any more if it
-                                comes late
+        over(Job, Round)        messages of rounds up to Round are ignored
 */
 
 :- dynamic hold/4, asked/4, contract/6, over/2.
@@ -144,8 +144,7 @@ phase(Job, Phase) :-
     assertz(contract(Job, Round, Ref, Details, Phase, Until)),
     inform(Job, Round, Phase).
 
-%   The answer of the robot to reserve/3. The contract may have ended
-%   meanwhile.
+%   The robot has answered reserve/3.  The contract may have ended meanwhile.
 
 reserved(Ref, _) :-
     contract(Job, _, Ref, _, reserving, _),
@@ -183,7 +182,8 @@ phase_quietly(Job, Phase) :-
 
 %!  from_robot(+Message, +Robot) is semidet.
 %
-%   The auctioneer is not asked whether it still needs the robot: it renews.
+%   The contractor answers still(Ref) itself, without asking the auctioneer:
+%   the auctioneer renews contracts that it needs.
 
 from_robot(done(Ref), _) :-
     contract(Job, _, Ref, _, _, _),
@@ -197,8 +197,8 @@ from_robot(still(Ref), Robot) :-
     ;   send(Robot, no(Ref))
     ).
 
-%   renewed(+Job, +Phase): if the task is `executing` and this robot is not,
-%   it has missed the start.
+%   renewed(+Job, +Phase): if Phase is `executing` and this robot is not
+%   executing, it has missed the start.
 
 renewed(Job, Phase) :-
     retract(contract(Job, Round, Ref, Details, Now, _)),
@@ -250,7 +250,7 @@ is_over(Job, Round) :-
     Round =< Last,
     !.
 
-%   The contract was not renewed in time.
+%   The auctioneer has not renewed the contract in time.
 
 lapse(Job) :-
     contract(Job, Round, _, _, _, Until),

@@ -3,27 +3,27 @@
 
 /*  Messages over one link, and floods, for an agent that does not move.
 
-    A message over a link takes as long as a hop of an agent would (setting
+    A message over a link takes as long as a hop of an agent (setting
     hop_time).  It is sent at once, with the host time at which it is due;
-    until then it is on the agenda of the receiver.  What is passed on was
-    passed on at the time it was due, so the computer adds nothing to the
+    until then it is on the agenda of the receiver.  A node passes a message
+    on with the time at which it was due, so the computer adds nothing to the
     time of a flood as long as it keeps pace.
 
     A node sends to all neighbours at once.  With the setting `sending`
-    one_by_one(Share) it has one channel: a message goes when the one before
-    has come, and takes this share of the time of a hop, so that many messages
-    take long (thesis section 7.6.1 names bandwidth).
+    one_by_one(Share) it has one channel: it sends a message when the previous
+    one is due, and each takes this share of the time of a hop, so that many
+    messages take long (thesis section 7.6.1 names bandwidth).
 
-    Each node passes a flood on once, to all neighbours but the one it came
-    from: over N hosts with E links it takes 2E - (N-1) messages.  Two nodes
-    often send each other the same.  The later node already has the earlier
-    message, though it is not yet due: its own message would be a duplicate,
-    so it is counted but not sent.
+    Each node passes a flood on once, to all neighbours but the one that sent
+    it: over N hosts with E links it takes 2E - (N-1) messages.  Two nodes
+    often send each other the same flood.  The later node already has the
+    earlier message, though it is not yet due: its own message would be a
+    duplicate, so it is counted but not sent.
 
-        peer(Host, Node)        each node there is
-        wave(Flood, Due, Froms) floods known, -1 once they are passed on;
-                                the neighbours from which they came
-        busy(Until)             the channel, if there is but one
+        peer(Host, Node)        all other nodes
+        wave(Flood, Due, Froms) a known flood; Due is -1 once it is passed on;
+                                Froms are the neighbours that sent it
+        busy(Until)             when the only channel becomes free
 */
 
 :- dynamic peer/2, wave/3, busy/1.
@@ -34,8 +34,8 @@
 
 %!  cross(+To, +Body, +Now) is semidet.
 %
-%   Body goes over the link to host To.  Fails if there is none, or no
-%   node at its end, which is forgotten.
+%   Sends Body over the link to host To.  Fails if there is no link, or no
+%   node at its end; then the node is removed from the peers.
 
 cross(To, Body, Now) :-
     neighbours(Neighbours),
@@ -58,7 +58,7 @@ transmit([To|Tos], Here, Now, Load) :-
     ),
     transmit(Tos, Here, Now, Load).
 
-%   due(+Now, -Due): when a message that is sent now has come.
+%   due(+Now, -Due): Due is the time at which a message sent now arrives.
 
 due(Now, Due) :-
     parameter(sending, Sending),
@@ -83,8 +83,8 @@ link_seconds(Seconds) :-
 
 %!  crossed(+Due, +From, +Load) is det.
 %
-%   A message from host From is here, and due later.  Of a flood that is
-%   known the first to be due counts.
+%   Schedules a message from host From for the time Due.  Of a flood that is
+%   already known only the earliest due time counts.
 
 crossed(Due, From, flood(Id, Body)) :-
     !,
@@ -107,7 +107,7 @@ crossed(Due, From, only(Body)) :-
 
 %!  flood(+Body) is det.
 %
-%   To all nodes but this one.
+%   Sends Body to all other nodes.
 
 flood(Body) :-
     new_id(Id),
@@ -117,7 +117,7 @@ flood(Body) :-
 
 %!  flooded(+From, +Id, +Body, +Now) is det.
 %
-%   It is due.
+%   Handles a flood that is due.
 
 flooded(From, Id, Body, Now) :-
     (   wave(Id, Due, Froms),

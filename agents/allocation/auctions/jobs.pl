@@ -10,10 +10,9 @@
                                 Bids are Number-Cost for each team
         member(Job, Host, Number, Round, Phase, Heard)
                                 Phase is `awarded`, `reserved`, `executing`
-                                or `done`, Heard the time of the last sign
-                                of life
-        allocated(Job)          once all were reserved
-        renewal(Job, Round)     since which round contracts are renewed
+                                or `done`, Heard the time of the last message
+        allocated(Job)          true once all robots were reserved
+        renewal(Job, Round)     the round since which contracts are renewed
 */
 
 :- dynamic job/6, bid/4, member/6, allocated/1, renewal/2.
@@ -45,7 +44,7 @@ members(Job, Hosts) :-
 
 %!  wanted_phase(+Job, -Phase) is det.
 %
-%   In which its robots should be.
+%   Phase is the phase that the robots of Job should have.
 
 wanted_phase(Job, Phase) :-
     (   allocated(Job)

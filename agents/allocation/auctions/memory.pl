@@ -3,7 +3,7 @@
 
 /*  Bounded memory of a node, and the numbers of its messages.
 
-        kept(Name, Count)       how many facts of a name are remembered
+        kept(Name, Count)       Count facts with this name are stored
         next_id(Id)
 */
 
@@ -11,9 +11,10 @@
 
 %!  make_room(+Any, +Most) is det.
 %
-%   The caller is about to assert a fact that matches Any: of more than Most
-%   the oldest goes.  (A clause that asserts what it does not know by name
-%   could add rules, and would be run by the machine, step by step.)
+%   Called before a fact that matches Any is asserted: removes the oldest fact
+%   if there are Most.  (The caller asserts the fact itself: a clause that
+%   asserts a term unknown when it is compiled could add rules, and the
+%   machine would run it step by step.)
 
 make_room(Any, Most) :-
     functor(Any, Name, _),
@@ -31,8 +32,8 @@ make_room(Any, Most) :-
 %!  first_id is det.
 %!  new_id(-Id) is det.
 %
-%   Numbers of floods and jobs differ among nodes but for a chance of one in
-%   10^5 in a network of a hundred.
+%   Ids of floods and jobs differ among nodes; in a network of a hundred two
+%   nodes share ids with a probability of 10^-5.
 
 first_id :-
     First is random(1<<30) << 24,

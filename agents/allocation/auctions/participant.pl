@@ -4,23 +4,23 @@
 
 /*  A node: the static agent of a host that takes part in auctions.  It
     passes on messages (flooding.pl), bids for the robot of its host
-    (contractor.pl), and holds the auctions of the tasks that are posted at
-    its host (auctioneer.pl).  Included in murdoch.pl and anta.pl, which say
-    how messages get from an auctioneer to robots and back:
+    (contractor.pl), and auctions the tasks that are posted at its host
+    (auctioneer.pl).  murdoch.pl and anta.pl include this file and define how
+    messages travel between auctioneers and robots:
 
         publish(+Body)                          to all nodes
         tell_robots(+Job, +Hosts, +Body)        to the nodes of Hosts
         tell_owner(+Job, +Body)                 to the auctioneer of Job
         offer_bids(+Job, +Round, +Bids)         the bids of this host
-        arrived(+Body, +From, +Now)             came over a link
-        onward(+Body, -Onward)                  how a flood is passed on
-        undertake(+What, +Now)                  was on the agenda
+        arrived(+Body, +From, +Now)             handles a message over a link
+        onward(+Body, -Onward)                  how a node passes a flood on
+        undertake(+What, +Now)                  handles an item of the agenda
 
     All that a node does between two messages is native Prolog: once it knows
-    its peers it stops at the one receive/2 of node_loop/0 only.
+    its peers it stops only at the receive/2 of node_loop/0.
 
-    A Job is job(Host, Number), the host of the auctioneer first.  A task is
-    auctioned once or more, each time is a Round.
+    A Job is job(Host, Number), where Host is the host of the auctioneer.
+    Each auction of a task is a Round.
 */
 
 :- include('../../lib/parameters').
@@ -39,17 +39,18 @@
 default(window, 10).            % seconds for bids
 default(answer, 10).            % seconds for the answers to an award
 default(renew, 20).             % seconds from one renewal to the next
-default(contract, 60).          % seconds a contract lasts unless renewed
+default(contract, 60).          % seconds until a contract ends
 default(tries, 3).              % rounds without a back-off between them
 default(sending, at_once).      % or one_by_one(Share)
 default(beta, 1).               % of the first back-off
 default(bi_min, 10).
 default(bi_max, 500).
 default(level, 10).             % of a broadcast tree
-default(memory, 1000).          % floods that a node knows again
-default(jobs, 100).             % jobs of others that it remembers
+default(memory, 1000).          % floods that a node remembers
+default(jobs, 100).             % jobs of other nodes that it remembers
 
-%   Messages of other nodes may arrive before the list of peers: they wait.
+%   Messages of other nodes may arrive before the list of peers; they stay in
+%   the mailbox until then.
 
 main :-
     first_id,
@@ -95,10 +96,10 @@ perform(What, Now) :-
     ->  true
     ;   contract_due(What)
     ->  true
-    ;   true                            % it is no longer of use
+    ;   true                            % the message is obsolete
     ).
 
-%   body_kind(+Body, -Kind): under which name a message is counted.
+%   body_kind(+Body, -Kind): Kind is the name under which a message is counted.
 
 body_kind(owner(_, Body), Kind) :-
     !,

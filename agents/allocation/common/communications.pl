@@ -1,15 +1,15 @@
 % Expects: nothing.
 % Gives: count/2, log_communications/0; state sent/2.
 
-/*  Counts of messages and moves of an agent: the inter-node communications of
-    thesis section 7.6.  sent(Kind, Count).
+/*  Counts of messages and moves of an agent, as facts sent(Kind, Count): the
+    inter-node communications of thesis section 7.6.
 */
 
 :- dynamic sent/2.
 
 %!  count(+Kind, +Times) is det.
 %
-%   So many more of Kind.
+%   Adds Times to the count of Kind.
 
 count(_, 0) :-
     !.

@@ -1,7 +1,7 @@
 % Expects: nothing; pure.
 % Gives: fit/2, required/2, open_team/4, detail/4, task_goal/2.
 
-/*  What a task requires, against what a robot is.
+/*  Requirements of a task and properties of a robot.
 
     A robot has properties: capabilities, any terms, and states,
     Name=Value.  A task needs teams, Count-Requirements; a requirement is a
@@ -13,8 +13,8 @@
 
 %!  fit(+Requirements, +Properties) is semidet.
 %
-%   True when all Requirements are met.  Variables that they share are
-%   bound alike.
+%   True when Properties meet all Requirements.  A variable that several
+%   requirements share has one value.
 
 fit(Requirements, Properties) :-
     \+ \+ met(Requirements, Properties).
@@ -37,7 +37,7 @@ holds(Requirement, Properties) :-
 
 %!  required(+Teams, -Count) is det.
 %
-%   How many robots are needed in all.
+%   Count is the number of robots that all Teams need together.
 
 required([], 0).
 required([Count0-_|Teams], Count) :-
@@ -46,8 +46,8 @@ required([Count0-_|Teams], Count) :-
 
 %!  open_team(+Teams, +Taken, -Number, -Requirements) is nondet.
 %
-%   The teams that are not complete, by Number from 1.  Taken are the
-%   numbers of the teams to which the robots held belong.
+%   The incomplete teams; Number counts from 1.  Taken are the team numbers of
+%   the robots held.
 
 open_team(Teams, Taken, Number, Requirements) :-
     nth1(Number, Teams, Count-Requirements),
@@ -67,7 +67,7 @@ detail(Name, Details, Default, Value) :-
 
 %!  task_goal(+Details, -Goal) is det.
 %
-%   What each robot executes.
+%   Goal is what each robot executes.
 
 task_goal(Details, Goal) :-
     detail(duration, Details, 5, Seconds),

@@ -1,12 +1,13 @@
 % Expects: lib; reservation.
 % Gives: start/3, finished/2.
 
-/*  A clone, the hand, executes the task, so that the robot can answer.
+/*  A clone of the robot, the hand, executes the task, so that the robot can
+    answer messages meanwhile.
 */
 
 %!  start(+Ref, +Goal, -Answer) is det.
 %
-%   In the hand it does not return.
+%   Starts the hand.  Does not return in the hand.
 
 start(Ref, Goal, Answer) :-
     hold(Ref, _, _, _, reserved),

@@ -1,15 +1,15 @@
 % Expects: property/1, failed/0, cost/3; lib, common; watch.
 % Gives: verdict/2, reserve/3, lose/1, free/0, phase/2; state hold/5.
 
-/*  For whom the robot is reserved: hold(Ref, Owner, Need, Contact, Phase),
-    one at most.
+/*  The reservation of the robot: hold(Ref, Owner, Need, Contact, Phase), at
+    most one.
 */
 
 :- dynamic hold/5.
 
 %!  verdict(+Need, -Verdict) is det.
 %
-%   Verdict is the answer to a request of Need at this time.
+%   Verdict is the answer to a request of Need in the current state.
 
 verdict(Need, refused(unfit)) :-
     \+ able(Need, _),
@@ -60,7 +60,7 @@ reserve(Refusal, _, Refusal).
 
 %!  lose(+Why) is det.
 %
-%   The reservation, if there is one, ends without its owner.
+%   Ends the reservation, if there is one, and reports that to its contact.
 
 lose(Why) :-
     hold(Ref, _, _, Contact, _),
@@ -71,7 +71,7 @@ lose(_).
 
 %!  free is semidet.
 %
-%   The reservation ends, and the execution of the robot is stopped.
+%   Ends the reservation, and stops the execution.
 
 free :-
     retract(hold(_, Owner, need(Task, _, _), _, Phase)),

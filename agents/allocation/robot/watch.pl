@@ -1,9 +1,9 @@
 % Expects: nothing.
 % Gives: next/1, remind/2, remind_nothing/0; state due/2.
 
-/*  What a robot waits for: a message, or the time due(Time, What) at which it
-    asks its contact whether it is still wanted, or has waited long enough
-    for the answer.
+/*  The events of a robot: a message, or the time due(Time, What).  At that
+    time the robot asks its contact whether it still needs the robot, or stops
+    waiting for the answer.
 */
 
 :- dynamic due/2.
@@ -26,7 +26,7 @@ next(Event) :-
 
 %!  remind(+Seconds, +What) is det.
 %
-%   Of What, `ask` or `answer`, and of nothing else.
+%   Sets the only reminder: What is `ask` or `answer`.
 
 remind(Seconds, What) :-
     remind_nothing,
