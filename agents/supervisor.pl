@@ -179,8 +179,8 @@ start(Name) :-
     begun(Places, Program, [name(Name)|Options], no(place), Begun),
     started(Begun, Name).
 
-%   begun(+Places, +Program, +Options, +Begun0, -Begun): Begun is on(Host, Agent),
-%   or no(Problem) of the last place.
+%   begun(+Places, +Program, +Options, +Begun0, -Begun): Begun is
+%   on(Host, Agent), or no(Problem) of the last place.
 
 begun([], _, _, Begun, Begun).
 begun([Host|Hosts], Program, Options, _, Begun) :-
