@@ -1,9 +1,9 @@
 :- payload(energy, [provides([cost/3])]).
 
-/*  The cost of a task for a robot: the share of its charge.
+/*  The cost of a task for a robot: its share of the robot's charge.
 
-    Needs the robot's property battery=Charge, and the task's detail
-    energy(Joules), in the same unit.  A robot that has not enough is unfit.
+    Reads the robot's property battery=Charge, and the task's detail
+    energy(Joules), in the same unit.  A robot with less charge is unfit.
 */
 
 cost(need(_, _, Details), Properties, Cost) :-

@@ -1,10 +1,9 @@
 :- payload(nearest, [provides([cost/3])]).
 
-/*  The cost of a task for a robot: the distance to its place.
+/*  The cost of a task for a robot: the distance to the place of the task.
 
-    Needs the robot's property position=p(X, Y), and the task's detail at(p(X,
-    Y)).  A task without a place costs nothing, nor does any task for a robot
-    without a position.
+    Reads the robot's property position=p(X, Y), and the task's detail at(p(X,
+    Y)).  The cost is 0 if the task has no place, or the robot no position.
 */
 
 cost(need(_, _, Details), Properties, Cost) :-

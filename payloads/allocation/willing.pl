@@ -1,11 +1,11 @@
 :- payload(willing, [provides([agreed/3])]).
 
-/*  The negotiation of an allocator that takes every robot it can get.
+/*  The negotiation of an allocator that accepts every robot.
 
         agreed(+Cost, +Details, +Backoffs)
 
-    succeeds if a robot that would do the task with Details for Cost is to
-    be reserved, after so many back-offs.
+    succeeds if the allocator, after Backoffs back-offs, reserves a robot that
+    executes the task with Details for Cost.
 */
 
 agreed(_, _, _).

@@ -1,5 +1,5 @@
-%   fipa_answer(+Acl, +Performative, +Content, -To, -Answer): Answer belongs
-%   to the conversation of Acl, and answers it; To is its receiver.
+%   fipa_answer(+Acl, +Performative, +Content, -To, -Answer): Answer is the
+%   answer to Acl in its conversation; To is its receiver.
 
 fipa_answer(acl(_, Asked), Performative, Content, To,
             acl(Performative, [content(Content)|Parameters])) :-

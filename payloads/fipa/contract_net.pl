@@ -2,13 +2,14 @@
 
 /*  The initiator of FIPA's contract net (FIPA00029): calls for proposals,
     and awards the contract to one of the proposers.  Needs reply/3, which
-    is in the place of hosts that are platforms, or the payload fipa/reply.
+    the place of a FIPA platform host or the payload fipa/reply defines.
 */
 
 %!  fipa_call(+Participants, +Task, +Seconds, -Proposals) is det.
 %
-%   Ask each of Participants what it would do Task for.  Proposals is a list of
-%   Offer-Acl, as they have come, when all have answered or the time is over.
+%   Asks each of Participants for a proposal for Task.  Proposals is a list of
+%   Offer-Acl in order of arrival, complete when all have answered or Seconds
+%   of host time have passed.
 
 fipa_call(Participants, Task, Seconds, Proposals) :-
     N is random(1<<60),
@@ -44,9 +45,10 @@ fipa_call_answer(_, _, _, More, More).
 
 %!  fipa_award(+Proposals, +Chosen, +Seconds, -Outcome) is det.
 %
-%   Accept Chosen, one of Proposals, and reject the others.  Outcome is
-%   inform-Result, failure-Why, or the like, or `timeout`.  A proposal
-%   that comes only now is too late.
+%   Accepts Chosen, one of Proposals, and rejects the others.  Outcome is
+%   inform-Result, failure-Why or another performative with its content, or
+%   `timeout`.  Proposals that arrive during this call are rejected as too
+%   late.
 
 fipa_award(Proposals, Chosen, Seconds, Outcome) :-
     Chosen = Offer-Acl,
@@ -83,7 +85,7 @@ fipa_award_heard(Performative, fipa(From), acl(_, Parameters), Id, Name, Until,
     ;   fipa_award_outcome(Id, Name, Until, Outcome)
     ).
 
-%   From the contractor itself, or from an AMS that could not reach it.
+%   The sender is the contractor itself, or an AMS that could not reach it.
 
 fipa_award_about(_, Name, Name, _) :-
     !.

@@ -1,22 +1,22 @@
 :- payload(fipa_participant, [provides([fipa_take_part/1, fipa_contract/4])]).
 
-/*  The other side of FIPA's request protocol (FIPA00026) and contract net
+/*  The participant in FIPA's request protocol (FIPA00026) and contract net
     (FIPA00029).  An agent with this payload defines
 
         on_message(_, Acl) :- fipa_take_part(Acl).
 
     and
 
-      - perform(Action, Result): do it.  If this fails the request is refused;
-        if it raises, it is a failure.
-      - bid(Task, Offer): its proposal after a call for proposals, if it takes
-        part in contract nets.  If this fails it refuses.
+      - perform(Action, Result): executes a request.  If perform/2 fails, the
+        answer is `refuse`; if it raises an error, `failure`.
+      - bid(Task, Offer): the proposal after a call for proposals, in contract
+        nets only.  If bid/2 fails, the answer is `refuse`.
 
-    Of a content [action(Agent, Action)], as SL has it, Action is performed, and
-    the answer says result(action(Agent, Action), Result), or done(...) where
-    Result is `done`.  Any other content is performed as it is, and Result is
-    the answer.  Needs reply/3, which is in the place of hosts that are
-    platforms, or the payload fipa/reply.
+    For a content [action(Agent, Action)], as in SL, perform/2 gets Action, and
+    the answer is result(action(Agent, Action), Result), or done(...) where
+    Result is `done`.  For any other content perform/2 gets the content itself,
+    and the answer is Result.  Needs reply/3, which the place of a FIPA platform
+    host or the payload fipa/reply defines.
 */
 
 %   A proposal of this agent: the conversation, the initiator, the message,
@@ -24,7 +24,7 @@
 
 fipa_contract(none, none, none, 0).
 
-%   An initiator may never come back to it.
+%   Proposals expire, since an initiator may never answer them.
 
 fipa_contract_seconds(600).
 
@@ -59,7 +59,7 @@ fipa_part('accept-proposal', _, Acl) :-
     fipa_part_conversation(Acl, Id, From),
     (   retract(fipa_contract(Id, From, Content, _))
     ->  fipa_performed(Content, Performative0, Answer),
-        (   Performative0 == refuse     % it is too late for that
+        (   Performative0 == refuse     % an accepted proposal is not refused
         ->  Performative = failure
         ;   Performative = Performative0
         ),

@@ -1,16 +1,16 @@
 :- payload(fipa_reply, [provides([reply/3])]).
 
-/*  An answer to a message of FIPA's ACL.  Hosts with library(typhon/fipa)
-    have it in their place; an agent that answers from other hosts attaches
-    it.
+/*  Answers to messages of FIPA's ACL.  The place of hosts with
+    library(typhon/fipa) defines reply/3; an agent that answers from other
+    hosts attaches this payload.
 */
 
 :- include(answer).
 
 %!  reply(+Acl, +Performative, +Content) is det.
 %
-%   Answer the message Acl, which has come from fipa(Name), in its
-%   conversation.  The answer goes out by the host at which Acl has come in.
+%   Answers the message Acl of fipa(Name) in its conversation.  The host that
+%   received Acl sends the answer.
 
 reply(Acl, Performative, Content) :-
     fipa_answer(Acl, Performative, Content, To, Answer),

@@ -1,15 +1,15 @@
 :- payload(fipa_request, [provides([fipa_request/4])]).
 
 /*  The initiator of FIPA's request protocol (FIPA00026): requests an action
-    of another agent, and waits for the result.
+    from another agent, and waits for the result.
 */
 
 %!  fipa_request(+To, +Content, +Seconds, -Outcome) is det.
 %
-%   Outcome is inform-Answer, refuse-Why, failure-Why or 'not-understood'-Why,
-%   the answer of To, or `timeout`. A preceding `agree` of To is skipped.  A
-%   failure may also be one of the AMS: To cannot be reached.  Seconds are
-%   those of the host.
+%   Outcome is the answer of To, inform-Answer, refuse-Why, failure-Why or
+%   'not-understood'-Why, or `timeout`.  A preceding `agree` is skipped.  The
+%   AMS also answers failure-Why, if To is unreachable.  Seconds are host
+%   seconds.
 
 fipa_request(To, Content, Seconds, Outcome) :-
     N is random(1<<60),

@@ -4,10 +4,11 @@
     workers are agents(learning/learner), and the mechanism learns how much
     work a part has.
 
-    Agents that share take the less time, the more they are: nearly in proportion.
-    So the work of a part is the time of its last worker times their number, and workers
-    are divided among the parts as work was in the last round, each with one at least.
-    A leader that decides by itself can only keep those it has.
+    The time of agents that share is nearly inversely proportional to their
+    number.  So the work of a part is the time of its last worker times the
+    number of its workers.  The mechanism divides the workers in proportion to
+    the work of the previous round, with at least one worker for each part.
+    A leader that decides for itself can only keep its own workers.
 */
 
 crew(_, Hosts, Settings, Orders) :-
@@ -23,7 +24,7 @@ crew(_, Hosts, Settings, Orders) :-
               nth0(Index, Hosts, Host) ),
             Orders).
 
-%   A worker that was late may be in a queue still.
+%   A worker that was disposed of may have left its tuple in the queue.
 
 seen(Round, Facts) :-
     take(queued(_)),
@@ -48,7 +49,7 @@ decided(Reports, Memory, Memory, Orders) :-
     divided(Parts, Least, All, Workers, Orders).
 
 %   Each part gets its share of the workers that the parts before it have
-%   left.
+%   not taken.
 
 divided([], _, _, _, []).
 divided([part(Leader, Work, _)|Parts], Least, All, Workers,

@@ -4,12 +4,13 @@
     are agents(sync/traveller), a round is a sequence of tasks, and the
     mechanism learns the penalty bias.
 
-    No task may begin before all hosts have the one before.  The completion
-    times on the hosts give the time from the first host of a task to its last
-    one, its spread, and the time until the next task is first completed.  The
-    latter is nearly proportional to 1/delta (doc/analysis.md), so delta
-    follows: the next task should come one spread after the last host.  It
-    falls fast and rises slowly: executions that overlap cannot be undone.
+    No task may begin before all hosts have completed the previous one.  The
+    completion times on the hosts give the spread of a task, the time from its
+    first host to its last one, and the step, the time until the next task is
+    first completed.  The step is nearly proportional to 1/delta
+    (doc/analysis.md), so the mechanism changes delta until the next task
+    follows one spread after the last host.  delta decreases fast and increases
+    slowly, because executions that overlap cannot be undone.
 */
 
 crew(Round, Hosts, Settings, Orders) :-
@@ -29,7 +30,7 @@ crew(Round, Hosts, Settings, Orders) :-
 seen(Round, Facts) :-
     findall(done(Task, Time), sense(task(Round, Task, completed, Time)), Facts).
 
-%   A step for which there is less than two tasks changes nothing.
+%   Without two completed tasks there is no step, and delta does not change.
 
 decided(Reports, Memory, Memory, Orders) :-
     findall(Task-Time,

@@ -2,18 +2,20 @@
 :- include(confirm).
 
 /*  A learning algorithm for noisy measurements unit(Source, Settings, Value):
-    climbs from the best settings known to those near it that promise most.
+    hill climbing from the best known settings to the most promising ones
+    near them.
 
-    The model says how much each level in each place adds to the value.  It is
-    fitted to all measurements, but those count more that are near the best
-    settings, so that it is right there, where places depend on each other.
-    The estimate for settings combines their own measurements with the model
-    as one more, for a single measurement may be luck. A constant offset of a
-    source that measures higher than others is removed before.
+    A linear model estimates the effect of each level in each place on the
+    value.  It is fitted to all measurements, weighted by their nearness to
+    the best settings, so that it is right there, although places depend on
+    each other.  The estimate for settings combines their own measurements with
+    the model, which counts as one more measurement, because the error of a
+    single measurement may be large. The constant offset of a source that
+    measures higher than others is removed first.
 
     The plan tries the most promising settings that differ from the best ones
-    in one place or two, then uses the best ones and measures them again. A
-    level that was seldom tried is estimated higher than by the model.
+    in one place or two, then uses the best ones and measures them again.
+    Levels that were seldom tried get a bonus on their estimate.
 */
 
 plan(_, Units, Plan) :-
@@ -36,8 +38,8 @@ plan(_, Units, Plan) :-
                 *          THE MEANS           *
                 *******************************/
 
-%   samples(+Units, -Samples): Settings-Value, all on the level of a
-%   printer that measures like the average.
+%   samples(+Units, -Samples): Settings-Value, without the offsets of the
+%   printers from their average.
 
 samples(Units, Samples) :-
     findall(Settings-Value, member(unit(_, Settings, Value)-_, Units), Raw),
@@ -93,7 +95,8 @@ promising(Summary, Settings) :-
                 *******************************/
 
 %   Model is model(Base, Effects), Effects an assoc of Place-Level to
-%   effect(Added, Weight): how much it adds, by measurements of that weight.
+%   effect(Added, Weight): Added is the effect on the value, Weight the weight
+%   of its measurements.
 
 model(Summary, Around, model(Base, Effects)) :-
     findall(row(Levels, Weight, Mean),
@@ -131,7 +134,7 @@ apart(X, Y, Apart) :-
     Apart is min(1, abs(X - Y)/3).
 apart(_, _, 1).
 
-%   One place after the other: the part that the others do not explain.
+%   Fits one place after the other to the residuals of the others.
 
 fitted(0, _, _, _, Effects, Effects) :-
     !.
@@ -159,7 +162,7 @@ explained([Key|Levels], Place, Effects, Sum0, Sum) :-
     Sum1 is Sum0 + Added,
     explained(Levels, Place, Effects, Sum1, Sum).
 
-%   Half a measurement with the effect 0 is added.
+%   Half a measurement with the effect 0 regularizes the mean.
 
 effect(Place, Level-Rests, Effects0, Effects) :-
     weighed(Rests, 0, Sum, 0, Weight),
@@ -201,7 +204,7 @@ predicted([Level|Levels], Place, Effects, Value0, Value, Doubt0, Doubt) :-
     Next is Place + 1,
     predicted(Levels, Next, Effects, Value1, Value, Doubt1, Doubt).
 
-%   The levels are those of random trials.
+%   Levels are those of random trials.
 
 near(Settings, model(_, Effects), Near) :-
     assoc_to_keys(Effects, Keys),

@@ -1,10 +1,10 @@
-/*  How plans for settings end, and which of two solutions is better.  To be
-    included in learning algorithms.
+/*  The end of plans for settings, and the comparison of two solutions.
+    Included in learning algorithms.
 */
 
 %!  repeated(+Settings, -Actions) is det.
 %
-%   Use Settings for as many pages on end as the goal wants.
+%   Actions use Settings for as many successive pages as the goal requires.
 
 repeated(Settings, [use(Settings)|Again]) :-
     (   setting(pages, Pages)
@@ -17,8 +17,8 @@ repeated(Settings, [use(Settings)|Again]) :-
 
 %!  better(+Actions, +Others) is semidet.
 %
-%   Settings that were good after fewer pages needed less of a search on one
-%   printer.
+%   True if Actions needs fewer pages than Others: fewer actions mean a shorter
+%   search on one printer.
 
 better(Actions, Others) :-
     length(Actions, Length),

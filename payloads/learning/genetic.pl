@@ -4,26 +4,27 @@
 /*  A genetic algorithm for measurements unit(Source, Genes, Value): lists of
     genes of one length, and their measured fitness, with noise.
 
-    The population of an agent are the fittest individuals that it knows, from
-    its own executions and from agents that it met.  So agents are islands,
-    and sharing is migration; as the bag is emptied with each plan, immigrants
-    are parents in one generation and then live on in their children.
+    The population of an agent consists of the fittest individuals that it
+    knows, from its own executions and from agents that it met.  So agents are
+    islands, and sharing is migration; as the bag is emptied with each plan,
+    immigrants are parents in one generation, and their genes survive in their
+    children.
 
     The plan is to try children of the population, then to use its fittest
     member and to measure it again.  Parents are chosen by tournaments; a
-    child has each gene of one of them; and now and then a gene mutates to
-    another that was ever seen in its place.
+    child has each gene from one of them; with a small probability a gene
+    mutates to another one known in its place.
 
-    A single measurement may be luck: fitness is the mean of all measurements
-    and of the overall average, which counts as one measurement.
+    The error of a single measurement may be large: fitness is the mean of all
+    measurements and of the overall average, which counts as one measurement.
 */
 
-members(16).                    % of the population
+members(16).                    % individuals in the population
 children(4).                    % in a generation
 tournament(3).
 mutation(0.15).                 % of a gene
 
-%   The number of generations so far: the seed of the next one.
+%   The number of generations so far; it seeds the next one.
 
 plans(0).
 
@@ -71,7 +72,7 @@ fitness(Values, Average, Fitness) :-
     length(Values, Count),
     Fitness is (Sum + Average)/(Count + 1).
 
-%   pool(+Units, -Pool): for each place the genes that were ever seen there.
+%   pool(+Units, -Pool): for each place the genes known there.
 
 pool(Units, Pool) :-
     findall(Genes, member(unit(_, Genes, _)-_, Units), All),
@@ -100,7 +101,8 @@ offspring(Number, Population, Pool, [use(Child)|Trials], Chance0) :-
     Left is Number - 1,
     offspring(Left, Population, Pool, Trials, Chance).
 
-%   The fittest of a few that are drawn; they stand in order.
+%   Genes is the fittest of a few random individuals: the least index, because
+%   Population is in order of fitness.
 
 parent(Population, Genes, Chance0, Chance) :-
     length(Population, Size),

@@ -1,13 +1,13 @@
 :- payload(greedy, [provides([plan/3, better/2])]).
 
 /*  The learning algorithm of thesis section 4.3.5: the transitions an agent
-    knows of are links of a tree, whose root is where it starts, or what is
-    most like it.  The plan is the longest branch; of these, the one of
-    greatest weight, which ends nearest to the goal; of these, the one with
-    the fewest actions.
+    knows are links of a tree, whose root is the start, or the known vector
+    most similar to it.  The plan is the longest branch; among equal ones, the
+    one of greatest weight, which ends nearest to the goal; among these, the
+    one with the fewest actions.
 
-    Weights are positive, so the links have no cycle, and what is best from
-    each vector is found by taking the links in the order of falling light.
+    Weights are positive, so the links have no cycle, and the best branch from
+    each vector is found by processing the links in order of decreasing light.
     A depth-first search would find the same, in exponential time.
 */
 
@@ -22,9 +22,9 @@ plan(Start, Units, Plan) :-
     root(Start, Best, Root),
     branch(Root, Best, Plan).
 
-%   best(+Links, +Best0, -Best): Best has, for each vector,
-%   best(Length, Light, Saving, Actions, Next): the branch that begins there,
-%   the light at its end, and minus the number of its actions.
+%   best(+Links, +Best0, -Best): Best maps each vector to
+%   best(Length, Light, Saving, Actions, Next): the length of the best branch
+%   from it, the light at its end, and minus the number of its actions.
 
 best([], Best, Best).
 best([_-unit(Vector0, Actions, Vector)|Links], Best0, Best) :-
@@ -53,7 +53,8 @@ branch(Vector, Best, Plan) :-
     branch(Next, Best, Rest).
 branch(_, _, []).
 
-%   root(+Start, +Best, -Root): by cosine distance.
+%   root(+Start, +Best, -Root): Root is the vector most similar to Start by
+%   cosine distance.
 
 root(Start, Best, Start) :-
     get_assoc(Start, Best, _),
@@ -79,7 +80,7 @@ numbers(sv(Light, Obstacle, Heading, _), Light, Obstacle, Direction) :-
     nth0(Direction, [up, left, down, right], Heading),
     !.
 
-%   A way that takes fewer actions.
+%   True if Actions has fewer actions than Others.
 
 better(Actions, Others) :-
     length(Actions, Length),

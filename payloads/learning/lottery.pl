@@ -2,14 +2,14 @@
 :- include(confirm).
 
 /*  Random search, for measurements unit(Source, Settings, Value): the
-    baseline for all learning algorithms for them.
+    baseline for all other learning algorithms.
 
-    The plan is to try settings drawn at random, each level among those that
-    were ever used in its place, then to use the settings with the best mean
-    and to measure them again.
+    The plan is to try random settings, each level among those known in its
+    place, then to use the settings with the best mean and to measure them
+    again.
 */
 
-%   The number of plans so far: the seed of the next one.
+%   The number of plans so far; it seeds the next one.
 
 plans(0).
 
@@ -29,7 +29,7 @@ planned(Units, Count, Plan) :-
     repeated(Best, Again),
     append(Trials, Again, Plan).
 
-%   levels(+Known, -Levels): for each place the levels used there.
+%   levels(+Known, -Levels): for each place the known levels.
 
 levels([[]|_], Levels) :-
     !,

@@ -1,26 +1,26 @@
 :- payload(maze, [provides([ start/2, actions/1, act/3, sensed/2, weight/3,
                              reached/1, shareable/2 ])]).
 
-/*  The maze world (thesis section 4.3): a robot is to find its way from
-    (50,0) to the light at (0,50).  It is a problem for agents(learning).
+/*  The maze world (thesis section 4.3): a robot has to find its way from
+    (50,0) to the light at (0,50).  A problem for agents(learning).
 
     A state is at(X, Y, Heading), where X and Y run from 0 to the size of the
     maze.  A sensor vector is sv(Light, Obstacle, Heading, Cell): Obstacle is
     1 if an obstacle or the boundary is straight ahead, else 0. The light is
     100/(1 + distance), finite and brightest at the goal, and 0 when there is
-    an obstacle ahead.  Cell distinguishes cells of the same light;
+    an obstacle ahead.  Cell distinguishes cells with the same light;
     setting(signature, false) makes it 0 everywhere.
 
-    The norm of equation 4.7 is that of the light alone: as a number in a
-    vector the heading would give turns a weight.
+    The norm of equation 4.7 is the norm of the light alone: if the heading
+    were a number in the vector, turns would have a weight.
 
     Units are unit(Vector0, Actions, Vector).  A turn in the open has weight
-    0, so nothing could be linked through it; it is reported together with the
-    move that follows.
+    0, so nothing could be linked through it; it is stored together with the
+    next move.
 
-    Facts of the agent that carries it replace the defaults: setting(size, N),
+    Facts of the agent with this payload replace the defaults: setting(size, N),
     setting(obstacles, List) of (X1,Y1)-(X2,Y2), lines along an axis;
-    setting(light, L), how bright the light is at the goal.
+    setting(light, L), the light at the goal.
 */
 
 start(_, at(Size, 0, up)) :-
@@ -57,7 +57,7 @@ act(turn_back, at(X, Y, Heading0), at(X, Y, Heading)) :-
     turned_left(Heading0, Side),
     turned_left(Side, Heading).
 
-%   Obstacles and the boundary cannot be crossed.
+%   A move into an obstacle or over the boundary does not change the state.
 
 stepped(State0, cell(X, Y), State) :-
     State0 = at(_, _, Heading),
@@ -137,7 +137,7 @@ weight(sv(Light0, _, _, _), sv(Light, _, _, _), Weight) :-
 shareable(Steps, Units) :-
     shareable(Steps, none, Units).
 
-%   Turned is from(Vector) while nothing has been done but turn since.
+%   Turned is from(Vector) after turns only: Vector is from before these turns.
 
 shareable([], _, []).
 shareable([step(Vector0, Action, Vector, Weight)|Steps], Turned, Units) :-
@@ -160,7 +160,7 @@ turning(none, Vector, from(Vector)) :-
     !.
 turning(Turned, _, Turned).
 
-%   Several turns are replaced by one.
+%   One turn replaces several turns.
 
 told(from(Vector0), Vector1, Action, Vector,
      unit(Vector0, [Turn,Action], Vector)) :-

@@ -1,16 +1,16 @@
 :- payload(scout, [provides([plan/3, better/2, plans/1])]).
 
 /*  A learning algorithm for the maze that explores: where greedy always takes
-    the longest branch of the tree it knows, this one takes any, so it
-    searches where others do not.  Both make and understand the same
-    units, so they can share.
+    the longest branch of the known tree, this one takes a random branch, so it
+    searches where others do not.  Both use the same units, so their agents
+    can share.
 
-    Branches are not equally likely, their ends are: of all vectors that can
-    be reached and from which nothing is known, one is drawn.  The way there
-    is one with the most links.
+    The end of the branch is drawn, not the branch: of all vectors that can
+    be reached and from which nothing is known, each is equally likely.  The
+    plan is a path to it with the most links.
 */
 
-%   The number of plans so far: the seed of the next one.
+%   The number of plans so far; it seeds the next one.
 
 plans(0).
 
@@ -41,16 +41,18 @@ planned(Start, Units, Count, Plan) :-
     reverse(Backwards, Forwards),
     append(Forwards, Plan).
 
-%   Executions begin where they always do; else with what has least light.
+%   Executions begin at Start, if it is known, else at the vector with the
+%   least light.
 
 root(Start, Links, Start) :-
     memberchk(_-unit(Start, _, _), Links),
     !.
 root(_, [_-unit(Vector, _, _)|_], Vector).
 
-%   ways(+Links, +Ways0, -Ways): way(Length, Way) to each vector, Way being
-%   the actions of its links, the last first.  Weights are positive, so in
-%   the order of rising light a vector comes when all ways to it are known.
+%   ways(+Links, +Ways0, -Ways): way(Length, Way) for each vector, Way is
+%   the list of actions of its links, the last first.  Weights are positive, so
+%   in order of increasing light all ways to a vector are known when its links
+%   are processed.
 
 ways([], Ways, Ways).
 ways([_-unit(Vector0, Actions, Vector)|Links], Ways0, Ways) :-
@@ -66,7 +68,7 @@ longer(Vector, Ways, Length) :-
     get_assoc(Vector, Ways, way(Other, _)),
     Other >= Length.
 
-%   A way that takes fewer actions.
+%   True if Actions has fewer actions than Others.
 
 better(Actions, Others) :-
     length(Actions, Length),

@@ -1,34 +1,35 @@
 :- payload(settings, [provides([ start/2, actions/1, act/3, sensed/2,
                                  weight/3, reached/1, shareable/2 ])]).
 
-/*  Printers that are to find the settings for good pictures (thesis section
-    4.1): a problem for agents(learning).  Each printer differs a little.
+/*  Printers that find the settings for good pictures (thesis section 4.1): a
+    problem for agents(learning).  Each printer differs a little.
 
     A list of settings has a level for each of resolution, mode, paper,
     toner density, heat of the fuser, and speed.  Numbers are levels in
     order, 1 the least; atoms have no order.  An action prints a page:
 
         set(Place, Level)   with one of the settings changed
-        again               with the same settings once more
-        use(Settings)       with these; in plans only
+        again               with the same settings again
+        use(Settings)       with Settings; in plans only
 
     A sensor vector is sv(Printer, Settings, Quality).  The quality, from 0 to
-    about 1, is that of this page as the printer itself measures it, with
+    about 1, is the quality of this page as the printer itself measures it, with
     noise; the quality without noise cannot be sensed.  So the goal is reached
-    when several pages on end, printed with the same settings, have been good
-    on average.  This may be luck: a printer has no other evidence that its
-    settings are good.
+    when several successive pages, printed with the same settings, have been
+    good on average.  Noise may cause this: a printer has no other evidence
+    that its settings are good.
 
     Units are unit(Printer, Settings, Quality), one for each page, good or
-    bad, for a learning algorithm can do something with both.  The weight of
-    one that was no better than the page before is 0.
+    bad, since a learning algorithm can use both.  The weight of a unit that
+    was no better than the previous page is 0.
 
-    Facts of the agent that carries it replace the defaults: setting(noise, N), the
-    standard deviation of a measurement; setting(good, Q); setting(pages, N),
-    how many on end; setting(difference, D), how far the best density and
-    heat of a printer may lie from those of others; setting(printers, Seed),
-    which printers there are: a printer is known by this and the name of its
-    host, so it is the same in every execution.
+    Facts of the agent with this payload replace the defaults: setting(noise,
+    N), the standard deviation of a measurement; setting(good, Q), the quality
+    of a good page; setting(pages, N), the number of successive pages;
+    setting(difference, D), the greatest deviation of the best density and heat
+    of a printer; setting(printers, Seed), the seed of their properties.  Seed
+    and the name of the host determine a printer, so it is the same in every
+    execution.
 */
 
 about(noise, 0.04).
@@ -57,7 +58,7 @@ factory([2,text,plain,4,3,3]).
                 *******************************/
 
 %   A state is page(Settings, Qualities, Chance): the qualities of the
-%   pages printed with the same settings on end, the last one first.
+%   successive pages printed with the same settings, the last one first.
 
 start(Chance, State) :-
     factory(Settings),
@@ -71,7 +72,7 @@ printed(Settings, Qualities, Chance0, page(Settings, All, Chance)) :-
     Quality is max(0.0, True + Deviation*Normal),
     All = [Quality|Qualities].
 
-%   By Box and Muller.
+%   The Box-Muller transform.
 
 normal(Normal, Chance0, Chance) :-
     typhon_prng:chance_float(U, Chance0, Chance1),
@@ -155,8 +156,8 @@ makes(Printer, makes(Density, Heat, Wear)) :-
     typhon_prng:chance_uniform(Near, Far, Heat, Chance1, Chance2),
     typhon_prng:chance_uniform(0.0, 0.03, Wear, Chance2, _).
 
-%   Thick paper and high speed want heat, and pictures want toner: one
-%   setting alone often cannot be changed for the better.
+%   Thick paper and high speed need heat, and pictures need toner: one
+%   setting alone often cannot be improved.
 
 quality(Printer, [Resolution,Mode,Paper,Density,Heat,Speed], Quality) :-
     makes(Printer, makes(MoreDensity, MoreHeat, Wear)),

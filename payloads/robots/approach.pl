@@ -3,10 +3,10 @@
 /*  Task T1 of carrying a pole (thesis section 5.7): drive up to the pole,
     which lies across the way, and close the clasp round it.
 
-    The touch sensor in the clasp, on port 1, tells when the pole is there.
+    The touch sensor in the clasp, on port 1, detects the pole.
     The clasp is motor a: open at 0 degrees, closed at 90.  The wheels are
-    motors b and c; where they stand then is what carrying counts from.
-    A robot that does not find the pole within a minute stops, and fails.
+    motors b and c; carrying counts from their position at the end of this
+    task.  A robot that does not find the pole within a minute stops, and fails.
 */
 
 approach :-

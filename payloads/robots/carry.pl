@@ -3,9 +3,9 @@
 /*  Task T3 of carrying a pole (thesis section 5.7): 1.2 m forward.
 
     The wheels, 56 mm wide, are motors b and c.  Their tachometers have
-    counted since the pole was clasped, so a robot that does this
-    again goes only what is left of the way.  The brick itself stops them
-    there: however busy the host is, no robot goes too far.
+    counted since the pole was clasped, so a robot that repeats this task
+    drives only the rest of the way.  The brick itself stops the wheels there:
+    however busy the host is, no robot drives too far.
 */
 
 carry :-

@@ -1,7 +1,7 @@
 :- payload(dock, [provides([dock_robot/3])]).
 
-/*  Back to the dock (thesis section 7.7): from behind a box that has been
-    pushed to the robot's own slot, ready to leave it again.  Needs the
+/*  Return to the dock (thesis section 7.7): from behind a pushed box to the
+    robot's own slot, where the robot is ready to leave again.  Needs the
     payload `lane`.
 */
 
@@ -23,7 +23,7 @@ dock_robot(Job, Place, Away) :-
     lane_check(Brick, 0),
     lane_face(Brick, 180).
 
-%   Job 1 is north of the main line, the dock in the west.
+%   Job 1 is north of the main line, the dock is in the west.
 
 dock_side(1, right, 180).
 dock_side(2, left, 0).

@@ -2,16 +2,16 @@
            [ provides([ lane_follow/2, lane_find/3, lane_between/4,
                         lane_face/2, lane_check/2, lane_driven/2 ]) ]).
 
-/*  Driving along black lines (thesis section 7.7), on a robot that keeps to
-    them: the program only has to choose the turn at junctions.
+/*  Driving along black lines (thesis section 7.7).  The robot follows a line by
+    itself: the program only chooses the turn at junctions.
 
     The wheels, 56 mm wide and 112 mm apart, are motors b, left, and c; the
-    compass is on port 2, sensors of colour look at the floor ahead of them on
-    ports 3 and 4.  All runs are limited: a robot whose program is ended stops
+    compass is on port 2, colour sensors look at the floor ahead of them on
+    ports 3 and 4.  All runs are limited: a robot whose program has ended stops
     by itself.  A robot that loses its way stops, and raises robot_lost(How).
 
-    A way is a list of Metres-Turn: after so many metres comes a junction,
-    where it turns `left` or `right` or goes `straight`; the last one is
+    A way is a list of Metres-Turn: there is a junction after Metres, where the
+    robot turns `left` or `right` or drives `straight`; the last element is
     Metres-stop.
 */
 
@@ -22,9 +22,9 @@ lane_follow(Brick, Way) :-
     lane_legs(Way, 0, Legs),
     lane_drive(Legs, Brick).
 
-%   lane_legs(+Way, +Start, -Legs): a leg leads past junctions that are
-%   taken alike, and ends between two of them, nearer to the first one: not
-%   both wheels begin to turn at the same moment.
+%   lane_legs(+Way, +Start, -Legs): a leg passes junctions with the same turn,
+%   and ends between two junctions, nearer to the first one, because the wheels
+%   do not begin to turn at the same moment.
 
 lane_legs([Metres-stop], Start, [leg(straight, End)]) :-
     !,
@@ -49,8 +49,8 @@ lane_drive([leg(Turn, Metres)|Legs], Brick) :-
     lane_leg(Degrees, Brick, Wheels, Ratio),
     lane_drive(Legs, Brick).
 
-%   lane_steering(?Turn, -Wheels, -Ratio): the outer wheel begins, so that
-%   to be the only one for a moment does not lead it astray.
+%   lane_steering(?Turn, -Wheels, -Ratio): the outer wheel begins, because its
+%   lead of a moment does not turn the robot off the line.
 
 lane_steering(straight, [b,c], 0).
 lane_steering(left, [c,b], 10).
@@ -60,12 +60,12 @@ lane_leg(Degrees, _, _, _) :-
     Degrees < 1,
     !.
 lane_leg(Degrees0, Brick, Wheels, Ratio) :-
-    Degrees is round(Degrees0 / (1 - abs(Ratio)/100)),  % of the outer one
+    Degrees is round(Degrees0 / (1 - abs(Ratio)/100)),  % of the outer wheel
     lane_start(Ratio, Brick, Wheels, Degrees),
     lane_await(Brick).
 
-%   Straight on it begins slowly: the second wheel comes later.  Of wheels
-%   in step c follows b, and c has the limit.
+%   Straight on the robot begins slowly, because the second wheel starts later.
+%   Of synchronized wheels c follows b, and c has the limit.
 
 lane_start(0, Brick, Wheels, Degrees) :-
     !,
@@ -78,7 +78,7 @@ lane_start(Ratio, Brick, Wheels, Degrees) :-
 
 %!  lane_driven(+Brick, -Metres) is det.
 %
-%   Since the counters of the wheels were reset.
+%   Metres driven since the tachometers of the wheels were reset.
 
 lane_driven(Brick, Metres) :-
     nxt_tacho(Brick, b, Left),
@@ -110,8 +110,7 @@ lane_idle(Brick, Motor) :-
 
 %!  lane_find(+Brick, +Colour, +Metres) is det.
 %
-%   Goes on in small steps until there is Colour below a sensor, for Metres
-%   at the most.
+%   Drives on in small steps until a sensor detects Colour, at most Metres.
 
 lane_find(Brick, Colour, _) :-
     lane_colour(Brick, Colour),
@@ -135,8 +134,8 @@ lane_colour(Brick, Colour) :-
 %!  lane_between(+X0, +X, +Turn, -Way) is det.
 %
 %   Way leads along the main line from X0, where a line meets it, to X,
-%   where it turns.  The map of the arena: lines meet it at seven places of
-%   the dock and at five where boxes are pushed.
+%   where the robot turns.  In the arena seven lines of the dock meet the main
+%   line, and five lines at places where boxes are pushed.
 
 lane_between(X0, X, Turn, Way) :-
     Low is min(X0, X) - 0.01,
@@ -166,8 +165,8 @@ lane_pieces([X0,X|Xs], Turn, [Metres-straight|Way]) :-
 
 %!  lane_face(+Brick, +Compass) is det.
 %
-%   Turns on the spot until the compass shows about Compass degrees.  If the
-%   wheels did not begin at the same moment it takes more than one turn.
+%   Turns on the spot until the compass shows about Compass degrees.  This may
+%   take several turns, because the wheels may not start at the same moment.
 
 lane_face(Brick, Compass) :-
     lane_face(12, Brick, Compass).
@@ -190,7 +189,8 @@ lane_face(Tries, Brick, Compass) :-
 lane_face(_, Brick, Compass) :-
     lane_check(Brick, Compass).
 
-%   lane_off(+Brick, +Compass, -Off): degrees to turn, to the right.
+%   lane_off(+Brick, +Compass, -Off): Off is the angle to turn to the right, in
+%   degrees.
 
 lane_off(Brick, Compass, Off) :-
     nxt_compass(Brick, 2, Degrees),
@@ -198,7 +198,7 @@ lane_off(Brick, Compass, Off) :-
 
 %!  lane_check(+Brick, +Compass) is det.
 %
-%   Raises robot_lost(heading(Off)) if the compass shows something else.
+%   @error robot_lost(heading(Off)): the heading is not about Compass degrees
 
 lane_check(Brick, Compass) :-
     lane_off(Brick, Compass, Off),

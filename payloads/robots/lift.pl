@@ -2,8 +2,9 @@
 
 /*  Task T2 of carrying a pole (thesis section 5.7): lift the pole that is
     in the clasp.  A closed clasp rises when its motor turns on: at 90
-    degrees it is on the ground, at 270 as high as it goes.  It rises
-    slowly, for not all robots begin at the same moment, and is held there.
+    degrees it is on the ground, at 270 at its highest position.  It rises
+    slowly, because not all robots begin at the same moment, and the motor holds
+    it there.
 */
 
 lift :-

@@ -1,19 +1,19 @@
 :- payload(push, [provides([push_box/4])]).
 
-/*  Pushing a box with others (thesis section 7.7): from the dock to the
-    job's location, to its own place behind the box, and push.  Needs the
-    payload `lane`.
+/*  Pushing a box with other robots (thesis section 7.7): from the dock to the
+    location of the job, to the robot's place behind the box, and push.  Needs
+    the payload `lane`.
 
     The way to both locations is the same up to a red marker.  Job 1 is on
     the left of the main line, job 2 on the right.  The touch sensor on port
-    1 tells when the box is there.  It moves only while enough robots push;
-    the first push against it until the others are there.
+    1 detects the box.  The box moves only while enough robots push; the first
+    robots push against it until the others arrive.
 */
 
 %!  push_box(+Job, +Place, +Metres, -Away) is det.
 %
-%   Push the box of Job, 1 or 2, at Place, 1 to 5, by Metres.  Away is how
-%   far from the main line the robot is then.
+%   Pushes the box of Job, 1 or 2, at Place, 1 to 5, by Metres.  Away is the
+%   distance of the robot from the main line afterwards, in metres.
 
 push_box(Job, Place, Metres, Away) :-
     sense(brick(Brick)),
@@ -31,8 +31,8 @@ push_box(Job, Place, Metres, Away) :-
     lane_driven(Brick, Driven),
     Away is 0.28 + Driven.
 
-%   The marker is at 2.5, and the sensors are 6 cm ahead of the axle.  It
-%   is looked for from well before.
+%   The marker is at 2.5, and the sensors are 6 cm ahead of the axle.  The
+%   search for it begins well before.
 
 push_to_marker(X, [0.5-left,Metres-stop]) :-
     X > 2.1,
@@ -60,7 +60,7 @@ push_on(Brick, Metres) :-
     push_touched(Brick, Deadline),
     Least is Metres + 0.05,
     push_done(Brick, Least, 0, Deadline),
-    nxt_stop(Brick, [b,c]),                     % else it turns
+    nxt_stop(Brick, [b,c]),                     % otherwise the robot turns
     nxt_run(Brick, [b,c], -50, [regulated(true)]),
     sleep(0.8),
     nxt_stop(Brick, [b,c]).
@@ -73,7 +73,8 @@ push_touched(Brick, Deadline) :-
     sleep(0.15),
     push_touched(Brick, Deadline).
 
-%   The box is there when it does not go on, and has come so far.
+%   The box has arrived when it does not move any more after at least Least
+%   metres.
 
 push_done(Brick, Least, Before, Deadline) :-
     sleep(0.3),

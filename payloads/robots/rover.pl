@@ -2,17 +2,17 @@
            [ provides([ cost/3, carry/2, drive_to/2, take_up/0,
                         put_down/0 ]) ]).
 
-/*  How a two-wheeled ROS robot carries a load, and the cost of this.
+/*  The task `carry` of a two-wheeled ROS robot, and its cost.
 
-    Needs a host with ROS, and there the tuple rover(Name): the robot accepts
+    Needs a host with ROS and the tuple rover(Name): the robot accepts
     geometry_msgs/Twist on /Name/cmd_vel and publishes its geometry_msgs/Pose
-    on /Name/pose, of which the latest is in the tuple space, too; /Name/load
-    and /Name/unload are std_srvs/Trigger.
+    on /Name/pose; the tuple space has the latest pose; /Name/load and
+    /Name/unload are std_srvs/Trigger.
 */
 
 near(0.15).                     % metres
 
-%   The way to where the task begins, at(p(X, Y)).
+%   The distance to the start of the task, at(p(X, Y)).
 
 cost(need(_, _, Details), _, Cost) :-
     sense(rover(Name)),
@@ -34,7 +34,8 @@ carry(From, To) :-
     !,
     log(put_down(Name, To)).
 
-%   drive_to(+To, +Fastest): in metres a second.  No pose is left in the mailbox.
+%   drive_to(+To, +Fastest): Fastest in metres a second.  Leaves no pose in the
+%   mailbox.
 
 drive_to(To, Fastest) :-
     sense(rover(Name)),

@@ -6,7 +6,7 @@
 
     Equation 3.6, the maximal Hamming distance minus the Hamming distance,
     measures how far the antibody is from the complement.  So an affinity is
-    the number of bits that differ; one of 4 is enough.
+    the number of bits that differ; an affinity of 4 is enough.
 */
 
 antigen([A, B, C, D, E]) :-

@@ -1,17 +1,17 @@
 :- payload(maze, [provides([antigen/1, affinity/3, affinity_threshold/1,
                             feedback/3, random_antibody/3])]).
 
-/*  Programs that steer a robot round an obstacle, to be sieved: the code
-    itself is what an agent carries.
+/*  Programs that steer a robot round an obstacle, as antibodies of the sieve:
+    the code itself is what an agent carries.
 
-    The robot moves on a board of squares.  It sees whether the squares
+    The robot moves on a board of squares.  It senses whether the squares
     ahead, left and right of it are free, has a compass that points to the
-    goal, and knows what it did last.  It can go one square forward, or
-    turn left or right where it stands.
+    goal, and knows its last action.  It can move one square forward, or
+    turn left or right on the spot.
 
     An antigen is an obstacle, Kind(Way): see obstacle/3.  Way, `left` or
-    `right`, is the side of the shorter way round; an obstacle whose way is
-    right is the mirror image of the one that is drawn.
+    `right`, is the side of the shorter way round; for `right` the board is the
+    mirror image of the one in obstacle/3.
 
     An antibody is a program, a list of ground clauses (Action :- Reading).
     Action is `forward`, `left` or `right`, Reading one or more of
@@ -19,12 +19,12 @@
         free(Side), wall(Side)  of ahead, left, right
         goal(Side)              the goal lies (also) to that side: ahead,
                                 behind, left, right
-        after(Action)           what the robot has just done
+        after(Action)           the last action of the robot
 
     joined by commas.  The first clause whose readings all hold determines the
-    action; without one the robot goes forward. Against a wall it does not
-    move, and loses a step. Programs are interpreted: they can do nothing
-    else.
+    action; without one the robot moves forward. At a wall it does not
+    move, and loses a step. Programs are interpreted: they have no other
+    effects.
 */
 
 %   obstacle(?Kind, ?Steps, ?Rows): the robot stands at ^, heading up, and
@@ -70,8 +70,8 @@ antigen(Antigen) :-
 
 affinity_threshold(4).
 
-%   affinity(+Antigen, +Program, -Psi): to how many of the five sights that
-%   an obstacle is known by Program has the answer.  It is not run.
+%   affinity(+Antigen, +Program, -Psi): Psi is the number of the five sights of
+%   an obstacle for which Program has a right action.  Program does not run.
 
 affinity(Antigen, Program0, Psi) :-
     as_drawn(Antigen, Program0, Kind, Program),
@@ -124,7 +124,7 @@ sight(Sight, [after(Last),A,L,R|Compass]) :-
     findall(goal(Side), member(Side, Goal), Compass).
 
 %   feedback(+Antigen, +Program, -Xi): 31 for the shortest way, one less
-%   for each step more, and 0 if the goal is not reached 30 steps later.
+%   for each further step, and 0 if the goal is not reached 30 steps later.
 
 feedback(Antigen, Program0, Xi) :-
     as_drawn(Antigen, Program0, Kind, Program),
@@ -193,7 +193,7 @@ robot_turned(left, DX/DY, DY/LY) :-
 robot_turned(right, DX/DY, RX/DX) :-
     RX is -DY.
 
-%   robot_sees(+Robot, +Board, -Reading): all that is true where it stands.
+%   robot_sees(+Robot, +Board, -Reading): Reading has all readings that hold.
 
 robot_sees(robot(X, Y, Heading, Last), board(Rows, GX, GY),
            [Ahead,Left,Right,after(Last)|Compass]) :-
@@ -260,8 +260,8 @@ random_antibody(Chance0, Program, Chance) :-
     length(Program, Clauses),
     foldl(random_clause, Program, Chance1, Chance).
 
-%   Every clause has one of the reasons there are for its action, and one
-%   in two asks for something else, too.
+%   Every clause has one of the sensible readings for its action, and half of
+%   them have another reading, too.
 
 random_clause((Action :- Body), Chance0, Chance) :-
     findall(A-R, clause_reason(A, R), Reasons),
@@ -286,7 +286,7 @@ other_reading(Action, Reading, Other) :-
     \+ senseless(Action, Other),
     \+ excludes(Reading, Other).
 
-%   To drive against a wall, to turn to one, to turn back.
+%   Senseless clauses drive or turn against a wall, or turn back.
 
 senseless(forward, wall(ahead)).
 senseless(left, wall(left)).
