@@ -183,7 +183,8 @@ forget_if_over(Alarm, Agent, Token) :-
     ;   true
     ).
 
-%   Stamp is the least stamp, or `inf`. A list of all stamps would not fit.
+%   Stamp is the least stamp, or `inf`. There may be a million stamps, so this
+%   makes no list of them.
 
 alarm_least(Stamp) :-
     Least = least(inf),
