@@ -3,9 +3,10 @@
 
         swipl experiments/counts.pl -- 5.5 --set topology=grid --runs 3
 
-    Logs of studies have neither, because of their number, so the runs are
-    repeated. Memory is sampled each `every` host seconds; the greatest values
-    are printed.  With --list it only prints which runs it would make.
+    Logs of studies have neither hops nor messages, because of their number, so
+    the runs are repeated. Memory is sampled each `every` host seconds; the
+    greatest values are printed.  With --list it only prints the runs that it
+    would make.
 */
 
 :- module(counts, []).

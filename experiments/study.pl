@@ -144,7 +144,7 @@ perform(Plans, Options) :-
     ;   halt(1)
     ).
 
-%   In real time runs disturb each other: they are made one by one.
+%   In real time runs disturb each other, so they are made one by one.
 
 make_real(Plans, Root, Options, Failed) :-
     findall(Run, planned_real(Plans, Options, Run), Runs),

@@ -1,4 +1,4 @@
-%   Crews of two algorithms, on mazes where each has another strength.
+%   Crews of two algorithms, in mazes that suit one or the other.
 
 :- include(ground).
 
@@ -33,8 +33,8 @@ crew(scout, [scout], true).
 crew(scout_apart, [scout], false).
 crew(both, [greedy, scout], true).
 
-%   The corner is open towards the start, and is on the diagonal from there
-%   to the light.
+%   The open side of the corner faces the start; the corner is on the diagonal
+%   from the start to the light.
 
 obstacles(open, _, _, []).
 obstacles(near_start, Size, Arm, Walls) :-

@@ -1,4 +1,4 @@
-%   Another learning algorithm while agents live.
+%   Exchange of the learning algorithm while agents run.
 
 :- include(ground).
 

@@ -1,4 +1,4 @@
-%   Ten printers that all differ, five agents that look for good settings.
+%   Ten different printers, and five agents that search for good settings.
 
 :- include(ground).
 

@@ -3,8 +3,8 @@
 %   Expects of the study that includes this: the parameters `problem`, a
 %   payload of learning; `algorithms`, assigned to the agents in turn;
 %   `agents`; `limit`, host seconds after which the run ends; `settings`.  It
-%   may have `sharing`, `cloning`, and `exchange`, at(Time, Old, New): the
-%   first of the agents replaces Old by New then.  Gives: network/3, run/2,
+%   may have `sharing`, `cloning`, and `exchange`, at(Time, Old, New): at Time
+%   the first agent replaces Old by New.  Gives: network/3, run/2,
 %   view/2, and the measures of one run.
 
 :- use_module('../../agents/learning/operator',
@@ -48,7 +48,7 @@ run(Case, Network) :-
     Hosts = [Host|_],
     forall(member(Agent, Agents), joined(Host, Case.limit, Agent)).
 
-%   The seed determines the printers.
+%   The seed determines the properties of the printers.
 
 setting(Case, printers-Seed) :-
     get_dict(seed, Case, Seed).
@@ -56,7 +56,7 @@ setting(Case, Name-Value) :-
     member(Name, [rho_max, sharing, cloning]),
     get_dict(Name, Case, Value).
 
-%   An agent that has converged meanwhile no longer exists.
+%   The first agent may have converged and ended before.
 
 exchange(Case, Network, [First|_]) :-
     get_dict(exchange, Case, at(Time, Old, New)),
@@ -80,7 +80,7 @@ view(Log, view{case:Log.case, result:Result}) :-
             Agents),
     algorithms_result(Log.events, Agents, Result).
 
-%   Units of a maze are no pages.
+%   Units of a maze are not pages.
 
 measure(Name, View, Number) :-
     result_number(Name, View.result, Number),

@@ -14,22 +14,22 @@
 
 %!  algorithms_result(+Events, +Agents, -Result) is det.
 %
-%   Events are the event(Time, Host, Agent, What) of the log, Agents those
-%   that were started.  Result is
+%   Events are the event(Time, Host, Agent, What) of the log, Agents the
+%   agents that were started.  Result is
 %
 %     - agents(Count)
 %     - reached(List): first(Agent, Time, Count) for each of Agents that has
 %       reached the goal, by its Count-th execution, in the order of time
-%     - executions(Count): of all, clones too, until the last of Agents has
-%       reached the goal, or until the end where one has not
-%     - first(Count): of all until the first has reached it; `none`
-%     - pages(Count): printed in these executions; 0 in a maze
-%     - shared(Count): sharing events in that time
-%     - time(Seconds): when that was
-%     - clones(Count), most(Count): how many clones were made; how many
-%       agents there were at most
-%     - solutions(List): Host-Actions for each that has converged: how it
-%       has reached the goal, and where
+%     - executions(Count): of all agents, including clones, until the last of
+%       Agents has reached the goal, or until the end if not all have
+%     - first(Count): of all agents until the first has reached it; `none`
+%     - pages(Count): pages printed in these executions; 0 in a maze
+%     - shared(Count): sharing events during these executions
+%     - time(Seconds): the end of these executions
+%     - clones(Count), most(Count): number of clones made; greatest number of
+%       agents at a time
+%     - solutions(List): Host-Actions for each agent that has converged: the
+%       actions of its last execution, and their host
 
 algorithms_result(Events, Agents,
                   [ agents(Count), reached(Reached), executions(Executions),
@@ -76,8 +76,8 @@ first([first(_, Time, _)|_], Events, First) :-
     aggregate_all(count, by(Events, Time, executed(_, _, _, _)), First).
 first([], _, none).
 
-%   Each page is a unit, and the last execution of an agent has the number of
-%   its units.
+%   Each page is a unit; an agent's last execution logs the total number of its
+%   units.
 
 pages(Events, Until, Pages) :-
     findall(Agent-Size,
@@ -93,7 +93,7 @@ pages(Events, Until, Pages) :-
             All),
     sum_list(All, Pages).
 
-%   Clones come, and clones and others end.
+%   Adds one for each clone, and subtracts one for each end.
 
 most(Events, Count, Most) :-
     foldl(population, Events, Count-Count, _-Most).
@@ -112,9 +112,9 @@ population(_, State, State).
 %
 %   What is the name of a number in Result, or
 %
-%     - reached: how many of the agents have reached the goal, in percent
-%     - mean: executions that one agent needed, the mean of those that have
-%       reached it; not known if none has.
+%     - reached: the share of agents that have reached the goal, in percent
+%     - mean: the mean number of executions of the agents that have reached
+%       the goal; unknown if none has.
 
 result_number(reached, Result, Percent) :-
     memberchk(reached(Reached), Result),

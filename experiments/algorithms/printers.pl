@@ -5,17 +5,18 @@
 :- use_module(library(lists),
               [append/3, member/2, sum_list/2]).
 
-/** <module> How good settings are without noise
+/** <module> The quality of settings without noise
 
-No agent in the network can know this: it is computed after the run.  The
-clauses of payloads(learning/settings) are in this module, as in an agent.
+Computed after the run: agents in the network cannot know it.  The clauses of
+payloads(learning/settings) are in this module, as in an agent.
 
 *Threading*: one thread at a time.
+*/
 */
 
 :- dynamic
     setting/2,                          % Name, Value
-    here/1.                             % nowhere
+    here/1.                             % has no clauses
 
 payload(_, _).
 
@@ -23,9 +24,9 @@ payload(_, _).
 
 %!  shortfalls(+Seed, +Solutions, -Shortfalls:list(number)) is det.
 %
-%   For each of Solutions, Host-Actions, how much worse than good the last
-%   settings are on the printer of Host; 0 if they are good.  Seed says which
-%   printers there were.
+%   For each of Solutions, Host-Actions, the amount by which the quality of the
+%   last settings on the printer of Host is below good; 0 if they are good.
+%   Seed determines the properties of the printers.
 
 shortfalls(Seed, Solutions, Shortfalls) :-
     findall(Shortfall,

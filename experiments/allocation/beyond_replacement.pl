@@ -1,5 +1,5 @@
 %   Beyond the thesis: robots fail in the middle of a sequence of tasks, and
-%   those that replace them execute it.
+%   their replacements execute it.
 
 :- include(robots).
 :- use_module('../../prolog/typhon', [network_advance/2, remote/2]).

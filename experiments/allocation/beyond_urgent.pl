@@ -1,4 +1,4 @@
-%   Beyond the thesis: a task that comes late and is urgent, and deadlines.
+%   Beyond the thesis: an urgent task that arrives late, and deadlines.
 
 :- include(robots).
 :- use_module('../../prolog/typhon', [network_advance/2]).
@@ -41,7 +41,7 @@ run(Case, Network) :-
     task_start(Task1, Host1, Case),
     allocators_end(Network, Case.limit).
 
-%   Names are numbers, the last one the greatest.
+%   Names are numbers; the last task has the greatest.
 
 detailed(Case, task(Name, Teams, Details0), task(Name, Teams, Details)) :-
     findall(Detail,

@@ -5,7 +5,7 @@
 
 :- use_module(library(lists), [member/2]).
 
-%   competing(-Text, -Notes, -Test): of allocators from one to five.
+%   competing(-Text, -Notes, -Test): claims for one to five allocators.
 
 competing("fewer than 10,000 communications of proposed with five",
           [line(4866)],
@@ -35,7 +35,8 @@ competing(Text, Notes, Test) :-
     beside(Measure, What, Order, Text0, Test0),
     so_many(Measure, Line, Text0-Test0, Text, Notes, Test).
 
-%   beside(+Measure, +What, +Order, -Text, -Test): proposed and an auction.
+%   beside(+Measure, +What, +Order, -Text, -Test): compares the proposed
+%   mechanism with an auction.
 
 beside(Measure, What, Order, Text, at([mechanism=proposed], Test)) :-
     auction(Auction, Title),
@@ -45,7 +46,7 @@ beside(Measure, What, Order, Text, at([mechanism=proposed], Test)) :-
 auction(murdoch, "Murdoch").
 auction(anta, "ANTA").
 
-%   For a single allocator, too; and for several that compete.
+%   One claim for one to five allocators, and one for the several that compete.
 
 so_many(_, Line, Text0-Test, Text, [line(Line)|Notes], Test) :-
     alone(Notes),

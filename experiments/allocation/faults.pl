@@ -3,9 +3,10 @@
           ]).
 :- use_module('../../agents/allocation/reservations', [reservation_faults/2]).
 
-/** <module> Runs with reservation faults are rejected
+/** <module> Rejection of runs with reservation faults
 
 *Threading*: pure.
+*/
 */
 
 :- multifile
@@ -13,10 +14,10 @@
 
 %!  no_reservation_faults(+Events) is det.
 %
-%   Events are those of a run in which all is over.
+%   Events are the events of a run in which all tasks have ended.
 %
 %   @error reservation_faults(Faults) if a robot was reserved twice, or is
-%   still held in the end
+%   still reserved at the end
 
 no_reservation_faults(Events) :-
     reservation_faults(Events, Faults),

@@ -1,4 +1,4 @@
-%   Figures 7.1 to 7.3: allocators that want the same robots.
+%   Figures 7.1 to 7.3: allocators that compete for the same robots.
 
 :- include(ground).
 :- include(competing).
@@ -21,7 +21,7 @@ real([links=(dynamic), mechanism=proposed, allocators=2],
 printed(backoffs, [links=dynamic, mechanism=proposed, allocators=1], 2.6).
 printed(interval, [links=dynamic, mechanism=proposed, allocators=1], 5.16).
 
-%   What is said of both figures stands in `competing`.
+%   Claims of `competing`, for both figures.
 
 claim(Text, Notes, at([links=Links], Test)) :-
     member(Links-Figure, [(dynamic)-'7.1', static-'7.2']),

@@ -1,7 +1,7 @@
 %   Chapter 7: one run of a mechanism, and its measures.
 %
-%   Expects the parameter `mechanism`.  Gives: what `robots` does, run/2,
-%   view/2, and the measures that have a label here.
+%   Expects the parameter `mechanism`.  Gives: the predicates of `robots`,
+%   run/2, view/2, and the measures that have a label here.
 
 :- include(robots).
 :- use_module(faults, [no_reservation_faults/1]).

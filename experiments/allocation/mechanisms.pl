@@ -13,7 +13,7 @@
 :- use_module(library(lists), [member/2, memberchk/2]).
 :- use_module(library(pairs), [pairs_values/2]).
 
-/** <module> The mechanisms that are compared
+/** <module> The mechanisms to compare
 
   | proposed | the allocators of the thesis                       |
   | constant | the same, with equation 7.7 instead of 7.6         |
@@ -24,10 +24,10 @@
 
 %!  mechanism_allocate(+Mechanism, +Pairs, +Case, +Network) is semidet.
 %
-%   Pairs Task-Host: each Task is allocated from Host on, all from now on.
-%   Waits until all is over, robots are free, and what was sent is in the
-%   log; fails if that is not so at Case.limit.  Case has also `bi_min`,
-%   `bi_max` and `seed`.
+%   Pairs are Task-Host: the allocation of each Task begins at Host, at the
+%   same time.  Waits until all tasks have ended, robots are free, and the log
+%   has all counts; fails at Case.limit.  Case has also `bi_min`, `bi_max` and
+%   `seed`.
 
 mechanism_allocate(Mechanism, Pairs, Case, Network) :-
     memberchk(Mechanism, [murdoch, anta]),
@@ -52,7 +52,7 @@ backoff(constant, constant).
 
 %!  task_start(+Task, +Host, +Case) is det.
 %
-%   Task is allocated from Host on by the proposed mechanism.
+%   The proposed mechanism allocates Task, beginning at Host.
 
 task_start(Task, Host, Case) :-
     start(adaptive, Task, Host, Case).
@@ -64,9 +64,9 @@ start(Backoff, Task, Host, Case) :-
                                beta-Case.beta, sharing-Case.sharing ]) ],
                   _).
 
-%   Nodes do not end: they and the robots are polled. A robot that the last
-%   message does not reach, because it has no link at the time, is free when
-%   its contract lapses. That message takes less than the polling interval.
+%   Nodes do not end, so nodes and robots are polled. A robot that misses the
+%   release message, because it has no link at the time, is free when its
+%   contract lapses. The message takes less time than the polling interval.
 
 auctions_end(Auctions, Network, Limit) :-
     Limit > 0,
@@ -93,8 +93,8 @@ log_counts(Mechanism, Hosts, Network) :-
 
 %!  allocators_end(+Network, +Limit) is semidet.
 %
-%   Wait until there are none, nor any children of one; fails where one does
-%   not end in Limit seconds.
+%   Waits until all allocators and their children have ended; fails after Limit
+%   seconds.
 
 allocators_end(Network, Limit) :-
     network_property(Network, agents(Agents)),

@@ -14,15 +14,15 @@
 
 /** <module> Measures of allocations, from an event log
 
-Of events event(Time, Host, Agent, What), which all mechanisms log alike.
+Events are event(Time, Host, Agent, What); all mechanisms log the same terms.
 
 *Threading*: pure.
 */
 
 %!  communications(+Events, -Sum:integer) is det.
 %
-%   Messages over one link, and migrations: the sum of what was logged as
-%   communications(Kind, Count).
+%   Sum is the number of messages over one link and of migrations: the sum of
+%   the logged communications(Kind, Count).
 
 communications(Events, Sum) :-
     aggregate_all(sum(Count), happened(Events, communications(_, Count)),
@@ -30,7 +30,7 @@ communications(Events, Sum) :-
 
 %!  kind_sums(+Events, -Pairs) is det.
 %
-%   Pairs are Kind-Count, of which communications/2 is the sum.
+%   Pairs are Kind-Count; communications/2 gives their sum.
 
 kind_sums(Events, Pairs) :-
     findall(Kind, happened(Events, communications(Kind, _)), Kinds0),
@@ -47,8 +47,8 @@ happened(Events, What) :-
 
 %!  completed(+Events, -Pairs) is det.
 %
-%   Pairs are Task-Seconds, in the order of completion, since the first
-%   allocator has begun.
+%   Pairs are Task-Seconds, in the order of completion; Seconds count from the
+%   start of the first allocator.
 
 completed(Events, Completed) :-
     findall(Time, member(event(Time, _, _, begun(_)), Events), Begins),
@@ -67,7 +67,8 @@ backoffs(Events, Intervals) :-
 
 %!  lasted(+Events, ?Task, -Seconds) is nondet.
 %
-%   From when the allocator of Task began until Task was completed.
+%   Seconds is the time from the start of the allocator of Task to the
+%   completion of Task.
 
 lasted(Events, Task, Seconds) :-
     member(event(End, _, _, completed(Task)), Events),
@@ -76,8 +77,8 @@ lasted(Events, Task, Seconds) :-
 
 %!  overdue(+Events, -Reported, -Free) is nondet.
 %
-%   For each task that was missed the seconds between its deadline and when
-%   it was reported, and until the last of its robots was free.
+%   For each missed task Reported is the time from its deadline to the report,
+%   Free the time from its deadline until its last robot was free, in seconds.
 
 overdue(Events, Reported, Free) :-
     member(event(Missed, _, _, missed(Task, Deadline)), Events),
@@ -91,7 +92,7 @@ overdue(Events, Reported, Free) :-
 
 %!  from_first(+Events0, -Events) is det.
 %
-%   The time begins when the first allocator begins.
+%   Time 0 of Events is the start of the first allocator.
 
 from_first(Events0, Events) :-
     (   memberchk(event(Start, _, _, begun(_)), Events0)
@@ -105,7 +106,7 @@ from_first(Events0, Events) :-
 
 %!  mean(+Numbers, -Mean) is semidet.
 %
-%   Fails if there are none.
+%   Fails for an empty list.
 
 mean(Numbers, Mean) :-
     length(Numbers, Count),

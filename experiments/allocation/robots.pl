@@ -1,7 +1,7 @@
-%   Chapter 7: a network of robots, and where allocators begin.
+%   Chapter 7: a network of robots, and the start hosts of allocators.
 %
-%   Gives: network/3, places/3, tasks/2, and parameters that a study may fix
-%   anew.
+%   Gives: network/3, places/3, tasks/2, and parameters that a study may
+%   redefine.
 
 :- use_module('../../prolog/typhon/kernel/base/prng',
               [chance_sample/5, chance_seed/2]).
@@ -39,9 +39,9 @@ network(Case, random(Case.hosts, Case.probability),
             ( Case.links == (dynamic), From-To = Case.change ),
             Changes).
 
-%   places(+Case, +Network, -Starts): robots get their places, allocators
-%   the hosts at which they begin.  All of it follows from the seed, and is
-%   the same for every mechanism; fewer are among the more.
+%   places(+Case, +Network, -Starts): starts the robots, and chooses the start
+%   hosts of allocators.  The seed determines both, for every mechanism alike;
+%   smaller numbers give a prefix of the same choice.
 
 places(Case, Network, Starts) :-
     network_property(Network, hosts(Hosts)),

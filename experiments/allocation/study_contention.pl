@@ -1,4 +1,4 @@
-%   Chapter 7: readings that decide which mechanism is completed soonest.
+%   Chapter 7: readings that decide which mechanism completes tasks first.
 
 :- include(ground).
 :- include(competing).
@@ -15,8 +15,8 @@ vary(beta, [0, 1]).
 vary(mechanism, [proposed, murdoch, anta]).
 vary(allocators, [1, 2, 3, 5]).
 
-%   Agents send hardly any messages, so the kind of sending does not change
-%   their run.
+%   Allocators send hardly any messages, so the parameter `sending` does not
+%   change their runs.
 
 skip(Case) :-
     Case.mechanism == proposed,

@@ -16,15 +16,16 @@
 
 A timetable is timetable(Tasks, Sequences, Communications): the number of
 tasks of each sequence, and sequence(Name, Robots, times(Allocated,
-Completed), Executions), Robots being those that were allocated, Executions
-those of executions/2, times in seconds since the first allocator began.
+Completed), Executions).  Robots are the allocated robots, Executions those of
+executions/2, times are in seconds since the first allocator began.
 
 *Threading*: pure.
 */
 
 %!  timetable(+Events, +Names:list(atom), +Tasks:integer, -Timetable) is det.
 %
-%   Of the sequences Names that were completed.  Events are in order of time.
+%   Timetable has the completed sequences of Names.  Events are in order of
+%   time.
 
 timetable(Events0, Names, Tasks, timetable(Tasks, Sequences, Sum)) :-
     from_first(Events0, Events),
@@ -33,7 +34,7 @@ timetable(Events0, Names, Tasks, timetable(Tasks, Sequences, Sum)) :-
             Sequences),
     communications(Events, Sum).
 
-%   A robot that is replaced is allocated anew: the last time counts.
+%   Each replacement of a robot logs another allocation: the last one counts.
 
 sequence(Events, Name,
          sequence(Name, Robots, times(Allocated, Completed), Executions)) :-
@@ -76,7 +77,7 @@ counted(overlaps).
 counted(disorder).
 counted(both).
 
-%   wrong(+Name, +Timetable): once for each violation.
+%   wrong(+Name, +Timetable): succeeds once for each violation.
 
 wrong(faulty, timetable(Tasks, Sequences, _)) :-
     member(sequence(_, Robots, _, Executions), Sequences),
@@ -115,8 +116,8 @@ wrong(both, timetable(_, Sequences, _)) :-
 %!  held_rows(+Runs, -Rows) is det.
 %!  executed_rows(+Runs, -Rows) is det.
 %
-%   Rows are [Number, From, Till, Task], Number that of a robot, of the one
-%   run in Runs.
+%   Rows are [Number, From, Till, Task]; Number is the number of a robot in the
+%   one run of Runs.
 
 held_rows([Run|_], Rows) :-
     robots(Run, Sequences, Robots),

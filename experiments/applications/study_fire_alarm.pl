@@ -1,4 +1,4 @@
-%   A fire alarm: detectors that ask their neighbours, against others.
+%   A fire alarm: detectors that ask their neighbours, compared with others.
 
 :- use_module('../../examples/applications/fire/scene',
               [scene_network/3, scene_start/2, scene_stop/0]).
@@ -37,7 +37,7 @@ run(Case, Network) :-
 label(false_alarms, "False alarms in half an hour").
 label(delay, "Seconds from the fire to the alarm").
 
-%   Alarms within the two minutes until a reset count as one.
+%   Alarms within two minutes, the time until a reset, count as one.
 
 measure(false_alarms, Log, Count) :-
     findall(Time, ( member(event(Time, _, _, alarm(_)), Log.events),

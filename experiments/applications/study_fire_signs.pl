@@ -1,4 +1,4 @@
-%   Exit signs that follow a gradient, against fixed ones.
+%   Exit signs that follow a gradient, compared with fixed ones.
 
 :- use_module('../../examples/applications/fire/scene',
               [scene_counts/3, scene_network/3, scene_start/2, scene_stop/0]).
@@ -43,7 +43,7 @@ label(last, "Seconds until the last was out").
 label(smoke, "Smoke on the way, in the mean (minutes at 1 per metre)").
 label(lost, "Share of people that did not get out").
 
-%   People that do not get out count as `limit`.
+%   The time of people that do not get out counts as `limit`.
 
 measure(time, Log, Mean) :-
     findall(Time, out(Log, Time, _), Times),

@@ -1,4 +1,4 @@
-%   Irrigation by agents that carry a model to the field, against others.
+%   Irrigation by agents that carry a model to the field, compared with others.
 
 :- use_module('../../examples/applications/irrigation/scene',
               [scene_network/3, scene_start/2, scene_stop/0, scene_totals/2]).

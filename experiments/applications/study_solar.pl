@@ -1,4 +1,4 @@
-%   Houses that share a battery, by auctions or in the order in which they ask.
+%   Houses that share a battery, by auctions or in the order of their requests.
 
 :- use_module('../../examples/applications/solar/scene',
               [scene_network/3, scene_start/2, scene_stop/0, scene_totals/2]).
@@ -21,7 +21,7 @@ fixed(days, 14, assumed("clear and dull days")).
 network(_, Topology, Options) :-
     scene_network([], Topology, Options).
 
-%   Until 18:00, when all boilers have what they need.
+%   Ends at 18:00, when all boilers have the energy they need.
 
 run(Case, Network) :-
     call_cleanup(
@@ -67,7 +67,8 @@ house(Log, Sums) :-
 total(Log, N, Sum) :-
     aggregate_all(sum(Kwh), ( house(Log, Sums), arg(N, Sums, Kwh) ), Sum).
 
-%   Jain, Chiu and Hawe, DEC-TR-301, 1984: 1 if all have as much, 1/N if one has all.
+%   Jain, Chiu and Hawe, DEC-TR-301, 1984: 1 for equal shares, 1/N if one of N
+%   shares is everything.
 
 jain(Shares, Index) :-
     sum_list(Shares, Sum),
@@ -83,8 +84,8 @@ correlation(Pairs, R) :-
     XX*YY > 0,
     R is XY/sqrt(XX*YY).
 
-%   The keeper of the battery answers each request; from house N either way of the
-%   ring is as many links as counted here.
+%   The keeper of the battery answers each request; a request and its answer
+%   take the shorter way on the ring.
 
 crossings(none, _, 0) :-
     !.

@@ -1,4 +1,4 @@
-%   A warehouse: robots that are allocated, and execute tasks in step or alone.
+%   A warehouse: allocated robots execute tasks in step or alone.
 
 :- use_module('../../examples/applications/warehouse/scene',
               [scene_network/3, scene_orders/4, scene_start/2, scene_stop/0]).

@@ -96,10 +96,10 @@ derive(Study, Name, Case0, Case) :-
 %!  parameters(+Study, +Given, -Parameters:list) is det.
 %
 %   Parameters are parameter(Name, Value, Why) in the order of the file. Why
-%   is as the file has it, `varied` or `given` (then Value may be a list),
-%   `derived` (then Value is not bound), `sampled` (then it is a range), or
-%   `default`: those of the engine, for studies that have a network.  If
-%   parameters are sampled there is also `design`, which is no parameter of
+%   is the term of the file, `varied` or `given` (then Value may be a list),
+%   `derived` (then Value is unbound), `sampled` (then Value is a range), or
+%   `default` for parameters of the engine, in studies that have a network.  If
+%   parameters are sampled there is also `design`, which is not a parameter of
 %   cases.
 
 parameters(Study, Given, Parameters) :-
@@ -140,7 +140,8 @@ best([Pair|_], Pair).
 
 is_default(_-default).
 
-%   said(+Study, ?Name, -Value, -Why, -Source): Source is `own` or `included`.
+%   said(+Study, ?Name, -Value, -Why, -Source): the study, or a default of the
+%   engine, defines Name; Source is `own` or `included`.
 
 said(Study, Name, Value, Why, Source) :-
     in_file(Study, Name, Value, Why, Source).
@@ -186,8 +187,8 @@ study_parameter(Study, Name) :-
 
 %!  varied(+Study, +Cases, -Names:list(atom)) is det.
 %
-%   Names of the parameters that vary: those that the file varies, and others
-%   of which Cases have several values.
+%   Names of the parameters that vary: parameters that the file varies, and
+%   others that have several values in Cases.
 
 varied(Study, Cases, Names) :-
     parameters(Study, [], Parameters),

@@ -14,9 +14,9 @@
 
 /** <module> The available studies
 
-Below `experiments` they are the files figure_*.pl and table_*.pl, of the
-thesis, beyond_*.pl, beyond the thesis, and study_*.pl, background studies:
-readings of the thesis, values it does not print, demos.
+Files below `experiments`: figure_*.pl and table_*.pl for figures and tables of
+the thesis, beyond_*.pl for studies beyond the thesis, and study_*.pl for
+background studies: readings of the thesis, values it does not print, demos.
 
 *Threading*: the thread that loads studies.
 */
@@ -79,8 +79,8 @@ number_or_text(Part, Key) :-
 
 %!  studies_named(+Names:list(atom), -Files:list(atom)) is det.
 %
-%   A name is that of a file, of a study or of one of its plots, a folder
-%   below `experiments`, or `thesis`: its figures, and the studies beyond.
+%   A name is the name of a file, of a study or of one of its plots, a folder
+%   below `experiments`, or `thesis`: its figures, and the studies beyond it.
 %
 %   @error existence_error(study, Name)
 

@@ -18,22 +18,22 @@
 A claim is a test over points: Case-Measures, two dicts, one point for each
 case.  Tests are
 
-  - A < B, =<, >, >=, =:=, =\=: of every point at which both sides have a
+  - A < B, =<, >, >=, =:=, =\=: for every point at which both sides have a
     value, of which there is at least one
   - near(E, Value, Within), between(E, Least, Most): likewise
   - rises(E, along(P)), falls(E, along(P)): strictly, from each value of
-    the parameter P to the next, on every line: the points that differ in
-    nothing else (but in what is derived)
+    the parameter P to the next, on every line: the points that differ only
+    in P and in derived parameters
   - rises(E, along(P), ends), falls(E, along(P), ends): from first to last
   - least(E, P=V), most(E, P=V): with this value less (more) than with any
     other, all else equal
-  - at(Where, Test): of the points at which it is as Where, a list of
-    Name=Value, says
-  - some(Test): of at least one point
+  - at(Where, Test): Test for the points that satisfy Where, a list of
+    Name=Value
+  - some(Test): for at least one point
   - (A, B), (A ; B), \+ A
   - holds(Goal): call(Goal, Points) in the study, for all other tests
 
-A test is not known if no point has the values that it compares. Then neither
+A test is unknown if no point has the values that it compares. Then neither
 the test nor its negation holds.
 
 *Threading*: pure.
@@ -54,14 +54,14 @@ claim_holds(M:Test, Points) :-
 
 %!  claim_known(:Test, +Points:list(pair)) is semidet.
 %
-%   There is something to compare: Test holds, or it does not.
+%   True if there are values to compare, whether Test holds or not.
 
 claim_known(M:Test, Points) :-
     context(M:Points, Context),
     verdict(Test, M, Context, _).
 
 %   verdict(+Test, +Module, +Context, -Truth) is semidet: `true` or `false`;
-%   fails if nothing is known.
+%   fails if Test is unknown.
 
 verdict((A, B), M, Context, Truth) :-
     !,
@@ -119,8 +119,8 @@ truth(Goal, Truth) :-
     ;   Truth = true
     ).
 
-%   related(+Test, +Context, -Relation, -Values) is nondet: Test holds if
-%   all these stand in their relation.
+%   related(+Test, +Context, -Relation, -Values) is nondet: Test holds if each
+%   solution's Values stand in Relation.
 
 related(Test, Context, Relation, Values) :-
     leaf(Test, Relation, Where, Es),
@@ -167,22 +167,22 @@ stand(Order, [A, B]) :- call(Order, A, B).
 
 %!  claim_shape(:Test, -Problem) is nondet.
 %
-%   Problem is a part of Test that is no test, no expression, or calls what
-%   the study does not define.
+%   Problem is a part of Test that is neither a test nor an expression, or
+%   calls an undefined predicate of the study.
 
 claim_shape(M:Test, Problem) :-
     part(Test, M, problem(Problem)).
 
 %!  claim_name(:Test, -Name) is nondet.
 %
-%   Name is a measure or a parameter that Test speaks of.
+%   Name is a measure or a parameter in Test.
 
 claim_name(M:Test, Name) :-
     part(Test, M, name(Name)).
 
 %!  claim_value(:Test, -NameValue) is nondet.
 %
-%   Test looks at the cases in which NameValue, Name=Value, is so.
+%   NameValue, Name=Value, is a condition in Test.
 
 claim_value(M:Test, NameValue) :-
     part(Test, M, value(NameValue)).
@@ -228,11 +228,11 @@ connective(some(A), [A]).
 
 %!  leaf(?Test, -Relation, -Where, -Es:list) is semidet.
 %
-%   Test says that the values of Es stand in Relation, an order,
-%   `near` or `between`.  Where tells which values:
+%   Test claims that the values of Es stand in Relation, an order,
+%   `near` or `between`.  Where selects the values:
 %
 %     - points
-%       those of each point by itself
+%       the values of each point by itself
 %     - against(P, V)
 %       with the value V of the parameter P, and with any other
 %     - steps(P), ends(P)

@@ -7,14 +7,14 @@
 :- use_module(library(option), [option/2, option/3]).
 :- use_module(plan, [out_directory/2]).
 
-/** <module> Commands of the shell that make runs again
+/** <module> Shell commands that repeat runs
 
 *Threading*: no state; any thread.
 */
 
 %!  run_command(+Study, +N, +Seed, +Options, -Text:atom) is det.
 %
-%   Makes one run, of the case with the number N, from any directory.
+%   Text makes one run, of the case with the number N, from any directory.
 
 run_command(Study, N, Seed, Options, Text) :-
     script(Script),
@@ -27,7 +27,7 @@ run_command(Study, N, Seed, Options, Text) :-
 
 %!  again_command(+Study, +Options, -Text:atom) is det.
 %
-%   Makes all runs, for people, and from here.
+%   Text makes all runs, from the current directory, in a readable form.
 
 again_command(Study, Options, Text) :-
     script(Script0),
@@ -45,7 +45,7 @@ script(Script) :-
     module_property(study_commands, file(Here)),
     absolute_file_name('../study.pl', Script, [relative_to(Here)]).
 
-%   By its usual name, if that is this program.
+%   The usual name of this program, if the path leads to it.
 
 prolog(Swipl) :-
     current_prolog_flag(executable, Executable),

@@ -6,18 +6,18 @@
 :- use_module(numbers, [spread/4, spread_text/4]).
 :- use_module(studies, [study_call/2]).
 
-/** <module> Are runs on real sockets like those in virtual time?
+/** <module> Comparison of runs on real sockets with runs in virtual time
 
-A study says by real(Where, Settings) which of its cases is made both ways,
-and with which clock and how many processes.  What a real run gave should lie
-between the least and the greatest of the virtual ones.
+real(Where, Settings) of a study selects the case that is run both ways, and
+the clock and the number of processes of the real run.  A measure of a real run
+should be between the least and the greatest value of the virtual runs.
 
 *Threading*: pure.
 */
 
 %!  real_case(+Study, +Cases, -Case, -Real) is semidet.
 %
-%   Real is Case, the one that Study names, on a real clock.
+%   Real is Case, the case that Study selects, on a real clock.
 
 real_case(Study, Cases, Case, Real) :-
     study_call(Study, real(Where, Settings)),
@@ -30,7 +30,7 @@ real_case(Study, Cases, Case, Real) :-
 %!  cross_check(+Runs:list, +RealRuns:list, +Measures:list, -Rows) is det.
 %
 %   Runs and RealRuns are dicts of measures.  Rows are [Measure, Virtual,
-%   Real, Verdict], as text, of the measures that are numbers.
+%   Real, Verdict], as text, for the measures that are numbers.
 
 cross_check(Runs, RealRuns, Measures, Rows) :-
     findall([Measure, Virtual, Real, Verdict],

@@ -12,15 +12,16 @@
 
 /** <module> Rank tests of claims
 
-A claim that compares cases is more than chance if the runs of one case tend to
+A claim that compares cases is significant if the runs of one case tend to
 have lower ranks than those of the other.  Each pair of cases that it compares
-is tested, in the direction that it claims, with the values of the compared
-expression in all seeds; Holm's correction is for the number of pairs.
+is tested, in the claimed direction, with the values of the compared
+expression in all seeds; Holm's correction accounts for the number of pairs.
 
-Claims that compare with a number, and those of one run of each case, have no
-comparisons.
+Claims that compare with a number, and claims with one run of each case, have
+no comparisons.
 
 *Threading*: pure.
+*/
 */
 
 :- meta_predicate claim_comparisons(:, +, -).
@@ -28,8 +29,8 @@ comparisons.
 %!  claim_comparisons(:Test, +OfSeeds:list, -Comparisons:list) is det.
 %
 %   OfSeeds are the points of each seed.  Comparisons are comparison(A, B, E,
-%   Xs, Ys, U, P, Adjusted): E has the values Xs in the case A, or is one side
-%   in this case, and Ys in B; both are of four seeds or more.
+%   Xs, Ys, U, P, Adjusted): E, or one of its sides, has the values Xs in the
+%   case A, and Ys in B; each for at least four seeds.
 
 claim_comparisons(M:Test, OfSeeds, Comparisons) :-
     findall(Key-(X-Y),
@@ -51,7 +52,7 @@ claim_comparisons(M:Test, OfSeeds, Comparisons) :-
     holm(Ps, Adjusted),
     maplist(comparison, Tested, Adjusted, Comparisons).
 
-%   at/2 leads from several cases to the same pair.
+%   at/2 produces the same pair from several cases.
 
 once_each([], []).
 once_each([Test|Tests], [Test|Others]) :-

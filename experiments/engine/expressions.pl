@@ -22,17 +22,17 @@
 Expressions are numbers, measures and parameters by their names, arithmetic
 over expressions, and
 
-  - at(Where, E): where the case differs from this point's as Where says
+  - at(Where, E): E for the case that differs from this point's by Where
   - sum(E), mean(E), median(E), least(E), most(E), number(E): over all
     points (of those that Where selects)
   - correlation(E1, E2): Spearman's rank correlation, over the same points
-  - rise(E, along(P)), first(E, along(P)), last(E, along(P)): of the line
+  - rise(E, along(P)), first(E, along(P)), last(E, along(P)): on the line
     through this point: the points that differ in P alone
 
 A point is Case-Measures, two dicts.  A context is context(Points, All,
-Follows): the points looked at, all those that at/2 may select from, and the
-names of parameters that are derived from others: of two cases that differ in
-one parameter these may differ, too.
+Follows): the points of the test, all points that at/2 may select from, and
+the names of derived parameters: cases that differ in one parameter may also
+differ in these.
 
 *Threading*: pure.
 */
@@ -42,12 +42,13 @@ one parameter these may differ, too.
 
 %!  context(:Points:list(pair), -Context) is det.
 %
-%   All Points, of a study that is the module.
+%   Context has All points; the module is the study.
 
 context(M:All, context(All, All, Follows)) :-
     findall(Name, follows(M, All, Name), Follows).
 
-%   Unless it was given by itself: then cases differ in it alone.
+%   A derived parameter follows from others, unless it was given a value: then
+%   cases differ in it alone.
 
 follows(M, All, Name) :-
     current_predicate(M:derive/3),
@@ -64,7 +65,8 @@ varies_alone(Name, All) :-
     group_pairs_by_key(Keys, Groups),
     memberchk(_-[_, _|_], Groups).
 
-%   key(+Names, +Case, -Key): equal of cases that differ in Names alone.
+%   key(+Names, +Case, -Key): Key is the same for cases that differ in Names
+%   alone.
 
 key(Names, Case, Key) :-
     dict_pairs(Case, _, Pairs),
@@ -75,8 +77,8 @@ names(Names, Name-_) :-
 
 %!  selected(+Where:list, +Context, -Selected) is det.
 %
-%   Selected is the context of points at which it is as Where, a list of
-%   Name=Value, says.
+%   Selected has the points of Context that satisfy Where, a list of
+%   Name=Value.
 
 selected(Where, context(Points0, All, Follows),
          context(Points, All, Follows)) :-
@@ -88,7 +90,7 @@ is_where(Where, Case-_) :-
 %!  line(+P, +Context, -Line:list(pair)) is nondet.
 %
 %   Line has the points that differ in the parameter P alone, with their
-%   values of P: ordered by these if they are numbers, else as they are in
+%   values of P: in the order of these if they are numbers, else in the order of
 %   Context.
 
 line(P, context(Points, _, Follows), Line) :-
@@ -111,7 +113,7 @@ is_number(Value-_) :-
 %!  value(+E, +Point, +Context, -Number) is semidet.
 %
 %   The expression E has the value Number at Point.  Fails if it has none,
-%   as what is divided by zero.
+%   for example after a division by zero.
 
 value(Number, _, _, Value) :-
     number(Number),
@@ -164,8 +166,8 @@ value(Term, Point, Context, Value) :-
 
 %!  of_all_points(+E) is semidet.
 %
-%   E has one value for all points of a context: it is made of numbers, aggregates
-%   and correlations.
+%   True if E has the same value for all points of a context: it consists of
+%   numbers, aggregates and correlations.
 
 of_all_points(E) :-
     number(E),
@@ -187,8 +189,9 @@ value_at(Point, Context, E, Value) :-
 values(E, Points, Context, Values) :-
     findall(V, ( member(Point, Points), value(E, Point, Context, V) ), Values).
 
-%   elsewhere(+Where, +Case, +Points, +Follows, -Point): that of the case as
-%   Where says.  Where it is missing there are no measures, but aggregates.
+%   elsewhere(+Where, +Case, +Points, +Follows, -Point): Point is the point of
+%   the case that differs by Where.  If it is missing it has no measures, only
+%   aggregates.
 
 elsewhere(Where, Case, Points, Follows, Point) :-
     dict_create(Other, case, Where),

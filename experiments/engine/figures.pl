@@ -34,7 +34,7 @@
 
 %!  figures(+Plans, +Options) is det.
 %
-%   Print the results of the existing runs of Plans, and write them below the
+%   Prints the results of the existing runs of Plans, and writes them below the
 %   directory of out_directory/2.
 
 figures(Plans, Options) :-
@@ -97,8 +97,8 @@ save(Study, Outcome, Runs, Out) :-
     forall(( Runs = [_|_], study_call(Study, plot(Plot, Title, Picture)) ),
            picture(Study, plot(Plot, Title, Picture), Runs, Directory)).
 
-%   checks(+Study, +Cases, +Runs, +Rows, +Options, -Checks): of the case that
-%   is made on real sockets as well.
+%   checks(+Study, +Cases, +Runs, +Rows, +Options, -Checks): compares the case
+%   that also has runs on real sockets.
 
 checks(Study, Cases, Runs, Rows, Options, Checks) :-
     option(real(true), Options),
@@ -111,7 +111,7 @@ checks(Study, Cases, Runs, Rows, Options, Checks) :-
     cross_check(Virtual, OnSockets, Measures, Checks).
 checks(_, _, _, _, _, []).
 
-%   A name that has no value in any run.
+%   Name has no value in any run.
 
 never_measured(Study, Runs, Where, Name) :-
     Runs = [_|_],

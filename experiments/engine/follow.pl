@@ -11,9 +11,9 @@
 
 %!  new_lines(+File, +Position0, -Position, -Lines:list(string)) is det.
 %
-%   Lines are the lines of File behind byte Position0 that are complete.
-%   Position is where the next one begins.  Begin with Position0 = 0.  A
-%   file that is not there yet has no lines.
+%   Lines are the complete lines of File after byte Position0.  Position is the
+%   start of the next line.  Begin with Position0 = 0.  A file that does not
+%   exist yet has no lines.
 
 new_lines(File, Position0, Position, Lines) :-
     exists_file(File),

@@ -19,9 +19,9 @@
 
 %!  claim_found(:Test, +Points, +Names:list(atom), -Text:atom) is det.
 %
-%   Text has the values of the expressions that Test looks at, of Points,
-%   usually medians; Names are the parameters that vary.  Of many values
-%   only some are shown.
+%   Text has the values of the expressions in Test, for Points, usually
+%   medians; Names are the parameters that vary.  Of many values only some are
+%   shown.
 
 claim_found(M:Test, Points, Names, Text) :-
     context(M:Points, Context0),
@@ -58,7 +58,7 @@ part(E, Context, Names, Part) :-
     plain(E, Name),
     format(atom(Part), '~w: ~w', [Name, Text]).
 
-%   at/2 leads to another case.
+%   at/2 selects another case.
 
 led_to(at(Where, _), Case0, Case) :-
     !,
@@ -66,7 +66,8 @@ led_to(at(Where, _), Case0, Case) :-
     Case = Case0.put(Other).
 led_to(_, Case, Case).
 
-%   plain(+Expression, -Plain): in readable form, at/2 by the values alone.
+%   plain(+Expression, -Plain): readable form; conditions of at/2 are shown by
+%   their values alone.
 
 plain(at(Where, E), Plain) :-
     !,
@@ -99,8 +100,8 @@ words(Terms, Text) :-
 word(Term, Word) :-
     format(atom(Word), '~w', [Term]).
 
-%   The last parameter that varies makes the values of a line, all others name
-%   it.  Common values are written once.
+%   The last parameter that varies makes the values of a line; the other
+%   parameters label the line.  Common values are written once.
 
 text([], _, 'no value') :-
     !.

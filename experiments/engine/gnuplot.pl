@@ -22,8 +22,8 @@ It is drawn twice, as SVG and as PNG.
 
 %!  plot(+Directory, +Name, +Size) is det.
 %
-%   Draw Directory/Name.svg and Directory/Name.png by Directory/Name.gnuplot.
-%   Size is Width-Height in pixels.  Where gnuplot is missing or fails, this
+%   Draws Directory/Name.svg and Directory/Name.png by Directory/Name.gnuplot.
+%   Size is Width-Height in pixels.  If gnuplot is missing or fails, a warning
 %   is printed, and the script remains.
 
 plot(Directory, Name, Size) :-
@@ -51,8 +51,8 @@ font "DejaVu Sans,12"', [W, H]).
 
 %!  colour(+Index, -Colour) is semidet.
 %
-%   Colours 0 to 5, as numbers 0xRRGGBB.  They differ for colour-blind
-%   people, too.
+%   Colours 0 to 5, as numbers 0xRRGGBB, which colour-blind people can
+%   distinguish, too.
 
 colour(0, 0x4477aa).
 colour(1, 0xee6677).
@@ -73,8 +73,8 @@ lighten(Colour, Light) :-
 
 %!  plain_text(+Text, -Plain:atom) is det.
 %
-%   Plain is shown as Text is written where gnuplot gives characters a meaning,
-%   as `_` that of a subscript.
+%   Plain is Text with an escape before characters that have a meaning in
+%   gnuplot, such as `_` for a subscript.
 
 plain_text(Text, Plain) :-
     format(codes(Codes), '~w', [Text]),
@@ -88,7 +88,7 @@ plain_code(Code, [Code|Codes], Codes).
 
 %!  save_columns(+File, +Rows) is det.
 %
-%   Write rows of numbers and texts as a data file of gnuplot.  An atom
+%   Writes rows of numbers and texts as a data file of gnuplot.  An atom
 %   `gap` instead of a row is an empty line.
 
 save_columns(File, Rows) :-
@@ -120,8 +120,8 @@ column(Value, Value).
 
 %!  save_variables(+File, +Pairs) is det.
 %
-%   Write a script that gives gnuplot's variables their values: numbers,
-%   texts, and lists of these as arrays.  The pair load-Script ends it.
+%   Writes a script that sets gnuplot variables: numbers, texts, and lists of
+%   these as arrays.  The pair load-Script ends it.
 
 save_variables(File, Pairs) :-
     setup_call_cleanup(

@@ -26,8 +26,8 @@ A panel for each measure, a line for each value of a parameter.
 %!  lines_picture(+Study, +Name-Title, +Options, +Runs, +Directory, -Picture) is
 %!      semidet.
 %
-%   Write the data files of lines(Options).  Picture is Height-Variables, for
-%   lines.gp.  Fails if no run is to be shown.
+%   Writes the data files of lines(Options).  Picture is Height-Variables, for
+%   lines.gp.  Fails if Options select no run.
 
 lines_picture(Study, Name-Title, Options, Runs0, Directory, Height-Variables) :-
     option(where(Where), Options, []),
@@ -49,9 +49,9 @@ lines_picture(Study, Name-Title, Options, Runs0, Directory, Height-Variables) :-
             Variables0),
     heights(Title, Count, Variables0, Height, Variables).
 
-%   heights(+Title, +Panels, +Variables0, -Height, -Variables): what is above
-%   the panels is as high as the lines of title, subtitle and key need, and
-%   below each panel there is space for labels that are rotated.
+%   heights(+Title, +Panels, +Variables0, -Height, -Variables): the space above
+%   the panels depends on the lines of title, subtitle and key, the space below
+%   each panel on rotated labels.
 
 heights(Title, Panels, Variables0, Height, Variables) :-
     memberchk('SUBTITLE'-Subtitle0, Variables0),
@@ -75,7 +75,7 @@ heights(Title, Panels, Variables0, Height, Variables) :-
                   'KEYROWS'-Rows, 'ROTATED'-Rotated
                 | Variables3 ].
 
-%   Labels that are rotated end where their tick is.
+%   Rotated labels end at their tick, so they need space on the left.
 
 room_on_the_left(0, Variables, Variables) :-
     !.
@@ -84,8 +84,8 @@ room_on_the_left(_, Variables0, ['LEFT'-Left|Variables]) :-
     memberchk('RIGHT'-Right, Variables),
     Left is Left0 - 0.1*(Right - Left0).
 
-%   folded(+Text, +Width, +Between, -Folded, -Count): in Count lines of about
-%   Width characters, with Between between them.
+%   folded(+Text, +Width, +Between, -Folded, -Count): Folded has Count lines of
+%   about Width characters, separated by Between.
 
 folded(Text, Width, Between, Folded, Count) :-
     atomic_list_concat(Words, ' ', Text),
@@ -121,7 +121,8 @@ key_rows(Labels, Rows) :-
 
 %!  matching(+Where, +Runs, -Matching) is det.
 %
-%   Runs of cases in which it is as Where says: Name=Value, Name=in(Values).
+%   Matching are the runs whose cases satisfy Where: Name=Value,
+%   Name=in(Values).
 
 matching(Where, Runs0, Runs) :-
     findall(run(Case, Seed, Ms),
@@ -136,8 +137,8 @@ meets(Name=in(Values), Case) :-
 meets(Name=Value, Case) :-
     get_dict(Name, Case, Value).
 
-%   positions(+X, +Runs, -Positions): pairs At-Value: numbers are drawn where
-%   they are, others side by side.
+%   positions(+X, +Runs, -Positions): pairs At-Value: numbers have their own
+%   positions, other values are side by side.
 
 positions(X, Runs, Positions) :-
     values(X, Runs, Values),
@@ -167,8 +168,8 @@ lines(Options, Runs, Lines) :-
                 *             DATA             *
                 *******************************/
 
-%   A block for each line of each measure.  gnuplot does not count empty
-%   ones.
+%   Writes a block for each line of each measure.  gnuplot does not count empty
+%   blocks.
 
 :- meta_predicate save_blocks(+, +, +, +, +, 3).
 
@@ -294,9 +295,9 @@ variable(_, _, _, _, Lines, 'Colour'-Colours) :-
     findall(Colour, ( nth0(I, Lines, _), N is I mod 6, colour(N, Colour) ),
             Colours).
 
-%   ticked(+Positions, -Ticked): of many numbers only some have a tick: those
-%   with 1, 2 or 5 of a power of ten between them if there are such, else some
-%   at equal distances.
+%   ticked(+Positions, -Ticked): of many numbers only some have a tick: numbers
+%   at a distance of 1, 2 or 5 times a power of ten, if there are any, else
+%   numbers at equal distances.
 
 ticked(Positions, Ticked) :-
     length(Positions, Count),
@@ -346,7 +347,7 @@ tick(Label, At, Tick) :-
     atomic_list_concat(Parts, '\'\'', Quoted),
     format(atom(Tick), '\'~w\' ~w', [Quoted, At]).
 
-%   It says what is put together, too.
+%   Subtitle also names the parameters over which the plot aggregates.
 
 subtitle(Study, Options, Runs, X, Subtitle) :-
     findall(Seed, member(run(_, Seed, _), Runs), Seeds0),

@@ -11,9 +11,9 @@
 /** <module> Memory of agents and hosts during a run
 
 Samples, in host time, the bytes of the clauses that each agent of this
-process carries beside its program, and of the tuples of each host, as Prolog
-counts them.  Goals that are still to run, mail and records of the kernel are
-not in it: they are as long for each agent.
+process carries besides its program, and of the tuples of each host, as Prolog
+counts them.  The sum excludes goals that are still to run, mail and records of
+the kernel: their size does not depend on the agent's program.
 
 *Threading*: one run at a time in a process; the thread of alarms writes.
 */
@@ -22,7 +22,7 @@ not in it: they are as long for each agent.
 
 %!  memory_watch(+Seconds, +Network) is det.
 %
-%   Sample at intervals of so many host seconds from now on.
+%   Samples at intervals of Seconds of host time, beginning now.
 
 memory_watch(Seconds, Network) :-
     retractall(peak(_, _)),
@@ -37,10 +37,10 @@ look(Time, Seconds, Network) :-
 
 %!  memory_peaks(-Peaks:list(pair)) is det.
 %
-%   The greatest that was seen of each, of agents that move: `agents`, how many
-%   there were; `agent_bytes`, of all, and `agent_most`, of one.  Likewise
-%   `static`, `static_bytes`, `static_most` of those that do not; `host_bytes`
-%   and `host_most` of tuples.
+%   Peaks are the greatest samples.  For agents that move: `agents`, their
+%   number; `agent_bytes`, of all together, and `agent_most`, of one.  Likewise
+%   `static`, `static_bytes`, `static_most` for static agents; `host_bytes`
+%   and `host_most` for tuples.
 
 memory_peaks(Peaks) :-
     findall(Name-Value, peak(Name, Value), Peaks0),

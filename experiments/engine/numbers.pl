@@ -14,7 +14,7 @@
 
 %!  median(+Numbers:list(number), -Median:number) is semidet.
 %
-%   Median is the one in the middle, or the mean of the two in the middle.
+%   Median is the middle number, or the mean of the two middle numbers.
 %   Fails for an empty list.
 
 median(Numbers, Median) :-
@@ -40,7 +40,7 @@ spread(Numbers, Least, Median, Most) :-
 
 %!  spread_text(+Least, +Median, +Most, -Text:atom) is det.
 %
-%   12 (10-14); 12 if all are the same.
+%   As 12 (10-14), or 12 if all numbers are equal.
 
 spread_text(Least, Median, Most, Text) :-
     Least =:= Most,
@@ -52,7 +52,7 @@ spread_text(Least, Median, Most, Text) :-
 
 %!  number_text(+Number, -Text:atom) is det.
 %
-%   As short as is of use: 12,345  104.5  0.042.
+%   Rounded to the digits that matter: 12,345  104.5  0.042.
 
 number_text(Number, Text) :-
     number(Number),

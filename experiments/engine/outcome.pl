@@ -24,15 +24,14 @@
 %   Runs are run(Case, Seed, Measures), Measures a dict.  Outcome has
 %
 %     - `names`: the parameters that vary
-%     - `rows`: a list of row(Case, Count, Spreads), one for each case of
-%       which there are runs; Spreads are
-%       spread(Measure, Least, Median, Most, Count) of measures that are
-%       numbers in Count of them
+%     - `rows`: a list of row(Case, Count, Spreads), one for each case that has
+%       runs; Spreads are spread(Measure, Least, Median, Most, Count) for
+%       measures that are numbers in Count of them
 %     - `claims`: a list of claim(Text, Notes, Held, Of, OfMedians, Found):
 %       the claim held in Held of Of seeds, and OfMedians (`true` or `false`)
-%       of the medians of all runs; Found is what the medians were, as text.
-%       Seeds of which a case is missing are not counted, and none are if
-%       in none there is anything to compare.
+%       for the medians of all runs; Found are the medians, as text.
+%       Seeds with a missing case do not count; Of is 0 if no seed has values
+%       to compare.
 %     - `tests`: a list of Text-Comparisons, the rank tests of each claim, see
 %       claim_comparisons/3.
 
@@ -65,7 +64,7 @@ row(Runs, Case, row(Case, Count, Spreads)) :-
               spread(Vs, Least, Median, Most) ),
             Spreads).
 
-%   seeds(+Runs, +Cases, -Seeds): those of which all cases are there.
+%   seeds(+Runs, +Cases, -Seeds): the seeds that have runs of all cases.
 
 seeds(Runs, Cases, Seeds) :-
     length(Cases, Count),
@@ -76,7 +75,7 @@ seeds(Runs, Cases, Seeds) :-
               aggregate_all(count, member(run(_, Seed, _), Runs), Count) ),
             Seeds).
 
-%   Measures that are no numbers are of a single run, and have no median.
+%   Measures that are not numbers belong to a single run, and have no median.
 
 median_points(Rows, Points) :-
     findall(Case-Measures,
@@ -96,7 +95,7 @@ claim(Study, Names, OfSeeds, Medians, claim(Text, Notes, Held, Of, M, Found)) :-
             t(Held, M, Found, Of)
             = t(0, false, 'a mistake in the claim', Count) )).
 
-%   A claim with a mistake was reported when it was judged.
+%   A mistake in a claim has been reported when the claim was evaluated.
 
 tested(Study, OfSeeds, Text, Comparisons) :-
     study_call(Study, claim(Text, _, Test)),
@@ -115,7 +114,7 @@ case_numbers(Runs, Case, Measure, Numbers) :-
               number(Value) ),
             Numbers).
 
-%   Parameters that are given may leave nothing to compare.
+%   With given parameters there may be nothing to compare.
 
 counted(Test, OfSeeds, Count, Of) :-
     (   member(Points, OfSeeds),

@@ -8,10 +8,10 @@
 :- use_module(library(uri), [uri_encoded/3]).
 :- use_module(studies, [study_call/2, study_title/3]).
 
-/** <module> The beginning of the page: what it is, and a row for each study
+/** <module> The beginning of the page: introduction, and a row for each study
 
-Studies named by numbers, as 5.6, are figures and tables of the thesis, and stand
-under their chapters; others come after them.
+Studies named by numbers, such as 5.6, are figures and tables of the thesis, and
+are listed under their chapters; others come after them.
 
 *Threading*: no state; any thread.
 */
@@ -19,7 +19,7 @@ under their chapters; others come after them.
 %!  overview_title(+Shown:list, -Title:atom) is det.
 %!  overview(+Directory, +Shown:list)// is det.
 %
-%   Of the studies Shown, see page_save/2.
+%   For the studies Shown, see page_save/2.
 
 overview_title(Shown, Title) :-
     (   of_the_thesis(Shown)
@@ -75,7 +75,8 @@ groups([Group|Groups], Shown, Directory) -->
     html(Rows),
     groups(Groups, Shown, Directory).
 
-%   group(+Shown, -Group): number of the chapter, inf for what is of none.
+%   group(+Shown, -Group): number of the chapter, inf for studies beyond the
+%   thesis.
 
 group(shown(Study, _, _, _), Group) :-
     study_title(Study, Name, _),
@@ -98,7 +99,7 @@ row(shown(Study, Outcome, _, _), Directory,
     findall(Picture, small_picture(Study, Name, Directory, Picture), Pictures),
     share(Outcome, Text).
 
-%   Of each figure that was drawn.
+%   For each figure that has been drawn.
 
 small_picture(Study, Name, Directory, img([class(small), src(Path), alt(Title)])) :-
     study_call(Study, plot(Plot, Title, _)),
@@ -107,7 +108,7 @@ small_picture(Study, Name, Directory, img([class(small), src(Path), alt(Title)])
     exists_file(Drawn),
     uri_encoded(path, File, Path).
 
-%   Claims for which runs are missing neither hold nor fail.
+%   Claims without runs are unknown.
 
 share(Outcome, Text) :-
     findall(OfMedians,

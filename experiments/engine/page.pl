@@ -16,15 +16,15 @@
 
 /** <module> One page for all studies
 
-It needs no server: pictures and data are files beside it.
+The page needs no server: pictures and data are files in its directory.
 
 *Threading*: no state; any thread.
 */
 
 %!  page_save(+Directory, +Shown:list) is det.
 %
-%   Write Directory/index.html.  Shown are shown(Study, Outcome, Command, Run):
-%   Command makes it again, and Run is the directory of one of the runs, or
+%   Writes Directory/index.html.  Shown are shown(Study, Outcome, Command, Run):
+%   Command repeats the study, and Run is the directory of one of its runs, or
 %   `none`.
 
 page_save(Directory, Shown) :-
@@ -49,7 +49,7 @@ text-align:left;vertical-align:top}td.n{text-align:right;white-space:nowrap}
 details{overflow-x:auto}img.small{height:7em;max-width:14em}
 code{background:#f4f4f4;padding:.1em .3em}.small{color:#666;font-size:85%}').
 
-%   Not named body//2, which html_write would take for its hook.
+%   Not named body//2, because html_write would take that for its hook.
 
 everything(Directory, Shown) -->
     overview(Directory, Shown),
@@ -172,7 +172,7 @@ medians(Study, Outcome) -->
               Trs) },
     median_table(Study, table([tr(Heads)|Trs])).
 
-%   Open where there are numbers of the thesis to compare with.
+%   The table is open if the thesis prints numbers to compare with.
 
 median_table(Study, Table) -->
     { study_call(Study, printed(_, _, _)) },
@@ -226,7 +226,7 @@ parameters(Study, Given) -->
     html(details([ summary(parameters),
                    table([tr([th(parameter), th(value), th(why)])|Trs]) ])).
 
-%   One of the runs to look at, if that was asked for.
+%   A link to the replay of one run, if it was requested.
 
 replay(Directory, Name) -->
     { atomic_list_concat([Directory, Name, 'replay.html'], /, File),
@@ -237,7 +237,7 @@ replay(Directory, Name) -->
 replay(_, _) -->
     [].
 
-%   How one of the runs was made: its first, on some machine.
+%   The facts of one run: the first of the study, and its machine.
 
 one_run(none) -->
     !,

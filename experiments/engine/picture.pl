@@ -104,7 +104,7 @@ beside(File, Name, Path) :-
     file_directory_name(File, Directory),
     directory_file_path(Directory, Name, Path).
 
-%   The script stays beside the pictures, so that a figure can be changed
+%   The script is copied to the pictures, so that a figure can be changed
 %   without the runs.
 
 draw(Directory, Name, Size, Script, Variables) :-

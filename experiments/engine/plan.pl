@@ -28,7 +28,7 @@ resulting cases.
 
 %!  plans(+Studies, +Options, -Plans:list) is det.
 %
-%   @error domain_error('NAME=VALUE', Text) and others of what --set says
+%   @error domain_error('NAME=VALUE', Text) and other errors of --set
 
 plans(Studies, Options, Plans) :-
     given(Options, Given),
@@ -36,7 +36,8 @@ plans(Studies, Options, Plans) :-
             ( member(Study, Studies), study_cases(Study, Given, Cases) ),
             Plans).
 
-%   given(+Options, -Given): the values of --set, as pairs; the last counts.
+%   given(+Options, -Given): the values of --set, as pairs; for a repeated name
+%   the last value.
 
 given(Options, Given) :-
     findall(Name-Value,
@@ -69,8 +70,8 @@ value(Text, Text).
 
 %!  planned(+Plans, +Options, -N, -Run) is nondet.
 %
-%   Run is to be made, of the case with the number N.  The first run of every
-%   case comes first.
+%   Run is a run to make, of the case with the number N.  The first runs of all
+%   cases come before the second ones.
 
 planned(Plans, Options, N, run(Study, Case, Seed)) :-
     planned_seed(Options, Seed),
@@ -79,8 +80,8 @@ planned(Plans, Options, N, run(Study, Case, Seed)) :-
 
 %!  planned_real(+Plans, +Options, -Run) is nondet.
 %
-%   With --real, Run is to be made on real sockets: one of a case, if no other
-%   number is asked for, as it cannot be made quicker.
+%   With --real, Run is a run to make on real sockets: one for each case by
+%   default, because real runs take long.
 
 planned_real(Plans, Options, run(Study, Real, Seed)) :-
     option(real(true), Options),
@@ -99,8 +100,8 @@ planned_seed(Options, Seed) :-
 
 %!  planned_case(+Plans, +Text, -Study, -Case) is det.
 %
-%   Text is the number or the name of the case, whose parts may stand in any
-%   order.
+%   Text is the number or the name of the case; the parts of the name may be in
+%   any order.
 %
 %   @error no_study_case(Text, Names)
 
@@ -133,7 +134,7 @@ parts(Name, Sorted) :-
 %!  out_directory(+Options, -Directory) is det.
 %!  runs_directory(+Options, -Root) is det.
 %
-%   Where tables and pictures are, and where runs are.
+%   The directories of tables and pictures, and of runs.
 
 out_directory(Options, Out) :-
     option(out(Out0), Options, 'out/studies'),

@@ -5,8 +5,8 @@
 
 /** <module> A progress bar
 
-On a terminal one line that is drawn again and again; elsewhere (a file, a
-pipe, a build server) one plain line for each tenth of the way.
+On a terminal one line that is updated; elsewhere (a file, a pipe, a build
+server) one plain line for each tenth of the work.
 
 *Threading*: one thread draws on one stream.
 */
@@ -16,7 +16,7 @@ pipe, a build server) one plain line for each tenth of the way.
 
 %!  progress(+Stream, +Done, +Total, +Note) is det.
 %
-%   Show that Done of Total is done.  Note is text that follows the
+%   Shows that Done of Total items are done.  Note is text that follows the
 %   numbers.
 
 progress(Stream, Done, Total, Note) :-
@@ -45,7 +45,7 @@ bar(Done, Total, Bar) :-
 
 %!  progress_done(+Stream) is det.
 %
-%   Leave the line of the bar.
+%   Ends the line of the bar.
 
 progress_done(Stream) :-
     (   retract(shown(Stream, _)),

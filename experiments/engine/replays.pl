@@ -10,7 +10,7 @@
 
 /** <module> Replays of runs
 
-A run is repeated for this, since other logs have no hops.
+The run is repeated for its replay, because other logs have no hops.
 
 *Threading*: the main thread.
 */
@@ -20,7 +20,7 @@ A run is repeated for this, since other logs have no hops.
 
 %!  replays_save(+Plans, +Options, +Out) is det.
 %
-%   With replays(true) in Options, write replay.html into the directory of the
+%   With replays(true) in Options, writes replay.html into the directory of the
 %   first study of each folder with a network: its first case, with the first
 %   seed.  Failures are reported.
 

@@ -30,8 +30,8 @@
 
 %!  print_outcome(+Stream, +Study, +Outcome) is det.
 %
-%   A line for each case: medians with the least and greatest run; and for
-%   each claim the number of runs in which it held, its values, and its rank
+%   Prints a line for each case: medians with the least and greatest run; and
+%   for each claim the number of runs in which it held, its values, and its rank
 %   tests. Outcome has two more keys: `given`, the values of --set, and
 %   `checks`, see cross_check/4.
 
@@ -64,7 +64,7 @@ row_cells(Row, Names, Measures, Cells) :-
 
 %!  shown_measures(+Study, +Rows, -Measures:list(atom)) is det.
 %
-%   The measures that have a label, if any has one.
+%   Measures are the measures that have a label, or all if none has one.
 
 shown_measures(Study, Rows, Measures) :-
     findall(Name, ( member(row(_, _, Spreads), Rows),
@@ -80,8 +80,8 @@ shown_measures(Study, Rows, Measures) :-
 %!  case_texts(+Case, +Names, -Texts) is det.
 %!  spread_text(+Row, +Measure, -Text) is det.
 %
-%   The values of Names in Case; the median of Measure, with the least and
-%   greatest run.
+%   Texts are the values of Names in Case.  Text is the median of Measure, with
+%   the least and greatest run.
 
 case_texts(Case, Names, Texts) :-
     findall(Text, ( member(Name, Names), get_dict(Name, Case, Value),
@@ -109,7 +109,7 @@ print_claim(Stream, Tests, claim(Text, _, Held, Of, OfMedians, Found)) :-
 
 %!  evidence(+Text, +Tests, -Evidence:atom) is semidet.
 %
-%   The rank tests of the claim Text; fails if it compares no cases.
+%   The rank tests of the claim Text; fails if the claim compares no cases.
 
 evidence(Text, Tests, Evidence) :-
     memberchk(Text-Comparisons, Tests),
@@ -117,7 +117,7 @@ evidence(Text, Tests, Evidence) :-
 
 %!  print_means(+Stream, +Study, +Outcome, +Runs) is det.
 %
-%   A line for each case: means, and their confidence intervals.
+%   Prints a line for each case: means, and their confidence intervals.
 
 print_means(Stream, Study, Outcome, Runs) :-
     shown_measures(Study, Outcome.rows, Measures),
@@ -188,7 +188,8 @@ sentence(_, Held, Count, Sentence) :-
 
 %!  medians_text(+Held, +Of, +OfMedians, -Text) is det.
 %
-%   Whether a claim is true of the medians, where that is not as with runs.
+%   Text says whether a claim holds for the medians, if that differs from the
+%   runs.
 
 medians_text(Held, Of, false, ' (not of the medians)') :-
     Of > 1,

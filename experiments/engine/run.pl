@@ -26,12 +26,12 @@ exception in the caller ends the run, and the network is stopped.
 
 %!  run_make(+Study, +Case, +Seed, +Directory) is det.
 %
-%   Make the run of Case with Seed, and write its measures and its log below
+%   Makes the run of Case with Seed, and writes its measures and its log below
 %   Directory, which must exist.
 %
 %   @error study_goal_failed(Name/Arity) if network/3, run/2 or view/2 fails
-%   @error study_measures(Name, Values) if there is more than one value
-%   @error study_processes_ended(Pids) if the network has lost these
+%   @error study_measures(Name, Values) if a measure has several values
+%   @error study_processes_ended(Pids) if the network has lost processes
 
 run_make(Study, Case, Seed, Directory) :-
     log_file(Directory, File),
@@ -67,7 +67,7 @@ must(Study, Goal) :-
         throw(error(study_goal_failed(Name/Arity), _))
     ).
 
-%   A measure that fails has no value in this run.
+%   A measure/3 that fails has no value in this run.
 
 measures(Study, View, Measures) :-
     findall(Name-Value, study_call(Study, measure(Name, View, Value)), Pairs0),
@@ -109,8 +109,8 @@ environment(load(Load)) :-
 %!  run_log(+Study, +Case, +Seed, +File, -Log) is det.
 %
 %   Log is a dict with `case`, which also has the `seed` and the `directory`
-%   of the run, and, of a study with a network, `hosts` and `events`, which
-%   are in File too.
+%   of the run, and, for a study with a network, `hosts` and `events`, which
+%   are also in File.
 
 run_log(Study, Case0, Seed, File, Log) :-
     begin(Study, Case0, Seed, File, Case),
@@ -125,9 +125,9 @@ run_log(Study, Case0, Seed, File, Log) :-
 %
 %!  run_again(+Study, +Case, +Seed, +File, :Begin) is semidet.
 %
-%   Repeat the run only for its log in File, which has all kinds of events.
-%   Fails if the study has no network.  When that has started, call(Begin,
-%   Network) is called first.
+%   Repeats the run only for its log in File, which has all kinds of events.
+%   Fails if the study has no network.  Calls call(Begin, Network) when the
+%   network has started.
 
 run_again(Study, Case, Seed, File) :-
     run_again(Study, Case, Seed, File, =(_)).
@@ -159,7 +159,7 @@ network_run(Study, Case, LogOption, Begin, Hosts) :-
           still_there(Pids, Network) ),
         network_stop(Network)).
 
-%   The measures of a network that has lost a process are not valid.
+%   The measures are invalid if the network has lost a process.
 
 still_there(Pids, Network) :-
     network_property(Network, processes(Left)),

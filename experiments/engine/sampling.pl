@@ -97,8 +97,8 @@ floats_drawn([F|Fs], Chance0, Chance) :-
     chance_float(F, Chance0, Chance1),
     floats_drawn(Fs, Chance1, Chance).
 
-%   in_range(+Range, +Share, -Value): floats are rounded, for they stand in
-%   the names of cases.
+%   in_range(+Range, +Share, -Value): floats are rounded, because they are part
+%   of the names of cases.
 
 in_range(uniform(A, B), Share, Value) :-
     Value0 is A + Share*(B - A),

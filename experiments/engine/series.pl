@@ -12,7 +12,7 @@
 /** <module> Measures over time
 
 A series is a measure whose value is a list of pairs Time-Number.  Studies make
-them with counted/4 and stepped/4, which they need not import.
+series with counted/4 and stepped/4, without an import.
 
 *Threading*: pure.
 */
@@ -32,7 +32,7 @@ is_step(Step) :-
 
 %!  counted(+Times:list(number), +Every:number, +End:number, -Series) is det.
 %
-%   How many of Times are not later than 0, Every, 2*Every and so on to End.
+%   Series counts the Times up to 0, Every, 2*Every and so on to End.
 
 counted(Times, Every, End, Series) :-
     msort(Times, Sorted),
@@ -45,7 +45,7 @@ counted(Times, Every, End, Series) :-
 %
 %   Changes are pairs Time-Value, in the order of time: Series has the last
 %   value at 0, Every, 2*Every and so on to End.  Before the first change there
-%   is none.
+%   is no value.
 
 stepped(Changes, Every, End, Series) :-
     must_be(number, Every),
@@ -74,8 +74,8 @@ up_to(Changes, _, Value, Changes, Value).
 
 %!  runs_over_time(+Runs, +Measures:list(atom), -Expanded) is det.
 %
-%   Of each of Runs, run(Case, Seed, Ms), one for each step of the series
-%   Measures: its case has the parameter `time` more.
+%   Expanded has one run for each of Runs, run(Case, Seed, Ms), and each step of
+%   the series Measures; its case has the additional parameter `time`.
 
 runs_over_time(Runs, Measures, Expanded) :-
     findall(run(TimedCase, Seed, Step),

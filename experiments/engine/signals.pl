@@ -2,10 +2,10 @@
           [ stopping_on_signals/1       % :Goal
           ]).
 
-/** <module> Ending in order on Ctrl-C
+/** <module> Orderly end after Ctrl-C
 
-*Threading*: signals arrive in any thread.  They are for the main thread, which
-is the one that calls stopping_on_signals/1.
+*Threading*: signals arrive in any thread.  They concern the main thread, which
+calls stopping_on_signals/1.
 */
 
 :- meta_predicate
@@ -13,10 +13,10 @@ is the one that calls stopping_on_signals/1.
 
 %!  stopping_on_signals(:Goal) is semidet.
 %
-%   Call Goal once.  On Ctrl-C, on SIGTERM and on SIGHUP it is left by an
-%   exception, so that its cleanup handlers run; then the process ends with
-%   the status a shell expects, 128 plus the number of the signal.  Further
-%   signals do not disturb the cleanup.
+%   Calls Goal once.  On Ctrl-C, on SIGTERM and on SIGHUP an exception ends
+%   Goal, so that its cleanup handlers run; then the process ends with the
+%   status that a shell expects, 128 plus the number of the signal.  Further
+%   signals do not interrupt the cleanup.
 
 stopping_on_signals(Goal) :-
     forall(stop_signal(Signal, _),

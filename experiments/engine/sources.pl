@@ -16,15 +16,16 @@
 
 /** <module> The sources that determine a run
 
-Of a study and the files that it includes count the clauses of network/3,
-run/2, view/2 and measure/3, and of what these mention; of other files that
-are named, by use_module/2 and the like or as agents(_) or payloads(_), all,
-unless nothing of what is imported is mentioned.  The agents beside a study
-count, and those in the directory of one that counts, in `agents/lib` and in
-`payloads`; the platform as a whole; of the engine what makes a run.
+Of a study and the files that it includes, the hash covers the clauses of
+network/3, run/2, view/2 and measure/3, and of the predicates these mention.  It
+covers all of the other files that are named, by use_module/2 and the like or as
+agents(_) or payloads(_), unless no imported predicate is mentioned.  It covers
+the agents in the directory of a study, in the directory of a covered agent, in
+`agents/lib` and in `payloads`; the platform as a whole; and the part of the
+engine that makes a run.
 
-The definitions of cases, which identify runs, and of claims, plots and labels
-do not count: they may change without repeating runs.
+It does not cover the definitions of cases, which identify runs, nor those of
+claims, plots and labels: these may change without repeating runs.
 
 *Threading*: one thread.
 */
@@ -41,8 +42,8 @@ do not count: they may change without repeating runs.
 
 %!  sources_hash(+Study, -Hash:atom) is det.
 %
-%   Eight hexadecimal digits, found once in a process.  Study is the name of
-%   its file.
+%   Hash has eight hexadecimal digits, and is computed once in a process.  Study
+%   is the name of its file.
 
 sources_hash(Study, Hash) :-
     hashed(Study, Hash, _),
@@ -60,8 +61,8 @@ sources_hash(Study, Hash) :-
     text_hash(Text, Hash),
     assertz(hashed(Study, Hash, Times)).
 
-%   plain(+Term, -Plain): without dicts, which are written in an order that
-%   differs between processes.
+%   plain(+Term, -Plain): replaces dicts, because processes write their keys in
+%   different orders.
 
 plain(Term, dict(Tag, Plain)) :-
     is_dict(Term),
@@ -88,7 +89,7 @@ text_hash(Text, Hash) :-
 
 %!  sources_changed(+Study, -File) is nondet.
 %
-%   File counts for Study, and has been written since its hash was found.
+%   The hash of Study covers File, which has changed since it was computed.
 
 sources_changed(Study, File) :-
     hashed(Study, _, Times),
@@ -99,8 +100,8 @@ sources_changed(Study, File) :-
                 *            FILES             *
                 *******************************/
 
-%   sources(+Study, -Terms, -Named, -Files): Terms are those that count of
-%   the study and of what it includes, Named the other files, Files all.
+%   sources(+Study, -Terms, -Named, -Files): Terms are the covered terms of the
+%   study and its included files, Named the other files, Files all files.
 
 sources(Study, Terms, Named, Files) :-
     study_at_work(Study),
@@ -151,8 +152,8 @@ common(File) :-
     module_property(study_sources, file(Here)),
     source_file_of(run, Here, File).
 
-%   followed(+Files, +Seen, -All): what comes with Prolog, and the platform,
-%   are not followed.
+%   followed(+Files, +Seen, -All): does not follow files of Prolog and of the
+%   platform.
 
 followed([], All, All).
 followed([File|Files], Seen, All) :-
@@ -191,7 +192,7 @@ source_file_of(Spec, From, File) :-
     current_prolog_flag(home, Home),
     \+ atom_concat(Home, _, File).
 
-%   names(+Term, -Spec): of a file that Term names.
+%   names(+Term, -Spec): Term names the file Spec.
 
 names((:- Directive), Spec) :-
     compound(Directive),
@@ -224,8 +225,8 @@ source_term(File, Term) :-
           Term = Term0 ),
         prolog_close_source(In)).
 
-%   of_run(+Terms, -OfRun): directives, but for imports that are not
-%   mentioned, and clauses that are: by their names, whatever the arity.
+%   of_run(+Terms, -OfRun): keeps directives, except imports that no clause
+%   mentions, and the mentioned clauses: by name, whatever their arity.
 
 of_run(Terms, OfRun) :-
     partition(is_directive, Terms, Directives, Clauses),

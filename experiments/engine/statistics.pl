@@ -42,8 +42,8 @@ mean(Numbers, Mean) :-
 %!  deviation(+Numbers:list(number), -Deviation:float) is semidet.
 %
 %   The standard deviation of a sample, with n-1 in the denominator.  Fails for
-%   fewer than two numbers.  The second sum, which is 0 but for rounding, makes
-%   it exact where the mean is large beside the deviation.
+%   fewer than two numbers.  The second sum, which is 0 except for rounding,
+%   corrects the result if the mean is much larger than the deviation.
 
 deviation(Numbers, Deviation) :-
     Numbers = [_, _|_],
@@ -172,7 +172,7 @@ lentz(Term, C0, D0, F0, C, D, F) :-
 
 %!  ranks(+Numbers:list(number), -Ranks:list(number)) is det.
 %
-%   Ranks from 1 on, of each of Numbers; equal ones share the mean of theirs.
+%   Ranks of Numbers, from 1 on; equal numbers get the mean of their ranks.
 
 ranks(Numbers, Ranks) :-
     length(Numbers, Count),
@@ -215,8 +215,8 @@ ties(Rest, _, [], Rest).
 
 %!  rank_correlation(+Xs, +Ys, -Rho:float) is semidet.
 %
-%   Spearman's rank correlation: that of Pearson, of the ranks.  Fails if all of
-%   Xs or all of Ys are equal, or there are fewer than two.
+%   Spearman's rank correlation: Pearson's correlation of the ranks.  Fails if
+%   all of Xs or all of Ys are equal, or there are fewer than two.
 
 rank_correlation(Xs, Ys, Rho) :-
     ranks(Xs, Rx),
@@ -283,10 +283,10 @@ exact(two_sided, U, V, M, N, P) :-
     share_up_to(Least, M, N, P0),
     P is min(1.0, 2*P0).
 
-%   share_up_to(+U, +M, +N, -P): of all ways to mix the samples the share in
-%   which no more than U pairs are the wrong way round.  Ways with just k such
-%   pairs are the coefficient of q^k in the product of (1-q^(N+i))/(1-q^i),
-%   for i from 1 to M.
+%   share_up_to(+U, +M, +N, -P): P is the share of all ways to mix the samples
+%   in which at most U pairs are inverted.  The number of ways with exactly k
+%   inverted pairs is the coefficient of q^k in the product of
+%   (1-q^(N+i))/(1-q^i), for i from 1 to M.
 
 share_up_to(U, M, N, P) :-
     Size is integer(U) + 1,
@@ -339,7 +339,7 @@ numbers(Low, High, Is) :-
 choose_step(N, K, I, W0, W) :-
     W is W0*(N - K + I)//I.
 
-%   The variance is less by what equal ranks take from it.
+%   Equal ranks reduce the variance.
 
 normal(Alternative, U, V, M, N, Ranks, P) :-
     All is M + N,
@@ -353,7 +353,7 @@ normal(Alternative, U, V, M, N, Ranks, P) :-
     ;   P = 1.0                         % all numbers are equal
     ).
 
-%   How far the greater count is above its mean, M*N/2 = (U+V)/2.
+%   Distance of the greater count from its mean, M*N/2 = (U+V)/2.
 
 z(less, U, V, Distance) :- Distance is (V - U)/2.
 z(greater, U, V, Distance) :- Distance is (U - V)/2.
@@ -382,10 +382,10 @@ same(Rest, _, T, T, Rest).
 
 %!  holm(+Ps:list(float), -Adjusted:list(float)) is det.
 %
-%   Holm's correction: the least of n probabilities is taken n times, the next
-%   n-1 times and so on, each at least as much as the one before, at most 1.
-%   Tests of which the result is below 0.05 are then, all together, wrong
-%   with a probability of no more than 0.05.
+%   Holm's correction: the least of n probabilities is multiplied by n, the
+%   next by n-1 and so on; each is at least as great as the one before, and at
+%   most 1.  The probability that any of the tests with a result below 0.05 is
+%   wrong is then at most 0.05.
 
 holm(Ps, Adjusted) :-
     length(Ps, Count),

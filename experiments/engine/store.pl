@@ -24,14 +24,13 @@
 
 /** <module> The store of runs
 
-A run is a term run(Study, Case, Seed).  It is kept in a directory below
-Root/STUDY, whose name has the case and the seed, a hash of all parameters and
-one of all sources. Runs of other sources are not found, and so never mixed
-in.
+A run is a term run(Study, Case, Seed).  Its directory is below Root/STUDY; the
+name has the case and the seed, a hash of all parameters and one of all sources.
+So runs of other sources are not found, and never mixed with these.
 
-While it is made this is Directory.MACHINE.PID.part, and if it fails
-Directory.failed: then the file `output` has the reason.  Sessions that make
-the same run at once do not disturb each other.
+While a run is made, the directory is Directory.MACHINE.PID.part; if the run
+fails, it is Directory.failed, whose file `output` has the reason.  Sessions
+that make the same run at once do not disturb each other.
 
 *Threading*: one thread in a process.
 */
@@ -50,7 +49,7 @@ run_directory(Root, run(Study, Case, Seed), Directory) :-
            [Name, Text, Seed, Parameters, Sources]),
     directory_file_path(Root, Below, Directory).
 
-%   Not too long for the name of a file, and without a slash.
+%   Short enough for the name of a file, and without a slash.
 
 file_text(Name, Text) :-
     atomic_list_concat(Parts, /, Name),
@@ -62,7 +61,7 @@ file_text(Name, Text) :-
 
 %!  run_done(+Root, +Logs:boolean, +Run) is semidet.
 %
-%   Run is there; with its log, if Logs is true and it has one at all.
+%   Run exists; with its log, if Logs is true and it has one at all.
 
 run_done(Root, Logs, Run) :-
     run_directory(Root, Run, Directory),
@@ -95,7 +94,7 @@ run_result(Root, Run, Measures) :-
 %!  result_save(+Directory, +Facts:list) is det.
 %
 %   Facts are parameter(Name, Value), seed(Seed), measure(Name, Value) and
-%   what describes the machine.
+%   facts that describe the machine.
 
 run_facts(Directory, Facts) :-
     directory_file_path(Directory, 'result.pl', File),
@@ -115,8 +114,8 @@ result_save(Directory, Facts) :-
 %!  part_directory(+Directory, +Pid, -Part) is det.
 %!  part_begin(+Part) is det.
 %
-%   Part is where the process Pid of this machine makes the run of Directory;
-%   it is empty at the beginning.
+%   Part is the directory in which the process Pid of this machine makes the
+%   run of Directory; part_begin/1 makes it empty.
 
 part_directory(Directory, Pid, Part) :-
     gethostname(Machine),
@@ -128,8 +127,9 @@ part_begin(Part) :-
 
 %!  part_install(+Part, +Directory, +Logs:boolean) is det.
 %
-%   Part is complete; its log stays if Logs is true.  If another session has
-%   made it meanwhile, or it was there without its log, only the log is taken.
+%   Installs the complete Part; keeps its log if Logs is true.  If another
+%   session has made the run meanwhile, or the run lacked its log, only the log
+%   is installed.
 
 part_install(Part, Directory, Logs) :-
     failed_directory(Directory, Failed),
@@ -150,8 +150,8 @@ part_install(Part, Directory, Logs) :-
 
 %!  part_fail(+Part, +Directory, +Why:string, -Failure) is det.
 %
-%   Add Why to the output of the run, and keep that: Failure is failed(Where,
-%   Cause), the directory and the first line of Why.
+%   Adds Why to the output of the run, and keeps the output: Failure is
+%   failed(Where, Cause), the directory and the first line of Why.
 
 part_fail(Part, Directory, Why, failed(Failed, Cause)) :-
     failed_directory(Directory, Failed),
@@ -178,7 +178,7 @@ part_remove(Directory) :-
 
 %!  left_parts_remove(+Root, +Study) is det.
 %
-%   Remove the remains of killed processes of this machine.
+%   Removes the remains of killed processes of this machine.
 
 left_parts_remove(Root, Study) :-
     study_title(Study, Name, _),
@@ -186,7 +186,7 @@ left_parts_remove(Root, Study) :-
     forall(( exists_directory(Runs),
              directory_member(Runs, Part, [extensions([part])]),
              left(Part) ),
-           catch(part_remove(Part), error(_, _), true)). % others do it, too
+           catch(part_remove(Part), error(_, _), true)). % others may, too
 
 left(Part) :-
     atomic_list_concat(Texts, '.', Part),
@@ -196,7 +196,7 @@ left(Part) :-
     atom_concat(_, End, Part),
     \+ may_live(Pid).
 
-%   All may, on systems that do not show them so.
+%   Without /proc every process counts as alive.
 
 may_live(Pid) :-
     (   exists_directory('/proc/self')

@@ -39,9 +39,9 @@ predicates are
     real(Where, Settings).
 
 Only the first and measure/3 are required.  doc/studies.md explains each.
-A case is a dict: of each parameter its value.
+A case is a dict with the value of each parameter.
 
-Why is one of printed(Where), assumed(Why), tuned(Why), the last for a value
+Why is one of printed(Where), assumed(Why), tuned(Why); the last is for a value
 that was chosen after results had been seen.
 
 *Threading*: studies are loaded by one thread.
@@ -91,9 +91,9 @@ word(real/2).
 
 %!  study_load(+File, -Study) is det.
 %
-%   Study is the module of File, and named like it.  A file is loaded once.
+%   Study is the module of File, and has its name.  A file is loaded once.
 %
-%   @error study(File, Problems) if it is not as a study should be
+%   @error study(File, Problems) if File is not a valid study
 
 study_load(File, Study) :-
     absolute_file_name(File, Study, [file_type(prolog), access(read)]),
@@ -125,7 +125,7 @@ study_call(Study, Goal) :-
 
 %!  study_says(+Study, +PI) is semidet.
 %
-%   Study has clauses of the word PI.
+%   Study has clauses for PI, one of the predicates above.
 
 study_says(Study, Name/Arity) :-
     functor(Head, Name, Arity),
@@ -134,8 +134,7 @@ study_says(Study, Name/Arity) :-
 
 %!  study_at_work(+Study) is det.
 %
-%   From now on agents(Name) and payloads(Name) are looked for beside Study,
-%   too.
+%   Lets agents(Name) and payloads(Name) refer to files beside Study, too.
 
 :- dynamic at_work/1.           % Directory
 
@@ -205,8 +204,7 @@ problem(Study, _, said(claim(Text), no_case(Name=Value))) :-
 
 %!  study_name(+Study, -Where, -Name) is nondet.
 %
-%   Where, claim(Text) or plot(Plot), speaks of Name, as of a measure or a
-%   parameter.
+%   Where, claim(Text) or plot(Plot), mentions Name as a measure or a parameter.
 
 study_name(Study, claim(Text), Name) :-
     study_call(Study, claim(Text, _, Test)),
@@ -248,8 +246,8 @@ is_picture(over_time(_)).
 is_picture(script(_, _, _)).
 is_picture(file(_, _)).
 
-%   mistyped(+Study, -PI, -Words) is nondet: it has a predicate that may be
-%   meant as one of Words.  It may as well be its own.
+%   mistyped(+Study, -PI, -Words) is nondet: a predicate of Study whose name
+%   resembles Words.  It may also be a predicate of the study's own.
 
 mistyped(Study, Name/Arity, Words) :-
     current_predicate(Study:Name/Arity),
@@ -260,7 +258,7 @@ mistyped(Study, Name/Arity, Words) :-
     names_near(Name, All, Words),
     Words \== [].
 
-%   The measures are known only if all their clauses name them.
+%   The names of measures are known only if all clauses of measure/3 name them.
 
 unknown(Study, Name) :-
     findall(Measure, clause(Study:measure(Measure, _, _), _), Measures),

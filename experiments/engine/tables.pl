@@ -13,7 +13,7 @@
 :- use_module(statistics, [deviation/2, mean/2, mean_interval/4]).
 :- use_module(numbers, [spread/4]).
 
-/** <module> Data for other programs: CSV, and JSON a line
+/** <module> Data for other programs: CSV, and JSON lines
 
 A file has a header and a row for each item, as pandas.read_csv and read.csv
 of R expect it; unknown values are empty. NAME.jsonl has the same rows, each
@@ -24,7 +24,7 @@ as an object; unknown values are null.
 
 %!  outcome_save(+Study, +Outcome, +Runs, +Directory) is det.
 %
-%   Write, as .csv and .jsonl: `runs`, the measures of each run; `steps`, the
+%   Writes, as .csv and .jsonl: `runs`, the measures of each run; `steps`, the
 %   measures at each step of time, if there are any; `summary`, of each case
 %   and measure the mean, its confidence interval, the median and the
 %   extremes; `tests`, the comparisons of claims; `claims`; `parameters`.
@@ -110,8 +110,8 @@ summary(Numbers, [Count, Mean, Deviation, Low, High, Median, Least, Most]) :-
         High = ''
     ).
 
-%   effect: how likely one of A is greater than one of B, equal ones counted
-%   half (Vargha and Delaney's A).
+%   effect: the probability that one of A is greater than one of B, equal ones
+%   counted half (Vargha and Delaney's A).
 
 test_table(Outcome, [Header|Rows]) :-
     Header = [ claim, compared, a, b, runs_a, runs_b, u, effect, p, p_holm ],

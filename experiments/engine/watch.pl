@@ -16,7 +16,7 @@
 
 %!  watching(+Log, +What, +Total, :Goal) is semidet.
 %
-%   Call Goal once.  Meanwhile user_error shows the number of events What in
+%   Calls Goal once.  Meanwhile user_error shows the number of events What in
 %   the file Log, out of Total.
 
 watching(Log, What, Total, Goal) :-

@@ -23,9 +23,9 @@ Workers are processes that get one run after the other on their standard
 input, and answer each with a term on their standard output.  So a run does
 not include the start of Prolog, and a crash does not affect other runs.
 
-*Threading*: the main thread, which waits for any of the workers.  Whatever
-exception makes it leave, they are ended: asked by SIGTERM, and killed by a
-thread that stands by if they are still there ten seconds later.
+*Threading*: the main thread, which waits for any of the workers.  An exception
+in it ends the workers: they get SIGTERM, and a thread kills those that still
+run ten seconds later.
 */
 
 :- multifile
@@ -38,12 +38,12 @@ thread that stands by if they are still there ten seconds later.
 
 %!  runs_make(+Runs, +Root, +Options, -Failed:integer) is det.
 %
-%   Make the missing runs of Runs, of which Failed fail. Partial runs of
-%   killed sessions are removed.  Progress is shown, and failures are
-%   reported, on user_error.  Options:
+%   Makes the missing runs of Runs; Failed is the number of failures. Partial
+%   runs of killed sessions are removed.  Progress and failures are reported on
+%   user_error.  Options:
 %
 %     - jobs(Count)
-%       So many processes at a time; default 2.
+%       Number of processes at a time; default 2.
 %     - logs(Boolean)
 %       Whether the log of each run is kept; default `false`.
 
@@ -64,8 +64,8 @@ runs_make(Runs, Root, Options, Failed) :-
     tell_counts,
     aggregate_all(count, failed_by(_), Failed).
 
-%   A single run in real time is made in this process, and its events are
-%   counted, if the study has progress/3.
+%   A single run in real time is made in this process; if the study has
+%   progress/3, its events are counted.
 
 make_missing([Run], desk(_, Root, Logs), _) :-
     watched(Run, What, Total),
@@ -85,7 +85,7 @@ watched(run(Study, Case, _), What, Total) :-
     study_call(Study, progress(Case, What, Total)),
     !.
 
-%   make(+Runs, +Desk, +Task, +Done): a free worker gets the next.
+%   make(+Runs, +Desk, +Task, +Done): a free worker gets the next run.
 
 make([Run|Runs], Desk, Task, Done) :-
     free_worker(Desk, Worker),
@@ -113,7 +113,8 @@ told(failed(Directory, Cause), Run) :-
     assertz(failed_by(Cause)).
 told(_, _).
 
-%   If many runs fail in the same way, the first is reported, the others counted.
+%   If many runs fail for the same reason, the first is reported, the others are
+%   counted.
 
 tell_counts :-
     forall(( aggregate(count, failed_by(Cause), Count),
@@ -163,7 +164,7 @@ worker_start(Out) :-
                      process(Pid) ]),
     assertz(worker(Out, In, Pid)).
 
-%   A worker that has died is noticed when it does not answer.
+%   If a worker has died, this shows when it does not answer.
 
 hand_over(Out, Run, desk(_, Root, Logs)) :-
     Run = run(Study, Case, Seed),
@@ -194,8 +195,8 @@ next_answer(Run, Outcome) :-
     ),
     !.
 
-%   On 9.2 an exception in the middle of wait_for_input/3 ruins the stacks: the
-%   signal that brings it is held back for a moment.
+%   On 9.2 an exception during wait_for_input/3 corrupts the stacks, so the
+%   signal that raises it is delayed for a moment.
 
 one_ready(Outs, Out) :-
     sig_atomic(wait_for_input(Outs, Ready, 0.1)),
@@ -204,7 +205,7 @@ one_ready(Outs, Out) :-
     ;   one_ready(Outs, Out)
     ).
 
-%   Reads a whole line: a rest would look like the next answer.
+%   Reads a whole line: the rest of a line would look like the next answer.
 
 answer(Out, Answer) :-
     catch(( read_line_to_string(Out, Line),
@@ -212,7 +213,7 @@ answer(Out, Answer) :-
           error(_, _),
           Answer = nothing).
 
-%   A worker ends when its input does.
+%   A worker ends when its input ends.
 
 dismiss :-
     forall(worker(Out, _, _), worker_end(Out, _)).
@@ -224,7 +225,7 @@ worker_end(Out, Status) :-
     close(Out, [force(true)]),
     retractall(worker(Out, _, _)).
 
-%   They get SIGTERM, and are killed if they do not end.
+%   Workers get SIGTERM, and are killed if they do not end.
 
 end_workers :-
     retractall(busy(_, _, _)),

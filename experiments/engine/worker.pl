@@ -12,7 +12,7 @@
                 part_remove/1, run_directory/3, run_done/3 ]).
 :- use_module(studies, [study_load/2]).
 
-/** <module> Making one run after the other
+/** <module> Making one run after another
 
 *Threading*: the main thread.
 */
@@ -26,10 +26,10 @@
 
 %!  work is det.
 %
-%   Make the runs that come on standard input, until it ends: terms make(File,
-%   Pairs, Seed, Directory, Logs), of the study in File, the case with Pairs.
-%   Each is answered by answer(Outcome) on standard output. Output of runs
-%   goes to the file `output`.
+%   Makes the runs that arrive on standard input, until it ends: terms
+%   make(File, Pairs, Seed, Directory, Logs), for the study in File and the case
+%   with Pairs.  The answer to each is answer(Outcome) on standard output. Output of
+%   runs goes to the file `output`.
 
 work :-
     stream_property(Answers, alias(user_output)),
@@ -54,7 +54,7 @@ answers(Answers) :-
 
 %!  run_here(+Run, +Root, +Options, -Outcome) is det.
 %
-%   Make Run in this process, if it does not exist: Outcome is `kept`, `made`
+%   Makes Run in this process, if it does not exist: Outcome is `kept`, `made`
 %   or failed(Directory, Cause); the file `output` there has the reason.
 %   Options has logs(Boolean).
 
@@ -66,8 +66,8 @@ run_here(Run, Root, Options, Outcome) :-
         make(Run, Directory, Logs, printing, Outcome)
     ).
 
-%   make(+Run, +Directory, +Logs, +How, -Outcome): How is a predicate that
-%   calls what prints.
+%   make(+Run, +Directory, +Logs, +How, -Outcome): How calls a goal and
+%   redirects or shows its output.
 
 make(Run, Directory, Logs, How, Outcome) :-
     current_prolog_flag(pid, Pid),
@@ -91,7 +91,7 @@ make(Run, Directory, Logs, How, Outcome) :-
 make_in(run(Study, Case, Seed), Part) :-
     run_make(Study, Case, Seed, Part).
 
-%   The sources have not changed since the sender computed their hash.
+%   Checks that the sources are those of the sender's hash.
 
 must_be_of(run(Study, _, _), Directory) :-
     sources_hash(Study, Hash),

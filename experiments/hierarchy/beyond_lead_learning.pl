@@ -69,7 +69,8 @@ served(Case, N, Parts, Leaders) :-
 round_name(N, Round) :-
     atom_concat(round, N, Round).
 
-%   posed(+Case, +Round, +PartNumber, +Hosts): their trainers get another maze.
+%   posed(+Case, +Round, +PartNumber, +Hosts): gives the trainers of a part the
+%   maze of this round.
 
 posed(Case, N, P, Hosts) :-
     forall(member(Host, Hosts), without_trainer(Host)),

@@ -6,10 +6,9 @@
 :- use_module(library(apply), [foldl/4, maplist/2]).
 :- use_module(library(lists), [max_list/2, member/2, min_list/2]).
 
-/** <module> How many links the hosts of a dynamic mesh have
+/** <module> The number of links of hosts in a dynamic mesh
 
-The changes of links follow from the seed, so they can be gone through
-again.
+The seed determines the changes of links, so the changes are recomputed here.
 
 *Threading*: pure.
 */
@@ -17,9 +16,9 @@ again.
 %!  degrees(+Model, +Count:integer, +Seed:integer, +End:number, -Degrees)
 %!      is det.
 %
-%   Degrees is Least-Most, of Count hosts, from when each has changed its
-%   links for the first time until End; before that some have the links of the
-%   mesh.  `none` if there was no such time.
+%   Degrees is Least-Most, the range of degrees of Count hosts from the time at
+%   which every host has changed its links once until End; before it some hosts
+%   have the links of the mesh.  `none` if there is no such time.
 
 degrees(Model0, Count, Seed, End, Degrees) :-
     dynamics_model(Model0, Model),

@@ -1,4 +1,4 @@
-%   Figure 4.13: a network whose links come and go.
+%   Figure 4.13: a network whose links change.
 
 :- include(ground).
 :- include(sets).

@@ -1,4 +1,4 @@
-%   Figures 4.7, 4.8 and 4.11: the ways of five agents, their executions, and
+%   Figures 4.7, 4.8 and 4.11: the paths of five agents, their executions, and
 %   all actions tried.
 
 :- include(ground).

@@ -12,7 +12,7 @@ vary(density, [0.1, 0.2, 0.3, 0.4, 0.5]).
 
 printed(executions, [network=50, density=0.1], 92).
 
-%   Of the networks whose maze has no obstacle.
+%   For networks whose maze has no obstacle.
 
 measure(no_obstacle, View, Mean) :-
     integer(View.case.network),

@@ -1,8 +1,8 @@
-%   Chapter 4: agents learn the way through a maze, and share their units.
+%   Chapter 4: agents learn the path through a maze, and share their units.
 %
 %   Expects of the study that includes this: the parameters `network`, a
-%   number of hosts, or `obstacle`, where there is one in the maze; and
-%   `density`, agents by hosts.  It may have `sharing`, `dynamic` and
+%   number of hosts, or `obstacle` for a maze with an obstacle; and `density`,
+%   agents by hosts.  It may have `sharing`, `dynamic` and
 %   `trace`.  Gives: network/3, run/2, view/2, and measures of one run.
 
 :- use_module('../../agents/learning/operator', [learning_start/5]).

@@ -12,7 +12,7 @@
 The payload of agents and trainers defines the effects of actions.  Cells are
 terms X-Y, Settings pairs Name-Value as agents get them.
 
-*Threading*: any thread; each has settings of its own while it looks.
+*Threading*: any thread; settings are thread-local during a call.
 */
 
 :- thread_local setting/2.      % Name, Value
@@ -34,8 +34,8 @@ with_settings(Settings, Goal) :-
 
 %!  maze_path(+Settings, +Actions, -Cells:list) is det.
 %
-%   The cells of a robot that performs Actions from the start. Each cell is
-%   listed once for each move to it.
+%   Cells are the cells that a robot visits when it performs Actions from the
+%   start: the start, and one cell for each move.
 
 maze_path(Settings, Actions, Cells) :-
     with_settings(Settings,
@@ -58,7 +58,7 @@ cell(at(X, Y, _), X-Y).
 
 %!  maze_walls(+Settings, -Cells) is det.
 %
-%   The cells that are obstacles.
+%   Cells are the cells of obstacles.
 
 maze_walls(Settings, Cells) :-
     (   memberchk(obstacles-Obstacles, Settings)

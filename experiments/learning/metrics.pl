@@ -26,10 +26,10 @@
 %!  learners(+Events, -Learners:list) is det.
 %
 %   Terms learner(Lengths, Shared, End), in the order of the first
-%   executions: Lengths are those of the plans that it had executed, Shared
-%   the times at which another agent shared something with it, and End is
+%   executions: Lengths are the lengths of its executed plans, Shared the times
+%   at which another agent shared something with it, and End is
 %   converged(Time, Hops, Actions) or `none`.  Times are in host seconds
-%   after the first execution of all.
+%   after the first execution of all agents.
 
 learners(Events, Learners) :-
     first_executions(Events, Agents),
@@ -75,8 +75,8 @@ learner(ByAgent, Agent, learner(Lengths, Shared, End)) :-
 %!  shared_times(+Learners, -Times:list) is det.
 %!  duration(+Learners, -Time) is det.
 %
-%   Executions of all, times of all sharing events, and when the last one
-%   has converged.
+%   Count is the number of executions of all learners, Times are the times of
+%   all sharing events, and Time is when the last learner has converged.
 
 executed(Learners, Count) :-
     aggregate_all(count,
@@ -104,10 +104,10 @@ mean(Numbers, Mean) :-
 
 %!  spread(+Learners, -Share) is det.
 %
-%   How far plans differ in length: the standard deviation of the lengths at
-%   one and the same execution by their mean, over all executions that all
-%   agents have made.  Plans that grow faster differ by more actions, though
-%   the agents are as near to each other.
+%   How much plans differ in length: the standard deviation of the lengths at
+%   the same execution, divided by their mean, over all executions that all
+%   agents have made.  Without the division plans that grow faster would seem to
+%   differ more.
 
 spread([learner(First, _, _)|Others], Share) :-
     findall(Deviation-Mean,
@@ -132,9 +132,9 @@ deviation(Numbers, Mean, Deviation) :-
 
 %!  overlap(+Ways:list(list), -Overlap) is det.
 %
-%   How much of two Ways is the same: the cells that are in both by those
-%   that are in one of them, the mean of all pairs.  1 if all go through the
-%   same cells, or there is one only.
+%   The mean, over all pairs of Ways, of the number of cells in both divided by
+%   the number of cells in at least one.  1 if all ways have the same cells, or
+%   there is only one way.
 
 overlap(Ways0, Overlap) :-
     maplist(sort, Ways0, Ways),
@@ -157,8 +157,8 @@ common(Way, Other, Share) :-
 
 %!  trend(+Points, -Slope, -Level) is semidet.
 %
-%   The line Y = Level + Slope*X that is nearest to Points, pairs X-Y, by
-%   least squares.  Fails if they have not two different X.
+%   The line Y = Level + Slope*X fitted to Points, pairs X-Y, by least squares.
+%   Fails if Points do not have two different X.
 
 trend(Points, Slope, Level) :-
     pairs_keys_values(Points, Xs, Ys),
@@ -175,8 +175,8 @@ deviations(MeanX, MeanY, X-Y, Sxy0-Sxx0, Sxy-Sxx) :-
 
 %!  bins(+Times, +End, +Count:integer, -Points) is det.
 %
-%   The time from 0 to End in Count equal parts: Points are pairs
-%   Middle-Number, so many of Times being in the part.
+%   Divides the time from 0 to End into Count equal parts: Points are pairs
+%   Middle-Number, Number is the number of Times in the part.
 
 bins(Times, End, Count, Points) :-
     Width is max(End, 1.0e-6)/Count,

@@ -1,5 +1,5 @@
-%   Figures 4.9, 4.10, 4.12, 4.13: networks beside each other, and sharing
-%   as time passes.
+%   Figures 4.9, 4.10, 4.12, 4.13: comparison of networks, and sharing over
+%   time.
 %
 %   Expects: ground, and the parameters `network` and `density`, which vary.
 
@@ -19,8 +19,8 @@ label(N, Text) :-
     integer(N),
     format(string(Text), "~d hosts", [N]).
 
-%   By how much the linear trend of sharing events changes, of their mean, in
-%   30 equal parts of the run; and of the time in which all agents are at work:
+%   The change of the linear trend of sharing events, relative to their mean, in
+%   30 equal parts of the run; and of the time in which all agents are active:
 %   agents that have converged do not share any more.
 
 measure(trend, View, Percent) :-
@@ -52,7 +52,7 @@ each_network(Said, Network, Text) :-
     label(Network, Name),
     format(string(Text), "~w, ~w", [Said, Name]).
 
-%   first_drop(+Measure, -Test): the fall from D 0.1 to 0.2 is the largest.
+%   first_drop(+Measure, -Test): the largest drop is from D 0.1 to 0.2.
 
 first_drop(Measure, at([density=0.1], (First > A, First > B, First > C))) :-
     drop(Measure, 0.1, 0.2, First),
@@ -79,7 +79,7 @@ sets(Name, Measure,
     maplist(atom_concat(Name), ['-medians', '-runs', '-printed'],
             [Medians, All, Printed]).
 
-%   A block for each network.
+%   Rows have a block for each network.
 
 set_rows(Measure, What, Runs, Rows) :-
     drawn(Runs, Networks),
@@ -130,7 +130,7 @@ sets_drawn(Measure, Runs,
     list_to_set(Seeds, Distinct),
     length(Distinct, Count).
 
-%   In 30 equal parts of the first run that has kept its times.
+%   The times of the first run that has stored them.
 
 kept(Runs, Seed, Times, End) :-
     member(run(_, Seed, Measures), Runs),

@@ -1,5 +1,4 @@
-%   Final ways and plans of single runs: what they have in common, and how
-%   they are drawn.
+%   Final paths and plans of single runs: measures and pictures.
 %
 %   Expects: ground, and the parameters `network` and `sharing`.
 
@@ -80,7 +79,7 @@ line(Case, Line) :-
     ;   Line = diagonal(Case.size)
     ).
 
-%   Each way between two cells counts once.
+%   A move between two cells counts once in either direction.
 
 tried(Events, Settings, Agent, Move) :-
     member(event(_, _, _, tried(Agent, Actions)), Events),
@@ -92,8 +91,8 @@ tried(Events, Settings, Agent, Move) :-
                 *           PICTURES           *
                 *******************************/
 
-%   mazes(+Cases, -Picture), lengths(+Cases, -Picture): Cases, beside each
-%   other, are pairs Title-Where; Moves is `moves` or `none`.
+%   mazes(+Cases, -Picture), lengths(+Cases, -Picture): Cases, drawn side by
+%   side, are pairs Title-Where; Moves is `moves` or `none`.
 
 mazes(Name, Cases, Moves,
       script('mazes.gp',
@@ -140,8 +139,8 @@ nth_agent(Count, Index) :-
     Last is Count - 1,
     between(0, Last, Index).
 
-%   Lines of different agents are drawn a little beside each other, so that
-%   those can be seen that go the same way.
+%   Lines of different agents are shifted a little, so that agents on the same
+%   path remain visible.
 
 block(none, _, _, _, []).
 block(final, Index, Count, Measures, Rows) :-

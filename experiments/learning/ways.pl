@@ -13,19 +13,19 @@
 :- use_module(library(assoc), [empty_assoc/1, get_assoc/3, put_assoc/4]).
 :- use_module(library(lists), [member/2, memberchk/2]).
 
-/** <module> Shortest ways through a maze, and their distance to lines
+/** <module> Shortest paths through a maze, and their distance to lines
 
-Most shortest ways are near the diagonal, so a way has to be compared with
-random ones.
+Most shortest paths are near the diagonal, so a path is compared with random
+shortest paths.
 
 *Threading*: any thread; no state.
 */
 
 %!  random_ways(+Settings, +Count:integer, -Ways:list(list)) is det.
 %
-%   Count ways, the same ones each time, lists of cells X-Y from the start to
-%   the goal, left or up in each move.  Each that there is is as likely as
-%   any other.
+%   Ways are Count paths, the same ones in each call: lists of cells X-Y from
+%   the start to the goal, left or up in each move.  All shortest paths are
+%   equally likely.
 
 random_ways(Settings, Count, Ways) :-
     start_cell(Settings, Start),
@@ -58,7 +58,8 @@ next(X-Y, Left-Y, X-Up) :-
     Left is X - 1,
     Up is Y + 1.
 
-%   onward(+Settings, +Goal, -Onward): how many ways lead on from each cell.
+%   onward(+Settings, +Goal, -Onward): the number of shortest paths from each
+%   cell to Goal.
 
 onward(Settings, Goal, Onward) :-
     maze_size(Settings, Size),
@@ -88,9 +89,9 @@ ways_from(Cell, Onward, Count) :-
 
 %!  distance(+Line, +Way, -Mean) is semidet.
 %
-%   How far the cells of Way are from Line, on average: diagonal(Size); or
-%   wall(X, Top), of those on the side of the start, below its end.  Fails if
-%   there are none.
+%   Mean distance of the cells of Way from Line.  Line is diagonal(Size); or
+%   wall(X, Top), for cells on the side of the start and below the end of the
+%   wall.  Fails if there are no such cells.
 
 distance(diagonal(Size), Way, Mean) :-
     findall(D, ( member(X-Y, Way), D is abs(X + Y - Size)/sqrt(2) ), Ds),
@@ -102,7 +103,7 @@ distance(wall(Wall, Top), Way, Mean) :-
 
 %!  nearer(+Line, +Ways, +Mean, -Share) is det.
 %
-%   What share of Ways is nearer to Line, on average, than Mean.
+%   Share of Ways whose mean distance from Line is less than Mean.
 
 nearer(Line, Ways, Mean, Share) :-
     aggregate_all(count,

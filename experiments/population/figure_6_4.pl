@@ -55,8 +55,8 @@ measure(later_overlapped, View, Count) :-
     overlaps(Later, Overlapping),
     length(Overlapping, Count).
 
-%   agent_2(+View, -Before, -Peak): of the second kind, how many there were
-%   at the crash, and most from then on.
+%   agent_2(+View, -Before, -Peak): the number of agents of the second kind at
+%   the crash, and their greatest number from then on.
 
 agent_2(View, Before, Peak) :-
     min_member(Crash-_, View.failures),

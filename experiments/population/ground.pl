@@ -1,8 +1,8 @@
 %   Chapter 6: one kind of agent for each task executes a sequence on a mesh,
 %   and regulates its number.
 %
-%   Expects of the study that includes this: the parameter `crash`, how many
-%   hosts lose task 2.  Gives: the parameters, network/3 and run/2.
+%   Expects of the study that includes this: the parameter `crash`, the number
+%   of hosts that lose task 2.  Gives: the parameters, network/3 and run/2.
 
 :- use_module('../../agents/population/operator', [population_start/5]).
 :- use_module('../../agents/sync/operator', [task_fail/4]).
@@ -29,7 +29,7 @@ fixed(degree, 20, tuned("with 10 a host is more often found late")).
 fixed(crash_share, 0.2, assumed("task 4 is in progress on so many hosts")).
 fixed(limit, 2000, assumed("host seconds; runs end long before")).
 
-%   Beside the agents of the queue a host has the queue and a worker.
+%   The queue and the worker need two places beside the agents of the queue.
 
 network(Case, Topology, [ hop_time(uniform(Min, Max)),
                           hosts([capacity(Capacity)]) ]) :-
@@ -61,7 +61,7 @@ crash(Case, Network, Hosts) :-
     task_fail(main, 2, Victims, Failed),
     same_length(Failed, Victims).
 
-%   until(+Network, +Limit, :Goal): looked at once in a host second.
+%   until(+Network, +Limit, :Goal): calls Goal once in a host second.
 
 until(_, _, Goal) :-
     call(Goal),
@@ -79,7 +79,7 @@ completed_at(Task, Hosts, Enough) :-
 has(Host, Task) :-
     remote(Host, sense(task(main, Task, completed, _))).
 
-%   All is done, and but the first agents have ended.
+%   All tasks are completed, and only the first agents are left.
 
 settled(Case, Hosts) :-
     aggregate_all(sum(Load),

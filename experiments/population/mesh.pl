@@ -16,13 +16,13 @@
 %!  mesh(+Kind, +Hosts:integer, +Degree:integer, +Seed:integer,
 %!       -Topology) is det.
 %
-%   Topology, for network_start/3, is a network of so many Hosts, which have
+%   Topology, for network_start/3, is a network of Hosts hosts, which have
 %   Degree neighbours each, or on average.  Kind is
 %
 %     - rings
-%       Degree//2 rings through all hosts, each in an order of its own drawn
-%       from Seed: connected, and of nearly one degree, less where rings
-%       have an edge in common.
+%       Degree//2 rings through all hosts, each in a random order drawn
+%       from Seed: connected, and of nearly constant degree, less where rings
+%       share an edge.
 %     - random
 %       Any two hosts are linked with the same probability.
 %

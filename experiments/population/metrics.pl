@@ -22,8 +22,8 @@
 
 /** <module> Measures of populations, from an event log
 
-Steps are terms step(Time, Counts, Total) in order of time: from Time on
-there are Counts agents of each kind, Total in all.
+Steps are terms step(Time, Counts, Total) in order of time: Counts are the
+numbers of agents of each kind from Time on, Total is their sum.
 
 *Threading*: pure.
 */
@@ -66,7 +66,8 @@ change(_, _, _, State, State).
 %!  track_done(+State, +Task, -Count) is semidet.
 %!  track_alive(+State, -Count) is det.
 %
-%   On how many hosts Task is completed; how many agents there are.
+%   Count is the number of hosts on which Task is completed; the number of
+%   agents.
 
 track_done(state(Done, _), Task, Count) :-
     member(Task-Hosts, Done),
@@ -77,8 +78,8 @@ track_alive(state(_, Alive), Alive).
 
 %!  track_settled(+State, +Hosts:integer) is semidet.
 %
-%   All tasks are completed at so many Hosts, and of each kind there is but
-%   one agent left.
+%   All tasks are completed at Hosts hosts, and only one agent of each kind is
+%   left.
 
 track_settled(state(Done, Alive), Hosts) :-
     length(Done, Alive),
@@ -86,8 +87,9 @@ track_settled(state(Done, Alive), Hosts) :-
 
 %!  until_settled(+Events, +Tasks, +Hosts:integer, -Kept) is det.
 %
-%   Kept are the Events up to the one after which all Tasks are completed at
-%   so many Hosts and only one agent of each kind is left, or all of them.
+%   Kept are the Events up to the first one after which all Tasks are completed
+%   at Hosts hosts and one agent of each kind is left; all events if there is
+%   none.
 
 until_settled(Events, Tasks, Hosts, Kept) :-
     track_start(Tasks, State),
@@ -160,8 +162,8 @@ count([], _, _, [], []).
 %!  peak(+Kind, +Steps, -Peak) is semidet.
 %!  peak(+Kind, +From, +Steps, -Peak) is semidet.
 %
-%   Peak is Time-Count: when, from time From on, there were most agents of
-%   Kind, and how many.  Kind is the place of a kind in the counts, or
+%   Peak is Time-Count: the greatest number of agents of Kind from time From
+%   on, and when it was reached.  Kind is the place of a kind in the counts, or
 %   `total`.
 
 peak(Kind, Steps, Peak) :-
@@ -178,7 +180,8 @@ peak(Kind, From, Steps, Time-Count) :-
     sort(1, @>=, Counts, [Count-_|_]),
     once(member(Count-Time, Counts)).
 
-%   from(+Steps, +From, -Later): with what there was at time From.
+%   from(+Steps, +From, -Later): Later begins at From, with the last counts
+%   before it.
 
 from([step(_, _, _), step(Time, Counts, Total)|Steps], From, Later) :-
     Time =< From,
@@ -221,9 +224,9 @@ split([E|Es], Seen, First, Again) :-
 %!  spans(+Rows, -Seconds:list) is det.
 %!  gaps(+Rows, -Seconds:list) is det.
 %
-%   Of the rows of task_rows/2, see sync_metrics: the time from the first
-%   start to the last end of each task, and from there to the first start of
-%   the next, negative where they overlap.
+%   For the rows of task_rows/2, see sync_metrics: the time from the first
+%   start to the last end of each task; and from the last end to the first start
+%   of the next task, negative if they overlap.
 
 spans(Rows, Spans) :-
     findall(Span,

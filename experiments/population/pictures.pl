@@ -20,7 +20,7 @@ Each table has a block for each number of hosts, the smaller first.
 
 %!  bar_rows(+Runs, -Rows) is det.
 %
-%   Of the first seed, for each second a stack of bars, one for each task:
+%   For the first seed, a stack of bars for each second, one for each task:
 %   middle, left, right, bottom, top, task.
 
 bar_rows(Runs, Rows) :-
@@ -48,8 +48,8 @@ stack((Second-Task)-Count, bars(Rows, Second0, Top0),
 %!  kind_rows(+Runs, -Rows) is det.
 %!  other_rows(+Runs, -Rows) is det.
 %
-%   Time, agents of each kind, and in all: of the first seed, and of all
-%   others one after the other.
+%   Time, agents of each kind, and their sum: for the first seed, and for all
+%   other seeds one after the other.
 
 kind_rows(Runs, Rows) :-
     blocks(Runs, first_steps, Rows).
@@ -91,7 +91,7 @@ spans(Seeds, Rows) :-
 
 %!  crash_rows(+Runs, -Rows) is det.
 %
-%   When hosts lost a task, in the run of the first seed.
+%   The times at which hosts lost a task, in the run of the first seed.
 
 crash_rows(Runs, Rows) :-
     blocks(Runs, crash, Rows).
@@ -119,8 +119,8 @@ sizes(Runs, Sizes) :-
             Sizes0),
     sort(Sizes0, Sizes).
 
-%   blocks(+Runs, :Goal, -Rows): call(Goal, Seeds, Block) for each number of
-%   hosts, Seeds being pairs Seed-Measures.
+%   blocks(+Runs, :Goal, -Rows): calls Goal(Seeds, Block) for each number of
+%   hosts; Seeds are pairs Seed-Measures.
 
 :- meta_predicate blocks(+, 2, -).
 

@@ -16,7 +16,8 @@
 
 %!  first_agents(+Events, -Agents:list) is det.
 %
-%   The first agent of each kind, in the order of kinds.  Clones do not begin.
+%   The first agent of each kind, in the order of kinds: clones do not log
+%   `begun`.
 
 first_agents(Events, Agents) :-
     findall(Kind-Agent,
@@ -28,7 +29,7 @@ first_agents(Events, Agents) :-
 
 %!  moods_of(+Agent, +Events, -Moods:list(pair)) is det.
 %
-%   Moods are Time-Mood, whenever Agent came into one of the three states.
+%   Moods are Time-Mood for each change of Agent to one of the three states.
 
 moods_of(Agent, Events, Moods) :-
     findall(Time-Mood,
@@ -38,8 +39,8 @@ moods_of(Agent, Events, Moods) :-
 
 %!  state_rows(+Moods, -Rows:list(list)) is det.
 %
-%   Rows are the states in which the agents were at the same time, one after
-%   the other; Moods are Agent-Moods, as of moods_of/3.
+%   Rows are the simultaneous states of the agents, in order of time; Moods are
+%   Agent-Moods, as from moods_of/3.
 
 state_rows(Moods, Rows) :-
     findall(Time-(Agent-Mood),
@@ -70,7 +71,7 @@ distinct_rows([], []).
 %
 %   Row is `printed` in Table 6.1: some are active, the next one is excited
 %   unless all or none are active, all others are dormant.  Or it is `between`
-%   two of these: the next one has not perceived yet that it is its turn.
+%   two printed rows: the next agent has not been stimulated yet.
 
 table_row(printed, Row) :-
     append(Active, [excited|Dormant], Row),

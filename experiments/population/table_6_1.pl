@@ -1,4 +1,4 @@
-%   Table 6.1: in which states the agents of five tasks are, one after the other.
+%   Table 6.1: the sequence of states of the agents of five tasks.
 
 :- include(ground).
 :- use_module('../sync/metrics', [from_start/2]).
@@ -31,7 +31,7 @@ label(rows, "Rows of the table that were seen").
 label(others, "Rows between these: the next agent has not perceived it yet").
 label(wrong, "Other rows").
 
-%   When the first agent of each kind was excited, and active.
+%   The times at which the first agent of each kind became excited, and active.
 
 mood_of(Measure, Kind, Mood) :-
     between(1, 5, Kind),

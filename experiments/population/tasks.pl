@@ -1,8 +1,8 @@
-%   Chapter 6: when tasks were executed, and how many agents there were.
+%   Chapter 6: the times of executions, and the numbers of agents.
 %
 %   Gives: view/2, measures, labels, and the claims of the thesis on both
 %   figures. Views are dicts; `executions` are the first of each task at each
-%   host, `again` all others.
+%   host, `again` the others.
 
 :- use_module('../sync/metrics',
               [executions/2, from_start/2, out_of_order/2, overlaps/2,
@@ -78,7 +78,7 @@ measure(started, View, Started) :-
 measure(steps, View, View.steps).
 measure(rows, View, View.rows).
 
-%   extreme(-Name, +Of, +Values, -Value): a measure for either end.
+%   extreme(-Name, +Of, +Values, -Value): the least and the greatest value.
 
 extreme(Name, Of, Values, Value) :-
     atom_concat(Of, '_least', Name),
@@ -100,8 +100,8 @@ first agent of a kind, when its clones have died")],
 claim("the agents are idle between any two tasks", [line(4334)], gap_least > 0).
 claim("the populations peak in the order of the tasks", [line(4339)],
       peaks_out_of_order =:= 0).
-%   "Around" is a third more or less.  All kinds together are more: clones
-%   of the task before live on.
+%   "Around" means within a third.  The total is greater: clones of the previous
+%   task are still alive.
 
 claim("each kind rises to around 30 agents with 50 hosts", [line(4344)],
       at([hosts=50], ( peak_least >= 20, peak_most =< 40 ))).

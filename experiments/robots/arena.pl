@@ -14,9 +14,9 @@
 
 /** <module> The arena: simulated robots in a process of their own
 
-A child process, `bridges/nxt/world.py`, has the robots, each with a simulated
-brick at the end of a serial line, and the objects that they carry or push.
-Programs that drive a robot use only its line.
+A child process, `bridges/nxt/world.py`, simulates robots, each with a brick at
+the end of a serial line, and the objects that they carry or push.
+Programs that drive a robot use only its serial line.
 
 *Threading*: one thread asks an arena at a time.
 */
@@ -26,7 +26,7 @@ Programs that drive a robot use only its line.
 
 %!  scene_file(+Scene:atom, -File) is det.
 %
-%   The file of a scene that comes with the bricks.
+%   File is the file of a scene that is part of the simulation.
 
 scene_file(Scene, File) :-
     format(atom(Name), 'scenes/~w.json', [Scene]),
@@ -42,15 +42,15 @@ nxt_file(Name, File) :-
 %   Starts the arena that the JSON file Scene describes.  Bricks are pairs
 %   Robot-Port, Port being the serial line of the robot's brick.  Options:
 %
-%     - clock(Rate): arena seconds in a second, default 1; 0: time passes
-%       only by the lines `advance SECONDS` and `until TIME`
-%     - telegram(Seconds): each telegram takes so many arena seconds more,
-%       default 0: with clock(0), a sensor that is asked settles
+%     - clock(Rate): arena seconds in a second, default 1; with 0 time
+%       passes only by the lines `advance SECONDS` and `until TIME`
+%     - telegram(Seconds): arena seconds that each telegram takes in addition,
+%       default 0: with clock(0), repeated reading lets a sensor settle
 %     - seed(Integer): of the gains of the motors and the noise of sensors
 %     - log(File), every(Seconds): a log of terms state(Time, Robots, Pole,
-%       Boxes), one every so many arena seconds, and event(Time, What), with
+%       Boxes), one every Seconds arena seconds, and event(Time, What), with
 %       Time in arena seconds
-%     - picture(File): an animated picture of all, written at the end
+%     - picture(File): an animated picture of the run, written at the end
 %
 %   @error arena_error(start, Text)
 
@@ -61,7 +61,7 @@ arena_start(Scene, Options, Arena, Bricks) :-
     python(Python),
     process_create(Python, Arguments,
                    [ stdin(pipe(In)), stdout(pipe(Out)), process(Pid),
-                     detached(true)     % a signal is for us alone
+                     detached(true)     % signals reach only this process
                    ]),
     set_stream(Out, timeout(30)),
     Arena = arena(Pid, In, Out, Dir),
@@ -106,9 +106,9 @@ brick(brick(Robot, pty(Port), _), Robot-Port).
 %!  arena_ask(+Arena, +Line, -Answer) is det.
 %
 %   Answer is the term by which the arena answers Line, an atom, or
-%   Format-Arguments as of format/2.
+%   Format-Arguments as for format/2.
 %
-%   @error arena_error(Line, Text), Text being what the arena says
+%   @error arena_error(Line, Text), where Text is the message of the arena
 
 arena_ask(arena(_, In, Out, _), Line0, Answer) :-
     (   Line0 = Format-Arguments
@@ -132,8 +132,8 @@ answer(Answer, _, Answer).
 
 %!  arena_stop(+Arena) is det.
 %
-%   Ends the arena in order, by force if that takes long.  It may have ended
-%   before.
+%   Ends the arena in order, and kills it if that takes too long.  Does nothing
+%   if the arena has ended.
 
 arena_stop(arena(Pid, In, Out, Dir)) :-
     in_own_thread(stop(Pid, In)),
@@ -144,7 +144,7 @@ stop(Pid, In) :-
     catch(( format(In, 'quit~n', []), flush_output(In) ), error(_, _), true),
     catch(close(In, [force(true)]), error(_, _), true),
     get_time(Now),
-    Deadline is Now + 20,       % it may have a long picture to write
+    Deadline is Now + 20,       % the arena may write a long picture
     (   ended(Pid, Deadline)
     ->  true
     ;   process_kill(Pid, kill),

@@ -7,18 +7,18 @@
 :- use_module(library(apply), [maplist/3]).
 :- use_module(library(lists), [member/2]).
 
-/** <module> Boxes that are to be pushed, and by how many
+/** <module> Boxes to push, and the robots they need
 
-A job is job(Name, Location, Needs): Name is that of box and task, Location
-1 or 2, Needs how many robots it takes to move the box.
+A job is job(Name, Location, Needs): Name names box and task, Location is
+1 or 2, Needs is the number of robots that can move the box.
 
 *Threading*: no state; any thread.
 */
 
 distance(0.5).                  % metres that each box is pushed
 
-%   row(?Needs, ?X, ?Places): where a box stands along the main line, and
-%   from which of the five places it is pushed.
+%   row(?Needs, ?X, ?Places): the position of a box along the main line, and
+%   the places, of five, from which robots push it.
 
 row(2, 3.04, [2, 3]).
 row(3, 3.12, [2, 3, 4]).
@@ -27,7 +27,7 @@ row(5, 3.12, [1, 2, 3, 4, 5]).
 
 %!  job_box(+Job, -Line) is det.
 %
-%   Line is what to tell the arena, as Format-Arguments, to have the box.
+%   Line is the command to the arena, as Format-Arguments, that creates the box.
 
 job_box(job(Name, Location, Needs),
         'box ~w ~w ~w ~w ~d ~w'-[Name, X, Y, Heading, Needs, Metres]) :-
@@ -54,7 +54,7 @@ job_task(job(Name, Location, Needs), task(Name, Teams, [goal(Goal)])) :-
     distance(Metres),
     goal(Program, Location, Metres, Goal).
 
-%   A robot that has lost its way stands still, and is out of order.
+%   A robot that has lost its way fails, and stays where it is.
 
 goal([Lane, Push, Dock], Location, Metres, Goal) :-
     Goal = ( hold(_, _, need(_, Requirements, _), _, _),

@@ -13,19 +13,17 @@
 
 /** <module> Measures of pushed boxes, from the logs
 
-Events are event(Time, Host, Agent, What), sorted by time; a robot is named
-by the address of its host.  Terms are those
-of the log of an arena.
+Events are event(Time, Host, Agent, What), sorted by time; the address of its
+host names a robot.  Terms are the terms of the log of an arena.
 
 *Threading*: pure.
 */
 
 %!  holdings(+Events, -Holdings:list) is det.
 %
-%   Which robot was held for which task, and when:
-%   holding(Robot, Task, From, Start, To).  Start is when it began to execute
-%   the task, `none` if it did not, as after a back-off.  To is `none` if it
-%   was never released.
+%   Holdings are holding(Robot, Task, From, Start, To): the reservations of
+%   robots.  Start is the start of the execution, `none` if there was none, as
+%   after a back-off.  To is `none` if the robot was never released.
 
 holdings(Events, Holdings) :-
     findall(Holding, holding(Events, Holding), Holdings).
@@ -48,9 +46,9 @@ holding(Events, holding(Robot, Task, From, Start, To)) :-
 %!  jobs(+Events, -Jobs:list) is det.
 %
 %   A job(Task, Begun, Allocated, Completed, Robots, Rests) for each task, in
-%   the order in which they were begun.  Allocated and Completed are `none`
-%   if that never came; Robots are those it was first allocated to, Rests
-%   pairs Time-Seconds, when its allocator backed off and for how long.
+%   order of Begun.  Allocated and Completed are `none` if that did not happen;
+%   Robots are the robots of the first allocation, Rests are pairs Time-Seconds,
+%   the start and the length of each back-off.
 
 jobs(Events, Jobs) :-
     findall(job(Task, Begun, Allocated, Completed, Robots, Rests),
@@ -71,8 +69,8 @@ when(_, _, none).
 
 %!  joined(+Events, -Joined:list) is det.
 %
-%   Robot-Time, when the agent of each robot was created there.  The others
-%   execute the tasks.
+%   Robot-Time, when the agent of each robot was created on it.  The other
+%   agents there execute the tasks.
 
 joined(Events, Joined) :-
     findall(Robot-Time,
@@ -83,9 +81,9 @@ joined(Events, Joined) :-
 
 %!  pair(+Script, +Robots, -Names:pair, -Enough) is nondet.
 %
-%   The boxes Names of a phase are there together.  Enough is `true` if there
-%   are robots enough for both when it begins, with Robots at first, else
-%   `false`.  For Script see boxes_play/4.
+%   The boxes Names of a phase are present together.  Enough is `true` if there
+%   are enough robots for both when the phase begins, with Robots at first, else
+%   `false`.  Script is described in boxes_play/4.
 
 pair([phase([job(A, _, Needs1), job(B, _, Needs2)], _)|_], Robots, A-B,
      Enough) :-
@@ -120,8 +118,8 @@ together(Jobs, Name1-Name2) :-
 
 %!  from_dock(+Terms, -Metres) is det.
 %
-%   How far, in the last state of the arena, the robot that is farthest from
-%   where it was first is from there.
+%   The greatest distance, over all robots, between a robot's first and last
+%   position in the arena.
 
 from_dock(Terms, Metres) :-
     findall(Robots, member(state(_, Robots, _, _), Terms), States),

@@ -20,22 +20,22 @@
 Each robot is a host, in a process of its own, with the static agent of a
 robot and a brick in the arena.  An allocator is released for each box.
 
-*Threading*: it is the caller's thread that waits.
+*Threading*: the caller's thread waits.
 */
 
 %!  boxes_play(+Case, +Network, +Arena, +Bricks) is semidet.
 %
-%   Plays the phases of Case.script, one after the other, in Arena, whose own
+%   Plays the phases of Case.script, one after the other, in Arena; its original
 %   boxes and robots, with Bricks, are not used.  Case has
 %
 %     - script: a list of phase(Jobs, Joining).  The boxes of a phase are
-%       there at the same time; while the last of them is being pushed so many
+%       present at the same time; while robots push the last of them, Joining
 %       more robots join.
-%     - robots: so many are there at first.  The other hosts of Network have
-%       none yet, and no links.
+%     - robots: the number of robots at first.  The other hosts of Network have
+%       no robots yet, and no links.
 %     - seed: of the back-offs
-%     - limit, rate: host seconds that something may take, else this fails;
-%       host seconds in one of agent_join/3.
+%     - limit, rate: host seconds after which a wait fails; host seconds in one
+%       second of agent_join/3.
 
 boxes_play(Case, Network, Arena, Bricks) :-
     network_property(Network, hosts(Hosts)),
@@ -50,8 +50,8 @@ boxes_play(Case, Network, Arena, Bricks) :-
 remove(Arena, Name) :-
     arena_ask(Arena, 'remove ~w'-[Name], ok).
 
-%   The network is a ring: that of the first is closed, the later ones have
-%   no links.
+%   The network is a ring: the first hosts form a smaller ring, the later ones
+%   have no links.
 
 stand_apart(Network, First, Later) :-
     network_property(Network, edges(Edges)),
@@ -82,8 +82,8 @@ phase(Stage, phase(Jobs, Joining), Here0-Later0, Here-Later) :-
     forall(member(Host, Here), until(idle(Host), Network, Limit)),
     forall(member(job(Box, _, _), Jobs), remove(Arena, Box)).
 
-%   The allocator of the second location begins at the other side.  It rests
-%   no longer than a box takes, and has patience with robots that compute.
+%   The allocator of the second location begins at the last host.  Allocators
+%   back off no longer than a box takes, and wait long enough for busy robots.
 
 release(stage(Case, _, Arena), Hosts, Job, Task, Allocator) :-
     job_box(Job, Line),
@@ -107,7 +107,7 @@ idle(Host) :-
     robot_status(Host, Status),
     memberchk(Status, [free, failed]).
 
-%   Looks every second.
+%   Checks the goal every second.
 
 :- meta_predicate until(0, +, +).
 
@@ -124,7 +124,7 @@ until(Goal, Network, Seconds) :-
                 *            ROBOTS            *
                 *******************************/
 
-%   enlist(+Arena, +Hosts): their robots come, and are connected.
+%   enlist(+Arena, +Hosts): places the robots of Hosts, and connects them.
 
 enlist(Arena, Hosts) :-
     maplist(robot_name, Hosts, Names),
@@ -134,12 +134,12 @@ enlist(Arena, Hosts) :-
 
 %!  robot_name(+Host, -Name) is det.
 %
-%   A host is named as its robot.
+%   A host has the name of its robot.
 
 robot_name(Host, Name) :-
     atomic_list_concat([Name|_], @, Host).
 
-%   Robot r3 is at home in slot 3 of the dock.
+%   Slot 3 of the dock belongs to robot r3.
 
 place_robot(Arena, Name, Port) :-
     slot(Name, Slot),
@@ -156,7 +156,7 @@ equip(Host, Name) :-
     findall(place(Place), between(1, 5, Place), Places),
     robot_start(Host, [push|Places], []).
 
-%   A host that joins is linked with the last and the first one there.
+%   A host that joins is linked with the last and the first host.
 
 join(Arena, Host, Hosts0, Hosts) :-
     enlist(Arena, [Host]),

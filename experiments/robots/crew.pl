@@ -13,7 +13,7 @@
 /** <module> Hosts that have robots
 
 The place of such a host offers library(typhon/nxt), the robot interface, and
-in its tuple space brick(Brick) names the brick that is connected there. An
+the tuple brick(Brick) in its tuple space names its connected brick. An
 arriving program needs no other information.
 
 *Threading*: no state; any thread.
@@ -29,13 +29,12 @@ crew_services([File]) :-
 
 %!  crew_join(+Hosts, +Ports) is det.
 %
-%   Each of Hosts connects to the brick at the end of the serial line that
-%   stands at the same place in Ports, and leaves brick(Brick); Brick is the
-%   name of the host.  A brick has a minute to answer, as the computer may be
-%   busy.  It acknowledges motor commands: the arena has seen a command before
-%   time goes on.
+%   Each of Hosts connects to the brick at the serial line at the same position
+%   in Ports, and leaves brick(Brick); Brick is the name of the host.  A brick
+%   has a minute to answer, as the computer may be busy.  It acknowledges motor
+%   commands: the arena has received a command before time advances.
 %
-%   @error what nxt_connect/3 throws, host_unreachable(Host)
+%   @error errors of nxt_connect/3, host_unreachable(Host)
 
 crew_join(Hosts, Ports) :-
     maplist(join, Hosts, Ports).
@@ -47,19 +46,19 @@ join(Host, Port) :-
 
 %!  crew_leave is det.
 %
-%   Disconnect the bricks that hosts of this process have.
+%   Disconnects the bricks of this process.
 
 crew_leave :-
     forall(nxt_brick(Brick, _), nxt_disconnect(Brick)).
 
 %!  crew_task(+Name, +Spec, -Task) is det.
 %
-%   Task is Name-Goal, where Goal carries the payload file Spec with it: the
-%   agent that calls it attaches the payload, calls the predicate that has the
-%   name of the payload and no arguments, and detaches it, also after a
-%   failure or an error.
+%   Task is Name-Goal, where Goal includes the payload file Spec: the agent that
+%   calls Goal attaches the payload, calls the predicate with the name of the
+%   payload and no arguments, and detaches the payload, also after a failure or
+%   an error.
 %
-%   @error those of a payload file, see agent_check/1
+%   @error errors of a payload file, see agent_check/1
 
 crew_task(Name, Spec, Name-Goal) :-
     payload_load(Spec, Payload),

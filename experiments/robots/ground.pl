@@ -1,14 +1,14 @@
 %   Robots: hosts, each of which drives a brick over a serial line.  The bricks
-%   are simulated.  The arena where they are leaves `arena.pl`, its log, and
-%   `arena.svg`, a moving picture.
+%   are simulated.  Their arena writes `arena.pl`, its log, and `arena.svg`, an
+%   animated picture.
 %
-%   Time is virtual: the arena moves with the clock of the hosts, so that no
-%   robot is late however busy the computer is.  With a clock that is a number
-%   the hosts are in processes of their own, and all is in real time.
+%   Time is virtual: the arena advances with the clock of the hosts, so that no
+%   robot is late however busy the computer is.  With a number as clock the
+%   hosts are in processes of their own, and all time is real.
 %
 %   Expects of the study that includes this: the parameter `every`, arena
 %   seconds from one state of its log to the next.  Gives: the options of the
-%   network, and the common predicates of the two worlds.
+%   network, and the common predicates of the two studies.
 
 :- use_module('../../prolog/typhon', [network_at/3, remote/2]).
 :- use_module('../../prolog/typhon/kernel/base/own_thread', [in_own_thread/1]).
@@ -33,8 +33,8 @@ robot_options(Case, [ hop_time(uniform(Min, Max)),
     Min-Max = Case.hop_time,
     crew_services(Services).
 
-%   in_arena(+Case, +Network, +Scene, :Goal): call(Goal, Arena, Bricks) while
-%   the arena is there.
+%   in_arena(+Case, +Network, +Scene, :Goal): starts the arena, runs call(Goal,
+%   Arena, Bricks), and stops the arena.
 
 in_arena(Case, Network, Scene, Goal) :-
     scene_file(Scene, File),
@@ -54,7 +54,7 @@ in_arena(Case, Network, Scene, Goal) :-
 arena_clock(virtual, Case, [clock(0), telegram(Case.telegram)]) :- !.
 arena_clock(Rate, _, [clock(Rate)]).
 
-%   In virtual time the arena is moved on twenty times in a host second.
+%   In virtual time the arena advances twenty times in a host second.
 
 keep_pace(virtual, Network, Arena) :-
     !,
@@ -75,8 +75,8 @@ arena_terms(Log, Terms) :-
     directory_file_path(Log.case.directory, 'arena.pl', File),
     read_file_to_terms(File, Terms, [encoding(utf8)]).
 
-%   Both clocks go to the log together: the arena's may be behind, where the
-%   computer is busy, and ahead by some telegrams.
+%   Both clocks are logged together: the clock of the arena may be behind, if
+%   the computer is busy, or ahead by some telegrams.
 
 note_clocks(Arena, Host) :-
     arena_ask(Arena, time, time(Time)),

@@ -11,11 +11,11 @@
 
 /** <module> Measures of a carried pole, from the logs
 
-A state is state(Time, Pole), where Pole is the term that the arena gives:
+A state is state(Time, Pole), where Pole is the term of the arena:
 
     pole(X, Y, Height, Pitch, Yaw, Tilt, MaxTilt, Strain, Phase)
 
-in metres and degrees.  X and Y are the centre.  Executions are those of
+in metres and degrees.  X and Y are the centre.  Executions are the result of
 executions/2 in sync_metrics.
 
 *Threading*: pure.
@@ -23,8 +23,8 @@ executions/2 in sync_metrics.
 
 %!  pole_states(+Terms, +Moments, -States) is det.
 %
-%   States are those from host time 0 on.  Terms are those of the log of an
-%   arena; Moments as of host_time/3.
+%   States are the states from host time 0 on.  Terms are the terms of the log
+%   of an arena, Moments as in host_time/3.
 
 pole_states(Terms, Moments, States) :-
     findall(state(Time, Pole),
@@ -37,10 +37,10 @@ pole_states(Terms, Moments, States) :-
 
 %!  host_time(+Moments, +ArenaTime, -HostTime) is det.
 %
-%   The time of the hosts when the arena has ArenaTime. Moments is a list of
-%   pairs ArenaTime-HostTime in order, of which there is at least one.
-%   Between two of them time passes evenly, before and after them equally fast
-%   at both.
+%   HostTime is the time of the hosts at ArenaTime. Moments is a non-empty list
+%   of pairs ArenaTime-HostTime in order.  Time is interpolated linearly between
+%   two moments; before the first and after the last both clocks have the same
+%   rate.
 
 host_time([Arena-Host|Moments], Time, HostTime) :-
     ( Moments == [] ; Time =< Arena ),
@@ -55,8 +55,8 @@ host_time([_|Moments], Time, HostTime) :-
 
 %!  over_limit(+Tilts, +Limit, -Seconds) is det.
 %
-%   For how long the pole was tilted by more than Limit degrees, of pairs
-%   Time-Tilt in order.
+%   Seconds is the time during which the pole was tilted by more than Limit
+%   degrees; Tilts are pairs Time-Tilt in order.
 
 over_limit(Tilts, Limit, Seconds) :-
     aggregate_all(sum(To - From),
@@ -66,7 +66,7 @@ over_limit(Tilts, Limit, Seconds) :-
 
 %!  starts_apart(+Executions, ?Task, -Seconds) is nondet.
 %
-%   Time from the first to the last start of Task.
+%   Seconds is the time from the first to the last start of Task.
 
 starts_apart(Executions, Task, Seconds) :-
     aggregate(r(min(S), max(S)),
@@ -76,9 +76,9 @@ starts_apart(Executions, Task, Seconds) :-
 
 %!  mingled(+Executions, -Mingled) is det.
 %
-%   The executions that began before an earlier task had come to its end at
-%   all hosts.  To begin before it had begun at all hosts is an overlap: see
-%   overlaps/2 in sync_metrics.
+%   Mingled are the executions that began before an earlier task had ended at
+%   all hosts.  An execution that began before the earlier task had begun at all
+%   hosts is an overlap: see overlaps/2 in sync_metrics.
 
 mingled(Executions, Mingled) :-
     findall(E,
@@ -92,8 +92,8 @@ mingled(Executions, Mingled) :-
 
 %!  start_rows(+Executions, -Rows) is det.
 %
-%   Rows [Second, Task, Below]: Task was switched on in this second, in which
-%   Below others had been before.
+%   Rows [Second, Task, Below]: an execution of Task began in this second, after
+%   Below others.
 
 start_rows(Executions, Rows) :-
     findall(Second-Task,

@@ -24,7 +24,7 @@ fixed(script, [ phase([job(box1, 1, 3), job(box2, 2, 3)], 1),
 needs; how many join")).
 fixed(every, 0.2, assumed("often enough for a moving picture")).
 
-%   A ring of hosts that are named as their robots.
+%   A ring of hosts, which have the names of their robots.
 
 network(Case, edges(Ring), Options) :-
     Count = Case.hosts,
@@ -45,7 +45,7 @@ real([], [clock=5, processes=7]).
                 *           MEASURES           *
                 *******************************/
 
-%   Time begins with the first allocator.  That a robot is reserved by two
+%   Time begins with the first allocator.  A robot that is reserved by two
 %   tasks at a time, or left reserved, is an error.
 
 view(Log, view{ case:(Log.case), hosts:(Log.hosts), terms:Terms, jobs:Jobs,
@@ -112,10 +112,10 @@ pushing_newcomer(View, Host) :-
     member(holding(Host, _, _, Start, _), View.holdings),
     number(Start).
 
-%   Rows for the picture, and for people: box, its name, robots, begun,
-%   allocated, completed, back-offs, seconds rested, team; box, rests from, for
-%   so long; robot, box, reserved, executes from, released; robot, its name,
-%   when it came.
+%   Rows for the picture, and for readers.  jobs: box, its name, robots, begun,
+%   allocated, completed, back-offs, seconds of back-off, team; rests: box,
+%   start and length of a back-off; holdings: robot, box, reserved, execution
+%   begun, released; robots: robot, its name, when it joined.
 
 measure(jobs, View, Rows) :-
     findall(Row, job_row(View, Row), Rows).

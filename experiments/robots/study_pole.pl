@@ -74,7 +74,7 @@ create_alone(Tasks, Host, Agent) :-
     agent_create(agents(robots/alone), Agent,
                  [host(Host), facts([tasks(pole, Tasks)]), static(true)]).
 
-%   Every host second both clocks are noted.
+%   Logs both clocks every host second.
 
 await(Rate, Note, Agent, Left0, Left) :-
     call(Note),
@@ -179,9 +179,10 @@ approach_time(View, Seconds) :-
 tilt(View, Time, Tilt) :-
     member(state(Time, pole(_, _, _, _, _, Tilt, _, _, _)), View.states).
 
-%   Rows for the pictures: robot, task, from, to, executed (1) or required (0);
-%   second, task, robots that began it there before; time, degrees or τ; task,
-%   first start, last end, idle time after it.
+%   Rows for the pictures.  bars: robot, task, from, to, executed (1) or
+%   required (0); starts: second, task, number of earlier starts in that second;
+%   tilts, taus: time, degrees or τ; tasks: task, first start, last end, idle
+%   time after it.
 
 measure(bars, View, Rows) :-
     findall(Row, bar(View, Row), Rows).
@@ -247,7 +248,7 @@ plot('5.14', "Four robots carry a pole",
 plot(in_step, "The run in step", file('arena.svg', [way=in_step])).
 plot(alone, "Each by itself", file('arena.svg', [way=alone])).
 
-%   Files have a block for each way, with two empty lines after it.
+%   Files have a block for each value of `way`, and two empty lines after it.
 
 blocks(Measure, Runs, Rows) :-
     findall([Block, [gap, gap]],

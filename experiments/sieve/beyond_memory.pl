@@ -49,8 +49,8 @@ waited(Rounds, R, Mean) :-
     length(Waits, Count),
     Mean is Sum/Count.
 
-%   able(+Rounds, +R, -Count): agents that can answer 00000: at most one of
-%   their bits is 0.
+%   able(+Rounds, +R, -Count): number of agents that can answer 00000: at most
+%   one of their bits is 0.
 
 able(Rounds, R, Count) :-
     population(Rounds, R, Population),

@@ -24,7 +24,7 @@ label(brought, "Feedback of those that agents bring in the last round").
 label(able_first, "Agents with a good program after round 1 (%)").
 label(able_last, "Agents with a good program after the last round (%)").
 
-%   The payload in a module of its own, as an agent has it.
+%   The payload has a module of its own, as in an agent.
 
 :- dynamic maze:feedback/3.
 :- initialization(load_maze).
@@ -52,8 +52,9 @@ measure(able_last, Rounds, Share) :-
     length(Rounds, Last),
     able(Rounds, Last, Share).
 
-%   scored(+How, +Rounds, ?R, -Mean): of the programs that met the antigens
-%   of a round, drawn at random (`generated`) or brought by agents (`served`).
+%   scored(+How, +Rounds, ?R, -Mean): mean feedback of the programs that met the
+%   antigens of a round, drawn at random (`generated`) or carried by agents
+%   (`served`).
 
 scored(How, Rounds, R, Mean) :-
     nth1(R, Rounds, round(Events)),
@@ -68,8 +69,8 @@ mean(Numbers, Mean) :-
     length(Numbers, Count),
     Mean is Sum/Count.
 
-%   able(+Rounds, +R, -Share): of all agents, in percent, that carry a
-%   program that comes to the goal of some obstacle.
+%   able(+Rounds, +R, -Share): percentage of the agents that carry a program
+%   that reaches the goal of some obstacle.
 
 able(Rounds, R, Share) :-
     population(Rounds, R, Population),

@@ -1,4 +1,4 @@
-%   Memory cells: antigens that come back after others.
+%   Memory cells: antigens that return after others.
 
 :- include(ground).
 :- use_module(rounds, [population/3, waits/4]).
@@ -57,7 +57,7 @@ waited(Rounds, R, Antigen, Mean) :-
     length(Waits, Count),
     Mean is Sum/Count.
 
-%   At most one bit is 0.
+%   An antibody answers 00000 if at most one of its bits is 0.
 
 answers(Kind) :-
     aggregate_all(count, sub_atom(Kind, _, _, _, '1'), Ones),

@@ -49,7 +49,8 @@ measure(clones_of_complements, Rounds, Share) :-
 measure(share, Rounds, Share) :-
     later_share(Rounds, _, Share).
 
-%   later_share(+Rounds, ?How, -Share): of what was born after round 5.
+%   later_share(+Rounds, ?How, -Share): share of the complements among the
+%   antibodies born after round 5.
 
 later_share(Rounds, How, Share) :-
     complements(Complements),

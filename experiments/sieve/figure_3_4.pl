@@ -1,4 +1,4 @@
-%   Figure 3.4: one antibody that is good for three antigens.
+%   Figure 3.4: one antibody that neutralizes three antigens.
 
 :- include(kinds).
 :- use_module(rounds, [born/4, count/5]).

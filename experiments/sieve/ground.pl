@@ -1,8 +1,8 @@
 %   Chapter 3: antibodies carried by mobile agents, on hosts under attack.
 %
-%   The study that includes this says plan(Case, Plan), which antigens attack
-%   in which rounds: see rounds.pl; and, for its picture, panel(Runs, Panel),
-%   panel by panel: see pictures.pl.  The view of a run is its rounds.
+%   The study that includes this defines plan(Case, Plan), the antigens of each
+%   round: see rounds.pl; and, for its picture, panel(Runs, Panel), one solution
+%   for each panel: see pictures.pl.  The view of a run is its rounds.
 
 :- use_module('../../agents/sieve/operator',
               [antigen_attack/2, sieve_start/3]).
@@ -44,7 +44,7 @@ network(Case, Case.topology,
         Dynamic = [dynamic(Model)]
     ).
 
-%   All attacks are arranged before time begins to run.
+%   All attacks are scheduled before time begins to advance.
 
 run(Case, Network) :-
     network_property(Network, hosts(Hosts)),
@@ -67,7 +67,7 @@ rounds_of(Case, Rounds) :-
     plan(Case, Plan),
     plan_rounds(Plan, Rounds).
 
-%   Hosts that are attacked in one round are different ones.
+%   The hosts attacked in one round are distinct.
 
 targets(Hosts, Each, Antigens, Attacks, Chance0, Chance) :-
     length(Antigens, Kinds),
@@ -85,7 +85,7 @@ attack_all(Attacks) :-
     forall(( member(Antigen-Hosts, Attacks), antigen(Antigen, Term) ),
            antigen_attack(Hosts, Term)).
 
-%   antigen(+Antigen, -Term): bits are written as one atom here.
+%   antigen(+Antigen, -Term): here an atom has all bits.
 
 antigen(Antigen, Bits) :-
     atom(Antigen),

@@ -22,8 +22,8 @@ measure(table, Rounds, Table) :-
               count(aged, Kind, Rounds, Round, Aged) ),
             Table).
 
-%   most_but(+Kinds, +Rounds, +Round, -N): of any other kind, at the end of
-%   Round.
+%   most_but(+Kinds, +Rounds, +Round, -N): N is the greatest population of any
+%   other kind at the end of Round.
 
 most_but(Kinds, Rounds, Round, N) :-
     population(Rounds, Round, Population),

@@ -11,8 +11,8 @@
 /** <module> Data of rounds.gp: values of several runs, round by round
 
 A panel is panel(Title, Series), Series a list of series(Label, Points), and
-Points are pairs Round-Values, a value for each run.  All panels have so many
-series as the first one, or less.
+Points are pairs Round-Values, a value for each run.  No panel has more series
+than the first one.
 
 *Threading*: pure.
 */
@@ -20,8 +20,8 @@ series as the first one, or less.
 %!  median_rows(+Panels, -Rows) is det.
 %!  dot_rows(+Panels, -Rows) is det.
 %
-%   A block for each series of each panel: round, median, least and most;
-%   round and value.
+%   A block for each series of each panel.  Rows are round, median, least and
+%   greatest value; or round and value.
 
 median_rows(Panels, Rows) :-
     blocks(Panels, median_row, Rows).
@@ -50,8 +50,8 @@ blocks(Panels, Row, Rows) :-
 
 %!  panel_variables(+Panels, -Pairs) is det.
 %
-%   For gnuplot: titles, labels, how many series each panel has, and the
-%   last round.
+%   Variables for gnuplot: titles, labels, the number of series of each panel,
+%   and the last round.
 
 panel_variables(Panels, [ panels-Count, 'Panel'-Titles, 'Series'-Labels,
                           'Size'-Sizes, rounds-Last ]) :-

@@ -15,9 +15,9 @@
 
 /** <module> The attacks of each round, and their results
 
-A plan is a list of Antigens-Count: in so many rounds each of Antigens
-attacks.  Kinds are antibodies; bits are an atom, as '11110'.  What happened
-is a list of terms round(Events), one for each round; Events, in order, are
+A plan is a list of Antigens-Count: each of Antigens attacks in Count
+rounds.  Kinds are antibodies; bits are an atom, as '11110'.  The results are a
+list of terms round(Events), one for each round; Events, in order, are
 
     born(How, Kind)             How is `host` or `clone`
     died(Cause, Kind)           `suppressed` or `aged`
@@ -25,7 +25,7 @@ is a list of terms round(Events), one for each round; Events, in order, are
                                 attack
     generated(Antigen, Kind, Wait)
                                 by the host itself
-    memory_cell(Kind)           an agent was appointed
+    memory_cell(Kind)           a host appointed an agent
 
 *Threading*: pure.
 */
@@ -41,7 +41,7 @@ plan_rounds(Plan, Rounds) :-
 
 %!  event_rounds(+Events, +Starts:list(number), -Rounds) is det.
 %
-%   Events are those of a log; a round lasts from its start to that of the
+%   Events are those of a log; a round lasts from its start to the start of the
 %   next one.
 
 event_rounds(Events, Starts, Rounds) :-
@@ -74,7 +74,7 @@ told(memory_cell(Kind), memory_cell(Name)) :-
 
 %!  kind_name(+Kind, -Name) is det.
 %
-%   Bits as one atom; anything else is its own name.
+%   Name is all bits as one atom; any other kind is its own name.
 
 kind_name(Kind, Name) :-
     is_list(Kind),
@@ -86,8 +86,7 @@ kind_name(Kind, Kind).
 
 %!  population(+Rounds, +Round:integer, -Population) is det.
 %
-%   Population are pairs Count-Kind at the end of Round, the most numerous
-%   first.
+%   Population are pairs Count-Kind at the end of Round, in descending order.
 
 population(Rounds, Round, Population) :-
     findall(Kind-Change,
@@ -114,9 +113,9 @@ add(Kind-Change, Counts, [Kind-Change|Counts]).
 
 %!  count(+What, ?Kind, +Rounds, +Round:integer, -N:integer) is det.
 %
-%   What is `population`, at the end of Round; `clone` or `host`, how many
-%   such were born in it; or `suppressed` or `aged`, how many died so.  Of
-%   all kinds where Kind is unbound.
+%   What is `population`, at the end of Round; `clone` or `host`, the number of
+%   such births in Round; or `suppressed` or `aged`, the number of such deaths.
+%   For all kinds if Kind is unbound.
 
 count(population, Kind, Rounds, Round, N) :-
     !,
@@ -137,7 +136,7 @@ born(Rounds, Round, How, Kind) :-
 
 %!  kinds(+Rounds, -Kinds) is det.
 %
-%   All that were ever there.
+%   Kinds are all kinds that ever existed.
 
 kinds(Rounds, Kinds) :-
     findall(Kind, born(Rounds, _, _, Kind), Kinds0),
@@ -145,8 +144,8 @@ kinds(Rounds, Kinds) :-
 
 %!  waits(+Rounds, +Round, ?Antigen, -Waits:list(number)) is det.
 %
-%   How long hosts under attack waited, also those that had to help
-%   themselves.
+%   Waits are the waiting times of hosts under attack, including hosts that
+%   generated an antibody themselves.
 
 waits(Rounds, Round, Antigen, Waits) :-
     nth1(Round, Rounds, round(Events)),

@@ -1,5 +1,5 @@
-%   Which of two antibodies is the better one: readings of section 3.4.2, and
-%   Figures 3.3 to 3.5 with each.
+%   Readings of section 3.4.2, which of two antibodies is better, applied to
+%   Figures 3.3 to 3.5.
 
 :- include(kinds).
 :- use_module(rounds, [count/5]).

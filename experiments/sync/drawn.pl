@@ -10,8 +10,8 @@
 measure(drawn, View, drawn(View.hosts, View.executions, View.rows,
                            View.segments, View.steps, View.failures)).
 
-%   gallery(+Subtitle, +Count, -Picture): so many runs, of the first seed.
-%   one_run(+Subtitle, -Picture): one.
+%   gallery(+Subtitle, +Count, -Picture): Count runs of the first seed.
+%   one_run(+Subtitle, -Picture): one run.
 
 gallery(Subtitle, Count, script('gallery.gp', [ starts-starts, hosts-hosts,
                                                 names-names ],
@@ -70,7 +70,7 @@ blocks(Runs, Goal, All) :-
     append(Lists0, Lists),
     append(Lists, All).
 
-%   For each second a stack of bars, one for each task that was switched on:
+%   For each second a stack of bars, one for each task that began:
 %   middle, top, left, right, bottom, top, colour.
 
 starts(Runs, Rows) :-
@@ -104,7 +104,7 @@ task_colour(Task, Colour) :-
     I is (Task - 1) mod 6,
     colour(I, Colour).
 
-%   What is required, in a light colour, and what is executed: middle, host,
+%   Required tasks, in a light colour, and executed tasks: middle, host,
 %   from, to, low, high, colour.
 
 hosts(Runs, Rows) :-
@@ -129,7 +129,7 @@ bar(Executions, _, Host, From, To, Colour) :-
     member(execution(Task, Host, From, To), Executions),
     task_colour(Task, Colour).
 
-%   The names of tasks where they begin; of those that begin again, lower.
+%   Names of tasks at their starts; of repeated tasks, lower.
 
 names(Runs, Rows) :-
     blocks(Runs, run_names, Rows).
@@ -150,7 +150,7 @@ name_height(Rows, I, Task, Height) :-
     ;   Height = 1.14
     ).
 
-%   Where all agents only look on: from, to, seconds.
+%   Times in which all agents only observe: from, to, seconds.
 
 bands(Runs, Rows) :-
     blocks(Runs, run_bands, Rows).

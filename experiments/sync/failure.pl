@@ -7,16 +7,16 @@
 :- use_module('../../agents/sync/operator', [task_fail/4, tasks_fail/4]).
 :- use_module(library(lists)).
 
-%   A failure is atomic(Task, Count, During), or cascaded: so many hosts lose
-%   Task, or it and all later ones, when the first host is seen to execute
-%   During. The hosts are polled every second.
+%   A failure is atomic(Task, Count, During): Count hosts lose Task when some
+%   host executes During; or cascaded(Task, Count, During): they lose Task and
+%   all later ones. The hosts are polled every second.
 
 prepare_failure(Case, _, _) :-
     Case.failure == none,
     !.
 prepare_failure(Case, Network, Hosts) :-
     Case.failure =.. [Kind, Task, Count, During],
-    Seed is Case.seed + 1000,              % not where the agents started
+    Seed is Case.seed + 1000,              % not the start hosts of the agents
     starts(Count, Hosts, [seed(Seed)], Drawn),
     fail_during(During, fail_now(Kind, Task, Drawn), Network, Hosts, 1).
 

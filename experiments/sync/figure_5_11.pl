@@ -1,4 +1,4 @@
-%   Figure 5.11: atomic failures are healed.
+%   Figure 5.11: healing of atomic failures.
 
 :- include(ground).
 :- include(drawn).

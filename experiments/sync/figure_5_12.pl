@@ -1,4 +1,4 @@
-%   Figure 5.12: cascaded failures are healed.
+%   Figure 5.12: healing of cascaded failures.
 
 :- include(ground).
 :- include(drawn).

@@ -1,5 +1,5 @@
-%   Figure 5.2: how a potential falls.  Computed by the agents' own predicates;
-%   there is no network.
+%   Figure 5.2: decrease of a potential, computed by the predicates of the
+%   agents; there is no network.
 
 :- include('../../agents/sync/potential').
 :- use_module(library(aggregate)).
@@ -55,7 +55,7 @@ measure(last_theta, steps(_, Steps), Theta) :-
 measure(Name, steps(Case, Steps), Theta) :-
     member(Name, [early, late]),
     memberchk(step(Case.Name, _, Theta, _), Steps).
-measure(not_raised, steps(_, Steps), Count) :-      % where it could be
+measure(not_raised, steps(_, Steps), Count) :-      % where a rise is possible
     rewarded_at(few, Rewards),
     aggregate_all(count,
                   ( member(N, Rewards),

@@ -25,8 +25,8 @@ measure(pause, View, Most) :-
     aggregate_all(max(Pause), ( member(Task, View.tasks),
                                 pause(View.executions, Task, Pause) ), Most).
 
-%   Times in which a task is executed nowhere, between its first and its last
-%   execution; executions are in order of their starts.
+%   The longest time without an execution of Task, between its first and its
+%   last execution; executions are in order of their starts.
 
 pause(Executions, Task, Pause) :-
     findall(Start-End, member(execution(Task, _, Start, End), Executions),

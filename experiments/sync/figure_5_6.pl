@@ -49,7 +49,8 @@ of(Name, Said, Text) :-
     label(Name, Title),
     format(string(Text), "~w: ~w", [Title, Said]).
 
-%   in_order(+Measure, +Order, +Points): of each value of δ and the next.
+%   in_order(+Measure, +Order, +Points): Order holds for each pair of successive
+%   values of δ.
 
 in_order(Measure, Order, Points) :-
     findall(Value, ( member(_-Ms, Points), get_dict(Measure, Ms, Value) ),
@@ -62,7 +63,7 @@ no_overlaps_up_to(Name, Best, Points) :-
              Case.delta =< Best ),
            Ms.overlaps =:= 0).
 
-%   The least bias at which executions overlap; a large one where none do.
+%   The least bias at which executions overlap; a large one if none do.
 
 onset(Points, Name, Onset) :-
     aggregate_all(min(Delta),

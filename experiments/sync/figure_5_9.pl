@@ -1,4 +1,4 @@
-%   Figures 5.9 and 5.10: links that come and go.
+%   Figures 5.9 and 5.10: dynamic networks.
 
 :- include(ground).
 :- include(links).

@@ -30,11 +30,11 @@ failures(Events, Failures) :-
 
 %!  phases(+Kind, +Executions, +Failures, -Phases) is det.
 %
-%   Phases are lists of executions, each of which can be looked at as a
-%   sequence of tasks in step.  After an atomic failure (Kind is
-%   atomic(_,_,_)) the tasks continue, so the repeated executions are a phase
-%   of their own; after a cascaded one they begin again, so the phases are
-%   before and after.  Without failures there is one phase.
+%   Phases are lists of executions, each of which is a sequence of tasks in
+%   step.  After an atomic failure (Kind is atomic(_,_,_)) the tasks continue,
+%   so the repeated executions are a phase of their own; after a cascaded one
+%   they begin again, so the phases are before and after.  Without failures there
+%   is one phase.
 
 phases(_, Executions, [], [Executions]) :-
     !.
@@ -44,7 +44,7 @@ phases(atomic(_, _, _), Executions, Failures, [Others, Redone]) :-
 phases(_, Executions, Failures, [Before, After]) :-
     partition(before_failure(Failures), Executions, Before, After).
 
-%   Hosts fail one after the other, so each has its own time.
+%   Hosts fail one after the other, so each has its own failure time.
 
 before_failure(Failures, execution(_, Host, Start, _)) :-
     (   memberchk(failure(Time, Host, _), Failures)
@@ -62,13 +62,14 @@ redone(Failures, execution(Task, Host, Start, _)) :-
 %
 %   Measures is a list of Name(Value); empty without failures:
 %
-%     - failed_at(Time), failed_by(Time): of the first and last failure
-%     - lost(Count): completed tasks that were lost, and by how many
-%       hosts(Count)
-%     - redone(Count): so many of them were executed again
-%     - healed_at(Time): the last of those had ended
-%     - meanwhile(Count): so many other executions began in between
-%     - healing_tau(Tau): the most distinct tasks required in between; and
+%     - failed_at(Time), failed_by(Time): the first and the last failure
+%     - lost(Count), hosts(Count): number of completed tasks that were lost, and
+%       of hosts that lost them
+%     - redone(Count): number of lost tasks that were executed again
+%     - healed_at(Time): the end of the last of these executions
+%     - meanwhile(Count): number of other executions that began in between
+%     - healing_tau(Tau): the most distinct tasks required in between
+%     - later_tau(Tau): the most distinct tasks required afterwards
 %       later_tau(Tau): afterwards
 
 healing(_, [], _, []) :-
@@ -115,7 +116,7 @@ redone_at(Executions, Lost, End) :-
     once(( member(execution(Task, Host, Start, End), Executions),
            Start >= Time )).
 
-%   The most from From to To, and what it was when From came.
+%   Tau is the greatest value between From and To, including the value at From.
 
 tau_between(Steps, From, To, Tau) :-
     findall(Time-T, ( member(Time-T, Steps), Time =< From ), Before),

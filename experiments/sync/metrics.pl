@@ -27,9 +27,9 @@
 /** <module> Measures of synchronisation, from an event log
 
 The measures of thesis chapter 5, as pure predicates over lists of
-event(Time, Host, Agent, What).  A task's execution begins where the log
-says executing(Sequence, Task) and ends where it says
-completed(Sequence, Task), of the same host.
+event(Time, Host, Agent, What).  A task's execution begins at the event
+executing(Sequence, Task) and ends at the event completed(Sequence, Task) of
+the same host.
 
 An execution is a term execution(Task, Host, Start, End).
 
@@ -38,7 +38,7 @@ An execution is a term execution(Task, Host, Start, End).
 
 %!  from_start(+Events0, -Events) is det.
 %
-%   Events in order of time, which begins when the first agent has begun.
+%   Events are in order of time; time 0 is the start of the first agent.
 
 from_start(Events0, Events) :-
     sort(1, @=<, Events0, Sorted),
@@ -52,8 +52,8 @@ shift(Start, event(T0, Host, Agent, What), event(T, Host, Agent, What)) :-
 
 %!  executions(+Events, -Executions) is det.
 %
-%   The executions that were completed, in the order in which they began.
-%   Events are in order of time.
+%   The completed executions, in order of their starts.  Events are in order of
+%   time.
 
 executions(Events, Executions) :-
     empty_assoc(Running0),
@@ -108,8 +108,7 @@ idle_time(Rows, Seconds) :-
 
 %!  overlaps(+Executions, -Overlapping) is det.
 %
-%   The executions that began before the last host was serviced for an
-%   earlier task.
+%   The executions that began before an earlier task had begun at all hosts.
 
 overlaps(Executions, Overlapping) :-
     task_rows(Executions, Rows),
@@ -123,8 +122,8 @@ overlapping(execution(Task, _, Start, _), Rows) :-
 
 %!  out_of_order(+Executions, -OutOfOrder) is det.
 %
-%   The executions that began on a host before an earlier task had been
-%   completed there, or where it was never completed.
+%   The executions that began on a host before an earlier task was completed
+%   there, or although it was never completed.
 
 out_of_order(Executions, OutOfOrder) :-
     findall(Task-Host-End, member(execution(Task, Host, _, End), Executions),
@@ -161,8 +160,8 @@ marks(Executions, Failures, Marks) :-
 %!  required(+Hosts, +Tasks, +Marks, +End, -Segments) is det.
 %
 %   Segments is a list of segment(Host, Task, From, To): Host required Task
-%   in this time.  What it requires is the first task that is not completed
-%   there; nothing while it executes one.  From time 0 to End.
+%   in this time.  A host requires the first task that is not completed there;
+%   none while it executes one.  From time 0 to End.
 
 required(Hosts, Tasks, Marks, End, Segments) :-
     maplist(host_segments(Tasks, Marks, End), Hosts, Lists),

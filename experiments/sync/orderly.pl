@@ -6,12 +6,13 @@
 
 /** <module> Conscientious migration without chance
 
-The strategy `orderly` is `conscientious`, but for hosts never visited: of
+The strategy `orderly` is `conscientious`, except for hosts never visited: of
 these it takes the one with the next higher number, after the highest the
-lowest.  On a ring all agents so go the same way.  It is there where this
-file is loaded, so in the processes of a virtual network only.
+lowest.  So on a ring all agents move in the same direction.  Only processes
+that have loaded this file have the strategy: those of a virtual network.
 
 *Threading*: pure.
+*/
 */
 
 :- multifile

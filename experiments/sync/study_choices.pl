@@ -1,4 +1,4 @@
-%   Effects of the starts of agents, and of random choices.
+%   Effects of the start hosts of agents, and of random choices.
 
 :- include(ground).
 

@@ -1,5 +1,5 @@
-%   The demo: claims about a run in virtual time, and the same run beside it
-%   on real sockets, which people can watch.
+%   The demo: claims about a run in virtual time, and the same run on real
+%   sockets, which people can watch.
 %
 %       swipl experiments/study.pl -- demo --runs 1 --real --out out/demo
 

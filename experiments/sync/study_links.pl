@@ -1,4 +1,4 @@
-%   Which dynamic networks are as the thesis describes them: no overlaps, and no
+%   Search for dynamic networks that agree with the thesis: no overlaps, and no
 %   host without a task.
 
 :- include(ground).

@@ -1,4 +1,4 @@
-%   Where overlaps begin: against δ, for tasks of different lengths.
+%   The least δ with overlaps, for tasks of different lengths.
 
 :- include(ground).
 

@@ -1,6 +1,5 @@
-%   Other readings of equation 5.2: how many penalties in a row take a
-%   potential to zero.  Computed; the reading of the agents is called
-%   `agents`.
+%   Other readings of equation 5.2: the number of successive penalties that
+%   reduce a potential to zero.  Computed; `agents` is the reading of the agents.
 
 :- include('../../agents/sync/potential').
 :- use_module(library(lists)).

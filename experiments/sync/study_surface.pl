@@ -1,4 +1,4 @@
-%   Beyond the thesis (section 8.2): which potential is the best.
+%   Beyond the thesis (section 8.2): search for the best potential.
 
 :- include(ground).
 :- include('../../agents/sync/potential').
@@ -83,7 +83,7 @@ plot(surface_visits, "All that four parameters do is N",
      lines([x(visits), y([second, total, overlaps]), line(topology),
             where([hosts=60])])).
 
-%   A block for each topology, which is a number from 1, and size.
+%   A block for each topology, as a number from 1, and size.
 
 points_rows(Runs, Rows) :-
     findall([Block, [gap, gap]],

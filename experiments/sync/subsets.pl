@@ -33,8 +33,8 @@ a_sequence(Case, Name) :-
 tasks(Case, Tasks) :-
     findall(Task-sleep(Case.task_time), between(1, Case.tasks, Task), Tasks).
 
-%   subsets(+Names, +Case, +Hosts, -Pairs): of each of Names the hosts that
-%   have a part in it, which follow from the seed.
+%   subsets(+Names, +Case, +Hosts, -Pairs): for each of Names the hosts that
+%   take part in it, drawn from the seed.
 
 subsets(Names, Case, Hosts, Pairs) :-
     chosen(Case, Count),
@@ -47,9 +47,8 @@ chosen(Case, Count) :-
 subset(Count, Hosts, Name, Name-Set, Chance0, Chance) :-
     chance_sample(Count, Hosts, Set, Chance0, Chance).
 
-%   Of each sequence Name-part(Hosts, Executions).  A plan is at each host that
-%   has a part, so all hosts that have one are among those that execute, or
-%   have a task missing.
+%   The view has Name-part(Hosts, Executions) for each sequence.  Each host that
+%   takes part has a plan, so it either executes or has a task missing.
 
 view(Log, view{case:(Log.case), parts:Parts}) :-
     from_start(Log.events, Events),
