@@ -205,7 +205,7 @@ step(PIs, Files) :-
 
 :- begin_tests(interfaces).
 
-test(each_has_its_two_lines,
+test(each_file_has_its_two_interface_lines,
      [forall(included(File)), true(File-Given == File-true)]) :-
     (   header(File, _, _)
     ->  Given = true
@@ -216,7 +216,7 @@ test(a_file_is_included_once,
     findall(File, part(Program, File), Files0),
     msort(Files0, Files),
     sort(Files0, Sorted).
-test(given_is_defined, Missing == []) :-
+test(provided_predicates_are_defined, Missing == []) :-
     findall(File-PI,
             ( included(File),
               header(File, _, Gives),
@@ -229,7 +229,7 @@ test(given_is_defined, Missing == []) :-
               \+ ( part(File, Part),
                    ( defines(Part, PI) ; state(Part, PI) ) ) ),
             Missing).
-test(called_is_given, Hidden == []) :-
+test(called_predicates_are_provided, Hidden == []) :-
     findall(File-Other-PI,
             ( crossing(_, File, Other, PI),
               included(Other),
@@ -238,7 +238,7 @@ test(called_is_given, Hidden == []) :-
               \+ ( header(File, Expects, _), names(Expects, PI) ) ),
             Hidden0),
     sort(Hidden0, Hidden).
-test(called_is_expected, Unsaid == []) :-
+test(called_predicates_are_expected, Unsaid == []) :-
     findall(File-Other-PI,
             ( crossing(_, File, Other, PI),
               included(File),
@@ -257,7 +257,7 @@ test(steps_of_the_allocator_are_in_order, Later == []) :-
               memberchk(Other, Rest) ),
             Later).
 
-test(steps_are_where_the_documentation_says, Missing-Some == []-true) :-
+test(steps_are_documented_at_the_right_place, Missing-Some == []-true) :-
     findall(PIs, step(PIs, _), Steps),
     length(Steps, Count),
     ( Count > 10 -> Some = true ; Some = Count ),

@@ -90,7 +90,7 @@ test(help_is_apart_from_the_arguments) :-
 test(without_arguments, Lines1 == Lines2) :-
     typhon_lines([], Lines1),
     typhon_lines(['--help'], Lines2).
-test(reader_that_stops_reading, Text == "") :-
+test(closed_output_pipe, Text == "") :-
     project_file('app/typhon.pl', App),
     with_tmp_dir(stopped_reading(App, Text)).
 test(command, forall(member(Command-Pattern,
@@ -138,7 +138,7 @@ test(not_a_topology) :-
                  "blob(2)", "network --help lists the shapes").
 test(no_such_file) :-
     typhon_error([host, alpha, '--consult', '/no/such.pl'], "/no/such.pl").
-test(no_process_there) :-
+test(no_process_at_the_address) :-
     free_port(Port),
     format(atom(Address), 'alpha@127.0.0.1:~d', [Port]),
     atom_concat('diagnose ', Address, Advice),
@@ -406,14 +406,14 @@ test(works) :-
                 ( typhon_lines([diagnose, Address], Lines),
                   assertion(has_line(Lines, '*ok*authentication*codec*'))
                 )).
-test(no_process_there, Status == exit(1)) :-
+test(no_process_at_the_address, Status == exit(1)) :-
     free_port(Port),
     format(atom(Address), 'alpha@127.0.0.1:~d', [Port]),
     typhon([diagnose, Address], Status, Out, _),
     split_string(Out, "\n", "\n", Lines),
     assertion(has_line(Lines, '*ok*cookie*')),
     assertion(has_line(Lines, '*FAIL*connection*')).
-test(another_host_there, Status == exit(1)) :-
+test(other_host_at_the_address, Status == exit(1)) :-
     with_typhon([host, alpha], _, Address,
                 ( atom_concat(alpha, Endpoint, Address),
                   atom_concat(beta, Endpoint, There),

@@ -33,7 +33,7 @@ has(Lines, Text) :-
 
 :- begin_tests(app_journal).
 
-test('a network is killed, started again with --journal, and looked into') :-
+test(killed_network_restarts_with_its_journal) :-
     with_tmp_dir(twice).
 
 twice(Tmp) :-

@@ -35,7 +35,7 @@ with_keys(Goal, Tmp) :-
 test(a_host_with_keys_answers_clients_with_keys) :-
     with_keys(asked).
 
-test(impossible_orders_give_one_line) :-
+test(impossible_orders_print_one_line) :-
     with_keys(refused).
 
 :- end_tests(keys_on_the_command_line).

@@ -35,9 +35,9 @@ found(Scenario, Kind, Found) :-
 
 :- begin_tests(chaos).
 
-test(attack) :-
+test(chaos_run) :-
     no_leaks(with_tmp_dir(test_chaos:attack)).
-test(nothing_wrong,
+test(no_violation,
      [ forall(( scenario(Scenario, _, _), finding_kind(Kind, wrong, _) )),
        true(Found == []) ]) :-
     found(Scenario, Kind, Found).
@@ -117,7 +117,7 @@ kinds(Killed, Changes, Kinds) :-
 
 :- begin_tests(chaos_verdict).
 
-test(all_is_well, true(Kinds == [])) :-
+test(correct_run, true(Kinds == [])) :-
     kinds(false, [], Kinds).
 test(lost, true(Kinds == [lost,token_lost])) :-
     kinds(false, [less(standing, agent(_, idt, _, _, _))], Kinds).
@@ -129,9 +129,9 @@ test(doubled_though_one_was_killed, true(Kinds == [doubled])) :-
     kinds(true, [more(standing, agent(b, idt, resident, 1, []))], Kinds).
 test(doubled_for_a_while, true(Kinds == [doubled])) :-
     kinds(false, [more(events, e(t, 3, at('a1@x:1'), 49, a-1))], Kinds).
-test(done_again_after_a_death, true(Kinds == [again])) :-
+test(repeated_after_a_death, true(Kinds == [again])) :-
     kinds(true, [more(events, e(t, 3, at('a1@x:1'), 52, a-1))], Kinds).
-test(put_back, true(Kinds == [count])) :-
+test(rolled_back, true(Kinds == [count])) :-
     kinds(false, [more(events, e(t, 4, at('a1@x:1'), 49, a-1))], Kinds).
 test(gap, true(Kinds == [count])) :-
     kinds(false, [less(events, e(t, 2, _, _, _))], Kinds).
@@ -139,7 +139,7 @@ test(in_doubt, true(Kinds == [stuck])) :-
     kinds(false, [ less(standing, agent(_, ids, _, _, _)),
                    more(standing, agent(a, ids, in_doubt, 0, [tick(2)])) ],
           Kinds).
-test(in_doubt_to_a_process_that_died_while_sending_it_back,
+test(in_doubt_after_the_death_of_the_returning_process,
      true(Kinds == [in_doubt])) :-
     kinds(true, [ less(lives, life(b, 2, _, _)),
                   less(standing, agent(_, idt, _, _, _)),
@@ -148,7 +148,7 @@ test(in_doubt_to_a_process_that_died_while_sending_it_back,
                   more(events, e(t, 4, go('a1@x:1'), 49, b-1)) ],
           Kinds0),
     subtract(Kinds0, [again], Kinds).
-test(in_doubt_to_a_dead_process_where_it_ended,
+test(in_doubt_at_a_dead_process_where_it_ended,
      true(Kinds == [in_doubt])) :-
     kinds(true, [ less(lives, life(b, 2, _, _)),
                   less(standing, agent(_, idt, _, _, _)),
@@ -209,7 +209,7 @@ test(message_died_long_after_it_was_sent,
     subtract(Kinds0, [count], Kinds).
 test(message_twice, true(Kinds == [count,message_twice])) :-
     kinds(false, [more(events, e(s, 3, got(a, 1), 61, a-1))], Kinds).
-test(out_of_order_from_one_that_moves, true(Kinds == [order_moving])) :-
+test(out_of_order_from_a_moving_sender, true(Kinds == [order_moving])) :-
     kinds(false, [ more(events, e(t, 0, said(s, 2), 47, a-1)),
                    more(events, e(s, 0, got(t, 2), 47, a-1)) ], Kinds).
 test(out_of_order, true(Kinds == [order_still])) :-
@@ -224,13 +224,13 @@ test(token_lost, true(Kinds == [token_lost])) :-
     kinds(false, [less(tuples, token(7))], Kinds).
 test(token_twice, true(Kinds == [token_twice])) :-
     kinds(true, [more(tuples, token(-1))], Kinds).
-test(token_that_was_dropped_and_carried_away_before_that_was_undone,
+test(token_dropped_and_carried_before_a_rollback,
      true(Kinds == [again])) :-
     kinds(true, [ more(events, e(t, 3, drops(-1), 49, b-1)),
                   less(events, e(t, 3, said(_, _), _, _)),
                   more(events, e(t, 3, said(s, 1), 52, a-1)),
                   more(tuples, token(-1)) ], Kinds).
-test(token_twice_though_one_was_dropped_in_a_process_that_died,
+test(token_duplicated_after_the_death_of_the_dropping_process,
      true(Kinds == [token_twice])) :-
     kinds(true, [ more(events, e(t, 4, drops(-1), 49, b-1)),
                   less(standing, agent(_, idt, _, _, _)),
@@ -245,10 +245,10 @@ test(message_repeated, true(Kinds == [again])) :-
                   less(standing, agent(_, ids, _, _, _)),
                   more(standing, agent(a, ids, resident, 0,
                                        [me(s), tick(3), steps(0)])) ], Kinds).
-test(victim_whose_home_died, true(Kinds == [died])) :-
+test(victim_with_a_dead_home, true(Kinds == [died])) :-
     kinds(true, [ more(agents, agent(v, victim, idv, b-1, 1)),
                   more(events, e(v, 1, at('a1@x:1'), 60, a-1)) ], Kinds).
-test(undead, true(Kinds == [undead])) :-
+test(alive_after_its_end, true(Kinds == [undead])) :-
     kinds(false, [more(disposed, t-10), less(standing, agent(_, idt, _, _, _)),
                   more(tuples, token(-1))], Kinds).
 test(late, true(Kinds == [late])) :-
@@ -259,7 +259,7 @@ test(hung, true(Kinds == [hung])) :-
     kinds(true, [more(calls, call(look, a, hung))], Kinds).
 test(denied, true(Kinds == [denied])) :-
     kinds(false, [more(calls, call(look, a, no))], Kinds).
-test(left, true(Kinds == [left])) :-
+test(left_behind, true(Kinds == [left])) :-
     kinds(false, [more(left, a-[thread(1)])], Kinds).
 
 :- end_tests(chaos_verdict).

@@ -6,9 +6,9 @@
 :- use_module(fuzz_run).
 :- use_module(library(plunit)).
 
-:- begin_tests(nonsense_does_no_harm).
+:- begin_tests(random_input_does_no_harm).
 
-test(a_few_hundred, Faults == []) :-
+test(few_hundred_inputs, Faults == []) :-
     no_leaks(fuzz([count(600), seed(1)], Faults)).
 
-:- end_tests(nonsense_does_no_harm).
+:- end_tests(random_input_does_no_harm).

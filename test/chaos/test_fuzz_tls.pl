@@ -8,9 +8,9 @@
 
 :- needs([openssl]).
 
-:- begin_tests(nonsense_over_tls_does_no_harm).
+:- begin_tests(random_input_over_tls_does_no_harm).
 
-test(some_hundreds, Faults == []) :-
+test(few_hundred_inputs, Faults == []) :-
     no_leaks(fuzz([count(400), seed(1), tls(true)], Faults)).
 
-:- end_tests(nonsense_over_tls_does_no_harm).
+:- end_tests(random_input_over_tls_does_no_harm).

@@ -13,7 +13,7 @@ The seed is another each time; it is in what a failure shows.
 
 :- begin_tests(hostile).
 
-test(no_harm_by_hostile_agents, Faults-Seed == []-Seed) :-
+test(hostile_agents_do_no_harm, Faults-Seed == []-Seed) :-
     Seed is random(1 000 000 000),
     listening(no_leaks(hostile([count(600), seed(Seed)], Faults)), _).
 

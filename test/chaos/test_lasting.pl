@@ -9,17 +9,17 @@
 %   A short form of `make chaos`. It ends after a number of faults; the time
 %   limit is for hanging runs.
 
-test('processes with journals die at their steps: no agent is lost or doubled',
+test(killed_journaled_processes_lose_and_duplicate_no_agent,
      Wrong == []) :-
     with_tmp_dir(attacked([ processes(2), agents(40), hops(50),
                             crash(0.0002), kill(1), most(6) ], Wrong)).
-test('the power fails: what was answered is not lost', Wrong == []) :-
+test(power_failure_loses_no_acknowledged_commit, Wrong == []) :-
     with_tmp_dir(attacked([ processes(2), agents(10), hops(20), sync(full),
                             crash(0), power(0.1), most(6) ], Wrong)).
 
 %   Up to so many hops, on machines that make them in time.
 
-test('fifty thousand hops while processes die: no agent is lost or doubled',
+test(fifty_thousand_hops_lose_and_duplicate_no_agent,
      Wrong == []) :-
     get_time(Now),
     Until is Now+10,

@@ -150,7 +150,7 @@ test(solutions_give_no_warnings,
                        memberchk(Kind, [warning, error]) ),
             Said).
 
-test(programs_with_a_mistake_do_not_pass,
+test(programs_with_a_mistake_fail,
      [forall(mistake(Exercise, _, _)), nondet]) :-
     with_tmp_dir(mistaken(Exercise)).
 
@@ -168,7 +168,7 @@ test(each_exercise_is_in_its_lesson, Missing == []) :-
 test(hand_ins_are_marked_in_a_table) :-
     handed_in(is_marked).
 
-test(a_program_that_does_not_end_is_stopped) :-
+test(endless_program_is_stopped) :-
     handed_in(is_stopped).
 test(a_program_that_fails_is_reported) :-
     handed_in(is_reported).

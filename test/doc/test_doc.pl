@@ -342,13 +342,13 @@ test(sessions_with_cells_answer_as_shown,
     needing(cells, File),
     differences(File, terminal(80, true), Differences).
 
-test(links_lead_somewhere, Broken == []) :-
+test(links_resolve, Broken == []) :-
     findall(Base:Link,
             ( document(File), broken_link(File, Link),
               file_base_name(File, Base) ),
             Broken).
 
-test(links_that_lead_nowhere_are_seen,
+test(broken_links_are_found,
      Links == ['none.md', 'doc.md#none', '#none']) :-
     with_tmp_dir(broken_links_in(
         "# A heading, `code` & more\n[a](doc.md) [b](none.md)\n\c
@@ -359,7 +359,7 @@ test(links_that_lead_nowhere_are_seen,
 % Those of layers and of virtual time are the same whenever they are made; but
 % the former changes with each module.
 
-test(pictures_are_all_made_by_one_command, Missing == []) :-
+test(all_pictures_are_made_by_one_command, Missing == []) :-
     findall(Picture,
             ( document(File),
               prose(File, Text),
@@ -369,7 +369,7 @@ test(pictures_are_all_made_by_one_command, Missing == []) :-
               file_base_name(Link, Picture),
               \+ is_made(Picture) ),
             Missing).
-test(picture_of_scouts_is_as_it_is_made, Shown == Made) :-
+test(picture_of_scouts_is_up_to_date, Shown == Made) :-
     with_tmp_dir(scouts_made(Made)),
     project_file('doc/img/spacetime.svg', File),
     read_file_to_string(File, Shown, []).
@@ -383,7 +383,7 @@ test(every_export_has_a_comment_with_modes, Missing == []) :-
 % with the name of a folder is a file below prolog/typhon, and a predicate that
 % is defined there.
 
-test(architecture_refers_to_files_and_predicates_that_exist,
+test(architecture_names_existing_files_and_predicates,
      Missing == []) :-
     project_file('doc/architecture.md', Document),
     read_file_to_string(Document, Text, [encoding(utf8)]),

@@ -81,7 +81,7 @@ tested(Test) :-
 
 :- begin_tests(equations).
 
-test(every_number_has_its_row, Missing == []) :-
+test(every_equation_has_a_row, Missing == []) :-
     findall(Number, row(Number, _, _), Rows),
     findall(Number, ( numbered(Number), \+ memberchk(Number, Rows) ), Missing).
 test(predicates_exist, Missing == []) :-

@@ -60,7 +60,7 @@ shown(Names) :-
 
 :- begin_tests(pictures).
 
-test(the_script_makes_those_that_are_shown, Names-Sizes == Shown-[1600*1000]) :-
+test(script_makes_the_shown_pictures, Names-Sizes == Shown-[1600*1000]) :-
     shown(Shown),
     with_tmp_dir(made(Names, Sizes)).
 

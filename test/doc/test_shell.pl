@@ -487,7 +487,8 @@ document_with_commands(File) :-
     document(File),
     commands(File, [_|_]).
 
-test(names_in_one_pass, Text == "host --journal /tmp/9700/alpha --port 17") :-
+test(all_names_in_one_pass,
+     Text == "host --journal /tmp/9700/alpha --port 17") :-
     named_here("host --journal /var/lib/typhon/alpha --port 9700",
                ["9700"-17, "/var/lib/typhon"-"/tmp/9700", "/tmp"-"/tmp/9700"],
                Text).

@@ -174,7 +174,7 @@ place(Dir, Link, Place) :-
 
 :- begin_tests(site).
 
-test(is_made_and_nothing_leads_nowhere, Broken == []) :-
+test(site_is_built_without_broken_links, Broken == []) :-
     findall(File-Link, broken(File, Link), Broken).
 
 test(navigation_has_every_document, Missing == []) :-
@@ -191,7 +191,7 @@ test(navigation_is_in_reading_order) :-
     Agents < Architecture,
     last(Links, '../predicates.html').
 
-test(explains_every_public_predicate, Missing == []) :-
+test(every_public_predicate_is_explained, Missing == []) :-
     headings(Headings),
     findall(PI, ( public(PI), term_to_atom(PI, Id),
                   \+ memberchk(h4-Id, Headings) ), Missing).
@@ -211,11 +211,11 @@ test(reference_is_grouped_by_task) :-
     memberchk(h4-'agent_create/3', Entries),
     \+ memberchk(h4-'agent_join/3', Entries).
 
-test(words_of_programs_lead_to_the_reference) :-
+test(code_words_link_to_the_reference) :-
     page('tutorial.html', Dom),
     once(xpath(Dom, //pre//a(@href='../predicates.html#move/1'), _)).
 
-test(pictures_and_programs_come_along, Missing == []) :-
+test(pictures_and_programs_are_copied, Missing == []) :-
     site(Dir),
     findall(Name,
             ( member(Name, [ 'doc/img/layers.svg',
@@ -224,7 +224,7 @@ test(pictures_and_programs_come_along, Missing == []) :-
               \+ exists_file(File) ),
             Missing).
 
-test(asks_no_server, Asked == []) :-
+test(no_server_is_contacted, Asked == []) :-
     site(Dir),
     findall(Link,
             ( directory_member(Dir, File, [ extensions([html]),

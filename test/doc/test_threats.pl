@@ -11,10 +11,10 @@
 
 test(each_threat_has_a_test, Rows == []) :-
     findall(Threat, ( threat(Threat, Tests), Tests == [] ), Rows).
-test(the_tests_are_there, Missing == []) :-
+test(named_tests_exist, Missing == []) :-
     findall(Suite:Test, ( named(Suite, Test, _), \+ is_test(Suite, Test) ),
             Missing).
-test(the_attempts_are_there, Missing == []) :-
+test(named_attempts_exist, Missing == []) :-
     findall(Suite:Attempt,
             ( attempt(Suite, Attempt), \+ is_tried(Suite, Attempt) ), Missing).
 test(sixty_attempts_are_named, true(Count >= 60)) :-

@@ -163,7 +163,7 @@ json_file(Relative, Dict) :-
 
 :- begin_tests(vscode).
 
-test(problems_are_shown_where_they_are, [condition(program(node, _))]) :-
+test(problems_are_shown_at_their_lines, [condition(program(node, _))]) :-
     wrong(Text),
     with_program(Text, vscode_shows(Problems)),
     assertion(Problems = [problem(7, error, _), problem(8, warning, _)]),
@@ -173,7 +173,7 @@ test(syntax_errors_are_shown, [condition(program(node, _)), nondet]) :-
     with_program(":- agent(a, []).\n\nmain :- foo(.\n",
                  vscode_shows(Problems)),
     assertion(Problems = [problem(3, error, _)|_]).
-test(a_program_in_order_has_no_problems,
+test(correct_program_has_no_problems,
      [condition(program(node, _)), true(Problems == [])]) :-
     with_program(":- agent(a, []).\nmain :- here(_).\n",
                  vscode_shows(Problems)).
@@ -185,9 +185,9 @@ test(missing_prolog_is_reported, [condition(program(node, _))]) :-
     wrong(Text),
     with_program(Text, vscode_warns(Warning)),
     assertion(sub_string(Warning, 0, _, _, "/nowhere/swipl does not run")).
-test(grammar_knows_all_words_of_agents, Missing == []) :-
+test(grammar_contains_the_vocabulary, Missing == []) :-
     not_in('app/editors/vscode/syntaxes/prolog.tmLanguage.json', Missing).
-test(task_and_extension_read_problems_alike) :-
+test(task_and_extension_parse_problems_alike) :-
     json_file('app/editors/vscode/package.json', Package),
     [Matcher] = Package.contributes.problemMatchers,
     RegExp = Matcher.pattern.regexp,
@@ -195,7 +195,7 @@ test(task_and_extension_read_problems_alike) :-
     read_file_to_string(File, Text, [encoding(utf8)]),
     format(string(Literal), "/~w/;", [RegExp]),
     assertion(sub_string(Text, _, _, _, Literal)).
-test(snippets_are_right, [condition(program(node, _))]) :-
+test(snippets_are_valid, [condition(program(node, _))]) :-
     findall(Prefix-Text, snippet(Prefix, Text), Snippets),
     assertion(Snippets = [_, _, _, _, _, _|_]),
     findall(Text,
@@ -211,7 +211,7 @@ test(snippets_are_right, [condition(program(node, _))]) :-
 
 :- begin_tests(emacs).
 
-test(problems_are_shown_where_they_are, [condition(program(emacs, _))]) :-
+test(problems_are_shown_at_their_lines, [condition(program(emacs, _))]) :-
     wrong(Text),
     with_program(Text, emacs_shows(Lines)),
     assertion(Lines = [_, _, _]),
@@ -219,7 +219,7 @@ test(problems_are_shown_where_they_are, [condition(program(emacs, _))]) :-
     assertion(sub_string(First, 0, _, _, "7 :error No permission")),
     assertion(sub_string(Second, 0, _, _, "8 :warning ")),
     assertion(Face == "move is font-lock-keyword-face").
-test(mode_knows_all_words_of_agents, Missing == []) :-
+test(mode_contains_the_vocabulary, Missing == []) :-
     not_in('app/editors/emacs/typhon.el', Missing).
 
 :- end_tests(emacs).

@@ -18,7 +18,7 @@ application(warehouse, []).
 
 :- begin_tests(applications).
 
-test(what_is_printed_is_documented, [forall(application(Name, Options))]) :-
+test(output_is_documented, [forall(application(Name, Options))]) :-
     application_file(Name, File),
     run_swipl([File, '--speed=0'|Options], [timeout(120)], Status, Out, Err),
     assertion(Status-Err == exit(0)-""),
@@ -28,7 +28,7 @@ test(what_is_printed_is_documented, [forall(application(Name, Options))]) :-
 
 %   At this speed the first line of the story is hours away.
 
-test(interrupt_ends_it, [forall(application(Name, _))]) :-
+test(interrupt_ends_the_program, [forall(application(Name, _))]) :-
     application_file(Name, File),
     current_prolog_flag(executable, Swipl),
     setup_call_cleanup(
@@ -42,7 +42,7 @@ test(interrupt_ends_it, [forall(application(Name, _))]) :-
         ( close(Out),
           catch(stop_process(Pid), error(_, _), true) )).    % has ended
 
-test(wrong_call, [forall(wrong(Option, Word))]) :-
+test(wrong_arguments, [forall(wrong(Option, Word))]) :-
     refused(Option, Line),
     assertion(sub_string(Line, _, _, _, Word)).
 

@@ -262,10 +262,10 @@ test(sum_is_that_of_the_numbers, Found == Sum) :-
 test(dictionary_keeps_words_on_shelves) :-
     virtually(mesh(5), defined, _).
 
-test(game_is_won_by_the_thinker, nondet) :-
+test(thinker_wins_the_game, nondet) :-
     plays([anna-novice, bert-thinker], [won(o, _)]).
 
-test(game_of_two_novices_is_won_by_the_first, nondet) :-
+test(first_of_two_novices_wins, nondet) :-
     plays([anna-novice, bert-novice], [won(x, _)]).
 
 test(salesman_finds_the_shortest_tour) :-
@@ -275,7 +275,7 @@ test(salesman_finds_the_shortest_tour) :-
     assertion(abs(Found-Km) < 1e-9),
     assertion(length(Tour, 6)).
 
-test(flood_comes_to_each_host_once) :-
+test(flood_reaches_each_host_once) :-
     on(grid(3, 4), [clock(virtual), hop_time(uniform(1, 1))], floods, _).
 
 test(explorer_sees_every_host, Sorted == Hosts) :-
@@ -302,17 +302,17 @@ test(sorters_sort_on_sockets) :-
     on(line(4), [processes(2), hosts([concurrency(1)])],
        sorts([3, 1, 4, 2]), _).
 
-test(pathfinder_finds_the_shortest_way_from_each_town_to_each) :-
+test(pathfinder_finds_all_shortest_paths) :-
     no_leaks(on_the_roads(
         forall(( town(From), town(To), From \== To ),
                finds_shortest(From, To)))).
 
-test(pathfinder_looks_only_where_it_may_be_shorter, true(Hops =< 4)) :-
+test(pathfinder_checks_only_possibly_shorter_paths, true(Hops =< 4)) :-
     no_leaks(on_the_roads(( finds(harbour, castle, _),
                             findall(Town, town(Town), Towns),
                             arrivals(Towns, Hops) ))).
 
-test(page_shows_the_programs_as_they_are, Others == []) :-
+test(page_shows_the_current_programs, Others == []) :-
     project_file('doc/classics.md', Page),
     read_file_to_string(Page, Text, [encoding(utf8)]),
     project_file('examples/classics/*.pl', Pattern),

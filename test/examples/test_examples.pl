@@ -90,7 +90,7 @@ file_lines(Example, Count) :-
 
 :- begin_tests(examples).
 
-test(shows, [ forall(shows(Example, Patterns)), nondet ]) :-
+test(prints_the_expected_lines, [ forall(shows(Example, Patterns)), nondet ]) :-
     run_example(Example, Lines),
     assertion(all_shown(Patterns, Lines)).
 

@@ -40,7 +40,7 @@ test(heat_grows_with_the_square_of_time, Heat =:= 0.0469*100**2) :-
     after(101, [fire(r1c1, 0.0469)], guide([], []), World0, World),
     heat_in(World, r1c1, Heat).
 
-test(smoke_is_neither_made_nor_lost_without_heat) :-
+test(smoke_is_conserved_without_heat) :-
     smoky(r2c4, 10.0, World0),
     after(100, [], guide([], []), World0, world(_, Smoke, _, _)),
     assoc_to_values(Smoke, Grams),
@@ -68,7 +68,7 @@ test(people_follow_signs) :-
     findall(Id, member(person(Id, _, _, out(_), _, _), People), Out),
     assertion(Out == [r1c2/1]).
 
-test(people_leave_at_once_where_it_burns) :-
+test(people_leave_a_burning_compartment_at_once) :-
     building_new([people(1), delay(900-900)], World0),
     after(300, [fire(r1c2, 0.0469)], guide([], []), World0,
           world(_, _, _, People)),
@@ -129,12 +129,12 @@ test(one_faulty_detector_is_no_alarm) :-
                assertion(alarm(m)),
                assertion(alarm(w)) )).
 
-test(it_is_with_single_detectors) :-
+test(single_faulty_detector_alarms_without_verification) :-
     corridor([rule(single), signs(fixed)], Network,
              ( reads(Network, m, 0.3),
                assertion(alarm(w)) )).
 
-test(verification_takes_its_time) :-
+test(verification_takes_time) :-
     corridor([rule(verified), signs(fixed)], Network,
              ( reads(Network, m, 0.3),
                assertion(\+ alarm(m)),
@@ -149,7 +149,7 @@ test(signs_lead_away_from_smoke) :-
                reads(Network, First, 0.8),
                assertion(sign(m, Other)) )).
 
-test(signs_lead_away_from_boxes_that_are_silent) :-
+test(signs_lead_away_from_silent_boxes) :-
     corridor([rule(gossip), signs(gradient)], Network,
              ( sign(m, First),
                ( First == w -> Other = e ; Other = w ),

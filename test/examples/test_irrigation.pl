@@ -31,12 +31,12 @@ test(crop_takes_water) :-
     assertion(near(D, 20.6)),
     assertion(Totals = totals(_, _, 0)).
 
-test(with_stress_it_takes_less) :-
+test(stress_reduces_water_uptake) :-
     hour(0.5-0, 0, 75, D, totals(_, _, Hours)),
     assertion(near(D, 75.3)),
     assertion(Hours =:= 1).
 
-test(irrigation_loses_some_on_the_way) :-
+test(irrigation_has_losses) :-
     hour(0-0, 5, 20, D, totals(Mm, _, _)),
     assertion(near(D, 16)),
     assertion(Mm =:= 5).
@@ -55,7 +55,7 @@ test(moisture) :-
     field_moisture(Field, Share),
     assertion(near(Share, 0.2)).
 
-test(weather_is_as_assumed) :-
+test(weather_matches_the_assumptions) :-
     numlist(0, 23999, Hours),
     findall(E, ( member(H, Hours), weather(1, H, E, _) ), Es),
     findall(R, ( member(H, Hours), weather(1, H, _, R) ), Rs),
@@ -103,7 +103,7 @@ test(gardeners_go_to_their_fields) :-
            ( forall(member(Host, [field1, field6]), assertion(there(Host))),
              assertion(remote(office, host_load(0))) )).
 
-test(they_wait_for_a_link) :-
+test(gardeners_wait_for_a_link) :-
     scene_network([], Topology, _),
     setup_call_cleanup(
         network_start(Topology, Network,
@@ -118,7 +118,7 @@ test(they_wait_for_a_link) :-
         ( scene_stop,
           network_stop(Network) )).
 
-test(at_the_field_they_need_no_link) :-
+test(gardeners_at_the_field_need_no_link) :-
     season([down(0)], 2, Network,
            ( alone,
              given(Before),
@@ -126,7 +126,7 @@ test(at_the_field_they_need_no_link) :-
              given(After),
              assertion(After > Before+100) )).
 
-test(at_the_office_they_do) :-
+test(gardeners_at_the_office_need_a_link) :-
     season([down(0), strategy(central)], 2, Network,
            ( alone,
              network_advance(Network, 86400),   % what was ordered before

@@ -16,7 +16,7 @@
 gardening(Broker, Order) :-
     broker_url(Broker, URL),
     listening(mqtt_start(field1, URL, []), _),
-    stranger_hears(Broker, ['-t', 'field/1/valve', '-C', 1], gardener, [Line]),
+    client_receives(Broker, ['-t', 'field/1/valve', '-C', 1], gardener, [Line]),
     atom_json_dict(Line, Order, []).
 
 gardener :-
@@ -33,7 +33,7 @@ gardener :-
 
 test(valve) :-
     with_broker([], Broker,
-                ( stranger_says(Broker, 'field/1/moisture',
+                ( client_publishes(Broker, 'field/1/moisture',
                                 [ '-r', '-m', '{"hour":5, "moisture":0.2, \c
                                                "et0":0, "rain":0}' ]),
                   setup_call_cleanup(

@@ -83,7 +83,7 @@ test(energy_is_conserved_exactly,
        cleanup(set_prolog_flag(prefer_rationals, false)) ]) :-
     forall(between(1, 300, Seed), conserved(Seed)).
 
-test(a_house_uses_what_it_produces_first) :-
+test(own_production_is_used_first) :-
     one_house(0, 0, 0.2, flow(1, 0.5, grant(-9, 0)),
               house(_, _, Water, totals(_, Used, Bought, Wasted, _, Sold, _)),
               battery(Level, _, _)),
@@ -92,7 +92,7 @@ test(a_house_uses_what_it_produces_first) :-
     assertion(near(Level, 0.3*0.92)),
     assertion(( Bought =:= 0, near(Wasted, 0), near(Water, 0) )).
 
-test(without_a_grant_it_is_wasted_or_bought) :-
+test(without_a_grant_surplus_is_wasted_and_demand_is_bought) :-
     one_house(0, 4, 0, flow(1, 0, grant(0, 0)),
               house(_, _, _, totals(_, _, _, Wasted, _, _, _)), _),
     assertion(Wasted =:= 1),
@@ -106,14 +106,14 @@ test(a_battery_is_charged_in_two_hours) :-
     battery_limits(battery(8, 8, 0), In1, Out1),
     assertion(( In1 =:= 0, Out1 =:= 1 )).
 
-test(a_boiler_that_would_be_late_takes_from_the_grid) :-
+test(late_boiler_draws_from_the_grid) :-
     one_house(70, 0, 1.0, flow(0, 0, grant(0, 0)), house(_, _, At1745, Sums), _),
     assertion(Sums = totals(_, 0.5, 0.5, _, _, _, _)),
     assertion(At1745 =:= 0.5),
     one_house(71, 0, 0.5, flow(0, 0, grant(0, 0)), house(_, _, At18, _), _),
     assertion(At18 =:= 4).
 
-test(sun_and_loads_are_as_assumed) :-
+test(sun_and_loads_match_the_assumptions) :-
     street_new(1, 30, street(_, _, Houses)),
     House = house(_, plant(Peak, Daily, _), _, _),
     findall(Share-Part,
@@ -168,19 +168,19 @@ in_order(Seed) :-
 
 :- begin_tests(solar_market).
 
-test(at_the_price_all_do_what_they_prefer) :-
+test(at_the_price_every_bidder_is_satisfied) :-
     forall(between(1, 300, Seed), in_order(Seed)).
 
 test(equal_bids_get_equal_shares, Ct-Deals == 30.0-[a-0.5, b-1.0, c- -1.5]) :-
     cleared([at(30.0, a, 1), at(30.0, b, 2), at(0.0, c, -1.5)], Ct, _, Deals).
 
-test(the_better_bid_goes_first, Deals == [b-1, a-0.5, c- -1.5]) :-
+test(better_bid_goes_first, Deals == [b-1, a-0.5, c- -1.5]) :-
     cleared([at(10.0, a, 1), at(30.0, b, 1), at(0.0, c, -1.5)], _, _, Deals).
 
 test(scarce_energy_has_the_price_of_the_bids, Ct =:= 30) :-
     cleared([at(30.0, a, 1), at(0.0, c, -0.5)], Ct, _, _).
 
-test(price_is_the_middle, Ct =:= 15) :-
+test(price_is_midway_between_the_bids, Ct =:= 15) :-
     cleared([at(30.0, a, 1), at(0.0, c, -1)], Ct, _, _).
 
 test(no_trade, fail) :-
@@ -249,30 +249,30 @@ test(energy_is_conserved,
     aggregate_all(sum(T), member(_-totals(_, _, _, _, T, _, _), Totals), Taken),
     assertion(( Strategy == none -> Taken =:= 0 ; Taken > 10 )).
 
-test(one_broken_link_leaves_no_house_out) :-
+test(one_broken_link_excludes_no_house) :-
     street([], 40, unlink(house5, house6), _-Totals),
     forall(between(1, 10, N),
            ( exchanged(Totals, N, Kwh), assertion(Kwh > 0) )).
 
-test(houses_that_cannot_be_reached_are_left_out) :-
+test(unreachable_houses_are_excluded) :-
     street([], 40, ( unlink(house3, house4), unlink(house6, house7) ), _-Totals),
     forall(between(1, 10, N),
            ( exchanged(Totals, N, Kwh),
              assertion(( between(4, 6, N) -> Kwh =:= 0 ; Kwh > 0 )) )).
 
-test(a_house_in_the_evening_has_time_for_its_boiler, L-H == 0.2-0.5) :-
+test(evening_house_can_delay_its_boiler, L-H == 0.2-0.5) :-
     answers(house, meter(80, -0.2, 3), [bids], [bids(Bids)]),
     assertion(Bids = [at(30.0, _), at(_, _)]),
     Bids = [at(_, L), at(Ct, H)],
     assertion(( 0 < Ct, Ct < 10 )).
 
-test(and_none_before_18, Ct =:= 30) :-
+test(evening_house_cannot_delay_its_boiler_before_18, Ct =:= 30) :-
     answers(house, meter(70, -0.2, 1), [bids], [bids([_, at(Ct, 0.5)])]).
 
-test(it_offers_what_the_boiler_leaves, true(Kwh == -0.75)) :-
+test(surplus_after_the_boiler_is_offered, true(Kwh == -0.75)) :-
     answers(house, meter(50, 1.0, 0.25), [bids], [bids([at(0.0, Kwh)])]).
 
-test(keeper_grants_what_there_is, Kwh == [2, 1, -1, 1, -5]) :-
+test(keeper_grants_available_energy, Kwh == [2, 1, -1, 1, -5]) :-
     answers(keeper, battery(1, 4, 8, 2, 3),
             [ask(1, 2), ask(2, 2), ask(3, -1), ask(4, 2), ask(5, -9)],
             Answers),

@@ -53,7 +53,7 @@ near(X, Y) :-
 
 :- begin_tests(warehouse_floor).
 
-test(robots_drive_as_fast_as_they_can) :-
+test(robots_respect_their_speed_limit) :-
     beam(Floor0),
     after([floor_drive(r1, 9-0), floor_step(0.5)], Floor0, Floor),
     once(floor_robot(Floor, r1, p(X, Y), _, _)),
@@ -68,7 +68,7 @@ test(robots_stop_without_commands) :-
     assertion(near(X, 2)),
     assertion(State == idle).
 
-test(a_beam_is_carried_at_both_ends) :-
+test(beam_is_carried_at_both_ends) :-
     beam(Floor0),
     after([ floor_fork(load, r1), floor_fork(load, r2), driven([r1, r2], 4) ],
           Floor0, Floor),
@@ -76,7 +76,7 @@ test(a_beam_is_carried_at_both_ends) :-
     assertion(near(X, 6)),
     assertion(Falls == 0).
 
-test(it_falls_when_one_goes_alone) :-
+test(beam_falls_when_one_robot_moves_alone) :-
     beam(Floor0),
     after([floor_fork(load, r1), driven([r1], 2)], Floor0, Floor),
     floor_load(Floor, beam, _, Centre, Falls),
@@ -84,19 +84,19 @@ test(it_falls_when_one_goes_alone) :-
     assertion(Falls == 1),
     assertion(\+ floor_fork(unload, r1, Floor, _)).
 
-test(and_when_they_are_too_far_apart) :-
+test(beam_falls_when_robots_are_too_far_apart) :-
     beam(Floor0),
     after([ floor_fork(load, r1), floor_fork(load, r2), driven([r2], 2) ],
           Floor0, Floor),
     floor_load(Floor, beam, _, _, Falls),
     assertion(Falls == 1).
 
-test(forks_reach_what_is_near) :-
+test(forks_reach_near_loads) :-
     beam(Floor0),
     after([driven([r1], 1)], Floor0, Floor),
     assertion(\+ floor_fork(load, r1, Floor, _)).
 
-test(a_corner_has_one_fork) :-
+test(corner_is_held_by_one_fork) :-
     floor_new([r1-p(0, 0), r2-p(0, 0)], Floor0),
     floor_put(pallet, [p(0, 0)], p(0, 0), Floor0, Floor1),
     floor_fork(load, r1, Floor1, Floor),
@@ -139,11 +139,11 @@ test(robots_are_reached_over_rosbridge) :-
                                     Response)),
             assertion(Response.success == false) )).
 
-test(what_is_no_service, error(existence_error(ros_service, _))) :-
+test(unknown_service, error(existence_error(ros_service, _))) :-
     scene([robots(1)], '/dev/null', _,
           remote(robot1, ros_call('/robot1/fly', 'std_srvs/srv/Trigger', [], _))).
 
-test(agents_drive_them) :-
+test(agents_drive_robots) :-
     scene([robots(1), pallets(0), beams(0)], '/dev/null', Network,
           ( network_advance(Network, 2),
             remote(robot1, sense(ros-topic('/robot1/pose', Before))),
@@ -180,7 +180,7 @@ test(too_few_robots) :-
             scene_orders(Delivered, Waiting, Underway, Falls),
             assertion([Delivered, Waiting, Underway, Falls] == [0, 0, 0, 0]) )).
 
-test(too_fast_a_beam_falls_and_robots_are_free_again) :-
+test(beam_moved_too_fast_falls_and_frees_robots) :-
     scene([robots(3), pallets(0), beams(1), fast(1), deadline(60)], '/dev/null',
           Network,
           ( network_advance(Network, 120),
@@ -192,7 +192,7 @@ test(too_fast_a_beam_falls_and_robots_are_free_again) :-
 %   Both robots of a beam are needed, so another has taken the place of the one
 %   that broke down, at the corner where that was.
 
-test(a_robot_that_breaks_down_is_replaced) :-
+test(broken_robot_is_replaced) :-
     with_tmp_dir(replaced).
 
 replaced(Dir) :-

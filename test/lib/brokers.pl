@@ -7,9 +7,9 @@
             broker_log/2,               % +Broker, -Text
             with_broker/3,              % +Options, -Broker, :Goal
             with_mqtt/3,                % +Broker, +Options, :Goal
-            stranger_says/3,            % +Broker, +Topic, +Args
-            stranger_counts/4,          % +Broker, +Topic, +N, -Pid
-            stranger_hears/4            % +Broker, +Args, :Goal, -Lines
+            client_publishes/3,            % +Broker, +Topic, +Args
+            client_publishes_numbers/4,          % +Broker, +Topic, +N, -Pid
+            client_receives/4            % +Broker, +Args, :Goal, -Lines
           ]).
 
 /** <module> MQTT brokers for tests, and clients of other programs
@@ -36,7 +36,7 @@ and mosquitto_sub.
 :- meta_predicate
     with_broker(+, -, 0),
     with_mqtt(+, +, 0),
-    stranger_hears(+, +, 0, -).
+    client_receives(+, +, 0, -).
 
 :- dynamic running/2.                   % Port, Pid
 
@@ -137,21 +137,21 @@ with_mqtt(Broker, Options, Goal) :-
                     once(Goal) ),
                   host_stop(alpha)), _).
 
-%!  stranger_says(+Broker, +Topic, +Args) is det.
-%!  stranger_counts(+Broker, +Topic, +N, -Pid) is det.
-%!  stranger_hears(+Broker, +Args, :Goal, -Lines) is semidet.
+%!  client_publishes(+Broker, +Topic, +Args) is det.
+%!  client_publishes_numbers(+Broker, +Topic, +N, -Pid) is det.
+%!  client_receives(+Broker, +Args, :Goal, -Lines) is semidet.
 %
 %   mosquitto_pub and mosquitto_sub; Goal is called when the latter has
 %   subscribed, and Lines are what it prints until it ends.  Process Pid
 %   publishes the numbers from 1 to N with QoS 1, as fast as it can.
 
-stranger_says(broker(Port, _), Topic, Args) :-
+client_publishes(broker(Port, _), Topic, Args) :-
     process_create(path(mosquitto_pub),
                    ['-p', Port, '-t', Topic|Args],
                    [stderr(null), process(Pid)]),
     process_wait(Pid, exit(0)).
 
-stranger_counts(broker(Port, Dir), Topic, N, Pid) :-
+client_publishes_numbers(broker(Port, Dir), Topic, N, Pid) :-
     directory_file_path(Dir, numbers, File),
     setup_call_cleanup(
         open(File, write, Out),
@@ -162,10 +162,10 @@ stranger_counts(broker(Port, Dir), Topic, N, Pid) :-
     process_create('/bin/sh', ['-c', Command],
                    [stderr(null), process(Pid)]).
 
-stranger_hears(Broker, Args, Goal, Lines) :-
+client_receives(Broker, Args, Goal, Lines) :-
     Broker = broker(Port, _),
-    flag(typhon_stranger, N, N+1),
-    format(atom(Name), 'stranger~d', [N]),
+    flag(typhon_client, N, N+1),
+    format(atom(Name), 'client~d', [N]),
     append(['-p', Port, '-W', 20, '-i', Name], Args, All),
     setup_call_cleanup(
         process_create(path(mosquitto_sub), All,

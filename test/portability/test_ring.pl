@@ -154,7 +154,7 @@ carries(Direction, From, Laps, Outcome) :-
 
 :- begin_tests(ring_of_prologs, [ setup(start_ring), cleanup(stop_ring) ]).
 
-test(state_and_variables_arrive_intact,
+test(state_and_variables_arrive_unchanged,
      [ forall(( member(Direction, [forth, back]), host(From, _) )),
        Outcome == done ]) :-
     carries(Direction, From, 2, Outcome).
@@ -167,7 +167,7 @@ codec(Name, Codec) :-
     atomic_list_concat([_, Endpoint], @, Address),
     once(endpoint_peer(Endpoint, codec(Codec))).
 
-test(goes_on_where_it_was,
+test(hop_resumes_at_the_next_goal,
      [ forall(host(From, _)), Notes == Expected ]) :-
     route(forth, From, [B, C|_]),
     addresses([From, B, C], [HostA, HostB, HostC]),
@@ -187,7 +187,7 @@ wound(A, B, C, Notes) :-
               C-later, A-7, B-6, C-5, A-4, B-3, C-2, A-1
             ].
 
-test(messages_and_goals_seen_from_outside) :-
+test(messages_and_goals_are_visible_from_outside) :-
     route(forth, alpha, Route),
     addresses(Route, Hosts),
     agent(patient, alpha, route(Hosts), Agent),
@@ -214,12 +214,12 @@ here(Goal) :-
     remote(Address, findall(Goal, Goal, Goals)),
     member(Goal, Goals).
 
-test(bindings_come_back, [ forall(host(_, Address)) ]) :-
+test(bindings_are_returned, [ forall(host(_, Address)) ]) :-
     remote(Address, findall(N-T, term(N, T), Pairs)),
     forall(member(N-T, Pairs),
            assertion(here(same(N, T)))).
 
-test(a_crowd, Outcomes == Done) :-
+test(many_agents, Outcomes == Done) :-
     findall(Agent,
             ( between(1, 4, _),
               host(From, _),
@@ -232,7 +232,7 @@ test(a_crowd, Outcomes == Done) :-
     maplist(joined, Agents, Outcomes),
     findall(done, member(_, Agents), Done).
 
-test(no_agent_stays) :-
+test(no_agent_remains) :-
     forall(host(_, Address),
            wait_until(remote(Address, host_load(0)), 5)).
 

@@ -99,24 +99,24 @@ test(check_reports_success,
 
 :- begin_tests(installer, [condition(( has_serial, root ))]).
 
-test(nothing_missing, Status-Notes == exit(0)-[]) :-
+test(no_program_is_missing, Status-Notes == exit(0)-[]) :-
     commands(Commands),
     install_with(Commands, 0, Status, Notes).
 
-test(only_what_is_missing, Status == exit(0)) :-
+test(only_missing_programs_are_listed, Status == exit(0)) :-
     commands(Commands),
     subtract(Commands, [dot, ip], Rest),
     install_with(Rest, 0, Status, [Note]),
     assertion(sub_string(Note, _, _, 0, " graphviz iproute2")).
 
-test(by_name, Status == exit(0)) :-
+test(program_selected_by_name, Status == exit(0)) :-
     commands(Commands),
     subtract(Commands, [gnuplot, dot], Rest),
     install_with(Rest, [graphviz], 0, Status, [Note]),
     assertion(sub_string(Note, _, _, 0, "recommends graphviz")).
 test(unknown_name, Status-Notes == exit(2)-[]) :-
     install_with([], [core, 'no-such'], 0, Status, Notes).
-test(lists_what_it_would_install, Output == "graphviz\n") :-
+test(dry_run_lists_installations, Output == "graphviz\n") :-
     with_tmp_dir(missing([graphviz, make], [make], Output)).
 test(lists_all) :-
     run('.ci/install', ['--packages'], [], exit(0), Core),
@@ -138,7 +138,7 @@ test(update_only_when_needed, Status == exit(0)) :-
     assertion(sub_string(Second, 0, _, _, "update")),
     assertion(Third == First).
 
-test(cannot, Status == exit(1)) :-
+test(failed_installation, Status == exit(1)) :-
     commands(Commands),
     subtract(Commands, [gnuplot], Rest),
     install_with(Rest, 3, Status, _).

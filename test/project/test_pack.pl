@@ -182,7 +182,7 @@ released(Sum, Dir) :-
     close(Out),
     process_wait(Pid, exit(0)).
 
-test(each_library_by_its_file_alone,
+test(each_library_loads_by_its_file,
      [ forall(member(Name, ['typhon.pl', 'tartarus.pl', 'typhon/nxt.pl',
                             'typhon/fipa.pl'])),
        true(Status-Err == exit(0)-"") ]) :-

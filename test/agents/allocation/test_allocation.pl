@@ -38,7 +38,7 @@ lasts(Chi0, Found, Visited0, Hops) :-
 
 test(equation_7_1, Chi =:= 3.0) :-            % 2 (1 + 1/2 * 10/10)
     rewarded(2, 0.5, 10, 0, Chi).
-test(reward_is_less_when_less_is_needed) :-     % 2 (1 + 1/2 * 1/10)
+test(reward_falls_with_the_missing_robots) :-     % 2 (1 + 1/2 * 1/10)
     rewarded(2, 0.5, 10, 9, Chi),
     close_to(Chi, 2.1).
 test(equation_7_2) :-                        % 2 (1 - 1/2 * 2/(2 + 6))
@@ -118,34 +118,34 @@ test(open_teams, Open == [2]) :-
 
 test(step, Trail == [d, c, b, a]) :-
     stepped(d, [c, e], [], [c, b, a], Trail).
-test(step_over_a_link_that_has_gone, Trail == [d, c, b, a]) :-
+test(step_over_a_removed_link, Trail == [d, c, b, a]) :-
     stepped(d, [], [a], [c, b, a], Trail).
-test(round_is_forgotten, Trail == [b, a]) :-
+test(cycle_is_removed, Trail == [b, a]) :-
     stepped(b, [d, c], [], [d, c, b, a], Trail).
-test(detour_is_forgotten, Trail == [e, b, a]) :-
+test(detour_is_shortened, Trail == [e, b, a]) :-
     stepped(e, [b, d], [a], [d, c, b, a], Trail).
-test(not_beyond_a_robot, Trail == [e, c, b, a]) :-
+test(path_is_not_shortened_past_a_robot, Trail == [e, c, b, a]) :-
     stepped(e, [d, c, b], [c], [d, c, b, a], Trail).
-test(round_with_a_robot_is_kept, Trail == [b, d, c, b, a]) :-
+test(round_trip_with_a_robot_is_kept, Trail == [b, d, c, b, a]) :-
     stepped(b, [d], [c, x], [d, c, b, a], Trail).
-test(round_to_a_robot, Trail == [c, b, a]) :-
+test(round_trip_to_a_robot, Trail == [c, b, a]) :-
     stepped(c, [d], [c], [d, c, b, a], Trail).
 test(links, Counts == [0, 2, 4]) :-
     maplist([Host, Count]>>links(Host, [d, c, b, a], Count), [d, b, x],
             Counts).
 test(back_step_by_step, Host-Distance == c-2) :-
     nearer([d, c, b, a], [a], [x, c], 4, Host, Distance).
-test(back_by_a_short_cut, Host-Distance == b-1) :-
+test(back_by_a_shortcut, Host-Distance == b-1) :-
     nearer([d, c, b, a], [a], [c, b], 4, Host, Distance).
-test(to_the_nearest_robot, Host-Distance == c-0) :-
+test(path_to_the_nearest_robot, Host-Distance == c-0) :-
     nearer([d, c, b, a], [a, c], [c, b], 4, Host, Distance).
-test(also_forward, Host-Distance == d-0) :-
+test(path_leads_forward_too, Host-Distance == d-0) :-
     nearer([d, c, b, a], [d], [a, d, b], 4, Host, Distance).
-test(not_where_it_has_been_as_near, fail) :-
+test(equally_near_unvisited_host_is_preferred, fail) :-
     nearer([d, c, b, a], [a], [c], 2, _, _).
-test(way_is_broken, fail) :-
+test(broken_path, fail) :-
     nearer([c, b, a], [a], [x, y], 3, _, _).
-test(way_leads_to_none, fail) :-
+test(path_without_robots, fail) :-
     nearer([c, b, a], [z], [c, b], 3, _, _).
 
 cost_of(Payload, Details, Properties, Cost) :-
@@ -162,13 +162,13 @@ payload_clauses(Payload, Clauses) :-
 test(nearest, Cost =:= 5.0) :-
     cost_of(payloads(allocation/nearest), [at(p(4, 6))], [position=p(1, 2)],
             Cost).
-test(nowhere_costs_nothing, Cost =:= 0) :-
+test(path_to_the_same_host_costs_nothing, Cost =:= 0) :-
     cost_of(payloads(allocation/nearest), [], [position=p(1, 2)], Cost).
 test(energy, Cost =:= 0.5) :-
     cost_of(payloads(allocation/energy), [energy(2)], [battery=4], Cost).
 test(too_little_energy, fail) :-
     cost_of(payloads(allocation/energy), [energy(2)], [battery=1], _).
-test(thrifty, Agreed == [2-0, 4-1, 8-2]) :-
+test(thrifty_accepts_higher_costs_with_each_round, Agreed == [2-0, 4-1, 8-2]) :-
     payload_clauses(payloads(allocation/thrifty), [Clause]),
     assertz(test_allocation_payload:Clause),
     call_cleanup(
@@ -195,11 +195,12 @@ test(no_faults, Faults == []) :-
 test(reserved_twice, Faults == [twice(h, a, b, 2)]) :-
     faults([ reserved(h, a, t), reserved(h, b, u), released(h, b, u) ],
            Faults).
-test(reserved_twice_by_one, Faults == [twice(h, a, a, 2)]) :-
+test(reserved_twice_by_one_allocator, Faults == [twice(h, a, a, 2)]) :-
     faults([ reserved(h, a, t), reserved(h, a, t), released(h, a, t) ],
            Faults).
-test(strays, Faults == [ stray(h, a, executed, 1), stray(h, b, executed, 3),
-                         stray(h, b, released, 4), held(h, a, t) ]) :-
+test(stray_robots,
+     Faults == [ stray(h, a, executed, 1), stray(h, b, executed, 3),
+                 stray(h, b, released, 4), held(h, a, t) ]) :-
     faults([ executed(h, a, t), reserved(h, a, t), executed(h, b, t),
              released(h, b, t) ],
            Faults).
@@ -293,14 +294,16 @@ test(reserved_once,
     say(y, ask(s, Need), Acts1),
     say(y, reserve(s, other, Need), Acts2),
     hold(r, reserved).
-test(asked_again_says_the_same, Acts == [send(x, answer(r, reserved))]) :-
+test(repeated_request_gets_the_same_answer,
+     Acts == [send(x, answer(r, reserved))]) :-
     robot([]),
     reserved(r, x),
     need(r, Need),
     say(x, reserve(r, owner, Need), Acts).
-test(released_by_the_right_one, Acts == [ log(released(here, owner, r)),
-                                          send(child, answer(r, released))
-                                        ]) :-
+test(released_by_the_reserving_allocator,
+     Acts == [ log(released(here, owner, r)),
+               send(child, answer(r, released))
+             ]) :-
     robot([]),
     reserved(r, x),
     say(child, release(s), [send(child, answer(s, released))]),
@@ -308,7 +311,7 @@ test(released_by_the_right_one, Acts == [ log(released(here, owner, r)),
     say(child, release(r), Acts),
     \+ hold(_, _),
     \+ fake_agent:due(_, _).
-test(urgent_task_takes_it_over,
+test(urgent_task_preempts_reservation,
      Acts == [ log(released(here, owner, r)), send(x, lost(r, preempted)),
                log(reserved(here, other, u)), send(y, answer(s, reserved))
              ]) :-
@@ -318,12 +321,13 @@ test(urgent_task_takes_it_over,
     say(y, ask(s, Need), [send(y, answer(s, bid(3)))]),
     say(y, reserve(s, other, Need), Acts),
     hold(s, reserved).
-test(equal_task_does_not, Acts == [send(y, answer(s, refused(reserved)))]) :-
+test(equal_task_does_not_preempt,
+     Acts == [send(y, answer(s, refused(reserved)))]) :-
     robot([]),
     need(t, 1, Need),
     say(x, reserve(r, owner, Need), _),
     say(y, reserve(s, other, Need), Acts).
-test(not_while_executing,
+test(executing_robot_is_not_preempted,
      Acts == [send(y, answer(s, refused(executing)))]) :-
     robot([]),
     reserved(r, x),
@@ -348,7 +352,7 @@ test(executed, Acts == [log(executed(here, owner, r)), send(x, done(r))]) :-
     say(child, finished(r, done), Acts),
     say(x, status(r), [send(x, answer(r, status(done)))]),
     hold(r, done).
-test(message_of_an_earlier_hand_is_ignored, Acts == []) :-
+test(message_of_an_earlier_execution_thread_is_ignored, Acts == []) :-
     robot([]),
     reserved(r, x),
     say(x, start(r, true), _),
@@ -360,7 +364,7 @@ test(failed_execution, Acts == [ log(released(here, owner, r)),
     say(x, start(r, true), _),
     say(child, finished(r, raised(oops)), Acts),
     \+ hold(_, _).
-test(hand_does_the_task,
+test(execution_thread_performs_the_task,
      [ forall(member(Goal-Outcome,
                      [ true-done, fail-failed, throw(oops)-raised(oops),
                        atom_length(_, _)-raised(instantiation_error) ])),
@@ -371,7 +375,7 @@ test(hand_does_the_task,
     fake_clone(clone(robot)),
     catch(fake_agent:handle(x-start(r, Goal)), disposed, true),
     did([Act]).
-test(status_of_nothing, Acts == [send(x, answer(r, status(none)))]) :-
+test(status_without_reservation, Acts == [send(x, answer(r, status(none)))]) :-
     robot([]),
     say(x, status(r), Acts).
 test(failure, Acts == [ log(robot(failed)), log(released(here, owner, r)),
@@ -389,19 +393,20 @@ test(state_changes, Acts == [send(x, answer(r, bid(3)))]) :-
     say(x, ask(r, Need), [send(x, answer(r, refused(unfit)))]),
     say(user, state(battery=0.2), []),
     say(x, ask(r, Need), Acts).
-test(asks_whether_it_is_still_needed, Asked-Time == [send(x, still(r))]-60) :-
+test(robot_asks_whether_it_is_still_needed,
+     Asked-Time == [send(x, still(r))]-60) :-
     robot([]),
     reserved(r, x),
     fake_agent:due(Time, _),
     overdue(Asked).
-test(silence_frees_it, Acts == [ log(released(here, owner, r)),
-                                 send(x, lost(r, lapsed)) ]) :-
+test(silent_allocator_frees_the_robot, Acts == [ log(released(here, owner, r)),
+                                                 send(x, lost(r, lapsed)) ]) :-
     robot([setting(watch, 10), setting(patience, 3)]),
     reserved(r, x),
     overdue(_),
     overdue(Acts),
     fake_host:time(13).
-test(yes_keeps_it) :-
+test(positive_answer_keeps_the_reservation) :-
     robot([setting(watch, 10), setting(patience, 3)]),
     reserved(r, x),
     overdue(_),
@@ -410,23 +415,25 @@ test(yes_keeps_it) :-
     say(x, yes(r), []),
     fake_agent:due(20, ask),
     hold(r, reserved).
-test(no_frees_it, Acts == [log(released(here, owner, r))]) :-
+test(negative_answer_frees_the_robot,
+     Acts == [log(released(here, owner, r))]) :-
     robot([]),
     reserved(r, x),
     overdue(_),
     say(x, no(r), Acts).
-test(watched_while_executing, Acts == [ log(released(here, owner, r)),
-                                        send(x, lost(r, lapsed)) ]) :-
+test(allocator_is_checked_during_execution,
+     Acts == [ log(released(here, owner, r)),
+               send(x, lost(r, lapsed)) ]) :-
     robot([]),
     reserved(r, x),
     say(x, start(r, true), _),
     overdue(_),
     overdue(Acts).
-test(never_asks) :-
+test(checks_can_be_disabled) :-
     robot([setting(watch, inf)]),
     reserved(r, x),
     \+ fake_agent:due(_, _).
-test(nonsense_is_ignored, Acts == []) :-
+test(invalid_messages_are_ignored, Acts == []) :-
     robot([]),
     say(x, hello(r), Acts).
 
@@ -462,7 +469,7 @@ chi(Chi) :-
 
 :- begin_tests(allocation_allocator).
 
-test(reserves_and_is_rewarded) :-       % 1 (1 + 1/2 * 3/3)
+test(reservation_is_rewarded) :-       % 1 (1 + 1/2 * 3/3)
     allocator([]),
     answers(1, bid(3)),
     answers(1, reserved),
@@ -482,7 +489,7 @@ test(second_reward_is_less) :-          % 1 (1 + 2/2 * 2/3)
     fake_agent:negotiate,
     chi(Chi),
     close_to(Chi, 5/3).
-test(for_the_other_team) :-
+test(robot_for_the_other_team) :-
     allocator([]),
     answers(1, refused(unfit)),
     answers(2, bid(0)),
@@ -492,13 +499,13 @@ test(for_the_other_team) :-
     lift(Lift),
     did([send(r, Push), send(r, Lift), send(r, reserve(_, _, _))]),
     fake_agent:held(here, r, _, 2, reserved).
-test(complete_team_is_not_asked_for) :-
+test(complete_team_gets_no_request) :-
     allocator([held(b, q, x, 1, reserved), achieved(1)]),
     answers(2, refused(unfit)),
     fake_agent:negotiate,
     lift(Lift),
     did([send(r, Lift)]).
-test(penalised, [ forall(member(Reason, [reserved, executing])) ]) :-
+test(refusal_is_penalised, [ forall(member(Reason, [reserved, executing])) ]) :-
     allocator([]),                      % 1 (1 - 1/2 * 1/(1 + 3))
     answers(1, refused(Reason)),
     fake_agent:negotiate,
@@ -510,12 +517,12 @@ test(no_penalty, [ forall(member(What, [refused(failed), bid(11)])) ]) :-
     fake_agent:negotiate,
     chi(1),
     \+ fake_agent:held(_, _, _, _, _).
-test(silent_robot_is_passed, Time == 20) :-
+test(silent_robot_is_skipped, Time == 20) :-
     allocator([]),
     fake_agent:negotiate,
     chi(1),
     fake_host:time(Time).
-test(its_own_robot_is_not_asked) :-
+test(already_reserved_robot_gets_no_request) :-
     allocator([held(here, r, x, 1, reserved)]),
     fake_agent:negotiate,
     did([]).
@@ -551,7 +558,7 @@ test(backs_off) :-
     fake_agent:trail([here]),
     restarted(3, 5, 0.01, Chi),
     chi(Chi).
-test(newer_news_is_carried_and_left) :-
+test(newer_information_is_carried_and_left) :-
     allocator([ setting(sharing, shared), news(b, [push], taken, 5),
                 news(a, [lift], free, 7) ]),
     fake_host:leave(robots([ news(b, [push], free, 6),
@@ -560,21 +567,22 @@ test(newer_news_is_carried_and_left) :-
     fake_host:tuple(robots(News)),
     msort(News, [news(a, [lift], free, 7), news(b, [push], free, 6)]),
     fake_agent:news(b, [push], free, 6).
-test(nothing_is_left_without_sharing, [forall(member(S, [none, own]))]) :-
+test(without_sharing_no_information_is_left,
+     [forall(member(S, [none, own]))]) :-
     allocator([setting(sharing, S), news(b, [push], free, 5)]),
     fake_agent:exchange,
     \+ fake_host:tuple(robots(_)).
-test(goes_to_the_free_neighbour_it_heard_of_last, Host == c) :-
+test(migrates_to_the_last_reported_free_neighbour, Host == c) :-
     allocator([ setting(sharing, own), news(b, [push], free, 5),
                 news(c, [push], free, 6), news(d, [push], taken, 7),
                 news(e, [fly], free, 8), news(f, [push], free, 9) ]),
     fake_neighbours([b, c, d, e]),
     fake_agent:next_place(Host).
-test(knows_of_no_free_neighbour, Host == next) :-
+test(no_free_neighbour_is_known, Host == next) :-
     allocator([setting(sharing, own), news(f, [push], free, 9)]),
     fake_neighbours([b, c]),
     fake_agent:next_place(Host).
-test(what_is_taken_and_freed_is_news) :-
+test(reservations_and_releases_are_shared) :-
     allocator([setting(sharing, own)]),
     answers(1, bid(3)),
     answers(1, reserved),
@@ -588,9 +596,9 @@ test(executing_robots_are_not_released) :-
     fake_agent:back_off,
     fake_agent:held(b, q, x, 1, started),
     fake_agent:trail([here, b, a]).
-test(child_goes_back, Acts == [ move(b), send(q, release(x)),
-                                move(a), send(p, release(y)),
-                                log(communications(child, 2)) ]) :-
+test(child_returns, Acts == [ move(b), send(q, release(x)),
+                              move(a), send(p, release(y)),
+                              log(communications(child, 2)) ]) :-
     allocator([ held(a, p, y, 2, reserved), held(b, q, x, 1, reserved) ]),
     fake_clone(clone(me)),
     fake_neighbours([b, a, c]),
@@ -628,14 +636,14 @@ test(robot_asks_whether_it_is_needed) :-
     fake_agent:attend,
     did([send(p, yes(y)), send(q, no(x))]),
     fake_agent:sent(message, 4).        % two links, there and back
-test(robot_is_lost) :-
+test(lost_robot) :-
     allocator([held(a, p, y, 2, reserved)]),
     fake_mail(p-lost(z, preempted)),
     fake_mail(p-lost(y, preempted)),
     fake_agent:attend,
     did([log(lost(a, preempted))]),
     \+ fake_agent:held(_, _, _, _, _).
-test(what_a_lost_robot_has_done_stays_done) :-
+test(task_of_a_lost_robot_stays_done) :-
     allocator([held(a, p, y, 2, done)]),
     fake_mail(p-lost(y, lapsed)),
     fake_agent:attend,
@@ -647,7 +655,7 @@ test(deadline, throws(missed)) :-
     assertz(fake_agent:until(30)),
     fake_at(30),
     fake_agent:attend.
-test(rest_ends_at_the_deadline, Time == 30) :-
+test(back_off_ends_at_the_deadline, Time == 30) :-
     allocator([]),
     retractall(fake_agent:until(_)),
     assertz(fake_agent:until(30)),
@@ -660,13 +668,13 @@ test(executes, Outcome == done) :-
            fake_mail(From-What)),
     fake_agent:execute(Outcome),
     did([send(p, start(y, sleep(4))), send(q, start(x, sleep(4)))]).
-test(what_was_refused_is_missing, Outcome == missing) :-
+test(refused_robot_is_missing, Outcome == missing) :-
     allocator([ held(a, p, y, 1, reserved), held(b, q, x, 2, reserved),
                 achieved(1) ]),
     fake_mail(p-answer(y, refused(none))),
     fake_agent:execute(Outcome),
     fake_agent:held(b, q, x, 2, started).
-test(silent_robot_is_given_up, Outcome-Time == missing-20) :-
+test(silent_robot_is_removed, Outcome-Time == missing-20) :-
     allocator([ held(a, p, y, 1, reserved), held(b, q, x, 2, done),
                 achieved(1) ]),
     fake_agent:execute(Outcome),
@@ -674,7 +682,7 @@ test(silent_robot_is_given_up, Outcome-Time == missing-20) :-
     did(Acts),
     Acts == [ send(p, start(y, sleep(4))), send(p, status(y)),
               log(lost(a, silent)), send(p, release(y)) ].
-test(robot_that_answers_is_not_given_up, Outcome == done) :-
+test(answering_robot_is_kept, Outcome == done) :-
     allocator([ held(a, p, y, 1, started), held(b, q, x, 2, done),
                 achieved(1) ]),
     fake_agent:inquire([], Asked),

@@ -92,7 +92,7 @@ executing(Agent, Robots) :-
 
 :- begin_tests(allocation_network).
 
-test(two_that_need_all_robots) :-
+test(two_allocators_that_need_all_robots) :-
     allocation(ring(5), [hop_time(uniform(0.2, 0.4))], [], both_all).
 
 both_all(Hosts, File) :-
@@ -107,7 +107,7 @@ both_all(Hosts, File) :-
     forall(member(Kind, [migration, child, message]),
            happened(File, communications(Kind, _))).
 
-test(four_with_constant_back_off) :-
+test(four_allocators_with_constant_back_off) :-
     allocation(random(8, 0.4), [hop_time(uniform(0.1, 0.2))], [], four).
 
 four(Hosts, File) :-
@@ -124,7 +124,7 @@ four(Hosts, File) :-
 
 %   Four robots found, and hops that take a second: equation 7.6.
 
-test(rests_as_long_as_hops_take) :-
+test(back_off_is_measured_in_hop_times) :-
     allocation(ring(4), [hop_time(uniform(1, 1))],
                [watch-10, patience-10], rests).
 
@@ -224,7 +224,7 @@ all_of_others(Hosts, Robot) :-
 
 %   Else one robot is reserved again and again, with a reward each time.
 
-test(robots_that_fail_at_once_are_asked_again_after_a_back_off) :-
+test(failed_robots_are_asked_again_after_a_back_off) :-
     allocation(ring(3), [hop_time(uniform(0.2, 0.4))], [], fail_at_once).
 
 fail_at_once(Hosts, File) :-
@@ -361,7 +361,7 @@ part(Agent, Blocks, Pid-Block, Others) :-
 %   Stopping a network of which processes have died takes some seconds, so
 %   they die one after the other in one.
 
-test(processes_are_killed) :-
+test(killed_processes) :-
     allocation(random(9, 1.0), [processes(3)], [watch-10, patience-100],
                killed).
 

@@ -17,7 +17,7 @@ Floods, and the tree of ANTA; for bids and awards see test_auction_sides.
 
 :- begin_tests(auction_flood).
 
-test(passed_on_once_but_not_back) :-
+test(message_is_forwarded_once_and_not_back) :-
     node(murdoch, []),
     link(a, 0, flood(77, start(x))),
     bodies(First),
@@ -33,14 +33,14 @@ test(own_flood_goes_to_all_and_does_not_return) :-
     link(b, 0, flood(Id, start(x))),
     bodies([]),
     fact(sent(start, 3)).
-test(a_message_waits_until_it_is_due) :-
+test(message_waits_until_it_is_due) :-
     node(murdoch, []),
     link(a, 3, flood(77, start(x))),
     at(2.9),
     bodies([]),
     at(3),
     bodies([b-_, c-_]).
-test(the_first_to_be_due_counts_not_the_first_to_come) :-
+test(messages_are_delivered_in_order_of_due_time) :-
     node(murdoch, []),
     link(a, 3, flood(77, start(x))),
     link(b, 2, flood(77, start(x))),
@@ -59,7 +59,7 @@ test(duplicate_from_both_ends_of_a_link_is_counted_but_not_sent) :-
     at(5),
     bodies([]),
     fact(sent(start, 2)).
-test(a_link_takes_as_long_as_a_hop) :-
+test(link_delay_equals_hop_time) :-
     node(murdoch, [setting(hop_time, uniform(0.5, 1.5))]),
     at(10),
     forall(between(1, 20, _), fake_agent:flood(start(x))),
@@ -86,7 +86,7 @@ test(suppressed_duplicate_occupies_the_channel, Dues == [11, 13, 14]) :-
     findall(Due, ( retract(fake_host:did(send(_, link(Due0, _, _)))),
                    Due is integer(Due0) ),
             Dues).
-test(delay_of_the_computer_does_not_add_up) :-
+test(processor_delay_does_not_accumulate) :-
     node(murdoch, [setting(hop_time, uniform(1, 1))]),
     at(10),                             % it was due at 3
     link(a, 3, flood(77, start(x))),
@@ -103,7 +103,7 @@ test(host_without_a_node_gets_nothing) :-
     fake_agent:flood(start(x)),
     bodies([a-_, c-_]),
     fact(sent(start, 2)).
-test(host_that_is_gone_is_forgotten) :-
+test(stopped_host_is_forgotten) :-
     node(murdoch, [gone(nb)]),
     fake_agent:flood(start(x)),
     bodies([a-_, c-_]),
@@ -149,7 +149,7 @@ test(levels_are_counted) :-
     memberchk(b-announce(_, _, _, 0, 3), Bodies),
     memberchk(c-announce(_, _, _, 0, 3), Bodies),
     \+ memberchk(a-_, Bodies).
-test(the_last_level_passes_nothing_on) :-
+test(last_level_forwards_nothing) :-
     node(anta, [setting(level, 2)]),
     trade(Trade),
     link(a, 0, flood(77, Trade)),
@@ -166,7 +166,7 @@ test(bids_are_merged_and_go_to_the_parent_at_their_time) :-
     at(7.5),
     sent([a-only(owner(Job, bids(1, List)))]),
     msort(List, [x-[1-3], z-[1-1]]).    % two are needed
-test(late_bids_go_on_at_once) :-
+test(late_bids_are_forwarded_at_once) :-
     planted,
     job(Job),
     at(7.5),
@@ -178,7 +178,7 @@ test(no_bids_no_report) :-
     sent(_),
     at(9),
     sent([]).
-test(without_the_parent_bids_are_flooded) :-
+test(without_a_parent_bids_are_flooded) :-
     planted,
     job(Job),
     from_child(b, [x-[1-3]]),
@@ -194,7 +194,7 @@ test(with_no_node_at_the_parent_bids_are_flooded) :-
     sent(_),
     at(7.5),
     sent([b-flood(Id, Body), c-flood(Id, Body)]).
-test(awards_part_on_their_way_down) :-
+test(awards_are_split_on_the_way_down) :-
     planted,
     job(Job),
     hears(answer(ref(Job, 1, 1), bid(7)), robot),
@@ -210,7 +210,7 @@ test(awards_part_on_their_way_down) :-
     memberchk(c-only(robots(Job, [z], Award)), Sent),
     length(Sent, 3),
     fact(sent(award, 2)).
-test(without_the_child_an_award_is_flooded) :-
+test(without_a_child_an_award_is_flooded) :-
     planted,
     job(Job),
     from_child(b, [x-[1-3]]),
@@ -220,7 +220,7 @@ test(without_the_child_an_award_is_flooded) :-
     link(a, 0, only(robots(Job, [x], award(Job, 1, [x-1])))),
     sent([a-flood(Id, Body), c-flood(Id, Body)]),
     Body == flooded(robots(Job, [x], award(Job, 1, [x-1]))).
-test(a_flooded_award_concerns_those_it_is_for) :-
+test(a_flooded_award_concerns_its_recipients_only) :-
     planted,
     job(Job),
     hears(answer(ref(Job, 1, 1), bid(7)), robot),
@@ -239,7 +239,7 @@ test(answers_go_up_the_tree) :-
     link(b, 0, only(owner(Job, report(1, x, reserved)))),
     sent([a-only(owner(Job, report(1, x, reserved)))]),
     fact(sent(ack, 1)).
-test(the_root_takes_what_is_flooded_and_floods_the_answer) :-
+test(root_accepts_flooded_messages_and_floods_its_answer) :-
     node(anta, [setting(window, 10), setting(level, 4)]),
     hears(post(task(t, [1-[push]], [])), user),
     fact(job(Job, _, _, _, _, _)),

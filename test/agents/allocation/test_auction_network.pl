@@ -119,7 +119,7 @@ passed_on(Network) :-
 
 :- begin_tests(auction_flood_network).
 
-test(message_before_the_peers_are_known_is_passed_on) :-
+test(message_before_the_peers_are_known_is_forwarded) :-
     no_leaks(setup_call_cleanup(
                  network_start(line(3), Network, []),
                  passed_on(Network),
@@ -263,7 +263,7 @@ too_few(Mechanism, Hosts, File) :-
     happened(File, completed(t)),
     all_free(Hosts).
 
-test(two_that_need_all_robots,
+test(two_auctions_that_need_all_robots,
      [forall(member(Mechanism, [murdoch, anta]))]) :-
     auctions(Mechanism, grid(2, 3),
              [ clock(virtual), hop_time(uniform(0.1, 0.3)),
@@ -283,7 +283,7 @@ both_all(Mechanism, Hosts, File) :-
            ( all(File, executed(_, _, Name), Executed),
              length(Executed, 6) )).
 
-test(the_urgent_one_comes_first) :-
+test(urgent_auction_comes_first) :-
     auctions(murdoch, ring(4),
              [ clock(virtual),
                auction([slack(15), settings([bi_min-2, bi_max-20])]) ],

@@ -36,14 +36,14 @@ reserved(Facts) :-
     hears(answer(ref(Job, 1, 1), reserved), robot),
     sent(_).
 
-test(asks_its_robot_and_bids) :-
+test(contractor_queries_its_robot_and_bids) :-
     bidder([]),
     job(Job),
     bodies(Bodies),
     memberchk(robot-ask(ref(Job, 1, 1), need(t, [push], [])), Bodies),
     findall(To, member(To-owner(Job, bids(1, [here-[1-7]])), Bodies),
             [a, b, c]).
-test(a_robot_that_refuses_does_not_bid) :-
+test(refusing_robot_does_not_bid) :-
     node(murdoch, []),
     announced([], 1, Announce),
     link(a, 0, flood(77, Announce)),
@@ -59,7 +59,7 @@ test(bids_for_one_auction_at_a_time) :-
     link(b, 0, flood(90, announce(job(other, 5), 1, Offer))),
     sent(Sent),
     \+ memberchk(robot-_, Sent).
-test(bids_for_a_more_urgent_one) :-
+test(more_urgent_auction_is_preferred) :-
     bidder([]),
     sent(_),
     offer([priority(2)], Offer),
@@ -70,7 +70,7 @@ test(bids_for_a_more_urgent_one) :-
     link(a, 0, flood(78, award(Job, 1, [here-1]))),
     bodies(Bodies),
     memberchk(a-owner(Job, report(1, here, refused)), Bodies).
-test(bids_again_when_the_auction_was_lost) :-
+test(bids_again_after_a_lost_auction) :-
     bidder([]),
     job(Job),
     link(a, 0, flood(78, award(Job, 1, [x-1, y-1]))),
@@ -79,7 +79,7 @@ test(bids_again_when_the_auction_was_lost) :-
     link(b, 0, flood(90, announce(job(other, 5), 1, Offer))),
     sent(Sent),
     memberchk(robot-ask(_, _), Sent).
-test(bids_again_when_the_time_is_over) :-
+test(bids_again_after_the_timeout) :-
     bidder([setting(answer, 5)]),
     sent(_),
     at(15),                             % closed at 10
@@ -87,7 +87,7 @@ test(bids_again_when_the_time_is_over) :-
     link(b, 0, flood(90, announce(job(other, 5), 1, Offer))),
     sent(Sent),
     memberchk(robot-ask(_, _), Sent).
-test(a_winner_reserves_its_robot_for_the_auctioneer) :-
+test(winner_reserves_its_robot) :-
     winner([]),
     job(Job),
     bodies(Bodies),
@@ -96,7 +96,7 @@ test(a_winner_reserves_its_robot_for_the_auctioneer) :-
     hears(answer(ref(Job, 1, 1), reserved), robot),
     bodies(Then),
     memberchk(b-owner(Job, report(1, here, reserved)), Then).
-test(a_winner_whose_robot_is_taken_refuses) :-
+test(winner_with_a_reserved_robot_refuses) :-
     winner([]),
     sent(_),
     job(Job),
@@ -125,13 +125,13 @@ test(releases_its_robot_once) :-
     link(a, 0, flood(80, release(Job, 1, all))),
     sent(Then),
     \+ memberchk(robot-release(_), Then).
-test(not_released_when_others_are) :-
+test(release_of_others_is_ignored) :-
     reserved([]),
     job(Job),
     link(a, 0, flood(79, release(Job, 1, [x, y]))),
     sent(Sent),
     \+ memberchk(robot-release(_), Sent).
-test(an_award_that_comes_after_the_release_is_void) :-
+test(award_after_the_release_is_void) :-
     bidder([]),
     job(Job),
     link(a, 0, flood(79, release(Job, 1, all))),
@@ -160,7 +160,7 @@ test(a_contract_that_is_not_renewed_lapses) :-
     sent(Sent),
     memberchk(robot-release(ref(Job, 1, 1)), Sent),
     \+ fact(contract(_, _, _, _, _, _)).
-test(a_contract_that_is_renewed_does_not) :-
+test(renewed_contract_does_not_lapse) :-
     reserved([setting(contract, 60)]),
     job(Job),
     at(50),
@@ -185,7 +185,7 @@ test(a_lost_robot_is_reported) :-
     hears(lost(ref(Job, 1, 1), preempted), robot),
     bodies(Bodies),
     memberchk(a-owner(Job, report(1, here, lost(preempted))), Bodies).
-test(the_robot_learns_whether_it_is_still_needed) :-
+test(robot_learns_whether_it_is_still_needed) :-
     reserved([]),
     job(Job),
     hears(still(ref(Job, 1, 1)), robot),
@@ -246,12 +246,12 @@ test(announces_to_all) :-
     Announce = announce(Job, 1, offer(t, me, [(1-[push])-2], [], Close)),
     Close =:= 10,
     logged([begun(t)]).
-test(those_that_cost_least_win) :-
+test(lowest_cost_wins) :-
     auctioneer([], Job),
     award(Job),
     said(a, award(Job, 1, Winners)),
     Winners == [y-1, z-1].
-test(a_second_bid_of_a_host_does_not_count) :-
+test(second_bid_of_a_host_is_ignored) :-
     auctioneer([], Job),
     bid(Job, 1, x, 5), bid(Job, 1, x, 1), bid(Job, 1, x, 0),
     sent(_),
@@ -267,7 +267,7 @@ test(two_teams) :-
     at(10),
     said(a, award(Job, 1, Winners)),
     Winners == [x-1, y-2].
-test(starts_when_all_have_answered) :-
+test(starts_when_all_winners_have_answered) :-
     auctioneer([], Job),
     award(Job),
     report(Job, 1, y, reserved),
@@ -277,7 +277,7 @@ test(starts_when_all_have_answered) :-
     said(a, start(Job)),
     logged([allocated(t, Robots)]),
     msort(Robots, [y, z]).
-test(completes_and_releases_when_all_are_done) :-
+test(completes_and_releases_when_all_winners_are_done) :-
     auctioneer([], Job),
     executing(Job),
     logged(_),
@@ -311,7 +311,7 @@ test(too_few_bids_release_and_back_off) :-
     Then is 10.01 + Interval,
     at(Then),
     said(a, announce(Job, 2, _)).
-test(without_any_bid_there_is_nothing_to_release) :-
+test(without_bids_nothing_is_released) :-
     auctioneer([], _),
     sent(_), logged(_),
     at(10),
@@ -351,7 +351,7 @@ pass(Seconds) :-
     Time is Now + Seconds,
     at(Time).
 
-test(a_refusal_is_auctioned_again) :-
+test(refused_award_is_auctioned_again) :-
     auctioneer([], Job),
     award(Job),
     report(Job, 1, y, reserved),
@@ -376,7 +376,7 @@ test(silent_winner_is_released_and_replaced) :-
     memberchk(a-announce(Job, 2, _), Bodies),
     report(Job, 1, z, reserved),        % too late
     said(a, release(Job, 1, [z])).
-test(after_some_rounds_it_backs_off) :-
+test(backs_off_after_some_rounds) :-
     auctioneer([setting(tries, 2)], Job),
     award(Job),
     report(Job, 1, y, reserved),
@@ -388,7 +388,7 @@ test(after_some_rounds_it_backs_off) :-
     said(a, release(Job, 2, all)),
     logged([backoff(_)]),
     \+ fact(member(_, _, _, _, _, _)).
-test(a_robot_lost_while_executing_is_replaced) :-
+test(robot_lost_during_execution_is_replaced) :-
     auctioneer([], Job),
     executing(Job),
     report(Job, 1, y, done),
@@ -401,7 +401,7 @@ test(a_robot_lost_while_executing_is_replaced) :-
     said(a, start(Job)),
     report(Job, 2, x, done),
     logged([completed(t)]).
-test(what_a_lost_robot_has_done_stays_done) :-
+test(task_of_a_lost_robot_stays_done) :-
     auctioneer([setting(renew, 20)], Job),
     executing(Job),
     report(Job, 1, y, done),
@@ -442,7 +442,7 @@ test(a_missed_deadline_releases_all) :-
     \+ fact(job(_, _, _, _, _, _)),
     at(500),
     silent.
-test(two_jobs_of_one_auctioneer_do_not_mix) :-
+test(two_jobs_of_one_auctioneer_are_independent) :-
     auctioneer([], Job1),
     hears(post(task(u, [1-[push]], [])), user),
     fact(job(Job2, task(u, _, _), _, _, _, _)),

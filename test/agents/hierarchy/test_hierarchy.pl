@@ -33,10 +33,10 @@ delta(Reports, Delta) :-
 
 %   A spread of 10 s, and the next task as long after it.
 
-test(kept_where_it_fits, true(abs(Delta - 0.5) < 1.0e-9)) :-
+test(fitting_step_is_kept, true(abs(Delta - 0.5) < 1.0e-9)) :-
     report(0.5, [[0, 10], [20, 30]], Report),
     delta([a-Report], Delta).
-test(halved_where_the_next_task_comes_with_the_last_host,
+test(halved_when_the_next_task_arrives_with_the_last_host,
      true(abs(Delta - 0.25) < 1.0e-9)) :-
     report(0.5, [[0, 10], [10, 20]], Report),
     delta([a-Report], Delta).
@@ -46,7 +46,7 @@ test(rises_by_a_fifth_at_most, true(abs(Delta - 0.6) < 1.0e-9)) :-
 test(falls_to_a_fifth_at_most, true(abs(Delta - 0.1) < 1.0e-9)) :-
     report(0.5, [[0, 900], [1, 901]], Report),
     delta([a-Report], Delta).
-test(an_observer_sees_a_spread_that_no_leader_sees,
+test(observer_sees_a_spread_hidden_from_leaders,
      true(abs(Delta - 0.25) < 1.0e-9)) :-
     report(0.5, [[0, 1], [10, 11]], A),
     report(0.5, [[9, 10], [19, 20]], B),
@@ -73,13 +73,13 @@ workers(Parts, Counts) :-
 
 :- begin_tests(crews, [setup(algorithm(crews, payloads(hierarchy/crews), []))]).
 
-test(as_work_is, Counts == [6, 3, 3]) :-
+test(shares_follow_the_work, Counts == [6, 3, 3]) :-
     workers([4-200, 4-100, 4-100], Counts).
-test(a_part_keeps_half_of_an_equal_share, Counts == [8, 2, 2]) :-
+test(part_keeps_half_of_an_equal_share, Counts == [8, 2, 2]) :-
     workers([4-900, 4-10, 4-10], Counts).
-test(the_last_part_too, Counts == [2, 2, 8]) :-
+test(last_part_keeps_half_of_an_equal_share, Counts == [2, 2, 8]) :-
     workers([4-10, 4-10, 4-900], Counts).
-test(their_number_stays, true(Odd == [])) :-
+test(number_of_workers_is_constant, true(Odd == [])) :-
     findall(Parts,
             ( between(1, 100, _), length(Parts, 5), maplist(any_part, Parts),
               workers(Parts, Counts),
@@ -87,7 +87,7 @@ test(their_number_stays, true(Odd == [])) :-
               sum_list(Before, Sum),
               \+ sum_list(Counts, Sum) ),
             Odd).
-test(one_leader_keeps_its_own, Counts == [4]) :-
+test(single_leader_keeps_its_workers, Counts == [4]) :-
     workers([4-200], Counts).
 
 any_part(Count-Seconds) :-
@@ -142,7 +142,7 @@ executed(Events, Count) :-
 
 :- begin_tests(hierarchy).
 
-test(an_observer_decides_for_all_leaders, Count-First == 24-[0.5]) :-
+test(observer_decides_for_all_leaders, Count-First == 24-[0.5]) :-
     in_network(ring(6), sequences(observer, 500), Events),
     executed(Events, Count),
     deltas(one, Events, First),
@@ -150,15 +150,15 @@ test(an_observer_decides_for_all_leaders, Count-First == 24-[0.5]) :-
     assertion(Second =\= 0.5),
     assertion(( member(event(_, _, Agent, decided(one, _)), Events),
                 sub_atom(Agent, 0, _, _, observer) )).
-test(leaders_decide_by_themselves, Rounds == []) :-
+test(leaders_decide_for_themselves, Rounds == []) :-
     in_network(ring(6), sequences(leaders, 500), Events),
     findall(Round, member(event(_, _, _, decided(Round, _)), Events), Rounds),
     deltas(two, Events, Deltas),
     assertion(\+ memberchk(0.5, Deltas)).
-test(no_level_decides, Deltas == [0.5]) :-
+test(without_a_level_nothing_is_changed, Deltas == [0.5]) :-
     in_network(ring(6), sequences(none, 500), Events),
     deltas(two, Events, Deltas).
-test(workers_that_are_late_are_disposed_of, Rounds == [one, two]) :-
+test(late_workers_are_disposed_of, Rounds == [one, two]) :-
     in_network(ring(6), sequences(observer, 3), Events),
     findall(Round, member(event(_, _, _, served(Round)), Events), Rounds).
 test(learners_are_divided, Sum == 8) :-

@@ -32,17 +32,17 @@ test(equation_4_2, true(close_to(Rho, 1.353352832))) :-
     migration_penalty(10, 2, 10, Rho).
 test(a_hop_with_an_empty_bag, true(close_to(Rho, 9.0))) :-
     migration_penalty(10, 0, 10, Rho).
-test(a_bag_of_no_profit_is_like_an_empty_one, true(close_to(Rho, 4.5))) :-
+test(bag_without_profit_equals_an_empty_one, true(close_to(Rho, 4.5))) :-
     migration_penalty(5, -3, 10, Rho).
-test(a_heavy_bag_takes_it_all, Rho =:= 0) :-
+test(heavy_bag_takes_all_potential, Rho =:= 0) :-
     migration_penalty(10, 5000, 10, Rho).
 test(hops_of_an_empty_bag, Hops == 22) :-
     hops(10, 0, Hops).
 test(equation_4_3_and_4_4, true(close_to(Rho, 4.5))) :-
     migration_reward(2, 4, 6, 0.5, 10, Rho).
-test(never_above_the_maximum, Rho =:= 10) :-
+test(potential_never_exceeds_the_maximum, Rho =:= 10) :-
     migration_reward(9, 4, 6, 0.5, 10, Rho).
-test(the_first_gain_is_a_doubling, true(close_to(Rho, 3.5))) :-
+test(first_gain_doubles, true(close_to(Rho, 3.5))) :-
     migration_reward(1.5, 0, 0.01, 0.2, 10, Rho).
 test(initial_potential, Xi =:= 10) :-
     initial_potential(2, 3, 2, Xi).
@@ -123,7 +123,7 @@ test(algorithm_1,
     feeds_back([b-1, a-1], reached([a])),
     lives,
     acts(Acts).
-test(potential_is_made_of_the_plan,
+test(potential_is_computed_from_the_plan,
      [Xi1, Xi2] == [10, 14]) :-         % k_d * (length + search)
     learner([k_d-2, search-5], []),
     feeds_back([a-1, b-1], unreached),
@@ -131,17 +131,17 @@ test(potential_is_made_of_the_plan,
     lives,
     did(Acts),
     findall(Xi, member(send(t, execute(_, Xi)), Acts), [Xi1, Xi2]).
-test(it_waits_for_the_order_to_begin, Acts == []) :-
+test(waits_for_the_start_order, Acts == []) :-
     learner([start-order], []),
     \+ fake_agent:main,
     acts(Acts).
-test(it_begins_on_the_order, First == send(t, execute([], 3))) :-
+test(starts_on_the_order, First == send(t, execute([], 3))) :-
     learner([start-order], []),
     fake_mail(user-begin),
     feeds_back([], reached([])),
     lives,
     acts([First|_]).
-test(what_others_have_is_collected,
+test(units_of_others_are_collected,
      Acts == [ send(t, execute([], 3)),
                log(executed(1, 0, 1, unreached)), moves(1),
                send(o, share(next)), log(shared(o, 1)), moves(1),
@@ -155,7 +155,7 @@ test(what_others_have_is_collected,
     shares(o, [a-1, b-2], none),        % 10, 9, + 5 = 10, 1.35, 0.18
     lives,
     acts(Acts).
-test(a_bag_is_emptied_and_not_passed_on,
+test(empty_bag_is_not_forwarded,
      Own-Bag == [a-1]-[]) :-
     learner([], [queued(o)]),
     feeds_back([a-1], unreached),
@@ -164,7 +164,7 @@ test(a_bag_is_emptied_and_not_passed_on,
     lives,
     fake_agent:shareable(Own),
     fake_agent:bag(Bag).
-test(gain_makes_it_go_on,               % 10, 9, + 5 = 10, 3.68, + 5 = 8.68,
+test(gain_continues_the_search,         % 10, 9, + 5 = 10, 3.68, + 5 = 8.68,
      Count == 4) :-                     % 1.17, 0.16
     learner([], [queued(o)]),
     feeds_back([], unreached),
@@ -175,7 +175,7 @@ test(gain_makes_it_go_on,               % 10, 9, + 5 = 10, 3.68, + 5 = 8.68,
     did(Acts),
     once(append(Collecting, [send(t, execute([a,b], _))|_], Acts)),
     aggregate_all(count, member(move(_), Collecting), Count).
-test(of_many_the_first_with_something_new_is_taken,
+test(first_agent_with_new_units_is_taken,
      Asked-Shared == [o1, o2]-[o2-1]) :-
     learner([], [queued(o1), queued(o2), queued(o3)]),
     feeds_back([a-1], unreached),
@@ -210,7 +210,7 @@ test(no_answer_to_an_agent_of_a_dead_process) :-
     fake_dead(p),
     fake_mail(p-share(here)),
     lives.
-test(it_answers_while_it_waits,
+test(answers_while_waiting,
      Answers == [ p-shared(units([], none)), q-shared(nothing),
                   r-shared(units([a-1], solution([a]))) ]) :-
     learner([], []),
@@ -230,7 +230,7 @@ test(no_messages_without_sharing, Acts == [send(t, execute([], 3))]) :-
     lives,
     did(Acts0),
     include(sends, Acts0, Acts).
-test(better_is_asked_for_and_makes_it_collect_again,
+test(better_solution_is_requested_and_collected_again,
      Acts == [ send(t, execute([], 3)), log(executed(1, 0, 2, reached)),
                log(reached(2)), moves(1),
                send(o, share(next)), log(shared(o, 1)), moves(1),
@@ -244,7 +244,7 @@ test(better_is_asked_for_and_makes_it_collect_again,
     feeds_back([], reached([c])),
     lives,
     acts(Acts).
-test(what_is_no_better_is_left, Executions-Bag == 1-[]) :-
+test(solution_that_is_no_better_is_ignored, Executions-Bag == 1-[]) :-
     learner([], [queued(o)]),
     feeds_back([a-1], reached([a])),
     shares(o, [b-1], solution([b])),
@@ -252,14 +252,14 @@ test(what_is_no_better_is_left, Executions-Bag == 1-[]) :-
     lives,
     fake_agent:count(Executions),
     fake_agent:bag(Bag).
-test(a_goal_that_is_missed_is_no_solution, fail) :-
+test(missed_goal_is_no_solution, fail) :-
     learner([], []),
     retractall(fake_agent:collector),
     assertz(fake_agent:collector),
     assertz(fake_agent:solution([a])),
     fake_agent:after(unreached),
     fake_agent:solution(_).
-test(trainer_that_does_not_answer,
+test(silent_trainer,
      Acts == [ send(t, execute([], 3)), log(unanswered(t)), moves(22),
                send(t, execute([], 3)), log(executed(1, 0, 0, reached)),
                log(reached(0)), moves(22), log(converged(1, 3, [])) ]) :-
@@ -268,7 +268,7 @@ test(trainer_that_does_not_answer,
     feeds_back([], reached([])),
     lives,
     acts(Acts).
-test(without_an_algorithm_it_waits, Lingered == 3) :-
+test(learner_without_an_algorithm_waits, Lingered == 3) :-
     learner([], []),
     abolish(fake_agent:plan/3),
     feeds_back([a-1], unreached),
@@ -280,14 +280,14 @@ test(without_an_algorithm_it_waits, Lingered == 3) :-
     did(Acts),
     aggregate_all(count, member(log(lingers), Acts), Lingered),
     memberchk(send(t, execute([a], 4)), Acts).
-test(without_an_algorithm_nothing_is_better, Executions == 1) :-
+test(without_an_algorithm_no_solution_is_better, Executions == 1) :-
     learner([], [queued(o)]),
     abolish(fake_agent:better/2),
     feeds_back([a-1, b-1], reached([a,b])),
     shares(o, [c-1], solution([c])),
     lives,
     fake_agent:count(Executions).
-test(it_does_not_wait_after_an_error_of_the_algorithm,
+test(error_of_the_algorithm_ends_the_wait,
      error(existence_error(procedure, _))) :-
     learner([], []),
     feeds_back([a-1], unreached),
@@ -346,7 +346,7 @@ forwards(Count, Plan) :-
 
 :- begin_tests(trainer).
 
-test(it_answers_requests, To-Kind == a-feedback) :-
+test(trainer_answers_requests, To-Kind == a-feedback) :-
     trainer([seed-1]),
     fake_agent:on_message(a, execute([forward], 1)),
     did([send(To, Feedback)]),
@@ -355,11 +355,11 @@ test(agent_that_moved_to_a_dead_process) :-
     trainer([seed-1]),
     fake_dead(a),
     once(fake_agent:on_message(a, execute([forward], 1))).
-test(it_logs_for_observers, Log == tried(a, [forward, turn_left])) :-
+test(trainer_logs_for_observers, Log == tried(a, [forward, turn_left])) :-
     trainer([seed-1, trace-true]),
     fake_agent:on_message(a, execute([forward, turn_left], 2)),
     did([log(Log)|_]).
-test(the_plan_is_executed_first, First == Plan) :-
+test(plan_is_executed_first, First == Plan) :-
     trainer([seed-1]),
     Plan = [forward, turn_left, backward],
     trains(Plan, 6, Steps, _),
@@ -379,7 +379,7 @@ test(potential_is_used_up_exactly, Bad == []) :-
               potentials(Steps, 2, 5, Xis),
               \+ used_up(Xis) ),
             Bad).
-test(a_plan_earns_nothing, Count == 4) :- % but costs
+test(plan_without_gain, Count == 4) :- % but costs
     trainer([seed-1, k_r-100]),
     forwards(4, Plan),
     trains(Plan, 4, Steps, _),
@@ -388,7 +388,7 @@ test(without_reward_each_action_costs, Count == 4) :- % 5/1.5
     trainer([seed-1, k_r-0, k_d-1.5]),
     trains([], 5, Steps, _),
     length(Steps, Count).
-test(the_goal_ends_it, Outcome-Actions == reached(Way)-Way) :-
+test(goal_ends_the_execution, Outcome-Actions == reached(Way)-Way) :-
     trainer([seed-1]),
     way(Way),
     append(Way, [backward, backward], Plan),
@@ -398,18 +398,18 @@ test(goal_missed_by_one, Outcome == unreached) :-
     trainer([seed-1]),
     way(Way),
     trains(Way, 10, _, feedback(_, _, Outcome)).
-test(feedback_has_the_start, Start == sv(Light, 0, up, 5)) :-
+test(feedback_contains_the_start, Start == sv(Light, 0, up, 5)) :-
     trainer([seed-1]),
     trains([forward], 1, _, feedback(Start, _, _)),
     Light is 100/(1 + sqrt(50)).
-test(what_lost_light_is_not_shared, Actions == [[forward]]) :-
+test(darker_units_are_not_shared, Actions == [[forward]]) :-
     trainer([seed-1]),
     trains([forward, backward], 2, _, feedback(_, Units, _)),
     findall(A, member(unit(_, A, _)-_, Units), Actions).
-test(a_seed_repeats_it, Again == Once) :-
+test(same_seed_same_execution, Again == Once) :-
     tried(7, Once),
     tried(7, Again).
-test(another_seed_does_not, true(Other \== Once)) :-
+test(other_seed_other_execution, true(Other \== Once)) :-
     tried(7, Once),
     tried(8, Other).
 test(executions_differ, true(Second \== First)) :-

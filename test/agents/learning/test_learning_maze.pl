@@ -62,7 +62,7 @@ steps([Action|Actions], State0, [step(Vector0, Action, Vector, W)|Steps]) :-
 
 test(start, State == at(5, 0, up)) :-
     start(none, State).
-test(size_of_the_thesis,
+test(size_used_in_the_thesis,
      [ setup(no_settings), cleanup(maze([])), State == at(50, 0, up) ]) :-
     start(none, State).
 test(goal, [ forall(member(Heading, [up, left, down, right])) ]) :-
@@ -126,7 +126,7 @@ test(dark_before_an_obstacle,
     Seen = [L1-O1, L2-O2, L4].
 test(cells_differ, Count == 144) :-     % 36 cells, 4 headings
     every_vector(Count).
-test(cells_of_one_light_do_not_without_signature,
+test(cells_of_equal_light_need_a_signature,
      [ setup(maze([signature-false])), cleanup(maze([])) ]) :-
     sensed(at(1, 2, up), sv(Light, 0, up, 0)),
     sensed(at(3, 4, up), sv(Light, 0, up, 0)).
@@ -148,7 +148,7 @@ test(turns_are_shared_with_the_next_move,
     units([turn_left, forward], at(5, 0, up), [Unit-_]),
     sensed(at(5, 0, up), V0),
     sensed(at(4, 0, left), V).
-test(many_turns_are_one,
+test(consecutive_turns_are_merged,
      [ forall(member(Turns-Told,
                      [ [turn_left,turn_left,turn_left,forward]-
                            [turn_right,forward],
@@ -160,7 +160,7 @@ test(many_turns_are_one,
 test(turns_before_a_loss_are_forgotten, Actions == [[backward]]) :-
     units([turn_right, forward, backward], at(3, 2, up), Units),
     told_actions(Units, Actions).
-test(so_are_turns_before_a_bump, Actions == [[forward]]) :-
+test(turns_before_a_bump_are_forgotten, Actions == [[forward]]) :-
     units([turn_left, backward, forward], at(5, 2, up), Units),
     told_actions(Units, Actions).
 test(turning_away_from_a_wall_is_a_gain, Actions == [[turn_left]]) :-
@@ -239,13 +239,13 @@ test(the_longest_branch, Plan == [a, b, c]) :-
     plans([1-[x]-9, 1-[a]-2, 2-[b]-3, 3-[c]-4], Plan).
 test(length_is_counted_in_links, Plan == [a, b]) :-
     plans([1-[x,x,x]-9, 1-[a]-2, 2-[b]-3], Plan).
-test(of_the_longest_the_heaviest, Plan == [c, d]) :-
+test(heaviest_of_the_longest_branches, Plan == [c, d]) :-
     plans([1-[a]-4, 4-[b]-5, 1-[c]-3, 3-[d]-6], Plan).
-test(of_these_the_one_of_fewest_actions, Plan == [c, d]) :-
+test(branch_with_fewest_actions_breaks_the_tie, Plan == [c, d]) :-
     plans([1-[a,a]-4, 4-[b]-6, 1-[c]-3, 3-[d]-6], Plan).
-test(a_branch_that_does_not_begin_at_the_start, Plan == [a]) :-
+test(branch_that_does_not_begin_at_the_start, Plan == [a]) :-
     plans([1-[a]-2, 3-[b]-4, 4-[c]-5, 5-[d]-6], Plan).
-test(nothing_at_the_start_so_what_is_most_like_it, Plan == [b]) :-
+test(without_a_branch_at_the_start_the_most_similar_is_used, Plan == [b]) :-
     sensed(at(2, 2, up), Start),
     Near = sv(L, 0, up, n),
     arg(1, Start, L0),
@@ -260,18 +260,18 @@ test(cosine, [ forall(member(A-B-C, [ sv(3,0,up,_)-sv(9,0,up,_)-1.0,
                                       sv(0,0,up,_)-sv(3,0,up,_)-0.0 ])),
                true(close_to(Cosine, C)) ]) :-
     cosine(A, B, Cosine).
-test(better_is_shorter) :-
+test(shorter_is_better) :-
     better([a], [b, c]),
     \+ better([a], [b]),
     \+ better([b, c], [a]).
-test(as_an_exhaustive_search, Bad == []) :-
+test(same_result_as_exhaustive_search, Bad == []) :-
     findall(Links-Plan,
             ( between(1, 400, _),
               random_links(Links),
               plans(Links, Plan),
               \+ best_branch(Links, Plan) ),
             Bad).
-test(many_units_take_no_time) :-        % 2^40 branches
+test(many_units_are_searched_quickly) :-        % 2^40 branches
     findall(L-[A]-L1,
             ( between(1, 40, L), L1 is L + 1, member(A, [a, b]) ), Links),
     plans(Links, Plan),

@@ -86,7 +86,7 @@ test(three_agents_in_two_processes) :-
     network(mesh(4), [processes(2)], three_agents).
 test(one_agent_alone) :-
     network(ring(3), [], alone).
-test(nothing_is_shared_where_it_is_not_allowed) :-
+test(without_sharing_no_units_are_exchanged) :-
     network(mesh(3), [], unshared).
 test(full_queue) :-
     network(mesh(3), [hosts([capacity(2)])], full_queue).
@@ -98,7 +98,7 @@ test(peer_is_in_a_process_that_is_killed) :-
     network(edges([a-b, b-c, c-d]), [processes(2)], killed).
 test(algorithm_is_exchanged) :-
     network(mesh(3), [], exchanged).
-test(algorithm_is_taken_away) :-
+test(algorithm_is_removed) :-
     network(mesh(3), [], taken_away).
 test(no_second_trainer) :-
     network(ring(3), [], furnished_twice).

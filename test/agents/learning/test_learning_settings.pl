@@ -59,7 +59,7 @@ test(quality_by_hand, [ setup(printers([setting(difference, 0.0)])),
     quality(alpha, [3,photo,glossy,4,3,5], Q3),
     Expected3 is 1 - Wear - 0.02*4 - 0.015*16 - 0.08,
     close_to(Q3, Expected3).
-test(another_paper_alone_is_worse,
+test(better_paper_alone_does_not_help,
      [setup(printers([setting(difference, 0.0)])), cleanup(printers([]))]) :-
     quality(alpha, [2,text,plain,4,3,3], Plain),
     quality(alpha, [2,text,glossy,4,3,3], Glossy),
@@ -70,7 +70,7 @@ test(printers_differ) :-
     quality(alpha, [3,photo,glossy,6,6,3], Q1),
     quality(beta, [3,photo,glossy,6,6,3], Q2),
     abs(Q1 - Q2) > 0.001.
-test(a_printer_stays_what_it_is) :-
+test(printer_is_constant) :-
     first_page(1, sv(alpha, _, _)),
     fake_agent:makes(alpha, Makes),
     at_host('alpha@elsewhere:2'),
@@ -81,13 +81,13 @@ test(other_printers, [ setup(printers([setting(printers, 2)])),
     fake_agent:makes(alpha, Makes),
     printers([]),
     \+ fake_agent:makes(alpha, Makes).
-test(noise_comes_from_the_chance) :-
+test(noise_comes_from_the_random_generator) :-
     first_page(7, Vector1),
     first_page(7, Vector2),
     first_page(8, Vector3),
     Vector1 == Vector2,
     Vector1 \== Vector3.
-test(noise_is_as_wide_as_it_should_be) :-
+test(noise_has_the_configured_width) :-
     findall(Q, ( between(1, 400, Seed), first_page(Seed, sv(_, _, Q)) ), Qs),
     quality(alpha, [2,text,plain,4,3,3], True),
     sum_list(Qs, Sum),
@@ -105,7 +105,7 @@ test(all_levels_can_be_set, Count-Bad == 35-[]) :-
               pages([set(P, L)], page(Settings, _, _)),
               \+ nth1(P, Settings, L) ),
             Bad).
-test(pages_on_end_are_counted, Ns == [1, 2, 3, 1, 2]) :-
+test(consecutive_pages_are_counted, Ns == [1, 2, 3, 1, 2]) :-
     Best = [3,photo,glossy,6,6,3],
     findall(N, ( member(Actions, [ [], [again], [again,set(2,text)],
                                    [again,set(2,photo)],
@@ -127,7 +127,7 @@ test(good_needs_several_pages, [ setup(printers([ setting(noise, 0.0),
               pages(Actions, State),
               ( fake_agent:reached(State) -> H = true ; H = false ) ),
             Held).
-test(the_mean_of_the_last_pages_counts,
+test(mean_of_the_last_pages_counts,
      [setup(printers([setting(good, 0.89)])), cleanup(printers([]))]) :-
     fake_agent:reached(page(s, [1.0, 0.8, 1.0, 0.8, 0.1], c)),
     \+ fake_agent:reached(page(s, [1.0, 0.8, 1.0, 0.7, 1.0], c)).
@@ -137,7 +137,7 @@ test(every_page_is_a_unit) :-
     Pages >= 6,
     forall(member(unit(P, S, Q)-W, Units),
            ( P == alpha, length(S, 6), Q >= 0, W >= 0 )).
-test(more_than_the_page_before_weighs) :-
+test(units_with_gain_are_weighted) :-
     fake_agent:weight(sv(a, s, 0.5), sv(a, t, 0.7), Up),
     fake_agent:weight(sv(a, s, 0.7), sv(a, t, 0.5), Down),
     close_to(Up, 0.2),
@@ -146,7 +146,7 @@ test(more_than_the_page_before_weighs) :-
                            step(sv(a,t,0.7), y, sv(a,s,0.5), Down) ],
                          Units),
     Units == [unit(a,s,0.5)-0, unit(a,t,0.7)-Up, unit(a,s,0.5)-0].
-test(nothing_executed_nothing_shared, Units == []) :-
+test(without_executions_nothing_is_shared, Units == []) :-
     fake_agent:shareable([], Units).
 
 :- end_tests(settings).
@@ -168,20 +168,20 @@ plan(Module, List, Plan) :-
 :- begin_tests(climb, [setup(algorithm(climb, payloads(learning/climb),
                                        []))]).
 
-test(confirms_what_is_best, Last == [use([2,b]), again, again, again]) :-
+test(best_settings_are_confirmed, Last == [use([2,b]), again, again, again]) :-
     plan(climb, [ p-[1,a]-0.5, p-[2,a]-0.6, p-[2,b]-0.7 ], Plan),
     append(_, Last, Plan),
     length(Last, 4),
     !.
-test(as_many_pages_as_wanted,
+test(number_of_pages_is_configurable,
      [ setup(algorithm(climb, payloads(learning/climb), [setting(pages, 2)])),
        cleanup(algorithm(climb, payloads(learning/climb), [])),
        Plan == [use([1,a]), again] ]) :-
     plan(climb, [p-[1,a]-0.5], Plan).
-test(tries_what_was_never_tried) :-
+test(untried_settings_are_tried) :-
     plan(climb, [ p-[1,a]-0.5, p-[2,a]-0.6, p-[1,b]-0.7 ], [First|_]),
     First == use([2,b]).                % both changes were for the better
-test(luck_is_not_enough) :-
+test(one_lucky_page_is_not_enough) :-
     findall(p-[2,a]-V, member(V, [0.80, 0.81, 0.79, 0.80]), Often),
     plan(climb, [p-[1,a]-0.5, p-[1,b]-0.3, p-[2,b]-0.83|Often], Plan),
     once(append(_, [use(Best),again,again,again], Plan)),
@@ -209,7 +209,7 @@ test(four_children_and_the_fittest) :-
     plan(genetic, Known, Plan),
     Plan = [use(_), use(_), use(_), use(_), use([1,a,x]), again, again,
             again].
-test(genes_keep_their_places) :-
+test(genes_keep_their_positions) :-
     known(Known),
     forall(( between(1, 20, _), plan(genetic, Known, Plan),
              member(use([A,B,C]), Plan) ),
@@ -220,13 +220,13 @@ test(generations_differ) :-
     plan(genetic, Known, Plan1),
     plan(genetic, Known, Plan2),
     Plan1 \== Plan2.
-test(the_same_history_the_same_children, Plan1 == Plan2) :-
+test(same_history_same_children, Plan1 == Plan2) :-
     known(Known),
     algorithm(genetic, payloads(learning/genetic), []),
     plan(genetic, Known, Plan1),
     algorithm(genetic, payloads(learning/genetic), []),
     plan(genetic, Known, Plan2).
-test(the_fit_have_more_children) :-
+test(fitter_settings_have_more_children) :-
     known(Known),
     findall(B, ( between(1, 60, _), plan(genetic, Known, Plan),
                  append(Children, [use([1,a,x])|_], Plan),
@@ -235,7 +235,7 @@ test(the_fit_have_more_children) :-
     aggregate_all(count, member(c, Genes), Unfit),
     aggregate_all(count, ( member(G, Genes), memberchk(G, [a,b]) ), Fit),
     Fit > 4*Unfit.
-test(crossover_makes_new_ones) :-
+test(crossover_creates_new_settings) :-
     known(Known),
     findall(G, ( between(1, 20, _), plan(genetic, Known, Plan),
                  member(use(G), Plan), \+ memberchk(_-G-_, Known) ),
@@ -271,7 +271,7 @@ pages_of(Algorithm, Count, Seeds, Most, Pages) :-
     length(All, Wanted),                % all have
     sum_list(All, Pages).
 
-test(climb_beats_random_search_by_far) :-
+test(climb_beats_random_search) :-
     pages_of(climb, 1, [1, 2, 3, 4], 100, Climb),
     pages_of(lottery, 1, [1, 2, 3, 4], 500, Lottery),
     Lottery > 2*Climb.
@@ -279,7 +279,7 @@ test(sharing_between_printers_that_differ_helps) :-
     pages_of(climb, 1, [1, 2, 3, 4], 100, Alone),
     pages_of(climb, 4, [1], 100, Together),
     Alone > 1.2*Together.
-test(so_does_a_genetic_algorithm) :-
+test(sharing_helps_a_genetic_algorithm) :-
     pages_of(genetic, 3, [1, 2], 200, Genetic),
     pages_of(lottery, 3, [1, 2], 400, Lottery),
     Lottery > 1.2*Genetic.

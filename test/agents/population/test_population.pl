@@ -41,15 +41,15 @@ test(equation_6_2, [ forall(member(R-Pressure-Resource-Count,
     clones(R, Pressure, Resource, 100, C).
 test(equation_6_3, R-C == 25-2) :-
     conferred(35, 2, 5, R, C).
-test(as_much_is_left_as_is_given, R-C == 10-1) :-
+test(given_resource_is_conserved, R-C == 10-1) :-
     conferred(20, 1, 10, R, C).
-test(not_a_bit_less, R-C == 19.9-0) :-
+test(too_little_resource_makes_no_clone, R-C == 19.9-0) :-
     conferred(19.9, 1, 10, R, C).
-test(all_or_none, R-C == 35-0) :-
+test(all_or_nothing, R-C == 35-0) :-
     conferred(35, 3, 10, R, C).
-test(none_to_make, R-C == 35-0) :-
+test(no_clones_to_make, R-C == 35-0) :-
     conferred(35, 0, 10, R, C).
-test(poor_and_none_to_make, R-C == 3-0) :-
+test(little_resource_and_no_clones_to_make, R-C == 3-0) :-
     conferred(3, 0, 10, R, C).
 test(equation_6_4) :-
     charged(10, 3, 0, R),
@@ -74,7 +74,7 @@ test(no_more_than_the_maximum, R =:= 100) :-
 test(equation_6_5, L1-L2 == 17-10) :-
     prolonged(10, 1, 7, L1),
     prolonged(10, 0, 7, L2).
-test(no_end_no_prolongation, L == inf) :-
+test(infinite_lifetime_is_not_prolonged, L == inf) :-
     prolonged(inf, 1, 7, L).
 
 %   A full agent that gets no reward, among no others: thesis parameters.
@@ -147,13 +147,13 @@ test(dies_in_the_queue) :-
     Time =:= 8,                         % 3 ticks, and one for the answer
     did(Acts),
     Acts == [send(q, join), log(state(death)), send(q, quit)].
-test(a_turn_may_be_under_way_to_a_dying_agent) :-
+test(turn_may_be_in_flight_to_a_dying_agent) :-
     member_of(10, 0, []),
     fake_mail(q-gone),
     catch(fake_agent:die, disposed, true),
     fake_host:time(Time),
     Time =:= 0.
-test(no_queue_no_waiting, Length-Acts == 1-[]) :-
+test(without_a_queue_no_waiting, Length-Acts == 1-[]) :-
     fake_agent('agents/population/cloning.pl', [lifetime(inf)], []),
     fake_agent:await_turn(Length),
     did(Acts).
@@ -178,7 +178,7 @@ test(dies_during_its_turn) :-
     close_to(Time, 0.4),
     did(Acts),
     Acts == [log(state(death)), send(q, quit)].
-test(refused_agent_has_left_the_head, Acts == [send(q, leave)]) :-
+test(refused_agent_leaves_the_head, Acts == [send(q, leave)]) :-
     member_of(10, 10, []),
     fake_refusal(next),
     \+ fake_agent:depart,
@@ -204,7 +204,7 @@ test(clones_after_a_reward, Role-Acts == parent-[log(state(replicate)),
     member_of(25, 10, []),
     fake_agent:replicate(1, 1, Role),
     did(Acts).
-test(the_rounding_decides, Role-Acts == parent-[]) :-
+test(rounding_decides_the_number_of_clones, Role-Acts == parent-[]) :-
     member_of(25, 10, [setting(rounding, floor)]),
     fake_agent:replicate(1, 1, Role),
     did(Acts).
@@ -231,13 +231,13 @@ test(several_clones, Resource-Count == 70-3) :-
     account(Resource, _),
     did(Acts),
     aggregate_all(count, member(log(state(replicate)), Acts), Count).
-test(slot_is_taken_meanwhile, Role-Resource == parent-90) :-
+test(slot_is_taken_before_the_clone, Role-Resource == parent-90) :-
     member_of(100, 10, []),
     fake_clone(parent(child)),
     fake_clone(error(move_refused(here, capacity), _)),
     fake_agent:replicate(1, 1, Role),
     account(Resource, _).
-test(what_a_clone_is_given) :-
+test(resources_given_to_a_clone) :-
     member_of(100, 3, [setting(lifetime, 8), '$memory'(elsewhere)]),
     fake_clone(clone(me)),
     fake_agent:replicate(1, 1, Role),
@@ -262,7 +262,7 @@ told(Mail, Told) :-
 
 :- begin_tests(queue).
 
-test(offers_itself, Tuples == [queue(me)]) :-
+test(agent_offers_itself, Tuples == [queue(me)]) :-
     fake_agent('agents/population/queue.pl', [], []),
     \+ fake_agent:main,
     tuples(Tuples).
@@ -275,7 +275,7 @@ test(returning_agent_goes_to_the_tail,
      Told == [a-turn(1), b-turn(2), c-turn(2), a-turn(1)]) :-
     told([ a-join, b-join, c-join, a-leave, a-join, b-leave, c-leave,
            a-leave ], Told).
-test(alone_it_has_the_next_turn_too, Told == [a-turn(1), a-turn(1)]) :-
+test(single_agent_gets_the_next_turn, Told == [a-turn(1), a-turn(1)]) :-
     told([a-join, a-leave, a-join, a-leave], Told).
 test(no_agent_is_in_the_queue_twice, Told == [a-turn(1)]) :-
     told([a-join, a-join, a-leave], Told).
@@ -283,7 +283,7 @@ test(absent_agent_cannot_leave, Told == [a-turn(1)]) :-
     told([b-leave, a-join], Told).
 test(dying_agents_get_an_answer, Told == [a-turn(1), a-gone, b-turn(1)]) :-
     told([a-join, b-join, a-quit, b-leave], Told).
-test(a_head_that_is_gone_is_given_up,
+test(vanished_head_is_removed,
      Told-Time == [a-turn(1), b-turn(2), c-turn(1)]-180) :-
     told([a-join, b-join, c-join], Told),
     fake_host:time(Time).
@@ -346,7 +346,7 @@ serviced(Log, Enough) :-
 
 :- begin_tests(demand).
 
-test(fills_the_queues_and_no_more, Most =:= 12) :-
+test(demand_fills_the_queues_exactly, Most =:= 12) :-
     with_tmp_dir(crowd(Most)).
 
 :- end_tests(demand).

@@ -96,7 +96,7 @@ test(memory_keeps_the_last_feedback, Memory == [b-3, a-1]) :-
 test(better_one_is_stimulated_worse_one_suppressed,
      Gammas == [1.5, 0.5]) :-
     gammas(current, a, [1.0-[a-31], 1.0-[a-30]], Gammas).
-test(effect_is_that_of_the_other_potential, Gammas == [1.3, 0.1]) :-
+test(effect_follows_the_other_potential, Gammas == [1.3, 0.1]) :-
     gammas(current, a, [1.0-[a-31], 0.6-[a-30]], Gammas0),
     maplist(rounded, Gammas0, Gammas).
 test(equation_3_3, Gammas == [2.0, 1.0, 0.0]) :-
@@ -105,7 +105,7 @@ test(equation_3_4, Gammas == [1.2, 0.8]) :-     % 1 + 0.5 * 0.8/(3 - 1)
     met(current, a, 0.5-0, [1.0-[a-31], 0.8-[a-30, b-1, c-1]], Gammas).
 test(equation_3_5, Gammas == [1.0, 0.5]) :-     % 0.75 - 0.5 * 1/(3 - 1)
     met(current, a, 0-0.5, [1.0-[a-31, b-1, c-1], 0.75-[a-30]], Gammas).
-test(equals_do_nothing, Gammas == [1.0, 1.0]) :-
+test(equal_antibodies_do_not_affect_each_other, Gammas == [1.0, 1.0]) :-
     gammas(current, a, [1.0-[a-30], 1.0-[a-30]], Gammas).
 test(agent_without_the_antigen_is_unaffected, Gammas == [1.0, 1.0]) :-
     gammas(current, a, [1.0-[a-31], 1.0-[b-30]], Gammas).
@@ -126,7 +126,7 @@ test(dissimilar_antigens_do_not, Gammas == [1.5, 0.5]) :-
 test(total_prefers_the_generalist, Gammas == [0.5, 1.5]) :-
     gammas(total, a, [1.0-[a-31], 1.0-[a-23, b-29]], Gammas0),
     maplist(rounded, Gammas0, Gammas).
-test(common_compares_what_both_know, Gammas == [1.5, 0.5]) :-
+test(common_compares_shared_antigens, Gammas == [1.5, 0.5]) :-
     gammas(common, a, [1.0-[a-31], 1.0-[a-23, b-29]], Gammas0),
     maplist(rounded, Gammas0, [G1, G2]),
     Gammas = [G1, G2].
@@ -224,7 +224,7 @@ alone([Host], File) :-
 
 %   Whichever agent is chosen, the better one clones.
 
-test(the_better_one_clones_the_same_one_is_redundant) :-
+test(better_clones_and_identical_is_redundant) :-
     sieve(ring(1), [], [gather-10, patience-400], better).
 
 better([Host], File) :-
@@ -241,7 +241,7 @@ better([Host], File) :-
     memberchk(served(Antigen, _, _, 2), All),
     count(File, born(clone, _), 1).
 
-test(one_memory_cell_and_no_more) :-
+test(at_most_one_memory_cell) :-
     sieve(ring(1), [], [gather-1, patience-400, memory_cells-1, memory_wins-1],
           cells).
 
@@ -255,7 +255,7 @@ cells([Host], File) :-
     settled(File, 3),
     count(File, memory_cell(_), 1).
 
-test(no_clone_in_a_crowd) :-
+test(no_clone_above_the_crowding_limit) :-
     sieve(ring(1), [], [gather-1], crowd).
 
 crowd([Host], File) :-
@@ -264,7 +264,7 @@ crowd([Host], File) :-
     antigen_attack([Host, Host], Antigen),
     settled(File, 2),
     count(File, born(clone, _), 0).
-test(a_guard_survives_what_it_does_not_know) :-
+test(guard_survives_unknown_antigens) :-
     sieve(ring(1), [], [patience-0.5], unknown_antigen).
 
 unknown_antigen([Host], File) :-
@@ -274,7 +274,7 @@ unknown_antigen([Host], File) :-
     settled(File, 1),
     count(File, unanswered(bolt), 1).
 
-test(nothing_drawn_is_no_answer) :-
+test(failed_draw_gives_no_answer) :-
     sieve(ring(1), [], [patience-0.5, draws-0], nothing_drawn).
 
 nothing_drawn([Host], File) :-
@@ -333,7 +333,7 @@ programs([Host], File) :-
     member(served(wall(left), Program, _, _), All),
     memberchk(Program, [First, Second]).
 
-test(clones_grow_old) :-
+test(clones_age) :-
     sieve(ring(3), [hop_time(uniform(0.2, 0.4))],
           [omega-3, gather-1, patience-100], ages).
 

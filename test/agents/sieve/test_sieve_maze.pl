@@ -137,7 +137,7 @@ test(sights_are_seen, [ forall(maze:obstacle(Kind, _, Rows)),
             Wrong).
 test(unknown, fail) :-
     maze:affinity([0,1,0,1,0], [], _).
-test(no_other_way, fail) :-
+test(only_one_path, fail) :-
     maze:feedback(wall(behind), [], _).
 
 :- end_tests(sieve_maze_boards).
@@ -179,23 +179,24 @@ test(by_hand, [ forall(by_hand(Name, Antigen, Expected)),
                 true(Xi == Expected) ]) :-
     program(Name, Program),
     maze:feedback(Antigen, Program, Xi).
-test(each_is_solvable, [ forall(maze:antigen(Antigen)), true(Xi == 31) ]) :-
+test(each_board_is_solvable,
+     [ forall(maze:antigen(Antigen)), true(Xi == 31) ]) :-
     program(along, Program),
     (   arg(1, Antigen, left)
     ->  maze:feedback(Antigen, Program, Xi)
     ;   maze:mirrored(Program, Image),
         maze:feedback(Antigen, Image, Xi)
     ).
-test(one_for_all, true(Least >= 1)) :-
+test(one_program_solves_all_antigens_in_part, true(Least >= 1)) :-
     program(along, Program),
     aggregate_all(min(Xi),
                   ( maze:antigen(A), maze:feedback(A, Program, Xi) ), Least).
-test(each_has_its_place, Best-Other == 15-3) :-
+test(each_program_suits_some_antigens, Best-Other == 15-3) :-
     program(compass, Compass),
     program(along, Along),
     xi(box(right), Best, Compass),
     xi(box(right), Other, Along).
-test(worth_trying_is_not_good, Psi-Xi == 4-0) :-
+test(incentive_is_not_feedback, Psi-Xi == 4-0) :-
     program(compass, Program),
     psi(box(left), Psi, Program),
     xi(box(left), Xi, Program).
@@ -223,10 +224,11 @@ test(in_the_last_step, Lefts == [0]) :-
     maze:obstacle(wall, 9, Rows),
     findall(Left, maze:program_solves(Program, Rows, 9, Left), Lefts),
     \+ maze:program_solves(Program, Rows, 8, _).
-test(nonsense_is_harmless, [ forall(member(P, [ [x, f(y)], [(halt :- true)],
-                                               [(left :- halt)],
-                                               [(halt :- free(left))] ])),
-                             true(Xi == 0) ]) :-
+test(invalid_clauses_are_harmless,
+     [ forall(member(P, [ [x, f(y)], [(halt :- true)],
+                         [(left :- halt)],
+                         [(halt :- free(left))] ])),
+       true(Xi == 0) ]) :-
     maze:feedback(block(left), P, Xi).
 
 :- end_tests(sieve_maze_programs).

@@ -99,7 +99,7 @@ test(stop, O == done) :-
               joined(S, O),
               joined(A, disposed),
               joined(B, disposed) ), _)).
-test(children_end_with_it, [true(O1-O2 == disposed-disposed)]) :-
+test(children_end_with_the_supervisor, [true(O1-O2 == disposed-disposed)]) :-
     Children = [a-[], b-[]],
     with_hosts([alpha],
         listening(
@@ -125,7 +125,7 @@ test(places, [forall(member(Where-Begins,
               children(S, [a-[]], [A]),
               agent_property(A, host(Host)),
               address(Begins, Host) ), _)).
-test(tried_again_when_there_is_a_place) :-
+test(restart_is_retried_when_capacity_is_free) :-
     with_hosts([alpha],
         listening(
             ( worker(W),
@@ -244,7 +244,7 @@ test(a_process_dies) :-
             wait_until(each_once([p1,p2]), 30),
             answers(p1),
             each_once([p1,p2]) )).
-test(its_own_process_dies) :-
+test(process_of_the_supervisor_dies) :-
     three(( linked(H1, H2, H3),
             begun(H1, H2, H3, [standby(H2)]),
             wait_until(each_once([p1,p2,p3]), 20),
@@ -254,7 +254,7 @@ test(its_own_process_dies) :-
             wait_until(each_once([p2,p3]), 30),
             answers(p2),
             each_once([p2,p3]) )).
-test(its_home_dies_while_it_is_elsewhere) :-
+test(home_of_the_supervisor_dies_while_it_is_away) :-
     three(( linked(H1, H2, H3),
             begun(H1, H2, H3, [standby(H2)]),
             wait_until(each_once([p1,p2,p3]), 20),

@@ -127,7 +127,7 @@ mind(Mood, Psi, History) :-
 
 :- begin_tests(statements).
 
-test(dormant_it_passes, Acts-Mood-Reward == []-dormant-0) :-        % S1
+test(dormant_specialist_passes, Acts-Mood-Reward == []-dormant-0) :-        % S1
     dormant([worker(house, w)]),
     fake_agent:visit(Reward),
     did(Acts),
@@ -201,11 +201,11 @@ test(what_failed_is_executed_again) :-
     fake_agent:visit(1),
     tuples(Tuples),
     Tuples == [Floor, task(house, walls, executing, 0)].
-test(not_before_the_previous_task, Reward-Tuples == 0-[worker(house, w)]) :-
+test(waits_for_the_previous_task, Reward-Tuples == 0-[worker(house, w)]) :-
     active([worker(house, w)]),
     fake_agent:visit(Reward),
     tuples(Tuples).
-test(not_where_it_is_done, Reward == 0) :-
+test(skips_hosts_where_the_task_is_done, Reward == 0) :-
     done(floor, 1, Floor),
     done(walls, 2, Walls),
     active([worker(house, w), Floor, Walls]),
@@ -236,7 +236,7 @@ test(first_task_is_executed, Reward == 1) :-
                  mood(active), psi(0), history([1, 2]), start(3), arrival(4)
                ], [worker(house, w)]),
     fake_agent:visit(Reward).
-test(only_active_it_clones, Moods == [active]) :-
+test(only_active_specialists_clone, Moods == [active]) :-
     findall(Mood,
             ( member(Mood, [dormant, excited, active]),
               second([mood(Mood)], []),
@@ -350,7 +350,7 @@ born(Agent, Hosts, Name, Place) :-
 
 :- begin_tests(population).
 
-test(queue_and_worker_once, Loads == [3, 2, 2]) :-
+test(one_queue_and_one_worker_per_host, Loads == [3, 2, 2]) :-
     furnished(two_sequences(Loads)).
 test(start_on_given_hosts, Places == [agent1-3, agent2-1, agent3-3]) :-
     furnished(start_at(Places)).
@@ -358,7 +358,7 @@ test(no_tasks, error(type_error(pair, floor))) :-
     population_start(house, [], [floor], [], _).
 test(nowhere_to_start, error(domain_error(hosts, []))) :-
     population_start(house, [], [floor-true], [], _).
-test(lives_and_heals) :-
+test(specialists_live_and_heal) :-
     with_tmp_dir([Dir]>>( on_network(whole_life, Dir), check_life(Dir) )).
 
 :- end_tests(population).

@@ -50,7 +50,7 @@ test(equation_5_2, [ forall(member(Bias-Size, [0-6, 0.5-6.5])),
     theta([15, 9], 50, 100, Bias, Theta).
 test(theta_of_a_full_potential, Theta =:= 15) :-
     theta([15], 100, 100, 0, Theta).
-test(theta_averages_what_is_there, Theta =:= 5.5) :-
+test(theta_averages_the_window, Theta =:= 5.5) :-
     theta([2, 4, 9], 100, 100, 0.5, Theta).
 test(bias_is_outside_the_product, Theta =:= 0.8) :-
     theta([15], 0, 100, 0.8, Theta).
@@ -171,11 +171,11 @@ test(settings_replace_defaults, P-H == 80-[10]) :-
 test(searches_the_first_task_first, Task == 1) :-
     traveller([], []),
     fake_agent:current(Task).
-test(then_the_next, Task == 2) :-
+test(searches_the_next_task, Task == 2) :-
     traveller([], []),
     exhaust(1),
     fake_agent:current(Task).
-test(then_it_is_over, fail) :-
+test(ends_after_the_last_task, fail) :-
     traveller([], []),
     forall(member(Task, [1, 2, 3]), exhaust(Task)),
     fake_agent:current(_).
@@ -269,14 +269,14 @@ test(busy_worker_of_a_pool_is_left_alone, Acts == []) :-
     traveller([setting(pool, robots)], [plan(house, 1, [])]),
     fake_agent:visit(1),
     did(Acts).
-test(task_waits_for_one_of_another_sequence) :-
+test(task_waits_for_a_task_of_another_sequence) :-
     pooled([after(1, garden, dig)], [plan(garden, 1, [])]),
     fake_agent:keep(1, drive(50, [10])),
     fake_agent:visit(1),
     did(Acts),
     Acts == [log(reward(1, 55, 5))],
     fake_host:tuple(worker(robots, w)).
-test(which_has_been_completed) :-
+test(completed_task_releases_the_waiting_one) :-
     pooled([after(1, garden, dig)],
            [plan(garden, 1, []), task(garden, dig, completed, 3)]),
     fake_agent:visit(1),
@@ -335,7 +335,7 @@ test(later_ones_do_not_matter_yet) :-
     fake_agent:visit(1),
     did(Acts),
     Acts == [log(penalty(1, 84.5, 15.5))].
-test(mark_of_an_atomic_failure_goes) :-
+test(mark_of_an_atomic_failure_is_removed) :-
     host_with([1, 3], [task(house, 2, failed(atomic), 6)], Tuples),
     traveller([], Tuples),
     exhaust(1),
@@ -392,7 +392,7 @@ test(known_cascaded_failure_is_healed_task_by_task) :-
     potentials(Ps),
     Ps == [0, 55, 100],
     serviced(2).
-test(healed_last_task_of_all, true(Ps == [0, 0, 100])) :-
+test(last_task_is_healed, true(Ps == [0, 0, 100])) :-
     host_with([1, 2], [task(house, 3, failed(cascaded(3)), 6)], Tuples),
     traveller([], Tuples),
     exhaust(1),
@@ -454,7 +454,7 @@ test(new_code_of_a_task_is_handed_over) :-
     fake_agent:visit(1),
     did(Acts),
     memberchk(send(w, execute(1, better_floor)), Acts).
-test(task_before_those_that_are_done_is_next) :-
+test(new_task_before_completed_ones_is_next) :-
     host_with([1, 2], [plan(house, 2, [1-a, new-b, 2-c])], Tuples),
     traveller([], Tuples),
     exhaust(1),
@@ -494,7 +494,7 @@ test(task_that_raises_has_failed) :-
               log(raised(house, 1, instantiation_error)),
               log(failed(house, 1))
             ].
-test(what_is_raised_need_not_be_an_error) :-
+test(any_raised_term_is_a_failure) :-
     worker([task(house, 1, executing, 5)]),
     fake_agent:on_message(someone, execute(1, throw(hammer))),
     tuples(Tuples),

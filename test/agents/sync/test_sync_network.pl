@@ -299,7 +299,7 @@ test(failure_after_the_end_is_healed_by_new_agents) :-
     Histories == [H, Healed, H, H, H, H],
     hosts(Hosts),
     forall(member(Host, Hosts), one_worker(again, Host)).
-test(what_was_not_completed_does_not_fail, Failed == []) :-
+test(uncompleted_task_does_not_fail, Failed == []) :-
     start_with_gate(early, [1, gate, 3], Agents),
     hosts(Hosts),
     task_fail(early, 3, Hosts, Failed),
@@ -309,21 +309,22 @@ test(what_was_not_completed_does_not_fail, Failed == []) :-
     histories(early, 36, Histories),
     executed([1, gate, 3], History),
     all_same(Histories, History).
-test(the_last_change_is_the_newest, true(V0 < V1)) :-
+test(last_change_is_the_newest, true(V0 < V1)) :-
     hosts([A, B|_]),
     sequence_start(undecided, [A, B], [1-true], [agents(0)], []),
     sequence_change(undecided, [A], [1-false]),
     sequence_change(undecided, [B], [1-true]),  % as it was there
     plan_at(A, undecided, V0),
     plan_at(B, undecided, V1).
-test(the_same_tasks_are_the_same_plan, V1 == V0) :-
+test(same_tasks_are_the_same_plan, V1 == V0) :-
     hosts([A|_]),
     Goal = sleep(_),
     sequence_start(same, [A], [1-Goal], [agents(0)], []),
     plan_at(A, same, V0),
     sequence_start(same, [A], [1-Goal], [agents(0)], []),
     plan_at(A, same, V1).
-test(change_of_no_sequence, error(existence_error(sequence, nothing))) :-
+test(change_of_an_unknown_sequence,
+     error(existence_error(sequence, nothing))) :-
     hosts(Hosts),
     sequence_change(nothing, Hosts, [1-true]).
 test(two_tasks_of_one_name, error(domain_error(distinct_tasks, [1, 1]))) :-

@@ -82,7 +82,7 @@ test(frame, Bytes == [3,0, 0x02,0x0c,0x00, 5,0, 0x02,0x0b,0x00,0x78,0x1e]) :-
             receive_bytes(Line, 12, Bytes) )).
 %   After a silence a brick drops a partial telegram.
 
-test(half_a_frame_is_forgotten, Reply == '0288007c011d01') :-
+test(half_a_frame_is_dropped, Reply == '0288007c011d01') :-
     still(Brick, Line,
           ( send_bytes(Line, [9,0, 0x00]),
             heard(Brick),
@@ -148,11 +148,11 @@ test(full_power, true((D > 850, D < 950))) :-
     still(Brick, Line, ( run(Line, 0, 100, 0, 0), turned(Brick, 1, a, D) )).
 test(backwards, true((D > -475, D < -400))) :-
     still(Brick, Line, ( run(Line, 1, -50, 0, 0), turned(Brick, 1, b, D) )).
-test(load_slows_what_is_not_regulated, true(Loaded < 0.5*Free)) :-
+test(load_slows_an_unregulated_motor, true(Loaded < 0.5*Free)) :-
     still(Brick, Line,
           ( run(Line, 0, 60, 0, 0), turned(Brick, 1, a, Free),
             tell(Brick, 'load a 0.4'), turned(Brick, 1, a, Loaded) )).
-test(regulation_makes_up_for_load, true(abs(Loaded-Free) < 50)) :-
+test(regulation_compensates_load, true(abs(Loaded-Free) < 50)) :-
     still(Brick, Line,
           ( run(Line, 0, 50, 1, 0), turned(Brick, 1, a, Free),
             tell(Brick, 'load a 0.4'), turned(Brick, 1, a, Loaded) )).
@@ -164,8 +164,8 @@ test(weak_battery, true(Weak < 0.8*Full)) :-
     still(Brick, Line,
           ( run(Line, 0, 100, 0, 0), turned(Brick, 1, a, Full),
             tell(Brick, 'fault battery 5500'), turned(Brick, 1, a, Weak) )).
-test(limit_overshoots_then_makes_up, true((A >= 360, A < 430,
-                                           B >= 720, B < 790))) :-
+test(overshoot_is_corrected, true((A >= 360, A < 430,
+                                   B >= 720, B < 790))) :-
     still(Brick, Line,
           ( run(Line, 0, 80, 1, 360), turned(Brick, 3, a, A),
             ask(Brick, 'motor a', motor(a, 80, 0, _, _, _, _)),
@@ -193,7 +193,7 @@ test(turn_ratio, [forall(member(P-T-[B, C], [ 60-0-[1, 1], 60-50-[0, 1],
           ( run(Line, 1, P, 2, T, 0), run(Line, 2, P, 2, T, 0),
             tell(Brick, 'advance 1'),
             maplist(way(Brick), [b, c], Signs) )).
-test(two_in_sync_wait_for_each_other, true((abs(B-C) < 3, B > 50))) :-
+test(synchronized_motors_wait_for_each_other, true((abs(B-C) < 3, B > 50))) :-
     still(Brick, Line,
           ( tell(Brick, 'load c 0.8'),
             run(Line, 1, 80, 2, 0, 0), run(Line, 2, 80, 2, 0, 0),

@@ -72,7 +72,8 @@ test(garbage, [forall(kind(Kind)), true((Garbage \== Frame,
                 send(Line, '0188'),
                 receive_bytes(Line, 9, Garbage),
                 exchange(Line, '0188', Reply) )).
-test(cut_in_the_middle, [forall(kind(Kind)), Bytes == [7,0, 0x02,0x88]]) :-
+test(connection_cut_in_the_middle,
+     [forall(kind(Kind)), Bytes == [7,0, 0x02,0x88]]) :-
     version(Version),
     with_both(Kind, [], Brick, Line,
               ( tell(Brick, 'fault cut after 1'),
@@ -84,7 +85,7 @@ test(cut_in_the_middle, [forall(kind(Kind)), Bytes == [7,0, 0x02,0x88]]) :-
                 member(Place, [Pty, Tcp]),
                 functor(Place, Kind, 1),
                 with_line(Place, Again, exchange(Again, '0188', Version)) )).
-test(cut_and_back, Reply == Version) :-
+test(connection_cut_and_restored, Reply == Version) :-
     version(Version),
     with_both(tcp, [], Brick, Line,
               ( tell(Brick, 'fault cut 0.2 for 1'),
@@ -121,14 +122,14 @@ bad_line(Line) :-
 test(leaves_nothing_behind) :-
     version(Version),
     no_leaks(with_both(pty, [], _, Line, exchange(Line, '0188', Version))).
-test(lines_by_both_at_once, [A, B] == [Version, Version]) :-
+test(lines_written_by_both_sides_at_once, [A, B] == [Version, Version]) :-
     version(Version),
     with_both(pty, [], Brick, Line,
               ( place(tcp, Brick, Place),
                 with_line(Place, Other,
                           ( exchange(Other, '0188', B),
                             exchange(Line, '0188', A) )) )).
-test(a_client_may_come_after_another, [forall(kind(Kind))]) :-
+test(clients_connect_one_after_another, [forall(kind(Kind))]) :-
     version(Version),
     with_both(Kind, [], Brick, Line,
               ( exchange(Line, '0188', Version),
@@ -144,7 +145,7 @@ test(control_bytes_get_through, Reply == '0213000d06030411130d00') :-
 test(ends_on_a_signal, [forall(member(Signal, [term, int])),
                         Status == exit(0)]) :-
     with_tmp_dir(ends_on(Signal, Status)).
-test(keeps_what_is_no_link_of_its_own, [true(Text == "mine\n")]) :-
+test(existing_file_is_not_replaced, [true(Text == "mine\n")]) :-
     with_tmp_dir(refuses_file(Text)).
 test(replaces_a_stale_link) :-
     with_tmp_dir(replaces_link).

@@ -63,18 +63,19 @@ lifted(World, Robots) :-
 
 :- begin_tests(world_pole).
 
-test(all_at_once, true((Phase == carried, Height > 0.1, Tilt < 0.5))) :-
+test(all_robots_lift_at_once,
+     true((Phase == carried, Height > 0.1, Tilt < 0.5))) :-
     with_scene(pole, [], World,
                ( clasped(World),
                  carriers(Robots),
                  lifted(World, Robots),
                  pole(World, pole(_, _, Height, _, _, Tilt, _, _, Phase)) )).
-test(one_end_alone, true((Pitch < -3, Strain > 0.02))) :-
+test(lift_at_one_end_only, true((Pitch < -3, Strain > 0.02))) :-
     with_scene(pole, [], World,
                ( clasped(World),
                  lifted(World, [r1]),
                  pole(World, pole(_, _, _, Pitch, _, _, _, Strain, _)) )).
-test(one_side_drives, true((Yaw > 8, Most >= Yaw-0.01, Over == true))) :-
+test(drive_on_one_side_only, true((Yaw > 8, Most >= Yaw-0.01, Over == true))) :-
     with_scene(pole, [], World,
                ( clasped(World),
                  carriers(Robots),
@@ -86,7 +87,8 @@ test(one_side_drives, true((Yaw > 8, Most >= Yaw-0.01, Over == true))) :-
                  pole(World, pole(_, _, _, _, Yaw, _, Most, _, _)),
                  ask(World, events, events(Events)) )),
     ( member(event(_, over_limit(_)), Events) -> Over = true ; Over = false ).
-test(blocks_and_is_felt, true((T0 == 0, T1 == 1, abs(Y-1.08) < 0.005))) :-
+test(obstacle_blocks_and_is_sensed,
+     true((T0 == 0, T1 == 1, abs(Y-1.08) < 0.005))) :-
     with_scene(pole, [], World,
                ( robot(World, r1, robot(_, _, _, _, open, _, T0)),
                  drive(World, r1, 50, 50),
@@ -107,9 +109,10 @@ test(ultrasonic_sees_the_pole, Reply == '0210000126000000000000000000000000\c
 
 :- begin_tests(world_boxes).
 
-test(moves_only_if_enough_push, [forall(member(Needs-State,
-                                               [2-arrived, 3-waiting])),
-                                 Found == State]) :-
+test(box_moves_only_if_enough_robots_push,
+     [forall(member(Needs-State,
+                    [2-arrived, 3-waiting])),
+      Found == State]) :-
     with_scene(boxes, [], World,
                ( tell(World, 'remove box1'),
                  tell(World, 'box b 3.04 2.2 90 ~d 0.3', [Needs]),

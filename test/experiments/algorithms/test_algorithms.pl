@@ -28,21 +28,21 @@ branches([ unit(sv(1,0,up,1), [a], sv(2,0,up,2))-1,
 :- begin_tests(scout, [setup(algorithm(scout, payloads(learning/scout),
                                        []))]).
 
-test(takes_any_branch, Plans == [[a,b,c], [d]]) :-
+test(scout_takes_any_branch, Plans == [[a,b,c], [d]]) :-
     branches(Units),
     findall(Plan, ( between(1, 30, _), scout:plan(sv(1,0,up,1), Units, Plan) ),
             All),
     sort(All, Plans).
-test(where_greedy_takes_the_longest,
+test(greedy_takes_the_longest_branch,
      [setup(algorithm(greedy, payloads(learning/greedy), [])),
       Plan == [a,b,c]]) :-
     branches(Units),
     greedy:plan(sv(1,0,up,1), Units, Plan).
-test(from_elsewhere_with_the_least_light) :-
+test(start_elsewhere_has_the_least_light) :-
     branches(Units),
     scout:plan(sv(0,0,up,9), Units, Plan),
     memberchk(Plan, [[a,b,c], [d]]).
-test(the_way_with_most_links, Plans == [[a,b,c]]) :-
+test(path_with_most_links, Plans == [[a,b,c]]) :-
     findall(Plan,
             ( between(1, 10, _),
               scout:plan(sv(1,0,up,1),
@@ -83,7 +83,7 @@ runs_at_the_light(Kinds, Most, Count) :-
 
 :- begin_tests(trap, [setup(trap)]).
 
-test(greedy_gets_stuck_and_a_scout_leads_out) :-
+test(scout_leads_out_of_the_trap_of_greedy) :-
     runs_at_the_light([greedy,greedy,greedy,greedy], 250, Greedy),
     runs_at_the_light([greedy,greedy,greedy,scout], 250, Both),
     Greedy < 4,
@@ -121,13 +121,13 @@ test(no_reward_without_progress, Acts-Tuples == []-[progress(5)]) :-
     fake_agent:bred(unreached, 5),
     did(Acts),
     tuples(Tuples).
-test(a_clone_counts_anew, Count-Lifetime == 0-10) :-
+test(clone_starts_new_counters, Count-Lifetime == 0-10) :-
     learner([setting(cloning, true)]),
     fake_clone(clone(me)),
     fake_agent:bred(unreached, 5),
     fake_agent:count(Count),
     fake_agent:lifetime(Lifetime).
-test(an_execution_is_a_step_of_life, Lifetime =:= 2) :-
+test(execution_costs_a_step_of_life, Lifetime =:= 2) :-
     learner([]),
     leave_progress(9),
     grow_old(3),
@@ -140,7 +140,7 @@ test(progress_prolongs_life, Lifetime =:= 9) :-
     fake_agent:older(1),
     fake_agent:gain(1, 1),
     fake_agent:lifetime(Lifetime).
-test(dies_when_it_is_over, Acts == [log(state(death))]) :-
+test(agent_dies_when_its_life_is_used_up, Acts == [log(state(death))]) :-
     learner([]),
     leave_progress(9),
     grow_old(1),
@@ -195,7 +195,7 @@ at_least(Log, What, Least) :-
 
 %   Good enough is what no printer can be, so no agent ever comes to an end.
 
-test(another_algorithm_while_they_live) :-
+test(algorithm_is_changed_at_run_time) :-
     on_network([], exchange).
 
 exchange(Hosts, Log) :-
@@ -280,14 +280,14 @@ test(result, Result == [ agents(2), reached([first(l1, 6, 2),
                          time(9), clones(1), most(3), solutions([k-[a]]) ]) :-
     events(Events),
     algorithms_result(Events, [l1, l2], Result).
-test(not_all_have_reached_it, Time-Count-Mean == 11-6-2) :-
+test(not_all_agents_have_reached_it, Time-Count-Mean == 11-6-2) :-
     events(Events),
     algorithms_result(Events, [l1, l2, l3], Result),
     result_number(time, Result, Time),
     result_number(executions, Result, Count),
     result_number(mean, Result, Mean0),
     Mean is truncate(Mean0).
-test(none_has, [Reached, First] == [0, none]) :-
+test(no_agent_has_reached_it, [Reached, First] == [0, none]) :-
     algorithms_result([event(1, h, l1, executed(1, 0, 4, unreached))], [l1],
                       Result),
     result_number(reached, Result, Reached),

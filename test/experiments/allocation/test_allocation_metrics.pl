@@ -115,14 +115,14 @@ faults([faulty, strangers, overlaps, disorder, both]).
 
 :- begin_tests(timetables).
 
-test(as_it_should_be, Values == [0, 0, 0, 0, 0]) :-
+test(correct_timetable, Values == [0, 0, 0, 0, 0]) :-
     sequence(r2, Timetable),
     faults(Names),
     measures(Timetable, Names, Values).
 test(times, Values == [2, 9, 4]) :-
     sequence(r2, Timetable),
     measures(Timetable, [found, completed, communications], Values).
-test(a_stranger, Values == [1, 1, 0, 1, 0]) :-
+test(unknown_robot, Values == [1, 1, 0, 1, 0]) :-
     sequence(r3, Timetable),
     faults(Names),
     measures(Timetable, Names, Values).
@@ -131,7 +131,7 @@ test(too_early, Values == [0, 0, 1, 0, 0]) :-
     executed([ execution(1, r1, 1, 2), execution(1, r2, 3, 4),
                execution(2, r1, 2, 5), execution(2, r2, 5, 6) ], Sequence),
     measures(timetable(2, [Sequence], 0), Names, Values).
-test(for_two_at_once, Count == 2) :-
+test(robot_at_two_jobs_at_once, Count == 2) :-
     executed([execution(1, r1, 1, 2), execution(1, r2, 3, 4)],
              sequence(s, Its, Times, Executions)),
     timetable_measure(both,

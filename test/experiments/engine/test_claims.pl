@@ -169,7 +169,7 @@ found(Test, Text) :-
 
 test(holds, [forall(holding(Test)), nondet]) :-
     holds(Test).
-test(must_not_hold, [forall(failing(Test)), fail]) :-
+test(negated_claim_holds, [forall(failing(Test)), fail]) :-
     holds(Test).
 test(is_denied, [forall(failing(Test)), nondet]) :-
     holds(\+ Test).
@@ -182,44 +182,44 @@ test(known, [ forall(( holding(Test) ; failing(Test) )) ]) :-
     known(Test).
 test(not_known, [forall(( unknown(Test), Test \= rises(_, _) )), fail]) :-
     known(Test).
-test(half_of_it_is_known, nondet) :-
+test(half_known, nondet) :-
     holds((nothing > 1 ; up > 9)),
     holds(\+ (nothing > 1, up > 99)).
 
-test(words_are_in_the_order_of_the_study) :-
+test(texts_are_in_the_order_of_the_study) :-
     holds(rises(up, along(k))).
-test(numbers_are_in_their_own, fail) :-
+test(numbers_are_in_numerical_order, fail) :-
     Points = [ case{n:3}-m{up:1}, case{n:1}-m{up:2}, case{n:2}-m{up:3} ],
     claim_holds(test_claims:rises(up, along(n)), Points).
 test(numbers_of_two_kinds) :-
     Points = [ case{n:2}-m{up:3}, case{n:0.5}-m{up:1}, case{n:1}-m{up:2} ],
     claim_holds(test_claims:rises(up, along(n)), Points).
 
-test(along_what_others_follow) :-
+test(along_a_parameter_that_derives_others) :-
     derived([10-2-1, 20-4-2, 30-6-3], rises(m, along(hosts))).
-test(at_what_others_follow) :-
+test(at_a_parameter_that_derives_others) :-
     derived([10-2-1, 20-4-2], at([hosts=20], m) > at([hosts=10], m)).
-test(least_with_what_others_follow) :-
+test(least_with_derived_parameters) :-
     derived([10-2-1, 20-4-2], least(m, hosts=10)).
-test(what_follows_may_be_compared, nondet) :-
+test(derived_parameter_can_be_compared, nondet) :-
     derived([10-2-1, 20-4-2], m < agents).
-test(given_by_itself_it_makes_lines) :-
+test(given_derived_parameter_forms_lines) :-
     derived([10-2-1, 10-4-9, 20-2-2, 20-4-10], rises(m, along(hosts))),
     derived([10-2-1, 10-4-9, 20-2-2, 20-4-10], rises(m, along(agents))).
-test(given_by_itself_it_keeps_lines_apart, fail) :-
+test(given_derived_parameter_separates_lines, fail) :-
     derived([10-2-1, 10-4-9, 20-2-8, 20-4-5], rises(m, along(hosts))).
 
-test(a_missing_case_is_not_another, fail) :-
+test(missing_case_is_not_another_case, fail) :-
     holes(at([n=2], at([k=b], m) > 0)).
-test(a_missing_case_is_not_compared) :-
+test(missing_case_is_not_compared) :-
     holes(at([k=b], m) > at([k=a], m)).
-test(a_missing_case_has_aggregates, nondet) :-
+test(missing_case_has_aggregates, nondet) :-
     holes(at([n=2], at([k=b], sum(m)) =:= 3)).
 
-test(divided_by_zero_it_has_no_value, nondet) :-
+test(division_by_zero_has_no_value, nondet) :-
     holds(up / (n-1) < 23),
     \+ holds(up / (n-n) < 99).
-test(a_mistake, error(type_error(evaluable, _))) :-
+test(claim_with_an_error, error(type_error(evaluable, _))) :-
     holds(foo(up) > 1).
 
 :- end_tests(claims).

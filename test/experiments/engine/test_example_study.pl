@@ -44,12 +44,12 @@ test(same_study, Shown == Text) :-
     atomic_list_concat([''|Lines], '\n', Atom),
     atom_string(Atom, Shown),
     file('examples/studies/coverage.pl', Text).
-test(gives_what_is_shown) :-
+test(prints_the_shown_output) :-
     block(text, '$ swipl', Lines),
     made(_, Output),
     forall(member(Line, Lines),
            assertion(once(sub_string(Output, _, _, _, Line)))).
-test(notebook_prints_what_is_shown,
+test(notebook_prints_the_shown_output,
      [condition(pandas_python(_)), true(Printed == Shown)]) :-
     block(python, '# look.py', Lines),
     atomic_list_concat(Lines, '\n', Script),

@@ -97,7 +97,8 @@ stays('other.pl', 'unrelated.', 'related.').
 
 :- begin_tests(sources).
 
-test(makes_runs_anew, [forall(makes_anew(File, Old, New)), true(A \== B)]) :-
+test(changed_source_repeats_the_runs,
+     [forall(makes_anew(File, Old, New)), true(A \== B)]) :-
     changed(File, Old, New, A, B).
 test(runs_stay, [forall(stays(File, Old, New)), A == B]) :-
     changed(File, Old, New, A, B).
@@ -114,7 +115,7 @@ test(thesis_counts_its_agents, true(Missing == [])) :-
                     \+ study_sources:( hashed(Study, _, Times),
                                        memberchk(File-_, Times) ) ),
             Missing).
-test(changed_while_it_is_looked_at, Base == 'walker.pl') :-
+test(changed_while_it_is_read, Base == 'walker.pl') :-
     with_tmp_dir(touched(Base)).
 
 :- end_tests(sources).
@@ -273,7 +274,7 @@ test(logs, [forall(member(Left, [true, false]))]) :-
     with_runs(logs(Left)).
 test(log_comes_later) :-
     with_runs(log_comes_later).
-test(what_it_was) :-
+test(facts_of_a_run) :-
     with_runs(facts(Facts)),
     forall(member(Fact, [ seed(1), parameter(a, 1), parameter(b, 3),
                           sources(_), version(prolog, _),

@@ -9,7 +9,7 @@
 *Threading*: one test at a time.
 */
 
-:- begin_tests(looking_on).
+:- begin_tests(progress).
 
 test(sparse_lines_without_a_terminal,
      Text == "0/20 a\n3/20 c\n20/20 d\n") :-
@@ -35,4 +35,4 @@ growing(Lines1-Lines2, Dir) :-
 append_text(File, Text) :-
     setup_call_cleanup(open(File, append, Out), write(Out, Text), close(Out)).
 
-:- end_tests(looking_on).
+:- end_tests(progress).

@@ -61,7 +61,7 @@ test(medians_and_spreads, Spreads == [10-12-14-3, 4-20-30-3]) :-
             member(row(_, 3, [spread(m, Least, Median, Most, Count)]),
                    Outcome.rows),
             Spreads).
-test(not_in_all_runs, Text == '11 (10–12) in 2') :-
+test(measured_in_some_runs_only, Text == '11 (10–12) in 2') :-
     quietly_outcome_of([ values(1, 10, 1), values(2, 12, 1),
                          values(3, none, 1) ], Outcome),
     Outcome.rows = [Row|_],
@@ -70,7 +70,7 @@ test(shares_of_seeds, Share == 2-3-true) :-
     three(Values),
     quietly_outcome_of(Values, Outcome),
     claim(Outcome, "rises", Share).
-test(not_of_the_medians, Share == 2-3-false) :-
+test(claims_are_checked_per_seed, Share == 2-3-false) :-
     quietly_outcome_of([ values(1, 30, 40), values(2, 31, 41),
                          values(3, 60, 20) ], Outcome),
     claim(Outcome, "small", Small),
@@ -84,11 +84,11 @@ test(seeds_with_missing_cases_do_not_count, Share == 1-1-true) :-
     quietly_outcome_of([ values(1, 10, 20), values(2, 12, missing) ],
                        Outcome),
     claim(Outcome, "rises", Share).
-test(nothing_is_known_without_runs, Share-Rows == (0-0-false)-[]) :-
+test(without_runs_nothing_is_known, Share-Rows == (0-0-false)-[]) :-
     quietly_outcome_of([], Outcome),
     claim(Outcome, "rises", Share),
     Rows = Outcome.rows.
-test(never_measured_is_not_known, Share == 0-0-false) :-
+test(unmeasured_value_is_unknown, Share == 0-0-false) :-
     three(Values),
     quietly_outcome_of(Values, Outcome),
     claim(Outcome, "never measured", Share).
@@ -105,11 +105,11 @@ test(median, M == 2) :- median([3, 1, 2], M).
 test(median_of_two, M =:= 2.5) :- median([3, 2], M).
 test(median_of_none, fail) :- median([], _).
 test(spread, A-B-C == 1-2-3.0) :- spread([3.0, 1, 2], A, B, C).
-test(text, [ forall(member(N-T, [ 12345-'12,345', 104.52-'104.5',
-                                  1234.6-'1,235', 0.0421-'0.042',
-                                  1.5-'1.50', 0-'0', 0.0-'0',
-                                  -3.25-'-3.25', none-none ])),
-             Text == T ]) :-
+test(text_of_numbers, [ forall(member(N-T, [ 12345-'12,345', 104.52-'104.5',
+                                             1234.6-'1,235', 0.0421-'0.042',
+                                             1.5-'1.50', 0-'0', 0.0-'0',
+                                             -3.25-'-3.25', none-none ])),
+                        Text == T ]) :-
     number_text(N, Text).
 
 :- end_tests(numbers).
@@ -147,7 +147,7 @@ test(printed) :-
                           "held in 2 of 3      rises",
                           "m: 12 20" ]),
            assertion(once(sub_string(Text, _, _, _, Part)))).
-test(shown_are_those_with_labels) :-
+test(only_labelled_measures_are_shown) :-
     printed([values(1, 1, 2)], Text),
     assertion(once(sub_string(Text, _, _, _, "  a  runs  m\n"))).
 test(runs, Text == "seed,a,m\r\n1,1,10\r\n1,2,20\r\n2,1,12\r\n2,2,30\r\n\c

@@ -51,7 +51,7 @@ tools_there :-
 
 :- begin_tests(replays, [condition(tools_there)]).
 
-test(linked_and_whole) :-
+test(linked_and_complete) :-
     with_replay(['--replays'], linked).
 
 linked(Out) :-
@@ -67,7 +67,7 @@ linked(Out) :-
     directory_file_path(Out, 'walks/replay.log', Log),
     assertion(\+ exists_file(Log)).
 
-test(only_if_asked_for) :-
+test(replays_are_made_on_request_only) :-
     with_replay([], not_linked).
 
 not_linked(Out) :-

@@ -60,14 +60,14 @@ test(random_is_in_range) :-
     drawn([b-integer(3, 5)], random(200), b, Integers),
     sort(Integers, Distinct),
     assertion(Distinct == [3, 4, 5]).
-test(random_goes_on, nondet) :-
+test(random_sample_can_be_continued, nondet) :-
     drawn([a-uniform(0, 1)], random(5), a, Few),
     drawn([a-uniform(0, 1)], random(9), a, Many),
     append(Few, _, Many).
-test(parameters_do_not_depend_on_each_other, Alone == Together) :-
+test(parameters_are_independent, Alone == Together) :-
     drawn([a-uniform(0, 1)], latin_hypercube(5), a, Alone),
     drawn([b-[x, y], a-uniform(0, 1)], latin_hypercube(5), a, Together).
-test(another_seed_draws_others, true(A \== B)) :-
+test(other_seed_draws_other_values, true(A \== B)) :-
     drawn([a-uniform(0, 1)], random(5), a, A),
     drawn([a-uniform(0, 1)], random(5, 2), a, B).
 
@@ -99,14 +99,14 @@ test(each_combination_has_all_points, Count-Few == 10-5) :-
     findall(R-S, ( member(Case, Cases), R = Case.rate, S = Case.size ), All),
     sort(All, Distinct),
     length(Distinct, Few).
-test(given_is_not_sampled, Rates == [0.5]) :-
+test(given_parameter_is_not_sampled, Rates == [0.5]) :-
     sampled_cases([rate-0.5], Cases),
     findall(R, ( member(Case, Cases), R = Case.rate ), All),
     sort(All, Rates).
 test(another_design, Count == 6) :-
     sampled_cases([design-random(3)], Cases),
     length(Cases, Count).
-test(no_design, error(domain_error(study_design, many))) :-
+test(unknown_design, error(domain_error(study_design, many))) :-
     sampled_cases([design-many], _).
 test(sampled_parameters_vary, Names == [kind, rate, size]) :-
     sampled(Lines),
@@ -118,7 +118,7 @@ test(wrong_ranges_and_designs_are_errors,
     sampled(Lines0),
     append(Lines0, [Line], Lines),
     with_study(Lines, cases_of([], _)).
-test(the_example_has_its_points, Count == 40) :-
+test(example_study_has_forty_cases, Count == 40) :-
     project_file('examples/studies/search.pl', File),
     study_load(File, Study),
     study_cases(Study, [], Cases),

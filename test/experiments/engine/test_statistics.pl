@@ -57,7 +57,7 @@ ages([19, 22, 16, 29, 24], [20, 11, 17, 12]).
 
 :- begin_tests(statistics).
 
-test(mean_and_deviation_as_certified,
+test(mean_and_deviation_of_certified_data,
      [forall(certified(Numbers, Mean, Deviation))]) :-
     mean(Numbers, M),
     near(M, Mean, 1e-7),
@@ -66,7 +66,8 @@ test(mean_and_deviation_as_certified,
 test(one_number_has_no_deviation, fail) :-
     deviation([1], _).
 
-test(student_as_in_the_table, [forall(t_table(P, Freedom, T))]) :-
+test(student_distribution_matches_the_table,
+     [forall(t_table(P, Freedom, T))]) :-
     t_quantile(P, Freedom, Found),
     near(Found, T, 0.0005).
 test(student_of_many_is_normal) :-
@@ -99,7 +100,7 @@ test(rank_test_of_ages, U =:= 17) :-
 
 % Mann and Whitney (1947), table I: the probability that U is not above 2 with
 % samples of 3 and 4, of 4 and 4.
-test(rank_test_as_in_the_first_table,
+test(rank_test_matches_the_first_table,
      [forall(member(Xs-Ys-Expected, [ [1,2,5]-[3,4,6,7]-0.114,
                                       [1,2,3,6]-[4,5,7,8]-0.057 ]))]) :-
     rank_test(Xs, Ys, less, U, P),
@@ -124,7 +125,7 @@ test(rank_test_of_large_samples) :-
     near(P, 0.0005275082355568331, 1e-15).
 test(rank_test_of_equal_samples, P =:= 1) :-
     rank_test([3, 3, 3], [3, 3, 3], two_sided, _, P).
-test(rank_test_needs_both, fail) :-
+test(rank_test_needs_two_samples, fail) :-
     rank_test([], [1], less, _, _).
 
 % The example of the English Wikipedia, Spearman's rank correlation
@@ -133,7 +134,7 @@ test(rank_correlation) :-
     rank_correlation([106, 100, 86, 101, 99, 103, 97, 113, 112, 110],
                      [7, 27, 2, 50, 28, 29, 20, 12, 6, 17], Rho),
     near(Rho, -29/165, 1e-12).
-test(rank_correlation_of_what_does_not_vary, fail) :-
+test(rank_correlation_of_constant_data, fail) :-
     rank_correlation([1, 2, 3], [4, 4, 4], _).
 
 % The example of the English Wikipedia, Holm-Bonferroni method: of these four

@@ -53,7 +53,7 @@ test(no_study, Problems == [missing(study/2), missing(measure/3)]) :-
     problems(['a.'], Problems).
 test(arity, Problems == [arity(claim/2, claim/3)]) :-
     more_problems(['claim("small", m < 2).'], Problems).
-test(helpers_may_have_such_names, Problems == []) :-
+test(helpers_may_share_names_of_hooks, Problems == []) :-
     more_problems(['run(a, b, c).', 'label(a).'], Problems).
 test(no_values, Problems == [no_values(b)]) :-
     more_problems(['vary(b, 1).'], Problems).
@@ -61,7 +61,7 @@ test(no_test, Problems == [said(claim("small"), no_test(smal(m)))]) :-
     more_problems(['claim("small", [], smal(m)).'], Problems).
 test(unknown_in_a_claim, Problems == [said(claim("small"), unknown(n))]) :-
     more_problems(['claim("small", [], n < a).'], Problems).
-test(no_such_value, Problems == [said(claim("small"), no_case(k=gird))]) :-
+test(unknown_value, Problems == [said(claim("small"), no_case(k=gird))]) :-
     more_problems([ 'vary(k, [grid, ring]).',
                     'claim("small", [], least(m, k=gird)).' ], Problems).
 test(unknown_in_a_plot, Problems == [ said(plot(p), unknown(b)),
@@ -71,18 +71,18 @@ test(unknown_in_a_plot, Problems == [ said(plot(p), unknown(b)),
 test(measures_may_have_many_names, Problems == []) :-
     more_problems([ 'measure(Name, _, 2) :- member(Name, [n, o]).',
                     'claim("small", [], n < a).' ], Problems).
-test(parameters_may_follow, Problems == []) :-
+test(parameters_may_be_derived, Problems == []) :-
     more_problems([ 'derive(d, Case, D) :- D is Case.a.',
                     'claim("small", [], m < d).' ], Problems).
 test(option_of_a_plot,
      Problems == [said(plot(p), wrong(domain_error(lines_option, xlabl(t))))]) :-
     more_problems(['plot(p, "P", lines([x(a), y(m), xlabl(t)])).'], Problems).
-test(no_picture, Problems == [said(plot(p), no_picture(bars([])))]) :-
+test(unknown_picture, Problems == [said(plot(p), no_picture(bars([])))]) :-
     more_problems(['plot(p, "P", bars([])).'], Problems).
 test(own_test_is_missing,
      Problems == [said(claim("own"), no_test(holds(own)))]) :-
     more_problems(['claim("own", [], holds(own)).'], Problems).
-test(a_word_that_is_mistyped) :-
+test(mistyped_word) :-
     study_messages(more_problems(['labl(m, "M").'], Problems), Text),
     assertion(Problems == []),
     says(Text, ["labl/2 is no word of studies (did you mean label/2?)"]).
@@ -124,7 +124,7 @@ test(by_number, Bases == ['figure_5_6.pl']) :-
     named(['5.6'], Bases).
 test(by_folder, true(memberchk('figure_5_6.pl', Bases))) :-
     named([sync], Bases).
-test(thesis_is_in_the_order_of_its_figures, Figures == Sorted) :-
+test(studies_of_the_thesis_are_ordered_by_figure, Figures == Sorted) :-
     named([thesis], Bases),
     assertion(append(_, ['figure_4_7.pl', 'figure_4_9.pl',
                          'figure_4_13.pl', 'figure_5_2.pl'|_], Bases)),
@@ -134,10 +134,10 @@ test(thesis_is_in_the_order_of_its_figures, Figures == Sorted) :-
             Figures),
     length(Figures, Count),
     numlist(1, Count, Sorted).
-test(once, Bases == ['figure_5_6.pl']) :-
+test(each_study_occurs_once, Bases == ['figure_5_6.pl']) :-
     project_file('experiments/sync/figure_5_6', File),
     named(['5.6', File, '5.6'], Bases).
-test(a_name_is_one_study, Bases == ['study_readings.pl']) :-
+test(name_identifies_one_study, Bases == ['study_readings.pl']) :-
     named([readings], Bases).
 test(unknown, error(existence_error(study, '99.9'))) :-
     named(['99.9'], _).
@@ -207,7 +207,7 @@ test(help_of_a_study, forall(member(Args, [ ['--help'],
                                             ['-h', '--set', 'c=4'] ]))) :-
     prints(Args, exit(0), Text),
     says(Text, ["toy: A toy", "  a          [1,2]      varied", "assumed: so"]).
-test(what_there_is) :-
+test(list_of_studies) :-
     with_tmp_dir(what_there_is(Text)),
     says(Text, ["  5.6            Idle time and overlaps"]).
 test(table_and_claims) :-
@@ -221,7 +221,7 @@ test(set) :-
            exit(0), Text),
     says(Text, ["  a  b  c  runs   m", "  1  x  4     1  14",
                 "  1  x  5     1  15"]).
-test(set_twice_the_last_counts) :-
+test(last_set_counts) :-
     prints(['--set', 'a=1', '--set', 'b=x', '--set', 'a=2', '--runs', 1],
            exit(0), Text),
     says(Text, ["  2  x     1  23"]),
@@ -245,28 +245,28 @@ test(case_by_name) :-
 test(no_such_case, forall(member(Case, [9, 'a=3,b=x']))) :-
     prints(['--case', Case], exit(1), Text),
     says(Text, ["case", "does not exist; there are a=1,b=x  a=1,b=it is  "]).
-test(parts_of_a_name_in_any_order) :-
+test(case_parameters_in_any_order) :-
     with_command(one_case(['--case', 'b=x,a=2'], ["a=2,b=x,seed=1"])).
-test(nothing_is_real) :-
+test(no_case_in_real_time) :-
     prints(['--real', '--runs', 1, '--set', 'a=1'], exit(0), Text),
     says(Text, ["--real: no case"]).
-test(again_where_it_was) :-
+test(command_names_the_folder_of_the_runs) :-
     with_command(again).
 test(no_such_study) :-
     with_tmp_dir(no_such_study(Text)),
     says(Text, ["There is no study 99.9"]).
-test(study_that_is_mistyped) :-
+test(mistyped_study) :-
     with_study_file(['study(a, b).'], mistyped(Text)),
     says(Text, ["There is no study stdy.pl (did you mean study?)"]).
-test(nothing_is_set) :-
+test(set_without_a_value) :-
     prints(['--set', 'a='], exit(1), Text),
     says(Text, ["NAME=VALUE"]).
 test(list) :-
     with_command(listed).
-test(nothing_is_left_to_compare) :-
+test(no_cases_left_to_compare) :-
     prints(['--set', 'a=1', '--runs', 1], exit(0), Text),
     says(Text, ["not known           m grows"]).
-test(collect_what_is_not_there) :-
+test(collect_of_missing_runs) :-
     prints(['--collect', '--out', out], exit(0), Text),
     says(Text, ["not known", "12 of 12 runs are not there"]).
 test(no_runs, forall(member(Option, ['--runs', '--jobs']))) :-

@@ -53,31 +53,31 @@ first_name(Name, Study) :-
 test(first_varies_slowest,
      Rows == [[1, x, 3], [1, y, 3], [2, x, 3], [2, y, 3]]) :-
     cases([], [], [a, b, c], Rows).
-test(follows, Rows == [[1, 4], [2, 5]]) :-
+test(derived_parameter, Rows == [[1, 4], [2, 5]]) :-
     cases([ 'derive(d, Case, D) :- D is Case.a + Case.c.' ], [b-x], [a, d],
           Rows).
-test(follows_from_what_follows, Rows == [[4, 8], [5, 10]]) :-
+test(parameter_derived_from_a_derived_one, Rows == [[4, 8], [5, 10]]) :-
     cases([ 'derive(d, Case, D) :- D is Case.a + Case.c.',
             'derive(e, Case, E) :- E is 2*Case.d.' ], [b-x], [d, e], Rows).
-test(does_not_follow, error(study_goal_failed(derive(d)))) :-
+test(derivation_that_fails, error(study_goal_failed(derive(d)))) :-
     cases([ 'derive(d, Case, 1) :- Case.a > 1.' ], [], [a, d], _).
 test(skipped, Rows == [[1, x], [1, y], [2, y]]) :-
     cases([ 'skip(Case) :- Case.a =:= 2, Case.b == x.' ], [], [a, b], Rows).
-test(given, Rows == [[7, y, 5]]) :-
+test(given_parameter, Rows == [[7, y, 5]]) :-
     cases([], [a-7, b-y, c-5], [a, b, c], Rows).
 test(given_list_is_varied, Rows == [[1, 5], [1, 6], [2, 5], [2, 6]]) :-
     cases([], [b-y, c-[5, 6]], [a, c], Rows).
 test(given_is_not_derived, Rows == [[1, 9], [2, 9]]) :-
     cases([ 'derive(d, Case, D) :- D is Case.a + Case.c.' ], [b-x, d-9],
           [a, d], Rows).
-test(skips_by_what_is_given, Rows == [[2, 9]]) :-
+test(skip_uses_given_values, Rows == [[2, 9]]) :-
     cases([ 'skip(Case) :- Case.a =:= 1, Case.c =:= 9.' ], [b-x, c-9],
           [a, c], Rows).
 test(same_value_twice_is_one_case, Rows == [[1, x], [1, y]]) :-
     cases([], [a-[1, 1]], [a, b], Rows).
 test(unknown, error(study_parameter(_, d))) :-
     cases([], [d-1], [a], _).
-test(what_a_case_does_not_have, error(existence_error(key, aa, _))) :-
+test(parameter_missing_in_a_case, error(existence_error(key, aa, _))) :-
     cases(['derive(d, Case, D) :- D = Case.aa.'], [], [d], _).
 test(missing_parameter_is_reported) :-
     dict_pairs(Case, case, [delta-1, hosts-2]),
@@ -121,14 +121,15 @@ included(Lines, Names, Rows, Dir) :-
     study_load(File, Study),
     rows([], Names, Rows, Study).
 
-test(study_fixes_what_was_fixed, Rows == [[1, 4], [2, 4]]) :-
+test(study_fixes_a_fixed_parameter, Rows == [[1, 4], [2, 4]]) :-
     included([ 'vary(b, [x]).', 'fixed(c, 4, printed("there")).' ],
              [a, c], Rows).
-test(study_fixes_what_varied, Rows == [[5, x], [5, y]]) :-
+test(study_fixes_a_varied_parameter, Rows == [[5, x], [5, y]]) :-
     included([ 'fixed(a, 5, printed("there")).' ], [a, b], Rows).
-test(study_varies_what_was_fixed, Rows == [[1, x], [1, x], [2, x], [2, x]]) :-
+test(study_varies_a_fixed_parameter,
+     Rows == [[1, x], [1, x], [2, x], [2, x]]) :-
     included([ 'vary(b, [x]).', 'vary(c, [4, 5]).' ], [a, b], Rows).
-test(study_derives_what_was_fixed, Rows == [[1, 10], [2, 20]]) :-
+test(study_derives_a_fixed_parameter, Rows == [[1, 10], [2, 20]]) :-
     included([ 'vary(b, [x]).',
                'derive(c, Case, C) :- C is 10*Case.a.' ], [a, c], Rows).
 
@@ -138,10 +139,10 @@ test(parameters,
                      parameter(c, 3, assumed("it is small")) ]) :-
     study([], all_parameters([b-y], Parameters)).
 
-test(varied_are_named_and_what_else_has_several_values,
+test(varied_parameters_include_those_with_several_values,
      Names == [a, b, c]) :-
     study([], all_varied([b-x, c-[1, 2]], Names)).
-test(varied_without_those_that_follow, Names == [a, b]) :-
+test(derived_parameters_are_not_varied, Names == [a, b]) :-
     study([ 'derive(d, Case, D) :- D is Case.a.' ], all_varied([], Names)).
 
 test(name, Name == 'a=1,b=x') :-

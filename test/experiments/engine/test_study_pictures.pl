@@ -152,14 +152,15 @@ test(variables) :-
           "Series[2] = [\"new one\", \"Old ones\"]",
           "of\\\\_toys; 3 runs of each: medians, least and greatest\"",
           "load \"lines.gp\"" ])).
-test(words_stand_side_by_side, Text == "1 17 11 23\n2 117 111 123\n\n\n") :-
+test(texts_are_placed_side_by_side,
+     Text == "1 17 11 23\n2 117 111 123\n\n\n") :-
     with_pictures(data('two.dat', Text)).
-test(names_of_values_are_words) :-
+test(names_of_values_are_texts) :-
     with_pictures(has('two.gnuplot',
                       ["XTICS = \"'new one' 1,'Old ones' 2\""])).
-test(texts_are_drawn_as_they_are_written, Plain == 'a\\_b\\^2\\{\\\\') :-
+test(texts_are_drawn_verbatim, Plain == 'a\\_b\\^2\\{\\\\') :-
     plain_text("a_b^2{\\", Plain).
-test(says_what_is_put_together) :-
+test(caption_names_the_aggregation) :-
     with_pictures(has('two.gnuplot', ["least and greatest; over all n\""])).
 test(own_script, Text == "\"a b\" 1.5\nx 6\n\n\"c d\" 3\n") :-
     with_pictures(data('own.dat', Text)).
@@ -167,7 +168,7 @@ test(own_variables) :-
     with_pictures(has('three.gnuplot',
         [ "NAME = \"three\"", "HEIGHT = 200", "X = 1",
           "array Names[2] = [\"a\", \"b\\\"c\"]", "load \"own.gp\"" ])).
-test(what_a_run_has_drawn) :-
+test(pictures_of_a_run_are_copied) :-
     with_pictures(copied).
 test(impossible_plot_is_reported) :-
     with_pictures(said(Text)),
@@ -251,7 +252,7 @@ words(Text, _, DOM) :-
 
 :- begin_tests(study_page).
 
-test(links_lead_somewhere, Missing-Inside == []-[]) :-
+test(links_resolve, Missing-Inside == []-[]) :-
     with_page(links(Missing)),
     with_page(links_inside(Inside)).
 test(tables) :-
@@ -265,7 +266,7 @@ test(tables) :-
                          [m, '1', '2', above] ]),
            assertion(memberchk(Row, Rows))),
     assertion(\+ memberchk(['measure l'|_], Rows)).
-test(says_how_to_make_it_again) :-
+test(page_shows_how_to_repeat_the_study) :-
     with_page(words(Text)),
     forall(member(Part, [ 'swipl a -- b', 'What it is & does.',
                           'not drawn' ]),

@@ -181,16 +181,16 @@ test(one_case_on_sockets, [nondet, Row == ["5", "5", "inside"]]) :-
 test(watched_in_real_time, nondet) :-
     with_walkers(watched(Text)),
     sub_string(Text, _, _, _, "/60 events").
-test(what_was_measured) :-
+test(measured_values) :-
     with_walkers(what_was_measured).
-test(leaves_nothing) :-
+test(no_resources_are_left) :-
     no_leaks(with_walkers(what_was_measured)).
 test(run_fails, error(study_goal_failed(run/2))) :-
     with_walkers(run_that_fails).
 test(network_stops_when_the_run_fails) :-
     no_leaks(catch(with_walkers(run_that_fails), error(_, _), true)).
 
-test(a_process_is_lost, error(study_processes_ended([_]))) :-
+test(lost_process, error(study_processes_ended([_]))) :-
     no_leaks(with_lines([ 'fixed(clock, 50, assumed("so")).',
                           'fixed(processes, 2, assumed("so")).',
                           'network(_, ring(4), []).',

@@ -62,13 +62,13 @@ send(Pid, Thread, Signal) :-
                       ctypes.CDLL(None).tgkill(*map(int, sys.argv[1:]))',
                      Pid, Thread, Signal ], []).
 
-:- begin_tests(a_study_is_stopped_by_a_signal).
+:- begin_tests(study_signals).
 
-test('to the main thread', Status-Said == exit(143)-left) :-
+test(signal_to_the_main_thread, Status-Said == exit(143)-left) :-
     with_tmp_dir(signalled(main, 15, Status, Said)).
-test('to any other', Status-Said == exit(143)-left) :-
+test(signal_to_another_thread, Status-Said == exit(143)-left) :-
     with_tmp_dir(signalled(other, 15, Status, Said)).
-test('when the terminal goes', Status-Said == exit(129)-left) :-
+test(terminal_hangs_up, Status-Said == exit(129)-left) :-
     with_tmp_dir(signalled(other, 1, Status, Said)).
 
-:- end_tests(a_study_is_stopped_by_a_signal).
+:- end_tests(study_signals).

@@ -239,13 +239,13 @@ changed(Dir, File) :-
 
 :- begin_tests(study_work).
 
-test(made_once) :-
+test(run_is_made_once) :-
     with_toy(made_once).
-test(first_of_each_case_first) :-
+test(first_seed_of_each_case_comes_first) :-
     with_toy(first_of_each_case_first).
 test(one_process_for_many) :-
     with_toy(one_process_for_many).
-test(what_it_printed) :-
+test(output_of_a_run_is_kept) :-
     with_toy(what_it_printed).
 test(failing, forall(member(What-Why, [ fail-"`here' does not exist",
                                         ball-"Unknown message: ball",
@@ -254,7 +254,7 @@ test(failing, forall(member(What-Why, [ fail-"`here' does not exist",
     with_toy(failing(What, Why)).
 test(same_cause) :-
     with_toy(same_cause).
-test(collected_anyway) :-
+test(failed_study_is_collected) :-
     with_toy(collected_anyway).
 test(no_such_agent) :-
     with_study_file([ ':- use_module(library(typhon)).',
@@ -269,7 +269,7 @@ test(interrupted, forall(member(Signal-Status, [int-130, term-143]))) :-
     with_toy(leaves_nothing(Signal, Status)).
 test(stuck) :-
     with_toy(ends_what_is_stuck).
-test(two_sessions) :-
+test(two_sessions_share_the_work) :-
     with_toy(together).
 test(other_runs_do_not_wait_for_a_long_run) :-
     with_study_file([ 'study(long, "The third waits for the last").',
@@ -285,7 +285,7 @@ test(other_runs_do_not_wait_for_a_long_run) :-
                       '    ( Now < Deadline -> sleep(0.05), await(Deadline)',
                       '    ; throw(error(timeout_error(await, done), _)) ).' ],
                     by_two).
-test(changed_meanwhile) :-
+test(study_changed_during_the_run) :-
     with_toy(changed).
 
 no_such_agent(Dir, File) :-

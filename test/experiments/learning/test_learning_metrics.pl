@@ -85,7 +85,7 @@ test(ends, [Size, Start, Goal] == [50, 50-0, 0-50]) :-
     maze_size([], Size),
     start_cell([], Start),
     goal_cell([], Goal).
-test(settings_are_gone, Size == 50) :-
+test(settings_are_removed, Size == 50) :-
     maze_size([size-3], 3),
     maze_size([], Size).
 
@@ -100,15 +100,15 @@ test(all_shortest_ways, Count == 6) :-
     forall(member(Way, Ways), length(Way, 5)),
     sort(Ways, Set),
     length(Set, Count).
-test(about_equally_often) :-
+test(shortest_ways_are_drawn_uniformly) :-
     random_ways([size-2], 1200, Ways),
     msort(Ways, Sorted),
     clumped_ways(Sorted, Counts),
     forall(member(Count, Counts), assertion(Count > 150)).
-test(not_through_a_wall, Set == [[2-0, 2-1, 2-2, 1-2, 0-2]]) :-
+test(no_way_through_a_wall, Set == [[2-0, 2-1, 2-2, 1-2, 0-2]]) :-
     random_ways([size-2, obstacles-[(1,0)-(1,1)]], 20, Ways),
     sort(Ways, Set).
-test(the_same_ways_each_time, Ways == Again) :-
+test(ways_are_repeatable, Ways == Again) :-
     random_ways([size-5], 3, Ways),
     random_ways([size-5], 3, Again).
 test(distance_from_the_diagonal) :-
@@ -117,7 +117,7 @@ test(distance_from_the_diagonal) :-
 test(distance_from_a_wall) :-
     distance(wall(1, 1), [4-0, 2-0, 2-1, 2-2, 0-2], Mean),
     about(Mean, 2/3).
-test(nearer, true(Share =:= 1/2)) :-
+test(nearer_to_the_goal, true(Share =:= 1/2)) :-
     nearer(diagonal(2), [[2-0, 1-1, 0-2], [2-0, 2-2]], 0.5, Share).
 
 clumped_ways(Ways, Counts) :-

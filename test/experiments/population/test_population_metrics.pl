@@ -29,15 +29,15 @@ small_log([ event(-2, a, 'agent1.x.1@a', created),
 
 test(kind, Kind == 12) :-
     agent_kind('agent12.mark.3@n1@127.0.0.1:1', Kind).
-test(no_kind, [fail]) :-
+test(agent_of_no_kind, [fail]) :-
     agent_kind('worker.mark.3@n1@127.0.0.1:1', _).
 test(populations, Steps == [ step(0, [1, 1], 2), step(5, [1, 2], 3),
                              step(8, [1, 1], 2) ]) :-
     small_log(Events0),
     until_settled(Events0, [1, 2], 2, Events),
     populations(Events, [1, 2], Steps).
-test(goes_on_until_settled, Last == event(8, b, 'agent2.x.4@b',
-                                          ended(disposed))) :-
+test(continues_until_settled, Last == event(8, b, 'agent2.x.4@b',
+                                            ended(disposed))) :-
     small_log(Events0),
     until_settled(Events0, [1, 2], 2, Events),
     last(Events, Last).
@@ -45,7 +45,7 @@ test(never_settled, Count == 15) :-
     small_log(Events0),
     until_settled(Events0, [1, 2], 3, Events),
     length(Events, Count).
-test(lost_is_not_done, Count == 1) :-
+test(lost_task_is_not_done, Count == 1) :-
     track_start([1, 2], State0),
     foldl(track, [ event(1, a, w, completed(s, 1)),
                    event(1, b, w, completed(s, 1)),
@@ -57,7 +57,7 @@ test(peak, Peak == 5-2) :-
 test(later_peak, Peak == 6-2) :-
     peak(total, 5.5, [ step(0, [1, 4], 5), step(5, [0, 1], 1),
                        step(6, [0, 2], 2) ], Peak).
-test(what_there_was_counts, Peak == 5.5-5) :-
+test(peak_includes_the_initial_population, Peak == 5.5-5) :-
     peak(total, 5.5, [step(0, [1, 4], 5), step(6, [0, 2], 2)], Peak).
 test(population_at, Counts == [1, 2]) :-
     population_at(7, [step(0, [1, 1], 2), step(5, [1, 2], 3)], Counts).

@@ -63,14 +63,15 @@ fewer_hold(Figure, Worse) :-
 test(well_formed, [forall(member(Figure, ['6_3', '6_4'])), Problems == []]) :-
     study(Figure, Study),
     odd_claims(Study, Problems).
-test(all_may_hold, [forall(member(Figure-Count, ['6_3'-9, '6_4'-14]))]) :-
+test(all_claims_can_hold,
+     [forall(member(Figure-Count, ['6_3'-9, '6_4'-14]))]) :-
     study(Figure, Study),
     good(Points),
     holding(Study, Points, Numbers),
     numlist(1, Count, Numbers).
-test(each_may_fail, [forall(worse(Worse))]) :-
+test(each_claim_can_fail, [forall(worse(Worse))]) :-
     fewer_hold('6_3', Worse).
-test(each_after_a_crash_may_fail, [forall(worse_after_crash(Worse))]) :-
+test(each_claim_after_a_crash_can_fail, [forall(worse_after_crash(Worse))]) :-
     fewer_hold('6_4', Worse).
 
 :- end_tests(population_claims).
@@ -124,7 +125,7 @@ test(bars_are_stacked,
      Rows == [[2.5, 2, 3, 0, 2, 1], [2.5, 2, 3, 2, 3, 2], gap, gap]) :-
     bar_rows([run(case{hosts:8}, 1, ms{started:[2.1-1, 2.7-2, 2.9-1]})],
              Rows).
-test(no_crash_no_line, Rows == [['NaN'], gap, gap]) :-
+test(without_a_crash_no_line, Rows == [['NaN'], gap, gap]) :-
     crash_rows([run(case{hosts:8}, 1, ms{})], Rows).
 test(smaller_networks_first, Rows == [[5], gap, gap, [7], gap, gap]) :-
     crash_rows([ run(case{hosts:9}, 1, ms{crash_time:7}),

@@ -43,7 +43,7 @@ test(table_6_1, Rows == [ [dormant, dormant], [excited, dormant],
 test(kinds_of_rows, Kinds == [printed, printed, between, printed, printed]) :-
     rows(Rows),
     findall(Kind, ( member(Row, Rows), once(table_row(Kind, Row)) ), Kinds).
-test(excited_out_of_turn_is_not_in_the_table,
+test(excited_out_of_order_is_no_row,
      [ forall(member(Row, [ [dormant, excited], [excited, excited],
                             [excited, active], [dormant, active] ])),
        fail ]) :-
@@ -65,7 +65,7 @@ test(holds_in_a_small_network, Failed == []) :-
     verdicts(Study, [Case-Ms], Verdicts),
     findall(Text, member(Text-false, Verdicts), Failed),
     length(Verdicts, 8).
-test(each_may_fail,
+test(each_claim_can_fail,
      [ forall(member(Worse, [ _{rows:6}, _{wrong:1}, _{lapses:1},
                               _{excited_1:9}, _{excited_2:9},
                               _{excited_5:39} ])),

@@ -90,7 +90,7 @@ test(holdings, Holdings == [ holding(a, box1, 1, 4, 10),
                              holding(c, box2, 12, 12, 21) ]) :-
     events(Events),
     holdings(Events, Holdings).
-test(held_for_ever, Holdings == [holding(a, box1, 1, none, none)]) :-
+test(held_without_end, Holdings == [holding(a, box1, 1, none, none)]) :-
     holdings([event(1, a, robot, reserved(a, owner, box1)),
               event(2, a, robot, released(a, other, box1))], Holdings).
 test(jobs, Jobs == [ job(box1, 1, 4, 9, [a, b], []),
@@ -99,7 +99,7 @@ test(jobs, Jobs == [ job(box1, 1, 4, 9, [a, b], []),
     jobs(Events, Jobs).
 test(unfinished, Jobs == [job(box1, 1, none, none, [], [])]) :-
     jobs([event(1, a, allocator, begun(box1))], Jobs).
-test(joined_is_not_executing, Joined == [a-0, b-0, c-6]) :-
+test(joined_robot_is_not_executing, Joined == [a-0, b-0, c-6]) :-
     events(Events),
     joined(Events, Joined).
 test(pairs, Pairs == [ (a-b)-false, (c-d)-true ]) :-
@@ -115,9 +115,9 @@ test(never_allocated, fail) :-
     together([job(a, 0, 1, 5, [], []), job(b, 0, none, none, [], [])], a-b).
 test(yields) :-
     yields([job(a, 0, 1, 5, [], [3-1]), job(b, 0, 6, 9, [], [])], a-b).
-test(yields_to_no_other, fail) :-
+test(job_without_conflict_yields_to_none, fail) :-
     yields([job(a, 0, 1, 5, [], [3-1]), job(b, 0, 4, 9, [], [])], a-b).
-test(none_yields, fail) :-
+test(no_job_yields, fail) :-
     yields([job(a, 0, 1, 5, [], []), job(b, 0, 6, 9, [], [])], a-b).
 test(from_dock, Centimetres == 5) :-
     terms(Terms),
@@ -176,7 +176,7 @@ test(all_hold, Numbers == [1, 2, 3, 4, 5, 6]) :-
     terms(Terms),
     point(Events, Terms, Point),
     holding(Study, [Point], Numbers).
-test(each_may_fail, [forall(worse(Worse, N)), Failing == [N]]) :-
+test(each_claim_can_fail, [forall(worse(Worse, N)), Failing == [N]]) :-
     robot_study(boxes, Study),
     events(Events),
     terms(Terms),

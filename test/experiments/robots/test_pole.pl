@@ -102,7 +102,7 @@ test(clocks, Times == [8.0, 10.0, 11.0, 12.0, 14.0, 17.0]) :-
             ( member(Arena, [-2.0, 0.0, 0.5, 1.0, 2.0, 5.0]),
               host_time([0.0-10.0, 1.0-12.0, 2.0-14.0], Arena, Host) ),
             Times).
-test(clock_that_stands, Time =:= 13) :-
+test(stopped_clock, Time =:= 13) :-
     host_time([1-11, 2-12, 2-13, 3-14], 2.0, Time0),
     Time is Time0 + 1.
 test(over_limit, Seconds =:= 1.0) :-
@@ -112,10 +112,11 @@ test(never_over_limit, Seconds =:= 0) :-
 test(starts, true(abs(Seconds - 0.6) < 1.0e-6)) :-
     executions(in_step, Executions),
     starts_apart(Executions, 2, Seconds).
-test(none_mingled, Mingled == []) :-
+test(no_mingled_executions, Mingled == []) :-
     executions(in_step, Executions),
     mingled(Executions, Mingled).
-test(mingled, Mingled == [execution(2, 1, 5, 10), execution(2, 2, 6, 12)]) :-
+test(mingled_executions,
+     Mingled == [execution(2, 1, 5, 10), execution(2, 2, 6, 12)]) :-
     executions(alone, Executions0),
     include([execution(T, R, _, _)]>>(T =< 2, R =\= 4), Executions0,
             Executions),
@@ -150,7 +151,7 @@ test(all_hold, true(Numbers == All)) :-
     points(Points),
     holding(Study, Points, Numbers),
     numlist(1, 12, All).
-test(each_may_fail, [forall(worse(Worse, N)), true(Failing == [N])]) :-
+test(each_claim_can_fail, [forall(worse(Worse, N)), true(Failing == [N])]) :-
     robot_study(pole, Study),
     points(Points0),
     spoilt(Worse, Points0, Points),

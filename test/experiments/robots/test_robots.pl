@@ -137,17 +137,17 @@ between_(Low, High, X) :-
 
 :- begin_tests(robot_tasks).
 
-test(carried_along, Seen == [hello, none]) :-
+test(load_is_carried, Seen == [hello, none]) :-
     with_hosts([robot1], performed(greet, [(greet :- leave(said(hello)))],
                                    true, Seen)).
-test(laid_down_after_failure, Seen == [failed, none]) :-
+test(load_is_laid_down_after_failure, Seen == [failed, none]) :-
     with_hosts([robot1], performed(greet, [(greet :- fail)],
                                    leave(said(failed)), Seen)).
-test(laid_down_after_error, Seen == [raised, none]) :-
+test(load_is_laid_down_after_error, Seen == [raised, none]) :-
     with_hosts([robot1],
                performed(greet, [(greet :- throw(oops))],
                          leave(said(raised)), Seen)).
-test(unfolded, Seen == [slept, none]) :-
+test(fork_is_unfolded, Seen == [slept, none]) :-
     Clauses = [ (greet :- sleep(0.01), leave(said(slept))) ],
     with_hosts([robot1], performed(greet, Clauses, true, Seen)).
 
@@ -194,13 +194,13 @@ with_arena(Options, Goal) :-
 
 test(bricks) :-
     with_arena([clock(0)], four_bricks).
-test(time_goes_by_order, Times == [time(0.0), ok, time(2.5)]) :-
+test(time_advances_by_order, Times == [time(0.0), ok, time(2.5)]) :-
     with_arena([clock(0), seed(3)], times(Times)).
 test(time_does_not_go_back, Times == [ok, ok, time(2.5)]) :-
     with_arena([clock(0)], until(Times)).
-test(does_not_understand, error(arena_error('fly away', _))) :-
+test(unknown_request, error(arena_error('fly away', _))) :-
     with_arena([clock(0)], [Arena, _]>>arena_ask(Arena, 'fly away', _)).
-test(no_scene, error(existence_error(_, _))) :-
+test(missing_scene, error(existence_error(_, _))) :-
     no_leaks(arena_start('/no/such/scene.json', [], _, _)).
 test(bad_scene, error(arena_error(start, _))) :-
     project_file('bridges/nxt/world.py', Bad),

@@ -50,27 +50,27 @@ test(complements_alone, Helds == [true, true, false, true, true, true]) :-
             ( between(1, 15, _),
               round_of(['11111', '00000', '01010'], Round) ), Rounds),
     rounds_hold(figure_3_3, Rounds, Helds).
-test(another_kind_instead,
+test(other_kind_survives,
      Helds == [false, false, false, false, true, false]) :-
     findall(Round,
             ( between(1, 15, R),
               ( R =< 5 -> Third = '01010' ; Third = '11110' ),
               round_of(['11111', '00000', Third], Round) ), Rounds),
     rounds_hold(figure_3_3, Rounds, Helds).
-test(the_generic_one, Helds == [true, true, true, true, true]) :-
+test(generic_antibody_survives, Helds == [true, true, true, true, true]) :-
     findall(Round,
             ( between(1, 15, _),
               round_of(['11110', '11110', '11110', '11111'], Round) ),
             Rounds),
     rounds_hold(figure_3_4, Rounds, Helds).
-test(no_generic_one, Helds == [false, false, false, false, false]) :-
+test(no_generic_antibody, Helds == [false, false, false, false, false]) :-
     findall(Round, ( between(1, 15, _), round_of(['01111'], Round) ),
             Rounds),
     rounds_hold(figure_3_4, Rounds, Helds).
-test(others_follow, Helds == [true, true, true, true, true]) :-
+test(other_antibodies_follow, Helds == [true, true, true, true, true]) :-
     follow(['00010', '00010'], [died(aged, '11110')], Rounds),
     rounds_hold(figure_3_5, Rounds, Helds).
-test(nothing_follows, Helds == [true, false, false, false, false]) :-
+test(no_antibody_follows, Helds == [true, false, false, false, false]) :-
     follow(['11110', '11110'], [died(suppressed, '11110')], Rounds),
     rounds_hold(figure_3_5, Rounds, Helds).
 
@@ -100,7 +100,7 @@ test(return, [ forall(member(Second-Helds,
                Found == Helds ]) :-
     returned([ r(0, 2, 2, 7), r(0, 8, 6, 7), r(1, 2, 2, 7),
                r(1, 8, Second, 7) ], Found).
-test(return_forgotten_by_none,
+test(return_with_and_without_memory_cells,
      Found == [true, false, false, false, true, false]) :-
     returned([r(0, 2, 3, 7), r(0, 8, 3, 2), r(1, 2, 2, 2), r(1, 8, 3, 2)],
              Found).
@@ -112,13 +112,13 @@ returned(Rows, Helds) :-
             member(r(Cells, Others, Second, Stranger), Rows), Points),
     helds(Study, Points, Helds).
 
-test(programs, Helds == [true, true]) :-
+test(programs_improve, Helds == [true, true]) :-
     along(Along),
     rounds_hold(beyond_programs,
                 [ round([generated(block(left), [], 4), born(host, [])]),
                   round([ served(block(left), Along, 3),
                           born(clone, Along) ]) ], Helds).
-test(programs_that_do_not_help, Helds == [false, false]) :-
+test(programs_that_do_not_improve, Helds == [false, false]) :-
     along(Along),
     rounds_hold(beyond_programs,
                 [ round([ generated(block(left), Along, 4),

@@ -70,7 +70,7 @@ test(idle, Idle == 3) :-
     measured(in_step, Es),
     task_rows(Es, Rows),
     idle_time(Rows, Idle).
-test(no_idle_time_in_overlaps, Idle == 0) :-
+test(overlap_leaves_no_idle_time, Idle == 0) :-
     measured(ahead, Es),
     task_rows(Es, Rows),
     idle_time(Rows, Idle).
@@ -109,7 +109,7 @@ test(nothing_required_while_all_execute, Steps == [0-1, 1-0, 3-1, 4-0]) :-
             execution(2, a, 4, 5), execution(2, b, 4, 5) ], [], Marks),
     required([a, b], [1, 2], Marks, 5, Segments),
     tau(Segments, Steps).
-test(lost_while_another_is_executed,
+test(task_lost_during_another_execution,
      Segments == [segment(a, 1, 0, 1), segment(a, 2, 2, 3),
                   segment(a, 1, 5, 6)]) :-
     marks([ execution(1, a, 1, 2), execution(2, a, 3, 5),
@@ -126,7 +126,7 @@ test(tau_max, Tau == 2) :-
     required([a, b], [1, 2, 3], Marks, 10, Segments),
     tau(Segments, Steps),
     tau_max(Steps, Tau).
-test(tau_of_three_hosts_apart, Tau == 3) :-
+test(tau_of_three_independent_hosts, Tau == 3) :-
     marks([ execution(1, a, 0, 1), execution(2, a, 1, 2),
             execution(1, b, 0, 1) ], [], Marks),
     required([a, b, c], [1, 2, 3], Marks, 5, Segments),
@@ -176,7 +176,7 @@ test(measures, Measures == [ failed_at(7), failed_by(7), lost(1),
 test(not_healed, Redone == 0) :-
     healing([execution(1, a, 0, 1)], [failure(2, a, 1)], [0-1], Measures),
     memberchk(redone(Redone), Measures).
-test(lost_before_it_was_completed, Lost == 0) :-
+test(failure_before_completion, Lost == 0) :-
     healing([execution(1, a, 3, 4)], [failure(2, a, 1)], [0-1], Measures),
     memberchk(lost(Lost), Measures).
 

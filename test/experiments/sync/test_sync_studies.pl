@@ -191,7 +191,7 @@ point(Held, Name, Case, Case-Measures) :-
 
 :- begin_tests(claims).
 
-test(can_hold_and_can_fail,
+test(claims_can_hold_and_can_fail,
      [ forall(( a_study(Name, _), member(Held, [true, false]) )),
        true(Others == []) ]) :-
     sync_study(Name, Study),
@@ -240,7 +240,7 @@ test(repeats, A == B) :-
     Given = [hosts-20, tasks-2, agents-4],
     with_tmp_dir(small(figure_5_8, Given, A)),
     with_tmp_dir(small(figure_5_8, Given, B)).
-test(ring_by_chance_is_another_run, [true(A \== B)]) :-
+test(random_ring_is_another_run, [true(A \== B)]) :-
     Given = [topology-ring, hosts-20, tasks-1, agents-4],
     with_tmp_dir(small(figure_5_5, Given, A)),
     with_tmp_dir(small(figure_5_5, [choices-by_chance|Given], B)).

@@ -17,7 +17,7 @@ modules are merged.
 
 :- begin_tests(crossed).
 
-test(modules_of_a_plain_life) :-
+test(modules_of_an_agent_life) :-
     with_peers([a, b], fewest(15, Modules)),
     assertion(no_more_than(61, Modules)).
 

@@ -54,7 +54,7 @@ test(no_option_is_loaded, Outcome-Options == done-[]) :-
 
 %   In this order: each is there for the next.
 
-test(options_are_loaded_later,
+test(options_load_later,
      [ forall(member(Path-Options,
                      [ quotas-[quota([hops(100), tuples(10)])],
                        virtual-[clock(virtual)],
@@ -62,7 +62,7 @@ test(options_are_loaded_later,
        Outcome == done ]) :-
     use_module(library(typhon/options/Path), []),
     life(Options, Outcome).
-test(a_quota_that_is_passed,
+test(exceeded_quota,
      Outcome = raised(error(resource_error(tuples), _))) :-
     life([quota([tuples(1)])], Outcome).
 

@@ -11,7 +11,7 @@
 
 :- begin_tests(single).
 
-test(agents_live, Unexpected == unexpected([], [])) :-
+test(agents_run, Unexpected == unexpected([], [])) :-
     life_file(File),
     without_threads(main, [File], Status, Out, _),
     assertion(Status == exit(0)),

@@ -14,7 +14,7 @@
 
 :- begin_tests(wasm).
 
-test(agents_live, Unexpected == unexpected([], [])) :-
+test(agents_run, Unexpected == unexpected([], [])) :-
     project_file('test/lib/wasm/run.js', Script),
     project_file(prolog, Prolog),
     life_file(File),

@@ -66,7 +66,7 @@ test(output_logs_and_warnings) :-
     assertion(wildcard_match("Warning: ?network*/2? mind", Mind)),
     assertion(wildcard_match("Warning: ?network*/2? this", This)).
 
-test(as_quiet_as_the_parent) :-
+test(child_is_as_quiet_as_its_parent) :-
     said(['-q'], Out, Err),
     assertion(length(Out, 4)),
     assertion(length(Err, 2)).

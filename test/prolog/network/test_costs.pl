@@ -31,26 +31,27 @@ costs_at(Host, Costs) :-
 
 :- begin_tests(link_costs).
 
-test(one_by_default, A-B == [beta-1]-[alpha-1]) :-
+test(cost_is_one_by_default, A-B == [beta-1]-[alpha-1]) :-
     with_hosts([alpha,beta],
                ( link(alpha, beta), costs_at(alpha, A), costs_at(beta, B) )).
-test(both_ways, A-B == [beta-2.5]-[alpha-2.5]) :-
+test(cost_applies_in_both_directions, A-B == [beta-2.5]-[alpha-2.5]) :-
     with_hosts([alpha,beta],
                ( link(alpha, beta, [cost(2.5)]),
                  costs_at(alpha, A), costs_at(beta, B) )).
-test(changed_by_linking_again, All == [[beta-2],[beta-2],[beta-7],[beta-0]]) :-
+test(cost_is_changed_by_linking_again,
+     All == [[beta-2],[beta-2],[beta-7],[beta-0]]) :-
     with_hosts([alpha,beta],
                ( link(alpha, beta, [cost(2)]), costs_at(alpha, C1),
                  link(alpha, beta), costs_at(alpha, C2),
                  link(beta, alpha, [cost(7)]), costs_at(alpha, C3),
                  link(beta, alpha, [cost(0)]), costs_at(alpha, C4) )),
     All = [C1,C2,C3,C4].
-test(forgotten_by_unlink, A == [beta-1]) :-
+test(cost_is_forgotten_by_unlink, A == [beta-1]) :-
     with_hosts([alpha,beta],
                ( link(alpha, beta, [cost(2)]), unlink(alpha, beta),
                  \+ remote(alpha, neighbour(_, _)),
                  link(alpha, beta), costs_at(alpha, A) )).
-test(order_of_neighbours_stays, Names == [gamma,beta]) :-
+test(order_of_neighbours_is_kept, Names == [gamma,beta]) :-
     with_hosts([alpha,beta,gamma],
                ( link(alpha, gamma), link(alpha, beta),
                  link(alpha, gamma, [cost(9)]),
@@ -58,13 +59,13 @@ test(order_of_neighbours_stays, Names == [gamma,beta]) :-
                  findall(Name, ( member(H, Hosts),
                                  atomic_list_concat([Name,_], @, H) ),
                          Names) )).
-test(of_one_host, C == 4) :-
+test(cost_of_one_neighbour, C == 4) :-
     with_hosts([alpha,beta,gamma],
                ( link(alpha, beta, [cost(4)]), address(beta, Beta),
                  remote(alpha, neighbour(beta, C)),
                  remote(alpha, neighbour(Beta, C)),
                  \+ remote(alpha, neighbour(gamma, _)) )).
-test(agent_goes_the_cheapest_way, F == [s(gamma)]) :-
+test(agent_takes_the_cheapest_path, F == [s(gamma)]) :-
     with_hosts([alpha,beta,gamma],
                ( link(alpha, beta, [cost(4)]), link(alpha, gamma, [cost(3)]),
                  create([ on_message(_, _),
@@ -74,7 +75,7 @@ test(agent_goes_the_cheapest_way, F == [s(gamma)]) :-
                                    atomic_list_concat([Name,_], @, Here),
                                    assertz(s(Name))) ], A),
                  wait_state(A, resident), facts(A, F) )).
-test(host_started_again_has_no_costs, A == [beta-1]) :-
+test(restarted_host_has_no_costs, A == [beta-1]) :-
     with_hosts([alpha,beta],
                ( link(alpha, beta, [cost(2)]),
                  host_stop(beta), host_start(beta),
@@ -92,14 +93,14 @@ test(unknown_host, error(existence_error(host, nowhere))) :-
 
 :- begin_tests(network_costs).
 
-test(all_alike, C == [n1-3,n3-3]) :-
+test(one_cost_for_all_links, C == [n1-3,n3-3]) :-
     with_network(line(3), [cost(3), clock(virtual)], _, costs_at(n2, C)).
-test(none_said, C == [n1-1,n3-1]) :-
+test(default_cost, C == [n1-1,n3-1]) :-
     with_network(line(3), [clock(virtual)], _, costs_at(n2, C)).
-test(as_listed, A-B == [b-4]-[a-4,c-2]) :-
+test(costs_of_listed_links, A-B == [b-4]-[a-4,c-2]) :-
     with_network(edges([a-b-cost(4), b-c]), [cost(2), clock(virtual)], _,
                  ( costs_at(a, A), costs_at(b, B) )).
-test(drawn_from_the_seed, C1 == C2) :-
+test(costs_drawn_from_the_seed, C1 == C2) :-
     drawn(5, C1),
     drawn(5, C2),
     drawn(6, C3),
@@ -115,7 +116,7 @@ drawn(Seed, Costs) :-
 %   However often links come and go: two hosts know one cost, and the same
 %   whenever they are linked.
 
-test(links_that_come_again) :-
+test(costs_of_returning_links) :-
     with_network(ring(6), [ cost(uniform(1, 100)), seed(3), clock(virtual),
                             dynamic(dynamic_2) ], Network,
                  ( costs(Early),
@@ -135,18 +136,18 @@ costs(Costs) :-
               member(To-C, Cs), msort([H,To], Pair) ),
             Costs).
 
-test(over_processes, [C1,C2,C4] == [[n2-5],[n1-5,n3-8],[n3-5]]) :-
+test(costs_in_several_processes, [C1,C2,C4] == [[n2-5],[n1-5,n3-8],[n3-5]]) :-
     no_leaks(setup_call_cleanup(
                  network_start(edges([n1-n2, n2-n3-cost(8), n3-n4]), Network,
                                [processes(2), cost(5)]),
                  ( network_property(Network, hosts([A1,A2,_,A4])),
                    maplist(costs_at, [A1,A2,A4], [C1,C2,C4]) ),
                  network_stop(Network))).
-test(no_cost, error(domain_error(cost, dear))) :-
+test(invalid_cost, error(domain_error(cost, dear))) :-
     network_start(line(2), _, [cost(dear)]).
 test(negative_cost, error(domain_error(cost, -1))) :-
     network_start(line(2), _, [cost(-1)]).
-test(no_interval, error(domain_error(cost, uniform(2, 1)))) :-
+test(invalid_interval, error(domain_error(cost, uniform(2, 1)))) :-
     network_start(line(2), _, [cost(uniform(2, 1))]).
 
 :- end_tests(network_costs).

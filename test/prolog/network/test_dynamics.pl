@@ -56,7 +56,7 @@ test(unknown_model,
     network_start(ring(3), _, [dynamic(M)]).
 test(unbound_model, error(instantiation_error)) :-
     network_start(ring(3), _, [dynamic(_)]).
-test(named_models_are_general_ones,
+test(named_models_are_special_cases,
      [ forall(member(Name-Model,
                      [ random_links-links(uniform(10,20), 0.3, 0.5),
                        thesis_4_4_7-links(uniform(10,20), each(0.3), 0.5),
@@ -68,10 +68,10 @@ test(named_models_are_general_ones,
 test(repeatable, Changes == Again) :-
     history(random_links, grid(6, 10), 3, 300, _, _, Changes),
     history(random_links, grid(6, 10), 3, 300, _, _, Again).
-test(seed_matters, true(Changes \== Others)) :-
+test(other_seed_other_changes, true(Changes \== Others)) :-
     history(random_links, grid(6, 10), 3, 300, _, _, Changes),
     history(random_links, grid(6, 10), 4, 300, _, _, Others).
-test(changes_lead_to_the_links_there_are,
+test(changes_lead_to_the_current_links,
      [ forall(member(M, [random_links, thesis_4_4_7, dynamic_1, dynamic_2])),
        true(Links == Last) ]) :-
     network_history(grid(6, 10), [dynamic(M), seed(1)], 400,
@@ -143,7 +143,7 @@ test(single_host, Changes == []) :-
 
 :- begin_tests(link_dynamics_in_real_time).
 
-test(changes_come_in_order_and_not_before_their_time) :-
+test(changes_occur_in_order_and_not_too_early) :-
     network_history(grid(6, 10), [dynamic(random_links), seed(1)], 40,
                     shape(_, First, _), Virtual),
     length(First, Made),

@@ -37,7 +37,7 @@ noted(Queue, Event) :-
 
 :- begin_tests(host_names).
 
-test(bare_name_serves_wherever_a_host_is_given) :-
+test(bare_name_is_accepted_as_a_host) :-
     with_networks(1, wherever).
 
 wherever([Network]) :-
@@ -55,7 +55,7 @@ wherever([Network]) :-
     agent_dispose(Agent),
     agent_join(Agent, disposed, 10).
 
-test(bare_name_serves_link_and_unlink) :-
+test(bare_name_is_accepted_by_link_and_unlink) :-
     with_networks(1, linked).
 
 linked([Network]) :-
@@ -87,7 +87,7 @@ message_text(Error, Text) :-
     with_output_to(string(Text),
                    print_message_lines(current_output, '', Lines)).
 
-test(bare_name_serves_watch) :-
+test(bare_name_is_accepted_by_watch) :-
     with_networks(1, watched).
 
 watched(_) :-
@@ -113,7 +113,7 @@ moves(_) :-
     host_stop(alpha),
     assertion(host_property(n2, address(Here))).
 
-test(own_host_wins) :-
+test(own_host_precedes_others) :-
     with_hosts([n1], with_networks(1, own_first)).
 
 own_first([Network]) :-
@@ -123,7 +123,7 @@ own_first([Network]) :-
     assertion(Address == Own),
     assertion(Address \== Other).
 
-test(name_in_two_networks_is_an_error_that_lists_the_candidates) :-
+test(ambiguous_name_lists_the_candidates) :-
     with_networks(2, two_networks).
 
 two_networks(Networks) :-

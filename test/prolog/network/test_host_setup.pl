@@ -44,7 +44,7 @@ offers(Host, Template, Goal, List) :-
 
 :- begin_tests(places).
 
-test(a_file_for_all, All == [[bread,milk],[bread,milk]]) :-
+test(one_file_for_all_hosts, All == [[bread,milk],[bread,milk]]) :-
     with_files(Shop, _,
         with_network(line(2), [places(Shop), clock(virtual)], _,
                      ( offers(n1, X, sells(X), L1),
@@ -59,14 +59,14 @@ test(files_of_one_host, All == [[bread,milk],[],[],[1000]]) :-
                        offers(n2, X, sells(X), L3),
                        offers(n2, X, lends(X), L4) ))),
     All = [L1,L2,L3,L4].
-test(beside_those_of_all_hosts, L1-L2 == [bread,milk]-[1000]) :-
+test(files_of_one_host_and_of_all, L1-L2 == [bread,milk]-[1000]) :-
     with_files(Shop, Bank,
         with_network(line(2),
                      [ hosts([consult(Shop)]), places(n2-Bank),
                        clock(virtual) ], _,
                      ( offers(n2, X, sells(X), L1),
                        offers(n2, X, lends(X), L2) ))).
-test(a_goal_in_each, Hs == [n1,n2,n3]) :-
+test(goal_in_each_place, Hs == [n1,n2,n3]) :-
     with_network(line(3), [places(( here(H), leave(me(H)) )), clock(virtual)],
                  Network,
                  ( network_property(Network, hosts(Hosts)),
@@ -75,12 +75,12 @@ test(a_goal_in_each, Hs == [n1,n2,n3]) :-
                              remote(Host, sense(me(Me))), Me == Host,
                              atomic_list_concat([Name,_], @, Me) ),
                            Hs) )).
-test(links_are_there, Count == 2) :-
+test(goals_run_after_links_are_made, Count == 2) :-
     with_network(line(3),
                  [ places(( neighbours(L), length(L, N), leave(n(N)) )),
                    clock(virtual) ], _,
                  remote(n2, sense(n(Count)))).
-test(agents_find_what_was_asserted, O == done) :-
+test(agents_find_asserted_facts, O == done) :-
     with_network(line(2), [places(n2-[assertz(price(7))]), clock(virtual)],
                  _,
                  ( agent_create(clauses([ (:- agent(buyer)),
@@ -88,14 +88,14 @@ test(agents_find_what_was_asserted, O == done) :-
                                                    price(7)) ]), A,
                                 [host(n1)]),
                    agent_join(A, O, 10) )).
-test(in_order, L == [1,2,3]) :-
+test(goals_run_in_order, L == [1,2,3]) :-
     with_network(line(1),
                  [ places([leave(p(1)), n1-[leave(p(2))], leave(p(3))]),
                    clock(virtual) ], _,
                  offers(n1, X, sense(p(X)), L)).
-test(a_goal_without_arguments, error(permission_error(_, _, _))) :-
+test(goal_without_arguments, error(permission_error(_, _, _))) :-
     network_start(line(1), _, [places(call(dispose)), clock(virtual)]).
-test(over_processes, All == [[bread,milk]-[a],[]-[b]]) :-
+test(places_in_several_processes, All == [[bread,milk]-[a],[]-[b]]) :-
     with_files(Shop, _,
         with_network(edges([a-b]),
                      [ processes(2),
@@ -116,14 +116,14 @@ test(hosts_that_refuse_remote_goals) :-
 
 %   All or nothing.
 
-test(a_goal_that_fails, error(place_goal_failed(n2, take(p)))) :-
+test(failing_goal, error(place_goal_failed(n2, take(p)))) :-
     no_leaks(network_start(line(2), _,
                            [places([n1-leave(p), take(p)]),
                             clock(virtual)])).
-test(a_goal_that_raises, error(type_error(evaluable, foo/0))) :-
+test(raising_goal, error(type_error(evaluable, foo/0))) :-
     no_leaks(network_start(line(2), _,
                            [places(n2-(_ is foo+1)), clock(virtual)])).
-test(a_goal_that_raises_in_another_process,
+test(raising_goal_in_another_process,
      error(type_error(evaluable, foo/0))) :-
     no_leaks(network_start(line(2), _,
                            [places(2-(_ is foo+1)), processes(2)])).
@@ -132,7 +132,7 @@ test(no_such_host, error(existence_error(host, n3))) :-
 test(no_such_file, error(existence_error(source_sink, _))) :-
     no_leaks(network_start(line(2), _,
                            [places(n2-nothing), clock(virtual)])).
-test(no_goal, error(type_error(callable, 7))) :-
+test(not_callable, error(type_error(callable, 7))) :-
     network_start(line(2), _, [places([7])]).
 
 :- end_tests(places).
@@ -157,7 +157,7 @@ main :-
     halt.
 ").
 
-test(that_stands_alone_starts_networks, Status == exit(0)) :-
+test(saved_state_starts_networks, Status == exit(0)) :-
     with_tmp_dir(status_of_saved(Status)).
 
 status_of_saved(Status, Dir) :-

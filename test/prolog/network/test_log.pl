@@ -101,7 +101,7 @@ test(events_are_stamped_in_order_of_arrival, Times == Sorted) :-
 hundred(Address, _) :-
     forall(between(1, 100, N), arrives(Address, h, a, step(N))).
 
-test(what_has_arrived_is_read_at_once) :-
+test(received_events_are_read_at_once) :-
     with_log([], read_at_once, _).
 
 read_at_once(Address, File) :-
@@ -142,7 +142,7 @@ odd_lines(Address, File) :-
     string_codes(Text, Codes),
     forall(member(Code, Codes), Code < 128).
 
-test(consultable_under_any_operator_table) :-
+test(readable_under_any_operator_table) :-
     with_tmp_dir(consult_odd).
 
 consult_odd(Dir) :-
@@ -158,14 +158,14 @@ consult_odd(Dir) :-
     findall(X, odd_term(X), Odd),
     Read =@= Odd.
 
-test(written_when_idle) :-
+test(buffer_is_written_when_idle) :-
     with_log([], seen_at_once, _).
 
 seen_at_once(Address, File) :-
     arrives(Address, h, a, x),
     wait_until(log_events(File, [_]), 5).
 
-test(stop_writes_what_waits, Count == 20000) :-
+test(stop_writes_buffered_events, Count == 20000) :-
     with_log([], many, Events),
     length(Events, Count).
 
@@ -254,8 +254,9 @@ test(a_full_disk_is_reported_once,
     aggregate_all(count, member(log_not_written('/dev/full', _), Messages),
                   Count),
     assertion(memberchk(log_lost('/dev/full', 200), Messages)).
-test(plain_words, [ condition(exists_file_device('/dev/full')),
-                    true(Text == "No space left on device") ]) :-
+test(reason_is_printed_without_internals,
+     [ condition(exists_file_device('/dev/full')),
+       true(Text == "No space left on device") ]) :-
     quietly(( log_server_start([file('/dev/full')], Address),
               hundred(Address, _),
               log_server_stop(Address) ), Messages),
@@ -263,7 +264,7 @@ test(plain_words, [ condition(exists_file_device('/dev/full')),
     phrase(prolog:message(typhon(log_not_written(File, Error))),
            [_-[File], _-[Reason]|_]), !,
     atom_string(Reason, Text).
-test(what_was_lost_while_the_disk_was_full,
+test(events_lost_on_a_full_disk_are_counted,
      [ condition(exists_file_device('/dev/full')),
        true(Kept-Bad == [after]-[]) ]) :-
     with_tmp_dir(full_for_a_while(Kept, Bad)).
@@ -291,7 +292,7 @@ fill_and_free(Address, Link, Real) :-
                  printed(log_written_again(_, _)) ), 10),
     arrives(Address, h, a, after).
 
-test(a_place_where_nothing_can_be_written,
+test(unwritable_path,
      error(permission_error(open, source_sink, '/proc/typhon_log'))) :-
     no_leaks(log_server_start([file('/proc/typhon_log')], _)).
 test(a_read_only_directory, [ condition(powerless('/usr/bin/true', [], [])),
@@ -342,7 +343,7 @@ exists_file_device(File) :-
 
 :- begin_tests(log_files).
 
-test(truncated_last_line_costs_itself_only,
+test(truncated_last_line_loses_only_itself,
      Ns-Messages == [1,2]-[log_line_skipped(3)]) :-
     with_tmp_dir(read_text("event(1.0,h,a,1).\nevent(2.0,h,a,2).\nevent(3.0,h,",
                            Ns, Messages)).
@@ -381,7 +382,7 @@ append_to(Text, Ns, Messages, Dir) :-
     findall(log_line_skipped(L),
             member(log_line_skipped(_:L, _), Printed), Messages).
 
-test(begun_anew_by_default, Ns == [3]) :-
+test(new_file_by_default, Ns == [3]) :-
     with_tmp_dir(begin_anew(Ns)).
 
 begin_anew(Ns, Dir) :-

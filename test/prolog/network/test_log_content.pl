@@ -59,7 +59,7 @@ taken(Queue, Event) :-
 
 %   The entries of two processes may come to the log in another order.
 
-test(log_has_the_content_of_messages,
+test(log_contains_the_content_of_messages,
      [forall(member(Options, [[clock(virtual)], [processes(2)]]))]) :-
     with_pair(Options, [messages(content)], talk(hello(X, X, "you")), Events),
     contents(Events, sent, Sent),
@@ -77,7 +77,7 @@ test(log_of_messages_alone_has_no_content, Contents == []) :-
     with_pair([clock(virtual)], [messages], talk(hello), Events),
     assertion(memberchk(event(_, _, _, sent(_)), Events)),
     contents(Events, sent, Contents).
-test(watch_gets_the_content_where_the_log_does,
+test(watch_gets_the_content_logged_by_the_host,
      [forall(member(Kinds-Shown, [ [messages(content)]-sent(user, hello),
                                    [messages]-sent(user) ]))]) :-
     with_pair([clock(virtual)], Kinds, watched(Shown), _).
@@ -97,7 +97,7 @@ watched(Shown, [Host|_]) :-
         message_queue_destroy(Queue)),
     assertion(Sent == [Shown]).
 
-test(other_kinds_are_an_error, error(type_error(_, _))) :-
+test(unknown_kinds_are_an_error, error(type_error(_, _))) :-
     network_start(ring(2), _, [log('/dev/null', [messages(all)])]).
 
 :- end_tests(log_content).

@@ -103,7 +103,7 @@ hosts_there(Network) :-
 
 :- begin_tests(networks).
 
-test(in_this_process) :-
+test(in_one_process) :-
     network_shape(grid(6, 10), [], _, _, Edges),
     nothing_left(with_network(grid(6, 10), [], own_grid(Edges))).
 
@@ -183,7 +183,7 @@ test(no_more_processes_than_hosts, Count == 2) :-
 test(starts_fast, true(Seconds < 30)) :-
     seconds(with_network(grid(6, 10), [processes(4)], hosts_there), Seconds).
 
-test(agents_travel_all_over, Count == 12) :-
+test(agents_travel_over_the_whole_network, Count == 12) :-
     with_network(ring(12), [processes(3)], round_trip(Count)).
 
 round_trip(Count, Network) :-
@@ -201,7 +201,7 @@ round_trip(Count, Network) :-
     agent_join(Agent, done, 20),
     remote(First, take(round(Count))).
 
-test(agents_until_they_end, forall(member(P, [1, 2]))) :-
+test(network_runs_until_its_agents_end, forall(member(P, [1, 2]))) :-
     with_network(ring(2), [processes(P)], census).
 
 %   An agent and its clone are born on A, and stand on B until they are
@@ -265,7 +265,7 @@ capacity(N, Network) :-
     hosts(Network, Hosts),
     forall(member(Host, Hosts), host_property(Host, capacity(N))).
 
-test(machines_through_a_program_like_ssh) :-
+test(machines_are_reached_by_a_program_like_ssh) :-
     with_tmp_dir(machines).
 
 machines(Dir) :-
@@ -354,7 +354,7 @@ least_hop(Least, Network) :-
 
 :- begin_tests(network_log).
 
-test(nothing_is_lost, Counts == [2000, 2000]) :-
+test(no_event_is_lost, Counts == [2000, 2000]) :-
     with_tmp_dir(flood(Counts)).
 
 flood(Counts, Dir) :-
@@ -379,7 +379,7 @@ flood_all(File, Network) :-
             Agents),
     forall(member(Agent, Agents), agent_join(Agent, done, 20)).
 
-test(in_this_process_too, Count == 500) :-
+test(no_event_is_lost_within_a_process, Count == 500) :-
     with_tmp_dir(flood_here(Count)).
 
 flood_here(Count, Dir) :-
@@ -419,13 +419,13 @@ test(stopped_twice, error(existence_error(network, _))) :-
     network_start(ring(2), Network, []),
     network_stop(Network),
     network_stop(Network).
-test(hosts_of_others_stay, true) :-
+test(other_hosts_remain, true) :-
     setup_call_cleanup(
         host_start(bystander),
         ( with_network(ring(2), [], hosts_there),
           host_property(bystander, state(running)) ),
         host_stop(bystander)).
-test(a_process_that_died, Count == 3) :-
+test(dead_process, Count == 3) :-
     quiet(nothing_left(with_network(ring(8), [processes(4)], bury(Count)))).
 
 bury(Count, Network) :-
@@ -434,7 +434,7 @@ bury(Count, Network) :-
     wait_until(( pids(Network, Rest), length(Rest, Count), Count < 4 ), 5),
     wait_until(printed(node_down(Network, Pid, killed(9), _, _)), 5).
 
-test(warning_names_hosts_and_agents_of_a_process_that_died) :-
+test(warning_names_hosts_and_agents_of_a_dead_process) :-
     setup_call_cleanup(
         host_start(bystander),
         quiet(with_network(ring(4), [processes(2)], bury_with_agents)),
@@ -456,7 +456,7 @@ bury_with_agents(Network) :-
     assertion(Hosts == [n1, n2]),
     assertion(Agents == [There]).
 
-test(warning_names_ten_hosts_and_how_many_more) :-
+test(warning_names_ten_hosts_and_counts_the_others) :-
     numlist(1, 12, Hosts),
     Message = typhon(node_down(network0, 7, killed(9), Hosts, [bob])),
     phrase('$messages':translate_message(Message), Lines),
@@ -469,7 +469,7 @@ test(warning_names_ten_hosts_and_how_many_more) :-
 
 %   Where links change, a change soon waits for the process that hangs.
 
-test(a_process_that_hangs,
+test(hanging_process,
      [ forall(member(Dynamic, [[], [ clock(1000),
                                      dynamic(links(uniform(1,1), 1, 1)) ]])),
        true(Seconds < 20) ]) :-
@@ -483,7 +483,7 @@ freeze(Network) :-
     pids(Network, [_, Pid|_]),
     process_kill(Pid, stop).
 
-test(a_process_that_hangs_is_soon_killed, true(Seconds < 10)) :-
+test(hanging_process_is_killed_soon, true(Seconds < 10)) :-
     quiet(nothing_left(( network_start(ring(4), Network, [processes(4)]),
                          go_round(Network),
                          freeze(Network),
@@ -507,7 +507,7 @@ all_killed(Network) :-
     forall(member(Pid, Pids),
            wait_until(printed(node_down(_, Pid, killed(9), _, _)), 20)).
 
-test(a_busy_agent_does_not_hold_it_up, true(Seconds < 25)) :-
+test(busy_agent_does_not_delay_the_stop, true(Seconds < 25)) :-
     nothing_left(seconds(with_network(ring(4), [processes(2)], busy),
                          Seconds)).
 
@@ -545,14 +545,14 @@ orphans(Signal, Pids) :-
                  maplist(alive, Pids),
                  process_kill(Pid, Signal) )).
 
-test(all_or_nothing_when_a_host_does_not_start,
+test(failed_host_start_stops_the_network,
      error(domain_error(host_option, colour(red)))) :-
     nothing_left(( catch(network_start(ring(4), _, [ processes(2),
                                                      hosts([colour(red)]) ]),
                          Error, true),
                    nonvar(Error) )),
     throw(Error).
-test(all_or_nothing_in_this_process,
+test(failed_host_start_stops_the_network_within_a_process,
      error(permission_error(start, host, n3))) :-
     setup_call_cleanup(
         host_start(n3),
@@ -564,11 +564,11 @@ own_host(Name) :-
     host_property(Host, state(_)),
     Host == Name.
 
-test(a_machine_that_is_not_there,
+test(unreachable_machine,
      error(system_error(process_ended(exit(1))))) :-
     with_settings([typhon_children:ssh=false],
                  network_start(ring(4), _, [machines([nowhere])])).
-test(a_machine_that_says_nothing, error(timeout_error(start, _))) :-
+test(silent_machine, error(timeout_error(start, _))) :-
     with_settings([typhon_processes:start_seconds=0.5],
         with_settings([typhon_children:stop_seconds=0.5],
             with_tmp_dir(silent))).
@@ -589,7 +589,7 @@ silent(Dir) :-
 fill_atoms :-
     forall(between(1, 30000, N), atom_concat(test_network_, N, _)).
 
-test(a_program_that_is_not_there, error(existence_error(_, _))) :-
+test(missing_program, error(existence_error(_, _))) :-
     with_settings([typhon_children:ssh=no_such_program],
                  network_start(ring(4), _, [machines([nowhere])])).
 test(options, [ forall(member(Option-Formal,
@@ -606,7 +606,7 @@ test(topology, error(domain_error(topology, torus(3)))) :-
     network_start(torus(3), _, []).
 test(unknown_network, error(existence_error(network, atlantis))) :-
     network_property(atlantis, hosts(_)).
-test(cookie_in_no_argument_list, true) :-
+test(cookie_is_in_no_argument_list, true) :-
     typhon_cookie:cookie(Cookie0),
     format(string(Cookie), "~w", [Cookie0]),
     with_network(ring(2), [processes(2)], hidden(Cookie)).
@@ -618,7 +618,7 @@ hidden(Cookie, Network) :-
              read_file_to_string(File, Text, [encoding(octet)]),
              \+ sub_string(Text, _, _, _, Cookie) )).
 
-test(what_children_print_is_printed_here) :-
+test(output_of_children_is_printed) :-
     project_file(prolog, Library),
     format(atom(Path), 'library=~w', [Library]),
     Goal = 'use_module(library(typhon)),use_module(library(typhon/network)),\c
@@ -647,7 +647,7 @@ changing(Edges, Network) :-
            ( nth1(I, Hosts, A), nth1(J, Hosts, B),
              memberchk(I-J, Edges) )).
 
-test(an_isolated_host_keeps_its_agents_until_it_is_linked) :-
+test(isolated_host_keeps_its_agents_until_it_is_linked) :-
     with_network(mesh(4), [ processes(2), clock(50),
                             dynamic(links(uniform(1, 1), each(1), 0)) ],
                  isolation).
@@ -697,7 +697,7 @@ first_dropped(File, I-J, Network) :-
     nth1(I, Hosts, A),
     nth1(J, Hosts, B).
 
-test(a_dead_process_does_not_stop_the_rest) :-
+test(dead_process_does_not_stop_the_changes) :-
     quiet(with_network(mesh(8), [ processes(4), clock(100),
                                   dynamic(links(uniform(1, 2), 0.5, 0.5)) ],
                        limping)).

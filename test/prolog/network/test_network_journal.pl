@@ -118,7 +118,7 @@ visits(Hosts, Sum) :-
 
 :- begin_tests(network_journal).
 
-test('agents walk while processes are killed: none is lost or doubled') :-
+test(agents_survive_killed_processes) :-
     quiet(no_leaks(with_tmp_dir(killed))).
 
 killed(Dir) :-
@@ -134,7 +134,7 @@ killed(Hops, Network) :-
     network_property(Network, edges(Edges)),
     network_property(Network, agents([])).
 
-test('also where its processes are on other machines, over ssh') :-
+test(agents_survive_killed_processes_on_other_machines) :-
     quiet(no_leaks(with_tmp_dir(far))).
 
 far(Dir) :-
@@ -157,7 +157,7 @@ all_arrived(Hosts, Hops, Agents, Network) :-
     hosts(Network, Hosts),
     all_arrived(Hosts, Hops, Agents).
 
-test('what was going on when it was stopped goes on when it is started again') :-
+test(stopped_network_resumes) :-
     no_leaks(with_tmp_dir(stopped)).
 
 stopped(Dir) :-
@@ -200,7 +200,7 @@ goes_on(Hosts, Agents, Keeper, Edges, Time, Network) :-
     all_arrived(Hosts, 60, Agents),
     wait_until(agent_property(Keeper, facts([got(one), got(two)])), 5).
 
-test('all rest before the first of its processes is gone, and all go on') :-
+test(processes_stop_after_all_agents_rest) :-
     no_leaks(with_tmp_dir(at_rest)).
 
 at_rest(Dir) :-
@@ -258,7 +258,7 @@ ends_last(Network) :-
                                      !,
                                      system:sleep(1) )), _, [detached(true)])).
 
-test('it is soon stopped when one process hangs, and another is dead',
+test(network_with_a_hanging_and_a_dead_process_stops_soon,
      true(Seconds < 12)) :-
     quiet(no_leaks(with_tmp_dir(dead_and_hanging(Seconds)))).
 
@@ -276,7 +276,7 @@ dead_and_hanging(Seconds, Dir) :-
     Seconds is T1-T0,
     network(Dir, mesh(4), [], all_there(Hosts, 30, Agents)).
 
-test('a network in one process, which is killed, and its whole family, too',
+test(killed_network_of_one_process_resumes,
      [forall(member(Processes, [1, 2]))]) :-
     with_tmp_dir(killed_as_a_whole(Processes)).
 
@@ -309,7 +309,7 @@ all_there(Hosts, Hops, Agents, Network) :-
     hosts(Network, Hosts),
     all_arrived(Hosts, Hops, Agents).
 
-test('one in this process rests, and of its agents none has ended',
+test(stopped_network_in_this_process_ends_no_agent,
      Ends == [done]) :-
     no_leaks(with_tmp_dir(here(Ends))).
 
@@ -338,7 +338,7 @@ goes_on_alone(Agent, Network) :-
     hosts(Network, Hosts),
     all_arrived(Hosts, 100, [Agent]).
 
-test('links that come and go are where they would be', Edges == Expected) :-
+test(changing_links_resume, Edges == Expected) :-
     with_tmp_dir(come_and_go(Edges, Expected)).
 
 come_and_go(Edges, Expected, Dir) :-
@@ -392,7 +392,7 @@ contents(Dir, Contents) :-
             Contents0),
     msort(Contents0, Contents).
 
-test('the journal of another network is not touched',
+test(journal_of_another_network_is_not_touched,
      Formals =@= [ journal_of_another(D, shape(_, _), shape(_, _)),
                    journal_of_another(D, processes(2), processes(3)),
                    journal_of_another(D, no(clock), clock(2)),
@@ -414,7 +414,7 @@ forgotten(journal_of_another(D, shape(_, _), shape(_, _)), Formal) =>
 forgotten(Formal0, Formal) =>
     Formal = Formal0.
 
-test('a journal that is damaged, or another process has, is reported as that',
+test(damaged_or_locked_journal_is_reported,
      Formals = [ journal_damaged(_, _), journal_damaged(_, _),
                  permission_error(open, journal, _) ]) :-
     with_settings([typhon_children:stop_seconds=1],
@@ -449,7 +449,7 @@ spoilt(Dir, File, Formal) :-
     read_file_to_codes(File, Before, [type(binary)]),
     rename_file(Good, File).
 
-test('there is none in virtual time, nor where hosts are already: the error says why',
+test(journal_is_refused_in_virtual_time_and_beside_other_hosts,
      Formals-Whys == [ permission_error(open, journal, '/tmp/none'),
                        permission_error(open, journal, '/tmp/none/process1') ]-
                      [ 'not in virtual time',
@@ -464,7 +464,7 @@ test('there is none in virtual time, nor where hosts are already: the error says
     Formals = [F1, F2],
     Whys = [W1, W2].
 
-test('what is said of journals otherwise than for the whole network is refused',
+test(journal_options_of_single_hosts_are_refused,
      Refused == [ hosts([journal('/tmp/none')])-Whole,
                   hosts([capacity(3), sync(full)])-Whole,
                   sync(full)-'there is no journal(Directory)' ]) :-
@@ -486,7 +486,7 @@ test('what is said of journals otherwise than for the whole network is refused',
 
 :- begin_tests(network_restart).
 
-test('without a journal hosts come again empty, where they were') :-
+test(hosts_restart_empty_without_a_journal) :-
     quiet(no_leaks(again)).
 
 again :-
@@ -513,7 +513,7 @@ again(Network) :-
 facts(Host, Facts) :-
     remote(Host, findall(F, sense(F), Facts)).
 
-test('it is saved just after one of its processes has died') :-
+test(network_is_saved_after_a_process_died) :-
     quiet(no_leaks(with_tmp_dir(saved))).
 
 saved(Dir) :-
@@ -528,7 +528,7 @@ saved_without(File, Network) :-
     wait_until(printed(node_down(_, Pid, _, _, _)), 10),
     network_save(Network, File).
 
-test('one that dies again and again is left alone at last, and that is reported',
+test(repeatedly_dying_process_is_given_up_and_reported,
      Told = [node_given_up(_, 1, 2, 60)]) :-
     with_settings([typhon_restarts:restarts=2], quiet(no_leaks(too_often))),
     findall(node_given_up(N, P, M, S),
@@ -545,7 +545,7 @@ too_often :-
           hosts(Network, [_, _]) ),
         network_stop(Network)).
 
-test('processes begin again after the thread that starts them has ended',
+test(processes_restart_after_their_starter_thread_has_ended,
      true(Told == [server_ended])) :-
     quiet(no_leaks(begun_by_another)),
     findall(server_ended, printed(server_ended(_)), Told).
@@ -586,7 +586,7 @@ wakes(Threads) :-
               atom_concat(typhon_restarts_, _, Alias) ),
             Threads).
 
-test('a network is stopped while one of its processes begins again') :-
+test(network_is_stopped_during_a_restart) :-
     quiet(no_leaks(stopped_meanwhile)).
 
 stopped_meanwhile :-

@@ -57,7 +57,7 @@ test(create, true(H-Home == B-B)) :-
     agent_property(A, host(H)),
     agent_property(A, home(Home)),
     disposed(A).
-test(create_with_everything, true(Fs == [p(7),s(0),s(1)])) :-
+test(create_with_all_options, true(Fs == [p(7),s(0),s(1)])) :-
     there(beta, B),
     create([on_message(_, _), s(0)], A,
            [host(B), name(scout), facts([s(1)]), tokens([x]),
@@ -66,15 +66,15 @@ test(create_with_everything, true(Fs == [p(7),s(0),s(1)])) :-
     sub_atom(A, 0, _, _, 'scout.'),
     agent_property(A, payloads([seven])),
     disposed(A).
-test(create_where_there_is_no_such_host, error(existence_error(host, _))) :-
+test(create_on_a_missing_host, error(existence_error(host, _))) :-
     there(beta, B),
     atom_concat(beta, Rest, B),
     atom_concat(nowhere, Rest, Nowhere),
     create([main], _, [host(Nowhere)]).
-test(create_where_no_process_answers,
+test(create_at_an_address_without_a_process,
      error(host_unreachable('x@127.0.0.1:1'))) :-
     create([main], _, [host('x@127.0.0.1:1')]).
-test(join_one_created_elsewhere, true(O == done)) :-
+test(join_an_agent_created_in_another_process, true(O == done)) :-
     there(beta, B),
     create([(main :- receive(_))], A, [host(B)]),
     agent_send(A, go),
@@ -90,14 +90,14 @@ test(join_times_out, true(O == timeout)) :-
     create([on_message(_, _)], A, [host(B)]),
     agent_join(A, O, 0.05),
     disposed(A).
-test(join_one_that_went_away, true(O == done)) :-
+test(join_an_agent_that_moved_away, true(O == done)) :-
     there(beta, B), there(gamma, C),
     create([(main :- r(X), move(X), receive(_-go))], A,
            [facts([r(B),s(C)])]),
     wait_until(stands(A, B), 10),
     agent_send(A, go),
     joined(A, O).
-test(join_agent_of_a_missing_process, error(existence_error(agent, _))) :-
+test(join_an_agent_of_a_dead_process, error(existence_error(agent, _))) :-
     there(beta, B),
     atom_concat('x.1.2@', B, A),
     agent_join(A, _, 10).
@@ -105,11 +105,11 @@ test(failed_and_raised, true(Os == [failed,raised(oops)])) :-
     there(beta, B),
     findall(O, ( member(G, [fail,throw(oops)]),
                  create([(main :- G)], A, [host(B)]), joined(A, O) ), Os).
-test(an_agent_joined_by_another_process, true(O == done)) :-
+test(another_process_joins, true(O == done)) :-
     create([(main :- receive(_))], A),
     agent_send(A, go),
     peer_do(beta, agent_join(A, O, 10)).
-test(faulty_elsewhere, true(S-F == faulty(oops)-[s(1)])) :-
+test(faulty_in_another_process, true(S-F == faulty(oops)-[s(1)])) :-
     there(beta, B),
     create([s(1), (main :- throw(oops))], A, [host(B)]),
     joined(A, _),
@@ -117,8 +117,8 @@ test(faulty_elsewhere, true(S-F == faulty(oops)-[s(1)])) :-
     agent_property(A, facts(F)),
     agent_dispose(A),
     \+ agent_property(A, state(_)).
-test(resumed_elsewhere, true(G-Os =@= [s(1),receive(_-go)]-
-                                    [failed,timeout,done])) :-
+test(resumed_in_another_process, true(G-Os =@= [s(1),receive(_-go)]-
+                                             [failed,timeout,done])) :-
     there(beta, B),
     create([r(B), (main :- r(X), move(X), s(1), receive(_-go))], A),
     joined(A, O1),
@@ -131,7 +131,7 @@ test(resumed_elsewhere, true(G-Os =@= [s(1),receive(_-go)]-
     agent_send(A, go),
     joined(A, O3),
     Os = [O1,O2,O3].
-test(resumed_elsewhere_and_done_at_once, true(Os == [done])) :-
+test(resumed_in_another_process_and_done_at_once, true(Os == [done])) :-
     there(beta, B),
     findall(O,
             ( between(1, 20, _),
@@ -142,7 +142,7 @@ test(resumed_elsewhere_and_done_at_once, true(Os == [done])) :-
               joined(A, O) ),
             Os0),
     sort(Os0, Os).
-test(line_of_a_fault_is_reported_from_anywhere,
+test(fault_location_is_reported_from_any_process,
      true(Name:Line == 'far.pl':4)) :-
     there(beta, B),
     with_tmp_dir(test_processes:far(B, A)),
@@ -150,7 +150,7 @@ test(line_of_a_fault_is_reported_from_anywhere,
     agent_property(A, fault(fault(failed, s(1), File:Line, B))),
     file_base_name(File, Name).
 
-test(a_faulty_one_comes_home, true(L == 0)) :-
+test(faulty_agent_moves_home, true(L == 0)) :-
     there(beta, B), address(alpha, H),
     create([r(B), (main :- r(X), move(X), s(1))], A),
     joined(A, failed),
@@ -220,7 +220,7 @@ test(payload_from_outside, true(P1-P2 == [seven]-[])) :-
     payload_detach(A, seven),
     agent_property(A, payloads(P2)),
     disposed(A).
-test(errors_of_orders_come_back,
+test(errors_of_orders_are_returned,
      error(permission_error(attach, procedure, s/1))) :-
     there(beta, B),
     create([on_message(_, _)], A, [host(B)]),
@@ -229,12 +229,12 @@ test(order_to_agent_of_a_missing_process, error(existence_error(agent, _))) :-
     there(beta, B),
     atom_concat('x.1.2@', B, A),
     agent_dispose(A).
-test(order_where_no_process_answers, error(host_unreachable(_))) :-
+test(order_to_an_address_without_a_process, error(host_unreachable(_))) :-
     agent_dispose('x.1.2@y@127.0.0.1:1').
-test(save_elsewhere_load_here, true(F-H == [s(1),s(2)]-Here)) :-
+test(saved_in_one_process_loaded_in_another, true(F-H == [s(1),s(2)]-Here)) :-
     there(beta, B), address(alpha, Here),
     with_tmp_dir(test_processes:save_and_load(B, F, H)).
-test(orders_to_one_that_never_rests, true(O == disposed)) :-
+test(orders_to_a_constantly_moving_agent, true(O == disposed)) :-
     there(beta, B), there(gamma, C),
     create([(main :- to(X), move(X), main), to(B), to(C)], A),
     forall(between(1, 10, I),
@@ -244,7 +244,7 @@ test(orders_to_one_that_never_rests, true(O == disposed)) :-
              once(agent_property(A, state(_))) )),
     agent_dispose(A),
     joined(A, O).
-test(orders_to_one_that_goes_round_three_processes, true(O == disposed)) :-
+test(orders_to_an_agent_circling_three_processes, true(O == disposed)) :-
     there(beta, B), there(gamma, C), address(alpha, H),
     create([(main :- round), round_trip([B,C,H]),
             (round :- round_trip(L), go(L), round),
@@ -288,7 +288,7 @@ save_and_load(B, Facts, Host, Dir) :-
 :- begin_tests(messages_between_processes,
                [setup(world_start), cleanup(world_end)]).
 
-test(in_order, true(Ns == Sent)) :-
+test(messages_arrive_in_order, true(Ns == Sent)) :-
     numlist(1, 2000, Sent),
     there(beta, B),
     collector(Cs),
@@ -297,7 +297,7 @@ test(in_order, true(Ns == Sent)) :-
     wait_until(has_all(A, 2000), 20),
     findall(N, fact_of(A, s(N)), Ns),
     disposed(A).
-test(answers, true(O == done)) :-
+test(messages_are_answered, true(O == done)) :-
     there(beta, B),
     create([(on_message(W, ask(X)) :- Y is X*2, send(W, Y))], A, [host(B)]),
     create([(main :- s(Other), send(Other, ask(21)), receive(Other-42))], C,
@@ -308,7 +308,7 @@ test(answers, true(O == done)) :-
 %   Its move is over when its home, this process, has heard of it: what is sent
 %   before goes by way of beta, and may be overtaken.
 
-test(find_one_that_went_away, true(Ns == [1,2,3])) :-
+test(messages_reach_an_agent_that_moved_away, true(Ns == [1,2,3])) :-
     there(beta, B), there(gamma, C),
     collector(Cs),
     create([(main :- to(X,Y), move(X), move(Y)), to(B,C)|Cs], A),
@@ -317,7 +317,7 @@ test(find_one_that_went_away, true(Ns == [1,2,3])) :-
     wait_until(has_all(A, 3), 10),
     findall(N, fact_of(A, s(N)), Ns),
     disposed(A).
-test(from_a_process_that_does_not_know_it, true(Ns == [1])) :-
+test(messages_from_a_process_without_its_location, true(Ns == [1])) :-
     there(beta, B),
     collector(Cs),
     create([(main :- to(X), move(X)), to(B)|Cs], A),
@@ -336,7 +336,7 @@ test(hints, [forall(member(Hint, [alpha,beta,gamma])), true(Ns == [1])]) :-
     wait_until(has_all(A, 1), 10),
     findall(N, fact_of(A, s(N)), Ns),
     disposed(A).
-test(a_moving_target_gets_all_once, true(N == 1500)) :-
+test(moving_agent_gets_each_message_once, true(N == 1500)) :-
     there(beta, B), there(gamma, C), address(alpha, H),
     create([ (main :- ( receive(_-stop, 0)
                       -> true
@@ -354,7 +354,7 @@ test(a_moving_target_gets_all_once, true(N == 1500)) :-
     sort(Is, Set),
     assertion(length(Set, 500)),
     disposed(A).
-test(to_one_that_has_ended_is_lost_quietly) :-
+test(message_to_an_ended_agent_is_dropped_silently) :-
     there(beta, B),
     create([main], A, [host(B)]),
     joined(A, done),
@@ -393,11 +393,11 @@ test(remote_shares_variables, true(X == Y)) :-
     there(beta, B), remote(B, X = Y).
 test(remote_tuple_space, true(X == 1)) :-
     there(beta, B), remote(B, leave(p(1))), remote(B, take(p(X))).
-test(remote_where_there_is_no_such_host, error(existence_error(host, _))) :-
+test(remote_on_a_missing_host, error(existence_error(host, _))) :-
     there(beta, B), atom_concat(beta, Rest, B),
     atom_concat(nowhere, Rest, Nowhere),
     remote(Nowhere, true).
-test(remote_and_back, true(X == H)) :-
+test(nested_remote, true(X == H)) :-
     there(beta, B), address(alpha, H),
     remote(B, typhon:remote(H, here(X))).
 test(remote_from_many_threads, true(N == 100)) :-
@@ -405,7 +405,7 @@ test(remote_from_many_threads, true(N == 100)) :-
     numlist(1, 100, Is),
     concurrent_maplist([I]>>remote(B, leave(i(I))), Is),
     remote(B, aggregate_all(count, sense(i(_)), N)).
-test(remote_of_a_process_that_dies_and_comes_back,
+test(remote_after_a_restart_of_the_process,
      true(E = connection_lost(D))) :-
     test_peers:start(delta),
     there(delta, D),
@@ -425,7 +425,8 @@ test(host_property_of_unknown_host, error(existence_error(host, _))) :-
     there(beta, B), atom_concat(beta, Rest, B),
     atom_concat(nowhere, Rest, Nowhere),
     host_property(Nowhere, state(_)).
-test(host_property_where_no_process_answers, error(host_unreachable(_))) :-
+test(host_property_at_an_address_without_a_process,
+     error(host_unreachable(_))) :-
     host_property('x@127.0.0.1:1', state(_)).
 test(link, true(A-C == [B]-[H])) :-
     there(beta, B), address(alpha, H),
@@ -435,14 +436,14 @@ test(link, true(A-C == [B]-[H])) :-
     unlink(B, H),
     host_property(alpha, neighbours([])),
     host_property(B, neighbours([])).
-test(link_two_others, true(X-Y == [C]-[B])) :-
+test(link_two_remote_hosts, true(X-Y == [C]-[B])) :-
     there(beta, B), there(gamma, C),
     link(B, C),
     host_property(B, neighbours(X)),
     host_property(C, neighbours(Y)),
     unlink(C, B),
     host_property(B, neighbours([])).
-test(no_half_of_a_link_to_a_missing_host,
+test(failed_link_is_removed_on_both_sides,
      [ forall(missing_host(Missing)),
        true(Errors-N-L == [E,E,E,E]-[]-[]) ]) :-
     there(beta, B),
@@ -454,8 +455,8 @@ test(no_half_of_a_link_to_a_missing_host,
             Errors),
     host_property(H, neighbours(N)),
     host_property(B, neighbours(L)).
-test(unlinked_also_where_the_other_is_gone, [ forall(member(Way, [to,from])),
-                                              true(L == []) ]) :-
+test(unlink_from_an_unreachable_host, [ forall(member(Way, [to,from])),
+                                        true(L == []) ]) :-
     address(alpha, H),
     Gone = 'x@127.0.0.1:1',
     typhon_links:host_link(alpha, Gone, same),
@@ -470,7 +471,7 @@ test(unlinked_also_where_the_other_is_gone, [ forall(member(Way, [to,from])),
 %   It waits for the other as long as its setting says, and that is all.  Agents in
 %   doubt then are reported, and no more: no process is asked any more.
 
-test(host_stop, true((Seconds < 20, Errors == []))) :-
+test(host_stop_with_a_hanging_peer, true((Seconds < 20, Errors == []))) :-
     with_settings([ typhon_hosting:stop_seconds=0.2,
                     typhon_endpoint:flush_time=0.2 ],
                   no_leaks(with_peers([beta],

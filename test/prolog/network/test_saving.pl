@@ -234,22 +234,22 @@ pause(Seconds) :-
 
 :- begin_tests(real_networks_are_saved).
 
-test(every_cut_is_consistent, [forall(member(P, [1,3]))]) :-
+test(each_checkpoint_is_consistent, [forall(member(P, [1,3]))]) :-
     listening(with_tmp_dir(consistent([processes(P)])), _).
-test(the_clock_goes_on) :-
+test(clock_continues) :-
     with_tmp_dir(clock_goes_on).
-test(appointments_links_and_names, true(Said == [early,late])) :-
+test(appointments_links_and_names_are_restored, true(Said == [early,late])) :-
     with_tmp_dir(everything(Said)).
-test(beside_hosts_that_stay, true(Left-Ids == [mark]-1)) :-
+test(other_hosts_remain, true(Left-Ids == [mark]-1)) :-
     with_tmp_dir(beside(Left, Ids)).
-test(a_port_that_is_taken, error(socket_error(_, _))) :-
+test(port_is_in_use, error(socket_error(_, _))) :-
     with_tmp_dir(beside_itself).
-test(a_process_that_does_not_answer, true(Result == [timeout_error,alive])) :-
+test(unresponsive_process, true(Result == [timeout_error,alive])) :-
     with_tmp_dir(hanging(Result)).
-test(a_process_that_is_gone,
+test(missing_process,
      error(existence_error(carrier, _))) :-
     listening(with_tmp_dir(gone), _).
-test(an_agent_that_does_not_stop, error(timeout_error(save, _))) :-
+test(agent_that_does_not_stop, error(timeout_error(save, _))) :-
     with_tmp_dir(busy).
 
 :- end_tests(real_networks_are_saved).
@@ -420,14 +420,14 @@ test(at_random_instants, [forall(scenario(Name, _, _, _))]) :-
     goes_on_alike(Name).
 test(in_another_process) :-
     listening(with_tmp_dir(interrupted_elsewhere(wanderers)), _).
-test(by_appointment, true(Text == Whole)) :-
+test(saved_by_an_appointment, true(Text == Whole)) :-
     listening(with_tmp_dir(by_appointment(Whole, Text)), _).
-test(with_another_log, true(Whole =@= Text)) :-
+test(loaded_with_another_log, true(Whole =@= Text)) :-
     listening(with_tmp_dir(another_log(Whole, Text)), _).
-test(ids_and_names_go_on, true(Ids == ['a.v.0@n1@virtual:0',
-                                       'a.v.1@n1@virtual:0'])) :-
+test(ids_and_names_continue, true(Ids == ['a.v.0@n1@virtual:0',
+                                          'a.v.1@n1@virtual:0'])) :-
     with_tmp_dir(ids(Ids)).
-test(a_rule_in_the_state_of_an_agent, true(X == at(1))) :-
+test(rule_in_the_state_of_an_agent, true(X == at(1))) :-
     with_tmp_dir(twice(X)).
 
 :- end_tests(virtual_networks_are_saved).
@@ -517,24 +517,24 @@ twice(X, Dir) :-
 
 :- begin_tests(networks_that_cannot_be_saved_or_loaded).
 
-test(nowhere_to_write,
+test(missing_directory,
      error(existence_error(source_sink, '/no/such/directory/file'))) :-
     with_network(ring(3), [clock(virtual)], N,
                  network_save(N, '/no/such/directory/file')).
 test(no_such_network, error(existence_error(network, none))) :-
     network_save(none, file).
-test(what_cannot_be_written,
+test(unserializable_state,
      all(Result == [type_error, "old", goes_on])) :-
     with_tmp_dir(unwritable(Results)),
     member(Result, Results).
-test(a_host_beside_it,
+test(other_host_in_the_process,
      error(permission_error(save, host, 'beside@virtual:0'))) :-
     with_network(ring(3), [clock(virtual)], N,
                  setup_call_cleanup(
                      host_start(beside, [clock(virtual)]),
                      network_save(N, file),
                      host_stop(beside))).
-test(virtual_time_is_one,
+test(second_virtual_clock_is_refused,
      error(permission_error(load, virtual_time, _))) :-
     with_tmp_dir(loaded_beside).
 test(no_such_file, error(existence_error(source_sink, _))) :-
@@ -548,7 +548,7 @@ test(damaged, [ forall(member(How-Why, [ another-no_network,
                                          bit-changed ])),
                 error(network_damaged(_, Why)) ]) :-
     with_tmp_dir(load_damaged(How)).
-test(of_another_version, error(network_version(_, 99))) :-
+test(other_version, error(network_version(_, 99))) :-
     with_tmp_dir(load_damaged(version)).
 
 :- end_tests(networks_that_cannot_be_saved_or_loaded).

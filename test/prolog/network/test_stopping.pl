@@ -49,7 +49,7 @@ talks([ (main :- anywhere(Host), clone(Host, Other), met(Other)),
         Anywhere ]) :-
     anywhere(Anywhere).
 
-test('of those that are stopped on their way nothing is printed',
+test(agents_stopped_in_flight_print_nothing,
      [ forall(( member(Kind, [walks, dozes, talks]),
                 member(Options, [[processes(3)], []]) )),
        Told == [] ]) :-
@@ -59,7 +59,7 @@ test('of those that are stopped on their way nothing is printed',
 
 %   Longer than agents have to come to rest, and so long that it is broken off.
 
-test('nor of those that are in a goal that takes a while',
+test(agents_stopped_in_a_long_goal_print_nothing,
      [ forall(member(Seconds-Options, [1.3-[processes(3)], 1.3-[],
                                        4-[processes(3)]])),
        Told == [] ]) :-
@@ -70,7 +70,7 @@ test('nor of those that are in a goal that takes a while',
                 Anywhere ],
     no_leaks(stopped(Options, Clauses, 6, Told)).
 
-test('a fault of one is reported',
+test(fault_of_an_agent_is_reported,
      [ forall(member(Options, [[processes(3)], []])),
        true(Told = [error-_]) ]) :-
     anywhere(Anywhere),
@@ -81,7 +81,7 @@ test('a fault of one is reported',
 
 %   No host is looked at twice.
 
-test('where all rest nothing is waited for', Looks == 64) :-
+test(resting_agents_are_not_waited_for, Looks == 64) :-
     flag(test_stopping_looks, _, 0),
     setup_call_cleanup(
         wrap_predicate(typhon_disposal:end_or_order(_, _), counted, Ended,
@@ -101,7 +101,7 @@ all_rest(Count) :-
 
 %   They miss a turn meanwhile.
 
-test('agents of others in the process go on') :-
+test(agents_on_other_hosts_continue) :-
     with_hosts([alpha, beta],
                ( create([ (main :- s(N), retract(s(N)), N1 is N+1,
                                    assertz(s(N1)), move(beta), move(alpha),

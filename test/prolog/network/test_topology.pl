@@ -90,10 +90,10 @@ test(one_host, [forall(member(T, [line(1), star(1)])), N-Edges == 1-[]]) :-
 test(mesh, L == 4950) :-
     edges(mesh(100), 1, 100, Edges),
     length(Edges, L).
-test(random_without_chance_is_a_tree, L == 29) :-
+test(random_with_probability_zero_is_a_tree, L == 29) :-
     edges(random(30, 0), 7, 30, Edges),
     length(Edges, L).
-test(random_with_certainty_is_a_mesh, L == 435) :-
+test(random_with_probability_one_is_a_mesh, L == 435) :-
     edges(random(30, 1.0), 7, 30, Edges),
     length(Edges, L).
 test(random_is_repeatable, A == B) :-
@@ -138,10 +138,10 @@ nonsense(line(0), type_error(positive_integer, 0)).
 nonsense(edges([a-cost(1)]), type_error(edge, a-cost(1))).
 nonsense(edges([a-b-cost(x)]), type_error(number, x)).
 
-test(nonsense, forall(nonsense(Topology, Formal))) :-
+test(unknown_topology, forall(nonsense(Topology, Formal))) :-
     catch(network_start(Topology, _, []), error(Formal1, _), true),
     assertion(Formal1 =@= Formal).
-test(seed, error(type_error(integer, a))) :-
+test(invalid_seed, error(type_error(integer, a))) :-
     network_start(ring(3), _, [seed(a)]).
 
 :- end_tests(topology_errors).

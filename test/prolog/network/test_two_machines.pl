@@ -100,7 +100,7 @@ line(Out, Term) :-
 :- begin_tests(two_machines,
                [ condition(permitted), setup(connect), cleanup(disconnect) ]).
 
-test(a_network_over_two_addresses,
+test(network_over_two_addresses,
      Said == network([Here, Here, Here, There, There, There], done, 6)) :-
     here(Here),
     there(There),

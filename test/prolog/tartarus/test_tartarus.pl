@@ -26,7 +26,7 @@ up(Node, Port, Token) :-
 
 :- begin_tests(third_generation).
 
-test(a_visitor_is_listed_where_it_went) :-
+test(visitor_is_listed_on_its_platform) :-
     ports(2, [P1,P2]),
     line("   start_tartarus(localhost, ~w, 7),", [P1], Start),
     line("   create_mobile_agent(bee, (localhost,~w), fly, [7]),", [P1], Create),
@@ -68,7 +68,7 @@ test(agent_back_before_its_move_has_returned_is_not_lost) :-
                ( up(A, P1, 7), up(B, P2, 7),
                  says(A, Send),
                  printed(A, ["home"], 120) )).
-test(a_payload_travels_and_its_template_stays) :-
+test(payload_travels_and_its_template_stays) :-
     ports(2, [P1,P2]),
     with_nodes([[ ":- dynamic carry/3, load/2.",
                   "load(guid, 150).",
@@ -86,7 +86,7 @@ test(a_payload_travels_and_its_template_stays) :-
                  printed(B, ["loads([ant-150])"]),
                  says(A, "findall(X-N, load(X,N), L), writeln(loads(L))."),
                  printed(A, ["loads([guid-150])"]) )).
-test(there_and_back_and_a_clone_speaks) :-
+test(agent_returns_and_its_clone_prints) :-
     ports(2, [P1,P2]),
     line("next(~w, ~w).", [P1,P2], N1),
     line("next(~w, ~w).", [P2,P1], N2),
@@ -141,7 +141,7 @@ test(agent_without_token_is_refused_and_stays) :-
                  line("move_agent(fly, (localhost,~w)).", [P2], Again),
                  says(A, Again),
                  printed(B, ["here(fly)"]) )).
-test(a_dead_platform_and_the_same_one) :-
+test(dead_platform_is_restarted) :-
     ports(2, [P1,P2]),
     with_nodes([[":- dynamic h/3.", "h(guid, _, main)."]], [A],
                ( up(A, P1, 1),
@@ -157,7 +157,7 @@ test(a_dead_platform_and_the_same_one) :-
                  printed(A, ["Agent is already on same platform."]),
                  says(A, "move_agent(missing, (localhost,1)), writeln(true1)."),
                  printed(A, ["Move agent Failed for :missing", "true1"]) )).
-test(goals_after_a_move_run_on_where_it_was) :-
+test(goals_after_a_move_run_at_the_source) :-
     ports(2, [P1,P2]),
     line("h(guid, (_,~w), main) :- !,", [P1], L1),
     line("   move_agent(guid, (localhost,~w)), left(guid, X),", [P2], L2),
@@ -176,7 +176,7 @@ test(goals_after_a_move_run_on_where_it_was) :-
                           ( L == [guid] -> true ; sleep(0.01), fail ), !, \c
                           writeln(left(L))."),
                  printed(A, ["left([guid])"]) )).
-test(a_large_port) :-
+test(large_port) :-
     ports(1, [P]),
     Large is P+65536,
     with_nodes([[]], [A],
@@ -197,7 +197,7 @@ test(wrong_arguments_abort) :-
 
 :- begin_tests(earlier_generations).
 
-test(first) :-
+test(first_generation) :-
     ports(2, [P1,P2]),
     line("h(guid, (_,~w), main) :- !, sum(guid, S), S1 is S+1,", [P1], L1),
     line("   agent_move(guid, (localhost,~w)).", [P2], L2),
@@ -229,7 +229,7 @@ test(without_a_token_no_agent_is_admitted) :-
                        move_agent(m, (localhost,~w)).", [P2], Go),
                  says(A, Go),
                  printed(A, ["Agent m was not allowed to enter"]) )).
-test(a_static_agent_is_reached_at_its_port) :-
+test(static_agent_is_reached_at_its_port) :-
     ports(3, [P1,P2,P3]),
     with_nodes([[ "h(guid, (Ip,Port), main) :- writeln('Hello':guid:Ip:Port).",
                   "h(guid, From, What) :- writeln(heard(guid, From, What))." ],
@@ -260,7 +260,7 @@ test(a_static_agent_is_reached_at_its_port) :-
 
 :- begin_tests(messages).
 
-test(to_any_agent_there) :-
+test(message_to_any_agent_of_a_platform) :-
     ports(2, [P1,P2]),
     with_nodes([[], [ "hear(Sender, (_,_), W) :- writeln(got(Sender, W)).",
                       "bad(_, _) :- fail." ]],
@@ -305,7 +305,7 @@ test(logs) :-
 %   A native agent goes to a platform, uses what is there, hears a message of
 %   Tartarus there, and comes home.
 
-test(visit_a_platform, What == heard(ping(7), 42)) :-
+test(native_agents_visit_a_platform, What == heard(ping(7), 42)) :-
     ports(1, [P]),
     with_nodes([["answer(42)."]], [B],
                ( up(B, P, 5),
@@ -326,7 +326,7 @@ visit(P, B, What) :-
     remote(alpha, take(What0)),
     What = What0.
 
-test(show_their_tokens, Why == token) :-
+test(native_agents_show_their_tokens, Why == token) :-
     ports(1, [P]),
     with_nodes([[]], [B],
                ( up(B, P, 5),
@@ -343,7 +343,7 @@ test(show_their_tokens, Why == token) :-
 
 :- begin_tests(platforms).
 
-test(reset_works_at_once) :-
+test(reset_takes_effect_at_once) :-
     ports(2, [P1,P2]),
     with_nodes([[":- dynamic h/3.", "h(guid, _, main) :- writeln(here)."], []],
                [A,B],
@@ -360,7 +360,7 @@ test(reset_works_at_once) :-
                  line("Port = ~w", [P2], Again),
                  printed(B, ["closed.", Again]),
                  says(A, Go), printed(B, ["closed.", "here"]) )).
-test(an_agent_made_on_another) :-
+test(agent_made_on_another_platform) :-
     ports(2, [P1,P2]),
     with_nodes([[], [":- dynamic h/3.", "h(guid, _, main) :- writeln(ran)."]],
                [A,B],
@@ -374,7 +374,7 @@ test(an_agent_made_on_another) :-
                  line("execute_agent(far, (localhost,~w), h).", [P2], Run),
                  says(B, Run),
                  printed(B, ["ran"]) )).
-test(what_is_saved_is_loaded) :-
+test(saved_agents_are_loaded) :-
     ports(2, [P1,P2]),
     with_nodes([[ ":- dynamic h/3, n/2.", "n(guid, 1).",
                   "h(guid, _, main) :- n(guid, N), writeln(guid:N)." ], []],
@@ -389,7 +389,7 @@ test(what_is_saved_is_loaded) :-
                  says(B, "purge_agent(a), consult('a.pl'), n(a, X), \c
                           writeln(n:X)."),
                  printed(B, ["n:1"]) )).
-test(local_definitions_win) :-
+test(local_definitions_take_precedence) :-
     ports(1, [P]),
     with_nodes([[ "agent_list(mine).", "nothing :- writeln(my_nothing).",
                   "move(X) :- writeln(moving(X)).",
@@ -404,7 +404,7 @@ test(local_definitions_win) :-
 
 :- end_tests(platforms).
 
-:- begin_tests(the_rest).
+:- begin_tests(other_predicates).
 
 %   answers(+Lines, +Goals, +Texts): a platform with this program, at which
 %   Goals are typed, prints Texts.
@@ -416,7 +416,7 @@ answers(Lines, Goals, Texts) :-
                  forall(member(Goal, Goals), says(A, Goal)),
                  printed(A, Texts) )).
 
-test(atoms_are_replaced_and_not_text) :-
+test(atoms_are_replaced_in_terms_only) :-
     answers([ ":- dynamic h/3.",
               "h(guid, _, main) :- \\+ fail, writeln([guid, guidance, \"guid\", \c
                'It is', f(guid)])." ],
@@ -434,7 +434,7 @@ test(tokens_and_payloads) :-
               "purge_agent(b), \\+ q(b, _), \\+ isexist_agent(b, _, _), \c
                writeln(gone)." ],
             ["t:[1,3]", "x:b", "l:[(q,2)]", "y:1", "gone"]).
-test(an_unbound_port_is_that_of_the_platform) :-
+test(unbound_port_is_that_of_the_platform) :-
     answers([":- dynamic h/3.", "h(guid, _, main)."],
             [ "create_mobile_agent(y, (localhost,P), h, [5]), \c
                platform_port(P), writeln(bound).",
@@ -443,7 +443,7 @@ test(an_unbound_port_is_that_of_the_platform) :-
               "agent_create(x, (I,_), h), writeln(ip:I).",
               "create_mobile_agent(w, (elsewhere,_), h, [5])." ],
             ["bound", "bound, too", "ip:localhost", "Error# ma7"]).
-test(a_payload_may_be_named_like_a_library_predicate) :-
+test(payload_named_like_a_library_predicate) :-
     ports(2, [P1,P2]),
     Program = [":- dynamic h/3.",
                "h(guid, _, main) :- checklist(guid, X), writeln(got:X)."],
@@ -461,7 +461,7 @@ test(a_payload_may_be_named_like_a_library_predicate) :-
                  printed(B, ["got:7"]),
                  says(B, "partition(c, 1, 2, X), writeln(x:X)."),
                  printed(B, ["x:3"]) )).
-test(the_oldest_agent_comes_first) :-
+test(oldest_agent_comes_first) :-
     answers([":- dynamic h/3.", "h(guid, _, main)."],
             [ "create_mobile_agent(a1, _, h, [1]), \c
                create_mobile_agent(a2, _, h, [1]), \c
@@ -477,7 +477,7 @@ test(names) :-
     answers([], [ "get_new_name(foo, N), writeln(N), get_new_name_alpha(A), \c
                    atom_length(A, L), writeln(len:L)." ],
             ["foo1_localhost_", "len:6"]).
-test(execute_waits_for_the_last_one) :-
+test(execute_waits_for_the_last_agent) :-
     answers([ ":- dynamic h/3.",
               "h(guid, _, S) :- writeln(begin(S)), thread_get_message(go(S)), \c
                writeln(end(S))." ],
@@ -502,7 +502,7 @@ test(hop_times) :-
                  says(B, "in_hop_time_stat(Max,Max,Max), in_hop_time(W,Max), \c
                           writeln(w:W)."),
                  printed(B, ["w:a"]) )).
-test(asserted_files_go_with_a_reset) :-
+test(asserted_files_are_removed_by_reset) :-
     answers([":- dynamic h/3."],
             [ "open('f.pl', write, S), writeln(S, 'colour(red).'), close(S), \c
                assert_file_to_tartarus('f.pl'), call(colour, C), writeln(C).",
@@ -526,4 +526,4 @@ test(subtitles) :-
                   writeln(silence)."],
             ["hello(1)", "silence"]).
 
-:- end_tests(the_rest).
+:- end_tests(other_predicates).

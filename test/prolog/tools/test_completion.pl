@@ -52,12 +52,12 @@ test(agents, [forall(member(Before-Line,
                               "agent_send(at(b"-"agent_send(at(bob" ])),
               Line == Completed]) :-
     with_agents(on_tab(Before, Completed)).
-test(by_id_in_quotes) :-
+test(agent_by_quoted_id) :-
     with_agents(( on_tab("agent_send('bo", Line),
                   string_concat(Line, ")", Text),
                   term_string(agent_send(Id), Text),
                   agent_property(Id, state(_)) )).
-test(agents_sharing_a_name_by_id) :-
+test(agents_of_one_name_are_completed_by_id) :-
     with_agents(( completed("agent_send(t", Texts),
                   length(Texts, Count),
                   forall(member(Text, Texts),
@@ -78,12 +78,12 @@ test(networks, Line == Wanted) :-
                        on_tab("network_stop(n", Line),
                        network_stop(Network)),
     format(string(Wanted), "network_stop(~w", [Network]).
-test(elsewhere_what_it_always_is) :-
+test(other_text_is_completed_as_usual) :-
     with_agents(( completed("memberch", Texts),
                   completed("foo(bo", Others) )),
     assertion(memberchk(memberchk, Texts)),
     assertion(\+ memberchk(bob, Others) ; memberchk(body, Others)).
-test(where_nothing_fits_too) :-
+test(usual_completion_without_a_match) :-
     with_agents(completed("remote(memberch", Texts)),
     assertion(memberchk(memberchk, Texts)).
 

@@ -102,7 +102,7 @@ program(Name, File) :-
 
 :- begin_tests(editors).
 
-test(vocabulary_is_known) :-
+test(vocabulary_is_highlighted) :-
     census(Text),
     seen(Text, comes_from(move(_), typhon_words)),
     seen(Text, comes_from(clone(_, _), typhon_words)),
@@ -155,20 +155,20 @@ test(payload_offers_what_it_provides, PIs == [hidden/1]) :-
     seen(":- payload(p, [provides([shown/1])]).\nshown(1).\nhidden(1).\n",
          shown_as(unreferenced, PIs)).
 
-test(directive_half_written_is_no_error) :-
+test(incomplete_directive_is_no_error) :-
     forall(member(Text, [":- agent(a, X).", ":- agent(a, [state(X)]).",
                          ":- agent(a, [state([b|X])]).", ":- agent(A, B).",
                          ":- payload(a, b).", ":- X."]),
            seen(Text, shown_as(undefined, _))).
 
-test(other_files_are_not_concerned, PIs == [clone/2, move/1]) :-
+test(other_files_are_not_affected, PIs == [clone/2, move/1]) :-
     seen(":- module(m, [p/1]).\np(X) :- move(X), clone(X, _).\n",
          shown_as(undefined, PIs)).
 
-test(loading_is_not_concerned, Term == (:- agent(a, [state([b/1])]))) :-
+test(loading_is_not_affected, Term == (:- agent(a, [state([b/1])]))) :-
     expand_term((:- agent(a, [state([b/1])])), Term).
 
-test(classical_programs_are_in_order, Undefined == [choose/3, at/3]) :-
+test(programs_of_tartarus_have_no_errors, Undefined == [choose/3, at/3]) :-
     findall(PI,
             ( member(Name, [ hello, sum, dictionary, game, salesman, flood,
                              explorer, tree, sorter, pathfinder ]),

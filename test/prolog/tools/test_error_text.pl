@@ -102,21 +102,21 @@ test(hostile_errors_are_written,
      [forall(hostile(Ball)), true(Text \== "")]) :-
     printing(( error_text(Ball, Text), print_error(error, Ball) ), [_]),
     untouched.
-test(errors_that_are_passed_on_are_harmless, [forall(hostile(Ball0))]) :-
+test(forwarded_errors_are_harmless, [forall(hostile(Ball0))]) :-
     harmless_error(Ball0, Ball),
     printing(at_the_top_level(Ball), [_,_]),
     untouched.
-test(other_errors_stay_what_they_were,
+test(ordinary_errors_are_unchanged,
      [forall(kept(Formal)), true(Ball =@= error(Formal, _))]) :-
     harmless_error(error(Formal, _), Ball).
-test(other_balls_stay_what_they_were,
+test(ordinary_balls_are_unchanged,
      [forall(member(Ball0, [oops, my(1)])), true(Ball == Ball0)]) :-
     harmless_error(Ball0, Ball).
-test(context_stays_where_it_is_text,
+test(textual_context_is_kept,
      Ball == error(type_error(integer, a), context(foo/1, 'a remark'))) :-
     harmless_error(error(type_error(integer, a), context(foo/1, 'a remark')),
                    Ball).
-test(other_context_goes, Ball =@= error(type_error(integer, a), _)) :-
+test(other_context_is_removed, Ball =@= error(type_error(integer, a), _)) :-
     harmless_error(error(type_error(integer, a), at(x, y, z)), Ball).
 test(text_of_iso_errors,
      Text == "foo/1: Type error: `integer' expected, found `a' (an atom) \c
@@ -127,15 +127,15 @@ test(text_of_own_errors, Text == "h refuses to admit the agent: it is full") :-
 test(text_of_unknown_errors,
      Text == "Unknown error term: format(\"~@\",[halt])") :-
     error_text(error(format("~@", [halt]), _), Text).
-test(large_terms_are_not_written, true(Length < 200)) :-
+test(large_terms_are_not_printed, true(Length < 200)) :-
     dag(60, a, T),
     error_text(error(type_error(x, T), _), Text),
     string_length(Text, Length).
-test(hooks_for_printing_see_nothing, Text == "Unhandled exception: typhon_portrayed(x)") :-
+test(printing_hooks_are_not_called, Text == "Unhandled exception: typhon_portrayed(x)") :-
     printing(error_text(typhon_portrayed(x), Text), _),
     untouched.
 
-test(names_of_recipients_are_no_orders_to_a_terminal,
+test(control_characters_in_names_are_escaped,
      [ forall(member(Name, ['a\e[31mb', 'a\nb', 'a\u202eb', f('\e[2J')])),
        Shown == true ]) :-
     phrase(prolog:message(typhon(undeliverable(existence_error(agent, x), Name,
@@ -147,7 +147,7 @@ test(names_of_recipients_are_no_orders_to_a_terminal,
     ->  Shown = true
     ;   Shown = Text
     ).
-test(names_of_recipients_are_short, true(Length < 500)) :-
+test(long_names_are_shortened, true(Length < 500)) :-
     numlist(1, 20 000, Ns),
     atomic_list_concat(Ns, Name),
     phrase(prolog:message(typhon(undeliverable(existence_error(agent, x), Name,
@@ -179,7 +179,7 @@ raising(atom_length(Ball, _), Ball).
 
 :- begin_tests(errors_of_agents).
 
-test(printing_what_an_agent_raises_calls_nothing,
+test(printing_a_raised_term_calls_nothing,
      [forall(( member(Options, [[], [policy(guarded), cell(none)]]),
                hostile(Ball), \+ Ball = unwind(_) ))]) :-
     with_hosts([g-Options],
@@ -187,7 +187,7 @@ test(printing_what_an_agent_raises_calls_nothing,
                                says(Body)), Texts)),
     Texts = [_|_],
     untouched.
-test(hooks_for_printing_do_not_see_what_an_agent_raises) :-
+test(printing_hooks_do_not_see_raised_terms) :-
     with_hosts([g],
                printing(( forall(raising(Body, typhon_portrayed(x)),
                                  says(Body)),
@@ -216,7 +216,7 @@ thrown_there(There, Ball0, Ball) :-
 
 :- begin_tests(errors_of_other_processes).
 
-test(errors_of_another_process_are_harmless_and_the_same) :-
+test(errors_of_another_process_are_harmless_and_unchanged) :-
     no_leaks(with_peers([p-[host([])]],
         ( peer_host(p, There),
           forall(( hostile(Ball0), \+ Ball0 = unwind(_) ),
@@ -226,7 +226,7 @@ test(errors_of_another_process_are_harmless_and_the_same) :-
                    assertion(Formal1 == Formal) )),
           thrown_there(There, oops, Oops),
           assertion(Oops == oops) ))).
-test(a_process_of_a_network_answers_errors_as_data,
+test(process_of_a_network_returns_errors_as_data,
      [forall(hostile(Ball)), Answer = raised(_, _)]) :-
     printing(typhon_node_process:raised(Ball, Answer), _),
     untouched.

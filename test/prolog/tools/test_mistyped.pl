@@ -72,37 +72,37 @@ unknown(auction_start(anta, [], [slck(1)]), auction_option, slack).
 unknown(sequence_begin(s, [], nowhere, [], [dedline(1)], _),
         sequence_allocation_option, deadline).
 
-test(is_an_error, [forall(unknown(Goal, Domain, _)),
-                   error(domain_error(Domain, _))]) :-
+test(unknown_option_is_an_error, [forall(unknown(Goal, Domain, _)),
+                                  error(domain_error(Domain, _))]) :-
     no_leaks(Goal).
-test(proposes_what_was_meant, [forall(unknown(Goal, _, Meant))]) :-
+test(similar_option_is_suggested, [forall(unknown(Goal, _, Meant))]) :-
     format(string(Proposed), '(did you mean ~w?); there are ', [Meant]),
     says(Goal, [Proposed]).
 test(limit_of_a_motor, error(domain_error(nxt_motor_option, limit(90)))) :-
     nxt_run(b, a, 50, [limit(90)]).
-test(an_option_of_another_form) :-
+test(option_of_another_form) :-
     says(host_start(a, [hop_time(3)]), ["(write hop_time(uniform("]).
 test(quota) :-
     says(host_start(a, [quota([hop(3)])]), ["(did you mean hops?)"]).
 test(policy) :-
     says(host_start(a, [policy(guardd)]),
          ["trusted, guarded or a file of rules"]).
-test(all_are_listed) :-
+test(all_options_are_listed) :-
     says(nxt_run(b, a, 50, [limit(90)]),
          ["; there are brake, degrees, regulated, state, sync"]).
 test(wrong_value_names_the_option) :-
     says(host_start(a, [capacity(many)]), ["in capacity(many)"]).
-test(either_type_will_do) :-
+test(either_type_is_accepted) :-
     with_hosts([a-[capacity(inf)], b-[capacity(3), concurrency(inf)]], true).
-test(nothing_is_proposed_for_one_letter) :-
+test(single_letter_gets_no_suggestion) :-
     told(agent_create(clauses([]), _, [x(1)]), Text),
     assertion(\+ sub_string(Text, _, _, _, "did you mean")).
-test(an_option_with_an_equals_sign) :-
+test(option_with_an_equals_sign) :-
     says(host_start(a, [port=9700]), ["host option port=9700", "port"]).
 test(setting_of_a_mechanism) :-
     says(sequence_start(s, [], [], [settings([dleta-1])], _),
          ["there are delta, theta, maximum, window, patience, strategy"]).
-test(a_robot_that_is_there_does_not_hide_it,
+test(existing_robot_does_not_hide_the_error,
      error(domain_error(robot_option, _))) :-
     robot_start(nowhere, [], [cots(x)]).
 
@@ -119,10 +119,10 @@ test(arguments_of_a_topology) :-
 test(clock) :-
     says(network_start(ring(2), _, [clock(fast)]), ["clock(virtual)"]),
     says(host_start(a, [clock(fast)]), ["virtual"]).
-test(words_of_agents, [forall(member(Goal-Outside,
-                                     [ move(beta)-"agent_move(Agent, Host)",
-                                       send(a, b)-"agent_send(Agent, Message)",
-                                       leave(x)-"remote(Host, leave(_))" ]))]) :-
+test(vocabulary, [forall(member(Goal-Outside,
+                                [ move(beta)-"agent_move(Agent, Host)",
+                                  send(a, b)-"agent_send(Agent, Message)",
+                                  leave(x)-"remote(Host, leave(_))" ]))]) :-
     says(user:Goal, ["Unknown procedure", Outside]).
 test(dynamic_model) :-
     says(network_start(ring(4), _, [dynamic(dynamc_1)]),
@@ -134,9 +134,10 @@ test(property, [forall(member(Goal-Meant,
                                 network_property(_, host(_))-"hosts(_)" ]))]) :-
     told(Goal, Text),
     assertion(sub_string(Text, _, _, _, Meant)).
-test(property_is_an_error, error(domain_error(agent_property, sate(_)))) :-
+test(unknown_property_is_an_error,
+     error(domain_error(agent_property, sate(_)))) :-
     agent_property(_, sate(_)).
-test(every_property_may_be_asked) :-
+test(every_property_can_be_queried) :-
     with_hosts([alpha],
                ( create([(on_message(_, _))], A, [host(alpha)]),
                  wait_state(A, resident),
@@ -159,7 +160,7 @@ test(network) :-
         ( atom_concat(N, x, Mistyped),
           says(network_stop(Mistyped), ["(did you mean ", N]) ),
         network_stop(N)).
-test(host_that_is_there) :-
+test(existing_host_is_not_suggested) :-
     with_hosts([alpha],
                says(host_start(alpha), ["There is a host alpha here already"])).
 test(agent_that_has_ended) :-
@@ -167,19 +168,19 @@ test(agent_that_has_ended) :-
                ( create([main], A, [host(alpha)]),
                  joined(A, done),
                  says(agent_send(A, x), [" has ended: done"]) )).
-test(host_to_which_an_agent_moves) :-
+test(destination_host) :-
     with_hosts([alpha],
                ( listening(( create([(main :- move(alhpa))], A,
                                     [host(alpha)]),
                              agent_join(A, raised(Error), 5) ), _),
                  says(throw(Error), ["(did you mean alpha?)"]) )).
-test(what_is_traced_or_changed) :-
+test(kinds_of_trace_and_change) :-
     with_hosts([alpha],
                ( create([(on_message(_, _))], A, [host(alpha)]),
                  says(agent_trace(A, [hop]), ["(did you mean hops?)"]),
                  says(agent_change(A, fact([])),
                       ["(did you mean facts(Clauses)?)"]) )).
-test(virtual_time_is_that_of_one_process) :-
+test(hint_at_the_single_process_of_virtual_time) :-
     says(network_start(ring(2), _, [clock(virtual), processes(2)]),
          ["one process", "processes(2)"]).
 test(search_path) :-
@@ -190,7 +191,7 @@ test(strategy) :-
 
 :- end_tests(names).
 
-:- begin_tests(names_that_are_given).
+:- begin_tests(names_of_existing_agents).
 
 %   A name is given where one is returned.
 
@@ -202,12 +203,12 @@ given(network_load('net.txt', net, [])).
 given(log_server_start([file('/dev/null')], log)).
 given(watch(alpha, [_]>>true, watch)).
 
-test(nothing_is_begun, [ forall(given(Goal)),
-                         error(uninstantiation_error(_)) ]) :-
+test(refused_agent_is_not_created, [ forall(given(Goal)),
+                                     error(uninstantiation_error(_)) ]) :-
     with_hosts([alpha],
                call_cleanup(Goal, assertion(\+ agent_property(_, _)))).
 
-:- end_tests(names_that_are_given).
+:- end_tests(names_of_existing_agents).
 
 :- begin_tests(programs).
 
@@ -247,10 +248,10 @@ test(files) :-
                         ["There is no file tourst (did you mean tourist?)"]),
                    told(agent_check('no/such/file'), Text),
                    assertion(sub_string(Text, _, _, _, "does not exist")) )).
-test(in_a_folder) :-
+test(program_in_a_folder) :-
     in_directory(says(agent_check(agents(survey/cenus)),
                       ["(did you mean survey/census?)"])).
-test(by_the_last_part) :-
+test(program_by_its_last_part) :-
     in_directory(says(agent_check(agents(census)),
                       ["(did you mean survey/census?)"])).
 test(payloads) :-
@@ -259,7 +260,7 @@ test(payloads) :-
                    says(agent_create(agents(tourist), _,
                                      [payloads([payloads(thrmo)])]),
                         ["(did you mean thermo?)"]))).
-test(only_what_is_one) :-
+test(only_programs_are_suggested) :-
     in_directory(( typhon_names:names(agents, Names),
                    assertion(memberchk(tourist, Names)),
                    assertion(memberchk('survey/census', Names)),

@@ -40,7 +40,7 @@ watcher(Name, Id) :-
 
 :- begin_tests(supervision_tree).
 
-test(nothing, Shape == []) :-
+test(no_supervision, Shape == []) :-
     with_hosts([alpha], ( worker(W), agent_create(W, _, []), shape([], Shape) )).
 test(children, true) :-
     with_hosts([alpha],
@@ -51,12 +51,12 @@ test(monitored_agents_that_are_no_children, true) :-
                ( watcher(w, W), watcher(a, A),
                  agent_send(W, of(A)),
                  has_shape([], [w-top-[a-monitored-[]]]) )).
-test(two_that_monitor_each_other_are_shown_once, true) :-
+test(mutual_monitors_are_shown_once, true) :-
     with_hosts([alpha],
                ( watcher(a, A), watcher(b, B),
                  agent_send(A, of(B)), agent_send(B, of(A)),
                  has_shape([], [a-top-[b-monitored-[]]]) )).
-test(one_that_shares_its_fate_is_a_child, true) :-
+test(agent_of_shared_fate_is_a_child, true) :-
     with_hosts([alpha],
                ( worker(W),
                  agent_create(W, C, [name(c)]),
@@ -71,7 +71,7 @@ test(supervisors_of_supervisors, true) :-
                                 facts([child(sub, agents(supervisor),
                                              [facts([child(a, W, [])])])]) ]),
                  has_shape([], [top-top-[sub-child-[a-child-[]]]]) )).
-test(of_other_processes, [nondet]) :-
+test(agents_of_other_processes, [nondet]) :-
     no_leaks(with_peers([p1, p2], elsewhere)).
 
 elsewhere :-

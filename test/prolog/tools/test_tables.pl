@@ -33,12 +33,12 @@ matches(Lines, Pattern) :-
 
 :- begin_tests(tables).
 
-test(nothing, Tables == [["No hosts"], ["No agents"]]) :-
+test(empty_tables, Tables == [["No hosts"], ["No agents"]]) :-
     table(hosts, Hosts),
     table(agents, Agents),
     Tables = [Hosts, Agents].
 
-test(under_way_within_the_process) :-
+test(agent_under_way_within_the_process) :-
     with_hosts([ alpha-[clock(virtual), hop_time(uniform(5, 5))],
                  beta-[clock(virtual)] ],
                ( create([(main :- move(beta))], A, [name(goes), host(alpha)]),
@@ -47,7 +47,7 @@ test(under_way_within_the_process) :-
     assertion(shows(Lines, ["goes", "alpha", "test", "in_transit", "to",
                             "beta", "0", "0"])).
 
-test(what_an_agent_does) :-
+test(activity_of_an_agent) :-
     with_hosts([alpha-[clock(virtual)], beta-[clock(virtual)]], doings).
 
 doings :-
@@ -70,7 +70,7 @@ doings :-
                             "0"])),
     assertion(matches(Lines, "errs*faulty: instantiation_error*")).
 
-test(names_are_short_where_they_are_unique) :-
+test(unique_names_are_shortened) :-
     with_hosts([alpha-[clock(virtual)]], names).
 
 names :-
@@ -83,7 +83,7 @@ names :-
             Carls),
     assertion(length(Carls, 2)).
 
-test(sorted_as_people_count) :-
+test(sorted_in_natural_order) :-
     no_leaks(setup_call_cleanup(
                  network_start(ring(11), Network, [clock(virtual)]),
                  table(hosts, Lines),
@@ -93,7 +93,7 @@ test(sorted_as_people_count) :-
     findall(N, ( between(1, 11, I), format(string(N), "n~d", [I]) ), Expected),
     assertion(Names == Expected).
 
-test(many_agents_are_not_all_listed) :-
+test(long_list_of_agents_is_shortened) :-
     with_hosts([alpha-[clock(virtual)]], many).
 
 many :-

@@ -18,7 +18,7 @@ put(Dir, Name, Text) :-
     directory_file_path(Dir, Name, File),
     setup_call_cleanup(open(File, write, Out), write(Out, Text), close(Out)).
 
-:- begin_tests(mistakes).
+:- begin_tests(errors_at_the_top_level).
 
 %   Each of these raises an error.
 
@@ -61,7 +61,7 @@ file('hi.pl', ":- agent(hi, []).\non_message(_, _).\n").
 %   In a terminal each mistake is answered by one line, without a backtrace, and
 %   the next query is read as a query.
 
-test(a_mistake_prints_one_line,
+test(error_prints_one_line,
      [ condition(( missing([python3], []), top_level_goes_on )),
        Others == [] ]) :-
     with_tmp_dir(mistakes(Others)).
@@ -143,7 +143,7 @@ bare(Library, PI) :-
 
 %   Prolog would offer the predicate of a module instead.
 
-test(words_of_agents_are_not_corrected, true(N-Written == 3-[])) :-
+test(vocabulary_is_not_corrected, true(N-Written == 3-[])) :-
     with_tmp_dir(words_typed(Lines)),
     findall(x, ( member(L, Lines),
                  sub_string(L, _, _, _, "agent_move(Agent, Host)") ), Xs),
@@ -156,7 +156,7 @@ words_typed(Lines, Dir) :-
     typed([ 'move(beta).', 'forall(true, move(beta)).',
             'atom(a), move(beta).' ], Dir, Lines).
 
-:- end_tests(mistakes).
+:- end_tests(errors_at_the_top_level).
 
 :- dynamic
     delta/2.                    % Pid, Out
@@ -220,7 +220,7 @@ test(process_without_hosts_creates_and_orders_agents, Answers == Wanted) :-
     findall(Line, ( member(Line, Written), memberchk(Line, Wanted) ),
             Answers).
 
-test(guests_come_and_go_in_several_threads) :-
+test(guests_are_created_and_ended_in_several_threads) :-
     nb_getval(test_delta, Delta),
     no_leaks(( findall(T, ( between(1, 6, _),
                             thread_create(forall(between(1, 5, _),
@@ -232,7 +232,7 @@ test(guests_come_and_go_in_several_threads) :-
 
 %   The second begins while the first is a guest, and stays longer.
 
-test(a_guest_does_not_go_with_another, Statuses == [true, true]) :-
+test(guests_are_independent, Statuses == [true, true]) :-
     nb_getval(test_delta, Delta),
     no_leaks(( there(Delta, message_queue_create(_, [alias(first)])),
                there(Delta, message_queue_create(_, [alias(second)])),
@@ -256,7 +256,7 @@ goes(Delta, Queue-Thread, Status) :-
     thread_join(Thread, Status),
     there(Delta, message_queue_destroy(Queue)).
 
-test(mistyped_host_and_port_that_is_taken) :-
+test(mistyped_host_and_port_in_use) :-
     nb_getval(test_delta, Delta),
     atomic_list_concat([_, Address], @, Delta),
     atomic_list_concat([_, Port], :, Address),
@@ -271,8 +271,9 @@ test(mistyped_host_and_port_that_is_taken) :-
 
 %   A host of another network, whether a person asks or an agent moves.
 
-test(another_cookie_is_no_dead_host, [ condition(top_level_goes_on),
-                                       true(Xs == [x, x, x, x]) ]) :-
+test(other_cookie_is_not_reported_as_a_dead_host,
+     [ condition(top_level_goes_on),
+       true(Xs == [x, x, x, x]) ]) :-
     nb_getval(test_delta, Delta),
     with_cookie('another cookie, of another network',
                 another_cookie(Delta, Written)),

@@ -52,7 +52,7 @@ echo(Host, Agent) :-
 
 :- begin_tests(fipa_agents).
 
-test(talk_across_platforms) :-
+test(agents_talk_across_platforms) :-
     with_platforms(_, Url,
         ( echo(beta, Agent),
           property(beta, name(Agent, Name)),
@@ -62,13 +62,13 @@ test(talk_across_platforms) :-
           property(alpha, name(Me, Mine)),
           assertion(Outcome == inform-[said(fipa(Mine, []), [f("x", 1)])]) )).
 
-test(have_short_names) :-
+test(agents_have_short_names) :-
     with_platforms(_, Url,
         ( echo(beta, _),
           does(fipa_request(fipa('echo@b', [Url]), "x", 10, Outcome), Outcome),
           assertion(Outcome = inform-_) )).
 
-test(of_one_platform_need_no_address) :-
+test(agents_of_one_platform_need_no_address) :-
     with_platform([], _,
         ( echo(alpha, _),
           does(fipa_request(fipa('echo@a'), [x], 10, Outcome), Outcome),
@@ -76,7 +76,7 @@ test(of_one_platform_need_no_address) :-
 
 %   The word `send` does, with whom a message is from.
 
-test(answer_the_sender) :-
+test(agents_answer_the_sender) :-
     with_platforms(_, Url,
         ( agent_create(clauses([ (:- agent(polite, [])),
                                  (on_message(From, acl(request, _)) :-
@@ -87,7 +87,7 @@ test(answer_the_sender) :-
                  memberchk(content(Content), Parameters) ), Content),
           assertion(Content == "yes") )).
 
-test(keep_conversations_apart) :-
+test(agents_keep_conversations_apart) :-
     with_platforms(_, Url,
         ( echo(beta, _),
           does(( send(fipa('echo@b', [Url]),
@@ -102,7 +102,7 @@ test(keep_conversations_apart) :-
                To-Second),
           assertion(To-Second == r1-[2]) )).
 
-test(get_no_forged_sender) :-
+test(forged_sender_is_replaced) :-
     with_platforms(_, Url,
         ( echo(beta, _),
           does(( self(Me),
@@ -121,12 +121,12 @@ wrong(send(fipa(x, ['http://h/']), hello), type_error(fipa_message, hello)).
 wrong(send(fipa(x, ['http://h/']), acl(inform, [content(f(_))])), type_error(_, _)).
 wrong(send(somebody(x), hello), type_error(receiver, somebody(x))).
 
-test(get_errors, [forall(wrong(Goal, Expected))]) :-
+test(agents_get_errors, [forall(wrong(Goal, Expected))]) :-
     with_platform([], _,
         ( does(catch(Goal, error(Formal, _), true), Formal),
           assertion(subsumes_term(Expected, Formal)) )).
 
-test(cannot_without_a_platform) :-
+test(agents_need_a_platform) :-
     with_hosts([alpha],
         ( does(catch(send(fipa(x, ['http://127.0.0.1:1/']), acl(inform, [])),
                      error(Formal, _), true), Formal),
@@ -135,7 +135,7 @@ test(cannot_without_a_platform) :-
                      error(Formal1, _), true), Formal1),
           assertion(Formal1 = existence_error(procedure, _)) )).
 
-test(receive_failures) :-
+test(agents_receive_failures) :-
     with_platforms(_, Url,
         ( free_port(Port),
           format(atom(Missing), 'http://127.0.0.1:~d/acc', [Port]),
@@ -151,7 +151,7 @@ test(receive_failures) :-
 
 %   The second address is as good.
 
-test(are_found_at_any_address) :-
+test(agents_are_found_at_any_address) :-
     with_platforms(_, Url,
         ( echo(beta, _),
           free_port(Port),
@@ -160,7 +160,7 @@ test(are_found_at_any_address) :-
                Outcome),
           assertion(Outcome = inform-_) )).
 
-test(are_reached_after_moves) :-
+test(agents_are_reached_after_moves) :-
     no_leaks(with_peers([away],
         with_platforms(_, Url,
             ( peer_host(away, Away),
@@ -188,7 +188,7 @@ test(are_reached_after_moves) :-
 
 %   A stranger away from home writes by way of its home.
 
-test(write_from_anywhere) :-
+test(agents_write_from_any_host) :-
     no_leaks(with_peers([away],
         with_platforms(_, Url,
             ( peer_host(away, Away),
@@ -202,7 +202,7 @@ test(write_from_anywhere) :-
                    None),
               assertion(None = failure-_) )))).
 
-test(perform_requests) :-
+test(agents_perform_requests) :-
     with_platforms(_, Url,
         ( participant(one, 3),
           participant(two, 2),
@@ -275,7 +275,7 @@ test(df) :-
           asked('df@a', modify(Singer), Never2),
           assertion(Never2 = failure-[_, 'not-registered']) )).
 
-test(df_lists_what_agents_offer) :-
+test(df_lists_offers_of_agents) :-
     with_platform([], Url,
         ( agent_create(clauses([ (:- agent(shop, [])),
                                  (main :- offer(shop(tea), [price(7)]),
@@ -329,14 +329,14 @@ test(not_understood) :-
 
 :- begin_tests(fipa_service).
 
-test(starts_once, error(permission_error(start, fipa, alpha))) :-
+test(service_starts_once, error(permission_error(start, fipa, alpha))) :-
     with_platform([], _, fipa_start(alpha, 'http://127.0.0.1:0/b', [])).
 
-test(needs_real_time, error(permission_error(start, fipa, alpha))) :-
+test(service_needs_real_time, error(permission_error(start, fipa, alpha))) :-
     with_hosts([alpha-[clock(virtual)]],
                fipa_start(alpha, 'http://127.0.0.1:0/b', [])).
 
-test(is_diagnosed) :-
+test(service_is_diagnosed) :-
     with_platform([], Url,
         ( with_output_to(string(Well), diagnose_fipa(Url)),
           assertion(sub_string(Well, _, _, _, "it takes messages")),
@@ -344,7 +344,7 @@ test(is_diagnosed) :-
           with_output_to(string(Bad), \+ diagnose_fipa(Wrong)),
           assertion(sub_string(Bad, _, _, _, "FAIL  message")) )).
 
-test(needs_a_host, error(existence_error(host, nowhere))) :-
+test(service_needs_a_host, error(existence_error(host, nowhere))) :-
     fipa_start(nowhere, 'http://127.0.0.1:0/b', []).
 
 bad_start('ftp://127.0.0.1:0/', [], domain_error(http_url, _)).
@@ -352,12 +352,12 @@ bad_start('http://127.0.0.1:0/', [colour(red)], domain_error(fipa_option, _)).
 bad_start('http://127.0.0.1:0/', [queue(0)], type_error(_, _)).
 bad_start('http://127.0.0.1:0/', [name('a@b')], domain_error(fipa_platform, _)).
 
-test(starts_as_it_should, [forall(bad_start(Url, Options, Expected))]) :-
+test(wrong_options_are_errors, [forall(bad_start(Url, Options, Expected))]) :-
     with_hosts([alpha],
         ( catch(fipa_start(alpha, Url, Options), error(Formal, _), true),
           assertion(subsumes_term(Expected, Formal)) )).
 
-test(port_is_taken) :-
+test(port_is_in_use) :-
     with_platform([], Url,
         with_hosts([beta],
             ( catch(fipa_start(beta, Url, []), error(Formal, _), true),
@@ -365,14 +365,14 @@ test(port_is_taken) :-
               catch(fipa_stop(beta), error(Formal1, _), true),
               assertion(Formal1 == existence_error(fipa, beta)) ))).
 
-test(stops) :-
+test(service_stops) :-
     with_platform([], Url,
         ( fipa_stop(alpha),
           assertion(\+ fipa_property(alpha, _)),
           fipa_start(alpha, Url, []),
           assertion(property(alpha, name(alpha))) )).
 
-test(in_another_process, Names-After == [far]-[]) :-
+test(service_in_another_process, Names-After == [far]-[]) :-
     with_peers([p],
         ( peer_host(p, Host),
           fipa_start(Host, 'http://127.0.0.1:0/acc', [name(far)]),
@@ -384,7 +384,7 @@ names(Host, Names) :-
     remote(Host, findall(Name, typhon_fipa_service:fipa_property(_, name(Name)),
                          Names)).
 
-test(is_on_loopback) :-
+test(service_is_on_loopback) :-
     with_platform([], Url,
         ( port(Url, Port),
           tcp_socket(Socket),
@@ -447,7 +447,7 @@ with_silence(Url, Goal) :-
         once(Goal),
         tcp_close_socket(Socket)).
 
-test(takes_a_megabyte) :-
+test(service_accepts_a_megabyte) :-
     with_platforms(_, Url,
         ( echo(beta, _),
           length(Codes, 1000000),
@@ -621,7 +621,7 @@ rest(In) :-
     !,
     read_line(In, _).
 
-test(asks_for_a_body) :-
+test(body_is_requested) :-
     with_platform([], Url,
         ( good(Text),
           string_concat("POST /acc HTTP/1.1\r\n", Rest, Text),
@@ -670,7 +670,7 @@ test(silent_clients) :-
 
 %   So does a client that has not sent the whole of its request.
 
-test(half_requests_give_way, Statuses == [200, 200, 200]) :-
+test(incomplete_requests_are_dropped_first, Statuses == [200, 200, 200]) :-
     with_platform([connections(8)], Url,
         ( findall(Stream,
                   ( between(1, 100, _), half_request(Url, Stream) ),

@@ -90,7 +90,7 @@ test(jade_receives_our_messages, [forall(text(Text))]) :-
           does(fipa_request(Echo, Text, 20, Outcome), Outcome),
           assertion(Outcome == inform-Text) )).
 
-test(answers_our_terms) :-
+test(jade_answers_our_terms) :-
     Terms = [ f(1, -2.5, "text", word, [a, b], set([x]), date(1795335087.375)),
               'two words'(k:v, l:[1]), fipa('x@y', ['http://z/acc']) ],
     with_platform(_,
@@ -98,7 +98,7 @@ test(answers_our_terms) :-
           does(fipa_request(Echo, Terms, 20, Outcome), Outcome),
           assertion(Outcome == inform-Terms) )).
 
-test(managers_answer_us) :-
+test(managers_answer_jade) :-
     with_platform(_, ( ams_describes_itself, df_finds_who_answers )).
 
 ams_describes_itself :-
@@ -132,14 +132,14 @@ manager_says(Manager, Action, Content) :-
            memberchk(content(Content), Parameters)
          ), Content).
 
-test(sends_us_failures) :-
+test(jade_gets_our_failures) :-
     with_platform(_,
         ( jade_manager(nobody, Missing),
           does(fipa_request(Missing, "x", 20, Outcome), Outcome),
           assertion(( Outcome = failure-[_, Error],
                       compound_name_arity(Error, 'MTS-error', 2) )) )).
 
-test(sees_our_managers) :-
+test(jade_sees_our_managers) :-
     with_platform(Url,
         ( worker(Agent, []),
           once(fipa_property(alpha, name(Agent, Name))),
@@ -190,7 +190,7 @@ registers(Aid) :-
 asked_where(Name, Url, Answer) :-
     jade([request, Name, Url, '((action x (where)))'], Answer).
 
-test(has_our_bids) :-
+test(jade_gets_our_bids) :-
     with_platform(Url,
         ( worker(_, [name(first)]),
           worker(_, [name(second)]),
@@ -205,7 +205,7 @@ test(has_our_bids) :-
                 '((action x (paint sky)))'], Sky),
           assertion(Sky == ["ok", "nobody", "2"]) )).
 
-test(bids_for_us) :-
+test(jade_bids_for_us) :-
     with_platform(_,
         ( jade_manager(bidder1, One),
           jade_manager(bidder2, Two),
@@ -218,13 +218,13 @@ test(bids_for_us) :-
                  fipa_award(Proposals, Best, 20, Outcome) ), Outcome),
           assertion(Outcome == inform-['done-for'(7)]) )).
 
-test(many_conversations_with_us) :-
+test(many_conversations_of_jade_with_us) :-
     with_platform(Url,
         ( worker(_, []),
           jade([many, 'worker@here', Url, 200], Answer),
           assertion(Answer = ["ok", "0", "0", _]) )).
 
-test(many_conversations_with_it) :-
+test(many_conversations_of_ours_with_jade) :-
     with_platform(_,
         ( jade_manager(echo, Echo),
           numlist(1, 200, Numbers),

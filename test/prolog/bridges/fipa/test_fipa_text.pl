@@ -84,10 +84,10 @@ random_runs(Count, Goal) :-
 
 :- begin_tests(fipa_content).
 
-test(what_is_written_is_read) :-
+test(written_content_is_read_back) :-
     random_runs(1000, test_fipa_text:same_content).
 
-test(as_the_standard_has_it, Text == "((action (agent-identifier :name \c
+test(examples_of_the_standard, Text == "((action (agent-identifier :name \c
         df@p :addresses (sequence http://h:1/acc)) (search \c
         (df-agent-description :services (set (service-description :type \c
         \"two words\"))) (search-constraints :max-results -1))))") :-
@@ -98,17 +98,18 @@ test(as_the_standard_has_it, Text == "((action (agent-identifier :name \c
                             'search-constraints'('max-results': -1))) ],
             Text).
 
-test(in_any_case, Terms == [f(fipa(a,[]), set([1]), [x], "q\"")]) :-
+test(keywords_in_any_case, Terms == [f(fipa(a,[]), set([1]), [x], "q\"")]) :-
     sl_text(Terms,
             "( (f\n(AGENT-IDENTIFIER :NAME a)(Set 1) (SEQUENCE x) \"q\\\"\") )").
 
 test(counted_strings, Terms == ["a\"b", "\u00E4"]) :-
     sl_text(Terms, "(#3\"a\"b #2\"\u00E4)").
 
-test(is_no_content, [ forall(member(Text, ["", "(", ")", "(a", "(a))", "a b",
-                                           "\"a", "(())", "(f :k)", "((f :k))", "((a) b",
-                                           "(#9\"a)", "(((f) x))"])),
-                      error(syntax_error(_)) ]) :-
+test(invalid_content,
+     [ forall(member(Text, ["", "(", ")", "(a", "(a))", "a b",
+                            "\"a", "(())", "(f :k)", "((f :k))", "((a) b",
+                            "(#9\"a)", "(((f) x))"])),
+       error(syntax_error(_)) ]) :-
     sl_text(_, Text).
 
 test(too_deep, error(resource_error(fipa_depth))) :-
@@ -154,7 +155,7 @@ call_cpu(Goal, Seconds) :-
 
 :- begin_tests(fipa_message).
 
-test(what_is_written_is_read) :-
+test(written_message_is_read_back) :-
     random_runs(500, test_fipa_text:same_message).
 
 test(reads_what_jade_writes) :-
@@ -178,23 +179,23 @@ test(reads_what_jade_writes) :-
 test(names_of_parameters, Text == "(inform :reply-with a :in-reply-to \"1\")") :-
     acl_text(acl(inform, ['reply-with'(a), in_reply_to(1)]), Text).
 
-test(content_that_is_none, Content == "(a") :-
+test(invalid_content_of_a_message, Content == "(a") :-
     acl_text(acl(_, Parameters), "(inform :language fipa-sl :content \"(a\")"),
     memberchk(content(Content), Parameters).
 
-test(is_no_message, [ forall(member(Text, ["(inform", "inform", "()",
-                                           "((inform))", "(inform :content)",
-                                           "(inform content \"x\")",
-                                           "(inform :sender x)",
-                                           "(inform :receiver x)",
-                                           "(inform :reply-by tomorrow)"])),
-                      error(syntax_error(_)) ]) :-
+test(invalid_message, [ forall(member(Text, ["(inform", "inform", "()",
+                                             "((inform))", "(inform :content)",
+                                             "(inform content \"x\")",
+                                             "(inform :sender x)",
+                                             "(inform :receiver x)",
+                                             "(inform :reply-by tomorrow)"])),
+                        error(syntax_error(_)) ]) :-
     acl_text(_, Text).
 
-test(no_such_performative, error(domain_error(performative, shout))) :-
+test(unknown_performative, error(domain_error(performative, shout))) :-
     acl_text(acl(shout, []), _).
 
-test(no_such_parameter,
+test(unknown_parameter,
      [ forall(member(P, [x, sender(me), receiver(fipa(a)), content(_),
                          reply_by(soon), 'two words'(x), f(1,2)])),
        error(type_error(_, _)) ]) :-
@@ -248,7 +249,7 @@ same_message :-
 
 :- begin_tests(fipa_letter).
 
-test(what_is_written_is_read) :-
+test(written_letter_is_read_back) :-
     random_runs(200, test_fipa_text:same_letter).
 
 test(broken_parts,
@@ -277,7 +278,7 @@ test(bombs,
        error(permission_error(declare, fipa_envelope, document_type)) ]) :-
     typhon_fipa_letter:envelope_xml(_, Xml).
 
-test(long_numbers_are_no_numbers, Envelope == [date(x)]) :-
+test(long_digit_strings_are_no_numbers, Envelope == [date(x)]) :-
     format(string(Xml), "<envelope><params><payload-length>~`1t~1000|\c
            </payload-length><date>x</date></params></envelope>", []),
     typhon_fipa_letter:envelope_xml(Envelope, Xml).
@@ -301,7 +302,7 @@ test(deep_envelope, error(syntax_error(fipa_envelope))) :-
     atomics_to_string(Tags, Xml),
     typhon_fipa_letter:envelope_xml(_, Xml).
 
-test(later_params_count, Name == b) :-
+test(last_params_count, Name == b) :-
     typhon_fipa_letter:envelope_xml(Envelope,
                  "<envelope><params index=\"2\"><to><agent-identifier>\c
                   <name>b</name></agent-identifier></to></params>\c
@@ -310,7 +311,7 @@ test(later_params_count, Name == b) :-
     memberchk(date(x), Envelope),
     memberchk(to([fipa(Name, [])]), Envelope).
 
-test(bytes_are_as_they_are_written, Bytes == "(inform :content \"\u00C3\u00A4\")") :-
+test(bytes_are_kept, Bytes == "(inform :content \"\u00C3\u00A4\")") :-
     letter_write("(inform :content \"\u00E4\")", fipa(a), fipa(b), Type, Body),
     typhon_fipa_letter:multipart_read(Type, Body, [_, 'application/text'-Bytes]).
 
@@ -368,10 +369,11 @@ differs(f(1, b), f(1, a)).
 test(matches, [forall(matches(Template, Description)), nondet]) :-
     typhon_fipa_managers:description_matches(Template, Description).
 
-test(differs, [forall(differs(Template, Description)), fail]) :-
+test(differing_descriptions_do_not_match,
+     [forall(differs(Template, Description)), fail]) :-
     typhon_fipa_managers:description_matches(Template, Description).
 
-test(leases_end) :-
+test(leases_expire) :-
     get_time(Now),
     Soon is Now+60,
     Before is Now-1,

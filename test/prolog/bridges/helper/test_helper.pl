@@ -57,7 +57,7 @@ test(helper_without_its_packages_is_not_restarted,
                                                  Errors)),
                        Messages)).
 
-test(a_late_answer_leaves_one_thread_that_serves,
+test(late_answer_leaves_one_serving_thread,
      Answers == [said("timeout"),ok(1),ok(1)]) :-
     no_leaks(with_tmp_dir(late(Answers))).
 

@@ -62,7 +62,7 @@ got(Agent, Messages) :-
 
 says(Topic, Text) :-
     shared(Broker),
-    stranger_says(Broker, Topic, ['-m', Text]).
+    client_publishes(Broker, Topic, ['-m', Text]).
 
 error_of(Goal, Formal) :-
     catch(( remote(alpha, Goal), Formal0 = none ), error(Formal0, _), true),
@@ -70,14 +70,14 @@ error_of(Goal, Formal) :-
 
 :- begin_tests(mqtt_messages, [setup(start_shared), cleanup(stop_shared)]).
 
-test(from_another_client, Ms == [message('lab/t', "21.5",
-                                         [qos(0),retain(false)])]) :-
+test(message_from_another_client, Ms == [message('lab/t', "21.5",
+                                                 [qos(0),retain(false)])]) :-
     at_broker([], ( reader(subscribe('lab/+'), 1, A),
                     says('lab/t', '21.5'),
                     got(A, Ms) )).
-test(to_another_client, Lines == ["lab/x 1 hello"]) :-
+test(message_to_another_client, Lines == ["lab/x 1 hello"]) :-
     shared(Broker),
-    at_broker([], stranger_hears(Broker, ['-t', '#', '-C', 1, '-q', 1,
+    at_broker([], client_receives(Broker, ['-t', '#', '-C', 1, '-q', 1,
                                           '-F', '%t %q %p'],
                                  remote(alpha, publish('lab/x', hello,
                                                        [qos(1)])),
@@ -115,7 +115,7 @@ test(filters, Topics == [a, 'a/b', 'a/b', 'a/b/c', 'x/b']) :-
                     got(A, Ms) )),
     findall(T, member(message(T, _, _), Ms), Topics0),
     msort(Topics0, Topics).
-test(all_subscribers_get_it, Counts == [1,1,1]) :-
+test(all_subscribers_receive_a_message, Counts == [1,1,1]) :-
     at_broker([], ( maplist(reader_of, ['e/x','e/x','e/+'], As),
                     says('e/x', m),
                     maplist(got_count, As, Counts) )).
@@ -128,8 +128,9 @@ test(terms, Ps =@= [_{a:[1,"b",null]}, [1,2], "text", "7", "[no json"]) :-
                     got(A, Ms) )),
     payloads(Ms, Ps0),
     maplist(plain, Ps0, Ps).
-test(in_the_requested_form, Kinds == [ "{\"a\": 1}", "\000\\xff\", 7, "seven",
-                                       "\u00e4" ]) :-
+test(terms_in_the_requested_form,
+     Kinds == [ "{\"a\": 1}", "\000\\xff\", 7, "seven",
+                "\u00e4" ]) :-
     at_broker([],
               ( reader(( subscribe(text, [payload(text)]),
                          subscribe(bytes, [payload(bytes)]),
@@ -161,7 +162,7 @@ test(unsubscribed, Ms == [message(end, "m", [qos(0),retain(false)])]) :-
                            1, A),
                     says(u, m), says(end, m),
                     got(A, Ms) )).
-test(subscribed_again_in_another_way, Ps == ["[1]"]) :-
+test(subscribed_again_with_other_options, Ps == ["[1]"]) :-
     at_broker([], ( reader(( subscribe(w), subscribe(w, [payload(text)]) ),
                            1, A),
                     says(w, '[1]'),
@@ -232,9 +233,9 @@ both_directions(N, [Published,Status,Out,In]) :-
     shared(Broker),
     counter(N, Counter),
     Seconds is 20+N//100,
-    stranger_hears(Broker, ['-t', 'both/out', '-C', N, '-q', 1,
+    client_receives(Broker, ['-t', 'both/out', '-C', N, '-q', 1,
                             '-W', Seconds],
-                   ( stranger_counts(Broker, 'both/in', N, Pid),
+                   ( client_publishes_numbers(Broker, 'both/in', N, Pid),
                      create([ (main :- count(1)),
                               (count(I) :- (   I > N
                                            ->  true
@@ -325,8 +326,9 @@ test(agent_leaving_for_another_process_is_unsubscribed) :-
                   mqtt_stop(Near) ),
                 network_stop(N))),
     assertion(Mail == []).
-test(remaining_agent_gets_it, Ms == [message('stay/x', "m",
-                                             [qos(0),retain(false)])]) :-
+test(remaining_subscriber_gets_the_message,
+     Ms == [message('stay/x', "m",
+                    [qos(0),retain(false)])]) :-
     shared(Broker),
     broker_url(Broker, URL),
     quietly(with_hosts([alpha,beta-[capacity(0)]],
@@ -349,14 +351,14 @@ test(faulty_agent_is_unsubscribed) :-
                               atom_length(_, _)) ], A),
                     joined(A, raised(_)),
                     wait_until(unsubscribed(Broker, 'the/fault'), 10) )).
-test(others_are_still_subscribed, Count == 1) :-
+test(other_agents_are_still_subscribed, Count == 1) :-
     at_broker([], ( reader(subscribe('two/x'), 1, A),
                     create([ (main :- subscribe('two/x')) ], B),
                     joined(B, done),
                     says('two/x', m),
                     got(A, Ms),
                     length(Ms, Count) )).
-test(nothing_is_there_on_other_hosts, Outcome = raised(E)) :-
+test(other_hosts_have_no_connection, Outcome = raised(E)) :-
     shared(Broker),
     broker_url(Broker, URL),
     quietly(with_hosts([alpha,beta],
@@ -399,7 +401,7 @@ again(Broker) :-
 
 :- end_tests(mqtt_agents).
 
-:- begin_tests(mqtt_wrong, [setup(start_shared), cleanup(stop_shared)]).
+:- begin_tests(mqtt_errors, [setup(start_shared), cleanup(stop_shared)]).
 
 test(text_of_all_kinds) :-
     length(Codes, 70000),
@@ -409,11 +411,11 @@ test(text_of_all_kinds) :-
                          ( error_of(Goal, Formal),
                            assertion(Formal \== none),
                            assertion(Goal-Formal = Goal-Expected) ))).
-test(too_big_to_go, E == resource_error(mqtt_payload)) :-
+test(too_large_to_send, E == resource_error(mqtt_payload)) :-
     at_broker([largest(100)], ( numlist(1, 100, Ns),
                                 error_of(publish(a, Ns), E) )).
-test(too_big_to_come, Ms == [ too_big(b, 101),
-                              message(b, "x", [qos(0),retain(false)]) ]) :-
+test(too_large_to_receive, Ms == [ too_big(b, 101),
+                                   message(b, "x", [qos(0),retain(false)]) ]) :-
     length(Codes, 101),
     maplist(=(0'a), Codes),
     atom_codes(Text, Codes),
@@ -432,7 +434,7 @@ test(nan_is_no_json, P == "[NaN]") :-
     at_broker([], ( reader(subscribe(d), 1, A),
                     says(d, '[NaN]'),
                     got(A, [message(d, P, _)]) )).
-test(nor_is_a_number_that_is_too_large, [P,Q] == ["[1e999]", "x"]) :-
+test(too_large_a_number_is_no_json, [P,Q] == ["[1e999]", "x"]) :-
     at_broker([], ( reader(subscribe(d), 2, A),
                     says(d, '[1e999]'), says(d, x),
                     got(A, [message(d, P, _), message(d, Q, _)]) )).
@@ -476,7 +478,7 @@ test(stopped, [A,B] == [gone, existence_error(mqtt, alpha)]) :-
                     error_of(publish(a, b), E),
                     catch(mqtt_stop(alpha), error(B, _), true) )),
     ( E = existence_error(procedure, _) -> A = gone ; A = E ).
-test(no_paho, E == existence_error(python_module, paho)) :-
+test(paho_is_not_installed, E == existence_error(python_module, paho)) :-
     with_tmp_dir(no_paho(E, [])).
 test(publish_times_out_without_a_broker,
      Es == [timeout_error(mqtt(publish), alpha),
@@ -537,18 +539,18 @@ no_paho(E, Messages, Dir) :-
                                           [python(File)]),
                                error(E, _), true)), Messages).
 
-:- end_tests(mqtt_wrong).
+:- end_tests(mqtt_errors).
 
 :- begin_tests(mqtt_brokers).
 
-test(the_document_shows_what_happens, Differences == []) :-
+test(document_shows_the_actual_output, Differences == []) :-
     with_tmp_dir(document(Differences)).
 
-test(stopped_and_started, Ps == ["1","2","3","4"]) :-
+test(broker_is_stopped_and_started, Ps == ["1","2","3","4"]) :-
     with_broker([], B, stopped_and_started(B, Ps)).
-test(what_is_retained_comes_again, Ps == ["1","2"]) :-
+test(retained_message_arrives_again, Ps == ["1","2"]) :-
     with_broker([], B, retained_anew(B, Ps)).
-test(too_much_is_kept, E == resource_error(mqtt_pending)) :-
+test(queued_messages_are_bounded, E == resource_error(mqtt_pending)) :-
     with_broker([], B,
                 with_mqtt(B, [pending(3)],
                           ( broker_signal(B, term),
@@ -556,16 +558,17 @@ test(too_much_is_kept, E == resource_error(mqtt_pending)) :-
                             remote(alpha, ( publish(a, 1), publish(a, 2),
                                             publish(a, 3) )),
                             error_of(publish(a, 4), E) ))).
-test(too_much_of_quality_is_kept, E == resource_error(mqtt_pending)) :-
+test(queued_messages_with_quality_are_bounded,
+     E == resource_error(mqtt_pending)) :-
     with_broker([], B,
                 with_mqtt(B, [pending(3)],
                           ( broker_signal(B, term),
                             wait_until(down, 10),
                             fill(200, E) ))).
-test(not_there_yet, Ps == ["1","2"]) :-
+test(broker_starts_later, Ps == ["1","2"]) :-
     with_broker([], B, not_there_yet(B, Ps)).
-test(a_broker_that_does_not_answer, E == timeout_error(mqtt(publish),
-                                                       alpha)) :-
+test(unresponsive_broker, E == timeout_error(mqtt(publish),
+                                             alpha)) :-
     with_broker([], B,
                 with_mqtt(B, [timeout(3)],
                           ( broker_signal(B, stop),
@@ -575,24 +578,24 @@ test(a_broker_that_does_not_answer, E == timeout_error(mqtt(publish),
 test(last_will, Lines == ["gone bye 1"]) :-
     with_broker([], B,
                 with_mqtt(B, [will(gone, bye, [qos(1),retain(true)])],
-                          stranger_hears(B, ['-t', gone, '-C', 1, '-q', 1,
+                          client_receives(B, ['-t', gone, '-C', 1, '-q', 1,
                                              '-F', '%t %p %q'],
                                          killed, Lines))).
-test(a_helper_that_dies, Ps == ["m"]) :-
+test(helper_dies, Ps == ["m"]) :-
     with_broker([], B,
                 with_mqtt(B, [],
                           ( reader(subscribe(k), 1, A),
                             killed,
                             wait_until(subscribed_twice(B, k), 10),
-                            stranger_says(B, k, ['-m', m]),
+                            client_publishes(B, k, ['-m', m]),
                             got(A, Ms) ))),
     findall(P, member(message(_, P, _), Ms), Ps).
-test(session_that_is_kept, Ps == ["1","2"]) :-
+test(kept_session, Ps == ["1","2"]) :-
     with_broker([], B, kept_session(B, Ps)).
-test(session_that_is_not_kept, Ms == []) :-
+test(discarded_session, Ms == []) :-
     with_broker([], B,
                 ( with_mqtt(B, [client(c)], reader(subscribe(s, [qos(1)]), 0, _)),
-                  stranger_says(B, s, ['-m', 1, '-q', 1]),
+                  client_publishes(B, s, ['-m', 1, '-q', 1]),
                   with_mqtt(B, [client(c)],
                             ( create([ (main :- subscribe(s, [qos(1)]),
                                         ( receive(mqtt-M, 0.3) -> true
@@ -646,7 +649,7 @@ fill(N, E) :-
 stopped_and_started(B, Ps) :-
     with_mqtt(B, [],
               ( remote(alpha, subscribe(s, [qos(1),as(fact)])),
-                stranger_says(B, s, ['-m', 1]),
+                client_publishes(B, s, ['-m', 1]),
                 wait_until(came("1"), 10),
                 broker_signal(B, term),
                 wait_until(down, 10),
@@ -655,7 +658,7 @@ stopped_and_started(B, Ps) :-
                 broker_again(B),
                 wait_until(up, 20),
                 wait_until(subscribed_twice(B, s), 10),
-                stranger_says(B, s, ['-m', 4]),
+                client_publishes(B, s, ['-m', 4]),
                 wait_until(( came("2"), came("3"), came("4") ), 20),
                 remote(alpha, findall(P, sense(mqtt-message(s, P, _)),
                                       Ps0)) )),
@@ -672,7 +675,7 @@ retained_anew(B, Ps) :-
                 broker_signal(B, term),
                 wait_until(down, 10),
                 broker_again(B),
-                stranger_says(B, r, ['-m', 2, '-r', '-q', 1]),
+                client_publishes(B, r, ['-m', 2, '-r', '-q', 1]),
                 got(A, Ms) )),
     findall(P, member(message(_, P, _), Ms), Ps).
 
@@ -702,8 +705,8 @@ kept_session(B, Ps) :-
                           leave(ready(Id)), receive(_-go)) ], A),
                 ready(A),
                 mqtt_stop(alpha) )),
-    stranger_says(B, s, ['-m', 1, '-q', 1]),
-    stranger_says(B, s, ['-m', 2, '-q', 1]),
+    client_publishes(B, s, ['-m', 1, '-q', 1]),
+    client_publishes(B, s, ['-m', 2, '-q', 1]),
     with_mqtt(B, Options, ( reader(subscribe(s, [qos(1)]), 2, C),
                             got(C, Ms) )),
     findall(P, member(message(_, P, _), Ms), Ps).

@@ -277,7 +277,7 @@ sent(exec_nxt(lizzy, demo), [[0,0,n('demo.rxe',20)]]).
 
 :- begin_tests(nxt_lines).
 
-test(what_is_no_request,
+test(invalid_requests,
      Kinds == [bad_request, bad_request, bad_request, bad_request,
                bad_request, bad_request, no_such_port]) :-
     length(Codes, 70000),

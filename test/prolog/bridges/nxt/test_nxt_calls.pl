@@ -16,14 +16,14 @@ with a real robot if there is one.
 
 :- begin_tests(nxt_calls).
 
-test(all_sorts) :-
+test(calls_of_all_kinds) :-
     with_brick(Brick, Port,
                connected(lizzy, Port, [],
                          ( sensors(Brick), motors, files, names,
                            programs ))).
 test(old_names) :-
     with_brick(Brick, Port, old_names(Brick, Port)).
-test(old_names_are_all_there, Missing == []) :-
+test(all_old_names_are_defined, Missing == []) :-
     findall(PI,
             ( old_name(PI),
               \+ ( module_property(typhon_nxt, exports(PIs)),

@@ -30,13 +30,13 @@ error_of(Goal, Formal, Context) :-
 test(no_such_port, E-W == existence_error(nxt_port, Port)-nxt(b, open)) :-
     Port = '/dev/no_such_nxt',
     no_leaks(error_of(nxt_connect(b, Port), E, context(W, _))).
-test(no_process_listens, E == existence_error(nxt_port, Port)) :-
+test(port_without_a_process, E == existence_error(nxt_port, Port)) :-
     free_port(Number),
     format(atom(Port), 'socket://127.0.0.1:~d', [Number]),
     error_of(nxt_connect(b, Port), E, _).
 test(no_such_protocol, E == existence_error(nxt_port, 'foo://x')) :-
     error_of(nxt_connect(b, 'foo://x'), E, _).
-test(no_line, E == nxt_error(open_failed, b)) :-
+test(missing_device, E == nxt_error(open_failed, b)) :-
     project_file('pack.pl', File),
     error_of(nxt_connect(b, File), E, _).
 test(permission) :-
@@ -130,7 +130,7 @@ test(line_lost, E == nxt_error(line_lost, b)) :-
                         ))),
     assertion(memberchk(Later, [ existence_error(nxt_port, Port),
                                  nxt_error(open_failed, b) ])).
-test(line_comes_back) :-
+test(restored_line) :-
     with_brick(Brick, Port,
                connected(b, Port, [],
                          ( nxt_touch(b, 1, _),
@@ -248,7 +248,7 @@ answers(Peer, MilliVolts) :-
     peer_tell(Peer, 'answer 020b00401f'),
     catch(nxt_battery(b, MilliVolts), error(_, _), fail).
 
-test(disconnected_while_one_waits, E == existence_error(nxt_brick, b)) :-
+test(disconnected_during_a_call, E == existence_error(nxt_brick, b)) :-
     with_peer(Peer, Port,
               ( nxt_connect(b, Port, [deadline(60)]),
                 thread_self(Me),
@@ -285,9 +285,9 @@ prolog_dies(Brick, Port) :-
 
 :- end_tests(nxt_helpers).
 
-:- begin_tests(nxt_together).
+:- begin_tests(concurrent_nxt_calls).
 
-test(one_after_the_other, Heard == [ '000b', '000b', '000b', '000b' ]) :-
+test(calls_are_serialized, Heard == [ '000b', '000b', '000b', '000b' ]) :-
     with_peer(Peer, Port,
               connected(b, Port, [deadline(30)],
                         ( forall(between(1, 4, _),
@@ -359,7 +359,7 @@ threads(Goals) :-
     maplist(thread_join, Threads, Statuses),
     forall(member(Status, Statuses), assertion(Status == true)).
 
-:- end_tests(nxt_together).
+:- end_tests(concurrent_nxt_calls).
 
 :- begin_tests(nxt_agents).
 
@@ -375,7 +375,7 @@ test(services, Outcome-MilliVolts == done-[8000]) :-
                                        joined(Agent, Outcome),
                                        tuples_of(alpha, MilliVolts) ))
                         ))).
-test(the_agent_gets_the_error,
+test(agent_gets_the_error,
      Errors == [timeout_error(nxt('GETBATTERYLEVEL'), b)]) :-
     with_peer(_, Port,
               connected(b, Port, [deadline(2)],

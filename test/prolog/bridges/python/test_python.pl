@@ -60,7 +60,7 @@ with_python([], Goal) :-
     call(Goal).
 
 
-test(there_and_back) :-
+test(values_return_unchanged) :-
     Values = [ 1, -7, 1267650600228229401496703205376, 0.5, "text", "", "\u00e4\n\"",
                [], [1,["a"]], _{a:1, b:_{c:[]}}, null, true, false ],
     with_python([], forall(member(V, Values),
@@ -70,7 +70,7 @@ test(kinds, Kinds == ["int", "float", "str", "str", "list", "dict",
                       "NoneType", "bool"]) :-
     with_python([], maplist(kind, [1, 1.0, "s", atom, [], _{}, null, true],
                             Kinds)).
-test(what_is_no_json,
+test(values_without_a_json_form,
      Results =@= [ [1,"a"], [1], "\000\\xff\", [0,1,2], _{'1':"one"}]) :-
     with_python([], maplist(odd, [tuple, set, bytes, range, key], Results0)),
     maplist(untagged, Results0, Results).
@@ -104,7 +104,7 @@ test(a_megabyte, Length == 1000000) :-
     with_python([], ( remote(alpha, big(1000000, Text)),
                       remote(alpha, echo(Text, Text)) )),
     string_length(Text, Length).
-test(the_result_is_compared, fail) :-
+test(result_is_unified, fail) :-
     with_python([], remote(alpha, echo(1, 2))).
 
 kind(Value, Kind) :-
@@ -124,7 +124,7 @@ untagged(Value, Value).
 
 :- begin_tests(python_functions).
 
-test(an_agent_calls, Outcome-Result == done-6) :-
+test(agent_calls_a_function, Outcome-Result == done-6) :-
     with_python([], ( create([ (main :- area(2, 3, R), get_dict(area, R, A),
                             leave(got(A))) ],
                              Agent),
@@ -135,12 +135,12 @@ test(defaults, As == [4, 6, 6]) :-
                       remote(alpha, area(2, 3, A2)),
                       remote(alpha, area(2, 3, cm, A3)) )),
     maplist(area_of, [A1,A2,A3], As).
-test(only_its_own_and_public, Known == []) :-
+test(only_public_functions_of_the_file_are_callable, Known == []) :-
     with_python([],
                 findall(PI, ( member(PI, ['_hidden'/1, dumps/2, named/1,
                                           named/2, 'MET'/1, sleep/2]),
                               known(PI) ), Known)).
-test(elsewhere_they_are_unknown, E == none) :-
+test(functions_are_unknown_on_other_hosts, E == none) :-
     functions(File),
     with_hosts([alpha, beta],
                ( python_start(alpha, File, []),
@@ -149,13 +149,14 @@ test(elsewhere_they_are_unknown, E == none) :-
                  ; E = none ) )).
 test(several_files_share_a_process, [A,B] == [1,2]) :-
     with_tmp_dir(two_files(A, B)).
-test(names_that_agents_know, E-Left == permission_error(define, vocabulary,
-                                                        send/2)-none) :-
+test(name_in_the_vocabulary_is_refused,
+     E-Left == permission_error(define, vocabulary,
+                                send/2)-none) :-
     with_tmp_dir(clash(['def send(x): return x'], [], E, Left)).
-test(names_that_the_system_knows,
+test(name_of_a_system_predicate_is_refused,
      E == permission_error(define, vocabulary, print/2)) :-
     with_tmp_dir(clash(['def print(x): return x'], [], E, _)).
-test(names_that_the_place_knows,
+test(name_defined_in_the_place_is_refused,
      E == permission_error(deliver, procedure, mine/1)) :-
     with_tmp_dir(clash(['def mine(): return 1'], [mine(0)], E, _)).
 test(syntax_error, Class-Left == 'SyntaxError'-none) :-
@@ -185,7 +186,7 @@ test(stopped, [E,Again] == [unknown, 1]) :-
     ( E0 = existence_error(procedure, _) -> E = unknown ; E = E0 ).
 test(stopped_twice, error(existence_error(python, alpha), _)) :-
     with_python([], ( python_stop(alpha), python_stop(alpha) )).
-test(starts_with_a_host_elsewhere, R == [5]) :-
+test(starts_with_a_remote_host, R == [5]) :-
     functions(File),
     setup_call_cleanup(
         network_start(line(2), N, [processes(2)]),
@@ -228,7 +229,7 @@ test(exceptions,
                 python_error('OSError', "no disk") ]) :-
     with_python([], ( error_of(fail(value, so, _), A),
                       error_of(fail(os, "no disk", _), B) )).
-test(the_agent_gets_it, Facts == [python_error('ValueError', "so")]) :-
+test(agent_gets_the_exception, Facts == [python_error('ValueError', "so")]) :-
     with_python([],
                 ( create([ (main :- catch(fail(value, so, _), error(E, _),
                                           true),
@@ -243,7 +244,7 @@ test(timeout, E == timeout_error(python(nap), alpha)) :-
                 listening(( wait_until(( error_of(nap(3, _), E),
                                          E \= helper_died(stuck, _) ), 30),
                             wait_until(again, 30) ), _)).
-test(printing_is_no_answer, R == "done") :-
+test(printed_output_is_no_answer, R == "done") :-
     with_python([], remote(alpha, noise(R))).
 test(crash) :-
     with_python([],
@@ -262,7 +263,7 @@ test(crash) :-
     assertion(F == helper_died(exit(3), python(alpha))),
     assertion(memberchk(warning-typhon(helper_ended(python(alpha), exit(3))),
                         Messages)).
-test(crash_again_and_again, R == 5) :-
+test(repeated_crash, R == 5) :-
     with_python([],
                 listening(( forall(between(1, 3, _),
                                    ( error_of(leave_process(1, _), _),
@@ -277,7 +278,7 @@ test(stuck) :-
                             error_of(echo(1, _), E),
                             wait_until(again, 30) ), _)),
     assertion(E == helper_died(stuck, python(alpha))).
-test(stopped_while_one_waits, E == closed) :-
+test(stopped_during_a_call, E == closed) :-
     functions(File),
     with_hosts([alpha],
                ( python_start(alpha, File, []),
@@ -290,7 +291,7 @@ test(stopped_while_one_waits, E == closed) :-
                  thread_get_message(Me, f(F), [timeout(10)]),
                  thread_join(Thread) )),
     ( F = existence_error(helper, _) -> E = closed ; E = F ).
-test(the_host_stops_while_one_waits, Outcome == disposed) :-
+test(host_stops_during_a_call, Outcome == disposed) :-
     functions(File),
     with_hosts([alpha, beta],
                ( python_start(alpha, File, [timeout(30)]),
@@ -317,9 +318,9 @@ waits :-
 
 :- end_tests(python_faults).
 
-:- begin_tests(python_together).
+:- begin_tests(concurrent_python_calls).
 
-test(many_at_a_time, Outcomes == [done,done,done,done]) :-
+test(many_calls_at_a_time, Outcomes == [done,done,done,done]) :-
     with_python([threads(4)],
                 ( findall(A, ( between(1, 4, _),
                                create([ (main :- meet(true)) ], A) ), As),
@@ -356,9 +357,9 @@ asker(N, Agent) :-
 count(N) :-
     remote(alpha, count(N)).
 
-:- end_tests(python_together).
+:- end_tests(concurrent_python_calls).
 
-:- begin_tests(python_says).
+:- begin_tests(messages_of_python).
 
 test(messages, Numbers == [0,1,2]) :-
     with_python([],
@@ -370,16 +371,16 @@ test(messages, Numbers == [0,1,2]) :-
                                     result(Ns)) ], Agent),
                   joined(Agent, done),
                   agent_result(Agent, Numbers, 5) )).
-test(to_another, R == "hello") :-
+test(message_to_another_agent, R == "hello") :-
     with_python([],
                 ( create([ (main :- receive(python-T), result(T)) ], A),
                   remote(alpha, post_to(A, hello, null)),
                   joined(A, done),
                   agent_result(A, R, 5) )).
-test(to_no_agent, R == 1) :-
+test(message_to_no_agent, R == 1) :-
     with_python([], ( remote(alpha, post_to(missing, hello, null)),
                       remote(alpha, echo(1, R)) )).
-test(one_that_has_left_is_not_followed, Mail == []) :-
+test(moved_agent_is_not_followed, Mail == []) :-
     functions(File),
     with_hosts([alpha, beta],
                ( python_start(alpha, File, []),
@@ -390,7 +391,7 @@ test(one_that_has_left_is_not_followed, Mail == []) :-
                  wait_until(agent_property(A, state(waiting)), 10),
                  remote(alpha, post_to(A, hello, null)),
                  agent_property(A, mailbox(Mail)) )).
-test(too_many, [Got,Dropped] == [10,90]) :-
+test(too_many_messages, [Got,Dropped] == [10,90]) :-
     with_python([queue(10)],
                 ( create([ (main :- post(100, _), receive(_-go), take(0)),
                            (take(N) :- receive(python-M),
@@ -413,14 +414,15 @@ mail(Agent, Count) :-
     agent_property(Agent, mailbox(Mail)),
     length(Mail, Count).
 
-:- end_tests(python_says).
+:- end_tests(messages_of_python).
 
 :- begin_tests(python_payloads).
 
-test(carried_and_delivered, R == [42, 12]) :-
+test(payload_is_carried_and_delivered, R == [42, 12]) :-
     with_tmp_dir(carried(R)).
-test(not_where_it_is_not_allowed, E == permission_error(deliver, python,
-                                                        twice)) :-
+test(payload_is_refused_where_not_allowed,
+     E == permission_error(deliver, python,
+                           twice)) :-
     with_tmp_dir(refused(E)).
 test(undelivered, E == existence_error) :-
     with_tmp_dir(undelivered(E)).
@@ -431,7 +433,7 @@ test(bad_code, Class == 'SyntaxError') :-
 test(no_such_file, error(existence_error(source_sink, _), _)) :-
     with_hosts([alpha], create([ (main :- true) ], _,
                                [payloads(['/no/such.py'])])).
-test(after_a_crash, R == 42) :-
+test(payload_works_after_a_crash, R == 42) :-
     with_tmp_dir(after_crash(R)).
 
 twice(Dir, File) :-

@@ -159,7 +159,7 @@ test(arrays_come_back) :-
     Message.basic_types_values = [First,_,_],
     assertion(First.int8_value == 1).
 
-test(what_a_publisher_keeps_and_what_it_does_not_repeat) :-
+test(latched_message_is_received_and_volatile_one_is_not_repeated) :-
     agent(Agent),
     does(alpha, Agent, ros_subscribe('/kept', Type)),
     assertion(Type == 'std_msgs/msg/String'),
@@ -177,7 +177,7 @@ test(a_call) :-
                                 Response)),
     assertion(Response.success-Response.message == false-"flipped").
 
-test(a_service_that_an_agent_offers) :-
+test(service_offered_by_an_agent) :-
     agent(Agent),
     does(alpha, Agent, ros_offer('/agent/set', 'std_srvs/srv/SetBool', [])),
     does(alpha, Agent, ros_subscribe('/asked', 'std_msgs/String')),
@@ -239,14 +239,14 @@ test(parameters) :-
     wrong(alpha, Agent, ros_set_parameter('/peer', speed, fast), Refused),
     assertion(Refused == ros_error(refused, speed)).
 
-test(what_is_there) :-
+test(lists_topics_and_services) :-
     agent(Agent),
     does(alpha, Agent, ros_topics(Topics)),
     assertion(memberchk('/counted'-'std_msgs/msg/Int32', Topics)),
     does(alpha, Agent, ros_services(Services)),
     assertion(memberchk('/flip', Services)).
 
-test(what_can_go_wrong) :-
+test(errors_are_reported) :-
     agent(Agent),
     forall(wrong_goal(Goal, Expected),
            ( wrong(alpha, Agent, Goal, Formal),
@@ -277,7 +277,7 @@ wrong_goal(ros_call('/flip', 'std_srvs/SetBool', [data=1], _),
 wrong_goal(ros_subscribe('/nowhere', _),
            existence_error(ros_topic, '/nowhere')).
 
-test(an_agent_that_leaves_takes_nothing_along) :-
+test(leaving_agent_loses_its_registrations) :-
     puppet(alpha, Agent),
     does(alpha, Agent, ros_subscribe('/left', 'std_msgs/String')),
     does(alpha, Agent, ros_offer('/left/set', 'std_srvs/SetBool', [])),
@@ -291,7 +291,7 @@ test(an_agent_that_leaves_takes_nothing_along) :-
     wait_until(( remote(alpha, ros_services(Services)),
                  \+ memberchk('/left/set', Services) ), 5).
 
-test(a_dead_node_is_restarted_with_all_registrations) :-
+test(dead_node_is_restarted_with_all_registrations) :-
     agent(Agent),
     does(alpha, Agent, ros_subscribe('/out', 'std_msgs/msg/String')),
     helper_pid(ros(alpha), Pid),
@@ -346,17 +346,17 @@ python(Code, Said) :-
 
 :- begin_tests(ros2_start).
 
-test(what_comes_too_fast_is_counted, Said == "5000 True") :-
+test(overflow_is_counted, Said == "5000 True") :-
     outbox(Code),
     python(Code, Said).
 
-test(the_document_shows_what_happens, Differences == []) :-
+test(document_shows_the_actual_output, Differences == []) :-
     with_tmp_dir(document(Differences)).
 
 with_alpha(Goal) :-
     setup_call_cleanup(host_start(alpha), Goal, host_stop(alpha)).
 
-test(nothing_is_left) :-
+test(no_threads_and_processes_are_left) :-
     no_leaks(with_alpha(( ros_start(alpha, ros2, [node(other)]),
                           remote(alpha, ros_services(Services)),
                           assertion(memberchk('/other/get_parameters',
@@ -367,7 +367,7 @@ test(no_python, error(existence_error(ros_python, '/no/python'))) :-
 test(python_without_ros, error(existence_error(python_module, rclpy))) :-
     quiet(with_alpha(ros_start(alpha, ros2,
                                [python('/usr/bin/python3')]))).
-test(no_name, error(domain_error(ros_name(node), 'a b'))) :-
+test(missing_name, error(domain_error(ros_name(node), 'a b'))) :-
     with_alpha(ros_start(alpha, ros2, [node('a b')])).
 
 :- end_tests(ros2_start).

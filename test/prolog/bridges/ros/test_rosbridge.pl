@@ -74,7 +74,7 @@ test(published_and_received_as_dicts) :-
           gets(alpha, Agent, topic('/chatter', Message)),
           assertion(Message.data == "h\u00e9 \"you\"\n") )).
 
-test(as_terms_in_the_order_of_their_names) :-
+test(published_and_received_as_terms) :-
     on_a_host(Agent, [messages(terms)],
         ( does(alpha, Agent, ros_subscribe('/cmd', 'geometry_msgs/msg/Twist')),
           does(alpha, Agent,
@@ -85,7 +85,7 @@ test(as_terms_in_the_order_of_their_names) :-
           assertion(Message == [ angular=[x=0,y=0,z=1],
                                  linear=[x=0.5,y=0.0,z=0.0] ]) )).
 
-test(the_frames_are_those_of_the_protocol) :-
+test(frames_conform_to_the_protocol) :-
     on_a_host(Agent, [],
         ( does(alpha, Agent, ros_publish('/chatter', 'std_msgs/String',
                                          [data=one])),
@@ -103,7 +103,7 @@ test(the_frames_are_those_of_the_protocol) :-
           assertion(P.topic-P.msg.data == "/chatter"-"one"),
           assertion(\+ said("status", _)) )).
 
-test(two_agents_one_subscription) :-
+test(two_agents_share_one_subscription) :-
     on_a_host(Agent, [],
         ( puppet(alpha, Other),
           does(alpha, Agent, ros_subscribe('/t', 'std_msgs/String')),
@@ -122,7 +122,7 @@ test(two_agents_one_subscription) :-
           aggregate_all(count, said("subscribe", _), Count),
           assertion(Count == 1) )).
 
-test(an_agent_that_leaves_is_unsubscribed) :-
+test(leaving_agent_is_unsubscribed) :-
     on_a_host(Agent, [],
         ( does(alpha, Agent, ros_subscribe('/t', 'std_msgs/String')),
           agent_send(Agent, go(beta)),
@@ -131,13 +131,13 @@ test(an_agent_that_leaves_is_unsubscribed) :-
           wrong(beta, Agent, ros_topics(_), Formal),
           assertion(Formal = existence_error(procedure, _)) )).
 
-test(an_agent_that_ends_is_unsubscribed) :-
+test(ended_agent_is_unsubscribed) :-
     on_a_host(Agent, [],
         ( does(alpha, Agent, ros_subscribe('/t', 'std_msgs/String')),
           agent_send(Agent, end),
           says("unsubscribe", _) )).
 
-test(the_latest_as_a_fact) :-
+test(latest_message_as_a_fact) :-
     on_a_host(Agent, [],
         ( does(alpha, Agent, ros_subscribe('/odom', 'std_msgs/String',
                                            [as(latest)])),
@@ -157,7 +157,7 @@ test(facts_without_an_agent) :-
                                          [data=here])),
           wait_until(remote(alpha, sense(ros-topic('/odom', _))), 5) )).
 
-test(messages_are_for_agents_only,
+test(only_agents_receive_messages,
      error(existence_error(running_agent, here))) :-
     on_a_host(_, [], remote(alpha, ros_subscribe('/t', 'std_msgs/String'))).
 
@@ -199,7 +199,7 @@ test(the_list_of_topics) :-
           assertion(Pairs == [ '/a'-'std_msgs/msg/Bool',
                                '/b'-'std_msgs/String' ]) )).
 
-test(the_type_of_a_topic_that_is_there) :-
+test(type_of_an_existing_topic) :-
     on_a_host(Agent, [],
         ( does(alpha, Agent, ros_publish('/b', 'std_msgs/String', [data=x])),
           does(alpha, Agent, ros_subscribe('/b', Type)),
@@ -232,7 +232,7 @@ test(many_calls_at_a_time) :-
                  ( wait_until(remote(alpha, sense(sum(N, Sum))), 10),
                    assertion(Sum =:= 2*N) )) )).
 
-test(what_can_go_wrong) :-
+test(errors_are_reported) :-
     on_a_host(Agent, [],
         forall(member(Goal-Expected,
                       [ ros_call('/nowhere', 'a/B', [], _)
@@ -278,7 +278,7 @@ test(a_late_answer_is_dropped) :-
           does(alpha, Agent, ros_call('/add_two_ints', 'a/B', [a=1,b=1], R)),
           assertion(R.sum == 2) )).
 
-test(a_service_that_an_agent_offers) :-
+test(service_offered_by_an_agent) :-
     on_a_host(Agent, [],
         ( puppet(alpha, Server),
           does(alpha, Server, ros_offer('/add', 'example_interfaces/AddTwoInts',
@@ -464,22 +464,22 @@ rest_of_header(In) :-
 with_alpha(Goal) :-
     setup_call_cleanup(host_start(alpha), once(Goal), host_stop(alpha)).
 
-:- begin_tests(rosbridge_trouble).
+:- begin_tests(rosbridge_errors).
 
 test(no_server, error(socket_error(econnrefused, _))) :-
     free_port(Port),
     format(atom(URL), 'ws://localhost:~d/', [Port]),
     no_leaks(with_alpha(ros_start(alpha, URL, []))).
 
-test(not_here, error(existence_error(host, gamma))) :-
+test(host_in_no_process, error(existence_error(host, gamma))) :-
     with_alpha(ros_start(gamma, 'ws://localhost:1/', [])).
 test(no_url, error(domain_error(ros, 'http://localhost/'))) :-
     with_alpha(ros_start(alpha, 'http://localhost/', [])).
-test(no_option, error(domain_error(ros_option, speed(1)))) :-
+test(unknown_option, error(domain_error(ros_option, speed(1)))) :-
     with_alpha(ros_start(alpha, 'ws://localhost:1/', [speed(1)])).
 test(not_started, error(existence_error(ros, alpha))) :-
     with_alpha(ros_stop(alpha)).
-test(twice, error(permission_error(start, ros, alpha))) :-
+test(started_twice, error(permission_error(start, ros, alpha))) :-
     with_rosbridge(URL, with_alpha(( ros_start(alpha, URL, []),
                                      ros_start(alpha, URL, []) ))).
 
@@ -497,7 +497,7 @@ test(properties_of_a_host_in_another_process) :-
     assertion(memberchk(connected(true), Ps)),
     assertion(E == existence_error(host, nowhere)).
 
-test(a_program_that_halts_prints_nothing, Said-Status == ""-exit(0)) :-
+test(halting_program_prints_nothing, Said-Status == ""-exit(0)) :-
     with_rosbridge(URL, with_tmp_dir(halted(URL, Said, Status))).
 
 halted(URL, Said, Status, Dir) :-
@@ -525,7 +525,7 @@ test(stopped_and_started_again) :-
           ros_start(alpha, URL, []),
           does(alpha, Agent, ros_subscribe('/t', 'std_msgs/String')) )).
 
-test(a_server_that_returns_gets_all_registrations) :-
+test(reconnected_server_gets_all_registrations) :-
     quiet(on_a_host(Agent, [],
         ( does(alpha, Agent, ros_subscribe('/t', 'std_msgs/String')),
           does(alpha, Agent, ros_publish('/p', 'std_msgs/String', [data=x])),
@@ -542,7 +542,7 @@ test(a_server_that_returns_gets_all_registrations) :-
           gets(alpha, Agent, topic('/t', Message)),
           assertion(Message.data == "y") ))).
 
-test(calls_and_goals_under_way_fail_when_the_server_goes) :-
+test(calls_and_goals_fail_when_the_server_disconnects) :-
     quiet(on_a_host(Agent, [],
         ( does(alpha, Agent, ros_goal('/fibonacci', 'a/F', [order=1000], Id)),
           agent_send(Agent, do(ros_call('/slow', 'a/B', [], _))),
@@ -569,7 +569,7 @@ test(publishing_without_a_server_is_an_error) :-
               says("subscribe", Frame),
               assertion(Frame.topic == "/t") ))))).
 
-test(a_status_reaches_the_agent_concerned) :-
+test(status_reaches_its_agent) :-
     on_a_host(Agent, [],
         ( does(alpha, Agent, ros_publish('/t', 'no_msgs/Such', [data=x])),
           gets(alpha, Agent, error(Text)),
@@ -578,7 +578,7 @@ test(a_status_reaches_the_agent_concerned) :-
           gets(alpha, Agent, error(Text2)),
           assertion(sub_string(Text2, _, _, _, "unknown_type")) )).
 
-test(one_topic_one_type) :-
+test(one_type_per_topic) :-
     on_a_host(Agent, [],
         ( does(alpha, Agent, ros_publish('/t', 'std_msgs/String', [])),
           does(alpha, Agent, ros_publish('/t', 'std_msgs/msg/String', [])),
@@ -587,7 +587,7 @@ test(one_topic_one_type) :-
                                                ros_topic('std_msgs/String'),
                                                '/t')) )).
 
-test(what_is_no_frame_is_passed_over) :-
+test(invalid_frame_is_skipped) :-
     quiet(on_a_host(Agent, [],
         ( length(Codes, 100000),
           maplist(=(0'[), Codes),
@@ -609,7 +609,7 @@ test(what_is_no_frame_is_passed_over) :-
           assertion(Count == 14),
           assertion(ros_property(alpha, connected(true))) ))).
 
-test(what_is_too_long_is_passed_over) :-
+test(too_long_frame_is_skipped) :-
     quiet(on_a_host(Agent, [],
         ( length(Codes, 4 500 000),
           maplist(=(0'x), Codes),
@@ -619,7 +619,7 @@ test(what_is_too_long_is_passed_over) :-
           assertion(R.sum == 2),
           assertion(ros_property(alpha, ignored(1))) ))).
 
-test(a_server_that_does_not_read) :-
+test(server_that_does_not_read) :-
     no_leaks(with_deaf_server(URL, with_alpha(
         ( ros_start(alpha, URL, [deadline(0.2)]),
           length(Codes, 5000),
@@ -636,7 +636,7 @@ test(a_silent_server, error(timeout_error(connect, URL))) :-
     no_leaks(with_silent_port(URL, with_alpha(
         ros_start(alpha, URL, [connect_deadline(0.3)])))).
 
-test(a_million_characters_come_through) :-
+test(million_characters_arrive) :-
     on_a_host(Agent, [],
         ( length(Codes, 1 000 000),
           maplist(=(0'x), Codes),
@@ -647,4 +647,4 @@ test(a_million_characters_come_through) :-
           gets(alpha, Agent, topic('/t', Message)),
           assertion(Message.data == Long) )).
 
-:- end_tests(rosbridge_trouble).
+:- end_tests(rosbridge_errors).

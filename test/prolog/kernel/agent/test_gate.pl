@@ -292,16 +292,16 @@ far_start(start(Hash, Life, State, [], []), Code) :-
 
 :- begin_tests(gate).
 
-test(every_refusal_is_reported_audited_and_an_event, Deviations == []) :-
+test(each_refusal_is_reported_audited_and_an_event, Deviations == []) :-
     no_leaks(with_processes(
                  findall(Path-Reason-Got, deviates(Path, Reason, Got),
                          Deviations))).
-test(requests_that_no_honest_process_makes_are_refused) :-
+test(forged_requests_are_refused) :-
     with_processes(with_tmp_dir(requests_made)).
 
 %   In a process of its own, which may have little address space.
 
-test(clone_bomb_ends_no_process, Out == "well, capacity\n") :-
+test(clone_bomb_does_not_end_the_process, Out == "well, capacity\n") :-
     project_file('test/lib/clone_bomb.pl', File),
     current_prolog_flag(executable, Swipl),
     format(atom(Command), 'ulimit -v 2500000; exec "~w" "~w"', [Swipl, File]),

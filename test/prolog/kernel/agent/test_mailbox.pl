@@ -14,20 +14,21 @@ have inside with_agent/2.
 
 :- begin_tests(mailbox).
 
-test(the_oldest_that_unifies, true(X-Rest == 2-[a-1,b-3])) :-
+test(oldest_unifying_message_is_taken, true(X-Rest == 2-[a-1,b-3])) :-
     filled(me, [a-1,b-2,b-3]),
     mail_take(me, b-X),
     mail_all(me, Rest).
-test(the_others_stay_in_order, [forall(member(N-K, [1-1, 2-1, 2-2, 12-3,
-                                                    16-16, 17-9, 40-40])),
-                                true(Left == Others)]) :-
+test(other_messages_keep_their_order,
+     [forall(member(N-K, [1-1, 2-1, 2-2, 12-3,
+                          16-16, 17-9, 40-40])),
+      true(Left == Others)]) :-
     numlist(1, N, Numbers),
     findall(x-I, member(I, Numbers), All),
     filled(me, All),
     mail_take(me, x-K),
     mail_all(me, Left),
     findall(x-I, ( member(I, Numbers), I =\= K ), Others).
-test(nothing_unifies, true(Rest == [a-1])) :-
+test(no_message_unifies, true(Rest == [a-1])) :-
     filled(me, [a-1]),
     \+ mail_take(me, b-_),
     mail_all(me, Rest).
@@ -35,19 +36,19 @@ test(no_mailbox, true(All-List == []-[])) :-
     \+ mail_take(unknown, _),
     mail_all(unknown, All),
     mail_list(unknown, List).
-test(peeking_removes_nothing, true(Twice == [[1,2],[1,2]])) :-
+test(peek_keeps_the_message, true(Twice == [[1,2],[1,2]])) :-
     filled(me, [1,2]),
     mail_list(me, First),
     mail_all(me, Second),
     Twice = [First,Second].
-test(older_ones_come_back_first, true(All == [1,2,3,4])) :-
+test(older_messages_are_put_back_first, true(All == [1,2,3,4])) :-
     filled(me, [3,4]),
     mail_back(me, [1,2]),
     mail_all(me, All).
-test(leaves_no_queue) :-
+test(no_queue_is_left) :-
     no_leaks(( filled(me, [1,2]),
                mail_all(me, _) )).
-test(others_that_wait_are_not_disturbed, true(Length-Waiting == 5000-8)) :-
+test(other_waiting_messages_are_not_copied, true(Length-Waiting == 5000-8)) :-
     forall(between(1, 7, I),
            ( N is 60*I*I,
              numlist(1, N, Long),
@@ -57,7 +58,7 @@ test(others_that_wait_are_not_disturbed, true(Length-Waiting == 5000-8)) :-
     taken_again(200, [], Length),
     mail_all(me, Mail),
     length(Mail, Waiting).
-test(each_once_while_others_receive, true(Bad == [])) :-
+test(each_message_is_received_once, true(Bad == [])) :-
     busy_boxes(4, 8000, Bad).
 
 :- end_tests(mailbox).

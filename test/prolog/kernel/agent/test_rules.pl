@@ -35,10 +35,10 @@ asked(Agent, Y) :-
 
 :- begin_tests(rules_of_agents).
 
-test(of_the_beginning, true(Y == at(1))) :-
+test(initial_rules_travel, true(Y == at(1))) :-
     rule(Rule),
     with_tmp_dir(travelled([same/2], [facts([Rule])], [], Y)).
-test(added_later, true(Y == at(1))) :-
+test(added_rules_travel, true(Y == at(1))) :-
     rule(Rule),
     with_tmp_dir(travelled([same/2], [], [Rule], Y)).
 

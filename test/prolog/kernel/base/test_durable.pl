@@ -19,7 +19,7 @@
 %   The facts of each table, with any values, come back from their items as they
 %   were, in their order.
 
-test(facts_come_back_from_their_items,
+test(facts_are_restored_from_their_items,
      [forall(fact_kind(Kind)), Restored == Facts]) :-
     emptied(Kind),
     findall(Fact, ( between(1, 50, _), random_fact(Kind, Fact) ), Facts),
@@ -54,10 +54,10 @@ restored(Kind, Form, Items, Dumped) :-
              forgotten(Kind, Key, N, Term) ),
            true).
 
-test(item_of_no_table_is_not_restored, fail) :-
+test(item_of_an_unknown_table_is_ignored, fail) :-
     durable_restore(no_such_kind, key, 0, term).
 
-test(item_of_another_shape_is_not_restored, fail) :-
+test(item_of_another_arity_is_ignored, fail) :-
     durable_restore(outcome, key, 0, no_pair).
 
 fact_kind(Kind) :-

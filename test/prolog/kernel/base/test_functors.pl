@@ -25,25 +25,25 @@ lost(Name) :-
     functor(Again, Name, 1),
     Again \= Term.
 
-:- begin_tests(functors_are_the_same_for_all_threads,
+:- begin_tests(functors,
                [cleanup(retractall(made(_, _)))]).
 
-test(table_is_reserved_for_many, true(Free >= 12000)) :-
+test(table_is_reserved_for_many_functors, true(Free >= 12000)) :-
     functors_room,
     statistics(functors, Count),
     next_power(Count, Power),
     Free is Power-Count.
-test(a_second_time_makes_none, true(Count1-Count0 =< 1)) :-
+test(second_reservation_adds_none, true(Count1-Count0 =< 1)) :-
     statistics(functors, Count0),
     functors_room,
     statistics(functors, Count1).
-test(a_process_has_it_before_it_can_have_threads,
+test(functor_table_is_reserved_when_the_library_loads,
      Status-Out == exit(0)-"free") :-
     project_file('prolog/typhon.pl', Typhon),
     run_swipl([ '-g', 'statistics(functors, N), N > 0x4001, write(free)',
                 '-t', halt, Typhon ],
               [timeout(60)], Status, Out, _).
-test(four_threads_make_some, Lost == []) :-
+test(concurrent_threads_lose_no_functors, Lost == []) :-
     numlist(1, 4, Threads),
     maplist([I,T]>>thread_create(test_functors:make(I), T), Threads, Ids),
     maplist([T]>>thread_join(T, true), Ids),
@@ -52,4 +52,4 @@ test(four_threads_make_some, Lost == []) :-
 next_power(Count, Power) :-
     Power is 1<<(msb(Count)+1).
 
-:- end_tests(functors_are_the_same_for_all_threads).
+:- end_tests(functors).

@@ -25,7 +25,7 @@ seen(Goal, Out) :-
 
 :- begin_tests(on_demand).
 
-test(a_plain_host_has_no_code_of_options, Out == "[]") :-
+test(plain_host_loads_no_option, Out == "[]") :-
     seen('host_start(a), agent_create(clauses([(:- agent(x, [])), main]), A), \c
           agent_join(A, done, 5), \c
           findall(M, ( member(M, [ typhon_networks, typhon_store, \c
@@ -37,37 +37,37 @@ test(a_plain_host_has_no_code_of_options, Out == "[]") :-
                                    typhon_spying ]), \c
                        module_property(M, file(_)) ), Ms), \c
           print(Ms)', Out).
-test(a_plain_host_loads_no_large_library, Out == "[],0") :-
+test(plain_host_loads_no_large_library, Out == "[],0") :-
     seen('host_start(a), \c
           ( predicate_property(\'$autoload\':library_index(_, _, _), \c
                                number_of_clauses(N)) -> true ; N = 0 ), \c
           findall(M, ( member(M, [ process, predicate_options, readutil ]), \c
                        module_property(M, file(_)) ), Ms), \c
           print((Ms,N))', Out).
-test(an_option_of_a_host_loads_its_code, Out == "guarded") :-
+test(option_of_a_host_loads_its_code, Out == "guarded") :-
     seen('host_start(a, [policy(guarded)]), \c
           module_property(typhon_guard, file(_)), \c
           module_property(typhon_quotas, file(_)), write(guarded)', Out).
-test(so_does_a_change_of_options, Out == "guarded") :-
+test(change_of_options_loads_the_code, Out == "guarded") :-
     seen('host_start(a), host_change(a, policy(guarded)), \c
           module_property(typhon_guard, file(_)), write(guarded)', Out).
-test(mistyped_options_are_compared_with_those_not_loaded,
+test(mistyped_options_are_compared_with_unloaded_ones,
      true(sub_string(Out, _, _, _, "did you mean policy?"))) :-
     seen('catch(host_start(a, [polici(x)]), E, true), \c
           \'$messages\':translate_message(E, Lines, []), \c
           print_message_lines(user_output, \'\', Lines)', Out).
-test(what_an_option_takes_is_checked, Out == "type_error(atom,1)") :-
+test(values_of_unloaded_options_are_checked, Out == "type_error(atom,1)") :-
     seen('catch(host_start(a, [policy(1)]), error(E, _), print(E))', Out).
-test(settings_can_be_set_before, Out == "7,7") :-
+test(settings_can_be_set_before_loading, Out == "7,7") :-
     seen('set_setting(typhon_watch_senders:events, 7), \c
           setting(typhon_watch_senders:events, A), host_start(a), \c
           watch(a, [_]>>true, W), unwatch(W), \c
           findall(B, setting(typhon_watch_senders:events, B), Bs), \c
           atomic_list_concat([A|Bs], (\',\'), All), write(All)', Out).
-test(settings_keep_old_names, Out == "7") :-
+test(old_names_of_settings_are_accepted, Out == "7") :-
     seen('set_setting(typhon_telling:events, 7), \c
           setting(typhon_watch_senders:events, A), write(A)', Out).
-test(a_peer_watches_first, Out == "started") :-
+test(watch_by_a_peer_loads_its_code, Out == "started") :-
     seen('host_start(a), host_property(a, address(Address)), \c
           format(atom(There), "host_start(b), watch(~q, [E]>>true, W), \c
                                unwatch(W), write(started), host_stop(b)", \c
@@ -78,7 +78,7 @@ test(a_peer_watches_first, Out == "started") :-
                          [stdout(pipe(In))]), \c
           read_string(In, _, Said), write(Said), \c
           module_property(typhon_watch_senders, file(_))', Out).
-test(many_threads_use_a_part_first, Out == "[true]") :-
+test(many_threads_load_a_part_at_once, Out == "[true]") :-
     seen('host_start(a), \c
           findall(T, ( between(1, 8, _), \c
                        thread_create(( watch(a, [_]>>true, W), \c

@@ -70,15 +70,15 @@ ends(Thread) :-
 
 :- begin_tests(server).
 
-test(messages_come_in_order, true(List == [begun,a,b])) :-
+test(messages_arrive_in_order, true(List == [begun,a,b])) :-
     serving(Server, ( server_cast(Server, add(a)),
                       server_cast(Server, add(b)),
                       list(Server, List) )).
-test(timeout_comes_when_nothing_else_does, true(List == [begun,a,timeout])) :-
+test(timeout_occurs_when_the_queue_is_empty, true(List == [begun,a,timeout])) :-
     serving(Server, ( server_cast(Server, soon(a)),
                       wait_until(test_server:timeout, 5),
                       list(Server, List) )).
-test(message_takes_the_place_of_a_timeout, true(List == [begun,a,b])) :-
+test(message_precedes_the_timeout, true(List == [begun,a,b])) :-
     message_queue_create(Gate),
     serving(Server, ( server_cast(Server, wait(Gate)),
                       server_cast(Server, soon(a)),
@@ -87,7 +87,7 @@ test(message_takes_the_place_of_a_timeout, true(List == [begun,a,b])) :-
                       list(Server, _),
                       list(Server, List) )),
     message_queue_destroy(Gate).
-test(error_of_a_call_is_that_of_its_caller, true(List == [begun,a])) :-
+test(error_of_a_call_is_raised_in_the_caller, true(List == [begun,a])) :-
     serving(Server,
             ( server_cast(Server, add(a)),
               catch(server_call(Server, raise(x), 5, _),
@@ -119,15 +119,15 @@ test(aborted_thread_is_replaced_and_its_queue_kept,
                         list(Server, List) ), Messages)),
     message_queue_destroy(Gate),
     Messages = [error-typhon(server_ended(test))].
-test(stop_comes_after_what_was_sent_before, true(List == [b,a,begun])) :-
+test(stop_follows_earlier_messages, true(List == [b,a,begun])) :-
     serving(Server, ( server_cast(Server, add(a)),
                       server_cast(Server, add(b)) )),
     ended(List).
 test(stop_twice) :-
     serving(Server, server_stop(Server)).
-test(nothing_is_sent_to_one_that_was_stopped, fail) :-
+test(send_to_a_stopped_server_is_ignored, fail) :-
     serving(Server, ( server_stop(Server), server_cast(Server, add(a)) )).
-test(call_of_one_that_was_stopped, error(existence_error(server, _))) :-
+test(call_of_a_stopped_server, error(existence_error(server, _))) :-
     serving(Server, ( server_stop(Server), list(Server, _) )).
 test(server_stops_itself, true(Answer == stopped)) :-
     serving(Server, server_call(Server, stop, 5, Answer)).
@@ -139,7 +139,7 @@ test(leave_does_not_wait, true(List == [a,begun])) :-
                       thread_send_message(Gate, go) )),
     message_queue_destroy(Gate),
     ended(List).
-test(call_that_a_stop_overtakes, error(existence_error(server, _))) :-
+test(call_overtaken_by_a_stop, error(existence_error(server, _))) :-
     message_queue_create(Gate),
     serving(Server,
             ( server_cast(Server, wait(Gate)),

@@ -37,15 +37,15 @@ end_all :-
 closed(Stream) :-
     close(Stream, [force(true)]).
 
-:- begin_tests(one_process_begins_after_the_other, [cleanup(end_all)]).
+:- begin_tests(process_creation, [cleanup(end_all)]).
 
-test('each has its pipes for itself, whichever thread begins it') :-
+test(concurrent_processes_do_not_share_pipes) :-
     numlist(1, 6, Numbers),
     concurrent_forall(member(N, Numbers), begun(N), [threads(6)]),
     findall(In-Out, echo(_, In, Out), Pipes),
     length(Pipes, 120),
     forall(member(In-Out, Pipes), ended(In, Out)).
-test('no program', error(existence_error(source_sink, path(no_such)))) :-
+test(missing_program, error(existence_error(source_sink, path(no_such)))) :-
     spawn(path(no_such), [], []).
 
-:- end_tests(one_process_begins_after_the_other).
+:- end_tests(process_creation).

@@ -9,7 +9,7 @@ test(dict_is_a_tree) :-
     dict_pairs(Dict, tag, [key-f(x)]),
     is_tree(Dict, 10).
 
-test(shared_parts_count_each_time, fail) :-
+test(shared_subterms_are_counted_each_time, fail) :-
     shared(40, Term),
     is_tree(Term, 1 000 000).
 

@@ -80,7 +80,7 @@ test(same_port_again, true(P1 == P2)) :-
                                     address(beta, B),
                                     host_stop(beta)),
                  atomic_list_concat([_,P], :, B), atom_number(P, P2) )).
-test(a_port_of_its_own, true([P2,Q] == [P,P])) :-
+test(own_port, true([P2,Q] == [P,P])) :-
     free_port(P),
     with_hosts([alpha],
                setup_call_cleanup(host_start(beta, [port(P)]),
@@ -92,21 +92,21 @@ test(a_port_of_its_own, true([P2,Q] == [P,P])) :-
                                     listened_to(P) ),
                                   host_stop(beta))),
     \+ listened_to(P).
-test(a_port_of_its_own_free_at_once) :-
+test(own_port_is_reused_at_once) :-
     free_port(P),
     with_hosts([alpha],
                forall(between(1, 3, _),
                       ( host_start(beta, [port(P)]),
                         listened_to(P),
                         host_stop(beta) ))).
-test(a_port_of_its_own_in_use, error(socket_error(eaddrinuse, _))) :-
+test(own_port_in_use, error(socket_error(eaddrinuse, _))) :-
     with_hosts([alpha],
                setup_call_cleanup(
                    ( tcp_socket(S), tcp_bind(S, '127.0.0.1':P),
                      tcp_listen(S, 5) ),
                    host_start(beta, [port(P)]),
                    tcp_close_socket(S))).
-test(agents_between_ports_of_a_process, true(O-Hops == done-2)) :-
+test(agents_hop_between_ports_of_a_process, true(O-Hops == done-2)) :-
     free_port(P),
     with_hosts([alpha, beta-[port(P)]],
                ( address(beta, B),
@@ -127,7 +127,8 @@ test(port_in_use, error(socket_error(eaddrinuse, _))) :-
                  ( tcp_socket(S), tcp_bind(S, localhost:P), tcp_listen(S, 5) ),
                  host_start(alpha, [port(P)]),
                  tcp_close_socket(S))).
-test(port_in_use_says_what_to_do, true(sub_atom(Text, _, _, _, 'port(0)'))) :-
+test(error_for_a_port_in_use_suggests_a_fix,
+     true(sub_atom(Text, _, _, _, 'port(0)'))) :-
     setup_call_cleanup(
         ( tcp_socket(S), tcp_bind(S, localhost:P), tcp_listen(S, 5) ),
         catch(host_start(alpha, [port(P)]), error(_, context(_, Text)), true),
@@ -143,18 +144,19 @@ test(wrong_types,
                         hop_time(uniform(a,b)), seed(x), bind(1)])),
       error(type_error(_, _))]) :-
     host_start(alpha, [O]).
-test(name_is_no_address, [ forall(member(Name, ['a@b', ''])),
-                           error(domain_error(host_name, Name)) ]) :-
+test(address_is_not_accepted_as_a_name,
+     [ forall(member(Name, ['a@b', ''])),
+       error(domain_error(host_name, Name)) ]) :-
     host_start(Name).
 test(name_unbound, error(instantiation_error)) :-
     host_start(_).
-test(nothing_is_left_of_a_start_that_failed, error(existence_error(_, _))) :-
+test(failed_start_leaves_nothing, error(existence_error(_, _))) :-
     no_leaks(host_start(alpha, [consult(no_such_file_anywhere)])).
-test(started_after_a_start_that_failed) :-
+test(started_after_a_failed_start) :-
     catch(host_start(alpha, [consult(no_such_file_anywhere)]),
           error(existence_error(_, _), _), true),
     with_hosts([alpha], true).
-test(stop_what_is_not_there, error(existence_error(host, alpha))) :-
+test(stop_of_a_missing_host, error(existence_error(host, alpha))) :-
     host_stop(alpha).
 test(stop_by_address) :-
     with_hosts([alpha], ( address(alpha, A), host_stop(A) )).
@@ -196,7 +198,7 @@ test(place_is_a_module, true(current_module(M))) :-
     with_hosts([alpha],
                ( host_property(alpha, place(M)), assertion(current_module(M)) )),
     set_module(M:class(temporary)).
-test(one_answer_to_one_question,
+test(properties_are_deterministic,
      [ forall(member(P, [ address(_), state(_), capacity(_), load(_),
                           neighbours(_), place(_), hop_time(in, _),
                           hop_time(out, _) ])) ]) :-
@@ -262,7 +264,7 @@ test(tokens, true([O1,O2] == [refused(token), done])) :-
                ( host_change(beta, tokens([7])),
                  visit(beta, [], O1),
                  visit(beta, [tokens([7])], O2) )).
-test(tokens_no_more, true([O1,O2] == [refused(token), done])) :-
+test(tokens_can_be_removed, true([O1,O2] == [refused(token), done])) :-
     with_hosts([alpha, beta-[tokens([7])]],
                ( visit(beta, [], O1),
                  host_change(beta, tokens([])),
@@ -274,7 +276,7 @@ test(capacity, true([O1,O2,C] == [refused(capacity), done, 3])) :-
                  host_change(beta, capacity(3)),
                  visit(beta, [], O2),
                  host_property(beta, capacity(C)) )).
-test(more_run_at_a_time) :-
+test(concurrency_can_be_raised) :-
     with_queues(with_hosts([alpha-[concurrency(1)]],
                            ( hold(6, Agents),
                              began(1),
@@ -283,7 +285,7 @@ test(more_run_at_a_time) :-
                              host_change(alpha, concurrency(inf)),
                              began(3),
                              go_on(Agents) ))).
-test(fewer_run_at_a_time) :-
+test(concurrency_can_be_lowered) :-
     with_queues(with_hosts([alpha-[concurrency(3)]],
                            ( hold(6, Agents),
                              began(3),
@@ -305,7 +307,7 @@ test(unknown_option, error(domain_error(host_option, colour(red)))) :-
     with_hosts([alpha], host_change(alpha, colour(red))).
 test(wrong_type, error(type_error(_, -1))) :-
     with_hosts([alpha], host_change(alpha, capacity(-1))).
-test(what_cannot_change,
+test(options_that_cannot_change,
      [ forall(member(O, [port(1), place(user), clock(virtual)])),
        error(permission_error(change, host_option, O)) ]) :-
     with_hosts([alpha], host_change(alpha, O)).
@@ -316,13 +318,13 @@ test(unknown_host, error(existence_error(host, nowhere))) :-
 
 :- begin_tests(links).
 
-test(both_ways, true(A-B == [BA]-[AA])) :-
+test(link_is_symmetric, true(A-B == [BA]-[AA])) :-
     with_hosts([alpha,beta],
                ( address(alpha, AA), address(beta, BA),
                  link(alpha, BA),
                  host_property(alpha, neighbours(A)),
                  host_property(beta, neighbours(B)) )).
-test(once_is_enough, true(L == 1)) :-
+test(second_link_has_no_effect, true(L == 1)) :-
     with_hosts([alpha,beta],
                ( link(alpha, beta), link(beta, alpha), link(alpha, beta),
                  host_property(alpha, neighbours(Ns)), length(Ns, L) )).
@@ -331,15 +333,15 @@ test(unlink, true(A-B == []-[])) :-
                ( link(alpha, beta), unlink(beta, alpha), unlink(alpha, beta),
                  host_property(alpha, neighbours(A)),
                  host_property(beta, neighbours(B)) )).
-test(to_itself, error(domain_error(other_host, alpha))) :-
+test(link_to_itself, error(domain_error(other_host, alpha))) :-
     with_hosts([alpha], link(alpha, alpha)).
-test(to_a_missing_host, error(existence_error(host, nowhere))) :-
+test(link_to_a_missing_host, error(existence_error(host, nowhere))) :-
     with_hosts([alpha], link(alpha, nowhere)).
 test(stopped_hosts_are_no_neighbours, true(A == [])) :-
     with_hosts([alpha,beta],
                ( link(alpha, beta), host_stop(beta),
                  host_property(alpha, neighbours(A)) )).
-test(many_threads, true(L == 8)) :-
+test(links_made_by_many_threads, true(L == 8)) :-
     findall(H, ( between(1, 8, I), atom_concat(h, I, H) ), Hs),
     with_hosts([hub|Hs],
                ( concurrent_maplist([H]>>forall(between(1, 20, _),
@@ -368,7 +370,7 @@ test(capacity_is_freed, R == ok) :-
                  agent_dispose(A),
                  wait_until(host_property(alpha, load(0)), 5),
                  try(R) )).
-test(never_more_than_capacity, true(Ok-L == 10-10)) :-
+test(capacity_is_never_exceeded, true(Ok-L == 10-10)) :-
     with_hosts([alpha-[capacity(10)]],
                ( findall(x, between(1, 8, _), Xs),
                  concurrent_maplist([_,N]>>( findall(R,
@@ -430,11 +432,11 @@ overlap([_-U|Is]) :-
     ;   overlap(Is)
     ).
 
-test(one_at_a_time, true((\+ overlap(Is), length(Is, 12)))) :-
+test(one_agent_at_a_time, true((\+ overlap(Is), length(Is, 12)))) :-
     intervals([concurrency(1)], Is).
 test(blocking_goals_overlap_without_a_limit) :-
     with_queue(here, with_queue(go, with_hosts([alpha], meet(8)))).
-test(blocking_goals_wait_for_each_other, true(S >= 0.4)) :-
+test(blocking_goals_are_serialized_by_the_limit, true(S >= 0.4)) :-
     elapsed(blocked([concurrency(1)], 8), S).
 test(blocking_goals_two_at_a_time, true(S >= 0.2)) :-
     elapsed(blocked([concurrency(2)], 8), S).
@@ -475,7 +477,7 @@ block :-
     thread_self(Me),
     \+ thread_get_message(Me, never, [timeout(0.05)]).
 
-test(a_limited_host_does_not_hold_up_others, O == done) :-
+test(limited_host_does_not_delay_others, O == done) :-
     with_hosts([alpha-[concurrency(1)],beta],
                ( create([(main :- take(stop), !), (main :- main)], Busy),
                  create([main], A, [host(beta)]),
@@ -491,7 +493,7 @@ test(waiting_agents_do_not_count, O == done) :-
                  wait_state(S, sleeping),
                  create([main], A),
                  joined(A, O) )).
-test(the_limit_holds_after_an_abort, true((O1 == done, \+ overlap(Is)))) :-
+test(limit_holds_after_an_abort, true((O1 == done, \+ overlap(Is)))) :-
     with_hosts([alpha-[concurrency(1)]],
                ( create([(main :- throw(x))], A0),
                  listening(joined(A0, raised(x)), _),
@@ -517,7 +519,7 @@ busy(F, File) :-
     with_hosts([alpha-[consult([File])]],
                ( stays([(main :- busy, assertz(s(1)))], A), facts(A, F) )).
 
-test(each_host_has_its_own, F == [s(1),s(2)]) :-
+test(each_host_has_its_own_place, F == [s(1),s(2)]) :-
     in_tmp_file([':- dynamic count/1.', 'count(0).'], plunit_places:counts(F)).
 
 counts(F, File) :-
@@ -528,7 +530,7 @@ counts(F, File) :-
                                  count(Y), assertz(s(Y)))], A),
                  facts(A, F) )).
 
-test(agents_cannot_see_it_elsewhere,
+test(place_is_invisible_on_other_hosts,
      true(F = [s(existence_error(procedure, _))])) :-
     in_tmp_file(['height(1).'], plunit_places:elsewhere(F)).
 
@@ -539,7 +541,7 @@ elsewhere(F, File) :-
                                        assertz(s(E))))], A),
                  facts(A, F) )).
 
-test(the_agent_comes_first, F == [s(mine)]) :-
+test(predicates_of_the_agent_come_first, F == [s(mine)]) :-
     in_tmp_file(['height(theirs).'], plunit_places:first(F)).
 
 first(F, File) :-
@@ -559,7 +561,7 @@ service(M) :-
     assertz(M:hidden(1)),
     M:export(M:answer/1).
 
-test(only_what_a_service_exports,
+test(only_exported_predicates_are_services,
      true(F = [s(existence_error(procedure, _))])) :-
     service(test_service_2),
     with_hosts([alpha-[services([test_service_2])]],
@@ -582,7 +584,7 @@ test(place_module_outlives_the_host, true(X == 1)) :-
     with_hosts([alpha-[place(test_place_2)]], true),
     call(test_place_2:hidden(X)).
 
-test(what_cannot_be_delivered_changes_nothing,
+test(refused_payload_changes_nothing,
      true(Ps-Es == [1]-[permission_error(modify, static_procedure, write/1),
                         type_error(callable, 1)])) :-
     with_place(P, ( place_deliver(P, payload(x, [p/1], [p(1)]), _),
@@ -592,7 +594,7 @@ test(what_cannot_be_delivered_changes_nothing,
                     findall(X, P:p(X), Ps),
                     \+ catch(P:r(_), error(existence_error(_, _), _),
                              fail) )).
-test(a_payload_is_replaced_without_a_gap, true(S == true)) :-
+test(payload_is_replaced_atomically, true(S == true)) :-
     with_place(P, ( place_deliver(P, payload(x, [p/1, q/0], [p(0), q]), _),
                     thread_create(test_host:reads_some(P, 0, 0), T),
                     forall(between(1, 5000, I),
@@ -636,19 +638,19 @@ test(leave_sense_take, F == [s([1,2]),s(1),s(2),s(none)]) :-
                                  ( take(p(_)) -> true ; assertz(s(none)) ))],
                        Agent),
                  facts(Agent, F) )).
-test(stays_on_its_host, F == [s(none)]) :-
+test(tuple_stays_on_its_host, F == [s(none)]) :-
     with_hosts([alpha,beta],
                ( stays([(main :- leave(p(1)), move(beta),
                                  ( sense(p(_)) -> true ; assertz(s(none)) ))],
                        Agent),
                  facts(Agent, F) )).
-test(sense_before_anything_was_left, F == [s(none)]) :-
+test(sense_in_an_empty_tuple_space, F == [s(none)]) :-
     with_hosts([alpha],
                ( stays([(main :- ( sense(_) -> true ; assertz(s(none)) ))],
                        Agent),
                  facts(Agent, F) )).
-test(what_cannot_be_left, true(F = [s(type_error(mobile_term, _)),
-                                    s(instantiation_error)])) :-
+test(terms_that_cannot_be_left, true(F = [s(type_error(mobile_term, _)),
+                                          s(instantiation_error)])) :-
     with_hosts([alpha],
                ( stays([(main :- current_output(S),
                                  catch(leave(p(S)), error(E, _),
@@ -710,7 +712,7 @@ test(hosts_share_a_clock, true(abs(A-B) < 500)) :-
     get_time(Now),
     with_hosts([alpha-[clock(Now, 100)],beta-[clock(Now, 100)]],
                ( remote(alpha, now(A)), remote(beta, now(B)) )).
-test(rate_must_go_forward, error(domain_error(clock_rate, 0))) :-
+test(rate_must_be_positive, error(domain_error(clock_rate, 0))) :-
     no_leaks(host_start(alpha, [clock(0, 0)])).
 
 %   Not a hundred times that.
@@ -768,7 +770,7 @@ asked_in(Caller, Goal) :-
 
 :- begin_tests(stopping).
 
-test(three_hundred_times, true((T1 == T0, Q1 == Q0, M1 =< M0+2))) :-
+test(three_hundred_starts_and_stops, true((T1 == T0, Q1 == Q0, M1 =< M0+2))) :-
     with_hosts([alpha], true),
     footprint(T0, Q0, M0, F0),
     forall(between(1, 300, _), ( host_start(alpha), host_stop(alpha) )),
@@ -855,7 +857,7 @@ test(stubborn, [ forall(( stubborn(Kind, Clauses), Kind \== reading )),
                            wait_state(A, running),
                            elapsed(host_stop(alpha), S),
                            agent_join(A, O, 10) ))).
-test(has_ended_when_its_host_has_stopped, O == disposed) :-
+test(agent_has_ended_when_its_host_has_stopped, O == disposed) :-
     setup_call_cleanup(
         wrap_predicate(typhon_ending:report_end(_, _, _), slow, Told,
                        ( sleep(0.4), Told )),
@@ -907,7 +909,7 @@ test(others_go_on_when_one_host_is_stopped, O == done) :-
                  agent_send(A, go),
                  host_stop(alpha),
                  joined(A, O) ))).
-test(agents_on_their_way_are_not_harmed) :-
+test(agents_in_flight_are_not_harmed) :-
     with_hosts([alpha,beta],
                forall(between(1, 20, _),
                       ( create([(main :- move(beta), receive(_-go))], A),

@@ -30,7 +30,7 @@ said(Agent, Colour) :-
 
 :- begin_tests(place_make).
 
-test(running_agents_see_what_has_changed) :-
+test(running_agents_see_changed_files) :-
     with_tmp_dir(changes).
 
 changes(Dir) :-

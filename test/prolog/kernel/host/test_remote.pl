@@ -14,7 +14,7 @@ Between processes: test_processes.pl.
 
 :- begin_tests(remote).
 
-test(bindings, true(X-Y == 3-abc)) :-
+test(bindings_are_returned, true(X-Y == 3-abc)) :-
     with_hosts([alpha], remote(alpha, ( X is 1+2, atom_concat(a, bc, Y) ))).
 test(failure, [fail]) :-
     with_hosts([alpha], remote(alpha, fail)).
@@ -26,12 +26,12 @@ test(exceptions, throws(oops)) :-
     with_hosts([alpha], remote(alpha, throw(oops))).
 test(by_address, true(X == 1)) :-
     with_hosts([alpha], ( address(alpha, A), remote(A, X = 1) )).
-test(in_the_place, true(P == Place)) :-
+test(goal_runs_in_the_place, true(P == Place)) :-
     with_hosts([alpha],
                ( host_property(alpha, place(Place)),
                  remote(alpha, ( assertz(p(1)), context_module(P) )),
                  assertion(predicate_property(Place:p(_), dynamic)) )).
-test(of_each_host_its_own, true(L-M == [a]-[b])) :-
+test(each_host_has_its_own_place, true(L-M == [a]-[b])) :-
     with_hosts([alpha,beta],
                ( remote(alpha, leave(a)), remote(beta, leave(b)),
                  remote(alpha, findall(X, sense(X), L)),
@@ -42,11 +42,11 @@ test(tuple_space, true(X == 2)) :-
                  remote(alpha, take(p(1))), remote(alpha, sense(p(X))) )).
 test(vocabulary_of_a_host, true(N-L == []-0)) :-
     with_hosts([alpha], remote(alpha, ( neighbours(N), host_load(L), here(_) ))).
-test(no_agent_is_self, error(existence_error(running_agent, here))) :-
+test(remote_goal_has_no_self, error(existence_error(running_agent, here))) :-
     with_hosts([alpha], remote(alpha, self(_))).
-test(in_a_module_of_its_own, true(X == c)) :-
+test(qualified_goal, true(X == c)) :-
     with_hosts([alpha], remote(alpha, lists:last([a,b,c], X))).
-test(refused, error(permission_error(remote, host, alpha))) :-
+test(refused_remote_goal, error(permission_error(remote, host, alpha))) :-
     with_hosts([alpha-[remote(false)]], remote(alpha, true)).
 test(unknown_host, error(existence_error(host, nowhere))) :-
     with_hosts([alpha], remote(nowhere, true)).
@@ -54,15 +54,15 @@ test(unbound_host, error(instantiation_error)) :-
     with_hosts([alpha], remote(_, true)).
 test(unbound_goal, error(instantiation_error)) :-
     with_hosts([alpha], remote(alpha, _)).
-test(no_goal, error(type_error(callable, 3))) :-
+test(not_callable, error(type_error(callable, 3))) :-
     with_hosts([alpha], remote(alpha, 3)).
 test(unreachable, error(host_unreachable('gamma@127.0.0.1:1'))) :-
     with_hosts([alpha], remote('gamma@127.0.0.1:1', true)).
-test(inside_remote, true(X == 7)) :-
+test(nested_remote, true(X == 7)) :-
     with_hosts([alpha,beta],
                remote(alpha, ( typhon:remote(beta, leave(q(7))),
                                typhon:remote(beta, take(q(X))) ))).
-test(context_comes_back, true(H1 == A)) :-
+test(error_context_is_returned, true(H1 == A)) :-
     with_hosts([alpha,beta],
                ( address(alpha, A),
                  remote(alpha, ( catch(typhon:remote(beta, throw(x)), x, true),

@@ -117,7 +117,7 @@ test(grows_when_workers_are_blocked, N == 40) :-
                  forall(between(1, 40, _), thread_send_message(Q, go)) )),
     count(N),
     message_queue_destroy(Q).
-test(never_more_than_the_most, true(Most-N == 8-20)) :-
+test(pool_never_exceeds_its_maximum, true(Most-N == 8-20)) :-
     message_queue_create(Q),
     scheduling([typhon_scheduler:max_workers=8],
                ( forall(between(1, 20, I),
@@ -129,7 +129,7 @@ test(never_more_than_the_most, true(Most-N == 8-20)) :-
                  wait_until(test_scheduler:count(20), 10) )),
     count(N),
     message_queue_destroy(Q).
-test(shrinks_when_there_is_nothing_to_do, N == 2) :-
+test(shrinks_when_idle, N == 2) :-
     message_queue_create(Q),
     scheduling([typhon_scheduler:idle_seconds=0.05],
                ( forall(between(1, 20, I),
@@ -139,7 +139,7 @@ test(shrinks_when_there_is_nothing_to_do, N == 2) :-
                  wait_until(workers_count(2), 10),
                  workers_count(N) )),
     message_queue_destroy(Q).
-test(grows_and_shrinks_again_and_again) :-
+test(grows_and_shrinks_repeatedly) :-
     message_queue_create(Q),
     scheduling([typhon_scheduler:idle_seconds=0.01],
                forall(between(1, 10, _),
@@ -150,7 +150,7 @@ test(grows_and_shrinks_again_and_again) :-
                         forall(between(1, 16, _), thread_send_message(Q, go)),
                         wait_until(workers_count(2), 10) ))),
     message_queue_destroy(Q).
-test(work_goes_on_beside_a_blocked_pool, N == 104) :-
+test(work_continues_beside_a_blocked_pool, N == 104) :-
     message_queue_create(Q),
     scheduling(( forall(between(1, 4, I),
                         scheduler_call(test_scheduler:blocked(Q, b(I)))),
@@ -180,7 +180,7 @@ test(limit, true(Most-N == 2-30)) :-
                  wait_until(test_scheduler:count(30), 10) )),
     count(N),
     message_queue_destroy(Q).
-test(unlimited_again, N == 30) :-
+test(limit_is_removed, N == 30) :-
     message_queue_create(Q),
     scheduling(( scheduler_limit(host, 1),
                  forall(between(1, 30, I),
@@ -246,7 +246,7 @@ test(others_run_beside_many_that_block, true(N == 30)) :-
                    count(N) ), Messages),
     Messages = [warning-typhon(workers_blocked(8, Names))],
     assertion(( Names = [Name|_], atom(Name) )).
-test(like_agents_wait_in_a_full_pool, true(( Most =< 24, N == 40 ))) :-
+test(similar_agents_wait_in_a_full_pool, true(( Most =< 24, N == 40 ))) :-
     few(Few),
     with_blocked([typhon_scheduler:blocked_workers=16|Few], 40,
                  ( wait_until(was_told(warning, typhon(pool_full(
@@ -256,7 +256,7 @@ test(like_agents_wait_in_a_full_pool, true(( Most =< 24, N == 40 ))) :-
     count(N),
     length(Messages, Told),
     assertion(Told =< 4).
-test(a_goal_that_blocks_is_named, true(Names == [blocked])) :-
+test(blocking_goal_is_named, true(Names == [blocked])) :-
     message_queue_create(Q),
     listening(scheduling([ typhon_scheduler:min_workers=1,
                            typhon_scheduler:max_workers=1,
@@ -352,7 +352,7 @@ threads(Threads) :-
     ;   Threads = []
     ).
 
-test(stopping_needs_none) :-
+test(stopping_needs_no_thread) :-
     with_hosts([alpha,beta],
                ( create([on_message(_, _)], _),
                  create([(main :- sleep(100))], _),
@@ -360,10 +360,10 @@ test(stopping_needs_none) :-
                                    setup_call_cleanup(true, true,
                                                       host_stop(alpha)),
                                    \+ host_property(_, state(_)) )) )).
-test(the_scheduler_starts_whole_or_not_at_all,
+test(scheduler_start_is_atomic,
      error(resource_error(_))) :-
     no_leaks(without_threads(host_start(alpha))).
-test(sleepers_wake_and_the_pool_says_why_it_does_not_grow,
+test(sleepers_wake_and_the_pool_reports_why_it_does_not_grow,
      true(O-F == done-done)) :-
     message_queue_create(_, [alias(test_never)]),
     listening(with_settings([typhon_scheduler:blocked_seconds=0.1],
@@ -391,7 +391,7 @@ create_blocked(Count) :-
            create([ (main :- thread_get_message(test_never, _)),
                     of(Count, I) ], _)).
 
-test(a_timer_that_ends_comes_back, true(O == done)) :-
+test(ended_timer_is_restarted, true(O == done)) :-
     listening(with_hosts([alpha],
                          ( create([(main :- sleep(0.5))], A),
                            without_threads(
@@ -449,46 +449,46 @@ same_twice(T) :-
     Later is T+0.05,
     alarm_set(Later, test(y), u).
 
-test(goes_off, true(E == [x-t])) :-
+test(alarm_goes_off, true(E == [x-t])) :-
     scheduling(( at(0.05, T),
                  alarm_set(T, test(x), t),
                  wait_until(test_scheduler:happened(x-t), 5),
                  get_time(Now),
                  assertion(Now >= T) )),
     findall(X, event(X), E).
-test(in_the_order_of_time, true(E == [1-t,2-t,3-t,4-t,5-t])) :-
+test(alarms_go_off_in_order_of_time, true(E == [1-t,2-t,3-t,4-t,5-t])) :-
     in_time(not_in_order, 5, E).
-test(in_the_past, true(E == [x-t])) :-
+test(alarm_in_the_past, true(E == [x-t])) :-
     scheduling(( alarm_set(0, test(x), t),
                  wait_until(test_scheduler:happened(x-t), 5) )),
     findall(X, event(X), E).
-test(several_at_one_time, true(N == 10)) :-
+test(several_alarms_at_one_time, true(N == 10)) :-
     scheduling(( at(0.02, T),
                  forall(between(1, 10, I), alarm_set(T, test(I), t)),
                  wait_until(test_scheduler:count(10), 5) )),
     count(N).
-test(an_earlier_one_comes_later, true(E == [early-t,late-t])) :-
+test(earlier_alarm_is_set_later, true(E == [early-t,late-t])) :-
     in_time(earlier_later, 2, E).
-test(thousands, true(N == 5000)) :-
+test(thousands_of_alarms, true(N == 5000)) :-
     scheduling(( at(0.2, T),
                  forall(between(1, 5000, I),
                         ( S is T+(I mod 97)*0.001, alarm_set(S, test(I), t) )),
                  wait_until(test_scheduler:count(5000), 10) )),
     count(N).
-test(those_that_are_over_are_forgotten, true(( N =< 1000, I =< 1000 ))) :-
+test(expired_alarms_are_forgotten, true(( N =< 1000, I =< 1000 ))) :-
     scheduling(( at(1000, T),
                  forall(between(1, 20000, J),
                         ( S is T+J, alarm_set(S, test(J), over) )),
                  typhon_timer:alarm_count(N, I) )).
-test(those_that_count_are_kept) :-      % of the last the timer hears later
+test(valid_alarms_are_kept) :-      % of the last the timer hears later
     scheduling(( at(1000, T),
                  forall(between(1, 5000, J),
                         ( S is T+J, alarm_set(S, test(J), t) )),
                  wait_until(( typhon_timer:alarm_count(N, I),
                               N-I == 5000-5000 ), 5) )).
-test(the_same_twice, true(E == [x-t,y-u])) :-
+test(same_alarm_twice, true(E == [x-t,y-u])) :-
     in_time(same_twice, 2, E).
-test(a_hook_that_throws, true(E == [x-t])) :-
+test(hook_that_raises, true(E == [x-t])) :-
     scheduling(listening(( at(0.05, T), at(0.1, U),
                            alarm_set(T, test(y), t(_)),
                            alarm_set(U, test(x), t),
@@ -496,13 +496,13 @@ test(a_hook_that_throws, true(E == [x-t])) :-
                          Messages)),
     memberchk(error-typhon(alarm(oops)), Messages),
     findall(X, event(X), E).
-test(the_end_of_time, true(E == [x-t])) :-
+test(alarm_in_the_far_future, true(E == [x-t])) :-
     scheduling(( alarm_set(1.0e300, test(never), t),
                  at(0.05, T),
                  alarm_set(T, test(x), t),
                  wait_until(test_scheduler:happened(x-t), 5) )),
     findall(X, event(X), E).
-test(the_timer_survives_what_is_thrown_at_it, true(N == 100)) :-
+test(timer_survives_thrown_exceptions, true(N == 100)) :-
     scheduling(listening(( at(0.2, T),
                            forall(between(1, 100, I),
                                   ( S is T+I*0.001,
@@ -510,7 +510,7 @@ test(the_timer_survives_what_is_thrown_at_it, true(N == 100)) :-
                                     timer_signal(throw(I)) )),
                            wait_until(test_scheduler:count(100), 5) ), _)),
     count(N).
-test(another_timer_takes_over, true(N == 100)) :-
+test(aborted_timer_is_replaced, true(N == 100)) :-
     scheduling(listening(( at(0.3, T),
                            forall(between(1, 100, I),
                                   ( S is T+I*0.001,
@@ -520,7 +520,7 @@ test(another_timer_takes_over, true(N == 100)) :-
                                         was_told(error, typhon(server_ended(timer))) ),
                                       20) ), _)),
     count(N).
-test(a_full_stack, true(E == [x-t])) :-
+test(stack_overflow, true(E == [x-t])) :-
     setup_call_cleanup(
         ( current_prolog_flag(stack_limit, Limit),
           set_prolog_flag(stack_limit, 1 000 000) ),
@@ -533,7 +533,7 @@ test(a_full_stack, true(E == [x-t])) :-
         set_prolog_flag(stack_limit, Limit)),
     memberchk(warning-typhon(no_index(_)), Messages),
     findall(X, event(X), E).
-test(answered_agents_leave_none, true(N =< 1000)) :-
+test(answered_agents_leave_no_alarms, true(N =< 1000)) :-
     listening(answered(N), _).
 
 answered(N) :-
@@ -551,7 +551,7 @@ answered(N) :-
                  joined(A, done),
                  agent_dispose(B),
                  typhon_timer:alarm_count(N, _) )).
-test(none_go_off_after_the_stop, true(N == 0)) :-
+test(no_alarm_goes_off_after_the_stop, true(N == 0)) :-
     scheduling(( at(1000, T), alarm_set(T, test(x), t) )),
     count(N).
 
@@ -598,27 +598,27 @@ waits :-
     thread_self(Me),
     \+ thread_get_message(Me, never, [timeout(0.006)]).
 
-:- begin_tests(quick).
+:- begin_tests(short_turns).
 
-test(short) :-
+test(short_turns) :-
     forall(between(1, 100, _), turn_if_short(a, short)).
-test(long_once) :-
+test(one_long_turn) :-
     some_kind(b, long_once).
-test(waits_once) :-
+test(one_waiting_turn) :-
     turn_if_short(d, waits),
     turn_if_short(d, short).
-test(waits_twice_in_a_row) :-
+test(two_waiting_turns_in_a_row) :-
     turn_if_short(e, waits),
     turn_if_short(e, waits),
     \+ turn_if_short(e, short).
-test(waits_now_and_then) :-
+test(occasional_waiting_turns) :-
     some_kind(f, now_and_then).
-test(longer_memory_stays) :-
+test(longer_memory_is_kept) :-
     turns_not_short(g, 60),
     turns_not_short(g, 0),
     \+ turn_if_short(g, short).
-test(is_forgotten) :-
+test(memory_is_forgotten) :-
     turns_not_short(h, 0),
     turn_if_short(h, short).
 
-:- end_tests(quick).
+:- end_tests(short_turns).

@@ -54,12 +54,12 @@ elapsed(Goal, Seconds) :-
 
 :- begin_tests(birth).
 
-test(done, O-M == done-[]) :-
+test(agent_ends_with_outcome_done, O-M == done-[]) :-
     ends([main], O, M).
 test(failure_is_reported,
      true(O-M = failed-[warning-typhon(agent_failed(_, _))])) :-
     ends([(main :- fail)], O, M).
-test(nothing_to_do_but_wait, F == []) :-
+test(agent_without_main_waits, F == []) :-
     lives([], F).
 test(agent_without_main_is_resident_from_birth, States == [resident]) :-
     with_hosts([alpha],
@@ -78,17 +78,17 @@ test(handler_in_the_state_only, S == resident) :-
                                               S = resident ),
                  agent_send(A, stop),
                  joined(A, disposed) )).
-test(name_of_the_program, N == test) :-
+test(name_is_that_of_the_program, N == test) :-
     with_hosts([alpha],
                ( create([main], A), joined(A, _),
                  atomic_list_concat([N|_], '.', A) )).
-test(name_given, N == scout) :-
+test(given_name, N == scout) :-
     with_hosts([alpha],
                ( create([main], A, [name(scout)]), joined(A, _),
                  atomic_list_concat([N|_], '.', A) )).
-test(name_that_is_none, [ forall(member(Name, ['', 'a@b', 'a\e[31mb',
-                                               'a\nb', 'a\u202eb'])),
-                          error(domain_error(agent_name, Name)) ]) :-
+test(invalid_name, [ forall(member(Name, ['', 'a@b', 'a\e[31mb',
+                                          'a\nb', 'a\u202eb'])),
+                     error(domain_error(agent_name, Name)) ]) :-
     with_hosts([alpha], create([main], _, [name(Name)])).
 test(id_contains_the_home, true(sub_atom(A, _, _, 0, Home))) :-
     with_hosts([alpha],
@@ -133,7 +133,7 @@ test(facts_of_the_program_itself,
 test(facts_that_cannot_travel, error(type_error(mobile_term, _))) :-
     with_hosts([alpha],
                ( current_output(S), create([main], _, [facts([s(S)])]) )).
-test(faulty_facts, error(type_error(callable, 3))) :-
+test(invalid_facts, error(type_error(callable, 3))) :-
     with_hosts([alpha], create([main], _, [facts([3])])).
 test(refused_by_a_full_host_at_creation,
      error(move_refused(_, capacity))) :-
@@ -143,7 +143,7 @@ test(refused_without_a_token_at_creation, error(move_refused(_, token))) :-
 test(admitted_with_a_token, O == done) :-
     with_hosts([alpha-[tokens([red,green])]],
                ( create([main], A, [tokens([blue,green])]), joined(A, O) )).
-test(no_token_fits_all, error(move_refused(_, token))) :-
+test(token_must_match_the_host, error(move_refused(_, token))) :-
     with_hosts([alpha-[tokens([red])]], create([main], _, [tokens([_])])).
 test(ids_are_unique, N == 400) :-
     with_hosts([alpha,beta], unique_ids(N)).
@@ -196,10 +196,10 @@ test(only_agents_have_a_self,
 
 :- begin_tests(moves).
 
-test(move_and_go_on, F == [s(1),s(2),s(3)]) :-
+test(move_and_continue, F == [s(1),s(2),s(3)]) :-
     lives([(main :- assertz(s(1)), move(beta), assertz(s(2)),
                     move(alpha), assertz(s(3)))], F).
-test(move_to_where_it_stands, F == [s(0)]) :-
+test(move_to_the_current_host, F == [s(0)]) :-
     lives([(main :- move(alpha), hops(N), assertz(s(N)))], F).
 test(move_by_address, true(H == B)) :-
     with_hosts([alpha,beta],
@@ -224,13 +224,13 @@ test(admitted_with_a_token, F == [s(there)]) :-
     with_hosts([alpha,beta-[tokens([red])]],
                lives_([(main :- move(beta), assertz(s(there)))],
                       [tokens([red])], F)).
-test(no_process_at_that_address, true(F = [s(host_unreachable(X)),s(X)])) :-
+test(no_process_at_the_address, true(F = [s(host_unreachable(X)),s(X)])) :-
     lives([ (main :- move_to('gamma@127.0.0.1:1')),
             (move_to(X) :- catch(move(X), error(E, _), assertz(s(E))),
                            assertz(s(X))) ], F).
-test(an_unbound_host, true(F = [s(instantiation_error)])) :-
+test(move_to_an_unbound_host, true(F = [s(instantiation_error)])) :-
     lives([(main :- catch(move(_), error(E, _), assertz(s(E))))], F).
-test(what_cannot_travel, true(F = [s(mobile_term),s(alpha)])) :-
+test(goal_that_cannot_travel, true(F = [s(mobile_term),s(alpha)])) :-
     lives([ (main :- current_output(S),
                      catch(( move(beta), write(S, x) ),
                            error(type_error(E, _), _), assertz(s(E))),
@@ -242,14 +242,14 @@ test(state_that_cannot_travel, true(F = [r(mobile_term)|_])) :-
                            assertz(r(E)))) ], F).
 %   It would be the variable alone that waits.
 
-test(an_attributed_variable_cannot_wait,
+test(attributed_variable_in_a_waiting_goal_is_refused,
      [ forall(member(Stop, [sleep(1), receive(_), receive(_, 1), clone(_)])),
        true(F == [s(mobile_term)]) ]) :-
     lives([ (main :- freeze(X, true),
                      catch(( Stop, E = none ), error(type_error(E, _), _),
                            true),
                      assertz(s(E)), X = 1) ], F).
-test(an_attributed_variable_may_be_forgotten, true(F == [s(2)])) :-
+test(unused_attributed_variable_is_ignored, true(F == [s(2)])) :-
     lives([ (main :- two(X), sleep(0.01), assertz(s(X))),
             (two(X) :- freeze(X, true), freeze(_, true), X = 2) ], F).
 test(all_kinds_of_terms_travel, true(F == Terms)) :-
@@ -297,7 +297,7 @@ test(hosts_are_empty_afterwards, L1-L2 == 0-0) :-
                               host_property(beta, load(0)) ), 5),
                  host_property(alpha, load(L1)),
                  host_property(beta, load(L2)) )).
-test(there_and_back_without_pause, O == done) :-
+test(thousand_round_trips_without_pause, O == done) :-
     with_hosts([alpha,beta],
                ( create([ (main :- s(0), !),
                           (main :- move(beta), move(alpha), retract(s(N)),
@@ -341,7 +341,7 @@ test(fork_elsewhere, true(H1-H2-Cs == A-B-[s(clone(P)),s(P)])) :-
                  agent_property(P, host(H1)),
                  agent_property(C, host(H2)),
                  agent_property(C, facts(Cs)) )).
-test(each_has_state_of_its_own, Fs == [[s(1),s(clone)],[s(1),s(parent)]]) :-
+test(clone_has_its_own_state, Fs == [[s(1),s(clone)],[s(1),s(parent)]]) :-
     with_hosts([alpha],
                ( create([on_message(_, _), s(1),
                          (main :- clone(W), functor(W, N, 1), assertz(s(N)))],
@@ -406,14 +406,14 @@ test(payloads_are_cloned, F == [s(7),s(7)]) :-
                         [payloads([payload(seven, [p/1], [p(7)])])]),
                  wait_until(two_residents(P, C), 10),
                  findall(s(X), ( member(A, [P,C]), fact_of(A, s(X)) ), F) )).
-test(order_from_outside, true(F1-F2 == [s(1)]-[s(1)])) :-
+test(clone_order_from_outside, true(F1-F2 == [s(1)]-[s(1)])) :-
     with_hosts([alpha],
                ( create([on_message(_, _), s(1)], A),
                  agent_clone(A, C),
                  wait_state(C, resident),
                  agent_property(A, facts(F1)),
                  agent_property(C, facts(F2)) )).
-test(order_to_one_that_waits, Os == [done,done]) :-
+test(clone_order_to_a_waiting_agent, Os == [done,done]) :-
     with_hosts([alpha],
                ( create([(main :- receive(_-go))], A),
                  wait_state(A, waiting),
@@ -421,7 +421,7 @@ test(order_to_one_that_waits, Os == [done,done]) :-
                  wait_state(C, waiting),
                  maplist([X]>>agent_send(X, go), [A,C]),
                  maplist(joined, [A,C], Os) )).
-test(order_refused, error(move_refused(_, capacity))) :-
+test(clone_order_is_refused, error(move_refused(_, capacity))) :-
     with_hosts([alpha-[capacity(1)]],
                ( create([on_message(_, _)], A),
                  agent_clone(A, _) )).
@@ -455,9 +455,9 @@ test(sleepers_wake_in_order, F == [1,2,3,4,5]) :-
                  remote(alpha, findall(N, sense(up(N)), F)) )).
 test(sleep_for_no_time, O == done) :-
     ends([(main :- sleep(0), sleep(-1))], O, []).
-test(sleep_of_something, true(O = raised(error(type_error(_, soon), _)))) :-
+test(invalid_sleep_time, true(O = raised(error(type_error(_, soon), _)))) :-
     ends([(main :- sleep(soon))], O, _).
-test(sleep_for_something_unknown,
+test(unbound_sleep_time,
      true(O = raised(error(instantiation_error, _)))) :-
     ends([(main :- sleep(_))], O, _).
 test(state_is_sleeping, S == sleeping) :-
@@ -465,7 +465,7 @@ test(state_is_sleeping, S == sleeping) :-
                ( create([(main :- sleep(1000))], A),
                  wait_state(A, sleeping),
                  agent_property(A, state(S)) )).
-test(receive_the_oldest, F == [s(1),s(2),s(3)]) :-
+test(oldest_message_is_received, F == [s(1),s(2),s(3)]) :-
     with_hosts([alpha],
                ( mailed([(main :- receive(_-go), get, get, get),
                          (get :- receive(_-X), assertz(s(X)))],
@@ -475,7 +475,8 @@ test(receive_selects, F == [s(b(2)),s(a(1)),s(c(3))]) :-
                ( mailed([(main :- receive(_-go), get(b(_)), get(_), get(_)),
                          (get(X) :- receive(_-X), assertz(s(X)))],
                         [a(1),b(2),c(3),go], F) )).
-test(others_wait_for_on_message, F == [s(got(go)),s(heard(1)),s(heard(2))]) :-
+test(other_messages_are_kept_for_on_message,
+     F == [s(got(go)),s(heard(1)),s(heard(2))]) :-
     with_hosts([alpha],
                ( agent_create(clauses([(:- agent(t, [state([s/1])])),
                                        (main :- receive(_-go),
@@ -504,12 +505,12 @@ test(timeout_takes_its_time, true(S >= 0.1)) :-
                elapsed(( create([(main :- \+ fail, ( receive(_, 0.1) -> true
                                                    ; true ))], A),
                          joined(A, done) ), S)).
-test(poll, F == [s(1),s(none)]) :-
+test(zero_timeout_polls, F == [s(1),s(none)]) :-
     with_hosts([alpha],
                mailed([(main :- receive(_-go), get, get),
                        (get :- receive(_-X, 0) -> assertz(s(X))
                              ; assertz(s(none)))], [1,go], F)).
-test(a_timeout_that_is_not_needed, true((F == [s(x)], S < 10))) :-
+test(message_before_the_timeout, true((F == [s(x)], S < 10))) :-
     with_hosts([alpha],
                ( create([on_message(_, _),
                          (main :- receive(_-X, 1000), assertz(s(X)))], A),
@@ -517,15 +518,15 @@ test(a_timeout_that_is_not_needed, true((F == [s(x)], S < 10))) :-
                  agent_send(A, x),
                  elapsed(wait_state(A, resident), S),
                  agent_property(A, facts(F)) )).
-test(for_ever, Fs == [[s(x)],[s(x)],[s(x)]]) :-
+test(receive_without_a_timeout, Fs == [[s(x)],[s(x)],[s(x)]]) :-
     with_hosts([alpha],
                findall(F, ( member(T, [inf,infinite,1.0Inf]),
                             mailed([(main :- r(T), receive(_-X, T),
                                              assertz(s(X)), retract(r(T))),
                                     r(T)], [x], F) ), Fs)).
-test(timeout_of_something, true(O = raised(error(type_error(_, soon), _)))) :-
+test(invalid_timeout, true(O = raised(error(type_error(_, soon), _)))) :-
     ends([(main :- receive(_, soon))], O, _).
-test(an_alarm_of_long_ago, F == [s(late),s(x)]) :-
+test(expired_timeout_does_not_affect_later_receives, F == [s(late),s(x)]) :-
     with_hosts([alpha],
                ( create([on_message(_, _),
                          (main :- ( receive(_-no, 0.05) -> true
@@ -535,34 +536,34 @@ test(an_alarm_of_long_ago, F == [s(late),s(x)]) :-
                  agent_send(A, x),
                  wait_state(A, resident),
                  agent_property(A, facts(F)) )).
-test(a_handler_that_fails,
+test(failing_handler,
      true(M-F = [warning-typhon(message_failed(_, user, bad))]-[s(good)])) :-
     with_hosts([alpha],
                listening(mailed([(on_message(_, good) :- assertz(s(good)))],
                                 [bad,good], F), M)).
-test(a_handler_that_fails_after_a_move,
+test(failing_handler_after_a_move,
      true(M-F = [warning-typhon(message_undone(_, user, bad, _))]
                 -[s(good)])) :-
     with_hosts([alpha,beta],
                listening(mailed([(on_message(_, bad) :- move(beta), fail),
                                  (on_message(_, good) :- assertz(s(good)))],
                                 [bad,good], F), M)).
-test(a_handler_that_raises, true(O = raised(oops))) :-
+test(raising_handler, true(O = raised(oops))) :-
     with_hosts([alpha],
                listening(( create([(on_message(_, _) :- throw(oops))], A),
                            wait_state(A, resident),
                            agent_send(A, hello),
                            joined(A, O) ), _)).
-test(sent_to_an_unbound, F == [s(instantiation_error)]) :-
+test(send_to_an_unbound_recipient, F == [s(instantiation_error)]) :-
     lives([(main :- catch(send(_, x), error(E, _), assertz(s(E))))], F).
-test(sent_to_an_unbound_somewhere, F == [s(instantiation_error)]) :-
+test(send_to_an_unbound_host, F == [s(instantiation_error)]) :-
     lives([(main :- catch(send(at(_, alpha), x), error(E, _),
                           assertz(s(E))))], F).
-test(a_handler_is_called_once_for_each, F == [s(1),s(2)]) :-
+test(handler_is_called_once_per_message, F == [s(1),s(2)]) :-
     with_hosts([alpha],
                mailed([(on_message(_, X) :- member(_, [a,b]),
                                             assertz(s(X)))], [1,2], F)).
-test(a_handler_that_waits, F == [s(1),s(2)]) :-
+test(handler_that_waits, F == [s(1),s(2)]) :-
     with_hosts([alpha],
                mailed([(on_message(_, a) :- receive(_-c), assertz(s(1))),
                        (on_message(_, b) :- assertz(s(2)))], [a,b,c], F)).
@@ -602,8 +603,8 @@ test(dispose_in_a_handler, O == disposed) :-
                ( create([(on_message(_, _) :- dispose)], A),
                  agent_send(A, x),
                  joined(A, O) )).
-test(raised_is_kept, true(O-S-M = raised(oops)-faulty(oops)
-                          -[error-typhon(faulty(A, oops, _))])) :-
+test(raised_term_is_kept, true(O-S-M = raised(oops)-faulty(oops)
+                               -[error-typhon(faulty(A, oops, _))])) :-
     with_hosts([alpha],
                listening(( create([s(1), (main :- throw(oops))], A),
                            joined(A, O),
@@ -611,14 +612,14 @@ test(raised_is_kept, true(O-S-M = raised(oops)-faulty(oops)
                            agent_property(A, facts([s(1)])) ), M)).
 test(raised_error, true(O = raised(error(type_error(evaluable, _), _)))) :-
     ends([(main :- _ is foo+1)], O, _).
-test(raised_what_cannot_travel, true(O = raised(_))) :-
+test(raised_term_that_cannot_travel, true(O = raised(_))) :-
     ends([(main :- current_output(S), throw(S))], O, _).
-test(faulty_is_not_counted, L == 0) :-
+test(faulty_agent_takes_no_capacity, L == 0) :-
     with_hosts([alpha],
                listening(( create([(main :- throw(oops))], A),
                            joined(A, _),
                            host_property(alpha, load(L)) ), _)).
-test(faulty_can_be_disposed_of, O == raised(oops)) :-
+test(faulty_agent_can_be_disposed_of, O == raised(oops)) :-
     with_hosts([alpha],
                listening(( create([(main :- throw(oops))], A),
                            joined(A, _),
@@ -626,7 +627,7 @@ test(faulty_can_be_disposed_of, O == raised(oops)) :-
                            gone(A),
                            joined(A, O),
                            host_property(alpha, load(0)) ), _)).
-test(faulty_are_bounded, N == 3) :-
+test(faulty_agents_are_bounded, N == 3) :-
     with_settings([typhon_creation:faulty=3],
         with_hosts([alpha],
                    listening(( findall(A, ( between(1, 10, _),
@@ -640,7 +641,7 @@ faulty(N) :-
     findall(A, agent_property(A, state(faulty(_))), As),
     length(As, N).
 
-test(outcome_of_one_that_is_long_gone, O == done) :-
+test(outcome_of_a_discarded_agent, O == done) :-
     with_hosts([alpha],
                ( create([main], A),
                  wait_until(gone(A), 10),
@@ -662,7 +663,7 @@ test(join_times_out, true(S >= 0.1)) :-
 test(join_without_waiting, O == timeout) :-
     with_hosts([alpha],
                ( create([on_message(_, _)], A), agent_join(A, O, 0) )).
-test(join_for_ever, O == disposed) :-
+test(join_without_a_timeout, O == disposed) :-
     with_hosts([alpha],
                ( create([on_message(_, _)], A),
                  thread_create(( agent_join(A, O0, inf),
@@ -679,11 +680,11 @@ test(join_unknown_agent,
                  catch(agent_join(Id, _, 10), error(existence_error(agent, Id), _),
                        throw(error(existence_error(agent,
                                        'x.1@alpha@127.0.0.1:1'), _))) )).
-test(join_what_is_no_id, error(existence_error(agent, foo))) :-
+test(join_of_an_invalid_id, error(existence_error(agent, foo))) :-
     with_hosts([alpha], agent_join(foo, _, 10)).
-test(join_an_unbound, error(instantiation_error)) :-
+test(join_of_an_unbound_id, error(instantiation_error)) :-
     agent_join(_, _, 10).
-test(join_with_a_foolish_timeout, error(type_error(number, soon))) :-
+test(join_with_an_invalid_timeout, error(type_error(number, soon))) :-
     with_hosts([alpha], ( create([main], A), agent_join(A, _, soon) )).
 test(timeout_is_checked_before_the_agent,
      [ forall(member(Goal, [ agent_join(foo, _, soon),
@@ -746,7 +747,7 @@ test(dispose, [forall(in_state(State, _, _)), O == disposed]) :-
                  joined(A, O),
                  gone(A),
                  wait_until(host_property(alpha, load(0)), 5) )).
-test(late_answers_leave_nothing, Left == 0) :-
+test(late_answers_leave_no_clones, Left == 0) :-
     with_hosts([alpha],
                ( create([(main :- leave(begun), shell('sleep 0.5')),
                          on_message(_, _)], A),
@@ -788,14 +789,15 @@ test(attach_and_detach, [forall(in_state(State, _, _)), P1-P2 == [seven]-[]]) :-
                  agent_property(A, payloads(P1)),
                  payload_detach(A, seven),
                  agent_property(A, payloads(P2)) )).
-test(goes_on_after_a_move, [forall(member(State, [looping,waiting])),
-                            O == done]) :-
+test(agent_continues_after_a_move_order,
+     [forall(member(State, [looping,waiting])),
+      O == done]) :-
     with_hosts([alpha,beta],
                ( ready_for_orders(State, A),
                  agent_move(A, beta),
                  agent_send(A, stop),
                  joined(A, O) )).
-test(still_sleeps_after_a_move, O-T == done-200.0) :-
+test(sleep_continues_after_a_move_order, O-T == done-200.0) :-
     with_hosts([alpha-[clock(virtual)], beta-[clock(virtual)]],
                ( create([(main :- sleep(200))], A),
                  agent_join(A, timeout, 100),
@@ -815,7 +817,7 @@ test(move_that_is_refused,
                            agent_move(A, beta),
                            payload_attach(A, payload(x, [], [])),
                            wait_state(A, resident) ), M)).
-test(move_to_nowhere, error(existence_error(host, nowhere))) :-
+test(move_to_a_missing_host, error(existence_error(host, nowhere))) :-
     with_hosts([alpha],
                ( create([on_message(_, _)], A), agent_move(A, nowhere) )).
 test(order_to_unknown_agent,
@@ -825,12 +827,12 @@ test(order_to_unknown_agent,
                             payload_detach(foo, x)])),
       error(existence_error(agent, foo))]) :-
     with_hosts([alpha], Order).
-test(order_to_one_that_has_ended, error(existence_error(agent, _))) :-
+test(order_to_an_ended_agent, error(existence_error(agent, _))) :-
     with_hosts([alpha],
                ( create([main], A), joined(A, done), agent_dispose(A) )).
-test(order_to_an_unbound, error(instantiation_error)) :-
+test(order_to_an_unbound_id, error(instantiation_error)) :-
     with_hosts([alpha], agent_dispose(_)).
-test(many_orders_are_taken_in_turn, Ps == [p5,p4,p3,p2,p1]) :-
+test(orders_are_executed_in_sequence, Ps == [p5,p4,p3,p2,p1]) :-
     with_hosts([alpha],
                ( create([(main :- ( receive(_-stop, 0) -> true ; main ))], A),
                  forall(member(P, [p1,p2,p3,p4,p5]),
@@ -881,9 +883,9 @@ test(unknown, [fail]) :-
 test(unknown_agent_of_a_missing_process,
      error(host_unreachable('127.0.0.1:1'))) :-
     with_hosts([alpha], agent_property('x.1@alpha@127.0.0.1:1', _)).
-test(no_id, error(existence_error(agent, foo))) :-
+test(invalid_id, error(existence_error(agent, foo))) :-
     with_hosts([alpha], agent_property(foo, _)).
-test(no_atom, error(type_error(atom, 12))) :-
+test(property_is_no_atom, error(type_error(atom, 12))) :-
     with_hosts([alpha], agent_property(12, _)).
 test(ended, [fail]) :-
     with_hosts([alpha],
@@ -907,7 +909,7 @@ test(running, S == running) :-
                  agent_property(A, state(S)),
                  remote(alpha, leave(stop)),
                  joined(A, done) )).
-test(a_hopping_agent_is_always_somewhere, N == 2000) :-
+test(hopping_agent_always_has_a_host, N == 2000) :-
     with_hosts([alpha,beta],
                ( create([(main :- move(beta), move(alpha), main)], A),
                  aggregate_all(count,
@@ -938,7 +940,7 @@ payload_in(Goal, Dir) :-
 
 :- begin_tests(payloads).
 
-test(at_birth, F == [s(2),s([tools])]) :-
+test(payloads_at_creation, F == [s(2),s([tools])]) :-
     payload_file(plunit_payloads:at_birth(F)).
 
 at_birth(F, File) :-
@@ -968,25 +970,26 @@ attached(F, File) :-
 test(provided_but_undefined_is_empty, F == [s(none)]) :-
     lives([(main :- ( p(_) -> true ; assertz(s(none)) ))],
           [payloads([payload(x, [p/1], [])])], F).
-test(a_payload_may_move, F == [s(beta)]) :-
+test(payload_may_move_the_agent, F == [s(beta)]) :-
     lives([ (main :- trip, name(N), assertz(s(N))),
             (name(N) :- here(A), atomic_list_concat([N,_], @, A)) ],
           [payloads([payload(trip, [trip/0], [(trip:-move(beta))])])], F0),
     include([s(_)]>>true, F0, F).
-test(attach_what_moves, F == [s(beta)]) :-
+test(attached_payload_may_move_the_agent, F == [s(beta)]) :-
     lives([ (main :- r(P), attach(P), trip, name(N), assertz(s(N)),
                      detach(trip), retract(r(_))),
             (name(N) :- here(A), atomic_list_concat([N,_], @, A)) ],
           [facts([r(payload(trip, [trip/0], [(trip:-move(beta))]))])], F).
-test(attach_over_the_program, true(F = [s(permission_error(attach, procedure,
-                                                           main/0))])) :-
+test(attach_cannot_redefine_the_program,
+     true(F = [s(permission_error(attach, procedure,
+                                  main/0))])) :-
     lives([(main :- P = payload(x, [main/0], [main]),
                     catch(attach(P), error(E, _), assertz(s(E))))], F).
 test(attach_twice, true(F = [s(permission_error(attach, procedure, p/1))])) :-
     lives([(main :- P = payload(x, [p/1], [p(1)]), attach(P),
                     catch(attach(P), error(E, _), assertz(s(E))),
                     detach(x))], F).
-test(attach_another_of_the_name,
+test(attach_another_payload_of_the_same_name,
      [ forall(member(Options, [[payloads([P, Q])], [payloads([P])]])),
        error(permission_error(attach, payload, x)) ]) :-
     P = payload(x, [p/1], [p(1)]),
@@ -994,7 +997,7 @@ test(attach_another_of_the_name,
     with_hosts([alpha],
                ( create([on_message(_, _)], A, Options),
                  payload_attach(A, Q) )).
-test(provided_twice_at_birth,
+test(provided_twice_at_creation,
      [ forall(member(Name/PI, [y/(p/1), y/(s/1)])),
        error(permission_error(attach, procedure, PI)) ]) :-
     PI = P/1,
@@ -1021,14 +1024,14 @@ test(payload_of_the_wrong_type,
     with_hosts([alpha],
                ( create([on_message(_, _)], A),
                  payload_attach(A, Payload) )).
-test(detach_what_is_not_there,
+test(detach_a_missing_payload,
      true(F = [s(existence_error(payload, x))])) :-
     lives([(main :- catch(detach(x), error(E, _), assertz(s(E))))], F).
-test(detach_from_outside_what_is_not_there,
+test(detach_order_for_a_missing_payload,
      error(existence_error(payload, x))) :-
     with_hosts([alpha],
                ( create([on_message(_, _)], A), payload_detach(A, x) )).
-test(attach_from_outside_what_is_there_already,
+test(attach_order_for_an_attached_payload,
      error(permission_error(attach, procedure, s/1))) :-
     with_hosts([alpha],
                ( create([on_message(_, _)], A),
@@ -1061,10 +1064,10 @@ test(deliver_again, X == 9) :-
                                  [payloads([payload(x, [p/1], [p(N)])])]),
                           joined(A, done) )),
                  remote(alpha, findall(Y, p(Y), [X])) )).
-test(deliver_what_is_not_attached,
+test(deliver_an_unattached_payload,
      true(F = [s(existence_error(payload, x))])) :-
     lives([(main :- catch(deliver(x), error(E, _), assertz(s(E))))], F).
-test(undeliver_what_is_not_there,
+test(undeliver_a_missing_payload,
      true(F = [s(existence_error(payload, x))])) :-
     lives([(main :- catch(undeliver(x), error(E, _), assertz(s(E))))], F).
 test(payload_must_be_bound,
@@ -1083,7 +1086,7 @@ test(deliver_over_another_payload,
                         [payloads([payload(y, [p/1], [p(2)])])]),
                  wait_state(B, resident),
                  findall(s(X), fact_of(B, s(X)), F) )).
-test(a_place_cannot_move_agents,
+test(goal_in_a_place_cannot_move_agents,
      true(F = [s(permission_error(call, control_predicate, move/1))])) :-
     with_hosts([alpha,beta],
                ( create([(main :- deliver(x))], A,
@@ -1098,7 +1101,7 @@ test(no_goal_sleeps_where_an_agent_cannot_stop,
                lives_([(main :- Goal = sleep(0.1),
                                 catch(findall(x, Goal, _), error(E, _), true),
                                 assertz(s(E)))], [], F)).
-test(file_that_is_not_there, error(existence_error(source_sink, nothing))) :-
+test(missing_file, error(existence_error(source_sink, nothing))) :-
     with_hosts([alpha], create([main], _, [payloads([nothing])])).
 
 :- end_tests(payloads).
@@ -1128,9 +1131,9 @@ saved_in(Clauses, Options, Facts, Dir) :-
 
 :- begin_tests(restore_points).
 
-test(goes_on_where_it_was, F == [s(1),s(2)]) :-
+test(restored_agent_continues_at_its_goal, F == [s(1),s(2)]) :-
     saved([(main :- assertz(s(1)), receive(_-go), assertz(s(2)))], [], F).
-test(bindings_of_the_goals, true(F =@= [s(f(X,X,"a string"))])) :-
+test(bindings_of_the_goals_are_restored, true(F =@= [s(f(X,X,"a string"))])) :-
     saved([(main :- Y = f(A,A,"a string"), receive(_-go), assertz(s(Y)))],
           [], F).
 test(terms_of_all_kinds, true(F == Terms)) :-
@@ -1141,7 +1144,7 @@ test(terms_of_all_kinds, true(F == Terms)) :-
                               [a|b], \+a, (a:-b,c;d->e), 'hello world'(1),
                               '$VAR'(1), "", '' ]), Terms),
     saved([(main :- receive(_-go))], [facts(Terms)], F).
-test(operators_of_the_writer, F == [s(likes(a,b))]) :-
+test(operators_do_not_affect_the_file, F == [s(likes(a,b))]) :-
     setup_call_cleanup(
         op(700, xfx, user:likes),
         saved([(main :- receive(_-go))], [facts([s(likes(a,b))])], F),
@@ -1169,7 +1172,7 @@ mail_in(F, Dir) :-
 
 %   It wakes at once where it is late.
 
-test(mail_is_there_before_it_goes_on, F == [s(early)]) :-
+test(mail_is_restored_before_the_agent_runs, F == [s(early)]) :-
     with_tmp_dir(plunit_restore_points:mail_before(F)).
 
 mail_before(F, Dir) :-
@@ -1186,7 +1189,7 @@ mail_before(F, Dir) :-
                  wait_state(B, resident),
                  agent_property(B, facts(F)) )).
 
-test(an_id_of_its_own, true((A \== B, N == test))) :-
+test(restored_agent_has_a_new_id, true((A \== B, N == test))) :-
     with_tmp_dir(plunit_restore_points:ids(A, B)),
     atomic_list_concat([N|_], '.', B).
 
@@ -1197,7 +1200,8 @@ ids(A, B, Dir) :-
                  agent_save(A, File),
                  agent_load(File, B) )).
 
-test(can_be_read, true(memberchk("goals([receive(_-go),foo]).", Lines))) :-
+test(restore_point_is_readable_text,
+     true(memberchk("goals([receive(_-go),foo]).", Lines))) :-
     with_tmp_dir(plunit_restore_points:text(Lines0)),
     maplist([L,M]>>( re_plain(L, M) ), Lines0, Lines).
 
@@ -1233,7 +1237,7 @@ no_numbers([C|T0], [C|T]) :-
 digits([C|T0], T) :- code_type(C, alnum), !, digits(T0, T).
 digits(T, T).
 
-test(no_restore_point, error(domain_error(restore_point, _))) :-
+test(foreign_file, error(domain_error(restore_point, _))) :-
     with_tmp_dir(plunit_restore_points:foreign).
 
 foreign(Dir) :-
@@ -1244,7 +1248,7 @@ foreign(Dir) :-
 
 test(no_file, error(existence_error(source_sink, _))) :-
     with_hosts([alpha], agent_load('/nowhere/at/all', _)).
-test(what_cannot_be_saved, error(type_error(mobile_term, _))) :-
+test(state_that_cannot_be_saved, error(type_error(mobile_term, _))) :-
     with_tmp_dir(plunit_restore_points:unsaved).
 
 unsaved(Dir) :-

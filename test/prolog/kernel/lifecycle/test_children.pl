@@ -50,7 +50,7 @@ test(of_its_own_program, X == got(7)) :-
                     create(self, C, [facts([s(7), r(Me)])]),
                     receive(C-X), result(X)) ],
          X).
-test(no_state_of_the_parent, X == []) :-
+test(state_of_the_parent_is_not_inherited, X == []) :-
     made([alpha],
          [ (main :- r(Parent), !, findall(N, s(N), Ns), send(Parent, Ns)),
            (main :- self(Me), assertz(s(1)),
@@ -75,7 +75,7 @@ test(several_in_one_goal, N == 5) :-
            (take(Left, N) :- receive(_-1), N1 is N+1, L is Left-1,
                              take(L, N1)) ],
          N).
-test(full, F = move_refused(_, capacity)) :-
+test(full_host, F = move_refused(_, capacity)) :-
     child(true, Child),
     made([alpha-[capacity(1)]],
          [ (main :- catch(create(Child, _, []), error(F, _), true),
@@ -97,7 +97,7 @@ test(wrong_option, F == domain_error(agent_option, hots(alpha))) :-
          [ (main :- catch(create(Child, _, [hots(alpha)]), error(F, _), true),
                     result(F)) ],
          F).
-test(in_another_process, [true(Result == 42)]) :-
+test(child_in_another_process, [true(Result == 42)]) :-
     child(( s(N), result(N) ), Child),
     no_leaks(with_peers([p1],
                  ( peer_host(p1, There),
@@ -141,9 +141,9 @@ test(no_files, [forall(member(Program, ['/etc/passwd', library(lists),
                                          agents(a/'..'/b)])),
                 F = permission_error(call, sandboxed, _)]) :-
     refused(Program, F).
-test(of_a_file_that_is_not_there, F = existence_error(source_sink, _)) :-
+test(missing_file, F = existence_error(source_sink, _)) :-
     refused(agents(no_such_program), F).
-test(no_more_than_the_quota, [true(Formal == resource_error(clones))]) :-
+test(children_count_for_the_quota, [true(Formal == resource_error(clones))]) :-
     child(sleep(100), Child),
     made([alpha-[policy(guarded), cell(none), quota([clones(3)])]],
          [ (main :- catch(many(100, Child), error(F, _), true), result(F)),
@@ -151,7 +151,7 @@ test(no_more_than_the_quota, [true(Formal == resource_error(clones))]) :-
            (many(N, Child) :- create(self, _, [facts([r(child)])]),
                               N1 is N-1, many(N1, Child)) ],
          Formal).
-test(no_more_agents_than_the_quota, [true(Formal = move_refused(_, _))]) :-
+test(agents_of_an_owner_are_limited, [true(Formal = move_refused(_, _))]) :-
     child(sleep(100), Child),
     made([alpha-[policy(guarded), cell(none), quota([owner(agents(3))])]],
          [ (main :- catch(many(100, Child), error(F, _), true), result(F)),

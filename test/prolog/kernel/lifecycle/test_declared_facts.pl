@@ -50,7 +50,7 @@ test(undeclared_rule_is_refused) :-
                means(agent_create(Program, _,
                                   [facts([(tood(X) :- todo(X))])]),
                      "did you mean todo/1?")).
-test(nothing_is_begun, Agents == []) :-
+test(refused_agent_is_not_created, Agents == []) :-
     census(Program),
     with_hosts([alpha],
                ( refused(agent_create(Program, _, [facts([tood(b)])]), _),
@@ -67,7 +67,7 @@ test(facts_of_a_payload_are_accepted, Facts == [tool(hammer)]) :-
                               [ payloads([payload(box, [tool/1], [])]),
                                 facts([tool(hammer)]) ]),
                  facts(A, Facts) )).
-test(on_a_host_of_another_process) :-
+test(undeclared_fact_is_refused_by_another_process) :-
     census(Program),
     with_peers([east],
                ( peer_host(east, Host),
@@ -87,7 +87,7 @@ test(change_with_a_declared_fact, Facts == [todo(a)]) :-
                ( agent_create(Program, A),
                  agent_change(A, facts([todo(a)])),
                  facts(A, Facts) )).
-test(what_the_agent_has_made_state_itself_may_be_added_to,
+test(implicit_state_may_be_added_to,
      Facts == [extra(1), extra(2)]) :-
     with_hosts([alpha],
                listening(( create([(main :- assertz(extra(1)), receive(_))],

@@ -75,7 +75,7 @@ test(running_agent_is_reported, Ms == [warning-typhon(runs_on(A, 0.1))]) :-
                                listening(agent_dispose(A), Ms),
                                agent_property(A, state(running)),
                                agent_dispose(A, [force(0)]) ))).
-test(waits_for_one_that_stops, Ms-O == []-disposed) :-
+test(waits_for_an_agent_that_stops, Ms-O == []-disposed) :-
     with_settings([typhon_disposal:heed_seconds=20],
                   with_hosts([alpha],
                              ( ending_when_asked(
@@ -84,7 +84,7 @@ test(waits_for_one_that_stops, Ms-O == []-disposed) :-
                                    listening(agent_dispose(A), Ms)),
                                gone(A),
                                agent_join(A, O, 5) ))).
-test(one_that_ends_by_itself, Ms == []) :-
+test(agent_that_ends_by_itself, Ms == []) :-
     with_settings([typhon_disposal:heed_seconds=20],
                   with_hosts([alpha],
                              ( ending_when_asked(
@@ -93,7 +93,7 @@ test(one_that_ends_by_itself, Ms == []) :-
                                         Seconds)),
                                Seconds < 15,
                                agent_join(A, done, 5) ))).
-test(one_that_raises_meanwhile) :-
+test(agent_that_raises_during_disposal) :-
     with_settings([typhon_disposal:heed_seconds=20],
                   with_hosts([alpha],
                              ( ending_when_asked(
@@ -109,7 +109,7 @@ test(in_a_cleanup_handler, Ms == [warning-typhon(runs_on(A, 0.3))]) :-
                                              true, true, agent_dispose(A)),
                                          Ms),
                                agent_dispose(A, [force(0)]) ))).
-test(an_agent_that_disposes_does_not_wait, Ms == []) :-
+test(disposing_agent_does_not_wait, Ms == []) :-
     with_settings([typhon_disposal:heed_seconds=20],
                   with_hosts([alpha],
                              ( start(loops, A),
@@ -120,7 +120,7 @@ test(an_agent_that_disposes_does_not_wait, Ms == []) :-
                                          Ms),
                                Seconds < 15,
                                agent_dispose(A, [force(0)]) ))).
-test(an_agent_that_disposes_of_itself, Ms == []) :-
+test(agent_that_disposes_of_itself, Ms == []) :-
     with_hosts([alpha],
                listening(( create([ (main :- self(X), typhon:agent_dispose(X),
                                              sleep(100)) ], A),
@@ -132,17 +132,17 @@ test(force, [forall(runaway(Kind, _)), O == disposed]) :-
                  agent_dispose(A, [force(0.1)]),
                  gone(A),
                  agent_join(A, O, 5) )).
-test(negative_seconds_are_none, O == disposed) :-
+test(negative_seconds_are_zero, O == disposed) :-
     with_hosts([alpha],
                ( start(waits, A),
                  agent_dispose(A, [force(-1000)]),
                  agent_join(A, O, 0) )).
-test(no_force_where_it_stops_in_time, Ms == []) :-
+test(agent_that_stops_in_time_is_not_forced, Ms == []) :-
     with_hosts([alpha],
                ( create([(main :- sleep(0.01), main)], A),
                  listening(agent_dispose(A, [force(10)]), Ms),
                  gone(A) )).
-test(leaves_no_choice, Det == [true,true]) :-
+test(no_choice_point_is_left, Det == [true,true]) :-
     with_settings([typhon_disposal:heed_seconds=0.1],
                   with_hosts([alpha],
                              ( start(loops, A),
@@ -151,14 +151,14 @@ test(leaves_no_choice, Det == [true,true]) :-
                                call_cleanup(agent_dispose(A, [force(0)]),
                                             D2 = true) ))),
     Det = [D1,D2].
-test(one_that_rests) :-
+test(resting_agent) :-
     with_hosts([alpha],
                ( create([(main :- receive(_))], A),
                  wait_state(A, waiting),
                  took(agent_dispose(A, [force(10)]), Seconds),
                  Seconds < 5,
                  gone(A) )).
-test(one_that_hops_all_the_time) :-
+test(constantly_hopping_agent) :-
     with_hosts([alpha,beta],
                ( create([(main :- move(beta), move(alpha), main)], A),
                  agent_dispose(A, [force(0)]),
@@ -167,7 +167,7 @@ test(host_is_empty_afterwards, L == 0) :-
     with_hosts([alpha],
                ( start(loops, A), agent_dispose(A, [force(0)]),
                  host_property(alpha, load(L)) )).
-test(on_a_host_with_turns, O == done) :-
+test(host_with_limited_concurrency, O == done) :-
     with_hosts([alpha-[concurrency(1)]],
                ( start(loops, A),
                  create([main], B),
@@ -190,7 +190,7 @@ test(other_agents_are_not_disturbed, Os == [done,done,done]) :-
                  forall(member(A, As), agent_dispose(A, [force(0)])),
                  maplist(gone, As),
                  findall(O, ( member(B, Bs), joined(B, O) ), Os) )).
-test(many_at_once) :-
+test(many_disposals_at_once) :-
     with_hosts([alpha],
                ( findall(A, ( between(1, 6, _), start(loops, A) ), As),
                  findall(T, ( member(A, As),
@@ -199,7 +199,7 @@ test(many_at_once) :-
                  forall(member(T, Ts), thread_join(T, true)),
                  maplist(gone, As),
                  create([main], B), joined(B, done) )).
-test(result_given_before, X == 1) :-
+test(result_before_the_disposal_is_kept, X == 1) :-
     with_hosts([alpha],
                ( create([ (main :- result(1), lp), (lp :- lp) ], A),
                  wait_until(running_for(A, 0.02), 10),
@@ -248,7 +248,7 @@ test(warning_in_virtual_time, Ms == [warning-typhon(runs_on(A, 0.1))]) :-
                                listening(agent_dispose(A), Ms),
                                agent_dispose(A, [force(0)]),
                                thread_join(T, true) ))).
-test(virtual_host_that_stops, O == done) :-
+test(virtual_host_is_stopped, O == done) :-
     with_settings([typhon_hosting:stop_seconds=0.1],
                   with_hosts([alpha-[clock(virtual)],beta-[clock(virtual)]],
                              ( create([ (main :- lp), (lp :- lp) ], A),
@@ -261,7 +261,7 @@ test(virtual_host_that_stops, O == done) :-
 
 %   B rests, and so ends first; A still runs, and speaks to him.
 
-test(no_false_warning_while_a_host_stops, Ms == []) :-
+test(no_false_warning_during_host_stop, Ms == []) :-
     setup_call_cleanup(
         message_queue_create(Queue, [alias(disposal_test)]),
         with_settings([typhon_hosting:stop_seconds=60],
@@ -285,7 +285,7 @@ says_in_vain :-
 test(unknown_option, error(domain_error(dispose_option, soon))) :-
     with_hosts([alpha], ( create([(main :- receive(_))], A),
                           agent_dispose(A, [soon]) )).
-test(no_number, error(type_error(number, now))) :-
+test(force_is_no_number, error(type_error(number, now))) :-
     with_hosts([alpha], ( create([(main :- receive(_))], A),
                           agent_dispose(A, [force(now)]) )).
 test(no_such_agent, error(existence_error(agent, _))) :-
@@ -360,9 +360,10 @@ again(B) :-
 
 %   Text typed before the interrupt is read after it.
 
-test(typed_ahead, [ forall(member(End, ["agent_dispose(A, [force(0)])",
-                                        "host_stop(alpha)"])),
-                    Said == "typed ahead" ]) :-
+test(typed_ahead_input_is_kept,
+     [ forall(member(End, ["agent_dispose(A, [force(0)])",
+                           "host_stop(alpha)"])),
+       Said == "typed ahead" ]) :-
     project_file('prolog/typhon.pl', Typhon),
     with_swipl(['-q', '-f', none, Typhon], _, In, Out,
                ( format(In, "host_start(alpha), \c
@@ -376,9 +377,9 @@ sleep(0.1), ~s.~nwriteln('typed ahead').~n", [End]),
 
 :- end_tests(top_level).
 
-:- begin_tests(busy).
+:- begin_tests(busy_time).
 
-test(of_one_that_runs_on) :-
+test(busy_time_of_a_running_agent) :-
     with_hosts([alpha],
                ( start(loops, A),
                  agent_property(A, busy(S1)),
@@ -387,9 +388,9 @@ test(of_one_that_runs_on) :-
                  with_output_to(string(Table), agents),
                  sub_string(Table, _, _, _, "running, "),
                  agent_dispose(A, [force(0)]) )).
-test(of_one_that_rests, fail) :-
+test(busy_time_of_a_resting_agent, fail) :-
     with_hosts([alpha],
                ( create([(main :- receive(_))], A), wait_state(A, waiting),
                  agent_property(A, busy(_)) )).
 
-:- end_tests(busy).
+:- end_tests(busy_time).

@@ -92,9 +92,9 @@ load(Host, Load) :-
                 *          WHERE IT WAS        *
                 *******************************/
 
-:- begin_tests(where_an_agent_failed).
+:- begin_tests(fault_locations).
 
-test(an_error_in_a_native_goal,
+test(error_in_a_native_goal,
      true(Text == " at beta (hop 1): is/2: Arithmetic: evaluable z/0 \c
                    does not exist, in add/2 (trip.pl:7), called from \c
                    main/0 (trip.pl:3)")) :-
@@ -102,14 +102,14 @@ test(an_error_in_a_native_goal,
            'main :-', '    move(beta),', '    add(1, X),', '    log(X).',
            'add(X, Y) :-', '    Y is X+z.' ], Text0),
     in_words_of_now(Text0, Text).
-test(an_error_deep_in_native_goals,
+test(error_deep_in_native_goals,
      true(Text == ", in add/2 (trip.pl:4), called from sum/2 (trip.pl:3)\n")) :-
     says([ ':- agent(trip, []).',
            'main :- move(beta), sum([1], S), log(S).',
            'sum([N|_], S) :- add(N, S), log(S).',
            'add(X, Y) :- integer(X), Y is X+z.' ], Text0),
     from_in(Text0, Text).
-test(a_failure,
+test(failing_goal,
      true(Text == " at beta (hop 1): failed: the goal that failed last was \c
                    member(q, [a]), in tour/1 (trip.pl:3), called from \c
                    main/0 (trip.pl:2)\n")) :-
@@ -124,18 +124,18 @@ test(no_clause_matches,
            'go(a) :- move(beta).',
            'go(b) :- move(alpha).' ], Text0),
     from_in(Text0, Text).
-test(all_of_main_fails,
+test(all_clauses_of_main_fail,
      true(Text == " at alpha (hop 0): failed: the goal that failed last was \c
                    main, in main/0 (trip.pl:3)\n")) :-
     says([ ':- agent(trip, []).', '',
            'main :-', '    X = 1, X > 2.' ], Text).
-test(a_condition_without_else,
+test(condition_without_else,
      true(Text == " at alpha (hop 0): failed: the goal that failed last was \c
                    ( member(q, [a]) -> ... ) without else, in main/0 \c
                    (trip.pl:3)\n")) :-
     says([ ':- agent(trip, []).', '',
            'main :- ( member(q, [a]) -> move(beta) ), log(x).' ], Text).
-test(nothing_came,
+test(receive_times_out,
      true(Text == " at alpha (hop 0): failed: the goal that failed last was \c
                    receive(user-_, 0.01), in main/0 (trip.pl:2)\n")) :-
     says([ ':- agent(trip, []).',
@@ -162,7 +162,7 @@ test(unbound_argument_of_a_control_predicate,
      true(Text == " at alpha (hop 0): Arguments are not sufficiently \c
                    instantiated, at move(_), in main/0 (trip.pl:2)\n")) :-
     says([':- agent(trip, []).', 'main :- move(_).'], Text).
-test(a_move_that_is_refused,
+test(refused_move,
      true(Text == ", in main/0 (trip.pl:2)\n")) :-
     says([ ':- agent(trip, []).',
            'main :- log(a), move(atlantis), log(b).' ], Text0),
@@ -174,7 +174,7 @@ test(inside_catch_and_condition, true(Text == ", in p/1 (trip.pl:3), \c
            'main :- catch(( p(_), move(beta) -> true ; true ), ball, true).',
            'p(X) :- atom_length(X, _), move(alpha).' ], Text0),
     from_in(Text0, Text).
-test(a_file_that_is_included, true(P = inc:2)) :-
+test(clause_in_an_included_file, true(P = inc:2)) :-
     with_program([ ':- agent(trip, []).', ':- include(inc).',
                    'main :- p.' ], File,
                  ( file_directory_name(File, Dir),
@@ -191,23 +191,24 @@ test(a_file_that_is_included, true(P = inc:2)) :-
     file_base_name(File1, Base),
     file_name_extension(Name, pl, Base),
     P = Name:Line.
-test(of_clauses_the_number, true(F == fault(failed, fail, p/0:2, B))) :-
+test(clause_number_where_there_is_no_file,
+     true(F == fault(failed, fail, p/0:2, B))) :-
     on([alpha,beta],
        ( address(beta, B),
          faulty([ (main :- p), (p :- s(x), move(alpha)),
                   (p :- move(beta), fail) ], A),
          agent_property(A, fault(F)) )).
-test(no_fault_without_one, fail) :-
+test(healthy_agent_has_no_fault, fail) :-
     on([alpha], ( create([on_message(_, _)], A),
                   agent_property(A, fault(_)) )).
-test(large_terms_are_no_matter, true(G == [foo(L),s(L)])) :-
+test(goals_with_large_terms_are_kept, true(G == [foo(L),s(L)])) :-
     numlist(1, 5000, L),
     on([alpha,beta],
        ( faulty([foo(x), (main :- move(beta), numlist(1, 5000, X), foo(X),
                                   s(X))], A),
          agent_property(A, goals(G)) )).
 
-:- end_tests(where_an_agent_failed).
+:- end_tests(fault_locations).
 
 %   9.0.4 and 10.1 do not use the same words.
 
@@ -237,20 +238,20 @@ from_in(Text0, Text) :-
 
 :- begin_tests(faulty_agents).
 
-test(goals_from_the_failing_one_on,
+test(goals_begin_with_the_failed_one,
      true(G-S == [s(2),foo]-[s(1)])) :-
     on([alpha,beta],
        ( faulty([s(1), (main :- move(beta), s(2), foo), foo], A),
          agent_property(A, goals(G)),
          facts(A, S) )).
-test(resumed_after_a_fact, true(O-S == done-[s(2)])) :-
+test(resumed_after_a_fact_was_added, true(O-S == done-[s(2)])) :-
     on([alpha,beta],
        ( faulty([(main :- move(beta), s(2), move(alpha))], A),
          agent_change(A, facts([s(2)])),
          facts(A, S),
          agent_resume(A),
          joined(A, O) )).
-test(resumed_before_its_home_has_the_news, true(Os == [done])) :-
+test(resumed_before_its_home_is_notified, true(Os == [done])) :-
     on([alpha,beta],
        ( findall(O,
                  ( between(1, 500, _),
@@ -268,14 +269,14 @@ test(resumed_with_another_program, true(O == done)) :-
          agent_property(A, program(new)),
          agent_resume(A),
          joined(A, O) )).
-test(a_move_is_tried_again, true(O == done)) :-
+test(failed_move_is_retried, true(O == done)) :-
     on([alpha],
        ( faulty([(main :- move(beta))], A),
          host_start(beta),
          agent_resume(A),
          joined(A, O),
          host_stop(beta) )).
-test(fails_again_and_again, true(Os == [failed,failed,failed])) :-
+test(fails_repeatedly, true(Os == [failed,failed,failed])) :-
     on([alpha],
        ( faulty([(main :- receive(_-x, 0), s(1))], A),
          findall(O, ( between(1, 3, _), agent_resume(A), joined(A, O) ),
@@ -288,7 +289,7 @@ test(join_after_resume_waits, true(O1-O2 == timeout-done)) :-
          agent_join(A, O1, 0.1),
          agent_send(A, go),
          joined(A, O2) )).
-test(moved_it_is_faulty_still) :-
+test(moved_agent_stays_faulty) :-
     on([alpha,beta],
        ( faulty([(main :- move(alpha), s(1))], A),
          agent_move(A, beta),
@@ -299,14 +300,14 @@ test(moved_it_is_faulty_still) :-
          agent_dispose(A),
          joined(A, failed),
          \+ agent_property(A, state(_)) )).
-test(move_that_is_refused, true(L == 0)) :-
+test(refused_move_of_a_faulty_agent, true(L == 0)) :-
     on([alpha,beta-[capacity(0)]],
        ( faulty([(main :- move(alpha), s(1))], A),
          agent_move(A, beta),
          wait_until(( load(alpha, 0), state_of(A, faulty(failed)) ), 10),
          stands(A, alpha),
          load(alpha, L) )).
-test(cloned_and_saved_it_is_faulty_still, true(Os == [failed,failed])) :-
+test(copies_of_a_faulty_agent_are_faulty, true(Os == [failed,failed])) :-
     on([alpha],
        ( faulty([(main :- receive(_, 0), s(1))], A),
          agent_clone(A, B),
@@ -327,7 +328,7 @@ test(place_in_a_restore_point, true(Line == 2)) :-
                       agent_resume(B),
                       joined(B, failed),
                       agent_property(B, fault(fault(_, _, _:Line, _))) ))).
-test(mail_is_kept_for_it, true(M-O == [user-1,user-2]-done)) :-
+test(mail_is_kept_for_a_faulty_agent, true(M-O == [user-1,user-2]-done)) :-
     on([alpha],
        ( faulty([(main :- s(1), receive(_-1), receive(_-2))], A),
          maplist(agent_send(A), [1,2]),
@@ -335,14 +336,14 @@ test(mail_is_kept_for_it, true(M-O == [user-1,user-2]-done)) :-
          agent_change(A, facts([s(1)])),
          agent_resume(A),
          joined(A, O) )).
-test(mail_is_bounded, true(M-W == [user-1,user-2]-1)) :-
+test(mail_of_a_faulty_agent_is_bounded, true(M-W == [user-1,user-2]-1)) :-
     with_settings([typhon_creation:faulty_mail=2],
         with_hosts([alpha],
                    listening(( faulty([(main :- s(1))], A),
                                maplist(agent_send(A), [1,2,3,4]),
                                agent_property(A, mailbox(M)) ), Told))),
     aggregate_all(count, member(_-typhon(mailbox_full(_, 2)), Told), W).
-test(it_takes_no_capacity, true(O == done)) :-
+test(faulty_agent_takes_no_capacity, true(O == done)) :-
     on([alpha-[capacity(1)]],
        ( faulty([(main :- receive(_, 0))], _),
          create([main], B), joined(B, O) )).
@@ -355,12 +356,12 @@ test(resume_running_agent, error(permission_error(resume, agent, _))) :-
                   agent_resume(A) )).
 test(resume_unknown_agent, error(existence_error(agent, foo))) :-
     on([alpha], agent_resume(foo)).
-test(change_to_nothing_known, error(domain_error(agent_change, age(3)))) :-
+test(change_with_unknown_options, error(domain_error(agent_change, age(3)))) :-
     on([alpha], ( create([on_message(_, _)], A), agent_change(A, age(3)) )).
-test(change_what_is_static, error(permission_error(attach, procedure, p/1))) :-
+test(change_of_static_code, error(permission_error(attach, procedure, p/1))) :-
     on([alpha], ( create([on_message(_, _), p(1)], A),
                   agent_change(A, facts([p(2)])) )).
-test(changed_program_has_a_state_of_its_own,
+test(changed_program_has_its_own_state,
      error(permission_error(attach, procedure, s/1))) :-
     on([alpha], ( create([on_message(_, _), s(1)], A),
                   agent_change(A, program(clauses([ (:- agent(new)),
@@ -373,7 +374,7 @@ test(healthy_agent_is_changed, true(F == [s(new),s(old)])) :-
                   agent_send(A, x),
                   wait_until(fact_of(A, s(new)), 10),
                   facts(A, F) )).
-test(goals_outlive_the_program_of_an_agent_that_waits,
+test(goals_of_a_waiting_agent_survive_a_change_of_program,
      true(Gs-F =@= [receive(_-go),p(1),p(2),receive(_-end)]-[s(1),s(2)])) :-
     on([alpha], ( create([ (main :- receive(_-go), p(1), p(2),
                                     receive(_-end)),
@@ -386,7 +387,7 @@ test(goals_outlive_the_program_of_an_agent_that_waits,
                   agent_send(A, go),
                   wait_until(fact_of(A, s(2)), 10),
                   facts(A, F) )).
-test(order_before_the_end_is_taken, true(O == failed)) :-
+test(order_before_the_end_is_executed, true(O == failed)) :-
     on([alpha,beta],
        setup_call_cleanup(
            message_queue_create(Queue, [alias(queue_of_test)]),
@@ -404,44 +405,44 @@ test(order_before_the_end_is_taken, true(O == failed)) :-
                 *           IN WORDS           *
                 *******************************/
 
-:- begin_tests(outcomes_in_words).
+:- begin_tests(printable_outcomes).
 
-test(an_attributed_variable,
+test(attributed_variable,
      true(E == type_error(mobile_term,
                           'an attributed variable (freeze/2)'))) :-
     on([alpha,beta],
        ( faulty([(main :- freeze(X, true), move(beta), s(X))], A),
          joined(A, raised(error(E, _))) )).
-test(a_stream, true(sub_atom(Words, 0, _, _, 'a stream ('))) :-
+test(stream, true(sub_atom(Words, 0, _, _, 'a stream ('))) :-
     on([alpha,beta],
        ( faulty([(main :- current_output(S), move(beta), s(S))], A),
          joined(A, raised(error(type_error(mobile_term, Words), _))) )).
 
-test(a_cyclic_term,
+test(cyclic_term,
      true(E-Gs == type_error(mobile_term, 'a cyclic term')-
                   [move(beta), s(1, 'a cyclic term')])) :-
     on([alpha,beta],
        ( faulty([(main :- X = f(X, 1), move(beta), s(1, X))], A),
          joined(A, raised(error(E, _))),
          agent_property(A, goals(Gs)) )).
-test(a_ball_that_holds_one,
+test(ball_with_an_unprintable_term,
      true(E-Gs == oops(a, 'a cyclic term', b)-[main])) :-
     on([alpha],
        ( faulty([(main :- X = [1|X], throw(oops(a, X, b)))], A),
          joined(A, raised(E)),
          agent_property(A, goals(Gs)) )).
-test(an_error_that_holds_one, true(E == type_error(expression, 'a cyclic term'))) :-
+test(error_with_an_unprintable_term, true(E == type_error(expression, 'a cyclic term'))) :-
     on([alpha],
        ( faulty([(main :- X = f(X), _ is X)], A),
          joined(A, raised(error(E, _))) )).
 
-:- end_tests(outcomes_in_words).
+:- end_tests(printable_outcomes).
 
                 /*******************************
                 *           MESSAGES           *
                 *******************************/
 
-:- begin_tests(what_on_message_fails_with).
+:- begin_tests(failing_on_message).
 
 after_mail(Clauses, Message, Told) :-
     with_hosts([alpha,beta],
@@ -451,17 +452,18 @@ after_mail(Clauses, Message, Told) :-
                            wait_until(was_told(warning, _), 10),
                            wait_state(A, resident) ), Told)).
 
-test(no_clause_is_for_it, true(T = [warning-typhon(message_failed(_, user,
-                                                                   ask))])) :-
+test(no_clause_for_the_message,
+     true(T = [warning-typhon(message_failed(_, user,
+                                              ask))])) :-
     after_mail([on_message(_, say)], ask, T).
-test(a_clause_fails, true(Text == " at alpha (hop 0): did not do with ask(1) \c
-                               from user what on_message/2 says; it failed: \c
-                               the goal that failed last was s(1), in \c
-                               on_message/2, clause 2\n")) :-
+test(clause_fails, true(Text == " at alpha (hop 0): did not do with ask(1) \c
+                             from user what on_message/2 says; it failed: \c
+                             the goal that failed last was s(1), in \c
+                             on_message/2, clause 2\n")) :-
     after_mail([ on_message(_, say),
                  (on_message(_, ask(X)) :- s(X), move(beta)) ], ask(1), T),
     once(told(T, Text)).
-test(goal_of_a_clause_that_stops_nowhere,
+test(clause_without_a_stop_fails,
      true(Text == " at alpha (hop 0): did not do with ask(1) from user what \c
                    on_message/2 says; it failed: the goal that failed last \c
                    was s(1), in on_message/2, clause 1\n")) :-
@@ -469,7 +471,7 @@ test(goal_of_a_clause_that_stops_nowhere,
                T),
     once(told(T, Text)).
 
-:- end_tests(what_on_message_fails_with).
+:- end_tests(failing_on_message).
 
                 /*******************************
                 *   STEPS THAT ARE NOT DONE    *
@@ -497,7 +499,7 @@ broken_once(Agent, Error, Goals) :-
           agent_property(Agent, goals(Goals)) ),
         retractall(broken)).
 
-:- begin_tests(steps_not_completed).
+:- begin_tests(incomplete_steps).
 
 test(agent_is_faulty_and_reported,
      true(Told-Error-Goals == true-step_not_completed-[main])) :-
@@ -512,4 +514,4 @@ test(agent_runs_when_it_is_resumed, Outcome == done) :-
          wait_until(\+ agent_property(A, host(_)), 10),
          joined(A, Outcome) )).
 
-:- end_tests(steps_not_completed).
+:- end_tests(incomplete_steps).

@@ -82,11 +82,11 @@ test(unreachable_host_is_an_error, Formal == host_unreachable(Host)) :-
                ( resident(A, []),
                  moved(A, Host, Formal),
                  assertion(stands(A, alpha)) )).
-test(agent_that_may_not_move_is_an_error,
+test(immobile_agent_is_an_error,
      Formal == permission_error(move, static_agent, A)) :-
     with_hosts([alpha, beta],
                ( resident(A, [static(true)]), moved(A, beta, Formal) )).
-test(agent_that_ends_first_is_an_error,
+test(agent_that_ends_before_the_move_is_an_error,
      Formal == existence_error(agent, A)) :-
     with_hosts([alpha-[hop_time(uniform(1000, 1000))], beta],
                ( resident(A, []),
@@ -94,7 +94,7 @@ test(agent_that_ends_first_is_an_error,
                                  agent_dispose(A) ), Thread),
                  moved(A, beta, Formal),
                  thread_join(Thread) )).
-test(order_stands_after_a_timeout) :-
+test(order_is_executed_after_a_timeout) :-
     with_hosts([ alpha-[clock(virtual), hop_time(uniform(30, 30))],
                  beta-[clock(virtual)] ],
                ( resident(A, []),

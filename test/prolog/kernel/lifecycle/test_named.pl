@@ -35,7 +35,7 @@ test(unique_name_is_accepted) :-
                  agent_dispose(bob),
                  agent_join(bob, Outcome, 5),
                  assertion(Outcome == disposed) )).
-test(restore_point_and_payload) :-
+test(names_for_restore_points_and_payloads) :-
     with_tmp_dir(saved).
 
 saved(Dir) :-
@@ -53,7 +53,7 @@ saved(Dir) :-
                  agent_property(bob, home(_)),
                  agent_dispose(Again) )).
 
-test(the_last_one_that_has_ended) :-
+test(last_ended_agent_of_the_name) :-
     with_hosts([alpha],
                ( bob(A), agent_dispose(A), agent_join(A, _, 5),
                  create([main], B, [name(bob)]), agent_join(B, _, 5),
@@ -79,16 +79,16 @@ test(unknown_name,
                              agent_property(tim, hops(_)) ])),
        error(existence_error(agent, tim)) ]) :-
     with_hosts([alpha], ( bob(_), call(Goal) )).
-test(a_name_with_dots) :-
+test(name_with_dots) :-
     with_hosts([alpha], ( bob(Id, [name('dr.bob')]),
                           agent_property('dr.bob', home(_)),
                           agent_dispose(Id) )).
-test(a_name_is_no_part_of_an_address, error(domain_error(agent_name, 'a@b'))) :-
+test(name_is_not_part_of_an_address, error(domain_error(agent_name, 'a@b'))) :-
     with_hosts([alpha], bob(_, [name('a@b')])).
-test(an_id_that_is_no_more_has_no_properties) :-
+test(id_of_an_ended_agent_has_no_properties) :-
     with_hosts([alpha], ( bob(Id), agent_dispose(Id), agent_join(Id, _, 5),
                           \+ agent_property(Id, state(_)) )).
-test(an_id_is_not_looked_up) :-
+test(id_is_not_resolved) :-
     with_hosts([alpha],
                ( bob(Id),
                  statistics(inferences, I0),
@@ -100,7 +100,7 @@ test(an_id_is_not_looked_up) :-
 %   One of a network of other processes, wherever it is: it was not created
 %   here only.
 
-test(in_another_process) :-
+test(agent_in_another_process) :-
     no_leaks(setup_call_cleanup(
                  network_start(ring(2), Network, [processes(2)]),
                  elsewhere(Network),
@@ -121,7 +121,7 @@ elsewhere(Network) :-
 
 %   Nothing in this process has created them.
 
-test(name_of_an_agent_that_ended_in_a_network_serves) :-
+test(name_of_an_agent_that_ended_in_a_network) :-
     no_leaks(setup_call_cleanup(
                  network_start(ring(2), Network, [processes(2)]),
                  born_elsewhere(Network),
@@ -137,7 +137,7 @@ born_elsewhere(Network) :-
     agent_join(ede, Outcome, 10),
     assertion(Outcome == done).
 
-test(name_of_an_agent_from_elsewhere_that_ended_here_serves) :-
+test(name_of_a_visitor_that_ended_here) :-
     with_hosts([alpha], with_peers([beta], came_and_ended)).
 
 came_and_ended :-

@@ -35,55 +35,55 @@ restored(X, Dir) :-
 
 :- begin_tests(results).
 
-test(given, X == 42) :-
+test(given_result, X == 42) :-
     virtually(( create([(main :- X0 is 6*7, result(X0))], A),
                 agent_result(A, X, 10) )).
-test(the_last_one_counts, X == 3) :-
+test(last_result_counts, X == 3) :-
     virtually(( create([(main :- forall(member(I, [1,2,3]), result(I)))], A),
                 agent_result(A, X, 10) )).
-test(any_term, true(X =@= f(Y,Y,"text",1.5,[a|_]))) :-
+test(result_may_be_any_term, true(X =@= f(Y,Y,"text",1.5,[a|_]))) :-
     virtually(( create([(main :- result(f(Z,Z,"text",1.5,[a|_])))], A),
                 agent_result(A, X, 10) )).
-test(pattern, X == 2) :-
+test(result_is_unified_with_a_pattern, X == 2) :-
     virtually(( create([(main :- result(p(1,2)))], A),
                 agent_result(A, p(1,X), 10),
                 \+ agent_result(A, p(2,_), 10) )).
-test(repeatedly, Xs == [1,1]) :-
+test(result_is_read_repeatedly, Xs == [1,1]) :-
     virtually(( create([(main :- result(1))], A),
                 findall(X, ( member(_, [a,b]), agent_result(A, X, 10) ),
                         Xs) )).
-test(wherever_it_ends, X == 2) :-
+test(result_is_found_wherever_the_agent_ends, X == 2) :-
     virtually(( create([(main :- result(1), move(beta), move(alpha),
                                  move(beta), hops(H), H == 3, result(2))],
                        A),
                 agent_result(A, X, 10) )).
-test(travels, X == 1) :-
+test(result_travels, X == 1) :-
     virtually(( create([(main :- result(1), move(beta))], A),
                 agent_result(A, X, 10) )).
-test(is_none_of_its_facts, Fs == []) :-
+test(result_is_not_a_fact_of_the_agent, Fs == []) :-
     virtually(( create([(main :- result(1)), on_message(_, _)], A),
                 \+ agent_join(A, done, 1),
                 facts(A, Fs) )).
-test(fails_at_the_timeout, X == late) :-
+test(join_fails_at_the_timeout, X == late) :-
     virtually(( create([(main :- result(1), sleep(100))], A),
                 ( agent_result(A, X, 99) -> true ; X = late ),
                 agent_result(A, 1, 2) )).
-test(given_before_it_failed, X-O == 1-failed) :-
+test(result_given_before_a_failure, X-O == 1-failed) :-
     virtually(listening(( create([(main :- result(1), fail)], A),
                           agent_result(A, X, 10), joined(A, O) ), _)).
-test(given_before_it_raised, X == 1) :-
+test(result_given_before_an_exception, X == 1) :-
     virtually(listening(( create([(main :- result(1), throw(oops))], A),
                           agent_result(A, X, 10) ), _)).
-test(given_before_it_was_disposed_of, X == 1) :-
+test(result_given_before_disposal, X == 1) :-
     virtually(( create([(main :- result(1), receive(_))], A),
                 agent_join(A, timeout, 1),
                 agent_dispose(A),
                 agent_result(A, X, 10) )).
-test(after_its_host_has_stopped, X == 1) :-
+test(result_after_the_host_has_stopped, X == 1) :-
     with_hosts([alpha], ( create([(main :- result(1))], A),
                           joined(A, done), host_stop(alpha),
                           agent_result(A, X, 10) )).
-test(none_given, error(existence_error(result, _))) :-
+test(agent_without_a_result, error(existence_error(result, _))) :-
     virtually(( create([main], A), agent_result(A, _, 10) )).
 test(no_such_agent, error(existence_error(agent, 'x.1@alpha@127.0.0.1:1'))) :-
     virtually(( address(alpha, Address),
@@ -92,7 +92,7 @@ test(no_such_agent, error(existence_error(agent, 'x.1@alpha@127.0.0.1:1'))) :-
                       error(existence_error(agent, Id), _),
                       throw(error(existence_error(agent,
                                   'x.1@alpha@127.0.0.1:1'), _))) )).
-test(clones_give_their_own, Xs == [parent,none]) :-
+test(clones_have_their_own_results, Xs == [parent,none]) :-
     virtually(( create([ (main :- result(parent), clone(Branch), go(Branch)),
                          go(parent(_)), go(clone(_)) ], A),
                 agent_join(family(A), [A-done,B-done], 10),
@@ -100,24 +100,25 @@ test(clones_give_their_own, Xs == [parent,none]) :-
                              catch(agent_result(C, X, 10),
                                    error(existence_error(result, C), _),
                                    X = none) ), Xs) )).
-test(in_a_restore_point, X == 1) :-
+test(result_in_a_restore_point, X == 1) :-
     with_tmp_dir(test_results:restored(X)).
-test(what_cannot_travel, M == mobile_term) :-
+test(result_that_cannot_travel, M == mobile_term) :-
     virtually(( create([(main :- current_output(S),
                                  catch(result(S), error(type_error(T, _), _),
                                        result(T)))], A),
                 agent_result(A, M, 10) )).
-test(too_large, true(O = raised(error(resource_error(result_bytes), _)))) :-
+test(too_large_result,
+     true(O = raised(error(resource_error(result_bytes), _)))) :-
     virtually(listening(( create([(main :- numlist(1, 500000, L),
                                            result(L))], A),
                           joined(A, O) ), _)).
-test(almost_too_large, N == 999900) :-
+test(largest_accepted_result, N == 999900) :-
     virtually(( create([(main :- format(string(S), "~`xt~999900|", []),
                                  result(S))], A),
                 agent_result(A, X, 60), string_length(X, N) )).
-test(outside_an_agent, error(existence_error(running_agent, here))) :-
+test(result_outside_an_agent, error(existence_error(running_agent, here))) :-
     virtually(remote(alpha, result(1))).
-test(bounded, Kept == [none,1]) :-
+test(results_are_bounded, Kept == [none,1]) :-
     with_settings([typhon_outcomes:results=50],
                   virtually(( findall(A, ( between(1, 301, _),
                                            create([(main :- result(1))], A) ),
@@ -152,7 +153,7 @@ test(travels_to_another_process, X == 7) :-
 
 %   More of them than one frame holds.
 
-test(many_large_ones, Lengths == [30000]) :-
+test(many_large_results, Lengths == [30000]) :-
     with_peers([ a, b-[setup(set_setting(typhon_session:frame_bytes,
                                          100000))] ],
                ( peer_host(b, B),
@@ -173,7 +174,7 @@ test(many_large_ones, Lengths == [30000]) :-
 
 %   That it has ended is known at least.
 
-test(longer_than_a_frame, Error == existence_error(result, Id)) :-
+test(result_longer_than_a_frame, Error == existence_error(result, Id)) :-
     with_peers([ a, b-[setup(set_setting(typhon_session:frame_bytes, 70000))] ],
                ( peer_host(b, B),
                  peer_do(a, agent_create(
@@ -208,7 +209,7 @@ tree(Depth, Clauses) :-
 
 :- begin_tests(families).
 
-test(alone, Os == [A-done]) :-
+test(agent_without_clones, Os == [A-done]) :-
     virtually(( create([main], A), agent_join(family(A), Os, 10) )).
 test(all_clones, N-Set == 15-[done]) :-
     tree(3, Clauses),
@@ -219,7 +220,7 @@ test(all_clones, N-Set == 15-[done]) :-
     length(Different, N),
     length(As, N),
     sort(Outcomes, Set).
-test(waits_for_the_last, T =:= 1.0) :-
+test(join_waits_for_the_last_clone, T =:= 1.0) :-
     tree(2, Clauses),
     virtually(( create(Clauses, A), agent_join(family(A), _, 100),
                 remote(alpha, now(T)) )).
@@ -229,7 +230,7 @@ test(only_descendants, Cs == Ds) :-
                 agent_join(family(A), [A-done,B-done,C-done], 10),
                 Cs = [B-done,C-done],
                 agent_join(family(B), Ds, 10) )).
-test(each_before_its_clones, Hops == [0,1,2]) :-
+test(parent_precedes_its_clones, Hops == [0,1,2]) :-
     virtually(( create([(main :- clone(W), on(W)), on(parent(_)),
                         (on(clone(_)) :- result(1), clone(V), more(V)),
                         more(parent(_)), (more(clone(_)) :- result(2))], A),
@@ -257,17 +258,17 @@ test(timeout, Os == [timeout,timeout,done]) :-
 test(without_waiting, Os == [A-timeout]) :-
     virtually(( create([(main :- sleep(5))], A),
                 agent_join(family(A), Os, 0) )).
-test(for_ever, Os == [A-done]) :-
+test(join_without_a_timeout, Os == [A-done]) :-
     virtually(( create([(main :- sleep(5))], A),
                 agent_join(family(A), Os, inf) )).
-test(cloned_from_outside, N == 3) :-
+test(clones_ordered_from_outside, N == 3) :-
     virtually(( create([(main :- receive(_-go))], A),
                 agent_join(A, timeout, 1),
                 agent_clone(A, B), agent_clone(B, C),
                 forall(member(X, [A,B,C]), agent_send(X, go)),
                 agent_join(family(A), Os, 10),
                 length(Os, N) )).
-test(a_clone_that_could_not_begin, Os == [A-done]) :-
+test(clone_that_could_not_start, Os == [A-done]) :-
     with_hosts([alpha,beta-[capacity(0)]],
                ( create([ (main :- catch(clone(beta, _), error(_, _), true)),
                           (main :- true) ], A),
@@ -276,13 +277,13 @@ test(no_such_agent, error(existence_error(agent, foo))) :-
     virtually(agent_join(family(foo), _, 1)).
 test(unbound_agent, error(instantiation_error)) :-
     virtually(agent_join(family(_), _, 1)).
-test(foolish_timeout, error(type_error(number, soon))) :-
+test(invalid_timeout, error(type_error(number, soon))) :-
     virtually(( create([main], A), agent_join(family(A), _, soon) )).
 
 %   A clones on its own host, on that of the other process by clone/2, and
 %   there, having moved; its clones clone in turn, there and back.
 
-test(over_processes, true(Outcomes-N == [done]-10)) :-
+test(family_in_several_processes, true(Outcomes-N == [done]-10)) :-
     with_peers([a, b],
                ( peer_host(a, A), peer_host(b, B),
                  peer_do(a, agent_create(clauses(

@@ -16,7 +16,7 @@
 
 :- begin_tests(chunks, [cleanup(code_clear)]).
 
-test(random_programs_run_as_in_the_machine, Differing == []) :-
+test(compiled_programs_run_as_interpreted, Differing == []) :-
     number_from('TYPHON_PROGRAMS', 200, Count),
     number_from('TYPHON_SEED', 1, First),
     Last is First+Count-1,
@@ -30,7 +30,7 @@ test(random_programs_run_as_in_the_machine, Differing == []) :-
 
 %   Of each place at which an agent has stopped, with any values.
 
-test(a_frame_is_made_of_its_goals_again, Lost-Many == []-true) :-
+test(frame_is_turned_back_into_its_goals, Lost-Many == []-true) :-
     findall(Kept,
             ( between(1, 300, Seed),
               set_random(seed(Seed)),
@@ -47,7 +47,7 @@ test(a_frame_is_made_of_its_goals_again, Lost-Many == []-true) :-
     findall(F, ( member(F, All), F \== kept ), Lost),
     length(All, Count),
     ( Count > 5 -> Many = true ; Many = Count ).
-test(goals_of_another_clause_are_no_frame, Goals-Outcome == [1,7]-done) :-
+test(goals_of_another_clause_form_no_frame, Goals-Outcome == [1,7]-done) :-
     Clauses = [ (:- agent(instance, [state([t_/1])])),
                 (main :- p, q(7)),
                 (p :- move(a), X = Y, t(Y), r(X), r(Y), Y = 1),
@@ -59,7 +59,7 @@ test(goals_of_another_clause_are_no_frame, Goals-Outcome == [1,7]-done) :-
     next(Module, Goals2, Outcome),
     findall(T, chunks_agent:t_(T), Goals),
     abolish(chunks_agent:t_/1).
-test(an_instance_of_goals_is_no_frame) :-
+test(instance_of_the_goals_forms_no_frame) :-
     Clauses = [ (:- agent(instance, [])),
                 (main :- move(a), X = f(Y), functor(X, _, _), Y == 1, move(b)) ],
     stopped(Clauses, Module, [true|Goals]),
@@ -76,7 +76,7 @@ test(an_instance_of_goals_is_no_frame) :-
     Attributed = [Frozen = _|_],
     freeze(Frozen, throw(woken)),
     assertion(\+ framed(Module, Attributed)).
-test(a_frame_holds_no_variable_of_other_goals, nondet) :-
+test(frame_shares_no_variable_with_other_goals, nondet) :-
     Clauses = [ (:- agent(shared, [])),
                 (main :- p(_), q),
                 (p(Z) :- move(a), X = f(Z), functor(X, _, _), atom(X)),
@@ -89,7 +89,7 @@ test(a_frame_holds_no_variable_of_other_goals, nondet) :-
     assertion(\+ frame_of(Module, Sharing, _, [_])).
 %   SWI-Prolog compiles the first occurrence of a variable wrongly there.
 
-test(a_new_variable_is_tested_in_optimised_code,
+test(new_variable_is_tested_in_optimised_code,
      [ setup(set_prolog_flag(optimise, true)),
        cleanup(set_prolog_flag(optimise, false)) ]) :-
     Clauses = [ (:- agent(optimised, [])),
@@ -98,12 +98,12 @@ test(a_new_variable_is_tested_in_optimised_code,
                 (new(X) :- var(X)) ],
     stopped(Clauses, _, Goals),
     assertion(Goals == [true]).
-test(a_deeply_nested_clause_is_compiled_soon,
+test(deeply_nested_clause_is_compiled_quickly,
      true(Within \== inference_limit_exceeded)) :-
     nested(40, Nested),
     Clauses = [(:- agent(deep, [])), (main :- Nested, move(a)), t(_)],
     call_with_inference_limit(stopped(Clauses, _, _), 1 000 000, Within).
-test(a_frame_with_a_cut_does_not_outlive_a_run, Frames == [frame,goals]) :-
+test(frame_with_a_cut_ends_with_its_run, Frames == [frame,goals]) :-
     Clauses = [ (:- agent(cuts, [])),
                 (main :- p, q),
                 (p :- move(a), t(1)),
@@ -117,7 +117,7 @@ test(a_frame_with_a_cut_does_not_outlive_a_run, Frames == [frame,goals]) :-
               ( First = '$k'(_, _) -> Kind = frame ; Kind = goals )
             ),
             Frames).
-test(a_program_is_compiled_by_its_first_run) :-
+test(program_is_compiled_at_its_first_run) :-
     Clauses = [(:- agent(first, [])), (main :- p), (p :- move(a), t(1)), t(_)],
     stopped(Clauses, Module, Goals),
     assertion(Goals == [true,t(1)]),
@@ -125,7 +125,7 @@ test(a_program_is_compiled_by_its_first_run) :-
 
 %   The goals are too long to be noted but at the end of the run; its frame is not.
 
-test(a_failure_inside_catch_is_noted_with_long_goals, Goal == (\+ n(1))) :-
+test(failure_inside_catch_is_reported_with_long_goals, Goal == (\+ n(1))) :-
     length(Long, 200),
     maplist(=(n(1)), Long),
     goals_body(Long, Body),
@@ -140,7 +140,7 @@ test(a_failure_inside_catch_is_noted_with_long_goals, Goal == (\+ n(1))) :-
     next(Module, [main], Outcome),
     fault(Outcome, [main], fault(Goal, _, _)).
 
-test(a_stop_in_a_negation_is_the_fault_of_that, Goals =@= [\+ r(_),\+ r(_)]) :-
+test(stop_in_a_negation_faults_the_negation, Goals =@= [\+ r(_),\+ r(_)]) :-
     Clauses = [ (:- agent(negation, [state([r/1])])),
                 (main :- \+ r(_), move(a)) ],
     program_load(clauses(Clauses), Program, _, Hash, Kinds, _),
@@ -160,7 +160,7 @@ test(a_stop_in_a_negation_is_the_fault_of_that, Goals =@= [\+ r(_),\+ r(_)]) :-
 
 %   a/1 has another clause, in which no goal is noted.
 
-test(a_long_failure_before_a_silent_choice_has_its_name,
+test(long_failed_goal_is_named_at_a_choice,
      Names-Left =@= [n(1),n(_),n(_)]-[2,1,1]) :-
     findall(Goal-Count,
             ( member(Length-Engine, [1-Module,500-Module,500-reference_machine]),
@@ -182,7 +182,7 @@ test(a_long_failure_before_a_silent_choice_has_its_name,
 
 %   What q/1 has bound is needed by no goal that comes after it.
 
-test(a_fault_outlives_garbage_collection,
+test(fault_survives_garbage_collection,
      [ forall(member(Main, [ q(_), \+ q(_), ( q(X) -> t(1) ; t(X) ),
                              catch(q(_), oops, true) ])),
        true(Goals == [q(2),q(2)]) ]) :-

@@ -85,7 +85,7 @@ runs(Terms0, Reply, Outcome, Trace) :-
 
 test(conjunction, O-T == done-[1,2,3]) :-
     runs([(main :- t(1), move(a), t(2), move(b), t(3))], O, T).
-test(the_binding_made_before_a_move, T == [7]) :-
+test(binding_made_before_a_move, T == [7]) :-
     runs([(main :- X = 7, move(a), t(X))], _, T).
 test(disjunction_keeps_the_branch_it_is_in, T == [1,2]) :-
     runs([(main :- ( t(1), move(a), t(2) ; t(3) ))], _, T).
@@ -97,7 +97,7 @@ test(a_move_commits_to_the_clause, O-T == failed-[1]) :-
     runs([(main :- t(1), move(a), fail), (main :- t(2))], O, T).
 test(condition_then, T == [1,2,3]) :-
     runs([(main :- ( t(1), move(a), t(2) -> t(3) ; t(4) ))], _, T).
-test(condition_else_survives, T == [1,4]) :-
+test(condition_else, T == [1,4]) :-
     runs([(main :- ( t(1), move(a), fail -> t(3) ; t(4) ))], _, T).
 test(condition_is_cut_after_a_move, O-T == failed-[1]) :-
     runs([(main :- ( move(a), member(X, [1,2]) -> t(X), X > 1 ; t(9) ))],
@@ -147,7 +147,7 @@ test(once_and_ignore, T == [1,2]) :-
 test(catch_around_a_move, T == [1,caught(oops),3]) :-
     runs([(main :- catch((t(1), move(a), throw(oops)), E, t(caught(E))),
                    t(3))], _, T).
-test(catch_is_left_behind, O == raised(late)) :-
+test(catch_ends_with_its_goal, O == raised(late)) :-
     runs([(main :- catch(move(a), _, t(caught)), throw(late))], O, _).
 test(catch_nested, T == [inner(b),outer(c)]) :-
     runs([(main :- catch(( catch((move(x), throw(b)), b, t(inner(b))),
@@ -185,7 +185,7 @@ test(control_where_prolog_cannot_stop,
      [O = raised(error(permission_error(call, control_predicate, move/1),
                        _))]) :-
     runs([(main :- move(b), G = move(a), \+ call(G))], O, _).
-test(goals_are_what_the_programmer_wrote,
+test(goals_are_source_goals,
      Goals =@= [(_->writeln(x);true), (a, ! ; b), !, main]) :-
     program_load(clauses([(:- agent(g)),
                           (main :- ( sleep(1) -> writeln(x) ; true ),
@@ -193,7 +193,7 @@ test(goals_are_what_the_programmer_wrote,
     code_install(H, P, Kinds),
     code_module(H, M),
     machine_run(context(M, M), [main], effect(sleep(1), _, Goals)).
-test(a_tail_recursive_agent_does_not_grow, O-N-L == done-100000-2) :-
+test(tail_recursion_uses_constant_space, O-N-L == done-100000-2) :-
     program_load(clauses([(:- agent(g, [state([n/1])])),
                           (main :- n(0), !),
                           (main :- retract(n(N)), N1 is N-1, assertz(n(N1)),
@@ -308,7 +308,7 @@ mapargs_hop(Term0, Term) :-
 
 :- begin_tests(random_programs, [cleanup(code_clear)]).
 
-test(hopping_anywhere_changes_nothing, Bad-Many == none-true) :-
+test(hops_do_not_change_the_results, Bad-Many == none-true) :-
     set_random(seed(20)),
     compare(300, 0, Hops, Bad),
     ( Hops > 3000 -> Many = true ; Many = Hops ).

@@ -175,7 +175,7 @@ final_(Clauses, Facts) :-
 test(no_such_file,
      error(existence_error(source_sink, no_such_census))) :-
     load(no_such_census).
-test(no_program_at_all, error(instantiation_error)) :-
+test(unbound_program, error(instantiation_error)) :-
     load(_).
 test(not_a_program, error(type_error(callable, 7))) :-
     load(7).
@@ -184,7 +184,7 @@ test(no_declaration, F-L == existence_error(declaration, agent)-2) :-
     says(A, 'begin the file with :- agent(Name').
 test(empty_file, error(existence_error(declaration, agent))) :-
     load(clauses([])).
-test(declaration_that_is_none, F-L == existence_error(declaration, agent)-2) :-
+test(invalid_declaration, F-L == existence_error(declaration, agent)-2) :-
     problem(['main.', ':- agent("census", []).'], F, L, _).
 test(second_declaration, F-L == permission_error(declare, agent, b)-3) :-
     problem([':- agent(a).', 'main.', ':- agent(b).'], F, L, A),
@@ -213,7 +213,7 @@ test(missing_library, F-L == existence_error(library, no_such_thing)-2) :-
     problem([':- agent(a).', ':- use_module(library(no_such_thing)).',
              'main.'], F, L, A),
     says(A, 'no such library').
-test(dynamic_of_something_else,
+test(invalid_dynamic_declaration,
      F-L == type_error(predicate_indicator, seen)-2) :-
     problem([':- agent(a).', ':- dynamic p/1, seen.', 'main.'], F, L, A),
     says(A, 'Name/Arity').
@@ -243,7 +243,7 @@ test(grammar_rule, F-L == type_error(callable, 1)-3) :-
 test(no_entry, F-L == existence_error(entry, main/0)-1) :-
     problem([':- agent(a).', 'p(1).'], F, L, A),
     says(A, 'define main/0').
-test(entry_misspelt, F-L == existence_error(entry, main/0)-1) :-
+test(mistyped_entry, F-L == existence_error(entry, main/0)-1) :-
     problem([':- agent(a).', 'mian.', 'on_message(_).'], F, L, A),
     says(A, 'did you mean main/0 by mian/0?').
 test(option, F-L == domain_error(agent_declaration, colour(red))-1) :-
@@ -252,7 +252,7 @@ test(state, F-L == type_error(predicate_indicator, seen)-2) :-
     problem(['% a file', ':- agent(a, [state([p/1, seen])]).', 'main.'],
             F, L, A),
     says(A, 'state([Name/Arity').
-test(state_that_does_not_end,
+test(state_as_a_partial_list,
      true(F-L = domain_error(agent_declaration, state(_))-1)) :-
     problem([':- agent(a, [state([p/1|_])]).', 'main.'], F, L, _).
 test(state_of_control,
@@ -285,9 +285,9 @@ test(static_clauses_cannot_be_changed, Ms == [assertz,retract,retractall]) :-
               says(A, 'state([p/1])')
             ),
             Ms).
-test(first_in_the_file, F-L == type_error(callable, 1)-2) :-
+test(first_problem_of_the_file, F-L == type_error(callable, 1)-2) :-
     problem([':- agent(a).', '1.', ':- foo.', 'main :- 3.'], F, L, _).
-test(all_in_the_order_of_the_file, Lines == [1,2,3,4]) :-
+test(all_problems_in_file_order, Lines == [1,2,3,4]) :-
     check([':- agent(a, [x]).', '1.', ':- foo.', 'p :- 3.', 'main.'], Told),
     findall(Line, member(error-Line, Told), Lines).
 test(payload_without_a_name, F-L == existence_error(declaration, payload)-1) :-
@@ -324,7 +324,7 @@ test(initial_state_does_not_change_the_hash, H1 == H2) :-
     program_load(clauses([(:- agent(a, [state([p/1])])), main]), P2, _),
     program_hash(P1, H1),
     program_hash(P2, H2).
-test(clauses_do_change_the_hash, true(H1 \== H2)) :-
+test(clauses_change_the_hash, true(H1 \== H2)) :-
     program_load(clauses([(:- agent(a)), (main :- p(_, _))]), P1, _),
     program_load(clauses([(:- agent(a)), (main :- p(X, X))]), P2, _),
     program_hash(P1, H1),
@@ -335,8 +335,9 @@ test(operators_of_the_reader_do_not_change_the_hash, H1 == H2) :-
     setup_call_cleanup(op(700, xfx, user:likes),
                        program_hash(P, H2),
                        op(0, xfx, user:likes)).
-test(file_that_may_not_be_read,
-     [condition(\+ reads_all), error(permission_error(open, source_sink, _))]) :-
+test(unreadable_file,
+     [ condition(\+ reads_all),
+       error(permission_error(open, source_sink, _)) ]) :-
     with_file([':- agent(a).', 'main.'], test_program:not_for_us).
 test(extension_may_be_left_out, N == a) :-
     with_file([':- agent(a).', 'main.'], test_program:without_extension(N)).
@@ -351,10 +352,10 @@ test(error_in_an_included_file, L-E == 2-type_error(callable, 7)) :-
     with_files([ a-[':- agent(a).', 'main.', ':- include(b).'],
                  b-['p(1).', '7.'] ],
                test_program:error_in(b, L, E)).
-test(included_file_that_is_not_there, F-L == (existence_error(source_sink, b)-3)) :-
+test(missing_included_file, F-L == (existence_error(source_sink, b)-3)) :-
     problem([':- agent(a).', 'main.', ':- include(b).'], F, L, A),
     says(A, 'cannot include').
-test(included_file_that_is_mistyped) :-
+test(mistyped_included_file) :-
     with_files([ a-[':- agent(a).', ':- include(helprs).', 'main.'],
                  helpers-['p(1).'] ],
                test_program:error_of(load, _, 2, A)),
@@ -472,25 +473,25 @@ many(Dir, _) :-
     findall(F, typhon_loaded:loaded(F, _, _), Files),
     length(Files, 3).
 
-:- begin_tests(remembered).
+:- begin_tests(program_cache).
 
-test(until_a_file_changes) :-
+test(program_is_cached_until_its_file_changes) :-
     two_files(100, test_program:old_files).
-test(not_while_a_file_is_new) :-
+test(new_file_is_not_cached) :-
     two_files(1, test_program:new_files).
-test(not_when_a_file_is_gone) :-
+test(missing_file_is_not_cached) :-
     two_files(100, test_program:gone).
-test(not_when_another_file_is_meant) :-
+test(relative_name_of_another_file_is_not_cached) :-
     two_files(100, test_program:another).
-test(bounded) :-
+test(cache_is_bounded) :-
     with_settings([typhon_loaded:files=3],
                   two_files(100, test_program:many)).
 
-:- end_tests(remembered).
+:- end_tests(program_cache).
 
 :- begin_tests(agent_check).
 
-test(in_order, M == [informational-checked(0, 0, 0)]) :-
+test(correct_program, M == [informational-checked(0, 0, 0)]) :-
     check([':- agent(a, [state([p/1])]).',
            'main :- p(X), q(X), member(Y, [X]), here(_), move(Y).',
            'q(_).'], M).
@@ -502,12 +503,12 @@ test(all_problems, M == [error-3, error-4, warning-2,
            ':- foo.'], M).
 test(undefined_in_a_meta_call, M == [warning-2, informational-checked(0, 0, 1)]) :-
     check([':- agent(a).', 'main :- findall(X, nowhere(X), _).'], M).
-test(what_a_library_offers, M == [informational-checked(0, 0, 0)]) :-
+test(exports_of_a_library, M == [informational-checked(0, 0, 0)]) :-
     check([':- agent(a).', ':- use_module(library(dcg/basics)).',
            'main :- phrase(integer(_), `12`).'], M).
-test(control_in_the_wrong_place, M == [error-2, informational-checked(1, 0, 0)]) :-
+test(misplaced_control, M == [error-2, informational-checked(1, 0, 0)]) :-
     check([':- agent(a).', 'main :- forall(true, move(a)).'], M).
-test(no_file, error(existence_error(source_sink, no_such_census))) :-
+test(missing_file, error(existence_error(source_sink, no_such_census))) :-
     agent_check(no_such_census).
 
 :- end_tests(agent_check).
@@ -525,18 +526,18 @@ test(facts_added_at_birth, F == [s(1),s(2)]) :-
                ( create([on_message(_, _), s(1)], A, [facts([s(2)])]),
                  wait_state(A, resident),
                  agent_property(A, facts(F)) )).
-test(a_rule_replaced_while_it_runs, F == [(r(1):-assertz(s(new))),s(old),s(new)]) :-
+test(rule_replaced_during_its_run, F == [(r(1):-assertz(s(new))),s(old),s(new)]) :-
     final([ (main :- r(1), r(1)),
             (r(1) :- retract((r(1) :- _)),
                      assertz((r(1) :- assertz(s(new)))),
                      assertz(s(old))) ], F).
-test(a_rule_that_calls_control,
+test(rule_that_calls_control,
      true(F =@= [(r(X):-receive(_,0.01)->true;assertz(s(X))),s(1),s(2)])) :-
     final([ (main :- assertz(s(1)),
                      assertz((r(X) :- receive(_, 0.01) -> true
                                     ; assertz(s(X)))),
                      r(2)) ], F).
-test(a_rule_that_learns_to_travel, F == [s(here),s(alpha),s(beta)]) :-
+test(rule_replaced_by_one_that_moves, F == [s(here),s(alpha),s(beta)]) :-
     with_hosts([alpha,beta],
                ( create([ on_message(_, _),
                           (main :- r(beta), change, r(beta), name(N),
@@ -551,7 +552,7 @@ test(a_rule_that_learns_to_travel, F == [s(here),s(alpha),s(beta)]) :-
                  findall(s(X), fact_of(Agent, s(X)), F) )).
 test(predicates_not_declared_are_state, F == [new(1)]) :-
     final([(main :- assertz(new(1)))], F).
-test(state_called_like_a_library_predicate, F == [last(1,2)]) :-
+test(state_named_like_a_library_predicate, F == [last(1,2)]) :-
     with_hosts([alpha],
                ( agent_create(clauses([(:- agent(t, [state([last/2])])),
                                        on_message(_, _),
@@ -578,7 +579,7 @@ test(library_with_operators_and_predicates, F == [s(12)]) :-
                                                 assertz(s(X)))]), A),
                  wait_state(A, resident),
                  agent_property(A, facts(F)) )).
-test(grammar_of_its_own, F == [s([1,2])]) :-
+test(own_grammar, F == [s([1,2])]) :-
     final([ (list([X|Xs]) --> [X], list(Xs)), (list([]) --> []),
             (main :- phrase(list(L), [1,2]), assertz(s(L))) ], F).
 

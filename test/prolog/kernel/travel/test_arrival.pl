@@ -17,7 +17,7 @@ under the same id is let in.
 
 :- begin_tests(arrival).
 
-test(what_is_no_agent_is_refused,
+test(invalid_image_is_refused,
      [forall(bad(Image, Id, Why)), true(Answer == refused(error(Why)))]) :-
     with_hosts([alpha],
                quietly(( image([], Good0),
@@ -27,7 +27,7 @@ test(what_is_no_agent_is_refused,
                          alone,
                          sent(Good0, accepted),
                          arrived(Good0) ))).
-test(a_program_that_is_another,
+test(program_with_another_hash,
      true(Answer = refused(error(domain_error(program_of_hash(_), _))))) :-
     with_hosts([alpha],
                quietly(( image([], Image),
@@ -38,13 +38,13 @@ test(a_program_that_is_another,
                          alone,
                          sent(Image, accepted),
                          arrived(Image) ))).
-test(comes_twice, true(Answer == accepted)) :-
+test(image_arrives_twice, true(Answer == accepted)) :-
     with_hosts([alpha],
                ( image([], Image),
                  sent(Image, accepted),
                  arrived(Image),
                  sent(Image, Answer) )).
-test(nothing_is_left_of_a_bad_one) :-
+test(invalid_image_leaves_nothing) :-
     with_hosts([alpha],
                ( image([], Good),
                  sent(Good, accepted),

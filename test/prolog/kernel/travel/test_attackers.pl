@@ -78,9 +78,9 @@ resides(Agent, Host) :-
 
 test(expired_certificate_is_refused) :-
     with_authority([alpha, good, old], [], test_attackers:expired).
-test(link_that_was_removed_is_missed) :-
+test(removed_link_is_detected) :-
     with_attacker(test_attackers:links_removed).
-test(image_that_is_sent_again_makes_no_second_agent) :-
+test(replayed_image_creates_no_second_agent) :-
     with_attacker(test_attackers:sent_again).
 
 :- end_tests(attackers).

@@ -17,17 +17,17 @@ TYPHON_HOPS=100000 in the environment there are as many as that.
 
 :- begin_tests(silent_peer).
 
-test(in_doubt_then_settled_once) :-
+test(in_doubt_is_resolved_once) :-
     with_doubt([a, b], silent_then_back).
 test(in_doubt_until_disposed_of) :-
     with_doubt([a, b], killed_for_good).
-test(order_to_end_waits) :-
+test(disposal_waits_while_in_doubt) :-
     with_doubt([a, b], told_then_back).
-test(order_to_end_follows) :-
+test(disposal_follows_the_agent) :-
     with_doubt([a, b], disposed_then_back).
 test(clone_in_doubt) :-
     with_doubt([a, b], clone_then_back).
-test(end_arrives_before_the_answer,
+test(end_precedes_the_answer,
      true(Outcome = raised(error(existence_error(agent, _), _)))) :-
     with_peers([a, b], ended_first(Outcome)).
 
@@ -122,14 +122,14 @@ steps_at(Peer, Id, Steps) :-
 
 :- begin_tests(killed_peer).
 
-test(agent_goes_on_at_its_source, forall(born(Born))) :-
+test(agent_continues_at_its_source, forall(born(Born))) :-
     with_doubt([a, b, c], restarted(Born)).
-test(agent_that_got_away_is_not_doubled) :-
+test(agent_that_hopped_on_is_not_duplicated) :-
     with_doubt([a, b, c], got_away).
-test(agent_that_got_away_is_not_doubled_if_its_home_died_too,
+test(agent_that_hopped_on_is_not_duplicated_without_its_home,
      forall(home_of_lost(Home))) :-
     with_doubt([a, b, c, d], got_away_from(Home)).
-test(agent_that_got_away_is_not_doubled_if_it_has_ended,
+test(ended_agent_is_not_duplicated,
      forall(home_of_lost(Home))) :-
     with_doubt([a, b, c, d], got_away_and_ended(Home)).
 test(move_to_a_dead_host_raises) :-
@@ -233,13 +233,13 @@ dead_host :-
     peer_do(a, try_move(B, [], Error)),
     Error == error(host_unreachable(B)).
 
-:- begin_tests(departing).
+:- begin_tests(disposal_during_a_hop).
 
 test(disposed_agent_does_not_continue) :-
     with_peers([ a-[host([hop_time(uniform(0.005, 0.01))])], b ],
                disposed_while_leaving(60)).
 
-:- end_tests(departing).
+:- end_tests(disposal_during_a_hop).
 
 %   Large agents leave, and take a while to be packed; meanwhile they are
 %   disposed of.  Each then ends on one of the two sides.
@@ -260,16 +260,16 @@ disposed_while_leaving(Count) :-
                       peer_do(Peer, \+ agent_here(_))), 10),
     peer_do(a, \+ status_here(_)).
 
-:- begin_tests(bouncing).
+:- begin_tests(constant_hops).
 
 test(without_pause) :-
     with_peers([a, b], bounce).
-test(two_of_one_name) :-
+test(two_agents_of_one_name) :-
     with_peers([a, b], namesakes).
 test(host_stopped_under_way) :-
     with_peers([a, b], stop_under_way(20)).
 
-:- end_tests(bouncing).
+:- end_tests(constant_hops).
 
 hops(Hops) :-
     (   getenv('TYPHON_HOPS', Atom)
@@ -350,14 +350,15 @@ accounted_for(Id) :-
                  ;   peer_do(a, outcome_here(Id, disposed))
                  ) ), 10).
 
-:- begin_tests(strangers).
+:- begin_tests(unauthenticated_clients).
 
-test(do_not_disturb_others, forall(stranger(Stranger))) :-
+test(unauthenticated_clients_do_not_disturb_others,
+     forall(stranger(Stranger))) :-
     with_peers([a, b], visited_by(Stranger)).
 test(silent_processes_do_not_block) :-
     with_peers([a, b], visited_by_silence).
 
-:- end_tests(strangers).
+:- end_tests(unauthenticated_clients).
 
 stranger(garbage).
 stranger(http).
@@ -439,7 +440,7 @@ visited_by_silence :-
 
 :- begin_tests(wrong_cookie).
 
-test(is_refused_with_one_line_on_either_side) :-
+test(wrong_cookie_prints_one_line_on_either_side) :-
     with_peers([a, b, c-[setup(setenv('TYPHON_COOKIE', other))]],
                wrong_cookie).
 

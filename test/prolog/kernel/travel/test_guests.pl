@@ -64,14 +64,14 @@ hosts_stop(Ids) :-
 
 :- begin_tests(guests).
 
-test(do_not_block_others, forall(burden(Kind, _))) :-
+test(guests_do_not_block_others, forall(burden(Kind, _))) :-
     with_guests(Kind, 4, others_travel).
-test(end_with_their_host, forall(burden(Kind, _))) :-
+test(guests_end_with_their_host, forall(burden(Kind, _))) :-
     with_guests(Kind, 4, hosts_stop).
-test(survive_an_answer_that_is_too_long) :-
+test(guests_survive_a_too_long_answer) :-
     with_peers([ a, b-[setup(set_setting(typhon_session:frame_bytes, 70 000))] ],
                too_long_to_tell).
-test(end_when_disposed_of) :-
+test(guests_end_when_disposed_of) :-
     with_guests(walks, 2, disposed).
 
 too_long_to_tell :-

@@ -50,7 +50,7 @@ visitor([ (:- agent(visitor, [state([to/1, fact/1, got/1])])),
 
 :- begin_tests(under_way).
 
-test(its_properties_are_known,
+test(properties_under_way,
      State-Facts-Hops == in_transit-[fact(1),fact(2)]-0) :-
     with_under_way([fact(1), fact(2)], Id,
         ( peer_do(a, agent_property(Id, state(State))),
@@ -58,7 +58,7 @@ test(its_properties_are_known,
           findall(fact(X), member(fact(X), All), Facts),
           peer_do(a, agent_property(Id, hops(Hops))),
           goes_on(Id) )).
-test(it_is_listed, true(memberchk(Id, Ids))) :-
+test(agent_under_way_is_listed, true(memberchk(Id, Ids))) :-
     with_under_way([], Id,
         ( peer_do(a, findall(A, agent_property(A, home(_)), Ids)),
           goes_on(Id) )).
@@ -69,7 +69,7 @@ test(messages_follow_in_order, Result == B-All) :-
           forall(member(N, All), peer_do(a, agent_send(Id, N))),
           goes_on(Id),
           result_of(Id, Result) )).
-test(messages_follow_also_when_it_was_looked_at, Result == B-All) :-
+test(messages_follow_in_order_after_a_query, Result == B-All) :-
     numlist(1, 20, All),
     with_under_way([], Id,
         ( peer_host(b, B),
@@ -81,12 +81,12 @@ test(messages_follow_also_when_it_was_looked_at, Result == B-All) :-
                    ) )),
           goes_on(Id),
           result_of(Id, Result) )).
-test(an_order_to_end_follows_it, Outcome == disposed) :-
+test(disposal_follows_the_agent, Outcome == disposed) :-
     with_under_way([], Id,
         ( peer_do(a, agent_dispose(Id)),
           peer_signal(b, cont),
           wait_until(peer_do(a, agent_join(Id, Outcome, 1)), 20) )).
-test(it_goes_on_at_its_source_when_the_other_process_has_died,
+test(agent_continues_at_its_source_after_the_peer_died,
      Error == host_unreachable(B)) :-
     with_under_way([], Id,
         ( peer_host(b, B),
@@ -95,7 +95,7 @@ test(it_goes_on_at_its_source_when_the_other_process_has_died,
           wait_until(peer_do(a, remote(a, take(raised(Error)))), 30),
           peer_do(a, agent_send(Id, end)),
           wait_until(peer_do(a, agent_join(Id, done, 1)), 20) )).
-test(its_host_is_stopped_meanwhile) :-
+test(its_host_is_stopped_during_the_hop) :-
     with_under_way([], Id,
         ( peer_signal(b, cont),
           peer_do(a, host_stop(a)),
@@ -132,7 +132,7 @@ test(refused_for_capacity_raises_at_the_move,
           peer_do(b, host_change(b, capacity(0))),
           mover(a, B),
           wait_until(peer_do(a, remote(a, take(raised(Error)))), 20) )).
-test(what_cannot_travel_raises_at_the_move,
+test(unserializable_agent_raises_at_the_move,
      Error = type_error(mobile_term, _)) :-
     with_peers([a, b],
         ( peer_host(a, A),
@@ -161,7 +161,7 @@ mover(Peer, To) :-
 %   Ten agents hop; meanwhile one option after the other is switched on and off
 %   on both hosts.
 
-test(change_the_way_and_lose_nothing) :-
+test(changing_options_loses_no_agent) :-
     with_peers([a, b],
         ( peer_host(a, A),
           peer_host(b, B),

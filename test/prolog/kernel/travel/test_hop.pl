@@ -28,12 +28,12 @@ with_proxied(Codec, Goal) :-
     with_peers([ a-[proxy(true), codec(Codec)],
                  b-[proxy(true), codec(Codec)] ], Goal).
 
-:- begin_tests(hop_cut).
+:- begin_tests(connections_cut_during_hops).
 
-test(on_the_way_there, forall(codec(Codec))) :-
+test(cut_during_the_hop, forall(codec(Codec))) :-
     with_proxied(Codec, cut_everywhere(up, down)).
 
-test(on_the_way_back, forall(codec(Codec))) :-
+test(cut_during_the_return, forall(codec(Codec))) :-
     with_proxied(Codec, cut_everywhere(down, up)).
 
 test(without_pause, forall(codec(Codec))) :-
@@ -42,18 +42,18 @@ test(without_pause, forall(codec(Codec))) :-
 test(between_hosts_of_one_process) :-
     with_peers([a-[proxy(true)]], cut_self_connection).
 
-test(before_the_answer) :-
+test(cut_before_the_answer) :-
     with_proxied(fast, cut_before_answer(10)).
 
-:- end_tests(hop_cut).
+:- end_tests(connections_cut_during_hops).
 
-:- begin_tests(hop_big).
+:- begin_tests(large_hops).
 
 test(among_small_ones, forall(heavy(Codec, Facts))) :-
     with_peers([ a-[codec(Codec)], b-[codec(Codec)] ],
                cross_heavily(Facts)).
 
-:- end_tests(hop_big).
+:- end_tests(large_hops).
 
 heavy(fast, 20 000).
 heavy(text, 2 000).
@@ -190,7 +190,7 @@ test(by_an_unknown_host) :-
                  Before > 0,
                  atom_concat('missing@', Endpoint, Missing),
                  refused_at(Missing, unknown_host, []) )).
-test(two_that_change_places) :-
+test(two_agents_swap_hosts) :-
     with_peers([ a-[host([capacity(1)])],
                  b-[host([capacity(1)])],
                  c ], swap(200)).
@@ -292,9 +292,9 @@ nth(I, List, X) :-
 
 :- begin_tests(hop_program).
 
-test(travels_once) :-
+test(program_travels_once) :-
     with_peers([a, b], programs_sent_once).
-test(is_asked_for_again) :-
+test(program_is_requested_again) :-
     with_peers([a, b-[setup(set_setting(typhon_code:programs, 0))]],
                programs_evicted).
 

@@ -16,13 +16,13 @@ live.  When it does not, that is said where the message was sent.
 
 :- begin_tests(unreachable_process).
 
-test(mail_waits_for_its_way) :-
+test(mail_waits_for_a_route) :-
     with_cut(waits_for_way).
 test(mail_in_order_behind_waiting_mail) :-
     with_cut(waits_in_order).
 test(mail_in_order_behind_failed_attempts) :-
     with_cut(waits_behind_tried).
-test(mail_in_order_where_the_agent_comes_to_it) :-
+test(mail_in_order_at_the_new_host_of_the_agent) :-
     with_cut(waits_where_it_comes).
 test(reported_to_the_sender_when_the_process_is_dead) :-
     with_peers([a, b, c], told_when_dead).
@@ -144,9 +144,9 @@ said(Peer, Text, Id) :-
 
 :- begin_tests(process_started_again).
 
-test(home_and_process_agree_that_the_agent_is_gone) :-
+test(home_and_process_agree_that_the_agent_ended) :-
     with_peers([a, b, c-[setup(count_messages)]], no_storm).
-test(home_that_was_started_again_learns_where_its_agents_are) :-
+test(restarted_home_learns_the_hosts_of_its_agents) :-
     with_peers([a, b, c], home_learns).
 
 :- end_tests(process_started_again).
@@ -194,7 +194,7 @@ home_learns :-
 
 :- begin_tests(news).
 
-test(of_each_agent_the_newest_are_kept) :-
+test(newest_news_of_each_agent_are_kept) :-
     with_peers([a, b, c], dead_home).
 
 :- end_tests(news).

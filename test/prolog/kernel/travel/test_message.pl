@@ -43,13 +43,13 @@ passed_on(Id, Message) :-
 
 :- begin_tests(messages).
 
-test(from_outside_they_are_from_user, true(F == [s(user-hello)])) :-
+test(sender_outside_agents_is_user, true(F == [s(user-hello)])) :-
     with_hosts([alpha],
                ( create([(on_message(W, M) :- assertz(s(W-M)))], A),
                  agent_send(A, hello),
                  wait_until(has_all(A, 1), 5),
                  facts(A, F) )).
-test(from_an_agent, true(F == [s(B-hello)])) :-
+test(sender_is_an_agent, true(F == [s(B-hello)])) :-
     with_hosts([alpha,beta],
                ( create([(on_message(W, M) :- assertz(s(W-M)))], A),
                  create([(main :- s(A0), move(beta), send(A0, hello))], B,
@@ -57,37 +57,37 @@ test(from_an_agent, true(F == [s(B-hello)])) :-
                  joined(B, done),
                  wait_until(has_all(A, 1), 5),
                  facts(A, F) )).
-test(answers, true(O == done)) :-
+test(messages_are_answered, true(O == done)) :-
     with_hosts([alpha,beta],
                ( create([(on_message(W, ask(X)) :- Y is X*2, send(W, Y))], A,
                         [host(beta)]),
                  create([(main :- s(A0), send(A0, ask(21)), receive(A0-42))],
                         B, [facts([s(A)])]),
                  joined(B, O) )).
-test(to_itself, true(F == [s(1)])) :-
+test(agent_writes_to_itself, true(F == [s(1)])) :-
     with_hosts([alpha],
                ( create([(main :- self(S), send(S, 1)),
                          (on_message(_, M) :- assertz(s(M)))], A),
                  wait_until(has_all(A, 1), 5),
                  facts(A, F) )).
-test(any_term, true(F =@= [s(f(X,X,_,"text",1.5,[a|b],7777777777777777777777))])) :-
+test(message_may_be_any_term, true(F =@= [s(f(X,X,_,"text",1.5,[a|b],7777777777777777777777))])) :-
     with_hosts([alpha],
                ( collector(A, []),
                  agent_send(A, f(Y,Y,_,"text",1.5,[a|b],7777777777777777777777)),
                  wait_until(has_all(A, 1), 5),
                  facts(A, F) )),
     X = _.
-test(what_cannot_travel, error(type_error(mobile_term, _))) :-
+test(message_that_cannot_travel, error(type_error(mobile_term, _))) :-
     with_hosts([alpha],
                ( collector(A, []), current_output(S), agent_send(A, S) )).
 test(to_unknown_agent, error(existence_error(agent, foo))) :-
     with_hosts([alpha], agent_send(foo, hello)).
-test(to_an_unbound, error(instantiation_error)) :-
+test(message_to_an_unbound_id, error(instantiation_error)) :-
     with_hosts([alpha], agent_send(_, hello)).
-test(to_one_that_has_ended, error(existence_error(agent, _))) :-
+test(message_to_an_ended_agent, error(existence_error(agent, _))) :-
     with_hosts([alpha],
                ( create([main], A), joined(A, done), agent_send(A, hello) )).
-test(to_a_faulty_one_is_kept, true(M == [user-hello])) :-
+test(message_to_a_faulty_agent_is_kept, true(M == [user-hello])) :-
     with_hosts([alpha],
                listening(( create([(main :- throw(x))], A),
                            joined(A, _),
@@ -98,14 +98,15 @@ test(to_unknown_agent_from_an_agent,
     with_hosts([alpha],
                listening(( create([(main :- send(foo, hello))], A),
                            joined(A, O) ), M)).
-test(to_the_user,
+test(message_to_the_user,
      true(M = [informational-typhon(told(_, hello))])) :-
     with_hosts([alpha],
                listening(( create([(main :- send(user, hello))], A),
                            joined(A, done) ), M)).
-test(to_an_address_without_a_process, error(host_unreachable('127.0.0.1:1'))) :-
+test(message_to_an_address_without_a_process,
+     error(host_unreachable('127.0.0.1:1'))) :-
     with_hosts([alpha], agent_send('x.1.2@gamma@127.0.0.1:1', hello)).
-test(message_for_a_process_never_reached_is_dropped_at_last,
+test(message_to_an_unreachable_process_is_dropped_after_a_time,
      true(M = [warning-typhon(undeliverable(_, Id, x, hello))])) :-
     Id = 'x.1.2@gamma@127.0.0.1:none',
     with_hosts([alpha],
@@ -144,7 +145,7 @@ test(from_many_agents, true(N == 50*10)) :-
                  wait_until(has_all(A, 500), 10),
                  has_all(A, N0) )),
     N = 50*10, N0 =:= N.
-test(while_it_runs, true(Ns == [1,2,3])) :-
+test(messages_to_a_running_agent, true(Ns == [1,2,3])) :-
     with_hosts([alpha],
                ( create([(main :- take(stop), !), (main :- main),
                          (on_message(_, M) :- assertz(s(M)))], A),
@@ -165,7 +166,7 @@ test(sent_before_it_moved_travel_with_it, true(Ns == [1,2,3])) :-
                  maplist(agent_send(A), [1,2,go,3]),
                  wait_until(has_all(A, 3), 5),
                  numbers(A, Ns) )).
-test(in_flight, true(Ns == [1,2,3])) :-
+test(message_to_an_agent_in_flight, true(Ns == [1,2,3])) :-
     with_hosts([alpha-[hop_time(uniform(1000, 1001))],beta],
                ( create([(main :- move(beta)),
                          (on_message(_, M) :- assertz(s(M)))], A),
@@ -174,7 +175,7 @@ test(in_flight, true(Ns == [1,2,3])) :-
                  once(typhon_scheduler:fire(A, leave)),
                  wait_until(has_all(A, 3), 5),
                  numbers(A, Ns) )).
-test(in_flight_to_a_host_that_refuses, true(Ns == [1,2,3])) :-
+test(message_to_an_agent_in_flight_to_a_refusing_host, true(Ns == [1,2,3])) :-
     with_hosts([alpha-[hop_time(uniform(1000, 1001))],beta-[capacity(0)]],
                ( create([(main :- catch(move(beta), error(_, _), true)),
                          (on_message(_, M) :- assertz(s(M)))], A),
@@ -183,7 +184,7 @@ test(in_flight_to_a_host_that_refuses, true(Ns == [1,2,3])) :-
                  once(typhon_scheduler:fire(A, leave)),
                  wait_until(has_all(A, 3), 5),
                  numbers(A, Ns) )).
-test(gone_elsewhere, true(Ns == [1,2,3])) :-
+test(message_to_an_agent_that_moved, true(Ns == [1,2,3])) :-
     with_hosts([alpha,beta],
                ( collector(A, []),
                  agent_move(A, beta),
@@ -192,7 +193,7 @@ test(gone_elsewhere, true(Ns == [1,2,3])) :-
                  maplist(agent_send(A), [1,2,3]),
                  wait_until(has_all(A, 3), 5),
                  numbers(A, Ns) )).
-test(a_moving_target_gets_all_once, true(Sorted == Sent)) :-
+test(moving_agent_gets_each_message_once, true(Sorted == Sent)) :-
     numlist(1, 2000, Sent),
     with_hosts([alpha,beta],
                ( traveller(A),
@@ -202,7 +203,7 @@ test(a_moving_target_gets_all_once, true(Sorted == Sent)) :-
                  numbers(A, Ns),
                  msort(Ns, Sorted),
                  assertion(Ns == Sent) )).
-test(many_senders_and_a_moving_target, true(N == 2000)) :-
+test(many_senders_to_a_moving_agent, true(N == 2000)) :-
     with_hosts([alpha,beta],
                ( traveller(A),
                  findall(B, ( member(H, [alpha,beta]), between(1, 10, _),
@@ -218,7 +219,7 @@ test(many_senders_and_a_moving_target, true(N == 2000)) :-
                  numbers(A, Ns),
                  sort(Ns, Set),
                  length(Set, N) )).
-test(agents_that_play_while_they_travel, true(Os == [done,done])) :-
+test(travelling_agents_exchange_messages, true(Os == [done,done])) :-
     with_hosts([alpha,beta],
                ( Play = [ (main :- receive(_-with(B)), play(B, 200)),
                           (play(_, 0) :- !),
@@ -258,7 +259,7 @@ test(wrong_hint, true(Ns == [1])) :-
                  agent_send(at(A, alpha), 1),
                  wait_until(has_all(A, 1), 5),
                  numbers(A, Ns) )).
-test(hint_that_is_no_host, error(existence_error(host, nowhere))) :-
+test(hint_is_not_a_host, error(existence_error(host, nowhere))) :-
     with_hosts([alpha],
                ( collector(A, []), agent_send(at(A, nowhere), 1) )).
 test(hint_of_an_agent, true(Ns == [1])) :-

@@ -123,28 +123,28 @@ act(hurry) :-
 
 :- begin_tests(news).
 
-test(the_newest, Kept == [News2]) :-
+test(newest_news_counts, Kept == [News2]) :-
     at(1, News1), at(2, News2),
     told([News1, News2], Kept).
 test(newest_news_counts_in_any_order, Kept == [News2]) :-
     at(1, News1), at(2, News2),
     told([News2, News1], Kept).
-test(an_end, Kept == [End]) :-
+test(end_counts, Kept == [End]) :-
     at(2, News), end(2, End),
     told([News, End], Kept).
-test(end_that_arrives_first, Kept == [End]) :-
+test(end_before_older_news, Kept == [End]) :-
     at(2, News), end(2, End),
     told([End, News], Kept).
-test(end_queued_while_the_courier_is_away, Kept == [End]) :-
+test(end_queued_during_a_send, Kept == [End]) :-
     at(2, News), end(2, End),
     told_under_way(News, End, Kept).
-test(end_carried_by_the_courier, Kept == [End]) :-
+test(end_under_way_precedes_news_of_the_same_hop, Kept == [End]) :-
     at(2, News), end(2, End),
     told_under_way(End, News, Kept).
-test(a_copy_given_up_in_doubt, Kept == [News]) :-
+test(later_news_follow_the_end_of_a_discarded_copy, Kept == [News]) :-
     end(1, End), at(2, News),
     told_under_way(End, News, Kept).
-test(places_go_together_after_a_pause, Posts == [10]) :-
+test(news_are_batched_after_a_pause, Posts == [10]) :-
     findall(tell(I, News), ( between(1, 10, I), at(I, News) ), Acts),
     sent_with_pause(0.3, Acts, Posts).
 test(end_is_sent_at_once_with_all_waiting_news, Posts == [2]) :-
@@ -153,7 +153,7 @@ test(end_is_sent_at_once_with_all_waiting_news, Posts == [2]) :-
 test(waiting_news_are_sent_on_demand, Posts == [1]) :-
     at(1, News),
     sent_with_pause(60, [tell(x, News), hurry], Posts).
-test(news_of_a_slow_courier_at_the_end_of_the_process) :-
+test(pending_news_are_sent_when_the_process_ends) :-
     with_peers([a, b], last_news).
 
 :- end_tests(news).

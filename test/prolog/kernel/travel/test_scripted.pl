@@ -13,48 +13,49 @@ is sampled here; `make scripted` does all of it.
 
 :- begin_tests(scripted).
 
-test(cut_at_each_frame, [forall(member(Way-Program, [ short-known,
-                                                      short-forgotten,
-                                                      both-known,
-                                                      long-known ]))]) :-
+test(connection_is_cut_at_each_frame,
+     [forall(member(Way-Program, [ short-known,
+                                   short-forgotten,
+                                   both-known,
+                                   long-known ]))]) :-
     with_scripted(Way,
                   forall(( scenario(Scenario, Links),
                            member(Link, Links),
                            member(When, [before, inside, after]) ),
                          each_frame(Scenario, Program, Link, When, cut))).
-test(cut_twice) :-
+test(connection_is_cut_twice) :-
     with_scripted(short,
                   forall(( scenario(Scenario, Links),
                            member(Link, Links),
                            member(When, [before, inside]) ),
                          each_frame(Scenario, known, Link, When,
                                     cut_twice))).
-test(hold_each_frame) :-
+test(each_frame_is_delayed) :-
     with_scripted(short,
                   forall(( member(Scenario, [ring, clone, follow]),
                            scenario(Scenario, Links),
                            member(Link, Links) ),
                          each_frame(Scenario, known, Link, before,
                                     hold(0.1)))).
-test(mute_at_each_frame) :-
+test(peer_is_silent_at_each_frame) :-
     with_scripted(short,
                   forall(( member(Scenario, [there_and_back, follow]),
                            scenario(Scenario, Links),
                            member(Link, Links) ),
                          each_frame(Scenario, known, Link, inside, mute))).
-test(look_at_each_frame) :-
+test(agent_is_queried_at_each_frame) :-
     with_scripted(short,
                   forall(( member(Scenario, [there_and_back, ring, follow]),
                            scenario(Scenario, Links),
                            member(Link, Links) ),
                          each_stop(Scenario, known, Link, before, look))).
-test(dispose_at_each_frame) :-
+test(agent_is_disposed_of_at_each_frame) :-
     with_scripted(short,
                   forall(( member(Scenario, [there_and_back, ring]),
                            scenario(Scenario, Links),
                            member(Link, Links) ),
                          each_stop(Scenario, known, Link, before, dispose))).
-test(crash_at_each_frame) :-
+test(peer_crashes_at_each_frame) :-
     with_scripted(short,
                   forall(crash(Scenario, Link, When, Peer, Restart),
                          each_crash(Scenario, known, Link, When, Peer,

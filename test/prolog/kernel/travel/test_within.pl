@@ -16,7 +16,7 @@
 
 :- begin_tests(hops_within_a_process).
 
-test(mail_comes_along, true(F == [s(1),s(2),s(3)])) :-
+test(mail_travels_along, true(F == [s(1),s(2),s(3)])) :-
     with_hosts([alpha,beta],
                ( create([ (main :- receive(_-go), move(beta), move(alpha),
                                    take(3)),
@@ -27,7 +27,7 @@ test(mail_comes_along, true(F == [s(1),s(2),s(3)])) :-
                  maplist(agent_send(A), [1,2,3,go]),
                  wait_state(A, resident),
                  agent_property(A, facts(F)) )).
-test(it_stands_nowhere_else, true(Loads-In-Out == [0,1]-1-1)) :-
+test(agent_is_on_one_host_only, true(Loads-In-Out == [0,1]-1-1)) :-
     with_hosts([alpha,beta],
                ( create([(main :- move(beta)), on_message(_, _)], A),
                  wait_state(A, resident),
@@ -40,7 +40,7 @@ test(refused_agent_takes_no_capacity, true(Loads == [1,0])) :-
                          on_message(_, _)], A),
                  wait_state(A, resident),
                  maplist(load, [alpha,beta], Loads) )).
-test(refusal_after_the_delay_of_a_hop_is_an_error_of_the_move,
+test(refusal_after_the_hop_delay_is_an_error_of_the_move,
      F-Warnings == [s(move_refused(Beta, capacity))]-[]) :-
     with_hosts([ alpha-[hop_time(uniform(0.01, 0.02))], beta-[capacity(0)] ],
                ( address(beta, Beta),
@@ -51,7 +51,7 @@ test(refusal_after_the_delay_of_a_hop_is_an_error_of_the_move,
                              wait_state(A, resident) ),
                            Warnings),
                  agent_property(A, facts(F)) )).
-test(orders_find_it_wherever_it_is, true(Loads == [0,0,0])) :-
+test(orders_reach_the_agent_on_any_host, true(Loads == [0,0,0])) :-
     with_hosts([alpha,beta,gamma],
                ( findall(A, ( between(1, 30, _), walker(A) ), Agents),
                  numlist(1, 20, Numbers),
@@ -73,14 +73,14 @@ test(services_are_those_of_the_new_place, true(F == [s(a),s(b)])) :-
                  wait_state(A, resident),
                  agent_property(A, facts(F0)),
                  include([s(_)]>>true, F0, F) )).
-test(what_a_place_holds_is_not_the_agents, true(At == beta)) :-
+test(place_facts_do_not_travel, true(At == beta)) :-
     with_tmp_dir(device(At)).
 test(arrival_is_visible_at_once, true(Answer == answer(true))) :-
     with_hosts([alpha,beta],
                ( create([(main :- move(beta)), on_message(_, _)], A),
                  wait_state(A, resident),
                  reached_as_it_goes(A, Answer) )).
-test(what_does_not_travel_stays_behind, true(F == [s(gone)])) :-
+test(unserializable_state_stays_behind, true(F == [s(gone)])) :-
     with_hosts([alpha,beta],
                ( create([ (main :- assertz(kept(1)),
                                    compile_predicates([kept/1]), move(beta),

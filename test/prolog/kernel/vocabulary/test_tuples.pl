@@ -25,39 +25,39 @@ all_done(Outcomes) :-
 
 :- begin_tests(leave_new).
 
-test(put_where_none_is, Xs == [1]) :-
+test(tuple_is_left_where_none_unifies, Xs == [1]) :-
     with_hosts([alpha],
                ( remote(alpha, leave_new(p(1))),
                  remote(alpha, findall(X, sense(p(X)), Xs)) )).
-test(fails_where_one_unifies, Xs == [1]) :-
+test(fails_where_a_tuple_unifies, Xs == [1]) :-
     with_hosts([alpha],
                ( remote(alpha, leave(p(1))),
                  \+ remote(alpha, leave_new(p(1))),
                  \+ remote(alpha, leave_new(p(_))),
                  remote(alpha, findall(X, sense(p(X)), Xs)) )).
-test(does_not_bind_what_it_finds) :-
+test(existing_tuple_is_not_bound) :-
     with_hosts([alpha],
                ( remote(alpha, leave(p(_))),
                  \+ remote(alpha, leave_new(p(1))),
                  remote(alpha, leave_new(q(1))),
                  remote(alpha, leave_new(p(1, 2))) )).
-test(again_when_it_was_taken, Xs == [2]) :-
+test(tuple_is_left_again_after_a_take, Xs == [2]) :-
     with_hosts([alpha],
                ( remote(alpha, ( leave_new(p(1)), take(p(1)),
                                  leave_new(p(2)) )),
                  remote(alpha, findall(X, sense(p(X)), Xs)) )).
-test(each_host_for_itself) :-
+test(each_host_has_its_own_tuple_space) :-
     with_hosts([alpha,beta],
                ( remote(alpha, leave_new(p)), remote(beta, leave_new(p)) )).
-test(what_cannot_travel, error(type_error(mobile_term, _))) :-
+test(term_that_cannot_travel, error(type_error(mobile_term, _))) :-
     with_hosts([alpha],
                ( current_output(Out), remote(alpha, leave_new(p(Out))) )).
-test(no_fact, error(type_error(callable, 3))) :-
+test(not_a_fact, error(type_error(callable, 3))) :-
     with_hosts([alpha], remote(alpha, leave_new(3))).
 
 %   Whatever the order: each key has one owner.
 
-test(of_many_one_succeeds, Owned == Keys) :-
+test(one_of_many_concurrent_calls_succeeds, Owned == Keys) :-
     numlist(1, 300, Keys),
     with_hosts([alpha],
                ( crowd(20, [ (main :- forall(between(1, 300, K), claim(K))),
@@ -70,7 +70,7 @@ test(of_many_one_succeeds, Owned == Keys) :-
 
 %   A lock: the agent that left it may do what cannot be done by two at a time.
 
-test(a_lock, Count == 400) :-
+test(leave_new_implements_a_lock, Count == 400) :-
     with_hosts([alpha],
                ( remote(alpha, leave(count(0))),
                  crowd(8, [ (main :- times(50)),

@@ -9,24 +9,25 @@
 :- use_module(library(typhon/kernel/wire), [cookie/1]).
 :- use_module(library(typhon/kernel/wire/handshake)).
 
-:- begin_tests(cookie_is_private).
+:- begin_tests(cookie).
 
 test(value, Cookie == "value of the environment") :-
     with_env('TYPHON_COOKIE', 'value of the environment', cookie(Cookie)).
-test(made_on_first_use) :-
+test(cookie_is_made_on_first_use) :-
     with_tmp_dir(made_on_first_use).
 test(name_with_a_quote,
      error(permission_error(use, cookie_file, _))) :-
     with_tmp_dir(others_may_read_quoted).
-test(others_may_read, error(permission_error(use, cookie_file, _))) :-
+test(readable_by_others, error(permission_error(use, cookie_file, _))) :-
     with_tmp_dir(others_may_read(0o640)).
-test(others_may_write, error(permission_error(use, cookie_file, _))) :-
+test(writable_by_others, error(permission_error(use, cookie_file, _))) :-
     with_tmp_dir(others_may_read(0o602)).
 test(empty, error(permission_error(use, cookie_file, _))) :-
     with_tmp_dir(empty_file).
-test(why_it_is_not_used, [ forall(member(Why-Text,
-                                         [ others_may_read(0o644)-'chmod 600',
-                                           empty_file-'16 characters' ])) ]) :-
+test(error_says_why_the_file_is_not_used,
+     [ forall(member(Why-Text,
+                     [ others_may_read(0o644)-'chmod 600',
+                       empty_file-'16 characters' ])) ]) :-
     catch(( with_tmp_dir(Why), Said = none ),
           error(permission_error(use, cookie_file, _), context(_, Said)),
           true),
@@ -77,11 +78,11 @@ twenty_at_once(Dir) :-
     sort(Cookies, Distinct),
     assertion(Distinct = [_]).
 
-:- end_tests(cookie_is_private).
+:- end_tests(cookie).
 
-:- begin_tests(peers_prove_themselves).
+:- begin_tests(authentication).
 
-test(both_know_it, [ClientSees-ServerSees == ServerHello-ClientHello]) :-
+test(same_cookie, [ClientSees-ServerSees == ServerHello-ClientHello]) :-
     hello(client, 1, 'c:1', ClientHello),
     hello(server, 7, 's:2', ServerHello),
     meeting(authenticate_as(server, ServerHello, "same"),
@@ -99,14 +100,14 @@ test(wrong_cookie, [Server-Client == Expected]) :-
     ->  Client = closed
     ;   Client = ClientError
     ).
-test(reflected, Why == cookie) :-
+test(reflected_proof, Why == cookie) :-
     hello(x, 1, 'c:1', Hello),
     meeting(authenticate_as(server, Hello, "cookie"), reflect,
             error(permission_error(authenticate, peer, Why), _), _).
-test(something_else) :-
+test(unexpected_term) :-
     refusal(say("GET / HTTP/1.1\r\n\r\n"),
             permission_error(authenticate, peer, protocol)).
-test(garbage) :-
+test(random_bytes) :-
     numlist(0, 255, Codes0),
     append([Codes0, Codes0, Codes0], Codes),
     delete(Codes, 10, Line),
@@ -114,11 +115,11 @@ test(garbage) :-
     refusal(say(Garbage), syntax_error(line)).
 test(endless_line) :-
     refusal(endless, syntax_error(line)).
-test(closes_at_once) :-
+test(client_closes_at_once) :-
     refusal(say(""), syntax_error(end_of_file)).
 test(silent, [setup(quick), cleanup(usual)]) :-
     in_time(refusal(silent, timeout_error(_, _))).
-test(trickles, [setup(quick), cleanup(usual)]) :-
+test(slow_client, [setup(quick), cleanup(usual)]) :-
     in_time(refusal(trickle, timeout_error(_, _))).
 test(bad_hello) :-
     hello(x, 1, 'c:1', Hello),
@@ -173,22 +174,22 @@ reflect(In, Out) :-
     line_read(In, Deadline, _),
     line_write(Out, "00").
 
-:- end_tests(peers_prove_themselves).
+:- end_tests(authentication).
 
-:- begin_tests(codec_is_settled_by_the_hellos).
+:- begin_tests(codec_negotiation).
 
-test(same, Codec == fast) :-
+test(same_version, Codec == fast) :-
     hello(p, 1, a, Hello),
     hello_codec(Hello, Hello, Codec).
-test(within_the_tried_range, Codec == fast) :-
+test(versions_within_the_tested_range, Codec == fast) :-
     hello(p, 1, a, hello(P, S, A, _, W, O)),
     hello_codec(hello(P, S, A, 90004, W, O), hello(P, S, A, 90209, W, O),
                 Codec).
-test(the_same_outside, Codec == fast) :-
+test(same_version_outside_the_tested_range, Codec == fast) :-
     hello(p, 1, a, hello(P, S, A, _, W, O)),
     hello_codec(hello(P, S, A, 100112, W, O), hello(P, S, A, 100112, W, O),
                 Codec).
-test(outside, Codec == text) :-
+test(versions_outside_the_tested_range, Codec == text) :-
     hello(p, 1, a, hello(P, S, A, _, W, O)),
     hello_codec(hello(P, S, A, 90004, W, O), hello(P, S, A, 100112, W, O),
                 Codec).
@@ -201,11 +202,11 @@ test(other_byte_order, Codec == text) :-
     hello(p, 1, a, Hello),
     Hello = hello(P, S, A, V, W, _),
     hello_codec(Hello, hello(P, S, A, V, W, big), Codec).
-test(untried_version, Codec == text) :-
+test(untested_version, Codec == text) :-
     hello(p, 1, a, Hello),
     Hello = hello(P, S, A, _, W, O),
     hello_codec(Hello, hello(P, S, A, 990000, W, O), Codec).
-test(without_records, Codecs == [text, text, text]) :-
+test(peer_without_records, Codecs == [text, text, text]) :-
     hello(p, 1, a, With),
     setting(typhon_handshake:records, Old),
     setup_call_cleanup(
@@ -219,7 +220,7 @@ test(without_records, Codecs == [text, text, text]) :-
             ),
             Codecs).
 
-:- end_tests(codec_is_settled_by_the_hellos).
+:- end_tests(codec_negotiation).
 
 %   meeting(:Server, :Client, -ServerResult, -ClientResult): both are
 %   called with the two streams of their end; a result is true(X), what

@@ -64,7 +64,7 @@ with_counted_peer(Address, Goal) :-
 
 :- begin_tests(many_small_posts).
 
-test(take_few_frames, true(Frames < 1500)) :-
+test(posts_are_bundled_in_few_frames, true(Frames < 1500)) :-
     numlist(1, 3000, Sent),
     with_counted_peer(A, ( post_notes(A, 1, 3000),
                            notes(A, Notes),
@@ -78,7 +78,7 @@ test(as_text, [ setup(( setting(typhon_handshake:records, Old),
                 true(Notes == Sent) ]) :-
     numlist(1, 500, Sent),
     with_peer(A, ( post_notes(A, 1, 500), notes(A, Notes) )).
-test(stay_in_order_with_long_ones, true(Notes == Sent)) :-
+test(bundled_posts_keep_their_order_with_long_ones, true(Notes == Sent)) :-
     numlist(1, 40, Numbers),
     maplist(long_or_short, Numbers, Some),
     append(Some, Some, Twice),
@@ -88,21 +88,21 @@ test(stay_in_order_with_long_ones, true(Notes == Sent)) :-
 
 %   Nor is the peer asked for a sign of life.
 
-test(go_though_nothing_follows, true(Found == Sent)) :-
+test(last_post_is_sent_without_a_successor, true(Found == Sent)) :-
     numlist(1, 200, Sent),
     forget_notes,
     with_settings([typhon_reader:silence=100],
         with_peer(A, ( endpoint_post(A, back, 200),
                        wait_until(has_note(200), 20) ))),
     findall(Note, note(Note, _), Found).
-test(arrive_before_the_endpoint_stops, true(Flushed == true)) :-
+test(posts_arrive_before_the_endpoint_stops, true(Flushed == true)) :-
     with_settings([typhon_reader:silence=100],
         with_peer(A, ( post_notes(A, 1, 500),
                        (   endpoint_flush(20)
                        ->  Flushed = true
                        ;   Flushed = false
                        ) ))).
-test(of_many_threads, true(Sorted == Sent)) :-
+test(posts_of_many_threads, true(Sorted == Sent)) :-
     numlist(1, 2000, Sent),
     with_peer(A, ( concurrent_forall(member(From, [1, 501, 1001, 1501]),
                                      ( To is From+499,
@@ -110,7 +110,7 @@ test(of_many_threads, true(Sorted == Sent)) :-
                                      [threads(4)]),
                    notes(A, Notes),
                    msort(Notes, Sorted) )).
-test(to_oneself_are_taken_at_once, true(Found == [1-Me, 2-Me])) :-
+test(posts_to_itself_are_delivered_at_once, true(Found == [1-Me, 2-Me])) :-
     forget_notes,
     thread_self(Me),
     setup_call_cleanup(
@@ -130,14 +130,15 @@ long_or_short(I, Note) :-
 
 :- begin_tests(bundles).
 
-test(one_part_is_not_a_term, true(Notes == [1, 2])) :-
+test(unreadable_part_does_not_affect_others, true(Notes == [1, 2])) :-
     fast_term_serialized(post(note, 1), One),
     fast_term_serialized(post(note, 2), Two),
     with_peer(A, ( notes(A, []),
                    bundle_sent(A, bundle([One, "#-0 f((. ", Two])),
                    notes(A, Notes) )).
-test(is_none, [ forall(member(Bundle, [bundle(x), bundle([x]), bundle(_)])),
-                true(Notes == []) ]) :-
+test(invalid_bundle,
+     [ forall(member(Bundle, [bundle(x), bundle([x]), bundle(_)])),
+       true(Notes == []) ]) :-
     with_peer(A, ( notes(A, []), bundle_sent(A, Bundle), notes(A, Notes) )).
 
 %   No interface sends what no process of ours would send.
@@ -148,14 +149,14 @@ bundle_sent(Address, Bundle) :-
 
 :- end_tests(bundles).
 
-:- begin_tests(letters_that_come_together).
+:- begin_tests(grouped_letters).
 
-test(are_one_for_each_agent,
+test(letters_are_grouped_by_agent,
      true(Fewer == [ message(a, [mail(x,u,1), mail(y,v,2)], 9),
                      message(b, [mail(x,u,3)], 5) ])) :-
     together([ message(a, [mail(x,u,1)], 7), message(b, [mail(x,u,3)], 5),
                message(a, [mail(y,v,2)], 9) ], Fewer).
-test(are_taken_one_by_one_when_one_is_odd,
+test(unusual_letters_are_not_grouped,
      [ forall(member(Odd, [ lost(x, a, []), message(a, [], many), nonsense,
                             message(_, [], 1), message(a, [x|_], 1) ])),
        fail ]) :-
@@ -164,4 +165,4 @@ test(are_taken_one_by_one_when_one_is_odd,
 together(Letters, Fewer) :-
     typhon_endpoint:together(message, Letters, Fewer).
 
-:- end_tests(letters_that_come_together).
+:- end_tests(grouped_letters).

@@ -184,7 +184,7 @@ hold_once :-
 		 *            TESTS             *
 		 *******************************/
 
-:- begin_tests(two_processes_talk).
+:- begin_tests(two_processes).
 
 test(call, Answer == foo(1, "two", [3.0])) :-
     with_endpoint(with_peer(A, ask(A, echo, foo(1, "two", [3.0]), Answer))).
@@ -196,13 +196,13 @@ test(peer_posts_back, Got == Expected) :-
     numlist(1, 500, Expected),
     with_endpoint(with_peer(A, ( ask(A, back, 500, done),
                                  findall(N, note(N), Got) ))).
-test(answered_later_by_another_thread, Answer == x) :-
+test(another_thread_answers_later, Answer == x) :-
     with_endpoint(with_peer(A, ask(A, later, x, Answer))).
-test(answer_not_in_time, error(timeout_error(answer, _))) :-
+test(answer_after_the_deadline, error(timeout_error(answer, _))) :-
     with_endpoint(with_peer(A, endpoint_call(A, never, x, _, 0.2))).
 test(hook_that_raises, error(connection_lost(_))) :-
     with_endpoint(with_peer(A, ask(A, wrong, x, _))).
-test(no_hook, error(connection_lost(_))) :-
+test(missing_hook, error(connection_lost(_))) :-
     with_endpoint(with_peer(A, ask(A, unheard_of, x, _))).
 test(large_terms_both_ways) :-
     length(Long, 300000),
@@ -217,7 +217,7 @@ test(many_threads) :-
                           forall(between(1, 200, I),
                                  ask(A, echo, T-I, T-I)),
                           [threads(8)]))).
-test(itself, Answer-Codec == x-fast) :-
+test(request_to_itself, Answer-Codec == x-fast) :-
     with_endpoint(( endpoint_address(Me),
                     ask(Me, echo, x, Answer),
                     endpoint_peer(Me, codec(Codec)) )).
@@ -240,7 +240,7 @@ test(too_long_for_a_frame, error(resource_error(frame_bytes))) :-
           with_settings([typhon_session:frame_bytes=100000],
                        ask(A, echo, Long, _)) ))).
 
-:- end_tests(two_processes_talk).
+:- end_tests(two_processes).
 
 :- begin_tests(no_peer_there).
 
@@ -255,7 +255,7 @@ test(request, Result == unreachable) :-
                     thread_get_message(Me, Result, [timeout(10)]) )).
 test(not_running, error(existence_error(endpoint, _))) :-
     endpoint_post('127.0.0.1:1', note, x).
-test(listens_and_is_silent, error(unreachable(_))) :-
+test(silent_listener, error(unreachable(_))) :-
     with_endpoint(with_settings([typhon_connection_manager:connect_time=1],
         with_settings([typhon_handshake:handshake_time=0.3],
                      with_listener(5, A, endpoint_post(A, note, x))))).
@@ -288,9 +288,10 @@ test(later_request_gets_the_result_of_a_later_attempt,
 
 :- begin_tests(every_frame_once_over_breaking_connections).
 
-test(cut_on_command) :-
+test(connection_is_cut_on_command) :-
     cut_while_posting(up, 600, [Proxy]>>proxy_cut(Proxy)).
-test(cut_after_some_bytes, [forall(member(Direction, [up, down]))]) :-
+test(connection_is_cut_after_some_bytes,
+     [forall(member(Direction, [up, down]))]) :-
     cut_while_posting(Direction, 600,
         [Proxy]>>( random_between(1, 3000, Bytes),
                    proxy_cut_after(Proxy, Direction, Bytes) )).
@@ -301,7 +302,7 @@ test(requests_survive_cuts) :-
                                  ( cut_now_and_then(Proxy, I),
                                    ask_again(A, T-I) )),
                           [threads(4)])).
-test(peer_posts_over_cuts, Got == Expected) :-
+test(posts_of_the_peer_survive_cuts, Got == Expected) :-
     numlist(1, 800, Expected),
     with_proxied_peer(Proxy, A,
         ( proxy_cut_after(Proxy, down, 5000),
@@ -318,7 +319,7 @@ test(half_open, [Notes == [1, 2]]) :-
                       proxy_release(Proxy, up),
                       endpoint_flush(10) )),
               ask(A, notes, x, Notes) ))).
-test(flush_fails_if_not_acknowledged, fail) :-
+test(flush_fails_without_acknowledgement, fail) :-
     with_proxied_peer(Proxy, A,
         ( post_notes(A, 1, 1),
           endpoint_flush(5),
@@ -460,7 +461,7 @@ cut_while_posting(_, Count, Cut) :-
 %   skipped.  So nothing is damaged while something is to come again: the same
 %   frame might be.
 
-test(on_the_way, Notes == Expected) :-
+test(damage_in_transit, Notes == Expected) :-
     numlist(1, 300, Expected),
     damaging(( forall(between(1, 300, I),
                       ( (   I mod 60 =:= 0
@@ -470,7 +471,7 @@ test(on_the_way, Notes == Expected) :-
                         ),
                         endpoint_post(A, note, I) )),
                ask(A, notes, x, Notes) ), A).
-test(by_the_sender, Notes == [1, 3]) :-
+test(damage_by_the_sender, Notes == [1, 3]) :-
     damaging(( endpoint_post(A, note, 1),
                endpoint_post(A, note, 'always damaged'),
                endpoint_post(A, note, 3),
@@ -489,12 +490,12 @@ test(unreadable_answer, error(connection_lost(_))) :-
             ;   Original
             ),
             A, ask(A, echo, zork, _)).
-test(more_than_there_is_memory_for, error(connection_lost(_))) :-
+test(frame_longer_than_memory, error(connection_lost(_))) :-
     numlist(1, 100000, Long),
     with_endpoint(with_peer(A,
         wrapped(typhon_frame:unmarked(_, _), _, resource_error(memory),
                 ask(A, echo, Long, _)))).
-test(acknowledged_too_much, Notes == [1, 2]) :-
+test(acknowledgement_of_unsent_frames, Notes == [1, 2]) :-
     with_endpoint(with_peer(A,
         ( ask(A, echo, x, x),
           endpoint_post(A, note, 1),
@@ -567,9 +568,9 @@ wrapped(Module:Head, Original, Body, Goal) :-
 
 :- end_tests(damage).
 
-:- begin_tests(a_peer_that_dies).
+:- begin_tests(dead_peer).
 
-test(request_is_lost, error(connection_lost(_))) :-
+test(request_fails_when_the_peer_dies, error(connection_lost(_))) :-
     free_port(Port),
     with_endpoint(with_peer(Port, Pid, A,
         ( ask(A, echo, x, x),
@@ -582,7 +583,7 @@ test(request_is_lost, error(connection_lost(_))) :-
                     ( thread_get_message(Me, Result, [timeout(20)]),
                       assertion(Result == lost) )),
           throw(error(connection_lost(A), _)) ))).
-test(then_no_process_is_there, error(unreachable(_))) :-
+test(address_of_a_dead_peer_has_no_process, error(unreachable(_))) :-
     with_endpoint(with_peer(0, Pid, A,
         ( ask(A, echo, x, x),
           process_kill(Pid, kill),
@@ -631,7 +632,7 @@ test(goodbye_is_sent, Result == lost) :-
           flush_output(In),
           thread_get_message(Me, Result, [timeout(20)]) ))).
 
-test(is_gone_when_no_process_listens, Before-After == false-true) :-
+test(peer_is_gone_when_no_process_listens, Before-After == false-true) :-
     with_endpoint(with_peer(0, Pid, A,
         ( ask(A, echo, x, x),
           gone(A, Before),
@@ -640,13 +641,13 @@ test(is_gone_when_no_process_listens, Before-After == false-true) :-
           wait_until(endpoint_peer(A, state(down)), 5),
           catch(endpoint_post(A, note, x), error(unreachable(_), _), true),
           gone(A, After) ))).
-test(is_gone_after_goodbye) :-
+test(peer_is_gone_after_goodbye) :-
     with_endpoint(with_peer_in(In, A,
         ( ask(A, echo, x, x),
           format(In, "end.~n", []),
           flush_output(In),
           wait_until(endpoint_gone(A), 10) ))).
-test(is_not_gone_when_stopped, State-Gone == down-false) :-
+test(stopped_peer_is_not_gone, State-Gone == down-false) :-
     with_endpoint(with_settings([typhon_reader:silence=0.2],
         with_peer(0, Pid, A,
             ( ask(A, echo, x, x),
@@ -656,7 +657,7 @@ test(is_not_gone_when_stopped, State-Gone == down-false) :-
               endpoint_peer(A, state(State)),
               gone(A, Gone),
               process_kill(Pid, cont) )))).
-test(another_process_is_there_again, Process == New) :-
+test(another_process_at_the_address_is_reported, Process == New) :-
     free_port(Port),
     with_endpoint(with_peer(Port, Pid, A,
         ( ask(A, echo, x, x),
@@ -691,18 +692,18 @@ with_peer_in(In, Address, Goal) :-
                  atom_string(Address, Line),
                  call(Goal) )).
 
-:- end_tests(a_peer_that_dies).
+:- end_tests(dead_peer).
 
-:- begin_tests(strangers_do_no_harm).
+:- begin_tests(unauthenticated_clients_do_no_harm).
 
-test(what_they_send,
+test(invalid_input,
      [forall(member(Text, [ "", "\n", "GET / HTTP/1.1\r\n\r\n",
                             "typhon 3 x y\n", "typhon 1 a b\n" ]))]) :-
     with_endpoint(( endpoint_address(A),
                     quiet(( stranger(A, Text),
                             wait_until(warned(turned_away(_, _)), 5) )),
                     ask(A, echo, x, x) )).
-test(silent_ones_are_bounded) :-
+test(silent_clients_are_bounded) :-
     with_settings([typhon_acceptor:unproved=4],
         with_settings([typhon_handshake:handshake_time=20],
             with_endpoint(quiet(crowd)))).
@@ -736,9 +737,9 @@ other_cookie(Address) :-
               Status, _, _),
     assertion(Status == exit(3)).
 
-:- end_tests(strangers_do_no_harm).
+:- end_tests(unauthenticated_clients_do_no_harm).
 
-:- begin_tests(nothing_is_left).
+:- begin_tests(no_leaks).
 
 test(after_talking) :-
     no_leaks(with_endpoint(with_peer(A, ask(A, echo, x, x)))).
@@ -774,7 +775,7 @@ test(stop_while_connecting, Result == unreachable) :-
                         wait_until(typhon_attempts:attempt(
                                        A, trying(_, _, _), _, _), 10) )))),
     thread_get_message(Me, Result, [timeout(10)]).
-test(a_thread_that_gives_up_waits_no_more, Count == 0) :-
+test(thread_stops_waiting_at_its_deadline, Count == 0) :-
     no_leaks(with_deaf(A,
         with_endpoint(( get_time(Now),
                         Deadline is Now+0.2,
@@ -799,4 +800,4 @@ plunit_cuts :-
                                       ( proxy_cut(Proxy),
                                         ask(A, echo, I, I) )) )))).
 
-:- end_tests(nothing_is_left).
+:- end_tests(no_leaks).

@@ -8,14 +8,14 @@
 :- use_module(library(random), [random_between/3, random_member/2]).
 :- use_module(library(typhon/kernel/wire/frame)).
 
-:- begin_tests(terms_travel_unchanged).
+:- begin_tests(serialization).
 
-test(text_of_random_terms) :-
+test(random_terms_as_text) :-
     set_random(seed(20)),
     forall(between(1, 3000, _),
            ( random_term(4, Term),
              round_trip(text, Term) )).
-test(fast_of_random_terms) :-
+test(random_terms_as_records) :-
     set_random(seed(21)),
     forall(between(1, 3000, _),
            ( random_term(4, Term),
@@ -67,7 +67,7 @@ test(bytes_are_bytes) :-
     forall(string_code(_, Bytes, Code), assertion(Code =< 255)).
 %   Which letters are written as they are depends on the locale.
 
-test(letters_in_quotes) :-
+test(quoted_characters) :-
     Term = f('é', "«é", 'é«'(x)),
     term_bytes(text, Term, Bytes),
     findall(Text,
@@ -96,14 +96,14 @@ test(long_integer_in_a_thread, [forall(member(Codec, [text, fast]))]) :-
     thread_join(Thread, Status),
     assertion(Status == true).
 
-:- end_tests(terms_travel_unchanged).
+:- end_tests(serialization).
 
 hides_variable(X, X).
 hides_variable(request(1, hop, f([_,g(X)])), X).
 hides_variable(f(Text, X), X) :-
     numlist(1, 5000, Text).
 
-:- begin_tests(what_cannot_travel_is_named).
+:- begin_tests(unserializable_terms_are_named).
 
 test(stream, error(type_error(mobile_term, Stream))) :-
     stream_property(Stream, alias(user_error)),
@@ -130,10 +130,10 @@ test(encoding_refuses_too, [forall(member(Codec, [fast, text])),
                             error(type_error(mobile_term, Stream))]) :-
     stream_property(Stream, alias(user_error)),
     term_bytes(Codec, f(Stream), _).
-test(the_rest_can, [forall(special(Term))]) :-
+test(other_terms_can_travel, [forall(special(Term))]) :-
     mobile_term(Term).
 
-:- end_tests(what_cannot_travel_is_named).
+:- end_tests(unserializable_terms_are_named).
 
 %   In a process of its own: where atoms are lost it crashes.
 
@@ -145,7 +145,8 @@ test(the_rest_can, [forall(special(Term))]) :-
    directory_file_path(Dir, '../../../lib/atoms_collected.pl', File),
    assertz(readers(File)).
 
-test(large_terms_with_atoms_of_no_other_use, Said-Status == "well\n"-exit(0)) :-
+test(atoms_of_large_terms_survive_collection,
+     Said-Status == "well\n"-exit(0)) :-
     readers(File),
     current_prolog_flag(executable, Swipl),
     setup_call_cleanup(
@@ -158,12 +159,12 @@ test(large_terms_with_atoms_of_no_other_use, Said-Status == "well\n"-exit(0)) :-
 
 :- begin_tests(frames_are_counted_bytes).
 
-test(several, Read == ["", "abc", Long, end_of_file]) :-
+test(several_frames, Read == ["", "abc", Long, end_of_file]) :-
     all_bytes(Long),
     framed(["", "abc", Long], Bytes),
     read_frames(Bytes, 10000, 4, Read).
-test(truncated, [forall(member(Cut, [1, 2, 3, 4, 5, 8, 12, 16])),
-                 error(syntax_error(truncated_frame))]) :-
+test(truncated_frame, [forall(member(Cut, [1, 2, 3, 4, 5, 8, 12, 16])),
+                       error(syntax_error(truncated_frame))]) :-
     framed(["abc"], Bytes),
     sub_string(Bytes, 0, _, Cut, Short),
     read_frames(Short, 10000, 1, _).
@@ -181,11 +182,11 @@ test(each_flipped_bit_of_a_record) :-
            ( flipped(At, Bit, Body, Damaged),
              check_bytes(Damaged, Other),
              assertion(Other =\= Check) )).
-test(what_follows_damage, Next == "def") :-
+test(frame_after_damage, Next == "def") :-
     framed(["abc", "def"], Bytes),
     flipped(16, Bytes, Damaged),
     with_bytes(Damaged, second_frame(Next)).
-test(cut_in_the_length, error(syntax_error(truncated_frame))) :-
+test(truncated_in_the_length, error(syntax_error(truncated_frame))) :-
     read_frames("\x0\\x0\", 10000, 1, _).
 test(too_long, error(resource_error(frame_bytes))) :-
     framed(["abcd"], Bytes),
@@ -205,12 +206,12 @@ test(counts_wrap_around, true(Ahead-Counts == 5-counts(1, 0))) :-
                     open(File, read, In, [type(binary)]),
                     frame_read(In, 10, Counts, "x"),
                     close(In)) )).
-test(a_count_that_is_less_is_not_ahead, fail) :-
+test(lower_count_is_not_ahead, fail) :-
     count_ahead(10, 9, _).
 
 :- end_tests(frames_are_counted_bytes).
 
-:- begin_tests(what_cannot_be_read_is_known).
+:- begin_tests(unreadable_terms_are_recognized).
 
 test(text, [forall(member(Term-Mark, [request(17, hop, x)-request(17),
                                       answer(0, x)-answer(0)])),
@@ -219,7 +220,7 @@ test(text, [forall(member(Term-Mark, [request(17, hop, x)-request(17),
     bytes_mark(Bytes, Found),
     bytes_term(text, Bytes, Again),
     assertion(Again == Term).
-test(neither, fail) :-
+test(term_without_a_mark, fail) :-
     term_bytes(text, post(hop, x), Bytes),
     bytes_mark(Bytes, _).
 test(long_record, Mark == request(3)) :-
@@ -232,7 +233,7 @@ test(long_record, Mark == request(3)) :-
 test(short_record, fail) :-
     term_bytes(fast, request(3, hop, x), Bytes),
     bytes_mark(Bytes, _).
-test(no_record_begins_so) :-
+test(no_record_begins_like_text) :-
     set_random(seed(22)),
     forall(( between(1, 3000, _),
              random_term(4, Term),
@@ -242,7 +243,7 @@ test(no_record_begins_so) :-
              string_code(1, Bytes, Code),
              assertion(\+ memberchk(Code, `#!`)) )).
 
-:- end_tests(what_cannot_be_read_is_known).
+:- end_tests(unreadable_terms_are_recognized).
 
 fraction(Term) :-
     rational(Term),
@@ -456,33 +457,33 @@ all_that_waits(Queue, Frames) :-
     ;   Frames = []
     ).
 
-:- begin_tests(what_waits).
+:- begin_tests(queued_frames).
 
-test(loose_ones_go_together, true(Many-Left == true-0)) :-
+test(unmarked_frames_are_bundled, true(Many-Left == true-0)) :-
     with_queue([loose("a", 1), loose("b", 2)], Queue,
                ( bundle_next(Queue, fast, inf, frame(Bytes, none, 2), Many),
                  message_queue_property(Queue, size(Left)) )),
     fast_term_serialized(Bundle, Bytes),
     bundle_parts(Bundle, Parts),
     assertion(Parts == ["a", "b"]).
-test(one_goes_as_it_is,
+test(single_frame_is_not_bundled,
      true(Frames == [ frame("a", none, 1), frame("B", token, 2),
                       frame("c", none, 3) ])) :-
     with_queue([loose("a", 1), frame("B", token, 2), loose("c", 3)], Queue,
                all_that_waits(Queue, Frames)).
-test(what_does_not_fit_stays, true(Size == 2)) :-
+test(frame_that_does_not_fit_stays, true(Size == 2)) :-
     with_queue([frame("long", none, 0), loose("b", 0)], Queue,
                ( \+ bundle_next(Queue, fast, 3, _, _),
                  message_queue_property(Queue, size(Size)) )).
-test(no_more_than_fit, true(Size == 1)) :-
+test(bundle_is_not_longer_than_allowed, true(Size == 1)) :-
     with_queue([loose("aaaa", 0), loose("bbbb", 0), loose("cccc", 0)], Queue,
                ( bundle_next(Queue, fast, 30, _, true),
                  message_queue_property(Queue, size(Size)) )).
-test(no_more_than_a_hundred, true(Count == 3)) :-
+test(bundle_has_at_most_a_hundred_frames, true(Count == 3)) :-
     findall(loose("a", 0), between(1, 250, _), Frames0),
     with_queue(Frames0, Queue,
                ( all_that_waits(Queue, Frames), length(Frames, Count) )).
-test(nothing, fail) :-
+test(empty_queue, fail) :-
     with_queue([], Queue, bundle_next(Queue, fast, inf, _, _)).
 
-:- end_tests(what_waits).
+:- end_tests(queued_frames).

@@ -109,19 +109,19 @@ gone(Thread) :-
 
 :- begin_tests(lending, [cleanup(no_threads_left)]).
 
-test(by_the_thread_that_read_it, T1 == T2) :-
+test(frames_are_handled_by_the_reading_thread, T1 == T2) :-
     alone(Me, ( post(Me, quick(1)),
                 wait_until(ran(quick(1)), 5) )),
     hook(quick(1), T1),
     run(quick(1), here, T2).
 
-test(by_others_where_no_thread_reads, How == later) :-
+test(frames_are_handled_by_others_without_a_reader, How == later) :-
     alone(_, endpoint_afterwards(go(quick(1)))),
     run(quick(1), How, _).
 
 %   In order, but for one that was missed on a busy machine.
 
-test(each_once_in_order, Ran == All) :-
+test(each_frame_is_handled_once_in_order, Ran == All) :-
     numlist(1, 500, All),
     alone(Me, ( forall(member(N, All), post(Me, quick(N))),
                 wait_until(aggregate_all(count, run(_, _, _), 500), 10) )),
@@ -149,7 +149,7 @@ test(waiting_handler_does_not_block_others, [Words == All]) :-
     assertion(back(Thread)),
     aggregate_all(count, run(waits(_, 1), _, _), 1).
 
-test(many_that_wait, Lent == 5) :-
+test(many_waiting_handlers, Lent == 5) :-
     with_queue(Queue,
                alone(Me, ( forall(between(1, 5, N),
                                   post(Me, waits(Queue, N))),
@@ -161,7 +161,7 @@ test(many_that_wait, Lent == 5) :-
                            wait_until(forall(lent(T), gone(T)), 5) ))),
     aggregate_all(count, lent(_), Lent).
 
-test(is_not_interrupted_for_the_connection, true(ran(after))) :-
+test(handler_is_not_interrupted_by_the_connection, true(ran(after))) :-
     with_queue(Queue,
                alone(Me, ( post(Me, waits(Queue, 1)),
                            wait_until(ran(waits(_, 1)), 5),
@@ -174,7 +174,7 @@ test(is_not_interrupted_for_the_connection, true(ran(after))) :-
                            say(Me, after),
                            wait_until(ran(after), 5) ))).
 
-test(endpoint_stops_while_one_waits, true(Seconds < 20)) :-
+test(endpoint_stops_during_a_waiting_handler, true(Seconds < 20)) :-
     with_queue(Queue,
                ( alone(Me, ( post(Me, waits(Queue, 1)),
                              wait_until(ran(waits(_, 1)), 5),
@@ -203,7 +203,7 @@ test(waiting_handler_is_replaced_after_a_restart, true(ran(meanwhile))) :-
                               wait_until(gone(Second), 5) )),
                  wait_until(gone(First), 5) )).
 
-test(breaks_lose_and_double_nothing, Ran == All) :-
+test(broken_connections_lose_and_duplicate_nothing, Ran == All) :-
     numlist(1, 3000, All),
     alone(Me, ( forall(member(N, All),
                        ( post(Me, quick(N)),

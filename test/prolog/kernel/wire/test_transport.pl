@@ -78,17 +78,17 @@ asked(Proof, Address) :-
 
 test(peer_proves_itself_by_the_transport, Proof == mark(client)) :-
     with_endpoint([marked], asked(Proof)).
-test(peer_of_plain_tcp_has_proved_the_cookie, Proof == cookie) :-
+test(tcp_peer_has_proved_the_cookie, Proof == cookie) :-
     with_endpoint([], asked(Proof)).
-test(own_and_unknown_proofs_are_those_of_the_transport,
+test(proofs_are_checked_by_the_transport,
      Own-Unknown == mark(ours)-mark(unknown)) :-
     with_endpoint([marked], test_transport:proofs(Own, Unknown)).
 test(plain_client_gets_the_name_of_the_transport, Line == "typhon marked") :-
     with_endpoint([marked], says(typhon, Line)).
-test(client_of_a_transport_gets_a_line_where_there_is_none,
+test(client_of_a_missing_transport_gets_a_line,
      Line == "typhon plain") :-
     with_endpoint([], says('M', Line)).
-test(transport_ends_with_the_endpoint) :-
+test(transport_stops_with_the_endpoint) :-
     with_endpoint([marked], agrees),
     transport_disagrees(marked).
 

@@ -131,9 +131,9 @@ wait_if_called(Role, Waiter) :-
     ;   true
     ).
 
-:- begin_tests(all_at_once).
+:- begin_tests(simultaneous_connections).
 
-test(two_connect_to_each_other, Late == []) :-
+test(two_processes_connect_to_each_other, Late == []) :-
     with_endpoint(with_peers(1, [A],
         ( peer(A, _, Streams),
           findall(Outcome,
@@ -142,7 +142,7 @@ test(two_connect_to_each_other, Late == []) :-
                     member(Outcome, Outcomes),
                     Outcome \= outcome(ok, _) ),
                   Late) ))).
-test(of_two_connections_begun_together_the_first_stays, Kept == true) :-
+test(first_of_two_simultaneous_connections_stays, Kept == true) :-
     as_process('0000000000000000',
         with_endpoint(with_peers(1, [A], with_late_callers(second(A, Kept))))).
 test(offered_connection_is_accepted) :-
@@ -154,14 +154,14 @@ test(offered_connection_is_accepted) :-
                 ask(A, echo, x, x),
                 unwrap_predicate(typhon_session:session_up_since/2,
                                  not_noticed))))).
-test(sixteen_connect_to_all, Missed == []) :-
+test(sixteen_processes_connect_to_each_other, Missed == []) :-
     with_endpoint(with_peers(16, Addresses,
         ( maplist(reach_others(Addresses), Addresses),
           findall(M, ( member(_, Addresses),
                        thread_get_message(reached(Answer)),
                        Answer \= answer([]),
                        M = Answer ), Missed) ))).
-test(slot_of_an_unproved_client_comes_free, Outcome = outcome(ok, _)) :-
+test(slot_of_an_unauthenticated_client_is_freed, Outcome = outcome(ok, _)) :-
     retractall(test_wire:place_wanted),
     with_settings([typhon_acceptor:unproved=1],
         with_endpoint(with_peers(1, [A],
@@ -176,12 +176,12 @@ test(slot_of_an_unproved_client_comes_free, Outcome = outcome(ok, _)) :-
                   ),
                   close(Stranger, [force(true)])),
               read(Out, Outcome) )))).
-test(no_process_is_there, Answers == Expected) :-
+test(no_process_at_the_address, Answers == Expected) :-
     numlist(1, 300, Numbers),
     maplist([_, unreachable]>>true, Numbers, Expected),
     with_endpoint(( send_all('127.0.0.1:1', Numbers),
                     maplist(answered, Numbers, Answers) )).
-test(a_wrong_cookie_is_reported_at_once) :-
+test(wrong_cookie_is_reported_at_once) :-
     project_file('prolog/typhon/kernel/wire', File),
     with_endpoint(( endpoint_address(A),
                     format(atom(Goal),
@@ -257,7 +257,7 @@ connections(Threads) :-
               ; sub_atom(Alias, 0, _, _, typhon_out_) ) ),
             Threads).
 
-:- end_tests(all_at_once).
+:- end_tests(simultaneous_connections).
 
                 /*******************************
                 *        HELD REQUESTS         *
@@ -265,13 +265,13 @@ connections(Threads) :-
 
 :- begin_tests(requests_wait_for_the_connection).
 
-test(in_order, Notes == Numbers) :-
+test(requests_are_sent_in_order, Notes == Numbers) :-
     numlist(1, 500, Numbers),
     with_endpoint(with_peers(1, [A],
         ( send_all(A, Numbers),
           maplist(answered, Numbers, _),
           ask(A, notes, x, Notes) ))).
-test(before_the_posts_that_follow, Notes == Expected) :-
+test(requests_precede_later_posts, Notes == Expected) :-
     numlist(1, 100, Numbers),
     numlist(1, 101, Expected),
     with_endpoint(with_peers(1, [A],
@@ -279,7 +279,7 @@ test(before_the_posts_that_follow, Notes == Expected) :-
           endpoint_post(A, note, 101),
           maplist(answered, Numbers, _),
           ask(A, notes, x, Notes) ))).
-test(without_a_thread_for_each, true(More < 8)) :-
+test(waiting_requests_need_no_threads, true(More < 8)) :-
     numlist(1, 300, Numbers),
     with_endpoint(with_settings([typhon_connection_manager:connect_time=1],
         with_silent_listener(A,
@@ -289,10 +289,10 @@ test(without_a_thread_for_each, true(More < 8)) :-
               More is After-Before,
               maplist(answered, Numbers, Answers),
               assertion(forall(member(X, Answers), X == unreachable)) )))).
-test(what_cannot_travel, error(type_error(mobile_term, _))) :-
+test(request_that_cannot_travel, error(type_error(mobile_term, _))) :-
     stream_property(S, alias(user_error)),
     with_endpoint(endpoint_request('127.0.0.1:1', echo, S, =(_))).
-test(none_is_forgotten_when_the_endpoint_stops, Answers == [unreachable]) :-
+test(waiting_requests_end_with_the_endpoint, Answers == [unreachable]) :-
     with_silent_listener(A, with_endpoint(send_all(A, [1]))),
     maplist(answered, [1], Answers).
 
@@ -333,15 +333,16 @@ longest(Size) :-
     Size = 33 000 000.
 longest(60 000 000).
 
-:- begin_tests(big_frames_cross).
+:- begin_tests(large_frames).
 
-test(both_ways, [ forall(member(Codec-Size-N,
-                                [ fast-65 000-30, fast-70 000-30,
-                                  fast-1 000 000-10, fast-8 000 000-3,
-                                  text-70 000-10, text-1 000 000-2 ])),
-                  Count == N ]) :-
+test(large_frames_in_both_directions,
+     [ forall(member(Codec-Size-N,
+                     [ fast-65 000-30, fast-70 000-30,
+                       fast-1 000 000-10, fast-8 000 000-3,
+                       text-70 000-10, text-1 000 000-2 ])),
+       Count == N ]) :-
     with_codec(Codec, cross(Size, N, Count)).
-test(the_longest, Count == 1) :-
+test(longest_frames, Count == 1) :-
     longest(Size),
     cross(Size, 1, Count).
 test(answers_of_8_MB_at_once) :-
@@ -384,15 +385,15 @@ cross(Size, N, Count) :-
           assertion(Mine == N),
           assertion(endpoint_flush(10)) ))).
 
-:- end_tests(big_frames_cross).
+:- end_tests(large_frames).
 
                 /*******************************
                 *         PEERS THAT GO        *
                 *******************************/
 
-:- begin_tests(peers_that_go).
+:- begin_tests(disconnected_peers).
 
-test(leave_no_queue_behind, Queues == Before) :-
+test(disconnected_peers_leave_no_queue, Queues == Before) :-
     with_endpoint(with_peers(3, Addresses,
         ( queues(Before),
           forall(member(A, Addresses), ask(A, echo, x, x)),
@@ -402,7 +403,7 @@ test(leave_no_queue_behind, Queues == Before) :-
                             endpoint_peer(A, state(down))), 10),
           wait_until(queues(Before), 5),
           queues(Queues) ))).
-test(are_kept_in_a_bounded_number) :-
+test(number_of_kept_sessions_is_bounded) :-
     with_settings([typhon_connection_manager:resting=2],
         with_endpoint(with_peers(4, Addresses,
             ( forall(member(A, Addresses), ask(A, echo, x, x)),
@@ -411,7 +412,7 @@ test(are_kept_in_a_bounded_number) :-
               wait_until(sessions(2), 10),
               forall(member(A, Addresses),
                      assertion(endpoint_peer(A, process(_)))) )))).
-test(find_their_session_again, Notes == [1, 2, 3]) :-
+test(returning_peer_resumes_its_session, Notes == [1, 2, 3]) :-
     with_endpoint(with_peers(1, [Peer],
         with_proxy(Peer, Proxy,
             ( proxy_address(Proxy, A),
@@ -422,7 +423,7 @@ test(find_their_session_again, Notes == [1, 2, 3]) :-
                        wait_until(endpoint_peer(A, state(down)), 5) )),
               ask(A, notes, x, Notes),
               sessions(1) )))).
-test(answer_to_one_that_was_cut_off_meanwhile, Answer == answer(x)) :-
+test(answer_to_a_disconnected_peer, Answer == answer(x)) :-
     with_endpoint(with_peers(1, [Peer],
         with_proxy(Peer, Proxy,
             ( proxy_address(Proxy, A),
@@ -436,7 +437,7 @@ test(late_answer_is_dropped, Open == 0) :-
                 error(timeout_error(_, _), _), true),
           aggregate_all(count, typhon_request:open_request(_, _, _),
                         Open) ))).
-test(contacts_are_bounded, true(Count =< 5)) :-
+test(peer_records_are_bounded, true(Count =< 5)) :-
     with_settings([typhon_peer_cache:contacts=5],
         with_endpoint(
             ( forall(between(1, 20, P),
@@ -457,7 +458,7 @@ sessions(Count) :-
     sort(Processes, Set),
     length(Set, Count).
 
-:- end_tests(peers_that_go).
+:- end_tests(disconnected_peers).
 
                 /*******************************
                 *            COUNTS            *
@@ -465,7 +466,7 @@ sessions(Count) :-
 
 :- begin_tests(flushes).
 
-test(each_ends, Failed == 0) :-
+test(each_flush_ends, Failed == 0) :-
     with_endpoint(with_peers(1, [A],
         ( ask(A, echo, x, x),
           flag(test_failed, _, 0),
@@ -483,7 +484,7 @@ post_and_flush(Address, I) :-
 
 %   With the topic typhon(frame) connections broke at each of them.
 
-test(frames_of_counts_alone_can_be_shown, Words == none) :-
+test(frames_of_counts_can_be_shown, Words == none) :-
     typhon_session:frame_words(none, Words).
 
 :- end_tests(flushes).

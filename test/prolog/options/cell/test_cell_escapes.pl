@@ -15,7 +15,7 @@
 
 :- begin_tests(cell_escapes).
 
-test(nothing_of_the_system_is_reached, Through == []) :-
+test(system_is_unreachable, Through == []) :-
     findall(Name-Goal-Expected, check(Name, Goal, Expected), Checks),
     with_inmates(through(Checks, Through)).
 test(data_of_an_owner_is_not_in_the_cell_of_another,

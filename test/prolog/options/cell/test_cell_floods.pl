@@ -20,18 +20,18 @@ inside its cell
 
 :- begin_tests(cell_floods).
 
-test(endless_frames_end_by_the_quota_of_seconds, Through == []) :-
+test(endless_frames_exceed_the_quota_of_seconds, Through == []) :-
     Over = ended(raised(error(resource_error(seconds), _))),
     findall(What-test_send(What)-Over, endless(What), Checks),
     with_inmates([], [seconds(1)],
                  through([beside-true-yes(true)|Checks], Through)).
-test(a_host_stops_beside_a_flood,
+test(host_stops_during_a_flood,
      [forall(endless(What)), Stopped == true]) :-
     with_inmates(stopped_beside(What, Stopped)).
-test(requests_that_are_refused_do_not_fill_the_audit,
+test(refused_requests_do_not_fill_the_audit,
      [Outcome,Lines] = [ended(lost(cell(violation(refused)))),102]) :-
     with_inmates(refused_again_and_again(Outcome, Lines)).
-test(agents_that_are_not_admitted_do_not_fill_the_audit,
+test(refused_agents_do_not_fill_the_audit,
      [Outcome,Lines,Agents] = [ended(lost(cell(violation(refused)))),102,4]) :-
     with_inmates([], [seconds(20), clones(100 000), owner(agents(5))],
                  created_again_and_again(Outcome, Lines, Agents)).
@@ -42,19 +42,19 @@ test(new_functors_are_charged_to_the_owner_until_its_turns_end,
     with_settings([typhon_cells:functors=30 000],
                   with_inmates(listening(functors_charged([First,Next], Before,
                                                           After, Lines), _))).
-test(a_limit_that_the_cell_has_found_is_audited,
+test(quota_exceeded_in_a_cell_is_audited,
      Outcome = ended(raised(error(resource_error(stack), _)))) :-
     with_inmates(attempt(test_send(over(stack)), Outcome)).
-test(an_outcome_sent_in_again_makes_no_second_clone, Agents == 2) :-
+test(resent_outcome_makes_no_second_clone, Agents == 2) :-
     with_inmates(sent_again(Agents)).
-test(an_old_image_of_an_agent_that_has_gone_on_is_refused,
+test(outdated_image_is_refused,
      [Outcome,There] = [ended(lost(cell(violation(frame)))),1]) :-
     with_hosts([t], with_inmates(sent_late(Outcome, There))).
 test(request_of_an_ended_cell_is_dropped,
      [Outcome,Beside] = [ended(lost(cell(exit(0)))),yes(true)]) :-
     with_inmates(( attempt(test_send(last_words), Outcome),
                    attempt(true, Beside) )).
-test(an_answer_to_a_cell_that_was_killed_meanwhile,
+test(answer_to_a_killed_cell_is_dropped,
      [Outcome,Beside] = [ended(lost(cell(killed(9)))),yes(true)]) :-
     with_tmp_dir(killed_while_served(Outcome, Beside)).
 

@@ -14,9 +14,9 @@ gatekeeper
 
 :- begin_tests(cell_forgeries).
 
-test(no_act_without_an_answer_passes_the_rules, Through == []) :-
+test(unacknowledged_acts_obey_the_rules, Through == []) :-
     made(act, Through).
-test(no_request_passes_the_rules, Through == []) :-
+test(requests_obey_the_rules, Through == []) :-
     made(request, Through).
 test(frames_after_the_outcome_end_the_cell,
      [One,Next,After] = [ended(done), ended(lost(cell(violation(frame)))),

@@ -12,7 +12,7 @@
 
 :- begin_tests(cell_outcomes).
 
-test(no_outcome_deceives_the_gatekeeper, Through == []) :-
+test(forged_outcomes_are_rejected, Through == []) :-
     findall(Name-test_send(Frame)-ended(lost(cell(Reason))),
             frame(Name, Frame, Reason), Checks),
     with_inmates(through(Checks, Through)).

@@ -38,7 +38,7 @@ outcome(Clauses, Outcome) :-
 
 :- begin_tests(cells).
 
-test(an_agent_does_what_agents_do,
+test(agent_in_a_cell_uses_the_vocabulary,
      Result = r(Id, C, C, 0, [C], [f(1),f(2)], 2, f(1), got(Id, clone))) :-
     cell(( address(c, C),
            result([ (main :- self(Me), here(H), home(B), hops(N),
@@ -51,7 +51,7 @@ test(an_agent_does_what_agents_do,
                     (talk(parent(_), got(Me, M)) :- self(Me), receive(_-M)),
                     (talk(clone(P), _) :- send(P, clone), dispose) ], Result),
            arg(1, Result, Id) )).
-test(a_parent_is_known, Parent == Id) :-
+test(parent_is_known, Parent == Id) :-
     cell(( create([ (main :- clone(Branch), tell(Branch)),
                     (tell(parent(C)) :- send(C, above), receive(_-P), result(P)),
                     (tell(clone(P)) :- receive(_-above), parent(Q), send(P, Q)) ],
@@ -66,7 +66,7 @@ test(messages_are_handled, Said == [hello(1),hello(2)]) :-
            agent_send(A, hello(1)), agent_send(A, hello(2)),
            result([ (main :- receive(_-ask(B)), send(B, tell), receive(_-Ss),
                              result(Ss)) ], A, Said) )).
-test(acts_without_an_answer_keep_their_order, Said-Sensed == Ns-done) :-
+test(unacknowledged_acts_keep_their_order, Said-Sensed == Ns-done) :-
     numlist(1, 1200, Ns),
     cell(( result([ (main :- self(Me), leave(begun),
                              forall(between(1, 1200, N), send(Me, N)),
@@ -75,18 +75,18 @@ test(acts_without_an_answer_keep_their_order, Said-Sensed == Ns-done) :-
                     (all(N, [M|Ms]) :- N > 0, receive(_-M), N1 is N-1,
                                        all(N1, Ms)) ], Said),
            outcome([(main :- leave(a), sense(a), log(a), take(a))], Sensed) )).
-test(they_are_done_before_the_agent_stops, Heard == slow) :-
+test(pending_acts_are_done_before_the_agent_stops, Heard == slow) :-
     cell(( create([(main :- receive(_-M), result(M))], A, [host(c)]),
            create([ a(A), (main :- a(A), send(A, slow), sleep(60)) ], _,
                   [host(c)]),
            agent_result(A, Heard, 30) )).
-test(a_quota_ends_an_agent_that_only_sends,
+test(quota_ends_an_agent_that_only_sends,
      Outcome = raised(error(resource_error(messages), _))) :-
     with_hosts([c-[policy(guarded), cell(owner), quota([messages(5)])]],
                outcome([(main :- self(Me), repeat,
                                  catch(send(Me, x), _, true), fail)],
                        Outcome)).
-test(an_error_that_the_agent_can_see_is_raised_at_once,
+test(visible_errors_are_raised_at_once,
      Formals == [type_error(callable, 1),
                  permission_error(call, sandboxed, send(fipa(x), y))]) :-
     cell(result([ (main :- findall(F, ( act(G), catch(G, error(F, _), true) ),
@@ -99,23 +99,23 @@ test(agents_are_created_and_monitored, Down-Cells == done-1) :-
                             receive(system-down(B, Outcome)),
                             result(Outcome))], Down),
            used_cells(Cells) )).
-test(rules_hold_in_the_cell,
+test(rules_apply_in_the_cell,
      Formal == permission_error(call, sandboxed, shell(ls))) :-
     cell(result([ plan(shell(ls)),
                   (main :- plan(G), catch(call(G), error(F, _), true),
                            result(F)) ], Formal)).
-test(rules_refuse_at_the_gate,
+test(rules_refuse_at_admission,
      error(move_refused(_, policy(shell(ls))))) :-
     cell(create([(main :- shell(ls))], _, [host(c)])).
-test(faults_have_their_position,
+test(faults_have_their_location,
      Outcome-Place = raised(error(instantiation_error, _))-(foo/1:1)) :-
     cell(( create([ (main :- foo(X), result(X)),
                     (foo(X) :- atom_length(_, X)) ], A, [host(c)]),
            agent_join(A, Outcome, 30),
            agent_property(A, fault(fault(_, _, Place, _))) )).
-test(a_goal_that_fails, Outcome == failed) :-
+test(failing_goal, Outcome == failed) :-
     cell(outcome([(main :- member(x, [y]))], Outcome)).
-test(state_changes_from_outside, Facts == [n(1),n(2)]) :-
+test(state_is_changed_from_outside, Facts == [n(1),n(2)]) :-
     cell(( create([ (:- dynamic(n/1)), n(1),
                     (main :- receive(_-go), findall(n(N), n(N), Ns),
                              result(Ns)) ], A, [host(c)]),
@@ -123,19 +123,19 @@ test(state_changes_from_outside, Facts == [n(1),n(2)]) :-
            agent_change(A, facts([n(2)])),
            agent_send(A, go),
            agent_result(A, Facts, 30) )).
-test(services_of_the_place_are_offered, Result == [2,4]-no) :-
+test(services_of_the_place_are_available, Result == [2,4]-no) :-
     with_tmp_dir(served(Result)).
-test(sessions_outside_have_processors_first,
+test(cells_have_low_priority,
      [condition(exists_file('/proc/self/autogroup')), true(Nice == "10")]) :-
     cell(( create([(main :- receive(_))], A, [host(c)]),
            wait_state(A, waiting),
            cell_session_nice(Nice) )).
-test(an_order_from_outside, Outcome == disposed) :-
+test(order_from_outside, Outcome == disposed) :-
     cell(( create([(main :- receive(_))], A, [host(c)]),
            wait_state(A, waiting),
            agent_dispose(A),
            agent_join(A, Outcome, 30) )).
-test(an_agent_that_does_not_stop_is_ended,
+test(agent_that_does_not_stop_is_ended,
      Outcomes-Beside = [raised(error(resource_error(seconds), _)),disposed]
                        -done) :-
     with_hosts([ c-[policy(guarded), cell(owner), quota([seconds(1)])] ],
@@ -149,7 +149,7 @@ test(an_agent_that_does_not_stop_is_ended,
                  Outcomes = [Outcome1,Outcome2] )).
 %   To look for the text takes minutes, in one call of C.
 
-test(an_agent_that_cannot_be_interrupted_is_ended,
+test(uninterruptible_agent_is_ended,
      Outcome = raised(error(resource_error(seconds), _))) :-
     with_hosts([ c-[policy(guarded), cell(owner), quota([seconds(0.5)])] ],
                outcome([ (main :- text(1 000 000, "", Text),
@@ -161,7 +161,7 @@ test(an_agent_that_cannot_be_interrupted_is_ended,
                                                 string_concat(Text0, End,
                                                               Text)) ],
                        Outcome)).
-test(long_text_is_no_number, Lengths == [40 000,40 000]) :-
+test(long_text_is_not_parsed_as_a_number, Lengths == [40 000,40 000]) :-
     length(Codes, 39 999),
     maplist(=(0'7), Codes),
     atom_codes(Atom, [0'a|Codes]),
@@ -178,7 +178,7 @@ test(many_agents_share_a_cell, Sum-Cells == 5050-1) :-
            sum_list(Rs, Sum),
            used_cells(Cells) )).
 
-test(services_one_by_one_and_so_often,
+test(services_are_restricted_and_limited,
      Outcomes-Passed = [ done, done,
                           raised(error(resource_error(calls(twice/2)), _)),
                           raised(error(existence_error(procedure, _), _)) ]
@@ -191,7 +191,7 @@ test(services_one_by_one_and_so_often,
                                         Ended, Passed))),
     findall(Outcome, member(_-Outcome, Ended), Outcomes).
 
-test(a_supervisor_starts_its_children_again, [Outcome,Last] == [done,disposed]) :-
+test(supervisor_restarts_its_children, [Outcome,Last] == [done,disposed]) :-
     cell(( agent_create(agents(supervisor), S,
                         [ host(c),
                           facts([child(w, clauses([ (:- agent(w, [])),
@@ -211,9 +211,9 @@ test(a_supervisor_starts_its_children_again, [Outcome,Last] == [done,disposed]) 
                                      ; sleep(0.02), child(S1, A) )) ], S, B),
                        agent_join(S, Outcome, 30),
                        agent_join(B, Last, 30) ), _) )).
-test(the_gatekeeper_checks_each_predicate, Own == [clone/1,clone/2,deliver/1,
-                                                   dispose/0,move/1,receive/1,
-                                                   receive/2,undeliver/1]) :-
+test(gatekeeper_checks_each_predicate, Own == [clone/1,clone/2,deliver/1,
+                                               dispose/0,move/1,receive/1,
+                                               receive/2,undeliver/1]) :-
     findall(PI, ( vocabulary_word(_, PI), \+ cell_word(_, PI) ), PIs),
     sort(PIs, Own).
 
@@ -277,7 +277,7 @@ served(Result, Dir) :-
 
 :- begin_tests(cell_processes).
 
-test(hops_in_and_out, Trip == [P,C,P,C]-[done,done]) :-
+test(hops_into_and_out_of_a_cell, Trip == [P,C,P,C]-[done,done]) :-
     no_leaks(with_peers(
         [p-[host([policy(guarded), cell(owner)])]],
         with_hosts([c], ( peer_host(p, P), address(c, C), trip(P, Trip) )))).
@@ -293,7 +293,7 @@ test(owners_do_not_share_a_cell, Keys == 2) :-
                      create(Sleeper, _, [host(c)]),
                      wait_until(used_cells(2), 30),
                      used_cells(Keys) )))).
-test(a_process_that_halts_leaves_no_files, Files == []) :-
+test(halting_process_leaves_no_files, Files == []) :-
     with_tmp_dir(left_in(Files)).
 test(cells_end_with_their_process, Dead == true) :-
     no_leaks(with_peers(
@@ -302,7 +302,7 @@ test(cells_end_with_their_process, Dead == true) :-
           Cells = [cell(_, Pid, _)|_],
           peer_crash(p),
           ( wait_until(is_dead(Pid), 20) -> Dead = true ; Dead = false ) ))).
-test(a_cell_that_dies_takes_what_runs_in_it_and_nothing_else,
+test(killed_cell_ends_only_its_running_agents,
      Lost-Result = lost(cell(killed(9)))-awake) :-
     cell(( create([(main :- receive(_-go), result(awake))], Rests, [host(c)]),
            wait_state(Rests, waiting),
@@ -317,7 +317,7 @@ test(a_cell_that_dies_takes_what_runs_in_it_and_nothing_else,
                                Messages)),
            agent_send(Rests, go),
            agent_result(Rests, Result, 30) )).
-test(with_a_journal_a_turn_runs_again_once,
+test(interrupted_turn_is_repeated_once_with_a_journal,
      [ condition(missing([journal], [])),
        forall(member(Before-Kills-Expected,
                      [ true-1-(done-1), true-2-(lost-0),
@@ -356,16 +356,16 @@ test(without_bubblewrap_a_policy_warns_once, Out-Warned == "done"-1) :-
     assertion(Status == exit(0)),
     findall(x, sub_string(Err, _, _, _, "no cell can be started"), Xs),
     length(Xs, Warned).
-test(a_slow_start_of_a_cell_is_no_reason_to_do_without,
+test(slow_start_of_a_cell_does_not_disable_cells,
      error(timeout_error(start_cell, _))) :-
     with_settings([typhon_cells:start=0.5],
                   with_tmp_dir(started_by_slow_bubblewrap)).
-test(a_trusted_host_has_no_cells, error(existence_error(host_option, policy))) :-
+test(trusted_host_has_no_cells, error(existence_error(host_option, policy))) :-
     host_start(c, [cell(owner)]).
-test(inferences_are_not_counted_in_cells,
+test(inferences_cannot_be_limited_in_cells,
      error(permission_error(limit, cell, inferences(9)))) :-
     host_start(c, [policy(guarded), cell(owner), quota([inferences(9)])]).
-test(agents_keep_the_policy_under_which_they_came, Formals-Cells == [no,yes]-1) :-
+test(agents_keep_the_policy_of_their_admission, Formals-Cells == [no,yes]-1) :-
     cell(( tries(Clauses),
            create(Clauses, Old, [host(c)]),
            host_change(c, policy(trusted)),
@@ -373,7 +373,7 @@ test(agents_keep_the_policy_under_which_they_came, Formals-Cells == [no,yes]-1) 
            findall(F, ( member(A, [Old,New]), agent_send(A, go),
                         agent_result(A, F, 30) ), Formals),
            used_cells(Cells) )).
-test(a_host_that_guards_from_now_on_has_cells, Cells-Result == 1-no) :-
+test(changing_to_guarded_enables_cells, Cells-Result == 1-no) :-
     with_hosts([c], ( host_change(c, policy(guarded)),
                       tries(Clauses),
                       create(Clauses, A, [host(c)]),
@@ -383,16 +383,16 @@ test(a_host_that_guards_from_now_on_has_cells, Cells-Result == 1-no) :-
 test(virtual_time_has_no_cells,
      error(permission_error(start, cell, clock(virtual)))) :-
     host_start(c, [policy(guarded), cell(owner), clock(virtual)]).
-test(a_policy_means_a_cell_of_the_owner, Cells == 1) :-
+test(guarded_policy_gives_each_owner_a_cell, Cells == 1) :-
     with_hosts([c-[policy(guarded)]], ( outcome([main], done),
                                         used_cells(Cells) )).
-test(none_is_no_cell_and_warns_once, Cells-Count == []-1) :-
+test(cell_none_warns_once, Cells-Count == []-1) :-
     listening(( with_hosts([c-[policy(guarded), cell(none)]],
                            ( outcome([main], done), cells_list(Cells) )),
                 with_hosts([c-[policy(guarded), cell(none)]], true) ),
               Messages),
     was_warned(none, Messages, Count).
-test(where_cells_are_impossible_a_policy_warns, Outcome-Count == done-1) :-
+test(guarded_policy_without_cells_warns, Outcome-Count == done-1) :-
     listening(with_hosts([c-[policy(guarded), quota([inferences(1 000 000)])]],
                          outcome([main], Outcome)),
               Messages),

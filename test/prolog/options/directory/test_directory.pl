@@ -48,7 +48,8 @@ three(Goal) :-
 
 :- begin_tests(directory).
 
-test(found_with_its_properties, Found == [A-offer(shop(7), [open], Address)]) :-
+test(offer_is_found_with_its_properties,
+     Found == [A-offer(shop(7), [open], Address)]) :-
     with_hosts([alpha],
                ( offering([shop(7)-[open], bank-[]], alpha, A),
                  address(alpha, Address),
@@ -62,26 +63,26 @@ test(nearest_first_within_the_radius,
             findall(Name, ( member(A, Agents), member(A-Name, [B-b, C-c]) ),
                     Found) )).
 
-test(farther_hosts_are_not_asked_when_enough_are_found, Agents == [A]) :-
+test(farther_hosts_are_not_queried_when_enough_are_found, Agents == [A]) :-
     three(( offering([shop-[]], alpha, A),
             offering([shop-[]], beta, _),
             agents_found(alpha, shop, [radius(inf),most(1)], Agents) )).
-test(by_properties, Agents == [B]) :-
+test(offers_are_selected_by_properties, Agents == [B]) :-
     with_hosts([alpha],
                ( offering([shop-[colour(red),open]], alpha, _),
                  offering([shop-[colour(blue),open]], alpha, B),
                  agents_found(alpha, shop, [properties([colour(blue)])],
                               Agents) )).
-test(offered_again_replaces, Found = [A-offer(shop, [closed], _)]) :-
+test(repeated_offer_replaces_the_first, Found = [A-offer(shop, [closed], _)]) :-
     with_hosts([alpha],
                ( offering([shop-[open], shop-[closed]], alpha, A),
                  found(alpha, shop, [], Found) )).
-test(taken_back, Agents == []) :-
+test(withdrawn_offer, Agents == []) :-
     with_hosts([alpha],
                ( offering([shop-[]], alpha, A),
                  does(A, unoffer(shop)),
                  agents_found(alpha, shop, [], Agents) )).
-test(lapses_when_the_agent_leaves_also_if_it_returns, Agents == []) :-
+test(offer_lapses_when_the_agent_leaves, Agents == []) :-
     with_hosts([alpha,beta],
                ( offering([shop-[]], alpha, A),
                  address(alpha, Alpha),
@@ -89,18 +90,18 @@ test(lapses_when_the_agent_leaves_also_if_it_returns, Agents == []) :-
                  agent_move(A, Beta, [wait(5)]),
                  agent_move(A, Alpha, [wait(5)]),
                  agents_found(alpha, shop, [], Agents) )).
-test(lapses_when_the_agent_ends, Agents == []) :-
+test(offer_lapses_when_the_agent_ends, Agents == []) :-
     with_hosts([alpha],
                ( offering([shop-[]], alpha, A),
                  agent_dispose(A),
                  joined(A, disposed),
                  agents_found(alpha, shop, [], Agents) )).
-test(lapses_when_the_agent_is_faulty, Agents == []) :-
+test(offer_lapses_when_the_agent_is_faulty, Agents == []) :-
     with_hosts([alpha],
                ( create([(main :- offer(shop, []), throw(oops))], A),
                  listening(joined(A, raised(oops)), _),
                  agents_found(alpha, shop, [], Agents) )).
-test(too_many, E == resource_error(offers)) :-
+test(too_many_offers, E == resource_error(offers)) :-
     with_hosts([alpha],
                ( create([ (main :- catch(offers(101), error(E0, _), true),
                                    result(E0)),
@@ -108,7 +109,7 @@ test(too_many, E == resource_error(offers)) :-
                           (offers(N) :- offer(s(N), []), M is N-1, offers(M)) ],
                         A, []),
                  agent_result(A, E, 10) )).
-test(must_be_ground, E == instantiation_error) :-
+test(offer_must_be_ground, E == instantiation_error) :-
     with_hosts([alpha],
                ( create([(main :- catch(offer(s(_), []), error(E0, _), true),
                                   result(E0))], A, []),
@@ -118,19 +119,19 @@ test(unknown_option, E = domain_error(find_option, hot(1))) :-
                ( create([(main :- catch(find(s, _, [hot(1)]), error(E0, _), true),
                                   result(E0))], A, []),
                  agent_result(A, E, 10) )).
-test(on_a_guarded_host, Agents == [A]) :-
+test(directory_on_a_guarded_host, Agents == [A]) :-
     with_hosts([alpha-[policy(guarded)]],
                ( offering([shop-[]], alpha, A),
                  agents_found(alpha, shop, [], Agents) )).
-test(from_the_top_level, Found = [A-offer(shop, [], _)]) :-
+test(directory_from_the_top_level, Found = [A-offer(shop, [], _)]) :-
     with_hosts([alpha],
                ( offering([shop-[]], alpha, A),
                  remote(alpha, find(shop, Found, [])) )).
-test(of_a_host, Offers == [A-offer(shop, [open])]) :-
+test(directory_of_one_host, Offers == [A-offer(shop, [open])]) :-
     with_hosts([alpha],
                ( offering([shop-[open]], alpha, A),
                  host_offers(alpha, Offers) )).
-test(lapsed_offers_do_not_pile_up, true(Count < 300)) :-
+test(lapsed_offers_are_removed, true(Count < 300)) :-
     with_hosts([alpha],
                ( forall(between(1, 600, _),
                         ( create([(main :- offer(shop, []))], A, []),
@@ -153,7 +154,7 @@ test(over_links_of_processes, Agents == [A,B]) :-
               offering([shop-[]], H2, B),
               agents_found(alpha, shop, [radius(inf)], Agents) ),
             host_stop(alpha)))).
-test(a_process_that_is_gone_is_left_out, Agents == [A]) :-
+test(dead_process_is_left_out, Agents == [A]) :-
     no_leaks(with_peers([p1],
         setup_call_cleanup(
             host_start(alpha),
@@ -169,7 +170,7 @@ test(a_process_that_is_gone_is_left_out, Agents == [A]) :-
 
 :- begin_tests(directory_in_the_journal, [condition(missing([journal], []))]).
 
-test(offers_are_there_again) :-
+test(offers_are_restored) :-
     no_leaks(with_tmp_dir(restarted)).
 
 restarted(Dir) :-

@@ -256,7 +256,7 @@ test(each_attack_is_refused, Through == []) :-
                listening(findall(G, ( attack(G), \+ refused(G) ), Through),
                          _)).
 
-test(nothing_is_called_unseen_below_a_variable, Escaped-Count == 0-many) :-
+test(constructed_goals_are_checked, Escaped-Count == 0-many) :-
     flag(typhon_guard_escaped, _, 0),
     with_hosts([g-[policy(guarded), cell(none)]],
                ( findall(Goal, below_variables(Goal), Goals),
@@ -279,29 +279,29 @@ test(ordinary_programs_run, R-Facts == [2-a,4-b]-[ok]) :-
                           (each(G, [X|Xs]) :- call(G, X), each(G, Xs)),
                           (go(H) :- sleep(0.001), move(H)) ], A, [host(g)]),
                  agent_result(A, R-Facts, 5) )).
-test(stops_inside_what_it_makes_up, H == H0) :-
+test(move_inside_a_constructed_goal, H == H0) :-
     with_hosts([g-[policy(guarded), cell(none)], t],
                ( address(g, H0),
                  create([ (main :- G = (move(t), move(g)), call(G), here(H),
                                    result(H)) ], A, [host(t)]),
                  agent_result(A, H, 5) )).
-test(what_it_carries_is_looked_at_on_arrival,
+test(carried_clauses_are_checked_on_arrival,
      R = error(move_refused(_, policy(halt)), _)) :-
     with_hosts([g-[policy(guarded), cell(none)], t],
                ( create([ (main :- assertz((s(_) :- halt)),
                                    catch(move(g), E, true), result(E)) ],
                         A, [host(t)]),
                  agent_result(A, R, 5) )).
-test(what_it_is_about_to_do_is_looked_at_on_arrival,
+test(pending_goals_are_checked_on_arrival,
      R = error(move_refused(_, policy(shell(x))), _)) :-
     with_hosts([g-[policy(guarded), cell(none)], t],
                ( create([ (main :- G = (move(g), shell(x)),
                                    catch(call(G), E, true), result(E)) ],
                         A, [host(t)]),
                  agent_result(A, R, 5) )).
-test(only_services_of_the_place, Rs == [open(1),hidden]) :-
+test(only_services_of_the_place_are_callable, Rs == [open(1),hidden]) :-
     with_tmp_dir(places(Rs)).
-test(a_service_is_called_so_often,
+test(service_calls_are_limited,
      Rs = done-raised(error(resource_error(calls(open/1)), _))) :-
     with_tmp_dir(often(Rs)).
 %   Its own predicate of that name comes before the service.
@@ -319,7 +319,7 @@ test(check_of_admissible_programs) :-
     listening(agent_check(clauses([(:- agent(x, [])), (main :- self(_))]),
                           [policy(guarded)]),
               _).
-test(a_change_of_policy_counts_from_now_on,
+test(changed_policy_applies_from_now_on,
      O = error(move_refused(_, policy(halt)), _)) :-
     with_hosts([g],
                ( host_change(g, policy(guarded)),
@@ -458,7 +458,8 @@ is_of(tripwire(max_integer_size, _), stack).    % of 9.2
 
 %   What is first, the results or the stack that takes them, depends.
 
-test(results_without_end, true(memberchk(What, [seconds, stack]))) :-
+test(endless_findall_exceeds_a_quota,
+     true(memberchk(What, [seconds, stack]))) :-
     quota_of(seconds, Quotas),
     with_hosts([g-[policy(guarded), cell(none), quota(Quotas)]],
                listening(outcome([ (main :- findall(X, between(1, inf, X), _)) ],
@@ -466,7 +467,7 @@ test(results_without_end, true(memberchk(What, [seconds, stack]))) :-
     Outcome = raised(error(resource_error(What), _)).
 %   Nothing that it does when it has caught an interrupt keeps it there.
 
-test(agent_that_catches_its_end_ends_at_once, [ forall(stays(Clauses)),
+test(caught_interrupt_ends_the_agent_at_once, [ forall(stays(Clauses)),
                                                 true(Seconds < 3) ]) :-
     quota_of(seconds, Quotas),
     get_time(T0),
@@ -480,19 +481,19 @@ test(agent_that_catches_its_end_ends_at_once, [ forall(stays(Clauses)),
 %   process if it came to that.
 %   Its limit is four times the quota: more than it fills between two looks.
 
-test(no_agent_fills_its_stack,
+test(stack_is_limited,
      [ forall(brim(Clauses)), setup(stack_limit(Old, 60 000 000)),
        cleanup(set_prolog_flag(stack_limit, Old)),
        Outcome = raised(error(resource_error(stack), _)) ]) :-
     with_hosts([g-[ policy(guarded), cell(none),
                     quota([seconds(60), stack(64 000 000)]) ]],
                listening(outcome(Clauses, Outcome), _)).
-test(ends_with_it, [ forall(hog(What, Clauses)), true(is_of(Resource, What)) ]) :-
+test(exceeding_a_quota_ends_the_agent, [ forall(hog(What, Clauses)), true(is_of(Resource, What)) ]) :-
     quota_of(What, Quotas),
     with_hosts([g-[policy(guarded), cell(none), quota(Quotas)]],
                listening(outcome(Clauses, Outcome), _)),
     Outcome = raised(error(resource_error(Resource), _)).
-test(others_go_on, N == 20) :-
+test(other_agents_continue, N == 20) :-
     quota_of(seconds, Quotas),
     with_hosts([g-[policy(guarded), cell(none), quota(Quotas)], t],
                listening(( hog(seconds, Hog),
@@ -508,7 +509,7 @@ test(trusted_hosts_have_quotas_too,
                listening(outcome([ (main :- lp), (lp :- lp) ], Outcome), _)).
 %   What they call things is not remembered for ever.
 
-test(names_are_forgotten, true(Count < 300)) :-
+test(atoms_are_collected, true(Count < 300)) :-
     with_settings([typhon_mobile:known=100],
                   with_hosts([g-[policy(guarded), cell(none)]],
                              forall(between(1, 4, I), names(I)))),

@@ -225,10 +225,10 @@ changing_program(Name, Clauses) :-
 
 %   setarg/3 is allowed, so that the copy is all that is between.
 
-test(what_was_looked_at_is_what_runs,
+test(checked_goal_is_the_executed_goal,
      [forall(changing_program(Name, Clauses)), true(Escaped == 0-Name)]) :-
     with_tmp_dir(changed(Clauses, Name, Escaped)).
-test(no_term_is_changed_in_place, Through == []) :-
+test(destructive_assignment_is_refused, Through == []) :-
     with_hosts([g-[policy(guarded), cell(none)], t],
                listening(let_through([ (X = f(a), setarg(1, X, b)),
                                        (X = f(a), nb_setarg(1, X, b)),
@@ -275,7 +275,7 @@ hiding(Clause, [ (main :- move(g), catch(p(1), _, true)), Clause ]).
 
 :- begin_tests(clauses).
 
-test(no_fact_is_a_rule, [Escaped-Through == 0-[]]) :-
+test(rule_is_not_accepted_as_a_fact, [Escaped-Through == 0-[]]) :-
     findall(Clause-Clauses, ( hidden(Clause), hiding(Clause, Clauses) ), All),
     with_hosts([g-[policy(guarded), cell(none)], t],
                listening(escaped(findall(Clause-Outcome,
@@ -284,7 +284,7 @@ test(no_fact_is_a_rule, [Escaped-Through == 0-[]]) :-
                                            \+ refused_or_unread(Outcome) ),
                                          Through),
                                  Escaped), _)).
-test(no_fact_of_the_state_is_a_rule, [Escaped-Through == 0-[]]) :-
+test(rule_is_not_accepted_as_a_state_fact, [Escaped-Through == 0-[]]) :-
     findall(Clause, hidden(Clause), Clauses),
     with_hosts([g-[policy(guarded), cell(none)]],
                listening(escaped(findall(Clause,
@@ -292,7 +292,7 @@ test(no_fact_of_the_state_is_a_rule, [Escaped-Through == 0-[]]) :-
                                            comes_with(Clause) ),
                                          Through),
                                  Escaped), _)).
-test(rules_of_a_service_stay, R == kept) :-
+test(rules_of_a_service_are_protected, R == kept) :-
     with_tmp_dir(service_rules(R)).
 
 :- end_tests(clauses).
@@ -330,21 +330,21 @@ service_rules(R, Dir) :-
 
 %   A program that a peer sends may name any file as its library.
 
-test(no_library_is_loaded,
+test(programs_of_peers_load_no_library,
      [forall(( comes(How), wrapped(Program, Sent) )), Escaped == 0]) :-
     with_tmp_dir(loads_library(How, Program, Sent, Escaped)).
 
 
 %   detach/1 would abolish what a life names.
 
-test(no_life_names_predicates_of_modules,
+test(image_names_no_predicates_of_modules,
      [ forall(member(Payloads, [ [x-[user:(p/1)]], [x-[(user:p)/1]], [x-_],
                                  [x-[p/1|_]], _ ])),
        error(type_error(agent_image, _)) ]) :-
     Life = life(none, 1, inf, [], Payloads, false, []),
     typhon_image:image_label(image('x.1.0@g@127.0.0.1:1', hash, Life,
                                    state([], []), [], [], 0.0), _).
-test(lives_name_predicates_of_agents) :-
+test(image_names_predicates_of_the_agent) :-
     Life = life(none, 1, inf, [], [x-[p/1,q/0]], false, []),
     typhon_image:image_label(image('x.1.0@g@127.0.0.1:1', hash, Life,
                                    state([], []), [], [], 0.0), _).
@@ -434,7 +434,7 @@ test(shared_terms_are_not_stored,
     with_hosts([g-[policy(guarded), cell(none)]],
                listening(( create(Clauses, A, [host(g)]),
                            agent_join(A, Outcome, 10) ), _)).
-test(others_are_not_held_up, R == ok) :-
+test(other_agents_are_not_delayed, R == ok) :-
     dag(Dag),
     with_hosts([g-[policy(guarded), cell(none)]],
                listening(( create([ (main :- dag(60, a, T), receive(_-T, 1))
@@ -445,7 +445,7 @@ test(others_are_not_held_up, R == ok) :-
                            agent_join(A, raised(_), 10) ), _)).
 %   Large data may stand in goals that are not kept.
 
-test(large_data_are_no_goals, R == 300 000) :-
+test(large_terms_are_not_executed, R == 300 000) :-
     with_hosts([g-[policy(guarded), cell(none)]],
                ( create([ (main :- numlist(1, 300 000, L), G = count(L),
                                    call(G)),
@@ -472,11 +472,11 @@ huge(Goal) :-
 
 :- begin_tests(huge_terms).
 
-test(no_term_is_as_large_as_memory, Through == []) :-
+test(term_size_is_bounded, Through == []) :-
     findall(Goal, huge(Goal), Goals),
     with_hosts([g-[policy(guarded), cell(none)], t],
                listening(let_through(Goals, Through), _)).
-test(terms_are_made_by_their_size,
+test(functor_and_length_are_bounded_by_size,
      true(subsumes_term([f(_,_), a, 3, g(_), [f,1]], R))) :-
     with_hosts([g-[policy(guarded), cell(none)]],
                ( create([ (main :- functor(A, f, 2), functor(B, a, 0),
@@ -612,7 +612,7 @@ long_atom_900(Long) :-
 
 :- begin_tests(texts).
 
-test(long_atoms_are_not_made, Through == []) :-
+test(long_atoms_are_refused, Through == []) :-
     findall(Goal, text_attack(Goal), Goals),
     with_hosts([g-[policy(guarded), cell(none)], t],
                listening(let_through(Goals, Through), _)).
@@ -630,7 +630,7 @@ test(text_of_atoms_counts,
     Outcome = raised(error(resource_error(Passed), _)).
 %   What is taken away again does not count.
 
-test(text_that_is_taken_away_does_not_count, Outcome == done) :-
+test(collected_text_does_not_count, Outcome == done) :-
     long_atom_900(Long),
     with_hosts([g-[ policy(guarded), cell(none),
                     quota([seconds(60), state(200 000)]) ]],
@@ -675,14 +675,14 @@ ends(dispose(A, [force(0)]), A).
 
 test(no_file_is_read_for_an_agent, Through == []) :-
     with_tmp_dir(read_by_agents(Through)).
-test(no_agent_ends_others, Through-State == []-waiting) :-
+test(agent_cannot_end_others, Through-State == []-waiting) :-
     with_hosts([g-[policy(guarded), cell(none)], t],
                ( create([(main :- receive(_))], A, [host(t)]),
                  wait_state(A, waiting),
                  findall(Goal, ends(Goal, A), Goals),
                  listening(let_through(Goals, Through), _),
                  agent_property(A, state(State)) )).
-test(an_agent_ends_those_that_follow_it, Outcome == disposed) :-
+test(agent_ends_its_followers, Outcome == disposed) :-
     with_hosts([g-[policy(guarded), cell(none)]],
                ( create([ (main :- create(clauses([ (:- agent(b, [])),
                                                     (main :- receive(_)) ]),
@@ -690,7 +690,7 @@ test(an_agent_ends_those_that_follow_it, Outcome == disposed) :-
                                    dispose(B), result(B)) ], A, [host(g)]),
                  agent_result(A, B, 10),
                  agent_join(B, Outcome, 10) )).
-test(the_library_of_the_platform_is_its_vocabulary,
+test(library_typhon_is_the_vocabulary,
      Formal == existence_error(procedure, agent_dispose/1)) :-
     with_hosts([g-[policy(guarded), cell(none)]],
                ( create([ (:- use_module(library(typhon))),

@@ -46,7 +46,7 @@ created(File, Host, Outcome) :-
 
 :- begin_tests(authors, [setup(true)]).
 
-test(only_what_alice_has_signed_begins_or_comes) :-
+test(only_programs_signed_by_alice_are_admitted) :-
     with_authority([alpha, beta], [alice, bob], authors_of).
 
 authors_of(Authority) :-
@@ -81,7 +81,7 @@ authors_of(Authority, Alpha) :-
                        ; subsumes_term(refused(move_refused(_, unsigned)),
                                        Far) )) )).
 
-test(a_changed_program_is_not_signed) :-
+test(changed_program_is_not_signed) :-
     with_authority([alpha], [alice], changed_program).
 
 changed_program(Authority) :-
@@ -118,7 +118,7 @@ no_author(Authority, _) :-
     created(Two, alpha, After),
     assertion(subsumes_term(refused(move_refused(_, unsigned)), After)).
 
-test(only_payloads_that_alice_has_signed_come_along) :-
+test(only_payloads_signed_by_alice_are_admitted) :-
     with_authority([alpha, beta], [alice], payloads_of).
 
 test(authors_need_keys, error(existence_error(host_option, tls))) :-

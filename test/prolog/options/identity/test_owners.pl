@@ -77,7 +77,7 @@ brought(Image, Birth, Answer) :-
 
 :- begin_tests(owners).
 
-test(honest_agents_are_admitted_forged_ones_refused) :-
+test(honest_agents_are_admitted_and_forged_ones_refused) :-
     with_owners(( honest, ids_taken, senders_forged, news_forged,
                   program_changed, guarded )).
 

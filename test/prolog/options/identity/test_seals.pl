@@ -43,7 +43,7 @@ collector(clauses([ (:- agent(collector, [state([to/1])])),
 
 :- begin_tests(seals).
 
-test(only_home_reads_it_and_only_unchanged) :-
+test(sealed_state_is_read_at_home_and_only_if_unchanged) :-
     with_authority([alpha, beta], [], with_home(home_reads)).
 
 home_reads :-
@@ -56,7 +56,7 @@ home_reads :-
     assertion(There == refused),
     assertion(Here == refused).
 
-test(without_keys_there_is_no_seal) :-
+test(seals_need_keys) :-
     setup_call_cleanup(
         host_start(alpha),
         ( agent_create(clauses([ (:- agent(s, [])),

@@ -83,7 +83,7 @@ hold(Kind) :-
     ;   true
     ).
 
-test('a thread that is ended as it posts does not keep others from it') :-
+test(interrupted_post_does_not_block_others) :-
     with_beta(
         ( nb_getval(channel_beta, Beta),
           listens(Beta, Id),
@@ -99,7 +99,7 @@ test('a thread that is ended as it posts does not keep others from it') :-
 %   The courier has posted, and not said so yet, as the process dies; he goes on
 %   when there is a connection with the next.
 
-test('what was under way to a process that dies is sent to the next') :-
+test(unacknowledged_posts_are_sent_to_the_successor) :-
     message_queue_create(Gate, [alias(channel_gate)]),
     with_beta(
         ( nb_getval(channel_beta, Beta),
@@ -121,7 +121,7 @@ test('what was under way to a process that dies is sent to the next') :-
 
 %   It was met at its first port, and is connected again by that.
 
-test('what was under way to the second port of a process that dies, too') :-
+test(unacknowledged_posts_to_a_second_port_are_sent_to_the_successor) :-
     free_port(Port),
     format(atom(Gamma), 'gamma@127.0.0.1:~d', [Port]),
     with_beta(
@@ -163,7 +163,7 @@ entry_with(Change, Entry) :-
     entry(Entry),
     memberchk(Change, Entry).
 
-test('an agent that is sent away and must stay keeps what waits for it') :-
+test(refused_agent_keeps_its_queued_messages) :-
     with_beta(( waits(Id), sent_nowhere(Id) ), true).
 
 waits(Id) :-
@@ -203,7 +203,7 @@ user:message_hook(typhon(order_failed(_, _)), warning, _).
 
 %   It is said to be on its way to here.
 
-test('what an agent has said waits where it is noted no more that it was said') :-
+test(forwarded_message_is_moved_in_one_unit_of_work) :-
     with_beta(
         ( typhon_endpoint:endpoint_address(Endpoint),
           atom_concat('driver@', Endpoint, Here),
@@ -231,7 +231,7 @@ small(Goal) :-
 text(Length, Text) :-
     format(string(Text), "~`xt~*|", [Length]).
 
-test('the sender of a message that is too long gets an error') :-
+test(sender_of_a_too_long_message_gets_an_error) :-
     with_beta(
         ( nb_getval(channel_beta, Beta),
           listens(Beta, Id),
@@ -242,7 +242,7 @@ test('the sender of a message that is too long gets an error') :-
           Formal == resource_error(frame_bytes) ),
         true).
 
-test('an agent does, too') :-
+test(agent_sending_a_too_long_message_gets_an_error) :-
     with_beta(
         ( nb_getval(channel_beta, Beta),
           listens(Beta, Id),
@@ -265,7 +265,7 @@ test('an agent does, too') :-
 
 %   As when another codec needs more space than was thought.
 
-test('one that has become too long is reported as lost') :-
+test(message_that_became_too_long_is_reported_as_a_dead_letter) :-
     setting(typhon_session:frame_bytes, Bytes),
     call_cleanup(
         with_beta(
@@ -286,7 +286,7 @@ test('one that has become too long is reported as lost') :-
 
 %   It is said to be on its way to here.
 
-test('those that have waited together go in as many frames as they need') :-
+test(queued_messages_are_split_over_frames) :-
     with_beta(
         ( nb_getval(channel_beta, Beta),
           listens(Beta, Id),
@@ -301,7 +301,7 @@ test('those that have waited together go in as many frames as they need') :-
                   got(Id, All) )) ),
         true).
 
-test('the end of an agent is reported, if not what it has left') :-
+test(end_is_reported_without_a_too_long_result) :-
     with_beta(
         ( nb_getval(channel_beta, Beta),
           host_property(driver, address(Driver)),
@@ -315,7 +315,7 @@ test('the end of an agent is reported, if not what it has left') :-
           wait_until(retract(told(results_lost(Id))), 5) ),
         true).
 
-test('what an agent logs, too') :-
+test(too_long_log_entry_is_reported) :-
     with_beta(
         ( nb_getval(channel_beta, Beta),
           listens(Beta, Id),
@@ -358,7 +358,7 @@ full :-
     remote(driver, leave(Long)),
     wait_until(typhon_durable_changes:commit_error(_), 20).
 
-test('an answer waits while the journal is full', Line == "answered") :-
+test(answer_waits_while_the_journal_is_full, Line == "answered") :-
     no_leaks(with_tmp_dir(asked_while_full(Line))).
 
 asked_while_full(Line, Dir) :-

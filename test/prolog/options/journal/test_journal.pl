@@ -42,7 +42,7 @@ stop_all :-
 keeper(clauses([ (:- agent(keeper, [state([got/1])])),
                  (on_message(_, M) :- assertz(got(M))) ])).
 
-test('agents and what they know are there again') :-
+test(agents_and_their_state_are_restored) :-
     with_journal(
         ( keeper(P),
           agent_create(P, Id, []),
@@ -58,7 +58,7 @@ got(Id, Expected) :-
     wait_until(( agent_property(Id, facts(Facts)),
                  findall(M, member(got(M), Facts), Expected) ), 5).
 
-test('one that waits gets what comes later, one that sleeps wakes') :-
+test(waiting_agents_receive_and_sleeping_agents_wake) :-
     with_journal(
         ( agent_create(clauses([ (:- agent(waits, [])),
                                  (main :- receive(_-X), result(X)) ]), A, []),
@@ -73,7 +73,7 @@ test('one that waits gets what comes later, one that sleeps wakes') :-
           agent_result(A, hello, 5),
           agent_result(B, awake, 20) )).
 
-test('outcomes and results are known') :-
+test(outcomes_and_results_are_restored) :-
     with_journal(
         ( agent_create(clauses([ (:- agent(ends, [])),
                                  (main :- clone(W), result(W)) ]), A, []),
@@ -100,7 +100,7 @@ test(declared_facts_are_restored_in_order, [cleanup(retractall(visit(_, _)))]) :
         ( findall(Id-N, visit(Id, N), Visits),
           Visits == [alice-9, alice-10, alice-11] )).
 
-test('facts of the tuple space, and delivered payloads') :-
+test(tuples_and_delivered_payloads_are_restored) :-
     with_tmp_dir(facts).
 
 facts(Dir) :-
@@ -122,7 +122,7 @@ facts(Dir) :-
           Facts =@= [a(2), a(2), f(Y, Y)],
           remote(alpha, hi(there)) )).
 
-test('other hosts of the process are there, and may be asked for once',
+test(other_hosts_are_restored_and_requested_once,
      [error(permission_error(start, host, beta))]) :-
     with_tmp_dir(other_hosts).
 
@@ -150,7 +150,7 @@ other_hosts(Dir) :-
 
 %   It would be tried again and again, and nothing else be committed.
 
-test('whose id no journal could have is not let in, and others are') :-
+test(too_long_id_is_refused) :-
     no_leaks(with_tmp_dir(long_ids)).
 
 long_ids(Dir) :-
@@ -174,16 +174,17 @@ long_ids(Dir) :-
           got(Id, [one]) ))),
     started(Dir, got(Id, [one])).
 
-test('a journal is for the first host',
+test(journal_needs_the_first_host,
      [error(permission_error(open, journal, _))]) :-
     setup_call_cleanup(host_start(gamma),
                        host_start(alpha, [journal('/tmp/none')]),
                        host_stop(gamma)).
 
-test('virtual time has none', [error(permission_error(open, journal, _))]) :-
+test(journal_is_refused_in_virtual_time,
+     [error(permission_error(open, journal, _))]) :-
     host_start(alpha, [clock(virtual), journal('/tmp/none')]).
 
-test('faulty agents are kept, and can be resumed',
+test(faulty_agents_are_restored_and_resumed,
      [setup(nb_setval(journal_test, none))]) :-
     with_journal(
         ( agent_create(clauses([ (:- agent(fails, [state([ok/0])])),
@@ -200,7 +201,7 @@ test('faulty agents are kept, and can be resumed',
 %   learns that one message finds no agent.  If that is when the agent rests another
 %   worker is ahead of it.
 
-test('one that answers messages is heard in order, whoever is quicker') :-
+test(messages_of_an_answering_agent_stay_in_order) :-
     with_tmp_dir(in_order).
 
 in_order(Dir) :-
@@ -241,7 +242,7 @@ stands_still(Agent, Keeper) :-
 %   Peers are let in before agents go on: here two messages come just before
 %   it is looked whether it is to be woken, and it has taken the first.
 
-test('messages that come during a restart are handled one after the other') :-
+test(messages_during_a_restart_are_handled_in_sequence) :-
     no_leaks(with_tmp_dir(one_after_the_other)).
 
 one_after_the_other(Dir) :-
@@ -283,7 +284,7 @@ spoken_to(_).
 %   One comes with a new program, and is not admitted after all: that must not
 %   keep the program from agents that come with it later.
 
-test('a program is noted whatever becomes of the agent that brought it') :-
+test(program_is_recorded_after_a_failed_unit_of_work) :-
     with_journal(
         ( keeper(P),
           agent_create(P, First, []),
@@ -319,7 +320,7 @@ node(Dir, Goal) :-
                  process_kill(Pid, kill),
                  process_wait(Pid, _) )).
 
-test('a step that was not over begins again, and happens once') :-
+test(unfinished_step_is_repeated_with_one_effect) :-
     with_tmp_dir(half_a_step).
 
 half_a_step(Dir) :-
@@ -355,7 +356,7 @@ half_a_step(Dir) :-
 
 %   It is killed in the middle of a step in which it has logged something.
 
-test('what an agent logs is in the log once, with the step in which it did') :-
+test(log_entries_are_written_once_with_their_step) :-
     with_tmp_dir(logs).
 
 logs(Dir) :-
@@ -391,7 +392,7 @@ logged(File, Agent, Logged) :-
               memberchk(What, [before, step(_), after]) ),
             Logged).
 
-test('a host that has peers rests, and is there again') :-
+test(host_with_peers_rests_and_is_restored) :-
     with_tmp_dir(rests).
 
 rests(Dir) :-
@@ -414,7 +415,7 @@ rests(Dir) :-
 %   connection, from which whoever says something to that process next takes it
 %   along.  Here somebody is just about to, and nothing is committed any more.
 
-test('whoever is let in is answered for when that is committed') :-
+test(arrival_is_acknowledged_after_its_commit) :-
     with_tmp_dir(taken_along).
 
 taken_along(Dir) :-
@@ -477,7 +478,7 @@ visitor(clauses([ (:- agent(visitor, [state([to/1,there/1])])),
 %   the agent changes it; a model that makes the same changes is equal then,
 %   clauses in their order.
 
-test('a large state that changes is what it was after any kill',
+test(large_changing_state_survives_any_kill,
      [forall(member(Messages, [40, 400, 1500]))]) :-
     with_tmp_dir(changing(Messages)).
 
@@ -505,7 +506,7 @@ changing(Messages, Dir) :-
 %   The unit of work that would have noted a change fails: the change is noted
 %   with the next one.
 
-test('a change of a large state whose unit of work fails is not lost') :-
+test(change_of_a_failed_unit_of_work_is_kept) :-
     with_journal(
         ( changer(Program, Facts),
           agent_create(Program, A, [facts(Facts)]),

@@ -21,7 +21,7 @@ is started here.
 place(Url, Place) :-
     journal_place(postgresql(Url), Place).
 
-test(places, [ forall(member(Url-Place,
+test(urls_give_places_without_secrets, [ forall(member(Url-Place,
         [ 'postgresql://'-'postgresql://localhost:5432/postgres?schema=typhon',
           'postgres://db.example/x'-
               'postgresql://db.example:5432/x?schema=typhon',
@@ -37,11 +37,11 @@ test(places, [ forall(member(Url-Place,
     catch(place(Url, Found), error(domain_error(postgresql_url, Url), _),
           Found = no).
 
-test('a URL alone is one, too', true(A == B)) :-
+test(bare_url_is_accepted, true(A == B)) :-
     journal_place('postgresql://db/x', A),
     journal_place(postgresql('postgresql://db/x'), B).
 
-test('no server is there', error(journal_unreachable(_, _))) :-
+test(missing_server, error(journal_unreachable(_, _))) :-
     with_store('postgresql://x@127.0.0.1:1/x', true).
 
 :- end_tests(postgresql_url).
@@ -58,28 +58,28 @@ sql(Sql) :-
     typhon_store:connection(_, Connection),
     typhon_sql:sql_do(Connection, Sql).
 
-test('what is committed is there when it is opened again') :-
+test(committed_changes_are_restored) :-
     with_schema(kept, commit([a-'kéy'-1-f(X, Y, X, Y), a-other-2-[],
                              b-'kéy'-0-"é"])),
     with_schema(kept, ( items(a, [K-1-F, other-2-[]]), items(b, [_-0-B]) )),
     K == 'kéy', F =@= f(X, Y, X, Y), B == "é".
-test('what is not committed as a whole is not there at all') :-
+test(uncommitted_changes_are_lost_as_a_whole) :-
     with_schema(whole, commit([a-k-1-one])),
     catch(with_schema(whole, commit([a-k-2-two, no_change])), error(_, _),
           true),
     with_schema(whole, items(a, [k-1-one])).
-test('changes are made in their order') :-
+test(changes_are_applied_in_order) :-
     with_schema(in_order,
                ( commit([a-k-1-x, a-k-2-y, a-k-3-z, a-l-1-w, drop(a, k, 2)]),
                  commit([drop_below(a, k, 3), a-k-9-v, a-k-9-u]),
                  commit([a-m-7-t, drop_all(a, m)]),
                  items(a, [l-1-w, k-3-z, k-9-u]) )).
-test('long terms, and shorter ones in their place') :-
+test(long_terms_are_replaced_by_short_ones) :-
     forall(member(Length, [10, 20000, 300000, 15000, 5]),
            ( numlist(1, Length, List),
              with_schema(long, commit([a-k-0-List])),
              with_schema(long, items(a, [k-0-List])) )).
-test('no other process opens it meanwhile; another schema is another journal') :-
+test(other_process_is_locked_out_per_schema) :-
     postgres_url(locked, Url),
     project_file('prolog/typhon/options/journal/store.pl', Store),
     format(atom(Goal), 'journal_open(~q, normal), writeln(open), \c
@@ -93,16 +93,16 @@ test('no other process opens it meanwhile; another schema is another journal') :
                  with_schema(locked, true) )),
     journal_place(Url, Place),
     Formal == permission_error(open, journal, Place).
-test('a damaged term is not taken for another') :-
+test(damaged_term_is_detected) :-
     with_schema(damaged, ( commit([a-k-0-hello(world)]),
                           sql('update item set value=\'\\x00\'::bytea') )),
     catch(with_schema(damaged, items(a, _)), error(Formal, _), true),
     Formal = journal_damaged(_, a-k).
-test('a journal of another version is left as it is') :-
+test(journal_of_another_version_is_refused) :-
     with_schema(version, sql('update about set version=99')),
     catch(with_schema(version, true), error(Formal, _), true),
     Formal = journal_version(_, 99).
-test('a power cut is waited for only if that is wanted') :-
+test(synchronous_commit_is_optional) :-
     forall(member(Sync-Setting, [normal-off, full-on]),
            ( postgres_url(sync, Url),
              with_store(Url, Sync,
@@ -110,13 +110,13 @@ test('a power cut is waited for only if that is wanted') :-
                           once(typhon_sql:sql_row(C, 'show synchronous_commit',
                                                   row(Setting), [atom])) ))
            )).
-test('a connection that breaks is made again') :-
+test(broken_connection_is_restored) :-
     with_schema(breaks,
                ( commit([a-k-0-first]),
                  cut(breaks),
                  commit([a-k-0-second, a-l-0-third]),
                  items(a, [k-0-second, l-0-third]) )).
-test('what the server has lost when it died is committed once more') :-
+test(commit_lost_by_the_server_is_repeated) :-
     postgres_url(died, Url),
     numlist(1, 40000, Long),
     with_store(Url,
@@ -135,10 +135,10 @@ unreachable(Goal) :-
     catch(Goal, error(Formal, _), true),
     Formal = journal_unreachable(_, _).
 
-test('a process goes on by itself when the server is there again') :-
+test(process_continues_when_the_server_returns) :-
     postgres_url(returns, Url),
     goes_on(Url, postgres_crash, postgres_again).
-test('also if its machine has vanished without a word') :-
+test(process_continues_after_the_server_vanished) :-
     with_postgres_relay(vanishes, Url,
                         goes_on(Url, postgres_relay(vanish),
                                 postgres_relay(return))).
@@ -181,7 +181,7 @@ server_returns(Host, Out, Goes, Returns) :-
     agent_join(Agent, done, 60),
     remote(Host, findall(V, sense(made(V)), [100])).
 
-test('a process that was away must not go on with what is another\'s') :-
+test(journal_taken_over_by_another_process_is_refused) :-
     catch(with_schema(passed_on,
                      ( commit([a-k-0-first]),
                        sql('update about set opened=opened+1'),
@@ -190,7 +190,7 @@ test('a process that was away must not go on with what is another\'s') :-
           error(Formal, _), true),
     Formal = permission_error(open, journal, _),
     with_schema(passed_on, items(a, [k-0-first])).
-test('an agent is there again when its process was killed') :-
+test(agent_survives_a_killed_process) :-
     postgres_url(alpha, Url),
     free_port(Port),
     format(atom(Host), 'alpha@127.0.0.1:~d', [Port]),
@@ -211,7 +211,7 @@ test('an agent is there again when its process was killed') :-
                    agent_result(A, 1+2, 10) )) ),
         host_stop(driver)).
 
-test('a network, and a process of it that is killed',
+test(network_survives_a_killed_process,
      Told = [node_back(_, 2)]) :-
     postgres_url(net, Url),
     in_network([processes(2), restart(true)], Url, first_time(A)),

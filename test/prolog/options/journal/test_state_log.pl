@@ -12,7 +12,7 @@
 %   A state that changes for some rounds is what its log says, clauses in their
 %   order, whatever changed it.
 
-test(replay_leads_to_the_state_as_it_is,
+test(replay_restores_the_state,
      [ forall(between(1, 60, Seed)), Latest == Now ]) :-
     set_random(seed(Seed)),
     in_module(Module,
@@ -25,7 +25,7 @@ test(replay_leads_to_the_state_as_it_is,
     sorted(Now0, Now),
     sorted(Latest0, Latest).
 
-test(nothing_changed, Changes == []) :-
+test(unchanged_state_has_no_changes, Changes == []) :-
     in_module(Module,
               ( seeded(Module),
                 state_log_begin(Module),
@@ -33,7 +33,7 @@ test(nothing_changed, Changes == []) :-
                 erase(Ref),
                 state_log_changes(Module, Changes) )).
 
-test(change_of_one_clause_is_one_clause,
+test(change_of_one_clause_logs_one_clause,
      Changes == [edit([0-p(500)], [], [p(new)])]) :-
     in_module(Module,
               ( forall(between(1, 1000, I), assertz(Module:p(I))),
@@ -44,7 +44,7 @@ test(change_of_one_clause_is_one_clause,
 
 %   Abolished, it has as many clauses as before, and none of it was reported.
 
-test(predicate_made_anew_is_set,
+test(redefined_predicate_is_set_as_a_whole,
      Changes == [set(p/1, [p(c), p(d)])]) :-
     in_module(Module,
               ( assertz(Module:p(a)),
@@ -55,7 +55,7 @@ test(predicate_made_anew_is_set,
                 assertz(Module:p(d)),
                 state_log_changes(Module, Changes) )).
 
-test(what_another_thread_changes_is_seen,
+test(changes_by_other_threads_are_seen,
      Changes == [edit([], [], [p(101)])]) :-
     in_module(Module,
               ( forall(between(1, 100, I), assertz(Module:p(I))),
@@ -64,7 +64,7 @@ test(what_another_thread_changes_is_seen,
                 thread_join(Thread),
                 state_log_changes(Module, Changes) )).
 
-test(thread_local_predicate_does_no_harm) :-
+test(thread_local_predicate_is_harmless) :-
     forall(between(1, 200, _),
            in_module(Module,
                      ( thread_local(Module:p/1),

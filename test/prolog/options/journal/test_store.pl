@@ -12,7 +12,7 @@
 
 :- begin_tests(store).
 
-test('what is committed is there when it is opened again') :-
+test(committed_changes_are_restored) :-
     with_tmp_dir(kept).
 
 kept(Dir) :-
@@ -22,7 +22,7 @@ kept(Dir) :-
     F =@= f(X, Y, X, Y),
     B == "é".
 
-test('what is not committed as a whole is not there at all',
+test(uncommitted_changes_are_lost_as_a_whole,
      [error(_)]) :-
     with_tmp_dir(whole).
 
@@ -35,7 +35,7 @@ whole(Dir) :-
 
 %   The longest keys, and characters of several bytes.
 
-test('each key that may be is another one, and found') :-
+test(all_kinds_of_keys_are_distinct) :-
     with_tmp_dir(keys).
 
 keys(Dir) :-
@@ -52,7 +52,7 @@ keys(Dir) :-
     forall(member(Key, Keys), memberchk(Key-0-Key, Items)),
     assertion(length(Items, 12)).
 
-test('what cannot be a key',
+test(invalid_keys,
      [ forall(no_key(Key, N)), fail ]) :-
     durable_key(Key, N).
 
@@ -62,7 +62,7 @@ no_key(Key, N) :-
 no_key(Half, 0) :-
     catch(atom_codes(Half, [0xdc00]), error(_, _), fail).   % none in 10.1
 
-test('changes are made in their order') :-
+test(changes_are_applied_in_order) :-
     with_tmp_dir(in_order).
 
 in_order(Dir) :-
@@ -73,7 +73,7 @@ in_order(Dir) :-
                  items(a, Items) )),
     Items == [l-1-w, k-3-z, k-9-u].
 
-test('long terms, and shorter ones in their place') :-
+test(long_terms_are_replaced_by_short_ones) :-
     with_tmp_dir(long).
 
 long(Dir) :-
@@ -86,7 +86,7 @@ long(Dir) :-
     with_store(Dir, ( commit([a-k-0-List]), commit([drop(a, k, 0)]) )),
     with_store(Dir, items(a, [])).
 
-test('no other process opens it meanwhile',
+test(other_process_is_locked_out,
      [error(permission_error(open, journal, _))]) :-
     with_tmp_dir(locked).
 
@@ -99,7 +99,7 @@ locked(Dir) :-
                ( read_line_to_string(Out, "open"),
                  with_store(Dir, true) )).
 
-test('what is no journal is not touched',
+test(foreign_file_is_not_touched,
      [error(journal_damaged(_, _))]) :-
     with_tmp_dir(garbage).
 
@@ -119,7 +119,7 @@ unchanged(File, Goal) :-
     Before == After,
     throw(error(Formal, Context)).
 
-test('a damaged term is not taken for another',
+test(damaged_term_is_detected,
      [error(journal_damaged(_, a-k))]) :-
     with_tmp_dir(damaged).
 
@@ -128,7 +128,7 @@ damaged(Dir) :-
     sql(Dir, 'update item set value=zeroblob(length)'),
     with_store(Dir, items(a, _)).
 
-test('a journal of another version is left as it is',
+test(journal_of_another_version_is_refused,
      [error(journal_version(_, 99))]) :-
     with_tmp_dir(version).
 
@@ -142,7 +142,7 @@ sql(Dir, Sql) :-
     process_create(path(sqlite3), [File, Sql], [process(Pid)]),
     process_wait(Pid, exit(0)).
 
-test('a disk that is full is said to be so, and nothing is lost') :-
+test(full_disk_is_reported_and_loses_nothing) :-
     with_tmp_dir(full).
 
 full(Dir) :-

@@ -60,7 +60,7 @@ close_to(X, Y) :-
 
 :- begin_tests(pheromone_spreads).
 
-test(down_a_line, Strengths == [100, 75, 50, 25]) :-
+test(pheromone_spreads_along_a_line, Strengths == [100, 75, 50, 25]) :-
     line([a, b, c, d, e, f],
          ( emit(a, fire, [span(4)]),
            emit(a, end, [span(5)]),
@@ -72,7 +72,7 @@ test(down_a_line, Strengths == [100, 75, 50, 25]) :-
                    Strengths),
            at(f, fire, []),
            at(a, fire, []) )).
-test(by_the_shorter_way, Found-Next == [100-a]-a) :-
+test(pheromone_takes_the_shorter_path, Found-Next == [100-a]-a) :-
     line([a, b, c, d],
          ( link(d, a),
            emit(a, fire),
@@ -88,7 +88,7 @@ test(several_kinds_and_sources, F1-F2 == [100-a,100-c]-[100-c]) :-
            reaches(b, flood(_)),
            at(b, fire, F1_), msort(F1_, F1),
            at(b, flood(_), F2) )).
-test(evaporates_far_ones_first, true(Earlier =:= 20)) :-
+test(pheromone_evaporates_at_far_hosts_first, true(Earlier =:= 20)) :-
     get_time(Now),
     line([a, b, c], [clock(Now, 100)],
          ( emit(a, fire, [span(2), period(20)]),
@@ -110,7 +110,7 @@ test(evaporates_one_period_earlier_at_each_hop, Apart == [10, 10]) :-
            Apart0 = [B-C, C-D],
            findall(Seconds, ( member(X, Apart0), Seconds is round(X) ),
                    Apart) )).
-test(emitting_again_refreshes, true(U2 > U1)) :-
+test(repeated_emission_refreshes, true(U2 > U1)) :-
     line([a, b],
          ( emit(a, fire),
            reaches(b, fire),
@@ -120,7 +120,7 @@ test(emitting_again_refreshes, true(U2 > U1)) :-
                         U2 > U1 ), 10),
            remote(b, aggregate_all(count, sense(pheromone(_, _, _, _, _)),
                                    1)) )).
-test(withdrawn_from_everywhere) :-
+test(pheromone_is_withdrawn_everywhere) :-
     line([a, b, c, d],
          ( emit(a, fire), emit(b, fire),
            wait_until(at(c, fire, [_,_]), 10),
@@ -128,7 +128,7 @@ test(withdrawn_from_everywhere) :-
            remote(a, withdraw(fire)),
            wait_until(at(c, fire, [_-b]), 10),
            wait_until(at(d, fire, [_-b]), 10) )).
-test(not_over_a_link_that_is_gone) :-
+test(removed_link_is_not_crossed) :-
     line([a, b, c],
          ( unlink(b, c),
            emit(a, fire),
@@ -136,11 +136,11 @@ test(not_over_a_link_that_is_gone) :-
            emit(b, end), unlink(a, b), link(b, c), emit(b, end2),
            reaches(c, end2),
            at(c, fire, []) )).
-test(must_be_ground, error(instantiation_error)) :-
+test(pheromone_must_be_ground, error(instantiation_error)) :-
     line([a], emit(a, fire(_))).
 test(unknown_option, error(domain_error(pheromone_option, spam(2)))) :-
     line([a], emit(a, fire, [spam(2)])).
-test(must_travel, error(type_error(mobile_term, _))) :-
+test(pheromone_must_be_mobile, error(type_error(mobile_term, _))) :-
     stream_property(S, alias(user_input)),
     line([a], emit(a, fire(S))).
 
@@ -180,14 +180,14 @@ next_from(Host, Problem, Next) :-
     agent_result(Agent, Address, 10),
     name_of(Address, Next).
 
-test(to_the_source, Path == [d, c, b, a]) :-
+test(trail_is_followed_to_the_source, Path == [d, c, b, a]) :-
     line([a, b, c, d, e],
          ( remote(a, leave(source(here))),
            emit(a, fire(1)),
            reaches(d, fire(1)),
            link(c, e),
            follow(d, fire(_), Path) )).
-test(what_it_cannot_solve_is_no_trail, First == e) :-
+test(unrelated_pheromone_is_no_trail, First == e) :-
     line([e, d, c],
          ( remote(e, leave(source(here))),
            emit(c, flood),
@@ -202,7 +202,7 @@ test(problem_must_be_subsumed_as_a_whole, Found == []) :-
            next_from(b, fire(1, _), a),
            findall(H, typhon_pheromone:followable(B, fire(2), [A], _, H),
                    Found) )).
-test(strongest_first, Next == a) :-
+test(strongest_trail_comes_first, Next == a) :-
     line([a, b, c, d],
          ( emit(d, fire), emit(a, fire),
            wait_until(at(b, fire, [_,_]), 10),
@@ -215,7 +215,7 @@ test(ties_are_drawn, Nexts == [a, c]) :-
                    ( between(1, 30, _), next_from(b, fire, Next) ),
                    All),
            sort(All, Nexts) )).
-test(a_trail_over_a_lost_link_is_left, Next == c) :-
+test(trail_over_a_lost_link_is_abandoned, Next == c) :-
     line([a, b, c],
          ( emit(a, fire),
            reaches(b, fire),

@@ -78,7 +78,7 @@ test(state_is_the_same_on_every_platform,
     chance_float(_, C0, C).
 test(seed_of_a_term_is_the_same_on_every_platform, Seed == 11129677) :-
     chance_hash(c(1, 2.5, [a]), Seed).
-test(probability_moves_nothing_else, C1 == C2) :-
+test(probabilities_zero_and_one_draw_alike, C1 == C2) :-
     chance_seed(3, C0),
     chance_true(0, false, C0, C1),
     chance_true(1, true, C0, C2).
@@ -127,17 +127,17 @@ test(memory_is_ground_and_small, true) :-
     ground(M),
     term_size(M, Cells),
     Cells =< 20.                        % so many on 32 bit
-test(unvisited_first, Host == d) :-
+test(unvisited_hosts_come_first, Host == d) :-
     draw_from(conscientious, [b, c, d], a, [b, c], 1, Host).
-test(then_the_least_recent, Host == c) :-
+test(least_recently_visited_host_comes_next, Host == c) :-
     draw_from(conscientious, [b, c, d], a, [c, b, d], 1, Host).
-test(here_counts_as_visited_now, Visited == [b, a, c]) :-
+test(current_host_counts_as_visited, Visited == [b, a, c]) :-
     strategy_memory(1, M0),
     foldl(memory_mark, [a, b, c], M0, M1),
     next_host(conscientious, [b, c], a, M1, Host, M),
     Host == b,
     memory_visited(M, Visited).
-test(a_host_that_refuses_is_tried_last, Tried == [b, c, d, b]) :-
+test(refusing_host_is_tried_last, Tried == [b, c, d, b]) :-
     strategy_memory(1, M0),
     foldl(memory_mark, [b, c, d], M0, M1),
     Ns = [b, c, d],
@@ -151,12 +151,12 @@ test(order_of_neighbours_does_not_matter, forall(between(1, 20, Seed))) :-
     draw_from(random, Ns, x, [], Seed, H1),
     draw_from(random, [a, b, c, d, e], x, [], Seed, H2),
     H1 == H2.
-test(repeatable, Path1 == Path2) :-
+test(same_seed_same_choices, Path1 == Path2) :-
     Links = [a-[b,c,d], b-[a,c], c-[a,b,d], d-[a,c]],
     strategy_memory(9, M),
     walk(epsilon_conscientious(0.3), 100, Links, a, M, Path1),
     walk(epsilon_conscientious(0.3), 100, Links, a, M, Path2).
-test(a_ring_is_patrolled_in_one_direction, Path == Expected) :-
+test(ring_is_patrolled_in_one_direction, Path == Expected) :-
     Links = [a-[b,d], b-[a,c], c-[b,d], d-[a,c]],
     strategy_memory(9, M),
     walk(conscientious, 8, Links, a, M, [First|Rest]),
@@ -216,7 +216,7 @@ typhon_strategy:strategy(last_of_all).
 typhon_strategy:choose(last_of_all, Hosts, _, Memory, Host, Memory) :-
     last(Hosts, Host).
 
-test(hook, H-Visited == d-[d, a]) :-
+test(user_defined_strategy, H-Visited == d-[d, a]) :-
     strategy_memory(1, M0),
     next_host(last_of_all, [d, b, c], a, M0, H, M),
     memory_visited(M, Visited).

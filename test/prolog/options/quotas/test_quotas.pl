@@ -30,15 +30,15 @@ with_host_here(Goal) :-
 with_host_here(Options, Goal) :-
     setup_call_cleanup(host_start(here, Options), once(Goal), host_stop(here)).
 
-:- begin_tests(each).
+:- begin_tests(quotas_of_agents).
 
-test(hops_in_a_second, O = raised(error(resource_error(hops), _))) :-
+test(hops_per_second, O = raised(error(resource_error(hops), _))) :-
     ended([hops(20)], [ (main :- move(t), move(g), main) ], O).
-test(what_is_passed_cannot_be_caught,
+test(quota_error_cannot_be_caught,
      O = raised(error(resource_error(hops), _))) :-
     ended([hops(20)],
           [ (main :- catch(( move(t), move(g) ), _, true), main) ], O).
-test(what_is_passed_cannot_be_passed_again_and_again, O == messages) :-
+test(quota_cannot_be_exceeded_repeatedly, O == messages) :-
     ended([messages(20)],
           [ (main :- repeat, catch(send(user, x), _, true), fail) ], Outcome),
     over(O, Outcome).
@@ -55,10 +55,11 @@ test(traced_goals, O == messages) :-
                            agent_send(A, go),
                            joined(A, Outcome) ), _)),
     over(O, Outcome).
-test(what_people_log_is_not_counted) :-
+test(logging_by_the_user_is_not_counted) :-
     with_hosts([g-[quota([log(2)])]],
                listening(remote(g, forall(between(1, 5, X), log(X))), _)).
-test(agents_cannot_be_stepped, error(permission_error(step, agent, _))) :-
+test(agents_with_quotas_cannot_be_stepped,
+     error(permission_error(step, agent, _))) :-
     with_hosts([g-[quota([messages(20)])]],
                ( create([ (main :- receive(_)) ], A, [host(g)]),
                  wait_state(A, waiting),
@@ -66,7 +67,7 @@ test(agents_cannot_be_stepped, error(permission_error(step, agent, _))) :-
 
 %   It runs where another one has ended so, on a host without quotas.
 
-test(quota_passed_by_another_agent, Told == []) :-
+test(quota_exceeded_by_another_agent, Told == []) :-
     with_hosts([g-[quota([messages(5)])], t],
                listening(( talker(10, Talker),
                            created([host(g)], 8, Talker, As),
@@ -81,19 +82,20 @@ test(quota_passed_by_another_agent, Told == []) :-
     findall(B, ( member(B, Bs),
                  memberchk(warning-typhon(over_limit(B, _)), Messages) ),
             Told).
-test(hops_of_a_traveller_that_takes_its_time, Outcome == done) :-
+test(slow_traveller_stays_below_the_quota, Outcome == done) :-
     ended([hops(3)],
           [ (main :- lap(4)), lap(0),
             (lap(N) :- move(t), move(g), sleep(0.4), M is N-1, lap(M)) ],
           Outcome).
-test(clones_that_do_not_clone, O = raised(error(resource_error(clones), _))) :-
+test(clones_share_the_quota_of_their_parent,
+     O = raised(error(resource_error(clones), _))) :-
     ended([clones(5)],
           [ (main :- clone(W), on(W)), on(clone(_)), (on(parent(_)) :- main),
             on_message(_, _) ], O).
 
 %   What it was cloned from was born elsewhere, and is of one family with them.
 
-test(clones_of_one_that_came, O == resource_error(clones)) :-
+test(clones_of_a_visitor, O == resource_error(clones)) :-
     no_leaks(with_peers([p],
         with_host_here([quota([clones(5)])],
             listening(( visitors(p, [ (main :- s(H), move(H), many),
@@ -101,14 +103,14 @@ test(clones_of_one_that_came, O == resource_error(clones)) :-
                                       (on(parent(_)) :- many),
                                       on_message(_, _) ], 1, [A]),
                         joined(A, raised(error(O, _))) ), _)))).
-test(state_that_is_brought_along,
+test(arriving_state_is_checked,
      R = error(move_refused(_, quota(state)), _)) :-
     with_hosts([t, g-[quota([state(50 000)])]],
                ( create([ (main :- forall(between(1, 5000, X), assertz(s(X))),
                                    catch(move(g), E, true), result(E)) ],
                         A, [host(t)]),
                  agent_result(A, R, 5) )).
-test(state_where_it_comes_later, O == state) :-
+test(state_growth_of_a_visitor, O == state) :-
     with_hosts([t, g-[quota([state(50 000)])]],
                listening(( create([ (main :- move(g),
                                              forall(between(1, 5000, X),
@@ -117,17 +119,17 @@ test(state_where_it_comes_later, O == state) :-
                            joined(A, Outcome) ), _)),
     over(O, Outcome).
 
-:- end_tests(each).
+:- end_tests(quotas_of_agents).
 
 :- begin_tests(lifetime).
 
-test(agent_that_waits_for_ever, O-T == lifetime-100.0) :-
+test(waiting_agent, O-T == lifetime-100.0) :-
     with_hosts([g-[clock(virtual), quota([lifetime(100)])]],
                listening(( create([ (main :- receive(_)) ], A, [host(g)]),
                            agent_join(A, Outcome, 1000),
                            host_time_of(g, T) ), _)),
     over(O, Outcome).
-test(agent_that_sleeps_without_end, O == lifetime) :-
+test(sleeping_agent, O == lifetime) :-
     with_hosts([g-[clock(virtual), quota([lifetime(100)])]],
                listening(( create([ (main :- sleep(7), main) ], A, [host(g)]),
                            agent_join(A, Outcome, 1000) ), _)),
@@ -137,19 +139,19 @@ test(running_agent, O == lifetime) :-
                listening(( create([ (main :- lp), (lp :- lp) ], A, [host(g)]),
                            joined(A, Outcome) ), _)),
     over(O, Outcome).
-test(begins_anew_where_it_comes_again, R == 10) :-
+test(lifetime_restarts_at_each_arrival, R == 10) :-
     with_hosts([g-[clock(virtual), quota([lifetime(10)])], t-[clock(virtual)]],
                ( create([ (main :- lap(10), result(10)), lap(0),
                           (lap(N) :- sleep(8), move(t), move(g), M is N-1,
                                      lap(M)) ], A, [host(g)]),
                  agent_result(A, R, 1000) )).
-test(change_counts_for_present_agents, O == lifetime) :-
+test(changed_quota_applies_to_present_agents, O == lifetime) :-
     with_hosts([g],
                listening(( create([on_message(_, _)], A, [host(g)]),
                            host_change(g, quota([lifetime(0.2)])),
                            joined(A, Outcome) ), _)),
     over(O, Outcome).
-test(no_agent_is_ended_after_the_quota_is_lifted, State == resident) :-
+test(removed_quota_ends_no_agent, State == resident) :-
     with_hosts([g-[clock(virtual), quota([lifetime(5)])]],
                ( create([on_message(_, _)], A, [host(g)]),
                  host_change(g, quota([])),
@@ -173,7 +175,7 @@ test(overflow_is_reported, Xs == [1,2,3,4,5]) :-
                            wait_until(lost(A, 5), 10),
                            remote(g, leave(go)),
                            agent_result(A, Xs, 5) ), _)).
-test(space_is_freed, Xs == [1,2,3,4,5,6]) :-
+test(received_messages_free_space, Xs == [1,2,3,4,5,6]) :-
     with_hosts([g-[quota([mailbox(1)])]],
                ( create([ (main :- numlist(1, 6, Ns), each(Ns, Xs), result(Xs)),
                           each([], []),
@@ -184,7 +186,7 @@ test(space_is_freed, Xs == [1,2,3,4,5,6]) :-
                         ( agent_send(A, X), wait_until(fact_of(A, s(X)), 5) )),
                  agent_send(A, 6),
                  agent_result(A, Xs, 5) )).
-test(agent_stays_where_its_mail_fits,
+test(agent_is_refused_where_its_mail_does_not_fit,
      R-M = error(move_refused(_, quota(mailbox)), _)-[1,2,3]) :-
     with_hosts([g-[quota([mailbox(2)])], t],
                ( create([ (main :- receive(_-go), catch(move(g), E, true),
@@ -192,7 +194,7 @@ test(agent_stays_where_its_mail_fits,
                                    result(E-[A,B,C])) ], A, [host(t)]),
                  forall(member(X, [1,2,3,go]), agent_send(A, X)),
                  agent_result(A, R-M, 5) )).
-test(the_same_between_processes,
+test(agent_is_refused_between_processes,
      R-M = error(move_refused(_, quota(mailbox)), _)-[1,2,3]) :-
     no_leaks(with_peers([p-[host([quota([mailbox(2)])])]],
         with_host_here(
@@ -253,7 +255,7 @@ talker(Times, [ (main :- forall(between(1, Times, X), send(user, X))) ]).
 created(Where, Times, Clauses, As) :-
     findall(A, ( between(1, Times, _), create(Clauses, A, Where) ), As).
 
-:- begin_tests(together).
+:- begin_tests(quotas_of_owners).
 
 test(messages_of_one_owner, true(Ended >= 5)) :-
     talker(10, Clauses),
@@ -262,7 +264,7 @@ test(messages_of_one_owner, true(Ended >= 5)) :-
                            outcomes(As, Os) ), _)),
     over(messages, O),
     count(O, Os, Ended).
-test(others_are_not_that_owner, [Theirs,Ours] == [resource_error(messages),done]) :-
+test(other_owners_are_not_affected, [Theirs,Ours] == [resource_error(messages),done]) :-
     no_leaks(with_peers([p],
         with_host_here([quota([owner(messages(20))])],
             listening(( visitors(p, [ (main :- s(H), move(H), lp),
@@ -274,7 +276,7 @@ test(others_are_not_that_owner, [Theirs,Ours] == [resource_error(messages),done]
                         create(Clauses, B),
                         joined(B, Ours),
                         forall(member(C, As), disposed(C)) ), _)))).
-test(so_many_of_one_owner, R-Ours == refused-3) :-
+test(agents_of_one_owner, R-Ours == refused-3) :-
     no_leaks(with_peers([p],
         with_host_here([quota([owner(agents(3))])],
             ( created([], 3, [on_message(_, _)], As),
@@ -298,7 +300,8 @@ test(clones_count_for_their_owner, R = move_refused(_, quota(agents))) :-
                             (on(W, _, N) :- nonvar(W), !, M is N+1, many(M)),
                             (on(_, E, _) :- result(E)) ], 1, [V]),
               agent_result(V, R, 10) )))).
-test(largest_user_ends_first, [Hog,Other] == [resource_error(messages),done]) :-
+test(largest_consumer_ends_first,
+     [Hog,Other] == [resource_error(messages),done]) :-
     no_leaks(with_peers([p],
         with_host_here([quota([host(messages(50))])],
             listening(( visitors(p, [ (main :- s(H), move(H), lp),
@@ -320,7 +323,7 @@ test(state_of_one_owner, Ended-Left == 1-2) :-
                          Messages)),
     length(Xs, Left),
     count(warning-typhon(over_limit(_, state)), Messages, Ended).
-test(seconds_of_all, O == resource_error(seconds)) :-
+test(seconds_of_all_agents, O == resource_error(seconds)) :-
     with_hosts([g-[quota([host(seconds(0.3))])]],
                listening(( create([ (main :- lp), (lp :- lp) ], A, [host(g)]),
                            joined(A, raised(error(O, _))) ), _)).
@@ -338,7 +341,7 @@ test(busy_agent_yields_to_others, O == resource_error(seconds)) :-
                            agent_dispose(B) ), _)),
     T1-T0 < 0.7.
 
-:- end_tests(together).
+:- end_tests(quotas_of_owners).
 
 fat(N, A) :-
     create([ (main :- forall(between(1, N, X), assertz(s(X))), receive(_)) ], A,
@@ -366,17 +369,17 @@ disposed(A) :-
 
 :- begin_tests(tuples).
 
-test(each_has_its_own, [A,B] == [resource_error(tuples),done]) :-
+test(each_agent_has_its_own_quota, [A,B] == [resource_error(tuples),done]) :-
     with_hosts([g-[quota([tuples(5)])]],
                listening(( leaver(10, C), joined(C, raised(error(A, _))),
                            leaver(5, D), joined(D, B) ), _)).
-test(taking_a_fact_frees_space, O == done) :-
+test(taking_a_tuple_frees_space, O == done) :-
     with_hosts([g-[quota([tuples(5)])]],
                ( create([ (main :- forall(between(1, 20, X),
                                           ( leave(f(X)), take(f(X)) ))) ], A,
                         [host(g)]),
                  joined(A, O) )).
-test(others_may_take_it, O == done) :-
+test(tuples_taken_by_others_free_space, O == done) :-
     with_hosts([g-[quota([tuples(5)])]],
                ( create([ (main :- lap(4)), lap(0),
                           (lap(N) :- forall(between(1, 5, X), leave(f(N, X))),
@@ -399,7 +402,7 @@ test(agent_that_fills_the_space_ends, [A,B] == [resource_error(tuples),done]) :-
 %   The agents that left them are known when the process was started again, and what of
 %   theirs is taken then does not count any more.
 
-test(owner_of_facts_is_kept,
+test(owner_of_tuples_is_kept,
      [ condition(missing([journal], [])), O == tuples-done ]) :-
     no_leaks(with_tmp_dir(left_before(O))).
 
@@ -421,13 +424,13 @@ leaver(N, A) :-
                 *          WHAT IT IS          *
                 *******************************/
 
-:- begin_tests(lists).
+:- begin_tests(invalid_quotas).
 
-test(no_such_scope, error(domain_error(quota, owner(cells(1))))) :-
+test(unknown_scope, error(domain_error(quota, owner(cells(1))))) :-
     host_start(g, [quota([owner(cells(1))])]).
-test(no_number, error(type_error(number, x))) :-
+test(invalid_number, error(type_error(number, x))) :-
     host_start(g, [quota([owner(messages(x))])]).
-test(none_at_all, error(domain_error(quota, host(state(0))))) :-
+test(zero_is_refused, error(domain_error(quota, host(state(0))))) :-
     host_start(g, [quota([host(state(0))])]).
 
-:- end_tests(lists).
+:- end_tests(invalid_quotas).

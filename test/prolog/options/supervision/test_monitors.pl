@@ -78,10 +78,10 @@ ends(A, How) :-
 
 :- begin_tests(monitors).
 
-test(outcomes, [forall(member(How-Outcome,
-                              [ true-done, fail-failed,
-                                throw(oops)-raised(oops),
-                                dispose_now-disposed ]))]) :-
+test(outcomes_are_reported, [forall(member(How-Outcome,
+                                           [ true-done, fail-failed,
+                                             throw(oops)-raised(oops),
+                                             dispose_now-disposed ]))]) :-
     with_hosts([alpha],
                ( watcher(W, [], []),
                  sleeper(A, []),
@@ -91,21 +91,21 @@ test(outcomes, [forall(member(How-Outcome,
                  ;   listening(( ends(A, How), joined(A, _) ), _)
                  ),
                  once_only(W, down(A, Outcome)) )).
-test(ended_before) :-
+test(monitored_after_its_end) :-
     with_hosts([alpha],
                ( watcher(W, [], []),
                  create([(main :- true)], A),
                  joined(A, done),
                  monitors(W, A),
                  once_only(W, down(A, done)) )).
-test(not_known) :-
+test(unknown_agent) :-
     with_hosts([alpha],
                ( watcher(W, [], []),
                  address(alpha, H),
                  atom_concat('unknown.x.1@', H, A),
                  monitors(W, A),
                  once_only(W, down(A, unknown)) )).
-test(no_id, F == existence_error(agent, bob)) :-
+test(invalid_id, F == existence_error(agent, bob)) :-
     with_hosts([alpha],
                ( create([ (main :- catch(monitor(bob), error(F0, _), true),
                                    result(F0)) ], A),
@@ -134,7 +134,7 @@ test(follower_ends_with_its_parent,
                  listening(( ends(P, How), joined(P, _) ), _),
                  ( How == true -> agent_send(C, end) ; true ),
                  joined(C, Ended) )).
-test(follows_if_it_is_moved_before_it_runs, O == disposed) :-
+test(follower_that_moves_before_its_first_turn, O == disposed) :-
     with_hosts([alpha, beta],
                ( create([ (main :- create(clauses([ (:- agent(c, [])),
                                                     (on_message(_, _)) ]),
@@ -145,7 +145,7 @@ test(follows_if_it_is_moved_before_it_runs, O == disposed) :-
                  agent_move(C, beta, [wait(5)]),
                  agent_dispose(P),
                  joined(C, O) )).
-test(followers, Cs == [C]) :-
+test(followers_end, Cs == [C]) :-
     with_hosts([alpha],
                ( create([ (main :- Child = clauses([ (:- agent(c, [])),
                                                      (main :- receive(_)) ]),
@@ -163,7 +163,7 @@ test(follower_of_a_guarded_host, O == disposed) :-
                  wait_until(agent_property(P, facts([r(C)])), 10),
                  agent_dispose(P),
                  joined(C, O) )).
-test(twice_is_once) :-
+test(monitoring_twice_reports_once) :-
     with_hosts([alpha],
                ( watcher(W, [], []),
                  sleeper(A, []),
@@ -173,7 +173,7 @@ test(twice_is_once) :-
                               findall(x, member(r(A), Facts), [_,_]) ), 10),
                  ends(A, true),
                  once_only(W, down(A, done)) )).
-test(not_any_more, Ms == [Other]) :-
+test(unmonitor_ends_reports, Ms == [Other]) :-
     with_hosts([alpha],
                ( watcher(W, [], []),
                  sleeper(A, []),
@@ -183,7 +183,7 @@ test(not_any_more, Ms == [Other]) :-
                  joined(A, done),
                  hears_of_another(W, Other),
                  heard(W, Ms) )).
-test(again_after_unmonitor) :-
+test(monitored_again_after_unmonitor) :-
     with_hosts([alpha],
                ( watcher(W, [], []),
                  sleeper(A, []),
@@ -192,7 +192,7 @@ test(again_after_unmonitor) :-
                  monitors(W, A),
                  ends(A, true),
                  once_only(W, down(A, done)) )).
-test(by_many, Count == 50) :-
+test(monitored_by_many, Count == 50) :-
     with_hosts([alpha],
                ( sleeper(A, []),
                  findall(W, ( between(1, 50, _), watcher(W, [], []) ), Ws),
@@ -203,7 +203,7 @@ test(by_many, Count == 50) :-
                  aggregate_all(count,
                                ( member(W, Ws), heard(W, [down(A, done)]) ),
                                Count) )).
-test(once_while_faulty, [true(Ms == [down(A, failed), Other])]) :-
+test(faulty_agent_is_reported_once, [true(Ms == [down(A, failed), Other])]) :-
     with_hosts([alpha],
                ( watcher(W, [], []),
                  create([ (main :- receive(_-end(_)), s(_)) ], A),
@@ -215,7 +215,7 @@ test(once_while_faulty, [true(Ms == [down(A, failed), Other])]) :-
                  joined(A, done),
                  hears_of_another(W, Other),
                  heard(W, Ms) )).
-test(wherever_both_are) :-
+test(both_agents_move) :-
     with_hosts([alpha, beta],
                ( watcher(W, [], []),
                  sleeper(A, []),
@@ -225,7 +225,7 @@ test(wherever_both_are) :-
                  agent_move(W, Beta, [wait(5)]),
                  ends(A, true),
                  once_only(W, down(A, done)) )).
-test(in_receive, X == done) :-
+test(report_is_received, X == done) :-
     with_hosts([alpha],
                ( create([ (main :- create(clauses([(:- agent(c, [])),
                                                    (main :- sleep(0.1))]),
@@ -234,7 +234,7 @@ test(in_receive, X == done) :-
                                    receive(system-down(C, O)),
                                    result(O)) ], A),
                  agent_result(A, X, 10) )).
-test(virtual_time, X == done-5.0) :-
+test(monitors_in_virtual_time, X == done-5.0) :-
     with_hosts([alpha-[clock(virtual)]],
                ( create([ (main :- now(T0),
                                    create(clauses([(:- agent(c, [])),
@@ -245,7 +245,7 @@ test(virtual_time, X == done-5.0) :-
                                    now(T), D is T-T0,
                                    result(O-D)) ], A),
                  agent_result(A, X, 10) )).
-test(guarded, X == done) :-
+test(monitors_on_a_guarded_host, X == done) :-
     with_hosts([alpha-[policy(guarded), cell(none)]],
                ( create([ (main :- create(clauses([(:- agent(c, [])),
                                                    (main :- true)]),
@@ -259,14 +259,14 @@ test(guarded, X == done) :-
 
 :- begin_tests(shared_fate).
 
-test(it_ends_badly, O == disposed) :-
+test(watcher_ends_with_the_agent, O == disposed) :-
     with_hosts([alpha],
                ( watcher(W, [], []),
                  sleeper(A, []),
                  shares(W, A),
                  agent_dispose(A),
                  joined(W, O) )).
-test(the_watcher_ends_badly, O == disposed) :-
+test(agent_ends_with_the_watcher, O == disposed) :-
     with_hosts([alpha],
                ( watcher(W, [], []),
                  sleeper(A, []),
@@ -280,7 +280,7 @@ test(outcome_done_is_reported) :-
                  shares(W, A),
                  ends(A, true),
                  once_only(W, down(A, done)) )).
-test(not_after_unmonitor) :-
+test(unmonitor_ends_shared_fate) :-
     with_hosts([alpha],
                ( watcher(W, [], []),
                  sleeper(A, []),
@@ -313,13 +313,13 @@ told(A, O) :-
 forget :-
     retractall(down(_, _)).
 
-test(of_this_process, [cleanup(forget)]) :-
+test(agent_of_this_process, [cleanup(forget)]) :-
     with_hosts([alpha],
                ( sleeper(A, [name(bob)]),
                  agent_monitor(bob, note),
                  ends(A, true),
                  told(A, done) )).
-test(a_goal_that_raises, [cleanup(forget)]) :-
+test(goal_that_raises, [cleanup(forget)]) :-
     with_hosts([alpha],
                ( sleeper(A, []),
                  agent_monitor(A, no_such_predicate),
@@ -328,14 +328,14 @@ test(a_goal_that_raises, [cleanup(forget)]) :-
                              wait_until(was_told(_, _), 5) ), _) )).
 test(no_such_agent, error(existence_error(agent, unknown))) :-
     with_hosts([alpha], agent_monitor(unknown, note)).
-test(of_another_process_as_a_guest, [cleanup(forget)]) :-
+test(guest_monitors_an_agent_of_another_process, [cleanup(forget)]) :-
     no_leaks(with_peers([p1],
                  ( peer_host(p1, There),
                    sleeper(A, [host(There)]),
                    agent_monitor(A, note),
                    ends(A, true),
                    told(A, done) ))).
-test(lost_with_its_process, [cleanup(forget), true(H == There)]) :-
+test(agent_lost_with_its_process, [cleanup(forget), true(H == There)]) :-
     no_leaks(with_peers([p1],
                  ( peer_host(p1, There),
                    sleeper(A, [host(There)]),
@@ -364,7 +364,8 @@ remote_watcher(W, Peer) :-
     peer_host(Peer, There),
     watcher(W, [], [host(There)]).
 
-test(each_place, [forall(member(Wh-Ah, [here-p1, p1-here, p1-p2, p1-p1]))]) :-
+test(agents_and_watchers_in_each_process,
+     [forall(member(Wh-Ah, [here-p1, p1-here, p1-p2, p1-p1]))]) :-
     no_leaks(with_peers([p1, p2],
         here(
             ( at(Wh, WHost), at(Ah, AHost),
@@ -383,7 +384,7 @@ at(Peer, Host) :-
 %   An agent that was born at p1, and runs here, shares its fate with another one
 %   there: p1 would end that for this process.
 
-test(only_a_peer_with_orders_shares_the_fate_of_others,
+test(shared_fate_needs_the_right_to_give_orders,
      [ forall(member(Rights-Expected,
                      [ [agents,messages]-(refused-resident),
                        [agents,messages,orders]-(monitored-gone) ])),
@@ -412,7 +413,7 @@ shared_from_here(Peer, Said, State) :-
     ;   peer_do(Peer, agent_property(V, state(State)))
     ).
 
-test(both_move, [nondet]) :-
+test(both_agents_move, [nondet]) :-
     no_leaks(with_peers([p1, p2],
         here(
             ( at(p1, H1), at(p2, H2),
@@ -425,7 +426,7 @@ test(both_move, [nondet]) :-
               agent_move(A, H1, [wait(5)]),
               ends(A, true),
               once_only(W, down(A, done)) )))).
-test(lost_with_its_home, [nondet]) :-
+test(agent_lost_with_its_home, [nondet]) :-
     no_leaks(with_peers([p1],
         here(
             ( at(p1, H1),
@@ -441,7 +442,7 @@ test(lost_with_its_home, [nondet]) :-
               hears_of_another(W, Other),
               heard(W, Ms),
               assertion(Ms == [down(B, done), down(A, lost(H1)), Other]) )))).
-test(lost_with_its_home_while_it_is_elsewhere, [nondet]) :-
+test(agent_away_when_its_home_dies, [nondet]) :-
     no_leaks(with_peers([p1, p2, p3],
         here(
             ( at(p1, H1), at(p2, H2), at(p3, H3),
@@ -457,7 +458,7 @@ test(lost_with_its_home_while_it_is_elsewhere, [nondet]) :-
               once_only(W, down(A, lost(H1))),
               assertion(\+ peer_do(p2, typhon_agents:agent_on(A, _))),
               assertion(peer_do(p2, typhon_agents:agent_on(B, _))) )))).
-test(lost_where_it_went, [nondet]) :-
+test(agent_lost_in_a_dead_process, [nondet]) :-
     no_leaks(with_peers([p1],
         here(
             ( at(p1, H1),
@@ -467,7 +468,7 @@ test(lost_where_it_went, [nondet]) :-
               agent_move(A, H1, [wait(5)]),
               peer_kill(p1),
               once_only(W, down(A, lost(H1))) )))).
-test(lost_where_it_went_seen_from_a_third, [nondet]) :-
+test(agent_lost_in_a_third_process, [nondet]) :-
     no_leaks(with_peers([p1, p2, p3],
         here(
             ( at(p1, H1), at(p2, H2), at(p3, H3),
@@ -477,7 +478,7 @@ test(lost_where_it_went_seen_from_a_third, [nondet]) :-
               agent_move(A, H2, [wait(5)]),
               peer_kill(p2),
               once_only(W, down(A, lost(H2))) )))).
-test(not_lost_if_it_went_on, [nondet]) :-
+test(agent_that_hopped_on_is_not_lost, [nondet]) :-
     no_leaks(with_peers([p1, p2],
         here(
             ( at(p1, H1), at(p2, H2),
@@ -494,7 +495,7 @@ test(not_lost_if_it_went_on, [nondet]) :-
               hears(W, down(A, done)),
               heard(W, Ms),
               assertion(Ms == [down(B, lost(H1)), down(A, done)]) )))).
-test(restarted_at_the_same_address, [nondet]) :-
+test(process_restarted_at_the_same_address, [nondet]) :-
     no_leaks(with_peers([p1],
         here(
             ( at(p1, H1),
@@ -504,7 +505,7 @@ test(restarted_at_the_same_address, [nondet]) :-
               peer_kill(p1),
               peer_restart(p1),
               once_only(W, down(A, lost(H1))) )))).
-test(stopped_in_order, [nondet]) :-
+test(orderly_stop, [nondet]) :-
     no_leaks(with_peers([p1],
         here(
             ( at(p1, H1),
@@ -515,7 +516,7 @@ test(stopped_in_order, [nondet]) :-
               wait_until(heard(W, [_]), 20),
               heard(W, [down(A, O)]),
               assertion(memberchk(O, [disposed, lost(H1)])) )))).
-test(shared_with_a_process_that_dies, [nondet]) :-
+test(shared_fate_with_an_agent_of_a_dying_process, [nondet]) :-
     no_leaks(with_peers([p1],
         here(
             ( at(p1, H1),
@@ -528,7 +529,7 @@ test(shared_with_a_process_that_dies, [nondet]) :-
               assertion(O == disposed) )))).
 %   Its home dies before it creates the child, which is known to the parent alone.
 
-test(child_of_a_parent_whose_home_is_gone, [nondet]) :-
+test(child_of_a_parent_without_a_home, [nondet]) :-
     no_leaks(with_peers([p1, p2],
         here(
             ( at(p1, H1), at(p2, H2),
@@ -548,7 +549,7 @@ test(child_of_a_parent_whose_home_is_gone, [nondet]) :-
               wait_until(\+ peer_do(p2, ( typhon_agents:agent(Id, _, _, _, _),
                                           sub_atom(Id, 0, _, _, 'left.') )),
                          20) )))).
-test(connection_that_breaks, [nondet]) :-
+test(broken_connection, [nondet]) :-
     no_leaks(with_peers([p1-[proxy(true)]],
         here(
             ( at(p1, H1),
@@ -630,7 +631,7 @@ monitored_by_peer(A) :-
     peer_do(p1, ( agent_create(clauses([(:- agent(x, [])), main]), X),
                   agent_join(X, done, 10) )).     % so that all is committed
 
-test(goals_end_with_their_process, [nondet]) :-
+test(monitoring_goals_end_with_their_process, [nondet]) :-
     no_leaks(with_tmp_dir(goals_end)).
 test(both_processes_die, [nondet]) :-
     no_leaks(with_tmp_dir(lasting)).

@@ -123,7 +123,7 @@ interrupted(Ours) :-
     assertion(Verdict == ok-ok),
     assertion(broken).
 
-test(tls_is_not_understood_by_a_host_without_keys) :-
+test(tls_client_is_refused_by_a_host_without_keys) :-
     with_authority([beta], [], plain_host).
 
 plain_host(Ours) :-
@@ -135,7 +135,7 @@ plain_host(Ours) :-
         host_stop(alpha)),
     assertion(Verdict == tls(plain)-tls(unknown)).
 
-test(a_host_is_revoked_while_another_runs) :-
+test(host_is_revoked_at_run_time) :-
     with_authority([alpha, beta], [], revoked_meanwhile).
 
 revoked_meanwhile(Ours) :-
@@ -148,7 +148,7 @@ revoked_meanwhile(Ours, Address) :-
     tries([tls(Dir)], Address, After),
     assertion(Before-After == (ok-ok)-(tls(his(revoked))-tls(revoked))).
 
-test(a_hook_gets_the_proof_of_the_peer) :-
+test(hook_gets_the_proof_of_the_peer) :-
     with_authority([alpha, beta], [], peer_is_known).
 
 peer_is_known(Ours) :-
@@ -162,7 +162,7 @@ asked_by(Peer, Proof, Address) :-
     peer_do(Peer, typhon_wire:endpoint_call(Endpoint, who_am_i, x,
                                             answer(Proof), 10)).
 
-test(remote_goals_need_the_option_not_only_a_certificate,
+test(remote_goals_need_the_option_besides_a_certificate,
      By-Then == permission_error(remote, host, alpha)-none) :-
     with_authority([alpha, beta], [], goals_of_beta(By, Then)).
 
@@ -181,7 +181,7 @@ goal_of(Peer, Address, Error) :-
     peer_do(Peer, catch(( remote(Address, true), Error = none ),
                         error(Error, _), true)).
 
-test(nothing_but_tls_1_3, Said == no) :-
+test(only_tls_1_3_is_accepted, Said == no) :-
     with_authority([alpha, beta], [], older_protocol(Said)).
 
 older_protocol(Said, Ours) :-
@@ -251,7 +251,7 @@ dribble(Out, Bytes) :-
 
 :- begin_tests(work_over_tls).
 
-test(much_goes_both_ways_at_once) :-
+test(large_data_in_both_directions) :-
     with_authority([alpha, beta], [], much_both_ways).
 
 much_both_ways(Ours) :-
@@ -306,7 +306,7 @@ long_stay_at(Address) :-
     assertion(Outcome == done),
     assertion(T1-T0 < 10).
 
-test(the_processes_of_a_network_have_the_keys, Proofs == [2]) :-
+test(processes_of_a_network_get_keys, Proofs == [2]) :-
     with_authority([alpha], [], secure_network(Proofs)).
 
 secure_network(Proofs, Ours) :-

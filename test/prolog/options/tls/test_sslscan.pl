@@ -39,7 +39,7 @@ says(Lines, Prefix) :-
 
 :- begin_tests(sslscan).
 
-test(nothing_to_complain_about) :-
+test(scanner_finds_no_weakness) :-
     scanned(Lines),
     forall(member(Good, [ "TLSv1.3   enabled", "TLSv1.2   disabled",
                           "TLSv1.1   disabled", "TLSv1.0   disabled",

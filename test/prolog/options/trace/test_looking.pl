@@ -112,7 +112,7 @@ marked(Text, Line) :-
     member(Marked, Lines),
     string_concat("=>  ", Line, Marked).
 
-test(where_it_waits) :-
+test(listing_marks_the_waiting_goal) :-
     two(( traveller_on(alpha, A),
           later,
           listing_of(A, Text) )),
@@ -121,7 +121,7 @@ test(where_it_waits) :-
     shows(Text, "% goals left\n:- receive(_-go(A)),\n   tour(A),"),
     \+ shows(Text, "% facts").
 
-test(in_a_condition) :-
+test(goal_in_a_condition) :-
     two(( traveller_on(alpha, A),
           heard(( agent_step(A), agent_send(A, go(beta)) ), _),
           agent_notrace(A),
@@ -130,7 +130,7 @@ test(in_a_condition) :-
     findall(L, marked(Text, L), ["sleep(5),"]),
     shows(Text, "% facts\n\nseen(2).").
 
-test(in_another_process) :-
+test(agent_in_another_process) :-
     in_network([processes(2)], elsewhere(Text)),
     shows(Text, "on n2@"),
     shows(Text, "main :-\n=>  receive(_).").
@@ -205,24 +205,24 @@ stands(Goals, Places) :-
     clauses(Clauses),
     goals_places(Clauses, Goals, Places).
 
-test(at_the_hole) :-
+test(goals_match_at_the_unbound_goal) :-
     stands([_, c, d, rest], [1-2]).
-test(alike) :-
+test(identical_goals) :-
     stands([c, d, rest], [1-3, 2-1]).
 test(last_goal, Places == [5-1, 6-2]) :-
     stands([_], Places0),
     findall(N-I, ( member(N-I, Places0), memberchk(N, [5, 6]) ), Places).
 test(within_a_condition) :-
     stands([( sleep_until(3.0), h -> c ; d ), i], [3-1]).
-test(called_by_a_condition) :-
+test(goal_called_by_a_condition) :-
     stands([( c, d, h -> c ; d ), i], [1-3, 2-1]).
-test(elsewhere_in_a_condition) :-
+test(same_goal_outside_the_condition) :-
     stands([( z, h -> c ; d ), i], [3-1]).
-test(what_is_caught) :-
+test(caught_goal) :-
     stands([catch(( sleep_until(3.0), l ), _, m)], [4-1]).
-test(nowhere) :-
+test(no_matching_goal) :-
     stands([x, y], []).
-test(at_no_goal) :-
+test(no_goals_left) :-
     stands([], []).
 
 :- end_tests(listing).
@@ -248,7 +248,7 @@ test(goals) :-
     Goals = [ digit(_), 1>1, 2>1, assertz(seen(2)), sleeps, sleep(5), fail,
               home(_), move(_) ].
 
-test(not_any_more) :-
+test(no_reports_after_untrace) :-
     two(heard(( traveller_on(alpha, A),
                 agent_trace(A, [hops, goals]),
                 agent_notrace(A),
@@ -256,7 +256,7 @@ test(not_any_more) :-
                 agent_join(A, done, 20) ), Said)),
     findall(What, member(_-What, Said), []).
 
-test(clones_too) :-
+test(clones_are_traced) :-
     two(heard(( agent_create(clauses([ (:- agent(a, [])),
                                        (main :- receive(_), clone(_)) ]),
                              A, [host(alpha)]),
@@ -266,7 +266,7 @@ test(clones_too) :-
     Said = [ alpha-created, alpha-cloned(_), alpha-ended(done),
              alpha-ended(done) ].
 
-test(what_is_left_and_taken) :-
+test(tuples_are_traced) :-
     two(heard(( agent_create(clauses([ (:- agent(a, [])),
                                        (main :- receive(_), leave(f(1)),
                                                 take(f(_))) ]),
@@ -290,7 +290,7 @@ test(refused_move) :-
         ( host_stop(alpha), host_stop(full) ))),
     Said = [ alpha-left(Full), alpha-stayed(Full), alpha-ended(done) ].
 
-test(in_other_processes) :-
+test(agent_in_other_processes) :-
     in_network([processes(2)], elsewhere(Said)),
     findall(What, member(n1-What, Said), At1),
     findall(What, member(n2-What, Said), At2),
@@ -315,7 +315,7 @@ clauses([ (:- agent(a, [])),
 test(unknown_kind, error(domain_error(trace_kind, jumps))) :-
     two(( traveller_on(alpha, A), agent_trace(A, [jumps]) )).
 
-test(no_list, error(type_error(list, hops))) :-
+test(kinds_must_be_a_list, error(type_error(list, hops))) :-
     two(( traveller_on(alpha, A), agent_trace(A, hops) )).
 
 test(no_reports_after_the_tracer_ends, error(existence_error(agent, _))) :-
@@ -333,7 +333,7 @@ steps(N, Agent) :-
     N1 is N-1,
     steps(N1, Agent).
 
-test(goal_by_goal) :-
+test(agent_is_stepped_goal_by_goal) :-
     two(heard(( traveller_on(alpha, A),
                 steps(1, A),
                 agent_send(A, go(beta)),
@@ -354,7 +354,7 @@ append_last(List, End) :-
     !,
     End0 = End.
 
-test(it_rests) :-
+test(stepped_agent_rests) :-
     two(heard(( traveller_on(alpha, A), steps(3, A) ), Said)),
     last_of(Said, rests(waiting)).
 
@@ -363,7 +363,7 @@ last_of(List, Last) :-
     !,
     Last0 = Last.
 
-test(it_ends) :-
+test(stepped_agent_ends) :-
     two(heard(( agent_create(clauses([ (:- agent(a, [])),
                                        (main :- receive(_), here(_)) ]),
                              A, [host(alpha)]),
@@ -381,7 +381,7 @@ test(hosts_with_held_agents_stop) :-
     two(heard(( traveller_on(alpha, A),
                 agent_step(A), agent_send(A, go(beta)), agent_step(A) ), _)).
 
-test(an_error_while_stepped) :-
+test(error_during_a_step) :-
     two(heard(( agent_create(clauses([ (:- agent(a, [])),
                                        (main :- receive(_),
                                             catch(member(X, [1,0]), _, true),
@@ -433,7 +433,7 @@ test(clones_are_not_held) :-
 spied_in(Set, Goal, Clear) :-
     setup_call_cleanup(Set, two(Goal), Clear).
 
-test(a_predicate_that_is_mistyped) :-
+test(mistyped_predicate) :-
     heard(spied_in(true,
                    ( traveller_on(alpha, _),
                      spy(traveller:tuor/1),
@@ -455,7 +455,7 @@ test(held_at_a_spy_point) :-
     State == held,
     Said == [spied(tour(beta)), home].
 
-test(not_any_more) :-
+test(nospy_ends_spying) :-
     heard(spied_in(( spy(traveller:tour/1), nospy(traveller:tour/1) ),
                    ( traveller_on(alpha, A),
                      agent_send(A, go(beta)),
@@ -473,7 +473,7 @@ test(calls_are_printed) :-
 
 :- dynamic port/1.
 
-test(ports_of_what_is_native) :-
+test(ports_of_native_predicates) :-
     retractall(port(_)),
     setup_call_cleanup(
         asserta((user:message_hook(frame(_:digit(_), trace(Port, _)), _, _) :-
@@ -486,7 +486,7 @@ test(ports_of_what_is_native) :-
         erase(Ref)),
     findall(P, retract(test_looking:port(P)), [call, exit, exit]).
 
-test(modules_come_first) :-
+test(qualified_predicates_are_prologs) :-
     setup_call_cleanup(
         spy(lists:append/3),
         '$get_predicate_attribute'(lists:append(_, _, _), spy, 1),
@@ -494,7 +494,7 @@ test(modules_come_first) :-
 
 :- end_tests(spying).
 
-:- begin_tests(whole_story).
+:- begin_tests(full_log).
 
 %   logged(+Kinds, -Events, -Text): of a traveller there and back.
 
@@ -526,7 +526,7 @@ whats(Events, Whats) :-
               atomic_list_concat([Name|_], @, Host) ),
             Whats).
 
-test(only_lives) :-
+test(log_of_lives_only) :-
     logged([], Events, _),
     whats(Events, [n1-created, n1-ended(done)]).
 
@@ -536,11 +536,11 @@ test(hops_and_messages) :-
           [ n1-created, n1-received(user), n1-left(N2), n2-arrived(N1, _),
             n2-left(N1), n1-arrived(N2, _), n1-sent(user), n1-ended(done) ]).
 
-test(seconds_on_the_way) :-
+test(hop_times_are_logged) :-
     logged([hops], Events, _),
     findall(S, member(event(_, _, _, arrived(_, S)), Events), [0.0, 0.0]).
 
-test(the_same_again, Text1 == Text2) :-
+test(virtual_runs_repeat, Text1 == Text2) :-
     logged([hops, messages], _, Text1),
     logged([hops, messages], _, Text2).
 
@@ -566,4 +566,4 @@ traced_and_logged(Events, Dir) :-
         network_stop(Network)),
     log_events(File, Events).
 
-:- end_tests(whole_story).
+:- end_tests(full_log).

@@ -59,10 +59,10 @@ test(trail_lists_hosts_in_order) :-
     with_three(true, test_trails:honest).
 test(removed_result_is_detected) :-
     with_three(true, test_trails:taken_away).
-test(tampered_agent_is_still_admitted) :-
+test(agent_with_a_broken_trail_is_admitted) :-
     with_three(true, test_trails:made_of_it).
 
-test(of_a_long_way_the_end_is_known,
+test(long_trail_keeps_its_end,
      [ cleanup(set_setting(typhon_trail:links, 32)) ]) :-
     set_setting(typhon_trail:links, 4),
     with_three(set_setting(typhon_trail:links, 4), test_trails:long_way).

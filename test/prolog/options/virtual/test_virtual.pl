@@ -43,16 +43,16 @@ sleeper(Network, Main, Agent) :-
 
 :- begin_tests(virtual_time).
 
-test(begins_at_zero, true(Time =:= 0)) :-
+test(virtual_time_begins_at_zero, true(Time =:= 0)) :-
     with_virtual([], N, shows(N, Time)).
-test(a_year_takes_no_time, true(Time =:= 365*86400)) :-
+test(year_takes_no_time, true(Time =:= 365*86400)) :-
     with_virtual([], N,
                  ( sleeper(N, days(365), _),
                    Year is 365*86400.0,
                    network_advance(N, Year),
                    shows(N, Time0) )),
     Time is round(Time0).
-test(stands_still_while_a_program_works, true(Times == [0.0,0.0,5.0])) :-
+test(time_stands_still_while_a_program_works, true(Times == [0.0,0.0,5.0])) :-
     with_virtual([], N,
                  ( sleeper(N, sleep(5), A),
                    shows(N, T1),
@@ -62,7 +62,7 @@ test(stands_still_while_a_program_works, true(Times == [0.0,0.0,5.0])) :-
                    agent_join(A, done, 60),
                    shows(N, T3) )),
     Times = [T1,T2,T3].
-test(nothing_runs_before_a_caller_waits, true(Seen == [no,yes])) :-
+test(agents_run_only_while_a_caller_waits, true(Seen == [no,yes])) :-
     with_virtual([], N,
                  ( first_host(N, Host),
                    sleeper(N, leave(mark), A),
@@ -70,17 +70,17 @@ test(nothing_runs_before_a_caller_waits, true(Seen == [no,yes])) :-
                    agent_join(A, done, 60),
                    marked(Host, After) )),
     Seen = [Before,After].
-test(join_gives_up_in_virtual_time, true(Outcome-Time == timeout-30.0)) :-
+test(join_times_out_in_virtual_time, true(Outcome-Time == timeout-30.0)) :-
     with_virtual([], N,
                  ( sleeper(N, sleep(100), A),
                    agent_join(A, Outcome, 30),
                    shows(N, Time) )).
-test(receive_gives_up_in_virtual_time, true(Time == 40.0)) :-
+test(receive_times_out_in_virtual_time, true(Time == 40.0)) :-
     with_virtual([], N,
                  ( sleeper(N, ( receive(never, 40) -> true ; true ), A),
                    agent_join(A, done, 100),
                    shows(N, Time) )).
-test(a_goal_that_blocks_takes_no_virtual_time, true(Time == 1.0)) :-
+test(blocking_goal_takes_no_virtual_time, true(Time == 1.0)) :-
     with_virtual([], N,
                  ( sleeper(N, ( thread_self(Me),
                                 \+ thread_get_message(Me, '$never',
@@ -103,7 +103,7 @@ test(messages_and_orders, true(Got-Ended == [1,2,3]-disposed)) :-
                    remote(Host, take(got(Got))),
                    agent_dispose(Box),
                    agent_join(Box, Ended, 10) )).
-test(an_order_is_carried_out_while_we_wait_for_it) :-
+test(order_is_executed_while_its_caller_waits) :-
     with_virtual([], N,
                  ( sleeper(N, sleep(10), A),
                    agent_clone(A, B),
@@ -114,7 +114,7 @@ test(an_order_is_carried_out_while_we_wait_for_it) :-
 
 :- begin_tests(virtual_appointments).
 
-test(in_order, true(Heard == [a-1.0,b-2.0,c-2.0,late-3.0])) :-
+test(appointments_run_in_order, true(Heard == [a-1.0,b-2.0,c-2.0,late-3.0])) :-
     with_virtual([], N,
                  with_queue(Queue,
                             ( network_at(N, 2, tell(Queue, N, b)),
@@ -124,7 +124,7 @@ test(in_order, true(Heard == [a-1.0,b-2.0,c-2.0,late-3.0])) :-
                               network_at(N, 1, tell(Queue, N, late)),
                               network_advance(N, 10),
                               heard(Queue, Heard) ))).
-test(never_after_the_end, true(Heard == [])) :-
+test(no_appointment_after_the_end, true(Heard == [])) :-
     with_queue(Queue,
                ( with_virtual([], N, network_at(N, 5, tell(Queue, N, a))),
                  heard(Queue, Heard) )).
@@ -134,7 +134,7 @@ test(advance_reaches_its_time, true(Times == [2.5,2.5,4.0])) :-
                    network_advance(N, 0), shows(N, T2),
                    network_advance(N, 1.5), shows(N, T3) )),
     Times = [T1,T2,T3].
-test(in_real_time_too, true(Heard == [a])) :-
+test(appointments_in_real_time, true(Heard == [a])) :-
     with_queue(Queue,
                ( no_leaks(setup_call_cleanup(
                               network_start(ring(2), N, [clock(1000)]),
@@ -155,7 +155,7 @@ test(called_goal_cannot_wait, true(Heard == [timeout-1.0])) :-
                                            tell(Queue, N, Outcome) )),
                               network_advance(N, 10),
                               heard(Queue, Heard) ))).
-test(the_end_of_the_network_is_one_of_waiting) :-
+test(network_end_ends_the_wait) :-
     no_leaks(( network_start(ring(4), N, [clock(virtual)]),
                sleeper(N, days(1000000000), _),
                thread_create(( wait_until(( shows(N, T), T > 0 ), 10),
@@ -165,15 +165,15 @@ test(the_end_of_the_network_is_one_of_waiting) :-
 test(no_such_network,
      error(existence_error(network, no_network))) :-
     network_advance(no_network, 1).
-test(what_is_no_goal, [ forall(member(Goal-Formal,
-                                      [ _-instantiation_error,
-                                        3-type_error(callable, 3) ])),
-                        error(Formal) ]) :-
+test(not_callable, [ forall(member(Goal-Formal,
+                                   [ _-instantiation_error,
+                                     3-type_error(callable, 3) ])),
+                     error(Formal) ]) :-
     with_virtual([], N, network_at(N, 1, Goal)).
-test(no_such_network_at,
+test(unknown_network_of_an_appointment,
      error(existence_error(network, no_network))) :-
     network_at(no_network, 1, true).
-test(not_a_number, error(type_error(number, soon))) :-
+test(time_is_no_number, error(type_error(number, soon))) :-
     with_virtual([], N, network_advance(N, soon)).
 
 :- end_tests(virtual_appointments).
@@ -186,9 +186,9 @@ test(same_seed_same_log, true(A == B)) :-
     with_tmp_dir(two_logs(3, 3, A, B)).
 test(other_seed_other_log, true(A \== B)) :-
     with_tmp_dir(two_logs(3, 4, A, B)).
-test(what_agents_draw_follows_the_seed, true(( A == B, A =\= C ))) :-
+test(random_numbers_of_agents_follow_the_seed, true(( A == B, A =\= C ))) :-
     maplist(drawn, [3,3,4], [A,B,C]).
-test(in_another_process_on_a_busy_machine, true(A == B)) :-
+test(busy_machine_does_not_change_the_log, true(A == B)) :-
     with_tmp_dir(logs_of_processes(A, B)).
 
 :- end_tests(virtual_runs_are_alike).
@@ -270,25 +270,25 @@ thread_end(Thread) :-
 
 :- begin_tests(virtual_limits).
 
-test(one_process,
+test(virtual_time_needs_one_process,
      error(permission_error(carry, virtual_time, processes(2)))) :-
     network_start(ring(4), _, [clock(virtual), processes(2)]).
-test(no_machines,
+test(machines_are_refused,
      error(permission_error(carry, virtual_time, machines([far])))) :-
     network_start(ring(4), _, [clock(virtual), machines([far])]).
-test(no_real_host_beside_it,
+test(real_host_beside_a_virtual_one_is_refused,
      error(permission_error(change, kind_of_time, real))) :-
     with_virtual([], _, host_start(another)).
-test(no_virtual_host_beside_a_real_one,
+test(virtual_host_beside_a_real_one_is_refused,
      error(permission_error(change, kind_of_time, virtual))) :-
     with_hosts([one], host_start(two, [clock(virtual)])).
-test(a_host_of_its_own, true(Time == 9.0)) :-
+test(single_virtual_host, true(Time == 9.0)) :-
     with_hosts([one-[clock(virtual)]],
                ( agent_create(clauses([(:- agent(a)), (main :- sleep(9))]),
                               A),
                  agent_join(A, done, 20),
                  remote(one, now(Time)) )).
-test(other_processes_are_not_reached, true(Outcome == done)) :-
+test(other_processes_are_unreachable, true(Outcome == done)) :-
     with_hosts([one-[clock(virtual)]],
                ( agent_create(clauses([(:- agent(a)),
                                        (main :- catch(move('x@127.0.0.1:9'),
@@ -300,7 +300,7 @@ test(endless_goal_is_reported) :-
     told_of(( repeat, fail ), virtual_stuck(_, _)).
 test(endless_instant_is_reported) :-
     told_of(spin, virtual_busy(_)).
-test(nothing_is_due) :-
+test(no_event_is_due) :-
     listening(with_virtual([], N, nothing_due(N)), _).
 
 :- end_tests(virtual_limits).

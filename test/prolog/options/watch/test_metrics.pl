@@ -46,7 +46,7 @@ test(no_agents, Status-Said == 0-"") :-
     assertion(says(Text, "typhon_hosts", "} 1")),
     assertion(\+ sub_string(Text, _, _, _, "typhon_agents{")).
 
-test(what_has_happened, Status-Said == 0-"") :-
+test(counts_of_events, Status-Said == 0-"") :-
     with_hosts([alpha, beta], happened(Text)),
     promtool(Text, Status, Said),
     forall(member(Name-Line,
@@ -77,7 +77,7 @@ received_one :-
     metrics(alpha, Text),
     says(Text, typhon_messages_total, "direction=\"received\"} 1").
 
-test(nothing_is_counted_before) :-
+test(counting_begins_with_the_first_request) :-
     with_hosts([alpha],
                ( create([main], A), joined(A, done),
                  assertion(\+ typhon_events:event_subscribed(life)) )).

@@ -65,7 +65,7 @@ test(silent_process, Silent == [Endpoint]) :-
 %   Agents travel while somebody begins to watch: what he saw, and the events
 %   of later, are where they are in the end.
 
-test(nothing_is_missed_between_the_two) :-
+test(no_event_is_missed_after_the_overview) :-
     with_settings([ typhon_watches:last_seconds=20,
                     typhon_watch_senders:events=1 000 000 ],
                   with_hosts([alpha, beta], follow)).

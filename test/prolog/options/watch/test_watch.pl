@@ -83,7 +83,7 @@ trip(A) :-
     agent_send(A, go(beta)),
     joined(A, done).
 
-test(what_an_agent_does) :-
+test(events_of_an_agent) :-
     with_hosts([alpha, beta],
                ( address(alpha, Alpha), address(beta, Beta),
                  listening(watching([alpha, beta], trip(A), Events), _) )),
@@ -98,7 +98,7 @@ test(what_an_agent_does) :-
     get_time(Now),
     assertion(( last(Times, Last), Now-Last < 5 )).
 
-test(only_hosts_that_are_watched) :-
+test(only_watched_hosts_are_reported) :-
     with_hosts([alpha, beta],
                ( address(beta, Beta),
                  listening(watching(beta, trip(_), Events), _) )),
@@ -106,7 +106,7 @@ test(only_hosts_that_are_watched) :-
     assertion(( member(event(_, _, _, What), Events),
                 What = arrived(_, _) )).
 
-test(a_lambda_keeps_the_variables_around_it, Whats == [log(1)]) :-
+test(lambda_keeps_its_global_variables, Whats == [log(1)]) :-
     with_hosts([alpha],
                ( message_queue_create(Queue),
                  watch(alpha, [E]>>thread_send_message(Queue, E), Watch),
@@ -144,7 +144,7 @@ clone_and_stay(A, Clone) :-
     agent_result(A, Clone, 5),
     joined(Clone, done).
 
-test(faults) :-
+test(faults_are_reported) :-
     with_hosts([alpha],
                listening(watching(alpha, faulty(A, Fault), Events), _)),
     findall(What, member(event(_, _, A, What), Events), Story),
@@ -157,7 +157,7 @@ faulty(A, Fault) :-
     agent_dispose(A),
     joined(A, raised(_)).
 
-test(links_and_hosts_that_come_and_go) :-
+test(changes_of_links_and_hosts) :-
     with_hosts([alpha],
                ( address(alpha, Alpha),
                  watching(alpha,
@@ -172,7 +172,7 @@ test(links_and_hosts_that_come_and_go) :-
     assertion(Story == [ Alpha-link(Beta), Alpha-unlink(Beta),
                          Alpha-link(Beta), Alpha-unlink(Beta) ]).
 
-test(a_host_that_is_started_again, Whats == [stopped, started, created]) :-
+test(restarted_host, Whats == [stopped, started, created]) :-
     with_hosts([alpha, beta],
                watching(beta,
                         ( host_stop(beta),
@@ -181,7 +181,7 @@ test(a_host_that_is_started_again, Whats == [stopped, started, created]) :-
                         Events)),
     findall(What, member(event(_, _, _, What), Events), Whats).
 
-test(what_cannot_travel_is_text, Type == atom) :-
+test(unserializable_term_is_reported_as_text, Type == atom) :-
     with_hosts([alpha],
                listening(watching(alpha,
                                   ( create([(main :- current_output(S),
@@ -196,7 +196,7 @@ test(what_cannot_travel_is_text, Type == atom) :-
                 *         WHO WATCHES          *
                 *******************************/
 
-test(two_watch_and_one_ends) :-
+test(one_of_two_watchers_ends) :-
     with_hosts([alpha],
                ( watch(alpha, note(one), One),
                  watch(alpha, note(two), Two),
@@ -249,7 +249,7 @@ slow_watcher :-
     wait_until(all_accounted(slow, 5002), 20),
     unwatch(Watch).
 
-test(unwatch_from_within) :-
+test(watcher_unwatches_itself) :-
     with_hosts([alpha],
                ( create([on_message(_, _)], A),
                  watch(alpha, once_only, Watch),
@@ -267,7 +267,7 @@ once_only(Event) :-
     note(only, Event),
     unwatch(Watch).
 
-test(one_that_hangs_is_ended) :-
+test(hanging_watcher_is_ended) :-
     with_settings([typhon_watches:last_seconds = 0.2],
                   with_hosts([alpha],
                              ( message_queue_create(Never),
@@ -288,11 +288,11 @@ test(no_events_after_unwatch) :-
 
 test(unknown_watch, error(existence_error(watch, watch_of_mine))) :-
     unwatch(watch_of_mine).
-test(no_watch, error(instantiation_error)) :-
+test(invalid_watch, error(instantiation_error)) :-
     unwatch(_).
 test(unknown_host, error(existence_error(host, nowhere))) :-
     no_leaks(watch(nowhere, note(x), _)).
-test(no_process_there, error(host_unreachable(Host))) :-
+test(no_process_at_the_address, error(host_unreachable(Host))) :-
     free_port(Port),
     atom_concat('a@127.0.0.1:', Port, Host),
     no_leaks(watch(Host, note(x), _)).
@@ -322,7 +322,7 @@ wanderers(Events) :-
              Events),
     network_stop(Network).
 
-test(the_same_again_in_virtual_time) :-
+test(virtual_runs_repeat) :-
     no_leaks(wanderers(Events)),
     wanderers(Again),
     assertion(Events == Again),
@@ -339,9 +339,9 @@ test(the_same_again_in_virtual_time) :-
                 *       OTHER PROCESSES        *
                 *******************************/
 
-:- begin_tests(watch_others).
+:- begin_tests(watch_other_processes).
 
-test(a_network_of_processes) :-
+test(network_of_processes) :-
     no_leaks(( network_start(ring(4), Network, [processes(2)]),
                network_property(Network, hosts([H1, H2, H3, H4])),
                watching(Network, round_trip(H1, H3, A), Events),
@@ -360,7 +360,7 @@ round_trip(From, To, A) :-
            [host(From), facts([s(To)])]),
     joined(A, done).
 
-test(hosts_of_a_network_that_stops) :-
+test(hosts_of_a_stopping_network) :-
     network_start(ring(4), Network, [processes(2)]),
     network_property(Network, hosts(Hosts)),
     watch(Network, note(stops), Watch),
@@ -375,7 +375,7 @@ stopped([A,B,C,D]) :-
     findall(H, told(stops, event(_, H, none, stopped)), Stopped),
     msort(Stopped, [A,B,C,D]).
 
-test(a_process_that_is_killed) :-
+test(killed_process) :-
     no_leaks(( network_start(ring(4), Network, [processes(2)]),
                network_property(Network, hosts([H1, _, H3, H4])),
                network_property(Network, processes([_, Pid])),
@@ -392,7 +392,7 @@ killed(Pid, H1, H4, A) :-
     create([main], A, [host(H1)]),
     joined(A, done).
 
-test(hosts_that_were_gone_before, Lost == [H3, H4]) :-
+test(hosts_that_had_stopped_before, Lost == [H3, H4]) :-
     no_leaks(( network_start(ring(4), Network, [processes(2)]),
                network_property(Network, hosts([_, _, H3, H4])),
                network_property(Network, processes([_, Pid])),
@@ -413,7 +413,7 @@ with_peer(Options, Goal) :-
 leaves(From, To) :-
     peer_do(b, remote(b, forall(between(From, To, N), leave(f(N))))).
 
-test(a_cut_connection_loses_nothing) :-
+test(broken_connection_loses_no_event) :-
     with_peer([proxy(true)], cut).
 
 cut(B) :-
@@ -431,7 +431,7 @@ cut(B) :-
     assertion(\+ ( told(cut, event(_, _, _, What)),
                    memberchk(What, [lost, started]) )).
 
-test(a_process_that_comes_back) :-
+test(restarted_process) :-
     with_peer([], back).
 
 back(B) :-
@@ -451,7 +451,7 @@ back(B) :-
     findall(N, between(1, 20, N), All),
     assertion(numbers(back, All)).
 
-test(nothing_is_left_in_the_other_process) :-
+test(watcher_leaves_nothing_in_the_other_process) :-
     with_peer([], left).
 
 left(B) :-
@@ -469,7 +469,7 @@ senders(Peer, Count) :-
                           Count0)),
     Count = Count0.
 
-test(dead_watcher_is_forgotten) :-
+test(dead_watcher_is_removed) :-
     with_peers([a, b], dies).
 
 dies :-
@@ -492,7 +492,7 @@ slow_for(B) :-
     assertion(told(far, event(_, B, none, skipped(_)))),
     unwatch(Watch).
 
-test(events_that_are_too_long_are_skipped) :-
+test(too_long_events_are_skipped) :-
     with_peer([setup(set_setting(typhon_session:frame_bytes, 70 000))],
               too_long).
 
@@ -505,4 +505,4 @@ too_long(B) :-
     findall(What, told(long, event(_, _, _, What)), Whats),
     assertion(Whats == [leave(f(1)), skipped(1), leave(f(2))]).
 
-:- end_tests(watch_others).
+:- end_tests(watch_other_processes).

@@ -64,12 +64,13 @@ test(full, error(move_refused(_, capacity))) :-
                            agent_load(File, _, [host(beta)]))).
 test(unknown_option, error(domain_error(load_option, name(x)))) :-
     saved(File, with_hosts([beta], agent_load(File, _, [name(x)]))).
-test(host_is_no_name, error(type_error(atom, 7))) :-
+test(invalid_host_name, error(type_error(atom, 7))) :-
     saved(File, with_hosts([beta], agent_load(File, _, [host(7)]))).
 
 %   The portray goal of write_term/3 would abort the process.
 
-test(too_deep_to_be_read_again, true(E-H == resource_error(c_stack)-Alpha)) :-
+test(program_too_deep_to_be_read_back,
+     true(E-H == resource_error(c_stack)-Alpha)) :-
     with_tmp_dir(plunit_load:deep(E, H, Alpha)).
 
 deep(Formal, H, Alpha, Dir) :-

@@ -146,11 +146,11 @@ clauses_created :-
             (p :- member(H, [alpha, beta]), move(H), fail)], Agent),
     joined(Agent, done).
 
-:- begin_tests(choices_given_up).
+:- begin_tests(choice_points).
 
 test(failure_driven_loop, L == [lost_choice(member/2, move/1, fail/0)]) :-
     loses('p :- neighbours(Hs), member(H, Hs), move(H), log(H), fail.', L).
-test(with_an_end, L == [lost_choice(member/2, go/0, false/0)]) :-
+test(loop_with_an_end, L == [lost_choice(member/2, go/0, false/0)]) :-
     loses('p :- ( member(H, [a,b]), log(H), go, false ; true ), log(x).', L).
 test(state, L == [lost_choice(retract/1, move/1, fail/0)]) :-
     loses('p :- retract(s(H)), move(H), fail.', L).
@@ -193,9 +193,9 @@ fine('p :- s(X), ( X == a -> fail ; true ), move(X).').
 fine('p :- ignore(( go, sense(gold) )). p :- log(x).').
 fine('p :- go, fail.').                                      % meant to fail
 
-test(no_false_alarm, [forall(fine(Text)), L == []]) :-
+test(correct_programs_give_no_warning, [forall(fine(Text)), L == []]) :-
     loses(Text, L).
-test(suggests_a_fix) :-
+test(warning_suggests_a_fix) :-
     printed(['p :- member(H, [a,b]), move(H), fail.'], T1),
     shows(T1, "a.pl:3: move/1 gives up the choices of member/2: \c
                fail/0 does not come back to them"),
@@ -203,38 +203,38 @@ test(suggests_a_fix) :-
     printed(['p :- receive(_-a, 5), p. p :- log(late).'], T2),
     shows(T2, "( Goal -> ... ; ... )").
 
-:- end_tests(choices_given_up).
+:- end_tests(choice_points).
 
-:- begin_tests(slips).
+:- begin_tests(lint).
 
 test(variables_that_occur_once, F == [4-singletons(['Y','Z'])]) :-
     found(['p.', 'q :- s(Y), s(_X), s(Z), s(_).'], F).
 test(in_a_grammar_rule, F == [3-singletons(['Y'])]) :-
     found(['g --> [Y], [].'], F).
-test(clauses_that_are_not_together, F == [5-discontiguous(p/0)]) :-
+test(discontiguous_clauses, F == [5-discontiguous(p/0)]) :-
     found(['p :- s(1).', 'q.', 'p.', 'q.', ':- discontiguous q/0.', 'p.'],
           F).
-test(facts_of_the_state_may_be_anywhere, F == []) :-
+test(facts_of_the_state_may_be_discontiguous, F == []) :-
     found(['s(1).', 'p.', 's(2).', 'q.'], F).
-test(state_that_is_not_declared, F == [3-undeclared_state(n/1)]) :-
+test(undeclared_state, F == [3-undeclared_state(n/1)]) :-
     found(['p :- assertz(n(1)), retract(n(_)).', 'q :- n(1).'], F).
-test(is_not_also_unknown, M == [warning]) :-
+test(undeclared_state_is_reported_once, M == [warning]) :-
     with_program(['p :- assertz(n(1)), n(1).', 'q.'],
                  test_check:severities(M)).
 test(payload, F == [2-singletons(['Y']),
                     3-lost_choice(member/2, move/1, fail/0)]) :-
     with_program([], test_check:payload_in(F)).
 
-:- end_tests(slips).
+:- end_tests(lint).
 
 :- begin_tests(errors).
 
-test(all_that_cannot_be_read, Lines == [3,5,7]) :-
+test(all_syntax_errors, Lines == [3,5,7]) :-
     found(['p :- a b.', 'q.', 'r(X :- y.', 's(Z).', ':- include(nothing).'],
           Found0),
     exclude([_-singletons(_)]>>true, Found0, Found),
     findall(Line, member(Line-_, Found), Lines).
-test(that_does_not_end, [true(F = [_-syntax_error(_)])]) :-
+test(unterminated_clause, [true(F = [_-syntax_error(_)])]) :-
     found(['p :- "'], F).
 test(creation_reports_all_errors) :-
     creation_text(['p :- a b.', 'q :- c d.'], Text),
@@ -258,7 +258,7 @@ advice('findall(X, move(X), _)', "recursive predicate").
 advice('call_with_time_limit(3, move(a))', "receive/2").
 advice('with_output_to(string(_), move(a))', "cannot travel").
 
-test(advice_fits, [forall(advice(Goal, Words))]) :-
+test(advice_matches_the_problem, [forall(advice(Goal, Words))]) :-
     atomic_list_concat(['p :- ', Goal, '.'], Line),
     printed([Line, 'q.'], Text),
     shows(Text, Words),
@@ -276,7 +276,7 @@ unknown('p(x)', "p/1 (did you mean p/0?").
 unknown('hepler(_)', "hepler/1 (did you mean helper/1?").
 unknown('temperature(_)', "temperature/1 (a place or a payload must offer").
 
-test(calls_of_what_is_not_there, [forall(unknown(Goal, Words))]) :-
+test(calls_of_unknown_predicates, [forall(unknown(Goal, Words))]) :-
     atomic_list_concat(['p :- ', Goal, '.'], Line),
     printed([Line, 'q.', 'helper(_).'], Text),
     shows(Text, Words).
@@ -317,9 +317,10 @@ test(raised_error_is_at_its_goal, Line == 4) :-
 
 %   Warned of when the file is read, and again when it has changed.
 
-test(warns_once_for_a_version, Counts == [1,0,1]) :-
+test(program_is_warned_of_once_per_version, Counts == [1,0,1]) :-
     with_program(['p :- s(X).', 'q.'], test_check:warned(Counts)).
-test(warns_once_of_clauses, Found == [lost_choice(member/2, move/1, fail/0)]) :-
+test(clauses_are_warned_of_once,
+     Found == [lost_choice(member/2, move/1, fail/0)]) :-
     with_hosts([alpha],
                listening(( clauses_created, clauses_created ), Messages)),
     findall(Formal, member(warning-error(Formal, _), Messages), Found).
@@ -337,10 +338,10 @@ test(payload_may_define_it, Found == [[]]) :-
                  test_check:unknown_in([[payloads([payload(
                      thermometer, [temperature/1], [temperature(3)])])]],
                      Found)).
-test(what_it_attaches_may_define_it, Found == [[move/2]]) :-
+test(attached_payload_may_define_it, Found == [[move/2]]) :-
     with_program(['main :- attach(x), temperature(_), move(beta, now).'],
                  test_check:unknown_in([[]], Found)).
-test(library_of_clauses_defines_it, Found == []) :-
+test(library_of_the_program_defines_it, Found == []) :-
     with_hosts([alpha],
                listening(( create([(:- use_module(library(heaps))),
                                    (main :- empty_heap(_))], A),
@@ -349,7 +350,7 @@ test(library_of_clauses_defines_it, Found == []) :-
 
 :- end_tests(creation).
 
-:- begin_tests(ours).
+:- begin_tests(own_programs).
 
 %   Each agent program and payload of the tree.
 
@@ -376,9 +377,9 @@ declares(File) :-
     sub_string(Lines, _, _, _, Declaration),
     !.
 
-test(are_without_a_warning, Found == []) :-
+test(own_programs_have_no_warnings, Found == []) :-
     program_files(Files),
     assertion(( length(Files, N), N > 30 )),
     findall(F-P, doubtful(F, P), Found).
 
-:- end_tests(ours).
+:- end_tests(own_programs).

@@ -89,15 +89,15 @@ test(ended, Rows == [["show", "reserved", "b@h:2", null]]) :-
     shown(log(released('b@h:2')), Rows).
 test(of_a_link, Rows == [["show", "traffic", "a@h:1 b@h:2", 12]]) :-
     shown(log(sent('b@h:2', 'a@h:1', 12)), Rows).
-test(nothing_of_it, Rows == []) :-
+test(host_without_values, Rows == []) :-
     shown(log(something(else)), Rows).
-test(not_declared, Rows == []) :-
+test(undeclared_overlay, Rows == []) :-
     shown(log(x), Rows).
 test(infinite, Rows == [ ["show", "best", 'H', "1.0Inf"],
                          ["show", "sum", 'H', "add(1.0Inf)"] ]) :-
     unbounded(Text),
     shown(Text, ( X is inf, log(of(X)), leave(of(X)) ), Rows).
-test(hops_are_no_overlays, Rows == []) :-
+test(hops_of_the_program_are_no_overlays, Rows == []) :-
     shown(( move(beta), home(H), move(H) ), Rows).
 test(variables_of_agents, Rows == []) :-
     shown(log(_), Rows).

@@ -123,7 +123,7 @@ accessible :-
 
 :- begin_tests(page).
 
-test(page) :-
+test(page_in_a_browser) :-
     stage(play).
 
 %   One scene after the other; the first that fails is reported by its name.

@@ -220,7 +220,7 @@ test(plays_to_the_end, End == true) :-
     look("return typhon.player.time === typhon.player.last", End),
     seek(1, Time),
     same_counts(Time).
-test(an_agent_on_its_way, Between == true) :-
+test(agent_in_flight, Between == true) :-
     seek(1, _),
     look("const p = typhon.player; p.setSpeed(1); \c
           const [time, , id, , to, took] = p.events.find(e => \c
@@ -289,7 +289,7 @@ test(arrows_of_the_sequence_are_labelled_with_messages) :-
 test(plots_have_points, true(Points > 5)) :-
     look("typhon.show(3); typhon.views[3].view.draw(); \c
           return typhon.views[3].view.plots[0].drawn.data[0].length", Points).
-test(what_is_not_seen_is_not_drawn, [Hidden, Shown] == [0, true]) :-
+test(hidden_rows_are_not_drawn, [Hidden, Shown] == [0, true]) :-
     look("const { scene, legend } = typhon.views[0].view, p = typhon.player; \c
           let drawn = 0; \c
           const before = scene.drawTop, update = legend.update; \c
@@ -311,14 +311,14 @@ test(what_is_not_seen_is_not_drawn, [Hidden, Shown] == [0, true]) :-
           scene.drawTop = before; \c
           legend.update = update; \c
           return [hidden, shown > 2]", [Hidden, Shown]).
-test(narrow_and_dark, Wide == 400) :-
+test(narrow_and_dark_page, Wide == 400) :-
     replayed(Browser, _, _),
     browser_size(Browser, 400, 800),
     browser_theme(Browser, dark),
     look("return document.documentElement.scrollWidth", Wide),
     browser_size(Browser, 1600, 1000),
     browser_theme(Browser, light).
-test(hostile_names_are_names, [Images, Scripts] == [0, 0]) :-
+test(hostile_names_are_shown_as_text, [Images, Scripts] == [0, 0]) :-
     seek(1, _),
     hostile(Name),
     look("const a = [...typhon.store.agents.values()]; \c
@@ -340,7 +340,7 @@ test(fetches_nothing, Fetched == []) :-
     look("return performance.getEntriesByType('resource').map(e => e.name)
           .filter(name => !name.startsWith('data:') && !name.startsWith('blob:'))",
          Fetched).
-test(nothing_to_complain_of, Texts == []) :-
+test(browser_reports_no_errors, Texts == []) :-
     replayed(Browser, _, _),
     browser_complaints(Browser, Texts).
 
@@ -354,10 +354,11 @@ with_store(Script, Result) :-
            "const store = new typhon.store.constructor(); ~s", [Script]),
     look(Whole, Result).
 
-:- begin_tests(page_told_late, [ condition(tools_there), setup(open_replay),
+:- begin_tests(late_events, [ condition(tools_there), setup(open_replay),
                                  cleanup(close_replay) ]).
 
-test(left_after_arrived, Seen == ["b@h:2", "running", 1, 0, 1]) :-
+test(departure_reported_after_the_arrival,
+     Seen == ["b@h:2", "running", 1, 0, 1]) :-
     with_store("store.applyEvents(
                     [[2, 'b@h:2', 'r.1', 'arrived', 'a@h:1', 0.1]]);
                 store.applyEvents([[1, 'a@h:1', 'r.1', 'created'],
@@ -366,7 +367,7 @@ test(left_after_arrived, Seen == ["b@h:2", "running", 1, 0, 1]) :-
                 const { host, status, hops, received } = store.agents.get('r.1');
                 return [host, status, hops,
                     store.hosts.get('a@h:1').agents.size, received]", Seen).
-test(left_after_arrived_in_space_and_time,
+test(departure_reported_after_the_arrival_in_the_diagram,
      Lines == [["a@h:1", 1, 1.9], ["b@h:2", 2, 3]]) :-
     with_store("store.applyEvents([[1, 'a@h:1', 'r.1', 'created']]);
                 store.applyEvents(
@@ -379,7 +380,7 @@ test(left_after_arrived_in_space_and_time,
                 view.destroy();
                 return told.stays.map(({ host, from, to }) => [host, from, to])",
                Lines).
-test(left_after_ended, Status == "ended") :-
+test(departure_reported_after_the_end, Status == "ended") :-
     with_store("store.applyEvents(
                     [[2, 'b@h:2', 'r.1', 'arrived', 'a@h:1', 0.1],
                      [3, 'b@h:2', 'r.1', 'ended', 'done']]);
@@ -393,7 +394,7 @@ test(clocks_that_differ, Hosts == ["b@h:2", "b@h:2"]) :-
                             [6, 'a@h:1', `r.${n}`, 'left', 'b@h:2'],
                             [4, 'b@h:2', `r.${n}`, ...what]]);
                         return store.agents.get(`r.${n}`).host; })", Hosts).
-test(comes_again, Seen == ["running", 1]) :-
+test(returning_agent, Seen == ["running", 1]) :-
     with_store("store.applyEvents([[1, 'a@h:1', 'r.1', 'created'],
                     [2, 'a@h:1', 'r.1', 'ended', 'done'],
                     [3, 'a@h:1', 'r.1', 'created']]);
@@ -402,7 +403,7 @@ test(comes_again, Seen == ["running", 1]) :-
 
 %   Nothing of those that are over is kept for ever, whoever looks on.
 
-test(many_end, Kept == [2000, 0, 2000]) :-
+test(many_ends, Kept == [2000, 0, 2000]) :-
     with_store("for (let n = 0; n < 2500; n++)
                     store.applyEvents([[n, 'a@h:1', `x.${n}`, 'created'],
                         [n, 'a@h:1', `x.${n}`, 'left', 'b@h:2'],
@@ -413,13 +414,13 @@ test(many_end, Kept == [2000, 0, 2000]) :-
                 return [store.agents.size, store.moving.size, store.ended.size]",
                Kept).
 
-:- end_tests(page_told_late).
+:- end_tests(late_events).
 
-:- begin_tests(page_asked).
+:- begin_tests(log_files_of_the_page).
 
 %   A browser sends the text of a log that it has.
 
-test(log_of_a_browser) :-
+test(log_loaded_by_a_browser) :-
     Event = event(1.5, 'a@h:1', 'bob.1@a@h:1', created),
     format(string(Text), '~q.~n', [Event]),
     with_page([], Base,
@@ -428,11 +429,11 @@ test(log_of_a_browser) :-
     assertion(Replay.title == "x.log"),
     assertion(Replay.events = [[1.5|_]]),
     assertion(member("bob.1@a@h:1", Replay.names)).
-test(no_text) :-
+test(file_that_is_no_text) :-
     with_page([], Base, ask(Base, _{ask:replay, title:"x.log"}, Told)),
     assertion(get_dict(error, Told, _)).
 
-:- end_tests(page_asked).
+:- end_tests(log_files_of_the_page).
 
 :- begin_tests(page_export, [condition(tools_there)]).
 
@@ -444,7 +445,7 @@ test(no_log, error(existence_error(source_sink, 'no.log'), _)) :-
     with_tmp_dir(export('no.log')).
 test(unknown_option, error(domain_error(export_option, colour(red)), _)) :-
     page_export('a.log', 'a.html', [colour(red)]).
-test(ends_no_script) :-
+test(script_is_not_closed_by_a_name) :-
     with_tmp_dir(ends_no_script).
 
 ends_no_script(Dir) :-

@@ -49,7 +49,7 @@ done(Base, Message, Done) :-
 
 :- begin_tests(page_guard).
 
-test(without_token, Statuses == [403, 403, 403, 403, 403, 403]) :-
+test(request_without_token, Statuses == [403, 403, 403, 403, 403, 403]) :-
     page(Base, ( site(Base, Site),
                  findall(Status, status_without(Site, Status), Statuses) )).
 
@@ -59,7 +59,7 @@ status_without(Site, Status) :-
     atom_concat(Site, Path, Address),
     got(Address, [], Status).
 
-test(with_token, Statuses == [200, 200, 404, 404, 404, 404]) :-
+test(request_with_token, Statuses == [200, 200, 404, 404, 404, 404]) :-
     page(Base, findall(Status,
                        ( member(Path, [ '', 'style.css', 'nothing.js',
                                         '.hidden', '..%2fserver.pl',
@@ -68,7 +68,7 @@ test(with_token, Statuses == [200, 200, 404, 404, 404, 404]) :-
                          got(Address, [], Status) ),
                        Statuses)).
 
-test(link, Status == 303) :-
+test(link_with_token, Status == 303) :-
     hosts(Hosts),
     with_hosts(Hosts,
                setup_call_cleanup(
@@ -128,7 +128,7 @@ test(read_only) :-
                   )),
            answer(Base, _{ask:"survey"}, _{hosts:[_,_], agents:[], time:_}) )).
 
-test(loopback_alone, Addresses == ['127.0.0.1']) :-
+test(loopback_only, Addresses == ['127.0.0.1']) :-
     page(Base, ( site(Base, Site),
                  atomic_list_concat([_, _, Port0|_], ':', Site),
                  atomic_list_concat([Port1|_], /, Port0),
@@ -150,7 +150,7 @@ listening_at(Port, Addresses) :-
               atom_string(Address, First) ),
             Addresses).
 
-test(only_one, error(permission_error(start, page, _))) :-
+test(second_page_is_refused, error(permission_error(start, page, _))) :-
     page(_, page_start([port(0)])).
 
 test(no_such_option, error(domain_error(page_option, prot(1)))) :-
@@ -164,7 +164,7 @@ test(port_taken, error(socket_error(_, _))) :-
                  page_start([port(Port)]),
                  socket:tcp_close_socket(Socket))).
 
-test(nothing_is_left) :-
+test(nothing_is_left_after_the_stop) :-
     no_leaks(page(Base, with_feed(Base, Feed, frame(Feed, _)))).
 
 test(no_such_host, error(host_unreachable(_))) :-
@@ -175,7 +175,7 @@ test(stop_without_page) :-
 
 %   Without a page there is no library of HTTP.
 
-test(loaded_when_wanted, Status-Err == exit(0)-"") :-
+test(code_is_loaded_on_demand, Status-Err == exit(0)-"") :-
     project_file('prolog/typhon.pl', File),
     run_swipl([ '-g', '\\+ current_module(thread_httpd)', '-t', halt, File ],
               [], Status, _, Err).
@@ -183,7 +183,7 @@ test(loaded_when_wanted, Status-Err == exit(0)-"") :-
 %   More half requests than a page has connections, and some whose next byte
 %   always comes soon: a client with the token is answered.
 
-test(half_requests_do_not_stop_the_owner, Statuses == [200, 200, 200]) :-
+test(incomplete_requests_do_not_block_the_owner, Statuses == [200, 200, 200]) :-
     no_leaks(page(Base,
         setup_call_cleanup(
             ( findall(Out, ( between(1, 100, _), half_request(Base, Out) ),
@@ -199,12 +199,12 @@ test(half_requests_do_not_stop_the_owner, Statuses == [200, 200, 200]) :-
 
 %   A request has to be there in time as a whole; so has a body.
 
-test(slow_requests_end) :-
+test(slow_requests_are_ended) :-
     with_settings([typhon_page_reception:request_seconds=1],
         page(Base, forall(member(Head, ['GET /', body]),
                           ends_while_dripping(Base, Head)))).
 
-test(long_heads_end) :-
+test(long_headers_are_refused) :-
     page(Base,
          setup_call_cleanup(
              half_request(Base, Pair),
@@ -266,7 +266,7 @@ drip_on(Pairs) :-
 
 %   What a name hides behind a zero is no other name.
 
-test(zero_in_a_name, Statuses == [404, 404, 404]) :-
+test(zero_byte_in_a_name, Statuses == [404, 404, 404]) :-
     page(Base, findall(Status,
                        ( member(Path, [ 'index.html%00.js', '%00.css',
                                         'style.css%00' ]),
@@ -276,7 +276,7 @@ test(zero_in_a_name, Statuses == [404, 404, 404]) :-
 
 :- end_tests(page_guard).
 
-:- begin_tests(page_questions).
+:- begin_tests(page_queries).
 
 test(survey) :-
     page(Base, ( create([on_message(_, _)], _, [name(bob), host(alpha)]),
@@ -321,7 +321,7 @@ test(goals_have_the_names_of_variables, Goals == ["receive(_-go(Host))",
                  answer(Base, _{ask:"agent", agent:A}, Agent) )),
     Goals = Agent.goals.
 
-test(place_of_a_fault_has_no_folder, Place == "program.pl:3") :-
+test(location_of_a_fault_hides_the_folder, Place == "program.pl:3") :-
     Text = ":- agent(p, []).\n\nmain :- sleep(0), fail.\n",
     page(Base, ( listening(( answer(Base, _{do:"create", text:Text,
                                             host:"alpha"}, Done),
@@ -384,7 +384,7 @@ checked_by_promtool(Text, Said) :-
         close(Out)),
     process_wait(Pid, exit(0)).
 
-:- end_tests(page_questions).
+:- end_tests(page_queries).
 
 :- begin_tests(page_orders).
 
@@ -425,14 +425,14 @@ test(check, Said == [["error", 3], ["warning", 2], ["warning", 3]]) :-
     forall(( member(P, Problems), get_dict(text, P, Words) ),
            assertion(\+ sub_string(Words, _, _, _, "program.pl"))).
 
-test(line_of_the_goal, Lines == [6]) :-
+test(error_at_the_line_of_the_goal, Lines == [6]) :-
     Text = ":- agent(p, []).\nmain :-\n    here(_),\n    forall(true,\n\c
                        \u0020          \n        move(b)).\n",
     page(Base, ( answer(Base, _{do:"check", text:Text}, Answer),
                  Said = Answer.said )),
     findall(Line, ( member(P, Said), get_dict(line, P, Line) ), Lines).
 
-test(create_is_refused) :-
+test(refused_create) :-
     page(Base, says(Base, _{do:"create", text:"main :- .", host:"alpha"},
                     ["program.pl:1"])).
 
@@ -506,12 +506,12 @@ agents_are_gone :-
 
 :- begin_tests(page_feed).
 
-test(first_all_there_is, [Hosts, ReadOnly] == [2, false]) :-
+test(initial_state_is_sent, [Hosts, ReadOnly] == [2, false]) :-
     page(Base, with_feed(Base, Feed, frame(Feed, _{snapshot:Scene}))),
     length(Scene.hosts, Hosts),
     ReadOnly = Scene.read_only.
 
-test(what_happens) :-
+test(events_are_sent) :-
     page(Base, with_feed(Base, Feed, happenings(Feed))).
 
 happenings(Feed) :-
@@ -535,7 +535,7 @@ happenings(Feed) :-
 %   JSON has no numbers that are infinite, or none: nothing could be read in
 %   which there is one.
 
-test(no_number, [Cost, Logged] == ["1.0Inf", "1.5NaN"]) :-
+test(invalid_number, [Cost, Logged] == ["1.0Inf", "1.5NaN"]) :-
     page(Base, no_number(Base, Cost, Logged)).
 
 no_number(Base, Cost, Logged) :-
@@ -563,7 +563,7 @@ virtual_time(Feed, Time) :-
 
 %   A host that comes is found, and one whose process is killed is reported.
 
-test(come_and_go) :-
+test(browsers_connect_and_disconnect) :-
     with_settings([typhon_page_sources:renew_seconds=0.3],
         page(Base, with_feed(Base, Feed,
                              ( frame(Feed, _),
@@ -641,7 +641,7 @@ test(no_events_are_collected_without_a_browser) :-
 
 %   A page of a process of its own shows a network by one of its hosts.
 
-test(from_elsewhere, Names == [alpha, beta]) :-
+test(host_in_another_process, Names == [alpha, beta]) :-
     with_hosts([alpha-[], beta-[]],
                ( link(alpha, beta),
                  address(alpha, Address),

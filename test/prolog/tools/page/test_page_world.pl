@@ -35,26 +35,26 @@ seen(Base, Script) :-
 
 :- begin_tests(page_world).
 
-test(asked) :-
+test(world_is_drawn) :-
     page([world(test_page_world:picture)], Base,
          ( ask(Base, _{ask:"world"}, _),
            ask(Base, _{ask:"world"}, Told) )),
     assertion(sub_string(Told.answer, _, _, _, "width=\"101\"")).
 
-test(none) :-
+test(host_without_a_world) :-
     page([], Base, ask(Base, _{ask:"world"}, Told)),
     assertion(sub_string(Told.error, _, _, _, "world")).
 
-test(fault) :-
+test(faulty_drawing) :-
     page([world(test_page_world:fault)], Base, ask(Base, _{ask:"world"}, Told)),
     assertion(sub_string(Told.error, _, _, _, "paint")).
 
-test(no_goal, error(type_error(_, _))) :-
+test(undefined_goal, error(type_error(_, _))) :-
     page([world(1)], _, true).
 
 %   It is shown first, and again and again, and its script does not run.
 
-test(shown) :-
+test(shown_world) :-
     page([world(test_page_world:picture)], Base,
          seen(Base, "return document.querySelector('.view-world img')\c
                      ?.naturalWidth > 102 && globalThis.hit === undefined")).

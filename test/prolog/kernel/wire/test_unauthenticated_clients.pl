@@ -1,4 +1,4 @@
-:- module(test_strangers, []).
+:- module(test_unauthenticated_clients, []).
 
 % Clients that do not prove themselves: what they can hold up, and what is
 % told of them.
@@ -101,20 +101,20 @@ newcomer(I, Seconds) :-
 slots(Count) :-
     aggregate_all(count, typhon_acceptor:unproved(_, _, _, _), Count).
 
-:- begin_tests(silent_clients_lock_no_peer_out).
+:- begin_tests(silent_clients_do_not_block_peers).
 
 test(newcomers_are_accepted, [forall(member(Slots-Silent, [32-32, 32-200,
                                                            128-200]))]) :-
     no_leaks(with_endpoint(patiently(
         with_settings([typhon_acceptor:unproved=Slots], crowded(Silent))))).
-test(newcomers_are_accepted_at_once) :-
+test(newcomers_are_accepted_without_delay) :-
     with_endpoint(patiently(with_settings([typhon_acceptor:unproved=16],
         with_silent(16, _,
             ( wait_until(silent(16), 30),
               numlist(1, 6, Newcomers),
               concurrent_maplist(newcomer, Newcomers, Times),
               maplist(soon, Times) ))))).
-test(talking_client_stays) :-
+test(active_client_stays) :-
     with_endpoint(patiently(with_settings([typhon_acceptor:unproved=4],
         with_silent(4, [Talker|_],
             ( say("ty", Talker),
@@ -142,18 +142,18 @@ crowded(Silent) :-
           maplist(soon, Times) )),
     wait_until(slots(0), 30).
 
-:- end_tests(silent_clients_lock_no_peer_out).
+:- end_tests(silent_clients_do_not_block_peers).
 
 :- begin_tests(order_of_eviction, [cleanup(forget_all)]).
 
-test(of_the_address_with_most, V == c) :-
+test(client_of_the_address_with_most_connections_is_evicted, V == c) :-
     slots([a-x-1-silent, b-x-2-heard, c-y-3-silent, d-y-4-silent,
            e-y-5-heard], [], V).
-test(the_silent_one, V == b) :-
+test(silent_client_is_evicted, V == b) :-
     slots([a-x-1-heard, b-x-2-silent, c-x-3-silent], [], V).
-test(the_oldest, V == b) :-
+test(oldest_client_is_evicted, V == b) :-
     slots([a-x-2-heard, b-x-1-heard], [], V).
-test(not_of_an_address_with_an_authenticated_peer, V == d) :-
+test(address_with_an_authenticated_peer_is_spared, V == d) :-
     slots([a-x-1-silent, b-x-2-silent, c-x-3-silent, d-y-4-heard], [x], V).
 test(addresses_are_bounded, Count == 256) :-
     forget_all,
@@ -174,9 +174,9 @@ forget_all :-
 
 :- end_tests(order_of_eviction).
 
-:- begin_tests(no_slot_is_lost).
+:- begin_tests(slots_are_freed).
 
-test(no_thread_can_be_made) :-
+test(thread_creation_fails) :-
     no_leaks(with_endpoint(
         ( setup_call_cleanup(
               wrap_predicate(typhon_threads:create(_, _, _, _), none, _,
@@ -191,10 +191,10 @@ test(clients_die_at_any_moment) :-
         ( forall(between(1, 300, I), dies(I)),
           wait_until(slots(0), 30),
           newcomer(x, _) ))).
-test(stopped_at_any_moment) :-
+test(threads_are_stopped_at_any_moment) :-
     no_leaks(forall(between(1, 20, _),
                     with_endpoint(forall(between(1, 15, I), dies(I))))).
-test(evicted_at_any_moment) :-
+test(clients_are_evicted_at_any_moment) :-
     no_leaks(with_endpoint(with_settings([typhon_acceptor:unproved=2],
         ( forall(between(1, 300, I), dies(I)),
           wait_until(slots(0), 30) )))).
@@ -211,7 +211,7 @@ dies(I) :-
                        say(Text, Client),
                        closed(Client)).
 
-:- end_tests(no_slot_is_lost).
+:- end_tests(slots_are_freed).
 
 %   breaks_off(+Text, -Level, -Formal): the message about the connection of a
 %   client that proves itself, sends Text and closes the connection.
@@ -229,7 +229,7 @@ breaks_off(Text, Level, Formal) :-
 
 :- begin_tests(refused_clients_are_reported).
 
-test(few_lines_all_counted, Sum == 500) :-
+test(few_lines_count_all_refusals, Sum == 500) :-
     get_time(T0),
     with_endpoint(( forall(between(1, 500, _), shouts("GET / HTTP/1.0\r\n")),
                     wait_until(counted(500), 30) )),
@@ -237,7 +237,7 @@ test(few_lines_all_counted, Sum == 500) :-
     counted(Sum),
     aggregate_all(count, told(_), Lines),
     assertion(Lines =< 10+6*(T1-T0)).
-test(once_also_where_a_slot_is_taken, Sum == 50) :-
+test(refusal_with_a_reused_slot_is_reported_once, Sum == 50) :-
     setup_call_cleanup(
         wrap_predicate(typhon_refusals:refused(_, _), slow, Counted,
                        ( Counted, sleep(0.01) )),
@@ -247,7 +247,7 @@ test(once_also_where_a_slot_is_taken, Sum == 50) :-
                                                  30) ))),
         unwrap_predicate(typhon_refusals:refused/2, slow)),
     noted_so_far(Sum).
-test(reported_at_the_end, Sum == 20) :-
+test(refusals_are_reported_at_the_end, Sum == 20) :-
     with_endpoint(( forall(between(1, 20, _), shouts("\n")),
                     wait_until(noted(20), 30) )),
     counted(Sum).
@@ -262,9 +262,9 @@ test(last_refusals_are_reported, Sum == 20) :-
     counted(Sum).
 test(violation_by_an_authenticated_client, Level == warning) :-
     breaks_off("resume 0\nno frame, but words", Level, _).
-test(end_of_an_authenticated_client_amid_a_frame, Level == silent) :-
+test(authenticated_client_disconnects_within_a_frame, Level == silent) :-
     breaks_off("resume 0\nabc", Level, _).
-test(another_version, Line == "typhon 3") :-
+test(client_of_another_version, Line == "typhon 3") :-
     with_endpoint(setup_call_cleanup(
         connected(Client),
         ( say("typhon 1 00 p 1 a:1 90004 64 little\n", Client),
@@ -272,7 +272,7 @@ test(another_version, Line == "typhon 3") :-
           read_line_to_string(In, Line),
           wait_until(told(turned_away(_, version(1))), 30) ),
         closed(Client))).
-test(another_version_of_a_server,
+test(server_of_another_version,
      [error(permission_error(authenticate, peer, version(3)))]) :-
     typhon_handshake:check_protocol("typhon 3").
 
