@@ -376,7 +376,7 @@ report(suite(Base, Passed, Failures, Skipped), Problems, Seconds, Spent, Log) :-
     flush_output.
 
 report_failures(Base, Problems, Log) :-
-    format('---- what ~w says~n', [Base]),
+    format('---- output of ~w~n', [Base]),
     read_file_to_string(Log, Text, []),
     write(Text),
     forall(member(Problem, Problems), format('~N~w: ~w~n', [Base, Problem])),

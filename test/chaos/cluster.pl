@@ -1,7 +1,7 @@
 :- module(chaos_cluster,
           [ with_cluster/4,             % +Names, +Dir, +Swipl, :Goal
             cluster_names/1,            % -Names
-            cluster_living/1,           % -Names
+            cluster_running/1,          % -Names
             cluster_hosts/2,            % +Name, -Addresses
             cluster_lives/1,            % -Lives
             cluster_ask/4,              % +Name, +Goal, +Seconds, -Tag
@@ -116,7 +116,7 @@ close_pipe(Stream) :-
                 *******************************/
 
 %!  cluster_names(-Names) is det.
-%!  cluster_living(-Names) is det.
+%!  cluster_running(-Names) is det.
 %!  cluster_hosts(+Name, -Addresses) is det.
 %!  cluster_lives(-Lives) is det.
 %
@@ -127,7 +127,7 @@ close_pipe(Stream) :-
 cluster_names(Names) :-
     findall(Name, place(Name, _, _, _, _), Names).
 
-cluster_living(Names) :-
+cluster_running(Names) :-
     findall(Name, ( place(Name, _, _, _, _), running(Name, _, _, _, _) ),
             Names).
 
@@ -267,7 +267,7 @@ cluster_call(Name, Goal, Seconds, Result) :-
     ).
 
 cluster_call_all(Goal, Seconds, Results) :-
-    cluster_living(Names),
+    cluster_running(Names),
     findall(Name-Tag,
             ( member(Name, Names), cluster_ask(Name, Goal, Seconds, Tag) ),
             Tags),

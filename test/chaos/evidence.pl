@@ -129,7 +129,7 @@ answers(Goal, Template, List) :-
 
 outcomes(Agents, Events, Outcomes) :-
     findall(Name-Id, ending(Agents, Events, Name, Id), Pairs),
-    cluster_living(Names),
+    cluster_running(Names),
     call_seconds(Seconds),
     findall(Name-Tag,
             ( member(Name, Names),

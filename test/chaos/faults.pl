@@ -174,7 +174,7 @@ proxy(Words) :-
     cluster_proxy(Words, ok).
 
 lives(Name) :-
-    cluster_living(Names),
+    cluster_running(Names),
     memberchk(Name, Names).
 
 %!  heal(+Scenario) is det.

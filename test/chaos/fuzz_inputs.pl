@@ -1,5 +1,5 @@
 :- module(fuzz_inputs,
-          [ stranger_input/1,           % -Input
+          [ client_input/1,             % -Input
             peer_frames/2               % +Codec, -Frames
           ]).
 
@@ -23,12 +23,12 @@ determines an input.
 		 *         STRANGERS            *
 		 *******************************/
 
-%!  stranger_input(-Input) is det.
+%!  client_input(-Input) is det.
 %
 %   Input is send(Codes, End), the input of a client without the cookie, where
 %   End is `close`, `linger` or `drip`.
 
-stranger_input(send(Codes, End)) :-
+client_input(send(Codes, End)) :-
     random_between(1, 12, Kind),
     said(Kind, Codes),
     random_between(1, 60, N),

@@ -160,14 +160,14 @@ input(Seed, Port) :-
     random_between(1, 8, N),
     (   N == 1
     ->  peer(Seed, Port)
-    ;   stranger_input(send(Codes, End)),
-        catch(stranger(Port, Codes, End), error(_, _), true)
+    ;   client_input(send(Codes, End)),
+        catch(unauthenticated_client(Port, Codes, End), error(_, _), true)
     ).
 
 :- dynamic lingering/2.                 % In, Out
 
-stranger(Port, Codes, End) :-
-    stranger_way(Way),
+unauthenticated_client(Port, Codes, End) :-
+    client_transport(Way),
     connect(Way, Port, In, Out),
     catch(say(End, Codes, Out), error(_, _), true),
     (   End == close
@@ -193,14 +193,14 @@ linger_no_more(Most) :-
     linger_no_more(Most).
 linger_no_more(_).
 
-stranger_way(Way) :-
+client_transport(Way) :-
     nb_getval(fuzz_ways, Ways),
     random_between(1, 10, N),
-    stranger_way(Ways, N, Way).
+    client_transport(Ways, N, Way).
 
-stranger_way(tls(_, Unknown), 1, tls(Unknown)) :- !.
-stranger_way(tls(Known, _), N, tls(Known)) :- N =< 5, !.
-stranger_way(_, _, plain).
+client_transport(tls(_, Unknown), 1, tls(Unknown)) :- !.
+client_transport(tls(Known, _), N, tls(Known)) :- N =< 5, !.
+client_transport(_, _, plain).
 
 peer_way(Way) :-
     nb_getval(fuzz_ways, Ways),

@@ -15,6 +15,6 @@ The seed is another each time; it is in what a failure shows.
 
 test(hostile_agents_do_no_harm, Faults-Seed == []-Seed) :-
     Seed is random(1 000 000 000),
-    listening(no_leaks(hostile([count(600), seed(Seed)], Faults)), _).
+    capturing(no_leaks(hostile([count(600), seed(Seed)], Faults)), _).
 
 :- end_tests(hostile).

@@ -183,7 +183,7 @@ work_event(victim(P, sprinter)) :-
 work_event(dispose(Q)) :-
     (   retract(victim(Key, Id, Tries))
     ->  (   Q == any
-        ->  cluster_living([P|_])
+        ->  cluster_running([P|_])
         ;   P = Q
         ),
         ask(P, agent_dispose(Id), dispose(Key, Id, Tries))
@@ -288,7 +288,7 @@ disposed_of(raised(existence_error(agent, _)), Tries) :-
 created(victim, Key, Id, _) :-
     assertz(victim(Key, Id, 0)).
 created(sprinter, Key, Id, Name) :-
-    cluster_living(Names),
+    cluster_running(Names),
     append(_, [Name|After], Names),
     (   After = [Other|_]
     ->  true
@@ -327,12 +327,12 @@ note_call(What, Name, Result) :-
 
 work_halt :-
     await_all,
-    cluster_living(Names),
+    cluster_running(Names),
     forall(member(Name, Names), ask(Name, on_all_hosts(leave(halt)), halt)),
     await_all.
 
 work_roll_call :-
-    cluster_living(Names),
+    cluster_running(Names),
     stays(Kinds),
     forall(( member(Name, Names),
              agent(Key, Kind, Id, _, _),

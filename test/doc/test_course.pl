@@ -13,7 +13,7 @@
 :- use_module('../../doc/course/checks/ants', []).
 :- use_module('../../doc/course/checks/faults', []).
 :- use_module('../../doc/course/checks/supervision', []).
-:- use_module('../lib/fixtures', [listening/2]).
+:- use_module('../lib/fixtures', [capturing/2]).
 :- use_module(library(debug), [assertion/1]).
 :- use_module(library(filesex), [directory_file_path/3, make_directory_path/1]).
 :- use_module(library(lists), [member/2, memberchk/2]).
@@ -28,11 +28,11 @@ solution(Exercise, File) :-
 %   Its problems; output for students is ignored.
 
 wrongs(Exercise, File, Wrongs) :-
-    no_leaks(listening(findall(Text-Why, wrong(Exercise, File, Text, Why),
+    no_leaks(capturing(findall(Text-Why, wrong(Exercise, File, Text, Why),
                                Wrongs), _)).
 
 is_wrong(Exercise, File) :-
-    no_leaks(listening(wrong(Exercise, File, _, _), _)).
+    no_leaks(capturing(wrong(Exercise, File, _, _), _)).
 
 wrong(Exercise, File, Text, Why) :-
     exercise_verdict(Exercise, File, verdict(Text, Why)),
@@ -145,7 +145,7 @@ test(solutions_pass,
 test(solutions_give_no_warnings,
      [forall(exercise(Exercise, _)), true(Said == [])]) :-
     solution(Exercise, File),
-    listening(agent_check(File), Messages),
+    capturing(agent_check(File), Messages),
     findall(Message, ( member(Kind-Message, Messages),
                        memberchk(Kind, [warning, error]) ),
             Said).

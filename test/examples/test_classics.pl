@@ -15,7 +15,7 @@
 :- use_module(library(readutil), [read_file_to_string/3]).
 :- use_module(library(solution_sequences), [distinct/2]).
 :- use_module(library(typhon)).
-:- use_module('../lib/fixtures', [listening/2]).
+:- use_module('../lib/fixtures', [capturing/2]).
 
 program(Name, File) :-
     atom_concat('examples/classics/', Name, Relative),
@@ -25,7 +25,7 @@ program(Name, File) :-
 %   network, without a log: Logged is what was printed instead.
 
 on(Topology, Options, Goal, Logged) :-
-    no_leaks(listening(in_network(Topology, [seed(1)|Options], Goal),
+    no_leaks(capturing(in_network(Topology, [seed(1)|Options], Goal),
                        Messages)),
     logged(Messages, Logged).
 
@@ -116,7 +116,7 @@ pass(Host, Seconds) :-
     ends(Clock).
 
 plays(Players, Logged) :-
-    no_leaks(listening(play(Players), Messages)),
+    no_leaks(capturing(play(Players), Messages)),
     logged(Messages, Logged).
 
 play(Players) :-

@@ -15,7 +15,7 @@
 
 gardening(Broker, Order) :-
     broker_url(Broker, URL),
-    listening(mqtt_start(field1, URL, []), _),
+    capturing(mqtt_start(field1, URL, []), _),
     client_receives(Broker, ['-t', 'field/1/valve', '-C', 1], gardener, [Line]),
     atom_json_dict(Line, Order, []).
 

@@ -1,7 +1,7 @@
 :- module(test_brokers,
           [ broker_start/2,             % +Options, -Broker
             broker_stop/1,              % +Broker
-            broker_again/1,             % +Broker
+            broker_restart/1,           % +Broker
             broker_signal/2,            % +Broker, +Signal
             broker_url/2,               % +Broker, -URL
             broker_log/2,               % +Broker, -Text
@@ -42,7 +42,7 @@ and mosquitto_sub.
 
 %!  broker_start(+Options, -Broker) is det.
 %!  broker_stop(+Broker) is det.
-%!  broker_again(+Broker) is det.
+%!  broker_restart(+Broker) is det.
 %!  broker_signal(+Broker, +Signal) is det.
 %
 %   Options are lines of its configuration; `anonymous(false)` omits the line
@@ -58,7 +58,7 @@ broker_start(Options, broker(Port, Dir)) :-
         open(Conf, write, Out),
         configure(Out, Port, Dir, Options),
         close(Out)),
-    broker_again(broker(Port, Dir)).
+    broker_restart(broker(Port, Dir)).
 
 configure(Out, Port, Dir, Options) :-
     format(Out, 'listener ~d 127.0.0.1~n', [Port]),
@@ -73,7 +73,7 @@ configure(Out, Port, Dir, Options) :-
              atomic_list_concat(Parts, Dir, Text),
              format(Out, '~w~n', [Text]) )).
 
-broker_again(broker(Port, Dir)) :-
+broker_restart(broker(Port, Dir)) :-
     directory_file_path(Dir, conf, Conf),
     process_create('/usr/sbin/mosquitto', ['-c', Conf],
                    [stdin(null), stderr(null), process(Pid)]),
@@ -131,7 +131,7 @@ with_broker(Options, Broker, Goal) :-
 
 with_mqtt(Broker, Options, Goal) :-
     broker_url(Broker, URL),
-    listening(setup_call_cleanup(
+    capturing(setup_call_cleanup(
                   host_start(alpha),
                   ( mqtt_start(alpha, URL, Options),
                     once(Goal) ),

@@ -1,6 +1,6 @@
 :- module(test_fake_node,
           [ node/2,                     % +Program, +Facts
-            hears/2,                    % +Message, +From
+            receives/2,                 % +Message, +From
             link/3,                     % +From, +Due, +Load
             at/1,                       % +Time
             sent/1,                     % -Pairs
@@ -40,19 +40,19 @@ node(Program, Facts) :-
                  fake_host:send(Agent, Message))),
     fake_neighbours([a, b, c]).
 
-%!  hears(+Message, +From) is det.
+%!  receives(+Message, +From) is det.
 %!  link(+From, +Due, +Load) is det.
 %!  at(+Time) is det.
 %
 %   Deliver a message of an agent, or a message over the link from a host, or
 %   set the time; then the node performs what is due.
 
-hears(Message, From) :-
+receives(Message, From) :-
     once(fake_agent:heard(Message, From)),
     once(fake_agent:do_due).
 
 link(From, Due, Load) :-
-    hears(link(Due, From, Load), node).
+    receives(link(Due, From, Load), node).
 
 at(Time) :-
     fake_at(Time),

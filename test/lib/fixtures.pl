@@ -1,8 +1,8 @@
 :- module(test_fixtures,
           [ with_hosts/2,               % +Specs, :Goal
-            listening/2,                % :Goal, -Messages
-            was_told/2,                 % +Kind, ?Message
-            were_told/2,                % +Kind, ?Message
+            capturing/2,                % :Goal, -Messages
+            was_printed/2,              % +Kind, ?Message
+            printed_message/2,          % +Kind, ?Message
             create/2,                   % +Clauses, -Agent
             create/3,                   % +Clauses, -Agent, +Options
             joined/2,                   % +Agent, -Outcome
@@ -30,7 +30,7 @@ clauses, and captured messages.
 
 :- meta_predicate
     with_hosts(+, 0),
-    listening(0, -).
+    capturing(0, -).
 
 %!  with_hosts(+Specs, :Goal) is semidet.
 %
@@ -73,29 +73,29 @@ user:message_hook(Term, Kind, _) :-
     memberchk(Kind, [error,warning,informational]),
     assertz(heard(Kind, Term)).
 
-%!  listening(:Goal, -Messages) is semidet.
+%!  capturing(:Goal, -Messages) is semidet.
 %
 %   Calls Goal once.  Messages are the errors, warnings and notices that
 %   all threads would have printed meanwhile, as Kind-Term.
 
-listening(Goal, Messages) :-
+capturing(Goal, Messages) :-
     setup_call_cleanup(
         ( retractall(heard(_, _)), assertz(listens) ),
         once(Goal),
         retractall(listens)),
     findall(Kind-Term, heard(Kind, Term), Messages).
 
-%!  was_told(+Kind, ?Message) is semidet.
-%!  were_told(+Kind, ?Message) is nondet.
+%!  was_printed(+Kind, ?Message) is semidet.
+%!  printed_message(+Kind, ?Message) is nondet.
 %
-%   Goals of listening/2 can wait for a Message; enumerate the messages so
+%   Goals of capturing/2 can wait for a Message; enumerate the messages so
 %   far.
 
-was_told(Kind, Message) :-
+was_printed(Kind, Message) :-
     heard(Kind, Message),
     !.
 
-were_told(Kind, Message) :-
+printed_message(Kind, Message) :-
     heard(Kind, Message).
 
                 /*******************************

@@ -1,5 +1,5 @@
 :- module(test_jade,
-          [ jade_there/0,
+          [ jade_available/0,
             jade_start/0,
             jade_stop/0,
             jade_url/1,                 % -Url
@@ -23,11 +23,11 @@ executes the commands of jade/2 in order.
 
 :- dynamic jvm/5.                       % Pid, In, Out, Dir, Url
 
-%!  jade_there is semidet.
+%!  jade_available is semidet.
 %
 %   JADE is in Maven's repository of this user.
 
-jade_there :-
+jade_available :-
     jar(_).
 
 jar(Jar) :-

@@ -1,7 +1,7 @@
 :- module(test_nxt_fixtures,
           [ with_peer/3,                % -Peer, -Port, :Goal
-            peer_tell/2,                % +Peer, +Line
-            peer_heard/2,               % +Peer, -Telegram
+            peer_command/2,             % +Peer, +Line
+            peer_received/2,            % +Peer, -Telegram
             with_brick/3,               % -Brick, -Port, :Goal
             brick_ask/3,                % +Brick, +Line, -Answer
             connected/4,                % +Name, +Port, +Options, :Goal
@@ -34,7 +34,7 @@ one.  Both are processes of their own behind pseudo-terminals.
 with_peer(Peer, Port, Goal) :-
     project_file('test/lib/nxt_peer.py', File),
     with_python([File], Peer,
-                ( peer_heard(Peer, Port),
+                ( peer_received(Peer, Port),
                   call(Goal)
                 )).
 
@@ -54,19 +54,19 @@ end_python(In, Out, Pid) :-
     close(Out, [force(true)]),
     process_wait(Pid, _).
 
-%!  peer_tell(+Peer, +Line) is det.
+%!  peer_command(+Peer, +Line) is det.
 %
 %   Set its reaction to the next telegram.
 
-peer_tell(far(In, _), Line) :-
+peer_command(far(In, _), Line) :-
     format(In, '~w~n', [Line]),
     flush_output(In).
 
-%!  peer_heard(+Peer, -Telegram:atom) is det.
+%!  peer_received(+Peer, -Telegram:atom) is det.
 %
 %   The next telegram, hexadecimal; waits for it.
 
-peer_heard(far(_, Out), Telegram) :-
+peer_received(far(_, Out), Telegram) :-
     read_line_to_string(Out, Line),
     assertion(string(Line)),
     atom_string(Telegram, Line).
@@ -94,7 +94,7 @@ answer(far(_, Out), Term) :-
 %   The answer of the simulated brick to a line, a term.
 
 brick_ask(Brick, Line, Answer) :-
-    peer_tell(Brick, Line),
+    peer_command(Brick, Line),
     answer(Brick, Answer).
 
 %!  connected(+Name, +Port, +Options, :Goal) is semidet.

@@ -5,7 +5,7 @@
             got/3,                      % +Address, +Options, -Status
             with_feed/3,                % +Base, -Feed, :Goal
             frame/2,                    % +Feed, -Frame
-            told/3                      % +Feed, +Pattern, -Event
+            feed_event/3                % +Feed, +Pattern, -Event
           ]).
 
 /** <module> Clients of the page
@@ -59,7 +59,7 @@ got(Address, Options, Status) :-
 
 %!  with_feed(+Base, -Feed, :Goal) is semidet.
 %!  frame(+Feed, -Frame:dict) is det.
-%!  told(+Feed, +Pattern:list, -Event:list) is det.
+%!  feed_event(+Feed, +Pattern:list, -Event:list) is det.
 %
 %   Event is the next event that begins like Pattern, after its time; others
 %   are skipped.
@@ -84,7 +84,7 @@ frame(feed(Socket, _), Frame) :-
     call_with_time_limit(20, ws_receive(Socket, Message, [format(json)])),
     Frame = Message.data.
 
-told(Feed, Pattern, Event) :-
+feed_event(Feed, Pattern, Event) :-
     (   arg(2, Feed, Events),
         append(_, [Event0|Later], Events),
         Event0 = [_|Rest],
@@ -96,5 +96,5 @@ told(Feed, Pattern, Event) :-
         ->  nb_setarg(2, Feed, More)
         ;   nb_setarg(2, Feed, [])
         ),
-        told(Feed, Pattern, Event)
+        feed_event(Feed, Pattern, Event)
     ).

@@ -1,6 +1,6 @@
 :- module(test_plain_client,
           [ greeting/2,                 % +Process, -Line
-            prove_oneself/3             % +In, +Out, +Process
+            client_authenticate/3       % +In, +Out, +Process
           ]).
 
 /** <module> A client that knows of the wire what doc/wire.md says
@@ -23,12 +23,12 @@ greeting(Process, Line) :-
            "typhon 3 0123456789abcdef0123456789abcdef ~w 1 127.0.0.1:1 ~d ~d none",
            [Process, Version, Word]).
 
-%!  prove_oneself(+In, +Out, +Process) is semidet.
+%!  client_authenticate(+In, +Out, +Process) is semidet.
 %
 %   Both sides prove that they have the cookie. Fails if the other side does
 %   not.
 
-prove_oneself(In, Out, Process) :-
+client_authenticate(In, Out, Process) :-
     greeting(Process, Client),
     say(Out, Client),
     hear(In, Server),

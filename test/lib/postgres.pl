@@ -2,7 +2,7 @@
           [ postgres_start/0,
             postgres_stop/0,
             postgres_crash/0,
-            postgres_again/0,
+            postgres_restart/0,
             postgres_url/2,             % +Schema, -Url
             with_postgres_relay/3,      % +Schema, -Url, :Goal
             postgres_relay/1            % +Order
@@ -53,7 +53,7 @@ postgres_stop :-
     delete_directory_and_contents(Dir).
 
 %!  postgres_crash is det.
-%!  postgres_again is det.
+%!  postgres_restart is det.
 %
 %   Stop it at once, as `pg_ctl stop -m immediate`; restart it.
 
@@ -64,7 +64,7 @@ postgres_crash :-
     close(Err),
     assertz(crashed(Dir)).
 
-postgres_again :-
+postgres_restart :-
     retract(crashed(Dir)),
     start(Dir, Pid, Err),
     assertz(running(Dir, Pid, Err)).

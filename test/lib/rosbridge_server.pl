@@ -4,7 +4,7 @@
             rosbridge_end/1,            % +URL
             rosbridge_frames/1,         % -Frames
             rosbridge_forget/0,
-            rosbridge_say/1,            % +Frame or text
+            rosbridge_send/1,           % +Frame or text
             rosbridge_cut/0,
             rosbridge_clients/1         % -Count
           ]).
@@ -77,12 +77,12 @@ rosbridge_frames(Frames) :-
 rosbridge_clients(Count) :-
     aggregate_all(count, client(_, _), Count).
 
-%!  rosbridge_say(+What) is det.
+%!  rosbridge_send(+What) is det.
 %!  rosbridge_cut is det.
 %
 %   Send a frame, or any text, to all clients; disconnect them all.
 
-rosbridge_say(What) :-
+rosbridge_send(What) :-
     forall(client(Client, _), say(Client, What)).
 
 rosbridge_cut :-

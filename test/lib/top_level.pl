@@ -1,6 +1,6 @@
 :- module(test_top_level_lib,
           [ typed/3,                    % +Lines, +Dir, -Written
-            top_level_goes_on/0
+            top_level_continues/0
           ]).
 
 /** <module> Output of the top level for typed queries
@@ -35,12 +35,12 @@ typed(Lines, Dir, Written) :-
     split_string(Text, "\n", "\r", All),
     findall(Line, ( member(Line, All), Line \== "" ), Written).
 
-%!  top_level_goes_on is semidet.
+%!  top_level_continues is semidet.
 %
 %   The top level continues after two errors of unrelated goals. SWI-Prolog
 %   9.2.9 opens the debugger at the second.
 
-top_level_goes_on :-
+top_level_continues :-
     with_tmp_dir(goes_on).
 
 goes_on(Dir) :-

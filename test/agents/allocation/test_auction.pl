@@ -99,7 +99,7 @@ test(known_floods_are_bounded, Count == 3) :-
     aggregate_all(count, fake_agent:wave(_, _, _), Count).
 test(host_without_a_node_gets_nothing) :-
     node(murdoch, []),
-    hears(peers([a-na, c-nc]), user),
+    receives(peers([a-na, c-nc]), user),
     fake_agent:flood(start(x)),
     bodies([a-_, c-_]),
     fact(sent(start, 2)).
@@ -114,8 +114,8 @@ test(stopped_host_is_forgotten) :-
 test(counts_are_logged_once, Logged == [communications(start, 3)]) :-
     node(murdoch, []),
     fake_agent:flood(start(x)),
-    hears(account, user),
-    hears(account, user),
+    receives(account, user),
+    receives(account, user),
     logged(Logged).
 
 :- end_tests(auction_flood).
@@ -157,7 +157,7 @@ test(last_level_forwards_nothing) :-
 test(bids_are_merged_and_go_to_the_parent_at_their_time) :-
     planted,
     job(Job),
-    hears(answer(ref(Job, 1, 1), bid(7)), robot),
+    receives(answer(ref(Job, 1, 1), bid(7)), robot),
     from_child(b, [x-[1-3], y-[1-9]]),
     from_child(c, [z-[1-1]]),
     sent(_),
@@ -197,7 +197,7 @@ test(with_no_node_at_the_parent_bids_are_flooded) :-
 test(awards_are_split_on_the_way_down) :-
     planted,
     job(Job),
-    hears(answer(ref(Job, 1, 1), bid(7)), robot),
+    receives(answer(ref(Job, 1, 1), bid(7)), robot),
     from_child(b, [x-[1-3], y-[1-9]]),
     from_child(c, [z-[1-1]]),
     at(8),
@@ -223,7 +223,7 @@ test(without_a_child_an_award_is_flooded) :-
 test(a_flooded_award_concerns_its_recipients_only) :-
     planted,
     job(Job),
-    hears(answer(ref(Job, 1, 1), bid(7)), robot),
+    receives(answer(ref(Job, 1, 1), bid(7)), robot),
     sent(_),
     Award = award(Job, 1, [here-1, x-1]),
     link(c, 0, flood(88, flooded(robots(Job, [x], Award)))),
@@ -241,7 +241,7 @@ test(answers_go_up_the_tree) :-
     fact(sent(ack, 1)).
 test(root_accepts_flooded_messages_and_floods_its_answer) :-
     node(anta, [setting(window, 10), setting(level, 4)]),
-    hears(post(task(t, [1-[push]], [])), user),
+    receives(post(task(t, [1-[push]], [])), user),
     fact(job(Job, _, _, _, _, _)),
     sent(_),
     link(b, 0, only(owner(Job, bids(1, [x-[1-3]])))),

@@ -23,7 +23,7 @@ bidder(Facts) :-
     announced([], 1, Announce),
     link(a, 0, flood(77, Announce)),
     job(Job),
-    hears(answer(ref(Job, 1, 1), bid(7)), robot).
+    receives(answer(ref(Job, 1, 1), bid(7)), robot).
 
 winner(Facts) :-
     bidder(Facts),
@@ -33,7 +33,7 @@ winner(Facts) :-
 reserved(Facts) :-
     winner(Facts),
     job(Job),
-    hears(answer(ref(Job, 1, 1), reserved), robot),
+    receives(answer(ref(Job, 1, 1), reserved), robot),
     sent(_).
 
 test(contractor_queries_its_robot_and_bids) :-
@@ -49,7 +49,7 @@ test(refusing_robot_does_not_bid) :-
     link(a, 0, flood(77, Announce)),
     sent(_),
     job(Job),
-    hears(answer(ref(Job, 1, 1), refused(unfit)), robot),
+    receives(answer(ref(Job, 1, 1), refused(unfit)), robot),
     sent([]),
     \+ fact(hold(_, _, _, _)).
 test(bids_for_one_auction_at_a_time) :-
@@ -93,14 +93,14 @@ test(winner_reserves_its_robot) :-
     bodies(Bodies),
     memberchk(robot-reserve(ref(Job, 1, 1), boss, need(t, [push], [])),
               Bodies),
-    hears(answer(ref(Job, 1, 1), reserved), robot),
+    receives(answer(ref(Job, 1, 1), reserved), robot),
     bodies(Then),
     memberchk(b-owner(Job, report(1, here, reserved)), Then).
 test(winner_with_a_reserved_robot_refuses) :-
     winner([]),
     sent(_),
     job(Job),
-    hears(answer(ref(Job, 1, 1), refused(reserved)), robot),
+    receives(answer(ref(Job, 1, 1), refused(reserved)), robot),
     bodies(Bodies),
     memberchk(a-owner(Job, report(1, here, refused)), Bodies),
     \+ fact(contract(_, _, _, _, _, _)).
@@ -113,7 +113,7 @@ test(executes_and_reports) :-
     link(b, 0, flood(80, start(Job))),
     sent(Again),
     \+ memberchk(robot-start(_, _), Again),
-    hears(done(ref(Job, 1, 1)), robot),
+    receives(done(ref(Job, 1, 1)), robot),
     bodies(Then),
     memberchk(a-owner(Job, report(1, here, done)), Then).
 test(releases_its_robot_once) :-
@@ -144,9 +144,9 @@ test(a_late_release_does_not_end_the_next_round) :-
     announced([], 2, Announce),
     fake_agent:retractall(hold(_, _, _, _)),
     link(a, 0, flood(80, Announce)),
-    hears(answer(ref(Job, 2, 1), bid(7)), robot),
+    receives(answer(ref(Job, 2, 1), bid(7)), robot),
     link(a, 0, flood(81, award(Job, 2, [here-1]))),
-    hears(answer(ref(Job, 2, 1), reserved), robot),
+    receives(answer(ref(Job, 2, 1), reserved), robot),
     sent(_),
     link(a, 0, flood(82, release(Job, 1, all))),
     sent(Sent),
@@ -182,14 +182,14 @@ test(missed_start_is_repeated_by_a_renewal) :-
 test(a_lost_robot_is_reported) :-
     reserved([]),
     job(Job),
-    hears(lost(ref(Job, 1, 1), preempted), robot),
+    receives(lost(ref(Job, 1, 1), preempted), robot),
     bodies(Bodies),
     memberchk(a-owner(Job, report(1, here, lost(preempted))), Bodies).
 test(robot_learns_whether_it_is_still_needed) :-
     reserved([]),
     job(Job),
-    hears(still(ref(Job, 1, 1)), robot),
-    hears(still(ref(other, 1, 1)), robot),
+    receives(still(ref(Job, 1, 1)), robot),
+    receives(still(ref(other, 1, 1)), robot),
     sent(Sent),
     Sent == [robot-yes(ref(Job, 1, 1)), robot-no(ref(other, 1, 1))].
 
@@ -205,7 +205,7 @@ test(robot_learns_whether_it_is_still_needed) :-
 
 auctioneer(Facts, Job) :-
     node(murdoch, [setting(window, 10), setting(answer, 10)|Facts]),
-    hears(post(task(t, [2-[push]], [])), user),
+    receives(post(task(t, [2-[push]], [])), user),
     fact(job(Job, _, 1, bidding, 0, 0)).
 
 bid(Job, Round, Host, Cost) :-
@@ -259,7 +259,7 @@ test(second_bid_of_a_host_is_ignored) :-
     \+ said(a, award(_, _, _)).
 test(two_teams) :-
     node(murdoch, [setting(window, 10)]),
-    hears(post(task(t, [1-[push], 1-[lift]], [])), user),
+    receives(post(task(t, [1-[push], 1-[lift]], [])), user),
     fact(job(Job, _, 1, _, _, _)),
     tell(Job, bids(1, [x-[1-1, 2-1]])),
     tell(Job, bids(1, [y-[2-9]])),
@@ -432,7 +432,7 @@ test(contractor_that_misses_renewals_is_lost) :-
     memberchk(a-announce(Job, 2, offer(_, _, [_-1], _, _)), Bodies).
 test(a_missed_deadline_releases_all) :-
     node(murdoch, []),
-    hears(post(task(t, [2-[push]], [deadline(25)])), user),
+    receives(post(task(t, [2-[push]], [deadline(25)])), user),
     fact(job(Job, _, 1, _, _, _)),
     executing(Job),
     logged(_),
@@ -444,7 +444,7 @@ test(a_missed_deadline_releases_all) :-
     silent.
 test(two_jobs_of_one_auctioneer_are_independent) :-
     auctioneer([], Job1),
-    hears(post(task(u, [1-[push]], [])), user),
+    receives(post(task(u, [1-[push]], [])), user),
     fact(job(Job2, task(u, _, _), _, _, _, _)),
     bid(Job1, 1, x, 5), bid(Job1, 1, y, 5), bid(Job2, 1, z, 1),
     sent(_),

@@ -51,32 +51,32 @@ nth(c, [_, _, Id], Id).
 :- begin_tests(supervisor).
 
 test(one_for_one, Kept == [a,c]) :-
-    listening(kept(one_for_one, Kept), _).
+    capturing(kept(one_for_one, Kept), _).
 test(rest_for_one, Kept == [a]) :-
-    listening(kept(rest_for_one, Kept), _).
+    capturing(kept(rest_for_one, Kept), _).
 test(one_for_all, Kept == []) :-
-    listening(kept(one_for_all, Kept), _).
+    capturing(kept(one_for_all, Kept), _).
 test(restart_types, [forall(member(Type-Goal-Again,
                                    [ permanent-true-yes, transient-true-no,
                                      transient-dispose-yes,
                                      temporary-dispose-no ]))]) :-
     Children = [a-[restart(Type)]],
     with_hosts([alpha],
-        listening(
+        capturing(
             ( supervised(Children, [], S),
               children(S, Children, [A]),
               agent_send(A, Goal),
               joined(A, _),
               (   Again == yes
               ->  wait_until(( children(S, Children, [B]), B \== A ), 10)
-              ;   wait_until(was_told(informational,
-                                      typhon(log(_, _, down(a, _)))), 10),
+              ;   wait_until(was_printed(informational,
+                                         typhon(log(_, _, down(a, _)))), 10),
                   \+ children(S, Children, _)
               ) ), _)).
 test(too_many_restarts, O == disposed) :-
     Children = [a-[], b-[]],
     with_hosts([alpha],
-        listening(
+        capturing(
             ( supervised(Children, [intensity(2, 60)], S),
               children(S, Children, [A0,B]),
               again(S, Children, A0, A1),
@@ -92,7 +92,7 @@ again(S, Children, A0, A) :-
 test(stop, O == done) :-
     Children = [a-[], b-[]],
     with_hosts([alpha],
-        listening(
+        capturing(
             ( supervised(Children, [], S),
               children(S, Children, [A,B]),
               agent_send(S, stop),
@@ -102,7 +102,7 @@ test(stop, O == done) :-
 test(children_end_with_the_supervisor, [true(O1-O2 == disposed-disposed)]) :-
     Children = [a-[], b-[]],
     with_hosts([alpha],
-        listening(
+        capturing(
             ( supervised(Children, [], S),
               children(S, Children, [A,B]),
               agent_dispose(S),
@@ -116,7 +116,7 @@ test(places, [forall(member(Where-Begins,
                               least_loaded-gamma, tagged(big)-beta,
                               [tagged(none),on(nowhere),on(beta)]-beta ]))]) :-
     with_hosts([alpha,beta,gamma],
-        listening(
+        capturing(
             ( link(alpha, beta), link(alpha, gamma),
               remote(beta, leave(tag(big))),
               worker(W),
@@ -127,12 +127,12 @@ test(places, [forall(member(Where-Begins,
               address(Begins, Host) ), _)).
 test(restart_is_retried_when_capacity_is_free) :-
     with_hosts([alpha],
-        listening(
+        capturing(
             ( worker(W),
               agent_create(agents(supervisor), S,
                            [facts([child(a, W, [where(on(beta))])])]),
-              wait_until(was_told(informational,
-                                  typhon(log(_, _, not_started(a, _)))),
+              wait_until(was_printed(informational,
+                                     typhon(log(_, _, not_started(a, _)))),
                          10),
               \+ children(S, [a-[]], _),
               setup_call_cleanup(
@@ -158,21 +158,21 @@ tree_of(Top, Sub, Leaf) :-
 
 test(restart_of_a_leaf, Sub == Sub0) :-
     with_hosts([alpha],
-        listening(
+        capturing(
             ( tree(Top, Sub0, Leaf0),
               agent_dispose(Leaf0),
               wait_until(( tree_of(Top, Sub, Leaf), Leaf \== Leaf0 ), 10) ),
             _)).
 test(restart_of_a_supervisor) :-
     with_hosts([alpha],
-        listening(
+        capturing(
             ( tree(Top, Sub0, Leaf0),
               agent_dispose(Sub0),
               joined(Leaf0, disposed),
               wait_until(( tree_of(Top, Sub, _), Sub \== Sub0 ), 10) ), _)).
 test(a_supervisor_that_gives_up_is_restarted) :-
     with_hosts([alpha],
-        listening(
+        capturing(
             ( tree(Top, Sub0, Leaf0),
               agent_dispose(Leaf0),
               wait_until(( tree_of(Top, Sub0, Leaf1), Leaf1 \== Leaf0 ), 10),
@@ -180,7 +180,7 @@ test(a_supervisor_that_gives_up_is_restarted) :-
               wait_until(( tree_of(Top, Sub, _), Sub \== Sub0 ), 10) ), _)).
 test(the_tree_ends_with_its_top, O-P == done-disposed) :-
     with_hosts([alpha],
-        listening(
+        capturing(
             ( tree(Top, _, Leaf),
               agent_send(Top, stop),
               joined(Top, O),

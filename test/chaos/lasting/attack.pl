@@ -53,9 +53,9 @@ attacked(Nodes, Options, Wrong) :-
     people(Hosts, Agents, Each, People),
     get_time(Now),
     Deadline is Now+Limit,
-    war(Options),
+    faults_begin(Options),
     all_end(People, Deadline, Ends),
-    peace,
+    faults_end,
     catch(findall(W, wrong(People, Ends, Hosts, Each, Deadline, W), Wrong),
           Ball, true),
     evidence(Ball, Wrong, Ends, Nodes).
@@ -70,7 +70,7 @@ evidence(Ball, Wrong, _, _) :-
 evidence(Ball, _, Ends, Nodes) :-
     forall(( member(Agent-End, Ends), End \== done ),
            format(user_error, '~w: ~p~n', [Agent, End])),
-    nodes_look(Nodes),
+    nodes_check(Nodes),
     nodes_said(Nodes, Lines),
     forall(member(Line, Lines), format(user_error, '~w~n', [Line])),
     (   var(Ball)

@@ -2,9 +2,9 @@
           [ with_nodes/4,               % +Options, -Nodes, :Goal, -Told
             node_host/2,                % ?Node, ?Host
             nodes_said/2,               % +Nodes, -Lines
-            nodes_look/1,               % +Nodes
-            war/1,                      % +Options
-            peace/0
+            nodes_check/1,              % +Nodes
+            faults_begin/1,             % +Options
+            faults_end/0
           ]).
 
 /** <module> Processes with journals, and their faults
@@ -43,7 +43,7 @@ the rest is for one thread.
     orders/1,                           % the first orders of a child
     calm/0,                             % processes that end are not started again
     guard/1,                            % Thread
-    warrior/1,                          % Thread
+    fault_thread/1,                     % Thread
     most/1,                             % that may happen
     happened/2.                         % What, Times
 
@@ -97,7 +97,7 @@ node_host(node(Name, Port, _, _, _), Host) :-
     format(atom(Host), '~w@127.0.0.1:~d', [Name, Port]).
 
 end_all :-
-    peace,
+    faults_end,
     assertz(calm),
     forall(child(_, Pid, _), signalled(Pid, kill)),
     forall(retract(guard(Guard)), thread_join(Guard, _)).
@@ -205,34 +205,34 @@ told(In, Term) :-
                 *              WAR             *
                 *******************************/
 
-%!  war(+Options) is det.
-%!  peace is det.
+%!  faults_begin(+Options) is det.
+%!  faults_end is det.
 %
 %   Options: crash(P), power(P), kill(Seconds) between what happens from
 %   outside, and faults(List): this; most(N): no more faults after N.
 
-war(Options) :-
-    option(crash(P), Options, 0.001),
-    (   option(sync(full), Options)     % nothing else survives that
-    ->  option(power(W), Options, 0)
-    ;   W = 0
-    ),
-    option(kill(Seconds), Options, inf),
-    option(most(Most), Options, inf),
-    assertz(most(Most)),
-    tell_all([dies(P), power(W)]),
-    (   Seconds == inf
-    ->  true
-    ;   option(faults(Faults), Options,
-               [kill, kill, kill_all, stop, cut, full]),
-        thread_create(make_war(Seconds, Faults), Warrior),
-        assertz(warrior(Warrior))
-    ).
+faults_begin(Options) :-
+             option(crash(P), Options, 0.001),
+             (   option(sync(full), Options)     % nothing else survives that
+             ->  option(power(W), Options, 0)
+             ;   W = 0
+             ),
+             option(kill(Seconds), Options, inf),
+             option(most(Most), Options, inf),
+             assertz(most(Most)),
+             tell_all([dies(P), power(W)]),
+             (   Seconds == inf
+             ->  true
+             ;   option(faults(Faults), Options,
+                        [kill, kill, kill_all, stop, cut, full]),
+                 thread_create(make_faults(Seconds, Faults), Thread),
+                 assertz(fault_thread(Thread))
+             ).
 
-peace :-
-    (   retract(warrior(Warrior))
-    ->  thread_send_message(Warrior, peace),
-        thread_join(Warrior, _)
+faults_end :-
+    (   retract(fault_thread(Thread))
+    ->  thread_send_message(Thread, faults_end),
+        thread_join(Thread, _)
     ;   true
     ),
     disarm.
@@ -240,12 +240,12 @@ peace :-
 disarm :-
     tell_all([dies(0), power(0)]).
 
-%!  nodes_look(+Nodes) is det.
+%!  nodes_check(+Nodes) is det.
 %
 %   The processes print their pending data; returns when they have done so, if
 %   they can.
 
-nodes_look(Nodes) :-
+nodes_check(Nodes) :-
     with_mutex(lasting_orders, forall(child(_, _, In), told(In, look))),
     catch(wait_until(\+ ( member(Node, Nodes), \+ looked(Node) ), 10),
           error(timeout_error(_, _), _), true).
@@ -263,25 +263,25 @@ tell_all(Orders) :-
                  forall(( child(_, _, In), member(Order, Orders) ),
                         told(In, Order)) )).
 
-make_war(Seconds, Faults) :-
+make_faults(Seconds, Faults) :-
     Longest is 2*Seconds,
     random(0.0, Longest, Pause),
     (   peace_within(Pause)
     ->  true
     ;   enough
     ->  thread_self(Me),
-        thread_get_message(Me, peace)
+        thread_get_message(Me, faults_end)
     ;   findall(Pid-In, child(_, Pid, In), Children),
         ignore(( random_member(Child, Children),
                  random_member(What, Faults),
                  count(What),
                  happens(What, Child) )),
-        make_war(Seconds, Faults)
+        make_faults(Seconds, Faults)
     ).
 
 peace_within(Seconds) :-
     thread_self(Me),
-    thread_get_message(Me, peace, [timeout(Seconds)]).
+    thread_get_message(Me, faults_end, [timeout(Seconds)]).
 
 happens(kill, Pid-_) :-
     signalled(Pid, kill).
@@ -305,7 +305,7 @@ for_a_while :-
     random(0.1, 2.0, Seconds),
     (   peace_within(Seconds)
     ->  thread_self(Me),
-        thread_send_message(Me, peace)
+        thread_send_message(Me, faults_end)
     ;   true
     ).
 

@@ -49,9 +49,9 @@ said(Nodes, Options, Wrong) :-
     introduced(Talkers),
     get_time(Now),
     Deadline is Now+Limit,
-    war(Options),
+    faults_begin(Options),
     agents_end(Talkers, Deadline, _),
-    peace,
+    faults_end,
     Later is Deadline+Limit,            % on a slow machine
     agents_end(Talkers, Later, Ends),
     findall(W, wrong(Ends, W), Wrong0),
@@ -66,7 +66,7 @@ evidence(Wrong0, Ends, Nodes, Wrong) :-
     findall(A-Facts, ( member(A-End, Ends), End \== done, known(A, Facts) ),
             Left),
     append(Wrong0, Left, Wrong),
-    nodes_look(Nodes),
+    nodes_check(Nodes),
     nodes_said(Nodes, Lines),
     forall(member(Line, Lines), format(user_error, '~w~n', [Line])).
 

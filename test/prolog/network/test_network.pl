@@ -205,7 +205,7 @@ test(network_runs_until_its_agents_end, forall(member(P, [1, 2]))) :-
     with_network(ring(2), [processes(P)], census).
 
 %   An agent and its clone are born on A, and stand on B until they are
-%   told to go; a stranger, from a host that is not of the network, is with
+%   told to go; a visitor, from a host that is not of the network, is with
 %   them.
 
 census(Network) :-
@@ -222,15 +222,15 @@ visited(Network) :-
                                      self(Me), leave(here(Me)),
                                      receive(_-go) ) ]),
                  Agent, [host(A)]),
-    agent_create(clauses([ (:- agent(stranger, [])),
-                           ( main :- move(B), leave(stranger),
+    agent_create(clauses([ (:- agent(visitor, [])),
+                           ( main :- move(B), leave(visitor),
                                      receive(_-go) ) ]),
-                 Stranger, [host(elsewhere)]),
-    wait_until(remote(B, take(stranger)), 5),
+                 Visitor, [host(elsewhere)]),
+    wait_until(remote(B, take(visitor)), 5),
     wait_until(remote(B, take(here(One))), 5),
     wait_until(remote(B, take(here(Two))), 5),
     all_agents(Network, [One, Two]),
-    forall(member(Id, [Agent, Stranger]), gone(Id)),
+    forall(member(Id, [Agent, Visitor]), gone(Id)),
     network_property(Network, agents([Clone])),
     gone(Clone).
 

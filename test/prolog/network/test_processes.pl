@@ -488,7 +488,7 @@ stop_beside_a_hanging_one(Seconds, Errors) :-
     peer_signal(beta, stop),
     forall(between(1, 1000, I), agent_send(C, I)),
     get_time(T0),
-    listening(host_stop(alpha), Told),
+    capturing(host_stop(alpha), Told),
     get_time(T1),
     Seconds is T1-T0,
     findall(Error, member(error-Error, Told), Errors).

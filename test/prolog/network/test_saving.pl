@@ -137,7 +137,7 @@ resumed([Time|Times], Now, End, Network, File) :-
     resumed(Times, Time, End, Next, File).
 
 goes_on_alike(Name) :-
-    listening(with_tmp_dir(goes_on_alike(Name)), _).
+    capturing(with_tmp_dir(goes_on_alike(Name)), _).
 
 goes_on_alike(Name, Dir) :-
     atom_concat(Dir, '/log.pl', Log),
@@ -235,7 +235,7 @@ pause(Seconds) :-
 :- begin_tests(real_networks_are_saved).
 
 test(each_checkpoint_is_consistent, [forall(member(P, [1,3]))]) :-
-    listening(with_tmp_dir(consistent([processes(P)])), _).
+    capturing(with_tmp_dir(consistent([processes(P)])), _).
 test(clock_continues) :-
     with_tmp_dir(clock_goes_on).
 test(appointments_links_and_names_are_restored, true(Said == [early,late])) :-
@@ -248,7 +248,7 @@ test(unresponsive_process, true(Result == [timeout_error,alive])) :-
     with_tmp_dir(hanging(Result)).
 test(missing_process,
      error(existence_error(carrier, _))) :-
-    listening(with_tmp_dir(gone), _).
+    capturing(with_tmp_dir(gone), _).
 test(agent_that_does_not_stop, error(timeout_error(save, _))) :-
     with_tmp_dir(busy).
 
@@ -419,11 +419,11 @@ on_from(File, Seconds) :-
 test(at_random_instants, [forall(scenario(Name, _, _, _))]) :-
     goes_on_alike(Name).
 test(in_another_process) :-
-    listening(with_tmp_dir(interrupted_elsewhere(wanderers)), _).
+    capturing(with_tmp_dir(interrupted_elsewhere(wanderers)), _).
 test(saved_by_an_appointment, true(Text == Whole)) :-
-    listening(with_tmp_dir(by_appointment(Whole, Text)), _).
+    capturing(with_tmp_dir(by_appointment(Whole, Text)), _).
 test(loaded_with_another_log, true(Whole =@= Text)) :-
-    listening(with_tmp_dir(another_log(Whole, Text)), _).
+    capturing(with_tmp_dir(another_log(Whole, Text)), _).
 test(ids_and_names_continue, true(Ids == ['a.v.0@n1@virtual:0',
                                           'a.v.1@n1@virtual:0'])) :-
     with_tmp_dir(ids(Ids)).

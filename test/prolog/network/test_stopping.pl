@@ -19,7 +19,7 @@ agents are.
 stopped(Options, Clauses, Count, Told) :-
     with_settings([ typhon_processes:answer_seconds=30,    % a slow machine
                     typhon_children:stop_seconds=30 ],
-                  listening(setup_call_cleanup(
+                  capturing(setup_call_cleanup(
                                 network_start(ring(6), Network, Options),
                                 busy(Network, Clauses, Count),
                                 network_stop(Network)), Told)).

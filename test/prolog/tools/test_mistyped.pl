@@ -170,7 +170,7 @@ test(agent_that_has_ended) :-
                  says(agent_send(A, x), [" has ended: done"]) )).
 test(destination_host) :-
     with_hosts([alpha],
-               ( listening(( create([(main :- move(alhpa))], A,
+               ( capturing(( create([(main :- move(alhpa))], A,
                                     [host(alpha)]),
                              agent_join(A, raised(Error), 5) ), _),
                  says(throw(Error), ["(did you mean alpha?)"]) )).

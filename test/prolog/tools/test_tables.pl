@@ -54,7 +54,7 @@ doings :-
     create([(main :- receive(_-go(_)))], W1, [name(waits), host(beta)]),
     create([(main :- sleep(7))], S, [name(sleeps), host(alpha)]),
     create([on_message(_, _)], _, [name(stays), host(alpha)]),
-    listening(( create([(main :- foo(_) is _)], F,
+    capturing(( create([(main :- foo(_) is _)], F,
                        [name(errs), host(alpha)]),
                 agent_join(F, _, 0.5) ), _),
     forall(member(A, [W1, W1, S]), agent_send(A, hello)),
@@ -168,7 +168,7 @@ hangs(P2, P3) :-
     assertion(T1-T0 < 15),
     assertion(matches(Hosts, "The process at *has not answered within 1 s")),
     assertion(matches(Agents, "*has not answered within 1 s")),
-    listening(( process_kill(P3, kill),
+    capturing(( process_kill(P3, kill),
                 wait_until(sees(hosts, "n3@* gone*"), 10) ), _),
     assertion(sees(agents, "There is no process at * any more")).
 

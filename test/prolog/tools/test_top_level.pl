@@ -62,7 +62,7 @@ file('hi.pl', ":- agent(hi, []).\non_message(_, _).\n").
 %   the next query is read as a query.
 
 test(error_prints_one_line,
-     [ condition(( missing([python3], []), top_level_goes_on )),
+     [ condition(( missing([python3], []), top_level_continues )),
        Others == [] ]) :-
     with_tmp_dir(mistakes(Others)).
 
@@ -272,7 +272,7 @@ test(mistyped_host_and_port_in_use) :-
 %   A host of another network, whether a person asks or an agent moves.
 
 test(other_cookie_is_not_reported_as_a_dead_host,
-     [ condition(top_level_goes_on),
+     [ condition(top_level_continues),
        true(Xs == [x, x, x, x]) ]) :-
     nb_getval(test_delta, Delta),
     with_cookie('another cookie, of another network',

@@ -47,7 +47,7 @@ jade_manager(Name, fipa(Full, [Url])) :-
     jade_url(Url),
     atom_concat(Name, '@jadeplat', Full).
 
-:- begin_tests(fipa_jade, [ condition(jade_there), setup(jade_start),
+:- begin_tests(fipa_jade, [ condition(jade_available), setup(jade_start),
                             cleanup(jade_stop) ]).
 
 test(jade_requests_succeed) :-

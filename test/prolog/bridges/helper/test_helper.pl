@@ -19,7 +19,7 @@
 
 with_complaining(Goal) :-
     Says = 'echo \'{"error":"no_thing","message":"why"}\'; exit 3',
-    listening(with_helper(Says, Goal), _).
+    capturing(with_helper(Says, Goal), _).
 
 with_helper(Says, Goal) :-
     setup_call_cleanup(
@@ -50,7 +50,7 @@ test(helper_without_its_packages_is_not_restarted,
      Errors-Messages == ["no_thing","no_thing"]-[]) :-
     Says = 'echo \'{"error":"no_thing","message":"why","again":false}\'; \c
             exit 3',
-    no_leaks(listening(with_helper(Says, findall(Error,
+    no_leaks(capturing(with_helper(Says, findall(Error,
                                                  ( member(_, [1,2]),
                                                    asked(Error),
                                                    is_down ),

@@ -380,7 +380,7 @@ test(two_hosts_have_two_connections, Ms == ["m"]) :-
 :- meta_predicate quietly(0).
 
 quietly(Goal) :-
-    listening(Goal, _).
+    capturing(Goal, _).
 
 traveller(Host, Agent) :-
     address(Host, Address),
@@ -534,7 +534,7 @@ no_paho(E, Messages, Dir) :-
         format(Out, '#!/bin/sh~nexec /usr/bin/python3 -S "$@"~n', []),
         close(Out)),
     process_create(path(chmod), ['+x', File], []),
-    listening(with_hosts([alpha],
+    capturing(with_hosts([alpha],
                          catch(mqtt_start(alpha, 'mqtt://127.0.0.1:1',
                                           [python(File)]),
                                error(E, _), true)), Messages).
@@ -655,7 +655,7 @@ stopped_and_started(B, Ps) :-
                 wait_until(down, 10),
                 remote(alpha, ( publish(s, 2, [qos(1)]),
                                 publish(s, 3) )),
-                broker_again(B),
+                broker_restart(B),
                 wait_until(up, 20),
                 wait_until(subscribed_twice(B, s), 10),
                 client_publishes(B, s, ['-m', 4]),
@@ -674,7 +674,7 @@ retained_anew(B, Ps) :-
                 reader(subscribe(r), 2, _),
                 broker_signal(B, term),
                 wait_until(down, 10),
-                broker_again(B),
+                broker_restart(B),
                 client_publishes(B, r, ['-m', 2, '-r', '-q', 1]),
                 got(A, Ms) )),
     findall(P, member(message(_, P, _), Ms), Ps).
@@ -687,7 +687,7 @@ not_there_yet(B, Ps) :-
     with_mqtt(B, [wait(false)],
               ( reader(subscribe(s), 2, A),
                 remote(alpha, publish(s, 1)),
-                broker_again(B),
+                broker_restart(B),
                 wait_until(up, 20),
                 remote(alpha, publish(s, 2)),
                 got(A, Ms) )),
@@ -724,7 +724,7 @@ password(E, R, Dir) :-
                   start_at(Good, [password(secret)], R) )).
 
 start_at(URL, Options, Result) :-
-    listening(with_hosts([alpha],
+    capturing(with_hosts([alpha],
                          catch(( mqtt_start(alpha, URL, Options),
                                  remote(alpha, publish(a, b, [qos(1),
                                                               wait(true)])),

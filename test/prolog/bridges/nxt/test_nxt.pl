@@ -162,8 +162,8 @@ test(without_confirmation) :-
               connected(lizzy, Port, [confirm(false)],
                         ( nxt_run(lizzy, b, 100),
                           nxt_tone(lizzy, 440, 100),
-                          peer_heard(Peer, Run0),
-                          peer_heard(Peer, Tone0)
+                          peer_received(Peer, Run0),
+                          peer_received(Peer, Tone0)
                         ))),
     bytes([0x80,4,1,100,1,0,0,32,d(0)], Run),
     bytes([0x80,3,w(440),w(100)], Tone),
@@ -210,9 +210,9 @@ test(sensor_waits_until_valid, Pressed == true) :-
 test(display) :-
     with_peer(Peer, Port,
               connected(lizzy, Port, [],
-                        ( peer_tell(Peer, 'answer 02950001000a000600'),
+                        ( peer_command(Peer, 'answer 02950001000a000600'),
                           nxt_write(lizzy, 2, 3, 'D'),
-                          peer_heard(Peer, Telegram)
+                          peer_received(Peer, Telegram)
                         ))),
     bytes([1,0x95,d(0xA0001),w(431),w(6),
            127,65,65,34,28,0], Expected),
@@ -232,15 +232,15 @@ same(_, Values, Values0) :-
 answer(Peer, Bytes) :-
     bytes(Bytes, Hex),
     format(atom(Line), 'answer ~w', [Hex]),
-    peer_tell(Peer, Line).
+    peer_command(Peer, Line).
 
 acknowledge(Peer, Request) :-
     sub_atom(Request, 2, 2, _, Opcode),
     format(atom(Line), 'answer 02~w00', [Opcode]),
-    peer_tell(Peer, Line).
+    peer_command(Peer, Line).
 
 heard(Peer, Hex) :-
-    peer_heard(Peer, Heard),
+    peer_received(Peer, Heard),
     assertion(Heard == Hex).
 
 %   sent(Goal, Telegrams)

@@ -42,15 +42,15 @@ test(missing_device, E == nxt_error(open_failed, b)) :-
 test(permission) :-
     project_file('test/lib/nxt_wrapper.py', Python),
     with_peer(Peer, Port,
-              ( peer_tell(Peer, forbid),
-                peer_heard(Peer, forbidden),
+              ( peer_command(Peer, forbid),
+                peer_received(Peer, forbidden),
                 error_of(nxt_connect(b, Port, [python(Python)]), E, _)
               )),
     assertion(E == permission_error(open, nxt_port, Port)).
 test(locked) :-
     with_peer(Peer, Port,
-              ( peer_tell(Peer, lock),
-                peer_heard(Peer, locked),
+              ( peer_command(Peer, lock),
+                peer_received(Peer, locked),
                 error_of(nxt_connect(b, Port), E, _)
               )),
     assertion(E == permission_error(lock, nxt_port, Port)).
@@ -106,7 +106,7 @@ test(refused) :-
               connected(b, Port, [],
                         forall(refusal(Byte, Name),
                                ( atom_concat('answer 020b', Byte, Line),
-                                 peer_tell(Peer, Line),
+                                 peer_command(Peer, Line),
                                  error_of(nxt_battery(b, _), E, C),
                                  assertion(E == nxt_error(refused(Name), b)),
                                  assertion(C = context(
@@ -116,15 +116,15 @@ test(refused) :-
 test(late_replies_are_dropped, MilliVolts == 8000) :-
     with_peer(Peer, Port,
               connected(b, Port, [deadline(30)],
-                        ( peer_tell(Peer, 'raw 0500020b00e803'),
-                          peer_tell(Peer, 'answer 020b00401f'),
+                        ( peer_command(Peer, 'raw 0500020b00e803'),
+                          peer_command(Peer, 'answer 020b00401f'),
                           nxt_battery(b, 1000),
                           nxt_battery(b, MilliVolts)
                         ))).
 test(line_lost, E == nxt_error(line_lost, b)) :-
     with_peer(Peer, Port,
               connected(b, Port, [deadline(30)],
-                        ( peer_tell(Peer, 'lose 0500020b'),
+                        ( peer_command(Peer, 'lose 0500020b'),
                           error_of(nxt_battery(b, _), E, _),
                           error_of(nxt_battery(b, _), Later, _)
                         ))),
@@ -194,9 +194,9 @@ refusal('77', status_119).
 after(What, Error, Context) :-
     with_peer(Peer, Port,
               connected(b, Port, [deadline(2)],
-                        ( peer_tell(Peer, What),
+                        ( peer_command(Peer, What),
                           error_of(nxt_battery(b, _), Error, Context),
-                          peer_tell(Peer, 'answer 020b00401f'),
+                          peer_command(Peer, 'answer 020b00401f'),
                           nxt_battery(b, MilliVolts)
                         ))),
     assertion(MilliVolts == 8000).
@@ -213,11 +213,11 @@ test(killed, E == nxt_error(helper_died(killed(9)), b)) :-
                           thread_create(( error_of(nxt_battery(b, _), F, _),
                                           thread_send_message(Me, said(F))
                                         ), Thread),
-                          peer_heard(Peer, '000b'),
+                          peer_received(Peer, '000b'),
                           process_kill(Pid, kill),
                           thread_get_message(Me, said(E), [timeout(20)]),
                           thread_join(Thread, _),
-                          peer_tell(Peer, 'answer 020b00401f'),
+                          peer_command(Peer, 'answer 020b00401f'),
                           nxt_battery(b, MilliVolts),
                           helper_pid(Other)
                         ))),
@@ -245,7 +245,7 @@ test(stuck, E == nxt_error(helper_died(stuck), b)) :-
 %   An answer that came too late is gone.
 
 answers(Peer, MilliVolts) :-
-    peer_tell(Peer, 'answer 020b00401f'),
+    peer_command(Peer, 'answer 020b00401f'),
     catch(nxt_battery(b, MilliVolts), error(_, _), fail).
 
 test(disconnected_during_a_call, E == existence_error(nxt_brick, b)) :-
@@ -255,7 +255,7 @@ test(disconnected_during_a_call, E == existence_error(nxt_brick, b)) :-
                 thread_create(( error_of(nxt_battery(b, _), F, _),
                                 thread_send_message(Me, said(F))
                               ), Thread),
-                peer_heard(Peer, '000b'),
+                peer_received(Peer, '000b'),
                 nxt_disconnect(b),
                 thread_get_message(Me, said(E), [timeout(20)]),
                 thread_join(Thread, _)
@@ -291,7 +291,7 @@ test(calls_are_serialized, Heard == [ '000b', '000b', '000b', '000b' ]) :-
     with_peer(Peer, Port,
               connected(b, Port, [deadline(30)],
                         ( forall(between(1, 4, _),
-                                 peer_tell(Peer, 'late 0.05 020b00401f')),
+                                 peer_command(Peer, 'late 0.05 020b00401f')),
                           threads(4, nxt_battery(b, 8000)),
                           numlist(1, 4, Ns),
                           maplist(hear(Peer), Ns, Heard)
@@ -331,17 +331,17 @@ at_once(Slow, Fast) :-
     thread_self(Me),
     thread_create(( nxt_battery(slow, V), thread_send_message(Me, slow(V)) ),
                   Thread),
-    peer_heard(Slow, '000b'),
-    peer_tell(Fast, 'answer 020b00401f'),
+    peer_received(Slow, '000b'),
+    peer_command(Fast, 'answer 020b00401f'),
     nxt_battery(fast, 8000),
     assertion(\+ thread_peek_message(Me, slow(_))),
-    peer_tell(Slow, 'now 020b00a00f'),
+    peer_command(Slow, 'now 020b00a00f'),
     thread_get_message(Me, slow(V1), [timeout(20)]),
     thread_join(Thread, _),
     assertion(V1 == 4000).
 
 hear(Peer, _, Heard) :-
-    peer_heard(Peer, Heard).
+    peer_received(Peer, Heard).
 
 many(Goal) :-
     forall(between(1, 30, _), assertion(Goal)).
@@ -366,7 +366,7 @@ threads(Goals) :-
 test(services, Outcome-MilliVolts == done-[8000]) :-
     with_peer(Peer, Port,
               connected(b, Port, [],
-                        ( peer_tell(Peer, 'answer 020b00401f'),
+                        ( peer_command(Peer, 'answer 020b00401f'),
                           with_hosts([alpha-[services(
                                                library(typhon/nxt))]],
                                      ( create([ (main :- nxt_battery(b, V),

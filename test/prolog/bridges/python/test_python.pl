@@ -241,14 +241,14 @@ test(exit, E-R == python_error('SystemExit', "7")-1) :-
                       remote(alpha, echo(1, R)) )).
 test(timeout, E == timeout_error(python(nap), alpha)) :-
     with_python([timeout(0.2), threads(1)],
-                listening(( wait_until(( error_of(nap(3, _), E),
+                capturing(( wait_until(( error_of(nap(3, _), E),
                                          E \= helper_died(stuck, _) ), 30),
                             wait_until(again, 30) ), _)).
 test(printed_output_is_no_answer, R == "done") :-
     with_python([], remote(alpha, noise(R))).
 test(crash) :-
     with_python([],
-                listening(( thread_self(Me),
+                capturing(( thread_self(Me),
                             thread_create(( error_of(nap(20, _), F),
                                             thread_send_message(Me, f(F)) ),
                                           Thread),
@@ -265,7 +265,7 @@ test(crash) :-
                         Messages)).
 test(repeated_crash, R == 5) :-
     with_python([],
-                listening(( forall(between(1, 3, _),
+                capturing(( forall(between(1, 3, _),
                                    ( error_of(leave_process(1, _), _),
                                      wait_until(again, 10) )),
                             remote(alpha, echo(5, R)) ), _)).
@@ -273,7 +273,7 @@ test(calls_during_a_restart_wait_for_the_functions, R == 2) :-
     with_tmp_dir(slow_to_load(R)).
 test(stuck) :-
     with_python([timeout(0.2)],
-                listening(( pid(Pid),
+                capturing(( pid(Pid),
                             stop_process(Pid),
                             error_of(echo(1, _), E),
                             wait_until(again, 30) ), _)),
@@ -306,7 +306,7 @@ slow_to_load(R, Dir) :-
           "def give_up(): os._exit(1)", "def twice(n): return 2*n"], File),
     with_hosts([alpha],
                ( python_start(alpha, File, []),
-                 listening(( error_of(give_up(_), _),
+                 capturing(( error_of(give_up(_), _),
                              remote(alpha, twice(1, R)) ), _) )).
 
 again :-
@@ -496,7 +496,7 @@ after_crash(R, Dir) :-
                ( python_start(alpha, Functions, []),
                  create([ (main :- deliver(twice)) ], A, [payloads([File])]),
                  joined(A, done),
-                 listening(( error_of(leave_process(3, _), _),
+                 capturing(( error_of(leave_process(3, _), _),
                              wait_until(catch(remote(alpha, twice(21, R)),
                                               error(_, _), fail), 10) ), _)
                )).

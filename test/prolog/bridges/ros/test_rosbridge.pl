@@ -273,8 +273,8 @@ test(a_late_answer_is_dropped) :-
         ( wrong(alpha, Agent,
                 ros_call('/slow', 'a/B', [], _, [deadline(0.2)]), _),
           says("call_service", Frame),
-          rosbridge_say(_{op:service_response, id:Frame.id, service:"/slow",
-                          values:_{late:true}, result:true}),
+          rosbridge_send(_{op:service_response, id:Frame.id, service:"/slow",
+                           values:_{late:true}, result:true}),
           does(alpha, Agent, ros_call('/add_two_ints', 'a/B', [a=1,b=1], R)),
           assertion(R.sum == 2) )).
 
@@ -307,8 +307,8 @@ test(a_call_that_is_dropped) :-
                        _, [host(alpha)]),
           says("advertise_service", _),
           forall(member(Id, [c1, c2, c3]),
-                 rosbridge_say(_{ op:call_service, id:Id, service:'/s',
-                                  args:_{} })),
+                 rosbridge_send(_{ op:call_service, id:Id, service:'/s',
+                                   args:_{} })),
           forall(member(Id, ["c2", "c3"]),
                  wait_until(( said("service_response", Frame),
                               Frame.id == Id, Frame.result == false ), 5)),
@@ -410,11 +410,11 @@ test(no_server) :-
 
 with_silent_port(URL, Goal) :-
     setup_call_cleanup(
-        listening(Socket, URL),
+        capturing(Socket, URL),
         once(Goal),
         tcp_close_socket(Socket)).
 
-listening(Socket, URL) :-
+capturing(Socket, URL) :-
     tcp_socket(Socket),
     tcp_setopt(Socket, reuseaddr),
     tcp_bind(Socket, localhost:Port),
@@ -423,7 +423,7 @@ listening(Socket, URL) :-
 
 with_deaf_server(URL, Goal) :-
     setup_call_cleanup(
-        ( listening(Socket, URL),
+        ( capturing(Socket, URL),
           thread_create(deaf(Socket), Thread) ),
         once(Goal),
         ( thread_send_message(Thread, end),
@@ -602,7 +602,7 @@ test(invalid_frame_is_skipped) :-
                                "{\"op\":\"service_response\",\"id\":[1]}",
                                "{\"op\":\"action_result\"}",
                                "{\"a\":1,\"a\":2}" ]),
-                 rosbridge_say(Bad)),
+                 rosbridge_send(Bad)),
           does(alpha, Agent, ros_call('/add_two_ints', 'a/B', [a=1,b=1], R)),
           assertion(R.sum == 2),
           ros_property(alpha, ignored(Count)),
@@ -614,7 +614,7 @@ test(too_long_frame_is_skipped) :-
         ( length(Codes, 4 500 000),
           maplist(=(0'x), Codes),
           string_codes(Long, Codes),
-          rosbridge_say(_{op:publish, topic:"/t", msg:_{data:Long}}),
+          rosbridge_send(_{op:publish, topic:"/t", msg:_{data:Long}}),
           does(alpha, Agent, ros_call('/add_two_ints', 'a/B', [a=1,b=1], R)),
           assertion(R.sum == 2),
           assertion(ros_property(alpha, ignored(1))) ))).

@@ -496,7 +496,7 @@ test(waiting_agents_do_not_count, O == done) :-
 test(limit_holds_after_an_abort, true((O1 == done, \+ overlap(Is)))) :-
     with_hosts([alpha-[concurrency(1)]],
                ( create([(main :- throw(x))], A0),
-                 listening(joined(A0, raised(x)), _),
+                 capturing(joined(A0, raised(x)), _),
                  create([main], A1), joined(A1, O1) )),
     intervals([concurrency(1)], Is).
 
@@ -819,7 +819,7 @@ test(one_of_two_hosts, true(S == resident)) :-
                  agent_property(A, state(S)) )).
 test(with_every_kind_of_agent) :-
     with_hosts([alpha-[hop_time(uniform(1000, 1001))],beta],
-               listening(( stays([], _),
+               capturing(( stays([], _),
                            create([(main :- sleep(1000))], S),
                            create([(main :- receive(_))], W),
                            create([(main :- move(beta))], T),
@@ -928,7 +928,7 @@ test(stop_while_agents_come_and_go) :-
                                      create([(main :- catch(hop, _, true), main),
                                              (hop :- move(beta), move(alpha))],
                                             A, [host(alpha)]) ), As),
-                        listening(host_stop(alpha), _),
+                        capturing(host_stop(alpha), _),
                         forall(member(A, As),
                                catch(agent_dispose(A),
                                      error(existence_error(_, _), _), true)),

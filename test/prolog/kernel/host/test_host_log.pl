@@ -43,7 +43,7 @@ test(reported_once_and_again_after_recovery,
     at(Port, Endpoint),
     atom_concat('log@', Endpoint, Log),
     with_hosts([alpha-[log(Log)]],
-               listening(( ended(3),
+               capturing(( ended(3),
                            with_tmp_dir(test_host_log:comes_back(Port)) ),
                          Messages)),
     told(Messages, [log_unheard(Endpoint), log_heard(Endpoint, Count)]).
@@ -52,7 +52,7 @@ test(each_host_that_starts_is_logged, Count == 2) :-
     at(Port, Endpoint),
     atom_concat('log@', Endpoint, Log),
     Once = with_hosts([alpha-[log(Log)]], ended(1)),
-    listening(( Once, Once ), Messages),
+    capturing(( Once, Once ), Messages),
     told(Messages, Warnings),
     aggregate_all(count, member(log_unheard(Endpoint), Warnings), Count).
 

@@ -22,7 +22,7 @@ write_place(Dir, Name, Age, Text, File) :-
     set_time_file(File, _, [modified(Then)]).
 
 made(Messages) :-
-    listening(make, Messages).
+    capturing(make, Messages).
 
 said(Agent, Colour) :-
     agent_send(Agent, look),

@@ -93,7 +93,7 @@ test(runs_goals, N == 1) :-
                  wait_until(test_scheduler:happened(x), 5) )),
     count(N).
 test(survives_errors, true(N == 20)) :-
-    scheduling(listening(( forall(between(1, 20, I),
+    scheduling(capturing(( forall(between(1, 20, I),
                                   ( scheduler_call(throw(I)),
                                     scheduler_call(fail),
                                     schedule(none, test(throw(I))),
@@ -214,7 +214,7 @@ with_blocked(Settings, Count, Goal, Messages) :-
     forget,
     setup_call_cleanup(
         message_queue_create(_, [alias(test_gate)]),
-        listening(with_settings(Settings,
+        capturing(with_settings(Settings,
                                 with_hosts([alpha],
                                            while_blocked(Count, Goal))),
                   Messages),
@@ -249,8 +249,8 @@ test(others_run_beside_many_that_block, true(N == 30)) :-
 test(similar_agents_wait_in_a_full_pool, true(( Most =< 24, N == 40 ))) :-
     few(Few),
     with_blocked([typhon_scheduler:blocked_workers=16|Few], 40,
-                 ( wait_until(was_told(warning, typhon(pool_full(
-                                           _, blocked_workers, _))), 20),
+                 ( wait_until(was_printed(warning, typhon(pool_full(
+                                              _, blocked_workers, _))), 20),
                    others_end(30),
                    workers_count(Most) ), Messages),
     count(N),
@@ -258,7 +258,7 @@ test(similar_agents_wait_in_a_full_pool, true(( Most =< 24, N == 40 ))) :-
     assertion(Told =< 4).
 test(blocking_goal_is_named, true(Names == [blocked])) :-
     message_queue_create(Q),
-    listening(scheduling([ typhon_scheduler:min_workers=1,
+    capturing(scheduling([ typhon_scheduler:min_workers=1,
                            typhon_scheduler:max_workers=1,
                            typhon_scheduler:blocked_seconds=0.05 ],
                          ( scheduler_call(test_scheduler:blocked(Q, x)),
@@ -269,7 +269,7 @@ test(blocking_goal_is_named, true(Names == [blocked])) :-
     Messages = [warning-typhon(workers_blocked(1, Names))].
 test(three_hundred_agents_that_block, true(O-S == done-done)) :-
     message_queue_create(_, [alias(test_never)]),
-    listening(with_hosts([alpha],
+    capturing(with_hosts([alpha],
                          ( forall(between(1, 300, _),
                                   create([(main :-
                                              thread_get_message(test_never,
@@ -366,7 +366,7 @@ test(scheduler_start_is_atomic,
 test(sleepers_wake_and_the_pool_reports_why_it_does_not_grow,
      true(O-F == done-done)) :-
     message_queue_create(_, [alias(test_never)]),
-    listening(with_settings([typhon_scheduler:blocked_seconds=0.1],
+    capturing(with_settings([typhon_scheduler:blocked_seconds=0.1],
                             with_hosts([alpha], no_room(O, F))), Messages),
     message_queue_destroy(test_never),
     assertion(\+ member(error-_, Messages)).
@@ -379,8 +379,8 @@ no_room(O, F) :-
                       joined(B, F),
                       create_blocked(10),
                       create([main], C),
-                      wait_until(was_told(warning, typhon(pool_full(
-                                              _, no_memory, _))), 10),
+                      wait_until(was_printed(warning, typhon(pool_full(
+                                                 _, no_memory, _))), 10),
                       \+ agent_join(C, done, 0.1) )),
     joined(C, done).
 
@@ -392,14 +392,16 @@ create_blocked(Count) :-
                     of(Count, I) ], _)).
 
 test(ended_timer_is_restarted, true(O == done)) :-
-    listening(with_hosts([alpha],
+    capturing(with_hosts([alpha],
                          ( create([(main :- sleep(0.5))], A),
                            without_threads(
                                wait_until(test_scheduler:timer_ended, 5)),
                            create([(main :- sleep(0.01))], B),
                            joined(B, done),
                            joined(A, O),
-                           wait_until(was_told(error, typhon(server_ended(timer))), 20)
+                           wait_until(was_printed(error,
+                                                  typhon(server_ended(timer))),
+                                      20)
                          )), _).
 
 :- end_tests(no_threads).
@@ -489,7 +491,7 @@ test(valid_alarms_are_kept) :-      % of the last the timer hears later
 test(same_alarm_twice, true(E == [x-t,y-u])) :-
     in_time(same_twice, 2, E).
 test(hook_that_raises, true(E == [x-t])) :-
-    scheduling(listening(( at(0.05, T), at(0.1, U),
+    scheduling(capturing(( at(0.05, T), at(0.1, U),
                            alarm_set(T, test(y), t(_)),
                            alarm_set(U, test(x), t),
                            wait_until(test_scheduler:happened(x-t), 5) ),
@@ -503,7 +505,7 @@ test(alarm_in_the_far_future, true(E == [x-t])) :-
                  wait_until(test_scheduler:happened(x-t), 5) )),
     findall(X, event(X), E).
 test(timer_survives_thrown_exceptions, true(N == 100)) :-
-    scheduling(listening(( at(0.2, T),
+    scheduling(capturing(( at(0.2, T),
                            forall(between(1, 100, I),
                                   ( S is T+I*0.001,
                                     alarm_set(S, test(I), t),
@@ -511,20 +513,22 @@ test(timer_survives_thrown_exceptions, true(N == 100)) :-
                            wait_until(test_scheduler:count(100), 5) ), _)),
     count(N).
 test(aborted_timer_is_replaced, true(N == 100)) :-
-    scheduling(listening(( at(0.3, T),
+    scheduling(capturing(( at(0.3, T),
                            forall(between(1, 100, I),
                                   ( S is T+I*0.001,
                                     alarm_set(S, test(I), t) )),
                            timer_signal(abort),
                            wait_until(( test_scheduler:count(100),
-                                        was_told(error, typhon(server_ended(timer))) ),
+                                        was_printed(
+                                            error,
+                                            typhon(server_ended(timer))) ),
                                       20) ), _)),
     count(N).
 test(stack_overflow, true(E == [x-t])) :-
     setup_call_cleanup(
         ( current_prolog_flag(stack_limit, Limit),
           set_prolog_flag(stack_limit, 1 000 000) ),
-        scheduling(listening(( at(1000, T), at(1.5, U),
+        scheduling(capturing(( at(1000, T), at(1.5, U),
                                forall(between(1, 20000, J),
                                       ( S is T+J, alarm_set(S, test(J), t) )),
                                alarm_set(U, test(x), t),
@@ -534,7 +538,7 @@ test(stack_overflow, true(E == [x-t])) :-
     memberchk(warning-typhon(no_index(_)), Messages),
     findall(X, event(X), E).
 test(answered_agents_leave_no_alarms, true(N =< 1000)) :-
-    listening(answered(N), _).
+    capturing(answered(N), _).
 
 answered(N) :-
     with_hosts([alpha],

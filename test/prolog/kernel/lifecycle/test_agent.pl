@@ -36,7 +36,7 @@ ends(Clauses, Outcome, Messages) :-
 
 ends(Clauses, Options, Outcome, Messages) :-
     with_hosts([alpha,beta],
-               listening(( create(Clauses, Agent, Options),
+               capturing(( create(Clauses, Agent, Options),
                            joined(Agent, Outcome) ), Messages)).
 
 gone(Agent) :-
@@ -539,18 +539,18 @@ test(expired_timeout_does_not_affect_later_receives, F == [s(late),s(x)]) :-
 test(failing_handler,
      true(M-F = [warning-typhon(message_failed(_, user, bad))]-[s(good)])) :-
     with_hosts([alpha],
-               listening(mailed([(on_message(_, good) :- assertz(s(good)))],
+               capturing(mailed([(on_message(_, good) :- assertz(s(good)))],
                                 [bad,good], F), M)).
 test(failing_handler_after_a_move,
      true(M-F = [warning-typhon(message_undone(_, user, bad, _))]
                 -[s(good)])) :-
     with_hosts([alpha,beta],
-               listening(mailed([(on_message(_, bad) :- move(beta), fail),
+               capturing(mailed([(on_message(_, bad) :- move(beta), fail),
                                  (on_message(_, good) :- assertz(s(good)))],
                                 [bad,good], F), M)).
 test(raising_handler, true(O = raised(oops))) :-
     with_hosts([alpha],
-               listening(( create([(on_message(_, _) :- throw(oops))], A),
+               capturing(( create([(on_message(_, _) :- throw(oops))], A),
                            wait_state(A, resident),
                            agent_send(A, hello),
                            joined(A, O) ), _)).
@@ -606,7 +606,7 @@ test(dispose_in_a_handler, O == disposed) :-
 test(raised_term_is_kept, true(O-S-M = raised(oops)-faulty(oops)
                                -[error-typhon(faulty(A, oops, _))])) :-
     with_hosts([alpha],
-               listening(( create([s(1), (main :- throw(oops))], A),
+               capturing(( create([s(1), (main :- throw(oops))], A),
                            joined(A, O),
                            agent_property(A, state(S)),
                            agent_property(A, facts([s(1)])) ), M)).
@@ -616,12 +616,12 @@ test(raised_term_that_cannot_travel, true(O = raised(_))) :-
     ends([(main :- current_output(S), throw(S))], O, _).
 test(faulty_agent_takes_no_capacity, L == 0) :-
     with_hosts([alpha],
-               listening(( create([(main :- throw(oops))], A),
+               capturing(( create([(main :- throw(oops))], A),
                            joined(A, _),
                            host_property(alpha, load(L)) ), _)).
 test(faulty_agent_can_be_disposed_of, O == raised(oops)) :-
     with_hosts([alpha],
-               listening(( create([(main :- throw(oops))], A),
+               capturing(( create([(main :- throw(oops))], A),
                            joined(A, _),
                            agent_dispose(A),
                            gone(A),
@@ -630,7 +630,7 @@ test(faulty_agent_can_be_disposed_of, O == raised(oops)) :-
 test(faulty_agents_are_bounded, N == 3) :-
     with_settings([typhon_creation:faulty=3],
         with_hosts([alpha],
-                   listening(( findall(A, ( between(1, 10, _),
+                   capturing(( findall(A, ( between(1, 10, _),
                                             create([(main :- throw(x))], A) ),
                                        As),
                                maplist(joined, As, _),
@@ -807,13 +807,13 @@ test(sleep_continues_after_a_move_order, O-T == done-200.0) :-
 test(move_of_a_static_agent,
      true(M = [warning-typhon(order_failed(_, permission_error(move, _, _)))])) :-
     with_hosts([alpha,beta],
-               listening(( create([on_message(_, _)], A, [static(true)]),
+               capturing(( create([on_message(_, _)], A, [static(true)]),
                            agent_move(A, beta),
                            payload_attach(A, payload(x, [], [])) ), M)).
 test(move_that_is_refused,
      true(M = [warning-typhon(order_failed(_, move_refused(_, capacity)))])) :-
     with_hosts([alpha,beta-[capacity(0)]],
-               listening(( create([on_message(_, _)], A),
+               capturing(( create([on_message(_, _)], A),
                            agent_move(A, beta),
                            payload_attach(A, payload(x, [], [])),
                            wait_state(A, resident) ), M)).

@@ -90,7 +90,7 @@ test(change_with_a_declared_fact, Facts == [todo(a)]) :-
 test(implicit_state_may_be_added_to,
      Facts == [extra(1), extra(2)]) :-
     with_hosts([alpha],
-               listening(( create([(main :- assertz(extra(1)), receive(_))],
+               capturing(( create([(main :- assertz(extra(1)), receive(_))],
                                   A),
                            wait_state(A, waiting),
                            agent_change(A, facts([extra(2)])),

@@ -72,7 +72,7 @@ test(running_agent_is_reported, Ms == [warning-typhon(runs_on(A, 0.1))]) :-
     with_settings([typhon_disposal:heed_seconds=0.1],
                   with_hosts([alpha],
                              ( start(loops, A),
-                               listening(agent_dispose(A), Ms),
+                               capturing(agent_dispose(A), Ms),
                                agent_property(A, state(running)),
                                agent_dispose(A, [force(0)]) ))).
 test(waits_for_an_agent_that_stops, Ms-O == []-disposed) :-
@@ -81,7 +81,7 @@ test(waits_for_an_agent_that_stops, Ms-O == []-disposed) :-
                              ( ending_when_asked(
                                    [ (main :- busy, sleep(100)),
                                      (busy :- over -> true ; busy) ], A,
-                                   listening(agent_dispose(A), Ms)),
+                                   capturing(agent_dispose(A), Ms)),
                                gone(A),
                                agent_join(A, O, 5) ))).
 test(agent_that_ends_by_itself, Ms == []) :-
@@ -89,7 +89,7 @@ test(agent_that_ends_by_itself, Ms == []) :-
                   with_hosts([alpha],
                              ( ending_when_asked(
                                    [(main :- over -> true ; main)], A,
-                                   took(listening(agent_dispose(A), Ms),
+                                   took(capturing(agent_dispose(A), Ms),
                                         Seconds)),
                                Seconds < 15,
                                agent_join(A, done, 5) ))).
@@ -98,14 +98,14 @@ test(agent_that_raises_during_disposal) :-
                   with_hosts([alpha],
                              ( ending_when_asked(
                                    [(main :- over -> throw(oops) ; main)], A,
-                                   listening(agent_dispose(A), Ms)),
+                                   capturing(agent_dispose(A), Ms)),
                                \+ memberchk(warning-typhon(runs_on(_, _)), Ms),
                                gone(A) ))).
 test(in_a_cleanup_handler, Ms == [warning-typhon(runs_on(A, 0.3))]) :-
     with_settings([typhon_disposal:heed_seconds=0.3],
                   with_hosts([alpha],
                              ( start(loops, A),
-                               listening(setup_call_cleanup(
+                               capturing(setup_call_cleanup(
                                              true, true, agent_dispose(A)),
                                          Ms),
                                agent_dispose(A, [force(0)]) ))).
@@ -113,7 +113,7 @@ test(disposing_agent_does_not_wait, Ms == []) :-
     with_settings([typhon_disposal:heed_seconds=20],
                   with_hosts([alpha],
                              ( start(loops, A),
-                               listening(( create([ (main :- s(X),
+                               capturing(( create([ (main :- s(X),
                                                      typhon:agent_dispose(X)) ],
                                                   B, [facts([s(A)])]),
                                            took(joined(B, done), Seconds) ),
@@ -122,7 +122,7 @@ test(disposing_agent_does_not_wait, Ms == []) :-
                                agent_dispose(A, [force(0)]) ))).
 test(agent_that_disposes_of_itself, Ms == []) :-
     with_hosts([alpha],
-               listening(( create([ (main :- self(X), typhon:agent_dispose(X),
+               capturing(( create([ (main :- self(X), typhon:agent_dispose(X),
                                              sleep(100)) ], A),
                            joined(A, disposed) ), Ms)).
 
@@ -140,13 +140,13 @@ test(negative_seconds_are_zero, O == disposed) :-
 test(agent_that_stops_in_time_is_not_forced, Ms == []) :-
     with_hosts([alpha],
                ( create([(main :- sleep(0.01), main)], A),
-                 listening(agent_dispose(A, [force(10)]), Ms),
+                 capturing(agent_dispose(A, [force(10)]), Ms),
                  gone(A) )).
 test(no_choice_point_is_left, Det == [true,true]) :-
     with_settings([typhon_disposal:heed_seconds=0.1],
                   with_hosts([alpha],
                              ( start(loops, A),
-                               listening(call_cleanup(agent_dispose(A),
+                               capturing(call_cleanup(agent_dispose(A),
                                                       D1 = true), _),
                                call_cleanup(agent_dispose(A, [force(0)]),
                                             D2 = true) ))),
@@ -214,7 +214,7 @@ test(later_callers_get_the_outcome, true(E = existence_error(agent, _))) :-
     with_settings([typhon_disposal:heed_seconds=0.01],
                   with_hosts([alpha],
                              ( start(loops, A),
-                               listening(agent_dispose(A), _),
+                               capturing(agent_dispose(A), _),
                                clone_in_vain(A, E) ))).
 
 clone_in_vain(A, E) :-
@@ -245,7 +245,7 @@ test(warning_in_virtual_time, Ms == [warning-typhon(runs_on(A, 0.1))]) :-
                              ( create([ (main :- lp), (lp :- lp) ], A),
                                thread_create(agent_join(A, _, inf), T),
                                wait_until(running_for(A, 0.02), 10),
-                               listening(agent_dispose(A), Ms),
+                               capturing(agent_dispose(A), Ms),
                                agent_dispose(A, [force(0)]),
                                thread_join(T, true) ))).
 test(virtual_host_is_stopped, O == done) :-
@@ -265,7 +265,7 @@ test(no_false_warning_during_host_stop, Ms == []) :-
     setup_call_cleanup(
         message_queue_create(Queue, [alias(disposal_test)]),
         with_settings([typhon_hosting:stop_seconds=60],
-                      with_hosts([alpha], listening(says_in_vain, Ms))),
+                      with_hosts([alpha], capturing(says_in_vain, Ms))),
         message_queue_destroy(Queue)).
 
 says_in_vain :-

@@ -46,7 +46,7 @@ saved(Agent, Copy, Dir) :-
 says(Lines, Text) :-
     with_program(Lines, File,
                  with_hosts([alpha,beta],
-                            listening(( agent_create(File, A,
+                            capturing(( agent_create(File, A,
                                                      [host(alpha)]),
                                         joined(A, _) ), Messages))),
     once(told(Messages, Text)).
@@ -79,7 +79,7 @@ faulty(Clauses, Agent) :-
 :- meta_predicate on(+, 0).
 
 on(Hosts, Goal) :-
-    with_hosts(Hosts, listening(Goal, _)).
+    with_hosts(Hosts, capturing(Goal, _)).
 
 stands(Agent, Host) :-
     address(Host, Address),
@@ -339,7 +339,7 @@ test(mail_is_kept_for_a_faulty_agent, true(M-O == [user-1,user-2]-done)) :-
 test(mail_of_a_faulty_agent_is_bounded, true(M-W == [user-1,user-2]-1)) :-
     with_settings([typhon_creation:faulty_mail=2],
         with_hosts([alpha],
-                   listening(( faulty([(main :- s(1))], A),
+                   capturing(( faulty([(main :- s(1))], A),
                                maplist(agent_send(A), [1,2,3,4]),
                                agent_property(A, mailbox(M)) ), Told))),
     aggregate_all(count, member(_-typhon(mailbox_full(_, 2)), Told), W).
@@ -446,10 +446,10 @@ test(error_with_an_unprintable_term, true(E == type_error(expression, 'a cyclic 
 
 after_mail(Clauses, Message, Told) :-
     with_hosts([alpha,beta],
-               listening(( create(Clauses, A, [host(alpha)]),
+               capturing(( create(Clauses, A, [host(alpha)]),
                            wait_state(A, resident),
                            agent_send(A, Message),
-                           wait_until(was_told(warning, _), 10),
+                           wait_until(was_printed(warning, _), 10),
                            wait_state(A, resident) ), Told)).
 
 test(no_clause_for_the_message,
@@ -503,7 +503,7 @@ broken_once(Agent, Error, Goals) :-
 
 test(agent_is_faulty_and_reported,
      true(Told-Error-Goals == true-step_not_completed-[main])) :-
-    with_hosts([alpha], listening(broken_once(A, Error, Goals), Messages)),
+    with_hosts([alpha], capturing(broken_once(A, Error, Goals), Messages)),
     ( member(error-typhon(faulty(A, _, _)), Messages) -> Told = true
     ; Told = Messages
     ).

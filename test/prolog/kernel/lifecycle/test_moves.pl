@@ -65,7 +65,7 @@ test(refusal_is_an_error_and_no_warning,
     with_hosts([alpha, beta-[capacity(0)]],
                ( address(beta, Beta),
                  resident(A, []),
-                 listening(moved(A, beta, Formal), Warnings),
+                 capturing(moved(A, beta, Formal), Warnings),
                  assertion(stands(A, alpha)) )).
 test(refusal_by_another_process_is_an_error,
      Formal == move_refused(Beta, capacity)) :-

@@ -69,10 +69,10 @@ test(join_fails_at_the_timeout, X == late) :-
                 ( agent_result(A, X, 99) -> true ; X = late ),
                 agent_result(A, 1, 2) )).
 test(result_given_before_a_failure, X-O == 1-failed) :-
-    virtually(listening(( create([(main :- result(1), fail)], A),
+    virtually(capturing(( create([(main :- result(1), fail)], A),
                           agent_result(A, X, 10), joined(A, O) ), _)).
 test(result_given_before_an_exception, X == 1) :-
-    virtually(listening(( create([(main :- result(1), throw(oops))], A),
+    virtually(capturing(( create([(main :- result(1), throw(oops))], A),
                           agent_result(A, X, 10) ), _)).
 test(result_given_before_disposal, X == 1) :-
     virtually(( create([(main :- result(1), receive(_))], A),
@@ -109,7 +109,7 @@ test(result_that_cannot_travel, M == mobile_term) :-
                 agent_result(A, M, 10) )).
 test(too_large_result,
      true(O = raised(error(resource_error(result_bytes), _)))) :-
-    virtually(listening(( create([(main :- numlist(1, 500000, L),
+    virtually(capturing(( create([(main :- numlist(1, 500000, L),
                                            result(L))], A),
                           joined(A, O) ), _)).
 test(largest_accepted_result, N == 999900) :-
@@ -241,7 +241,7 @@ value(Agent, X) :-
     catch(agent_result(Agent, X, 0), error(existence_error(_, _), _), X = 0).
 
 test(outcomes_of_their_own, Os == [disposed,done,failed]) :-
-    virtually(listening(( create([ (main :- clone(V), ( V = clone(_) -> true
+    virtually(capturing(( create([ (main :- clone(V), ( V = clone(_) -> true
                                             ; clone(W), ( W = clone(_) -> fail
                                             ; dispose ) )) ], A),
                           agent_join(family(A), Pairs, 10) ), _)),

@@ -153,7 +153,7 @@ operators_included(Clauses) :-
                test_program:clauses_of(Clauses)).
 
 check(Lines, Messages) :-
-    listening(with_file(Lines, agent_check), Messages0),
+    capturing(with_file(Lines, agent_check), Messages0),
     findall(M, ( member(M0, Messages0), short(M0, M) ), Messages).
 
 short(Kind-error(_, at(_:Line, _, _)), Kind-Line).

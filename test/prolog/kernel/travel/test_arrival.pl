@@ -118,4 +118,4 @@ alone :-
 :- meta_predicate quietly(0).
 
 quietly(Goal) :-
-    listening(Goal, _).
+    capturing(Goal, _).

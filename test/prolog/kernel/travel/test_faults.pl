@@ -353,21 +353,21 @@ accounted_for(Id) :-
 :- begin_tests(unauthenticated_clients).
 
 test(unauthenticated_clients_do_not_disturb_others,
-     forall(stranger(Stranger))) :-
-    with_peers([a, b], visited_by(Stranger)).
+     forall(client(Client))) :-
+    with_peers([a, b], visited_by(Client)).
 test(silent_processes_do_not_block) :-
     with_peers([a, b], visited_by_silence).
 
 :- end_tests(unauthenticated_clients).
 
-stranger(garbage).
-stranger(http).
-stranger(goal).
-stranger(frame).
-stranger(oversize).
-stranger(hurried).
+client(garbage).
+client(http).
+client(goal).
+client(frame).
+client(oversize).
+client(hurried).
 
-%   says(Stranger, Bytes): what it sends.
+%   says(Client, Bytes): what it sends.
 
 says(garbage, [0, 255, 10, 13, 10, 1, 2, 3]).
 says(http, `GET / HTTP/1.0\r\n\r\n`).
@@ -384,8 +384,8 @@ says(hurried, []).
 
 %   Two agents hop between a and b all the while.  One line is printed.
 
-visited_by(Stranger) :-
-    says(Stranger, Bytes),
+visited_by(Client) :-
+    says(Client, Bytes),
     peer_host(a, A),
     peer_host(b, B),
     findall(Id, ( between(1, 2, _), set_out(a, [B, A], 300, Id) ), Ids),

@@ -89,19 +89,19 @@ test(message_to_an_ended_agent, error(existence_error(agent, _))) :-
                ( create([main], A), joined(A, done), agent_send(A, hello) )).
 test(message_to_a_faulty_agent_is_kept, true(M == [user-hello])) :-
     with_hosts([alpha],
-               listening(( create([(main :- throw(x))], A),
+               capturing(( create([(main :- throw(x))], A),
                            joined(A, _),
                            agent_send(A, hello),
                            agent_property(A, mailbox(M)) ), _)).
 test(to_unknown_agent_from_an_agent,
      true(O-M = done-[warning-typhon(undeliverable(_, foo, _, hello))])) :-
     with_hosts([alpha],
-               listening(( create([(main :- send(foo, hello))], A),
+               capturing(( create([(main :- send(foo, hello))], A),
                            joined(A, O) ), M)).
 test(message_to_the_user,
      true(M = [informational-typhon(told(_, hello))])) :-
     with_hosts([alpha],
-               listening(( create([(main :- send(user, hello))], A),
+               capturing(( create([(main :- send(user, hello))], A),
                            joined(A, done) ), M)).
 test(message_to_an_address_without_a_process,
      error(host_unreachable('127.0.0.1:1'))) :-
@@ -111,8 +111,9 @@ test(message_to_an_unreachable_process_is_dropped_after_a_time,
     Id = 'x.1.2@gamma@127.0.0.1:none',
     with_hosts([alpha],
                with_settings([typhon_news:news_seconds=1],
-                             listening(( passed_on(Id, hello),
-                                         wait_until(was_told(warning, _), 60) ),
+                             capturing(( passed_on(Id, hello),
+                                         wait_until(was_printed(warning, _),
+                                                    60) ),
                                        M))).
 test(in_order, true(Ns == Sent)) :-
     numlist(1, 1000, Sent),

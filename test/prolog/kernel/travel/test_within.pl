@@ -44,7 +44,7 @@ test(refusal_after_the_hop_delay_is_an_error_of_the_move,
      F-Warnings == [s(move_refused(Beta, capacity))]-[]) :-
     with_hosts([ alpha-[hop_time(uniform(0.01, 0.02))], beta-[capacity(0)] ],
                ( address(beta, Beta),
-                 listening(( create([ ( main :-
+                 capturing(( create([ ( main :-
                                             catch(move(beta), error(E, _),
                                                   assertz(s(E))) ),
                                       on_message(_, _) ], A),
@@ -94,8 +94,8 @@ test(order_that_cannot_be_executed, true(At-Ended == alpha-disposed)) :-
                           on_message(_, _) ], A),
                  wait_state(A, resident),
                  Told = typhon(order_failed(A, _)),
-                 listening(( agent_move(A, beta),
-                             wait_until(was_told(warning, Told), 5) ), _),
+                 capturing(( agent_move(A, beta),
+                             wait_until(was_printed(warning, Told), 5) ), _),
                  wait_state(A, resident),
                  stands(A, At),
                  agent_dispose(A),

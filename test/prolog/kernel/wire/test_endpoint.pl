@@ -99,7 +99,7 @@ port_of(Address, Port) :-
     atomic_list_concat([_, PortText], :, Address),
     atom_number(PortText, Port).
 
-open_stranger(Address, Stream) :-
+open_client(Address, Stream) :-
     port_of(Address, Port),
     tcp_connect('127.0.0.1':Port, Stream, []).
 
@@ -118,7 +118,7 @@ with_listener(Queue, Address, Goal) :-
 with_deaf(Address, Goal) :-
     with_listener(0, Address,
         setup_call_cleanup(
-            open_stranger(Address, First),
+            open_client(Address, First),
             Goal,
             close(First))).
 
@@ -700,7 +700,7 @@ test(invalid_input,
      [forall(member(Text, [ "", "\n", "GET / HTTP/1.1\r\n\r\n",
                             "typhon 3 x y\n", "typhon 1 a b\n" ]))]) :-
     with_endpoint(( endpoint_address(A),
-                    quiet(( stranger(A, Text),
+                    quiet(( client(A, Text),
                             wait_until(warned(turned_away(_, _)), 5) )),
                     ask(A, echo, x, x) )).
 test(silent_clients_are_bounded) :-
@@ -713,14 +713,14 @@ test(wrong_cookie) :-
                             wait_until(warned(turned_away(_, cookie)), 10) ))
                   )).
 
-stranger(Address, Text) :-
-    open_stranger(Address, Stream),
+client(Address, Text) :-
+    open_client(Address, Stream),
     catch(( write(Stream, Text), flush_output(Stream) ), error(_, _), true),
     close(Stream, [force(true)]).
 
 crowd :-
     endpoint_address(A),
-    findall(S, ( between(1, 8, _), open_stranger(A, S) ), Streams),
+    findall(S, ( between(1, 8, _), open_client(A, S) ), Streams),
     wait_until(aggregate_all(count, warned(turned_away(_, silent)), 4), 5),
     wait_until(aggregate_all(count, typhon_acceptor:unproved(_, _, _, _), 4),
                5),

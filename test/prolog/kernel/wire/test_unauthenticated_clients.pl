@@ -93,7 +93,7 @@ newcomer(I, Seconds) :-
     atom_concat(newcomer, I, Process),
     setup_call_cleanup(connected(Client),
                        ( Client = streams(In, Out),
-                         prove_oneself(In, Out, Process) ),
+                         client_authenticate(In, Out, Process) ),
                        closed(Client)),
     get_time(T1),
     Seconds is T1-T0.
@@ -222,7 +222,7 @@ breaks_off(Text, Level, Formal) :-
         ( setup_call_cleanup(
               connected(Client),
               ( Client = streams(In, Out),
-                prove_oneself(In, Out, breaker),
+                client_authenticate(In, Out, breaker),
                 say(Text, Client) ),
               closed(Client)),
           wait_until(broken(Level, Formal), 30) )).

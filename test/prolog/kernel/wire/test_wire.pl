@@ -169,12 +169,12 @@ test(slot_of_an_unauthenticated_client_is_freed, Outcome = outcome(ok, _)) :-
               atomic_list_concat([_, PortText], :, Me),
               atom_number(PortText, Port),
               setup_call_cleanup(
-                  tcp_connect('127.0.0.1':Port, Stranger, []),
+                  tcp_connect('127.0.0.1':Port, Client, []),
                   ( peer(A, _, In-Out),
                     command(In, greet(Me, 0)),
                     wait_until(test_wire:place_wanted, 20)
                   ),
-                  close(Stranger, [force(true)])),
+                  close(Client, [force(true)])),
               read(Out, Outcome) )))).
 test(no_process_at_the_address, Answers == Expected) :-
     numlist(1, 300, Numbers),

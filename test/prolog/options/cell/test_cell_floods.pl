@@ -40,7 +40,7 @@ test(new_functors_are_charged_to_the_owner_until_its_turns_end,
      [ ended(lost(cell(violation(functors)))),
        ended(lost(cell(violation(functors)))), true, true, 2 ]) :-
     with_settings([typhon_cells:functors=30 000],
-                  with_inmates(listening(functors_charged([First,Next], Before,
+                  with_inmates(capturing(functors_charged([First,Next], Before,
                                                           After, Lines), _))).
 test(quota_exceeded_in_a_cell_is_audited,
      Outcome = ended(raised(error(resource_error(stack), _)))) :-

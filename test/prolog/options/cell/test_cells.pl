@@ -197,7 +197,7 @@ test(supervisor_restarts_its_children, [Outcome,Last] == [done,disposed]) :-
                           facts([child(w, clauses([ (:- agent(w, [])),
                                                     (main :- receive(_), fail)
                                                   ]), [])]) ]),
-           listening(( result([ (main :- receive(_-ask(S1)), child(S1, A),
+           capturing(( result([ (main :- receive(_-ask(S1)), child(S1, A),
                                          send(A, go), another(S1, A)),
                                 (another(S1, A) :- child(S1, B),
                                                    ( B \== A
@@ -252,7 +252,7 @@ bridge_called(Calls, Ended, Passed, Dir) :-
 called(Calls, Call, Outcome) :-
     member(Call, Calls),
     create([ (main :- Call) ], A, [host(c)]),
-    listening(agent_join(A, Outcome, 30), _).
+    capturing(agent_join(A, Outcome, 30), _).
 
 :- public twice/2, thrice/2.
 
@@ -311,7 +311,7 @@ test(killed_cell_ends_only_its_running_agents,
            wait_until(used_cells(1), 30),
            cells_list(Cells),
            once(( member(cell(_, Pid, Key), Cells), Key \== spare )),
-           listening(( process_kill(Pid, kill), agent_join(Runs, Lost, 30) ),
+           capturing(( process_kill(Pid, kill), agent_join(Runs, Lost, 30) ),
                      Messages),
            assertion(memberchk(warning-typhon(cell_ended(_, c, _, lost(_))),
                                Messages)),
@@ -387,13 +387,13 @@ test(guarded_policy_gives_each_owner_a_cell, Cells == 1) :-
     with_hosts([c-[policy(guarded)]], ( outcome([main], done),
                                         used_cells(Cells) )).
 test(cell_none_warns_once, Cells-Count == []-1) :-
-    listening(( with_hosts([c-[policy(guarded), cell(none)]],
+    capturing(( with_hosts([c-[policy(guarded), cell(none)]],
                            ( outcome([main], done), cells_list(Cells) )),
                 with_hosts([c-[policy(guarded), cell(none)]], true) ),
               Messages),
     was_warned(none, Messages, Count).
 test(guarded_policy_without_cells_warns, Outcome-Count == done-1) :-
-    listening(with_hosts([c-[policy(guarded), quota([inferences(1 000 000)])]],
+    capturing(with_hosts([c-[policy(guarded), quota([inferences(1 000 000)])]],
                          outcome([main], Outcome)),
               Messages),
     was_warned(permission_error(_, cell, _), Messages, Count).

@@ -99,7 +99,7 @@ test(offer_lapses_when_the_agent_ends, Agents == []) :-
 test(offer_lapses_when_the_agent_is_faulty, Agents == []) :-
     with_hosts([alpha],
                ( create([(main :- offer(shop, []), throw(oops))], A),
-                 listening(joined(A, raised(oops)), _),
+                 capturing(joined(A, raised(oops)), _),
                  agents_found(alpha, shop, [], Agents) )).
 test(too_many_offers, E == resource_error(offers)) :-
     with_hosts([alpha],

@@ -253,7 +253,7 @@ outcome(Clauses, Outcome) :-
 
 test(each_attack_is_refused, Through == []) :-
     with_hosts([g-[policy(guarded), cell(none)]],
-               listening(findall(G, ( attack(G), \+ refused(G) ), Through),
+               capturing(findall(G, ( attack(G), \+ refused(G) ), Through),
                          _)).
 
 test(constructed_goals_are_checked, Escaped-Count == 0-many) :-
@@ -311,12 +311,12 @@ test(services_cannot_be_changed_or_read, Rs == [[],[],[],[x],[x]]-[1,2]) :-
 test(rules_in_a_file, Os == [done,refused]) :-
     with_tmp_dir(by_rules(Os)).
 test(check_reports_refusals_beforehand, Ms = [_]) :-
-    listening(\+ agent_check(clauses([(:- agent(x, [])), (main :- halt)]),
+    capturing(\+ agent_check(clauses([(:- agent(x, [])), (main :- halt)]),
                              [policy(guarded)]),
               Ms0),
     findall(W, member(error-typhon(not_let_in(W, _)), Ms0), Ms).
 test(check_of_admissible_programs) :-
-    listening(agent_check(clauses([(:- agent(x, [])), (main :- self(_))]),
+    capturing(agent_check(clauses([(:- agent(x, [])), (main :- self(_))]),
                           [policy(guarded)]),
               _).
 test(changed_policy_applies_from_now_on,
@@ -356,7 +356,7 @@ often(Often-Outcome, Dir) :-
                                     forall(open(_), true)) ], A),
                  agent_join(A, Often, 5),
                  created([ (main :- repeat, catch(open(_), _, true), fail) ], B),
-                 listening(agent_join(B, Outcome, 5), _) )).
+                 capturing(agent_join(B, Outcome, 5), _) )).
 
 created(Clauses, A) :-
     create(Clauses, A, [host(g)]).
@@ -462,7 +462,7 @@ test(endless_findall_exceeds_a_quota,
      true(memberchk(What, [seconds, stack]))) :-
     quota_of(seconds, Quotas),
     with_hosts([g-[policy(guarded), cell(none), quota(Quotas)]],
-               listening(outcome([ (main :- findall(X, between(1, inf, X), _)) ],
+               capturing(outcome([ (main :- findall(X, between(1, inf, X), _)) ],
                                  Outcome), _)),
     Outcome = raised(error(resource_error(What), _)).
 %   Nothing that it does when it has caught an interrupt keeps it there.
@@ -472,7 +472,7 @@ test(caught_interrupt_ends_the_agent_at_once, [ forall(stays(Clauses)),
     quota_of(seconds, Quotas),
     get_time(T0),
     with_hosts([g-[policy(guarded), cell(none), quota(Quotas)]],
-               listening(outcome(Clauses,
+               capturing(outcome(Clauses,
                                  raised(error(resource_error(seconds), _))),
                          _)),
     get_time(T1),
@@ -487,16 +487,16 @@ test(stack_is_limited,
        Outcome = raised(error(resource_error(stack), _)) ]) :-
     with_hosts([g-[ policy(guarded), cell(none),
                     quota([seconds(60), stack(64 000 000)]) ]],
-               listening(outcome(Clauses, Outcome), _)).
+               capturing(outcome(Clauses, Outcome), _)).
 test(exceeding_a_quota_ends_the_agent, [ forall(hog(What, Clauses)), true(is_of(Resource, What)) ]) :-
     quota_of(What, Quotas),
     with_hosts([g-[policy(guarded), cell(none), quota(Quotas)]],
-               listening(outcome(Clauses, Outcome), _)),
+               capturing(outcome(Clauses, Outcome), _)),
     Outcome = raised(error(resource_error(Resource), _)).
 test(other_agents_continue, N == 20) :-
     quota_of(seconds, Quotas),
     with_hosts([g-[policy(guarded), cell(none), quota(Quotas)], t],
-               listening(( hog(seconds, Hog),
+               capturing(( hog(seconds, Hog),
                            create(Hog, _, [host(g)]),
                            create([ (main :- lap(0)),
                                     (lap(20) :- !, result(20)),
@@ -506,7 +506,7 @@ test(other_agents_continue, N == 20) :-
 test(trusted_hosts_have_quotas_too,
      Outcome = raised(error(resource_error(seconds), _))) :-
     with_hosts([g-[quota([seconds(0.2)])]],
-               listening(outcome([ (main :- lp), (lp :- lp) ], Outcome), _)).
+               capturing(outcome([ (main :- lp), (lp :- lp) ], Outcome), _)).
 %   What they call things is not remembered for ever.
 
 test(atoms_are_collected, true(Count < 300)) :-

@@ -133,7 +133,7 @@ written('~w', x, "x").
 test(calling_formats_are_refused, Escaped-Through == 0-[]) :-
     findall(Goal, calling(Goal), Goals),
     with_hosts([g-[policy(guarded), cell(none)], t],
-               listening(escaped(let_through(Goals, Through), Escaped), _)).
+               capturing(escaped(let_through(Goals, Through), Escaped), _)).
 test(harmless_formats_are_written,
      [forall(written(Format, Args, Text)), true(Result == Text)]) :-
     with_hosts([g-[policy(guarded), cell(none)]],
@@ -144,7 +144,7 @@ test(output_of_format_is_bounded,
      Outcome = raised(error(resource_error(clause_cells), _))) :-
     dag(Dag),
     with_hosts([g-[policy(guarded), cell(none)]],
-               listening(outcome([ (main :- dag(40, a, T),
+               capturing(outcome([ (main :- dag(40, a, T),
                                             format(string(_), "~w", [T]))
                                  | Dag ], Outcome), _)).
 
@@ -230,7 +230,7 @@ test(checked_goal_is_the_executed_goal,
     with_tmp_dir(changed(Clauses, Name, Escaped)).
 test(destructive_assignment_is_refused, Through == []) :-
     with_hosts([g-[policy(guarded), cell(none)], t],
-               listening(let_through([ (X = f(a), setarg(1, X, b)),
+               capturing(let_through([ (X = f(a), setarg(1, X, b)),
                                        (X = f(a), nb_setarg(1, X, b)),
                                        (X = f(a), nb_linkarg(1, X, b)),
                                        (dict_create(D, _, [a-1]),
@@ -249,7 +249,7 @@ changed(Clauses, Name, Escaped-Name, Dir) :-
                        format(Out, "allow(setarg/3).~n", []),
                        close(Out)),
     with_hosts([g-[policy(File)], t],
-               listening(escaped(outcome(Clauses, _), Escaped), _)).
+               capturing(escaped(outcome(Clauses, _), Escaped), _)).
 
                 /*******************************
                 *            CLAUSES           *
@@ -278,7 +278,7 @@ hiding(Clause, [ (main :- move(g), catch(p(1), _, true)), Clause ]).
 test(rule_is_not_accepted_as_a_fact, [Escaped-Through == 0-[]]) :-
     findall(Clause-Clauses, ( hidden(Clause), hiding(Clause, Clauses) ), All),
     with_hosts([g-[policy(guarded), cell(none)], t],
-               listening(escaped(findall(Clause-Outcome,
+               capturing(escaped(findall(Clause-Outcome,
                                          ( member(Clause-Clauses, All),
                                            outcome(Clauses, Outcome),
                                            \+ refused_or_unread(Outcome) ),
@@ -287,7 +287,7 @@ test(rule_is_not_accepted_as_a_fact, [Escaped-Through == 0-[]]) :-
 test(rule_is_not_accepted_as_a_state_fact, [Escaped-Through == 0-[]]) :-
     findall(Clause, hidden(Clause), Clauses),
     with_hosts([g-[policy(guarded), cell(none)]],
-               listening(escaped(findall(Clause,
+               capturing(escaped(findall(Clause,
                                          ( member(Clause, Clauses),
                                            comes_with(Clause) ),
                                          Through),
@@ -317,7 +317,7 @@ service_rules(R, Dir) :-
                                     sv(X) => X = kept.~n", []),
                        close(Out)),
     with_hosts([g-[policy(guarded), cell(none), consult(File)]],
-               ( listening(outcome([(main :- sv(_), C = (sv(_) => _),
+               ( capturing(outcome([(main :- sv(_), C = (sv(_) => _),
                                              retract(C))], _), _),
                  create([(main :- sv(X), result(X))], A, [host(g)]),
                  agent_result(A, R, 10) )).
@@ -432,12 +432,12 @@ too_large(raised(error(permission_error(call, sandboxed, throw/1), _))).
 test(shared_terms_are_not_stored,
      [forall(storing_program(Clauses)), true(too_large(Outcome))]) :-
     with_hosts([g-[policy(guarded), cell(none)]],
-               listening(( create(Clauses, A, [host(g)]),
+               capturing(( create(Clauses, A, [host(g)]),
                            agent_join(A, Outcome, 10) ), _)).
 test(other_agents_are_not_delayed, R == ok) :-
     dag(Dag),
     with_hosts([g-[policy(guarded), cell(none)]],
-               listening(( create([ (main :- dag(60, a, T), receive(_-T, 1))
+               capturing(( create([ (main :- dag(60, a, T), receive(_-T, 1))
                                   | Dag ], A, [host(g)]),
                            create([(main :- sleep(0.01), result(ok))], B,
                                   [host(g)]),
@@ -475,7 +475,7 @@ huge(Goal) :-
 test(term_size_is_bounded, Through == []) :-
     findall(Goal, huge(Goal), Goals),
     with_hosts([g-[policy(guarded), cell(none)], t],
-               listening(let_through(Goals, Through), _)).
+               capturing(let_through(Goals, Through), _)).
 test(functor_and_length_are_bounded_by_size,
      true(subsumes_term([f(_,_), a, 3, g(_), [f,1]], R))) :-
     with_hosts([g-[policy(guarded), cell(none)]],
@@ -615,7 +615,7 @@ long_atom_900(Long) :-
 test(long_atoms_are_refused, Through == []) :-
     findall(Goal, text_attack(Goal), Goals),
     with_hosts([g-[policy(guarded), cell(none)], t],
-               listening(let_through(Goals, Through), _)).
+               capturing(let_through(Goals, Through), _)).
 test(no_predicate_makes_long_atoms, Goals == []) :-
     with_hosts([g-[policy(guarded), cell(none)]], true),    % the tables are made
     findall(Name/Arity, ( long_atom(Goal), functor(Goal, Name, Arity) ),
@@ -626,7 +626,7 @@ test(text_of_atoms_counts,
     with_hosts([g-[ policy(guarded), cell(none),
                     quota([ seconds(60), stack(16 000 000), state(1 000 000),
                             log(1000) ]) ]],
-               listening(outcome(Clauses, Outcome), _)),
+               capturing(outcome(Clauses, Outcome), _)),
     Outcome = raised(error(resource_error(Passed), _)).
 %   What is taken away again does not count.
 
@@ -634,7 +634,7 @@ test(collected_text_does_not_count, Outcome == done) :-
     long_atom_900(Long),
     with_hosts([g-[ policy(guarded), cell(none),
                     quota([seconds(60), state(200 000)]) ]],
-               listening(outcome([ (main :- forall(between(1, 2000, I),
+               capturing(outcome([ (main :- forall(between(1, 2000, I),
                                                    step(I))),
                                    (step(I) :- long(L), atom_concat(L, I, A),
                                                assertz(s(A)),
@@ -680,7 +680,7 @@ test(agent_cannot_end_others, Through-State == []-waiting) :-
                ( create([(main :- receive(_))], A, [host(t)]),
                  wait_state(A, waiting),
                  findall(Goal, ends(Goal, A), Goals),
-                 listening(let_through(Goals, Through), _),
+                 capturing(let_through(Goals, Through), _),
                  agent_property(A, state(State)) )).
 test(agent_ends_its_followers, Outcome == disposed) :-
     with_hosts([g-[policy(guarded), cell(none)]],
@@ -712,4 +712,4 @@ read_by_agents(Through, Dir) :-
                        close(Out)),
     findall(Goal, reads(Goal, File), Goals),
     with_hosts([g-[policy(guarded), cell(none)], t],
-               listening(let_through(Goals, Through), _)).
+               capturing(let_through(Goals, Through), _)).

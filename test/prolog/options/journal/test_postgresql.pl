@@ -124,7 +124,7 @@ test(commit_lost_by_the_server_is_repeated) :-
                  commit([a-k-0-second, drop(a, m, 0)]),
                  postgres_crash,
                  forall(between(1, 2, _), unreachable(commit([a-n-1-third]))),
-                 postgres_again,
+                 postgres_restart,
                  commit([a-n-1-third]),
                  items(a, Items) )),
     Items = [_-0-_, _-0-_, n-1-third],
@@ -137,7 +137,7 @@ unreachable(Goal) :-
 
 test(process_continues_when_the_server_returns) :-
     postgres_url(returns, Url),
-    goes_on(Url, postgres_crash, postgres_again).
+    goes_on(Url, postgres_crash, postgres_restart).
 test(process_continues_after_the_server_vanished) :-
     with_postgres_relay(vanishes, Url,
                         goes_on(Url, postgres_relay(vanish),

@@ -17,7 +17,7 @@
 
 ended(Quotas, Clauses, Outcome) :-
     with_hosts([g-[quota(Quotas)], t],
-               listening(( create(Clauses, A, [host(g)]),
+               capturing(( create(Clauses, A, [host(g)]),
                            joined(A, Outcome) ), Messages)),
     forall(Outcome = raised(error(resource_error(What), _)),
            memberchk(warning-typhon(over_limit(_, What)), Messages)).
@@ -47,7 +47,7 @@ test(quota_cannot_be_exceeded_repeatedly, O == messages) :-
 
 test(traced_goals, O == messages) :-
     with_hosts([g-[quota([messages(20)])]],
-               listening(( create([ (main :- receive(_),
+               capturing(( create([ (main :- receive(_),
                                              forall(between(1, 50, _), say)),
                                     (say :- catch(send(user, x), _, true)) ],
                                   A, [host(g)]),
@@ -57,7 +57,7 @@ test(traced_goals, O == messages) :-
     over(O, Outcome).
 test(logging_by_the_user_is_not_counted) :-
     with_hosts([g-[quota([log(2)])]],
-               listening(remote(g, forall(between(1, 5, X), log(X))), _)).
+               capturing(remote(g, forall(between(1, 5, X), log(X))), _)).
 test(agents_with_quotas_cannot_be_stepped,
      error(permission_error(step, agent, _))) :-
     with_hosts([g-[quota([messages(20)])]],
@@ -69,7 +69,7 @@ test(agents_with_quotas_cannot_be_stepped,
 
 test(quota_exceeded_by_another_agent, Told == []) :-
     with_hosts([g-[quota([messages(5)])], t],
-               listening(( talker(10, Talker),
+               capturing(( talker(10, Talker),
                            created([host(g)], 8, Talker, As),
                            outcomes(As, _),
                            created([host(t)], 3, [ (main :- lp), (lp :- lp) ],
@@ -98,7 +98,7 @@ test(clones_share_the_quota_of_their_parent,
 test(clones_of_a_visitor, O == resource_error(clones)) :-
     no_leaks(with_peers([p],
         with_host_here([quota([clones(5)])],
-            listening(( visitors(p, [ (main :- s(H), move(H), many),
+            capturing(( visitors(p, [ (main :- s(H), move(H), many),
                                       (many :- clone(W), on(W)), on(clone(_)),
                                       (on(parent(_)) :- many),
                                       on_message(_, _) ], 1, [A]),
@@ -112,7 +112,7 @@ test(arriving_state_is_checked,
                  agent_result(A, R, 5) )).
 test(state_growth_of_a_visitor, O == state) :-
     with_hosts([t, g-[quota([state(50 000)])]],
-               listening(( create([ (main :- move(g),
+               capturing(( create([ (main :- move(g),
                                              forall(between(1, 5000, X),
                                                     assertz(s(X)))) ], A,
                                   [host(t)]),
@@ -125,18 +125,18 @@ test(state_growth_of_a_visitor, O == state) :-
 
 test(waiting_agent, O-T == lifetime-100.0) :-
     with_hosts([g-[clock(virtual), quota([lifetime(100)])]],
-               listening(( create([ (main :- receive(_)) ], A, [host(g)]),
+               capturing(( create([ (main :- receive(_)) ], A, [host(g)]),
                            agent_join(A, Outcome, 1000),
                            host_time_of(g, T) ), _)),
     over(O, Outcome).
 test(sleeping_agent, O == lifetime) :-
     with_hosts([g-[clock(virtual), quota([lifetime(100)])]],
-               listening(( create([ (main :- sleep(7), main) ], A, [host(g)]),
+               capturing(( create([ (main :- sleep(7), main) ], A, [host(g)]),
                            agent_join(A, Outcome, 1000) ), _)),
     over(O, Outcome).
 test(running_agent, O == lifetime) :-
     with_hosts([g-[quota([lifetime(0.3)])]],
-               listening(( create([ (main :- lp), (lp :- lp) ], A, [host(g)]),
+               capturing(( create([ (main :- lp), (lp :- lp) ], A, [host(g)]),
                            joined(A, Outcome) ), _)),
     over(O, Outcome).
 test(lifetime_restarts_at_each_arrival, R == 10) :-
@@ -147,7 +147,7 @@ test(lifetime_restarts_at_each_arrival, R == 10) :-
                  agent_result(A, R, 1000) )).
 test(changed_quota_applies_to_present_agents, O == lifetime) :-
     with_hosts([g],
-               listening(( create([on_message(_, _)], A, [host(g)]),
+               capturing(( create([on_message(_, _)], A, [host(g)]),
                            host_change(g, quota([lifetime(0.2)])),
                            joined(A, Outcome) ), _)),
     over(O, Outcome).
@@ -170,7 +170,7 @@ host_time_of(Host, Time) :-
 
 test(overflow_is_reported, Xs == [1,2,3,4,5]) :-
     with_hosts([g-[quota([mailbox(5)])]],
-               listening(( sleeper(g, A),
+               capturing(( sleeper(g, A),
                            forall(between(1, 10, X), agent_send(A, X)),
                            wait_until(lost(A, 5), 10),
                            remote(g, leave(go)),
@@ -209,11 +209,11 @@ test(overflow_is_reported_to_the_sender) :-
         with_host_here(
             ( peer_host(p, There),
               create([ (main :- sleep(1000)) ], A, [host(There)]),
-              listening(( forall(between(1, 5, X), agent_send(A, X)),
+              capturing(( forall(between(1, 5, X), agent_send(A, X)),
                           wait_until(lost(A, 4), 10) ), _) )))).
 test(sender_is_not_ended_by_overflow, R == sent) :-
     with_hosts([g-[quota([mailbox(1)])]],
-               listening(( sleeper(g, A),
+               capturing(( sleeper(g, A),
                            create([ (main :- s(B), send(B, 1), send(B, 2),
                                              result(sent)) ], C,
                                   [host(g), facts([s(A)])]),
@@ -232,10 +232,12 @@ lost(A, Count) :-
     aggregate_all(sum(N), lost_with(A, N), Count).
 
 lost_with(A, 1) :-
-    were_told(warning, typhon(undeliverable(resource_error(mailbox), A, _, _))).
+    printed_message(warning,
+                    typhon(undeliverable(resource_error(mailbox), A, _, _))).
 lost_with(A, N) :-
-    were_told(warning,
-              typhon(undeliverable(resource_error(mailbox), A, _, _, More))),
+    printed_message(
+        warning,
+        typhon(undeliverable(resource_error(mailbox), A, _, _, More))),
     N is More+1.
 
                 /*******************************
@@ -260,14 +262,14 @@ created(Where, Times, Clauses, As) :-
 test(messages_of_one_owner, true(Ended >= 5)) :-
     talker(10, Clauses),
     with_hosts([g-[quota([owner(messages(30))])]],
-               listening(( created([host(g)], 12, Clauses, As),
+               capturing(( created([host(g)], 12, Clauses, As),
                            outcomes(As, Os) ), _)),
     over(messages, O),
     count(O, Os, Ended).
 test(other_owners_are_not_affected, [Theirs,Ours] == [resource_error(messages),done]) :-
     no_leaks(with_peers([p],
         with_host_here([quota([owner(messages(20))])],
-            listening(( visitors(p, [ (main :- s(H), move(H), lp),
+            capturing(( visitors(p, [ (main :- s(H), move(H), lp),
                                       (lp :- send(user, x), sleep(0.001), lp) ],
                                  3, As),
                         member(A, As),
@@ -304,7 +306,7 @@ test(largest_consumer_ends_first,
      [Hog,Other] == [resource_error(messages),done]) :-
     no_leaks(with_peers([p],
         with_host_here([quota([host(messages(50))])],
-            listening(( visitors(p, [ (main :- s(H), move(H), lp),
+            capturing(( visitors(p, [ (main :- s(H), move(H), lp),
                                       (lp :- send(user, x), lp) ], 1, [A]),
                         talker(10, Clauses),
                         create(Clauses, B),
@@ -314,7 +316,7 @@ test(state_of_one_owner, Ended-Left == 1-2) :-
     current_prolog_flag(address_bits, Bits),
     Most is 300 000*Bits//64,
     with_hosts([g-[quota([owner(state(Most))])]],
-               listening(( fat(700, A), fat(800, B), fat(1500, C),
+               capturing(( fat(700, A), fat(800, B), fat(1500, C),
                            outcome_of_one([A,B,C], Big),
                            Big == C,
                            typhon_quota_enforcer:look,
@@ -325,7 +327,7 @@ test(state_of_one_owner, Ended-Left == 1-2) :-
     count(warning-typhon(over_limit(_, state)), Messages, Ended).
 test(seconds_of_all_agents, O == resource_error(seconds)) :-
     with_hosts([g-[quota([host(seconds(0.3))])]],
-               listening(( create([ (main :- lp), (lp :- lp) ], A, [host(g)]),
+               capturing(( create([ (main :- lp), (lp :- lp) ], A, [host(g)]),
                            joined(A, raised(error(O, _))) ), _)).
 
 %   One second by the clock; without pauses it would be nearly one of a processor,
@@ -333,7 +335,7 @@ test(seconds_of_all_agents, O == resource_error(seconds)) :-
 
 test(busy_agent_yields_to_others, O == resource_error(seconds)) :-
     with_hosts([g-[quota([seconds(1)])]],
-               listening(( create([ (main :- sleep(0.02), main) ], B, [host(g)]),
+               capturing(( create([ (main :- sleep(0.02), main) ], B, [host(g)]),
                            statistics(process_cputime, T0),
                            create([ (main :- lp), (lp :- lp) ], A, [host(g)]),
                            joined(A, raised(error(O, _))),
@@ -371,7 +373,7 @@ disposed(A) :-
 
 test(each_agent_has_its_own_quota, [A,B] == [resource_error(tuples),done]) :-
     with_hosts([g-[quota([tuples(5)])]],
-               listening(( leaver(10, C), joined(C, raised(error(A, _))),
+               capturing(( leaver(10, C), joined(C, raised(error(A, _))),
                            leaver(5, D), joined(D, B) ), _)).
 test(taking_a_tuple_frees_space, O == done) :-
     with_hosts([g-[quota([tuples(5)])]],
@@ -393,7 +395,7 @@ test(tuples_taken_by_others_free_space, O == done) :-
 test(agent_that_fills_the_space_ends, [A,B] == [resource_error(tuples),done]) :-
     no_leaks(with_peers([p],
         with_host_here([quota([host(tuples(20))])],
-            listening(( visitors(p, [ (main :- s(H), move(H),
+            capturing(( visitors(p, [ (main :- s(H), move(H),
                                                forall(between(1, 30, X),
                                                       leave(f(X)))) ], 1, [C]),
                         joined(C, raised(error(A, _))),
@@ -410,7 +412,7 @@ left_before(O-Taken, Dir) :-
     Options = [journal(Dir), quota([host(tuples(5))])],
     with_host_here(Options, ( leaver(5, A), joined(A, done) )),
     with_host_here(Options,
-                   listening(( leaver(1, B), joined(B, Outcome),
+                   capturing(( leaver(1, B), joined(B, Outcome),
                                remote(here, take(f(_))),
                                leaver(1, C), joined(C, Taken) ), _)),
     over(O, Outcome).

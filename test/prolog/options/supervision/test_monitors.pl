@@ -88,7 +88,7 @@ test(outcomes_are_reported, [forall(member(How-Outcome,
                  monitors(W, A),
                  (   How == dispose_now
                  ->  agent_dispose(A)
-                 ;   listening(( ends(A, How), joined(A, _) ), _)
+                 ;   capturing(( ends(A, How), joined(A, _) ), _)
                  ),
                  once_only(W, down(A, Outcome)) )).
 test(monitored_after_its_end) :-
@@ -131,7 +131,7 @@ test(follower_ends_with_its_parent,
                                                  receive(_-end(G)), call(G)) ]),
                               P),
                  wait_until(agent_property(P, facts([child(C)])), 10),
-                 listening(( ends(P, How), joined(P, _) ), _),
+                 capturing(( ends(P, How), joined(P, _) ), _),
                  ( How == true -> agent_send(C, end) ; true ),
                  joined(C, Ended) )).
 test(follower_that_moves_before_its_first_turn, O == disposed) :-
@@ -208,7 +208,7 @@ test(faulty_agent_is_reported_once, [true(Ms == [down(A, failed), Other])]) :-
                ( watcher(W, [], []),
                  create([ (main :- receive(_-end(_)), s(_)) ], A),
                  monitors(W, A),
-                 listening(( ends(A, true), joined(A, failed) ), _),
+                 capturing(( ends(A, true), joined(A, failed) ), _),
                  hears(W, down(A, failed)),
                  agent_change(A, facts([s(1)])),
                  agent_resume(A),
@@ -324,8 +324,8 @@ test(goal_that_raises, [cleanup(forget)]) :-
                ( sleeper(A, []),
                  agent_monitor(A, no_such_predicate),
                  agent_monitor(A, note),
-                 listening(( ends(A, true), told(A, done),
-                             wait_until(was_told(_, _), 5) ), _) )).
+                 capturing(( ends(A, true), told(A, done),
+                             wait_until(was_printed(_, _), 5) ), _) )).
 test(no_such_agent, error(existence_error(agent, unknown))) :-
     with_hosts([alpha], agent_monitor(unknown, note)).
 test(guest_monitors_an_agent_of_another_process, [cleanup(forget)]) :-
@@ -406,7 +406,7 @@ shared_from_here(Peer, Said, State) :-
     peer_do(Peer, agent_create(Sharer, A, [facts([with(V, Here)])])),
     wait_until(( agent_property(A, facts(Facts)),
                  memberchk(said(Said), Facts) ), 20),
-    listening(( agent_send(A, end), joined(A, failed) ), _),
+    capturing(( agent_send(A, end), joined(A, failed) ), _),
     (   Said == monitored
     ->  peer_do(Peer, agent_join(V, disposed, 10)),
         State = gone

@@ -76,31 +76,31 @@ once_broken(Negotiated) :-
 :- begin_tests(tls).
 
 test(only_valid_certificates_of_the_authority_are_accepted) :-
-    with_authority([alpha, beta, gone, old, self], [alice], strangers_come).
+    with_authority([alpha, beta, gone, old, self], [alice], clients_connect).
 
-strangers_come(Ours) :-
+clients_connect(Ours) :-
     keys_revoke(gone, Ours),
     expired_host(Ours, old),
     self_made_host(Ours, self),
-    with_authority([beta], [], strangers_come(Ours)).
+    with_authority([beta], [], clients_connect(Ours)).
 
-strangers_come(Ours, Others) :-
-    findall(Keys-Verdict, stranger(Ours, Others, Keys, Verdict), Strangers),
+clients_connect(Ours, Others) :-
+    findall(Keys-Verdict, connected(Ours, Others, Keys, Verdict), Clients),
     no_leaks(with_peers([beta],
-        forall(member(Keys-Expected, Strangers),
+        forall(member(Keys-Expected, Clients),
                ( with_secure_host(Ours, comes(Keys, Verdict)),
                  assertion(Verdict == Expected) )))).
 
 comes(Keys, Verdict, Address) :-
     tries(Keys, Address, Verdict).
 
-stranger(Ours, Others, [tls(Dir)], Verdict) :-
+connected(Ours, Others, [tls(Dir)], Verdict) :-
     came(Of, Name, Verdict),
     (   Of == ours
     ->  keys_of(Name, Ours, Dir)
     ;   keys_of(Name, Others, Dir)
     ).
-stranger(_, _, [], tls(wanted)-tls(missing)).
+connected(_, _, [], tls(wanted)-tls(missing)).
 
 came(ours, beta, ok-ok).
 came(ours, gone, tls(his(revoked))-tls(revoked)).

@@ -301,14 +301,14 @@ test(endless_goal_is_reported) :-
 test(endless_instant_is_reported) :-
     told_of(spin, virtual_busy(_)).
 test(no_event_is_due) :-
-    listening(with_virtual([], N, nothing_due(N)), _).
+    capturing(with_virtual([], N, nothing_due(N)), _).
 
 :- end_tests(virtual_limits).
 
 %   Time that stands still is reported after a tenth of a second.
 
 told_of(Main, Message) :-
-    listening(with_settings([typhon_virtual:patience=0.1],
+    capturing(with_settings([typhon_virtual:patience=0.1],
                             with_virtual([], N, stuck(N, Main, Message))),
               _).
 
@@ -328,7 +328,7 @@ nothing_due(N) :-
 
 told_while(Goal, Message) :-
     thread_create(catch(Goal, enough, true), Thread),
-    call_cleanup(wait_until(was_told(warning, typhon(Message)), 20),
+    call_cleanup(wait_until(was_printed(warning, typhon(Message)), 20),
                  interrupted(Thread)).
 
 interrupted(Thread) :-

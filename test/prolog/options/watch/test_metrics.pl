@@ -67,7 +67,7 @@ happened(Text) :-
     joined(A, done),
     create([on_message(_, _)], B, [host(alpha)]),
     agent_send(B, hello),
-    listening(( create([(main :- foo(_) is _)], C, [host(beta)]),
+    capturing(( create([(main :- foo(_) is _)], C, [host(beta)]),
                 wait_state(C, faulty(_)) ), _),
     wait_until(received_one, 5),
     wait_state(B, resident),            % it has done with the message

@@ -56,7 +56,7 @@ test(silent_process, Silent == [Endpoint]) :-
                network_property(Network, hosts([_, _, _, H4])),
                atomic_list_concat([_, Endpoint], @, H4),
                network_property(Network, processes([_, Pid])),
-               listening(( process_kill(Pid, kill),
+               capturing(( process_kill(Pid, kill),
                            wait_until(network_property(Network, processes([_])),
                                       10),
                            overview(Network, [_], Silent),
@@ -123,7 +123,7 @@ logged(Events, Dir) :-
                   [ clock(virtual), log(File, [hosts, links, faults]) ]),
     network_property(Network, hosts([H1, H2])),
     unlink(H1, H2),
-    listening(( create([(main :- foo(_) is _)], A, [host(H1)]),
+    capturing(( create([(main :- foo(_) is _)], A, [host(H1)]),
                 joined(A, raised(_)) ), _),
     network_stop(Network),
     log_events(File, Events).

@@ -86,7 +86,7 @@ trip(A) :-
 test(events_of_an_agent) :-
     with_hosts([alpha, beta],
                ( address(alpha, Alpha), address(beta, Beta),
-                 listening(watching([alpha, beta], trip(A), Events), _) )),
+                 capturing(watching([alpha, beta], trip(A), Events), _) )),
     findall(Host-What, member(event(_, Host, A, What), Events), Story),
     assertion(Story = [ Alpha-created, Alpha-received(user), Alpha-left(Beta),
                         Beta-arrived(Alpha, _), Beta-leave(fact(1)),
@@ -101,7 +101,7 @@ test(events_of_an_agent) :-
 test(only_watched_hosts_are_reported) :-
     with_hosts([alpha, beta],
                ( address(beta, Beta),
-                 listening(watching(beta, trip(_), Events), _) )),
+                 capturing(watching(beta, trip(_), Events), _) )),
     assertion(forall(member(event(_, Host, _, _), Events), Host == Beta)),
     assertion(( member(event(_, _, _, What), Events),
                 What = arrived(_, _) )).
@@ -110,7 +110,7 @@ test(lambda_keeps_its_global_variables, Whats == [log(1)]) :-
     with_hosts([alpha],
                ( message_queue_create(Queue),
                  watch(alpha, [E]>>thread_send_message(Queue, E), Watch),
-                 listening(( create([(main :- log(1))], A),
+                 capturing(( create([(main :- log(1))], A),
                              joined(A, done) ), _),
                  unwatch(Watch),
                  queued(Queue, Events),
@@ -146,7 +146,7 @@ clone_and_stay(A, Clone) :-
 
 test(faults_are_reported) :-
     with_hosts([alpha],
-               listening(watching(alpha, faulty(A, Fault), Events), _)),
+               capturing(watching(alpha, faulty(A, Fault), Events), _)),
     findall(What, member(event(_, _, A, What), Events), Story),
     assertion(Story = [created, fault(Fault), ended(raised(_))]).
 
@@ -183,7 +183,7 @@ test(restarted_host, Whats == [stopped, started, created]) :-
 
 test(unserializable_term_is_reported_as_text, Type == atom) :-
     with_hosts([alpha],
-               listening(watching(alpha,
+               capturing(watching(alpha,
                                   ( create([(main :- current_output(S),
                                                      catch(log(S), _, true))],
                                            A),
@@ -214,7 +214,7 @@ test(one_of_two_watchers_ends) :-
 test(an_exception_is_reported_once, Warnings-Count == 1-4) :-
     flag(calls, _, 0),
     with_hosts([alpha],
-               listening(watching(alpha, raises,
+               capturing(watching(alpha, raises,
                                   ( create([main], A), joined(A, done),
                                     create([main], B), joined(B, done) ),
                                   _),
@@ -379,8 +379,8 @@ test(killed_process) :-
     no_leaks(( network_start(ring(4), Network, [processes(2)]),
                network_property(Network, hosts([H1, _, H3, H4])),
                network_property(Network, processes([_, Pid])),
-               listening(watching(Network, killed(Pid, H1, H4, A), Events), _),
-               listening(network_stop(Network), _) )),
+               capturing(watching(Network, killed(Pid, H1, H4, A), Events), _),
+               capturing(network_stop(Network), _) )),
     findall(H, member(event(_, H, none, lost), Events), Lost),
     assertion(Lost == [H3, H4]),
     once(append(_, [event(_, H4, none, lost)|After], Events)),
@@ -396,7 +396,7 @@ test(hosts_that_had_stopped_before, Lost == [H3, H4]) :-
     no_leaks(( network_start(ring(4), Network, [processes(2)]),
                network_property(Network, hosts([_, _, H3, H4])),
                network_property(Network, processes([_, Pid])),
-               listening(( process_kill(Pid, kill),
+               capturing(( process_kill(Pid, kill),
                            wait_until(network_property(Network, processes([_])),
                                       10),
                            watching(Network, true, Events),

@@ -41,7 +41,7 @@ found(Lines, Found) :-
     with_program(Lines, test_check:found_in(Found)).
 
 found_in(Found, File) :-
-    listening(agent_check(File), Messages),
+    capturing(agent_check(File), Messages),
     findall(Line-Formal,
             ( member(_-error(Formal, at(Place, _, _)), Messages),
               line(Place, Line),
@@ -68,7 +68,7 @@ creation_error(Error, File) :-
                catch(agent_create(File, _), Error, true)).
 
 unknown_line(Line, File) :-
-    listening(agent_check(File), Messages),
+    capturing(agent_check(File), Messages),
     member(_-error(unknown_procedure(_), at(_:Line, _, _)), Messages),
     !.
 
@@ -80,7 +80,7 @@ printed(Lines, Text) :-
     with_program(Lines, test_check:printed_of(Text)).
 
 printed_of(Text, File) :-
-    listening(agent_check(File), Messages),
+    capturing(agent_check(File), Messages),
     findall(T, ( member(_-Error, Messages), text_of(Error, T) ), Ts),
     atomic_list_concat(Ts, Text).
 
@@ -94,7 +94,7 @@ shows(Text, Words) :-
     assertion(sub_string(Text, _, _, _, Words)).
 
 severities(Kinds, File) :-
-    listening(agent_check(File), Messages),
+    capturing(agent_check(File), Messages),
     findall(Kind, member(Kind-error(_, _), Messages), Kinds).
 
 payload_in(Found, File) :-
@@ -113,7 +113,7 @@ warned([First,Second,Third], File) :-
                  created(File, Third) )).
 
 created(File, Count) :-
-    listening(( agent_create(File, Agent), joined(Agent, _) ), Messages),
+    capturing(( agent_create(File, Agent), joined(Agent, _) ), Messages),
     findall(x, member(warning-error(singletons(_), _), Messages), Found),
     length(Found, Count).
 
@@ -124,7 +124,7 @@ unknown_in(OptionLists, Found, File) :-
                        Found)).
 
 unknown_at_creation(File, Options, PIs) :-
-    listening(( agent_create(File, Agent, Options), joined(Agent, _) ),
+    capturing(( agent_create(File, Agent, Options), joined(Agent, _) ),
               Messages),
     unknown_of(Messages, PIs).
 
@@ -322,7 +322,7 @@ test(program_is_warned_of_once_per_version, Counts == [1,0,1]) :-
 test(clauses_are_warned_of_once,
      Found == [lost_choice(member/2, move/1, fail/0)]) :-
     with_hosts([alpha],
-               listening(( clauses_created, clauses_created ), Messages)),
+               capturing(( clauses_created, clauses_created ), Messages)),
     findall(Formal, member(warning-error(Formal, _), Messages), Found).
 
 %   What a program calls and does not define.
@@ -343,7 +343,7 @@ test(attached_payload_may_define_it, Found == [[move/2]]) :-
                  test_check:unknown_in([[]], Found)).
 test(library_of_the_program_defines_it, Found == []) :-
     with_hosts([alpha],
-               listening(( create([(:- use_module(library(heaps))),
+               capturing(( create([(:- use_module(library(heaps))),
                                    (main :- empty_heap(_))], A),
                            joined(A, done) ), Messages)),
     unknown_of(Messages, Found).

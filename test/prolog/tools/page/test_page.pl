@@ -33,7 +33,7 @@ stage(Goal) :-
                                [ processes(4), seed(1), log('/dev/null'),
                                  hop_time(uniform(0.2, 0.4)) ]),
                  with_page([], Base, on_stage(Network, Base, Goal)),
-                 listening(network_stop(Network), _))).
+                 capturing(network_stop(Network), _))).
 
 on_stage(Network, Base, Goal) :-
     with_browser(Browser,
@@ -540,7 +540,7 @@ scene(narrow) :-
 scene(a_process_is_killed) :-
     at(_, _, Network),
     network_property(Network, processes([_, Pid|_])),
-    listening(( process_kill(Pid, kill),
+    capturing(( process_kill(Pid, kill),
                 see("return [...typhon.store.hosts.values()].filter(h => \c
                      h.state === 'lost').length === 15"),
                 view(hosts),

@@ -305,7 +305,7 @@ test(ended, Outcome == "done") :-
     Outcome = Agent.outcome.
 
 test(fault) :-
-    page(Base, ( listening(( create([(main :- atom_length(_, _))], A,
+    page(Base, ( capturing(( create([(main :- atom_length(_, _))], A,
                                     [host(alpha)]),
                              wait_state(A, faulty(_)) ), _),
                  answer(Base, _{ask:"agent", agent:A}, Agent) )),
@@ -323,7 +323,7 @@ test(goals_have_the_names_of_variables, Goals == ["receive(_-go(Host))",
 
 test(location_of_a_fault_hides_the_folder, Place == "program.pl:3") :-
     Text = ":- agent(p, []).\n\nmain :- sleep(0), fail.\n",
-    page(Base, ( listening(( answer(Base, _{do:"create", text:Text,
+    page(Base, ( capturing(( answer(Base, _{do:"create", text:Text,
                                             host:"alpha"}, Done),
                              atom_string(A, Done.done),
                              wait_state(A, faulty(_)) ), _),
@@ -522,15 +522,15 @@ happenings(Feed) :-
     create([(main :- move(Beta0), log('<b>'), leave(f(x, "y")))], A0,
            [host(alpha)]),
     atom_string(A0, A),
-    told(Feed, [Alpha, A, "created"], _),
-    told(Feed, [Alpha, A, "left", Beta], _),
-    told(Feed, [Beta, A, "arrived", Alpha], [_, _, _, _, _, Seconds]),
+    feed_event(Feed, [Alpha, A, "created"], _),
+    feed_event(Feed, [Alpha, A, "left", Beta], _),
+    feed_event(Feed, [Beta, A, "arrived", Alpha], [_, _, _, _, _, Seconds]),
     assertion(number(Seconds)),
-    told(Feed, [Beta, A, "log", "<b>"], _),
-    told(Feed, [Beta, A, "leave", "f(x,\"y\")"], _),
-    told(Feed, [Beta, A, "ended", "done"], _),
+    feed_event(Feed, [Beta, A, "log", "<b>"], _),
+    feed_event(Feed, [Beta, A, "leave", "f(x,\"y\")"], _),
+    feed_event(Feed, [Beta, A, "ended", "done"], _),
     unlink(alpha, beta),
-    told(Feed, [Alpha, "", "unlink", Beta], _).
+    feed_event(Feed, [Alpha, "", "unlink", Beta], _).
 
 %   JSON has no numbers that are infinite, or none: nothing could be read in
 %   which there is one.
@@ -546,7 +546,7 @@ no_number(Base, Cost, Logged) :-
                 member(Host, First.snapshot.hosts),
                 Host.links = [[_, Cost]],
                 create([(main :- X is nan, log(X))], _, [host(alpha)]),
-                told(Feed, [_, _, "log"], [_, _, _, _, Logged]) )).
+                feed_event(Feed, [_, _, "log"], [_, _, _, _, Logged]) )).
 
 %   Virtual time is shown as it is.
 
@@ -559,7 +559,7 @@ virtual_time(Feed, Time) :-
     frame(Feed, _),
     create([(main :- sleep(3))], A, [host(alpha)]),
     agent_join(A, done, 10),
-    told(Feed, [_, _, "ended", "done"], [Time|_]).
+    feed_event(Feed, [_, _, "ended", "done"], [Time|_]).
 
 %   A host that comes is found, and one whose process is killed is reported.
 
@@ -571,7 +571,7 @@ test(browsers_connect_and_disconnect) :-
                                network_property(N, hosts(Hosts)),
                                network_property(N, processes([Pid|_])),
                                call_cleanup(come_and_go(Feed, Hosts, Pid),
-                                            listening(network_stop(N), _))
+                                            capturing(network_stop(N), _))
                              )))).
 
 come_and_go(Feed, [First|Hosts], Pid) :-
@@ -580,9 +580,9 @@ come_and_go(Feed, [First|Hosts], Pid) :-
     wait_until(typhon_page_sources:watched(First, _), 15),
     maplist(atom_string, [First, Last], [FirstText, LastText]),
     create([main], _, [host(Last)]),
-    told(Feed, [LastText, _, "created"], _),
+    feed_event(Feed, [LastText, _, "created"], _),
     process_kill(Pid, kill),
-    told(Feed, [FirstText, "", "lost"], _).
+    feed_event(Feed, [FirstText, "", "lost"], _).
 
 %   A browser that does not read loses some, and gets their number; others do not.
 
@@ -662,7 +662,7 @@ elsewhere(Out, Pid, Names) :-
               ( frame(Feed, _),
                 create([main], A, [host(alpha)]),
                 atom_string(A, Text),
-                told(Feed, [_, Text, "ended", "done"], _) )),
+                feed_event(Feed, [_, Text, "ended", "done"], _) )),
     process_kill(Pid, term),
     wait_for_end(Pid, 10, exit(0)).
 
