@@ -33,7 +33,7 @@ typhon_options:declared(page_option, world(X), callable, X).
 %   Serve a page that shows live, and lets users control, the hosts of this
 %   process, of the networks that it has started, and of all hosts that links
 %   from these lead to, and the agents on them.  The link to the page is
-%   printed; it gives all rights of this process.  Options:
+%   printed; a user who has it has all rights of this process.  Options:
 %
 %     - port(+Port): default 8080; 0 for any
 %     - host(+Address): also show the network of this host of another process
@@ -45,7 +45,7 @@ typhon_options:declared(page_option, world(X), callable, X).
 %     - world(+Goal): a view World shows, twice a second, the picture that
 %       call(Goal, Svg) returns; Goal is qualified by its module
 %
-%   page_stop/0 succeeds also without a page.
+%   page_stop/0 stops the page, and succeeds if there is none.
 %
 %   @error permission_error(start, page, Port) there is a page already, at Port
 %   @error domain_error(page_option, Option)

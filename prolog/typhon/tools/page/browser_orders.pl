@@ -24,8 +24,8 @@
 
 /** <module> Orders of browsers, on a page that is not read-only
 
-Each order does what a program would do with library(typhon).  Terms are sent as
-text.
+An order calls predicates that programs can call, too: those of library(typhon),
+and of the operators of mechanisms.  Terms are sent as text.
 
   | do            | with                                                    |
   | ------------- | ------------------------------------------------------- |
@@ -53,8 +53,11 @@ An answer is _{done, said}: the result, and the printed messages.
 
 %!  order_run(+Message:dict, -Answer:dict) is det.
 %
-%   @error domain_error(page_order, What), existence_error(page_field, Key), and
-%   the errors of the order
+%   Run the order in Message, see above.
+%
+%   @error domain_error(page_order, What), existence_error(page_field, Key)
+%   @error page_failed(What) the order failed
+%   @error the errors of the order
 
 order_run(Message, _{done:Done, said:Said}) :-
     name_in(do, Message, What),
@@ -171,7 +174,8 @@ two_hosts(Message, A, B) :-
 discard(File) :-
     ( exists_file(File) -> delete_file(File) ; true ).
 
-%   The process may end before its answer is sent, so its thread runs the stop.
+%   A process may end with its last host, before it has answered: so the goal
+%   only creates a thread there, which stops the host.
 
 stop_at(local(Name)) :-
     host_stop(Name).
@@ -191,9 +195,9 @@ prolog:error_message(page_failed(What)) -->
 
 %   mechanism_run(+Mechanism, +Name, +Arguments:list, -Results) is det.
 %
-%   Call the predicate Name of the operator of Mechanism.  An argument is text,
-%   read as Prolog; a list of addresses; or empty for an output: Results are the
-%   texts of these.
+%   Call the predicate Name of the operator of Mechanism.  Each of Arguments is
+%   the text of a term, a list of addresses, or an empty text for an output
+%   argument; Results are the texts of the output arguments.
 %
 %   @error existence_error(mechanism, Mechanism), existence_error(procedure, PI)
 %   @error page_failed(PI), and the errors of the operator

@@ -23,8 +23,8 @@ converts them into one text, at most twenty times a second, and puts that into
 the queues of all browsers.  Events that a browser does not read fast enough are
 dropped, and it gets their number.
 
-*Threading*: any thread adds events; the server makes texts; each browser has a
-thread that sends them, and one that detects when it disconnects.
+*Threading*: any thread adds events; the server converts them; each browser has
+a thread that sends it the texts, and one that detects when it disconnects.
 */
 
 :- meta_predicate browser_serve(1, +).
@@ -39,7 +39,7 @@ thread that sends them, and one that detects when it disconnects.
            "Seconds without events after which a page sends a heartbeat").
 
 :- dynamic
-    browser/3,                  % Queue, Thread, Skipped: events
+    browser/3,                  % Queue, Thread, Skipped: dropped events
     teller/1.                   % Server
 
 %   The sizes of the queue of events, and of the queue of texts for one browser.
@@ -54,8 +54,8 @@ frames_waiting(40).
 %!  browsers_start is det.
 %!  browsers_stop is det.
 %
-%   Connected browsers get a close frame, and their connections end within
-%   seconds.
+%   Start the server that sends events; stop it, send a close frame to connected
+%   browsers, and wait until they have disconnected, for at most five seconds.
 
 browsers_start :-
     queue_size(Size),
@@ -76,7 +76,8 @@ stop(Teller) :-
     Deadline is Now+5,
     wait_until_gone(Deadline).
 
-%   The thread of a browser whose queue is full blocks, so it is interrupted.
+%   If the queue of a browser is full, its thread is blocked in sending, and
+%   would not read the message: it is interrupted.
 
 send_away(Browser) :-
     browser(Browser, Thread, _),
@@ -101,8 +102,8 @@ wait_until_gone(_) :-
 
 %!  browsers_send(+Event) is det.
 %
-%   Send Event, as of watch/3, to all browsers.  Waits while too many others are
-%   still to be sent.
+%   Send Event, see watch/3, to all browsers.  Waits while the queue of events
+%   is full.
 
 browsers_send(Event) :-
     (   teller(Teller)
@@ -112,14 +113,15 @@ browsers_send(Event) :-
 
 %!  browsers_there is semidet.
 %
-%   A browser is connected.
+%   At least one browser is connected.
 
 browsers_there :-
     browser(_, _, _),
     !.
 
-%   The state is frame(Due, Count, Events), the newest first: they are sent when
-%   Due has come and no more events wait, or when there are enough.
+%   The state is frame(Due, Count, Events), with the newest event first.  Events
+%   are sent after the time Due once no more events wait, or as soon as they
+%   fill a frame.
 
 :- public gathers/3.
 
@@ -174,8 +176,9 @@ give(Browser, Text, Count) :-
     ;   with_mutex(typhon_page, skipped(Browser, Count))
     ).
 
-%   The browser may have gone.  The new fact is added first, so that a
-%   concurrent check always finds the browser.
+%   The browser may have disconnected meanwhile.  The new fact is added before
+%   the old one is removed, so that a concurrent lookup always finds the
+%   browser.
 
 skipped(Browser, Count) :-
     (   browser(Browser, Thread, Skipped)
@@ -213,8 +216,8 @@ put(Browser, Text) :-
 %!  browser_serve(:Scene, +WebSocket) is det.
 %
 %   Send a browser all events until it disconnects, or the page stops, and close
-%   WebSocket.  The first text is the Dict of call(Scene, Dict); it may already
-%   include later events.
+%   WebSocket.  The first text is the Dict of call(Scene, Dict), which may
+%   already include events that are sent after it.
 
 browser_serve(Scene, WebSocket) :-
     setup_call_cleanup(
@@ -223,7 +226,8 @@ browser_serve(Scene, WebSocket) :-
         ( forget(Queue),
           catch(close(WebSocket, [force(true)]), error(_, _), true) )).
 
-%   The browser has disconnected, or its thread was ended.
+%   The first clauses handle the ways in which a connection ends normally: the
+%   browser has disconnected, or the page has stopped.
 
 ended(error(io_error(_, _), _)) :- !.
 ended(error(socket_error(_, _), _)) :- !.
@@ -258,8 +262,8 @@ forget(Queue) :-
     with_mutex(typhon_page, retractall(browser(Queue, _, _))),
     message_queue_destroy(Queue).
 
-%   A browser sends nothing here but a close frame: any data that it sends are
-%   not read, and end the connection.
+%   A browser sends nothing but a close frame here.  So any data from it end the
+%   connection, unread.
 
 while_it_listens(Queue, WebSocket) :-
     setup_call_cleanup(

@@ -27,14 +27,16 @@ same text always becomes the same file.
 Messages of a thread that serves a browser are kept for that browser, and not
 printed at the terminal.
 
-*Threading*: any thread; each text has its own folder, messages are those of the
-thread.
+*Threading*: any thread.  Each text has its own folder, and messages are kept
+for each thread.
 */
 
 :- dynamic folder/1.
 
 %!  editor_start is det.
 %!  editor_stop is det.
+%
+%   Create the folder for texts; delete it with its files.
 
 editor_start :-
     tmp_file(typhon_page, Folder),
@@ -47,8 +49,8 @@ editor_stop :-
 
 %!  program_at(+Message:dict, -Spec) is det.
 %
-%   Spec is the program in Message: a file with its `text`, or its `program`, a
-%   file or a term like agents(census).
+%   Spec is the program that Message names: a file with the field `text`, or the
+%   field `program`, a file or a term like agents(census).
 
 program_at(Message, File) :-
     get_dict(text, Message, Text),
@@ -64,6 +66,8 @@ program_at(Message, Spec) :-
     ).
 
 %!  text_file(+Text, +Name, -File) is det.
+%
+%   File is a file Name that contains Text, in a folder of its own.
 
 text_file(Text, Name, File) :-
     folder(Folder),
@@ -81,8 +85,8 @@ text_file(Text, Name, File) :-
 
 %!  problem_dicts(+Messages, -Dicts) is det.
 %
-%   Dicts are _{kind, line, text} for messages as of saying/2; the line is 0 if
-%   the message has none.
+%   Dicts are _{kind, line, text} for the Messages of saying/2; the line is 0 if
+%   a message has none.
 
 problem_dicts(Messages, Dicts) :-
     maplist(problem_dict, Messages, Dicts).
@@ -109,7 +113,7 @@ line_in(_:Line, Line) :-
     integer(Line).
 line_in(file(_, Line, _, _), Line).
 
-%   The line is reported in a field of its own.
+%   The line has a field of its own, so the text does not repeat it.
 
 without_place(Text0, Text) :-
     string_concat("program.pl:", Rest, Text0),
@@ -150,10 +154,11 @@ without_folder(Text, Text).
 %!  name_in(+Key, +Message:dict, -Name:atom) is det.
 %!  term_in(+Key, +Message:dict, +Default, -Term) is det.
 %
-%   Text, Name or Term is the field Key of Message; a term is read as Prolog,
-%   and is Default if the field is missing or empty.
+%   Text, Name or Term is the field Key of Message.  Term is read from the text
+%   of the field, and is Default if the field is missing or empty; an unbound
+%   Default makes the field mandatory.
 %
-%   @error existence_error(page_field, Key), page_syntax(Key, Error)
+%   @error existence_error(page_field, Key), page_syntax(Key, Error, Where)
 
 text_in(Key, Message, Text) :-
     (   get_dict(Key, Message, Text0)
@@ -181,6 +186,10 @@ term_in(Key, Message, Default, Term) :-
     ).
 
 %!  read_text(+Field, +Text, -Term) is det.
+%
+%   Term is read from Text.
+%
+%   @error page_syntax(Field, Error, Where)
 
 read_text(Field, Text, Term) :-
     catch(term_string(Term, Text),
@@ -262,8 +271,9 @@ keep(Kind, Term, Lines) :-
 
 %!  on_console(:Goal) is semidet.
 %
-%   As once(Goal), with the output of the process.  Threads inherit their output
-%   from their creator, and the output of a request ends with the request.
+%   As once(Goal), with the output of the process as current output.  Threads
+%   that Goal creates inherit the current output, and that of a request is
+%   closed when the request ends.
 
 on_console(Goal) :-
     current_output(Out),

@@ -22,13 +22,16 @@ makes a browser send are refused by their origin.
 */
 
 %!  token_new(-Token:atom) is det.
+%
+%   Token is a random text that cannot be guessed.
 
 token_new(Token) :-
     random_hex(16, Token).
 
 %!  token_right(+Given, +Token) is semidet.
 %
-%   The time does not depend on how much of Given is right.
+%   Given equals Token.  The comparison takes the same time however many
+%   characters agree, so that a client cannot find the token by measuring it.
 
 token_right(Given, Token) :-
     atom_codes(Given, A),
@@ -43,8 +46,8 @@ differences([A|As], [B|Bs], Sum0, Sum) :-
 
 %!  request_own(+Request) is semidet.
 %
-%   No other site has made a browser send Request: its origin, if there is one,
-%   is this server.
+%   Request has no origin, or this server is its origin: so no page of another
+%   site has made a browser send it.
 
 request_own(Request) :-
     (   option(origin(Origin), Request)
@@ -72,9 +75,9 @@ request_within(Request, Bytes) :-
 
 %!  guarding_headers is det.
 %
-%   Print headers: nothing is loaded from elsewhere, only our files run as
-%   scripts, no frame may enclose the page, and its address, with the token, is
-%   sent to no other site.
+%   Print headers.  With these a browser loads nothing from elsewhere, runs only
+%   our files as scripts, shows the page in no frame of another site, and sends
+%   its address, which contains the token, to no other site.
 
 guarding_headers :-
     forall(header(Name, Value), format('~w: ~w\r\n', [Name, Value])).
@@ -89,7 +92,8 @@ header('Cross-Origin-Opener-Policy', 'same-origin').
 header('Cross-Origin-Resource-Policy', 'same-origin').
 header('Cache-Control', 'no-store').
 
-%   A stopped server drops connections that wait for further requests.
+%   Otherwise connections would wait for further requests, and be dropped when
+%   the server stops.
 
 header('Connection', close).
 
@@ -118,9 +122,10 @@ policy('trusted-types \'none\'').
 
 %!  page_file(+Names:list(atom), -File, -Type) is semidet.
 %
-%   File is the file for the last parts of an address, and has Type.  No name
-%   leads out of the folder, hidden files are not served, and a name with a
-%   zero, at which the system would end the name, is refused.
+%   File is the file of the page that an address with Names after the token
+%   denotes; Type is its media type.  No name leads out of the folder, hidden
+%   files are not served, and a name with a zero, at which the operating system
+%   would end the name, is refused.
 
 page_file([''], File, Type) :-
     !,

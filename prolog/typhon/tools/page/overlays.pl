@@ -25,25 +25,24 @@ An agent program, or the file of a study, declares what the map shows by facts
 
     overlay(Title, Kind, When, Value).
 
-When an event happens that is an instance of When, which is log(Term),
-leave(Fact) or take(Fact), Value is shown on the host of the event:
+When is log(Term), leave(Fact) or take(Fact).  When an event happens that is an
+instance of it, the page shows Value on the host of the event:
 
-  - a number or another term: that; `none` removes the value
+  - a number or another term: this; `none` removes the value
   - Host-Term: Term on Host
   - (A,B)-Term: Term on the link of A and B, if Kind is `link`
   - add(N), Host-add(N): the sum of such numbers
 
 Kind is `bar` for numbers to compare, `label` for words, `colour` for words that
-denote kinds, `link` for values of links.  These facts are read as data, never
-called: the file is not loaded for them, and agents that have them do not use
-them.
+denote kinds, `link` for values of links.  The page reads these facts as data,
+and neither loads the file nor calls them; agents do not use them either.
 
-The operator of a mechanism is the module by which users control it.  The
-arguments of its predicates are read from their comments: no mechanism is known
-by name.
+The operator of a mechanism is the module by which users control it.  The page
+reads the arguments of its predicates from their comments, so that it knows no
+mechanism by name.
 
-*Threading*: one thread at a time starts and stops; any thread queries.  Files
-are read again each time.
+*Threading*: one thread at a time starts and stops; any thread queries.  Each
+query reads the files again.
 */
 
 :- dynamic shown/1.                     % overlays of the page that is served
@@ -52,7 +51,8 @@ are read again each time.
 %!  overlays_stop is det.
 %!  overlays_shown(-Dicts) is det.
 %
-%   A page shows the overlays of agents/ and of Files while it is served.
+%   Show the overlays of agents/ and of Files from now on, and show them no
+%   longer; Dicts describe those that are shown.
 
 overlays_start(Files) :-
     overlays_declared(Files, Overlays),
@@ -70,8 +70,7 @@ overlays_shown(Dicts) :-
 %!  overlays_declared(+Files, -Overlays:list) is det.
 %
 %   Overlays are the facts overlay/4 in Files, and in all files below agents/,
-%   each file without the files that it includes.  Terms that cannot be read are
-%   skipped.
+%   but not in files that these include.  Terms that cannot be read are skipped.
 %
 %   @error existence_error(source_sink, File)
 
@@ -117,7 +116,7 @@ is_overlay(Term) :-
 
 %!  overlay_dicts(+Overlays, -Dicts:list) is det.
 %
-%   Dicts describe them for the page: each title once.
+%   Dicts describe Overlays for the browser, each title once.
 
 overlay_dicts(Overlays, Dicts) :-
     findall(Title-Kind, member(overlay(Title, Kind, _, _), Overlays), Known),
@@ -130,9 +129,10 @@ overlay_dict(Title-Kind, _{name:Name, kind:KindText}) :-
 %!  event_rows(+Events, -Rows:list) is det.
 %!  event_rows(+Events, +Overlays, -Rows:list) is det.
 %
-%   Rows are Events, as of watch/3, in the form for the browser.  After each
-%   event are rows for its changes of Overlays, by default those of the page
-%   that is served: [Time, Host, Agent, "show" or "add", Title, Where, Value].
+%   Rows are Events, see watch/3, in the form for the browser.  The row of an
+%   event is followed by rows for what it changes in Overlays, by default those
+%   that the page shows: [Time, Host, Agent, "show" or "add", Title, Where,
+%   Value].
 
 event_rows(Events, Rows) :-
     (   shown(Overlays)
@@ -198,7 +198,8 @@ value(Term, Kind, Text) => Kind = "show", text(Term, Text).
 
 %!  program_names(-Names:list(string)) is det.
 %
-%   Names of agent programs that are found, in the form agents(Name).
+%   Names are the agent programs in the folders agents(.), in the form
+%   agents(Name).
 
 program_names(Names) :-
     findall(Name, program_name(Name), Names0),
@@ -227,7 +228,7 @@ folder(Dir) :-
                        [ file_type(directory), solutions(all),
                          file_errors(fail) ]).
 
-%   The first term that is not a comment decides.
+%   The first term of an agent program is its declaration.
 
 is_program(File) :-
     catch(setup_call_cleanup(
@@ -242,6 +243,8 @@ is_program(File) :-
     memberchk(Arity, [1,2]).
 
 %!  mechanism_file(+Name, -File) is semidet.
+%
+%   File is the operator of the mechanism Name.
 
 mechanism_file(Name, File) :-
     folder(Dir),
@@ -258,8 +261,9 @@ operator_in(Dir, Name, File) :-
 
 %!  mechanism_dicts(-Dicts) is det.
 %
-%   Each is _{name, predicates}, where predicates are _{name, arguments, about}:
-%   arguments are pairs of `+` or `-` and a name, `about` is the comment.
+%   Dicts are _{name, predicates} for each mechanism, where predicates are
+%   _{name, arguments, about}: arguments are pairs of `+` or `-` and a name,
+%   `about` is the text of the comment.
 
 mechanism_dicts(Dicts) :-
     findall(Name, ( folder(Dir), operator_in(Dir, Name, _) ), Names0),
@@ -288,8 +292,8 @@ read_comments(In, Comments) :-
         read_comments(In, Rest)
     ).
 
-%   A comment `%!  name(+A, -B) is det.`  Several heads may share the text
-%   below.
+%   Comment begins with heads like `%!  name(+A, -B) is det.`; several heads may
+%   share the text below them.
 
 predicate_dict(Comment, _{name:Name, arguments:Arguments, about:About}) :-
     string_concat("%!", _, Comment),
@@ -330,7 +334,7 @@ heads([Line|Lines], Text, All0, All) :-
     heads(Lines, Text, All1, All).
 heads(Text, Text, All, All).
 
-%   A variable in a head is bound to its name.
+%   Variables are bound to their names, as the page shows these.
 
 head_parts(Text, Name, Arguments) :-
     catch(term_string(Term, Text, [variable_names(Bindings)]),

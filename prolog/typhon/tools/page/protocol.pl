@@ -62,18 +62,19 @@ that a browser notices when the server is gone.
 
 The browser posts requests to `ask`: {"ask": What, ...} for queries and
 {"do": What, ...} for orders; the answer is {"answer": ...} or {"error": Text}.
-The modules `looking` and `acting` have a clause for each What.
+The modules `queries` and `browser_orders` have a clause for each What.
 
-*Threading*: pure.
+*Threading*: any thread; a mutex serialises those that note clocks.
 */
 
-%   The maximal length of a term as text.
+%   Longer texts of terms are abridged.
 
 longest(2000).
 
 %!  event_row(+Event, -Row:list) is det.
 %
-%   Event is event(Time, Host, Agent, What), as of watch/3.
+%   Row is the form for the browser of Event, event(Time, Host, Agent, What) as
+%   in watch/3.
 
 event_row(event(Time, Host, Agent, What),
           [PageTime, HostText, AgentText, Kind|Arguments]) :-
@@ -116,8 +117,8 @@ argument_text(Term, Text) :-
 
 %!  place_text(+Place, -Text:string) is det.
 %
-%   Place of a fault, as of agent_property/2, with the name of the file alone:
-%   the file may be one of the editor, or of another machine.
+%   Text is the Place of a fault, see agent_property/2, without the folder of
+%   the file, which may be that of the editor, or of another machine.
 
 place_text(Place, Text) :-
     place_short(Place, Short),
@@ -134,14 +135,17 @@ place_short(File:Line, Short), atom(File) =>
 place_short(Place, Short) =>
     Short = Place.
 
-%!  skipped_row(+Count, -Row) is det.
+%!  skipped_row(+Count:integer, -Row:list) is det.
+%
+%   Row reports to one browser that it misses Count events.
 
 skipped_row(Count, [null, "", "", "skipped", Count]).
 
 %!  name_text(+Atomic, -Text:string) is det.
 %!  text(+Term, -Text:string) is det.
 %
-%   An id or an address is unchanged; a term is written as in Prolog.
+%   Text shows an id or an address unchanged, and another term as Prolog writes
+%   it; for `none`, the agent of events without agents, it is empty.
 
 name_text(none, Text) =>
     Text = "".
@@ -172,8 +176,8 @@ number_json(Number, Told) :-
 
 %!  scene_dict(+Time, +Scene, -Dict) is det.
 %
-%   Scene is scene(Hosts, Agents): terms host/8 and agent(Id, Glance), see
-%   inventory/4.
+%   Dict is a snapshot at Time of Scene, scene(Hosts, Agents): terms host/8 and
+%   agent(Id, Summary), see inventory/4.
 
 scene_dict(Time, scene(Hosts, Agents),
            _{time:Time, hosts:HostDicts, agents:AgentDicts}) :-
@@ -214,7 +218,7 @@ link_row(Neighbour, Cost, [Text, Told]) :-
 
 %!  agent_summary_dict(+Agent, -Dict) is det.
 %
-%   Agent is agent(Id, Glance), see agent_summary/2.
+%   Agent is agent(Id, Summary), see agent_summary/2.
 
 agent_summary_dict(agent(Id, glance(Host, Program, Doing, Hops, Mail)), Dict) :-
     maplist(name_text, [Id, Host, Program, Doing],
@@ -222,8 +226,6 @@ agent_summary_dict(agent(Id, glance(Host, Program, Doing, Hops, Mail)), Dict) :-
     status_word(DoingText, Status),
     Dict = _{id:IdText, host:HostText, program:ProgramText, status:Status,
              doing:DoingText, hops:Hops, mail:Mail}.
-
-%   The status is the first word of the activity.
 
 status_word(Doing, Word) :-
     split_string(Doing, " ,:", "", [Word|_]).
@@ -238,6 +240,8 @@ status_word(Doing, Word) :-
 
 %!  times_start is det.
 %!  times_stop is det.
+%
+%   Forget the clocks and the origin of a page that was served before.
 
 times_start :-
     times_stop.
@@ -248,7 +252,7 @@ times_stop :-
 
 %!  times_of(+Hosts) is det.
 %
-%   Note the clocks of Hosts, terms as of inventory_hosts/4.
+%   Note the clocks of Hosts, terms host/8 of inventory_hosts/4.
 
 times_of(Hosts) :-
     with_mutex(typhon_page_protocol,
@@ -264,8 +268,8 @@ note(host(Address, _, _, _, _, _, _, clock(Epoch, Rate))) =>
 note(_) =>
     true.
 
-%   The time of day, as of hosts without a network, has too many digits, so the
-%   page has its own origin.  Virtual time is shown as it is.
+%   A host without a network has the time of day, which has too many digits to
+%   show, so the page has an origin of its own.  Virtual time is not converted.
 
 choose(_) :-
     reference(_, _),
@@ -285,8 +289,9 @@ choose(_) :-
 %!  page_time(+Stamp, -Time) is det.
 %!  page_time(+Host, +HostTime, -Time) is det.
 %
-%   Time of the page at Stamp, in real time, or `null` in virtual time; or when
-%   the clock of Host, an address, shows HostTime.
+%   Time is the time of the page, in seconds: at Stamp, a time of day in
+%   seconds, or when the clock of Host, an address, shows HostTime.  With
+%   virtual time no time of the page belongs to Stamp: page_time/2 gives `null`.
 
 page_time(Stamp, Time) :-
     reference(Epoch, Rate),

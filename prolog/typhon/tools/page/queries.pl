@@ -52,7 +52,10 @@ time starts and stops the world.
 
 %!  query_answer(+Message:dict, -Answer) is det.
 %
-%   @error domain_error(question, What)
+%   Answer is the answer to the query in Message, see above.
+%
+%   @error domain_error(question, Message) Message has an unknown query
+%   @error existence_error(page_field, Key), and the errors of the query
 
 query_answer(Message, Answer) :-
     get_dict(ask, Message, Text),
@@ -62,7 +65,7 @@ query_answer(Message, Answer) :-
 query_answer(Message, _) :-
     domain_error(question, Message).
 
-%   Longer lists of facts, or messages, are not readable.
+%   Users would not read longer lists of facts or messages.
 
 most(300).
 
@@ -91,6 +94,8 @@ answer(replay, Message, Dict) :-
     replay_of_text(Title, Text, Dict).
 
 %!  present_scene(-Dict) is det.
+%
+%   Dict is a snapshot of all hosts and agents of the page, see protocol.
 
 present_scene(Dict) :-
     sources_look(Scene),
@@ -168,8 +173,8 @@ mail_row(Message, [FromText, Text]) :-
         text(Message, Text)
     ).
 
-%   The listing has comments where facts and goals begin, which the page shows
-%   elsewhere, and an arrow at the present goal.
+%   The page shows facts and goals elsewhere, so the lines from the comment at
+%   which these begin are left out.  An arrow marks the line of the next goal.
 
 program_dict(Agent, _{lines:Lines, here:Here}) :-
     with_output_to(string(Text), agent_listing(Agent)),
@@ -276,7 +281,8 @@ network_dict(_{name:Name, hosts:HostTexts, seed:Seed, processes:Pids}) :-
 %!  world_stop is det.
 %!  world_shown is semidet.
 %
-%   Set and remove the world of the page; the page has a world.
+%   Set the goal of the view World from the option world(Goal); remove it;
+%   succeed if the page has that view.
 
 world_start(Options) :-
     (   option(world(Goal), Options)

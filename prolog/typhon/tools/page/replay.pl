@@ -18,7 +18,7 @@
 :- use_module(overlays, [event_rows/3, overlay_dicts/2, overlays_declared/2]).
 :- use_module(protocol, [name_text/2]).
 
-/** <module> Logs as the page replays them, from a server or in one file
+/** <module> Logs in the form in which the page replays them
 
     {"title": Text, "names": [Text, ...],
      "snapshot": {"hosts": [{"id": Address, "links": [[Address, 1], ...]}]},
@@ -26,9 +26,9 @@
      "events": [[Time, Host, Agent, Kind, Argument ...], ...]}
 
 where texts in events are indexes into `names`, since ids are frequent, and
-numbers are in lists of length one.  A log has the links of hosts only if links
-were made or broken; otherwise hosts between which an agent hopped are taken for
-linked.
+numbers are in lists of length one.  A log contains links only if they were made
+or broken while it was written; if it contains none, the replay links the hosts
+between which an agent hopped.
 
 An exported file needs no server and fetches nothing: it contains scripts,
 styles and the log.  Modules are data URLs, named by an import map, so an import
@@ -40,8 +40,9 @@ allows only the scripts that were written into the file.
 
 %   replay_dict(+LogFile, +Options, -Dict) is det.
 %
-%   Options: title(Text), default the name of the file; overlays(Files), whose
-%   overlays are shown beside those of the programs in agents/.
+%   Dict is the log LogFile as above.  Options: title(Text), default the name of
+%   the file; overlays(Files), files whose overlays are shown besides those of
+%   the programs in agents/.
 %
 %   @error existence_error(source_sink, File)
 
@@ -74,7 +75,7 @@ replay_of_text(Title, Text, Dict) :-
         ( close(Out, [force(true)]),
           delete_file(File) )).
 
-%   watched(+Logged, -Event): Event is in the form of watch/3.
+%   watched(+Logged, -Event): Event is the event Logged in the form of watch/3.
 
 watched(event(Time, Host, Agent, What), event(Time, Host, Agent, Told)) :-
     shown_event(What, Told).
@@ -97,7 +98,7 @@ is_address(Address) :-
     sub_atom(Address, _, _, _, @),
     !.
 
-%   used(+Rows, +Declared, -Used): the overlays that have a row.
+%   used(+Rows, +Declared, -Used): Used are the overlays of Declared with a row.
 
 used(Rows, Declared, Used) :-
     findall(Title,
@@ -156,7 +157,8 @@ links(Events, Links) :-
                 *             NAMES            *
                 *******************************/
 
-%   intern(+Rows, -Names, -Short): each text is sent once.
+%   intern(+Rows, -Names, -Short): Short are Rows with indexes into Names in
+%   place of texts, so that each text is sent once.
 
 intern(Rows, Names, Short) :-
     empty_assoc(Known),
@@ -239,7 +241,8 @@ file_text(Name, Text) :-
     ;   existence_error(page_tool, Name)
     ).
 
-%   modules(+Files, +Known0, -Known): File-Text for the files and their imports.
+%   modules(+Files, +Known0, -Known): Known are pairs File-Text for Files, and
+%   the files that they import, besides Known0.
 
 modules([], Known, Known).
 modules([File|Files], Known, Modules) :-

@@ -33,7 +33,7 @@
 
 /** <module> The server of the page
 
-There is one for a process.  Every address begins with the token: `/TOKEN/` is
+A process has at most one.  Every address begins with the token: `/TOKEN/` is
 the page, `/TOKEN/feed` the WebSocket; queries and orders are posted to
 `/TOKEN/ask`; other names are those of files.  `/?token=TOKEN` redirects to the
 page, and `feed?token=TOKEN` and `metrics?token=TOKEN` are also valid.
@@ -46,8 +46,8 @@ size is bounded, and so is the time from its first byte to its last, see
 typhon_http_server.  The body is read after the token has been verified, within
 a bounded time, too.
 
-*Threading*: starting and stopping exclude each other by a mutex.  Each client
-has a thread, another accepts connections.
+*Threading*: a mutex serialises start and stop.  Each client has a thread, and
+one thread accepts connections.
 */
 
 :- use_module(library(http/http_stream), []). % else WebSockets are HTTP/1.0
@@ -60,7 +60,8 @@ has a thread, another accepts connections.
 %!  server_start(+Options, -Link) is det.
 %!  server_stop is det.
 %
-%   Options are those of page_start/1; Link is the address of the page.
+%   Start the server with Options of page_start/1, Link being the address of the
+%   page; stop it, if it runs.
 %
 %   @error permission_error(start, page, Port) if there is a page already
 
@@ -98,7 +99,7 @@ server_stop :-
 
 stop :-
     (   retract(serving(_, _, _))
-    ->  browsers_stop,                  % first, so that they get a close frame
+    ->  browsers_stop,                  % first: it sends close frames
         reception_close,
         put_away
     ;   true
@@ -129,7 +130,9 @@ serve(In, Request) :-
                      page was started, leads here; this address does not')
     ).
 
-%   admitted(+Parts, +Request, -Rest, -Token): the request has the token.
+%   admitted(+Parts, +Request, -Rest, -Token) is semidet: Request has Token in
+%   its path, its query or its authorization; Rest are the parts of the path
+%   after it.
 
 admitted([Given|Rest], _, Rest, Token) :-
     Rest = [_|_],
@@ -200,7 +203,7 @@ refuse(Status, Why) :-
     text_reply('text/plain', Why).
 
                 /*******************************
-                *       QUESTIONS, ORDERS      *
+                *        QUERIES, ORDERS       *
                 *******************************/
 
 answer(In, Request) :-
@@ -227,7 +230,7 @@ answer_to(In, Request, _{answer:Answer}) :-
     ;   query_answer(Message, Answer)
     ).
 
-%   All orders pass this check.
+%   No order runs without this check.
 
 may_order(What) :-
     (   serving(_, _, false)
@@ -252,9 +255,9 @@ error_answer(Error, _{error:Text}) :-
 
 :- meta_predicate with_body(+, +, -, 0).
 
-%   reception_open(+Address): serve clients that connect to Address,
-%   Interface:Port, by serve(In, Request), which prints an answer like the
-%   handlers of library(http); In has the body.
+%   reception_open(+Address): call serve(In, Request) for each request of
+%   clients that connect to Address, Interface:Port.  It prints an answer like
+%   the handlers of library(http), and reads the body from In.
 
 reception_open(Address) :-
     setting(typhon_page_reception:connections, Most),
@@ -302,10 +305,11 @@ switched(_, _, _).
 
 %   with_body(+In, +Length, -Body, :Goal) is semidet.
 %
-%   Run Goal once while Body is a stream with the body of that Length, which
-%   has been read from In.
+%   Read a body of Length bytes from In, and run Goal once, in which Body is a
+%   stream with these bytes.
 %
-%   @error timeout_error(read, In), syntax_error(http_length) if it is shorter
+%   @error timeout_error(read, In)
+%   @error syntax_error(http_length) the body is shorter
 
 with_body(In, Length, Body, Goal) :-
     setting(typhon_page_reception:request_seconds, Seconds),

@@ -26,8 +26,8 @@
 
 /** <module> The hosts that a page shows, and their events
 
-There is a watch for each process, and a further one when more hosts are found
-there.  Events are collected only while a browser is connected.
+The page has a watch for each process, and a further watch when it finds more
+hosts there.  Events are collected only while a browser is connected.
 
 *Threading*: any thread may query; a mutex protects the watches.  While a
 browser is connected, a thread searches for new hosts every few seconds.
@@ -37,7 +37,7 @@ browser is connected, a thread searches for new hosts every few seconds.
            "Seconds between searches of a page for new hosts").
 
 :- dynamic
-    place/1,                    % Address: where the search begins
+    place/1,                    % Address: the search begins here, too
     finder/1,                   % Server
     own/1,                      % Watch
     watched/2.                  % Address, Watch
@@ -45,9 +45,9 @@ browser is connected, a thread searches for new hosts every few seconds.
 %!  sources_start(+Options) is det.
 %!  sources_stop is det.
 %
-%   A page shows this process, the networks that it has started, with the option
-%   host(Host) also that host, and all hosts that links from these lead to.
-%   Events are sent to browsers.
+%   Show the hosts of this process and of the networks that it has started, with
+%   the option host(Host) also that host, and all hosts that links from these
+%   lead to; send their events to browsers.  Stop doing so.
 %
 %   @error existence_error(host, Host), host_unreachable(Address)
 
@@ -79,9 +79,9 @@ sources_stop :-
 
 %!  sources_look(-Scene) is det.
 %
-%   Scene is scene(Hosts, Agents), as of inventory_hosts/4 and
-%   inventory_agents/2; all these Hosts are watched before their agents are
-%   listed.
+%   Scene is scene(Hosts, Agents), see inventory_hosts/4 and inventory_agents/2.
+%   All these Hosts are watched before their agents are listed, so that a
+%   browser gets the events of all later changes.
 
 sources_look(scene(Hosts, Agents)) :-
     finder(Finder),
@@ -102,7 +102,7 @@ sources_metrics(Text) :-
 
 %!  sources_tree(-Trees:list) is det.
 %
-%   As of supervision_tree/3.
+%   Trees are those of supervision_tree/3, for the places of the page.
 
 sources_tree(Trees) :-
     findall(Address, place(Address), Places),
@@ -149,7 +149,7 @@ renew :-
     with_mutex(typhon_page_sources, idle(Watches)),
     maplist(end_watch, Watches).
 
-%   All hosts of these watches have stopped.
+%   idle(-Watches): remove the records of watches whose hosts have all stopped.
 
 idle(Watches) :-
     findall(Watch, ( own(Watch), \+ watched(_, Watch) ), Watches),
@@ -172,7 +172,8 @@ watch_hosts(Hosts) :-
     group_pairs_by_key(Pairs, Groups),
     forall(member(_-Addresses, Groups), watch_some(Addresses)).
 
-%   The next search reports a process that has ended meanwhile as lost.
+%   If the process has ended meanwhile, the next search reports its hosts as
+%   lost.
 
 watch_some(Addresses) :-
     (   catch(watch(Addresses, typhon_page_sources:forward_event, Watch),
@@ -196,8 +197,9 @@ changed(event(_, Host, _, stopped)) =>
 changed(_) =>
     true.
 
-%   End all watches if When: a browser that connects meanwhile finds the hosts
-%   watched, or watches them after this.
+%   End all watches if When holds.  The mutex serialises this check with
+%   watch_hosts/1: a browser that connects meanwhile keeps the watches, or
+%   begins new ones afterwards.
 
 :- meta_predicate rest(0).
 
