@@ -20,11 +20,11 @@ loaded when a monitor is set, or another process requests one.
 %!  agent_monitor(+Agent, :OnDown) is det.
 %
 %   Call call(OnDown, Id, Outcome) once, in a worker, when Agent, whose id is
-%   Id, has ended, is faulty or is lost.  Outcome is as of agent_join/3, or
+%   Id, has ended, is faulty or is lost.  Outcome is that of agent_join/3, or
 %   `unknown` for an agent that its home does not know, or lost(Host): the
 %   process of the agent, or of its home, is gone, and Host is the last known
-%   address of the agent.  Does not wait.  This process takes part in the
-%   network until then.
+%   address of the agent.  Does not wait.  Until the call this process keeps its
+%   endpoint.
 %
 %   @error existence_error(agent, Agent), ambiguous_agent(Agent, Ids)
 
@@ -33,9 +33,10 @@ agent_monitor(Agent, OnDown) :-
 
 %!  agent_relations(-Relations:ordset) is det.
 %
-%   Relations are the monitors known to the processes that are known here: terms
-%   monitors(Agent, Other) and follows(Agent, Other), of ids.  Waits for
-%   answers.
+%   Relations are the monitors that this process, and the processes that it
+%   knows, keep: terms monitors(Agent, Other) and follows(Agent, Other), of ids.
+%   Waits up to five seconds for the answers; processes that do not answer are
+%   missing.
 
 agent_relations(Relations) :-
     relations(_, Relations).

@@ -10,9 +10,9 @@
 
 /** <module> Watching: events of hosts as they happen
 
-A process can watch hosts anywhere.  This is the interface of the layer: higher
-layers import from here.  Its modules are loaded when this process watches, or
-another process watches its hosts.
+A process can watch hosts of this and of other processes.  This is the interface
+of the layer: higher layers import from here.  Its modules are loaded when this
+process begins a watch, or another process watches its hosts.
 
 *Threading*: any thread that may wait.
 */
@@ -24,17 +24,17 @@ another process watches its hosts.
 
 %!  watch(+Hosts, :OnEvent, -Watch) is det.
 %
-%   Call call(OnEvent, Event) for each event on Hosts from now on: a host, a
-%   network, or a list of such, of this process and of others.  Event is
+%   Call call(OnEvent, Event) for each event on Hosts from now on.  Hosts is a
+%   host, a network, or a list of hosts and networks, of any process.  Event is
 %   event(Time, Host, Agent, What), where Time is in seconds of the clock of
 %   Host, Host is an address, Agent an id or `none`, and What is one of
 %
 %     - created, ended(Outcome), fault(Fault)
-%       An agent begins, ends, or becomes faulty; Fault is as of
-%       agent_property/2.  A faulty agent ends when it is given up.
+%       An agent begins, ends, or becomes faulty; Fault is the one of
+%       agent_property/2.  A faulty agent ends when it is disposed of.
 %     - left(To), arrived(From, Seconds), stayed(To)
-%       An agent departs for To; has arrived after a hop of so many seconds;
-%       could not go to To.
+%       An agent departs for To; has arrived after a hop of Seconds; could not
+%       move to To.
 %     - cloned(Id), sent(To), received(From), log(Term)
 %       On hosts whose option log(Address, Kinds) has messages(content), also
 %       sent(To, Message) and received(From, Message).
@@ -44,18 +44,18 @@ another process watches its hosts.
 %       Agent is `none`.
 %     - refused(Agent, Reason)
 %       Host did not admit Agent: the name of an agent to be created there, or
-%       the id of one that was to arrive.  Reason is as of move_refused/2.
-%       Agent of the event is `none`.
+%       the id of an arriving one.  Reason is the one of move_refused/2.  The
+%       agent of the event is `none`.
 %     - lost
 %       The process of Host has ended or cannot be reached any more.  When it
-%       is back, Host has the event `started`.
+%       is reachable again, Host has the event `started`.
 %     - skipped(Count)
-%       Count events of Host were dropped: OnEvent is slower than they arrive.
+%       Count events of Host were dropped, since OnEvent is too slow.
 %
-%   The events of one host arrive in order.  All calls run in one thread, one
-%   after the other, and not where the events happen: whatever OnEvent does,
-%   hosts do not wait for it.  Failure of the call is ignored; an exception is
-%   reported once, and the watch continues.
+%   The events of one host arrive in order.  All calls run one after the other
+%   in a thread of the watch, so that hosts never wait for OnEvent.  Failure of
+%   a call is ignored; the first exception is printed as a warning, and the
+%   watch continues.
 %
 %   OnEvent may be a lambda expression; variables that are bound when watch/3 is
 %   called keep these values, as Q in [E]>>p(Q, E).
@@ -70,8 +70,8 @@ watch(Hosts, OnEvent, Watch) :-
 
 %!  unwatch(+Watch) is det.
 %
-%   Earlier events are still delivered, if two seconds are enough for that, and
-%   then no event any more.
+%   End Watch.  Earlier events are delivered first, for at most two seconds (the
+%   setting `typhon_watches:last_seconds`); later ones are not.
 %
 %   @error existence_error(watch, Watch)
 
@@ -80,13 +80,15 @@ unwatch(Watch) :-
 
 %!  overview(+Hosts, -Processes, -Silent) is det.
 %
-%   Hosts as of watch/3.  Processes are process(Endpoint, Pid, Hosts, Agents):
+%   Processes are the processes of Hosts, see watch/3, as
+%   process(Endpoint, Pid, Hosts, Agents), with
 %
 %     - host(Address, Time, Load, Options, Links)
 %       Time is the time of its clock, Load the number of its agents that
-%       count, Options those of host_start/2 except tokens, Links To-Cost.
+%       count towards its capacity, Options those of host_start/2 except
+%       tokens, Links pairs To-Cost.
 %     - agent(Id, Host, Program, State, Hops)
-%       State is as of agent_property/2, without the error of faulty agents.
+%       State is that of agent_property/2, without the error of faulty agents.
 %
 %   Silent are the endpoints of processes that did not answer within five
 %   seconds.
@@ -98,7 +100,7 @@ overview(Hosts, Processes, Silent) :-
 
 %!  metrics(+Hosts, -Text:string) is det.
 %
-%   Text has the metrics of the processes that have Hosts, as of watch/3, in the
+%   Text contains the metrics of the processes of Hosts, see watch/3, in the
 %   text format of Prometheus.  Counters begin at 0 with the first request.
 %
 %   @error existence_error(host, Host)

@@ -2,8 +2,8 @@
 
 /** <module> Admission by the authors of programs and payloads
 
-A host with `authors(Names)` admits agents whose program is signed by one of
-these authors, and their payloads, from whatever process they come.
+A host with `authors(Names)` admits an agent, from any process, only if one of
+these authors has signed its program and its payloads.
 
 The signature of a payload is a fact in the state of the agent,
 
@@ -59,7 +59,7 @@ closure(payload, 10, payload_forbids).
 
 :- public payloads_forbid/4, program_forbids/4, payload_forbids/4.
 
-%   If the program did not come along, its signature may still come with it.
+%   If the program was not sent along, its signature may arrive with it later.
 
 program_forbids(From, entrant(_, Hash, _, _, _), Host, Verdict) :-
     host_option(Host, authors(Authors)),
@@ -107,7 +107,7 @@ marks(Module, Marks) :-
     ;   Marks = []
     ).
 
-%   State is as of agent_state/2, or module(Module).
+%   State is that of agent_state/2, or module(Module).
 
 payloads_admitted(Host, Life, State) :-
     life_payloads(Life, Payloads),
@@ -122,8 +122,8 @@ state_clauses(state(_, Clauses), Clauses).
 state_clauses(module(Module), Clauses) :-
     agent_state(Module, state(_, Clauses)).
 
-%   payload_admitted(+Host, +Payload, +Clauses): Host admits an agent with
-%   Payload; Clauses are in the state of the agent.
+%   payload_admitted(+Host, +Payload, +Clauses): one of Clauses, in the state of
+%   the agent, is a valid signature of Payload by an author that Host admits.
 
 payload_admitted(Host, Payload, Clauses) :-
     host_option(Host, authors(Authors)),
@@ -135,7 +135,8 @@ payload_admitted(Host, Payload, Clauses) :-
     signature_by(Authors, Hash, Signature),
     !.
 
-%   A new payload is marked if its signature is known here.
+%   A new payload gets its mark, the fact '$signed'(Name, Signature), if this
+%   process knows its signature.
 
 typhon_payloads:mark(Payload, Mark) :-
     mark(Payload, Mark).

@@ -34,11 +34,11 @@ one, so an id belongs to one owner and one program.  A birth is shown only to
 processes to which the agent goes, and to its home, so a process that shows it
 has had the agent.
 
-The birth is sent along with the program, to processes that are not known to
-have it; a process shows it once.
+The birth is sent along with the program, once to each process that is not known
+to have it.
 
 The resources that agents of one owner use together can be bounded, see
-typhon_quotas.  An owner is, besides the home, a property that no agent can
+typhon_quotas.  Besides the home, an owner is a property that an agent cannot
 choose, see typhon_identity:
 
   - author(Name) on a host with authors(Names): the author that signed its
@@ -47,12 +47,13 @@ choose, see typhon_identity:
     agent, or the agent of which this is a clone; not a process of the same
     owner
 
-The second is a fact '$owner'(Owner) in the state of the agent, so it moves with
-it.  It is set when an untrusted process sends an agent, and replaces an earlier
-one; processes of the same owner are trusted to send the right one.
+The latter is stored as a fact '$owner'(Owner) in the state of the agent, so it
+moves with the agent.  The fact is set when an untrusted process sends an agent,
+and replaces an earlier one; processes of the same owner are trusted to send the
+right one.
 
-Where there are keys, the mark in the id of an agent ends with the name in the
-certificate of the process in which it was created, which its birth proves.
+In a process with keys, the mark in the id of a new agent ends with the name in
+the certificate of this process, which the birth of the agent proves.
 
 *Threading*: any thread; a mutex serialises writers.
 */
@@ -125,7 +126,8 @@ now_has(Id, Proof) :-
                  assertz(has(Id, Proof)),
                  bounded(has(_, _), typhon_birth:births) )).
 
-%   The process at Endpoint does not have the birth of Id after all.
+%   The process at Endpoint lacks the birth of Id, although it was recorded to
+%   have it.
 
 typhon_hop:sent_again(Endpoint, Id) :-
     proof_of(Endpoint, Proof),
@@ -154,7 +156,8 @@ remember(Id, Birth) :-
                  assertz(known(Id, Birth)),
                  bounded(known(_, _), typhon_birth:births) )).
 
-%   Births of agents that are here are kept: no other process may have them.
+%   Births of agents in this process are kept: other processes need not have
+%   them.
 
 typhon_bounds:forgotten(known(Id, Birth)) :-
     (   agent(Id, _, _, _, _)
@@ -184,9 +187,10 @@ unproved(Papers, Verdict) :-
     ;   Verdict = need_program
     ).
 
-%   proved(+Papers, +Proof, +Id, +Hash): Papers, which may be any term, show
-%   that a process with that Proof may bring Id with a program of that Hash; or
-%   it has shown that before, or is of the same owner.
+%   proved(+Papers, +Proof, +Id, +Hash): a process with Proof may send the agent
+%   Id with the program Hash: it has shown the birth of Id before, has the same
+%   keys as the owner of Id, or shows the birth in Papers, which may be any
+%   term.
 
 proved(_, Proof, Id, Hash) :-
     has(Id, Proof),
@@ -201,8 +205,8 @@ proved(Papers, Proof, Id, Hash) :-
 
 %!  birth_good(+Birth) is semidet.
 %
-%   The owner has signed Birth, which may be any term, and Birth does not exceed
-%   its maximal size.
+%   Birth, which may be any term, is a birth of at most the maximal size, and
+%   the owner of the agent has signed it.
 
 birth_good(Birth) :-
     ground(Birth),
@@ -228,7 +232,7 @@ short(Atoms) :-
     sum_list(Lengths, Length),
     Length =< 20 000.
 
-%   Agents of other owners were not created in this process.
+%   An agent of another owner cannot have its home in this process.
 
 at_home(Id) :-
     agent_owned(Id),
@@ -302,7 +306,7 @@ of_owner(Clause) :-
 %!  agent_owned(+Id) is semidet.
 %!  agent_owned(+Id, +Owner) is semidet.
 %
-%   By its name, Id belongs to this process; to the process whose certificate
+%   According to Id, its owner is this process; or a process whose certificate
 %   has the name Owner.
 
 agent_owned(Id) :-
@@ -327,8 +331,8 @@ typhon_identity:mark_suffix(Part) :-
     spelt(Name, Spelt),
     atom_concat(-, Spelt, Part).
 
-%   spelt(+Name, -Spelt): characters that could be mistaken for another part of
-%   an id are written as numbers.
+%   spelt(+Name, -Spelt): Spelt is Name with numbers for characters that could
+%   be mistaken for another part of an id.
 
 spelt(Name, Spelt) :-
     atom_codes(Name, Codes),

@@ -10,8 +10,8 @@ process can read the term, or change it undetected.  The key is that of the
 process of the host, see doc/keys.md.  A process that can read an agent can also
 read the terms that the agent seals there.
 
-*Threading*: the thread that runs the agent; sealing for a host of another
-process may wait for an answer.
+*Threading*: the thread that runs the agent; seal/3 may wait for an answer if
+the host is in another process.
 */
 
 :- use_module(library(error), [existence_error/2, must_be/2]).
@@ -38,8 +38,8 @@ answer_seconds(10).
 %   @error existence_error(keys, Host): Host, or this process, has no keys
 %   @error type_error(mobile_term, Culprit)
 %   @error host_unreachable(For)
-%   @error permission_error(unseal, term, Sealed): it is for another host, or it
-%   has been changed
+%   @error permission_error(unseal, term, Sealed): Sealed is for another host,
+%   or has been changed
 
 seal(Term, For, Sealed) :-
     must_be(atom, For),

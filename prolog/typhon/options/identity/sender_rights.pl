@@ -8,13 +8,13 @@ typhon_birth.  Only a process that has or had the agent can show its birth.
 Messages to an agent are also accepted from processes that may send in the name
 of that agent: these forward messages that they have checked themselves.
 
-The sender may also be `user`, or a term of a bridge: that is not an id, and as
-trustworthy as the process that sends it.
+The sender may also be `user`, or a term of a bridge: such a sender has no
+birth, and is trusted as much as the process that sends the message.
 
 The birth of an agent is shown to its home, and to the processes to which it
-went, and to no other process: any other could send in its name from then on.
-So messages of an agent away from home go through its home, unless the recipient
-has the owner of this process, or has been in it.
+went, and to no other process, which could send in its name from then on.  So
+messages of an agent away from home go through its home, unless the recipient
+has the owner of this process, or has been in this process.
 
 *Threading*: any thread; no state.
 */
@@ -66,8 +66,8 @@ has_right(_, Births, Id) :-
     birth_among(Births, Id, Birth),
     birth_good(Birth).
 
-%   One birth for each id is verified, however many are shown, since
-%   verification takes long.
+%   Only one birth of each id is verified, since verification takes long, and a
+%   peer may show many.
 
 birth_among(Births, Id, Birth) :-
     is_list(Births),

@@ -9,15 +9,15 @@
 
 /** <module> Signatures of programs and payloads
 
-An author signs the hash by which a program is identified on its way.  The
+An author signs the hash that identifies a program on the wire.  The
 signature is in a file beside the program, `visitor.pl.sig`, and is sent with
 the code.  It is verified when it is first needed.
 
-A payload has no hash of its own on its way, since its clauses are part of the
-state of an agent; its hash is that of a program with the same clauses that no
-file can contain.  The order of its predicates does not matter, that of their
-clauses does; the hash is made from the clauses as they are stored, without the
-goals that a variant has put into them.
+A payload has no hash on the wire, since its clauses are part of the state of an
+agent; its hash is that of a program with the same clauses, whose header no file
+can contain.  The hash does not depend on the order of the predicates, but on
+that of their clauses, as they are stored, without the goals that a variant has
+put into them.
 
 *Threading*: any thread; a mutex serialises writers.
 */
@@ -45,8 +45,8 @@ most_signatures(1024).
 %!  program_signature(?Hash, -Signature) is semidet.
 %!  signature_keep(+Hash, +Signature) is det.
 %
-%   Signature is claimed to be of the program of that Hash.  The last one
-%   replaces others: a bad one cannot block a good one for long.
+%   Signature is claimed to be that of the program with Hash.  A new signature
+%   replaces an earlier one, so that a bad one cannot block a good one for long.
 
 program_signature(Hash, Signature) :-
     signature(Hash, Signature).
@@ -81,7 +81,7 @@ keep(Hash, Signature) :-
 
 %!  signature_read(+File, +Hash) is det.
 %
-%   Keep the signature beside File if there is one for this Hash.
+%   Keep the signature in the file beside File, if it is for Hash.
 
 signature_read(File, Hash) :-
     atom_concat(File, '.sig', Beside),
@@ -100,8 +100,8 @@ signature_read(_, _).
 
 %!  signature_make(+File, +Hash, +Keys) is det.
 %
-%   Write the signature of the code in File, which has that Hash, beside it,
-%   with the keys in that directory.
+%   Sign Hash, that of the code in File, with the keys in the directory Keys,
+%   and write the signature beside File.
 
 signature_make(File, Hash, Keys) :-
     signed_text(Hash, Text),
@@ -119,8 +119,9 @@ signed_text(Hash, Text) :-
 %!  program_author(+Keys, +Hash, -Author) is semidet.
 %!  signature_author(+Keys, +Hash, +Signature, -Author) is semidet.
 %
-%   Author has signed the program, as far as the keys in that directory show;
-%   Signature, which may be any term, is by Author.
+%   Author has signed the program with Hash; Signature, which may be any term,
+%   is the signature of Author for Hash.  The keys in the directory Keys verify
+%   it.
 
 program_author(Keys, Hash, Author) :-
     signature(Hash, Signature),
@@ -145,8 +146,6 @@ typhon_code:extra(Hash, signature(Signature)) :-
 typhon_code:extra_comes(signature(Signature), Hash) :-
     signature_keep(Hash, Signature).
 
-%   A file beside a file that was read may hold its signature.
-
 typhon_loaded:was_read(File, Hash) :-
     signature_read(File, Hash).
 
@@ -159,10 +158,10 @@ typhon_programs:payload_was_read(Spec, Payload) :-
 
 %!  file_sign(+Spec, +Keys) is det.
 %
-%   Write the signature of a program or payload beside its file, with the keys
-%   in that directory.
+%   Sign the program or payload Spec with the keys in the directory Keys, and
+%   write the signature beside its file.
 %
-%   @error the errors of program_load/6 and payload_load/2
+%   @error the errors of program_read/7 and payload_load/2
 
 file_sign(Spec, Keys) :-
     program_file(Spec, File),
@@ -179,6 +178,9 @@ file_hash(File, Hash) :-
 
 %!  payload_hash(+Payload, -Hash) is det.
 %!  payload_signature(+Payload, -Signature) is semidet.
+%
+%   Hash identifies the clauses of Payload, see above; Signature is the known
+%   signature for it.
 
 payload_hash(payload(Name, PIs0, Clauses), Hash) :-
     sort(PIs0, PIs),
@@ -198,7 +200,8 @@ clause_of(Name/Arity, Clauses, Head, Body) :-
     clause_parts(Clause, Head0, Body),
     Head0 = Head.
 
-%   Storing changes a body: a goal that is a variable becomes call/1, and so on.
+%   Storing changes a body, as a variable goal to call/1, so the hash of clauses
+%   before and after they are stored would differ.
 
 stored(Module, (Head0:-Body0), (Head:-Body)) :-
     mapsubterms(unchecked, Body0, Body1),

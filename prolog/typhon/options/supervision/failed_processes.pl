@@ -8,18 +8,18 @@
 
 /** <module> Detection of processes that have failed
 
-A broken connection may be made again.  So a request is sent to the process,
-which makes the endpoint try to reach it, and its state is checked until there
-is a connection again, or it is known to be gone: nothing listens at its
+A broken connection may be restored.  So a request is sent to the process, which
+makes the endpoint try to reach it, and its state is checked until there is a
+connection again, or the process is known to be gone: nothing listens at its
 address, it closed the connection orderly, or another process is at its address.
-A process that keeps a journal is not gone.
+A process that keeps a journal is not taken to be gone, as it may be restarted.
 
 *Threading*: the hook detection_needed/0 is called in threads of connections,
 process_failed/1 in a worker.
 */
 
 :- multifile
-    detection_needed/0,         % there are monitors that need this
+    detection_needed/0,         % a monitor needs detection
     process_failed/1,           % Peer
     typhon_endpoint:connection/2,
     typhon_endpoint:requested/4,
@@ -40,7 +40,8 @@ typhon_endpoint:connection(_, up).
 
 %!  process_suspect(+Peer) is det.
 %
-%   There is no connection to Peer: find out whether the process is gone.
+%   The connection to Peer has broken: call process_failed(Peer) when the
+%   process is known to be gone.
 
 process_suspect(Peer) :-
     process_of(Peer, Process),

@@ -21,8 +21,8 @@
 
 /** <module> The predicates by which agents monitor others
 
-The home of a monitoring agent keeps its monitors, since the home has
-its location, and gets news of its end.
+The home of a monitoring agent keeps its monitors, since the home knows its
+location, and gets the news of its end.
 
 *Threading*: the thread that runs the agent; waits for the home, if that is
 another process.
@@ -44,7 +44,8 @@ typhon_creation:first_goal(Options, Parent,
     Parent \== none,
     option(follows(true), Options).
 
-%   The home of Id is here; Id has not moved yet, and cannot have failed.
+%   The monitor is set before Id begins, so that its parent cannot end
+%   unnoticed.  This process is the home of Id.
 
 typhon_creation:at_birth(monitor(Parent, [shared(self)]), Id) :-
     atom(Parent),
@@ -57,18 +58,18 @@ typhon_creation:at_birth(monitor(Parent, [shared(self)]), Id) :-
 %
 %   This agent gets one message, `system-down(Agent, Outcome)`, when Agent ends,
 %   is faulty or is lost, wherever both are by then; at once if that has
-%   happened already.  Outcome is as of agent_monitor/2.  A second monitor of
+%   happened already.  Outcome is that of agent_monitor/2.  A second monitor of
 %   the same agent changes nothing.  After unmonitor/1 no message arrives that
 %   is not in the mailbox yet.  Option:
 %
-%     - shared(+Shared): if `true` the two share their fate, as by link/1 of
-%       Erlang: if one of them ends otherwise than `done`, the other is disposed
-%       of.  If `agent`, this holds only for Agent, as for the child of a
-%       supervisor; if `self`, only for this agent, which gets no message
+%     - shared(+Shared): default `false`.  If `true`, each of the two is
+%       disposed of if the other ends otherwise than `done`, as with link/1 of
+%       Erlang.  If `agent`, only Agent is, as the child of a supervisor; if
+%       `self`, only this agent is, and it gets no message
 %
 %   With follows(true) among the options of create/3 the new agent begins with
-%   monitor(Parent, [shared(self)]): it does not outlive its parent, even if that
-%   ends before it can monitor the new agent.
+%   monitor(Parent, [shared(self)]): it does not outlive its parent, even if
+%   that ends before it can monitor the new agent.
 %
 %   Where the policy is not `trusted`, Shared must be `false` or `self`.
 %
@@ -119,7 +120,8 @@ dispose(Agent, Options) :-
     ;   agent_dispose(Agent, Options)
     ).
 
-%   follows(+Agent, +Id): the home of Agent has this relation.
+%   follows(+Agent, +Id) is semidet: Agent is disposed of if Id ends otherwise
+%   than `done`, according to the home of Agent.
 
 follows(Agent, Id) :-
     agent_home_endpoint(Agent, Home),
@@ -131,8 +133,8 @@ follows(Agent, Id) :-
 
 %!  followers(-Agents:ordset) is det.
 %
-%   Agents are disposed of if this one ends otherwise than `done`: those known
-%   to the processes that answer within 5 seconds.
+%   Agents are those that are disposed of if this agent ends otherwise than
+%   `done`, as far as their homes are known here and answer within five seconds.
 
 followers(Agents) :-
     context(Host, Id, _),

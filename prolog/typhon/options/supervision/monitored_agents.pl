@@ -20,12 +20,12 @@
 
 /** <module> Agents that are monitored, at their home
 
-The home of an agent gets its outcome when it ends.  If a process is gone, all
-known processes get a request for the monitored agents that are not at home,
-twice, a second apart.  An agent that no process has, and of which the home
-received no news meanwhile, is lost, and is ended if it reappears.  While
-processes live this costs nothing: hops of agents, monitored or not, take the
-same time.
+The home of an agent gets its outcome when it ends.  If a process is gone, the
+home asks all known processes, twice, a second apart, which of the monitored
+agents that are not at home they have.  An agent that no process has, and of
+which the home received no news meanwhile, is reported as lost, and is disposed
+of if it reappears.  While processes live this costs nothing: hops of agents,
+monitored or not, take the same time.
 
 *Threading*: a worker sends the requests to all processes.
 */
@@ -40,7 +40,7 @@ same time.
 
 :- dynamic
     outcome_request/3,          % Agent, N, Request
-    search_set/0.               % an alarm is set for another round
+    search_set/0.               % an alarm is set for another search
 
 typhon_identity:ids_anew :-
     forget.
@@ -57,7 +57,7 @@ patience(5).                    % seconds for the answers
 
 %!  monitored_add(+Agent, +Request) is det.
 %
-%   Send Request once the outcome of Agent, whose home is here, as of
+%   Answer Request once with the outcome of Agent, whose home is here: that of
 %   outcome_wait/3, or lost(Host).
 %
 %   @arg Request is reply(ReplyTo) or call(Closure)
@@ -69,7 +69,7 @@ monitored_add(Agent, Request) :-
                  call(typhon_monitored_agents:agent_down(Agent, N))),
     ( outcome_request(Agent, N, _) -> check_process(Agent) ; true ).
 
-%   A connection that is already down will not report that it breaks.
+%   A connection that has broken before will not be reported, so it is checked.
 
 check_process(Agent) :-
     home_knows(Agent, Address, _, Process),
@@ -135,7 +135,8 @@ search_again(Before) :-
     report_all_lost(Lost),
     search_later.
 
-%   An agent may have been in transit during the first round.
+%   An agent may have been in transit during the first round, so only an agent
+%   that is missing in both rounds is reported as lost.
 
 report_all_lost([]) :-
     !.
@@ -145,9 +146,9 @@ report_all_lost(Lost) :-
     forall(member(at(Agent, Address, _, _), Lost),
            report_lost(Agent, Address)).
 
-%   An agent that moves to a process that dies is there according to its home,
-%   while its source keeps it in doubt: the search continues until its home has
-%   other news.
+%   If an agent was moving to a process that died, its home takes it to be in
+%   that process, while its source has it in doubt and answers that it has it.
+%   So the search is repeated until the home has other news.
 
 search_later :-
     absent(Absent),
@@ -181,8 +182,8 @@ report_lost(Agent, Address) :-
     ;   true
     ).
 
-%   absent(-Absent): at(Agent, Address, Hops, Process) for monitored agents that
-%   are not in this process, with their last known place.
+%   absent(-Absent): Absent are at(Agent, Address, Hops, Process) for monitored
+%   agents that are not in this process, with their last known location.
 
 absent(Absent) :-
     findall(at(Agent, Address, Hops, Process),
@@ -193,8 +194,8 @@ absent(Absent) :-
             Absent0),
     sort(Absent0, Absent).
 
-%   missing(+Absent, -Missing): no process has them, and their last processes
-%   are gone, or have answered.
+%   missing(+Absent, -Missing): Missing are the agents of Absent that no process
+%   has, and whose last known processes are gone, or have answered.
 
 missing([], []) :-
     !.
@@ -205,7 +206,8 @@ missing(Absent, Missing) :-
 
 %!  peers_ask(+Question, -Results:list) is det.
 %
-%   Ask all known processes, and wait: Results are as of endpoint_ask_all/6.
+%   Send Question to all known processes, and wait: Results are those of
+%   endpoint_ask_all/6.
 
 peers_ask(Question, Results) :-
     other_processes(Peers),
@@ -220,7 +222,8 @@ ask(Peers, Question, Results) :-
 
 no_forward(_, []).
 
-%   other_processes(-Peers:ordset): known processes that are not gone.
+%   other_processes(-Peers:ordset): Peers are the known processes that are not
+%   gone.
 
 other_processes(Peers) :-
     findall(Peer,
@@ -251,9 +254,10 @@ typhon_endpoint:requested(monitor, have(Agents), _, ReplyTo) :-
 
 %!  orphans_end(+Agents) is det.
 %
-%   Agents, whose home is gone, are disposed of in all reachable processes, each
-%   of which asks the processes that it knows.  This is repeated after 1, 2, 4
-%   and more seconds, since an agent may be in transit.  Waits for the answers.
+%   Dispose of Agents, whose home is gone, in all reachable processes, each of
+%   which forwards the request to the processes that it knows.  This is repeated
+%   after 1, 2, 4 and more seconds, since an agent may be in transit.  Waits for
+%   the answers.
 
 orphans_end(Agents) :-
     end_everywhere(Agents, []),
@@ -274,7 +278,8 @@ typhon_scheduler:fire(_, orphans(Agents, Seconds)) :-
 
 :- public end_everywhere/2, end_asked/4.
 
-%   end_everywhere(+Agents, +Asked): the processes Asked have been asked.
+%   end_everywhere(+Agents, +Asked): dispose of Agents here and in all known
+%   processes, except in Asked, which have got the request.
 
 end_everywhere(Agents, Asked) :-
     forall(member(Agent, Agents), end_here(Agent)),

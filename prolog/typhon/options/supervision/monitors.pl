@@ -29,17 +29,14 @@
 The home of a watcher keeps its monitors.  For each monitored agent it sends one
 request to the home of that agent, which answers when the agent is down, see
 typhon_monitored_agents.  If the request is lost, the home of the agent is gone,
-and the agent with it; or the home keeps a journal, and the request is sent
-again.  Whatever reports that the agent is down, the thread that removes the
-monitor sends the message, so it is sent once.  With a journal both are one unit
-of work.
-Whatever reports that the agent is down, the thread that removes the monitor
-sends the message, so it is sent once.  With a journal both are one unit of
-work.
+and its agents are taken to be lost; or the home keeps a journal, and the
+request is sent again.  Several reports may say that the agent is down: only the
+thread that removes the monitor sends the message, so it is sent once.  With a
+journal both are one unit of work.
 
 A watcher is the id of an agent that gets a message; ends(Id), an agent that is
-disposed of if the other ends otherwise than `done`; or call(N), a goal of this
-process.
+disposed of if the monitored agent ends otherwise than `done`; or call(N), a
+goal of this process.
 
 *Threading*: any thread; only monitor_call/2 waits.
 */
@@ -61,9 +58,9 @@ process.
 
 :- dynamic
     monitor/3,                  % Key, Watcher, Agent
-    asked/2,                    % Agent, Since: its home has a request; Since is
-                                % `before` after an earlier request, `first`, or
-                                % `lost`
+    asked/2,                    % Agent, Since: a request to its home is open;
+                                % Since is `first`, `before` if it repeats a
+                                % lost request, or `lost`: the home is gone
     minded/1,                   % Id: its monitors are removed when it ends
     goal/2.                     % N, Goal
 
@@ -88,8 +85,8 @@ forget :-
 %!  monitor_begin(+Id, +Agent, +Shared) is det.
 %!  monitor_end(+Id, +Agent) is det.
 %
-%   Id, whose home is here, monitors Agent; it does so no longer.  Shared is as
-%   of monitor/2.
+%   Begin or end a monitor of Agent by Id, whose home is here.  Shared is the
+%   option of monitor/2.
 
 monitor_begin(Id, Agent, self) :-
     !,
@@ -112,12 +109,13 @@ monitor_end(Id, Agent) :-
 
 %!  monitor_set(?Watcher, ?Agent) is nondet.
 %
-%   Watcher, see above, has a monitor of Agent.
+%   Watcher, see above, has a monitor of Agent in this process.
 
 monitor_set(Watcher, Agent) :-
     monitor(_, Watcher, Agent).
 
-%   shares(+Agent, +Change): change the other half, at the home of Agent.
+%   shares(+Agent, +Change): run Change, a goal that adds or removes the monitor
+%   that makes Agent share the fate of another agent, at the home of Agent.
 
 shares(Agent, Change) :-
     agent_home_endpoint(Agent, Home),
@@ -212,7 +210,8 @@ may_order(Peer, Agent) :-
     address_parts(Address, Host, _),
     peer_may(Peer, Host, orders).
 
-%   A shared monitor lets this process end Agent on behalf of Peer.
+%   A shared monitor makes this process dispose of Agent on behalf of Peer, so
+%   Peer needs the right to give orders to it.
 
 for_peer(begin(Agent, Shared), Id, Peer) :-
     agent_home(Agent, _),
@@ -241,7 +240,8 @@ monitor_call(Agent, OnDown) :-
                 *       REQUESTS TO HOMES      *
                 *******************************/
 
-%   watch(+Agent, +Since): request the end of Agent, unless a request is open.
+%   watch(+Agent, +Since): request the outcome of Agent from its home, unless a
+%   request is open.
 
 watch(Agent, Since) :-
     with_mutex(typhon_monitors, to_ask(Agent, Since)),
@@ -277,8 +277,9 @@ said(Agent, Home, _) :-
         later(Agent, watch)
     ).
 
-%   unknown(+Agent): the home does not know Agent.  Another process may have
-%   taken the place of its home, and the agent may still run elsewhere.
+%   unknown(+Agent): the process at the address of its home does not know Agent.
+%   This may be a new process, and the agent may still run elsewhere: so it is
+%   disposed of.
 
 :- public unknown/1.
 
@@ -286,8 +287,8 @@ unknown(Agent) :-
     orphans_end([Agent]),
     down(Agent, unknown).
 
-%   lost(+Home): the process at Home is gone, and its agents are lost.  Those
-%   that run elsewhere are ended, since another process may take its place.
+%   lost(+Home): the process at Home is gone.  All its monitored agents are
+%   reported as lost; those that still run elsewhere are disposed of first.
 
 :- public lost/1.
 
@@ -340,8 +341,8 @@ go_on :-
     forall(member(Watcher-Agent, Pairs),
            ( mind(Watcher), watch(Agent, first) )).
 
-%   The goals of agent_monitor/2 ended with their process, and their numbers are
-%   used again.
+%   The goals of agent_monitor/2 ended with the process that kept the journal,
+%   and a new goal may get the number of one of them.
 
 typhon_durable:restored :-
     findall(N-Agent, monitor(_, call(N), Agent), Calls),
@@ -392,7 +393,8 @@ called_back(Goal, Agent, Outcome) :-
     catch(ignore(call(Goal, Agent, Outcome)), Ball,
           ( is_abort(Ball) -> throw(Ball) ; print_error(warning, Ball) )).
 
-%   The last release stops the workers, which a worker cannot do.
+%   The last release stops the workers, and a worker, which calls this, cannot
+%   join itself.
 
 release(N) :-
     atom_concat(typhon_monitor_, N, Alias),

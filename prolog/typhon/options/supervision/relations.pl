@@ -19,15 +19,15 @@ Each process reports the monitors of the agents whose home it is.
 
 :- multifile typhon_endpoint:requested/4.
 
-%   At most this many relations of a process are reported.
+%   A process reports at most this many relations, to bound its answer.
 
 most(5000).
 
 %!  relations(?Other, -Relations:ordset) is det.
 %
-%   Relations are those of the processes that are known here and answer:
-%   monitors(Agent, Other), and follows(Agent, Other): Agent is disposed of if
-%   Other ends otherwise than `done`.
+%   Relations with Other are those of this process, and of the processes that it
+%   knows and that answer: monitors(Agent, Other), and follows(Agent, Other):
+%   Agent is disposed of if Other ends otherwise than `done`.
 
 relations(Other, Relations) :-
     endpoint_address(Me),

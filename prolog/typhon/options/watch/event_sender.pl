@@ -16,15 +16,15 @@
 /** <module> The thread that sends events to a watch
 
 Events gather in a buffer, and adding an event never waits: events that do not
-fit are counted by host.  The sender sends the gathered events in batches, each
-when the previous one has been accepted.  So a watch lags by as much as it is
-slow, the buffer overflows if it is too slow, and hosts never wait.
+fit are only counted, by host.  The sender sends the gathered events in batches,
+each after the previous one has been accepted.  So a slow watch lags, the buffer
+overflows if it is too slow, and hosts never wait for it.
 
-The sender receives in its queue, Signals, `some` when there are events;
-end(ReplyTo) when all remaining events are to be sent; and now(Message), which
-it also handles while it waits for an answer: `check`, whether the watch still
-exists, and the answer.  Waking a thread costs as much as all else of an event,
-so `some` is sent only to a waiting sender, and once.
+The queue Signals of the sender receives `some` when there are events;
+end(ReplyTo) to send all remaining events and end; and now(Message), which the
+sender also handles while it waits for an answer: `check`, whether the watch
+still exists, or answered(Result).  Waking a thread costs as much as everything
+else for an event, so a sender that waits gets one `some`, and others get none.
 
 *Threading*: for each watch one thread takes events; any thread adds them.
 */
@@ -42,8 +42,9 @@ plenty(256).                    % so many events are sent without delay
 
 %!  sender_run(+To) is det.
 %
-%   To is to(Peer, Id, Signals, Buffer).  Returns when the watch has ended, or
-%   all events have been sent.
+%   Send the events in Buffer to the watch Id of the process Peer, To being
+%   to(Peer, Id, Signals, Buffer).  Returns when the watch has ended, or when
+%   all events have been sent after end(ReplyTo).
 
 sender_run(To) :-
     To = to(_, _, Signals, Buffer),
@@ -52,6 +53,8 @@ sender_run(To) :-
     handle_message(Message, To, gather(To)).
 
 %!  sender_signal(+Signals, +Message) is det.
+%
+%   Put Message into the queue Signals of a sender, if it still exists.
 
 sender_signal(Signals, Message) :-
     catch(thread_send_message(Signals, Message),
@@ -74,7 +77,8 @@ gather(To) :-
     ;   pour(To)
     ).
 
-%   handle_message(+Message, +To, :Next)
+%   handle_message(+Message, +To, :Next): continue with Next, unless the watch
+%   has ended.
 
 handle_message(some, _, Next) :-
     call(Next).
@@ -120,9 +124,9 @@ pour_out(To) :-
     ;   true
     ).
 
-%   send(+To) is semidet: the next batch has reached the watch.  A batch that
-%   exceeds a frame, or has terms that cannot travel, is halved; a single event
-%   of that kind is skipped.
+%   send(+To) is semidet: send the next batch, and wait until the watch has
+%   accepted it; fail if the watch has ended.  A batch that exceeds a frame, or
+%   has terms that cannot travel, is halved; a single such event is skipped.
 
 send(To) :-
     To = to(_, _, _, Buffer),
@@ -160,7 +164,7 @@ hand_over_parts(Events, To) :-
     hand_over(First, To),
     hand_over(Second, To).
 
-%   Within this process events are handed over without the wire.
+%   Within this process events do not cross the wire.
 
 give(Peer, Id, Events, Signals) :-
     endpoint_address(Peer),
@@ -201,7 +205,8 @@ await(To, Answer) :-
 %!  buffer_open(+Most, +Signals, -Buffer) is det.
 %!  buffer_close(+Buffer) is det.
 %
-%   Buffer holds at most Most events; the queue Signals receives `some`.
+%   Buffer holds at most Most events, and reports events to the queue Signals of
+%   the sender.  After buffer_close/1 buffer_put/3 raises an error.
 
 buffer_open(Most, Signals, buffer(Queue, Flag, Most, Signals)) :-
     flag(typhon_event_buffer, N, N+1),
@@ -214,7 +219,9 @@ buffer_close(buffer(Queue, _, _, _)) :-
 
 %!  buffer_put(+Buffer, +Host, +Event) is det.
 %
-%   @error existence_error(message_queue, Queue) if the buffer was closed
+%   Add Event, of Host, to Buffer, or count it as skipped if Buffer is full.
+%
+%   @error existence_error(message_queue, Queue) the buffer was closed
 
 buffer_put(buffer(Queue, Flag, Most, Signals), Host, Event) :-
     message_queue_property(Queue, size(Size)),
@@ -236,7 +243,8 @@ skip(Queue, Host) :-
     ),
     assertz(skipped(Queue, Host, Count)).
 
-%   The sender waits: the next event sends `some`; if there is one now, at once.
+%   The sender is about to wait: the next event sends `some`.  An event that was
+%   added before the flag was set did not, so the size is checked after it.
 
 buffer_awaited(buffer(Queue, Flag, _, Signals)) :-
     set_flag(Flag, 1),

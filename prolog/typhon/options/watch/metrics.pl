@@ -14,8 +14,8 @@
 
 /** <module> Metrics of a network, for Prometheus
 
-Each process reports its own numbers; the reader adds them up.  A process counts
-from the first request for metrics on, as long as it has an endpoint.
+Each process reports its own numbers, which are not added up here.  A process
+counts from the first request for metrics on, as long as it has an endpoint.
 
 *Threading*: any thread that may wait.  Counters are flags.
 */
@@ -116,7 +116,7 @@ bound_text(inf, '+Inf') :-
     !.
 bound_text(Bound, Bound).
 
-%   An agent that changes meanwhile is also counted once.
+%   An agent whose status changes meanwhile must not be counted twice.
 
 agent_is(Program, State) :-
     agent(Id, _, _, Hash, _),
@@ -188,7 +188,8 @@ key(faults, 'typhon count faults').
 key(created, 'typhon count created').
 key(ended, 'typhon count ended').
 
-%   bound(?Seconds, ?Key): Key counts hops that took at most so many seconds.
+%   bound(?Seconds, ?Key): Key counts hops that took at most Seconds, and longer
+%   than the bound before.
 
 bound(0.0001, 'typhon count hops 1').
 bound(0.00025, 'typhon count hops 2').
@@ -229,9 +230,9 @@ cumulated([Bound-Own|Counts], Count0, [Bound-Count|Buckets]) :-
                 *      TEXT OF PROMETHEUS      *
                 *******************************/
 
-%   A metric is metric(Name, Type, Help, Samples), a sample
-%   sample(Suffix, Labels, Value): Suffix is appended to the name of the metric,
-%   as `_bucket`; Labels are Name=Value with any Value; Value is a number.
+%   metric(+Metric)//: Metric is metric(Name, Type, Help, Samples).  A sample is
+%   sample(Suffix, Labels, Value): Suffix, as `_bucket`, is appended to the name
+%   of the metric; Labels are pairs Name=Term; Value is a number.
 
 metric(metric(_, _, _, [])) -->
     !.

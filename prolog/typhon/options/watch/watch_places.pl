@@ -15,16 +15,16 @@
 /** <module> The processes that a watch receives events from
 
 The places of a watch are the processes that have watched hosts; each is
-identified by the endpoint to which requests are sent.  Peer is the address that
-the process has itself.  State is
+identified by the endpoint to which requests are sent.  Peer is the address of
+the endpoint of the process, by which it identifies itself.  State is
 
   | up                 | connected                                           |
-  | cut(Pause)         | a new request has been sent                         |
-  | down(Again, Pause) | no process there; ask again at the time Again       |
+  | cut(Pause)         | disconnected; a new request has been sent           |
+  | down(Again, Pause) | no answer; send a new request at the time Again     |
 
-A disconnected process gets a new request to watch.  If it has no record of the
-watch, as after a restart, events are missing: its hosts are lost, and those
-that it has now have started.
+After a connection has broken, the process gets a new request to watch.  If it
+has no record of the watch, as after a restart, events are missing: the watch
+reports all its earlier hosts as lost, and its present ones as started.
 
 *Threading*: the thread of the watch.
 */
@@ -40,9 +40,9 @@ longest_pause(60).
 %!  place_begin(+Watch, +Asked, -Events:list) is det.
 %!  places_forget(+Watch) is det.
 %
-%   Asked is asked(Endpoint, Wanted, Answer): Answer is the answer of a sender,
-%   or gone(Hosts) if a process of a network has ended.  Events are to be
-%   reported.
+%   Add a place to Watch, or remove all its places.  Asked is asked(Endpoint,
+%   Wanted, Answer): Answer is that of the process, or gone(Hosts) for a process
+%   of a network that has ended.  Events are to be reported.
 
 place_begin(Watch, asked(Endpoint, Wanted, Answer), Events) :-
     (   Answer = watching(Peer, _, Hosts)
@@ -59,7 +59,7 @@ place_begin(Watch, asked(Endpoint, Wanted, Answer), Events) :-
                 Events)
     ).
 
-%   Hosts of a network have the same clock.
+%   Hosts of a network have the same clock, so a lost host has that of another.
 
 clock_of_others(Watch, Clock) :-
     (   runs(Watch, _, _, Clock0)
@@ -82,8 +82,8 @@ now_is(What, Host, Clock, event(Time, Host, none, What)) :-
 %!  place_at(+Watch, ?Peer, ?State, -Endpoint) is nondet.
 %!  place_due(+Watch, -Endpoint, -Again) is nondet.
 %
-%   Endpoint is a place with that Peer and State; it is due for a new request at
-%   the time Again.
+%   Endpoint is a place of Watch with Peer and State; a new request to it is due
+%   at the time Again, in seconds.
 
 place_at(Watch, Peer, State, Endpoint) :-
     place(Watch, Endpoint, Peer, _),
@@ -99,8 +99,8 @@ place_due(Watch, Endpoint, Again) :-
 %!  place_cut(+Watch, +Endpoint, -Wanted) is det.
 %!  place_answered(+Watch, +Endpoint, +Result, -Events:list) is det.
 %
-%   A new request for Wanted is to be sent to the place; the place has answered
-%   or not, Result being as of endpoint_request/4.
+%   The place is disconnected: a new request for Wanted is to be sent to it.
+%   The request has the Result of endpoint_request/4: Events are to be reported.
 
 place_cut(Watch, Endpoint, Wanted) :-
     place(Watch, Endpoint, _, Wanted),
@@ -146,8 +146,8 @@ all_lost(Watch, Endpoint, Events) :-
             Events),
     retractall(runs(Watch, Endpoint, _, _)).
 
-%   Another process may get the port later, so in a network only hosts that were
-%   lost there are still watched.
+%   Another process may get the port later, so of a process of a network only
+%   the hosts that were lost are requested again.
 
 still_wanted(Watch, Endpoint, Lost) :-
     place(Watch, Endpoint, Peer, Wanted),
@@ -177,7 +177,8 @@ again_later(Watch, Endpoint, Pause) :-
 %!  place_started(+Watch, +Peer, +Host, +Clock) is semidet.
 %!  place_stopped(+Watch, +Host) is det.
 %
-%   Host has started, which fails if that was already known; it has stopped.
+%   Note that Host has started, or has stopped.  place_started/4 fails if Host
+%   was already known as started.
 
 place_started(Watch, Peer, Host, Clock) :-
     place(Watch, Endpoint, Peer, _),

@@ -16,12 +16,13 @@
 
 /** <module> The events that a watch receives
 
-The thread of a watch calls OnEvent for each event.  When a place from which
-events come was disconnected, the thread sends it a new request, see module
-`watch_places`.
+The thread of a watch calls OnEvent for each event.  When the connection to a
+process that sends events has broken, the thread sends it a new request, see
+module `watch_places`.
 
 *Threading*: one thread for each watch.  The hooks of the endpoint put messages
-into its queue.  It is no `server`, since an aborted watch ends.
+into its queue.  The thread is no `server`, which would continue after an abort:
+an aborted watch ends.
 */
 
 :- meta_predicate receiver_run(+, +, 1, +).
@@ -37,8 +38,8 @@ into its queue.  It is no `server`, since an aborted watch ends.
 %!  receiver_open(+Watch, -Queue) is det.
 %!  receiver_close(+Watch) is det.
 %
-%   Queue receives the events of Watch from now on; it receives none any more,
-%   and its thread ends.
+%   Queue receives the events of Watch from now on, until receiver_close/1,
+%   after which the thread that reads it ends.
 
 receiver_open(Watch, Queue) :-
     message_queue_create(Queue),
@@ -74,7 +75,7 @@ typhon_endpoint:connection(Peer, State) :-
 
 %!  receiver_put(+Watch, +Message) is semidet.
 %
-%   Fails if Watch has ended.
+%   Put Message into the queue of Watch.  Fails if Watch has ended.
 
 receiver_put(Watch, Message) :-
     watch(Watch, Queue),
@@ -88,10 +89,10 @@ receiver_put(Watch, Message) :-
 
 %!  receiver_run(+Watch, +Queue, :OnEvent, +Asked) is det.
 %
-%   Runs in the thread of Watch until receiver_close/1, or the message
-%   end(Done): then earlier events are delivered, too, and `done` is sent to the
-%   queue Done.  Asked are asked(Endpoint, Wanted, Answer): Answer is the answer
-%   of a sender, or gone(Hosts) if a process of a network has ended.
+%   Handle the messages of Queue, in the thread of Watch, until
+%   receiver_close/1, or the message end(Done): this delivers earlier events
+%   first, and then sends `done` to the queue Done.  Asked are terms as in
+%   place_begin/3.
 
 receiver_run(Watch, Queue, OnEvent, Asked) :-
     Me = me(Watch, Queue, OnEvent),
@@ -101,7 +102,7 @@ receiver_run(Watch, Queue, OnEvent, Asked) :-
         ( forget(Watch),
           message_queue_destroy(Queue) )).
 
-%   Processes that are gone come last: their hosts use the clock of others.
+%   Processes that are gone are last, since their hosts get the clock of others.
 
 begin(Asked, Me) :-
     partition(has_answered, Asked, There, Gone),
@@ -193,7 +194,8 @@ request_more(here(OnAnswer)) :-
                 *            EVENTS            *
                 *******************************/
 
-%   A host that is already known as started is not reported again.
+%   The answer to a request lists the running hosts, of which the event
+%   `started` may follow: it is reported once.
 
 handle_event(event(Time, Host, none, started(Clock)), Peer, Me) =>
     Me = me(Watch, _, _),
@@ -234,7 +236,8 @@ report_raised(Ball, Watch) :-
                 *              END             *
                 *******************************/
 
-%   All events are delivered before the last place has ended.
+%   A place sends all its events before it answers `ended`, so all events have
+%   been delivered when the last place has answered.
 
 end(Me) :-
     unwatch_all(Me),

@@ -15,8 +15,8 @@
 
 /** <module> Sending events to watches
 
-There is a thread for each watch, of this process or another, of hosts of this
-process, see module `event_sender`, and a buffer in which its events gather.
+Each watch, of this process or another, of hosts of this process has a thread,
+see module `event_sender`, and a buffer in which its events gather.
 
 A watch is removed when it ends, when its process answers that it has no watch
 of that name, or when that process cannot be reached any more.
@@ -33,8 +33,8 @@ Events are sent with requests of kind `watched`:
   | alive(Id)          | `yes` or `no`                             |
 
 *Threading*: a sender for each watch, joined by the thread that removes its
-record.  It is no `server`, since amid a batch it waits for the answer of the
-watch.
+record.  The sender is no `server`, since it waits for the answer of the watch
+to each batch.
 */
 
 :- multifile
@@ -135,7 +135,8 @@ typhon_hosting:begins(Name) :-
 typhon_endpoint:connection(Peer, down) :-
     forall(sender(Peer, _, _, Signals, _), sender_signal(Signals, now(check))).
 
-%   The last event, the stop of the hosts, is sent as well.
+%   Senders end only after they have sent the last events, the stops of the
+%   hosts.
 
 typhon_runtime:ending(before) :-
     stop_senders.
@@ -161,7 +162,8 @@ typhon_events:handle_event(watch(Buffer, Address, Clock), Host, Agent, What) :-
           error(existence_error(_, _), _),
           true).                        % the sender has ended
 
-%   Watches need the clock of a host; agents may log terms that cannot travel.
+%   A watch needs the clock of a host that starts, to date its loss.  Agents may
+%   log terms that cannot travel.
 
 public_event(started, Clock, Public) =>
     Public = started(Clock).

@@ -24,9 +24,10 @@
 Modules that ask all processes of a watch define the hook answer/2.
 
 A caller knows the state of hosts exactly if it begins to watch, then requests
-the overview, and then handles the events.  An event whose time is not after
-that of its host in the overview is contained in it; later events may be, too.
-So the overview states where an agent is, and has no counts.
+the overview, and then handles the events.  The overview contains each event
+whose time is not after that of its host in the overview, and may contain later
+ones.  So it states where an agent is, which a repeated event does not change,
+and has no counts.
 
 *Threading*: any thread that may wait, but not those of the endpoint.  Workers
 answer, since an answer may be long.
@@ -38,11 +39,12 @@ answer, since an answer may be long.
 
 %!  watched_places(+Hosts, -Places) is det.
 %
-%   Hosts is a host, name or address, a network, or a list of such.  Places are
-%   place(Endpoint, Wanted, Whose): Wanted is `all` if the process has hosts of
-%   a network and nothing else, otherwise a list of names.  Whose is
-%   carried(Addresses), the hosts of a network, or asked(Hosts), pairs Name-Host
-%   for the hosts of the request, which must exist.
+%   Hosts is the name or the address of a host, a network, or a list of hosts
+%   and networks.  Places are place(Endpoint, Wanted, Whose): Wanted is `all` if
+%   the process belongs to a network, otherwise a list of names of hosts.  Whose
+%   is asked(Hosts), pairs Name-Host for the hosts in the process that the
+%   caller has named, which must exist, or carried(Addresses), the hosts of a
+%   network.
 %
 %   @error existence_error(host, Host), ambiguous_host(Name, Addresses)
 
@@ -106,9 +108,10 @@ whose(Whats, Whose) :-
 
 %!  ask_processes(+Places, +Question, +Seconds, -Answers, -Silent) is det.
 %
-%   Answers are Place-Answer for the Places, see watched_places/2, that have
-%   answered within Seconds; Silent are the endpoints of the others.  The hook
-%   answer(Question, Answer) gives the answer.
+%   Send Question to the processes of Places, see watched_places/2, in which the
+%   hook answer(Question, Answer) gives the answer.  Answers are pairs
+%   Place-Answer for those that have answered within Seconds; Silent are the
+%   endpoints of the others.
 
 ask_processes(Places, Question, Seconds, Answers, Silent) :-
     partition(is_here, Places, Here, There),

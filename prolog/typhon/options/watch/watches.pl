@@ -18,11 +18,10 @@
 
 /** <module> Watches of this process
 
-A watch has a thread, which calls OnEvent, see module `watch_receiver`.  It
-receives its events from the senders of the processes that have the hosts, see
-module `watch_senders`.
+A watch has a thread, which calls OnEvent, see module `watch_receiver`.  The
+processes of the hosts send the events, see module `watch_senders`.
 
-*Threading*: any thread may call; a watch may be ended in its own thread.
+*Threading*: any thread may call; the thread of a watch may end it, too.
 */
 
 :- setting(last_seconds, number, 2,
@@ -78,7 +77,8 @@ unless_begun(exit, _) :-
 unless_begun(_, Id) :-
     in_own_thread(runtime_release(watch(Id))).
 
-%   ask(+Place, +Id, -Asked): a process of a network may have ended.
+%   ask(+Place, +Id, -Asked): request the events of the watch Id from Place.  If
+%   the process is one of a network, it may have ended.
 
 ask(place(Endpoint, Wanted, Hosts), Id, asked(Endpoint, Wanted, Answer)) :-
     (   Hosts = asked([_-Who|_])
@@ -118,7 +118,8 @@ watch_end(Watch) :-
     ;   existence_error(watch, Watch)
     ).
 
-%   A watch that is ended in its own thread delivers no further event.
+%   If the thread of the watch ends it, it cannot wait for earlier events, and
+%   delivers none.
 
 end(Watch, Thread) :-
     thread_self(Me),

@@ -48,9 +48,10 @@ check_program(Spec, Options) :-
     ;   Options == []
     ).
 
-%   objection(+Options, +Program, -Objection) is nondet: an option of the
-%   process objects to program(Rules, Libraries) by Objection, Where-Formal.
-%   Rules are pairs Rule-Location.  Where is unbound if it is not known.
+%   objection(+Options, +Program, -Objection) is nondet: a hook for capabilities
+%   that are loaded.  A host with Options would refuse the code
+%   program(Rules, Libraries), Rules being pairs Rule-Location, for Objection,
+%   Where-Formal, where Where is unbound if the location is not known.
 
 no_objections(Options, Spec, Located) :-
     ( is_payload(Located) -> Kind = payload ; Kind = agent ),
@@ -70,7 +71,9 @@ report(Severity, Problem0) :-
     problem_error(Problem, [], Error),
     print_message(Severity, Error).
 
-%   problems_of(+Unread, +Located, -Errors, -Warnings, -Undefined)
+%   problems_of(+Unread, +Located, -Errors, -Warnings, -Undefined): with syntax
+%   errors Unread there are no other problems, since parts of the program are
+%   missing.
 
 problems_of([Error|Errors], _, [Error|Errors], [], []).
 problems_of([], Located, Errors, Warnings, Undefined) :-
@@ -92,8 +95,9 @@ payload_problems(Located, Errors, Warnings) :-
     payload_terms(Located, _, Errors0),
     moves(Errors0, Located, Errors, Warnings).
 
-%   moves(+Errors0, +Located, -Errors, -Warnings): as for a program, but a
-%   payload may change the predicates that it provides.
+%   moves(+Errors0, +Located, -Errors, -Warnings): Errors and Warnings are those
+%   of a program with the same clauses, but a payload may change predicates
+%   that it provides without a declaration.
 
 moves([Error|Errors], _, [Error|Errors], []).
 moves([], Located, Errors, Warnings) :-

@@ -5,11 +5,11 @@
 :- autoload(library(readutil), [read_file_to_string/3]).
 :- use_module('../../kernel/program', [source_clause/2]).
 
-/** <module> The line of the goal that a problem is about
+/** <module> The line of the goal of a problem
 
-Problems are found clause by clause, and have the line at which the clause
+The checks find problems clause by clause, with the line at which the clause
 begins.  Before a problem is printed or raised, its clause is read again with
-the positions of its parts, for the line of its goal or variable.
+the positions of its parts, to find the line of its goal or variable.
 
 *Threading*: any thread.
 */
@@ -21,7 +21,7 @@ typhon_programs:problem_at_goal(Problem0, Problem) :-
 
 %!  problem_at_goal(+Problem0, -Problem) is det.
 %
-%   Problem is Problem0 at the line of its goal.  Its line is unchanged if that
+%   Problem is Problem0 with the line of its goal.  Its line is unchanged if the
 %   goal is not found, as in clauses that were not read from a file.
 
 problem_at_goal(problem(Formal, File:Line0, Advice),
@@ -34,7 +34,10 @@ problem_at_goal(problem(Formal, File:Line0, Advice),
     !.
 problem_at_goal(Problem, Problem).
 
-%   about(+Formal, +Advice, -Target)
+%   about(+Formal, +Advice, -Target) is semidet: a problem with Formal and
+%   Advice is located at Target: goal(PI), a call of PI; within(Context, PI), a
+%   call of PI in an argument of Context; change(PI), a goal that changes PI; or
+%   variable(Name).
 
 about(unknown_procedure(PI), _, goal(PI)).
 about(lost_choice(_, PI, _), _, goal(PI)).
@@ -85,16 +88,16 @@ is_target(change(Name/Arity), Part, At, Offset) :-
     functor(Head, Name, Arity),
     begins(At, Offset).
 
-%   calls(+Term, +PI) is semidet: Term has the name, and as many arguments, or
-%   fewer if some are added to it.
+%   calls(+Term, +PI) is semidet: Term calls PI, or is a closure of PI, to which
+%   arguments are added.
 
 calls(Term, Name/Arity) :-
     callable(Term),
     functor(Term, Name, N),
     N =< Arity.
 
-%   part(+Term, +Layout, -Part, -At) is nondet: Part of Term is at At; in the
-%   order of the text.
+%   part(+Term, +Layout, -Part, -At) is nondet: Part of Term has the layout At.
+%   Solutions are in the order of the text.
 
 part(Term, Layout, Part, At) :-
     nonvar(Layout),
@@ -125,7 +128,7 @@ argument(List, list_position(_, _, Ats, At), Tail, At) :-
 begins(Layout, Offset) :-
     arg(1, Layout, Offset).
 
-%   Offset counts characters.
+%   Offset is a number of characters, so the text is read, not the bytes.
 
 line_at(File, Offset, Line) :-
     read_file_to_string(File, Text, [encoding(utf8)]),

@@ -13,22 +13,22 @@ discarded.  The author of
 
     member(Host, Hosts), move(Host), look_around, fail
 
-expects another hop for each of Hosts, and gets one hop.  That is reported as a
-problem when, in one conjunction of a clause,
+expects another hop for each of Hosts, and gets one hop.  A problem is reported
+when, in one conjunction of a clause,
 
   1. a goal leaves choice points,
   2. after it, without a cut in between, an agent can stop,
   3. after that, without a cut in between, a goal is meant to fail.
 
 Choice points are left by goals that are known to leave them (member/2,
-between/3, sense/1 and others, if they bind a variable that occurs there for the
-first time, or a predicate of several facts that is called so), by a
-disjunction, and by another clause whose head is at least as general, unless a
-goal before the stop may be meant to choose between the two clauses.  Before a
-plain `fail` this also holds for retract/1, and for any predicate that may have
-several clauses.  Goals that are meant to fail are fail/0, a comparison, a type
-test, \+, memberchk/2, forall/2, sense/1 and take/1; and the stop itself, if it
-is a receive with a timeout.  A goal in a condition belongs to that condition.
+between/3, sense/1 and others, and calls of a predicate of several facts, if
+they bind a variable that occurs there for the first time), by a disjunction,
+and by another clause whose head is at least as general, unless a goal before
+the stop may be meant to choose between the two clauses.  Before a plain `fail`,
+retract/1 and any predicate that may have several clauses count, too.  Goals
+that are meant to fail are fail/0, a comparison, a type test, \+, memberchk/2,
+forall/2, sense/1 and take/1; and the stop itself, if it is a receive with a
+timeout.  The failure of a goal in a condition concerns that condition only.
 
 *Threading*: pure.
 */
@@ -68,12 +68,12 @@ other_clause(Later, Head, Left) :-
                 *            A BODY            *
                 *******************************/
 
-%   walk(+Body, +Program, +Path0, -Path)//: the choice points that Body
-%   discards, as lost(Choice, Control, Test).
+%   walk(+Body, +Program, +Path0, -Path)//: list the choice points that Body
+%   discards and needs, as lost(Choice, Control, Test).
 %
 %   A path is path(Seen, Left, Lost), or `dead` after a fail/0.  Seen is a term
-%   with the variables so far.  Left are the present choice points Kind-PI, Lost
-%   those that were discarded, as Kind-PI-Control.  Kind is
+%   with the variables that have occurred.  Left are the present choice points,
+%   as Kind-PI, Lost the discarded ones, as Kind-PI-Control.  Kind is
 %
 %     - sure: there is more than one solution
 %     - other: another clause, or the other side of a disjunction
@@ -142,7 +142,8 @@ condition(If, Program, Path0, Path) -->
     walk(If, Program, path(Seen, [], []), _),
     { stopped(If, Program, Path0, Path) }.
 
-%   fails(+Goal, +Path)//: Goal may fail, without a choice point before it.
+%   fails(+Goal, +Path)//: list a discarded choice point that the failure of
+%   Goal is meant to retry.
 
 fails(Goal, path(_, Left, Lost)) -->
     { failing(Goal, Left, Kinds),
@@ -155,8 +156,9 @@ fails(Goal, path(_, Left, Lost)) -->
 fails(_, _) -->
     [].
 
-%   failing(+Goal, +Left, -Kinds) is semidet: the failure of Goal is meant for
-%   discarded choice points of Kinds, and not for those that are Left.
+%   failing(+Goal, +Left, -Kinds) is semidet: the failure of Goal is meant to
+%   retry choice points of Kinds that were discarded, and not those that are
+%   Left.
 
 failing(Goal, Left, [sure,other,chosen,maybe]) :-
     is_fail(Goal),
@@ -169,7 +171,8 @@ failing(Goal, [], [sure,other]) :-
                 *             PATHS            *
                 *******************************/
 
-%   stopped(+Goal, +Program, +Path0, -Path): the agent may stop in Goal.
+%   stopped(+Goal, +Program, +Path0, -Path): if the agent may stop in Goal, the
+%   choice points that are left in Path0 are discarded in Path.
 
 stopped(Goal, own(_, Mobile)-_, path(Seen, Left, Lost0),
         path(Seen-Goal, [], Lost)) :-
@@ -221,7 +224,8 @@ joined(path(Seen1, Left1, Lost1), path(Seen2, Left2, Lost2),
                 *       PURPOSE OF A GOAL      *
                 *******************************/
 
-%   As far as it is known statically; doubtful goals are not reported.
+%   The purpose of a goal is a guess from its predicate.  Where it is doubtful,
+%   nothing is reported.
 
 indicator(Goal, Name/Arity) :-
     functor(Goal, Name, Arity).
@@ -297,8 +301,9 @@ finds(sense(Fact), Fact).
 finds(pheromone(Problem, Source, _), [Problem,Source]).
 finds(neighbour(Host, _), Host).
 
-%   facts(+Goal, +Clauses, -What): Goal has several clauses, all facts, and What
-%   would choose one of them.
+%   facts(+Goal, +Clauses, -What): the predicate of Goal has several clauses,
+%   all facts; What is its first argument, which selects one of them if it is
+%   bound.
 
 facts(Goal, Clauses, What) :-
     compound(Goal),

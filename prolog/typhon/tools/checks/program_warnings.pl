@@ -23,8 +23,8 @@ typhon_parts.
 %!  program_warnings(+Located, +Kinds, -Warnings:list) is det.
 %
 %   Warnings are the likely mistakes in the agent program Located, terms with
-%   their locations.  Kinds are those of its predicates; without any, its
-%   clauses are faulty.
+%   their locations.  Kinds are the kinds of its predicates; if there are none,
+%   the program has errors, and gets no warnings.
 
 program_warnings(_, [], []) :-
     !.
@@ -44,9 +44,9 @@ likely_mistake(Parts, Kinds, Problem) :-
 
 %!  apart_problem(+Rules, +Known, -Problem) is nondet.
 %
-%   PI has clauses of other predicates between its own.  Rules have their
-%   locations; Known is Directives-State, where State are the indicators of
-%   mutable predicates.
+%   Problem is a predicate with clauses of other predicates between its own.
+%   Rules have their locations; Known is Directives-State, where State are the
+%   indicators of mutable predicates.
 
 apart_problem(Rules, Directives-State,
               problem(discontiguous(PI), Location, discontiguous(PI))) :-
@@ -63,15 +63,15 @@ undeclared_problem(Rules, State,
     \+ defined(Rules, PI),
     \+ hidden(PI).
 
-%   The vocabulary keeps such predicates in an agent; programs do not declare
-%   them.
+%   Predicates of the vocabulary keep facts in the state of an agent under names
+%   that begin with $; programs do not declare these.
 
 hidden(Name/_) :-
     sub_atom(Name, 0, _, _, $).
 
-%   apart(+Clauses, -PI, -Location) is nondet: a clause of PI is at Location,
-%   others are before it, and the clause directly before it is of another
-%   predicate.
+%   apart(+Clauses, -PI, -Location) is nondet: a clause of PI is at Location;
+%   other clauses of PI are before it, and the clause directly before it is of
+%   another predicate.
 
 apart(Clauses, PI, Location) :-
     append(Before, [Clause-Location|_], Clauses),
@@ -102,7 +102,8 @@ changed(Clauses, PI, Location) :-
                 *     UNDEFINED PREDICATES     *
                 *******************************/
 
-%   A place or a payload may define them, or the name is mistyped.
+%   A place or a payload may define an undefined predicate, or its name is
+%   mistyped.
 
 %!  unknown_problems(+Located, -Problems:list) is det.
 %

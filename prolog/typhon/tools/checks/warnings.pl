@@ -12,9 +12,9 @@
 /** <module> Warnings about programs that are read
 
 Warnings about a program are printed when it is read, and not again until it
-changes.  Warnings about calls of predicates that it does not define are kept
-until an agent is created from it: payloads of the agent, or its place, may
-define them.
+changes.  Those about calls of predicates that it does not define wait until an
+agent is created from it: payloads of the agent, or its place, may define these
+predicates.
 
 *Threading*: any thread.  A mutex protects the record.
 */
@@ -25,8 +25,9 @@ define them.
     typhon_loaded:unknown/3,
     typhon_on_demand:joins/2.
 
-%   Columns: file, or hash of clauses; Sources; Hash; Unknown.  The warnings of
-%   the program were printed, except those of the calls Unknown.
+%   warned(Key, Sources, Hash, Unknown): the warnings about the program with
+%   Hash were printed, except those of the calls Unknown.  Key is its file, or
+%   the hash of its clauses.
 
 :- dynamic warned/4.
 
@@ -69,7 +70,7 @@ typhon_loaded:unknown(Hash, State, Offered) :-
     warned(Key, Sources, Hash, Unknown),
     Unknown = [_|_],
     assertz(warned(Key, Sources, Hash, [])),
-    retract(warned(Key, Sources, Hash, Unknown)), % one thread succeeds
+    retract(warned(Key, Sources, Hash, Unknown)), % succeeds in one thread
     !,
     forall(( member(Problem, Unknown),
              Problem = problem(unknown_procedure(PI), _, _),
