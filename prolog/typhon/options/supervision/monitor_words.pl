@@ -44,8 +44,8 @@ typhon_creation:first_goal(Options, Parent,
     Parent \== none,
     option(follows(true), Options).
 
-%   The monitor is set before Id begins, so that its parent cannot end
-%   unnoticed.  This process is the home of Id.
+%   This process is the home of Id.  The monitor is set before Id begins, and so
+%   before it can move or fail, and its parent cannot end unnoticed.
 
 typhon_creation:at_birth(monitor(Parent, [shared(self)]), Id) :-
     atom(Parent),
