@@ -11,7 +11,7 @@ main :-
     agent_create(Program, Agent, [host(base)]),
     agent_join(Agent, done, 10).
 
-% clone/2 is like fork: both go on after it, and Who tells them apart.
+% clone/2 is like fork: both agents continue after it; Who distinguishes them.
 
 scout(clauses(
     [ (:- agent(scout, [])),
@@ -25,7 +25,7 @@ scout(clauses(
       (scout([Host|Hosts]) :-
            clone(Host, Who),
            (   Who = clone(Parent)
-           ->  here(Here),              % on Host, and its last goals
+           ->  here(Here),              % on Host: its last goals
                send(Parent, arrived(Here)),
                dispose
            ;   scout(Hosts)

@@ -11,14 +11,14 @@ main :-
     agent_join(Agent, Outcome, 10),
     format("~w: ~w~n", [Agent, Outcome]).
 
-% The program of the agent: the terms as they would stand in a file.
+% The program of the agent: the same terms as in a file.
 
 hello(clauses(
     [ (:- agent(hello, [])),
 
       (main :-
            greet,
-           move(beta),                  % goes on with the next goal, there
+           move(beta),                  % the next goal runs on beta
            greet),
 
       (greet :-

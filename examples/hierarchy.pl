@@ -1,12 +1,13 @@
-% An observer changes what leaders tell their workers.  swipl examples/hierarchy.pl
+% An observer changes parameters of workers.      swipl examples/hierarchy.pl
 
 :- use_module('../prolog/typhon').      % library(typhon), once installed
 :- use_module('../agents/hierarchy/operator').
 :- use_module('../agents/sync/operator').
 :- initialization(main, main).
 
-% Two leaders have a part of a grid each.  In the first round the first rows have
-% tasks, then all: the penalty bias of the workers, delta, is too large for that.
+% Two leaders have a part of a grid each.  In the first round the first rows
+% have tasks, then all rows, for which the penalty bias of the workers, delta,
+% is too large.
 
 main :-
     tmp_file(events, File),

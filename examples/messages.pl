@@ -12,7 +12,7 @@ main :-
     agent_create(Client, Agent, [host(beta), facts([server(Server)])]),
     agent_join(Agent, done, 10).
 
-% It has on_message/2, so it stays when it has nothing else to do.
+% An agent with on_message/2 stays when it has nothing else to do.
 
 counter(clauses(
     [ (:- agent(counter, [state([count/1])])),
@@ -22,7 +22,7 @@ counter(clauses(
            New is Old+N,
            assertz(count(New)),
            send(From, sum(New)),
-           move(beta))                  % messages find it there
+           move(beta))                  % messages follow it to beta
     ])).
 
 client(clauses(

@@ -10,11 +10,11 @@ main :-
     converter(Payload),
     agent_create(Program, Agent, [host(alpha), payloads([Payload])]),
     agent_join(Agent, done, 10),
-    remote(beta, fahrenheit(20, F)),    % beta has it now, for everybody
+    remote(beta, fahrenheit(20, F)),    % every program on beta can use it
     format("On beta 20 C are ~w F~n", [F]).
 
-% A payload is code and data that an agent carries: its own as long as it
-% does, and of the host it is delivered to.
+% A payload is code and data that an agent carries: it belongs to the agent
+% until it is delivered to a host.
 
 converter(clauses(
     [ (:- payload(converter, [provides([fahrenheit/2])])),

@@ -9,11 +9,11 @@ main :-
     brigade(Program),
     agent_create(Program, Agent, [host(road)]),
     remote(farm, leave(fire)),
-    remote(farm, emit(need(water))),    % smelt up to three hops away
+    remote(farm, emit(need(water))),    % spreads up to three hops
     agent_join(Agent, done, 10).
 
-% What it smells leads to where it smells stronger. The strategy phercon(P)
-% follows the pheromones for P; it would wander where there are none.
+% The strategy phercon(P) follows the pheromones for P to where they are
+% stronger; without any it moves conscientiously.
 
 brigade(clauses(
     [ (:- agent(brigade, [])),
@@ -21,7 +21,7 @@ brigade(clauses(
       (main :-
            take(fire),
            !,
-           withdraw(need(water)),       % gone from all hosts around
+           withdraw(need(water)),       % removed from all hosts around
            here(Here),
            format("~w: the fire is out~n", [Here])),
       (main :-

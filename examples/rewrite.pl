@@ -11,7 +11,7 @@ main :-
     agent_join(Agent, done, 10).
 
 % Predicates in state/1 may have rules, and the agent may change them while
-% it lives.  It takes them along as they are.
+% it runs.  It carries its own versions.
 
 learner(clauses(
     [ (:- agent(learner, [state([greet/1])])),

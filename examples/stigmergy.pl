@@ -17,7 +17,7 @@ main :-
     remote(nest, findall(N, sense(stored(N)), Stored)),
     format("In the nest: ~w~n", [Stored]).
 
-% Every host has a tuple space.  Of all that try, one takes a fact.
+% Every host has a tuple space.  Only one of several agents can take a fact.
 
 ant(clauses(
     [ (:- agent(ant, [])),

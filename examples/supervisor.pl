@@ -16,7 +16,7 @@ worker(clauses(
       (main :- post(User, Side), send(User, ready(Side)), receive(_-stop))
     ])).
 
-% The supervisor starts a child again whatever its outcome: it is permanent.
+% The supervisor restarts a child whatever its outcome: it is permanent.
 
 user(clauses(
     [ (:- agent(user, [state([program/1])])),

@@ -1,4 +1,4 @@
-% An agent goes round and gathers what it sees.   swipl examples/tour.pl
+% An agent visits hosts and collects facts.       swipl examples/tour.pl
 
 :- use_module('../prolog/typhon').      % library(typhon), once installed
 :- initialization(main, main).
@@ -10,8 +10,8 @@ main :-
     agent_create(Program, Agent, [host(base)]),
     agent_join(Agent, done, 10).
 
-% Facts of the predicates in state/1 are the memory of the agent: it takes
-% them along.  What the loop has bound so far travels as well.
+% Facts of the predicates in state/1 are the memory of the agent: it carries
+% them.  The bindings of the loop travel as well.
 
 tourist(clauses(
     [ (:- agent(tourist, [state([seen/2])])),

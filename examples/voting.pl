@@ -1,4 +1,4 @@
-% Clones that vote: a host that lies is outvoted.      swipl examples/voting.pl
+% Clones that vote: they outvote a host that lies.     swipl examples/voting.pl
 
 :- use_module('../prolog/typhon').      % library(typhon), once installed
 :- initialization(main, main).
@@ -13,8 +13,8 @@ main :-
     agent_result(Agent, Verdict, 20), format("~w~n", [Verdict]),
     network_stop(Network).
 
-% Nothing keeps a host from killing, delaying or copying what stands on it, or
-% from lying to it.  So several are asked, and what most of them say counts.
+% A host can kill, delay or copy the agents on it, and lie to them.  So clones
+% ask several hosts, and the majority decides.
 
 voter(clauses(
     [ (:- agent(voter, [state([vote/2])])),

@@ -1,4 +1,4 @@
-% Logs where it is, moves to each neighbour in turn, and comes home.
+% Logs its host, moves to each neighbour in turn, and returns home.
 
 :- agent(hello, []).
 

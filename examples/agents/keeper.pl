@@ -1,4 +1,4 @@
-% Stays where it is and keeps notes: remember(Note), recall, go(Host), stop.
+% Static; stores notes: remember(Note), recall, go(Host), stop.
 
 :- agent(keeper, [state([note/1])]).
 

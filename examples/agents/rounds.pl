@@ -1,4 +1,4 @@
-% Walks to a neighbour chosen at random, ten times, and logs each hop.
+% Moves to a random neighbour, ten times, and logs each hop.
 
 :- agent(rounds, []).
 

@@ -1,5 +1,5 @@
-% Logs the load of its host when it changes; looks once a second, until it is
-% disposed of.
+% Logs the load of its host when it changes; checks it once a second, until the
+% agent is disposed of.
 
 :- agent(watchman, [state([last/1])]).
 

@@ -9,8 +9,9 @@
 
 %!  drawn(+Seed, +What, -Share:float) is det.
 %
-%   Share, from 0 to 1, is drawn for the ground term What: the same whenever it is
-%   drawn.  So what agents do does not change the weather, nor which room burns.
+%   Share, from 0 to 1, is random, but the same for each call with the same Seed
+%   and the same ground term What.  So actions of agents change neither the
+%   weather nor the room that burns.
 
 drawn(Seed, What, Share) :-
     chance_hash(Seed-What, Hash),

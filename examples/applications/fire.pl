@@ -5,7 +5,7 @@
     swipl examples/applications/fire.pl [--signs=fixed] [--rule=single]
         [--growth=0.0117] [--people=3] [--speed=5] [--port=8080] [--seed=1]
 
-A room burns after 20 s.  Detectors ask their neighbours before there is an
+A room burns after 20 s.  Detectors ask their neighbours before they raise an
 alarm; signs lead round the smoke.  fire/building.pl is the world,
 fire/room.pl the agent of each cell; see doc/applications.md.
 */
@@ -25,10 +25,10 @@ opt_type(people, people, nonneg).
 opt_type(Name, Name, Type) :-
     stage_option(Name, Type, _).
 
-opt_help(signs, "What exit signs point along [gradient]").
-opt_help(rule, "When there is an alarm [gossip]").
-opt_help(growth, "Of the fire, in kW/s2 [0.0469]").
-opt_help(people, "In each room [3]").
+opt_help(signs, "Which exit the signs point to [gradient]").
+opt_help(rule, "When a detector raises an alarm [gossip]").
+opt_help(growth, "Growth of the fire, in kW/s2 [0.0469]").
+opt_help(people, "Number of people in each room [3]").
 opt_help(Name, Help) :-
     stage_option(Name, _, Help).
 

@@ -1,6 +1,6 @@
 :- module(irrigation, []).
 
-/** <module> Fields that agents irrigate by models which they carry there
+/** <module> Irrigation of fields by agents that carry models
 
     swipl examples/applications/irrigation.pl [--strategy=central] [--down=0.3]
         [--broker=mqtt://localhost] [--days=90] [--speed=5] [--port=8080]
@@ -8,7 +8,7 @@
 
 Six fields have a season of ninety days.  A gardener for each moves there,
 estimates the need of the crop from moisture sensors, and opens the valve.
-Speed is in hours of the world in a second.  irrigation/fields.pl is the
+Speed is in hours of the world per second.  irrigation/fields.pl is the
 world, irrigation/gardener.pl the agent; see doc/applications.md.
 */
 
@@ -30,10 +30,10 @@ opt_type(days, days, natural).
 opt_type(Name, Name, Type) :-
     stage_option(Name, Type, _).
 
-opt_help(strategy, "How it is decided which valves open [carried]").
+opt_help(strategy, "How the opening of valves is decided [carried]").
 opt_help(down, "Share of time in which a link is down [0.3]").
 opt_help(broker, "URL of an MQTT broker [none: simulated]").
-opt_help(days, "Of the season [90]").
+opt_help(days, "Length of the season [90]").
 opt_help(Name, Help) :-
     stage_option(Name, _, Help).
 

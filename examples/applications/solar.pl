@@ -6,7 +6,7 @@
         [--days=7] [--speed=5] [--port=8080] [--seed=1]
 
 Ten houses exchange the energy of their panels, by auctions of an agent that
-goes from house to house.  Speed is in quarters of an hour of the world in a
+moves from house to house.  Speed is in quarters of an hour of the world per
 second. solar/street.pl is the world, solar/auctioneer.pl and solar/house.pl
 are agents; see doc/applications.md.
 */
@@ -29,8 +29,8 @@ opt_type(Name, Name, Type) :-
     stage_option(Name, Type, _).
 
 opt_help(strategy, "How the battery is shared [auction]").
-opt_help(capacity, "Of the battery, in kWh [30]").
-opt_help(days, "Until it is over [7]").
+opt_help(capacity, "Capacity of the battery, in kWh [30]").
+opt_help(days, "Days until the program ends [7]").
 opt_help(Name, Help) :-
     stage_option(Name, _, Help).
 

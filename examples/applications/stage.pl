@@ -10,31 +10,32 @@
 :- use_module(library(main), [argv_options/3]).
 :- use_module(library(option), [option/3]).
 
-/** <module> Common part of the applications: a network, a page, an end
+/** <module> Common part of the applications: network, page, and end
 
     swipl examples/applications/NAME.pl [--speed=5] [--port=8080] [--seed=1]
 
-starts the network of an application, serves its page, and runs until Ctrl-C.  At
-speed 0 time is virtual: there is no page, and the program ends with its story.
+starts the network of an application, serves its page, and runs until Ctrl-C.
+At speed 0 time is virtual: there is no page, and the program ends with its
+story.
 
 *Threading*: a story runs in a thread of its own: while the main thread creates
-threads, signals reach one of those, and are lost.
+threads, a signal may reach a new thread, and would be lost.
 */
 
 :- meta_predicate
     stage(:, +, 2),
     stage_story(+, +, 2).
 
-:- dynamic pace/1.              % host seconds in a second; none: virtual time
+:- dynamic pace/1.              % host seconds per second; none: virtual time
 
 %!  stage(:Argv, +Scene, :Play) is det.
 %
-%   Calls call(Play, Network, Options), Options being what Argv says; opt_type/3
-%   and opt_help/2 of its module say what it may be, see argv_options/3.  Scene is a
+%   Calls call(Play, Network, Options); Options are the parsed Argv, as defined
+%   by opt_type/3 and opt_help/2 of its module, see argv_options/3.  Scene is a
 %   module with scene_network(+Options, -Topology, -NetworkOptions);
-%   scene_step(-Seconds), of the world, of which as many pass in a second as the
-%   speed is; scene_picture(-Svg) for the page; and scene_stop, called before the
-%   network ends.  Ends the process, with status 1 if Play raises an error.
+%   scene_step(-Seconds), of the world; the speed is in steps per second;
+%   scene_picture(-Svg) for the page; and scene_stop, called before the network
+%   ends.  Ends the process, with status 1 if Play raises an error.
 
 stage(Argv, Scene, Play) :-
     argv_options(Argv, Others, Options),
@@ -53,7 +54,8 @@ stage(Argv, Scene, Play) :-
 
 none_left([]).
 none_left([Other|_]) :-
-    print_message(error, format('~w is no option; --help lists them', [Other])),
+    print_message(error, format('unknown option ~w; --help lists the options',
+                                [Other])),
     halt(1).
 
 report(exception(error(socket_error(eaddrinuse, _), _))) :-
@@ -71,9 +73,9 @@ report(Status) :-
 %   Options of all applications.
 
 stage_option(speed, number,
-             "So many steps of the world in a second; 0: virtual time [5]").
-stage_option(port, between(0, 65535), "Of the page; 0: a free one [8080]").
-stage_option(seed, integer, "Of all that is drawn [1]").
+             "Steps of the world per second; 0: virtual time [5]").
+stage_option(port, between(0, 65535), "Port of the page; 0: a free one [8080]").
+stage_option(seed, integer, "Seed of all random choices [1]").
 
 :- public stop/1.               % called by on_signal/3
 
@@ -114,8 +116,8 @@ play(Clock, Network, Scene, Play, Options) :-
 
 %!  stage_story(+Network, +Seconds, :Say) is semidet.
 %
-%   Each time when so many host seconds have passed, call(Say, Time, Ends) says how
-%   things are, until Ends is `true`.  Fails when the program is to end before.
+%   Calls call(Say, Time, Ends) every Seconds of host time, until Ends is
+%   `true`; Say reports the state.  Fails if the program is to end before.
 
 stage_story(Network, Seconds, Say) :-
     story(Network, Seconds, 0, Say).
@@ -127,7 +129,7 @@ story(Network, Seconds, Time0, Say) :-
     flush_output,
     ( Ends == true -> true ; story(Network, Seconds, Time, Say) ).
 
-%   In pieces of half a second, since the user may wait for the program to end.
+%   In pieces of half a second, because the user may end the program.
 
 advance(Network, Seconds) :-
     pace(Rate),

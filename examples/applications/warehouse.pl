@@ -1,6 +1,6 @@
 :- module(warehouse, []).
 
-/** <module> A warehouse: agents that allocate robots of ROS, and keep them in step
+/** <module> A warehouse: agents that allocate ROS robots, and keep them in step
 
     swipl examples/applications/warehouse.pl [--robots=6] [--pallets=6]
         [--beams=3] [--way=alone] [--delta=2] [--breaks=60] [--speed=5]
@@ -28,12 +28,12 @@ opt_type(breaks, breaks, number).
 opt_type(Name, Name, Type) :-
     stage_option(Name, Type, _).
 
-opt_help(robots, "How many [6]").
-opt_help(pallets, "Loads for one robot [6]").
-opt_help(beams, "Loads for two or three robots [3]").
+opt_help(robots, "Number of robots [6]").
+opt_help(pallets, "Number of loads for one robot [6]").
+opt_help(beams, "Number of loads for two or three robots [3]").
 opt_help(way, "How robots carry a beam [in_step]").
 opt_help(delta, "Penalty bias of agents that keep them in step [2]").
-opt_help(breaks, "After so many seconds a robot that carries a beam breaks down").
+opt_help(breaks, "Seconds after which a robot that carries a beam breaks down").
 opt_help(Name, Help) :-
     stage_option(Name, _, Help).
 

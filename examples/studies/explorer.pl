@@ -1,4 +1,4 @@
-% Walks until it has seen every host of the network.
+% Moves until it has visited every host of the network.
 
 :- agent(explorer, [state([strategy/1, unseen/1])]).
 

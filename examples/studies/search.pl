@@ -25,7 +25,7 @@ run(Case, Network) :-
             Agents),
     forall(member(Agent, Agents), agent_join(Agent, done, 100000)).
 
-%   When the last host was seen for the first time.
+%   The time of the first visit to the last host.
 
 measure(time, Log, Time) :-
     findall(Host-Time, member(event(Time, Host, _, here), Log.events), Seen),

@@ -28,8 +28,8 @@
 %
 %   Makes the runs that arrive on standard input, until it ends: terms
 %   make(File, Pairs, Seed, Directory, Logs), for the study in File and the case
-%   with Pairs.  The answer to each is answer(Outcome) on standard output. Output of
-%   runs goes to the file `output`.
+%   with Pairs.  The answer to each is answer(Outcome) on standard output.
+%   Output of runs goes to the file `output`.
 
 work :-
     stream_property(Answers, alias(user_output)),

@@ -33,8 +33,8 @@ failures(Events, Failures) :-
 %   Phases are lists of executions, each of which is a sequence of tasks in
 %   step.  After an atomic failure (Kind is atomic(_,_,_)) the tasks continue,
 %   so the repeated executions are a phase of their own; after a cascaded one
-%   they begin again, so the phases are before and after.  Without failures there
-%   is one phase.
+%   they begin again, so the phases are before and after.  Without failures
+%   there is one phase.
 
 phases(_, Executions, [], [Executions]) :-
     !.

@@ -1,5 +1,6 @@
 %   Other readings of equation 5.2: the number of successive penalties that
-%   reduce a potential to zero.  Computed; `agents` is the reading of the agents.
+%   reduce a potential to zero.  Computed; `agents` is the reading of the
+%   agents.
 
 :- include('../../agents/sync/potential').
 :- use_module(library(lists)).

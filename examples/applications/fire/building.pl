@@ -17,18 +17,18 @@
 /** <module> A floor of a building on fire, and the people in it
 
 Forty cells of 5 m: rooms with doors to two corridors, which are joined at both
-ends; two exits.  A world is a term; a step of one second makes the next one
-from it.  Units are metres, seconds, kilowatts and grams.
+ends; two exits.  A world is a term; a step of one second computes the next
+world.  Units are metres, seconds, kilowatts and grams.
 
-Sources: t-squared fires and their growth (NFPA 72); Thomas' flashover of a room
-of 5 x 5 x 3 m with a door, 1.8 MW; a plume entrains 0.071 Qc^(1/3) z^(5/3) kg/s
-(Zukoski), here z = 2 m; flaming smoke takes 8.7 m2/g of light (Mulholland and
-Croarkin); people see reflecting signs 3/K metres far (Jin), turn back where that
-is 3 m, and walk slower in smoke (Frantzich and Nilsson).
+Sources: t-squared fires and their growth (NFPA 72); Thomas' flashover of a
+room of 5 x 5 x 3 m with a door, 1.8 MW; a plume entrains 0.071 Qc^(1/3)
+z^(5/3) kg/s (Zukoski), here z = 2 m; flaming smoke takes 8.7 m2/g of light
+(Mulholland and Croarkin); people see reflecting signs 3/K metres far (Jin),
+turn back where that is 3 m, and walk slower in smoke (Frantzich and Nilsson).
 
-Assumptions: air in a cell is mixed; of the fuel, 20 kJ/g, 5 % become soot; doors
-are ajar (0.15 m3/s), and corridors exchange 1.25 m3/s; fire passes a door a
-minute after flashover, and what a corridor has to burn is little (500 kW, slow
+Assumptions: air in a cell is mixed; of the fuel, 20 kJ/g, 5 % become soot;
+doors are ajar (0.15 m3/s), and corridors exchange 1.25 m3/s; fire passes a
+door a minute after flashover, and a corridor has little to burn (500 kW, slow
 growth); an exit passes one person in a second; people leave some time after an
 alarm, or after they see smoke, but at once where it burns; they do not enter
 rooms in search of a way.
@@ -93,9 +93,9 @@ building_new(Options, world(0, Smoke, [], People)) :-
 
 %!  building_step(+Ignited:list, +Guide, +World0, -World) is det.
 %
-%   One second.  Ignited are terms fire(Cell, Growth), kW/s2, of what begins to
-%   burn now; Guide is guide(Alarms, Signs): the cells where an alarm sounds, and
-%   pairs Cell-To of what exit signs say.
+%   One second.  Ignited are terms fire(Cell, Growth), kW/s2, for cells that
+%   begin to burn now; Guide is guide(Alarms, Signs): the cells with an alarm,
+%   and pairs Cell-To for the exit signs.
 
 building_step(Ignited, Guide, World0, world(Time, Smoke, Fires, People)) :-
     World0 = world(Time0, _, Fires0, People0),
@@ -115,8 +115,8 @@ building_step(Ignited, Guide, World0, world(Time, Smoke, Fires, People)) :-
 %!  heat_in(+World, +Cell, -Kilowatts) is det.
 %!  smoke_in(+World, +Cell, -PerMetre) is det.
 %
-%   The extinction coefficient of the air: 1 per metre leaves 37 % of light after
-%   a metre.
+%   The extinction coefficient of the air: 1 per metre leaves 37 % of light
+%   after a metre.
 
 heat_in(world(Time, _, Fires, _), Cell, Heat) :-
     (   memberchk(fire(Cell, Since, Growth, Most), Fires)
@@ -185,7 +185,7 @@ flow(World, A, B, Flow) :-
                 *******************************/
 
 %   States: rest(Cell), leaving(Cell, When), at(Cell), walk(From, To, Metres),
-%   out(Time), caught(Time).  Used are the exits that people pass now.
+%   out(Time), caught(Time).  Used are the exits taken in this second.
 
 person_step(_, _, Person, Person, Used, Used) :-
     arg(4, Person, State),
@@ -245,7 +245,7 @@ state_step(at(Cell), World, guide(_, Signs), _, Seen, State, Used, Used) :-
     ).
 
 %   People follow a sign, but not a third time to one place, nor into fire, nor
-%   from clearer air into smoke in which they see 3 m.  Else they search.
+%   from clearer air into smoke in which they see 3 m.  Otherwise they search.
 
 chosen(World, Signs, Seen, Cell, To) :-
     memberchk(Cell-To, Signs),

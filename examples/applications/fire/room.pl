@@ -3,16 +3,16 @@
 
 /*  The detector and the exit sign of one cell of a building.
 
-    In the tuple space of its host are smoke(PerMetre), what its detector
-    reads, and, left by this agent, sign(To) and alarm.  It sends its
-    neighbours its reading, its confirmed value, and the walking time to an
-    exit from there: air(Cell, Reading, Smoke, Seconds, To).
+    The tuple space of its host has smoke(PerMetre), the reading of the
+    detector, and sign(To) and alarm, which this agent leaves.  It sends its
+    neighbours its reading, its confirmed value, and the walking time from its
+    cell to an exit: air(Cell, Reading, Smoke, Seconds, To).
 
-    rule(Rule) says when there is an alarm, above 0.035 per metre (0.15 dB/m,
-    what optical detectors have): `single`, at once; `verified`, if it stays so for
-    half a minute; `gossip`, if a neighbour reads a quarter of it, too.
-    signs(gradient): signs point where an exit is nearest, the smoke on the way
-    counted in; signs(fixed): where it is nearest without a fire.
+    rule(Rule) decides when there is an alarm, above 0.035 per metre (0.15 dB/m,
+    as of optical detectors): `single`, at once; `verified`, after half a minute
+    above it; `gossip`, if a neighbour reads at least a quarter of it.
+    signs(gradient): signs point to the nearest exit, with the smoke on the way
+    as a cost; signs(fixed): to the nearest exit without a fire.
 */
 
 overlay(alarm, label, log(alarm(_)), alarm).
@@ -21,7 +21,7 @@ overlay('exit sign', label, log(sign(To)), To).
 threshold(0.035).
 every(1).                       % seconds from one reading to the next
 verification(30).               % seconds
-silence(12).                    % seconds after which a neighbour is gone
+silence(12).                    % seconds until data of a neighbour expire
 
 main :-
     receive(_-peers(Peers)),
@@ -105,7 +105,7 @@ alarming(gossip, _, Now) :-
     over(_),
     supported(Now).
 
-%   A neighbour reads a quarter of the threshold, or has done so lately.
+%   A neighbour reads a quarter of the threshold, or has recently.
 
 supported(Now) :-
     threshold(Least),
@@ -127,7 +127,7 @@ sound :-
                 *             SIGNS            *
                 *******************************/
 
-%   way(Seconds, To): To is `out` at an exit, `none` where no way is known.
+%   way(Seconds, To): To is `out` at an exit, `none` if no way is known.
 
 route :-
     best(Seconds, To),
@@ -149,7 +149,7 @@ best(Seconds, To) :-
     now(Now),
     findall(S-Next,
             ( heard(Next, _-Smoke, There-Via, At),
-              Via \== Cell,             % it would lead back here
+              Via \== Cell,             % not back to this cell
               walk(Signs, Smoke, Now-At, Walk),
               S is There+Walk,
               S < 500 ),
@@ -173,7 +173,7 @@ walk(gradient, Smoke, Age, Seconds) :-
                 *            GOSSIP            *
                 *******************************/
 
-%   The reading of a single detector does not count as smoke.
+%   The reading of a single detector alone does not count as smoke.
 
 believed(Reading, Now, Smoke) :-
     (   rule(gossip),

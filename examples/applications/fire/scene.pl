@@ -19,17 +19,17 @@
 
 /** <module> The building, its hosts, and the connection between them
 
-Each cell is a host of its own.  Once in a second the world advances, leaves
+Each cell is a host.  Once in a second the world advances, leaves
 the readings of detectors in the tuple spaces of hosts, and people read signs
-and alarms there.  A fire of 500 kW destroys the box of its cell: its agent is
-silent from then on.
+and alarms there.  A fire of 500 kW destroys the device in its cell: its agent
+sends nothing any more.
 
-Detectors read with a noise of 0.002 per metre.  Assumptions: some are dead; dust
-or steam makes others read up to 0.5 per metre more, for half a minute in the
-mean; an alarm without a fire is reset after two minutes.
+Detectors read with a noise of 0.002 per metre.  Assumptions: some detectors
+are dead; dust or steam makes others read up to 0.5 per metre more, for half a
+minute on average; an alarm without a fire is reset after two minutes.
 
-*Threading*: the world is one fact, replaced in one step; any thread looks.  A
-mutex keeps the end of the scene apart from a second that passes.
+*Threading*: the world is one fact, replaced in one step; any thread reads it.
+A mutex prevents that the scene ends during a step.
 */
 
 :- dynamic
@@ -37,7 +37,7 @@ mutex keeps the end of the scene apart from a second that passes.
     setting/1,                  % Options
     box/2,                      % Cell, Agent
     puff/4,                     % Cell, From, To, PerMetre
-    sounding/1.                 % Since when, without a fire
+    sounding/1.                 % start of an alarm without a fire
 
 %!  scene_network(+Options, -Topology, -NetworkOptions) is det.
 
@@ -50,10 +50,10 @@ scene_step(1).
 
 %!  scene_start(+Network, +Options) is det.
 %
-%   Options: seed(S); people(N), delay(Least-Most): see building_new/2; fire(Time),
-%   when one of the rooms begins to burn; growth(G), kW/s2, by default 0.0469, fast;
-%   puffs(N): faulty readings of a detector in an hour; dead(P): share of detectors
-%   that read nothing; rule(R) and signs(S), see room.pl.
+%   Options: seed(S); people(N), delay(Least-Most): see building_new/2;
+%   fire(Time), when one of the rooms begins to burn; growth(G), kW/s2, default
+%   0.0469, fast; puffs(N): faulty readings of a detector in an hour; dead(P):
+%   share of detectors that read nothing; rule(R) and signs(S), see room.pl.
 
 scene_start(Network, Options) :-
     scene_stop,
@@ -130,7 +130,8 @@ guide(guide(Alarms, Signs)) :-
     findall(Cell, ( box(Cell, _), remote(Cell, sense(alarm)) ), Alarms),
     findall(Cell-To, ( box(Cell, _), remote(Cell, sense(sign(To))) ), Signs).
 
-%   log_change(+World0, +World): people that got out, or were caught by the fire.
+%   log_change(+World0, +World): people that got out, or were caught by the
+%   fire.
 
 log_changes(world(_, _, _, People0), world(_, _, _, People)) :-
     maplist(log_change, People0, People).
@@ -165,8 +166,9 @@ reset(_, _).
                 *          DETECTORS           *
                 *******************************/
 
-%   puffs_draw(+Options): a chance for each half minute of two hours; as long as
-%   exponentially distributed around half a minute.
+%   puffs_draw(+Options): draws for each half minute of two hours whether a
+%   detector misreads; the duration is exponentially distributed with a mean of
+%   half a minute.
 
 puffs_draw(Options) :-
     option(seed(Seed), Options, 1),
@@ -230,8 +232,8 @@ scene_alarms(Text) :-
 
 %!  scene_picture(-Svg) is det.
 %
-%   The floor: smoke is dark, fire red, alarms have a red frame, signs are arrows,
-%   people dots.
+%   Svg shows the floor: smoke is dark, fire red, alarms have a red frame, signs
+%   are arrows, people dots.
 
 scene_picture(Svg) :-
     scene(World),

@@ -21,19 +21,19 @@ Water above field capacity drains.  A term field(Number, Soil, D, Totals) is a
 field; Soil = soil(FC, WP, Zr, Kc, Efficiency, Bias), Totals =
 totals(Irrigated, Drained, Stressed), in mm, mm and hours.
 
-Sources: FC - WP from loamy sand to silt loam and p = 0.5 (FAO-56, tables 19 and
-22); of water from sprinklers 70 to 85 % reaches the roots.  Assumptions: ET0 is 5
-mm a day in the mean, by chance half as much more or less, between 6 and 18
-o'clock; it rains on one of eight days, 8 mm in the mean, in one hour; a crop takes
-30 % more or less than its table says; valves give 5 mm/h; a sensor is off by up
-to 0.01, and has noise of the same size (in the scene).
+Sources: FC - WP from loamy sand to silt loam and p = 0.5 (FAO-56, tables 19
+and 22); of water from sprinklers 70 to 85 % reaches the roots.  Assumptions:
+ET0 is 5 mm a day in the mean, by chance half as much more or less, between 6
+and 18 o'clock; it rains on one of eight days, 8 mm in the mean, in one hour; a
+crop takes 30 % more or less than its table says; valves give 5 mm/h; a sensor
+is off by up to 0.01, and has noise of the same size (in the scene).
 
 *Threading*: pure.
 */
 
 %!  weather(+Seed, +Hour, -Evaporation, -Rain) is det.
 %
-%   ET0 and rain in that hour from the start, in mm.
+%   ET0 and rain in Hour, counted from the start, in mm.
 
 weather(Seed, Hour, Evaporation, Rain) :-
     Day is Hour // 24,
@@ -71,7 +71,8 @@ uniform(Seed, What, Least, Most, X) :-
 
 %!  field_hour(+Weather, +Opened, +Field0, -Field) is det.
 %
-%   An hour passes with this Weather, ET0-Rain, while the valve gives Opened mm.
+%   Field0 after an hour with this Weather, ET0-Rain, while the valve gave
+%   Opened mm.
 
 field_hour(Evaporation-Rain, Opened, Field0, Field) :-
     Field0 = field(Number, Soil, D0, totals(Irrigated0, Drained0, Stressed0)),
@@ -88,8 +89,8 @@ field_hour(Evaporation-Rain, Opened, Field0, Field) :-
 %!  field_moisture(+Field, -Share) is det.
 %!  field_map(+Field, -Map) is det.
 %
-%   Share is water by volume.  Map is a survey of the soil, map(FC, WP, Zr),
-%   without the need of the crop.
+%   Ks is the stress factor, Share water by volume.  Map is a survey of the
+%   soil, map(FC, WP, Zr), without the need of the crop.
 
 field_stress(field(_, soil(FC, WP, Zr, _, _, _), D, _), Ks) :-
     TAW is 1000*(FC-WP)*Zr,

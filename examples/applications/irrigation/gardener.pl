@@ -2,18 +2,18 @@
                            hour/1, due/1, pending/1, reached/0,
                            gateway/1])]).
 
-/*  Irrigates a field by a model of its water, which it carries there.
+/*  Irrigates a field by a model of its water, which the agent carries there.
 
-    The facts of its creation: field(Host, Number); map(FC, WP, Zr), what a survey
-    says of the soil; strategy(Strategy):
+    Facts: field(Host, Number); map(FC, WP, Zr), a survey of the soil;
+    strategy(Strategy):
 
-      carried   goes to the field as soon as there is a link, and stays
-      central   stays where it is; a gateway at the field passes readings and
+      carried   moves to the field as soon as there is a link, and stays
+      central   stays at the office; a gateway at the field passes readings and
                 orders on while there is a link
-      timer     opens the valve every three days, for what the table says of the
-                crop without rain; timer_less, with the mean of the rain
+      timer     opens the valve every three days, for the need of the crop by
+                the table without rain; timer_less, less the mean rain
 
-    At the field there are MQTT's subscribe/2 and publish/2, those of
+    The place of the field offers MQTT's subscribe/2 and publish/2, those of
     library(typhon/mqtt) or of a simulation.  The topic field/N/moisture has
     JSON once in an hour, of the form _{hour:H, moisture:Share, et0:Mm,
     rain:Mm}; a message at field/N/valve, _{mm:Mm}, opens the valve for that
@@ -24,10 +24,10 @@ overlay('crop takes, of ET0', bar, log(calibrated(Host, Kc)), Host-Kc).
 overlay('irrigated, mm', bar, log(irrigated(Host, Mm)), Host-add(Mm)).
 
 guess(1.0).                     % Kc of the table
-holds(0.75).                    % of the water of a sprinkler in the root zone
-trusted(0.04).                  % of the difference that a reading corrects
-learnt(0.001).                  % of it, that the crop is taken to be other
-dose(timer, 20).                % mm in three days: 15 of them get there
+holds(0.75).                    % share of sprinkler water that reaches roots
+trusted(0.04).                  % share of the difference that corrects D
+learnt(0.001).                  % share of the difference that corrects Kc
+dose(timer, 20).                % mm in three days: 15 of them reach the roots
 dose(timer_less, 16).
 rate(5).                        % mm/h of the valve
 
@@ -91,7 +91,7 @@ work :-
     ),
     work.
 
-%   At the field the latest is a fact, looked at twice in an hour.
+%   At the field the latest reading is a fact, which is read twice in an hour.
 
 reading(Reading) :-
     reached,
@@ -106,9 +106,9 @@ reading(Reading) :-
 reading(Reading) :-
     receive(_-reading(Reading)).
 
-%   The balance predicts the depletion; the reading corrects it, and the need
-%   of the crop, if the balance is repeatedly wrong in one direction.  Of
-%   hours without a reading only the mean is known.
+%   The balance predicts the depletion; the reading corrects it, and corrects
+%   the need of the crop, if the balance is repeatedly wrong in one direction.
+%   For hours without a reading the mean is assumed.
 
 calibrate(Reading, Before) :-
     _{hour:Hour, moisture:Moisture, et0:Et0, rain:Rain} :< Reading,
@@ -149,8 +149,9 @@ stress(D, FC, WP, Zr, Ks) :-
                 *          IRRIGATION          *
                 *******************************/
 
-%   Once a day, before dawn: enough that the crop has no stress today, with a
-%   tenth of the soil left for rain.  An order that is lost is given again.
+%   Decides once a day, before dawn: enough water that the crop has no stress
+%   today, and a tenth of the soil stays free for rain.  A lost order is
+%   repeated.
 
 decide(Hour) :-
     due(Due),

@@ -1,7 +1,7 @@
 :- agent(gateway, [state([field/2, centre/2, hour/1])]).
 
-/*  Passes readings of a field on to the agent at centre(Host, Agent), and its orders
-    to the valve, while there is a link.
+/*  Passes readings of a field to the agent at centre(Host, Agent), and its
+    orders to the valve, while there is a link.
 */
 
 hour(-1).

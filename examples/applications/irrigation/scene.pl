@@ -17,15 +17,16 @@
 
 /** <module> Fields, their hosts, and the connection between them
 
-Six fields, each with a host, a moisture sensor and a valve, and the office, whose
-links to them break now and then.  Sensors and valves speak MQTT: with a broker the
-world publishes what sensors read at the office, and gets orders to valves there;
-without, facts in the tuple spaces of fields stand for it.  A step is an hour.
+Six fields, each with a host, a moisture sensor and a valve, and the office,
+whose links to them break now and then.  Sensors and valves use MQTT: with a
+broker the world publishes sensor readings at the office, and receives orders
+to valves there; without, facts in the tuple spaces of fields replace MQTT.  A
+step is an hour.
 
-Assumption: a link that is down is so for a day in the mean.
+Assumption: a link is down for a day on average.
 
-*Threading*: the world is one fact, replaced in one step; any thread looks.  A
-mutex keeps the end of the scene apart from an hour that passes.
+*Threading*: the world is one fact, replaced in one step; any thread reads it.
+A mutex prevents that the scene ends during a step.
 */
 
 :- dynamic
@@ -45,8 +46,8 @@ scene_network(_, edges(Links), []) :-
 
 %!  scene_start(+Network, +Options) is det.
 %
-%   Options: seed(S); strategy(S), as of gardener.pl; down(P), the share of time in
-%   which a link is down, default 0.3, and with 0 links stay as they are;
+%   Options: seed(S); strategy(S), as in gardener.pl; down(P), the share of
+%   time in which a link is down, default 0.3, with 0 links do not change;
 %   broker(URL), default none.
 
 scene_start(Network, Options) :-
@@ -190,7 +191,8 @@ told(Options, Field, Reading) :-
                        leave(mqtt-message(Topic, Reading, [])) ))
     ).
 
-%   orders(+Options, +Number, -Orders): in mm, of the valve of that field.
+%   orders(+Options, +Number, -Orders): Orders are the amounts, in mm, ordered
+%   from the valve of field Number.
 
 orders(Options, Number, Orders) :-
     topic(Number, valve, Topic),
@@ -217,8 +219,8 @@ taken(_, _, _, []).
 
 %!  scene_totals(-Days, -Totals) is semidet.
 %
-%   Of each field Number-totals(Irrigated, Drained, Stressed): mm, mm and hours,
-%   see fields.pl.
+%   Totals has Number-totals(Irrigated, Drained, Stressed) for each field: mm,
+%   mm and hours, see fields.pl.
 
 scene_totals(Days, Totals) :-
     scene(Hour, Fields),
@@ -227,9 +229,9 @@ scene_totals(Days, Totals) :-
 
 %!  scene_picture(-Svg) is det.
 %
-%   Each field with the water of its root zone, from wilting to field capacity, red
-%   where the crop has stress; a drop where the valve is open; its link, if there is
-%   one.
+%   Svg shows each field with the water of its root zone, from wilting to field
+%   capacity, red where the crop has stress; a drop where the valve is open; its
+%   link, if there is one.
 
 scene_picture(Svg) :-
     scene(Hour, Fields),

@@ -1,22 +1,22 @@
 :- agent(auctioneer, [state([home/1, seen/1, order/3, deal/3])]).
 :- include(clearing).
 
-/*  Holds an auction of energy in each period: goes from house to house for
-    bids, clears the market at the battery, its home, and goes round again
-    with the grant of each house, and the price.
+/*  Holds an auction of energy in each period: moves from house to house to
+    collect bids, clears the market at the battery, its home, and moves round
+    again with the grant of each house, and the price.
 
-    It needs no map: from each host it goes to a neighbour where it has not
-    been in this round, else back the way it came, so a broken link makes the
-    way longer, and only houses that cannot be reached are left out.
+    It needs no map: from each host it moves to a neighbour that it has not
+    visited in this round, else back along its trail.  So a broken link only
+    makes the way longer, and only unreachable houses are left out.
 */
 
 overlay('price, ct', label, log(cleared(Price, _, _)), Price).
 overlay('traded, kWh', bar, log(cleared(_, Kwh, _)), battery-add(Kwh)).
 
 period(900).                    % seconds
-begins(60).                     % seconds after a period has begun
+begins(60).                     % seconds from the start of a period
 tariff(30.0).                   % ct/kWh
-round_trip(0.85).               % share of what the battery takes that it gives
+round_trip(0.85).               % share of stored energy that can be used
 
 main :-
     here(Home),

@@ -1,16 +1,16 @@
 /*  A call market: all orders are cleared together, at one price.
 
-    An order at(Ct, Trader, Kwh) buys Kwh at that price or less; a negative Kwh sells
-    at that price or more.  As much is traded as possible.  Where not all can be
-    served, those with the better price go first, and those with an equal price get
-    equal shares of what they want.  The price is the middle of the range in which
-    all that are served agree, and all others would rather not trade: a k-double
-    auction with k = 1/2 (Satterthwaite and Williams, Journal of Economic Theory 48,
-    1989).
+    An order at(Ct, Trader, Kwh) buys Kwh at that price or less; a negative Kwh
+    sells at that price or more.  As much as possible is traded.  If not all
+    orders can be filled, those with the better price are first, and orders
+    with an equal price get equal shares of their amounts.  The price is the
+    middle of the range that all filled orders accept, and all others do not: a
+    k-double auction with k = 1/2 (Satterthwaite and Williams, Journal of
+    Economic Theory 48, 1989).
 */
 
-%   cleared(+Orders, -Ct, -Traded, -Deals): Deals are pairs Trader-Kwh, and Traded is
-%   what changes hands; it fails if that is nothing.
+%   cleared(+Orders, -Ct, -Traded, -Deals): Deals are pairs Trader-Kwh, and
+%   Traded is the amount traded; fails if that is 0.
 
 cleared(Orders, Ct, Traded, Deals) :-
     findall(At-(Trader-Kwh), ( member(at(At, Trader, Kwh), Orders), Kwh > 0 ), Buy),
@@ -31,7 +31,8 @@ cleared(Orders, Ct, Traded, Deals) :-
               Part is Share*Kwh ),
             Deals).
 
-%   levels(+Orders, -Levels): level(Ct, Sum, Orders) for each price, the best first.
+%   levels(+Orders, -Levels): level(Ct, Sum, Orders) for each price, the best
+%   first.
 
 levels(Orders, Levels) :-
     group_pairs_by_key(Orders, Groups),
@@ -52,7 +53,8 @@ matched([level(Bid, Kwh1, _)|Bids], [level(Offer, Kwh2, _)|Offers], Sum0, Sum) :
     ).
 matched(_, _, Sum, Sum).
 
-%   served(+Levels, +Traded, -Served): each with the share of it that is traded.
+%   served(+Levels, +Traded, -Served): each level with the share of it that is
+%   traded.
 
 served([], _, []).
 served([level(Ct, Sum, Some)|Levels], Left0, [level(Ct, Share, Some)|Served]) :-
@@ -60,7 +62,8 @@ served([level(Ct, Sum, Some)|Levels], Left0, [level(Ct, Share, Some)|Served]) :-
     Left is Left0-Sum,
     served(Levels, Left, Served).
 
-%   middle(+Bought, +Sold, -Ct): of the prices at which nothing else would be traded.
+%   middle(+Bought, +Sold, -Ct): middle of the prices at which no other order
+%   would be filled.
 
 middle(Bought, Sold, Ct) :-
     findall(At, ( left(Bought, At) ; traded(Sold, At) ), Low),

@@ -2,16 +2,17 @@
 
 /*  Requests the energy that a house lacks, and offers its surplus.
 
-    In the tuple space of its host are meter(Period, Own, Water), what the
-    panel gave beyond the load in the last period, and what the boiler still
-    has to take, in kWh; and, left by this agent, trader(Agent) and grant(Kwh,
-    Ct).  It expects the values of the last period in the next one.
+    The tuple space of its host has meter(Period, Own, Water): the energy of the
+    panel beyond the load in the last period, and the energy that the boiler
+    still needs, in kWh; and trader(Agent) and grant(Kwh, Ct), which this agent
+    leaves.  It expects the values of the last period in the next one.
 
-    By auction it answers `bids` with bids(Bids), and waits for grant(Kwh, Ct).  Load
-    is worth the tariff of the grid; the boiler the more the less time it has left.
-    With keeper(Agent) and house(Number) it asks the keeper of the battery once in each
-    period: moment(Share), from 0, early, to 1, late, or moment(drawn); and only for
-    what is worth least(Ct).
+    In an auction it answers `bids` with bids(Bids), and waits for grant(Kwh,
+    Ct). Load is worth the tariff of the grid; energy for the boiler is worth
+    more, the less time is left.  With keeper(Agent) and house(Number) it asks
+    the keeper of the battery once in each period, at moment(Share), from 0,
+    early, to 1, late, or moment(drawn); and only for needs that are worth at
+    least Ct, least(Ct).
 */
 
 tariff(30.0).                   % ct/kWh
@@ -33,7 +34,7 @@ granted(Kwh, Ct) :-
     ( take(grant(_, _)) -> true ; true ),
     leave(grant(Kwh, Ct)).
 
-%   bid(-Ct, -Kwh): at this price, or a better one; what it offers is negative.
+%   bid(-Ct, -Kwh): buys at price Ct or less; a negative Kwh sells.
 
 bid(0.0, Kwh) :-
     needs(Own, Heat),
@@ -54,7 +55,7 @@ needs(Own, Heat) :-
     heater(Power),
     Heat is min(Power, Water).
 
-%   0 at 18:00, 1 when the boiler has to take its full power until 18:00.
+%   0 at 18:00, 1 when the boiler needs its full power until 18:00.
 
 urgency(Share) :-
     sense(meter(Period, _, Water)),

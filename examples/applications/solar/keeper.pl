@@ -1,8 +1,8 @@
 :- agent(keeper, [state([given/2])]).
 
 /*  Grants energy and free capacity of the battery in the order of requests.
-    In the tuple space is battery(Period, Level, Capacity, In, Out): the
-    energy that it can take and give in this period, in kWh.
+    The tuple space has battery(Period, Level, Capacity, In, Out): In and Out
+    are the energies that it can take and give in this period, in kWh.
 */
 
 overlay('granted, kWh', bar, log(granted(House, Kwh)), House-add(abs(Kwh))).

@@ -18,10 +18,10 @@
 
 Ten houses and the battery are hosts in a ring.  Once in a period the world
 leaves meter readings in the tuple spaces of houses, and the limits of the
-battery in its own; and it takes the grants at the end of the period.
+battery in its own; it reads the grants at the end of the period.
 
-*Threading*: the world is one fact, replaced in one step; any thread looks.  A
-mutex keeps the end of the scene apart from a period that passes.
+*Threading*: the world is one fact, replaced in one step; any thread reads it.
+A mutex prevents that the scene ends during a step.
 */
 
 :- dynamic
@@ -39,13 +39,16 @@ scene_network(_, edges([battery-house1, house10-battery|Links]), []) :-
 
 %!  scene_start(+Network, +Options) is det.
 %
-%   Options: seed(S); capacity(C) of the battery in kWh, default 30; strategy(S):
+%   Options: seed(S); capacity(C) of the battery in kWh, default 30;
+%   strategy(S):
 %
 %     - none: nothing is shared
-%     - first: each house asks the battery for what it lacks, and for its boiler as soon
-%       as that is cold, once in a period, at a moment that is drawn for it
-%     - drawn: at another moment in each period
-%     - waiting: likewise, but for its boiler only when that would be late
+%     - none: nothing is shared
+%     - first: each house asks the battery for energy, and for its boiler as
+%       soon as that is cold, once in a period, at a random moment that is the
+%       same in each period
+%     - drawn: the same, at another random moment in each period
+%     - waiting: the same, but for its boiler only when that would be late
 %     - auction: the default
 
 scene_start(Network, Options) :-
@@ -145,7 +148,7 @@ replaced(Host, Old, New) :-
 
 %!  scene_totals(-Battery, -Totals) is semidet.
 %
-%   The battery and, of each house, Number-Sums: see street.pl.
+%   The battery and, for each house, Number-Sums: see street.pl.
 
 scene_totals(Battery, Totals) :-
     scene(street(_, Battery, Houses), _),
@@ -153,9 +156,9 @@ scene_totals(Battery, Totals) :-
 
 %!  scene_picture(-Svg) is det.
 %
-%   The last period: for each house what its panel gave (yellow) and its load (blue),
-%   what it bought from the grid so far, and a line to the battery: green as it gives,
-%   orange as it takes what it was granted.
+%   Svg shows the last period: for each house the energy of its panel (yellow)
+%   and its load (blue), the energy it has bought from the grid, and a line to
+%   the battery: green if it gives, orange if it takes energy.
 
 scene_picture(Svg) :-
     scene(Street, Flows),

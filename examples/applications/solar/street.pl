@@ -14,28 +14,29 @@ One period is a quarter of an hour; period T ends T quarters after midnight.
 Energy is in kWh, money in ct.  A term street(T, Battery, Houses) is a street:
 
   - battery(Level, Capacity, Lost)
-  - house(Number, plant(Peak, Daily, Heat), Water, Totals): Peak in kWp; Daily, what
-    it uses in a day but for hot water; Heat, what its boiler takes in a day; Water,
-    what it still has to take until 18:00.  Totals =
-    totals(Produced, Used, Bought, Wasted, Taken, Sold, Paid): Bought is from the
-    grid, Taken and Sold are exchanged with the street.
+  - house(Number, plant(Peak, Daily, Heat), Water, Totals): Peak in kWp; Daily,
+    its use in a day without hot water; Heat, the use of its boiler in a day;
+    Water, the energy the boiler still needs until 18:00.  Totals =
+    totals(Produced, Used, Bought, Wasted, Taken, Sold, Paid): Bought is from
+    the grid, Taken and Sold are exchanged with the street.
 
-A house uses what it produces for its load, then for its boiler (2 kW).  A grant
-says how much of the rest it gives to the street, or of what it lacks takes from
-there; the battery takes or gives the difference.  If it cannot, all that give, or
-all that take, do so in proportion.  What is left is wasted, or bought.  A boiler
-that would be late takes what it needs from the grid.
+A house uses its production for its load, then for its boiler (2 kW).  A grant
+limits how much of the rest it gives to the street, or how much of its lack it
+takes from there; the battery takes or gives the difference.  If it cannot, all
+givers, or all takers, share the limit in proportion.  The rest is wasted, or
+bought.  A boiler that would be late takes its energy from the grid.
 
-Sources: irradiance (910 sin(elevation) - 30) (1 - 0.75 N^3.4) W/m2 with cloud cover
-N (Kasten and Czeplak, Solar Energy 24, 1980); declination (Cooper, 1969).
-Assumptions: mid-April at 50 degrees north; horizontal panels that give 80 % of what
-they are rated for; cover differs from day to day, drifts, and single clouds pass; a
-battery has an efficiency of 92 % in each direction, and is charged in two hours;
-the grid takes nothing; 6 to 14 kWh a day, 40 % of it evenly, 20 % around 7:30 and
-40 % around 19:30, in a period by half more or less; 2 to 6 kWh of hot water.
+Sources: irradiance (910 sin(elevation) - 30) (1 - 0.75 N^3.4) W/m2 with cloud
+cover N (Kasten and Czeplak, Solar Energy 24, 1980); declination (Cooper,
+1969).  Assumptions: mid-April at 50 degrees north; horizontal panels that give
+80 % of their rated power; cover differs from day to day, drifts, and single
+clouds pass; a battery has an efficiency of 92 % in each direction, and is
+charged in two hours; the grid takes nothing; 6 to 14 kWh a day, 40 % of it
+evenly, 20 % around 7:30 and 40 % around 19:30, in a period by half more or
+less; 2 to 6 kWh of hot water.
 
-*Threading*: pure.  Without floats in its arguments street_period/4 is exact, where
-the Prolog flag `prefer_rationals` is true.
+*Threading*: pure.  Without floats in its arguments street_period/3 is exact,
+where the Prolog flag `prefer_rationals` is true.
 */
 
 efficiency(23r25).
@@ -65,7 +66,7 @@ uniform(Seed, What, Least, Most, X) :-
 
 %!  street_input(+Seed, +Period, +House, -Input) is det.
 %
-%   Input is Produced-Load of that house in that period.
+%   Input is Produced-Load of House in Period.
 
 street_input(Seed, Period, house(Number, plant(Peak, Daily, _), _, _),
              Produced-Load) :-
@@ -90,7 +91,7 @@ irradiance(Hour, Clear) :-
                  + cos(Latitude)*cos(Declination)*cos(pi*(Hour-12)/12),
     Clear is max(0, 910*Elevation - 30).
 
-%   A value for each two hours around that of the day, interpolated.
+%   A value for each two hours around the mean of the day, interpolated.
 
 cover(Seed, Period, Number, Cover) :-
     Day is (Period-1)//96,
@@ -109,9 +110,9 @@ cover(Seed, Period, Number, Cover) :-
 
 %!  street_period(+Flows, +Street0, -Street) is det.
 %
-%   A period passes.  For each house there is flow(Produced, Load, Grant) with
-%   Grant = grant(Kwh, Ct): it may take so much from the street, or give as much if
-%   that is negative, at a price per kWh.
+%   Street0 after a period.  Flows has flow(Produced, Load, Grant) for each
+%   house, Grant = grant(Kwh, Ct): the house may take Kwh from the street, or
+%   give -Kwh if that is negative, at Ct per kWh.
 
 street_period(Flows, street(T0, Battery0, Houses0),
               street(T, Battery, Houses)) :-
@@ -124,8 +125,8 @@ street_period(Flows, street(T0, Battery0, Houses0),
     balanced(In, Out, Battery0, Battery, Shares),
     maplist(settled(T, Shares), Plans, Houses0, Houses).
 
-%   plan(Heated, Must, Spare, Lack, Gives, Takes): the boiler takes Heated from the
-%   panel, and Must in all.
+%   plan(Heated, Must, Spare, Lack, Gives, Takes): the boiler takes Heated from
+%   the panel, and Must in total.
 
 planned(T, Flow, House, Flow-plan(Heated, Must, Spare, Lack, Gives, Takes)) :-
     Flow = flow(Produced, Load, grant(Kwh, _)),
@@ -141,8 +142,8 @@ planned(T, Flow, House, Flow-plan(Heated, Must, Spare, Lack, Gives, Takes)) :-
     Gives is min(Spare, max(0, -Kwh)),
     Takes is min(max(0, Kwh), Lack + Most - Heated).
 
-%   balanced(+In, +Out, +Battery0, -Battery, -Shares): which share of In, and of Out,
-%   is possible.
+%   balanced(+In, +Out, +Battery0, -Battery, -Shares): Shares are the possible
+%   shares of In and of Out.
 
 balanced(In, Out, Battery0, Battery, Given-Taken) :-
     Battery0 = battery(Level0, Capacity, Lost0),
@@ -161,7 +162,7 @@ part(Possible, Wanted, Share) :-
 
 %!  battery_limits(+Battery, -In, -Out) is det.
 %
-%   What it can take and give in a period, at its terminals.
+%   Energy that the battery can take and give in a period, at its terminals.
 
 battery_limits(battery(Level, Capacity, _), In, Out) :-
     efficiency(Share),

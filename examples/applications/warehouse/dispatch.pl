@@ -17,26 +17,26 @@
 :- use_module(library(option), [option/3]).
 :- use_module(library(pairs), [pairs_keys_values/3]).
 
-/** <module> Orders, and the agents that carry them out
+/** <module> Orders, and the agents that execute them
 
-An order is order(Id, Corners, From, To): a load is at From, and is to be at To.
-One with a single corner is carried by one robot: an allocator finds it (chapter 7
-of the thesis).  Others take a robot at each corner: an allocator finds and holds
-them, and agents have them execute a sequence of tasks in step (chapter 5).  When
-one of these fails the allocator finds another, and they begin anew where the load
-is then.
+An order is order(Id, Corners, From, To): move a load from From to To.  One
+robot carries a load with a single corner: an allocator finds it (chapter 7 of
+the thesis).  Others need a robot at each corner: an allocator finds and holds
+them, and agents have them execute a sequence of tasks in step (chapter 5).
+When one of these fails the allocator finds another, and the sequence begins
+again at the current position of the load.
 
 *Threading*: any thread; no state.
 */
 
 %!  dispatch_begin(+Order, +Office, +Options, -Job) is det.
 %
-%   An allocator sets out from the host Office.  Options: seed(S); way(Way), by
-%   which several robots execute their tasks: `in_step`, default, or `alone`, each
-%   by itself; delta(D), the penalty bias of those in step, default 2; fast(S),
-%   metres a second with a load at several corners, default 0.15; deadline(S) of an
-%   order, default 600, for which an order waits whose beam has fallen; place(Goal),
-%   call(Goal, Id, Place) says where a load is.
+%   Releases an allocator at the host Office.  Options: seed(S); way(Way), how
+%   several robots execute their tasks: `in_step`, default, or `alone`, without
+%   synchronisation; delta(D), the penalty bias in step, default 2; fast(S),
+%   metres per second with a load at several corners, default 0.15; deadline(S)
+%   of an order in seconds, default 600; an order whose beam has fallen waits
+%   for it; place(Goal), call(Goal, Id, Place) gives the position of a load.
 
 dispatch_begin(Order, Office, Options, job(Order, Options, Agent, searching)) :-
     Order = order(Id, Corners, From, _),
@@ -55,7 +55,7 @@ robot_goal(_, receive(_-finish)).
 %!  dispatch_proceed(+Job0, -Job) is det.
 %!  dispatch_over(+Job) is semidet.
 %
-%   A job is to be looked at again and again, until it is over.
+%   dispatch_proceed/2 is called repeatedly, until dispatch_over/1 succeeds.
 
 dispatch_over(job(_, _, _, over)).
 
@@ -70,7 +70,7 @@ dispatch_proceed(job(Order, Options, Agent, Stage0),
     ).
 
 %   The stage is searching, executing(Sequence, Robots, Agents),
-%   regrouping(Sequence), leaving, and in the end over.
+%   regrouping(Sequence), leaving, and at the end over.
 
 next(searching, Order, Options, Agent, executing(Id, Robots, Agents)) :-
     Order = order(Id, [_,_|_], _, _),
@@ -105,14 +105,14 @@ all_held(Agent, Id, Robots) :-
     allocation_stage(Agent, executing, Robots),
     maplist(executes(Agent, Id), Robots).
 
-%   The worker of a robot that is still there goes on with its task.
+%   The worker of a remaining robot continues its task.
 
 does(Sequence, Task, Robot) :-
     remote(Robot, sense(task(Sequence, Task, executing, _))).
 
 %!  dispatch_carries(+Job, -Robot) is nondet.
 %
-%   Robot carries, with others.
+%   Robot carries a load together with others.
 
 dispatch_carries(job(_, _, _, executing(Sequence, Robots, _)), Robot) :-
     member(Robot, Robots),
@@ -149,7 +149,7 @@ create_alone(Id, Tasks, Robot, Agent) :-
     agent_create(agents(robots/alone), Agent,
                  [host(Robot), facts([tasks(Id, Tasks)]), static(true)]).
 
-%   steps(+Order, +Robots, +Options, -Tasks): a robot for each corner.
+%   steps(+Order, +Robots, +Options, -Tasks): assigns a robot to each corner.
 
 steps(order(_, Corners, From, To), Robots, Options, Tasks) :-
     option(fast(Fast), Options, 0.15),
@@ -167,7 +167,7 @@ corner_at(p(X0, Y0), p(DX, DY), p(X, Y)) :-
     X is X0+DX,
     Y is Y0+DY.
 
-%   The worker of a host takes up the payload, and lays it down again.
+%   The worker of a host attaches the payload, and detaches it afterwards.
 
 step(Does, ( attach(Payload),
              catch(( Goal -> Done = true ; Done = fail ), Ball,

@@ -17,15 +17,16 @@
 /** <module> The floor of a warehouse: robots with forks, and loads
 
 A floor is floor(Time, Robots, Loads).  A robot(Name, Point, Heading, Command,
-Heard) takes the command Speed-Turn, in m/s and rad/s, that it heard last, up to
-what it can, and stops a second after that.  A load(Id, Corners, Centre, Forks,
-Falls) is carried at all its corners, each a p(X,Y) relative to its centre; a
-pallet has one.  Forks are pairs Corner-Name.  Units are metres, seconds, radians.
+Heard) executes Command, Speed-Turn in m/s and rad/s, which it received at
+Heard, up to its limits, and stops a second after that.  A load(Id, Corners,
+Centre, Forks, Falls) is carried at all its corners, each a p(X,Y) relative to
+its centre; a pallet has one.  Forks are pairs Corner-Name.  Units are metres,
+seconds, radians.
 
-Assumptions: robots drive 1 m/s and turn 2 rad/s at most; a fork reaches 0.3 m; a
-load comes along when there is a fork at each corner, and lies between them; it
-falls when a robot is more than 0.6 m from where its corner should be, and then no
-fork holds it.  Robots pass each other and loads: there are no collisions.
+Assumptions: robots drive 1 m/s and turn 2 rad/s at most; a fork reaches 0.3 m;
+a load moves when there is a fork at each corner, and lies between them; it
+falls when a robot is more than 0.6 m from its corner, and then no fork holds
+it.  Robots pass each other and loads: there are no collisions.
 
 *Threading*: pure.
 */
@@ -69,8 +70,8 @@ floor_drive(Name, Command, floor(Time, Robots0, Loads),
 
 %!  floor_fork(+What, +Name, +Floor0, -Floor) is semidet.
 %
-%   `load`: takes the nearest corner in reach, if the robot has none yet;
-%   `unload`: leaves the one it has.
+%   `load`: the robot takes the nearest corner in reach, if it has none yet;
+%   `unload`: it releases its corner.
 
 floor_fork(load, Name, Floor, floor(Time, Robots, Loads)) :-
     Floor = floor(Time, Robots, Loads0),
@@ -90,7 +91,7 @@ floor_fork(unload, Name, floor(Time, Robots, Loads0), floor(Time, Robots, Loads)
 
 %!  floor_remove(+Name, +Floor0, -Floor) is det.
 %
-%   The robot has broken down, and is taken away.
+%   The robot has broken down, and is removed.
 
 floor_remove(Name, Floor0, floor(Time, Robots, Loads)) :-
     (   floor_fork(unload, Name, Floor0, Floor)

@@ -12,11 +12,11 @@
 :- use_module(library(socket),
               [tcp_bind/2, tcp_listen/2, tcp_setopt/2, tcp_socket/1]).
 
-/** <module> A rosbridge server before simulated robots
+/** <module> A rosbridge server for simulated robots
 
-The part of the protocol of rosbridge_server that robots need: topics that
-clients publish and subscribe to, and services of the robots.  So hosts are
-connected with simulated robots by ros_start/3, as with real ones.
+Implements the part of the protocol of rosbridge_server that robots need: topics
+that clients publish and subscribe to, and services of the robots.  So hosts
+connect to simulated robots by ros_start/3, as to real ones.
 
 *Threading*: a thread for each client; one mutex keeps frames whole.
 */
@@ -31,14 +31,14 @@ connected with simulated robots by ros_start/3, as with real ones.
 %!  rosbridge_start(:Heard, :Served, -Port) is det.
 %!  rosbridge_stop(+Port) is det.
 %
-%   One server in a process.  What clients publish is passed on by call(Heard,
-%   Topic, Message), both of JSON; a service is called by call(Served, Service,
-%   Request, Response), which fails if there is none.
+%   One server in a process.  Each message that a client publishes is passed to
+%   call(Heard, Topic, Message), as JSON; a service call to call(Served,
+%   Service, Request, Response), which fails if there is no such service.
 
 rosbridge_start(Heard, Served, Port) :-
     assertz(robots(Heard, Served)),
     tcp_socket(Socket),
-    tcp_setopt(Socket, nodelay),        % else each frame waits for the one before
+    tcp_setopt(Socket, nodelay),        % no waiting for earlier frames
     tcp_bind(Socket, localhost:Port),
     tcp_listen(Socket, 5),
     http_server(warehouse_rosbridge:upgraded,

@@ -21,21 +21,21 @@
 
 /** <module> A warehouse: robots, orders, and the connection between them
 
-An office and robots, each a host; all are linked.  The robots are simulated, and
-stand behind a rosbridge server: poses, commands and calls go through
-library(typhon/ros), as with real ones.  They move five times in a second.  In
-virtual time each move waits until all frames have come through.
+An office and robots, each a host; all are linked.  The robots are simulated
+behind a rosbridge server: poses, commands and calls use library(typhon/ros),
+as with real robots.  They move five times in a second.  In virtual time each
+move waits until all frames have arrived.
 
-Assumptions: a hop takes 0.2 to 0.4 s; an order comes every ten seconds.
+Assumptions: a hop takes 0.2 to 0.4 s; an order arrives every ten seconds.
 
 *Threading*: the floor is one fact, replaced in one step under its own mutex,
-since commands to robots arrive in other threads.  Another mutex keeps the end
-of the scene apart from time that passes.
+because commands to robots arrive in other threads.  Another mutex prevents that
+the scene ends during a step.
 */
 
 :- dynamic
     floor/1,                    % see floor.pl
-    jobs/2,                     % orders to come, Time-Order; jobs
+    jobs/2,                     % future orders, Time-Order; jobs
     server/1,                   % Port
     setting/1,                  % Options
     broken/1.                   % Name of a robot
@@ -55,10 +55,10 @@ scene_network(Options, edges(Links), [hop_time(uniform(0.2, 0.4))]) :-
 
 %!  scene_start(+Network, +Options) is det.
 %
-%   Options: seed(S); robots(N), default 6, as of the network; pallets(N), which one
-%   robot carries, default 6; beams(N), which two or three carry, default 3;
-%   breaks(T): from T seconds on, the first robot that carries a beam breaks down
-%   and is taken away; and those of dispatch_begin/4.
+%   Options: seed(S); robots(N), default 6, as of the network; pallets(N),
+%   loads for one robot, default 6; beams(N), loads for two or three robots,
+%   default 3; breaks(T): after T seconds the first robot that carries a beam
+%   breaks down and is removed; and the options of dispatch_begin/4.
 
 scene_start(Network, Options) :-
     scene_stop,
@@ -95,7 +95,8 @@ robot_begins(URL, Name) :-
                    leave(rover(Name)) )),
     robot_start(Name, [carry], [cost(payloads(robots/rover))]).
 
-%   Loads lie in the right half, each in a row of its own, and go to the left.
+%   Loads are in the right half, each in a row of its own; their goals are on
+%   the left.
 
 order(Options, Time, order(Id, Corners, p(X, Number), p(4, Row))) :-
     option(seed(Seed), Options, 1),
@@ -137,7 +138,7 @@ forget :-
 pass(Network, Tick, Names) :-
     with_mutex(warehouse_scene, passed(Network, Tick, Names)).
 
-%   Names0 are the robots of which poses were published the last time.
+%   Names0 are the robots whose poses were published in the previous step.
 
 passed(_, _, _) :-
     \+ floor(_),
@@ -151,9 +152,9 @@ passed(Network, Tick, Names0) :-
     Then is Next/5,
     network_at(Network, Then, warehouse_scene:pass(Network, Next, Names)).
 
-%   In virtual time no frame is under way between these hosts and the server when
-%   this is done: a call comes after all that was sent before.  One host after the
-%   other, so that agents become ready in the same order whenever this is run.
+%   Afterwards no frame is under way between these hosts and the server in
+%   virtual time: a call arrives after all earlier frames.  One host after the
+%   other, so that agents become ready in the same order in every run.
 
 settle(Names) :-
     remote(office, here(Office)),
@@ -212,7 +213,7 @@ lies_at(Id, Place) :-
                 *       ROBOTS OVER ROS        *
                 *******************************/
 
-%   Robots that stand still publish their pose once in a second.
+%   Robots that do not move publish their pose once in a second.
 
 publish_poses(Tick, Names) :-
     floor(Floor),
@@ -263,8 +264,8 @@ served(Service, _, _{success:Success, message:Message}) :-
 
 %!  scene_orders(-Delivered, -Waiting, -Underway, -Falls) is semidet.
 %
-%   How many orders are delivered, waiting or to come, and being carried out; and
-%   how often loads fell.
+%   Numbers of orders that are delivered, that wait or are in the future, and
+%   that are in progress; and the number of falls of loads.
 
 scene_orders(Delivered, Waiting, Underway, Falls) :-
     floor(Floor),
@@ -281,8 +282,8 @@ delivered(Floor, order(Id, _, _, p(X, Y))) :-
 
 %!  scene_picture(-Svg) is det.
 %
-%   Robots, with a line ahead, red where they are held by an order; loads, and the
-%   place on the left where each is to be.
+%   Svg shows robots, with a line ahead, red if an order holds them; loads, and
+%   the goal of each on the left.
 
 scene_picture(Svg) :-
     floor(Floor),
