@@ -1,16 +1,16 @@
 :- module(typhon_demo_page, []).
 
-/** <module> A network at work, to be looked at in a browser
+/** <module> A network that runs, for observation in a browser
 
     swipl app/demo_page.pl [--port=8080] [--seed=1]
 
-Sixty hosts in four processes, whose links come and go.  Two mechanisms are at
-work there: agents execute sequences of tasks in step, while hosts lose tasks
+Sixty hosts in four processes, whose links change.  Two mechanisms run there:
+agents execute sequences of tasks in step, while hosts lose tasks
 now and then; and antigens attack hosts, which release antibodies.  Prints the
 link to the page, and runs until Ctrl-C.
 
-*Threading*: the network is started by the main thread; attacks and failures
-are caused by another thread, until that is stopped.
+*Threading*: the main thread starts the network; another thread causes attacks
+and failures until it is stopped.
 */
 
 :- use_module('../prolog/typhon',
@@ -45,8 +45,8 @@ main(Argv) :-
     thread_join(Demo, Status),
     ( Status == true -> halt(0) ; print_message(error, Status), halt(1) ).
 
-%   In a thread of its own: while the main thread creates threads, signals
-%   reach one of those, and are lost.
+%   In a thread of its own: while the main thread creates threads, a signal may
+%   reach a new thread, and would be lost.
 
 :- public stop/1.
 
@@ -68,7 +68,7 @@ network(Port, Seed) :-
     network_stop(Network),
     ( Result == true -> true ; throw(Result) ).
 
-%   Which can be replayed, see app/typhon.pl page --export.
+%   The log can be replayed, see app/typhon.pl page --export.
 
 log_file(Log) :-
     make_directory_path('out/demo-page'),
@@ -85,7 +85,7 @@ begin(Port, Network, Hosts) :-
     flush_output,
     sieve_start(Hosts, payloads(sieve/bits), []).
 
-%   The link first, for programs.
+%   The link is the first line, for programs.
 
 print_link(Link) :-
     gethostname(Machine),
@@ -98,8 +98,8 @@ print_link(Link) :-
             there, and open the same link there. Ctrl-C ends the demo.~n',
            [Link, Port, Port, Machine]).
 
-%   Every second a host is attacked; now and then some are set back.  When all
-%   is done, the next assembly begins.
+%   Every second an antigen attacks a host; now and then hosts lose tasks.  When
+%   all tasks are completed, the next sequence begins.
 
 go_on(N0, Agents0, Hosts) :-
     thread_self(Me),

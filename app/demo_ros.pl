@@ -1,4 +1,4 @@
-% Agents take tasks to whichever robot of ROS 2 is free, and drive it.
+% Agents allocate tasks to free ROS 2 robots, and drive the robots.
 %
 %     swipl app/demo_ros.pl                       `make demo-ros`
 
@@ -16,9 +16,9 @@
 
 /** <module> A demonstration: agents that let ROS 2 robots carry parcels
 
-There are two robots, simulated by a node of ROS 2 in a process of its own,
-and three hosts: one beside each robot, one where tasks come from.  Each task
-is given to an allocator (thesis chapter 7): an agent that looks for a free
+A node of ROS 2 in a process of its own simulates two robots.  There are three
+hosts: one beside each robot, and one at which tasks arrive.  An allocator
+(thesis chapter 7) gets each task: an agent that searches for a free
 robot, reserves it and has it carry a parcel.  The simulation reports the
 final positions of the parcels.
 
@@ -38,7 +38,7 @@ parcel(glass, p(4, 1.5), p(1, 3)).
 parcel(paint, p(2, 1), p(2, 4)).
 parcel(tools, p(1, 0.5), p(3.5, 4)).
 
-seconds(60).                            % for all of them
+seconds(60).                            % for all parcels together
 near(0.3).                              % metres
 
 main(_) :-
@@ -49,7 +49,7 @@ main(_) :-
         demo,
         end_world(World)).
 
-%   Other uses of ROS on this machine are not disturbed.
+%   A domain of its own does not disturb other uses of ROS on this machine.
 
 domain :-
     (   getenv('ROS_DOMAIN_ID', _)
@@ -117,7 +117,7 @@ arrives(Start, Deadline, Parcel-Agent) :-
     format("the agent of the ~w: ~w after ~1f s~n",
            [Parcel, Outcome, Seconds]).
 
-%   As the simulation has it.
+%   Reads the positions of the simulation.
 
 misplaced(Parcel) :-
     remote(rover1, sense(ros-topic('/parcels', Message))),

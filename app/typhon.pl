@@ -7,7 +7,7 @@
 `--help` lists the commands, `COMMAND --help` the options of one.  Expected
 errors are one line and exit status 1.
 
-The whole interface stands in the tables of commands.pl; run/3 has one clause
+The tables of commands.pl define the whole interface; run/3 has one clause
 for each command, and uses only predicates of library(typhon).
 
 *Threading*: the main thread only.  A command that runs until it is
@@ -46,7 +46,7 @@ stopped waits for a message, which the handlers of SIGINT and SIGTERM send.
                 *            OPTIONS           *
                 *******************************/
 
-%   The tables as argv_options/4 wants them, for the command at hand.
+%   The tables in the form of argv_options/4, for the current command.
 
 :- dynamic current_command/1.
 
@@ -126,7 +126,7 @@ check_option(Option, Options, _) :-
 check_option(Option, Options, Command) :-
     throw(error(typhon_usage(unknown_option(Command, Option, Options)), _)).
 
-%   For whatever starts the endpoint.
+%   Sets the keys of the process, for every command that starts an endpoint.
 
 with_keys(Options) :-
     (   option(tls(Directory), Options)
@@ -134,7 +134,7 @@ with_keys(Options) :-
     ;   true
     ).
 
-%   A question needs an endpoint for its answer.
+%   A query needs an endpoint for its answer.
 
 run_connected(Command, Arguments, Options) :-
     (   serves(Command, Options)
@@ -180,14 +180,14 @@ overview :-
     format('~nCOMMAND --help tells the options of a command. Exit status: \c
             0, it was done;~n1, it was not, or the answer is no.~n').
 
-%   SWI-Prolog 9.1.18 and later run what is in the folder app of a pack by name.
+%   SWI-Prolog 9.1.18 and later run files in the folder app of a pack by name.
 
 called_as('swipl typhon') :-
     current_prolog_flag(os_argv, [_,typhon|_]),
     !.
 called_as('swipl app/typhon.pl').
 
-%   Where the arguments leave no space for it, the help is on the next line.
+%   The help follows on the next line if the arguments are long.
 
 overview_line(Command, Arguments, Help) :-
     format(atom(Start), '  ~w ~w', [Command, Arguments]),

@@ -13,10 +13,8 @@
 %!  colours(+Agents, -Colours, -Keys) is det.
 %
 %   Colours and Keys are lists of Name-Colour, for each agent and for the
-%   legend.
-
-%   colours(+Agents, -Colours, -Keys): a few agents have each their own, of
-%   many those have shades of one that were made from one name.
+%   legend.  At most eight agents get a colour each; of more agents, those whose
+%   ids begin with the same name get shades of one colour.
 
 colours(Agents, Colours, Colours) :-
     length(Agents, Count),
@@ -66,7 +64,7 @@ agent_kind(Agent, Kind) :-
     sub_atom(Short, 0, Before, _, Kind).
 agent_kind(Agent, Agent).
 
-%   They differ for colour-blind people, too.
+%   Colour-blind people can distinguish these colours.
 
 colour(0, '#0072b2').
 colour(1, '#d55e00').

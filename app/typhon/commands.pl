@@ -59,7 +59,7 @@ command(diagnose, '[ADDRESS]', 0-2,
 
 %!  footer(?Command, ?Line) is nondet.
 %
-%   What the help of Command ends with.
+%   Line is a line at the end of the help of Command.
 
 footer(network, 'Shapes of networks:').
 footer(network, Line) :-
@@ -90,8 +90,7 @@ shape('edges([1-2,2-3,...])', 'the links themselves').
 
 %!  option(?Command, ?Option, ?Type, ?Meta, ?Help) is nondet.
 %
-%   Type is one of argv_options/3, Meta what stands for the value in the
-%   help.
+%   Type is a type of argv_options/3, Meta the name of the value in the help.
 
 option(host, port, nonneg, 'PORT',
        'TCP port (default any free one)').

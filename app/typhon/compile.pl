@@ -33,9 +33,9 @@ main([Root]) :-
                             [extensions([pl]), recursive(true)]),
            load_files(File, [if(not_loaded), imports([])])).
 
-%   A file is compiled when it is loaded for the first time, by another or by
-%   main/1: SWI-Prolog 9.2.9 crashes where it compiles what it has loaded.
-%   Then it is imported as usual.
+%   Compiles a file when it is loaded for the first time, by another file or by
+%   main/1, and then imports it as usual: SWI-Prolog 9.2.9 crashes when it
+%   compiles a loaded file.
 
 :- multifile user:prolog_load_file/2.
 

@@ -4,14 +4,14 @@
             python_says/4               % +Python, +Code, +Module, -Text
           ]).
 
-/** <module> Why a host cannot be reached
+/** <module> Diagnosis of an unreachable host
 
 Tests the connection to a host step by step, from this Prolog to an answer,
 prints each result, and stops with advice at the step that fails.
 
 *Threading*: the calling thread.  A TCP connect cannot be given a deadline,
-so it is tried in a thread of its own, which a dead network may hold for a
-while after the answer is known.
+so it runs in a thread of its own, which may block for a while after the result
+has been printed if the network does not answer.
 */
 
 :- use_module(library(process), [process_create/3, process_wait/2]).
@@ -27,8 +27,8 @@ connect_deadline(5).                    % seconds
 
 %!  diagnose(+Address) is semidet.
 %
-%   Prints the working steps to the host Address, or with `none` the steps
-%   that need no host.  Fails at the first step that does not work.
+%   Prints the result of each step to the host Address, or with `none` of each
+%   step that needs no host.  Fails at the first step that does not work.
 
 diagnose(Address) :-
     findall(Step-Advice, step(Step, Advice), Steps),
@@ -36,9 +36,9 @@ diagnose(Address) :-
 
 %!  diagnose_steps(+Steps, :Check) is semidet.
 %
-%   Prints what call(Check, Step, Found) finds at each of Steps, which are
-%   Step-Advice; Found is text, or `not_asked`.  Fails at the first one that
-%   raises an error, or fails, after the advice.
+%   Calls call(Check, Step, Found) for each of Steps, which are Step-Advice, and
+%   prints Found, a text, or `not_asked`.  At the first step that raises an
+%   error or fails, prints the advice and fails.
 
 :- meta_predicate diagnose_steps(+, 2).
 
@@ -62,7 +62,7 @@ diagnose_steps([Step-Advice|Steps], Check) :-
 %   Text is the line that Code prints, run by Python.
 %
 %   @error existence_error(python, Python), existence_error(python_module,
-%   Module) if Code fails, as it does where Module is not there
+%   Module) if Code fails, for example because Module is missing
 
 python_says(Python, Code, Module, Text) :-
     catch(process_create(Python, ['-c', Code],
@@ -95,7 +95,7 @@ step(authentication,
 step(host,
      'Start it there, or write the name of one that is.').
 
-%   check(Address, Step, Found): Found is what there is to say
+%   check(Address, Step, Found): Found is the result, as text.
 
 check(_, prolog, Found) :-
     current_prolog_flag(version, Version),
@@ -136,7 +136,7 @@ check(Address, authentication, Found) :-
 check(Address, host, Found) :-
     host_property(Address, state(Found)).
 
-%   In 9.2, tcp_host_to_address/2 fails for many names, and there is another.
+%   In 9.2, tcp_host_to_address/2 fails for many names; host_address/3 does not.
 
 :- if(( module_property(socket, exports(List)),
         memberchk(host_address/3, List) )).

@@ -2,7 +2,7 @@
           [ diagnose_bridge/2           % +Bridge, +Arguments
           ]).
 
-/** <module> Why a bridge does not work here
+/** <module> Diagnosis of a bridge
 
 Tests the steps from the Python of the helper to its server, and stops with
 advice at the step that fails.
@@ -19,10 +19,10 @@ advice at the step that fails.
 
 %!  diagnose_bridge(+Bridge, +Arguments:list) is semidet.
 %
-%   Prints what works on the way to `python`, which has no arguments, `mqtt`,
-%   of which the URL of a broker is one, or `ros`, of which that of a rosbridge
-%   server may be one.  Fails at the first step that does not work, and if
-%   there is no such bridge.
+%   Prints the result of each step for the bridge `python`, without arguments;
+%   `mqtt`, optionally with the URL of a broker; or `ros`, optionally with the
+%   URL of a rosbridge server.  Fails at the first step that does not work, and
+%   for an unknown bridge.
 
 diagnose_bridge(Bridge, Arguments) :-
     findall(Step-Advice, step(Bridge, Step, Advice), Steps),
@@ -60,7 +60,7 @@ step(ros, topics,
      'For a server: start the node rosapi beside it.').
 step(ros, 'round trip', '').
 
-%   check(Bridge-Arguments, Step, Found): Found is what there is to say
+%   check(Bridge-Arguments, Step, Found): Found is the result, as text.
 
 check(ros-Arguments, Step, Found) :-
     !,
@@ -89,7 +89,7 @@ check(mqtt-_, 'round trip', Found) :-
     ten_times(remote(diagnosed, publish(Topic, x, [qos(1),wait(true)])),
               Found).
 
-%   A server needs no Python.
+%   A rosbridge server needs no Python here.
 
 check_ros(python, [], Python) :-
     node_python([], Python).

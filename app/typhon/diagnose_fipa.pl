@@ -2,9 +2,9 @@
           [ diagnose_fipa/1             % +Url
           ]).
 
-/** <module> Why a platform of FIPA cannot be reached
+/** <module> Diagnosis of an unreachable FIPA platform
 
-Goes from its URL to a message that it takes.
+Tests the steps from the URL of the platform to an accepted message.
 
 *Threading*: the calling thread.
 */
@@ -16,11 +16,11 @@ Goes from its URL to a message that it takes.
 :- use_module('../../prolog/typhon/bridges/fipa/letter', [letter_write/5]).
 :- use_module(diagnose, [diagnose_steps/2]).
 
-deadline(5).                            % seconds, of silence
+deadline(5).                            % seconds without an answer
 
 %!  diagnose_fipa(+Url) is semidet.
 %
-%   Prints what works on the way to the message transport at Url.  Fails at
+%   Prints the result of each step to the message transport at Url.  Fails at
 %   the first step that does not work.
 
 diagnose_fipa(Url) :-

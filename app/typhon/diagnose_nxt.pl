@@ -2,10 +2,10 @@
           [ diagnose_nxt/1              % +Port
           ]).
 
-/** <module> Why a robot cannot be reached
+/** <module> Diagnosis of an unreachable robot
 
-Goes from the Python of the helper to the motors and sensors of a brick,
-and stops with advice at the step that does not work.  Nothing moves.
+Tests the steps from the Python of the helper to the motors and sensors of a
+brick, and stops with advice at the step that fails.  Nothing moves.
 
 *Threading*: the calling thread.
 */
@@ -18,7 +18,7 @@ and stops with advice at the step that does not work.  Nothing moves.
 
 %!  diagnose_nxt(+Port) is semidet.
 %
-%   Prints what works on the way to the brick at Port, a device or a URL of
+%   Prints the result of each step to the brick at Port, a device or a URL of
 %   pyserial.  Fails at the first step that does not work.
 
 diagnose_nxt(Port) :-
@@ -55,7 +55,7 @@ step(sensors, '').
 step('round trip',
      'More than 0.5 s: come nearer, or switch other Bluetooth off.').
 
-%   check(Port, Step, Found): Found is what there is to say
+%   check(Port, Step, Found): Found is the result, as text.
 
 check(_, python, Found) :-
     python_says('import sys; print(sys.executable, sys.version.split()[0])',

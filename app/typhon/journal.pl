@@ -22,13 +22,13 @@ The process must not be running: a running process locks its journal.
 
 %!  journal_shown(+Dir, +Options) is det.
 %
-%   Print what is in the journal Dir, or in those of a network below it: an
-%   overview; with agents(true) a line for
-%   each agent; with check(true) whether all of it can be read; with
-%   extract(Agent) and to(File) write a restore point of Agent.
+%   Prints the contents of the journal Dir, or of the journals of a network
+%   below it: an overview; with agents(true) a line for each agent; with
+%   check(true) whether the journal can be read completely; with
+%   extract(Agent) and to(File) it writes a restore point of Agent.
 %
 %   @error existence_error(journal, Dir), existence_error(agent, Agent)
-%   @error as journal_open/2
+%   @error errors of journal_open/2
 
 journal_shown(Dir, Options) :-
     journals(Dir, Journals),
@@ -39,7 +39,8 @@ journal_shown(Dir, Options) :-
                ( header(Journal, Journals), of(Journal, shown(Options)) ))
     ).
 
-%   journals(+Where, -Journals): a network has one for each of its processes.
+%   journals(+Where, -Journals): a network has one journal for each of its
+%   processes.
 
 journals(Where, [Where]) :-
     journal_found(Where),
@@ -137,7 +138,7 @@ extracted(Agent, File) :-
     agent_name(Agent, Name, _),
     restore_point(File, image(Name, Program, Life, State, Goals, Mail)).
 
-%   One that is under way is there as it is to arrive.
+%   A transfer that was under way is shown in the state of its arrival.
 
 at_rest(transit(_, _), hop(Hole-Goals, _, Mail, _), Goals, Mail) :-
     !,

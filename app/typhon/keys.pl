@@ -11,17 +11,17 @@
 Certificates for hosts and authors, made by the `openssl` command. The
 authority is a directory:
 
-    ca.pem ca.key crl.pem       its certificate, its key, revoked ones
+    ca.pem ca.key crl.pem       its certificate, its key, revoked certificates
     openssl.cnf database ...    state of openssl
     NAME/                       files of the host or author NAME
 
-A directory NAME holds `cert.pem`, `key.pem`, `ca.pem` and `crl.pem`: it goes
-to the machine of NAME, and nothing else does. All keys are RSA:
-on SWI-Prolog 9.0.4 library(crypto) crashes on those of curves. Those of hosts
-and authors have 2048 bits, since each hop takes two signatures.
+A directory NAME holds `cert.pem`, `key.pem`, `ca.pem` and `crl.pem`: copy it,
+and nothing else, to the machine of NAME. All keys are RSA: library(crypto) of
+SWI-Prolog 9.0.4 crashes on keys of elliptic curves. Keys of hosts and authors
+have 2048 bits, since each hop takes two signatures.
 
-A certificate is for a host or for an author, not for both: what is stolen
-from a host cannot sign programs.
+A certificate is for a host or for an author, not for both: a key stolen from
+a host cannot sign programs.
 
 *Threading*: the calling thread; one at a time for each directory.
 */
@@ -40,13 +40,14 @@ from a host cannot sign programs.
 
 :- multifile prolog:error_message//1.
 
-%   The authority, and its list of the revoked, last for so many days.
+%   Days until the certificate of the authority and its revocation list expire.
 
 authority_days(3650).
 
 %!  keys(+What, +Names, +Options) is det.
 %
-%   As the command line says it. Options are dir(Directory) and days(N).
+%   Executes the subcommand What of `keys`. Options are dir(Directory) and
+%   days(N).
 %
 %   @error typhon_usage(arguments(keys))
 
@@ -66,10 +67,10 @@ order(revoke, [Name], _, Directory, keys_revoke(Name, Directory)).
 
 %!  keys_init(+Directory) is det.
 %
-%   Make an authority in Directory.
+%   Makes an authority in Directory.
 %
 %   @error permission_error(create, directory, Directory) it is not empty
-%   @error openssl(Text) what openssl complains of
+%   @error openssl(Text) the message of openssl
 
 keys_init(Directory) :-
     must_be_empty(Directory),
@@ -86,7 +87,7 @@ keys_init(Directory) :-
     private(Directory, 'ca.key'),
     list_revoked(Directory).
 
-%   The configuration of openssl stands beside this file.
+%   The configuration of openssl is in the directory of this file.
 
 configuration(Directory) :-
     module_property(typhon_app_keys, file(This)),
@@ -106,11 +107,11 @@ must_be_empty(_).
 
 %!  keys_issue(+Kind, +Name, +Days, +Directory) is det.
 %
-%   Make key and certificate for Name, Kind being `host` or `author`, for so
-%   many Days.
+%   Makes key and certificate for Name, valid for Days days; Kind is `host` or
+%   `author`.
 %
 %   @error domain_error(key_name, Name)
-%   @error permission_error(create, key, Name) there is one
+%   @error permission_error(create, key, Name) Name has a key
 %   @error existence_error(authority, Directory)
 
 keys_issue(Kind, Name, Days, Directory) :-
@@ -149,7 +150,7 @@ issue(Kind, Name, Days, Directory, Own) :-
 own(Name, File, Path) :-
     atomic_list_concat([Name, /, File], Path).
 
-%   It becomes the name of a directory, and part of a subject.
+%   Name becomes the name of a directory, and part of a subject.
 
 must_be_name(Name) :-
     (   atom(Name),
@@ -176,8 +177,8 @@ must_be_authority(Directory) :-
 
 %!  keys_revoke(+Name, +Directory) is det.
 %
-%   Certificates of Name are invalid for a host from when it has the new
-%   `crl.pem`. The directories under Directory get it at once.
+%   A host rejects certificates of Name as soon as it has the new `crl.pem`.
+%   The directories under Directory get it at once.
 %
 %   @error existence_error(key, Name)
 
@@ -195,7 +196,7 @@ keys_revoke(Name, Directory) :-
 
 %!  keys_sign_file(+File, +Author, +Directory) is det.
 %
-%   Write the signature of an agent program or a payload beside it.
+%   Writes the signature of an agent program or a payload beside File.
 %
 %   @error existence_error(key, Author)
 
@@ -224,7 +225,8 @@ directory_member_with_keys(Directory, Own) :-
     directory_file_path(Own, 'cert.pem', Certificate),
     exists_file(Certificate).
 
-%   A process that reads it meanwhile reads the old or the new.
+%   Renaming is atomic: a process that reads the file meanwhile reads the old or
+%   the new contents.
 
 hand_out(Directory, Name, Own) :-
     directory_file_path(Directory, Name, From),
@@ -244,8 +246,8 @@ write_file(Directory, Name, Text) :-
         write(Out, Text),
         close(Out)).
 
-%   openssl(+Directory, +Arguments): what it says on its way is of interest
-%   only when it fails.
+%   openssl(+Directory, +Arguments): output of openssl is shown only if openssl
+%   fails.
 
 openssl(Directory, Arguments) :-
     setup_call_cleanup(

@@ -14,8 +14,8 @@
 
 %!  options_for(+What, +Options:list, -For:list) is det.
 %
-%   For are the options that Options of the command line are for predicates
-%   which start a `host`, a `network`, an `agent`, a `log` or a `page`.
+%   For are the options of predicates which start a `host`, a `network`, an
+%   `agent`, a `log` or a `page`, made from Options of the command line.
 
 options_for(What, Options, For) :-
     findall(Option, option_for(What, Options, Option), For).

@@ -5,9 +5,9 @@
             agent_argument/3            % +Text, +Options, -Agent
           ]).
 
-/** <module> Commands about agents and hosts that run
+/** <module> Commands about running agents and hosts
 
-order/3 has one clause for each command, and fails when the answer is no.
+order/3 has one clause for each command, and fails if the answer is negative.
 
 *Threading*: the main thread.
 */
@@ -28,7 +28,7 @@ order(check, Texts, _) :-
     maplist(program_argument, Texts, Programs),
     statistics(errors, Before),
     maplist(agent_check, Programs),
-    statistics(errors, Before).         % none was printed
+    statistics(errors, Before).         % no error was printed
 order(dispose, [Text], Options) :-
     agent_argument(Text, Options, Agent),
     agent_dispose(Agent).
@@ -58,8 +58,9 @@ order(stop, [Host], Options) :-
     option(timeout(Seconds), Options, 20),
     within(Seconds, is_gone(Host)).
 
-%   What the command line has started ends in order, as by a signal. The answer
-%   may be lost with the process. A thread cannot travel.
+%   A process started by the command line ends in order, as by a signal. The
+%   answer may be lost with the process. A thread handle cannot be sent in an
+%   answer.
 
 tell_to_stop(Host, Name) :-
     catch(remote(Host,
@@ -91,8 +92,8 @@ program_argument(Text, Text).
 
 %!  agent_argument(+Text, +Options, -Agent) is det.
 %
-%   The id of an agent, or with host(Host) in Options the name of the only one
-%   that has it among those in the network of Host.
+%   Agent is an id, or with host(Host) in Options the only agent with this name
+%   in the network of Host.
 
 agent_argument(Id, _, Agent) :-
     sub_atom(Id, _, _, _, @),
@@ -122,7 +123,7 @@ only(Ids, Name, _, _, _) :-
 
 %!  host_now(+Host, -Address) is det.
 %
-%   Host, an address, is there.
+%   Address is the address of Host, which is reachable.
 %
 %   @error host_unreachable(Host), existence_error(host, Host)
 
@@ -172,7 +173,7 @@ usage(Problem) :-
                 *            WAITING           *
                 *******************************/
 
-%   A host takes its time to stop.
+%   A host needs some time to stop.
 
 is_gone(Host) :-
     catch(\+ host_property(Host, state(_)),

@@ -15,17 +15,17 @@
 
 /** <module> A picture of a log: space and time
 
-Time goes from left to right, each host has a row, each agent a line: level
+Time runs from left to right, each host has a row, each agent a line: horizontal
 while it stays on a host, steep while it hops.  Messages are thin arrows.  The
-picture is SVG, made of lines and text only.
+picture is SVG with lines and text only.
 
 *Threading*: any thread.
 */
 
 %!  picture(+LogFile, +SvgFile, +Options) is semidet.
 %
-%   Options are from(Time) and to(Time): what part of the log, in its times.
-%   Fails if nothing has happened then.
+%   Options are from(Time) and to(Time), the part of the log, in its times.
+%   Fails if that part has no events.
 
 picture(LogFile, SvgFile, Options) :-
     log_events(LogFile, Events),
@@ -85,8 +85,8 @@ band(I, Host-(Top-Bottom), Left, Wide) :-
     short_name(Host, Name),
     text(TextX, Middle, end, Name).
 
-%   axis(+Span, +View): times under the rows; times of day from their
-%   beginning.
+%   axis(+Span, +View): times under the rows; times of day count from the first
+%   event.
 
 axis(First-Last, View) :-
     view_frame(View, _, Top, _, High),

@@ -17,10 +17,10 @@ of SIGINT and SIGTERM send.
 
 %!  until_told_to_stop(:Start, :Report, :Stop) is semidet.
 %
-%   Call Start and Report, wait for SIGINT or SIGTERM, and call Stop.
+%   Calls Start and Report, waits for SIGINT or SIGTERM, and calls Stop.
 %
-%   All is done in a thread of its own.  While the main thread creates
-%   threads, signals reach one of those, and are lost.
+%   All calls are in a thread of its own: while the main thread creates
+%   threads, a signal may reach a new thread, and would be lost.
 
 until_told_to_stop(Start, Report, Stop) :-
     on_signal(term, _, typhon_app_serving:told_to_stop),
@@ -52,9 +52,9 @@ serve(Start, Report, Stop) :-
 
 %!  and_then(:Goal, :Finally) is semidet.
 %
-%   Call Goal once and, however that ends, Finally.
+%   Calls Goal once and, however that ends, Finally.
 %
-%   setup_call_cleanup/3 will not do: a wait with a deadline goes on for ever
+%   setup_call_cleanup/3 is not suitable: a wait with a deadline never ends
 %   in its cleanup handler when a signal is pending.
 
 and_then(Goal, Finally) :-

@@ -8,17 +8,17 @@
 
 /** <module> Positions of agents over time
 
-From the events of a log, see typhon_events, to lines in space and time:
+Converts the events of a log, see typhon_events, to lines in space and time:
 
     world(Span, Hosts, Agents, Stays, Hops, Letters, Marks)
 
   - Span is From-To, the times of the first and the last event; Hosts and
-    Agents are in the order in which they appear
+    Agents are in the order of their first events
   - stay(Agent, Host, From, To)
   - hop(Agent, FromHost, From, ToHost, To, How): How is `seen`, or `guessed`
-    where the log does not say when the agent moved
-  - letter(FromAgent, From, ToAgent, To): the first that A sent to B is the
-    first that B takes from A
+    if the log does not have the time of the move
+  - letter(FromAgent, From, ToAgent, To): the first message that A sends to B
+    is the first that B receives from A
   - mark(Kind, Agent, Host, Time): Kind is `begins`, `ends`, `fails`, `logs`,
     or clone(Clone)
 
@@ -27,7 +27,7 @@ From the events of a log, see typhon_events, to lines in space and time:
 
 %!  spacetime(+Events, -World) is semidet.
 %
-%   Fails if nothing has happened.
+%   Fails if there are no events of agents.
 
 spacetime(Events0, world(First-Last, Hosts, Agents, Stays, Hops, Letters,
                          Marks)) :-
@@ -74,8 +74,7 @@ line_of(Lives, Last, Line) :-
     member(Line, Lines).
 
 %   lines(+Own, +Where, ...): Where is `nowhere`, here(Host, Since, Latest),
-%   Latest being the time of the latest event there, left(Host, Time), or
-%   `over`.
+%   with the time of the latest event there, left(Host, Time), or `over`.
 
 lines([], Where, Agent, Last, Lines) :-
     (   Where = here(Host, Since, _)
@@ -112,7 +111,8 @@ line(_, Time, Host, Agent, Where0, Where, Lines, Rest) :-
 last_of(ended(_)).
 last_of(faulty(_)).
 
-%   set_out(+Where, ...): where and when it set out that arrives now.
+%   set_out(+Where, ...): host and time of departure of an agent that arrives
+%   now.
 
 set_out(left(Host, Start), _, _, _, _, Host, Start, Rest, Rest) :-
     !.
@@ -123,7 +123,7 @@ set_out(here(Host, Since, _), _, Seconds, Time, Agent, Host, Start,
 set_out(_, From, Seconds, Time, _, From, Start, Rest, Rest) :-
     Start is Time-Seconds.
 
-%   be_here(+Where0, ...): something happens to it on Host.
+%   be_here(+Where0, ...): the agent has an event on Host.
 
 be_here(here(Host, Since, _), Time, Host, _, here(Host, Since, Time),
         Rest, Rest) :-
@@ -134,7 +134,7 @@ be_here(here(Other, Since, Latest), Time, Host, Agent,
           hop(Agent, Other, Latest, Host, Time, guessed) | Rest ], Rest) :-
     !.
 be_here(left(Host, Start), Time, Host, _, here(Host, Start, Time),
-        Rest, Rest) :-                  % it could not go
+        Rest, Rest) :-                  % its move failed
     !.
 be_here(left(Other, Start), Time, Host, Agent, here(Host, Time, Time),
         [hop(Agent, Other, Start, Host, Time, guessed)|Rest], Rest) :-
@@ -162,7 +162,7 @@ sent(sent(To, _), To).
 received(received(From), From).
 received(received(From, _), From).
 
-%   The k-th with the k-th of the same sender and receiver.
+%   The k-th message sent is the k-th received between the same two agents.
 
 pair([Ends-From|Sent], [Ends-To|Received], Letters) :-
     !,

@@ -14,11 +14,11 @@
 
 %!  story(+File, +Agent) is det.
 %
-%   Print the events of Agent as text, in the order of the log File. Agent is
-%   an id, what stands before the `@` in it, or the name from which it was
-%   made; if several have that, the story of each is printed.
+%   Prints the events of Agent as text, in the order of the log File. Agent is
+%   an id, the part of an id before `@`, or the name in it; if several agents
+%   have that name, the story of each is printed.
 %
-%   @error typhon_usage(not_in_log(Agent, File, Names)): those whom it knows
+%   @error typhon_usage(not_in_log(Agent, File, Names)): Names are in File
 
 story(File, Agent) :-
     log_events(File, Events),
@@ -49,7 +49,7 @@ is_called(Id, Agent) :-
 tell(Id, Events) :-
     include(of_agent(Id), Events, Own),
     Own = [event(Start, _, _, _)|_],
-    (   Start > 100 000 000             % times of day would not be read
+    (   Start > 100 000 000             % times of day are hard to read
     ->  Zero = Start
     ;   Zero = 0
     ),

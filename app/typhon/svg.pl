@@ -21,7 +21,7 @@
 
 %!  svg(+Out, +Width, +Height, :Goal) is det.
 %
-%   Write a picture to Out, which Goal draws by the predicates below.
+%   Writes a picture to Out, which Goal draws by the predicates below.
 
 svg(Out, Width, Height, Goal) :-
     current_output(Old),
@@ -46,7 +46,7 @@ head(Width, Height) :-
 
 %!  clipped(+X, +Y, +Width, +Height, :Goal) is det.
 %
-%   Nothing of what Goal draws is seen outside.
+%   Clips the drawing of Goal to the rectangle.
 
 clipped(X, Y, Width, Height, Goal) :-
     format('<clipPath id="inside"><rect x="~1f" y="~1f" width="~1f" \c

@@ -19,11 +19,11 @@
 
 %!  complain(+Command, +Error) is det.
 %
-%   Print Error, which Command has raised, and what to try next.
+%   Prints Error, which Command has raised, and a hint.
 
 complain(_, error(io_error(write, Stream), _)) :-
     stream_property(Stream, alias(user_output)),
-    !.                                  % closed by its reader, as head(1)
+    !.                                  % its reader, as head(1), closed it
 complain(Command, Error) :-
     (   Error = error(Formal, Context),
         ( hint(Formal, Hint) ; no_program(Command, Formal, Context, Hint) )
@@ -31,7 +31,7 @@ complain(Command, Error) :-
     ;   print_error(error, Error)
     ).
 
-%   What to try next.
+%   The command to try next.
 
 hint(host_unreachable(Host), Hint) :-
     format(atom(Hint), 'diagnose ~w tells why', [Host]).
@@ -41,7 +41,7 @@ hint(existence_error(agent, _), 'agents --host ADDRESS lists agents').
 hint(existence_error(host, _), 'hosts --host ADDRESS lists hosts').
 hint(domain_error(topology, _), 'network --help lists the shapes').
 
-%   A file that a program includes is none that was typed.
+%   Not for a file that a program includes: the user did not type it.
 
 no_program(Command, existence_error(source_sink, _), Context,
            'a file, or a term as agents(census)') :-

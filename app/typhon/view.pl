@@ -29,8 +29,8 @@ top(28).
 
 %!  view(+Span, +Hosts, +Stays, +Colours, -View, -Rows) is det.
 %
-%   Span is First-Last, Colours as colours/3 makes them.  Rows are
-%   Host-(Top-Bottom), from above.
+%   Span is First-Last, Colours are the result of colours/3.  Rows are
+%   Host-(Top-Bottom), from top to bottom.
 
 view(First-Last, Hosts0, Stays, Colours,
      view(scale(First, Left, PerSecond), Rows, Lanes, Colours, Bottom),
@@ -69,7 +69,7 @@ left(Hosts, Left) :-
     max_list(Lengths, Longest),
     Left is max(40, min(160, 24+7*Longest)).
 
-%   n2 comes before n10.
+%   Sorts n2 before n10.
 
 by_name(Hosts0, Hosts) :-
     findall(Key-Host,
@@ -94,7 +94,7 @@ name_key([Char|Key]) -->
 name_key([]) --> [].
 
 %   lanes(+Stays, -Lanes): agents on a host at the same time have different
-%   lanes, each the first that is free.
+%   lanes, each the first free one.
 
 lanes(Stays, Lanes) :-
     findall(From-stay(Agent, Host, From, To),
@@ -113,7 +113,7 @@ lane(From-stay(Agent, Host, From, To), Busy0-Lanes,
 busy_at(Time, busy(_, _, To)) :-
     To >= Time.
 
-%   row(+Lanes, +Host, ...): rows from Top down.
+%   row(+Lanes, +Host, ...): a row at Top, the next one below it.
 
 row(Lanes, Host, [row(Host, Top, Count, Height)|Rows]-Top, Rows-Next) :-
     findall(Lane, member(lane(_, Host, _, Lane), Lanes), Used),
@@ -136,8 +136,8 @@ row_bounds(row(_, Top, Count, Height), Top, Bottom) :-
 %!  y(+Agent, +Host, +Time, +View, -Y) is semidet.
 %!  y_from(+Agent, +Time, +View, -Y) is semidet.
 %
-%   Where an agent stands on Host, or where it is first at about Time; the
-%   middle of the host if the log does not say that it is there.
+%   Y is the position of an agent on Host, or of its first stay at about Time;
+%   the middle of the host if the log does not have the agent there.
 
 x(Time, view(scale(First, Left, PerSecond), _, _, _, _), X) :-
     X is Left+(Time-First)*PerSecond.
@@ -152,7 +152,7 @@ y(Agent, Host, Time, view(_, Rows, Lanes, _, _), Y) :-
     ;   Y = Middle
     ).
 
-%   The lanes of the latest stays come first.
+%   The lanes are in order of time, the latest first.
 
 lane_at(Lanes, Agent, Host, Time, Lane) :-
     member(lane(Agent, Host, From, Lane), Lanes),
