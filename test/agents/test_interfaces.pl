@@ -54,7 +54,7 @@ includes(File, Included) :-
                        [ relative_to(File), extensions([pl]),
                          access(read) ]).
 
-%   part(+Program, -File): Program itself, and what it includes.
+%   part(+Program, -File): Program itself, or a file that it includes.
 
 part(File, File).
 part(File, Part) :-
@@ -75,8 +75,8 @@ header(File, Expects, Gives) :-
     line("% Expects: ", Expects, Lines, Lines1),
     line("% Gives: ", Gives, Lines1, _).
 
-%   line(+Key, -Line, +Lines0, -Lines): what does not fit into a line goes on
-%   in the next one.
+%   line(+Key, -Line, +Lines0, -Lines): a list that does not fit into a line
+%   continues in the next one.
 
 line(Key, Line, [First|Lines0], Lines) :-
     string_concat(Key, Begin, First),
@@ -161,8 +161,8 @@ part_of(findall(_, G, _), G).
 part_of(aggregate_all(_, G, _), G).
 part_of(catch(A, _, B), G) :- ( G = A ; G = B ).
 
-%   crosses(-Program, -File, -Other, -PI): in Program, File calls PI, which
-%   stands in Other and not in File.
+%   crosses(-Program, -File, -Other, -PI): in Program, File calls PI, which is
+%   defined in Other and not in File.
 
 crosses(Program, File, Other, PI) :-
     file_term(Program, (:- agent(_, _))),

@@ -1,6 +1,6 @@
 :- module(test_app, []).
 
-% The command line, as a person at a shell meets it: separate processes.
+% The command line, in separate processes, as from a shell.
 
 :- use_module('../lib/common').
 :- use_module(library(debug), [assertion/1]).
@@ -17,13 +17,13 @@ typhon(Args, Status, Out, Err) :-
     typhon_args(Args, SwiplArgs),
     run_swipl(SwiplArgs, [timeout(60)], Status, Out, Err).
 
-%   All the processes of a busy machine are heard.
+%   On a busy machine processes answer late.
 
 typhon_args(Args, ['-g',Heard,App|Args]) :-
     Heard = 'settings:set_setting(typhon_inventory:seconds,30)',
     project_file('app/typhon.pl', App).
 
-%   What a command that works prints, in lines.
+%   The output of a successful command, in lines.
 
 typhon_lines(Args, Lines) :-
     typhon(Args, Status, Out, Err),
@@ -226,7 +226,7 @@ join(Dir) :-
     assertion(Outcome == "done"),
     assertion(Status == exit(1)).
 
-%   By an id, or where it says which network, by a name.
+%   By an id, or by a name if the network is given.
 
 test(orders) :-
     with_tmp_dir(orders).
@@ -267,7 +267,7 @@ test(stop) :-
                 )),
     assertion(Status == exit(0)).
 
-%   The process of a program goes on, and its host is gone.
+%   The process of a program continues after its host has been stopped.
 
 test(stop_a_host_of_a_program) :-
     project_file('prolog/typhon.pl', Typhon),

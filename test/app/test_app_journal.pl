@@ -1,6 +1,6 @@
 :- module(test_app_journal, []).
 
-% Journals on the command line, as a person at a shell meets them.
+% Journals on the command line, as from a shell.
 
 :- use_module('../lib/common').
 :- use_module(library(filesex), [directory_file_path/3]).

@@ -2,7 +2,7 @@
           [ chaos/2                     % +Options, -Reports
           ]).
 
-/** <module> A suite that attacks
+/** <module> The chaos suite
 
 Agents travel, send messages, clone themselves and carry tokens between
 processes that are suspended and killed, and whose connections are cut and

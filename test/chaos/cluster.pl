@@ -17,7 +17,7 @@
             cluster_busy/1              % +Seconds
           ]).
 
-/** <module> Processes to be attacked, and the proxies before them
+/** <module> Processes under attack, and the proxies in front of them
 
 Each process, see chaos_peer, is known by a name, has some hosts, and can be
 reached by the others through a proxy only.  A process that was killed and
@@ -120,9 +120,9 @@ close_pipe(Stream) :-
 %!  cluster_hosts(+Name, -Addresses) is det.
 %!  cluster_lives(-Lives) is det.
 %
-%   Which processes there are, which live, the addresses of the hosts of one, and
-%   life(Name, Number, From, To) for each start of a process; To is `inf`
-%   while it lives.
+%   The names of all processes, and of those that run; the addresses of the
+%   hosts of one; and life(Name, Number, From, To) for each start of a process;
+%   To is `inf` while it lives.
 
 cluster_names(Names) :-
     findall(Name, place(Name, _, _, _, _), Names).
@@ -215,7 +215,7 @@ cluster_kill(Name) :-
 
 %!  cluster_signal(+Name, +Signal) is det.
 %
-%   Signal is `stop` or `cont`; nothing for one that does not live.
+%   Signal is `stop` or `cont`; no effect on a dead process.
 
 cluster_signal(Name, Signal) :-
     (   running(Name, Pid, _, _, _)
@@ -240,7 +240,7 @@ cluster_busy(Seconds) :-
 %!  cluster_ask(+Name, +Goal, +Seconds, -Tag) is semidet.
 %
 %   Have Name run Goal; the result is among cluster_answers/1 before long.
-%   Fails if Name does not live.
+%   Fails if Name is dead.
 
 cluster_ask(Name, Goal, Seconds, Tag) :-
     running(Name, _, In, _, _),
@@ -252,7 +252,7 @@ cluster_ask(Name, Goal, Seconds, Tag) :-
             flush_output(In)
           ),
           error(_, _),
-          true).                        % it is hung, or dead
+          true).                        % the process hangs or is dead
 
 %!  cluster_result(+Tag, -Result) is det.
 %!  cluster_call(+Name, +Goal, +Seconds, -Result) is det.
@@ -280,7 +280,7 @@ cluster_result(Tag, Result) :-
     ->  Result = Result0,
         (   memberchk(Result, [yes(_),died])
         ->  true
-        ;   assertz(answered(-2, Asked, Result))    % to be told of
+        ;   assertz(answered(-2, Asked, Result))    % to be reported
         )
     ;   asked(Tag, _, _, Deadline),
         get_time(Now),
@@ -323,7 +323,7 @@ pump(Stamp) :-
 take(answer(Tag, Result)) :-
     (   retract(asked(Tag, Name, Goal, _))
     ->  assertz(answered(Tag, asked(Name, Goal), Result))
-    ;   true                            % too late, or killed since
+    ;   true                            % too late, or killed since then
     ).
 take(ended(Pid)) :-
     (   running(Name, Pid, _, _, _)     % and was not killed by us
@@ -362,7 +362,7 @@ start_proxies :-
 
 %!  cluster_proxy(+Words, -Answer) is det.
 %
-%   Tell the proxies, see proxies.py.
+%   Send a command to the proxies, see proxies.py.
 
 cluster_proxy(Words, Answer) :-
     proxies(_, In, Out),

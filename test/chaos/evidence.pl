@@ -19,13 +19,13 @@ call_seconds(60).
 
 %!  settle(+Seconds, +Expected, -Rest) is det.
 %
-%   Wait until no more agents are restless, and no more messages have not
-%   come, than was Expected; or until nothing has changed for a while; but not
+%   Wait until at most as many agents are restless, and as many messages
+%   outstanding, as Expected; or until nothing has changed for a while; but not
 %   longer than Seconds.  The number of messages of dead processes is unknown.
 %
 %   @arg Expected, Rest are rest(Agents, Messages)
 
-quiet_seconds(12).                      % longer than the pause of a courier
+quiet_seconds(12).  % longer than the pause between two posts of news
 
 settle(Seconds, Expected, Rest) :-
     get_time(Now),
@@ -52,7 +52,7 @@ settled(Since, Now, _, _, _) :-
     quiet_seconds(Quiet),
     Now-Since >= Quiet.
 settled(Since, Now, _, picture(rest(A, M), _), rest(A0, M0)) :-
-    Now > Since,                        % it was the same before
+    Now > Since,                        % unchanged since then
     nobody_died,
     A =< A0,
     M =< M0.
@@ -91,11 +91,11 @@ agents(Agents) :-
 
 %!  evidence(+Dir, -Evidence) is det.
 %
-%   Evidence is a dict: lives, agents (as created), standing (agent(Name,
-%   Id, State, Hops, Facts) for each that stands somewhere), tuples, events
-%   (e(Key, Tick, Event, Time, Life)), mail, disposed, outcomes (Id-Outcome
-%   as its home says), calls, left (Name-Things), timers (kB), proxies.
-%   Afterwards there are no hosts any more.
+%   Evidence is a dict: lives, agents (as created), standing (agent(Name, Id,
+%   State, Hops, Facts) for each that stands somewhere), tuples, events (e(Key,
+%   Tick, Event, Time, Life)), mail, disposed, outcomes (Id-Outcome as its home
+%   reports), calls, left (Name-Things), timers (kB), proxies. Afterwards there
+%   are no hosts any more.
 
 evidence(Dir, _{ lives:Lives, agents:Agents, standing:Standing,
                  tuples:Tuples, events:Events, mail:Mail,

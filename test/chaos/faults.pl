@@ -31,7 +31,7 @@ chaos_work:
 
 %!  scenario(?Name, -Share, -Description) is nondet.
 %
-%   Share is what of a hundred seconds it gets when all are run.
+%   Share is its part of a hundred seconds when all scenarios run.
 
 scenario(calm,   10, 'no faults at all').
 scenario(cuts,   35, 'connections are cut, held and slowed down').
@@ -39,8 +39,8 @@ scenario(stops,  20, 'processes are stopped, too, and the machine is busy').
 scenario(kills,  25, 'processes are killed, too, and started again').
 scenario(deaths, 10, 'and one of them is not started again').
 
-%   stream(?Scenario, ?Kind, -Pause): events of this Kind come at intervals
-%   of so many seconds on the average.
+%   stream(?Scenario, ?Kind, -Pause): Pause is the average interval, in
+%   seconds, between events of this Kind.
 
 stream(cuts,   cut,   0.4).
 stream(cuts,   after, 0.5).
@@ -137,7 +137,7 @@ duration(Lengths, Duration) :-
     random(X),
     Duration is X*Longest.
 
-%   In `deaths` the last process dies in the middle, and stays so.
+%   In `deaths` the last process dies in the middle, and is not restarted.
 
 death(deaths, Seconds, Names, Events0, Events) :-
     !,

@@ -3,7 +3,7 @@
             token_finding/2             % +Tuples, -Finding
           ]).
 
-/** <module> Messages and tokens: does each exist, exactly once
+/** <module> Messages and tokens: each exists exactly once
 
 *Threading*: for one thread at a time, see chaos_facts.
 */
@@ -122,10 +122,10 @@ lost_message(m(From, To, K), Time, finding(Kind, m(From, To, K))) :-
     ;   Kind = message_lost
     ).
 
-%   death_near(+To, +Time): a process ended when it may have had the message.  A
-%   rover or a sitter takes its messages as they come: one that has acted 15 s
-%   after Time, and then a process ended, had taken it.  On a busy machine an
-%   agent can be under way for longer than that.
+%   death_near(+To, +Time): a process ended when it may have had the message.
+%   A rover or a sitter receives its messages as they arrive: if it acted 15 s
+%   after Time and a process ended later, it had received the message.  On a
+%   busy machine an agent can be under way for longer than that.
 
 death_near(To, Time) :-
     death_of(_, Dead),

@@ -11,8 +11,8 @@
 /** <module> Hostile agents at random
 
 Every predicate of the system, of libraries that are loaded and of the
-platform itself is mixed into programs, with arguments that are apt to do
-harm, written out or made up at run time.  They run on a guarded host. Another
+platform itself is mixed into programs, with arguments that may do harm,
+written out or constructed at run time.  They run on a guarded host. Another
 agent runs on an unguarded host of the process; from time to time the test
 checks that it still answers, and that the state of the process is unchanged.
 

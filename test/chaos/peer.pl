@@ -1,6 +1,6 @@
 :- module(chaos_peer, [peer/0, chaos_note/3]).
 
-/** <module> The processes that are attacked
+/** <module> The processes under attack
 
     swipl -g chaos_peer:peer test/chaos/peer.pl -- Options
 
@@ -72,7 +72,7 @@ chaos_note(Agent, Tick, Event) :-
     ledger(Stream),
     format(Stream, '~k.~n', [e(Agent, Tick, Event, Now)]).
 
-%   The process that ended an agent in doubt cannot know whether it goes on.
+%   The process that ended an agent in doubt cannot know whether it continues.
 
 :- multifile user:message_hook/3.
 
@@ -130,7 +130,8 @@ tuples(Tuples) :-
     append(Lists, Tuples).
 
 %   outcomes(+Ids, -Pairs): the outcomes of those of Ids that have ended. News
-%   of the last ends may be under way: a courier pauses for up to ten seconds.
+%   of the last ends may be under way: news are posted after pauses of up to
+%   ten seconds.
 
 outcomes(Ids, Pairs) :-
     get_time(Now),

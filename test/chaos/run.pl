@@ -1,6 +1,6 @@
 :- module(chaos_run, []).
 
-/** <module> The suite that attacks, from the shell
+/** <module> The chaos suite, from the shell
 
     swipl test/chaos/run.pl -- [--seconds N] [--seed N] [--scenario NAME]
         [--processes N] [--agents N] [--settle N] [--out DIR]
@@ -62,8 +62,7 @@ main(Argv) :-
     ;   halt(0)
     ).
 
-%   As in the test suite: a process that has loaded the library before begins
-%   differently.
+%   As in the test suite: processes start from a saved state of the library.
 
 quickly(Options, Reports, Dir) :-
     quick_swipl(Dir, Swipl),

@@ -16,10 +16,10 @@
     swipl -g supervised_main test/chaos/supervised.pl -- [--seed N]
         [--seconds N] [--rounds N]
 
-Four processes, a supervisor, another one that stands by, and eight children.
-In each round children end and hop, the supervisor hops, and one process is
-killed at any time.  At the end each child must run exactly once, and both
-supervisors must exist.
+Four processes, a supervisor, a standby supervisor, and eight children. In
+each round children end and hop, the supervisor hops, and one process is
+killed at a random time.  At the end each child must run exactly once, and
+both supervisors must exist.
 
 *Threading*: the main thread.
 */
@@ -131,8 +131,8 @@ round(N, Wrong) :-
     ;   Wrong = Wrong0
     ).
 
-%   In a round one supervisor hops, and to a process that is neither the place nor
-%   the home of the other: with that both would be lost.
+%   In each round one supervisor hops, to a process that is neither the host
+%   process nor the home of the other: otherwise one death would end both.
 
 acts(0, _, _, []) :-
     !.
@@ -215,7 +215,7 @@ evidence(Peer) :-
               format(atom(Held), '~q~n~q~n~q~n~q', [Agents, Ms, As, Ws]) )),
     format(user_error, '~w holds ~w~n', [Peer, Held]).
 
-%   While the process on which the standby is to be is gone there is none.
+%   There is no standby while the process meant for it is dead.
 
 well(Peers) :-
     names(Peers, Names0),
@@ -250,7 +250,7 @@ agents_of(Peer, Ids) :-
     peer_do(Peer, findall(Id,
                           typhon_agents:agent(Id, _, _, _, _), Ids)).
 
-%   The one that stands by does not answer.
+%   The standby does not answer.
 
 answered(Peers) :-
     Asker = clauses([ (:- agent(asker, [state([whom/1])])),

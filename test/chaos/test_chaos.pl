@@ -8,12 +8,12 @@
 :- use_module(library(lists)).
 :- use_module(library(solution_sequences)).
 
-/** <module> Some seconds of the suite that attacks
+/** <module> A short run of the chaos suite
 
 The long form is `make chaos`, see doc/chaos.md.
 */
 
-%   Few, but with this seed every fault is among them.
+%   Few events, but with this seed every kind of fault is among them.
 
 seconds(24).
 seed(46).

@@ -6,7 +6,7 @@
 
 /** <module> The short form of hostile.pl
 
-The seed is another each time; it is in what a failure shows.
+The seed differs each time; a failure shows it.
 
 *Threading*: one test at a time.
 */

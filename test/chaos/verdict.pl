@@ -22,7 +22,7 @@ excused.
 %!  finding_kind(?Kind, ?Severity, ?Meaning) is nondet.
 %
 %   Severity is `wrong`, `excused` (only where processes were killed), or
-%   `told`: not promised otherwise.
+%   `told`: reported, since nothing else was promised.
 
 finding_kind(lost,          wrong,   'agents lost').
 finding_kind(doubled,       wrong,   'agents doubled').
@@ -182,7 +182,7 @@ excused(Key) :-
         death_of(_, Dead),
         Dead >= Time-1
     ;   created(Key, victim, _, Home, _),
-        \+ alive(Home)                  % had the news of its end, if any
+        \+ alive(Home)                  % its home had the news of its end
     ),
     !.
 
@@ -200,7 +200,7 @@ home_of(Host, Name) :-
     sub_atom(Host, 0, _, _, Name),
     !.
 
-%   Its destination, or the processes with the information, are gone for good.
+%   Its destination, or the processes that knew its host, are gone for good.
 
 depends_on_the_dead(Key) :-
     gone(Name),
@@ -209,10 +209,10 @@ depends_on_the_dead(Key) :-
     ;   sent_on(Key, Host),
         home_of(Host, Name)
     ;   created(Key, _, _, Name-_, _)
-    ;   created(Key, _, _, Home-_, _),  % which has forgotten, and asks all
+    ;   created(Key, _, _, Home-_, _),      % restarted, it queries all
         life(Home, _, _, Died),
         Died \== inf
-    ;   created(Key, Kind, _, _, _),    % which do not say where they go
+    ;   created(Key, Kind, _, _, _),      % these do not announce hops
         memberchk(Kind, [sleeper,cloner])
     ),
     !.
@@ -291,7 +291,7 @@ ended_as(Key, Outcome) :-
     ->  Outcome == disposed
     ;   Outcome == done
     ).
-ended_as(_, timeout).                   % it has not
+ended_as(_, timeout).                   % the agent has not ended
 
                 /*******************************
                 *             CALLS            *

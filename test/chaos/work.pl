@@ -17,13 +17,13 @@ them:
 
   | sprint(P, Journeys)   | a sprinter sets out from P, another waits for it |
   | victim(P, Program)    | one sets out that is disposed of before long     |
-  | dispose(Q)            | the oldest victim; Q, a process or `any`, says so|
-  | settlers(P)           | P was started again: travellers, to live there   |
+  | dispose(Q)            | Q, a process or `any`, disposes of the oldest one|
+  | settlers(P)           | P was restarted: travellers are created there    |
   | order(P, X)           | P tells a sleeper to go somewhere                |
   | look(P, X)            | P asks where an agent is                         |
   | tell(P, X)            | P writes to an agent                             |
 
-X, a number from 0 to 1, says which agent.  Nothing here waits for a process
+X, a number from 0 to 1, selects the agent.  Nothing here waits for a process
 while the schedule runs.
 
 *Threading*: for the main thread.
@@ -39,14 +39,14 @@ while the schedule runs.
 :- dynamic
     agent/5,                            % Key, Kind, Id, Life, Time
     number/2,                           % Kind, Number
-    victim/3,                           % Key, Id, Tries: waits for its fate
+    victim/3,                           % Key, Id, Tries: to be disposed of
     disposed/2,                         % Key, Time
     doing/2,                            % Tag, What
     posted/3,                           % Sender, Key, Number
     sent/4,                             % Sender, Key, Number, Asked: certainly
     failure/3.                          % What, Name, Result
 
-%   population(?Kind, ?Program, -Share, -Facts): so many of a hundred.
+%   population(?Kind, ?Program, -Share, -Facts): Share is a percentage.
 
 population(traveller, traveller, 30, []).
 population(rover,     chatter,   24, [restless(true)]).

@@ -1,6 +1,7 @@
 :- module(test_doc, []).
 
-% The code and the sessions in README.md, doc/*.md and doc/course/*.md are true.
+%   The code and the sessions in README.md, doc/*.md and doc/course/*.md are
+%   correct.
 %
 %   - A block ```prolog whose first line is `% name.pl` is a file. Agent
 %     programs and payloads must be without problems. Other ```prolog blocks
@@ -12,8 +13,8 @@
 %     agents, numbers of variables and long floats are not compared, nor are
 %     the bindings of `$Var`. A line `...` stands for any lines.
 %
-% Links between documents, and to files of the tree, lead somewhere. And
-% every export of the library has a PlDoc comment with modes.
+%   Links between documents, and to files of the tree, resolve. And every
+%   export of the library has a PlDoc comment with modes.
 
 :- use_module('../lib/common').
 :- use_module('../lib/transcript', [transcript_differences/4]).
@@ -186,8 +187,8 @@ heading(File, Id) :-
     split_string(More, "", "# ", [Heading]),
     slug(Heading, Id).
 
-%   How GitHub calls a heading: in lower case, blanks as hyphens, without
-%   punctuation.
+%   The anchor that GitHub makes of a heading: in lower case, blanks as
+%   hyphens, without punctuation.
 
 slug(Text, Slug) :-
     string_lower(Text, Lower),
@@ -208,7 +209,8 @@ library_file(File) :-
     project_file(prolog, Dir),
     directory_member(Dir, File, [extensions([pl]), recursive(true)]).
 
-%   An interface, of directives alone, exports what others document.
+%   An interface, a file of directives alone, exports predicates that are
+%   documented elsewhere.
 
 undocumented(File, PI) :-
     library_file(File),
@@ -293,7 +295,7 @@ scouts_made(Text, Dir) :-
 
 :- begin_tests(documentation).
 
-%   What documents need beside python3, and the suite does not.
+%   The packages that documents need beside python3, and other suites do not.
 
 needs('doc/journal.md', journal).
 needs('doc/security.md', cells).
@@ -356,8 +358,8 @@ test(broken_links_are_found,
          `[f](no)`\n```\n[g](no)\n# none\n```\n",
         Links)).
 
-% Those of layers and of virtual time are the same whenever they are made; but
-% the former changes with each module.
+% The pictures of layers and of virtual time are reproducible, but the former
+% changes with each module.
 
 test(all_pictures_are_made_by_one_command, Missing == []) :-
     findall(Picture,

@@ -10,7 +10,8 @@
 Files are read, not loaded.
 */
 
-%   numbered(?Number): what the thesis numbers in chapters 3 to 7.
+%   numbered(?Number): the numbers of equations, algorithms and tables in
+%   chapters 3 to 7 of the thesis.
 
 numbered(Number) :-
     member(Chapter-Last, [3-6, 4-7, 5-2, 6-10, 7-7]),

@@ -10,7 +10,7 @@
 :- use_module(library(plunit)).
 :- use_module(library(readutil), [read_file_to_string/3]).
 
-%   The script itself fails where the page shows what is not of its network.
+%   The script itself fails if the page shows anything outside its network.
 
 made(Names, Sizes, Dir) :-
     project_file('doc/pictures.pl', Script),

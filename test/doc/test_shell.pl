@@ -2,12 +2,13 @@
 
 % The shell commands in README.md and doc/*.md run.
 %
-% Commands are the lines of indented blocks that begin with a program, and
-% what stands after `$ ` there. Those of one document run in turn, in one
-% copy of the tree, with names of this machine in place of those in the document
-% (names/2). How each is run follows from how/2: some serve until the document
-% ends, and what takes long is asked what it would do (long/2). What needs a
-% machine that the suite does not have is in elsewhere/1.
+%   Commands are the lines of indented blocks that begin with a program, and
+%   what stands after `$ ` there. Those of one document run in turn, in one
+%   copy of the tree, with names of this machine in place of those in the
+%   document (names/2). How each is run follows from how/2: some serve until
+%   the document ends, and long commands only print what they would do
+%   (long/2). Commands that need a machine that the suite does not have are in
+%   elsewhere/1.
 
 :- use_module('../lib/common').
 :- use_module(library(apply), [foldl/4]).
@@ -99,7 +100,7 @@ begins_command(Line, Command) :-
     ->  sub_string(Command, _, _, _, " swipl ")
     ).
 
-%   Without a comment, and the `&` of a command that goes on.
+%   Without a comment, and without the `&` of a background command.
 
 plain(Line, Plain) :-
     member(End, [" # ", " & "]),
@@ -200,8 +201,8 @@ here("FILE", "extracted").
 here("swipl -g \"use_module(library(tartarus", "swipl -p library=prolog \c
                                          -g \"use_module(library(tartarus").
 
-%   In place of the address of a host there stands that of the host of this name
-%   which a server has printed, and in place of AGENT an agent that it had.
+%   The address of a host is replaced by that of the host of this name which a
+%   server has printed, and AGENT by an agent of that host.
 
 on_this_machine(Command0, Dir, Names, Command) :-
     findall("AGENT"-Agent, agent_kept(Dir, Agent), Agents),
@@ -303,7 +304,7 @@ run(ends(With), Command0, Dir, Why) :-
     ;   Why = Status-Text
     ).
 
-%   Output goes to a file: nothing of a pipe keeps a server that is ended.
+%   Output goes to a file: a pipe would delay the end of a server.
 
 ended(Command, Dir, Status, Text) :-
     directory_file_path(Dir, output, File),
@@ -341,8 +342,8 @@ kill_process(Pid) :-
                 *            SERVERS           *
                 *******************************/
 
-%   serve(+Command, +Dir, -Why): runs until end_servers/0, and has printed as
-%   many lines as it has hosts.
+%   serve(+Command, +Dir, -Why): Command runs until end_servers/0, and has
+%   printed as many lines as it has hosts.
 
 serve(Command, Dir, Why) :-
     flag(test_shell_server, N, N+1),
@@ -387,7 +388,7 @@ with_journal(Command, Dir, File) :-
     write_file(AgentFile, Id).
 with_journal(_, _, _).
 
-%   A process that runs has its journal for itself.
+%   A running process locks its journal.
 
 journals_closed(Command) :-
     sub_string(Command, _, _, _, "typhon.pl journal "),

@@ -1,7 +1,7 @@
 :- module(test_site, []).
 
-% `make doc`: readers of the site find all documents, in order, and every
-% predicate; no link leads nowhere; words are found.
+%   `make doc`: readers of the site find all documents, in order, and every
+%   predicate; no link is broken; words are found.
 
 :- use_module('../lib/browser').
 :- use_module('../lib/common').
@@ -68,8 +68,8 @@ document_page(Page) :-
                 *             LINKS            *
                 *******************************/
 
-%   broken(-File, -Link): Link of File leads to no file, or no place in it. What
-%   web servers show in place of a missing page is for the root of a server.
+%   broken(-File, -Link): Link of File leads to no file, or to no anchor in it.
+%   The page for missing pages is made for the root of a server.
 
 broken(File, Link) :-
     site(Dir),
@@ -139,8 +139,8 @@ headings(Headings) :-
                 *            SEARCH            *
                 *******************************/
 
-%   What readers see below the field when they have typed Words: the text, and
-%   whereto it leads, from the root of the site.
+%   The search results for Words below the field: texts and targets, relative
+%   to the root of the site.
 
 search(Words, Text, Places) :-
     with_browser(Browser, searched(Browser, Words, Text, Places)).

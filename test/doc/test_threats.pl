@@ -1,5 +1,5 @@
-%   The table of threats in doc/security.md names tests, `suite:test`, and what
-%   they try: they are there.
+%   The tests, `suite:test`, and attempts that the table of threats in
+%   doc/security.md names exist.
 
 :- module(test_threats, []).
 :- use_module('../lib/common').

@@ -1,6 +1,7 @@
 :- module(test_editor_plugins, []).
 
-% What the extension for VS Code and the mode for Emacs show of an agent program.
+% The display of an agent program by the extension for VS Code and by the mode
+% for Emacs.
 
 :- use_module('../lib/common').
 :- use_module('../../experiments/engine/studies', [study_load/2]).
@@ -48,7 +49,7 @@ main :-
 with_program(Text, Goal) :-
     with_tmp_dir(program_in(Text, Goal)).
 
-%   Its name has what must be quoted.
+%   The name of the file must be quoted.
 
 program_in(Text, Goal, Dir) :-
     directory_file_path(Dir, 'it\'s.pl', File),
@@ -89,7 +90,7 @@ emacs_shows(Lines, File) :-
                 *            WORDS             *
                 *******************************/
 
-%   The names of what agents can say.
+%   The names of the vocabulary of agents.
 
 word(Name) :-
     vocabulary_word(_, Name/_),

@@ -1,5 +1,5 @@
-% The applications print what their document shows, end when they are interrupted,
-% and say what is wrong with how they are called in one line.
+% The applications print what their document shows, end at an interrupt, and
+% report wrong arguments in one line.
 
 :- module(test_applications, []).
 :- use_module('../lib/common').

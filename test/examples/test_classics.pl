@@ -1,7 +1,7 @@
 :- module(test_classics, []).
 
-% The ten classical programs of doc/classics.md do what such programs do: on
-% other networks than there, and as the same does without agents.
+% The ten classical programs of doc/classics.md give the same results as
+% solutions without agents, on other networks than those of the document.
 
 :- use_module('../lib/common').
 :- use_module(library(aggregate), [aggregate_all/3]).
@@ -22,7 +22,7 @@ program(Name, File) :-
     project_file(Relative, File).
 
 %   on(+Topology, +Options, :Goal, -Logged): call(Goal, Hosts) in such a
-%   network, without a log: Logged is what was printed instead.
+%   network, without a log file: Logged are the printed entries.
 
 on(Topology, Options, Goal, Logged) :-
     no_leaks(capturing(in_network(Topology, [seed(1)|Options], Goal),
@@ -61,7 +61,8 @@ run(Name, Facts, [Host|_]) :-
                 *        WHAT THEY DO          *
                 *******************************/
 
-%   Its result.
+%   gives(+Name, +Facts, -Result, +Hosts): Result of an agent on the first of
+%   Hosts.
 
 gives(Name, Facts, Result, [Host|_]) :-
     create(Name, Host, [facts(Facts)], Agent),
@@ -108,7 +109,7 @@ asked(Host, Word, Expected) :-
     ends(Reader),
     agent_dispose(Dictionary).
 
-%   So much time for all that is under way.
+%   The time in which all agents and messages in flight arrive.
 
 pass(Host, Seconds) :-
     agent_create(clauses([(:- agent(clock, [])), (main :- sleep(Seconds))]),
@@ -150,7 +151,7 @@ sells(Places, Tour, Hosts) :-
 put_town(Host, Place) :-
     remote(Host, leave(at(Place))).
 
-%   Every host has the news once, and from as far as it is.
+%   Every host has the news once, with its distance from the source.
 
 floods(Hosts) :-
     Hosts = [Home|_],
@@ -194,7 +195,7 @@ sorter(Host, N, Agent) :-
 number_there(Host, N) :-
     remote(Host, sense(number(N))).
 
-%   How many agents have come to these hosts.
+%   The number of agents that have visited these hosts.
 
 arrivals(Hosts, Sum) :-
     aggregate_all(sum(Count),
@@ -207,7 +208,7 @@ explores(Hops, Hosts) :-
     run(explorer, [], Hosts),
     arrivals(Hosts, Hops).
 
-%   The towns of roads.pl, and the ways from each to each.
+%   The towns of roads.pl, and the shortest paths between all of them.
 
 on_the_roads(Goal) :-
     program('roads.pl', File),

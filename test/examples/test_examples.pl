@@ -1,6 +1,6 @@
 :- module(test_examples, []).
 
-% Every example runs by itself and prints what its newcomer wants to see.
+% Every example runs by itself and prints the expected lines.
 
 :- use_module('../lib/common').
 :- use_module('../lib/fixtures').
@@ -108,9 +108,9 @@ test(short, Long == []) :-
 
 :- end_tests(examples).
 
-% Every program of examples/agents does what its first comment says, on three
-% hosts that are linked to each other. Logged is what it logs, as Host-What with
-% the host on which it was then; A, B and C are the addresses.
+%   Every program of examples/agents does what its first comment says, on three
+%   hosts that are linked to each other. Logged are its log entries Host-What,
+%   with the host on which it was; A, B and C are the addresses.
 
 :- meta_predicate agent_logs(+, 2, -, -).
 

@@ -129,7 +129,7 @@ test(gardeners_at_the_field_need_no_link) :-
 test(gardeners_at_the_office_need_a_link) :-
     season([down(0), strategy(central)], 2, Network,
            ( alone,
-             network_advance(Network, 86400),   % what was ordered before
+             network_advance(Network, 86400),  % executes earlier orders
              given(Before),
              assertion(Before > 0),
              network_advance(Network, 864000),

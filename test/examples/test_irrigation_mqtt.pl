@@ -3,8 +3,8 @@
 
 :- needs([mqtt]).
 
-% The gardener of the irrigation with a real broker: a sensor that is no part of
-% the platform has published a reading, and the valve is another program, too.
+% The gardener of the irrigation with a real broker: the sensor and the valve
+% are programs outside the platform.
 
 :- use_module('../lib/brokers').
 :- use_module('../lib/fixtures').

@@ -213,8 +213,8 @@ exchanged(Totals, Number, Kwh) :-
     memberchk(Number-totals(_, _, _, _, Taken, Sold, _), Totals),
     Kwh is Taken+Sold.
 
-%   What an agent of that program answers, one message after the other, with the fact
-%   Left in the tuple space of its host.
+%   The answers of an agent of that program to messages in sequence; Left is a
+%   fact in the tuple space of its host.
 
 answers(Name, Left, Messages, Answers) :-
     format(string(Path), 'examples/applications/solar/~w.pl', [Name]),

@@ -158,7 +158,7 @@ test(agents_drive_robots) :-
 test(a_pallet_and_a_beam_are_delivered) :-
     with_tmp_dir(delivered_twice).
 
-%   And the same is logged whenever this is run.
+%   The log is the same in each run.
 
 delivered_twice(Dir) :-
     directory_file_path(Dir, 'first.pl', First),
@@ -189,8 +189,8 @@ test(beam_moved_too_fast_falls_and_frees_robots) :-
             forall(member(Robot, [robot1, robot2, robot3]),
                    assertion(robot_status(Robot, free))) )).
 
-%   Both robots of a beam are needed, so another has taken the place of the one
-%   that broke down, at the corner where that was.
+%   Both robots of a beam are needed, so another robot has replaced the one
+%   that broke down, at the same corner.
 
 test(broken_robot_is_replaced) :-
     with_tmp_dir(replaced).

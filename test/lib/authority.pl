@@ -25,8 +25,8 @@
 
 %!  with_authority(+Hosts, +Authors, :Goal) is semidet.
 %
-%   Call Goal with the directory of an authority that knows these, see
-%   app/typhon/keys.pl. It goes afterwards.
+%   Call Goal with the directory of an authority for Hosts and Authors, see
+%   app/typhon/keys.pl. The directory is removed afterwards.
 
 with_authority(Hosts, Authors, Goal) :-
     with_tmp_dir(authority(Hosts, Authors, Goal)).
@@ -40,7 +40,7 @@ authority(Hosts, Authors, Goal, Tmp) :-
 
 %!  keys_of(+Name, +Authority, -Dir) is det.
 %
-%   Where the keys of Name are.
+%   The directory of the keys of Name.
 
 keys_of(Name, Authority, Dir) :-
     directory_file_path(Authority, Name, Dir).

@@ -20,7 +20,7 @@
 
 /** <module> A Chromium for tests
 
-Driven by chromedriver, in the words of the W3C's WebDriver.
+Driven by chromedriver, through the W3C WebDriver protocol.
 
 *Threading*: one thread at a time uses a browser.
 */
@@ -223,12 +223,12 @@ key(down, 0xE015).
 
 %!  browser_click(+Browser, +Selector) is det.
 %
-%   Click at the middle of the first element of Selector that is to be seen, as
-%   soon as there is one; or of Selector-Text, the one with that text.
+%   Click at the middle of the first visible element of Selector, as soon as
+%   there is one; or of Selector-Text, the one with that text.
 %
 %!  browser_hold(+Browser, +Selector, :Goal) is semidet.
 %
-%   The same, and Goal is called between pressing and letting go.
+%   The same, and Goal is called between pressing and releasing.
 %
 %!  browser_drag(+Browser, +From, +To) is det.
 %

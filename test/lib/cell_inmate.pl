@@ -18,9 +18,9 @@
 
 /** <module> Agents that have all rights inside their cell
 
-The rules of the host c give such rights: what call_with_depth_limit/3 calls is
-not looked at.  So an inmate calls any goal in the process of its cell, also
-the predicates by which that speaks to the gatekeeper.
+The rules of the host c give such rights: they do not check what
+call_with_depth_limit/3 calls. So an inmate calls any goal in the process of
+its cell, including the predicates that communicate with the gatekeeper.
 
 *Threading*: one test at a time.
 */
@@ -57,9 +57,9 @@ in_cell(Options, Quotas, Goal, Dir) :-
 
 %!  bait(?Name, -Value) is nondet.
 %
-%   What an inmate is to reach: `secret`, a file; `port` and `other`, where this
-%   process listens; `pid` of this process; `cell`, of one that runs a cell;
-%   `agent`, which rests on c; `audit`, the file.
+%   What an inmate tries to reach: `secret`, a file; `port` and `other`, where
+%   this process listens; `pid` of this process; `cell`, of one that runs a
+%   cell; `agent`, which rests on c; `audit`, the file.
 
 bait_set(Dir, [Inet,Unix]) :-
     directory_file_path(Dir, secret, Secret),
@@ -154,7 +154,7 @@ is_seen(ended(raised(error(permission_error(call, sandboxed, _), _))), A,
 is_seen(yes(test_ask(_, raised(error(Formal, _)))), A, refused(A, policy(_))) :-
     subsumes_term(permission_error(call, sandboxed, _), Formal).
 
-%   What the inmate adds to the program of its cell.
+%   Clauses that are added to the program of an inmate.
 
 helper((test_send(What) :- user:sends(What))).
 helper((sends(frame(Term)) :-

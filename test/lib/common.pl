@@ -114,7 +114,7 @@ project_file(Relative, Absolute) :-
 
 %!  with_tmp_dir(:Goal) is semidet.
 %
-%   Calls Goal(Dir) once, Dir being a directory that is gone afterwards.
+%   Calls Goal(Dir) once; the directory Dir is removed afterwards.
 
 with_tmp_dir(Goal) :-
     setup_call_cleanup(
@@ -226,7 +226,7 @@ thing(module(Module)) :-
 thing(process(Pid)) :-
     child_process(Pid).
 
-%   It may have ended since it was found.
+%   The process may have ended since it was found.
 
 system_thread(Thread) :-
     catch(thread_property(Thread, alias(Alias)),
@@ -253,7 +253,7 @@ parent(Pid, Parent) :-
 
 stat(File, State, Parent) :-
     catch(read_file_to_string(File, Text, []),
-          error(_, _), fail),           % it has ended
+          error(_, _), fail),           % the process has ended
     % the name, in parentheses, may hold blanks and parentheses itself
     split_string(Text, ")", "", Parts),
     last(Parts, Rest),

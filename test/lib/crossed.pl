@@ -4,7 +4,7 @@
           ]).
 :- use_module(library(prolog_wrap), [wrap_predicate/4]).
 
-/** <module> Modules of the platform that are called, by any thread
+/** <module> The modules of the platform that any thread calls
 
 Each predicate of these modules that has clauses is wrapped, but for those that
 are dynamic or transparent.
@@ -15,8 +15,8 @@ are dynamic or transparent.
 %!  crossing_begin is det.
 %!  crossed(-Modules:list) is det.
 %
-%   From now on it is noted which modules are called; Modules are those called
-%   since that, or since the last crossed/1.
+%   From now on called modules are recorded; Modules are those called since
+%   that, or since the last crossed/1.
 
 crossing_begin :-
     forall(own_module(Module),

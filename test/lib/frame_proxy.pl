@@ -49,7 +49,7 @@ for the main thread of a test.
 
 %!  frame_proxy_start(+Name, +Target, -Proxy, -Address) is det.
 %
-%   Links call the endpoint behind the proxy Name.
+%   Links name the endpoint behind the proxy Name.
 
 frame_proxy_start(Name, Target, Proxy, Address) :-
     relay_start(Target, pump, Proxy, Address),
@@ -93,7 +93,7 @@ happened(Events) :-
 
 %!  script_end(-Events:list) is det.
 %
-%   Events have happened, and no other will.
+%   End the script: Events have happened, and no other will.
 
 script_end(Events) :-
     with_mutex(frame_proxy, ( retractall(event(_, _)), happened(Events) )).

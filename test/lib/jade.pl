@@ -98,7 +98,7 @@ jade(Words, Answer) :-
     flush_output(In),
     answer(Answer).
 
-%   JADE itself prints there, too.
+%   JADE itself prints to this stream, too.
 
 answer(Answer) :-
     jvm(_, _, Out, _, _),

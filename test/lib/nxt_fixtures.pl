@@ -29,7 +29,7 @@ one.  Both are processes of their own behind pseudo-terminals.
 
 %!  with_peer(-Peer, -Port, :Goal) is semidet.
 %
-%   Calls Goal once while a peer is running at Port, as all here do.
+%   Calls Goal once while a peer is running at Port.
 
 with_peer(Peer, Port, Goal) :-
     project_file('test/lib/nxt_peer.py', File),

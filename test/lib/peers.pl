@@ -74,8 +74,8 @@ start(Peer-Options) :-
 start(Peer) :-
     start(Peer-[]).
 
-%   place(+Peer, +Options, +Port, -Known, -Args): it listens at Port, and is
-%   known by another where a proxy stands before it.
+%   place(+Peer, +Options, +Port, -Known, -Args): the peer listens at Port, and
+%   announces the port Known of its proxy if it has one.
 
 place(Peer, Options, Port, Known, [Behind, At]) :-
     option(proxy(Kind), Options),
@@ -140,7 +140,7 @@ stop_all :-
 
 peer_restart(Peer) :-
     (   frame_proxy(Peer, Proxy)
-    ->  relay_refuse(Proxy),            % if it was not a crash
+    ->  relay_refuse(Proxy),            % if the peer did not crash
         relay_admit(Proxy)
     ;   true
     ),

@@ -3,7 +3,7 @@
             client_authenticate/3       % +In, +Out, +Process
           ]).
 
-/** <module> A client that knows of the wire what doc/wire.md says
+/** <module> A client that is written from doc/wire.md alone
 
 *Threading*: any thread; the caller owns the streams.
 */

@@ -34,7 +34,7 @@ It has its data in a temporary directory, and listens at a socket there.
 %!  postgres_stop is det.
 %!  postgres_url(+Schema, -Url) is det.
 %
-%   A server runs; it does not, and has left nothing; the URL of a schema there.
+%   Start the server; stop it and remove its files; the URL of a schema there.
 
 postgres_start :-
     tmp_file(typhon_postgres, Dir),
@@ -93,8 +93,8 @@ postgres_url(Schema, Url) :-
 %!  with_postgres_relay(+Schema, -Url, :Goal) is semidet.
 %!  postgres_relay(+Order) is det.
 %
-%   Calls Goal once while the schema is at Url, too, of a machine that can
-%   `vanish` and `return`: these are Orders.
+%   Calls Goal once while the schema is reachable at Url, too, on a simulated
+%   machine that can `vanish` and `return`: these are Orders.
 
 with_postgres_relay(Schema, Url, Goal) :-
     setup_call_cleanup(relay_start(Pid, In, Out),
@@ -130,7 +130,7 @@ postgres_relay(Order) :-
                 *           PROGRAMS           *
                 *******************************/
 
-%   It refuses to run as root.
+%   PostgreSQL refuses to run as root.
 
 command(Name, Args0, File, Args) :-
     program(Name, Program),

@@ -30,8 +30,8 @@ robot_study(Name, Study) :-
 
 %!  measured(+Study, +Given, +Hosts, +Events, +Terms, -Point) is semidet.
 %
-%   Point is the first case with parameters Given, and what is measured where
-%   the network has logged Events and the arena Terms.
+%   Point is the first case with parameters Given, with its measures if the
+%   network has logged Events and the arena Terms.
 
 measured(Study, Given, Hosts, Events, Terms, Point) :-
     with_tmp_dir(in_directory(Study, Given, Hosts, Events, Terms, Point)).

@@ -88,9 +88,9 @@ meet :-
 
 %!  each_stop(+Scenario, +Program, +Link, +When, +Act) is det.
 %
-%   While frame 1 of Link waits, then while frame 2 does and so on, a is asked
-%   for all properties of the agent, if Act is `look`, or disposes of it, if it
-%   is `dispose`.
+%   While frame 1 of Link waits, then while frame 2 does and so on, a returns
+%   all properties of the agent, if Act is `look`, or disposes of it, if Act is
+%   `dispose`.
 %
 %   @error violated(What) see stopped/5.
 
@@ -140,7 +140,7 @@ prolog:error_message(violated(What, Goal)) -->
 
 %!  scenario(?Scenario, -Links) is nondet.
 %
-%   What happens on Links concerns Scenario.
+%   Scenario sends frames on Links.
 
 scenario(there_and_back, [a-b, b-a]).
 scenario(ring, [a-b, b-a, b-c, c-b, c-a, a-c]).
@@ -149,8 +149,8 @@ scenario(refused, [a-b, b-a]).
 scenario(follow, [a-b, b-a]).
 scenario(chase, [a-b, b-a, c-a, a-c, b-c, c-b]).
 
-%   start(+Scenario, +Program, +Tag, +Patience, -Id): Id stays unbound where a
-%   has died. Messages are waited for so many seconds.
+%   start(+Scenario, +Program, +Tag, +Patience, -Id): Id stays unbound if a has
+%   died. Agents wait for messages for Patience seconds.
 
 start(Scenario, Program, Tag, Patience, Id) :-
     program(Scenario, Program, Clauses),
@@ -167,7 +167,7 @@ start(Scenario, Program, Tag, Patience, Id) :-
 sender(follow, a).
 sender(chase, c).
 
-%   As peer_do/2, but fails where Peer, or what it needs for Goal, has died.
+%   As peer_do/2, but fails if Peer, or a process that Goal needs, has died.
 
 on(Peer, Goal) :-
     catch(peer_do(Peer, Goal), error(Formal, _), peer_died(Formal)).
@@ -327,7 +327,7 @@ as_without_events(chase, [a-[], b-Steps, c-[]]) :-
     msort(Steps, Sorted),
     Sorted == [1, 2, 3, 4, 5, 6, 7, 8, 9, 10, end(0)].
 
-%   steps(+Tag, -Steps): for each peer what was left there, in order.
+%   steps(+Tag, -Steps): for each peer the facts left there, in order.
 
 steps(Tag, Steps) :-
     findall(Peer-Whats,
@@ -354,9 +354,9 @@ demand(Goal, What) :-
 
 %   crashed(+Scenario, +Program, +Event, +Restart, -Happened) is det.
 %
-%   By Event a process crashes, and is started again: at once, if Restart is
-%   `now`, or, if it is `later`, when an agent has found it gone, is in doubt or
-%   has ended.
+%   Event crashes a process, which is restarted: at once if Restart is `now`;
+%   if it is `later`, when an agent has found it dead, is in doubt or has
+%   ended.
 %
 %   Throws error(violated(What), _).
 
@@ -377,7 +377,7 @@ crashed(Scenario, Program, Event, Restart, Happened) :-
     ).
 
 %   bring_back(+Restart, +Tag, +Peer, -Frames): Frames are those that other
-%   processes had got from Peer, as Process-Count.
+%   processes had received from Peer, as Process-Count.
 
 bring_back(Restart, Tag, Peer, Frames) :-
     wait_until(has_crashed(Peer), 30),
@@ -431,7 +431,7 @@ agrees(Scenario, Peer, Frames, Steps) :-
                     \+ is_gone(What) ),
             All),
     msort(All, Sorted),
-    sort(All, Sorted),                  % each once
+    sort(All, Sorted),                  % each step once
     (   ends(Scenario, Host, End),
         memberchk(Host-Ends, Steps),
         memberchk(End, Ends)
@@ -444,12 +444,12 @@ clone_agrees(a, [], []) :-
 clone_agrees(a, [], [clone]).
 clone_agrees(b, [host_unreachable], []).
 clone_agrees(b, [parent], []).
-clone_agrees(b, [parent], [clone]).     % of the process that is there now
+clone_agrees(b, [parent], [clone]).     % of the restarted process
 
 refused_agrees(a, []).
 refused_agrees(b, [host_unreachable(_)]).
 refused_agrees(b, [move_refused(_, Why)]) :-
-    memberchk(Why, [token, unknown_host]).  % that host comes a bit later
+    memberchk(Why, [token, unknown_host]).  % that host starts a little later
 
 ends(there_and_back, a, 2).
 ends(ring, a, 3).
@@ -466,7 +466,7 @@ messages_agree(Scenario, Peer, Frames, All) :-
     ),
     (   Scenario == follow,
         Peer == b,
-        memberchk(a-0, Frames)          % a has not heard that it came
+        memberchk(a-0, Frames)          % a is not notified of the arrival
     ->  length(Numbers, 10)
     ;   true
     ).
@@ -474,15 +474,15 @@ messages_agree(Scenario, Peer, Frames, All) :-
 %   may_be_lost(+Scenario, +Peer, +Frames, +All): a process that has not
 %   released the agent still has it.
 
-may_be_lost(_, a, _, []) :-             % it had not left
+may_be_lost(_, a, _, []) :-             % the agent had not left
     !.
-may_be_lost(Scenario, a, _, All) :-     % it may have come back
+may_be_lost(Scenario, a, _, All) :-     % the agent may have returned
     !,
     memberchk(Scenario, [there_and_back, ring]),
     last_before_home(Scenario, Last),
     memberchk(Last, All).
 may_be_lost(Scenario, Peer, Frames, _) :-
-    hears(Scenario, Peer, Other),
+    notified(Scenario, Peer, Other),
     memberchk(Other-Count, Frames),
     Count > 0,
     !.
@@ -490,12 +490,12 @@ may_be_lost(Scenario, Peer, Frames, _) :-
 last_before_home(there_and_back, 1).
 last_before_home(ring, 2).
 
-%   hears(+Scenario, +Peer, -Other): Other is notified of the arrival at Peer,
-%   which implies that the agent is lost with Peer.
+%   notified(+Scenario, +Peer, -Other): Other is notified of the arrival at
+%   Peer, which implies that the agent is lost with Peer.
 
-hears(there_and_back, b, a).
-hears(ring, b, a).
-hears(ring, c, b).
-hears(ring, c, a).                      % its home
-hears(follow, b, a).
-hears(chase, b, a).
+notified(there_and_back, b, a).
+notified(ring, b, a).
+notified(ring, c, b).
+notified(ring, c, a).                   % its home
+notified(follow, b, a).
+notified(chase, b, a).

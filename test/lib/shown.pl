@@ -3,7 +3,7 @@
             shown_in_file/3             % +Document, +Begin, +File
           ]).
 
-/** <module> What a document shows in a block
+/** <module> Blocks of documents
 
 *Threading*: reads and writes files.
 */
@@ -13,8 +13,8 @@
 
 %!  shown(+Document, +Begin, -Text:string) is semidet.
 %
-%   Text is what follows the first Begin in Document, a file of the project, up
-%   to the end of the block.
+%   Text follows the first Begin in Document, a file of the project, up to the
+%   end of the block.
 
 shown(Document, Begin, Text) :-
     project_file(Document, File),

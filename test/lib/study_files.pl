@@ -7,7 +7,7 @@
             pandas_python/1             % -Python
           ]).
 
-/** <module> Studies that are made up
+/** <module> Studies for tests
 
 *Threading*: the thread that loads studies.
 */
@@ -57,8 +57,8 @@ save_lines(Dir, Name, Lines) :-
 
 %!  study_command(+Dir, +Arguments, -Status, -Text) is det.
 %
-%   What experiments/study.pl does with Arguments in Dir: its exit status,
-%   and all that it prints.
+%   The exit status and the output of experiments/study.pl with Arguments in
+%   Dir.
 %
 %   @error unexpected(Status, Text) if the status is another
 
@@ -92,7 +92,8 @@ messages(Goal, Text, Dir) :-
 
 %!  pandas_python(-Python) is semidet.
 %
-%   Python is the one that .ci/pandas has made; fails if there is none.
+%   Python is the interpreter that .ci/pandas has installed; fails if there is
+%   none.
 
 pandas_python(Python) :-
     missing([pandas], []),

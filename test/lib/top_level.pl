@@ -15,8 +15,9 @@
 
 %!  typed(+Lines, +Dir, -Written:list(string)) is det.
 %
-%   Written is what a top level in Dir, that has loaded library(typhon), says
-%   to Lines, line by line and without empty ones.  It ends with its input.
+%   Written is the output of a top level in Dir, that has loaded
+%   library(typhon), for Lines, line by line and without empty ones.  The top
+%   level ends with its input.
 
 typed(Lines, Dir, Written) :-
     directory_file_path(Dir, typed, File),

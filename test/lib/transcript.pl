@@ -37,8 +37,8 @@ with a deadline may lose the beginning of a line.
 %
 %   Sessions are pairs of a line number and the lines of a session; all are
 %   typed at one top level in Dir. Differences are pairs of a line number and
-%   what is not as it was shown. Terminal is terminal(Columns, Colour), Colour
-%   a boolean; default is terminal(80, true).
+%   the deviation from what the document shows. Terminal is terminal(Columns,
+%   Colour), Colour a boolean; default is terminal(80, true).
 
 transcript_differences(Sessions, Dir, Differences) :-
     transcript_differences(Sessions, terminal(80, true), Dir, Differences).
@@ -216,8 +216,8 @@ session(Steps, Line, Top, Line:Difference) :-
         Difference = unexpected(Report)
     ).
 
-%   A program that looks for a process of its own that has ended may connect to
-%   its port, which is ours now.
+%   A program that looks for an ended process of its own may connect to the
+%   port of that process, which is ours now.
 
 by_others(Report) :-
     sub_string(Report, _, _, _, "refused a client at 127.0.0.1: its cookie \c
@@ -296,7 +296,7 @@ cross_out(Wanted, Missing, [Wanted|Missing0]-Reports) :-
                 *          COMPARING           *
                 *******************************/
 
-%   Without the bindings of $Var, and without what ends a line of bindings.
+%   Without the bindings of $Var, and without the end of a line of bindings.
 
 answer_lines(Goal, Lines0, Lines) :-
     exclude(repeats_variable(Goal), Lines0, Lines1),

@@ -29,8 +29,8 @@
 %!  travel(+Peer, +Route, +Hops) is semidet.
 %!  travel(+Peer, +Route, +Hops, +Options) is semidet.
 %
-%   An agent that is created on Peer goes round Route for Hops hops, and
-%   leaves step(Id, K) at every step: true if it does each once and ends.
+%   An agent that is created on Peer goes round Route for Hops hops, and leaves
+%   step(Id, K) at every step: true if it makes each step once and ends.
 
 travel(Peer, Route, Hops) :-
     travel(Peer, Route, Hops, []).
@@ -57,7 +57,7 @@ set_out(Peer, Route, Hops, Id, Options) :-
 
 %!  heavy(+Peer, +Route, +Hops, +Facts, -Id) is det.
 %
-%   As set_out/4; it carries as many facts.
+%   As set_out/4; the agent carries so many facts.
 
 heavy(Peer, Route, Hops, Facts, Id) :-
     walker([_, _|Clauses]),
@@ -156,8 +156,8 @@ swapper(Peer, [Here, There, Aside], Rounds, Id) :-
 
 %!  reader(+Peer, +Host, +Count, -Id) is det.
 %
-%   An agent that goes to Host and there notes what I the next Count
-%   messages I-Text have.
+%   An agent that goes to Host and there leaves I of each of the next Count
+%   messages I-Text.
 
 reader(Peer, Host, Count, Id) :-
     Clauses =
@@ -172,8 +172,8 @@ reader(Peer, Host, Count, Id) :-
 %!  collector(+Peer, +Route, +Count, -Id) is det.
 %!  collected(+Peer, +Id, -CountSum) is semidet.
 %
-%   An agent that hops until it has got Count messages n(I), and then
-%   leaves how many they were, and their sum.
+%   An agent that hops until it has got Count messages n(I), and then leaves
+%   their number and their sum.
 
 collector(Peer, Route, Count, Id) :-
     Clauses =
@@ -207,10 +207,10 @@ collected(Peer, Id, Count-Sum) :-
 %!  bouncer(+Peer, +Route, +Hops, -Id) is det.
 %!  bounced(+Peer, +Id, -Hops, -Pace) is semidet.
 %
-%   An agent that waits for `go` and then hops without pause.  At the end
-%   it leaves how many hops it made, and First-Last, the processor time of
-%   Peer's process in the first and in the last tenth of them; every other hop
-%   leads to Peer.
+%   An agent that waits for `go` and then hops without pause.  At the end it
+%   leaves the number of its hops, and First-Last, the processor time of Peer's
+%   process in the first and in the last tenth of them; every other hop leads
+%   to Peer.
 
 bouncer(Peer, Route, Hops, Id) :-
     Tenth is Hops//20*2,

@@ -7,8 +7,8 @@
 :- use_module(library(typhon)).
 :- use_module(library(typhon/network)).
 
-%   The interfaces that a network of six hosts is spread over, and what an
-%   agent that visits all of them brings home.
+%   The interfaces over which a network of six hosts is spread, and the facts
+%   that an agent collects on all of them.
 
 network_over(Here, There, Rsh) :-
     set_setting(typhon_children:ssh, Rsh),

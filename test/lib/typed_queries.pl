@@ -1,5 +1,5 @@
-% Loaded by the top level of a transcript: marks in what it prints where the
-% echo of a query ends and its output begins. The query `next` marks the end.
+% Loaded by the top level of a transcript: marks in the output where the echo
+% of a query ends and its output begins. The query `next` marks the end.
 
 :- multifile user:expand_query/4.
 :- dynamic user:expand_query/4.

@@ -12,7 +12,7 @@
 :- include('../../../agents/allocation/common/requirements').
 :- include('../../../agents/allocation/allocator/trail').
 
-/** <module> Allocation: equations, and decisions on a host of a few facts
+/** <module> Allocation: equations, and decisions on a simulated host
 */
 
 close_to(X, Y) :-
@@ -22,8 +22,8 @@ close_to(X, Y) :-
                 *           EQUATIONS          *
                 *******************************/
 
-%   lasts(+Chi, +Found, +Visited, -Hops): until the resource is used up, on
-%   hosts that are known.
+%   lasts(+Chi, +Found, +Visited, -Hops): the number of hops on known hosts
+%   until the resource is used up.
 
 lasts(Chi, _, _, 0) :-
     exhausted(Chi, 0.01),
@@ -223,8 +223,7 @@ test(wrong_setting, error(domain_error(setting, chj-1))) :-
                 *            A ROBOT           *
                 *******************************/
 
-%   robot(+Facts): it can push, and a push costs 3; a throw nothing but
-%   time.
+%   robot(+Facts): a robot that can push; a push costs 3, a throw only time.
 
 robot(Facts) :-
     fake_agent('agents/allocation/robot.pl',
@@ -235,7 +234,7 @@ robot(Facts) :-
                []),
     hear.
 
-%   hear: what the agent tells others is among what it did.
+%   The messages that the agent sends are among its recorded acts.
 
 hear :-
     retractall(fake_agent:tell(_, _)),
@@ -245,7 +244,7 @@ hear :-
 need(Task, need(Task, [push], [])).
 need(Task, Priority, need(Task, [push], [priority(Priority)])).
 
-%   say(+From, +Message, -Acts): what the robot does then.
+%   say(+From, +Message, -Acts): Acts are the robot's reaction to Message.
 
 say(From, Message, Acts) :-
     retractall(fake_host:did(_)),
@@ -261,7 +260,7 @@ reserved(Ref, From) :-
 hold(Ref, Phase) :-
     fake_agent:hold(Ref, _, _, _, Phase).
 
-%   At the time when it is due to ask or give up.
+%   Sets the clock to the time at which the agent asks or gives up.
 
 overdue(Acts) :-
     fake_agent:due(Time, _),
@@ -443,8 +442,8 @@ test(invalid_messages_are_ignored, Acts == []) :-
                 *         AN ALLOCATOR         *
                 *******************************/
 
-%   allocator(+Facts): it needs two robots that push and one that lifts,
-%   has made two hops, and is at the end of its third.
+%   allocator(+Facts): an allocator that needs two robots that push and one
+%   that lifts, has made two hops, and is at the end of its third.
 
 allocator(Facts) :-
     fake_agent('agents/allocation/allocator.pl',

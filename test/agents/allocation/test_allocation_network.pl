@@ -13,8 +13,9 @@
 
 /** <module> Allocation on small networks
 
-Every test ends with all robots free, and looks in the log for any that was
-reserved twice.  A process is killed with whatever is in it.
+At the end of every test all robots must be free, and the log must not show
+any robot that was reserved twice. A process is killed with all its hosts and
+agents.
 */
 
 %   allocation(+Topology, +Options, +Settings, :Goal): Goal(Hosts, File),
@@ -32,7 +33,7 @@ allocation_in(Topology, Options, Settings, Goal, Dir) :-
                       [clock(40), seed(1), log(File)|Options]),
         ( network_property(Network, hosts(Hosts)),
           maplist(push_robot(Settings), Hosts),
-          maplist(push_robot(Settings), Hosts),     % no second one
+          maplist(push_robot(Settings), Hosts),     % no second robot
           once(call(Goal, Hosts, File)) ),
         network_stop(Network)),
     log_events(File, Events),
@@ -71,7 +72,7 @@ so_far(File, Whats) :-
     logged(File, Events),
     findall(What, member(event(_, _, _, What), Events), Whats).
 
-%   count(+File, +What, +Count): so often it happened; the log may lag.
+%   count(+File, +What, +Count): What is logged Count times; the log may lag.
 
 count(File, What, Count) :-
     wait_until(( so_far(File, Whats),
@@ -163,8 +164,8 @@ too_long(Hosts, File) :-
     count(File, executed(_, _, _), 0),
     wait_until(maplist([H]>>remote(H, host_load(1)), Hosts), 20).
 
-%   A robot is out of order until the urgent task is done, so the first one
-%   cannot be.
+%   A robot is out of order until the urgent task is done, so the first task
+%   cannot be done before.
 
 test(urgent_task_is_served_first) :-
     allocation(ring(3), [hop_time(uniform(0.1, 0.2))], [], urgent).
@@ -222,7 +223,7 @@ all_of_others(Hosts, Robot) :-
     all_free(Others),
     robot_status(Robot, failed).
 
-%   Else one robot is reserved again and again, with a reward each time.
+%   Otherwise one robot is reserved repeatedly, with a reward each time.
 
 test(failed_robots_are_asked_again_after_a_back_off) :-
     allocation(ring(3), [hop_time(uniform(0.2, 0.4))], [], fail_at_once).
@@ -264,8 +265,8 @@ disposed_executing(Hosts, File) :-
     all_free(Hosts),
     count(File, executed(_, _, _), 0).
 
-%   Robots that are not reached hear it from the allocator that rests, or
-%   hear nothing of one that has ended.
+%   Robots that are not reached are notified by the allocator that rests; they
+%   get no message from one that has ended.
 
 test(children_reach_no_robot) :-
     allocation(ring(4), [hop_time(uniform(0.1, 0.2))],
@@ -348,7 +349,8 @@ kill(Pid-Hosts) :-
     forall(member(Host, Hosts), assertz(killed(Host))),
     process_kill(Pid, kill).
 
-%   part(+Agent, +Blocks, -Block, -Others): Block is where it stands.
+%   part(+Agent, +Blocks, -Block, -Others): Block is that of the process in
+%   which Agent is.
 
 part(Agent, Blocks, Pid-Block, Others) :-
     agent_property(Agent, host(Host)),
@@ -358,8 +360,8 @@ part(Agent, Blocks, Pid-Block, Others) :-
 
 :- begin_tests(allocation_killed, [cleanup(retractall(killed(_)))]).
 
-%   Stopping a network of which processes have died takes some seconds, so
-%   they die one after the other in one.
+%   Stopping a network with dead processes takes some seconds, so the processes
+%   die one after the other in one network.
 
 test(killed_processes) :-
     allocation(random(9, 1.0), [processes(3)], [watch-10, patience-100],
@@ -370,7 +372,7 @@ killed(Hosts, File) :-
     allocator_killed(Hosts, Blocks, Left),
     robots_killed(Left, File).
 
-%   It waits for a tenth robot.
+%   The allocator waits for a tenth robot.
 
 allocator_killed([Host|_], Blocks, Left) :-
     push(t, 10, [], Host, [chi-1.0e30], Agent),
@@ -379,8 +381,9 @@ allocator_killed([Host|_], Blocks, Left) :-
     kill(Block),
     forall(member(_-Others, Left), all_free(Others)).
 
-%   Two robots of six are in order, one in each process; when that one dies
-%   where the allocator is not, nor is on its way to, others are repaired.
+%   Two robots of six are in order, one in each process. When the process dies
+%   in which the allocator is not, and to which it is not moving, other robots
+%   are repaired.
 
 robots_killed(Blocks, File) :-
     Blocks = [_-[_|Out1], _-[Host|Out2]],

@@ -8,7 +8,7 @@
 
 /** <module> Murdoch and ANTA, one node at a time
 
-Floods, and the tree of ANTA; for bids and awards see test_auction_sides.
+Floods, and the tree of ANTA. Bids and awards: see test_auction_sides.
 */
 
                 /*******************************
@@ -88,7 +88,7 @@ test(suppressed_duplicate_occupies_the_channel, Dues == [11, 13, 14]) :-
             Dues).
 test(processor_delay_does_not_accumulate) :-
     node(murdoch, [setting(hop_time, uniform(1, 1))]),
-    at(10),                             % it was due at 3
+    at(10),                             % the message was due at 3
     link(a, 3, flood(77, start(x))),
     findall(Due, retract(fake_host:did(send(_, link(Due, _, _)))), Dues),
     sort(Dues, [Due]),
@@ -108,7 +108,7 @@ test(stopped_host_is_forgotten) :-
     fake_agent:flood(start(x)),
     bodies([a-_, c-_]),
     \+ fact(peer(b, _)),
-    fact(sent(start, 3)),               % it was tried
+    fact(sent(start, 3)),               % the send was counted
     fake_agent:flood(start(y)),
     fact(sent(start, 5)).
 test(counts_are_logged_once, Logged == [communications(start, 3)]) :-
@@ -246,7 +246,7 @@ test(root_accepts_flooded_messages_and_floods_its_answer) :-
     sent(_),
     link(b, 0, only(owner(Job, bids(1, [x-[1-3]])))),
     link(c, 0, flood(90, flooded(owner(Job, bids(1, [y-[1-1]]))))),
-    bodies([a-_, b-_]),                 % it is passed on all the same
+    bodies([a-_, b-_]),                 % the flood is forwarded all the same
     at(10),
     bodies(Bodies),
     Award = award(Job, 1, [y-1]),

@@ -16,13 +16,13 @@
 /** <module> Murdoch and ANTA on small networks
 
 Counts are compared with the values that follow from the graph.  Every test
-looks in the log for robots that were reserved twice, or still are at the end;
-where hosts die those of these are left out.
+checks that no robot was reserved twice, and that none is reserved at the end.
+Robots of dead hosts are ignored.
 */
 
 %   auctions(+Mechanism, +Topology, +Options, +Robots, :Goal): Goal(Hosts,
-%   File), with robots that push on the hosts of those numbers, the cheaper
-%   the lower the number.  Of Options, auction(List) is for auction_start/3.
+%   File), with robots that push on the hosts of those numbers; hosts of lower
+%   numbers cost less. Of Options, auction(List) is for auction_start/3.
 
 :- meta_predicate auctions(+, +, +, +, 2).
 
@@ -49,7 +49,7 @@ auctions_in(Mechanism, Topology, Options0, Robots, Goal, Dir) :-
     reservation_faults(Events, Faults),
     exclude(died, Faults, []).
 
-%   By default no node is given up soon.
+%   With the default settings no node is given up soon.
 
 unhurried(Options0, [settings(Settings)|Options]) :-
     select_option(settings(Settings0), Options0, Options, []),
@@ -71,8 +71,8 @@ so_far(File, Whats) :-
     logged(File, Events),
     findall(What, member(event(_, _, _, What), Events), Whats).
 
-%   all(+File, +Pattern, ?Found): the logged events, which may lag, become
-%   Found.
+%   all(+File, +Pattern, ?Found): waits until the logged events, which may lag,
+%   are Found.
 
 all(File, Pattern, Found) :-
     wait_until(( so_far(File, Whats),
@@ -90,14 +90,14 @@ counted(Mechanism, Hosts, Expected) :-
     wait_until(( auction_counts(Mechanism, Hosts, Counts),
                  Counts == Expected ), 40).
 
-%   Virtual time, which stands still while a test looks or does something.
+%   Virtual time stands still while a test checks or acts.
 
 time_passes(Hosts, Seconds) :-
     network_property(Network, hosts(Hosts)),
     network_advance(Network, Seconds).
 
-%   Exact counts need virtual time: in real time, a bid that comes late
-%   because others keep the computer busy is passed on by itself.
+%   Exact counts need virtual time: in real time a bid that is late because of
+%   load is forwarded separately.
 
 to_the_last([clock(virtual), auction([slack(5)]), hop_time(uniform(0.2, 0.4))]).
 
@@ -239,7 +239,7 @@ step_by_step(Mechanism, Hosts, File) :-
     findall(R, member(released(R, _, t), After), Released),
     msort(Released, [A, B, C]).
 
-%   What the hosts log of their agents.
+%   The events of agents in the logs of Hosts.
 
 of_agents(created).
 of_agents(ended(_)).
@@ -328,7 +328,7 @@ replaced(Mechanism, Hosts, File) :-
     happened(File, executed(Fourth, _, t)),
     all(File, executed(Second, _, t), []).
 
-%   The node of a chain that is cut off from its parent has another way.
+%   A node of the chain whose parent is cut off has another path.
 
 test(a_parent_has_vanished) :-
     auctions(anta, edges([1-2, 2-3, 3-4]),
@@ -428,7 +428,7 @@ auctioneer_stops(Mechanism, Hosts, File) :-
     happened(File, completed(u)),
     all_free(Others).
 
-%   A robot's host in a process of its own, which does not say that it goes.
+%   The host of a robot, in its own process, which ends without a goodbye.
 
 test(a_process_is_killed) :-
     patient(Patient),

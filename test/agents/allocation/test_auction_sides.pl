@@ -7,7 +7,7 @@
 
 /** <module> The two sides of an auction, one node at a time
 
-The side of a robot and that of a task; the node is one of Murdoch.
+Contractors of robots and auctioneers of tasks, on a node of Murdoch.
 */
 
                 /*******************************
@@ -201,7 +201,7 @@ test(robot_learns_whether_it_is_still_needed) :-
 
 :- begin_tests(auction_auctioneer).
 
-%   An auctioneer that wants two robots, beside whom there are x, y, z.
+%   An auctioneer that needs two robots; its bidders are x, y and z.
 
 auctioneer(Facts, Job) :-
     node(murdoch, [setting(window, 10), setting(answer, 10)|Facts]),
@@ -287,7 +287,7 @@ test(completes_and_releases_when_all_winners_are_done) :-
     said(b, release(Job, 1, all)),
     logged([completed(t)]),
     \+ fact(job(_, _, _, _, _, _)),
-    report(Job, 1, z, done),            % once more
+    report(Job, 1, z, done),            % a second report
     silent.
 test(done_may_come_before_reserved) :-
     auctioneer([], Job),
@@ -331,7 +331,7 @@ test(intervals_are_bounded) :-
     node_backs_off(30, Job, Intervals),
     forall(member(Interval, Intervals), ( Interval >= 4, Interval =< 14 )).
 
-%   One bid each time, and always too few.
+%   Each round gets one bid, which is too few.
 
 node_backs_off(0, _, []) :-
     !.

@@ -17,8 +17,8 @@
                 *           DECISIONS          *
                 *******************************/
 
-%   report(+Delta, +Times, -Report): of one task after the other, when it was
-%   completed on hosts.
+%   report(+Delta, +Times, -Report): Times are those at which hosts completed
+%   the tasks, one after the other.
 
 report(Delta, Times, report([workers-1, delta-Delta], [], Facts)) :-
     findall(done(Task, Time), ( nth1(Task, Times, Some), member(Time, Some) ),

@@ -79,7 +79,8 @@ learner(Settings, Tuples) :-
     append(Facts0, Clauses, Facts),
     fake_agent('agents/learning/learner.pl', Facts, [trainer(t)|Tuples]).
 
-%   feeds_back(+Units, +Outcome): to the next plan, whatever it is.
+%   feeds_back(+Units, +Outcome): the feedback to the next plan, whatever the
+%   plan is.
 
 feeds_back(Units, Outcome) :-
     fake_reply(t-execute(_, _), t-feedback(begin, Units, Outcome)).
@@ -90,7 +91,7 @@ shares(Other, Units, Solution) :-
 lives :-
     once(fake_agent:main).
 
-%   acts(-Acts): what it did; moves one after the other are moves(Count).
+%   acts(-Acts): the acts of the agent; consecutive moves are moves(Count).
 
 acts(Acts) :-
     did(Acts0),

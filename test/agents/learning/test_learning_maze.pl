@@ -21,7 +21,7 @@ Mazes here are 5 by 5: from (5,0) to the light at (0,5).
 
 :- dynamic setting/2.
 
-%   maze(+Settings): what the following goals are about.
+%   maze(+Settings): set the maze of the goals that follow.
 
 maze(Settings) :-
     retractall(setting(_, _)),
@@ -44,7 +44,7 @@ close_to(X, Y) :-
 does(Actions, State0, State) :-
     foldl(act, Actions, State0, State).
 
-%   units(+Actions, +State0, -Units): the shareable units of them.
+%   units(+Actions, +State0, -Units): the shareable units of Actions.
 
 units(Actions, State0, Units) :-
     steps(Actions, State0, Steps),
@@ -196,7 +196,7 @@ random_walk(Length, Walk) :-
     findall(Action, ( between(1, Length, _), random_member(Action, Actions) ),
             Walk).
 
-%   From the state of its first vector it leads to its last.
+%   The path leads from the state of its first vector to that of its last.
 
 repeats(unit(V0, Actions, V)) :-
     V0 = sv(_, _, Heading, Cell),
@@ -292,7 +292,7 @@ random_links(Links) :-
             Links0),
     Links = [1-[a]-2|Links0].
 
-%   Plan is that of a branch no other one is better than.
+%   Plan belongs to a branch that is at least as good as all others.
 
 best_branch(Links, Plan) :-
     findall(key(Length, Light, Saving),

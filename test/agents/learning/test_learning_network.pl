@@ -43,7 +43,7 @@ network_in(Topology, Options, Goal, Dir) :-
 learn(Hosts, Options, Agents) :-
     learn(Hosts, [], Options, Agents).
 
-%   Settings come before those that make for short journeys.
+%   Settings precede those that make journeys short.
 
 learn(Hosts, Settings0, Options, Agents) :-
     append(Settings0, [size-5, rho_max-4], Settings),
@@ -54,19 +54,20 @@ learn(Hosts, Settings0, Options, Agents) :-
 all_end(Agents) :-
     forall(member(Agent, Agents), agent_join(Agent, done, 60)).
 
-%   await(+File, +Pattern): until such a thing is logged.
+%   await(+File, +Pattern): waits until an event that matches Pattern is
+%   logged.
 
 await(File, Event) :-
     wait_until(( logged(File, Events), memberchk(Event, Events) ), 30).
 
-%   at_least(+File, +Event, +Count): as many of them.
+%   at_least(+File, +Event, +Count): at least Count such events are logged.
 
 at_least(File, Event, Count) :-
     wait_until(( logged(File, Events),
                  aggregate_all(count, member(Event, Events), Found),
                  Found >= Count ), 60).
 
-%   The way that an agent has found, in the end.
+%   The path that an agent has found at the end.
 
 converged(Events, Agent) :-
     member(event(_, _, Agent, converged(Count, Hops, Actions)), Events),
@@ -138,8 +139,8 @@ unshared(Hosts, File) :-
     logged(File, Events),
     \+ memberchk(event(_, _, _, shared(_, _)), Events).
 
-%   There is a place for one besides the trainer.  Only when the agent that
-%   has it at B has gone something is executed there.
+%   B has capacity for one agent besides the trainer. No plan is executed there
+%   until the agent at B has left.
 
 full_queue([A, B, C], File) :-
     learn([A, B, C], [agents(0)], []),
@@ -159,7 +160,7 @@ lodger(Host, Agent) :-
                            (main :- receive(_-go)) ]),
                  Agent, [host(Host)]).
 
-%   At A, which has lost its link, it tries again and again.
+%   At A, which has lost its link, the agent retries until it succeeds.
 
 isolated([A, B, C], File) :-
     unlink(A, B),
@@ -179,8 +180,9 @@ lingers(Agent, Until) :-
     Sub = receive_until(_, Until, _),
     !.
 
-%   mute(+Host, +Where, -Agent): stands in the queue of Host, goes on to Where
-%   without a word, says so when it is asked, and does not answer.
+%   mute(+Host, +Where, -Agent): an agent that waits in the queue of Host,
+%   moves on to Where without notice, reports its host when asked, and does not
+%   answer.
 
 mute(Host, Where, Agent) :-
     agent_create(clauses([ (:- agent(mute)),
@@ -198,7 +200,7 @@ disposed([A, B], File) :-
     all_end([Learner]),
     \+ remote(B, sense(queued(_))).
 
-%   The first is asked before its process is killed, the second after.
+%   The first agent is queried before its process is killed, the second after.
 
 killed([A, B, C, _], File) :-
     mute(B, C, Mute1),
@@ -217,7 +219,7 @@ killed([A, B, C, _], File) :-
 process_of(Host, Pid) :-
     remote(Host, current_prolog_flag(pid, Pid)).
 
-%   With an algorithm that never plans anything, then with the first again.
+%   First an algorithm that never plans anything, then the original one.
 
 exchanged(Hosts, File) :-
     learn(Hosts, [size-20], [agents(3)], Agents),
@@ -281,7 +283,7 @@ count_executed(Events, Count) :-
                   member(event(_, _, _, executed(_, _, _, _)), Events),
                   Count).
 
-%   It lingers before it assimilates again.
+%   The agent pauses before it assimilates again.
 
 assimilates(Agent) :-
     wait_until(( agent_property(Agent, goals(Goals)),

@@ -9,7 +9,7 @@
 :- use_module(library(typhon)).
 :- use_module(library(typhon/kernel/base/prng)).
 
-/** <module> Printers, and what finds good settings for them
+/** <module> Printers, and algorithms that find good settings
 
 See test_algorithms.pl for agents on a network.
 */
@@ -29,7 +29,7 @@ first_page(Seed, Vector) :-
     fake_agent:start(Chance, State),
     fake_agent:sensed(State, Vector).
 
-%   pages(+Actions, -State): what comes of them, without noise.
+%   pages(+Actions, -State): the state after Actions, without noise.
 
 pages(Actions, State) :-
     chance_seed(1, Chance),
@@ -45,7 +45,8 @@ done(Action, State0, State) :-
 
 :- begin_tests(settings, [setup(printers([]))]).
 
-%   Without differences: mode photo wants density 6, glossy paper heat 6.
+%   With equal printers the best density for mode photo is 6, and the best heat
+%   for glossy paper is 6.
 
 test(quality_by_hand, [ setup(printers([setting(difference, 0.0)])),
                         cleanup(printers([])) ]) :-
@@ -268,7 +269,7 @@ pages_of(Algorithm, Count, Seeds, Most, Pages) :-
             All),
     length(Seeds, Runs),
     Wanted is Runs * Count,
-    length(All, Wanted),                % all have
+    length(All, Wanted),                % all agents have reached it
     sum_list(All, Pages).
 
 test(climb_beats_random_search) :-

@@ -77,7 +77,8 @@ test(equation_6_5, L1-L2 == 17-10) :-
 test(infinite_lifetime_is_not_prolonged, L == inf) :-
     prolonged(inf, 1, 7, L).
 
-%   A full agent that gets no reward, among no others: thesis parameters.
+%   An agent with full resource, alone and without rewards; the parameters are
+%   those of the thesis.
 
 test(nine_clones, Counts == [3, 2, 2, 1, 1, 0]) :-
     spend(round, 6, 100, Counts).
@@ -106,7 +107,7 @@ test(properties, [ forall(between(1, 100, Seed)) ]) :-
     Resource1 >= min(100, Resource0 + 15*Reward),
     Resource1 =< Resource0 + 15*Reward + 0.1*exp(1),
     clones(Rounding, Pressure, Resource1, 100, Count0),
-    Count0 =< Pressure,                 % never more than fit
+    Count0 =< Pressure,                 % never more than there is capacity for
     conferred(Resource1, Count0, 10, Resource, Count),
     memberchk(Count, [0, Count0]),
     close_to(Resource1, Resource + 10*Count),
@@ -250,8 +251,9 @@ test(resources_given_to_a_clone) :-
 
 :- end_tests(controller).
 
-%   What the queue tells agents that say Mail, in turn.  When nothing more
-%   comes the head is given up, and in the end it waits for ever.
+%   The answers of the queue to messages Mail of agents, in sequence. Without
+%   further messages the head is removed, and at the end the queue waits
+%   without a limit.
 
 told(Mail, Told) :-
     fake_agent('agents/population/queue.pl', [], []),
@@ -294,8 +296,8 @@ test(vanished_head_is_removed,
                 *           DEMAND             *
                 *******************************/
 
-%   Agents that are rewarded wherever they go, on three hosts: they fill
-%   the queues, and there is never one more.
+%   Agents on three hosts are rewarded at each visit: they fill the queues, and
+%   no queue ever overflows.
 
 harvester([ ":- agent(harvester, [state([harvest/1])]).",
             ":- include(agents(population/cloning)).",

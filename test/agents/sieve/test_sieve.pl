@@ -16,8 +16,8 @@ payload(bits, _).
 
 /** <module> The idiotypic sieve
 
-Equations against numbers; guard and antibodies on one host; the whole on
-networks.
+Equations compared with numbers; guard and antibodies on one host; complete
+sieves on networks.
 */
 
 close_to(X, Y) :-
@@ -217,7 +217,7 @@ alone([Host], File) :-
     affinity(Antigen, Antibody, Psi),
     Psi >= 4,
     Wait >= 20,
-    antigen_attack([Host], Antigen),    % now there is somebody
+    antigen_attack([Host], Antigen),    % now there is an antibody
     settled(File, 2),
     told(File, Later),
     memberchk(served(Antigen, Antibody, _, 1), Later).
@@ -300,7 +300,7 @@ attacks(Hosts, File) :-
     bits('11111', B),
     antigen_attack(Hosts, A),
     settled(File, 10),
-    told(File, First),              % late ones are served by what others drew
+    told(File, First),  % later antigens are answered by antibodies drawn before
     aggregate_all(count, member(generated(_, _, _), First), Drawn),
     Drawn > 0,
     wait_until(count(File, born(host, _), Drawn), 20),
@@ -365,7 +365,7 @@ storm(Hosts, File) :-
     count(File, died(_, _), Died),
     Born - Died =< 16.                  % and four guards
 
-%   Most agents there were at a time, until all attacks are settled.
+%   The largest number of agents at a time, until all attacks are settled.
 
 watch(File, Attacks, Most) :-
     nb_setval(most, 0),

@@ -3,7 +3,7 @@
 /** <module> Programs round obstacles: payloads(sieve/maze)
 
 The boards against a breadth-first search, the steps of programs counted by
-hand, and what is found by drawing programs at random.
+hand, and programs drawn at random.
 */
 
 :- use_module('../../lib/common').
@@ -36,8 +36,8 @@ program(bends, [ (left :- wall(ahead), free(left)),
 program(spins, [ (left :- free(ahead)), (left :- wall(ahead)) ]).
 program(bumps, []).
 
-%   by_hand(Name, Antigen, Xi): Xi is 31, less what the program needs more than
-%   the shortest way, by hand.
+%   by_hand(Name, Antigen, Xi): Xi is 31 less the steps that the program needs
+%   beyond the shortest path, counted by hand.
 
 by_hand(along, block(left), 31).
 by_hand(along, box(left), 31).
@@ -159,7 +159,7 @@ worth_trying(Antigen, Program) :-
     maze:affinity(Antigen, Program, Psi),
     Psi >= Gamma.
 
-%   The feedback for those that are worth trying, and for the others.
+%   The feedback of programs worth trying, and of all others.
 
 tried(Antigen, Programs, Worth, Others) :-
     partition(worth_trying(Antigen), Programs, Ps, Qs),

@@ -22,7 +22,7 @@ supervised(Children, More, S) :-
     agent_create(agents(supervisor), S, [facts(All)]),
     wait_until(children(S, Children, _), 10).
 
-%   children(+Supervisor, +Children, -Ids): it has all of them.
+%   children(+Supervisor, +Children, -Ids): Supervisor runs all of Children.
 
 children(S, Children, Ids) :-
     agent_property(S, facts(Facts)),
@@ -31,7 +31,8 @@ children(S, Children, Ids) :-
     length(Children, Count),
     length(Ids, Count).
 
-%   kept(+Strategy, -Kept): of a, b, c those that are the same when b has ended.
+%   kept(+Strategy, -Kept): those of a, b and c that are the same agents after
+%   b has ended.
 
 kept(Strategy, Kept) :-
     Children = [a-[], b-[], c-[]],
@@ -109,7 +110,7 @@ test(children_end_with_the_supervisor, [true(O1-O2 == disposed-disposed)]) :-
               joined(A, O1),
               joined(B, O2) ), _)).
 
-%   Where is where a child began.
+%   Where is the host on which a child starts.
 
 test(places, [forall(member(Where-Begins,
                             [ here-alpha, on(gamma)-gamma,

@@ -7,8 +7,8 @@
 
 /** <module> Synchronised execution: equations and decisions
 
-No network here: the agents' decisions are tried on a host that is a few
-facts.  The whole is tried in test_sync_network.pl.
+The decisions of agents are tested on a simulated host; for networks see
+test_sync_network.pl.
 */
 
                 /*******************************
@@ -91,7 +91,7 @@ test(random_histories_stay_within_bounds, Wrong == []) :-
 test(penalties_alone_come_to_exactly_zero, Wrong == []) :-
     findall(Seed, ( between(1, 100, Seed), \+ comes_to_zero(Seed) ), Wrong).
 
-%   Drawn from Seed: the constants of an agent.
+%   The constants of an agent, drawn from Seed.
 
 drawn(Seed, Maximum, Theta, Window, Delta) :-
     set_random(seed(Seed)),
@@ -155,7 +155,7 @@ worker(Tuples) :-
 drive(Task, Potential, History) :-
     fake_agent:drive(Task, Potential, History).
 
-%   As after a search that is over.
+%   The state after a finished search.
 
 exhaust(Task) :-
     fake_agent:keep(Task, drive(0, [15, 0.2])).
@@ -248,7 +248,7 @@ test(waits_where_it_cannot_move, Time == 15) :-
                 *       SEVERAL SEQUENCES      *
                 *******************************/
 
-%   The plan of a house is on the host, and its worker is that of a pool.
+%   The plan of a house is on the host, and its worker belongs to a pool.
 
 pooled(Facts, Tuples) :-
     traveller([setting(pool, robots)|Facts],
@@ -524,7 +524,7 @@ test(task_failed_from_outside_meanwhile) :-
     did(Acts),
     Acts == [log(executing(house, 1))].
 
-%   For so long the worker is not free after its task.
+%   The time for which the worker is busy after its task.
 
 seconds_of(Goal, Seconds) :-
     fake_host:now(Before),

@@ -14,8 +14,8 @@
 /** <module> Synchronised execution on small networks
 
 Six hosts in two processes, on which each test runs a sequence of its own.
-Tests that must catch agents in the middle of a sequence have a task `gate`,
-which lasts until they open it.
+Tests that act in the middle of a sequence have a task `gate`, which lasts
+until they open it.
 */
 
 :- dynamic
@@ -91,9 +91,9 @@ all_have(Sequence, Task, Status) :-
                 *            HISTORY           *
                 *******************************/
 
-%   histories(+Sequence, +Length, -Histories): for each host, what happened
-%   to tasks there, in order: r(Task) began, c(Task) is completed, f(Task)
-%   failed.  All are awaited that should have Length events in all.
+%   histories(+Sequence, +Length, -Histories): for each host the events of its
+%   tasks in order: r(Task) began, c(Task) completed, f(Task) failed. Waits
+%   until there are Length events in all.
 
 histories(Sequence, Length, Histories) :-
     hosts(Hosts),
@@ -156,7 +156,7 @@ settled(Sequence) :-
                 *             TESTS            *
                 *******************************/
 
-%   Two sequences of two tasks, and for what these wait.
+%   Two sequences of two tasks, and the tasks for which these wait.
 
 circle(AfterA, AfterB,
        [ sequence(a, [], [1-true, 2-true], [after(AfterA)]),

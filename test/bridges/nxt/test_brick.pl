@@ -10,11 +10,11 @@
 /** <module> The simulated brick
 
 Telegrams byte by byte; the expectations are typed in from LEGO's documents
-and do not come from our own encoder. Mostly time stands still (--clock 0)
-but for what a test lets pass.
+and do not come from our own encoder. Mostly the clock stands still (--clock
+0) and is set forward by the tests.
 */
 
-%   One brick serves many tests: it is switched off and on between them.
+%   All tests share one brick, which is switched off and on between them.
 
 :- dynamic shared/2.
 
@@ -63,7 +63,7 @@ no_blanks(Atom, Plain) :-
     atomic_list_concat(Parts, ' ', Atom),
     atomic_list_concat(Parts, Plain).
 
-%   It has looked at all it had been sent before.
+%   The brick has read all earlier input.
 
 heard(Brick) :-
     ask(Brick, time, _),

@@ -7,12 +7,12 @@
 :- use_module(library(lists), [member/2]).
 :- use_module(library(process), [process_create/3, process_kill/2]).
 
-/** <module> The simulated brick when it fails, begins and ends
+/** <module> Faults, start and end of the simulated brick
 
 On a pseudo-terminal and over TCP alike.
 */
 
-%   A brick with both, and a line of the kind asked for.
+%   A brick with a pseudo-terminal and a TCP port, and a line of one kind.
 
 with_both(Kind, Args, Brick, Line, Goal) :-
     with_tmp_dir(both(Kind, Args, Brick, Line, Goal)).

@@ -11,8 +11,8 @@
 
 /** <module> A world for simulated bricks
 
-Time stands still but for what the tests let pass, so that what happens does
-not depend on the machine.
+The clock stands still and is set forward by the tests, so that results do not
+depend on the machine.
 */
 
 with_scene(Name, Args, World, Goal) :-
@@ -183,7 +183,7 @@ three_runs(A, B, C, Dir) :-
     run_log(Dir, 1, B),
     run_log(Dir, 2, C).
 
-%   Not regulated: what tells the motors apart is the seed.
+%   Unregulated motors differ by the seed.
 
 run_log(Dir, Seed, Text) :-
     directory_file_path(Dir, log, Log),

@@ -1,4 +1,4 @@
-% Waits in all possible ways. Orders from outside decide where it is.
+% Waits in all possible ways. Orders from outside move it.
 
 :- agent(sleeper, [state([me/1, tick/1, steps/1, hosts/1, heard/1])]).
 :- include(steps).

@@ -24,10 +24,9 @@ agent arrive in order.
 %!  lasting(+Options, -Report) is det.
 %
 %   Options: dir(Dir), processes(N), agents(N), hops(N) of each, seed(Seed),
-%   crash(P) at each step, power(P) that the power fails at a commit, for
-%   sync(full) only, kill(Seconds) between what happens from outside,
-%   most(N) that happens, sync(How), seconds(Limit).  Report is
-%   report(Facts, Wrong).
+%   crash(P) at each step, power(P) for a power failure at a commit, for
+%   sync(full) only, kill(Seconds) between faults from outside, most(N) faults,
+%   sync(How), seconds(Limit).  Report is report(Facts, Wrong).
 
 lasting(Options, report(Facts, Wrong)) :-
     option(seed(Seed), Options, 1),

@@ -19,7 +19,7 @@ agents_end(Agents, Deadline, Ends) :-
     findall(Agent-End, ( member(Agent, Agents), ends(Agent, Deadline, End) ),
             Ends).
 
-%   The process that is asked may be dead at the moment.
+%   The queried process may be dead at the moment.
 
 ends(Agent, Deadline, End) :-
     get_time(Now),

@@ -33,7 +33,7 @@ meanwhile. power.pl does the rest.
 :- dynamic
     probability/2,                      % Of, P
     journal/1,                          % Dir
-    fails/0.                            % the power does
+    fails/0.                            % a power failure ends the process
 
 :- multifile typhon_durable_changes:reached/1.
 
@@ -72,7 +72,7 @@ wait_for_death :-
     thread_self(Me),
     thread_get_message(Me, '$never').
 
-%   While the next commit writes, syncs, or has just done so.
+%   While the next commit writes or syncs, or just after it.
 
 die_soon :-
     random_between(0, 30000, Steps),
@@ -101,7 +101,7 @@ main([Name, Port0, Dir, Sync, Seed0]) :-
         fail
     ).
 
-%   It may die before it has restarted.
+%   The process may die before it has restarted.
 
 obey_first :-
     read_term(orders(Orders), []),

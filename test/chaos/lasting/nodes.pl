@@ -44,7 +44,7 @@ the rest is for one thread.
     calm/0,                             % processes that end are not started again
     guard/1,                            % Thread
     fault_thread/1,                     % Thread
-    most/1,                             % that may happen
+    most/1,                             % faults that are allowed
     happened/2.                         % What, Times
 
 %!  with_nodes(+Options, -Nodes, :Goal, -Told) is semidet.
@@ -102,7 +102,7 @@ end_all :-
     forall(child(_, Pid, _), signalled(Pid, kill)),
     forall(retract(guard(Guard)), thread_join(Guard, _)).
 
-%   It may have died just now.
+%   The process may have died just now.
 
 signalled(Pid, Signal) :-
     catch(process_kill(Pid, Signal), error(existence_error(process, _), _),
@@ -199,7 +199,7 @@ start(node(Name, Port, Dir, Sync, Swipl), Pid, In, Out, Err) :-
 told(In, Term) :-
     catch(( format(In, '~q.~n', [Term]), flush_output(In) ),
           error(_, _),
-          true).                        % it died just now
+          true).                        % the process died just now
 
                 /*******************************
                 *              WAR             *
@@ -208,8 +208,8 @@ told(In, Term) :-
 %!  faults_begin(+Options) is det.
 %!  faults_end is det.
 %
-%   Options: crash(P), power(P), kill(Seconds) between what happens from
-%   outside, and faults(List): this; most(N): no more faults after N.
+%   Options: crash(P), power(P), kill(Seconds) between faults from outside;
+%   faults(List), their kinds; most(N): no more faults after N.
 
 faults_begin(Options) :-
              option(crash(P), Options, 0.001),
@@ -294,7 +294,7 @@ happens(stop, Pid-_) :-
 happens(cut, _-In) :-
     with_mutex(lasting_orders, told(In, cut)).
 happens(full, Pid-_) :-
-    ready(Pid),                         % one that starts would end
+    ready(Pid),                         % a process that is starting would end
     !,
     longest_file(Pid, 1),
     for_a_while,

@@ -58,7 +58,7 @@ power_cut(Dir) :-
         both(Copies, Dir, 'journal.db-wal', Log0, Log),
         what_is_left(Db0-Db, Log0-Log, Dir),
         delete_directory_and_contents(Copies)
-    ;   exists_directory(Copies),       % it died while it copied
+    ;   exists_directory(Copies),       % the process died while it copied
         delete_directory_and_contents(Copies),
         fail
     ).
@@ -107,7 +107,7 @@ begun(Log0, Log, Log1) :-
 mix(Synced, Written, File) :-
     string_length(Synced, Least),
     string_length(Written, Length),
-    random_member(Share, [0.0, 0.5, 0.9, 1.0]), % of what was written is there
+    random_member(Share, [0.0, 0.5, 0.9, 1.0]),  % share of writes on disk
     most(Least, Length, Most),
     sector(Sector),
     setup_call_cleanup(

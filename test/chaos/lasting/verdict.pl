@@ -16,8 +16,8 @@
 
 %!  wrong(+People, +Ends, +Hosts, +Each, +Deadline, -Wrong) is nondet.
 %
-%   Wrong is a violation: People, each of which had to hop Each times, have
-%   these Ends.  Messages may come until Deadline.
+%   Wrong is a violation: the agents People, each of which had to hop Each
+%   times, have these Ends.  Messages may come until Deadline.
 
 wrong(_, Ends, _, _, _, ended(Agent, End)) :-
     member(Agent-End, Ends),
@@ -47,7 +47,7 @@ wrong(_, _, Hosts, _, _, left(H, Source)) :-
     left(H, Source),
     Source \== [].
 
-%   An agent that has arrived elsewhere may still be asked for here.
+%   The old process may still be queried for an agent that has moved on.
 
 left(Host, Source) :-
     again(remote(Host, findall(A-S, ( typhon:agent_property(A, state(S)),
@@ -101,7 +101,7 @@ wrong_mail(Facts, _, Talkers, Each, heard(Source, N)) :-
     ( member(heard(Source, N), Facts) -> true ; N = 0 ),
     N =\= min(Each, 200).
 
-%   It may be restarting at the moment.
+%   The process may be restarting at the moment.
 
 again(Goal) :-
     wait_until(catch(Goal, error(_, _), fail), 60).

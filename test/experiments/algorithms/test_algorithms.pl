@@ -59,7 +59,7 @@ test(path_with_most_links, Plans == [[a,b,c]]) :-
                 *           THE TRAP           *
                 *******************************/
 
-%   The corner of the figures.  By seeds, so what is found is found again.
+%   The corner of the figures. The seeds make the result repeatable.
 
 trap :-
     problem(payloads(learning/maze),
@@ -193,7 +193,7 @@ at_least(Log, What, Least) :-
 
 :- begin_tests(algorithms_network).
 
-%   Good enough is what no printer can be, so no agent ever comes to an end.
+%   No printer can be good enough, so no agent ends.
 
 test(algorithm_is_changed_at_run_time) :-
     on_network([], exchange).
@@ -232,8 +232,8 @@ together(Hosts, Log) :-
     result_number(pages, Result, Pages),
     Pages > 0.
 
-%   With seven places at each of three hosts, and lives of two executions. Where
-%   all places are taken no agent can move any more: with three places that came
+%   Three hosts have capacity seven each, and agents live for two executions.
+%   If all hosts are full no agent can move: with capacity three this happened
 %   before the second death in three of a hundred runs.
 
 test(clones_come_and_go) :-

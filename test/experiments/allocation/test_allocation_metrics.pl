@@ -7,7 +7,7 @@
 :- use_module('../../../experiments/allocation/metrics').
 :- use_module('../../../experiments/allocation/timetable').
 
-/** <module> What logs that are made by hand say about allocations
+/** <module> Metrics of allocations, on logs made by hand
 */
 
 %   Two tasks; a backs off twice, b once; b is completed first.

@@ -209,7 +209,7 @@ urgent_run(Dir) :-
     Ms.missed > 0,
     Ms.reported =< 2.
 
-%   What every mechanism finds is the same.
+%   Every mechanism finds the same robots.
 
 robots(Mechanism, Robots) :-
     with_tmp_dir(robots_in(Mechanism, Robots)).

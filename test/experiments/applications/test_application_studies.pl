@@ -5,7 +5,7 @@
 :- use_module(library(lists), [member/2]).
 :- use_module(library(plunit)).
 
-% The studies of the applications: what is claimed, and small runs.
+% The studies of the applications: claims, and small runs.
 
 %   small(Study, Cases, Given, Measures): of a run with Given, which is short.
 

@@ -1,7 +1,7 @@
 :- module(test_claims, []).
 
-% What claims can say. Each test and each expression: one that holds, and one
-% that must not, of made-up numbers.
+% The language of claims: for each test and each expression a claim that holds,
+% and one that must not, on made-up numbers.
 
 :- use_module('../../lib/common').
 :- use_module('../../../experiments/engine/claims').
@@ -112,7 +112,7 @@ failing(rise(up, along(n)) > 20).
 failing(first(up, along(n)) < up).
 failing(last(up, along(n)) > up).
 
-%   Of which nothing is known.
+%   Claims about unknown values.
 
 unknown(rises(up, along(k))).           % words do not rise, but see below
 unknown(nothing > 1).

@@ -64,7 +64,7 @@ shell(Dir, Lines, Output) :-
     process_wait(Pid, Status),
     assertion(Status-Output = exit(0)-_).
 
-%   All four runs are there, and none was made by what shows them.
+%   All four runs exist, and the command that shows them has made none.
 
 all_there(Output) :-
     forall(member(Part, [ "conscientious     2     1",
@@ -109,7 +109,8 @@ starts(Goal) :-
 
 nothing(_).
 
-%   A Prolog that is not installed may need what ssh does not hand on.
+%   A Prolog that is not installed may need environment variables that ssh does
+%   not pass on.
 
 prolog_there(Dir, Ssh) :-
     current_prolog_flag(executable, Swipl),

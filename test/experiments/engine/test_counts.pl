@@ -25,8 +25,8 @@ test(hops_messages_and_memory) :-
     sub_string(Out, _, _, _, " agents 2 "),
     sub_string(Out, _, _, _, " static 6 ").
 
-%   An agent remembers each host that it has visited; what a host keeps does not
-%   depend on the others.
+%   An agent remembers each host that it has visited; the memory of a host does
+%   not depend on the number of hosts.
 
 test(memory_grows_with_hosts) :-
     counts(6, Few),

@@ -24,7 +24,7 @@ block(Kind, Begin, Lines) :-
     !,
     atomic_list_concat([_|Lines], '\n', More).
 
-%   What stands behind the comment at the beginning.
+%   The text after the comment at the beginning.
 
 file(Name, Text) :-
     project_file(Name, File),
@@ -63,7 +63,7 @@ test(notebook_prints_the_shown_output,
 
 :- end_tests(example_study).
 
-%   Made once.
+%   The study runs once for all tests.
 
 :- dynamic there/2.
 

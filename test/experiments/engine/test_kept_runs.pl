@@ -1,6 +1,6 @@
 :- module(test_kept_runs, []).
 
-% A run is made again when what makes it has changed, and only then.
+% A run is repeated if its sources have changed, and only then.
 
 :- use_module('../../lib/common').
 :- use_module('../../lib/study_files', [save_lines/3]).
@@ -18,7 +18,7 @@
 :- use_module(library(process), [process_create/3, process_wait/2]).
 :- use_module(library(readutil), [read_file_to_string/3]).
 
-%   file(Name, Lines): what the study below consists of.
+%   file(Name, Lines): the files of the study below.
 
 file('ground.pl',
      [ ':- use_module(metrics).',
@@ -203,8 +203,8 @@ made_twice(Root, [Run|_]) :-
     assertion(run_done(Root, false, Run)),
     assertion(\+ exists_directory(Other)).
 
-%   Of this process, of one that has ended, and of one elsewhere, which
-%   is not known here.
+%   Runs of this process, of one that has ended, and of one on another machine,
+%   whose state is unknown here.
 
 begun(Left, Root, [Run|_]) :-
     Run = run(Study, _, _),

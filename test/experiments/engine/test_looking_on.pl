@@ -4,7 +4,7 @@
 :- use_module('../../../experiments/engine/follow').
 :- use_module('../../../experiments/engine/progress').
 
-/** <module> One sees how far runs are
+/** <module> The progress of runs
 
 *Threading*: one test at a time.
 */

@@ -1,6 +1,6 @@
 :- module(test_outcome, []).
 
-% What many runs give: medians, shares of seeds, tables.
+% The results of many runs: medians, shares of seeds, tables.
 
 :- use_module('../../lib/common').
 :- use_module('../../lib/study_files', [study_messages/2, with_study/2]).

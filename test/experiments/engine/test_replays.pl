@@ -8,7 +8,7 @@
 :- use_module(library(lists), [member/2]).
 :- use_module(library(readutil), [read_file_to_string/3]).
 
-/** <module> A run of a study is there to be looked at */
+/** <module> Replays of the runs of a study */
 
 study([ 'study(walks, "Walks <b>").',
         'overlay(\'steps\', bar, log(step(N)), N).',

@@ -1,7 +1,7 @@
 :- module(test_sampling, []).
 
-% Parameters that are drawn; what is measured over time; tables that pandas
-% reads; rank tests beside claims.
+% Sampled parameters; series over time; tables that pandas reads; rank tests
+% beside claims.
 
 :- use_module('../../lib/common').
 :- use_module('../../lib/study_files',
@@ -212,7 +212,7 @@ with_tables(Goal) :-
     tables(Tables),
     call(Goal, Tables).
 
-%   Made once.
+%   The study runs once for all tests.
 
 :- dynamic made/1.
 

@@ -1,7 +1,6 @@
 :- module(test_studies, []).
 
-% Studies that are there, what is said of those with mistakes, and the
-% command.
+% The catalogue of studies, the reports about faulty ones, and the command.
 
 :- use_module('../../lib/common').
 :- use_module('../../lib/study_files',

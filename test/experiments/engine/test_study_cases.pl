@@ -1,6 +1,6 @@
 :- module(test_study_cases, []).
 
-% Which runs a study stands for: what varies, is fixed, follows, is given.
+% The cases of a study: parameters that vary, are fixed, derived or given.
 
 :- use_module('../../lib/common').
 :- use_module('../../lib/study_files',
@@ -108,7 +108,7 @@ test(clock_may_be_fixed, Rows == [[10, 1]]) :-
             'fixed(clock, 10, assumed("slow")).' ], [a-1, b-x],
           [clock, processes], Rows).
 
-%   What a file says, and a study that includes it.
+%   The text of a study, and a study that includes it.
 
 included(Lines, Names, Rows) :-
     with_tmp_dir(included(Lines, Names, Rows)).

@@ -1,6 +1,6 @@
 :- module(test_study_pictures, []).
 
-% What is drawn, from which data, and the page that shows it.
+% Pictures, their data, and the page that shows them.
 
 :- use_module('../../lib/common').
 :- use_module('../../lib/study_files',
@@ -112,7 +112,7 @@ copied(Out, _) :-
     text(Out, 'four.svg', Text),
     assertion(Text == "<svg/>\n").
 
-%   Where texts and marks stand, from the top, beside the height.
+%   The positions of texts and marks, from the top, and the height.
 
 inside(Name, Out, Messages) :-
     is_drawn(two, Out, Messages),
@@ -123,7 +123,7 @@ inside(Name, Out, Messages) :-
     once(between_texts(Text, "height=\"", "\"", Height0)),
     number_string(Height, Height0),
     max_list(Ys, Lowest),
-    assertion(Lowest < Height - 5).     % what hangs below the line
+    assertion(Lowest < Height - 5).     % descenders
 
 between_texts(Text, Before, After, Between) :-
     sub_string(Text, _, _, Rest0, Before),

@@ -1,6 +1,6 @@
 :- module(test_study_run, []).
 
-% One run: what it is given, what it leaves, and that it can be made again.
+% One run: its input, the files that it leaves, and its repetition.
 
 :- use_module('../../lib/common').
 :- use_module('../../lib/study_files',
@@ -98,7 +98,7 @@ drawn(Result, Drawn) :-
         close(In)),
     !.
 
-%   In workers, one of which makes all, and in a session by itself.
+%   In workers, one of which makes all runs, and in a session by itself.
 
 same_elsewhere(Dir, File) :-
     made(Dir, File, 2, 2, Log, _),
@@ -120,7 +120,7 @@ kept(Dir, Out, Start, Text) :-
     !,
     text(Run, 'events.pl', Text).
 
-%   Of two in virtual time one is made, too.
+%   There are two runs in virtual time and one in real time.
 
 on_sockets(Row, Dir, File) :-
     study_command(Dir, [File, '--runs', 2, '--out', out], exit(0), _),

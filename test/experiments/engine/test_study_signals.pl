@@ -1,6 +1,6 @@
 :- module(test_study_signals, []).
 
-% Ending in order, whichever thread a signal comes to.
+% A signal to any thread ends a study in order.
 
 :- use_module('../../lib/common',
               [project_file/2, wait_for_end/3, with_swipl/5, with_tmp_dir/1]).
@@ -10,7 +10,7 @@
 :- use_module(library(plunit)).
 :- use_module(library(process), [process_create/3]).
 
-%   It says that its threads are there, and waits; when it is left it says so.
+%   The program reports that its threads exist, waits, and reports its end.
 
 program([ ':- initialization(main, main).',
           'main :- stopping_on_signals(begin).',
@@ -42,8 +42,8 @@ said(timeout, _, Said) =>
 said(_, Out, Said) =>
     read(Out, Said).
 
-%   Not by thread_property/2: 9.2.9 says 0.  The last thread is that of the
-%   program; another collects garbage, and takes no signals.
+%   Not by thread_property/2, which returns 0 in 9.2.9. The last thread is that
+%   of the program; the other one collects garbage, and blocks signals.
 
 thread_of(main, Pid, Pid).
 thread_of(other, Pid, Thread) :-
@@ -54,7 +54,7 @@ thread_of(other, Pid, Thread) :-
             Threads),
     max_list(Threads, Thread).
 
-%   The system itself gives a signal to any thread.
+%   The system may deliver a signal to any thread.
 
 send(Pid, Thread, Signal) :-
     process_create('/usr/bin/python3',

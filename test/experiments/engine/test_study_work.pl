@@ -1,6 +1,6 @@
 :- module(test_study_work, []).
 
-% Many runs: made once, by several processes, and whatever ends these.
+% Many runs by several processes: each is made once, however the processes end.
 
 :- use_module('../../lib/common').
 :- use_module('../../lib/study_files', [study_command/4, with_study_file/2]).
@@ -14,8 +14,8 @@
 :- use_module(library(readutil),
               [read_file_to_string/3, read_file_to_terms/3]).
 
-%   Each run leaves the number of its process and what it is in the file
-%   `log` beside the study.
+%   Each run writes the id of its process and its case to the file `log` beside
+%   the study.
 
 study([ 'study(toy, "A toy").',
         'vary(what, [a, b]).',
@@ -139,7 +139,8 @@ failing(What, Why, Dir, File) :-
     length(Tries, Count),
     assertion(Count == 2).
 
-%   Of many that fail by the same the first is reported, and how many they are.
+%   Of runs that fail for the same reason the first one and the number of all
+%   are reported.
 
 same_cause(Dir, File) :-
     runs(Dir, File, '[fail]', ['--runs', 3], exit(1), Text),
@@ -153,7 +154,7 @@ collected_anyway(Dir, File) :-
     runs(Dir, File, '[a,fail]', ['--runs', 1, '--collect'], exit(0), Text1),
     says(Text1, "index.html").
 
-%   A session gets a signal in the middle of a run.
+%   A session gets a signal during a run.
 
 interrupted(Signal, Status, What, Dir, File) :-
     format(atom(Whats), 'what=[a,~w]', [What]),
@@ -193,7 +194,7 @@ ends_what_is_stuck(Dir, File) :-
     below(Dir, '.part', Left),
     assertion(Left == []).
 
-%   Two sessions need the same run, which takes until both are in it.
+%   Two sessions need the same run, which lasts until both have started.
 
 together(Dir, File) :-
     project_file('experiments/study.pl', Script),

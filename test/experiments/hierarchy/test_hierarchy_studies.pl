@@ -6,7 +6,7 @@
 :- use_module(library(plunit)).
 :- use_module('../../../experiments/engine/cases').
 
-/** <module> The studies of hierarchies: what is claimed, and small runs
+/** <module> The studies of hierarchies: claims, and small runs
 */
 
 hierarchy_study(Name, Study) :-

@@ -7,9 +7,9 @@
 :- use_module('../../../experiments/learning/metrics').
 :- use_module('../../../experiments/learning/ways').
 
-/** <module> What event logs and ways say of agents that learn
+/** <module> Metrics of learning agents
 
-On logs and ways made by hand.
+On logs and paths made by hand.
 */
 
 %   Two agents begin at 10 and 11.  a executes three times and converges at

@@ -11,7 +11,7 @@ study(Figure, Study) :-
     atom_concat('population/figure_', Figure, File),
     project_study(File, Study).
 
-%   good(-Points): what the claims of both figures hold of.
+%   good(-Points): points for which the claims of both figures hold.
 
 good([ case{hosts:50}-Small, case{hosts:100}-Large ]) :-
     Small = ms{missing:0, out_of_order:0, overlapped:0, span_least:31,

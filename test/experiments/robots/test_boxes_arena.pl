@@ -14,7 +14,7 @@
 
 /** <module> Robots that push boxes, in the arena
 
-Their programs, with a clock that stands but for their commands; the study
+Their programs, with a clock that only their commands set forward; the study
 with few robots, with too few, and interrupted.
 */
 
@@ -150,7 +150,7 @@ two_robots_and_one(Dir) :-
     assertion(subset([ 'arena.svg', 'boxes.gnuplot', 'jobs.dat', 'rests.dat',
                        'reservations.dat', 'robots.dat' ], Files)).
 
-%   All that was begun is ended when there are never robots enough.
+%   A run ends all its processes if there are never enough robots.
 
 no_robot(Dir) :-
     robot_study(boxes, Study),

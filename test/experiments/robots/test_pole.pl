@@ -8,7 +8,7 @@
 :- use_module(library(yall)).
 :- use_module('../../../experiments/robots/pole_metrics').
 
-/** <module> What is said of a pole that was carried, on logs made by hand
+/** <module> Metrics of carried poles, on logs made by hand
 */
 
 pole(Y, Tilt, Phase, pole(1.5, Y, 0.1, 0, 0, Tilt, 0, 0, Phase)).
@@ -41,7 +41,7 @@ start(in_step, T, R, Start) :-
 start(alone, T, R, Start) :-
     Start is (R + 4)*(T - 1).
 
-%   What the network logs of them.  When the first agent begins the clock of
+%   The entries of the network's log. When the first agent begins the clock of
 %   the hosts shows 20, that of the arena 10.
 
 events(Way, [event(20, 1, agent, begun), event(20, 1, none, arena_time(10))

@@ -19,8 +19,8 @@
 
 /** <module> Robots that carry a pole
 
-The programs of the robots on a robot that is a few facts, tasks that carry
-their programs, the arena as a process, and a run of the study.
+The programs of the robots on a simulated robot, tasks that carry their
+programs, the arena as a process, and a run of the study.
 */
 
                 /*******************************

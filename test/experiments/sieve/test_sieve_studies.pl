@@ -22,7 +22,7 @@ a_study(Name) :-
 round_of(Kinds, round(Events)) :-
     findall(born(clone, Kind), member(Kind, Kinds), Events).
 
-%   made_up(+Study, +Rounds, -Points): as a run of these rounds would be.
+%   made_up(+Study, +Rounds, -Points): the points of a run of these rounds.
 
 made_up(Study, Rounds, [case{}-Measures]) :-
     findall(Name-Value, study_call(Study, measure(Name, Rounds, Value)),

@@ -8,7 +8,7 @@
 :- use_module('../../../experiments/sync/orderly', []).
 :- use_module(library(typhon)).
 
-/** <module> What event logs say of tasks in step, on logs made by hand
+/** <module> Metrics of tasks in step, on event logs made by hand
 */
 
 %   Two hosts, three tasks.  T1: a 0-1, b 2-3.  T2: a 5-6, b 6-7.  T3: b

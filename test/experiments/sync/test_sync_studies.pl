@@ -10,7 +10,7 @@
 :- use_module('../../../experiments/engine/picture').
 :- use_module('../../../experiments/engine/studies').
 
-/** <module> The studies of chapter 5: what is claimed, and small runs
+/** <module> The studies of chapter 5: claims, and small runs
 */
 
 sync_study(Name, Study) :-
@@ -211,7 +211,7 @@ small(Name, Given, Measures, Dir) :-
     sync_study(Name, Study),
     first_run(Study, Given, 1, Dir, _-Measures).
 
-%   Drawn from it, where gnuplot is there.
+%   The pictures of the run, if gnuplot is installed.
 
 drawn(Name, Given, Measures, Dir) :-
     sync_study(Name, Study),

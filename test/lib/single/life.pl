@@ -109,7 +109,7 @@ runs(More) :-
     agent_dispose(Agent),
     ( Count > 20 -> More = many ; More = Count ).
 
-%   An agent that never sleeps holds up neither one that does nor the caller.
+%   An agent that never sleeps delays neither a sleeping one nor the caller.
 
 busy(Outcome) :-
     create([ (:- agent(busy, [])), (main :- move(b), move(a), main) ],
