@@ -1,7 +1,7 @@
 :- agent(carrier, [state([route/1, holds/2, at/1])]).
 
-% Takes up one term of every kind where it is born, in facts and in
-% variables, and compares both with what each place of its route has.
+% Takes one term of every kind from its first host, in facts and in variables,
+% and compares both with the terms of each host of its route.
 
 main :-
     findall(Name-Term, term(Name, Term), Pairs),

@@ -1,8 +1,7 @@
 :- agent(patient, [state([route/1])]).
 
-% Waits at each host of its route, in the middle of much that is still to
-% do, for terms to be sent to it, and compares them with those of the
-% place.
+% Waits at each host of its route, with many goals left, for terms that are
+% sent to it, and compares them with those of the place.
 
 main :-
     route(Hosts),

@@ -1,5 +1,5 @@
 /* One term of every kind, as each host of the ring reads them for itself
-   into its place. What an agent brings is compared with these.
+   into its place. The terms that an agent brings are compared with these.
 */
 
 :- use_module(library(apply), [foldl/4]).
@@ -98,7 +98,8 @@ deeper(I, Term, s(Term,I)).
 
 %!  same(+Name, @Term) is semidet.
 %
-%   Term is what term/2 has for Name: bit for bit, variables shared alike.
+%   Term equals the one of term/2 for Name: bit for bit, with variables shared
+%   alike.
 
 same(Name, Term) :-
     term(Name, Expected),

@@ -12,10 +12,9 @@
 
 /** <module> Agents around a ring of processes
 
-The host of this process and those of two others; one of these takes no
-records, so that both codecs are on every way round. Each host has one term
-of every kind, read by itself; agents bring theirs from elsewhere and
-compare.
+The host of this process and those of two others; one of these accepts no
+records, so that every round uses both codecs. Each host reads one term of
+every kind by itself; agents bring theirs from another host and compare.
 
 TYPHON_RING=/path/one:/path/two may name other Prologs, two or more, the
 second one of another word size: then the ring goes through all of them. See
@@ -37,8 +36,8 @@ prologs(Prologs) :-
 prologs([Swipl, Swipl]) :-
     current_prolog_flag(executable, Swipl).
 
-%   The processes share a cookie by their environment: the file of the
-%   suite may not exist where they are.
+%   The processes share a cookie by their environment: the cookie file of the
+%   suite may not exist on their machines.
 
 start_ring :-
     random_hex(16, Cookie),
@@ -107,7 +106,7 @@ agent(Program, Host, Fact, Agent) :-
     host(Host, Address),
     agent_create(File, Agent, [host(Address), facts([Fact])]).
 
-%   Once round, from host to host, and ending where it began.
+%   One round, from host to host, that ends where it began.
 
 route(forth, From, Route) :-
     findall(Name, host(Name, _), Names),
@@ -177,7 +176,7 @@ test(hop_resumes_at_the_next_goal,
     taken(From, wound(Notes)),
     wound(HostA, HostB, HostC, Expected).
 
-%   What test/portability/winder.pl does, step by step.
+%   The steps of test/portability/winder.pl.
 
 wound(A, B, C, Notes) :-
     I is -(2**70),

@@ -1,6 +1,6 @@
 :- agent(winder, [state([route/3, noted/2, later/1])]).
 
-% Moves from inside every control construct, and notes where it goes on.
+% Moves from inside every control construct, and notes where it continues.
 
 main :-
     route(A, B, C),

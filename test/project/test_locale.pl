@@ -1,7 +1,7 @@
 :- module(test_locale, []).
 
-% What is written in letters beyond ASCII is the same in any locale; many a
-% machine has none, and 9.0.4 reads by it what it is not told to read otherwise.
+% Text in letters beyond ASCII is the same in any locale; many machines have
+% none, and by default 9.0.4 reads files in the encoding of the locale.
 
 :- use_module('../lib/common').
 :- use_module('../lib/study_files',
@@ -21,7 +21,7 @@ in_locale(Locale, Goal) :-
     setup_call_cleanup(setenv('LC_ALL', Locale), once(Goal),
                        unsetenv('LC_ALL')).
 
-%   prints(+Goal, +Locale, +Dir, -Out): what Prolog prints there.
+%   prints(+Goal, +Locale, +Dir, -Out): the output of Prolog in that locale.
 
 prints(Goal, Locale, Dir, Out) :-
     project_file(prolog, Prolog),

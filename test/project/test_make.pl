@@ -1,6 +1,6 @@
 :- module(test_make, []).
 
-% The Makefile and the installer, with an apt-get that only takes notes.
+% The Makefile and the installer, with an apt-get that only records its calls.
 
 :- use_module('../lib/common').
 :- use_module(library(debug), [assertion/1]).
@@ -25,8 +25,8 @@ run(Program, Args, Options, Status, Output) :-
     process_wait(Pid, Status),
     string_codes(Output, Codes).
 
-%   The installer in a world where only Commands exist.  Notes are the
-%   lines of what apt-get was called with; its first Failures calls fail.
+%   The installer on a machine where only Commands exist. Notes are the
+%   recorded arguments of apt-get; its first Failures calls fail.
 
 install_with(Commands, Failures, Status, Notes) :-
     install_with(Commands, [], Failures, Status, Notes).

@@ -47,7 +47,7 @@ link_of(Home, Root) :-
     read_link(Pack, _, Target),
     ( atom_concat(Root, /, Target) -> true ; Root = Target ).
 
-%   What must work then, in a directory that has nothing to do with it.
+%   The goals that must succeed then, in a directory outside the project.
 
 works(Home) :-
     with_tmp_dir(works_in(Home)).
@@ -88,8 +88,8 @@ archive(Archive) :-
                      '-czf', Archive, '-C', Root, '.'
                    ], []).
 
-%   A copy of the tree: since SWI-Prolog 9.3 notes of the installation are
-%   written into the directory it is made from.
+%   A copy of the tree: since SWI-Prolog 9.3 an installation writes notes into
+%   the directory from which it is made.
 
 copied(Home, Root) :-
     directory_file_path(Home, 'typhon.tar.gz', Archive),
@@ -192,8 +192,8 @@ test(each_library_loads_by_its_file,
     run_swipl(['-f', none, '-g', Load, '-t', halt],
               [environment(['PATH'='/usr/bin:/bin'])], Status, _, Err).
 
-%   A program that imports library(typhon) has agents made by agents, from a
-%   clone as from a pack.
+%   The agents of a program that imports library(typhon) create agents, from a
+%   clone of the repository as from a pack.
 
 test(agents_of_a_clone_import_the_library, Status-Out == exit(0)-"done\n") :-
     project_file('prolog/typhon.pl', File),

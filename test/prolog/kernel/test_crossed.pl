@@ -4,12 +4,12 @@
 :- use_module(library(lists), [append/3]).
 :- use_module(library(plunit)).
 
-/** <module> How many modules a plain agent's life crosses
+/** <module> The number of modules that an agent's life calls without options
 
 An agent is created, gets a message, hops to another process and back, and
-ends.  Modules are counted that are called meanwhile in either process.  What
-the threads of the platform do by the clock can only add some, so the life with
-the fewest of several counts.  The bound is what was measured: it is lowered as
+ends.  The modules called meanwhile in either process are counted. Periodic
+work of the platform's threads can only add modules, so the smallest number of
+several lives counts. The bound is the measured number: it is lowered as
 modules are merged.
 
 *Threading*: the main thread; the hosts are in other processes.
@@ -27,7 +27,8 @@ no_more_than(Bound, Modules) :-
     length(Modules, Count),
     Count =< Bound.
 
-%   fewest(+Lives, -Modules): the first life connects, and brings the program.
+%   fewest(+Lives, -Modules): the first life connects, and transfers the
+%   program.
 
 fewest(Lives, Modules) :-
     life,

@@ -6,7 +6,7 @@
 :- use_module(library(typhon/kernel/lifecycle)).
 :- use_module(library(typhon/kernel/vocabulary), []).
 
-/** <module> The kernel lives without options, which may be loaded later
+/** <module> The kernel runs without options, which may be loaded later
 
 This suite does not load library(typhon).
 
@@ -17,8 +17,8 @@ This suite does not load library(typhon).
 
 prolog:message(typhon(_)) --> [].       % the texts are among the tools
 
-%   life(+Options, -Outcome): that of an agent which acts, hops and clones
-%   between two hosts of this process.
+%   life(+Options, -Outcome): the outcome of an agent that acts, hops and
+%   clones between two hosts of this process.
 
 life(Options, Outcome) :-
     no_leaks(setup_call_cleanup(
@@ -52,7 +52,7 @@ test(no_option_is_loaded, Outcome-Options == done-[]) :-
     life([], Outcome),
     findall(Option, loaded(Option), Options).
 
-%   In this order: each is there for the next.
+%   In this order: loaded options remain for the next test.
 
 test(options_load_later,
      [ forall(member(Path-Options,

@@ -1,7 +1,7 @@
 :- module(test_fipa, []).
 
-% Hosts as platforms of FIPA: what agents say to those of other platforms and
-% hear of them, wherever they are, and what becomes of bad requests.
+% Hosts as platforms of FIPA: messages between their agents and those of other
+% platforms, wherever they are, and malformed requests.
 
 :- use_module('../../../lib/common').
 :- use_module('../../../lib/fipa_agents').
@@ -74,7 +74,7 @@ test(agents_of_one_platform_need_no_address) :-
           does(fipa_request(fipa('echo@a'), [x], 10, Outcome), Outcome),
           assertion(Outcome = inform-_) )).
 
-%   The word `send` does, with whom a message is from.
+%   The `send` of the test agent adds the sender of the message.
 
 test(agents_answer_the_sender) :-
     with_platforms(_, Url,
@@ -186,7 +186,7 @@ test(agents_are_reached_after_moves) :-
               does(fipa_request(fipa(Name, [Url]), "x", 10, Dead), Dead),
               assertion(Dead = failure-_) )))).
 
-%   A stranger away from home writes by way of its home.
+%   A visitor sends by way of its home.
 
 test(agents_write_from_any_host) :-
     no_leaks(with_peers([away],
@@ -409,7 +409,8 @@ test(queue_of_a_mailbox) :-
           assertion([Four, Five] == ['4', '5']),
           assertion(property(alpha, dropped(2))) )).
 
-%   A peer that takes no messages: the sender hears so, others are not kept up.
+%   A peer that takes no messages: the sender gets a failure, and others are
+%   not delayed.
 
 test(queue_of_a_destination) :-
     with_platforms(_, Url,
@@ -632,7 +633,7 @@ test(body_is_requested) :-
                 status(In, First), read_line(In, ""), status(In, Second) )),
           assertion(First-Second == 100-200) )).
 
-%   A byte now and then is not enough.
+%   A byte now and then does not keep a connection open.
 
 test(slow_peer) :-
     with_platform([seconds(1)], Url,
@@ -654,7 +655,7 @@ drip(Out, Whom) :-
     ;   thread_get_message(Me, stop)
     ).
 
-%   Silent clients give way to others.
+%   Silent clients are disconnected first.
 
 test(silent_clients) :-
     with_platform([connections(4)], Url,
@@ -668,7 +669,7 @@ test(silent_clients) :-
           assertion(Status == 200),
           maplist(close, Streams) )).
 
-%   So does a client that has not sent the whole of its request.
+%   So is a client that has not sent the whole of its request.
 
 test(incomplete_requests_are_dropped_first, Statuses == [200, 200, 200]) :-
     with_platform([connections(8)], Url,
@@ -686,8 +687,8 @@ half_request(Url, Stream) :-
     catch(( write(Stream, 'POST /acc'), flush_output(Stream) ),
           error(_, _), true).
 
-%   An address with few connections keeps them: there the request is begun
-%   before, and ended after, many others of another address.
+%   An address with few connections keeps them: its request begins before, and
+%   ends after, many requests of another address.
 
 test(one_address_does_not_displace_another, Status == 200) :-
     with_platform([connections(4), seconds(60)], Url,

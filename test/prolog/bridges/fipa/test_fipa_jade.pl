@@ -1,6 +1,6 @@
 :- module(test_fipa_jade, []).
 
-% Our agents and those of a real JADE, both ways.
+% Our agents and those of a real JADE, in both directions.
 
 :- use_module('../../../lib/common').
 :- needs(['default-jdk-headless', maven]).
@@ -71,7 +71,7 @@ test(jade_requests_fail) :-
           assertion(Dead = ["ok", "FAILURE", "ams@here", _]),
           names_receiver(Dead, 'nobody@here') )).
 
-%   As JADE's own AMS says it.
+%   The address that JADE's own AMS reports.
 
 names_receiver([_, _, _, About], Name) :-
     format(string(Said), "(MTS-error (agent-identifier :name ~w ", [Name]),
@@ -120,7 +120,7 @@ df_finds_who_answers :-
     does(fipa_request(Aid, "found", 20, Said), Said),
     assertion(Said == inform-"found").
 
-%   manager_says(+Manager, +Action, -Content): an agent of ours has asked it.
+%   manager_says(+Manager, +Action, -Content): the answer to an agent of ours.
 
 manager_says(Manager, Action, Content) :-
     does(( send(Manager, acl(request,
@@ -152,8 +152,8 @@ test(jade_sees_our_managers) :-
           assertion(Racing == "1"),
           assertion(sub_string(Gone, _, _, _, "not-registered")) )).
 
-%   Registered by itself, found by its service, called where it has gone: to a
-%   process that knows nothing of FIPA.
+%   The agent registers itself, is found by its service, and is called after it
+%   has moved to a process without FIPA.
 
 test(jade_reaches_an_agent_that_has_moved) :-
     no_leaks(with_peers([away], with_platform(Url, reached_away(Url)))).

@@ -1,7 +1,7 @@
 :- module(test_fipa_text, []).
 
-% Messages of FIPA as text and bytes: what is written is read again, whatever
-% is in it, and what is no message is an error.
+% Messages of FIPA as text and bytes: written messages are read back, whatever
+% their content, and invalid ones are errors.
 
 :- use_module('../../../lib/common').
 :- use_module(library(apply), [maplist/2]).
@@ -19,7 +19,7 @@
                 *          RANDOM INPUT        *
                 *******************************/
 
-%   any(+Depth, -Term): a term that SL can say.
+%   any(+Depth, -Term): a term that SL can express.
 
 any(0, Term) :-
     !,
@@ -65,7 +65,7 @@ any_word(Word) :-
     random_member(Word, [a, 'b-c', foo_bar, 'x@y:1', 'http://z/acc?q', '\\',
                          'Upper', '|', ';', '<i>', '\'']).
 
-%   Of bytes, characters of more bytes, and whatever means something.
+%   Bytes, characters of several bytes, and characters of the syntax.
 
 any_string(String) :-
     random_between(0, 12, Length),

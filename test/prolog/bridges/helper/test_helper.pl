@@ -1,6 +1,6 @@
 :- module(test_helper, []).
 
-/** <module> Tests of processes that help: what is heard of one that cannot
+/** <module> Tests of helper processes: reports of one that cannot start
 */
 
 :- use_module('../../../lib/common').
@@ -12,8 +12,8 @@
 :- use_module(library(typhon)).
 :- use_module(library(typhon/bridges/helper)).
 
-%   with_complaining(:Goal): there is a helper that says what it lacks, and ends,
-%   whenever it is started.
+%   with_complaining(:Goal): there is a helper that reports what it lacks, and
+%   ends, whenever it is started.
 
 :- meta_predicate with_complaining(0), with_helper(+, 0).
 
@@ -37,14 +37,14 @@ asked(Error) :-
 
 :- begin_tests(helper).
 
-%   Also while it is down, until it is started once more.
+%   Also while the helper is down, until it is restarted.
 
 test(each_caller_gets_the_reason_of_the_end, Errors == ["no_thing"]) :-
     no_leaks(with_complaining(
         findall(Error, ( between(1, 5, _), is_down, asked(Error) ), All))),
     sort(All, Errors).
 
-%   Nor does a message say that it is started again.
+%   No message reports a restart either.
 
 test(helper_without_its_packages_is_not_restarted,
      Errors-Messages == ["no_thing","no_thing"]-[]) :-
@@ -61,8 +61,8 @@ test(late_answer_leaves_one_serving_thread,
      Answers == [said("timeout"),ok(1),ok(1)]) :-
     no_leaks(with_tmp_dir(late(Answers))).
 
-%   A method that is past its deadline when it says that its answer comes later
-%   has been replaced.  Two `meet` at once would count each other.
+%   A method past its deadline that announces a later answer has been replaced.
+%   Two calls of `meet` at once would count each other.
 
 late([Slow,First,Second], Dir) :-
     directory_file_path(Dir, 'slow.py', File),

@@ -2,8 +2,8 @@
 
 /** <module> MQTT as a service of a place
 
-With a real broker, which is stopped and started in between, and strangers
-that use it.
+With a real broker, which is stopped and restarted, and clients of other
+programs.
 */
 
 :- use_module('../../../lib/common').
@@ -38,8 +38,8 @@ at_broker(Options, Goal) :-
     shared(Broker),
     no_leaks(with_mqtt(Broker, Options, Goal)).
 
-%   reader(+Goals, +Count, -Agent): does Goals, says that it is ready, and
-%   its result are the messages that it gets.
+%   reader(+Goals, +Count, -Agent): an agent that calls Goals, reports that it
+%   is ready, and whose result are the messages that it receives.
 
 reader(Goals, Count, Agent) :-
     create([ (main :- Goals, self(Id), leave(ready(Id)), take(Count, Ms),
@@ -216,7 +216,7 @@ test(a_thousand_in_order, Ps == Expected) :-
     numlist(1, 1000, Ns),
     findall(S, ( member(N, Ns), number_string(N, S) ), Expected).
 
-%   TYPHON_MESSAGES in the environment makes it longer.
+%   TYPHON_MESSAGES in the environment sets a larger number.
 
 test(both_directions_at_once, Results == [done,exit(0),N-true,N-true]) :-
     (   getenv('TYPHON_MESSAGES', Atom)
@@ -225,9 +225,9 @@ test(both_directions_at_once, Results == [done,exit(0),N-true,N-true]) :-
     ),
     at_broker([pending(100000)], both_directions(N, Results)).
 
-%   both_directions(+N, -Results): an agent publishes N messages while N
-%   others arrive.  Results are how the publishers ended, and how many messages
-%   came each way, and whether in order.
+%   both_directions(+N, -Results): an agent publishes N messages while N others
+%   arrive. Results are the ends of the publishers, the numbers of messages in
+%   each direction, and whether they were in order.
 
 both_directions(N, [Published,Status,Out,In]) :-
     shared(Broker),
@@ -251,7 +251,7 @@ both_directions(N, [Published,Status,Out,In]) :-
     agent_join(Counter, _, Seconds),
     agent_result(Counter, In, 5).
 
-%   One that counts what comes, as long as it comes in order.
+%   An agent that counts messages as long as they arrive in order.
 
 counter(N, Agent) :-
     create([ (main :- subscribe('both/in', [qos(1),queue(N)]), self(Id),
@@ -609,7 +609,7 @@ test(tls, [Es,Rs] == [[mqtt_error(tls, alpha)], [ok,ok]]) :-
 test(denied, E == permission_error(subscribe, mqtt_filter, 'no/thing')) :-
     with_tmp_dir(denied(E)).
 
-%   With another broker than that of this machine.
+%   With a broker on another machine.
 
 document(Differences, Dir) :-
     Document = 'doc/bridges.md',
@@ -664,7 +664,7 @@ stopped_and_started(B, Ps) :-
                                       Ps0)) )),
     msort(Ps0, Ps).
 
-%   For an agent that has subscribed long before the other, too.
+%   Also for an agent that subscribed long before the other one.
 
 retained_anew(B, Ps) :-
     with_mqtt(B, [],

@@ -2,8 +2,8 @@
 
 /** <module> The bridge to NXT bricks: bytes and lines
 
-What goes over the wire is compared with bytes that are put together here,
-from LEGO's document, by other code than that of the bridge.
+The bytes on the wire are compared with bytes that are composed here, from
+LEGO's document, by other code than that of the bridge.
 */
 
 :- use_module('../../../lib/common').
@@ -51,7 +51,7 @@ part(n(Text, Size), Bytes) :-
     length(Rest, Left),
     part(z(Left), Rest).
 
-%   telegram(Command, Args, Request, Reply, Values): as they should be.
+%   telegram(Command, Args, Request, Reply, Values): the expected bytes.
 
 telegram('STARTPROGRAM', _{name:'a.rxe'}, [0,0,n('a.rxe',20)], [2,0,0], _{}).
 telegram('STOPPROGRAM', _{}, [0,1], [2,1,0], _{}).
@@ -310,7 +310,7 @@ test(commands_are_checked, Ids == [1, 2, 3, 4]) :-
             ),
             Ids).
 
-%   Each line is answered by one, with nothing at the port.
+%   Each line gets one answer, without a device at the port.
 
 helper_says(Lines, Answers, Status) :-
     project_file('bridges/nxt/bridge.py', File),

@@ -1,6 +1,6 @@
 :- module(test_nxt_calls, []).
 
-/** <module> The bridge to NXT bricks: what comes of calls
+/** <module> The bridge to NXT bricks: results of calls
 
 With the simulated brick, with the old names, from the command line, and
 with a real robot if there is one.

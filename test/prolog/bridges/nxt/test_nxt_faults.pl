@@ -1,9 +1,9 @@
 :- module(test_nxt_faults, []).
 
-/** <module> The bridge to NXT bricks when something goes wrong
+/** <module> Faults of the bridge to NXT bricks
 
-Every error with its context, what works again after it, which call
-waits for which, and what is left when one of the three processes dies.
+Every error with its context, recovery after it, calls that wait for others,
+and the state after the death of one of the three processes.
 */
 
 :- use_module('../../../lib/common').
@@ -188,8 +188,8 @@ refusal(fb, out_of_memory).
 refusal(ff, bad_arguments).
 refusal('77', status_119).
 
-%   after(What, Error, Context): the error when the peer does What, after
-%   which all is well again.
+%   after(What, Error, Context): the error after the peer has done What; the
+%   next call succeeds.
 
 after(What, Error, Context) :-
     with_peer(Peer, Port,
@@ -242,7 +242,7 @@ test(stuck, E == nxt_error(helper_died(stuck), b)) :-
                         ))),
     assertion(MilliVolts == 8000).
 
-%   An answer that came too late is gone.
+%   A late answer is dropped.
 
 answers(Peer, MilliVolts) :-
     peer_command(Peer, 'answer 020b00401f'),
@@ -263,7 +263,7 @@ test(disconnected_during_a_call, E == existence_error(nxt_brick, b)) :-
 test(prolog_dies) :-
     with_brick(Brick, Port, prolog_dies(Brick, Port)).
 
-%   Its helper lets the motors go and ends.
+%   The helper stops the motors and ends.
 
 prolog_dies(Brick, Port) :-
     format(atom(Goal),
@@ -325,7 +325,7 @@ thread_of(Brick) :-
     thread_property(_, alias(Alias)),
     atom_concat(Start, _, Alias).
 
-%   The slow one has not answered when the fast one has.
+%   The slow brick has not answered when the fast one has.
 
 at_once(Slow, Fast) :-
     thread_self(Me),

@@ -2,8 +2,8 @@
 
 /** <module> Functions of a Python file as predicates of a place
 
-What agents call, what comes back, what goes wrong, and what Python says
-unasked.
+Calls of agents, their results, faults, and messages that Python sends by
+itself.
 */
 
 :- use_module('../../../lib/common').
@@ -46,7 +46,7 @@ file(Dir, Name, Lines, File) :-
         forall(member(Line, Lines), format(Out, '~w~n', [Line])),
         close(Out)).
 
-%   Values need no host of their own.
+%   Conversions of values share one host.
 
 shared_python :-
     functions(File),
@@ -83,7 +83,7 @@ test(unconvertible_results) :-
     assertion(NaN = python_error('ValueError', _)),
     assertion(Object = python_error('TypeError', _)),
     assertion(Deep = python_error('RecursionError', _)).
-%   Nothing of a list is left out without a word.
+%   A list is never truncated silently.
 
 test(long_lists, [Length, Error] = [1000002, python_error('OverflowError', _)]) :-
     with_python([], ( remote(alpha, ( long(1000002, List),
@@ -439,7 +439,7 @@ test(payload_works_after_a_crash, R == 42) :-
 twice(Dir, File) :-
     file(Dir, 'twice.py', ['def twice(x): return 2*x'], File).
 
-%   To another process, which has not loaded Python yet.
+%   The host is in another process, which has not loaded Python yet.
 
 carried(R, Dir) :-
     twice(Dir, File),

@@ -58,8 +58,9 @@ end :-
     retract(held(Socket)),
     tcp_close_socket(Socket).
 
-%   A domain for this run alone: that of the process that holds the TCP port of the
-%   same number as the UDP port at which the nodes of the domain find each other.
+%   A domain for this run alone: its number is that of the process that holds
+%   the TCP port of the same number as the UDP port at which the nodes of the
+%   domain discover each other.
 
 domain_hold(Domain, Socket) :-
     between(1, 100, Domain),
@@ -102,7 +103,7 @@ quiet(Goal) :-
 expected(typhon(ros_lost(_, _)), _).
 expected(typhon(helper_ended(_, _)), _).
 
-%   The peer may not know us yet.
+%   The peer may not have discovered our node yet.
 
 published_until_heard(Agent, In, Type, Sent, Out, Message) :-
     wait_until(( does(alpha, Agent, ros_publish(In, Type, Sent)),
@@ -315,7 +316,7 @@ document(Differences, Dir) :-
     split_string(Session, "\n", "", Lines),
     transcript_differences([1-Lines], Dir, Differences).
 
-%   More comes in than is read, in Python alone.
+%   More messages arrive than are read, in Python alone.
 
 outbox("
 import sys, threading, time

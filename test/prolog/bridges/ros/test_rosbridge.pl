@@ -2,8 +2,8 @@
 
 /** <module> ROS by way of a rosbridge server
 
-The server is a stand-in, see rosbridge_server.pl, which takes nothing that a
-real one would not.
+The server is a stand-in, see rosbridge_server.pl, which refuses whatever a
+real one refuses.
 */
 
 :- use_module('../../../lib/common').
@@ -28,7 +28,7 @@ real one would not.
     on_hosts(-, +, +, 0),
     quiet(0).
 
-%   Hosts alpha and beta; alpha has ROS, and a puppet stands there.
+%   Hosts alpha and beta; alpha has ROS, and an agent that executes goals.
 
 on_a_host(Agent, Options, Goal) :-
     no_leaks(with_rosbridge(URL, on_hosts(Agent, URL, Options, Goal))).
@@ -295,8 +295,8 @@ test(service_offered_by_an_agent) :-
           wrong(alpha, Agent, ros_offer('/add', 'std_srvs/Empty', []), Taken),
           assertion(Taken == permission_error(offer, ros_service, '/add')) )).
 
-%   A call for which the queue of the agent is full is refused; it is not one of those
-%   that wait for him.
+%   A call is refused if the queue of the agent is full; it is not counted
+%   among the calls that wait for the agent.
 
 test(a_call_that_is_dropped) :-
     on_a_host(_, [],
@@ -400,8 +400,8 @@ test(no_server) :-
 
 :- end_tests(rosbridge_actions).
 
-%   Servers that accept connections, and one of them becomes a WebSocket, but
-%   neither reads or says anything then.
+%   Servers that accept connections but neither read nor answer; one of them
+%   completes the handshake of a WebSocket before.
 
 :- meta_predicate
     with_silent_port(-, 0),
@@ -555,7 +555,7 @@ test(calls_and_goals_fail_when_the_server_disconnects) :-
 test(publishing_without_a_server_is_an_error) :-
     quiet(no_leaks(with_rosbridge(URL,
         on_hosts(Agent, URL, [],
-            ( wait_until(rosbridge_clients(1), 5),  % it knows us, too
+            ( wait_until(rosbridge_clients(1), 5), % counted there, too
               rosbridge_end(URL),
               wait_until(ros_property(alpha, connected(false)), 5),
               wrong(alpha, Agent, ros_publish('/t', 'std_msgs/String', []),

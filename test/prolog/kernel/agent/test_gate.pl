@@ -1,8 +1,7 @@
 :- module(test_gate, []).
 
-% Each reason to refuse an agent, on each path by which an agent can come: the
-% same reason reaches the program, the audit file and the watchers of the
-% host.
+% Each reason to refuse an agent, on each path of admission: the same reason
+% reaches the program, the audit file and the watchers of the host.
 
 :- use_module('../../../lib/authority').
 :- use_module('../../../lib/common').
@@ -24,21 +23,21 @@
                 *           THE TABLE          *
                 *******************************/
 
-%   path(?Path, ?Source, ?Way): the agent that is to come, or begin, on host
-%   inn is sent by this process (here) or by the process far (there).
+%   path(?Path, ?Source, ?Way): the agent that hops to host inn, or starts
+%   there, is sent by this process (here) or by the process far (there).
 
 path(create_here, here, create).
 path(restore_here, here, restore).
 path(hop_here, here, hop).
 path(clone_here, here, clone).          % to inn, from another host
-path(clone_on, here, clone_on).         % of one that stands on inn
+path(clone_on, here, clone_on).         % of an agent on inn
 path(create_there, there, create).
 path(restore_there, there, restore).
 path(hop_there, there, hop).
 path(clone_there, there, clone).
 
-%   reason(?Reason, ?Option): inn has that Option, or `all` of these: then the
-%   first reason counts.
+%   reason(?Reason, ?Option): inn has that Option, or `all` of them, and then
+%   the first reason counts.
 
 reason(peer, peer([certificate(alpha)-all, certificate(_)-[messages, watch]])).
 reason(policy(shell(ls)), policy(guarded)).
@@ -51,8 +50,8 @@ reason(unsigned, authors([alice])).
 reason(token, tokens([red])).
 reason(capacity, capacity(0)).
 
-%   Only another process has no right; a clone has no messages, nor has an agent
-%   that is created; an agent that stands on inn with too large a state ends.
+%   Only another process can lack a right; a clone has no messages, nor has a
+%   new agent; an agent on inn ends if its state is too large.
 
 cell(Path, Reason, Option) :-
     path(Path, Source, Way),
@@ -68,8 +67,9 @@ ends_too_large(all(_)).
                 *            A CELL            *
                 *******************************/
 
-%   refused(+Path, +Reason, +Option, -Told, -Audited, -Events, +Dir): how the attempt
-%   ends, and what is noted of it as From-Agent-Reason and Agent-Reason.
+%   refused(+Path, +Reason, +Option, -Told, -Audited, -Events, +Dir): the
+%   result of the attempt, and its records as From-Agent-Reason and
+%   Agent-Reason.
 
 refused(Path, Reason, Option, Told, Audited, Events, Dir) :-
     path(Path, Source, Way),
@@ -95,9 +95,9 @@ audit_line(File, Peer, Proof, What) :-
     read_file_to_terms(File, Lines, []),
     member(audit(_, inn, Peer, Proof, What), Lines).
 
-%   prepared(+Reason, +Option, +Way, +Source, -Agent): Agent stands where it
-%   begins its way, or is none.  Where an owner may have one agent, the owner
-%   has one on inn.
+%   prepared(+Reason, +Option, +Way, +Source, -Agent): Agent is on the host
+%   where its way begins, or is `none`. If an owner may have one agent, the
+%   owner has one on inn.
 
 prepared(quota(agents), Option, Way, Source, Agent) :-
     !,
@@ -230,7 +230,7 @@ deviates(Path, Reason, got(Told, Audited, Events)) :-
          Events = [Refused-Reason],
          is_guest(Refused) ).
 
-%   What the process far sends may be anything.
+%   The process far may send anything.
 
 requests_made(Dir) :-
     directory_file_path(Dir, audit, File),

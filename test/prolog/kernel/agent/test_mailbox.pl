@@ -6,7 +6,7 @@
 :- use_module(library(typhon)).
 :- use_module(library(typhon/kernel/agent)).
 
-/** <module> Mailboxes: each message once, in order, whatever others get
+/** <module> Mailboxes: each message once, in order, whatever other agents get
 
 *Threading*: each thread has the mailboxes of its own agents, as it would
 have inside with_agent/2.
@@ -67,15 +67,15 @@ filled(Id, Messages) :-
     mail_all(Id, _),
     mail_back(Id, Messages).
 
-%   Messages come after those that are there.
+%   New messages are added at the end.
 
 added(Id, Messages) :-
     mail_all(Id, Older),
     append(Older, Messages, All),
     mail_back(Id, All).
 
-%   The last message is taken, and put back, again and again, while more and
-%   more of what was taken is kept: so stacks are collected in between.
+%   The last message is taken and put back repeatedly, while more and more of
+%   the taken messages are kept, so that stacks are collected in between.
 
 taken_again(0, [Last|_], Length) :-
     !,
@@ -90,8 +90,8 @@ taken_again(N, Kept0, Length) :-
     N1 is N-1,
     taken_again(N1, Kept, Length).
 
-%   Each of some threads fills and empties the box of its agent; Bad are the
-%   lists that were not what had been put in.
+%   Several threads fill and empty the mailboxes of their agents; Bad are the
+%   lists that differ from the messages put in.
 
 busy_boxes(Threads, Rounds, Bad) :-
     numlist(1, Threads, Numbers),

@@ -9,7 +9,7 @@
 *Threading*: one test at a time.
 */
 
-%   A variable that is unified first, and used later.
+%   A variable that is unified before it is used.
 
 rule((same(X, Y) :- X = at(_), ( X = at(2) -> Y = two ; Y = X ))).
 
@@ -19,7 +19,8 @@ agent(PIs, Options, Agent) :-
                          ]),
                  Agent, Options).
 
-%   Twice, as at two hops to other processes: what arrives is sent on.
+%   The agent is saved twice, as in two hops to other processes: the received
+%   form is sent on.
 
 sent_on(Dir, Agent, Clone) :-
     atom_concat(Dir, '/agent', File),

@@ -16,8 +16,8 @@
 
 :- begin_tests(durable, [setup(set_random(seed(7)))]).
 
-%   The facts of each table, with any values, come back from their items as they
-%   were, in their order.
+%   The facts of each table, with any values, are restored from their items in
+%   their order.
 
 test(facts_are_restored_from_their_items,
      [forall(fact_kind(Kind)), Restored == Facts]) :-
@@ -33,7 +33,7 @@ test(facts_are_restored_from_their_items,
     facts(Kind, Restored),
     emptied(Kind).
 
-%   Each item that a table has restored is dumped as it was.
+%   Each item that a table has restored is dumped unchanged.
 
 test(restored_items_are_dumped,
      [ forall(dumped_table(Kind, Form)),
@@ -68,8 +68,8 @@ fact_item(Kind, Key, N, Term, Module:Fact) :-
     ( var(N) -> N = 0 ; true ),
     ( var(Term) -> Term = '' ; true ).
 
-%   The record of an agent is an item of journals; typhon_journaled_agents makes it
-%   of what it knows beside.
+%   The record of an agent is an item of journals; typhon_journaled_agents
+%   makes it of other tables.
 
 dumped_table(Kind, Form) :-
     typhon_durable:item_table(Kind, _, _, Form, Dump, _),

@@ -18,7 +18,7 @@ make(Thread) :-
              functor(Term, Name, 1),
              assertz(made(Name, Term)) )).
 
-%   One that was lost is there a second time.
+%   A lost functor exists twice.
 
 lost(Name) :-
     made(Name, Term),

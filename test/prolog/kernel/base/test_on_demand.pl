@@ -1,17 +1,17 @@
 :- module(test_on_demand, []).
 
-/** <module> What a process does not use is not loaded, and works when it is
+/** <module> Options are loaded on first use
 
 Each test has a process of its own.
 
-*Threading*: one thread in each, but where the name of the test says so.
+*Threading*: one thread in each, unless the name of the test says otherwise.
 */
 
 :- use_module('../../../lib/common', [project_file/2, run_swipl/5]).
 :- use_module(library(plunit)).
 
-%   seen(+Goal, -Out): what a process with library(typhon) prints, of which it
-%   is asked with loaded(Modules).
+%   seen(+Goal, -Out): the output of a process with library(typhon) that calls
+%   Goal, in which loaded(Modules) is defined.
 
 seen(Goal, Out) :-
     project_file('prolog/typhon.pl', Typhon),

@@ -20,7 +20,7 @@ begun(_) :-
                      detached(true) ]),
              assertz(echo(Pid, In, Out)) )).
 
-%   It says what it was told and ends, while all others live.
+%   The process echoes its input and ends, while all others run.
 
 ended(In, Out) :-
     format(In, 'hello~n', []),

@@ -13,7 +13,7 @@
               [in_own_thread/1, own_thread_start/0, own_thread_stop/0]).
 :- use_module(library(typhon/kernel/host), [place_deliver/3]).
 
-/** <module> Tests of hosts: what they offer, admit, and leave behind
+/** <module> Tests of hosts: places, admission, and cleanup
 
 Modules that serve as services and places are made by the tests.
 */
@@ -239,7 +239,7 @@ in_turn :-
     thread_send_message(here, here),
     thread_get_message(go, go).
 
-%   began(+N): so many more have a turn, and no others.
+%   began(+N): so many more agents have a turn, and no others.
 
 began(N) :-
     forall(between(1, N, _),
@@ -407,7 +407,7 @@ test(tokens_that_are_terms, O == done) :-
 
 :- begin_tests(concurrency).
 
-%   Agents that work without stopping, and note when.
+%   Agents that work without stopping, and record when.
 
 intervals(Options, Intervals) :-
     with_hosts([alpha-Options],
@@ -451,7 +451,7 @@ blocked(Options, N) :-
                  assertion(forall(member(O, Os), O == done)) )),
     message_queue_destroy(Q).
 
-%   Each goes on only when all are there.
+%   Each agent continues only when all have arrived.
 
 meet(N) :-
     findall(A, ( between(1, N, _),
@@ -715,7 +715,7 @@ test(hosts_share_a_clock, true(abs(A-B) < 500)) :-
 test(rate_must_be_positive, error(domain_error(clock_rate, 0))) :-
     no_leaks(host_start(alpha, [clock(0, 0)])).
 
-%   Not a hundred times that.
+%   A hundred empty reads would be a fault.
 
 test(hop_time_in_host_seconds, true((Min >= 5.0, Max < 490))) :-
     get_time(Now),
@@ -731,7 +731,7 @@ test(hop_time_in_host_seconds, true((Min >= 5.0, Max < 490))) :-
                 *        START AND STOP        *
                 *******************************/
 
-%   Walkers that were on their way when n1 was told to stop.
+%   Walkers that were in flight when n1 got the order to stop.
 
 ended_elsewhere(Elsewhere, Dir) :-
     atom_concat(Dir, '/events.pl', Log),
@@ -760,8 +760,8 @@ walker([Home|_]) :-
                            (go(H) :- catch(move(H), error(_, _), true)) ]), _,
                  [host(Home)]).
 
-%   In which state an agent is when it is asked until when it waits: as soon as
-%   it rests its host may be stopped, unnoticed.
+%   The state of an agent when its wait deadline is computed: once the agent
+%   rests, a stop of its host may go unnoticed.
 
 asked_in(Caller, Goal) :-
     findall(State, agent_property(_, state(State)), States),
@@ -791,7 +791,7 @@ footprint(Threads, Queues, Modules, Files) :-
     ;   Files = 0
     ).
 
-%   They get the order to end before they have begun.
+%   The threads get the order to end before they have started.
 
 test(helper_threads_of_a_stop_have_ended, true(Threads == Before)) :-
     footprint(Before, _, _, _),
@@ -830,8 +830,7 @@ test(with_every_kind_of_agent) :-
                            wait_state(F, faulty(_)),
                            host_stop(alpha) ), _)).
 
-%   Agents that do not come to an effect are interrupted, here after a
-%   short time.
+%   Agents that reach no effect are interrupted, here after a short time.
 
 :- meta_predicate impatient(0).
 

@@ -7,11 +7,11 @@
 :- use_module(library(lists), [member/2]).
 :- use_module(library(typhon)).
 
-/** <module> A log server that is not there
+/** <module> A missing log server
 
 */
 
-%   ended(+Count): so many agents have begun, logged something and ended.
+%   ended(+Count): so many agents have started, written a log entry and ended.
 
 ended(Count) :-
     forall(between(1, Count, _),

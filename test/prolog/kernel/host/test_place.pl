@@ -12,7 +12,8 @@
 :- use_module(library(plunit)).
 :- use_module(library(typhon)).
 
-%   write_place(+Dir, +Name, +Age, +Text, -File): as it was Age seconds ago.
+%   write_place(+Dir, +Name, +Age, +Text, -File): the file was changed Age
+%   seconds ago.
 
 write_place(Dir, Name, Age, Text, File) :-
     directory_file_path(Dir, Name, File),
@@ -62,8 +63,8 @@ changes(Dir, File) :-
     made(_),
     assertion(remote(beta, findall(S, size(S), [2]))).
 
-%   What cannot be read is said; the place stays, and is made again when the
-%   file is mended.
+%   Errors in a file are reported; the place is kept, and is made again when
+%   the file is corrected.
 
 test(errors_are_reported) :-
     with_tmp_dir(mistakes).
@@ -81,8 +82,8 @@ mistakes(Dir, _) :-
     made(_),
     assertion(remote(alpha, findall(C, colour(C), [green]))).
 
-%   An agent runs on with the program with which it was created; one that
-%   is created later has the new one, without make/0.
+%   An agent keeps the program with which it was created; an agent that is
+%   created later has the new one, without make/0.
 
 test(agents_keep_the_program_of_their_creation) :-
     with_tmp_dir(programs).

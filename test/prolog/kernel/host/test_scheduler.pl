@@ -229,7 +229,8 @@ while_blocked(Count, Goal) :-
 
 few([typhon_scheduler:max_workers=8, typhon_scheduler:blocked_seconds=0.05]).
 
-%   Agents of another program come to their end, and one sleeps in between.
+%   Agents of another program run to their end, and one of them sleeps in
+%   between.
 
 others_end(Count) :-
     findall(A,
@@ -301,8 +302,8 @@ timer_signal(Goal) :-
 
 :- begin_tests(no_threads, [condition(exists_file('/usr/bin/prlimit'))]).
 
-%   without_threads(:Goal): while no thread can be made, since there is no
-%   room for its stack; those there are have all begun, and have theirs.
+%   without_threads(:Goal): no new thread can be made, since there is no space
+%   for its stack; existing threads have started, and have their stacks.
 
 :- meta_predicate without_threads(0).
 
@@ -318,7 +319,7 @@ without_threads(Goal) :-
                  ( thread_send_message(Thread, end),
                    thread_join(Thread, _) )) )).
 
-%   Of all threads this one alone runs, or is about to.
+%   This thread is the only one that runs or is about to run.
 
 at_rest :-
     expand_file_name('/proc/self/task/*/stat', Files),
@@ -384,7 +385,7 @@ no_room(O, F) :-
                       \+ agent_join(C, done, 0.1) )),
     joined(C, done).
 
-%   No two of a kind: once it is known that one blocks, its kind is held back.
+%   Only one agent of a kind: once one blocks, its kind is held back.
 
 create_blocked(Count) :-
     forall(between(1, Count, I),
@@ -421,8 +422,8 @@ at(Seconds, Stamp) :-
     get_time(Now),
     Stamp is Now+Seconds.
 
-%   in_time(:Set, +Count, -Events): what happens when Set(T) sets alarms, for
-%   the time T or later, and has done so by then.
+%   in_time(:Set, +Count, -Events): Events are those of the alarms that Set(T)
+%   sets, for the time T or later, before T.
 
 :- meta_predicate in_time(1, +, -).
 
@@ -482,7 +483,7 @@ test(expired_alarms_are_forgotten, true(( N =< 1000, I =< 1000 ))) :-
                  forall(between(1, 20000, J),
                         ( S is T+J, alarm_set(S, test(J), over) )),
                  typhon_timer:alarm_count(N, I) )).
-test(valid_alarms_are_kept) :-      % of the last the timer hears later
+test(valid_alarms_are_kept) :-      % the timer is notified of the last later
     scheduling(( at(1000, T),
                  forall(between(1, 5000, J),
                         ( S is T+J, alarm_set(S, test(J), t) )),
@@ -565,7 +566,7 @@ test(no_alarm_goes_off_after_the_stop, true(N == 0)) :-
                 *          SHORT TURNS         *
                 *******************************/
 
-%   Turns that are short, and what is remembered of those that are not.
+%   Short turns, and the memory of long ones.
 
 short :-
     forall(between(1, 700, _), succ_or_zero(1)).
@@ -575,8 +576,8 @@ long :-
 
 succ_or_zero(_).
 
-%   A turn in which another thread has run is long, too: some kind was not held
-%   up.
+%   A turn in which another thread has run counts as long, too; of several
+%   kinds at least one is not disturbed.
 
 :- meta_predicate some_kind(+, 1).
 

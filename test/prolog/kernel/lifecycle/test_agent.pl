@@ -11,12 +11,12 @@
 
 /** <module> Tests of the lives of agents, from birth to end
 
-Agents on hosts of this process.  An agent with on_message/2 stays for
+Agents on hosts of this process. An agent with on_message/2 remains for
 inspection when its goals are done.
 */
 
-%   lives(+Clauses, -Facts): what is in the state of an agent of these
-%   clauses when it has no goals left.
+%   lives(+Clauses, -Facts): Facts are the state of an agent of Clauses when it
+%   has no goals left.
 
 lives(Clauses, Facts) :-
     lives(Clauses, [], Facts).
@@ -240,7 +240,7 @@ test(state_that_cannot_travel, true(F = [r(mobile_term)|_])) :-
     lives([ (main :- current_output(S), assertz(s(S)),
                      catch(move(beta), error(type_error(E, _), _),
                            assertz(r(E)))) ], F).
-%   It would be the variable alone that waits.
+%   The variable is the only part of the waiting goal that cannot travel.
 
 test(attributed_variable_in_a_waiting_goal_is_refused,
      [ forall(member(Stop, [sleep(1), receive(_), receive(_, 1), clone(_)])),
@@ -716,7 +716,7 @@ test(join_after_the_host_stopped, O == disposed) :-
                 *      ORDERS FROM OUTSIDE     *
                 *******************************/
 
-%   An agent in each state, and how to bring it there.
+%   An agent in each state, and the goal that brings it there.
 
 in_state(running, [(main :- receive(_-go), busy(200 000), receive(_-stop)),
                    (busy(N) :- N =< 0, !),
@@ -1110,8 +1110,8 @@ test(missing_file, error(existence_error(source_sink, nothing))) :-
                 *        RESTORE POINTS        *
                 *******************************/
 
-%   saved(+Clauses, +Options, +Seen, -Facts): Facts of the agent made from
-%   the restore point of an agent that waits, after it was told to go on.
+%   saved(+Clauses, +Options, +Seen, -Facts): Facts of the agent that is loaded
+%   from the restore point of a waiting agent, after it has got `go`.
 
 saved(Clauses, Options, Facts) :-
     with_tmp_dir(test_agent:saved_in(Clauses, Options, Facts)).
@@ -1170,7 +1170,7 @@ mail_in(F, Dir) :-
                  wait_state(B, resident),
                  agent_property(B, facts(F)) )).
 
-%   It wakes at once where it is late.
+%   The agent wakes at once, since its time is over.
 
 test(mail_is_restored_before_the_agent_runs, F == [s(early)]) :-
     with_tmp_dir(plunit_restore_points:mail_before(F)).

@@ -11,14 +11,15 @@
 *Threading*: one test at a time.
 */
 
-%   made(+Specs, +Clauses, -Result, +Options): what an agent of Clauses gives.
+%   made(+Specs, +Clauses, -Result, +Options): the result of an agent of
+%   Clauses.
 
 made(Specs, Clauses, Result) :-
     with_hosts(Specs, ( create(Clauses, A), agent_result(A, Result, 10) )).
 
 child(Body, clauses([ (:- agent(child, [state([s/1])])), (main :- Body) ])).
 
-%   refused(+Program, -Formal): what creating it raises, on a guarded host.
+%   refused(+Program, -Formal): the error of its creation on a guarded host.
 
 refused(Program, Formal) :-
     made([alpha-[policy(guarded), cell(none)]],

@@ -15,7 +15,7 @@
 *Threading*: one test at a time.
 */
 
-%   runaway(?Kind, -Clauses): what does not come to an effect.
+%   runaway(?Kind, -Clauses): goals that never reach an effect.
 
 runaway(loops, [ (main :- lp), (lp :- lp) ]).
 runaway(loops_in_the_machine,
@@ -42,8 +42,8 @@ start(Kind, Agent, Options) :-
     create(Clauses, Agent, Options),
     wait_until(running_for(Agent, 0.02), 10).
 
-%   ending_when_asked(+Clauses, -Agent, :Goal): Agent, which runs until over/0, is
-%   running; Goal asks it for something, and then it is over.
+%   ending_when_asked(+Clauses, -Agent, :Goal): Agent, which runs until over/0
+%   is true, is running; Goal gives it an order, and then over/0 becomes true.
 
 :- meta_predicate ending_when_asked(+, -, 0).
 
@@ -175,7 +175,7 @@ test(host_with_limited_concurrency, O == done) :-
                  agent_dispose(A, [force(0)]),
                  joined(B, O) )).
 
-%   Others that are as busy, on the same host, go on, and end.
+%   Other busy agents on the same host continue and end.
 
 test(other_agents_are_not_disturbed, Os == [done,done,done]) :-
     with_hosts([alpha],
@@ -208,7 +208,7 @@ test(result_before_the_disposal_is_kept, X == 1) :-
 test(waiting_callers_get_the_outcome, true(E = existence_error(agent, _))) :-
     with_hosts([alpha], ( start(loops, A), clone_in_vain(A, E) )).
 
-%   A caller that has given up waiting is no reason not to answer the next.
+%   A caller that has stopped waiting does not keep the next from its answer.
 
 test(later_callers_get_the_outcome, true(E = existence_error(agent, _))) :-
     with_settings([typhon_disposal:heed_seconds=0.01],
@@ -226,7 +226,7 @@ clone_in_vain(A, E) :-
     thread_get_message(cloned(E)),
     thread_join(T, true).
 
-%   Virtual time goes on for the others.
+%   Virtual time continues for the others.
 
 test(virtual_time, Now-O == 100.0-done) :-
     with_hosts([alpha-[clock(virtual)]],
@@ -259,7 +259,7 @@ test(virtual_host_is_stopped, O == done) :-
                                create([(main :- sleep(5))], B, [host(beta)]),
                                agent_join(B, O, 10) ))).
 
-%   B rests, and so ends first; A still runs, and speaks to him.
+%   B rests, and so ends first; A still runs, and sends it a message.
 
 test(no_false_warning_during_host_stop, Ms == []) :-
     setup_call_cleanup(
@@ -296,7 +296,8 @@ test(no_such_agent, error(existence_error(agent, _))) :-
 
 :- begin_tests(disposal_elsewhere).
 
-%   It runs away in b, where it has come by itself; others there go on.
+%   The agent moves to b by itself and runs on there; other agents there
+%   continue.
 
 test(force, True-O == disposed-done) :-
     with_peers([a, b],
@@ -313,7 +314,7 @@ test(force, True-O == disposed-done) :-
                  peer_do(b, \+ agent_here(Id)),
                  peer_do(b, agent_send(Other, go)),
                  peer_do(b, agent_join(Other, O, 10)),
-                 % the thread that has read it has left its connection to another
+                 % the reading thread has handed its connection over
                  again(B) )).
 test(warning, true(sub_string(All, _, _, _, "runs on"))) :-
     with_peers([a, b],
@@ -327,7 +328,7 @@ test(warning, true(sub_string(All, _, _, _, "runs on"))) :-
                  atomics_to_string(Lines, All),
                  peer_do(a, agent_dispose(Id, [force(0)])) )).
 
-%   Its home would not answer.
+%   The home of the agent would not answer.
 
 test(agent_that_ends_during_a_listing_is_not_queried_elsewhere, Found == []) :-
     with_peers([a, b],

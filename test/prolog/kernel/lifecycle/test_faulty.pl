@@ -8,9 +8,9 @@
 :- use_module(library(plunit)).
 :- use_module(library(typhon)).
 
-/** <module> Agents that fail or raise an error can be looked into
+/** <module> Agents that fail or raise an error can be inspected
 
-They say where it was, are kept as they were, take orders, and try again.
+They report the goal, are kept unchanged, accept orders, and are resumed.
 
 *Threading*: tests run one at a time.
 */
@@ -40,8 +40,7 @@ saved(Agent, Copy, Dir) :-
     agent_save(Agent, File),
     agent_load(File, Copy).
 
-%   says(+Lines, -Text): what is printed of an agent of that file, after
-%   its id.
+%   says(+Lines, -Text): the message about an agent of that file, after its id.
 
 says(Lines, Text) :-
     with_program(Lines, File,
@@ -67,14 +66,14 @@ message_to_lines(Message, Text) :-
                      print_message_lines(Out, '', Lines) )),
     !.
 
-%   faulty(+Clauses, -Agent): an agent that has become so on alpha.
+%   faulty(+Clauses, -Agent): an agent that has become faulty on alpha.
 
 faulty(Clauses, Agent) :-
     create(Clauses, Agent, [host(alpha)]),
     joined(Agent, Outcome),
     ( Outcome == failed -> true ; Outcome = raised(_) ).
 
-%   on(+Hosts, :Goal): nothing is printed.
+%   on(+Hosts, :Goal): messages are not printed.
 
 :- meta_predicate on(+, 0).
 
@@ -477,7 +476,7 @@ test(clause_without_a_stop_fails,
                 *   STEPS THAT ARE NOT DONE    *
                 *******************************/
 
-%   While it is broken, what runs agents in place of the machine fails.
+%   While broken/0 is true, the engine that replaces the machine fails.
 
 :- dynamic broken/0.
 

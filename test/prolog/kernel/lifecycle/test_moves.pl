@@ -21,7 +21,7 @@ stands(Agent, Host) :-
     agent_property(Agent, host(At)),
     At == Address.
 
-%   moved(+Agent, +Host, -Formal): `none` if it is there.
+%   moved(+Agent, +Host, -Formal): `none` if the agent has arrived.
 
 moved(Agent, Host, Formal) :-
     catch(( agent_move(Agent, Host, [wait(10)]), Formal = none ),

@@ -7,7 +7,7 @@
 :- use_module(library(lists)).
 :- use_module(library(typhon)).
 
-/** <module> Agents by the names that people give them
+/** <module> Agents by names that are given at creation
 
 */
 
@@ -97,8 +97,8 @@ test(id_is_not_resolved) :-
                  assertion(Same == Id),
                  assertion(I1-I0 < 10) )).
 
-%   One of a network of other processes, wherever it is: it was not created
-%   here only.
+%   An agent of a network of other processes, wherever it is: this process
+%   alone does not create it.
 
 test(agent_in_another_process) :-
     no_leaks(setup_call_cleanup(
@@ -119,7 +119,7 @@ elsewhere(Network) :-
     catch(agent_send(carl, hello), error(Formal, _), true),
     assertion(Formal == existence_error(agent, Carl)).
 
-%   Nothing in this process has created them.
+%   This process has created none of these agents.
 
 test(name_of_an_agent_that_ended_in_a_network) :-
     no_leaks(setup_call_cleanup(

@@ -9,10 +9,9 @@
 :- use_module(library(pairs), [pairs_keys_values/3, pairs_values/2]).
 :- use_module(library(typhon)).
 
-/** <module> What agents give when they have ended, and what became of all
-their clones
+/** <module> The results of agents that have ended, and of all their clones
 
-Time is virtual where nothing has to leave the process.
+Time is virtual where no agent leaves the process.
 
 *Threading*: one test at a time.
 */
@@ -131,7 +130,7 @@ kept(Agent, X) :-
     catch(agent_result(Agent, X, 10), error(existence_error(result, _), _),
           X = none).
 
-%   Over processes.
+%   The family spreads over processes.
 
 test(ends_in_another_process, X-Y == here-here) :-
     with_peers([a, b],
@@ -151,7 +150,7 @@ test(travels_to_another_process, X == 7) :-
                                 Id, [])),
                  peer_do(b, agent_result(Id, X, 20)) )).
 
-%   More of them than one frame holds.
+%   There are more of them than one frame holds.
 
 test(many_large_results, Lengths == [30000]) :-
     with_peers([ a, b-[setup(set_setting(typhon_session:frame_bytes,
@@ -172,7 +171,7 @@ test(many_large_results, Lengths == [30000]) :-
                                       Ns),
                               sort(Ns, Lengths) )) )).
 
-%   That it has ended is known at least.
+%   The end at least is known.
 
 test(result_longer_than_a_frame, Error == existence_error(result, Id)) :-
     with_peers([ a, b-[setup(set_setting(typhon_session:frame_bytes, 70000))] ],
@@ -280,8 +279,8 @@ test(unbound_agent, error(instantiation_error)) :-
 test(invalid_timeout, error(type_error(number, soon))) :-
     virtually(( create([main], A), agent_join(family(A), _, soon) )).
 
-%   A clones on its own host, on that of the other process by clone/2, and
-%   there, having moved; its clones clone in turn, there and back.
+%   A clones itself on its own host, and on that of the other process by
+%   clone/2 and after a move; its clones do the same.
 
 test(family_in_several_processes, true(Outcomes-N == [done]-10)) :-
     with_peers([a, b],

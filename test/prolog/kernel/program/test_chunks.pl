@@ -9,9 +9,9 @@
               [ code_clear/0, code_install/3, code_module/2, fault/3,
                 goals_body/2, machine_run/3, plain_goals/2, program_load/6 ]).
 
-/** <module> Tests of typhon_chunks: programs run as the machine runs them
+/** <module> Tests of typhon_chunks: compiled programs run as in the machine
 
-`make fuzz-programs COUNT=10000` tries as many programs, from SEED on.
+`make fuzz-programs COUNT=10000` runs so many programs, from SEED on.
 */
 
 :- begin_tests(chunks, [cleanup(code_clear)]).
@@ -28,7 +28,7 @@ test(compiled_programs_run_as_interpreted, Differing == []) :-
             ),
             Differing).
 
-%   Of each place at which an agent has stopped, with any values.
+%   The goals of each place at which an agent has stopped, with any values.
 
 test(frame_is_turned_back_into_its_goals, Lost-Many == []-true) :-
     findall(Kept,
@@ -123,7 +123,8 @@ test(program_is_compiled_at_its_first_run) :-
     assertion(Goals == [true,t(1)]),
     assertion('$get_predicate_attribute'(Module:'$goals'(_, _, _, _), defined, 1)).
 
-%   The goals are too long to be noted but at the end of the run; its frame is not.
+%   The goals are too long to be recorded except at the end of the run; its
+%   frame is not.
 
 test(failure_inside_catch_is_reported_with_long_goals, Goal == (\+ n(1))) :-
     length(Long, 200),
@@ -158,7 +159,7 @@ test(stop_in_a_negation_faults_the_negation, Goals =@= [\+ r(_),\+ r(_)]) :-
             ),
             Goals).
 
-%   a/1 has another clause, in which no goal is noted.
+%   a/1 has another clause, in which no goal is recorded.
 
 test(long_failed_goal_is_named_at_a_choice,
      Names-Left =@= [n(1),n(_),n(_)]-[2,1,1]) :-
@@ -180,7 +181,7 @@ test(long_failed_goal_is_named_at_a_choice,
             Faults),
     pairs_keys_values(Faults, Names, Left).
 
-%   What q/1 has bound is needed by no goal that comes after it.
+%   No later goal uses the variable that q/1 binds.
 
 test(fault_survives_garbage_collection,
      [ forall(member(Main, [ q(_), \+ q(_), ( q(X) -> t(1) ; t(X) ),
@@ -201,7 +202,7 @@ test(fault_survives_garbage_collection,
             ),
             Goals).
 
-%   A clause that is being added is in its table and cannot be seen yet, as for
+%   A clause that is being added is in its table and not visible yet, as for
 %   other threads until a transaction ends.
 
 test(frames_are_looked_up_while_the_first_is_added, Outcome == done) :-
@@ -232,7 +233,7 @@ nested(N, ( (t(N),Nested -> true ; fail) -> t(N) ; t(0) )) :-
     N1 is N-1,
     nested(N1, Nested).
 
-%   stopped(+Clauses, -Module, -Goals): what is left at the first stop.
+%   stopped(+Clauses, -Module, -Goals): the goals left at the first stop.
 
 stopped(Clauses, Module, Goals) :-
     program_load(clauses(Clauses), Program, _, Hash, Kinds, _),

@@ -9,7 +9,7 @@
                 program_load/6 ]).
 :- use_module(library(typhon/kernel/base/text), [term_text/2, text_term/2]).
 
-/** <module> Tests of typhon_machine: stopping and going on anywhere
+/** <module> Tests of typhon_machine: agents stop and continue anywhere
 
 An agent is run here without a host: at every control predicate its goals
 and its state go through the text form of the wire and are put into a new
@@ -220,9 +220,9 @@ hops(M, A, Goals0, N0, N, L0, L, O) :-
                 *      RANDOM PROGRAMS         *
                 *******************************/
 
-/*  A random program does the same natively, where hop/0 is true, and
-hopping at every hop/0.  A hop gives up choice points to its left, so a
-program must not need those.  Goals of kind `sure` succeed; `test`, which
+/*  A random program gives the same results natively, where hop/0 is true, and
+with hops at every hop/0. A hop removes choice points to its left, so a
+program must not depend on those.  Goals of kind `sure` succeed; `test`, which
 may fail after side effects and hops, stand in conditions only. */
 
 random_program(Clauses) :-

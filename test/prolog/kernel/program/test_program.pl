@@ -9,14 +9,14 @@
 :- use_module(library(typhon/kernel/program),
               [payload_load/2, program_hash/2, program_load/6]).
 
-/** <module> Tests of agent programs: what loads, what does not, and why
+/** <module> Tests of agent programs: loading, and errors
 
-Programs are written to files here, so that places in files are tested as
-people see them.
+Programs are written to files here, so that positions in files are tested as
+users see them.
 */
 
 
-%   program_load(+Spec, -Program, -Initial): whatever is remembered.
+%   program_load(+Spec, -Program, -Initial): without the cache.
 
 program_load(Spec, Program, Initial) :-
     program_load(Spec, Program, Initial, _, _, _).
@@ -51,8 +51,8 @@ write_lines(Dir, Name, Lines) :-
                               format(Out, '~w~n', [Line])),
                        close(Out)).
 
-%   problem(+Lines, -Formal, -Line, -Advice): the error that a program of
-%   these lines raises.
+%   problem(+Lines, -Formal, -Line, -Advice): the error that a program of Lines
+%   raises.
 
 problem(Lines, Formal, Line, Advice) :-
     with_file(Lines, test_program:error_of(load, Formal, Line, Advice)).
@@ -397,8 +397,8 @@ test(reading_leaves_nothing) :-
                 *           REMEMBERED         *
                 *******************************/
 
-%   loads(+File, -Fact): the last clause of File, as agents are created
-%   from it.
+%   loads(+File, -Fact): the last clause of File in the program from which
+%   agents are created.
 
 loads(File, Fact) :-
     program_load(File, program(_, _, _, Clauses), _, _, _, _),
@@ -408,7 +408,7 @@ remembered(File) :-
     typhon_loaded:loaded(File, _, _),
     !.
 
-%   set_age(+Seconds, +File): File was changed so long ago.
+%   set_age(+Seconds, +File): File was changed Seconds ago.
 
 set_age(Seconds, File) :-
     get_time(Now),

@@ -11,8 +11,8 @@
 
 /** <module> An agent arrives whole or not at all
 
-What a faulty peer could send, sent by hand.  The agent that comes after it
-under the same id is let in.
+Images that a faulty peer could send, sent by hand. The valid agent that
+arrives later under the same id is admitted.
 */
 
 :- begin_tests(arrival).
@@ -56,8 +56,8 @@ test(invalid_image_leaves_nothing) :-
 
 :- end_tests(arrival).
 
-%   bad(?Change, ?Id, ?Error): the image of Id gets that answer, if one part of
-%   it is like this.
+%   bad(?Change, ?Id, ?Error): Error is the answer to the image of Id with that
+%   Change.
 
 bad(mail(none), Id, type_error(agent_image, Id)).
 bad(mail([hello]), Id, type_error(agent_image, Id)).
@@ -86,7 +86,7 @@ program(Hash, Program) :-
     Program = program(x, [], [], [(main:-true), (on_message(_,_):-true)]),
     program_hash(Program, Hash).
 
-%   No agent comes under the id of one that has ended.
+%   No agent arrives under the id of one that has ended.
 
 image(Mail, image(Id, Hash,
                   life(none, 3, inf, [], [], false, []),

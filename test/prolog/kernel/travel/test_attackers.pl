@@ -1,7 +1,7 @@
 :- module(test_attackers, []).
 
-% Attackers that are programs of their own: they share no process with what they
-% attack, and have its protocol, and keys, alone.
+% Attackers are separate programs: they share no process with their victims,
+% and have only the protocol and keys.
 
 :- use_module('../../../lib/authority').
 :- use_module('../../../lib/common').
@@ -17,7 +17,7 @@
 :- meta_predicate with_attacker(2), with_attacker(2, +).
 
 %   alpha is here, beta in a process with the same authority, and mallory is
-%   the attacker: call(Goal, Mallory, Host), Host an address there.
+%   the attacker: call(Goal, Mallory, Host), where Host is an address here.
 
 with_attacker(Goal) :-
     with_authority([alpha, beta, mallory], [], with_attacker(Goal)).
@@ -43,7 +43,7 @@ does(In-Out, Command, Answer) :-
     flush_output(In),
     read_term(Out, Answer, []).
 
-%   The Nth that goes to beta, where it enters something, and to mallory.
+%   The Nth agent that goes to beta, where it enters a result, and to mallory.
 
 guest(Mallory, Host, Nth, Agent) :-
     peer_host(beta, Beta),
@@ -86,7 +86,7 @@ test(replayed_image_creates_no_second_agent) :-
 :- end_tests(attackers).
 
 %   The client is that of OpenSSL: it greets as a process of Typhon does, and
-%   prints what comes.  With a good certificate that is a greeting.
+%   prints the answer. With a valid certificate that is a greeting.
 
 expired(Authority) :-
     expired_host(Authority, old),
@@ -114,7 +114,7 @@ greets(Authority, Name, Endpoint, Told) :-
         ( catch(( format(In, "typhon 3 ~`0t~32| x 1 127.0.0.1:1 90004 64 \c
                               none~n", []),
                   flush_output(In) ), error(_, _), true),
-          read_string(Out, _, Said),    % until the host has waited enough
+          read_string(Out, _, Said),    % until the host's wait has ended
           read_string(Err, _, Errors) ),
         ( catch(close(In, [force(true)]), error(_, _), true),
           close(Out),
@@ -123,8 +123,8 @@ greets(Authority, Name, Endpoint, Told) :-
     string_concat(Said, Errors, Told).
 
 %   mallory signs nothing, so nothing is accounted for after beta; without the
-%   link of beta, nothing after alpha.  Without that of alpha the numbers of the
-%   steps tell that there were others before.
+%   link of beta, nothing after alpha. Without that of alpha the numbers of the
+%   steps show that there were earlier ones.
 
 links_removed(Mallory, Host) :-
     forall(nth1(Nth, [ next-beta-[0,1,2,3], unlinked(2)-alpha-[0],
@@ -143,9 +143,9 @@ resides_at(alpha, Agent) :-
     host_property(alpha, address(Alpha)),
     resides(Agent, Alpha).
 
-%   Where the agent stands, where it has stood, and where it has ended.  A host
-%   that has heard nothing newer of an agent cannot know that an image is old:
-%   beta does not know of the third hop until the agent comes back.
+%   The host of the agent, the hosts that it has visited, and the host where it
+%   has ended. A host without newer news of an agent cannot know that an image
+%   is old: beta does not know of the third hop until the agent comes back.
 
 sent_again(Mallory, Host) :-
     guest(Mallory, Host, 1, Agent),
@@ -173,8 +173,9 @@ remembers(Agent) :-
     agent_property(Agent, facts(Facts)),
     memberchk(seen(new), Facts).
 
-%   again(+Mallory, +Ways, +Loads): the image that came, or that which mallory has
-%   sent, is taken for a repetition: alpha and beta have as many agents.
+%   again(+Mallory, +Ways, +Loads): an image that mallory has received, or has
+%   sent before, is recognised as a repetition: the loads of alpha and beta
+%   stay the same.
 
 again(Mallory, Ways, Loads) :-
     forall(member(Host-Change, Ways),

@@ -8,11 +8,11 @@
 :- use_module('../../../lib/peers').
 :- use_module('../../../lib/travellers').
 
-/** <module> What went wrong in the platforms before us does not go wrong here
+/** <module> Faults of earlier platforms do not occur
 
-Peers that are silent, killed or started again; strangers at the port;
-agents that bounce without pause, 10,000 hops of them.  With
-TYPHON_HOPS=100000 in the environment there are as many as that.
+Peers that are silent, killed or restarted; unauthenticated clients; agents
+that hop without pause, 10,000 times. TYPHON_HOPS=100000 in the environment
+sets that number.
 */
 
 :- begin_tests(silent_peer).
@@ -33,14 +33,14 @@ test(end_precedes_the_answer,
 
 :- end_tests(silent_peer).
 
-%   Agents are in doubt soon.
+%   Agents are marked in doubt after a short time.
 
 with_doubt(Peers, Goal) :-
     findall(Peer-[setup(set_setting(typhon_in_doubt:shown_seconds, 0.3))],
             member(Peer, Peers), Specs),
     with_peers(Specs, Goal).
 
-%   In doubt: sent to b, which is silent.
+%   The agent was sent to b, which is silent, and so is in doubt.
 
 in_doubt(Id) :-
     peer_host(a, A),
@@ -67,7 +67,7 @@ killed_for_good :-
     ended(a, Id, disposed),
     \+ peer_do(a, agent_here(Id)).
 
-%   The order waits for what b says, as long as b may say something.
+%   The order waits for the answer of b, as long as b may answer.
 
 told_then_back :-
     in_doubt(Id),
@@ -78,7 +78,7 @@ told_then_back :-
     \+ peer_do(a, agent_here(Id)),
     \+ peer_do(b, agent_here(Id)).
 
-%   The operator decides before b does: b hears of it.
+%   The operator disposes of the agent before b answers: b is notified.
 
 disposed_then_back :-
     peer_do(a, set_setting(typhon_reader:silence, 1)),
@@ -106,7 +106,7 @@ clone_then_back :-
     peer_do(a, agent_send(Clone, go)),
     ended(a, Clone, done).
 
-%   It is not looked for where it was before.
+%   The home does not look for the agent where it was before.
 
 ended_first(Outcome) :-
     peer_host(b, B),
@@ -137,14 +137,14 @@ test(move_to_a_dead_host_raises) :-
 
 :- end_tests(killed_peer).
 
-%   Where the home is: with the source, elsewhere, or in what is killed.
+%   The home is the source, another process, or the killed process.
 
 born(a).
 born(c).
 born(b).
 
-%   An agent born on Born is sent from a to b, which is stopped, killed and
-%   started again at its port.
+%   An agent created on Born is sent from a to b, which is stopped, killed and
+%   restarted at its port.
 
 restarted(Born) :-
     peer_host(a, A),
@@ -175,8 +175,8 @@ restarted(Born) :-
 agent_state(Peer, Id, State) :-
     peer_do(Peer, agent_state_here(Id, State)).
 
-%   The answer of b to a never comes, but the agent has gone on to c, which
-%   tells its home, a.
+%   The answer of b to a never arrives, but the agent has moved on to c, which
+%   notifies its home, a.
 
 got_away :-
     peer_host(b, B),
@@ -194,8 +194,8 @@ got_away :-
     steps_at(a, Id, [0]),
     steps_at(c, Id, [2, 3]).
 
-%   Its home, d or the process that it had reached, is started again and
-%   knows nothing; but others do.
+%   The home d, or the process that the agent had reached, is restarted without
+%   any data; other processes know the agent.
 
 home_of_lost(d).
 home_of_lost(b).
@@ -241,8 +241,8 @@ test(disposed_agent_does_not_continue) :-
 
 :- end_tests(disposal_during_a_hop).
 
-%   Large agents leave, and take a while to be packed; meanwhile they are
-%   disposed of.  Each then ends on one of the two sides.
+%   Large agents leave, and take a while to be encoded; meanwhile they are
+%   disposed of. Each then ends on one of the two sides.
 
 disposed_while_leaving(Count) :-
     peer_host(b, B),
@@ -277,8 +277,8 @@ hops(Hops) :-
     ;   Hops = 10000
     ).
 
-%   Twenty agents share the hops, and note what these cost: processor time,
-%   which is no less of a busy machine.
+%   Twenty agents share the hops, and record their cost in processor time,
+%   which does not depend on the load of the machine.
 
 bounce :-
     hops(Hops),
@@ -306,7 +306,7 @@ bounce :-
     wait_until(forall(member(Peer, [a, b]),
                       peer_do(Peer, \+ agent_here(_))), 10).
 
-%   One ends, one is disposed of: the third goes on.
+%   The first agent ends, the second is disposed of: the third continues.
 
 namesakes :-
     peer_host(a, A),
@@ -323,7 +323,7 @@ namesakes :-
     forall(between(1, 3, _), peer_do(b, agent_send(Id1, go))),
     ended_well(b, Id1, 9).
 
-%   The host that agents are leaving stops: each has got away, or has ended.
+%   The host that agents are leaving stops: each agent has left, or has ended.
 
 stop_under_way(Rounds) :-
     peer_host(a, A),
@@ -367,7 +367,7 @@ client(frame).
 client(oversize).
 client(hurried).
 
-%   says(Client, Bytes): what it sends.
+%   says(Client, Bytes): the bytes that Client sends.
 
 says(garbage, [0, 255, 10, 13, 10, 1, 2, 3]).
 says(http, `GET / HTTP/1.0\r\n\r\n`).
@@ -382,7 +382,7 @@ says(oversize, Bytes) :-
     maplist(=(0'a), Bytes).
 says(hurried, []).
 
-%   Two agents hop between a and b all the while.  One line is printed.
+%   Two agents hop between a and b all the time. One line is printed.
 
 visited_by(Client) :-
     says(Client, Bytes),
@@ -401,7 +401,8 @@ one_line(Printed) :-
         fail
     ).
 
-%   Say Bytes at the endpoint of Host, and go away when it does.
+%   Sends Bytes to the endpoint of Host, and closes the connection when the
+%   endpoint does.
 
 call_at(Host, Bytes) :-
     setup_call_cleanup(
@@ -412,7 +413,7 @@ call_at(Host, Bytes) :-
                 ->  true
                 ;   read_stream_to_codes(In, _)
                 ) ),
-              error(_, _),              % it has hung up
+              error(_, _),              % the endpoint has disconnected
               true),
         ( close(Out, [force(true)]),
           close(In, [force(true)]) )).
@@ -427,7 +428,7 @@ connect(Host, In, Out) :-
     set_stream(Out, encoding(octet)),
     set_stream(In, timeout(20)).
 
-%   Fifty connections say nothing: agents pass, also to a new peer.
+%   Fifty connections are silent: agents still arrive, also at a new peer.
 
 visited_by_silence :-
     peer_host(a, A),

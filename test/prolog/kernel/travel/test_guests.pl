@@ -6,15 +6,16 @@
 :- use_module(library(lists), [member/2]).
 :- use_module(library(plunit)).
 
-/** <module> Agents that come from another process
+/** <module> Agents that arrive from another process
 
-An agent that arrives is run by the thread that has read it.  One that blocks or
-never ends keeps no other from arriving or leaving, and its host can be stopped.
+An arriving agent is run by the thread that has read it. An agent that blocks
+or never ends keeps no other from arriving or leaving, and its host can be
+stopped.
 
 *Threading*: the main thread.
 */
 
-%   What a guest does at Host, that does not end by itself.
+%   The goals of a guest at Host that never end by themselves.
 
 burden(blocks, [ (burden :- message_queue_create(Q),
                             call_cleanup(thread_get_message(Q, _),

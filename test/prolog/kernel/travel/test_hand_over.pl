@@ -5,18 +5,18 @@
 :- use_module(library(lists), [member/2, numlist/3]).
 :- use_module(library(plunit)).
 
-/** <module> The short way of a hop between plain hosts
+/** <module> The short path of a hop between plain hosts
 
-While an agent is under way it is nothing but the frame that was sent.  What
-looks at it meanwhile, and what becomes of the hop, finds what it finds of an
-agent that was sent by request.  Options that are switched on and off while
-agents hop change the way, and no agent is lost or doubled.
+On the short path an agent under way is only the frame that was sent. Queries
+and outcomes are the same as for an agent that was sent by request. Options
+that are switched on and off while agents hop change the path, and no agent is
+lost or duplicated.
 
 *Threading*: the main thread; the hosts are in other processes.
 */
 
-%   An agent of a, made with Facts, is under way to b, which is stopped, when
-%   Goal is called.
+%   with_under_way(+Facts, -Agent, :Goal): an agent of a, created with Facts,
+%   is under way to b, which is suspended, while Goal is called.
 
 :- meta_predicate with_under_way(+, -, 0).
 
@@ -158,8 +158,8 @@ mover(Peer, To) :-
 
 :- begin_tests(options_under_traffic).
 
-%   Ten agents hop; meanwhile one option after the other is switched on and off
-%   on both hosts.
+%   Ten agents hop, while one option after the other is switched on and off on
+%   both hosts.
 
 test(changing_options_loses_no_agent) :-
     with_peers([a, b],

@@ -8,11 +8,10 @@
 :- use_module('../../../lib/peers').
 :- use_module('../../../lib/travellers').
 
-/** <module> Hops between processes: every agent, once, at every step
+/** <module> Hops between processes: every agent makes every step once
 
-Agents travel between processes while the connections under them are cut.
-Each leaves a tuple at every step, so that a step that is lost or done
-twice is seen.
+Agents travel between processes while the connections under them are cut. Each
+leaves a tuple at every step, which reveals lost and repeated steps.
 */
 
 %   The offsets at which a connection is cut: every byte of the beginning
@@ -58,7 +57,7 @@ test(among_small_ones, forall(heavy(Codec, Facts))) :-
 heavy(fast, 20 000).
 heavy(text, 2 000).
 
-%   Agents of so many facts go to and fro on both sides, and small ones
+%   Agents with so many facts hop to and fro from both sides, with small ones
 %   among them.
 
 cross_heavily(Facts) :-
@@ -81,8 +80,8 @@ cross_heavily(Facts) :-
 codec(fast).
 codec(text).
 
-%   An agent goes from a to b and back.  What runs from a to b passes the
-%   proxy of b upwards or, if b has connected, that of a downwards.
+%   An agent goes from a to b and back. Data from a to b pass the proxy of b
+%   upwards or, if b has connected, that of a downwards.
 
 cut_everywhere(DirectionB, DirectionA) :-
     peer_proxy(a, ProxyA),
@@ -98,8 +97,8 @@ cut_everywhere(DirectionB, DirectionA) :-
     proxy_cuts(ProxyB, CutsB),
     CutsA+CutsB > 15.
 
-%   Eight agents hop, while both proxies cut again and again: not for ever,
-%   since a slow machine does not come to connect in between.
+%   Eight agents hop, while both proxies cut connections repeatedly: not
+%   without end, since a slow machine does not connect in between.
 
 cut_all_the_time(Agents, Hops) :-
     peer_host(a, A),
@@ -139,8 +138,8 @@ cut_self_connection :-
              travel(a, [A2, A], 6)
            )).
 
-%   The answer is held until the agent is seen on the other side, where it
-%   stays; then the connection is cut.
+%   The answer is held until the agent has arrived at the other process, where
+%   it stays; then the connection is cut.
 
 cut_before_answer(Rounds) :-
     peer_host(a, A),
@@ -148,7 +147,7 @@ cut_before_answer(Rounds) :-
     forall(between(1, Rounds, _), cut_before_one_answer(A, B)).
 
 cut_before_one_answer(A, B) :-
-    travel(a, [B, A], 2),               % they are connected, and once
+    travel(a, [B, A], 2),               % they have one connection
     wait_until(forall(member(Peer, [a, b]),
                       peer_do(Peer, \+ connecting)), 30),
     answers(proxy_hold),
@@ -163,7 +162,7 @@ cut_before_one_answer(A, B) :-
     peer_do(a, agent_send(Id, go)),
     ended_well(a, Id, 2).
 
-%   What b sends to a passes either proxy.
+%   The data that b sends to a pass either proxy.
 
 answers(What) :-
     peer_proxy(a, ProxyA),
@@ -205,8 +204,8 @@ refused_at(Host, Reason, Options) :-
     peer_do(a, try_move(Host, Options, Error)),
     Error == error(move_refused(Host, Reason)).
 
-%   Two agents on hosts that hold one each want to change places: one has
-%   to wait elsewhere.  None is ever lost or doubled.
+%   Two agents on hosts of capacity one change places: one of them has to wait
+%   on a third host. No agent is lost or duplicated.
 
 swap(Rounds) :-
     peer_host(a, A),
@@ -238,9 +237,9 @@ test(ordered_to_end_while_hopping) :-
 messages(fast, 1000).
 messages(text, 300).
 
-%   An agent hops without pause between three processes until it has got
-%   as many messages as were sent, from three processes, and adds them up.
-%   It stays on for a moment: a message that comes twice would be counted.
+%   An agent hops without pause between three processes until it has received
+%   as many messages as three processes have sent, and adds them up. It stays
+%   for a moment: a duplicate would be counted.
 
 chase(Count) :-
     peer_host(a, A),
@@ -256,8 +255,8 @@ chase(Count) :-
     findall(S, ( member(Peer, [a, b, c]), collected(Peer, Id, S) ), Sums),
     Sums == [All-Sum].
 
-%   While the answer to its hop is held an agent gets more mail than one
-%   frame of the source holds.
+%   While the answer to its hop is held an agent gets more mail than one frame
+%   of the source holds.
 
 follow_big(Count, Bytes, Numbers) :-
     peer_host(a, A),

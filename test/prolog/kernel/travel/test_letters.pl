@@ -8,10 +8,10 @@
 :- use_module('../../../lib/peers').
 :- use_module('../../../lib/travellers').
 
-/** <module> Messages when processes cannot be reached, die or come back
+/** <module> Messages to processes that are unreachable, die or restart
 
-A message waits for as long as the process in which its agent stands may
-live.  When it does not, that is said where the message was sent.
+A message waits as long as the process of its agent may be alive. If the
+process is dead, that is reported to the sender.
 */
 
 :- begin_tests(unreachable_process).
@@ -33,7 +33,7 @@ with_cut(Goal) :-
     with_peers([ a-[setup(hurried)], b,
                  c-[proxy(true), setup(calls_nobody)] ], Goal).
 
-%   An agent born on a stands on c; b knows only its home.
+%   An agent created on a is on c; b knows only its home.
 
 noting_on_c(Id) :-
     peer_host(c, C),
@@ -52,8 +52,8 @@ noting_on_c(Id) :-
 noted(Numbers) :-
     peer_do(c, remote(c, findall(N, sense(noted(N)), Numbers))).
 
-%   a can no longer reach c, nor c anybody: the proxy takes connections, and
-%   is silent.
+%   a can no longer reach c, nor c any process: the proxy accepts connections,
+%   and is silent.
 
 cut_off :-
     peer_proxy(c, Proxy),
@@ -93,7 +93,7 @@ waits_in_order :-
     wait_until(( noted(Noted), same_length(Noted, Numbers) ), 20),
     noted(Numbers).
 
-%   More comes while the first are tried, and after that.
+%   More messages arrive during and after the first attempts.
 
 waits_behind_tried :-
     noting_on_c(Id),
@@ -109,8 +109,8 @@ waits_behind_tried :-
     noted(Numbers),
     wait_until(peer_do(a, \+ kept(Id)), 20).
 
-%   The agent moves to the process in which its mail waits. What it has got
-%   before comes first.
+%   The agent moves to the process in which its mail waits. Earlier mail comes
+%   first.
 
 waits_where_it_comes :-
     noting_on_c(Id),
@@ -152,7 +152,7 @@ test(restarted_home_learns_the_hosts_of_its_agents) :-
 :- end_tests(process_started_again).
 
 %   The agent died with c; a hundred messages for it do not go to and fro
-%   between its home and what is at the address of c now.
+%   between its home and the new process at the address of c.
 
 no_storm :-
     noting_on_c(Id),
@@ -166,7 +166,7 @@ no_storm :-
     peer_try(a, agent_send(Id, n(0)), Outcome),
     Outcome = raised(error(existence_error(agent, Id), _)).
 
-%   What the agent says of its next hop the new home believes.
+%   The restarted home accepts the news of the agent's next hop.
 
 home_learns :-
     peer_host(b, B),
@@ -199,7 +199,8 @@ test(newest_news_of_each_agent_are_kept) :-
 
 :- end_tests(news).
 
-%   The home of four agents is dead: their hops cost no more for it.
+%   The home of four agents is dead: this does not make their hops more
+%   expensive.
 
 dead_home :-
     peer_host(b, B),

@@ -8,19 +8,19 @@
 :- use_module(library(typhon)).
 :- use_module(library(typhon/kernel/wire), [endpoint_address/1, endpoint_post/3]).
 
-/** <module> Tests of messages: they find their agent, once
+/** <module> Tests of messages: each reaches its agent once
 
-Hosts of this process; what happens between processes is in
-test_processes.pl.
+Hosts of this process; for messages between processes see test_processes.pl.
 */
 
-%   collector(-Agent, +Options): remembers what it is sent, in order.
+%   collector(-Agent, +Options): an agent that stores received messages in
+%   order.
 
 collector(Agent, Options) :-
     create([(on_message(_, M) :- assertz(s(M)))], Agent, Options).
 
-%   An agent that goes round while it is sent messages, and comes to rest
-%   by an order.
+%   An agent that goes round while messages are sent to it, and stops at an
+%   order.
 
 traveller(Agent) :-
     create([ (main :- ( receive(_-stop, 0)
@@ -34,7 +34,7 @@ numbers(Agent, Ns) :-
 has_all(Agent, N) :-
     aggregate_all(count, fact_of(Agent, s(_)), N).
 
-%   A letter to Id comes from another process.
+%   Another process sends a letter to Id.
 
 passed_on(Id, Message) :-
     endpoint_address(Here),

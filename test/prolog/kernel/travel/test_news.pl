@@ -13,21 +13,21 @@
               [news_carried/1, news_hurry/0, news_send/3]).
 :- use_module(library(prolog_wrap), [unwrap_predicate/2, wrap_predicate/4]).
 
-/** <module> News of agents for a home that cannot be reached
+/** <module> News of agents for an unreachable home
 
-*Threading*: the main thread; the courier is a worker.
+*Threading*: the main thread; a worker posts the news.
 */
 
-%   told(+All, -Kept): of All, one after the other, Kept are kept when the
-%   courier has not reached the home.
+%   told(+All, -Kept): Kept are the news that are kept after All were given, in
+%   order, and the home could not be reached.
 
 told(All, Kept) :-
     with_silent_home(Home,
                      ( forall(member(News, All), news_send(Home, x, News)),
                        kept(Home, Kept) )).
 
-%   told_under_way(+First, +Then, -Kept): Then comes while a courier is away
-%   with First.
+%   told_under_way(+First, +Then, -Kept): Then is given while First is being
+%   posted.
 
 told_under_way(First, Then, Kept) :-
     with_silent_home(Home,
@@ -36,8 +36,8 @@ told_under_way(First, Then, Kept) :-
                        news_send(Home, x, Then),
                        kept(Home, Kept) )).
 
-%   with_silent_home(-Home, :Goal): a host is up, and Home is a port at which
-%   a silent process listens.
+%   with_silent_home(-Home, :Goal): a host is running, and Home is a port at
+%   which a silent process listens.
 
 :- meta_predicate with_silent_home(-, 0).
 
@@ -53,7 +53,7 @@ with_silent_home(Home, Goal) :-
         ( tcp_close_socket(Socket),
           set_setting(typhon_connection_manager:connect_time, Time) )).
 
-%   A courier that is back waits for an alarm.
+%   The worker that has posted news waits for an alarm.
 
 kept(Home, Kept) :-
     wait_until(( typhon_alarms:alarm(_, Home, news(_)),
@@ -64,8 +64,8 @@ at(Hops, located(x, 'beta@127.0.0.1:1', Hops)).
 
 end(Hops, ended(x, done, Hops)).
 
-%   A courier of b has set out when the process comes to its end, and does no
-%   more until that has come.
+%   A worker of b posts news when the process ends, and is held until the end
+%   has begun.
 
 last_news :-
     peer_host(b, B),
@@ -95,8 +95,9 @@ slow_courier :-
 wrapped(Peer, Head, Wrapped, Body) :-
     peer_do(Peer, \+ \+ wrap_predicate(Head, test_news, Wrapped, Body)).
 
-%   sent_with_pause(+Pause, +Acts, -Posts): so many news are in each post that
-%   follows from Acts, where places wait for Pause seconds.
+%   sent_with_pause(+Pause, +Acts, -Posts): Posts are the numbers of news in
+%   each post that follows from Acts, if moves are posted after a pause of
+%   Pause seconds.
 
 :- dynamic post/1.
 

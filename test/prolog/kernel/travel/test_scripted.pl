@@ -4,11 +4,11 @@
 :- use_module(library(lists), [member/2]).
 :- use_module(library(plunit)).
 
-/** <module> Hops of which single frames are disturbed
+/** <module> Hops with a single disturbed frame
 
-For each frame of a scenario the connection is cut there, or stalls, or a
-process dies, and the story has to end as doc/agents.md says. What takes long
-is sampled here; `make scripted` does all of it.
+At each frame of a scenario the connection is cut, or stalls, or a process
+dies, and the result must be as doc/agents.md guarantees. Long scenarios are
+sampled here; `make scripted` runs all cases.
 */
 
 :- begin_tests(scripted).

@@ -117,8 +117,8 @@ device(At, Dir) :-
 
 :- end_tests(hops_within_a_process).
 
-%   What the home of A answers at the moment when its record is gone, to a
-%   process that asks whether it had come by its first hop.
+%   The answer of the home of A, at the moment when its record is removed, to a
+%   process that asks whether A had arrived with its first hop.
 
 reached_as_it_goes(A, Answer) :-
     thread_self(Me),
@@ -148,7 +148,7 @@ lamp(Module, Light) :-
 load(Host, Load) :-
     host_property(Host, load(Load)).
 
-%   It goes round until it is ended, and keeps its messages in order.
+%   The agent goes round until it is ended, and keeps its messages in order.
 
 walker(A) :-
     create([ (main :- move(beta), hear, move(gamma), hear, move(alpha), hear,

@@ -6,7 +6,7 @@
 :- use_module(library(lists), [numlist/3]).
 :- use_module(library(typhon)).
 
-/** <module> Facts that are left only where none like them is there
+/** <module> leave_new: tuples that are left only where no equal one is
 
 *Threading*: one test at a time; the agents run in all workers.
 */
@@ -55,7 +55,7 @@ test(term_that_cannot_travel, error(type_error(mobile_term, _))) :-
 test(not_a_fact, error(type_error(callable, 3))) :-
     with_hosts([alpha], remote(alpha, leave_new(3))).
 
-%   Whatever the order: each key has one owner.
+%   In any order: each key has one owner.
 
 test(one_of_many_concurrent_calls_succeeds, Owned == Keys) :-
     numlist(1, 300, Keys),
@@ -68,7 +68,7 @@ test(one_of_many_concurrent_calls_succeeds, Owned == Keys) :-
                  remote(alpha, findall(K, sense(owns(K, _)), Owned0)) )),
     msort(Owned0, Owned).
 
-%   A lock: the agent that left it may do what cannot be done by two at a time.
+%   A lock: the agent that has left the tuple is alone in a critical section.
 
 test(leave_new_implements_a_lock, Count == 400) :-
     with_hosts([alpha],

@@ -162,7 +162,7 @@ endless(_, Out) :-
     forall(between(1, 100000, _), write(Out, "typhon 3 ")),
     flush_output(Out).
 
-%   Says back whatever it hears.
+%   Echoes its input.
 
 reflect(In, Out) :-
     hello(x, 1, 'c:1', Hello),

@@ -86,7 +86,7 @@ test(bundled_posts_keep_their_order_with_long_ones, true(Notes == Sent)) :-
     with_peer(A, ( forall(member(Note, Sent), endpoint_post(A, note, Note)),
                    notes(A, Notes) )).
 
-%   Nor is the peer asked for a sign of life.
+%   The peer is not asked for a sign of life either.
 
 test(last_post_is_sent_without_a_successor, true(Found == Sent)) :-
     numlist(1, 200, Sent),
@@ -141,7 +141,7 @@ test(invalid_bundle,
        true(Notes == []) ]) :-
     with_peer(A, ( notes(A, []), bundle_sent(A, Bundle), notes(A, Notes) )).
 
-%   No interface sends what no process of ours would send.
+%   There is no interface for frames that no process of ours sends.
 
 bundle_sent(Address, Bundle) :-
     once(typhon_session:route(Address, Session)),

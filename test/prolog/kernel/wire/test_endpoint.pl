@@ -75,7 +75,7 @@ with_peer(Port, Pid, Address, Goal) :-
                  atom_string(Address, Line),
                  call(Goal) )).
 
-%   Warnings are expected in Goal.
+%   Goal prints warnings.
 
 :- dynamic silenced/0, warned/1.
 :- multifile user:message_hook/3.
@@ -103,8 +103,9 @@ open_client(Address, Stream) :-
     port_of(Address, Port),
     tcp_connect('127.0.0.1':Port, Stream, []).
 
-%   with_listener(+Queue, -Address, :Goal): so many that connect to Address may
-%   wait there; with_deaf(-Address, :Goal): one does, and no more may.
+%   with_listener(+Queue, -Address, :Goal): so many connections to Address may
+%   wait to be accepted; with_deaf(-Address, :Goal): one waits, and no more
+%   may.
 
 with_listener(Queue, Address, Goal) :-
     setup_call_cleanup(
@@ -155,8 +156,8 @@ posted(Thread, Outcome) :-
 waiting(Address, Count) :-
     aggregate_all(count, typhon_waiting:waiting(Address, _, thread(_)), Count).
 
-%   with_held(+Head, :First, :Then): Then is called when Head, of the wire, is
-%   about to be called in First; it is on `go` to the gate.
+%   with_held(+Head, :First, :Then): Then is called when First is about to call
+%   Head, of the wire, which continues when the gate gets `go`.
 
 :- meta_predicate with_held(:, 0, 0).
 :- dynamic to_hold/0.
@@ -262,9 +263,10 @@ test(silent_listener, error(unreachable(_))) :-
 test(twice, error(permission_error(start, endpoint, _))) :-
     with_endpoint(endpoint_start(localhost, 0, [], _)).
 
-%   An attempt has been refused, and the connection manager has yet to hear of it, as
-%   a peer begins to listen: later callers get the result of a later attempt.  The
-%   caller that waits must not give up before the process of the peer has started.
+%   An attempt was refused, and the connection manager is not notified yet,
+%   when a peer begins to listen: later callers get the result of a later
+%   attempt. The waiting caller must not give up before the process of the peer
+%   has started.
 
 test(later_request_gets_the_result_of_a_later_attempt,
      [First,Then,Answer] == [unreachable,posted,answer(x)]) :-
@@ -345,7 +347,7 @@ test(both_connect_at_once) :-
                  ( wait_until(all_there(X, 100, Notes), 20),
                    assertion(Notes == Expected) )) )))).
 
-%   The old connection is no more, the new one has yet to begin: that is ours,
+%   The old connection has ended, the new one has not begun: our side opens it,
 %   as nothing is on its way from the peer.
 
 test(post_before_its_deadline_waits_for_the_next_connection,
@@ -371,7 +373,8 @@ test(post_before_its_deadline_waits_for_the_next_connection,
 truth(Goal, Truth) :-
     ( call(Goal) -> Truth = true ; Truth = false ).
 
-%   The keeper has it in hand: it is done with it when it answers.
+%   The connection manager has the request: its answer shows that it is done
+%   with it.
 
 test(caller_that_gives_up_during_a_send_leaves_nothing_open, Open == 0) :-
     with_endpoint(with_peer(A,
@@ -388,8 +391,8 @@ gives_up(Address) :-
           error(timeout_error(answer, _), _),
           true).
 
-%   Another thread may have a connection with the peer already, or it cannot be
-%   written to: the thread that has installed it is ended in that moment.
+%   The thread that has installed the connection is ended at that moment, even
+%   if another one has a connection with the peer, or writing fails.
 
 test(connection_is_reported_even_if_its_thread_ends) :-
     with_endpoint(with_peer(A,
@@ -424,7 +427,7 @@ cut_now_and_then(Proxy, I) :-
     ;   true
     ).
 
-%   A request that finds the connection down waits for the next.
+%   A request waits for the next connection if there is none.
 
 ask_again(Address, Term) :-
     ask(Address, echo, Term, Answer),
@@ -457,9 +460,9 @@ cut_while_posting(_, Count, Cut) :-
 
 :- begin_tests(damage).
 
-%   What is damaged on its way comes again; what comes damaged for ever is
-%   skipped.  So nothing is damaged while something is to come again: the same
-%   frame might be.
+%   A frame damaged in transit is sent again; a frame damaged by its sender is
+%   skipped. So no frame is damaged while another is to be sent again: it might
+%   be the same.
 
 test(damage_in_transit, Notes == Expected) :-
     numlist(1, 300, Expected),
@@ -506,7 +509,8 @@ test(acknowledgement_of_unsent_frames, Notes == [1, 2]) :-
 
 :- dynamic damage_next/0.
 
-%   The next head that is written counts so many frames as received.
+%   acknowledge(+Session, +Count): the next head that is written says that
+%   Count frames were received.
 
 acknowledge(Session, Count) :-
     typhon_session:session_window(Session, Window),
@@ -782,7 +786,7 @@ test(thread_stops_waiting_at_its_deadline, Count == 0) :-
                         \+ typhon_waiting:manager_connect(A, Deadline),
                         waiting(A, Count) )))).
 
-%   Until it runs a process is a copy of this one.
+%   Until it executes its program a new process is a copy of this one.
 
 begun(Pid, In, Out) :-
     spawn(path(cat), [],

@@ -65,7 +65,7 @@ test(flags_of_both_sides,
 test(bytes_are_bytes) :-
     term_bytes(text, 'é\u4e00\U0001F600', Bytes),
     forall(string_code(_, Bytes, Code), assertion(Code =< 255)).
-%   Which letters are written as they are depends on the locale.
+%   The locale determines which letters are written unescaped.
 
 test(quoted_characters) :-
     Term = f('é', "«é", 'é«'(x)),
@@ -135,7 +135,7 @@ test(other_terms_can_travel, [forall(special(Term))]) :-
 
 :- end_tests(unserializable_terms_are_named).
 
-%   In a process of its own: where atoms are lost it crashes.
+%   In a separate process, which crashes if atoms are lost.
 
 :- begin_tests(atoms_stay_while_others_are_collected).
 
@@ -170,7 +170,7 @@ test(truncated_frame, [forall(member(Cut, [1, 2, 3, 4, 5, 8, 12, 16])),
     read_frames(Short, 10000, 1, _).
 test(damaged, [forall(between(5, 18, At)),
                error(syntax_error(damaged_frame))]) :-
-    framed(["abc"], Bytes),             % the check, and what it is of
+    framed(["abc"], Bytes),             % the check, and the checked bytes
     random_between(0, 7, Bit),
     flipped(At, Bit, Bytes, Damaged),
     read_frames(Damaged, 10000, 1, _).
@@ -259,7 +259,8 @@ flipped(At, Bit, Bytes, Damaged) :-
     nth1(At, Codes, Code, Rest),
     string_codes(Damaged, Codes).
 
-%   Latin 1, what steers the direction of writing, symbols, and some others.
+%   Latin 1, control characters of the writing direction, symbols, and some
+%   others.
 
 some_code(Code) :-
     (   between(0, 0x2ff, Code)

@@ -2,8 +2,7 @@
 
 /** <module> Tests of readers that run the agents that they have read
 
-The endpoint is connected to itself: what it posts is read by a thread of its
-own.
+The endpoint is connected to itself: its own reader threads read its posts.
 
 *Threading*: the main thread; errands run in those of the endpoint.
 */
@@ -62,7 +61,7 @@ act(waits(Queue, _)) :-
 
 :- meta_predicate with_queue(-, 0), alone(-, 0).
 
-%   alone(-Me, :Goal): the endpoint runs, at Me.
+%   alone(-Me, :Goal): the endpoint runs at address Me.
 
 alone(Me, Goal) :-
     forall(member(T, [hook(_, _), run(_, _, _), lent(_), back(_)]),
@@ -119,7 +118,7 @@ test(frames_are_handled_by_others_without_a_reader, How == later) :-
     alone(_, endpoint_afterwards(go(quick(1)))),
     run(quick(1), How, _).
 
-%   In order, but for one that was missed on a busy machine.
+%   In order; a busy machine may miss one.
 
 test(each_frame_is_handled_once_in_order, Ran == All) :-
     numlist(1, 500, All),
@@ -217,7 +216,7 @@ test(broken_connections_lose_and_duplicate_nothing, Ran == All) :-
     findall(N, run(quick(N), _, _), Ran0),
     msort(Ran0, Ran).
 
-%   Those that were lent are detached: they may end a moment later.
+%   Lent threads are detached: they may end a moment later.
 
 no_threads_left :-
     wait_until(forall(thread_property(T, alias(Alias)),

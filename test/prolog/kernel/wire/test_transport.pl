@@ -1,8 +1,9 @@
 :- module(test_transport, []).
 
-/** <module> Tests of transports: a process connects to itself by one of ours
+/** <module> Tests of transports: a process connects to itself by a test
+transport
 
-The client says `M` before anything else, and the server answers with a line.
+The client sends `M` before anything else, and the server answers with a line.
 
 *Threading*: the main thread; the hooks run in those of the endpoint.
 */

@@ -1,7 +1,7 @@
 :- module(test_unauthenticated_clients, []).
 
-% Clients that do not prove themselves: what they can hold up, and what is
-% told of them.
+% Clients that do not authenticate: the resources that they can hold, and the
+% reports about them.
 
 :- use_module('../../../lib/common').
 :- use_module('../../../lib/plain_client').
@@ -36,7 +36,7 @@ with_endpoint(Goal) :-
                        once(Goal),
                        endpoint_stop).
 
-%   No client is turned away for being slow; `soon` is long before that.
+%   No client is refused for being slow; `soon` is much shorter.
 
 patiently(Goal) :-
     with_settings([typhon_handshake:handshake_time=120], Goal).
@@ -74,7 +74,7 @@ shouts(Text) :-
     setup_call_cleanup(connected(Client), say(Text, Client),
                        closed(Client)).
 
-%   So many were turned away for this reason, as is reported.
+%   So many refusals for this reason are reported.
 
 turned_away(Why, Count) :-
     findall(Some,
@@ -86,7 +86,7 @@ turned_away(Why, Count) :-
             Counts),
     sum_list(Counts, Count).
 
-%   Prove oneself to the endpoint; how long it takes.
+%   Authenticate to the endpoint; Seconds is the time it takes.
 
 newcomer(I, Seconds) :-
     get_time(T0),
@@ -124,7 +124,8 @@ test(active_client_stays) :-
                     wait_until(stages([heard, silent, silent, silent]), 30)
                   )) ))))).
 
-%   So many have had a chance to speak: of those the oldest goes first.
+%   So many clients had time to authenticate: the oldest of them is evicted
+%   first.
 
 silent(Count) :-
     stages(Stages),
@@ -199,7 +200,7 @@ test(clients_are_evicted_at_any_moment) :-
         ( forall(between(1, 300, I), dies(I)),
           wait_until(slots(0), 30) )))).
 
-%   A greeting of so many bytes, and gone.
+%   Sends a greeting of so many bytes, and disconnects.
 
 dies(I) :-
     greeting(x, Line),
@@ -214,7 +215,7 @@ dies(I) :-
 :- end_tests(slots_are_freed).
 
 %   breaks_off(+Text, -Level, -Formal): the message about the connection of a
-%   client that proves itself, sends Text and closes the connection.
+%   client that authenticates, sends Text and closes the connection.
 
 breaks_off(Text, Level, Formal) :-
     retractall(broken(_, _)),

@@ -1,6 +1,6 @@
 :- module(test_wire, []).
 
-/** <module> Tests of the wire: many peers, big frames, peers that go
+/** <module> Tests of the wire: many peers, large frames, disconnected peers
 
 *Threading*: the main thread; the hooks run in those of the endpoint.
 */
@@ -22,7 +22,7 @@
     peer/3,                             % Address, Pid, In
     place_wanted/0.
 
-%   A client has lost its place to another.
+%   A client has been evicted in favour of another.
 
 :- multifile user:message_hook/3.
 
@@ -109,8 +109,9 @@ as_process(Id, Goal) :-
         ( retractall(typhon_endpoint:process(_)),
           forall(member(Own, Owns), assertz(typhon_endpoint:process(Own))) )).
 
-%   A client has proved itself, reports that, and waits for `go`.  Wrapped is no
-%   meta-predicate: in 9.2.9 those of wrappers get closures in the wrong module.
+%   A client has authenticated, reports that, and waits for `go`. Wrapped is no
+%   meta-predicate: in 9.2.9 those of wrappers get closures in the wrong
+%   module.
 
 with_late_callers(Goal) :-
     thread_self(Me),
@@ -212,7 +213,7 @@ meet_at_once(In-Out, [Theirs, Ours]) :-
 
 read_address(Out, Address) :-
     read_line_to_string(Out, Line),
-    (   Line == ""                      % what read/1 has left
+    (   Line == ""                      % rest of a line that read/1 has left
     ->  read_address(Out, Address)
     ;   atom_string(Address, Line)
     ).
@@ -229,7 +230,7 @@ reach_others(Addresses, Address) :-
 tell_reached(Queue, Answer) :-
     thread_send_message(Queue, reached(Answer)).
 
-%   While A calls we call A, and have met.
+%   A calls us while we call A, and we are connected.
 
 second(A, Kept) :-
     peer(A, _, In-Out),
