@@ -7,15 +7,15 @@
 runs every test_*.pl in the folders of test/, or those named (`frame` for
 test/prolog/kernel/wire/test_frame.pl, `prolog/kernel/wire` for all in that
 folder), each in a process of its own, some at a time, and reports.  The last
-line is `N passed, N failed`; above it stand the names of what failed, and
-`N skipped`.  The exit status is 0 only if nothing failed.
+line is `N passed, N failed`; above it are the names of failed tests, and `N
+skipped`.  The exit status is 0 only if nothing failed.
 
 A suite that does not load cleanly, has no tests, ends with a status other
 than 0, does not end within its deadline or leaves a process behind, which is
 killed, counts as a failure.
 
-*Threading*: the main thread only.  A process started by another thread
-would have the signals blocked that the thread has, SIGINT for one.
+*Threading*: the main thread only.  A process started by another thread would
+inherit its blocked signals, SIGINT for one.
 */
 
 :- use_module('lib/common', [project_file/2, wait_until/2, with_tmp_dir/1]).
@@ -39,8 +39,8 @@ would have the signals blocked that the thread has, SIGINT for one.
 
 :- public main/1.
 
-%   Many suites mostly wait: so many run at a time, and more where processors
-%   have nothing to do.
+%   Many suites mostly wait: so many run at a time, and more if processors are
+%   idle.
 
 suites_at_a_time(3, 7).
 idle_share(0.35).                       % of the time of all processors
@@ -53,15 +53,15 @@ suite_deadline(Seconds) :-
     !.
 suite_deadline(600).
 
-%   What takes long begins early, that all end at about the same time.
+%   Long suites begin early, so that all end at about the same time.
 
 longest([ chaos, shell, scripted, faults, network_journal, lasting, wire, doc,
           hop, sync_network, auction_network, cluster,
           network, study_work, pack, robots, boxes_arena, ring,
           learning_network, repeatable, agent, scheduler, letters, app ]).
 
-%   These look at how the library is loaded, or at the options of swipl, or start
-%   attackers that have nothing of it but the wire.
+%   These suites check how the library is loaded, or the options of swipl, or
+%   start attackers that know only the wire protocol.
 
 plain(pack).
 plain(shell).
@@ -129,7 +129,7 @@ step(_, Jobs, ended(Job, Status)) :-
 
 %   processors_idle is semidet.
 %
-%   For a second since the last look processors had little to do.  Fails where
+%   The processors were mostly idle for a second since the last check. Fails if
 %   there is no /proc/stat.
 
 processors_idle :-
@@ -141,7 +141,7 @@ processors_idle :-
     idle_share(Share),
     Idle-Idle0 > Share*(All-All0).
 
-%   The first time it is since the machine was started.
+%   The first time it is the state since the start of the machine.
 
 looked(Look) :-
     nb_current(looked, Look),
@@ -188,7 +188,7 @@ suite_name(File, Name) :-
     atom_concat(test_, Rest, Base),
     file_name_extension(Name, pl, Rest).
 
-%   place(+File, -Place): when it begins.
+%   place(+File, -Place): its position in the order of starting.
 
 place(File, Place) :-
     suite_name(File, Name),
@@ -223,7 +223,7 @@ add_suite(suite(_, P1, Failures, Skipped), sum(P0, F0, S0), sum(P, F, S)) :-
     F is F0+F1,
     S is S0+S1.
 
-%   The end of what is printed says what failed.
+%   The failed tests are printed at the end.
 
 print_failures(suite(Base, _, Failures, _)) :-
     forall(member(Failure, Failures),
@@ -322,7 +322,7 @@ spent(Seconds) :-
     nb_setval(spent, Ticks),
     Seconds is (Ticks-Before)/100.0.
 
-%   Behind the name of the program, which may hold spaces, come 13 others.
+%   The name of the program, which may hold spaces, is followed by 13 others.
 
 children_ticks(Ticks) :-
     catch(read_file_to_string('/proc/self/stat', Text, []), error(_, _), fail),

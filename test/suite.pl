@@ -4,10 +4,10 @@
 
     swipl test/suite.pl -- test/test_x.pl results
 
-loads the suite, runs it and writes what came of it to the file `results` as
-one term `suite(Passed, Failed, Skipped, Problems)`: a number, the lists of
-failed and of skipped tests as Unit:Name, and atoms that say what else is wrong.  Started
-by test/run.pl, one process for each suite.
+loads the suite, runs it and writes its results to the file `results` as one
+term `suite(Passed, Failed, Skipped, Problems)`: a number, the lists of failed
+and of skipped tests as Unit:Name, and atoms for other problems. Started by
+test/run.pl, one process for each suite.
 
 plunit keeps its results in dynamic predicates whose first three arguments
 are unit, test and line in SWI-Prolog 9.0 and 9.2 alike.  A test without a
@@ -27,7 +27,8 @@ result was skipped by its condition; if it has none, its setup failed.
 
 :- public main/1.
 
-%   Suites, and what they read, are UTF-8 in any locale, as on newer versions.
+%   Suites, and the files that they read, are UTF-8 in any locale, as on newer
+%   versions.
 
 main([File, Results]) :-
     set_prolog_flag(encoding, utf8),
@@ -63,8 +64,8 @@ load_problem('does not load without warnings') :-
 load_problem('has no tests') :-
     \+ current_test(_, _, _, _, _).
 
-%   Whether all passed is seen from the results, which SWI-Prolog 9.2 would
-%   otherwise remove.
+%   The results show whether all tests passed; SWI-Prolog 9.2 would otherwise
+%   remove them.
 
 run_units :-
     set_test_options([cleanup(false), run(manual)]),
@@ -74,8 +75,8 @@ run_units :-
     ;   true
     ).
 
-%   What tests print is not captured, as plunit of 10 does: threads that are
-%   created meanwhile have the stream that captures, and outlive it.
+%   The output of tests is not captured, as in plunit of 10: threads that are
+%   created meanwhile would keep the capturing stream, and outlive it.
 
 not_captured :-
     catch(set_test_options([output(always)]),
@@ -127,7 +128,7 @@ may_skip(Unit, TestOptions) :-
     skips(Option, Unit),
     !.
 
-%   Where the condition is true it was the setup that failed.
+%   If the condition is true the setup has failed.
 
 skips(blocked(_), _).
 skips(fixme(_), _).

@@ -10,8 +10,8 @@
 :- use_module(library(lists), [append/3]).
 :- use_module(library(plunit)).
 
-%   said(+Options, -Out, -Err): the lines of a program whose network of two
-%   processes has an agent that says much. Options are those of swipl.
+%   said(+Options, -Out, -Err): the output of a program whose network of two
+%   processes has an agent that prints much. Options are those of swipl.
 
 said(Options, Out, Err) :-
     with_tmp_dir(said(Options, Out, Err)).

@@ -6,7 +6,7 @@
 :- use_module(library(lists), [last/2, member/2]).
 :- use_module(library(typhon)).
 
-/** <module> What links cost, and where a network says so
+/** <module> Costs of links, and of the links of networks
 
 *Threading*: one test at a time.
 */
@@ -19,8 +19,8 @@ with_network(Topology, Options, Network, Goal) :-
                  once(Goal),
                  network_stop(Network))).
 
-%   costs_at(+Host, -Costs): of the links of Host, by the names of the hosts
-%   to which they lead.
+%   costs_at(+Host, -Costs): the costs of the links of Host, by the names of
+%   their other hosts.
 
 costs_at(Host, Costs) :-
     remote(Host, findall(To-Cost, neighbour(To, Cost), Pairs)),
@@ -113,8 +113,8 @@ drawn(Seed, Costs) :-
                                    costs_at(H, Cs), member(_-C, Cs) ),
                             Costs)).
 
-%   However often links come and go: two hosts know one cost, and the same
-%   whenever they are linked.
+%   Links come and go repeatedly: two hosts have the same cost whenever they
+%   are linked.
 
 test(costs_of_returning_links) :-
     with_network(ring(6), [ cost(uniform(1, 100)), seed(3), clock(virtual),

@@ -83,7 +83,7 @@ test(times_ascend, Times == Sorted) :-
     msort(Times, Sorted).
 test(every_host_acts_every_ten_to_twenty_seconds) :-
     history(toggle(uniform(10,20), 1, 1), ring(50), 1, 1500, _, _, Changes),
-    length(Changes, Count),             % 50 hosts, 100 times each
+    length(Changes, Count),             % 50 hosts, 100 changes each
     abs(Count - 5000) < 100,
     Changes = [First-_|_],
     First >= 10, First =< 20.
@@ -169,7 +169,7 @@ real_history(Count, Changes, Dir) :-
                        N >= Count ), 60) ),
         network_stop(Network)).
 
-%   The links of the beginning come first, on a slow machine after some time.
+%   The initial links come first, on a slow machine after some time.
 
 changed(File, Hosts, Changes) :-
     log_events(File, Events),

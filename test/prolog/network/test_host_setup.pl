@@ -6,7 +6,7 @@
 :- use_module(library(process), [process_create/3, process_wait/2]).
 :- use_module(library(typhon)).
 
-/** <module> Hosts of a network that offer what its options say
+/** <module> Places of the hosts of a network
 
 *Threading*: one test at a time.
 */
@@ -19,7 +19,7 @@ with_network(Topology, Options, Network, Goal) :-
                  once(Goal),
                  network_stop(Network))).
 
-%   with_files(-Shop, -Bank, :Goal): there are these files for places.
+%   with_files(-Shop, -Bank, :Goal): Shop and Bank are files for places.
 
 :- meta_predicate with_files(-, -, 0).
 
@@ -114,7 +114,7 @@ test(hosts_that_refuse_remote_goals) :-
                  [hosts([remote(false)]), places(leave(p)), clock(virtual)],
                  _, true).
 
-%   All or nothing.
+%   Either all hosts start or none.
 
 test(failing_goal, error(place_goal_failed(n2, take(p)))) :-
     no_leaks(network_start(line(2), _,
@@ -139,8 +139,8 @@ test(not_callable, error(type_error(callable, 7))) :-
 
 :- begin_tests(saved_program).
 
-%   Its processes are those of the installed Prolog: that of the saved state
-%   would run the goal again.  Then it says so and ends.
+%   Its processes run the installed Prolog: that of the saved state would run
+%   the goal again, and then prints a message and ends.
 
 program("
 :- multifile user:file_search_path/2.

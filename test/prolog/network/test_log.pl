@@ -35,7 +35,7 @@ write_text(File, Text) :-
         write(Out, Text),
         close(Out)).
 
-%   quietly(:Goal, -Messages): what Goal printed under typhon(_).
+%   quietly(:Goal, -Messages): the messages typhon(_) that Goal printed.
 
 :- meta_predicate quietly(0, -).
 :- dynamic printed/1.
@@ -284,7 +284,7 @@ full_for_a_while(Kept, Bad, Dir) :-
 fill_and_free(Address, Link, Real) :-
     hundred(Address, _),
     wait_until(printed(log_not_written(_, _)), 5),
-    forall(typhon_log:server(_, Queue, _, _),      % all have been tried
+    forall(typhon_log:server(_, Queue, _, _),      % all writes were tried
            typhon_log:log_writer_flush(Queue)),
     delete_file(Link),
     link_file(Real, Link, symbolic),
@@ -323,7 +323,8 @@ read_only(Opened-Left, Dir) :-
     string_concat(Opened, Left, Text),
     string_length(Opened, 4).
 
-%   powerless(+Program, +Args, +Options): fails if it cannot be done here.
+%   powerless(+Program, +Args, +Options): fails if capabilities cannot be
+%   dropped.
 
 powerless(Program, Args, Options) :-
     without_capabilities(How),

@@ -6,7 +6,7 @@
 :- use_module(library(lists)).
 :- use_module(library(typhon)).
 
-/** <module> Logs that have the content of messages
+/** <module> Logs with the content of messages
 
 */
 
@@ -27,7 +27,7 @@ pair_in(Options, Kinds, Goal, Events, Dir) :-
                  network_stop(Network))),
     log_events(File, Events).
 
-%   One that answers, and one that asks.
+%   An agent that answers, and one that asks.
 
 talk(Message, [First, Second]) :-
     create([ (on_message(From, X) :- send(From, got(X))) ], Answers,
@@ -49,7 +49,7 @@ long(Message) :-
 noted(Queue, Event) :-
     thread_send_message(Queue, Event).
 
-%   taken(+Queue, ?Event) is nondet: all that is there.
+%   taken(+Queue, ?Event) is nondet: all events in Queue.
 
 taken(Queue, Event) :-
     thread_get_message(Queue, First, [timeout(0)]),
@@ -57,7 +57,7 @@ taken(Queue, Event) :-
 
 :- begin_tests(log_content).
 
-%   The entries of two processes may come to the log in another order.
+%   The entries of two processes may reach the log in another order.
 
 test(log_contains_the_content_of_messages,
      [forall(member(Options, [[clock(virtual)], [processes(2)]]))]) :-

@@ -46,8 +46,8 @@ quiet(Goal) :-
         once(Goal),
         retractall(expected(_))).
 
-%   As no_leaks/1, but for message queues: those of sessions are left to the
-%   garbage collector, which takes them when it likes.
+%   As no_leaks/1, except for message queues: those of sessions are removed by
+%   the garbage collector at any time.
 
 nothing_left(Goal) :-
     things(Before),
@@ -204,9 +204,8 @@ round_trip(Count, Network) :-
 test(network_runs_until_its_agents_end, forall(member(P, [1, 2]))) :-
     with_network(ring(2), [processes(P)], census).
 
-%   An agent and its clone are born on A, and stand on B until they are
-%   told to go; a visitor, from a host that is not of the network, is with
-%   them.
+%   An agent and its clone are created on A, and stay on B until they get `go`;
+%   a visitor from a host outside the network is with them.
 
 census(Network) :-
     setup_call_cleanup(
@@ -290,9 +289,10 @@ spread(Count, Network) :-
 test(one_clock_for_all_hosts) :-
     with_tmp_dir(clocks).
 
-%   Each agent looks at its watch between two looks at that of the machine. When
-%   all clocks were started at one time, that is after the latest start which
-%   the first looks tell, and before the earliest which the second ones tell.
+%   Each agent reads its host's clock between two readings of the machine's
+%   clock. If all clocks were started at one time, that is after the latest
+%   start that the first readings imply, and before the earliest that the
+%   second readings imply.
 
 clocks(Dir) :-
     directory_file_path(Dir, log, File),
@@ -325,7 +325,7 @@ tell_time(Network) :-
             Agents),
     forall(member(Agent, Agents), agent_join(Agent, done, 10)).
 
-%   Of ten hops one at least is not held up by anything else.
+%   At least one of ten hops is not delayed by other work.
 
 test(hop_time, true(( Least >= 1, Least < 4 ))) :-
     with_network(ring(2),
@@ -467,7 +467,7 @@ test(warning_names_ten_hosts_and_counts_the_others) :-
                         "  its hosts: 1, 2, 3, 4, 5, 6, 7, 8, 9, 10 and 2 more",
                         "  agents of this process that were there: bob"|_ ]).
 
-%   Where links change, a change soon waits for the process that hangs.
+%   If links change, a change soon waits for the hanging process.
 
 test(hanging_process,
      [ forall(member(Dynamic, [[], [ clock(1000),

@@ -12,7 +12,7 @@
 
 :- needs([journal]).
 
-/** <module> Tests of networks that outlive their processes
+/** <module> Tests of networks that survive their processes
 */
 
 :- meta_predicate
@@ -56,12 +56,13 @@ kill(Network, I) :-
     process_kill(Pid, kill),
     wait_until(( pids(Network, Now), \+ memberchk(Pid, Now) ), 10).
 
-%   It goes round so many times, and counts at each host, which counts, too.
+%   The agent makes so many rounds, and counts at each host; the hosts count
+%   visits.
 
 walker(Program) :-
     walks([ (go(H) :- move(H)) ], Program).
 
-%   A process that is killed with others may see for a moment that they are gone.
+%   A process that is killed with others may notice their death first.
 
 patient(Program) :-
     walks([ (go(H) :- catch(( move(H), Where = there ),
@@ -100,7 +101,8 @@ born(Program, Hosts, Hops, Agents) :-
               agent_create(Program, Agent, [host(Host), facts([todo(Hops)])]) ),
             Agents).
 
-%   Each has ended once, with the right count, and so have the hosts.
+%   Each agent has ended once, with the right count, and the hosts' counts
+%   agree.
 
 all_arrived(Hosts, Hops, Agents) :-
     forall(member(Agent, Agents), agent_result(Agent, Hops, 60)),
@@ -220,7 +222,7 @@ sets_out(Hosts, Agents, Network) :-
     wait_until(( visits(Hosts, Now), Now > 15 ), 20),
     ends_last(Network).
 
-%   Whenever it is stopped some of them are just about to leave.
+%   At any time of the stop some agents are about to leave.
 
 way(Hops, Nap) :-
     between(1, 8, I),
@@ -243,8 +245,7 @@ arrives(Hosts, Agents, Network) :-
 all_visits(All) :-
     aggregate_all(sum(3*Hops), way(Hops, _), All).
 
-%   The second process comes to its end only when the first has gone, and is
-%   quick to find that out.
+%   The second process ends only after the first, and notices its end soon.
 
 ends_last(Network) :-
     hosts(Network, [A, B|_]),
@@ -325,7 +326,7 @@ one_walks(Agent, Network) :-
     walkers([Host], 100, [Agent]),
     wait_until(has_walked(Agent), 10).
 
-%   Or it is there already.
+%   Or the agent has arrived already.
 
 has_walked(Agent) :-
     (   agent_property(Agent, hops(Hops))
@@ -435,7 +436,7 @@ no_good([F1, F2, F3], Dir) :-
                        error(F3, _), true) )),
     no_leaks(network(Dir, ring(2), [], true)).
 
-%   As it was, afterwards.
+%   The journal is restored afterwards.
 
 spoilt(Dir, File, Formal) :-
     atom_concat(File, '.good', Good),
@@ -578,7 +579,7 @@ counted_by_another :-
           wait_until(pids(Network, [Other]), 10) ),
         network_stop(Network)).
 
-%   wakes(-Threads): those that start processes of networks again.
+%   wakes(-Threads): the threads that restart processes of networks.
 
 wakes(Threads) :-
     findall(Thread,

@@ -41,7 +41,7 @@ disposed(Agent) :-
     agent_dispose(Agent),
     joined(Agent, disposed).
 
-%   A host that is not in one of the processes.
+%   A host that is in none of the processes.
 
 missing_host(Missing) :-
     member(Host, [alpha,beta]),
@@ -259,7 +259,8 @@ test(orders_to_an_agent_circling_three_processes, true(O == disposed)) :-
 
 :- end_tests(processes).
 
-%   far(+Address, -Agent, +Dir): created here from a file, it fails there.
+%   far(+Address, -Agent, +Dir): an agent created here from a file, which fails
+%   at Address.
 
 far(Address, Agent, Dir) :-
     directory_file_path(Dir, 'far.pl', File),
@@ -305,8 +306,8 @@ test(messages_are_answered, true(O == done)) :-
     joined(C, O),
     disposed(A).
 
-%   Its move is over when its home, this process, has heard of it: what is sent
-%   before goes by way of beta, and may be overtaken.
+%   The move is over when the agent's home, this process, is notified: earlier
+%   messages go by way of beta, and may be overtaken.
 
 test(messages_reach_an_agent_that_moved_away, true(Ns == [1,2,3])) :-
     there(beta, B), there(gamma, C),
@@ -468,8 +469,9 @@ test(unlink_from_an_unreachable_host, [ forall(member(Way, [to,from])),
 
 :- begin_tests(peers_that_hang).
 
-%   It waits for the other as long as its setting says, and that is all.  Agents in
-%   doubt then are reported, and no more: no process is asked any more.
+%   The stop waits for the other process as long as its setting says, and no
+%   longer. Agents in doubt are reported then, and no process is queried any
+%   more.
 
 test(host_stop_with_a_hanging_peer, true((Seconds < 20, Errors == []))) :-
     with_settings([ typhon_hosting:stop_seconds=0.2,

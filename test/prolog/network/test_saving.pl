@@ -15,7 +15,7 @@
 :- use_module('../../../agents/sieve/operator',
               [antigen_attack/2, sieve_start/3]).
 
-/** <module> Networks that are saved, and go on from there
+/** <module> Networks that are saved, loaded and continue
 
 *Threading*: one test at a time.
 */
@@ -29,7 +29,7 @@ with_network(Topology, Options, Network, Goal) :-
                  once(Goal),
                  stopped(Network))).
 
-%   The test may have done so.
+%   The test may have stopped the network.
 
 stopped(Network) :-
     catch(network_stop(Network), error(existence_error(network, _), _), true).
@@ -38,8 +38,8 @@ stopped(Network) :-
                 *           SCENARIOS          *
                 *******************************/
 
-%   scenario(?Name, -Topology, -Options, -Seconds): what happens in virtual
-%   time; begun(+Name, +Network, +Hosts) sets it going.
+%   scenario(?Name, -Topology, -Options, -Seconds): a run in virtual time;
+%   begun(+Name, +Network, +Hosts) starts it.
 
 scenario(wanderers, grid(3, 3),
          [ hop_time(uniform(0.1, 0.9)), hosts([concurrency(1)]),
@@ -104,7 +104,7 @@ started(Name, File, Network, Seconds) :-
     network_property(Network, hosts(Hosts)),
     begun(Name, Network, Hosts).
 
-%   whole(+Name, +File, -Text): what is logged without interference.
+%   whole(+Name, +File, -Text): the log of an uninterrupted run.
 
 whole(Name, File, Text) :-
     no_leaks(setup_call_cleanup(
@@ -113,8 +113,8 @@ whole(Name, File, Text) :-
                  network_stop(Network))),
     read_file_to_string(File, Text, []).
 
-%   interrupted(+Name, +Times, +Log, +File, -Text): saved at each of Times, let
-%   run on for a while, stopped, and loaded.
+%   interrupted(+Name, +Times, +Log, +File, -Text): the log of a run that is
+%   saved at each of Times, continues for a while, is stopped, and loaded.
 
 interrupted(Name, Times, Log, File, Text) :-
     no_leaks(setup_call_cleanup(
@@ -157,9 +157,9 @@ goes_on_alike(Name, Dir) :-
                 *           REAL TIME          *
                 *******************************/
 
-%   Walkers that send a number at each hop, to one that moves, too, and counts
-%   what it gets: at each moment all that was sent is counted, or in its
-%   mailbox, or waits for it.
+%   Walkers send a number at each hop to an agent that moves, too, and counts
+%   the numbers that it receives: at each moment all sent numbers are counted,
+%   in its mailbox, or waiting for it.
 
 walker(Host, Box) :-
     agent_create(clauses([ (:- agent(walker, [state([n/1, box/1])])),
@@ -192,7 +192,8 @@ traffic(Network) :-
     box(First, Box),
     forall(member(Host, [First|Hosts]), walker(Host, Box)).
 
-%   saved(+Network, +File, -Sent, -Got): so many agents, and messages.
+%   saved(+Network, +File, -Sent, -Got): the numbers of messages that saved
+%   agents have sent and received.
 
 saved(Network, File, Agents, Sent, Got) :-
     network_save(Network, File),
@@ -277,8 +278,8 @@ clock_goes_on(Dir) :-
     assertion(T2-T1 =< (R2-R0)*100),
     assertion((T >= 60, T-T1 =< (R3-R0)*100)).
 
-%   An appointment is kept once, links are as they were, there are dynamics, and
-%   the log goes on.
+%   An appointment is executed once, links are as before, they change as
+%   before, and the log continues.
 
 everything(Said, Dir) :-
     atom_concat(Dir, '/file', File),
@@ -308,7 +309,7 @@ say(Host, What) :-
     agent_create(clauses([(:- agent(speaker)), (main :- log(said(What)))]), _,
                  [host(Host)]).
 
-%   What another host of this process has is not saved, and goes on.
+%   Another host of this process is not saved, and continues.
 
 beside(Left, Count, Dir) :-
     atom_concat(Dir, '/file', File),
@@ -371,7 +372,7 @@ gone(Dir) :-
                    wait_until(network_property(N, processes([_])), 20),
                    network_save(N, File) )).
 
-%   It holds its worker in one goal.
+%   The agent holds its worker in one goal.
 
 busy(Dir) :-
     atom_concat(Dir, '/file', File),
@@ -391,7 +392,7 @@ holding_on :-
                                     )) ]),
                  _).
 
-%   In another process, when that one has ended.
+%   The network is loaded in another process, after this one has ended.
 
 interrupted_elsewhere(Name, Dir) :-
     atom_concat(Dir, '/log.pl', Log),
@@ -445,7 +446,7 @@ by_appointment(Whole, Text, Dir) :-
     no_leaks(on_from(File, Rest)),
     read_file_to_string(Log, Text, []).
 
-%   Only events after that time.
+%   The other log has only later events.
 
 another_log(Rest, Text, Dir) :-
     atom_concat(Dir, '/log.pl', Log),
@@ -488,7 +489,7 @@ ids([A,B], Dir) :-
 idler(Agent) :-
     agent_create(clauses([ (:- agent(a)), (main :- receive(_)) ]), Agent).
 
-%   Unified first, and used later.
+%   The variable is unified before it is used.
 
 twice(X, Dir) :-
     atom_concat(Dir, '/file.net', File),

@@ -5,16 +5,16 @@
 :- use_module(library(prolog_wrap), [unwrap_predicate/2, wrap_predicate/4]).
 :- use_module(library(typhon)).
 
-/** <module> Tests of how networks stop, while agents are busy
+/** <module> Tests of stopping networks while agents are busy
 
-Agents that cannot go on since others are gone are not reported; faults of
-agents are.
+Agents that cannot continue because hosts have stopped are not reported;
+faults of agents are.
 */
 
 :- begin_tests(stopping).
 
-%   stopped(+Options, +Clauses, +Count, -Told): what is printed when a network is
-%   stopped in which there are Count agents of Clauses.
+%   stopped(+Options, +Clauses, +Count, -Told): Told are the messages printed
+%   when a network with Count agents of Clauses is stopped.
 
 stopped(Options, Clauses, Count, Told) :-
     with_settings([ typhon_processes:answer_seconds=30,    % a slow machine
@@ -57,7 +57,8 @@ test(agents_stopped_in_flight_print_nothing,
     with_settings([typhon_node_process:rest_seconds=10],
                   no_leaks(stopped(Options, Clauses, 50, Told))).
 
-%   Longer than agents have to come to rest, and so long that it is broken off.
+%   A goal longer than agents have to come to rest, and one so long that it is
+%   interrupted.
 
 test(agents_stopped_in_a_long_goal_print_nothing,
      [ forall(member(Seconds-Options, [1.3-[processes(3)], 1.3-[],
@@ -79,7 +80,7 @@ test(fault_of_an_agent_is_reported,
                 Anywhere ],
     no_leaks(stopped(Options, Clauses, 1, Told)).
 
-%   No host is looked at twice.
+%   No host is checked twice.
 
 test(resting_agents_are_not_waited_for, Looks == 64) :-
     flag(test_stopping_looks, _, 0),
@@ -99,7 +100,7 @@ all_rest(Count) :-
     forall(member(Agent, Agents), wait_state(Agent, waiting)),
     network_stop(Network).
 
-%   They miss a turn meanwhile.
+%   These agents miss a turn meanwhile.
 
 test(agents_on_other_hosts_continue) :-
     with_hosts([alpha, beta],

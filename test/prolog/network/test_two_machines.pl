@@ -7,7 +7,7 @@
 :- use_module(library(readutil), [read_line_to_string/2]).
 :- use_module(library(yall)).
 
-/** <module> Two machines, played by two network namespaces
+/** <module> Two machines, simulated by two network namespaces
 
 Made and removed by the suite, with addresses of their own on a cable of
 their own: 10.213.77.1 and 10.213.77.2. Needs root and `ip`; skipped with a

@@ -16,7 +16,7 @@ Each platform is a process; tests compare typed input and output.
 line(Format, Arguments, Line) :-
     format(string(Line), Format, Arguments).
 
-%   A goal that starts a platform, and says so when it stands.
+%   A query that starts a platform, and its banner.
 
 up(Node, Port, Token) :-
     line("start_tartarus(localhost, ~w, ~w).", [Port, Token], Start),
@@ -302,8 +302,8 @@ test(logs) :-
 
 :- begin_tests(native_agents).
 
-%   A native agent goes to a platform, uses what is there, hears a message of
-%   Tartarus there, and comes home.
+%   A native agent moves to a platform, uses its predicates, receives a message
+%   of Tartarus there, and returns.
 
 test(native_agents_visit_a_platform, What == heard(ping(7), 42)) :-
     ports(1, [P]),

@@ -5,7 +5,7 @@
 :- use_module(library(lists)).
 :- use_module(library(typhon)).
 
-/** <module> What the tab key completes at the top level
+/** <module> Completion by the tab key at the top level
 
 The hook is called as the line editors call it.
 */
@@ -15,7 +15,7 @@ The hook is called as the line editors call it.
 completed(Before, Completions) :-
     prolog:complete_input(Before, "", _, Completions).
 
-%   on_tab(+Before, -Line): what stands there where one completion is left.
+%   on_tab(+Before, -Line): Line is the line if there is one completion.
 
 on_tab(Before, Line) :-
     prolog:complete_input(Before, "", Delete, [Completion]),

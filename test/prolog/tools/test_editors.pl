@@ -1,6 +1,6 @@
 :- module(test_editors, []).
 
-% What an editor that asks SWI-Prolog sees of an agent program.
+% The answers of SWI-Prolog to an editor about an agent program.
 
 :- use_module('../../lib/common').
 :- use_module(library(filesex), [directory_file_path/3]).
@@ -31,7 +31,7 @@ looked_at(File, Goal) :-
 
 :- thread_local coloured/1.
 
-%   Which goals, and heads, are shown as Class.
+%   The goals, and heads, that are shown as Class.
 
 shown_as(Class, PIs, File) :-
     retractall(coloured(_)),
@@ -75,7 +75,7 @@ shown(Part, Text, Class, File) :-
 note_part(Text, Class, Start, Length) :-
     (   sub_string(Text, Start, Length, _, Part)
     ->  assertz(coloured(Part-Class))
-    ;   true                            % behind the end
+    ;   true                            % after the end
     ).
 
 asked(Query, Part, Class, File) :-

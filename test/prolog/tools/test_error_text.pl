@@ -11,7 +11,7 @@
 
 /** <module> Errors of agents and of other processes are only data
 
-What a hostile error would do when it is printed is to set a flag.
+A hostile error would set a flag when it is printed.
 
 *Threading*: one test at a time.
 */
@@ -40,7 +40,7 @@ hostile(unwind(abort)).
 hostile(typhon(log(a, b, format("~@", [Harm])))) :- harm(Harm).
 hostile(error(resource_error(stack), _)).
 
-%   What was raised elsewhere and is harmless stays what it was.
+%   A harmless error raised in another process stays unchanged.
 
 kept(type_error(integer, a)).
 kept(existence_error(procedure, foo/1)).
@@ -67,7 +67,7 @@ kept(instantiation_error).
     user:message_hook/3,
     user:portray/1.
 
-%   As it would stand on the screen.
+%   As on the screen.
 
 user:message_hook(_, Kind, Lines) :-
     printing,
@@ -90,7 +90,7 @@ printing(Goal, Texts) :-
 untouched :-
     flag(typhon_printed, 0, 0).
 
-%   What the top level does with an uncaught error.
+%   The reaction of the top level to an uncaught error.
 
 at_the_top_level(Ball) :-
     print_message(error, Ball),
@@ -167,7 +167,7 @@ dag(N0, T0, T) :-
                 *            AGENTS            *
                 *******************************/
 
-%   raising(-Body, -Ball): Body lets people see Ball, or a term with it.
+%   raising(-Body, -Ball): Body makes a user see Ball, or a term with it.
 
 raising(throw(Ball), Ball).
 raising((log(Ball), throw(Ball)), Ball).

@@ -3,10 +3,10 @@
 :- use_module('../../lib/common').
 :- use_module(library(lists)).
 
-/** <module> Tests of help and apropos about our predicates
+/** <module> Tests of help and apropos for the predicates of the library
 */
 
-%   answers(+Goal, -Text): what a Prolog that has loaded the library prints.
+%   answers(+Goal, -Text): the output of a Prolog that has loaded the library.
 
 answers(Goal, Text) :-
     project_file('prolog/typhon.pl', Typhon),

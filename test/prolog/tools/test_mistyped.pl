@@ -193,7 +193,7 @@ test(strategy) :-
 
 :- begin_tests(names_of_existing_agents).
 
-%   A name is given where one is returned.
+%   A name is given for an output argument.
 
 given(agent_create(clauses([(:- agent(a)), main]), bob)).
 given(agent_clone(eve, bob)).

@@ -1,6 +1,7 @@
 :- module(test_tables, []).
 
-% What agents/0 and hosts/0 show where a network was started, or joined.
+% The output of agents/0 and hosts/0 in a process that has started a network,
+% or joined one.
 
 :- use_module('../../lib/common').
 :- use_module('../../lib/fixtures').
@@ -132,8 +133,8 @@ two_ports_seen(Alpha, Lines) :-
     run_swipl(['-f', none, '-g', Goal], [], exit(0), Out, ""),
     split_string(Out, "\n", "\n", [_|Lines]).
 
-%   A process that has only joined it sees it all, too. A process that hangs is not
-%   waited for longer than was said, and named.
+%   A process that has only joined the network lists all of it, too. A hanging
+%   process delays the list no longer than the setting says, and is named.
 
 whole(Network) :-
     network_property(Network, hosts([H1,H2,_])),

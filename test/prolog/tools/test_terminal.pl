@@ -1,6 +1,6 @@
 :- module(test_terminal, []).
 
-% What agents print while a query is typed.
+% Output of agents while a query is typed.
 
 :- use_module('../../lib/common').
 :- use_module(library(apply), [exclude/3]).
@@ -13,8 +13,8 @@
 
 :- needs([python3]).
 
-%   screen(+Steps, +Program, -Rows): what stands there after Steps at a top
-%   level that has loaded Program.
+%   screen(+Steps, +Program, -Rows): the screen after Steps at a top level that
+%   has loaded Program.
 
 screen(Steps, Program, Rows) :-
     with_tmp_dir(screen(Steps, Program, Rows)).
@@ -45,8 +45,8 @@ screen(Steps, Program, Rows, Dir) :-
 
 :- begin_tests(terminal).
 
-%   Lines of agents and messages are shown whole, and what is being typed
-%   is read as it was typed.
+%   Lines of agents and messages are shown whole, and typed input is read
+%   unchanged.
 
 test(agents_print_while_a_query_is_typed) :-
     screen(['at:?- ', 'type:go.\\n', 'see:true.', 'at:?- ',

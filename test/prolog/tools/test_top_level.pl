@@ -10,7 +10,7 @@
 :- use_module(library(readutil)).
 :- use_module(library(typhon)).
 
-/** <module> Mistakes at the top level
+/** <module> Errors at the top level
 
 */
 
@@ -58,8 +58,8 @@ file('broken.pl', ":- agent(broken, []).\nmain :- foo(.\n").
 file('including.pl', ":- agent(including).\n:- include(no_such_file).\nmain.\n").
 file('hi.pl', ":- agent(hi, []).\non_message(_, _).\n").
 
-%   In a terminal each mistake is answered by one line, without a backtrace, and
-%   the next query is read as a query.
+%   In a terminal each error prints one line, without a backtrace, and the next
+%   query is read as a query.
 
 test(error_prints_one_line,
      [ condition(( missing([python3], []), top_level_continues )),
@@ -161,7 +161,7 @@ words_typed(Lines, Dir) :-
 :- dynamic
     delta/2.                    % Pid, Out
 
-%   Another process has a host delta; Out is what it says.
+%   Another process has a host delta; Out is its output.
 
 start_delta :-
     project_file('app/typhon.pl', App),
@@ -230,7 +230,7 @@ test(guests_are_created_and_ended_in_several_threads) :-
                       ( thread_join(T, Status),
                         assertion(Status == true) )) )).
 
-%   The second begins while the first is a guest, and stays longer.
+%   The second guest begins while the first is there, and stays longer.
 
 test(guests_are_independent, Statuses == [true, true]) :-
     nb_getval(test_delta, Delta),
@@ -269,7 +269,8 @@ test(mistyped_host_and_port_in_use) :-
     format(string(Where), "at ~w; choose another port", [Address]),
     one_has(Written, Where).
 
-%   A host of another network, whether a person asks or an agent moves.
+%   A host of another network: the error is the same for a user and for a
+%   moving agent.
 
 test(other_cookie_is_not_reported_as_a_dead_host,
      [ condition(top_level_continues),
@@ -287,7 +288,7 @@ another_cookie(Delta, Written) :-
     format(atom(Create), 'agent_create(hi, A, [host(~q)]).', [Delta]),
     format(atom(Move),
            'agent_move(bob, ~q), payload_attach(bob, payload(x,[],[])).',
-           [Delta]),       % orders are taken in turn
+           [Delta]),       % orders are executed in sequence
     format(atom(Remote), 'remote(~q, true).', [Delta]),
     said([ Create, Remote, 'host_start(alpha).',
            'agent_create(hi, _, [name(bob)]).', Move, Remote ],

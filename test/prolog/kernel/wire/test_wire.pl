@@ -483,7 +483,7 @@ post_and_flush(Address, I) :-
     ;   flag(test_failed, N, N+1)
     ).
 
-%   With the topic typhon(frame) connections broke at each of them.
+%   With the topic typhon(frame) connections broke at each of these.
 
 test(frames_of_counts_can_be_shown, Words == none) :-
     typhon_session:frame_words(none, Words).

@@ -70,7 +70,7 @@ peer_rules([Create,Remote,Dispose,Look], Noted, Dir) :-
           audited(File, Noted) )))).
 
 %   A peer disposes of an agent before there are rules, under rules, and after
-%   they are gone.
+%   their removal.
 
 changed_rules([Before,Ruled,After], Noted, Dir) :-
     directory_file_path(Dir, audit, File),

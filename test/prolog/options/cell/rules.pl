@@ -1,4 +1,4 @@
-%   The back door: with this rule an agent calls what it likes in its process,
-%   since what call_with_depth_limit/3 calls is not looked at.
+%   A deliberate hole: with this rule an agent calls any goal in its process,
+%   since the rules do not check what call_with_depth_limit/3 calls.
 
 allow(call_with_depth_limit/3).

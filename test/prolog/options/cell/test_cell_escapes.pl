@@ -8,7 +8,7 @@
 :- use_module(library(lists), [member/2, subset/2]).
 :- use_module(library(typhon)).
 
-/** <module> What an agent with all rights inside its cell cannot reach
+/** <module> Data that an agent with all rights inside its cell cannot reach
 
 *Threading*: one test at a time.
 */
@@ -25,8 +25,8 @@ test(data_of_an_owner_is_not_in_the_cell_of_another,
 
 :- end_tests(cell_escapes).
 
-%   An agent of this process leaves something in its cell, and one that was born
-%   in the process p looks for it.
+%   An agent of this process leaves a fact in its cell, and an agent that was
+%   created in the process p looks for it.
 
 left_to_another(Left, Seen) :-
     Things = [ exists_file('/tmp/left'), current_predicate(left/0),

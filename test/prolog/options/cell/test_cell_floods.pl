@@ -67,7 +67,7 @@ endless(endless(requests)).
 endless(endless(asked)).
 endless(unfinished).
 
-%   The host is stopped while frames come, and all that was on it is gone.
+%   The host is stopped while frames arrive, and nothing of it is left.
 
 stopped_beside(What, Stopped) :-
     inmate(true, test_send(What), Clauses),
@@ -77,7 +77,7 @@ stopped_beside(What, Stopped) :-
     agent_join(A, Outcome, 30),
     ( Outcome == disposed -> Stopped = true ; Stopped = Outcome ).
 
-%   Each is large.
+%   Each frame is large.
 
 refused_again_and_again(Outcome, Lines) :-
     attempt(test_send(refused(150, 600)), Outcome),
@@ -92,8 +92,8 @@ created_again_and_again(Outcome, Lines, Agents) :-
     standing(c, Agents).
 
 %   The cell writes frames of 5,000 new functors until it is ended; an agent of
-%   the same owner has no turn then.  Before: not all came; After: the process
-%   has few more.
+%   the same owner gets no turn then. Before: not all frames arrived; After:
+%   the process has few more functors.
 
 functors_charged([First,Next], Before, After, Lines) :-
     statistics(functors, Count0),
@@ -105,7 +105,7 @@ functors_charged([First,Next], Before, After, Lines) :-
     ( Count2-Count1 < 1000 -> After = true ; After = Count2-Count1 ),
     aggregate_all(count, audited(cell(_, violation(functors))), Lines).
 
-%   The same outcome twice: the second one comes in the turn of the agent or of
+%   The same outcome twice: the second one arrives in a turn of the agent or of
 %   its clone, which is lost.
 
 sent_again(Agents) :-
@@ -117,8 +117,8 @@ sent_again(Agents) :-
 standing(Host, Count) :-
     aggregate_all(count, agent_property(_, host(Host)), Count).
 
-%   When the agent has gone on to the host t, another agent sends in its cell
-%   the outcome of a turn that it had there.
+%   After the agent has moved to the host t, another agent in its cell sends
+%   the outcome of an earlier turn of it.
 
 sent_late(Outcome, There) :-
     inmate(true, test_send(kept), Clauses),

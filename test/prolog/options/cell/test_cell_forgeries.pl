@@ -6,8 +6,8 @@
 :- use_module(library(lists), [member/2]).
 :- use_module(library(typhon)).
 
-/** <module> What an agent with all rights inside its cell cannot ask of the
-gatekeeper
+/** <module> Requests that the gatekeeper refuses to an agent with all rights
+inside its cell
 
 *Threading*: one test at a time.
 */

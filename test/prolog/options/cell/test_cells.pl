@@ -19,9 +19,9 @@
 *Threading*: one test at a time.
 */
 
-%   cell(+Goal): Goal is called while the host c has agents in cells.  These get
-%   little processor time where other processes want it, and the default of the quota
-%   is 5 seconds by the clock.
+%   cell(+Goal): Goal is called while the host c has agents in cells. These get
+%   little processor time if other processes want it, and the default quota is
+%   5 seconds of real time.
 
 :- meta_predicate cell(0).
 
@@ -147,7 +147,7 @@ test(agent_that_does_not_stop_is_ended,
                  agent_join(B, Outcome2, 30),
                  outcome([(main :- sleep(0))], Beside),
                  Outcomes = [Outcome1,Outcome2] )).
-%   To look for the text takes minutes, in one call of C.
+%   Searching the text takes minutes, in one call of C.
 
 test(uninterruptible_agent_is_ended,
      Outcome = raised(error(resource_error(seconds), _))) :-
@@ -229,11 +229,11 @@ used_cells(Count) :-
     findall(Key, ( member(cell(_, _, Key), Cells), Key \== spare ), Keys),
     length(Keys, Count).
 
-%   Of a bridge with two predicates the place offers one, and an agent may call
-%   it three times in a second.
+%   Of a service with two predicates the place offers one, and an agent may
+%   call it three times in a second.
 
-%   Ended are the outcomes of Calls, Passed the quotas that the audit says were
-%   passed.
+%   Ended are the outcomes of Calls, Passed the quotas that were exceeded
+%   according to the audit.
 
 bridge_called(Calls, Ended, Passed, Dir) :-
     directory_file_path(Dir, place, File),
@@ -409,8 +409,8 @@ started_by_slow_bubblewrap(Dir) :-
         host_start(c, [policy(guarded)]),
         setenv('PATH', Path)).
 
-%   left_in(-Files, +Dir): Dir is where a process makes temporary files that halts
-%   while a host has cells.
+%   left_in(-Files, +Dir): the files in Dir, the directory for temporary files
+%   of a process that halts while a host has cells.
 
 left_in(Files, Dir) :-
     format(atom(Goal),
@@ -420,8 +420,9 @@ left_in(Files, Dir) :-
     directory_files(Dir, All),
     subtract(All, ['.', '..'], Files).
 
-%   killed(+Before, +Kills, -Result, +Dir): the cell of an agent is killed so often
-%   while it works.  Result is how it ends, and how many facts it has left.
+%   killed(+Before, +Kills, -Result, +Dir): the cell of an agent is killed
+%   Kills times while the agent runs. Result is its outcome, and the number of
+%   facts that it has left.
 
 killed(Before, Kills, How-Count, Dir) :-
     atomic_list_concat([Dir, /, p], J),
@@ -472,7 +473,7 @@ cell_session_nice(Nice) :-
     read_file_to_string(Group, Line, []),
     split_string(Line, " ", " \n", [_,_,Nice]).
 
-%   The result is `yes` if the agent may do what rules refuse.
+%   The result is `yes` if the agent can do what the rules refuse.
 
 tries([ plan(nb_setval(test_cells, 1)),
         (main :- receive(_-go), plan(G),

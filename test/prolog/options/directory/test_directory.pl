@@ -13,8 +13,8 @@
 *Threading*: one test at a time.
 */
 
-%   offering(+Offers, +Host, -Agent): it has made the offers, Service-Properties,
-%   and calls the goals that it gets then.
+%   offering(+Offers, +Host, -Agent): an agent that has made the offers,
+%   Service-Properties, and calls the goals that it receives.
 
 offering(Offers, Host, Agent) :-
     Clauses = [ (main :- offers(Offers), assertz(r(1))),
@@ -31,7 +31,8 @@ does(Agent, Goal) :-
     agent_send(Agent, Goal),
     did(Agent, Goal).
 
-%   found(+Host, ?Pattern, +Options, -Agents): what an agent there finds.
+%   found(+Host, ?Pattern, +Options, -Agents): the agents that an agent on Host
+%   finds.
 
 found(Host, Pattern, Options, Found) :-
     create([(main :- find(Pattern, Found0, Options), result(Found0))], A,

@@ -10,13 +10,13 @@
 
 /** <module> Untrusted agents on a host that guards
 
-Each attack is tried three ways: written in the program, made up at run time
-where the machine runs it, and made up where Prolog runs it.
+Each attack is tried in three ways: written in the program, constructed at run
+time and run by the machine, and constructed and run by Prolog.
 
 *Threading*: one test at a time.
 */
 
-%   attack(-Goal): what no untrusted agent may do.
+%   attack(-Goal): a goal that no untrusted agent may call.
 
 attack(halt).
 attack(halt(1)).
@@ -193,7 +193,8 @@ refused(Goal) :-
     \+ \+ raises_in(findall(x, G, _), G, Goal),
     \+ \+ raises_in(maplist([A]>>A, [G]), G, Goal).
 
-%   As it is written: it is kept out, or stopped when it comes to it.
+%   A goal written in the program: its agent is refused, or stopped at the
+%   goal.
 
 lets_in_no(Goal) :-
     catch(( create([(main :- Goal)], A, [host(g)]),
@@ -215,9 +216,9 @@ of_policy(permission_error(call, sandboxed, _)).
 of_policy(permission_error(_, _, _)).
 of_policy(existence_error(procedure, _)).
 
-%   below_variables(-Goal): Goal, which untrusted agents may call, is given one
-%   that they may not, below a variable.  Some libraries call what is there,
-%   whatever the specification says.
+%   below_variables(-Goal): Goal, which untrusted agents may call, has an
+%   argument with a forbidden goal below a variable. Some libraries call such a
+%   goal, whatever their specification says.
 
 below_variables(Goal) :-
     typhon_allowed:runs(_, Spec),
@@ -266,7 +267,7 @@ test(constructed_goals_are_checked, Escaped-Count == 0-many) :-
     flag(typhon_guard_escaped, Escaped, 0),
     ( Goals = [_,_,_|_] -> Count = many ; Count = few ).
 
-%   What an untrusted agent may do, it does.
+%   Permitted goals run.
 
 test(ordinary_programs_run, R-Facts == [2-a,4-b]-[ok]) :-
     with_hosts([g-[policy(guarded), cell(none)], t],
@@ -304,7 +305,7 @@ test(only_services_of_the_place_are_callable, Rs == [open(1),hidden]) :-
 test(service_calls_are_limited,
      Rs = done-raised(error(resource_error(calls(open/1)), _))) :-
     with_tmp_dir(often(Rs)).
-%   Its own predicate of that name comes before the service.
+%   The agent's own predicate of that name precedes the service.
 
 test(services_cannot_be_changed_or_read, Rs == [[],[],[],[x],[x]]-[1,2]) :-
     with_tmp_dir(changes_of_services(Rs)).
@@ -394,7 +395,8 @@ by_rules([O1,O2], Dir) :-
                 *            QUOTAS            *
                 *******************************/
 
-%   hog(?What, -Clauses): an agent that uses more of it than any may.
+%   hog(?What, -Clauses): an agent that uses more of the resource What than
+%   allowed.
 
 hog(seconds, [ (main :- lp), (lp :- lp) ]).
 hog(seconds, [ (main :- repeat, fail) ]).
@@ -443,7 +445,7 @@ brim([ (main :- findall(x, ( repeat, catch(g(0), _, true) ), _)),
 quotas([ stack(16 000 000), state(200 000), tuples(50), clones(20),
          messages(100), log(10) ]).
 
-%   A hog of something else has time for that on a busy machine.
+%   On a busy machine a hog of another resource takes long.
 
 quota_of(seconds, [seconds(0.3)|Quotas]) :- !, quotas(Quotas).
 quota_of(inferences, [inferences(100 000),seconds(60)|Quotas]) :-
@@ -452,11 +454,11 @@ quota_of(inferences, [inferences(100 000),seconds(60)|Quotas]) :-
 quota_of(_, [seconds(60)|Quotas]) :- quotas(Quotas).
 
 is_of(What, What).
-is_of(tripwire(max_integer_size, _), stack).    % of 9.2
+is_of(tripwire(max_integer_size, _), stack).    % in 9.2
 
 :- begin_tests(quotas).
 
-%   What is first, the results or the stack that takes them, depends.
+%   The results or the stack that receives them may exceed a quota first.
 
 test(endless_findall_exceeds_a_quota,
      true(memberchk(What, [seconds, stack]))) :-
@@ -465,7 +467,7 @@ test(endless_findall_exceeds_a_quota,
                capturing(outcome([ (main :- findall(X, between(1, inf, X), _)) ],
                                  Outcome), _)),
     Outcome = raised(error(resource_error(What), _)).
-%   Nothing that it does when it has caught an interrupt keeps it there.
+%   An agent that catches the interrupt cannot continue by any goal.
 
 test(caught_interrupt_ends_the_agent_at_once, [ forall(stays(Clauses)),
                                                 true(Seconds < 3) ]) :-
@@ -477,9 +479,9 @@ test(caught_interrupt_ends_the_agent_at_once, [ forall(stays(Clauses)),
                          _)),
     get_time(T1),
     Seconds is T1-T0.
-%   An agent that fills its stack to the brim, again and again, would end the
-%   process if it came to that.
-%   Its limit is four times the quota: more than it fills between two looks.
+%   An agent that repeatedly fills its stack to the limit would end the
+%   process. The limit is four times the quota: more than the agent fills
+%   between two checks.
 
 test(stack_is_limited,
      [ forall(brim(Clauses)), setup(stack_limit(Old, 60 000 000)),
@@ -507,7 +509,7 @@ test(trusted_hosts_have_quotas_too,
      Outcome = raised(error(resource_error(seconds), _))) :-
     with_hosts([g-[quota([seconds(0.2)])]],
                capturing(outcome([ (main :- lp), (lp :- lp) ], Outcome), _)).
-%   What they call things is not remembered for ever.
+%   Atoms of agents do not stay in memory.
 
 test(atoms_are_collected, true(Count < 300)) :-
     with_settings([typhon_mobile:known=100],

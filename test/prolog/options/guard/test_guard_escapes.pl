@@ -6,10 +6,9 @@
 :- use_module(library(lists), [append/3, member/2, numlist/3]).
 :- use_module(library(typhon)).
 
-/** <module> Ways out of the sandbox that were open once
+/** <module> Former escapes from the sandbox
 
-What an attack would do if it got through is to set the flag
-typhon_guard_escaped.
+A successful attack would set the flag typhon_guard_escaped.
 
 *Threading*: one test at a time.
 */
@@ -21,8 +20,9 @@ escaped(Goal, Escaped) :-
     call(Goal),
     flag(typhon_guard_escaped, Escaped, 0).
 
-%   ways(+Goal, -Clauses): as it is written, made up where the machine runs
-%   it, made up where Prolog runs it, and made up on another host.
+%   ways(+Goal, -Clauses): Goal written in the program, constructed and run by
+%   the machine, constructed and run by Prolog, and constructed on another
+%   host.
 
 ways(Goal, [(main :- Goal)]).
 ways(Goal, [(main :- goal(G), call(G)), goal(Goal)]).
@@ -44,7 +44,8 @@ is_refused(raised(error(permission_error(_, _, _), _))).
 is_refused(raised(error(existence_error(procedure, _), _))).
 is_refused(raised(error(resource_error(tripwire(_, _)), _))).   % 9.2.9
 
-%   let_through(+Goals, -Goals): those that are not refused in each way.
+%   let_through(+Goals, -Goals): the goals that are not refused in each of
+%   these ways.
 
 let_through(Goals, Through) :-
     findall(Goal-Outcome,
@@ -118,7 +119,7 @@ calling(Goal) :-
              format_time(string(_), "~@", 0),
              string_code(1, "a", _) ; Harm ]).
 
-%   What text is known to be harmless is written.
+%   Formats that are known to be harmless are written.
 
 written("~w ~q ~a ~d ~D ~s", [a+'B', 'B', c, 4, 5000, "six"],
         "a+B 'B' c 4 5,000 six").
@@ -159,8 +160,8 @@ dag([ dag(0, T0, T0),
                 *        CHANGED GOALS         *
                 *******************************/
 
-%   changing(-Name, -Clauses): a goal is looked at, and then changed by what
-%   it calls.  hit/2 is harmless, set_flag/2 is not.
+%   changing(-Name, -Clauses): a goal is checked, and then changed by a goal
+%   that it calls. hit/2 is harmless, set_flag/2 is not.
 
 changing(call,
          [ (main :- closure(C), G = maplist(C, [c(C), 1]), call(G)) ]).
@@ -223,7 +224,7 @@ changing_program(Name, Clauses) :-
 
 :- begin_tests(changed_goals).
 
-%   setarg/3 is allowed, so that the copy is all that is between.
+%   setarg/3 is allowed here, so that only the copy protects the goal.
 
 test(checked_goal_is_the_executed_goal,
      [forall(changing_program(Name, Clauses)), true(Escaped == 0-Name)]) :-
@@ -255,7 +256,7 @@ changed(Clauses, Name, Escaped-Name, Dir) :-
                 *            CLAUSES           *
                 *******************************/
 
-%   hidden(-Clause): asserted as it stands it would be a rule, not a fact.
+%   hidden(-Clause): asserted unchanged, Clause would be a rule, not a fact.
 
 hidden((p(X) => Harm)) :- harm(Harm), X = _.
 hidden(?=>(p(_), Harm)) :- harm(Harm).
@@ -335,7 +336,7 @@ test(programs_of_peers_load_no_library,
     with_tmp_dir(loads_library(How, Program, Sent, Escaped)).
 
 
-%   detach/1 would abolish what a life names.
+%   detach/1 would abolish the predicates that an image names.
 
 test(image_names_no_predicates_of_modules,
      [ forall(member(Payloads, [ [x-[user:(p/1)]], [x-[(user:p)/1]], [x-_],
@@ -419,7 +420,7 @@ storing_program([ (main :- dag(60, true, G), findall(x, G, _)),
                   dag(0, G0, G0),
                   (dag(N0, G0, G) :- N0 > 0, N is N0-1, dag(N, \+ (G0;G0), G)) ]).
 
-%   What fails or raises without T is kept as it was.
+%   A goal that fails or raises without T is kept unchanged.
 
 too_large(failed).
 too_large(raised(x)).
@@ -443,7 +444,7 @@ test(other_agents_are_not_delayed, R == ok) :-
                                   [host(g)]),
                            agent_result(B, R, 10),
                            agent_join(A, raised(_), 10) ), _)).
-%   Large data may stand in goals that are not kept.
+%   Large data may be in goals that are not stored.
 
 test(large_terms_are_not_executed, R == 300 000) :-
     with_hosts([g-[policy(guarded), cell(none)]],
@@ -459,7 +460,7 @@ test(large_terms_are_not_executed, R == 300 000) :-
                 *           HUGE TERMS         *
                 *******************************/
 
-%   huge(-Goal): SWI-Prolog 9.0.4 crashes.
+%   huge(-Goal): Goal crashes SWI-Prolog 9.0.4.
 
 huge(Goal) :-
     member(Arity, [ 4611686018427387903, 4611686018427387904,
@@ -515,8 +516,8 @@ given(Text, Text).
 given(Text, Codes) :- string_codes(Text, Codes).
 given(Text, Chars) :- string_chars(Text, Chars).
 
-%   A goal that may be called as it stands, with a long text at one place,
-%   little at the others, and a variable at one of them.
+%   A permitted goal with a long text as one argument, short ones as the
+%   others, and a variable at one of them.
 
 text_goal(Text, Goal) :-
     typhon_allowed:free(Goal),
@@ -581,7 +582,7 @@ text_attack(( string_codes(S, `xxxxxxxxxxxxxxxxxxxx`),
                                   a,a,a,a,a,a,a,a,a,a,a,a,a,a,a,a], S, _) )).
 text_attack(( X is 7**10000, atom_number(_, X) )).
 
-%   Where atoms of allowed length are held: what is ended for that.
+%   Atoms of allowed length are held until a quota ends the agent.
 
 holding(state,
         [ (main :- long(L), between(1, inf, I), atom_concat(L, I, A),
@@ -628,7 +629,7 @@ test(text_of_atoms_counts,
                             log(1000) ]) ]],
                capturing(outcome(Clauses, Outcome), _)),
     Outcome = raised(error(resource_error(Passed), _)).
-%   What is taken away again does not count.
+%   Removed text does not count.
 
 test(collected_text_does_not_count, Outcome == done) :-
     long_atom_900(Long),
@@ -657,7 +658,7 @@ test(short_texts_pass, R == ['ABC', bc, 'a,b', f(x), "f(x)", 12]) :-
                 *      FILES AND AGENTS        *
                 *******************************/
 
-%   A new agent would bring what is in a file, or its error would show it.
+%   A new agent would carry the content of a file, or its error would show it.
 
 reads(create(self, _, [payloads([Spec])]), File) :- member(Spec, [File, (a)/File]).
 reads(create(self, _, [payloads=[File]]), File).

@@ -1,6 +1,6 @@
 :- module(test_authors, []).
 
-% Hosts that let in only programs that certain authors have signed.
+% Hosts that admit only programs signed by certain authors.
 
 :- use_module('../../../lib/common').
 :- use_module('../../../lib/authority').
@@ -141,7 +141,7 @@ payload(Authority, Name, File) :-
                [Name, Name, Name, Name]),
         close(Out)).
 
-%   The program is signed; what it carries may be.
+%   The program is signed; its payload may be.
 
 carrier(Authority, File) :-
     directory_file_path(Authority, 'carrier.pl', File),
@@ -180,7 +180,7 @@ payloads_of(Authority, Alpha) :-
     begins_with(Carrier, Bad, refused(move_refused(Alpha, unsigned))),
     on_the_spot(Carrier, Good, Bad, Alpha).
 
-%   What becomes of a carrier that goes to Alpha after it has done something.
+%   The outcome of a carrier that moves to Alpha after a goal.
 
 carries(Carrier, Payload, Host, Alpha, Do, Came) :-
     agent_create(Carrier, Agent, [host(Host), payloads([Payload])]),
@@ -194,7 +194,7 @@ carried(Agent, Alpha, arrived) :-
 carried(Agent, _, refused(Formal)) :-
     agent_property(Agent, state(faulty(error(Formal, _)))).
 
-%   What a host that guards writes into it does not count.
+%   Data that a guarding host writes into the program do not count.
 
 guards_on_the_way(Carrier, Good, Beta, Alpha) :-
     host_start(guarding, [policy(guarded)]),
@@ -216,8 +216,8 @@ begins_with(Carrier, Payload, Expected) :-
           Came = refused(Formal)),
     assertion(Came = Expected).
 
-%   On alpha itself nothing else is attached, from within or from outside, and
-%   nothing is delivered that has changed.
+%   On alpha itself no other payload can be attached, from within or from
+%   outside, and no changed one delivered.
 
 on_the_spot(Carrier, Good, Bad, Alpha) :-
     Refused = error(move_refused(Alpha, unsigned), _),

@@ -1,7 +1,7 @@
 :- module(test_owners, []).
 
-% Processes that take the id of an agent of others, or speak in its name: mallory
-% has a certificate, and had one of them as a guest.
+% Processes that take the id of another's agent, or send messages in its name:
+% mallory has a certificate, and had one of the agents as a guest.
 
 :- use_module('../../../lib/common').
 :- use_module('../../../lib/authority').
@@ -28,7 +28,7 @@ with_owners(Goal, Authority) :-
                    once(Goal),
                    host_stop(alpha))).
 
-%   A guest goes and speaks by messages, and keeps what it hears.
+%   A guest moves and sends messages on order, and stores received messages.
 
 guest(clauses([ (:- agent(guest, [state([heard/2])])),
                 (on_message(_, go(Host)) :- move(Host)),
@@ -53,7 +53,7 @@ endpoint(Peer, Endpoint) :-
     peer_host(Peer, Host),
     typhon_host_names:address_parts(Host, _, Endpoint).
 
-%   Mallory makes the image of an agent of hers, and its birth.
+%   Mallory makes the image of an agent of its own, and its birth certificate.
 
 mallory_image(Image, Birth) :-
     guest(Program),
@@ -63,7 +63,7 @@ mallory_image(Image, Birth) :-
               typhon_image:image_hash(Image, Hash),
               typhon_birth:birth(A, Hash, Birth) )).
 
-%   What beta answers when mallory brings it.
+%   The answer of beta to an image from mallory.
 
 brought(Image, Birth, Answer) :-
     endpoint(beta, Beta),
@@ -83,7 +83,8 @@ test(honest_agents_are_admitted_and_forged_ones_refused) :-
 
 :- end_tests(owners).
 
-%   From alpha over mallory to beta and back; what it says on the way arrives.
+%   From alpha by way of mallory to beta and back; the messages sent on the way
+%   arrive.
 
 honest :-
     guest(Program),
@@ -106,9 +107,9 @@ honest :-
     agent_send(B, say(A, heard(back))),
     wait_until(heard(A, [B-back]), 20).
 
-%   An agent there could not go on from a network that was saved and loaded.
-%   As a network does, it waits until no agent runs there: A has just got a
-%   message.
+%   An agent there could not continue from a network that was saved and loaded.
+%   As a network does, the test waits until no agent runs there: A has just
+%   received a message.
 
 births_saved(Peer) :-
     peer_do(Peer,
@@ -122,8 +123,8 @@ births_saved(Peer) :-
               typhon_node_process:order_do(fill(real, Births), ok),
               typhon_node_process:order_do(let_go, ok) )).
 
-%   Mallory has A's birth, since it was her guest; of C she knows the id only,
-%   but beta knows C.
+%   Mallory has A's birth certificate, since A was its guest; of C it knows the
+%   id only, but beta knows C.
 
 ids_taken :-
     guest(Program),
@@ -154,7 +155,7 @@ ids_taken :-
             TooLong),
     assertion(TooLong == answer(refused(identity))).
 
-%   It would be hers, and is one that beta would have to remember.
+%   The id would be mallory's own, and beta would have to remember it.
 
 long_id(Own, Long) :-
     format(atom(Long), '~`xt~20000|~w', [Own]).
@@ -204,7 +205,7 @@ senders_forged :-
     wait_until(( heard(B, Heard), length(Heard, 2) ), 20),
     assertion(Heard == [M-honest, A-from_a]).
 
-%   To look at each of them for each message would take minutes.
+%   Checking each of them for each message would take minutes.
 
 many_shown(Count, A, B, birth(_, Hash, Pem, Hex),
            shown(Births, message(B, Mail, 5))) :-
@@ -231,7 +232,7 @@ news_forged :-
     agent_send(A, heard(still_here)),
     wait_until(heard(A, [M-done, user-still_here]), 10).
 
-%   Away from home no host would let it go on.
+%   On another host than its home no host would admit it.
 
 program_changed :-
     guest(Program),

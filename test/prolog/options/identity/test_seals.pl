@@ -1,6 +1,6 @@
 :- module(test_seals, []).
 
-% What agents seal for one host.
+% Data that agents seal for one host.
 
 :- use_module('../../../lib/common').
 :- use_module('../../../lib/authority').
@@ -21,7 +21,7 @@ with_home(Goal, Authority) :-
                    once(Goal),
                    host_stop(alpha))).
 
-%   It finds something on beta, and seals it there for its home.
+%   The agent finds data on beta, and seals them there for its home.
 
 collector(clauses([ (:- agent(collector, [state([to/1])])),
                     (main :- to(Beta), home(Home), move(Beta),

@@ -8,15 +8,15 @@
 
 /** <module> Messages between processes that keep journals
 
-Whatever breaks while a message is being posted, it comes, also if it is the
-last that anybody says.
+Whatever breaks while a message is being posted, the message arrives, even if
+it is the last one.
 */
 
 :- needs([journal]).
 
 %   with_beta(:Before, :After): from a host with a journal, to another process
-%   that keeps one, which is killed after Before; After is called when it was
-%   started again.  Its hosts are beta and, at another port, gamma.
+%   with a journal, which is killed after Before; After is called when it has
+%   restarted. Its hosts are beta and, at another port, gamma.
 
 :- meta_predicate
     with_beta(0, 0),
@@ -46,7 +46,7 @@ beta(Journal, Port, Goal) :-
                  nb_setval(channel_pid, Pid),
                  call(Goal) )).
 
-%   listens(+Host, -Id): an agent on Host that keeps what it hears.
+%   listens(+Host, -Id): an agent on Host that stores received messages.
 
 listens(Host, Id) :-
     agent_create(clauses([ (:- agent(listens, [state([got/1])])),
@@ -63,8 +63,8 @@ got(Id, Expected) :-
 %   not safe.
 
 :- dynamic
-    interrupted/0,                      % once, before a courier is sent out
-    held/0.                             % once, when he has posted something
+    interrupted/0,                      % once, before messages are posted
+    held/0.  % once, when a worker has posted messages
 
 :- public interrupt/0, hold/1.
 
@@ -96,8 +96,8 @@ test(interrupted_post_does_not_block_others) :-
           got(Id, [first, second]) ),
         true).
 
-%   The courier has posted, and not said so yet, as the process dies; he goes on
-%   when there is a connection with the next.
+%   The worker has posted, and not recorded it yet, when the process dies; it
+%   continues when there is a connection with the next process.
 
 test(unacknowledged_posts_are_sent_to_the_successor) :-
     message_queue_create(Gate, [alias(channel_gate)]),
@@ -119,7 +119,7 @@ test(unacknowledged_posts_are_sent_to_the_successor) :-
           got(Id, [hello]) )),
     message_queue_destroy(Gate).
 
-%   It was met at its first port, and is connected again by that.
+%   The process was met at its first port, and is connected again by that one.
 
 test(unacknowledged_posts_to_a_second_port_are_sent_to_the_successor) :-
     free_port(Port),
@@ -139,7 +139,8 @@ test(unacknowledged_posts_to_a_second_port_are_sent_to_the_successor) :-
           thread_join(Thread, exception(error(connection_lost(Gamma), _))),
           got(Id, [hello]) )).
 
-%   asked_for_ever(+Host, -Thread): a question to Host is under way.
+%   asked_for_ever(+Host, -Thread): a remote goal that never ends is running on
+%   Host.
 
 asked_for_ever(Host, Thread) :-
     thread_create(remote(Host, ( leave(asked),
@@ -147,8 +148,8 @@ asked_for_ever(Host, Thread) :-
                                  thread_get_message(Me, never) )), Thread),
     wait_until(remote(Host, sense(asked)), 30).
 
-%   What belongs together in the journal is noted as one: a process may be killed
-%   between any two.
+%   Changes that belong together are one entry of the journal: a process may be
+%   killed between any two.
 
 :- dynamic entry/1.                     % Changes
 
@@ -177,7 +178,8 @@ in_mailbox(Id, Messages) :-
     agent_property(Id, mailbox(Mail)),
     findall(M, member(_-M, Mail), Messages).
 
-%   To a host that does not exist, of a process that stands still for a while.
+%   The agent gets an order to a missing host of a process that is suspended
+%   for a while.
 
 sent_nowhere(Id) :-
     nb_getval(channel_beta, Beta),
@@ -201,7 +203,7 @@ sent_nowhere(Id) :-
 
 user:message_hook(typhon(order_failed(_, _)), warning, _).
 
-%   It is said to be on its way to here.
+%   The whereabouts of the recipient say that it is on its way to this process.
 
 test(forwarded_message_is_moved_in_one_unit_of_work) :-
     with_beta(
@@ -263,7 +265,7 @@ test(agent_sending_a_too_long_message_gets_an_error) :-
           got(Near, [Long0]) ),
         true).
 
-%   As when another codec needs more space than was thought.
+%   As if another codec needed more space than was estimated.
 
 test(message_that_became_too_long_is_reported_as_a_dead_letter) :-
     setting(typhon_session:frame_bytes, Bytes),
@@ -284,7 +286,7 @@ test(message_that_became_too_long_is_reported_as_a_dead_letter) :-
               wait_until(told_lost(Id, resource_error(frame_bytes)), 5) )),
         set_setting(typhon_session:frame_bytes, Bytes)).
 
-%   It is said to be on its way to here.
+%   The whereabouts of the recipient say that it is on its way to this process.
 
 test(queued_messages_are_split_over_frames) :-
     with_beta(
@@ -340,7 +342,7 @@ told_lost(Id, Formal) :-
 
 :- end_tests(channel_frames).
 
-%   A caller elsewhere waits for as long.
+%   A caller in another process waits for as long.
 
 :- begin_tests(channel_full).
 
@@ -375,7 +377,7 @@ asked_while_full(Line, Dir) :-
                        read_line_to_string(Out, Line) )) ),
         host_stop(driver)).
 
-%   Says `ready`, and `answered` when it has asked.
+%   Prints `ready`, and `answered` when its question has been answered.
 
 with_asker(Driver, In, Out, Goal) :-
     project_file('prolog/typhon.pl', Typhon),

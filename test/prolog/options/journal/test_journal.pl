@@ -13,8 +13,8 @@
 
 :- begin_tests(journal).
 
-%   with_journal(:First, :Second): in a process with a journal, and when it
-%   was started again.
+%   with_journal(:First, :Second): in a process with a journal, and after its
+%   restart.
 
 :- meta_predicate with_journal(0, 0).
 
@@ -34,7 +34,7 @@ started(Dir, Goal) :-
                        once(Goal),
                        stop_all).
 
-%   The last one is not stopped but rests.
+%   The last host is not stopped but rests.
 
 stop_all :-
     host_stop(alpha).
@@ -50,7 +50,7 @@ test(agents_and_their_state_are_restored) :-
           forall(between(1, 3, I), agent_send(Id, m(I))),
           got(Id, [m(1), m(2), m(3)]) ),
         ( nb_getval(journal_test, Id),
-          wait_until(agent_property(Id, state(resident)), 5), % m(3) once more
+          wait_until(agent_property(Id, state(resident)), 5), % m(3) again
           agent_send(Id, m(4)),
           got(Id, [m(1), m(2), m(3), m(4)]) )).
 
@@ -85,7 +85,7 @@ test(outcomes_and_results_are_restored) :-
           agent_result(C, clone(A), 1),
           agent_join(family(A), [A-done, C-done], 5) )).
 
-%   A table that the journal knows by its declaration alone.
+%   A table that the journal knows only by its declaration.
 
 :- dynamic visit/2.
 
@@ -148,7 +148,7 @@ other_hosts(Dir) :-
     Refused = error(move_refused(Beta, capacity), _),
     throw(Error).
 
-%   It would be tried again and again, and nothing else be committed.
+%   Otherwise the id would be tried repeatedly, and nothing else be committed.
 
 test(too_long_id_is_refused) :-
     no_leaks(with_tmp_dir(long_ids)).
@@ -197,9 +197,9 @@ test(faulty_agents_are_restored_and_resumed,
           agent_resume(A),
           agent_result(A, fine, 5) )).
 
-%   The worker that has it stands still while it releases what was said, as it
-%   learns that one message finds no agent.  If that is when the agent rests another
-%   worker is ahead of it.
+%   The worker of the agent is held while it sends posts, when it learns that
+%   one message finds no agent. If the agent rests at that moment, another
+%   worker overtakes it.
 
 test(messages_of_an_answering_agent_stay_in_order) :-
     with_tmp_dir(in_order).
@@ -239,8 +239,8 @@ stands_still(Agent, Keeper) :-
     ;   true
     ).
 
-%   Peers are let in before agents go on: here two messages come just before
-%   it is looked whether it is to be woken, and it has taken the first.
+%   Peers are admitted before agents continue: two messages arrive just before
+%   the check whether the agent is to be woken, and it has taken the first.
 
 test(messages_during_a_restart_are_handled_in_sequence) :-
     no_leaks(with_tmp_dir(one_after_the_other)).
@@ -267,7 +267,8 @@ one_after_the_other(Dir) :-
           got(A, [first, second]) ),
         ( stop_all, message_queue_destroy(Gate) )).
 
-%   It stays wrapped: to unwrap what a thread is in is not safe.
+%   The predicate stays wrapped: unwrapping a predicate that a thread executes
+%   is not safe.
 
 :- dynamic speaks_to/1.
 :- public spoken_to/1.
@@ -281,8 +282,8 @@ spoken_to(Id) :-
     agent_send(Id, second).
 spoken_to(_).
 
-%   One comes with a new program, and is not admitted after all: that must not
-%   keep the program from agents that come with it later.
+%   An agent with a new program is not admitted after all: this must not keep
+%   the program from agents that bring it later.
 
 test(program_is_recorded_after_a_failed_unit_of_work) :-
     with_journal(
@@ -298,8 +299,8 @@ test(program_is_recorded_after_a_failed_unit_of_work) :-
         ( nb_getval(journal_test, Id),
           agent_property(Id, state(resident)) )).
 
-%   killed(+Dir, :Before, :After): in a process that is killed, and in the
-%   next one.
+%   killed(+Dir, :Before, :After): in a process that is killed, and in the next
+%   one.
 
 :- meta_predicate killed(+, 0, 0).
 
@@ -354,7 +355,7 @@ half_a_step(Dir) :-
               got(K, [begun]) )),
         host_stop(driver)).
 
-%   It is killed in the middle of a step in which it has logged something.
+%   The process is killed in the middle of a step that has written a log entry.
 
 test(log_entries_are_written_once_with_their_step) :-
     with_tmp_dir(logs).
@@ -411,9 +412,9 @@ rests(Dir) :-
                              host_stop(beta) )),
                ignore(catch(host_stop(beta), error(_, _), fail)))).
 
-%   The thread that has let a visitor in leaves its answer in the buffer of the
-%   connection, from which whoever says something to that process next takes it
-%   along.  Here somebody is just about to, and nothing is committed any more.
+%   The thread that has admitted a visitor leaves its answer in the buffer of
+%   the connection, and the next write to that process sends it. Here another
+%   thread is about to write, and nothing is committed any more.
 
 test(arrival_is_acknowledged_after_its_commit) :-
     with_tmp_dir(taken_along).
@@ -474,9 +475,9 @@ visitor(clauses([ (:- agent(visitor, [state([to/1,there/1])])),
                       thread_get_message(Me, never)),
                   visit ])).
 
-%   A large state is noted by what changes in it.  The process is killed while
-%   the agent changes it; a model that makes the same changes is equal then,
-%   clauses in their order.
+%   A large state is recorded by its changes. The process is killed while the
+%   agent changes it; afterwards the state must equal a model that makes the
+%   same changes, clauses in their order.
 
 test(large_changing_state_survives_any_kill,
      [forall(member(Messages, [40, 400, 1500]))]) :-
@@ -503,8 +504,8 @@ changing(Messages, Dir) :-
               by_predicate(Clauses, Model) )),
         host_stop(driver)).
 
-%   The unit of work that would have noted a change fails: the change is noted
-%   with the next one.
+%   The unit of work that would have recorded a change fails: the change is
+%   recorded with the next one.
 
 test(change_of_a_failed_unit_of_work_is_kept) :-
     with_journal(
@@ -529,7 +530,7 @@ changes_done(A, N) :-
     agent_property(A, facts(Facts)),
     memberchk(done(N), Facts).
 
-%   The rest of a message comes after done(N).
+%   The rest of a message arrives after done(N).
 
 rests_after(A, N) :-
     changes_done(A, N),

@@ -14,7 +14,7 @@
 
 :- meta_predicate with_three(0), with_three(0, +).
 
-%   alpha is here; beta and gamma are processes, which guard.
+%   alpha is here; beta and gamma are processes with policies.
 
 with_three(Goal) :-
     with_authority([alpha, beta, gamma], [], with_three(Goal)).
@@ -33,8 +33,8 @@ options(Authority, Name, More, [tls(Keys), journal(Journal)|More]) :-
     keys_of(Name, Authority, Keys),
     atom_concat(Keys, '-journal', Journal).
 
-%   It goes to the hosts one after the other, enters something and waits at
-%   each, and comes home.
+%   The agent moves to the hosts in turn, enters a result and waits at each,
+%   and returns home.
 
 tourist(clauses([ (:- agent(tourist, [state([to/1, seen/1])])),
                   (main :- to(_), tour),
@@ -49,8 +49,7 @@ tourist(Agent, Hosts) :-
     findall(to(Host), ( member(Name, Hosts), peer_host(Name, Host) ), Facts),
     agent_create(Program, Agent, [facts(Facts)]).
 
-%   dies(+Peer, +Point): it does when it comes to that step next; and it was
-%   started again.
+%   dies(+Peer, +Point): Peer dies at its next step Point, and was restarted.
 
 dies(Peer, Point) :-
     peer_do(Peer, ( current_prolog_flag(pid, Pid),
@@ -100,7 +99,7 @@ home_with_whole_trail(Agent) :-
     peer_host(gamma, Gamma),
     assertion(Seen == [Beta, Gamma]).
 
-%   In the middle of a hop, and while it stands there.
+%   The process is killed during a hop, and while the agent is there.
 
 killed :-
     dies(beta, before_answer),
@@ -118,8 +117,8 @@ killed :-
     starts_again(gamma),
     home_with_whole_trail(Agent).
 
-%   A policy that refuses it lets it in again later: then it has its program,
-%   its messages, and what it was about to do.
+%   A policy refuses the agent at first, and admits it later: then it has its
+%   program, its messages, and its goals.
 
 refused_later(Dir) :-
     directory_file_path(Dir, journal, Journal),

@@ -12,8 +12,8 @@
 
 /** <module> Tests of a journal in PostgreSQL
 
-What the store does with it, and hosts that are killed; the server is one that
-is started here.
+The operations of the store, and hosts that are killed; the suite starts a
+server.
 */
 
 :- begin_tests(postgresql_url).
@@ -254,7 +254,7 @@ user:message_hook(typhon(Message), _, _) :-
     memberchk(Message, [node_back(_, _), node_down(_, _, _, _, _)]),
     assertz(plunit_postgresql:heard(Message)).
 
-%   The server ends all connections that have the journal.
+%   The server ends all connections with the journal.
 
 cut(Schema) :-
     postgres_url(other, Url),
@@ -276,8 +276,8 @@ cut(Schema) :-
 killed(Url, Port, Goal) :-
     killed(Url, Port, _, Goal).
 
-%   Out tells when the process finds that it cannot commit.  A machine that says
-%   nothing is given up soon.
+%   Out reports when the process notices that it cannot commit. A silent
+%   machine is given up soon.
 
 killed(Url, Port, Out, Goal) :-
     project_file('prolog/typhon.pl', Library),

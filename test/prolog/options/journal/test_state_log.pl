@@ -9,8 +9,8 @@
 
 :- begin_tests(state_log).
 
-%   A state that changes for some rounds is what its log says, clauses in their
-%   order, whatever changed it.
+%   A state after some rounds of changes equals the replay of its log, clauses
+%   in their order, whatever changed it.
 
 test(replay_restores_the_state,
      [ forall(between(1, 60, Seed)), Latest == Now ]) :-
@@ -42,7 +42,8 @@ test(change_of_one_clause_logs_one_clause,
                 assertz(Module:p(new)),
                 state_log_changes(Module, Changes) )).
 
-%   Abolished, it has as many clauses as before, and none of it was reported.
+%   The abolished predicate has as many clauses as before, and no change was
+%   reported.
 
 test(redefined_predicate_is_set_as_a_whole,
      Changes == [set(p/1, [p(c), p(d)])]) :-
@@ -91,7 +92,7 @@ in_module(Module, Goal) :-
         once(Goal),
         ( state_log_end(Module), '$destroy_module'(Module) )).
 
-%   The order of predicates does not count, that of clauses does.
+%   The order of predicates does not matter, that of clauses does.
 
 sorted(state(Empty0, Clauses0), state(Empty, Clauses)) :-
     sort(Empty0, Empty),
@@ -183,7 +184,7 @@ random_ref(Module, Ref) :-
             Refs),
     random_member(Ref, Refs).
 
-%   From few values: many clauses are alike.
+%   Few values are used, so that many clauses are alike.
 
 random_clause(Clause) :-
     random_value(X),

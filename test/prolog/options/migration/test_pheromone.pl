@@ -170,7 +170,7 @@ follow(From, Problem, Path) :-
     agent_dispose(Agent),
     agent_join(Agent, disposed, 10).
 
-%   next_from(+Host, +Problem, -Next): where an agent goes.
+%   next_from(+Host, +Problem, -Next): the next host of an agent on Host.
 
 next_from(Host, Problem, Next) :-
     agent_create(clauses([ (:- agent(asker, [state([problem/1])])),

@@ -10,8 +10,8 @@
 :- use_module(library(typhon/options/migration/strategy)).
 :- use_module(library(typhon/kernel/base/prng)).
 
-%   walk(+Strategy, +Steps, +Links, +Here, +Memory0, -Path): the hosts
-%   stood on, one after the other, in the graph Links.
+%   walk(+Strategy, +Steps, +Links, +Here, +Memory0, -Path): the visited hosts,
+%   in order, in the graph Links.
 
 walk(_, 0, _, _, _, []) :-
     !.

@@ -7,13 +7,13 @@
 :- use_module(library(lists), [member/2]).
 :- use_module(library(typhon)).
 
-/** <module> How much agents may use: each, of one owner, and on a host
+/** <module> Quotas of agents, owners and hosts
 
 *Threading*: one test at a time.
 */
 
-%   ended(+Quotas, +Clauses, -Outcome): of an agent on a host with these; one
-%   that has passed one is reported.
+%   ended(+Quotas, +Clauses, -Outcome): the outcome of an agent on a host with
+%   Quotas; an agent that exceeds one is reported.
 
 ended(Quotas, Clauses, Outcome) :-
     with_hosts([g-[quota(Quotas)], t],
@@ -43,7 +43,7 @@ test(quota_cannot_be_exceeded_repeatedly, O == messages) :-
           [ (main :- repeat, catch(send(user, x), _, true), fail) ], Outcome),
     over(O, Outcome).
 
-%   In a probe it could not be ended in time.
+%   Inside a probe the agent could not be ended in time.
 
 test(traced_goals, O == messages) :-
     with_hosts([g-[quota([messages(20)])]],
@@ -65,7 +65,8 @@ test(agents_with_quotas_cannot_be_stepped,
                  wait_state(A, waiting),
                  agent_step(A) )).
 
-%   It runs where another one has ended so, on a host without quotas.
+%   The agent runs where another one was ended by its quota, on a host without
+%   quotas.
 
 test(quota_exceeded_by_another_agent, Told == []) :-
     with_hosts([g-[quota([messages(5)])], t],
@@ -93,7 +94,8 @@ test(clones_share_the_quota_of_their_parent,
           [ (main :- clone(W), on(W)), on(clone(_)), (on(parent(_)) :- main),
             on_message(_, _) ], O).
 
-%   What it was cloned from was born elsewhere, and is of one family with them.
+%   The clones' parent was created in another process, and is of the same
+%   family.
 
 test(clones_of_a_visitor, O == resource_error(clones)) :-
     no_leaks(with_peers([p],
@@ -166,7 +168,7 @@ host_time_of(Host, Time) :-
 
 :- begin_tests(mailbox).
 
-%   An agent that does not look at what it gets until it sees that it may.
+%   An agent that receives nothing until it finds a fact that permits it.
 
 test(overflow_is_reported, Xs == [1,2,3,4,5]) :-
     with_hosts([g-[quota([mailbox(5)])]],
@@ -330,8 +332,8 @@ test(seconds_of_all_agents, O == resource_error(seconds)) :-
                capturing(( create([ (main :- lp), (lp :- lp) ], A, [host(g)]),
                            joined(A, raised(error(O, _))) ), _)).
 
-%   One second by the clock; without pauses it would be nearly one of a processor,
-%   too, unless others have it.
+%   One second of real time; without pauses the agent would use nearly one of a
+%   processor, too, unless others do.
 
 test(busy_agent_yields_to_others, O == resource_error(seconds)) :-
     with_hosts([g-[quota([seconds(1)])]],
@@ -356,7 +358,7 @@ outcome_of_one(As, A) :-
     \+ agent_property(A, state(_)),
     !.
 
-%   Born at the peer, they know where to go.
+%   The agents are created at the peer, and know where to go.
 
 visitors(Peer, Clauses, Count, As) :-
     address(here, Address),
@@ -401,8 +403,8 @@ test(agent_that_fills_the_space_ends, [A,B] == [resource_error(tuples),done]) :-
                         joined(C, raised(error(A, _))),
                         leaver(5, D), joined(D, B) ), _)))).
 
-%   The agents that left them are known when the process was started again, and what of
-%   theirs is taken then does not count any more.
+%   The agents that left the tuples are known after the restart, and tuples of
+%   theirs that are taken then do not count any more.
 
 test(owner_of_tuples_is_kept,
      [ condition(missing([journal], [])), O == tuples-done ]) :-

@@ -10,10 +10,10 @@
 
 /** <module> Monitors: an agent gets one message when another ends
 
-*Threading*: one test at a time; agent_monitor/2 calls what it calls in workers.
+*Threading*: one test at a time; agent_monitor/2 calls its goals in workers.
 */
 
-%   A monitoring agent collects what it hears in s/1, from `system` or others.
+%   A monitoring agent stores its messages in s/1, from `system` or others.
 
 watcher(Clauses, [ (on_message(system, M) :- assertz(s(M))),
                    (on_message(user, monitor(A)) :- monitor(A),
@@ -29,7 +29,7 @@ watcher(Id, Clauses, Options) :-
     watcher(Clauses, All),
     create(All, Id, Options).
 
-%   monitors(+Watcher, +Agent): the message was taken.
+%   monitors(+Watcher, +Agent): the order was executed.
 
 monitors(W, A) :-
     agent_send(W, monitor(A)),
@@ -55,8 +55,8 @@ heard(W, Messages) :-
 hears(W, Message) :-
     wait_until(( heard(W, Ms), memberchk(Message, Ms) ), 20).
 
-%   Nothing more has come when it hears of another agent, whose monitor began
-%   later.
+%   No other message has arrived when the report about another agent does,
+%   whose monitor began later.
 
 once_only(W, Message) :-
     hears(W, Message),
@@ -353,7 +353,7 @@ test(agent_lost_with_its_process, [cleanup(forget), true(H == There)]) :-
 
 :- begin_tests(monitors_of_processes).
 
-%   What is left behind is looked for when the processes have ended.
+%   Leaks are checked after the processes have ended.
 
 :- meta_predicate here(0).
 
@@ -381,8 +381,8 @@ at(here, Host) :-
 at(Peer, Host) :-
     peer_host(Peer, Host).
 
-%   An agent that was born at p1, and runs here, shares its fate with another one
-%   there: p1 would end that for this process.
+%   An agent that was created at p1, and runs here, shares its fate with
+%   another one there: p1 would end that one for this process.
 
 test(shared_fate_needs_the_right_to_give_orders,
      [ forall(member(Rights-Expected,
@@ -527,7 +527,8 @@ test(shared_fate_with_an_agent_of_a_dying_process, [nondet]) :-
               peer_kill(p1),
               joined(A, O),
               assertion(O == disposed) )))).
-%   Its home dies before it creates the child, which is known to the parent alone.
+%   The parent's home dies before it creates the child, which only the parent
+%   knows.
 
 test(child_of_a_parent_without_a_home, [nondet]) :-
     no_leaks(with_peers([p1, p2],
@@ -569,7 +570,7 @@ test(broken_connection, [nondet]) :-
 
 :- end_tests(monitors_of_processes).
 
-%   With a journal a monitor outlives the processes of both.
+%   With a journal a monitor survives the processes of both.
 
 :- begin_tests(monitors_in_the_journal, [condition(missing([journal], []))]).
 
@@ -602,8 +603,8 @@ both_die :-
     ends(B, true),
     hears(W, down(B, done)).
 
-%   The goals of agent_monitor/2 end with their process: those of the next one
-%   are not called for them.
+%   The goals of agent_monitor/2 end with their process: the next process does
+%   not call them.
 
 goals_end(Dir) :-
     atomic_list_concat([Dir, /, p1], J),

@@ -1,6 +1,6 @@
 :- module(test_secure, []).
 
-% TLS between processes: which are admitted, which not, and why.
+% TLS between processes: admitted and refused certificates, with the reasons.
 
 :- use_module('../../../lib/common').
 :- use_module('../../../lib/authority').
@@ -43,8 +43,8 @@ with_secure_host(Authority, Goal) :-
           once(call(Goal, Address)) ),
         host_stop(alpha)).
 
-%   The peer, with those keys, asks Address: Here is why it could not come in
-%   in its eyes, There in ours, or `ok`.
+%   The peer, with those keys, queries Address: Here is the reason for its
+%   refusal on its side, There the one on ours, or `ok`.
 
 tries(Keys, Address, Here-There) :-
     retractall(told(_)),
@@ -63,7 +63,7 @@ tries(Keys, Address, Here-There) :-
         once(told(There))
     ).
 
-%   Once: after that none is interrupted.
+%   The first only: later handshakes are not interrupted.
 
 once_broken(Negotiated) :-
     call(Negotiated),
@@ -173,7 +173,7 @@ goals_of_beta(By, Then, Ours) :-
 
 refused_goal(Peer, By, Then, Address) :-
     goal_of(Peer, Address, By),
-    remote(alpha, true),                % our own are
+    remote(alpha, true),                % connections of our own processes work
     host_change(alpha, peer([certificate(Peer)-all])),
     goal_of(Peer, Address, Then).
 
@@ -188,8 +188,8 @@ older_protocol(Said, Ours) :-
     keys_of(beta, Ours, Dir),
     with_secure_host(Ours, s_client(Dir, ['-tls1_2'], Said)).
 
-%   s_client(+Keys, +Args, -Said, +Address): `yes` if openssl gets as far as
-%   to be welcome.
+%   s_client(+Keys, +Args, -Said, +Address): Said is `yes` if openssl gets a
+%   greeting.
 
 s_client(Dir, Args0, Said, Address) :-
     atomic_list_concat([_, Endpoint], @, Address),

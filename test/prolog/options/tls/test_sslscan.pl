@@ -1,6 +1,6 @@
 :- module(test_sslscan, []).
 
-% What an auditor's tool says of an endpoint with keys.
+% The findings of an auditor's tool about an endpoint with keys.
 
 :- use_module('../../../lib/common').
 :- use_module('../../../lib/authority').

@@ -1,7 +1,7 @@
 :- module(test_looking, []).
 
-% Looking into agents: listing, tracing, stepping and spying, as a person at
-% the top level does.
+% Inspecting agents: listing, tracing, stepping and spying, as at the top
+% level.
 
 :- use_module('../../../lib/common').
 :- use_module(library(filesex), [directory_file_path/3]).
@@ -35,7 +35,7 @@ later :-
     agent_create(clauses([ (:- agent(waiter, [])), (main :- sleep(1)) ]), A),
     agent_join(A, done, 10).
 
-%   heard(:Goal, -Said): what is printed meanwhile, and in which order.
+%   heard(:Goal, -Said): the messages that are printed meanwhile, in order.
 
 :- dynamic said/1.
 :- multifile user:message_hook/3.
@@ -496,7 +496,7 @@ test(qualified_predicates_are_prologs) :-
 
 :- begin_tests(full_log).
 
-%   logged(+Kinds, -Events, -Text): of a traveller there and back.
+%   logged(+Kinds, -Events, -Text): the log of a traveller there and back.
 
 logged(Kinds, Events, Text) :-
     no_leaks(with_tmp_dir(logged(Kinds, Events, Text))).

@@ -36,7 +36,8 @@ with_three(Setup, Goal, Authority) :-
                      once(Goal),
                      host_stop(alpha)) )).
 
-%   It goes to beta, gamma and home, enters something at each, and stays.
+%   The agent moves to beta, gamma and home, enters a result at each, and
+%   stays.
 
 tourist(clauses([ (:- agent(tourist, [state([to/1, seen/1])])),
                   (main :- forall(to(H), true), tour),
@@ -69,7 +70,7 @@ test(long_trail_keeps_its_end,
 
 :- end_tests(trails).
 
-%   gamma keeps more than the others, which keep the newest four.
+%   gamma keeps more links than the others, which keep the newest four.
 
 long_way :-
     toured(_, Trail),
@@ -90,9 +91,9 @@ honest :-
     peer_host(gamma, Gamma),
     assertion(Results == [was(Beta), was(Gamma)]).
 
-%   What hosts could do to an agent that they have: gamma changes what was
-%   entered on beta, drops it, lies about the state it has received, and
-%   passes the agent on under a trail of its own.
+%   What hosts could do to an agent: gamma changes the result that was entered
+%   on beta, removes it, lies about the state it has received, and passes the
+%   agent on under its own trail.
 
 taken_away :-
     toured(Agent, trail(_, whole)),
@@ -110,8 +111,8 @@ taken_away :-
                  trail(_, Verdict)),
              assertion(Verdict == Expected) )).
 
-%   Where it was made unfit to be continued is found, and hosts go on with
-%   whatever it is; what it says has happened.
+%   A trail that cannot be continued is detected, and hosts accept any such
+%   trail; what the agent reports has happened.
 
 made_of_it :-
     toured(Agent, trail(Steps, whole)),
@@ -156,7 +157,7 @@ is_verdict(Verdict) :-
     ground(Verdict),
     memberchk(Verdict, [whole, since(_), unaccounted(_)]).
 
-%   mutated(+Raw, -Mutant): somewhere in it is something else.
+%   mutated(+Raw, -Mutant): one subterm is replaced.
 
 mutated(Raw, Mutant) :-
     duplicate_term(Raw, Mutant),
@@ -208,13 +209,13 @@ forged(Links, Forged, unaccounted(alpha)) :-         % a result is changed
 forged(Links, Forged, unaccounted(alpha)) :-         % it is taken away
     append(Before, [_, Link], Links),
     append(Before, [Link], Forged).
-forged(Links, Forged, unaccounted(alpha)) :-         % beta has seen another state
+forged(Links, Forged, unaccounted(alpha)) :-  % beta has received another state
     changed(1, received(At), received(At, another), Links, Forged).
-forged(Links, Forged, since(3)) :-      % what was before beta is gone
+forged(Links, Forged, since(3)) :-      % the links before beta are removed
     append(Forged, [_], Links).
 forged(Links, Forged, unaccounted(nobody)) :-
     changed(0, handed(_, What), handed(another, What), Links, Forged).
-forged(Links, Forged, unaccounted(beta)) :-          % not even a text
+forged(Links, Forged, unaccounted(beta)) :-          % not a text
     append(Before, [link(_, _, _)|After], Links),
     length(After, 3),
     append(Before, [link("0-[f(", x, 0)|After], Forged).

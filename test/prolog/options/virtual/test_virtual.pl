@@ -8,7 +8,7 @@
 :- use_module(library(time), [call_with_time_limit/2]).
 :- use_module(library(typhon)).
 
-/** <module> Virtual time: nothing waits, and each run is like the last
+/** <module> Virtual time: no real waits, and repeatable runs
 
 *Threading*: one test at a time.
 */
@@ -305,7 +305,7 @@ test(no_event_is_due) :-
 
 :- end_tests(virtual_limits).
 
-%   Time that stands still is reported after a tenth of a second.
+%   A clock that stands still is reported after a tenth of a second.
 
 told_of(Main, Message) :-
     capturing(with_settings([typhon_virtual:patience=0.1],
@@ -334,7 +334,7 @@ told_while(Goal, Message) :-
 interrupted(Thread) :-
     catch(thread_signal(Thread, throw(enough)),
           error(existence_error(_, _), _),
-          true),                        % it has ended
+          true),                        % the agent has ended
     thread_join(Thread).
 
                 /*******************************

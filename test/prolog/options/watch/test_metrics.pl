@@ -1,6 +1,6 @@
 :- module(test_metrics, []).
 
-% A network in numbers, as Prometheus reads them.
+% Metrics of a network for Prometheus.
 
 :- use_module('../../../lib/common').
 :- use_module('../../../lib/fixtures').
@@ -25,7 +25,7 @@ promtool(Text, Status, Said) :-
     close(Err),
     process_wait(Pid, exit(Status)).
 
-%   says(+Text, +Name, +Rest): there is a line for Name that ends so.
+%   says(+Text, +Name, +Rest): Text has a line for Name that ends with Rest.
 
 says(Text, Name, Rest) :-
     said(Text, Name, Rest, _),
@@ -62,7 +62,7 @@ test(counts_of_events, Status-Said == 0-"") :-
            assertion(says(Text, Name, Line))).
 
 happened(Text) :-
-    metrics([alpha, beta], _),          % from here on it is counted
+    metrics([alpha, beta], _),          % counting begins here
     create([(main :- move(beta), move(alpha))], A, [host(alpha)]),
     joined(A, done),
     create([on_message(_, _)], B, [host(alpha)]),
@@ -70,7 +70,7 @@ happened(Text) :-
     capturing(( create([(main :- foo(_) is _)], C, [host(beta)]),
                 wait_state(C, faulty(_)) ), _),
     wait_until(received_one, 5),
-    wait_state(B, resident),            % it has done with the message
+    wait_state(B, resident),            % B has handled the message
     metrics([alpha, beta], Text).
 
 received_one :-
@@ -82,7 +82,7 @@ test(counting_begins_with_the_first_request) :-
                ( create([main], A), joined(A, done),
                  assertion(\+ typhon_events:event_subscribed(life)) )).
 
-%   Names are data.
+%   Names are escaped as data.
 
 hostile('a"b\\c\nd{e="f"} 7').
 hostile('<img src=x onerror=alert(1)>').

@@ -62,8 +62,8 @@ test(silent_process, Silent == [Endpoint]) :-
                            overview(Network, [_], Silent),
                            network_stop(Network) ), _) )).
 
-%   Agents travel while somebody begins to watch: what he saw, and the events
-%   of later, are where they are in the end.
+%   Agents travel while a watch begins: the overview and the later events lead
+%   to the hosts on which they are in the end.
 
 test(no_event_is_missed_after_the_overview) :-
     with_settings([ typhon_watches:last_seconds=20,
@@ -89,9 +89,8 @@ wanderer(A) :-
              on_message(_, _) ],
            A, [host(alpha)]).
 
-%   The hosts were seen one after the other: what has happened since the first was
-%   seen counts, on all of them, or an older arrival would count for more than a
-%   newer one.
+%   The hosts were read one after the other: events since the first was read
+%   count, on all of them, or an older arrival would replace a newer one.
 
 followed(A, Hosts, Agents, Host) :-
     (   memberchk(agent(A, Host0, _, _, _), Agents)

@@ -1,6 +1,6 @@
 :- module(test_watch, []).
 
-% The events that a watch of hosts gets.
+% The events that a watch of hosts receives.
 
 :- use_module('../../../lib/common').
 :- use_module('../../../lib/fixtures').
@@ -19,7 +19,7 @@
 note(Watcher, Event) :-
     assertz(told(Watcher, Event)).
 
-%   watching(+Hosts, :Goal, -Events): Goal is done while Hosts are watched.
+%   watching(+Hosts, :Goal, -Events): Goal is called while Hosts are watched.
 
 :- meta_predicate watching(+, 0, -), watching(+, 1, 0, -).
 
@@ -40,7 +40,7 @@ watching(Hosts, OnEvent, Goal, _) :-
 events(Watcher, Events) :-
     findall(Event, told(Watcher, Event), Events).
 
-%   The first takes until `go` comes to the gate.
+%   The first event blocks until the gate gets `go`.
 
 :- meta_predicate with_gate(0).
 
@@ -238,7 +238,7 @@ test(slow_watcher_gets_the_number_of_lost_events) :-
     assertion(told(slow, event(_, _, none, skipped(_)))),
     assertion(( sort(Got, Sorted), Sorted == Got )).
 
-%   What keeps it keeps no other: it ends only when all has been done.
+%   The slow watcher delays no other; it ends only when all agents have.
 
 slow_watcher :-
     address(alpha, Alpha),

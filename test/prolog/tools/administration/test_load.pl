@@ -9,13 +9,13 @@
 :- use_module(library(yall)).
 :- use_module(library(typhon)).
 
-/** <module> Restore points are loaded where people want
+/** <module> Restore points are loaded on a chosen host
 
 *Threading*: one test at a time.
 */
 
-%   saved(-File, :Goal): File is the restore point of an agent that is to say
-%   where it is when it hears `go`.
+%   saved(-File, :Goal): File is the restore point of an agent that reports its
+%   host when it receives `go`.
 
 :- meta_predicate saved(-, 0).
 

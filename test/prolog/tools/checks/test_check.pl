@@ -8,7 +8,7 @@
 :- use_module(library(readutil)).
 :- use_module(library(typhon)).
 
-/** <module> Tests of what checks of programs print
+/** <module> Tests of the messages of program checks
 
 Programs are written to files; what the check and creation print is compared
 by line and formal term, or as text.
@@ -34,8 +34,8 @@ write_program(Lines, File) :-
                               format(Out, '~w~n', [Line])),
                        close(Out)).
 
-%   found(+Lines, -Found): what the check finds in them, as Line-Formal, but
-%   for calls of what others must define.
+%   found(+Lines, -Found): the problems that the check finds, as Line-Formal,
+%   except calls of predicates that others must define.
 
 found(Lines, Found) :-
     with_program(Lines, test_check:found_in(Found)).
@@ -51,8 +51,8 @@ found_in(Found, File) :-
 line(_:Line, Line).
 line(file(_, Line, _, _), Line).
 
-%   loses(+Text, -What): what a program with the clauses Text and a predicate
-%   go/0 that can stop gives up.
+%   loses(+Text, -What): the choice points that a program with the clauses Text
+%   and a predicate go/0 that can stop gives up.
 
 loses(Text, What) :-
     found([Text, 'go :- move(a).'], Found),
@@ -176,14 +176,14 @@ test(in_a_rule_of_the_state, L == [lost_choice(repeat/0, move/1, fail/0)]) :-
 %   Correct programs, each with the reason.
 
 fine('p :- retract(s(H)), !, move(H), p. p :- log(done).').  % cut
-fine('p :- neighbours(Hs), member(H, Hs), move(H).').        % the first will do
+fine('p :- neighbours(Hs), member(H, Hs), move(H).').  % the first is enough
 fine('p :- member(H, [a]), move(H), H == a.').               % there is no other
 fine('p :- neighbours(Hs), member(H, Hs), !, move(H), sense(gold).').
 fine('p :- member(H, [a,b]), once(s(H)), log(H), fail. p :- go.').
 fine('p :- s(X), move(X), X > 3.').                          % may be one fact
 fine('p :- ( receive(_-a, 5) -> true ; log(late) ).').       % travels
 fine('p :- ( move(a), sense(gold) -> true ; log(none) ).').
-fine('p :- go, member(X, [a,b]), s(X), X == b.').            % choices behind it
+fine('p :- go, member(X, [a,b]), s(X), X == b.').  % later choice points
 fine('p :- go, ( s(X), log(X), fail ; true ).').
 fine('p :- member(X, [a,b]), go, ( s(X), fail ; true ).').
 fine('q(X) :- X > 3, move(a), s(X), X < 9. q(X) :- X =< 3, log(X).').
@@ -191,7 +191,7 @@ fine('q([]). q([H|T]) :- move(H), ( s(H) -> q(T) ; fail ).').
 fine('q([H|T]) :- move(H), H \\== a, q(T). q([]).').         % other cases
 fine('p :- s(X), ( X == a -> fail ; true ), move(X).').
 fine('p :- ignore(( go, sense(gold) )). p :- log(x).').
-fine('p :- go, fail.').                                      % meant to fail
+fine('p :- go, fail.').                                      % fails on purpose
 
 test(correct_programs_give_no_warning, [forall(fine(Text)), L == []]) :-
     loses(Text, L).
@@ -267,7 +267,7 @@ test(advice_matches_the_problem, [forall(advice(Goal, Words))]) :-
     ;   assertion(\+ sub_string(Text, _, _, _, "recursive"))
     ).
 
-%   What looks like it is named, else what might define it.
+%   Similar predicates are suggested, else possible definitions.
 
 unknown('recieve(_)', "recieve/1 (did you mean receive/1 or receive/2?").
 unknown('clone', "clone/0 (did you mean clone/1 or clone/2?").
@@ -315,7 +315,7 @@ test(raised_error_is_at_its_goal, Line == 4) :-
 
 :- begin_tests(creation).
 
-%   Warned of when the file is read, and again when it has changed.
+%   Warnings are printed when the file is read, and again when it has changed.
 
 test(program_is_warned_of_once_per_version, Counts == [1,0,1]) :-
     with_program(['p :- s(X).', 'q.'], test_check:warned(Counts)).
@@ -325,7 +325,7 @@ test(clauses_are_warned_of_once,
                capturing(( clauses_created, clauses_created ), Messages)),
     findall(Formal, member(warning-error(Formal, _), Messages), Found).
 
-%   What a program calls and does not define.
+%   Predicates that a program calls and does not define.
 
 test(unknown_procedure_is_warned_of_once, Found == [[move/2], []]) :-
     with_program(['main :- move(beta, now).'],

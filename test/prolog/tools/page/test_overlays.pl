@@ -7,9 +7,9 @@
 :- use_module(library(lists), [append/3, member/2]).
 :- use_module(library(typhon)).
 
-/** <module> What mechanisms declare to be seen
+/** <module> Overlays that mechanisms declare
 
-A browser gets it beside what the agents do.
+A browser gets them with the events of agents.
 */
 
 declared("
@@ -31,8 +31,9 @@ overlay('best', bar, log(of(N)), N).
 overlay('sum', bar, leave(of(M)), add(M)).
 ").
 
-%   shown(+Goal, -Rows): what the overlays of declared/1 show of it, each a list
-%   without time, host and agent. H stands for the host of the agent.
+%   shown(+Goal, -Rows): the rows of the overlays of declared/1 after Goal,
+%   each a list without time, host and agent. H stands for the host of the
+%   agent.
 
 shown(Goal, Rows) :-
     declared(Text),
@@ -61,7 +62,7 @@ shown_on(Feed, Goal, Rows) :-
               here(Row0, Host, Row) ),
             Rows).
 
-%   All that Agent does.
+%   All events of Agent.
 
 rows(Feed, Agent, Rows) :-
     frame(Feed, Frame),

@@ -3,8 +3,8 @@
 
 :- needs([page]).
 
-% A page as people see it and work with it, in Chromium.  All tests look at one
-% network of sixty hosts, one after the other.
+% A page in Chromium, used as by a person. All tests use one network of sixty
+% hosts, one after the other.
 
 :- use_module('../../../lib/browser').
 :- use_module('../../../lib/fixtures').
@@ -126,7 +126,7 @@ accessible :-
 test(page_in_a_browser) :-
     stage(play).
 
-%   One scene after the other; the first that fails is reported by its name.
+%   The scenes run in order; the first that fails is reported by its name.
 
 play :-
     forall(clause(scene(Name), Body), played(Name, Body)).
@@ -191,7 +191,7 @@ scene(search_finds_names) :-
     searched("n1", "n1"),
     agent_dispose(Agent).
 
-%   Of sixty hosts, at first only what moves.
+%   With sixty hosts only moving agents are shown at first.
 
 scene(space_and_time_begins_with_little) :-
     view(space),
@@ -220,7 +220,8 @@ scene(its_row_stays_what_it_is) :-
     see("return row.textContent !== before"),
     sees("return row.isConnected", true).
 
-%   Nor is what is opened made anew below the finger, or where the focus is.
+%   An opened element is not replaced during a click, or while it has the
+%   focus.
 
 scene(what_is_opened_stays_what_it_is) :-
     at(Browser, _, _),
@@ -250,7 +251,7 @@ scene(a_list_waits_for_a_press) :-
     reads("#details h2", "ann"),
     see("return row.textContent !== shown").
 
-%   A term that cannot be read is reported where it was written.
+%   A term that cannot be read is reported at its field.
 
 scene(it_is_sent_a_message) :-
     ann(Agent),
@@ -335,7 +336,7 @@ scene(links_come_and_go) :-
     links_are(Before+1),
     unlink(A, C).
 
-%   From where an agent cannot get away.
+%   A host that an agent cannot leave.
 
 scene(an_isolated_host_is_not_proposed) :-
     maplist(nth_host, [1, 2, 11], [Host, Right, Below]),
@@ -355,7 +356,7 @@ scene(an_isolated_host_is_not_proposed) :-
     link(Host, Right),
     link(Host, Below).
 
-%   Children below their supervisor, what it does, and services on a host.
+%   Children below their supervisor, its actions, and services on a host.
 
 scene(supervisors_are_a_tree) :-
     nth_host(4, Host),
@@ -414,7 +415,7 @@ scene(reload) :-
     live(Browser),
     see("return typhon.store.hosts.size === 60 && typhon.app.view === 'agents'").
 
-%   From the top of the page to a host that is opened, with no other device.
+%   From the top of the page to an opened host, by the keyboard alone.
 
 scene(keyboard_alone) :-
     sees("document.querySelector('.skip').focus()", _),
@@ -480,7 +481,7 @@ scene(a_mechanism_is_started) :-
          typhon.store.counts.arrived > 20"),
     sees("document.querySelector('#notes').replaceChildren()", _).
 
-%   Opening another log ends the one before.
+%   Opening another log closes the one before.
 
 scene(one_replay_at_a_time) :-
     view(replay),
@@ -556,8 +557,8 @@ scene(no_complaints) :-
     browser_complaints(Browser, Texts),
     assertion(Texts == []).
 
-%   The page goes, which is shown; what was shown is still shown, and when there
-%   is a page again at the same address, it goes on.
+%   When the page stops, that is shown, and its content stays; it continues
+%   when there is a page again at the same address.
 
 scene(connection_lost) :-
     at(_, _, _),
@@ -578,7 +579,7 @@ scene(connection_lost) :-
 
 :- end_tests(page).
 
-%   Enter opens what is called Title.
+%   Enter opens the element Title.
 
 searched(Text, Title) :-
     sees("const field = document.querySelector('[type=search]');

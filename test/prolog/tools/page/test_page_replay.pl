@@ -16,7 +16,7 @@
 :- use_module('../../../lib/browser').
 :- use_module('../../../lib/pages').
 
-/*  A log is made, opened as one file in Chromium, and looked at as people do.
+/*  A log is made, opened as one file in Chromium, and used as by a person.
     All tests look at the same page, one after the other. */
 
 :- dynamic replayed/3.                  % Browser, Log, Dir
@@ -135,7 +135,7 @@ tools_there :-
     project_file('prolog/typhon/tools/page/www/uPlot.iife.min.js', File),
     exists_file(File).
 
-%   The replay is open from the first test to the last, in a thread of its own.
+%   The replay stays open from the first test to the last, in its own thread.
 
 :- dynamic holder/1.
 
@@ -171,7 +171,7 @@ until(Script) :-
     replayed(Browser, _, _),
     browser_wait(Browser, Script).
 
-%   saved(+View, +Kind, -File): what the buttons of a view save.
+%   saved(+View, +Kind, -File): the file that a button of a view saves.
 
 saved(View, svg, File) :-
     replayed(_, _, Dir),
@@ -346,8 +346,8 @@ test(browser_reports_no_errors, Texts == []) :-
 
 :- end_tests(page_replay).
 
-%   Processes tell for themselves: that an agent has left comes after it has
-%   arrived, or ended, as often as before.
+%   Processes report independently: the departure of an agent is reported after
+%   its arrival, or end, as often as before.
 
 with_store(Script, Result) :-
     format(string(Whole),
@@ -401,7 +401,7 @@ test(returning_agent, Seen == ["running", 1]) :-
                 return [store.agents.get('r.1').status,
                     store.hosts.get('a@h:1').agents.size]", Seen).
 
-%   Nothing of those that are over is kept for ever, whoever looks on.
+%   Ended agents are not kept without a limit.
 
 test(many_ends, Kept == [2000, 0, 2000]) :-
     with_store("for (let n = 0; n < 2500; n++)
@@ -418,7 +418,7 @@ test(many_ends, Kept == [2000, 0, 2000]) :-
 
 :- begin_tests(log_files_of_the_page).
 
-%   A browser sends the text of a log that it has.
+%   A browser sends the text of a log file.
 
 test(log_loaded_by_a_browser) :-
     Event = event(1.5, 'a@h:1', 'bob.1@a@h:1', created),

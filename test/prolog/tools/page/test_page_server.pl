@@ -1,6 +1,6 @@
 :- module(test_page_server, []).
 
-% What a page tells and does, to whom, and to whom not.
+% The messages and orders of a page, and their authorization.
 
 :- use_module('../../../lib/common').
 :- use_module('../../../lib/fixtures').
@@ -114,7 +114,7 @@ test(headers) :-
     assertion(sub_atom(Policy, _, _, _, 'default-src \'none\'')),
     assertion(\+ sub_atom(Policy, _, _, _, unsafe)).
 
-%   Whatever there is to do, nothing of it is done.
+%   Every order is refused.
 
 test(read_only) :-
     page([read_only(true)], Base,
@@ -173,15 +173,15 @@ test(no_such_host, error(host_unreachable(_))) :-
 test(stop_without_page) :-
     page_stop.
 
-%   Without a page there is no library of HTTP.
+%   Without a page no library of HTTP is loaded.
 
 test(code_is_loaded_on_demand, Status-Err == exit(0)-"") :-
     project_file('prolog/typhon.pl', File),
     run_swipl([ '-g', '\\+ current_module(thread_httpd)', '-t', halt, File ],
               [], Status, _, Err).
 
-%   More half requests than a page has connections, and some whose next byte
-%   always comes soon: a client with the token is answered.
+%   More incomplete requests than a page has connections, and some whose next
+%   byte always arrives soon: a client with the token is answered.
 
 test(incomplete_requests_do_not_block_the_owner, Statuses == [200, 200, 200]) :-
     no_leaks(page(Base,
@@ -197,7 +197,7 @@ test(incomplete_requests_do_not_block_the_owner, Statuses == [200, 200, 200]) :-
               thread_join(Drip),
               forall(member(Out, Outs), close(Out, [force(true)])) )))).
 
-%   A request has to be there in time as a whole; so has a body.
+%   A request must be complete in time; so must a body.
 
 test(slow_requests_are_ended) :-
     with_settings([typhon_page_reception:request_seconds=1],
@@ -243,7 +243,7 @@ half_request(Base, Pair) :-
     catch(( write(Pair, 'GET / HTTP/1.1\r\nHost:'), flush_output(Pair) ),
           error(_, _), true).
 
-%   The server closes the connection, whatever it says before.
+%   The server closes the connection, whatever it sends before.
 
 ends(Pair) :-
     catch(read_string(Pair, _, _), error(socket_error(_, _), _), true).
@@ -264,7 +264,7 @@ drip_on(Pairs) :-
         drip_on(Pairs)
     ).
 
-%   What a name hides behind a zero is no other name.
+%   A zero byte does not hide the rest of a name.
 
 test(zero_byte_in_a_name, Statuses == [404, 404, 404]) :-
     page(Base, findall(Status,
@@ -413,7 +413,8 @@ test(bad_terms) :-
                  says(Base, _{do:"network_start", topology:"grdi(2,2)"},
                       ["grid"]) )).
 
-%   What is said of a program stands at its line, and its file has no folder.
+%   A problem of a program is reported at its line, and the file without its
+%   folder.
 
 test(check, Said == [["error", 3], ["warning", 2], ["warning", 3]]) :-
     Text = ":- agent(p, []).\nmain :- foo(X), foo.\nmain :- forall(a, move(b)).\n",
@@ -532,8 +533,8 @@ happenings(Feed) :-
     unlink(alpha, beta),
     feed_event(Feed, [Alpha, "", "unlink", Beta], _).
 
-%   JSON has no numbers that are infinite, or none: nothing could be read in
-%   which there is one.
+%   JSON has no infinite numbers, and no NaN: a frame with one could not be
+%   parsed.
 
 test(invalid_number, [Cost, Logged] == ["1.0Inf", "1.5NaN"]) :-
     page(Base, no_number(Base, Cost, Logged)).
@@ -561,7 +562,7 @@ virtual_time(Feed, Time) :-
     agent_join(A, done, 10),
     feed_event(Feed, [_, _, "ended", "done"], [Time|_]).
 
-%   A host that comes is found, and one whose process is killed is reported.
+%   A new host is found, and one whose process is killed is reported.
 
 test(browsers_connect_and_disconnect) :-
     with_settings([typhon_page_sources:renew_seconds=0.3],
@@ -584,7 +585,8 @@ come_and_go(Feed, [First|Hosts], Pid) :-
     process_kill(Pid, kill),
     feed_event(Feed, [FirstText, "", "lost"], _).
 
-%   A browser that does not read loses some, and gets their number; others do not.
+%   A browser that does not read loses some events, and gets their number;
+%   others lose none.
 
 test(slow_browser, Sum-Fast == 3000-3000) :-
     with_settings([typhon_page_browsers:frame_events=20],
@@ -639,7 +641,7 @@ test(no_events_are_collected_without_a_browser) :-
                            assertion(typhon_page_sources:watched(_, _)) )),
                wait_until(\+ typhon_page_sources:watched(_, _), 20) ))).
 
-%   A page of a process of its own shows a network by one of its hosts.
+%   A page in its own process shows a network by one of its hosts.
 
 test(host_in_another_process, Names == [alpha, beta]) :-
     with_hosts([alpha-[], beta-[]],

@@ -52,7 +52,7 @@ test(faulty_drawing) :-
 test(undefined_goal, error(type_error(_, _))) :-
     page([world(1)], _, true).
 
-%   It is shown first, and again and again, and its script does not run.
+%   The drawing is shown repeatedly, and its script does not run.
 
 test(shown_world) :-
     page([world(test_page_world:picture)], Base,
