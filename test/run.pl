@@ -339,7 +339,7 @@ suite_results(File, _, Suite) :-
     exists_file(File),
     !,
     setup_call_cleanup(open(File, read, In), read(In, Suite), close(In)).
-suite_results(_, exit(0), suite(0, [], [], ['gave no results'])) :-
+suite_results(_, exit(0), suite(0, [], [], ['no results'])) :-
     !.
 suite_results(_, _, suite(0, [], [], [])).
 

@@ -45,7 +45,7 @@ run_suite(File, Suite) :-
     (   LoadProblems \== []
     ->  Suite = suite(0, [], [], LoadProblems)
     ;   Packages \== []
-    ->  atomic_list_concat([all, of, it, without|Packages], ' ', Skipped),
+    ->  atomic_list_concat(['all tests, without'|Packages], ' ', Skipped),
         Suite = suite(0, [], [Skipped], [])
     ;   run_units,
         suite_results(Suite)
@@ -55,13 +55,13 @@ load_suite(File, Problems) :-
     load_files(user:File, []),
     findall(Problem, load_problem(Problem), Problems).
 
-load_problem('does not load without errors') :-
+load_problem('errors while loading') :-
     statistics(errors, Errors),
     Errors > 0.
-load_problem('does not load without warnings') :-
+load_problem('warnings while loading') :-
     statistics(warnings, Warnings),
     Warnings > 0.
-load_problem('has no tests') :-
+load_problem('no tests') :-
     \+ current_test(_, _, _, _, _).
 
 %   The results show whether all tests passed; SWI-Prolog 9.2 would otherwise

@@ -40,18 +40,18 @@ says(Text, Part) :-
 
 :- begin_tests(letters).
 
-test(in_a_study, forall(locale(Locale))) :-
+test(letters_in_a_study, forall(locale(Locale))) :-
     with_study_file([ 'study(size, "Die Größe von δ").',
                       'vary(a, [1]).',
                       'run(_, _) :- true.',
                       'measure(m, _, 1).',
                       'claim("δ > 0", [], m > 0).' ],
                     study_made(Locale)).
-test(in_an_agent_and_its_log) :-
+test(letters_in_an_agent_and_its_log) :-
     findall(Log, ( locale(Locale), with_tmp_dir(logged(Locale, Log)) ),
             [Log, Again]),
     assertion(Log == Again).
-test(in_a_program_of_tartarus, forall(locale(Locale))) :-
+test(letters_in_a_program_of_tartarus, forall(locale(Locale))) :-
     with_tmp_dir(asserted(Locale)).
 
 :- end_tests(letters).

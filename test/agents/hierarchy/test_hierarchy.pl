@@ -57,7 +57,7 @@ test(tasks_are_in_order_of_time, true(abs(Delta - 0.5) < 1.0e-9)) :-
 test(one_task_changes_nothing, Delta =:= 0.5) :-
     report(0.5, [[0, 10]], Report),
     delta([a-Report], Delta).
-test(one_host_that_has_one_task_at_a_time, true(abs(Delta - 0.6) < 1.0e-9)) :-
+test(one_host_with_one_task_at_a_time, true(abs(Delta - 0.6) < 1.0e-9)) :-
     report(0.5, [[0], [10]], Report),
     delta([a-Report], Delta).
 

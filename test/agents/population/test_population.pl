@@ -279,7 +279,7 @@ test(returning_agent_goes_to_the_tail,
            a-leave ], Told).
 test(single_agent_gets_the_next_turn, Told == [a-turn(1), a-turn(1)]) :-
     told([a-join, a-leave, a-join, a-leave], Told).
-test(no_agent_is_in_the_queue_twice, Told == [a-turn(1)]) :-
+test(agent_is_in_the_queue_once, Told == [a-turn(1)]) :-
     told([a-join, a-join, a-leave], Told).
 test(absent_agent_cannot_leave, Told == [a-turn(1)]) :-
     told([b-leave, a-join], Told).

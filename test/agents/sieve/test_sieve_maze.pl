@@ -215,11 +215,11 @@ test(no_clause, Action == forward) :-
     maze:program_answer([(right :- wall(left))], [free(left)], Action).
 test(a_bump_costs_a_step, [ Robot == robot(1, 1, 1/0, forward), nondet ]) :-
     maze:robot_does(forward, robot(1, 1, 1/0, left), [wall(ahead)], Robot).
-test(ends_in_time, Result-Xi == (!)-0) :-
+test(endless_program_ends_in_time, Result-Xi == (!)-0) :-
     program(spins, Program),
     call_with_inference_limit(maze:feedback(box(left), Program, Xi),
                               20 000, Result).
-test(in_the_last_step, Lefts == [0]) :-
+test(solved_in_the_last_step, Lefts == [0]) :-
     program(compass, Program),
     maze:obstacle(wall, 9, Rows),
     findall(Left, maze:program_solves(Program, Rows, 9, Left), Lefts),
@@ -254,7 +254,7 @@ test(selection, [ forall(member(Antigen, [ block(left), wall(right),
     share(Others, Rest),
     assertion(Good > 0.02),
     assertion(Good > 4*Rest).
-test(in_an_agent, Found == found(Program, Psi, Xi)) :-
+test(random_programs_in_an_agent, Found == found(Program, Psi, Xi)) :-
     drawn(3, 1, [Program]),
     psi(wall(left), Psi, Program),
     xi(wall(left), Xi, Program),

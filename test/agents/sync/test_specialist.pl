@@ -63,9 +63,9 @@ test(equation_6_6) :-
 test(no_dispersion_no_change, Psi1-Psi2 =:= 80-80) :-
     stimulated(positive, 80, 0, 0.01, Psi1),
     stimulated(negative, 80, 0, 0.01, Psi2).
-test(below_the_threshold_it_is_zero, Psi == 0) :-
+test(stimulation_below_the_threshold_is_zero, Psi == 0) :-
     stimulated(positive, 0.012, 0.5, 0.01, Psi).
-test(at_the_threshold_it_is_not) :-
+test(stimulation_at_the_threshold_is_kept) :-
     stimulated(positive, 0.01, 0, 0.01, Psi),
     Psi =:= 0.01.
 test(never_zero_without_threshold) :-
@@ -162,7 +162,7 @@ test(previous_task_executing_is_not_done) :-
     fake_agent:visit(0),
     mind(excited, Psi, _),
     Psi > 100.
-test(both_done_is_no_stimulus, Psi-Acts == 100-[]) :-
+test(two_completed_tasks_are_no_stimulus, Psi-Acts == 100-[]) :-
     done(floor, 1, Floor),
     done(walls, 2, Walls),
     excited([3, 12], [worker(house, w), Floor, Walls]),
@@ -177,7 +177,7 @@ test(becomes_active_at_the_threshold) :-
     fake_agent:visit(Reward),
     Reward == 0,
     mind(active, 0, _).
-test(a_threshold_of_its_own, Mood == excited) :-
+test(threshold_is_configurable, Mood == excited) :-
     done(floor, 8, Floor),
     excited([3], [worker(house, w), Floor]),
     assertz(fake_agent:setting(threshold, 0.001)),
@@ -185,7 +185,7 @@ test(a_threshold_of_its_own, Mood == excited) :-
     assertz(fake_agent:psi(0.016)),
     fake_agent:visit(0),
     mind(Mood, _, _).
-test(active_it_executes) :-                                         % S4
+test(active_specialist_executes) :-                                         % S4
     done(floor, 1, Floor),
     active([worker(house, w), Floor]),
     fake_at(9),
@@ -195,7 +195,7 @@ test(active_it_executes) :-                                         % S4
     Tuples == [Floor, task(house, walls, executing, 9)],
     did(Acts),
     Acts == [send(w, execute(walls, build))].
-test(what_failed_is_executed_again) :-
+test(failed_task_is_executed_again) :-
     done(floor, 1, Floor),
     active([worker(house, w), Floor, task(house, walls, failed(atomic), 3)]),
     fake_agent:visit(1),
@@ -210,7 +210,7 @@ test(skips_hosts_where_the_task_is_done, Reward == 0) :-
     done(walls, 2, Walls),
     active([worker(house, w), Floor, Walls]),
     fake_agent:visit(Reward).
-test(not_while_the_worker_is_busy, Reward == 0) :-
+test(busy_worker_gets_no_task, Reward == 0) :-
     done(floor, 1, Floor),
     active([Floor, task(house, walls, executing, 3)]),
     fake_agent:visit(Reward).

@@ -228,7 +228,7 @@ robots_in(Mechanism, Robots, Dir) :-
 
 test(mechanism, [forall(member(M, [proposed, constant, murdoch, anta]))]) :-
     with_tmp_dir(mechanism_run(M, [])).
-test(on_sockets) :-
+test(run_on_sockets) :-
     with_tmp_dir(mechanism_run(proposed, [clock-20, processes-2])).
 test(integrated) :-
     with_tmp_dir(integrated_run).

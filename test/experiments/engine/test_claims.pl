@@ -167,15 +167,15 @@ found(Test, Text) :-
 
 :- begin_tests(claims).
 
-test(holds, [forall(holding(Test)), nondet]) :-
+test(claim_holds, [forall(holding(Test)), nondet]) :-
     holds(Test).
 test(negated_claim_holds, [forall(failing(Test)), fail]) :-
     holds(Test).
-test(is_denied, [forall(failing(Test)), nondet]) :-
+test(denied_claim, [forall(failing(Test)), nondet]) :-
     holds(\+ Test).
-test(is_not_known, [forall(( unknown(Test), Test \= rises(_, _) )), fail]) :-
+test(unknown_claim, [forall(( unknown(Test), Test \= rises(_, _) )), fail]) :-
     holds(Test).
-test(is_not_known_nor_denied,
+test(unknown_claim_is_not_denied,
      [forall(( unknown(Test), Test \= rises(_, _) )), fail]) :-
     holds(\+ Test).
 test(known, [ forall(( holding(Test) ; failing(Test) )) ]) :-
@@ -256,7 +256,7 @@ test(same, Text == 'same: 5') :-
     found(same =:= 5, Text).
 test(selected, Text == 'up: 30') :-
     found(at([k=a, n=3], up =:= 30), Text).
-test(both_sides, Text == 'b up: 11 22 33; a up: 10 20 30') :-
+test(found_on_both_sides, Text == 'b up: 11 22 33; a up: 10 20 30') :-
     found(at([k=b], up) > at([k=a], up), Text).
 test(numbers_are_named, Text == 'n=3 up: 30') :-
     found(at([k=a], at([n=3], up) =:= 30), Text).
@@ -265,9 +265,9 @@ test(found_other_case_inside_an_expression,
     found(at([n=3], at([k=b], up) > 2*at([k=a], up)), Text).
 test(parts, Text == 'bent: a 1 2 3, b 3 1 4; same: 5') :-
     found(( bent > 0, \+ same < 4 ), Text).
-test(nothing, Text == 'nothing: no value') :-
+test(found_nothing, Text == 'nothing: no value') :-
     found(nothing > 0, Text).
-test(many_are_shortened, Text == 'm: 1 2 3 4 5 6 7 8 9 10 11 ...') :-
+test(long_list_is_shortened, Text == 'm: 1 2 3 4 5 6 7 8 9 10 11 ...') :-
     findall(case{n:N}-m{m:N}, between(1, 13, N), Points),
     claim_found(test_claims:(m > 0), Points, [n], Text).
 test(parameters_may_be_compound, Text == 'm: mix(1,2) 1 2, mix(2,1) 3') :-

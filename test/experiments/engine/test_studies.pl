@@ -111,7 +111,7 @@ named(Names, Bases) :-
 
 test(names, true(memberchk(['5.6', _], Rows))) :-
     catalogue(Rows).
-test(each_has_another_name, Names == Sorted) :-
+test(names_are_unique, Names == Sorted) :-
     catalogue(Rows),
     findall(Name, member([Name, _], Rows), Names0),
     msort(Names0, Names),
@@ -119,9 +119,9 @@ test(each_has_another_name, Names == Sorted) :-
 test(numbers_are_in_order, Keys == [[5, 9], [5, 10], [a]]) :-
     maplist(study_catalogue:natural_key, ['5.9', '5.10', a], Keys0),
     msort(Keys0, Keys).
-test(by_number, Bases == ['figure_5_6.pl']) :-
+test(study_by_number, Bases == ['figure_5_6.pl']) :-
     named(['5.6'], Bases).
-test(by_folder, true(memberchk('figure_5_6.pl', Bases))) :-
+test(study_by_folder, true(memberchk('figure_5_6.pl', Bases))) :-
     named([sync], Bases).
 test(studies_of_the_thesis_are_ordered_by_figure, Figures == Sorted) :-
     named([thesis], Bases),

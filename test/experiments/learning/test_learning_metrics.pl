@@ -129,7 +129,7 @@ clumped_ways(Ways, Counts) :-
 
 :- begin_tests(learning_degrees).
 
-test(of_a_dynamic_mesh) :-
+test(degrees_of_a_dynamic_mesh) :-
     degrees(thesis_4_4_7, 50, 1, 300, Least-Most),
     assertion(( Least >= 0, Least < Most, Most < 49 )).
 test(one_link_at_a_time, true(Least > 40)) :-

@@ -277,7 +277,7 @@ test(message_to_any_agent_of_a_platform) :-
                  says(A, Bad),
                  printed(A, ["accepted"]),
                  printed(B, ["Message bad(platform,1) failed"]) )).
-test(to_unknown_agent) :-
+test(message_to_unknown_agent) :-
     ports(2, [P1,P2]),
     with_nodes([[]], [A],
                ( up(A, P1, 1),

@@ -207,7 +207,7 @@ test(too_many_messages, [Before,Dropped] == [10,40]) :-
                 agent_send(A, go),
                 joined(A, done),
                 agent_result(A, [Before,Dropped], 5) )).
-test(a_thousand_in_order, Ps == Expected) :-
+test(thousand_messages_in_order, Ps == Expected) :-
     at_broker([], ( reader(subscribe(o), 1000, A),
                     remote(alpha, forall(between(1, 1000, I),
                                          publish(o, I))),

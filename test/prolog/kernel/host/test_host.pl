@@ -932,7 +932,7 @@ test(stop_while_agents_come_and_go) :-
                                catch(agent_dispose(A),
                                      error(existence_error(_, _), _), true)),
                         maplist(joined, As, _) ))).
-test(from_inside_a_cleanup_handler) :-
+test(host_stop_in_a_cleanup_handler) :-
     no_leaks(setup_call_cleanup(host_start(alpha),
                                 stays([], _),
                                 host_stop(alpha))).

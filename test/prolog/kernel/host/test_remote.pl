@@ -18,7 +18,7 @@ test(bindings_are_returned, true(X-Y == 3-abc)) :-
     with_hosts([alpha], remote(alpha, ( X is 1+2, atom_concat(a, bc, Y) ))).
 test(failure, [fail]) :-
     with_hosts([alpha], remote(alpha, fail)).
-test(once, true(Xs == [1])) :-
+test(remote_goal_is_called_once, true(Xs == [1])) :-
     with_hosts([alpha], findall(X, remote(alpha, member(X, [1,2])), Xs)).
 test(errors, error(type_error(evaluable, foo/0))) :-
     with_hosts([alpha], remote(alpha, _ is foo)).
@@ -67,12 +67,12 @@ test(error_context_is_returned, true(H1 == A)) :-
                ( address(alpha, A),
                  remote(alpha, ( catch(typhon:remote(beta, throw(x)), x, true),
                                  here(H1) )) )).
-test(from_many_threads, true(N == 100)) :-
+test(remote_goals_of_many_threads, true(N == 100)) :-
     with_hosts([alpha],
                ( numlist(1, 100, Is),
                  concurrent_maplist([I]>>remote(alpha, leave(i(I))), Is),
                  remote(alpha, aggregate_all(count, sense(i(_)), N)) )).
-test(by_an_agent, true(F == [s(1)])) :-
+test(remote_goal_of_an_agent, true(F == [s(1)])) :-
     with_hosts([alpha,beta],
                ( remote(beta, leave(p(1))),
                  create([on_message(_, _),

@@ -392,7 +392,8 @@ test(no_capacity_for_a_clone, true(F = [s(move_refused(_, capacity))])) :-
     with_hosts([alpha-[capacity(1)]],
                lives_([(main :- catch(clone(_), error(E, _), assertz(s(E))))],
                       [], F)).
-test(no_capacity_for_a_clone_there, true(F = [s(move_refused(_, capacity))])) :-
+test(no_capacity_for_a_clone_on_another_host,
+     true(F = [s(move_refused(_, capacity))])) :-
     with_hosts([alpha,beta-[capacity(0)]],
                lives_([(main :- catch(clone(beta, _), error(E, _),
                                       assertz(s(E))))], [], F)).

@@ -29,7 +29,7 @@ refused(Program, Formal) :-
 
 :- begin_tests(children).
 
-test(of_clauses, [true(X-Name == hi-child)]) :-
+test(child_of_clauses, [true(X-Name == hi-child)]) :-
     child(( self(Id), receive(P-hello), send(P, hi(Id)) ), Child),
     made([alpha],
          [ (main :- create(Child, C, []), send(C, hello),
@@ -38,13 +38,13 @@ test(of_clauses, [true(X-Name == hi-child)]) :-
     sub_atom(Id, 0, _, _, 'child.'),
     Name = child,
     X = hi.
-test(of_a_file, [true(Name == alone)]) :-
+test(child_of_a_file, [true(Name == alone)]) :-
     made([alpha],
          [ (main :- create(agents(robots/alone), C, []), result(C)) ],
          C),
     sub_atom(C, B, 1, _, '.'), !,
     sub_atom(C, 0, B, _, Name).
-test(of_its_own_program, X == got(7)) :-
+test(child_of_the_own_program, X == got(7)) :-
     made([alpha],
          [ (main :- r(Parent), !, s(N), send(Parent, got(N))),
            (main :- self(Me), assertz(s(1)),
@@ -58,7 +58,7 @@ test(state_of_the_parent_is_not_inherited, X == []) :-
                     create(self, C, [facts([r(Me)])]),
                     receive(C-X), result(X)) ],
          X).
-test(on_another_host, [true(Host == beta)]) :-
+test(child_on_another_host, [true(Host == beta)]) :-
     child(( here(H), receive(P-_), send(P, H) ), Child),
     made([alpha, beta],
          [ (main :- create(Child, C, [host(beta), name(bob)]), send(C, ask),
@@ -121,13 +121,13 @@ test(no_such_host, F = existence_error(host, _)) :-
 
 :- begin_tests(guarded_children).
 
-test(of_clauses, X == hi) :-
+test(child_of_clauses, X == hi) :-
     child(( receive(P-_), send(P, hi) ), Child),
     made([alpha-[policy(guarded), cell(none)]],
          [ (main :- create(Child, C, []), send(C, go), receive(C-X),
                     result(X)) ],
          X).
-test(of_its_own_program, X == got) :-
+test(child_of_the_own_program, X == got) :-
     made([alpha-[policy(guarded), cell(none)]],
          [ (main :- r(Parent), !, send(Parent, got)),
            (main :- self(Me), create(self, C, [facts([r(Me)])]),

@@ -101,7 +101,7 @@ test(agent_that_raises_during_disposal) :-
                                    capturing(agent_dispose(A), Ms)),
                                \+ memberchk(warning-typhon(runs_on(_, _)), Ms),
                                gone(A) ))).
-test(in_a_cleanup_handler, Ms == [warning-typhon(runs_on(A, 0.3))]) :-
+test(disposal_in_a_cleanup_handler, Ms == [warning-typhon(runs_on(A, 0.3))]) :-
     with_settings([typhon_disposal:heed_seconds=0.3],
                   with_hosts([alpha],
                              ( start(loops, A),

@@ -35,7 +35,7 @@ test(cut_during_the_hop, forall(codec(Codec))) :-
 test(cut_during_the_return, forall(codec(Codec))) :-
     with_proxied(Codec, cut_everywhere(down, up)).
 
-test(without_pause, forall(codec(Codec))) :-
+test(hop_without_pause, forall(codec(Codec))) :-
     with_proxied(Codec, cut_all_the_time(8, 150)).
 
 test(between_hosts_of_one_process) :-

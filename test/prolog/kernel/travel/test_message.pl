@@ -80,7 +80,7 @@ test(message_may_be_any_term, true(F =@= [s(f(X,X,_,"text",1.5,[a|b],77777777777
 test(message_that_cannot_travel, error(type_error(mobile_term, _))) :-
     with_hosts([alpha],
                ( collector(A, []), current_output(S), agent_send(A, S) )).
-test(to_unknown_agent, error(existence_error(agent, foo))) :-
+test(message_to_unknown_agent, error(existence_error(agent, foo))) :-
     with_hosts([alpha], agent_send(foo, hello)).
 test(message_to_an_unbound_id, error(instantiation_error)) :-
     with_hosts([alpha], agent_send(_, hello)).
@@ -93,7 +93,7 @@ test(message_to_a_faulty_agent_is_kept, true(M == [user-hello])) :-
                            joined(A, _),
                            agent_send(A, hello),
                            agent_property(A, mailbox(M)) ), _)).
-test(to_unknown_agent_from_an_agent,
+test(message_of_an_agent_to_unknown_agent,
      true(O-M = done-[warning-typhon(undeliverable(_, foo, _, hello))])) :-
     with_hosts([alpha],
                capturing(( create([(main :- send(foo, hello))], A),
@@ -115,14 +115,15 @@ test(message_to_an_unreachable_process_is_dropped_after_a_time,
                                          wait_until(was_printed(warning, _),
                                                     60) ),
                                        M))).
-test(in_order, true(Ns == Sent)) :-
+test(messages_arrive_in_order, true(Ns == Sent)) :-
     numlist(1, 1000, Sent),
     with_hosts([alpha],
                ( collector(A, []),
                  forall(member(N, Sent), agent_send(A, N)),
                  wait_until(has_all(A, 1000), 10),
                  numbers(A, Ns) )).
-test(from_many_threads_in_order_each, true(Parts == [Sent,Sent,Sent,Sent])) :-
+test(messages_of_each_thread_arrive_in_order,
+     true(Parts == [Sent,Sent,Sent,Sent])) :-
     numlist(1, 200, Sent),
     with_hosts([alpha],
                ( collector(A, []),
@@ -133,7 +134,7 @@ test(from_many_threads_in_order_each, true(Parts == [Sent,Sent,Sent,Sent])) :-
                  numbers(A, All),
                  findall(P, ( member(T, [1,2,3,4]),
                               findall(N, member(T-N, All), P) ), Parts) )).
-test(from_many_agents, true(N == 50*10)) :-
+test(messages_from_many_agents, true(N == 50*10)) :-
     with_hosts([alpha,beta],
                ( collector(A, []),
                  findall(B, ( between(1, 50, _),

@@ -231,7 +231,7 @@ test(properties, [State, Pending, Same] == [up, 0, false]) :-
           endpoint_peer(A, process(P)),
           endpoint_process(Mine),
           (   P == Mine -> Same = true ; Same = false ) ))).
-test(what_cannot_travel, error(type_error(mobile_term, S))) :-
+test(term_that_cannot_travel, error(type_error(mobile_term, S))) :-
     stream_property(S, alias(user_error)),
     with_endpoint(with_peer(A, endpoint_post(A, note, S))).
 test(too_long_for_a_frame, error(resource_error(frame_bytes))) :-

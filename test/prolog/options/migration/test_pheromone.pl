@@ -228,7 +228,7 @@ test(trail_over_a_lost_link_is_abandoned, Next == c) :-
 
 %   Strength is that of the closed form at the distance in the graph.
 
-test(in_two_processes, Wrong == []) :-
+test(pheromones_in_two_processes, Wrong == []) :-
     setup_call_cleanup(
         network_start(grid(3, 4), Network, [processes(2)]),
         once(diffused(Network, 4, Wrong)),

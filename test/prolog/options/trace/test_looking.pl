@@ -212,7 +212,7 @@ test(identical_goals) :-
 test(last_goal, Places == [5-1, 6-2]) :-
     stands([_], Places0),
     findall(N-I, ( member(N-I, Places0), memberchk(N, [5, 6]) ), Places).
-test(within_a_condition) :-
+test(goal_within_a_condition) :-
     stands([( sleep_until(3.0), h -> c ; d ), i], [3-1]).
 test(goal_called_by_a_condition) :-
     stands([( c, d, h -> c ; d ), i], [1-3, 2-1]).

@@ -33,7 +33,7 @@ save(File, Goal, Dir) :-
 
 :- begin_tests(load).
 
-test(on_a_host_of_this_process, true(Was == Gamma)) :-
+test(loaded_on_a_host_of_this_process, true(Was == Gamma)) :-
     saved(File,
           with_hosts([beta,gamma],
                      ( address(gamma, Gamma),
@@ -42,13 +42,13 @@ test(on_a_host_of_this_process, true(Was == Gamma)) :-
                        agent_send(A, go),
                        joined(A, done),
                        remote(gamma, sense(was(Was))) ))).
-test(on_the_first_host_by_default, true(H == Beta)) :-
+test(loaded_on_the_first_host_by_default, true(H == Beta)) :-
     saved(File,
           with_hosts([beta,gamma],
                      ( address(beta, Beta),
                        agent_load(File, A, []),
                        agent_property(A, host(H)) ))).
-test(in_another_process, true(Was == Far)) :-
+test(loaded_in_another_process, true(Was == Far)) :-
     saved(File,
           with_hosts([beta],
                      with_peers([far],

@@ -156,7 +156,7 @@ test(state, L == [lost_choice(retract/1, move/1, fail/0)]) :-
     loses('p :- retract(s(H)), move(H), fail.', L).
 test(search, L == [lost_choice(member/2, move/1, sense/1)]) :-
     loses('p :- neighbours(Hs), member(H, Hs), move(H), sense(gold).', L).
-test(in_a_condition, L == [lost_choice(between/3, go/0, (>)/2)]) :-
+test(choice_point_in_a_condition, L == [lost_choice(between/3, go/0, (>)/2)]) :-
     loses('p :- ( between(1, 3, X), go, X > 2 -> true ; log(none) ).', L).
 test(under_once, L == [lost_choice(select/3, move/1, (==)/2)]) :-
     loses('p :- once(( select(X, [a,b], _), move(X), X == b )).', L).
@@ -164,13 +164,14 @@ test(facts, L == [lost_choice(h/1, move/1, (\==)/2)]) :-
     loses('p :- h(X), catch(move(X), _, true), X \\== a. h(a). h(b).', L).
 test(another_clause, L == [lost_choice(clause, receive/2, receive/2)]) :-
     loses('p :- receive(_-a, 5), log(a), p. p :- log(late).', L).
-test(a_clause_that_is_more_general,
+test(more_general_clause,
      L == [lost_choice(clause, move/1, take/1)]) :-
     loses('q(f(X)) :- move(X), take(gold). q(_).', L).
 test(other_side_of_a_disjunction,
      L == [lost_choice((;)/2, receive/2, receive/2)]) :-
     loses('p :- ( receive(_-a, 5) ; log(late) ).', L).
-test(in_a_rule_of_the_state, L == [lost_choice(repeat/0, move/1, fail/0)]) :-
+test(choice_point_in_a_rule_of_the_state,
+     L == [lost_choice(repeat/0, move/1, fail/0)]) :-
     loses('s(X) :- repeat, move(X), fail.', L).
 
 %   Correct programs, each with the reason.
@@ -209,7 +210,7 @@ test(warning_suggests_a_fix) :-
 
 test(variables_that_occur_once, F == [4-singletons(['Y','Z'])]) :-
     found(['p.', 'q :- s(Y), s(_X), s(Z), s(_).'], F).
-test(in_a_grammar_rule, F == [3-singletons(['Y'])]) :-
+test(single_variable_in_a_grammar_rule, F == [3-singletons(['Y'])]) :-
     found(['g --> [Y], [].'], F).
 test(discontiguous_clauses, F == [5-discontiguous(p/0)]) :-
     found(['p :- s(1).', 'q.', 'p.', 'q.', ':- discontiguous q/0.', 'p.'],

@@ -88,7 +88,7 @@ test(other_host, Rows == [["show", "reserved", "b@h:2", "task('<b>')"]]) :-
     shown(log(reserved('b@h:2', task('<b>'))), Rows).
 test(ended, Rows == [["show", "reserved", "b@h:2", null]]) :-
     shown(log(released('b@h:2')), Rows).
-test(of_a_link, Rows == [["show", "traffic", "a@h:1 b@h:2", 12]]) :-
+test(overlay_of_a_link, Rows == [["show", "traffic", "a@h:1 b@h:2", 12]]) :-
     shown(log(sent('b@h:2', 'a@h:1', 12)), Rows).
 test(host_without_values, Rows == []) :-
     shown(log(something(else)), Rows).
@@ -104,7 +104,7 @@ test(variables_of_agents, Rows == []) :-
     shown(log(_), Rows).
 test(variables_in_values, Rows == [["show", "reserved", "b@h:2", "_"]]) :-
     shown(log(reserved('b@h:2', _)), Rows).
-test(of_agents) :-
+test(overlay_of_agents) :-
     with_hosts([alpha],
                with_page([], Base,
                          with_feed(Base, Feed, frame(Feed, First)))),

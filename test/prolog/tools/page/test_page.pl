@@ -148,7 +148,7 @@ scene(sixty_hosts) :-
     reads("[role=status]", "60 hosts"),
     view(map).
 
-scene(an_agent_is_created_here) :-
+scene(agent_is_created_by_the_form) :-
     program(Text),
     nth_host(13, Host),
     click("#actions button"),
@@ -169,7 +169,7 @@ scene(an_agent_is_created_here) :-
     reads("#details h2", "ann"),
     ann(_).
 
-scene(it_is_seen_travelling) :-
+scene(travelling_agent_is_shown) :-
     see("return [...typhon.store.agents.values()].some(a => \c
          a.name.startsWith('ann') && a.hops >= 3)"),
     see("return [...typhon.store.agents.values()].some(a => \c
@@ -193,7 +193,7 @@ scene(search_finds_names) :-
 
 %   With sixty hosts only moving agents are shown at first.
 
-scene(space_and_time_begins_with_little) :-
+scene(diagram_begins_with_moving_agents) :-
     view(space),
     see("return typhon.app.views.get('space')?.begun"),
     sees("const { messages, resting } = typhon.app.views.get('space');
@@ -201,11 +201,11 @@ scene(space_and_time_begins_with_little) :-
     click("#panel-space input[name=resting]"),
     see("return typhon.app.views.get('space').resting").
 
-scene(time_says_median) :-
+scene(hop_times_show_the_median) :-
     view(time),
     reads("#panel-time .u-legend", "median").
 
-scene(it_is_opened) :-
+scene(agent_is_opened) :-
     view(agents),
     click("#table-agent .row[id]"),
     reads("#details h2", "ann"),
@@ -214,7 +214,7 @@ scene(it_is_opened) :-
 
 %   A row that changes during a click is the same row.
 
-scene(its_row_stays_what_it_is) :-
+scene(row_of_the_agent_is_not_replaced) :-
     sees("globalThis.row = document.querySelector('#table-agent .row[id]');
           globalThis.before = row.textContent", _),
     see("return row.textContent !== before"),
@@ -223,7 +223,7 @@ scene(its_row_stays_what_it_is) :-
 %   An opened element is not replaced during a click, or while it has the
 %   focus.
 
-scene(what_is_opened_stays_what_it_is) :-
+scene(opened_element_is_not_replaced) :-
     at(Browser, _, _),
     sees("[...document.querySelectorAll('#details summary')]
               .find(s => s.textContent.startsWith('Trail')).parentElement.open = true;
@@ -241,7 +241,7 @@ scene(what_is_opened_stays_what_it_is) :-
 
 %   A list waits during a click, and is updated afterwards.
 
-scene(a_list_waits_for_a_press) :-
+scene(list_is_not_updated_during_a_click) :-
     at(Browser, _, _),
     browser_hold(Browser, "#table-agent .row[id]",
                  ( sees("globalThis.shown = row.textContent;
@@ -253,7 +253,7 @@ scene(a_list_waits_for_a_press) :-
 
 %   A term that cannot be read is reported at its field.
 
-scene(it_is_sent_a_message) :-
+scene(message_is_sent_to_the_agent) :-
     ann(Agent),
     click("#details .buttons button"-"Send a message …"),
     fill("Message", "stop("),
@@ -266,7 +266,7 @@ scene(it_is_sent_a_message) :-
                  memberchk(seen(stop), Facts) ), 10),
     reads("#details .pill", "waiting").
 
-scene(it_is_dragged) :-
+scene(agent_is_dragged) :-
     ann(Agent),
     nth_host(45, To),
     view(map),
@@ -284,7 +284,7 @@ scene(it_is_dragged) :-
     see("return [...typhon.store.agents.values()].find(a => \c
          a.name.startsWith('ann')).host.startsWith('n45@')").
 
-scene(it_is_cloned_and_disposed_of) :-
+scene(agent_is_cloned_and_disposed_of) :-
     ann(Agent),
     view(agents),
     click("#table-agent .row[id]"),
@@ -338,7 +338,7 @@ scene(links_come_and_go) :-
 
 %   A host that an agent cannot leave.
 
-scene(an_isolated_host_is_not_proposed) :-
+scene(isolated_host_is_not_suggested) :-
     maplist(nth_host, [1, 2, 11], [Host, Right, Below]),
     unlink(Host, Right),
     unlink(Host, Below),
@@ -358,7 +358,7 @@ scene(an_isolated_host_is_not_proposed) :-
 
 %   Children below their supervisor, its actions, and services on a host.
 
-scene(supervisors_are_a_tree) :-
+scene(supervision_tree_is_shown) :-
     nth_host(4, Host),
     Worker = clauses([(:- agent(worker, [])), (main :- receive(_-stop))]),
     Clerk = clauses([ (:- agent(clerk, [])),
@@ -439,7 +439,7 @@ scene(keyboard_alone) :-
     keys([escape]),
     see("return document.querySelector('#details').hidden").
 
-scene(a_network_is_built_and_ended) :-
+scene(network_is_started_and_stopped) :-
     at(_, _, First),
     click("#actions button"),
     click("[role=menuitem]"-"New network …"),
@@ -501,7 +501,7 @@ scene(one_replay_at_a_time) :-
          Seen),
     assertion(Seen == [true, false, 1, true, ""]).
 
-scene(everybody_can_use_it) :-
+scene(page_is_accessible) :-
     at(Browser, _, _),
     nth_host(1, Host),
     forall(member(View-Theme, [ map-dark, tree-light, hosts-dark, agents-light, time-light,
@@ -521,7 +521,7 @@ scene(everybody_can_use_it) :-
     accessible,
     keys([escape]).
 
-scene(narrow) :-
+scene(narrow_window) :-
     at(Browser, _, _),
     browser_size(Browser, 400, 800),
     sees("typhon.app.select({})", _),
@@ -552,7 +552,7 @@ scene(a_process_is_killed) :-
                 reads("#panel-hosts [role=status]", "15 hosts"),
                 reads("#state", "15 lost") ), _).
 
-scene(no_complaints) :-
+scene(console_has_no_errors) :-
     at(Browser, _, _),
     browser_complaints(Browser, Texts),
     assertion(Texts == []).
