@@ -5,7 +5,7 @@
             attempt/2,                  % +Goal, -Outcome
             through/2,                  % :Checks, -Through
             audited/1,                  % ?What
-            bait/2                      % ?Name, -Value
+            target/2                    % ?Name, -Value
           ]).
 :- use_module(common).
 :- use_module(fixtures).
@@ -31,7 +31,7 @@ its cell, including the predicates that communicate with the gatekeeper.
     in_cell(+, +, 0, +),
     through(:, -).
 
-:- dynamic bait/2.
+:- dynamic target/2.
 
 %!  with_inmates(:Goal) is semidet.
 %!  with_inmates(+Options, +Quotas, :Goal) is semidet.
@@ -55,7 +55,7 @@ in_cell(Options, Quotas, Goal, Dir) :-
                    ( baits_inside(A), call(Goal), rests(A) )),
         bait_clear(Sockets)).
 
-%!  bait(?Name, -Value) is nondet.
+%!  target(?Name, -Value) is nondet.
 %
 %   What an inmate tries to reach: `secret`, a file; `port` and `other`, where
 %   this process listens; `pid` of this process; `cell`, of one that runs a
@@ -76,14 +76,14 @@ bait_set(Dir, [Inet,Unix]) :-
     directory_file_path(Dir, audit, Audit),
     forall(member(Name-Value, [ secret-Secret, port-Port, other-Other, pid-Pid,
                                 audit-Audit ]),
-           assertz(bait(Name, Value))).
+           assertz(target(Name, Value))).
 
 baits_inside(A) :-
     cells_list([cell(_, Pid, _)|_]),
     agent_create(clauses([(:- agent(rests, [])), on_message(_, _)]), A,
                  [host(c)]),
-    assertz(bait(cell, Pid)),
-    assertz(bait(agent, A)).
+    assertz(target(cell, Pid)),
+    assertz(target(agent, A)).
 
 %   A test may have stopped the host.
 
@@ -94,7 +94,7 @@ rests(A) :-
     ).
 
 bait_clear(Sockets) :-
-    retractall(bait(_, _)),
+    retractall(target(_, _)),
     forall(member(Socket, Sockets), tcp_close_socket(Socket)).
 
 %!  audited(?What) is nondet.
@@ -102,7 +102,7 @@ bait_clear(Sockets) :-
 %   The audit of c has What.
 
 audited(What) :-
-    bait(audit, File),
+    target(audit, File),
     exists_file(File),
     read_file_to_terms(File, Entries, []),
     member(audit(_, c, _, _, What), Entries).
@@ -259,7 +259,7 @@ helper((test_open_of(Pid, Name) :-
 %!  through(:Checks, -Through) is det.
 %
 %   Through are those of Checks, Name-Goal-Expected, Name-Outcome, of which
-%   something else is the outcome.  In Goal bait(Name) stands for that.
+%   something else is the outcome.  In Goal target(Name) stands for that.
 
 through(Module:Checks, Through) :-
     findall(Name-Outcome,
@@ -272,9 +272,9 @@ through(Module:Checks, Through) :-
 filled(Goal, Goal) :-
     var(Goal),
     !.
-filled(bait(Name), Value) :-
+filled(target(Name), Value) :-
     !,
-    bait(Name, Value).
+    target(Name, Value).
 filled(Goal0, Goal) :-
     compound(Goal0),
     !,

@@ -1,6 +1,6 @@
 :- module(test_crossed,
-          [ crossing_begin/0,
-            crossed/1                   % -Modules: and forget them
+          [ calls_record/0,
+            called_modules/1            % -Modules: and forget them
           ]).
 :- use_module(library(prolog_wrap), [wrap_predicate/4]).
 
@@ -12,19 +12,19 @@ are dynamic or transparent.
 *Threading*: flags, one for each module.
 */
 
-%!  crossing_begin is det.
-%!  crossed(-Modules:list) is det.
+%!  calls_record is det.
+%!  called_modules(-Modules:list) is det.
 %
 %   From now on called modules are recorded; Modules are those called since
-%   that, or since the last crossed/1.
+%   that, or since the last called_modules/1.
 
-crossing_begin :-
+calls_record :-
     forall(own_module(Module),
            ( key(Module, Key),
              flag(Key, _, 0),
              wrap_module(Module, Key) )).
 
-crossed(Modules) :-
+called_modules(Modules) :-
     findall(Module,
             ( own_module(Module),
               key(Module, Key),

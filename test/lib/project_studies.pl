@@ -1,7 +1,7 @@
 :- module(test_project_studies,
           [ project_study/2,            % +Name, -Study
             case_count/2,               % +Study, -Count
-            odd_claims/2,               % +Study, -Problems
+            invalid_claims/2,           % +Study, -Problems
             verdicts/3,                 % +Study, +Points, -Verdicts
             holding/3,                  % +Study, +Points, -Numbers
             first_run/5,                % +Study, +Given, +Seed, +Dir, -Point
@@ -40,11 +40,11 @@ case_count(Study, Count) :-
 claims(Study, Claims) :-
     findall(Text-Test, study_call(Study, claim(Text, _, Test)), Claims).
 
-%!  odd_claims(+Study, -Problems:list) is det.
+%!  invalid_claims(+Study, -Problems:list) is det.
 %
 %   Parts of claims that are not tests, or the absence of claims.
 
-odd_claims(Study, Problems) :-
+invalid_claims(Study, Problems) :-
     claims(Study, Claims),
     odd(Claims, Study, Problems).
 

@@ -1,9 +1,9 @@
 :- module(test_ros_agents,
-          [ puppet/2,                   % +Host, -Agent
+          [ goal_agent/2,               % +Host, -Agent
             does/4,                     % +Host, +Agent, +Goal, -Result
             does/3,                     % +Host, +Agent, +Goal
             gets/3,                     % +Host, +Agent, ?Message
-            wrong/4                     % +Host, +Agent, +Goal, -Formal
+            goal_error/4                % +Host, +Agent, +Goal, -Formal
           ]).
 :- use_module(common).
 :- use_module(library(typhon)).
@@ -14,25 +14,25 @@
 *Threading*: any thread; one at a time for each agent.
 */
 
-%!  puppet(+Host, -Agent) is det.
+%!  goal_agent(+Host, -Agent) is det.
 
-puppet(Host, Agent) :-
-    findall(Term, puppet_clause(Term), Terms),
+goal_agent(Host, Agent) :-
+    findall(Term, goal_agent_clause(Term), Terms),
     agent_create(clauses(Terms), Agent, [host(Host)]).
 
-puppet_clause((:- agent(puppet, [state([kept/1])]))).
-puppet_clause((main :- true)).
-puppet_clause((on_message(_, do(Goal)) :-
+goal_agent_clause((:- agent(puppet, [state([kept/1])]))).
+goal_agent_clause((main :- true)).
+goal_agent_clause((on_message(_, do(Goal)) :-
                    catch(( call(Goal) -> Result = yes(Goal) ; Result = no ),
                          error(Formal, _),
                          Result = raised(Formal)),
                    self(Me),
                    leave(did(Me, Result)))).
-puppet_clause((on_message(_, go(Host)) :- move(Host))).
-puppet_clause((on_message(_, do_move(Host)) :-
+goal_agent_clause((on_message(_, go(Host)) :- move(Host))).
+goal_agent_clause((on_message(_, do_move(Host)) :-
                    catch(move(Host), error(move_refused(_, _), _), true))).
-puppet_clause((on_message(_, end) :- dispose)).
-puppet_clause((on_message(ros, Message) :-
+goal_agent_clause((on_message(_, end) :- dispose)).
+goal_agent_clause((on_message(ros, Message) :-
                    self(Me),
                    leave(got(Me, Message)))).
 
@@ -53,9 +53,9 @@ does(Host, Agent, Goal) :-
     ;   throw(error(did_not(Goal, Result), _))
     ).
 
-%!  wrong(+Host, +Agent, +Goal, -Formal) is det.
+%!  goal_error(+Host, +Agent, +Goal, -Formal) is det.
 
-wrong(Host, Agent, Goal, Formal) :-
+goal_error(Host, Agent, Goal, Formal) :-
     does(Host, Agent, Goal, Result),
     (   Result = raised(Formal0)
     ->  Formal = Formal0

@@ -1,6 +1,6 @@
 :- module(test_single_life,
           [ life_file/1,                % -File
-            life_came/2                 % +Text, -Unexpected
+            life_differences/2          % +Text, -Unexpected
           ]).
 :- use_module(library(lists), [subtract/3]).
 :- use_module(library(apply), [maplist/3]).
@@ -16,12 +16,12 @@
 life_file(File) :-
     project_file('test/lib/single/life.pl', File).
 
-%!  life_came(+Text, -Unexpected) is det.
+%!  life_differences(+Text, -Unexpected) is det.
 %
 %   Unexpected is unexpected(More, Missing): facts in Text, printed by that
 %   file, that are not expected, and expected facts that it lacks.
 
-life_came(Text, Unexpected) :-
+life_differences(Text, Unexpected) :-
     split_string(Text, "\n", "\n", Lines),
     maplist(term_string, Found, Lines),
     findall(came(Name, Result), came(Name, Result), Wanted),

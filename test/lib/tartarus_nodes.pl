@@ -1,9 +1,9 @@
 :- module(test_tartarus_nodes,
           [ with_nodes/3,               % +Programs, -Nodes, :Goal
-            says/2,                     % +Node, +Text
+            type/2,                     % +Node, +Text
             printed/2,                  % +Node, +Lines
             printed/3,                  % +Node, +Lines, +Seconds
-            prints/2,                   % +Node, -Text
+            node_output/2,              % +Node, -Text
             ports/2                     % +Count, -Ports
           ]).
 :- use_module(library(apply), [maplist/2]).
@@ -73,11 +73,11 @@ end(node(Pid, In, _)) :-
     process_wait(Pid, _),
     close(In, [force(true)]).
 
-%!  says(+Node, +Text) is det.
+%!  type(+Node, +Text) is det.
 %
 %   Type a line.
 
-says(node(_, In, _), Text) :-
+type(node(_, In, _), Text) :-
     format(In, '~w~n', [Text]),
     flush_output(In).
 
@@ -94,11 +94,11 @@ printed(Node, Texts) :-
 printed(Node, Texts, Seconds) :-
     catch(wait_until(test_tartarus_nodes:in_order(Node, Texts), Seconds),
           error(timeout_error(_, _), _),
-          ( prints(Node, Text),
+          ( node_output(Node, Text),
             throw(error(not_printed(Texts, Text), _)) )).
 
 in_order(Node, Texts) :-
-    prints(Node, Text),
+    node_output(Node, Text),
     in_order(Texts, 0, Text).
 
 in_order([], _, _).
@@ -109,11 +109,11 @@ in_order([Text|Texts], From, All) :-
     Next is Before+Length,
     in_order(Texts, Next, All).
 
-%!  prints(+Node, -Text:string) is det.
+%!  node_output(+Node, -Text:string) is det.
 %
 %   Its output so far.
 
-prints(node(_, _, File), Text) :-
+node_output(node(_, _, File), Text) :-
     read_file_to_string(File, Text, []).
 
 %!  ports(+Count, -Ports:list) is det.

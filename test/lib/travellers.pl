@@ -5,7 +5,7 @@
             set_out/5,                  % +Peer, +Route, +Hops, -Id, +Options
             heavy/5,                    % +Peer, +Route, +Hops, +Facts, -Id
             ended/3,                    % +Peer, +Id, +Outcome
-            ended_well/3,               % +Peer, +Id, +Hops
+            ended_done/3,               % +Peer, +Id, +Hops
             steps/2,                    % +Id, -Steps
             step_on/3,                  % +Peer, +Id, ?Step
             bouncer/4,                  % +Peer, +Route, +Hops, -Id
@@ -37,7 +37,7 @@ travel(Peer, Route, Hops) :-
 
 travel(Peer, Route, Hops, Options) :-
     set_out(Peer, Route, Hops, Id, Options),
-    ended_well(Peer, Id, Hops).
+    ended_done(Peer, Id, Hops).
 
 %!  set_out(+Peer, +Route, +Hops, -Id) is det.
 %!  set_out(+Peer, +Route, +Hops, -Id, +Options) is det.
@@ -92,13 +92,13 @@ walker([ (:- agent(walker, [state([plan/2])])),
        ]).
 
 %!  ended(+Peer, +Id, +Outcome) is semidet.
-%!  ended_well(+Peer, +Id, +Hops) is semidet.
+%!  ended_done(+Peer, +Id, +Hops) is semidet.
 
 ended(Peer, Id, Outcome) :-
     peer_do(Peer, agent_join(Id, Outcome0, 50)),
     told(Outcome0 == Outcome, outcome(Id, Outcome0)).
 
-ended_well(Peer, Id, Hops) :-
+ended_done(Peer, Id, Hops) :-
     ended(Peer, Id, done),
     numlist(0, Hops, Expected),
     steps(Id, Steps),

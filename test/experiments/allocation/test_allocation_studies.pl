@@ -136,7 +136,7 @@ urgent(reverse, 0, 120, ms{done:0, reported:3, free:70}).
 
 test(well_formed, [forall(name(Name)), Problems == []]) :-
     study(Name, Study),
-    odd_claims(Study, Problems).
+    invalid_claims(Study, Problems).
 test(all_claims_can_hold, [forall(name(Name)), Failing == []]) :-
     texts(Name, thesis, false, Failing).
 test(each_claim_can_fail, [forall(name(Name)), Holding == []]) :-

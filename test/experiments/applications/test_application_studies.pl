@@ -37,7 +37,7 @@ test(cases, [forall(small(Name, Count, _, _)), true(Found == Count)]) :-
 test(claims_are_well_formed,
      [forall(small(Name, _, _, _)), true(Odd == [])]) :-
     study(Name, Study),
-    odd_claims(Study, Odd).
+    invalid_claims(Study, Odd).
 
 test(run, [forall(small(Name, _, Given, Measures))]) :-
     study(Name, Study),

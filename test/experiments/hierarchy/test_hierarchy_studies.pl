@@ -38,7 +38,7 @@ test(cases, [forall(a_study(Name, Count)), true(Found == Count)]) :-
     case_count(Study, Found).
 test(claims_are_well_formed, [forall(a_study(Name, _)), true(Odd == [])]) :-
     hierarchy_study(Name, Study),
-    odd_claims(Study, Odd).
+    invalid_claims(Study, Odd).
 test(claims_can_hold_and_can_fail,
      [ forall(( a_study(Name, _), member(Held, [true, false]) )),
        true(Others == []) ]) :-

@@ -27,7 +27,7 @@ test(cases, [forall(a_study(Name, Count)), true(Found == Count)]) :-
     case_count(Study, Found).
 test(claims_are_well_formed, [forall(a_study(Name, _)), true(Odd == [])]) :-
     project_study(Name, Study),
-    odd_claims(Study, Odd).
+    invalid_claims(Study, Odd).
 
 :- end_tests(learning_studies).
 

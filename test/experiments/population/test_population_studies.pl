@@ -62,7 +62,7 @@ fewer_hold(Figure, Worse) :-
 
 test(well_formed, [forall(member(Figure, ['6_3', '6_4'])), Problems == []]) :-
     study(Figure, Study),
-    odd_claims(Study, Problems).
+    invalid_claims(Study, Problems).
 test(all_claims_can_hold,
      [forall(member(Figure-Count, ['6_3'-9, '6_4'-14]))]) :-
     study(Figure, Study),

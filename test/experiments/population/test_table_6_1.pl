@@ -58,7 +58,7 @@ small(Study, Point, Dir) :-
 
 test(well_formed, Problems == []) :-
     study(Study),
-    odd_claims(Study, Problems).
+    invalid_claims(Study, Problems).
 test(holds_in_a_small_network, Failed == []) :-
     study(Study),
     with_tmp_dir(small(Study, Case-Ms)),

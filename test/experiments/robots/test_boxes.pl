@@ -1,6 +1,6 @@
 :- module(test_boxes, []).
 :- use_module('../../lib/common', []).
-:- use_module('../../lib/project_studies', [holding/3, odd_claims/2]).
+:- use_module('../../lib/project_studies', [holding/3, invalid_claims/2]).
 :- use_module('../../lib/robot_logs').
 :- use_module(library(plunit)).
 :- use_module(library(lists)).
@@ -149,7 +149,7 @@ worse(_{from_dock:0.2}, 6).
 
 test(well_formed, Problems == []) :-
     robot_study(boxes, Study),
-    odd_claims(Study, Problems).
+    invalid_claims(Study, Problems).
 test(measures) :-
     events(Events),
     terms(Terms),

@@ -1,6 +1,6 @@
 :- module(test_pole, []).
 :- use_module('../../lib/common', []).
-:- use_module('../../lib/project_studies', [holding/3, odd_claims/2]).
+:- use_module('../../lib/project_studies', [holding/3, invalid_claims/2]).
 :- use_module('../../lib/robot_logs').
 :- use_module(library(plunit)).
 :- use_module(library(apply), [include/3, maplist/3]).
@@ -132,7 +132,7 @@ test(stacked, Rows == [[0, 1, 0], [0, 1, 1], [0, 2, 2], [3, 2, 0]]) :-
 
 test(well_formed, Problems == []) :-
     robot_study(pole, Study),
-    odd_claims(Study, Problems).
+    invalid_claims(Study, Problems).
 test(measures) :-
     points([_-Ms|_]),
     forall(member(Name-Value,

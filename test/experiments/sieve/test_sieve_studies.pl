@@ -44,7 +44,7 @@ rounds_hold(Name, Rounds, Helds) :-
 
 test(well_formed, [forall(a_study(Name)), Problems == []]) :-
     study(Name, Study),
-    odd_claims(Study, Problems).
+    invalid_claims(Study, Problems).
 test(complements_alone, Helds == [true, true, false, true, true, true]) :-
     findall(Round,
             ( between(1, 15, _),

@@ -32,7 +32,7 @@ test(cases, [forall(a_study(Name, Count)), true(Found == Count)]) :-
     case_count(Study, Found).
 test(claims_are_well_formed, [forall(a_study(Name, _)), true(Odd == [])]) :-
     sync_study(Name, Study),
-    odd_claims(Study, Odd).
+    invalid_claims(Study, Odd).
 test(best_delta_of_the_topology, Deltas == [0.2, 0.8, 0.2, 0.5]) :-
     sync_study(figure_5_5, Study),
     study_cases(Study, [], Cases),

@@ -42,18 +42,18 @@ fewest(Lives, Modules) :-
     keysort(All, [_-Modules|_]).
 
 crossed(Modules) :-
-    peer_do(a, test_crossed:crossed(_)),
-    peer_do(b, test_crossed:crossed(_)),
+    peer_do(a, test_crossed:called_modules(_)),
+    peer_do(b, test_crossed:called_modules(_)),
     life,
-    peer_do(a, test_crossed:crossed(A)),
-    peer_do(b, test_crossed:crossed(B)),
+    peer_do(a, test_crossed:called_modules(A)),
+    peer_do(b, test_crossed:called_modules(B)),
     append(A, B, Both),
     sort(Both, Modules).
 
 peer_crossing(Peer) :-
     project_file('test/lib/crossed.pl', File),
     peer_do(Peer, use_module(File, [])),
-    peer_do(Peer, test_crossed:crossing_begin).
+    peer_do(Peer, test_crossed:calls_record).
 
 life :-
     peer_host(b, B),

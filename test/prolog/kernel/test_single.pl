@@ -15,7 +15,7 @@ test(agents_run, Unexpected == unexpected([], [])) :-
     life_file(File),
     without_threads(main, [File], Status, Out, _),
     assertion(Status == exit(0)),
-    life_came(Out, Unexpected).
+    life_differences(Out, Unexpected).
 test(virtual_time_needs_a_thread) :-
     without_threads((use_module(library(typhon)),host_start(a,[clock(virtual)])),
                     [], Status, _, Err),

@@ -25,6 +25,6 @@ test(agents_run, Unexpected == unexpected([], [])) :-
           process_wait(Pid, Status) ),
         close(Out)),
     assertion(Status == exit(0)),
-    life_came(Text, Unexpected).
+    life_differences(Text, Unexpected).
 
 :- end_tests(wasm).

@@ -20,7 +20,7 @@ line(Format, Arguments, Line) :-
 
 up(Node, Port, Token) :-
     line("start_tartarus(localhost, ~w, ~w).", [Port, Token], Start),
-    says(Node, Start),
+    type(Node, Start),
     line("Port = ~w", [Port], Banner),
     printed(Node, [Banner]).
 
@@ -39,15 +39,15 @@ test(visitor_is_listed_on_its_platform) :-
                 []],
                [A,B],
                ( up(B, P2, 7),
-                 says(A, "go."),
+                 type(A, "go."),
                  line("bee: has come to :localhost:~w", [P2], Come),
                  printed(B, ["  \n", Come]),
                  printed(A, ["off it goes"]),
-                 says(B, "list_agent."),
+                 type(B, "list_agent."),
                  line("Agent Name :bee, handler name:fly, residing on port:~w",
                       [P2], Row),
                  printed(B, ["====Agent list====", Row]),
-                 says(A, "list_agent(L), writeln(agents(L))."),
+                 type(A, "list_agent(L), writeln(agents(L))."),
                  printed(A, ["agents([])"]) )).
 test(agent_back_before_its_move_has_returned_is_not_lost) :-
     ports(2, [P1,P2]),
@@ -66,7 +66,7 @@ test(agent_back_before_its_move_has_returned_is_not_lost) :-
     with_nodes([[Next1|Walker], [Next2|Walker]],
                [A,B],
                ( up(A, P1, 7), up(B, P2, 7),
-                 says(A, Send),
+                 type(A, Send),
                  printed(A, ["home"], 120) )).
 test(payload_travels_and_its_template_stays) :-
     ports(2, [P1,P2]),
@@ -80,11 +80,11 @@ test(payload_travels_and_its_template_stays) :-
                  line("create_mobile_agent(ant, (localhost,~w), carry, [1]), \c
                        add_payload(ant, [(load,2)]), \c
                        move_agent(ant, (localhost,~w)).", [P1,P2], Go),
-                 says(A, Go),
+                 type(A, Go),
                  printed(B, ["it weighs :150"]),
-                 says(B, "findall(X-N, load(X,N), L), writeln(loads(L))."),
+                 type(B, "findall(X-N, load(X,N), L), writeln(loads(L))."),
                  printed(B, ["loads([ant-150])"]),
-                 says(A, "findall(X-N, load(X,N), L), writeln(loads(L))."),
+                 type(A, "findall(X-N, load(X,N), L), writeln(loads(L))."),
                  printed(A, ["loads([guid-150])"]) )).
 test(agent_returns_and_its_clone_prints) :-
     ports(2, [P1,P2]),
@@ -112,14 +112,14 @@ test(agent_returns_and_its_clone_prints) :-
                        add_payload(thanos, [(energy,2)]), \c
                        execute_agent(thanos, (localhost,~w), thanos_task).",
                       [P1,P1], Go),
-                 says(A, Go),
+                 type(A, Go),
                  line("thanos:at(~w):energy(2)", [P1], L1),
                  line("thanos:at(~w):energy(1)", [P2], L2),
                  line("thanos:at(~w):energy(0)", [P1], L3),
                  line("thanos1:at(~w):energy(-1)", [P2], L4),
                  printed(A, [L1,L3,"clone:thanos1"]),
                  printed(B, [L2,L4]),
-                 says(B, "isexist_agent(N, L, H), writeln(N/L/H)."),
+                 type(B, "isexist_agent(N, L, H), writeln(N/L/H)."),
                  line("thanos1/(localhost,~w)/thanos_task", [P2], L5),
                  printed(B, [L5]) )).
 test(agent_without_token_is_refused_and_stays) :-
@@ -131,15 +131,15 @@ test(agent_without_token_is_refused_and_stays) :-
                  line("create_mobile_agent(fly, (localhost,~w), h, [1]), \c
                        move_agent(fly, (localhost,~w)), writeln(told).",
                       [P1,P2], Go),
-                 says(A, Go),
+                 type(A, Go),
                  printed(A, ["--------negative ACK received-----------",
                              "Agent fly was not allowed to enter the destination.",
                              "--------negative ack processed-----------",
                              "told"]),
-                 says(B, "set_token(1), writeln(trusted)."),
+                 type(B, "set_token(1), writeln(trusted)."),
                  printed(B, ["trusted"]),
                  line("move_agent(fly, (localhost,~w)).", [P2], Again),
-                 says(A, Again),
+                 type(A, Again),
                  printed(B, ["here(fly)"]) )).
 test(dead_platform_is_restarted) :-
     ports(2, [P1,P2]),
@@ -149,13 +149,13 @@ test(dead_platform_is_restarted) :-
                        move_agent(fly, (localhost,~w)), \c
                        isexist_agent(fly, _, H), writeln(still(H)).",
                       [P1,P2], Go),
-                 says(A, Go),
+                 type(A, Go),
                  printed(A, ["Enter a valid IP address and Port number.",
                              "still(h)"]),
                  line("move_agent(fly, ('127.0.0.1',~w)).", [P1], Same),
-                 says(A, Same),
+                 type(A, Same),
                  printed(A, ["Agent is already on same platform."]),
-                 says(A, "move_agent(missing, (localhost,1)), writeln(true1)."),
+                 type(A, "move_agent(missing, (localhost,1)), writeln(true1)."),
                  printed(A, ["Move agent Failed for :missing", "true1"]) )).
 test(goals_after_a_move_run_at_the_source) :-
     ports(2, [P1,P2]),
@@ -169,10 +169,10 @@ test(goals_after_a_move_run_at_the_source) :-
                  line("create_mobile_agent(a, (localhost,~w), h, [1]), \c
                        add_payload(a, [(left,2)]), \c
                        execute_agent(a, (localhost,~w), h).", [P1,P1], Go),
-                 says(A, Go),
+                 type(A, Go),
                  printed(B, ["there(a)"]),
                  printed(A, ["here_still(old)"]),
-                 says(A, "between(1, 2000, _), findall(X, left(X,_), L), \c
+                 type(A, "between(1, 2000, _), findall(X, left(X,_), L), \c
                           ( L == [guid] -> true ; sleep(0.01), fail ), !, \c
                           writeln(left(L))."),
                  printed(A, ["left([guid])"]) )).
@@ -181,16 +181,16 @@ test(large_port) :-
     Large is P+65536,
     with_nodes([[]], [A],
                ( up(A, Large, 1),
-                 says(A, "get_tartarus_details(I,P), writeln(I-P)."),
+                 type(A, "get_tartarus_details(I,P), writeln(I-P)."),
                  line("localhost-~w", [Large], Details),
                  printed(A, [Details]) )).
 test(wrong_arguments_abort) :-
     with_nodes([[]], [A],
-               ( says(A, "start_tartarus(localhost, x, y) ; writeln(no)."),
+               ( type(A, "start_tartarus(localhost, x, y) ; writeln(no)."),
                  printed(A, ["Error# t1:", "Error# t2:", "errors found: 2"]),
-                 says(A, "writeln(alive)."),
+                 type(A, "writeln(alive)."),
                  printed(A, ["alive"]),
-                 prints(A, Text),
+                 node_output(A, Text),
                  \+ sub_string(Text, _, _, _, "no\n") )).
 
 :- end_tests(third_generation).
@@ -208,12 +208,12 @@ test(first_generation) :-
                [A,B],
                ( line("platform_start(localhost, ~w), set_token(5).", [P1], S1),
                  line("platform_start(localhost, ~w), set_token(5).", [P2], S2),
-                 says(A, S1), says(B, S2),
+                 type(A, S1), type(B, S2),
                  line("Port = ~w", [P2], Banner), printed(B, [Banner]),
                  line("agent_create(add, (localhost,~w), h), \c
                        add_token(add, [5]), add_payload(add, [(sum,2)]), \c
                        agent_execute(add, (localhost,~w), h).", [P1,P1], Go),
-                 says(A, Go),
+                 type(A, Go),
                  printed(B, ["Agent bearing add has arrived to this platform. ",
                              "sum:1"]),
                  printed(A, ["Time taken to get acknowledgement by agent add:"])
@@ -223,11 +223,11 @@ test(without_a_token_no_agent_is_admitted) :-
     with_nodes([[":- dynamic h/3.", "h(guid, _, main)."], []], [A,B],
                ( line("start_tartarus(~w).", [P1], S1),
                  line("start_tartarus(localhost,~w).", [P2], S2),
-                 says(A, S1), says(B, S2),
+                 type(A, S1), type(B, S2),
                  line("Port = ~w", [P2], Banner), printed(B, [Banner]),
                  line("create_mobile_agent(m, h), add_token(m, [1]), \c
                        move_agent(m, (localhost,~w)).", [P2], Go),
-                 says(A, Go),
+                 type(A, Go),
                  printed(A, ["Agent m was not allowed to enter"]) )).
 test(static_agent_is_reached_at_its_port) :-
     ports(3, [P1,P2,P3]),
@@ -237,23 +237,23 @@ test(static_agent_is_reached_at_its_port) :-
                [A,B],
                ( line("start_tartarus(localhost,~w).", [P1], S1),
                  line("start_tartarus(localhost,~w).", [P2], S2),
-                 says(A, S1), says(B, S2),
+                 type(A, S1), type(B, S2),
                  line("create_static_agent(s, (localhost,~w), h), \c
                        execute_agent(s, (localhost,~w), h), \c
                        move_agent(s, (localhost,~w)).", [P3,P3,P2], Go),
-                 says(A, Go),
+                 type(A, Go),
                  line("Hello:s:localhost:~w", [P3], Hello),
                  printed(A, [Hello]),
                  printed(A, ["Move agent Failed for :s"]),
                  line("post_agent(platform, (localhost,~w), \c
                        [h,s,(localhost,~w),ping]).", [P3,P2], Post),
-                 says(B, Post),
+                 type(B, Post),
                  line("heard(s,(localhost,~w),ping)", [P2], Heard),
                  printed(A, [Heard]),
                  line("post_agent(platform, (localhost,~w), \c
                        [h,s,(localhost,~w),ping]) ; writeln(refused).",
                       [P1,P2], Wrong),
-                 says(B, Wrong),
+                 type(B, Wrong),
                  printed(B, ["Ack:fail", "refused"]) )).
 
 :- end_tests(earlier_generations).
@@ -269,12 +269,12 @@ test(message_to_any_agent_of_a_platform) :-
                  line("post_agent(platform, (localhost,~w), \c
                        [hear,X,(localhost,~w),\"Hello\"]), writeln(x(X)).",
                       [P2,P1], Post),
-                 says(A, Post),
+                 type(A, Post),
                  printed(B, ["got(platform,Hello)"]),
                  printed(A, ["x(platform)"]),
                  line("post_agent(platform, (localhost,~w), [bad,platform,1]), \c
                        writeln(accepted).", [P2], Bad),
-                 says(A, Bad),
+                 type(A, Bad),
                  printed(A, ["accepted"]),
                  printed(B, ["Message bad(platform,1) failed"]) )).
 test(message_to_unknown_agent) :-
@@ -283,7 +283,7 @@ test(message_to_unknown_agent) :-
                ( up(A, P1, 1),
                  line("post_agent(platform, (localhost,~w), [f,a]) \c
                        ; writeln(failed).", [P2], Post),
-                 says(A, Post),
+                 type(A, Post),
                  printed(A, ["failed"]) )).
 test(logs) :-
     ports(2, [P1,P2]),
@@ -291,10 +291,10 @@ test(logs) :-
                ( up(A, P1, 1), up(B, P2, 1),
                  line("set_log_server(localhost,~w), send_log(me, done(1)).",
                       [P2], Log),
-                 says(A, Log),
+                 type(A, Log),
                  line("me localhost ~w done(1)", [P1], Entry),
                  printed(B, [Entry]),
-                 says(B, "read_file_to_string('server_log.txt', S, []), \c
+                 type(B, "read_file_to_string('server_log.txt', S, []), \c
                           print(S), nl."),
                  printed(B, ["\"\\n", Entry]) )).
 
@@ -321,7 +321,7 @@ visit(P, B, What) :-
     printed(B, ["native(42)"]),
     line("post_agent(platform, (localhost,~w), [ping,'~w',7]).", [P, Agent],
          Post),
-    says(B, Post),
+    type(B, Post),
     joined(Agent, done),
     remote(alpha, take(What0)),
     What = What0.
@@ -350,16 +350,16 @@ test(reset_takes_effect_at_once) :-
                ( up(A, P1, 1), up(B, P2, 1),
                  line("create_mobile_agent(a, (localhost,~w), h, [1]), \c
                        move_agent(a, (localhost,~w)).", [P1,P2], Go),
-                 says(A, Go), printed(B, ["here"]),
-                 says(B, "reset_tartarus, list_agent(L), writeln(left(L))."),
+                 type(A, Go), printed(B, ["here"]),
+                 type(B, "reset_tartarus, list_agent(L), writeln(left(L))."),
                  printed(B, ["restarted sucessfully", "left([])"]),
-                 says(A, Go), printed(B, ["left([])", "here"]),
-                 says(B, "close_tartarus."),
+                 type(A, Go), printed(B, ["left([])", "here"]),
+                 type(B, "close_tartarus."),
                  printed(B, ["Platform has been closed."]),
                  up(B, P2, 1),
                  line("Port = ~w", [P2], Again),
                  printed(B, ["closed.", Again]),
-                 says(A, Go), printed(B, ["closed.", "here"]) )).
+                 type(A, Go), printed(B, ["closed.", "here"]) )).
 test(agent_made_on_another_platform) :-
     ports(2, [P1,P2]),
     with_nodes([[], [":- dynamic h/3.", "h(guid, _, main) :- writeln(ran)."]],
@@ -367,12 +367,12 @@ test(agent_made_on_another_platform) :-
                ( up(A, P1, 1), up(B, P2, 1),
                  line("create_mobile_agent(far, (localhost,~w), h, [1]).",
                       [P2], Go),
-                 says(A, Go),
+                 type(A, Go),
                  line("Creating agent on platform with IP localhost and port \c
                        number ~w", [P2], Said),
                  printed(A, [Said, "true"]),
                  line("execute_agent(far, (localhost,~w), h).", [P2], Run),
-                 says(B, Run),
+                 type(B, Run),
                  printed(B, ["ran"]) )).
 test(saved_agents_are_loaded) :-
     ports(2, [P1,P2]),
@@ -380,13 +380,13 @@ test(saved_agents_are_loaded) :-
                   "h(guid, _, main) :- n(guid, N), writeln(guid:N)." ], []],
                [A,B],
                ( up(A, P1, 1), up(B, P2, 1),
-                 says(A, "create_mobile_agent(a, _, h, [1]), \c
+                 type(A, "create_mobile_agent(a, _, h, [1]), \c
                           add_payload(a, [(n,2)]), save_agent(a, 'a.pl'), \c
                           save_tartarus_state('all.txt'), writeln(saved)."),
                  printed(A, ["saved"]),
-                 says(B, "load_tartarus_state('all.txt')."),
+                 type(B, "load_tartarus_state('all.txt')."),
                  printed(B, ["a:1"]),
-                 says(B, "purge_agent(a), consult('a.pl'), n(a, X), \c
+                 type(B, "purge_agent(a), consult('a.pl'), n(a, X), \c
                           writeln(n:X)."),
                  printed(B, ["n:1"]) )).
 test(local_definitions_take_precedence) :-
@@ -396,9 +396,9 @@ test(local_definitions_take_precedence) :-
                   ":- dynamic platform_port/1, tts/1." ]],
                [A],
                ( up(A, P, 1),
-                 says(A, "agent_list(X), writeln(X), nothing, move(there)."),
+                 type(A, "agent_list(X), writeln(X), nothing, move(there)."),
                  printed(A, ["mine", "my_nothing", "moving(there)"]),
-                 says(A, "\\+ tts(a), platform_port(Q), writeln(port:Q)."),
+                 type(A, "\\+ tts(a), platform_port(Q), writeln(port:Q)."),
                  line("port:~w", [P], Port),
                  printed(A, [Port]) )).
 
@@ -413,7 +413,7 @@ answers(Lines, Goals, Texts) :-
     ports(1, [P]),
     with_nodes([Lines], [A],
                ( up(A, P, 1),
-                 forall(member(Goal, Goals), says(A, Goal)),
+                 forall(member(Goal, Goals), type(A, Goal)),
                  printed(A, Texts) )).
 
 test(atoms_are_replaced_in_terms_only) :-
@@ -454,12 +454,12 @@ test(payload_named_like_a_library_predicate) :-
                  "partition(guid, 1, 2, 3)."|Program], []],
                [A,B],
                ( up(A, P1, 1), up(B, P2, 1),
-                 says(B, "partition(atom, [1], In, Out), \c
+                 type(B, "partition(atom, [1], In, Out), \c
                           writeln(loaded(In, Out))."),
                  printed(B, ["loaded([],[1])"]),
-                 says(A, Go),
+                 type(A, Go),
                  printed(B, ["got:7"]),
-                 says(B, "partition(c, 1, 2, X), writeln(x:X)."),
+                 type(B, "partition(c, 1, 2, X), writeln(x:X)."),
                  printed(B, ["x:3"]) )).
 test(oldest_agent_comes_first) :-
     answers([":- dynamic h/3.", "h(guid, _, main)."],
@@ -491,15 +491,15 @@ test(hop_times) :-
     with_nodes([[":- dynamic h/3.", "h(guid, _, main) :- writeln(in)."], []],
                [A,B],
                ( up(A, P1, 1), up(B, P2, 1),
-                 says(A, "in_hop_time_stat(X,Y,Z), writeln(X/Y/Z)."),
+                 type(A, "in_hop_time_stat(X,Y,Z), writeln(X/Y/Z)."),
                  line("create_mobile_agent(a, _, h, [1]), \c
                        move_agent(a, (localhost,~w)).", [P2], Go),
-                 says(A, Go), printed(B, ["in"]),
-                 says(A, "out_hop_times_details([(N,F,T,(D,M),S)]), \c
+                 type(A, Go), printed(B, ["in"]),
+                 type(A, "out_hop_times_details([(N,F,T,(D,M),S)]), \c
                           float(S), atom(D), writeln(N:F:T)."),
                  line("a:(localhost,~w):(localhost,~w)", [P1,P2], Out),
                  printed(A, ["0/0/0", Out]),
-                 says(B, "in_hop_time_stat(Max,Max,Max), in_hop_time(W,Max), \c
+                 type(B, "in_hop_time_stat(Max,Max,Max), in_hop_time(W,Max), \c
                           writeln(w:W)."),
                  printed(B, ["w:a"]) )).
 test(asserted_files_are_removed_by_reset) :-

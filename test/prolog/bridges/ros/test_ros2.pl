@@ -75,7 +75,7 @@ begin_host :-
     host_start(alpha),
     host_start(beta),
     ros_start(alpha, ros2, [deadline(20)]),
-    puppet(alpha, Agent),
+    goal_agent(alpha, Agent),
     assertz(agent(Agent)),
     wait_until(( remote(alpha, ros_services(Services)),
                  memberchk('/peer/get_parameters', Services),
@@ -186,7 +186,7 @@ test(service_offered_by_an_agent) :-
                                    [data='/agent/set 10'])),
     gets(alpha, Agent, request(Id, '/agent/set', Request)),
     assertion(Request.data == true),
-    wrong(alpha, Agent, ros_answer(Id, [messages=x]), Formal),
+    goal_error(alpha, Agent, ros_answer(Id, [messages=x]), Formal),
     assertion(Formal == existence_error(ros_field, messages)),
     does(alpha, Agent, ros_answer(Id, [success=true,message="by an agent"])),
     gets(alpha, Agent, topic('/asked', Message)),
@@ -235,9 +235,9 @@ test(parameters) :-
     does(alpha, Agent, ros_set_parameter('/peer', names, [c,"d"])),
     does(alpha, Agent, ros_parameter('/peer', names, List)),
     assertion(List == ["c","d"]),
-    wrong(alpha, Agent, ros_parameter('/peer', nothing, _), None),
+    goal_error(alpha, Agent, ros_parameter('/peer', nothing, _), None),
     assertion(None == existence_error(ros_parameter, nothing)),
-    wrong(alpha, Agent, ros_set_parameter('/peer', speed, fast), Refused),
+    goal_error(alpha, Agent, ros_set_parameter('/peer', speed, fast), Refused),
     assertion(Refused == ros_error(refused, speed)).
 
 test(lists_topics_and_services) :-
@@ -250,7 +250,7 @@ test(lists_topics_and_services) :-
 test(errors_are_reported) :-
     agent(Agent),
     forall(wrong_goal(Goal, Expected),
-           ( wrong(alpha, Agent, Goal, Formal),
+           ( goal_error(alpha, Agent, Goal, Formal),
              assertion(Formal == Expected) )).
 
 wrong_goal(ros_publish('/x', 'std_msgs/msg/Nothing', []),
@@ -279,7 +279,7 @@ wrong_goal(ros_subscribe('/nowhere', _),
            existence_error(ros_topic, '/nowhere')).
 
 test(leaving_agent_loses_its_registrations) :-
-    puppet(alpha, Agent),
+    goal_agent(alpha, Agent),
     does(alpha, Agent, ros_subscribe('/left', 'std_msgs/String')),
     does(alpha, Agent, ros_offer('/left/set', 'std_srvs/SetBool', [])),
     does(alpha, Agent, ros_goal('/fibonacci', 'test_msgs/Fibonacci',

@@ -37,7 +37,7 @@ on_hosts(Agent, URL, Options, Goal) :-
     setup_call_cleanup(
         ( host_start(alpha), host_start(beta) ),
         ( ros_start(alpha, URL, Options),
-          puppet(alpha, Agent),
+          goal_agent(alpha, Agent),
           once(Goal) ),
         ( host_stop(alpha), host_stop(beta) )).
 
@@ -105,7 +105,7 @@ test(frames_conform_to_the_protocol) :-
 
 test(two_agents_share_one_subscription) :-
     on_a_host(Agent, [],
-        ( puppet(alpha, Other),
+        ( goal_agent(alpha, Other),
           does(alpha, Agent, ros_subscribe('/t', 'std_msgs/String')),
           does(alpha, Other, ros_subscribe('/t', 'std_msgs/String')),
           does(alpha, Agent, ros_publish('/t', 'std_msgs/String', [data=a])),
@@ -128,7 +128,7 @@ test(leaving_agent_is_unsubscribed) :-
           agent_send(Agent, go(beta)),
           says("unsubscribe", Frame),
           assertion(Frame.topic == "/t"),
-          wrong(beta, Agent, ros_topics(_), Formal),
+          goal_error(beta, Agent, ros_topics(_), Formal),
           assertion(Formal = existence_error(procedure, _)) )).
 
 test(ended_agent_is_unsubscribed) :-
@@ -204,7 +204,7 @@ test(type_of_an_existing_topic) :-
         ( does(alpha, Agent, ros_publish('/b', 'std_msgs/String', [data=x])),
           does(alpha, Agent, ros_subscribe('/b', Type)),
           assertion(Type == 'std_msgs/String'),
-          wrong(alpha, Agent, ros_subscribe('/nowhere', _), Formal),
+          goal_error(alpha, Agent, ros_subscribe('/nowhere', _), Formal),
           assertion(Formal == existence_error(ros_topic, '/nowhere')) )).
 
 :- end_tests(rosbridge_topics).
@@ -221,7 +221,7 @@ test(a_call_is_answered) :-
 test(many_calls_at_a_time) :-
     on_a_host(_, [],
         ( numlist(1, 20, Ns),
-          findall(N-Agent, ( member(N, Ns), puppet(alpha, Agent) ), Pairs),
+          findall(N-Agent, ( member(N, Ns), goal_agent(alpha, Agent) ), Pairs),
           forall(member(N-Agent, Pairs),
                  agent_send(Agent,
                             do(( ros_call('/add_two_ints', 'a/B',
@@ -264,14 +264,14 @@ test(errors_are_reported) :-
                         ros_cancel(none)
                         - existence_error(ros_goal, none)
                       ]),
-               ( wrong(alpha, Agent, Goal, Formal),
+               ( goal_error(alpha, Agent, Goal, Formal),
                  X = X,
                  assertion(Formal == Expected) ))).
 
 test(a_late_answer_is_dropped) :-
     on_a_host(Agent, [],
-        ( wrong(alpha, Agent,
-                ros_call('/slow', 'a/B', [], _, [deadline(0.2)]), _),
+        ( goal_error(alpha, Agent,
+                     ros_call('/slow', 'a/B', [], _, [deadline(0.2)]), _),
           says("call_service", Frame),
           rosbridge_send(_{op:service_response, id:Frame.id, service:"/slow",
                            values:_{late:true}, result:true}),
@@ -280,7 +280,7 @@ test(a_late_answer_is_dropped) :-
 
 test(service_offered_by_an_agent) :-
     on_a_host(Agent, [],
-        ( puppet(alpha, Server),
+        ( goal_agent(alpha, Server),
           does(alpha, Server, ros_offer('/add', 'example_interfaces/AddTwoInts',
                                         [])),
           agent_send(Agent, do(ros_call('/add', 'a/B', [a=3,b=4], _))),
@@ -290,9 +290,10 @@ test(service_offered_by_an_agent) :-
           wait_until(remote(alpha, take(did(Agent, Result))), 5),
           Result = yes(ros_call(_, _, _, Response)),
           assertion(Response.sum == 7),
-          wrong(alpha, Server, ros_answer(Id, [sum=Sum]), Formal),
+          goal_error(alpha, Server, ros_answer(Id, [sum=Sum]), Formal),
           assertion(Formal == existence_error(ros_request, Id)),
-          wrong(alpha, Agent, ros_offer('/add', 'std_srvs/Empty', []), Taken),
+          goal_error(alpha, Agent, ros_offer('/add', 'std_srvs/Empty', []),
+                     Taken),
           assertion(Taken == permission_error(offer, ros_service, '/add')) )).
 
 %   A call is refused if the queue of the agent is full; it is not counted
@@ -317,7 +318,7 @@ test(a_call_that_is_dropped) :-
 
 test(a_service_that_fails) :-
     on_a_host(Agent, [],
-        ( puppet(alpha, Server),
+        ( goal_agent(alpha, Server),
           does(alpha, Server, ros_offer('/no', 'std_srvs/Empty', [])),
           agent_send(Agent, do(ros_call('/no', 'std_srvs/Empty', [], _))),
           gets(alpha, Server, request(Id, _, _)),
@@ -327,7 +328,7 @@ test(a_service_that_fails) :-
 
 test(leaving_agent_refuses_its_open_calls) :-
     on_a_host(Agent, [],
-        ( puppet(alpha, Server),
+        ( goal_agent(alpha, Server),
           does(alpha, Server, ros_offer('/no', 'std_srvs/Empty', [])),
           agent_send(Agent, do(ros_call('/no', 'std_srvs/Empty', [], _))),
           gets(alpha, Server, request(_, _, _)),
@@ -338,7 +339,7 @@ test(leaving_agent_refuses_its_open_calls) :-
 
 test(parameters_are_services_of_nodes) :-
     on_a_host(Agent, [],
-        ( puppet(alpha, Node),
+        ( goal_agent(alpha, Node),
           does(alpha, Node, ros_offer('/n/get_parameters', 'std_srvs/Empty',
                                       [])),
           agent_send(Agent, do(ros_parameter('/n', speed, _))),
@@ -362,7 +363,7 @@ test(goal_feedback_result) :-
           assertion(Feedback.sequence == [0,1,1]),
           gets(alpha, Agent, result(Id, Status, Result)),
           assertion(Status-Result.sequence == succeeded-[0,1,1,2,3,5]),
-          wrong(alpha, Agent, ros_cancel(Id), Formal),
+          goal_error(alpha, Agent, ros_cancel(Id), Formal),
           assertion(Formal == existence_error(ros_goal, Id)) )).
 
 test(a_goal_is_cancelled) :-
@@ -520,7 +521,7 @@ test(stopped_and_started_again) :-
           ros_property(alpha, way(URL)),
           ros_stop(alpha),
           wait_until(rosbridge_clients(0), 5),
-          wrong(alpha, Agent, ros_unsubscribe('/t'), Formal),
+          goal_error(alpha, Agent, ros_unsubscribe('/t'), Formal),
           assertion(Formal = existence_error(procedure, _)),
           ros_start(alpha, URL, []),
           does(alpha, Agent, ros_subscribe('/t', 'std_msgs/String')) )).
@@ -558,8 +559,8 @@ test(publishing_without_a_server_is_an_error) :-
             ( wait_until(rosbridge_clients(1), 5), % counted there, too
               rosbridge_end(URL),
               wait_until(ros_property(alpha, connected(false)), 5),
-              wrong(alpha, Agent, ros_publish('/t', 'std_msgs/String', []),
-                    Formal),
+              goal_error(alpha, Agent, ros_publish('/t', 'std_msgs/String', []),
+                         Formal),
               assertion(Formal == ros_error(not_connected, alpha)),
               does(alpha, Agent, ros_subscribe('/t', 'std_msgs/String')),
               split_string(URL, ":/", "", Parts),
@@ -582,7 +583,8 @@ test(one_type_per_topic) :-
     on_a_host(Agent, [],
         ( does(alpha, Agent, ros_publish('/t', 'std_msgs/String', [])),
           does(alpha, Agent, ros_publish('/t', 'std_msgs/msg/String', [])),
-          wrong(alpha, Agent, ros_publish('/t', 'std_msgs/Bool', []), Formal),
+          goal_error(alpha, Agent, ros_publish('/t', 'std_msgs/Bool', []),
+                     Formal),
           assertion(Formal == permission_error(use,
                                                ros_topic('std_msgs/String'),
                                                '/t')) )).

@@ -57,7 +57,7 @@ silent_then_back :-
     wait_until(step_on(b, Id, 1), 10),
     wait_until(\+ peer_do(a, agent_here(Id)), 10),
     peer_do(a, agent_send(Id, go)),
-    ended_well(a, Id, 3).
+    ended_done(a, Id, 3).
 
 killed_for_good :-
     in_doubt(Id),
@@ -317,11 +317,11 @@ namesakes :-
     Id1 \== Id2,
     Id1 \== Id3,
     peer_do(a, agent_send(Id2, go)),
-    ended_well(a, Id2, 3),
+    ended_done(a, Id2, 3),
     peer_do(a, agent_dispose(Id3)),
     ended(b, Id3, disposed),
     forall(between(1, 3, _), peer_do(b, agent_send(Id1, go))),
-    ended_well(b, Id1, 9).
+    ended_done(b, Id1, 9).
 
 %   The host that agents are leaving stops: each agent has left, or has ended.
 
@@ -390,7 +390,7 @@ visited_by(Client) :-
     peer_host(b, B),
     findall(Id, ( between(1, 2, _), set_out(a, [B, A], 300, Id) ), Ids),
     call_at(A, Bytes),
-    forall(member(Id, Ids), ended_well(a, Id, 300)),
+    forall(member(Id, Ids), ended_done(a, Id, 300)),
     wait_until(( peer_messages(a, Printed), Printed \== [] ), 10),
     one_line(Printed).
 
@@ -453,6 +453,6 @@ wrong_cookie :-
     set_out(a, [B, A], 300, Id),
     peer_do(c, try_move(A, [], Error)),
     Error == error(host_unreachable(A)),
-    ended_well(a, Id, 300),
+    ended_done(a, Id, 300),
     wait_until(( peer_messages(a, Printed), Printed \== [] ), 10),
     one_line(Printed).

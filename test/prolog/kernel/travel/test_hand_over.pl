@@ -173,7 +173,7 @@ test(changing_options_loses_no_agent) :-
                  ( peer_do(Peer, host_change(Peer, On)),
                    forall(member(X, [a, b]), travel(X, [B, A], 4)),
                    peer_do(Peer, host_change(Peer, Off)) )),
-          forall(member(Id, Ids), ended_well(a, Id, 200)) )).
+          forall(member(Id, Ids), ended_done(a, Id, 200)) )).
 
 :- end_tests(options_under_traffic).
 

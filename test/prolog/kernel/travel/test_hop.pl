@@ -73,8 +73,8 @@ cross_heavily(Facts) :-
             Ids),
     forall(member(Peer-Id, Ids),
            (   atom_concat(heavy, _, Id)
-           ->  ended_well(Peer, Id, 10)
-           ;   ended_well(Peer, Id, 100)
+           ->  ended_done(Peer, Id, 10)
+           ;   ended_done(Peer, Id, 100)
            )).
 
 codec(fast).
@@ -110,7 +110,7 @@ cut_all_the_time(Agents, Hops) :-
             Ids),
     thread_create(cutter(60), Cutter),
     call_cleanup(
-        forall(member(Id, Ids), ended_well(a, Id, Hops)),
+        forall(member(Id, Ids), ended_done(a, Id, Hops)),
         ( catch(thread_send_message(Cutter, stop), error(_, _), true),
           thread_join(Cutter, Status) )),
     Status == true.
@@ -160,7 +160,7 @@ cut_before_one_answer(A, B) :-
                  \+ peer_do(a, agent_here(Id)) ), 30),
     peer_do(a, agent_property(Id, host(B))),
     peer_do(a, agent_send(Id, go)),
-    ended_well(a, Id, 2).
+    ended_done(a, Id, 2).
 
 %   The data that b sends to a pass either proxy.
 

@@ -56,7 +56,7 @@ check('a process', process_create('/usr/bin/prlimit', [], []),
 check('a fork', ( fork(Pid), Pid \== child ), raised(_)).
 check('files of the system', open('/etc/passwd', read, _),
       raised(existence_error(_, _))).
-check('a file of the gatekeeper', open(bait(secret), read, _),
+check('a file of the gatekeeper', open(target(secret), read, _),
       raised(existence_error(_, _))).
 check('what is in /', directory_files(/, L),
       yes(directory_files(_, L), only_what_is_mounted(L))).
@@ -70,7 +70,7 @@ check('to fill the disk',
       raised(io_error(_, _))).
 check('shared memory', open('/dev/shm/x', write, _),
       raised(permission_error(_, _, _))).
-check('a port of the host', tcp_connect('127.0.0.1':bait(port), _, []),
+check('a port of the host', tcp_connect('127.0.0.1':target(port), _, []),
       raised(socket_error(econnrefused, _))).
 check('the internet', tcp_connect('192.0.2.1':80, _, []),
       raised(socket_error(enetunreach, _))).
@@ -78,14 +78,14 @@ check('a name server', tcp_host_to_address('example.org', _),
       raised(_)).
 check('a Unix socket of the host',
       ( use_module(library(socket)), unix_domain_socket(S),
-        tcp_connect(S, bait(other)) ), raised(existence_error(file, _))).
+        tcp_connect(S, target(other)) ), raised(existence_error(file, _))).
 check('other processes',
       ( directory_files('/proc', L),
         findall(N, ( member(X, L), atom_number(X, N) ), Ns) ),
       yes(( _, findall(_, _, Ns) ), ( length(Ns, C), C =< 2 ))).
 check('process 1 is this one', current_prolog_flag(pid, P),
       yes(current_prolog_flag(_, P), P == 1)).
-check('to kill the gatekeeper', process_kill(bait(pid), kill),
+check('to kill the gatekeeper', process_kill(target(pid), kill),
       raised(_)).
 check('memory of another process',
       open('/proc/2/mem', read, _), raised(_)).
@@ -113,15 +113,15 @@ check('/sys', open('/sys/class/net', read, _),
       raised(existence_error(_, _))).
 check('the root of process 1', open('/proc/1/root/etc/passwd', read, _),
       raised(existence_error(_, _))).
-check('memory of the gatekeeper', test_open_of(bait(pid), mem),
+check('memory of the gatekeeper', test_open_of(target(pid), mem),
       raised(existence_error(_, _))).
-check('the environment of the gatekeeper', test_open_of(bait(pid), environ),
+check('the environment of the gatekeeper', test_open_of(target(pid), environ),
       raised(existence_error(_, _))).
-check('memory of another cell', test_open_of(bait(cell), mem),
+check('memory of another cell', test_open_of(target(cell), mem),
       raised(existence_error(_, _))).
-check('files of another cell', test_open_of(bait(cell), 'root/tmp/policy'),
+check('files of another cell', test_open_of(target(cell), 'root/tmp/policy'),
       raised(existence_error(_, _))).
-check('to kill another cell', process_kill(bait(cell), kill), raised(_)).
+check('to kill another cell', process_kill(target(cell), kill), raised(_)).
 check('a link to a file of the system',
       ( link_file('/etc/shadow', '/tmp/link', symbolic),
         open('/tmp/link', read, _) ), raised(_)).

@@ -82,7 +82,7 @@ stopped_beside(What, Stopped) :-
 refused_again_and_again(Outcome, Lines) :-
     attempt(test_send(refused(150, 600)), Outcome),
     aggregate_all(count, audited(_), Lines),
-    bait(audit, Audit),
+    target(audit, Audit),
     size_file(Audit, Size),
     assertion(Size < 100 000).
 

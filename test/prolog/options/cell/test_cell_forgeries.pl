@@ -77,7 +77,7 @@ request(Name, Goal, Expected) :-
              'a private predicate'-'$set_source_module'(user),
              'a hook'-'typhon_gate:gate'(a, b, c, d),
              'a message of another sender'-send(a, b, c),
-             'an order to another agent'-agent_dispose(bait(agent)),
+             'an order to another agent'-agent_dispose(target(agent)),
              'a goal on another host'-remote(x, true),
              'options of the host'-host_change(c, policy(trusted))
            ]),
@@ -114,7 +114,7 @@ request('a program of a file', create('/etc/passwd', _, []),
 request('payloads of a file',
         create(self, _, [payloads(['/etc/passwd'])]),
         raised(permission_error(call, sandboxed, _))).
-request('to end another agent', dispose(bait(agent)),
+request('to end another agent', dispose(target(agent)),
         raised(permission_error(call, sandboxed, _))).
-request('to end with another agent', monitor(bait(agent), [shared(true)]),
+request('to end with another agent', monitor(target(agent), [shared(true)]),
         raised(permission_error(call, sandboxed, _))).
