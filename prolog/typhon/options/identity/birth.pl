@@ -94,10 +94,10 @@ may_change(_, Id, _) :-
 
 papers(_, program(Id, Hash, Endpoint), Sent, Papers) :-
     proof_of(Endpoint, Proof),
-    \+ believed(Proof, Id),
+    \+ has_birth(Proof, Id),
     birth(Id, Hash, Birth),
     !,
-    now_has(Id, Proof),
+    note_has(Id, Proof),
     Papers = papers(Birth, Sent).
 papers(_, _, Sent, Sent).
 
@@ -106,10 +106,10 @@ proof_of(Endpoint, Proof) :-
     !.
 proof_of(_, unknown).
 
-believed(Proof, Id) :-
+has_birth(Proof, Id) :-
     has(Id, Proof),
     !.
-believed(Proof, Id) :-
+has_birth(Proof, Id) :-
     is_ours(Proof, Id).
 
 %   A process with the same keys can sign all that this process can.
@@ -118,9 +118,9 @@ is_ours(Proof, Id) :-
     endpoint_own_proof(Proof),
     agent_owned(Id).
 
-now_has(_, unknown) :-
+note_has(_, unknown) :-
     !.
-now_has(Id, Proof) :-
+note_has(Id, Proof) :-
     with_mutex(typhon_birth,
                ( retractall(has(Id, Proof)),
                  assertz(has(Id, Proof)),
@@ -201,7 +201,7 @@ proved(Papers, Proof, Id, Hash) :-
     subsumes_term(papers(birth(Id, Hash, _, _), _), Papers),
     arg(1, Papers, Birth),
     birth_good(Birth),
-    now_has(Id, Proof).
+    note_has(Id, Proof).
 
 %!  birth_good(+Birth) is semidet.
 %
@@ -213,7 +213,7 @@ birth_good(Birth) :-
     Birth = birth(Id, Hash, Certificate, Hex),
     (   known(Id, Birth)
     ->  true
-    ;   short([Id, Hash, Certificate]),
+    ;   within_size([Id, Hash, Certificate]),
         own_keys(Keys),
         birth_text(Id, Hash, Text),
         atom_string(Certificate, Pem),
@@ -226,7 +226,7 @@ birth_good(Birth) :-
 %   Verified births are kept, also in the journal, and any process with keys can
 %   sign arbitrary ones.
 
-short(Atoms) :-
+within_size(Atoms) :-
     maplist(atom, Atoms),
     maplist(atom_length, Atoms, Lengths),
     sum_list(Lengths, Length),
@@ -323,23 +323,23 @@ agent_owned(Id, Owner) :-
     sub_atom(Mark, _, _, After, -),
     !,
     sub_atom(Mark, _, After, 0, Said),
-    spelt(Owner, Said).
+    encoded(Owner, Said).
 
 typhon_identity:mark_suffix(Part) :-
     own_keys(_),
     endpoint_own_proof(certificate(Name)),
-    spelt(Name, Spelt),
+    encoded(Name, Spelt),
     atom_concat(-, Spelt, Part).
 
-%   spelt(+Name, -Spelt): Spelt is Name with numbers for characters that could
+%   encoded(+Name, -Spelt): Spelt is Name with numbers for characters that could
 %   be mistaken for another part of an id.
 
-spelt(Name, Spelt) :-
+encoded(Name, Spelt) :-
     atom_codes(Name, Codes),
-    foldl(spelt_code, Codes, Parts, []),
+    foldl(encoded_code, Codes, Parts, []),
     atomic_list_concat(Parts, Spelt).
 
-spelt_code(Code, [Part|Parts], Parts) :-
+encoded_code(Code, [Part|Parts], Parts) :-
     (   Code < 128,
         ( code_type(Code, csym) ; Code =:= 0'- )
     ->  char_code(Part, Code)

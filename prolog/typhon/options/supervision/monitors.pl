@@ -61,7 +61,7 @@ goal of this process.
     asked/2,                    % Agent, Since: a request to its home is open;
                                 % Since is `first`, `before` if it repeats a
                                 % lost request, or `lost`: the home is gone
-    minded/1,                   % Id: its monitors are removed when it ends
+    removal_set/1,              % Id: its monitors are removed when it ends
     goal/2.                     % N, Goal
 
 :- durable(monitor, Key, 0, Watcher-Agent, monitor(Key, Watcher, Agent)).
@@ -75,7 +75,7 @@ typhon_runtime:ending(after) :-
 forget :-
     retractall(monitor(_, _, _)),
     retractall(asked(_, _)),
-    retractall(minded(_)),
+    retractall(removal_set(_)),
     retractall(goal(_, _)).
 
                 /*******************************
@@ -122,18 +122,18 @@ shares(Agent, Change) :-
     (   endpoint_address(Home)
     ->  ignore(Change)
     ;   endpoint_request(Home, monitor, Change,
-                         typhon_monitors:share_said(Agent, Change))
+                         typhon_monitors:share_answered(Agent, Change))
     ).
 
-:- public share_said/3.
+:- public share_answered/3.
 
-share_said(_, _, answer(_)) :-
+share_answered(_, _, answer(_)) :-
     !.
-share_said(Agent, Change, _) :-
+share_answered(Agent, Change, _) :-
     agent_home_endpoint(Agent, Home),
     (   endpoint_gone(Home)
     ->  true
-    ;   later(Agent, share(Change))
+    ;   retry_later(Agent, share(Change))
     ).
 
 monitor_remove(Watcher, Agent) :-
@@ -149,7 +149,7 @@ monitor_add(Watcher, Agent) :-
     key(Watcher, Agent, Key),
     with_mutex(typhon_monitors, add(Key, Watcher, Agent, New)),
     (   New == true
-    ->  mind(Watcher),
+    ->  remove_at_end(Watcher),
         watch(Agent, first)
     ;   true
     ).
@@ -162,21 +162,21 @@ add(Key, Watcher, Agent, true) :-
 
 %   When an agent ends, its own monitors are removed.
 
-mind(ends(Id)) :-
+remove_at_end(ends(Id)) :-
     !,
-    mind(Id).
-mind(Id) :-
+    remove_at_end(Id).
+remove_at_end(Id) :-
     atom(Id),
-    \+ minded(Id),
+    \+ removal_set(Id),
     !,
-    assertz(minded(Id)),
-    outcome_wait(Id, inf, call(typhon_monitors:over(Id))).
-mind(_).
+    assertz(removal_set(Id)),
+    outcome_wait(Id, inf, call(typhon_monitors:watcher_ended(Id))).
+remove_at_end(_).
 
-:- public over/2.
+:- public watcher_ended/2.
 
-over(Id, _) :-
-    retractall(minded(Id)),
+watcher_ended(Id, _) :-
+    retractall(removal_set(Id)),
     findall(Watcher-Agent,
             ( member(Watcher, [Id,ends(Id)]), monitor(_, Watcher, Agent) ),
             Pairs),
@@ -244,37 +244,37 @@ monitor_call(Agent, OnDown) :-
 %   request is open.
 
 watch(Agent, Since) :-
-    with_mutex(typhon_monitors, to_ask(Agent, Since)),
+    with_mutex(typhon_monitors, note_request(Agent, Since)),
     !,
     agent_home_endpoint(Agent, Home),
     (   endpoint_address(Home)
     ->  monitored_add(Agent, call(typhon_monitors:down(Agent)))
     ;   endpoint_request(Home, monitor, watch(Agent),
-                         typhon_monitors:said(Agent, Home))
+                         typhon_monitors:home_answered(Agent, Home))
     ).
 watch(_, _).
 
-to_ask(Agent, Since) :-
+note_request(Agent, Since) :-
     \+ asked(Agent, _),
     monitor(_, _, Agent),
     assertz(asked(Agent, Since)).
 
-:- public said/3.
+:- public home_answered/3.
 
-said(Agent, Home, answer(unknown)) :-
+home_answered(Agent, Home, answer(unknown)) :-
     !,
     (   asked(Agent, before)
     ->  scheduler_call(typhon_monitors:lost(Home))
     ;   scheduler_call(typhon_monitors:unknown(Agent))
     ).
-said(Agent, _, answer(Outcome)) :-
+home_answered(Agent, _, answer(Outcome)) :-
     !,
     down(Agent, Outcome).
-said(Agent, Home, _) :-
+home_answered(Agent, Home, _) :-
     (   endpoint_gone(Home)
     ->  scheduler_call(typhon_monitors:lost(Home))
     ;   retractall(asked(Agent, _)),
-        later(Agent, watch)
+        retry_later(Agent, watch)
     ).
 
 %   unknown(+Agent): the process at the address of its home does not know Agent.
@@ -293,14 +293,14 @@ unknown(Agent) :-
 :- public lost/1.
 
 lost(Home) :-
-    with_mutex(typhon_monitors, claim(Home, Agents)),
+    with_mutex(typhon_monitors, claim_lost(Home, Agents)),
     (   Agents == []
     ->  true
     ;   orphans_end(Agents),
         forall(member(Agent, Agents), lost_with_home(Agent))
     ).
 
-claim(Home, Agents) :-
+claim_lost(Home, Agents) :-
     findall(Agent,
             ( asked(Agent, Since),
               Since \== lost,
@@ -313,7 +313,7 @@ lost_with_home(Agent) :-
     agent_home(Agent, Address),
     down(Agent, lost(Address)).
 
-later(Agent, What) :-
+retry_later(Agent, What) :-
     setting(again_seconds, Seconds),
     alarm_in(Seconds, Agent, monitor(What)).
 
@@ -339,7 +339,7 @@ typhon_durable:go_on :-
 go_on :-
     findall(Watcher-Agent, monitor(_, Watcher, Agent), Pairs),
     forall(member(Watcher-Agent, Pairs),
-           ( mind(Watcher), watch(Agent, first) )).
+           ( remove_at_end(Watcher), watch(Agent, first) )).
 
 %   The goals of agent_monitor/2 ended with the process that kept the journal,
 %   and a new goal may get the number of one of them.
@@ -360,9 +360,9 @@ down(Agent, Outcome) :-
     retractall(asked(Agent, _)),
     findall(Watcher, monitor(_, Watcher, Agent), Watchers),
     forall(member(Watcher, Watchers),
-           unit_of_work(used(Watcher, Agent, Outcome))).
+           unit_of_work(fire_monitor(Watcher, Agent, Outcome))).
 
-used(Watcher, Agent, Outcome) :-
+fire_monitor(Watcher, Agent, Outcome) :-
     (   monitor_remove(Watcher, Agent)
     ->  notify(Watcher, Agent, Outcome)
     ;   true
@@ -370,26 +370,26 @@ used(Watcher, Agent, Outcome) :-
 
 notify(call(N), Agent, Outcome) :-
     !,
-    scheduler_call(typhon_monitors:called(N, Agent, Outcome)).
+    scheduler_call(typhon_monitors:call_goal(N, Agent, Outcome)).
 notify(ends(_), _, done) :-
     !.
 notify(ends(Id), _, _) :-
     !,
-    scheduler_call(typhon_monitors:shares_end(Id)).
+    scheduler_call(typhon_monitors:dispose_follower(Id)).
 notify(Id, Agent, Outcome) :-
     post_on(Id, [system-down(Agent, Outcome)]).
 
-:- public shares_end/1, called/3.
+:- public dispose_follower/1, call_goal/3.
 
-shares_end(Id) :-
+dispose_follower(Id) :-
     catch(agent_dispose(Id), error(_, _), true).
 
-called(N, Agent, Outcome) :-
+call_goal(N, Agent, Outcome) :-
     retract(goal(N, Goal)),
     !,
-    call_cleanup(called_back(Goal, Agent, Outcome), release(N)).
+    call_cleanup(call_and_report(Goal, Agent, Outcome), release(N)).
 
-called_back(Goal, Agent, Outcome) :-
+call_and_report(Goal, Agent, Outcome) :-
     catch(ignore(call(Goal, Agent, Outcome)), Ball,
           ( is_abort(Ball) -> throw(Ball) ; print_error(warning, Ball) )).
 

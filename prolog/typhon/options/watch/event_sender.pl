@@ -38,7 +38,7 @@ else for an event, so a sender that waits gets one `some`, and others get none.
            "Seconds that a disconnected watching process has to answer").
 
 batch(1000).
-plenty(256).                    % so many events are sent without delay
+many_events(256).               % so many events are sent without delay
 
 %!  sender_run(+To) is det.
 %
@@ -74,7 +74,7 @@ gather(To) :-
     setting(delay, Seconds),
     (   thread_get_message(Signals, Message, [timeout(Seconds)])
     ->  handle_message(Message, To, gather(To))
-    ;   pour(To)
+    ;   send_batches(To)
     ).
 
 %   handle_message(+Message, +To, :Next): continue with Next, unless the watch
@@ -91,7 +91,7 @@ handle_message(now(check), To, Next) :-
 handle_message(now(answered(_)), _, Next) :-
     call(Next).
 handle_message(end(ReplyTo), To, _) :-
-    pour_out(To),
+    send_rest(To),
     (   ReplyTo == none
     ->  true
     ;   endpoint_reply(ReplyTo, ended)
@@ -103,24 +103,24 @@ is_there(to(Peer, Id, _, _)) :-
           error(_, _), fail),
     Answer == yes.
 
-pour(To) :-
+send_batches(To) :-
     To = to(_, _, _, Buffer),
     (   send(To)
     ->  (   buffer_size(Buffer, Size),
-            plenty(Plenty),
-            Size >= Plenty
-        ->  pour(To)
+            many_events(Many),
+            Size >= Many
+        ->  send_batches(To)
         ;   sender_run(To)
         )
     ;   true                            % the watch has ended
     ).
 
-pour_out(To) :-
+send_rest(To) :-
     To = to(_, _, _, Buffer),
     (   buffer_size(Buffer, 0)
     ->  true
     ;   send(To)
-    ->  pour_out(To)
+    ->  send_rest(To)
     ;   true
     ).
 
@@ -138,7 +138,7 @@ send(To) :-
 
 hand_over(Events, To) :-
     To = to(Peer, Id, Signals, _),
-    catch(( give(Peer, Id, Events, Signals),
+    catch(( transmit(Peer, Id, Events, Signals),
             Given = true ),
           error(Formal, _),
           Given = Formal),
@@ -166,7 +166,7 @@ hand_over_parts(Events, To) :-
 
 %   Within this process events do not cross the wire.
 
-give(Peer, Id, Events, Signals) :-
+transmit(Peer, Id, Events, Signals) :-
     endpoint_address(Peer),
     !,
     OnAnswer = typhon_event_sender:answered(Signals),
@@ -174,7 +174,7 @@ give(Peer, Id, Events, Signals) :-
     ->  true
     ;   call(OnAnswer, answer(no))
     ).
-give(Peer, Id, Events, Signals) :-
+transmit(Peer, Id, Events, Signals) :-
     endpoint_request(Peer, watched, events(Id, Events),
                      typhon_event_sender:answered(Signals)).
 

@@ -86,7 +86,7 @@ typhon_watched_hosts:answer(numbers, Numbers) :-
 number(typhon_hosts, '', [], Count) :-
     aggregate_all(count, host(_, _, _), Count).
 number(typhon_agents, '', [program=Program, state=State], Count) :-
-    aggregate(count, agent_is(Program, State), Count).
+    aggregate(count, agent_counted(Program, State), Count).
 number(typhon_connections, '', [], Count) :-
     aggregate_all(count,
                   ( endpoint_peer(Address, state(up)),
@@ -118,7 +118,7 @@ bound_text(Bound, Bound).
 
 %   An agent whose status changes meanwhile must not be counted twice.
 
-agent_is(Program, State) :-
+agent_counted(Program, State) :-
     agent(Id, _, _, Hash, _),
     code_program(Hash, program(Program, _, _, _)),
     once(agent_status(Id, Status, _)),
@@ -142,14 +142,14 @@ begin :-
     !.
 begin :-
     assertz(counting),
-    forall(host(Name, _, _), count_on(Name)).
+    forall(host(Name, _, _), count_events(Name)).
 
-count_on(Name) :-
+count_events(Name) :-
     events_subscribe([life, faults, hops, messages], Name, count).
 
 typhon_hosting:begins(Name) :-
     counting,
-    count_on(Name).
+    count_events(Name).
 
 typhon_runtime:ending(after) :-
     retractall(counting),

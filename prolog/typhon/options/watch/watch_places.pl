@@ -55,7 +55,7 @@ place_begin(Watch, asked(Endpoint, Wanted, Answer), Events) :-
         findall(Event,
                 ( member(Host, Hosts),
                   clock_of_others(Watch, Clock),
-                  now_is(lost, Host, Clock, Event) ),
+                  event_now(lost, Host, Clock, Event) ),
                 Events)
     ).
 
@@ -76,7 +76,7 @@ put_state(Watch, Endpoint, State) :-
     retractall(state(Watch, Endpoint, _)),
     assertz(state(Watch, Endpoint, State)).
 
-now_is(What, Host, Clock, event(Time, Host, none, What)) :-
+event_now(What, Host, Clock, event(Time, Host, none, What)) :-
     time_at(Clock, Time).
 
 %!  place_at(+Watch, ?Peer, ?State, -Endpoint) is nondet.
@@ -121,7 +121,7 @@ place_answered(Watch, Endpoint, answer(watching(_, New, Hosts)), Events) :-
     findall(Event,
             ( member(Host-Clock, Hosts),
               newly_runs(Watch, Endpoint, Host, Clock),
-              now_is(started, Host, Clock, Event) ),
+              event_now(started, Host, Clock, Event) ),
             Started),
     append(Lost, Started, Events).
 place_answered(Watch, Endpoint, _, Events) :-
@@ -142,7 +142,7 @@ newly_runs(Watch, Endpoint, Host, Clock) :-
 all_lost(Watch, Endpoint, Events) :-
     findall(Event,
             ( runs(Watch, Endpoint, Host, Clock),
-              now_is(lost, Host, Clock, Event) ),
+              event_now(lost, Host, Clock, Event) ),
             Events),
     retractall(runs(Watch, Endpoint, _, _)).
 

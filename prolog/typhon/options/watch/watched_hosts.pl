@@ -168,13 +168,13 @@ processes_overview(Hosts, Processes, Silent) :-
     ask_processes(Places, overview, 5, Answers, Silent),
     findall(Process,
             ( member(place(_, Wanted, _)-Answer, Answers),
-              only(Wanted, Answer, Process) ),
+              wanted_part(Wanted, Answer, Process) ),
             Processes).
 
-only(all, Process, Process) :-
+wanted_part(all, Process, Process) :-
     !.
-only(Names, process(Endpoint, Pid, Hosts0, Agents0),
-     process(Endpoint, Pid, Hosts, Agents)) :-
+wanted_part(Names, process(Endpoint, Pid, Hosts0, Agents0),
+            process(Endpoint, Pid, Hosts, Agents)) :-
     findall(Host,
             ( member(Host, Hosts0), arg(1, Host, Address),
               address_parts(Address, Name, _), memberchk(Name, Names) ),

@@ -45,14 +45,14 @@ watch_begin(Hosts, OnEvent, Watch) :-
              runtime_acquire(watch(Id), []),
              begin(Id, Hosts, OnEvent),
              Catcher,
-             unless_begun(Catcher, Id))),
+             release_unless_begun(Catcher, Id))),
     Watch = Id.
 
 begin(Id, Hosts, OnEvent) :-
     watched_places(Hosts, Places),
     receiver_open(Id, Queue),
     catch(start_thread(Places, Id, Queue, OnEvent), Ball,
-          ( give_up(Places, Id, Queue),
+          ( undo_begin(Places, Id, Queue),
             throw(Ball) )).
 
 start_thread(Places, Id, Queue, OnEvent) :-
@@ -62,7 +62,7 @@ start_thread(Places, Id, Queue, OnEvent) :-
                   [alias(Alias)]),
     assertz(watch_thread(Id, Thread)).
 
-give_up(Places, Id, Queue) :-
+undo_begin(Places, Id, Queue) :-
     receiver_close(Id),
     message_queue_destroy(Queue),
     forall(member(place(Endpoint, _, _), Places),
@@ -72,9 +72,9 @@ give_up(Places, Id, Queue) :-
 
 ignored(_).
 
-unless_begun(exit, _) :-
+release_unless_begun(exit, _) :-
     !.
-unless_begun(_, Id) :-
+release_unless_begun(_, Id) :-
     in_own_thread(runtime_release(watch(Id))).
 
 %   ask(+Place, +Id, -Asked): request the events of the watch Id from Place.  If
@@ -88,19 +88,19 @@ ask(place(Endpoint, Wanted, Hosts), Id, asked(Endpoint, Wanted, Answer)) :-
     catch(process_ask(Endpoint, Who, watch, watch(Id, Wanted), Answer, 10),
           error(Formal, Context),
           process_gone(Hosts, error(Formal, Context), Answer)),
-    must_have(Hosts, Answer).
+    must_have_hosts(Hosts, Answer).
 
 process_gone(carried(Addresses), _, Answer) =>
     Answer = gone(Addresses).
 process_gone(_, Error, _) =>
     throw(Error).
 
-must_have(asked(Hosts), watching(_, _, There)) =>
+must_have_hosts(asked(Hosts), watching(_, _, There)) =>
     forall(( member(Name-Host, Hosts),
              \+ ( member(Address-_, There),
                   address_parts(Address, Name, _) ) ),
            host_unknown(Host)).
-must_have(carried(_), _) =>
+must_have_hosts(carried(_), _) =>
     true.
 
                 /*******************************

@@ -93,14 +93,14 @@ is_payload(Located) :-
 
 payload_problems(Located, Errors, Warnings) :-
     payload_terms(Located, _, Errors0),
-    moves(Errors0, Located, Errors, Warnings).
+    clause_problems(Errors0, Located, Errors, Warnings).
 
-%   moves(+Errors0, +Located, -Errors, -Warnings): Errors and Warnings are those
-%   of a program with the same clauses, but a payload may change predicates
-%   that it provides without a declaration.
+%   clause_problems(+Errors0, +Located, -Errors, -Warnings): Errors and Warnings
+%   are those of a program with the same clauses, but a payload may change
+%   predicates that it provides without a declaration.
 
-moves([Error|Errors], _, [Error|Errors], []).
-moves([], Located, Errors, Warnings) :-
+clause_problems([Error|Errors], _, [Error|Errors], []).
+clause_problems([], Located, Errors, Warnings) :-
     file_parts(payload, Located, Parts, _),
     part(rules, Parts, Rules),
     part(directives, Parts, Directives),

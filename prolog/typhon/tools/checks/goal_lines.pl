@@ -26,7 +26,7 @@ typhon_programs:problem_at_goal(Problem0, Problem) :-
 
 problem_at_goal(problem(Formal, File:Line0, Advice),
                 problem(Formal, File:Line, Advice)) :-
-    about(Formal, Advice, Target),
+    problem_target(Formal, Advice, Target),
     source_clause(File:Line0, Clause),
     position(Target, Clause, Offset),
     line_at(File, Offset, Line),
@@ -34,19 +34,19 @@ problem_at_goal(problem(Formal, File:Line0, Advice),
     !.
 problem_at_goal(Problem, Problem).
 
-%   about(+Formal, +Advice, -Target) is semidet: a problem with Formal and
-%   Advice is located at Target: goal(PI), a call of PI; within(Context, PI), a
-%   call of PI in an argument of Context; change(PI), a goal that changes PI; or
-%   variable(Name).
+%   problem_target(+Formal, +Advice, -Target) is semidet: a problem with Formal
+%   and Advice is located at Target: goal(PI), a call of PI; within(Context,
+%   PI), a call of PI in an argument of Context; change(PI), a goal that changes
+%   PI; or variable(Name).
 
-about(unknown_procedure(PI), _, goal(PI)).
-about(lost_choice(_, PI, _), _, goal(PI)).
-about(permission_error(call, control_predicate, PI), inside(Context),
-      within(Context, PI)).
-about(permission_error(modify, static_procedure, PI), undeclared(PI),
-      change(PI)).
-about(undeclared_state(PI), _, change(PI)).
-about(singletons([Name|_]), _, variable(Name)).
+problem_target(unknown_procedure(PI), _, goal(PI)).
+problem_target(lost_choice(_, PI, _), _, goal(PI)).
+problem_target(permission_error(call, control_predicate, PI), inside(Context),
+               within(Context, PI)).
+problem_target(permission_error(modify, static_procedure, PI), undeclared(PI),
+               change(PI)).
+problem_target(undeclared_state(PI), _, change(PI)).
+problem_target(singletons([Name|_]), _, variable(Name)).
 
 %   position(+Target, +Clause, -Offset) is semidet.
 
@@ -56,7 +56,7 @@ position(variable(Name), clause(Term, Layout, Names), Offset) :-
     part(Term, Layout, Part, At),
     Part == Variable,
     !,
-    begins(At, Offset).
+    start_offset(At, Offset).
 position(Target, clause(Term, Layout, _), Offset) :-
     body(Term, Layout, Body, BodyAt),
     part(Body, BodyAt, Part, At),
@@ -71,13 +71,13 @@ body((_-->Body), term_position(_, _, _, _, [_,At]), Body, At).
 
 is_target(goal(PI), Part, At, Offset) :-
     calls(Part, PI),
-    begins(At, Offset).
+    start_offset(At, Offset).
 is_target(within(Context, PI), Part, At, Offset) :-
     calls(Part, Context),
     argument(Part, At, Argument, ArgumentAt),
     part(Argument, ArgumentAt, Goal, GoalAt),
     calls(Goal, PI),
-    begins(GoalAt, Offset).
+    start_offset(GoalAt, Offset).
 is_target(change(Name/Arity), Part, At, Offset) :-
     compound(Part),
     compound_name_arguments(Part, Change, [Clause]),
@@ -86,7 +86,7 @@ is_target(change(Name/Arity), Part, At, Offset) :-
     ( Clause = (Head:-_) -> true ; Head = Clause ),
     callable(Head),
     functor(Head, Name, Arity),
-    begins(At, Offset).
+    start_offset(At, Offset).
 
 %   calls(+Term, +PI) is semidet: Term calls PI, or is a closure of PI, to which
 %   arguments are added.
@@ -125,7 +125,7 @@ argument(List, list_position(_, _, Ats, At), Tail, At) :-
     length(Begin, Count),
     append(Begin, Tail, List).
 
-begins(Layout, Offset) :-
+start_offset(Layout, Offset) :-
     arg(1, Layout, Offset).
 
 %   Offset is a number of characters, so the text is read, not the bytes.

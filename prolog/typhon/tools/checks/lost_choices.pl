@@ -132,7 +132,7 @@ walk(catch(Goal,_,Recovery), Program, Path0, Path) -->
 walk(Goal, Program, Path0, Path) -->
     { stopped(Goal, Program, Path0, Path1) },
     fails(Goal, Path1),
-    { goes_on(Goal, Program, Path1, Path) }.
+    { after_goal(Goal, Program, Path1, Path) }.
 
 %   condition(+If, +Program, +Path0, -Path)//: when If fails, no goal before it
 %   is retried.
@@ -184,15 +184,15 @@ stopped(Goal, own(_, Mobile)-_, path(Seen, Left, Lost0),
     append(Given, Lost0, Lost).
 stopped(Goal, _, path(Seen, Left, Lost), path(Seen-Goal, Left, Lost)).
 
-%   goes_on(+Goal, +Program, +Path0, -Path): the path after Goal; stopped/4 has
-%   dealt with its stop.
+%   after_goal(+Goal, +Program, +Path0, -Path): the path after Goal; stopped/4
+%   has dealt with its stop.
 
-goes_on(Goal, _, _, dead) :-
+after_goal(Goal, _, _, dead) :-
     is_fail(Goal),
     !.
-goes_on(Goal, Program, path(Seen, Left0, Lost), Path) :-
+after_goal(Goal, Program, path(Seen, Left0, Lost), Path) :-
     Seen = Before-_,
-    (   chooses(Goal)
+    (   may_choose(Goal)
     ->  chosen(Left0, Left)
     ;   Left = Left0
     ),
@@ -244,12 +244,12 @@ is_test(Goal) :-
                     memberchk/2, forall/2, sense/1, take/1, receive/2,
                     receive_until/2 ]).
 
-%   chooses(+Goal) is semidet: Goal may be meant to choose between clauses.
+%   may_choose(+Goal) is semidet: Goal may be meant to choose between clauses.
 
-chooses(Goal) :-
+may_choose(Goal) :-
     is_test(Goal),
     !.
-chooses(Goal) :-
+may_choose(Goal) :-
     indicator(Goal, PI),
     (   memberchk(PI, [ (=)/2, retract/1 ])
     ->  true
@@ -261,7 +261,7 @@ chooses(Goal) :-
 %   it.  Program is own(State, _)-Clauses.
 
 solutions(Goal, Seen, _-Clauses, sure) :-
-    (   finds(Goal, What)
+    (   leaves_choices(Goal, What)
     ;   facts(Goal, Clauses, What)
     ),
     term_variables(Seen, Old),
@@ -282,24 +282,24 @@ solutions(Goal, _, own(State, _)-Clauses, maybe) :-
     ;   true
     ).
 
-%   finds(+Goal, -What) is semidet: Goal has several solutions if What is
-%   unbound.
+%   leaves_choices(+Goal, -What) is semidet: Goal has several solutions if What
+%   is unbound.
 
-finds(member(X, List), X) :- \+ subsumes_term([_], List).
-finds(select(X, _, _), X).
-finds(select(X, _, _, _), X).
-finds(nth0(I, _, _), I).
-finds(nth1(I, _, _), I).
-finds(between(_, _, X), X).
-finds(append(X, _, _), X).
-finds(permutation(_, X), X).
-finds(clause(_, Body), Body).
-finds(sub_atom(_, B, L, A, Sub), [B,L,A,Sub]).
-finds(sub_string(_, B, L, A, Sub), [B,L,A,Sub]).
-finds(current_op(P, T, N), [P,T,N]).
-finds(sense(Fact), Fact).
-finds(pheromone(Problem, Source, _), [Problem,Source]).
-finds(neighbour(Host, _), Host).
+leaves_choices(member(X, List), X) :- \+ subsumes_term([_], List).
+leaves_choices(select(X, _, _), X).
+leaves_choices(select(X, _, _, _), X).
+leaves_choices(nth0(I, _, _), I).
+leaves_choices(nth1(I, _, _), I).
+leaves_choices(between(_, _, X), X).
+leaves_choices(append(X, _, _), X).
+leaves_choices(permutation(_, X), X).
+leaves_choices(clause(_, Body), Body).
+leaves_choices(sub_atom(_, B, L, A, Sub), [B,L,A,Sub]).
+leaves_choices(sub_string(_, B, L, A, Sub), [B,L,A,Sub]).
+leaves_choices(current_op(P, T, N), [P,T,N]).
+leaves_choices(sense(Fact), Fact).
+leaves_choices(pheromone(Problem, Source, _), [Problem,Source]).
+leaves_choices(neighbour(Host, _), Host).
 
 %   facts(+Goal, +Clauses, -What): the predicate of Goal has several clauses,
 %   all facts; What is its first argument, which selects one of them if it is

@@ -61,12 +61,12 @@ undeclared_problem(Rules, State,
     distinct(PI, changed(Rules, PI, Location)),
     \+ memberchk(PI, State),
     \+ defined(Rules, PI),
-    \+ hidden(PI).
+    \+ reserved(PI).
 
 %   Predicates of the vocabulary keep facts in the state of an agent under names
 %   that begin with $; programs do not declare these.
 
-hidden(Name/_) :-
+reserved(Name/_) :-
     sub_atom(Name, 0, _, _, $).
 
 %   apart(+Clauses, -PI, -Location) is nondet: a clause of PI is at Location;

@@ -44,19 +44,19 @@ warn(_, _, _, []) :-
     !.
 warn(Key, Hash, Sources, Warnings0) :-
     partition(is_unknown, Warnings0, Unknown, Warnings),
-    (   with_mutex(typhon_warnings, is_news(Key, Sources, Hash, Unknown))
+    (   with_mutex(typhon_warnings, is_new(Key, Sources, Hash, Unknown))
     ->  forall(member(Warning, Warnings), print_warning(Warning))
     ;   true
     ).
 
 is_unknown(problem(unknown_procedure(_), _, _)).
 
-is_news(Key, _, _, _) :-
+is_new(Key, _, _, _) :-
     warned(Key, Sources, _, _),
     source_same(Sources),
     !,
     fail.
-is_news(Key, Sources, Hash, Unknown) :-
+is_new(Key, Sources, Hash, Unknown) :-
     retractall(warned(Key, _, _, _)),
     assertz(warned(Key, Sources, Hash, Unknown)),
     bounded(warned(_, _, _, _), typhon_loaded:files).

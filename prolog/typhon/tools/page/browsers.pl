@@ -40,7 +40,7 @@ a thread that sends it the texts, and one that detects when it disconnects.
 
 :- dynamic
     browser/3,                  % Queue, Thread, Skipped: dropped events
-    teller/1.                   % Server
+    sender/1.                   % Server
 
 %   The sizes of the queue of events, and of the queue of texts for one browser.
 
@@ -59,19 +59,19 @@ frames_waiting(40).
 
 browsers_start :-
     queue_size(Size),
-    server_start(page, typhon_page_browsers:gathers, none, [max_size(Size)],
-                 Teller),
-    assertz(teller(Teller)).
+    server_start(page, typhon_page_browsers:handle, none, [max_size(Size)],
+                 Sender),
+    assertz(sender(Sender)).
 
 browsers_stop :-
-    (   retract(teller(Teller))
-    ->  in_own_thread(stop(Teller))
+    (   retract(sender(Sender))
+    ->  in_own_thread(stop(Sender))
     ;   true
     ).
 
-stop(Teller) :-
-    server_stop(Teller),
-    forall(browser(Browser, _, _), send_away(Browser)),
+stop(Sender) :-
+    server_stop(Sender),
+    forall(browser(Browser, _, _), disconnect(Browser)),
     get_time(Now),
     Deadline is Now+5,
     wait_until_gone(Deadline).
@@ -79,7 +79,7 @@ stop(Teller) :-
 %   If the queue of a browser is full, its thread is blocked in sending, and
 %   would not read the message: it is interrupted.
 
-send_away(Browser) :-
+disconnect(Browser) :-
     browser(Browser, Thread, _),
     catch(( has_room(Browser)
           ->  thread_send_message(Browser, bye)
@@ -106,8 +106,8 @@ wait_until_gone(_) :-
 %   is full.
 
 browsers_send(Event) :-
-    (   teller(Teller)
-    ->  ignore(server_cast(Teller, Event))
+    (   sender(Sender)
+    ->  ignore(server_cast(Sender, Event))
     ;   true
     ).
 
@@ -123,11 +123,11 @@ browsers_there :-
 %   are sent after the time Due once no more events wait, or as soon as they
 %   fill a frame.
 
-:- public gathers/3.
+:- public handle/3.
 
-gathers(begin, _, Next) :-
+handle(begin, _, Next) :-
     begin_frame(0, Next).
-gathers(event(Time, Host, Agent, What), frame(Due, Count0, Events), Next) :-
+handle(event(Time, Host, Agent, What), frame(Due, Count0, Events), Next) :-
     Count is Count0+1,
     setting(frame_events, Most),
     (   Count >= Most
@@ -135,9 +135,9 @@ gathers(event(Time, Host, Agent, What), frame(Due, Count0, Events), Next) :-
     ;   Next = until(Due, frame(Due, Count,
                                 [event(Time, Host, Agent, What)|Events]))
     ).
-gathers(timeout, frame(_, _, Events), Next) :-
+handle(timeout, frame(_, _, Events), Next) :-
     send_frame(Events, Next).
-gathers(stop, frame(_, _, Events), _) :-
+handle(stop, frame(_, _, Events), _) :-
     send_frame(Events, _).
 
 send_frame(Events0, Next) :-
@@ -159,28 +159,28 @@ send_events(_, _) :-
 send_events([], Now) :-
     !,
     json_text(_{tick:Now}, Text),
-    forall(browser(Browser, _, _), give(Browser, Text, 0)).
+    forall(browser(Browser, _, _), queue_text(Browser, Text, 0)).
 send_events(Events, _) :-
     event_rows(Events, Rows),
     json_text(_{events:Rows}, Text),
     length(Events, Count),
-    forall(browser(Browser, _, _), give(Browser, Text, Count)).
+    forall(browser(Browser, _, _), queue_text(Browser, Text, Count)).
 
 %   Only the server puts texts into the queue of a browser, so a text for which
 %   there is space now still fits later.
 
-give(Browser, Text, Count) :-
+queue_text(Browser, Text, Count) :-
     (   has_room(Browser)
-    ->  own_up(Browser),
-        put(Browser, Text)
-    ;   with_mutex(typhon_page, skipped(Browser, Count))
+    ->  report_skipped(Browser),
+        put_text(Browser, Text)
+    ;   with_mutex(typhon_page, count_skipped(Browser, Count))
     ).
 
 %   The browser may have disconnected meanwhile.  The new fact is added before
 %   the old one is removed, so that a concurrent lookup always finds the
 %   browser.
 
-skipped(Browser, Count) :-
+count_skipped(Browser, Count) :-
     (   browser(Browser, Thread, Skipped)
     ->  More is Skipped+Count,
         assertz(browser(Browser, Thread, More)),
@@ -194,18 +194,18 @@ has_room(Browser) :-
           error(existence_error(_, _), _), fail),
     Size < Most.
 
-own_up(Browser) :-
+report_skipped(Browser) :-
     browser(Browser, _, Skipped),
     Skipped > 0,
     !,
     Less is -Skipped,
-    with_mutex(typhon_page, skipped(Browser, Less)),
+    with_mutex(typhon_page, count_skipped(Browser, Less)),
     skipped_row(Skipped, Row),
     json_text(_{events:[Row]}, Text),
-    put(Browser, Text).
-own_up(_).
+    put_text(Browser, Text).
+report_skipped(_).
 
-put(Browser, Text) :-
+put_text(Browser, Text) :-
     catch(thread_send_message(Browser, frame(Text)),
           error(existence_error(_, _), _), true).
 
@@ -222,50 +222,50 @@ put(Browser, Text) :-
 browser_serve(Scene, WebSocket) :-
     setup_call_cleanup(
         message_queue_create(Queue),
-        catch(serve(Queue, Scene, WebSocket), Ball, ended(Ball)),
-        ( forget(Queue),
+        catch(serve(Queue, Scene, WebSocket), Ball, report_end(Ball)),
+        ( remove_browser(Queue),
           catch(close(WebSocket, [force(true)]), error(_, _), true) )).
 
 %   The first clauses handle the ways in which a connection ends normally: the
 %   browser has disconnected, or the page has stopped.
 
-ended(error(io_error(_, _), _)) :- !.
-ended(error(socket_error(_, _), _)) :- !.
-ended(typhon_page(bye)) :- !.
-ended(crew_end) :- !.
-ended(Ball) :-
+report_end(error(io_error(_, _), _)) :- !.
+report_end(error(socket_error(_, _), _)) :- !.
+report_end(typhon_page(bye)) :- !.
+report_end(crew_end) :- !.
+report_end(Ball) :-
     print_error(warning, Ball).
 
 serve(Queue, Scene, WebSocket) :-
-    (   enter(Queue)
+    (   add_browser(Queue)
     ->  call(Scene, Dict),
         json_text(Dict, Text),
         ws_send(WebSocket, text(Text)),
-        while_it_listens(Queue, WebSocket)
+        serve_until_disconnected(Queue, WebSocket)
     ;   json_text(_{error:"Too many browsers look at this page"}, Text),
         ws_send(WebSocket, text(Text))
     ).
 
-enter(Queue) :-
+add_browser(Queue) :-
     thread_self(Me),
-    with_mutex(typhon_page, enter(Queue, Me)).
+    with_mutex(typhon_page, add_browser(Queue, Me)).
 
-enter(Queue, Me) :-
-    teller(_),
+add_browser(Queue, Me) :-
+    sender(_),
     setting(browsers, Most),
     findall(B, browser(B, _, _), Browsers),
     length(Browsers, Count),
     Count < Most,
     assertz(browser(Queue, Me, 0)).
 
-forget(Queue) :-
+remove_browser(Queue) :-
     with_mutex(typhon_page, retractall(browser(Queue, _, _))),
     message_queue_destroy(Queue).
 
 %   A browser sends nothing but a close frame here.  So any data from it end the
 %   connection, unread.
 
-while_it_listens(Queue, WebSocket) :-
+serve_until_disconnected(Queue, WebSocket) :-
     setup_call_cleanup(
         thread_create(wait_for_end(Queue, WebSocket), Listener),
         send_on(Queue, WebSocket),

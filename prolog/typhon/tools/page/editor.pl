@@ -254,17 +254,17 @@ saying(Goal, Messages) :-
     retractall(said(_, _, _)),
     setup_call_cleanup(
         assertz((user:thread_message_hook(Term, Kind, Lines) :-
-                     typhon_page_editor:keep(Kind, Term, Lines)), Hook),
+                     typhon_page_editor:keep_message(Kind, Term, Lines)), Hook),
         once(Goal),
         erase(Hook)),
     findall(said(Kind, Term, Text), retract(said(Kind, Term, Text)),
             Messages).
 
-:- public keep/3.
+:- public keep_message/3.
 
-keep(informational, _, _) :-
+keep_message(informational, _, _) :-
     !.
-keep(Kind, Term, Lines) :-
+keep_message(Kind, Term, Lines) :-
     memberchk(Kind, [error, warning]),
     lines_text(Lines, Text),
     assertz(said(Kind, Term, Text)).

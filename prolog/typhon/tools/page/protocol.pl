@@ -6,7 +6,7 @@
             text/2,                     % +Term, -Text
             name_text/2,                % +Atomic, -Text
             place_text/2,               % +Place, -Text
-            number_json/2,              % +Number, -Told
+            number_json/2,              % +Number, -Json
             times_start/0,
             times_stop/0,
             times_of/1,                 % +Hosts
@@ -96,11 +96,11 @@ what_row(skipped(Count), Kind, Arguments) =>
     Kind = "skipped",
     Arguments = [Count].
 what_row(What, Kind, Arguments) =>
-    compound_name_arguments_of(What, Name, Terms),
+    name_and_arguments(What, Name, Terms),
     atom_string(Name, Kind),
     maplist(argument_text, Terms, Arguments).
 
-compound_name_arguments_of(What, Name, Terms) :-
+name_and_arguments(What, Name, Terms) :-
     (   compound(What)
     ->  compound_name_arguments(What, Name, Terms)
     ;   Name = What,
@@ -158,16 +158,16 @@ text(Term, Text) :-
     longest(Longest),
     abridged(Term, Longest, Text).
 
-%!  number_json(+Number, -Told) is det.
+%!  number_json(+Number, -Json) is det.
 %
-%   Told is Number, or a text for an infinite number or NaN, which JSON lacks.
+%   Json is Number, or a text for an infinite number or NaN, which JSON lacks.
 
-number_json(Number, Told) :-
+number_json(Number, Json) :-
     (   float(Number),
         float_class(Number, Class),
         memberchk(Class, [infinite, nan])
-    ->  text(Number, Told)
-    ;   Told = Number
+    ->  text(Number, Json)
+    ;   Json = Number
     ).
 
                 /*******************************
@@ -212,9 +212,9 @@ machine(Endpoint, Machine) :-
     ;   Machine = Endpoint
     ).
 
-link_row(Neighbour, Cost, [Text, Told]) :-
+link_row(Neighbour, Cost, [Text, Json]) :-
     name_text(Neighbour, Text),
-    number_json(Cost, Told).
+    number_json(Cost, Json).
 
 %!  agent_summary_dict(+Agent, -Dict) is det.
 %
@@ -256,33 +256,33 @@ times_stop :-
 
 times_of(Hosts) :-
     with_mutex(typhon_page_protocol,
-               ( forall(member(Host, Hosts), note(Host)),
-                 choose(Hosts) )).
+               ( forall(member(Host, Hosts), note_clock(Host)),
+                 choose_reference(Hosts) )).
 
-note(host(Address, _, _, _, _, _, _, clock(Epoch, Rate))) =>
+note_clock(host(Address, _, _, _, _, _, _, clock(Epoch, Rate))) =>
     (   clock_of(Address, Epoch, Rate)
     ->  true
     ;   retractall(clock_of(Address, _, _)),
         assertz(clock_of(Address, Epoch, Rate))
     ).
-note(_) =>
+note_clock(_) =>
     true.
 
 %   A host without a network has the time of day, which has too many digits to
 %   show, so the page has an origin of its own.  Virtual time is not converted.
 
-choose(_) :-
+choose_reference(_) :-
     reference(_, _),
     !.
-choose(Hosts) :-
+choose_reference(Hosts) :-
     memberchk(host(_, _, _, _, _, _, _, virtual), Hosts),
     !.
-choose(_) :-
+choose_reference(_) :-
     clock_of(_, Epoch, Rate),
     Epoch > 0,
     !,
     assertz(reference(Epoch, Rate)).
-choose(_) :-
+choose_reference(_) :-
     get_time(Now),
     assertz(reference(Now, 1)).
 

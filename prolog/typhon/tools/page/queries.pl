@@ -114,19 +114,19 @@ agent_dict(Agent, Dict) :-
     ->  agent_join(Agent, Outcome, 0),
         text(Outcome, Text),
         Dict = _{id:Id, outcome:Text}
-    ;   goals_named(Agent, Properties, Named),
+    ;   goals_with_names(Agent, Properties, Named),
         findall(Key-Value, agent_shown(Named, Key, Value), Pairs),
         dict_pairs(Dict0, _, [id-Id|Pairs]),
         program_dict(Agent, Program),
         Dict = Dict0.put(program, Program)
     ).
 
-goals_named(Agent, Properties, Named) :-
+goals_with_names(Agent, Properties, Named) :-
     memberchk(facts(Facts), Properties),
     selectchk(goals(Goals), Properties, goals(Shown), Named),
     !,
     goals_shown(Agent, Facts, Goals, Shown).
-goals_named(_, Properties, Properties).
+goals_with_names(_, Properties, Properties).
 
 agent_shown(Properties, Key, Value) :-
     member(Property, Properties),
@@ -184,16 +184,16 @@ program_dict(Agent, _{lines:Lines, here:Here}) :-
     ->  true
     ;   Lines0 = All
     ),
-    without_end(Lines0, Lines00),
+    without_blank_end(Lines0, Lines00),
     without_heading(Lines00, Lines1),
     findall(N, ( nth1(N, Lines1, Line), arrow(Line, _) ), Here),
     maplist(without_arrow, Lines1, Lines).
 
-without_end(Lines, Rest) :-
+without_blank_end(Lines, Rest) :-
     append(Rest0, [""], Lines),
     !,
-    without_end(Rest0, Rest).
-without_end(Lines, Lines).
+    without_blank_end(Rest0, Rest).
+without_blank_end(Lines, Lines).
 
 without_heading(["", Line|Lines], Rest) :-
     !,
@@ -249,16 +249,16 @@ hop_row(Way, stats(Count, Min, Mean, Max), [Text, Count|Times]) :-
                 *          SUPERVISION         *
                 *******************************/
 
-node_dict(node(Agent, Relation, Glance, Below), Dict) :-
+node_dict(node(Agent, Relation, Summary, Below), Dict) :-
     maplist(name_text, [Agent, Relation], [Id, RelationText]),
     maplist(node_dict, Below, Dicts),
-    summary_dict(Glance, Agent, Dict0),
+    summary_dict(Summary, Agent, Dict0),
     Dict = Dict0.put(_{id:Id, relation:RelationText, below:Dicts}).
 
 summary_dict(none, _, _{host:"", program:"", status:"", doing:""}) :-
     !.
-summary_dict(Glance, Agent, Dict) :-
-    agent_summary_dict(agent(Agent, Glance), Dict).
+summary_dict(Summary, Agent, Dict) :-
+    agent_summary_dict(agent(Agent, Summary), Dict).
 
                 /*******************************
                 *           NETWORKS           *

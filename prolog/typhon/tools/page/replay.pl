@@ -52,9 +52,9 @@ replay_dict(LogFile, Options, Dict) :-
     option(title(Title0), Options, Base),
     option(overlays(Files), Options, []),
     overlays_declared(Files, Declared),
-    maplist(watched, Logged, Events),
+    maplist(logged_event, Logged, Events),
     event_rows(Events, Declared, Rows),
-    used(Rows, Declared, Used),
+    used_overlays(Rows, Declared, Used),
     overlay_dicts(Used, Overlays),
     hosts(Events, Hosts),
     intern(Rows, Names, Short),
@@ -75,16 +75,17 @@ replay_of_text(Title, Text, Dict) :-
         ( close(Out, [force(true)]),
           delete_file(File) )).
 
-%   watched(+Logged, -Event): Event is the event Logged in the form of watch/3.
+%   logged_event(+Logged, -Event): Event is the event Logged in the form of
+%   watch/3.
 
-watched(event(Time, Host, Agent, What), event(Time, Host, Agent, Told)) :-
-    shown_event(What, Told).
+logged_event(event(Time, Host, Agent, What), event(Time, Host, Agent, Shown)) :-
+    shown_event(What, Shown).
 
-shown_event(faulty(Error), Told) => Told = fault(Error).
-shown_event(fault(Fault), Told) => Told = fault(Fault).
-shown_event(What, Told), own_event(What) => Told = What.
-shown_event(What, Told), of_network(What) => Told = What.
-shown_event(Term, Told) => Told = log(Term).
+shown_event(faulty(Error), Shown) => Shown = fault(Error).
+shown_event(fault(Fault), Shown) => Shown = fault(Fault).
+shown_event(What, Shown), own_event(What) => Shown = What.
+shown_event(What, Shown), of_network(What) => Shown = What.
+shown_event(Term, Shown) => Shown = log(Term).
 
 of_network(link(Other)) :- is_address(Other).
 of_network(link(Other, Cost)) :- is_address(Other), number(Cost).
@@ -98,9 +99,10 @@ is_address(Address) :-
     sub_atom(Address, _, _, _, @),
     !.
 
-%   used(+Rows, +Declared, -Used): Used are the overlays of Declared with a row.
+%   used_overlays(+Rows, +Declared, -Used): Used are the overlays of Declared
+%   with a row.
 
-used(Rows, Declared, Used) :-
+used_overlays(Rows, Declared, Used) :-
     findall(Title,
             ( member([_, _, _, Kind, Title|_], Rows),
               memberchk(Kind, ["show", "add"]) ),

@@ -78,14 +78,14 @@ start(Options, Link) :-
     option(read_only(ReadOnly), Options, false),
     token_new(Token),
     ( Port0 == 0 -> true ; Port = Port0 ),
-    catch(( prepare(Options),
+    catch(( start_parts(Options),
             reception_open(Interface:Port) ),
           Ball,
-          ( put_away, throw(Ball) )),
+          ( stop_parts, throw(Ball) )),
     assertz(serving(Port, Token, ReadOnly)),
     format(atom(Link), 'http://~w:~d/?token=~w', [Interface, Port, Token]).
 
-prepare(Options) :-
+start_parts(Options) :-
     times_start,
     sources_start(Options),
     editor_start,
@@ -101,11 +101,11 @@ stop :-
     (   retract(serving(_, _, _))
     ->  browsers_stop,                  % first: it sends close frames
         reception_close,
-        put_away
+        stop_parts
     ;   true
     ).
 
-put_away :-
+stop_parts :-
     sources_stop,
     times_stop,
     browsers_stop,

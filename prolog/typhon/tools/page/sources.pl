@@ -39,7 +39,7 @@ browser is connected, a thread searches for new hosts every few seconds.
 :- dynamic
     place/1,                    % Address: the search begins here, too
     finder/1,                   % Server
-    own/1,                      % Watch
+    page_watch/1,               % Watch
     watched/2.                  % Address, Watch
 
 %!  sources_start(+Options) is det.
@@ -59,7 +59,7 @@ sources_start(Options) :-
         assertz(place(Address))
     ;   true
     ),
-    server_start(page_finder, typhon_page_sources:finds, none, Finder),
+    server_start(page_finder, typhon_page_sources:handle, none, Finder),
     assertz(finder(Finder)).
 
 must_be_there(Host, Address) :-
@@ -71,7 +71,7 @@ sources_stop :-
     ->  server_stop(Finder)
     ;   true
     ),
-    rest(true),
+    end_watches_if(true),
     (   retract(place(_))
     ->  runtime_release(page)
     ;   true
@@ -86,8 +86,8 @@ sources_stop :-
 sources_look(scene(Hosts, Agents)) :-
     finder(Finder),
     ignore(server_cast(Finder, browser)),
-    renew,
-    look(1 000 000, Seen, Hosts),
+    watch_new_hosts,
+    take_inventory(1 000 000, Seen, Hosts),
     inventory_agents(Seen, Agents).
 
 %!  sources_metrics(-Text:string) is det.
@@ -95,7 +95,7 @@ sources_look(scene(Hosts, Agents)) :-
 %   Text has the metrics of all hosts of the page, see metrics/2.
 
 sources_metrics(Text) :-
-    look(0, _, Hosts),
+    take_inventory(0, _, Hosts),
     findall(Address, member(host(Address, running, _, _, _, _, _, _), Hosts),
             Addresses),
     metrics(Addresses, Text).
@@ -114,26 +114,26 @@ sources_tree(Trees) :-
 
 %   Without a browser the server waits until one connects.
 
-:- public finds/3.
+:- public handle/3.
 
-finds(browser, State, Next) :-
-    find_later(State, Next).
-finds(timeout, State, Next) :-
+handle(browser, State, Next) :-
+    search_later(State, Next).
+handle(timeout, State, Next) :-
     (   browsers_there
-    ->  telling_errors(renew),
-        find_later(State, Next)
-    ;   telling_errors(rest(\+ browsers_there)),
+    ->  printing_errors(watch_new_hosts),
+        search_later(State, Next)
+    ;   printing_errors(end_watches_if(\+ browsers_there)),
         Next = State
     ).
 
-find_later(State, until(Stamp, State)) :-
+search_later(State, until(Stamp, State)) :-
     setting(renew_seconds, Seconds),
     get_time(Now),
     Stamp is Now+Seconds.
 
-:- meta_predicate telling_errors(0).
+:- meta_predicate printing_errors(0).
 
-telling_errors(Goal) :-
+printing_errors(Goal) :-
     catch(Goal, error(Formal, Context),
           print_error(warning, error(Formal, Context))).
 
@@ -143,19 +143,20 @@ telling_errors(Goal) :-
 
 %   Watch all hosts that are known now.
 
-renew :-
-    look(0, _, Hosts),
+watch_new_hosts :-
+    take_inventory(0, _, Hosts),
     with_mutex(typhon_page_sources, watch_hosts(Hosts)),
-    with_mutex(typhon_page_sources, idle(Watches)),
+    with_mutex(typhon_page_sources, remove_idle(Watches)),
     maplist(end_watch, Watches).
 
-%   idle(-Watches): remove the records of watches whose hosts have all stopped.
+%   remove_idle(-Watches): remove the records of watches whose hosts have all
+%   stopped.
 
-idle(Watches) :-
-    findall(Watch, ( own(Watch), \+ watched(_, Watch) ), Watches),
-    forall(member(Watch, Watches), retract(own(Watch))).
+remove_idle(Watches) :-
+    findall(Watch, ( page_watch(Watch), \+ watched(_, Watch) ), Watches),
+    forall(member(Watch, Watches), retract(page_watch(Watch))).
 
-look(Most, Seen, Hosts) :-
+take_inventory(Most, Seen, Hosts) :-
     findall(Place, place(Place), Places),
     inventory(Most, Places, Seen, Silent),
     inventory_hosts(Places, Seen, Silent, Hosts),
@@ -178,7 +179,7 @@ watch_hosts(Hosts) :-
 watch_some(Addresses) :-
     (   catch(watch(Addresses, typhon_page_sources:forward_event, Watch),
               error(_, _), fail)
-    ->  assertz(own(Watch)),
+    ->  assertz(page_watch(Watch)),
         forall(member(Address, Addresses),
                assertz(watched(Address, Watch)))
     ;   true
@@ -188,29 +189,29 @@ watch_some(Addresses) :-
 
 forward_event(Event) :-
     browsers_send(Event),
-    changed(Event).
+    note_stop(Event).
 
 %   A host that has stopped may be started again as a new host.
 
-changed(event(_, Host, _, stopped)) =>
+note_stop(event(_, Host, _, stopped)) =>
     retractall(watched(Host, _)).
-changed(_) =>
+note_stop(_) =>
     true.
 
 %   End all watches if When holds.  The mutex serialises this check with
 %   watch_hosts/1: a browser that connects meanwhile keeps the watches, or
 %   begins new ones afterwards.
 
-:- meta_predicate rest(0).
+:- meta_predicate end_watches_if(0).
 
-rest(When) :-
+end_watches_if(When) :-
     with_mutex(typhon_page_sources,
                ( When -> watches(Watches) ; Watches = [] )),
     maplist(end_watch, Watches).
 
 watches(Watches) :-
     retractall(watched(_, _)),
-    findall(Watch, retract(own(Watch)), Watches).
+    findall(Watch, retract(page_watch(Watch)), Watches).
 
 end_watch(Watch) :-
     catch(in_own_thread(unwatch(Watch)), error(existence_error(_, _), _), true).
