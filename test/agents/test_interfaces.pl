@@ -99,7 +99,7 @@ names(Line, PI) :-
     format(string(Word), "~w", [PI]),
     memberchk(Word, Words).
 
-says(Line, File) :-
+mentions(Line, File) :-
     words(Line, Words),
     file_directory_name(File, Directory),
     file_base_name(Directory, Folder),
@@ -244,7 +244,7 @@ test(called_predicates_are_expected, Unsaid == []) :-
               included(File),
               header(File, Expects, _),
               \+ ( part(File, Part), Part == Other ),
-              \+ says(Expects, Other),
+              \+ mentions(Expects, Other),
               \+ names(Expects, PI) ),
             Unsaid0),
     sort(Unsaid0, Unsaid).

@@ -80,13 +80,13 @@ fuzz(Ways, Victim, Honest, Count, Seed, Progress, Faults) :-
     nb_setval(fuzz_ways, Ways),
     with_peers([Victim, Honest],
                ( attack(Count, Seed, Progress, Faults),
-                 tell(Faults) )).
+                 print_output(Faults) )).
 
 %   The last output of the victim is added to faults.
 
-tell([]) :-
+print_output([]) :-
     !.
-tell(_) :-
+print_output(_) :-
     peer_messages(victim, Lines),
     length(Lines, Count),
     Skip is max(0, Count-20),

@@ -92,14 +92,14 @@ batches(From, Last, Kept, Progress, Faults) :-
     To is min(Last, From+99),
     forall(between(From, To, Seed), attack(Seed)),
     findall(fault(From-To, What), harm(From, Kept, What), Faults0),
-    tell(Progress, To),
+    print_progress(Progress, To),
     Next is To+1,
     (   Faults0 == []
     ->  batches(Next, Last, Kept, Progress, Faults)
     ;   Faults = Faults0
     ).
 
-tell(true, To) :-
+print_progress(true, To) :-
     To mod 1000 < 100,
     !,
     statistics(process_cputime, Cpu),
@@ -108,7 +108,7 @@ tell(true, To) :-
     format("~D, of which ~D ran, ~0f s, ~d threads~n",
            [To, Ran, Cpu, Threads]),
     flush_output.
-tell(_, _).
+print_progress(_, _).
 
 harm(Batch, Canary-_, bystander) :-
     \+ answers(Canary, Batch).

@@ -113,11 +113,11 @@ listen(Client, Socket) :-
           Message = _{opcode:close}),
     (   Message.opcode == close
     ->  hang_up(Socket)
-    ;   heard(Client, Message.data),
+    ;   handle_text(Client, Message.data),
         listen(Client, Socket)
     ).
 
-heard(Client, Text) :-
+handle_text(Client, Text) :-
     catch(atom_json_dict(Text, Frame, []), error(_, _), fail),
     is_dict(Frame),
     !,
@@ -127,7 +127,7 @@ heard(Client, Text) :-
     ->  true
     ;   complain(Client, Frame, 'unknown operation')
     ).
-heard(Client, Text) :-
+handle_text(Client, Text) :-
     complain(Client, _{}, no_json(Text)).
 
 complain(Client, Frame, Why) :-

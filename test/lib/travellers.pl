@@ -96,17 +96,17 @@ walker([ (:- agent(walker, [state([plan/2])])),
 
 ended(Peer, Id, Outcome) :-
     peer_do(Peer, agent_join(Id, Outcome0, 50)),
-    told(Outcome0 == Outcome, outcome(Id, Outcome0)).
+    call_or_print(Outcome0 == Outcome, outcome(Id, Outcome0)).
 
 ended_done(Peer, Id, Hops) :-
     ended(Peer, Id, done),
     numlist(0, Hops, Expected),
     steps(Id, Steps),
-    told(Steps == Expected, steps(Id, Steps)).
+    call_or_print(Steps == Expected, steps(Id, Steps)).
 
-:- meta_predicate told(0, +).
+:- meta_predicate call_or_print(0, +).
 
-told(Goal, Otherwise) :-
+call_or_print(Goal, Otherwise) :-
     (   call(Goal)
     ->  true
     ;   print_message(error, format("~p", [Otherwise])),

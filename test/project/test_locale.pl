@@ -35,7 +35,7 @@ file(Dir, Name, Text) :-
     directory_file_path(Dir, Name, File),
     read_file_to_string(File, Text, [encoding(utf8)]).
 
-says(Text, Part) :-
+contains(Text, Part) :-
     assertion(sub_string(Text, _, _, _, Part)).
 
 :- begin_tests(letters).
@@ -60,10 +60,10 @@ study_made(Locale, Dir, File) :-
     in_locale(Locale,
               study_command(Dir, [File, '--runs', 1, '--out', out], exit(0),
                             Text)),
-    says(Text, "size: Die Größe von δ"),
+    contains(Text, "size: Die Größe von δ"),
     assertion(\+ sub_string(Text, _, _, _, "Warning")),
     forall(member(Name, ['out/size/claims.csv', 'out/index.html']),
-           ( file(Dir, Name, Shown), says(Shown, "δ") )).
+           ( file(Dir, Name, Shown), contains(Shown, "δ") )).
 
 logged(Locale, Log, Dir) :-
     save_lines(Dir, 'letters.pl',

@@ -209,15 +209,15 @@ auctioneer(Facts, Job) :-
     fact(job(Job, _, 1, bidding, 0, 0)).
 
 bid(Job, Round, Host, Cost) :-
-    tell(Job, bids(Round, [Host-[1-Cost]])).
+    deliver(Job, bids(Round, [Host-[1-Cost]])).
 
-tell(Job, Body) :-
+deliver(Job, Body) :-
     flag(test_auction, N, N+1),
     Id is 1000 + N,
     link(a, 0, flood(Id, owner(Job, Body))).
 
 report(Job, Round, Host, Phase) :-
-    tell(Job, report(Round, Host, Phase)).
+    deliver(Job, report(Round, Host, Phase)).
 
 award(Job) :-
     bid(Job, 1, x, 5), bid(Job, 1, y, 3), bid(Job, 1, z, 4),
@@ -261,8 +261,8 @@ test(two_teams) :-
     node(murdoch, [setting(window, 10)]),
     receives(post(task(t, [1-[push], 1-[lift]], [])), user),
     fact(job(Job, _, 1, _, _, _)),
-    tell(Job, bids(1, [x-[1-1, 2-1]])),
-    tell(Job, bids(1, [y-[2-9]])),
+    deliver(Job, bids(1, [x-[1-1, 2-1]])),
+    deliver(Job, bids(1, [y-[2-9]])),
     sent(_),
     at(10),
     said(a, award(Job, 1, Winners)),

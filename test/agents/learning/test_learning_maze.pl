@@ -137,7 +137,7 @@ test(equation_4_7,                      % of the light
     weight(Vector0, Vector, Weight).
 test(only_gains_are_shared, Actions == [[forward], [forward]]) :-
     units([forward, backward, forward], at(5, 0, up), Units),
-    told_actions(Units, Actions).
+    unit_actions(Units, Actions).
 test(content_of_shared_units, Unit-Weight == unit(V0, [forward], V)-W) :-
     units([forward], at(5, 0, up), [Unit-Weight]),
     sensed(at(5, 0, up), V0),
@@ -156,16 +156,16 @@ test(consecutive_turns_are_merged,
                        [turn_back,turn_left,turn_left,forward]-[forward] ])),
        Actions == [Told] ]) :-
     units(Turns, at(3, 1, left), Units),
-    told_actions(Units, Actions).
+    unit_actions(Units, Actions).
 test(turns_before_a_loss_are_forgotten, Actions == [[backward]]) :-
     units([turn_right, forward, backward], at(3, 2, up), Units),
-    told_actions(Units, Actions).
+    unit_actions(Units, Actions).
 test(turns_before_a_bump_are_forgotten, Actions == [[forward]]) :-
     units([turn_left, backward, forward], at(5, 2, up), Units),
-    told_actions(Units, Actions).
+    unit_actions(Units, Actions).
 test(turning_away_from_a_wall_is_a_gain, Actions == [[turn_left]]) :-
     units([turn_left], at(5, 0, right), Units),
-    told_actions(Units, Actions).
+    unit_actions(Units, Actions).
 test(shared_units_can_be_repeated, Bad == []) :-
     findall(Unit,
             ( between(1, 200, _),
@@ -188,7 +188,7 @@ distinct_vector(Vector) :-
     sort(Vectors, Set),
     member(Vector, Set).
 
-told_actions(Units, Actions) :-
+unit_actions(Units, Actions) :-
     findall(A, member(unit(_, A, _)-_, Units), Actions).
 
 random_walk(Length, Walk) :-

@@ -255,7 +255,7 @@ test(resources_given_to_a_clone) :-
 %   further messages the head is removed, and at the end the queue waits
 %   without a limit.
 
-told(Mail, Told) :-
+queue_answers(Mail, Told) :-
     fake_agent('agents/population/queue.pl', [], []),
     maplist(fake_mail, Mail),
     \+ fake_agent:serve([]),
@@ -270,24 +270,24 @@ test(agent_offers_itself, Tuples == [queue(me)]) :-
     tuples(Tuples).
 test(first_come_first_served,
      Told == [a-turn(1), b-turn(2), c-turn(1)]) :-
-    told([a-join, b-join, c-join, a-leave, b-leave, c-leave], Told).
+    queue_answers([a-join, b-join, c-join, a-leave, b-leave, c-leave], Told).
 test(only_the_head_has_a_turn, Told == [a-turn(1), c-turn(1)]) :-
-    told([a-join, b-join, c-join, b-leave, a-leave, c-leave], Told).
+    queue_answers([a-join, b-join, c-join, b-leave, a-leave, c-leave], Told).
 test(returning_agent_goes_to_the_tail,
      Told == [a-turn(1), b-turn(2), c-turn(2), a-turn(1)]) :-
-    told([ a-join, b-join, c-join, a-leave, a-join, b-leave, c-leave,
-           a-leave ], Told).
+    queue_answers([ a-join, b-join, c-join, a-leave, a-join, b-leave, c-leave,
+                    a-leave ], Told).
 test(single_agent_gets_the_next_turn, Told == [a-turn(1), a-turn(1)]) :-
-    told([a-join, a-leave, a-join, a-leave], Told).
+    queue_answers([a-join, a-leave, a-join, a-leave], Told).
 test(agent_is_in_the_queue_once, Told == [a-turn(1)]) :-
-    told([a-join, a-join, a-leave], Told).
+    queue_answers([a-join, a-join, a-leave], Told).
 test(absent_agent_cannot_leave, Told == [a-turn(1)]) :-
-    told([b-leave, a-join], Told).
+    queue_answers([b-leave, a-join], Told).
 test(dying_agents_get_an_answer, Told == [a-turn(1), a-gone, b-turn(1)]) :-
-    told([a-join, b-join, a-quit, b-leave], Told).
+    queue_answers([a-join, b-join, a-quit, b-leave], Told).
 test(vanished_head_is_removed,
      Told-Time == [a-turn(1), b-turn(2), c-turn(1)]-180) :-
-    told([a-join, b-join, c-join], Told),
+    queue_answers([a-join, b-join, c-join], Told),
     fake_host:time(Time).
 
 :- end_tests(queue).

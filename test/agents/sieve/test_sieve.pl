@@ -178,12 +178,12 @@ sieve_in(Topology, Options, Settings, Goal, Dir) :-
 
 %   The events so far, in order.
 
-told(File, Whats) :-
+log_entries(File, Whats) :-
     logged(File, Events),
     findall(What, member(event(_, _, _, What), Events), Whats).
 
 count(File, Pattern, Count) :-
-    told(File, All),
+    log_entries(File, All),
     aggregate_all(count, ( member(Told, All), \+ Told \= Pattern ), Count).
 
 settled(File, Attacks) :-
@@ -212,14 +212,14 @@ alone([Host], File) :-
     antigen_attack([Host], Antigen),
     settled(File, 1),
     wait_until(count(File, born(host, _), 1), 10),
-    told(File, All),
+    log_entries(File, All),
     member(generated(Antigen, Antibody, Wait), All),
     affinity(Antigen, Antibody, Psi),
     Psi >= 4,
     Wait >= 20,
     antigen_attack([Host], Antigen),    % now there is an antibody
     settled(File, 2),
-    told(File, Later),
+    log_entries(File, Later),
     memberchk(served(Antigen, Antibody, _, 1), Later).
 
 %   Whichever agent is chosen, the better one clones.
@@ -237,7 +237,7 @@ better([Host], File) :-
     antigen_attack([Host], Antigen),
     settled(File, 1),
     wait_until(count(File, born(clone, Best), 1), 10),
-    told(File, All),
+    log_entries(File, All),
     memberchk(served(Antigen, _, _, 2), All),
     count(File, born(clone, _), 1).
 
@@ -300,14 +300,14 @@ attacks(Hosts, File) :-
     bits('11111', B),
     antigen_attack(Hosts, A),
     settled(File, 10),
-    told(File, First),  % later antigens are answered by antibodies drawn before
+    log_entries(File, First),           % later antigens get these antibodies
     aggregate_all(count, member(generated(_, _, _), First), Drawn),
     Drawn > 0,
     wait_until(count(File, born(host, _), Drawn), 20),
     antigen_attack(Hosts, A),
     antigen_attack(Hosts, B),
     settled(File, 30),
-    told(File, All),
+    log_entries(File, All),
     forall(( member(served(Antigen, Antibody, _, Kinds), All) ),
            ( affinity(Antigen, Antibody, Psi), Psi >= 4,
              between(1, 6, Kinds) )),
@@ -329,7 +329,7 @@ programs([Host], File) :-
            antibody_release(Host, payloads(sieve/maze), Program, [], _)),
     antigen_attack([Host], wall(left)),
     settled(File, 1),
-    told(File, All),
+    log_entries(File, All),
     member(served(wall(left), Program, _, _), All),
     memberchk(Program, [First, Second]).
 

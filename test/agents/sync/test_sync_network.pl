@@ -119,11 +119,11 @@ task_event(Line, Sequence, event(Time, Host, What)) :-
     atom_string(Sequence, Name),
     sub_string(Line, _, _, _, Name),
     term_string(event(Time, Host, _, Told), Line),
-    told(Told, Sequence, What).
+    logged_task(Told, Sequence, What).
 
-told(executing(Sequence, Task), Sequence, r(Task)).
-told(completed(Sequence, Task), Sequence, c(Task)).
-told(failed(Sequence, Task), Sequence, f(Task)).
+logged_task(executing(Sequence, Task), Sequence, r(Task)).
+logged_task(completed(Sequence, Task), Sequence, c(Task)).
+logged_task(failed(Sequence, Task), Sequence, f(Task)).
 
 %   executed(+Names, -History): of a host that executed them in order.
 

@@ -65,7 +65,7 @@ no_blanks(Atom, Plain) :-
 
 %   The brick has read all earlier input.
 
-heard(Brick) :-
+input_read(Brick) :-
     ask(Brick, time, _),
     ask(Brick, time, _).
 
@@ -85,13 +85,13 @@ test(frame, Bytes == [3,0, 0x02,0x0c,0x00, 5,0, 0x02,0x0b,0x00,0x78,0x1e]) :-
 test(half_a_frame_is_dropped, Reply == '0288007c011d01') :-
     still(Brick, Line,
           ( send_bytes(Line, [9,0, 0x00]),
-            heard(Brick),
+            input_read(Brick),
             sleep(0.7),
             exchange(Line, '0188', Reply) )).
 test(noise_is_dropped, Reply == '0288007c011d01') :-
     still(Brick, Line,
           ( send_bytes(Line, [0xff,0xff,0xff,0xff]),
-            heard(Brick),
+            input_read(Brick),
             sleep(0.7),
             exchange(Line, '0188', Reply) )).
 test(tones_are_remembered, true((abs(T-T0-1) < 0.01,

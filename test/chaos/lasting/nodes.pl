@@ -194,9 +194,9 @@ start(node(Name, Port, Dir, Sync, Swipl), Pid, In, Out, Err) :-
     with_mutex(lasting_orders,
                ( orders(Orders),
                  assertz(child(Name, Pid, In)),
-                 told(In, orders(Orders)) )).
+                 send_order(In, orders(Orders)) )).
 
-told(In, Term) :-
+send_order(In, Term) :-
     catch(( format(In, '~q.~n', [Term]), flush_output(In) ),
           error(_, _),
           true).                        % the process died just now
@@ -246,7 +246,7 @@ disarm :-
 %   they can.
 
 nodes_check(Nodes) :-
-    with_mutex(lasting_orders, forall(child(_, _, In), told(In, look))),
+    with_mutex(lasting_orders, forall(child(_, _, In), send_order(In, look))),
     catch(wait_until(\+ ( member(Node, Nodes), \+ looked(Node) ), 10),
           error(timeout_error(_, _), _), true).
 
@@ -261,7 +261,7 @@ tell_all(Orders) :-
                ( retractall(orders(_)),
                  assertz(orders(Orders)),
                  forall(( child(_, _, In), member(Order, Orders) ),
-                        told(In, Order)) )).
+                        send_order(In, Order)) )).
 
 make_faults(Seconds, Faults) :-
     Longest is 2*Seconds,
@@ -292,7 +292,7 @@ happens(stop, Pid-_) :-
     for_a_while,
     signalled(Pid, cont).
 happens(cut, _-In) :-
-    with_mutex(lasting_orders, told(In, cut)).
+    with_mutex(lasting_orders, send_order(In, cut)).
 happens(full, Pid-_) :-
     ready(Pid),                         % a process that is starting would end
     !,

@@ -40,7 +40,7 @@ title(Title, Study) :-
     study_title(Study, Name, Text),
     Title = Name-Text.
 
-says(Text, Parts) :-
+has(Text, Parts) :-
     forall(member(Part, Parts),
            assertion(once(sub_string(Text, _, _, _, Part)))).
 
@@ -84,20 +84,20 @@ test(own_test_is_missing,
 test(mistyped_word) :-
     study_messages(more_problems(['labl(m, "M").'], Problems), Text),
     assertion(Problems == []),
-    says(Text, ["labl/2 is no word of studies (did you mean label/2?)"]).
+    has(Text, ["labl/2 is no word of studies (did you mean label/2?)"]).
 test(all_errors_are_reported) :-
     with_study_file([ 'study(toy, "A toy").', 'vary(b, 1).',
                       'measure(m, _, 1).', 'plot(p, bars([])).',
                       'claim("small", [], n < 1).',
-                      'claim("large", [], big(m)).', 'a b.' ], told(Text)),
-    says(Text, [ "study.pl is no study yet", "it does not load",
-                 "vary(b, Values)", "it has plot/2; the word is plot/3",
-                 "claim(\"small\"): n is neither a measure nor a parameter",
-                 "claim(\"large\"): big(m) is no test" ]).
+                      'claim("large", [], big(m)).', 'a b.' ], errors_of(Text)),
+    has(Text, [ "study.pl is no study yet", "it does not load",
+                "vary(b, Values)", "it has plot/2; the word is plot/3",
+                "claim(\"small\"): n is neither a measure nor a parameter",
+                "claim(\"large\"): big(m) is no test" ]).
 
 :- end_tests(studies).
 
-told(Text, Dir, File) :-
+errors_of(Text, Dir, File) :-
     study_command(Dir, [File], exit(1), Text).
 
 mistyped(Text, Dir, _) :-
@@ -181,7 +181,7 @@ listed(Dir, File) :-
     forall(member(Command, Commands), assertion(shell_in('/', Command))),
     study_command(Dir, [ File, '--collect', '--runs', 1, '--out', 'o u t' ],
                   exit(0), Shown),
-    says(Shown, ["1  it is     1  13", "2  x         1  23", "held"]),
+    has(Shown, ["1  it is     1  13", "2  x         1  23", "held"]),
     forall(nth1(1, Commands, Command), assertion(shell_in('/', Command))).
 
 shell_in(Dir, Command) :-
@@ -191,7 +191,7 @@ shell_in(Dir, Command) :-
 
 one_case(Args, Parts, Dir, File) :-
     study_command(Dir, [File, '--out', out|Args], exit(0), Text),
-    says(Text, Parts),
+    has(Text, Parts),
     directory_file_path(Dir, 'out/index.html', Page),
     assertion(\+ exists_file(Page)).
 
@@ -199,43 +199,43 @@ one_case(Args, Parts, Dir, File) :-
 
 test(help) :-
     with_tmp_dir(help(Text)),
-    says(Text, ["STUDY", "--runs", "--set=NAME=VALUE", "--case", "--logs",
-                "--list", "--collect", "--out"]).
+    has(Text, ["STUDY", "--runs", "--set=NAME=VALUE", "--case", "--logs",
+               "--list", "--collect", "--out"]).
 test(help_of_a_study, forall(member(Args, [ ['--help'],
                                             ['--runs', 1, '--help'],
                                             ['-h', '--set', 'c=4'] ]))) :-
     prints(Args, exit(0), Text),
-    says(Text, ["toy: A toy", "  a          [1,2]      varied", "assumed: so"]).
+    has(Text, ["toy: A toy", "  a          [1,2]      varied", "assumed: so"]).
 test(list_of_studies) :-
     with_tmp_dir(what_there_is(Text)),
-    says(Text, ["  5.6            Idle time and overlaps"]).
+    has(Text, ["  5.6            Idle time and overlaps"]).
 test(table_and_claims) :-
     prints(['--runs', 2, '--out', out], exit(0), Text),
-    says(Text, [ "toy: A toy", "  a  b      runs   m", "2  x         2  23",
-                 "held, 2 runs        m grows", "n: no value",
-                 "claim(\"n is small\"): no run has given n",
-                 "1 of 2 claims held in all runs.", "index.html" ]).
+    has(Text, [ "toy: A toy", "  a  b      runs   m", "2  x         2  23",
+                "held, 2 runs        m grows", "n: no value",
+                "claim(\"n is small\"): no run has given n",
+                "1 of 2 claims held in all runs.", "index.html" ]).
 test(set) :-
     prints(['--set', 'c=[4,5]', '--set', 'a=1', '--set', 'b=x', '--runs', 1],
            exit(0), Text),
-    says(Text, ["  a  b  c  runs   m", "  1  x  4     1  14",
-                "  1  x  5     1  15"]).
+    has(Text, ["  a  b  c  runs   m", "  1  x  4     1  14",
+               "  1  x  5     1  15"]).
 test(last_set_counts) :-
     prints(['--set', 'a=1', '--set', 'b=x', '--set', 'a=2', '--runs', 1],
            exit(0), Text),
-    says(Text, ["  2  x     1  23"]),
+    has(Text, ["  2  x     1  23"]),
     assertion(\+ sub_string(Text, _, _, _, "  1  x")).
 test(set_text) :-
     prints(['--set', 'b=Some Text', '--set', 'a=1', '--runs', 1], exit(0),
            Text),
-    says(Text, ["  1  Some Text     1  13"]).
+    has(Text, ["  1  Some Text     1  13"]).
 test(set_half_a_term, forall(member(Half, ['[1,', 'f(1', '1,2)']))) :-
     atom_concat('a=', Half, Set),
     prints(['--set', Set], exit(1), Text),
-    says(Text, [Half]).
+    has(Text, [Half]).
 test(set_nothing) :-
     prints(['--set', b], exit(1), Text),
-    says(Text, ["NAME=VALUE"]).
+    has(Text, ["NAME=VALUE"]).
 test(case_by_number) :-
     with_command(one_case(['--case', 3], ["  m           23", "a=2,b=x,seed=1"])).
 test(case_by_name) :-
@@ -243,31 +243,31 @@ test(case_by_name) :-
                           ["  m           13", "a=1,b=it is,seed=4"])).
 test(no_such_case, forall(member(Case, [9, 'a=3,b=x']))) :-
     prints(['--case', Case], exit(1), Text),
-    says(Text, ["case", "does not exist; there are a=1,b=x  a=1,b=it is  "]).
+    has(Text, ["case", "does not exist; there are a=1,b=x  a=1,b=it is  "]).
 test(case_parameters_in_any_order) :-
     with_command(one_case(['--case', 'b=x,a=2'], ["a=2,b=x,seed=1"])).
 test(no_case_in_real_time) :-
     prints(['--real', '--runs', 1, '--set', 'a=1'], exit(0), Text),
-    says(Text, ["--real: no case"]).
+    has(Text, ["--real: no case"]).
 test(command_names_the_folder_of_the_runs) :-
     with_command(again).
 test(no_such_study) :-
     with_tmp_dir(no_such_study(Text)),
-    says(Text, ["There is no study 99.9"]).
+    has(Text, ["There is no study 99.9"]).
 test(mistyped_study) :-
     with_study_file(['study(a, b).'], mistyped(Text)),
-    says(Text, ["There is no study stdy.pl (did you mean study?)"]).
+    has(Text, ["There is no study stdy.pl (did you mean study?)"]).
 test(set_without_a_value) :-
     prints(['--set', 'a='], exit(1), Text),
-    says(Text, ["NAME=VALUE"]).
+    has(Text, ["NAME=VALUE"]).
 test(list) :-
     with_command(listed).
 test(no_cases_left_to_compare) :-
     prints(['--set', 'a=1', '--runs', 1], exit(0), Text),
-    says(Text, ["not known           m grows"]).
+    has(Text, ["not known           m grows"]).
 test(collect_of_missing_runs) :-
     prints(['--collect', '--out', out], exit(0), Text),
-    says(Text, ["not known", "12 of 12 runs are not there"]).
+    has(Text, ["not known", "12 of 12 runs are not there"]).
 test(no_runs, forall(member(Option, ['--runs', '--jobs']))) :-
     prints([Option, 0], Status, _),
     assertion(Status \== exit(0)).
@@ -278,7 +278,7 @@ again(Dir, File) :-
     study_command(Dir, [File, '--runs', 1, '--out', there], exit(0), _),
     directory_file_path(Dir, 'there/index.html', Page),
     read_file_to_string(Page, Text, [encoding(utf8)]),
-    says(Text, ["--seed 1 --out there"]).
+    has(Text, ["--seed 1 --out there"]).
 
 help(Text, Dir) :-
     study_command(Dir, ['--help'], exit(0), Text).

@@ -87,7 +87,7 @@ test(missing_parameter_is_reported) :-
                               "no parameter dleta (did you mean delta?)"))).
 test(unknown_parameter_is_reported, Status-true == exit(1)-true) :-
     base(Base),
-    with_study_file(Base, told(Status, Text)),
+    with_study_file(Base, command_output(Status, Text)),
     once(sub_string(Text, _, _, _,
                     "study.pl has no parameter d; it has a, b, c")).
 
@@ -96,7 +96,7 @@ message_to_codes(Error, Text) :-
     with_output_to(string(Text),
                    print_message_lines(current_output, '', Lines)).
 
-told(Status, Text, Dir, File) :-
+command_output(Status, Text, Dir, File) :-
     study_command(Dir, [File, '--set', 'd=1'], Status, Text).
 
 test(engine_adds_clock_and_processes,

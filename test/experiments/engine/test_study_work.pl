@@ -75,13 +75,13 @@ below(Dir, Suffix, Files) :-
               atom_concat(_, Suffix, File) ),
             Files).
 
-says(Text, Part) :-
+contains(Text, Part) :-
     assertion(once(sub_string(Text, _, _, _, Part))).
 
 made_once(Dir, File) :-
     runs(Dir, File, '[a,b]', ['--runs', 2], Status, Text),
     assertion(Status == exit(0)),
-    says(Text, "4/4 runs"),
+    contains(Text, "4/4 runs"),
     noted(Dir, Notes),
     msort(Notes, Sorted),
     assertion(Sorted == [1-a, 1-b, 2-a, 2-b]),
@@ -120,15 +120,15 @@ failing(What, Why, Dir, File) :-
     format(atom(Whats), '[a,~w,b]', [What]),
     runs(Dir, File, Whats, ['--runs', 1, '--jobs', 1], Status, Text),
     assertion(Status == exit(1)),
-    says(Text, "failed; see"),
-    says(Text, Why),
-    says(Text, "3/3 runs"),
+    contains(Text, "failed; see"),
+    contains(Text, Why),
+    contains(Text, "3/3 runs"),
     below(Dir, '.failed', [Failed]),
     directory_file_path(Failed, output, Output),
     read_file_to_string(Output, Said, []),
     format(string(Start), "~w says it", [What]),
-    says(Said, Start),
-    says(Said, Why),
+    contains(Said, Start),
+    contains(Said, Why),
     below(Dir, 'result.pl', Results),
     length(Results, 2),
     below(Dir, '.part', Parts),
@@ -144,15 +144,15 @@ failing(What, Why, Dir, File) :-
 
 same_cause(Dir, File) :-
     runs(Dir, File, '[fail]', ['--runs', 3], exit(1), Text),
-    says(Text, "3 runs failed: "),
+    contains(Text, "3 runs failed: "),
     findall(x, sub_string(Text, _, _, _, "failed; see"), Told),
     assertion(Told == [x]).
 
 collected_anyway(Dir, File) :-
     runs(Dir, File, '[a,fail]', ['--runs', 1], exit(1), Text),
-    says(Text, "index.html"),
+    contains(Text, "index.html"),
     runs(Dir, File, '[a,fail]', ['--runs', 1, '--collect'], exit(0), Text1),
-    says(Text1, "index.html").
+    contains(Text1, "index.html").
 
 %   A session gets a signal during a run.
 
@@ -236,7 +236,7 @@ changed(Dir, File) :-
     below(Dir, '.failed', [Failed|_]),
     directory_file_path(Failed, output, Output),
     read_file_to_string(Output, Said, []),
-    says(Said, "has changed").
+    contains(Said, "has changed").
 
 :- begin_tests(study_work).
 
@@ -291,8 +291,8 @@ test(study_changed_during_the_run) :-
 
 no_such_agent(Dir, File) :-
     study_command(Dir, [File, '--runs', '1'], exit(1), Text),
-    says(Text, "study.pl, seed 1"),
-    says(Text, "There is no file agents(missing)").
+    contains(Text, "study.pl, seed 1"),
+    contains(Text, "There is no file agents(missing)").
 
 by_two(Dir, File) :-
     study_command(Dir, [File, '--runs', '1', '--jobs', '2'], exit(0), _).

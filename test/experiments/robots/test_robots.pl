@@ -37,18 +37,18 @@ programs, the arena as a process, and a run of the study.
 fake_host:payload(_, _).
 
 fake_host:nxt_run(robot, Motors, Power, _) :-
-    test_robots:told(run(Motors, Power)),
+    test_robots:record(run(Motors, Power)),
     test_robots:set_motors(Motors, Power).
 fake_host:nxt_stop(robot, Motors) :-
-    test_robots:told(stop(Motors)),
+    test_robots:record(stop(Motors)),
     test_robots:set_motors(Motors, 0).
 fake_host:nxt_float(robot, Motors) :-
-    test_robots:told(float(Motors)),
+    test_robots:record(float(Motors)),
     test_robots:set_motors(Motors, 0).
 fake_host:nxt_tacho(robot, Motor, Degrees) :-
     test_robots:turned(Motor, Degrees).
 fake_host:nxt_tacho_reset(robot, Motors) :-
-    test_robots:told(reset(Motors)),
+    test_robots:record(reset(Motors)),
     forall(member(Motor, Motors),
            ( retractall(test_robots:motor(Motor, _, _, _)),
              assertz(test_robots:motor(Motor, 0, 0, 0)) )).
@@ -60,7 +60,7 @@ fake_host:nxt_touch(robot, 1, Touch) :-
     ;   Touch = false
     ).
 
-told(What) :-
+record(What) :-
     assertz(fake_host:did(What)).
 
 set_motors(Motors, Power) :-

@@ -184,21 +184,21 @@ test(printing_a_raised_term_calls_nothing,
                hostile(Ball), \+ Ball = unwind(_) ))]) :-
     with_hosts([g-Options],
                printing(forall(raising(Body, Ball),
-                               says(Body)), Texts)),
+                               raise_in_agent(Body)), Texts)),
     Texts = [_|_],
     untouched.
 test(printing_hooks_do_not_see_raised_terms) :-
     with_hosts([g],
                printing(( forall(raising(Body, typhon_portrayed(x)),
-                                 says(Body)),
+                                 raise_in_agent(Body)),
                           forall(raising(Body, error(typhon_portrayed(x), _)),
-                                 says(Body)) ), Texts)),
+                                 raise_in_agent(Body)) ), Texts)),
     Texts = [_|_],
     untouched.
 
 :- end_tests(errors_of_agents).
 
-says(Body) :-
+raise_in_agent(Body) :-
     create([ (main :- Body), (on_message(_, _) :- fail) ], A, [host(g)]),
     wait_until(rests(A), 10),
     catch(agent_dispose(A), error(existence_error(agent, _), _), true).

@@ -21,11 +21,11 @@
 
 */
 
-%   told(:Goal, -Text): Goal raises an error, whose text is Text.
+%   error_text(:Goal, -Text): Goal raises an error, whose text is Text.
 
-:- meta_predicate told(0, -).
+:- meta_predicate error_text(0, -).
 
-told(Goal, Text) :-
+error_text(Goal, Text) :-
     catch(( call(Goal), Error = none ), error(Formal, Context),
           Error = error(Formal, Context)),
     assertion(Error \== none),
@@ -36,8 +36,8 @@ message_to_codes(Error, Text) :-
     with_output_to(string(Text),
                    print_message_lines(current_output, '', Lines)).
 
-says(Goal, Parts) :-
-    told(Goal, Text),
+raises(Goal, Parts) :-
+    error_text(Goal, Text),
     forall(member(Part, Parts),
            assertion(sub_string(Text, _, _, _, Part))).
 
@@ -77,31 +77,31 @@ test(unknown_option_is_an_error, [forall(unknown(Goal, Domain, _)),
     no_leaks(Goal).
 test(similar_option_is_suggested, [forall(unknown(Goal, _, Meant))]) :-
     format(string(Proposed), '(did you mean ~w?); there are ', [Meant]),
-    says(Goal, [Proposed]).
+    raises(Goal, [Proposed]).
 test(limit_of_a_motor, error(domain_error(nxt_motor_option, limit(90)))) :-
     nxt_run(b, a, 50, [limit(90)]).
 test(option_of_another_form) :-
-    says(host_start(a, [hop_time(3)]), ["(write hop_time(uniform("]).
+    raises(host_start(a, [hop_time(3)]), ["(write hop_time(uniform("]).
 test(quota) :-
-    says(host_start(a, [quota([hop(3)])]), ["(did you mean hops?)"]).
+    raises(host_start(a, [quota([hop(3)])]), ["(did you mean hops?)"]).
 test(policy) :-
-    says(host_start(a, [policy(guardd)]),
-         ["trusted, guarded or a file of rules"]).
+    raises(host_start(a, [policy(guardd)]),
+           ["trusted, guarded or a file of rules"]).
 test(all_options_are_listed) :-
-    says(nxt_run(b, a, 50, [limit(90)]),
-         ["; there are brake, degrees, regulated, state, sync"]).
+    raises(nxt_run(b, a, 50, [limit(90)]),
+           ["; there are brake, degrees, regulated, state, sync"]).
 test(wrong_value_names_the_option) :-
-    says(host_start(a, [capacity(many)]), ["in capacity(many)"]).
+    raises(host_start(a, [capacity(many)]), ["in capacity(many)"]).
 test(either_type_is_accepted) :-
     with_hosts([a-[capacity(inf)], b-[capacity(3), concurrency(inf)]], true).
 test(single_letter_gets_no_suggestion) :-
-    told(agent_create(clauses([]), _, [x(1)]), Text),
+    error_text(agent_create(clauses([]), _, [x(1)]), Text),
     assertion(\+ sub_string(Text, _, _, _, "did you mean")).
 test(option_with_an_equals_sign) :-
-    says(host_start(a, [port=9700]), ["host option port=9700", "port"]).
+    raises(host_start(a, [port=9700]), ["host option port=9700", "port"]).
 test(setting_of_a_mechanism) :-
-    says(sequence_start(s, [], [], [settings([dleta-1])], _),
-         ["there are delta, theta, maximum, window, patience, strategy"]).
+    raises(sequence_start(s, [], [], [settings([dleta-1])], _),
+           ["there are delta, theta, maximum, window, patience, strategy"]).
 test(existing_robot_does_not_hide_the_error,
      error(domain_error(robot_option, _))) :-
     robot_start(nowhere, [], [cots(x)]).
@@ -111,28 +111,28 @@ test(existing_robot_does_not_hide_the_error,
 :- begin_tests(names).
 
 test(topology) :-
-    says(network_start(rnig(4), _, []),
-         ["no topology rnig(4) (did you mean ring(N)?)", "grid(Rows,Cols)"]).
+    raises(network_start(rnig(4), _, []),
+           ["no topology rnig(4) (did you mean ring(N)?)", "grid(Rows,Cols)"]).
 test(arguments_of_a_topology) :-
-    says(network_start(grid(3), _, []), ["(did you mean grid(Rows,Cols)?)"]),
-    says(network_start(ring(a), _, []), ["in ring(a)"]).
+    raises(network_start(grid(3), _, []), ["(did you mean grid(Rows,Cols)?)"]),
+    raises(network_start(ring(a), _, []), ["in ring(a)"]).
 test(clock) :-
-    says(network_start(ring(2), _, [clock(fast)]), ["clock(virtual)"]),
-    says(host_start(a, [clock(fast)]), ["virtual"]).
+    raises(network_start(ring(2), _, [clock(fast)]), ["clock(virtual)"]),
+    raises(host_start(a, [clock(fast)]), ["virtual"]).
 test(vocabulary, [forall(member(Goal-Outside,
                                 [ move(beta)-"agent_move(Agent, Host)",
                                   send(a, b)-"agent_send(Agent, Message)",
                                   leave(x)-"remote(Host, leave(_))" ]))]) :-
-    says(user:Goal, ["Unknown procedure", Outside]).
+    raises(user:Goal, ["Unknown procedure", Outside]).
 test(dynamic_model) :-
-    says(network_start(ring(4), _, [dynamic(dynamc_1)]),
-         ["(did you mean dynamic_1"]).
+    raises(network_start(ring(4), _, [dynamic(dynamc_1)]),
+           ["(did you mean dynamic_1"]).
 test(property, [forall(member(Goal-Meant,
                               [ agent_property(_, sate(_))-"state(_)",
                                 agent_property(bob, hosts(_))-"host(_)",
                                 host_property(_, adress(_))-"address(_)",
                                 network_property(_, host(_))-"hosts(_)" ]))]) :-
-    told(Goal, Text),
+    error_text(Goal, Text),
     assertion(sub_string(Text, _, _, _, Meant)).
 test(unknown_property_is_an_error,
      error(domain_error(agent_property, sate(_)))) :-
@@ -149,45 +149,47 @@ test(every_property_can_be_queried) :-
                           assertion(host_property(alpha, General)) )) )).
 test(host) :-
     with_hosts([alpha],
-               ( says(host_stop(alhpa), ["(did you mean alpha?)"]),
-                 says(link(alpha, alhpa), ["(did you mean alpha?)"]),
-                 says(agent_create(clauses([(:- agent(a)), main]), _,
-                                   [host(alhpa)]),
-                      ["There is no host alhpa here (did you mean alpha?)"]) )).
+               ( raises(host_stop(alhpa), ["(did you mean alpha?)"]),
+                 raises(link(alpha, alhpa), ["(did you mean alpha?)"]),
+                 raises(agent_create(clauses([(:- agent(a)), main]), _,
+                                     [host(alhpa)]),
+                        [ "There is no host alhpa here (did you mean alpha?)"
+                        ]) )).
 test(network) :-
     setup_call_cleanup(
         network_start(ring(2), N, [clock(virtual)]),
         ( atom_concat(N, x, Mistyped),
-          says(network_stop(Mistyped), ["(did you mean ", N]) ),
+          raises(network_stop(Mistyped), ["(did you mean ", N]) ),
         network_stop(N)).
 test(existing_host_is_not_suggested) :-
     with_hosts([alpha],
-               says(host_start(alpha), ["There is a host alpha here already"])).
+               raises(host_start(alpha),
+                      ["There is a host alpha here already"])).
 test(agent_that_has_ended) :-
     with_hosts([alpha],
                ( create([main], A, [host(alpha)]),
                  joined(A, done),
-                 says(agent_send(A, x), [" has ended: done"]) )).
+                 raises(agent_send(A, x), [" has ended: done"]) )).
 test(destination_host) :-
     with_hosts([alpha],
                ( capturing(( create([(main :- move(alhpa))], A,
                                     [host(alpha)]),
                              agent_join(A, raised(Error), 5) ), _),
-                 says(throw(Error), ["(did you mean alpha?)"]) )).
+                 raises(throw(Error), ["(did you mean alpha?)"]) )).
 test(kinds_of_trace_and_change) :-
     with_hosts([alpha],
                ( create([(on_message(_, _))], A, [host(alpha)]),
-                 says(agent_trace(A, [hop]), ["(did you mean hops?)"]),
-                 says(agent_change(A, fact([])),
-                      ["(did you mean facts(Clauses)?)"]) )).
+                 raises(agent_trace(A, [hop]), ["(did you mean hops?)"]),
+                 raises(agent_change(A, fact([])),
+                        ["(did you mean facts(Clauses)?)"]) )).
 test(hint_at_the_single_process_of_virtual_time) :-
-    says(network_start(ring(2), _, [clock(virtual), processes(2)]),
-         ["one process", "processes(2)"]).
+    raises(network_start(ring(2), _, [clock(virtual), processes(2)]),
+           ["one process", "processes(2)"]).
 test(search_path) :-
-    says(agent_check(agent(census)), ["(did you mean agents(_)?)"]).
+    raises(agent_check(agent(census)), ["(did you mean agents(_)?)"]).
 test(strategy) :-
-    says(typhon_strategy:next_host(consientious, [], a, memory(1, []), _, _),
-         ["(did you mean conscientious?)"]).
+    raises(typhon_strategy:next_host(consientious, [], a, memory(1, []), _, _),
+           ["(did you mean conscientious?)"]).
 
 :- end_tests(names).
 
@@ -236,30 +238,30 @@ put(Name, Text) :-
     setup_call_cleanup(open(Name, write, Out), write(Out, Text), close(Out)).
 
 test(agents) :-
-    in_directory(says(agent_check(agents(tourst)),
-                      ["There is no file agents(tourst) \c
-                        (did you mean tourist?)"])).
+    in_directory(raises(agent_check(agents(tourst)),
+                        ["There is no file agents(tourst) \c
+                          (did you mean tourist?)"])).
 test(files) :-
-    in_directory(( says(agent_check('agents/turist'),
-                        ["There is no file 'agents/turist' \c
-                          (did you mean agents/tourist?)"]),
+    in_directory(( raises(agent_check('agents/turist'),
+                          ["There is no file 'agents/turist' \c
+                            (did you mean agents/tourist?)"]),
                    working_directory(_, agents),
-                   says(agent_check(tourst),
-                        ["There is no file tourst (did you mean tourist?)"]),
-                   told(agent_check('no/such/file'), Text),
+                   raises(agent_check(tourst),
+                          ["There is no file tourst (did you mean tourist?)"]),
+                   error_text(agent_check('no/such/file'), Text),
                    assertion(sub_string(Text, _, _, _, "does not exist")) )).
 test(program_in_a_folder) :-
-    in_directory(says(agent_check(agents(survey/cenus)),
-                      ["(did you mean survey/census?)"])).
+    in_directory(raises(agent_check(agents(survey/cenus)),
+                        ["(did you mean survey/census?)"])).
 test(program_by_its_last_part) :-
-    in_directory(says(agent_check(agents(census)),
-                      ["(did you mean survey/census?)"])).
+    in_directory(raises(agent_check(agents(census)),
+                        ["(did you mean survey/census?)"])).
 test(payloads) :-
     in_directory(
         with_hosts([alpha],
-                   says(agent_create(agents(tourist), _,
-                                     [payloads([payloads(thrmo)])]),
-                        ["(did you mean thermo?)"]))).
+                   raises(agent_create(agents(tourist), _,
+                                       [payloads([payloads(thrmo)])]),
+                          ["(did you mean thermo?)"]))).
 test(only_programs_are_suggested) :-
     in_directory(( typhon_names:names(agents, Names),
                    assertion(memberchk(tourist, Names)),

@@ -103,7 +103,7 @@ test(managers_answer_jade) :-
 
 ams_describes_itself :-
     jade_manager(ams, Ams),
-    manager_says(Ams, 'get-description'(), Found),
+    manager_answer(Ams, 'get-description'(), Found),
     assertion(( Found = [result(_, [Description])],
                 compound_name_arguments(Description, Kind, _),
                 Kind == 'ap-description' )).
@@ -112,17 +112,18 @@ df_finds_who_answers :-
     jade_manager(df, Df),
     Template = 'df-agent-description'(
                    services:set(['service-description'(type:echo)])),
-    manager_says(Df, search(Template, 'search-constraints'('max-results': -1)),
-                 Found),
+    manager_answer(Df,
+                   search(Template, 'search-constraints'('max-results': -1)),
+                   Found),
     Found = [result(_, [Echo|_])],
     Echo =.. [_|Parts],
     memberchk(name:Aid, Parts),
     does(fipa_request(Aid, "found", 20, Said), Said),
     assertion(Said == inform-"found").
 
-%   manager_says(+Manager, +Action, -Content): the answer to an agent of ours.
+%   manager_answer(+Manager, +Action, -Content): the answer to an agent of ours.
 
-manager_says(Manager, Action, Content) :-
+manager_answer(Manager, Action, Content) :-
     does(( send(Manager, acl(request,
                              [ content(action(Manager, Action)),
                                language('fipa-sl0'),

@@ -60,7 +60,7 @@ got(Agent, Messages) :-
     joined(Agent, done),
     agent_result(Agent, Messages, 5).
 
-says(Topic, Text) :-
+sends(Topic, Text) :-
     shared(Broker),
     client_publishes(Broker, Topic, ['-m', Text]).
 
@@ -73,7 +73,7 @@ error_of(Goal, Formal) :-
 test(message_from_another_client, Ms == [message('lab/t', "21.5",
                                                  [qos(0),retain(false)])]) :-
     at_broker([], ( reader(subscribe('lab/+'), 1, A),
-                    says('lab/t', '21.5'),
+                    sends('lab/t', '21.5'),
                     got(A, Ms) )).
 test(message_to_another_client, Lines == ["lab/x 1 hello"]) :-
     shared(Broker),
@@ -117,7 +117,7 @@ test(filters, Topics == [a, 'a/b', 'a/b', 'a/b/c', 'x/b']) :-
     msort(Topics0, Topics).
 test(all_subscribers_receive_a_message, Counts == [1,1,1]) :-
     at_broker([], ( maplist(reader_of, ['e/x','e/x','e/+'], As),
-                    says('e/x', m),
+                    sends('e/x', m),
                     maplist(got_count, As, Counts) )).
 test(terms, Ps =@= [_{a:[1,"b",null]}, [1,2], "text", "7", "[no json"]) :-
     at_broker([], ( reader(subscribe(t), 5, A),
@@ -160,24 +160,24 @@ test(a_megabyte, Lengths == [1000000, 1000000]) :-
 test(unsubscribed, Ms == [message(end, "m", [qos(0),retain(false)])]) :-
     at_broker([], ( reader(( subscribe(u), subscribe(end), unsubscribe(u) ),
                            1, A),
-                    says(u, m), says(end, m),
+                    sends(u, m), sends(end, m),
                     got(A, Ms) )).
 test(subscribed_again_with_other_options, Ps == ["[1]"]) :-
     at_broker([], ( reader(( subscribe(w), subscribe(w, [payload(text)]) ),
                            1, A),
-                    says(w, '[1]'),
+                    sends(w, '[1]'),
                     got(A, Ms) )),
     payloads(Ms, Ps).
 test(facts, Facts == ["1","2"]) :-
     at_broker([], ( remote(alpha, subscribe('f/#', [as(fact)])),
-                    says('f/a', 1), says('f/a', 2),
+                    sends('f/a', 1), sends('f/a', 2),
                     wait_until(remote(alpha,
                                       sense(mqtt-message(_, "2", _))), 10),
                     remote(alpha, findall(P, sense(mqtt-message(_, P, _)),
                                           Facts)) )).
 test(latest_facts, Facts == ['f/a'-"3",'f/b'-"2"]) :-
     at_broker([], ( remote(alpha, subscribe('f/#', [as(latest)])),
-                    says('f/a', 1), says('f/b', 2), says('f/a', 3),
+                    sends('f/a', 1), sends('f/b', 2), sends('f/a', 3),
                     wait_until(remote(alpha,
                                       sense(mqtt-message(_, "3", _))), 10),
                     remote(alpha, findall(T-P, sense(mqtt-message(T, P, _)),
@@ -307,7 +307,7 @@ test(leaving_agent_is_unsubscribed, Mail == []) :-
                        ( mqtt_start(alpha, URL, []),
                          traveller(beta, A),
                          wait_until(unsubscribed(Broker, 'leave/me'), 10),
-                         says('leave/me', m),
+                         sends('leave/me', m),
                          agent_property(A, mailbox(Mail)) ))).
 test(agent_leaving_for_another_process_is_unsubscribed) :-
     shared(Broker),
@@ -338,7 +338,7 @@ test(remaining_subscriber_gets_the_message,
                                   catch(move(Beta), error(_, _), true) ),
                                 1, A),
                          wait_until(again(Broker), 10),
-                         says('stay/x', m),
+                         sends('stay/x', m),
                          got(A, Ms) ))).
 test(ended_agent_is_unsubscribed) :-
     shared(Broker),
@@ -355,7 +355,7 @@ test(other_agents_are_still_subscribed, Count == 1) :-
     at_broker([], ( reader(subscribe('two/x'), 1, A),
                     create([ (main :- subscribe('two/x')) ], B),
                     joined(B, done),
-                    says('two/x', m),
+                    sends('two/x', m),
                     got(A, Ms),
                     length(Ms, Count) )).
 test(other_hosts_have_no_connection, Outcome = raised(E)) :-
@@ -420,7 +420,7 @@ test(too_large_to_receive, Ms == [ too_big(b, 101),
     maplist(=(0'a), Codes),
     atom_codes(Text, Codes),
     at_broker([largest(100)], ( reader(subscribe(b), 2, A),
-                                says(b, Text), says(b, x),
+                                sends(b, Text), sends(b, x),
                                 got(A, Ms) )).
 test(deep_json_is_text, Length == 100000) :-
     length(Codes, 100000),
@@ -432,11 +432,11 @@ test(deep_json_is_text, Length == 100000) :-
     string_length(P, Length).
 test(nan_is_no_json, P == "[NaN]") :-
     at_broker([], ( reader(subscribe(d), 1, A),
-                    says(d, '[NaN]'),
+                    sends(d, '[NaN]'),
                     got(A, [message(d, P, _)]) )).
 test(too_large_a_number_is_no_json, [P,Q] == ["[1e999]", "x"]) :-
     at_broker([], ( reader(subscribe(d), 2, A),
-                    says(d, '[1e999]'), says(d, x),
+                    sends(d, '[1e999]'), sends(d, x),
                     got(A, [message(d, P, _), message(d, Q, _)]) )).
 test(urls) :-
     with_hosts([alpha],

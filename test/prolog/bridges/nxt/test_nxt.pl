@@ -177,7 +177,7 @@ test(calls) :-
                                         acknowledge(Peer, Hex)),
                                  call(Goal),
                                  forall(member(Hex, Hexes),
-                                        heard(Peer, Hex))
+                                        receives(Peer, Hex))
                                )))).
 test(i2c, Degrees == 275) :-
     Replies = [[2,5,0], [2,16,0,0,z(16)], [2,15,0], [2,14,0x20,0],
@@ -189,7 +189,7 @@ test(i2c, Degrees == 275) :-
                         ( forall(member(Reply, Replies), answer(Peer, Reply)),
                           nxt_compass(lizzy, 3, Degrees),
                           forall(member(Request, Requests),
-                                 ( bytes(Request, Hex), heard(Peer, Hex) ))
+                                 ( bytes(Request, Hex), receives(Peer, Hex) ))
                         ))).
 test(sensor_waits_until_valid, Pressed == true) :-
     Values = [0,1,32,w(183),w(183),w(1),w(183)],
@@ -199,12 +199,12 @@ test(sensor_waits_until_valid, Pressed == true) :-
                           answer(Peer, [2,7,0,0,0|Values]),
                           answer(Peer, [2,7,0,0,1|Values]),
                           nxt_touch(lizzy, 1, Pressed),
-                          heard(Peer, '0005000120'),
-                          heard(Peer, '000700'),
-                          heard(Peer, '000700'),
+                          receives(Peer, '0005000120'),
+                          receives(Peer, '000700'),
+                          receives(Peer, '000700'),
                           answer(Peer, [2,7,0,0,1|Values]),
                           nxt_touch(lizzy, 1, _),
-                          heard(Peer, '000700')
+                          receives(Peer, '000700')
                         ))).
 
 test(display) :-
@@ -222,7 +222,7 @@ exchanged(Peer, Command, Args, Request0, Reply0, Values0) :-
     bytes(Request0, Request),
     answer(Peer, Reply0),
     nxt_command(lizzy, Command, Args, Values),
-    heard(Peer, Request),
+    receives(Peer, Request),
     assertion(same(Command, Values, Values0)).
 
 same(_, Values, Values0) :-
@@ -239,7 +239,7 @@ acknowledge(Peer, Request) :-
     format(atom(Line), 'answer 02~w00', [Opcode]),
     peer_command(Peer, Line).
 
-heard(Peer, Hex) :-
+receives(Peer, Hex) :-
     peer_received(Peer, Heard),
     assertion(Heard == Hex).
 
@@ -283,11 +283,11 @@ test(invalid_requests,
     length(Codes, 70000),
     maplist(=(0'x), Codes),
     format(string(Long), '"~s"', [Codes]),
-    helper_says([ "hello", Long, "[1]", "{\"id\": \"x\"}",
-                  "{\"id\": 1, \"do\": \"dance\"}",
-                  "{\"id\": 2, \"do\": \"telegram\", \"timeout\": -1}",
-                  "{\"id\": 3, \"do\": \"open\"}"
-                ], Answers, Status),
+    helper_answers([ "hello", Long, "[1]", "{\"id\": \"x\"}",
+                     "{\"id\": 1, \"do\": \"dance\"}",
+                     "{\"id\": 2, \"do\": \"telegram\", \"timeout\": -1}",
+                     "{\"id\": 3, \"do\": \"open\"}"
+                   ], Answers, Status),
     assertion(Status == exit(0)),
     findall(Kind,
             ( member(Answer, Answers),
@@ -295,14 +295,14 @@ test(invalid_requests,
               atom_string(Kind, Text) ),
             Kinds).
 test(commands_are_checked, Ids == [1, 2, 3, 4]) :-
-    helper_says([ "{\"id\":1,\"do\":\"telegram\",\"command\":\"X\"}",
-                  "{\"id\":2,\"do\":\"telegram\",\"command\":\"PLAYTONE\",\c
-                    \"args\":{\"frequency\":70000}}",
-                  "{\"id\":3,\"do\":\"telegram\",\"command\":\"PLAYTONE\",\c
-                    \"args\":{\"colour\":1}}",
-                  "{\"id\":4,\"do\":\"i2c\",\"port\":3,\"data\":\"0g\",\c
-                    \"rx\":1}"
-                ], Answers, _),
+    helper_answers([ "{\"id\":1,\"do\":\"telegram\",\"command\":\"X\"}",
+                     "{\"id\":2,\"do\":\"telegram\",\"command\":\"PLAYTONE\",\c
+                       \"args\":{\"frequency\":70000}}",
+                     "{\"id\":3,\"do\":\"telegram\",\"command\":\"PLAYTONE\",\c
+                       \"args\":{\"colour\":1}}",
+                     "{\"id\":4,\"do\":\"i2c\",\"port\":3,\"data\":\"0g\",\c
+                       \"rx\":1}"
+                   ], Answers, _),
     findall(Id,
             ( member(Answer, Answers),
               get_dict(error, Answer, "bad_request"),
@@ -312,7 +312,7 @@ test(commands_are_checked, Ids == [1, 2, 3, 4]) :-
 
 %   Each line gets one answer, without a device at the port.
 
-helper_says(Lines, Answers, Status) :-
+helper_answers(Lines, Answers, Status) :-
     project_file('bridges/nxt/bridge.py', File),
     process_create('/usr/bin/python3', [File, '/dev/no_such_nxt'],
                    [ stdin(pipe(In)), stdout(pipe(Out)), process(Pid) ]),

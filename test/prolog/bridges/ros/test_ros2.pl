@@ -105,7 +105,7 @@ expected(typhon(helper_ended(_, _)), _).
 
 %   The peer may not have discovered our node yet.
 
-published_until_heard(Agent, In, Type, Sent, Out, Message) :-
+published_until_received(Agent, In, Type, Sent, Out, Message) :-
     wait_until(( does(alpha, Agent, ros_publish(In, Type, Sent)),
                  soon(remote(alpha, take(got(Agent,
                                              topic(Out, Message0))))) ),
@@ -123,8 +123,8 @@ test(published_and_received) :-
     agent(Agent),
     does(alpha, Agent, ros_subscribe('/out', 'std_msgs/msg/String')),
     Text = "h\u00e9 \"you\"\n",
-    published_until_heard(Agent, '/in', 'std_msgs/msg/String', _{data:Text},
-                          '/out', Message),
+    published_until_received(Agent, '/in', 'std_msgs/msg/String', _{data:Text},
+                             '/out', Message),
     assertion(Message.data == Text),
     does(alpha, Agent, ros_unsubscribe('/out')).
 
@@ -137,8 +137,8 @@ test(every_field_comes_back) :-
                 int32_value: -2147483648, uint32_value:4294967295,
                 int64_value: -9223372036854775808,
                 uint64_value:18446744073709551615 },
-    published_until_heard(Agent, '/types_in', 'test_msgs/BasicTypes', Fields,
-                          '/types_out', Message),
+    published_until_received(Agent, '/types_in', 'test_msgs/BasicTypes', Fields,
+                             '/types_out', Message),
     assertion(Fields :< Message).
 
 test(arrays_come_back) :-
@@ -150,8 +150,8 @@ test(arrays_come_back) :-
                int32_values=[7,8,9],
                string_values=[a,"b",'c d'],
                basic_types_values=[[int8_value=1],[],[bool_value=true]] ],
-    published_until_heard(Agent, '/arrays_in', 'test_msgs/Arrays', Fields,
-                          '/arrays_out', Message),
+    published_until_received(Agent, '/arrays_in', 'test_msgs/Arrays', Fields,
+                             '/arrays_out', Message),
     assertion(Message.bool_values == [true,false,true]),
     assertion(Message.float64_values == [1.0,2.5,-3.0]),
     assertion(Message.uint8_values == "AQID"),
@@ -303,8 +303,8 @@ test(dead_node_is_restarted_with_all_registrations) :-
 %   Earlier messages may arrive late.
 
 comes_back(Agent, Text) :-
-    published_until_heard(Agent, '/in', 'std_msgs/msg/String', _{data:Text},
-                          '/out', Message),
+    published_until_received(Agent, '/in', 'std_msgs/msg/String', _{data:Text},
+                             '/out', Message),
     Message.data == Text.
 
 :- end_tests(ros2).

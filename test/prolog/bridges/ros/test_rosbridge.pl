@@ -61,7 +61,7 @@ said(Op, Frame) :-
     member(Frame, Frames),
     Frame.op == Op.
 
-says(Op, Frame) :-
+frame_sent(Op, Frame) :-
     wait_until(said(Op, Frame), 20).
 
 :- begin_tests(rosbridge_topics).
@@ -93,7 +93,7 @@ test(frames_conform_to_the_protocol) :-
                                          [data=two])),
           does(alpha, Agent, ros_subscribe('/chatter', 'std_msgs/String')),
           does(alpha, Agent, ros_unsubscribe('/chatter')),
-          says("unsubscribe", _),
+          frame_sent("unsubscribe", _),
           rosbridge_frames(Frames),
           findall(Op, ( member(Frame, Frames), Op = Frame.op ), Ops),
           assertion(Ops == ["advertise", "publish", "publish", "subscribe",
@@ -118,7 +118,7 @@ test(two_agents_share_one_subscription) :-
           assertion(\+ remote(alpha, sense(got(Agent, topic(_, _))))),
           assertion(\+ said("unsubscribe", _)),
           does(alpha, Other, ros_unsubscribe('/t')),
-          says("unsubscribe", _),
+          frame_sent("unsubscribe", _),
           aggregate_all(count, said("subscribe", _), Count),
           assertion(Count == 1) )).
 
@@ -126,7 +126,7 @@ test(leaving_agent_is_unsubscribed) :-
     on_a_host(Agent, [],
         ( does(alpha, Agent, ros_subscribe('/t', 'std_msgs/String')),
           agent_send(Agent, go(beta)),
-          says("unsubscribe", Frame),
+          frame_sent("unsubscribe", Frame),
           assertion(Frame.topic == "/t"),
           goal_error(beta, Agent, ros_topics(_), Formal),
           assertion(Formal = existence_error(procedure, _)) )).
@@ -135,7 +135,7 @@ test(ended_agent_is_unsubscribed) :-
     on_a_host(Agent, [],
         ( does(alpha, Agent, ros_subscribe('/t', 'std_msgs/String')),
           agent_send(Agent, end),
-          says("unsubscribe", _) )).
+          frame_sent("unsubscribe", _) )).
 
 test(latest_message_as_a_fact) :-
     on_a_host(Agent, [],
@@ -272,7 +272,7 @@ test(a_late_answer_is_dropped) :-
     on_a_host(Agent, [],
         ( goal_error(alpha, Agent,
                      ros_call('/slow', 'a/B', [], _, [deadline(0.2)]), _),
-          says("call_service", Frame),
+          frame_sent("call_service", Frame),
           rosbridge_send(_{op:service_response, id:Frame.id, service:"/slow",
                            values:_{late:true}, result:true}),
           does(alpha, Agent, ros_call('/add_two_ints', 'a/B', [a=1,b=1], R)),
@@ -306,7 +306,7 @@ test(a_call_that_is_dropped) :-
                                                     [queue(1)]),
                                           receive(_-never)) ]),
                        _, [host(alpha)]),
-          says("advertise_service", _),
+          frame_sent("advertise_service", _),
           forall(member(Id, [c1, c2, c3]),
                  rosbridge_send(_{ op:call_service, id:Id, service:'/s',
                                    args:_{} })),
@@ -335,7 +335,7 @@ test(leaving_agent_refuses_its_open_calls) :-
           agent_send(Server, go(beta)),
           wait_until(remote(alpha, take(did(Agent, Result))), 5),
           assertion(Result == raised(ros_error(refused, '/no'))),
-          says("unadvertise_service", _) )).
+          frame_sent("unadvertise_service", _) )).
 
 test(parameters_are_services_of_nodes) :-
     on_a_host(Agent, [],
@@ -379,7 +379,7 @@ test(leaving_agent_cancels_its_goals) :-
         ( does(alpha, Agent, ros_goal('/fibonacci', 'a/Fibonacci',
                                       [order=1000], Id)),
           agent_send(Agent, go(beta)),
-          says("cancel_action_goal", Frame),
+          frame_sent("cancel_action_goal", Frame),
           assertion(atom_string(Id, Frame.id)) )).
 
 test(agent_that_stayed_is_notified) :-
@@ -531,12 +531,12 @@ test(reconnected_server_gets_all_registrations) :-
         ( does(alpha, Agent, ros_subscribe('/t', 'std_msgs/String')),
           does(alpha, Agent, ros_publish('/p', 'std_msgs/String', [data=x])),
           does(alpha, Agent, ros_offer('/s', 'std_srvs/Empty', [])),
-          says("advertise_service", _),
+          frame_sent("advertise_service", _),
           rosbridge_forget,
           rosbridge_cut,
-          says("advertise_service", _),
-          says("subscribe", S),
-          says("advertise", A),
+          frame_sent("advertise_service", _),
+          frame_sent("subscribe", S),
+          frame_sent("advertise", A),
           assertion(S.topic-A.topic == "/t"-"/p"),
           wait_until(ros_property(alpha, connected(true)), 5),
           does(alpha, Agent, ros_publish('/t', 'std_msgs/String', [data=y])),
@@ -547,7 +547,7 @@ test(calls_and_goals_fail_when_the_server_disconnects) :-
     quiet(on_a_host(Agent, [],
         ( does(alpha, Agent, ros_goal('/fibonacci', 'a/F', [order=1000], Id)),
           agent_send(Agent, do(ros_call('/slow', 'a/B', [], _))),
-          says("call_service", _),
+          frame_sent("call_service", _),
           rosbridge_cut,
           wait_until(remote(alpha, take(did(Agent, Result))), 5),
           assertion(Result == raised(ros_error(lost, alpha))),
@@ -567,7 +567,7 @@ test(publishing_without_a_server_is_an_error) :-
               nth1(5, Parts, Text),
               number_string(Port, Text),
               rosbridge_begin(Port, _),
-              says("subscribe", Frame),
+              frame_sent("subscribe", Frame),
               assertion(Frame.topic == "/t") ))))).
 
 test(status_reaches_its_agent) :-

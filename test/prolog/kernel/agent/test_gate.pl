@@ -158,21 +158,22 @@ program(clauses([ (:- agent(guest, [state([note/2])])),
 attempt(create, Source, _, Inn, Told) :-
     !,
     program(Program, Facts),
-    told(on(Source, agent_create(Program, _, [host(Inn), facts(Facts)])), Told).
+    verdict(on(Source, agent_create(Program, _, [host(Inn), facts(Facts)])),
+            Told).
 attempt(restore, Source, Agent, Inn, Told) :-
     !,
     tmp_file(guest, File),
     setup_call_cleanup(
         agent_save(Agent, File),
-        told(on(Source, agent_load(File, _, [host(Inn)])), Told),
+        verdict(on(Source, agent_load(File, _, [host(Inn)])), Told),
         delete_file(File)).
 attempt(Way, _, Agent, Inn, Told) :-
     agent_send(Agent, go(Way, Inn)),
     agent_result(Agent, Told, 20).
 
-:- meta_predicate told(0, -).
+:- meta_predicate verdict(0, -).
 
-told(Goal, Told) :-
+verdict(Goal, Told) :-
     catch(( call(Goal), Told = admitted ), error(Formal, _), Told = Formal).
 
 watched(Goal, Events) :-

@@ -740,14 +740,14 @@ ended_elsewhere(Elsewhere, Dir) :-
         ( network_property(Network, hosts(Hosts)),
           forall(between(1, 300, _), walker(Hosts)),
           host_stop(n1),
-          wait_until(all_told(Network, Log, Events), 20) ),
+          wait_until(all_logged(Network, Log, Events), 20) ),
         network_stop(Network)),
     findall(At, ( member(event(_, At, _, ended(_)), Events),
                   \+ sub_atom(At, 0, _, _, 'n1@') ), Elsewhere).
 
 %   Agents that have not ended still walk.
 
-all_told(Network, Log, Events) :-
+all_logged(Network, Log, Events) :-
     network_property(Network, agents(Left)),
     length(Left, Walking),
     Ended is 300-Walking,

@@ -18,7 +18,7 @@ ended(Count) :-
            ( create([(main :- log(hi))], Agent, [host(alpha)]),
              joined(Agent, done) )).
 
-told(Messages, Warnings) :-
+warnings_of(Messages, Warnings) :-
     findall(What, member(warning-typhon(What), Messages), Warnings).
 
 at(Port, Endpoint) :-
@@ -46,14 +46,14 @@ test(reported_once_and_again_after_recovery,
                capturing(( ended(3),
                            with_tmp_dir(test_host_log:comes_back(Port)) ),
                          Messages)),
-    told(Messages, [log_unheard(Endpoint), log_heard(Endpoint, Count)]).
+    warnings_of(Messages, [log_unheard(Endpoint), log_heard(Endpoint, Count)]).
 test(each_host_that_starts_is_logged, Count == 2) :-
     free_port(Port),
     at(Port, Endpoint),
     atom_concat('log@', Endpoint, Log),
     Once = with_hosts([alpha-[log(Log)]], ended(1)),
     capturing(( Once, Once ), Messages),
-    told(Messages, Warnings),
+    warnings_of(Messages, Warnings),
     aggregate_all(count, member(log_unheard(Endpoint), Warnings), Count).
 
 :- end_tests(host_log).

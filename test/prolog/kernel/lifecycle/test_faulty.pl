@@ -40,17 +40,18 @@ saved(Agent, Copy, Dir) :-
     agent_save(Agent, File),
     agent_load(File, Copy).
 
-%   says(+Lines, -Text): the message about an agent of that file, after its id.
+%   prints(+Lines, -Text): the message about an agent of that file, after its
+%   id.
 
-says(Lines, Text) :-
+prints(Lines, Text) :-
     with_program(Lines, File,
                  with_hosts([alpha,beta],
                             capturing(( agent_create(File, A,
                                                      [host(alpha)]),
                                         joined(A, _) ), Messages))),
-    once(told(Messages, Text)).
+    once(message_text(Messages, Text)).
 
-told(Messages, Text) :-
+message_text(Messages, Text) :-
     member(Kind-Message, Messages),
     memberchk(Kind, [warning,error]),
     Message = typhon(_),
@@ -97,53 +98,53 @@ test(error_in_a_native_goal,
      true(Text == " at beta (hop 1): is/2: Arithmetic: evaluable z/0 \c
                    does not exist, in add/2 (trip.pl:7), called from \c
                    main/0 (trip.pl:3)")) :-
-    says([ ':- agent(trip, []).', '',
-           'main :-', '    move(beta),', '    add(1, X),', '    log(X).',
-           'add(X, Y) :-', '    Y is X+z.' ], Text0),
+    prints([ ':- agent(trip, []).', '',
+             'main :-', '    move(beta),', '    add(1, X),', '    log(X).',
+             'add(X, Y) :-', '    Y is X+z.' ], Text0),
     in_words_of_now(Text0, Text).
 test(error_deep_in_native_goals,
      true(Text == ", in add/2 (trip.pl:4), called from sum/2 (trip.pl:3)\n")) :-
-    says([ ':- agent(trip, []).',
-           'main :- move(beta), sum([1], S), log(S).',
-           'sum([N|_], S) :- add(N, S), log(S).',
-           'add(X, Y) :- integer(X), Y is X+z.' ], Text0),
+    prints([ ':- agent(trip, []).',
+             'main :- move(beta), sum([1], S), log(S).',
+             'sum([N|_], S) :- add(N, S), log(S).',
+             'add(X, Y) :- integer(X), Y is X+z.' ], Text0),
     from_in(Text0, Text).
 test(failing_goal,
      true(Text == " at beta (hop 1): failed: the goal that failed last was \c
                    member(q, [a]), in tour/1 (trip.pl:3), called from \c
                    main/0 (trip.pl:2)\n")) :-
-    says([ ':- agent(trip, []).',
-           'main :- tour([beta,alpha]), log(end).',
-           'tour([H|Hs]) :- move(H), member(q, [a]), tour(Hs).',
-           'tour([]) :- move(alpha), log(x), member(q, [a]).' ], Text).
+    prints([ ':- agent(trip, []).',
+             'main :- tour([beta,alpha]), log(end).',
+             'tour([H|Hs]) :- move(H), member(q, [a]), tour(Hs).',
+             'tour([]) :- move(alpha), log(x), member(q, [a]).' ], Text).
 test(no_clause_matches,
      true(Text == ", in main/0 (trip.pl:2)\n")) :-
-    says([ ':- agent(trip, []).',
-           'main :- log(a), go(c), log(b).',
-           'go(a) :- move(beta).',
-           'go(b) :- move(alpha).' ], Text0),
+    prints([ ':- agent(trip, []).',
+             'main :- log(a), go(c), log(b).',
+             'go(a) :- move(beta).',
+             'go(b) :- move(alpha).' ], Text0),
     from_in(Text0, Text).
 test(all_clauses_of_main_fail,
      true(Text == " at alpha (hop 0): failed: the goal that failed last was \c
                    main, in main/0 (trip.pl:3)\n")) :-
-    says([ ':- agent(trip, []).', '',
-           'main :-', '    X = 1, X > 2.' ], Text).
+    prints([ ':- agent(trip, []).', '',
+             'main :-', '    X = 1, X > 2.' ], Text).
 test(condition_without_else,
      true(Text == " at alpha (hop 0): failed: the goal that failed last was \c
                    ( member(q, [a]) -> ... ) without else, in main/0 \c
                    (trip.pl:3)\n")) :-
-    says([ ':- agent(trip, []).', '',
-           'main :- ( member(q, [a]) -> move(beta) ), log(x).' ], Text).
+    prints([ ':- agent(trip, []).', '',
+             'main :- ( member(q, [a]) -> move(beta) ), log(x).' ], Text).
 test(receive_times_out,
      true(Text == " at alpha (hop 0): failed: the goal that failed last was \c
                    receive(user-_, 0.01), in main/0 (trip.pl:2)\n")) :-
-    says([ ':- agent(trip, []).',
-           'main :- receive(user-_, 0.01), log(x).' ], Text).
+    prints([ ':- agent(trip, []).',
+             'main :- receive(user-_, 0.01), log(x).' ], Text).
 test(unknown_procedure_has_a_hint,
      true(Text == " at alpha (hop 0): Unknown procedure: move/2 (did you mean \c
                    move/1? If not, a place or a payload must offer it), in \c
                    main/0 (trip.pl:2)\n")) :-
-    says([':- agent(trip, []).', 'main :- log(a), move(beta, now).'], Text).
+    prints([':- agent(trip, []).', 'main :- log(a), move(beta, now).'], Text).
 test(hint_is_in_the_outcome,
      true(Hint == 'did you mean helper/1? If not, a place or a payload must \c
                    offer it')) :-
@@ -160,18 +161,18 @@ test(library_typhon_is_named, true(sub_atom(Hint, _, _, _, Import))) :-
 test(unbound_argument_of_a_control_predicate,
      true(Text == " at alpha (hop 0): Arguments are not sufficiently \c
                    instantiated, at move(_), in main/0 (trip.pl:2)\n")) :-
-    says([':- agent(trip, []).', 'main :- move(_).'], Text).
+    prints([':- agent(trip, []).', 'main :- move(_).'], Text).
 test(refused_move,
      true(Text == ", in main/0 (trip.pl:2)\n")) :-
-    says([ ':- agent(trip, []).',
-           'main :- log(a), move(atlantis), log(b).' ], Text0),
+    prints([ ':- agent(trip, []).',
+             'main :- log(a), move(atlantis), log(b).' ], Text0),
     from_in(Text0, Text).
 test(inside_catch_and_condition, true(Text == ", in p/1 (trip.pl:3), \c
                                                called from main/0 \c
                                                (trip.pl:2)\n")) :-
-    says([ ':- agent(trip, []).',
-           'main :- catch(( p(_), move(beta) -> true ; true ), ball, true).',
-           'p(X) :- atom_length(X, _), move(alpha).' ], Text0),
+    prints([ ':- agent(trip, []).',
+             'main :- catch(( p(_), move(beta) -> true ; true ), ball, true).',
+             'p(X) :- atom_length(X, _), move(alpha).' ], Text0),
     from_in(Text0, Text).
 test(clause_in_an_included_file, true(P = inc:2)) :-
     with_program([ ':- agent(trip, []).', ':- include(inc).',
@@ -461,14 +462,14 @@ test(clause_fails, true(Text == " at alpha (hop 0): did not do with ask(1) \c
                              on_message/2, clause 2\n")) :-
     after_mail([ on_message(_, say),
                  (on_message(_, ask(X)) :- s(X), move(beta)) ], ask(1), T),
-    once(told(T, Text)).
+    once(message_text(T, Text)).
 test(clause_without_a_stop_fails,
      true(Text == " at alpha (hop 0): did not do with ask(1) from user what \c
                    on_message/2 says; it failed: the goal that failed last \c
                    was s(1), in on_message/2, clause 1\n")) :-
     after_mail([(on_message(_, ask(X)) :- integer(X), s(X), true)], ask(1),
                T),
-    once(told(T, Text)).
+    once(message_text(T, Text)).
 
 :- end_tests(failing_on_message).
 

@@ -367,25 +367,25 @@ client(frame).
 client(oversize).
 client(hurried).
 
-%   says(Client, Bytes): the bytes that Client sends.
+%   client_bytes(Client, Bytes): the bytes that Client sends.
 
-says(garbage, [0, 255, 10, 13, 10, 1, 2, 3]).
-says(http, `GET / HTTP/1.0\r\n\r\n`).
-says(goal, `halt.\nhalt.\n`).
-says(frame, Bytes) :-
+client_bytes(garbage, [0, 255, 10, 13, 10, 1, 2, 3]).
+client_bytes(http, `GET / HTTP/1.0\r\n\r\n`).
+client_bytes(goal, `halt.\nhalt.\n`).
+client_bytes(frame, Bytes) :-
     fast_term_serialized(request(1, remote, remote(a, halt)), String),
     string_codes(String, Codes),
     length(Codes, Length),
     Bytes = [0, 0, 0, Length|Codes].
-says(oversize, Bytes) :-
+client_bytes(oversize, Bytes) :-
     length(Bytes, 100 000),
     maplist(=(0'a), Bytes).
-says(hurried, []).
+client_bytes(hurried, []).
 
 %   Two agents hop between a and b all the time. One line is printed.
 
 visited_by(Client) :-
-    says(Client, Bytes),
+    client_bytes(Client, Bytes),
     peer_host(a, A),
     peer_host(b, B),
     findall(Id, ( between(1, 2, _), set_out(a, [B, A], 300, Id) ), Ids),

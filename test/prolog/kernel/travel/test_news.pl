@@ -18,18 +18,18 @@
 *Threading*: the main thread; a worker posts the news.
 */
 
-%   told(+All, -Kept): Kept are the news that are kept after All were given, in
-%   order, and the home could not be reached.
+%   kept_news(+All, -Kept): Kept are the news that are kept after All were
+%   given, in order, and the home could not be reached.
 
-told(All, Kept) :-
+kept_news(All, Kept) :-
     with_silent_home(Home,
                      ( forall(member(News, All), news_send(Home, x, News)),
                        kept(Home, Kept) )).
 
-%   told_under_way(+First, +Then, -Kept): Then is given while First is being
+%   kept_under_way(+First, +Then, -Kept): Then is given while First is being
 %   posted.
 
-told_under_way(First, Then, Kept) :-
+kept_under_way(First, Then, Kept) :-
     with_silent_home(Home,
                      ( news_send(Home, x, First),
                        wait_until(\+ typhon_news:news(Home, x, _), 10),
@@ -126,25 +126,25 @@ act(hurry) :-
 
 test(newest_news_counts, Kept == [News2]) :-
     at(1, News1), at(2, News2),
-    told([News1, News2], Kept).
+    kept_news([News1, News2], Kept).
 test(newest_news_counts_in_any_order, Kept == [News2]) :-
     at(1, News1), at(2, News2),
-    told([News2, News1], Kept).
+    kept_news([News2, News1], Kept).
 test(end_counts, Kept == [End]) :-
     at(2, News), end(2, End),
-    told([News, End], Kept).
+    kept_news([News, End], Kept).
 test(end_before_older_news, Kept == [End]) :-
     at(2, News), end(2, End),
-    told([End, News], Kept).
+    kept_news([End, News], Kept).
 test(end_queued_during_a_send, Kept == [End]) :-
     at(2, News), end(2, End),
-    told_under_way(News, End, Kept).
+    kept_under_way(News, End, Kept).
 test(end_under_way_precedes_news_of_the_same_hop, Kept == [End]) :-
     at(2, News), end(2, End),
-    told_under_way(End, News, Kept).
+    kept_under_way(End, News, Kept).
 test(later_news_follow_the_end_of_a_discarded_copy, Kept == [News]) :-
     end(1, End), at(2, News),
-    told_under_way(End, News, Kept).
+    kept_under_way(End, News, Kept).
 test(news_are_batched_after_a_pause, Posts == [10]) :-
     findall(tell(I, News), ( between(1, 10, I), at(I, News) ), Acts),
     sent_with_pause(0.3, Acts, Posts).

@@ -57,7 +57,7 @@ test(orders_reach_the_agent_on_any_host, true(Loads == [0,0,0])) :-
                  numlist(1, 20, Numbers),
                  forall(( member(N, Numbers), member(A, Agents) ),
                         agent_send(A, N)),
-                 maplist(heard(Numbers), Agents),
+                 maplist(received_numbers(Numbers), Agents),
                  maplist(agent_dispose, Agents),
                  maplist(joined_as(disposed), Agents),
                  maplist(load, [alpha,beta,gamma], Loads) )).
@@ -157,7 +157,7 @@ walker(A) :-
                       -> assertz(s(M)), hear
                       ;  true )) ], A).
 
-heard(Numbers, Agent) :-
+received_numbers(Numbers, Agent) :-
     wait_until(( agent_property(Agent, facts(Facts)),
                  findall(N, member(s(N), Facts), Heard),
                  Heard == Numbers ), 20).

@@ -59,10 +59,10 @@ endpoint_and(Options, Goal) :-
         once(call(Goal, Address)),
         endpoint_stop).
 
-%   says(+Text, -Line, +Address): Line is the answer to a client that begins
-%   with Text.
+%   server_answer(+Text, -Line, +Address): Line is the answer to a client that
+%   begins with Text.
 
-says(Text, Line, Address) :-
+server_answer(Text, Line, Address) :-
     atomic_list_concat([Host,Port0], :, Address),
     atom_number(Port0, Port),
     setup_call_cleanup(
@@ -85,10 +85,10 @@ test(proofs_are_checked_by_the_transport,
      Own-Unknown == mark(ours)-mark(unknown)) :-
     with_endpoint([marked], test_transport:proofs(Own, Unknown)).
 test(plain_client_gets_the_name_of_the_transport, Line == "typhon marked") :-
-    with_endpoint([marked], says(typhon, Line)).
+    with_endpoint([marked], server_answer(typhon, Line)).
 test(client_of_a_missing_transport_gets_a_line,
      Line == "typhon plain") :-
-    with_endpoint([], says('M', Line)).
+    with_endpoint([], server_answer('M', Line)).
 test(transport_stops_with_the_endpoint) :-
     with_endpoint([marked], agrees),
     transport_disagrees(marked).

@@ -30,11 +30,11 @@ with_owners(Goal, Authority) :-
 
 %   A guest moves and sends messages on order, and stores received messages.
 
-guest(clauses([ (:- agent(guest, [state([heard/2])])),
+guest(clauses([ (:- agent(guest, [state([received/2])])),
                 (on_message(_, go(Host)) :- move(Host)),
                 (on_message(_, say(To, What)) :- send(To, What)),
-                (on_message(From, heard(What)) :-
-                     assertz(heard(From, What))) ])).
+                (on_message(From, received(What)) :-
+                     assertz(received(From, What))) ])).
 
 resides(Agent, Peer) :-
     peer_host(Peer, Host),
@@ -45,9 +45,9 @@ is_at(Agent, Host) :-
     wait_until(( agent_property(Agent, host(Host)),
                  agent_property(Agent, state(resident)) ), 20).
 
-heard(Agent, Heard) :-
+received(Agent, Heard) :-
     agent_property(Agent, facts(Facts)),
-    findall(From-What, member(heard(From, What), Facts), Heard).
+    findall(From-What, member(received(From, What), Facts), Heard).
 
 endpoint(Peer, Endpoint) :-
     peer_host(Peer, Host),
@@ -94,18 +94,18 @@ honest :-
     agent_create(Program, B, [host(Beta)]),
     assertion(sub_atom(B, _, _, _, '-beta.')),
     resides(A, mallory),
-    agent_send(A, say(B, heard(from_mallory))),
+    agent_send(A, say(B, received(from_mallory))),
     resides(A, beta),
-    agent_send(A, say(B, heard(from_beta))),
+    agent_send(A, say(B, received(from_beta))),
     births_saved(beta),
     host_property(alpha, address(Alpha)),
     agent_send(A, go(Alpha)),
     is_at(A, Alpha),
-    agent_send(A, say(B, heard(from_home))),
-    wait_until(( heard(B, Heard), length(Heard, 3) ), 20),
+    agent_send(A, say(B, received(from_home))),
+    wait_until(( received(B, Heard), length(Heard, 3) ), 20),
     assertion(Heard == [ A-from_mallory, A-from_beta, A-from_home ]),
-    agent_send(B, say(A, heard(back))),
-    wait_until(heard(A, [B-back]), 20).
+    agent_send(B, say(A, received(back))),
+    wait_until(received(A, [B-back]), 20).
 
 %   An agent there could not continue from a network that was saved and loaded.
 %   As a network does, the test waits until no agent runs there: A has just
@@ -190,19 +190,19 @@ senders_forged :-
     peer_do(mallory, typhon_birth:birth(M, hash, Birth)),
     many_shown(300, A, B, Birth, Many),
     forall(member(Term,
-                  [ message(B, [mail(x, A, heard(forged))], 5),
-                    shown([], message(B, [mail(x, A, heard(forged))], 5)),
+                  [ message(B, [mail(x, A, received(forged))], 5),
+                    shown([], message(B, [mail(x, A, received(forged))], 5)),
                     shown([Birth, _, f(x)],
-                          message(B, [mail(x, A, heard(forged))], 5)),
-                    message(B, [mail(x, _, heard(forged))], 5),
-                    message(B, [mail(x, B, heard(forged))], 5),
+                          message(B, [mail(x, A, received(forged))], 5)),
+                    message(B, [mail(x, _, received(forged))], 5),
+                    message(B, [mail(x, B, received(forged))], 5),
                     Many ]),
            peer_do(mallory,
                    typhon_wire:endpoint_post(Beta, message, Term))),
-    peer_do(mallory, agent_send(M, say(B, heard(honest)))),
-    wait_until(heard(B, [_|_]), 20),
-    agent_send(A, say(B, heard(from_a))),
-    wait_until(( heard(B, Heard), length(Heard, 2) ), 20),
+    peer_do(mallory, agent_send(M, say(B, received(honest)))),
+    wait_until(received(B, [_|_]), 20),
+    agent_send(A, say(B, received(from_a))),
+    wait_until(( received(B, Heard), length(Heard, 2) ), 20),
     assertion(Heard == [M-honest, A-from_a]).
 
 %   Checking each of them for each message would take minutes.
@@ -212,7 +212,7 @@ many_shown(Count, A, B, birth(_, Hash, Pem, Hex),
     numlist(1, Count, Ns),
     findall(birth(A, Other, Pem, Hex),
             ( member(N, Ns), atom_concat(Hash, N, Other) ), Births),
-    findall(mail(x, A, heard(N)), member(N, Ns), Mail).
+    findall(mail(x, A, received(N)), member(N, Ns), Mail).
 
 news_forged :-
     guest(Program),
@@ -225,19 +225,19 @@ news_forged :-
                   [ located(A, Mallory, 5), ended(A, done, 9),
                     faulty(A, failed, 1.0, Mallory, 9) ]),
               agent_create(Program, M),
-              agent_send(M, say(A, heard(done))) )),
-    wait_until(heard(A, [M-done]), 20),
+              agent_send(M, say(A, received(done))) )),
+    wait_until(received(A, [M-done]), 20),
     agent_join(A, Outcome, 0),
     assertion(Outcome == timeout),
-    agent_send(A, heard(still_here)),
-    wait_until(heard(A, [M-done, user-still_here]), 10).
+    agent_send(A, received(still_here)),
+    wait_until(received(A, [M-done, user-still_here]), 10).
 
 %   On another host than its home no host would admit it.
 
 program_changed :-
     guest(Program),
     agent_create(Program, A),
-    Other = clauses([ (:- agent(guest, [state([heard/2])])),
+    Other = clauses([ (:- agent(guest, [state([received/2])])),
                       (on_message(_, go(Host)) :- move(Host)),
                       (on_message(_, other) :- true) ]),
     agent_change(A, program(Other)),

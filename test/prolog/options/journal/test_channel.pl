@@ -46,9 +46,9 @@ beta(Journal, Port, Goal) :-
                  nb_setval(channel_pid, Pid),
                  call(Goal) )).
 
-%   listens(+Host, -Id): an agent on Host that stores received messages.
+%   listener(+Host, -Id): an agent on Host that stores received messages.
 
-listens(Host, Id) :-
+listener(Host, Id) :-
     agent_create(clauses([ (:- agent(listens, [state([got/1])])),
                            (on_message(_, M) :- assertz(got(M))) ]),
                  Id, [host(Host)]).
@@ -86,7 +86,7 @@ hold(Kind) :-
 test(interrupted_post_does_not_block_others) :-
     with_beta(
         ( nb_getval(channel_beta, Beta),
-          listens(Beta, Id),
+          listener(Beta, Id),
           wrap_predicate(typhon_channel:set_out(_, _), told_to_end, Wrapped,
                          ( plunit_channel:interrupt, Wrapped )),
           assertz(interrupted),
@@ -103,7 +103,7 @@ test(unacknowledged_posts_are_sent_to_the_successor) :-
     message_queue_create(Gate, [alias(channel_gate)]),
     with_beta(
         ( nb_getval(channel_beta, Beta),
-          listens(Beta, Id),
+          listener(Beta, Id),
           nb_setval(channel_id, Id),
           nb_getval(channel_pid, Pid),
           stop_process(Pid),
@@ -127,7 +127,7 @@ test(unacknowledged_posts_to_a_second_port_are_sent_to_the_successor) :-
     with_beta(
         ( nb_getval(channel_beta, Beta),
           remote(Beta, typhon:host_start(gamma, [port(Port)])),
-          listens(Gamma, Id),
+          listener(Gamma, Id),
           nb_setval(channel_id, Id),
           nb_getval(channel_pid, Pid),
           asked_for_ever(Gamma, Thread),
@@ -236,7 +236,7 @@ text(Length, Text) :-
 test(sender_of_a_too_long_message_gets_an_error) :-
     with_beta(
         ( nb_getval(channel_beta, Beta),
-          listens(Beta, Id),
+          listener(Beta, Id),
           text(90000, Long),
           small(( catch(agent_send(Id, Long), error(Formal, _), true),
                   agent_send(Id, short),
@@ -247,8 +247,8 @@ test(sender_of_a_too_long_message_gets_an_error) :-
 test(agent_sending_a_too_long_message_gets_an_error) :-
     with_beta(
         ( nb_getval(channel_beta, Beta),
-          listens(Beta, Id),
-          listens(driver, Near),
+          listener(Beta, Id),
+          listener(driver, Near),
           Clauses = [ (:- agent(says, [state([to/2])])),
                       (main :- to(Near1, Far),
                                format(string(Long), "~`xt~90000|", []),
@@ -273,7 +273,7 @@ test(message_that_became_too_long_is_reported_as_a_dead_letter) :-
         with_beta(
             ( nb_getval(channel_beta, Beta),
               nb_getval(channel_pid, Pid),
-              listens(Beta, Id),
+              listener(Beta, Id),
               nb_setval(channel_id, Id),
               process_kill(Pid, kill),
               process_wait(Pid, _),
@@ -283,7 +283,9 @@ test(message_that_became_too_long_is_reported_as_a_dead_letter) :-
               set_setting(typhon_session:frame_bytes, 70000) ),
             ( nb_getval(channel_id, Id),
               got(Id, [first, second]),
-              wait_until(told_lost(Id, resource_error(frame_bytes)), 5) )),
+              wait_until(dead_letter_reported(Id,
+                                              resource_error(frame_bytes)),
+                         5) )),
         set_setting(typhon_session:frame_bytes, Bytes)).
 
 %   The whereabouts of the recipient say that it is on its way to this process.
@@ -291,7 +293,7 @@ test(message_that_became_too_long_is_reported_as_a_dead_letter) :-
 test(queued_messages_are_split_over_frames) :-
     with_beta(
         ( nb_getval(channel_beta, Beta),
-          listens(Beta, Id),
+          listener(Beta, Id),
           typhon_endpoint:endpoint_address(Endpoint),
           atom_concat('driver@', Endpoint, Here),
           assertz(typhon_whereabouts:forward(Id, Here, 1, unknown)),
@@ -320,7 +322,7 @@ test(end_is_reported_without_a_too_long_result) :-
 test(too_long_log_entry_is_reported) :-
     with_beta(
         ( nb_getval(channel_beta, Beta),
-          listens(Beta, Id),
+          listener(Beta, Id),
           host_change(driver, log(Beta)),
           agent_create(clauses([ (:- agent(logs, [state([to/1])])),
                                  (main :- format(string(S), "~`xt~90000|", []),
@@ -337,7 +339,7 @@ user:message_hook(typhon(Told), warning, _) :-
     ( Told = undeliverable(_, _, _, _) ; Told = results_lost(_) ),
     assertz(plunit_channel_frames:told(Told)).
 
-told_lost(Id, Formal) :-
+dead_letter_reported(Id, Formal) :-
     retract(told(undeliverable(Formal, Id, _, _))).
 
 :- end_tests(channel_frames).

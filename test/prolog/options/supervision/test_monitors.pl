@@ -48,27 +48,27 @@ unmonitors(W, A) :-
     wait_until(( agent_property(W, facts(Facts)),
                  \+ memberchk(r(A), Facts) ), 10).
 
-heard(W, Messages) :-
+received(W, Messages) :-
     agent_property(W, facts(Facts)),
     findall(M, member(s(M), Facts), Messages).
 
-hears(W, Message) :-
-    wait_until(( heard(W, Ms), memberchk(Message, Ms) ), 20).
+receives(W, Message) :-
+    wait_until(( received(W, Ms), memberchk(Message, Ms) ), 20).
 
 %   No other message has arrived when the report about another agent does,
 %   whose monitor began later.
 
 once_only(W, Message) :-
-    hears(W, Message),
-    hears_of_another(W, Other),
-    heard(W, Ms),
+    receives(W, Message),
+    receives_other(W, Other),
+    received(W, Ms),
     Ms == [Message, Other].
 
-hears_of_another(W, down(B, done)) :-
+receives_other(W, down(B, done)) :-
     sleeper(B, []),
     monitors(W, B),
     ends(B, true),
-    hears(W, down(B, done)).
+    receives(W, down(B, done)).
 
 sleeper(Id, Options) :-
     create([(main :- receive(_-end(How)), call(How))], Id, Options).
@@ -181,8 +181,8 @@ test(unmonitor_ends_reports, Ms == [Other]) :-
                  unmonitors(W, A),
                  ends(A, true),
                  joined(A, done),
-                 hears_of_another(W, Other),
-                 heard(W, Ms) )).
+                 receives_other(W, Other),
+                 received(W, Ms) )).
 test(monitored_again_after_unmonitor) :-
     with_hosts([alpha],
                ( watcher(W, [], []),
@@ -199,9 +199,9 @@ test(monitored_by_many, Count == 50) :-
                  forall(member(W, Ws), agent_send(W, monitor(A))),
                  forall(member(W, Ws), set(W, A)),
                  ends(A, true),
-                 forall(member(W, Ws), hears(W, down(A, done))),
+                 forall(member(W, Ws), receives(W, down(A, done))),
                  aggregate_all(count,
-                               ( member(W, Ws), heard(W, [down(A, done)]) ),
+                               ( member(W, Ws), received(W, [down(A, done)]) ),
                                Count) )).
 test(faulty_agent_is_reported_once, [true(Ms == [down(A, failed), Other])]) :-
     with_hosts([alpha],
@@ -209,12 +209,12 @@ test(faulty_agent_is_reported_once, [true(Ms == [down(A, failed), Other])]) :-
                  create([ (main :- receive(_-end(_)), s(_)) ], A),
                  monitors(W, A),
                  capturing(( ends(A, true), joined(A, failed) ), _),
-                 hears(W, down(A, failed)),
+                 receives(W, down(A, failed)),
                  agent_change(A, facts([s(1)])),
                  agent_resume(A),
                  joined(A, done),
-                 hears_of_another(W, Other),
-                 heard(W, Ms) )).
+                 receives_other(W, Other),
+                 received(W, Ms) )).
 test(both_agents_move) :-
     with_hosts([alpha, beta],
                ( watcher(W, [], []),
@@ -287,7 +287,7 @@ test(unmonitor_ends_shared_fate) :-
                  shares(W, A),
                  unmonitors(W, A),
                  agent_dispose(A),
-                 hears_of_another(W, _),
+                 receives_other(W, _),
                  agent_property(W, state(resident)),
                  sleeper(B, []),
                  sleeper(C, []),
@@ -307,7 +307,7 @@ test(unmonitor_ends_shared_fate) :-
 note(A, O) :-
     assertz(down(A, O)).
 
-told(A, O) :-
+reported(A, O) :-
     wait_until(down(A, O), 20).
 
 forget :-
@@ -318,13 +318,13 @@ test(agent_of_this_process, [cleanup(forget)]) :-
                ( sleeper(A, [name(bob)]),
                  agent_monitor(bob, note),
                  ends(A, true),
-                 told(A, done) )).
+                 reported(A, done) )).
 test(goal_that_raises, [cleanup(forget)]) :-
     with_hosts([alpha],
                ( sleeper(A, []),
                  agent_monitor(A, no_such_predicate),
                  agent_monitor(A, note),
-                 capturing(( ends(A, true), told(A, done),
+                 capturing(( ends(A, true), reported(A, done),
                              wait_until(was_printed(_, _), 5) ), _) )).
 test(no_such_agent, error(existence_error(agent, unknown))) :-
     with_hosts([alpha], agent_monitor(unknown, note)).
@@ -334,7 +334,7 @@ test(guest_monitors_an_agent_of_another_process, [cleanup(forget)]) :-
                    sleeper(A, [host(There)]),
                    agent_monitor(A, note),
                    ends(A, true),
-                   told(A, done) ))).
+                   reported(A, done) ))).
 test(agent_lost_with_its_process, [cleanup(forget), true(H == There)]) :-
     no_leaks(with_peers([p1],
                  ( peer_host(p1, There),
@@ -343,9 +343,9 @@ test(agent_lost_with_its_process, [cleanup(forget), true(H == There)]) :-
                    agent_monitor(A, note),
                    agent_monitor(B, note),
                    ends(B, true),
-                   told(B, done),
+                   reported(B, done),
                    peer_kill(p1),
-                   told(A, lost(H)) ))).
+                   reported(A, lost(H)) ))).
 
 :- end_tests(agent_monitor).
 
@@ -436,11 +436,11 @@ test(agent_lost_with_its_home, [nondet]) :-
               monitors(W, A),
               monitors(W, B),
               ends(B, true),
-              hears(W, down(B, done)),
+              receives(W, down(B, done)),
               peer_kill(p1),
-              hears(W, down(A, lost(H1))),
-              hears_of_another(W, Other),
-              heard(W, Ms),
+              receives(W, down(A, lost(H1))),
+              receives_other(W, Other),
+              received(W, Ms),
               assertion(Ms == [down(B, done), down(A, lost(H1)), Other]) )))).
 test(agent_away_when_its_home_dies, [nondet]) :-
     no_leaks(with_peers([p1, p2, p3],
@@ -490,10 +490,10 @@ test(agent_that_hopped_on_is_not_lost, [nondet]) :-
               agent_move(A, H1, [wait(5)]),
               agent_move(A, H2, [wait(5)]),
               peer_kill(p1),
-              hears(W, down(B, lost(H1))),
+              receives(W, down(B, lost(H1))),
               ends(A, true),
-              hears(W, down(A, done)),
-              heard(W, Ms),
+              receives(W, down(A, done)),
+              received(W, Ms),
               assertion(Ms == [down(B, lost(H1)), down(A, done)]) )))).
 test(process_restarted_at_the_same_address, [nondet]) :-
     no_leaks(with_peers([p1],
@@ -513,8 +513,8 @@ test(orderly_stop, [nondet]) :-
               sleeper(A, [host(H1)]),
               monitors(W, A),
               peer_do(p1, host_stop(p1)),
-              wait_until(heard(W, [_]), 20),
-              heard(W, [down(A, O)]),
+              wait_until(received(W, [_]), 20),
+              received(W, [down(A, O)]),
               assertion(memberchk(O, [disposed, lost(H1)])) )))).
 test(shared_fate_with_an_agent_of_a_dying_process, [nondet]) :-
     no_leaks(with_peers([p1],
@@ -523,7 +523,7 @@ test(shared_fate_with_an_agent_of_a_dying_process, [nondet]) :-
               watcher(W, [], [host(H1)]),
               sleeper(A, []),
               shares(W, A),
-              hears_of_another(W, _),
+              receives_other(W, _),
               peer_kill(p1),
               joined(A, O),
               assertion(O == disposed) )))).
@@ -562,10 +562,10 @@ test(broken_connection, [nondet]) :-
               proxy_cut(Proxy),
               monitors(W, B),
               ends(B, true),
-              hears(W, down(B, done)),
+              receives(W, down(B, done)),
               ends(A, true),
-              hears(W, down(A, done)),
-              heard(W, Ms),
+              receives(W, down(A, done)),
+              received(W, Ms),
               assertion(Ms == [down(B, done), down(A, done)]) )))).
 
 :- end_tests(monitors_of_processes).
@@ -601,7 +601,7 @@ both_die :-
     wait_until(agent_property(W, state(resident)), 20),
     once_only(W, down(A, done)),
     ends(B, true),
-    hears(W, down(B, done)).
+    receives(W, down(B, done)).
 
 %   The goals of agent_monitor/2 end with their process: the next process does
 %   not call them.

@@ -32,7 +32,7 @@ sslscan(Endpoint, Lines) :-
         ( close(Out), process_wait(Pid, _) )),
     split_string(Text, "\n", " \t", Lines).
 
-says(Lines, Prefix) :-
+has_line(Lines, Prefix) :-
     member(Line, Lines),
     string_concat(Prefix, _, Line),
     !.
@@ -44,7 +44,7 @@ test(scanner_finds_no_weakness) :-
     forall(member(Good, [ "TLSv1.3   enabled", "TLSv1.2   disabled",
                           "TLSv1.1   disabled", "TLSv1.0   disabled",
                           "SSLv3     disabled", "SSLv2     disabled" ]),
-           assertion(says(Lines, Good))),
+           assertion(has_line(Lines, Good))),
     forall(( member(Line, Lines),
              member(Part, ["vulnerable to", "Anonymous", "NULL", "MD5"]),
              sub_string(Line, _, _, _, Part) ),

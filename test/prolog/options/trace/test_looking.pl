@@ -14,7 +14,7 @@
 
 %   two(:Goal): with hosts alpha and beta, in virtual time.
 
-:- meta_predicate two(0), heard(0, -), in_network(+, 1).
+:- meta_predicate two(0), prints(0, -), in_network(+, 1).
 
 two(Goal) :-
     no_leaks(setup_call_cleanup(
@@ -35,13 +35,13 @@ later :-
     agent_create(clauses([ (:- agent(waiter, [])), (main :- sleep(1)) ]), A),
     agent_join(A, done, 10).
 
-%   heard(:Goal, -Said): the messages that are printed meanwhile, in order.
+%   prints(:Goal, -Said): the messages that are printed meanwhile, in order.
 
 :- dynamic said/1.
 :- multifile user:message_hook/3.
 :- dynamic user:message_hook/3.
 
-heard(Goal, Said) :-
+prints(Goal, Said) :-
     retractall(said(_)),
     setup_call_cleanup(
         asserta((user:message_hook(typhon(M), _, _) :- test_looking:note(M)),
@@ -123,7 +123,7 @@ test(listing_marks_the_waiting_goal) :-
 
 test(goal_in_a_condition) :-
     two(( traveller_on(alpha, A),
-          heard(( agent_step(A), agent_send(A, go(beta)) ), _),
+          prints(( agent_step(A), agent_send(A, go(beta)) ), _),
           agent_notrace(A),
           later,
           listing_of(A, Text) )),
@@ -177,8 +177,8 @@ named_on(Host, Waits, Text) :-
 test(names_of_variables_of_a_caller) :-
     two(with_named_program(File,
             ( agent_create(File, A, [host(alpha)]),
-              heard(( agent_step(A), agent_send(A, go([beta])),
-                      agent_step(A), agent_step(A), agent_step(A) ), _),
+              prints(( agent_step(A), agent_send(A, go([beta])),
+                       agent_step(A), agent_step(A), agent_step(A) ), _),
               later,
               listing_of(A, Text) ))),
     assertion(shows(Text, "% goals left\n:- move(beta),\n   tour([]),\n\c
@@ -187,7 +187,7 @@ test(names_of_variables_of_a_goal_that_is_next,
      Goal = receive(_-go('$VAR'('Hosts')))) :-
     two(with_named_program(File,
             ( agent_create(File, A, [host(alpha)]),
-              heard(( agent_step(A), agent_step(A) ), Said),
+              prints(( agent_step(A), agent_step(A) ), Said),
               agent_notrace(A) ))),
     last(Said, held(_, Goal)).
 
@@ -230,63 +230,63 @@ test(no_goals_left) :-
 :- begin_tests(tracing).
 
 test(hops_and_messages) :-
-    two(heard(( traveller_on(alpha, A),
-                agent_trace(A, [hops, messages]),
-                agent_send(A, go(beta)),
-                agent_join(A, done, 20) ), Said)),
+    two(prints(( traveller_on(alpha, A),
+                 agent_trace(A, [hops, messages]),
+                 agent_send(A, go(beta)),
+                 agent_join(A, done, 20) ), Said)),
     Said = [ alpha-received(user, go(beta)), alpha-left(Beta),
              beta-arrived(Alpha, _), beta-left(Alpha),
              alpha-arrived(Beta, _), alpha-sent(user, home), home,
              alpha-ended(done) ].
 
 test(goals) :-
-    two(heard(( traveller_on(alpha, A),
-                agent_trace(A, [goals]),
-                agent_send(A, go(beta)),
-                agent_join(A, done, 20) ), Said)),
+    two(prints(( traveller_on(alpha, A),
+                 agent_trace(A, [goals]),
+                 agent_send(A, go(beta)),
+                 agent_join(A, done, 20) ), Said)),
     findall(G, member(beta-goal(G), Said), Goals),
     Goals = [ digit(_), 1>1, 2>1, assertz(seen(2)), sleeps, sleep(5), fail,
               home(_), move(_) ].
 
 test(no_reports_after_untrace) :-
-    two(heard(( traveller_on(alpha, A),
-                agent_trace(A, [hops, goals]),
-                agent_notrace(A),
-                agent_send(A, go(beta)),
-                agent_join(A, done, 20) ), Said)),
+    two(prints(( traveller_on(alpha, A),
+                 agent_trace(A, [hops, goals]),
+                 agent_notrace(A),
+                 agent_send(A, go(beta)),
+                 agent_join(A, done, 20) ), Said)),
     findall(What, member(_-What, Said), []).
 
 test(clones_are_traced) :-
-    two(heard(( agent_create(clauses([ (:- agent(a, [])),
-                                       (main :- receive(_), clone(_)) ]),
-                             A, [host(alpha)]),
-                agent_trace(A, [hops]),
-                agent_send(A, go),
-                later ), Said)),
+    two(prints(( agent_create(clauses([ (:- agent(a, [])),
+                                        (main :- receive(_), clone(_)) ]),
+                              A, [host(alpha)]),
+                 agent_trace(A, [hops]),
+                 agent_send(A, go),
+                 later ), Said)),
     Said = [ alpha-created, alpha-cloned(_), alpha-ended(done),
              alpha-ended(done) ].
 
 test(tuples_are_traced) :-
-    two(heard(( agent_create(clauses([ (:- agent(a, [])),
-                                       (main :- receive(_), leave(f(1)),
-                                                take(f(_))) ]),
-                             A, [host(alpha)]),
-                agent_trace(A, [facts]),
-                agent_send(A, go),
-                agent_join(A, done, 5) ), Said)),
+    two(prints(( agent_create(clauses([ (:- agent(a, [])),
+                                        (main :- receive(_), leave(f(1)),
+                                                 take(f(_))) ]),
+                              A, [host(alpha)]),
+                 agent_trace(A, [facts]),
+                 agent_send(A, go),
+                 agent_join(A, done, 5) ), Said)),
     Said = [ alpha-leave(f(1)), alpha-take(f(1)), alpha-ended(done) ].
 
 test(refused_move) :-
     no_leaks(setup_call_cleanup(
         ( host_start(alpha, [clock(virtual)]),
           host_start(full, [clock(virtual), capacity(0)]) ),
-        heard(( agent_create(clauses([ (:- agent(a, [])),
-                                       (main :- receive(_),
-                                            catch(move(full), _, true)) ]),
-                             A, [host(alpha)]),
-                agent_trace(A, [hops]),
-                agent_send(A, go),
-                agent_join(A, done, 5) ), Said),
+        prints(( agent_create(clauses([ (:- agent(a, [])),
+                                        (main :- receive(_),
+                                             catch(move(full), _, true)) ]),
+                              A, [host(alpha)]),
+                 agent_trace(A, [hops]),
+                 agent_send(A, go),
+                 agent_join(A, done, 5) ), Said),
         ( host_stop(alpha), host_stop(full) ))),
     Said = [ alpha-left(Full), alpha-stayed(Full), alpha-ended(done) ].
 
@@ -301,12 +301,12 @@ test(agent_in_other_processes) :-
 elsewhere(Said, Network) :-
     network_property(Network, hosts([Here, There])),
     clauses(Program),
-    heard(( agent_create(clauses(Program), A, [host(Here)]),
-            agent_trace(A, [hops, messages]),
-            agent_send(A, go(There)),
-            agent_join(A, done, 10),
-            wait_until(( said(n1-ended(done)), said(n2-left(_)) ), 5) ),
-          Said).
+    prints(( agent_create(clauses(Program), A, [host(Here)]),
+             agent_trace(A, [hops, messages]),
+             agent_send(A, go(There)),
+             agent_join(A, done, 10),
+             wait_until(( said(n1-ended(done)), said(n2-left(_)) ), 5) ),
+           Said).
 
 clauses([ (:- agent(a, [])),
           (main :- receive(_-go(There)), move(There), home(Home),
@@ -334,14 +334,14 @@ steps(N, Agent) :-
     steps(N1, Agent).
 
 test(agent_is_stepped_goal_by_goal) :-
-    two(heard(( traveller_on(alpha, A),
-                steps(1, A),
-                agent_send(A, go(beta)),
-                steps(8, A),
-                agent_property(A, state(State)),
-                agent_property(A, goals([Next|_])),
-                agent_notrace(A),
-                agent_join(A, done, 20) ), Said)),
+    two(prints(( traveller_on(alpha, A),
+                 steps(1, A),
+                 agent_send(A, go(beta)),
+                 steps(8, A),
+                 agent_property(A, state(State)),
+                 agent_property(A, goals([Next|_])),
+                 agent_notrace(A),
+                 agent_join(A, done, 20) ), Said)),
     State-Next == held-sleeps,
     goals(Said, Goals),
     append_last(Goals, [ tour(beta), move(beta), digit(_), 1>1, 2>1,
@@ -355,7 +355,7 @@ append_last(List, End) :-
     End0 = End.
 
 test(stepped_agent_rests) :-
-    two(heard(( traveller_on(alpha, A), steps(3, A) ), Said)),
+    two(prints(( traveller_on(alpha, A), steps(3, A) ), Said)),
     last_of(Said, rests(waiting)).
 
 last_of(List, Last) :-
@@ -364,33 +364,33 @@ last_of(List, Last) :-
     Last0 = Last.
 
 test(stepped_agent_ends) :-
-    two(heard(( agent_create(clauses([ (:- agent(a, [])),
-                                       (main :- receive(_), here(_)) ]),
-                             A, [host(alpha)]),
-                steps(1, A), agent_send(A, x), steps(3, A) ), Said)),
+    two(prints(( agent_create(clauses([ (:- agent(a, [])),
+                                        (main :- receive(_), here(_)) ]),
+                              A, [host(alpha)]),
+                 steps(1, A), agent_send(A, x), steps(3, A) ), Said)),
     last_of(Said, ended(done)).
 
 test(held_agents_can_be_ended) :-
-    two(( heard(( traveller_on(alpha, A),
-                  agent_step(A), agent_send(A, go(beta)), agent_step(A) ), _),
+    two(( prints(( traveller_on(alpha, A),
+                   agent_step(A), agent_send(A, go(beta)), agent_step(A) ), _),
           agent_property(A, state(held)),
           agent_dispose(A),
           agent_join(A, disposed, 1) )).
 
 test(hosts_with_held_agents_stop) :-
-    two(heard(( traveller_on(alpha, A),
-                agent_step(A), agent_send(A, go(beta)), agent_step(A) ), _)).
+    two(prints(( traveller_on(alpha, A),
+                 agent_step(A), agent_send(A, go(beta)), agent_step(A) ), _)).
 
 test(error_during_a_step) :-
-    two(heard(( agent_create(clauses([ (:- agent(a, [])),
-                                       (main :- receive(_),
-                                            catch(member(X, [1,0]), _, true),
-                                            X =:= 0, atom_length(_, _)) ]),
-                             A, [host(alpha)]),
-                steps(1, A), agent_send(A, x), steps(6, A),
-                agent_property(A, state(State)),
-                agent_property(A, fault(fault(_, Goal, Place, _))) ),
-              Said)),
+    two(prints(( agent_create(clauses([ (:- agent(a, [])),
+                                        (main :- receive(_),
+                                             catch(member(X, [1,0]), _, true),
+                                             X =:= 0, atom_length(_, _)) ]),
+                              A, [host(alpha)]),
+                 steps(1, A), agent_send(A, x), steps(6, A),
+                 agent_property(A, state(State)),
+                 agent_property(A, fault(fault(_, Goal, Place, _))) ),
+               Said)),
     State = faulty(error(instantiation_error, _)),
     Goal-Place = atom_length(_, _)-(main/0:1),
     last_of(Said, rests(faulty)).
@@ -402,26 +402,26 @@ test(in_another_process) :-
 
 elsewhere(Said, Network) :-
     network_property(Network, hosts([Here, There])),
-    heard(( agent_create(clauses([ (:- agent(a, [])),
-                                   (main :- receive(_-go(To)), move(To),
-                                            here(_), sleep(100)) ]),
-                         A, [host(Here)]),
-            agent_step(A),
-            agent_send(A, go(There)),
-            wait_until(( agent_step(A),
-                         said(held(There, here(_))) ), 10) ), Said).
+    prints(( agent_create(clauses([ (:- agent(a, [])),
+                                    (main :- receive(_-go(To)), move(To),
+                                             here(_), sleep(100)) ]),
+                          A, [host(Here)]),
+             agent_step(A),
+             agent_send(A, go(There)),
+             wait_until(( agent_step(A),
+                          said(held(There, here(_))) ), 10) ), Said).
 
 test(no_such_agent, error(existence_error(agent, _))) :-
     two(agent_step('a.v.99@alpha@virtual:0')).
 
 test(clones_are_not_held) :-
-    two(( heard(( agent_create(clauses([ (:- agent(a, [])),
-                                         (main :- receive(_), clone(W),
-                                                  told(W)),
-                                         told(parent(_)),
-                                         (told(clone(_)) :- send(user, x)) ]),
-                               A, [host(alpha)]),
-                  steps(1, A), agent_send(A, go), steps(4, A) ), Said),
+    two(( prints(( agent_create(clauses([ (:- agent(a, [])),
+                                          (main :- receive(_), clone(W),
+                                                   told(W)),
+                                          told(parent(_)),
+                                          (told(clone(_)) :- send(user, x)) ]),
+                                A, [host(alpha)]),
+                   steps(1, A), agent_send(A, go), steps(4, A) ), Said),
           memberchk(x, Said) )).
 
 :- end_tests(stepping).
@@ -434,41 +434,41 @@ spied_in(Set, Goal, Clear) :-
     setup_call_cleanup(Set, two(Goal), Clear).
 
 test(mistyped_predicate) :-
-    heard(spied_in(true,
-                   ( traveller_on(alpha, _),
-                     spy(traveller:tuor/1),
-                     nospy(traveller:tuor/1),
-                     spy(traveller:tour),
-                     nospy(traveller:tour) ),
-                   true), Said),
+    prints(spied_in(true,
+                    ( traveller_on(alpha, _),
+                      spy(traveller:tuor/1),
+                      nospy(traveller:tuor/1),
+                      spy(traveller:tour),
+                      nospy(traveller:tour) ),
+                    true), Said),
     Said == [none(tuor/1, ' (did you mean tour/1?)')].
 
 test(held_at_a_spy_point) :-
-    heard(spied_in(spy(traveller:tour/1),
-                   ( traveller_on(alpha, A),
-                     agent_send(A, go(beta)),
-                     \+ agent_join(A, done, 10),
-                     agent_property(A, state(State)),
-                     agent_notrace(A),
-                     agent_join(A, done, 20) ),
-                   nospy(traveller:tour/1)), Said),
+    prints(spied_in(spy(traveller:tour/1),
+                    ( traveller_on(alpha, A),
+                      agent_send(A, go(beta)),
+                      \+ agent_join(A, done, 10),
+                      agent_property(A, state(State)),
+                      agent_notrace(A),
+                      agent_join(A, done, 20) ),
+                    nospy(traveller:tour/1)), Said),
     State == held,
     Said == [spied(tour(beta)), home].
 
 test(nospy_ends_spying) :-
-    heard(spied_in(( spy(traveller:tour/1), nospy(traveller:tour/1) ),
-                   ( traveller_on(alpha, A),
-                     agent_send(A, go(beta)),
-                     agent_join(A, done, 10) ),
-                   true), Said),
+    prints(spied_in(( spy(traveller:tour/1), nospy(traveller:tour/1) ),
+                    ( traveller_on(alpha, A),
+                      agent_send(A, go(beta)),
+                      agent_join(A, done, 10) ),
+                    true), Said),
     Said == [home].
 
 test(calls_are_printed) :-
-    heard(spied_in(trace(traveller:tour/1),
-                   ( traveller_on(alpha, A),
-                     agent_send(A, go(beta)),
-                     agent_join(A, done, 10) ),
-                   trace(traveller:tour/1, -all)), Said),
+    prints(spied_in(trace(traveller:tour/1),
+                    ( traveller_on(alpha, A),
+                      agent_send(A, go(beta)),
+                      agent_join(A, done, 10) ),
+                    trace(traveller:tour/1, -all)), Said),
     Said == [alpha-goal(tour(beta)), home].
 
 :- dynamic port/1.
@@ -478,11 +478,11 @@ test(ports_of_native_predicates) :-
     setup_call_cleanup(
         asserta((user:message_hook(frame(_:digit(_), trace(Port, _)), _, _) :-
                      assertz(test_looking:port(Port))), Ref),
-        heard(spied_in(trace(traveller:digit/1, [call, exit]),
-                       ( traveller_on(alpha, A),
-                         agent_send(A, go(beta)),
-                         agent_join(A, done, 10) ),
-                       trace(traveller:digit/1, -all)), _),
+        prints(spied_in(trace(traveller:digit/1, [call, exit]),
+                        ( traveller_on(alpha, A),
+                          agent_send(A, go(beta)),
+                          agent_join(A, done, 10) ),
+                        trace(traveller:digit/1, -all)), _),
         erase(Ref)),
     findall(P, retract(test_looking:port(P)), [call, exit, exit]).
 
@@ -517,8 +517,8 @@ log_option([Kind|Kinds], File, log(File, [Kind|Kinds])).
 live(Network) :-
     network_property(Network, hosts([H1, H2])),
     traveller_on(H1, A),
-    heard(( agent_send(A, go(H2)),
-            agent_join(A, done, 20) ), _).
+    prints(( agent_send(A, go(H2)),
+             agent_join(A, done, 20) ), _).
 
 whats(Events, Whats) :-
     findall(Name-What,
@@ -560,9 +560,9 @@ traced_and_logged(Events, Dir) :-
         network_start(edges([1-2]), Network, [clock(virtual), log(File)]),
         once(( network_property(Network, hosts([H1, H2])),
                traveller_on(H1, A),
-               heard(( agent_trace(A, [goals]),
-                       agent_send(A, go(H2)),
-                       agent_join(A, done, 20) ), _) )),
+               prints(( agent_trace(A, [goals]),
+                        agent_send(A, go(H2)),
+                        agent_join(A, done, 20) ), _) )),
         network_stop(Network)),
     log_events(File, Events).
 

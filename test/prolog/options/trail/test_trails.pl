@@ -119,7 +119,7 @@ made_of_it :-
     typhon_agents:agent(Agent, _, Module, _, _),
     Raw = '$trail'(At, Chain, Pems, Pending),
     call(Module:Raw),
-    assertion(told(Agent, Raw, Steps, whole)),
+    assertion(verdict_of(Agent, Raw, Steps, whole)),
     string_concat(Chain, "0000000xyz", Longer),
     forall(( member(Made, [ foo, _, at(7, 5, 5, none, none),
                             at(_, 5, 5, "", none), at(a, 5, 5, "", none),
@@ -127,7 +127,7 @@ made_of_it :-
              Broken = '$trail'(Made, Chain, Pems, Pending)
            ; Broken = '$trail'(At, Longer, Pems, Pending)
            ),
-           assertion(told(Agent, Broken, _, unaccounted(gamma)))),
+           assertion(verdict_of(Agent, Broken, _, unaccounted(gamma)))),
     Seed is random(1<<32),
     set_random(seed(Seed)),
     forall(between(1, 120, N),
@@ -135,7 +135,7 @@ made_of_it :-
              assertion(goes_on(Agent, Mutant, Steps, Seed-N)) )).
 
 goes_on(Agent, Mutant, Steps, _) :-
-    told(Agent, Mutant, Told, Verdict),
+    verdict_of(Agent, Mutant, Told, Verdict),
     is_verdict(Verdict),
     forall(( member(Step, Told), \+ arg(2, Step, alpha) ),
            memberchk(Step, Steps)),
@@ -146,7 +146,7 @@ goes_on(Agent, Mutant, Steps, _) :-
                                    state([], [_, _]))),
     typhon_trail:trail_enter(made, Agent, x).
 
-told(Agent, Raw0, Steps, Verdict) :-
+verdict_of(Agent, Raw0, Steps, Verdict) :-
     dynamic(made:'$trail'/4),
     retractall(made:'$trail'(_, _, _, _)),
     assertz(made:Raw0),

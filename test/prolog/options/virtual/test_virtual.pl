@@ -117,17 +117,17 @@ test(order_is_executed_while_its_caller_waits) :-
 test(appointments_run_in_order, true(Heard == [a-1.0,b-2.0,c-2.0,late-3.0])) :-
     with_virtual([], N,
                  with_queue(Queue,
-                            ( network_at(N, 2, tell(Queue, N, b)),
-                              network_at(N, 2, tell(Queue, N, c)),
-                              network_at(N, 1, tell(Queue, N, a)),
+                            ( network_at(N, 2, note_time(Queue, N, b)),
+                              network_at(N, 2, note_time(Queue, N, c)),
+                              network_at(N, 1, note_time(Queue, N, a)),
                               network_advance(N, 3),
-                              network_at(N, 1, tell(Queue, N, late)),
+                              network_at(N, 1, note_time(Queue, N, late)),
                               network_advance(N, 10),
-                              heard(Queue, Heard) ))).
+                              noted(Queue, Heard) ))).
 test(no_appointment_after_the_end, true(Heard == [])) :-
     with_queue(Queue,
-               ( with_virtual([], N, network_at(N, 5, tell(Queue, N, a))),
-                 heard(Queue, Heard) )).
+               ( with_virtual([], N, network_at(N, 5, note_time(Queue, N, a))),
+                 noted(Queue, Heard) )).
 test(advance_reaches_its_time, true(Times == [2.5,2.5,4.0])) :-
     with_virtual([], N,
                  ( network_advance(N, 2.5), shows(N, T1),
@@ -145,16 +145,16 @@ test(appointments_in_real_time, true(Heard == [a])) :-
                                                                   size(1)), 20)
                               ),
                               network_stop(N))),
-                 heard(Queue, Heard) )).
+                 noted(Queue, Heard) )).
 test(called_goal_cannot_wait, true(Heard == [timeout-1.0])) :-
     with_virtual([], N,
                  with_queue(Queue,
                             ( sleeper(N, sleep(5), A),
                               network_at(N, 1,
                                          ( agent_join(A, Outcome, 10),
-                                           tell(Queue, N, Outcome) )),
+                                           note_time(Queue, N, Outcome) )),
                               network_advance(N, 10),
-                              heard(Queue, Heard) ))).
+                              noted(Queue, Heard) ))).
 test(network_end_ends_the_wait) :-
     no_leaks(( network_start(ring(4), N, [clock(virtual)]),
                sleeper(N, days(1000000000), _),
@@ -242,7 +242,7 @@ wanderers(N) :-
                                      (part(5) :- !, clone(_)),
                                      (part(_) :-
                                           (   receive(From-Text, 0.5)
-                                          ->  log(heard(From, Text))
+                                          ->  log(noted(From, Text))
                                           ;   true
                                           )) ]),
                            A, [host(Host)]) ),
@@ -297,9 +297,9 @@ test(other_processes_are_unreachable, true(Outcome == done)) :-
                               A),
                  agent_join(A, Outcome, 20) )).
 test(endless_goal_is_reported) :-
-    told_of(( repeat, fail ), virtual_stuck(_, _)).
+    stuck_warning(( repeat, fail ), virtual_stuck(_, _)).
 test(endless_instant_is_reported) :-
-    told_of(spin, virtual_busy(_)).
+    stuck_warning(spin, virtual_busy(_)).
 test(no_event_is_due) :-
     capturing(with_virtual([], N, nothing_due(N)), _).
 
@@ -307,7 +307,7 @@ test(no_event_is_due) :-
 
 %   A clock that stands still is reported after a tenth of a second.
 
-told_of(Main, Message) :-
+stuck_warning(Main, Message) :-
     capturing(with_settings([typhon_virtual:patience=0.1],
                             with_virtual([], N, stuck(N, Main, Message))),
               _).
@@ -318,15 +318,15 @@ stuck(N, Main, Message) :-
                            (main :- Main),
                            (spin :- neighbours([H|_]), move(H), spin) ]),
                  A, [host(Host)]),
-    told_while(agent_join(A, _, 10), Message).
+    warning_while(agent_join(A, _, 10), Message).
 
 nothing_due(N) :-
     sleeper(N, receive(never), A),
-    told_while(agent_join(A, _, inf), virtual_nothing_due).
+    warning_while(agent_join(A, _, inf), virtual_nothing_due).
 
 %   The thread that waits in Goal is interrupted after the warning.
 
-told_while(Goal, Message) :-
+warning_while(Goal, Message) :-
     thread_create(catch(Goal, enough, true), Thread),
     call_cleanup(wait_until(was_printed(warning, typhon(Message)), 20),
                  interrupted(Thread)).
@@ -352,11 +352,11 @@ with_queue(Queue, Goal) :-
     setup_call_cleanup(message_queue_create(Queue), Goal,
                        message_queue_destroy(Queue)).
 
-tell(Queue, Network, What) :-
+note_time(Queue, Network, What) :-
     shows(Network, Time),
     thread_send_message(Queue, What-Time).
 
-heard(Queue, List) :-
+noted(Queue, List) :-
     findall(M, ( repeat,
                  (   thread_get_message(Queue, M0, [timeout(0)])
                  ->  M = M0

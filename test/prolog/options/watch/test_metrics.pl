@@ -25,9 +25,10 @@ promtool(Text, Status, Said) :-
     close(Err),
     process_wait(Pid, exit(Status)).
 
-%   says(+Text, +Name, +Rest): Text has a line for Name that ends with Rest.
+%   has_metric(+Text, +Name, +Rest): Text has a line for Name that ends with
+%   Rest.
 
-says(Text, Name, Rest) :-
+has_metric(Text, Name, Rest) :-
     said(Text, Name, Rest, _),
     !.
 
@@ -43,7 +44,7 @@ said(Text, Name, Rest, Line) :-
 test(no_agents, Status-Said == 0-"") :-
     with_hosts([alpha], metrics(alpha, Text)),
     promtool(Text, Status, Said),
-    assertion(says(Text, "typhon_hosts", "} 1")),
+    assertion(has_metric(Text, "typhon_hosts", "} 1")),
     assertion(\+ sub_string(Text, _, _, _, "typhon_agents{")).
 
 test(counts_of_events, Status-Said == 0-"") :-
@@ -59,7 +60,7 @@ test(counts_of_events, Status-Said == 0-"") :-
                     typhon_hop_seconds_bucket-",le=\"+Inf\"} 2",
                     typhon_hop_seconds_bucket-",le=\"10.0\"} 2",
                     typhon_hop_seconds_count-"} 2" ]),
-           assertion(says(Text, Name, Line))).
+           assertion(has_metric(Text, Name, Line))).
 
 happened(Text) :-
     metrics([alpha, beta], _),          % counting begins here
@@ -75,7 +76,7 @@ happened(Text) :-
 
 received_one :-
     metrics(alpha, Text),
-    says(Text, typhon_messages_total, "direction=\"received\"} 1").
+    has_metric(Text, typhon_messages_total, "direction=\"received\"} 1").
 
 test(counting_begins_with_the_first_request) :-
     with_hosts([alpha],
@@ -103,7 +104,7 @@ test(all_processes, Up == [1, 1]) :-
     no_leaks(( network_start(ring(4), Network, [processes(2)]),
                metrics(Network, Text),
                network_stop(Network) )),
-    assertion(says(Text, typhon_hosts, "} 2")),
+    assertion(has_metric(Text, typhon_hosts, "} 2")),
     findall(1, said(Text, typhon_up, "} 1", _), Up).
 
 :- end_tests(metrics).

@@ -38,7 +38,7 @@ answer(Base, Message, Answer) :-
     ;   Answer = Told.answer
     ).
 
-says(Base, Message, Words) :-
+fails(Base, Message, Words) :-
     ask(Base, Message, Told),
     forall(member(Word, Words),
            assertion(sub_string(Told.error, _, _, _, Word))).
@@ -124,7 +124,7 @@ test(read_only) :-
            assertion(memberchk(create, All)),
            forall(member(What, All),
                   ( atom_string(What, Text),
-                    says(Base, _{do:Text, text:"", agent:"a"}, ["permission"])
+                    fails(Base, _{do:Text, text:"", agent:"a"}, ["permission"])
                   )),
            answer(Base, _{ask:"survey"}, _{hosts:[_,_], agents:[], time:_}) )).
 
@@ -338,12 +338,12 @@ test(host) :-
     assertion(length(Host.links, 1)).
 
 test(no_such_host_or_agent) :-
-    page(Base, ( says(Base, _{ask:"host", host:"gamma"}, ["gamma"]),
-                 says(Base, _{ask:"agent", agent:"x.0@y@127.0.0.1:1"}, []),
-                 says(Base, _{ask:"what"}, ["question"]),
-                 says(Base, _{do:"what"}, ["order"]),
-                 says(Base, _{what:"ask"}, []),
-                 says(Base, _{ask:1}, []) )).
+    page(Base, ( fails(Base, _{ask:"host", host:"gamma"}, ["gamma"]),
+                 fails(Base, _{ask:"agent", agent:"x.0@y@127.0.0.1:1"}, []),
+                 fails(Base, _{ask:"what"}, ["question"]),
+                 fails(Base, _{do:"what"}, ["order"]),
+                 fails(Base, _{what:"ask"}, []),
+                 fails(Base, _{ask:1}, []) )).
 
 test(mechanisms) :-
     page(Base, answer(Base, _{ask:"mechanisms"}, All)),
@@ -406,12 +406,13 @@ test(create_and_send, Facts =@= [n(hello(_, 'B', "c"))]) :-
 
 test(bad_terms) :-
     page(Base, ( create([on_message(_, _)], A, [host(alpha)]),
-                 says(Base, _{do:"send", agent:A, message:"go("},
-                      ["message", "go( ** here **"]),
-                 says(Base, _{do:"send", agent:A}, ["message", "missing"]),
-                 says(Base, _{do:"network_start", topology:"grid(a"}, ["topology"]),
-                 says(Base, _{do:"network_start", topology:"grdi(2,2)"},
-                      ["grid"]) )).
+                 fails(Base, _{do:"send", agent:A, message:"go("},
+                       ["message", "go( ** here **"]),
+                 fails(Base, _{do:"send", agent:A}, ["message", "missing"]),
+                 fails(Base, _{do:"network_start", topology:"grid(a"},
+                       ["topology"]),
+                 fails(Base, _{do:"network_start", topology:"grdi(2,2)"},
+                       ["grid"]) )).
 
 %   A problem of a program is reported at its line, and the file without its
 %   folder.
@@ -434,8 +435,8 @@ test(error_at_the_line_of_the_goal, Lines == [6]) :-
     findall(Line, ( member(P, Said), get_dict(line, P, Line) ), Lines).
 
 test(refused_create) :-
-    page(Base, says(Base, _{do:"create", text:"main :- .", host:"alpha"},
-                    ["program.pl:1"])).
+    page(Base, fails(Base, _{do:"create", text:"main :- .", host:"alpha"},
+                     ["program.pl:1"])).
 
 test(move_clone_dispose) :-
     page(Base, ( create([on_message(_, _)], A, [host(alpha)]),
@@ -493,10 +494,11 @@ test(mechanism, Done == ["[]"]) :-
                                predicate:"sequence_start",
                                arguments:["s", Hosts, "[a-true]",
                                           "[agents(0)]", ""] }, Done),
-                 says(Base, _{ do:"mechanism", mechanism:"sync",
-                               predicate:"halt", arguments:[] }, ["halt/0"]),
-                 says(Base, _{ do:"mechanism", mechanism:"../sync",
-                               predicate:"halt", arguments:[] }, ["mechanism"]),
+                 fails(Base, _{ do:"mechanism", mechanism:"sync",
+                                predicate:"halt", arguments:[] }, ["halt/0"]),
+                 fails(Base, _{ do:"mechanism", mechanism:"../sync",
+                                predicate:"halt", arguments:[] },
+                       ["mechanism"]),
                  agents_are_gone )).
 
 agents_are_gone :-
