@@ -110,7 +110,7 @@ rights(Rights) :-
                 *******************************/
 
 %   note(+File, +Host, +Peer, +Proof, +What): Proof is how Peer has proved its
-%   identity; What is as of security_event/3.
+%   identity; What is that of security_event/3.
 
 note(File, Host, Peer, Proof, What0) :-
     get_time(Time),

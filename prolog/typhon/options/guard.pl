@@ -181,7 +181,7 @@ may_receive(Policy, _, _, Sent) :-
     check_sent(Policy, Sent).
 
 %   check_sent(+Policy, +Sent): check a program that is not installed yet, since
-%   its libraries alone may be forbidden here.  Sent is as of code_receive/2.
+%   its libraries alone may be forbidden here.  Sent is that of code_receive/2.
 %
 %   @error permission_error(call, sandboxed, Culprit)
 
