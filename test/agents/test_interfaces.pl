@@ -1,16 +1,16 @@
 :- module(test_interfaces, []).
 
-% What the first two lines of a file that agents include say of it is so (a
-% line may be continued):
+%   The first two lines of a file that agents include are correct (a line may
+%   be continued):
 %
-%   % Expects: what it calls that stands elsewhere
-%   % Gives: what others may call of it
+%   % Expects: predicates that it calls and another file defines
+%   % Gives: predicates that others may call
 %
-% Expected are folders (`lib` and `common` stand for all of theirs), files, or
-% predicates, which the program itself, a payload or a file that includes this
-% one defines. The state that a file declares may be looked at by others.
+%   Expected are folders (`lib` and `common` stand for all of theirs), files,
+%   or predicates, which the program itself, a payload or a file that includes
+%   this one defines. Other files may read the state that a file declares.
 %
-% And the steps that doc/allocation.md names are where it says.
+%   And the steps that doc/allocation.md names are in the files that it names.
 
 :- use_module('../lib/common').
 :- use_module(library(filesex), [directory_member/3]).

@@ -92,8 +92,8 @@ agents(Agents) :-
 %!  evidence(+Dir, -Evidence) is det.
 %
 %   Evidence is a dict: lives, agents (as created), standing (agent(Name, Id,
-%   State, Hops, Facts) for each that stands somewhere), tuples, events (e(Key,
-%   Tick, Event, Time, Life)), mail, disposed, outcomes (Id-Outcome as its home
+%   State, Hops, Facts) for each on a host), tuples, events (e(Key, Tick,
+%   Event, Time, Life)), mail, disposed, outcomes (Id-Outcome as its home
 %   reports), calls, left (Name-Things), timers (kB), proxies. Afterwards there
 %   are no hosts any more.
 

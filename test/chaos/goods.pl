@@ -168,8 +168,8 @@ token_finding(Tuples, finding(Kind, Token)) :-
     msort(Tokens0, Tokens),
     wrong_token(Tokens, Token, Kind).
 
-%   carried(-Token, -State): an agent that carries Token stands in this State. A
-%   copy in doubt does not go on: the agent may have dropped its token elsewhere.
+%   carried(-Token, -State): an agent in State carries Token. A copy in doubt
+%   does not continue: the agent may have dropped its token elsewhere.
 
 carried(K, State) :-
     standing(_, _, State, _, Facts),

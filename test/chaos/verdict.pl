@@ -200,7 +200,8 @@ home_of(Host, Name) :-
     sub_atom(Host, 0, _, _, Name),
     !.
 
-%   Its destination, or the processes that knew its host, are gone for good.
+%   The destination, or the processes that knew the agent's host, are gone for
+%   good.
 
 depends_on_the_dead(Key) :-
     gone(Name),
@@ -217,7 +218,7 @@ depends_on_the_dead(Key) :-
     ),
     !.
 
-%   The copy that stands somewhere was sent to Host; it may have come further,
+%   The copy that is on a host was sent to Host; it may have hopped further,
 %   and its last steps died with the process that was about to send it back.
 
 sent_on(Key, Host) :-

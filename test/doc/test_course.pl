@@ -25,7 +25,7 @@ solution(Exercise, File) :-
     format(atom(Relative), 'doc/course/solutions/~w.pl', [Exercise]),
     project_file(Relative, File).
 
-%   Its problems; output for students is ignored.
+%   The problems of a program; output for students is ignored.
 
 wrongs(Exercise, File, Wrongs) :-
     no_leaks(capturing(findall(Text-Why, wrong(Exercise, File, Text, Why),

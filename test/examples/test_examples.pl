@@ -72,7 +72,7 @@ run_example(Example, Lines) :-
     split_string(Out, "\n", "", Lines0),
     append(Lines, [""], Lines0).
 
-%   Each pattern matches a line of its own.
+%   Each pattern matches another line.
 
 all_shown([], []).
 all_shown([Pattern|Patterns], Lines) :-

@@ -132,8 +132,8 @@ connecting :-
 outcome_here(Id, Outcome) :-
     typhon_home:agent_outcome(Id, Outcome).
 
-%   Without an index on Id: in one that is made while clauses are added SWI-
-%   Prolog 9.0.4 may list a clause twice.
+%   Without an index on Id: SWI-Prolog 9.0.4 may list a clause twice in an
+%   index that is made while clauses are added.
 
 steps_here(Id, Steps) :-
     findall(K,

@@ -71,7 +71,7 @@ prepare(b) :-
     peer_do(b, host_start(locked, [tokens([key])])).
 prepare(_).
 
-%   All know each other, and the program of walkers.
+%   All processes know each other, and the program of walkers.
 
 meet :-
     disturbed(ring, known, [], _),

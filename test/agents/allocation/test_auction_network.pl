@@ -101,7 +101,7 @@ time_passes(Hosts, Seconds) :-
 
 to_the_last([clock(virtual), auction([slack(5)]), hop_time(uniform(0.2, 0.4))]).
 
-%   A flood that comes from the first of three hosts goes on to the third.
+%   A flood from the first of three hosts is forwarded to the third.
 
 passed_on(Network) :-
     network_property(Network, hosts([H1,H2,H3])),

@@ -1,4 +1,4 @@
-% Travels with thousands of facts, and counts them wherever it comes to.
+% Travels with thousands of facts, and counts them on each host.
 
 :- agent(heavy,
          [state([me/1, tick/1, steps/1, hosts/1, heard/1, load/1,

@@ -33,7 +33,7 @@ meanwhile. power.pl does the rest.
 :- dynamic
     probability/2,                      % Of, P
     journal/1,                          % Dir
-    fails/0.                            % a power failure ends the process
+    fails/0.                            % the power fails
 
 :- multifile typhon_durable_changes:reached/1.
 

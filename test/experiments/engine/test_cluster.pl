@@ -98,7 +98,7 @@ slurm(Output, Dir) :-
     append(Before, [Command|After], Lines),
     shell(Dir, Lines, Output).
 
-%   Not every machine lets daemons be started.
+%   Some machines do not permit daemons.
 
 starts(Goal) :-
     catch(call(Goal), error(timeout_error(_, _), _), fail),

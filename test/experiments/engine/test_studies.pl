@@ -166,7 +166,7 @@ prints(Args, Status, Text, Dir, File) :-
 prints(Args, Status, Text) :-
     with_command(prints(Args, Status, Text)).
 
-%   What --list prints is a program for the shell.
+%   The output of --list is a program for the shell.
 
 listed(Dir, File) :-
     study_command(Dir, [ File, '--list', '--runs', 2, '--out', 'o u t',

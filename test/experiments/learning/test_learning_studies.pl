@@ -100,7 +100,7 @@ curve(false, I, Executions, Sharing) :-
     nth1(I, [100, 98, 50, 51, 40], Executions),
     nth1(I, [1.0, 0.9, 0.5, 0.4, 1.3], Sharing).
 
-%   Without walls only agents of `greedy` are quick, or not.
+%   The claims hold if in the open maze `greedy` alone is quick.
 
 crew_made(true, open, greedy, 100, 200).
 crew_made(true, _, greedy, 0, 2000).

@@ -22,7 +22,8 @@ good([ case{hosts:50}-Small, case{hosts:100}-Large ]) :-
     Large = Small.put(_{overlapped:1, gap_most:45, peak_least:50,
                         peak_most:70, rise_time:310}).
 
-%   With these measures of one size some claim fails that held.
+%   worse(Size-Measures): with Measures at that Size some claim fails that held
+%   before.
 
 worse(50-_{missing:1}).
 worse(100-_{out_of_order:1}).

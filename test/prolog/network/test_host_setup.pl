@@ -139,8 +139,8 @@ test(not_callable, error(type_error(callable, 7))) :-
 
 :- begin_tests(saved_program).
 
-%   Its processes run the installed Prolog: that of the saved state would run
-%   the goal again, and then prints a message and ends.
+%   The processes run the installed Prolog: that of the saved state would run
+%   the goal again, and then print a message and end.
 
 program("
 :- multifile user:file_search_path/2.

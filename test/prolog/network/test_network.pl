@@ -573,7 +573,7 @@ test(silent_machine, error(timeout_error(start, _))) :-
         with_settings([typhon_children:stop_seconds=0.5],
             with_tmp_dir(silent))).
 
-%   As the setup of a cleanup, with a signal pending.
+%   The goal is the setup of a cleanup, with a signal pending.
 
 silent(Dir) :-
     directory_file_path(Dir, rsh, Program),

@@ -392,7 +392,7 @@ holding_on :-
                                     )) ]),
                  _).
 
-%   The network is loaded in another process, after this one has ended.
+%   Another process loads the network after it was stopped here.
 
 interrupted_elsewhere(Name, Dir) :-
     atom_concat(Dir, '/log.pl', Log),

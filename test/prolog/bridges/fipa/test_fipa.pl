@@ -669,7 +669,7 @@ test(silent_clients) :-
           assertion(Status == 200),
           maplist(close, Streams) )).
 
-%   So is a client that has not sent the whole of its request.
+%   A client with an incomplete request is disconnected first, too.
 
 test(incomplete_requests_are_dropped_first, Statuses == [200, 200, 200]) :-
     with_platform([connections(8)], Url,

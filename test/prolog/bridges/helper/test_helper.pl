@@ -37,7 +37,7 @@ asked(Error) :-
 
 :- begin_tests(helper).
 
-%   Also while the helper is down, until it is restarted.
+%   The reason is given also while the helper is down, until it is restarted.
 
 test(each_caller_gets_the_reason_of_the_end, Errors == ["no_thing"]) :-
     no_leaks(with_complaining(

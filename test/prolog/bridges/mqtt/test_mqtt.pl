@@ -664,7 +664,8 @@ stopped_and_started(B, Ps) :-
                                       Ps0)) )),
     msort(Ps0, Ps).
 
-%   Also for an agent that subscribed long before the other one.
+%   A retained message arrives again also for an agent that subscribed long
+%   before the other one.
 
 retained_anew(B, Ps) :-
     with_mqtt(B, [],

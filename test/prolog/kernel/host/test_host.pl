@@ -228,7 +228,7 @@ visit(Host, Options, Outcome) :-
     ;   Outcome = Outcome0
     ).
 
-%   hold(+N, -Agents): N agents that hold their worker until told to go on.
+%   hold(+N, -Agents): N agents that hold their worker until go_on/1.
 
 hold(N, Agents) :-
     findall(A, ( between(1, N, _),
@@ -407,7 +407,7 @@ test(tokens_that_are_terms, O == done) :-
 
 :- begin_tests(concurrency).
 
-%   Agents that work without stopping, and record when.
+%   Agents that work without stopping, and record the times.
 
 intervals(Options, Intervals) :-
     with_hosts([alpha-Options],

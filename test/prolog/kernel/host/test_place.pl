@@ -1,6 +1,6 @@
 :- module(test_place, []).
 
-% Files in the place of a host that change while agents stand there.
+% Files in the place of a host that change while agents are there.
 
 :- use_module('../../../lib/common').
 :- use_module('../../../lib/fixtures').

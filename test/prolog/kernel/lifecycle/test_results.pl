@@ -150,7 +150,7 @@ test(travels_to_another_process, X == 7) :-
                                 Id, [])),
                  peer_do(b, agent_result(Id, X, 20)) )).
 
-%   There are more of them than one frame holds.
+%   There are more results than one frame holds.
 
 test(many_large_results, Lengths == [30000]) :-
     with_peers([ a, b-[setup(set_setting(typhon_session:frame_bytes,
@@ -171,7 +171,7 @@ test(many_large_results, Lengths == [30000]) :-
                                       Ns),
                               sort(Ns, Lengths) )) )).
 
-%   The end at least is known.
+%   The home knows at least that the agent has ended.
 
 test(result_longer_than_a_frame, Error == existence_error(result, Id)) :-
     with_peers([ a, b-[setup(set_setting(typhon_session:frame_bytes, 70000))] ],

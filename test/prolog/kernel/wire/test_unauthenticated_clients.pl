@@ -74,7 +74,7 @@ shouts(Text) :-
     setup_call_cleanup(connected(Client), say(Text, Client),
                        closed(Client)).
 
-%   So many refusals for this reason are reported.
+%   The log reports so many refusals for this reason.
 
 turned_away(Why, Count) :-
     findall(Some,
@@ -124,8 +124,8 @@ test(active_client_stays) :-
                     wait_until(stages([heard, silent, silent, silent]), 30)
                   )) ))))).
 
-%   So many clients had time to authenticate: the oldest of them is evicted
-%   first.
+%   silent(+Count): Count clients had time to authenticate, and did not; the
+%   acceptor evicts the oldest of them first.
 
 silent(Count) :-
     stages(Stages),

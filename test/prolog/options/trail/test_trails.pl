@@ -91,9 +91,9 @@ honest :-
     peer_host(gamma, Gamma),
     assertion(Results == [was(Beta), was(Gamma)]).
 
-%   What hosts could do to an agent: gamma changes the result that was entered
-%   on beta, removes it, lies about the state it has received, and passes the
-%   agent on under its own trail.
+%   Changes that a host could make to an agent: gamma changes the result that
+%   was entered on beta, removes it, lies about the state it has received, and
+%   passes the agent on under its own trail.
 
 taken_away :-
     toured(Agent, trail(_, whole)),

@@ -60,7 +60,8 @@ slowly(Watcher, Event) :-
 numbers(Watcher, Numbers) :-
     findall(N, told(Watcher, event(_, _, _, leave(f(N)))), Numbers).
 
-%   So many events have happened.
+%   all_accounted(+Watcher, +Count): Count events were reported, or counted as
+%   skipped.
 
 all_accounted(Watcher, Count) :-
     aggregate_all(count, ( told(Watcher, event(_, _, _, What)),
