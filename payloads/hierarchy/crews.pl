@@ -7,8 +7,9 @@
     The time of agents that share is nearly inversely proportional to their
     number.  So the work of a part is the time of its last worker times the
     number of its workers.  The mechanism divides the workers in proportion to
-    the work of the previous round, with at least one worker for each part.
-    A leader that decides for itself can only keep its own workers.
+    the work of the previous round; each part keeps at least half of an equal
+    share, and one worker.  A leader that decides for itself can only keep its
+    own workers.
 */
 
 crew(_, Hosts, Settings, Orders) :-

@@ -17,7 +17,7 @@ loaded when a monitor is set, or another process requests one.
 
 :- meta_predicate agent_monitor(+, :).
 
-%!  agent_monitor(+Agent, :OnDown) is det.
+%!  agent_monitor(+Agent:atom, :OnDown) is det.
 %
 %   Call call(OnDown, Id, Outcome) once, in a worker, when Agent, whose id is
 %   Id, has ended, is faulty or is lost.  Outcome is that of agent_join/3, or

@@ -22,7 +22,7 @@ process begins a watch, or another process watches its hosts.
 
 :- meta_predicate watch(+, :, -).
 
-%!  watch(+Hosts, :OnEvent, -Watch) is det.
+%!  watch(+Hosts, :OnEvent, -Watch:atom) is det.
 %
 %   Call call(OnEvent, Event) for each event on Hosts from now on.  Hosts is a
 %   host, a network, or a list of hosts and networks, of any process.  Event is
@@ -68,7 +68,7 @@ process begins a watch, or another process watches its hosts.
 watch(Hosts, OnEvent, Watch) :-
     watch_begin(Hosts, OnEvent, Watch).
 
-%!  unwatch(+Watch) is det.
+%!  unwatch(+Watch:atom) is det.
 %
 %   End Watch.  Earlier events are delivered first, for at most two seconds (the
 %   setting `typhon_watches:last_seconds`); later ones are not.
@@ -78,7 +78,7 @@ watch(Hosts, OnEvent, Watch) :-
 unwatch(Watch) :-
     watch_end(Watch).
 
-%!  overview(+Hosts, -Processes, -Silent) is det.
+%!  overview(+Hosts, -Processes:list, -Silent:list(atom)) is det.
 %
 %   Processes are the processes of Hosts, see watch/3, as
 %   process(Endpoint, Pid, Hosts, Agents), with

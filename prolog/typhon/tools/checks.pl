@@ -33,7 +33,7 @@ checked or read from a file for the first time.
 agent_check(Spec) :-
     check_program(Spec).
 
-%!  agent_check(+Spec, +Options) is semidet.
+%!  agent_check(+Spec, +Options:list) is semidet.
 %
 %   Options describe the host on which the program or the payload will run.
 %   With the option policy(Policy), see host_start/2, code that a host with that

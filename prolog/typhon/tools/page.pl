@@ -27,7 +27,7 @@ typhon_options:declared(page_option, read_only(X), boolean, X).
 typhon_options:declared(page_option, overlays(X), list, X).
 typhon_options:declared(page_option, world(X), callable, X).
 
-%!  page_start(+Options) is det.
+%!  page_start(+Options:list) is det.
 %!  page_stop is det.
 %
 %   Serve a page that shows live, and lets users control, the hosts of this
@@ -55,7 +55,7 @@ page_start(Options) :-
     page_serve(Options, Link),
     print_message(informational, typhon(page(Link))).
 
-%!  page_serve(+Options, -Link:atom) is det.
+%!  page_serve(+Options:list, -Link:atom) is det.
 %
 %   As page_start/1, but Link is returned and not printed.
 
@@ -69,7 +69,7 @@ page_stop :-
     ;   true
     ).
 
-%!  page_export(+Log, +File, +Options) is det.
+%!  page_export(+Log, +File, +Options:list) is det.
 %
 %   Write a page to File that replays the log file Log, in the same views.  File
 %   is self-contained, so it can be published with a paper.  Options:

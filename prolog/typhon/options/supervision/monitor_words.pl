@@ -52,9 +52,9 @@ typhon_creation:at_birth(monitor(Parent, [shared(self)]), Id) :-
     agent_home_endpoint(Parent, _),
     monitor_begin(Id, Parent, self).
 
-%!  monitor(+Agent) is det.
-%!  monitor(+Agent, +Options) is det.
-%!  unmonitor(+Agent) is det.
+%!  monitor(+Agent:atom) is det.
+%!  monitor(+Agent:atom, +Options:list) is det.
+%!  unmonitor(+Agent:atom) is det.
 %
 %   This agent gets one message, `system-down(Agent, Outcome)`, when Agent ends,
 %   is faulty or is lost, wherever both are by then; at once if that has
@@ -98,8 +98,8 @@ is_checked :-
     context(_, _, Module),
     agent_variant(Module, _).
 
-%!  dispose(+Agent) is det.
-%!  dispose(+Agent, +Options) is det.
+%!  dispose(+Agent:atom) is det.
+%!  dispose(+Agent:atom, +Options:list) is det.
 %
 %   As agent_dispose/1,2.  Where the policy is not `trusted`, Agent must follow
 %   this one, as by follows(true) at its creation.
