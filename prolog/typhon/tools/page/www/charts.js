@@ -1,5 +1,5 @@
-// Time: hops and messages per second, agents by program, load, hop times.
-// uPlot draws; what it draws on is a canvas, or a pen that makes SVG.
+// The view Time: hops and messages per second, agents by program, load, hop
+// times. uPlot draws on a canvas, or on a pen that makes SVG.
 
 import { calmly, element } from './dom.js';
 import { onTheme, Palette, paperPalette } from './palette.js';
@@ -22,7 +22,7 @@ const duration = seconds => (seconds === null || seconds === undefined ? NONE
   : seconds >= 1e-3 ? `${compact(seconds * 1e3)} ms`
   : `${compact(seconds * 1e6)} µs`);
 
-// What each plot shows: series are [name, of a stretch, colour].
+// The plots. A series is [name, function of a stretch, colour].
 const PLOTS = [
   { name: 'rates', title: 'Per second', value: compact,
     series: ({ width }) => [
@@ -109,7 +109,7 @@ class Charts {
              programs: [...programs].sort(byName).slice(0, MANY) };
   }
 
-  // The last stretch is not over, and has few of its hops.
+  // The last stretch is incomplete: its counts would be too low.
   whole(stretches) {
     return stretches.length < 3 ? stretches : stretches.slice(0, -1);
   }
@@ -139,7 +139,8 @@ class Charts {
     }
   }
 
-  // Whether a part of the data is shown, which new data then leaves as it is.
+  // Whether the plot shows only a part of the data; new data do not change it
+  // then.
   zoomed({ drawn }) {
     const [xs] = drawn.data, { min, max } = drawn.scales.x;
     return min > xs[0] || max < xs[xs.length - 1];
@@ -198,8 +199,8 @@ class Charts {
     }
   }
 
-  // uPlot asks a canvas of its own for what it draws on, and makes its paths
-  // itself; for this one plot it is given the pen, and the paths of the pen.
+  // uPlot creates a canvas of its own, and its paths. For this one plot the
+  // context of each canvas is the pen, and paths are those of the pen.
   async onPen(pen, options, data) {
     const asked = HTMLCanvasElement.prototype.getContext, { Path2D } = globalThis;
     const ratio = globalThis.devicePixelRatio || 1;
@@ -211,7 +212,7 @@ class Charts {
     try {
       plot = new globalThis.uPlot({ ...options, legend: { show: false },
         cursor: { show: false } }, data, place);
-      await Promise.resolve();      // it draws when the script pauses
+      await Promise.resolve();      // uPlot draws in a microtask
       await Promise.resolve();
     } finally {
       HTMLCanvasElement.prototype.getContext = asked;
@@ -226,7 +227,7 @@ class Charts {
     return pen.toString();
   }
 
-  // By way of SVG, as uPlot clears what it draws on.
+  // The PNG is drawn from SVG, since uPlot would clear the canvas.
   async toPNG() {
     const text = await this.toSVG(), picture = new Image();
     picture.src = `data:image/svg+xml;charset=utf-8,${encodeURIComponent(text)}`;

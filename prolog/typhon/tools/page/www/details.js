@@ -1,11 +1,11 @@
-// What is chosen, seen closely: an agent with its program, or a host. Live.
+// The details of the selected agent, with its program, or host; updated live.
 
 import { button, chooser, element, renew, unpressed } from './dom.js';
 import { shortName } from './names.js';
 import { agentActions, hostActions } from './work.js';
 
-const CALM = 1000;              // ms between two looks, when something happens
-const PAUSE = 3000;             // ... when nothing does
+const CALM = 1000;              // ms between two queries while events arrive
+const PAUSE = 3000;             // ... while none arrive
 
 export function details(parent, store, app) {
   const panel = new Details(parent, store, app);
@@ -100,8 +100,8 @@ class Details {
 
   agentLink(agent) { return chooser(this.app, { agent }); }
 
-  // A part that can be folded; what has changed in it is made anew.  `around`
-  // is what its parts are in, and made once.
+  // A section that can be collapsed. Only changed parts of it are replaced.
+  // `around` is the element that contains the parts; it is created once.
   section(title, content, around, parts, note = '') {
     const key = JSON.stringify(content);
     let section = this.sections.get(title);

@@ -1,4 +1,5 @@
-// Elements, made without HTML: all content is text. And pointers on a canvas.
+// Creates elements without HTML, so that all content is text; handles pointers
+// on a canvas.
 
 import { shortName } from './names.js';
 
@@ -16,7 +17,7 @@ export function element(tag, attributes = {}, ...children) {
 export const button = (label, onclick, attributes = {}) =>
   element('button', { type: 'button', onclick, ...attributes }, label);
 
-// Press it to choose {agent} or {host}.
+// A button that selects {agent} or {host}.
 export function chooser(app, chosen) {
   const [id] = Object.values(chosen);
   return button(shortName(id), () => app.select(chosen),
@@ -39,8 +40,8 @@ export function fillChoice(select, options, value) {
   select.value = value;
 }
 
-// The children of an element are these, in this order.  Those that stay are
-// not taken out meanwhile, as far as their order allows.
+// Make these the children of an element, in this order. Children that stay are
+// not removed in between, if their order allows it.
 export function inOrder(parent, children) {
   const wanted = new Set(children);
   for (const child of [...parent.children]) if (!wanted.has(child)) child.remove();
@@ -50,7 +51,7 @@ export function inOrder(parent, children) {
   });
 }
 
-// The same, but what is as before, in the same order, stays the same element:
+// As inOrder, but an unchanged child in the same order stays the same element:
 // it may have the focus, or be part of a selection.
 export function renew(parent, children) {
   const before = [...parent.children], html = before.map(child => child.outerHTML);
@@ -63,8 +64,8 @@ export function renew(parent, children) {
   }));
 }
 
-// Call f with the size of an element now, and whenever it changes; not while
-// it is not shown.
+// Call f with the size of an element now, and whenever it changes, except while
+// the element is hidden.
 export function onSize(watched, f) {
   const tell = () => {
     if (watched.clientWidth && watched.clientHeight)
@@ -76,7 +77,7 @@ export function onSize(watched, f) {
   return () => observer.disconnect();
 }
 
-// Pixels of the canvas are those of the screen.
+// Give the canvas the resolution of the screen.
 export function fitCanvas(canvas, width, height) {
   const ratio = globalThis.devicePixelRatio || 1;
   canvas.width = Math.max(1, Math.round(width * ratio));
@@ -86,7 +87,8 @@ export function fitCanvas(canvas, width, height) {
   return pen;
 }
 
-// f is called some time after it is asked for: the longer it takes, the later.
+// Returns a function that calls f after a pause, which grows with the time that
+// f takes; calls during the pause have no further effect.
 export function calmly(rest, f) {
   let waiting = 0, took = 0;
   const later = () => {
@@ -102,8 +104,8 @@ export function calmly(rest, f) {
   return later;
 }
 
-// Changes wait while a button is pressed: an element that is removed or moved
-// before the button is released gets no click.
+// Changes of the document wait while a mouse button is pressed: an element that
+// is removed or moved before the button is released gets no click.
 let waiting = null;             // functions, while a button is pressed
 
 export function unpressed(f) {
@@ -122,16 +124,16 @@ addEventListener('pointerdown', event => {
 }, true);
 addEventListener('pointerup', letGo, true);
 addEventListener('pointercancel', letGo, true);
-addEventListener('pointermove', event => {      // released elsewhere
+addEventListener('pointermove', event => {      // released outside the window
   if (waiting && event.buttons === 0) letGo();
 }, true);
 
-// Fingers, mouse and wheel on a canvas: pan, zoom, and what is dragged.
+// Touch, mouse and wheel on a canvas: pan, zoom, and drag of items.
 
-const SLOP = 4;                 // pixels that a click may tremble
+const SLOP = 4;                 // pixels by which the pointer may move in a click
 
-// on: {grab(x, y) -> what is there or null, click(x, y, what, event),
-//      drag(what, x, y), drop(what, x, y), pan(dx, dy), zoom(factor, x, y),
+// on: {grab(x, y) -> the item there or null, click(x, y, item, event),
+//      drag(item, x, y), drop(item, x, y), pan(dx, dy), zoom(factor, x, y),
 //      hover(x, y)}
 export function pointers(canvas, on) {
   const down = new Map();       // id -> {x, y}

@@ -1,4 +1,4 @@
-// What each kind of event does to the store, and the history of counts.
+// The effect of each kind of event on the store, and the history of counts.
 
 export const APPLY = {
   created(store, [time, , , , program], host, id) {
@@ -112,12 +112,12 @@ const gone = (store, id, state) => {
   }
 };
 
-// What happened in each stretch of time: hops, messages, faults, the times
-// that hops took, and the agents at its end. There are never more than
-// LIMIT stretches; when there would be, pairs of them become one.
+// The history has a stretch for each interval of time: numbers of hops,
+// messages and faults, the durations of hops, and the agents at its end. When
+// there would be more than LIMIT stretches, pairs of them are merged.
 
 const LIMIT = 600;
-const BUCKETS = 8;              // of hop times, for each factor of two
+const BUCKETS = 8;              // classes of hop times for each factor of two
 
 const bucketOf = seconds => Math.round(Math.log2(Math.max(seconds, 1e-6)) * BUCKETS);
 const secondsOf = bucket => 2 ** (bucket / BUCKETS);
@@ -143,7 +143,7 @@ class Stretch {
     this.load = other.load || this.load;
   }
 
-  // The time below which a share of the hops stayed, or null.
+  // The time below which a share of the hop times are, or null.
   percentile(share) {
     if (this.times.size === 0) return null;
     const sorted = [...this.times].sort((a, b) => a[0] - b[0]);
@@ -158,19 +158,19 @@ class Stretch {
 }
 
 export class History {
-  // width: seconds of a stretch, to begin with
+  // width: initial seconds of a stretch
   constructor(width = 1) {
     this.width = width;
     this.stretches = [];
   }
 
-  // When the last stretch is over.
+  // The end of the last stretch.
   get end() {
     const last = this.stretches[this.stretches.length - 1];
     return last ? last.start + this.width : Infinity;
   }
 
-  // The stretch in which time lies; what comes late counts to the first.
+  // The stretch that contains time, or the first one for earlier times.
   at(time) {
     const start = Math.floor(time / this.width) * this.width;
     const last = this.stretches[this.stretches.length - 1];
@@ -187,7 +187,7 @@ export class History {
       return this.at(start);
     }
     const made = new Stretch(start);
-    if (last) {                 // nothing happened in between
+    if (last) {                 // no events in between
       made.populations = last.populations;
       made.load = last.load;
     }

@@ -1,9 +1,9 @@
-// Dialogs that ask for what an order needs.
+// Dialogs for the arguments of orders.
 
 import { button, element } from './dom.js';
 
-// Show a dialog; `send` says what is done when it is confirmed: the dialog
-// is closed when that is true, else it stays, with the error.
+// Show a dialog and call `send` when the user confirms it. The dialog closes
+// when this succeeds, and otherwise shows the error.
 export function dialog(title, content, confirm, send, wide = false) {
   const problem = element('p', { class: 'problem', role: 'alert', hidden: true });
   const go = element('button', { type: 'submit', class: 'primary' }, confirm);
@@ -52,7 +52,7 @@ export function field(label, attributes = {}, hint = null) {
 
 let lists = 0;
 
-// One of several; options are [value, text].
+// A field with a list of choices; options are [value, text].
 export function select(label, options, value = options[0]?.[0]) {
   const input = element('select', {}, ...options.map(([known, text]) =>
     element('option', { value: known }, text)));
@@ -63,12 +63,12 @@ export function select(label, options, value = options[0]?.[0]) {
   return made;
 }
 
-// Ask before something is done that cannot be taken back.
+// Ask for confirmation of an order that cannot be undone.
 export function sure(question, confirm, send) {
   return dialog(question, [], confirm, send);
 }
 
-// A text of the browser's own files.
+// Let the user choose a file of the browser's machine, and read its text.
 export function readFile(accept, told) {
   const input = element('input', { type: 'file', accept, onchange: async () => {
     const [file] = input.files;
@@ -77,6 +77,6 @@ export function readFile(accept, told) {
   input.click();
 }
 
-// An atom as Prolog reads it, whatever it is.
+// The text quoted as an atom of Prolog.
 export const quoted = text =>
   `'${text.replace(/\\/g, '\\\\').replace(/'/g, "\\'")}'`;

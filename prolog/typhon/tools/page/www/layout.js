@@ -1,16 +1,17 @@
-// Where hosts stand. The unit is the distance of neighbours.
+// The positions of hosts. The unit is the distance of neighbours.
 //
-// A network that was made as a grid, ring, star, line or tree is recognized
-// by its links, its hosts being numbered as they were made; any other is laid
-// out by force (d3-force), with the hosts of a process near each other, and
-// the processes of a machine.
+// A grid, ring, star, line or tree is recognized by its links, with the hosts
+// numbered in the order of their creation. Any other network gets a force
+// layout (d3-force), with the hosts of a process, and the processes of a
+// machine, near each other.
 
 import { byName } from './names.js';
 
-const EXPLAINED = 0.85;         // share of the links that a shape has
-const THERE = 0.4;              // share of the links of a shape that are there
+const EXPLAINED = 0.85;         // least share of the links that belong to the shape
+const THERE = 0.4;              // least share of the links of the shape that exist
 
-// Pairs of numbers of linked hosts, and where host i of n stands.
+// For each shape the pairs of numbers of linked hosts, and the position of host
+// i of n.
 const SHAPES = {
   line: {
     edges: n => range(n - 1).map(i => [i, i + 1]),
@@ -54,7 +55,7 @@ const around = (i, n, radius) => {
 const round = (i, n, least = 0) =>
   around(i, n, Math.max(least, n / (2 * Math.PI)));
 
-// Each level has twice the room for each host that the next has.
+// Each host has twice the width of a host on the next level.
 function treeAt(i, n) {
   const level = Math.floor(Math.log2(i + 1));
   const depth = Math.floor(Math.log2(n));
@@ -79,7 +80,7 @@ function starBusEdges(n, size) {
     : [i - i % size, i]));
 }
 
-// Hubs go to and fro in rows.
+// Hubs are in rows, with alternating directions.
 function starBusAt(i, n, size) {
   const radius = Math.max(1, (size - 1) / 6), apart = 2 * radius + 0.9;
   const hub = Math.floor(i / size), inRow = Math.ceil(1.3 * Math.sqrt(n / size));
@@ -105,8 +106,8 @@ function numberedLinks(hosts, links) {
   return found;
 }
 
-// How well the links of a shape are those found, of which some may be down at
-// the time; 0 if they are others.
+// How well the links of a shape match the links found, of which some may be
+// down at the moment; 0 if they do not match.
 function likeness(found, edges, n) {
   const wanted = new Set(edges.map(([i, j]) => pair(i, j, n)));
   let common = 0;
@@ -135,7 +136,7 @@ export function recognize(hosts, links, shapes = Object.keys(SHAPES)) {
   return best;
 }
 
-// A Map of places, or null where force has to find them.
+// A Map of positions, or null if a force layout is needed.
 export function arrange(layout, hosts, links) {
   if (hosts.length === 0) return new Map();
   if (layout === 'random') return scattered(hosts);
@@ -161,8 +162,8 @@ function shaped(hosts, { shape, columns }) {
   }));
 }
 
-// Networks that are not linked with each other stand side by side, in rows,
-// if each has a shape.
+// Networks without links between them are placed side by side, in rows, if each
+// has a shape.
 function inPieces(hosts, links) {
   const pieces = connected(hosts, links);
   if (pieces.length === 1 && hosts.length > 2) return null;
@@ -210,7 +211,7 @@ function connected(hosts, links) {
   return [...pieces.values()];
 }
 
-// The same names are scattered in the same way again.
+// Positions that depend only on the names, so that they are the same each time.
 function scattered(hosts) {
   const side = Math.sqrt(hosts.length) * 1.5;
   return new Map(hosts.map(({ id }) => {
@@ -227,8 +228,8 @@ function hash(text) {
   return (h ^ h >>> 13) >>> 0;
 }
 
-// Hosts that push each other away and are held by their links. step(ms)
-// works for so long, and says whether anything moved.
+// Force layout: hosts repel each other, and links attract them. step(ms)
+// computes for that time, and returns whether a host moved.
 export class Force {
   constructor(hosts, links, places) {
     const d3 = globalThis.d3;
@@ -265,14 +266,14 @@ export class Force {
     return true;
   }
 
-  // The unit is the length that half of the links exceed.
+  // The unit is the median length of links.
   measure() {
     const lengths = this.ends.map(({ source, target }) =>
       Math.hypot(source.x - target.x, source.y - target.y)).sort((a, b) => a - b);
     this.unit = lengths[lengths.length >> 1] || 1;
   }
 
-  // A host that was dragged stays where it was put.
+  // A host that the user has dragged keeps its position.
   pin(id, place) {
     const node = this.byId.get(id);
     if (!node) return;
@@ -282,8 +283,8 @@ export class Force {
   }
 }
 
-// Processes around the middle of their machine, machines around the middle
-// of all.
+// The centres of processes are around the centre of their machine, those of
+// machines around the centre of the network.
 function groupCentres(hosts) {
   const machines = new Map();
   for (const { machine, process } of hosts) {

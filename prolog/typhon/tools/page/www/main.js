@@ -1,4 +1,4 @@
-// The page: its views, what is chosen, and what the server says.
+// The page: its views, the selection, and the connection to the server.
 
 import { button, element } from './dom.js';
 import { agentList, hostList } from './table.js';
@@ -6,13 +6,14 @@ import { Announcer, Store } from './store.js';
 import { details } from './details.js';
 import { workMenu } from './work.js';
 
-const SILENCE = 16000;          // ms without a frame: the server is gone
+const SILENCE = 16000;          // ms without a frame: the connection is lost
 const LONGEST = 8000;           // ms between attempts
 
-// The connection is made again whenever it is lost; what was shown stays
-// meanwhile.
+// The connection to the server. It is made again whenever it is lost; the page
+// keeps its contents meanwhile.
 class Connection {
-  // Told: snapshot(dict), events(list), state('open' | 'lost' | 'refused').
+  // told has the callbacks snapshot(dict), events(list), and state('open' |
+  // 'lost' | 'refused').
   constructor(told) {
     this.told = told;
     this.wait = 300;
@@ -66,7 +67,7 @@ class Connection {
   lost() {
     clearTimeout(this.silence);
     this.socket = null;
-    if (!this.refused) this.told.state('lost');     // else it was told why
+    if (!this.refused) this.told.state('lost');     // else state() has the reason
     this.again(this.wait);
     this.wait = Math.min(LONGEST, this.wait * 1.7);
   }
@@ -76,8 +77,8 @@ class Connection {
     this.timer = setTimeout(() => { if (!this.socket) this.open(); }, wait);
   }
 
-  // The snapshot may contain events that happen while the server makes it, or
-  // not: they are applied again afterwards.
+  // The snapshot may or may not contain events that happen while the server
+  // makes it: so they are applied again afterwards.
   async refresh() {
     if (this.held || !this.socket) return;
     this.held = [];
@@ -91,7 +92,8 @@ class Connection {
     }
   }
 
-  // The answer to a question or an order; an error says why there is none.
+  // Returns the answer to a query or an order, or throws an error with the
+  // reason.
   async ask(message) {
     let response;
     try {
@@ -109,8 +111,8 @@ class Connection {
   }
 }
 
-// A view is a module with mount(element, store, app), or such a function;
-// it is loaded when it is first looked at.
+// A view is a module with mount(element, store, app), or such a function. It is
+// loaded when it is shown for the first time.
 const VIEWS = [
   ['map', 'Map', () => import('./map.js')],
   ['hosts', 'Hosts', () => ({ mount: hostList })],
@@ -131,13 +133,13 @@ class App extends Announcer {
     this.store = store;
     this.prefs = rememberedPrefs();
     this.chosen = {};
-    this.more = new Map();      // agent -> what only surveys tell of it
+    this.more = new Map();      // agent -> data that only snapshots contain
     this.mounted = new Map();   // name -> element
     this.views = new Map();     // name -> what mount() returned
     this.state = 'connecting';
   }
 
-  // Choose an agent or a host, or with {} nothing.
+  // Select an agent or a host, or clear the selection with {}.
   select(chosen) {
     this.chosen = chosen;
     this.tell('select', chosen);
@@ -200,7 +202,7 @@ class App extends Announcer {
   }
 }
 
-// What was chosen of views is remembered by the browser, if it may.
+// The browser stores the options of views, if the user allows this.
 function rememberedPrefs() {
   let prefs = {};
   try { prefs = JSON.parse(localStorage.getItem('typhon')) || {}; } catch { /* none */ }
@@ -289,7 +291,7 @@ function connect(app) {
     },
   });
 
-  // ask for a new snapshot after missed events
+  // Request a new snapshot after missed events.
   function lookAnew(wait) {
     resync ??= setTimeout(() => {
       resync = null;
@@ -298,7 +300,7 @@ function connect(app) {
   }
 }
 
-// What was stopped on purpose is not shown for ever.
+// Remove hosts that were stopped and are not in the snapshot.
 function forgetStopped(store, snapshot) {
   const there = new Set(snapshot.hosts.map(host => host.id));
   for (const host of [...store.hosts.values()])
@@ -317,7 +319,7 @@ function setReadOnly(app, readOnly) {
   app.tell('rights');
 }
 
-// There is a tab for the world where there is one, and it is shown first.
+// If the page has a world, show its tab and open its view.
 function setWorld(app, world) {
   const tab = $('tab-world');
   if (tab.hidden === !world) return;
@@ -325,14 +327,15 @@ function setWorld(app, world) {
   if (world !== (app.view === 'world')) app.show(world ? 'world' : 'map');
 }
 
-// While a list is looked at, what no event tells is asked for now and then.
+// While a list is shown, request snapshots at intervals, for data that no event
+// contains.
 function keepFresh(app) {
   let pause = 3000;
   const look = async () => {
     if (!document.hidden && ['hosts', 'agents'].includes(app.view)
         && app.state === 'open') {
       const start = performance.now();
-      try { await app.refresh(); } catch { /* told by the state */ }
+      try { await app.refresh(); } catch { /* state() reports it */ }
       pause = Math.max(3000, 10 * (performance.now() - start));
     }
     setTimeout(look, pause);
@@ -343,7 +346,7 @@ function keepFresh(app) {
 const store = new Store();
 const app = new App(store);
 
-// Failures of promises without a handler are shown as well.
+// Show unhandled rejections, too.
 addEventListener('unhandledrejection', ({ reason }) =>
   app.note(reason?.message ?? String(reason), 'error'));
 

@@ -1,9 +1,9 @@
-// The map: hosts and links, and agents that travel along them.
+// The view Map: hosts and links, and agents that travel along them.
 //
-// Two canvases: below what rests, drawn again when it has changed, but at
-// most every CALM ms for changes that only the feed has made; above what
-// moves, drawn each frame as long as something does. Nothing is drawn while
-// nothing happens or the page is hidden.
+// There are two canvases. The lower one has the static items; it is redrawn
+// when they change, but at most every CALM ms for changes by the feed. The
+// upper one has the moving items, and is drawn in each frame while there are
+// any. Nothing is drawn without changes, or while the page is hidden.
 
 import { arrange, Force, LAYOUTS, recognize } from './layout.js';
 import { onTheme, Palette, paperPalette, legend } from './palette.js';
@@ -14,9 +14,9 @@ import {
 } from './dom.js';
 import { Picture, saveButtons, write } from './svg.js';
 
-const CALM = 160;               // ms; up to a second where drawing is slow
-const FOUND = 200;              // of a search, marked
-const PATIENCE = 600;           // ms until new links are looked at
+const CALM = 160;               // ms; up to a second if drawing is slow
+const FOUND = 200;              // marked results of a search, at most
+const PATIENCE = 600;           // ms after new links until the layout is checked
 
 const same = (a, b) => a && b && a.shape === b.shape && a.columns === b.columns;
 
@@ -33,8 +33,8 @@ class MapView extends Picture {
     this.following = false;
     this.force = null;
     this.fitted = false;
-    this.rest = CALM;           // until what rests is drawn again
-    this.ghost = null;          // an agent's mark that is being dragged
+    this.rest = CALM;           // ms until static items are redrawn
+    this.ghost = null;          // the mark of an agent that the user drags
     this.build(parent);
     this.palette = new Palette(store, this.element);
     this.scene = new Scene(store, this.palette, this.places);
@@ -112,7 +112,7 @@ class MapView extends Picture {
     this.basePen = fitCanvas(this.base, width, height);
     this.topPen = fitCanvas(this.top, width, height);
     if (!this.scene) return;
-    if (this.touched && before[0]) {    // what was in the middle stays there
+    if (this.touched && before[0]) {    // keep the centre
       this.scene.x += (width - before[0]) / 2;
       this.scene.y += (height - before[1]) / 2;
     } else {
@@ -124,7 +124,7 @@ class MapView extends Picture {
 
   // ------------------------------------------------------------- changes
 
-  // What happens while it is not shown is seen when it has a size again.
+  // A hidden map is not updated: it is when it gets a size again.
   changed() {
     if (!this.stage.clientWidth) return;
     if (this.shape !== this.store.shape) this.reshape();
@@ -143,8 +143,8 @@ class MapView extends Picture {
       this.scene.overlay);
   }
 
-  // Hosts or links are new, or gone. Where hosts stand changes only if there
-  // are others than before; links that come and go move no host.
+  // Hosts or links were added or removed. Only new sets of hosts change
+  // positions; changes of links do not move hosts.
   reshape() {
     this.shape = this.store.shape;
     const hosts = [...this.store.hosts.values()];
@@ -156,7 +156,8 @@ class MapView extends Picture {
     this.dirty = true;
   }
 
-  // Links come after hosts: then the shape of a network is to be seen.
+  // Links arrive after hosts, so the shape of a network is recognized only
+  // then.
   lookAgain() {
     const hosts = [...this.store.hosts.values()];
     const shape = recognize(hosts, this.linksToLay());
@@ -164,7 +165,7 @@ class MapView extends Picture {
     if (shape ? !same(shape, this.laid) : unlaid) this.lay(hosts);
   }
 
-  // A replay knows all that there will be.
+  // A replay knows all links in advance.
   linksToLay() { return this.store.plan || [...this.store.links.values()]; }
 
   lay(hosts) {
@@ -218,7 +219,7 @@ class MapView extends Picture {
 
   frame() {
     this.waiting = 0;
-    if (!this.stage.clientWidth) return;        // shown later, it is resized
+    if (!this.stage.clientWidth) return;        // resized when it is shown
     const now = this.store.clock(), wall = performance.now();
     if (this.force) this.settle(wall);
     if (!this.fitted) this.fitNow();
@@ -235,7 +236,7 @@ class MapView extends Picture {
     this.next();
   }
 
-  // Hosts that force still moves, and when it has ended.
+  // Continue the force layout; redraw while it moves hosts, and when it ends.
   settle(wall) {
     const moved = this.force.step(7, this.places);
     if (!moved && !this.unsettled) return;
@@ -247,17 +248,17 @@ class MapView extends Picture {
     this.wake();
   }
 
-  // What rests is drawn less often where frames take long.
+  // Static items are drawn less often if frames take long.
   pace(wall) {
     const took = wall - (this.wallBefore || 0);
     this.wallBefore = wall;
-    if (took > 300) return;             // it had nothing to do
+    if (took > 300) return;             // no frames were needed
     this.rest = took > 30 ? Math.min(1000, this.rest * 1.15)
       : Math.max(CALM, this.rest * 0.97);
   }
 
-  // Another frame while something moves; otherwise when what has changed
-  // may be drawn, or when a mark of the last frame has come to rest.
+  // Request another frame while marks move; otherwise when changes may be
+  // drawn, or when a mark of the last frame has arrived.
   next() {
     const moving = this.store.moving.size;
     if (moving > 0 && !this.store.paused) this.wake();
@@ -324,7 +325,7 @@ class MapView extends Picture {
 
   zoomBy(factor) { this.zoom(factor, this.width / 2, this.height / 2); }
 
-  // The agent that is followed comes to the middle, softly.
+  // Move the followed agent smoothly to the centre.
   centre(now) {
     const agent = this.store.agents.get(this.scene.selected.agent);
     const at = agent && this.scene.agentAt(agent, now);
@@ -417,7 +418,7 @@ class MapView extends Picture {
     event.preventDefault();
   }
 
-  // To the nearest host in that direction.
+  // Focus the nearest host in that direction.
   step([dx, dy]) {
     const from = this.scene.focus && this.scene.at(this.scene.focus);
     let nearest = null, least = Infinity;
@@ -447,7 +448,7 @@ class MapView extends Picture {
     if (dx || dy) this.pan(dx, dy);
   }
 
-  // The next of the agents on the host in focus.
+  // Select the next agent on the focused host.
   nextAgent(by) {
     const host = this.store.hosts.get(this.scene.focus || this.scene.selected.host);
     if (!host || host.agents.size === 0) return;
@@ -482,7 +483,7 @@ class MapView extends Picture {
     this.say(this.describe(isHost ? { host: id } : { agent: id }));
   }
 
-  // ---------------------------------------------------------------- words
+  // --------------------------------------------------------------- texts
 
   say(text) {
     if (this.said.textContent !== text) this.said.textContent = text;

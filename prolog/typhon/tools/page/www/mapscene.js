@@ -1,4 +1,4 @@
-// What the map shows, drawn with any pen: a canvas on the screen, or SVG.
+// The contents of the map, drawn with any pen: a canvas on the screen, or SVG.
 
 import { markPath } from './palette.js';
 import { shortName } from './names.js';
@@ -6,9 +6,9 @@ import { textWidth, write } from './svg.js';
 
 const GOLDEN = Math.PI * (3 - Math.sqrt(5));
 const DENSE = 2500;             // moving marks, above which links show flows
-const PLAIN = 400;              // ... above which they are plain squares
+const PLAIN = 400;              // moving marks, above which they are squares
 const CROWD = 3000;             // agents, above which hosts show shares
-const NEAR = 1.2;               // units, for hosts on common ground
+const NEAR = 1.2;               // units between hosts in one shaded area
 const BADGE = 8;                // seconds for which a fault flashes
 
 export class Scene {
@@ -19,16 +19,16 @@ export class Scene {
     this.k = 60;                // pixels of a unit
     this.x = 0;
     this.y = 0;
-    this.curved = false;        // long links go around what is between
+    this.curved = false;        // long links are curved around hosts in between
     this.group = 'process';
     this.overlay = '';
     this.hidden = new Set();    // programs
     this.selected = {};         // {agent, host}
-    this.focus = null;          // host, of the keyboard
+    this.focus = null;          // host that has the focus of the keyboard
     this.found = new Set();     // ids that a search has found
   }
 
-  // ------------------------------------------------------------- places
+  // ---------------------------------------------------------- positions
 
   at(id) {
     const place = this.places.get(id);
@@ -58,12 +58,12 @@ export class Scene {
     const y = c ? rest * rest * a.y + 2 * rest * share * c.y + share * share * b.y
       : a.y + (b.y - a.y) * share;
     const length = Math.hypot(b.x - a.x, b.y - a.y) || 1;
-    const aside = Math.min(4, this.k * 0.07);   // opposite hops pass each other
+    const aside = Math.min(4, this.k * 0.07);   // opposite hops do not overlap
     return { x: x - (b.y - a.y) / length * aside,
              y: y + (b.x - a.x) / length * aside };
   }
 
-  // Where the mark of an agent is now.
+  // The position of the mark of an agent at the time now.
   agentAt(agent, now) {
     if (agent.hop) {
       const a = this.at(agent.hop.from), b = this.at(agent.hop.to);
@@ -103,7 +103,7 @@ export class Scene {
              y: y + distance * Math.sin(i * GOLDEN) };
   }
 
-  // --------------------------------------------------- what is at rest
+  // ------------------------------------------------------ static items
 
   drawBase(pen, width, height) {
     pen.fillStyle = this.palette.bg;
@@ -135,7 +135,7 @@ export class Scene {
     else pen.lineTo(b.x, b.y);
   }
 
-  // Hosts of one process that stand near each other, on common ground.
+  // Draw a shaded area below hosts of one process that are near each other.
   drawGroups(pen) {
     const groups = new Map();
     for (const host of this.store.hosts.values()) {
@@ -163,9 +163,9 @@ export class Scene {
     return this.palette.dark ? `hsl(${hue},22%,17%)` : `hsl(${hue},48%,93%)`;
   }
 
-  // A line as wide as a unit, from each host to those that are near.
+  // Draw a line of the width of a unit from each host to its near neighbours.
   ground(pen, hosts) {
-    const cells = new Map();    // squares of that size -> places of hosts
+    const cells = new Map();    // squares of that size -> positions of hosts
     const cell = (x, y) => `${Math.floor(x / NEAR)} ${Math.floor(y / NEAR)}`;
     for (const { id } of hosts) {
       const place = this.places.get(id), a = place && this.at(id);
@@ -268,7 +268,8 @@ export class Scene {
     });
   }
 
-  // Too many to tell apart: how many of each program, as parts of a bar.
+  // Too many agents for single dots: the share of each program as a part of a
+  // bar.
   drawShares(pen, agents, { x, y }, r) {
     const shares = new Map();
     for (const { program } of agents)
@@ -384,7 +385,7 @@ export class Scene {
     pen.globalAlpha = 1;
   }
 
-  // --------------------------------------------------- what is under way
+  // ------------------------------------------------------ moving items
 
   drawTop(pen, now) {
     this.drawTrail(pen);
@@ -429,7 +430,7 @@ export class Scene {
     for (const { x, y } of points) pen.fillRect(x - r, y - r, 2 * r, 2 * r);
   }
 
-  // Too many marks: links as wide as much goes along them.
+  // Too many marks: the width of a link shows the number of agents on it.
   drawFlows(pen, moving) {
     const flows = new Map();
     for (const { hop, program } of moving) {
@@ -501,7 +502,7 @@ export class Scene {
     pen.setLineDash([]);
   }
 
-  // ---------------------------------------------------------- agents here
+  // ------------------------------------------------------ agents on hosts
 
   hit(x, y, now) {
     let nearest = null, least = 12;

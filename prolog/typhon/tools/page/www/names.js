@@ -1,6 +1,6 @@
-// What the names of hosts and agents tell, and how they are sorted.
+// Parts of the names of hosts and agents, and their order.
 
-// What stands before the first @ of a name.
+// The part of a name before the first @.
 export const shortName = id => {
   const at = id.indexOf('@');
   return at < 0 ? id : id.slice(0, at);
@@ -12,14 +12,15 @@ export const machineOf = process => {
   return colon < 0 ? process : process.slice(0, colon);
 };
 
-// n2 comes before n10.
+// n2 is before n10.
 const collator = new Intl.Collator('en', { numeric: true });
 export const byName = (a, b) => collator.compare(a, b);
 
-// Ids of what `known` lists (lists of {id, name, status}) whose name holds the
-// text: those that are called so first, then those whose name begins so; of
-// equals in the order of the lists, then of names. A text with an @ is looked
-// for in the whole id, which of an agent names its home, too.
+// Ids of the items in the lists `known`, lists of {id, name, status}, whose
+// name contains the text: first those whose name equals it, then those whose
+// name begins with it; among equals in the order of the lists, then of names. A
+// text with an @ is searched in the whole id, which contains the home of an
+// agent.
 export function found(text, known) {
   const wanted = text.trim().toLowerCase();
   if (wanted === '') return [];
@@ -35,13 +36,13 @@ export function found(text, known) {
     || byName(a.id, b.id)).map(({ id }) => id);
 }
 
-// The id of an agent is its name, then a dot, then what makes it unique.
+// The id of an agent is its name, a dot, and a unique part.
 export const programGuess = name => {
   const dot = name.indexOf('.');
   return dot < 0 ? name : name.slice(0, dot);
 };
 
-// Round times along an axis, and how they are written.
+// Round times along an axis, and their texts.
 
 export function timeTicks(from, to, count) {
   const rough = (to - from) / Math.max(1, count);
@@ -53,7 +54,7 @@ export function timeTicks(from, to, count) {
   return ticks;
 }
 
-// Times of day where times are so large; seconds otherwise.
+// Times of day for large numbers; seconds otherwise.
 export function timeText(time, span) {
   if (time > 1e8) {
     const text = new Date(time * 1000).toISOString();

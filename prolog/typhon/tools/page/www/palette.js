@@ -1,6 +1,6 @@
-// Colours: of programs, chosen so that colour-blind readers tell them
-// apart (after Okabe and Ito, made darker or lighter for contrast), each with
-// a shape as well; and those of the theme, which views.css defines.
+// Colours of programs, which colour-blind readers can distinguish (after Okabe
+// and Ito, made darker or lighter for contrast), each also with a shape; and
+// colours of the theme, which views.css defines.
 
 import { element, fitCanvas, inOrder } from './dom.js';
 import { byName } from './names.js';
@@ -16,7 +16,7 @@ const THEME = ['bg', 'surface', 'text', 'muted', 'line', 'faint', 'accent',
 
 export const SHAPES = ['circle', 'square', 'diamond'];
 
-// Programs keep the colour that they got first.
+// A program keeps its first colour.
 const numbers = new WeakMap();
 
 function numberOf(store, program) {
@@ -33,7 +33,7 @@ export class Palette {
     this.refresh();
   }
 
-  // What the style sheet says now.
+  // Read the present colours of the style sheet.
   refresh() {
     const style = getComputedStyle(this.element);
     for (const name of THEME)
@@ -54,7 +54,7 @@ export class Palette {
   }
 }
 
-// As printed on paper, whatever the theme.
+// The colours for paper, which do not depend on the theme.
 export function paperPalette(store, element) {
   const palette = new Palette(store, element);
   Object.assign(palette, { bg: '#ffffff', surface: '#ffffff', text: '#1c2128',
@@ -63,7 +63,7 @@ export function paperPalette(store, element) {
   return palette;
 }
 
-// Call back when the theme changes; returns what ends that.
+// Call back when the theme changes; returns a function that ends this.
 export function onTheme(listener) {
   const query = matchMedia('(prefers-color-scheme: dark)');
   const observer = new MutationObserver(listener);
@@ -76,7 +76,7 @@ export function onTheme(listener) {
   };
 }
 
-// A mark of an agent, to be filled.
+// Make the path of the mark of an agent, to be filled.
 export function markPath(pen, shape, x, y, r) {
   if (shape === 'square') {
     pen.rect(x - r * 0.9, y - r * 0.9, r * 1.8, r * 1.8);
@@ -92,7 +92,8 @@ export function markPath(pen, shape, x, y, r) {
   }
 }
 
-// Which colour is which program. A press hides its agents, and shows them.
+// The legend of programs and colours. A click hides or shows the agents of a
+// program.
 
 const MANY = 24;
 
@@ -150,7 +151,7 @@ export function legend(store, palette, onHidden) {
       }
     },
 
-    // The same on a picture that is saved, from left to right.
+    // Draw the legend on a saved picture, from left to right.
     draw(pen, colours, x, y) {
       const size = '11px';
       for (const name of names()) {

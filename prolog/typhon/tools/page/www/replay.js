@@ -1,4 +1,5 @@
-// A log in the views of the page, with the controls of its player below.
+// The view Replay: a log in the views of the page, above the controls of its
+// player.
 
 import { button, element, choice } from './dom.js';
 import { mount as mapView } from './map.js';
@@ -10,7 +11,7 @@ import { Announcer, Store } from './store.js';
 const VIEWS = [['Map', mapView], ['Space–time', spaceView],
   ['Sequence', sequenceView], ['Time', timeView]];
 
-// What views ask of the page they are on.
+// The interface of the page that views use, without a server.
 class QuietApp extends Announcer {
   chosen = {};
   prefs = {};
@@ -23,7 +24,7 @@ class QuietApp extends Announcer {
   ask() { return Promise.reject(new Error('a log can only be looked at')); }
 }
 
-// log: what replay.pl has made of one.
+// log: a log as converted by replay.pl.
 export function showReplay(parent, log) {
   const player = new Player(decode(log)), app = new QuietApp();
   const views = VIEWS.map(([name, mount]) => ({ name, mount, view: null,
@@ -55,8 +56,8 @@ export function showReplay(parent, log) {
   return { player, store: player.store, app, views, show, end };
 }
 
-// On the page: choose a log of this machine; the server, which can read it,
-// makes a replay of it.
+// On the page the user chooses a log of this machine, and the server converts
+// it.
 export function mount(parent, store, app) {
   const said = element('span', { role: 'status' },
     'A log of a network; log(File, [hops, messages, links, hosts]) tells most.');
@@ -87,15 +88,15 @@ export function mount(parent, store, app) {
   return { open };
 }
 
-// A log in the same views: a store whose clock is a slider.
+// A log in the same views: a store whose clock follows a slider.
 //
-// The events are those of the file that was opened, as replay.pl has made
-// them: {snapshot, events, overlays, title}. To go back is to begin anew and
-// to apply what comes before.
+// The events are those of the opened file, as converted by replay.pl:
+// {snapshot, events, overlays, title}. To go back, the player begins again and
+// applies all earlier events.
 
 const SPEEDS = [0.01, 0.1, 0.25, 0.5, 1, 2, 5, 10, 50, 200, 1000];
-const CHUNK = 2000;             // events that are applied at once
-const SHOWN = 40;               // seconds in which a log is played, untold
+const CHUNK = 2000;             // events applied at a time
+const SHOWN = 40;               // default seconds in which a log is played
 
 export class Player {
   constructor(log) {
@@ -127,7 +128,7 @@ export class Player {
     this.next = 0;
   }
 
-  // Everything up to time has happened, and nothing after it.
+  // Show the state at time: after all events up to it, and no others.
   seek(time) {
     const to = Math.max(this.first, Math.min(this.last, time));
     if (to < this.time) this.begin();
@@ -145,7 +146,7 @@ export class Player {
     }
   }
 
-  // One event on, or back; of those at one time all.
+  // Go to the next or the previous event; events at the same time are one step.
   step(by) {
     this.pause();
     if (by > 0 && this.next < this.events.length)
@@ -192,7 +193,7 @@ export class Player {
   }
 }
 
-// Texts of events are numbers of names, and numbers are lists of one.
+// Texts in events are indexes into names, and numbers are lists of one element.
 export function decode(log) {
   const { names } = log;
   const item = given => (Array.isArray(given) ? given[0]
@@ -201,12 +202,13 @@ export function decode(log) {
     [time, ...items.map(item)]) };
 }
 
-// Events in the order of time; a hop also has its duration and the time until
-// the next hop of the agent: [..., 'left', to, seconds, room].
+// Returns the events in the order of time. A departure also gets the duration
+// of the hop and the time until the next hop of the agent: [..., 'left', to,
+// seconds, room].
 function known(events) {
   const sorted = events.map((event, i) => [event, i])
     .sort(([a, i], [b, j]) => a[0] - b[0] || i - j).map(([event]) => [...event]);
-  const out = new Map();        // agent -> where it has set out last
+  const out = new Map();        // agent -> its last departure
   for (const event of sorted) {
     const [time, host, agent, kind] = event, left = out.get(agent);
     if (kind === 'left') {
@@ -221,7 +223,7 @@ function known(events) {
   return sorted;
 }
 
-// The links that there are at some time: by them hosts are arranged.
+// The links that exist at any time, which determine the layout.
 function allLinks(log, events) {
   const links = [];
   for (const { id, links: others } of log.snapshot?.hosts || [])
@@ -235,7 +237,7 @@ const nearest = wanted => SPEEDS.reduce((a, b) =>
   (Math.abs(Math.log(b / Math.max(wanted, 1e-3)))
     < Math.abs(Math.log(a / Math.max(wanted, 1e-3))) ? b : a));
 
-// Some hundred stretches of history.
+// The width of a stretch, for some hundred stretches of history.
 const fitting = span => {
   const rough = span / 300, power = 10 ** Math.floor(Math.log10(rough || 1));
   return [1, 2, 5, 10].map(n => n * power).find(width => width >= rough) || 1;

@@ -1,4 +1,5 @@
-// Messages between chosen agents, one below the other in the order of time.
+// The view Sequence: messages between chosen agents, from top to bottom in the
+// order of time.
 
 import { button, calmly, element, fitCanvas, onSize } from './dom.js';
 import { cut } from './mapscene.js';
@@ -10,8 +11,8 @@ import { story } from './story.js';
 
 const CALM = 300;
 const ROW = 24;
-const ROWS = 400;               // the latest
-const AGENTS = 8;               // with most messages, until some are chosen
+const ROWS = 400;               // the latest ones are shown
+const AGENTS = 8;               // those with the most messages, by default
 const HEAD = 34;
 const LEFT = 74;
 
@@ -22,7 +23,7 @@ class Sequence extends Picture {
     super();
     this.store = store;
     this.app = app;
-    this.chosen = [];           // agents; none: those with most messages
+    this.chosen = [];           // agents; if empty, those with the most messages
     this.moves = true;
     this.build(parent);
     this.palette = new Palette(store, this.element);
@@ -65,7 +66,7 @@ class Sequence extends Picture {
       element('option', { value: id }, shortName(id))));
   }
 
-  // An id, or the beginning of one.
+  // text is an id, or the beginning of one.
   add(text) {
     const wanted = text.trim();
     this.input.value = '';
@@ -201,8 +202,8 @@ class Sequence extends Picture {
   }
 }
 
-// Of moves only those after which an agent sends or takes something: they say
-// where that is.
+// Keep only moves after which the agent sends or takes a message: they show the
+// host on which it does so.
 function telling(rows) {
   const kept = [], last = new Map();    // agent -> row of its last move
   const flush = agent => {
@@ -220,7 +221,7 @@ function telling(rows) {
   return kept.sort((a, b) => a.time - b.time || a.order - b.order);
 }
 
-// A message that is taken before anything else happens needs one row.
+// A message that is taken without other events in between needs only one row.
 function joined(rows) {
   const kept = [];
   for (const row of rows) {

@@ -1,5 +1,5 @@
-// Space and time: each host a row, each agent a line, level while it stays
-// and steep while it hops; messages as thin arrows.
+// The view Space-time: each host is a row, each agent a line, level while it
+// stays and steep while it hops; messages are thin arrows.
 
 import { button, calmly, choice, element, fitCanvas, onSize } from './dom.js';
 import { cut } from './mapscene.js';
@@ -10,7 +10,7 @@ import { story } from './story.js';
 
 const CALM = 250;
 const LEAST = 16;               // pixels of a row
-const MANY = 30;                // hosts: only what moves is shown to begin with
+const MANY = 30;                // hosts, above which only hops are shown at first
 const SPANS = [['2', '2 s'], ['10', '10 s'], ['60', '1 min'], ['600', '10 min'],
   ['all', 'all']];
 
@@ -100,7 +100,7 @@ class SpaceTime extends Picture {
 
   // ------------------------------------------------------------- picture
 
-  // What is in sight: the story of a stretch of time, and its rows.
+  // The visible part: the story of the chosen time, and its rows.
   sight() {
     const events = this.held || [...this.store.remembered()];
     const times = events.filter(event => typeof event[0] === 'number');
@@ -123,7 +123,8 @@ class SpaceTime extends Picture {
     return [...hosts].sort(byName);
   }
 
-  // When hosts are known: of many, messages and agents that stay hide the rest.
+  // Set the options when hosts are known: with many hosts, messages and agents
+  // that stay would hide the hops.
   begin() {
     this.begun = true;
     for (const { name, box } of this.boxes)
@@ -141,7 +142,8 @@ class SpaceTime extends Picture {
     this.lines = sight ? this.picture(this.pen, this.palette, sight, this.height) : [];
   }
 
-  // Draws; the lines of agents, to find them again: [agent, x1, y1, x2, y2].
+  // Draws the picture, and returns the lines of agents, to find an agent at a
+  // position: [agent, x1, y1, x2, y2].
   picture(pen, palette, { told, rows, from, to }, height) {
     const left = this.margin(pen, rows), top = 22, right = this.width - 12;
     const high = Math.max(LEAST, Math.min(60, (height - top - 6) / rows.length));
@@ -304,7 +306,7 @@ class SpaceTime extends Picture {
 
   // -------------------------------------------------------------- saving
 
-  // All rows, on white.
+  // Draws all rows, on white.
   drawAll(pen, width, height) {
     const palette = paperPalette(this.store, this.element), sight = this.sight();
     const scroll = this.scroll;

@@ -9,12 +9,12 @@
 import { APPLY, History } from './events.js';
 import { machineOf, processOf, programGuess, shortName } from './names.js';
 
-const TRAIL = 64;               // hosts that are remembered of an agent
-const ENDED = 2000;             // agents that are over and still shown
-const RECENT = 60000;           // events that views can look back at; in a replay
-const LOGGED = 500000;          // more, which are there anyway
-const LINES = 200;              // of the log of a host
-const MINIMUM = 0.3;            // seconds for which the mark of a hop is seen
+const TRAIL = 64;               // visited hosts stored for each agent
+const ENDED = 2000;             // ended agents that are still shown
+const RECENT = 60000;           // past events kept for the views, live
+const LOGGED = 500000;          // ... in a replay, whose log is in memory
+const LINES = 200;              // log lines stored for each host
+const MINIMUM = 0.3;            // least seconds for which the mark of a hop is shown
 
 // Listeners by the name of the event; on() returns the function that removes one.
 export class Announcer {
@@ -31,19 +31,19 @@ export class Announcer {
   }
 }
 
-// It tells 'change' when something is new, at most once a frame and never while
-// the page is hidden, and 'events', lists of events as they come.
+// The store announces 'change' after changes, at most once a frame and never
+// while the page is hidden, and 'events' with each list of events.
 export class Store extends Announcer {
-  // clock: () => seconds, by which marks move; stamped: whether events are
-  // shown at their own times (a replay) or when they are heard of (live).
+  // clock: () => seconds, the time for moving marks; stamped: whether events
+  // are shown at their own times (a replay) or when they are received (live).
   constructor({ clock = () => performance.now() / 1000, stamped = false,
                 width = 1 } = {}) {
     super();
     this.clock = clock;
     this.stamped = stamped;
     this.width = width;
-    this.rate = 1;              // seconds of the clock per second of the wall
-    this.version = 0;           // goes up with every change
+    this.rate = 1;              // seconds of the clock per real second
+    this.version = 0;           // increased with every change
     this.shape = 0;             // ... of hosts or links
     this.dirty = false;
     this.reset();
@@ -57,7 +57,7 @@ export class Store extends Announcer {
     this.links = new Map();     // "a b", a before b -> {a, b, cost}
     this.programs = new Map();  // name -> {name, agents}
     this.ended = new Set();     // ids, the oldest first
-    this.moving = new Set();    // agents whose hops are to be seen
+    this.moving = new Set();    // agents whose hops are shown
     this.overlays = new Map();  // name -> {name, kind, values}
     this.recent = [];           // lists of events, the oldest first
     this.recentCount = 0;
@@ -65,7 +65,7 @@ export class Store extends Announcer {
     this.counts.events = 0;
     this.counts.unknown = 0;
     this.history = new History(this.width);
-    this.expected = 0.3;        // seconds of a hop, lately
+    this.expected = 0.3;        // mean seconds of recent hops
     this.shape++;
     this.touch();
   }
@@ -74,7 +74,7 @@ export class Store extends Announcer {
     this.version++;
     if (this.dirty || typeof requestAnimationFrame !== 'function') return;
     this.dirty = true;
-    requestAnimationFrame(() => {   // browsers hold it while hidden
+    requestAnimationFrame(() => {   // not called while the page is hidden
       this.dirty = false;
       this.tell('change', this);
     });
@@ -82,8 +82,8 @@ export class Store extends Announcer {
 
   // ---------------------------------------------------------- snapshots
 
-  // What there is now. What was known before and is not in it is over:
-  // a host is lost, an agent gone; counts, trails and history stay.
+  // Apply the present state. Hosts that are missing in it are lost, and missing
+  // agents have ended; counts, trails and history are kept.
   applySnapshot(snapshot) {
     this.note(snapshot.time);
     const hosts = new Set(), agents = new Set();
@@ -117,7 +117,7 @@ export class Store extends Announcer {
       host.given = { x: told.x, y: told.y };
   }
 
-  // A link is there if one of its ends says so.
+  // A link exists if one of its ends reports it.
   toldLinks(hosts) {
     const now = new Map();
     for (const { id, links } of hosts)
@@ -176,7 +176,7 @@ export class Store extends Announcer {
     if (time > this.time) this.time = time;
   }
 
-  // The events that are remembered, the oldest first.
+  // The stored events, the oldest first.
   *remembered() {
     for (const list of this.recent) yield* list;
   }
@@ -197,7 +197,8 @@ export class Store extends Announcer {
     return host;
   }
 
-  // Agents on it, or what it says of its load, as bridges and robots do.
+  // The number of agents on a host, or the load that it reports, as hosts of
+  // bridges and robots do.
   loadOf(host) {
     return Math.max(host.load ?? 0, host.agents.size);
   }
@@ -265,15 +266,16 @@ export class Store extends Announcer {
       agent.trail.splice(0, agent.trail.length - TRAIL);
   }
 
-  // Each process tells for itself, so what happened where an agent was before
-  // may come after what happens where it is.  Where it is to arrive nothing
-  // can be late: clocks of machines differ.
+  // Whether an event is older than what is known of the agent. Each process
+  // sends its own events, so those of a previous host of an agent may arrive
+  // after those of its present host. Events of the host at which the agent is
+  // to arrive are never late, since the clocks of machines differ.
   late({ heard, hop }, hostId, time) {
     return time < heard && !(hop && hop.to === hostId && hop.arrives === null);
   }
 
-  // Something happens to it here: so it is here, whatever was said before.
-  // But what comes late says nothing, and false is returned.
+  // An event shows that the agent is on this host, whatever was known before. A
+  // late event is ignored, and false is returned.
   here(agent, hostId, time) {
     if (this.late(agent, hostId, time)) return false;
     agent.heard = time;
@@ -323,7 +325,7 @@ export class Store extends Announcer {
     agent.status = 'in_transit';
   }
 
-  // A hop is to be seen, but it is over when the next begins.
+  // A hop is shown for a least time, but ends before the next one begins.
   arrivesAt(start, seconds, room = Infinity) {
     return start + Math.max(seconds, Math.min(MINIMUM * this.rate, 0.8 * room));
   }
@@ -332,7 +334,7 @@ export class Store extends Announcer {
     const took = typeof seconds === 'number' ? seconds : null;
     const hop = agent.hop, now = this.stamped ? time : this.clock();
     if (hop && hop.from === from && hop.to === to && hop.arrives !== null) {
-      // a replay knew it when it set out
+      // a replay knew the arrival at the departure
     } else if (hop && hop.to === to && hop.arrives === null && !this.stamped) {
       hop.done = this.progress(hop, now);
       hop.shown = now;
@@ -353,7 +355,7 @@ export class Store extends Announcer {
     if (took !== null) this.expected += (took - this.expected) / 64;
   }
 
-  // Agents whose marks are on their way now; the others' hops are over.
+  // Returns the agents whose marks still move; the hops of others have ended.
   settle(now = this.clock()) {
     for (const agent of this.moving) {
       const hop = agent.hop;
@@ -364,7 +366,7 @@ export class Store extends Announcer {
     return this.moving;
   }
 
-  // How far it has come, from 0 to 1.
+  // The part of a hop that is done, from 0 to 1.
   progress(hop, now = this.clock()) {
     if (hop.arrives === null)
       return 0.9 * (1 - Math.exp(-(now - hop.start)
@@ -375,8 +377,8 @@ export class Store extends Announcer {
 
   // ----------------------------------------------------------- overlays
 
-  // What an agent program or a study shows of itself; values by host, or
-  // by "a b" for what belongs to a link.
+  // An overlay of an agent program or a study. Its values are by host, or, for
+  // links, by "a b".
   overlay({ name, kind, title }) {
     let overlay = this.overlays.get(name);
     if (!overlay) {
@@ -389,7 +391,7 @@ export class Store extends Announcer {
 
   // ------------------------------------------------------------ history
 
-  // How many agents there are of each program, without those that are over.
+  // The number of agents of each program, without ended ones.
   populations() {
     const counts = new Map();
     for (const { name, agents } of this.programs.values())

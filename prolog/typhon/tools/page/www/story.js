@@ -1,18 +1,18 @@
-// From events to lines in space and time: stays, hops and messages of
+// Converts events to lines in space and time: stays, hops and messages of
 // agents.
 //
 //   stays:   {agent, host, from, to, lane}
 //   hops:    {agent, a, from, b, to}
-//   letters: {sender, a, from, receiver, b, to, text}; b and to are null as
-//            long as it has not been taken
+//   letters: {sender, a, from, receiver, b, to, text}; b and to are null
+//            until it is taken
 //   marks:   {kind, agent, host, time}, of kind begins, ends, fails, clone
-//   lanes:   Map of host -> how many agents were there at a time
+//   lanes:   Map of host -> greatest number of agents at a time
 
 export function story(events, last) {
   const told = { stays: [], hops: [], letters: [], marks: [], lanes: new Map() };
   const where = new Map();      // agent -> its stay, or {host, left: time}
-  const busy = new Map();       // host -> which lanes are taken
-  const post = new Map();       // "sender receiver" -> letters, untaken
+  const busy = new Map();       // host -> whether each lane is in use
+  const post = new Map();       // "sender receiver" -> letters that are not taken
 
   const begin = (agent, host, time) => {
     if (!busy.has(host)) busy.set(host, []);
@@ -31,7 +31,7 @@ export function story(events, last) {
   };
   const hop = (agent, a, from, b, to) => told.hops.push({ agent, a, from, b, to });
 
-  // Something of it happens here.
+  // The agent has an event on this host.
   const here = (agent, host, time) => {
     const at = where.get(agent);
     if (at && at.host === host && at.left === undefined) return;
@@ -102,7 +102,7 @@ export function story(events, last) {
   return told;
 }
 
-// What happens to agents; processes tell it one before the other.
+// The events of agents in the order of time: processes send them independently.
 const inTime = events => [...events].filter(([time, , agent, kind]) =>
   agent && typeof time === 'number' && kind !== 'show' && kind !== 'add')
   .sort(([a], [b]) => a - b);

@@ -1,6 +1,6 @@
-// A pen that draws SVG where a canvas is expected: as much of
-// CanvasRenderingContext2D as the views and uPlot use. Text stays text. And
-// what views draw with either pen, and how they are saved.
+// A pen that draws SVG in place of a canvas, with the part of
+// CanvasRenderingContext2D that the views and uPlot use; text is kept as text.
+// Also functions for either pen, and for saving views.
 
 import { button } from './dom.js';
 
@@ -9,7 +9,7 @@ const escaped = text => String(text).replace(/[&<>"']/g,
   c => `&#${c.charCodeAt(0)};`)
   .replace(/[\u0000-\u0008\u000b\u000c\u000e-\u001f\ufffe\uffff]/g, '\ufffd');
 
-// The commands of a path, as both the pen and Path2D have them.
+// The commands of a path, for the pen and for Path2D.
 export class SvgPath {
   constructor() { this.d = []; }
 
@@ -148,7 +148,7 @@ export class SvgPen extends SvgPath {
 
 const FONT = 'system-ui, sans-serif';
 
-// size: as '600 12px'; halo: the colour of what surrounds the text.
+// size: such as '600 12px'; halo: the colour of the background of the text.
 export function write(pen, text, x, y, { size, fill, align = 'left',
                                          baseline = 'middle', halo = null }) {
   pen.font = `${size} ${FONT}`;
@@ -175,10 +175,11 @@ export function line(pen, x1, y1, x2, y2) {
   pen.stroke();
 }
 
-// Views as files: SVG as the view draws it, PNG from that, twice as fine.
+// Views as files: SVG as the view draws it, and PNG at twice the resolution.
 
-// A view with `ends`, functions that end it, and its `element`; size() is
-// [width, height] of what drawAll(pen, width, height) draws on paper.
+// A view has `ends`, functions that end it, and its `element`; size() is
+// [width, height] of the picture that drawAll(pen, width, height) draws for
+// print.
 export class Picture {
   destroy() {
     this.ends.forEach(end => end());
@@ -207,7 +208,7 @@ export function download(name, blob) {
 
 export const svgBlob = text => new Blob([text], { type: 'image/svg+xml' });
 
-// draw(pen) draws on a canvas what toSVG draws as SVG.
+// draw(pen) draws the picture of toSVG on a canvas.
 export async function pngBlob(width, height, draw, scale = 2) {
   const canvas = document.createElement('canvas');
   canvas.width = Math.round(width * scale);

@@ -1,4 +1,4 @@
-// A table of any length: only the rows in sight are in the document.
+// A table of any length: only the visible rows are in the document.
 
 import {
   element, inOrder, onSize, unpressed, choice, fillChoice,
@@ -6,17 +6,17 @@ import {
 import { byName, processOf, shortName } from './names.js';
 
 const ROW = 28;                 // pixels, as in style.css
-const SPARE = 6;                // rows above and below those in sight
-const CALM = 250;               // ms between two looks at what has changed
+const SPARE = 6;                // rows above and below the visible ones
+const CALM = 250;               // ms between two updates
 
 // columns: [{key, title, width, value: row => sortable, text: row => string,
-// mark: row => class}]; rows(): all of them; id(row).
+// mark: row => class}]; rows() returns all rows, id(row) the id of one.
 export class Table {
   constructor(parent, { label, columns, rows, id, open, sort, rowClass }) {
     Object.assign(this, { columns, rows, id, open, rowClass });
     this.sorting = { key: sort || columns[0].key, down: false };
     this.shown = [];
-    this.made = new Map();      // id: row in the document
+    this.made = new Map();      // id -> row in the document
     this.active = null;
     this.chosen = null;
     this.words = [];
@@ -57,7 +57,7 @@ export class Table {
     this.update();
   }
 
-  // Something has changed.
+  // Update the table soon, since data have changed.
   changed() {
     if (this.waiting || !this.element.isConnected) return;
     this.waiting = setTimeout(() => unpressed(() => {
@@ -110,7 +110,7 @@ export class Table {
     else this.element.removeAttribute('aria-activedescendant');
   }
 
-  // A row stays the same element while it is in sight.
+  // A row stays the same element while it is visible.
   newRow(id) {
     const made = element('div', { role: 'row' }, ...this.columns.map(column => {
       const cell = element('div', { role: 'gridcell' });
@@ -181,7 +181,7 @@ export class Table {
 const compare = (a, b) => typeof a === 'number' && typeof b === 'number'
   ? a - b : byName(a ?? '', b ?? '');
 
-// Hosts and agents of all processes, as lists.
+// The views Hosts and Agents: lists over all processes.
 
 const number = n => n === null || n === undefined ? '' : n.toLocaleString('en');
 
@@ -190,7 +190,7 @@ export function agentList(parent, store, app) {
   const doing = agent => {
     if (agent.status === 'ended') return `ended: ${agent.outcome ?? 'unknown'}`;
     if (agent.status === 'faulty' && agent.fault) return `faulty: ${agent.fault}`;
-    // what was told may be of an earlier hop
+    // the last snapshot may be from an earlier hop
     if (agent.status === 'in_transit')
       return agent.hop ? `in_transit to ${shortName(agent.hop.to)}` : 'in_transit';
     const told = more(agent);

@@ -1,11 +1,11 @@
-// Supervision: agents, their children and what they monitor, as a tree, and what
-// supervisors have done lately.
+// The view Supervision: a tree of agents, their children and the agents that
+// they monitor, and the recent actions of supervisors.
 
 import { chooser, element, renew } from './dom.js';
 import { shortName } from './names.js';
 
-const PAUSE = 1500;             // ms between two looks
-const SHOWN = 100;              // lines of what happened
+const PAUSE = 1500;             // ms between two queries
+const SHOWN = 100;              // lines with actions of supervisors
 const HAPPENED = /^(restarts|down|takes_over|gives_up|not_started)\(/;
 
 export const mount = (parent, store, app) => new Tree(parent, store, app);

@@ -1,4 +1,4 @@
-// What can be done with agents, hosts and networks.
+// Orders for agents, hosts and networks.
 
 import { button, element } from './dom.js';
 import {
@@ -10,8 +10,8 @@ import { download } from './svg.js';
 export const hostsThere = app => [...app.store.hosts.values()]
   .filter(host => host.state === 'running').map(host => host.id).sort(byName);
 
-// The one proposed is chosen, or linked: from a host without links no agent
-// gets away.
+// The proposed host is the selected one, or one with links, as agents cannot
+// find neighbours on a host without links.
 export function hostField(app, label, value) {
   const hosts = hostsThere(app);
   const linked = hosts.find(id => app.store.hosts.get(id).links.size > 0);
@@ -27,7 +27,7 @@ export async function order(app, message, said) {
   return answer.done;
 }
 
-// What is written in a field, as a list of Prolog.
+// The content of a field as a Prolog list.
 function listed({ input }) {
   const text = input.value.trim();
   return text && !text.startsWith('[') ? `[${text}]` : text;
@@ -187,7 +187,7 @@ function newHost(app, beside = '') {
 
 // --------------------------------------------------------------- networks
 
-// Shapes, and what they take, with values to begin with.
+// Topologies, and their arguments with default values.
 const SHAPES = [['grid', ['Rows', 3], ['Columns', 4]], ['ring', ['Hosts', 8]],
   ['line', ['Hosts', 8]], ['star', ['Hosts', 8]], ['tree', ['Hosts', 15]],
   ['mesh', ['Hosts', 6]], ['star_bus', ['Arms', 4], ['Length', 4]],
@@ -243,7 +243,8 @@ async function endNetwork(app) {
   });
 }
 
-// Mechanisms of agents/ are started, with what their operators take.
+// Dialogs that call operators of the mechanisms in agents/ with their
+// arguments.
 
 export async function mechanismDialog(app) {
   const mechanisms = await app.ask({ ask: 'mechanisms' });
@@ -273,7 +274,7 @@ export async function mechanismDialog(app) {
   }, true);
 }
 
-// Hosts are chosen, all to begin with; other arguments are written.
+// Hosts are selected from a list, by default all; other arguments are text.
 function argument(app, name) {
   if (name === 'Hosts') {
     const hosts = hostsThere(app);
@@ -293,8 +294,8 @@ function argument(app, name) {
   return { element: made, value: () => made.input.value };
 }
 
-// A program of an agent is written here, or read from a file; what the
-// platform says of it stands at its lines.
+// The editor of agent programs, which can also be read from a file. It shows
+// the problems that the platform finds at their lines.
 
 const START = `:- agent(visitor, [state([seen/1])]).
 
@@ -308,7 +309,7 @@ main :-
 on_message(_, go(Host)) :-
     move(Host).
 `;
-const CALM = 400;               // ms after the last key
+const CALM = 400;               // ms after the last key until the program is checked
 
 export function editor(app) {
   const numbers = element('pre', { class: 'numbers', 'aria-hidden': 'true' });

@@ -1,5 +1,5 @@
-// World: the picture that a page with the option world(Goal) gives of what
-// surrounds its agents. It is an image: no script in it runs.
+// The view World: the picture of the surroundings of agents, on a page with the
+// option world(Goal). It is shown as an image, so that no script in it runs.
 
 import { element } from './dom.js';
 
@@ -32,7 +32,7 @@ class World {
     }
   }
 
-  // The one before is let go when the next one is there.
+  // The previous picture is released only after the next one is decoded.
   show(svg) {
     const before = this.image.src;
     this.image.src = URL.createObjectURL(new Blob([svg], { type: 'image/svg+xml' }));
