@@ -499,7 +499,7 @@ go_round(Network) :-
 %   The end of the output and the signal race.
 
 test(every_killed_process_is_noticed, forall(member(_, [1, 2, 3, 4]))) :-
-    quiet(with_network(ring(10), [processes(10)], all_killed)).
+    quiet(with_network(ring(5), [processes(5)], all_killed)).
 
 all_killed(Network) :-
     pids(Network, Pids),
