@@ -391,8 +391,8 @@ gives_up(Address) :-
           error(timeout_error(answer, _), _),
           true).
 
-%   The thread that has installed a connection is ended at that moment if another
-%   one has a connection with the peer already, or if writing fails.
+%   The thread that has installed a connection is ended at that moment if
+%   another one has a connection with the peer already, or if writing fails.
 
 test(connection_is_reported_even_if_its_thread_ends) :-
     with_endpoint(with_peer(A,
