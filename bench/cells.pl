@@ -11,7 +11,7 @@
 ways, and a message from it; hops of an agent between another process and a
 host with cells, compared with a guarded host without cells, and with an
 unguarded host.  And the speed of agents that hop between a host without cells
-in the same process and another process, while hogs come to the host with
+in the same process and another process, while hogs arrive at the host with
 cells, one after the other.
 
 A figure is the median of the ratios of pairs that are measured one after the
@@ -50,7 +50,7 @@ inside :-
     private_bytes(Pid, Bytes),
     figure('private memory of an idle cell', Bytes/1 000 000, 'MB').
 
-%   That of bwrap, and of the process that it has started.
+%   Bytes of bwrap, and of the process that it has started.
 
 private_bytes(Pid, Bytes) :-
     format(atom(File), '/proc/~w/task/~w/children', [Pid, Pid]),
@@ -88,7 +88,8 @@ in_turns(Round, A, B) :-
     ;   once(B), once(A)
     ).
 
-%   pairs(+Rounds, +Name, +A, +B, +Unit, +What): a round is a list of Name-Value.
+%   pairs(+Rounds, +Name, +A, +B, +Unit, +What): a round is a list of
+%   Name-Value.
 
 pairs(Rounds, Name, A, B, Unit, What) :-
     findall(VA-VB, ( member(Round, Rounds), memberchk(A-VA, Round),
@@ -128,7 +129,7 @@ turn_us(Us) :-
             Seconds),
     Us is Seconds/Turns*1.0e6.
 
-%   Within the quota of messages in a second.
+%   Below the quota of messages per second.
 
 message_us(Us) :-
     Messages = 2000,

@@ -36,7 +36,7 @@ on its standard output; bench/run.pl starts it and makes the table.
 %!  figure(+Name, +Value, +Unit, +Note) is det.
 %!  ratio(+Name, +A, +B, +Unit, +What) is det.
 %
-%   Report a figure, or A/B with both sides.
+%   Prints a figure, or A/B with both sides.
 
 figure(Name, Value, Unit) :-
     figure(Name, Value, Unit, '').
@@ -62,7 +62,7 @@ seconds(Goal, Seconds) :-
 %!  resident_bytes(-Bytes) is det.
 %!  threads(-Count) is det.
 %
-%   Of this process, as the system sees it.
+%   Resident memory and threads of this process, according to the system.
 
 resident_bytes(Bytes) :-
     status('VmRSS:', KB),
@@ -83,7 +83,7 @@ status(Key, Number) :-
 
 %!  with_peer(+Prefix, :Goal) is det.
 %
-%   Call Goal(Address) while a second process runs a host of that address.
+%   Calls Goal(Address) while a second process runs the host with that address.
 %   Prefix is put before its command line.
 
 with_peer(Prefix, Goal) :-
@@ -101,7 +101,7 @@ with_peer(Prefix, Goal) :-
         ),
         ( close(In), process_wait(Pid, _), close(Out) )).
 
-%   The peer: lives until its standard input ends.
+%   The peer ends when its standard input ends.
 
 peer_main :-
     use_module(library(typhon)),
@@ -113,7 +113,7 @@ peer_main :-
 
 %!  pinned(?Placement, -Prefixes) is nondet.
 %
-%   Prefixes are those of the two processes.
+%   Prefixes are the prefixes of the command lines of the two processes.
 
 pinned(unpinned, [env]-[env]).
 pinned(same_cpu, [taskset, '-c', '0']-[taskset, '-c', '0']).

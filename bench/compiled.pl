@@ -20,7 +20,7 @@ main([Argument]) :-
            ( Stops is max(10, Count//Share),
              compared(Name, Clauses, Stops) )).
 
-%   program(-Name, -Clauses, -Share): its stops are Share times as long.
+%   program(-Name, -Clauses, -Share): its stops take Share times as long.
 
 program('a learner of some hundred goals', Clauses, 1) :-
     Clauses =
@@ -128,7 +128,7 @@ stops(N, Module, Agent, Goals) :-
     N1 is N-1,
     stops(N1, Module, Agent, Left).
 
-%   The table of the machine, and no chunks.
+%   The table of the machine, without chunks.
 
 bench_machine:'$mobile'(Goal, Program:Clause, More, Goals, Barrier, Guard) :-
     nb_getval(bench_program, Program),
@@ -169,7 +169,8 @@ plain_stops(Module, Stops) :-
     nb_setval(bench_stops, Stops),
     catch(Module:main, bench_over, true).
 
-%   least(:Goal, +Stops, -Micros, -Inferences): of five runs, for each stop.
+%   least(:Goal, +Stops, -Micros, -Inferences): least values of five runs, for
+%   each stop.
 
 :- meta_predicate least(0, +, -, -).
 

@@ -6,8 +6,8 @@
 
 /*  The cost of guarded hosts: hops between two guarded processes, compared
     with unguarded ones, alternately in one run; and the speed of agents on a
-    guarded host while hogs come there, one after the other, each of which is
-    ended when it has passed its quota. */
+    guarded host while hogs arrive there, one after the other; the host ends
+    each hog that has exceeded its quota. */
 
 :- initialization(main, main).
 

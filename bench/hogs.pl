@@ -13,7 +13,7 @@
 
 %!  beside_hogs(+Host, +Clauses, :Goal) is semidet.
 %
-%   Call Goal once while agents with the program Clauses come to Host.
+%   Calls Goal once while agents with the program Clauses arrive at Host.
 
 beside_hogs(Host, Clauses, Goal) :-
     setup_call_cleanup(

@@ -5,11 +5,11 @@
 :- use_module(library(typhon/kernel/wire/session), []).
 :- use_module(library(lists), [member/2, nth0/3]).
 
-/*  Hops between two processes, against a bare ping-pong of the same bytes.
+/*  Hops between two processes, and a bare ping-pong of the same bytes.
 
     swipl bench/hops.pl -- Placement
 
-An agent of 30 static clauses and 10 facts goes back and forth, or many at
+An agent of 30 static clauses and 10 facts moves back and forth, or many at
 once.  Processor time is that of both processes. */
 
 :- initialization(main, main).
@@ -83,7 +83,7 @@ latency(Peer, Median, P99) :-
     nth0(I50, Sorted, M), nth0(I99, Sorted, P),
     Median is M*1.0e6, P99 is P*1.0e6.
 
-%   Bytes on the wire, as counted by the stream.
+%   Bytes sent over the connection, as counted by the stream.
 
 bytes(Placement, Peer) :-
     once_round(Peer, First),

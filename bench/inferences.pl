@@ -6,7 +6,8 @@
 
 /*  Inferences of hops and messages in all threads of this process, which
     hardly depend on other load of the machine. For hops between processes
-    they are those of one side, on which half of the hops begin and half end.
+    they are the inferences of one side, which sends half of the hops and
+    receives the other half.
 
     swipl bench/inferences.pl -- 4000 */
 
@@ -24,8 +25,8 @@ main([Argument]) :-
     with_peer([env], outwards(Count)),
     host_stop(here).
 
-%   An agent that goes round leaves this process, and comes to it, every third
-%   hop.
+%   On a ring of three processes every third hop leaves this process, and every
+%   third hop arrives in it.
 
 within(Count) :-
     host_start(here, [clock(virtual)]),

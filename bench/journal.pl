@@ -11,10 +11,11 @@
 /*  The cost of a journal: the hops of bench/hops.pl without a journal, and
     with one in both processes; and the time in which a process with many
     agents restarts. Hops are counted for some seconds, alternately, in
-    rounds; the result is the median, also of the ratios, each of one round.
+    rounds; the result is the median, for ratios the median of the ratios of
+    each round.
 
-For agents with large states: the cost of a turn that changes one fact, and
-the messages per second of an agent that stores them all.
+    For agents with large states: the cost of a turn that changes one fact, and
+    the messages per second of an agent that stores all its messages.
 
     swipl bench/journal.pl -- unpinned
     swipl bench/journal.pl -- states */
@@ -35,8 +36,8 @@ main([states]) :-
 
 rounds(3).
 
-%   Of a round: hops per second of one agent and of a hundred, each way, and
-%   how often the disk alone syncs.
+%   Results of a round: hops per second of one agent and of a hundred, in each
+%   configuration, and syncs per second of the disk alone.
 
 round(round(none(A1, _), normal(B1, B100), full(C1, C100), Syncs)) :-
     rates(none, A1, _),
@@ -105,7 +106,7 @@ rate(Agents, Seconds, Peer, PerSecond) :-
     get_time(End),
     PerSecond is Sum/(End-Start).
 
-%   As the other, which ends after so many hops.
+%   Like the agent of bench/hops.pl, but ends at the time Until.
 
 walker(clauses([ (:- agent(walker,
                            [state([left/1,peer/1,fact/2,until/1])])),
@@ -136,8 +137,8 @@ with_other(Sync, Dir, Goal) :-
           call(Goal, Address) ),
         ( close(In), process_wait(Pid, _), close(Out) )).
 
-%   Writes of the length of a page, each of which is on the disk before the
-%   next, where the journals are.
+%   Writes of the length of a page in the directory of the journals, each on the
+%   disk before the next.
 
 syncs(PerSecond) :-
     with_directory(syncs(PerSecond)).

@@ -9,10 +9,10 @@
 
     swipl bench/run.pl -- keys
 
-Alternately; the best of each counts, since disturbances only make hops
-slower. Both the time by the clock and the processor time are printed. The
-single agent carries all links that are kept; of a hundred agents each has up
-to eight. */
+Configurations alternate; the best result of each counts, since disturbances
+only make hops slower. Both the time by the clock and the processor time are
+printed. The single agent carries all trail links that are kept; each of a
+hundred agents has up to eight. */
 
 :- initialization(main, main).
 

@@ -11,8 +11,8 @@ maze of 13 by 13, until all have reached the light, at 30 times the speed.
 
 The argument is the number of processes.  The processor time is that of all
 processes, including the executions of trainers, the messages of agents, and
-the making of plans.  It is compared with that of agents that only travel and
-wait, as often and as long, in the same network. */
+the making of plans.  It is compared with the processor time of agents that only
+travel and wait, as often and as long, in the same network. */
 
 :- initialization(main, main).
 

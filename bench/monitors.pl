@@ -7,7 +7,7 @@
 
     swipl bench/monitors.pl -- Monitors
 
-A tenth as many children. */
+The number of children is a tenth of Monitors. */
 
 :- initialization(main, main).
 
@@ -20,7 +20,8 @@ main([Text]) :-
            restarts(Strategy, Children)),
     host_stop(alpha).
 
-%   Each of the agents that monitor one tells a counter when that has ended.
+%   Each of the agents that monitor the target sends a counter its `down`
+%   message.
 
 monitors(Count) :-
     agent_create(clauses([ (:- agent(target, [])),
@@ -56,7 +57,7 @@ all_set(Counter, Count) :-
         all_set(Counter, Count)
     ).
 
-%   All children end by themselves, or one of which all others depend.
+%   All children end by themselves, or one on which all others depend.
 
 restarts(Strategy, Count) :-
     Child = clauses([ (:- agent(child, [])), (main :- receive(_-end)) ]),
@@ -82,7 +83,8 @@ restarts(Strategy, Count) :-
     agent_send(S, stop),
     agent_join(S, done, 300).
 
-%   running(+Supervisor, +Count, +Old, -Agents): so many that are none of Old.
+%   running(+Supervisor, +Count, +Old, -Agents): Agents are Count running
+%   children that are not in Old.
 
 running(S, Count, Old, Agents) :-
     agent_property(S, facts(Facts)),

@@ -2,11 +2,11 @@
 :- use_module('../test/lib/brokers').
 :- use_module(library(typhon)).
 
-/*  Messages per second from a host through a broker to an agent on it, of
-QoS 0: each is published, comes back, and is received.  A publisher that waits
-for each acknowledgement, with QoS 1, is slower.  And calls of a Python function
-per second, one after the other.  Without mosquitto and paho-mqtt nothing is
-measured of MQTT. */
+/*  Messages per second from a host through a broker to an agent on it, with
+QoS 0: each is published, returned by the broker, and received.  A publisher
+that waits for each acknowledgement, with QoS 1, is slower.  And calls of a
+Python function per second, one after the other.  Without mosquitto and
+paho-mqtt MQTT is not measured. */
 
 :- initialization(main, main).
 

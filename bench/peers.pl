@@ -15,11 +15,11 @@
 
     swipl bench/peers.pl -- Rounds
 
-All are run in turn, Rounds times; medians count, of rates and of ratios
-within a round.  Rates are those of one traveller and of ten at once, and
-those by the processor time of both processes.  The payload and the guarantees
-differ: see the heads of the files in bench/peers.  Platforms that are not
-installed are skipped. */
+All are run in turn, Rounds times; the results are medians, of rates and of
+ratios within a round.  Rates are those of one traveller and of ten at once, by
+the clock and by the processor time of both processes.  The payload and the
+guarantees differ: see the heads of the files in bench/peers.  Platforms that
+are not installed are skipped. */
 
 :- initialization(main, main).
 
@@ -44,9 +44,9 @@ main([Argument]) :-
                 *            PEERS             *
                 *******************************/
 
-%   command(+Dir, -Command): a list of words that prints facts rates(What,
-%   Many, PerSecond, PerCpu) and bytes(What, Bytes). What is compiled goes to
-%   Dir.
+%   command(+Dir, -Command): a list of words, a command that prints facts
+%   rates(What, Many, PerSecond, PerCpu) and bytes(What, Bytes). Compiled files
+%   are in Dir.
 
 command(_, [Swipl, File]) :-
     current_prolog_flag(executable, Swipl),
@@ -62,7 +62,7 @@ command(Dir, Command) :-
 peer('Erlang', erlang).
 peer('JADE', jade).
 
-%   The nodes find each other without Epmd, which would go on for ever. Their
+%   The nodes find each other without Epmd, which would never end. Their
 %   schedulers do not spin: that takes the processor from the other node.
 
 erlang(Dir, [Erl, '+sbwt', none, '-noshell', '-pa', Dir,

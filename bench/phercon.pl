@@ -6,30 +6,30 @@
                                nth1/3, numlist/3, same_length/2,
                                sum_list/2]).
 
-/*  How long requests wait: PherCon against conscientious and random agents.
+/*  Waiting times of requests: PherCon against conscientious and random agents.
 
     swipl bench/phercon.pl -- Runs
 
-On a connected random network of mean degree 6 there is one agent to ten
-hosts.  They move all the time, a hop takes about one second of host time, and
-they serve the requests that they find at a host.  Requests come to random
-hosts, one in 20 seconds for each agent on the average; for PherCon they emit
+On a connected random network of mean degree 6 there is one agent for ten
+hosts.  Agents move all the time, a hop takes about one second of host time, and
+they serve the requests that they find at a host.  Requests arrive at random
+hosts, one in 20 seconds for each agent on average; for PherCon they emit
 a pheromone, once, with the default span and period.  In each of the Runs all
 strategies have the same network, the same agents and the same requests.
 
-Time is from the request to its service, in host seconds.  Hops are those
-that the agent that served it made in this time. */
+Time is from the request to its service, in host seconds.  Hops are the hops
+of the serving agent in this time. */
 
 :- initialization(main, main).
 
-%   size(Hosts, Rate): Rate host seconds per second, so that 100 or 200 hops
-%   are made in a second.
+%   size(Hosts, Rate): Rate host seconds per second, so that agents make 100 or
+%   200 hops in a second.
 
 size(50, 20).
 size(200, 10).
 
 requests(40).
-interval(20).                   % host seconds between those for one agent
+interval(20).                   % host seconds between requests for one agent
 warm_up(20).                    % host seconds before the first request
 
 main([Argument]) :-
@@ -60,7 +60,7 @@ column(I, Rows, Times, Hops) :-
     findall(Time, ( member(Row, Rows), nth0(I, Row, Time-_) ), Times),
     findall(Hop, ( member(Row, Rows), nth0(I, Row, _-Hop) ), Hops).
 
-%   The ratio of the means, and the least and the greatest one of a run.
+%   The ratio of the means, and the least and the greatest ratio of a run.
 
 relative(Hosts, Strategy, I, Rows) :-
     column(0, Rows, Mine, _),
@@ -120,7 +120,7 @@ serve(Hosts, Seed, Strategy, Served) :-
     all_served(600, Hosts, Asked, Served),
     forall(member(Agent, Agents), agent_dispose(Agent)).
 
-%   It looks around, and goes on.
+%   The agent serves a request, if there is one, and moves on.
 
 server(clauses(
     [ (:- agent(server, [state([strategy/1])])),
@@ -165,8 +165,8 @@ ask(I, Strategy, Hosts, Agents, Chance0,
     I1 is I - 1,
     ask(I1, Strategy, Hosts, Agents, Chance, Asked).
 
-%   Emitted before the request exists: otherwise an agent that takes it at
-%   once would withdraw a pheromone that is emitted later.
+%   The pheromone is emitted before the request exists: otherwise an agent that
+%   takes the request at once would withdraw it before it is emitted.
 
 call_for(phercon(_), Host, I) :-
     !,
@@ -179,7 +179,7 @@ wait(N, Seconds) :-
     sleep(Real).
 
 %   all_served(+Tries, +Hosts, +Asked, -Served): Time-Hops for each request,
-%   once all are served.  Fails after so many tries.
+%   once all are served.  Fails after Tries tries.
 
 all_served(Tries, Hosts, Asked, Served) :-
     Tries > 0,

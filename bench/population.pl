@@ -41,7 +41,7 @@ idle(Program) :-
     Threads is T1-T0,
     figure('threads more for 100,000 idle agents', Threads, threads).
 
-%   All have come to rest: a question to the last one is answered.
+%   All agents are idle: the last one answers a request.
 
 settled(Count) :-
     host_property(here, load(Count)),

@@ -4,7 +4,7 @@
 :- use_module(library(lists), [append/3, member/2]).
 
 /*  The cost of a hop in a network of many processes compared with two: a ring
-    with one host in each process, and eight agents per process that go round
+    with one host in each process, and eight agents per process that move round
     it. */
 
 :- initialization(main, main).

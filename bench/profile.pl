@@ -36,7 +36,7 @@ opt_help(agents, 'agents that travel at a time (default 1)').
 :- meta_predicate profile(+, +, 1, +, +), with_near(1).
 
 :- dynamic
-    thread_took/3,              % Process, Role, Micros: of a hop
+    thread_took/3,              % Process, Role, Micros: per hop
     source_took/4,                % Process-Role, Source, How, Seconds
     seen_in/3.                  % Process-Role, Cpu, Seen: in the same run
 
@@ -46,7 +46,7 @@ main(Argv) :-
             [here-worker, here-reader, there-worker, there-reader], Options),
     profile('within a process', 5, with_near, [here-worker], Options).
 
-%   As many Times hops as asked for, so that there is enough to be seen.
+%   Makes Times times the requested hops, so that there are enough samples.
 
 profile(What, Times, With, Threads, Options) :-
     option(hops(Hops0), Options, 2000),
@@ -71,7 +71,7 @@ with_near(Goal) :-
 hops(Agents, Hops, Peer) :-
     travelled(Agents, Hops, Peer, _).
 
-%   Each round has new threads: to look twice at one is not safe.
+%   Each round has new threads, because a thread can be sampled only once.
 
 round(Run, Hops, Threads, Peer) :-
     call(Run, Peer),                    % warm up
@@ -91,7 +91,8 @@ ready(Process, Peer) :-
                 *            RUNS             *
                 *******************************/
 
-%   timed(:Run, +Hops, +Peer, +Threads): of all roles in these processes.
+%   timed(:Run, +Hops, +Peer, +Threads): processor time of all roles in these
+%   processes.
 
 timed(Run, Hops, Peer, Threads) :-
     findall(Process, process_of(Threads, Process), Processes),
@@ -149,7 +150,7 @@ table(What, Threads) :-
     line(['seen at work, times',' ',' ',' '|Factors]),
     nl.
 
-%   micros(+Source, ?How, +Thread, -Micros): of a hop.
+%   micros(+Source, ?How, +Thread, -Micros): microseconds per hop.
 
 micros(Source, How, Thread, Micros) :-
     took(Thread, Took),
@@ -173,7 +174,7 @@ others(Sum) :-
                     took(Process-other, Took) ),
                   Sum).
 
-%   How much more the thread was seen at work than it was.
+%   Ratio of the time in which the thread seemed to work and its processor time.
 
 overstated(Thread, Factor) :-
     aggregate_all(r(sum(C), sum(S)), seen_in(Thread, C, S), r(Cpu, Seen)),

@@ -7,7 +7,7 @@
 :- use_module(library(csv), [csv_write_file/2]).
 
 /*  The benchmarks, each in a process of its own: one line per figure, and
-all of them in OUT/bench.csv.
+all figures in OUT/bench.csv.
 
     swipl bench/run.pl -- [--out DIR] [NAME ...]
 

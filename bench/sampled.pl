@@ -10,10 +10,10 @@
 :- use_module(library(process), [process_create/3]).
 :- use_module(library(yall)).
 
-/** <module> In which modules threads of this process spend their time
+/** <module> Processor time of threads of this process, by module
 
-The profiler of SWI-Prolog samples one thread of a process at a time. It is
-started and stopped in that thread, by a signal. It samples every five
+The profiler of SWI-Prolog samples one thread of a process at a time. A signal
+starts and stops it in that thread. It samples every five
 milliseconds of real time: with processor time it would sample when any thread
 of the process works, and often find its own thread waiting. So work inside
 the predicates in which a thread waits is not visible: it is the remaining
@@ -27,15 +27,15 @@ excluded. A thread can be sampled only once: the data of the profiler must not
 be freed while a sample may be under way, and while frames of the thread still
 refer to it.
 
-*Threading*: one thread at a time asks.
+*Threading*: one thread at a time calls these predicates.
 */
 
 :- dynamic
-    sampled/2.                  % Thread, Cpu: it is looked at, since then
+    sampled/2.                  % Thread, Cpu: its processor time at the start
 
 %!  patient_threads is det.
 %
-%   From now on workers and readers do not preempt when they are woken: a
+%   Workers and readers do not preempt any more when they are woken: a
 %   Linux policy for batch work. The main thread, which samples, still does.
 
 patient_threads :-
@@ -76,7 +76,7 @@ alias_role(typhon_out_, reader).
 
 %!  sampling_begin(+Role) is det.
 %
-%   From now on the thread of Role that has worked most is sampled. It has not
+%   Starts to sample the thread of Role that has worked most. It must not have
 %   been sampled before.
 
 sampling_begin(Role) :-
@@ -97,8 +97,8 @@ begin(Asker) :-
 %   Cpu is the processor time of the thread since sampling_begin/1, in
 %   seconds, Seen the time in which it seemed to work: more than Cpu if it had
 %   to wait for a processor. Spent are facts spent(Source, How, Seconds), How
-%   `itself` or `called`: in what it called of the system. Source is a file
-%   such as `wire/reader`, `agent` for programs of agents, `garbage
+%   is `itself` or, for system predicates that it called, `called`. Source is a
+%   file such as `wire/reader`, `agent` for programs of agents, `garbage
 %   collection`, `waiting` or `not known`.
 
 sampling_end(Cpu-Seen, [spent(waiting, called, Waiting)|Spent]) :-
@@ -120,11 +120,12 @@ end(Asker) :-
     thread_send_message(Asker, sampling(Cpu, Books, Spent)).
 
                 /*******************************
-                *        CALLS AND ROOMS       *
+                *       CALLS AND MODULES      *
                 *******************************/
 
-%   spent(-Source, -How, -Seconds) is nondet. Ticks should be milliseconds,
-%   but the rest of each interval is dropped: so the time is shared out.
+%   spent(-Source, -How, -Seconds) is nondet. Ticks should be milliseconds, but
+%   the profiler drops the rest of each interval: so the total time is divided
+%   in proportion to the ticks.
 
 spent(Source, How, Seconds) :-
     '$prof_statistics'(_, Ticks, _, Time, _),

@@ -14,8 +14,8 @@
 
 %!  spent(+Hosts, :Goal, -Hops, -Cpu) is det.
 %
-%   Calls Goal.  Hops are those that ended at Hosts meanwhile, Cpu the
-%   processor time of all processes, in microseconds for each hop.
+%   Calls Goal.  Hops is the number of hops that ended at Hosts meanwhile, Cpu
+%   the processor time of all processes, in microseconds for each hop.
 
 spent(Hosts, Goal, Hops, Cpu) :-
     arrived(Hosts, Hops0),
@@ -32,7 +32,7 @@ arrived(Hosts, Count) :-
                     host_property(Host, hop_time(in, stats(N, _, _, _))) ),
                   Count).
 
-%   One host of each process is asked, and this process.
+%   Asks one host of each other process, and adds the time of this process.
 
 processor_time(Hosts, Seconds) :-
     statistics(process_cputime, Own),

@@ -4,11 +4,11 @@
 :- use_module(library(process), [process_create/3, process_wait/2]).
 :- use_module(library(readutil), [read_line_to_string/2]).
 
-/*  What unauthenticated clients cost agents at work: hops per second between two
-processes while a third makes a thousand malformed connections a second to
-one of them, against the same without it.  What the third, which runs on the
-same processors, takes away by itself is measured with a flood of a listener
-that only closes. */
+/*  The cost of unauthenticated clients for working agents: hops per second
+between two processes while a third makes a thousand malformed connections a
+second to one of them, against the same without it.  The third process uses the
+same processors: the share of this is measured with a flood of a listener that
+only closes connections. */
 
 :- initialization(main, main).
 
@@ -44,7 +44,7 @@ port(Host, Port) :-
     atomic_list_concat([_, Text], ':', Host),
     atom_number(Text, Port).
 
-%   Ten agents.
+%   The rate of ten agents.
 
 rate(Hops, Peer, Rate) :-
     Each is Hops//20,
@@ -70,7 +70,7 @@ rate(Hops, Peer, Rate) :-
     with_flood(+, 0),
     with_listener(-, 0).
 
-%   The flood has begun when it says so, and ends with its input.
+%   The flood process prints a line when it begins, and ends with its input.
 
 with_flood(Port, Goal) :-
     current_prolog_flag(executable, Swipl),
@@ -84,7 +84,7 @@ with_flood(Port, Goal) :-
           process_wait(Pid, _) )),
     format(user_error, '% ~s~n', [Said]).
 
-%   A thousand a second, as far as that is possible.
+%   A thousand connections a second, as far as that is possible.
 
 flood(Port) :-
     format('begin~n'), flush_output,

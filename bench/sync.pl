@@ -13,10 +13,10 @@ tasks that do nothing, hops without delay, in one process and in four.
 
     swipl bench/sync.pl -- unpinned
 
-Most hops of these agents are no services: at delta 0.5 it takes each agent
-37 visits in vain to give up a task.  So the hops of the agents are counted,
-and compared with those of agents that only travel, in the same way and in
-the same network.  Of several repetitions the fastest counts. */
+Most hops of these agents are not services: at delta 0.5 each agent makes 37
+visits without a service before it gives up a task.  So the hops of the agents
+are counted, and compared with those of agents that only travel, in the same way
+and in the same network.  Of several repetitions the fastest counts. */
 
 :- initialization(main, main).
 
@@ -65,7 +65,7 @@ name(Processes, What, Name) :-
                 *           MEASURES           *
                 *******************************/
 
-%   bare(+Hosts, -Rate, -Cpu): ten agents that do nothing but travel.
+%   bare(+Hosts, -Rate, -Cpu): ten agents that only travel.
 
 bare(Hosts, Rate, Cpu) :-
     seconds(spent(Hosts, wander(Hosts), Hops, Cpu), Seconds),
@@ -114,9 +114,9 @@ rated(Events, run(Sequence, Agents, Hops, Cpu),
     Services is Count / (End - Begin),
     HopRate is Hops / (Last - Begin).
 
-%   How long the worker's message takes: from the reward, which follows it in
+%   The latency of the worker's message: from the reward, which follows it in
 %   the agent, to the end of the task.  If the worker was faster than the
-%   agent's own next step there is nothing to measure.
+%   agent's own next step it cannot be measured.
 
 waiting(Processes, Events) :-
     empty_assoc(None),

@@ -6,10 +6,10 @@
 :- use_module(library(readutil), [read_line_to_string/2]).
 :- use_module(library(socket)).
 
-/*  Programs written for Tartarus: hops per second of an agent that goes round
-a ring of four platforms, each a process of its own, and how many of 35 agents
-return from a thousand hops between two platforms without a pause. The figures
-of the original are known: 740, and none.
+/*  Programs written for Tartarus: hops per second of an agent that moves round
+a ring of four platforms, each a process of its own; and the number of agents,
+of 35, that return from a thousand hops between two platforms without a pause.
+The figures of the original are 740 and 0.
 
     swipl bench/tartarus.pl -- 2000 */
 
@@ -40,7 +40,7 @@ back_and_forth(Hops, Agents, Nodes) :-
     figure('of 35, home after 1000 hops between two', Home, agents,
            'original 0').
 
-%   round_trip(+Nodes, +I, +Hops, -Seconds): of an agent of its own; Hops is
+%   round_trip(+Nodes, +I, +Hops, -Seconds): time of one agent; Hops is
 %   a multiple of the number of nodes.
 
 round_trip([node(_, In, Out)|_], I, Hops, Seconds) :-
@@ -59,7 +59,7 @@ told(Out, Term) :-
         term_string(Term, Line)
     ).
 
-%   with_ring(+Count, :Goal): Goal(Nodes) while there are Count platforms.
+%   with_ring(+Count, :Goal): calls Goal(Nodes) while there are Count platforms.
 
 with_ring(Count, Goal) :-
     length(Ports, Count),
@@ -69,7 +69,7 @@ with_ring(Count, Goal) :-
         call(Goal, Nodes),
         maplist(ended, Nodes)).
 
-%   All of them bound before the first is given back: no two are the same.
+%   All sockets are bound before the first is closed, so that all ports differ.
 
 free_ports(Ports) :-
     maplist(bound, Ports, Sockets),

@@ -1,5 +1,5 @@
-/*  A platform of Tartarus for bench/tartarus.pl, and an agent that walks: as
-its users would write it. */
+/*  A platform of Tartarus for bench/tartarus.pl, and an agent that walks,
+programmed as users of Tartarus would. */
 
 :- prolog_load_context(directory, Dir),
    atom_concat(Dir, '/../prolog', Library),
@@ -26,7 +26,7 @@ up(Port, Next) :-
     start_tartarus(localhost, Port, 1),
     writeln(up).
 
-%   send(+Name, +Hops): it starts here, and tells here how long it took.
+%   send(+Name, +Hops): the agent starts here, and reports its time here.
 
 send(Name, Hops) :-
     get_tartarus_details(Ip, Port),

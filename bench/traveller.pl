@@ -9,7 +9,7 @@
 
 /** <module> The agent that the benchmarks of hops send
 
-It has 30 static clauses and 10 facts, and goes back and forth between the
+It has 30 static clauses and 10 facts, and moves back and forth between the
 host `here` and one in another process.
 
 *Threading*: any thread; no state.
@@ -17,7 +17,7 @@ host `here` and one in another process.
 
 %!  traveller(-Program) is det.
 %
-%   It is created with the facts left(Rounds) and peer(Address).
+%   The agent is created with the facts left(Rounds) and peer(Address).
 
 traveller(clauses([ (:- agent(traveller, [state([left/1,peer/1,fact/2])])),
                     (main :- left(0), !),
@@ -31,9 +31,9 @@ traveller(clauses([ (:- agent(traveller, [state([left/1,peer/1,fact/2])])),
 
 %!  travelled(+Agents, +Hops, +Peer, -Rates) is det.
 %
-%   So many agents make so many hops in all. Rates is rates(PerSecond,
-%   PerCpuSecond), hops by the clock and by the processor time that both
-%   processes took.
+%   Agents agents make Hops hops together. Rates is rates(PerSecond,
+%   PerCpuSecond), hops by the clock and by the processor time of both
+%   processes.
 
 travelled(Agents, Hops, Peer, rates(PerSecond, PerCpu)) :-
     Each is Hops//(2*Agents),
@@ -55,7 +55,7 @@ round_trips(Agents, Each, Peer) :-
 
 %!  processor_time(+Peer, -Seconds) is det.
 %
-%   Of this process and that of Peer, so far.
+%   Sum of the processor times of this process and of the process of Peer.
 
 processor_time(Peer, Seconds) :-
     statistics(process_cputime, Here),

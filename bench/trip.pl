@@ -15,14 +15,14 @@ Two single-threaded processes send a term back and forth over one connection
 by fast_term_serialized/2: it has the contents of a hop of the agent of
 traveller.pl. No threads, no agents, no answers.
 
-*Threading*: one thread has the streams.
+*Threading*: one thread uses the streams.
 */
 
 :- meta_predicate with_pong(+, 1).
 
 %!  with_pong(+Prefix, :Goal) is det.
 %
-%   Call Goal(Streams) while a second process returns all terms. Prefix is put
+%   Calls Goal(Streams) while a second process returns all terms. Prefix is put
 %   before its command line.
 
 with_pong(Prefix, Goal) :-
@@ -48,8 +48,8 @@ pong_create(Prefix, Port, Pid) :-
 
 %!  trips(+Terms, +Trips, +Streams, -Rates) is det.
 %
-%   So many Terms are under way at a time, and make so many one-way Trips in
-%   all. Rates is as that of travelled/4.
+%   Terms terms are under way at a time, and make Trips one-way trips together.
+%   Rates is as in travelled/4.
 
 trips(Terms, Trips, Streams, rates(PerSecond, PerCpu)) :-
     Each is Trips//2-Terms,

@@ -2,10 +2,10 @@
 :- use_module(library(typhon)).
 :- use_module(library(lists), [member/2]).
 
-/*  Hops between hosts of one process, by an agent that does nothing else: in
+/*  Hops between hosts of one process, by an agent that only hops: in
 virtual time and in real time, with and without a delay, and with a large
-state.  Another goes to neighbours at random and replaces a fact, alone, among
-others, and with delayed hops.  Processor time counts.
+state.  Another agent moves to random neighbours and replaces a fact, alone,
+among others, and with delayed hops.  Results are processor times.
 
     swipl bench/virtual.pl -- 20000 */
 
@@ -39,7 +39,7 @@ told(Name, Micros) :-
 warmed_up(Kind) :-
     cost(Kind, 0, 1000, _).
 
-%   cost(+Kind, +Carried, +Hops, -Micros): of one hop.
+%   cost(+Kind, +Carried, +Hops, -Micros): microseconds for one hop.
 
 cost(Kind, Carried, Hops, Micros) :-
     options(Kind, Options),
@@ -54,7 +54,8 @@ options(real, []).
 options(virtual, [clock(virtual)]).
 options(virtual(Time), [clock(virtual), hop_time(Time)]).
 
-%   walked(+Agents, +Options, +Hops, -Micros): of one hop of all.
+%   walked(+Agents, +Options, +Hops, -Micros): microseconds for one hop of any
+%   agent.
 
 walked(Agents, Options, Hops, Micros) :-
     Each is Hops//Agents,

@@ -12,7 +12,7 @@
     swipl bench/watch.pl -- Pairs
 
 Rounds with and without a watch alternate, so that other load affects both;
-the result is the median of the ratios of such pairs. */
+the result is the median of the ratios of successive rounds. */
 
 :- initialization(main, main).
 
@@ -35,7 +35,7 @@ between_processes(Pairs, Peer) :-
     slower(Pairs, 10, 10000, Peer, 'between processes').
 
                 /*******************************
-                *        NOBODY WATCHES        *
+                *        WITHOUT A WATCH       *
                 *******************************/
 
 %   A hop within a process is the cheapest; it checks three times for
@@ -69,7 +69,7 @@ cpu(Goal, Seconds) :-
     Seconds is Cpu1-Cpu0.
 
                 /*******************************
-                *         SOMEBODY DOES        *
+                *         WITH A WATCH         *
                 *******************************/
 
 slower(Pairs, Agents, Hops, Peer, Where) :-

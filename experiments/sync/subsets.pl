@@ -1,7 +1,8 @@
 %   Sequences of tasks on parts of the hosts of a grid.
 %
 %   Expects the parameters `hosts`, `agents`, `sequences` and `share`.  Gives:
-%   network/3, view/2, the measures of one run, a_sequence/2, subsets/4, tasks/2.
+%   network/3, view/2, the measures of one run, a_sequence/2, subsets/4,
+%   tasks/2.
 
 :- use_module('../../prolog/typhon/kernel/base/prng',
               [chance_sample/5, chance_seed/2]).

@@ -209,7 +209,7 @@ puffs_at(Cell, Time, More) :-
                   More).
 
                 /*******************************
-                *         WHAT IS SEEN         *
+                *            PICTURE           *
                 *******************************/
 
 %!  scene_counts(-Out, -Caught, -Inside) is semidet.

@@ -214,7 +214,7 @@ taken(Host, Order, Payload, [Mm|Orders]) :-
 taken(_, _, _, []).
 
                 /*******************************
-                *         WHAT IS SEEN         *
+                *            PICTURE           *
                 *******************************/
 
 %!  scene_totals(-Days, -Totals) is semidet.

@@ -143,7 +143,7 @@ replaced(Host, Old, New) :-
     remote(Host, ( ignore(take(Old)), leave(New) )).
 
                 /*******************************
-                *         WHAT IS SEEN         *
+                *            PICTURE           *
                 *******************************/
 
 %!  scene_totals(-Battery, -Totals) is semidet.

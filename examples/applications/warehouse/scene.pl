@@ -259,7 +259,7 @@ served(Service, _, _{success:Success, message:Message}) :-
     ).
 
                 /*******************************
-                *         WHAT IS SEEN         *
+                *            PICTURE           *
                 *******************************/
 
 %!  scene_orders(-Delivered, -Waiting, -Underway, -Falls) is semidet.
