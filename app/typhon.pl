@@ -177,8 +177,8 @@ overview :-
     format('Usage: ~w COMMAND ... [options]~n~n', [Program]),
     forall(command(Command, Arguments, _, Help),
            overview_line(Command, Arguments, Help)),
-    format('~nCOMMAND --help tells the options of a command. Exit status: \c
-            0, it was done;~n1, it was not, or the answer is no.~n').
+    format('~nCOMMAND --help lists the options of a command. Exit status \c
+            0: success;~n1: failure, or a negative answer.~n').
 
 %   SWI-Prolog 9.1.18 and later run files in the folder app of a pack by name.
 

@@ -16,21 +16,21 @@
 command(host, 'NAME', 1,
         'start a host and run it until SIGTERM or SIGINT').
 command(network, 'TOPOLOGY', 1,
-        'start a network, as grid(2,3), and run it until Ctrl-C').
+        'start a network, such as grid(2,3), and run it until Ctrl-C').
 command(check, 'PROGRAM ...', 1-1000,
-        'say what is wrong with agent programs and payloads').
+        'check agent programs and payloads for errors').
 command(create, 'PROGRAM', 1,
-        'create an agent on a running host; prints its id').
+        'create an agent on a running host, and print its id').
 command(agents, '', 0,
-        'the agents in the network of a running host').
+        'list the agents in the network of a running host').
 command(hosts, '', 0,
-        'the hosts in the network of a running host').
+        'list the hosts in the network of a running host').
 command(tree, '', 0,
-        'supervisors, their children, and other agents that are monitored').
+        'list supervisors, their children, and other monitored agents').
 command(send, 'AGENT MESSAGE', 2,
         'send a message, any term, to an agent').
 command(move, 'AGENT HOST', 2,
-        'send an agent to a host, and wait until it is there').
+        'move an agent to a host, and wait until it has arrived').
 command(dispose, 'AGENT', 1,
         'end an agent').
 command(join, 'AGENT', 1,
@@ -40,21 +40,21 @@ command(remote, 'HOST GOAL', 2,
 command(stop, 'HOST', 1,
         'stop a host, and wait until it has stopped').
 command(log, 'FILE', 1,
-        'print the events of a log file, or with --serve write one').
+        'print the events of a log file, or with --serve write a log file').
 command(story, 'LOG AGENT', 2,
-        'tell from a log what happened to an agent').
+        'print the history of an agent from a log').
 command(picture, 'LOG SVG', 2,
         'draw a log: hosts, time, agents and messages').
 command(page, '[LOG]', 0-1,
         'show the network of a running host in a browser, or replay a log').
 command(journal, 'DIR', 1,
-        'tell what is in the journal of a process or network that does not run').
+        'show the journal of a stopped process or network').
 command(keys, 'init | host NAME | author NAME | revoke NAME', 1-2,
-        'make an authority, keys for hosts and authors, or end them').
+        'make an authority, make or revoke keys for hosts and authors').
 command(sign, 'PROGRAM', 1,
-        'sign an agent program, for hosts that ask for authors').
+        'sign an agent program, for hosts that require authors').
 command(diagnose, '[ADDRESS]', 0-2,
-        'find out why a host, or with nxt PORT a robot, is not reached; or \c
+        'diagnose why a host, or with nxt PORT a robot, is unreachable; or \c
          why python, mqtt URL, fipa URL, ros or ros URL does not work').
 
 %!  footer(?Command, ?Line) is nondet.
@@ -65,26 +65,29 @@ footer(network, 'Shapes of networks:').
 footer(network, Line) :-
     shape(Shape, Help),
     format(atom(Line), '    ~w~t~28|~w', [Shape, Help]).
-footer(network, 'Started again with the same --journal it goes on where it was.').
-footer(check, 'Exit status 0: programs without errors (warnings may be).').
+footer(network, 'With the same --journal a restarted network continues.').
+footer(check, 'Exit status 0: no program has errors; there may be warnings.').
 footer(join, 'Exit status 0: the outcome is `done`.').
-footer(remote, 'Exit status 0: the goal was true. Variables that begin with _').
-footer(remote, 'are not printed; what the goal prints, is.').
-footer(page, 'Prints the link, which gives the right to all that the page does. Runs until').
-footer(page, 'SIGTERM or SIGINT.  With LOG it writes a file that a browser opens.').
-footer(keys, 'DIR/NAME goes to the machine of NAME: host_start(H, [tls(DIR)]).').
-footer(stop, 'A `host` or `network` of the command line ends with its host.').
-footer(Command, 'AGENT is an id, as `agents` prints it, or with --host a name.') :-
+footer(remote,
+       'Exit status 0: the goal succeeded. Output of the goal is printed.').
+footer(remote, 'Variables that begin with _ are not printed.').
+footer(page, 'Prints the link, which authorizes all orders of the page. Runs').
+footer(page, 'until SIGTERM or SIGINT. With LOG it writes a file for a browser.').
+footer(keys,
+       'Copy DIR/NAME to the machine of NAME: host_start(H, [tls(DIR)]).').
+footer(stop, 'A command `host` or `network` ends with its host.').
+footer(Command, 'AGENT is an id, as in `agents`, or with --host a name.') :-
     memberchk(Command, [send, move, dispose, join]).
-footer(move, 'HOST is an address or, where it is unique, a name.').
+footer(move, 'HOST is an address, or a name if that is unique.').
 
 shape('ring(N)', 'a ring').
 shape('line(N)', 'a line').
-shape('star(N)', 'one in the middle, N-1 around it').
-shape('star_bus(ARMS,LENGTH)', 'a chain of ARMS hubs, each with LENGTH-1 leaves').
+shape('star(N)', 'one host in the middle, N-1 around it').
+shape('star_bus(ARMS,LENGTH)',
+      'a chain of ARMS hubs, each with LENGTH-1 leaves').
 shape('tree(N)', 'a binary tree').
 shape('grid(ROWS,COLUMNS)', 'a grid').
-shape('mesh(N)', 'each linked with each').
+shape('mesh(N)', 'all pairs linked').
 shape('random(N,P)', 'each pair linked with probability P').
 shape('edges([1-2,2-3,...])', 'the links themselves').
 
@@ -97,9 +100,9 @@ option(host, port, nonneg, 'PORT',
 option(host, bind, atom, 'INTERFACE',
        'interface to listen at (default localhost)').
 option(host, capacity, nonneg, 'N',
-       'admit that many agents').
+       'maximum number of agents').
 option(host, authors, atom, 'A,B',
-       'admit only programs that one of these has signed').
+       'admit only programs signed by one of these authors').
 option(host, tokens, atom, 'A,B',
        'admit only agents with one of these tokens').
 option(host, consult, file(read), 'FILE',
@@ -111,21 +114,20 @@ option(host, events, atom, 'A,B',
 option(host, link, atom, 'ADDRESS',
        'host to link to (may be repeated)').
 option(host, mqtt, atom, 'URL',
-       'broker of MQTT for the agents there, as mqtt://localhost').
+       'MQTT broker for its agents, such as mqtt://localhost').
 option(host, journal, atom, 'DIR',
-       'what happens here outlives the process, in DIR or at a \c
-        postgresql:// URL').
+       'keep the state of the process in DIR or at a postgresql:// URL').
 option(host, sync, atom, 'HOW',
        'with --journal: normal or, to survive a power cut, full').
 option(network, journal, atom, 'DIR',
-       'what happens here outlives the processes, below DIR or at a \c
+       'keep the state of the processes below DIR or at a \c
         postgresql:// URL').
 option(network, sync, atom, 'HOW',
        'with --journal: normal or, to survive a power cut, full').
 option(network, restart, boolean, '',
-       'start processes that die again').
+       'restart processes that die').
 option(Command, tls, atom, 'DIR',
-       'keys: speak TLS, with processes that have keys of the same authority') :-
+       'keys: use TLS, with processes that have keys of the same authority') :-
     command(Command, _, _, _),
     \+ memberchk(Command, [keys, sign, check, story, picture, journal]).
 option(Command, dir, atom, 'DIR',
@@ -134,13 +136,13 @@ option(Command, dir, atom, 'DIR',
 option(sign, author, atom, 'NAME',
        'author that signs (required)').
 option(keys, days, natural, 'N',
-       'host, author: the certificate lasts that long (default 825)').
+       'host, author: days until the certificate expires (default 825)').
 option(network, processes, natural, 'N',
        'spread the hosts over N processes').
 option(network, bind, atom, 'INTERFACE',
        'interface to listen at (default localhost)').
 option(network, seed, integer, 'N',
-       'seed of everything random').
+       'seed of all random choices').
 option(network, log, atom, 'FILE',
        'write the events of all hosts to FILE').
 option(network, events, atom, 'A,B',
@@ -148,7 +150,7 @@ option(network, events, atom, 'A,B',
 option(network, machines, atom, 'A,B',
        'ssh targets to start the processes on').
 option(network, dynamic, term, 'MODEL',
-       'model by which links come and go').
+       'model of the changes of links').
 option(network, hop_time, term, 'uniform(A,B)',
        'delay added to every hop, in host seconds').
 option(network, clock, number, 'RATE',
@@ -158,57 +160,57 @@ option(page, host, atom, 'ADDRESS',
 option(page, port, nonneg, 'PORT',
        'TCP port of the page (default 8080, 0 for any)').
 option(page, bind, atom, 'INTERFACE',
-       'interface the page is served at (default localhost)').
+       'interface of the page (default localhost)').
 option(page, read_only, boolean, boolean,
-       'only to look at: nothing can be done there').
+       'accept no orders from the page').
 option(page, export, atom, 'FILE',
        'write a page that replays LOG to FILE, and serve none').
 option(journal, agents, boolean, '',
-       'a line for each agent').
+       'print a line for each agent').
 option(journal, check, boolean, '',
-       'read all of it').
+       'check that all of it can be read').
 option(journal, extract, atom, 'AGENT',
        'with --to: write a restore point of AGENT').
 option(journal, to, atom, 'FILE',
        'the file to write').
 option(create, host, atom, 'ADDRESS',
-       'host to create it on (required)').
+       'host of the new agent (required)').
 option(create, name, atom, 'NAME',
-       'name its id is made from').
+       'name at the beginning of its id').
 option(create, tokens, atom, 'A,B',
-       'tokens it carries').
+       'tokens of the agent').
 option(create, payload, atom, 'FILE',
-       'payload it carries (may be repeated)').
+       'payload of the agent (may be repeated)').
 option(create, fact, term, 'FACT',
-       'fact added to its state (may be repeated)').
+       'fact of its state (may be repeated)').
 option(create, lifetime, nonneg, 'HOPS',
-       'number of hops it may make').
+       'maximum number of its hops').
 option(create, static, boolean, '',
-       'it may not move').
+       'the agent cannot move').
 option(create, join, number, 'SECONDS',
-       'wait for its end, print the outcome').
+       'wait for its end, and print its outcome').
 option(tree, host, atom, 'ADDRESS', 'host to ask (required)').
 option(agents, host, atom, 'ADDRESS', 'host to ask (required)').
 option(hosts, host, atom, 'ADDRESS', 'host to ask (required)').
 option(send, host, atom, 'ADDRESS',
        'host that finds the agent (default its home)').
 option(Command, host, atom, 'ADDRESS',
-       'host in whose network AGENT is the name of one') :-
+       'AGENT is the name of an agent in the network of this host') :-
     memberchk(Command, [move, dispose, join]).
 option(move, timeout, number, 'SECONDS',
-       'wait so long for its arrival (default 10)').
+       'seconds to wait for its arrival (default 10)').
 option(join, timeout, number, 'SECONDS',
-       'wait no longer (default for ever)').
+       'seconds to wait (default no limit)').
 option(stop, timeout, number, 'SECONDS',
-       'wait so long for its end (default 20)').
+       'seconds to wait for its end (default 20)').
 option(log, host, atom, 'ADDRESS',
-       'read FILE where this host runs').
+       'read FILE on the machine of this host').
 option(log, serve, boolean, '',
-       'be the log server that writes FILE').
+       'run a log server that writes FILE').
 option(picture, from, number, 'TIME',
-       'draw what happened from then on').
+       'draw events from this time on').
 option(picture, to, number, 'TIME',
-       'draw what happened until then').
+       'draw events until this time').
 option(log, port, nonneg, 'PORT',
        'port of the log server (default any free one)').
 option(log, bind, atom, 'INTERFACE',

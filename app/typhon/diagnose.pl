@@ -89,11 +89,11 @@ step(address,
 step('name resolution',
      'Use the IP address, or put the name into /etc/hosts.').
 step(connection,
-     'Is the host running, with --bind to an interface seen from here?').
+     'Is the host running, with --bind to an interface reachable from here?').
 step(authentication,
      'Copy ~/.typhon.cookie so that both machines have the same one.').
 step(host,
-     'Start it there, or write the name of one that is.').
+     'Start the host there, or use the name of a running one.').
 
 %   check(Address, Step, Found): Found is the result, as text.
 
@@ -121,13 +121,13 @@ check(Address, 'name resolution', Found) :-
     address_parts(Address, _, Interface, _),
     resolve(Interface, IP),
     format(atom(Found), '~w is ~w', [Interface, IP]).
-check(Address, connection, 'something listens there') :-
+check(Address, connection, 'a program listens there') :-
     address_parts(Address, _, Interface, Port),
     connect_within_deadline(Interface:Port).
 check(Address, authentication, Found) :-
     get_time(Start),
     catch(host_property(Address, state(_)),
-          error(existence_error(host, _), _), true),  % says the next step
+          error(existence_error(host, _), _), true),  % the next step reports it
     get_time(End),
     MilliSeconds is (End-Start)*1000,
     codec(Address, Codec),

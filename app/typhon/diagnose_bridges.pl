@@ -37,25 +37,25 @@ diagnose_bridge(Bridge, Arguments) :-
 step(python, python,
      'Install python3, or set typhon_helper_process:python.').
 step(python, function,
-     'The helper bridges/python/bridge.py does not run: see what it says.').
+     'The helper bridges/python/bridge.py does not run: see its output.').
 step(python, 'round trip', '').
 step(mqtt, python,
      'Install python3, or set typhon_helper_process:python.').
 step(mqtt, paho,
      'apt install python3-paho-mqtt, or pip install paho-mqtt.').
 step(mqtt, broker,
-     'Does it run, at that port, and may you use it? Say its URL, as \c
+     'Does the broker run at that port, and may you use it? Give its URL, as \c
       mqtt://localhost:1883.').
 step(mqtt, 'round trip',
      'The broker must let you publish and subscribe to typhon/diagnosed.').
 step(ros, python,
-     'make tools-ros puts it there, from PyPI; for a rosbridge server, \c
-      diagnose ros URL, it is not needed.').
+     'make tools-ros installs it from PyPI; a rosbridge server, \c
+      diagnose ros URL, does not need it.').
 step(ros, rclpy,
-     'Make it anew: delete that directory, and make tools-ros.').
+     'Delete that directory, and make tools-ros again.').
 step(ros, ros,
      'For a server: is rosbridge_server running there, at that port? For \c
-      ROS 2: see what the node says above.').
+      ROS 2: see the messages of the node above.').
 step(ros, topics,
      'For a server: start the node rosapi beside it.').
 step(ros, 'round trip', '').

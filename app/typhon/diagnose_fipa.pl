@@ -28,10 +28,10 @@ diagnose_fipa(Url) :-
     diagnose_steps(Steps, check(Url)).
 
 step(url, 'It begins with http://, and has a port and a path: \c
-           http://127.0.0.1:7778/acc. TLS is not spoken.').
+           http://127.0.0.1:7778/acc. TLS is not supported.').
 step(connection, 'Does the platform run, and listen on an interface that \c
                   can be reached from here?').
-step(message, 'Something else listens there, or it takes no messages. JADE \c
+step(message, 'Another program listens there, or it accepts no messages. JADE \c
                on Java 17 has to be started with --add-exports, see \c
                doc/bridges-fipa.md.').
 
@@ -40,7 +40,7 @@ check(Url, url, Found) :-
     format(atom(Found), '~w, path ~w', [Address, Path]).
 check(Url, connection, Found) :-
     connected(Url, _, _, true),
-    Found = 'somebody listens'.
+    Found = 'a program listens there'.
 check(Url, message, Found) :-
     To = fipa('ams@platform', [Url]),
     From = fipa(diagnosed, []),

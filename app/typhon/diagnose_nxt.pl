@@ -42,14 +42,14 @@ step(pyserial,
 step(port,
      'For Bluetooth: rfcomm bind 0 ADDRESS makes /dev/rfcomm0.').
 step(permission,
-     'Join the group of the device: adduser USER dialout, and log in anew.').
+     'Join the group of the device: adduser USER dialout, and log in again.').
 step(brick,
-     'Is it on, in reach, and paired (PIN 1234)? Is it free?').
+     'Is the brick on, in reach, paired (PIN 1234), and not in use?').
 step(firmware,
      'Direct commands need LEGO\'s own firmware, protocol 1.124.').
 step(name, '').
 step(battery,
-     'Below 6.5 V motors are weak and Bluetooth ends: charge it.').
+     'Below 6.5 V motors are weak and Bluetooth fails: charge the battery.').
 step(motors, '').
 step(sensors, '').
 step('round trip',
@@ -66,7 +66,7 @@ check(Port, port, Found) :-
     (   sub_atom(Port, _, _, _, '://')
     ->  atom_concat(Port, ' is a URL', Found)
     ;   access_file(Port, exist)
-    ->  atom_concat(Port, ' is there', Found)
+    ->  atom_concat(Port, ' exists', Found)
     ;   throw(error(existence_error(nxt_port, Port), _))
     ).
 check(Port, permission, Found) :-
@@ -74,10 +74,10 @@ check(Port, permission, Found) :-
     ->  Found = not_asked
     ;   access_file(Port, read),
         access_file(Port, write)
-    ->  Found = 'it may be read and written'
+    ->  Found = 'readable and writable'
     ;   throw(error(permission_error(open, nxt_port, Port), _))
     ).
-check(Port, brick, 'something answers') :-
+check(Port, brick, 'a device answers') :-
     nxt_connect(diagnosed, Port).
 check(_, firmware, Found) :-
     nxt_info(diagnosed, Info),

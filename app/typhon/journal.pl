@@ -97,17 +97,17 @@ shown(_) :-
 
 kind(host, hosts).
 kind(link, 'ends of links').
-kind(agent, 'agents, and where others went').
+kind(agent, 'agents here, and hosts of agents that have left').
 kind(mail, messages).
 kind(tuple, 'facts of tuple spaces').
 kind(payload, 'delivered payloads').
 kind(code, programs).
-kind(born, 'agents born here that have not ended').
+kind(born, 'agents created here that have not ended').
 kind(outcome, outcomes).
 kind(left, 'results, and where the agent was cloned').
 kind(out, 'posts to other processes').
-kind(letter, 'letters about to go').
-kind(wait, 'letters that wait').
+kind(letter, 'messages about to be sent').
+kind(wait, 'messages that wait').
 
 overview :-
     forall(journal_item(endpoint, any, _, _,

@@ -264,8 +264,8 @@ openssl(Directory, Arguments) :-
 prolog:error_message(openssl(Said)) -->
     [ 'openssl: ~w'-[Said] ].
 prolog:error_message(permission_error(create, key, Name)) -->
-    [ 'There is a key of ~w already'-[Name] ].
+    [ '~w already has a key'-[Name] ].
 prolog:error_message(existence_error(key, Name)) -->
-    [ 'There is no key of ~w'-[Name] ].
+    [ '~w has no key'-[Name] ].
 prolog:error_message(existence_error(authority, Directory)) -->
     [ 'No authority in ~w: `keys init` makes one'-[Directory] ].

@@ -34,9 +34,9 @@ complain(Command, Error) :-
 %   The command to try next.
 
 hint(host_unreachable(Host), Hint) :-
-    format(atom(Hint), 'diagnose ~w tells why', [Host]).
+    format(atom(Hint), 'diagnose ~w finds the cause', [Host]).
 hint(connection_lost(Host), Hint) :-
-    format(atom(Hint), 'diagnose ~w tells why', [Host]).
+    format(atom(Hint), 'diagnose ~w finds the cause', [Host]).
 hint(existence_error(agent, _), 'agents --host ADDRESS lists agents').
 hint(existence_error(host, _), 'hosts --host ADDRESS lists hosts').
 hint(domain_error(topology, _), 'network --help lists the shapes').
@@ -75,7 +75,7 @@ usage(not_a_term(Text)) -->
     [ 'not a Prolog term: ~w'-[Text] ].
 usage(not_in_log(Agent, Log, Names)) -->
     { length(Names, Count) },
-    [ 'nothing of an agent ~w in ~w'-[Agent, Log] ],
+    [ 'no events of agent ~w in ~w'-[Agent, Log] ],
     in_log(Names, Count).
 usage(empty_log(Log)) -->
     [ 'no events of agents in ~w'-[Log] ].
@@ -88,13 +88,13 @@ usage(no_agent(Name, Host, Agents)) -->
       [Name, Host, Meant, Host] ].
 usage(several_agents(Name, Ids)) -->
     { atomic_list_concat(Ids, ' or ', Text) },
-    [ 'which ~w is meant: ~w?'-[Name, Text] ].
+    [ 'several are named ~w: ~w?'-[Name, Text] ].
 usage(not_one_host(Name, [])) -->
     !,
     [ 'no host ~w in the network of the agent'-[Name] ].
 usage(not_one_host(Name, Addresses)) -->
     { atomic_list_concat(Addresses, ' or ', Text) },
-    [ 'which ~w is meant: ~w?'-[Name, Text] ].
+    [ 'several are named ~w: ~w?'-[Name, Text] ].
 
 in_log(Names, Count) -->
     { Count > 0,
@@ -102,6 +102,6 @@ in_log(Names, Count) -->
       !,
       atomic_list_concat(Names, ', ', Text)
     },
-    [ '; it knows ~w'-[Text] ].
+    [ '; agents in it: ~w'-[Text] ].
 in_log(_, Count) -->
-    [ ', which knows ~D others'-[Count] ].
+    [ ', which has ~D other agents'-[Count] ].

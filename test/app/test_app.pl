@@ -381,7 +381,7 @@ story(Dir) :-
     assertion(has_line(All, '*n10 *comes from n1, in 0.5 s')),
     assertion(has_line(All, '*n10 *logs arrived(some,where)')),
     assertion(has_line(All, '*n10 *ends, failed')),
-    typhon_error([story, File, b], "it knows a.x.1, a.x.2").
+    typhon_error([story, File, b], "agents in it: a.x.1, a.x.2").
 
 test(picture) :-
     with_tmp_dir(picture).
