@@ -71,8 +71,8 @@ footer(join, 'Exit status 0: the outcome is `done`.').
 footer(remote,
        'Exit status 0: the goal succeeded. Output of the goal is printed.').
 footer(remote, 'Variables that begin with _ are not printed.').
-footer(page, 'Prints the link, which authorizes all orders of the page. Runs').
-footer(page, 'until SIGTERM or SIGINT. With LOG it writes a file for a browser.').
+footer(page, 'Prints the link, which authorizes all orders of the page. Runs until').
+footer(page, 'SIGTERM or SIGINT. With LOG it writes a file for a browser.').
 footer(keys,
        'Copy DIR/NAME to the machine of NAME: host_start(H, [tls(DIR)]).').
 footer(stop, 'A command `host` or `network` ends with its host.').

@@ -85,8 +85,8 @@ test(help_is_apart_from_the_arguments) :-
     forall(member(Line, Lines),
            assertion(\+ sub_string(Line, _, _, _, "NAMEmake"))),
     assertion(nextto("  keys init | host NAME | author NAME | revoke NAME",
-                     "                          make an authority, keys for \c
-                      hosts and authors, or end them", Lines)).
+                     "                          make an authority, make or \c
+                      revoke keys for hosts and authors", Lines)).
 test(without_arguments, Lines1 == Lines2) :-
     typhon_lines([], Lines1),
     typhon_lines(['--help'], Lines2).
