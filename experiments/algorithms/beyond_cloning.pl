@@ -15,13 +15,13 @@ fixed(settings, [size-25, q_th-2, alpha_r-5, c_l-1, lifetime-5],
       tuned("by the defaults agents crowd each other out")).
 fixed(limit, 4000, assumed("host seconds")).
 
-claim("agents that clone need fewer executions each than as many that do not",
+claim("each agent that clones needs fewer executions than without cloning",
       [ours],
       at([group=three_cloning], mean < at([group=three], mean))).
-claim("but more in all", [ours],
+claim("with cloning all agents together need more executions", [ours],
       at([group=three_cloning], executions > at([group=three], executions))).
-claim("the controller keeps their number below 20", [ours],
+claim("the cloning controller keeps the number of agents below 20", [ours],
       at([group=three_cloning], most < 20)).
 
-plot(cloning, "Three agents, three that clone, eight",
+plot(cloning, "Three agents, three agents that clone, eight agents",
      lines([x(group), y([mean, executions, most])])).

@@ -2,12 +2,12 @@
 
 :- include(ground).
 
-study(crews, "Crews of two algorithms, each with a strength of its own").
-text("Greedy agents are quick where light leads to the goal, and go into a \c
-corner for good.  Scouts come round corners, and are slow where the maze is \c
-large, the slower the more ways they know: so there are also scouts that do not \c
-share.  With a corner near the start scouts are needed first, and greedy agents \c
-for the long way after it; with one near the light it is the other way round.").
+study(crews, "Crews of two algorithms, each suited to another maze").
+text("Greedy agents are fast where light leads to the goal, but never leave a \c
+corner.  Scouts leave corners, but are slow in a large maze, and slower the \c
+more paths they know: so there are also scouts that do not share.  With a \c
+corner near the start scouts are needed first, and greedy agents for the long \c
+path after it; with a corner near the light the order is reversed.").
 
 vary(maze, [open, near_start, near_light]).
 vary(crew, [greedy, scout, scout_apart, both]).
@@ -49,20 +49,23 @@ corner(X, Y, Arm, [(X,Y0)-(X,Y), (X,Y)-(X1,Y)]) :-
     Y0 is Y - Arm,
     X1 is X + Arm.
 
-claim("near the start: all agents of a crew of both reach the light", [ours],
+claim("corner near the start: all agents of a mixed crew reach the light",
+      [ours],
       at([maze=near_start, crew=both], reached =:= 100)).
-claim("near the start: more agents of both reach it than of any one kind", [ours],
+claim("corner near the start: more agents of a mixed crew reach the light",
+      [ours],
       at([maze=near_start], most(reached, crew=both))).
-claim("near the start: after fewer executions than of any one kind", [ours],
+claim("corner near the start: a mixed crew needs fewer executions", [ours],
       at([maze=near_start], least(executions, crew=both))).
-claim("near the light: more agents of both reach it than of any one kind", [ours],
+claim("corner near the light: more agents of a mixed crew reach the light",
+      [ours],
       at([maze=near_light], most(reached, crew=both))).
-claim("near the light: after fewer executions than of any one kind", [ours],
+claim("corner near the light: a mixed crew needs fewer executions", [ours],
       at([maze=near_light], least(executions, crew=both))).
-claim("in the open greedy agents alone need fewer executions", [ours],
+claim("no corner: greedy agents alone need fewer executions", [ours],
       at([maze=open],
          at([crew=greedy], executions) < at([crew=both], executions))).
-claim("scouts that share need more than those that do not, in each maze", [ours],
+claim("scouts that share need more executions than scouts that do not", [ours],
       at([crew=scout], executions) > at([crew=scout_apart], executions)).
 
 plot(crews, "Four agents in mazes without and with a corner",

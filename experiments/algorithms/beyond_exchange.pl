@@ -2,7 +2,7 @@
 
 :- include(ground).
 
-study(exchange, "Another learning algorithm while agents live").
+study(exchange, "Exchange of the learning algorithm while agents run").
 
 vary(exchange, [none, at(500, greedy, scout)]).
 fixed(problem, maze, assumed("with a corner, as in study mixed")).
@@ -13,9 +13,9 @@ fixed(agents, 4, assumed("")).
 fixed(limit, 3000, assumed("host seconds")).
 
 label(none, "greedy throughout").
-label(at(_, _, _), "one takes up scout after 500 s").
+label(at(_, _, _), "one agent gets scout after 500 s").
 
-claim("more agents reach the light when one takes up another algorithm",
+claim("more agents reach the light if one gets another algorithm",
       [ours], most(reached, exchange=at(500, greedy, scout))).
 
 plot(exchange, "Four agents in a maze with a corner",

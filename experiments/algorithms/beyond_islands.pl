@@ -2,7 +2,7 @@
 
 :- include(ground).
 
-study(islands, "A genetic algorithm: islands of the agents").
+study(islands, "A genetic algorithm with agents as islands").
 
 vary(population, [islands, apart, one]).
 derive(agents, Case, Count) :-
@@ -14,7 +14,7 @@ fixed(algorithms, [genetic], assumed("")).
 fixed(settings, [], assumed("defaults of the payloads")).
 fixed(limit, 6000, assumed("host seconds")).
 
-claim("all agents of the islands reach the goal", [ours],
+claim("all agents that share reach the goal", [ours],
       at([population=islands], reached =:= 100)).
 claim("sharing saves pages", [ours],
       at([population=islands], pages < at([population=apart], pages))).
@@ -22,5 +22,5 @@ claim("an agent of six that share needs fewer executions than one population \c
 alone", [ours],
       at([population=islands], mean < at([population=one], mean))).
 
-plot(islands, "Six agents that share, six that do not, one alone",
+plot(islands, "Six agents that share, six that do not, one agent",
      lines([x(population), y([pages, mean])])).

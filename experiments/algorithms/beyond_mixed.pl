@@ -3,8 +3,8 @@
 :- include(ground).
 
 study(mixed, "Two learning algorithms in one population").
-text("In the maze the light is behind a corner: an agent that follows it goes into the \c
-corner, from where all ways on lead away from it.").
+text("In the maze the light is behind a corner: an agent that follows the \c
+light enters the corner, from where all paths lead away from the light.").
 
 vary(crew, [greedy, scout, greedy_scout, climb, genetic, climb_genetic]).
 derive(algorithms, Case, Names) :-
@@ -26,9 +26,10 @@ crew(climb_genetic, settings, [climb, genetic]).
 
 claim("greedy and scout together always reach the light", [ours],
       at([crew=greedy_scout], reached =:= 100)).
-claim("greedy alone does not always", [ours],
+claim("greedy alone does not always reach the light", [ours],
       at([crew=greedy], reached < 100)).
-claim("together they need fewer executions than scouts alone", [ours],
+claim("greedy and scout together need fewer executions than scouts alone",
+      [ours],
       at([crew=greedy_scout], executions < at([crew=scout], executions))).
 claim("climb and genetic together need no more pages than genetic alone",
       [ours],

@@ -2,7 +2,7 @@
 
 :- include(ground).
 
-study(settings, "Ten printers that all differ, five agents").
+study(settings, "Ten different printers, five agents").
 
 vary(algorithm, [climb, lottery]).
 vary(sharing, [true, false]).
@@ -23,12 +23,12 @@ claim("climb takes less than half the pages of random search", [ours],
 claim("sharing saves climb a third of the pages", [ours],
       at([algorithm=climb, sharing=true],
          pages < 2/3*at([sharing=false], pages))).
-claim("sharing saves random search pages, too", [ours],
+claim("sharing saves pages of random search", [ours],
       at([algorithm=lottery, sharing=true],
          pages < at([sharing=false], pages))).
 claim("without noise the settings found are at most 0.05 short of good, on \c
 the printer they were found at", [ours],
       at([algorithm=climb, sharing=true], most_short =< 0.05)).
 
-plot(settings, "Ten printers that all differ, five agents",
+plot(settings, "Ten different printers, five agents",
      lines([ x(sharing), y([pages, mean]), line(algorithm) ])).

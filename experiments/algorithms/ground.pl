@@ -26,9 +26,9 @@ fixed(rho_max, 4, assumed("agents go few hops between executions")).
 label(reached, "Agents that have reached the goal (%)").
 label(mean, "Executions of an agent").
 label(executions, "Executions of all agents").
-label(pages, "Pages printed until the last has reached the goal").
-label(most, "Agents at most").
-label(most_short, "Settings found: short of good, at most").
+label(pages, "Pages printed until the last agent has reached the goal").
+label(most, "Greatest number of agents").
+label(most_short, "Greatest shortfall of the settings found").
 
 network(Case, mesh(Case.hosts),
         [hop_time(uniform(Min, Max)), hosts([capacity(Capacity)])]) :-

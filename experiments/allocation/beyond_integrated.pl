@@ -11,10 +11,10 @@
 :- use_module(library(apply), [maplist/3, maplist/4]).
 :- use_module(library(lists), [member/2, numlist/3]).
 
-study(integrated, "Sequences of tasks on robots that were found for them").
-text("Two sequences of three tasks want ten of the same fifteen robots.  For \c
-each an allocator finds and holds its robots, and agents whose number \c
-regulates itself have them execute the tasks in step.").
+study(integrated, "Sequences of tasks on allocated robots").
+text("Two sequences of three tasks need ten of the same fifteen robots each.  \c
+For each an allocator finds and holds robots, and a self-regulating \c
+population of agents has them execute the tasks in step.").
 
 fixed(sequences, 2, assumed("so that one has to wait")).
 fixed(length, 3, assumed("tasks of each")).
@@ -24,10 +24,10 @@ fixed(probability, 0.2, assumed("six links at a host")).
 derive(allocators, Case, Case.sequences).
 
 label(found, "The last sequence has its robots (s)").
-label(completed, "It is completed (s)").
+label(completed, "The last sequence is completed (s)").
 label(faulty, "Robots that did not execute each task once").
-label(strangers, "Hosts that executed and were not allocated").
-label(overlaps, "Executions before all had completed the task before").
+label(strangers, "Hosts that executed without being allocated").
+label(overlaps, "Executions before the previous task was completed").
 label(disorder, "Executions out of order").
 label(both, "Executions for two sequences at once").
 label(communications, "Communications of the allocators").
@@ -72,12 +72,13 @@ measure(Name, View, Value) :-
 
 claim("each robot of a sequence executes each of its tasks once", [ours],
       faulty =:= 0).
-claim("no other robot executes any", [ours], strangers =:= 0).
-claim("no task begins before all have completed the one before", [ours],
+claim("no other robot executes any task", [ours], strangers =:= 0).
+claim("no task begins before all robots have completed the previous one",
+      [ours],
       overlaps =:= 0).
 claim("all tasks are executed in order", [ours], disorder =:= 0).
 claim("no robot executes for two sequences at once", [ours], both =:= 0).
 
-plot(integrated, "Two sequences of tasks on the robots that were found",
+plot(integrated, "Two sequences of tasks on allocated robots",
      script('timetable.gp', [held-held_rows, executed-executed_rows],
             [seed(first), size(1000, 600), variables(timetable_extent)])).

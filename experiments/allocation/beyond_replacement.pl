@@ -15,12 +15,12 @@
 :- use_module(library(aggregate), [aggregate_all/3]).
 :- use_module(library(lists), [last/2, member/2, memberchk/2, subtract/3]).
 
-study(replacement, "A robot that replaces another one gets the sequence").
+study(replacement, "Replacement of robots that fail during a sequence").
 text("Half of the robots are eligible, but no more than fifty.  An allocator \c
 holds two thirds of these, and agents have them execute three tasks in step.  \c
-When half of them have completed the second task one or three tenths of those \c
-that are held fail.  The allocator finds others, and these execute the sequence \c
-from its beginning.").
+When half of them have completed the second task, one or three tenths of the \c
+robots fail.  The allocator replaces them, and the new robots execute the \c
+sequence from its beginning.").
 
 vary(hosts, [30, 100]).
 vary(failing, [0, 0.1, 0.3]).
@@ -41,11 +41,12 @@ fixed(lifetime, 10, printed("section 6.5")).
 
 label(completed, "The sequence is completed (s)").
 label(replaced, "Robots that replaced others").
-label(catching_up, "From the last replacement until it has executed all (s)").
-label(overlaps, "Executions before all had completed the task before").
+label(catching_up,
+      "From the last replacement until it has executed all tasks (s)").
+label(overlaps, "Executions before the previous task was completed").
 label(faulty, "Robots that did not execute each task once").
 label(disorder, "Executions out of order").
-label(after, "Executions that lost robots began afterwards").
+label(after, "Executions begun by lost robots after their loss").
 
 run(Case, Network) :-
     places(Case, Network, [Host]),
@@ -123,16 +124,16 @@ new_robots(View, New) :-
     subtract(View.robots, View.first, New).
 
 claim("each robot that fails is replaced", [ours], replaced =:= failures).
-claim("each robot that is held in the end has executed each task once",
+claim("each robot held at the end has executed each task once",
       [ours], faulty =:= 0).
-claim("all in order", [ours], disorder =:= 0).
-claim("lost robots begin nothing more, but for what is under way in a second",
+claim("all tasks are executed in order", [ours], disorder =:= 0).
+claim("lost robots begin no task later than a second after their loss",
       [ours], after =:= 0).
 claim("without failures no task begins before all have completed the one \c
 before", [ours], at([failing=0], overlaps =:= 0)).
-claim("where three of ten fail it takes less than half as much time again",
+claim("if three of ten fail, the sequence takes less than 1.5 times as long",
       [ours],
       at([failing=0.3], completed < 1.5*at([failing=0], completed))).
 
-plot(replacement, "Robots fail, and others execute the sequence",
+plot(replacement, "Robots fail, and their replacements execute the sequence",
      lines([x(failing), y([completed, catching_up]), line(hosts)])).

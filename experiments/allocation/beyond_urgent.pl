@@ -10,24 +10,24 @@
 :- use_module(library(lists), [append/3, member/2]).
 :- use_module(library(pairs), [pairs_keys_values/3]).
 
-study(urgent, "A task that comes late, and deadlines").
-text("Of five tasks that want the same robots the last one comes when the \c
-others are being allocated.  It may have a priority: robots that are \c
-reserved, but do not yet execute, go over to it.  Or all have a deadline.").
+study(urgent, "An urgent task that arrives late, and deadlines").
+text("Of five tasks that need the same robots the last one arrives while the \c
+others are being allocated.  It may have a priority: it takes over robots \c
+that are reserved, but not executing yet.  Or all tasks have a deadline.").
 
 vary(priority, [0, 1]).
 vary(deadline, [0, 30, 60, 120]).
 skip(Case) :-
     Case.priority > 0,
     Case.deadline > 0.
-fixed(late, 3, assumed("seconds until the last task comes")).
+fixed(late, 3, assumed("seconds until the last task arrives")).
 
-label(late, "From its coming to its completion: the last task (s)").
-label(others, "The others, mean (s)").
+label(late, "From arrival to completion: the last task (s)").
+label(others, "From arrival to completion: the other tasks, mean (s)").
 label(done, "Tasks completed").
 label(missed, "Tasks missed").
-label(reported, "Missed tasks are reported so long after the deadline (s)").
-label(free, "All their robots are free so long after it (s)").
+label(reported, "From the deadline to the report of a missed task (s)").
+label(free, "From the deadline until all its robots are free (s)").
 
 run(Case, Network) :-
     places(Case, Network, Starts),
@@ -74,7 +74,7 @@ measure(reported, View, Seconds) :-
 measure(free, View, Seconds) :-
     aggregate_all(max(S), overdue(View.events, _, S), Seconds).
 
-claim("the task that comes last is completed sooner if it is urgent", [ours],
+claim("the last task is completed sooner if it is urgent", [ours],
       at([deadline=0], falls(late, along(priority)))).
 claim("the others are completed as well, on average in less than half as much \c
 time again", [ours],
@@ -82,12 +82,12 @@ time again", [ours],
 claim("a missed deadline is reported within 2 s", [ours], reported =< 2).
 claim("all robots of a task that is missed are free within 60 s, when they \c
 would ask", [ours], free =< 60).
-claim("the later the deadline, the more is completed", [ours],
+claim("the later the deadline, the more tasks are completed", [ours],
       ( at([deadline=30], done =< at([deadline=60], done)),
         at([deadline=60], done =< at([deadline=120], done)),
         at([deadline=30], done < at([deadline=120], done)) )).
 
-plot(urgent, "Priorities: the last task comes late",
+plot(urgent, "Priorities: the last task arrives late",
      lines([ x(priority), y([late, others]), where([deadline=0]) ])).
 plot(deadlines, "Deadlines for all tasks",
      lines([ x(deadline), y([done, reported, free]),

@@ -7,10 +7,11 @@
 
 %   competing(-Text, -Notes, -Test): claims for one to five allocators.
 
-competing("fewer than 10,000 communications of proposed with five",
+competing("proposed: fewer than 10,000 communications with five allocators",
           [line(4866)],
           at([mechanism=proposed, allocators=5], communications < 10000)).
-competing("more than 50,000 of Murdoch with five", [line(4867)],
+competing("Murdoch: more than 50,000 communications with five allocators",
+          [line(4867)],
           at([mechanism=murdoch, allocators=5], communications > 50000)).
 competing(Text, [line(4864)],
           at([mechanism=M], rises(communications, along(allocators)))) :-
@@ -22,8 +23,8 @@ competing(Text, [line(4868)],
              rise(communications, along(allocators)) <
              at([mechanism=M], rise(communications, along(allocators))))) :-
     auction(M, Title),
-    format(string(Text), "a sharper rise of ~w's", [Title]).
-competing("proposed backs off for longer, the more allocators there are",
+    format(string(Text), "communications of ~w rise more sharply", [Title]).
+competing("proposed: back-offs are longer with more allocators",
           [line(4891)],
           at([mechanism=proposed], rises(interval, along(allocators)))).
 competing(Text, Notes, Test) :-

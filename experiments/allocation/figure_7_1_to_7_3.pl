@@ -3,10 +3,10 @@
 :- include(ground).
 :- include(competing).
 
-study('7.1', "Allocators that want the same robots").
+study('7.1', "Allocators that compete for the same robots").
 text("Each allocator requires 10 of 15 robots among 100 hosts, so no two can \c
-have them at once.  Constant back-off, of Figure 7.3, is that of the auctions \c
-(equation 7.7) in the agents of the thesis.").
+have them at once.  Constant back-off, in Figure 7.3, is the back-off of the \c
+auctions (equation 7.7), used by the agents of the thesis.").
 
 vary(links, [dynamic, static]).
 vary(mechanism, [proposed, constant, murdoch, anta]).
@@ -28,13 +28,14 @@ claim(Text, Notes, at([links=Links], Test)) :-
     competing(Text0, Notes, Test),
     format(string(Text), "~w, ~w: ~w", [Figure, Links, Text0]).
 
-claim("7.1: more than 50,000 communications of ANTA with five", [line(4867)],
+claim("7.1: ANTA: more than 50,000 communications with five allocators",
+      [line(4867)],
       at([links=dynamic, mechanism=anta, allocators=5],
          communications > 50000)).
-claim("7.1: 2.6 back-offs of an allocator alone, within 1", [line(4892)],
+claim("7.1: a single allocator backs off 2.6 times, within 1", [line(4892)],
       at([links=dynamic, mechanism=proposed, allocators=1],
          near(backoffs, 2.6, 1))).
-claim("7.1: an allocator alone backs off for 5.16 s, within 1 s", [line(4893)],
+claim("7.1: a single allocator backs off for 5.16 s, within 1 s", [line(4893)],
       at([links=dynamic, mechanism=proposed, allocators=1],
          near(interval, 5.16, 1))).
 
@@ -42,10 +43,11 @@ claim("7.2: communications of proposed as on the dynamic network, from half \c
 to twice", [line(4901)],
       at([links=static, mechanism=proposed],
          between(communications/at([links=dynamic], communications), 1/2, 2))).
-claim("7.2: those of Murdoch, too", [line(4901)],
+claim("7.2: communications of Murdoch as on the dynamic network", [line(4901)],
       at([links=static, mechanism=murdoch],
          between(communications/at([links=dynamic], communications), 1/2, 2))).
-claim("7.2: those of ANTA less than half with five", [line(4902)],
+claim("7.2: communications of ANTA less than half, five allocators",
+      [line(4902)],
       at([links=static, mechanism=anta, allocators=5],
          communications < at([links=dynamic], communications)/2)).
 claim("7.2: proposed performs equally well, with five in half to twice the \c
@@ -53,7 +55,7 @@ time", [line(4908)],
       at([links=static, mechanism=proposed, allocators=5],
          between(time/at([links=dynamic], time), 1/2, 2))).
 
-claim("7.3: adaptive has more communications than constant throughout",
+claim("7.3: adaptive always has more communications than constant",
       [line(4921)],
       at([links=dynamic, mechanism=proposed],
          communications > at([mechanism=constant], communications))).

@@ -10,15 +10,15 @@ vary(eligible, [10, 20, 30, 40, 50]).
 
 claim("communications of proposed fall with the density", [line(4976)],
       at([mechanism=proposed], falls(communications, along(eligible)))).
-claim("those of ANTA, too", [line(4976)],
+claim("communications of ANTA fall with the density", [line(4976)],
       at([mechanism=anta], falls(communications, along(eligible)))).
-claim("those of Murdoch grow", [line(4977)],
+claim("communications of Murdoch grow with the density", [line(4977)],
       at([mechanism=murdoch], rises(communications, along(eligible)))).
-claim("proposed is completed sooner, the more robots there are", [line(4982)],
+claim("proposed is completed sooner with more robots", [line(4982)],
       at([mechanism=proposed], falls(time, along(eligible)))).
-claim("Murdoch, too", [line(4982)],
+claim("Murdoch is completed sooner with more robots", [line(4982)],
       at([mechanism=murdoch], falls(time, along(eligible)))).
-claim("ANTA, too", [line(4982)],
+claim("ANTA is completed sooner with more robots", [line(4982)],
       at([mechanism=anta], falls(time, along(eligible)))).
 claim(Text, [line(4979)], Test) :-
     beside(communications, "fewer communications", <, Text, Test).
@@ -32,13 +32,13 @@ claim(Text, [line(4983), ours],
     string_concat(Text0, ", of 20 and more", Text).
 claim("back-offs of proposed fall with the density", [line(5004)],
       at([mechanism=proposed], falls(backoffs, along(eligible)))).
-claim("they get shorter", [line(5004)],
+claim("back-offs of proposed get shorter with the density", [line(5004)],
       at([mechanism=proposed], falls(interval, along(eligible)))).
 claim("back-offs of Murdoch fall from first to last", [line(5005)],
       at([mechanism=murdoch], falls(backoffs, along(eligible), ends))).
-claim("those of ANTA, too", [line(5005)],
+claim("back-offs of ANTA fall from first to last", [line(5005)],
       at([mechanism=anta], falls(backoffs, along(eligible), ends))).
-claim("their intervals follow no pattern", [line(5006)],
+claim("back-off intervals of the auctions follow no pattern", [line(5006)],
       ( \+ at([mechanism=murdoch], falls(interval, along(eligible))),
         \+ at([mechanism=anta], falls(interval, along(eligible))) )).
 

@@ -8,10 +8,10 @@
 study(fire_alarm, "False alarms and the time to an alarm").
 text("Forty cells of a building, each with a detector. For half an hour there \c
 is no fire, but dust and steam at single detectors; then a room burns. A \c
-detector alarms at once (single), when it has read too much for half a minute \c
-(verified), or when a neighbour reads some smoke, too (gossip). The world, its \c
-equations and what is assumed are in examples/applications/fire/building.pl and \c
-scene.pl.").
+detector raises an alarm at once (single), after half a minute above the \c
+threshold (verified), or if a neighbour reads some smoke, too (gossip). \c
+examples/applications/fire/building.pl and scene.pl define the world, its \c
+equations and assumptions.").
 
 vary(rule, [single, verified, gossip]).
 vary(puffs, [0.1, 0.5, 2]).
@@ -61,11 +61,11 @@ alarms([Time|Times], Last, Count0, Count) :-
 
 claim("gossip has fewer false alarms than a single detector", [],
       at([rule=single], false_alarms) > at([rule=gossip], false_alarms)).
-claim("and fewer than with half a minute of verification", [],
+claim("gossip has fewer false alarms than half a minute of verification", [],
       at([rule=verified], false_alarms) > at([rule=gossip], false_alarms)).
-claim("with a puff in ten hours of a detector gossip has none", [],
+claim("with one puff at a detector in ten hours gossip has no false alarm", [],
       at([rule=gossip, puffs=0.1], false_alarms =:= 0)).
-claim("gossip is later than a single detector by 15 s at most", [],
+claim("gossip is at most 15 s later than a single detector", [],
       at([rule=gossip], delay) =< at([rule=single], delay)+15).
 claim("gossip is sooner than verification", [],
       at([rule=gossip], delay) < at([rule=verified], delay)).

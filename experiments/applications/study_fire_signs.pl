@@ -5,13 +5,13 @@
 :- use_module('../../prolog/typhon', [network_advance/2, remote/2]).
 :- use_module(library(lists), [max_list/2, member/2, sum_list/2]).
 
-study(fire_signs, "How people get out of a building on fire").
-text("A room burns; detectors alarm by gossip. Exit signs point to the exit \c
-that is nearest on the plan (fixed), or nearest with the smoke on the way \c
-counted in (gradient). People leave a quarter of a minute to more than a minute \c
-after an alarm, as in an office, or up to six minutes, as where they sleep. The \c
-world, its equations and what is assumed are in \c
-examples/applications/fire/building.pl and scene.pl.").
+study(fire_signs, "Evacuation of a building on fire").
+text("A room burns; detectors raise alarms by gossip. Exit signs point to the \c
+nearest exit on the plan (fixed), or to the nearest one with the smoke on the \c
+way as a cost (gradient). People leave a quarter of a minute to more than a \c
+minute after an alarm, as in an office, or up to six minutes, as where they \c
+sleep. examples/applications/fire/building.pl and scene.pl define the world, \c
+its equations and assumptions.").
 
 vary(signs, [fixed, gradient]).
 vary(growth, [0.0117, 0.0469]).
@@ -38,9 +38,9 @@ run(Case, Network) :-
           remote(r2c1, log(people(Out, Caught, Inside))) ),
         scene_stop).
 
-label(time, "Seconds from the fire until out, in the mean").
-label(last, "Seconds until the last was out").
-label(smoke, "Smoke on the way, in the mean (minutes at 1 per metre)").
+label(time, "Mean time from the fire until a person is out (s)").
+label(last, "Time until the last person is out (s)").
+label(smoke, "Mean smoke on the way (minutes at 1 per metre)").
 label(lost, "Share of people that did not get out").
 
 %   The time of people that do not get out counts as `limit`.
@@ -72,12 +72,13 @@ people(Log, Out, All) :-
     !,
     All is Out+Caught+Inside.
 
-claim("with gradients people get out sooner in the mean", [],
+claim("with gradients people get out sooner on average", [],
       least(time, signs=gradient)).
-claim("and the last one, too", [], least(last, signs=gradient)).
-claim("with gradients people come through less smoke", [],
+claim("with gradients the last person gets out sooner",
+      [], least(last, signs=gradient)).
+claim("with gradients people pass less smoke", [],
       least(smoke, signs=gradient)).
-claim("where people leave late they come through less smoke with gradients", [],
+claim("if people leave late they pass less smoke with gradients", [],
       at([delay=60-360], least(smoke, signs=gradient))).
 claim("with gradients no more people are lost", [],
       at([signs=gradient], lost) =< at([signs=fixed], lost)).

@@ -5,13 +5,13 @@
 :- use_module('../../prolog/typhon', [network_advance/2, remote/2]).
 :- use_module(library(lists), [member/2, sum_list/2]).
 
-study(irrigation, "Water for fields, and what their crops lack").
-text("Six fields, ninety days. A timer gives water every three days, for what the \c
-table says of the crop (20 mm), or less by the mean of the rain (16 mm). A model \c
-of the water in the soil, which readings correct, decides at the office (central), \c
-where it needs the link to a field for readings and orders, or at the field \c
-(carried). The world, its equations and what is assumed are in \c
-examples/applications/irrigation/fields.pl and scene.pl.").
+study(irrigation, "Irrigation of fields, and stress of crops").
+text("Six fields, ninety days. A timer gives water every three days: the need \c
+of the crop by the table (20 mm), or that less the mean rain (16 mm). A model \c
+of the water in the soil, corrected by readings, decides at the office \c
+(central), where it needs the link to a field for readings and orders, or at \c
+the field (carried). examples/applications/irrigation/fields.pl and scene.pl \c
+define the world, its equations and assumptions.").
 
 vary(strategy, [timer, timer_less, central, carried]).
 vary(down, [0, 0.3, 0.7]).
@@ -52,20 +52,22 @@ mean(Log, X, Sums, Mean) :-
 
 claim("carried models give less water than a timer by the table", [],
       at([strategy=carried], water) < at([strategy=timer], water)).
-claim("and leave crops less stress than a timer that counts on rain", [],
+claim("carried models cause less stress than a timer that expects rain", [],
       at([strategy=carried], stress) < at([strategy=timer_less], stress)).
-claim("while all links are up the place of the model matters by 5 mm at most", [],
+claim("with all links up the place of the model changes water by at most 5 mm",
+      [],
       at([down=0], near(at([strategy=carried], water),
                         at([strategy=central], water), 5))).
-claim("where links are down for 30 % carried models leave less stress", [],
+claim("with links down for 30 % carried models cause less stress", [],
       at([down=0.3], at([strategy=carried], stress)
                      < at([strategy=central], stress))).
-claim("and where they are down for 70 %", [],
+claim("with links down for 70 % carried models cause less stress", [],
       at([down=0.7], at([strategy=carried], stress)
                      < at([strategy=central], stress))).
 claim("with carried models the link costs half a day of stress at most", [],
       at([strategy=carried], at([down=0.7], stress) =< at([down=0], stress)+0.5)).
 
-plot(irrigation, "Water given, and days of stress, by the share of time without a \c
+plot(irrigation,
+     "Water given, and days of stress, by the share of time without a \c
 link",
      lines([x(down), y([water, stress, drained]), line(strategy)])).

@@ -8,11 +8,12 @@
 
 study(solar, "A battery that ten houses share").
 text("Ten houses with solar panels, a boiler each, and one battery, in April. \c
-Nothing is shared (none); each house asks the battery for what it lacks once in a \c
-quarter of an hour, at a moment of its own (first), or at another one each time \c
-(drawn), or likewise, but for its boiler only when that would be late (waiting); or \c
-an agent goes round for bids, and clears the market (auction). The world, its \c
-equations and what is assumed are in examples/applications/solar/street.pl.").
+Nothing is shared (none); each house asks the battery for energy once in a \c
+quarter of an hour, at a fixed moment of its own (first), or at a random \c
+moment (drawn), or at a random moment, but for its boiler only when that \c
+would be late (waiting); or an agent moves round for bids, and clears the \c
+market (auction). examples/applications/solar/street.pl defines the world, \c
+its equations and assumptions.").
 
 vary(strategy, [none, first, drawn, waiting, auction]).
 vary(capacity, [15, 30, 60]).
@@ -33,11 +34,11 @@ run(Case, Network) :-
           remote(battery, log(totals(Battery, Totals))) ),
         scene_stop).
 
-label(bought, "Bought from the grid (kWh)").
-label(wasted, "Wasted (kWh)").
-label(fairness, "Jain's index of the share of what a house lacks that it gets").
-label(reward, "Correlation of what a house gives, and what it gains").
-label(crossings, "Hops, or links that messages cross, in an hour").
+label(bought, "Energy bought from the grid (kWh)").
+label(wasted, "Energy wasted (kWh)").
+label(fairness, "Jain's fairness index of the shares of requests granted").
+label(reward, "Correlation of energy given and gain of a house").
+label(crossings, "Hops, or links crossed by messages, in an hour").
 
 measure(bought, Log, Kwh) :-
     total(Log, 3, Kwh).
@@ -97,27 +98,28 @@ crossings(_, Log, Links) :-
     aggregate_all(sum(2*min(House, 11-House)),
                   member(event(_, _, _, granted(House, _)), Log.events), Links).
 
-claim("by auctions less is bought from the grid than alone", [],
+claim("by auctions less is bought from the grid than without sharing", [],
       at([strategy=auction], bought) < at([strategy=none], bought)).
-claim("and less than in the order in which houses ask", [],
+claim("by auctions less is bought than in the order of requests", [],
       at([strategy=auction], bought) < at([strategy=drawn], bought)).
-claim("and less than where boilers wait as well", [],
+claim("by auctions less is bought than if boilers wait", [],
       at([strategy=auction], bought) < at([strategy=waiting], bought)).
-claim("less is wasted than in the order in which houses ask", [],
+claim("by auctions less is wasted than in the order of requests", [],
       at([strategy=auction], wasted) < at([strategy=drawn], wasted)).
-claim("the auction is fairer than moments that are always the same", [],
+claim("the auction is fairer than fixed moments", [],
       at([strategy=auction], fairness) > at([strategy=first], fairness)).
-claim("and than moments that are drawn, where boilers wait", [],
+claim("the auction is fairer than random moments and waiting boilers", [],
       at([strategy=auction], fairness) > at([strategy=waiting], fairness)).
-claim("by auctions those gain more that give more", [],
+claim("by auctions houses that give more gain more", [],
       at([strategy=auction], reward > 0)).
-claim("in the order in which they ask they do not", [],
+claim("in the order of requests houses that give more do not gain more", [],
       at([strategy=waiting], reward =< 0)).
 claim("the agent makes fewer hops than messages cross links", [],
       at([strategy=auction], crossings) < at([strategy=first], crossings)).
 claim("with a larger battery less is bought", [],
       at([strategy=auction], falls(bought, along(capacity)))).
 
-plot(solar, "Energy bought and wasted, and how it is shared, by the battery",
+plot(solar,
+     "Energy bought and wasted, and fairness, by capacity of the battery",
      lines([x(capacity), y([bought, wasted, fairness, reward]), line(strategy),
             xlabel("Capacity of the battery (kWh)")])).

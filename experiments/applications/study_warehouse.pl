@@ -7,14 +7,14 @@
 :- use_module(library(aggregate), [aggregate_all/3]).
 :- use_module(library(lists), [member/2, nextto/3]).
 
-study(warehouse, "Robots of ROS that carry loads, alone and together").
-text("Allocators find a robot for each of six pallets, and two or three robots for \c
-each of three beams, while robots are held by others. With a beam robots execute \c
-four tasks: to drive to a corner, to take it, to carry it, and to put it down; in \c
-step, by agents that travel between them and have the penalty bias delta, or \c
-alone, each as soon as it can. A beam falls if the robots are not together. The \c
-world and what is assumed are in examples/applications/warehouse/floor.pl and \c
-scene.pl; robots are reached over rosbridge.").
+study(warehouse, "ROS robots that carry loads, alone and together").
+text("Allocators find a robot for each of six pallets, and two or three \c
+robots for each of three beams, while robots are held by others. With a beam \c
+robots execute four tasks: drive to a corner, take it, carry it, and put it \c
+down; in step, by agents that travel between them with the penalty bias \c
+delta, or alone, each as soon as it can. A beam falls if the robots are not \c
+together. examples/applications/warehouse/floor.pl and scene.pl define the \c
+world and its assumptions; agents control the robots over rosbridge.").
 
 vary(way, [in_step, alone]).
 vary(robots, [4, 6, 8]).
@@ -51,10 +51,10 @@ until_over(Network, Left) :-
     ).
 
 label(time, "Seconds until all orders are over").
-label(delivered, "Loads where they should be").
+label(delivered, "Loads delivered").
 label(falls, "Beams that have fallen").
-label(early, "Tasks begun before all robots of a beam had the one before").
-label(held, "Robots held by two orders, or held in the end").
+label(early, "Tasks begun before the previous one was completed").
+label(held, "Robots held by two orders, or held at the end").
 label(backoffs, "Back-offs of allocators").
 
 measure(time, Log, Time) :-
@@ -79,22 +79,24 @@ early(Events) :-
     \+ ( member(event(End, Host, _, completed(Order, Before)), Events),
          End =< Begin ).
 
-claim("no robot is held by two orders, and none in the end", [], held =:= 0).
+claim("no robot is held by two orders, or held at the end", [], held =:= 0).
 claim("in step no task begins before all robots of a beam have the one before, \c
 with a bias up to 2", [],
       ( at([way=in_step, delta=0.5], early =:= 0),
         at([way=in_step, delta=2], early =:= 0) )).
-claim("nor with 8", [], at([way=in_step, delta=8], early =:= 0)).
+claim("in step no task begins early with a bias of 8",
+      [], at([way=in_step, delta=8], early =:= 0)).
 claim("in step no beam falls", [], at([way=in_step], falls =:= 0)).
-claim("and all loads arrive", [],
+claim("in step all loads arrive", [],
       at([way=in_step], delivered =:= pallets+beams)).
-claim("alone some fall", [], at([way=alone], falls > 0)).
-claim("the more robots, the sooner all is done in step", [],
+claim("alone some beams fall", [], at([way=alone], falls > 0)).
+claim("in step more robots complete all orders sooner", [],
       at([way=in_step], falls(time, along(robots)))).
-claim("the greater the bias, the sooner", [],
+claim("in step a greater bias completes all orders sooner", [],
       at([way=in_step], falls(time, along(delta)))).
-claim("alone it is over sooner than in step with a bias of 0.5", [],
+claim("alone all orders are completed sooner than in step with bias 0.5", [],
       at([delta=0.5], at([way=alone], time) < at([way=in_step], time))).
 
-plot(warehouse, "Seconds until all is done in step, and tasks begun too early",
+plot(warehouse,
+     "Time until all orders are over in step, and tasks begun too early",
      lines([x(robots), y([time, early]), line(delta), where([way=in_step])])).

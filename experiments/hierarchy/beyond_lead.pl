@@ -11,12 +11,13 @@
 :- use_module(library(apply)).
 :- use_module(library(lists)).
 
-study(lead, "Leaders and an observer of tasks in step, while the demand changes").
-text("Three leaders have a part of a grid each. In rounds 1 and 4 one row of each \c
-part has tasks, in rounds 2 and 3 all four. The penalty bias δ stays as it is \c
-(0.5, that of the thesis for a grid, or 0.1), or each leader changes that of its \c
-workers by what it sees on the hosts of its part, or an observer by what all \c
-leaders have seen.").
+study(lead,
+      "Leaders and an observer of tasks in step, while the demand changes").
+text("Three leaders have a part of a grid each. In rounds 1 and 4 one row of \c
+each part has tasks, in rounds 2 and 3 all four. The penalty bias δ is \c
+constant (0.5, as in the thesis for a grid, or 0.1), or each leader adapts it \c
+for its workers to its observations on the hosts of its part, or an observer \c
+adapts it to the observations of all leaders.").
 
 vary(control, [bold, cautious, leaders, observer]).
 derive(delta, Case, Delta) :-
@@ -32,8 +33,8 @@ fixed(limit, 3000, assumed("host seconds; a round that takes longer fails")).
 label(bold, "δ = 0.5").
 label(cautious, "δ = 0.1").
 label(overlaps, "Overlapped executions, all rounds").
-label(settled, "Overlapped executions, rounds with the hosts of the one before").
-label(total, "Seconds in which tasks were executed, all rounds").
+label(settled, "Overlapped executions, rounds with unchanged hosts").
+label(total, "Time in which tasks were executed (s), all rounds").
 label(idle, "Idle time between tasks (s), all rounds").
 label(missing, "Executions missing").
 label(deltas, "Penalty bias δ, mean of the leaders").
@@ -154,16 +155,17 @@ claim("with an observer no execution is missing", [ours],
       at([control=observer], missing =:= 0)).
 claim("with an observer fewer executions overlap than with δ = 0.5", [ours],
       at([control=observer], overlaps < at([control=bold], overlaps))).
-claim("and fewer than with leaders only", [ours],
+claim("with an observer fewer executions overlap than with leaders only",
+      [ours],
       at([control=observer], overlaps < at([control=leaders], overlaps))).
-claim("with leaders only fewer than with δ = 0.5", [ours],
+claim("with leaders only fewer executions overlap than with δ = 0.5", [ours],
       at([control=leaders], overlaps < at([control=bold], overlaps))).
 claim("with an observer none overlap in the rounds in which \c
 hosts are those of the round before", [ours],
       at([control=observer], settled =:= 0)).
 claim("an observer takes less time than δ = 0.1", [ours],
       at([control=observer], total < at([control=cautious], total))).
-claim("and than leaders only", [ours],
+claim("an observer takes less time than leaders only", [ours],
       at([control=observer], total < at([control=leaders], total))).
 
 plot(lead, "Tasks in step, while the demand changes",

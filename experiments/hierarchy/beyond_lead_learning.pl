@@ -10,11 +10,12 @@
 
 study(lead_learning, "Leaders and an observer of agents that learn, while the work \c
 moves").
-text("Each of three leaders has a part of the network, four hosts linked with each \c
-other. Agents look for the light in a maze; that of one part is large, in rounds 1 to \c
-4 that of the first, then that of the second. There are twelve agents: four in each \c
-part, or as an observer divides them, by how much work each part had in the round \c
-before. A leader by itself cannot have agents of others.").
+text("Each of three leaders has a part of the network, four hosts linked with \c
+each other. Agents look for the light in a maze; that of one part is large, \c
+in rounds 1 to 4 that of the first, then that of the second. There are twelve \c
+agents: four in each part, or as an observer divides them, by how much work \c
+each part had in the round before. A leader by itself cannot have agents of \c
+others.").
 
 vary(control, [leaders, observer]).
 fixed(large, 16, assumed("size of a maze")).
@@ -28,7 +29,7 @@ fixed(limit, 2000, assumed("host seconds; rounds end long before")).
 
 label(large, "size of the large maze").
 label(time, "Seconds until all agents have converged, all rounds").
-label(settled, "The same, without rounds 1 and 5").
+label(settled, "Time until all agents have converged, without rounds 1 and 5").
 label(executions, "Executions of all agents").
 label(by_round, "Seconds until all agents have converged").
 label(workers, "Agents in the part with the large maze").
@@ -135,11 +136,11 @@ measure(workers, View, Pairs) :-
 
 claim("with an observer all agents have converged sooner", [ours],
       at([control=observer], time < at([control=leaders], time))).
-claim("without the first round and the one in which the work moves, too", [ours],
+claim("with an observer all converge sooner, without rounds 1 and 5", [ours],
       at([control=observer], settled < at([control=leaders], settled))).
-claim("it saves a fifth of the time in these", [ours],
+claim("an observer saves a fifth of the time, without rounds 1 and 5", [ours],
       at([control=observer], settled < 0.8*at([control=leaders], settled))).
-claim("without more executions", [ours],
+claim("an observer needs no more executions", [ours],
       at([control=observer], executions =< at([control=leaders], executions))).
 
 plot(lead_learning, "Agents that learn, while the work moves",

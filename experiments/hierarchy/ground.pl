@@ -7,7 +7,7 @@
 fixed(hop_time, 0.27-0.53, assumed("as in chapter 5")).
 
 label(control, "which level decides").
-label(leaders, "leaders, each by itself").
+label(leaders, "leaders, each for itself").
 label(observer, "observer").
 
 %   lead(+Case, +Homes, +Mechanism, +Settings, -Leaders)

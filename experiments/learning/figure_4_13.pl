@@ -34,14 +34,14 @@ claim("executions fall with the density", [line(2631)],
       falls(executions, along(density))).
 claim("sharing grows with the density", [line(2634)],
       rises(sharing, along(density))).
-claim("sharing gains more from D 0.1 to 0.2 than from there to 0.5",
+claim("sharing rises more from D 0.1 to 0.2 than from D 0.2 to 0.5",
       [line(2636)],
       at([density=0.2],
          sharing - at([density=0.1], sharing)
          > at([density=0.5], sharing) - sharing)).
-claim("hosts have no links at times", [line(2626)],
+claim("some hosts have no links at times", [line(2626)],
       some(least_degree =:= 0)).
-claim("and 27 at most, within a tenth",
+claim("hosts have at most 27 links, within a tenth",
       [line(2627), why("the mesh thins out, and 27 is what is left at 30 s")],
       near(most(most_degree), 27, 2.7)).
 

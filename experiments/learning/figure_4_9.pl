@@ -4,8 +4,8 @@
 :- include(sets).
 
 study('4.9', "Executions and sharing against the density of agents").
-text("Each set of points is a network, and goes from one agent to each ten \c
-hosts to five of them. One agent alone has no other to share with.").
+text("Each set of points is a network, with one to five agents per ten hosts. \c
+A single agent has no other agent to share with.").
 
 vary(network, [10, 20, 30, 40, 50, obstacle]).
 vary(density, [0.1, 0.2, 0.3, 0.4, 0.5]).
@@ -46,14 +46,14 @@ claim("no sharing with 1 agent on 10 hosts", [line(2519)],
 claim(Text, [line(2528)],
       at([network=N, density=0.4],
          abs(sharing - at([density=0.5], sharing)) < 0.05)) :-
-    each_network("less than 0.05 between D 0.4 and 0.5", N, Text).
+    each_network("sharing rises less than 0.05 from D 0.4 to 0.5", N, Text).
 claim("more sharing with an obstacle, at every density", [line(2526)],
       at([network=obstacle], sharing > at([network=50], sharing))).
-claim("sharing becomes less with time: 25 agents, 50 hosts", [line(2591)],
+claim("sharing decreases over time: 25 agents, 50 hosts", [line(2591)],
       at([network=50, density=0.5], trend < 0)).
-claim("and in all other cases", [line(2597)], trend < 0).
-claim("it decreases gradually, also before the first agent has converged",
-      [line(2594), why("it hardly changes while all are at work")],
+claim("sharing decreases over time in all cases", [line(2597)], trend < 0).
+claim("sharing decreases also before the first agent has converged",
+      [line(2594), why("it hardly changes while all agents are active")],
       at([network=50, density=0.5], early_trend < 0)).
 
 plot('4.9', "Executions that an agent needs until all have converged",
@@ -61,6 +61,6 @@ plot('4.9', "Executions that an agent needs until all have converged",
     sets('4.9', executions, Sets).
 plot('4.10', "Sharing events per execution", Sets) :-
     sets('4.10', sharing, Sets).
-plot('4.12', "Sharing events as time passes: 25 agents, 50 hosts",
+plot('4.12', "Sharing events over time: 25 agents, 50 hosts",
      script('sharing.gp', [times-times_rows, trend-trend_rows],
             [seed(first), size(1000, 520), variables(times_drawn)])).

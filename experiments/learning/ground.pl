@@ -22,7 +22,7 @@ fixed(limit, 50000, assumed("host seconds; runs end long before")).
 label(executions, "Executions per agent until all have converged").
 label(sharing, "Sharing events per execution").
 label(total, "Executions of all agents").
-label(duration, "Time until all have converged (s)").
+label(duration, "Time until all agents have converged (s)").
 label(density, "Agents by hosts, D").
 
 %   Both are averages of ten runs.

@@ -11,7 +11,7 @@
 :- use_module(library(pairs), [group_pairs_by_key/2]).
 
 label(trend, "Trend of sharing events (%)").
-label(early_trend, "Until the first has converged (%)").
+label(early_trend, "Trend until the first agent has converged (%)").
 label(obstacle, "50 hosts, obstacle").
 label(N, Text) :-
     vary(network, Networks),

@@ -10,11 +10,11 @@
 :- use_module(library(lists),
               [append/3, member/2, memberchk/2, nth0/3, nth1/3]).
 
-label(distinct, "Different final ways").
-label(overlap, "Overlap of final ways").
-label(spread, "Deviation of plans by their mean length").
-label(aside, "Final ways: mean distance from diagonal, or wall").
-label(nearer, "Shortest ways that are nearer (%)").
+label(distinct, "Distinct final paths").
+label(overlap, "Overlap of final paths").
+label(spread, "Deviation of the lengths of plans, relative to their mean").
+label(aside, "Final paths: mean distance from diagonal, or wall").
+label(nearer, "Shortest paths that are nearer (%)").
 
 measure(agents, View, Count) :-
     length(View.learners, Count).

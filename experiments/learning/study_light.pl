@@ -3,10 +3,11 @@
 :- include(ground).
 
 study(light, "Executions and sharing against the brightness of the light").
-text("The brightness at the goal scales the weight of all that is learnt, and \c
-so of the bag: the heavier it is, the sooner an agent ends its journey \c
-(equation 4.2), and the less it can meet. What the thesis prints is 195 and \c
-110 executions with one agent and two on 10 hosts, 92 with five on 50.").
+text("The brightness at the goal scales the weights of all units, and of the \c
+bag: the heavier the bag, the sooner an agent stops travelling (equation \c
+4.2), and the fewer agents it can meet. The thesis prints 195 and 110 \c
+executions with one and two agents on 10 hosts, and 92 with five agents on 50 \c
+hosts.").
 
 vary(network, [10, 50]).
 vary(light, [10, 100]).

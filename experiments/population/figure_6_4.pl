@@ -11,18 +11,18 @@
 :- use_module(library(lists), [member/2, min_member/2, subtract/3]).
 
 study('6.4', "Twenty hosts lose task 2 while task 4 is executed").
-text("As in Figure 6.3, but 20 hosts lose task 2 while task 4 is executed. \c
-Some agent of the second kind comes by, executes it again, clones itself.").
+text("As in Figure 6.3, but 20 hosts lose task 2 while task 4 is executed. An \c
+agent of the second kind visits them, executes it again, and clones itself.").
 
 fixed(crash, 20, printed("section 6.5")).
 
 printed(rise_time, [hosts=50], 250).
 printed(rise_time, [hosts=100], 300).
 
-label(crash_time, "When T2 was lost (s)").
-label(rise, "More Agent-2 than at the crash, at most").
-label(rise_time, "When there were most Agent-2 after the crash (s)").
-label(healed, "When the last host had T2 again (s)").
+label(crash_time, "Time of the crash (s)").
+label(rise, "Greatest increase of Agent-2 after the crash").
+label(rise_time, "Time of the greatest number of Agent-2 after the crash (s)").
+label(healed, "Time at which the last host had T2 again (s)").
 
 measure(lost, View, Count) :-
     length(View.failures, Count).
@@ -66,13 +66,13 @@ agent_2(View, Before, Peak) :-
 claim("all hosts that lost T2 execute it again, nothing else is executed \c
 again", [line(4347)],
       ( not_healed =:= 0, again =:= lost )).
-claim("meanwhile there are a few more Agent-2, fewer than at first",
+claim("the number of Agent-2 rises a little, to less than its first peak",
       [line(4350)],
       ( rise > 0, second_peak < first_peak )).
 claim("this rise is at around 250 s with 50 hosts",
       [line(4350), why("four tasks of 30 s and four idle times come first")],
       at([hosts=50], near(rise_time, 250, 25))).
-claim("and at around 300 s with 100", [line(4351)],
+claim("this rise is at around 300 s with 100 hosts", [line(4351)],
       at([hosts=100], near(rise_time, 300, 25))).
 claim("T4 and T5 keep their order", [line(4351)], later_overlapped =:= 0).
 

@@ -7,10 +7,10 @@
 :- use_module(library(lists), [member/2, memberchk/2, nth1/3]).
 
 study('6.1', "Table 6.1: the states of the agents").
-text("The first agents of five kinds. At first all are DORMANT. The one of the \c
-first task is EXCITED at once; each of the others when it perceives what the one \c
-before has completed. When its potential is zero an agent is ACTIVE, and stays \c
-so. The measures say when.").
+text("The first agents of five kinds. At first all are DORMANT. The agent of \c
+the first task is EXCITED at once; each of the others when it perceives that \c
+the previous task has been completed. When its potential is zero an agent is \c
+ACTIVE, and remains so. The measures are the times of these changes.").
 
 fixed(crash, 0, assumed("the table is of a network in which nothing fails")).
 
@@ -28,7 +28,7 @@ label(Measure, Text) :-
     upcase_atom(Mood, Upper),
     format(string(Text), "AT~d is ~w (s)", [Kind, Upper]).
 label(rows, "Rows of the table that were seen").
-label(others, "Rows between these: the next agent has not perceived it yet").
+label(others, "Rows between these: the next agent has not been stimulated yet").
 label(wrong, "Other rows").
 
 %   The times at which the first agent of each kind became excited, and active.
@@ -61,7 +61,7 @@ claim("all seven rows of the table are seen, in its order", [line(4072)],
 claim("there is no other row, but those in which the next agent has not yet \c
 perceived what is done", [line(4072)],
       wrong =:= 0).
-claim("every agent is DORMANT, then EXCITED, then ACTIVE, and stays so",
+claim("every agent is DORMANT, then EXCITED, then ACTIVE to the end",
       [line(4189)],
       lapses =:= 0).
 claim("the first agent is EXCITED at once (within 5 s)", [line(4175)],

@@ -35,14 +35,14 @@ printed(span_most, [], 60).
 printed(peak_most, [hosts=50], 30).
 printed(peak_most, [hosts=100], 60).
 
-label(span_least, "Shortest time that a task took (s)").
-label(span_most, "Longest time that a task took (s)").
+label(span_least, "Shortest duration of a task (s)").
+label(span_most, "Longest duration of a task (s)").
 label(gap_least, "Shortest idle time (s)").
 label(gap_most, "Longest idle time (s)").
 label(overlapped, "Overlapped executions").
 label(peak_least, "Least peak of a kind of agents").
 label(peak_most, "Greatest peak of a kind of agents").
-label(peak_total, "Agents in all, at most").
+label(peak_total, "Greatest number of agents").
 label(end, "End (s)").
 
 measure(missing, View, Count) :-
@@ -105,7 +105,7 @@ claim("the populations peak in the order of the tasks", [line(4339)],
 
 claim("each kind rises to around 30 agents with 50 hosts", [line(4344)],
       at([hosts=50], ( peak_least >= 20, peak_most =< 40 ))).
-claim("and to around 60 with 100", [line(4343)],
+claim("each kind rises to around 60 agents with 100 hosts", [line(4343)],
       at([hosts=100], ( peak_least >= 40, peak_most =< 80 ))).
 claim("the rise is greater with 100 hosts, about twice as great",
       [line(4343)],

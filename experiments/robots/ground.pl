@@ -20,8 +20,7 @@
 
 text("The bricks are simulated, and move with the clock of the hosts. Their \c
 serial lines and telegrams are real. With `--real`, or a clock that is a \c
-number, time is real, too: then robots are late where a computer has much \c
-else to do.").
+number, time is real, too: then robots are late if the computer is busy.").
 
 fixed(hop_time, 0.27-0.53, assumed("as in chapter 5")).
 fixed(telegram, 0.005, assumed("seconds that a telegram takes in virtual time; \c

@@ -10,7 +10,7 @@
 :- use_module(library(solution_sequences), [distinct/2]).
 
 study(boxes, "Robots push boxes").
-text("Boxes come in pairs, each of which needs so many robots to be moved. An \c
+text("Boxes appear in pairs; each box needs several robots to be moved. An \c
 allocator is released for each box, finds robots, and has them drive along \c
 lines to the box, push it, and drive back. While the second box of a pair is \c
 being pushed, robots join.").
@@ -60,15 +60,15 @@ view(Log, view{ case:(Log.case), hosts:(Log.hosts), terms:Terms, jobs:Jobs,
     max_list([0|Times], End),
     arena_terms(Log, Terms).
 
-label(pushed, "Boxes that came to their destination").
+label(pushed, "Boxes at their destination").
 label(completed, "Jobs that were completed").
 label(backoffs, "Back-offs").
-label(rested, "Rested, in all (s)").
-label(yielded, "Pairs with too few robots of which one waited").
-label(together, "Pairs with robots enough that were pushed together").
+label(rested, "Total time of back-offs (s)").
+label(yielded, "Pairs with too few robots, one box waited").
+label(together, "Pairs with enough robots, pushed at the same time").
 label(newcomers_used, "Robots that joined, and pushed").
-label(from_dock, "In the end a robot is from its place at most (m)").
-label(end, "The last robot is free (s)").
+label(from_dock, "Greatest distance of a robot from its place at the end (m)").
+label(end, "Time until the last robot is free (s)").
 
 measure(boxes, View, Count) :-
     aggregate_all(count, ( member(phase(Jobs, _), View.case.script),
@@ -150,13 +150,13 @@ claim("every box is pushed to its destination", [line(5073)],
       pushed =:= boxes).
 claim("every job is completed", [line(5073)],
       completed =:= boxes).
-claim("of two jobs that contend one backs off, and waits", [line(5071)],
+claim("of two competing jobs one backs off, and waits", [line(5071)],
       yielded =:= contending).
-claim("two jobs for which there are enough robots go on side by side", [ours],
+claim("two jobs with enough robots are executed at the same time", [ours],
       together =:= enough).
 claim("robots that join while others push are used", [line(5074)],
       newcomers_used =:= newcomers).
-claim("in the end all robots are in the dock (within 10 cm)", [line(5065)],
+claim("at the end all robots are in the dock (within 10 cm)", [line(5065)],
       from_dock < 0.1).
 
 plot(boxes, "Robots push boxes",

@@ -23,7 +23,7 @@
 study(pole, "Four robots carry a pole").
 text("In step, agents that travel have the robots drive up to the pole, lift \c
 it, carry it, and put it down. Alone, each robot does so without waiting for \c
-anybody.").
+others.").
 
 vary(way, [in_step, alone]).
 fixed(agents, 2, printed("section 5.7")).
@@ -110,17 +110,17 @@ view(Log, view{ hosts:(Log.hosts), executions:Executions, rows:Rows,
 
 label(way, "robots").
 label(second, "The first robot begins to lift (s)").
-label(third, "to carry").
-label(fourth, "to put down").
-label(end, "The last one has ended (s)").
+label(third, "The first robot begins to carry (s)").
+label(fourth, "The first robot begins to put down (s)").
+label(end, "The last robot has ended (s)").
 label(idle, "Idle time between the tasks, in all (s)").
-label(early, "Executions before all had ended the task before").
-label(overlaps, "Executions before all had begun the task before").
-label(apart, "Robots begin a task at most so long after each other (s)").
+label(early, "Executions before the previous task had ended").
+label(overlaps, "Executions before all had begun the previous task").
+label(apart, "Greatest time between starts of a task (s)").
 label(tau, "Distinct tasks required at a time, at most (τ)").
-label(tilt, "The pole tilts by at most (degrees)").
-label(over, "Time beyond the limit (s)").
-label(carried, "The pole is carried (m)").
+label(tilt, "Greatest tilt of the pole (degrees)").
+label(over, "Time beyond the limit of tilt (s)").
+label(carried, "Distance carried (m)").
 
 measure(Name, View, First) :-
     nth1(Task, [first, second, third, fourth], Name),
@@ -218,9 +218,9 @@ claim("all robots begin the first task at the same time (within 3 s)",
       at([way=in_step], started_within =< 3)).
 claim("the robots take different times to reach the pole", [line(3707)],
       at([way=in_step], slowest > 1.5*quickest)).
-claim("they begin to lift at the 27th second (within 5 s)", [line(3709)],
+claim("robots begin to lift at the 27th second (within 5 s)", [line(3709)],
       at([way=in_step], near(second, 27, 5))).
-claim("they begin to carry around the 54th second (within 5 s)",
+claim("robots begin to carry around the 54th second (within 5 s)",
       [line(3709), why("how long lifting took is not printed; with the 6 s here 46 s \c
 follow")],
       at([way=in_step], near(third, 54, 5))).
@@ -246,7 +246,7 @@ plot('5.14', "Four robots carry a pole",
               tilt-blocks(tilts), tau-blocks(taus) ],
             [seed(first), size(1200, 1300), variables(variables)])).
 plot(in_step, "The run in step", file('arena.svg', [way=in_step])).
-plot(alone, "Each by itself", file('arena.svg', [way=alone])).
+plot(alone, "Each robot alone", file('arena.svg', [way=alone])).
 
 %   Files have a block for each value of `way`, and two empty lines after it.
 

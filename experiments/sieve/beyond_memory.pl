@@ -8,9 +8,9 @@
 
 study(memory, "The antigen of rounds 1 to 5 returns in round 14").
 text("00000 attacks for five rounds, then 11111 for eight, until the clones \c
-of the first have died of age, then 00000 again. Hosts call three times \c
-before they help themselves. An agent that was chosen twice may become a \c
-memory cell, which does not die.").
+of the first have died of age, then 00000 again. Hosts emit three danger \c
+signals before they generate an antibody. An agent that was chosen twice may \c
+become a memory cell, which does not die.").
 
 vary(memory_cells, [0, 1]).
 fixed(memory_wins, 2, tuned("with 3 there were few memory cells")).
@@ -18,10 +18,10 @@ fixed(calls, 3, tuned("with 1 hosts help themselves too soon")).
 
 plan(_, [['00000']-5, ['11111']-8, ['00000']-3]).
 
-label(first, "First response: a host waits (s)").
-label(second, "Second response: a host waits (s)").
-label(helped, "Share of hosts that agents help in rounds 14 to 16").
-label(cells, "Memory cells that were appointed").
+label(first, "First response: waiting time of a host (s)").
+label(second, "Second response: waiting time of a host (s)").
+label(helped, "Share of hosts served by agents in rounds 14 to 16").
+label(cells, "Memory cells appointed").
 
 measure(seconds, Rounds, Curve) :-
     findall(R-Mean, ( nth1(R, Rounds, _), waited(Rounds, R, Mean) ), Curve).
@@ -62,9 +62,9 @@ able(Rounds, R, Count) :-
 
 claim("with memory cells the second response is faster than the first",
       [ours], at([memory_cells=1], second < first)).
-claim("and faster than the second one without them", [ours],
+claim("with memory cells the second response is faster than without", [ours],
       at([memory_cells=1], second < at([memory_cells=0], second))).
-claim("and agents help more of the hosts", [ours],
+claim("with memory cells agents serve more of the hosts", [ours],
       at([memory_cells=1], helped > at([memory_cells=0], helped))).
 
 plot(memory, "The antigen of rounds 1 to 5 returns in round 14",

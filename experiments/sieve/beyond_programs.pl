@@ -8,10 +8,10 @@
 :- use_module(library(aggregate), [aggregate_all/3]).
 :- use_module(library(lists), [member/2, nth1/3, sum_list/2]).
 
-study(programs, "Programs that steer a robot round obstacles, sieved").
+study(programs, "Programs that steer a robot round obstacles, as antibodies").
 text("Antibodies are small programs, drawn at random. Three obstacles attack \c
-in each of 12 rounds. Feedback is 31 less the steps beyond the shortest way, \c
-0 for a program that does not come to the goal.").
+in each of 12 rounds. Feedback is 31 less the steps beyond the shortest path, \c
+0 for a program that does not reach the goal.").
 
 fixed(application, payloads(sieve/maze), assumed("code is what is sieved")).
 fixed(topology, random(40, 0.15), assumed("smaller: programs take time")).
@@ -19,8 +19,8 @@ fixed(attacked, 5, assumed("the share of hosts is as in Figure 3.3")).
 
 plan(_, [[block(left), corner(right), corridor(left)]-12]).
 
-label(drawn, "Feedback of the programs that were drawn").
-label(brought, "Feedback of those that agents bring in the last round").
+label(drawn, "Mean feedback of random programs").
+label(brought, "Mean feedback of programs of agents, last round").
 label(able_first, "Agents with a good program after round 1 (%)").
 label(able_last, "Agents with a good program after the last round (%)").
 
@@ -87,9 +87,9 @@ good(Program) :-
     Xi > 0,
     !.
 
-claim("the programs that serve in the last round are better than those drawn",
+claim("programs of agents in the last round are better than random ones",
       [ours], brought > drawn).
-claim("more of the agents can get round some obstacle than at first", [ours],
+claim("more agents can pass some obstacle than after round 1", [ours],
       able_last > able_first).
 
 plot(programs, "Programs in the sieve",

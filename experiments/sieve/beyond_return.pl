@@ -5,11 +5,11 @@
 :- use_module(library(aggregate), [aggregate_all/3]).
 :- use_module(library(lists), [member/2, sum_list/2]).
 
-study(return, "An antigen that comes back after others").
+study(return, "An antigen that returns after others").
 text("00000 attacks for six rounds, then two other antigens for two or for \c
-eight; clones live five rounds. Then 00000 comes back, and with it 00001, which \c
-is similar, and 11011, which never came before. No antibody answers two of \c
-00000, 11011 and the others.").
+eight; clones live five rounds. Then 00000 returns, together with 00001, \c
+which is similar, and 11011, which is new. No antibody answers two of 00000, \c
+11011 and the others.").
 
 vary(memory_cells, [0, 1]).
 vary(others, [2, 8]).
@@ -26,12 +26,12 @@ plan(Case, [ ['00000']-6, ['11100', '10110']-Case.others,
 label(0, "without memory cells").
 label(1, "with memory cells").
 label(others, "Rounds of other antigens in between").
-label(first, "First response: a host waits (s)").
+label(first, "First response: waiting time of a host (s)").
 label(second, "Second response (s)").
 label(similar, "Response to 00001, which is similar (s)").
 label(stranger, "Response to 11011, which is new (s)").
-label(left, "Agents that can answer 00000 when it comes back").
-label(cells, "Memory cells that were appointed").
+label(left, "Agents that can answer 00000 when it returns").
+label(cells, "Memory cells appointed").
 
 measure(first, Rounds, Seconds) :-
     waited(Rounds, 1, '00000', Seconds).
@@ -66,7 +66,7 @@ answers(Kind) :-
 claim("with memory cells the second response takes less than half as long as \c
 the first", [ours],
       at([memory_cells=1], second < first/2)).
-claim("after eight rounds of others it is faster than without memory cells",
+claim("after eight rounds memory cells make the second response faster",
       [ours],
       at([memory_cells=1, others=8], second < at([memory_cells=0], second))).
 claim("without them it takes longer after eight rounds than after two", [ours],
@@ -77,14 +77,14 @@ after eight", [ours],
       - at([memory_cells=1, others=2], second)
       < at([memory_cells=0, others=8], second)
         - at([memory_cells=1, others=8], second)).
-claim("after eight rounds a similar antigen is answered no later with them",
+claim("after eight rounds memory cells do not delay a similar antigen",
       [ours],
       at([memory_cells=1, others=8],
          similar =< at([memory_cells=0], similar))).
-claim("a new one is answered as late as the first one was", [ours],
+claim("a new antigen is answered as late as the first one", [ours],
       stranger >= 0.95*first).
 
-plot(return, "00000 comes back after other antigens",
+plot(return, "00000 returns after other antigens",
      lines([ x(others), y([second, similar, left]), line(memory_cells),
              rule(second, 7.2), rule(similar, 7.2),
              subtitle("lines at 7.2 s: first response, and that to a new \c

@@ -6,10 +6,10 @@
 :- use_module(library(lists),
               [max_list/2, member/2, memberchk/2, min_list/2]).
 
-study('3.3', "Antigens 00000, 11111, 10101: their complements are left").
+study('3.3', "Antigens 00000, 11111, 10101: their complements remain").
 text("Three dissimilar antigens attack hosts drawn at random in each of 15 \c
-rounds. Hosts without help draw an antibody at random; antibodies that \c
-do better than others at a host clone themselves, the others die.").
+rounds. A host that no agent serves generates a random antibody; antibodies \c
+that do better than others at a host clone themselves, the others die.").
 
 plan(_, [['00000', '11111', '10101']-15]).
 
@@ -19,12 +19,12 @@ printed(other_most, [], 3).
 printed(kinds, [], 14).
 printed(last_new, [], 5).
 
-label(least_complement, "Agents of each complement in the end, at least").
-label(other_most, "Agents of any other kind in the end, at most").
-label(kinds, "Kinds in all").
-label(last_new, "Round in which the last new kind came").
+label(least_complement, "Agents of each complement at the end, at least").
+label(other_most, "Agents of any other kind at the end, at most").
+label(kinds, "Number of kinds").
+label(last_new, "Round of the last new kind").
 label(clones_of_complements, "Share of the complements among later clones").
-label(share, "Share of the complements among what is generated later").
+label(share, "Share of the complements among later generated ones").
 
 measure(least_complement, Rounds, Least) :-
     complements(Kinds),
@@ -61,18 +61,18 @@ later_share(Rounds, How, Share) :-
     Total > 0,
     Share is Part/Total.
 
-claim("in the end the complements are the three largest populations",
+claim("at the end the complements are the three largest populations",
       [line(1482)], least_complement > other_most).
-claim("no other kind has more than 3 agents then", [line(1490)],
+claim("at the end no other kind has more than 3 agents", [line(1490)],
       other_most =< 3).
 claim("14 kinds in all", [line(1481), why("16 kinds can answer one of the \c
 antigens, and hosts that are left alone draw all of them sooner or later")],
       kinds =:= 14).
-claim("new kinds come until round 5, not later", [line(1514)],
+claim("new kinds appear until round 5, not later", [line(1514)],
       last_new =< 5).
 claim("then the three dominate what is generated", [line(1515)],
       share > 0.5).
-claim("nine in ten clones are of them", [line(1515), ours],
+claim("nine in ten later clones are complements", [line(1515), ours],
       clones_of_complements >= 0.9).
 
 plot('3.3', "Antigens 00000, 11111, 10101",

@@ -6,8 +6,8 @@
 :- use_module(library(lists), [max_list/2, member/2, min_list/2]).
 
 study('3.4', "Antigens 00000, 00001, 00011: a generic antibody").
-text("Three antigens that are nearly alike attack in each of 15 rounds. \c
-11110 answers all of them.").
+text("Three similar antigens attack in each of 15 rounds. 11110 answers all \c
+of them.").
 
 real([], [clock=2, processes=2]).
 
@@ -16,10 +16,10 @@ plan(_, [['00000', '00001', '00011']-15]).
 printed(leads_from, [], 5).
 
 label(leads_from, "Round from which on 11110 leads").
-label(share, "Share of 11110 in the end").
+label(share, "Share of 11110 at the end").
 label(cloned_least, "Clones of 11110 in a round from 5 on, at least").
-label(second, "Agents with 11111 in the end").
-label(other_most, "Agents of any other kind in the end, at most").
+label(second, "Agents with 11111 at the end").
+label(other_most, "Agents of any other kind at the end, at most").
 label(traces, "Agents with 11111 generated in rounds 11 and 12").
 
 measure(leads_from, Rounds, From) :-
@@ -49,11 +49,11 @@ leads(Kind, Rounds, Round) :-
 
 claim("11110 has the largest population from round 5 on", [line(1530)],
       leads_from =< 5).
-claim("and is more than half of all in the end", [line(1530), ours],
+claim("11110 is more than half of all at the end", [line(1530), ours],
       share > 0.5).
-claim("it makes clones in each of rounds 5 to 15", [line(1538)],
+claim("11110 makes clones in each of rounds 5 to 15", [line(1538)],
       cloned_least > 0).
-claim("11111 thrives: it is the second in the end", [line(1536)],
+claim("11111 thrives: it is the second largest at the end", [line(1536)],
       second > other_most).
 claim("traces of 11111 are generated in rounds 11 and 12", [line(1539)],
       traces > 0).

@@ -7,18 +7,18 @@
 
 study('3.5', "Other antigens from round 6 on: the populations follow").
 text("For five rounds 00000, 00001 and 00011 attack, for five more 11100, \c
-11101 and 11001. What answered the first three is needed no more.").
+11101 and 11001. Antibodies against the first three are not needed any more.").
 
 plan(_, [ ['00000', '00001', '00011']-5, ['11100', '11101', '11001']-5 ]).
 
-label(generic_5, "11110 at round 5").
+label(generic_5, "Agents with 11110 at round 5").
 label(other_5, "Any other kind at round 5, at most").
-label(generic_10, "11110 at round 10").
-label(aged, "Of 11110 died of age from round 6 on").
-label(suppressed, "Of 11110 were suppressed from round 6 on").
-label(new_5, "00010 at round 5").
-label(new_10, "00010 at round 10").
-label(growth_least, "00010 more in a round from 6 on, at least").
+label(generic_10, "Agents with 11110 at round 10").
+label(aged, "Agents with 11110 that died of age from round 6 on").
+label(suppressed, "Agents with 11110 suppressed from round 6 on").
+label(new_5, "Agents with 00010 at round 5").
+label(new_10, "Agents with 00010 at round 10").
+label(growth_least, "Least growth of 00010 in a round from 6 on").
 label(other_10, "Any other kind at round 10, at most").
 
 measure(generic_5, Rounds, N) :-
@@ -49,9 +49,9 @@ measure(other_10, Rounds, N) :-
 
 claim("11110 grows until round 5: it has the largest population then",
       [line(1543)], generic_5 > other_5).
-claim("then it wanes, to half of that at round 10 or less",
+claim("then 11110 wanes, to at most half of that at round 10",
       [line(1543), ours], generic_10 =< 0.5*generic_5).
-claim("as its clones die of age, not by suppression", [line(1544)],
+claim("11110 wanes as its clones die of age, not by suppression", [line(1544)],
       aged > suppressed).
 claim("00010 grows from round 6 on, in each round", [line(1545)],
       ( new_5 =:= 0, growth_least > 0 )).

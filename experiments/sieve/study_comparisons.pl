@@ -8,7 +8,7 @@
 study(comparisons, "Which agent is better? Four readings").
 text("\"Past performance\" may be the feedback for the present antigen, for \c
 antigens similar to it, for all antigens that both agents know, or for all \c
-that an agent knows. Each figure's own sentence is looked at.").
+that an agent knows. One claim of each figure is tested.").
 
 vary(reading, [similar, current, common, total]).
 vary(figure, ['3.3', '3.4', '3.5']).
@@ -23,11 +23,11 @@ plan_of('3.4', [['00000', '00001', '00011']-15]).
 plan_of('3.5', [ ['00000', '00001', '00011']-5,
                  ['11100', '11101', '11001']-5 ]).
 
-label(complements, "Agents of each complement in the end, at least").
-label(not_complements, "Agents of any other kind in the end, at most").
-label(generic, "Share of 11110 in the end").
-label(new, "Agents with 00010 in the end").
-label(not_new, "Agents of any other kind but 00010 in the end, at most").
+label(complements, "Agents of each complement at the end, at least").
+label(not_complements, "Agents of any other kind at the end, at most").
+label(generic, "Share of 11110 at the end").
+label(new, "Agents with 00010 at the end").
+label(not_new, "Agents of any kind but 00010 at the end, at most").
 
 measure(complements, Rounds, Least) :-
     findall(N, ( member(Kind, ['11111', '00000', '01010']),

@@ -5,9 +5,9 @@
 :- use_module('../../agents/sync/operator', [sequence_start/5]).
 
 study(selected, "Tasks in step on selected hosts").
-text("A part of the hosts of a grid execute three tasks in step; the others are \c
-only on the way.  The selected hosts are drawn, or stand at two opposite ends of \c
-the grid.").
+text("A part of the hosts of a grid execute three tasks in step; the others \c
+are only on the way.  The selected hosts are drawn, or stand at two opposite \c
+ends of the grid.").
 
 vary(place, [scattered, apart]).
 vary(share, [0.1, 0.25, 0.5, 1]).
@@ -46,13 +46,13 @@ selected(apart, Case, Hosts, Selected) :-
 
 claim("each selected host executes each task once, in order", [ours],
       ( missing =:= 0, out_of_order =:= 0, executions =:= wanted )).
-claim("no task begins before all selected hosts have the one before", [ours],
+claim("no task begins before all selected hosts have the previous one", [ours],
       overlaps =:= 0).
-claim("the fewer are selected, the longer it takes: agents are penalised only \c
-there", [ours],
+claim("fewer selected hosts take longer: agents are penalised only there",
+      [ours],
       at([hosts=60], falls(total, along(share)))).
-claim("with as many agents for a host, 500 hosts take less than twice as long as \c
-60", [ours],
+claim("with as many agents per host, 500 hosts take less than twice as long",
+      [ours],
       at([share=0.25], last(total, along(hosts)) < 2*first(total, along(hosts)))).
 
 plot(selected, "Tasks in step on selected hosts",

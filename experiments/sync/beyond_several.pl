@@ -4,12 +4,12 @@
 :- use_module('../../prolog/typhon', [agent_join/3, network_property/2]).
 :- use_module('../../agents/sync/several', [sequences_start/3]).
 
-study(several, "Several sequences at once, on hosts that they share").
+study(several, "Several sequences at once, on shared hosts").
 text("Three sequences of three tasks, each on two thirds of the hosts of a \c
-grid, drawn for each, and with agents of its own.  Hosts execute one task at a \c
-time.  Dependent: a host executes task 2 of the second sequence after task 2 of \c
-the first, of the third after that of the second, and task 3 of the first after \c
-task 2 of the third, where it has a part in both.").
+grid, drawn for each, and with agents of its own.  Hosts execute one task at \c
+a time.  Dependent: a host executes task 2 of the second sequence after task \c
+2 of the first, of the third after that of the second, and task 3 of the \c
+first after task 2 of the third, if the host takes part in both.").
 
 vary(dependent, [false, true]).
 vary(hosts, [60, 200]).
@@ -17,8 +17,8 @@ fixed(sequences, 3, assumed("a circle of sequences, but not of tasks")).
 fixed(share, 2/3, assumed("of the hosts, so most have several sequences")).
 derive(agents, Case, Count) :- Count is Case.hosts // 6.
 
-label(early, "Executions before the task of another sequence they wait for").
-label(both, "Pairs of executions of one host at the same time").
+label(early, "Executions before the required task of another sequence").
+label(both, "Pairs of simultaneous executions of one host").
 
 run(Case, Network) :-
     network_property(Network, hosts(Hosts)),
@@ -71,16 +71,17 @@ early(Parts) :-
 claim("each host executes each task of its sequences once, in order", [ours],
       ( missing =:= 0, out_of_order =:= 0, executions =:= wanted )).
 claim("no host executes two tasks at once", [ours], both =:= 0).
-claim("no task is executed before the one it waits for", [ours],
+claim("no task is executed before the task it waits for", [ours],
       at([dependent=true], early =:= 0)).
-claim("which happens where none has to wait", [ours],
+claim("without dependences tasks are executed before these", [ours],
       at([dependent=false], early > 0)).
-claim("without dependences no sequence overlaps with itself: no task begins \c
-before all its hosts have the one before", [ours],
+claim("without dependences no task begins before all its hosts have the \c
+previous one", [ours],
       at([dependent=false], overlaps =:= 0)).
-claim("nor with them", [ours], at([dependent=true], overlaps =:= 0)).
-claim("with as many agents for a host, the largest network takes less than twice \c
-as long as the smallest", [ours],
+claim("with dependences no task begins before all its hosts have the \c
+previous one", [ours], at([dependent=true], overlaps =:= 0)).
+claim("with as many agents per host, the largest network takes less than \c
+twice as long as the smallest", [ours],
       last(total, along(hosts)) < 2*first(total, along(hosts))).
 
 plot(several, "Several sequences at once",

@@ -45,7 +45,7 @@ of_runs(Subtitle, Runs, [ 'SUBTITLE'-Text, rows-Count, end-End, most-Most,
 
 healed_title(Name, Delta, Ms, Title) :-
     format(string(Title), "{/:Bold ~w (δ = ~w)}   ~d of ~d lost executions \c
-done again in ~1f s, {/:Italic τ} = ~d meanwhile",
+repeated in ~1f s, {/:Italic τ} = ~d meanwhile",
            [Name, Delta, Ms.redone, Ms.lost, Ms.healing_time,
             Ms.healing_tau]).
 

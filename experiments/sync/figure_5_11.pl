@@ -13,11 +13,11 @@ printed(redone, [], 20).
 printed(healing_tau, [], 3).
 printed(later_tau, [], 2).
 
-label(redone, "Lost executions that were done again").
-label(healing_time, "Until they are done again (s)").
-label(healing_tau, "Distinct tasks required meanwhile (τ)").
-label(meanwhile, "Executions of other tasks meanwhile").
-label(later_tau, "Distinct tasks required afterwards (τ)").
+label(redone, "Lost executions that were repeated").
+label(healing_time, "Time of healing (s)").
+label(healing_tau, "Distinct tasks required while healing (τ)").
+label(meanwhile, "Executions of other tasks while healing").
+label(later_tau, "Distinct tasks required after healing (τ)").
 
 claim(Text, [line(Line)], at([topology=Name], Test)) :-
     best_delta(Name, _),
@@ -29,13 +29,13 @@ said("20 hosts lose T2, and each executes it again", 3633,
      ( lost =:= 20, redone =:= 20 )).
 said("three distinct tasks are required while healing (τ)", 3640,
      healing_tau =:= 3).
-said("other agents go on meanwhile", 3639, meanwhile > 0).
-said("then T5 and T6 are finished everywhere, nothing else is repeated", 3641,
+said("other agents execute other tasks while healing", 3639, meanwhile > 0).
+said("all hosts finish T5 and T6, nothing else is repeated", 3641,
      ( missing =:= 0, executions =:= hosts*tasks + 20 )).
 said("two distinct tasks at most after healing (τ)", 3641, later_tau =< 2).
 said("no host executes a task before the earlier ones", 3566,
      out_of_order =:= 0).
-said("no overlapped executions, but for what is healed", 3628, overlaps =:= 0).
+said("no overlapped executions, except repeated ones", 3628, overlaps =:= 0).
 
 plot('5.11', "Healing of atomic failures", Picture) :-
     gallery("20 hosts lose T2 when T5 begins (dashed); left: executions \c

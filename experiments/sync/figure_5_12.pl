@@ -13,10 +13,10 @@ fixed(failure, cascaded(2, 60, 5), printed("section 5.6.6: at all nodes")).
 label(none, "Grid").
 label(dynamic_2, "Dynamic II").
 label(lost, "Executions lost").
-label(redone, "Lost executions that were done again").
-label(healing_time, "Until they are done again (s)").
-label(healing_tau, "Distinct tasks required meanwhile (τ)").
-label(later_tau, "Distinct tasks required afterwards (τ)").
+label(redone, "Lost executions that were repeated").
+label(healing_time, "Time of healing (s)").
+label(healing_tau, "Distinct tasks required while healing (τ)").
+label(later_tau, "Distinct tasks required after healing (τ)").
 
 claim(Text, [line(Line)], at([links=Links], Test)) :-
     member(Links, [none, dynamic_2]),
@@ -24,9 +24,9 @@ claim(Text, [line(Line)], at([links=Links], Test)) :-
     said(Said, Line, Test),
     format(string(Text), "~w: ~w", [Title, Said]).
 
-said("every host executes T2 and what followed again", 3650,
+said("every host executes T2 and the later tasks again", 3650,
      ( lost >= 180, lost_hosts =:= 60, redone =:= lost )).
-said("and in order", 3656, out_of_order =:= 0).
+said("every host executes these tasks in order", 3656, out_of_order =:= 0).
 said("no overlapped executions before or after the failure", 3656,
      overlaps =:= 0).
 said("two distinct tasks at most while healing and after (τ)", 3656,

@@ -5,12 +5,12 @@
 :- use_module(library(aggregate)).
 :- use_module(library(lists)).
 
-study('5.2', "How a potential falls").
-text("What one agent's drive for one task does, visit by visit, until the \c
-potential is zero. All claims are of the formula. With δ outside the product, \c
-as Figure 5.6 demands, the curves of θ lie apart at the end, relative to what \c
-θ is; with δ inside they would meet as section 5.4.1 says of Figure 5.2 b, but \c
-no potential would ever come to zero.").
+study('5.2', "Decrease of a potential").
+text("The potential of one agent for one task, visit by visit, until it is \c
+zero. All claims are about the formula. With δ outside the product, as Figure \c
+5.6 requires, the curves of θ remain apart at the end, relative to θ; with δ \c
+inside they would meet as section 5.4.1 states for Figure 5.2 b, but no \c
+potential would ever reach zero.").
 
 vary(delta, [0.2, 0.3, 0.5, 0.8, 1.0]).
 fixed(theta, 15, printed("section 5.4.1")).
@@ -71,22 +71,23 @@ label(last_theta, "Last penalty").
 
 claim("the larger δ, the sooner a potential is zero", [formula, line(3187)],
       falls(visits, along(delta))).
-claim("it falls fast first, and slowly at the end", [formula, line(3182)],
+claim("a potential falls fast first, and slowly at the end",
+      [formula, line(3182)],
       first_penalty > last_theta).
-claim("a reward raises it for a while", [formula, line(3189)],
+claim("a reward raises a potential for a while", [formula, line(3189)],
       not_raised =:= 0).
 claim("the larger δ, the larger θ at the end", [formula, line(3196)],
       rises(last_theta, along(delta))).
 claim("the curves of θ are apart at first, and nearer to each other at the end",
       [formula, line(3193)],
       most(late) - least(late) < most(early) - least(early)).
-claim("the same, relative to θ",
+claim("relative to θ the curves of θ are nearer at the end",
       [ formula, line(3193),
         why("only with δ inside the product; but then Figure 5.6 does not hold") ],
       (most(late) - least(late))/mean(late)
       < (most(early) - least(early))/mean(early)).
 
-plot('5.2', "How a potential falls",
+plot('5.2', "Decrease of a potential",
      script('potentials.gp', [curves-curves, rewards-rewards],
             [seed(first), size(1000, 870), variables(deltas)])).
 

@@ -9,7 +9,7 @@ vary(topology, [star_bus, ring, tree, grid]).
 derive(delta, Case, Delta) :- best_delta(Case.topology, Delta).
 real([topology=grid], [clock=10, processes=4]).
 
-label(burst, "Hosts on which T1 begins within a second").
+label(burst, "Hosts on which T1 begins within one second").
 label(serviced, "T1 has begun everywhere (s)").
 label(unrequired, "T1 is no longer required (s)").
 label(second, "T2 begins (s)").
@@ -52,21 +52,22 @@ claim(Text, [line(Line)], at([topology=Name], Test)) :-
 claim(Text, [line(3393)|Why], at([topology=Name], near(idle, Printed, Fifth))) :-
     printed(idle, [topology=Name], Printed),
     label(Name, Title),
-    format(string(Text), "~w: ~w s idle in all, within a fifth",
+    format(string(Text), "~w: total idle time ~w s, within a fifth",
            [Title, Printed]),
     Fifth is Printed/5,
     why(Name, Why).
-claim("idle longest on tree, then star-bus, ring, grid",
+claim("idle time is longest on tree, then star-bus, ring, grid",
       [line(3393), why("as for the tree")],
       ( at([topology=tree], idle) > at([topology=star_bus], idle),
         at([topology=star_bus], idle) > at([topology=ring], idle),
         at([topology=ring], idle) > at([topology=grid], idle) )).
-claim("and without the tree: star-bus, ring, grid", [line(3393)],
+claim("without the tree idle time is longest on star-bus, ring, grid",
+      [line(3393)],
       ( at([topology=star_bus], idle) > at([topology=ring], idle),
         at([topology=ring], idle) > at([topology=grid], idle) )).
 claim("Star-bus: T1 begins on more hosts than there are agents within a second",
       [line(3357)], at([topology=star_bus], burst > agents)).
-claim("Star-bus: on 19", [line(3356)],
+claim("Star-bus: T1 begins on 19 hosts within a second", [line(3356)],
       at([topology=star_bus], near(burst, 19, 2))).
 claim("Star-bus: T1 has begun everywhere by the 9th second", [line(3360)],
       at([topology=star_bus], serviced =< 9)).
@@ -79,7 +80,7 @@ said("two distinct tasks are required at most (τ)", 3387, tau =< 2).
 said("no overlapped executions", 3376, overlaps =:= 0).
 said("every host executes every task once, in order", 2966,
      ( missing =:= 0, executions =:= hosts*tasks, out_of_order =:= 0 )).
-said("idle between any two tasks", 3368, least_gap > 0).
+said("all hosts are idle between any two tasks", 3368, least_gap > 0).
 said("the first burst is the largest", 3423, burst > later_burst).
 said("there are gaps in the execution of some task", 3412, pause > 0).
 

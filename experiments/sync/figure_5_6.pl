@@ -25,12 +25,12 @@ claim(Text, [line(3443)],
 claim(Text, [line(3444)],
       at([topology=Name], rises(overlaps, along(delta), ends))) :-
     member(Name, [star_bus, tree, grid]),
-    of(Name, "overlaps beyond it", Text).
+    of(Name, "overlaps above the best δ", Text).
 claim(Text, [line(3444)],
       at([topology=Name], holds(in_order(overlaps, =<)))) :-
     member(Name, [star_bus, tree, grid]),
-    of(Name, "the more, the larger δ, with each step", Text).
-claim("Star-bus, tree: overlaps with the next δ, 0.3", [line(3445)],
+    of(Name, "more overlaps with each larger δ", Text).
+claim("Star-bus, tree: overlaps at the next δ, 0.3", [line(3445)],
       ( at([topology=star_bus, delta=0.3], overlaps > 0),
         at([topology=tree, delta=0.3], overlaps > 0) )).
 claim("Ring: no overlaps up to δ = 1.0", [line(3450)],
@@ -38,7 +38,7 @@ claim("Ring: no overlaps up to δ = 1.0", [line(3450)],
 claim("overlaps begin at a smaller δ on star-bus and tree than on grid and \c
 ring", [line(3448)],
       holds(earlier([star_bus, tree], [grid, ring]))).
-claim("where executions overlap three distinct tasks are required (τ)",
+claim("if executions overlap three distinct tasks are required (τ)",
       [ line(3438),
         why("as τ is defined an executing host requires nothing, so a few \c
 overlaps pass without a third task") ],

@@ -26,25 +26,25 @@ claim(Text, [line(3490)],
 claim(Text, [line(3490)],
       at([topology=Name, hosts=60], overlaps =:= 0)) :-
     member(Name, [star_bus, tree]),
-    of(Name, "none with 5 to 20 agents", Text).
+    of(Name, "no overlapped executions with 5 to 20 agents", Text).
 claim(Text, [line(3490)], at([topology=Name, hosts=60], Test)) :-
     member(Name-Agents, [grid-5, ring-20]),
     Test = ( at([agents=Agents], overlaps > 0),
              holds(none_but(Agents)) ),
-    format(string(Said), "some with ~d agents, none with others", [Agents]),
+    format(string(Said), "overlapped executions only with ~d agents", [Agents]),
     of(Name, Said, Text).
 claim(Text, [line(3495), why("idle time grows with the number of agents, as \c
 hosts are visited more often, and so agents penalised")],
       at([topology=Name, hosts=60], least(idle, agents=Best))) :-
     member(Name-Best, [tree-10, star_bus-10, grid-10, ring-5]),
-    format(string(Said), "idle shortest with ~d agents", [Best]),
+    format(string(Said), "shortest idle time with ~d agents", [Best]),
     of(Name, Said, Text).
 claim(Text, [line(3487)],
       at([topology=tree, hosts=60, agents=Agents],
          near(idle, Printed, Fifth))) :-
     printed(idle, [topology=tree, hosts=60, agents=Agents], Printed),
     Fifth is Printed/5,
-    format(string(Text), "Tree: ~d s idle with ~d agents, within a fifth",
+    format(string(Text), "Tree: idle time ~d s with ~d agents, within a fifth",
            [Printed, Agents]).
 claim(Text, [line(3510)],
       at([topology=Name, agents=10], overlaps =:= 0)) :-

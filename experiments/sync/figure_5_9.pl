@@ -30,7 +30,8 @@ said("two distinct tasks at most (τ)", 3591, tau =< 2).
 said("every host executes every task", 3601, missing =:= 0).
 said("idle time grows with the number of agents", 3593,
      rises(idle, along(agents), ends)).
-said("and with each step of it", 3593, rises(idle, along(agents))).
+said("idle time grows with each larger number of agents", 3593,
+     rises(idle, along(agents))).
 
 plot('5.9', "Idle time and overlaps in dynamic networks",
      lines([x(agents), y([idle, overlaps]), line(links),

@@ -4,9 +4,9 @@
 :- include(ground).
 :- include(links).
 
-study(links, "Dynamic networks: how often links change, and how many are there").
-text("In a network where a host can be cut off for a whole task, executions \c
-overlap, or are missing: agents do not wait for a host that they cannot reach.").
+study(links, "Dynamic networks: frequency of changes, and number of links").
+text("If a host can be isolated for a whole task, executions overlap, or are \c
+missing: agents do not wait for a host that they cannot reach.").
 
 vary(links, [dynamic_1, dynamic_2]).
 vary(drop_1, [0.2, 0.5]).
@@ -18,10 +18,10 @@ skip(Case) :- Case.links == dynamic_2, Case.drop_1 =:= 0.5.
 
 label(missing, "Executions missing").
 
-claim("Dynamic I drops rarely: no overlaps, every host executes every task",
+claim("Dynamic I, few drops: no overlaps, every host executes every task",
       [ours],
       at([links=dynamic_1, drop_1=0.2], (overlaps =:= 0, missing =:= 0))).
-claim("Dynamic I drops as Dynamic II does: the same", [ours],
+claim("Dynamic I, drops as II: no overlaps, all tasks are executed", [ours],
       at([links=dynamic_1, drop_1=0.5], (overlaps =:= 0, missing =:= 0))).
-claim("Dynamic II: the same", [ours],
+claim("Dynamic II: no overlaps, every host executes every task", [ours],
       at([links=dynamic_2], (overlaps =:= 0, missing =:= 0))).

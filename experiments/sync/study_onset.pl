@@ -2,10 +2,10 @@
 
 :- include(ground).
 
-study(onset, "Where overlapped executions begin").
-text("Only the ratio of task time to hop time can matter for overlaps, so \c
-hops stay as they are. The thesis has 0.2 on star-bus and tree, 0.5 on the \c
-grid, and none on the ring.").
+study(onset, "The least δ with overlapped executions").
+text("Only the ratio of task time to hop time can matter for overlaps, so the \c
+hop time is constant. In the thesis overlaps begin above 0.2 on star-bus and \c
+tree, above 0.5 on the grid, and not at all on the ring.").
 
 vary(task_time, [1, 3]).
 vary(topology, [star_bus, ring, tree, grid]).
@@ -17,12 +17,12 @@ measure(overlapped, View, Yes) :-
     maplist(overlaps, View.phases, Lists),
     ( append(Lists, [_|_]) -> Yes = 1 ; Yes = 0 ).
 
-claim("at every task time none at the best δ of the thesis", [ours],
+claim("at every task time no overlaps at the best δ of the thesis", [ours],
       holds(none_at_best)).
 claim("at every task time star-bus and tree overlap at 0.5", [ours],
       ( at([topology=star_bus, delta=0.5], overlaps > 0),
         at([topology=tree, delta=0.5], overlaps > 0) )).
-claim("at every task time ring and grid do not at 0.4", [ours],
+claim("at every task time ring and grid do not overlap at 0.4", [ours],
       ( at([topology=ring, delta=0.4], overlaps =:= 0),
         at([topology=grid, delta=0.4], overlaps =:= 0) )).
 

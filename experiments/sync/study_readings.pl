@@ -11,8 +11,8 @@ values that it holds. over_window: its sum is divided by ω from the start. \c
 signed: penalties enter the history as negative numbers. inside: δ is added \c
 to the mean, before it is multiplied; inside(Z): and a potential of Z or less \c
 counts as zero. scaled: δ enlarges the product, by 1 + δ. On star-bus, \c
-δ = 0.2, T2 begins at the 37th second (section 5.6.1): that are some 90 visits \c
-of 0.4 s, a few of them with a reward.").
+δ = 0.2, T2 begins at the 37th second (section 5.6.1): about 90 visits of \c
+0.4 s, a few of them with a reward.").
 
 vary(reading, [ agents, over_window, signed, inside, inside(0.5), inside(10),
                 scaled ]).
@@ -61,11 +61,14 @@ measure(visits, Visits, Visits).
 
 label(visits, "Visits until the potential is zero").
 
-claim("as the agents do it, 60 to 100 visits at δ = 0.2", [formula, ours],
+claim("in the reading of the agents, 60 to 100 visits at δ = 0.2",
+      [formula, ours],
       at([reading=agents, delta=0.2], between(visits, 60, 100))).
-claim("with δ inside the product, or as a factor, never", [formula, ours],
+claim("with δ inside the product, or as a factor, a potential is never zero",
+      [formula, ours],
       holds(never([inside, scaled]))).
-claim("in no other reading", [formula, ours], holds(no_other)).
+claim("in no other reading 60 to 100 visits at δ = 0.2",
+      [formula, ours], holds(no_other)).
 
 never(Readings, Points) :-
     forall(( member(Case-Ms, Points), memberchk(Case.reading, Readings) ),

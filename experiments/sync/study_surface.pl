@@ -4,10 +4,10 @@
 :- include('../../agents/sync/potential').
 
 study(surface, "Initial potential, θ(0), ω and δ together").
-text("Points are drawn in the range of each of the four, a latin hypercube, for \c
-networks of four shapes and two sizes. N is the number of visits in a row after \c
-which a potential is zero, all of them penalties: it follows from the four by the \c
-recurrence of equations 5.1 and 5.2, and is all that they do.").
+text("A latin hypercube samples the four parameters, for networks of four \c
+topologies and two sizes. N is the number of successive penalties after which \c
+a potential is zero: it follows from the four parameters by the recurrence of \c
+equations 5.1 and 5.2, and is their only effect.").
 
 vary(topology, [star_bus, ring, tree, grid]).
 vary(hosts, [30, 60]).
@@ -34,7 +34,7 @@ label(theta, "θ(0)").
 label(window, "window ω").
 label(visits, "N, visits until a potential is zero").
 label(second, "The second task begins (s)").
-label(spread, "The first task is begun everywhere (s)").
+label(spread, "The first task has begun everywhere (s)").
 
 measure(second, View, Time) :-
     memberchk(task(2, Time, _, _, _, _), View.rows).
@@ -45,21 +45,22 @@ measure(spread, View, Time) :-
                 *            CLAIMS            *
                 *******************************/
 
-claim("the second task begins when N says", [ours],
+claim("the start of the second task correlates with N", [ours],
       correlation(second, visits) > 0.95).
 claim(Text, [ours],
       at([topology=Topology, hosts=60], correlation(total, visits) > 0.95)) :-
-    on(Topology, "the time for all tasks follows N", Text).
+    on(Topology, "the time for all tasks correlates with N", Text).
 claim(Text, [ours],
       at([topology=Topology, hosts=60], correlation(overlaps, visits) < -0.5)) :-
-    on(Topology, "executions overlap the less, the greater N", Text),
+    on(Topology, "fewer executions overlap with greater N", Text),
     Topology \== ring.
 claim(Text, [ours],
       abs(correlation(total, Name)) < correlation(total, visits)) :-
     member(Name, [maximum, theta, window, delta]),
     label(Name, Title),
-    format(string(Text), "~w alone says less of it than N", [Title]).
-claim("Ring: no executions overlap", [ours], at([topology=ring], overlaps =:= 0)).
+    format(string(Text), "~w alone correlates less with it than N", [Title]).
+claim("Ring: no executions overlap",
+      [ours], at([topology=ring], overlaps =:= 0)).
 claim("no executions overlap where the second task is due, by N, when the first is \c
 begun everywhere", [ours],
       holds(none_when_due)).
@@ -79,7 +80,7 @@ none_when_due(Points) :-
 
 plot(surface, "Time for all tasks and overlaps, by initial potential and δ",
      script('surface.gp', [points-points_rows], [size(1400, 820)])).
-plot(surface_visits, "All that four parameters do is N",
+plot(surface_visits, "N is the only effect of four parameters",
      lines([x(visits), y([second, total, overlaps]), line(topology),
             where([hosts=60])])).
 
