@@ -101,7 +101,7 @@ host_for(Name) :-
                                [as(latest)])),
     remote(Name, leave(rover(Name))),
     robot_start(Name, [carry], [cost(payloads(robots/rover))]),
-    format("~w stands beside a robot~n", [Name]).
+    format("~w is beside a robot~n", [Name]).
 
 send_out(Parcel, From, To, Agent) :-
     task_allocate(task(Parcel, [1-[carry]], [at(From), goal(carry(From, To))]),
@@ -126,7 +126,7 @@ misplaced(Parcel) :-
     nth0(Index, Message.poses, Pose),
     Position = Pose.position,
     Distance is sqrt((Position.x-X)**2 + (Position.y-Y)**2),
-    format("the ~w is ~2f m from where it should be~n", [Parcel, Distance]),
+    format("the ~w is ~2f m from its destination~n", [Parcel, Distance]),
     near(Near),
     Distance > Near.
 

@@ -1,4 +1,4 @@
-% A host calls for water, and an agent comes.   swipl examples/pheromone.pl
+% A host requests water by a pheromone.         swipl examples/pheromone.pl
 
 :- use_module('../prolog/typhon').      % library(typhon), once installed
 :- initialization(main, main).

@@ -45,29 +45,28 @@ opt_type(means,   means,   boolean).
 opt_type(out,     out,     atom).
 
 opt_help(help(header),
-"Makes runs of studies, and tables, claims and pictures of them\n").
+"Makes runs of studies, and their tables, claims and pictures\n").
 opt_help(help(usage),
 " -- STUDY ... [options]
 
-A STUDY is a file, a figure of the thesis, as 5.6, a folder of experiments/, or
-`thesis`: all. Without any, those of the thesis are listed. What has been run
-stays, and is not run again.").
+A STUDY is a file, a figure of the thesis such as 5.6, a folder of experiments/,
+or `thesis`: all figures. Without a STUDY, the studies are listed. Finished runs
+are kept, and not repeated.").
 opt_help(runs,    "Runs of each case, with consecutive seeds [3]").
 opt_help(seed,    "The first seed [1]").
 opt_help(jobs,    "Runs at the same time [2]").
 opt_help(set,     "NAME=VALUE: a parameter of the study; a list, [1,2], is \c
-varied. May be given again; `STUDY --help` lists them").
+varied. May be repeated; `STUDY --help` lists parameters").
 opt_help(case,    "Make one run, of this case with the first seed, in this \c
-process: its number, or its name, as delta=0.5,topology=ring").
+process: its number or name, such as delta=0.5,topology=ring").
 opt_help(logs,    "Keep the log of each run, events.pl [false]").
-opt_help(replays, "Make a run of the first study of each folder again, to \c
-be looked at in a browser [false]").
+opt_help(replays, "Repeat a run of the first study of each folder, for a \c
+replay in a browser [false]").
 opt_help(list,    "Print a command for each run, and make none [false]").
-opt_help(collect, "Make no runs; show those that are there [false]").
-opt_help(real,    "Make one case on real sockets, too, and say whether what \c
-it gives lies within what virtual time gives [false]").
-opt_help(real_runs, "Runs of that case, each of which takes as long as the \c
-case does [1]").
+opt_help(collect, "Make no runs; show the existing ones [false]").
+opt_help(real,    "Make one case on real sockets, too, and report whether \c
+its measures are within those of virtual time [false]").
+opt_help(real_runs, "Runs of that case, in real time [1]").
 opt_help(means,   "Print means and their confidence intervals, too [false]").
 opt_help(out,     "Directory for runs, tables and pictures [out/studies]").
 

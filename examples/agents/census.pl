@@ -11,7 +11,7 @@ main :-
 
 tour([]).
 tour([Host|Hosts]) :-
-    move(Host),                         % goes on with the next goal, there
+    move(Host),                         % the next goal runs there
     host_load(Load),
     assertz(seen(Host, Load)),
     tour(Hosts).

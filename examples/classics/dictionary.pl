@@ -1,4 +1,4 @@
-% dictionary.pl: a librarian; which word lies where follows from the word
+% dictionary.pl: a librarian; the word determines the host that stores it
 
 :- agent(dictionary, [state([shelves/1])]).
 

@@ -1,4 +1,4 @@
-% explorer.pl: sees every host of a network, depth first
+% explorer.pl: visits every host of a network, depth first
 
 :- agent(explorer, [state([seen/1])]).
 
@@ -19,6 +19,6 @@ explore([Host|Hosts], Here) :-
     ->  true
     ;   move(Host),
         explore,
-        move(Here)                      % and go on where we left off
+        move(Here)                      % and continue there
     ),
     explore(Hosts, Here).

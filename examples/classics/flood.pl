@@ -12,7 +12,7 @@ flood(Hops) :-
         neighbours(Hosts),
         Next is Hops+1,
         spread(Hosts, Next)
-    ;   true                            % the news was here before
+    ;   true                            % this host already has the news
     ).
 
 spread([], _).

@@ -1,4 +1,4 @@
-% game.pl: a game of tic-tac-toe goes from player to player
+% game.pl: a game of tic-tac-toe moves from player to player
 
 :- agent(game, []).
 :- include(rules).

@@ -1,4 +1,4 @@
-% map.pl: where the towns are, without the roads
+% map.pl: positions of the towns, without the roads
 
 :- payload(map, []).
 

@@ -1,4 +1,4 @@
-% pathfinder.pl: A*; what roads there are is known only where they begin
+% pathfinder.pl: A*; each town knows only its own roads
 
 :- agent(pathfinder, [state([start/1, goal/1, closed/1])]).
 
@@ -6,7 +6,7 @@ main :-
     start(Start),
     search([0-way(0, [Start])]).
 
-%   search(+Open): ways by what they may cost in all, the best first.
+%   search(+Open): ways, in order of their estimated total cost.
 
 search([_-way(Km, [Town|Path])|Open]) :-
     (   goal(Town)
@@ -27,6 +27,6 @@ longer(Km0, [Town|Path], Least-way(Km, [Next, Town|Path])) :-
     \+ closed(Next),
     Km is Km0+Road,
     goal(Goal),
-    at(Next, X, Y),                     % by the map we carry
+    at(Next, X, Y),                     % from the map that it carries
     at(Goal, X1, Y1),
     Least is Km+sqrt((X1-X)**2+(Y1-Y)**2).

@@ -9,7 +9,7 @@ main :-
     result(Tour).
 
 %   tour(+Path, +Place, +Km, -Tour): the best tour that begins with Path,
-%   the last town first, of which we have come Km, and stand at Place.
+%   the last town first, after Km kilometres; Place is its position.
 
 tour(Path, Place, Km, Tour) :-
     neighbours(Towns),
@@ -24,7 +24,7 @@ tour(Path, Place, Km, Tour) :-
 send_out([], _, _, _, []).
 send_out([Town|Towns], Path, Place, Km, Clones) :-
     clone(Town, Who),
-    (   Who = clone(Parent)             % in Town, with all that was known
+    (   Who = clone(Parent)             % in Town, with all bindings
     ->  way(Place, There, Km, Km1),
         tour([Town|Path], There, Km1, Tour),
         send(Parent, Tour),

@@ -1,4 +1,4 @@
-% sorter.pl: puts its number where it belongs in a line of hosts
+% sorter.pl: inserts its number into a sorted line of hosts
 
 :- agent(sorter, [state([mine/1])]).
 
@@ -15,6 +15,6 @@ insert(N, From) :-
         neighbours(Hosts),
         subtract(Hosts, [From], [Next]),
         move(Next),
-        insert(More, Here)              % on with the greater of the two
+        insert(More, Here)              % continue with the greater number
     ;   leave(number(N))
     ).

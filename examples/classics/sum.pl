@@ -1,4 +1,4 @@
-% sum.pl: adds up the numbers that lie on the hosts nearby
+% sum.pl: adds the numbers on the neighbours
 
 :- agent(sum, []).
 

@@ -8,7 +8,7 @@ choose(Board, Mark, N) :-
             Values),
     max_member(_-N, Values).
 
-%   value(+Board, +Mark, -Value): 1, 0 or -1 for Mark, who has just moved.
+%   value(+Board, +Mark, -Value): 1, 0 or -1 for Mark, which has just moved.
 
 value(Board, Mark, 1) :-
     won(Board, Mark),

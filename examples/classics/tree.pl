@@ -43,7 +43,7 @@ descend(Key, Here, From, Parent) :-
     ;   move(Right)
     ).
 
-%   What stands below and to the left comes first, then what is here.
+%   Keys of the left subtree come first, then the key of this host.
 
 keys(From, Keys) :-
     (   sense(key(Key))

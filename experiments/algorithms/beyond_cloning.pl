@@ -12,7 +12,7 @@ derive(cloning, Case, Cloning) :-
 fixed(problem, maze, assumed("25 x 25, without obstacles")).
 fixed(algorithms, [greedy], assumed("")).
 fixed(settings, [size-25, q_th-2, alpha_r-5, c_l-1, lifetime-5],
-      tuned("by the defaults agents crowd each other out")).
+      tuned("with the defaults agents displace each other")).
 fixed(limit, 4000, assumed("host seconds")).
 
 claim("each agent that clones needs fewer executions than without cloning",

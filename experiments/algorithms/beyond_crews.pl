@@ -19,8 +19,9 @@ derive(sharing, Case, Sharing) :-
 derive(settings, Case, [size-(Case.size), obstacles-Obstacles]) :-
     obstacles(Case.maze, Case.size, Case.arm, Obstacles).
 fixed(size, 24, tuned("with 16 four scouts always reach the light")).
-fixed(arm, 4, tuned("cells of each wall of the corner; with 6 crews gain less")).
-fixed(agents, 4, assumed("half of them of each kind where there are both")).
+fixed(arm, 4,
+      tuned("cells of each wall of the corner; with 6 the gain is smaller")).
+fixed(agents, 4, assumed("half of each kind in mixed crews")).
 fixed(limit, 2000, assumed("host seconds")).
 
 label(greedy, "4 greedy").

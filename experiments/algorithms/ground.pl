@@ -18,10 +18,10 @@
 :- use_module(metrics, [algorithms_result/3, result_number/3]).
 :- use_module(printers, [shortfalls/3]).
 
-fixed(hosts, 10, assumed("each linked with each other")).
+fixed(hosts, 10, assumed("all pairs linked")).
 fixed(queue, 5, assumed("agents that a host admits beside its own")).
 fixed(hop_time, 0.27-0.53, assumed("as in chapter 5")).
-fixed(rho_max, 4, assumed("agents go few hops between executions")).
+fixed(rho_max, 4, assumed("agents make few hops between executions")).
 
 label(reached, "Agents that have reached the goal (%)").
 label(mean, "Executions of an agent").

@@ -19,7 +19,7 @@ population of agents has them execute the tasks in step.").
 fixed(sequences, 2, assumed("so that one has to wait")).
 fixed(length, 3, assumed("tasks of each")).
 fixed(task_time, 5, assumed("seconds")).
-fixed(hosts, 30, assumed("agents of chapter 6 look on all hosts")).
+fixed(hosts, 30, assumed("agents of chapter 6 search all hosts")).
 fixed(probability, 0.2, assumed("six links at a host")).
 derive(allocators, Case, Case.sequences).
 

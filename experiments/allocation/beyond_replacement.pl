@@ -36,7 +36,7 @@ skip(Case) :-
 fixed(length, 3, assumed("tasks")).
 fixed(task_time, 5, assumed("seconds")).
 fixed(allocators, 1, assumed("no other allocator asks for the robots")).
-fixed(threshold, 0.01, assumed("what the agents of chapter 6 have by default")).
+fixed(threshold, 0.01, assumed("default of the agents of chapter 6")).
 fixed(lifetime, 10, printed("section 6.5")).
 
 label(completed, "The sequence is completed (s)").

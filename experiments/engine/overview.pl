@@ -57,7 +57,7 @@ explained(Shown) -->
              'Technology Guwahati) in virtual time; the results are compared with ',
              'the figures and tables of the thesis. A row shows a study, its ',
              'figures, and how many of its claims hold for the medians of all ',
-             'runs. Below, numbers that the thesis prints stand in brackets beside ',
+             'runs. Below, numbers printed in the thesis are in brackets beside ',
              'ours; in figures they are triangles.' ])).
 explained(_) -->
     [].

@@ -24,7 +24,7 @@ fixed(parts, 3, assumed("leaders")).
 fixed(hosts, 4, assumed("of each part")).
 fixed(workers, 4, assumed("of each leader at first")).
 fixed(rounds, 8, assumed("the work moves after half of them")).
-fixed(rho_max, 4, assumed("agents go few hops between executions")).
+fixed(rho_max, 4, assumed("agents make few hops between executions")).
 fixed(limit, 2000, assumed("host seconds; rounds end long before")).
 
 label(large, "size of the large maze").

@@ -42,7 +42,7 @@ claim("sharing rises more from D 0.1 to 0.2 than from D 0.2 to 0.5",
 claim("some hosts have no links at times", [line(2626)],
       some(least_degree =:= 0)).
 claim("hosts have at most 27 links, within a tenth",
-      [line(2627), why("the mesh thins out, and 27 is what is left at 30 s")],
+      [line(2627), why("the mesh loses links, and 27 remain at 30 s")],
       near(most(most_degree), 27, 2.7)).
 
 plot('4.13', "A dynamic network of 50 hosts",

@@ -70,7 +70,7 @@ claim("the number of Agent-2 rises a little, to less than its first peak",
       [line(4350)],
       ( rise > 0, second_peak < first_peak )).
 claim("this rise is at around 250 s with 50 hosts",
-      [line(4350), why("four tasks of 30 s and four idle times come first")],
+      [line(4350), why("four tasks of 30 s and four idle times precede it")],
       at([hosts=50], near(rise_time, 250, 25))).
 claim("this rise is at around 300 s with 100 hosts", [line(4351)],
       at([hosts=100], near(rise_time, 300, 25))).

@@ -22,11 +22,11 @@ fixed(task_time, 1, assumed("an agent does not wait for it")).
 fixed(hop_time, 0.27-0.53, assumed("as in chapter 5")).
 fixed(tick, 1.9, tuned("seconds of a turn in a queue: the scale of time")).
 fixed(threshold, 0.5, tuned("below it Ψ is zero: sets how long agents wait")).
-fixed(rounding, floor, tuned("of the number of clones; round makes more")).
+fixed(rounding, floor, tuned("of the number of clones; round gives more")).
 fixed(replication, rewarded, assumed("clones only after a reward")).
 fixed(mesh, rings, tuned("links drawn by chance leave some hosts with few")).
-fixed(degree, 20, tuned("with 10 a host is more often found late")).
-fixed(crash_share, 0.2, assumed("task 4 is in progress on so many hosts")).
+fixed(degree, 20, tuned("with 10 agents find some hosts late more often")).
+fixed(crash_share, 0.2, assumed("share of hosts that execute task 4 then")).
 fixed(limit, 2000, assumed("host seconds; runs end long before")).
 
 %   The queue and the worker need two places beside the agents of the queue.

@@ -12,7 +12,7 @@ the first task is EXCITED at once; each of the others when it perceives that \c
 the previous task has been completed. When its potential is zero an agent is \c
 ACTIVE, and remains so. The measures are the times of these changes.").
 
-fixed(crash, 0, assumed("the table is of a network in which nothing fails")).
+fixed(crash, 0, assumed("the table assumes a network without failures")).
 
 view(Log, view{agents:Agents, moods:Moods, rows:Rows}) :-
     from_start(Log.events, Events),

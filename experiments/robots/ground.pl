@@ -25,7 +25,7 @@ number, time is real, too: then robots are late if the computer is busy.").
 fixed(hop_time, 0.27-0.53, assumed("as in chapter 5")).
 fixed(telegram, 0.005, assumed("seconds that a telegram takes in virtual time; \c
 a step of the simulation")).
-fixed(limit, 450, assumed("host seconds to wait for what is to come")).
+fixed(limit, 450, assumed("host seconds to wait for each step")).
 
 robot_options(Case, [ hop_time(uniform(Min, Max)),
                       hosts([services(Services)]) ]) :-

@@ -14,7 +14,7 @@ become a memory cell, which does not die.").
 
 vary(memory_cells, [0, 1]).
 fixed(memory_wins, 2, tuned("with 3 there were few memory cells")).
-fixed(calls, 3, tuned("with 1 hosts help themselves too soon")).
+fixed(calls, 3, tuned("with 1 hosts generate antibodies too soon")).
 
 plan(_, [['00000']-5, ['11111']-8, ['00000']-3]).
 

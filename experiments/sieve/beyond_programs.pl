@@ -13,7 +13,7 @@ text("Antibodies are small programs, drawn at random. Three obstacles attack \c
 in each of 12 rounds. Feedback is 31 less the steps beyond the shortest path, \c
 0 for a program that does not reach the goal.").
 
-fixed(application, payloads(sieve/maze), assumed("code is what is sieved")).
+fixed(application, payloads(sieve/maze), assumed("antibodies are code")).
 fixed(topology, random(40, 0.15), assumed("smaller: programs take time")).
 fixed(attacked, 5, assumed("the share of hosts is as in Figure 3.3")).
 

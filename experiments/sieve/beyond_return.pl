@@ -14,9 +14,9 @@ which is similar, and 11011, which is new. No antibody answers two of 00000, \c
 vary(memory_cells, [0, 1]).
 vary(others, [2, 8]).
 fixed(memory_wins, 2, tuned("as in study memory")).
-fixed(calls, 6, tuned("hosts draw antibodies only after 7.2 s")).
+fixed(calls, 6, tuned("hosts generate antibodies only after 7.2 s")).
 fixed(topology, random(30, 0.2), assumed("small: it costs less")).
-fixed(attacked, 3, tuned("few hosts draw antibodies, which do not age")).
+fixed(attacked, 3, tuned("few hosts generate antibodies, which do not age")).
 fixed(round, 8, assumed("20 hops")).
 fixed(omega, 100, assumed("lives of five rounds, as in Figure 3.5")).
 

@@ -17,9 +17,9 @@
 
 fixed(application, payloads(sieve/bits), printed("section 3.5.2: five bits")).
 fixed(topology, random(100, 0.06),
-      assumed("100 nodes are printed, not how they are linked")).
+      assumed("the thesis prints 100 nodes, but not their links")).
 fixed(dynamic, links(uniform(4, 8), 0.5, 0.5),
-      assumed("dynamic is printed, not how; the number of links stays")).
+      assumed("the thesis prints dynamic; the number of links is constant")).
 fixed(attacked, 10, assumed("hosts for each antigen in a round: several")).
 fixed(hop_time, 0.27-0.53, assumed("as in chapter 5")).
 fixed(round, 16, tuned("40 hops; see omega")).
@@ -31,7 +31,7 @@ fixed(patience, 1.2,
       tuned("until a danger signal has died down: 3 hops, as it spreads")).
 fixed(gather, 1.2, assumed("from the first offer to the choice: 3 hops")).
 fixed(crowd, 12,
-      tuned("no clones where so many agents are; not of the thesis")).
+      tuned("agents at a host that prevent clones; not of the thesis")).
 fixed(capacity, 40, assumed("of a host; never reached")).
 
 network(Case, Case.topology,

@@ -5,9 +5,9 @@
 :- use_module('../../agents/sync/operator', [sequence_start/5]).
 
 study(selected, "Tasks in step on selected hosts").
-text("A part of the hosts of a grid execute three tasks in step; the others \c
-are only on the way.  The selected hosts are drawn, or stand at two opposite \c
-ends of the grid.").
+text("A part of the hosts of a grid execute three tasks in step; agents only \c
+pass the others.  The selected hosts are random, or at two opposite ends of \c
+the grid.").
 
 vary(place, [scattered, apart]).
 vary(share, [0.1, 0.25, 0.5, 1]).

@@ -13,7 +13,7 @@ first after task 2 of the third, if the host takes part in both.").
 
 vary(dependent, [false, true]).
 vary(hosts, [60, 200]).
-fixed(sequences, 3, assumed("a circle of sequences, but not of tasks")).
+fixed(sequences, 3, assumed("a cycle of sequences, but not of tasks")).
 fixed(share, 2/3, assumed("of the hosts, so most have several sequences")).
 derive(agents, Case, Count) :- Count is Case.hosts // 6.
 

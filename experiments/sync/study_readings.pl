@@ -17,7 +17,7 @@ counts as zero. scaled: δ enlarges the product, by 1 + δ. On star-bus, \c
 vary(reading, [ agents, over_window, signed, inside, inside(0.5), inside(10),
                 scaled ]).
 vary(delta, [0.2, 0.3, 0.5, 0.8, 1.0]).
-fixed(most, 10000, assumed("more visits are taken for never")).
+fixed(most, 10000, assumed("more visits count as never")).
 
 view(Log, Visits) :-
     (   falls(drive(100, [15]), Log.case, 0, Visits)

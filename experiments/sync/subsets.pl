@@ -12,7 +12,7 @@
 :- use_module(library(lists)).
 
 fixed(tasks, 3, assumed("of each sequence")).
-fixed(delta, 0.3, assumed("hosts without a part neither reward nor penalise")).
+fixed(delta, 0.3, assumed("other hosts neither reward nor penalise")).
 fixed(task_time, 3, assumed("as in chapter 5")).
 fixed(hop_time, 0.27-0.53, assumed("as in chapter 5")).
 fixed(limit, 5000, assumed("host seconds; a run that takes longer fails")).
