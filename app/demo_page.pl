@@ -75,7 +75,9 @@ log_file(Log) :-
     absolute_file_name('out/demo-page/log.pl', Log).
 
 at_work(Port, Network, Result) :-
-    catch(( begin(Port, Network, Hosts), go_on(1, [], Hosts), Result = true ),
+    catch(( begin(Port, Network, Hosts),
+            run_demo(1, [], Hosts),
+            Result = true ),
           error(Formal, Context), Result = error(Formal, Context)).
 
 begin(Port, Network, Hosts) :-
@@ -101,14 +103,14 @@ print_link(Link) :-
 %   Every second an antigen attacks a host; now and then hosts lose tasks.  When
 %   all tasks are completed, the next sequence begins.
 
-go_on(N0, Agents0, Hosts) :-
+run_demo(N0, Agents0, Hosts) :-
     thread_self(Me),
     (   thread_get_message(Me, stop, [timeout(1)])
     ->  true
     ;   attack(Hosts),
         next(N0, Agents0, Hosts, N, Agents),
         set_back(N, Hosts),
-        go_on(N, Agents, Hosts)
+        run_demo(N, Agents, Hosts)
     ).
 
 attack(Hosts) :-

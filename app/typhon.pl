@@ -31,7 +31,7 @@ stopped waits for a message, which the handlers of SIGINT and SIGTERM send.
 :- use_module(typhon/orders,
               [agent_argument/3, host_now/2, order/3, program_argument/2]).
 :- use_module(typhon/picture, [picture/3]).
-:- use_module(typhon/serving, [and_then/2, until_told_to_stop/3]).
+:- use_module(typhon/serving, [and_then/2, run_until_stopped/3]).
 :- use_module(typhon/story, [story/2]).
 :- use_module(typhon/usage, [complain/2]).
 :- use_module(library(lists), [member/2, nth0/3]).
@@ -210,7 +210,7 @@ command_help :-
 
 run(host, [Name], Options) :-
     options_for(host, Options, HostOptions),
-    until_told_to_stop(
+    run_until_stopped(
         host_start(Name, HostOptions),
         ( host_property(Name, address(Address)),
           forall(member(link(Other), Options), link(Name, Other)),
@@ -222,7 +222,7 @@ run(host, [Name], Options) :-
 run(network, [Topology0], Options) :-
     read_argument(Topology0, Topology),
     options_for(network, Options, NetworkOptions),
-    until_told_to_stop(
+    run_until_stopped(
         network_start(Topology, Network, NetworkOptions),
         ( network_property(Network, hosts(Addresses)),
           forall(member(Address, Addresses), print_line(Address))
@@ -263,7 +263,7 @@ run(page, [], Options) :-
     required(page, host(Host), Options),
     host_now(Host, _),
     options_for(page, Options, PageOptions),
-    until_told_to_stop(
+    run_until_stopped(
         page_serve(PageOptions, Link),
         print_line(Link),
         page_stop).
@@ -271,7 +271,7 @@ run(log, [File], Options) :-
     option(serve(true), Options),
     !,
     options_for(log, Options, LogOptions),
-    until_told_to_stop(
+    run_until_stopped(
         log_server_start([file(File), mode(append)|LogOptions], Address),
         print_line(Address),
         log_server_stop(Address)).

@@ -97,9 +97,9 @@ compared(Name, Clauses, Stops) :-
     agent(Module, State, Facts, Agent2),
     least(stops(Module, Agent2, Stops), Stops, C, CI),
     module_property(Module, size(Size)),
-    told(Name, 'us', C, us),
-    told(Name, inferences, CI, inferences),
-    told(Name, 'the machine alone, inferences', MI, inferences),
+    report(Name, 'us', C, us),
+    report(Name, inferences, CI, inferences),
+    report(Name, 'the machine alone, inferences', MI, inferences),
     atomic_list_concat([Name,', against plain Prolog'], PlainName),
     ratio(PlainName, C, P, us, 'plain'),
     atomic_list_concat([Name,', the machine alone'], MachineName),
@@ -107,7 +107,7 @@ compared(Name, Clauses, Stops) :-
     atomic_list_concat([Name,', memory of the program'], SizeName),
     ratio(SizeName, Size, Size0, bytes, 'before it ran').
 
-told(Name, What, Value, Unit) :-
+report(Name, What, Value, Unit) :-
     atomic_list_concat([Name,', ',What], Full),
     figure(Full, Value, Unit).
 

@@ -40,7 +40,7 @@ hops(Placement, OneWay, Peer) :-
     travelled(1, 6000, Peer, _),        % warm up
     forall(member(Agents-Hops, [1-10000, 10-30000, 100-30000]),
            ( travelled(Agents, Hops, Peer, Rates),
-             told(Agents, Placement, Rates),
+             report(Agents, Placement, Rates),
              versus(Agents, Rates, OneWay, Placement)
            )),
     latency(Peer, Median, P99),
@@ -49,7 +49,7 @@ hops(Placement, OneWay, Peer) :-
     name(Placement, 'latency of a hop, 99 %', Name2),
     figure(Name2, P99, 'us').
 
-told(Agents, Placement, rates(PerSecond, PerCpu)) :-
+report(Agents, Placement, rates(PerSecond, PerCpu)) :-
     atomic_list_concat([Agents, ' agents: hops per second, ', Placement],
                        Name1),
     figure(Name1, PerSecond, '1/s'),

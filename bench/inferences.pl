@@ -13,15 +13,15 @@
 
 :- initialization(main, main).
 
-:- meta_predicate told(+, +, 0).
+:- meta_predicate report(+, +, 0).
 
 main([Argument]) :-
     atom_number(Argument, Count),
     within(Count),
     host_start(here),
     message_to(here, 'a message within a process', Count),
-    told('an agent of a known program created, with its end', Count,
-         created(Count)),
+    report('an agent of a known program created, with its end', Count,
+           created(Count)),
     with_peer([env], outwards(Count)),
     host_stop(here).
 
@@ -39,20 +39,20 @@ within(Count) :-
 outwards(Count, Peer) :-
     hops('a hop of one agent between processes', 1, Count, Peer),
     hops('a hop of ten agents between processes', 10, Count, Peer),
-    told('a clone sent to another process, with its end', Count,
-         cloned(Peer, Count)),
+    report('a clone sent to another process, with its end', Count,
+           cloned(Peer, Count)),
     message_to(Peer, 'a message to another process, here', Count),
     with_peer([env], around(Peer, Count)).
 
 around(Peer, Count, Other) :-
-    told('a hop of one agent round three processes', Count*2/3,
-         ring([Peer,Other], Count)).
+    report('a hop of one agent round three processes', Count*2/3,
+           ring([Peer,Other], Count)).
 
 hops(Name, Agents, Count, Peer) :-
-    told(Name, Count, travelled(Agents, Count, Peer, _)).
+    report(Name, Count, travelled(Agents, Count, Peer, _)).
 
 message_to(Host, Name, Count) :-
-    told(Name, Count, counted(Host, Count)).
+    report(Name, Count, counted(Host, Count)).
 
 created(Count) :-
     Program = clauses([(:- agent(known, [])), on_message(_, _)]),
@@ -92,7 +92,7 @@ counted(Host, Count) :-
     forall(between(1, Count, I), agent_send(Agent, message(I))),
     agent_join(Agent, done, 300).
 
-told(Name, Count, Goal) :-
+report(Name, Count, Goal) :-
     \+ \+ call(Goal),                   % warm up
     inferences(Before),
     \+ \+ call(Goal),

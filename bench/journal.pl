@@ -25,7 +25,7 @@
 main([unpinned]) :-
     rounds(Rounds),
     findall(Round, ( between(1, Rounds, _), round(Round) ), All),
-    forall(told(Name, Unit, Round, Value, Note),
+    forall(figure_of(Name, Unit, Round, Value, Note),
            ( findall(Value, member(Round, All), Values),
              median(Values, Median),
              figure(Name, Median, Unit, Note) )),
@@ -45,22 +45,22 @@ round(round(none(A1, _), normal(B1, B100), full(C1, C100), Syncs)) :-
     rates(full, C1, C100),
     syncs(Syncs).
 
-told('1 agent without a journal: hops per second', '1/s',
-     round(none(V, _), _, _, _), V, '').
-told('1 agent, sync(normal): hops per second', '1/s',
-     round(_, normal(V, _), _, _), V, '').
-told('1 agent, sync(full): hops per second', '1/s',
-     round(_, _, full(V, _), _), V, '').
-told('a hop with sync(normal)', times,
-     round(none(A, _), normal(B, _), _, _), A/B, 'one without').
-told('100 agents, sync(normal): hops per second', '1/s',
-     round(_, normal(_, V), _, _), V, '').
-told('100 agents, sync(full): hops per second', '1/s',
-     round(_, _, full(_, V), _), V, '').
-told('the same for each time that the disk alone syncs', '',
-     round(_, _, full(_, V), Syncs), V/Syncs, '').
-told('the disk alone syncs, times per second', '1/s',
-     round(_, _, _, Syncs), Syncs, '').
+figure_of('1 agent without a journal: hops per second', '1/s',
+          round(none(V, _), _, _, _), V, '').
+figure_of('1 agent, sync(normal): hops per second', '1/s',
+          round(_, normal(V, _), _, _), V, '').
+figure_of('1 agent, sync(full): hops per second', '1/s',
+          round(_, _, full(V, _), _), V, '').
+figure_of('a hop with sync(normal)', times,
+          round(none(A, _), normal(B, _), _, _), A/B, 'one without').
+figure_of('100 agents, sync(normal): hops per second', '1/s',
+          round(_, normal(_, V), _, _), V, '').
+figure_of('100 agents, sync(full): hops per second', '1/s',
+          round(_, _, full(_, V), _), V, '').
+figure_of('the same for each time that the disk alone syncs', '',
+          round(_, _, full(_, V), Syncs), V/Syncs, '').
+figure_of('the disk alone syncs, times per second', '1/s',
+          round(_, _, _, Syncs), Syncs, '').
 
 rates(Sync, One, Hundred) :-
     with_directory(rates(Sync, One, Hundred)).

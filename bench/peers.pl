@@ -151,9 +151,9 @@ reported(Many) :-
     findall(What, rates(_, What, Many, _, _), Whats0),
     list_to_set(Whats0, Whats),
     forall(member(What, Whats),
-           ( told(What, Many, second), told(What, Many, cpu) )).
+           ( report(What, Many, second), report(What, Many, cpu) )).
 
-told(What, Many, Per) :-
+report(What, Many, Per) :-
     findall(Rate, rate(_, What, Many, Per, Rate), Rates),
     median(Rates, Median),
     unit(Per, Unit),

@@ -30,7 +30,9 @@ round_ring(Processes, Cpu) :-
 
 circle([First|Others], Count, Hops) :-
     append(Others, [First], Nexts),
-    findall(next(Here, Next), beside([First|Others], Nexts, Here, Next), Ways),
+    findall(next(Here, Next),
+            consecutive([First|Others], Nexts, Here, Next),
+            Ways),
     Program = clauses([ (:- agent(circler, [state([left/1])])),
                         (main :- left(0), !),
                         (main :- retract(left(N)), N1 is N-1, assertz(left(N1)),
@@ -44,6 +46,6 @@ circle([First|Others], Count, Hops) :-
             Agents),
     forall(member(Agent, Agents), agent_join(Agent, done, 300)).
 
-beside([A|_], [B|_], A, B).
-beside([_|As], [_|Bs], A, B) :-
-    beside(As, Bs, A, B).
+consecutive([A|_], [B|_], A, B).
+consecutive([_|As], [_|Bs], A, B) :-
+    consecutive(As, Bs, A, B).

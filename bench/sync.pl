@@ -45,16 +45,16 @@ measure(Processes) :-
 
 report(Processes, Services-run(Hops, HopRate, Cpu), BareRate-BareCpu) :-
     PerService is Hops/360,
-    told(Processes, 'services per second', Services, '1/s'),
-    told(Processes, 'hops per service', PerService, hops),
-    told(Processes, 'hops per second', HopRate, '1/s'),
-    told(Processes, 'processor time of a hop', Cpu, us),
+    print_figure(Processes, 'services per second', Services, '1/s'),
+    print_figure(Processes, 'hops per service', PerService, hops),
+    print_figure(Processes, 'hops per second', HopRate, '1/s'),
+    print_figure(Processes, 'processor time of a hop', Cpu, us),
     name(Processes, 'a hop against one of bare travellers', Name1),
     ratio(Name1, BareRate, HopRate, '1/s', 'bare travellers'),
     name(Processes, 'its processor time against theirs', Name2),
     ratio(Name2, Cpu, BareCpu, us, 'bare travellers').
 
-told(Processes, What, Value, Unit) :-
+print_figure(Processes, What, Value, Unit) :-
     name(Processes, What, Name),
     figure(Name, Value, Unit).
 
@@ -126,7 +126,7 @@ waiting(Processes, Events) :-
     Middle is Count // 2,
     nth0(Middle, Sorted, Median),
     Micro is Median * 1.0e6,
-    told(Processes, 'from service to completion, median', Micro, us).
+    print_figure(Processes, 'from service to completion, median', Micro, us).
 
 wait(event(Time, Host, _, reward(_, _, _)), Since0-Waits, Since-Waits) :-
     !,

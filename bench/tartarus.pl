@@ -46,10 +46,10 @@ back_and_forth(Hops, Agents, Nodes) :-
 round_trip([node(_, In, Out)|_], I, Hops, Seconds) :-
     format(In, 'send(walker~d, ~d).~n', [I, Hops]),
     flush_output(In),
-    told(Out, Term),
+    answer(Out, Term),
     Term = home(Seconds).
 
-told(Out, Term) :-
+answer(Out, Term) :-
     repeat,
     read_line_to_string(Out, Line),
     (   Line == end_of_file

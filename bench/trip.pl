@@ -55,10 +55,10 @@ trips(Terms, Trips, Streams, rates(PerSecond, PerCpu)) :-
     Each is Trips//2-Terms,
     image(Image),
     processor_time(Streams, Cpu0),
-    seconds(( forall(between(1, Terms, _), say(Streams, Image)),
+    seconds(( forall(between(1, Terms, _), send_term(Streams, Image)),
               forall(between(1, Each, _),
-                     ( hear(Streams, Term), say(Streams, Term) )),
-              forall(between(1, Terms, _), hear(Streams, _))
+                     ( receive_term(Streams, Term), send_term(Streams, Term) )),
+              forall(between(1, Terms, _), receive_term(Streams, _))
             ),
             Seconds),
     processor_time(Streams, Cpu1),
@@ -68,8 +68,8 @@ trips(Terms, Trips, Streams, rates(PerSecond, PerCpu)) :-
 
 processor_time(Streams, Seconds) :-
     statistics(process_cputime, Here),
-    say(Streams, cputime),
-    hear(Streams, cputime(There)),
+    send_term(Streams, cputime),
+    receive_term(Streams, cputime(There)),
     Seconds is Here+There.
 
 %   The other process.
@@ -79,11 +79,11 @@ pong(Port) :-
     tcp_connect(Socket, '127.0.0.1':Port),
     streams(Socket, Streams),
     repeat,
-    hear(Streams, Term),
+    receive_term(Streams, Term),
     (   Term == end_of_file
     ->  !
     ;   thrown_back(Term, Back),
-        say(Streams, Back),
+        send_term(Streams, Back),
         fail
     ).
 
@@ -108,7 +108,7 @@ close_streams(In-Out) :-
     close(Out),
     close(In).
 
-say(_-Out, Term) :-
+send_term(_-Out, Term) :-
     fast_term_serialized(Term, Bytes),
     string_length(Bytes, Length),
     B3 is Length>>16 /\ 255, B2 is Length>>8 /\ 255, B1 is Length /\ 255,
@@ -116,7 +116,7 @@ say(_-Out, Term) :-
     format(Out, '~s', [Bytes]),
     flush_output(Out).
 
-hear(In-_, Term) :-
+receive_term(In-_, Term) :-
     get_byte(In, B3),
     (   B3 == -1
     ->  Term = end_of_file

@@ -15,9 +15,9 @@ main([Argument]) :-
     atom_number(Argument, Hops),
     forall(member(Kind, [virtual, real]), warmed_up(Kind)),
     cost(virtual, 0, Hops, Virtual),
-    told('bare hops per second of processor, virtual time', Virtual),
+    print_figure('bare hops per second of processor, virtual time', Virtual),
     cost(virtual(uniform(0.1, 0.2)), 0, Hops, Delayed),
-    told('the same, each with a delay', Delayed),
+    print_figure('the same, each with a delay', Delayed),
     cost(real, 0, Hops, Real),
     ratio('a hop in virtual time against real time', Virtual, Real, us,
           'hosts of one process'),
@@ -26,13 +26,13 @@ main([Argument]) :-
           'virtual time'),
     forall(walk(Name, Agents, Options),
            ( walked(Agents, Options, Hops, Micros),
-             told(Name, Micros) )).
+             print_figure(Name, Micros) )).
 
 walk('walks on 30 hosts per second of processor', 1, []).
 walk('the same, of thirty agents', 30, []).
 walk('the same, each with a delay', 30, [hop_time(uniform(0.1, 0.2))]).
 
-told(Name, Micros) :-
+print_figure(Name, Micros) :-
     Rate is 1.0e6/Micros,
     figure(Name, Rate, '1/s').
 

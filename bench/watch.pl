@@ -23,7 +23,7 @@ main([Text]) :-
     host_start(here),
     host_start(there),
     host_property(there, address(There)),
-    unheard(There),
+    without_listeners(There),
     slower(Pairs, 1, 20000, There, 'within a process'),
     with_peer([env], between_processes(Pairs)),
     host_stop(there),
@@ -41,7 +41,7 @@ between_processes(Pairs, Peer) :-
 %   A hop within a process is the cheapest; it checks three times for
 %   listeners.
 
-unheard(There) :-
+without_listeners(There) :-
     travelled(1, 10000, There, _),      % warm up
     travelled(1, 40000, There, rates(_, PerCpu)),
     median_cpu(forall(between(1, 1 000 000, _), true), Empty),

@@ -144,8 +144,8 @@ issue(Kind, Name, Days, Directory, Own) :-
               '-in', Request, '-out', Certificate ]),
     directory_file_path(Directory, Request, RequestFile),
     delete_file(RequestFile),
-    hand_out(Directory, 'ca.pem', Own),
-    hand_out(Directory, 'crl.pem', Own).
+    replace_file(Directory, 'ca.pem', Own),
+    replace_file(Directory, 'crl.pem', Own).
 
 own(Name, File, Path) :-
     atomic_list_concat([Name, /, File], Path).
@@ -215,7 +215,7 @@ list_revoked(Directory) :-
             [ ca, '-config', 'openssl.cnf', '-gencrl', '-crldays', Days,
               '-out', 'crl.pem' ]),
     forall(( directory_member_with_keys(Directory, Own) ),
-           hand_out(Directory, 'crl.pem', Own)).
+           replace_file(Directory, 'crl.pem', Own)).
 
 directory_member_with_keys(Directory, Own) :-
     directory_files(Directory, Files),
@@ -228,7 +228,7 @@ directory_member_with_keys(Directory, Own) :-
 %   Renaming is atomic: a process that reads the file meanwhile reads the old or
 %   the new contents.
 
-hand_out(Directory, Name, Own) :-
+replace_file(Directory, Name, Own) :-
     directory_file_path(Directory, Name, From),
     directory_file_path(Own, Name, To),
     atom_concat(To, '.new', New),

@@ -54,7 +54,7 @@ order(remote, [Host, Text], _) :-
 order(stop, [Host], Options) :-
     host_now(Host, Address),
     address_parts(Address, Name, _),
-    tell_to_stop(Host, Name),
+    request_stop(Host, Name),
     option(timeout(Seconds), Options, 20),
     within(Seconds, is_gone(Host)).
 
@@ -62,9 +62,9 @@ order(stop, [Host], Options) :-
 %   answer may be lost with the process. A thread handle cannot be sent in an
 %   answer.
 
-tell_to_stop(Host, Name) :-
+request_stop(Host, Name) :-
     catch(remote(Host,
-                 catch(typhon_app_serving:told_to_stop(stop),
+                 catch(typhon_app_serving:stop_requested(stop),
                        error(existence_error(procedure, _), _),
                        \+ \+ thread_create(typhon:host_stop(Name), _,
                                            [detached(true)]))),
@@ -178,11 +178,11 @@ usage(Problem) :-
 is_gone(Host) :-
     catch(\+ host_property(Host, state(_)),
           error(Formal, _),
-          gone(Formal)).
+          means_gone(Formal)).
 
-gone(existence_error(host, _)).
-gone(host_unreachable(_)).
-gone(connection_lost(_)).
+means_gone(existence_error(host, _)).
+means_gone(host_unreachable(_)).
+means_gone(connection_lost(_)).
 
 :- meta_predicate within(+, 0).
 

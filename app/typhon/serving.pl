@@ -1,5 +1,5 @@
 :- module(typhon_app_serving,
-          [ until_told_to_stop/3,       % :Start, :Report, :Stop
+          [ run_until_stopped/3,        % :Start, :Report, :Stop
             and_then/2                  % :Goal, :Finally
           ]).
 
@@ -10,25 +10,25 @@ of SIGINT and SIGTERM send.
 */
 
 :- meta_predicate
-    until_told_to_stop(0, 0, 0),
+    run_until_stopped(0, 0, 0),
     and_then(0, 0).
 
-:- public told_to_stop/1.
+:- public stop_requested/1.
 
-%!  until_told_to_stop(:Start, :Report, :Stop) is semidet.
+%!  run_until_stopped(:Start, :Report, :Stop) is semidet.
 %
 %   Calls Start and Report, waits for SIGINT or SIGTERM, and calls Stop.
 %
 %   All calls are in a thread of its own: while the main thread creates
 %   threads, a signal may reach a new thread, and would be lost.
 
-until_told_to_stop(Start, Report, Stop) :-
-    on_signal(term, _, typhon_app_serving:told_to_stop),
-    on_signal(int, _, typhon_app_serving:told_to_stop),
+run_until_stopped(Start, Report, Stop) :-
+    on_signal(term, _, typhon_app_serving:stop_requested),
+    on_signal(int, _, typhon_app_serving:stop_requested),
     thread_create(serve(Start, Report, Stop), Server),
     thread_send_message(Server, start),
     thread_get_message(serving(Event)),
-    (   Event == told_to_stop
+    (   Event == stop_requested
     ->  thread_send_message(Server, stop)
     ;   true
     ),
@@ -38,8 +38,8 @@ until_told_to_stop(Start, Report, Stop) :-
     ;   Status == true
     ).
 
-told_to_stop(_Signal) :-
-    thread_send_message(main, serving(told_to_stop)).
+stop_requested(_Signal) :-
+    thread_send_message(main, serving(stop_requested)).
 
 serve(Start, Report, Stop) :-
     call_cleanup(( thread_get_message(start),

@@ -27,7 +27,7 @@ story(File, Agent) :-
     sort(Ids0, Ids),
     (   Ids == []
     ->  nothing_of(Agent, File, Events)
-    ;   forall(member(Id, Ids), tell(Id, Events))
+    ;   forall(member(Id, Ids), print_story(Id, Events))
     ).
 
 nothing_of(Agent, File, Events) :-
@@ -46,7 +46,7 @@ is_called(Id, Agent) :-
     ),
     !.
 
-tell(Id, Events) :-
+print_story(Id, Events) :-
     include(of_agent(Id), Events, Own),
     Own = [event(Start, _, _, _)|_],
     (   Start > 100 000 000             % times of day are hard to read
@@ -54,13 +54,13 @@ tell(Id, Events) :-
     ;   Zero = 0
     ),
     format('~w~n', [Id]),
-    forall(member(Event, Own), tell_event(Event, Id, Zero)),
+    forall(member(Event, Own), print_event(Event, Id, Zero)),
     nl.
 
 of_agent(Id, event(_, _, Id, _)).
 of_agent(Id, event(_, _, _, cloned(Id))).
 
-tell_event(event(Time, Host, Subject, What), Id, Zero) :-
+print_event(event(Time, Host, Subject, What), Id, Zero) :-
     short_name(Host, Where),
     text(Subject, Id, What, Text),
     Shown is Time-Zero,

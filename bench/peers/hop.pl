@@ -20,15 +20,15 @@ bare_trips(Streams) :-
     trips(1, 4000, Streams, _),         % warm up
     forall(member(Terms-Trips, [1-20000, 10-40000]),
            ( trips(Terms, Trips, Streams, Rates),
-             told('bare trip', Terms, Rates) )).
+             report('bare trip', Terms, Rates) )).
 
 hops(Peer) :-
     travelled(1, 6000, Peer, _),        % warm up
     forall(member(Agents-Hops, [1-10000, 10-20000]),
            ( travelled(Agents, Hops, Peer, Rates),
-             told('our hops', Agents, Rates) )).
+             report('our hops', Agents, Rates) )).
 
-told(What, Number, rates(PerSecond, PerCpu)) :-
+report(What, Number, rates(PerSecond, PerCpu)) :-
     many(Number, Many),
     format('rates(~q, ~w, ~1f, ~1f).~n', [What, Many, PerSecond, PerCpu]).
 

@@ -1,7 +1,7 @@
 %   Chapter 7: statements of sections 7.6.1 and 7.6.3 on the proposed
 %   mechanism compared with the others.
 %
-%   Gives: competing/3, beside/6.
+%   Gives: competing/3, versus/6.
 
 :- use_module(library(lists), [member/2]).
 
@@ -33,13 +33,13 @@ competing(Text, Notes, Test) :-
              said(time, "completed sooner", <, 4882),
              said(backoffs, "more back-offs", >, 4887),
              said(interval, "shorter back-offs", <, 4888) ]),
-    beside(Measure, What, Order, Text0, Test0),
-    so_many(Measure, Line, Text0-Test0, Text, Notes, Test).
+    versus(Measure, What, Order, Text0, Test0),
+    with_allocators(Measure, Line, Text0-Test0, Text, Notes, Test).
 
-%   beside(+Measure, +What, +Order, -Text, -Test): compares the proposed
+%   versus(+Measure, +What, +Order, -Text, -Test): compares the proposed
 %   mechanism with an auction.
 
-beside(Measure, What, Order, Text, at([mechanism=proposed], Test)) :-
+versus(Measure, What, Order, Text, at([mechanism=proposed], Test)) :-
     auction(Auction, Title),
     Test =.. [Order, Measure, at([mechanism=Auction], Measure)],
     format(string(Text), "~w with proposed than with ~w", [What, Title]).
@@ -49,12 +49,12 @@ auction(anta, "ANTA").
 
 %   One claim for one to five allocators, and one for the several that compete.
 
-so_many(_, Line, Text0-Test, Text, [line(Line)|Notes], Test) :-
+with_allocators(_, Line, Text0-Test, Text, [line(Line)|Notes], Test) :-
     alone(Notes),
     string_concat(Text0, ", of one to five", Text).
-so_many(Measure, Line, Text0-Test, Text, [line(Line), ours],
-        ( at([allocators=2], Test), at([allocators=3], Test),
-          at([allocators=4], Test), at([allocators=5], Test) )) :-
+with_allocators(Measure, Line, Text0-Test, Text, [line(Line), ours],
+                ( at([allocators=2], Test), at([allocators=3], Test),
+                  at([allocators=4], Test), at([allocators=5], Test) )) :-
     member(Measure, [communications, time]),
     string_concat(Text0, ", of two to five", Text).
 

@@ -21,14 +21,14 @@ claim("Murdoch is completed sooner with more robots", [line(4982)],
 claim("ANTA is completed sooner with more robots", [line(4982)],
       at([mechanism=anta], falls(time, along(eligible)))).
 claim(Text, [line(4979)], Test) :-
-    beside(communications, "fewer communications", <, Text, Test).
+    versus(communications, "fewer communications", <, Text, Test).
 claim(Text, [line(4983), why("With ten of ten an agent must find every one.")],
       Test) :-
-    beside(time, "completed sooner", <, Text, Test).
+    versus(time, "completed sooner", <, Text, Test).
 claim(Text, [line(4983), ours],
       ( at([eligible=20], Test), at([eligible=30], Test),
         at([eligible=40], Test), at([eligible=50], Test) )) :-
-    beside(time, "completed sooner", <, Text0, Test),
+    versus(time, "completed sooner", <, Text0, Test),
     string_concat(Text0, ", of 20 and more", Text).
 claim("back-offs of proposed fall with the density", [line(5004)],
       at([mechanism=proposed], falls(backoffs, along(eligible)))).

@@ -103,7 +103,7 @@ derive(Study, Name, Case0, Case) :-
 %   cases.
 
 parameters(Study, Given, Parameters) :-
-    findall(Name, said(Study, Name, _, _, _), Names0),
+    findall(Name, defined(Study, Name, _, _, _), Names0),
     list_to_set(Names0, Names),
     findall(parameter(Name, Value, Why),
             ( member(Name, Names),
@@ -118,7 +118,7 @@ counts(_, Given, Name, Value, given) :-
     memberchk(Name-Value, Given),
     !.
 counts(Study, _, Name, Value, Why) :-
-    findall(Source-(Value0-Why0), said(Study, Name, Value0, Why0, Source),
+    findall(Source-(Value0-Why0), defined(Study, Name, Value0, Why0, Source),
             All),
     (   member(own-_, All)
     ->  findall(Pair, member(own-Pair, All), Pairs)
@@ -140,12 +140,12 @@ best([Pair|_], Pair).
 
 is_default(_-default).
 
-%   said(+Study, ?Name, -Value, -Why, -Source): the study, or a default of the
-%   engine, defines Name; Source is `own` or `included`.
+%   defined(+Study, ?Name, -Value, -Why, -Source): the study, or a default of
+%   the engine, defines Name; Source is `own` or `included`.
 
-said(Study, Name, Value, Why, Source) :-
+defined(Study, Name, Value, Why, Source) :-
     in_file(Study, Name, Value, Why, Source).
-said(Study, Name, Value, default, included) :-
+defined(Study, Name, Value, default, included) :-
     once(clause(Study:network(_, _, _), _)),
     default(Name, Value).
 
@@ -183,7 +183,7 @@ source(Study, Clause, Source) :-
 %!  study_parameter(+Study, ?Name) is nondet.
 
 study_parameter(Study, Name) :-
-    said(Study, Name, _, _, _).
+    defined(Study, Name, _, _, _).
 
 %!  varied(+Study, +Cases, -Names:list(atom)) is det.
 %

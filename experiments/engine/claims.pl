@@ -92,7 +92,7 @@ verdict(Test, _, Context, Truth) :-
     findall(Relation-Values, related(Test, Context, Relation, Values),
             [First|Others]),
     truth(forall(member(Relation-Values, [First|Others]),
-                 stand(Relation, Values)),
+                 in_relation(Relation, Values)),
           Truth).
 
 verdicts([], _, _, []).
@@ -157,9 +157,9 @@ along(P, E, Context, Values) :-
     findall(Value, ( member(_-Point, Line), value(E, Point, Context, Value) ),
             Values).
 
-stand(near, [A, B, Within]) :- !, abs(A - B) =< Within.
-stand(between, [A, Least, Most]) :- !, Least =< A, A =< Most.
-stand(Order, [A, B]) :- call(Order, A, B).
+in_relation(near, [A, B, Within]) :- !, abs(A - B) =< Within.
+in_relation(between, [A, Least, Most]) :- !, Least =< A, A =< Most.
+in_relation(Order, [A, B]) :- call(Order, A, B).
 
                 /*******************************
                 *             SHAPE            *

@@ -49,9 +49,9 @@ figures(Plans, Options) :-
     claims_sentence(Outcomes, Sentence),
     directory_file_path(Out, 'index.html', Page),
     format('~n~w~nTables, pictures, claims: ~w~n', [Sentence, Page]),
-    tell_missing(Plans, Options).
+    report_missing(Plans, Options).
 
-tell_missing(Plans, Options) :-
+report_missing(Plans, Options) :-
     runs_directory(Options, Root),
     findall(Run, planned(Plans, Options, _, Run), Runs),
     exclude(run_done(Root, false), Runs, Missing),

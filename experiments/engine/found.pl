@@ -26,22 +26,22 @@
 claim_found(M:Test, Points, Names, Text) :-
     context(M:Points, Context0),
     findall(Part,
-            ( looked_at(Test, Context0, E, Context),
+            ( compared_expression(Test, Context0, E, Context),
               part(E, Context, Names, Part) ),
             Parts0),
     list_to_set(Parts0, Parts),
     atomic_list_concat(Parts, '; ', Text).
 
-looked_at(at(Where, Test), Context0, E, EContext) :-
+compared_expression(at(Where, Test), Context0, E, EContext) :-
     !,
     selected(Where, Context0, Context),
-    looked_at(Test, Context, E, EContext).
-looked_at(Test, Context, E, EContext) :-
+    compared_expression(Test, Context, E, EContext).
+compared_expression(Test, Context, E, EContext) :-
     connective(Test, Tests),
     !,
     member(One, Tests),
-    looked_at(One, Context, E, EContext).
-looked_at(Test, Context, E, Context) :-
+    compared_expression(One, Context, E, EContext).
+compared_expression(Test, Context, E, Context) :-
     leaf(Test, _, _, Es),
     member(E, Es),
     \+ number(E).
@@ -51,7 +51,7 @@ part(E, Context, Names, Part) :-
     findall(Case-Value,
             ( member(Case0-Measures, Points),
               value(E, Case0-Measures, Context, Value),
-              led_to(E, Case0, Case) ),
+              case_of(E, Case0, Case) ),
             Values0),
     list_to_set(Values0, Values),
     text(Values, Names, Text),
@@ -60,11 +60,11 @@ part(E, Context, Names, Part) :-
 
 %   at/2 selects another case.
 
-led_to(at(Where, _), Case0, Case) :-
+case_of(at(Where, _), Case0, Case) :-
     !,
     dict_create(Other, case, Where),
     Case = Case0.put(Other).
-led_to(_, Case, Case).
+case_of(_, Case, Case).
 
 %   plain(+Expression, -Plain): readable form; conditions of at/2 are shown by
 %   their values alone.

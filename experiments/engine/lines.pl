@@ -69,7 +69,7 @@ heights(Title, Panels, Variables0, Height, Variables) :-
     Height is round(Head + 40 + (285 + Foot)*Panels),
     selectchk('SUBTITLE'-Subtitle0, Variables0, Variables1),
     selectchk('ROTATED'-Rotated, Variables1, Variables2),
-    room_on_the_left(Rotated, Variables2, Variables3),
+    left_margin(Rotated, Variables2, Variables3),
     Variables = [ 'TITLE'-TitleText, 'SUBTITLE'-Subtitle, 'HEIGHT'-Height,
                   'HEAD'-Head, 'FOOT'-Foot, 'SUBLINE'-Subline,
                   'KEYROWS'-Rows, 'ROTATED'-Rotated
@@ -77,9 +77,9 @@ heights(Title, Panels, Variables0, Height, Variables) :-
 
 %   Rotated labels end at their tick, so they need space on the left.
 
-room_on_the_left(0, Variables, Variables) :-
+left_margin(0, Variables, Variables) :-
     !.
-room_on_the_left(_, Variables0, ['LEFT'-Left|Variables]) :-
+left_margin(_, Variables0, ['LEFT'-Left|Variables]) :-
     selectchk('LEFT'-Left0, Variables0, Variables),
     memberchk('RIGHT'-Right, Variables),
     Left is Left0 - 0.1*(Right - Left0).

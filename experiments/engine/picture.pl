@@ -58,7 +58,7 @@ drawn(lines(Options), Study, Name, Title, Runs, Directory) :-
     lines_picture(Study, Name-Plain, Options, Runs, Directory,
                   Height-Variables),
     module_property(study_picture, file(Here)),
-    beside(Here, 'lines.gp', Script),
+    file_beside(Here, 'lines.gp', Script),
     draw(Directory, Name, 1000-Height, Script, Variables).
 drawn(over_time(Options), Study, Name, Title, Runs0, Directory) :-
     option(y(Y), Options),
@@ -81,7 +81,7 @@ drawn(script(File, Tables, Options), Study, Name, Title, Runs0, Directory) :-
     ),
     append(Options, [size(1200, 1000)], Sizes),
     memberchk(size(W, H), Sizes),
-    beside(Study, File, Script),
+    file_beside(Study, File, Script),
     plain_text(Title, Plain),
     draw(Directory, Name, W-H, Script, ['TITLE'-Plain, 'HEIGHT'-H|More]).
 drawn(file(File, Where), _, Name, _, Runs0, Directory) :-
@@ -100,7 +100,7 @@ of_seed(Options, Runs0, Runs) :-
     findall(run(Case, First, Ms), member(run(Case, First, Ms), Runs0), Runs).
 of_seed(_, Runs, Runs).
 
-beside(File, Name, Path) :-
+file_beside(File, Name, Path) :-
     file_directory_name(File, Directory),
     directory_file_path(Directory, Name, Path).
 

@@ -21,25 +21,25 @@
 
 watching(Log, What, Total, Goal) :-
     setup_call_cleanup(
-        thread_create(look_on(Log, What, Total, 0, 0), Thread,
+        thread_create(count_events(Log, What, Total, 0, 0), Thread,
                       [alias(study_onlooker)]),
         once(Goal),
         ( thread_send_message(Thread, stop),
           thread_join(Thread, _),
           progress_done(user_error) )).
 
-look_on(Log, What, Total, Position0, Count0) :-
+count_events(Log, What, Total, Position0, Count0) :-
     new_lines(Log, Position0, Position, Lines),
-    aggregate_all(count, ( member(Line, Lines), tells(Line, What) ), New),
+    aggregate_all(count, ( member(Line, Lines), is_event(Line, What) ), New),
     Count is Count0 + New,
     Shown is min(Count, Total),
     progress(user_error, Shown, Total, events),
     thread_self(Me),
     (   thread_get_message(Me, stop, [timeout(0.2)])
     ->  true
-    ;   look_on(Log, What, Total, Position, Count)
+    ;   count_events(Log, What, Total, Position, Count)
     ).
 
-tells(Line, What) :-
+is_event(Line, What) :-
     catch(term_string(event(_, _, _, Event), Line), error(_, _), fail),
     subsumes_term(What, Event).

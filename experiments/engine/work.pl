@@ -61,7 +61,7 @@ runs_make(Runs, Root, Options, Failed) :-
           Ball,
           ( end_workers,
             throw(Ball) )),
-    tell_counts,
+    report_counts,
     aggregate_all(count, failed_by(_), Failed).
 
 %   A single run in real time is made in this process; if the study has
@@ -75,7 +75,7 @@ make_missing([Run], desk(_, Root, Logs), _) :-
     part_directory(Directory, Pid, Part),
     log_file(Part, Log),
     watching(Log, What, Total, run_here(Run, Root, [logs(Logs)], Outcome)),
-    told(Outcome, Run).
+    report(Outcome, Run).
 make_missing(Runs, Desk, Task) :-
     make(Runs, Desk, Task, 0).
 
@@ -90,7 +90,7 @@ watched(run(Study, Case, _), What, Total) :-
 make([Run|Runs], Desk, Task, Done) :-
     free_worker(Desk, Worker),
     !,
-    hand_over(Worker, Run, Desk),
+    assign(Worker, Run, Desk),
     make(Runs, Desk, Task, Done).
 make([], _, _, _) :-
     \+ busy(_, _, _),
@@ -99,24 +99,24 @@ make([], _, _, _) :-
 make(Runs, Desk, Task, Done) :-
     show(Done, Task),
     next_answer(Run, Outcome),
-    told(Outcome, Run),
+    report(Outcome, Run),
     Done1 is Done + 1,
     show(Done1, Task),
     make(Runs, Desk, Task, Done1).
 
-told(failed(Directory, Cause), Run) :-
+report(failed(Directory, Cause), Run) :-
     !,
     (   failed_by(Cause)
     ->  true
     ;   print_message(error, study_run(Run, Directory, Cause))
     ),
     assertz(failed_by(Cause)).
-told(_, _).
+report(_, _).
 
 %   If many runs fail for the same reason, the first is reported, the others are
 %   counted.
 
-tell_counts :-
+report_counts :-
     forall(( aggregate(count, failed_by(Cause), Count),
              Count > 1 ),
            print_message(error, study_runs(Count, Cause))).
@@ -166,7 +166,7 @@ worker_start(Out) :-
 
 %   If a worker has died, this shows when it does not answer.
 
-hand_over(Out, Run, desk(_, Root, Logs)) :-
+assign(Out, Run, desk(_, Root, Logs)) :-
     Run = run(Study, Case, Seed),
     run_directory(Root, Run, Directory),
     dict_pairs(Case, _, Pairs),

@@ -34,7 +34,7 @@
 work :-
     stream_property(Answers, alias(user_output)),
     stream_property(Errors, alias(user_error)),
-    say_to(Errors),
+    errors_to(Errors),
     set_stream(Answers, encoding(utf8)),
     set_stream(user_input, encoding(utf8)),
     stopping_on_signals(answers(Answers)).
@@ -112,13 +112,13 @@ writing(Part, Goal) :-
     stream_property(Old, alias(user_error)),
     setup_call_cleanup(
         ( open(File, write, Out, [encoding(utf8), buffer(line)]),
-          say_to(Out) ),
+          errors_to(Out) ),
         Goal,
-        ( say_to(Old),
+        ( errors_to(Old),
           close(Out),
           ( size_file(File, 0) -> delete_file(File) ; true ) )).
 
-say_to(Stream) :-
+errors_to(Stream) :-
     set_stream(Stream, alias(user_error)),
     set_stream(Stream, alias(user_output)),
     set_output(Stream).

@@ -126,7 +126,7 @@ passed(Network, Hour) :-
     transaction(( retractall(scene(_, _)), assertz(scene(Hour, Fields)) )),
     forall(member(Field-_, Fields),
            ( reading(Seed, Hour, Evaporation-Rain, Field, Reading),
-             told(Options, Field, Reading),
+             send_reading(Options, Field, Reading),
              link_passed(Seed, Options, Hour, Field) )),
     Next is Hour+1,
     Time is 3600*Next,
@@ -180,7 +180,7 @@ link_passed(Seed, Options, Hour, field(Number, _, _, _)) :-
 topic(Number, Name, Topic) :-
     format(atom(Topic), 'field/~w/~w', [Number, Name]).
 
-told(Options, Field, Reading) :-
+send_reading(Options, Field, Reading) :-
     arg(1, Field, Number),
     topic(Number, moisture, Topic),
     (   option(broker(URL), Options),
