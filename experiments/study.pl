@@ -162,7 +162,7 @@ make_one(Study, Case, Options) :-
     (   Outcome = failed(Directory, _)
     ->  directory_file_path(Directory, output, File),
         read_file_to_string(File, Text, [encoding(utf8)]),
-        format(user_error, '~w~nThe run failed; this is in ~w~n',
+        format(user_error, '~w~nThe run failed; see ~w~n',
                [Text, File]),
         halt(1)
     ;   run_result(Root, Run, Measures),
@@ -177,4 +177,4 @@ make_one(Study, Case, Options) :-
     prolog:message//1.
 
 prolog:message(study_none_is_real) -->
-    [ '--real: no case that is made has real/2, which names it'-[] ].
+    [ '--real: real/2 selects none of these cases'-[] ].

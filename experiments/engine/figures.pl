@@ -59,7 +59,7 @@ report_missing(Plans, Options) :-
     length(Missing, MissingCount),
     (   Missing == []
     ->  true
-    ;   format('~d of ~d runs are not there~n', [MissingCount, Count])
+    ;   format('~d of ~d runs are missing~n', [MissingCount, Count])
     ).
 
 show(plan(Study, Given, Cases), Options, Out,
@@ -120,4 +120,4 @@ never_measured(Study, Runs, Where, Name) :-
     \+ ( member(run(_, _, Measures), Runs), get_dict(Name, Measures, _) ).
 
 prolog:message(study_measure(Where, Name)) -->
-    [ '~p: no run has given ~q'-[Where, Name] ].
+    [ '~p: no run has a value of ~q'-[Where, Name] ].

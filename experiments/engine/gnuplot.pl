@@ -164,5 +164,5 @@ literal_code(Code, [Code|Codes], Codes).
 
 prolog:message(study_plot(Formal)) -->
     [ 'No picture was drawn by gnuplot: ~p'-[Formal], nl,
-      'The data and the script of the figure are there; \c
+      'The data and the script of the figure are saved; \c
 try: apt-get install gnuplot-nox'-[] ].

@@ -122,7 +122,7 @@ draw(Directory, Name, Size, Script, Variables) :-
                 *******************************/
 
 prolog:message(study_picture(Name, no_data)) -->
-    [ 'Picture ~w is not drawn: there is nothing to show'-[Name] ].
+    [ 'Picture ~w is not drawn: there are no data'-[Name] ].
 prolog:message(study_picture(Name, error(Formal, Context))) -->
     [ 'Picture ~w is not drawn: '-[Name] ],
     '$messages':translate_message(error(Formal, Context)).

@@ -145,7 +145,7 @@ runs_directory(Options, Root) :-
     directory_file_path(Out, runs, Root).
 
 prolog:error_message(no_study_case(Text, Names)) -->
-    [ 'case ~w does not exist; there are '-[Text] ],
+    [ 'case ~w does not exist; cases are '-[Text] ],
     first_names(Names).
 
 first_names(Names) -->

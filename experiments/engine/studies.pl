@@ -268,10 +268,11 @@ unknown(Study, Name) :-
 
 prolog:message(study_mistyped(File, PI, Words)) -->
     { names_joined(Words, ' or ', Text) },
-    [ '~w: ~q is no word of studies (did you mean ~w?)'-[File, PI, Text] ].
+    [ '~w: ~q is not a predicate of studies (did you mean ~w?)'-
+      [File, PI, Text] ].
 
 prolog:error_message(study(File, Problems)) -->
-    [ '~w is no study yet'-[File] ],
+    [ '~w is not a valid study'-[File] ],
     problems(Problems).
 
 problems([]) --> [].
@@ -281,11 +282,11 @@ problems([Problem|Problems]) -->
     problems(Problems).
 
 says(errors) -->
-    [ 'it does not load without errors'-[] ].
+    [ 'it has errors when it is loaded'-[] ].
 says(missing(Word)) -->
-    [ 'it has no ~q'-[Word] ].
+    [ 'it does not define ~q'-[Word] ].
 says(arity(PI, Word)) -->
-    [ 'it has ~q; the word is ~q'-[PI, Word] ].
+    [ 'it defines ~q; studies have ~q'-[PI, Word] ].
 says(no_values(Name)) -->
     [ 'vary(~q, Values): Values is not a list of values'-[Name] ].
 says(no_range(Name, Range)) -->
@@ -297,12 +298,12 @@ says(said(Where, Problem)) -->
     [ '~p: '-[Where] ],
     says(Problem).
 says(no_test(Part)) -->
-    [ '~q is no test'-[Part] ].
+    [ '~q is not a test'-[Part] ].
 says(no_picture(Part)) -->
-    [ '~q is no picture'-[Part] ].
+    [ '~q is not a picture'-[Part] ].
 says(wrong(Formal)) -->
     '$messages':translate_message(error(Formal, _)).
 says(no_case(Name=Value)) -->
-    [ '~q is never ~q'-[Name, Value] ].
+    [ 'no case has ~q=~q'-[Name, Value] ].
 says(unknown(Name)) -->
     [ '~q is neither a measure nor a parameter'-[Name] ].

@@ -129,4 +129,4 @@ explanation(Error, Why) :-
                    print_message_lines(current_output, '', Lines)).
 
 prolog:error_message(study_changed(File)) -->
-    [ '~w, or what it needs, has changed since this session began'-[File] ].
+    [ '~w, or a file it uses, has changed since this session began'-[File] ].

@@ -84,16 +84,16 @@ test(own_test_is_missing,
 test(mistyped_word) :-
     study_messages(more_problems(['labl(m, "M").'], Problems), Text),
     assertion(Problems == []),
-    has(Text, ["labl/2 is no word of studies (did you mean label/2?)"]).
+    has(Text, ["labl/2 is not a predicate of studies (did you mean label/2?)"]).
 test(all_errors_are_reported) :-
     with_study_file([ 'study(toy, "A toy").', 'vary(b, 1).',
                       'measure(m, _, 1).', 'plot(p, bars([])).',
                       'claim("small", [], n < 1).',
                       'claim("large", [], big(m)).', 'a b.' ], errors_of(Text)),
-    has(Text, [ "study.pl is no study yet", "it does not load",
-                "vary(b, Values)", "it has plot/2; the word is plot/3",
+    has(Text, [ "study.pl is not a valid study", "it has errors",
+                "vary(b, Values)", "it defines plot/2; studies have plot/3",
                 "claim(\"small\"): n is neither a measure nor a parameter",
-                "claim(\"large\"): big(m) is no test" ]).
+                "claim(\"large\"): big(m) is not a test" ]).
 
 :- end_tests(studies).
 
@@ -213,7 +213,7 @@ test(table_and_claims) :-
     prints(['--runs', 2, '--out', out], exit(0), Text),
     has(Text, [ "toy: A toy", "  a  b      runs   m", "2  x         2  23",
                 "held, 2 runs        m grows", "n: no value",
-                "claim(\"n is small\"): no run has given n",
+                "claim(\"n is small\"): no run has a value of n",
                 "1 of 2 claims held in all runs.", "index.html" ]).
 test(set) :-
     prints(['--set', 'c=[4,5]', '--set', 'a=1', '--set', 'b=x', '--runs', 1],
@@ -243,12 +243,12 @@ test(case_by_name) :-
                           ["  m           13", "a=1,b=it is,seed=4"])).
 test(no_such_case, forall(member(Case, [9, 'a=3,b=x']))) :-
     prints(['--case', Case], exit(1), Text),
-    has(Text, ["case", "does not exist; there are a=1,b=x  a=1,b=it is  "]).
+    has(Text, ["case", "does not exist; cases are a=1,b=x  a=1,b=it is  "]).
 test(case_parameters_in_any_order) :-
     with_command(one_case(['--case', 'b=x,a=2'], ["a=2,b=x,seed=1"])).
 test(no_case_in_real_time) :-
     prints(['--real', '--runs', 1, '--set', 'a=1'], exit(0), Text),
-    has(Text, ["--real: no case"]).
+    has(Text, ["--real: real/2 selects none"]).
 test(command_names_the_folder_of_the_runs) :-
     with_command(again).
 test(no_such_study) :-
@@ -267,7 +267,7 @@ test(no_cases_left_to_compare) :-
     has(Text, ["not known           m grows"]).
 test(collect_of_missing_runs) :-
     prints(['--collect', '--out', out], exit(0), Text),
-    has(Text, ["not known", "12 of 12 runs are not there"]).
+    has(Text, ["not known", "12 of 12 runs are missing"]).
 test(no_runs, forall(member(Option, ['--runs', '--jobs']))) :-
     prints([Option, 0], Status, _),
     assertion(Status \== exit(0)).
