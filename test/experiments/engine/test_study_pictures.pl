@@ -172,7 +172,7 @@ test(pictures_of_a_run_are_copied) :-
     with_pictures(copied).
 test(impossible_plot_is_reported) :-
     with_pictures(said(Text)),
-    forall(member(Part, [ "Picture none is not drawn: there is nothing",
+    forall(member(Part, [ "Picture none is not drawn: there are no data",
                           "Picture wrong is not drawn:", "missing/2" ]),
            assertion(once(sub_string(Text, _, _, _, Part)))).
 test(drawn, [condition(gnuplot), forall(member(Name, [one, two, three]))]) :-
