@@ -83,6 +83,16 @@ end(Host) :-
     ;   true
     ).
 
+%   The system kills a bwrap whose parent ends.  If that bwrap has just made the
+%   process of the cell and not told it yet to go on, that process waits for ever.
+%   So Prolog ends after a start that is under way, unless that takes very long.
+
+:- at_halt(starts_finish).
+
+starts_finish :-
+    forall(server(Server),
+           catch(server_call(Server, finish_start, 10, _), error(_, _), true)).
+
 server_running(Server) :-
     (   server(Server)
     ->  true
@@ -279,6 +289,9 @@ cells_list(Cells) :-
 
 serves(call(begin, Caller), _, Next) :-
     ( spare(_) -> true ; spare_start ),
+    server_answer(Caller, true),
+    set_timer(Next).
+serves(call(finish_start, Caller), _, Next) :-
     server_answer(Caller, true),
     set_timer(Next).
 serves(wanted, _, Next) :-

@@ -4,7 +4,7 @@
 :- use_module('../../../lib/fixtures').
 :- use_module('../../../lib/peers').
 :- use_module(library(plunit)).
-:- use_module(library(filesex), [directory_file_path/3]).
+:- use_module(library(filesex), [chmod/2, directory_file_path/3]).
 :- use_module(library(lists), [member/2, numlist/3, subtract/3]).
 :- use_module(library(process), [process_kill/2]).
 :- use_module(library(readutil), [read_file_to_string/3, read_file_to_terms/3]).
@@ -356,6 +356,8 @@ test(without_bubblewrap_a_policy_warns_once, Out-Warned == "done"-1) :-
     assertion(Status == exit(0)),
     findall(x, sub_string(Err, _, _, _, "no cell can be started"), Xs),
     length(Xs, Warned).
+test(process_ends_after_the_start_of_a_cell_is_complete, Marks == [done]) :-
+    with_tmp_dir(ends_amid_a_start(Marks)).
 test(slow_start_of_a_cell_does_not_disable_cells,
      error(timeout_error(start_cell, _))) :-
     with_settings([typhon_cells:start=0.5],
@@ -398,6 +400,30 @@ test(guarded_policy_without_cells_warns, Outcome-Count == done-1) :-
               Messages),
     was_warned(permission_error(_, cell, _), Messages, Count).
 :- end_tests(cell_processes).
+
+%   ends_amid_a_start(-Marks, +Dir): a process halts while a bubblewrap has
+%   written `begun` and not `done` yet. Marks are the files after that.
+
+ends_amid_a_start(Marks, Dir) :-
+    absolute_file_name(path(bwrap), Bwrap, [access(execute)]),
+    directory_file_path(Dir, bwrap, File),
+    format(string(Script),
+           "cd ~w; touch begun; sleep 1; mv begun done; exec ~w \"$@\"",
+           [Dir, Bwrap]),
+    shell_script(File, Script),
+    chmod(Dir, +rwx),                 % a process of root gives cells other users
+    getenv('PATH', Path),
+    format(atom(Goal),
+           'use_module(library(typhon)),\c
+            host_start(c, [policy(guarded), cell(owner)]),\c
+            setenv(\'PATH\', \'~w:~w\'),\c
+            agent_create(clauses([(:- agent(a, [])), (main :- true)]), _,\c
+                         [host(c)]),\c
+            repeat, exists_file(\'~w/begun\'), !', [Dir, Path, Dir]),
+    run_swipl(['-g', Goal, '-t', halt], [], exit(0), _, _),
+    findall(Mark, ( member(Mark, [begun,done]),
+                    directory_file_path(Dir, Mark, MarkFile),
+                    exists_file(MarkFile) ), Marks).
 
 started_by_slow_bubblewrap(Dir) :-
     directory_file_path(Dir, bwrap, File),
