@@ -155,11 +155,11 @@ beside_all_hogs(Placement, Peer) :-
 
 beside_hog(What, Clauses, Peer, Placement) :-
     findall([alone-Alone,beside-Beside],
-            ( between(1, 7, Round),
+            ( between(1, 5, Round),
               in_turns(Round,
-                       travelled(10, 4000, Peer, rates(Alone, _)),
+                       travelled(10, 20 000, Peer, rates(Alone, _)),
                        beside_hogs(inn, Clauses,
-                                   travelled(10, 4000, Peer,
+                                   travelled(10, 20 000, Peer,
                                              rates(Beside, _)))) ),
             Rounds),
     atomic_list_concat(['hops of ten agents beside a hog in a cell, of ', What,

@@ -62,7 +62,7 @@ cell_main :-
 priority_lower :-
     catch(setup_call_cleanup(
               open('/proc/self/autogroup', update, Out),
-              write(Out, 10),
+              write(Out, 15),
               close(Out)),
           error(_, _), true).
 

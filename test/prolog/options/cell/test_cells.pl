@@ -30,11 +30,11 @@ cell(Goal) :-
 
 result(Clauses, Result) :-
     create(Clauses, A, [host(c)]),
-    agent_result(A, Result, 30).
+    agent_result(A, Result, 120).
 
 outcome(Clauses, Outcome) :-
     create(Clauses, A, [host(c)]),
-    agent_join(A, Outcome, 30).
+    agent_join(A, Outcome, 120).
 
 :- begin_tests(cells).
 
@@ -111,7 +111,7 @@ test(faults_have_their_location,
      Outcome-Place = raised(error(instantiation_error, _))-(foo/1:1)) :-
     cell(( create([ (main :- foo(X), result(X)),
                     (foo(X) :- atom_length(_, X)) ], A, [host(c)]),
-           agent_join(A, Outcome, 30),
+           agent_join(A, Outcome, 120),
            agent_property(A, fault(fault(_, _, Place, _))) )).
 test(failing_goal, Outcome == failed) :-
     cell(outcome([(main :- member(x, [y]))], Outcome)).
@@ -126,7 +126,7 @@ test(state_is_changed_from_outside, Facts == [n(1),n(2)]) :-
 test(services_of_the_place_are_available, Result == [2,4]-no) :-
     with_tmp_dir(served(Result)).
 test(cells_have_low_priority,
-     [condition(exists_file('/proc/self/autogroup')), true(Nice == "10")]) :-
+     [condition(exists_file('/proc/self/autogroup')), true(Nice == "15")]) :-
     cell(( create([(main :- receive(_))], A, [host(c)]),
            wait_state(A, waiting),
            cell_session_nice(Nice) )).
@@ -134,7 +134,7 @@ test(order_from_outside, Outcome == disposed) :-
     cell(( create([(main :- receive(_))], A, [host(c)]),
            wait_state(A, waiting),
            agent_dispose(A),
-           agent_join(A, Outcome, 30) )).
+           agent_join(A, Outcome, 120) )).
 test(agent_that_does_not_stop_is_ended,
      Outcomes-Beside = [raised(error(resource_error(seconds), _)),disposed]
                        -done) :-
@@ -222,7 +222,7 @@ test(gatekeeper_checks_each_predicate, Own == [clone/1,clone/2,deliver/1,
 result(Clauses, Ask, Result) :-
     create(Clauses, A, [host(c)]),
     agent_send(A, ask(Ask)),
-    agent_result(A, Result, 30).
+    agent_result(A, Result, 120).
 
 used_cells(Count) :-
     cells_list(Cells),
@@ -252,7 +252,7 @@ bridge_called(Calls, Ended, Passed, Dir) :-
 called(Calls, Call, Outcome) :-
     member(Call, Calls),
     create([ (main :- Call) ], A, [host(c)]),
-    capturing(agent_join(A, Outcome, 30), _).
+    capturing(agent_join(A, Outcome, 120), _).
 
 :- public twice/2, thrice/2.
 
@@ -380,7 +380,7 @@ test(changing_to_guarded_enables_cells, Cells-Result == 1-no) :-
                       tries(Clauses),
                       create(Clauses, A, [host(c)]),
                       agent_send(A, go),
-                      agent_result(A, Result, 30),
+                      agent_result(A, Result, 120),
                       used_cells(Cells) )).
 test(virtual_time_has_no_cells,
      error(permission_error(start, cell, clock(virtual)))) :-
