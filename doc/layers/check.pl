@@ -54,6 +54,8 @@ problem(past_interface(File, Module, PI)) :-
 problem(circle(File)) :-
     layer_module(File, _, _),
     reaches_by_import(File, File).
+problem(stray_comment_end(File)) :-
+    size(File, '*/'/0, _, _).
 problem(Problem) :-
     seam_problem(Problem).
 problem(Problem) :-
@@ -182,6 +184,8 @@ says(against_layers(F, T), '~w: imports ~w, against the layers', [F, T]).
 says(past_interface(F, M, PI), '~w: calls ~w of ~w, which is internal',
      [F, PI, M]).
 says(circle(F), '~w: imports itself, in a circle', [F]).
+says(stray_comment_end(F), '~w: a stray */ makes the next directive a clause',
+     [F]).
 says(breaks_rule(F, H), '~w: defines ~w of a higher layer', [F, H]) :-
     H = _:_.
 says(breaks_rule(F, O), '~w: names the option ~w: use a hook', [F, O]) :-

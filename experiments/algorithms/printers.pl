@@ -12,7 +12,6 @@ payloads(learning/settings) are in this module, as in an agent.
 
 *Threading*: one thread at a time.
 */
-*/
 
 :- dynamic
     setting/2,                          % Name, Value

@@ -7,7 +7,6 @@
 
 *Threading*: pure.
 */
-*/
 
 :- multifile
     prolog:error_message//1.

@@ -22,7 +22,6 @@ no comparisons.
 
 *Threading*: pure.
 */
-*/
 
 :- meta_predicate claim_comparisons(:, +, -).
 

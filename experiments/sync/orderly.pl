@@ -13,7 +13,6 @@ that have loaded this file have the strategy: those of a virtual network.
 
 *Threading*: pure.
 */
-*/
 
 :- multifile
     typhon_strategy:strategy/1,
