@@ -39,8 +39,8 @@ are deferred while a frame is being handled and counted.
 :- use_module(threads, [manager_notify/1]).
 :- use_module(transport, [transport_input/2]).
 :- use_module(unacked,
-              [ ack_frames/1, session_acked/3, session_count/2,
-                session_received/2, session_untold/2 ]).
+              [ ack_frames/1, session_ack_due/2, session_acked/3,
+                session_count/2, session_received/2 ]).
 :- use_module(writer, [session_release/1]).
 
 :- setting(silence, number, 5,
@@ -198,7 +198,7 @@ next(In, Max, Counts, Bytes) :-
 %   Three silences in a row are too many while an answer is due.
 
 silent(Session, In, State) :-
-    (   session_untold(Session, 0)
+    (   session_ack_due(Session, 0)
     ->  true
     ;   acknowledge(Session, In, State) % the peer need not keep the frames
     ),
@@ -245,21 +245,21 @@ handle(Bundle, Session, In, State) :-
     acknowledge(Session, In, State).
 handle(Frame, Session, In, State) :-
     take_frame(Frame, Session),
-    session_count(Session, Untold),
+    session_count(Session, AckDue),
     nb_setarg(2, State, 0),
-    acknowledge_now_and_then(Untold, Session, In, State).
+    acknowledge_now_and_then(AckDue, Session, In, State).
 
 %   A bundle is acknowledged at once: its sender holds others until then.
 
-acknowledge_now_and_then(Untold, Session, In, State) :-
-    (   Untold =:= 0
+acknowledge_now_and_then(AckDue, Session, In, State) :-
+    (   AckDue =:= 0
     ->  true
     ;   ack_frames(MaxFrames),
-        Untold < MaxFrames,
-        arg(1, State, ToldBytes),
+        AckDue < MaxFrames,
+        arg(1, State, AckedBytes),
         byte_count(In, Bytes),
         ack_bytes(MaxBytes),
-        Bytes-ToldBytes < MaxBytes
+        Bytes-AckedBytes < MaxBytes
     ->  true
     ;   acknowledge(Session, In, State)
     ).

@@ -12,8 +12,8 @@
             unacked_close/3,            % +Session, -Waiting, -Handed
             ack_frames/1,               % -Count
             session_received/2,         % +Session, -Count
-            session_count/2,            % +Session, -Untold
-            session_untold/2,           % +Session, -Count
+            session_count/2,            % +Session, -AckDue
+            session_ack_due/2,          % +Session, -Count
             session_acked/3,            % +Session, +Counts, -Settled
             session_objected/3,         % +Session, +Number, +Answer
             session_pending/2           % +Session, -Count
@@ -23,12 +23,13 @@
 
 Frames are numbered by counting on both sides. The window of a session is
 
-    window(Sent, Waiting, Received, Told, Acked, AckedBytes, Settled)
+    window(Sent, Waiting, Received, AckSent, Acked, AckedBytes, Settled)
 
 Only this module accesses its arguments: two queues of frames, and the names of
 five flags: how many frames of the peer were received; how many of them were
-acknowledged; how many of our frames the peer has received, and how many bytes
-of its connection; and the last count of settled frames that was written.
+acknowledged; how many frames of this process the peer has received, and how
+many bytes of its connection; and the last count of settled frames that was
+written.
 
 A frame is frame(Bytes, Token, Settled). Frames that were written to some
 connection and that the peer has not received are in Sent, those that were never
@@ -97,14 +98,14 @@ ack_frames(32).
 %   other frames wait, or writing might block.
 
 unacked_sent(Window, Out, Bytes, Token, counts(Count, Count)) :-
-    Window = window(Sent, Waiting, Received, Told, _, _, Settled),
+    Window = window(Sent, Waiting, Received, AckSent, _, _, Settled),
     message_queue_property(Waiting, size(0)),
     space(room, Window, Out, Space),
     string_length(Bytes, Length),
     Length < Space,
     get_flag(Received, Count),
     thread_send_message(Sent, frame(Bytes, Token, Count)),
-    set_flag(Told, Count),
+    set_flag(AckSent, Count),
     set_flag(Settled, Count).
 
 %   space(+Most, +Window, +Out, -Space): the bytes that can be written to Out
@@ -183,9 +184,9 @@ unacked_next(Session, Out, Most, Counts, Bytes) :-
 
 unacked_counts(Session, frame(Bytes, _, Settled), counts(Count, Settled),
                Bytes) :-
-    session_window(Session, window(_, _, Received, Told, _, _, SettledFlag)),
+    session_window(Session, window(_, _, Received, AckSent, _, _, SettledFlag)),
     get_flag(Received, Count),
-    set_flag(Told, Count),
+    set_flag(AckSent, Count),
     set_flag(SettledFlag, Settled).
 
 %!  unacked_control(+Window, +Out, +Most, +Bytes, -Counts) is semidet.
@@ -196,12 +197,12 @@ unacked_counts(Session, frame(Bytes, _, Settled), counts(Count, Settled),
 %   if Most is `all`, they settle no more than was written before.
 
 unacked_control(Window, Out, Most, Bytes, counts(Count, Settled)) :-
-    Window = window(_, _, Received, Told, _, AckedBytes, SettledFlag),
+    Window = window(_, _, Received, AckSent, _, AckedBytes, SettledFlag),
     space(Most, Window, Out, Space),
     string_length(Bytes, Length),
     Length < Space,
     get_flag(Received, Count),
-    set_flag(Told, Count),
+    set_flag(AckSent, Count),
     (   Most == room
     ->  Settled = Count,
         set_flag(SettledFlag, Count)
@@ -234,7 +235,7 @@ unacked_settled(window(_, _, Received, _, _, _, Settled)) :-
 
 unacked_resumed(Session, Count, Bytes, Frames) :-
     session_window(Session, Key, Window),
-    Window = window(Sent, _, _, Told, Acked, AckedBytes, Settled),
+    Window = window(Sent, _, _, AckSent, Acked, AckedBytes, Settled),
     get_flag(Acked, Count0),
     message_queue_property(Sent, size(Size)),
     Gone is max(0, min(Count-Count0, Size)),
@@ -244,7 +245,7 @@ unacked_resumed(Session, Count, Bytes, Frames) :-
     set_flag(Acked, Count1),
     set_flag(AckedBytes, Bytes),
     bundle_received(Key, Count1),
-    set_flag(Told, -1),                 % the reader acknowledges at its start
+    set_flag(AckSent, -1),              % the reader acknowledges at its start
     fifo_empty(Sent, Frames),
     forall(member(Frame, Frames), thread_send_message(Sent, Frame)),
     (   Frames = [frame(_, _, First)|_]
@@ -393,24 +394,24 @@ session_received(Session, Count) :-
     session_window(Session, window(_, _, Received, _, _, _, _)),
     get_flag(Received, Count).
 
-%!  session_untold(+Session, -Count) is det.
+%!  session_ack_due(+Session, -Count) is det.
 %
-%   Count of these frames are not acknowledged.
+%   Count received frames are not acknowledged yet.
 
-session_untold(Session, Count) :-
-    session_window(Session, window(_, _, Received, Told, _, _, _)),
+session_ack_due(Session, Count) :-
+    session_window(Session, window(_, _, Received, AckSent, _, _, _)),
     get_flag(Received, All),
-    get_flag(Told, Known),
+    get_flag(AckSent, Known),
     Count is All-Known.
 
-%!  session_count(+Session, -Untold) is det.
+%!  session_count(+Session, -AckDue) is det.
 %
-%   Count one more frame as received.  Untold are not acknowledged then.
+%   Count one more frame as received.  Then AckDue are not acknowledged yet.
 
-session_count(Session, Untold) :-
-    session_window(Session, window(_, _, Received, Told, _, _, _)),
+session_count(Session, AckDue) :-
+    session_window(Session, window(_, _, Received, AckSent, _, _, _)),
     get_flag(Received, Count0),
     Count is Count0+1,
     set_flag(Received, Count),
-    get_flag(Told, Known),
-    Untold is Count-Known.
+    get_flag(AckSent, Known),
+    AckDue is Count-Known.
