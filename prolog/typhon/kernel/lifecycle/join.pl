@@ -178,7 +178,7 @@ home_here(Agent, _) :-
 %   home.
 
 results_of(Agent, Outcome, Kind, Items) :-
-    may_be_here(Outcome),
+    may_still_exist(Outcome),
     catch(agent_ask(Agent, results(Kind), 2, answer(Items0)), error(_, _),
           fail),
     !,
@@ -190,9 +190,9 @@ results_of(Agent, _, Kind, Items) :-
     ;   results_ask(Home, Agent, Kind, Items)
     ).
 
-may_be_here(timeout).
-may_be_here(failed).
-may_be_here(raised(_)).
+may_still_exist(timeout).
+may_still_exist(failed).
+may_still_exist(raised(_)).
 
 typhon_questions:here(results(Kind), Agent, Asker) :-
     agent(Agent, _, Module, _, _),
