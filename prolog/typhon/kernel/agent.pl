@@ -9,9 +9,10 @@ This is the interface of the layer: higher layers import from here.
 
 :- reexport(agent/agents,
             [ agent/5, agent_claim/3, agent_comes/5,
-              agent_enter/3, agent_gone/3, agent_handed/4, agent_here/5, agent_on/2,
-              agent_mail/2, agent_mobile/6, agent_move/5, agent_note/3, agent_passes/6,
-              agent_program/4, agent_put/3, agent_put_life/2,
+              agent_enter/3, agent_gone/3, agent_handed/4, agent_here/5,
+              agent_mail/2, agent_mobile/6, agent_move/5, agent_note/3,
+              agent_on/2, agent_passes/6, agent_program/4, agent_put/3,
+              agent_put_life/2,
               agent_ready/2, agent_remove/3, agent_rest/3,
               agent_rests/3, agent_runs/1, agent_status/3,
               agent_take/3, agent_thawed/5, agent_under_way/6, agent_wakes/2 ]).

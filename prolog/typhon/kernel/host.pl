@@ -9,7 +9,8 @@ This is the interface of the layer: higher layers import from here.
 
 :- reexport(host/hosts,
             [ host/3, host_again/1, host_came/2, host_closed/1, host_enter/3,
-              host_hop/3, host_hop_stats/3, host_leave/1, host_left/2, host_load/2, host_note/1,
+              host_hop/3, host_hop_stats/3, host_leave/1, host_left/2,
+              host_load/2, host_note/1,
               host_option/2, host_passed/3, host_passes/4, host_plain/2,
               host_plain_leaves/2, host_put/2 ]).
 :- reexport('host/host_names').
@@ -44,7 +45,7 @@ This is the interface of the layer: higher layers import from here.
               [ as_guest/1, process_ask/6, runtime_acquire/2,
                 runtime_acquire/3, runtime_release/1 ]).
 :- reexport(host/hosting,
-            [ host_begin/2, host_end/1, host_listed/2, host_restart/2, host_start/1,
-              host_start/2, host_stop/1, hosts_exclusively/1, hosts_go_on/0,
+            [ host_begin/2, host_end/1, host_listed/2, host_restart/2,
+              host_start/1, host_start/2, host_stop/1, hosts_exclusively/1, hosts_go_on/0,
               hosts_rest/0 ]).
 :- reexport('host/remote').

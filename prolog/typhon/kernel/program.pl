@@ -23,9 +23,8 @@ This is the interface of the layer: higher layers import from here.
 :- reexport(program/code,
             [ code_install/3, code_receive/2, code_module/2,
               code_locate/2, code_names/2, code_places/2, code_program/2,
-              code_sent/2,
-              code_clear/0, code_make/3, code_extras/2, code_unwrapped/3,
-              code_wrapped/3, sent_program/2 ]).
+              code_sent/2, code_clear/0, code_make/3, code_extras/2,
+              code_unwrapped/3, code_wrapped/3, sent_program/2 ]).
 :- reexport(program/mobile,
             [ body_calls/2, built_in/1, is_mobile/2, mobile_predicates/3,
               near_built_in/2, vocabulary/1, vocabulary_word/2 ]).

@@ -90,7 +90,7 @@ receive(To, From, Message, Births, Peer) :-
     mail_accepted(Peer, To, Births, [mail(Peer, From, Message)], Accepted),
     (   Accepted == []
     ->  true
-    ;   scheduler_call(typhon_external_recipients:carry_on(To, From, Message, Peer))
+    ;   scheduler_call(carry_on(To, From, Message, Peer))
     ).
 
 %   To may be at(To, Host), which names the host of the bridge.

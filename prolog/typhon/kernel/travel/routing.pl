@@ -267,7 +267,8 @@ typhon_endpoint:received(message, lost(Formal, Id, Mail), _) :-
     ;   report(Formal, Id, Sent)
     ).
 
-typhon_durable_posts:undelivered(message, shown(_, Message), Endpoint, Formal) :-
+typhon_durable_posts:undelivered(message, shown(_, Message), Endpoint,
+                                 Formal) :-
     typhon_durable_posts:undelivered(message, Message, Endpoint, Formal).
 typhon_durable_posts:undelivered(message, message(Id, Mail, _), _, Formal) :-
     mail_lost(Formal, Id, Mail).
