@@ -10,7 +10,7 @@
 
 Arithmetic is compiled; debug/3 is kept. Predicates are imported, or declared
 by autoload/2, and not searched for: with a search library(settings) would load
-library(predicate_options), which takes as long as ten of our modules.
+library(predicate_options), which takes as long as ten modules of this library.
 
 *Threading*: any thread; the flags are those of the thread.
 */

@@ -168,6 +168,7 @@ is_remark(Text) :-
 %   Text of bounded length for terms.
 
 %!  abridged(+Term, +Longest:integer, -Text:string) is det.
+%
 %   Text is Term as written in a program: a variable that occurs once as `_`,
 %   the others as letters.  Text longer than Longest characters is cut off, and
 %   ends with three dots.  Deep and cyclic terms are cut off during the

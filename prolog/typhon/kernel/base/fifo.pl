@@ -7,7 +7,7 @@
 /** <module> Message queues as plain queues
 
 A message queue keeps terms in order at little cost.  Here its owner adds and
-takes terms as in any other store, without other threads.
+takes terms as in any other store.
 
 Code that takes by a pattern must not peek first: on 9.0.4, also 10.1,
 thread_peek_message/2 that has passed over a message leaves a reference to a

@@ -113,8 +113,8 @@ on_demand_later(Goal) :-
     held_hooks/1.
 
 %   hold_hook(+Module, +Clause) is semidet: compile Clause, for a hook of
-%   Module, one of ours, later. Not in the kernel, which is loaded before there
-%   are threads.
+%   Module, a module of this library, later. Not in the kernel, which is loaded
+%   before there are threads.
 
 hold_hook(Module, Clause) :-
     atom(Module),

@@ -167,7 +167,8 @@ interrupt(Tries, Thread) :-
 %!  abort_quietly
 %
 %   As abort/0, which no goal can catch for good, but keeps input that was typed
-%   ahead. From 9.3 until 10 the exception is not known, so abort/0 raises it.
+%   ahead. From 9.3 until 10 the exception depends on the version, so abort/0
+%   raises it.
 
 abort_quietly :-
     current_prolog_flag(version, Version),

@@ -62,7 +62,7 @@ chance_hash(Term, Seed) :-
     term_hash(Term, Hash),
     Seed is Hash /\ 0xffffff.
 
-%   A bijection of 32-bit numbers in which each bit of the input moves
+%   A bijection of 32-bit numbers in which each bit of the input changes
 %   about half of the bits of the output.
 
 scramble(X0, X) :-
@@ -104,7 +104,7 @@ chance_uniform(Min, Max, X, Chance0, Chance) :-
 %!  chance_true(+P, -Bool, +Chance0, -Chance) is det.
 %
 %   Bool is `true` with probability P, else `false`. A number is drawn
-%   in any case, so P does not move what is drawn later.
+%   in any case, so later choices do not depend on P.
 
 chance_true(P, Bool, Chance0, Chance) :-
     chance_float(Float, Chance0, Chance),

@@ -26,10 +26,9 @@ Handle may fail for `begin` and `stop`.
 
 A call for which Handle raises an error, or fails, gets that error, and the
 server goes on.  If Handle raises an error for another message the server
-prints it, and begins again with its first State.  If its thread is aborted,
-another thread begins with that State and the same queue, and prints an error
-message; if no thread can be created, server_cast/2 and server_check/1 try
-again.
+prints it, and begins again with its first State.  If its thread is aborted, it
+reports this as an error, and another thread begins with that State and the same
+queue; if no thread can be created, server_cast/2 and server_check/1 try again.
 
 *Threading*: any thread. A server may stop itself.
 */

@@ -230,7 +230,7 @@ rest :-
     ;   durable_end
     ).
 
-%   The clock of a host in a network works with any kind of time.
+%   A host with a clock is one of a network, and accepts its kind of time.
 
 kind_of_time(Options, [time(Kind)]) :-
     time_wanted(Options, Kind),

@@ -34,8 +34,9 @@ The rights are
   - remote: run goals here
   - inspect: read agents, events and the properties of the host
 
-A peer has all of these rights, but `remote` only if it proves that it has our
-own secret: the cookie, or, where processes have keys, our own certificate.
+A peer has all of these rights, but `remote` only if it proves that it has the
+secret of this process: the cookie, or, where processes have keys, its
+certificate.
 The parts of a host in the phase `permit` can decide otherwise, and those in
 the phase `security` record security events; see typhon_host_parts.
 

@@ -324,8 +324,8 @@ time_signal(_).
 
 %!  time_hold(+Seconds) is semidet.
 %
-%   Stop giving turns to agents, and firing alarms.  Fails if that cannot be
-%   reached within Seconds of the time of day.
+%   Hold time: no agent gets a turn, and no alarm goes off.  Fails if that is
+%   not so within Seconds of the time of day.
 
 time_hold(Seconds) :-
     time_kind(Kind),

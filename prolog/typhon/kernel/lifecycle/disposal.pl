@@ -131,9 +131,9 @@ wait_or_force(force(Seconds), Agent) :-
                   ; force(Agent, Deadline)
                   )).
 
-%   ends_within(+Agent, +Seconds) is semidet: Agent ends within Seconds.  After
-%   them, this ends an agent that is at rest because no worker could run it, or
-%   that is faulty.
+%   ends_within(+Agent, +Seconds) is semidet: Agent ends within Seconds.  Then
+%   this ends an agent that is faulty, or at rest because no worker could run
+%   it.
 
 ends_within(Agent, Seconds) :-
     catch(ignore(agent_urge(Agent, order(end), Seconds, _)),

@@ -59,7 +59,7 @@ mark_cuts(Body, _, Body).
 
 %!  plain_goal(+Goal0, -Goal) is det.
 %
-%   Replace `'$cut'(_)` by `!`, which suspended goals have.
+%   Replace `'$cut'(_)`, which only goals that are being run have, by `!`.
 
 plain_goal(Goal, Goal) :-
     var(Goal),

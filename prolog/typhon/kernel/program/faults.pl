@@ -20,9 +20,9 @@ machine, which still exist then.  The last note is what ended the run: a fault
 
     fault(Goal, Goals, natives(Raising, Clauses))
 
-with the goal that failed or raised an error, the goals that were left to run
-on, the goal that raised the error natively, and references to the clauses that
-were running then, innermost first.
+with the goal that failed or raised an error, the goals that were left to run,
+that goal first, the goal that raised the error natively, and references to the
+clauses that were running then, innermost first.
 
 Agents that neither fail nor raise errors pay nothing for this, and agents that
 catch their errors half a microsecond.

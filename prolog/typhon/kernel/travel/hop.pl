@@ -33,7 +33,7 @@ See typhon_within for hops between hosts of one process, and typhon_hand_over
 for the short form between plain hosts.  The source freezes the agent and sends
 its image: state, payloads, goals, mail.  The receiver installs it and answers,
 see typhon_arrival; only then does the source remove its copy, see
-typhon_transfer.  An agent that comes back before the answer has arrived.
+typhon_transfer.  If the agent comes back before the answer, it has arrived.
 
   | answer       | the source                                            |
   | ------------ | ----------------------------------------------------- |

@@ -34,8 +34,8 @@ If the other process keeps a journal, this process asks only that process, until
 it is back: it knows the agents that it has admitted.  The same holds for a
 process that is alive, if this process was restarted.
 
-*Threading*: resolve_in_doubt/1 in reader threads, which never wait; surveys in
-a worker.
+*Threading*: resolve_in_doubt/1 in reader threads, which never wait;
+ask_peers/2 in a worker.
 */
 
 :- setting(shown_seconds, number, 3,

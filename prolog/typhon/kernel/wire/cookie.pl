@@ -83,7 +83,7 @@ unfit(File, Why) :-
 
 %   Prolog has no predicate for the mode of a file; ls prints it, as -rw-------,
 %   on all systems with modes. A pipe needs no library(process), which is as
-%   large as three modules of ours.
+%   large as three modules of this library.
 
 check_private(_) :-
     current_prolog_flag(windows, true),
