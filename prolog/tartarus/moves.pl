@@ -215,7 +215,7 @@ arrived(Name) :-
 
 :- dynamic hop/6.                       % Way, Agent, From, To, Date, Seconds
 
-%   About so many hops of each direction are kept.
+%   At most twice as many hops are kept, of both directions together.
 
 kept(10000).
 

@@ -38,8 +38,7 @@ Besides these journals a record holds the text of one term,
 
 How is `begun`, or `built` when the whole plan has been carried out.  A network
 that is started again must be the same.  Options that are not given keep their
-values.  Options with other values raise an error, unless they may
-change.
+values.  Options with other values raise an error, unless they may change.
 
 *Threading*: the thread that starts or stops the network, and that of module
 `restarts`.

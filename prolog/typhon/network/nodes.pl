@@ -166,8 +166,8 @@ result(late, Node, _) :-
 %   Send Order to the children Ps. Results are pairs P-Result, in the order of
 %   their arrival. Result is a result of endpoint_request/4, `down` if the child
 %   has ended, which the endpoint alone cannot know, or `late`. Before each
-%   second of waiting call(Watch, Waiting) is called with the children that have
-%   not answered.
+%   wait for an answer, of at most a second, call(Watch, Waiting) is called with
+%   the children that have not answered.
 
 nodes_ask(Network, Ps, Order, Seconds, Watch, Results) :-
     functor(Order, What, _),            % arguments may contain secrets

@@ -52,9 +52,10 @@ absent process do so in their own threads.
 %
 %   Start the server of Network. From now on restarts_notify/3 sends it the
 %   events up(P), down(P, Status) and failed(P, Error); it gets the events in
-%   Queue first. The server calls Do with start(P) to start P again, with restore(P)
-%   to restore the hosts of P when it is up, with kill(P) to kill a process that
-%   does not come up, and with give_up(P) when it will not restart P.
+%   Queue first. The server calls Do with start(P) to start P again, with
+%   restore(P) to restore the hosts of P when it is up, with kill(P) to kill a
+%   process that does not come up, and with give_up(P) when it will not restart
+%   P.
 %
 %   @error resource_error(What) if no thread can be created
 

@@ -16,10 +16,7 @@ that use TLS.
     typhon_transport:misfit/4,
     typhon_transport:refusal/2.
 
-%   A TLS record begins with the byte 0x16.
-
-
-typhon_transport:first_byte(0x16, tls).
+typhon_transport:first_byte(0x16, tls).         % of each TLS record
 
 %   The server sends this line to a client of the other kind.
 

@@ -33,7 +33,7 @@ calls them, or another process sends a request.
 %
 %     - address(Address), state(running), place(Module)
 %     - capacity(N): maximal number of agents, or `inf`
-%     - load(N): number of agents
+%     - load(N): number of agents, without faulty ones
 %     - neighbours(Addresses)
 %     - hop_time(Direction, stats(Count,Min,Mean,Max)): duration of hops in host
 %       seconds; Direction is `in` or `out`

@@ -177,8 +177,8 @@ living(Host, Name) :-
     ),
     !.
 
-%   An agent of this process that has not registered itself cannot be modified
-%   or deregistered.
+%   An entry that the AMS lists without registration cannot be modified or
+%   deregistered.
 
 registered(Manager, Host, Name) :-
     Directory =.. [Manager,Host],

@@ -154,7 +154,7 @@ line(Line, Heard) :-
     catch(ignore(call(Heard, Dict)), error(Formal, Context),
           print_error(error, error(Formal, Context))).
 line(Line, _) :-
-    debug(typhon(helper), 'a helper says ~s', [Line]).
+    debug(typhon(helper), 'a helper has printed ~s', [Line]).
 
 %   The process is reaped, and its fact retracted, in one critical section.
 %   Otherwise process_kill_of/1 could kill a new process with the same number.

@@ -48,10 +48,9 @@ check_program(Spec, Options) :-
     ;   Options == []
     ).
 
-%   objection(+Options, +Program, -Objection) is nondet: a hook for capabilities
-%   that are loaded.  A host with Options would refuse the code
-%   program(Rules, Libraries), Rules being pairs Rule-Location, for Objection,
-%   Where-Formal, where Where is unbound if the location is not known.
+%   objection(+Options, +Program, -Objection) is nondet: hook.  A host with
+%   Options would refuse program(Rules, Libraries) for Objection, Where-Formal.
+%   Rules are pairs Rule-Location; Where is unbound if the location is not known.
 
 no_objections(Options, Spec, Located) :-
     ( is_payload(Located) -> Kind = payload ; Kind = agent ),

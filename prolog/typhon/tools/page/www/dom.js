@@ -130,7 +130,7 @@ addEventListener('pointermove', event => {      // released outside the window
 
 // Touch, mouse and wheel on a canvas: pan, zoom, and drag of items.
 
-const SLOP = 4;                 // pixels by which the pointer may move in a click
+const SLOP = 4;                 // pixels that a click may move
 
 // on: {grab(x, y) -> the item there or null, click(x, y, item, event),
 //      drag(item, x, y), drop(item, x, y), pan(dx, dy), zoom(factor, x, y),

@@ -7,8 +7,8 @@
 
 import { byName } from './names.js';
 
-const EXPLAINED = 0.85;         // least share of the links that belong to the shape
-const THERE = 0.4;              // least share of the links of the shape that exist
+const EXPLAINED = 0.85;         // least share of links in the shape
+const THERE = 0.4;              // least share of its links that exist
 
 // For each shape the pairs of numbers of linked hosts, and the position of host
 // i of n.

@@ -67,7 +67,7 @@ class Connection {
   lost() {
     clearTimeout(this.silence);
     this.socket = null;
-    if (!this.refused) this.told.state('lost');     // else state() has the reason
+    if (!this.refused) this.told.state('lost'); // else state() has the reason
     this.again(this.wait);
     this.wait = Math.min(LONGEST, this.wait * 1.7);
   }

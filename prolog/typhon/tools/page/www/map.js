@@ -16,7 +16,7 @@ import { Picture, saveButtons, write } from './svg.js';
 
 const CALM = 160;               // ms; up to a second if drawing is slow
 const FOUND = 200;              // marked results of a search, at most
-const PATIENCE = 600;           // ms after new links until the layout is checked
+const PATIENCE = 600;           // ms from new links to a layout check
 
 const same = (a, b) => a && b && a.shape === b.shape && a.columns === b.columns;
 

@@ -23,7 +23,7 @@ class Sequence extends Picture {
     super();
     this.store = store;
     this.app = app;
-    this.chosen = [];           // agents; if empty, those with the most messages
+    this.chosen = [];           // agents; [] for those with most messages
     this.moves = true;
     this.build(parent);
     this.palette = new Palette(store, this.element);

@@ -10,7 +10,7 @@ import { story } from './story.js';
 
 const CALM = 250;
 const LEAST = 16;               // pixels of a row
-const MANY = 30;                // hosts, above which only hops are shown at first
+const MANY = 30;                // hosts; with more, only hops at first
 const SPANS = [['2', '2 s'], ['10', '10 s'], ['60', '1 min'], ['600', '10 min'],
   ['all', 'all']];
 

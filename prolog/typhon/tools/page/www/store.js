@@ -14,7 +14,7 @@ const ENDED = 2000;             // ended agents that are still shown
 const RECENT = 60000;           // past events kept for the views, live
 const LOGGED = 500000;          // ... in a replay, whose log is in memory
 const LINES = 200;              // log lines stored for each host
-const MINIMUM = 0.3;            // least seconds for which the mark of a hop is shown
+const MINIMUM = 0.3;            // least seconds for the mark of a hop
 
 // Listeners by the name of the event; on() returns the function that removes one.
 export class Announcer {

@@ -12,7 +12,7 @@ export function story(events, last) {
   const told = { stays: [], hops: [], letters: [], marks: [], lanes: new Map() };
   const where = new Map();      // agent -> its stay, or {host, left: time}
   const busy = new Map();       // host -> whether each lane is in use
-  const post = new Map();       // "sender receiver" -> letters that are not taken
+  const post = new Map();       // "sender receiver" -> untaken letters
 
   const begin = (agent, host, time) => {
     if (!busy.has(host)) busy.set(host, []);

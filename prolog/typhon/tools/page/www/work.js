@@ -309,7 +309,7 @@ main :-
 on_message(_, go(Host)) :-
     move(Host).
 `;
-const CALM = 400;               // ms after the last key until the program is checked
+const CALM = 400;               // ms from the last key to the check
 
 export function editor(app) {
   const numbers = element('pre', { class: 'numbers', 'aria-hidden': 'true' });
