@@ -24,7 +24,7 @@ bridge `echo` in outline:
 
     % the last subscriber of Key is gone
     typhon_subscribers:wanted(echo, Host, Key, false) :-
-        helper_note(echo(Host), _{do:deafen, key:Key}).
+        helper_note(echo(Host), _{do:unsubscribe, key:Key}).
 
     % the host stops, or echo_stop(Host) is called
     typhon_starting:ends(echo, Host) :-

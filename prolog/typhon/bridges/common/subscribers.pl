@@ -187,7 +187,7 @@ subscribers_drop(Service, Host, Key, Message) :-
 subscribers_forget(Service, Host) :-
     with_mutex(typhon_subscribers,
                ( forget(Service, Host),
-                 stop_hearing(Host) )).
+                 unsubscribe_events(Host) )).
 
 forget(Service, Host) :-
     retract(subscribed(_, Agent, Service, Host, _, Key)),
@@ -209,7 +209,7 @@ subscribe_events(Host) :-
         events_subscribe([life,bad_ends,hops], Host, subscribers(Host))
     ).
 
-stop_hearing(Host) :-
+unsubscribe_events(Host) :-
     (   subscribed(_, _, _, Host, _, _)
     ->  true
     ;   retractall(subscribed_events(Host)),

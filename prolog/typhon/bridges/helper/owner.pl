@@ -48,8 +48,8 @@ soon(5).                        % seconds: a process that ends earlier failed
 %!  own_state(+When, -State) is det.
 %!  own(+Me, +Message, +State0, -State) is det.
 %
-%   Handle a Message to the server Me, owner(Name, Command, When, Role, Told): a
-%   request(Id, Line), note(Line), `told`, for a line in the queue Told, or
+%   Handle a Message to the server Me, owner(Name, Command, When, Role, Lines):
+%   request(Id, Line), note(Line), `line`, for a line in the queue Lines, or
 %   `quit`.
 %
 %   State is up(Process, Since, Wait), or down(Time, Wait, Answer): the process
@@ -78,9 +78,9 @@ handle(begin, _, State0, State) =>
 handle(call(request(Id, Line), Caller), Me, State0, State) =>
     when_asked(State0, Me, State),
     write_request(State, Id, Caller, Line).
-handle(told, Me, State0, State) =>
-    Me = owner(_, _, _, _, Told),
-    thread_get_message(Told, Line),
+handle(line, Me, State0, State) =>
+    Me = owner(_, _, _, _, Lines),
+    thread_get_message(Lines, Line),
     when_asked(State0, Me, State),
     write_line(State, Line).
 handle(note(Line), _, State0, State) =>

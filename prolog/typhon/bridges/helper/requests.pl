@@ -30,7 +30,7 @@ for ever.
 */
 
 :- dynamic
-    helper/4.                   % Text, Owner, Queue of told lines, Name:
+    helper/4.                   % Text, Owner, Queue of lines, Name:
                                 % indexed by Text, see find_helper/3
 
 grace_seconds(2).
@@ -63,11 +63,11 @@ open_helper(Name, Command, When) :-
     text(Name, Text),
     most_lines(Max),
     own_state(When, State),
-    sig_atomic(( message_queue_create(Told, [max_size(Max)]),
+    sig_atomic(( message_queue_create(Lines, [max_size(Max)]),
                  server_start(Role,
-                              own(owner(Name, Command, When, Role, Told)),
+                              own(owner(Name, Command, When, Role, Lines)),
                               State, Owner),
-                 assertz(helper(Text, Owner, Told, Name)) )).
+                 assertz(helper(Text, Owner, Lines, Name)) )).
 
 %!  helper_close(+Name) is det.
 %
@@ -81,7 +81,7 @@ helper_close(Name) :-
 
 close_helper(Name) :-
     text(Name, Text),
-    (   retract(helper(Text, Owner, Told, _))
+    (   retract(helper(Text, Owner, Lines, _))
     ->  true
     ;   existence_error(helper, Name)
     ),
@@ -91,7 +91,7 @@ close_helper(Name) :-
     ;   process_kill_of(Owner)
     ),
     server_stop(Owner),
-    message_queue_destroy(Told).
+    message_queue_destroy(Lines).
 
 %!  helper_pid(?Name, ?Pid) is nondet.
 %
@@ -145,12 +145,12 @@ ask(Name, Owner, Request, Seconds, Answer) :-
 %   @error existence_error(helper, Name)
 
 helper_send(Name, Request) :-
-    find_helper(Name, Owner, Told),
+    find_helper(Name, Owner, Lines),
     request_line(Request, Line),
-    catch(thread_send_message(Told, Line),
+    catch(thread_send_message(Lines, Line),
           error(existence_error(_, _), _),
           existence_error(helper, Name)),
-    pass(Name, Owner, told).
+    pass(Name, Owner, line).
 
 helper_note(Name, Request) :-
     find_helper(Name, Owner, _),
@@ -166,11 +166,11 @@ pass(Name, Owner, Message) :-
 %   The table is indexed by text: an index on compound terms is unsafe if other
 %   threads retract facts.
 
-find_helper(Name, Owner, Told) :-
+find_helper(Name, Owner, Lines) :-
     text(Name, Text),
-    (   helper(Text, Owner0, Told0, _)
+    (   helper(Text, Owner0, Lines0, _)
     ->  Owner = Owner0,
-        Told = Told0
+        Lines = Lines0
     ;   existence_error(helper, Name)
     ).
 

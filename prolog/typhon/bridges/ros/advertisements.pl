@@ -9,7 +9,7 @@
 :- use_module(library(error), [permission_error/3, resource_error/1]).
 :- use_module(library(settings), [setting/2, setting/4]).
 :- use_module('../../kernel/base/bounds', [bounded/2]).
-:- use_module(connection, [way_say/2]).
+:- use_module(connection, [way_send/2]).
 
 /** <module> Advertisements and subscriptions of a host in ROS
 
@@ -27,7 +27,7 @@ a server that was down.
 %   it when it is up again.
 %
 %   @error permission_error(use, ros_topic(Type), Topic) if Topic is in use with
-%          messages of another Type, and the errors of way_say/2
+%          messages of another Type, and the errors of way_send/2
 
 claim(Host, _, Op) :-
     conflict(Op, Host, Topic, Other),
@@ -38,7 +38,7 @@ claim(Host, Key, Op) :-
     !.
 claim(Host, Key, Op) :-
     registration_begin(Host, Key, Op),
-    catch(way_say(Host, Op), error(Formal, Context), true),
+    catch(way_send(Host, Op), error(Formal, Context), true),
     (   ( var(Formal) ; Formal = ros_error(not_connected, _) )
     ->  true
     ;   ignore(registration_end(Host, Key, _)),

@@ -3,7 +3,7 @@
             way_close/1,                % +Host
             way_option/3,               % +Host, ?Option, +Default
             way_state/3,                % ?Host, -Where, -Connected
-            way_say/2,                  % +Host, +Op
+            way_send/2,                 % +Host, +Op
             way_note/2,                 % +Host, +Op
             way_await/5,                % +Host, +Id, +Op, +Seconds, -Answer
             answer_come/2,              % +Id, +Answer
@@ -112,23 +112,23 @@ connected(node, Host) :-
 connected(server, Host) :-
     rosbridge_up(Host).
 
-%!  way_say(+Host, +Op) is det.
+%!  way_send(+Host, +Op) is det.
 %
 %   Send Op.  The node of Typhon reports errors in Op; a server does not.
 %
-%   @error existence_error(ros, Host), the errors of node_say/3 and
+%   @error existence_error(ros, Host), the errors of node_send/3 and
 %          rosbridge_send/3
 
-way_say(Host, Op) :-
+way_send(Host, Op) :-
     host_way(Host, Kind, Options),
     option(deadline(Seconds), Options, 5),
     op_frame(Op, Frame),
-    debug(typhon(ros), '~w says ~p', [Host, Op]),
-    say(Kind, Host, Frame, Seconds).
+    debug(typhon(ros), '~w sends ~p', [Host, Op]),
+    send_frame(Kind, Host, Frame, Seconds).
 
-say(node, Host, Frame, Seconds) :-
-    node_say(Host, Frame, Seconds).
-say(server, Host, Frame, Seconds) :-
+send_frame(node, Host, Frame, Seconds) :-
+    node_send(Host, Frame, Seconds).
+send_frame(server, Host, Frame, Seconds) :-
     rosbridge_send(Host, Frame, Seconds).
 
 %!  way_note(+Host, +Op) is det.
@@ -140,7 +140,7 @@ way_note(Host, Op) :-
     op_frame(Op, Frame),
     debug(typhon(ros), '~w notes ~p', [Host, Op]),
     catch(note(Host, Frame), error(Formal, _),
-          debug(typhon(ros), '~w has not said ~p: ~p', [Host, Op, Formal])).
+          debug(typhon(ros), '~w has not sent ~p: ~p', [Host, Op, Formal])).
 
 note(Host, Frame) :-
     host_way(Host, Kind, _),
@@ -156,7 +156,7 @@ note(server, Host, Frame) :-
 %   Send Op, and wait for the answer to Id, see answer_await/5.
 
 way_await(Host, Id, Op, Seconds, Answer) :-
-    answer_await(Host, Id, way_say(Host, Op), Seconds, Answer).
+    answer_await(Host, Id, way_send(Host, Op), Seconds, Answer).
 
                 /*******************************
                 *           ANSWERS            *
@@ -291,7 +291,7 @@ installed(Python) :-
 node_close(Host) :-
     catch(helper_close(ros(Host)), error(existence_error(_, _), _), true).
 
-%   node_say(+Host, +Frame:dict, +Seconds) is det.
+%   node_send(+Host, +Frame:dict, +Seconds) is det.
 %
 %   The node carries out Frame.
 %
@@ -299,7 +299,7 @@ node_close(Host) :-
 %   @error type_error(ros_field(Field, Type), Value)
 %   @error ros_error(failed, Host), and the errors of helper_failure/3
 
-node_say(Host, Frame, Seconds) :-
+node_send(Host, Frame, Seconds) :-
     helper_ask(ros(Host), _{do:frame, frame:Frame}, Seconds, Answer),
     (   Answer = ok(_)
     ->  true

@@ -67,7 +67,7 @@ typhon_helper_owner:handle_message(ros(Host), Dict) :-
 
 handle_event(Event, Host) :-
     service(ros, Host),
-    debug(typhon(ros), '~w hears ~p', [Host, Event]),
+    debug(typhon(ros), '~w receives ~p', [Host, Event]),
     deliver(Event, Host),
     !.
 handle_event(_, _).

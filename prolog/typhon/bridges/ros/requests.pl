@@ -27,7 +27,7 @@
 :- use_module('../common',
               [subscribe/5, subscriber/2, subscription/3, unsubscribe/4]).
 :- use_module(advertisements, [claim/3]).
-:- use_module(connection, [way_await/5, way_option/3, way_say/2]).
+:- use_module(connection, [way_await/5, way_option/3, way_send/2]).
 :- use_module(messages,
               [json_value/3, ros_id/1, ros_name/3, ros_type/3, value_json/2]).
 
@@ -171,7 +171,7 @@ ros_refuse(Id) :-
 respond(Host, Id, JSON, Result) :-
     must_be(nonvar, Id),
     (   request_open(Host, Id, Service)
-    ->  way_say(Host, respond(Id, Service, JSON, Result)),
+    ->  way_send(Host, respond(Id, Service, JSON, Result)),
         ignore(request_end(Host, Id, Service))
     ;   existence_error(ros_request, Id)
     ).
@@ -285,7 +285,7 @@ ros_goal(Action0, Type0, Goal, Id) :-
     ros_id(Id),
     subscribe(ros, Host, goal(Id), Agent, []),
     goal_begin(Host, Id, Agent, Action),
-    catch(way_say(Host, goal(Id, Action, Type, JSON)), Ball,
+    catch(way_send(Host, goal(Id, Action, Type, JSON)), Ball,
           ( ignore(goal_end(Host, Id, _, _)),
             ignore(unsubscribe(ros, Host, goal(Id), Agent)),
             throw(Ball) )).
@@ -302,7 +302,7 @@ ros_cancel(Id) :-
     subscriber(Host, _),
     must_be(atom, Id),
     (   goal_action(Host, Id, Action)
-    ->  way_say(Host, cancel(Id, Action))
+    ->  way_send(Host, cancel(Id, Action))
     ;   existence_error(ros_goal, Id)
     ).
 

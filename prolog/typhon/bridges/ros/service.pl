@@ -15,7 +15,7 @@
               [ service/2, service_begin/4, service_end/2, subscribe/5,
                 subscriber/2, unsubscribe/4 ]).
 :- use_module(connection,
-              [ answers_fail/2, way_close/1, way_open/3, way_say/2,
+              [ answers_fail/2, way_close/1, way_open/3, way_send/2,
                 way_state/3 ]).
 :- use_module(events, [ros_ignored/2]).
 :- use_module(advertisements,
@@ -124,7 +124,7 @@ ros_publish(Topic0, Type0, Message) :-
     value_json(Message, JSON),
     claim(Host, advertise(Topic), advertise(Topic, Type)),
     atom_concat('publish:', Agent, Id),
-    way_say(Host, publish(Id, Topic, JSON)).
+    way_send(Host, publish(Id, Topic, JSON)).
 
 %!  ros_subscribe(+Topic, ?Type) is det.
 %!  ros_subscribe(+Topic, ?Type, +Options) is det.

@@ -41,7 +41,7 @@ not know which.  The modules of both define the hooks, for a Base of their own.
     record/2,                   % Base, Text
     record_put/2,               % Base, Text
     record_drop/1,              % Base
-    says/3,                     % Base, Words, What: a driver error with one of
+    error_words/3,              % Base, Words, What: a driver error with one of
                                 % Words means `locked`, `unwritable`, `full`,
                                 % `unreachable` or missing(Package)
     prolog:error_message//1.
@@ -159,7 +159,7 @@ in_terms_of(Place, Base, Goal) :-
           )).
 
 means(Base, _, Text, What) :-
-    says(Base, Words, What),
+    error_words(Base, Words, What),
     member(Word, Words),
     sub_atom(Text, _, _, _, Word),
     !.

@@ -39,7 +39,7 @@ environment applies, such as PGPASSWORD, or the defaults of the server.
     typhon_database:record/2,
     typhon_database:record_put/2,
     typhon_database:record_drop/1,
-    typhon_database:says/3.
+    typhon_database:error_words/3.
 
 :- setting(silent_seconds, positive_integer, 10,
            "Seconds without data after which the machine of a database server \c
@@ -336,12 +336,16 @@ typhon_database:record_drop(postgresql(server(Schema, Driver))) :-
                 *            ERRORS            *
                 *******************************/
 
-typhon_database:says(postgresql(_), ['lock timeout'], locked).
-typhon_database:says(postgresql(_), ['No space left', 'disk full'], full).
-typhon_database:says(postgresql(_), ['Can\'t open lib', 'Data source name'],
-                     missing('odbc-postgresql')).
-typhon_database:says(postgresql(_),
-                     [ 'server closed', 'no connection',
-                       'terminating connection', 'could not',
-       'onnection refused', 'No such file', 'FATAL', 'onnection to server',
-       'ommunication link', 'not connect' ], unreachable).
+typhon_database:error_words(postgresql(_), ['lock timeout'], locked).
+typhon_database:error_words(postgresql(_), ['No space left', 'disk full'],
+                            full).
+typhon_database:error_words(postgresql(_),
+                            ['Can\'t open lib', 'Data source name'],
+                            missing('odbc-postgresql')).
+typhon_database:error_words(postgresql(_),
+                            [ 'server closed', 'no connection',
+                              'terminating connection', 'could not',
+                              'onnection refused', 'No such file', 'FATAL',
+                              'onnection to server', 'ommunication link',
+                              'not connect' ],
+                            unreachable).

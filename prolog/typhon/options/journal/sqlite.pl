@@ -20,7 +20,7 @@ See typhon_database.  The Base is sqlite(Dir).
     typhon_database:record/2,
     typhon_database:record_put/2,
     typhon_database:record_drop/1,
-    typhon_database:says/3.
+    typhon_database:error_words/3.
 
 typhon_database:database_found(sqlite(Dir)) :-
     file(Dir, File),
@@ -106,9 +106,10 @@ typhon_database:record_drop(sqlite(Dir)) :-
 record_file(Dir, File) :-
     directory_file_path(Dir, 'network.pl', File).
 
-typhon_database:says(sqlite(_), ['is locked'], locked).
-typhon_database:says(sqlite(_), [readonly, 'unable to open', 'connect failed'],
-                     unwritable).
-typhon_database:says(sqlite(_), ['is full', 'disk I/O'], full).
-typhon_database:says(sqlite(_), [driver, 'Driver', 'Data source'],
-                     missing(libsqliteodbc)).
+typhon_database:error_words(sqlite(_), ['is locked'], locked).
+typhon_database:error_words(sqlite(_),
+                            [readonly, 'unable to open', 'connect failed'],
+                            unwritable).
+typhon_database:error_words(sqlite(_), ['is full', 'disk I/O'], full).
+typhon_database:error_words(sqlite(_), [driver, 'Driver', 'Data source'],
+                            missing(libsqliteodbc)).
