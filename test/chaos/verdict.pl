@@ -182,7 +182,7 @@ excused(Key) :-
         death_of(_, Dead),
         Dead >= Time-1
     ;   created(Key, victim, _, Home, _),
-        \+ alive(Home)                  % its home had the news of its end
+        \+ alive(Home)                  % its home had news of its end, if any
     ),
     !.
 

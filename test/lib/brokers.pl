@@ -7,9 +7,9 @@
             broker_log/2,               % +Broker, -Text
             with_broker/3,              % +Options, -Broker, :Goal
             with_mqtt/3,                % +Broker, +Options, :Goal
-            client_publishes/3,            % +Broker, +Topic, +Args
-            client_publishes_numbers/4,          % +Broker, +Topic, +N, -Pid
-            client_receives/4            % +Broker, +Args, :Goal, -Lines
+            client_publishes/3,         % +Broker, +Topic, +Args
+            client_publishes_numbers/4, % +Broker, +Topic, +N, -Pid
+            client_receives/4           % +Broker, +Args, :Goal, -Lines
           ]).
 
 /** <module> MQTT brokers for tests, and clients of other programs

@@ -88,7 +88,7 @@ meet :-
 
 %!  each_stop(+Scenario, +Program, +Link, +When, +Act) is det.
 %
-%   While frame 1 of Link waits, then while frame 2 does and so on, a returns
+%   While frame 1 of Link waits, then while frame 2 does and so on, a queries
 %   all properties of the agent, if Act is `look`, or disposes of it, if Act is
 %   `dispose`.
 %

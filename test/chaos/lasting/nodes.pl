@@ -202,7 +202,7 @@ send_order(In, Term) :-
           true).                        % the process died just now
 
                 /*******************************
-                *              WAR             *
+                *            FAULTS            *
                 *******************************/
 
 %!  faults_begin(+Options) is det.
@@ -212,22 +212,22 @@ send_order(In, Term) :-
 %   faults(List), their kinds; most(N): no more faults after N.
 
 faults_begin(Options) :-
-             option(crash(P), Options, 0.001),
-             (   option(sync(full), Options)     % nothing else survives that
-             ->  option(power(W), Options, 0)
-             ;   W = 0
-             ),
-             option(kill(Seconds), Options, inf),
-             option(most(Most), Options, inf),
-             assertz(most(Most)),
-             tell_all([dies(P), power(W)]),
-             (   Seconds == inf
-             ->  true
-             ;   option(faults(Faults), Options,
-                        [kill, kill, kill_all, stop, cut, full]),
-                 thread_create(make_faults(Seconds, Faults), Thread),
-                 assertz(fault_thread(Thread))
-             ).
+    option(crash(P), Options, 0.001),
+    (   option(sync(full), Options)     % nothing else survives that
+    ->  option(power(W), Options, 0)
+    ;   W = 0
+    ),
+    option(kill(Seconds), Options, inf),
+    option(most(Most), Options, inf),
+    assertz(most(Most)),
+    tell_all([dies(P), power(W)]),
+    (   Seconds == inf
+    ->  true
+    ;   option(faults(Faults), Options,
+               [kill, kill, kill_all, stop, cut, full]),
+        thread_create(make_faults(Seconds, Faults), Thread),
+        assertz(fault_thread(Thread))
+    ).
 
 faults_end :-
     (   retract(fault_thread(Thread))

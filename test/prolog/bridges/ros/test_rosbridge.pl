@@ -411,11 +411,11 @@ test(no_server) :-
 
 with_silent_port(URL, Goal) :-
     setup_call_cleanup(
-        capturing(Socket, URL),
+        listening_socket(Socket, URL),
         once(Goal),
         tcp_close_socket(Socket)).
 
-capturing(Socket, URL) :-
+listening_socket(Socket, URL) :-
     tcp_socket(Socket),
     tcp_setopt(Socket, reuseaddr),
     tcp_bind(Socket, localhost:Port),
@@ -424,7 +424,7 @@ capturing(Socket, URL) :-
 
 with_deaf_server(URL, Goal) :-
     setup_call_cleanup(
-        ( capturing(Socket, URL),
+        ( listening_socket(Socket, URL),
           thread_create(deaf(Socket), Thread) ),
         once(Goal),
         ( thread_send_message(Thread, end),
