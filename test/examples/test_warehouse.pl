@@ -91,7 +91,7 @@ test(beam_falls_when_robots_are_too_far_apart) :-
     floor_load(Floor, beam, _, _, Falls),
     assertion(Falls == 1).
 
-test(forks_reach_near_loads) :-
+test(fork_does_not_reach_a_distant_load) :-
     beam(Floor0),
     after([driven([r1], 1)], Floor0, Floor),
     assertion(\+ floor_fork(load, r1, Floor, _)).

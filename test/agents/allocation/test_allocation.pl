@@ -141,7 +141,7 @@ test(path_to_the_nearest_robot, Host-Distance == c-0) :-
     nearer([d, c, b, a], [a, c], [c, b], 4, Host, Distance).
 test(path_leads_forward_too, Host-Distance == d-0) :-
     nearer([d, c, b, a], [d], [a, d, b], 4, Host, Distance).
-test(equally_near_unvisited_host_is_preferred, fail) :-
+test(neighbour_that_is_not_nearer_is_ignored, fail) :-
     nearer([d, c, b, a], [a], [c], 2, _, _).
 test(broken_path, fail) :-
     nearer([c, b, a], [a], [x, y], 3, _, _).

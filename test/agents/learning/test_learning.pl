@@ -156,7 +156,7 @@ test(units_of_others_are_collected,
     shares(o, [a-1, b-2], none),        % 10, 9, + 5 = 10, 1.35, 0.18
     lives,
     acts(Acts).
-test(empty_bag_is_not_forwarded,
+test(bag_is_emptied_and_not_shared,
      Own-Bag == [a-1]-[]) :-
     learner([], [queued(o)]),
     feeds_back([a-1], unreached),

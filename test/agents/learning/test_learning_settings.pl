@@ -138,7 +138,7 @@ test(every_page_is_a_unit) :-
     Pages >= 6,
     forall(member(unit(P, S, Q)-W, Units),
            ( P == alpha, length(S, 6), Q >= 0, W >= 0 )).
-test(units_with_gain_are_weighted) :-
+test(units_are_weighted_by_their_gain) :-
     fake_agent:weight(sv(a, s, 0.5), sv(a, t, 0.7), Up),
     fake_agent:weight(sv(a, s, 0.7), sv(a, t, 0.5), Down),
     close_to(Up, 0.2),
@@ -280,7 +280,7 @@ test(sharing_between_printers_that_differ_helps) :-
     pages_of(climb, 1, [1, 2, 3, 4], 100, Alone),
     pages_of(climb, 4, [1], 100, Together),
     Alone > 1.2*Together.
-test(sharing_helps_a_genetic_algorithm) :-
+test(genetic_algorithm_beats_random_search) :-
     pages_of(genetic, 3, [1, 2], 200, Genetic),
     pages_of(lottery, 3, [1, 2], 400, Lottery),
     Lottery > 1.2*Genetic.

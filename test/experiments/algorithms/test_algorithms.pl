@@ -38,7 +38,7 @@ test(greedy_takes_the_longest_branch,
       Plan == [a,b,c]]) :-
     branches(Units),
     greedy:plan(sv(1,0,up,1), Units, Plan).
-test(start_elsewhere_has_the_least_light) :-
+test(unknown_start_begins_at_the_least_light) :-
     branches(Units),
     scout:plan(sv(0,0,up,9), Units, Plan),
     memberchk(Plan, [[a,b,c], [d]]).

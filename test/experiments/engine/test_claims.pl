@@ -169,9 +169,9 @@ found(Test, Text) :-
 
 test(claim_holds, [forall(holding(Test)), nondet]) :-
     holds(Test).
-test(negated_claim_holds, [forall(failing(Test)), fail]) :-
+test(failing_claim_does_not_hold, [forall(failing(Test)), fail]) :-
     holds(Test).
-test(denied_claim, [forall(failing(Test)), nondet]) :-
+test(negated_failing_claim_holds, [forall(failing(Test)), nondet]) :-
     holds(\+ Test).
 test(unknown_claim, [forall(( unknown(Test), Test \= rises(_, _) )), fail]) :-
     holds(Test).

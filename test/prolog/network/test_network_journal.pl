@@ -255,7 +255,8 @@ ends_last(Network) :-
                         with_mutex(typhon_hosting,
                                    ( repeat,
                                      system:sleep(0.02),
-                                     typhon_peer_cache:last_process(Endpoint, _, gone),
+                                     typhon_peer_cache:last_process(Endpoint, _,
+                                                                    gone),
                                      !,
                                      system:sleep(1) )), _, [detached(true)])).
 

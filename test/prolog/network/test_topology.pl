@@ -120,25 +120,25 @@ test(names, [forall(member(T, [ring(3), star(3)])), Names == [n1, n2, n3]]) :-
 
 :- begin_tests(topology_errors).
 
-nonsense(_, instantiation_error).
-nonsense(ring(_), instantiation_error).
-nonsense(ring(0), type_error(positive_integer, 0)).
-nonsense(ring(many), type_error(positive_integer, many)).
-nonsense(torus(3), domain_error(topology, torus(3))).
-nonsense(grid(3), domain_error(topology, grid(3))).
-nonsense(random(5, 1.5), domain_error(probability, 1.5)).
-nonsense(random(5, p), type_error(number, p)).
-nonsense(edges([]), domain_error(topology, edges([]))).
-nonsense(edges([a]), type_error(edge, a)).
-nonsense(edges([a-a]), domain_error(edge, a-a)).
-nonsense(edges([1-n1]), domain_error(edge, 1-n1)).
-nonsense(edges([a-"b"]), type_error(host_name, "b")).
-nonsense(edges(a), type_error(list, a)).
-nonsense(line(0), type_error(positive_integer, 0)).
-nonsense(edges([a-cost(1)]), type_error(edge, a-cost(1))).
-nonsense(edges([a-b-cost(x)]), type_error(number, x)).
+invalid(_, instantiation_error).
+invalid(ring(_), instantiation_error).
+invalid(ring(0), type_error(positive_integer, 0)).
+invalid(ring(many), type_error(positive_integer, many)).
+invalid(torus(3), domain_error(topology, torus(3))).
+invalid(grid(3), domain_error(topology, grid(3))).
+invalid(random(5, 1.5), domain_error(probability, 1.5)).
+invalid(random(5, p), type_error(number, p)).
+invalid(edges([]), domain_error(topology, edges([]))).
+invalid(edges([a]), type_error(edge, a)).
+invalid(edges([a-a]), domain_error(edge, a-a)).
+invalid(edges([1-n1]), domain_error(edge, 1-n1)).
+invalid(edges([a-"b"]), type_error(host_name, "b")).
+invalid(edges(a), type_error(list, a)).
+invalid(line(0), type_error(positive_integer, 0)).
+invalid(edges([a-cost(1)]), type_error(edge, a-cost(1))).
+invalid(edges([a-b-cost(x)]), type_error(number, x)).
 
-test(unknown_topology, forall(nonsense(Topology, Formal))) :-
+test(invalid_topology, forall(invalid(Topology, Formal))) :-
     catch(network_start(Topology, _, []), error(Formal1, _), true),
     assertion(Formal1 =@= Formal).
 test(invalid_seed, error(type_error(integer, a))) :-

@@ -141,7 +141,7 @@ test(agent_without_token_is_refused_and_stays) :-
                  line("move_agent(fly, (localhost,~w)).", [P2], Again),
                  type(A, Again),
                  printed(B, ["here(fly)"]) )).
-test(dead_platform_is_restarted) :-
+test(move_to_a_dead_or_the_same_platform) :-
     ports(2, [P1,P2]),
     with_nodes([[":- dynamic h/3.", "h(guid, _, main)."]], [A],
                ( up(A, P1, 1),

@@ -131,7 +131,8 @@ test(large_terms_are_not_printed, true(Length < 200)) :-
     dag(60, a, T),
     error_text(error(type_error(x, T), _), Text),
     string_length(Text, Length).
-test(printing_hooks_are_not_called, Text == "Unhandled exception: typhon_portrayed(x)") :-
+test(printing_hooks_are_not_called,
+     Text == "Unhandled exception: typhon_portrayed(x)") :-
     printing(error_text(typhon_portrayed(x), Text), _),
     untouched.
 

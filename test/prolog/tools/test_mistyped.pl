@@ -161,7 +161,7 @@ test(network) :-
         ( atom_concat(N, x, Mistyped),
           raises(network_stop(Mistyped), ["(did you mean ", N]) ),
         network_stop(N)).
-test(existing_host_is_not_suggested) :-
+test(existing_host_is_reported) :-
     with_hosts([alpha],
                raises(host_start(alpha),
                       ["There is a host alpha here already"])).

@@ -98,7 +98,7 @@ test(jade_answers_our_terms) :-
           does(fipa_request(Echo, Terms, 20, Outcome), Outcome),
           assertion(Outcome == inform-Terms) )).
 
-test(managers_answer_jade) :-
+test(managers_of_jade_answer_us) :-
     with_platform(_, ( ams_describes_itself, df_finds_who_answers )).
 
 ams_describes_itself :-
@@ -133,7 +133,7 @@ manager_answer(Manager, Action, Content) :-
            memberchk(content(Content), Parameters)
          ), Content).
 
-test(jade_gets_our_failures) :-
+test(failures_of_jade_reach_us) :-
     with_platform(_,
         ( jade_manager(nobody, Missing),
           does(fipa_request(Missing, "x", 20, Outcome), Outcome),

@@ -302,7 +302,7 @@ test(deep_envelope, error(syntax_error(fipa_envelope))) :-
     atomics_to_string(Tags, Xml),
     typhon_fipa_letter:envelope_xml(_, Xml).
 
-test(last_params_count, Name == b) :-
+test(params_of_the_highest_index_count, Name == b) :-
     typhon_fipa_letter:envelope_xml(Envelope,
                  "<envelope><params index=\"2\"><to><agent-identifier>\c
                   <name>b</name></agent-identifier></to></params>\c

@@ -36,7 +36,7 @@ test(port_without_a_process, E == existence_error(nxt_port, Port)) :-
     error_of(nxt_connect(b, Port), E, _).
 test(no_such_protocol, E == existence_error(nxt_port, 'foo://x')) :-
     error_of(nxt_connect(b, 'foo://x'), E, _).
-test(missing_device, E == nxt_error(open_failed, b)) :-
+test(file_is_no_serial_line, E == nxt_error(open_failed, b)) :-
     project_file('pack.pl', File),
     error_of(nxt_connect(b, File), E, _).
 test(permission) :-

@@ -368,7 +368,7 @@ test(no_python, error(existence_error(ros_python, '/no/python'))) :-
 test(python_without_ros, error(existence_error(python_module, rclpy))) :-
     quiet(with_alpha(ros_start(alpha, ros2,
                                [python('/usr/bin/python3')]))).
-test(missing_name, error(domain_error(ros_name(node), 'a b'))) :-
+test(invalid_node_name, error(domain_error(ros_name(node), 'a b'))) :-
     with_alpha(ros_start(alpha, ros2, [node('a b')])).
 
 :- end_tests(ros2_start).

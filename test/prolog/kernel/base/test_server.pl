@@ -125,7 +125,7 @@ test(stop_follows_earlier_messages, true(List == [b,a,begun])) :-
     ended(List).
 test(stop_twice) :-
     serving(Server, server_stop(Server)).
-test(send_to_a_stopped_server_is_ignored, fail) :-
+test(send_to_a_stopped_server_fails, fail) :-
     serving(Server, ( server_stop(Server), server_cast(Server, add(a)) )).
 test(call_of_a_stopped_server, error(existence_error(server, _))) :-
     serving(Server, ( server_stop(Server), list(Server, _) )).

@@ -715,7 +715,7 @@ test(hosts_share_a_clock, true(abs(A-B) < 500)) :-
 test(rate_must_be_positive, error(domain_error(clock_rate, 0))) :-
     no_leaks(host_start(alpha, [clock(0, 0)])).
 
-%   A hundred empty reads would be a fault.
+%   Counted twice, the clock rate would give a hundred times the hop time.
 
 test(hop_time_in_host_seconds, true((Min >= 5.0, Max < 490))) :-
     get_time(Now),

@@ -240,7 +240,7 @@ test(state_that_cannot_travel, true(F = [r(mobile_term)|_])) :-
     lives([ (main :- current_output(S), assertz(s(S)),
                      catch(move(beta), error(type_error(E, _), _),
                            assertz(r(E)))) ], F).
-%   The variable is the only part of the waiting goal that cannot travel.
+%   Stored goals would keep the variable and lose its attribute.
 
 test(attributed_variable_in_a_waiting_goal_is_refused,
      [ forall(member(Stop, [sleep(1), receive(_), receive(_, 1), clone(_)])),
@@ -748,7 +748,7 @@ test(dispose, [forall(in_state(State, _, _)), O == disposed]) :-
                  joined(A, O),
                  gone(A),
                  wait_until(host_property(alpha, load(0)), 5) )).
-test(late_answers_leave_no_clones, Left == 0) :-
+test(late_answer_leaves_no_message, Left == 0) :-
     with_hosts([alpha],
                ( create([(main :- leave(begun), shell('sleep 0.5')),
                          on_message(_, _)], A),
@@ -886,7 +886,7 @@ test(unknown_agent_of_a_missing_process,
     with_hosts([alpha], agent_property('x.1@alpha@127.0.0.1:1', _)).
 test(invalid_id, error(existence_error(agent, foo))) :-
     with_hosts([alpha], agent_property(foo, _)).
-test(property_is_no_atom, error(type_error(atom, 12))) :-
+test(id_is_no_atom, error(type_error(atom, 12))) :-
     with_hosts([alpha], agent_property(12, _)).
 test(ended, [fail]) :-
     with_hosts([alpha],

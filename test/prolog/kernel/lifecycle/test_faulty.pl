@@ -431,7 +431,8 @@ test(ball_with_an_unprintable_term,
        ( faulty([(main :- X = [1|X], throw(oops(a, X, b)))], A),
          joined(A, raised(E)),
          agent_property(A, goals(Gs)) )).
-test(error_with_an_unprintable_term, true(E == type_error(expression, 'a cyclic term'))) :-
+test(error_with_an_unprintable_term,
+     true(E == type_error(expression, 'a cyclic term'))) :-
     on([alpha],
        ( faulty([(main :- X = f(X), _ is X)], A),
          joined(A, raised(error(E, _))) )).

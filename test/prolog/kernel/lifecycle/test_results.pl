@@ -63,7 +63,7 @@ test(result_is_not_a_fact_of_the_agent, Fs == []) :-
     virtually(( create([(main :- result(1)), on_message(_, _)], A),
                 \+ agent_join(A, done, 1),
                 facts(A, Fs) )).
-test(join_fails_at_the_timeout, X == late) :-
+test(result_fails_at_the_timeout, X == late) :-
     virtually(( create([(main :- result(1), sleep(100))], A),
                 ( agent_result(A, X, 99) -> true ; X = late ),
                 agent_result(A, 1, 2) )).

@@ -526,7 +526,8 @@ test(facts_added_at_birth, F == [s(1),s(2)]) :-
                ( create([on_message(_, _), s(1)], A, [facts([s(2)])]),
                  wait_state(A, resident),
                  agent_property(A, facts(F)) )).
-test(rule_replaced_during_its_run, F == [(r(1):-assertz(s(new))),s(old),s(new)]) :-
+test(rule_replaced_during_its_run,
+     F == [(r(1):-assertz(s(new))),s(old),s(new)]) :-
     final([ (main :- r(1), r(1)),
             (r(1) :- retract((r(1) :- _)),
                      assertz((r(1) :- assertz(s(new)))),

@@ -17,7 +17,7 @@
 :- meta_predicate with_attacker(2), with_attacker(2, +).
 
 %   alpha is here, beta in a process with the same authority, and mallory is
-%   the attacker: call(Goal, Mallory, Host), where Host is an address here.
+%   the attacker: call(Goal, Mallory, Host), where Host is its address.
 
 with_attacker(Goal) :-
     with_authority([alpha, beta, mallory], [], with_attacker(Goal)).

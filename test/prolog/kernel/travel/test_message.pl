@@ -70,7 +70,8 @@ test(agent_writes_to_itself, true(F == [s(1)])) :-
                          (on_message(_, M) :- assertz(s(M)))], A),
                  wait_until(has_all(A, 1), 5),
                  facts(A, F) )).
-test(message_may_be_any_term, true(F =@= [s(f(X,X,_,"text",1.5,[a|b],7777777777777777777777))])) :-
+test(message_may_be_any_term,
+     true(F =@= [s(f(X,X,_,"text",1.5,[a|b],7777777777777777777777))])) :-
     with_hosts([alpha],
                ( collector(A, []),
                  agent_send(A, f(Y,Y,_,"text",1.5,[a|b],7777777777777777777777)),

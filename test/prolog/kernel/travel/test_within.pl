@@ -80,7 +80,7 @@ test(arrival_is_visible_at_once, true(Answer == answer(true))) :-
                ( create([(main :- move(beta)), on_message(_, _)], A),
                  wait_state(A, resident),
                  reached_as_it_goes(A, Answer) )).
-test(unserializable_state_stays_behind, true(F == [s(gone)])) :-
+test(static_predicate_stays_behind, true(F == [s(gone)])) :-
     with_hosts([alpha,beta],
                ( create([ (main :- assertz(kept(1)),
                                    compile_predicates([kept/1]), move(beta),

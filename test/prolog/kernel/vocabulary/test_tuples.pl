@@ -6,7 +6,7 @@
 :- use_module(library(lists), [numlist/3]).
 :- use_module(library(typhon)).
 
-/** <module> leave_new: tuples that are left only where no equal one is
+/** <module> leave_new: a tuple is left only if none there unifies with it
 
 *Threading*: one test at a time; the agents run in all workers.
 */

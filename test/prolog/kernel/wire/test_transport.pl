@@ -81,7 +81,7 @@ test(peer_proves_itself_by_the_transport, Proof == mark(client)) :-
     with_endpoint([marked], asked(Proof)).
 test(tcp_peer_has_proved_the_cookie, Proof == cookie) :-
     with_endpoint([], asked(Proof)).
-test(proofs_are_checked_by_the_transport,
+test(own_and_unknown_proofs_are_those_of_the_transport,
      Own-Unknown == mark(ours)-mark(unknown)) :-
     with_endpoint([marked], test_transport:proofs(Own, Unknown)).
 test(plain_client_gets_the_name_of_the_transport, Line == "typhon marked") :-

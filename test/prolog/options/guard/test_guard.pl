@@ -490,7 +490,8 @@ test(stack_is_limited,
     with_hosts([g-[ policy(guarded), cell(none),
                     quota([seconds(60), stack(64 000 000)]) ]],
                capturing(outcome(Clauses, Outcome), _)).
-test(exceeding_a_quota_ends_the_agent, [ forall(hog(What, Clauses)), true(is_of(Resource, What)) ]) :-
+test(exceeding_a_quota_ends_the_agent,
+     [ forall(hog(What, Clauses)), true(is_of(Resource, What)) ]) :-
     quota_of(What, Quotas),
     with_hosts([g-[policy(guarded), cell(none), quota(Quotas)]],
                capturing(outcome(Clauses, Outcome), _)),
@@ -509,9 +510,10 @@ test(trusted_hosts_have_quotas_too,
      Outcome = raised(error(resource_error(seconds), _))) :-
     with_hosts([g-[quota([seconds(0.2)])]],
                capturing(outcome([ (main :- lp), (lp :- lp) ], Outcome), _)).
-%   Atoms of agents do not stay in memory.
 
-test(atoms_are_collected, true(Count < 300)) :-
+%   The cache of predicates that agents name is bounded.
+
+test(cached_predicates_are_bounded, true(Count < 300)) :-
     with_settings([typhon_mobile:known=100],
                   with_hosts([g-[policy(guarded), cell(none)]],
                              forall(between(1, 4, I), names(I)))),

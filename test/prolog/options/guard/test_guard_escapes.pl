@@ -446,7 +446,7 @@ test(other_agents_are_not_delayed, R == ok) :-
                            agent_join(A, raised(_), 10) ), _)).
 %   Large data may be in goals that are not stored.
 
-test(large_terms_are_not_executed, R == 300 000) :-
+test(goal_with_a_large_argument_runs, R == 300 000) :-
     with_hosts([g-[policy(guarded), cell(none)]],
                ( create([ (main :- numlist(1, 300 000, L), G = count(L),
                                    call(G)),
@@ -477,7 +477,7 @@ test(term_size_is_bounded, Through == []) :-
     findall(Goal, huge(Goal), Goals),
     with_hosts([g-[policy(guarded), cell(none)], t],
                capturing(let_through(Goals, Through), _)).
-test(functor_and_length_are_bounded_by_size,
+test(terms_of_allowed_size_are_made,
      true(subsumes_term([f(_,_), a, 3, g(_), [f,1]], R))) :-
     with_hosts([g-[policy(guarded), cell(none)]],
                ( create([ (main :- functor(A, f, 2), functor(B, a, 0),

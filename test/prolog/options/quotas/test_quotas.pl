@@ -88,7 +88,7 @@ test(slow_traveller_stays_below_the_quota, Outcome == done) :-
           [ (main :- lap(4)), lap(0),
             (lap(N) :- move(t), move(g), sleep(0.4), M is N-1, lap(M)) ],
           Outcome).
-test(clones_share_the_quota_of_their_parent,
+test(clones_of_one_parent_are_limited,
      O = raised(error(resource_error(clones), _))) :-
     ended([clones(5)],
           [ (main :- clone(W), on(W)), on(clone(_)), (on(parent(_)) :- main),
@@ -268,7 +268,8 @@ test(messages_of_one_owner, true(Ended >= 5)) :-
                            outcomes(As, Os) ), _)),
     over(messages, O),
     count(O, Os, Ended).
-test(other_owners_are_not_affected, [Theirs,Ours] == [resource_error(messages),done]) :-
+test(other_owners_are_not_affected,
+     [Theirs,Ours] == [resource_error(messages),done]) :-
     no_leaks(with_peers([p],
         with_host_here([quota([owner(messages(20))])],
             capturing(( visitors(p, [ (main :- s(H), move(H), lp),

@@ -145,7 +145,7 @@ test(follower_that_moves_before_its_first_turn, O == disposed) :-
                  agent_move(C, beta, [wait(5)]),
                  agent_dispose(P),
                  joined(C, O) )).
-test(followers_end, Cs == [C]) :-
+test(followers_are_listed, Cs == [C]) :-
     with_hosts([alpha],
                ( create([ (main :- Child = clauses([ (:- agent(c, [])),
                                                      (main :- receive(_)) ]),

@@ -242,7 +242,7 @@ wanderers(N) :-
                                      (part(5) :- !, clone(_)),
                                      (part(_) :-
                                           (   receive(From-Text, 0.5)
-                                          ->  log(noted(From, Text))
+                                          ->  log(received(From, Text))
                                           ;   true
                                           )) ]),
                            A, [host(Host)]) ),

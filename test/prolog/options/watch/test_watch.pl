@@ -393,7 +393,7 @@ killed(Pid, H1, H4, A) :-
     create([main], A, [host(H1)]),
     joined(A, done).
 
-test(hosts_that_had_stopped_before, Lost == [H3, H4]) :-
+test(hosts_lost_before_the_watch, Lost == [H3, H4]) :-
     no_leaks(( network_start(ring(4), Network, [processes(2)]),
                network_property(Network, hosts([_, _, H3, H4])),
                network_property(Network, processes([_, Pid])),

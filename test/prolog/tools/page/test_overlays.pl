@@ -90,9 +90,9 @@ test(ended, Rows == [["show", "reserved", "b@h:2", null]]) :-
     shown(log(released('b@h:2')), Rows).
 test(overlay_of_a_link, Rows == [["show", "traffic", "a@h:1 b@h:2", 12]]) :-
     shown(log(sent('b@h:2', 'a@h:1', 12)), Rows).
-test(host_without_values, Rows == []) :-
+test(event_of_no_overlay, Rows == []) :-
     shown(log(something(else)), Rows).
-test(undeclared_overlay, Rows == []) :-
+test(overlay_of_an_unknown_kind, Rows == []) :-
     shown(log(x), Rows).
 test(infinite, Rows == [ ["show", "best", 'H', "1.0Inf"],
                          ["show", "sum", 'H', "add(1.0Inf)"] ]) :-

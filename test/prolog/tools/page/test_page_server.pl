@@ -538,7 +538,8 @@ happenings(Feed) :-
 %   JSON has no infinite numbers, and no NaN: a frame with one could not be
 %   parsed.
 
-test(invalid_number, [Cost, Logged] == ["1.0Inf", "1.5NaN"]) :-
+test(numbers_unknown_to_json_are_sent_as_text,
+     [Cost, Logged] == ["1.0Inf", "1.5NaN"]) :-
     page(Base, no_number(Base, Cost, Logged)).
 
 no_number(Base, Cost, Logged) :-

@@ -49,7 +49,7 @@ test(faulty_drawing) :-
     page([world(test_page_world:fault)], Base, ask(Base, _{ask:"world"}, Told)),
     assertion(sub_string(Told.error, _, _, _, "paint")).
 
-test(undefined_goal, error(type_error(_, _))) :-
+test(world_is_no_goal, error(type_error(_, _))) :-
     page([world(1)], _, true).
 
 %   The drawing is shown repeatedly, and its script does not run.
