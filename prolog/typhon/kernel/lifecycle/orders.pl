@@ -82,9 +82,7 @@ order_take(Id, Order) :-
     with_agent(Id, note_order(Id, Order)),
     (   Order == dispose
     ->  look_again_later(Id)
-    ;   noted(Id)
-    ->  true
-    ;   true
+    ;   ignore(noted(Id))
     ).
 
 %   The peer to which the agent is under way may soon be unreachable; then this
