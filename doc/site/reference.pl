@@ -49,7 +49,7 @@ task(agents, "Move, clone and end",
 task(agents, "Wait, and exchange messages",
      [ typhon_words:[sleep/1, receive/1, receive/2, send/2] ]).
 task(agents, "Create agents, and learn how they end",
-     [ typhon_creating, typhon_monitor_words ]).
+     [ typhon_program_words:[create/3], typhon_monitor_words ]).
 task(agents, "Know where it is",
      [ typhon_words:[ self/1, here/1, home/1, parent/1, hops/1, now/1,
                       host_load/1, neighbours/1, neighbour/2 ] ]).
@@ -58,7 +58,7 @@ task(agents, "Share facts on a host",
 task(agents, "Report results and events",
      [ typhon_words:[result/1, log/1, enter/1], typhon_seals ]).
 task(agents, "Carry and deliver payloads",
-     [ typhon_words:[attach/1, detach/1, deliver/1, undeliver/1] ]).
+     [ typhon_program_words:[attach/1, detach/1, deliver/1, undeliver/1] ]).
 task(agents, "Offer and find services", [typhon_directory_words]).
 task(agents, "Call agents by pheromones",
      [typhon_migration:[emit/1, emit/2, withdraw/1, pheromone/3]]).

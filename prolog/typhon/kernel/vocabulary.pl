@@ -29,4 +29,4 @@ This is the interface of the layer: higher layers only load it.
                 '$checked'/5, '$checked'/6, '$checked'/7, '$checked'/8,
                 '$uncaught'/1 ]).
 :- use_module(vocabulary/words, []).
-:- use_module(vocabulary/creating, []).
+:- use_module(vocabulary/program_words, []).

@@ -41,7 +41,7 @@ removed when the service or its host ends.
     starts/4,                   % Bridge, Host, What, Options: of this process
     has/3,                      % Bridge, Host, Property: hosts of this process
     delivers/3,                 % Host, Name, Source: a payload of Python code
-    typhon_words:python_delivered/3.
+    typhon_program_words:python_delivered/3.
 
 %!  python_start(+Host, +File, +Options) is det.
 %
@@ -234,7 +234,7 @@ fipa_stop(Host) :-
 
 %   Payloads of Python code need an option of the host.
 
-typhon_words:python_delivered(Host, Name, Source) :-
+typhon_program_words:python_delivered(Host, Name, Source) :-
     host_option(Host, python(true)),
     load(python),
     delivers(Host, Name, Source).

@@ -34,7 +34,7 @@ The thread that reads from Python delivers its unsolicited messages.
     typhon_options:declared/4,
     typhon_starting:ends/2,
     typhon_starting:delivers/3,
-    typhon_words:python_undelivered/2,
+    typhon_program_words:python_undelivered/2,
     prolog:error_message//1.
 
 :- dynamic
@@ -161,7 +161,7 @@ begun(Host) :-
     ;   python_begin(Host, [])
     ).
 
-typhon_words:python_undelivered(Host, Name) :-
+typhon_program_words:python_undelivered(Host, Name) :-
     service(python, Host),
     module_name(Name, Module),
     python_forget(Host, Module).

@@ -13,10 +13,6 @@
             leave_new/1,                % +Fact
             sense/1,                    % ?Fact
             take/1,                     % ?Fact
-            attach/1,                   % +Payload
-            detach/1,                   % +Name
-            deliver/1,                  % +Name
-            undeliver/1,                % +Name
             log/1,                      % +What
             result/1,                   % +Term
             enter/1,                    % +Result
@@ -31,20 +27,18 @@
 :- use_module(library(error),
               [existence_error/2, must_be/2, permission_error/3]).
 :- use_module(library(lists), [member/2]).
-:- use_module('../program',
-              [payload_load/2, payload_python/3, path_below/1, vocabulary/1]).
+:- use_module('../program', [vocabulary/1]).
 :- use_module('../wire', [mobile_term/1]).
 :- use_module('../host',
               [ context/3, context_agent/1, context_host/1, context_now/2,
                 event/4, host/3, host_address/2, host_closed/1,
                 host_link_cost/3, host_load/2, host_logs/1,
-                host_neighbours/2, host_time/2, place_deliver/3,
-                place_undeliver/2, amended/5, parts_call/3, tuple_leave/3,
-                tuple_leave_new/3, tuple_sense/2, tuple_take/2 ]).
+                host_neighbours/2, host_time/2, amended/5, parts_call/3,
+                tuple_leave/3, tuple_leave_new/3, tuple_sense/2,
+                tuple_take/2 ]).
 :- use_module('../agent',
-              [ agent/5, agent_attach/2, agent_detach/2, agent_home/2,
-                agent_handled/3, agent_payload/3, agent_variant/2,
-                result_put/2, life_hops/2, life_parent/2 ]).
+              [ agent/5, agent_handled/3, agent_home/2, agent_variant/2,
+                life_hops/2, life_parent/2, result_put/2 ]).
 :- use_module('../travel', [agent_logs/3, post/3, post_external/4]).
 
 /** <module> The vocabulary of agents
@@ -59,9 +53,7 @@ cannot stop; everywhere else the machine handles them.
 :- vocabulary(typhon_words).
 
 :- multifile
-    enters/3,                   % Module, Id, Result: it is stored and signed
-    python_delivered/3,         % Host, Name, Source: a payload, where allowed
-    python_undelivered/2.       % Host, Name
+    enters/3.                   % Module, Id, Result: it is stored and signed
 
 %!  self(-Id) is det.
 %
@@ -248,73 +240,6 @@ place(Host, Place) :-
 may_say(Host, Term) :-
     context_now(_, Agent),
     parts_call(acts, Host, [Agent, say(Term)]).
-
-%!  attach(+Payload) is det.
-%
-%   Add the clauses of a payload file to this agent.  Where programs are checked
-%   Payload is payloads(Path).
-%
-%   @error permission_error(attach, procedure, PI)
-
-attach(Spec) :-
-    context(Host, Id, Module),
-    (   agent_variant(Module, _),
-        \+ ( nonvar(Spec), Spec = payloads(Path), path_below(Path) )
-    ->  permission_error(call, sandboxed, attach(Spec))
-    ;   true
-    ),
-    payload_load(Spec, Payload),
-    parts_call(acts, Host, [Id, attach]),
-    agent_attach(Id, Payload).
-
-%!  detach(+Name) is det.
-%
-%   Remove the clauses of the payload Name from this agent.
-%
-%   @error existence_error(payload, Name)
-
-detach(Name) :-
-    must_be(atom, Name),
-    context_agent(Id),
-    agent_detach(Id, Name).
-
-%!  deliver(+Name) is det.
-%
-%   Install an attached payload in the place of the host, where all agents and
-%   services can call it.
-%
-%   @error existence_error(payload, Name)
-%   @error permission_error(deliver, procedure, PI)
-%   @error permission_error(deliver, python, Name) if the payload is Python,
-%          and the host was not started with python(true)
-
-deliver(Name) :-
-    must_be(atom, Name),
-    context_agent(Id),
-    agent_payload(Id, Name, Payload),
-    place(Host, Place),
-    (   payload_python(Payload, Name, Source)
-    ->  deliver_python(Host, Name, Source)
-    ;   place_deliver(Place, Payload, _)
-    ).
-
-deliver_python(Host, Name, Source) :-
-    (   python_delivered(Host, Name, Source)
-    ->  true
-    ;   permission_error(deliver, python, Name)
-    ).
-
-%!  undeliver(+Name) is det.
-%
-%   Remove a delivered payload from the place of the host.
-%
-%   @error existence_error(payload, Name)
-
-undeliver(Name) :-
-    must_be(atom, Name),
-    place(Host, Place),
-    place_undeliver(Place, Name),
-    ignore(python_undelivered(Host, Name)).
 
 %!  log(+What) is det.
 %
