@@ -311,18 +311,12 @@ end_suite(Job, Status, Suite) :-
 %   processes that it waited for.  0.0 where there is no /proc.
 
 spent(Seconds) :-
-    (   nb_current(spent, Before)
-    ->  true
-    ;   Before = 0
-    ),
-    (   children_ticks(Ticks)
-    ->  true
-    ;   Ticks = Before
-    ),
-    nb_setval(spent, Ticks),
+    children_ticks(Ticks),
+    flag(suite_ticks, Before, Ticks),
     Seconds is (Ticks-Before)/100.0.
 
-%   The name of the program, which may hold spaces, is followed by 13 others.
+%   In the file, the name of the program, which may hold spaces, and 13 numbers
+%   precede the ticks of user and system.
 
 children_ticks(Ticks) :-
     catch(read_file_to_string('/proc/self/stat', Text, []), error(_, _), fail),
@@ -333,7 +327,9 @@ children_ticks(Ticks) :-
     nth1(15, Words, System),
     number_string(U, User),
     number_string(S, System),
+    !,
     Ticks is U+S.
+children_ticks(0).
 
 suite_results(File, _, Suite) :-
     exists_file(File),
