@@ -144,8 +144,6 @@ again(Name) :-
     log_restarts(Names),
     start_all(Names).
 
-%   Many restarts are logged in one line.
-
 log_restarts(Names) :-
     length(Names, Count),
     (   Count =< 5
@@ -216,8 +214,7 @@ of_supervisor(name(_)).
 of_supervisor(where(_)).
 of_supervisor(restart(_)).
 
-%   Disposes of the children in reverse order; each has ended before the next
-%   is disposed of.
+%   In reverse order; each child has ended before the next is disposed of.
 
 stop_all(Names) :-
     findall(Name-Agent, ( member(Name, Names), running(Name, Agent) ), Pairs0),
@@ -265,9 +262,8 @@ stand_by :-
     ;   true
     ).
 
-%   elsewhere(+Wanted, -Host): Host is Wanted or a neighbour, in another
-%   process than this agent and its home: an agent is also lost with its home
-%   process.
+%   elsewhere(+Wanted, -Host): Host is Wanted or a neighbour, outside the
+%   processes of this agent and its home if possible: it is lost with either.
 
 elsewhere(Wanted, Host) :-
     apart_from_here(Wanted, Host),

@@ -283,10 +283,9 @@ exact(two_sided, U, V, M, N, P) :-
     share_up_to(Least, M, N, P0),
     P is min(1.0, 2*P0).
 
-%   share_up_to(+U, +M, +N, -P): P is the share of all ways to mix the samples
-%   in which at most U pairs are inverted.  The number of ways with exactly k
-%   inverted pairs is the coefficient of q^k in the product of
-%   (1-q^(N+i))/(1-q^i), for i from 1 to M.
+%   share_up_to(+U, +M, +N, -P): P is the share of the orders of both samples
+%   with at most U inverted pairs.  The number of orders with k such pairs is
+%   the coefficient of q^k in the product of (1-q^(N+i))/(1-q^i), i from 1 to M.
 
 share_up_to(U, M, N, P) :-
     Size is integer(U) + 1,
@@ -339,8 +338,6 @@ numbers(Low, High, Is) :-
 choose_step(N, K, I, W0, W) :-
     W is W0*(N - K + I)//I.
 
-%   Equal ranks reduce the variance.
-
 normal(Alternative, U, V, M, N, Ranks, P) :-
     All is M + N,
     msort(Ranks, Sorted),
@@ -383,9 +380,8 @@ same(Rest, _, T, T, Rest).
 %!  holm(+Ps:list(float), -Adjusted:list(float)) is det.
 %
 %   Holm's correction: the least of n probabilities is multiplied by n, the
-%   next by n-1 and so on; each is at least as great as the one before, and at
-%   most 1.  The probability that any of the tests with a result below 0.05 is
-%   wrong is then at most 0.05.
+%   next by n-1 and so on, without a decrease, to at most 1.  Any of the tests
+%   with a result below 0.05 is wrong with a probability of at most 0.05.
 
 holm(Ps, Adjusted) :-
     length(Ps, Count),
