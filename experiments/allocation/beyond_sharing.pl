@@ -33,7 +33,8 @@ claim("shared: fewer communications than without, 3 and 5 allocators",
               communications < at([sharing=none], communications)),
            at([sharing=shared, allocators=5],
               communications < at([sharing=none], communications)) ))).
-claim("shared: fewer communications of 3 with each number of hosts", [ours],
+claim("shared: fewer communications, 3 allocators, each number of hosts",
+      [ours],
       at([allocators=3, sharing=shared],
          communications < at([sharing=none], communications))).
 claim("own: fewer communications than without, 3 and 5 allocators", [ours],

@@ -36,7 +36,7 @@ run(Case, Network) :-
 
 label(bought, "Energy bought from the grid (kWh)").
 label(wasted, "Energy wasted (kWh)").
-label(fairness, "Jain's fairness index of the shares of requests granted").
+label(fairness, "Jain's index of the shares of missing energy from the street").
 label(reward, "Correlation of energy given and gain of a house").
 label(crossings, "Hops, or links crossed by messages, in an hour").
 
@@ -112,7 +112,7 @@ claim("the auction is fairer than random moments and waiting boilers", [],
       at([strategy=auction], fairness) > at([strategy=waiting], fairness)).
 claim("by auctions houses that give more gain more", [],
       at([strategy=auction], reward > 0)).
-claim("in the order of requests houses that give more do not gain more", [],
+claim("if boilers wait, houses that give more do not gain more", [],
       at([strategy=waiting], reward =< 0)).
 claim("the agent makes fewer hops than messages cross links", [],
       at([strategy=auction], crossings) < at([strategy=first], crossings)).

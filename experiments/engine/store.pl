@@ -26,7 +26,7 @@
 
 A run is a term run(Study, Case, Seed).  Its directory is below Root/STUDY; the
 name has the case and the seed, a hash of all parameters and one of all sources.
-So runs of other sources are not found, and never mixed with these.
+So runs of other sources are not found, and never mixed in.
 
 While a run is made, the directory is Directory.MACHINE.PID.part; if the run
 fails, it is Directory.failed, whose file `output` has the reason.  Sessions

@@ -46,7 +46,7 @@ claim("no sharing with 1 agent on 10 hosts", [line(2519)],
 claim(Text, [line(2528)],
       at([network=N, density=0.4],
          abs(sharing - at([density=0.5], sharing)) < 0.05)) :-
-    each_network("sharing rises less than 0.05 from D 0.4 to 0.5", N, Text).
+    each_network("sharing changes less than 0.05 from D 0.4 to 0.5", N, Text).
 claim("more sharing with an obstacle, at every density", [line(2526)],
       at([network=obstacle], sharing > at([network=50], sharing))).
 claim("sharing decreases over time: 25 agents, 50 hosts", [line(2591)],

@@ -73,7 +73,8 @@ claim("each host executes each task of its sequences once, in order", [ours],
 claim("no host executes two tasks at once", [ours], both =:= 0).
 claim("no task is executed before the task it waits for", [ours],
       at([dependent=true], early =:= 0)).
-claim("without dependences tasks are executed before these", [ours],
+claim("without dependences tasks are executed before the tasks they would \c
+wait for", [ours],
       at([dependent=false], early > 0)).
 claim("without dependences no task begins before all its hosts have the \c
 previous one", [ours],

@@ -29,7 +29,7 @@ claim(Text, [line(3444)],
 claim(Text, [line(3444)],
       at([topology=Name], holds(in_order(overlaps, =<)))) :-
     member(Name, [star_bus, tree, grid]),
-    of(Name, "more overlaps with each larger δ", Text).
+    of(Name, "no fewer overlaps with each larger δ", Text).
 claim("Star-bus, tree: overlaps at the next δ, 0.3", [line(3445)],
       ( at([topology=star_bus, delta=0.3], overlaps > 0),
         at([topology=tree, delta=0.3], overlaps > 0) )).

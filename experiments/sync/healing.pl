@@ -70,7 +70,6 @@ redone(Failures, execution(Task, Host, Start, _)) :-
 %     - meanwhile(Count): number of other executions that began in between
 %     - healing_tau(Tau): the most distinct tasks required in between
 %     - later_tau(Tau): the most distinct tasks required afterwards
-%       later_tau(Tau): afterwards
 
 healing(_, [], _, []) :-
     !.

@@ -42,6 +42,6 @@ claim("Star-bus, in order from even places: T1 has begun everywhere by the 9th \
 second", [line(3360)],
       at([topology=star_bus, starts=even, choices=in_order],
          serviced =< 9)).
-claim("Star-bus, random choices: T1 has begun everywhere by then",
+claim("Star-bus, random choices: T1 has begun everywhere by the 9th second",
       [why("agents visit some hosts again, and miss others")],
       at([topology=star_bus, choices=by_chance], serviced =< 9)).

@@ -58,7 +58,8 @@ claim(Text, [ours],
       abs(correlation(total, Name)) < correlation(total, visits)) :-
     member(Name, [maximum, theta, window, delta]),
     label(Name, Title),
-    format(string(Text), "~w alone correlates less with it than N", [Title]).
+    format(string(Text), "~w alone correlates less with the time than N",
+           [Title]).
 claim("Ring: no executions overlap",
       [ours], at([topology=ring], overlaps =:= 0)).
 claim("no executions overlap where the second task is due, by N, when the first is \c

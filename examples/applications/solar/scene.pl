@@ -43,7 +43,6 @@ scene_network(_, edges([battery-house1, house10-battery|Links]), []) :-
 %   strategy(S):
 %
 %     - none: nothing is shared
-%     - none: nothing is shared
 %     - first: each house asks the battery for energy, and for its boiler as
 %       soon as that is cold, once in a period, at a random moment that is the
 %       same in each period
