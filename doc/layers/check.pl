@@ -9,10 +9,10 @@
 :- use_module(seams).
 :- use_module(tree).
 
-/** <module> What is not in order
+/** <module> Violations of the layers, and unused names
 
-A name is taken to be used where it occurs at all: what is found is unused,
-what is not found may be.
+A name counts as used where it occurs at all, so an unused name may remain
+undetected.
 
 *Threading*: the main thread.
 */
@@ -137,7 +137,7 @@ may_import(Layer, Target) :-
     L < H,
     \+ ( is_option(Lower), is_option(Layer) ).
 
-%   Options know of each other by seams alone, but for the keys that some share.
+%   Options refer to each other by seams only, except for keys, which some share.
 
 is_option(Layer) :-
     atom_concat('options/', Option, Layer),

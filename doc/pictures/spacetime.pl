@@ -42,7 +42,8 @@ scouts :-
             Scouts),
     forall(member(Scout, Scouts), agent_join(family(Scout), _, 1000)).
 
-%   Two hosts further a clone goes on; what it sees there the scout takes home.
+%   After two moves the scout clones itself; the clone moves on, and sends its
+%   host to the scout, which returns home.
 
 scout([ (:- agent(scout, [])),
         (main :-

@@ -111,14 +111,14 @@ three_hops(_, _, Result) :-
     expect('the result', Result, hops(3)).
 
 call_is_withdrawn(File) :-
-    burning(File, no_smell).
+    burning(File, no_pheromone).
 
-no_smell(_, Hosts, _) :-
+no_pheromone(_, Hosts, _) :-
     Hosts = [Host|_],
     time_passes(Host, 2),               % the withdrawal spreads as well
     last(Hosts, Last),
-    remote(Last, findall(P, pheromone(P, _, _), Smells)),
-    expect('what can be smelt', Smells, []).
+    remote(Last, findall(P, pheromone(P, _, _), Left)),
+    expect('the list of remaining pheromones', Left, []).
 
 %   The agent arrives before the fire begins.
 
