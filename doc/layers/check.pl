@@ -137,7 +137,7 @@ may_import(Layer, Target) :-
     L < H,
     \+ ( is_option(Lower), is_option(Layer) ).
 
-%   Options refer to each other by seams only, except for keys, which some share.
+%   Options refer to each other by seams only; some share keys.
 
 is_option(Layer) :-
     atom_concat('options/', Option, Layer),
