@@ -122,9 +122,9 @@ prolog:message(typhon(mailbox_full(Agent, Max))) -->
        are dropped'-[Agent, Max] ].
 prolog:message(typhon(message_undone(Agent, From, Message, Fault))) -->
     agent_at(Agent, Fault),
-    [ 'did not do with ' ],
+    [ 'on_message/2 for ' ],
     term_lines(Message),
-    [ ' from ~w what on_message/2 says; it '-[From] ],
+    [ ' from ~w '-[From] ],
     failed_last(Fault).
 
 %   agent_at(+Agent, +Fault)//: the text is as "Agent x at beta (hop 3): ".

@@ -457,17 +457,16 @@ test(no_clause_for_the_message,
      true(T = [warning-typhon(message_failed(_, user,
                                               ask))])) :-
     after_mail([on_message(_, say)], ask, T).
-test(clause_fails, true(Text == " at alpha (hop 0): did not do with ask(1) \c
-                             from user what on_message/2 says; it failed: \c
-                             the goal that failed last was s(1), in \c
-                             on_message/2, clause 2\n")) :-
+test(clause_fails, true(Text == " at alpha (hop 0): on_message/2 for ask(1) \c
+                             from user failed: the goal that failed last \c
+                             was s(1), in on_message/2, clause 2\n")) :-
     after_mail([ on_message(_, say),
                  (on_message(_, ask(X)) :- s(X), move(beta)) ], ask(1), T),
     once(message_text(T, Text)).
 test(clause_without_a_stop_fails,
-     true(Text == " at alpha (hop 0): did not do with ask(1) from user what \c
-                   on_message/2 says; it failed: the goal that failed last \c
-                   was s(1), in on_message/2, clause 1\n")) :-
+     true(Text == " at alpha (hop 0): on_message/2 for ask(1) from user \c
+                   failed: the goal that failed last was s(1), in \c
+                   on_message/2, clause 1\n")) :-
     after_mail([(on_message(_, ask(X)) :- integer(X), s(X), true)], ask(1),
                T),
     once(message_text(T, Text)).
