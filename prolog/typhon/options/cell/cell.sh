@@ -61,9 +61,15 @@ for path in /proc/self/fd/*; do
     *) eval "exec ${path##*/}>&-" 2>/dev/null || true ;;
     esac
 done
-# chrt: other processes that wake up take the processor of an idle one at once.
-# setsid: within the session of the host an idle process would hardly start.
-exec setsid nice -n 15 chrt --idle 0 "${as[@]}" bwrap --args 8 -- \
+# An idle process (SCHED_IDLE) gives way at once to others that wake up. Where
+# sessions have no shares of their own, as in control groups, it would starve.
+priority=(nice -n 5)
+if grep -qx 1 /proc/sys/kernel/sched_autogroup_enabled 2>/dev/null &&
+   ! grep -Eq '^[0-9]+:(.*,)?(cpu(,.*)?)?:/.' /proc/self/cgroup &&
+   [ ! -e /sys/fs/cgroup/cpu.weight ]; then
+    priority=(setsid chrt --idle 0)
+fi
+exec "${priority[@]}" "${as[@]}" bwrap --args 8 -- \
     prlimit --as="${CELL_AS:-1500000000}" --nproc="${CELL_NPROC:-64}" \
         --nofile=64 --fsize=16777216 --core=0 --msgqueue=0 --memlock=0 \
         --rttime=0 --cpu="${CELL_CPU:-unlimited}" --nice=0 --sigpending=64 \

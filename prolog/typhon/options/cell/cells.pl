@@ -83,15 +83,16 @@ end(Host) :-
     ;   true
     ).
 
-%   The system kills a bwrap whose parent ends.  If that bwrap has just made the
-%   process of the cell and not told it yet to go on, that process waits for ever.
-%   So Prolog ends after a start that is under way, unless that takes very long.
+%   A bwrap is killed when its parent ends.  If it has just created the process
+%   of the cell, that process waits for it for ever.  So Prolog halts when no
+%   start is under way, or after ten seconds.
 
 :- at_halt(starts_finish).
 
 starts_finish :-
-    forall(server(Server),
-           catch(server_call(Server, finish_start, 10, _), error(_, _), true)).
+    ignore(( server(Server),
+             catch(server_call(Server, finish_start, 10, _),
+                   error(existence_error(server, _), _), true) )).
 
 server_running(Server) :-
     (   server(Server)
@@ -316,8 +317,7 @@ serves(stop, _, _) :-
     retractall(woken(_, _)),
     cell_filter_forget.
 
-%   The server retries once a second while agents wait for a cell that does not
-%   exist yet.
+%   The server retries once a second while agents wait for a missing cell.
 
 set_timer(until(Stamp, none)) :-
     get_time(Now),

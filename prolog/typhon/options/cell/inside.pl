@@ -28,7 +28,7 @@ may do whatever the operating system allows this process.
 */
 
 :- dynamic
-    agent_here/2,                   % Id, Module: holds the state of agent Id
+    agent_here/2,               % Id, Module: holds the state of agent Id
     limit/2,                    % What, Most: limit of an agent
     offered/1,                  % PI: service of the place of the host
     unsent/1.                   % Goal: call without an answer, not sent yet
@@ -54,10 +54,9 @@ cell_main :-
     cell_frame_write(Out, ready),
     serve(In, Out).
 
-%   Linux divides processors between sessions before it looks at the priority of
-%   processes (sched_autogroup), and a cell is a session of its own. So the nice
-%   value that cell.sh sets has no effect outside the session; that of the session
-%   has. Where there are no such groups that of the process has.
+%   Linux may divide processors between sessions before it looks at the nice
+%   values of processes (sched_autogroup), and a cell is a session of its own.
+%   So the session gets a nice value, too.
 
 priority_lower :-
     catch(setup_call_cleanup(
