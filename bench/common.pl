@@ -6,7 +6,8 @@
             resident_bytes/1,           % -Bytes
             threads/1,                  % -Count
             with_peer/2,                % +Prefix, :Goal
-            peer_main/0,
+            with_peer/3,                % +Prefix, +Options, :Goal
+            peer_main/1,                % +Options
             pinned/2                    % +Placement, -Prefixes
           ]).
 :- use_module(library(process), [process_create/3, process_wait/2]).
@@ -23,7 +24,8 @@ on its standard output; bench/run.pl starts it and makes the table.
 
 :- meta_predicate
     seconds(0, -),
-    with_peer(+, 1).
+    with_peer(+, 1),
+    with_peer(+, +, 1).
 
 :- prolog_load_context(directory, Dir),
    atom_concat(Dir, '/../prolog', Prolog),
@@ -82,15 +84,19 @@ status(Key, Number) :-
     number_string(Number, Word).
 
 %!  with_peer(+Prefix, :Goal) is det.
+%!  with_peer(+Prefix, +Options, :Goal) is det.
 %
-%   Calls Goal(Address) while a second process runs the host with that address.
-%   Prefix is put before its command line.
+%   Calls Goal(Address) while a second process runs the host with that address,
+%   started with Options.  Prefix is put before its command line.
 
 with_peer(Prefix, Goal) :-
+    with_peer(Prefix, [], Goal).
+
+with_peer(Prefix, Options, Goal) :-
     module_property(bench_common, file(File)),
     current_prolog_flag(executable, Swipl),
-    append(Prefix, [Swipl, '-q', '-g', 'bench_common:peer_main', '-t', halt,
-                    File],
+    format(atom(Main), 'bench_common:peer_main(~q)', [Options]),
+    append(Prefix, [Swipl, '-q', '-g', Main, '-t', halt, File],
            [Program|Args]),
     setup_call_cleanup(
         process_create(path(Program), Args,
@@ -103,9 +109,9 @@ with_peer(Prefix, Goal) :-
 
 %   The peer ends when its standard input ends.
 
-peer_main :-
+peer_main(Options) :-
     use_module(library(typhon)),
-    typhon:host_start(peer),
+    typhon:host_start(peer, Options),
     typhon:host_property(peer, address(Address)),
     format('~w~n', [Address]),
     flush_output,

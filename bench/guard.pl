@@ -13,8 +13,8 @@
 
 main([Placement]) :-
     pinned(Placement, _-Prefix),
-    host_start(here),
-    with_peer(Prefix, guarded_hops(Placement)),
+    host_start(here, [cell(none)]),
+    with_peer(Prefix, [cell(none)], guarded_hops(Placement)),
     host_stop(here).
 
 guarded_hops(Placement, Peer) :-

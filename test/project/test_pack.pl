@@ -65,7 +65,7 @@ works_in(Home, Dir) :-
                             ( typhon_paths:program_file(F, P), \c
                               writeln(P) ))',
                     'host_start(here)',
-                    'host_start(guarded, [policy(guarded)])',
+                    'host_start(guarded, [policy(guarded), cell(none)])',
                     'agent_create(clauses([(:- agent(a, [])), (main)]), A)'
                   ], Out0),
     split_string(Out0, "\n", "\n", Lines),

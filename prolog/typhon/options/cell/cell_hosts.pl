@@ -3,14 +3,13 @@
           ]).
 :- use_module(library(lists), [member/2]).
 :- use_module('../../kernel/host', [host_option/2, time_kind/1]).
-:- use_module(cell_process, [cell_needs/1]).
 :- use_module(cells, [cells_begin/1, cells_end/1]).
 
 /** <module> Which hosts have cells
 
-A host with a policy runs its agents in cells if the operating system supports
-that.  If it does not, or if the host has cell(none), a warning names the risk,
-once in a process.
+A host with a policy runs its agents in cells.  It does not start where the
+operating system cannot have them.  With cell(none), in virtual time, and with
+the quota `inferences` it has none: a warning names the risk, once in a process.
 
 *Threading*: under the mutex of host_start/2.
 */
@@ -61,7 +60,10 @@ typhon_host_parts:changes(policy(Policy), Host) :-
     ).
 typhon_host_parts:changes(quota(Quotas), Host) :-
     walled(Host, _),
-    possible([quota(Quotas)]).
+    (   excluded([quota(Quotas)], Error, _)
+    ->  throw(Error)
+    ;   true
+    ).
 
 typhon_host_parts:ends(Host) :-
     (   retract(walled(Host, _))
@@ -74,39 +76,46 @@ is_untrusted(Options) :-
     typhon_host_parts:untrusted(Option),
     !.
 
-%   Without the option cell(_) a host has cells where they are available.
-
 wall(Host, Options) :-
-    memberchk(cell(Kind), Options),
+    memberchk(cell(none), Options),
     !,
-    (   Kind == none
-    ->  warn(Host, none)
-    ;   wall(Host, Kind, Options)
+    warn(Host, 'it has cell(none)').
+wall(Host, Options) :-
+    excluded(Options, Error, Why),
+    !,
+    (   memberchk(cell(_), Options)
+    ->  throw(Error)
+    ;   warn(Host, Why)
     ).
 wall(Host, Options) :-
-    catch(( known_unavailable, wall(Host, owner, Options) ), error(Formal, _),
-          unwalled(Formal, Host)).
-
-wall(Host, Kind, Options) :-
-    possible(Options),
+    (   memberchk(cell(Kind), Options)
+    ->  true
+    ;   Kind = owner
+    ),
     cells_begin(Host),
     assertz(walled(Host, Kind)).
 
-%   Once no cell could be started in this process, later attempts would fail,
-%   too.
+%   excluded(+Options, -Error, -Why) is semidet.
+%
+%   A host with Options can have no cells.  This thread counts inferences, but a
+%   cell runs the machine in another process.  Virtual time would pass while the
+%   agent waits for its cell.
 
-known_unavailable :-
-    (   warned(cell_unavailable(Cause))
-    ->  throw(error(cell_unavailable(Cause), _))
-    ;   true
-    ).
-
-unwalled(Formal, Host) :-
-    memberchk(Formal, [cell_unavailable(_), permission_error(_, cell, _)]),
-    !,
-    warn(Host, Formal).
-unwalled(Formal, _) :-
-    throw(error(Formal, _)).
+excluded(Options, error(permission_error(limit, cell, inferences(N)),
+                        context(_, 'a turn in a cell is limited by the quota \c
+                                    seconds')),
+         'it has the quota inferences') :-
+    memberchk(quota(Quotas), Options),
+    memberchk(inferences(N), Quotas),
+    !.
+excluded(Options, error(permission_error(start, cell, clock(Kind)),
+                        context(_, 'agents in cells live in real time')),
+         'its time is virtual') :-
+    (   memberchk(clock(Kind), Options)
+    ;   time_kind(Kind)
+    ),
+    Kind \== real,
+    !.
 
 warn(Host, Why) :-
     (   warned(Why)
@@ -115,38 +124,12 @@ warn(Host, Why) :-
         print_message(warning, typhon(no_cells(Host, Why)))
     ).
 
-%   This thread counts inferences, but a cell runs the machine in another
-%   process. Virtual time would pass while the agent waits for its cell.
-
-possible(Options) :-
-    memberchk(quota(Quotas), Options),
-    memberchk(inferences(N), Quotas),
-    throw(error(permission_error(limit, cell, inferences(N)),
-                context(_, 'a turn in a cell is limited by the quota \c
-                            seconds'))).
-possible(Options) :-
-    (   memberchk(clock(Kind), Options)
-    ;   time_kind(Kind)
-    ),
-    Kind \== real,
-    throw(error(permission_error(start, cell, clock(Kind)),
-                context(_, 'agents in cells live in real time'))).
-possible(_).
-
                 /*******************************
                 *           MESSAGES           *
                 *******************************/
 
 prolog:message(typhon(no_cells(Host, Why))) -->
-    [ 'Untrusted agents on ~w run in the process of the host, since '-[Host] ],
-    no_cells(Why),
-    [ nl, 'An agent that finds a way around the rules of the policy has all \c
-           rights of that process'-[] ].
-
-no_cells(none) -->
-    [ 'it has cell(none)'-[] ].
-no_cells(permission_error(_, cell, What)) -->
-    [ 'there are no cells with ~p'-[What] ].
-no_cells(cell_unavailable(Cause)) -->
-    { cell_needs(Text) },
-    [ 'no cell can be started: ~w'-[Cause], nl, Text-[] ].
+    [ 'Untrusted agents on ~w run in the process of the host, since ~w'-
+          [Host, Why], nl,
+      'An agent that finds a way around the rules of the policy has all \c
+       rights of that process'-[] ].

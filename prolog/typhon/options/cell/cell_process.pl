@@ -1,8 +1,7 @@
 :- module(typhon_cell_process,
           [ cell_process_start/1,       % -Process
             cell_process_end/2,         % +Process, -Reason
-            cell_filter_forget/0,
-            cell_needs/1                % -Text
+            cell_filter_forget/0
           ]).
 :- use_module(library(filesex), [directory_file_path/3]).
 :- use_module(library(lists), [member/2]).
@@ -203,18 +202,12 @@ cell_filter_forget :-
                 *******************************/
 
 prolog:error_message(cell_unavailable(Cause)) -->
-    { cell_needs(Text) },
     [ 'No cell can be started: ~w'-[Cause], nl,
-      '~w; with cell(none) agents run in this process'-[Text] ].
+      'A cell needs bubblewrap (apt install bubblewrap) that is not setuid, and \c
+       that it may make user namespaces: allow them \c
+       (kernel.unprivileged_userns_clone, AppArmor; in podman \c
+       --security-opt seccomp=unconfined --security-opt unmask=ALL)'-[], nl,
+      'With the option cell(none) untrusted agents run in this process'-[] ].
 prolog:error_message(timeout_error(start_cell, Seconds)) -->
     [ 'A cell has not loaded its program within ~w seconds: raise the \c
        setting typhon_cells:start on a slow machine'-[Seconds] ].
-
-%!  cell_needs(-Text) is det.
-%
-%   Text tells users how to make cells available.
-
-cell_needs('A cell needs bubblewrap (apt install bubblewrap) that is not setuid, and \c
-            that it may make user namespaces: allow them \c
-            (kernel.unprivileged_userns_clone, AppArmor; in podman \c
-            --security-opt seccomp=unconfined --security-opt unmask=ALL)').

@@ -75,7 +75,7 @@ refused(Path, Reason, Option, Told, Audited, Events, Dir) :-
     path(Path, Source, Way),
     directory_file_path(Dir, audit, File),
     setup_call_cleanup(
-        host_start(inn, [audit(File)]),
+        host_start(inn, [audit(File), cell(none)]),
         ( host_property(inn, address(Inn)),
           prepared(Reason, Option, Way, Source, Agent),
           changed(Option),

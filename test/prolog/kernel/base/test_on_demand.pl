@@ -45,11 +45,11 @@ test(plain_host_loads_no_large_library, Out == "[],0") :-
                        module_property(M, file(_)) ), Ms), \c
           print((Ms,N))', Out).
 test(option_of_a_host_loads_its_code, Out == "guarded") :-
-    seen('host_start(a, [policy(guarded)]), \c
+    seen('host_start(a, [policy(guarded), cell(none)]), \c
           module_property(typhon_guard, file(_)), \c
           module_property(typhon_quotas, file(_)), write(guarded)', Out).
 test(change_of_options_loads_the_code, Out == "guarded") :-
-    seen('host_start(a), host_change(a, policy(guarded)), \c
+    seen('host_start(a, [cell(none)]), host_change(a, policy(guarded)), \c
           module_property(typhon_guard, file(_)), write(guarded)', Out).
 test(mistyped_options_are_compared_with_unloaded_ones,
      true(sub_string(Out, _, _, _, "did you mean policy?"))) :-

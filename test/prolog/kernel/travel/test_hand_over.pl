@@ -162,7 +162,7 @@ mover(Peer, To) :-
 %   both hosts.
 
 test(changing_options_loses_no_agent) :-
-    with_peers([a, b],
+    with_peers([a-[host([cell(none)])], b-[host([cell(none)])]],
         ( peer_host(a, A),
           peer_host(b, B),
           travel(a, [B, A], 2),

@@ -335,38 +335,12 @@ test(more_owners_than_cells, Count == 1) :-
                   forall(( member(As, Pairs), member(A, As) ),
                          ( agent_join(A, O, 60), assertion(O == done) )),
                   used_cells(Count) ))))).
-test(without_bubblewrap_a_host_does_not_start,
-     [Formal,Result] = [cell_unavailable(_), done]) :-
-    getenv('PATH', Path),
-    setup_call_cleanup(
-        setenv('PATH', '/nowhere'),
-        catch(host_start(c, [policy(guarded), cell(owner)]),
-              error(Formal, _), true),
-        setenv('PATH', Path)),
-    cell(outcome([main], Result)).
-test(without_bubblewrap_a_policy_warns_once, Out-Warned == "done"-1) :-
-    project_file('prolog/typhon.pl', Typhon),
-    run_swipl(['-g', 'host_start(z), setenv(\'PATH\', \'/nowhere\'), \c
-                      host_start(a, [policy(guarded)]), \c
-                      host_start(b, [policy(guarded)]), \c
-                      agent_create(clauses([(:- agent(x, [])), main]), A, \c
-                                   [host(a)]), \c
-                      agent_join(A, O, 30), write(O), flush_output',
-               '-t', halt, Typhon], [timeout(60)], Status, Out, Err),
-    assertion(Status == exit(0)),
-    findall(x, sub_string(Err, _, _, _, "no cell can be started"), Xs),
-    length(Xs, Warned).
 test(process_ends_after_the_start_of_a_cell_is_complete, Marks == [done]) :-
     with_tmp_dir(ends_amid_a_start(Marks)).
 test(slow_start_of_a_cell_does_not_disable_cells,
      error(timeout_error(start_cell, _))) :-
     with_settings([typhon_cells:start=0.5],
                   with_tmp_dir(started_by_slow_bubblewrap)).
-test(trusted_host_has_no_cells, error(existence_error(host_option, policy))) :-
-    host_start(c, [cell(owner)]).
-test(inferences_cannot_be_limited_in_cells,
-     error(permission_error(limit, cell, inferences(9)))) :-
-    host_start(c, [policy(guarded), cell(owner), quota([inferences(9)])]).
 test(agents_keep_the_policy_of_their_admission, Formals-Cells == [no,yes]-1) :-
     cell(( tries(Clauses),
            create(Clauses, Old, [host(c)]),
@@ -382,23 +356,9 @@ test(changing_to_guarded_enables_cells, Cells-Result == 1-no) :-
                       agent_send(A, go),
                       agent_result(A, Result, 120),
                       used_cells(Cells) )).
-test(virtual_time_has_no_cells,
-     error(permission_error(start, cell, clock(virtual)))) :-
-    host_start(c, [policy(guarded), cell(owner), clock(virtual)]).
 test(guarded_policy_gives_each_owner_a_cell, Cells == 1) :-
     with_hosts([c-[policy(guarded)]], ( outcome([main], done),
                                         used_cells(Cells) )).
-test(cell_none_warns_once, Cells-Count == []-1) :-
-    capturing(( with_hosts([c-[policy(guarded), cell(none)]],
-                           ( outcome([main], done), cells_list(Cells) )),
-                with_hosts([c-[policy(guarded), cell(none)]], true) ),
-              Messages),
-    was_warned(none, Messages, Count).
-test(guarded_policy_without_cells_warns, Outcome-Count == done-1) :-
-    capturing(with_hosts([c-[policy(guarded), quota([inferences(1 000 000)])]],
-                         outcome([main], Outcome)),
-              Messages),
-    was_warned(permission_error(_, cell, _), Messages, Count).
 :- end_tests(cell_processes).
 
 %   ends_amid_a_start(-Marks, +Dir): a process halts while a bubblewrap has
@@ -505,10 +465,6 @@ tries([ plan(nb_setval(test_cells, 1)),
         (main :- receive(_-go), plan(G),
                  ( catch(G, error(_, _), fail) -> result(yes) ; result(no) ))
       ]).
-
-was_warned(Why, Messages, Count) :-
-    findall(x, member(warning-typhon(no_cells(_, Why)), Messages), Warned),
-    length(Warned, Count).
 
 trip(P, Trip-[Outcome1,Outcome2]) :-
     Clauses = [ (:- dynamic(seen/1)),

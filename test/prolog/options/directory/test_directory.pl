@@ -121,7 +121,7 @@ test(unknown_option, E = domain_error(find_option, hot(1))) :-
                                   result(E0))], A, []),
                  agent_result(A, E, 10) )).
 test(directory_on_a_guarded_host, Agents == [A]) :-
-    with_hosts([alpha-[policy(guarded)]],
+    with_hosts([alpha-[policy(guarded), cell(none)]],
                ( offering([shop-[]], alpha, A),
                  agents_found(alpha, shop, [], Agents) )).
 test(directory_from_the_top_level, Found = [A-offer(shop, [], _)]) :-

@@ -322,7 +322,7 @@ test(check_of_admissible_programs) :-
               _).
 test(changed_policy_applies_from_now_on,
      O = error(move_refused(_, policy(halt)), _)) :-
-    with_hosts([g],
+    with_hosts([g-[cell(none)]],
                ( host_change(g, policy(guarded)),
                  catch(create([(main :- halt)], _, [host(g)]), O, true) )).
 test(no_such_policy, error(existence_error(_, _))) :-
@@ -385,7 +385,7 @@ by_rules([O1,O2], Dir) :-
         open(File, write, Out),
         format(Out, "allow(current_op/3).~nrefuse(send/2).~n", []),
         close(Out)),
-    with_hosts([g-[policy(File)]],
+    with_hosts([g-[policy(File), cell(none)]],
                ( outcome([(main :- once(current_op(_, _, mod)))], O1),
                  catch(outcome([(main :- send(user, x))], O2),
                        error(move_refused(_, policy(send(_, _))), _),

@@ -249,7 +249,7 @@ changed(Clauses, Name, Escaped-Name, Dir) :-
     setup_call_cleanup(open(File, write, Out),
                        format(Out, "allow(setarg/3).~n", []),
                        close(Out)),
-    with_hosts([g-[policy(File)], t],
+    with_hosts([g-[policy(File), cell(none)], t],
                capturing(escaped(outcome(Clauses, _), Escaped), _)).
 
                 /*******************************

@@ -197,7 +197,7 @@ carried(Agent, _, refused(Formal)) :-
 %   Data that a guarding host writes into the program do not count.
 
 guards_on_the_way(Carrier, Good, Beta, Alpha) :-
-    host_start(guarding, [policy(guarded)]),
+    host_start(guarding, [policy(guarded), cell(none)]),
     host_property(guarding, address(Guarding)),
     carries(Carrier, Good, Beta, Guarding, true, First),
     assertion(First == arrived),

@@ -22,7 +22,8 @@ with_owners(Goal, Authority) :-
     keys_of(alpha, Authority, Alpha),
     keys_of(beta, Authority, Beta),
     keys_of(mallory, Authority, Mallory),
-    with_peers([ beta-[host([tls(Beta)])], mallory-[host([tls(Mallory)])] ],
+    with_peers([ beta-[host([tls(Beta), cell(none)])],
+                 mallory-[host([tls(Mallory)])] ],
                setup_call_cleanup(
                    host_start(alpha, [tls(Alpha)]),
                    once(Goal),

@@ -21,8 +21,8 @@ with_three(Goal) :-
 
 with_three(Goal, Authority) :-
     options(Authority, alpha, [], Alpha),
-    options(Authority, beta, [policy(guarded)], Beta),
-    options(Authority, gamma, [policy(guarded)], Gamma),
+    options(Authority, beta, [policy(guarded), cell(none)], Beta),
+    options(Authority, gamma, [policy(guarded), cell(none)], Gamma),
     with_peers([beta-[host(Beta)], gamma-[host(Gamma)]],
                setup_call_cleanup(
                    host_start(alpha, Alpha),
@@ -152,6 +152,6 @@ rules(File, Rules) :-
 
 with_policy(Policy, Journal, Goal) :-
     setup_call_cleanup(
-        host_start(alpha, [policy(Policy), journal(Journal)]),
+        host_start(alpha, [policy(Policy), cell(none), journal(Journal)]),
         once(Goal),
         host_stop(alpha)).
