@@ -3,7 +3,7 @@
 :- use_module(hogs).
 :- use_module(traveller).
 :- use_module(library(typhon)).
-:- use_module(library(typhon/options/cell/cells), [cells_list/1]).
+:- use_module(library(typhon/options/cell), [cells_list/1]).
 :- use_module(library(lists), [member/2, sum_list/2]).
 :- use_module(library(readutil), [read_file_to_string/3]).
 

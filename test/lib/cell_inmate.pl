@@ -14,7 +14,7 @@
 :- use_module(library(readutil), [read_file_to_terms/3]).
 :- use_module(library(socket)).
 :- use_module(library(typhon)).
-:- use_module(library(typhon/options/cell/cells), [cells_list/1]).
+:- use_module(library(typhon/options/cell), [cells_list/1]).
 
 /** <module> Agents that have all rights inside their cell
 

@@ -10,7 +10,7 @@
 :- use_module(library(process), [process_kill/2]).
 :- use_module(library(readutil), [read_file_to_string/3]).
 :- use_module(library(typhon)).
-:- use_module(library(typhon/options/cell/cells), [cells_list/1]).
+:- use_module(library(typhon/options/cell), [cells_list/1]).
 
 /** <module> Floods, repetitions and late frames of an agent that has all rights
 inside its cell

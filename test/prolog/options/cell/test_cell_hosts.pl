@@ -4,7 +4,7 @@
 :- use_module(library(plunit)).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(typhon)).
-:- use_module(library(typhon/options/cell/cells), [cells_list/1]).
+:- use_module(library(typhon/options/cell), [cells_list/1]).
 
 % Which hosts have cells, also on machines that cannot have any.
 

@@ -9,10 +9,10 @@
 :- use_module(library(process), [process_kill/2]).
 :- use_module(library(readutil), [read_file_to_string/3, read_file_to_terms/3]).
 :- use_module(library(typhon)).
-:- use_module(library(typhon/bridges/common/starting), [service_begin/4]).
+:- use_module(library(typhon/bridges/common), [service_begin/4]).
 :- use_module(library(typhon/kernel/program), [vocabulary_word/2]).
 :- use_module(library(typhon/options/cell/cell_frames), [cell_word/2]).
-:- use_module(library(typhon/options/cell/cells), [cells_list/1]).
+:- use_module(library(typhon/options/cell), [cells_list/1]).
 
 /** <module> Agents in cells
 
