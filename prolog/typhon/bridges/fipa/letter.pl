@@ -73,11 +73,7 @@ text_bytes(Text, Bytes, 'UTF-8') :-
 %   @error syntax_error(fipa_encoding)
 
 letter_read(Type, Body, Envelope, Text) :-
-    multipart_read(Type, Body, Parts),
-    (   Parts = [_-Xml0, _-Bytes]
-    ->  true
-    ;   syntax_error(fipa_multipart)
-    ),
+    multipart_read(Type, Body, Xml0, Bytes),
     decoded('utf-8', Xml0, Xml),
     envelope_xml(Envelope, Xml),
     check_representation(Envelope),
@@ -280,25 +276,23 @@ url_element(Url, element(url, [], [Url])).
                 *            PARTS             *
                 *******************************/
 
-%   The number of parts is bounded, since splitting off each part copies the
-%   rest.
-
-max_parts(16).
-
-%   multipart_read(+ContentType:text, +Body:string, -Parts:list(pair)) is det.
+%   multipart_read(+ContentType:text, +Body:string, -Xml, -Bytes) is det.
+%
+%   Body has two parts, Xml and Bytes, strings of bytes.
 %
 %   @error syntax_error(fipa_multipart)
 
-multipart_read(ContentType, Body, Parts) :-
+multipart_read(ContentType, Body, Xml, Bytes) :-
     (   boundary(ContentType, Boundary),
         string_concat("\n--", Boundary, Mark),
         string_concat("\n", Body, Text),
-        max_parts(Most),
-        split(Text, Mark, Most, [_|Pieces0]),
-        append(Pieces, [End], Pieces0),
+        cut_at(Mark, Text, _, Rest1),
+        cut_at(Mark, Rest1, Part1, Rest2),
+        cut_at(Mark, Rest2, Part2, End),
         sub_string(End, 0, 2, _, "--"),
-        maplist(piece_part, Pieces, Parts0)
-    ->  Parts = Parts0
+        maplist(part_bytes, [Part1, Part2], [Xml0, Bytes0])
+    ->  Xml = Xml0,
+        Bytes = Bytes0
     ;   syntax_error(fipa_multipart)
     ).
 
@@ -306,63 +300,32 @@ boundary(ContentType, Boundary) :-
     split_string(ContentType, ";", " \t", [Type|Parameters]),
     string_lower(Type, "multipart/mixed"),
     member(Parameter, Parameters),
-    sub_string(Parameter, Before, 1, After, "="),
-    sub_string(Parameter, 0, Before, _, Name),
+    cut_at("=", Parameter, Name, Quoted),
     string_lower(Name, "boundary"),
     !,
-    sub_string(Parameter, _, After, 0, Quoted),
     split_string(Quoted, "", "\"", [Boundary]),
     string_length(Boundary, Length),
-    Length > 0,
-    Length =< 70.
+    between(1, 70, Length).
 
-%   The line break before a boundary belongs to the boundary.
+%   A part begins with the end of the boundary line, and its head.  The line
+%   break before the next boundary belongs to that boundary.
 
-split(Text, Mark, Most, [Piece|Pieces]) :-
-    sub_string(Text, Before, _, After, Mark),
-    !,
-    Most > 0,
-    Less is Most-1,
-    sub_string(Text, 0, Before, _, Piece),
-    sub_string(Text, _, After, 0, Rest),
-    split(Rest, Mark, Less, Pieces).
-split(Text, _, _, [Text]).
-
-%   A piece begins with the end of the boundary line.
-
-piece_part(Piece0, Type-Bytes) :-
-    without_return(Piece0, Piece),
-    (   head_end(Piece, "\r\n\r\n", Head, Bytes0)
+part_bytes(Part0, Bytes) :-
+    (   string_concat(Part, "\r", Part0)
     ->  true
-    ;   head_end(Piece, "\n\n", Head, Bytes0)
+    ;   Part = Part0
     ),
-    Bytes = Bytes0,
-    content_type(Head, Type).
-
-without_return(Piece0, Piece) :-
-    (   string_concat(Piece, "\r", Piece0)
+    (   cut_at("\r\n\r\n", Part, _, Bytes0)
     ->  true
-    ;   Piece = Piece0
-    ).
+    ;   cut_at("\n\n", Part, _, Bytes0)
+    ),
+    Bytes = Bytes0.
 
-head_end(Piece, Mark, Head, Bytes) :-
-    sub_string(Piece, Before, _, After, Mark),
+cut_at(Mark, Text, Before, After) :-
+    sub_string(Text, Start, _, Left, Mark),
     !,
-    sub_string(Piece, 0, Before, _, Head),
-    sub_string(Piece, _, After, 0, Bytes).
-
-content_type(Head, Type) :-
-    split_string(Head, "\n", " \t\r", Lines),
-    member(Line, Lines),
-    sub_string(Line, Before, 1, After, ":"),
-    sub_string(Line, 0, Before, _, Name),
-    string_lower(Name, "content-type"),
-    !,
-    sub_string(Line, _, After, 0, Value),
-    split_string(Value, ";", " \t", [Type0|_]),
-    string_lower(Type0, Lower),
-    atom_string(Type, Lower).
-content_type(_, 'text/plain').
+    sub_string(Text, 0, Start, _, Before),
+    sub_string(Text, _, Left, 0, After).
 
 multipart_write(Parts, ContentType, Body) :-
     Most is 1<<96,

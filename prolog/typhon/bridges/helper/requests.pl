@@ -2,10 +2,11 @@
           [ helper_open/3,              % +Name, +Command, +Options
             helper_close/1,             % +Name
             helper_ask/4,               % +Name, +Request, +Seconds, -Answer
+            helper_call/5,              % +Name, +Request, +Seconds, :Error,
+                                        % -Reply
             helper_send/2,              % +Name, +Request
             helper_note/2,              % +Name, +Request
-            helper_pid/2,               % ?Name, ?Pid
-            helper_failure/3            % +Answer, +Name, +Request
+            helper_pid/2                % ?Name, ?Pid
           ]).
 :- use_module(library(error), [existence_error/2, permission_error/3]).
 :- use_module(library(option), [option/3]).
@@ -28,6 +29,8 @@ for ever.
 
 *Threading*: any thread may send requests.  A late answer is dropped.
 */
+
+:- meta_predicate helper_call(+, +, +, 2, -).
 
 :- dynamic
     helper/4.                   % Text, Owner, Queue of lines, Name:
@@ -183,22 +186,31 @@ text(Name, Text) :-
 
 :- multifile prolog:error_message//1.
 
-%!  helper_failure(+Answer, +Name, +Request) is failure.
+%!  helper_call(+Name, +Request, +Seconds, :Error, -Reply) is det.
 %
-%   Raise the general error for an Answer of helper_ask/4 other than ok(Reply).
+%   As helper_ask/4, but answers other than ok(Reply) raise an error: that of
+%   call(Error, Answer, Ball), or, if this fails, a general one.
 %
-%   @error timeout_error(Request, Name), helper_died(Status, Name),
-%   existence_error(helper, Name), helper_error(Kind, Name)
+%   @error timeout_error(What, Name), What being the `do` of Request
+%   @error helper_died(Status, Name), existence_error(helper, Name),
+%   helper_error(Kind, Name)
 
-helper_failure(Answer, Name, Request) :-
-    failure(Answer, Name, Request, Formal, Text),
-    throw(error(Formal, context(_, Text))).
+helper_call(Name, Request, Seconds, Error, Reply) :-
+    helper_ask(Name, Request, Seconds, Answer),
+    (   Answer = ok(Reply0)
+    ->  Reply = Reply0
+    ;   call(Error, Answer, Ball)
+    ->  throw(Ball)
+    ;   failure(Answer, Name, Request, Formal, Text),
+        throw(error(Formal, context(_, Text)))
+    ).
 
 failure(said(Dict), Name, Request, Formal, Text) :-
     get_dict(error, Dict, Kind),
     get_dict(message, Dict, Text),
     (   Kind == "timeout"
-    ->  Formal = timeout_error(Request, Name)
+    ->  get_dict(do, Request, What),
+        Formal = timeout_error(What, Name)
     ;   atom_string(Atom, Kind),
         Formal = helper_error(Atom, Name)
     ).

@@ -8,9 +8,8 @@
                 subscriber/2, subscription/3,
                 unsubscribe/4 as unsubscribe_from ]).
 :- use_module('../helper',
-              [ helper_ask/4, helper_close/1, helper_failure/3,
-                helper_file/2, helper_note/2, helper_open/3, helper_python/2,
-                helper_send/2 ]).
+              [ helper_call/5, helper_close/1, helper_file/2, helper_note/2,
+                helper_open/3, helper_python/2, helper_send/2 ]).
 :- use_module(incoming,
               [ connection/1, connection_gone/1, mqtt_filter/2,
                 mqtt_payload/3, mqtt_topic/2, mqtt_url/2 ]).
@@ -164,26 +163,15 @@ mqtt_default(Host, Option, Default) :-
 %   mqtt_note(+Host, +Request) is det.
 %
 %   @error mqtt_error(Problem, Host), where Problem is unreachable, refused, tls
-%   or failed; timeout_error(mqtt(What), Host), and the errors of
-%   helper_failure/3
+%   or failed; timeout_error(mqtt(What), Host), and the errors of helper_call/5
 
 mqtt_ask(Host, Request, Seconds) :-
-    helper_ask(mqtt(Host), Request, Seconds, Answer),
-    (   Answer = ok(_)
-    ->  true
-    ;   failure(Answer, Host, Request)
-    ).
+    helper_call(mqtt(Host), Request, Seconds, failure(Host, Request), _).
 
-failure(said(Dict), Host, Request) :-
-    get_dict(error, Dict, Text),
-    get_dict(message, Dict, Message),
+failure(Host, Request, said(Dict), error(Formal, context(_, Message))) :-
+    _{error:Text, message:Message} :< Dict,
     atom_string(Kind, Text),
-    formal(Kind, Host, Request, Formal),
-    !,
-    throw(error(Formal, context(_, Message))).
-failure(Answer, Host, Request) :-
-    get_dict(do, Request, What),
-    helper_failure(Answer, mqtt(Host), What).
+    formal(Kind, Host, Request, Formal).
 
 formal(no_paho, _, _, existence_error(python_module, paho)).
 formal(unreachable, Host, _, mqtt_error(unreachable, Host)).

@@ -56,7 +56,7 @@
 %       typhon_nxt_link:python.
 %
 %   @error permission_error(connect, nxt_brick, Brick) if Brick is connected
-%   @error See nxt_failure/4
+%   @error See nxt_failure/5
 
 nxt_connect(Brick, Port) :-
     nxt_connect(Brick, Port, []).
@@ -104,7 +104,7 @@ nxt_brick(Brick, Port) :-
 %   'GETBATTERYLEVEL'; Args and Values are dicts; bridges/nxt/telegram.py has
 %   the table of their fields.  Data are atoms of hexadecimal digits.
 %
-%   @error See nxt_failure/4
+%   @error See nxt_failure/5
 
 nxt_command(Brick, Command, Args, Values) :-
     must_be(atom, Brick),

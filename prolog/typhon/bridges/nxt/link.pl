@@ -23,7 +23,7 @@
 :- use_module(library(settings), [setting/2, setting/4]).
 :- use_module(library(sha), [hash_atom/2]).
 :- use_module('../helper',
-              [ helper_ask/4, helper_close/1, helper_file/2, helper_open/3,
+              [ helper_call/5, helper_close/1, helper_file/2, helper_open/3,
                 helper_pid/2, helper_python/2 ]).
 
 /** <module> Requests to bricks, and their answers
@@ -100,7 +100,7 @@ connected_brick(Brick, Port, Options) :-
 %   the deadline, default that of the brick.
 %
 %   @error existence_error(nxt_brick, Brick)
-%   @error See nxt_failure/4
+%   @error See nxt_failure/5
 
 link_request(Brick, What, Fields, Reply) :-
     connected_brick(Brick, _, Options),
@@ -109,24 +109,13 @@ link_request(Brick, What, Fields, Reply) :-
 
 link_request(Brick, What, Fields, Seconds, Reply) :-
     connected_brick(Brick, Port, _),
-    catch(helper_ask(nxt(Brick), Fields, Seconds, Answer0),
+    catch(helper_call(nxt(Brick), Fields, Seconds,
+                      nxt_failure(Brick, Port, What), Reply0),
           error(existence_error(helper, _), _),
           existence_error(nxt_brick, Brick)),
-    answer_atoms(Answer0, Answer),
-    (   Answer = ok(Reply)
-    ->  true
-    ;   nxt_failure(Answer, Brick, Port, What)
-    ).
+    atoms(Reply0, Reply).
 
 %   In this protocol strings are names, so they become atoms.
-
-answer_atoms(ok(Reply0), ok(Reply)) :-
-    !,
-    atoms(Reply0, Reply).
-answer_atoms(said(Dict0), said(Dict)) :-
-    !,
-    atoms(Dict0, Dict).
-answer_atoms(Answer, Answer).
 
 atoms(Dict0, Dict) :-
     is_dict(Dict0),
@@ -234,9 +223,9 @@ nxt_text(Length, Text) :-
 :- multifile
     prolog:error_message//1.
 
-%   nxt_failure(+Answer, +Brick, +Port, +What) is failure.
+%   nxt_failure(+Brick, +Port, +What, +Answer, -Error) is det.
 %
-%   Raise the error for an answer of the helper, or for a missing answer.  The
+%   Error is that for an answer of the helper, or for a missing answer.  Its
 %   context is context(nxt(Brick, What), Text), where Text is the message of the
 %   helper.
 %
@@ -256,13 +245,13 @@ nxt_text(Length, Text) :-
 %   @error existence_error(nxt_brick, Brick) if it was disconnected meanwhile
 %   @error domain_error(nxt_request, What) if the helper rejects the request
 
-nxt_failure(Answer, Brick, Port, What) :-
-    failure(Answer, Brick, Port, What, Formal, Text),
-    throw(error(Formal, context(nxt(Brick, What), Text))).
+nxt_failure(Brick, Port, What, Answer,
+            error(Formal, context(nxt(Brick, What), Text))) :-
+    failure(Answer, Brick, Port, What, Formal, Text).
 
-failure(said(Dict), Brick, Port, What, Formal, Text) :-
-    get_dict(error, Dict, Kind),
-    get_dict(message, Dict, Text0),
+failure(said(Dict0), Brick, Port, What, Formal, Text) :-
+    atoms(Dict0, Dict),
+    _{error:Kind, message:Text0} :< Dict,
     (   Kind == no_pyserial,
         get_dict(python, Dict, Python)
     ->  atomic_list_concat([Python, ': ', Text0], Text)

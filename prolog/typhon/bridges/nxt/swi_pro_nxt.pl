@@ -35,7 +35,7 @@
 These are the predicates by which Tartarus controlled its robots, implemented
 over this bridge and LEGO's own firmware; no program is needed on the brick.
 Name is an atom chosen by the caller.  Wrong arguments raise type and domain
-errors; for other errors see nxt_failure/4.
+errors; for other errors see nxt_failure/5.
 
 *Threading*: any thread; see typhon_nxt_link.
 */

@@ -9,9 +9,8 @@
               [ inbox_put/4, service/2, service_begin/4,
                 service_end/2, service_offer/4, subscriber/2 ]).
 :- use_module('../helper',
-              [ helper_ask/4, helper_close/1, helper_failure/3,
-                helper_file/2, helper_note/2, helper_open/3,
-                helper_python/2, json_value/1 ]).
+              [ helper_call/5, helper_close/1, helper_file/2, helper_note/2,
+                helper_open/3, helper_python/2, json_value/1 ]).
 
 /** <module> Python on a host
 
@@ -231,33 +230,18 @@ agent_value(Agent, Agent).
 %   @error existence_error(helper, python(Host))
 
 python_ask(Host, Request, Seconds, Reply) :-
-    helper_ask(python(Host), Request, Seconds, Answer),
-    (   Answer = ok(Reply0)
-    ->  Reply = Reply0
-    ;   failure(Answer, Host, Request)
-    ).
+    helper_call(python(Host), Request, Seconds, failure(Host, Request), Reply).
 
-failure(said(Dict), _, _) :-
+failure(Host, Request, said(Dict), error(Formal, context(_, _))) :-
     get_dict(error, Dict, Kind),
-    python_error(Kind, Dict, Class),
-    !,
-    get_dict(message, Dict, Message),
-    throw(error(python_error(Class, Message), context(_, _))).
-failure(said(Dict), Host, Request) :-
-    get_dict(error, Dict, "timeout"),
-    !,
-    what(Request, What),
-    throw(error(timeout_error(python(What), Host), context(_, _))).
-failure(Answer, Host, Request) :-
-    what(Request, What),
-    helper_failure(Answer, python(Host), What).
+    formal(Kind, Dict, Host, Request, Formal).
 
-python_error("exception", Dict, Class) :-
-    get_dict(class, Dict, Text),
+formal("exception", Dict, _, _, python_error(Class, Message)) :-
+    _{class:Text, message:Message} :< Dict,
     atom_string(Class, Text).
-python_error("no_json", _, 'ValueError').
-
-what(Request, What) :-
+formal("no_json", Dict, _, _, python_error('ValueError', Message)) :-
+    get_dict(message, Dict, Message).
+formal("timeout", _, Host, Request, timeout_error(python(What), Host)) :-
     (   get_dict(function, Request, Function)
     ->  What = Function
     ;   get_dict(do, Request, What)

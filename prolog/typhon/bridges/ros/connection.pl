@@ -16,8 +16,8 @@
 :- use_module(library(lists), [member/2]).
 :- use_module(library(option), [option/2, option/3]).
 :- use_module('../helper',
-              [ helper_ask/4, helper_close/1, helper_failure/3,
-                helper_file/2, helper_note/2, helper_open/3, helper_pid/2 ]).
+              [ helper_call/5, helper_close/1, helper_file/2, helper_note/2,
+                helper_open/3, helper_pid/2 ]).
 :- use_module(messages, [op_frame/2, ros_word/2]).
 :- use_module(rosbridge,
               [ rosbridge_close/1, rosbridge_open/4, rosbridge_send/3,
@@ -223,14 +223,9 @@ node_open(Host, Options) :-
     command(Host, Options, Args),
     helper_open(ros(Host), command(Python, Args), [restart(always)]),
     option(connect_deadline(Seconds), Options, 20),
-    catch(helper_ask(ros(Host), _{do:frame, frame:_{op:hello}}, Seconds,
-                     Answer),
-          Ball, true),
-    (   Answer = ok(_)
-    ->  true
-    ;   node_close(Host),
-        ( nonvar(Ball) -> throw(Ball) ; node_failure(Answer, Host, hello) )
-    ).
+    catch(node_send(Host, _{op:hello}, Seconds), Ball,
+          ( node_close(Host),
+            throw(Ball) )).
 
 command(Host, Options, ['-u', File, '--node', Node, '--reach', Reach|Args]) :-
     helper_file('ros/node.py', File),
@@ -297,24 +292,19 @@ node_close(Host) :-
 %
 %   @error existence_error(ros_type, Type), existence_error(ros_field, Field)
 %   @error type_error(ros_field(Field, Type), Value)
-%   @error ros_error(failed, Host), and the errors of helper_failure/3
+%   @error timeout_error(Op, ros(Host)), and the errors of helper_call/5
 
 node_send(Host, Frame, Seconds) :-
-    helper_ask(ros(Host), _{do:frame, frame:Frame}, Seconds, Answer),
-    (   Answer = ok(_)
-    ->  true
-    ;   get_dict(op, Frame, What),
-        node_failure(Answer, Host, What)
-    ).
+    helper_call(ros(Host), _{do:frame, frame:Frame}, Seconds,
+                failure(Host, Frame), _).
 
-node_failure(said(Dict), _, _) :-
-    get_dict(error, Dict, Kind),
-    formal(Kind, Dict, Formal),
-    !,
-    get_dict(message, Dict, Text),
-    throw(error(Formal, context(_, Text))).
-node_failure(Answer, Host, What) :-
-    helper_failure(Answer, ros(Host), What).
+failure(Host, Frame, said(Dict), error(Formal, context(_, Text))) :-
+    _{error:Kind, message:Text} :< Dict,
+    (   Kind == "timeout"
+    ->  Formal = timeout_error(Op, ros(Host)),
+        get_dict(op, Frame, Op)
+    ;   formal(Kind, Dict, Formal)
+    ).
 
 formal("no_rclpy", _, existence_error(python_module, rclpy)).
 formal("no_type", Dict, existence_error(ros_type, Type)) :-

@@ -170,7 +170,7 @@ ros_refuse(Id) :-
 
 respond(Host, Id, JSON, Result) :-
     must_be(nonvar, Id),
-    (   request_open(Host, Id, Service)
+    (   request(Id, Host, Service)
     ->  way_send(Host, respond(Id, Service, JSON, Result)),
         ignore(request_end(Host, Id, Service))
     ;   existence_error(ros_request, Id)
@@ -284,7 +284,7 @@ ros_goal(Action0, Type0, Goal, Id) :-
     value_json(Goal, JSON),
     ros_id(Id),
     subscribe(ros, Host, goal(Id), Agent, []),
-    goal_begin(Host, Id, Agent, Action),
+    assertz(goal(Id, Host, Agent, Action)),
     catch(way_send(Host, goal(Id, Action, Type, JSON)), Ball,
           ( ignore(goal_end(Host, Id, _, _)),
             ignore(unsubscribe(ros, Host, goal(Id), Agent)),
@@ -301,7 +301,7 @@ ros_goal(Action0, Type0, Goal, Id) :-
 ros_cancel(Id) :-
     subscriber(Host, _),
     must_be(atom, Id),
-    (   goal_action(Host, Id, Action)
+    (   goal(Id, Host, _, Action)
     ->  way_send(Host, cancel(Id, Action))
     ;   existence_error(ros_goal, Id)
     ).
@@ -314,42 +314,28 @@ ros_cancel(Id) :-
            "Requests of ROS that may wait for the answers of agents").
 
 :- dynamic
-    goal/4,                     % Id, Host, Agent, Action
-    request/3.                  % Id, Host, Service
+    goal/4,                     % Id, Host, Agent, Action: open
+    request/3.                  % Id, Host, Service: open
 
-%!  goal_begin(+Host, +Id, +Agent, +Action) is det.
 %!  goal_end(+Host, ?Id, -Agent, -Action) is semidet.
-%!  goal_action(+Host, +Id, -Action) is semidet.
 %
-%   Record the open goal Id of Agent; remove it; look up its Action.
-
-goal_begin(Host, Id, Agent, Action) :-
-    assertz(goal(Id, Host, Agent, Action)).
+%   Remove the open goal Id of Agent.
 
 goal_end(Host, Id, Agent, Action) :-
     retract(goal(Id, Host, Agent, Action)),
     !.
 
-goal_action(Host, Id, Action) :-
-    goal(Id, Host, _, Action),
-    !.
-
 %!  request_begin(+Host, +Id, +Service) is semidet.
-%!  request_open(+Host, +Id, -Service) is semidet.
 %!  request_end(+Host, ?Id, ?Service) is semidet.
 %
-%   Record the open request Id for Service; look it up; remove it.
-%   request_begin/3 fails if too many requests are open.
+%   Record the open request Id for Service; remove it.  request_begin/3 fails if
+%   too many requests are open.
 
 request_begin(Host, Id, Service) :-
     aggregate_all(count, request(_, Host, _), Count),
     setting(most, Most),
     Count < Most,
     assertz(request(Id, Host, Service)).
-
-request_open(Host, Id, Service) :-
-    request(Id, Host, Service),
-    !.
 
 request_end(Host, Id, Service) :-
     retract(request(Id, Host, Service)),

@@ -289,7 +289,7 @@ test(long_envelopes, error(resource_error(fipa_envelope))) :-
 test(many_parts, error(syntax_error(fipa_multipart))) :-
     findall(x-"y", between(1, 20, _), Parts),
     typhon_fipa_letter:multipart_write(Parts, Type, Body),
-    typhon_fipa_letter:multipart_read(Type, Body, _).
+    typhon_fipa_letter:multipart_read(Type, Body, _, _).
 test(length_with_many_digits, error(syntax_error(_))) :-
     acl_text(_, "(inform :content #00000000000000000001\"x)").
 test(broken_envelopes,
@@ -313,7 +313,8 @@ test(params_of_the_highest_index_count, Name == b) :-
 
 test(bytes_are_kept, Bytes == "(inform :content \"\u00C3\u00A4\")") :-
     letter_write("(inform :content \"\u00E4\")", fipa(a), fipa(b), Type, Body),
-    typhon_fipa_letter:multipart_read(Type, Body, [_, 'application/text'-Bytes]).
+    once(sub_string(Body, _, _, _, "Content-Type: application/text\r\n")),
+    typhon_fipa_letter:multipart_read(Type, Body, _, Bytes).
 
 test(other_encodings, Text == "\u00E4") :-
     typhon_fipa_letter:multipart_write([ 'application/xml'-"<envelope><params>\c
