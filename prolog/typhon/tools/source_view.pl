@@ -1,9 +1,10 @@
 :- module(typhon_source_view,
           [ agent_listing/1,            % +Agent
-            goals_shown/4,              % +Agent, +Facts, +Goals, -Shown
+            goals_shown/5,              % +Agent, +Facts, +Goals, -Shown,
+                                        % -Program
             goal_named/4                % +Clauses, +Lists, +Goal, -Named
           ]).
-:- autoload('source_view/listing', [list_agent/1, show_goals/4]).
+:- autoload('source_view/listing', [list_agent/1, show_goals/5]).
 :- autoload('source_view/variable_names', [name_goal/4]).
 
 /** <module> Source view: goals of agents in the text of their programs
@@ -27,15 +28,16 @@ an agent is listed, or becomes faulty.
 agent_listing(Agent) :-
     list_agent(Agent).
 
-%!  goals_shown(+Agent, +Facts, +Goals, -Shown) is det.
+%!  goals_shown(+Agent, +Facts, +Goals, -Shown, -Program:string) is det.
 %
 %   Shown are Goals, the remaining goals of Agent, which has these Facts, with
-%   '$VAR'(Name) for variables whose names in the program are known.
+%   '$VAR'(Name) for variables whose names in the program are known.  Program is
+%   the part of agent_listing/1 with the declarations and the clauses.
 %
 %   @error existence_error(agent, Agent)
 
-goals_shown(Agent, Facts, Goals, Shown) :-
-    show_goals(Agent, Facts, Goals, Shown).
+goals_shown(Agent, Facts, Goals, Shown, Program) :-
+    show_goals(Agent, Facts, Goals, Shown, Program).
 
 %!  goal_named(+Clauses, +Lists, +Goal, -Named) is det.
 %

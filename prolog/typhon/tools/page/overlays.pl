@@ -10,9 +10,11 @@
             mechanism_file/2,           % +Name, -File
             program_names/1             % -Names
           ]).
-:- use_module(library(apply), [maplist/2, maplist/3]).
+:- use_module(library(apply), [foldl/4, maplist/2, maplist/3]).
 :- use_module(library(filesex), [directory_file_path/3, directory_member/3]).
 :- use_module(library(lists), [append/2, append/3, member/2]).
+:- autoload(library(pldoc/doc_modes), [process_modes/6]).
+:- autoload(library(pldoc/doc_wiki), [indented_lines/3]).
 :- use_module(library(prolog_source),
               [ prolog_close_source/1, prolog_open_source/2,
                 prolog_read_source_term/4 ]).
@@ -212,16 +214,9 @@ program_name(Name) :-
     atom_concat(Dir, Below, File),
     atom_concat(/, Relative, Below),
     file_name_extension(Base, _, Relative),
-    atomic_list_concat(Parts, /, Base),
-    path_term(Parts, Path),
+    atomic_list_concat([First|Parts], /, Base),
+    foldl([Part,Begin,Begin/Part]>>true, Parts, First, Path),
     format(string(Name), 'agents(~q)', [Path]).
-
-path_term([Part|Parts], Path) :-
-    path_term(Parts, Part, Path).
-
-path_term([], Path, Path).
-path_term([Part|Parts], Path0, Path) :-
-    path_term(Parts, Path0/Part, Path).
 
 folder(Dir) :-
     absolute_file_name(agents(.), Dir,
@@ -293,67 +288,37 @@ read_comments(In, Comments) :-
     ).
 
 %   Comment begins with heads like `%!  name(+A, -B) is det.`; several heads may
-%   share the text below them.
+%   share the text below them.  Variables are bound to their names, as the page
+%   shows these.
 
 predicate_dict(Comment, _{name:Name, arguments:Arguments, about:About}) :-
     string_concat("%!", _, Comment),
-    split_string(Comment, "\n", "", Lines0),
-    maplist(uncommented, Lines0, Lines),
-    heads_and_text(Lines, Heads, About),
-    member(Head, Heads),
-    head_parts(Head, Name, Arguments).
-
-uncommented(Line0, Line) :-
-    split_string(Line0, "", " ", [Line1]),
-    (   string_concat("%!", Line, Line1)
-    ->  true
-    ;   string_concat("%", Line, Line1)
-    ->  true
-    ;   Line = Line1
-    ).
-
-heads_and_text(Lines, Heads, About) :-
-    heads(Lines, Text0, "", All),
-    maplist(without_margin, Text0, Text),
-    atomic_list_concat(Text, '\n', About0),
-    split_string(About0, "", " \n", [About]),
-    split_string(All, ".", " ", Heads0),
-    findall(Head, ( member(Head, Heads0), Head \== "" ), Heads).
-
-without_margin(Line0, Line) :-
-    (   string_concat("   ", Line, Line0)
-    ->  true
-    ;   Line = Line0
-    ).
-
-heads([Line|Lines], Text, All0, All) :-
-    split_string(Line, "", " ", [Words]),
-    Words \== "",
-    !,
-    atomic_list_concat([All0, ' ', Words], All1),
-    heads(Lines, Text, All1, All).
-heads(Text, Text, All, All).
-
-%   Variables are bound to their names, as the page shows these.
-
-head_parts(Text, Name, Arguments) :-
-    catch(term_string(Term, Text, [variable_names(Bindings)]),
-          error(_, _), fail),
+    string_codes(Comment, Codes),
+    indented_lines(Codes, ["%!", "%"], Lines),
+    process_modes(Lines, user, comment:0, Modes, _, Rest),
+    comment_text(Rest, About),
+    member(mode(Mode, Bindings), Modes),
     maplist(call, Bindings),
-    without_determinism(Term, Head),
+    ( Mode = (Head is _) -> true ; Head = Mode ),
     compound(Head),
-    compound_name_arguments(Head, Name0, Modes),
+    compound_name_arguments(Head, Name0, Parameters),
     atom_string(Name0, Name),
-    maplist(argument, Modes, Arguments).
+    maplist(argument, Parameters, Arguments).
 
-without_determinism((Head is _), Head) :- !.
-without_determinism(Head, Head).
+%   The text of a comment is indented by four columns, those of `%   `.
 
-argument(Mode0, [Sign, Name]) :-
-    ( Mode0 = Mode:_Type -> true ; Mode = Mode0 ),
-    (   Mode =.. [Sign0, Name0]
+comment_text(Lines, Text) :-
+    with_output_to(string(Text0),
+                   forall(member(Indent-Codes, Lines),
+                          ( Margin is max(0, Indent-4),
+                            format('~*c~s~n', [Margin, 0'\s, Codes]) ))),
+    split_string(Text0, "", " \n", [Text]).
+
+argument(Parameter, [Sign, Name]) :-
+    (   Parameter =.. [Sign0, Typed]
     ->  true
     ;   Sign0 = (+),
-        Name0 = Mode
+        Typed = Parameter
     ),
+    ( Typed = Name0:_Type -> true ; Name0 = Typed ),
     maplist(atom_string, [Sign0, Name0], [Sign, Name]).

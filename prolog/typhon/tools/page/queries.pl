@@ -15,7 +15,7 @@
 :- use_module('../../network', [network_property/2]).
 :- use_module('../../tools', [host_report/2]).
 :- use_module('../administration', [agent_property/2]).
-:- use_module('../source_view', [agent_listing/1, goals_shown/4]).
+:- use_module('../source_view', [goals_shown/5]).
 :- use_module(overlays, [mechanism_dicts/1, program_names/1]).
 :- use_module(protocol,
               [ agent_summary_dict/2, name_text/2, page_time/2, place_text/2,
@@ -114,19 +114,13 @@ agent_dict(Agent, Dict) :-
     ->  agent_join(Agent, Outcome, 0),
         text(Outcome, Text),
         Dict = _{id:Id, outcome:Text}
-    ;   goals_with_names(Agent, Properties, Named),
+    ;   memberchk(facts(Facts), Properties),
+        selectchk(goals(Goals), Properties, goals(Shown), Named),
+        goals_shown(Agent, Facts, Goals, Shown, Text),
         findall(Key-Value, agent_shown(Named, Key, Value), Pairs),
-        dict_pairs(Dict0, _, [id-Id|Pairs]),
-        program_dict(Agent, Program),
-        Dict = Dict0.put(program, Program)
+        program_dict(Text, Program),
+        dict_pairs(Dict, _, [id-Id, program-Program|Pairs])
     ).
-
-goals_with_names(Agent, Properties, Named) :-
-    memberchk(facts(Facts), Properties),
-    selectchk(goals(Goals), Properties, goals(Shown), Named),
-    !,
-    goals_shown(Agent, Facts, Goals, Shown).
-goals_with_names(_, Properties, Properties).
 
 agent_shown(Properties, Key, Value) :-
     member(Property, Properties),
@@ -173,42 +167,16 @@ mail_row(Message, [FromText, Text]) :-
         text(Message, Text)
     ).
 
-%   The page shows facts and goals elsewhere, so the lines from the comment at
-%   which these begin are left out.  An arrow marks the line of the next goal.
+%   An arrow marks the line of the next goal.
 
-program_dict(Agent, _{lines:Lines, here:Here}) :-
-    with_output_to(string(Text), agent_listing(Agent)),
-    split_string(Text, "\n", "", All),
-    (   append(Lines0, [Rest|_], All),
-        memberchk(Rest, ["% facts", "% goals left"])
-    ->  true
-    ;   Lines0 = All
-    ),
-    without_blank_end(Lines0, Lines00),
-    without_heading(Lines00, Lines1),
-    findall(N, ( nth1(N, Lines1, Line), arrow(Line, _) ), Here),
-    maplist(without_arrow, Lines1, Lines).
-
-without_blank_end(Lines, Rest) :-
-    append(Rest0, [""], Lines),
-    !,
-    without_blank_end(Rest0, Rest).
-without_blank_end(Lines, Lines).
-
-without_heading(["", Line|Lines], Rest) :-
-    !,
-    without_heading([Line|Lines], Rest).
-without_heading([Line|Lines], Rest) :-
-    ( Line == "" ; string_concat("% ", _, Line) ),
-    !,
-    without_heading(Lines, Rest).
-without_heading(Lines, Lines).
-
-arrow(Line, Rest) :-
-    string_concat("=>", Rest, Line).
+program_dict(Text, _{lines:Lines, here:Here}) :-
+    split_string(Text, "", "\n", [Program]),
+    split_string(Program, "\n", "", Marked),
+    findall(N, ( nth1(N, Marked, Line), string_concat("=>", _, Line) ), Here),
+    maplist(without_arrow, Marked, Lines).
 
 without_arrow(Line, Plain) :-
-    (   arrow(Line, Rest)
+    (   string_concat("=>", Rest, Line)
     ->  string_concat("  ", Rest, Plain)
     ;   Plain = Line
     ).

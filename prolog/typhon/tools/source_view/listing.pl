@@ -1,6 +1,7 @@
 :- module(typhon_listing,
           [ list_agent/1,               % +Agent
-            show_goals/4                % +Agent, +Facts, +Goals, -Shown
+            show_goals/5                % +Agent, +Facts, +Goals, -Shown,
+                                        % -Program
           ]).
 :- use_module(library(apply), [maplist/2]).
 :- use_module(library(lists), [append/3, member/2, nth1/3]).
@@ -27,16 +28,15 @@
 %   As agent_listing/1.
 
 list_agent(Agent) :-
-    agent_answer(Agent, program,
-                 program(Name, State, Libraries, Static)-Names),
+    agent_answer(Agent, program, Program-Names),
     findall(Property, agent_property(Agent, Property), Properties),
     memberchk(facts(Facts), Properties),
     memberchk(goals(Goals), Properties),
     about(Agent, Properties),
-    declarations(Name, State, Libraries),
+    Program = program(_, _, _, Static),
     append(Static, Facts, Clauses),
     goals_places(Clauses, Goals, Places),
-    list_clauses(Static, Names, 0, Places),
+    list_program(Program, Names, Places),
     length(Static, Count),
     part(Facts, '% facts', list_clauses(Facts, [], Count, Places)),
     goals_bindings(Clauses, Names, Goals, Bindings),
@@ -49,16 +49,16 @@ typhon_questions:here(program, Agent, Asker) :-
     code_names(Hash, Names),
     question_answered(Asker, answer(Program-Names)).
 
-%!  show_goals(+Agent, +Facts, +Goals, -Shown) is det.
+%!  show_goals(+Agent, +Facts, +Goals, -Shown, -Text) is det.
 %
-%   Shown are Goals, the remaining goals of Agent, which has these Facts, with
-%   '$VAR'(Name) for variables whose names in the program are known.
-%
-%   @error existence_error(agent, Agent)
+%   As goals_shown/5.
 
-show_goals(Agent, Facts, Goals, Shown) :-
-    agent_answer(Agent, program, program(_, _, _, Static)-Names),
+show_goals(Agent, Facts, Goals, Shown, Text) :-
+    agent_answer(Agent, program, Program-Names),
+    Program = program(_, _, _, Static),
     append(Static, Facts, Clauses),
+    goals_places(Clauses, Goals, Places),
+    with_output_to(string(Text), list_program(Program, Names, Places)),
     goals_bindings(Clauses, Names, Goals, Bindings),
     copy_term_nat(Goals-Bindings, Shown-Named),
     maplist(bound_to_name, Named).
@@ -72,17 +72,12 @@ about(Agent, Properties) :-
     functor(State, Word, _),
     format('% ~w~n% on ~w, ~w, ~D hops~n~n', [Agent, Host, Word, Hops]).
 
-declarations(Name, [], Libraries) :-
-    !,
-    portray_clause((:- agent(Name, []))),
-    libraries(Libraries).
-declarations(Name, State, Libraries) :-
-    portray_clause((:- agent(Name, [state(State)]))),
-    libraries(Libraries).
-
-libraries(Libraries) :-
+list_program(program(Name, State, Libraries, Clauses), Names, Places) :-
+    ( State == [] -> Options = [] ; Options = [state(State)] ),
+    portray_clause((:- agent(Name, Options))),
     forall(member(Library-Imports, Libraries),
-           library(Imports, Library)).
+           library(Imports, Library)),
+    list_clauses(Clauses, Names, 0, Places).
 
 library(all, Library) :-
     !,
