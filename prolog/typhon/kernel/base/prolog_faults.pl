@@ -1,5 +1,6 @@
 :- module(typhon_prolog_faults,
-          [ forget_erased/0,
+          [ collect_clauses_less_often/0,
+            forget_erased/0,
             functors_room/0,
             installed_swipl/2,          % +Home, -Program
             spawn/3,                    % +Program, +Args, +Options
@@ -16,22 +17,36 @@ The faults are those of 9.0.4; most of them are also in 10.1.
 */
 
                 /*******************************
-                *  REFERENCES TO NO CLAUSES    *
+                *        ERASED CLAUSES        *
                 *******************************/
 
 %   Loading, among other operations, leaves references to erased clauses on the
 %   stacks of its thread. As long as there are some, 9.0.4 collects atoms
-%   whenever it collects clauses: every dozen hops, for a quarter of their
-%   cost. For the same reason tables that change with each hop do not use
-%   clause references.
+%   whenever it collects clauses, for a quarter of the cost of hops. For the
+%   same reason tables that change with each hop do not use clause references.
 
 %!  forget_erased is det.
 %
 %   Clear the references to erased clauses that no table holds.
 
 forget_erased :-
-    garbage_collect,
-    garbage_collect_atoms.
+    garbage_collect.
+
+%   Prolog collects erased clauses when its threads have skipped so many of them
+%   that a look at all stacks costs less. By default it does so every dozen
+%   hops. With a factor of 0.25 these cost less, and to replace a clause time
+%   and again costs as much as before; from 2.0 on that costs more.
+
+%!  collect_clauses_less_often is det.
+%
+%   No effect if the factor of this process is not the default.
+
+collect_clauses_less_often :-
+    (   predicate_property(system:'$cgc_params'(_, _, _, _, _, _), defined),
+        '$cgc_params'(Space, 0.03, Clauses, Space, 0.25, Clauses)
+    ->  true
+    ;   true
+    ).
 
                 /*******************************
                 *           FUNCTORS           *

@@ -10,7 +10,8 @@
 :- use_module(library(error), [permission_error/3]).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(option), [option/2, option/3]).
-:- use_module('../base/prolog_faults', [forget_erased/0, functors_room/0]).
+:- use_module('../base/prolog_faults',
+              [collect_clauses_less_often/0, forget_erased/0, functors_room/0]).
 :- use_module('../base/on_demand', [on_demand_load/2]).
 :- use_module('../base/own_thread',
               [in_own_thread/1, own_thread_start/0, own_thread_stop/0]).
@@ -97,6 +98,7 @@ reached_at(Port, Endpoint) :-
     ).
 
 start(Options) :-
+    collect_clauses_less_often,
     time_default(Default),
     option(time(Kind), Options, Default),
     own_thread_start,

@@ -6,6 +6,7 @@
 :- use_module(library(debug), [debug/3]).
 :- use_module(library(settings), [setting/2, setting/4]).
 :- use_module('../base/on_demand', [on_demand_load/2]).
+:- use_module('../base/prolog_faults', [forget_erased/0]).
 :- use_module(paths, [program_file/2]).
 :- use_module(programs, [program_hash/2, program_read/7]).
 :- use_module(source, [source_same/1, source_settled/1]).
@@ -71,7 +72,8 @@ load(Key, Spec, Loaded) :-
     (   source_settled(Sources)
     ->  with_mutex(typhon_loaded, remember(Key, Sources, Loaded))
     ;   true
-    ).
+    ),
+    forget_erased.
 
 read_from(File, loaded(_, _, Hash, _, _)) :-
     atom(File),
