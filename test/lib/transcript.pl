@@ -227,7 +227,7 @@ step(Top, step(Goal, Expected), Differences0-Reports0, Differences-Reports) :-
     wanted_answer(Goal, Expected, Wanted),
     answer(Goal, Wanted, Top, 100, Answer, New),
     append(Reports0, New, Reports),
-    (   Answer == Wanted
+    (   alike(Wanted, Answer)
     ->  Differences = Differences0
     ;   append(Differences0, [said(Goal, Answer, instead_of(Wanted))],
                Differences)
@@ -246,7 +246,7 @@ answer(Goal, Wanted, Top, Tries, Answer, Reports) :-
     partition(report, Lines, Texts, Answers),
     maplist(comparable, Texts, Reports0),
     answer_lines(Goal, Answers, Answer0),
-    (   Answer0 \== Wanted,
+    (   \+ alike(Wanted, Answer0),
         Tries > 0,
         question(Goal)
     ->  pause,
@@ -333,6 +333,27 @@ repeats_variable(Goal, Line) :-
     string_concat("$", Name, Variable),
     sub_string(Goal, _, _, _, Variable),
     !.
+
+%   alike(+Wanted, +Answer) is semidet: one of a thousand times has few digits.
+
+alike(Wanted, Answer) :-
+    maplist(alike_line, Wanted, Answer).
+
+alike_line(Line, Line) :-
+    !.
+alike_line(Wanted, Answer) :-
+    string_codes(Wanted, Codes0),
+    string_codes(Answer, Codes),
+    phrase(as(Codes0), Codes).
+
+as([]) -->
+    [].
+as([0'F|Codes]) -->
+    digits([_|_]), ".", digits([_|_]),
+    as(Codes).
+as([Code|Codes]) -->
+    [Code],
+    as(Codes).
 
 comparable(Line, Comparable) :-
     string_codes(Line, Codes0),

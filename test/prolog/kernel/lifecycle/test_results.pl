@@ -111,7 +111,11 @@ test(too_large_result,
     virtually(capturing(( create([(main :- numlist(1, 500000, L),
                                            result(L))], A),
                           joined(A, O) ), _)).
-test(largest_accepted_result, N == 999900) :-
+%   On 32 bits SWI-Prolog 9.0.4 may crash with strings of more than 512 kB in
+%   records, which messages are as well.
+
+test(largest_accepted_result, [ condition(current_prolog_flag(address_bits, 64)),
+                                N == 999900 ]) :-
     virtually(( create([(main :- format(string(S), "~`xt~999900|", []),
                                  result(S))], A),
                 agent_result(A, X, 60), string_length(X, N) )).
