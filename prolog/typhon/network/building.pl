@@ -7,14 +7,12 @@
             network_dynamics/2,         % +Network, +Dynamics
             part/2,                     % ?Network, ?Part
             dynamics_end/1,             % +Network
-            log_end/1,                  % +Network
-            endpoint_end/1,             % +Network
-            equipment_forget/1          % +Network
+            log_end/1                   % +Network
           ]).
 :- use_module(library(debug), [debug/3]).
 :- use_module(library(lists), [member/2]).
 :- use_module('../kernel/host',
-              [runtime_acquire/2, runtime_release/1, time_now/1, time_seed/1]).
+              [runtime_acquire/2, time_now/1, time_seed/1]).
 :- use_module(changes, [dynamics_start/4, dynamics_stop/1]).
 :- use_module(lasting,
               [ kept_note/3, lasting_back/2, lasting_child/4,
@@ -209,17 +207,3 @@ log_end(Network) :-
     ->  log_serve_end(Address)
     ;   true
     ).
-
-%!  endpoint_end(+Network) is det.
-%
-%   Stop using the endpoint for Network.
-
-endpoint_end(Network) :-
-    runtime_release(network(Network)).
-
-%!  equipment_forget(+Network) is det.
-%
-%   Delete the records of log and dynamics of Network.
-
-equipment_forget(Network) :-
-    retractall(part(Network, _)).

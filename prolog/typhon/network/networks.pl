@@ -20,10 +20,10 @@
 :- use_module('../kernel/base/options', [check_name/2]).
 :- use_module('../kernel/base/own_thread', [in_own_thread/1]).
 :- use_module('../kernel/host',
-              [ alarm_set/3, scheduler_call/1, time_now/1, time_wait/3 ]).
+              [ alarm_set/3, runtime_release/1, scheduler_call/1, time_now/1,
+                time_wait/3 ]).
 :- use_module(building,
-              [ dynamics_end/1, endpoint_end/1, equipment_forget/1,
-                log_end/1, network_build/5, part/2 ]).
+              [dynamics_end/1, log_end/1, network_build/5, part/2]).
 :- use_module(lasting, [kept_plan/4, lasting_over/1, lasting_rests/1]).
 :- use_module(nodes, [node/3]).
 :- use_module(plan, [plan_change/3, plan_costs/2, plan_option/2]).
@@ -49,7 +49,6 @@ own.
 */
 
 :- multifile
-    ended/1,
     prolog:message//1,
     typhon_questions:elsewhere/1,
     typhon_questions:ended_elsewhere/2,
@@ -60,11 +59,9 @@ own.
 :- meta_predicate network_begin(?, +, 1, -).
 
 :- dynamic
-    ended/1,
-    clock_of/2,                 % Network, clock(Epoch, Rate)
     network/2,                  % Network, Plan
     costs/2,                    % Network, Costs: of its links
-    running/1.                  % Network
+    running/2.                  % Network, clock(Epoch, Rate)
 
 %!  networks_start(+Topology, -Network, +Options) is det.
 %
@@ -120,8 +117,7 @@ unless_built(_, Network) :-
 %   Record that the network is built.
 
 network_goes_on(Network, Clock) :-
-    assertz(clock_of(Network, Clock)),
-    assertz(running(Network)).
+    assertz(running(Network, Clock)).
 
 %!  network_change(+Network, +Change) is det.
 %
@@ -143,7 +139,7 @@ network_change(Network, Change0) :-
 
 networks_stop(Network) :-
     must_be(atom, Network),
-    (   retract(running(Network))
+    (   retract(running(Network, _))
     ->  in_own_thread(end(Network))
     ;   existence_error(network, Network)
     ).
@@ -153,12 +149,10 @@ end(Network) :-
     step(wire_resting_own(Network, stop_own(Network))),
     step(nodes_stop(Network)),
     step(log_end(Network)),
-    step(endpoint_end(Network)),
+    step(runtime_release(network(Network))),
     wire_forget(Network),
     debug(typhon(network), '~w has ended', [Network]),
-    equipment_forget(Network),
-    retractall(clock_of(Network, _)),
-    forall(ended(Network), true),
+    retractall(due(Network, _, _)),
     retractall(network(Network, _)),
     retractall(costs(Network, _)).
 
@@ -193,8 +187,8 @@ step(Goal) :-
 
 network_clock(Network, Clock) :-
     must_be(atom, Network),
-    (   running(Network)
-    ->  clock_of(Network, Clock)
+    (   running(Network, Clock0)
+    ->  Clock = Clock0
     ;   existence_error(network, Network)
     ).
 
@@ -224,9 +218,9 @@ network_state(Network, state(Plan, Clock, Log, Dynamics)) :-
 networks_property(Network, Property) :-
     check_name(network_property, Property),
     (   var(Network)
-    ->  running(Network)
+    ->  running(Network, _)
     ;   must_be(atom, Network),
-        running(Network)
+        running(Network, _)
     ->  true
     ;   existence_error(network, Network)
     ),
@@ -235,15 +229,15 @@ networks_property(Network, Property) :-
 typhon_names:known(network_property, Property) :-
     clause(property(Property, _), _).
 typhon_names:known(network, Network) :-
-    running(Network).
+    running(Network, _).
 
 typhon_questions:elsewhere(Agent) :-
-    running(Network),
+    running(Network, _),
     wired_agents(Network, Agents),
     member(Agent, Agents).
 
 typhon_questions:ended_elsewhere(Name, Agent) :-
-    running(Network),
+    running(Network, _),
     wired_ended(Network, Name, Agents),
     last(Agents, Agent).
 
@@ -279,9 +273,6 @@ prolog:message(typhon(network_step(Goal))) -->
 
 :- dynamic
     due/3.                      % Network, Number, Goal
-
-typhon_networks:ended(Network) :-
-    retractall(due(Network, _, _)).
 
 %!  appointments_wait(+Network, +Seconds) is det.
 %

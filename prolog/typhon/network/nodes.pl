@@ -123,13 +123,8 @@ node_gone(Network, P) :-
 %   @error the errors of order_do/2 in P
 
 node_order(Network, P, Order, Answer) :-
-    up(Network, P, local, _),
-    !,
-    order_do(Order, Answer).
-node_order(Network, P, Order, Answer) :-
     setting(typhon_processes:order_seconds, Seconds),
-    nodes_ask(Network, [P], Order, Seconds, unwatched, [_-Result]),
-    result(Result, Network-P, Answer).
+    nodes_order(Network, [P], Order, Seconds, [Answer]).
 
 %!  nodes_order(+Network, +Ps, +Order, +Seconds, -Answers) is det.
 %
