@@ -36,7 +36,7 @@ brings its own clauses.
 
 Each call of a handler has a thread, which may read, sleep and loop; no other
 thread ends it.  Goals that must wait for the end of the last thread of an agent
-run in threads of their own, which are notified.
+run in threads of their own.
 
 Agents are saved as text: an agent as its clauses, a platform as its agents
 without their tokens.
@@ -199,8 +199,7 @@ record_static(Name, Key) :-
     when_through(+, 0).
 
 :- dynamic
-    last/2,                     % Name, Thread: runs its handler, the newest
-    waits/2.                    % Thread, Queue: is notified of its end
+    last/2.                     % Name, Thread: runs its handler, the newest
 
 %!  run_handler(+Name, +Handler, +Start, +When) is det.
 %
@@ -241,11 +240,7 @@ handle_ball(Ball, Name) :-
 
 through(Name) :-
     thread_self(Me),
-    with_mutex(tartarus_lives,
-               ( retractall(last(Name, Me)),
-                 findall(Queue, waits(Me, Queue), Queues),
-                 forall(member(Queue, Queues),
-                        thread_send_message(Queue, through)) )).
+    with_mutex(tartarus_lives, retractall(last(Name, Me))).
 
 %!  run_apart(:Goal) is det.
 %
@@ -265,25 +260,8 @@ when_through(Name, Goal) :-
     ;   run_apart(( tartarus_lives:await(Thread), Goal ))
     ).
 
-await(none) :-
-    !.
 await(Thread) :-
-    setup_call_cleanup(
-        message_queue_create(Queue),
-        (   with_mutex(tartarus_lives, watched(Thread, Queue))
-        ->  thread_get_message(Queue, through)
-        ;   true
-        ),
-        unwait(Queue)).
-
-watched(Thread, Queue) :-
-    last(_, Thread),
-    !,
-    assertz(waits(Thread, Queue)).
-
-unwait(Queue) :-
-    with_mutex(tartarus_lives, retractall(waits(_, Queue))),
-    message_queue_destroy(Queue).
+    thread_wait(\+ last(_, Thread), [wait_preds([last/2])]).
 
                 /*******************************
                 *            SAVING            *

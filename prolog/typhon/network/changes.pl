@@ -35,8 +35,7 @@ applies it, and calls OnChange, which reaches hosts in other processes.
 :- dynamic
     dynamics/3,                 % Dynamics, Clock, OnChange
     due/2,                      % Dynamics, Queue: holds the next event
-    changing/2,                 % Dynamics, Thread: is applying changes
-    stopping/2.                 % Dynamics, Queue: gets `done` after them
+    changing/2.                 % Dynamics, Thread: is applying changes
 
 %!  dynamics_start(+State, +Clock, :OnChange, -Dynamics) is det.
 %
@@ -78,20 +77,16 @@ next(Dynamics, State0) :-
 %   and fails if that takes longer than Seconds.
 
 dynamics_kept(Dynamics, Seconds, Then) :-
-    setup_call_cleanup(
-        ( message_queue_create(Done),
-          assertz(stopping(Dynamics, Done)) ),
-        (   changing(Dynamics, _)
-        ->  thread_get_message(Done, done, [timeout(Seconds)])
-        ;   true
-        ),
-        ( retractall(stopping(Dynamics, Done)),
-          message_queue_destroy(Done) )),
+    await_change(Dynamics, Seconds),
     due(Dynamics, Queue),
     (   thread_peek_message(Queue, Then0)
     ->  Then = Then0
     ;   Then = none
     ).
+
+await_change(Dynamics, Seconds) :-
+    thread_wait(\+ changing(Dynamics, _),
+                [ timeout(Seconds), wait_preds([changing/2]) ]).
 
 %!  dynamics_again(+Name, +Then, +Clock, :OnChange, -Dynamics) is det.
 %
@@ -126,9 +121,7 @@ step(Dynamics) :-
         assertz(changing(Dynamics, Me)),
         catch(change_links(Dynamics), stop_changing, true),
         ( nb_setval(typhon_changing, none),
-          retractall(changing(Dynamics, _)),
-          forall(stopping(Dynamics, Queue), thread_send_message(Queue, done))
-        )).
+          retractall(changing(Dynamics, _)) )).
 
 change_links(Dynamics) :-
     nb_setval(typhon_changing, Dynamics),
@@ -155,13 +148,7 @@ apply_change(_, Change) :-
 
 dynamics_stop(Dynamics) :-
     retractall(dynamics(Dynamics, _, _)),
-    setup_call_cleanup(
-        ( message_queue_create(Queue),
-          assertz(stopping(Dynamics, Queue)) ),
-        await_change(Dynamics, Queue),
-        ( retractall(stopping(Dynamics, _)),
-          message_queue_destroy(Queue),
-          forget(Dynamics) )).
+    call_cleanup(end_change(Dynamics), forget(Dynamics)).
 
 forget(Dynamics) :-
     (   retract(due(Dynamics, Queue))
@@ -169,15 +156,13 @@ forget(Dynamics) :-
     ;   true
     ).
 
-await_change(Dynamics, Queue) :-
-    (   \+ changing(Dynamics, _)
-    ->  true
-    ;   thread_get_message(Queue, done, [timeout(1)])
+end_change(Dynamics) :-
+    (   await_change(Dynamics, 1)
     ->  true
     ;   forall(changing(Dynamics, Thread),
                catch(thread_signal(Thread, typhon_changes:interrupt(Dynamics)),
                      error(existence_error(_, _), _), true)),
-        await_change(Dynamics, Queue)
+        end_change(Dynamics)
     ).
 
 %   The signal may arrive after the change; then it has no effect.

@@ -6,6 +6,7 @@
             node/3,                     % ?Network, ?P, ?Pid
             node/4,                     % ?Network, ?P, ?Pid, ?Where
             node_gone/2,                % +Network, +P
+            nodes_gone/3,               % +Network, +Ps, +Seconds
             node_order/4,               % +Network, +P, +Order, -Answer
             nodes_order/5,              % +Network, +Ps, +Order, +Seconds,
                                         % -Answers
@@ -14,8 +15,7 @@
             nodes_send/3,               % +Network, +Ps, +Order
             nodes_peers/2,              % +Network, -Peers
             unwatched/1,                % +Ps
-            deadline/2,                 % +Seconds, -Deadline
-            message_before/3            % +Queue, ?Message, +Deadline
+            deadline/2                  % +Seconds, -Deadline
           ]).
 :- use_module(library(apply), [maplist/3]).
 :- use_module(library(debug), [debug/3]).
@@ -102,12 +102,18 @@ node(Network, P, Pid, Where) :-
     \+ down(Network, P, _).
 
 %!  node_gone(+Network, +P) is semidet.
+%!  nodes_gone(+Network, +Ps, +Seconds) is semidet.
 %
-%   Process P has ended, whether it was up or not.
+%   Process P has ended, whether it was up or not.  nodes_gone/3 waits until all
+%   of Ps have ended, at most for so many Seconds.
 
 node_gone(Network, P) :-
     down(Network, P, _),
     !.
+
+nodes_gone(Network, Ps, Seconds) :-
+    thread_wait(forall(member(P, Ps), node_gone(Network, P)),
+                [ timeout(Seconds), wait_preds([down/3]) ]).
 
                 /*******************************
                 *            ORDERS            *
@@ -259,7 +265,7 @@ deadline(Seconds, Deadline) :-
     get_time(Now),
     Deadline is Now + Seconds.
 
-%!  message_before(+Queue, ?Message, +Deadline) is semidet.
+%   message_before(+Queue, ?Message, +Deadline) is semidet.
 %
 %   Take Message from Queue. Fails if none arrives before Deadline.
 

@@ -13,9 +13,8 @@
               [child_close/1, child_kill/1, child_release/1, child_start/6]).
 :- use_module(nodes,
               [ node/3, node/4, node_again/2, node_came/4,
-                node_gone/2, node_order/4, node_went/3,
-                nodes_ask/6, nodes_forget/1, nodes_peers/2,
-                deadline/2, message_before/3, unwatched/1 ]).
+                node_gone/2, node_order/4, node_went/3, nodes_ask/6,
+                nodes_forget/1, nodes_gone/3, nodes_peers/2, unwatched/1 ]).
 :- use_module(restarts,
               [ restarts_absent/2, restarts_begin/3, restarts_end/1,
                 restarts_notify/3 ]).
@@ -301,7 +300,7 @@ kill_all(Network, Ps) :-
            ( print_message(warning, typhon(node_killed(Network, P))),
              child_kill(Child) )),
     setting(kill_seconds, Seconds),
-    wait_down(Network, Ps, Seconds).
+    nodes_gone(Network, Ps, Seconds).
 
 children_up(Network, Ps) :-
     findall(P, ( child(Network, P, _), node(Network, P, _) ), Ps).
@@ -322,7 +321,8 @@ order_children(Network, Order, Watch) :-
 end_children(Network) :-
     setting(typhon_children:stop_seconds, Seconds),
     findall(P, child(Network, P, _), Ps),
-    wait_down(Network, Ps, Seconds + 1),
+    Longest is Seconds+1,
+    nodes_gone(Network, Ps, Longest),
     !.
 end_children(Network) :-
     findall(P, remains(Network, P), Ps),
@@ -335,22 +335,6 @@ end_children(Network) :-
 remains(Network, P) :-
     child(Network, P, _),
     \+ node_gone(Network, P).
-
-%   wait_down(+Network, +Ps, +Seconds): fails if one of Ps has not ended in
-%   time.
-
-wait_down(Network, Ps, Seconds) :-
-    queue(Network, Queue),
-    deadline(Seconds, Deadline),
-    await_down(Network, Ps, Queue, Deadline).
-
-await_down(Network, Ps, Queue, Deadline) :-
-    (   member(P, Ps),
-        remains(Network, P)
-    ->  message_before(Queue, down(_, _), Deadline),
-        await_down(Network, Ps, Queue, Deadline)
-    ;   true
-    ).
 
                 /*******************************
                 *           MESSAGES           *

@@ -12,7 +12,7 @@
 :- use_module('../kernel/base/error_text', [print_error/2]).
 :- use_module('../kernel/base/server',
               [server_cast/2, server_start/4, server_stop/1]).
-:- use_module(nodes, [deadline/2, message_before/3]).
+:- use_module(nodes, [deadline/2]).
 
 /** <module> Restarts of the processes of a network
 
@@ -45,8 +45,7 @@ absent process do so in their own threads.
     restarter/2,                % Network, Server
     restoring/2,                % Network, Thread: calls Do(restore(_))
     absent/2,                   % Network, P
-    death/3,                    % Network, P, Time
-    waiting/2.                  % Network, Queue: until no process is absent
+    death/3.                    % Network, P, Time
 
 %!  restarts_begin(+Network, +Queue, :Do) is det.
 %
@@ -87,8 +86,7 @@ restarts_end(Network) :-
     server_stop(Server),
     retractall(restoring(Network, _)),
     retractall(absent(Network, _)),
-    retractall(death(Network, _, _)),
-    notify_waiting(Network).
+    retractall(death(Network, _, _)).
 restarts_end(_).
 
 %!  restarts_notify(+Network, +Queue, +Event) is det.
@@ -170,7 +168,7 @@ give_up(P, Network, Do) :-
     setting(restart_seconds, Seconds),
     print_message(error, typhon(node_given_up(Network, P, Most, Seconds))),
     ignore(call(Do, give_up(P))),
-    present(Network, P).
+    retractall(absent(Network, P)).
 
 not_starting(P, Starting0, Starting) :-
     (   selectchk(_-P, Starting0, Starting1)
@@ -198,7 +196,7 @@ may_restart(Network, P) :-
 restored(P, Network, Do) :-
     (   catch(restore(Network, Do, P), Ball, not_restored(Ball))
     ->  print_message(informational, typhon(node_back(Network, P))),
-        present(Network, P)
+        retractall(absent(Network, P))
     ;   ignore(call(Do, kill(P)))
     ).
 
@@ -244,38 +242,15 @@ restarts_absent(Network, P) :-
     ;   true
     ).
 
-present(Network, P) :-
-    retractall(absent(Network, P)),
-    (   absent(Network, _)
-    ->  true
-    ;   notify_waiting(Network)
-    ).
-
-notify_waiting(Network) :-
-    forall(waiting(Network, Queue),
-           catch(thread_send_message(Queue, back),
-                 error(existence_error(_, _), _), true)).
-
 %!  restarts_back(+Network) is det.
 %
 %   Wait until no process of Network is absent, but at most the setting
 %   `typhon_processes:order_seconds`.
 
 restarts_back(Network) :-
-    absent(Network, _),
-    !,
     setting(typhon_processes:order_seconds, Seconds),
-    deadline(Seconds, Deadline),
-    setup_call_cleanup(
-        ( message_queue_create(Queue),
-          assertz(waiting(Network, Queue)) ),
-        (   absent(Network, _)
-        ->  ignore(message_before(Queue, back, Deadline))
-        ;   true
-        ),
-        ( retractall(waiting(Network, Queue)),
-          message_queue_destroy(Queue) )).
-restarts_back(_).
+    ignore(thread_wait(\+ absent(Network, _),
+                       [ timeout(Seconds), wait_preds([absent/2]) ])).
 
                 /*******************************
                 *           MESSAGES           *
