@@ -16,8 +16,8 @@
             out_hop_times_details/1,    % -List
             hoptime/4                   % ?Agent, ?From, ?To, ?Seconds
           ]).
+:- use_module(library(aggregate), [aggregate_all/3]).
 :- use_module(library(gensym), [gensym/2]).
-:- use_module(library(lists), [append/3, max_list/2, min_list/2, sum_list/2]).
 :- use_module('../typhon', [agent_create/3, agent_join/3]).
 :- use_module(clauses, [body/3, renamed/4]).
 :- use_module(lives,
@@ -289,30 +289,25 @@ details(Way, List) :-
 %   The longest, the shortest and the mean time; 0 each before the first hop.
 
 in_hop_time_stat(Max, Min, Mean) :-
-    seconds(in, Seconds),
-    stat(Seconds, Max, Min, Mean).
+    stat(in, Max, Min, Mean).
 
 out_hop_time_stat(Max, Min, Mean) :-
-    seconds(out, Seconds),
-    stat(Seconds, Max, Min, Mean).
+    stat(out, Max, Min, Mean).
 
 overall_hop_time_stat(Max, Min, Mean) :-
-    seconds(in, In),
-    seconds(out, Out),
-    append(In, Out, All),
-    stat(All, Max, Min, Mean).
+    stat(_, Max, Min, Mean).
 
-seconds(Way, List) :-
-    findall(Seconds, hop(Way, _, _, _, _, Seconds), List).
-
-stat([], 0, 0, 0) :-
-    !.
-stat(List, Max, Min, Mean) :-
-    max_list(List, Max),
-    min_list(List, Min),
-    sum_list(List, Sum),
-    length(List, Count),
-    Mean is Sum/Count.
+stat(Way, Max, Min, Mean) :-
+    (   aggregate_all(r(max(S), min(S), sum(S), count),
+                      hop(Way, _, _, _, _, S),
+                      r(Max0, Min0, Sum, Count))
+    ->  Max = Max0,
+        Min = Min0,
+        Mean is Sum/Count
+    ;   Max = 0,
+        Min = 0,
+        Mean = 0
+    ).
 
 %!  hoptime(?Agent, ?From, ?To, ?Seconds) is nondet.
 

@@ -190,17 +190,21 @@ print_table(Columns, Rows, _) :-
     maplist(print_row(Sides, Widths), All).
 
 width(Cell, Width) :-
-    format(string(Text), '~w', [Cell]),
-    string_length(Text, Width).
+    write_length(Cell, Width, []).
 
 wider(Width, Widest0, Widest) :-
     Widest is max(Width, Widest0).
 
 print_row(Sides, Widths, Cells) :-
-    maplist(padded, Sides, Widths, Cells, Padded),
-    atomic_list_concat(Padded, '  ', Line),
+    with_output_to(string(Line),
+                   maplist(print_cell, Sides, Widths, Cells)),
     without_trailing_blanks(Line, Text),
     format('~s~n', [Text]).
+
+print_cell(left, Width, Cell) :-
+    format('~w~t~*+  ', [Cell, Width]).
+print_cell(right, Width, Cell) :-
+    format('~t~w~*+  ', [Cell, Width]).
 
 %   Leading blanks are kept, since they show the depth in a tree.
 
@@ -208,14 +212,6 @@ without_trailing_blanks(Line, Text) :-
     string_concat(x, Line, Marked),
     split_string(Marked, "", " ", [Stripped]),
     sub_string(Stripped, 1, _, 0, Text).
-
-padded(Side, Width, Cell, Padded) :-
-    width(Cell, Used),
-    Fill is Width-Used,
-    (   Side == left
-    ->  format(atom(Padded), '~w~*c', [Cell, Fill, 0'\s])
-    ;   format(atom(Padded), '~*c~w', [Fill, 0'\s, Cell])
-    ).
 
 first_few(N, List, First, More) :-
     length(List, Length),

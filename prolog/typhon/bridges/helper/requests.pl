@@ -74,20 +74,17 @@ open_helper(Name, Command, When) :-
 
 %!  helper_close(+Name) is det.
 %
-%   End the helper, which gets the request `quit` before.  Open requests get the
-%   answer `closed`.
-%
-%   @error existence_error(helper, Name)
+%   End the helper, if there is one; it gets the request `quit` before.  Open
+%   requests get the answer `closed`.
 
 helper_close(Name) :-
-    in_own_thread(close_helper(Name)).
-
-close_helper(Name) :-
     text(Name, Text),
     (   retract(helper(Text, Owner, Lines, _))
-    ->  true
-    ;   existence_error(helper, Name)
-    ),
+    ->  in_own_thread(close_helper(Owner, Lines))
+    ;   true
+    ).
+
+close_helper(Owner, Lines) :-
     stop_seconds(Seconds),
     (   server_call(Owner, quit, Seconds, done)
     ->  true

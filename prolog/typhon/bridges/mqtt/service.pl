@@ -138,8 +138,7 @@ publish_type(payload(X), oneof([auto,json,text,bytes]), X).
 publish_type(wait(X), boolean, X).
 
 typhon_starting:ends(mqtt, Host) :-
-    ignore(catch(helper_close(mqtt(Host)),
-                 error(existence_error(_, _), _), true)),
+    helper_close(mqtt(Host)),
     retractall(started(Host, _, _)),
     connection_gone(Host).
 

@@ -118,8 +118,7 @@ seconds(Host, Seconds) :-
     option(timeout(Seconds), Options, 10).
 
 typhon_starting:ends(python, Host) :-
-    ignore(catch(helper_close(python(Host)),
-                 error(existence_error(_, _), _), true)),
+    helper_close(python(Host)),
     retractall(started(Host, _)),
     retractall(loaded(Host, _, _)).
 

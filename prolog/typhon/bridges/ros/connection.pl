@@ -75,7 +75,7 @@ way_close(Host) :-
     ).
 
 close_way(node, Host) :-
-    node_close(Host).
+    helper_close(ros(Host)).
 close_way(server, Host) :-
     rosbridge_close(Host).
 
@@ -224,7 +224,7 @@ node_open(Host, Options) :-
     helper_open(ros(Host), command(Python, Args), [restart(always)]),
     option(connect_deadline(Seconds), Options, 20),
     catch(node_send(Host, _{op:hello}, Seconds), Ball,
-          ( node_close(Host),
+          ( helper_close(ros(Host)),
             throw(Ball) )).
 
 command(Host, Options, ['-u', File, '--node', Node, '--reach', Reach|Args]) :-
@@ -280,11 +280,6 @@ installed(Python) :-
     ;   expand_file_name('~/.cache/typhon/ros', [Dir])
     ),
     atom_concat(Dir, '/bin/python', Python).
-
-%   node_close(+Host) is det.
-
-node_close(Host) :-
-    catch(helper_close(ros(Host)), error(existence_error(_, _), _), true).
 
 %   node_send(+Host, +Frame:dict, +Seconds) is det.
 %
