@@ -81,8 +81,8 @@ about(raised(Ball), _, _) =>
 %   Remove all registrations of the managers of Host.
 
 manager_end(Host) :-
-    directory_forget(ams(Host)),
-    directory_forget(df(Host)).
+    directory_forget(ams-Host),
+    directory_forget(df-Host).
 
                 /*******************************
                 *            ACTIONS           *
@@ -101,8 +101,7 @@ done(Act, Manager, Host, Reply), arguments(Act, modify, [Description]) =>
 done(Act, Manager, Host, Reply), arguments(Act, deregister, [Description]) =>
     described(Description, Manager, Name),
     registered(Manager, Host, Name),
-    Directory =.. [Manager,Host],
-    ignore(directory_remove(Directory, Name)),
+    ignore(directory_remove(Manager-Host, Name)),
     Reply = done.
 done(Act, Manager, Host, Reply), arguments(Act, search, [Template|More]) =>
     kind(Template, Manager),
@@ -162,8 +161,7 @@ kind_of(ams, 'ams-agent-description').
 kind_of(df, 'df-agent-description').
 
 known(Manager, Host, Name) :-
-    Directory =.. [Manager,Host],
-    directory_has(Directory, Name),
+    directory_has(Manager-Host, Name),
     !.
 known(ams, Host, Name) :-
     living(Host, Name).
@@ -181,8 +179,7 @@ living(Host, Name) :-
 %   deregistered.
 
 registered(Manager, Host, Name) :-
-    Directory =.. [Manager,Host],
-    (   directory_has(Directory, Name)
+    (   directory_has(Manager-Host, Name)
     ->  true
     ;   known(Manager, Host, Name)
     ->  throw(fipa(refuse(unauthorised)))
@@ -190,9 +187,8 @@ registered(Manager, Host, Name) :-
     ).
 
 enter(Manager, Host, Name, Description) :-
-    Directory =.. [Manager,Host],
     until(Description, Until),
-    catch(directory_add(Directory, Name, Description, Until),
+    catch(directory_add(Manager-Host, Name, Description, Until),
           error(resource_error(_), _),
           throw(fipa(failure('internal-error'("the directory is full"))))).
 
@@ -223,8 +219,7 @@ constraint(More, Max) :-
     ).
 
 description(Manager, Host, Description) :-
-    Directory =.. [Manager,Host],
-    directory_entry(Directory, Description).
+    directory_entry(Manager-Host, Description).
 description(ams, Host, Description) :-
     findall(Id, agent(Id, _, _, _, _), Here),
     home_agents(Born),
@@ -233,7 +228,7 @@ description(ams, Host, Description) :-
     member(Local, All),
     platform_aid(Host, Local, Aid),
     aid_name(Aid, Name),
-    \+ directory_has(ams(Host), Name),
+    \+ directory_has(ams-Host, Name),
     Description = 'ams-agent-description'(name:Aid, state:active).
 description(df, Host, 'df-agent-description'(name:Aid, services:set(Services))) :-
     findall(Agent-Offer,
@@ -246,7 +241,7 @@ description(df, Host, 'df-agent-description'(name:Aid, services:set(Services))) 
     member(Agent-Own, Groups),
     platform_aid(Host, Agent, Aid),
     aid_name(Aid, Name),
-    \+ directory_has(df(Host), Name),
+    \+ directory_has(df-Host, Name),
     maplist(service_description, Own, Services).
 
 %   The type of a service is the name of its term.

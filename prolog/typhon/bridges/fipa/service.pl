@@ -74,7 +74,9 @@ open_platform(Host, Platform, Url, Options) :-
     ->  true
     ;   Port = Port0
     ),
-    reception_open(Host, Interface:Port, Limits, Port),
+    option(connections(Most), Limits),
+    http_server_open(fipa(Host), Interface:Port, Most,
+                     typhon_fipa_service:serve(Host, Limits)),
     atomic_list_concat(['http://', UrlHost, ':', Port, Path], Reached),
     platform_add(Host, Platform, Reached, Limits).
 
@@ -94,7 +96,7 @@ limits(Options, [ queue(Queue), connections(Connections), max_bytes(Max),
     option(seconds(Seconds), Options, 10).
 
 typhon_starting:ends(fipa, Host) :-
-    reception_close(Host),
+    http_server_close(fipa(Host)),
     carriage_close(Host),
     ignore(platform_remove(Host)),
     manager_end(Host).
@@ -166,22 +168,6 @@ idle_seconds(60).
 %   that it gets the answer.
 
 max_drained(16000000).
-
-%   reception_open(+Host, +Address, +Limits, -Port): accept clients for Host at
-%   Address, Interface:Port.  Limits has connections(N), max_bytes(N) and
-%   seconds(S).
-
-reception_open(Host, Interface:Port, Limits, Port) :-
-    option(connections(Most), Limits),
-    http_server_open(fipa(Host), Interface:Port, Most,
-                     typhon_fipa_service:serve(Host, Limits)).
-
-reception_close(Host) :-
-    http_server_close(fipa(Host)).
-
-                /*******************************
-                *            CLIENTS           *
-                *******************************/
 
 :- public serve/4.              % called by typhon_http_server
 

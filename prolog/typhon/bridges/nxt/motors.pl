@@ -172,7 +172,7 @@ turn_until_near(Brick, Motor, Power, Angle, Deadline) :-
     get_time(Time),
     (   abs(Error) =< 2
     ->  nxt_stop(Brick, Motor),
-        rest(Brick, Motor, Deadline),
+        await(turn_to, Brick, Deadline, Motor),
         nxt_tacho(Brick, Motor, Then),
         (   abs(Angle-Then) =< 2
         ->  true
@@ -194,15 +194,6 @@ turn_until_near(Brick, Motor, Power, Angle, Deadline) :-
 approach(Error, Power, Speed) :-
     Wanted is max(6, abs(Error)//4),
     Speed is sign(Error)*min(Power, Wanted).
-
-rest(Brick, Motor, Deadline) :-
-    (   \+ nxt_moves(Brick, Motor)
-    ->  true
-    ;   get_time(Now),
-        Now > Deadline
-    ->  time_out(turn_to, Brick, Motor)
-    ;   rest(Brick, Motor, Deadline)
-    ).
 
 time_out(What, Brick, Motor) :-
     throw(error(timeout_error(nxt(What), Brick),
@@ -299,14 +290,14 @@ nxt_await(Brick, Motors, Seconds) :-
     ->  List = Motors
     ;   List = [Motors]
     ),
-    maplist(await(Brick, Deadline), List).
+    maplist(await(await, Brick, Deadline), List).
 
-await(Brick, Deadline, Motor) :-
+await(What, Brick, Deadline, Motor) :-
     (   \+ nxt_moves(Brick, Motor)
     ->  true
     ;   get_time(Now),
         Now > Deadline
-    ->  time_out(await, Brick, Motor)
+    ->  time_out(What, Brick, Motor)
     ;   sleep(0.02),
-        await(Brick, Deadline, Motor)
+        await(What, Brick, Deadline, Motor)
     ).

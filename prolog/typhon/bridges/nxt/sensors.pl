@@ -75,14 +75,21 @@ nxt_light(Brick, Port, PerCent) :-
     nxt_light(Brick, Port, on, PerCent).
 
 nxt_light(Brick, Port, Lamp, PerCent) :-
-    (   light_type(Lamp, Type)
-    ->  true
-    ;   domain_error(nxt_lamp, Lamp)
-    ),
+    code(light_type(Lamp, Type), nxt_lamp),
     scaled(Brick, Port, Type, PerCent).
 
 light_type(on, 5).
 light_type(off, 6).
+
+%   code(:Table, +Domain): look up the first argument of Table, which is in
+%   Domain.
+
+code(Table, Domain) :-
+    (   call(Table)
+    ->  true
+    ;   arg(1, Table, Name),
+        domain_error(Domain, Name)
+    ).
 
 scaled(Brick, Port, Type, PerCent) :-
     per_cent(Mode),
@@ -99,10 +106,7 @@ nxt_sound(Brick, Port, PerCent) :-
     nxt_sound(Brick, Port, db, PerCent).
 
 nxt_sound(Brick, Port, Scale, PerCent) :-
-    (   sound_type(Scale, Type)
-    ->  true
-    ;   domain_error(nxt_sound_scale, Scale)
-    ),
+    code(sound_type(Scale, Type), nxt_sound_scale),
     scaled(Brick, Port, Type, PerCent).
 
 sound_type(db, 7).
@@ -133,10 +137,7 @@ colour(6, white).
 %   or `off`.
 
 nxt_colour_light(Brick, Port, Lamp, Level) :-
-    (   lamp_type(Lamp, Type)
-    ->  true
-    ;   domain_error(nxt_lamp, Lamp)
-    ),
+    code(lamp_type(Lamp, Type), nxt_lamp),
     nxt_sensor(Brick, Port, Type, 0, Values),
     Level = Values.scaled.
 
@@ -196,10 +197,7 @@ nxt_compass(Brick, Port, Degrees) :-
 %   times.
 
 nxt_compass_calibrate(Brick, Port, OnOff) :-
-    (   calibration(OnOff, Mode)
-    ->  true
-    ;   domain_error(oneof([on,off]), OnOff)
-    ),
+    code(calibration(OnOff, Mode), oneof([on,off])),
     nxt_i2c(Brick, Port, [0x02,0x41,Mode], 0, []).
 
 calibration(on, 0x43).

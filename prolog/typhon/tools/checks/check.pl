@@ -8,12 +8,11 @@
 :- use_module('../../kernel/program',
               [ declaration/4, file_parts/4, in_file_order/3,
                 library_directive/2, mobile_predicates/3, part/3,
-                payload_terms/3, problem_error/3, program_terms/6,
-                source_terms/5 ]).
+                payload_terms/3, program_terms/6, source_terms/5 ]).
 :- use_module(lost_choices, [lost_choice/3]).
-:- use_module(goal_lines, [problem_at_goal/2]).
-:- use_module(program_warnings,
-              [apart_problem/3, program_warnings/3, unknown_problems/2]).
+:- use_module(warnings,
+              [ apart_problem/3, print_problem/2, program_warnings/3,
+                unknown_problems/2 ]).
 
 /** <module> Implementation of agent_check/1 and agent_check/2
 
@@ -33,8 +32,8 @@ check_program(Spec) :-
     problems_of(Unread, Located, Errors, Likely, Undefined),
     append([Once, Likely, Undefined], Warnings0),
     in_file_order(Warnings0, Located, Warnings),
-    forall(member(P, Errors), report(error, P)),
-    forall(member(P, Warnings), report(warning, P)),
+    forall(member(P, Errors), print_problem(error, P)),
+    forall(member(P, Warnings), print_problem(warning, P)),
     maplist(length, [Errors, Warnings, Undefined], [E, W0, U]),
     W is W0-U,
     print_message(informational, typhon(checked(Spec, E, W, U))).
@@ -64,11 +63,6 @@ no_objections(Options, Spec, Located) :-
            ( ignore(Where = Spec),
              print_message(error, typhon(not_let_in(Where, Formal))) )),
     Objections == [].
-
-report(Severity, Problem0) :-
-    problem_at_goal(Problem0, Problem),
-    problem_error(Problem, [], Error),
-    print_message(Severity, Error).
 
 %   problems_of(+Unread, +Located, -Errors, -Warnings, -Undefined): with syntax
 %   errors Unread there are no other problems, since parts of the program are

@@ -39,7 +39,8 @@ a thread that sends it the texts, and one that detects when it disconnects.
            "Seconds without events after which a page sends a heartbeat").
 
 :- dynamic
-    browser/3,                  % Queue, Thread, Skipped: dropped events
+    browser/2,                  % Queue, Thread
+    skipped/2,                  % Queue, Count: dropped events
     sender/1.                   % Server
 
 %   The sizes of the queue of events, and of the queue of texts for one browser.
@@ -71,7 +72,8 @@ browsers_stop :-
 
 stop(Sender) :-
     server_stop(Sender),
-    forall(browser(Browser, _, _), disconnect(Browser)),
+    retractall(skipped(_, _)),
+    forall(browser(Browser, _), disconnect(Browser)),
     get_time(Now),
     Deadline is Now+5,
     wait_until_gone(Deadline).
@@ -80,7 +82,7 @@ stop(Sender) :-
 %   would not read the message: it is interrupted.
 
 disconnect(Browser) :-
-    browser(Browser, Thread, _),
+    browser(Browser, Thread),
     catch(( has_room(Browser)
           ->  thread_send_message(Browser, bye)
           ;   thread_signal(Thread, throw(typhon_page(bye)))
@@ -88,11 +90,11 @@ disconnect(Browser) :-
           error(existence_error(_, _), _), true).
 
 wait_until_gone(Deadline) :-
-    thread_wait(\+ browser(_, _, _),
-                [ deadline(Deadline), wait_preds([browser/3]) ]),
+    thread_wait(\+ browser(_, _),
+                [ deadline(Deadline), wait_preds([browser/2]) ]),
     !.
 wait_until_gone(_) :-
-    forall(browser(_, Thread, _),
+    forall(browser(_, Thread),
            catch(thread_signal(Thread, throw(typhon_page(bye))),
                  error(existence_error(_, _), _), true)).
 
@@ -116,7 +118,7 @@ browsers_send(Event) :-
 %   At least one browser is connected.
 
 browsers_there :-
-    browser(_, _, _),
+    browser(_, _),
     !.
 
 %   The state is frame(Due, Count, Events), with the newest event first.  Events
@@ -154,38 +156,28 @@ begin_frame(Due, until(Beat, frame(Due, 0, []))) :-
     Beat is Now+Pause.
 
 send_events(_, _) :-
-    \+ browser(_, _, _),
+    \+ browser(_, _),
     !.
 send_events([], Now) :-
     !,
     json_text(_{tick:Now}, Text),
-    forall(browser(Browser, _, _), queue_text(Browser, Text, 0)).
+    forall(browser(Browser, _), queue_text(Browser, Text, 0)).
 send_events(Events, _) :-
     event_rows(Events, Rows),
     json_text(_{events:Rows}, Text),
     length(Events, Count),
-    forall(browser(Browser, _, _), queue_text(Browser, Text, Count)).
+    forall(browser(Browser, _), queue_text(Browser, Text, Count)).
 
 %   Only the server puts texts into the queue of a browser, so a text for which
 %   there is space now still fits later.
 
 queue_text(Browser, Text, Count) :-
+    ( retract(skipped(Browser, Skipped)) -> true ; Skipped = 0 ),
     (   has_room(Browser)
-    ->  report_skipped(Browser),
+    ->  report_skipped(Skipped, Browser),
         put_text(Browser, Text)
-    ;   with_mutex(typhon_page, count_skipped(Browser, Count))
-    ).
-
-%   The browser may have disconnected meanwhile.  The new fact is added before
-%   the old one is removed, so that a concurrent lookup always finds the
-%   browser.
-
-count_skipped(Browser, Count) :-
-    (   browser(Browser, Thread, Skipped)
-    ->  More is Skipped+Count,
-        assertz(browser(Browser, Thread, More)),
-        once(retract(browser(Browser, Thread, Skipped)))
-    ;   true
+    ;   More is Skipped+Count,
+        assertz(skipped(Browser, More))
     ).
 
 has_room(Browser) :-
@@ -194,16 +186,12 @@ has_room(Browser) :-
           error(existence_error(_, _), _), fail),
     Size < Most.
 
-report_skipped(Browser) :-
-    browser(Browser, _, Skipped),
-    Skipped > 0,
-    !,
-    Less is -Skipped,
-    with_mutex(typhon_page, count_skipped(Browser, Less)),
+report_skipped(0, _) :-
+    !.
+report_skipped(Skipped, Browser) :-
     skipped_row(Skipped, Row),
     json_text(_{events:[Row]}, Text),
     put_text(Browser, Text).
-report_skipped(_).
 
 put_text(Browser, Text) :-
     catch(thread_send_message(Browser, frame(Text)),
@@ -253,14 +241,15 @@ add_browser(Queue) :-
 add_browser(Queue, Me) :-
     sender(_),
     setting(browsers, Most),
-    findall(B, browser(B, _, _), Browsers),
+    findall(B, browser(B, _), Browsers),
     length(Browsers, Count),
     Count < Most,
-    assertz(browser(Queue, Me, 0)).
+    assertz(browser(Queue, Me)).
 
 remove_browser(Queue) :-
-    with_mutex(typhon_page, retractall(browser(Queue, _, _))),
-    message_queue_destroy(Queue).
+    with_mutex(typhon_page, retractall(browser(Queue, _))),
+    message_queue_destroy(Queue),
+    retractall(skipped(Queue, _)).
 
 %   A browser sends nothing but a close frame here.  So any data from it end the
 %   connection, unread.

@@ -7,7 +7,6 @@
             name_text/2,                % +Atomic, -Text
             place_text/2,               % +Place, -Text
             number_json/2,              % +Number, -Json
-            times_start/0,
             times_stop/0,
             times_of/1,                 % +Hosts
             page_time/2,                % +Stamp, -Time
@@ -238,13 +237,9 @@ status_word(Doing, Word) :-
     reference/2,                % Epoch, Rate
     clock_of/3.                 % Host, Epoch, Rate
 
-%!  times_start is det.
 %!  times_stop is det.
 %
-%   Forget the clocks and the origin of a page that was served before.
-
-times_start :-
-    times_stop.
+%   Forget the clocks and the origin of a page.
 
 times_stop :-
     retractall(reference(_, _)),

@@ -25,7 +25,7 @@
                 request_within/2, token_new/1, token_right/2 ]).
 :- use_module(overlays,
               [ overlays_shown/1, overlays_start/1, overlays_stop/0 ]).
-:- use_module(protocol, [times_start/0, times_stop/0]).
+:- use_module(protocol, [times_stop/0]).
 :- use_module(queries,
               [ present_scene/1, query_answer/2, world_shown/0,
                 world_start/1, world_stop/0 ]).
@@ -79,14 +79,15 @@ start(Options, Link) :-
     token_new(Token),
     ( Port0 == 0 -> true ; Port = Port0 ),
     catch(( start_parts(Options),
-            reception_open(Interface:Port) ),
+            setting(typhon_page_reception:connections, Most),
+            http_server_open(typhon_page, Interface:Port, Most,
+                             typhon_page_server:client) ),
           Ball,
           ( stop_parts, throw(Ball) )),
     assertz(serving(Port, Token, ReadOnly)),
     format(atom(Link), 'http://~w:~d/?token=~w', [Interface, Port, Token]).
 
 start_parts(Options) :-
-    times_start,
     sources_start(Options),
     editor_start,
     option(overlays(Files), Options, []),
@@ -100,7 +101,7 @@ server_stop :-
 stop :-
     (   retract(serving(_, _, _))
     ->  browsers_stop,                  % first: it sends close frames
-        reception_close,
+        http_server_close(typhon_page),
         stop_parts
     ;   true
     ).
@@ -255,18 +256,6 @@ error_answer(Error, _{error:Text}) :-
 
 :- meta_predicate with_body(+, +, -, 0).
 
-%   reception_open(+Address): call serve(In, Request) for each request of
-%   clients that connect to Address, Interface:Port.  It prints an answer like
-%   the handlers of library(http), and reads the body from In.
-
-reception_open(Address) :-
-    setting(typhon_page_reception:connections, Most),
-    http_server_open(typhon_page, Address, Most,
-                     typhon_page_server:client).
-
-reception_close :-
-    http_server_close(typhon_page).
-
 :- public client/2.             % called by typhon_http_server
 
 client(none, Out) :-
@@ -287,6 +276,8 @@ client(In, Out) :-
     switched(Close, In, Out).
 
 %   http_wrapper/5 adds the request, against its meta-predicate declaration.
+%   serve/2 prints an answer like the handlers of library(http), and reads the
+%   body from In.
 
 handler(In, typhon_page_server:serve(In)).
 
