@@ -35,8 +35,6 @@ indexed(typhon_orders:carried_out/3, order, carried_out(Order, _, _), Kind) :-
 indexed(typhon_time:starts/1, time, starts(Kind), Kind).
 indexed(typhon_durable:durable/5, durable, durable(Kind, _, _, _, _), Kind).
 indexed(typhon_durable:durable/6, durable, durable(Kind, _, _, _, _, _), Kind).
-indexed(typhon_durable_changes:open_store/3, open_store, open_store(_, _, _),
-        any).
 
 %!  index_problem(-Problem) is nondet.
 

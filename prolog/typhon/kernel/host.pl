@@ -17,9 +17,8 @@ This is the interface of the layer: higher layers import from here.
 :- reexport(host/links,
             [host_link/3, host_link_cost/3, host_neighbours/2, host_unlink/2]).
 :- reexport(host/events,
-            [ event/4, event_subscribed/1, events_forget/1,
-              events_subscribe/3, events_unsubscribe/1 ]).
-:- reexport('host/host_log').
+            [ event/4, event_shown/3, event_subscribed/1, events_forget/1,
+              events_subscribe/3, events_unsubscribe/1, log_kind/2 ]).
 :- reexport(host/host_parts, [amended/5, parts/3, parts_call/3, parts_load/1]).
 :- reexport(host/place,
             [ place_deliver/3, place_host/2, place_offer/2, place_service/2,
@@ -36,9 +35,9 @@ This is the interface of the layer: higher layers import from here.
               context_now/2, context_set/3, turn_later/1, turn_of/3,
               turns_now/3, turns_paused/0 ]).
 :- reexport(host/scheduler,
-              [ limit_parked/1, schedule/2, schedule_adopt/1, schedule_here/3,
-                schedule_leave/0, schedule_stays/2, scheduler_call/1,
-                scheduler_limit/2, work_do/2 ]).
+              [ agent_parked/1, schedule/2, schedule_adopt/1, schedule_here/3,
+                schedule_leave/0, schedule_stays/2, schedule_work/1,
+                scheduler_call/1, scheduler_limited/2, work_do/2 ]).
 :- use_module(host/pool, []).
 :- use_module(host/single, []).
 :- reexport(host/runtime,

@@ -11,11 +11,11 @@ This is the interface of the layer: higher layers import from here.
 :- reexport(travel/hand_over, [hand_over/5]).
 :- reexport(travel/within, [hop_at_once/6]).
 :- reexport(travel/transfer, 
-            [ move_awaited/2, move_failed/2, move_over/2, transfer_given_up/2,
-              transfer_held/2 ]).
+            [ move_awaited/2, move_failed/2, move_over/2, transfer_again/1,
+              transfer_given_up/2, transfer_held/2, transfer_open/1,
+              transfer_traveller/3 ]).
 :- reexport(travel/in_doubt, [in_doubt/1, out_of_touch/1]).
 :- use_module(travel/arrival, []).
-:- reexport(travel/durable_posts, [agent_logs/3, post_must_fit/1]).
 :- reexport(travel/home,
               [ agent_born/2, agent_outcome/2, home_agents/1, home_agents_at/2,
                 home_knows/4, outcome_wait/3 ]).
@@ -27,6 +27,6 @@ This is the interface of the layer: higher layers import from here.
 :- reexport(travel/routing, [mail_lost/3]).
 :- reexport(travel/backlog, [post_tried/0, retries_go_on/0]).
 :- reexport(travel/sender_authorization,
-            [peer_may_send_for/3, senders_check/1]).
+            [ mail_accepted/5, peer_may_send_for/3, sender_accepted/1,
+              senders_check/1, with_proof/5 ]).
 :- reexport(travel/news, [news_carried/1, news_hurry/0]).
-:- reexport(travel/external_recipients, [post_external/4]).

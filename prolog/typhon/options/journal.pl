@@ -65,4 +65,4 @@ journal_record_drop(Where) :-
     journal_call(typhon_database:journal_record_drop(Where)).
 
 journal_call(Goal) :-
-    on_demand_call(open_store, any, Goal).
+    on_demand_call(host_option, journal, Goal).

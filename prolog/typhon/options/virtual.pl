@@ -2,7 +2,7 @@
 :- use_module(library(lists), [member/2]).
 :- use_module(library(settings), [setting/2, setting/4]).
 :- use_module('../kernel/base/own_thread', [stop_thread/1]).
-:- use_module('../kernel/host', [limit_parked/1]).
+:- use_module('../kernel/host', [agent_parked/1]).
 :- use_module(virtual/virtual_loop,
               [ virtual_alone/0, virtual_begin/0, virtual_doing/1,
                 virtual_end/0, virtual_loop/1, virtual_now/1,
@@ -154,7 +154,7 @@ has_turn(virtual(_, _, _, _, Messages), Agent) :-
     member(do(Work), Messages),
     ( Work = agent(Agent) ; Work = agent(_, Agent) ).
 has_turn(_, Agent) :-
-    limit_parked(Agent).
+    agent_parked(Agent).
 
 ask_loop(Request, Reply, Options, Answer) :-
     loop(_, Loop),

@@ -150,7 +150,7 @@ held(alarm(A)) :-
 held(fact(M:A)) :-
     member(M, [typhon_attempts,typhon_session,typhon_connection_manager,
                typhon_peer_cache,typhon_hop_ids,typhon_in_doubt,typhon_transfer,
-               typhon_whereabouts,typhon_home,typhon_news,typhon_unacked,
+               typhon_arrival,typhon_whereabouts,typhon_home,typhon_news,typhon_unacked,
                typhon_writer,typhon_settlement,typhon_outbox,typhon_committing,typhon_connection,
                typhon_lending]),
     current_predicate(M:F/N),

@@ -17,7 +17,7 @@
               [domain_error/2, must_be/2, representation_error/1]).
 :- use_module(library(lists), [append/3, member/2]).
 :- use_module('../base/durable', [durable/6]).
-:- use_module('../base/durable_changes', [durable_key/1, durable_on/0]).
+:- use_module('../base/durable_changes', [durable_key/2, durable_on/0]).
 :- use_module('../wire', [endpoint_address/1]).
 :- use_module('../host', [time_repeats/2]).
 
@@ -54,7 +54,7 @@ agent_id(Name, Home, Id) :-
     process_mark(Mark),
     atomic_list_concat([Name, '.', Mark, N, '@', Home], Id),
     (   durable_on,
-        \+ durable_key(Id)
+        \+ durable_key(Id, 0)
     ->  representation_error(agent_name)
     ;   true
     ).

@@ -1,6 +1,5 @@
 :- module(typhon_durable_changes,
-          [ durable_open/3,             % +Where, +Sync, +Seconds
-            durable_opened/1,           % -Place
+          [ durable_opened/1,           % -Place
             durable_item/5,             % +Kind, +Order, -Key, -N, -Value
             durable_begin/0,
             durable_close/0,
@@ -9,30 +8,25 @@
             durable_closed/0,
             output_waits/0,
             durable_number/1,           % -N
-            durable_number_after/1,     % +N
-            durable_key/1,              % +Key
             durable_key/2,              % +Key, +N
             durable_put/4,              % +Kind, +Key, +N, +Term
             durable_drop/3,             % +Kind, +Key, +N
             durable_drop_all/2,         % +Kind, +Key
             durable_drop_below/3,       % +Kind, +Key, +N
-            durable_put_at_once/4,      % +Kind, +Key, +N, +Term
-            durable_drop_at_once/3,     % +Kind, +Key, +N
-            durable_change/1,           % +Change
-            durable_putting/5,          % +Kind, +Key, +N, +Term, -Change
-            durable_bytes/2,            % +Change, -Count
             unit_of_work/1,             % :Goal
             enqueue_changes/0,
+            effects_deferred/0,
+            deferred_put/4,             % +Kind, +Key, +N, +Term
+            deferred_drop/3,            % +Kind, +Key, +N
+            deferred_call/1,            % :Goal
+            deferred_act/4,             % +Kind, +Key, +Term, +By
             sync_changes/0,
             commit_changes/0,
             send_after_commit/2,        % +Item, +When
             flush_sends/0,
+            durable_post/3,             % +Endpoint, +Kind, +Term
             crash_point/1               % +Name
           ]).
-:- use_module(library(error), [existence_error/2]).
-:- use_module(library(lists), [member/2]).
-:- autoload(library(uri), [uri_encoded/3]).
-:- use_module(on_demand, [on_demand_load/2]).
 
 /** <module> Changes that outlive the process
 
@@ -44,60 +38,54 @@ order, so the store always holds a state that existed.
 Output that may follow from a change leaves the process after the commit:
 send_after_commit/2. sync_changes/0 waits for the commit.
 
-The back end, which has the store and commits, is an option: it defines the
-hooks below.  Without an open back end each change costs one call of
-durable_on/0.
+The actions of an agent between two stops are one unit of work, too: its
+messages, and the facts that it leaves and takes, are deferred until it stops.
+
+The back end, which queues the changes, and has the store, is an option: it
+defines the hooks below.  Without an open back end each change costs one call of
+durable_on/0, and nothing is deferred.
 
 *Threading*: any thread.  The changes of one item are made one after another,
 inside the mutex that guards its owner.
 */
 
 :- multifile
-    open_store/3,               % Where, Sync, Seconds: open the store
     durable_opened/1,
     durable_item/5,
     close_store/0,
-    begin_commits/0,            % the store is open: begin to commit
     end_commits/0,              % commit the queue, and stop
-    queue_entry/1,              % Changes: to be committed together
-    queue_send/1,               % Item: to be sent after them
-    commit_queue/0,             % commit now, and return when it is done
-    flush_sends/0,              % commit soon
-    commit_error/1,             % Error: of the last commit
-    back_end_error/2,           % Why, Formal: `closed`, `key`
+    next_number/1,              % N: see durable_number/1
+    durable_key/2,
+    change/1,                   % Change: to be committed
+    in_unit/1,                  % Goal: call it as one unit of work
+    enqueue/0,                  % see enqueue_changes/0
+    deferring/0,                % an agent acts in this thread
+    defer/1,                    % Change: commit it when the agent stops
+    call_later/1,               % Goal: see deferred_call/1
+    deferred_act/4,
+    act/3,                      % Kind, Key, Term: what was deferred
+    sync/0,                     % see sync_changes/0
+    commit/0,                   % see commit_changes/0
+    send_after_commit/2,
+    flush_sends/0,
+    durable_post/3,
+    undelivered/4,              % Kind, Term, Endpoint, Formal: the post of
+                                % durable_post/3 cannot be sent
     committed/1,                % Items: they may be sent, in this order
-    dropped/1,                  % Changes: their unit of work has failed
     reached/1.                  % Name: of crash_point/1
 
-:- meta_predicate unit_of_work(0).
+:- meta_predicate
+    unit_of_work(0),
+    deferred_call(0).
 
 :- dynamic
     reached/1,
     durable_on/0,
     output_waits/0.
 
-:- thread_local
-    pending/1.                          % Change
-
                 /*******************************
                 *        OPEN AND CLOSE        *
                 *******************************/
-
-%!  durable_open(+Where, +Sync, +Seconds) is det.
-%
-%   Open the store at Where.
-%
-%   @arg Sync is `full` if commits survive a power cut, or `normal`
-%   @arg Seconds is how long to wait until another process closes it
-%   @error existence_error(back_end, Where): none is loaded; and those of the
-%          back end
-
-durable_open(Where, Sync, Seconds) :-
-    on_demand_load(open_store, any),
-    (   open_store(Where, Sync, Seconds)
-    ->  true
-    ;   existence_error(back_end, Where)
-    ).
 
 %!  durable_opened(-Place) is semidet.
 %
@@ -111,14 +99,12 @@ durable_open(Where, Sync, Seconds) :-
 
 %!  durable_begin is det.
 %
-%   The store is open and was read: queue changes from now on.
+%   The store is open and was read, and the back end has begun to commit: queue
+%   changes from now on.
 
 durable_begin :-
-    begin_commits,
     assertz(output_waits),
-    assertz(durable_on),
-    get_flag(typhon_durable_number, N),
-    durable_bound(N).
+    assertz(durable_on).
 
 %!  durable_close is det.
 %
@@ -155,68 +141,26 @@ durable_closed :-
     output_waits,
     \+ durable_on.
 
-%!  durable_number(-N:integer) is det.
-%!  durable_number_after(+N:integer) is det.
-%
-%   N is greater than all numbers before; all later numbers are greater than N.
-%   Without a back end N is 0.  Numbers stay unique after a restart: an item
-%   that is written every 10,000 numbers holds where they begin.
-
-durable_number(N) :-
-    (   durable_on
-    ->  flag(typhon_durable_number, N, N+1),
-        (   N mod 10000 =:= 0
-        ->  durable_bound(N)
-        ;   true
-        )
-    ;   N = 0
-    ).
-
-durable_bound(N) :-
-    Bound is N+20000,
-    durable_put_at_once(number, '', 0, Bound).
-
-durable_number_after(N) :-
-    flag(typhon_durable_number, N0, max(N0, N+1)).
-
-                /*******************************
-                *             KEYS             *
-                *******************************/
-
-%!  durable_key(+Key) is semidet.
-%!  durable_key(+Key, +N) is semidet.
-%
-%   Items can have this key, and this number.  Key and N may be any term.  A
-%   commit that the database refuses is repeated for ever, and all later ones
-%   wait: so keys that other processes choose, such as ids of agents, are
-%   checked first.
-
-durable_key(Key) :-
-    atom(Key),
-    atom_length(Key, Length),
-    Length =< 500,                      % an index of PostgreSQL takes these
-    is_text(Key).
-
-durable_key(Key, N) :-
-    integer(N),
-    N >= -(1<<63),
-    N < 1<<63,
-    durable_key(Key).
-
-%   No character is 0 or half of a UTF-16 pair.  The first clause is the fast
-%   test: the key is unchanged in a URI.
-
-is_text(Key) :-
-    uri_encoded(fragment, Key, Encoded),
-    Encoded == Key,
-    !.
-is_text(Key) :-
-    atom_codes(Key, Codes),
-    \+ ( member(Code, Codes), ( Code =:= 0 ; between(0xd800, 0xdfff, Code) ) ).
-
                 /*******************************
                 *            CHANGES           *
                 *******************************/
+
+%!  durable_number(-N:integer) is det.
+%
+%   N is greater than all numbers before, also of earlier processes; without a
+%   back end N is 0.
+
+durable_number(N) :-
+    (   durable_on
+    ->  next_number(N)
+    ;   N = 0
+    ).
+
+%!  durable_key(+Key, +N) is semidet.
+%
+%   Items can have this key, and this number.  Key and N may be any term: keys
+%   that other processes choose, such as ids of agents, are checked first.  The
+%   back end defines this.
 
 %!  durable_put(+Kind, +Key, +N, +Term) is det.
 %
@@ -225,90 +169,22 @@ is_text(Key) :-
 %   @error representation_error(_): no item can have this key
 
 durable_put(Kind, Key, N, Term) :-
-    (   durable_on
-    ->  durable_putting(Kind, Key, N, Term, Change),
-        durable_change(Change)
-    ;   true
-    ).
+    ( durable_on -> change(put(Kind, Key, N, Term)) ; true ).
 
 %!  durable_drop(+Kind, +Key, +N) is det.
-%
-%   Delete the item.
-
-durable_drop(Kind, Key, N) :-
-    drop(Key, N, drop(Kind, Key, N)).
-
 %!  durable_drop_all(+Kind, +Key) is det.
-%
-%   Delete all items of this key.
-
-durable_drop_all(Kind, Key) :-
-    drop(Key, 0, drop_all(Kind, Key)).
-
 %!  durable_drop_below(+Kind, +Key, +N) is det.
 %
-%   Delete the items of this key with numbers less than N.
+%   Delete the item; all items of this key; those with numbers less than N.
+
+durable_drop(Kind, Key, N) :-
+    ( durable_on -> change(drop(Kind, Key, N)) ; true ).
+
+durable_drop_all(Kind, Key) :-
+    ( durable_on -> change(drop_all(Kind, Key)) ; true ).
 
 durable_drop_below(Kind, Key, N) :-
-    drop(Key, N, drop_below(Kind, Key, N)).
-
-%   No item has an invalid key, so there is nothing to delete.
-
-drop(Key, N, Change) :-
-    (   durable_on,
-        durable_key(Key, N)
-    ->  durable_change(Change)
-    ;   true
-    ).
-
-%!  durable_put_at_once(+Kind, +Key, +N, +Term) is det.
-%!  durable_drop_at_once(+Kind, +Key, +N) is det.
-%
-%   As durable_put/4 and durable_drop/3, even if the unit of work fails, and
-%   before its other changes.
-
-durable_put_at_once(Kind, Key, N, Term) :-
-    (   durable_on
-    ->  durable_putting(Kind, Key, N, Term, Change),
-        queue_entry([Change])
-    ;   true
-    ).
-
-durable_drop_at_once(Kind, Key, N) :-
-    (   durable_on
-    ->  queue_entry([drop(Kind, Key, N)])
-    ;   true
-    ).
-
-%!  durable_putting(+Kind, +Key, +N, +Term, -Change) is det.
-%
-%   Change sets the item to Term.
-%
-%   @error representation_error(_): no item can have this key
-
-durable_putting(Kind, Key, N, Term, put(Kind, Key, N, Bytes)) :-
-    (   durable_key(Key, N)
-    ->  fast_term_serialized(Term, Bytes)
-    ;   back_end_error(key, Formal),
-        throw(error(Formal, _))
-    ).
-
-%!  durable_bytes(+Change, -Count) is det.
-%
-%   The term of the item that Change sets takes Count bytes.
-
-durable_bytes(put(_, _, _, Bytes), Count) :-
-    string_length(Bytes, Count).
-
-%!  durable_change(+Change) is det.
-%
-%   Add Change to the unit of work, or queue it alone.
-
-durable_change(Change) :-
-    (   nb_current(typhon_durable_unit, true)
-    ->  assertz(pending(Change))
-    ;   queue_entry([Change])
-    ).
+    ( durable_on -> change(drop_below(Kind, Key, N)) ; true ).
 
 %!  unit_of_work(:Goal) is semidet.
 %
@@ -317,33 +193,54 @@ durable_change(Change) :-
 %   that are not yet queued are dropped.
 
 unit_of_work(Goal) :-
-    (   \+ durable_on
-    ->  once(Goal)
-    ;   nb_current(typhon_durable_unit, true)
-    ->  once(Goal)
-    ;   setup_call_cleanup(nb_setval(typhon_durable_unit, true),
-                           ( once(Goal), enqueue_changes ),
-                           ( nb_setval(typhon_durable_unit, false),
-                             drop_changes ))
-    ).
-
-drop_changes :-
-    (   pending(_)
-    ->  findall(Change, retract(pending(Change)), Changes),
-        forall(dropped(Changes), true)
-    ;   true
-    ).
+    ( durable_on -> in_unit(Goal) ; once(Goal) ).
 
 %!  enqueue_changes is det.
 %
 %   Queue the changes of this thread so far, as one entry.
 
 enqueue_changes :-
-    (   pending(_)
-    ->  findall(Change, retract(pending(Change)), Changes),
-        queue_entry(Changes)
-    ;   true
-    ).
+    ( output_waits -> enqueue ; true ).
+
+                /*******************************
+                *        DEFERRED EFFECTS      *
+                *******************************/
+
+%!  effects_deferred is semidet.
+%
+%   An agent acts in this thread, and its effects are deferred until it stops.
+
+effects_deferred :-
+    durable_on,
+    deferring.
+
+%!  deferred_put(+Kind, +Key, +N, +Term) is det.
+%!  deferred_drop(+Kind, +Key, +N) is det.
+%
+%   As durable_put/4 and durable_drop/3; where effects are deferred, so is the
+%   change.
+
+deferred_put(Kind, Key, N, Term) :-
+    ( durable_on -> defer(put(Kind, Key, N, Term)) ; true ).
+
+deferred_drop(Kind, Key, N) :-
+    ( durable_on -> defer(drop(Kind, Key, N)) ; true ).
+
+%!  deferred_call(:Goal) is det.
+%
+%   Where effects are deferred: call Goal after the changes of this unit of work
+%   are queued.
+
+deferred_call(Goal) :-
+    call_later(Goal).
+
+%!  deferred_act(+Kind, +Key, +Term, +By) is det.
+%
+%   Where effects are deferred: call act(Kind, Key, Term) once, when the agent
+%   has stopped, even if the process ends before.  The back end defines this.
+%
+%   @arg By is `frame` if Term must fit in a frame, else `any`
+%   @error resource_error(frame_bytes)
 
                 /*******************************
                 *            COMMIT            *
@@ -357,33 +254,20 @@ enqueue_changes :-
 %   @error existence_error(_, open): the store was closed
 
 sync_changes :-
-    (   durable_on
-    ->  enqueue_changes,
-        commit_queue
-    ;   output_waits
-    ->  closed
-    ;   true
-    ).
-
-closed :-
-    back_end_error(closed, Formal),
-    throw(error(Formal, _)).
+    ( output_waits -> sync ; true ).
 
 %!  commit_changes is det.
 %
 %   As sync_changes/0, but no error after durable_close/0.
 
 commit_changes :-
-    (   output_waits
-    ->  enqueue_changes,
-        commit_queue
-    ;   true
-    ).
+    ( output_waits -> commit ; true ).
 
 %!  send_after_commit(+Item, +When) is det.
 %
 %   While output waits, see output_waits/0: pass Item to committed/1 when all
-%   earlier changes are committed, in the order of these calls.
+%   earlier changes are committed, in the order of these calls.  The back end
+%   defines this.
 %
 %   @arg When is `now` if a caller waits for it; `anyhow` if a caller waits and
 %        the error of the last commit shall not be raised; `later` if the
@@ -392,29 +276,18 @@ commit_changes :-
 %          sent
 %   @error existence_error(_, open): the store was closed
 
-send_after_commit(Item, When) :-
-    enqueue_changes,
-    may_wait(When),
-    (   durable_on,
-        queue_send(Item)
-    ->  true
-    ;   closed
-    ),
-    (   When == later
-    ->  true
-    ;   flush_sends
-    ).
-
-may_wait(now) :-
-    commit_error(Error),
-    !,
-    throw(Error).
-may_wait(_).
-
 %!  flush_sends is det.
 %
 %   Commit soon, and send the output that waits for it.  The back end defines
 %   this.
+
+%!  durable_post(+Endpoint, +Kind, +Term) is det.
+%
+%   Post Term to Endpoint exactly once, even if a process ends, together with
+%   the changes of this unit of work so far, which ends here.  The back end
+%   defines this.
+%
+%   @error resource_error(frame_bytes)
 
                 /*******************************
                 *          CRASH POINTS        *

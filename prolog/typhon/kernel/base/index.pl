@@ -21,20 +21,26 @@ part_joins(carries,trace,'options/trace').
 part_joins(check_option,policy,'options/guard').
 part_joins(durable,agent,'options/journal').
 part_joins(durable,birth,'options/identity').
+part_joins(durable,letter,'options/journal').
+part_joins(durable,logged,'options/journal').
 part_joins(durable,monitor,'options/supervision').
 part_joins(durable,offer,'options/directory').
 part_joins(durable,order,'options/snapshot').
 part_joins(durable,out,'options/journal').
 part_joins(durable,program,'options/snapshot').
+part_joins(durable,seen,'options/journal').
 part_joins(durable,stands,'options/snapshot').
 part_joins(durable,state,'options/journal').
+part_joins(durable,turns,'options/concurrency').
 part_joins(environment,'TYPHON_TLS','options/tls').
 part_joins(fault,location,'tools/source_view').
 part_joins(host_option,audit,'options/access').
 part_joins(host_option,authors,'options/identity').
 part_joins(host_option,cell,'options/cell').
 part_joins(host_option,clock,'options/virtual').
+part_joins(host_option,concurrency,'options/concurrency').
 part_joins(host_option,journal,'options/journal').
+part_joins(host_option,log,'options/host_log').
 part_joins(host_option,peer,'options/access').
 part_joins(host_option,policy,'options/guard').
 part_joins(host_option,quota,'options/quotas').
@@ -49,7 +55,6 @@ part_joins(machine_option,bind,network).
 part_joins(machine_option,node,network).
 part_joins(machine_option,swipl,network).
 part_joins(network_load_option,log,network).
-part_joins(open_store,any,'options/journal').
 part_joins(order,attach,'options/identity').
 part_joins(order,change,'tools/administration').
 part_joins(order,image,'tools/administration').
@@ -65,7 +70,9 @@ part_joins(question,step,'options/trace').
 part_joins(question,trail,'options/trail').
 part_joins(received,channel,'options/journal').
 part_joins(received,log,network).
+part_joins(received,message,'options/external_recipients').
 part_joins(received,pheromone,'options/migration').
+part_joins(recipient,external,'options/external_recipients').
 part_joins(requested,close_up,tools).
 part_joins(requested,directory,'options/directory').
 part_joins(requested,everywhere,'options/watch').
@@ -103,18 +110,24 @@ part_file(network,'network/wiring').
 part_file('options/access','options/access').
 part_file('options/cell','options/cell/cell_hosts').
 part_file('options/cell','options/cell/gatekeeper').
+part_file('options/concurrency','options/concurrency').
 part_file('options/directory','options/directory/offers').
+part_file('options/external_recipients','options/external_recipients').
 part_file('options/guard','options/guard').
+part_file('options/host_log','options/host_log').
 part_file('options/identity','options/identity/authors').
 part_file('options/identity','options/identity/birth').
 part_file('options/identity','options/identity/sender_rights').
 part_file('options/journal','options/journal/channel').
 part_file('options/journal','options/journal/committing').
+part_file('options/journal','options/journal/durable_posts').
+part_file('options/journal','options/journal/hop_ids').
 part_file('options/journal','options/journal/journaled_agents').
 part_file('options/journal','options/journal/postgresql').
 part_file('options/journal','options/journal/recovery').
 part_file('options/journal','options/journal/sqlite').
 part_file('options/journal','options/journal/store').
+part_file('options/journal','options/journal/units_of_work').
 part_file('options/migration','options/migration/pheromone').
 part_file('options/migration','options/migration/strategy').
 part_file('options/quotas','options/quotas').
@@ -163,6 +176,7 @@ part_setting(certificates,typhon_keys,positive_integer,256,'Certificates whose h
 part_setting(channel_seconds,typhon_channel,number,300,'Seconds for which posts are kept for a process that has left, and is not known to keep a journal','options/journal/channel').
 part_setting(clause_cells,typhon_guard_limits,positive_integer,200000,'Clauses that untrusted agents add have at most so many parts','options/guard/guard_limits').
 part_setting(connections,typhon_page_reception,positive_integer,64,'Clients of a page at a time','tools/page/server').
+part_setting(content_characters,typhon_host_log,positive_integer,200,'The text of longer messages is cut to this many characters','options/host_log').
 part_setting(delay,typhon_event_sender,number,0.05,'Seconds for which events gather before they are sent','options/watch/event_sender').
 part_setting(entries,typhon_fipa_managers,positive_integer,10000,'Descriptions in a directory of FIPA','bridges/fipa/managers').
 part_setting(events,typhon_telling,positive_integer,10000,'Now typhon_watch_senders:events','options/watch/watch_senders').

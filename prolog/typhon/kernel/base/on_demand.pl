@@ -24,6 +24,7 @@ for these.
   | environment | Variable | Variable is set when an endpoint starts     |
   | program     | read     | a program is read from a file or clauses    |
   | fault       | location | an agent has failed, or raised an error     |
+  | recipient   | external | a message is for no agent, but a bridge     |
 
 Other threads run meanwhile, and call hooks. So clauses of hooks are compiled
 when the rest of their file is loaded: a hook works from the moment it is

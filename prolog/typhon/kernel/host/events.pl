@@ -1,6 +1,7 @@
 :- module(typhon_events,
           [ event/4,                    % +Kind, +Host, +Agent, +What
             event_subscribed/1,         % +Kind
+            event_shown/3,              % +Host, +What, -Shown
             events_subscribe/3,         % +Kinds, +Key, +Listener
             log_kind/2,                 % ?Wanted, -Kind
             events_forget/1,            % +Key
@@ -39,6 +40,7 @@ tenth of a microsecond.
 
 :- multifile
     handle_event/4,             % Listener, Host, Agent, What
+    shown/3,                    % Host, What, Shown: with content
     error:has_type/2.
 
 :- dynamic subscription/3.      % Kind, Host or agent, Listener
@@ -75,6 +77,24 @@ event(Kind, Host, Agent, What) :-
 event_subscribed(Kind) :-
     subscription(Kind, _, _),
     !.
+
+%!  event_shown(+Host, +What, -Shown) is det.
+%
+%   What is an event on Host; Shown is the form of it that logs and watches get:
+%   without the content of messages, unless an option of Host shows it.
+
+event_shown(Host, What, Shown) :-
+    (   shown(Host, What, Shown0)
+    ->  Shown = Shown0
+    ;   without_content(What, Shown)
+    ).
+
+without_content(sent(To, _), Shown) =>
+    Shown = sent(To).
+without_content(received(From, _), Shown) =>
+    Shown = received(From).
+without_content(What, Shown) =>
+    Shown = What.
 
 %   An event that is printed for one agent also goes to the log.
 

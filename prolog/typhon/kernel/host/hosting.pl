@@ -27,7 +27,6 @@
               [ clock_clear/1, clock_set/3, time_default/1, time_let_go/1,
                 time_wanted/2 ]).
 :- use_module(events, [event/4, events_forget/1]).
-:- use_module(host_log, []).
 :- use_module(host_parts, [parts_load/1]).
 :- use_module(hosts,
               [host/3, host_add/4, host_close/1, host_remove/1]).
@@ -35,7 +34,6 @@
 :- use_module(links, [host_unlink/2]).
 :- use_module(place, [place_create/4, place_destroy/1]).
 :- use_module(runtime, [runtime_acquire/3, runtime_release/1]).
-:- use_module(scheduler, [scheduler_limit/2, scheduler_unlimit/1]).
 
 /** <module> Starting and stopping hosts
 
@@ -51,6 +49,7 @@ endpoint with the other users of the process, see typhon_runtime.
 :- multifile
     begins/1,                   % Name: the host exists, listeners may register
     starts/2,                   % Name, Options: an option has started the host
+    closes/1,                   % Name: the host admits agents no more
     evacuate/2.                 % Name, Deadline: end all agents on the host
 
 :- meta_predicate hosts_exclusively(0).
@@ -127,7 +126,6 @@ host_start(Name, Options) :-
     must_be_name(Name),
     parts_load(Options),
     forall(typhon_host_parts:check(Options), true),
-    forall(member(log(_, Kinds), Options), must_be(list(event_kind), Kinds)),
     with_mutex(typhon_hosting, start(Name, Options)).
 
 %   In an address the name ends at the first `@`.
@@ -247,7 +245,6 @@ start_host(Name, Endpoint, Options) :-
     ->  true
     ;   Epoch = 0, Rate = 1
     ),
-    option(concurrency(Concurrency), Options, inf),
     place_parts(Options, Files, Services),
     place_create(Name, Files, Services, Place),
     catch(forall(typhon_host_parts:begins(Name, Place, Options), true),
@@ -256,7 +253,6 @@ start_host(Name, Endpoint, Options) :-
             place_destroy(Place),
             throw(error(Formal, Context)) )),
     clock_set(Name, Epoch, Rate),
-    scheduler_limit(Name, Concurrency),
     host_add(Name, Address, Place, Options),
     forall(begins(Name), true),
     debug(typhon(host), '~w is started', [Address]).
@@ -303,7 +299,7 @@ stop_one(Name0) :-
     ;   true
     ),
     host_close(Name),
-    scheduler_unlimit(Name),
+    forall(closes(Name), true),
     get_time(Now),
     setting(stop_seconds, Seconds),
     Deadline is Now+Seconds,
@@ -352,13 +348,9 @@ host_option_type(bind(X), atom, X).
 host_option_type(capacity(X), nonneg, X).
 host_option_type(capacity(X), oneof([inf]), X).
 host_option_type(tokens(X), list, X).
-host_option_type(concurrency(X), positive_integer, X).
-host_option_type(concurrency(X), oneof([inf]), X).
 host_option_type(consult(X), ground, X).
 host_option_type(services(X), ground, X).
 host_option_type(place(X), atom, X).
-host_option_type(log(X), host_address, X).
-host_option_type(log(X, _), host_address, X).
 host_option_type(remote(X), boolean, X).
 host_option_type(clock(X, Y), list(number), [X,Y]).
 host_option_type(hop_time(uniform(X, Y)), list(number), [X,Y]).

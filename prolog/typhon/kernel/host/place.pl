@@ -16,8 +16,8 @@
 :- use_module('../base/error_text', [print_error/2]).
 :- use_module('../base/durable', [durable/6]).
 :- use_module('../base/durable_changes',
-              [durable_drop/3, durable_drop_all/2, durable_put/4]).
-:- use_module('../base/deferred', [deferred_drop/3]).
+              [ deferred_drop/3, durable_drop/3, durable_drop_all/2,
+                durable_put/4 ]).
 :- use_module('../program', [clause_parts/3, indicator_in/2]).
 
 /** <module> Places: what a host offers to the agents on it

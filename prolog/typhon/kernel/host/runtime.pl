@@ -22,7 +22,6 @@
                 endpoint_listen_end/1, endpoint_missed/2, endpoint_start/4,
                 endpoint_start_alone/1, endpoint_stop/0,
                 transport_disagrees/1 ]).
-:- use_module(scheduler, [scheduler_forget/0]).
 :- use_module(time,
               [ time_apart/2, time_default/1, time_kind/1, time_start/1,
                 time_stop/0 ]).
@@ -169,7 +168,6 @@ released(_) :-
     endpoint_stop,
     durable_end,
     time_stop,
-    scheduler_forget,
     code_clear,
     forall(ending(after), true),
     own_thread_stop.

@@ -1,11 +1,10 @@
 :- module(typhon_scheduler,
           [ work_do/2,                  % +Work, :Again
             work_survives/1,            % :Turn
-            limit_parked/1,             % ?Agent
-            scheduler_limit/2,          % +Host, +Concurrency
-            scheduler_unlimit/1,        % +Host
-            scheduler_forget/0,
+            scheduler_limited/2,        % +Host, +Boolean
+            agent_parked/1,             % ?Agent
             schedule/2,                 % +Host, +Agent
+            schedule_work/1,            % +Work
             schedule_stays/2,           % +Here, +There
             schedule_here/3,            % +Host, +Kind, :Turn
             schedule_adopt/1,           % +Thread
@@ -13,8 +12,6 @@
             scheduler_call/1            % :Goal
           ]).
 :- use_module(library(debug), [debug/3]).
-:- use_module(library(lists), [member/2]).
-:- use_module('../base/durable', [durable/6]).
 :- use_module('../base/error_text', [is_abort/1, print_error/2]).
 :- use_module(turns, [turn_begins/1, turn_in/3, turns_not_short/2]).
 :- use_module(time,
@@ -30,23 +27,20 @@ thread does the work, and when alarms go off.
 Work is agent(Agent), agent(Host, Agent) for an agent that has a turn on Host,
 or goal(Goal).  Errors are printed, and do not reach the worker.
 
-A host may limit the number of its agents that run at a time.  An agent that is
-ready takes one of these turns, or is parked until an agent that runs releases
-one.
+An option may limit the number of agents that run at a time on a host.  An agent
+that is ready there takes a turn by the hook takes_turn/3, or is parked until an
+agent that runs releases one, and next_turn/2 passes it on.
 
 Higher layers define agents by the hooks run/1, fire/2, over/2 and kind/2.
 
-*Threading*: any thread; no two threads run the same agent.  One mutex for
-limits.
+*Threading*: any thread; no two threads run the same agent.
 */
 
 :- meta_predicate
     work_do(+, 1),
     work_survives(0).
 
-:- dynamic
-    limit/2,                    % Host, Concurrency
-    parked/2.                   % Host, Agent: waits for its turn on Host
+:- dynamic limited/1.           % Host
 
 %!  work_do(+Work, :Again) is det.
 %
@@ -65,7 +59,7 @@ work_survives(Turn) :-
 do(agent(Agent), _) :-
     run_one(Agent).
 do(agent(Host, Agent), Again) :-
-    call_cleanup(run_one(Agent), next_turn(Host, Again)).
+    call_cleanup(run_one(Agent), turn_passes(Host, Again)).
 do(goal(Goal), _) :-
     strip_module(Goal, _, Plain),
     functor(Plain, Name, _),
@@ -81,9 +75,9 @@ run_one(Agent) :-
     ;   print_message(error, typhon(run_failed(Agent)))
     ).
 
-next_turn(Host, Again) :-
-    (   with_mutex(typhon_park, pass_turn(Host, Agent))
-    ->  call(Again, agent(Host, Agent))
+turn_passes(Host, Again) :-
+    (   next_turn(Host, Work)
+    ->  call(Again, Work)
     ;   true
     ).
 
@@ -92,145 +86,6 @@ report_error(Ball) :-
     !.
 report_error(Ball) :-
     print_error(error, Ball).
-
-                /*******************************
-                *            LIMITS            *
-                *******************************/
-
-%   limit_set(+Host, +Concurrency, -Work:list) is det.
-%
-%   From now on at most Concurrency agents of Host run at a time; `inf` is no
-%   limit.  Work lists the parked agents that may run, as in limit_enter/3.
-%   Running agents are not stopped.
-
-limit_set(Host, inf, Work) :-
-    !,
-    limit_clear(Host, Agents),
-    findall(agent(Agent), member(Agent, Agents), Work).
-limit_set(Host, Concurrency, Work) :-
-    with_mutex(typhon_park, set(Host, Concurrency, Work)).
-
-set(Host, Concurrency, Work) :-
-    (   retract(limit(Host, _))
-    ->  true
-    ;   running_key(Host, Key),
-        flag(Key, _, 0)
-    ),
-    assertz(limit(Host, Concurrency)),
-    unpark(Host, Concurrency, Work).
-
-unpark(Host, Concurrency, [agent(Host, Agent)|Work]) :-
-    running_key(Host, Key),
-    flag(Key, Running, Running),
-    Running < Concurrency,
-    retract(parked(Host, Agent)),
-    !,
-    flag(Key, _, Running+1),
-    unpark(Host, Concurrency, Work).
-unpark(_, _, []).
-
-%   The agents that wait for a turn, and the number of agents that have one.
-
-:- durable(turns, Host, Running, Agents, turns_item(Host, Running, Agents),
-           turns_restore(Host, Running, Agents)).
-
-turns_item(Host, Running, Agents) :-
-    limit(Host, _),
-    running_key(Host, Key),
-    flag(Key, Running, Running),
-    findall(Agent, parked(Host, Agent), Agents).
-
-turns_restore(Host, Running, Agents) :-
-    running_key(Host, Key),
-    flag(Key, _, Running),
-    forall(member(Agent, Agents), assertz(parked(Host, Agent))).
-
-%   limit_clear(+Host, -Agents) is det.
-%
-%   Remove the limit of Host. Agents were parked.
-
-limit_clear(Host, Agents) :-
-    with_mutex(typhon_park,
-               ( retractall(limit(Host, _)),
-                 findall(Agent, parked(Host, Agent), Agents),
-                 retractall(parked(Host, _)) )).
-
-%   limited(+Host) is semidet.
-%   limited(+Host1, +Host2) is semidet.
-%
-%   Host has a limit; one of the two hosts has a limit.
-
-limited(Host) :-
-    limit(Host, _),
-    !.
-
-limited(Host1, Host2) :-
-    limit(_, _),                        % usually no host has one
-    ( limit(Host1, _) ; limit(Host2, _) ),
-    !.
-
-%!  limit_parked(?Agent) is nondet.
-%
-%   Agent waits for a turn.
-
-limit_parked(Agent) :-
-    parked(_, Agent).
-
-%!  scheduler_forget is det.
-%
-%   Remove all limits and parked agents.
-
-scheduler_forget :-
-    with_mutex(typhon_park,
-               ( retractall(limit(_, _)),
-                 retractall(parked(_, _)) )).
-
-%   limit_enter(+Host, +Agent, -Work) is semidet.
-%
-%   Agent, which is on Host, may run: Work is agent(Agent), or agent(Host,
-%   Agent) if it has a turn to release.  Fails when the agent is parked.
-
-limit_enter(Host, Agent, Work) :-
-    limit(Host, _),
-    !,
-    with_mutex(typhon_park, take_turn(Host, Agent, Work)).
-limit_enter(_, Agent, agent(Agent)).
-
-take_turn(Host, Agent, Work) :-
-    (   limit(Host, Limit)
-    ->  running_key(Host, Key),
-        flag(Key, Running, Running),
-        (   Running < Limit
-        ->  flag(Key, _, Running+1),
-            Work = agent(Host, Agent)
-        ;   assertz(parked(Host, Agent)),
-            fail
-        )
-    ;   Work = agent(Agent)             % the limit was removed meanwhile
-    ).
-
-%   pass_turn(+Host, -Agent): an agent releases its turn on Host, and Agent,
-%   which was parked there, gets it.  Fails if no agent is parked.
-
-pass_turn(Host, Agent) :-
-    \+ crowded(Host),
-    retract(parked(Host, Agent)),
-    !.
-pass_turn(Host, _) :-
-    running_key(Host, Key),
-    flag(Key, Running, max(0, Running-1)),
-    fail.
-
-%   More agents run than the limit, which has been lowered.
-
-crowded(Host) :-
-    limit(Host, Limit),
-    running_key(Host, Key),
-    flag(Key, Running, Running),
-    Running > Limit.
-
-running_key(Host, Key) :-
-    atom_concat('typhon running ', Host, Key).
 
                 /*******************************
                 *          SCHEDULER           *
@@ -246,34 +101,52 @@ running_key(Host, Key) :-
                                 % has no status, from Goals
     fire/2,                     % Agent, Token: an alarm went off
     over/2,                     % Agent, Token: this alarm is obsolete
-    kind/2.                     % Agent, Kind: its kind, see typhon_blocked
+    kind/2,                     % Agent, Kind: its kind, see typhon_blocked
+    takes_turn/3,               % Host, Agent, Work: Agent may run on Host
+    next_turn/2,                % Host, Work: a turn on Host is free for Work
+    agent_parked/1.
 
-%!  scheduler_limit(+Host, +Concurrency) is det.
+%!  scheduler_limited(+Host, +Boolean) is det.
 %
-%   From now on at most Concurrency agents of Host run at a time.
+%   An option limits the agents that run at a time on Host, or ceases to.
 
-scheduler_limit(Host, Concurrency) :-
-    limit_set(Host, Concurrency, Work),
-    forall(member(One, Work), time_work(One)).
+scheduler_limited(Host, Boolean) :-
+    (   Boolean == false
+    ->  retractall(limited(Host))
+    ;   limited(Host)
+    ->  true
+    ;   assertz(limited(Host))
+    ).
 
-%!  scheduler_unlimit(+Host) is det.
+limited(Host1, Host2) :-
+    limited(_),                         % usually no host is
+    ( limited(Host1) ; limited(Host2) ),
+    !.
+
+%!  agent_parked(?Agent) is nondet.
 %
-%   Remove the limit of Host and schedule its parked agents.
-
-scheduler_unlimit(Host) :-
-    limit_clear(Host, Agents),
-    forall(member(Agent, Agents), time_work(agent(Agent))).
+%   Agent waits for a turn on its host, which is limited. The option defines
+%   this.
 
 %!  schedule(+Host, +Agent) is det.
 %
 %   Queue Agent, which is on Host and ready to run.
 
 schedule(Host, Agent) :-
-    (   limit_enter(Host, Agent, Work)
+    (   \+ limited(Host)
+    ->  time_work(agent(Agent))
+    ;   takes_turn(Host, Agent, Work)
     ->  time_work(Work)
     ;   debug(typhon(scheduler), '~w waits for its turn on ~w',
               [Agent, Host])
     ).
+
+%!  schedule_work(+Work) is det.
+%
+%   Queue Work, of an agent that was parked.
+
+schedule_work(Work) :-
+    time_work(Work).
 
 %!  schedule_stays(+Here, +There) is semidet.
 %

@@ -7,10 +7,9 @@
           ]).
 :- use_module(library(error), [must_be/2]).
 :- use_module('../base/durable', [durable/6]).
-:- use_module('../base/durable_changes', [durable_number/1, durable_on/0]).
-:- use_module('../base/deferred',
+:- use_module('../base/durable_changes',
               [ deferred_call/1, deferred_drop/3, deferred_put/4,
-                effects_deferred/0 ]).
+                durable_number/1, durable_on/0, effects_deferred/0 ]).
 :- use_module(place, [place_host/2]).
 
 /** <module> Tuple spaces: facts that all agents on a host see

@@ -2,8 +2,10 @@
 :- use_module(library(debug), [debug/3]).
 :- use_module(library(lists), [append/3]).
 :- use_module('../base/error_text', [print_error/2]).
+:- use_module('../base/durable', [durable/5]).
 :- use_module('../base/durable_changes',
-              [ crash_point/1, durable_on/0, enqueue_changes/0,
+              [ crash_point/1, durable_drop_below/3, durable_key/2,
+                durable_on/0, durable_put/4, enqueue_changes/0,
                 unit_of_work/1 ]).
 :- use_module('../wire',
               [ endpoint_afterwards/1, endpoint_later/1, endpoint_reply/2,
@@ -18,20 +20,19 @@
                 image_label/2, image_module/3, life_hops/2,
                 with_agent/2 ]).
 :- use_module(hand_over, [taken_over/4]).
-:- use_module(hop_ids,
-              [ hop_id_done/1, hop_id_end/2, hop_id_known/1,
-                is_hop_id/1 ]).
 :- use_module(home, [agent_outcome/2]).
 :- use_module(post, [post_waiting/2]).
-:- use_module(transfer, [transfer_let_go/4]).
+:- use_module(transfer, [transfer_let_go/4, transfer_over/2]).
 :- use_module(whereabouts, [agent_heard_of/2, agent_seen/4]).
 
 /** <module> Arrival of agents
 
 The receiving half of a hop, see typhon_hop: install the agent completely or not
 at all, and answer.  A repeated transfer is recognised by the records of the
-agent, which is here, has gone on, or has ended, and by the id of the hop, see
-typhon_hop_ids.
+agent, which is here, has gone on, or has ended.  A hop from a process that may
+request it again after a restart has an id, hop_id(Process, N, Least); N grows,
+and Process has no open hop with a number less than Least.  Here the ids of
+accepted hops are kept, down to Least.
 
 *Threading*: the reader threads of the endpoint.
 */
@@ -40,7 +41,10 @@ typhon_hop_ids.
     typhon_endpoint:handed/4,
     typhon_endpoint:lent/1,
     typhon_endpoint:requested/4,
-    typhon_endpoint:returned/0.
+    typhon_endpoint:returned/0,
+    typhon_runtime:ending/1.
+
+:- dynamic accepted/2.          % Process, N: of the id of an accepted hop
 
 %   The answer is deferred if there is a journal, until the commit, and if code
 %   must be loaded first for extras of the agent.  taken_over/4 accepts no agent
@@ -174,7 +178,8 @@ answer_to(Verdict, _, _, _, _, Verdict).
 
 has_come(HopId, _) :-
     HopId \== none,
-    hop_id_known(HopId),
+    HopId = hop_id(Process, N, _),
+    accepted(Process, N),
     !.
 has_come(_, label(Id, Hops, _, _)) :-
     repeated(Id, Hops).
@@ -223,7 +228,7 @@ installed(Id, Hops, Image, HopId, Name, Place, Gone, Verdict) :-
         append(Later, Last, More),
         (   HopId == none
         ->  true
-        ;   hop_id_done(HopId)
+        ;   note_accepted(HopId)
         ),
         image_enter(Image, Name, Module, More),
         add_orders(Orders, Id),
@@ -251,7 +256,7 @@ add_orders([Order|Orders], Id) :-
 
 remove_old_copy(Id, Mail, Orders, Gone) :-
     (   transfer_let_go(Id, Mail0, Orders0, Gone0)
-    ->  hop_id_end(Id, _),
+    ->  transfer_over(Id, _),
         Mail = Mail0,
         Orders = Orders0,
         Gone = Gone0
@@ -278,3 +283,50 @@ report_arrival(Name, Address, label(Id, Hops, Since, From), Peer) :-
 came_from(none, Peer, Peer) :-
     !.
 came_from(From, _, From).
+
+                /*******************************
+                *          IDS OF HOPS         *
+                *******************************/
+
+%   is_hop_id(@Label) is semidet: Label may come from a peer.
+
+is_hop_id(Label) :-
+    Label == none,
+    !.
+is_hop_id(Label) :-
+    subsumes_term(hop_id(_, _, _), Label),
+    Label = hop_id(Process, N, Least),
+    integer(Least),
+    (   durable_on
+    ->  durable_key(Process, N)
+    ;   atom(Process),
+        integer(N)
+    ).
+
+note_accepted(hop_id(Process, N, Least)) :-
+    durable_put(done, Process, N, N),
+    assertz(accepted(Process, N)),
+    (   N mod 64 =:= 0,
+        accepted(Process, Old),
+        Old < Least
+    ->  durable_drop_below(done, Process, Least),
+        forget_below(Process, Least)
+    ;   true
+    ).
+
+%   The oldest facts come first, unless the hops arrived in another order.
+
+forget_below(Process, Least) :-
+    (   accepted(Process, Old),
+        Old < Least
+    ->  retractall(accepted(Process, Old)),
+        forget_below(Process, Least)
+    ;   true
+    ).
+
+%   The number is in the term because the key of the database has 32 bits.
+
+:- durable(done, Process, _, N, accepted(Process, N)).
+
+typhon_runtime:ending(after) :-
+    retractall(accepted(_, _)).

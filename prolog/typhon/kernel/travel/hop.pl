@@ -15,15 +15,15 @@
               [ agent/5, image_amended/5, image_hash/2, image_held/2,
                 program_missing/2, program_sent/3, with_agent/2 ]).
 :- use_module('../base/durable_changes', [crash_point/1, durable_on/0]).
-:- use_module(hop_ids, [hop_id_label/3, hop_id_repeated/1]).
 :- use_module(in_doubt, [may_have_arrived/1, resolve_in_doubt/1]).
 :- use_module(home, [agent_born/2]).
 :- use_module(hand_over, []).
 :- use_module(outcomes, [clone_born/2]).
 :- use_module(within, [hop_within/6]).
 :- use_module(transfer,
-              [ transfer_arrived/1, transfer_freeze/4, transfer_image/2,
-                transfer_image/5, transfer_stays/2, transfer_traveller/3,
+              [ hop_label/3, transfer_arrived/1, transfer_freeze/4,
+                transfer_image/2, transfer_image/5, transfer_repeated/1,
+                transfer_stays/2, transfer_traveller/3,
                 transfer_unreachable/1 ]).
 
 /** <module> A hop is a transaction
@@ -158,20 +158,17 @@ handed(Endpoint, hop(Name, Image0, Program), Transfer) :-
     catch(sig_atomic(endpoint_hand_over(Hand, Transfer)),
           error(session_closed, _), fail).
 
-%   The request has the id of the hop, see typhon_hop_ids.
-
 hop_request(Transfer, Name, Image, Program, Request) :-
     transfer_traveller(Transfer, Who, _),
     arg(2, Transfer, dest(_, _, Endpoint)),
-    hop_id_label(Who, Endpoint, Label),
-    (   Label == none
-    ->  Request = hop(Name, Image, Program)
-    ;   Request = hop(Name, Image, Program, Label)
+    (   hop_label(Who, Endpoint, Label)
+    ->  Request = hop(Name, Image, Program, Label)
+    ;   Request = hop(Name, Image, Program)
     ).
 
 not_sent(Formal, Transfer) :-
     transfer_traveller(Transfer, Who, _),
-    (   hop_id_repeated(Who)
+    (   transfer_repeated(Who)
     ->  resolve_in_doubt(Transfer)
     ;   transfer_stays(Transfer, Formal)
     ).

@@ -8,19 +8,15 @@
 :- use_module(library(error), [existence_error/2, must_be/2]).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(pairs), [group_pairs_by_key/2]).
-:- use_module('../base/durable', [durable/5]).
 :- use_module('../base/durable_changes',
-              [ durable_drop/3, durable_number/1, durable_on/0,
-                durable_putting/5, enqueue_changes/0, unit_of_work/1 ]).
-:- use_module('../base/deferred',
-              [deferred_call/1, deferred_change/1, effects_deferred/0]).
+              [ deferred_act/4, durable_on/0, effects_deferred/0,
+                enqueue_changes/0, unit_of_work/1 ]).
 :- use_module('../wire', [endpoint_address/1, mobile_term/1]).
 :- use_module('../host', [parts/3, peer_may/3]).
 :- use_module('../agent',
               [agent_home/2, agent_mail/2, agent_on/2, with_agent/2]).
 :- use_module(backlog,
               [backlog/1, backlog_add/2, backlog_all/2, retry_later/3]).
-:- use_module(durable_posts, [post_must_fit/1]).
 :- use_module(sender_authorization, [mail_accepted/5, senders_checked/0]).
 :- use_module(routing, [one_letter/2, way_in/2, way_out/3, way_send/3]).
 
@@ -43,11 +39,9 @@ post_on/2 and the hooks never do.
 */
 
 :- multifile
-    typhon_durable:go_on/0,
+    typhon_durable_changes:act/3,
     typhon_endpoint:received/3,
     typhon_endpoint:together/3.
-
-:- dynamic said/4.              % Id, N, From, Message: before a restart
 
 %   A bound on forwarding, for an agent that hops without pause.
 
@@ -66,11 +60,8 @@ post(Id, From, Message) :-
     ->  with_agent(Id, post_way(Id, From, Message, Way)),
         go(Way, Id)
     ;   effects_deferred
-    ->  durable_number(N),
-        durable_putting(letter, Id, N, From-Message, Change),
-        may_travel(Id, Change),
-        deferred_change(Change),
-        deferred_call(typhon_post:post_noted(Id, N, From, Message))
+    ->  ( agent_on(Id, _) -> By = any ; By = frame ),
+        deferred_act(letter, Id, From-Message, By)
     ;   unit_of_work(post_now(Id, From, Message))
     ).
 
@@ -87,33 +78,12 @@ retry_if_waiting(wait(Letter), Id, done) :-
     retry_later(Id, Letter, wait(Letter)).
 retry_if_waiting(Way, _, Way).
 
-%   A message for an agent of this process needs no frame.
-
-may_travel(Id, _) :-
-    agent_on(Id, _),
-    !.
-may_travel(_, Change) :-
-    post_must_fit(Change).
-
 %   A message that an agent sends is noted in the turn, and leaves after it.
 
-:- public post_noted/4.
-
-post_noted(Id, N, From, Message) :-
-    unit_of_work(
-        ( durable_drop(letter, Id, N),
-          catch(post_now(Id, From, Message), error(Formal, _),
-                print_message(warning,
-                              typhon(undeliverable(Formal, Id, From,
-                                                   Message)))) )).
-
-:- durable(letter, Id, N, From-Message, said(Id, N, From, Message)).
-
-typhon_durable:go_on :-
-    findall(said(Id, N, From, Message),
-            retract(said(Id, N, From, Message)), Letters),
-    forall(member(said(Id, N, From, Message), Letters),
-           post_noted(Id, N, From, Message)).
+typhon_durable_changes:act(letter, Id, From-Message) :-
+    catch(post_now(Id, From, Message), error(Formal, _),
+          print_message(warning,
+                        typhon(undeliverable(Formal, Id, From, Message)))).
 
 post_way(Id, From, Message, Way) :-
     parts(deliver, _, _),

@@ -9,14 +9,13 @@
 :- use_module(library(debug), [debug/3]).
 :- use_module(library(error), [must_be/2]).
 :- use_module(library(lists), [append/2, append/3, max_list/2, member/2]).
-:- use_module('../base/durable_changes', [durable_on/0]).
+:- use_module('../base/durable_changes', [durable_on/0, durable_post/3]).
 :- use_module('../wire',
               [ endpoint_address/1, endpoint_gone/1, endpoint_post/3,
                 endpoint_post_up/3 ]).
 :- use_module('../host',
               [address_parts/3, amended/5, parts/3, scheduler_call/1]).
 :- use_module('../agent', [agent/5, agent_home_endpoint/2, agent_mail/2]).
-:- use_module(durable_posts, [durable_post/3]).
 :- use_module(home, [agent_outcome/2]).
 :- use_module(sender_authorization,
               [mail_routes/4, senders_checked/0, with_proof/5]).
@@ -36,7 +35,7 @@ thread.
     returned/3,                 % From, Id, Message: the bridge of From takes
                                 % it back
     error:has_type/2,
-    typhon_durable_posts:undelivered/4,
+    typhon_durable_changes:undelivered/4,
     typhon_endpoint:received/3.
 
 %   After so many forwards without a pause the letter chases its agent in vain,
@@ -267,10 +266,10 @@ typhon_endpoint:received(message, lost(Formal, Id, Mail), _) :-
     ;   report(Formal, Id, Sent)
     ).
 
-typhon_durable_posts:undelivered(message, shown(_, Message), Endpoint,
-                                 Formal) :-
-    typhon_durable_posts:undelivered(message, Message, Endpoint, Formal).
-typhon_durable_posts:undelivered(message, message(Id, Mail, _), _, Formal) :-
+typhon_durable_changes:undelivered(message, shown(_, Message), Endpoint,
+                                   Formal) :-
+    typhon_durable_changes:undelivered(message, Message, Endpoint, Formal).
+typhon_durable_changes:undelivered(message, message(Id, Mail, _), _, Formal) :-
     mail_lost(Formal, Id, Mail).
 
 error:has_type(typhon_mail, Mail) :-

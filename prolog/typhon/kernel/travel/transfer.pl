@@ -11,6 +11,10 @@
             transfer_given_up/2,        % +Id, +Frozen
             transfer_held/2,            % +Frozen, -Held
             transfer_open/1,            % ?Transfer
+            transfer_again/1,           % +Id
+            transfer_repeated/1,        % +Id
+            transfer_over/2,            % +Id, ?Hops
+            hop_label/3,                % +Id, +Endpoint, -Label
             move_awaited/2,             % +Id, +Asker
             move_failed/2,              % +Id, +Formal
             move_over/2                 % +Id, +Answer
@@ -29,8 +33,6 @@
 :- use_module('../base/durable_changes',
               [ crash_point/1, durable_drop/3, durable_on/0,
                 enqueue_changes/0, unit_of_work/1 ]).
-:- use_module(hop_ids,
-              [hop_id_begin/4, hop_id_end/2, hop_id_restore/4]).
 :- use_module(outcomes, [clone_unborn/2]).
 :- use_module(post, [post_on/2]).
 :- use_module(whereabouts,
@@ -51,11 +53,16 @@ clone(Held, CloneId, Since).
 */
 
 :- multifile
-    typhon_durable:restored/0,
+    hop_begins/4,               % Id, Hops, Endpoint, Sent: where changes are
+                                % durable, a hop begins at Sent
+    hop_label/3,
+    hop_over/2,                 % Id, Hops: the hop is over
     forward_order/2,            % Id, Order: Order follows Id, which has left
-    answered/2.                 % Asker, Answer: of an ordered move
+    answered/2,                 % Asker, Answer: of an ordered move
+    typhon_runtime:ending/1.
 
 :- dynamic
+    again/1,                    % Id: may have arrived by an earlier attempt
     given_up/2,                 % Id, Hops: disposed of while in doubt
     waits/2.                    % Id, Asker: for the end of an ordered move
 
@@ -101,15 +108,50 @@ transfer_freeze(hop(Id, dest(Address, _, Endpoint), Hops), Held, Mail,
                 Since) :-
     agent_status(Id, Status, _),
     ( Status == running -> true ; Status == obeying ),
-    hop_id_begin(Id, Hops, Endpoint, Sent),
+    departs(Id, Hops, Endpoint, Sent),
     mail_all(Id, Mail),
     agent_put(Id, transit(Address, Sent), hop(Held, Hops, Mail, Since)),
     debug(typhon(hop), '~w hop ~D: leaves for ~w', [Id, Hops, Address]).
 transfer_freeze(clone(Id, dest(Address, _, Endpoint), CloneId), Held, [],
                 Since) :-
-    hop_id_begin(CloneId, 1, Endpoint, Sent),
+    departs(CloneId, 1, Endpoint, Sent),
     agent_put(Id, cloning(Address, Sent), clone(Held, CloneId, Since)),
     debug(typhon(hop), '~w hop 1: leaves for ~w', [CloneId, Address]).
+
+departs(Id, Hops, Endpoint, Sent) :-
+    (   durable_on
+    ->  hop_begins(Id, Hops, Endpoint, Sent)
+    ;   get_time(Sent)
+    ).
+
+%!  transfer_over(+Id, ?Hops) is det.
+%
+%   Id has arrived by its hop number Hops, or stays.
+
+transfer_over(Id, Hops) :-
+    forall(hop_over(Id, Hops), true),
+    retractall(again(Id)).
+
+%!  transfer_again(+Id) is det.
+%!  transfer_repeated(+Id) is semidet.
+%
+%   Id may have arrived already when it is sent the next time.
+
+transfer_again(Id) :-
+    retractall(again(Id)),
+    assertz(again(Id)).
+
+transfer_repeated(Id) :-
+    again(Id),
+    !.
+
+%!  hop_label(+Id, +Endpoint, -Label) is semidet.
+%
+%   Label identifies the hop of Id that is under way to Endpoint, also after a
+%   restart of this process. An option defines this.
+
+typhon_runtime:ending(after) :-
+    retractall(again(_)).
 
                 /*******************************
                 *           ARRIVED            *
@@ -133,7 +175,7 @@ arrived(hop(Id, dest(Address, _, Endpoint), Hops)) :-
         forall(member(Order, Orders), follow(Id, Order))
     ;   retract(given_up(Id, Hops))
     ->  durable_drop(given_up, Id, Hops),
-        hop_id_end(Id, Hops),
+        transfer_over(Id, Hops),
         agent_left(Id, Address, Hops, Endpoint),
         agent_left_noted(Id, Address, Hops, Endpoint),
         follow(Id, dispose)
@@ -141,7 +183,7 @@ arrived(hop(Id, dest(Address, _, Endpoint), Hops)) :-
     ).
 arrived(clone(Id, dest(Address, _, Endpoint), CloneId)) :-
     debug(typhon(hop), '~w hop 1: has gone', [CloneId]),
-    hop_id_end(CloneId, 1),
+    transfer_over(CloneId, 1),
     agent_left(CloneId, Address, 1, Endpoint),
     agent_left_noted(CloneId, Address, 1, Endpoint),
     ignore(with_agent(Id, clone_back(Id, CloneId, parent(CloneId)))).
@@ -153,9 +195,9 @@ moved_on(Id, Hops, Address, Endpoint, Orders, Gone) :-
     agent_status(Id, transit(_, _), hop(_, Hops, _, Since)),
     agent_left(Id, Address, Hops, Endpoint),
     let_go(Id, Since, Mail, Orders, Gone),
+    transfer_over(Id, Hops),
     (   durable_on
-    ->  hop_id_end(Id, Hops),
-        agent_left_noted(Id, Address, Hops, Endpoint),
+    ->  agent_left_noted(Id, Address, Hops, Endpoint),
         post_on(Id, Mail),
         enqueue_changes
     ;   post_on(Id, Mail)
@@ -199,7 +241,7 @@ follow(Id, Order) :-
 transfer_stays(Transfer, Error) :-
     transfer_traveller(Transfer, Who, Hop),
     debug(typhon(hop), '~w hop ~D: stays, ~p', [Who, Hop, Error]),
-    unit_of_work(( hop_id_end(Who, Hop),
+    unit_of_work(( transfer_over(Who, Hop),
                    stays(Transfer, Error) )).
 
 stays(hop(Id, dest(Address, _, _), Hops), Error) :-
@@ -249,21 +291,6 @@ clone_back(Id, CloneId, Answer) :-
 
 transfer_given_up(Id, hop(_, Hops, _, _)) :-
     durable_assertz(given_up(Id, Hops)).
-
-%   Restores the oldest hops first, before other agents depart.
-
-typhon_durable:restored :-
-    findall(Sent-Transfer,
-            ( transfer_open(Transfer),
-              arg(1, Transfer, Id),
-              agent_status(Id, Status, _),
-              arg(2, Status, Sent) ),
-            Pairs0),
-    keysort(Pairs0, Pairs),
-    forall(( member(Sent-Transfer, Pairs),
-             transfer_traveller(Transfer, Who, Hops),
-             arg(2, Transfer, dest(_, _, Endpoint)) ),
-           hop_id_restore(Who, Hops, Endpoint, Sent)).
 
 %   The third argument is unused; older journals have a term there.
 

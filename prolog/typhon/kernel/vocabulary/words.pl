@@ -27,19 +27,20 @@
 :- use_module(library(error),
               [existence_error/2, must_be/2, permission_error/3]).
 :- use_module(library(lists), [member/2]).
+:- use_module('../base/on_demand', [on_demand_load/2]).
 :- use_module('../program', [vocabulary/1]).
 :- use_module('../wire', [mobile_term/1]).
 :- use_module('../host',
               [ context/3, context_agent/1, context_host/1, context_now/2,
                 event/4, host/3, host_address/2, host_closed/1,
-                host_link_cost/3, host_load/2, host_logs/1,
-                host_neighbours/2, host_time/2, amended/5, parts_call/3,
+                host_link_cost/3, host_load/2, host_neighbours/2,
+                host_time/2, amended/5, parts_call/3,
                 tuple_leave/3, tuple_leave_new/3, tuple_sense/2,
                 tuple_take/2 ]).
 :- use_module('../agent',
               [ agent/5, agent_handled/3, agent_home/2, agent_variant/2,
                 life_hops/2, life_parent/2, result_put/2 ]).
-:- use_module('../travel', [agent_logs/3, post/3, post_external/4]).
+:- use_module('../travel', [post/3]).
 
 /** <module> The vocabulary of agents
 
@@ -53,7 +54,10 @@ cannot stop; everywhere else the machine handles them.
 :- vocabulary(typhon_words).
 
 :- multifile
-    enters/3.                   % Module, Id, Result: it is stored and signed
+    enters/3,                   % Module, Id, Result: it is stored and signed
+    logged/3,                   % Host, Agent, What: the log of Host has it
+    posts_external/4.           % Host, To, From, Message: send it to To, which
+                                % is no agent
 
 %!  self(-Id) is det.
 %
@@ -158,7 +162,8 @@ send(External, Message), compound(External) =>
     ->  permission_error(call, sandboxed, send(External, Message))
     ;   true
     ),
-    post_external(Host, External, Id, Message),
+    on_demand_load(recipient, external),
+    posts_external(Host, External, Id, Message),
     event(messages, Host, Id, sent(External, Message)).
 send(Agent, Message), Agent == user =>
     context(Host, Id, _),
@@ -250,9 +255,8 @@ log(What) :-
     context_now(Host, Agent),
     parts_call(acts, Host, [Agent, log(What)]),
     event(said, Host, Agent, log(What)),
-    (   host_logs(Host)
-    ->  mobile_term(What),
-        agent_logs(Host, Agent, What)
+    (   logged(Host, Agent, What)
+    ->  true
     ;   print_message(informational, typhon(log(Host, Agent, What)))
     ).
 

@@ -5,14 +5,15 @@
 :- use_module(library(settings), [setting/2, setting/4]).
 :- use_module('../../kernel/base/durable', [durable/5]).
 :- use_module('../../kernel/base/durable_changes',
-              [ crash_point/1, durable_change/1, durable_drop/3,
-                durable_drop_below/3, durable_number/1, durable_on/0,
-                durable_putting/5, enqueue_changes/0, output_waits/0 ]).
+              [ crash_point/1, durable_drop/3, durable_drop_below/3,
+                durable_number/1, durable_on/0, enqueue_changes/0,
+                output_waits/0 ]).
 :- use_module('../../kernel/wire',
               [ endpoint_address/1, endpoint_gone/1, endpoint_post/3,
                 endpoint_process/1 ]).
 :- use_module('../../kernel/host', [alarm_in/3, scheduler_call/1]).
-:- use_module('../../kernel/travel', [post_must_fit/1]).
+:- use_module(units_of_work,
+              [changes_add/1, changes_must_fit/1, changes_putting/5]).
 
 /** <module> The sending end of durable posts
 
@@ -34,7 +35,7 @@ a time sends to an endpoint.
 :- meta_predicate changing_posts(+, 0).
 
 :- multifile
-    typhon_durable_posts:queued/3,
+    typhon_durable_changes:durable_post/3,
     typhon_endpoint:connection/2,
     typhon_endpoint:received/3,
     typhon_durable:go_on/0,
@@ -55,13 +56,13 @@ a time sends to an endpoint.
 batch(100).
 longest_pause(1).               % seconds between attempts
 
-typhon_durable_posts:queued(Endpoint, Kind, Term) :-
+typhon_durable_changes:durable_post(Endpoint, Kind, Term) :-
     changing_posts(
         Endpoint,
         ( durable_number(N),
-          durable_putting(out, Endpoint, N, item(Kind, Term), Change),
-          post_must_fit(Change),
-          durable_change(Change),
+          changes_putting(out, Endpoint, N, item(Kind, Term), Change),
+          changes_must_fit(Change),
+          changes_add(Change),
           enqueue_changes,
           assertz(out(Endpoint, N, Kind, Term)) )).
 
@@ -232,8 +233,8 @@ forget_all(Endpoint) :-
 
 report_undelivered(Lost, Endpoint, Formal) :-
     forall(member(Kind-Term, Lost),
-           ignore(typhon_durable_posts:undelivered(Kind, Term, Endpoint,
-                                                   Formal))).
+           ignore(typhon_durable_changes:undelivered(Kind, Term, Endpoint,
+                                                     Formal))).
 
                 /*******************************
                 *            ANSWERS           *

@@ -1,4 +1,11 @@
-:- module(typhon_committing, []).
+:- module(typhon_committing,
+          [ commits_begin/0,
+            queue_entry/1,              % +Changes
+            queue_send/1,               % +Item
+            queue_flush/0,
+            queue_error/1,              % -Error
+            commit_queue/0
+          ]).
 :- use_module(library(lists), [append/3, reverse/2]).
 :- use_module(library(rbtrees), [rb_insert_new/4, rb_new/1]).
 :- use_module('../../kernel/base/durable_changes',
@@ -27,14 +34,7 @@ must not commit.
 */
 
 :- multifile
-    typhon_durable_changes:begin_commits/0,
-    typhon_durable_changes:end_commits/0,
-    typhon_durable_changes:queue_entry/1,
-    typhon_durable_changes:queue_send/1,
-    typhon_durable_changes:commit_queue/0,
-    typhon_durable_changes:flush_sends/0,
-    typhon_durable_changes:commit_error/1,
-    typhon_durable_changes:back_end_error/2.
+    typhon_durable_changes:end_commits/0.
 
 :- dynamic
     queue/3,                            % Entries, Committer, Sync
@@ -51,7 +51,11 @@ again_seconds(1).
                 *         BEGIN AND END        *
                 *******************************/
 
-typhon_durable_changes:begin_commits :-
+%!  commits_begin is det.
+%
+%   The store is open: begin to commit.
+
+commits_begin :-
     on_signal(xfsz, _, typhon_committing:file_too_long),
     store_sync(Sync),
     set_flag(typhon_journal_awake, 0),
@@ -74,7 +78,7 @@ typhon_durable_changes:end_commits :-
     !,
     queue(Entries, _, _),
     server_stop(Committer),
-    catch(commit, error(Formal, Context),
+    catch(commit_queue, error(Formal, Context),
           print_message(error, error(Formal, Context))),
     retractall(queue(_, _, _)),
     retractall(unsaved(_, _)),
@@ -85,17 +89,21 @@ typhon_durable_changes:end_commits :-
                 *            ENTRIES           *
                 *******************************/
 
+%!  queue_entry(+Changes:list) is det.
+%!  queue_send(+Item) is semidet.
+%
+%   Queue Changes, to be committed together, and Item, to be sent after them.
 %   Without a queue the back end has been closed: changes are dropped, output
 %   fails.
 
-typhon_durable_changes:queue_entry(Changes) :-
+queue_entry(Changes) :-
     queue(Entries, _, _),
     !,
     thread_send_message(Entries, Changes),
     wake(idle).
-typhon_durable_changes:queue_entry(_).
+queue_entry(_).
 
-typhon_durable_changes:queue_send(Item) :-
+queue_send(Item) :-
     queue(Entries, _, _),
     !,
     thread_send_message(Entries, item(Item)),
@@ -116,12 +124,13 @@ wake(How) :-
 urgency(idle, 1).
 urgency(now, 2).
 
-typhon_durable_changes:commit_error(Error) :-
+%!  queue_error(-Error) is semidet.
+%
+%   Error is that of the last commit.
+
+queue_error(Error) :-
     reported(Error),
     !.
-
-typhon_durable_changes:back_end_error(closed, existence_error(journal, open)).
-typhon_durable_changes:back_end_error(key, representation_error(journal_key)).
 
 %   Messages sent after the journal was closed are dropped.
 
@@ -135,20 +144,25 @@ user:message_hook(error(existence_error(journal, open), _), _, _) :-
                 *            COMMIT            *
                 *******************************/
 
+%!  commit_queue is det.
+%
+%   Commit now, and return when it is done.
+%
 %   @error resource_error(journal_space)
 
-typhon_durable_changes:commit_queue :-
-    commit.
-
-commit :-
+commit_queue :-
     sig_atomic(( with_mutex(typhon_commit, commit_all),
                  commit_if_wanted )).
 
-typhon_durable_changes:flush_sends :-
+%!  queue_flush is det.
+%
+%   Commit soon.
+
+queue_flush :-
     queue(_, _, full),
     !,
     wake(now).
-typhon_durable_changes:flush_sends :-
+queue_flush :-
     sig_atomic(commit_or_leave).
 
 %   A thread that wants a commit does not wait for the committing thread, which
@@ -272,7 +286,7 @@ commits(timeout, State, Next) :-
 
 commit_now(State, Next) :-
     set_flag(typhon_journal_awake, 0),
-    catch(( commit,
+    catch(( commit_queue,
             Next = State ),
           error(Formal, Context),
           not_committed(error(Formal, Context), State, Next)).

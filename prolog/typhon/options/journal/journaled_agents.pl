@@ -6,16 +6,16 @@
 :- use_module(library(lists), [member/2]).
 :- use_module('../../kernel/base/durable', [durable/5]).
 :- use_module('../../kernel/base/durable_changes',
-              [ durable_bytes/2, durable_change/1, durable_drop_all/2,
-                durable_drop_at_once/3, durable_item/5, durable_on/0,
-                durable_put_at_once/4, durable_putting/5, enqueue_changes/0,
-                unit_of_work/1 ]).
-:- use_module('../../kernel/base/deferred',
-              [deferred_any/0, deferred_commit/0, deferred_release/0]).
+              [ durable_drop_all/2, durable_item/5, durable_on/0,
+                enqueue_changes/0, unit_of_work/1 ]).
 :- use_module('../../kernel/program', [code_receive/2, code_sent/2]).
 :- use_module('../../kernel/agent',
               [ agent/5, agent_enter/3, agent_module/5, agent_note/3,
                 agent_state/2, printable_fallback/2 ]).
+:- use_module(units_of_work,
+              [ changes_add/1, changes_bytes/2, changes_drop_at_once/3,
+                changes_put_at_once/4, changes_putting/5, deferred_any/0,
+                deferred_commit/0, deferred_release/0 ]).
 :- use_module(state_log,
               [ state_log_begin/1, state_log_changes/2, state_log_end/1,
                 state_replayed/3 ]).
@@ -46,7 +46,7 @@ ones.
     typhon_agents:put_down/3,
     typhon_agents:state_ends/2,
     typhon_code:retiring/1,
-    typhon_durable_changes:dropped/1,
+    typhon_units_of_work:dropped/1,
     typhon_runtime:ending/1,
     typhon_turn:settle/0,
     typhon_turn:unit/2.
@@ -72,7 +72,7 @@ most_changes(65536).
                 *             TURNS            *
                 *******************************/
 
-typhon_turn:unit(typhon_deferred:defer_effects,
+typhon_turn:unit(typhon_units_of_work:defer_effects,
                  typhon_journaled_agents:conclude) :-
     durable_on.
 
@@ -186,16 +186,16 @@ unlog(Id) :-
 %   A term that cannot be written in binary form is recorded as text.
 
 note_item(Id, Kind, N, Term, Count) :-
-    catch(durable_putting(Kind, Id, N, Term, Change), error(_, _), fail),
+    catch(changes_putting(Kind, Id, N, Term, Change), error(_, _), fail),
     !,
-    durable_bytes(Change, Count),
-    durable_change(Change).
+    changes_bytes(Change, Count),
+    changes_add(Change).
 note_item(Id, Kind, N, Term0, Count) :-
     printable_fallback(Term0, Term),
     print_message(warning, typhon(journal_in_words(Id))),
-    durable_putting(Kind, Id, N, Term, Change),
-    durable_bytes(Change, Count),
-    durable_change(Change).
+    changes_putting(Kind, Id, N, Term, Change),
+    changes_bytes(Change, Count),
+    changes_add(Change).
 
 %   The module is about to be destroyed: the agent has ended, or uses another
 %   one.
@@ -213,7 +213,7 @@ typhon_agents:state_ends(Id, Module) :-
 %   These Changes were taken from the log and not recorded, so the log is
 %   incomplete: record the whole state with the next item of the agent.
 
-typhon_durable_changes:dropped(Changes) :-
+typhon_units_of_work:dropped(Changes) :-
     forall(member(put(state, Id, _, _), Changes),
            put_logged(Id, none, 0, 0, 0)).
 
@@ -239,7 +239,7 @@ note_code(Hash) :-
     with_mutex(typhon_code_noted,
                (   code_noted(Hash)
                ->  true
-               ;   durable_put_at_once(code, Hash, 0, Sent),
+               ;   changes_put_at_once(code, Hash, 0, Sent),
                    assertz(code_noted(Hash))
                )).
 
@@ -249,7 +249,7 @@ typhon_code:retiring(Hash) :-
     code_noted(Hash),
     with_mutex(typhon_code_noted,
                ( retract(code_noted(Hash)),
-                 durable_drop_at_once(code, Hash, 0) )),
+                 changes_drop_at_once(code, Hash, 0) )),
     fail.
 
                 /*******************************

@@ -10,9 +10,8 @@
                 durable_restore/4 ]).
 :- use_module('../../kernel/base/error_text', [print_error/2]).
 :- use_module('../../kernel/base/durable_changes',
-              [ durable_begin/0, durable_close/0, durable_drop_all/2,
-                durable_end/0, durable_item/5, durable_number_after/1,
-                durable_open/3, durable_opened/1 ]).
+              [ durable_close/0, durable_drop_all/2, durable_end/0,
+                durable_item/5, durable_opened/1 ]).
 :- use_module('../../kernel/host',
               [ host/3, host_again/1, host_begin/2, host_end/1, host_note/1,
                 hosts_exclusively/1, hosts_go_on/0, time_apart/2,
@@ -20,8 +19,9 @@
 :- use_module('../../kernel/agent', [agent/5, agent_status/3]).
 :- use_module('../../kernel/lifecycle', [agent_reschedule/1]).
 :- use_module('../../kernel/wire', [endpoint_address/1, endpoint_open/0]).
+:- use_module(units_of_work, [changes_begin/0, changes_number_after/1]).
 :- use_module(journaled_agents, [agent_back/3, states_unused/1]).
-:- use_module(store, [journal_place/2]).
+:- use_module(store, [journal_open/3, journal_place/2]).
 
 /** <module> Recovery: hosts that start with a journal
 
@@ -190,7 +190,7 @@ restore_all(Hosts) :-
            ( host_begin(Name, Options),
              assertz(restored(Name)) )),
     forall(typhon_durable:recover, true),
-    durable_begin,
+    changes_begin,
     forall(typhon_durable:tidy, true),
     forall(host(Host, _, _), host_note(Host)),
     endpoint_open.
@@ -199,7 +199,7 @@ give_up_hosts :-
     retractall(restored(_)),
     forall(host(Name, _, _), ignore(host_end(Name))).
 
-%   @error permission_error(open, journal, Place), and as durable_open/3
+%   @error permission_error(open, journal, Place), and as journal_open/3
 
 open_journal(Where, _) :-
     endpoint_address(_),
@@ -208,9 +208,9 @@ open_journal(Where, _) :-
 open_journal(Where, Options) :-
     option(sync(Sync), Options, normal),
     option(wait(Seconds), Options, 0.2),
-    durable_open(Where, Sync, Seconds),
+    journal_open(Where, Sync, Seconds),
     catch(forall(durable_item(number, any, _, _, N),
-                 durable_number_after(N)), Ball,
+                 changes_number_after(N)), Ball,
           ( durable_end, throw(Ball) )).
 
 not_here(Where, Why) :-
@@ -246,7 +246,7 @@ with_known(Known, Options, All) :-
 %   @arg Options of hosts_journal/2 are sync(How), as of host_start/2, and
 %        wait(Seconds): how long to wait for another process that has the
 %        journal and is about to end
-%   @error permission_error(open, journal, Place), and as durable_open/3
+%   @error permission_error(open, journal, Place), and as journal_open/3
 
 hosts_journal(Where, Options) :-
     hosts_exclusively(open_journal(Where, Options)).

@@ -41,7 +41,6 @@ is stored in parts.
 */
 
 :- multifile
-    typhon_durable_changes:open_store/3,
     typhon_durable_changes:durable_opened/1,
     typhon_durable_changes:durable_item/5,
     typhon_durable_changes:close_store/0,
@@ -91,9 +90,6 @@ journal_open(Where, Sync, Seconds) :-
 typhon_options:declared(host_option, journal(X), atom, X).
 typhon_options:declared(host_option, journal(postgresql(X)), atom, X).
 typhon_options:declared(host_option, sync(X), oneof([full, normal]), X).
-
-typhon_durable_changes:open_store(Where, Sync, Seconds) :-
-    journal_open(Where, Sync, Seconds).
 
 prepare(Age, Place, Base, Sync, Connection) :-
     database_lock(Base, Sync, Connection),

@@ -18,7 +18,7 @@
                 host_listed/2, host_load/2, host_neighbours/2, host_option/2,
                 host_put/2, host_resolve/2, host_unknown/1, host_unlink/2,
                 parts_load/1, peer_may/3, place_offer/2, process_ask/6,
-                remote/2, scheduler_limit/2 ]).
+                remote/2 ]).
 
 /** <module> Properties, links and changes of hosts of any process
 
@@ -230,9 +230,6 @@ change_at(local(Name), Option) :-
 change_at(remote(Address, Name, _), Option) :-
     remote(Address, typhon_administration:host_change(Name, Option)).
 
-change(concurrency(Concurrency), Name) =>
-    host_put(Name, concurrency(Concurrency)),
-    scheduler_limit(Name, Concurrency).
 change(services(Services0), Name) =>
     host(Name, _, Place),
     host_listed(Services0, Services),
@@ -248,7 +245,6 @@ change(Option, _) =>
 changes(tokens(_)).
 changes(capacity(_)).
 changes(hop_time(_)).
-changes(log(_)).
 changes(python(_)).
 changes(remote(_)).
 changes(seed(_)).

@@ -11,7 +11,7 @@
 
 %   Options have tables, too.
 
-:- forall(member(Seam-What, [open_store-any, durable-birth, durable-stands]),
+:- forall(member(Seam-What, [host_option-journal, durable-birth, durable-stands]),
           on_demand_load(Seam, What)).
 
 :- begin_tests(durable, [setup(set_random(seed(7)))]).

@@ -49,8 +49,14 @@ scheduling(Settings, Goal) :-
                                     in_own_thread(stop)))).
 
 stop :-
-    time_stop,
-    scheduler_forget.
+    concurrency(inf),
+    time_stop.
+
+%   concurrency(+N): as host_change(host, concurrency(N)).
+
+concurrency(N) :-
+    typhon_on_demand:on_demand_load(host_option, concurrency),
+    forall(typhon_host_parts:changes(concurrency(N), host), true).
 
 forget :-
     retractall(event(_)).
@@ -170,7 +176,7 @@ test(an_aborted_worker_is_replaced, true((W >= 2, N == 50))) :-
     count(N).
 test(limit, true(Most-N == 2-30)) :-
     message_queue_create(Q),
-    scheduling(( scheduler_limit(host, 2),
+    scheduling(( concurrency(2),
                  forall(between(1, 30, I),
                         schedule(host, test(test_scheduler:blocked(Q, I)))),
                  wait_until(test_scheduler:count(2), 10),
@@ -182,10 +188,10 @@ test(limit, true(Most-N == 2-30)) :-
     message_queue_destroy(Q).
 test(limit_is_removed, N == 30) :-
     message_queue_create(Q),
-    scheduling(( scheduler_limit(host, 1),
+    scheduling(( concurrency(1),
                  forall(between(1, 30, I),
                         schedule(host, test(test_scheduler:blocked(Q, I)))),
-                 scheduler_unlimit(host),
+                 concurrency(inf),
                  wait_until(test_scheduler:count(30), 10),
                  forall(between(1, 30, _), thread_send_message(Q, go)) )),
     count(N),

@@ -155,7 +155,7 @@ asked_for_ever(Host, Thread) :-
 
 noting_entries :-
     retractall(entry(_)),
-    wrap_predicate(typhon_durable_changes:queue_entry(Changes), noted, Wrapped,
+    wrap_predicate(typhon_committing:queue_entry(Changes), noted, Wrapped,
                    ( assertz(plunit_channel:entry(Changes)), Wrapped )).
 
 %   entry_with(+Change, -Entry): the only one, or the next.
@@ -360,7 +360,7 @@ full :-
     pages(1),
     numlist(1, 20000, Long),
     remote(driver, leave(Long)),
-    wait_until(typhon_durable_changes:commit_error(_), 20).
+    wait_until(typhon_committing:queue_error(_), 20).
 
 test(answer_waits_while_the_journal_is_full, Line == "answered") :-
     no_leaks(with_tmp_dir(asked_while_full(Line))).

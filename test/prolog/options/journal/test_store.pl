@@ -7,6 +7,7 @@
 :- use_module(library(process), [process_create/3, process_wait/2]).
 :- use_module(library(readutil), [read_file_to_codes/3, read_line_to_string/2]).
 :- use_module(library(typhon/kernel/base/durable_changes)).
+:- use_module(library(typhon/options/journal/units_of_work), []).
 
 :- needs([journal]).
 
@@ -44,7 +45,7 @@ keys(Dir) :-
                    length(Codes, Length),
                    maplist(=(Code), Codes),
                    atom_codes(Key, Codes),
-                   durable_key(Key) ), Keys),
+                   durable_key(Key, 0) ), Keys),
     assertion(length(Keys, 12)),
     findall(a-Key-0-Key, member(Key, Keys), Specs),
     with_store(Dir, commit(Specs)),

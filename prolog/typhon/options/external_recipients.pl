@@ -1,14 +1,11 @@
-:- module(typhon_external_recipients,
-          [ post_external/4             % +Host, +To, +From, +Message
-          ]).
+:- module(typhon_external_recipients, []).
 :- use_module(library(error), [must_be/2, type_error/2]).
-:- use_module('../wire',
+:- use_module('../kernel/wire',
               [endpoint_address/1, endpoint_post/3, mobile_term/1]).
-:- use_module('../host', [address_parts/3, scheduler_call/1]).
-:- use_module('../agent', [agent_home_endpoint/2]).
-:- use_module(routing, [mail_lost/3]).
-:- use_module(sender_authorization,
-              [mail_accepted/5, sender_accepted/1, with_proof/5]).
+:- use_module('../kernel/host', [address_parts/3, scheduler_call/1]).
+:- use_module('../kernel/agent', [agent_home_endpoint/2]).
+:- use_module('../kernel/travel',
+              [mail_accepted/5, mail_lost/3, sender_accepted/1, with_proof/5]).
 
 /** <module> Messages for recipients that are not agents
 
@@ -23,10 +20,12 @@ bridge.
 
 :- multifile
     carried/4,                  % Host, To, From, Message: a bridge takes it
-    typhon_endpoint:received/3.
+    typhon_endpoint:received/3,
+    typhon_on_demand:joins/2,
+    typhon_words:posts_external/4.
 
-%!  post_external(+Host, +To, +From, +Message) is det.
-%
+typhon_on_demand:joins(recipient, external).
+
 %   Send Message of the agent From, which is on Host, to To.  The bridge of Host
 %   is tried first, then the other bridges of the process.
 %
@@ -35,7 +34,7 @@ bridge.
 %   @error host_unreachable(Host), type_error(mobile_term, Culprit)
 %   @error those of the bridge
 
-post_external(Host, To0, From, Message) :-
+typhon_words:posts_external(Host, To0, From, Message) :-
     mobile_term(Message),
     hint(To0, To, Hint),
     (   carried(Host, To, From, Message)

@@ -1,16 +1,14 @@
-:- module(typhon_host_log,
-          [ host_log/3,                 % +Host, +Agent, +What
-            host_log_event/4,           % +Host, +Agent, +What, -Post
-            host_logs/1,                % +Host
-            event_shown/3               % +Host, +What, -Shown
-          ]).
+:- module(typhon_host_log, []).
+:- use_module(library(error), [must_be/2]).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(settings), [setting/2, setting/4]).
-:- use_module('../base/error_text', [abridged/3, print_error/2]).
-:- use_module('../wire', [endpoint_post/3]).
-:- use_module(events, [events_subscribe/3, log_kind/2]).
-:- use_module(host_names, [address_parts/3]).
-:- use_module(hosts, [host/3, host_option/2]).
+:- use_module('../kernel/base/durable_changes',
+              [deferred_act/4, durable_post/3, effects_deferred/0]).
+:- use_module('../kernel/base/error_text', [abridged/3, print_error/2]).
+:- use_module('../kernel/wire', [endpoint_post/3, mobile_term/1]).
+:- use_module('../kernel/host',
+              [ address_parts/3, event_shown/3, events_subscribe/3, host/3,
+                host_option/2, log_kind/2 ]).
 
 /** <module> Events that a host sends to its log server
 
@@ -21,16 +19,35 @@ Logs and watches get events without the content of messages.  They get the
 content, bounded in size, where the option log(Address, Kinds) of the host has
 messages(content) among Kinds.
 
+With a journal, what an agent logs is part of its turn: it is noted with the
+turn, and goes to the log server once, whichever process ends.  Other events go
+to the log server at once.
+
 *Threading*: any thread; a thread of an endpoint does not wait for a connection.
 */
 
 :- multifile
+    typhon_durable_changes:act/3,
+    typhon_durable_changes:undelivered/4,
     typhon_events:handle_event/4,
-    typhon_hosting:begins/1.
+    typhon_events:shown/3,
+    typhon_host_parts:changeable/1,
+    typhon_host_parts:check/1,
+    typhon_hosting:begins/1,
+    typhon_options:declared/4,
+    typhon_words:logged/3.
 
 :- dynamic
     missed/2.                   % Endpoint, Key: the flag that counts
                                 % lost events
+
+typhon_options:declared(host_option, log(X), host_address, X).
+typhon_options:declared(host_option, log(X, _), host_address, X).
+
+typhon_host_parts:check(Options) :-
+    forall(member(log(_, Kinds), Options), must_be(list(event_kind), Kinds)).
+
+typhon_host_parts:changeable(log(_)).
 
 typhon_hosting:begins(Host) :-
     log_server(Host, Log, Kinds),
@@ -48,19 +65,27 @@ log_server(Host, Log, Kinds) :-
 
 typhon_events:handle_event(log, Host, Agent, What) :-
     event_shown(Host, What, Shown),
-    host_log(Host, Agent, Shown).
+    send(Host, Agent, Shown).
 
-%!  host_log(+Host, +Agent, +What) is det.
-%
-%   Send an event to the log server of Host, if it has one.
+typhon_words:logged(Host, Agent, What) :-
+    log_server(Host, _, _),
+    !,
+    mobile_term(What),
+    (   effects_deferred
+    ->  deferred_act(logged, Host, Agent-What, any)
+    ;   send(Host, Agent, What)
+    ).
 
-host_log(Host, Agent, What) :-
-    host_log_event(Host, Agent, What, Endpoint-Event),
+%   send(+Host, +Agent, +What): send an event to the log server of Host, if it
+%   has one.
+
+send(Host, Agent, What) :-
+    post(Host, Agent, What, Endpoint-Event),
     !,
     catch(( endpoint_post(Endpoint, log, Event), log_back(Endpoint) ),
           error(Formal, Context),
           log_failed(Formal, Context, Endpoint)).
-host_log(_, _, _).
+send(_, _, _).
 
 %   A log server that cannot be reached is reported once, and again when it is
 %   back: events in between are lost.
@@ -92,24 +117,28 @@ log_back(Endpoint) :-
     print_message(warning, typhon(log_heard(Endpoint, Count))).
 log_back(_).
 
-%!  host_log_event(+Host, +Agent, +What, -Post) is semidet.
-%
-%   Post is Endpoint-Event, to be posted to the log server of Host.  Fails if
-%   Host has no log server.
+%   post(+Host, +Agent, +What, -Post): Post is Endpoint-Event, to be posted to
+%   the log server of Host.  Fails if Host has no log server.
 
-host_log_event(Host, Agent, What, Endpoint-event(Log, Address, Agent, What)) :-
+post(Host, Agent, What, Endpoint-event(Log, Address, Agent, What)) :-
     log_server(Host, Log, _),
     !,
     host(Host, Address, _),
     address_parts(Log, _, Endpoint).
 
-%!  host_logs(+Host) is semidet.
-%
-%   Host has a log server.
+typhon_durable_changes:act(logged, Host, Agent-What) :-
+    (   post(Host, Agent, What, Endpoint-Event)
+    ->  catch(durable_post(Endpoint, log, Event),
+              error(resource_error(frame_bytes), Context),
+              print_message(warning,
+                            error(resource_error(frame_bytes), Context)))
+    ;   true                            % the log server was removed
+    ).
 
-host_logs(Host) :-
-    log_server(Host, _, _),
-    !.
+%   The log server is gone, or cannot take the event: print it here.
+
+typhon_durable_changes:undelivered(log, event(_, Host, Agent, What), _, _) :-
+    print_message(informational, typhon(log(Host, Agent, What))).
 
                 /*******************************
                 *           CONTENT            *
@@ -118,25 +147,12 @@ host_logs(Host) :-
 :- setting(content_characters, positive_integer, 200,
            "The text of longer messages is cut to this many characters").
 
-%!  event_shown(+Host, +What, -Shown) is det.
-%
-%   What is an event on Host, as in event/4; Shown is the form of it that logs
-%   and watches get.
-
-event_shown(Host, sent(To, Message), Shown) =>
-    (   shows_content(Host)
-    ->  content(Message, Content),
-        Shown = sent(To, Content)
-    ;   Shown = sent(To)
-    ).
-event_shown(Host, received(From, Message), Shown) =>
-    (   shows_content(Host)
-    ->  content(Message, Content),
-        Shown = received(From, Content)
-    ;   Shown = received(From)
-    ).
-event_shown(_, What, Shown) =>
-    Shown = What.
+typhon_events:shown(Host, sent(To, Message), sent(To, Content)) :-
+    shows_content(Host),
+    content(Message, Content).
+typhon_events:shown(Host, received(From, Message), received(From, Content)) :-
+    shows_content(Host),
+    content(Message, Content).
 
 shows_content(Host) :-
     host_option(Host, log(_, Kinds)),
