@@ -24,7 +24,7 @@ Local definitions take precedence: programs may define predicates of these
 names.
 */
 
-:- use_module(typhon/kernel/base/user_errors, [user_errors/1]).
+:- use_module(typhon/tools/user_errors, [user_errors/1]).
 :- reexport(tartarus/platform,
             [ start_tartarus/1, start_tartarus/2, start_tartarus/3,
               close_tartarus/0, reset_tartarus/0, get_tartarus_details/2,

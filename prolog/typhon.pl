@@ -24,7 +24,7 @@ a folder, with an interface of the same name beside it:
 :- compiling_begin(Flags),
    nb_setval(typhon_flags, Flags).
 
-:- use_module(typhon/kernel/base/user_errors, [user_errors/1]).
+:- use_module(typhon/tools/user_errors, [user_errors/1]).
 :- reexport(typhon/tools/administration,
             [ host_change/2, host_property/2, link/2, link/3, unlink/2,
               agent_change/2, agent_property/2, agent_save/2, agent_load/2,

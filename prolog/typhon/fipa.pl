@@ -18,7 +18,7 @@ here: see the modules in bridges/fipa/.
   | AMS and DF                      | managers                  |
 */
 
-:- use_module(kernel/base/user_errors, [user_errors/1]).
+:- use_module(tools/user_errors, [user_errors/1]).
 :- reexport(bridges/common/starting, [fipa_start/3, fipa_stop/1]).
 :- reexport(bridges/fipa/service).
 

@@ -14,7 +14,7 @@ a Prolog with threads it is library(typhon) without its top level.
 :- compiling_begin(Flags),
    nb_setval(typhon_flags, Flags).
 
-:- use_module(kernel/base/user_errors, [user_errors/1]).
+:- use_module(tools/user_errors, [user_errors/1]).
 :- reexport(tools/administration,
             [ host_change/2, host_property/2, link/2, link/3, unlink/2,
               agent_change/2, agent_property/2 ]).

@@ -11,7 +11,7 @@ they have subscribed to comes as mqtt-message(Topic, Payload, Options).  See
 doc/bridges.md.
 */
 
-:- use_module(kernel/base/user_errors, [user_errors/1]).
+:- use_module(tools/user_errors, [user_errors/1]).
 :- reexport(bridges/common/starting, [mqtt_start/3, mqtt_stop/1]).
 :- use_module('bridges/mqtt/service', []).
 

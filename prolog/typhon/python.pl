@@ -10,7 +10,7 @@ The functions that the file defines are predicates that agents on alpha can
 call, with the result as last argument.  See doc/bridges.md.
 */
 
-:- use_module(kernel/base/user_errors, [user_errors/1]).
+:- use_module(tools/user_errors, [user_errors/1]).
 :- reexport(bridges/common/starting, [python_start/3, python_stop/1]).
 :- use_module('bridges/python/service', []).
 

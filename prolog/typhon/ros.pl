@@ -15,7 +15,7 @@ bridges/ros/.
   | messages as terms             | typhon/bridges/ros/messages    |
 */
 
-:- use_module(kernel/base/user_errors, [user_errors/1]).
+:- use_module(tools/user_errors, [user_errors/1]).
 :- reexport(bridges/common/starting, [ros_property/2, ros_start/3, ros_stop/1]).
 :- reexport(bridges/ros/service).
 :- use_module(bridges/ros/events, []).

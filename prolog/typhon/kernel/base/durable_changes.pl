@@ -16,9 +16,7 @@
             unit_of_work/1,             % :Goal
             enqueue_changes/0,
             effects_deferred/0,
-            deferred_put/4,             % +Kind, +Key, +N, +Term
             deferred_drop/3,            % +Kind, +Key, +N
-            deferred_call/1,            % :Goal
             deferred_act/4,             % +Kind, +Key, +Term, +By
             sync_changes/0,
             commit_changes/0,
@@ -60,8 +58,7 @@ inside the mutex that guards its owner.
     in_unit/1,                  % Goal: call it as one unit of work
     enqueue/0,                  % see enqueue_changes/0
     deferring/0,                % an agent acts in this thread
-    defer/1,                    % Change: commit it when the agent stops
-    call_later/1,               % Goal: see deferred_call/1
+    deferred_drop/3,
     deferred_act/4,
     act/3,                      % Kind, Key, Term: what was deferred
     sync/0,                     % see sync_changes/0
@@ -74,9 +71,7 @@ inside the mutex that guards its owner.
     committed/1,                % Items: they may be sent, in this order
     reached/1.                  % Name: of crash_point/1
 
-:- meta_predicate
-    unit_of_work(0),
-    deferred_call(0).
+:- meta_predicate unit_of_work(0).
 
 :- dynamic
     reached/1,
@@ -214,25 +209,10 @@ effects_deferred :-
     durable_on,
     deferring.
 
-%!  deferred_put(+Kind, +Key, +N, +Term) is det.
 %!  deferred_drop(+Kind, +Key, +N) is det.
 %
-%   As durable_put/4 and durable_drop/3; where effects are deferred, so is the
-%   change.
-
-deferred_put(Kind, Key, N, Term) :-
-    ( durable_on -> defer(put(Kind, Key, N, Term)) ; true ).
-
-deferred_drop(Kind, Key, N) :-
-    ( durable_on -> defer(drop(Kind, Key, N)) ; true ).
-
-%!  deferred_call(:Goal) is det.
-%
-%   Where effects are deferred: call Goal after the changes of this unit of work
-%   are queued.
-
-deferred_call(Goal) :-
-    call_later(Goal).
+%   Where changes are durable: as durable_drop/3; where effects are deferred, so
+%   is the change.  The back end defines this.
 
 %!  deferred_act(+Kind, +Key, +Term, +By) is det.
 %

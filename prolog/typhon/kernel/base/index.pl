@@ -31,6 +31,7 @@ part_joins(durable,program,'options/snapshot').
 part_joins(durable,seen,'options/journal').
 part_joins(durable,stands,'options/snapshot').
 part_joins(durable,state,'options/journal').
+part_joins(durable,tuple,'options/journal').
 part_joins(durable,turns,'options/concurrency').
 part_joins(environment,'TYPHON_TLS','options/tls').
 part_joins(fault,location,'tools/source_view').
@@ -86,6 +87,7 @@ part_joins(requested,watch,'options/watch').
 part_joins(requested,watched,'options/watch').
 part_joins(ros_call_option,deadline,'bridges/ros').
 part_joins(spied,program,'options/trace').
+part_joins(time,single,'options/single').
 part_joins(time,virtual,'options/virtual').
 part_joins(untrusted,any,'options/cell').
 part_joins(untrusted,any,'options/quotas').
@@ -123,6 +125,7 @@ part_file('options/journal','options/journal/committing').
 part_file('options/journal','options/journal/durable_posts').
 part_file('options/journal','options/journal/hop_ids').
 part_file('options/journal','options/journal/journaled_agents').
+part_file('options/journal','options/journal/journaled_tuples').
 part_file('options/journal','options/journal/postgresql').
 part_file('options/journal','options/journal/recovery').
 part_file('options/journal','options/journal/sqlite').
@@ -135,6 +138,7 @@ part_file('options/quotas','options/quotas/quota_agents').
 part_file('options/quotas','options/quotas/quota_enforcer').
 part_file('options/quotas','options/quotas/quota_table').
 part_file('options/quotas','options/quotas/usage').
+part_file('options/single','options/single').
 part_file('options/snapshot','options/snapshot').
 part_file('options/supervision','options/supervision/failed_processes').
 part_file('options/supervision','options/supervision/monitored_agents').

@@ -17,7 +17,7 @@
 :- use_module('../base/durable', [durable/6]).
 :- use_module('../base/durable_changes',
               [ deferred_drop/3, durable_drop/3, durable_drop_all/2,
-                durable_put/4 ]).
+                durable_on/0, durable_put/4 ]).
 :- use_module('../program', [clause_parts/3, indicator_in/2]).
 
 /** <module> Places: what a host offers to the agents on it
@@ -284,7 +284,7 @@ place_undeliver(Place, Name) :-
 remove(Place, Name) :-
     retract(delivered(Place, Name, PIs)),
     (   payload_key(Place, Name, _, Key)
-    ->  deferred_drop(payload, Key, 0)
+    ->  ( durable_on -> deferred_drop(payload, Key, 0) ; true )
     ;   true
     ),
     forall(member(PI, PIs), abolish(Place:PI)).

@@ -37,8 +37,9 @@
 /** <module> The runtime: the threads that do the work, and time
 
 A runtime of some Kind does the work, fires the alarms, and serves callers that
-wait.  The kernel has `real`, a pool of threads, see typhon_pool, and, in a
-Prolog without threads, `single`, see typhon_single; both use the time of day.
+wait.  The kernel has `real`, a pool of threads, see typhon_pool; an option has
+`single`, for a Prolog without threads, see typhon_single.  Both use the time of
+day.
 A process has one kind as long as it has hosts.  Stamps are seconds: of the
 time of day, or of the clock of the runtime.
 

@@ -8,6 +8,8 @@
             changes_add/1,              % +Change
             changes_must_fit/1,         % +Change
             defer_effects/1,            % :Goal
+            deferred_put/4,             % +Kind, +Key, +N, +Term
+            deferred_call/1,            % :Goal
             deferred_any/0,
             deferred_commit/0,
             deferred_release/0
@@ -40,16 +42,16 @@ effects.
 */
 
 :- meta_predicate
-    defer_effects(0).
+    defer_effects(0),
+    deferred_call(0).
 
 :- multifile
     dropped/1,                          % Changes: their unit of work has failed
     typhon_durable:go_on/0,
-    typhon_durable_changes:call_later/1,
     typhon_durable_changes:change/1,
     typhon_durable_changes:commit/0,
-    typhon_durable_changes:defer/1,
     typhon_durable_changes:deferred_act/4,
+    typhon_durable_changes:deferred_drop/3,
     typhon_durable_changes:deferring/0,
     typhon_durable_changes:durable_key/2,
     typhon_durable_changes:enqueue/0,
@@ -306,7 +308,18 @@ defer_effects(Goal) :-
 typhon_durable_changes:deferring :-
     nb_current(typhon_deferred, true).
 
-typhon_durable_changes:defer(Change) :-
+%!  deferred_put(+Kind, +Key, +N, +Term) is det.
+%
+%   As durable_put/4; inside defer_effects/1 the change is deferred to the end of
+%   the unit of work.
+
+deferred_put(Kind, Key, N, Term) :-
+    defer(put(Kind, Key, N, Term)).
+
+typhon_durable_changes:deferred_drop(Kind, Key, N) :-
+    defer(drop(Kind, Key, N)).
+
+defer(Change) :-
     (   \+ nb_current(typhon_deferred, true)
     ->  typhon_durable_changes:change(Change)
     ;   stored_as(Change, Stored)
@@ -314,7 +327,11 @@ typhon_durable_changes:defer(Change) :-
     ;   true
     ).
 
-typhon_durable_changes:call_later(Goal) :-
+%!  deferred_call(:Goal) is det.
+%
+%   Call Goal after the changes of this unit of work are queued.
+
+deferred_call(Goal) :-
     assertz(after(Goal)).
 
 typhon_durable_changes:deferred_act(Kind, Key, Term, By) :-
@@ -325,9 +342,7 @@ typhon_durable_changes:deferred_act(Kind, Key, Term, By) :-
     ;   true
     ),
     assertz(deferred(Change)),
-    assertz(after(typhon_units_of_work:act(Kind, N, Key, Term))).
-
-:- public act/4.
+    deferred_call(act(Kind, N, Key, Term)).
 
 act(Kind, N, Key, Term) :-
     unit_of_work(( durable_drop(Kind, Key, N),

@@ -1,13 +1,12 @@
 :- module(typhon_single, []).
 :- use_module(library(apply), [include/3]).
 :- use_module(library(lists), [min_list/2]).
-:- use_module('../base/fifo', [fifo_empty/2]).
-:- use_module(alarms,
+:- use_module('../kernel/base/fifo', [fifo_empty/2]).
+:- use_module('../kernel/host',
               [ alarm_add/3, alarm_stamp/3, alarms_begin/0, alarms_end/0,
                 alarms_go_off/1, index_delete/3, index_first/2, index_make/1,
-                index_update/2 ]).
-:- use_module(turns, [turns_go_on/1, turns_pause/0, turns_paused/0]).
-:- use_module(scheduler, [work_do/2]).
+                index_update/2, turns_go_on/1, turns_pause/0, turns_paused/0,
+                work_do/2 ]).
 
 /** <module> The runtime `single`: all work is done in the caller's thread
 
