@@ -9,10 +9,11 @@ This is the interface of the layer: higher layers import from here.
 
 :- reexport(host/hosts,
             [ host/3, host_again/1, host_came/2, host_closed/1, host_enter/3,
-              host_hop/3, host_hop_stats/3, host_leave/1, host_left/2,
+              host_leave/1, host_left/2,
               host_load/2, host_note/1,
               host_option/2, host_passed/3, host_passes/4, host_plain/2,
               host_plain_leaves/2, host_put/2 ]).
+:- reexport(host/hop_times, [host_hop/3, host_hop_stats/3]).
 :- reexport('host/host_names').
 :- reexport(host/links,
             [host_link/3, host_link_cost/3, host_neighbours/2, host_unlink/2]).
@@ -24,9 +25,9 @@ This is the interface of the layer: higher layers import from here.
             [ place_deliver/3, place_host/2, place_offer/2, place_service/2,
               place_undeliver/2 ]).
 :- reexport('host/tuples').
+:- reexport(host/clocks, [clock/3, host_time/2, real_time/3]).
 :- reexport(host/time,
-              [ agents_run/1, alarm_in/3, alarm_set/3, clock/3, host_time/2,
-                real_time/3, time_again/2, time_apart/2, time_due/3,
+              [ agents_run/1, alarm_in/3, alarm_set/3, time_again/2, time_apart/2, time_due/3,
                 time_hold/1, time_kind/1, time_let_go/1, time_now/1,
                 time_repeats/2, time_seed/1, time_signal/1, time_state/1,
                 time_wait/3, time_wanted/2 ]).

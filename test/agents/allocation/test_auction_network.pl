@@ -436,7 +436,7 @@ test(a_process_is_killed) :-
              beside_a_process(anta)).
 
 beside_a_process(Mechanism, Hosts, File) :-
-    typhon_time:clock(n1, Epoch, Rate),
+    typhon_clocks:clock(n1, Epoch, Rate),
     typhon_hosts:host_option(n1, log(Log)),
     with_peers([gone-[host([clock(Epoch, Rate), log(Log)])]],
                killed(Mechanism, Hosts, File)).

@@ -10,14 +10,10 @@
             agent_links/4,              % +Module, +Place0, +Place, -Links
             agent_relink/2,             % +Module, +Links
             agent_handles/2,            % +Program, +Module
-            attach_clauses/2,           % +Module, +Payload
-            attach_free/3,              % +Module, +Hash, +PIs
-            detach_clauses/2,           % +Module, +PIs
+            agent_declare/2,            % +PIs, +Module
             agent_variant/2             % +Module, -Variant
           ]).
-:- use_module(library(apply), [maplist/2]).
-:- use_module(library(error), [permission_error/3]).
-:- use_module(library(lists), [member/2, memberchk/2]).
+:- use_module(library(lists), [memberchk/2]).
 :- use_module('../program', [code_module/2, plain_goals/2]).
 :- use_module('../wire', [mobile_term/1]).
 :- use_module('../host', [host/3, parts/3, parts_call/3, place_host/2]).
@@ -70,7 +66,7 @@ agent_module(Id, Place, Hash, State0, Module) :-
     free_module(Id, Module),
     module_create(Module, Program, Above),
     begins(Place, Module),
-    catch(( declare_all(Empty, Module),
+    catch(( agent_declare(Empty, Module),
             add_clauses(Clauses, Module) ),
           error(Formal, Context),
           ( '$destroy_module'(Module),
@@ -164,10 +160,14 @@ free_module(Id, Module) :-
     ;   Module = Id
     ).
 
-declare_all([], _).
-declare_all([PI|PIs], Module) :-
+%!  agent_declare(+PIs, +Module) is det.
+%
+%   The state of the agent has the predicates PIs.
+
+agent_declare([], _).
+agent_declare([PI|PIs], Module) :-
     dynamic(Module:PI),
-    declare_all(PIs, Module).
+    agent_declare(PIs, Module).
 
 %!  agent_add(+Clauses, +Module) is det.
 %
@@ -331,50 +331,6 @@ agent_handles(Program, Module) :-
     ;   predicate_property(Module:on_message(_,_), number_of_clauses(N)),
         N > 0
     ).
-
-%!  attach_free(+Module, +Hash, +PIs) is det.
-%
-%   @error permission_error(attach, procedure, PI) if the agent has a
-%          predicate PI already
-
-attach_free(Module, Hash, PIs) :-
-    code_module(Hash, Program),
-    maplist(free(Module, Program), PIs).
-
-%!  attach_clauses(+Module, +Payload) is det.
-%
-%   Add the clauses of Payload to the state of the agent in Module.
-
-attach_clauses(Module, payload(_, PIs, Clauses0)) :-
-    maplist(may_have(Module), PIs),
-    agent_clauses(Module, Clauses0, Clauses),
-    declare_all(PIs, Module),
-    add_clauses(Clauses, Module).
-
-may_have(Module, PI) :-
-    (   agent_variant(Module, Variant)
-    ->  typhon_agent_module:declares(Variant, PI)
-    ;   true
-    ).
-
-free(Module, Program, Name/Arity) :-
-    functor(Head, Name, Arity),
-    (   (   '$c_current_predicate'(_, Program:Head),
-            \+ predicate_property(Program:Head, imported_from(_))
-        ;   '$c_current_predicate'(_, Module:Head),
-            predicate_property(Module:Head, dynamic),
-            \+ predicate_property(Module:Head, imported_from(_))
-        )
-    ->  permission_error(attach, procedure, Name/Arity)
-    ;   true
-    ).
-
-%!  detach_clauses(+Module, +PIs) is det.
-%
-%   Remove the predicates PIs from the state of the agent in Module.
-
-detach_clauses(Module, PIs) :-
-    forall(member(PI, PIs), abolish(Module:PI)).
 
                 /*******************************
                 *           VARIANTS           *

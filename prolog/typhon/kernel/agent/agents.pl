@@ -144,10 +144,7 @@ agent_remove(Id, Mail, Orders) :-
     retract(record(Id, Host, Module, _, _, _)),
     retractall(status(Id, _, _)),
     parts_call(goes, Host, [Id, Host, Module]),
-    (   durable_on
-    ->  durable_drop(agent, Id, 0)
-    ;   true
-    ),
+    durable_drop(agent, Id, 0),
     mail_all(Id, Mail),
     agent_unorder_all(Id, Orders),
     state_destroy(Id, Module).
@@ -176,8 +173,7 @@ agent_mobile(Id, Host, Module, Hash, Life, Until) :-
 agent_move(Id, Host, Module, Life, Until) :-
     record(Id, From, Old, Hash, _, _),
     !,
-    assertz(record(Id, Host, Module, Hash, Life, Until)),
-    forget_first(Id),
+    agent_passes(Id, Host, Module, Hash, Life, Until),
     parts_call(goes, From, [Id, From, Module]),
     parts_call(comes, Host, [Id, Host, Module, Hash]),
     (   Old == Module
@@ -187,11 +183,14 @@ agent_move(Id, Host, Module, Life, Until) :-
 
 %!  agent_passes(+Id, +Host, +Module, +Hash, +Life, +Until:integer) is det.
 %
-%   As agent_move/5, between plain hosts, for an agent that keeps its module.
+%   As agent_move/5, between plain hosts, for an agent that keeps its module.  The
+%   older record is removed last, so that readers always find one.  Clause
+%   references are not used, see typhon_prolog_faults.
 
 agent_passes(Id, Host, Module, Hash, Life, Until) :-
     assertz(record(Id, Host, Module, Hash, Life, Until)),
-    forget_first(Id).
+    retract(record(Id, _, _, _, _, _)),
+    !.
 
                 /*******************************
                 *            STATUS            *
@@ -385,8 +384,7 @@ wakes_on(Host, Id, Goals) :-
 agent_put_life(Id, Life) :-
     record(Id, Host, Module, Hash, _, Until),
     !,
-    assertz(record(Id, Host, Module, Hash, Life, Until)),
-    forget_first(Id),
+    agent_passes(Id, Host, Module, Hash, Life, Until),
     events_forget(Id),
     life_carried(Life, Id).
 
@@ -397,16 +395,8 @@ agent_put_life(Id, Life) :-
 agent_program(Id, Hash, Module, Life) :-
     record(Id, Host, Old, _, _, _),
     !,
-    assertz(record(Id, Host, Module, Hash, Life, 0)),
-    forget_first(Id),
+    agent_passes(Id, Host, Module, Hash, Life, 0),
     state_destroy(Id, Old).
-
-%   Remove the older of two records, so that readers always find at least one.
-%   Clause references are not used, see typhon_prolog_faults.
-
-forget_first(Id) :-
-    retract(record(Id, _, _, _, _, _)),
-    !.
 
                 /*******************************
                 *             MAIL             *

@@ -10,16 +10,17 @@
             no_result_facts/2,          % +State0, -State
             is_result_fact/1            % @Item
           ]).
-:- use_module(library(apply), [exclude/3]).
+:- use_module(library(apply), [exclude/3, maplist/2]).
 :- use_module(library(error),
               [existence_error/2, permission_error/3, resource_error/1]).
 :- use_module(library(lists), [member/2, selectchk/3]).
 :- use_module(library(settings), [setting/2, setting/4]).
+:- use_module('../program', [code_module/2]).
 :- use_module('../host', [host_address/2, parts/3]).
 :- use_module(agents, [agent/5, agent_put_life/2]).
 :- use_module(identity, [with_agent/2]).
 :- use_module(agent_module,
-              [attach_clauses/2, attach_free/3, detach_clauses/2]).
+              [agent_add/2, agent_clauses/3, agent_declare/2, agent_variant/2]).
 :- use_module(life, [life_payloads/2, set_payloads_of_life/3]).
 
 /** <module> Payloads and results of agents
@@ -72,6 +73,38 @@ agent_attach(Id, Payload) :-
     forall(member(Mark, Marks), marked(Module, Mark)),
     put_payloads(Id, Life, [Name-PIs|Payloads]).
 
+%   attach_free(+Module, +Hash, +PIs): the agent has no predicate of PIs.
+%
+%   @error permission_error(attach, procedure, PI)
+
+attach_free(Module, Hash, PIs) :-
+    code_module(Hash, Program),
+    maplist(free(Module, Program), PIs).
+
+free(Module, Program, Name/Arity) :-
+    functor(Head, Name, Arity),
+    (   (   '$c_current_predicate'(_, Program:Head),
+            \+ predicate_property(Program:Head, imported_from(_))
+        ;   '$c_current_predicate'(_, Module:Head),
+            predicate_property(Module:Head, dynamic),
+            \+ predicate_property(Module:Head, imported_from(_))
+        )
+    ->  permission_error(attach, procedure, Name/Arity)
+    ;   true
+    ).
+
+attach_clauses(Module, payload(_, PIs, Clauses0)) :-
+    maplist(may_have(Module), PIs),
+    agent_clauses(Module, Clauses0, Clauses),
+    agent_declare(PIs, Module),
+    agent_add(Clauses, Module).
+
+may_have(Module, PI) :-
+    (   agent_variant(Module, Variant)
+    ->  typhon_agent_module:declares(Variant, PI)
+    ;   true
+    ).
+
 %!  not_carried(+Name, +Payloads:list) is det.
 %
 %   No payload among Payloads, as in life_payloads/2, has this Name.
@@ -92,7 +125,7 @@ agent_detach(Id, Name) :-
     agent(Id, _, Module, _, Life),
     life_payloads(Life, Payloads0),
     (   selectchk(Name-PIs, Payloads0, Payloads)
-    ->  detach_clauses(Module, PIs),
+    ->  forall(member(PI, PIs), abolish(Module:PI)),
         forall(unmarked(Module, Name), true),
         put_payloads(Id, Life, Payloads)
     ;   existence_error(payload, Name)

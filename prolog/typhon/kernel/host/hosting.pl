@@ -23,9 +23,8 @@
               [ durable_close/0, durable_closed/0, durable_end/0,
                 sync_changes/0 ]).
 :- use_module('../wire', [endpoint_address/1]).
-:- use_module(time,
-              [ clock_clear/1, clock_set/3, time_default/1, time_let_go/1,
-                time_wanted/2 ]).
+:- use_module(clocks, [clock_clear/1, clock_set/3]).
+:- use_module(time, [time_default/1, time_let_go/1, time_wanted/2]).
 :- use_module(events, [event/4, events_forget/1]).
 :- use_module(host_parts, [parts_load/1]).
 :- use_module(hosts,

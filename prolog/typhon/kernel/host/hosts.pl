@@ -11,14 +11,12 @@
             host_again/1,               % +Name
             host_leave/1,               % +Name
             host_load/2,                % +Name, -Load
-            host_hop/3,                 % +Name, +Direction, +Seconds
             host_plain/2,               % ?Name, -Plain
             host_plain_leaves/2,        % +Name, -Since
             host_came/2,                % +Name-Plain, +Since
             host_left/2,                % +Name, +Since
             host_passes/4,              % +From, +Name-To, +Since, -Seconds
-            host_passed/3,              % +Here, +There, +Seconds
-            host_hop_stats/3            % +Name, ?Direction, -Stats
+            host_passed/3               % +Here, +There, +Seconds
           ]).
 :- use_module(library(apply), [maplist/3]).
 :- use_module(library(lists), [member/2]).
@@ -26,17 +24,21 @@
 :- use_module('../base/durable_changes',
               [durable_drop/3, durable_on/0, durable_put/4]).
 :- use_module('../base/bounds', [memory_short/1]).
-:- use_module(time, [clock/3, host_time/2, time_now/1]).
+:- use_module(clocks, [clock/3, host_time/2]).
+:- use_module(time, [time_now/1]).
+:- use_module(hop_times,
+              [ hop_time_add/2, hop_times_begin/1, hop_times_end/1,
+                hop_times_flags/3, host_hop/3 ]).
 :- use_module(links, [host_unlink/2]).
 :- use_module(host_parts, [parts/3, parts_compile/1, parts_forget/1]).
 
 /** <module> Hosts of this process
 
-The records of hosts: name, address, place, options, the number of agents on
-them, and the times of hops.
+The records of hosts: name, address, place, options, and the number of agents on
+them.
 
-*Threading*: any thread.  Load and statistics are flags that change under one
-mutex: flag/3 would lock for each of them.
+*Threading*: any thread.  The load is a flag that changes under one mutex,
+together with the times of hops.
 */
 
 :- dynamic
@@ -45,7 +47,6 @@ mutex: flag/3 would lock for each of them.
     admits/4,                   % Name, Tokens, Capacity, Flag: while
                                 % it admits agents
     load_key/2,                 % Name, Flag
-    hop_keys/3,                 % Name, Direction, Flags
     host_plain/2.               % Name, Plain
 
 %!  host(?Name, ?Address, ?Place) is nondet.
@@ -82,8 +83,8 @@ note_plain(Name) :-
         host(Name, Address, Place),
         asked(Name, hop_time(Delay), none),
         clock(Name, Epoch, Rate),
-        hop_keys(Name, in, In),
-        hop_keys(Name, out, Out)
+        hop_times_flags(Name, in, In),
+        hop_times_flags(Name, out, Out)
     ->  assertz(host_plain(Name, plain(Address, Place, Delay, Epoch, Rate,
                                        Capacity, Load, In, Out)))
     ;   true
@@ -112,19 +113,7 @@ make_keys(Name) :-
     atom_concat('typhon load ', Name, Load),
     flag(Load, _, 0),
     assertz(load_key(Name, Load)),
-    forall(direction(Direction), make_hop_keys(Name, Direction)).
-
-make_hop_keys(Name, Direction) :-
-    findall(Key,
-            ( member(What-Zero, [count-0, min-inf, sum-0.0, max-0.0]),
-              atomic_list_concat(['typhon hop ', Direction, What, Name],
-                                 ' ', Key),
-              Value is Zero,
-              flag(Key, _, Value)
-            ),
-            Keys),
-    Flags =.. [flags|Keys],
-    assertz(hop_keys(Name, Direction, Flags)).
+    hop_times_begin(Name).
 
 %   The load of a host and the times of its hops.
 
@@ -142,7 +131,7 @@ counts_restore(Name, Values) :-
 count_key(Name, Key) :-
     load_key(Name, Key).
 count_key(Name, Key) :-
-    hop_keys(Name, _, Flags),
+    hop_times_flags(Name, _, Flags),
     arg(_, Flags, Key).
 
 %!  host_close(+Name) is det.
@@ -171,7 +160,7 @@ host_remove(Name) :-
     retractall(option(Name, _)),
     host_unlink(Name, _),
     retractall(load_key(Name, _)),
-    retractall(hop_keys(Name, _, _)),
+    hop_times_end(Name),
     parts_forget(Name).
 
 %!  host_option(?Name, ?Option) is nondet.
@@ -300,19 +289,8 @@ host_load(Name, Load) :-
     get_flag(Key, Load).
 
                 /*******************************
-                *           HOP TIMES          *
+                *             HOPS             *
                 *******************************/
-
-%!  host_hop(+Name, +Direction, +Seconds) is det.
-%
-%   Record a hop into (`in`) or out of (`out`) Name that took Seconds of host
-%   time.
-
-host_hop(Name, Direction, Seconds) :-
-    hop_keys(Name, Direction, Flags),
-    !,
-    with_mutex(typhon_host_flags, add_hop(Flags, Seconds)).
-host_hop(_, _, _).
 
 %!  host_left(+Name, +Since) is det.
 %
@@ -351,7 +329,7 @@ passes(Where, Load0, Out, In, Seconds) :-
     get_flag(Load, Count),
     place_taken(Where, Count),
     left(Load0, Out, Seconds),
-    add_hop(In, Seconds).
+    hop_time_add(In, Seconds).
 
 %   place_taken(+Where, +Count): the load of Where, which is Count, grows by
 %   one.  A host that stops is first no longer plain, and then waits until its
@@ -386,41 +364,8 @@ came(Where, In, Seconds) :-
     Next is Count+1,
     \+ memory_short(Next),
     place_taken(Where, Count),
-    add_hop(In, Seconds).
+    hop_time_add(In, Seconds).
 
 left(Load, Out, Seconds) :-
     count_load(Load, -1),
-    add_hop(Out, Seconds).
-
-%   In virtual time most hops take no time.
-
-add_hop(flags(Count, Min, Sum, Max), Seconds) :-
-    get_flag(Count, N0), N is N0+1, set_flag(Count, N),
-    (   Seconds =:= 0.0,
-        get_flag(Min, 0.0)
-    ->  true
-    ;   get_flag(Sum, Sum0), Sum1 is Sum0+Seconds, set_flag(Sum, Sum1),
-        get_flag(Min, Min0),
-        ( Seconds < Min0 -> set_flag(Min, Seconds) ; true ),
-        get_flag(Max, Max0),
-        ( Seconds > Max0 -> set_flag(Max, Seconds) ; true )
-    ).
-
-direction(in).
-direction(out).
-
-%!  host_hop_stats(+Name, ?Direction, -Stats) is nondet.
-%
-%   Stats is stats(Count, Min, Mean, Max), in host seconds.
-
-host_hop_stats(Name, Direction, stats(Count, Min, Mean, Max)) :-
-    direction(Direction),
-    once(hop_keys(Name, Direction, flags(CountKey, MinKey, SumKey, MaxKey))),
-    get_flag(CountKey, Count),
-    (   Count =:= 0
-    ->  Min = 0.0, Mean = 0.0, Max = 0.0
-    ;   get_flag(MinKey, Min),
-        get_flag(SumKey, Sum),
-        get_flag(MaxKey, Max),
-        Mean is Sum/Count
-    ).
+    hop_time_add(Out, Seconds).

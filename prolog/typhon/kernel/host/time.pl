@@ -23,14 +23,9 @@
             time_due/3,                 % +Agent, +Token, -Stamp
             time_again/2,               % +State, -Agents
             alarm_set/3,                % +Stamp, +Agent, +Token
-            alarm_in/3,                 % +Seconds, +Agent, +Token
-            clock_set/3,                % +Host, +Epoch, +Rate
-            clock_clear/1,              % +Host
-            clock/3,                    % ?Host, ?Epoch, ?Rate
-            host_time/2,                % +Host, -Seconds
-            real_time/3                 % +Host, +Seconds, -Stamp
+            alarm_in/3                  % +Seconds, +Agent, +Token
           ]).
-:- use_module(library(error), [domain_error/2, must_be/2]).
+:- use_module(library(error), [must_be/2]).
 :- use_module(library(lists), [member/2]).
 :- use_module('../base/options', [options_load/2]).
 
@@ -45,11 +40,6 @@ time of day, or of the clock of the runtime.
 
 A runtime defines the hooks below for its Kind.  It must define those of the
 first group; each of the others describes a property that a runtime may lack.
-
-A host has a clock: host seconds are (real time - Epoch) * Rate.  The default,
-epoch 0 and rate 1, is the time of day.  Hosts of one network share epoch and
-rate, so that agents and experiments are written in host seconds and run as
-fast as Rate says.
 
 *Threading*: any thread; callers serialize time_start/1 and time_stop/0.
 */
@@ -364,51 +354,3 @@ time_again(State, Agents) :-
     ->  Agents = Agents0
     ;   Agents = []
     ).
-
-                /*******************************
-                *         HOST CLOCKS          *
-                *******************************/
-
-:- dynamic clock/3.             % Host, Epoch, Rate
-
-%!  clock(?Host, ?Epoch, ?Rate) is nondet.
-%
-%   The clocks that clock_set/3 has set.
-
-%!  clock_set(+Host, +Epoch, +Rate) is det.
-%
-%   Epoch is a time stamp in real seconds, Rate a positive number.
-
-clock_set(Host, Epoch, Rate) :-
-    must_be(number, Epoch),
-    must_be(number, Rate),
-    (   Rate > 0
-    ->  true
-    ;   domain_error(clock_rate, Rate)
-    ),
-    clock_clear(Host),
-    assertz(clock(Host, Epoch, Rate)).
-
-%!  clock_clear(+Host) is det.
-%
-%   Remove the clock of Host.
-
-clock_clear(Host) :-
-    retractall(clock(Host, _, _)).
-
-%!  host_time(+Host, -Seconds:float) is semidet.
-%
-%   The clock of Host shows Seconds. Fails if Host has no clock.
-
-host_time(Host, Seconds) :-
-    clock(Host, Epoch, Rate),
-    time_now(Now),
-    Seconds is (Now-Epoch)*Rate.
-
-%!  real_time(+Host, +Seconds, -Stamp:float) is semidet.
-%
-%   Stamp is the real time at which the clock of Host shows Seconds.
-
-real_time(Host, Seconds, Stamp) :-
-    clock(Host, Epoch, Rate),
-    Stamp is Epoch+Seconds/Rate.

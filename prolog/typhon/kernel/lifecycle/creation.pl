@@ -2,46 +2,35 @@
           [ agent_create/2,             % +Program, -Agent
             agent_create/3,             % +Program, -Agent, +Options
             agent_create_by/4,          % +Parent, +Program, -Agent, +Options
-            agent_begin/4,              % +Options, +Name, +Start, -Agent
-            agent_clone_here/3,         % +Id, +Goals, ?CloneId
-            clone_id/2                  % +Id, -CloneId
+            agent_begin/4               % +Options, +Name, +Start, -Agent
           ]).
 :- use_module(library(apply), [foldl/4, maplist/2]).
-:- use_module(library(debug), [debug/3]).
 :- use_module(library(error),
               [must_be/2, permission_error/3, type_error/2]).
 :- use_module(library(lists), [append/2, append/3, member/2]).
 :- autoload(library(occurs), [sub_term/2]).
 :- use_module(library(option), [option/2, option/3]).
 :- use_module('../base/options', [check_options/2]).
-:- use_module('../base/durable_changes', [sync_changes/0, unit_of_work/1]).
 :- use_module('../program',
-              [ clause_parts/3, code_install/3, code_module/2,
-                code_program/2, code_sent/2, code_locate/2, payload_load/2,
-                program_load/6, program_unknown/3 ]).
+              [ clause_parts/3, code_install/3, code_locate/2, code_program/2,
+                code_sent/2, payload_load/2, program_load/6,
+                program_unknown/3 ]).
 :- use_module('../wire',
               [ endpoint_address/1, endpoint_later/1, endpoint_reply/2,
                 mobile_term/1 ]).
 :- use_module('../host',
-              [ amended/5, event/4, host/3, host_address/2, host_resolve/2,
-                host_unknown/1, process_ask/6 ]).
+              [amended/5, host/3, host_resolve/2, process_ask/6]).
 :- use_module('../agent',
-              [ agent/5, agent_enter/3, agent_handles/2, agent_home/2,
-                agent_id/3, agent_mail/2, agent_name/3, agent_ready/2,
-                agent_rest/3, agent_build/5, agent_state/2, gate/4,
-                gate_refused/4, is_life/1, no_result_facts/2, life_clone/3,
-                mail_count/2, make_life/5, must_be_agent_name/1, not_carried/2,
-                origin_inherited/3, origin_passed/4, payload_marks/2,
-                with_agent/2 ]).
-:- use_module('../travel', [agent_born/2, clone_born/2]).
+              [ agent/5, gate_refused/4, is_life/1, make_life/5,
+                must_be_agent_name/1, not_carried/2, origin_passed/4,
+                payload_marks/2 ]).
+:- use_module(beginning, [agent_begins/5, begins_at_once/1, begun_agent/3]).
 :- use_module(questions, [agent_met/1]).
 
-/** <module> How agents begin
+/** <module> Creating agents
 
-An agent begins from a program, in this or another process, from a restore
-point, or as the clone of another agent.  Its description is
-
-    start(Hash, Life, State, Goals, Mail)
+An agent is created from a program or a restore point, in this process or
+another, which gets its description, see typhon_beginning.
 
 *Threading*: any thread; the reader threads of the endpoint create agents that
 other processes order.
@@ -49,8 +38,6 @@ other processes order.
 
 :- multifile
     first_goal/3,               % Options, Parent, Goal: the first goal
-    at_birth/2,                 % Goal, Id: carry out Goal, the first goal of
-                                % Id, which does not run it
     typhon_options:declared/4,
     typhon_endpoint:requested/4.
 
@@ -240,48 +227,26 @@ start_goals(Clauses, Initial, Goals) :-
                 *******************************/
 
 create(local(Host), Name, Start, Agent) :-
-    start(Host, Name, Start, here, Answer),
-    local_agent(Answer, Host, Agent).
+    agent_begins(Host, Name, Start, here, Answer),
+    begun_agent(Answer, local(Host), Agent).
 create(remote(Address, HostName, Endpoint), Name, Start, Agent) :-
     Start = start(Hash, _, _, _, _),
     code_sent(Hash, Program),
     process_ask(Endpoint, Address, agent,
                 create(HostName, Name, Start, Program), Answer, 10),
-    created(Answer, Address, Agent),
+    begun_agent(Answer, Address, Agent),
     agent_met(Agent).
-
-local_agent(created(Id), _, Id) :-
-    !.
-local_agent(Answer, Host, Id) :-
-    host_address(Host, Address),
-    created(Answer, Address, Id).
-
-created(created(Id), _, Id).
-created(need_program, Address, _) :-
-    throw(error(move_refused(Address, need_program), _)).
-created(refused(unknown_host), Address, _) :-
-    host_unknown(Address).
-created(refused(Reason), Address, _) :-
-    throw(error(move_refused(Address, Reason), _)).
 
 typhon_endpoint:requested(agent, create(HostName, Name, Start, Program), Peer,
                           ReplyTo) :-
     Answers = typhon_creation:create_answered(HostName, Name, Start, Program,
                                               Peer, ReplyTo),
-    (   has_birth_goal(Start),
-        endpoint_later(Answers)
+    (   begins_at_once(Start)
+    ->  call(Answers)
+    ;   endpoint_later(Answers)
     ->  true
     ;   call(Answers)
     ).
-
-%   The hook at_birth/2 may load code.
-
-has_birth_goal(Start) :-
-    subsumes_term(start(_, _, _, [_,_|_], _), Start),
-    arg(4, Start, [Goal|_]),
-    callable(Goal),
-    clause(at_birth(Goal, _), _),
-    !.
 
 :- public create_answered/6.            % goal of a worker
 
@@ -305,7 +270,8 @@ create_for(From, HostName, Name, start(Hash, Life, State0, Goals, Mail),
     ->  amended(created, HostName, Peer, State0, State)
     ;   State = State0
     ),
-    start(HostName, Name, start(Hash, Life, State, Goals, Mail), From, Answer).
+    agent_begins(HostName, Name, start(Hash, Life, State, Goals, Mail), From,
+                 Answer).
 
 must_be_life(Life) :-
     (   is_life(Life)
@@ -328,117 +294,3 @@ must_be_state(State) :-
 agent_begin(Options, Name, Start, Agent) :-
     target(Options, none, Where),
     create(Where, Name, Start, Agent).
-
-%!  agent_clone_here(+Id, +Goals, ?CloneId) is det.
-%
-%   Create a clone of Id on the same host, with Goals to run.  CloneId may be
-%   one of clone_id/2.
-%
-%   @error move_refused(Host, Reason)
-
-agent_clone_here(Id, Goals, CloneId) :-
-    agent(Id, Host, Module, Hash, Life0),
-    agent_state(Module, State0),
-    no_result_facts(State0, State1),
-    amended(cloned, Host, Id, State1, State2),
-    origin_inherited(Id, State2, State),
-    life_clone(Id, Life0, Life),
-    agent_name(Id, Name, _),
-    started(Host, Name, start(Hash, Life, State, Goals, []), here,
-            clone(Id, CloneId), Answer),
-    local_agent(Answer, Host, CloneId),
-    event(hops, Host, Id, cloned(CloneId)).
-
-%!  clone_id(+Id, -CloneId) is det.
-%
-%   An id for a clone of Id.
-
-clone_id(Id, CloneId) :-
-    agent(Id, Host, _, _, _),
-    host(Host, Address, _),
-    agent_name(Id, Name, _),
-    agent_id(Name, Address, CloneId).
-
-                /*******************************
-                *             START            *
-                *******************************/
-
-%   start(+Host, +Name, +Start, +From, -Answer): create an agent on Host, a
-%   host of this process.  Answer is created(Id), or another verdict of gate/4.
-
-start(Host, Name, Start, From, Answer) :-
-    unit_of_work(started(Host, Name, Start, From, none, Answer)),
-    sync_changes.
-
-%   started(+Host, +Name, +Start, +From, +Of, -Answer): as start/5, without the
-%   unit of work.  Of is `none`, or clone(Parent, Id).
-
-started(Host, Name, Start, From, Of, Answer) :-
-    Start = start(Hash, Life, State, _, Mail),
-    gate(Host, From-entrant(Name, Hash, Life, State, Mail),
-         install(Host, Name, Start, Of, Id, Goals), Verdict),
-    (   Verdict == ok
-    ->  Answer = created(Id),
-        start_agent(Host, Id, Goals, Of)
-    ;   Answer = Verdict
-    ).
-
-install(Host, Name, Start, Of, Id, Goals, Verdict) :-
-    (   host(Host, Address, Place)
-    ->  id_of(Of, Name, Address, Id),
-        (   with_agent(Id, install(Id, Host, Place, Start, Goals))
-        ->  Verdict = ok
-        ;   Verdict = need_program      % it was evicted meanwhile
-        )
-    ;   Verdict = refused(unknown_host) % the host is stopping
-    ).
-
-id_of(clone(_, Id), _, _, Id) :-
-    nonvar(Id),
-    !.
-id_of(clone(_, Id), Name, Address, Id) :-
-    !,
-    agent_id(Name, Address, Id).
-id_of(none, Name, Address, Id) :-
-    agent_id(Name, Address, Id).
-
-start_agent(Host, Id, Goals0, Of) :-
-    agent_home(Id, Address),
-    agent_born(Id, Address),
-    record_clone(Of),
-    do_birth_goals(Goals0, Id, Goals),
-    event(life, Host, Id, created),
-    debug(typhon(agent), '~w: created on ~w', [Id, Address]),
-    with_agent(Id, begin(Goals, Id)).
-
-%   Goals of at_birth/2 are done before orders can move the agent.
-
-do_birth_goals([Goal|Goals0], Id, Goals) :-
-    callable(Goal),
-    at_birth(Goal, Id),
-    !,
-    do_birth_goals(Goals0, Id, Goals).
-do_birth_goals(Goals, _, Goals).
-
-%   A clone is recorded before it runs and can have clones of its own.
-
-record_clone(none).
-record_clone(clone(Parent, Id)) :-
-    clone_born(Parent, Id).
-
-%   An agent that only handles messages is resident from the start.
-
-begin([], Id) :-
-    agent(Id, _, Module, Hash, _),
-    code_module(Hash, Program),
-    agent_handles(Program, Module),
-    mail_count(Id, 0),
-    !,
-    agent_rest(Id, resident, []).
-begin(Goals, Id) :-
-    agent_ready(Id, Goals).
-
-install(Id, Host, Place, start(Hash, Life, State, Goals0, Mail), Goals) :-
-    agent_build(Id, Place, Hash, State-Goals0, Module-Goals),
-    agent_enter(agent(Id, Host, Module, Hash, Life), arriving, []),
-    agent_mail(Id, Mail).
