@@ -18,7 +18,7 @@ This is the interface of the layer: higher layers import from here.
               [ agent_ask/4, agent_ask_here/4, agent_named/2,
                 question_answered/2 ]).
 :- reexport(lifecycle/ending,
-            [agent_end/3, held_on/2, held_parts/3, held_put/3]).
+            [agent_end/3, held_parts/3]).
 :- reexport(lifecycle/orders, [order_take/2]).
 :- reexport(lifecycle/turn,
             [ turn_bounded/1, turn_over_limit/3, turn_settled/0, turn_unit/1 ]).

@@ -5,17 +5,14 @@
             agent_fails/3,              % +Id, +Outcome, +Goals0
             agent_stays/2,              % +Id, +Goals
             faulty_stirs/1,             % +Id
-            held_put/3,                 % +Id, +State, +Goals
-            held_parts/3,               % +Held, -State, -Goals
-            held_on/2                   % +Id, +Held
+            held_parts/3                % +Held, -State, -Goals
           ]).
 :- use_module(library(debug), [debug/3]).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(settings), [setting/2, setting/4]).
 :- use_module('../base/durable_changes', [unit_of_work/1]).
 :- use_module('../host',
-              [ event/4, events_forget/1, host/3, host_again/1, host_leave/1,
-                schedule/2 ]).
+              [event/4, events_forget/1, host/3, host_again/1, host_leave/1]).
 :- use_module('../agent',
               [ agent/5, agent_fault/5, agent_ordered/1, agent_put/3,
                 agent_ready/2, agent_remove/3, agent_status/3, fault_error/2,
@@ -273,13 +270,6 @@ faulty_oldest(Id) :-
 
 :- multifile dropped/1.         % State: the agent ends, and does not go on
 
-%!  held_put(+Id, +State, +Goals:list) is det.
-%
-%   Hold Id, which was running.
-
-held_put(Id, State, Goals) :-
-    agent_put(Id, held, held(State, Goals)).
-
 %!  held_parts(+Held, -State, -Goals:list) is semidet.
 %
 %   Held, the goals of an agent, is a term held(State, Goals).
@@ -287,16 +277,6 @@ held_put(Id, State, Goals) :-
 held_parts(Held, State, Goals) :-
     nonvar(Held),
     Held = held(State, Goals).
-
-%!  held_on(+Id, +Held) is det.
-%
-%   Let Id, which is held, go on from Held.
-
-held_on(Id, Held) :-
-    agent_put(Id, resumed, Held),
-    agent(Id, Host, _, _, _),
-    !,
-    schedule(Host, Id).
 
 %   dropped_if_held(+Goals) is det: an agent with Goals ends.  Release its
 %   State if it was held.

@@ -6,18 +6,19 @@
 :- use_module(library(lists), [member/2]).
 :- use_module('../../kernel/host', [event/4, event_subscribed/1, host/3]).
 :- use_module('../../kernel/agent',
-              [ agent/5, agent_order/2, agent_status/3, agent_unorder/2,
-                printable_fallback/2, with_agent/2 ]).
+              [ agent/5, agent_order/2, agent_put/3, agent_status/3,
+                agent_unorder/2,
+                               printable_fallback/2, with_agent/2 ]).
 :- use_module('../../kernel/lifecycle',
-              [ agent_answer/3, agent_join/3, held_on/2, held_parts/3,
-                held_put/3, order_give/3, order_take/2, question_answered/2,
-                turn_bounded/1, turn_settled/0, turn_unit/1 ]).
+              [ agent_answer/3, agent_join/3, held_parts/3, order_give/3,
+                order_take/2, question_answered/2, turn_bounded/1,
+                turn_settled/0, turn_unit/1 ]).
 :- use_module('../../tools/administration', [agent_property/2]).
 :- use_module('../../kernel/program',
               [ fault_note/1, fault_noted/1, machine_run/3, plain_goals/2 ]).
 :- use_module(spying, [spied/3, spied_program/1]).
 :- use_module(tracing,
-              [ goal_shown/3, traced_goals/1, traced_held/1,
+              [ goal_shown/3, held_on/2, traced_goals/1, traced_held/1,
                 traced_step/1, traced_stepwise/1 ]).
 
 /** <module> Stepping: agents that are held before each goal
@@ -102,7 +103,7 @@ step(held, Held, Id-Host, Asker, Answer) =>
     ->  assertz(asker(Id, Asker)),
         held_on(Id, Held),
         Answer = later
-    ;   held_put(Id, probe(Probe, true), Goals),
+    ;   put_held(Id, Probe, true, Goals),
         next_goal(Id, Host, Goals, Answer)
     ).
 step(Status, _, Id-_, Asker, Answer), runs(Status) =>
@@ -223,8 +224,11 @@ hold(Id, Host, Probe, Goals, Askers, Answer) :-
     ->  Seen = false
     ;   Seen = true
     ),
-    held_put(Id, probe(Probe, Seen), Goals),
+    put_held(Id, Probe, Seen, Goals),
     next_goal(Id, Host, Goals, Answer).
+
+put_held(Id, Probe, Seen, Goals) :-
+    agent_put(Id, held, held(probe(Probe, Seen), Goals)).
 
 askers(Id, Askers) :-
     (   retract(asker(Id, Asker))

@@ -2,6 +2,7 @@
           [ agent_trace/2,              % +Agent, +What
             agent_notrace/1,            % +Agent
             goal_shown/3,               % +Id, +Goal, -Shown
+            held_on/2,                  % +Id, +Held
             traced_goals/1,             % +Life
             traced_stepwise/1,          % +Life
             traced_step/1,              % +Id
@@ -14,12 +15,12 @@
 :- use_module('../../kernel/program', [code_names/2, code_program/2]).
 :- use_module('../../kernel/wire',
               [endpoint_address/1, endpoint_reply/2, endpoint_request/4]).
-:- use_module('../../kernel/host', [events_subscribe/3, host/3]).
+:- use_module('../../kernel/host', [events_subscribe/3, host/3, schedule/2]).
 :- use_module('../../kernel/agent',
-              [ agent/5, agent_put_life/2, agent_status/3, agent_unorder/2,
+              [ agent/5, agent_put/3, agent_put_life/2, agent_status/3, agent_unorder/2,
                 life_extras/2, set_extras_of_life/3, with_agent/2 ]).
 :- use_module('../../kernel/lifecycle',
-              [held_on/2, order_give/3, question_answered/2]).
+              [order_give/3, question_answered/2]).
 :- use_module('../../tools/source_view', [goal_named/4]).
 
 /** <module> Tracers of agents
@@ -158,6 +159,16 @@ release(Extras, Id) :-
     ->  held_on(Id, Held)
     ;   true
     ).
+
+%!  held_on(+Id, +Held) is det.
+%
+%   Let Id, which is held, go on from Held.
+
+held_on(Id, Held) :-
+    agent_put(Id, resumed, Held),
+    agent(Id, Host, _, _, _),
+    !,
+    schedule(Host, Id).
 
 %!  traced_held(+Id) is det.
 %
