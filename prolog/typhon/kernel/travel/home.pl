@@ -216,7 +216,7 @@ ended(Id, Outcome0, Hops, Results, Askers) :-
     ->  last_outcome(Outcome0, Told, Outcome)
     ;   Outcome = Outcome0
     ),
-    results_keep(Id, Results),
+    ( Results == [] -> true ; results_keep(Id, Results) ),
     durable_assertz(outcome(Id, Outcome, Hops)),
     bounded(outcome(_, _, _), typhon_whereabouts:outcomes),
     waiters(Id, Askers).

@@ -1,4 +1,5 @@
 :- use_module('../../../lib/common').
+:- use_module('../../../lib/peers').
 :- use_module(library(plunit)).
 :- use_module(library(lists), [member/2, numlist/3]).
 :- use_module(library(process), [process_kill/2, process_wait/2]).
@@ -393,3 +394,36 @@ with_asker(Driver, In, Out, Goal) :-
                  call(Goal) )).
 
 :- end_tests(channel_full).
+
+%   A process without a journal receives posts of one that has a journal.  It
+%   loads the receiving end when the first post comes.
+
+:- begin_tests(channel_plain).
+
+receiving_end(Loaded) :-
+    (   peer_do(plain, current_module(typhon_durable_posts))
+    ->  Loaded = true
+    ;   Loaded = false
+    ).
+
+test(plain_process_takes_posts_once_and_in_order,
+     Loaded == [false, true]) :-
+    with_tmp_dir(posts_to_plain(Loaded)).
+
+posts_to_plain([Before, After], Dir) :-
+    with_peers([plain],
+               setup_call_cleanup(host_start(driver, [journal(Dir)]),
+                                  ( receiving_end(Before), posted_all ),
+                                  host_stop(driver))),
+    nb_getval(channel_after, After).
+
+posted_all :-
+    peer_host(plain, Host),
+    listener(Host, Id),
+    numlist(1, 200, All),
+    forall(member(N, All), agent_send(Id, N)),
+    got(Id, All),
+    receiving_end(After),
+    nb_setval(channel_after, After).
+
+:- end_tests(channel_plain).
