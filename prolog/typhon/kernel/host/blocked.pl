@@ -1,8 +1,8 @@
 :- module(typhon_blocked,
           [ blocked_room/3,             % +Workers, +Max, -Room
             blocked_full/2,             % +Workers, +Why
+            blocked_kind/1,             % ?Kind
             blocked_held/1,             % +Work
-            blocked_holds/0,
             blocked_release/1,          % -Works
             blocked_forget/0
           ]).
@@ -40,7 +40,7 @@ the other predicates.
            "Now typhon_scheduler:blocked_workers").
 
 :- dynamic
-    kind_held/1,                % Kind
+    blocked_kind/1,             % Kind
     held/1,                     % Work of these kinds
     warned/0.                   % the pool has passed its maximum
 
@@ -101,12 +101,12 @@ hold(Count, Why, Blocked) :-
     findall(Kind,
             ( member(What, Blocked),
               kind(What, Kind),
-              \+ kind_held(Kind) ),
+              \+ blocked_kind(Kind) ),
             Kinds0),
     sort(Kinds0, Kinds),
     (   Kinds == []
     ->  true
-    ;   forall(member(Kind, Kinds), assertz(kind_held(Kind))),
+    ;   forall(member(Kind, Kinds), assertz(blocked_kind(Kind))),
         print_message(warning, typhon(pool_full(Count, Why, Blocked)))
     ).
 
@@ -116,12 +116,15 @@ kind(What, Kind) :-
     ;   Kind = goal(What)
     ).
 
+%!  blocked_kind(?Kind) is nondet.
+%
+%   Work of that Kind is held; usually no kind is.
+
 %!  blocked_held(+Work) is semidet.
 %
 %   Work is of a kind that is held; keep it in this module.
 
 blocked_held(Work) :-
-    kind_held(_),
     work_of(Work, What),
     kind(What, Kind),
     with_mutex(typhon_blocked, keep(Kind, Work)).
@@ -132,17 +135,9 @@ work_of(goal(_:Goal), Name) :-
     functor(Goal, Name, _).
 
 keep(Kind, Work) :-
-    kind_held(Kind),
+    blocked_kind(Kind),
     !,
     assertz(held(Work)).
-
-%!  blocked_holds is semidet.
-%
-%   Some kind of work is held.
-
-blocked_holds :-
-    kind_held(_),
-    !.
 
 %!  blocked_release(-Works:list) is det.
 %
@@ -152,7 +147,7 @@ blocked_release(Works) :-
     with_mutex(typhon_blocked, release(Works)).
 
 release(Works) :-
-    retractall(kind_held(_)),
+    retractall(blocked_kind(_)),
     findall(Work, held(Work), Works),
     retractall(held(_)).
 

@@ -8,7 +8,7 @@
 :- use_module(alarms, [alarm_stamp/3]).
 :- use_module(blocked,
               [ blocked_forget/0, blocked_full/2, blocked_held/1,
-                blocked_holds/0, blocked_release/1, blocked_room/3 ]).
+                blocked_kind/1, blocked_release/1, blocked_room/3 ]).
 :- use_module(time, [alarm_in/3, time_day_wait/3]).
 :- use_module(timer,
               [ alarms_overdue/0, timer_alarm/3, timer_check/0, timer_start/0,
@@ -215,7 +215,8 @@ serve(Queue, Seconds) :-
 serve(stop, _, _) :-
     !.
 serve(Work, Queue, Seconds) :-
-    (   blocked_held(Work)
+    (   blocked_kind(_),
+        blocked_held(Work)
     ->  true
     ;   work_do(Work, enqueue)
     ),
@@ -359,7 +360,7 @@ add_if_possible(Queue, Workers) :-
 %   Check again later while kinds of work are held.
 
 release_later :-
-    (   blocked_holds,
+    (   blocked_kind(_),
         flag(typhon_pool_releases, 0, 1)
     ->  setting(typhon_scheduler:blocked_seconds, Seconds),
         alarm_in(Seconds, pool, release)
