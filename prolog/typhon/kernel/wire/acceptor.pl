@@ -15,12 +15,19 @@ as long as no other client needs them.
 Most unknown clients speak another protocol. A client whose first byte has
 arrived, and is not that of a greeting, gets neither slot nor thread.
 
+A port scan or a flood must not fill the log, and must not go unnoticed. The
+first few refusals of a burst are reported one by one; for the rest one message
+a second reports their number, addresses and reasons. A burst is over after a
+second without refusals.
+
 *Threading*: accept_all/2 is the goal of a thread, which is woken by a
 signal: closing the socket would not wake it. A mutex guards the slots: the
 acceptor gives and takes them, the thread of a client reports its progress and
-returns its own.
+returns its own. Another mutex guards the counts of refusals; the connection
+manager calls report/0 when a second is over.
 */
 
+:- use_module(library(apply), [foldl/4]).
 :- use_module(library(error), [syntax_error/1]).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(pairs), [group_pairs_by_key/2, pairs_keys_values/3]).
@@ -30,8 +37,7 @@ returns its own.
 :- use_module(threads,
               [ manager_notify/1, wire_thread_create/4, wire_thread_running/1,
                 wire_thread_signal/2 ]).
-:- use_module(refusals, [refusals_begin/0, refused/2]).
-:- use_module(transport, [transport_first/2]).
+:- use_module(transport, [refusal_text/2, transport_first/2]).
 
 :- setting(unproved, positive_integer, 128,
            "Connections at a time that have not proved themselves").
@@ -40,7 +46,9 @@ returns its own.
 
 :- dynamic
     unproved/4,                         % Thread, Ip, Since, Stage
-    proved/1.                           % Ip, of a peer; the newest last
+    proved/1,                           % Ip, of a peer; the newest last
+    burst/1,                            % Refused: number since its begin
+    tally/3.                            % Ip, Why, Count: not yet reported
 
 %   The number of addresses kept in proved/1.
 
@@ -52,18 +60,20 @@ proved_addresses(256).
 %   the hello of this process.
 
 accept_all(Socket, Me) :-
-    refusals_begin,
     repeat,
     catch(accept(Socket, Me), error(Formal, _), accept_failed(Formal)),
     fail.
 
 %!  accept_no_more is det.
 %
-%   Close the streams of clients whose threads had not begun with them. Called
-%   when all threads of the endpoint have ended.
+%   Close the streams of clients whose threads had not begun with them, and
+%   report the last refusals.  Called when all threads of the endpoint have
+%   ended.
 
 accept_no_more :-
-    forall(unproved(Thread, _, _, _), take_slot(Thread)).
+    forall(unproved(Thread, _, _, _), take_slot(Thread)),
+    report,
+    retractall(burst(_)).
 
 accept(Socket, Me) :-
     tcp_accept(Socket, Client, ip(A, B, C, D)),
@@ -249,3 +259,140 @@ remember(Ip) :-
     ->  once(retract(proved(_)))
     ;   true
     ).
+
+		 /*******************************
+		 *           REFUSALS           *
+		 *******************************/
+
+%   The most that are reported one by one, and the most pairs of address and
+%   reason.
+
+singly(5).
+groups(16).
+
+%   refused(+Ip, +Formal): a client at Ip was refused. Formal is that of an
+%   error, `silent` (its slot was needed), `crowd` (there was no slot), or
+%   version(V).
+
+refused(Ip, Formal) :-
+    reason(Formal, Why),
+    sig_atomic(with_mutex(typhon_refusals, note(Ip, Why, How))),
+    (   How == alone
+    ->  level(Why, Level),
+        print_message(Level, typhon(endpoint, turned_away(Ip, Why)))
+    ;   true
+    ).
+
+note(Ip, Why, How) :-
+    (   retract(burst(Reported))
+    ->  true
+    ;   Reported = 0,
+        plan
+    ),
+    Reported1 is Reported+1,
+    assertz(burst(Reported1)),
+    singly(Max),
+    (   Reported < Max
+    ->  How = alone
+    ;   How = together,
+        add(Ip, Why)
+    ).
+
+add(Ip, Why) :-
+    retract(tally(Ip, Why, Count0)),
+    !,
+    Count is Count0+1,
+    assertz(tally(Ip, Why, Count)).
+add(Ip, Why) :-
+    predicate_property(tally(_, _, _), number_of_clauses(Groups)),
+    groups(Max),
+    (   ( Groups < Max ; Ip-Why == others-several )
+    ->  assertz(tally(Ip, Why, 1))
+    ;   add(others, several)
+    ).
+
+plan :-
+    get_time(Now),
+    Time is Now+1,
+    ignore(manager_notify(later(Time, typhon_acceptor:report))).
+
+%   Report the refusals that were not reported one by one.
+
+report :-
+    sig_atomic(with_mutex(typhon_refusals, take(Groups))),
+    (   Groups == []
+    ->  true
+    ;   (   member(_-(_-Why), Groups), level(Why, warning)
+        ->  Level = warning
+        ;   Level = informational
+        ),
+        print_message(Level, typhon(endpoint, turned_away(Groups)))
+    ).
+
+take(Groups) :-
+    findall(Count-(Ip-Why), tally(Ip, Why, Count), Groups0),
+    retractall(tally(_, _, _)),
+    sort(1, @>=, Groups0, Groups),
+    (   Groups == []
+    ->  retractall(burst(_))
+    ;   plan
+    ).
+
+%   reason(+Formal, -Why): Why has no details that differ from case to case.
+
+reason(permission_error(authenticate, peer, Why0), Why) =>
+    Why = Why0.
+reason(syntax_error(end_of_file), Why) =>
+    Why = hung_up.
+reason(syntax_error(Why0), Why) =>
+    Why = Why0.
+reason(timeout_error(_, _), Why) =>
+    Why = slow.
+reason(io_error(_, _), Why) =>
+    Why = broken.
+reason(socket_error(_, _), Why) =>
+    Why = broken.
+reason(Why0, Why) =>
+    Why = Why0.
+
+level(Why, Level) :-
+    (   memberchk(Why, [hung_up, broken])
+    ->  Level = informational
+    ;   Level = warning
+    ).
+
+:- multifile prolog:message//1.
+
+prolog:message(typhon(endpoint, turned_away(Ip, Why))) -->
+    [ 'Endpoint: refused a client at ~w: '-[Ip] ],
+    why(Why).
+prolog:message(typhon(endpoint, turned_away(Groups))) -->
+    { foldl([Count-_, Sum0, Sum]>>(Sum is Sum0+Count), Groups, 0, Sum) },
+    [ 'Endpoint: refused ~D more clients:'-[Sum] ],
+    groups(Groups).
+
+groups([]) -->
+    [].
+groups([Count-(Ip-Why)|Groups]) -->
+    [ nl, '  ~D at ~w: '-[Count, Ip] ],
+    why(Why),
+    groups(Groups).
+
+why(version(Version)) -->
+    !, [ 'it speaks another version of the protocol, ~w'-[Version] ].
+why(Why) -->
+    { ours(Why, Text) ; refusal_text(Why, Text) },
+    !, [ '~w'-[Text] ].
+why(Why) -->
+    [ '~p'-[Why] ].
+
+ours(cookie, 'its cookie is not that of this process').
+ours(protocol, 'it uses another protocol').
+ours(hung_up, 'it closed the connection').
+ours(broken, 'the connection broke').
+ours(slow, 'it did not complete the handshake in time').
+ours(silent, 'its slot was given to another client').
+ours(crowd, 'all slots are taken').
+ours(line, 'it sent a line that is too long').
+ours(other, 'it claims to be another process').
+ours(several, 'for several reasons').

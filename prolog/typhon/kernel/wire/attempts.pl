@@ -1,29 +1,43 @@
 :- module(typhon_attempts,
-          [ attempt/4,                  % ?Address, ?State, -Pause, -Since
-            attempt_want/1,             % +Address
-            attempt_begun/3,            % +Address, +Thread, +Asked
-            attempt_asked/2,            % +State, -Asked
+          [ address_wanted/1,           % +Address
+            address_met/1,              % +Address
+            session_reconnect/1,        % +Session
+            attempts_begin/1,           % +Me
+            attempts_due/1,             % +Me
+            attempts_end/0,
+            attempt_time/1,             % -Time
             attempt_greeted/1,          % +Thread
-            attempt_pause/3,            % +Address, +Pause, +Since
-            attempt_end/1,              % ?Address
-            attempt_over/3,             % +Address, +Since, +Formal
-            attempt_next/2,             % +Me, -Address
-            attempt_due/1,              % -Time
-            attempts_due/1              % -Due
+            attempt_ended/2             % +Thread, +Formal
           ]).
 
-/** <module> Attempts to connect, and their times
+/** <module> Attempts to connect
 
-Each wanted address has one attempt: it is queued, is being made, or pauses
-until it is made again. connection_manager.pl handles its result.
+Each address that is wanted has an attempt, which ends when a session is up,
+whichever side made its connection. Its state is
 
-*Threading*: the thread of the connection manager owns the table.
+    queued                       it begins when few others are young
+    trying(Thread, Start, Until) Thread has tried since Start; late at Until
+    pausing(Until)               the next try begins at Until
+    idle(Until)                  the same, when a session needs it, no caller
+
+A failed try concerns the callers that came before it began. Failures that may
+pass, as when a peer breaks off during the handshake, are retried while these
+have time. All others are reported at once, a refused connection above all,
+unless a process is expected there soon.
+
+*Threading*: for the thread of the connection manager.
 */
 
-:- use_module(library(lists), [min_member/2]).
+:- use_module(library(debug), [debug/3]).
+:- use_module(library(lists), [member/2, min_member/2]).
 :- use_module(library(settings), [setting/2, setting/4]).
-:- use_module(peer_cache, [peer_expected/1]).
-:- use_module(session, [session/2]).
+:- use_module(connection, [outgoing/2]).
+:- use_module(peer_cache, [peer_expected/1, peer_missed/2]).
+:- use_module(request, [session_unfinished/1]).
+:- use_module(session, [route/2, route_up/2, session/2]).
+:- use_module(threads,
+              [in_background/2, wire_thread_create/3, wire_thread_end/2]).
+:- use_module(waiting, [waiting_met/2, waiting_missed/2, waiting_since/2]).
 
 :- setting(typhon_connection_manager:connect_time, number, 5,
            "Seconds until a peer is reported as unreachable").
@@ -31,14 +45,63 @@ until it is made again. connection_manager.pl handles its result.
            "Seconds until a restarting peer is reported as unreachable").
 
 :- dynamic
-    attempt/4.                          % Address, State, Pause, Since
+    attempt/4.                          % Address, State, Pause: the next one,
+                                        % First: time of the first try
 
-%!  attempt(?Address, ?State, -Pause, -Since) is nondet.
+		 /*******************************
+		 *           ADDRESSES          *
+		 *******************************/
+
+%!  address_wanted(+Address) is det.
 %
-%   State is `queued`, trying(Thread, Start, Asked) or pausing(Until, Asked):
-%   requests from before the last try have a number below Asked. Pause is the
-%   next pause. Callers have waited since the time Since, `unset` before the
-%   first try begins, `none` if no caller waits.
+%   A caller waits for Address, or did a moment ago.
+
+address_wanted(Address) :-
+    (   route_up(Address, Session)
+    ->  waiting_met(Address, Session)
+    ;   waiting_since(Address, _)
+    ->  attempt_want(Address)
+    ;   true
+    ).
+
+%!  address_met(+Address) is det.
+%
+%   Address leads to a session that is up, or was: it may be down again. Its
+%   frames are then sent when it is up the next time.
+
+address_met(Address) :-
+    debug(typhon(connect), '~w: met', [Address]),
+    retractall(attempt(Address, _, _, _)),
+    (   route(Address, Session)
+    ->  waiting_met(Address, Session)
+    ;   address_wanted(Address)
+    ).
+
+%!  session_reconnect(+Session) is det.
+%
+%   Session is unfinished, and down: connect again.
+
+session_reconnect(Session) :-
+    (   route(Address, Session),
+        \+ attempt(Address, _, _, _)
+    ->  pause_end(0.05, Until),
+        attempt_set(Address, idle(Until), 0.1, 0)
+    ;   true
+    ).
+
+%   A caller waits for Address, or a session needs it.
+
+needed(Address) :-
+    waiting_since(Address, _),
+    !.
+needed(Address) :-
+    route(Address, Session),
+    session_unfinished(Session),
+    !.
+
+		 /*******************************
+		 *           ATTEMPTS           *
+		 *******************************/
 
 first_pause(0.02).
 longest_pause(2).
@@ -53,114 +116,37 @@ patience(Seconds) :-
     predicate_property(session(_, _), number_of_clauses(Sessions)),
     Seconds is Seconds0*min(4, 1+(Attempts+Sessions)//16).
 
-		 /*******************************
-		 *            STATES            *
-		 *******************************/
+attempt_set(Address, State, Pause, First) :-
+    retractall(attempt(Address, _, _, _)),
+    assertz(attempt(Address, State, Pause, First)).
 
-%!  attempt_want(+Address) is det.
-%
 %   A caller waits for Address. Later callers share its attempt.
 
 attempt_want(Address) :-
-    attempt(Address, _, _, Since),
-    Since \== none,
+    attempt(Address, State, _, _),
+    State \= idle(_),
     !.
 attempt_want(Address) :-
     first_pause(Pause),
-    (   attempt(Address, Trying, _, _),
-        Trying = trying(_, _, _)
+    attempt_set(Address, queued, Pause, 0).
+
+%!  attempts_begin(+Me) is det.
+%
+%   Begin the attempts that are next.  Me is the hello of this process.
+
+attempts_begin(Me) :-
+    (   attempt_next(Me, Address)
     ->  get_time(Now),
-        set(Address, Trying, Pause, Now)
-    ;   set(Address, queued, Pause, unset)
-    ).
-
-%!  attempt_begun(+Address, +Thread, +Asked) is det.
-%
-%   Thread tries to reach Address. The time of waiting callers starts with the
-%   first try.
-
-attempt_begun(Address, Thread, Asked) :-
-    attempt(Address, _, Pause, Since0),
-    get_time(Now),
-    (   Since0 == unset
-    ->  Since = Now
-    ;   Since = Since0
-    ),
-    set(Address, trying(Thread, Now, Asked), Pause, Since).
-
-%!  attempt_asked(+State, -Asked) is det.
-%
-%   Asked is that of State, see attempt/4.
-
-attempt_asked(queued, 0).
-attempt_asked(trying(_, _, Asked), Asked).
-attempt_asked(pausing(_, Asked), Asked).
-
-%!  attempt_greeted(+Thread) is det.
-%
-%   The peer has answered the attempt of Thread: it exists, and is slow, as all
-%   are when many start at once.  The time starts again, unless many attempts
-%   have failed.
-
-attempt_greeted(Thread) :-
-    (   attempt(Address, trying(Thread, _, Asked), Pause, Since),
-        number(Since),
-        longest_pause(Longest),
-        Pause < Longest
-    ->  get_time(Now),
-        set(Address, trying(Thread, Now, Asked), Pause, Now)
+        try(Address, Now, Me),
+        attempts_begin(Me)
     ;   true
     ).
 
-%!  attempt_pause(+Address, +Pause, +Since) is det.
-%
-%   Try again after about Pause seconds, and the next time after twice as many,
-%   but before the deadline of a caller that has waited since Since.
-
-attempt_pause(Address, Pause, Since) :-
-    get_time(Now),
-    Some is float_fractional_part(Now*1000),    % library(random) is slow
-    Until0 is Now+Pause*(0.5+Some),             % to begin
-    (   number(Since)
-    ->  deadline(Address, Since, Deadline),
-        Until is min(Deadline, Until0)
-    ;   Until = Until0
-    ),
-    longest_pause(Address, Longest),
-    Longer is min(Longest, 2*Pause),
-    (   attempt(Address, State, _, _)
-    ->  attempt_asked(State, Asked)
-    ;   Asked = 0
-    ),
-    set(Address, pausing(Until, Asked), Longer, Since).
-
-longest_pause(Address, Longest) :-
-    (   peer_expected(Address)
-    ->  longest_pause_of_expected(Longest)
-    ;   longest_pause(Longest)
-    ).
-
-set(Address, State, Pause, Since) :-
-    retractall(attempt(Address, _, _, _)),
-    assertz(attempt(Address, State, Pause, Since)).
-
-%!  attempt_end(?Address) is det.
-%
-%   Delete the attempt to connect to Address.
-
-attempt_end(Address) :-
-    retractall(attempt(Address, _, _, _)).
-
-		 /*******************************
-		 *             ORDER            *
-		 *******************************/
-
-%!  attempt_next(+Me, -Address) is semidet.
-%
-%   Address is tried next; Me is the hello of this process. If many processes
-%   start at once all would be late together, and both processes of each pair
-%   would connect. So few attempts are made at a time, by each process in an
-%   order of its own: most peers connect by themselves before it is their turn.
+%   attempt_next(+Me, -Address) is semidet: Address is tried next. If many
+%   processes start at once all would be late together, and both processes of
+%   each pair would connect. So few attempts are made at a time, by each process
+%   in an order of its own: most peers connect by themselves before it is their
+%   turn.
 
 attempt_next(Me, Address) :-
     attempt(_, queued, _, _),
@@ -191,25 +177,153 @@ young(Until) :-
     Until is Start+Seconds,
     Until > Now.
 
+%   try(+Address, +First, +Me): First is the time of the first try.
+
+try(Address, First, Me) :-
+    attempt(Address, _, Pause, _),
+    get_time(Start),
+    late_at(Start, Until),
+    catch(wire_thread_create(outgoing(Address, Me), out-Address, Thread),
+          error(Formal, _),
+          Thread = none),
+    attempt_set(Address, trying(Thread, Start, Until), Pause, First),
+    debug(typhon(connect), '~w: trying, in ~w', [Address, Thread]),
+    (   Thread == none
+    ->  failed(Address, Formal)
+    ;   true
+    ).
+
+%   A silent try ends in time for another one, because its connection may be
+%   dead.
+
+late_at(Start, Until) :-
+    patience(Seconds),
+    Until is Start+Seconds/2.
+
+%!  attempt_greeted(+Thread) is det.
+%
+%   The peer has answered the try of Thread: it exists, and is slow, as all are
+%   when many start at once.  The time starts again, unless many tries have
+%   failed.
+
+attempt_greeted(Thread) :-
+    (   attempt(Address, trying(Thread, Start, _), Pause, _),
+        longest_pause(Longest),
+        Pause < Longest
+    ->  get_time(Now),
+        late_at(Now, Until),
+        attempt_set(Address, trying(Thread, Start, Until), Pause, Now)
+    ;   true
+    ).
+
+%!  attempt_ended(+Thread, +Formal) is det.
+%
+%   The try of Thread, if it is one, has ended without a connection.
+
+attempt_ended(Thread, Formal) :-
+    (   attempt(Address, trying(Thread, _, _), _, _)
+    ->  failed(Address, Formal)
+    ;   true
+    ).
+
+%!  attempt_time(-Time) is nondet.
+%
+%   At Time the state of some attempt must change.
+
+attempt_time(Time) :-
+    attempt(_, State, _, _),
+    due_at(State, Time).
+
+%!  attempts_due(+Me) is det.
+%
+%   End or begin the tries whose time has come.
+
+attempts_due(Me) :-
+    get_time(Now),
+    findall(Address-State,
+            ( attempt(Address, State, _, _),
+              State \== queued,
+              due_at(State, Time),
+              Time =< Now ),
+            All),
+    forall(member(Address-State, All), due(State, Address, Me)).
+
+%!  attempts_end is det.
+%
+%   Forget all attempts: the endpoint stops.
+
+attempts_end :-
+    retractall(attempt(_, _, _, _)).
+
+due_at(queued, Until) :-
+    young(Until).
+due_at(trying(_, _, Until), Until).
+due_at(pausing(Until), Until).
+due_at(idle(Until), Until).
+
+due(trying(Thread, _, _), Address, _) :-
+    !,
+    in_background(wire_thread_end(Thread, late), end-Address),
+    failed(Address, late).
+due(_, Address, _) :-
+    route_up(Address, _),
+    !,
+    address_met(Address).
+due(_, Address, Me) :-
+    (   needed(Address)
+    ->  attempt(Address, _, _, First),
+        try(Address, First, Me)
+    ;   retractall(attempt(Address, _, _, _))
+    ).
+
 		 /*******************************
-		 *           DEADLINES          *
+		 *           FAILURES           *
 		 *******************************/
 
-%!  attempt_over(+Address, +Since, +Formal) is semidet.
-%
-%   After the failure Formal, `late` if there was no answer, the caller that has
-%   waited for Address since Since gets a result: its time is over, or another
-%   attempt would fail, too.
+%   failed(+Address, +Formal): the try has failed, `late` if there was no answer.
+%   The session may be up nevertheless, by a connection that the peer has made.
 
-attempt_over(Address, Since, Formal) :-
-    number(Since),
-    (   \+ may_pass(Formal),
-        \+ soon_there(Formal, Address)
-    ->  true
-    ;   deadline(Address, Since, Deadline),
-        get_time(Now),
-        Deadline =< Now
-    ).
+failed(Address, _) :-
+    route_up(Address, _),
+    !,
+    address_met(Address).
+failed(Address, Formal) :-
+    debug(typhon(connect), '~w: no connection: ~p', [Address, Formal]),
+    attempt(Address, trying(_, Start, _), Pause, First),
+    pause_end(Pause, Until),
+    (   concerned_before(Formal, Address, Start, First, Until, Time)
+    ->  print_message(silent, typhon(endpoint, unreachable(Address, Formal))),
+        peer_missed(Address, Formal),
+        waiting_missed(Address, Time)
+    ;   true
+    ),
+    again(Address, Start, Until, Pause, First).
+
+%   After about Pause seconds.
+
+pause_end(Pause, Until) :-
+    get_time(Now),
+    Some is float_fractional_part(Now*1000),    % library(random) is slow
+    Until is Now+Pause*(0.5+Some).              % to begin
+
+%   concerned_before(+Formal, +Address, +Start, +First, +Until, -Time) is
+%   semidet.
+%
+%   Callers that came before Time get a result: another try would fail, too, or
+%   their time will be over at Until.  The time starts with the First try.
+
+concerned_before(Formal, Address, Start, _, _, Start) :-
+    \+ may_pass(Formal),
+    \+ soon_there(Formal, Address),
+    !.
+concerned_before(_, Address, Start, First, Until, Time) :-
+    (   peer_expected(Address)
+    ->  setting(typhon_connection_manager:return_time, Seconds)
+    ;   patience(Seconds)
+    ),
+    Latest is Until-Seconds,
+    First =< Latest,
+    Time is min(Start, Latest).
 
 %   The process is being restarted.
 
@@ -228,44 +342,32 @@ may_pass(socket_error(Code, _)) :-
                       eai_again, eintr, emfile, enfile, enobufs, enomem,
                       eaddrnotavail ]).
 
-deadline(Address, Since, Deadline) :-
-    (   peer_expected(Address)
-    ->  setting(typhon_connection_manager:return_time, Seconds)
-    ;   patience(Seconds)
-    ),
-    Deadline is Since+Seconds.
+%   again(+Address, +Start, +Until, +Pause, +First): callers that came since
+%   Start get another try at once.
 
-%!  attempt_due(-Time) is nondet.
-%
-%   At Time the state of some attempt must change. A silent attempt ends in time
-%   for another one, because its connection may be dead.
-
-attempt_due(Time) :-
-    attempt(Address, State, _, Since),
-    due(State, Address, Since, Time).
-
-due(pausing(Until, _), _, _, Until).
-due(queued, _, _, Until) :-
-    young(Until).
-due(trying(_, Start, _), Address, Since, Until) :-
-    patience(Seconds),
-    Until0 is Start+0.6*Seconds,
-    (   number(Since)
-    ->  deadline(Address, Since, Deadline),
-        Until is min(Until0, Deadline)
-    ;   Until = Until0
+again(Address, Start, Until, Pause, First) :-
+    waiting_since(Address, Since),
+    !,
+    (   Since < Start
+    ->  pause(Address, pausing(Until), Pause, First)
+    ;   first_pause(Shortest),
+        attempt_set(Address, queued, Shortest, 0)
+    ).
+again(Address, _, Until, Pause, First) :-
+    (   needed(Address)
+    ->  pause(Address, idle(Until), Pause, First)
+    ;   retractall(attempt(Address, _, _, _))
     ).
 
-%!  attempts_due(-Due) is det.
-%
-%   Due are the attempts that have tried or paused for long enough,
-%   Address-State.
+pause(Address, State, Pause, First) :-
+    (   peer_expected(Address)
+    ->  longest_pause_of_expected(Longest)
+    ;   longest_pause(Longest)
+    ),
+    Longer is min(Longest, 2*Pause),
+    attempt_set(Address, State, Longer, First).
 
-attempts_due(Due) :-
-    get_time(Now),
-    findall(Address-State,
-            ( attempt(Address, State, _, Since),
-              State \== queued,
-              due(State, Address, Since, Until),
-              Until =< Now ),
-            Due).
+:- multifile prolog:message//1.
+
+prolog:message(typhon(endpoint, unreachable(Address, Formal))) -->
+    [ 'Endpoint: cannot reach ~w: ~p'-[Address, Formal] ].

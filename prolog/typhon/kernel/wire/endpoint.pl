@@ -48,11 +48,9 @@ under the mutex of the endpoint.
 :- use_module(acceptor, [accept_all/2, accept_no_more/0]).
 :- use_module(cookie, [cookie/1, random_hex/2]).
 :- use_module(handshake, [hello/4]).
-:- use_module(connection_manager, [keep/1, manager_unhandled/1]).
+:- use_module(connection_manager, [manager_begin/1, manager_end/0]).
 :- use_module(threads,
-              [ manager_queue_close/1, manager_queue_open/0, manager_notify/1,
-                wire_thread_create/3, wire_thread_end/2, wire_thread_join/1,
-                wire_threads_end/0 ]).
+              [wire_thread_create/3, wire_thread_end/2, wire_threads_end/0]).
 :- use_module(lending, [lending_anew/0]).
 :- use_module(outbox, [session_control/2]).
 :- use_module(request, [requests_lost/2]).
@@ -82,7 +80,7 @@ under the mutex of the endpoint.
 
 :- dynamic
     closed/0,                           % peers are not accepted yet
-    running/4,                          % Address, Socket, Acceptor, Manager
+    running/3,                          % Address, Socket, Acceptor
     further/3.                          % Address, Socket, Acceptor
 
 %!  endpoint_start(+Interface, +Port, +Options, -Address) is det.
@@ -120,11 +118,10 @@ start(Interface0, Port0, Address) :-
     listen(Interface, Port, Address, Socket),
     own_start_next(Start),
     our_hello(Start, Address, Me),
-    manager_queue_open,
     lending_anew,
-    wire_thread_create(keep(Me), connection_manager, Manager),
+    manager_begin(Me),
     wire_thread_create(accept_open(Socket, Me), acceptor, Acceptor),
-    assertz(running(Address, Socket, Acceptor, Manager)),
+    assertz(running(Address, Socket, Acceptor)),
     debug(typhon(session), 'endpoint: starts at ~w, start ~w',
           [Address, Start]).
 
@@ -149,7 +146,7 @@ accept_open(Socket, Me) :-
 %   Accept peers: the journal was read.
 
 endpoint_open :-
-    running(Address, _, Acceptor, _),
+    running(Address, _, Acceptor),
     !,
     own_id_note(Address),
     sync_changes,
@@ -226,7 +223,7 @@ endpoint_listen(Port, Address) :-
     with_mutex(typhon_endpoint, listen_too(Port, Address)).
 
 listen_too(Port, Address) :-
-    (   running(First, _, _, _)
+    (   running(First, _, _)
     ->  true
     ;   existence_error(endpoint, running)
     ),
@@ -263,7 +260,7 @@ endpoint_stop :-
     with_mutex(typhon_endpoint, stop).
 
 stop :-
-    retract(running(Address, Socket, Acceptor, Manager)),
+    retract(running(Address, Socket, Acceptor)),
     !,
     debug(typhon(session), 'endpoint: stops at ~w', [Address]),
     findall(Further, further(Further, _, _), All),
@@ -273,12 +270,9 @@ stop :-
     setting(flush_time, Seconds),
     in_own_thread(ignore(peers_flush(Seconds))),
     forall(session(_, Session), session_control(Session, bye)),
-    manager_notify(stop),
-    wire_thread_join(Manager),
+    manager_end,
     wire_threads_end,
-    manager_queue_close(Unhandled),
     accept_no_more,
-    manager_unhandled(Unhandled),
     forall(session(_, Session),
            ( session_close(Session, Unsent),
              requests_lost(Session, Unsent) )),
@@ -291,7 +285,7 @@ stop :-
 %   Address is one of this process: the first, if unbound.
 
 endpoint_address(Address) :-
-    running(Address, _, _, _).
+    running(Address, _, _).
 endpoint_address(Address) :-
     nonvar(Address),
     further(Address, _, _).

@@ -9,10 +9,10 @@
             wire_thread_join/1,         % +Thread
             wire_threads_end/0,
             in_background/2,            % :Goal, +Name
-            manager_queue_open/0,
-            manager_queue_close/1,       % -Unhandled
-            manager_notify/1,              % +Message
-            manager_receive/2               % -Message, +Deadline
+            manager_start/2,            % :Handle, +State
+            manager_stop/0,
+            manager_notify/1,           % +Message
+            in_manager/0
           ]).
 
 /** <module> The threads of an endpoint, and their messages to the manager
@@ -20,21 +20,22 @@
 Every thread of an endpoint is made here and is joined when it ends, so
 that none outlives the endpoint. The alias of a thread names its role and its
 peer, and has a unique number: so a signal or message for one thread never
-reaches its successor. All threads report events, among them their ends, and
-send requests to the connection manager through one queue, which exists while
-the endpoint runs.
+reaches its successor. All threads report events, among them their ends, to
+the connection manager, a server that exists while the endpoint runs.
 
-*Threading*: wire_thread_join/1 and manager_receive/2 are for the connection
-manager, any thread may call the rest. The caller serializes opening and closing
-of the queue.
+*Threading*: wire_thread_join/1 is for the connection manager, any thread may
+call the rest. The caller serializes start and stop of the manager.
 */
 
 :- use_module('../base/error_text', [error_lines/3]).
+:- use_module('../base/server',
+              [server_cast/2, server_self/1, server_start/4, server_stop/1]).
 
 :- meta_predicate
     wire_thread_create(0, +, -),
     wire_thread_create(0, +, -, 0),
-    in_background(0, +).
+    in_background(0, +),
+    manager_start(3, +).
 
 :- multifile
     not_now/1,                          % Why: this thread will end later
@@ -196,64 +197,43 @@ wire_threads_end :-
     ).
 
 		 /*******************************
-		 *    MESSAGES TO THE MANAGER   *
+		 *          THE MANAGER         *
 		 *******************************/
 
 :- dynamic
-    manager_queue/1.                    % Queue
+    manager/1.                          % Server
 
-%!  manager_queue_open is det.
+%!  manager_start(:Handle, +State) is det.
 %
-%   Create the queue.
+%   Start the server of the manager, see typhon_server.
 
-manager_queue_open :-
-    message_queue_create(Queue),
-    assertz(manager_queue(Queue)).
+manager_start(Handle, State) :-
+    server_start(connection_manager, Handle, State, Server),
+    assertz(manager(Server)).
 
-%!  manager_queue_close(-Unhandled) is det.
+%!  manager_stop is det.
 %
-%   Destroy the queue.  Unhandled are the messages that were left in it.
+%   Stop the manager.  Messages that it has not handled are dropped.
 
-manager_queue_close(Unhandled) :-
-    with_mutex(typhon_manager_queue, close_queue(Unhandled)).
-
-close_queue(Unhandled) :-
-    retract(manager_queue(Queue)),
-    findall(Message, take_left(Queue, Message), Unhandled),
-    message_queue_destroy(Queue).
-
-%   This waits without time-out: in a clean-up handler a wait with one may never
-%   end, see manager_connect/1.
-
-take_left(Queue, Message) :-
-    repeat,
-    (   thread_peek_message(Queue, _)
-    ->  thread_get_message(Queue, Message)
-    ;   !,
-        fail
-    ).
+manager_stop :-
+    retract(manager(Server)),
+    server_stop(Server).
 
 %!  manager_notify(+Message) is semidet.
 %
 %   Send Message to the connection manager; fails if there is none.
 
 manager_notify(Message) :-
-    with_mutex(typhon_manager_queue,
-               ( manager_queue(Queue),
-                 thread_send_message(Queue, Message) )).
+    manager(Server),
+    server_cast(Server, Message).
 
-%!  manager_receive(-Message, +Deadline) is semidet.
+%!  in_manager is semidet.
 %
-%   The next message; fails at Deadline, a time stamp or `infinite`, if
-%   there is none.
+%   This is the thread of the connection manager, which must not wait.
 
-manager_receive(Message, Deadline) :-
-    manager_queue(Queue),
-    (   ( Deadline == infinite
-        ; thread_peek_message(Queue, _) )
-    ->  thread_get_message(Queue, Message)
-    ;   thread_get_message(Queue, Message, [deadline(Deadline)])
-    ).
+in_manager :-
+    server_self(Server),
+    manager(Server).
 
 :- multifile prolog:message//1.
 

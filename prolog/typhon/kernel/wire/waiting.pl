@@ -1,10 +1,9 @@
 :- module(typhon_waiting,
           [ manager_connect/1,          % +Address
             manager_connect/2,          % +Address, +Deadline
-            waiting/1,                  % ?Address
+            waiting_since/2,            % ?Address, -Time
             waiting_met/2,              % +Address, +Session
-            waiting_missed/2,           % ?Address, +Asked
-            asked/1,                    % -Number
+            waiting_missed/2,           % ?Address, +Time
             unsent/1,                   % ?Address
             unsent_request/4,           % +Address, +Kind, +Term, :OnAnswer
             unsent_closed/4,            % +Address, +Kind, +Term, :OnAnswer
@@ -19,8 +18,9 @@
 
 Threads and requests that wait for a connection to an address wait in order. A
 thread waits at a queue of its own, and receives `met` or `missed`. A request
-holds no thread: it is sent, or answered. All are numbered: the result of an
-attempt to connect does not concern those that came after it began.
+holds no thread: it is sent, or answered. Each has the time at which it came:
+the result of an attempt to connect does not concern those that came after the
+attempt began.
 
 *Threading*: any thread adds to the table. The connection manager, which
 receives wanted_at(Address), sends a request first and removes it then: as long
@@ -41,7 +41,7 @@ and the flushes are for any thread that may wait.
 :- use_module(session,
               [ route/2, session/2, session_key/2, session_peer/3,
                 session_up/1 ]).
-:- use_module(threads, [manager_notify/1]).
+:- use_module(threads, [in_manager/0, manager_notify/1]).
 :- use_module(unacked, [session_pending/2]).
 
 :- meta_predicate
@@ -52,15 +52,15 @@ and the flushes are for any thread that may wait.
 :- multifile typhon_endpoint:handed_over/2.
 
 :- dynamic
-    waiting/3.                          % Address, Number, What: thread(Queue),
+    waiting/3.                          % Address, Since, What: thread(Queue),
                                         % request(Kind, Term, OnAnswer)
 
-%!  waiting(?Address) is semidet.
+%!  waiting_since(?Address, -Time) is semidet.
 %
-%   A thread or request waits for Address.
+%   A thread or request waits for Address; the first has waited since Time.
 
-waiting(Address) :-
-    waiting(Address, _, _),
+waiting_since(Address, Time) :-
+    waiting(Address, Time, _),
     !.
 
 %!  unsent(?Address) is semidet.
@@ -74,19 +74,12 @@ unsent(Address) :-
 %   What, thread(Queue) or a request, waits for Address.
 
 waiting_add(Address, What) :-
-    flag(typhon_runtime, Number, Number+1),
-    assertz(waiting(Address, Number, What)),
+    get_time(Now),
+    assertz(waiting(Address, Now, What)),
     (   manager_notify(wanted_at(Address))
     ->  true
-    ;   missed(Address, Number)
+    ;   missed(Address, Now, What)
     ).
-
-%!  asked(-Number) is det.
-%
-%   All entries of the table have a lower Number; later ones will not.
-
-asked(Number) :-
-    flag(typhon_runtime, Number, Number).
 
 %!  waiting_met(+Address, +Session) is det.
 %
@@ -94,18 +87,14 @@ asked(Number) :-
 %   for Address.  For the connection manager only.
 
 waiting_met(Address, Session) :-
-    oldest(Address, Number, What),
+    waiting(Address, Since, What),
     !,
     (   met(What, Address, Session)
-    ->  sent(Address, Number, What),
+    ->  sent(Address, Since, What),
         waiting_met(Address, Session)
     ;   ignore(manager_notify(wanted_at(Address)))
     ).
 waiting_met(_, _).
-
-oldest(Address, Number, What) :-
-    waiting(Address, Number, What),
-    !.
 
 met(thread(Queue), _, _) :-
     notify(Queue, met).
@@ -123,8 +112,8 @@ notify(Queue, Result) :-
 
 %   The caller may have given up the request meanwhile.
 
-sent(Address, Number, What) :-
-    (   retract(waiting(Address, Number, _))
+sent(Address, Since, What) :-
+    (   retract(waiting(Address, Since, What))
     ->  true
     ;   What = request(_, _, OnAnswer)
     ->  request_forget(OnAnswer)
@@ -142,18 +131,16 @@ not_sent(Formal, Context, _, OnAnswer) :-
     print_error(error, error(Formal, Context)),
     request_answer(unreachable, OnAnswer).
 
-%!  waiting_missed(?Address, +Asked) is det.
+%!  waiting_missed(?Address, +Time) is det.
 %
-%   Address cannot be reached: report that to all with a number below Asked, see
-%   asked/1, or to all if Asked is `inf`.
+%   Address cannot be reached: report that to all that came before Time.
 
-waiting_missed(Address, Asked) :-
-    findall(A-Number,
-            ( waiting(A, Number, _), A = Address, Number < Asked ), All),
-    forall(member(A-Number, All), missed(A, Number)).
+waiting_missed(Address, Time) :-
+    forall(( waiting(Address, Since, What), Since < Time ),
+           missed(Address, Since, What)).
 
-missed(Address, Number) :-
-    (   retract(waiting(Address, Number, What))
+missed(Address, Since, What) :-
+    (   retract(waiting(Address, Since, What))
     ->  missed(What)
     ;   true
     ).
@@ -183,7 +170,7 @@ manager_connect(Address, Deadline) :-
     connected(Address, [deadline(Deadline)]).
 
 connected(Address, Options) :-
-    \+ nb_current(typhon_connection_manager, true),
+    \+ in_manager,
     setup_call_cleanup(
         message_queue_create(Queue),
         ( waiting_add(Address, thread(Queue)),

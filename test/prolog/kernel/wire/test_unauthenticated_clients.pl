@@ -240,13 +240,13 @@ test(few_lines_count_all_refusals, Sum == 500) :-
     assertion(Lines =< 10+6*(T1-T0)).
 test(refusal_with_a_reused_slot_is_reported_once, Sum == 50) :-
     setup_call_cleanup(
-        wrap_predicate(typhon_refusals:refused(_, _), slow, Counted,
+        wrap_predicate(typhon_acceptor:refused(_, _), slow, Counted,
                        ( Counted, sleep(0.01) )),
         with_settings([typhon_acceptor:unproved=2],
                       with_endpoint(( forall(between(1, 50, _), shouts("typhon\n")),
                                       wait_until(( noted_so_far(N), N >= 50 ),
                                                  30) ))),
-        unwrap_predicate(typhon_refusals:refused/2, slow)),
+        unwrap_predicate(typhon_acceptor:refused/2, slow)),
     noted_so_far(Sum).
 test(refusals_are_reported_at_the_end, Sum == 20) :-
     with_endpoint(( forall(between(1, 20, _), shouts("\n")),
@@ -257,7 +257,7 @@ test(last_refusals_are_reported, Sum == 20) :-
         wrap_predicate(typhon_threads:wire_threads_end, last, End,
                        ( End,
                          forall(between(1, 20, _),
-                                typhon_refusals:refused(x, silent)) )),
+                                typhon_acceptor:refused(x, silent)) )),
         with_endpoint(true),
         unwrap_predicate(typhon_threads:wire_threads_end/0, last)),
     counted(Sum).
@@ -286,7 +286,7 @@ noted(Sum) :-
 
 noted_so_far(Sum) :-
     counted(Told),
-    findall(Count, typhon_refusals:tally(_, _, Count), Counts),
+    findall(Count, typhon_acceptor:tally(_, _, Count), Counts),
     sum_list(Counts, More),
     Sum is Told+More.
 
