@@ -1,7 +1,8 @@
 :- module(typhon_settlement,
           [ settled_now/5,              % +Handed, +Key, +Count, -Settled, ?Rest
             settled_late/3,             % +Key, +Count, -Settled
-            settled_never/3,            % +Key, +Lost, -Handed
+            settled_never/2,            % +Key, -Handed
+            unsettled_add/2,            % +Handed, +Key
             unsettled/3,                % ?Key, ?Number, -Token
             objection_add/3,            % +Key, +Number, +Answer
             objection_answered/3        % +Key, +Number, +Answer
@@ -15,11 +16,11 @@ counts the frame. A hand-over is Number-Token: the number of the frame, and the
 term by which the caller identifies its result.
 
 *Threading*: for the thread of the connection, and, when that has ended, for the
-thread that closes the session; settled_now/5 under the mutex of the session.
-Any thread may call unsettled/3.
+thread that closes the session or gives it another connection. Any thread may
+call unsettled/3.
 */
 
-:- use_module(library(lists), [append/3, member/2]).
+:- use_module(library(lists), [member/2]).
 :- use_module(frame, [count_ahead/3]).
 
 :- dynamic
@@ -30,19 +31,24 @@ Any thread may call unsettled/3.
 %
 %   The peer Key has received the frame of that Number, but has not settled it.
 
+%!  unsettled_add(+Handed:list, +Key) is det.
+%
+%   The peer has received the frames of Handed, and none of them is settled.
+
+unsettled_add(Handed, Key) :-
+    forall(member(N-Token, Handed), assertz(unsettled(Key, N, Token))).
+
 %!  settled_now(+Handed:list, +Key, +Count, -Settled:list, ?Rest) is det.
 %
 %   The peer has received the frames of Handed, and has settled all frames up to
-%   Count, or none if that is `none`.  Settled lists the hand-overs that this
-%   settles, settled(Token, Number, Result), Result being `accepted` or an
-%   objection.
+%   Count.  Settled lists the hand-overs that this settles, settled(Token,
+%   Number, Result), Result being `accepted` or an objection.
 
 settled_now([], _, _, Settled, Settled).
 settled_now([N-Token|Handed], Key, Count, Settled, Rest) :-
-    (   integer(Count),
-        count_ahead(N, Count, _)
-    ->  settled(N, Token, Key, One),
-        Settled = [One|More]
+    (   count_ahead(N, Count, _)
+    ->  result(Key, N, accepted, Result),
+        Settled = [settled(Token, N, Result)|More]
     ;   assertz(unsettled(Key, N, Token)),
         Settled = More
     ),
@@ -55,35 +61,31 @@ settled_now([N-Token|Handed], Key, Count, Settled, Rest) :-
 settled_late(Key, Count, Settled) :-
     unsettled(Key, _, _),
     !,
-    findall(N-Token,
-            ( unsettled(Key, N, Token), count_ahead(N, Count, _) ), Late),
-    forall(member(N-_, Late), retractall(unsettled(Key, N, _))),
-    settled_now(Late, Key, Count, Settled, []).
+    findall(settled(Token, N, Result),
+            ( unsettled(Key, N, Token),
+              count_ahead(N, Count, _),
+              retract(unsettled(Key, N, _)),
+              result(Key, N, accepted, Result) ),
+            Settled).
 settled_late(_, _, []).
 
-settled(N, Token, Key, settled(Token, N, Result)) :-
-    (   retract(objection(Key, N, Answer))
-    ->  Result = Answer
-    ;   Result = accepted
-    ).
-
-%!  settled_never(+Key, +Lost:list, -Handed:list) is det.
+%!  settled_never(+Key, -Handed:list) is det.
 %
 %   The session is over. Handed lists the results of hand-overs that were not
-%   settled, or are among Lost, which the peer may have received:
-%   handed(Token, Result), Result being `lost` or an objection.
+%   settled: handed(Token, Result), Result being `lost` or an objection.
 
-settled_never(Key, Lost, Handed) :-
-    findall(N-Token, unsettled(Key, N, Token), Unsettled),
-    append(Unsettled, Lost, All),
+settled_never(Key, Handed) :-
     findall(handed(Token, Result),
-            ( member(N-Token, All), known(Key, N, Result) ),
+            ( retract(unsettled(Key, N, Token)),
+              result(Key, N, lost, Result) ),
             Handed),
-    retractall(unsettled(Key, _, _)),
     retractall(objection(Key, _, _)).
 
-known(Key, N, Result) :-
-    ( objection(Key, N, Answer) -> Result = Answer ; Result = lost ).
+result(Key, N, Default, Result) :-
+    (   retract(objection(Key, N, Answer))
+    ->  Result = Answer
+    ;   Result = Default
+    ).
 
 %!  objection_add(+Key, +Number, +Answer) is det.
 %

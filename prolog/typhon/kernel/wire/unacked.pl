@@ -23,21 +23,23 @@
 
 Frames are numbered by counting on both sides. The window of a session is
 
-    window(Sent, Waiting, Received, AckSent, Acked, AckedBytes, Settled)
+    window(Sent, Waiting, Received, AckSent, Acked, AckedBytes, Settled,
+           Bundle)
 
 Only this module accesses its arguments: two queues of frames, and the names of
-five flags: how many frames of the peer were received; how many of them were
+six flags: how many frames of the peer were received; how many of them were
 acknowledged; how many frames of this process the peer has received, and how
-many bytes of its connection; and the last count of settled frames that was
-written.
+many bytes of its connection; the last count of settled frames that was written;
+and the number of the last bundle.
 
 A frame is frame(Bytes, Token, Settled). Frames that were written to some
 connection and that the peer has not received are in Sent, those that were never
-written in Waiting. A Token other than `none` or `loose` is that of a hand-over,
-see settlement.pl. Settled is the number of frames of the peer that were settled
-when the frame was put: so a frame that has waited behind an objection does not
-settle the frame of the objection. The number of frames that the peer has
-received is a count of its own: it opens the window.
+written in Waiting. Settled is the number of frames of the peer that were
+settled when the frame was put: so a frame that has waited behind an objection
+does not settle the frame of the objection. The number of frames that the peer
+has received is a count of its own: it opens the window.
+
+A Token other than `none` or `loose` is that of a hand-over, see settlement.pl.
 
 *Threading*: the mutex of the session guards its window: a caller of unacked_*
 holds it. session_count/2, session_acked/3 and session_objected/3 are for the
@@ -52,12 +54,11 @@ thread of the connection, the other session_* are for any thread.
               [ session_codec/2, session_held/2, session_window/2,
                 session_window/3 ]).
 :- use_module(settlement,
-              [ objection_add/3, settled_late/3, settled_never/3, settled_now/5,
-                unsettled/3 ]).
+              [ objection_add/3, settled_late/3, settled_never/2, settled_now/5,
+                unsettled/3, unsettled_add/2 ]).
 
 :- dynamic
-    free_flags/1,                       % Flags: no window has them
-    bundled/2.                          % Key, Count: the last bundle's
+    free_flags/1.                       % Flags: no window has them
 
 %!  unacked_open(-Window) is det.
 %
@@ -71,7 +72,8 @@ unacked_open(Window) :-
     ->  true
     ;   flag(typhon_session_flags, N, N+1),
         findall(Flag,
-                ( member(Name, [received, told, acked, bytes, settled]),
+                ( member(Name, [received, told, acked, bytes, settled,
+                                bundle]),
                   atomic_list_concat([typhon_session, Name, N], '_', Flag) ),
                 Flags)
     ),
@@ -98,7 +100,7 @@ ack_frames(32).
 %   other frames wait, or writing might block.
 
 unacked_sent(Window, Out, Bytes, Token, counts(Count, Count)) :-
-    Window = window(Sent, Waiting, Received, AckSent, _, _, Settled),
+    Window = window(Sent, Waiting, Received, AckSent, _, _, Settled, _),
     message_queue_property(Waiting, size(0)),
     space(room, Window, Out, Space),
     string_length(Bytes, Length),
@@ -111,7 +113,7 @@ unacked_sent(Window, Out, Bytes, Token, counts(Count, Count)) :-
 %   space(+Most, +Window, +Out, -Space): the bytes that can be written to Out
 %   without blocking if Most is `room`, or `inf` if it is `all`.
 
-space(room, window(_, _, _, _, _, AckedBytes, _), Out, Space) :-
+space(room, window(_, _, _, _, _, AckedBytes, _, _), Out, Space) :-
     byte_count(Out, Written),
     get_flag(AckedBytes, Acked),
     under_way(Max),
@@ -123,7 +125,7 @@ space(all, _, _, inf).
 %   Let the frame wait.  If Token is `loose` it may later be bundled with
 %   others.
 
-unacked_waits(window(_, Waiting, Received, _, _, _, _), Bytes, Token) :-
+unacked_waits(window(_, Waiting, Received, _, _, _, _, _), Bytes, Token) :-
     get_flag(Received, Count),
     (   Token == loose
     ->  Frame = loose(Bytes, Count)
@@ -136,7 +138,7 @@ unacked_waits(window(_, Waiting, Received, _, _, _, _), Bytes, Token) :-
 %   Some frame waits.
 
 unacked_waiting(Session) :-
-    session_window(Session, window(_, Waiting, _, _, _, _, _)),
+    session_window(Session, window(_, Waiting, _, _, _, _, _, _)),
     fifo_size(Waiting, Size),
     Size > 0.
 
@@ -147,8 +149,11 @@ unacked_waiting(Session) :-
 %   of frames that wait is Waiting.
 
 unacked_owed(Session, Size) :-
-    session_window(Session, Key, window(Sent, Waiting, _, _, _, _, _)),
-    (   bundled(Key, _)
+    session_window(Session,
+                   window(Sent, Waiting, _, _, Acked, _, _, Bundle)),
+    get_flag(Acked, Count),
+    (   get_flag(Bundle, Last),
+        Last > Count
     ->  true
     ;   message_queue_property(Sent, size(Written)),
         ack_frames(Frames),
@@ -163,16 +168,15 @@ unacked_owed(Session, Size) :-
 
 unacked_next(Session, Out, Most, Counts, Bytes) :-
     session_codec(Session, Codec),
-    session_window(Session, Key, Window),
-    Window = window(Sent, Waiting, _, _, _, _, _),
+    session_window(Session, Window),
+    Window = window(Sent, Waiting, _, _, _, _, _, Bundle),
     space(Most, Window, Out, Space),
     bundle_next(Waiting, Codec, Space, Frame, Many),
     !,
     thread_send_message(Sent, Frame),
     (   Many == true
     ->  session_sent(Session, Count),
-        retractall(bundled(Key, _)),
-        assertz(bundled(Key, Count))
+        set_flag(Bundle, Count)
     ;   true
     ),
     unacked_counts(Session, Frame, Counts, Bytes).
@@ -184,7 +188,8 @@ unacked_next(Session, Out, Most, Counts, Bytes) :-
 
 unacked_counts(Session, frame(Bytes, _, Settled), counts(Count, Settled),
                Bytes) :-
-    session_window(Session, window(_, _, Received, AckSent, _, _, SettledFlag)),
+    session_window(Session,
+                   window(_, _, Received, AckSent, _, _, SettledFlag, _)),
     get_flag(Received, Count),
     set_flag(AckSent, Count),
     set_flag(SettledFlag, Settled).
@@ -197,7 +202,7 @@ unacked_counts(Session, frame(Bytes, _, Settled), counts(Count, Settled),
 %   if Most is `all`, they settle no more than was written before.
 
 unacked_control(Window, Out, Most, Bytes, counts(Count, Settled)) :-
-    Window = window(_, _, Received, AckSent, _, AckedBytes, SettledFlag),
+    Window = window(_, _, Received, AckSent, _, AckedBytes, SettledFlag, _),
     space(Most, Window, Out, Space),
     string_length(Bytes, Length),
     Length < Space,
@@ -218,7 +223,7 @@ unacked_control(Window, Out, Most, Bytes, counts(Count, Settled)) :-
 %   To be called if nothing waits. Fails if no frame has settled the last frames
 %   received: one outside the count must settle them now.
 
-unacked_settled(window(_, _, Received, _, _, _, Settled)) :-
+unacked_settled(window(_, _, Received, _, _, _, Settled, _)) :-
     get_flag(Received, Count),
     (   get_flag(Settled, Count)
     ->  true
@@ -235,16 +240,15 @@ unacked_settled(window(_, _, Received, _, _, _, Settled)) :-
 
 unacked_resumed(Session, Count, Bytes, Frames) :-
     session_window(Session, Key, Window),
-    Window = window(Sent, _, _, AckSent, Acked, AckedBytes, Settled),
+    Window = window(Sent, _, _, AckSent, Acked, AckedBytes, Settled, _),
     get_flag(Acked, Count0),
     message_queue_property(Sent, size(Size)),
     Gone is max(0, min(Count-Count0, Size)),
     take_received(Gone, Count0, Sent, Handed, 0, _),
-    settled_now(Handed, Key, none, [], []),
+    unsettled_add(Handed, Key),
     Count1 is max(Count0, Count),
     set_flag(Acked, Count1),
     set_flag(AckedBytes, Bytes),
-    bundle_received(Key, Count1),
     set_flag(AckSent, -1),              % the reader acknowledges at its start
     fifo_empty(Sent, Frames),
     forall(member(Frame, Frames), thread_send_message(Sent, Frame)),
@@ -261,20 +265,20 @@ unacked_resumed(Session, Count, Bytes, Frames) :-
 
 unacked_close(Session, Waiting, Handed) :-
     session_window(Session, Key, Window),
-    Window = window(SentQueue, WaitingQueue, _, _, Acked, _, _),
+    Window =.. [window, SentQueue, WaitingQueue|Flags],
+    arg(5, Window, Acked),
     get_flag(Acked, Count),
     message_queue_property(SentQueue, size(Size)),
-    take_received(Size, Count, SentQueue, Lost, 0, _),
+    take_received(Size, Count, SentQueue, Sent, 0, _),
     fifo_empty(WaitingQueue, Waiting),
-    settled_never(Key, Lost, Handed0),
+    unsettled_add(Sent, Key),
+    settled_never(Key, Lost),
     findall(handed(Token, unsent),
             ( member(frame(_, Token, _), Waiting), hands_over(Token) ),
             Unsent),
-    append(Handed0, Unsent, Handed),
-    retractall(bundled(Key, _)),
+    append(Lost, Unsent, Handed),
     message_queue_destroy(SentQueue),
     message_queue_destroy(WaitingQueue),
-    Window =.. [window, _, _|Flags],
     assertz(free_flags(Flags)).
 
 hands_over(Token) :-
@@ -288,8 +292,8 @@ hands_over(Token) :-
 %!  session_acked(+Session, +Counts, -Settled:list) is det.
 %
 %   A frame of the peer has these Counts, see frame.pl. Settled lists the
-%   hand-overs that they settle, see settled_now/5. For the thread of the
-%   connection.
+%   hand-overs that they settle, settled(Token, Number, Result), Result being
+%   `accepted` or an objection.
 %
 %   @error domain_error(acknowledged, Count) if that is more than was sent
 
@@ -299,13 +303,14 @@ session_acked(Session, counts(Received, Count), Settled) :-
     get_flag(Acked, Count0),
     (   count_ahead(Count0, Received, Ahead),
         Ahead > 0
-    ->  session_held(Session, acked(Ahead, Key, Window, Count, Settled, Late))
+    ->  session_held(Session, acked(Ahead, Window, Handed)),
+        settled_now(Handed, Key, Count, Settled, Late)
     ;   Settled = Late
     ),
     settled_late(Key, Count, Late).
 
-acked(Ahead, Key, Window, SettledCount, Settled, Late) :-
-    Window = window(Sent, _, _, _, Acked, AckedBytes, _),
+acked(Ahead, Window, Handed) :-
+    Window = window(Sent, _, _, _, Acked, AckedBytes, _, _),
     message_queue_property(Sent, size(Size)),
     (   Ahead =< Size
     ->  true
@@ -313,22 +318,11 @@ acked(Ahead, Key, Window, SettledCount, Settled, Late) :-
     ),
     get_flag(Acked, Count0),
     take_received(Ahead, Count0, Sent, Handed, 0, Bytes),
-    settled_now(Handed, Key, SettledCount, Settled, Late),
     Count is Count0+Ahead,
     set_flag(Acked, Count),
     get_flag(AckedBytes, Bytes0),
     Bytes1 is Bytes0+Bytes,
-    set_flag(AckedBytes, Bytes1),
-    bundle_received(Key, Count).
-
-%   bundle_received(+Key, +Count): the peer has received Count frames.
-
-bundle_received(Key, Count) :-
-    (   bundled(Key, Last),
-        Last =< Count
-    ->  retractall(bundled(Key, _))
-    ;   true
-    ).
+    set_flag(AckedBytes, Bytes1).
 
 %   take_received(+Ahead, +Count, +Sent, -Handed, +Bytes0, -Bytes): the peer has
 %   received Ahead frames more than Count, of so many bytes; Handed are their
@@ -355,10 +349,11 @@ take_received(Ahead, N0, Sent, Handed, Bytes0, Bytes) :-
 %   objection to a frame that is not under way is ignored.
 
 session_objected(Session, Number, Answer) :-
-    session_window(Session, Key, window(_, _, _, _, Acked, _, _)),
+    session_window(Session, Key, Window),
     (   integer(Number),
         (   unsettled(Key, Number, _)
-        ;   get_flag(Acked, Count),
+        ;   arg(5, Window, Acked),
+            get_flag(Acked, Count),
             Number > Count,
             session_sent(Session, Sent),
             Number =< Sent
@@ -371,7 +366,7 @@ session_objected(Session, Number, Answer) :-
 %   another thread is about to write some.
 
 session_sent(Session, Count) :-
-    session_window(Session, window(Sent, _, _, _, Acked, _, _)),
+    session_window(Session, window(Sent, _, _, _, Acked, _, _, _)),
     get_flag(Acked, Gone),
     fifo_size(Sent, Size),
     Count is Gone+Size.
@@ -381,7 +376,7 @@ session_sent(Session, Count) :-
 %   Count frames are not acknowledged, or are hand-overs that are not settled.
 
 session_pending(Session, Count) :-
-    session_window(Session, Key, window(Sent, Waiting, _, _, _, _, _)),
+    session_window(Session, Key, window(Sent, Waiting, _, _, _, _, _, _)),
     fifo_size(Sent, S),
     fifo_size(Waiting, W),
     ( unsettled(Key, _, _) -> Count is S+W+1 ; Count is S+W ).
@@ -391,7 +386,7 @@ session_pending(Session, Count) :-
 %   Count frames of the peer have been received.
 
 session_received(Session, Count) :-
-    session_window(Session, window(_, _, Received, _, _, _, _)),
+    session_window(Session, window(_, _, Received, _, _, _, _, _)),
     get_flag(Received, Count).
 
 %!  session_ack_due(+Session, -Count) is det.
@@ -399,7 +394,7 @@ session_received(Session, Count) :-
 %   Count received frames are not acknowledged yet.
 
 session_ack_due(Session, Count) :-
-    session_window(Session, window(_, _, Received, AckSent, _, _, _)),
+    session_window(Session, window(_, _, Received, AckSent, _, _, _, _)),
     get_flag(Received, All),
     get_flag(AckSent, Known),
     Count is All-Known.
@@ -409,7 +404,7 @@ session_ack_due(Session, Count) :-
 %   Count one more frame as received.  Then AckDue are not acknowledged yet.
 
 session_count(Session, AckDue) :-
-    session_window(Session, window(_, _, Received, AckSent, _, _, _)),
+    session_window(Session, window(_, _, Received, AckSent, _, _, _, _)),
     get_flag(Received, Count0),
     Count is Count0+1,
     set_flag(Received, Count),
