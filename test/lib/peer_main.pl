@@ -126,7 +126,7 @@ connecting :-
     typhon_threads:wire_thread(Thread),
     member(Prefix, [typhon_in_, typhon_out_]),
     sub_atom(Thread, 0, _, _, Prefix),
-    \+ typhon_session:transport_thread(_, Thread),
+    \+ typhon_writer:serving(_, Thread, _),
     !.
 
 outcome_here(Id, Outcome) :-

@@ -112,10 +112,10 @@ obey(dies(P)) :-
 obey(power(P)) :-
     now(power, P).
 obey(cut) :-
-    forall(( typhon_session:transport(Key, Thread, _),
+    forall(( typhon_writer:transport(Key, Thread, _),
              typhon_session:session(Key, Session) ),
            typhon_session:session_locked(
-               Session, typhon_session:transport_broken(Key, Thread))).
+               Session, typhon_writer:transport_broken(Key, Thread))).
 
 obey(look) :-
     forall(held(What), format(user_error, '~q~n', [What])),

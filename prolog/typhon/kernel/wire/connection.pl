@@ -38,15 +38,15 @@ connection on which the arbiter sends its count.
 :- use_module(lending, [lent_away/0]).
 :- use_module(reader, [read_frames/3]).
 :- use_module(session,
-              [ route_add/2, session_adopting/2, session_key/2, session_open/5,
-                session_peer/3, session_up_since/2 ]).
+              [ connection_is/2, route_add/2, session_adopting/2, session_key/2,
+                session_open/5, session_peer/3 ]).
 :- use_module(transport,
               [ refusal_text/2, transport_close/0, transport_first/2,
                 transport_open/6 ]).
 :- use_module(unacked, [session_received/2, unacked_open/1]).
 :- use_module(writer,
-              [ connection_is/2, session_install/4, session_left/0,
-                session_lost/2, session_retire/1 ]).
+              [ session_install/4, session_left/0, session_lost/2,
+                session_retire/1, session_up_since/2 ]).
 
 :- multifile
     harmless/1,                 % Formal: a break that need not be reported

@@ -42,11 +42,12 @@ wait, and are not for the threads of the endpoint.
                 request_reply_later/2, request_send/4, take_post/3,
                 take_request/4 ]).
 :- use_module(session,
-              [route/2, route_up/2, session_codec/2, session_peer/3]).
+              [route/2, session_codec/2, session_peer/3]).
 :- use_module(transport, [alone/1]).
 :- use_module(waiting,
               [ manager_connect/1, manager_connect/2, unsent/1, unsent_closed/4,
                 unsent_forget/1, unsent_request/4 ]).
+:- use_module(writer, [route_up/2]).
 
 :- meta_predicate
     endpoint_request(+, +, +, 1).

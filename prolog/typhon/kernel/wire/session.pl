@@ -15,24 +15,16 @@
             route/2,                    % ?Address, ?Session
             route_key/2,                % ?Address, ?Key
             route_add/2,                % +Address, +Session
-            transport/3,                % ?Key, ?Thread, -Out
-            transport_thread/2,         % ?Key, ?Thread
-            transport_attach/3,         % +Key, +Thread, +Out
-            transport_stop/2,           % +Key, +Thread
-            transport_broken/2,         % +Key, +Thread
-            transport_detach/2,         % +Key, +Thread
-            session_up/1,               % +Key
-            session_up_since/2,         % +Session, +Time
-            route_up/2,                 % ?Address, -Session
+            connection_is/2,            % +Session, +State
             frame_fits/1,               % +Length
             debug_frame/4               % +Way, +Session, +Term, +Bytes
           ]).
 
-/** <module> Sessions between processes, and their connections
+/** <module> Sessions between processes
 
 A session joins this process to another for the life of both, over any number
 of connections, one at a time. outbox.pl sends in it; connection.pl gives it its
-connections.
+connections, see writer.pl.
 
 A session is session(Key, Codec, Mutex, Adoption, peer(Process, Address, Proof),
 Window). Key names the peer. Mutex guards the sending side; a thread that gives
@@ -40,7 +32,8 @@ the session a new connection holds Adoption. Only this module accesses the
 arguments of the term. Window is that of unacked.pl.
 
 *Threading*: any thread; a mutex serializes sessions and routes, the mutex of
-a session its connection and its window.
+a session its connection and its window.  The hooks run in the thread of a
+connection.
 */
 
 :- use_module(library(apply), [include/3]).
@@ -49,7 +42,7 @@ a session its connection and its window.
 :- use_module(library(lists), [member/2]).
 :- use_module(library(settings), [setting/2, setting/4]).
 :- use_module(handshake, [hello_peer/4]).
-:- use_module(threads, [manager_notify/1, wire_thread_signal/2]).
+:- use_module(threads, [manager_notify/1]).
 
 :- setting(frame_bytes, positive_integer, 67108864,
            "The longest frame sent or taken, in bytes").
@@ -216,85 +209,30 @@ reroute(Address, Session) :-
     forall(member(Old-_, Displaced), erase(Old)),
     forall(member(_-Key, Displaced), ignore(manager_notify(displaced(Key)))).
 
-		 /*******************************
-		 *          CONNECTION          *
-		 *******************************/
-
-:- dynamic
-    transport/3,                        % Key, Thread, Out
-    serving/3.                          % Key, Thread, Since
-
-%!  transport(?Key, ?Thread, -Out) is nondet.
+%!  connection_is(+Session, +State) is det.
 %
-%   Frames of the session are written to Out, a stream of Thread.
+%   Call the hooks connection/2: the connection is `up` or `down`, for each
+%   address that leads to the peer.
 
-%!  transport_thread(?Key, ?Thread) is nondet.
-%
-%   Thread serves the connection of the session, even if it is not writable.
+connection_is(Session, State) :-
+    session_peer(Session, _, Claimed),
+    findall(Address, ( Address = Claimed ; route(Address, Session) ),
+            Addresses0),
+    sort(Addresses0, Addresses),
+    forall(( member(Peer, Addresses),
+             clause(typhon_endpoint:connection(Peer, State), Body) ),
+           call_hook(typhon_endpoint:Body)).
 
-transport_thread(Key, Thread) :-
-    serving(Key, Thread, _).
+%   A hook that fails or raises an error is reported, and the others are called.
 
-%!  transport_attach(+Key, +Thread, +Out) is det.
-%
-%   Give the session a new connection, served by Thread.
-
-transport_attach(Key, Thread, Out) :-
-    get_time(Now),
-    assertz(serving(Key, Thread, Now)),
-    assertz(transport(Key, Thread, Out)).
-
-%!  transport_stop(+Key, +Thread) is det.
-%
-%   Stop writing to the connection.
-
-transport_stop(Key, Thread) :-
-    retractall(transport(Key, Thread, _)).
-
-%!  transport_detach(+Key, +Thread) is det.
-%
-%   Remove the connection of the session.
-
-transport_detach(Key, Thread) :-
-    retractall(serving(Key, Thread, _)).
-
-%!  transport_broken(+Key, +Thread) is det.
-%
-%   Give up a connection that cannot be written to: its thread detects that, or
-%   ends on the signal.
-
-transport_broken(Key, Thread) :-
-    debug(typhon(session), '~w: cannot be written to', [Key]),
-    transport_stop(Key, Thread),
-    wire_thread_signal(Thread, broken).
-
-%!  session_up(+Key) is semidet.
-%
-%   The session has a connection that can be written to.
-
-session_up(Key) :-
-    transport(Key, _, _),
-    !.
-
-%!  session_up_since(+Session, +Time) is semidet.
-%
-%   The session is up, and got its connection after Time.
-
-session_up_since(Session, Time) :-
-    session_key(Session, Key),
-    serving(Key, Thread, Since),
-    Since > Time,
-    transport(Key, Thread, _),
-    !.
-
-%!  route_up(?Address, -Session) is nondet.
-%
-%   Address leads to Session, which is up.
-
-route_up(Address, Session) :-
-    route(Address, Session),
-    Session = session(Key, _, _, _, _, _),
-    session_up(Key).
+call_hook(Hook) :-
+    catch(( Hook -> Problem = none ; Problem = failed ),
+          error(Formal, Context),
+          Problem = error(Formal, Context)),
+    (   Problem == none
+    ->  true
+    ;   print_message(error, typhon(endpoint, hook(connection, Problem)))
+    ).
 
 		 /*******************************
 		 *            FRAMES            *

@@ -39,10 +39,10 @@ and the flushes are for any thread that may wait.
               [ request_answer/2, request_forget/1, request_send/4,
                 request_take/3 ]).
 :- use_module(session,
-              [ route/2, session/2, session_key/2, session_peer/3,
-                session_up/1 ]).
+              [route/2, session/2, session_key/2, session_peer/3]).
 :- use_module(threads, [in_manager/0, manager_notify/1]).
 :- use_module(unacked, [session_pending/2]).
+:- use_module(writer, [session_up/1]).
 
 :- meta_predicate
     unsent_request(+, +, +, 1),

@@ -8,7 +8,9 @@
             session_left/0,
             session_retire/1,           % +Session
             session_close/2,            % +Session, -Unsent
-            connection_is/2             % +Session, +State
+            session_up/1,               % +Key
+            session_up_since/2,         % +Session, +Time
+            route_up/2                  % ?Address, -Session
           ]).
 
 /** <module> The connection of a session: written to, and replaced
@@ -26,9 +28,6 @@ while so much is under way that the peer is sure to acknowledge some of it, and
 go in one frame after the acknowledgement. The peer would not read them before,
 anyway. A frame that is sent after them takes them along.
 
-A session moves from connection to connection. On the new one the frames are
-sent again that the peer lacks. A session that is closed gets no other.
-
 *Threading*: a thread that calls put_frame/4, put_control/3 or flush_out/1 holds
 the mutex of the session, which guards the order. session_release/1,
 session_install/4 and session_left/0 are for the thread of the connection, or
@@ -44,13 +43,12 @@ has no pusher, only held posts wait.
 :- use_module('../base/error_text', [print_error/2]).
 :- use_module(frame, [bytes_term/3, frame_write/3]).
 :- use_module(session,
-              [ route/2, session/2, session_codec/2, session_forget/1,
-                session_key/2, session_locked/2, session_must_exist/3,
-                session_peer/3, session_up/1, session_window/3, transport/3,
-                transport_attach/3, transport_broken/2, transport_detach/2,
-                transport_stop/2, transport_thread/2 ]).
+              [ connection_is/2, route/2, session/2, session_codec/2,
+                session_forget/1, session_key/2, session_locked/2,
+                session_must_exist/3, session_window/3 ]).
 :- use_module(threads,
-              [manager_notify/1, wire_thread_create/3, wire_thread_end/2]).
+              [ manager_notify/1, wire_thread_create/3, wire_thread_end/2,
+                wire_thread_signal/2 ]).
 :- use_module(unacked,
               [ unacked_close/3, unacked_control/5, unacked_counts/4,
                 unacked_next/5, unacked_owed/2, unacked_resumed/4,
@@ -58,6 +56,8 @@ has no pusher, only held posts wait.
                 unacked_waits/3 ]).
 
 :- dynamic
+    transport/3,                        % Key, Thread, Out: can be written to
+    serving/3,                          % Key, Thread, Since: its connection
     pusher/2,                           % Key, Thread: it alone may write
     control/3.                          % Key, Kind, Bytes: written first
 
@@ -98,12 +98,48 @@ holds(Session, Key) :-
         Waiting < Most
     ).
 
+%!  session_up(+Key) is semidet.
+%
+%   The session has a connection that can be written to.
+
+session_up(Key) :-
+    transport(Key, _, _),
+    !.
+
+%!  session_up_since(+Session, +Time) is semidet.
+%
+%   The session is up, and got its connection after Time.
+
+session_up_since(Session, Time) :-
+    session_key(Session, Key),
+    serving(Key, Thread, Since),
+    Since > Time,
+    transport(Key, Thread, _),
+    !.
+
+%!  route_up(?Address, -Session) is nondet.
+%
+%   Address leads to Session, which is up.
+
+route_up(Address, Session) :-
+    route(Address, Session),
+    session_key(Session, Key),
+    session_up(Key).
+
 %   writable(+Key, -Thread, -Out): Out can be written to. The stream of a pusher
 %   is not used: even inspecting it might block.
 
 writable(Key, Thread, Out) :-
     transport(Key, Thread, Out),
     \+ pusher(Key, _).
+
+%   Give up a connection that cannot be written to: its thread detects that, or
+%   ends on the signal.
+
+transport_broken(Key, Thread) :-
+    debug(typhon(session), '~w: cannot be written to', [Key]),
+    retractall(transport(Key, Thread, _)),
+    wire_thread_signal(Thread, broken).
 
 written(Flush, Key, Thread, Out, Counts, Bytes) :-
     catch(write_out(Flush, Out, Counts, Bytes),
@@ -206,20 +242,9 @@ next_frame(Session, Out, Most, Counts, Bytes) :-
                 *          THE PUSHER          *
                 *******************************/
 
-%   writer_begin(+Session, +Key, +Thread, +Out, +Again) is det.
-%
-%   The session has a new connection, Out of Thread: write the frames Again, and
-%   those that wait.
-
-writer_begin(Session, Key, Thread, Out, Again) :-
-    (   Again == [],
-        \+ unacked_waiting(Session)
-    ->  true
-    ;   pusher_start(Session, Key, Thread, Out, Again)
-    ).
-
-%   If no thread can be created, this gives up the connection: other frames must
-%   not overtake the frames that wait, and the next connection sends them.
+%   The pusher writes the frames Again, and those that wait. If no thread can be
+%   created, this gives up the connection: other frames must not overtake these,
+%   and the next connection sends them.
 
 pusher_start(Session, Key, Thread, Out, Again) :-
     catch(( wire_thread_create(push(Session, Key, Thread, Out, Again),
@@ -304,32 +329,30 @@ install(Session, Key, Thread, Out, PeerCount) :-
     session_must_exist(Session, Key, _),
     byte_count(Out, Bytes),
     unacked_resumed(Session, PeerCount, Bytes, Again),
-    transport_attach(Key, Thread, Out),
-    writer_begin(Session, Key, Thread, Out, Again),
+    get_time(Now),
+    assertz(serving(Key, Thread, Now)),
+    assertz(transport(Key, Thread, Out)),
+    (   Again == [],
+        \+ unacked_waiting(Session)
+    ->  true
+    ;   pusher_start(Session, Key, Thread, Out, Again)
+    ),
     ignore(manager_notify(up(Key))).
-
-%   session_down(+Session, +Thread)
-%
-%   The connection of Thread is lost. For that thread only, or one that acts in
-%   its place.
-
-session_down(Session, Thread) :-
-    session_key(Session, Key),
-    session_locked(Session, transport_stop(Key, Thread)),
-    writer_end(Key),
-    session_locked(Session, transport_detach(Key, Thread)),
-    ignore(manager_notify(wanted(Key))),
-    debug(typhon(session), '~w: down', [Key]).
 
 %!  session_lost(+Session, +Thread) is det.
 %
-%   If the session still has the connection of Thread, detach it, and call the
-%   hooks connection/2.
+%   If the session still has the connection of Thread, which is lost, detach it,
+%   and call the hooks connection/2. For that thread only, or one that acts in
+%   its place.
 
 session_lost(Session, Thread) :-
     session_key(Session, Key),
-    (   transport_thread(Key, Thread)
-    ->  session_down(Session, Thread),
+    (   serving(Key, Thread, _)
+    ->  session_locked(Session, retractall(transport(Key, Thread, _))),
+        writer_end(Key),
+        session_locked(Session, retractall(serving(Key, Thread, _))),
+        ignore(manager_notify(wanted(Key))),
+        debug(typhon(session), '~w: down', [Key]),
         connection_is(Session, down)
     ;   true
     ).
@@ -342,7 +365,7 @@ session_lost(Session, Thread) :-
 
 session_left :-
     thread_self(Me),
-    forall(( transport_thread(Key, Me), session(Key, Session) ),
+    forall(( serving(Key, Me, _), session(Key, Session) ),
            session_lost(Session, Me)).
 
 %!  session_retire(+Session) is det.
@@ -351,7 +374,7 @@ session_left :-
 
 session_retire(Session) :-
     session_key(Session, Key),
-    forall(transport_thread(Key, Thread),
+    forall(serving(Key, Thread, _),
            ( wire_thread_end(Thread, replaced),
              session_lost(Session, Thread) )).  % a lent thread is elsewhere
 
@@ -375,28 +398,3 @@ frame_term(Codec, Frame, Term) :-
 forget(Session, Waiting, Handed) :-
     session_forget(Session),
     unacked_close(Session, Waiting, Handed).
-
-%!  connection_is(+Session, +State) is det.
-%
-%   Call the hooks connection/2: the connection is `up` or `down`, for each
-%   address that leads to the peer.
-
-connection_is(Session, State) :-
-    session_peer(Session, _, Claimed),
-    findall(Address, ( Address = Claimed ; route(Address, Session) ),
-            Addresses0),
-    sort(Addresses0, Addresses),
-    forall(( member(Peer, Addresses),
-             clause(typhon_endpoint:connection(Peer, State), Body) ),
-           call_hook(typhon_endpoint:Body)).
-
-%   A hook that fails or raises an error is reported, and the others are called.
-
-call_hook(Hook) :-
-    catch(( Hook -> Problem = none ; Problem = failed ),
-          error(Formal, Context),
-          Problem = error(Formal, Context)),
-    (   Problem == none
-    ->  true
-    ;   print_message(error, typhon(endpoint, hook(connection, Problem)))
-    ).
