@@ -34,8 +34,9 @@ Only a peer with the cookie can send it.
 :- autoload(library(ssl),
             [cert_accept_any/5, ssl_context/3, ssl_negotiate/5]).
 :- use_module(library(typhon/kernel/wire/handshake),
-              [authenticate/6, hello/4, line_read/3, line_write/2]).
-:- use_module(library(typhon/kernel/wire), [cookie/1]).
+              [authenticate/6, hello/4]).
+:- use_module(library(typhon/kernel/wire),
+              [cookie/1, line_read/3, line_write/2]).
 :- use_module(library(typhon/kernel/wire/frame), [frame_write/3, term_bytes/3]).
 
 %!  fuzz(+Options, -Faults:list) is det.

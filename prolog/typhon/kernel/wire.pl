@@ -25,10 +25,10 @@ This is the interface of the layer: higher layers import from here.
 :- reexport(wire/peer_cache,
             [ peer_expect/1, peer_expect_no_more/1, endpoint_gone/1,
               endpoint_lasting/1, endpoint_left/1, endpoint_missed/2,
-              endpoint_own_proof/1, endpoint_peer/2, endpoint_proof/2 ]).
+              endpoint_peer/2, endpoint_proof/2 ]).
 :- reexport(wire/frame, [mobile_term/1]).
-:- reexport(wire/handshake,
-            [line_read/3, line_write/2]).
-:- reexport(wire/cookie, [cookie/1, random_hex/2]).
+:- reexport(wire/handshake, [cookie/1, random_hex/2]).
 :- reexport(wire/threads, [manager_notify/1]).
-:- reexport(wire/transport, [refusal_text/2, transport_disagrees/1]).
+:- reexport(wire/transport,
+            [ endpoint_own_proof/1, line_read/3, line_write/2, refusal_text/2,
+              transport_disagrees/1 ]).

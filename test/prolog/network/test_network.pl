@@ -607,7 +607,7 @@ test(topology, error(domain_error(topology, torus(3)))) :-
 test(unknown_network, error(existence_error(network, atlantis))) :-
     network_property(atlantis, hosts(_)).
 test(cookie_is_in_no_argument_list, true) :-
-    typhon_cookie:cookie(Cookie0),
+    typhon_handshake:cookie(Cookie0),
     format(string(Cookie), "~w", [Cookie0]),
     with_network(ring(2), [processes(2)], hidden(Cookie)).
 

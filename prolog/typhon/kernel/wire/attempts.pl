@@ -281,8 +281,9 @@ due(_, Address, Me) :-
 		 *           FAILURES           *
 		 *******************************/
 
-%   failed(+Address, +Formal): the try has failed, `late` if there was no answer.
-%   The session may be up nevertheless, by a connection that the peer has made.
+%   failed(+Address, +Formal): the try has failed, Formal is `late` if there was
+%   no answer.  The session may be up nevertheless, by a connection that the peer
+%   has made.
 
 failed(Address, _) :-
     route_up(Address, _),

@@ -30,10 +30,9 @@ connection on which the arbiter sends its count.
               [ tcp_close_socket/1, tcp_connect/2, tcp_open_socket/3,
                 tcp_setopt/2, tcp_socket/1 ]).
 :- use_module(peer_cache, [peer_gone/1, peer_met/2]).
-:- use_module(cookie, [cookie/1]).
 :- use_module(handshake,
-              [ authenticate/6, hello_codec/3, hello_peer/4, hello_to/3,
-                line_read/3, line_write/2 ]).
+              [ authenticate/6, cookie/1, hello_codec/3, hello_peer/4,
+                hello_to/3 ]).
 :- use_module(threads, [manager_notify/1]).
 :- use_module(lending, [lent_away/0]).
 :- use_module(reader, [read_frames/3]).
@@ -41,8 +40,8 @@ connection on which the arbiter sends its count.
               [ connection_is/2, route_add/2, session_adopting/2, session_key/2,
                 session_open/5, session_peer/3 ]).
 :- use_module(transport,
-              [ refusal_text/2, transport_close/0, transport_first/2,
-                transport_open/6 ]).
+              [ line_read/3, line_write/2, refusal_text/2, transport_close/0,
+                transport_first/2, transport_open/6 ]).
 :- use_module(unacked, [session_received/2, unacked_open/1]).
 :- use_module(writer,
               [ session_install/4, session_left/0, session_lost/2,

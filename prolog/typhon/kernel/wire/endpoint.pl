@@ -36,6 +36,7 @@ under the mutex of the endpoint.
 :- use_module(library(debug), [debug/3]).
 :- use_module(library(error),
               [existence_error/2, must_be/2, permission_error/3]).
+:- use_module(library(lists), [reverse/2]).
 :- use_module(library(settings), [setting/2, setting/4]).
 :- autoload(library(socket),
               [ tcp_bind/2, tcp_close_socket/1, tcp_listen/2,
@@ -46,8 +47,7 @@ under the mutex of the endpoint.
                 sync_changes/0 ]).
 :- use_module('../base/own_thread', [in_own_thread/1]).
 :- use_module(acceptor, [accept_all/2, accept_no_more/0]).
-:- use_module(cookie, [cookie/1, random_hex/2]).
-:- use_module(handshake, [hello/4]).
+:- use_module(handshake, [cookie/1, hello/4, random_hex/2]).
 :- use_module(connection_manager, [manager_begin/1, manager_end/0]).
 :- use_module(threads,
               [wire_thread_create/3, wire_thread_end/2, wire_threads_end/0]).
@@ -80,8 +80,8 @@ under the mutex of the endpoint.
 
 :- dynamic
     closed/0,                           % peers are not accepted yet
-    running/3,                          % Address, Socket, Acceptor
-    further/3.                          % Address, Socket, Acceptor
+    listening/3.                        % Address, Socket, Acceptor: the
+                                        % address of the endpoint is the first
 
 %!  endpoint_start(+Interface, +Port, +Options, -Address) is det.
 %
@@ -120,8 +120,7 @@ start(Interface0, Port0, Address) :-
     our_hello(Start, Address, Me),
     lending_anew,
     manager_begin(Me),
-    wire_thread_create(accept_open(Socket, Me), acceptor, Acceptor),
-    assertz(running(Address, Socket, Acceptor)),
+    accept_at(Address, Socket, Me, acceptor),
     debug(typhon(session), 'endpoint: starts at ~w, start ~w',
           [Address, Start]).
 
@@ -133,6 +132,10 @@ until_opened :-
     ->  assertz(closed)
     ;   true
     ).
+
+accept_at(Address, Socket, Me, Name) :-
+    wire_thread_create(accept_open(Socket, Me), Name, Acceptor),
+    assertz(listening(Address, Socket, Acceptor)).
 
 accept_open(Socket, Me) :-
     (   closed
@@ -146,14 +149,13 @@ accept_open(Socket, Me) :-
 %   Accept peers: the journal was read.
 
 endpoint_open :-
-    running(Address, _, Acceptor),
+    listening(Address, _, _),
     !,
     own_id_note(Address),
     sync_changes,
     retractall(closed),
-    thread_send_message(Acceptor, endpoint_opens),
-    forall(further(_, _, Further),
-           thread_send_message(Further, endpoint_opens)).
+    forall(listening(_, _, Acceptor),
+           thread_send_message(Acceptor, endpoint_opens)).
 
 %!  endpoint_start_alone(+Address) is det.
 %
@@ -223,7 +225,7 @@ endpoint_listen(Port, Address) :-
     with_mutex(typhon_endpoint, listen_too(Port, Address)).
 
 listen_too(Port, Address) :-
-    (   running(First, _, _)
+    (   listening(First, _, _)
     ->  true
     ;   existence_error(endpoint, running)
     ),
@@ -231,19 +233,25 @@ listen_too(Port, Address) :-
     own_start(Start),
     our_hello(Start, First, Me),
     listen(Interface, Port, Address, Socket),
-    wire_thread_create(accept_open(Socket, Me), acceptor-Port, Acceptor),
-    assertz(further(Address, Socket, Acceptor)),
+    accept_at(Address, Socket, Me, acceptor-Port),
     debug(typhon(session), 'endpoint: listens at ~w, too', [Address]).
 
 %!  endpoint_listen_end(+Address) is det.
 %
-%   Stop listening at Address, see endpoint_listen/2.
+%   Stop listening at Address, see endpoint_listen/2, unless it is the first.
 
 endpoint_listen_end(Address) :-
-    with_mutex(typhon_endpoint, listen_no_more(Address)).
+    with_mutex(typhon_endpoint, listen_end(Address)).
+
+listen_end(Address) :-
+    (   endpoint_address(First),
+        First \== Address
+    ->  listen_no_more(Address)
+    ;   true
+    ).
 
 listen_no_more(Address) :-
-    retract(further(Address, Socket, Acceptor)),
+    retract(listening(Address, Socket, Acceptor)),
     !,
     wire_thread_end(Acceptor, stopped),
     tcp_close_socket(Socket).
@@ -260,13 +268,12 @@ endpoint_stop :-
     with_mutex(typhon_endpoint, stop).
 
 stop :-
-    retract(running(Address, Socket, Acceptor)),
+    listening(Address, _, _),
     !,
     debug(typhon(session), 'endpoint: stops at ~w', [Address]),
-    findall(Further, further(Further, _, _), All),
-    maplist(listen_no_more, All),
-    wire_thread_end(Acceptor, stopped),
-    tcp_close_socket(Socket),
+    findall(Each, listening(Each, _, _), All),
+    reverse(All, LastToFirst),
+    maplist(listen_no_more, LastToFirst),
     setting(flush_time, Seconds),
     in_own_thread(ignore(peers_flush(Seconds))),
     forall(session(_, Session), session_control(Session, bye)),
@@ -285,10 +292,8 @@ stop :-
 %   Address is one of this process: the first, if unbound.
 
 endpoint_address(Address) :-
-    running(Address, _, _).
-endpoint_address(Address) :-
-    nonvar(Address),
-    further(Address, _, _).
+    listening(Address, _, _),
+    !.
 endpoint_address(Address) :-
     alone(Address).
 

@@ -38,9 +38,8 @@ any text, has a mark with its number before the body: so no caller waits for an
 answer that could not be read.
 
 Writing, reading, checking and keeping a small frame costs more than its
-content. So posts that wait are loose(Bytes, Settled), other frames that wait
-frame(Bytes, Token, Settled), and up to a hundred posts become one frame,
-bundle(Parts).
+content. So up to a hundred of the frames that wait, frame(Bytes, Token,
+Settled), become one, bundle(Parts), if they are posts, whose Token is `loose`.
 
 *Threading*: no state; every predicate may be called from any thread. The
 owner of a stream ensures that one thread at a time writes to it; the mutex
@@ -329,7 +328,7 @@ bundle_next(Queue, Codec, Space, Frame, Many) :-
     !,
     next(Next, Queue, Codec, Space, Frame, Many).
 
-next(loose(_, _), Queue, Codec, Space, Frame, Many) :-
+next(frame(_, loose, _), Queue, Codec, Space, Frame, Many) :-
     !,
     most_parts(Most),
     parts(Most, Space, Queue, 0, Parts, Settled),
@@ -348,7 +347,7 @@ bundled(Parts, Codec, Settled, frame(Bytes, none, Settled), true) :-
 parts(Most, Space0, Queue, Settled0, Parts, Settled) :-
     (   Most > 0,
         thread_peek_message(Queue, Next),
-        Next = loose(Part, Settled1),
+        Next = frame(Part, loose, Settled1),
         string_length(Part, Length),
         Length =< Space0
     ->  thread_get_message(Queue, _),

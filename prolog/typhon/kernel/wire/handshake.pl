@@ -4,26 +4,21 @@
             hello_to/3,                 % +Proof, +Hello0, -Hello
             hello_line/2,               % +Hello, -Line
             hello_codec/3,              % +Hello, +PeerHello, -Codec
-            line_read/3,                % +In, +Deadline, -Line
-            line_write/2,               % +Out, +Line
-            authenticate/6              % +Role, +In, +Out, +Hello, :Cookie,
+            authenticate/6,             % +Role, +In, +Out, +Hello, :Cookie,
                                         % -PeerHello
+            cookie/1,                   % -Cookie
+            random_hex/2                % +Count, -Hex
           ]).
 
 /** <module> The handshake: peers prove that they know the cookie
 
 Both ends of a connection prove that they know a shared secret, the cookie,
-before either decodes a term of the other. They exchange four short lines:
-
-    client: typhon 3 <nonce> <hello>
-    server: typhon 3 <nonce> <hello>
-    client: <proof>
-    server: <proof>
-
-The lines have a fixed format and are read byte by byte with one deadline,
-never with read/1. A hello is hello(Process, Start, Address, Version, Word,
-Order): the random id of the process, the number of this start of its
-endpoint, its listening address, its Prolog version, word size and byte order.
+before either decodes a term of the other. Client and server send a greeting
+each, then a proof each, see doc/wire.md. These lines have a fixed format and
+are read byte by byte with one deadline, never with read/1. A hello is
+hello(Process, Start, Address, Version, Word, Order): the random id of the
+process, the number of this start of its endpoint, its listening address, its
+Prolog version, word size and byte order.
 
 A proof is the HMAC-SHA256 under the cookie of the prover's role and both
 first lines: it cannot be replayed, reflected, or moved to other hellos. The
@@ -31,14 +26,18 @@ server proves nothing to a client that has not proved itself. A client of
 another version of the protocol receives the version of the server, `typhon 3`.
 
 *Threading*: any thread. One thread owns the streams of a connection while
-lines are exchanged.
+lines are exchanged. The cookie is kept with the time stamp of its file in one
+fact; two threads that read it at once store the same.
 */
 
+:- autoload(library(filesex),
+            [chmod/2, delete_directory_and_contents/1, link_file/3]).
+:- use_module(library(apply), [maplist/2]).
 :- use_module(library(error), [must_be/2, permission_error/3, syntax_error/1]).
 :- use_module(library(settings), [setting/2, setting/4]).
 :- use_module(library(sha), [hash_atom/2, hmac_sha/4]).
-:- use_module(cookie, [random_hex/2]).
 :- use_module(frame, [check_bytes/2]).
+:- use_module(transport, [line_read/3, line_write/2]).
 
 :- setting(records, boolean, true,
            "Whether terms may travel as records; else always as text").
@@ -95,22 +94,6 @@ hello_line(hello(Process, Start, Address, Version, Word, Order), Line) :-
     format(string(Line), "~w ~d ~w ~d ~d ~w",
            [Process, Start, Address, Version, Word, Order]).
 
-%!  line_hello(+Line, -Hello) is det.
-%
-%   @error syntax_error(hello)
-
-line_hello(Line, Hello) :-
-    (   split_string(Line, " ", "", [P, S, A, V, W, O]),
-        number_string(Start, S),
-        number_string(Version, V),
-        number_string(Word, W)
-    ->  atom_string(Process, P),
-        atom_string(Address, A),
-        atom_string(Order, O),
-        Hello = hello(Process, Start, Address, Version, Word, Order)
-    ;   syntax_error(hello)
-    ).
-
 %!  hello_codec(+Hello, +PeerHello, -Codec) is det.
 %
 %   Codec is `fast` only if that is known to be safe, else `text`. The order of
@@ -131,49 +114,12 @@ one_record_format(Version, Version) :-
 one_record_format(V1, V2) :-
     record_format(Low, High),
     between(Low, High, V1),
-    between(Low, High, V2),
-    !.
+    between(Low, High, V2).
 
 %   Versions First..Last read each other's records (tested both ways). 9.0.4
 %   and 10.1.12 do not: integers of 63 bits and more differ.
 
 record_format(90000, 90299).
-
-%!  line_read(+In, +Deadline, -Line:string) is det.
-%
-%   Read a line of at most 512 bytes before Deadline, a time stamp.
-%
-%   @error timeout_error(read, In)
-%   @error syntax_error(line) if it is too long
-%   @error syntax_error(end_of_file)
-
-line_read(In, Deadline, Line) :-
-    line_codes(In, Deadline, 512, Codes),
-    string_codes(Line, Codes).
-
-line_codes(In, Deadline, Space, Codes) :-
-    get_time(Now),
-    Left is max(0.001, Deadline-Now),
-    set_stream(In, timeout(Left)),
-    get_byte(In, Byte),
-    (   Byte == 0'\n
-    ->  Codes = []
-    ;   Byte == -1
-    ->  syntax_error(end_of_file)
-    ;   Space > 0
-    ->  Codes = [Byte|More],
-        Space1 is Space-1,
-        line_codes(In, Deadline, Space1, More)
-    ;   syntax_error(line)
-    ).
-
-%!  line_write(+Out, +Line) is det.
-%
-%   Write Line and a newline to Out, and flush it.
-
-line_write(Out, Line) :-
-    format(Out, "~w\n", [Line]),
-    flush_output(Out).
 
 		 /*******************************
 		 *        AUTHENTICATION        *
@@ -182,13 +128,11 @@ line_write(Out, Line) :-
 :- setting(handshake_time, number, 5,
            "Seconds a peer has to prove itself").
 
-%   greeted/0 is called when the server has sent its hello, before its proof.
-
 :- meta_predicate
     authenticate(+, +, +, +, 1, -).
 
 :- multifile
-    greeted/0,
+    greeted/0,                          % the server has, and will prove itself
     text_only/1,                        % Proof: records of a peer with that
                                         % proof are not decoded
     other_line/2.                       % Line, Why: Line is that of a server
@@ -214,10 +158,7 @@ authenticate(Role, In, Out, Hello, Cookie, PeerHello) :-
     Deadline is Now+Seconds,
     exchange_greetings(Role, In, Out, Deadline, Hello, Ours, Theirs),
     call(Cookie, Secret),
-    roles(Role, Ours, Theirs, Client, Server),
-    proof(Secret, client, Client, Server, ClientProof),
-    proof(Secret, server, Client, Server, ServerProof),
-    exchange_proofs(Role, In, Out, Deadline, ClientProof, ServerProof),
+    exchange_proofs(Role, In, Out, Deadline, Secret, Ours, Theirs),
     greeting_hello(Theirs, PeerHello).
 
 greet(Out, Hello, Line) :-
@@ -229,10 +170,14 @@ greet(Out, Hello, Line) :-
 
 protocol("typhon 3").
 
-greeting_hello(Line, Hello) :-
-    (   split_string(Line, " ", "", [_, _, _|Fields])
-    ->  atomic_list_concat(Fields, ' ', HelloLine),
-        line_hello(HelloLine, Hello)
+greeting_hello(Line, hello(Process, Start, Address, Version, Word, Order)) :-
+    (   split_string(Line, " ", "", [_, _, _, P, S, A, V, W, O]),
+        number_string(Start, S),
+        number_string(Version, V),
+        number_string(Word, W)
+    ->  atom_string(Process, P),
+        atom_string(Address, A),
+        atom_string(Order, O)
     ;   syntax_error(hello)
     ).
 
@@ -278,22 +223,21 @@ speaks(Line, What) :-
     ;   What = protocol
     ).
 
-roles(client, Ours, Theirs, Ours, Theirs).
-roles(server, Ours, Theirs, Theirs, Ours).
-
-exchange_proofs(client, In, Out, Deadline, Ours, Theirs) :-
-    line_write(Out, Ours),
-    check_proof(In, Deadline, Theirs).
-exchange_proofs(server, In, Out, Deadline, Theirs, Ours) :-
-    check_proof(In, Deadline, Theirs),
-    line_write(Out, Ours).
+exchange_proofs(client, In, Out, Deadline, Secret, Ours, Theirs) :-
+    proof(Secret, client, Ours, Theirs, Proof),
+    line_write(Out, Proof),
+    check_proof(In, Deadline, Secret, server, Ours, Theirs).
+exchange_proofs(server, In, Out, Deadline, Secret, Ours, Theirs) :-
+    check_proof(In, Deadline, Secret, client, Theirs, Ours),
+    proof(Secret, server, Theirs, Ours, Proof),
+    line_write(Out, Proof).
 
 %   A proof is valid for one pair of nonces: the duration of the comparison
 %   reveals nothing of use.
 
-check_proof(In, Deadline, Expected) :-
+check_proof(In, Deadline, Secret, Role, Client, Server) :-
     line_read(In, Deadline, Proof),
-    (   Proof == Expected
+    (   proof(Secret, Role, Client, Server, Proof)
     ->  true
     ;   permission_error(authenticate, peer, cookie)
     ).
@@ -302,4 +246,131 @@ proof(Cookie, Role, Client, Server, Proof) :-
     format(string(Data), "~w\n~w\n~w", [Role, Client, Server]),
     hmac_sha(Cookie, Data, Hash, [algorithm(sha256), encoding(octet)]),
     hash_atom(Hash, Hex),
-    atom_string(Hex, Proof).
+    atom_string(Hex, Text),
+    Proof = Text.
+
+		 /*******************************
+		 *           THE COOKIE         *
+		 *******************************/
+
+:- dynamic
+    known_cookie/3.                     % File, Time, Cookie
+
+%!  random_hex(+Count, -Hex:atom) is det.
+%
+%   Hex are Count random bytes, of a quality for secrets.
+
+random_hex(Count, Hex) :-
+    setup_call_cleanup(
+        open('/dev/urandom', read, In, [type(binary), buffer(false)]),
+        ( length(Bytes, Count),
+          maplist(get_byte(In), Bytes) ),
+        close(In)),
+    hash_atom(Bytes, Hex).
+
+%!  cookie(-Cookie:string) is det.
+%
+%   Cookie is the secret that all processes of a network share: the value of
+%   the environment variable `TYPHON_COOKIE`, or the content of the file
+%   `TYPHON_COOKIE_FILE`, by default `~/.typhon.cookie`. The file is made
+%   with random content on first use.
+%
+%   @error permission_error(use, cookie_file, File) if others may read or write
+%   it, or it has no cookie; the context says which
+
+cookie(Cookie) :-
+    getenv('TYPHON_COOKIE', Value),
+    Value \== '',
+    !,
+    atom_string(Value, Cookie).
+cookie(Cookie) :-
+    cookie_file(File),
+    (   exists_file(File)
+    ->  true
+    ;   make_cookie(File)
+    ),
+    time_file(File, Time),
+    (   known_cookie(File, Time, Known)
+    ->  Cookie = Known
+    ;   read_cookie(File, Cookie),
+        retractall(known_cookie(_, _, _)),
+        assertz(known_cookie(File, Time, Cookie))
+    ).
+
+cookie_file(File) :-
+    (   getenv('TYPHON_COOKIE_FILE', File0),
+        File0 \== ''
+    ->  true
+    ;   File0 = '~/.typhon.cookie'
+    ),
+    expand_file_name(File0, [File|_]).
+
+read_cookie(File, Cookie) :-
+    check_private(File),
+    setup_call_cleanup(
+        open(File, read, In),
+        read_string(In, "\n", "\r", _, Line),
+        close(In)),
+    (   string_length(Line, Length),
+        Length >= 16
+    ->  Cookie = Line
+    ;   unfit(File, 'its first line has less than 16 characters; without \c
+                    the file a new one is made')
+    ).
+
+unfit(File, Why) :-
+    throw(error(permission_error(use, cookie_file, File), context(_, Why))).
+
+%   Prolog has no predicate for the mode of a file; ls prints it, as -rw-------,
+%   on all systems with modes. A pipe needs no library(process), which is as
+%   large as three modules of this library.
+
+check_private(_) :-
+    current_prolog_flag(windows, true),
+    !.
+check_private(File) :-
+    shell_word(File, Word),
+    atom_concat('exec ls -lnd -- ', Word, Command),
+    setup_call_cleanup(
+        open(pipe(Command), read, Out),
+        read_string(Out, "\n", "\r", _, Line),
+        close(Out)),
+    (   sub_string(Line, 4, 6, _, "------")
+    ->  true
+    ;   format(atom(Why), 'others may use it: chmod 600 ~w', [File]),
+        unfit(File, Why)
+    ).
+
+%   A quote inside quotes is written '\''.
+
+shell_word(Text, Word) :-
+    atomic_list_concat(Parts, '\'', Text),
+    atomic_list_concat(Parts, '\'\\\'\'', Inside),
+    atomic_list_concat(['\'', Inside, '\''], Word).
+
+%   The file appears complete and private, or not at all: it is written in
+%   a closed directory and linked to its name, which fails for all but the
+%   first of the processes that try at once.
+
+make_cookie(File) :-
+    random_hex(8, Suffix),
+    atomic_list_concat([File, '.', Suffix], Directory),
+    setup_call_cleanup(
+        make_directory(Directory),
+        make_cookie_in(Directory, File),
+        delete_directory_and_contents(Directory)).
+
+make_cookie_in(Directory, File) :-
+    chmod(Directory, 0o700),
+    atom_concat(Directory, '/cookie', New),
+    random_hex(32, Cookie),
+    setup_call_cleanup(
+        open(New, write, Out),
+        format(Out, "~w~n", [Cookie]),
+        close(Out)),
+    chmod(New, 0o600),
+    catch(link_file(New, File, hard), error(Formal, Context), true),
+    (   exists_file(File)
+    ->  true
+    ;   throw(error(Formal, Context))
+    ).

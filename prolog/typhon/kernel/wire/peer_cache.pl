@@ -10,8 +10,7 @@
             endpoint_left/1,            % +Address
             endpoint_lasting/1,         % +Address
             endpoint_missed/2,          % +Address, ?Formal
-            endpoint_proof/2,           % +Peer, -Proof
-            endpoint_own_proof/1        % ?Proof
+            endpoint_proof/2            % +Peer, -Proof
           ]).
 
 /** <module> Peers: addresses, processes and proofs
@@ -30,8 +29,7 @@ error is recorded. The number of addresses is bounded, the oldest are discarded.
 :- use_module('../base/durable_changes', [durable_drop/3, durable_put/4]).
 :- use_module(session,
               [route/2, session_codec/2, session_key/2, session_proof/2]).
-:- use_module(transport,
-              [transport_own/1, transport_proof/1, transport_unknown/1]).
+:- use_module(transport, [transport_proof/1, transport_unknown/1]).
 :- use_module(unacked, [session_pending/2]).
 :- use_module(writer, [route_up/2, session_up/1]).
 
@@ -220,11 +218,3 @@ endpoint_proof(Peer, Proof) :-
     ->  session_proof(Session, Proof)
     ;   Proof = Unknown
     ).
-
-%!  endpoint_own_proof(?Proof) is semidet.
-%
-%   A process with this proof has the keys, or, on plain TCP, the cookie, of
-%   this process.
-
-endpoint_own_proof(Proof) :-
-    transport_own(Proof).

@@ -144,10 +144,7 @@ handed(Token, spoilt) :-
     !,
     handed(Token, lost).
 handed(Token, Result) :-
-    (   attempt(typhon_endpoint:handed_over(Token, Result), handed_over)
-    ->  true
-    ;   true
-    ).
+    reporting(typhon_endpoint:handed_over(Token, Result), handed_over).
 
 :- public answered_late/2.
 
@@ -293,10 +290,7 @@ spoil(alone(OnAnswer), _) :-
     request_answer(lost, OnAnswer).
 
 reporting(Goal, Kind) :-
-    (   attempt(Goal, Kind)
-    ->  true
-    ;   true
-    ).
+    ignore(attempt(Goal, Kind)).
 
 attempt(Goal, Kind) :-
     (   catch(Goal, Error, true)

@@ -2,7 +2,7 @@
           [ transport_begin/1,          % +Options
             transport_end/0,
             transport_disagrees/1,      % +Option
-            transport_own/1,            % -Proof
+            endpoint_own_proof/1,       % ?Proof
             transport_unknown/1,        % -Proof
             transport_first/2,          % +Byte, +Out
             transport_open/6,           % +Role, +In, +Out, -TIn, -TOut, -Proof
@@ -11,6 +11,8 @@
             transport_as/2,             % +Proof, :Goal
             transport_forget/0,
             transport_input/2,          % +In, +Seconds
+            line_read/3,                % +In, +Deadline, -Line
+            line_write/2,               % +Out, +Line
             refusal_text/2,             % +Why, -Text
             alone/1,                    % ?Address
             alone_begin/1,              % +Address
@@ -55,11 +57,10 @@ transport_input/2 tests both.
 *Threading*: the caller serializes begin and end; the rest as the hooks.
 */
 
-:- use_module(library(error), [permission_error/3]).
+:- use_module(library(error), [permission_error/3, syntax_error/1]).
 :- use_module('../base/index', [part_joins/3]).
 :- use_module('../base/on_demand', [on_demand_load/2]).
 :- use_module('../base/options', [options_load/2]).
-:- use_module(handshake, [line_write/2]).
 
 :- multifile
     begins/4,                           % Options, Transport, Own, Unknown
@@ -110,11 +111,12 @@ transport_disagrees(Option) :-
     disagrees(Option),
     !.
 
-%!  transport_own(-Proof) is det.
+%!  endpoint_own_proof(?Proof) is semidet.
 %
-%   Proof is that of this process.
+%   A process with this proof has the keys, or, on plain TCP, the cookie, of
+%   this process.
 
-transport_own(Proof) :-
+endpoint_own_proof(Proof) :-
     (   current(_, Own, _)
     ->  Proof = Own
     ;   Proof = cookie
@@ -231,6 +233,46 @@ transport_input(In, Seconds) :-
     ->  wait_for_input([In, Below], [_|_], Seconds)
     ;   wait_for_input([In], [_], Seconds)
     ).
+
+                /*******************************
+                *             LINES            *
+                *******************************/
+
+%!  line_read(+In, +Deadline, -Line:string) is det.
+%
+%   Read a line of at most 512 bytes before Deadline, a time stamp.
+%
+%   @error timeout_error(read, In)
+%   @error syntax_error(line) if it is too long
+%   @error syntax_error(end_of_file)
+
+line_read(In, Deadline, Line) :-
+    line_codes(In, Deadline, 512, Codes),
+    string_codes(Line, Codes).
+
+line_codes(In, Deadline, Space, Codes) :-
+    get_time(Now),
+    Left is max(0.001, Deadline-Now),
+    set_stream(In, timeout(Left)),
+    get_byte(In, Byte),
+    (   Byte == 0'\n
+    ->  Codes = []
+    ;   Byte == -1
+    ->  syntax_error(end_of_file)
+    ;   Space > 0
+    ->  Codes = [Byte|More],
+        Space1 is Space-1,
+        line_codes(In, Deadline, Space1, More)
+    ;   syntax_error(line)
+    ).
+
+%!  line_write(+Out, +Line) is det.
+%
+%   Write Line and a newline to Out, and flush it.
+
+line_write(Out, Line) :-
+    format(Out, "~w\n", [Line]),
+    flush_output(Out).
 
                 /*******************************
                 *             ALONE            *

@@ -127,11 +127,7 @@ space(all, _, _, inf).
 
 unacked_waits(window(_, Waiting, Received, _, _, _, _, _), Bytes, Token) :-
     get_flag(Received, Count),
-    (   Token == loose
-    ->  Frame = loose(Bytes, Count)
-    ;   Frame = frame(Bytes, Token, Count)
-    ),
-    thread_send_message(Waiting, Frame).
+    thread_send_message(Waiting, frame(Bytes, Token, Count)).
 
 %!  unacked_waiting(+Session) is semidet.
 %

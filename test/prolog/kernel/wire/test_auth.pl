@@ -6,8 +6,10 @@
 :- use_module(library(settings), [set_setting/2, setting/2]).
 :- use_module(library(socket)).
 :- use_module(library(thread), [concurrent/3]).
-:- use_module(library(typhon/kernel/wire), [cookie/1]).
-:- use_module(library(typhon/kernel/wire/handshake)).
+:- use_module(library(typhon/kernel/wire),
+              [cookie/1, line_read/3, line_write/2]).
+:- use_module(library(typhon/kernel/wire/handshake),
+              [authenticate/6, hello/4, hello_codec/3, hello_line/2]).
 
 :- begin_tests(cookie).
 

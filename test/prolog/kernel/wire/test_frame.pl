@@ -461,7 +461,7 @@ all_that_waits(Queue, Frames) :-
 :- begin_tests(queued_frames).
 
 test(unmarked_frames_are_bundled, true(Many-Left == true-0)) :-
-    with_queue([loose("a", 1), loose("b", 2)], Queue,
+    with_queue([frame("a", loose, 1), frame("b", loose, 2)], Queue,
                ( bundle_next(Queue, fast, inf, frame(Bytes, none, 2), Many),
                  message_queue_property(Queue, size(Left)) )),
     fast_term_serialized(Bundle, Bytes),
@@ -470,18 +470,20 @@ test(unmarked_frames_are_bundled, true(Many-Left == true-0)) :-
 test(single_frame_is_not_bundled,
      true(Frames == [ frame("a", none, 1), frame("B", token, 2),
                       frame("c", none, 3) ])) :-
-    with_queue([loose("a", 1), frame("B", token, 2), loose("c", 3)], Queue,
+    with_queue([ frame("a", loose, 1), frame("B", token, 2),
+                 frame("c", loose, 3) ], Queue,
                all_that_waits(Queue, Frames)).
 test(frame_that_does_not_fit_stays, true(Size == 2)) :-
-    with_queue([frame("long", none, 0), loose("b", 0)], Queue,
+    with_queue([frame("long", none, 0), frame("b", loose, 0)], Queue,
                ( \+ bundle_next(Queue, fast, 3, _, _),
                  message_queue_property(Queue, size(Size)) )).
 test(bundle_is_not_longer_than_allowed, true(Size == 1)) :-
-    with_queue([loose("aaaa", 0), loose("bbbb", 0), loose("cccc", 0)], Queue,
+    with_queue([ frame("aaaa", loose, 0), frame("bbbb", loose, 0),
+                 frame("cccc", loose, 0) ], Queue,
                ( bundle_next(Queue, fast, 30, _, true),
                  message_queue_property(Queue, size(Size)) )).
 test(bundle_has_at_most_a_hundred_frames, true(Count == 3)) :-
-    findall(loose("a", 0), between(1, 250, _), Frames0),
+    findall(frame("a", loose, 0), between(1, 250, _), Frames0),
     with_queue(Frames0, Queue,
                ( all_that_waits(Queue, Frames), length(Frames, Count) )).
 test(empty_queue, fail) :-
