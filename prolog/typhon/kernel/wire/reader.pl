@@ -36,11 +36,12 @@ are deferred while a frame is being handled and counted.
                 session_unfinished/1 ]).
 :- use_module(session,
               [debug_frame/4, session_codec/2, session_key/2, session_peer/3]).
+:- use_module(settlement, [session_settled/3]).
 :- use_module(threads, [manager_notify/1]).
 :- use_module(transport, [transport_input/2]).
 :- use_module(unacked,
-              [ ack_frames/1, session_ack_due/2, session_acked/3,
-                session_count/2, session_received/2 ]).
+              [ ack_frames/1, session_ack_due/2, session_count/2,
+                session_received/2 ]).
 :- use_module(writer, [session_release/1]).
 
 :- setting(silence, number, 5,
@@ -216,7 +217,7 @@ silent(Session, In, State) :-
 %   an agent whose departure the counts settle.
 
 handle(Frame, Counts, Session, In, State) :-
-    session_acked(Session, Counts, Settled),
+    session_settled(Session, Counts, Settled),
     settled(Settled, Session),
     session_release(Session),
     handle(Frame, Session, In, State).

@@ -43,9 +43,9 @@ it is answered once.
                 session_send/2, session_send_later/2 ]).
 :- use_module(session, [session_key/2, session_peer/3]).
 :- use_module(transport, [transport_as/2, transport_proof/1]).
-:- use_module(settlement, [objection_answered/3]).
-:- use_module(unacked,
-              [session_objected/3, session_pending/2, session_received/2]).
+:- use_module(settlement,
+              [objection_answered/3, session_objected/3, session_pending/2]).
+:- use_module(unacked, [session_received/2]).
 
 :- meta_predicate
     request_send(+, +, +, 1),
@@ -128,7 +128,7 @@ requests_lost(Session, Unsent) :-
 
 %!  handed_over(+Settled, +Session) is det.
 %
-%   Settled is settled(Token, Number, Result), see settled_now/5: call the
+%   Settled is settled(Token, Number, Result), see session_settled/3: call the
 %   hook handed_over(Token, Result), where Result is `accepted`, `lost`,
 %   `unsent`, or the answer of the peer.
 
@@ -232,8 +232,7 @@ answers_deferred(Session, Id, Answer) :-
     integer(Id),
     Id < 0,
     Number is -Id,
-    session_key(Session, Key),
-    objection_answered(Key, Number, Answer).
+    objection_answered(Session, Number, Answer).
 
 dispatch_request(Id, Kind, Term, Peer, Session) :-
     (   take_request(Kind, Term, Peer, reply_to(Session, Id))

@@ -1,11 +1,10 @@
 :- module(typhon_settlement,
-          [ settled_now/5,              % +Handed, +Key, +Count, -Settled, ?Rest
-            settled_late/3,             % +Key, +Count, -Settled
-            settled_never/2,            % +Key, -Handed
-            unsettled_add/2,            % +Handed, +Key
-            unsettled/3,                % ?Key, ?Number, -Token
-            objection_add/3,            % +Key, +Number, +Answer
-            objection_answered/3        % +Key, +Number, +Answer
+          [ session_settled/3,          % +Session, +Counts, -Settled
+            session_objected/3,         % +Session, +Number, +Answer
+            session_pending/2,          % +Session, -Count
+            objection_answered/3,       % +Session, +Number, +Answer
+            unsettled_add/2,            % +Key, +Handed
+            settled_never/4             % +Key, +Sent, +Unsent, -Handed
           ]).
 
 /** <module> Settlement of frames that hand over a term
@@ -17,32 +16,34 @@ term by which the caller identifies its result.
 
 *Threading*: for the thread of the connection, and, when that has ended, for the
 thread that closes the session or gives it another connection. Any thread may
-call unsettled/3.
+call session_pending/2.
 */
 
 :- use_module(library(lists), [member/2]).
 :- use_module(frame, [count_ahead/3]).
+:- use_module(session, [session_key/2]).
+:- use_module(unacked,
+              [session_acked/3, session_unacked/2, session_under_way/2]).
 
 :- dynamic
     unsettled/3,                        % Key, Number, Token: received
     objection/3.                        % Key, Number, Answer
 
-%!  unsettled(?Key, ?Number, -Token) is nondet.
+%!  session_settled(+Session, +Counts, -Settled:list) is det.
 %
-%   The peer Key has received the frame of that Number, but has not settled it.
-
-%!  unsettled_add(+Handed:list, +Key) is det.
+%   A frame of the peer has these Counts, see frame.pl. Settled lists the
+%   hand-overs that they settle, settled(Token, Number, Result), Result being
+%   `accepted` or an objection.
 %
-%   The peer has received the frames of Handed, and none of them is settled.
+%   @error domain_error(acknowledged, Count)
 
-unsettled_add(Handed, Key) :-
-    forall(member(N-Token, Handed), assertz(unsettled(Key, N, Token))).
-
-%!  settled_now(+Handed:list, +Key, +Count, -Settled:list, ?Rest) is det.
-%
-%   The peer has received the frames of Handed, and has settled all frames up to
-%   Count.  Settled lists the hand-overs that this settles, settled(Token,
-%   Number, Result), Result being `accepted` or an objection.
+session_settled(Session, counts(Received, Count), Settled) :-
+    session_key(Session, Key),
+    (   session_acked(Session, Received, Handed)
+    ->  settled_now(Handed, Key, Count, Settled, Late)
+    ;   Settled = Late
+    ),
+    settled_late(Key, Count, Late).
 
 settled_now([], _, _, Settled, Settled).
 settled_now([N-Token|Handed], Key, Count, Settled, Rest) :-
@@ -54,8 +55,6 @@ settled_now([N-Token|Handed], Key, Count, Settled, Rest) :-
     ),
     settled_now(Handed, Key, Count, More, Rest).
 
-%!  settled_late(+Key, +Count, -Settled:list) is det.
-%
 %   As settled_now/5, for frames that the peer had received before.
 
 settled_late(Key, Count, Settled) :-
@@ -69,41 +68,66 @@ settled_late(Key, Count, Settled) :-
             Settled).
 settled_late(_, _, []).
 
-%!  settled_never(+Key, -Handed:list) is det.
-%
-%   The session is over. Handed lists the results of hand-overs that were not
-%   settled: handed(Token, Result), Result being `lost` or an objection.
-
-settled_never(Key, Handed) :-
-    findall(handed(Token, Result),
-            ( retract(unsettled(Key, N, Token)),
-              result(Key, N, lost, Result) ),
-            Handed),
-    retractall(objection(Key, _, _)).
-
 result(Key, N, Default, Result) :-
     (   retract(objection(Key, N, Answer))
     ->  Result = Answer
     ;   Result = Default
     ).
 
-%!  objection_add(+Key, +Number, +Answer) is det.
+%!  unsettled_add(+Key, +Handed:list) is det.
+%
+%   The peer has received the frames of Handed, and none of them is settled.
+
+unsettled_add(Key, Handed) :-
+    forall(member(N-Token, Handed), assertz(unsettled(Key, N, Token))).
+
+%!  settled_never(+Key, +Sent:list, +Unsent:list, -Handed:list) is det.
+%
+%   The session is over; Sent and Unsent are those of unacked_close/4. Handed
+%   lists the results of all hand-overs that were not settled: handed(Token,
+%   Result), Result being `lost`, `unsent`, or an objection.
+
+settled_never(Key, Sent, Unsent, Handed) :-
+    unsettled_add(Key, Sent),
+    findall(handed(Token, Result),
+            (   retract(unsettled(Key, N, Token)),
+                result(Key, N, lost, Result)
+            ;   member(Token, Unsent),
+                Result = unsent
+            ),
+            Handed),
+    retractall(objection(Key, _, _)).
+
+%!  session_pending(+Session, -Count) is det.
+%
+%   Count frames are not acknowledged, or are hand-overs that are not settled.
+
+session_pending(Session, Count) :-
+    session_key(Session, Key),
+    session_unacked(Session, Count0),
+    ( unsettled(Key, _, _) -> Count is Count0+1 ; Count = Count0 ).
+
+%!  session_objected(+Session, +Number, +Answer) is det.
 %
 %   Record that the peer rejects the frame of that Number with Answer.  Only its
-%   first objection counts.
+%   first objection counts, and none to a frame that is not under way.
 
-objection_add(Key, Number, Answer) :-
-    (   objection(Key, Number, _)
-    ->  true
-    ;   assertz(objection(Key, Number, Answer))
+session_objected(Session, Number, Answer) :-
+    session_key(Session, Key),
+    (   integer(Number),
+        \+ objection(Key, Number, _),
+        ( unsettled(Key, Number, _) ; session_under_way(Session, Number) )
+    ->  assertz(objection(Key, Number, Answer))
+    ;   true
     ).
 
-%!  objection_answered(+Key, +Number, +Answer) is semidet.
+%!  objection_answered(+Session, +Number, +Answer) is semidet.
 %
 %   The peer has answered a frame that it had deferred, before it has counted
 %   it: Answer replaces the objection.
 
-objection_answered(Key, Number, Answer) :-
+objection_answered(Session, Number, Answer) :-
+    session_key(Session, Key),
     retract(objection(Key, Number, deferred)),
     !,
     assertz(objection(Key, Number, Answer)).

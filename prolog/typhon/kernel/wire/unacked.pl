@@ -8,15 +8,16 @@
             unacked_control/5,          % +Window, +Out, +Most, +Bytes, -Counts
             unacked_settled/1,          % +Window
             unacked_counts/4,           % +Session, +Frame, -Counts, -Bytes
-            unacked_resumed/4,          % +Session, +Count, +Bytes, -Frames
-            unacked_close/3,            % +Session, -Waiting, -Handed
+            unacked_resumed/5,          % +Session, +Count, +Bytes, -Handed,
+                                        % -Frames
+            unacked_close/4,            % +Session, -Waiting, -Sent, -Unsent
             ack_frames/1,               % -Count
+            session_acked/3,            % +Session, +Received, -Handed
+            session_under_way/2,        % +Session, +Number
+            session_unacked/2,          % +Session, -Count
             session_received/2,         % +Session, -Count
             session_count/2,            % +Session, -AckDue
-            session_ack_due/2,          % +Session, -Count
-            session_acked/3,            % +Session, +Counts, -Settled
-            session_objected/3,         % +Session, +Number, +Answer
-            session_pending/2           % +Session, -Count
+            session_ack_due/2           % +Session, -Count
           ]).
 
 /** <module> The window: frames that wait or are not acknowledged
@@ -39,23 +40,20 @@ settled when the frame was put: so a frame that has waited behind an objection
 does not settle the frame of the objection. The number of frames that the peer
 has received is a count of its own: it opens the window.
 
-A Token other than `none` or `loose` is that of a hand-over, see settlement.pl.
+A Token other than `none` or `loose` is that of a hand-over, Number-Token, see
+settlement.pl.
 
 *Threading*: the mutex of the session guards its window: a caller of unacked_*
-holds it. session_count/2, session_acked/3 and session_objected/3 are for the
-thread of the connection, the other session_* are for any thread.
+holds it. session_count/2 and session_acked/3 are for the thread of the
+connection, the other session_* are for any thread.
 */
 
 :- use_module(library(error), [domain_error/2]).
-:- use_module(library(lists), [append/3, member/2]).
+:- use_module(library(lists), [member/2]).
 :- use_module('../base/fifo', [fifo_empty/2, fifo_size/2]).
 :- use_module(frame, [bundle_next/5, count_ahead/3, frame_overhead/1]).
 :- use_module(session,
-              [ session_codec/2, session_held/2, session_window/2,
-                session_window/3 ]).
-:- use_module(settlement,
-              [ objection_add/3, settled_late/3, settled_never/2, settled_now/5,
-                unsettled/3, unsettled_add/2 ]).
+              [session_codec/2, session_held/2, session_window/2]).
 
 :- dynamic
     free_flags/1.                       % Flags: no window has them
@@ -227,21 +225,20 @@ unacked_settled(window(_, _, Received, _, _, _, Settled, _)) :-
         fail
     ).
 
-%!  unacked_resumed(+Session, +Count, +Bytes, -Frames) is det.
+%!  unacked_resumed(+Session, +Count, +Bytes, -Handed, -Frames) is det.
 %
 %   The session has a new connection, to which Bytes were written.  The peer has
-%   received Count frames of this process; that settles none.  Frames have to be
-%   written once more.  The Count of a peer that has forgotten the session,
-%   while this process has not, may exceed what was sent.
+%   received Count frames of this process, Handed among them; that settles none.
+%   Frames have to be written once more.  The Count of a peer that has forgotten
+%   the session, while this process has not, may exceed what was sent.
 
-unacked_resumed(Session, Count, Bytes, Frames) :-
-    session_window(Session, Key, Window),
+unacked_resumed(Session, Count, Bytes, Handed, Frames) :-
+    session_window(Session, Window),
     Window = window(Sent, _, _, AckSent, Acked, AckedBytes, Settled, _),
     get_flag(Acked, Count0),
     message_queue_property(Sent, size(Size)),
     Gone is max(0, min(Count-Count0, Size)),
     take_received(Gone, Count0, Sent, Handed, 0, _),
-    unsettled_add(Handed, Key),
     Count1 is max(Count0, Count),
     set_flag(Acked, Count1),
     set_flag(AckedBytes, Bytes),
@@ -253,26 +250,23 @@ unacked_resumed(Session, Count, Bytes, Frames) :-
     ;   true
     ).
 
-%!  unacked_close(+Session, -Waiting, -Handed) is det.
+%!  unacked_close(+Session, -Waiting, -Sent, -Unsent) is det.
 %
-%   The session is over; the frames Waiting were never written. Handed lists the
-%   results of hand-overs, handed(Token, Result): `unsent`, `lost`, or an
-%   objection.
+%   The session is over: the frames Waiting were never written.  Unsent are the
+%   tokens of hand-overs among these, Sent the hand-overs that were written, and
+%   that the peer may have received.
 
-unacked_close(Session, Waiting, Handed) :-
-    session_window(Session, Key, Window),
+unacked_close(Session, Waiting, Sent, Unsent) :-
+    session_window(Session, Window),
     Window =.. [window, SentQueue, WaitingQueue|Flags],
     arg(5, Window, Acked),
     get_flag(Acked, Count),
     message_queue_property(SentQueue, size(Size)),
     take_received(Size, Count, SentQueue, Sent, 0, _),
     fifo_empty(WaitingQueue, Waiting),
-    unsettled_add(Sent, Key),
-    settled_never(Key, Lost),
-    findall(handed(Token, unsent),
+    findall(Token,
             ( member(frame(_, Token, _), Waiting), hands_over(Token) ),
             Unsent),
-    append(Lost, Unsent, Handed),
     message_queue_destroy(SentQueue),
     message_queue_destroy(WaitingQueue),
     assertz(free_flags(Flags)).
@@ -285,25 +279,20 @@ hands_over(Token) :-
 		 *       ACKNOWLEDGEMENTS       *
 		 *******************************/
 
-%!  session_acked(+Session, +Counts, -Settled:list) is det.
+%!  session_acked(+Session, +Received, -Handed:list) is semidet.
 %
-%   A frame of the peer has these Counts, see frame.pl. Settled lists the
-%   hand-overs that they settle, settled(Token, Number, Result), Result being
-%   `accepted` or an objection.
+%   The peer has Received so many frames, as read in a head; fails if that was
+%   known.  Handed are the hand-overs among the frames that are acknowledged now.
 %
 %   @error domain_error(acknowledged, Count) if that is more than was sent
 
-session_acked(Session, counts(Received, Count), Settled) :-
-    session_window(Session, Key, Window),
+session_acked(Session, Received, Handed) :-
+    session_window(Session, Window),
     arg(5, Window, Acked),
-    get_flag(Acked, Count0),
-    (   count_ahead(Count0, Received, Ahead),
-        Ahead > 0
-    ->  session_held(Session, acked(Ahead, Window, Handed)),
-        settled_now(Handed, Key, Count, Settled, Late)
-    ;   Settled = Late
-    ),
-    settled_late(Key, Count, Late).
+    get_flag(Acked, Count),
+    count_ahead(Count, Received, Ahead),
+    Ahead > 0,
+    session_held(Session, acked(Ahead, Window, Handed)).
 
 acked(Ahead, Window, Handed) :-
     Window = window(Sent, _, _, _, Acked, AckedBytes, _, _),
@@ -339,24 +328,16 @@ take_received(Ahead, N0, Sent, Handed, Bytes0, Bytes) :-
     Ahead1 is Ahead-1,
     take_received(Ahead1, N, Sent, Handed1, Bytes1, Bytes).
 
-%!  session_objected(+Session, +Number, +Answer) is det.
+%!  session_under_way(+Session, +Number) is semidet.
 %
-%   Record that the peer rejects the frame of that Number with Answer.  An
-%   objection to a frame that is not under way is ignored.
+%   The frame of that Number was written, and is not acknowledged.
 
-session_objected(Session, Number, Answer) :-
-    session_window(Session, Key, Window),
-    (   integer(Number),
-        (   unsettled(Key, Number, _)
-        ;   arg(5, Window, Acked),
-            get_flag(Acked, Count),
-            Number > Count,
-            session_sent(Session, Sent),
-            Number =< Sent
-        )
-    ->  objection_add(Key, Number, Answer)
-    ;   true
-    ).
+session_under_way(Session, Number) :-
+    session_window(Session, window(_, _, _, _, Acked, _, _, _)),
+    get_flag(Acked, Count),
+    Number > Count,
+    session_sent(Session, Sent),
+    Number =< Sent.
 
 %   session_sent(+Session, -Count): Count frames have been written, or fewer if
 %   another thread is about to write some.
@@ -367,15 +348,15 @@ session_sent(Session, Count) :-
     fifo_size(Sent, Size),
     Count is Gone+Size.
 
-%!  session_pending(+Session, -Count) is det.
+%!  session_unacked(+Session, -Count) is det.
 %
-%   Count frames are not acknowledged, or are hand-overs that are not settled.
+%   Count frames wait, or are not acknowledged.
 
-session_pending(Session, Count) :-
-    session_window(Session, Key, window(Sent, Waiting, _, _, _, _, _, _)),
+session_unacked(Session, Count) :-
+    session_window(Session, window(Sent, Waiting, _, _, _, _, _, _)),
     fifo_size(Sent, S),
     fifo_size(Waiting, W),
-    ( unsettled(Key, _, _) -> Count is S+W+1 ; Count is S+W ).
+    Count is S+W.
 
 %!  session_received(+Session, -Count) is det.
 %

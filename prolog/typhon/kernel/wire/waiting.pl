@@ -40,8 +40,8 @@ and the flushes are for any thread that may wait.
                 request_take/3 ]).
 :- use_module(session,
               [route/2, session/2, session_key/2, session_peer/3]).
+:- use_module(settlement, [session_pending/2]).
 :- use_module(threads, [in_manager/0, manager_notify/1]).
-:- use_module(unacked, [session_pending/2]).
 :- use_module(writer, [session_up/1]).
 
 :- meta_predicate

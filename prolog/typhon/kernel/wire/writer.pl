@@ -37,7 +37,6 @@ session_adopting/2 or after all threads have ended. While a session is up and
 has no pusher, only held posts wait.
 */
 
-:- use_module(library(apply), [maplist/3]).
 :- use_module(library(debug), [debug/3]).
 :- use_module(library(lists), [append/3, member/2]).
 :- use_module('../base/error_text', [print_error/2]).
@@ -46,12 +45,13 @@ has no pusher, only held posts wait.
               [ connection_is/2, route/2, session/2, session_codec/2,
                 session_forget/1, session_key/2, session_locked/2,
                 session_must_exist/3, session_window/3 ]).
+:- use_module(settlement, [settled_never/4, unsettled_add/2]).
 :- use_module(threads,
               [ manager_notify/1, wire_thread_create/3, wire_thread_end/2,
                 wire_thread_signal/2 ]).
 :- use_module(unacked,
-              [ unacked_close/3, unacked_control/5, unacked_counts/4,
-                unacked_next/5, unacked_owed/2, unacked_resumed/4,
+              [ unacked_close/4, unacked_control/5, unacked_counts/4,
+                unacked_next/5, unacked_owed/2, unacked_resumed/5,
                 unacked_sent/5, unacked_settled/1, unacked_waiting/1,
                 unacked_waits/3 ]).
 
@@ -193,10 +193,7 @@ write_or_connect(Session, Key) :-
     ->  catch(write_waiting(Session, Out, room),
               error(_, _),
               transport_broken(Key, Thread)),
-        (   unacked_waiting(Session)
-        ->  push_what_waits(Session, Key)
-        ;   true
-        )
+        ignore(( unacked_waiting(Session), push_what_waits(Session, Key) ))
     ;   ignore(manager_notify(wanted(Key)))
     ).
 
@@ -328,7 +325,8 @@ session_install(Session, Thread, Out, PeerCount) :-
 install(Session, Key, Thread, Out, PeerCount) :-
     session_must_exist(Session, Key, _),
     byte_count(Out, Bytes),
-    unacked_resumed(Session, PeerCount, Bytes, Again),
+    unacked_resumed(Session, PeerCount, Bytes, Handed, Again),
+    unsettled_add(Key, Handed),
     get_time(Now),
     assertz(serving(Key, Thread, Now)),
     assertz(transport(Key, Thread, Out)),
@@ -388,13 +386,14 @@ session_retire(Session) :-
 session_close(Session, Unsent) :-
     session_locked(Session, forget(Session, Waiting, Handed)),
     session_codec(Session, Codec),
-    maplist(frame_term(Codec), Waiting, Terms),
+    findall(Term,
+            ( member(frame(Bytes, _, _), Waiting),
+              bytes_term(Codec, Bytes, Term) ),
+            Terms),
     append(Terms, Handed, Unsent).
-
-frame_term(Codec, Frame, Term) :-
-    arg(1, Frame, Bytes),
-    bytes_term(Codec, Bytes, Term).
 
 forget(Session, Waiting, Handed) :-
     session_forget(Session),
-    unacked_close(Session, Waiting, Handed).
+    unacked_close(Session, Waiting, Sent, NotSent),
+    session_key(Session, Key),
+    settled_never(Key, Sent, NotSent, Handed).
