@@ -114,8 +114,8 @@ test(too_large_result,
 %   On 32 bits SWI-Prolog 9.0.4 may crash with strings of more than 512 kB in
 %   records, which messages are as well.
 
-test(largest_accepted_result, [ condition(current_prolog_flag(address_bits, 64)),
-                                N == 999900 ]) :-
+test(largest_accepted_result,
+     [condition(current_prolog_flag(address_bits, 64)), N == 999900]) :-
     virtually(( create([(main :- format(string(S), "~`xt~999900|", []),
                                  result(S))], A),
                 agent_result(A, X, 60), string_length(X, N) )).
