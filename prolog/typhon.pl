@@ -61,6 +61,7 @@ a folder, with an interface of the same name beside it:
 :- use_module(typhon/tools/messages, []).
 :- use_module(typhon/tools/problem_text, []).
 :- use_module(typhon/tools/event_text, []).
+:- use_module(typhon/tools/old_settings, []).
 :- use_module(typhon/options/tls, []).
 :- use_module(typhon/options/identity, []).
 :- reexport(typhon/options/supervision, [agent_monitor/2]).

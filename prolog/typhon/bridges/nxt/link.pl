@@ -136,7 +136,6 @@ atoms_pair(Key-Value0, Key-Value) :-
                 *            HELPER            *
                 *******************************/
 
-:- setting(typhon_nxt_helper:python, atom, '', "Now typhon_nxt_link:python").
 :- setting(python, atom, '',
            "The Python of the helpers of bricks; '' for that of all helpers").
 

@@ -183,7 +183,6 @@ part_setting(connections,typhon_page_reception,positive_integer,64,'Clients of a
 part_setting(content_characters,typhon_host_log,positive_integer,200,'The text of longer messages is cut to this many characters','options/host_log').
 part_setting(delay,typhon_event_sender,number,0.05,'Seconds for which events gather before they are sent','options/watch/event_sender').
 part_setting(entries,typhon_fipa_managers,positive_integer,10000,'Descriptions in a directory of FIPA','bridges/fipa/managers').
-part_setting(events,typhon_telling,positive_integer,10000,'Now typhon_watch_senders:events','options/watch/watch_senders').
 part_setting(events,typhon_watch_senders,positive_integer,10000,'Events that may wait for a slow watch','options/watch/watch_senders').
 part_setting(frame_events,typhon_page_browsers,positive_integer,2000,'Events in a text that a page sends','tools/page/browsers').
 part_setting(frame_seconds,typhon_page_browsers,number,0.05,'Seconds between two texts with events that a page sends','tools/page/browsers').
@@ -206,7 +205,6 @@ part_setting(patience,typhon_event_sender,number,30,'Seconds that a disconnected
 part_setting(patience,typhon_virtual,number,10,'Virtual time that stands still for so long is reported','options/virtual').
 part_setting(pause,typhon_quota_enforcer,between(0.0,1.0),0.8,'Agents that run for long where there are quotas pause for this part of the time while others run','options/quotas/quota_enforcer').
 part_setting(python,typhon_helper_process,atom,'','The Python of helpers; \'\' for that of the system','bridges/helper/process').
-part_setting(python,typhon_nxt_helper,atom,'','Now typhon_nxt_link:python','bridges/nxt/link').
 part_setting(python,typhon_nxt_link,atom,'','The Python of the helpers of bricks; \'\' for that of all helpers','bridges/nxt/link').
 part_setting(queue,typhon_subscribers,positive_integer,1000,'Messages of bridges that may wait for an agent','bridges/common/subscribers').
 part_setting(renew_seconds,typhon_page_sources,number,3,'Seconds between searches of a page for new hosts','tools/page/sources').

@@ -6,16 +6,14 @@
             blaming/2                   % +What, :Goal
           ]).
 :- use_module(library(apply), [maplist/2]).
-:- use_module(library(broadcast), [listen/2]).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(error), [domain_error/2, is_of_type/2, must_be/2]).
-:- use_module(library(settings), [set_setting/2, setting_property/2]).
 :- use_module(index, [part_joins/3]).
 :- use_module(on_demand, [on_demand_load/2]).
 :- use_module(names,
               [names/2, names_joined/3, names_listed/2, names_proposed/3]).
 
-/** <module> Unknown options are errors; settings that have been renamed
+/** <module> Unknown options are errors
 
 Each list of options belongs to a domain, such as `host_option`. The module
 that accepts the options declares them by clauses for
@@ -33,8 +31,7 @@ to accept it.
 :- multifile
     declared/4,                 % Domain, Option, Type, Value
     typhon_names:known/2,
-    prolog:error_message//1,
-    prolog:message//1.
+    prolog:error_message//1.
 
 :- meta_predicate blaming(+, 0).
 
@@ -111,26 +108,8 @@ blame(Formal, What) :-
     throw(error(Formal, context(_, Text))).
 
                 /*******************************
-                *            SETTINGS          *
-                *******************************/
-
-%   A setting with the comment "Now Module:Name" is the old name of Module:Name.
-
-:- listen(settings(changed(Old, _, Value)), setting_changed(Old, Value)).
-
-setting_changed(Old, Value) :-
-    setting_property(Old, comment(Comment)),
-    atom_concat('Now ', Name, Comment),
-    term_to_atom(New, Name),
-    print_message(warning, typhon(setting_renamed(Old, New))),
-    set_setting(New, Value).
-
-                /*******************************
                 *            MESSAGES          *
                 *******************************/
-
-prolog:message(typhon(setting_renamed(Old, New))) -->
-    [ 'The setting ~w has been renamed; set ~w'-[Old, New] ].
 
 prolog:error_message(domain_error(Domain, Culprit)) -->
     { atom(Domain),

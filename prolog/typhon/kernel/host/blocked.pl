@@ -34,10 +34,6 @@ the other predicates.
            "Seconds of a turn after which its worker is blocked").
 :- setting(typhon_scheduler:blocked_workers, positive_integer, 768,
            "Number of workers from which work that blocks is held").
-:- setting(typhon_held:held_seconds, number, 1,
-           "Now typhon_scheduler:blocked_seconds").
-:- setting(typhon_held:held_workers, positive_integer, 768,
-           "Now typhon_scheduler:blocked_workers").
 
 :- dynamic
     blocked_kind/1,             % Kind

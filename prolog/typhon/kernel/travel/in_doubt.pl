@@ -39,8 +39,6 @@ ask_peers/2 in a worker.
 
 :- setting(shown_seconds, number, 3,
            "Seconds under way after which an agent is shown as in doubt").
-:- setting(typhon_hop:doubt_seconds, number, 3,
-           "Now typhon_in_doubt:shown_seconds").
 :- setting(settle_seconds, number, 1,
            "Seconds until processes that did not answer are asked again").
 

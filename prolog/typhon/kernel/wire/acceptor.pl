@@ -41,8 +41,6 @@ manager calls report/0 when a second is over.
 
 :- setting(unproved, positive_integer, 128,
            "Connections at a time that have not proved themselves").
-:- setting(strangers, positive_integer, 128,
-           "Now typhon_acceptor:unproved").
 
 :- dynamic
     unproved/4,                         % Thread, Ip, Since, Stage

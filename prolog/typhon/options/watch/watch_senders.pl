@@ -48,8 +48,6 @@ to each batch.
            "Events that may wait for a slow watch").
 :- setting(virtual_events, positive_integer, 1 000 000,
            "The same in virtual time, which runs ahead of all watches").
-:- setting(typhon_telling:events, positive_integer, 10 000,
-           "Now typhon_watch_senders:events").
 
 :- dynamic sender/5.            % Peer, Id, Thread, Signals,
                                 % watch(Wanted, Buffer)

@@ -64,9 +64,6 @@ test(settings_can_be_set_before_loading, Out == "7,7") :-
           watch(a, [_]>>true, W), unwatch(W), \c
           findall(B, setting(typhon_watch_senders:events, B), Bs), \c
           atomic_list_concat([A|Bs], (\',\'), All), write(All)', Out).
-test(old_names_of_settings_are_accepted, Out == "7") :-
-    seen('set_setting(typhon_telling:events, 7), \c
-          setting(typhon_watch_senders:events, A), write(A)', Out).
 test(watch_by_a_peer_loads_its_code, Out == "started") :-
     seen('host_start(a), host_property(a, address(Address)), \c
           format(atom(There), "host_start(b), watch(~q, [E]>>true, W), \c
