@@ -37,6 +37,9 @@ renamed(typhon_acceptor:strangers, typhon_acceptor:unproved).
 renamed(typhon_auth:handshake_time, typhon_handshake:handshake_time).
 renamed(typhon_base_key_files:certificates, typhon_keys:certificates).
 renamed(typhon_carrier:rest_seconds, typhon_node_process:rest_seconds).
+renamed(typhon_carriers:kill_seconds, typhon_processes:kill_seconds).
+renamed(typhon_carriers:order_seconds, typhon_processes:order_seconds).
+renamed(typhon_carriers:start_seconds, typhon_processes:start_seconds).
 renamed(typhon_contacts:contacts, typhon_peer_cache:contacts).
 renamed(typhon_doubt:settle_seconds, typhon_in_doubt:settle_seconds).
 renamed(typhon_event_shown:content_characters,
@@ -49,12 +52,14 @@ renamed(typhon_held:held_workers, typhon_scheduler:blocked_workers).
 renamed(typhon_hello:records, typhon_handshake:records).
 renamed(typhon_helper_python:python, typhon_helper_process:python).
 renamed(typhon_hop:doubt_seconds, typhon_in_doubt:shown_seconds).
+renamed(typhon_hop:settle_seconds, typhon_in_doubt:settle_seconds).
 renamed(typhon_keeper:connect_time, typhon_connection_manager:connect_time).
 renamed(typhon_keeper:resting, typhon_connection_manager:resting).
 renamed(typhon_keeper:return_time, typhon_connection_manager:return_time).
 renamed(typhon_legacies:clones, typhon_outcomes:clones).
 renamed(typhon_legacies:legacies, typhon_outcomes:results).
 renamed(typhon_legacy:result_bytes, typhon_payloads:result_bytes).
+renamed(typhon_life:faulty, typhon_creation:faulty).
 renamed(typhon_named:met, typhon_questions:met).
 renamed(typhon_nxt_helper:python, typhon_nxt_link:python).
 renamed(typhon_overuse:pause, typhon_quota_enforcer:pause).
@@ -67,3 +72,4 @@ renamed(typhon_telling:delay, typhon_event_sender:delay).
 renamed(typhon_telling:events, typhon_watch_senders:events).
 renamed(typhon_telling:patience, typhon_event_sender:patience).
 renamed(typhon_telling:virtual_events, typhon_watch_senders:virtual_events).
+renamed(typhon_whereabouts:news_seconds, typhon_news:news_seconds).
