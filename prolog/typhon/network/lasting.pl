@@ -138,7 +138,8 @@ lasting_rests(Plan) :-
 
 lasting_over(Plan) :-
     (   has_own_journal(Plan)
-    ->  kept_end(Plan)
+    ->  plan_option(Plan, journal(Where)),
+        journal_record_drop(Where)
     ;   true
     ).
 
@@ -261,21 +262,11 @@ read_kept(Where, How, Plan, Clock) :-
 kept_note(Plan0, Clock, How) :-
     plan_option(Plan0, journal(Where)),
     !,
-    plan_without(Plan0, journal(_), Plan),      % may contain a password
+    plan_without(Plan0, [journal], Plan),       % may contain a password
     version(Version),
     format(string(Text), '~k.~n', [network(Version, How, Plan, Clock)]),
     journal_record_put(Where, Text).
 kept_note(_, _, _).
-
-%   kept_end(+Plan) is det.
-%
-%   The network of Plan has ended for good: delete its record.
-
-kept_end(Plan) :-
-    (   plan_option(Plan, journal(Where))
-    ->  journal_record_drop(Where)
-    ;   true
-    ).
 
                 /*******************************
                 *           MESSAGES           *

@@ -16,7 +16,7 @@
 :- use_module(building,
               [ log_option/3, network_dynamics/2, network_endpoint/4,
                 network_log/4 ]).
-:- use_module(plan, [plan_processes/3, plan_time/2, plan_unkept/2]).
+:- use_module(plan, [plan_processes/3, plan_time/2, plan_without/3]).
 :- use_module(processes, [nodes_start/5]).
 :- use_module(saving, [saved_read/2]).
 :- use_module(wiring, [wire_hosts/4, wired_hosts/2]).
@@ -59,7 +59,7 @@ saved([network(Name, Plan0), Clock, Log, Dynamics|Rest],
     Clock = clock(_, clock(_, _)),
     Log = log(_, _, _),
     Dynamics = dynamics(_, _, _),
-    plan_unkept(Plan0, Plan),
+    plan_without(Plan0, [journal, sync, restart], Plan),
     findall(due(N, Stamp, Goal), member(due(N, Stamp, Goal), Rest), Due).
 
 must_be_alone(Plan, Name) :-

@@ -1,7 +1,6 @@
 :- module(typhon_plan,
           [ network_plan/3,             % +Topology, +Options, -Plan
             plan_option/2,              % +Plan, ?Option
-            plan_unkept/2,              % +Plan0, -Plan
             plan_time/2,                % +Plan, -Kind
             plan_log/3,                 % +Plan, -File, -Kinds
             plan_processes/3,           % +Plan, -P, -Machines
@@ -15,7 +14,7 @@
             plan_journal/4,             % +Plan, +P, -Where, -How
             plan_options/2,             % +Plan, -Options
             plan_shape/3,               % +Plan, -Names, -Edges
-            plan_without/3              % +Plan0, +Option, -Plan
+            plan_without/3              % +Plan0, +Names, -Plan
           ]).
 :- use_module(library(apply), [exclude/3, maplist/2]).
 :- use_module(library(assoc), [get_assoc/3, list_to_assoc/2]).
@@ -192,18 +191,6 @@ seeded(Options, Seed, [seed(Seed)|Options]) :-
                 /*******************************
                 *             PARTS            *
                 *******************************/
-
-%!  plan_unkept(+Plan0, -Plan) is det.
-%
-%   Plan is Plan0 without the options for journals and restarts.
-
-plan_unkept(plan(Names, Edges, Costs, Options0),
-            plan(Names, Edges, Costs, Options)) :-
-    exclude(of_journal, Options0, Options).
-
-of_journal(journal(_)).
-of_journal(sync(_)).
-of_journal(restart(_)).
 
 %!  plan_time(+Plan, -Kind) is det.
 %
@@ -408,10 +395,14 @@ plan_options(plan(_, _, _, Options), Options).
 
 plan_shape(plan(Names, Edges, _, _), Names, Edges).
 
-%!  plan_without(+Plan0, +Option, -Plan) is det.
+%!  plan_without(+Plan0, +Names, -Plan) is det.
 %
-%   Plan is Plan0 without Option.
+%   Plan is Plan0 without options of these Names.
 
-plan_without(plan(Names, Edges, Costs, Options0), Option,
-             plan(Names, Edges, Costs, Options)) :-
-    exclude(=(Option), Options0, Options).
+plan_without(plan(Hosts, Edges, Costs, Options0), Names,
+             plan(Hosts, Edges, Costs, Options)) :-
+    exclude(is_named(Names), Options0, Options).
+
+is_named(Names, Option) :-
+    functor(Option, Name, _),
+    memberchk(Name, Names).

@@ -206,10 +206,10 @@ prolog:message(typhon(order_failed(Agent, refused(Reason)))) -->
     refusal(Reason).
 prolog:message(typhon(order_failed(Agent, Formal))) -->
     [ 'Agent ~w could not obey: '-[Agent] ],
-    explained(error(Formal, _)).
+    error_lines(error(Formal, _)).
 prolog:message(typhon(not_let_in(Where, Formal))) -->
     [ '~w: a host with this policy refuses it: '-[Where] ],
-    explained(error(Formal, _)).
+    error_lines(error(Formal, _)).
 prolog:message(typhon(over_limit(Agent, What))) -->
     [ 'Agent ~w is ended: it has used more ~w than its host allows'-
       [Agent, What] ].
@@ -315,10 +315,7 @@ lost_since(resource_error(mailbox)) -->
     !,
     [ 'Its mailbox is full, as its host allows no more' ].
 lost_since(Formal) -->
-    explained(error(Formal, _)).
-
-explained(Error) -->
-    error_lines(Error).
+    error_lines(error(Formal, _)).
 
 message_from(Message, From) -->
     { named(From, From1) },

@@ -8,8 +8,9 @@
 :- use_module(library(apply), [maplist/3, partition/4]).
 :- use_module(library(error), [domain_error/2, existence_error/2, must_be/2]).
 :- use_module(library(lists),
-              [append/3, member/2, memberchk/2, nth1/3, selectchk/4]).
+              [member/2, memberchk/2, nth1/3, selectchk/4]).
 :- use_module(library(option), [option/2]).
+:- use_module(library(solution_sequences), [limit/2]).
 :- use_module('../../kernel/host', [address_parts/3]).
 :- use_module('../../kernel/lifecycle', [agent_join/3]).
 :- use_module('../../network', [network_property/2]).
@@ -152,12 +153,9 @@ first_texts(Terms, Texts) :-
 
 first_of(List, Goal, Texts) :-
     most(Most),
-    (   length(First, Most),
-        append(First, _, List)
-    ->  true
-    ;   First = List
-    ),
-    maplist(Goal, First, Texts).
+    findall(Text,
+            limit(Most, ( member(Item, List), call(Goal, Item, Text) )),
+            Texts).
 
 mail_row(Message, [FromText, Text]) :-
     (   Message = From-Term
