@@ -9,7 +9,7 @@
             fipa_start/3,               % +Host, +URL, +Options
             fipa_stop/1,                % +Host
             service/2,                  % ?Service, ?Host
-            service_begin/4,            % +Service, +Host, +PIs, +Module
+            service_begin/5,            % +Service, +Host, +PIs, +Module, :Open
             service_offer/4,            % +Name, +Host, +PIs, +Clauses
             service_end/2               % +Service, +Host
           ]).
@@ -305,15 +305,18 @@ load(Bridge) :-
 %
 %   Service runs on Host, a host of this process.
 
-%!  service_begin(+Service, +Host, +PIs:list, +Module) is det.
+%!  service_begin(+Service, +Host, +PIs:list, +Module, :Open) is det.
 %
-%   Begin Service on Host, with the predicates PIs of Module.
+%   Begin Service on Host, with the predicates PIs of Module, and run Open, which
+%   must succeed.  If it raises an error, Service ends.
 %
 %   @error permission_error(start, Service, Host) if Host has this service
 %   already
-%   @error the errors of service_offer/4
+%   @error the errors of service_offer/4, and of Open
 
-service_begin(Service, Host, PIs, Module) :-
+:- meta_predicate service_begin(+, +, +, +, 0).
+
+service_begin(Service, Host, PIs, Module, Open) :-
     with_mutex(typhon_starting,
                (   service(Service, Host)
                ->  permission_error(start, Service, Host)
@@ -322,8 +325,10 @@ service_begin(Service, Host, PIs, Module) :-
     findall((Head:-Module:Head),
             ( member(Name/Arity, PIs), functor(Head, Name, Arity) ),
             Clauses),
-    catch(service_offer(service(Service), Host, PIs, Clauses), Ball,
-          ( retractall(service(Service, Host)),
+    catch(( service_offer(service(Service), Host, PIs, Clauses),
+            call(Open) ),
+          Ball,
+          ( service_end(Service, Host),
             throw(Ball) )),
     debug(typhon(bridge), '~w is on ~w', [Service, Host]).
 

@@ -9,7 +9,7 @@
 :- use_module('../../kernel/host', [host_option/2]).
 :- use_module('../common',
               [ client_becomes/1, http_server_close/1, http_server_open/4,
-                service_begin/4, service_end/2, service_offer/4 ]).
+                service_begin/5, service_offer/4 ]).
 :- use_module('../../kernel/base/error_text', [print_error/2]).
 :- use_module(carriage, [carriage_close/1, carriage_queued/2]).
 :- use_module(exchange, [exchange_received/3, exchange_send/4]).
@@ -53,12 +53,9 @@ typhon_starting:starts(fipa, Host, Url, Options) :-
     check_platform(Platform),
     http_url(Url, _, _),
     payload_load(payloads(fipa/reply), payload(_, PIs, Clauses)),
-    service_begin(fipa, Host, [], typhon_fipa_service),
-    catch(( service_offer(service(fipa), Host, PIs, Clauses),
-            open_platform(Host, Platform, Url, Options) ),
-          Ball,
-          ( service_end(fipa, Host),
-            throw(Ball) )).
+    service_begin(fipa, Host, [], typhon_fipa_service,
+                  ( service_offer(service(fipa), Host, PIs, Clauses),
+                    open_platform(Host, Platform, Url, Options) )).
 
 real_time(Host) :-
     (   host_option(Host, clock(virtual))

@@ -4,9 +4,8 @@
 :- use_module(library(option), [option/2, option/3, select_option/4]).
 :- use_module('../../kernel/base/options', [check_options/2]).
 :- use_module('../common',
-              [ service_begin/4, service_end/2, subscribe/5 as subscribe_to,
-                subscriber/2, subscription/3,
-                unsubscribe/4 as unsubscribe_from ]).
+              [ service_begin/5, subscribe/5 as subscribe_to, subscriber/2,
+                subscription/3, unsubscribe/4 as unsubscribe_from ]).
 :- use_module('../helper',
               [ helper_call/5, helper_close/1, helper_file/2, helper_note/2,
                 helper_open/3, helper_python/2, helper_send/2 ]).
@@ -36,13 +35,11 @@ typhon_starting:starts(mqtt, Host, URL, Options) :-
     service_begin(mqtt, Host,
                   [ publish/2, publish/3, subscribe/1, subscribe/2,
                     unsubscribe/1 ],
-                  typhon_mqtt_service),
-    assertz(started(Host, Options, Request)),
-    catch(connect(Host, Options, Request), Ball,
-          ( service_end(mqtt, Host),
-            throw(Ball) )).
+                  typhon_mqtt_service,
+                  connect(Host, Options, Request)).
 
 connect(Host, Options, Request) :-
+    assertz(started(Host, Options, Request)),
     helper_python(Options, Python),
     helper_file('mqtt/bridge.py', File),
     helper_open(mqtt(Host), command(Python, ['-u', File]), [restart(always)]),

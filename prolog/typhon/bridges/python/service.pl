@@ -6,8 +6,8 @@
 :- use_module(library(pairs), [pairs_keys_values/3]).
 :- use_module('../../kernel/base/options', [check_options/2]).
 :- use_module('../common',
-              [ inbox_put/4, service/2, service_begin/4,
-                service_end/2, service_offer/4, subscriber/2 ]).
+              [ inbox_put/4, service/2, service_begin/5, service_offer/4,
+                subscriber/2 ]).
 :- use_module('../helper',
               [ helper_call/5, helper_close/1, helper_file/2, helper_note/2,
                 helper_open/3, helper_python/2, json_value/1 ]).
@@ -49,10 +49,9 @@ typhon_starting:starts(python, Host, Files, Options) :-
     ;   python_file(Files, Load),
         Loads = [Load]
     ),
-    python_begin(Host, Options),
-    catch(load_all(Loads, Host), Ball,
-          ( service_end(python, Host),
-            throw(Ball) )).
+    service_begin(python, Host, [], typhon_python,
+                  ( python_open(Host, Options),
+                    load_all(Loads, Host) )).
 
 python_file(Spec, _{do:load, name:Name, file:File}) :-
     absolute_file_name(Spec, File, [extensions([py,'']), access(read)]),
@@ -73,12 +72,11 @@ option_type(threads(X), between(1, 1000), X).
 option_type(queue(X), positive_integer, X).
 option_type(python(X), atom, X).
 
-%   python_begin(+Host, +Options) is det.
+%   python_open(+Host, +Options) is det.
 %
 %   Start Python, without functions yet.
 
-python_begin(Host, Options) :-
-    service_begin(python, Host, [], typhon_python),
+python_open(Host, Options) :-
     assertz(started(Host, Options)),
     helper_python(Options, Python),
     helper_file('python/bridge.py', File),
@@ -156,7 +154,7 @@ typhon_starting:delivers(Host, Name, Source) :-
 begun(Host) :-
     (   service(python, Host)
     ->  true
-    ;   python_begin(Host, [])
+    ;   service_begin(python, Host, [], typhon_python, python_open(Host, []))
     ).
 
 typhon_program_words:python_undelivered(Host, Name) :-

@@ -12,8 +12,8 @@
 :- use_module(library(pairs), [pairs_keys_values/3]).
 :- use_module('../../kernel/base/options', [check_options/2]).
 :- use_module('../common',
-              [ service/2, service_begin/4, service_end/2, subscribe/5,
-                subscriber/2, unsubscribe/4 ]).
+              [ service/2, service_begin/5, subscribe/5, subscriber/2,
+                unsubscribe/4 ]).
 :- use_module(connection,
               [ answers_fail/2, way_close/1, way_open/3, way_send/2,
                 way_state/3 ]).
@@ -49,10 +49,8 @@ typhon_starting:starts(ros, Host, Where, Options) :-
     check_options(ros_option, Options),
     check_where(Where),
     module_property(typhon_ros_service, exports(PIs)),
-    service_begin(ros, Host, PIs, typhon_ros_service),
-    catch(way_open(Host, Where, Options), Ball,
-          ( service_end(ros, Host),
-            throw(Ball) )).
+    service_begin(ros, Host, PIs, typhon_ros_service,
+                  way_open(Host, Where, Options)).
 
 check_where(ros2) :-
     !.

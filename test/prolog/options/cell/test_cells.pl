@@ -9,7 +9,7 @@
 :- use_module(library(process), [process_kill/2]).
 :- use_module(library(readutil), [read_file_to_string/3, read_file_to_terms/3]).
 :- use_module(library(typhon)).
-:- use_module(library(typhon/bridges/common), [service_begin/4]).
+:- use_module(library(typhon/bridges/common), [service_begin/5]).
 :- use_module(library(typhon/kernel/program), [vocabulary_word/2]).
 :- use_module(library(typhon/options/cell/cell_frames), [cell_word/2]).
 :- use_module(library(typhon/options/cell), [cells_list/1]).
@@ -244,7 +244,7 @@ bridge_called(Calls, Ended, Passed, Dir) :-
         close(Out)),
     with_hosts([ c-[ policy(guarded), cell(host), consult(File), audit(Audit),
                      quota([calls(twice/2, 3)]) ] ],
-               ( service_begin(bridge, c, [twice/2,thrice/2], test_cells),
+               ( service_begin(bridge, c, [twice/2,thrice/2], test_cells, true),
                  findall(Call-Outcome, called(Calls, Call, Outcome), Ended) )),
     read_file_to_terms(Audit, Entries, []),
     findall(What, member(audit(_, c, _, _, over(_, What)), Entries), Passed).
