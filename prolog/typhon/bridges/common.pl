@@ -34,7 +34,7 @@ bridge `echo` in outline:
 :- reexport(common/http_server).
 :- reexport(common/inbox, [inbox_put/4]).
 :- reexport(common/starting,
-            [ service/2, service_begin/5, service_end/2, service_offer/4 ]).
+            [service/2, service_begin/5, service_offer/4]).
 :- reexport(common/subscribers,
             [ subscribe/5, subscriber/2, subscribers_drop/4,
               subscribers_notify/5, subscribers_notify_new/5, subscription/3,

@@ -10,8 +10,7 @@
             fipa_stop/1,                % +Host
             service/2,                  % ?Service, ?Host
             service_begin/5,            % +Service, +Host, +PIs, +Module, :Open
-            service_offer/4,            % +Name, +Host, +PIs, +Clauses
-            service_end/2               % +Service, +Host
+            service_offer/4             % +Name, +Host, +PIs, +Clauses
           ]).
 :- use_module(library(debug), [debug/3]).
 :- use_module(library(error),
@@ -355,7 +354,7 @@ unknown(Name/Arity) :-
     ;   true
     ).
 
-%!  service_end(+Service, +Host) is det.
+%   service_end(+Service, +Host) is det.
 %
 %   End Service on Host, and remove its predicates and subscriptions.
 %
