@@ -11,11 +11,12 @@ This is the interface of the layer: higher layers import from here.
             [ agent/5, agent_claim/3, agent_comes/5,
               agent_enter/3, agent_gone/3, agent_handed/4, agent_here/5,
               agent_mail/2, agent_mobile/6, agent_move/5, agent_note/3,
-              agent_on/2, agent_passes/6, agent_program/4, agent_put/3,
+              agent_on/2, agent_passes/6, agent_put/3,
               agent_put_life/2,
               agent_ready/2, agent_remove/3, agent_rest/3,
               agent_rests/3, agent_runs/1, agent_status/3,
-              agent_take/3, agent_thawed/5, agent_under_way/6, agent_wakes/2 ]).
+              agent_take/3, agent_thawed/5, agent_under_way/6, agent_wakes/2,
+              state_destroy/2 ]).
 :- reexport(agent/agent_module,
               [ agent_add/2, agent_clauses/3, agent_code/2,
                 agent_handles/2, agent_links/4, agent_module/4,

@@ -12,8 +12,8 @@
             agent_move/5,               % +Id, +Host, +Module, +Life, +Until
             agent_passes/6,             % +Id, +Host, +Module, +Hash, +Life,
                                         % +Until
+            state_destroy/2,            % +Id, +Module
             agent_put_life/2,           % +Id, +Life
-            agent_program/4,            % +Id, +Hash, +Module, +Life
             agent_put/3,                % +Id, +Status, +Goals
             agent_note/3,               % +Id, +Status, +Goals
             agent_rest/3,               % +Id, +Status, +Goals
@@ -149,6 +149,10 @@ agent_remove(Id, Mail, Orders) :-
     agent_unorder_all(Id, Orders),
     state_destroy(Id, Module).
 
+%!  state_destroy(+Id, +Module) is det.
+%
+%   Id has, or had, its state in Module, which it no longer uses.
+
 state_destroy(Id, Module) :-
     (   durable_on
     ->  forall(state_ends(Id, Module), true)
@@ -183,9 +187,8 @@ agent_move(Id, Host, Module, Life, Until) :-
 
 %!  agent_passes(+Id, +Host, +Module, +Hash, +Life, +Until:integer) is det.
 %
-%   As agent_move/5, between plain hosts, for an agent that keeps its module.  The
-%   older record is removed last, so that readers always find one.  Clause
-%   references are not used, see typhon_prolog_faults.
+%   Replace the record of Id.  The older one is removed last, so that readers
+%   always find one.  Clause references are not used, see typhon_prolog_faults.
 
 agent_passes(Id, Host, Module, Hash, Life, Until) :-
     assertz(record(Id, Host, Module, Hash, Life, Until)),
@@ -387,16 +390,6 @@ agent_put_life(Id, Life) :-
     agent_passes(Id, Host, Module, Hash, Life, Until),
     events_forget(Id),
     life_carried(Life, Id).
-
-%!  agent_program(+Id, +Hash, +Module, +Life) is det.
-%
-%   Give Id the program Hash, with its state in Module; destroy its old module.
-
-agent_program(Id, Hash, Module, Life) :-
-    record(Id, Host, Old, _, _, _),
-    !,
-    agent_passes(Id, Host, Module, Hash, Life, 0),
-    state_destroy(Id, Old).
 
                 /*******************************
                 *             MAIL             *

@@ -1,6 +1,5 @@
 :- module(typhon_trees,
           [ is_tree/2,                  % +Term, +Most
-            atoms_length/2,             % +Term, -Length
             is_in_itself/1              % +Term
           ]).
 :- use_module(library(lists), [member/2]).
@@ -81,31 +80,6 @@ text_parts(Term, Parts) :-
 is_small(Integer) :-
     Integer >= -0x7fff_ffff,
     Integer =< 0x7fff_ffff.
-
-%!  atoms_length(+Term, -Length:integer) is det.
-%
-%   Length is the sum of the lengths of the atoms in Term, which is acyclic.
-
-atoms_length(Term, Length) :-
-    atoms_length(Term, 0, Length).
-
-atoms_length(Term, N0, N) :-
-    (   compound(Term)
-    ->  compound_name_arity(Term, _, Arity),
-        atoms_below(Arity, Term, N0, N)
-    ;   atom(Term)
-    ->  atom_length(Term, Length),
-        N is N0+Length
-    ;   N = N0
-    ).
-
-atoms_below(0, _, N, N) :-
-    !.
-atoms_below(I, Term, N0, N) :-
-    arg(I, Term, Arg),
-    atoms_length(Arg, N0, N1),
-    I1 is I-1,
-    atoms_below(I1, Term, N1, N).
 
 %!  is_in_itself(+Term) is semidet.
 %

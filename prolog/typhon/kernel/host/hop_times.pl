@@ -1,10 +1,9 @@
 :- module(typhon_hop_times,
           [ hop_times_begin/1,          % +Name
             hop_times_end/1,            % +Name
-            hop_times_flags/3,          % +Name, ?Direction, -Flags
+            hop_times_flags/3,          % ?Name, ?Direction, -Flags
             hop_time_add/2,             % +Flags, +Seconds
-            host_hop/3,                 % +Name, +Direction, +Seconds
-            host_hop_stats/3            % +Name, ?Direction, -Stats
+            host_hop/3                  % +Name, +Direction, +Seconds
           ]).
 :- use_module(library(lists), [member/2]).
 
@@ -76,21 +75,4 @@ hop_time_add(flags(Count, Min, Sum, Max), Seconds) :-
         ( Seconds < Min0 -> set_flag(Min, Seconds) ; true ),
         get_flag(Max, Max0),
         ( Seconds > Max0 -> set_flag(Max, Seconds) ; true )
-    ).
-
-%!  host_hop_stats(+Name, ?Direction, -Stats) is nondet.
-%
-%   Stats is stats(Count, Min, Mean, Max), in host seconds.
-
-host_hop_stats(Name, Direction, stats(Count, Min, Mean, Max)) :-
-    direction(Direction),
-    once(hop_times_flags(Name, Direction,
-                         flags(CountKey, MinKey, SumKey, MaxKey))),
-    get_flag(CountKey, Count),
-    (   Count =:= 0
-    ->  Min = 0.0, Mean = 0.0, Max = 0.0
-    ;   get_flag(MinKey, Min),
-        get_flag(SumKey, Sum),
-        get_flag(MaxKey, Max),
-        Mean is Sum/Count
     ).

@@ -7,7 +7,6 @@
           ]).
 :- use_module(library(aggregate), [aggregate_all/3]).
 :- use_module(library(lists), [append/3]).
-:- use_module('../../kernel/base/trees', [atoms_length/2]).
 :- use_module('../../kernel/host',
               [ alarm_in/3, alarm_set/3, amended/5, context_now/2,
                 host_address/2, host_time/2, real_time/3, scheduler_call/1 ]).
@@ -232,6 +231,30 @@ add(Id, Length, Count) :-
     ;   Count = Length
     ),
     assertz(text(Id, Count)).
+
+%   atoms_length(+Term, -Length): Length is the sum of the lengths of the atoms in
+%   Term, which is acyclic.
+
+atoms_length(Term, Length) :-
+    atoms_length(Term, 0, Length).
+
+atoms_length(Term, N0, N) :-
+    (   compound(Term)
+    ->  compound_name_arity(Term, _, Arity),
+        atoms_below(Arity, Term, N0, N)
+    ;   atom(Term)
+    ->  atom_length(Term, Length),
+        N is N0+Length
+    ;   N = N0
+    ).
+
+atoms_below(0, _, N, N) :-
+    !.
+atoms_below(I, Term, N0, N) :-
+    arg(I, Term, Arg),
+    atoms_length(Arg, N0, N1),
+    I1 is I-1,
+    atoms_below(I1, Term, N1, N).
 
 recount(Id, Module, Length, Most) :-
     aggregate_all(sum(Its),
