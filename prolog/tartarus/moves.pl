@@ -2,7 +2,6 @@
           [ move_agent/2,               % +Name, +Location
             clone_agent/3,              % +Name, +Location, -Clone
             land/1,                     % +Bundle
-            hop_done/5,                 % +Way, +Agent, +From, +To, +Seconds
             in_hop_time/2,              % ?Agent, ?Seconds
             out_hop_time/2,             % ?Agent, ?Seconds
             in_hop_time/5,              % ?Agent, ?From, ?To, ?Date, ?Seconds
@@ -219,9 +218,7 @@ arrived(Name) :-
 
 kept(10000).
 
-%!  hop_done(+Way, +Agent, +From, +To, +Seconds) is det.
-%
-%   @arg Way is `in` or `out`
+%   hop_done(+Way, +Agent, +From, +To, +Seconds): Way is `in` or `out`.
 
 hop_done(Way, Agent, From, To, Seconds) :-
     get_time(Now),

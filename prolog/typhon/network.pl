@@ -41,7 +41,7 @@ modules are loaded when they are used first.
 %     - machines(Machines)
 %       Children are started through ssh, on Machines in turn, in blocks as
 %       well; by default one on each. A machine is a target of ssh, or as
-%       described at child_start/5. bind(Interface) must name an interface
+%       described at child_start/6. bind(Interface) must name an interface
 %       that they can reach.
 %     - bind(Interface)
 %       Of the endpoints on this machine; default `localhost`.

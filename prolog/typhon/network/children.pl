@@ -1,7 +1,5 @@
 :- module(typhon_children,
-          [ child_start/5,              % +Tag, +Machine, +Interface,
-                                        % :OnEvent, -Child
-            child_start/6,              % +Tag, +Machine, +Interface,
+          [ child_start/6,              % +Tag, +Machine, +Interface,
                                         % +Options, :OnEvent, -Child
             child_close/1,              % +Child
             child_kill/1,               % +Child
@@ -43,9 +41,7 @@ cannot start, and with down(Tag, Status) when it has ended. The thread is no
 `server`, as it waits for a stream.
 */
 
-:- meta_predicate
-    child_start(+, +, +, 1, -),
-    child_start(+, +, +, +, 1, -).
+:- meta_predicate child_start(+, +, +, +, 1, -).
 
 :- public
     stop_reading/0.             % goal of a signal
@@ -67,7 +63,6 @@ cannot start, and with down(Tag, Status) when it has ended. The thread is no
    retractall(node_file(_)),
    assertz(node_file(File)).
 
-%!  child_start(+Tag, +Machine, +Interface, :OnEvent, -Child) is det.
 %!  child_start(+Tag, +Machine, +Interface, +Options, :OnEvent, -Child) is det.
 %
 %   Start a child. Machine is `local`, a target of ssh, or machine(Target,
@@ -84,9 +79,6 @@ cannot start, and with down(Tag, Status) when it has ended. The thread is no
 %   journal.
 %
 %   @error type_error(machine, Machine), and errors of process_create/3
-
-child_start(Tag, Machine, Interface, OnEvent, Child) :-
-    child_start(Tag, Machine, Interface, [], OnEvent, Child).
 
 child_start(Tag, Machine, Interface, Options, OnEvent,
             child(Pid, In, Thread)) :-
