@@ -4,7 +4,7 @@
 import { calmly, element } from './dom.js';
 import { onTheme, Palette, paperPalette } from './palette.js';
 import {
-  pngBlob, saveButtons, SvgPath, SvgPen, textWidth, write,
+  Picture, pngBlob, saveButtons, SvgPath, SvgPen, textWidth, write,
 } from './svg.js';
 import { byName, timeText } from './names.js';
 
@@ -42,10 +42,9 @@ const PLOTS = [
 
 export const mount = (parent, store, app) => new Charts(parent, store, app);
 
-class Charts {
+class Charts extends Picture {
   constructor(parent, store, app) {
-    this.store = store;
-    this.app = app;
+    super(store, app);
     this.body = element('div', { class: 'view-plots', tabindex: 0,
       'aria-label': 'Plots' });
     this.element = element('section', { class: 'view view-time',
@@ -72,9 +71,8 @@ class Charts {
   }
 
   destroy() {
-    this.ends.forEach(end => end());
     for (const { drawn } of this.plots || []) drawn?.destroy();
-    this.element.remove();
+    super.destroy();
   }
 
   add(plot) {
@@ -169,10 +167,12 @@ class Charts {
 
   // -------------------------------------------------------------- saving
 
-  async drawAll(pen, width) {
+  size() { return [this.body.clientWidth, PLOTS.length * (HIGH + 44)]; }
+
+  async drawAll(pen, width, height) {
     const palette = paperPalette(this.store, this.element), context = this.context();
     pen.fillStyle = palette.bg;
-    pen.fillRect(0, 0, width, PLOTS.length * (HIGH + 44));
+    pen.fillRect(0, 0, width, height);
     let top = 0;
     for (const plot of PLOTS) {
       const series = plot.series(context);
@@ -219,12 +219,6 @@ class Charts {
       globalThis.Path2D = Path2D;
     }
     plot.destroy();
-  }
-
-  async toSVG() {
-    const pen = new SvgPen(this.body.clientWidth, PLOTS.length * (HIGH + 44));
-    await this.drawAll(pen, pen.width);
-    return pen.toString();
   }
 
   // The PNG is drawn from SVG, since uPlot would clear the canvas.

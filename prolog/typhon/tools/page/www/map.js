@@ -24,9 +24,7 @@ export const mount = (parent, store, app) => new MapView(parent, store, app);
 
 class MapView extends Picture {
   constructor(parent, store, app) {
-    super();
-    this.store = store;
-    this.app = app;
+    super(store, app);
     this.places = new Map();
     this.pinned = new Map();
     this.layout = app.prefs?.layout || 'auto';

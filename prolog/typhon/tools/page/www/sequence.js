@@ -20,9 +20,7 @@ export const mount = (parent, store, app) => new Sequence(parent, store, app);
 
 class Sequence extends Picture {
   constructor(parent, store, app) {
-    super();
-    this.store = store;
-    this.app = app;
+    super(store, app);
     this.chosen = [];           // agents; [] for those with most messages
     this.moves = true;
     this.build(parent);

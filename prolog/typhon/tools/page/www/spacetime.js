@@ -18,9 +18,7 @@ export const mount = (parent, store, app) => new SpaceTime(parent, store, app);
 
 class SpaceTime extends Picture {
   constructor(parent, store, app) {
-    super();
-    this.store = store;
-    this.app = app;
+    super(store, app);
     this.span = store.stamped ? 'all' : '10';
     this.messages = true;
     this.resting = true;

@@ -181,14 +181,16 @@ export function line(pen, x1, y1, x2, y2) {
 // [width, height] of the picture that drawAll(pen, width, height) draws for
 // print.
 export class Picture {
+  constructor(store, app) { Object.assign(this, { store, app }); }
+
   destroy() {
     this.ends.forEach(end => end());
     this.element.remove();
   }
 
-  toSVG() {
+  async toSVG() {
     const size = this.size(), pen = new SvgPen(...size);
-    this.drawAll(pen, ...size);
+    await this.drawAll(pen, ...size);
     return pen.toString();
   }
 
