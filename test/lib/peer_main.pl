@@ -92,7 +92,7 @@ status_here(Id) :-
 %   that.
 
 handed_over(Id) :-
-    typhon_agents:under_way(Id, _, _, _, _, _),
+    typhon_agents:agent_under_way(Id, _, _, _, _, _),
     !.
 
 agents_here(Ids) :-

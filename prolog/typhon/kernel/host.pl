@@ -9,8 +9,7 @@ This is the interface of the layer: higher layers import from here.
 
 :- reexport(host/hosts,
             [ host/3, host_again/1, host_came/2, host_closed/1, host_enter/3,
-              host_leave/1, host_left/2,
-              host_load/2, host_note/1,
+              host_leave/1, host_left/2, host_load/2, host_note/1,
               host_option/2, host_passed/3, host_passes/4, host_plain/2,
               host_plain_leaves/2, host_put/2 ]).
 :- reexport(host/hop_times, [hop_times_flags/3, host_hop/3]).
@@ -27,8 +26,8 @@ This is the interface of the layer: higher layers import from here.
 :- reexport('host/tuples').
 :- reexport(host/clocks, [clock/3, host_time/2, real_time/3]).
 :- reexport(host/time,
-              [ agents_run/1, alarm_in/3, alarm_set/3, time_again/2, time_apart/2, time_due/3,
-                time_hold/1, time_kind/1, time_let_go/1, time_now/1,
+              [ agents_run/1, alarm_in/3, alarm_set/3, time_again/2,
+                time_apart/2, time_due/3, time_hold/1, time_kind/1, time_let_go/1, time_now/1,
                 time_repeats/2, time_seed/1, time_signal/1, time_state/1,
                 time_wait/3, time_wanted/2 ]).
 :- reexport(host/alarms,
@@ -49,6 +48,6 @@ This is the interface of the layer: higher layers import from here.
                 runtime_acquire/3, runtime_release/1 ]).
 :- reexport(host/hosting,
             [ host_begin/2, host_end/1, host_listed/2, host_restart/2,
-              host_start/1, host_start/2, host_stop/1, hosts_exclusively/1, hosts_go_on/0,
-              hosts_rest/0 ]).
+              host_start/1, host_start/2, host_stop/1, hosts_exclusively/1,
+              hosts_go_on/0, hosts_rest/0 ]).
 :- reexport('host/remote').

@@ -29,14 +29,13 @@
             agent_wakes/2,              % +Id, +Goals
             agent_mail/2                % +Id, +Messages
           ]).
-:- use_module(library(lists), [member/2]).
 :- use_module('../base/durable_changes',
               [durable_drop/3, durable_on/0, enqueue_changes/0]).
 :- use_module('../program', [plain_goals/2]).
 :- use_module('../host', [events_forget/1, parts_call/3, schedule/2]).
 :- use_module(mailbox,
               [ agent_ordered/1, agent_unorder/2, agent_unorder_all/2,
-                mail_all/2, mail_keep/2, mail_put/2 ]).
+                mail_all/2, mail_put/2, mail_wakes/3 ]).
 :- use_module(life, [life_carried/2]).
 
 /** <module> The records of the agents in this process
@@ -79,8 +78,8 @@ terms, which Prolog makes by itself, is not safe if other threads retract
 
 :- dynamic
     record/6,                   % Id, Host, Module, Hash, Life, Until
-    status/3,                   % Id, Status, Goals; no clause if Id runs
-    under_way/6.                % Id, Hops, Host, Hash, Way, Frame
+    agent_rests/3,              % Id, Status, Goals; no clause if Id runs
+    agent_under_way/6.          % Id, Hops, Host, Hash, Way, Frame
 
 %!  agent(?Id, ?Host, ?Module, ?Hash, ?Life) is nondet.
 %
@@ -92,13 +91,13 @@ agent(Id, Host, Module, Hash, Life) :-
     !,
     (   record(Id, Host, Module, Hash, Life, _)
     ->  true
-    ;   under_way(Id, _, _, _, _, _),
+    ;   agent_under_way(Id, _, _, _, _, _),
         thaw(Id),
         record(Id, Host, Module, Hash, Life, _)
     ->  true
     ).
 agent(Id, Host, Module, Hash, Life) :-
-    forall(under_way(Thawed, _, Host, _, _, _), ignore(thaw(Thawed))),
+    forall(agent_under_way(Thawed, _, Host, _, _, _), ignore(thaw(Thawed))),
     record(Id, Host, Module, Hash, Life, _).
 
 %!  agent_here(?Id, ?Host, ?Module, ?Hash, ?Life) is nondet.
@@ -114,14 +113,14 @@ agent_here(Id, Host, Module, Hash, Life) :-
 
 agent_on(Id, Host) :-
     (   record(Id, Host0, _, _, _, _)
-    ;   under_way(Id, _, Host0, _, _, _)
+    ;   agent_under_way(Id, _, Host0, _, _, _)
     ),
     !,
     Host = Host0.
 
 typhon_code:in_use(Hash) :-
     (   record(_, _, _, Hash, _, _)
-    ;   under_way(_, _, _, Hash, _, _)
+    ;   agent_under_way(_, _, _, Hash, _, _)
     ),
     !.
 
@@ -132,7 +131,7 @@ typhon_code:in_use(Hash) :-
 agent_enter(agent(Id, Host, Module, Hash, Life), Status, Goals) :-
     assertz(record(Id, Host, Module, Hash, Life, 0)),
     agent_note(Id, Status, Goals),
-    assertz(status(Id, Status, Goals)),
+    assertz(agent_rests(Id, Status, Goals)),
     parts_call(comes, Host, [Id, Host, Module, Hash]),
     life_carried(Life, Id).
 
@@ -142,7 +141,7 @@ agent_enter(agent(Id, Host, Module, Hash, Life), Status, Goals) :-
 
 agent_remove(Id, Mail, Orders) :-
     retract(record(Id, Host, Module, _, _, _)),
-    retractall(status(Id, _, _)),
+    retractall(agent_rests(Id, _, _)),
     parts_call(goes, Host, [Id, Host, Module]),
     durable_drop(agent, Id, 0),
     mail_all(Id, Mail),
@@ -154,10 +153,7 @@ agent_remove(Id, Mail, Orders) :-
 %   Id has, or had, its state in Module, which it no longer uses.
 
 state_destroy(Id, Module) :-
-    (   durable_on
-    ->  forall(state_ends(Id, Module), true)
-    ;   true
-    ),
+    forall(state_ends(Id, Module), true),
     '$destroy_module'(Module).
 
 %!  agent_mobile(+Id, -Host, -Module, -Hash, -Life, -Until:integer) is semidet.
@@ -209,18 +205,15 @@ agent_status(Id, Status, Goals) :-
     status_now(Id, Status, Goals).
 
 status_now(Id, Status, Goals) :-
-    status(Id, Status, Goals0),
+    agent_rests(Id, Status, Goals0),
     goals_shown(Goals0, Goals).
 status_now(Id, running, []) :-
     record(Id, _, _, _, _, _),
-    \+ status(Id, _, _).
+    \+ agent_rests(Id, _, _).
 
 %!  agent_rests(+Id, ?Status, -Goals) is nondet.
 %
 %   As agent_status/3, for callers that only pass Goals on: they may be frames.
-
-agent_rests(Id, Status, Goals) :-
-    status(Id, Status, Goals).
 
 %   goals_shown(+Goals0, -Goals): convert frames to goals.  The other forms of
 %   goals, for agents that are held or cloned, contain no frames.
@@ -239,7 +232,7 @@ goals_shown(Goals0, Goals) =>
 
 agent_runs(Id) :-
     record(Id, _, _, _, _, _),
-    \+ status(Id, _, _),
+    \+ agent_rests(Id, _, _),
     !.
 
 %!  agent_put(+Id, +Status, +Goals) is det.
@@ -253,8 +246,8 @@ agent_put(Id, Status, Goals) :-
         enqueue_changes
     ;   true
     ),
-    retractall(status(Id, _, _)),
-    assertz(status(Id, Status, Goals)).
+    retractall(agent_rests(Id, _, _)),
+    assertz(agent_rests(Id, Status, Goals)).
 
 %!  agent_note(+Id, +Status, +Goals) is det.
 %
@@ -283,11 +276,11 @@ agent_rest(Id, Status, Goals) :-
 %   Order, its oldest order.
 
 agent_take(Id, Goals, Order) :-
-    retract(status(Id, ready, Goals0)),
+    retract(agent_rests(Id, ready, Goals0)),
     !,
     (   agent_unorder(Id, Oldest)
     ->  goals_shown(Goals0, Goals),     % Order may change the program
-        assertz(status(Id, obeying, Goals)),
+        assertz(agent_rests(Id, obeying, Goals)),
         Order = Oldest
     ;   Goals = Goals0,
         Order = none
@@ -299,7 +292,7 @@ agent_take(Id, Goals, Order) :-
 %   and an order from outside cannot end it.
 
 agent_claim(Id, Status, Goals) :-
-    retract(status(Id, Status, Goals)),
+    retract(agent_rests(Id, Status, Goals)),
     !.
 
                 /*******************************
@@ -321,9 +314,9 @@ agent_comes(Id, Host, Module, Hash, Life) :-
 agent_handed(Id, Hops, Way, Frame) :-
     record(Id, Host, Module, Hash, _, _),
     \+ agent_ordered(Id),
-    \+ status(Id, _, _),
+    \+ agent_rests(Id, _, _),
     !,
-    assertz(under_way(Id, Hops, Host, Hash, Way, Frame)),
+    assertz(agent_under_way(Id, Hops, Host, Hash, Way, Frame)),
     retract(record(Id, _, _, _, _, _)),
     '$destroy_module'(Module).
 
@@ -331,15 +324,12 @@ agent_handed(Id, Hops, Way, Frame) :-
 %
 %   Id is under way as Frame, on its hop number Hops, from Host.
 
-agent_under_way(Id, Hops, Host, Hash, Way, Frame) :-
-    under_way(Id, Hops, Host, Hash, Way, Frame).
-
 %!  agent_gone(+Id, +Hops, -Mail:list) is semidet.
 %
 %   Remove the record of Id under way; Mail has come for it meanwhile.
 
 agent_gone(Id, Hops, Mail) :-
-    retract(under_way(Id, Hops, _, _, _, _)),
+    retract(agent_under_way(Id, Hops, _, _, _, _)),
     !,
     mail_all(Id, Mail).
 
@@ -348,11 +338,11 @@ agent_gone(Id, Hops, Mail) :-
 %   Give Id, which is under way as a frame, a record again.
 
 agent_thawed(Id, Module, Life, Status, Goals) :-
-    under_way(Id, _, Host, Hash, _, _),
+    agent_under_way(Id, _, Host, Hash, _, _),
     !,
-    assertz(status(Id, Status, Goals)),
+    assertz(agent_rests(Id, Status, Goals)),
     assertz(record(Id, Host, Module, Hash, Life, 0)),
-    retractall(under_way(Id, _, _, _, _, _)).
+    retractall(agent_under_way(Id, _, _, _, _, _)).
 
 %!  agent_ready(+Id, +Goals) is semidet.
 %
@@ -376,8 +366,8 @@ agent_wakes(Id, Goals) :-
     wakes_on(Host, Id, Goals).
 
 wakes_on(Host, Id, Goals) :-
-    retractall(status(Id, _, _)),
-    assertz(status(Id, ready, Goals)),
+    retractall(agent_rests(Id, _, _)),
+    assertz(agent_rests(Id, ready, Goals)),
     schedule(Host, Id).
 
 %!  agent_put_life(+Id, +Life) is det.
@@ -402,23 +392,10 @@ agent_put_life(Id, Life) :-
 
 agent_mail(Id, Messages) :-
     agent_on(Id, Host),
-    (   status(Id, Status, Goals)
-    ->  mail_to(Status, Id, Host, Goals, Messages)
+    (   agent_rests(Id, Status, Goals)
+    ->  (   mail_wakes(Status, Id, Messages)
+        ->  wakes_on(Host, Id, Goals)
+        ;   true
+        )
     ;   mail_put(Id, Messages)          % Id runs, or is under way
     ).
-
-mail_to(faulty(_), Id, _, _, Messages) :-
-    !,
-    mail_keep(Id, Messages).
-mail_to(Status, Id, Host, Goals, Messages) :-
-    mail_put(Id, Messages),
-    (   wakes(Status, Messages)
-    ->  wakes_on(Host, Id, Goals)
-    ;   true
-    ).
-
-wakes(resident, [_|_]).
-wakes(waiting(Pattern, _), Messages) :-
-    member(Message, Messages),
-    \+ Pattern \= Message,
-    !.

@@ -1,6 +1,6 @@
 :- module(typhon_mailbox,
           [ mail_put/2,                 % +Id, +Messages
-            mail_keep/2,                % +Id, +Messages
+            mail_wakes/3,               % +Status, +Id, +Messages
             mail_take/2,                % +Id, ?Message
             mail_all/2,                 % +Id, -Messages
             mail_list/2,                % +Id, -Messages
@@ -102,10 +102,27 @@ put_all([Message|Messages], Queue) :-
     thread_send_message(Queue, Message),
     put_all(Messages, Queue).
 
-%!  mail_keep(+Id, +Messages:list) is det.
+%!  mail_wakes(+Status, +Id, +Messages:list) is semidet.
 %
-%   As mail_put/2, for an agent that is faulty: messages beyond the setting are
-%   dropped.  A full mailbox is reported once.
+%   Add Messages to the mailbox of Id, which rests with that Status.  Succeeds if
+%   Id waits for one of them.
+
+mail_wakes(faulty(_), Id, Messages) :-
+    !,
+    mail_keep(Id, Messages),
+    fail.
+mail_wakes(Status, Id, Messages) :-
+    mail_put(Id, Messages),
+    wakes(Status, Messages).
+
+wakes(resident, [_|_]).
+wakes(waiting(Pattern, _), Messages) :-
+    member(Message, Messages),
+    \+ Pattern \= Message,
+    !.
+
+%   mail_keep(+Id, +Messages): as mail_put/2, for an agent that is faulty:
+%   messages beyond the setting are dropped.  A full mailbox is reported once.
 
 mail_keep(_, []).
 mail_keep(Id, [Message|Messages]) :-

@@ -105,8 +105,8 @@ clone_id(Id, CloneId) :-
     agent_name(Id, Name, _),
     agent_id(Name, Address, CloneId).
 
-%   started(+Host, +Name, +Start, +From, +Of, -Answer): as agent_begins/5, without
-%   the unit of work.  Of is `none`, or clone(Parent, Id).
+%   started(+Host, +Name, +Start, +From, +Of, -Answer): as agent_begins/5,
+%   without the unit of work.  Of is `none`, or clone(Parent, Id).
 
 started(Host, Name, Start, From, Of, Answer) :-
     Start = start(Hash, Life, State, _, Mail),
