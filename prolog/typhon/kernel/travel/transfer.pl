@@ -129,8 +129,8 @@ departs(Id, Hops, Endpoint, Sent) :-
 %   Id has arrived by its hop number Hops, or stays.
 
 transfer_over(Id, Hops) :-
-    forall(hop_over(Id, Hops), true),
-    retractall(again(Id)).
+    ( hop_over(Id, Hops) -> true ; true ),
+    ( again(Id) -> retractall(again(Id)) ; true ).
 
 %!  transfer_again(+Id) is det.
 %!  transfer_repeated(+Id) is semidet.
