@@ -53,7 +53,8 @@ connection on which the arbiter sends its count.
 
 :- meta_predicate
     incoming(+, +, +, 1, +),
-    join_session(+, +, +, +, +, -, 1),
+    meet(+, +, +, +, 0, 2),
+    join_session(+, +, +, +, +, -, 2),
     with_streams(0, ?, ?, 0).
 
 %!  incoming(+In, +Out, +Ip, :Stage, +Me) is det.
@@ -63,20 +64,13 @@ connection on which the arbiter sends its count.
 %   the streams, with `heard` when the client has sent something, and with
 %   `proved` or refused(Formal).  If a call fails the connection ends.
 
-incoming(In, Out, Ip, Stage, Me0) :-
+incoming(In, Out, Ip, Stage, Me) :-
     get_time(Start),
-    Role = server(Start),
     catch(with_streams(call(Stage, silent), In, Out,
                        ( await_first_byte(In, Out),
                          call(Stage, heard),
-                         transport_open(server, In, Out, SIn, SOut, Proof),
-                         hello_to(Proof, Me0, Me),
-                         prove(Role, SIn, SOut, Me, Peer),
-                         call(Stage, proved),
-                         nb_setval(typhon_proved, true),
-                         join_session(Role, SIn, SOut, Me, Peer-Proof,
-                                      Session, reachable(Peer, Ip)),
-                         serve(Session, SIn, SOut) )),
+                         meet(server(Start), In, Out, Me, proved(Stage),
+                              reachable(Ip)) )),
           error(Formal, _),
           report_refused(Ip, Formal, Stage)).
 
@@ -88,6 +82,10 @@ await_first_byte(In, Out) :-
     ->  syntax_error(end_of_file)
     ;   transport_first(Byte, Out)
     ).
+
+proved(Stage) :-
+    call(Stage, proved),
+    nb_setval(typhon_proved, true).
 
 report_refused(Ip, Formal, Stage) :-
     debug(typhon(connect), '~w: a client was refused: ~p', [Ip, Formal]),
@@ -102,7 +100,7 @@ report_refused(Ip, Formal, Stage) :-
 reachable(_, _, Session) :-
     own_session(Session),
     !.
-reachable(Peer, Ip, Session) :-
+reachable(Ip, Peer, Session) :-
     hello_peer(Peer, Process, _, Claimed),
     address_parts(Claimed, Interface, Port),
     (   Interface == '0.0.0.0'
@@ -127,20 +125,14 @@ loopback(Ip) :-
 %   Connect to Address. If that fails the connection manager receives
 %   missed(Thread, Formal).
 
-outgoing(Address, Me0) :-
+outgoing(Address, Me) :-
     nb_setval(typhon_set_out, true),
     get_time(Start),
-    Role = client(Start),
     catch(( address_parts(Address, Interface, Port),
             connect(Interface, Port, Socket),
             with_streams(open_streams(Socket, In, Out), In, Out,
-                         ( transport_open(client, In, Out, SIn, SOut, Proof),
-                           hello_to(Proof, Me0, Me),
-                           prove(Role, SIn, SOut, Me, Peer),
-                           join_session(Role, SIn, SOut, Me, Peer-Proof,
-                                        Session,
-                                        add_routes(Address, Interface, Peer)),
-                           serve(Session, SIn, SOut) ))
+                         meet(client(Start), In, Out, Me, true,
+                              add_routes(Address, Interface)))
           ),
           error(Formal, _),
           missed(Address, Formal)).
@@ -153,7 +145,7 @@ typhon_handshake:greeted :-
 add_routes(Address, Interface, Peer, Session) :-
     hello_peer(Peer, Process, _, _),
     add_route(Address, Process, Session),
-    reachable(Peer, Interface, Session).
+    reachable(Interface, Peer, Session).
 
 missed(Address, Formal) :-
     (   Formal = socket_error(econnrefused, _)
@@ -213,8 +205,21 @@ open_streams(Socket, In, Out) :-
     set_stream(Out, buffer_size(65536)).
 
 		 /*******************************
-		 *     AFTER THE HANDSHAKE      *
+		 *           MEETING            *
 		 *******************************/
+
+%   meet(+Role, +In, +Out, +Me, :Proved, :Known): prove this process and the
+%   peer to each other, call Proved, give the connection to their session, and
+%   serve it.
+
+meet(Role, In, Out, Me0, Proved, Known) :-
+    functor(Role, End, _),
+    transport_open(End, In, Out, SIn, SOut, Proof),
+    hello_to(Proof, Me0, Me),
+    prove(Role, SIn, SOut, Me, Peer),
+    call(Proved),
+    join_session(Role, SIn, SOut, Me, Peer-Proof, Session, Known),
+    serve(Session, SIn, SOut).
 
 %   prove(+Role, +In, +Out, +Me, -Peer) is det.
 %
@@ -237,14 +242,14 @@ prove(server(_), In, Out, Me, Peer) :-
 %   join_session(+Role, +In, +Out, +Me, +Peer, -Session, :Known) is semidet.
 %
 %   Give the connection to the session with the peer; Peer is Hello-Proof.
-%   Before, call(Known, Session) notes the addresses that lead to the session:
-%   it has one connection for all of them.
+%   Before, call(Known, Hello, Session) notes the addresses that lead to the
+%   session: it has one connection for all of them.
 
 join_session(Role, In, Out, Me, Peer-Proof, Session, Known) :-
     hello_codec(Me, Peer, Codec),
     session_keys(Role, Me, Peer, MyKey, Key),
     session_open(Key, Peer-Proof, Codec, unacked_open, Session),
-    call(Known, Session),
+    call(Known, Peer, Session),
     hello_peer(Peer, _, _, Address),
     debug(typhon(session), '~w: a connection, with ~w, ~w',
           [Key, Address, Codec]),

@@ -48,7 +48,7 @@ are deferred while a frame is being handled and counted.
            "Seconds of silence before a peer is pinged").
 
 :- dynamic
-    damaged/4.                          % Key, Count, Which, Times
+    damaged/3.                          % Key, Count, Which: a frame; bounded
 
 %   The reader acknowledges after so many bytes, or after ack_frames/1 frames.
 
@@ -171,23 +171,14 @@ skip(Session, Which) :-
     ).
 
 times_damaged(Key, Count, Which, Times) :-
-    (   damaged(Key, Count, Which, Times0)
-    ->  true
-    ;   Times0 = 0
-    ),
-    Times is Times0+1,
-    retractall(damaged(Key, _, _, _)),
-    forget_damage,
-    assertz(damaged(Key, Count, Which, Times)).
-
-%   Facts about sessions that are over are no longer needed: drop the oldest.
-
-forget_damage :-
-    predicate_property(damaged(_, _, _, _), number_of_clauses(Count)),
-    Count >= 64,
-    !,
-    once(retract(damaged(_, _, _, _))).
-forget_damage.
+    assertz(damaged(Key, Count, Which)),
+    findall(x, damaged(Key, Count, Which), Each),
+    length(Each, Times),
+    predicate_property(damaged(_, _, _), number_of_clauses(All)),
+    (   All > 64
+    ->  once(retract(damaged(_, _, _)))
+    ;   true
+    ).
 
 %   Fails if no frame begins within the time-out.  A time-out of peek_byte/2
 %   loses no byte.

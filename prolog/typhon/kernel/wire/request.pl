@@ -330,16 +330,16 @@ endpoint_later(Goal) :-
 
 :- public load_and_take/1.              % goal of a worker
 
-load_and_take(received(Kind, Term, Peer)) :-
-    on_demand_load(received, Kind),
-    take_post(Kind, Term, Peer).
-load_and_take(requested(Kind, Term, Peer, ReplyTo)) :-
-    (   catch(on_demand_load(requested, Kind), Error,
-              print_error(error, Error)),
+load_and_take(Hook) :-
+    functor(Hook, Seam, _),
+    arg(1, Hook, Kind),
+    (   catch(on_demand_load(Seam, Kind), Error, print_error(error, Error)),
         var(Error),
-        take_request(Kind, Term, Peer, ReplyTo)
+        attempt(typhon_endpoint:Hook, Kind)
     ->  true
-    ;   spoil(ReplyTo, Kind)
+    ;   Hook = requested(_, _, _, ReplyTo)
+    ->  spoil(ReplyTo, Kind)
+    ;   true
     ).
 
 %   The exception ends the thread: it is not an error of the hook, and must not
