@@ -13,24 +13,21 @@ peer does not respond.
 A frame that was damaged in transit ends the connection: it is sent again over
 the next one. A frame that arrives damaged in the same way three times was sent
 damaged, and is skipped. A frame that cannot be decoded counts as received:
-requesting it again would not help. If a caller waits for an answer because of
-it, in this process or the other, the caller gets `lost` at once.
+requesting it again would not help.
 
 *Threading*: runs in the thread of the connection, see connection.pl. Signals
 are deferred while a frame is being handled and counted.
 */
 
-:- use_module(library(apply), [maplist/3, partition/4]).
-:- use_module(library(lists), [member/2]).
+:- use_module(library(apply), [maplist/3]).
 :- use_module(library(settings), [setting/2, setting/4]).
 :- use_module(frame,
               [bundle_parts/2, bytes_mark/2, bytes_term/3, frame_read/4]).
 :- use_module(lending,
               [lend/3, lending_close/0, lending_open/4, lent/0]).
 :- use_module(outbox,
-              [ session_acknowledge/1, session_answer/2, session_control/2,
-                session_later/1, session_object/2, session_owes/0,
-                session_push/1 ]).
+              [ session_acknowledge/1, session_control/2, session_later/1,
+                session_object/2, session_owes/0, session_push/1 ]).
 :- use_module(request,
               [ dispatch/2, dispatch_all/2, handed_over/2,
                 session_unfinished/1 ]).
@@ -236,7 +233,7 @@ handle(Bundle, Session, In, State) :-
     nb_setarg(2, State, 0),
     acknowledge(Session, In, State).
 handle(Frame, Session, In, State) :-
-    take_frame(Frame, Session),
+    dispatch(Session, Frame),
     session_count(Session, AckDue),
     nb_setarg(2, State, 0),
     acknowledge_now_and_then(AckDue, Session, In, State).
@@ -265,10 +262,8 @@ acknowledge(Session, In, State) :-
 		 *         FRAME INTAKE         *
 		 *******************************/
 
-%!  frame_term(+Codec, +Bytes, -Frame) is det.
-%
-%   Frame is the term of Bytes, `none` if Bytes are empty, or
-%   unreadable(Formal, Mark).
+%   frame_term(+Codec, +Bytes, -Frame): Frame is the term of Bytes, `none` if
+%   Bytes are empty, or unreadable(Formal, Mark), see request.pl.
 
 frame_term(_, "", none) :-
     !.
@@ -283,47 +278,17 @@ unreadable(Formal, Bytes, unreadable(Formal, Mark)) :-
     ;   Mark = none
     ).
 
-%!  take_frame(+Frame, +Session) is det.
-%
-%   Dispatch Frame.
-
-take_frame(unreadable(Formal, Mark), Session) :-
-    !,
-    session_peer(Session, _, Address),
-    print_message(warning, typhon(endpoint, unreadable(Address, Formal))),
-    spoil(Mark, Session).
-take_frame(Frame, Session) :-
-    dispatch(Session, Frame).
-
-%!  take_bundle(+Frame, +Session) is semidet.
-%
-%   Dispatch the frames in Frame; fails if it is not a bundle.
+%   take_bundle(+Frame, +Session): dispatch the frames in Frame; fails if it is
+%   not a bundle.
 
 take_bundle(Frame, Session) :-
     bundle_parts(Frame, Parts),
     session_codec(Session, Codec),
     maplist(frame_term(Codec), Parts, Frames),
-    partition(is_unreadable, Frames, Unreadable, Others),
-    dispatch_all(Session, Others),
-    forall(member(One, Unreadable), take_frame(One, Session)).
-
-is_unreadable(unreadable(_, _)).
-
-spoil(request(Id), Session) :-
-    !,
-    catch(session_answer(Session, spoilt(Id)),
-          error(session_closed, _),
-          true).
-spoil(answer(Id), Session) :-
-    !,
-    dispatch(Session, spoilt(Id)).
-spoil(_, Session) :-                    % the frame may be a hand-over
-    session_object(Session, spoilt).
+    dispatch_all(Session, Frames).
 
 :- multifile prolog:message//1.
 
 prolog:message(typhon(endpoint, skipped(Address))) -->
     [ 'Endpoint: skipped a frame that ~w has sent damaged'
       -[Address] ].
-prolog:message(typhon(endpoint, unreadable(Address, Formal))) -->
-    [ 'Endpoint: a frame of ~w cannot be read: ~p'-[Address, Formal] ].

@@ -24,6 +24,9 @@
     hand(Kind, Term)          hands over Term if the receiver accepts it
     objection(Number, Answer) the frame of that Number is not accepted
 
+A frame that cannot be decoded is unreadable(Formal, Mark): Mark is request(Id)
+or answer(Id) if it has a mark, see frame.pl, else `none`.
+
 Posts and requests go to the hooks of typhon_endpoint, answers to the caller.
 A hand-over needs no answer: settlement of its frame means that it was accepted.
 The Answer of an objection is `spoilt`, an answer of the hook, or `deferred`:
@@ -196,20 +199,29 @@ dispatch(Session, objection(Number, Answer)) :-
     session_objected(Session, Number, Answer).
 dispatch(Session, answer(Id, Term)) :-
     !,
-    (   answers_deferred(Session, Id, Term)
-    ->  true
-    ;   session_key(Session, Key),
-        conclude(answer(Term), Id, Key)
-    ).
+    answered(Session, Id, Term, answer(Term)).
 dispatch(Session, spoilt(Id)) :-
     !,
-    (   answers_deferred(Session, Id, spoilt)
-    ->  true
-    ;   session_key(Session, Key),
-        conclude(lost, Id, Key)
-    ).
+    answered(Session, Id, spoilt, lost).
+dispatch(Session, unreadable(Formal, Mark)) :-
+    !,
+    session_peer(Session, _, Peer),
+    print_message(warning, typhon(endpoint, unreadable(Peer, Formal))),
+    unreadable(Mark, Session).
 dispatch(_, Frame) :-                   % of a later version, or damaged
     print_message(warning, typhon(endpoint, unknown_frame(Frame))).
+
+%   unreadable(+Mark, +Session): if a caller waits for an answer because of the
+%   frame, in this process or the other, the caller gets `lost`.
+
+unreadable(request(Id), Session) :-
+    !,
+    spoil(reply_to(Session, Id), request).
+unreadable(answer(Id), Session) :-
+    !,
+    dispatch(Session, spoilt(Id)).
+unreadable(_, Session) :-               % the frame may be a hand-over
+    session_object(Session, spoilt).
 
 verdict(accepted, _, _, _, _) :-
     !,
@@ -224,15 +236,18 @@ verdict(deferred, Kind, Term, Peer, Session) :-
 verdict(Answer, _, _, _, Session) :-
     session_object(Session, Answer).
 
-%   answers_deferred(+Session, +Id, +Answer) is semidet: Id is that of a frame
-%   that the peer has deferred, and has answered before it has counted the
-%   frame.
+%   answered(+Session, +Id, +Answer, +Result): Id may be that of a frame that the
+%   peer has deferred, and has answered before it has counted the frame.
 
-answers_deferred(Session, Id, Answer) :-
-    integer(Id),
-    Id < 0,
-    Number is -Id,
-    objection_answered(Session, Number, Answer).
+answered(Session, Id, Answer, Result) :-
+    (   integer(Id),
+        Id < 0,
+        Number is -Id,
+        objection_answered(Session, Number, Answer)
+    ->  true
+    ;   session_key(Session, Key),
+        conclude(Result, Id, Key)
+    ).
 
 dispatch_request(Id, Kind, Term, Peer, Session) :-
     (   take_request(Kind, Term, Peer, reply_to(Session, Id))
@@ -349,6 +364,8 @@ is_thread_end(wire_thread_end(_)).
 
 :- multifile prolog:message//1.
 
+prolog:message(typhon(endpoint, unreadable(Peer, Formal))) -->
+    [ 'Endpoint: a frame of ~w cannot be read: ~p'-[Peer, Formal] ].
 prolog:message(typhon(endpoint, unknown_frame(Frame))) -->
     [ 'Endpoint: unknown frame: ~W'
       -[Frame, [quoted(true), max_depth(8)]] ].
