@@ -15,10 +15,12 @@
 Each address that is wanted has an attempt, which ends when a session is up,
 whichever side made its connection. Its state is
 
-    queued                       it begins when few others are young
-    trying(Thread, Start, Until) Thread has tried since Start; late at Until
-    pausing(Until)               the next try begins at Until
-    idle(Until)                  the same, when a session needs it, no caller
+    queued                  it begins when few others are young
+    trying(Thread, Start, Asked, Until)
+                            Thread has tried since Start, and is late at Until;
+                            Asked is the number of waiting.pl then
+    pausing(Until)          the next try begins at Until
+    idle(Until)             the same, when a session needs it, but no caller
 
 A failed try concerns the callers that came before it began. Failures that may
 pass, as when a peer breaks off during the handshake, are retried while these
@@ -37,7 +39,9 @@ unless a process is expected there soon.
 :- use_module(session, [route/2, session/2]).
 :- use_module(threads,
               [in_background/2, wire_thread_create/3, wire_thread_end/2]).
-:- use_module(waiting, [waiting_met/2, waiting_missed/2, waiting_since/2]).
+:- use_module(waiting,
+              [ waiting_first/2, waiting_met/2, waiting_missed/2,
+                waiting_number/1 ]).
 :- use_module(writer, [route_up/2]).
 
 :- setting(typhon_connection_manager:connect_time, number, 5,
@@ -60,7 +64,7 @@ unless a process is expected there soon.
 address_wanted(Address) :-
     (   route_up(Address, Session)
     ->  waiting_met(Address, Session)
-    ;   waiting_since(Address, _)
+    ;   waiting_first(Address, _)
     ->  attempt_want(Address)
     ;   true
     ).
@@ -93,7 +97,7 @@ session_reconnect(Session) :-
 %   A caller waits for Address, or a session needs it.
 
 needed(Address) :-
-    waiting_since(Address, _),
+    waiting_first(Address, _),
     !.
 needed(Address) :-
     route(Address, Session),
@@ -174,7 +178,7 @@ crowded :-
 young(Until) :-
     crowd_seconds(Seconds),
     get_time(Now),
-    attempt(_, trying(_, Start, _), _, _),
+    attempt(_, trying(_, Start, _, _), _, _),
     Until is Start+Seconds,
     Until > Now.
 
@@ -184,10 +188,11 @@ try(Address, First, Me) :-
     attempt(Address, _, Pause, _),
     get_time(Start),
     late_at(Start, Until),
+    waiting_number(Asked),
     catch(wire_thread_create(outgoing(Address, Me), out-Address, Thread),
           error(Formal, _),
           Thread = none),
-    attempt_set(Address, trying(Thread, Start, Until), Pause, First),
+    attempt_set(Address, trying(Thread, Start, Asked, Until), Pause, First),
     debug(typhon(connect), '~w: trying, in ~w', [Address, Thread]),
     (   Thread == none
     ->  failed(Address, Formal)
@@ -208,12 +213,12 @@ late_at(Start, Until) :-
 %   failed.
 
 attempt_greeted(Thread) :-
-    (   attempt(Address, trying(Thread, Start, _), Pause, _),
+    (   attempt(Address, trying(Thread, Start, Asked, _), Pause, _),
         longest_pause(Longest),
         Pause < Longest
     ->  get_time(Now),
         late_at(Now, Until),
-        attempt_set(Address, trying(Thread, Start, Until), Pause, Now)
+        attempt_set(Address, trying(Thread, Start, Asked, Until), Pause, Now)
     ;   true
     ).
 
@@ -222,7 +227,7 @@ attempt_greeted(Thread) :-
 %   The try of Thread, if it is one, has ended without a connection.
 
 attempt_ended(Thread, Formal) :-
-    (   attempt(Address, trying(Thread, _, _), _, _)
+    (   attempt(Address, trying(Thread, _, _, _), _, _)
     ->  failed(Address, Formal)
     ;   true
     ).
@@ -258,11 +263,11 @@ attempts_end :-
 
 due_at(queued, Until) :-
     young(Until).
-due_at(trying(_, _, Until), Until).
+due_at(trying(_, _, _, Until), Until).
 due_at(pausing(Until), Until).
 due_at(idle(Until), Until).
 
-due(trying(Thread, _, _), Address, _) :-
+due(trying(Thread, _, _, _), Address, _) :-
     !,
     in_background(wire_thread_end(Thread, late), end-Address),
     failed(Address, late).
@@ -291,15 +296,15 @@ failed(Address, _) :-
     address_met(Address).
 failed(Address, Formal) :-
     debug(typhon(connect), '~w: no connection: ~p', [Address, Formal]),
-    attempt(Address, trying(_, Start, _), Pause, First),
+    attempt(Address, trying(_, _, Asked, _), Pause, First),
     pause_end(Pause, Until),
-    (   concerned_before(Formal, Address, Start, First, Until, Time)
+    (   over(Formal, Address, First, Until)
     ->  print_message(silent, typhon(endpoint, unreachable(Address, Formal))),
         peer_missed(Address, Formal),
-        waiting_missed(Address, Time)
+        waiting_missed(Address, Asked)
     ;   true
     ),
-    again(Address, Start, Until, Pause, First).
+    again(Address, Asked, Until, Pause, First).
 
 %   After about Pause seconds.
 
@@ -308,24 +313,20 @@ pause_end(Pause, Until) :-
     Some is float_fractional_part(Now*1000),    % library(random) is slow
     Until is Now+Pause*(0.5+Some).              % to begin
 
-%   concerned_before(+Formal, +Address, +Start, +First, +Until, -Time) is
-%   semidet.
-%
-%   Callers that came before Time get a result: another try would fail, too, or
-%   their time will be over at Until.  The time starts with the First try.
+%   over(+Formal, +Address, +First, +Until) is semidet: the callers that the try
+%   concerns get a result. Another try would fail, too, or their time, which
+%   begins with the First try, will be over at Until.
 
-concerned_before(Formal, Address, Start, _, _, Start) :-
+over(Formal, Address, _, _) :-
     \+ may_pass(Formal),
     \+ soon_there(Formal, Address),
     !.
-concerned_before(_, Address, Start, First, Until, Time) :-
+over(_, Address, First, Until) :-
     (   peer_expected(Address)
     ->  setting(typhon_connection_manager:return_time, Seconds)
     ;   patience(Seconds)
     ),
-    Latest is Until-Seconds,
-    First =< Latest,
-    Time is min(Start, Latest).
+    First+Seconds =< Until.
 
 %   The process is being restarted.
 
@@ -344,13 +345,13 @@ may_pass(socket_error(Code, _)) :-
                       eai_again, eintr, emfile, enfile, enobufs, enomem,
                       eaddrnotavail ]).
 
-%   again(+Address, +Start, +Until, +Pause, +First): callers that came since
-%   Start get another try at once.
+%   again(+Address, +Asked, +Until, +Pause, +First): callers that came after the
+%   try had begun get another one at once.
 
-again(Address, Start, Until, Pause, First) :-
-    waiting_since(Address, Since),
+again(Address, Asked, Until, Pause, First) :-
+    waiting_first(Address, Number),
     !,
-    (   Since < Start
+    (   Number < Asked
     ->  pause(Address, pausing(Until), Pause, First)
     ;   first_pause(Shortest),
         attempt_set(Address, queued, Shortest, 0)

@@ -1,9 +1,10 @@
 :- module(typhon_waiting,
           [ manager_connect/1,          % +Address
             manager_connect/2,          % +Address, +Deadline
-            waiting_since/2,            % ?Address, -Time
+            waiting_first/2,            % ?Address, -Number
+            waiting_number/1,           % -Number
             waiting_met/2,              % +Address, +Session
-            waiting_missed/2,           % ?Address, +Time
+            waiting_missed/2,           % ?Address, +Number
             unsent/1,                   % ?Address
             unsent_request/4,           % +Address, +Kind, +Term, :OnAnswer
             unsent_closed/4,            % +Address, +Kind, +Term, :OnAnswer
@@ -18,9 +19,8 @@
 
 Threads and requests that wait for a connection to an address wait in order. A
 thread waits at a queue of its own, and receives `met` or `missed`. A request
-holds no thread: it is sent, or answered. Each has the time at which it came:
-the result of an attempt to connect does not concern those that came after the
-attempt began.
+holds no thread: it is sent, or answered. All are numbered: the result of an
+attempt to connect does not concern those that came after it began.
 
 *Threading*: any thread adds to the table. The connection manager, which
 receives wanted_at(Address), sends a request first and removes it then: as long
@@ -52,16 +52,23 @@ and the flushes are for any thread that may wait.
 :- multifile typhon_endpoint:handed_over/2.
 
 :- dynamic
-    waiting/3.                          % Address, Since, What: thread(Queue),
+    waiting/3.                          % Address, Number, What: thread(Queue),
                                         % request(Kind, Term, OnAnswer)
 
-%!  waiting_since(?Address, -Time) is semidet.
+%!  waiting_first(?Address, -Number) is semidet.
 %
-%   A thread or request waits for Address; the first has waited since Time.
+%   A thread or request waits for Address; the first has this Number.
 
-waiting_since(Address, Time) :-
-    waiting(Address, Time, _),
+waiting_first(Address, Number) :-
+    waiting(Address, Number, _),
     !.
+
+%!  waiting_number(-Number) is det.
+%
+%   All that wait have lower numbers; those that come later will not.
+
+waiting_number(Number) :-
+    flag(typhon_waiting, Number, Number).
 
 %!  unsent(?Address) is semidet.
 %
@@ -74,11 +81,11 @@ unsent(Address) :-
 %   What, thread(Queue) or a request, waits for Address.
 
 waiting_add(Address, What) :-
-    get_time(Now),
-    assertz(waiting(Address, Now, What)),
+    flag(typhon_waiting, Number, Number+1),
+    assertz(waiting(Address, Number, What)),
     (   manager_notify(wanted_at(Address))
     ->  true
-    ;   missed(Address, Now, What)
+    ;   missed(Address, Number)
     ).
 
 %!  waiting_met(+Address, +Session) is det.
@@ -87,10 +94,10 @@ waiting_add(Address, What) :-
 %   for Address.  For the connection manager only.
 
 waiting_met(Address, Session) :-
-    waiting(Address, Since, What),
+    waiting(Address, Number, What),
     !,
     (   met(What, Address, Session)
-    ->  sent(Address, Since, What),
+    ->  sent(Address, Number, What),
         waiting_met(Address, Session)
     ;   ignore(manager_notify(wanted_at(Address)))
     ).
@@ -112,8 +119,8 @@ notify(Queue, Result) :-
 
 %   The caller may have given up the request meanwhile.
 
-sent(Address, Since, What) :-
-    (   retract(waiting(Address, Since, What))
+sent(Address, Number, What) :-
+    (   retract(waiting(Address, Number, _))
     ->  true
     ;   What = request(_, _, OnAnswer)
     ->  request_forget(OnAnswer)
@@ -131,16 +138,16 @@ not_sent(Formal, Context, _, OnAnswer) :-
     print_error(error, error(Formal, Context)),
     request_answer(unreachable, OnAnswer).
 
-%!  waiting_missed(?Address, +Time) is det.
+%!  waiting_missed(?Address, +Number) is det.
 %
-%   Address cannot be reached: report that to all that came before Time.
+%   Address cannot be reached: report that to all that have a number below
+%   Number, or to all if that is `inf`.
 
-waiting_missed(Address, Time) :-
-    forall(( waiting(Address, Since, What), Since < Time ),
-           missed(Address, Since, What)).
+waiting_missed(Address, Number) :-
+    forall(( waiting(Address, N, _), N < Number ), missed(Address, N)).
 
-missed(Address, Since, What) :-
-    (   retract(waiting(Address, Since, What))
+missed(Address, Number) :-
+    (   retract(waiting(Address, Number, What))
     ->  missed(What)
     ;   true
     ).

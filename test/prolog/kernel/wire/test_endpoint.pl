@@ -777,7 +777,7 @@ test(stop_while_connecting, Result == unreachable) :-
     no_leaks(with_deaf(A,
         with_endpoint(( endpoint_request(A, echo, x, thread_send_message(Me)),
                         wait_until(typhon_attempts:attempt(
-                                       A, trying(_, _, _), _, _), 10) )))),
+                                       A, trying(_, _, _, _), _, _), 10) )))),
     thread_get_message(Me, Result, [timeout(10)]).
 test(thread_stops_waiting_at_its_deadline, Count == 0) :-
     no_leaks(with_deaf(A,
