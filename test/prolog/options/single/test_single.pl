@@ -1,6 +1,6 @@
 :- module(test_single, []).
-:- use_module('../../lib/common').
-:- use_module('../../lib/single_life').
+:- use_module('../../../lib/common').
+:- use_module('../../../lib/single_life').
 :- use_module(library(lists), [append/3]).
 :- use_module(library(plunit)).
 
