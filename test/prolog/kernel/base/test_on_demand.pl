@@ -34,7 +34,12 @@ test(plain_host_loads_no_option, Out == "[]") :-
                                    typhon_access, typhon_watch_senders, \c
                                    typhon_tables, typhon_page_server, \c
                                    typhon_tracing, typhon_stepping, \c
-                                   typhon_spying ]), \c
+                                   typhon_spying, typhon_units_of_work, \c
+                                   typhon_durable_posts, typhon_hop_ids, \c
+                                   typhon_journaled_tuples, \c
+                                   typhon_host_log, typhon_concurrency, \c
+                                   typhon_external_recipients, \c
+                                   typhon_single ]), \c
                        module_property(M, file(_)) ), Ms), \c
           print(Ms)', Out).
 test(plain_host_loads_no_large_library, Out == "[],0") :-
@@ -51,6 +56,18 @@ test(option_of_a_host_loads_its_code, Out == "guarded") :-
 test(change_of_options_loads_the_code, Out == "guarded") :-
     seen('host_start(a, [cell(none)]), host_change(a, policy(guarded)), \c
           module_property(typhon_guard, file(_)), write(guarded)', Out).
+test(limit_on_running_agents_loads_the_code, Out == "1") :-
+    seen('host_start(a), host_change(a, concurrency(1)), \c
+          module_property(typhon_concurrency, file(_)), \c
+          Clauses = [ (:- agent(x, [])), \c
+                      (main :- thread_self(Me), flag(now, N, N+1), \c
+                               flag(most, M, max(M, N+1)), \c
+                               thread_get_message(Me, x, [timeout(0.01)]) \c
+                               -> true ; flag(now, N, N-1)) ], \c
+          findall(A, ( between(1, 20, _), \c
+                       agent_create(clauses(Clauses), A) ), As), \c
+          forall(member(A, As), agent_join(A, done, 20)), \c
+          get_flag(most, Most), print(Most)', Out).
 test(mistyped_options_are_compared_with_unloaded_ones,
      true(sub_string(Out, _, _, _, "did you mean policy?"))) :-
     seen('catch(host_start(a, [polici(x)]), E, true), \c
