@@ -20,7 +20,7 @@ Service-dropped(Key, Count) has the count of all dropped facts.
 
 *Threading*: the thread that reads incoming messages calls inbox_put/4.  While a
 host has gaps, the threads that run its agents report each message that an agent
-takes.
+takes, and the agents that leave or end.
 */
 
 :- multifile
@@ -109,7 +109,7 @@ gap_taken(gap(Agent, Service, Key, Host, Max), Count) :-
 add(gap(Agent, Service, Key, Host, Max), Count) :-
     (   gap(_, _, _, Host, _, _, _)
     ->  true
-    ;   events_subscribe([messages], Host, inbox(Host))
+    ;   events_subscribe([messages,life,bad_ends,hops], Host, inbox(Host))
     ),
     inbox_key(Key, Text),
     assertz(gap(Agent, Service, Text, Host, Max, Count, Key)).
@@ -153,6 +153,14 @@ typhon_events:handle_event(inbox(_), Host, Agent, received(_, _)) :-
     with_mutex(typhon_inbox, stop_listening(Gap)),
     with_agent(Agent, ignore(agent_mail(Agent,
                                         [Service-dropped(Key, Count)]))).
+typhon_events:handle_event(inbox(_), Host, Agent, What) :-
+    ends_stay(What),
+    forall(gap(Agent, Service, _, Host, _, _, Key),
+           gap_forget(Service, Key, Agent)).
+
+ends_stay(left(_)).
+ends_stay(ended(_)).
+ends_stay(faulty(_)).
 
                 /*******************************
                 *             FACTS            *

@@ -391,6 +391,19 @@ test(moved_agent_is_not_followed, Mail == []) :-
                  wait_until(agent_property(A, state(waiting)), 10),
                  remote(alpha, post_to(A, hello, null)),
                  agent_property(A, mailbox(Mail)) )).
+test(dropped_messages_of_an_agent_that_left_are_forgotten, Gaps == []) :-
+    functions(File),
+    with_hosts([alpha, beta],
+               ( python_start(alpha, File, [queue(2)]),
+                 create([ (main :- post(9, _), receive(_-go), move(beta),
+                                   receive(_-never)) ], A,
+                        [host(alpha)]),
+                 wait_until(typhon_inbox:gap(A, _, _, _, _, _, _), 10),
+                 agent_send(A, go),
+                 address(beta, Beta),
+                 wait_until(agent_property(A, host(Beta)), 10),
+                 findall(Count, typhon_inbox:gap(A, _, _, _, _, Count, _),
+                         Gaps) )).
 test(too_many_messages, [Got,Dropped] == [10,90]) :-
     with_python([queue(10)],
                 ( create([ (main :- post(100, _), receive(_-go), take(0)),
