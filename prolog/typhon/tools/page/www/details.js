@@ -12,7 +12,7 @@ export function details(parent, store, app) {
   app.on('select', chosen => panel.choose(chosen));
   app.on('rights', () => panel.choose(app.chosen));
   app.on('state', () => panel.look());
-  store.on('events', events => panel.heard(events));
+  store.on('events', events => panel.onEvents(events));
 }
 
 class Details {
@@ -53,7 +53,7 @@ class Details {
     this.look(true);
   }
 
-  heard(events) {
+  onEvents(events) {
     if (!this.what || this.soon) return;
     const index = this.what === 'agent' ? 2 : 1;
     if (!events.some(event => event[index] === this.id)) return;
@@ -65,12 +65,12 @@ class Details {
     const round = ++this.round, { what, id } = this;
     this.looking = true;
     try {
-      const told = await this.app.ask({ ask: what, [what]: id });
+      const data = await this.app.ask({ ask: what, [what]: id });
       await new Promise(unpressed);
       if (round !== this.round || id !== this.id) return;
       this.problem.hidden = true;
-      if (what === 'agent') this.showAgent(told);
-      else this.showHost(told);
+      if (what === 'agent') this.showAgent(data);
+      else this.showHost(data);
     } catch (error) {
       if (round !== this.round || id !== this.id) return;
       this.problem.hidden = false;
@@ -137,33 +137,33 @@ class Details {
 
   // ------------------------------------------------------------- an agent
 
-  showAgent(told) {
+  showAgent(data) {
     const known = this.store.agents.get(this.id);
-    if (told.outcome !== undefined) {
+    if (data.outcome !== undefined) {
       this.pill('ended');
-      this.define([['Outcome', told.outcome], ['Program', known?.program ?? '']]);
+      this.define([['Outcome', data.outcome], ['Program', known?.program ?? '']]);
       for (const action of this.buttons.querySelectorAll('button'))
         action.disabled = true;
     } else {
-      this.pill(told.state);
+      this.pill(data.state);
       for (const action of this.buttons.querySelectorAll('.for-faulty'))
-        action.hidden = !told.fault;
-      this.define([['Host', this.hostLink(told.host)], ['Program', told.name],
-        ['Home', told.home === told.host ? 'here' : this.hostLink(told.home)],
-        ['Hops', told.hops.toLocaleString('en')],
-        ['Busy', told.busy && `${told.busy.toFixed(1)} s`]]);
-      this.section('Fault', told.fault ? [told.fault] : [], element('div'),
+        action.hidden = !data.fault;
+      this.define([['Host', this.hostLink(data.host)], ['Program', data.name],
+        ['Home', data.home === data.host ? 'here' : this.hostLink(data.home)],
+        ['Hops', data.hops.toLocaleString('en')],
+        ['Busy', data.busy && `${data.busy.toFixed(1)} s`]]);
+      this.section('Fault', data.fault ? [data.fault] : [], element('div'),
         faults => faults.flatMap(fault => [
           element('pre', { class: 'problem' }, fault.error),
           element('p', {}, `in ${fault.goal}, ${fault.place}`)]));
-      this.section('Program', told.program, element('pre', { class: 'program' }),
+      this.section('Program', data.program, element('pre', { class: 'program' }),
         programLines);
-      this.texts('Goals left', told.goals);
-      this.texts('Facts', told.facts, told.fact_count);
-      this.items('Mailbox', told.mailbox || [], ([from, text]) =>
+      this.texts('Goals left', data.goals);
+      this.texts('Facts', data.facts, data.fact_count);
+      this.items('Mailbox', data.mailbox || [], ([from, text]) =>
         [element('code', {}, text),
          element('span', { class: 'muted' }, ` from ${shortName(from)}`)]);
-      this.texts('Payloads', told.payloads);
+      this.texts('Payloads', data.payloads);
     }
     if (known) this.items('Trail', known.trail.slice(-64),
       host => [this.hostLink(host)], known.trail.length,
@@ -172,14 +172,14 @@ class Details {
 
   // --------------------------------------------------------------- a host
 
-  showHost(told) {
+  showHost(data) {
     const known = this.store.hosts.get(this.id);
     this.pill(known?.state || 'running');
-    this.define([['Process', told.process], ['Agents', told.capacity === 'inf'
-      ? told.load : `${told.load} of ${told.capacity}`],
-      ...told.hop_times.map(([way, n, min, mean, max]) => [`Hops ${way}`,
+    this.define([['Process', data.process], ['Agents', data.capacity === 'inf'
+      ? data.load : `${data.load} of ${data.capacity}`],
+      ...data.hop_times.map(([way, n, min, mean, max]) => [`Hops ${way}`,
         `${n.toLocaleString('en')}, in ${ms(mean)} ms (${ms(min)} to ${ms(max)})`])]);
-    const links = told.links.map(id => [id, known?.links.get(id) ?? 1]);
+    const links = data.links.map(id => [id, known?.links.get(id) ?? 1]);
     this.items('Neighbours', links, ([id, cost]) => [this.hostLink(id),
       cost === 1 ? null : element('span', { class: 'muted' }, ` cost ${cost}`),
       this.app.act ? button('unlink', () => this.unlink(id),
@@ -188,11 +188,11 @@ class Details {
       [agent.id, agent.program]).slice(0, 300) : [];
     this.items('Agents here', agents, ([id, program]) => [this.agentLink(id),
       element('span', { class: 'muted' }, ` ${program}`)], known?.agents.size);
-    this.texts('Tuple space', told.tuples);
-    this.texts('Pheromones', told.pheromones);
-    this.texts('Place', told.place);
-    this.texts('Services', told.services);
-    this.texts('Options', told.options);
+    this.texts('Tuple space', data.tuples);
+    this.texts('Pheromones', data.pheromones);
+    this.texts('Place', data.place);
+    this.texts('Services', data.services);
+    this.texts('Options', data.options);
     const lines = (known?.lines || []).slice(-100).reverse();
     this.items('Log', lines, ([time, agent, text]) =>
       [element('span', { class: 'muted' }, `${time === null ? '' : time.toFixed(2)} `),

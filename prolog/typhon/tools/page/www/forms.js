@@ -69,10 +69,10 @@ export function sure(question, confirm, send) {
 }
 
 // Let the user choose a file of the browser's machine, and read its text.
-export function readFile(accept, told) {
+export function readFile(accept, onRead) {
   const input = element('input', { type: 'file', accept, onchange: async () => {
     const [file] = input.files;
-    if (file) told(await file.text(), file.name);
+    if (file) onRead(await file.text(), file.name);
   } });
   input.click();
 }

@@ -12,10 +12,10 @@ const LONGEST = 8000;           // ms between attempts
 // The connection to the server. It is made again whenever it is lost; the page
 // keeps its contents meanwhile.
 class Connection {
-  // told has the callbacks snapshot(dict), events(list), and state('open' |
+  // callbacks are snapshot(dict), events(list), and state('open' |
   // 'lost' | 'refused').
-  constructor(told) {
-    this.told = told;
+  constructor(callbacks) {
+    this.callbacks = callbacks;
     this.wait = 300;
     this.held = null;
     this.open();
@@ -30,7 +30,7 @@ class Connection {
     address.protocol = address.protocol === 'https:' ? 'wss:' : 'ws:';
     const socket = this.socket = new WebSocket(address);
     socket.onmessage = ({ data }) => {
-      if (socket === this.socket) this.heard(JSON.parse(data));
+      if (socket === this.socket) this.onFrame(JSON.parse(data));
     };
     socket.onopen = () => { this.refused = false; };
     socket.onclose = () => {
@@ -48,26 +48,26 @@ class Connection {
     }, SILENCE);
   }
 
-  heard(frame) {
+  onFrame(frame) {
     this.listen();
     if (frame.snapshot) {
       this.wait = 300;
       this.held = null;
-      this.told.snapshot(frame.snapshot);
-      this.told.state('open');
+      this.callbacks.snapshot(frame.snapshot);
+      this.callbacks.state('open');
     } else if (frame.events) {
       if (this.held) this.held.push(frame.events);
-      else this.told.events(frame.events);
+      else this.callbacks.events(frame.events);
     } else if (frame.error) {
       this.refused = true;
-      this.told.state('refused', frame.error);
+      this.callbacks.state('refused', frame.error);
     }
   }
 
   lost() {
     clearTimeout(this.silence);
     this.socket = null;
-    if (!this.refused) this.told.state('lost'); // else state() has the reason
+    if (!this.refused) this.callbacks.state('lost'); // else state() has the reason
     this.again(this.wait);
     this.wait = Math.min(LONGEST, this.wait * 1.7);
   }
@@ -84,11 +84,11 @@ class Connection {
     this.held = [];
     try {
       const scene = await this.ask({ ask: 'survey' });
-      if (this.held) this.told.snapshot(scene);
+      if (this.held) this.callbacks.snapshot(scene);
     } finally {
       const held = this.held || [];
       this.held = null;
-      for (const events of held) this.told.events(events);
+      for (const events of held) this.callbacks.events(events);
     }
   }
 
@@ -105,9 +105,9 @@ class Connection {
     }
     if (!response.ok)
       throw new Error((await response.text()).trim() || `Status ${response.status}`);
-    const told = await response.json();
-    if (told.error !== undefined) throw new Error(told.error);
-    return told.answer;
+    const reply = await response.json();
+    if (reply.error !== undefined) throw new Error(reply.error);
+    return reply.answer;
   }
 }
 

@@ -87,17 +87,17 @@ class Sequence extends Picture {
 
   // {agents, rows}: a row is a message that is sent or taken, or a hop.
   chart() {
-    const told = story(this.store.remembered(), this.store.time);
-    const agents = this.chosen.length ? this.chosen : talkers(told.letters);
+    const history = story(this.store.remembered(), this.store.time);
+    const agents = this.chosen.length ? this.chosen : talkers(history.letters);
     const column = new Map(agents.map((id, i) => [id, i]));
     const rows = [];
-    for (const letter of told.letters) {
+    for (const letter of history.letters) {
       if (!column.has(letter.sender) || !column.has(letter.receiver)) continue;
       if (letter.from !== null) rows.push({ time: letter.from, order: 0, letter });
       if (letter.to !== null) rows.push({ time: letter.to, order: 1, taken: letter });
     }
     if (this.moves)
-      for (const hop of told.hops)
+      for (const hop of history.hops)
         if (column.has(hop.agent)) rows.push({ time: hop.to, order: 2, hop });
     rows.sort((a, b) => a.time - b.time || a.order - b.order);
     return { agents, column, rows: joined(telling(rows)).slice(-ROWS) };

@@ -108,16 +108,16 @@ class SpaceTime extends Picture {
     const first = Math.min(times[0][0], times[times.length - 1][0]);
     const from = this.span === 'all' ? first : Math.max(first, now - Number(this.span));
     const chosen = this.app.chosen?.agent;
-    const told = story(this.only && chosen
+    const history = story(this.only && chosen
       ? events.filter(event => concerns(event, chosen)) : events, now);
-    const rows = this.rows(told);
-    return { told, rows, from, to: Math.max(now, from + 1e-3) };
+    const rows = this.rows(history);
+    return { history, rows, from, to: Math.max(now, from + 1e-3) };
   }
 
-  rows(told) {
+  rows(history) {
     const hosts = new Set();
-    for (const { host } of told.stays) hosts.add(host);
-    for (const { a, b } of told.hops) hosts.add(a).add(b);
+    for (const { host } of history.stays) hosts.add(host);
+    for (const { a, b } of history.hops) hosts.add(a).add(b);
     return [...hosts].sort(byName);
   }
 
@@ -142,7 +142,7 @@ class SpaceTime extends Picture {
 
   // Draws the picture, and returns the lines of agents, to find an agent at a
   // position: [agent, x1, y1, x2, y2].
-  picture(pen, palette, { told, rows, from, to }, height) {
+  picture(pen, palette, { history, rows, from, to }, height) {
     const left = this.margin(pen, rows), top = 22, right = this.width - 12;
     const high = Math.max(LEAST, Math.min(60, (height - top - 6) / rows.length));
     const most = Math.max(0, rows.length * high + top + 6 - height);
@@ -151,17 +151,17 @@ class SpaceTime extends Picture {
     const x = time => left + (right - left) * (time - from) / (to - from);
     const rowTop = host => top + number.get(host) * high - this.scroll;
     const y = (host, lane) => rowTop(host) + high * 0.12
-      + high * 0.76 * ((lane ?? 0) + 0.5) / (told.lanes.get(host) || 1);
+      + high * 0.76 * ((lane ?? 0) + 0.5) / (history.lanes.get(host) || 1);
 
-    this.movers = new Set(told.hops.map(({ agent }) => agent));
+    this.movers = new Set(history.hops.map(({ agent }) => agent));
     this.drawRows(pen, palette, rows, rowTop, high, left, right);
     pen.save();
     pen.beginPath();
     pen.rect(left, top, right - left, Math.max(1, height - top));
     pen.clip();
-    const lines = this.drawAgents(pen, palette, told, x, y, high);
-    if (this.messages) this.drawLetters(pen, palette, told, x, y);
-    this.drawMarks(pen, palette, told, x, y);
+    const lines = this.drawAgents(pen, palette, history, x, y, high);
+    if (this.messages) this.drawLetters(pen, palette, history, x, y);
+    this.drawMarks(pen, palette, history, x, y);
     pen.restore();
     pen.fillStyle = palette.bg;
     pen.fillRect(0, 0, this.width, top);

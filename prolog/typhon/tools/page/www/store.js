@@ -87,16 +87,16 @@ export class Store extends Announcer {
   applySnapshot(snapshot) {
     this.note(snapshot.time);
     const hosts = new Set(), agents = new Set();
-    for (const told of snapshot.hosts || []) {
-      hosts.add(told.id);
-      this.toldHost(told);
+    for (const entry of snapshot.hosts || []) {
+      hosts.add(entry.id);
+      this.updateHost(entry);
     }
     for (const host of this.hosts.values())
       if (!hosts.has(host.id) && host.state === 'running') host.state = 'lost';
-    this.toldLinks(snapshot.hosts || []);
-    for (const told of snapshot.agents || []) {
-      agents.add(told.id);
-      this.toldAgent(told);
+    this.updateLinks(snapshot.hosts || []);
+    for (const entry of snapshot.agents || []) {
+      agents.add(entry.id);
+      this.updateAgent(entry);
     }
     for (const agent of [...this.agents.values()])
       if (!agents.has(agent.id) && agent.status !== 'ended')
@@ -107,18 +107,18 @@ export class Store extends Announcer {
     this.touch();
   }
 
-  toldHost(told) {
-    const host = this.host(told.id);
-    host.process = told.process || host.process;
-    host.machine = told.machine || host.machine;
-    host.state = told.state || 'running';
-    host.load = typeof told.load === 'number' ? told.load : null;
-    if (typeof told.x === 'number' && typeof told.y === 'number')
-      host.given = { x: told.x, y: told.y };
+  updateHost(entry) {
+    const host = this.host(entry.id);
+    host.process = entry.process || host.process;
+    host.machine = entry.machine || host.machine;
+    host.state = entry.state || 'running';
+    host.load = typeof entry.load === 'number' ? entry.load : null;
+    if (typeof entry.x === 'number' && typeof entry.y === 'number')
+      host.given = { x: entry.x, y: entry.y };
   }
 
   // A link exists if one of its ends reports it.
-  toldLinks(hosts) {
+  updateLinks(hosts) {
     const now = new Map();
     for (const { id, links } of hosts)
       for (const link of links || []) {
@@ -130,13 +130,13 @@ export class Store extends Announcer {
     for (const [a, b, cost] of now.values()) this.link(a, b, cost);
   }
 
-  toldAgent(told) {
-    const agent = this.agent(told.id, told.host);
-    this.setProgram(agent, told.program || agent.program);
+  updateAgent(entry) {
+    const agent = this.agent(entry.id, entry.host);
+    this.setProgram(agent, entry.program || agent.program);
     this.revive(agent);
-    agent.status = told.status || 'running';
-    if (told.fault) agent.fault = told.fault;
-    if (agent.host !== told.host) this.put(agent, told.host);
+    agent.status = entry.status || 'running';
+    if (entry.fault) agent.fault = entry.fault;
+    if (agent.host !== entry.host) this.put(agent, entry.host);
     if (agent.hop && agent.hop.arrives === null) agent.hop = null;
   }
 

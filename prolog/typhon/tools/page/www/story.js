@@ -9,7 +9,7 @@
 //   lanes:   Map of host -> greatest number of agents at a time
 
 export function story(events, last) {
-  const told = { stays: [], hops: [], letters: [], marks: [], lanes: new Map() };
+  const history = { stays: [], hops: [], letters: [], marks: [], lanes: new Map() };
   const where = new Map();      // agent -> its stay, or {host, left: time}
   const busy = new Map();       // host -> whether each lane is in use
   const post = new Map();       // "sender receiver" -> untaken letters
@@ -20,16 +20,16 @@ export function story(events, last) {
     let lane = lanes.indexOf(false);
     if (lane < 0) lane = lanes.length;
     lanes[lane] = true;
-    told.lanes.set(host, Math.max(told.lanes.get(host) || 1, lanes.length));
+    history.lanes.set(host, Math.max(history.lanes.get(host) || 1, lanes.length));
     const stay = { agent, host, from: time, to: last, lane };
-    told.stays.push(stay);
+    history.stays.push(stay);
     where.set(agent, stay);
   };
   const end = (stay, time) => {
     stay.to = Math.max(stay.from, time);
     busy.get(stay.host)[stay.lane] = false;
   };
-  const hop = (agent, a, from, b, to) => told.hops.push({ agent, a, from, b, to });
+  const hop = (agent, a, from, b, to) => history.hops.push({ agent, a, from, b, to });
 
   // The agent has an event on this host.
   const here = (agent, host, time) => {
@@ -61,7 +61,7 @@ export function story(events, last) {
     sent(time, host, agent, receiver, text) {
       const letter = { sender: agent, a: host, from: time, receiver, b: null,
                        to: null, text: text ?? '' };
-      told.letters.push(letter);
+      history.letters.push(letter);
       const key = `${agent} ${receiver}`;
       if (!post.has(key)) post.set(key, []);
       post.get(key).push(letter);
@@ -69,12 +69,12 @@ export function story(events, last) {
     received(time, host, agent, sender, text) {
       const letter = post.get(`${sender} ${agent}`)?.shift();
       if (letter) Object.assign(letter, { b: host, to: time });
-      else told.letters.push({ sender, a: null, from: null, receiver: agent,
+      else history.letters.push({ sender, a: null, from: null, receiver: agent,
                                b: host, to: time, text: text ?? '' });
     },
   };
   const mark = (kind, agent, host, time) =>
-    told.marks.push({ kind, agent, host, time });
+    history.marks.push({ kind, agent, host, time });
 
   for (const [time, host, agent, kind, ...more] of inTime(events)) {
     if (kind === 'arrived') {
@@ -99,7 +99,7 @@ export function story(events, last) {
     begin(agent, host, time);
   }
 
-  return told;
+  return history;
 }
 
 // The events of agents in the order of time: processes send them independently.

@@ -193,8 +193,8 @@ export function agentList(parent, store, app) {
     // the last snapshot may be from an earlier hop
     if (agent.status === 'in_transit')
       return agent.hop ? `in_transit to ${shortName(agent.hop.to)}` : 'in_transit';
-    const told = more(agent);
-    return told.status === agent.status && told.doing ? told.doing : agent.status;
+    const row = more(agent);
+    return row.status === agent.status && row.doing ? row.doing : agent.status;
   };
   list(parent, store, app, {
     label: 'Agents', what: 'agent', rows: () => store.agents.values(),
