@@ -7,9 +7,11 @@
 :- use_module(library(process), [process_create/3, process_wait/2]).
 :- use_module(library(readutil), [read_file_to_codes/3, read_line_to_string/2]).
 :- use_module(library(typhon/kernel/base/durable_changes)).
-:- use_module(library(typhon/options/journal/units_of_work), []).
+:- use_module(library(typhon/kernel/base/on_demand), [on_demand_load/2]).
 
 :- needs([journal]).
+
+:- on_demand_load(host_option, journal).
 
 :- begin_tests(store).
 

@@ -376,9 +376,9 @@ test(departure_reported_after_the_arrival_in_the_diagram,
                     [3, 'a@h:1', '', 'unlink', 'b@h:2']]);
                 const view = typhon.views[1].mount(document.body, store,
                     { chosen: {} });
-                const { told } = view.sight();
+                const { history } = view.sight();
                 view.destroy();
-                return told.stays.map(({ host, from, to }) => [host, from, to])",
+                return history.stays.map(({ host, from, to }) => [host, from, to])",
                Lines).
 test(departure_reported_after_the_end, Status == "ended") :-
     with_store("store.applyEvents(
