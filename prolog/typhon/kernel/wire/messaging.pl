@@ -4,11 +4,6 @@
             endpoint_post_by/4,         % +Deadline, +Address, +Kind, +Term
             endpoint_request/4,         % +Address, +Kind, +Term, :OnAnswer
             endpoint_hand/4,            % +Address, +Kind, +Term, -Hand
-            endpoint_hand_over/2,       % +Hand, +Token
-            endpoint_hand_to/2,         % +Hand, -Process
-            endpoint_handed/2,          % +Hand, -Term
-            endpoint_reply/2,           % +ReplyTo, +Term
-            endpoint_reply_later/2,     % +ReplyTo, +Term
             endpoint_call/5,            % +Address, +Kind, +Term, -Answer,
                                         % +Timeout
             endpoint_ask_all/6          % +Addresses, +Kind, +Term, :Further,
@@ -32,17 +27,14 @@ wait, and are not for the threads of the endpoint.
 :- use_module(library(settings), [setting/2, setting/4]).
 :- use_module('../base/on_demand', [on_demand_load/2]).
 :- use_module(endpoint, [endpoint_address/1]).
-:- use_module(frame, [bytes_term/3, mobile_term/1]).
-:- use_module(outbox,
-              [session_hand/3, session_hand_bytes/4, session_send_with/2]).
+:- use_module(frame, [mobile_term/1]).
+:- use_module(outbox, [session_hand/4, session_send_with/2]).
 :- use_module(peer_cache, [endpoint_peer/2]).
 :- use_module(reader, [in_reader/0]).
 :- use_module(request,
-              [ request_answer/2, request_forget/1, request_reply/2,
-                request_reply_later/2, request_send/4, take_post/3,
+              [ request_answer/2, request_forget/1, request_send/4, take_post/3,
                 take_request/4 ]).
-:- use_module(session,
-              [route/2, session_codec/2, session_peer/3]).
+:- use_module(session, [route/2]).
 :- use_module(transport, [alone/1]).
 :- use_module(waiting,
               [ manager_connect/1, manager_connect/2, unsent/1, unsent_closed/4,
@@ -187,59 +179,13 @@ alone_request(_, _, _, OnAnswer) :-
 %
 %   Hand is the frame by which Term is handed over to the process at Address.
 %   Fails if there is no connection, or requests wait for Address.  Term holds
-%   neither attributed variables nor cycles.  Hand is hand(Session, Bytes), and
-%   can be kept in clauses.
+%   neither attributed variables nor cycles.  Hand can be kept in clauses.
 %
 %   @error resource_error(frame_bytes), type_error(mobile_term, Culprit)
 
-endpoint_hand(Address, Kind, Term, hand(Session, Bytes)) :-
+endpoint_hand(Address, Kind, Term, Hand) :-
     open_session(Address, Session),
-    session_hand_bytes(Session, Kind, Term, Bytes).
-
-%!  endpoint_hand_over(+Hand, +Token) is det.
-%
-%   Send Hand.  The hook handed_over(Token, Result) gets the result, in a thread
-%   of the endpoint.
-%
-%   @error session_closed
-
-endpoint_hand_over(hand(Session, Bytes), Token) :-
-    session_hand(Session, Bytes, Token).
-
-%!  endpoint_hand_to(+Hand, -Process) is det.
-%
-%   Hand goes to Process.
-
-endpoint_hand_to(hand(Session, _), Process) :-
-    session_peer(Session, Process, _).
-
-%!  endpoint_handed(+Hand, -Term) is det.
-%
-%   Hand hands over Term.
-
-endpoint_handed(hand(Session, Bytes), Term) :-
-    session_codec(Session, Codec),
-    bytes_term(Codec, Bytes, hand(_, Term)).
-
-%!  endpoint_reply(+ReplyTo, +Term) is det.
-%
-%   Answer a request, from any thread, at any later time. A second answer
-%   is ignored.
-
-endpoint_reply(ReplyTo, Term) :-
-    catch(request_reply(ReplyTo, Term),
-          error(session_closed, _),
-          true).                        % the session of the caller is closed
-
-%!  endpoint_reply_later(+ReplyTo, +Term) is det.
-%
-%   As endpoint_reply/2, with the next frame to that peer or a millisecond
-%   later; for answers that are not urgent. Of use only in a hook.
-
-endpoint_reply_later(ReplyTo, Term) :-
-    catch(request_reply_later(ReplyTo, Term),
-          error(session_closed, _),
-          true).
+    session_hand(Session, Kind, Term, Hand).
 
 		 /*******************************
 		 *             CALL             *

@@ -2,8 +2,10 @@
           [ session_send/2,             % +Session, +Term
             session_answer/2,           % +Session, +Term
             session_send_with/2,        % +Session, +Term
-            session_hand/3,             % +Session, +Bytes, +Token
-            session_hand_bytes/4,       % +Session, +Kind, +Term, -Bytes
+            session_hand/4,             % +Session, +Kind, +Term, -Hand
+            endpoint_hand_over/2,       % +Hand, +Token
+            endpoint_hand_to/2,         % +Hand, -Process
+            endpoint_handed/2,          % +Hand, -Term
             session_mark/2,             % +Session, +Token
             session_object/2,           % +Session, +Answer
             session_acknowledge/1,      % +Session
@@ -28,11 +30,11 @@ This module has the predicates that senders call; writer.pl writes.
 :- use_module(library(lists), [list_to_set/2, member/2]).
 :- use_module('../base/durable_changes',
               [flush_sends/0, output_waits/0, send_after_commit/2]).
-:- use_module(frame, [bundle_fits/1, term_bytes/3]).
+:- use_module(frame, [bundle_fits/1, bytes_term/3, term_bytes/3]).
 :- use_module(session,
               [ session_codec/2, session_held/2, session_key/2,
-                session_locked/2, session_must_exist/3, debug_frame/4,
-                frame_fits/1 ]).
+                session_locked/2, session_must_exist/3, session_peer/3,
+                debug_frame/4, frame_fits/1 ]).
 :- use_module(unacked, [session_received/2]).
 :- use_module(writer, [flush_out/1, put_control/3, put_frame/4]).
 
@@ -52,17 +54,22 @@ session_send(Session, Term) :-
 %!  session_answer(+Session, +Term) is det.
 %
 %   As session_send/2, for answers: while the store is full their callers wait,
-%   too. If the store has been closed the answer is dropped.
+%   too. If the session or the store has been closed the answer is dropped.
 
 session_answer(Session, Term) :-
     unless_closed(send(Session, Term, anyhow)).
 
-%   After the store was closed peers must not learn of further events.
+%   A frame for a peer that is gone is of no use; after the store was closed
+%   peers must not learn of further events.
 
 :- meta_predicate unless_closed(0).
 
 unless_closed(Goal) :-
-    catch(Goal, error(existence_error(_, open), _), true).
+    catch(Goal, error(Formal, Context),
+          ( is_closed(Formal) -> true ; throw(error(Formal, Context)) )).
+
+is_closed(session_closed).
+is_closed(existence_error(_, open)).    % the store
 
 send(Session, Term, When) :-
     frame_bytes(Session, Term, Bytes),
@@ -95,25 +102,40 @@ session_send_with(Session, Term) :-
     ),
     send_bytes(Session, Bytes, Token, now).
 
-%!  session_hand_bytes(+Session, +Kind, +Term, -Bytes) is det.
+%!  session_hand(+Session, +Kind, +Term, -Hand) is det.
 %
-%   Bytes are the frame that hands over Term.
+%   Hand is the frame by which Term is handed over, hand(Session, Bytes).
 %
 %   @error resource_error(frame_bytes), type_error(mobile_term, Culprit)
 
-session_hand_bytes(Session, Kind, Term, Bytes) :-
+session_hand(Session, Kind, Term, hand(Session, Bytes)) :-
     frame_bytes(Session, hand(Kind, Term), Bytes).
 
-%!  session_hand(+Session, +Bytes, +Token) is det.
+%!  endpoint_hand_over(+Hand, +Token) is det.
 %
-%   Send Bytes, which hand over a term; Token identifies the result, see
-%   request.pl.  The caller defers signals.
+%   Send Hand.  The hook handed_over(Token, Result) gets the result, in a thread
+%   of the endpoint.  The caller defers signals.
 %
 %   @error session_closed
 
-session_hand(Session, Bytes, Token) :-
+endpoint_hand_over(hand(Session, Bytes), Token) :-
     answers_first(Session),
     session_held(Session, put_frame(Session, Bytes, Token, flush)).
+
+%!  endpoint_hand_to(+Hand, -Process) is det.
+%
+%   Hand goes to Process.
+
+endpoint_hand_to(hand(Session, _), Process) :-
+    session_peer(Session, Process, _).
+
+%!  endpoint_handed(+Hand, -Term) is det.
+%
+%   Hand hands over Term.
+
+endpoint_handed(hand(Session, Bytes), Term) :-
+    session_codec(Session, Codec),
+    bytes_term(Codec, Bytes, hand(_, Term)).
 
 %!  session_mark(+Session, +Token) is det.
 %
@@ -181,14 +203,17 @@ session_send_later(Session, Term) :-
     nb_current(typhon_later, Count),
     !,
     frame_bytes(Session, Term, Bytes),
-    (   output_waits
-    ->  unless_closed(send_committed(Session, Bytes, none, later))
-    ;   session_locked(Session, put_frame(Session, Bytes, none, buffer))
-    ),
+    unless_closed(buffer(Session, Bytes)),
     Count1 is Count+1,
     nb_linkval(typhon_later, Count1).
 session_send_later(Session, Term) :-
     session_answer(Session, Term).
+
+buffer(Session, Bytes) :-
+    (   output_waits
+    ->  send_committed(Session, Bytes, none, later)
+    ;   session_locked(Session, put_frame(Session, Bytes, none, buffer))
+    ).
 
 %!  session_later(-Count) is det.
 %

@@ -1,7 +1,7 @@
 :- module(typhon_request,
           [ request_send/4,             % +Session, +Kind, +Term, :OnAnswer
-            request_reply/2,            % +ReplyTo, +Term
-            request_reply_later/2,      % +ReplyTo, +Term
+            endpoint_reply/2,           % +ReplyTo, +Term
+            endpoint_reply_later/2,     % +ReplyTo, +Term
             request_answer/2,           % +Result, :OnAnswer
             request_forget/1,           % :OnAnswer
             request_take/3,             % +Session, +Id, -OnAnswer
@@ -85,24 +85,27 @@ request_answer(Result, OnAnswer) :-
 request_forget(OnAnswer) :-
     retractall(open_request(_, _, OnAnswer)).
 
-%!  request_reply(+ReplyTo, +Term) is det.
+%!  endpoint_reply(+ReplyTo, +Term) is det.
 %
-%   ReplyTo is reply_to(Session, Id), or alone(OnAnswer): see messaging.pl.
+%   Answer a request, from any thread, at any later time. A second answer is
+%   ignored.  ReplyTo is reply_to(Session, Id), or alone(OnAnswer): see
+%   messaging.pl.
 
-request_reply(reply_to(Session, Id), Term) :-
+endpoint_reply(reply_to(Session, Id), Term) :-
     session_answer(Session, answer(Id, Term)).
-request_reply(alone(OnAnswer), Term) :-
+endpoint_reply(alone(OnAnswer), Term) :-
     copy_term(Term, Copy),
     request_answer(answer(Copy), OnAnswer).
 
-%!  request_reply_later(+ReplyTo, +Term) is det.
+%!  endpoint_reply_later(+ReplyTo, +Term) is det.
 %
-%   As request_reply/2, if possible together with what is sent next.
+%   As endpoint_reply/2, with the next frame to that peer or a millisecond
+%   later; for answers that are not urgent. Of use only in a hook.
 
-request_reply_later(reply_to(Session, Id), Term) :-
+endpoint_reply_later(reply_to(Session, Id), Term) :-
     session_send_later(Session, answer(Id, Term)).
-request_reply_later(alone(OnAnswer), Term) :-
-    request_reply(alone(OnAnswer), Term).
+endpoint_reply_later(alone(OnAnswer), Term) :-
+    endpoint_reply(alone(OnAnswer), Term).
 
 %!  session_unfinished(+Session) is semidet.
 %
