@@ -287,8 +287,7 @@ due(_, Address, Me) :-
 		 *******************************/
 
 %   failed(+Address, +Formal): the try has failed, Formal is `late` if there was
-%   no answer.  The session may be up nevertheless, by a connection that the peer
-%   has made.
+%   no answer. The session may be up nevertheless, by a connection of the peer.
 
 failed(Address, _) :-
     route_up(Address, _),
@@ -299,7 +298,8 @@ failed(Address, Formal) :-
     attempt(Address, trying(_, _, Asked, _), Pause, First),
     pause_end(Pause, Until),
     (   over(Formal, Address, First, Until)
-    ->  print_message(silent, typhon(endpoint, unreachable(Address, Formal))),
+    ->  print_message(silent,
+                      typhon(endpoint, unreachable(Address, Formal))),
         peer_missed(Address, Formal),
         waiting_missed(Address, Asked)
     ;   true

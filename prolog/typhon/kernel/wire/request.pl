@@ -239,8 +239,8 @@ verdict(deferred, Kind, Term, Peer, Session) :-
 verdict(Answer, _, _, _, Session) :-
     session_object(Session, Answer).
 
-%   answered(+Session, +Id, +Answer, +Result): Id may be that of a frame that the
-%   peer has deferred, and has answered before it has counted the frame.
+%   answered(+Session, +Id, +Answer, +Result): Id may be that of a frame that
+%   the peer has deferred, and has answered before it has counted the frame.
 
 answered(Session, Id, Answer, Result) :-
     (   integer(Id),

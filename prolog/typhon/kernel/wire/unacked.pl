@@ -282,7 +282,7 @@ hands_over(Token) :-
 %!  session_acked(+Session, +Received, -Handed:list) is semidet.
 %
 %   The peer has Received so many frames, as read in a head; fails if that was
-%   known.  Handed are the hand-overs among the frames that are acknowledged now.
+%   known. Handed are the hand-overs among the frames that are acknowledged now.
 %
 %   @error domain_error(acknowledged, Count) if that is more than was sent
 
