@@ -16,6 +16,8 @@
     from kernel/base, and from the interfaces of lower layers, but an option
     from no other;
   - a call Module:Goal of a predicate that Module does not export;
+  - Module:Goal in a test, or another file that is not of the library, where
+    Module has no such predicate;
   - modules that import each other in a circle;
   - a file of the kernel that names an option;
   - a hook that its module does not declare, or that no module defines;

@@ -51,6 +51,14 @@ problem(past_interface(File, Module, PI)) :-
     module_of(Module, Module),
     layer_file(Module, _),
     \+ hook(Module, PI).
+problem(no_such_predicate(File, Module, PI)) :-
+    reaches(File, Module, PI),
+    PI \= _/0,
+    \+ layer_file(File, _),
+    \+ PI = '[|]'/2,                    % Module:List
+    module_of(Owner, Module),
+    layer_file(Owner, _),
+    \+ has_predicate(Owner, Module, PI).
 problem(circle(File)) :-
     layer_module(File, _, _),
     reaches_by_import(File, File).
@@ -60,6 +68,24 @@ problem(Problem) :-
     seam_problem(Problem).
 problem(Problem) :-
     index_problem(Problem).
+
+%   has_predicate(+File, +Module, +PI) is semidet: File, of Module, defines,
+%   declares or imports PI, or a predicate with more arguments, as closures have.
+
+has_predicate(File, _, Name/Arity) :-
+    size(File, Name/More, _, _),
+    More >= Arity,
+    !.
+has_predicate(_, Module, PI) :-
+    ( stores(_, Module:PI) ; declares(_, Module:PI) ),
+    !.
+has_predicate(File, _, PI) :-
+    ( import(File, Target, List) ; reexport(File, Target, List) ),
+    (   is_list(List)
+    ->  memberchk(PI, List)
+    ;   export(Target, PI)
+    ),
+    !.
 
 %   What a file includes is a part of it.
 
@@ -182,6 +208,8 @@ says(unused_at_interface(F, PI), '~w: no module imports ~w from this interface',
 says(no_such_file(F, T), '~w: imports ~w, which is not there', [F, T]).
 says(against_layers(F, T), '~w: imports ~w, against the layers', [F, T]).
 says(past_interface(F, M, PI), '~w: calls ~w of ~w, which is internal',
+     [F, PI, M]).
+says(no_such_predicate(F, M, PI), '~w: names ~w of ~w, which is not there',
      [F, PI, M]).
 says(circle(F), '~w: imports itself, in a circle', [F]).
 says(stray_comment_end(F), '~w: a stray */ makes the next directive a clause',

@@ -9,6 +9,7 @@
             mentions/2,         % ?File, ?Name
             reaches/3,          % ?File, ?Module, ?PI
             declares/2,         % ?File, ?Hook
+            stores/2,           % ?File, ?Table
             defines/2,          % ?File, ?Hook
             hook_clause/2,      % ?File, ?Head
             setting_of/5,       % ?File, ?Name, ?Type, ?Default, ?Text
@@ -48,6 +49,7 @@
     mentions/2,                 % File, Name: in clauses and directives
     reaches/3,                  % File, Module, PI: Module:Goal in a clause
     declares/2,                 % File, Module:PI: multifile
+    stores/2,                   % File, Module:PI: dynamic or thread_local
     defines/2,                  % File, Module:PI: a clause for that module
     hook_clause/2,              % File, Module:Head: that clause
     setting_of/5,               % File, Module:Name, Type, Default, Text
@@ -180,6 +182,15 @@ note_directive(multifile(PIs), File) :-
     module_of(File, Module),
     forall(( comma_member(PI, PIs), strip_module(Module:PI, M, Name) ),
            note_declared(File, M, Name)).
+note_directive(Storage, File) :-
+    (   Storage = dynamic(PIs)
+    ;   Storage = thread_local(PIs)
+    ),
+    module_of(File, Module),
+    !,
+    note_names(PIs, File),
+    forall(( comma_member(PI, PIs), strip_module(Module:PI, M, Name) ),
+           assertz(stores(File, M:Name))).
 note_directive(setting(Name0, Type, Default, Text), File) :-
     !,
     note_names(setting(Name0, Type, Default, Text), File),

@@ -223,7 +223,7 @@ programs_seen(Count) :-
 %   Arrivals are installed, but not answered.
 
 silence_answers :-
-    wrap_predicate(typhon_messaging:endpoint_reply_later(_, _), mute, _,
+    wrap_predicate(typhon_request:endpoint_reply_later(_, _), mute, _,
                    true),
     settle_nothing.
 
@@ -238,14 +238,14 @@ settle_nothing :-
 :- dynamic answer_kept/2.               % ReplyTo, Answer
 
 keep_answers :-
-    wrap_predicate(typhon_messaging:endpoint_reply_later(ReplyTo, Answer),
+    wrap_predicate(typhon_request:endpoint_reply_later(ReplyTo, Answer),
                    keep, _,
                    assertz(peer_main:answer_kept(ReplyTo, Answer))),
     settle_nothing.
 
 give_answers :-
     forall(retract(answer_kept(ReplyTo, Answer)),
-           typhon_messaging:endpoint_reply(ReplyTo, Answer)),
+           typhon_request:endpoint_reply(ReplyTo, Answer)),
     unwrap_predicate(typhon_frame:frame_write/3, unsettled),
     forall(typhon_session:session(_, Session),
            typhon_outbox:session_acknowledge(Session)).

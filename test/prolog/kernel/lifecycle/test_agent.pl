@@ -186,7 +186,7 @@ test(vocabulary_after_a_move, true(F == [s(B,A,1)])) :-
                  agent_property(Id, facts(F)) )).
 test(only_agents_have_a_self,
      error(existence_error(running_agent, here))) :-
-    with_hosts([alpha], typhon_vocabulary:self(_)).
+    with_hosts([alpha], typhon_words:self(_)).
 
 :- end_tests(birth).
 
