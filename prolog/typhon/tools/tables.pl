@@ -10,7 +10,8 @@
 it is made are left out.
 */
 
-:- use_module(library(apply), [foldl/4, maplist/2, maplist/3, maplist/4]).
+:- use_module(library(apply),
+              [foldl/4, maplist/2, maplist/3, maplist/4, maplist/5]).
 :- use_module(library(lists), [append/3, member/2, sum_list/2]).
 :- use_module(library(pairs),
               [map_list_to_pairs/3, pairs_keys_values/3, pairs_values/2]).
@@ -196,15 +197,15 @@ wider(Width, Widest0, Widest) :-
     Widest is max(Width, Widest0).
 
 print_row(Sides, Widths, Cells) :-
-    with_output_to(string(Line),
-                   maplist(print_cell, Sides, Widths, Cells)),
+    maplist(padded, Sides, Widths, Cells, Padded),
+    atomic_list_concat(Padded, '  ', Line),
     without_trailing_blanks(Line, Text),
     format('~s~n', [Text]).
 
-print_cell(left, Width, Cell) :-
-    format('~w~t~*+  ', [Cell, Width]).
-print_cell(right, Width, Cell) :-
-    format('~t~w~*+  ', [Cell, Width]).
+padded(left, Width, Cell, Padded) :-
+    format(string(Padded), '~w~t~*|', [Cell, Width]).
+padded(right, Width, Cell, Padded) :-
+    format(string(Padded), '~t~w~*|', [Cell, Width]).
 
 %   Leading blanks are kept, since they show the depth in a tree.
 

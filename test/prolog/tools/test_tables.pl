@@ -71,6 +71,17 @@ doings :-
                             "0"])),
     assertion(matches(Lines, "errs*faulty: instantiation_error*")).
 
+test(columns_are_aligned,
+     Lines == [ "agent        host   program  state     hops  mail",
+                "a            alpha  test     resident     0     0",
+                "long_one     alpha  test     resident     0     0",
+                "longer_name  alpha  test     resident     0     0" ]) :-
+    with_hosts([alpha-[clock(virtual)]],
+               ( forall(member(Name, [long_one, a, longer_name]),
+                        create([on_message(_, _)], _,
+                               [name(Name), host(alpha)])),
+                 table(agents, Lines) )).
+
 test(unique_names_are_shortened) :-
     with_hosts([alpha-[clock(virtual)]], names).
 
