@@ -349,7 +349,9 @@ alike_line(Wanted, Answer) :-
 as([]) -->
     [].
 as([0'F|Codes]) -->
-    digits([_|_]), ".", digits([_|_]),
+    digits([_|_]), ".", digits([_|More]),
+    { length(More, Count),
+      Count < 3 },
     as(Codes).
 as([Code|Codes]) -->
     [Code],

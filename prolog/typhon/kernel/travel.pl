@@ -11,7 +11,7 @@ This is the interface of the layer: higher layers import from here.
 :- reexport(travel/hand_over, [hand_over/5]).
 :- reexport(travel/within, [hop_at_once/6]).
 :- reexport(travel/transfer, 
-            [ move_awaited/2, move_failed/2, move_over/2, transfer_again/1,
+            [ move_awaited/2, move_failed/2, move_over/2, transfer_again/2,
               transfer_given_up/2, transfer_held/2, transfer_open/1,
               transfer_traveller/3 ]).
 :- reexport(travel/in_doubt, [in_doubt/1, out_of_touch/1]).

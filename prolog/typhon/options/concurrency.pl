@@ -1,6 +1,6 @@
 :- module(typhon_concurrency, []).
 :- use_module(library(lists), [member/2]).
-:- use_module(library(option), [option/2]).
+:- use_module(library(option), [option/3]).
 :- use_module('../kernel/base/durable', [durable/6]).
 :- use_module('../kernel/host',
               [schedule_work/1, scheduler_limited/2]).
@@ -34,7 +34,7 @@ typhon_options:declared(host_option, concurrency(X), positive_integer, X).
 typhon_options:declared(host_option, concurrency(X), oneof([inf]), X).
 
 typhon_host_parts:begins(Host, _, Options) :-
-    option(concurrency(Concurrency), Options),
+    option(concurrency(Concurrency), Options, inf),
     limit(Host, Concurrency, _).
 
 typhon_host_parts:changeable(concurrency(_)).

@@ -27,10 +27,16 @@ The faults are those of 9.0.4; most of them are also in 10.1.
 
 %!  forget_erased is det.
 %
-%   Clear the references to erased clauses that no table holds.
+%   Clear the references to erased clauses that no table holds.  With much data
+%   on the stack of the caller that takes longer than it saves, so then nothing
+%   is done.
 
 forget_erased :-
-    garbage_collect.
+    statistics(globalused, Bytes),
+    (   Bytes < 1 000 000
+    ->  garbage_collect
+    ;   true
+    ).
 
 %   Prolog collects erased clauses when its threads have skipped so many of them
 %   that a look at all stacks costs less. By default it does so every dozen

@@ -22,7 +22,7 @@
 :- use_module(within, [hop_within/6]).
 :- use_module(transfer,
               [ hop_label/3, transfer_arrived/1, transfer_freeze/4,
-                transfer_image/2, transfer_image/5, transfer_repeated/1,
+                transfer_image/2, transfer_image/5, transfer_repeated/2,
                 transfer_stays/2, transfer_traveller/3,
                 transfer_unreachable/1 ]).
 
@@ -167,8 +167,8 @@ hop_request(Transfer, Name, Image, Program, Request) :-
     ).
 
 not_sent(Formal, Transfer) :-
-    transfer_traveller(Transfer, Who, _),
-    (   transfer_repeated(Who)
+    transfer_traveller(Transfer, Who, Hops),
+    (   transfer_repeated(Who, Hops)
     ->  resolve_in_doubt(Transfer)
     ;   transfer_stays(Transfer, Formal)
     ).

@@ -14,8 +14,8 @@
 :- use_module('../host', [address_parts/3, alarm_in/3, scheduler_call/1]).
 :- use_module('../agent', [agent/5, agent_home_endpoint/2, life_hops/2]).
 :- use_module(transfer,
-              [ transfer_again/1, transfer_arrived/1, transfer_image/2,
-                transfer_open/1, transfer_repeated/1, transfer_stays/2,
+              [ transfer_again/2, transfer_arrived/1, transfer_image/2,
+                transfer_open/1, transfer_repeated/2, transfer_stays/2,
                 transfer_traveller/3, transfer_unreachable/1 ]).
 :- use_module(home, [agent_outcome/2]).
 :- use_module(whereabouts, [agent_heard_of/2, agent_last_seen/2]).
@@ -57,7 +57,7 @@ resolve_in_doubt(Transfer) :-
     lasts(Transfer),
     !,
     debug(typhon(hop), '~w hop ~D: in doubt, is sent again', [Who, Hops]),
-    transfer_again(Who),
+    transfer_again(Who, Hops),
     arg(1, Transfer, Id),
     setting(settle_seconds, Seconds),
     alarm_in(Seconds, Id, again(Transfer)).
@@ -96,8 +96,8 @@ typhon_scheduler:fire(_, again(Transfer)) :-
 %   The agent may have arrived, though the connection failed this time.
 
 may_have_arrived(Transfer) :-
-    transfer_traveller(Transfer, Who, _),
-    transfer_repeated(Who).
+    transfer_traveller(Transfer, Who, Hops),
+    transfer_repeated(Who, Hops).
 
 typhon_durable:go_on :-
     findall(Transfer, transfer_open(Transfer), Transfers),

@@ -11,8 +11,8 @@
             transfer_given_up/2,        % +Id, +Frozen
             transfer_held/2,            % +Frozen, -Held
             transfer_open/1,            % ?Transfer
-            transfer_again/1,           % +Id
-            transfer_repeated/1,        % +Id
+            transfer_again/2,           % +Id, +Hops
+            transfer_repeated/2,        % +Id, +Hops
             transfer_over/2,            % +Id, ?Hops
             hop_label/3,                % +Id, +Endpoint, -Label
             move_awaited/2,             % +Id, +Asker
@@ -62,7 +62,8 @@ clone(Held, CloneId, Since).
     typhon_runtime:ending/1.
 
 :- dynamic
-    again/1,                    % Id: may have arrived by an earlier attempt
+    again/2,                    % Id, Hops: may have arrived by an earlier
+                                % attempt
     given_up/2,                 % Id, Hops: disposed of while in doubt
     waits/2.                    % Id, Asker: for the end of an ordered move
 
@@ -130,19 +131,20 @@ departs(Id, Hops, Endpoint, Sent) :-
 
 transfer_over(Id, Hops) :-
     ( hop_over(Id, Hops) -> true ; true ),
-    ( again(Id) -> retractall(again(Id)) ; true ).
+    ( again(Id, Hops) -> retractall(again(Id, Hops)) ; true ).
 
-%!  transfer_again(+Id) is det.
-%!  transfer_repeated(+Id) is semidet.
+%!  transfer_again(+Id, +Hops) is det.
+%!  transfer_repeated(+Id, +Hops) is semidet.
 %
-%   Id may have arrived already when it is sent the next time.
+%   Id may have arrived by its hop number Hops already when it is sent the next
+%   time.
 
-transfer_again(Id) :-
-    retractall(again(Id)),
-    assertz(again(Id)).
+transfer_again(Id, Hops) :-
+    retractall(again(Id, Hops)),
+    assertz(again(Id, Hops)).
 
-transfer_repeated(Id) :-
-    again(Id),
+transfer_repeated(Id, Hops) :-
+    again(Id, Hops),
     !.
 
 %!  hop_label(+Id, +Endpoint, -Label) is semidet.
@@ -151,7 +153,7 @@ transfer_repeated(Id) :-
 %   restart of this process. An option defines this.
 
 typhon_runtime:ending(after) :-
-    retractall(again(_)).
+    retractall(again(_, _)).
 
                 /*******************************
                 *           ARRIVED            *

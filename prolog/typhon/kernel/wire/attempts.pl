@@ -89,7 +89,7 @@ address_met(Address) :-
 session_reconnect(Session) :-
     (   route(Address, Session),
         \+ attempt(Address, _, _, _)
-    ->  pause_end(0.05, Until),
+    ->  pause_end(0.05, inf, Until),
         attempt_set(Address, idle(Until), 0.1, 0)
     ;   true
     ).
@@ -267,14 +267,18 @@ due_at(trying(_, _, _, Until), Until).
 due_at(pausing(Until), Until).
 due_at(idle(Until), Until).
 
-due(trying(Thread, _, _, _), Address, _) :-
-    !,
-    in_background(wire_thread_end(Thread, late), end-Address),
-    failed(Address, late).
 due(_, Address, _) :-
     route_up(Address, _),
     !,
     address_met(Address).
+due(trying(Thread, _, _, _), Address, _) :-
+    !,
+    in_background(wire_thread_end(Thread, late), end-Address),
+    failed(Address, late).
+due(idle(_), Address, _) :-
+    waiting_first(Address, _),
+    !,
+    attempt_want(Address).
 due(_, Address, Me) :-
     (   needed(Address)
     ->  attempt(Address, _, _, First),
@@ -296,8 +300,9 @@ failed(Address, _) :-
 failed(Address, Formal) :-
     debug(typhon(connect), '~w: no connection: ~p', [Address, Formal]),
     attempt(Address, trying(_, _, Asked, _), Pause, First),
-    pause_end(Pause, Until),
-    (   over(Formal, Address, First, Until)
+    deadline(Address, First, Deadline),
+    pause_end(Pause, Deadline, Until),
+    (   over(Formal, Address, Deadline)
     ->  print_message(silent,
                       typhon(endpoint, unreachable(Address, Formal))),
         peer_missed(Address, Formal),
@@ -306,27 +311,37 @@ failed(Address, Formal) :-
     ),
     again(Address, Asked, Until, Pause, First).
 
-%   After about Pause seconds.
+%   deadline(+Address, +First, -Deadline): the time of the callers, which begins
+%   with the First try, is over then. First is 0 if there is no caller.
 
-pause_end(Pause, Until) :-
-    get_time(Now),
-    Some is float_fractional_part(Now*1000),    % library(random) is slow
-    Until is Now+Pause*(0.5+Some).              % to begin
-
-%   over(+Formal, +Address, +First, +Until) is semidet: the callers that the try
-%   concerns get a result. Another try would fail, too, or their time, which
-%   begins with the First try, will be over at Until.
-
-over(Formal, Address, _, _) :-
-    \+ may_pass(Formal),
-    \+ soon_there(Formal, Address),
+deadline(_, 0, inf) :-
     !.
-over(_, Address, First, Until) :-
+deadline(Address, First, Deadline) :-
     (   peer_expected(Address)
     ->  setting(typhon_connection_manager:return_time, Seconds)
     ;   patience(Seconds)
     ),
-    First+Seconds =< Until.
+    Deadline is First+Seconds.
+
+%   After about Pause seconds, at the Deadline at the latest.
+
+pause_end(Pause, Deadline, Until) :-
+    get_time(Now),
+    Some is float_fractional_part(Now*1000),    % library(random) is slow
+    Until is min(Deadline, Now+Pause*(0.5+Some)).   % to begin
+
+%   over(+Formal, +Address, +Deadline) is semidet: the callers that the try
+%   concerns get a result. There are some, and another try would fail, too, or
+%   their time is over.
+
+over(Formal, Address, Deadline) :-
+    Deadline \== inf,
+    \+ may_pass(Formal),
+    \+ soon_there(Formal, Address),
+    !.
+over(_, _, Deadline) :-
+    get_time(Now),
+    Deadline =< Now.
 
 %   The process is being restarted.
 
@@ -346,12 +361,13 @@ may_pass(socket_error(Code, _)) :-
                       eaddrnotavail ]).
 
 %   again(+Address, +Asked, +Until, +Pause, +First): callers that came after the
-%   try had begun get another one at once.
+%   try had begun, or of which it did not know, get another one at once.
 
 again(Address, Asked, Until, Pause, First) :-
     waiting_first(Address, Number),
     !,
-    (   Number < Asked
+    (   First > 0,
+        Number < Asked
     ->  pause(Address, pausing(Until), Pause, First)
     ;   first_pause(Shortest),
         attempt_set(Address, queued, Shortest, 0)

@@ -114,7 +114,7 @@ run_errands(Now) :-
     findall(Time-Goal, ( errand(Time, Goal), Time =< Now ), Due),
     forall(member(Time-Goal, Due),
            ( retractall(errand(Time, Goal)),
-             call(Goal) )).
+             ignore(Goal) )).
 
 		 /*******************************
 		 *           SESSIONS           *

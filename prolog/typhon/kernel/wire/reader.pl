@@ -45,7 +45,8 @@ are deferred while a frame is being handled and counted.
            "Seconds of silence before a peer is pinged").
 
 :- dynamic
-    damaged/3.                          % Key, Count, Which: a frame; bounded
+    damaged/4.                          % Key, Count, Which, Times: the last
+                                        % damaged frame of a session
 
 %   The reader acknowledges after so many bytes, or after ack_frames/1 frames.
 
@@ -168,12 +169,16 @@ skip(Session, Which) :-
     ).
 
 times_damaged(Key, Count, Which, Times) :-
-    assertz(damaged(Key, Count, Which)),
-    findall(x, damaged(Key, Count, Which), Each),
-    length(Each, Times),
-    predicate_property(damaged(_, _, _), number_of_clauses(All)),
-    (   All > 64
-    ->  once(retract(damaged(_, _, _)))
+    (   damaged(Key, Count, Which, Times0)
+    ->  true
+    ;   Times0 = 0
+    ),
+    Times is Times0+1,
+    retractall(damaged(Key, _, _, _)),
+    assertz(damaged(Key, Count, Which, Times)),
+    predicate_property(damaged(_, _, _, _), number_of_clauses(All)),
+    (   All > 64                        % of sessions that are over
+    ->  once(retract(damaged(_, _, _, _)))
     ;   true
     ).
 

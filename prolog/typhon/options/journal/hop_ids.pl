@@ -3,7 +3,7 @@
 :- use_module('../../kernel/wire', [endpoint_process/1]).
 :- use_module('../../kernel/agent', [agent_status/3]).
 :- use_module('../../kernel/travel',
-              [transfer_again/1, transfer_open/1, transfer_traveller/3]).
+              [transfer_again/2, transfer_open/1, transfer_traveller/3]).
 
 /** <module> Ids of hops
 
@@ -77,7 +77,7 @@ restore(Transfer, Sent) :-
     transfer_traveller(Transfer, Agent, Hops),
     arg(2, Transfer, dest(_, _, Endpoint)),
     add(Agent, Hops, Endpoint, Sent),
-    transfer_again(Agent).
+    transfer_again(Agent, Hops).
 
 typhon_runtime:ending(after) :-
     retractall(under_way(_, _, _, _)).

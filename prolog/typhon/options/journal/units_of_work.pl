@@ -21,6 +21,7 @@
 :- use_module('../../kernel/base/durable_changes',
               [ durable_begin/0, durable_drop/3, durable_key/2,
                 durable_on/0, unit_of_work/1 ]).
+:- use_module('../../kernel/base/on_demand', [on_demand_load/2]).
 :- use_module('../../kernel/base/error_text', [print_error/2]).
 :- use_module('../../kernel/wire', [frame_fits/1]).
 :- use_module(committing,
@@ -354,6 +355,10 @@ act(Kind, N, Key, Term) :-
 typhon_durable:go_on :-
     findall(act(Kind, N, Key, Term), retract(act_again(Kind, N, Key, Term)),
             Acts),
+    (   memberchk(act(logged, _, _, _), Acts)
+    ->  on_demand_load(host_option, log)
+    ;   true
+    ),
     forall(member(act(Kind, N, Key, Term), Acts), act(Kind, N, Key, Term)).
 
 %!  deferred_any is semidet.

@@ -79,7 +79,8 @@ local_property(load(Load), Name) :-
     host_load(Name, Load).
 local_property(neighbours(Neighbours), Name) :-
     host_neighbours(Name, Neighbours).
-local_property(hop_time(Direction, stats(Count, Min, Mean, Max)), Name) :-
+local_property(hop_time(Direction, Stats), Name) :-
+    Stats = stats(Count, Min, Mean, Max),
     hop_times_flags(Name, Direction,
                     flags(CountKey, MinKey, SumKey, MaxKey)),
     get_flag(CountKey, Count),
