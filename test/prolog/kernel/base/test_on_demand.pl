@@ -68,6 +68,13 @@ test(limit_on_running_agents_loads_the_code, Out == "1") :-
                        agent_create(clauses(Clauses), A) ), As), \c
           forall(member(A, As), agent_join(A, done, 20)), \c
           get_flag(most, Most), print(Most)', Out).
+test(loading_does_not_count_for_the_quota_of_an_agent,
+     Out == "type_error(receiver,fipa(x))") :-
+    seen('host_start(a, [quota([inferences(5000)])]), \c
+          agent_create(clauses([ (:- agent(x, [])), \c
+                                 (main :- send(fipa(x), hello)) ]), A, \c
+                       [host(a)]), \c
+          agent_join(A, raised(error(E, _)), 20), print(E)', Out).
 test(mistyped_options_are_compared_with_unloaded_ones,
      true(sub_string(Out, _, _, _, "did you mean policy?"))) :-
     seen('catch(host_start(a, [polici(x)]), E, true), \c
