@@ -16,6 +16,7 @@ with pyserial.  Nothing is defined here: see the modules in bridges/nxt/.
 */
 
 :- use_module(tools/user_errors, [user_errors/1]).
+:- use_module(tools/old_settings, []).
 :- reexport('bridges/nxt/brick').
 :- reexport('bridges/nxt/motors').
 :- reexport('bridges/nxt/sensors').

@@ -3,8 +3,7 @@
           ]).
 :- use_module(library(apply), [foldl/4]).
 :- use_module(library(console_input), []).
-:- use_module(library(dcg/basics), [eos//0, string_without//2]).
-:- use_module(library(lists), [member/2]).
+:- use_module(library(lists), [member/2, reverse/2]).
 :- use_module(library(pairs), [group_pairs_by_key/2]).
 :- use_module('../kernel/base/names', [names/2]).
 
@@ -24,7 +23,9 @@ applies.
 
 completed(Before, After, Delete, Completions) :-
     string_codes(Before, Codes),
-    phrase(cursor([], Functor-Argument, Style, Delete), Codes),
+    reverse(Codes, Reversed),
+    phrase(started(Style, Delete), Reversed, Rest),
+    phrase(argument(1, Functor, Argument), Rest, _),
     wants(Functor, Argument, Kind),
     names(Kind, Names),
     findall(Text,
@@ -99,50 +100,20 @@ typed(Kind, Name, Term) :-
 typed(_, Name, Name).
 
                 /*******************************
-                *      BEFORE THE CURSOR       *
+                *      BACK FROM THE CURSOR    *
                 *******************************/
 
-%   cursor(+Open, -Place, -Style, -Typed)//: the text ends in the argument
-%   Place, Functor-Argument, of a term; Typed is the part of a name that was
-%   typed there, after a quote if Style is `quoted`.  Open are the terms that the
-%   text before has begun, each with its present argument, the innermost first.
+%   started(-Style, -Text)//: Text is the part of a name that was typed, after a
+%   quote if Style is `quoted`.
 
-cursor(Open, Place, Style, Typed) -->
-    typed_codes(in_plain, Codes),
-    after_name(Open, Codes, Place, Style, Typed).
-
-after_name([Place|_], Codes, Place, plain, Typed) -->
-    eos,
-    !,
-    { atom_codes(Typed, Codes) }.
-after_name([Place|_], _, Place, quoted, Typed) -->
-    "'",
+started(quoted, Text) -->
     typed_codes(in_quotes, Codes),
-    eos,
+    "'",
     !,
-    { atom_codes(Typed, Codes) }.
-after_name(Open0, Codes, Place, Style, Typed) -->
-    [Code],
-    rest_of(Code),
-    { ( bracket(Code, Codes, Open0, Open1) -> Open = Open1 ; Open = Open0 ) },
-    cursor(Open, Place, Style, Typed).
-
-rest_of(Quote) -->
-    { memberchk(Quote, `'"`) },
-    !,
-    string_without([Quote], _),
-    [Quote].
-rest_of(_) -->
-    [].
-
-bracket(0'(, Codes, Open, [Functor-1|Open]) :-
-    atom_codes(Functor, Codes).
-bracket(0',, _, [Functor-N0|Open], [Functor-N|Open]) :-
-    N is N0+1.
-bracket(Code, _, Open, [''-1|Open]) :-
-    memberchk(Code, `[{`).
-bracket(Code, _, [_|Open], Open) :-
-    memberchk(Code, `)]}`).
+    { reversed_text(Codes, Text) }.
+started(plain, Text) -->
+    typed_codes(in_plain, Codes),
+    { reversed_text(Codes, Text) }.
 
 typed_codes(Class, [Code|Codes]) -->
     [Code],
@@ -160,3 +131,68 @@ in_quotes(Code) :-
     in_plain(Code).
 in_quotes(Code) :-
     memberchk(Code, `.@:-`).
+
+reversed_text(Codes, Text) :-
+    reverse(Codes, Forward),
+    atom_codes(Text, Forward).
+
+%   argument(+N, -Functor, -Argument)//: the cursor is in the argument number
+%   Argument of a term with the name Functor.  N counts the arguments, back from
+%   the cursor.
+
+argument(N, Functor, Argument) -->
+    [Code],
+    argument(Code, N, Functor, Argument).
+
+argument(0'(, N, Functor, N) -->
+    !,
+    typed_codes(in_plain, [Code|Codes]),
+    { reversed_text([Code|Codes], Functor) }.
+argument(0',, N, Functor, Argument) -->
+    !,
+    { N1 is N+1 },
+    argument(N1, Functor, Argument).
+argument(Open, _, _, _) -->
+    { memberchk(Open, `[{`),
+      !,
+      fail
+    }.
+argument(Close, N, Functor, Argument) -->
+    { memberchk(Close, `)]}`) },
+    !,
+    group,
+    argument(N, Functor, Argument).
+argument(Quote, N, Functor, Argument) -->
+    { memberchk(Quote, `'"`) },
+    !,
+    quoted(Quote),
+    argument(N, Functor, Argument).
+argument(_, N, Functor, Argument) -->
+    argument(N, Functor, Argument).
+
+group -->
+    [Code],
+    group(Code).
+
+group(Open) -->
+    { memberchk(Open, `([{`) },
+    !.
+group(Close) -->
+    { memberchk(Close, `)]}`) },
+    !,
+    group,
+    group.
+group(Quote) -->
+    { memberchk(Quote, `'"`) },
+    !,
+    quoted(Quote),
+    group.
+group(_) -->
+    group.
+
+quoted(Quote) -->
+    [Code],
+    (   { Code == Quote }
+    ->  []
+    ;   quoted(Quote)
+    ).

@@ -191,7 +191,8 @@ print_table(Columns, Rows, _) :-
     maplist(print_row(Sides, Widths), All).
 
 width(Cell, Width) :-
-    write_length(Cell, Width, []).
+    format(string(Text), '~w', [Cell]),
+    string_length(Text, Width).
 
 wider(Width, Widest0, Widest) :-
     Widest is max(Width, Widest0).

@@ -41,6 +41,9 @@ test(hosts, [forall(member(Before-Line,
                              "agent_move(bob, a"-"agent_move(bob, alpha",
                              "agent_move(f('x)', [1,2]), a"-
                              "agent_move(f('x)', [1,2]), alpha",
+                             "X == 0'a, host_stop(al"-"X == 0'a, host_stop(alpha",
+                             "% don't\nhost_stop(al"-"% don't\nhost_stop(alpha",
+                             "X = 'a\\'b', remote(b"-"X = 'a\\'b', remote(beta",
                              "agent_create(p, A, [host(al"-
                              "agent_create(p, A, [host(alpha" ])),
              Line == Completed]) :-

@@ -327,7 +327,8 @@ service_begin(Service, Host, PIs, Module, Open) :-
     catch(( service_offer(service(Service), Host, PIs, Clauses),
             call(Open) ),
           Ball,
-          ( service_end(Service, Host),
+          ( ignore(catch(service_end(Service, Host),
+                         error(existence_error(_, _), _), true)),
             throw(Ball) )),
     debug(typhon(bridge), '~w is on ~w', [Service, Host]).
 

@@ -177,7 +177,13 @@ queue_text(Browser, Text, Count) :-
     ->  report_skipped(Skipped, Browser),
         put_text(Browser, Text)
     ;   More is Skipped+Count,
-        assertz(skipped(Browser, More))
+        with_mutex(typhon_page, skip(Browser, More))
+    ).
+
+skip(Browser, Count) :-
+    (   browser(Browser, _)
+    ->  assertz(skipped(Browser, Count))
+    ;   true                            % it has gone meanwhile
     ).
 
 has_room(Browser) :-
@@ -247,9 +253,9 @@ add_browser(Queue, Me) :-
     assertz(browser(Queue, Me)).
 
 remove_browser(Queue) :-
-    with_mutex(typhon_page, retractall(browser(Queue, _))),
-    message_queue_destroy(Queue),
-    retractall(skipped(Queue, _)).
+    with_mutex(typhon_page, ( retractall(browser(Queue, _)),
+                              retractall(skipped(Queue, _)) )),
+    message_queue_destroy(Queue).
 
 %   A browser sends nothing but a close frame here.  So any data from it end the
 %   connection, unread.
