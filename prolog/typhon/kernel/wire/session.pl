@@ -33,7 +33,7 @@ arguments of the term. Window is that of unacked.pl.
 
 *Threading*: any thread; a mutex serializes sessions and routes, the mutex of
 a session its connection and its window.  The hooks run in the thread of a
-connection.
+connection, or in one that acts for it.
 */
 
 :- use_module(library(apply), [include/3]).
