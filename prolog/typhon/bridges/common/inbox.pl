@@ -20,7 +20,7 @@ Service-dropped(Key, Count) has the count of all dropped facts.
 
 *Threading*: the thread that reads incoming messages calls inbox_put/4.  While a
 host has gaps, the threads that run its agents report each message that an agent
-takes, and the agents that leave or end.
+takes, and the agents that leave, end or become faulty.
 */
 
 :- multifile
@@ -88,7 +88,12 @@ done(put, Gap, Count) :-
     ).
 done(full, Gap, Count0) :-
     Count is Count0+1,
-    with_mutex(typhon_inbox, add(Gap, Count)).
+    with_mutex(typhon_inbox, add(Gap, Count)),
+    Gap = gap(Agent, Service, Key, Host, _),
+    (   agent(Agent, Host, _, _, _)
+    ->  true
+    ;   gap_forget(Service, Key, Agent) % it left before the subscription
+    ).
 
                 /*******************************
                 *             GAPS             *

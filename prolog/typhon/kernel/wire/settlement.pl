@@ -88,9 +88,10 @@ unsettled_add(Key, Handed) :-
 %   Result), Result being `lost`, `unsent`, or an objection.
 
 settled_never(Key, Sent, Unsent, Handed) :-
-    unsettled_add(Key, Sent),
+    findall(N-Token, unsettled(Key, N, Token), Received),
+    retractall(unsettled(Key, _, _)),
     findall(handed(Token, Result),
-            (   retract(unsettled(Key, N, Token)),
+            (   ( member(N-Token, Received) ; member(N-Token, Sent) ),
                 result(Key, N, lost, Result)
             ;   member(Token, Unsent),
                 Result = unsent
