@@ -78,8 +78,17 @@ terms, which Prolog makes by itself, is not safe if other threads retract
 
 :- dynamic
     record/6,                   % Id, Host, Module, Hash, Life, Until
-    agent_rests/3,              % Id, Status, Goals; no clause if Id runs
-    agent_under_way/6.          % Id, Hops, Host, Hash, Way, Frame
+    agent_rests/3,
+    agent_under_way/6.
+
+%!  agent_rests(+Id, ?Status, -Goals) is nondet.
+%
+%   As agent_status/3, for callers that only pass Goals on: they may be frames.
+%   There is no clause if Id runs.
+
+%!  agent_under_way(?Id, ?Hops, ?Host, ?Hash, ?Way, ?Frame) is nondet.
+%
+%   Id is under way as Frame, on its hop number Hops, from Host.
 
 %!  agent(?Id, ?Host, ?Module, ?Hash, ?Life) is nondet.
 %
@@ -211,10 +220,6 @@ status_now(Id, running, []) :-
     record(Id, _, _, _, _, _),
     \+ agent_rests(Id, _, _).
 
-%!  agent_rests(+Id, ?Status, -Goals) is nondet.
-%
-%   As agent_status/3, for callers that only pass Goals on: they may be frames.
-
 %   goals_shown(+Goals0, -Goals): convert frames to goals.  The other forms of
 %   goals, for agents that are held or cloned, contain no frames.
 
@@ -319,10 +324,6 @@ agent_handed(Id, Hops, Way, Frame) :-
     assertz(agent_under_way(Id, Hops, Host, Hash, Way, Frame)),
     retract(record(Id, _, _, _, _, _)),
     '$destroy_module'(Module).
-
-%!  agent_under_way(?Id, ?Hops, -Host, -Hash, -Way, -Frame) is nondet.
-%
-%   Id is under way as Frame, on its hop number Hops, from Host.
 
 %!  agent_gone(+Id, +Hops, -Mail:list) is semidet.
 %

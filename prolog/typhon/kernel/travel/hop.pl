@@ -1,7 +1,7 @@
 :- module(typhon_hop,
           [ hop/6,                      % +Id, +Where, +Hole, +Goals, +Since,
                                         % -Next
-            hop_clone/6                 % +Id, +Where, +CloneId, +Who, +Hole,
+            hop_clone/6                 % +Id, +Where, +CloneId, +Agent, +Hole,
                                         % +Goals
           ]).
 :- use_module(library(debug), [debug/3]).
@@ -73,22 +73,22 @@ hop(Id, Where, Hole, Goals0, Since, stop) :-
     image(Transfer, Hole-Goals, Mail, Since, Image),
     set_out(Transfer, Hole-Goals, Mail, Since, Image).
 
-%!  hop_clone(+Id, +Where, +CloneId, +Who, +Hole, +Goals) is det.
+%!  hop_clone(+Id, +Where, +CloneId, +Agent, +Hole, +Goals) is det.
 %
 %   Send a clone of Id to Where; Id waits for the answer, and Goals are its
 %   goals.
 
-hop_clone(Id, Where, CloneId, Who, Hole, Goals0) :-
+hop_clone(Id, Where, CloneId, Agent, Hole, Goals0) :-
     plain_goals(Goals0, Goals),
     agent(Id, Host, _, _, _),
     host_time(Host, Since),
     destination(Where, Dest),
     Transfer = clone(Id, Dest, CloneId),
-    image(Transfer, Hole-Goals-Who, Mail, Since, Image),
+    image(Transfer, Hole-Goals-Agent, Mail, Since, Image),
     host(Host, Here, _),
     agent_born(CloneId, Here),
     clone_born(Id, CloneId),
-    set_out(Transfer, Hole-Goals-Who, Mail, Since, Image).
+    set_out(Transfer, Hole-Goals-Agent, Mail, Since, Image).
 
 %   The host of this process may be stopped while an agent is on its way to it;
 %   its address stays the same.
@@ -129,8 +129,8 @@ send(Transfer, Image0) :-
                 agent(Id, Host, _, _, _) % else it was ended meanwhile
             ->  image_amended(departs, Host, Address, Image0, Image),
                 program_sent(Endpoint, Hash, Sent),
-                transfer_traveller(Transfer, Who, _),
-                amended(papers, Host, program(Who, Hash, Endpoint), Sent,
+                transfer_traveller(Transfer, Agent, _),
+                amended(papers, Host, program(Agent, Hash, Endpoint), Sent,
                         Program)
             ;   Image = Image0,
                 program_sent(Endpoint, Hash, Program)
@@ -159,16 +159,16 @@ handed(Endpoint, hop(Name, Image0, Program), Transfer) :-
           error(session_closed, _), fail).
 
 hop_request(Transfer, Name, Image, Program, Request) :-
-    transfer_traveller(Transfer, Who, _),
+    transfer_traveller(Transfer, Agent, _),
     arg(2, Transfer, dest(_, _, Endpoint)),
-    (   hop_label(Who, Endpoint, Label)
+    (   hop_label(Agent, Endpoint, Label)
     ->  Request = hop(Name, Image, Program, Label)
     ;   Request = hop(Name, Image, Program)
     ).
 
 not_sent(Formal, Transfer) :-
-    transfer_traveller(Transfer, Who, Hops),
-    (   transfer_repeated(Who, Hops)
+    transfer_traveller(Transfer, Agent, Hops),
+    (   transfer_repeated(Agent, Hops)
     ->  resolve_in_doubt(Transfer)
     ;   transfer_stays(Transfer, Formal)
     ).
@@ -218,8 +218,8 @@ handle_answer(need_program, Transfer) :-
         debug(typhon(hop), '~w lacks the program', [Endpoint]),
         image_hash(Image, Hash),
         program_missing(Endpoint, Hash),
-        transfer_traveller(Transfer, Who, _),
-        forall(sent_again(Endpoint, Who), true),
+        transfer_traveller(Transfer, Agent, _),
+        forall(sent_again(Endpoint, Agent), true),
         send(Transfer, Image)
     ;   transfer_stays(Transfer, given_up)
     ).

@@ -53,11 +53,11 @@ ask_peers/2 in a worker.
 %   Start to find out whether the agent has arrived.
 
 resolve_in_doubt(Transfer) :-
-    transfer_traveller(Transfer, Who, Hops),
+    transfer_traveller(Transfer, Agent, Hops),
     lasts(Transfer),
     !,
-    debug(typhon(hop), '~w hop ~D: in doubt, is sent again', [Who, Hops]),
-    transfer_again(Who, Hops),
+    debug(typhon(hop), '~w hop ~D: in doubt, is sent again', [Agent, Hops]),
+    transfer_again(Agent, Hops),
     arg(1, Transfer, Id),
     setting(settle_seconds, Seconds),
     alarm_in(Seconds, Id, again(Transfer)).
@@ -96,8 +96,8 @@ typhon_scheduler:fire(_, again(Transfer)) :-
 %   The agent may have arrived, though the connection failed this time.
 
 may_have_arrived(Transfer) :-
-    transfer_traveller(Transfer, Who, Hops),
-    transfer_repeated(Who, Hops).
+    transfer_traveller(Transfer, Agent, Hops),
+    transfer_repeated(Agent, Hops).
 
 typhon_durable:go_on :-
     findall(Transfer, transfer_open(Transfer), Transfers),

@@ -45,7 +45,7 @@ the hop, or clone(Id, Dest, CloneId).  Dest is dest(Address, Name, Endpoint).
 During the transfer the agent is frozen in this process; the transfer ends when
 the agent has arrived, or stays.
 
-The held goals are Hole-Goals, for a clone Hole-Goals-Who.  While the agent is
+The held goals are Hole-Goals, for a clone Hole-Goals-Agent.  While the agent is
 frozen its goals are hop(Held, Hops, Mail, Since) or
 clone(Held, CloneId, Since).
 
@@ -81,8 +81,8 @@ transfer_traveller(clone(_, _, CloneId), CloneId, 1).
 transfer_image(hop(Id, _, Hops), Hole-Goals, Mail, Since, Image) :-
     ignore(Hole = true),                % Hole is bound if the move was an order
     image_hop(Id, Hops, Goals, Mail, Since, Image).
-transfer_image(clone(Id, _, CloneId), Hole-Goals-Who, _, Since, Image) :-
-    Hole = (Who=clone(Id)),
+transfer_image(clone(Id, _, CloneId), Hole-Goals-Agent, _, Since, Image) :-
+    Hole = (Agent=clone(Id)),
     image_clone(Id, CloneId, Goals, Since, Image).
 
 %!  transfer_image(+Transfer, -Image) is semidet.
@@ -241,9 +241,9 @@ follow(Id, Order) :-
 %   move that was ordered from outside has no hole, see move_failed/2.
 
 transfer_stays(Transfer, Error) :-
-    transfer_traveller(Transfer, Who, Hop),
-    debug(typhon(hop), '~w hop ~D: stays, ~p', [Who, Hop, Error]),
-    unit_of_work(( transfer_over(Who, Hop),
+    transfer_traveller(Transfer, Agent, Hop),
+    debug(typhon(hop), '~w hop ~D: stays, ~p', [Agent, Hop, Error]),
+    unit_of_work(( transfer_over(Agent, Hop),
                    stays(Transfer, Error) )).
 
 stays(hop(Id, dest(Address, _, _), Hops), Error) :-
@@ -279,10 +279,10 @@ back(Id, Hops, Address, Error) :-
     agent_ready(Id, Goals).
 
 clone_back(Id, CloneId, Answer) :-
-    agent_status(Id, cloning(_, _), clone(Hole-Goals-Who, CloneId, _)),
+    agent_status(Id, cloning(_, _), clone(Hole-Goals-Agent, CloneId, _)),
     (   Answer = stays(Address, Error)
-    ->  answer_at(clone(Address, Who), throw(error(Error, _)), Hole)
-    ;   Hole = (Who=Answer)
+    ->  answer_at(clone(Address, Agent), throw(error(Error, _)), Hole)
+    ;   Hole = (Agent=Answer)
     ),
     agent_ready(Id, Goals).
 
