@@ -12,17 +12,23 @@
 
 :- needs([openssl, journal]).
 
-:- meta_predicate with_three(0), with_three(0, +).
+:- meta_predicate with_three(+, 0), with_three(+, 0, +).
+
+%   cell_kind(-Kind): the kinds of cells that this machine can have.
+
+cell_kind(none).
+cell_kind(owner) :-
+    missing([cells], []).
 
 %   alpha is here; beta and gamma are processes with policies.
 
-with_three(Goal) :-
-    with_authority([alpha, beta, gamma], [], with_three(Goal)).
+with_three(Kind, Goal) :-
+    with_authority([alpha, beta, gamma], [], with_three(Kind, Goal)).
 
-with_three(Goal, Authority) :-
+with_three(Kind, Goal, Authority) :-
     options(Authority, alpha, [], Alpha),
-    options(Authority, beta, [policy(guarded), cell(none)], Beta),
-    options(Authority, gamma, [policy(guarded), cell(none)], Gamma),
+    options(Authority, beta, [policy(guarded), cell(Kind)], Beta),
+    options(Authority, gamma, [policy(guarded), cell(Kind)], Gamma),
     with_peers([beta-[host(Beta)], gamma-[host(Gamma)]],
                setup_call_cleanup(
                    host_start(alpha, Alpha),
@@ -77,8 +83,8 @@ stands(Agent, Host, State) :-
 
 :- begin_tests(journal_guarded).
 
-test(trail_survives_the_death_of_its_hosts) :-
-    no_leaks(with_three(test_journal_guarded:killed)).
+test(trail_survives_the_death_of_its_hosts, [forall(cell_kind(Kind))]) :-
+    no_leaks(with_three(Kind, test_journal_guarded:killed)).
 test(agent_that_is_refused_at_restart_stays_in_the_journal) :-
     with_tmp_dir(refused_later).
 
