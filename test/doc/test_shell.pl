@@ -434,20 +434,24 @@ tree_remove :-
     forall(retract(compiled_tree(Dir)), delete_directory_and_contents(Dir)).
 
 tree_copy(From, To) :-
+    tree_copy('-Rp', From, To).
+
+tree_copy(Options, From, To) :-
     directory_files(From, Entries),
     findall(Entry,
             ( member(Entry, Entries),
               \+ memberchk(Entry, [., .., '.git', out]) ),
             Copied),
-    append([['-Rp'], Copied, [To]], Args),
+    append([[Options], Copied, [To]], Args),
     process_create(path(cp), Args, [cwd(From)]).
 
-%   Dir is a copy of the tree: commands write into it. In its bin are scp and ssh
+%   Dir is a copy of the tree with links for files, as commands write into other
+%   ones (or write the same again, as pictures of doc/). In its bin are scp and ssh
 %   of which every target is the directory `there`, and the Python of the system.
 
 prepare(Dir) :-
     compiled_tree(Tree),
-    tree_copy(Tree, Dir),
+    tree_copy('-Rpl', Tree, Dir),
     forall(member(Name, [bin, there]),
            ( directory_file_path(Dir, Name, New),
              make_directory_path(New) )),
