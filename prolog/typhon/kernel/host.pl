@@ -16,9 +16,7 @@ This is the interface of the layer: higher layers import from here.
 :- reexport('host/host_names').
 :- reexport(host/links,
             [host_link/3, host_link_cost/3, host_neighbours/2, host_unlink/2]).
-:- reexport(host/events,
-            [ event/4, event_shown/3, event_subscribed/1, events_forget/1,
-              events_subscribe/3, events_unsubscribe/1, log_kind/2 ]).
+:- reexport('host/events').
 :- reexport(host/host_parts, [amended/5, parts/3, parts_call/3, parts_load/1]).
 :- reexport(host/place,
             [ place_deliver/3, place_host/2, place_offer/2, place_service/2,
@@ -43,11 +41,6 @@ This is the interface of the layer: higher layers import from here.
                 schedule_leave/0, schedule_stays/2, schedule_work/1,
                 scheduler_call/1, scheduler_limited/2, work_do/2 ]).
 :- use_module(host/pool, []).
-:- reexport(host/runtime,
-              [ as_guest/1, process_ask/6, runtime_acquire/2,
-                runtime_acquire/3, runtime_release/1 ]).
-:- reexport(host/hosting,
-            [ host_begin/2, host_end/1, host_listed/2, host_restart/2,
-              host_start/1, host_start/2, host_stop/1, hosts_exclusively/1,
-              hosts_go_on/0, hosts_rest/0 ]).
+:- reexport('host/runtime').
+:- reexport('host/hosting').
 :- reexport('host/remote').

@@ -14,20 +14,14 @@ This is the interface of the layer: higher layers import from here.
               source_same/1, source_terms/5 ]).
 :- reexport(program/parts, [file_parts/4, library_directive/2, part/3]).
 :- reexport(program/places, [place/3]).
-:- reexport(program/programs,
-              [ advice_text/2, in_file_order/3, payload_file/1, payload_load/2,
-                payload_python/3, payload_terms/3, problem_error/3,
-                program_hash/2, program_read/7, program_terms/6 ]).
-:- reexport(program/loaded,
-            [program_load/6, program_unknown/3]).
+:- reexport('program/programs').
+:- reexport('program/loaded').
 :- reexport(program/code,
             [ code_install/3, code_receive/2, code_module/2,
               code_locate/2, code_names/2, code_places/2, code_program/2,
               code_sent/2, code_clear/0, code_make/3, code_extras/2,
               code_unwrapped/3, code_wrapped/3, sent_program/2 ]).
-:- reexport(program/mobile,
-            [ body_calls/2, built_in/1, is_mobile/2, mobile_predicates/3,
-              near_built_in/2, vocabulary/1, vocabulary_word/2 ]).
+:- reexport('program/mobile').
 :- reexport(program/machine,
             [ answer_at/3, machine_inside/0, machine_ready/1, machine_run/3 ]).
 :- reexport(program/faults, [fault/3, fault_note/1, fault_noted/1]).

@@ -67,7 +67,7 @@ agent_module(Id, Place, Hash, State0, Module) :-
     module_create(Module, Program, Above),
     begins(Place, Module),
     catch(( agent_declare(Empty, Module),
-            add_clauses(Clauses, Module) ),
+            agent_add(Clauses, Module) ),
           error(Formal, Context),
           ( '$destroy_module'(Module),
             throw(error(Formal, Context)) )).
@@ -79,7 +79,7 @@ agent_module(Id, Place, Hash, State0, Module) :-
 
 agent_module(Id, Place, Program, Clauses) :-
     module_create(Id, Program, Place),
-    catch(add_clauses(Clauses, Id), error(Formal, Context),
+    catch(agent_add(Clauses, Id), error(Formal, Context),
           ( '$destroy_module'(Id),
             throw(error(Formal, Context)) )).
 
@@ -172,24 +172,21 @@ agent_declare([PI|PIs], Module) :-
 %!  agent_add(+Clauses, +Module) is det.
 %
 %   Add Clauses, as in agent_clauses/3, to the state of the agent.
-
-agent_add(Clauses, Module) :-
-    add_clauses(Clauses, Module).
-
+%
 %   The predicate of a rule is declared dynamic first.  Otherwise the first rule
 %   would be compiled like a static one, and clause/2 of 9.0.4 would not return
 %   it as it was: a variable that is unified first and used later would be two
 %   variables.
 
-add_clauses([], _).
-add_clauses([Clause|Clauses], Module) :-
+agent_add([], _).
+agent_add([Clause|Clauses], Module) :-
     (   Clause = (Head :- _)
     ->  functor(Head, Name, Arity),
         dynamic(Module:Name/Arity)
     ;   true
     ),
     assertz(Module:Clause),
-    add_clauses(Clauses, Module).
+    agent_add(Clauses, Module).
 
 %!  agent_state(+Module, -State) is det.
 %

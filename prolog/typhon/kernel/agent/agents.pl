@@ -232,8 +232,6 @@ goals_shown(Goals0, Goals) =>
     Goals = Goals0.
 
 %!  agent_runs(+Id) is semidet.
-%
-%   A worker runs Id.
 
 agent_runs(Id) :-
     record(Id, _, _, _, _, _),
@@ -372,8 +370,6 @@ wakes_on(Host, Id, Goals) :-
     schedule(Host, Id).
 
 %!  agent_put_life(+Id, +Life) is det.
-%
-%   Replace the life of Id.
 
 agent_put_life(Id, Life) :-
     record(Id, Host, Module, Hash, _, Until),

@@ -138,8 +138,6 @@ fault_error(Fault, Error) :-
     ).
 
 %!  fault_stamp(+Fault, -Stamp:float) is det.
-%
-%   Stamp is the time of Fault, a time stamp.
 
 fault_stamp(fault(_, _, _, _, _, Stamp), Stamp).
 
@@ -164,8 +162,6 @@ place_shown(_, Place) =>
     Place = unknown.
 
 %!  fault_parts(+Fault, -Goal, -Where, -Address, -Hops) is det.
-%
-%   The parts of Fault that a report shows.
 
 fault_parts(fault(_, Goal, Where, Address, Hops, _), Goal, Where, Address,
             Hops).

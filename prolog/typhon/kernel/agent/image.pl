@@ -15,6 +15,8 @@
           ]).
 :- use_module(library(error), [type_error/2]).
 :- use_module(library(lists), [append/3, member/2]).
+:- use_module(library(settings), [setting/4]).
+:- use_module('../base/bounds', [bounded/2]).
 :- use_module('../base/durable_changes', [durable_key/2, durable_on/0]).
 :- use_module('../program', [code_sent/2]).
 :- use_module('../wire', []).
@@ -99,8 +101,6 @@ image_amended(Phase, Host, Where, Image0, Image) :-
     ).
 
 %!  image_hash(+Image, -Hash) is det.
-%
-%   Hash names the program of the agent.
 
 image_hash(image(_, Hash, _, _, _, _, _), Hash).
 
@@ -219,8 +219,8 @@ program_sent(Endpoint, Hash, known) :-
     !.
 program_sent(Endpoint, Hash, Sent) :-
     code_sent(Hash, Sent),
-    bound_programs,
-    assertz(has_program(Endpoint, Hash)).
+    assertz(has_program(Endpoint, Hash)),
+    bounded(has_program(_, _), typhon_image:sent_programs).
 
 %!  program_missing(+Endpoint, +Hash) is det.
 %
@@ -231,15 +231,8 @@ program_missing(Endpoint, Hash) :-
 
 %   A program whose entry was deleted is sent once more.
 
-most_programs(10000).
-
-bound_programs :-
-    predicate_property(has_program(_, _), number_of_clauses(Count)),
-    most_programs(Most),
-    Count > Most,
-    !,
-    retractall(has_program(_, _)).
-bound_programs.
+:- setting(sent_programs, positive_integer, 10 000,
+           "Programs remembered as sent to another process").
 
 typhon_endpoint:connection(Endpoint, down) :-
     retractall(has_program(Endpoint, _)).

@@ -188,8 +188,6 @@ mail_waits(Id) :-
     !.
 
 %!  mail_count(+Id, -Count:nonneg) is det.
-%
-%   Count messages are in the mailbox of Id.
 
 mail_count(Id, Count) :-
     box(Id, Queue),
@@ -220,8 +218,6 @@ mail_back(Id, Older) :-
                 *******************************/
 
 %!  agent_order(+Id, +Order) is det.
-%
-%   Add an order.
 
 agent_order(Id, Order) :-
     assertz(order(Id, Order)).
@@ -247,8 +243,6 @@ agent_unorder_all(Id, Orders) :-
     ).
 
 %!  agent_ordered(+Id) is semidet.
-%
-%   Id has an order.
 
 agent_ordered(Id) :-
     order(Id, _),

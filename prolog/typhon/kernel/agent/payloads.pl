@@ -65,21 +65,14 @@ agent_attach(Id, Payload) :-
     Payload = payload(Name, PIs, _),
     agent(Id, Host, Module, Hash, Life),
     must_be_admitted(Host, Payload, new),
-    attach_free(Module, Hash, PIs),
+    code_module(Hash, Program),
+    maplist(free(Module, Program), PIs),
     life_payloads(Life, Payloads),
     not_carried(Name, Payloads),
     payload_marks(Payload, Marks),
     attach_clauses(Module, Payload),
     forall(member(Mark, Marks), marked(Module, Mark)),
     put_payloads(Id, Life, [Name-PIs|Payloads]).
-
-%   attach_free(+Module, +Hash, +PIs): the agent has no predicate of PIs.
-%
-%   @error permission_error(attach, procedure, PI)
-
-attach_free(Module, Hash, PIs) :-
-    code_module(Hash, Program),
-    maplist(free(Module, Program), PIs).
 
 free(Module, Program, Name/Arity) :-
     functor(Head, Name, Arity),
@@ -207,8 +200,6 @@ put_result(Module, Term) :-
     assertz(Module:'$legacy'(result(Term))).
 
 %!  cloned_put(+Module, +Endpoint) is det.
-%
-%   Note that the agent was cloned at Endpoint.
 
 cloned_put(Module, Endpoint) :-
     dynamic(Module:'$legacy'/1),
@@ -218,8 +209,6 @@ cloned_put(Module, Endpoint) :-
     ).
 
 %!  result_facts(+Module, -Items:list) is det.
-%
-%   Items are the results of the agent in Module.
 
 result_facts(Module, Items) :-
     (   '$c_current_predicate'(_, Module:'$legacy'(_))

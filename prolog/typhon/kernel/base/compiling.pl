@@ -26,8 +26,6 @@ compiling_begin(Flags) :-
     forall(flag(Name, Value), set_prolog_flag(Name, Value)).
 
 %!  compiling_end(+Flags:list) is det.
-%
-%   Restore Flags.
 
 compiling_end(Flags) :-
     forall(member(Name=Value, Flags), set_prolog_flag(Name, Value)).

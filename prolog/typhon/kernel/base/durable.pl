@@ -48,9 +48,8 @@ N is 0, and Term is '', where the table has none.
     tidy/0,                     % called before any peer is admitted
     go_on/0.                    % resume all that was restored
 
-:- dynamic
-    item_table/6,               % Kind, Key, N, Term, Dump, Restore
-    fact_table/6.               % Fact, Module, Kind, Key, N, Term
+:- dynamic item_table/6.        % Kind, Key, N, Term, Dump, Restore: Dump is
+                                % Module:Fact for a table of facts
 
 %!  durable(+Kind, ?Key, ?N, ?Term, :Fact) is det.
 %!  durable(+Kind, ?Key, ?N, ?Term, :Dump, :Restore) is det.
@@ -60,15 +59,12 @@ N is 0, and Term is '', where the table has none.
 %   first one that accepts an item restores it.
 
 durable(Kind, Key, N, Term, Module:Fact) :-
-    add_once(fact_table(Fact, Module, Kind, Key, N, Term)),
     durable(Kind, Key, N, Term, Module:Fact, Module:assertz(Fact)).
-
-durable(Kind, Key, N, Term, Dump, Restore) :-
-    add_once(item_table(Kind, Key, N, Term, Dump, Restore)).
 
 %   A file that is loaded again declares its tables again.
 
-add_once(Table) :-
+durable(Kind, Key, N, Term, Dump, Restore) :-
+    Table = item_table(Kind, Key, N, Term, Dump, Restore),
     copy_term(Table, General),
     (   call(General),
         General =@= Table
@@ -112,7 +108,7 @@ durable_order(Kind, Order) :-
 
 durable_assertz(Module:Fact) :-
     (   durable_on
-    ->  fact_table(Fact, Module, Kind, Key, N, Term),
+    ->  once(item_table(Kind, Key, N, Term, Module:Fact, _)),
         ( var(N) -> durable_number(N) ; true ),
         no_term(Term),
         durable_put(Kind, Key, N, Term)
@@ -126,15 +122,13 @@ durable_assertz(Module:Fact) :-
 
 durable_retractall(Module:Fact) :-
     (   durable_on
-    ->  fact_table(Fact, Module, Kind, Key, _, _),
+    ->  once(item_table(Kind, Key, _, _, Module:Fact, _)),
         durable_drop_all(Kind, Key)
     ;   true
     ),
     retractall(Module:Fact).
 
 %!  durable_dump(+Kind, -Key, -N, -Term) is nondet.
-%
-%   Enumerate the items of this kind.
 
 durable_dump(Kind, Key, N, Term) :-
     item_table(Kind, Key, N, Term, Dump, _),

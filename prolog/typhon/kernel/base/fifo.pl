@@ -33,8 +33,6 @@ fifo_empty(Queue, Messages) :-
     ;   Messages = []
     ).
 
-%   Take the first message if it unifies with Message.
-
 fifo_first(Queue, Message) :-
     thread_peek_message(Queue, First),
     First = Message,

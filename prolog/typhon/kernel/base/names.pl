@@ -107,8 +107,6 @@ names_listed(Names, Text) :-
 names_listed(_, '').
 
 %!  names_joined(+Names:list, +Separator, -Text:atom) is det.
-%
-%   Text is Names with Separator in between.
 
 names_joined(Names, Separator, Text) :-
     maplist(name_text, Names, Texts),

@@ -83,8 +83,6 @@ conclude(Status) :-
                 *******************************/
 
 %!  own_thread_start is det.
-%
-%   Start the helper.
 
 own_thread_start :-
     current_prolog_flag(threads, false),

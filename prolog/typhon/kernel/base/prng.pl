@@ -94,8 +94,6 @@ chance_below(N, Index, Chance0, Chance) :-
     Index is truncate(Float * N).
 
 %!  chance_uniform(+Min, +Max, -X:float, +Chance0, -Chance) is det.
-%
-%   X is uniform in the interval from Min to Max.
 
 chance_uniform(Min, Max, X, Chance0, Chance) :-
     chance_float(Float, Chance0, Chance),

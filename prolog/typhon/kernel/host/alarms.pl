@@ -51,8 +51,6 @@ timer searches for the next stamp after each alarm.
     new/1.                              % Queue of stamps
 
 %!  alarms_begin is det.
-%
-%   Allow alarms to be added.
 
 alarms_begin :-
     message_queue_create(New),
@@ -93,8 +91,6 @@ alarms_renew(Stamp) :-
 alarms_renew(_).
 
 %!  alarm_stamp(?Stamp, +Agent, ?Token) is nondet.
-%
-%   This alarm is set.
 
 alarm_stamp(Stamp, Agent, Token) :-
     alarm(Stamp, Agent, Token).
@@ -171,8 +167,6 @@ tree(Stamps) :-
     pairs_keys_values(Pairs, Set, Set),
     ord_list_to_rbtree(Pairs, Stamps).
 
-%   Delete obsolete alarms.
-
 alarms_thin :-
     forall(clause(alarm(_, Agent, Token), true, Alarm),
            forget_if_over(Alarm, Agent, Token)).
@@ -220,8 +214,6 @@ index_insert(index(Stamps0, Left0), Stamp, index(Stamps, Left)) :-
     rb_insert(Stamps0, Stamp, Stamp, Stamps).
 
 %!  index_delete(+Index0, +Stamp, -Index) is det.
-%
-%   Index is Index0 without Stamp.
 
 index_delete(least(_, Left), _, least(Stamp, Left)) :-
     alarm_least(Stamp).
@@ -243,8 +235,6 @@ index_first(index(Stamps, _), Stamp) :-
     ).
 
 %!  index_size(+Index, -Count) is det.
-%
-%   Count stamps are in Index.
 
 index_size(least(_, _), 1).
 index_size(index(Stamps, _), Size) :-

@@ -39,8 +39,6 @@ clock_set(Host, Epoch, Rate) :-
     assertz(clock(Host, Epoch, Rate)).
 
 %!  clock_clear(+Host) is det.
-%
-%   Remove the clock of Host.
 
 clock_clear(Host) :-
     retractall(clock(Host, _, _)).

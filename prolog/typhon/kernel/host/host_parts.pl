@@ -184,8 +184,6 @@ in_order(Host, Phase, Closures) :-
     pairs_values(Pairs, Closures).
 
 %!  parts_forget(+Host) is det.
-%
-%   Remove the parts of Host, which has stopped.
 
 parts_forget(Host) :-
     retractall(parts(_, Host, _)).

@@ -140,29 +140,26 @@ must_be_name(Name) :-
 start(Name, Options) :-
     starts(Name, Options),
     !.
-start(Name, _) :-
-    host(Name, _, _),
-    !,
-    permission_error(start, host, Name).
 start(Name, Options) :-
-    start_new(Name, Options),
+    must_be_new(Name),
+    start_reported(Name, Options),
     sync_changes.
+
+must_be_new(Name) :-
+    (   host(Name, _, _)
+    ->  permission_error(start, host, Name)
+    ;   true
+    ).
 
 %!  host_restart(+Name, +Options) is det.
 %
 %   As host_start/2, for a host that existed before: no event reports its start.
 
 host_restart(Name, Options) :-
-    with_mutex(typhon_hosting, restart(Name, Options)).
+    with_mutex(typhon_hosting,
+               ( must_be_new(Name), start_unreported(Name, Options) )).
 
-restart(Name, _) :-
-    host(Name, _, _),
-    !,
-    permission_error(start, host, Name).
-restart(Name, Options) :-
-    start_unreported(Name, Options).
-
-start_new(Name, Options) :-
+start_reported(Name, Options) :-
     start_unreported(Name, Options),
     event(hosts, Name, none, started).
 
@@ -179,7 +176,7 @@ start_unreported(Name, Options) :-
 %   For options, in the course of host_start/2: start another host.
 
 host_begin(Name, Options) :-
-    hosts_exclusively(start_new(Name, Options)).
+    hosts_exclusively(start_reported(Name, Options)).
 
 %!  host_end(+Name) is det.
 %
@@ -339,22 +336,20 @@ local_name(Host, Name) :-
 
 :- multifile typhon_options:declared/4.
 
-typhon_options:declared(host_option, Option, Type, Value) :-
-    host_option_type(Option, Type, Value).
-
-host_option_type(port(X), between(0, 65535), X).
-host_option_type(bind(X), atom, X).
-host_option_type(capacity(X), nonneg, X).
-host_option_type(capacity(X), oneof([inf]), X).
-host_option_type(tokens(X), list, X).
-host_option_type(consult(X), ground, X).
-host_option_type(services(X), ground, X).
-host_option_type(place(X), atom, X).
-host_option_type(remote(X), boolean, X).
-host_option_type(clock(X, Y), list(number), [X,Y]).
-host_option_type(hop_time(uniform(X, Y)), list(number), [X,Y]).
-host_option_type(seed(X), integer, X).
-host_option_type(python(X), boolean, X).
+typhon_options:declared(host_option, port(X), between(0, 65535), X).
+typhon_options:declared(host_option, bind(X), atom, X).
+typhon_options:declared(host_option, capacity(X), nonneg, X).
+typhon_options:declared(host_option, capacity(X), oneof([inf]), X).
+typhon_options:declared(host_option, tokens(X), list, X).
+typhon_options:declared(host_option, consult(X), ground, X).
+typhon_options:declared(host_option, services(X), ground, X).
+typhon_options:declared(host_option, place(X), atom, X).
+typhon_options:declared(host_option, remote(X), boolean, X).
+typhon_options:declared(host_option, clock(X, Y), list(number), [X,Y]).
+typhon_options:declared(host_option, hop_time(uniform(X, Y)), list(number),
+                        [X,Y]).
+typhon_options:declared(host_option, seed(X), integer, X).
+typhon_options:declared(host_option, python(X), boolean, X).
 
 %!  host_listed(+ListOrOne, -List) is det.
 %

@@ -30,24 +30,21 @@ A link is recorded in one direction; the other host records the other.
 
 host_link(Name, Address, Cost) :-
     with_mutex(typhon_links,
-               ( add_link(Name, Address),
-                 set_cost(Cost, Name, Address),
-                 note_link(Name, Address) )).
+               ( link(Name, Address, Cost, Was),
+                 (   Was == new
+                 ->  event(links, Name, none, link(Address))
+                 ;   true
+                 ) )).
 
-note_link(Name, Address) :-
-    host_link_cost(Name, Address, Cost),
-    link_key(Name, Address, Key),
-    durable_put(link, Key, 0, link(Name, Address, Cost)).
-
-link_key(Name, Address, Key) :-
-    atomic_list_concat([Name, Address], ' ', Key).
-
-add_link(Name, Address) :-
+link(Name, Address, Cost, Was) :-
     (   neighbour(Name, Address)
-    ->  true
-    ;   assertz(neighbour(Name, Address)),
-        event(links, Name, none, link(Address))
-    ).
+    ->  Was = known
+    ;   Was = new,
+        assertz(neighbour(Name, Address))
+    ),
+    set_cost(Cost, Name, Address),
+    link_item(Key, Name, Address, Now),
+    durable_put(link, Key, 0, link(Name, Address, Now)).
 
 :- durable(link, Key, 0, link(Name, Address, Cost),
            link_item(Key, Name, Address, Cost),
@@ -58,16 +55,13 @@ link_item(Key, Name, Address, Cost) :-
     host_link_cost(Name, Address, Cost),
     link_key(Name, Address, Key).
 
+link_key(Name, Address, Key) :-
+    atomic_list_concat([Name, Address], ' ', Key).
+
 %   This reports no event, because the link existed before.
 
 link_restore(Name, Address, Cost) :-
-    with_mutex(typhon_links,
-               ( (   neighbour(Name, Address)
-                 ->  true
-                 ;   assertz(neighbour(Name, Address))
-                 ),
-                 set_cost(Cost, Name, Address),
-                 note_link(Name, Address) )).
+    with_mutex(typhon_links, link(Name, Address, Cost, _)).
 
 %   A concurrent caller finds the old cost or the new one.
 
@@ -90,14 +84,11 @@ host_unlink(Name, Address) :-
 
 unlink(Name, Address) :-
     findall(Name-Address, neighbour(Name, Address), Links),
-    forall(member(From-To, Links), note_no_link(From, To)),
+    forall(( member(From-To, Links), link_key(From, To, Key) ),
+           durable_drop(link, Key, 0)),
     retractall(neighbour(Name, Address)),
     retractall(cost(Name, Address, _)),
     forall(member(From-To, Links), event(links, From, none, unlink(To))).
-
-note_no_link(Name, Address) :-
-    link_key(Name, Address, Key),
-    durable_drop(link, Key, 0).
 
 %!  host_link_cost(+Name, +Address, -Cost) is semidet.
 %
@@ -119,8 +110,6 @@ host_linked(Address) :-
     neighbour(_, Address).
 
 %!  host_neighbours(+Name, -Addresses:list(atom)) is det.
-%
-%   Addresses are the hosts to which Name has a link.
 
 host_neighbours(Name, Addresses) :-
     findall(Address, neighbour(Name, Address), Addresses0),

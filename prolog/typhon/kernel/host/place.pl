@@ -152,8 +152,6 @@ reload(Place, Id, File) :-
     print_message(informational, typhon(place_reloaded(Place, File))).
 
 %!  place_host(?Place, ?Host) is nondet.
-%
-%   Place is the place of Host.
 
 %!  place_destroy(+Place) is det.
 %

@@ -135,13 +135,6 @@ disagrees(bind(Interface)) :-
     endpoint_address(Endpoint),
     \+ atomic_list_concat([Interface,_], ':', Endpoint).
 
-%   runtime_user(?User) is nondet.
-%
-%   User uses endpoint and time.
-
-runtime_user(User) :-
-    user(User, _).
-
 %!  runtime_release(+User) is det.
 %
 %   End the use of endpoint and time by User.  The last user stops them.
@@ -206,7 +199,7 @@ unreachable(Endpoint, Host) :-
 %   guests, it has one while Goal runs.
 
 as_guest(Goal) :-
-    (   runtime_user(User),
+    (   user(User, _),
         User \= guest(_)
     ;   own_thread
     ),

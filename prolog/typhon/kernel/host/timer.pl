@@ -43,8 +43,6 @@ the two sees the other.
                 *******************************/
 
 %!  timer_start is det.
-%
-%   Start the timer.
 
 timer_start :-
     alarms_begin,

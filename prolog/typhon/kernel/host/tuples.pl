@@ -87,8 +87,6 @@ count(By, Change) :-
     forall(counted(By, Change), true).
 
 %!  tuple_sense(+Place, ?Fact) is nondet.
-%
-%   Fact is in the tuple space.
 
 tuple_sense(Place, Fact) :-
     Place:'$tuple'(Fact).

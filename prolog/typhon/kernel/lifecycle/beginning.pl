@@ -38,7 +38,7 @@ other processes order.
 %   another verdict of gate/4.
 
 agent_begins(Host, Name, Start, From, Answer) :-
-    unit_of_work(started(Host, Name, Start, From, none, Answer)),
+    unit_of_work(started(Host, Name, Start, From, none, _, Answer)),
     sync_changes.
 
 %!  begins_at_once(@Start) is semidet.
@@ -90,14 +90,12 @@ agent_clone_here(Id, Goals, CloneId) :-
     origin_inherited(Id, State2, State),
     life_clone(Id, Life0, Life),
     agent_name(Id, Name, _),
-    started(Host, Name, start(Hash, Life, State, Goals, []), here,
-            clone(Id, CloneId), Answer),
+    started(Host, Name, start(Hash, Life, State, Goals, []), here, Id, CloneId,
+            Answer),
     begun_agent(Answer, local(Host), CloneId),
     event(hops, Host, Id, cloned(CloneId)).
 
 %!  clone_id(+Id, -CloneId) is det.
-%
-%   An id for a clone of Id.
 
 clone_id(Id, CloneId) :-
     agent(Id, Host, _, _, _),
@@ -105,22 +103,23 @@ clone_id(Id, CloneId) :-
     agent_name(Id, Name, _),
     agent_id(Name, Address, CloneId).
 
-%   started(+Host, +Name, +Start, +From, +Of, -Answer): as agent_begins/5,
-%   without the unit of work.  Of is `none`, or clone(Parent, Id).
+%   started(+Host, +Name, +Start, +From, +Parent, ?Id, -Answer): as
+%   agent_begins/5, without the unit of work.  Parent is `none`, or the agent of
+%   which Id is a clone.
 
-started(Host, Name, Start, From, Of, Answer) :-
+started(Host, Name, Start, From, Parent, Id, Answer) :-
     Start = start(Hash, Life, State, _, Mail),
     gate(Host, From-entrant(Name, Hash, Life, State, Mail),
-         install(Host, Name, Start, Of, Id, Goals), Verdict),
+         install(Host, Name, Start, Id, Goals), Verdict),
     (   Verdict == ok
     ->  Answer = created(Id),
-        start_agent(Host, Id, Goals, Of)
+        start_agent(Host, Id, Goals, Parent)
     ;   Answer = Verdict
     ).
 
-install(Host, Name, Start, Of, Id, Goals, Verdict) :-
+install(Host, Name, Start, Id, Goals, Verdict) :-
     (   host(Host, Address, Place)
-    ->  id_of(Of, Name, Address, Id),
+    ->  ( nonvar(Id) -> true ; agent_id(Name, Address, Id) ),
         (   with_agent(Id, install(Id, Host, Place, Start, Goals))
         ->  Verdict = ok
         ;   Verdict = need_program      % it was evicted meanwhile
@@ -128,19 +127,15 @@ install(Host, Name, Start, Of, Id, Goals, Verdict) :-
     ;   Verdict = refused(unknown_host) % the host is stopping
     ).
 
-id_of(clone(_, Id), _, _, Id) :-
-    nonvar(Id),
-    !.
-id_of(clone(_, Id), Name, Address, Id) :-
-    !,
-    agent_id(Name, Address, Id).
-id_of(none, Name, Address, Id) :-
-    agent_id(Name, Address, Id).
+install(Id, Host, Place, start(Hash, Life, State, Goals0, Mail), Goals) :-
+    agent_build(Id, Place, Hash, State-Goals0, Module-Goals),
+    agent_enter(agent(Id, Host, Module, Hash, Life), arriving, []),
+    agent_mail(Id, Mail).
 
-start_agent(Host, Id, Goals0, Of) :-
+start_agent(Host, Id, Goals0, Parent) :-
     agent_home(Id, Address),
     agent_born(Id, Address),
-    record_clone(Of),
+    record_clone(Parent, Id),
     do_birth_goals(Goals0, Id, Goals),
     event(life, Host, Id, created),
     debug(typhon(agent), '~w: created on ~w', [Id, Address]),
@@ -157,8 +152,9 @@ do_birth_goals(Goals, _, Goals).
 
 %   A clone is recorded before it runs and can have clones of its own.
 
-record_clone(none).
-record_clone(clone(Parent, Id)) :-
+record_clone(none, _) :-
+    !.
+record_clone(Parent, Id) :-
     clone_born(Parent, Id).
 
 %   An agent that only handles messages is resident from the start.
@@ -172,8 +168,3 @@ begin([], Id) :-
     agent_rest(Id, resident, []).
 begin(Goals, Id) :-
     agent_ready(Id, Goals).
-
-install(Id, Host, Place, start(Hash, Life, State, Goals0, Mail), Goals) :-
-    agent_build(Id, Place, Hash, State-Goals0, Module-Goals),
-    agent_enter(agent(Id, Host, Module, Hash, Life), arriving, []),
-    agent_mail(Id, Mail).

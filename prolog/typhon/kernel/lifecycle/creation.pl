@@ -142,17 +142,14 @@ attaches(Clauses) :-
     subsumes_term(attach(_), Goal),
     !.
 
-typhon_options:declared(agent_option, Option, Type, Value) :-
-    option_type(Option, Type, Value).
-
-option_type(name(X), atom, X).
-option_type(host(X), atom, X).
-option_type(tokens(X), list, X).
-option_type(payloads(X), list, X).
-option_type(facts(X), list, X).
-option_type(lifetime(X), nonneg, X).
-option_type(lifetime(X), oneof([inf]), X).
-option_type(static(X), boolean, X).
+typhon_options:declared(agent_option, name(X), atom, X).
+typhon_options:declared(agent_option, host(X), atom, X).
+typhon_options:declared(agent_option, tokens(X), list, X).
+typhon_options:declared(agent_option, payloads(X), list, X).
+typhon_options:declared(agent_option, facts(X), list, X).
+typhon_options:declared(agent_option, lifetime(X), nonneg, X).
+typhon_options:declared(agent_option, lifetime(X), oneof([inf]), X).
+typhon_options:declared(agent_option, static(X), boolean, X).
 
 target(Options, Parent, Where) :-
     (   option(host(Host), Options)

@@ -303,15 +303,13 @@ stop_running(Host) :-
 %   runs by now must not be run by two workers.
 
 agent_reschedule(Id) :-
-    (   with_agent(Id, ( agent_status(Id, Status, Goals),
-                         resume_from(Status, Goals, Id) ))
-    ->  true
-    ;   true
-    ),
+    ignore(with_agent(Id, ( agent_status(Id, Status, Goals),
+                            resume_from(Status, Goals, Id) ))),
     (   agent_status(Id, Now, _),
-        alarm(Now, Stamp, Token),
+        alarm(Now, Until, Token),
         agent(Id, Host, _, _, _)
-    ->  alarm_on(Host, Stamp, Id, Token)
+    ->  real_time(Host, Until, Stamp),
+        alarm_set(Stamp, Id, Token)
     ;   true
     ).
 
@@ -339,7 +337,3 @@ alarm(waiting(_, Until), Until, until(Until)) :-
     number(Until).
 alarm(sleeping(Until), Until, until(Until)).
 alarm(leaving(_, At), At, leave).
-
-alarm_on(Host, Until, Id, Token) :-
-    real_time(Host, Until, Stamp),
-    alarm_set(Stamp, Id, Token).

@@ -44,30 +44,28 @@ inside with_agent/2, reports its end.
 %   End Id.
 
 agent_end(Id, Outcome) :-
-    unit_of_work(( with_agent(Id, remove(Id, Last)),
-                   after_removal(Last, Id, Outcome) )).
+    agent_end(Id, nonvar, Outcome).
 
 %!  agent_end(+Id, :Test, +Outcome) is semidet.
 %
 %   End Id if call(Test, Status) succeeds for its status.
 
 agent_end(Id, Test, Outcome) :-
-    unit_of_work(( with_agent(Id, ( agent_status(Id, Status, _),
+    unit_of_work(( with_agent(Id, ( agent_status(Id, Status, Goals),
                                     call(Test, Status),
-                                    remove(Id, Last)
+                                    remove(Id, Status, Goals, Last)
                                   )),
                    after_removal(Last, Id, Outcome) )).
 
-remove(Id, last(Host, Hops, Status, Goals, Results, Orders)) :-
+remove(Id, Status, Goals, last(Host, Hops, Status, Goals, Results, Orders)) :-
     agent(Id, Host, Module, _, Life),
     life_hops(Life, Hops),
     result_facts(Module, Results),
-    once(agent_status(Id, Status, Goals)),
     (   Status = transit(_, _)
     ->  transfer_given_up(Id, Goals)
     ;   dropped_if_held(Goals)
     ),
-    faulty_gone(Id),
+    retractall(kept(Id)),
     agent_ends(Id, Hops),
     agent_remove(Id, _, Orders).
 
@@ -172,7 +170,7 @@ agent_stays(Id, Goals) :-
 bound_faulty(Kept) :-
     (   Kept == true,
         faulty_oldest(Oldest)
-    ->  faulty_gone(Oldest),
+    ->  retractall(kept(Oldest)),
         ignore(agent_end(Oldest, is_kept, disposed)),
         bound_faulty(Kept)
     ;   true
@@ -191,8 +189,6 @@ is_kept(faulty(_)).
 :- setting(typhon_creation:faulty, nonneg, 100,
            "Faulty agents kept for inspection").
 
-%   faulty_keep(+Id, +Goals, -Kept, -At) is semidet.
-%
 %   Id, which was running or obeyed an order, is faulty: Goals begin with its
 %   fault.  Kept is `false` if another order has arrived meanwhile.  At is its
 %   host and the number of its hops: a moment later it may be elsewhere.
@@ -222,15 +218,6 @@ faulty_stirs(Id) :-
     !,
     host_again(Host).
 
-%   faulty_gone(+Id) is det.
-%
-%   Id, which was faulty, has ended.
-
-faulty_gone(Id) :-
-    retractall(kept(Id)).
-
-%   report_fault(+Id, +Fault, +At) is det.
-%
 %   Report the fault to the home of Id.
 
 report_fault(Id, Fault, at(Host, Hops)) :-
@@ -241,8 +228,6 @@ report_fault(Id, Fault, at(Host, Hops)) :-
     agent_faulty(Id, Outcome, Stamp, Address, Hops).
 report_fault(_, _, _).                  % its host has stopped
 
-%   faulty_oldest(-Id) is semidet.
-%
 %   There are more faulty agents than the setting allows; Id is the oldest.
 
 faulty_oldest(Id) :-
@@ -282,8 +267,4 @@ held_parts(Held, State, Goals) :-
 %   State if it was held.
 
 dropped_if_held(Goals) :-
-    (   held_parts(Goals, State, _),
-        dropped(State)
-    ->  true
-    ;   true
-    ).
+    ignore(( held_parts(Goals, State, _), dropped(State) )).

@@ -128,8 +128,6 @@ seconds_left(Until, Seconds) :-
     time_now(Now),
     Seconds is max(0, Until-Now).
 
-%   clones(+Agent, +Outcome, -Clones): the agents that were cloned from Agent.
-
 clones(Agent, Outcome, Clones) :-
     results_of(Agent, Outcome, cloned, Items),
     findall(Some,

@@ -220,8 +220,6 @@ not_here(Agent, Asker) :-
     question_answered(Asker, Answer).
 
 %!  question_answered(+Asker, +Answer) is det.
-%
-%   Send Answer to Asker.
 
 question_answered(queue(Queue), Answer) :-
     catch(thread_send_message(Queue, Answer),
@@ -270,16 +268,10 @@ agent_met(Id) :-
 %   @error ambiguous_agent(Agent, Ids)
 
 agent_named(Agent, Id) :-
-    is_id(Agent),
-    !,
-    Id = Agent.
-agent_named(Name, Id) :-
-    must_be(atom, Name),
-    living(Name, Ids),
-    (   Ids == [],
-        last_called(Name, Ended)
-    ->  has_ended(Ended)
-    ;   the_only(Ids, Name, Id)
+    named(Agent, Id, Ended),
+    (   Ended == true
+    ->  has_ended(Id)
+    ;   true
     ).
 
 has_ended(Id) :-
@@ -298,15 +290,18 @@ has_ended(Id) :-
 %   @error ambiguous_agent(Agent, Ids)
 
 agent_once_named(Agent, Id) :-
+    named(Agent, Id, _).
+
+named(Agent, Agent, _) :-
     is_id(Agent),
-    !,
-    Id = Agent.
-agent_once_named(Name, Id) :-
+    !.
+named(Name, Id, Ended) :-
     must_be(atom, Name),
     living(Name, Ids),
     (   Ids == [],
-        last_called(Name, Ended)
-    ->  Id = Ended
+        last_called(Name, Last)
+    ->  Id = Last,
+        Ended = true
     ;   the_only(Ids, Name, Id)
     ).
 

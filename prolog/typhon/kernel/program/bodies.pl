@@ -4,7 +4,8 @@
             goals_body/2,               % +Goals, -Body
             called_goal/2,              % +Goal, -Called
             control/1,                  % ?Head
-            special/2                   % ?Head, ?Kind
+            special/2,                  % ?Head, ?Kind
+            named/4                     % +Prefix, +Goal, +More, -Named
           ]).
 :- use_module(library(lists), [append/3]).
 
@@ -116,6 +117,16 @@ extend(Closure, Extra, Called) :-
     Closure =.. List0,
     append(List0, Extra, List),
     Called =.. List.
+
+%!  named(+Prefix, +Goal, +More, -Named) is det.
+%
+%   Named has the name of Goal with Prefix, and More arguments.
+
+named(Prefix, Goal, More, Named) :-
+    Goal =.. [Name|Args],
+    atom_concat(Prefix, Name, NewName),
+    append(Args, More, NewArgs),
+    Named =.. [NewName|NewArgs].
 
                 /*******************************
                 *           CONTROL            *

@@ -1,14 +1,13 @@
 :- module(typhon_chunk_code,
-          [ clause_code/5,              % +Own, +Clause, +Phase, +Args, -Code
-            named/4,                    % +Prefix, +Goal, +More, -Named
-            occurs/2                    % +Variable, +Term
+          [ clause_code/5               % +Own, +Clause, +Phase, +Args, -Code
           ]).
 :- use_module(library(apply), [exclude/3, foldl/4, maplist/3]).
 :- use_module(library(lists), [append/3, member/2, memberchk/2]).
 :- use_module(library(occurs), [sub_term/2]).
+:- use_module(bodies, [named/4]).
 :- use_module(clause_places,
               [ among/2, cannot_stop/2, clause_places/5, goal_kind/3,
-                node_parts/3 ]).
+                node_parts/3, occurs/2 ]).
 :- use_module(code, [native_body/4]).
 
 /** <module> The code of a chunk
@@ -32,24 +31,6 @@ clause_code(own(Module, Own, Number), (Head:-Body), Phase, Args, Code-Frames) :-
     Env = env(Module, Own, Places, Number, Args, frames([])),
     block(Nodes, [], tail, Phase, Env, Code),
     arg(6, Env, frames(Frames)).
-
-%!  named(+Prefix, +Goal, +More, -Named) is det.
-%
-%   Named has the name of Goal with Prefix, and More arguments.
-
-named(Prefix, Goal, More, Named) :-
-    Goal =.. [Name|Args],
-    atom_concat(Prefix, Name, NewName),
-    append(Args, More, NewArgs),
-    Named =.. [NewName|NewArgs].
-
-%!  occurs(+Variable, +Term) is semidet.
-%
-%   Variable occurs in Term.
-
-occurs(Variable, Term) :-
-    term_variables(Term, Variables),
-    among(Variables, Variable).
 
                 /*******************************
                 *            FRAMES            *
@@ -100,8 +81,6 @@ rest(Nodes, Outer, Env, Goals) :-
                 /*******************************
                 *            BLOCKS            *
                 *******************************/
-
-%   kind(+Goal, +Env, -Kind): see goal_kind/3.
 
 kind(Goal, env(Module, Own, _, _, _, _), Kind) :-
     goal_kind(Goal, Module-Own, Kind).

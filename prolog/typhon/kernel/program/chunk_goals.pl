@@ -1,6 +1,6 @@
 :- module(typhon_chunk_goals,
           [ plain_goals/2,              % +Goals0, -Goals
-            suspended_goals/2,          % +Goals0, -Goals
+            goals_without/3,            % +Frames, +Goals0, -Goals
             frame_goals/4,              % +Place, +Vars, -Goals, ?Rest
             place_left/4,               % +Place, +Vars, -Goal, -Goals
             place_marked/3              % +Place, +Vars, -Left
@@ -30,39 +30,31 @@ saves time, '$frame'/5, from goals to frames.
 %   Replace `'$cut'(_)` by `!`, and frames by the goals for which they stand.
 %   A suspended agent is shown with these goals.
 
-plain_goals([], []).
-plain_goals([Goal|Goals0], [Goal|Goals]) :-
-    var(Goal),
-    !,
-    plain_goals(Goals0, Goals).
-plain_goals(['$k'(Place, Vars)|Goals0], Goals) :-
-    !,
-    frame_goals(Place, Vars, Goals, Rest),
-    plain_goals(Goals0, Rest).
-plain_goals([Goal0|Goals0], [Goal|Goals]) :-
-    plain_goal(Goal0, Goal),
-    plain_goals(Goals0, Goals).
+plain_goals(Goals0, Goals) :-
+    goals_without(all, Goals0, Goals).
 
-%!  suspended_goals(+Goals0, -Goals) is det.
+%!  goals_without(+Frames, +Goals0, -Goals) is det.
 %
-%   As plain_goals/2, but keep frames without a cut.  A cut in a frame would
-%   cut to where this run began, and the next run begins elsewhere.
+%   As plain_goals/2, but if Frames is `cuts`, keep frames without a cut.  A cut
+%   in a frame would cut to where this run began, and the next run begins
+%   elsewhere.
 
-suspended_goals([], []).
-suspended_goals([Goal|Goals0], [Goal|Goals]) :-
+goals_without(_, [], []).
+goals_without(Frames, [Goal|Goals0], [Goal|Goals]) :-
     var(Goal),
     !,
-    suspended_goals(Goals0, Goals).
-suspended_goals(['$k'(Place, Vars)|Goals0], Goals) :-
+    goals_without(Frames, Goals0, Goals).
+goals_without(Frames, ['$k'(Place, Vars)|Goals0], Goals) :-
     !,
-    (   Place /\ 1 =:= 0
+    (   Frames == cuts,
+        Place /\ 1 =:= 0
     ->  Goals = ['$k'(Place, Vars)|Goals1]
     ;   frame_goals(Place, Vars, Goals, Goals1)
     ),
-    suspended_goals(Goals0, Goals1).
-suspended_goals([Goal0|Goals0], [Goal|Goals]) :-
+    goals_without(Frames, Goals0, Goals1).
+goals_without(Frames, [Goal0|Goals0], [Goal|Goals]) :-
     plain_goal(Goal0, Goal),
-    suspended_goals(Goals0, Goals).
+    goals_without(Frames, Goals0, Goals).
 
 %!  frame_goals(+Place, +Vars, -Goals, ?Rest) is det.
 %
@@ -115,7 +107,7 @@ add_place(Module, Place, _, _, _, _, _) :-
     !.
 add_place(Module, Place, General, Goals, Plain, List, Rest) :-
     asserta(Module:'$goals'(Place, General, List, Rest)),
-    (   is_frame(Module, Place, General),
+    (   \+ \+ clause(Module:'$k'(Place, General, _, _, _, _), _),
         worth(Plain),
         Plain = [First|_]
     ->  functor(First, Name, Arity),
@@ -155,9 +147,6 @@ unbound(Variable, Code, (var(Variable),Code)).
 
 numbered(Variable, N0-Code, N-(Variable=N,Code)) :-
     N is N0+1.
-
-is_frame(Module, Place, Vars) :-
-    \+ \+ clause(Module:'$k'(Place, Vars, _, _, _, _), _).
 
 %   worth(+Goals) is semidet: a frame saves time.  Goals begin with three goals
 %   that are probably native.

@@ -3,8 +3,10 @@
           ]).
 :- use_module(library(apply), [include/3, maplist/2, maplist/3]).
 :- use_module(library(assoc), [get_assoc/3, list_to_assoc/2]).
-:- use_module(library(lists), [append/2, append/3, member/2]).
-:- use_module(chunk_code, [clause_code/5, named/4, occurs/2]).
+:- use_module(library(lists), [append/2, append/3, member/2, nth0/3]).
+:- use_module(bodies, [named/4]).
+:- use_module(chunk_code, [clause_code/5]).
+:- use_module(clause_places, [occurs/2]).
 :- use_module(code, [code_module/2, code_program/2]).
 :- use_module(source, [clause_parts/3]).
 
@@ -75,7 +77,7 @@ compile(Module, program(_, State, _, Clauses)) :-
     findall(PI-state, member(PI, State), StateKinds),
     append(Kinds, StateKinds, OwnKinds),
     list_to_assoc(OwnKinds, Own),
-    numbered_clauses(Clauses, 0, Numbered),
+    findall(I-Clause, nth0(I, Clauses, Clause), Numbered),
     findall(Compiled,
             ( append(_, [C|Later], Numbered),
               clause_compiled(C, Later, Count, Module, Own, Compiled)
@@ -88,11 +90,8 @@ compile(Module, program(_, State, _, Clauses)) :-
            add_frame(Module, Frame)),
     include(has_clauses(Module), ['$k'/6, '$run'/7], Tables),
     append([['$go'/4],Tables|Made], Static),
-    maplist(qualified(Module), Static, PIs),
-    compile_predicates(PIs),
+    compile_predicates(Module:Static),
     dynamic(Module:'$goals'/4).         % marks the program as compiled
-
-qualified(Module, PI, Module:PI).
 
 has_clauses(Module, Name/Arity) :-
     functor(Head, Name, Arity),
@@ -128,11 +127,6 @@ head_pi(Clause, Name/Arity) :-
 
 is_mobile(_-Kind) :-
     Kind \== native.
-
-numbered_clauses([], _, []).
-numbered_clauses([Clause|Clauses], I, [I-Clause|Numbered]) :-
-    I1 is I+1,
-    numbered_clauses(Clauses, I1, Numbered).
 
                 /*******************************
                 *          PREDICATES          *
@@ -195,8 +189,6 @@ barriers(Clauses, [_]) :-
     !.
 barriers(_, []).
 
-%   entry(+Matches, +Barriers, +Fails, +Do, -Entry)
-
 entry(Matches, [Barrier], Fails, Do, Entry) =>
     Entry = (prolog_current_choice(Barrier),Entry1),
     entry(Matches, [], Fails, Do, Entry1).
@@ -204,8 +196,6 @@ entry(true, [], _, Do, Entry) =>
     Entry = Do.
 entry(Matches, [], Fails, Do, Entry) =>
     Entry = (\+ Matches -> Fails ; Do).
-
-%   One of Clauses matches all calls.
 
 total(Clauses) :-
     member(compiled(Head, _, _, _, _), Clauses),
@@ -226,8 +216,6 @@ add_heads(Clauses, Module, Head, Matches, [PI]) :-
            ( named('head ', Head1, [], Fact),
              assertz(Module:Fact) )).
 
-%   add_clauses(+Clauses, +Module, +Prefix, +Barriers, -PIs)
-
 add_clauses([Clause|Clauses], Module, Prefix, Barriers, [PI]) :-
     run_head(Clause, Prefix, Barriers, Head0),
     declare(Module, Head0, PI),
@@ -245,8 +233,6 @@ declare(Module, Head, Name/Arity) :-
     functor(Head, Name, Arity),
     module_transparent(Module:Name/Arity),
     dynamic(Module:Name/Arity).
-
-%   A frame is frame(Place, Vars, Args, Code).
 
 add_frame(Module, frame(Place, Vars, args(K, X, Base, Out, _), Code)) :-
     assertz(Module:('$k'(Place, Vars, K, X, Base, Out) :- Code)).

@@ -2,12 +2,14 @@
           [ clause_places/5,            % +Head, +Body, -Barrier, -Nodes, -Places
             node_parts/3,               % +Goal, +N, -Parts
             among/2,                    % +Variables, +Variable
+            occurs/2,                   % +Variable, +Term
             goal_kind/3,                % +Goal, +Own, -Kind
             cannot_stop/2               % +Goal, +Own
           ]).
-:- use_module(library(apply), [exclude/3, include/3, maplist/3]).
+:- use_module(library(apply), [exclude/3, foldl/4, include/3, maplist/3]).
 :- use_module(library(assoc), [get_assoc/3]).
 :- use_module(library(lists), [append/2, append/3, member/2, memberchk/2]).
+:- use_module(library(pairs), [pairs_values/2]).
 :- use_module(bodies, [body_goals/4, goals_body/2, special/2]).
 :- use_module(mobile, [body_calls/2, built_in/1]).
 
@@ -41,12 +43,6 @@ numbered([Goal|Goals], N, [N-Goal|Nodes]) :-
     N1 is N+Size,
     numbered(Goals, N1, Nodes).
 
-%   nodes_goals(+Nodes, -Goals)
-
-nodes_goals([], []).
-nodes_goals([_-Goal|Nodes], [Goal|Goals]) :-
-    nodes_goals(Nodes, Goals).
-
 %   size(+Goal, -Size): Goal takes Size numbers.  This does not number its
 %   parts: numbering computes sizes, so the time for a deep clause would be
 %   exponential.
@@ -54,25 +50,19 @@ nodes_goals([_-Goal|Nodes], [Goal|Goals]) :-
 size(Goal, Size) :-
     (   nonvar(Goal),
         parts(Goal, Parts)
-    ->  parts_size(Parts, 1, Size)
+    ->  parts_nodes(Parts, Tests, Branches),
+        append(Tests, Branches, Nodes),
+        foldl(add_size, Nodes, 1, Size0),
+        (   Parts = if(_, _, _, _, _)
+        ->  Size is Size0+1             % a number for its failure
+        ;   Size = Size0
+        )
     ;   Size = 1
     ).
 
-parts_size(both(_-A, _-B), Size0, Size) :-
-    sum_sizes([A,B], Size0, Size).
-parts_size(either(_-A, _-B), Size0, Size) :-
-    sum_sizes([A,B], Size0, Size).
-parts_size(not(_-A), Size0, Size) :-
-    sum_sizes([A], Size0, Size).
-parts_size(if(_, _-If, _-Then, _-Else, _), Size0, Size) :-
-    Size1 is Size0+1,                   % a number for its failure
-    sum_sizes([If,Then,Else], Size1, Size).
-
-sum_sizes([], Size, Size).
-sum_sizes([Part|Parts], Size0, Size) :-
-    size(Part, Size1),
-    Size2 is Size0+Size1,
-    sum_sizes(Parts, Size2, Size).
+add_size(_-Goal, Size0, Size) :-
+    size(Goal, Own),
+    Size is Size0+Own.
 
 %!  node_parts(+Goal, +N, -Parts) is det.
 %
@@ -109,6 +99,14 @@ condition(Or, Arrow, If, Then) :-
     ;   Or = (If*->Then),
         Arrow = (*->)
     ).
+
+%   parts_nodes(+Parts, -Tests, -Branches): the goals of Parts; the code after
+%   them follows Branches.
+
+parts_nodes(both(A, B), [], [A,B]).
+parts_nodes(either(A, B), [], [A,B]).
+parts_nodes(not(A), [A], []).
+parts_nodes(if(_, If, Then, Else, _), [If], [Then,Else]).
 
 number_parts(both(N-A, M-_), N) :-
     next(N, A, M).
@@ -168,7 +166,7 @@ part_places(if(Arrow, If, Then, Else, Failing), _, _, Rest, Within, Seen) -->
     places([Else], Rest, Within, Seen).
 
 place(N, Goal, Nodes, Within, Seen, place(N, Old, New, Goal, Goals)) :-
-    nodes_goals(Nodes, Goals0),
+    pairs_values(Nodes, Goals0),
     all_left(Within, Goals0, Goals),
     term_variables(Seen, Before),
     term_variables(Goals, Variables),
@@ -185,11 +183,19 @@ among(Variables, Variable) :-
     Other == Variable,
     !.
 
+%!  occurs(+Variable, +Term) is semidet.
+%
+%   Variable occurs in Term.
+
+occurs(Variable, Term) :-
+    term_variables(Term, Variables),
+    among(Variables, Variable).
+
 all_left(top, Goals, Goals).
 all_left(within(Construct, Nodes, Within), Goals0, Goals) :-
     goals_body(Goals0, Left),
     constructed(Construct, Left, Goal),
-    nodes_goals(Nodes, Goals1),
+    pairs_values(Nodes, Goals1),
     all_left(Within, [Goal|Goals1], Goals).
 
 constructed(not(Goal), _, \+ Goal).
@@ -251,12 +257,14 @@ own_kind(state, Head, leaf([Head])).
 %   parts_tests(+Parts, -Tests) is semidet: Tests are the parts that must not
 %   stop.
 
-parts_tests(both(_, _), []).
-parts_tests(either(_, _), []).
-parts_tests(not(_-A), [A]).
-parts_tests(if(->, _-If, _, _, _), [If]).
-parts_tests(if(*->, _-If, _, _, _), [If]) :-    % else more might be noted
-    node_parts(If, 0, none).
+parts_tests(if(*->, _-If, _, _, _), _) :-       % else more might be noted
+    node_parts(If, 0, Parts),
+    Parts \== none,
+    !,
+    fail.
+parts_tests(Parts, Goals) :-
+    parts_nodes(Parts, Tests, _),
+    pairs_values(Tests, Goals).
 
 %   testable(+Own, +Goal, -Heads) is semidet: Goal cannot stop unless a
 %   predicate of Heads has rules in the state, and the machine runs no part of
@@ -276,14 +284,11 @@ testable(none, Goal, Own, Heads) :-
         \+ memberchk(unknown(_), Calls)
     ).
 testable(Parts, _, Own, Heads) :-
-    findall(Part, part(Parts, Part), Goals),
+    parts_nodes(Parts, Tests, Branches),
+    append(Tests, Branches, Nodes),
+    pairs_values(Nodes, Goals),
     maplist(testable(Own), Goals, Heads0),
     append(Heads0, Heads).
-
-part(both(_-A, _-B), Part) :- member(Part, [A,B]).
-part(either(_-A, _-B), Part) :- member(Part, [A,B]).
-part(not(_-A), A).
-part(if(_, _-A, _-B, _-C, _), Part) :- member(Part, [A,B,C]).
 
 %!  cannot_stop(+Goal, +Own) is semidet.
 %
@@ -298,11 +303,6 @@ cannot_stop(cut, _, _).
 cannot_stop(leaf([]), _, _).
 cannot_stop(parts([]), Goal, Own) :-
     node_parts(Goal, 0, Parts),
-    branches(Parts, Branches),
-    \+ ( member(Branch, Branches),
+    parts_nodes(Parts, _, Branches),
+    \+ ( member(_-Branch, Branches),
          \+ cannot_stop(Branch, Own) ).
-
-branches(both(_-A, _-B), [A,B]).
-branches(either(_-A, _-B), [A,B]).
-branches(not(_), []).
-branches(if(_, _, _-A, _-B, _), [A,B]).

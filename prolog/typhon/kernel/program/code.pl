@@ -21,7 +21,7 @@
 :- use_module(library(error), [domain_error/2, permission_error/3]).
 :- use_module(library(lists), [append/3, member/2]).
 :- use_module(library(settings), [setting/2, setting/4]).
-:- use_module(bodies, [body_goals/4]).
+:- use_module(bodies, [body_goals/4, named/4]).
 :- use_module(mobile, [mobile_predicates/3]).
 :- use_module(places, [clauses_names/2, is_places/1]).
 :- use_module(programs, [program_hash/2]).
@@ -284,8 +284,8 @@ fill(Module, program(_, State, Libraries, Clauses), Kinds) :-
     dynamic(Module:'$mobile'/6),
     maplist(declare(Module), Kinds),
     maplist(add_clause(Module, Own), Clauses),
-    findall(Module:PI, member(PI-_, Kinds), PIs),
-    compile_predicates(PIs).
+    findall(PI, member(PI-_, Kinds), PIs),
+    compile_predicates(Module:PIs).
 
 %   The system defines sleep/1, too.  A native goal of an agent must not find
 %   it: it would occupy the thread.
@@ -316,7 +316,7 @@ declare_mobile(native, _, _, _) :-
 declare_mobile(Kind, Module, Name, Arity) :-
     condition(Kind, Condition),
     functor(Head, Name, Arity),
-    mobile_head(Head, Goals, Rest, Barrier, Mobile),
+    named('mobile ', Head, [Goals,Rest,Barrier], Mobile),
     functor(Mobile, MName, MArity),
     dynamic(Module:MName/MArity),
     assertz(Module:'$mobile'(Head, Mobile, Goals, Rest, Barrier,
@@ -333,12 +333,6 @@ condition(Kind, Kind).
 indicator_head(Name/Arity, Head) :-
     functor(Head, Name, Arity).
 
-mobile_head(Head, Goals, Rest, Barrier, Mobile) :-
-    Head =.. [Name|Args],
-    atom_concat('mobile ', Name, MName),
-    append(Args, [Goals,Rest,Barrier], MArgs),
-    Mobile =.. [MName|MArgs].
-
 add_clause(Module, Own, Clause) :-
     clause_parts(Clause, Head, Body0),
     native_body(Body0, Module, Own, Body),
@@ -351,7 +345,7 @@ add_mobile(native, _, _, _) :-
     !.
 add_mobile(_, Module, Head, Body) :-
     body_goals(Body, Barrier, Goals, Rest),
-    mobile_head(Head, Goals, Rest, Barrier, Mobile),
+    named('mobile ', Head, [Goals,Rest,Barrier], Mobile),
     assertz(Module:Mobile).
 
 %!  native_body(+Body0, +Module, +Own, -Body) is det.

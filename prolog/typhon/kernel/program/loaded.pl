@@ -42,7 +42,8 @@ program_load(Spec, Program, Initial, Hash, Kinds, Places) :-
     load(Spec, loaded(Program, Initial, Hash, Kinds, Places)).
 
 load(Spec, Loaded) :-
-    is_file_spec(Spec),
+    callable(Spec),
+    Spec \= clauses(_),
     !,
     program_file(Spec, File),
     load(File, File, Loaded).
@@ -53,10 +54,6 @@ load(clauses(Terms), Loaded) :-
 load(Spec, Loaded) :-                   % invalid clauses: an error follows
     read_program(Spec, Loaded, _, _).
 
-is_file_spec(Spec) :-
-    callable(Spec),
-    Spec \= clauses(_).
-
 load(Key, _, Loaded) :-
     loaded(Key, Sources, Loaded0),
     source_same(Sources),
@@ -64,22 +61,19 @@ load(Key, _, Loaded) :-
     Loaded = Loaded0.
 load(Key, Spec, Loaded) :-
     read_program(Spec, Loaded, Sources, Doubtful),
-    read_from(Spec, Loaded),
+    arg(3, Loaded, Hash),
+    (   atom(Spec)
+    ->  forall(was_read(Spec, Hash), true)
+    ;   true
+    ),
     debug(typhon(program), 'read ~w', [Key]),
     on_demand_load(program, read),
-    arg(3, Loaded, Hash),
     forall(read_anew(Key, Hash, Sources, Doubtful), true),
     (   source_settled(Sources)
     ->  with_mutex(typhon_loaded, remember(Key, Sources, Loaded))
     ;   true
     ),
     forget_erased.
-
-read_from(File, loaded(_, _, Hash, _, _)) :-
-    atom(File),
-    !,
-    forall(was_read(File, Hash), true).
-read_from(_, _).
 
 read_program(Spec, loaded(Program, Initial, Hash, Kinds, Places), Sources,
              Doubtful) :-

@@ -11,13 +11,9 @@
 :- use_module(bodies,
               [body_goals/4, called_goal/2, goals_body/2, special/2]).
 :- use_module(chunk_goals,
-              [ frame_goals/4, place_marked/3, plain_goals/2,
-                suspended_goals/2 ]).
+              [ frame_goals/4, goals_without/3, place_marked/3,
+                plain_goals/2 ]).
 :- use_module(chunks, [chunks_ready/1]).
-:- multifile
-    elsewhere/3,                % Context, Goals, Outcome: another process runs
-                                % them
-    checked/3.                  % Context, Goal, Called: Goal may call Called
 :- use_module(faults, [fails/2, fails_inside/2]).
 
 /** <module> The machine: agents that can stop in the middle of a clause
@@ -47,6 +43,11 @@ this possible:
 Two threads must not run the same agent.
 */
 
+:- multifile
+    elsewhere/3,                % Context, Goals, Outcome: another process runs
+                                % them
+    checked/3.                  % Context, Goal, Called: Goal may call Called
+
 %!  machine_run(+Context, +Goals, -Outcome) is det.
 %
 %   Run Goals up to the next effect.
@@ -66,7 +67,7 @@ Two threads must not run the same agent.
 
 machine_run(Context, Goals, Outcome) :-
     catch(first_outcome(Goals, Context, Outcome), Ball, Raised = true),
-    (   Raised == true
+    (   Raised == true                  % no last call: the frame stays
     ->  raised(Ball, Outcome)
     ;   true
     ).
@@ -77,10 +78,7 @@ machine_run(Context, Goals, Outcome) :-
 %   run.
 
 machine_ready(context(Program, _)) :-
-    (   chunks_ready(Program)
-    ->  true
-    ;   true
-    ).
+    ignore(chunks_ready(Program)).
 
 %   Exceptions that end a thread are not passed on to the agent.
 
@@ -115,9 +113,9 @@ outcome(effect(Control, Hole, [First|Goals0]), Outcome) :-
     Outcome = effect(Control, Hole, [First|Goals]),
     var(First),                         % usually the hole
     !,
-    suspended_goals(Goals0, Goals).
+    goals_without(cuts, Goals0, Goals).
 outcome(effect(Control, Hole, Goals0), effect(Control, Hole, Goals)) :-
-    suspended_goals(Goals0, Goals).
+    goals_without(cuts, Goals0, Goals).
 
 %!  machine_inside is semidet.
 %
@@ -131,11 +129,9 @@ machine_inside :-
                 *           THE RUN            *
                 *******************************/
 
-%   run(+Goals, +Context, +Base, -Out) is nondet.
-%
-%   Out is `exit` for each solution of Goals, or effect(...) where a
-%   control predicate is reached.  `!` in Goals cuts to Base, the choice
-%   point at which the run began.
+%   run(+Goals, +Context, +Base, -Out) is nondet: Out is `exit` for each solution
+%   of Goals, or effect(...) where a control predicate is reached.  `!` in Goals
+%   cuts to Base, the choice point at which the run began.
 
 run([], _, _, exit).
 run([Goal|Goals], Context, Base, Out) :-
@@ -160,8 +156,7 @@ continue(Goals, X, Base, Out) :-
     ;   run(Goals, X, Base, Out)
     ).
 
-%   step(+Goal, +Goals, +Context, +Base, -Out) is nondet: one rule for each
-%   construct.
+%   step(+Goal, +Goals, +Context, +Base, -Out): one rule for each construct.
 
 step('$k'(Place, Vars), Goals, X, Base, Out) =>
     (   X = compiled(Program, Agent)
@@ -231,8 +226,7 @@ called(Goal, Goals, X, Base, Out) :-
     (   entry(X, Goal, Goals, Base, Out, Entry, Condition),
         mobile(Condition, Agent)
     ->  @(Entry, Agent)
-    ;   '$c_current_predicate'(_, Agent:Goal),
-        has_rules(Agent:Goal)
+    ;   state_rule(Agent, Goal)
     ->  prolog_current_choice(Barrier),
         (   clause(Agent:Goal, Body)
         *-> body_goals(Body, Barrier, More, Goals),
@@ -360,14 +354,9 @@ raises(Error, Control, Goals) :-
 %   For chunks: one of Heads is a predicate of the agent's state that has
 %   rules, so that it may stop.
 
-ruled([Head|Heads], X) :-
+ruled(Heads, X) :-
     arg(2, X, Agent),
-    (   '$get_predicate_attribute'(Agent:Head, number_of_rules, N),
-        N > 0,
-        state_rule(Agent, Head)
-    ->  true
-    ;   ruled(Heads, X)
-    ).
+    has_rule(Heads, Agent).
 
 %!  handed(+Place, +Vars, +Goals, +Context, +Base, -Out) is nondet.
 %
@@ -393,16 +382,11 @@ has_rule([Head|Heads], Agent) :-
 %   Goal is a predicate of the agent's own state that has rules.
 
 state_rule(Agent, Goal) :-
-    '$c_current_predicate'(_, Agent:Goal),
-    has_rules(Agent:Goal).
-
-has_rules(Goal) :-
-    '$get_predicate_attribute'(Goal, number_of_rules, N),
+    '$get_predicate_attribute'(Agent:Goal, number_of_rules, N),
     N > 0,
-    predicate_property(Goal, dynamic),
-    \+ predicate_property(Goal, imported_from(_)).
-
-%   A goal that is called natively, such as the goal under \+.
+    '$c_current_predicate'(_, Agent:Goal),
+    predicate_property(Agent:Goal, dynamic),
+    \+ predicate_property(Agent:Goal, imported_from(_)).
 
 native(Goal, Goals, X) :-
     inside(Goal, _-(\+ Goal), Goals, X, Out),

@@ -106,8 +106,6 @@ library_directive(Parts, Library) :-
     library_import(Directive, Library).
 
 %!  located_clause(+Located, -Clause) is det.
-%
-%   Clause is Located without its location.
 
 located_clause(Term-_, Clause) :-
     (   clause_parts(Term, Head, Body),
@@ -117,8 +115,6 @@ located_clause(Term-_, Clause) :-
     ).
 
 %!  clause_indicator(+Clauses, -PI) is nondet.
-%
-%   PI is a predicate of one of Clauses.
 
 clause_indicator(Clauses, Name/Arity) :-
     member(Clause, Clauses),
@@ -173,16 +169,11 @@ faulty_indicator(PIs, instantiation_error, indicator) :-
 faulty_indicator([], _, _) :-
     !,
     fail.
-faulty_indicator([A|B], Formal, Advice) :-
+faulty_indicator(PIs, Formal, Advice) :-
+    ( PIs = [A|B] ; PIs = (A,B) ),
     !,
-    (   faulty_indicator(A, Formal, Advice)
-    ;   faulty_indicator(B, Formal, Advice)
-    ).
-faulty_indicator((A,B), Formal, Advice) :-
-    !,
-    (   faulty_indicator(A, Formal, Advice)
-    ;   faulty_indicator(B, Formal, Advice)
-    ).
+    ( Part = A ; Part = B ),
+    faulty_indicator(Part, Formal, Advice).
 faulty_indicator(Name/Arity, Formal, redefined) :-
     atom(Name),
     integer(Arity),

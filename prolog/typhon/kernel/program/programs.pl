@@ -149,8 +149,6 @@ problem_error(problem(Formal, Location, Advice), Others,
     advice_text(Advice, Text).
 
 %!  advice_text(+Advice, -Text:atom) is det.
-%
-%   Text is how to fix the problem.
 
 advice_text(Advice, Text) :-
     phrase(advice(Advice), Parts),
@@ -269,9 +267,8 @@ print_canonical(Term) :-
                 *            PYTHON            *
                 *******************************/
 
-%   python_payload(+Spec, -Payload) is semidet.
-%
-%   Fails if Spec does not end in `.py`.
+%   python_payload(+Spec, -Payload) is semidet: fails if Spec does not end in
+%   `.py`.
 %
 %   @error existence_error(source_sink, Spec)
 
@@ -296,8 +293,6 @@ functor_of(Name, Functor) :-
     atom_concat(Name, '.py', Functor).
 
 %!  payload_python(+Payload, -Name, -Source:string) is semidet.
-%
-%   Payload is Python.
 
 payload_python(payload(Name, [Functor/1], [Clause]), Name, Source) :-
     functor_of(Name, Functor),

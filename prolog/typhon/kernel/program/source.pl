@@ -52,11 +52,13 @@ settled, and callers must not rely on it.
 
 source_terms(Spec, Located, Sources, Errors, Warnings) :-
     items(Spec, Items),
-    sorted_out(Items, Located, Sources, Errors, Warnings).
+    findall(Term-Location, member(term(Term, Location), Items), Located),
+    findall(Source, member(source(Source), Items), Sources),
+    findall(Problem, member(error(Problem), Items), Errors),
+    findall(Problem, member(warning(Problem), Items), Warnings).
 
 %   items(+Spec, -Items): Items are, in order, term(Term, Location),
-%   names(names(Location, Names)), source(Source), error(Problem) and
-%   warning(Problem).
+%   source(Source), error(Problem) and warning(Problem).
 
 items(Spec, _) :-
     var(Spec),
@@ -72,18 +74,6 @@ items(Spec, Items) :-
         scratch_module(Module),
         file_items(File, reading([], Module), Items, []),
         '$destroy_module'(Module)).
-
-sorted_out([], [], [], [], []).
-sorted_out([Item|Items], Located, Sources, Errors, Warnings) :-
-    sort_out(Item, Located, Located1, Sources, Sources1, Errors, Errors1,
-             Warnings, Warnings1),
-    sorted_out(Items, Located1, Sources1, Errors1, Warnings1).
-
-sort_out(term(T, Location), [T-Location|L], L, S, S, E, E, W, W).
-sort_out(source(Source), L, L, [Source|S], S, E, E, W, W).
-sort_out(names(Names), L, L, [Names|S], S, E, E, W, W).
-sort_out(error(Problem), L, L, S, S, [Problem|E], E, W, W).
-sort_out(warning(Problem), L, L, S, S, E, E, [Problem|W], W).
 
 number_terms([], _, []).
 number_terms([Term|Terms], N, [Item|Items]) :-
@@ -178,7 +168,7 @@ continue(error(Problem), In, Reading, [error(Problem)|Items], Rest) :-
 %   of a term, in the order of term_variables/2; `_` for those without one.
 
 variable_names(term(Term, Location), [Named|More],
-               [names(names(Location, Names))|Rest], Rest) :-
+               [source(names(Location, Names))|Rest], Rest) :-
     !,
     term_variables(Term, Variables),
     maplist(variable_name([Named|More]), Variables, Names).
@@ -311,8 +301,6 @@ same(include(Spec, File, Path)) :-
                 *******************************/
 
 %!  declaration(+Kind, +Term, -Name, -Options) is semidet.
-%
-%   Term declares an agent or a payload.
 
 declaration(Kind, (:- Directive), Name, Options) :-
     callable(Directive),

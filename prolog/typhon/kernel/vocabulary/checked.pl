@@ -44,38 +44,17 @@ called natively.  For agents that run their program unchanged they are call/N.
 %
 %   @error those of the variant of the agent
 
-'$checked'(G) :-
-    context_module(M),
-    typhon_checked:native(M, G, [], Goal),
-    call(M:Goal).
-'$checked'(G, A) :-
-    context_module(M),
-    typhon_checked:native(M, G, [A], Goal),
-    call(M:Goal).
-'$checked'(G, A, B) :-
-    context_module(M),
-    typhon_checked:native(M, G, [A,B], Goal),
-    call(M:Goal).
-'$checked'(G, A, B, C) :-
-    context_module(M),
-    typhon_checked:native(M, G, [A,B,C], Goal),
-    call(M:Goal).
-'$checked'(G, A, B, C, D) :-
-    context_module(M),
-    typhon_checked:native(M, G, [A,B,C,D], Goal),
-    call(M:Goal).
-'$checked'(G, A, B, C, D, E) :-
-    context_module(M),
-    typhon_checked:native(M, G, [A,B,C,D,E], Goal),
-    call(M:Goal).
-'$checked'(G, A, B, C, D, E, F) :-
-    context_module(M),
-    typhon_checked:native(M, G, [A,B,C,D,E,F], Goal),
-    call(M:Goal).
-'$checked'(G, A, B, C, D, E, F, H) :-
-    context_module(M),
-    typhon_checked:native(M, G, [A,B,C,D,E,F,H], Goal),
-    call(M:Goal).
+term_expansion(checked_clauses, Clauses) :-
+    findall(( Head :-
+                  context_module(M),
+                  typhon_checked:native(M, Closure, Extra, Goal),
+                  call(M:Goal) ),
+            ( between(0, 7, Count),
+              length(Extra, Count),
+              Head =.. ['$checked',Closure|Extra] ),
+            Clauses).
+
+checked_clauses.
 
 :- public native/4.
 

@@ -60,11 +60,18 @@ test(item_of_an_unknown_table_is_ignored, fail) :-
 test(item_of_another_arity_is_ignored, fail) :-
     durable_restore(outcome, key, 0, no_pair).
 
+%   The tables of facts.
+
+fact_table(Fact, Module, Kind, Key, N, Term) :-
+    typhon_durable:item_table(Kind, Key, N, Term, Module:Fact,
+                              Module:assertz(Restored)),
+    Restored == Fact.
+
 fact_kind(Kind) :-
-    typhon_durable:fact_table(_, _, Kind, _, _, _).
+    fact_table(_, _, Kind, _, _, _).
 
 fact_item(Kind, Key, N, Term, Module:Fact) :-
-    typhon_durable:fact_table(Fact, Module, Kind, Key, N, Term),
+    fact_table(Fact, Module, Kind, Key, N, Term),
     ( var(N) -> N = 0 ; true ),
     ( var(Term) -> Term = '' ; true ).
 
@@ -151,7 +158,7 @@ random_fact_term(f(Value)) :-
     random_value(Value).
 
 random_fact(Kind, Module:Fact) :-
-    typhon_durable:fact_table(Fact, Module, Kind, Key, N, Term),
+    fact_table(Fact, Module, Kind, Key, N, Term),
     term_variables(Fact, Vars),
     maplist(random_value, Vars),
     assertion(ground(Key-Fact)),
@@ -166,7 +173,7 @@ random_value(Value) :-
                 *******************************/
 
 general(Kind, Module:General) :-
-    typhon_durable:fact_table(Fact, Module, Kind, _, _, _),
+    fact_table(Fact, Module, Kind, _, _, _),
     functor(Fact, Name, Arity),
     functor(General, Name, Arity).
 
