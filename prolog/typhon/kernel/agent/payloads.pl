@@ -71,7 +71,7 @@ agent_attach(Id, Payload) :-
     not_carried(Name, Payloads),
     payload_marks(Payload, Marks),
     attach_clauses(Module, Payload),
-    forall(member(Mark, Marks), marked(Module, Mark)),
+    agent_add(Marks, Module),
     put_payloads(Id, Life, [Name-PIs|Payloads]).
 
 free(Module, Program, Name/Arity) :-
@@ -153,11 +153,6 @@ must_be_admitted(Host, Payload, From) :-
         throw(error(move_refused(Address, Reason), _))
     ;   true
     ).
-
-marked(Module, Mark) :-
-    functor(Mark, Name, Arity),
-    dynamic(Module:Name/Arity),
-    assertz(Module:Mark).
 
 payload_clause(Module, PIs, (Head:-Body)) :-
     member(Name/Arity, PIs),

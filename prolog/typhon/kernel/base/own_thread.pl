@@ -45,7 +45,8 @@ in_own_thread(Goal) :-
     !,
     once(Goal).
 in_own_thread(Goal) :-
-    alias(stopper, Alias),
+    flag(typhon_own_thread, N, N+1),
+    atom_concat(typhon_stopper_, N, Alias),
     catch(thread_create(typhon_own_thread:alone(Goal), Thread,
                         [alias(Alias)]),
           error(resource_error(_), _), fail),
@@ -60,13 +61,6 @@ in_own_thread(Goal) :-
     Result == true.
 in_own_thread(Goal) :-
     once(Goal).
-
-%   Aliases are numbered: several threads may have one role, and a thread that
-%   is about to end still has its alias.
-
-alias(Role, Alias) :-
-    flag(typhon_own_thread, N, N+1),
-    atomic_list_concat([typhon, Role, N], '_', Alias).
 
 alone(Goal) :-
     nb_setval(typhon_own_thread, true),

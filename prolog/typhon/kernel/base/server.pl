@@ -84,20 +84,14 @@ make_thread(Queue) :-
 %   for that.  Later messages are dropped; calls raise an error.
 
 server_stop(Queue) :-
-    (   unregister(Queue, Thread)
-    ->  stop(Thread, Queue)
-    ;   true
-    ).
+    ignore(( unregister(Queue, Thread), stop(Thread, Queue) )).
 
 %!  server_leave(+Server) is det.
 %
 %   As server_stop/1, but does not wait.
 
 server_leave(Queue) :-
-    (   unregister(Queue, Thread)
-    ->  leave(Thread, Queue)
-    ;   true
-    ).
+    ignore(( unregister(Queue, Thread), leave(Thread, Queue) )).
 
 unregister(Queue, Thread) :-
     with_mutex(typhon_server,

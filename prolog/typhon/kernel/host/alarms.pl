@@ -133,10 +133,7 @@ alarm_take(Alarm, Agent, Token) :-
 %   There are Count alarms. This is slow: clauses are counted.
 
 alarms_number(Count) :-
-    (   predicate_property(alarm(_, _, _), number_of_clauses(Count0))
-    ->  Count = Count0
-    ;   Count = 0
-    ).
+    predicate_property(alarm(_, _, _), number_of_clauses(Count)).
 
                 /*******************************
                 *           THE INDEX          *

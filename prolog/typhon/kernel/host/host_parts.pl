@@ -114,9 +114,9 @@ An option that has data for each host follows the life of the host by the hooks
     limit/3,
     ends/1.
 
-:- dynamic compiled/1.
-
-:- dynamic parts/3.             % Phase, Host, Closures
+:- dynamic
+    compiled/1,
+    parts/3.                    % Phase, Host, Closures
 
 %!  parts(?Phase, ?Host, ?Closures:list) is nondet.
 %

@@ -159,7 +159,8 @@ reload(Place, Id, File) :-
 
 place_destroy(Place) :-
     unload(Place),
-    forall(delivered(Place, Name, _), forget_payload(Place, Name)),
+    forall(( delivered(Place, Name, _), payload_key(Place, Name, _, Key) ),
+           durable_drop(payload, Key, 0)),
     retractall(delivered(Place, _, _)),
     (   retract(place_host(Place, Host))
     ->  durable_drop_all(tuple, Host)
@@ -167,12 +168,6 @@ place_destroy(Place) :-
     ),
     retractall(place_service(Place, _)),
     '$destroy_module'(Place).
-
-forget_payload(Place, Name) :-
-    (   payload_key(Place, Name, _, Key)
-    ->  durable_drop(payload, Key, 0)
-    ;   true
-    ).
 
 unload(Place) :-
     retract(loaded(Place, Id, _, _)),
@@ -281,8 +276,9 @@ place_undeliver(Place, Name) :-
 
 remove(Place, Name) :-
     retract(delivered(Place, Name, PIs)),
-    (   payload_key(Place, Name, _, Key)
-    ->  ( durable_on -> deferred_drop(payload, Key, 0) ; true )
+    (   durable_on,
+        payload_key(Place, Name, _, Key)
+    ->  deferred_drop(payload, Key, 0)
     ;   true
     ),
     forall(member(PI, PIs), abolish(Place:PI)).

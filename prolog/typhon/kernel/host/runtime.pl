@@ -73,12 +73,12 @@ runtime_acquire(User, Options, Endpoint) :-
     time_default(Default),
     option(time(Kind), Options, Default),
     on_demand_load(time, Kind),
-    with_mutex(typhon_runtime, acquire(User, Options, Endpoint)).
+    with_mutex(typhon_runtime, acquire(User, Kind, Options, Endpoint)).
 
-acquire(User, Options, Endpoint) :-
+acquire(User, Kind, Options, Endpoint) :-
     (   user(_, _)
     ->  forall(member(Option, Options), must_agree(Option))
-    ;   start(Options)
+    ;   start(Kind, Options)
     ),
     option(port(Port), Options, 0),
     reached_at(Port, Endpoint),
@@ -96,10 +96,8 @@ reached_at(Port, Endpoint) :-
     ;   endpoint_listen(Port, Endpoint)
     ).
 
-start(Options) :-
+start(Kind, Options) :-
     collect_clauses_less_often,
-    time_default(Default),
-    option(time(Kind), Options, Default),
     own_thread_start,
     catch(( time_start(Kind),
             start_endpoint(Kind, Options),

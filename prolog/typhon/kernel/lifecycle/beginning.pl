@@ -1,7 +1,7 @@
 :- module(typhon_beginning,
           [ agent_begins/5,             % +Host, +Name, +Start, +From, -Answer
             begins_at_once/1,           % @Start
-            begun_agent/3,              % +Answer, +Where, -Agent
+            begun_agent/3,              % +Answer, +Host, -Agent
             agent_clone_here/3,         % +Id, +Goals, ?CloneId
             clone_id/2                  % +Id, -CloneId
           ]).
@@ -52,20 +52,16 @@ begins_at_once(Start) :-
          callable(Goal),
          clause(at_birth(Goal, _), _) ).
 
-%!  begun_agent(+Answer, +Where, -Agent) is det.
+%!  begun_agent(+Answer, +Host, -Agent) is det.
 %
-%   Agent is that of Answer, of agent_begins/5 on the host Where, an address or
-%   local(Host).
+%   Agent is that of Answer, of agent_begins/5 on Host, a name or an address.
 %
 %   @error move_refused(Address, Reason), existence_error(host, Address)
 
 begun_agent(created(Id), _, Id) :-
     !.
-begun_agent(Answer, local(Host), _) :-
-    !,
+begun_agent(Answer, Host, _) :-
     host_address(Host, Address),
-    not_begun(Answer, Address).
-begun_agent(Answer, Address, _) :-
     not_begun(Answer, Address).
 
 not_begun(need_program, Address) :-
@@ -92,7 +88,7 @@ agent_clone_here(Id, Goals, CloneId) :-
     agent_name(Id, Name, _),
     started(Host, Name, start(Hash, Life, State, Goals, []), here, Id, CloneId,
             Answer),
-    begun_agent(Answer, local(Host), CloneId),
+    begun_agent(Answer, Host, CloneId),
     event(hops, Host, Id, cloned(CloneId)).
 
 %!  clone_id(+Id, -CloneId) is det.

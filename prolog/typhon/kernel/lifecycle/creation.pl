@@ -13,8 +13,7 @@
 :- use_module('../base/options', [check_options/2]).
 :- use_module('../program',
               [ clause_parts/3, code_install/3, code_locate/2, code_program/2,
-                code_sent/2, payload_load/2, program_load/6,
-                program_unknown/3 ]).
+                code_sent/2, payload_load/2, program_load/6 ]).
 :- use_module('../wire',
               [ endpoint_address/1, endpoint_later/1, endpoint_reply/2,
                 mobile_term/1 ]).
@@ -100,7 +99,8 @@ create_by(Options, Parent, Spec, Agent) :-
     start_goals(Clauses, Initial, Goals0),
     findall(Goal, first_goal(Options, Parent, Goal), Goals, Goals0),
     State = state(PIs, _),
-    program_unknown(Hash, PIs, may_be_offered(Target, Clauses)),
+    Offered = typhon_creation:may_be_offered(Target, Clauses),
+    forall(typhon_loaded:unknown(Hash, PIs, Offered), true),
     create(Target, Name, start(Hash, Life, State, Goals, []), Agent).
 
 program_of(Spec, Parent, Program, [], Hash) :-
@@ -225,7 +225,7 @@ start_goals(Clauses, Initial, Goals) :-
 
 create(local(Host), Name, Start, Agent) :-
     agent_begins(Host, Name, Start, here, Answer),
-    begun_agent(Answer, local(Host), Agent).
+    begun_agent(Answer, Host, Agent).
 create(remote(Address, HostName, Endpoint), Name, Start, Agent) :-
     Start = start(Hash, _, _, _, _),
     code_sent(Hash, Program),

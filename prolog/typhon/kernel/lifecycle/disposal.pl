@@ -76,21 +76,12 @@ agent_dispose(Agent, Options) :-
     check_options(dispose_option, Options),
     agent_named(Agent, Id),
     (   give_order(Id, dispose, State)
-    ->  patience(Options, Patience),
-        wait_for_end(State, Id, Patience)
+    ->  ( option(force(Seconds), Options) -> true ; Seconds = none ),
+        wait_for_end(State, Id, Seconds)
     ;   existence_error(agent, Agent)
     ).
 
 typhon_options:declared(dispose_option, force(Seconds), number, Seconds).
-
-%   patience(+Options, -Patience): `warn`, or force(Seconds).
-
-patience(Options, Patience) :-
-    (   option(force(Seconds0), Options)
-    ->  Seconds is max(0, Seconds0),
-        Patience = force(Seconds)
-    ;   Patience = warn
-    ).
 
 %   give_order(+Agent, +Question, -State): fails if there is no such agent.
 
@@ -103,27 +94,26 @@ answered(error(Formal), _) :-
     harmless_error(error(Formal, _), Ball),
     throw(Ball).
 
-%   wait_for_end(+State, +Agent, +Patience): wait for the end of Agent, if it
-%   has only noted the order.
+%   wait_for_end(+State, +Agent, +Seconds): wait for the end of Agent, if it has
+%   only noted the order; interrupt it after Seconds, unless these are `none`.
 
 wait_for_end(ended, _, _).
 wait_for_end(noted, Agent, _) :-        % it ends when this goal has ended
     context_now(_, Agent),
     !.
-wait_for_end(noted, Agent, Patience) :-
-    wait_or_force(Patience, Agent).
-
-wait_or_force(warn, _) :-
+wait_for_end(noted, _, none) :-
     context_now(_, Other),
     Other \== none,
     !.
-wait_or_force(warn, Agent) :-
+wait_for_end(noted, Agent, none) :-
+    !,
     setting(heed_seconds, Seconds),
     (   in_own_thread(ends_within(Agent, Seconds))
     ->  true
     ;   print_message(warning, typhon(runs_on(Agent, Seconds)))
     ).
-wait_or_force(force(Seconds), Agent) :-
+wait_for_end(noted, Agent, Seconds0) :-
+    Seconds is max(0, Seconds0),
     get_time(Now),
     setting(force_seconds, More),
     Deadline is Now+Seconds+More,

@@ -88,10 +88,17 @@ start_endpoint(Agent, here) :-
     agent(Agent, _, _, _, _),
     !.
 start_endpoint(Agent, Endpoint) :-
-    (   whereabouts(Agent, Address)
-    ->  address_parts(Address, _, Endpoint0)
-    ;   agent_home_endpoint(Agent, Endpoint0)
-    ),
+    probably_at(Agent, Endpoint0),
+    !,
+    or_here(Endpoint0, Endpoint).
+
+probably_at(Agent, Endpoint) :-
+    whereabouts(Agent, Address),
+    address_parts(Address, _, Endpoint).
+probably_at(Agent, Endpoint) :-
+    agent_home_endpoint(Agent, Endpoint).
+
+or_here(Endpoint0, Endpoint) :-
     (   endpoint_address(Endpoint0)
     ->  Endpoint = here
     ;   Endpoint = Endpoint0
@@ -106,10 +113,8 @@ ask(Where, Agent, Question, Deadline, Left, Answer) :-
     ask_at(Where, Agent, Question, Deadline, Answer0),
     (   Answer0 = elsewhere(Endpoint)
     ->  Left1 is Left-1,
-        (   endpoint_address(Endpoint)
-        ->  ask(here, Agent, Question, Deadline, Left1, Answer)
-        ;   ask(Endpoint, Agent, Question, Deadline, Left1, Answer)
-        )
+        or_here(Endpoint, Next),
+        ask(Next, Agent, Question, Deadline, Left1, Answer)
     ;   Answer0 \== none,
         Answer = Answer0
     ).
@@ -208,11 +213,7 @@ load_and_answer(Kind, Question, Agent, Asker) :-
     answer(Question, Agent, Asker).
 
 not_here(Agent, Asker) :-
-    (   whereabouts(Agent, Address),
-        address_parts(Address, _, Endpoint),
-        \+ endpoint_address(Endpoint)
-    ->  Answer = elsewhere(Endpoint)
-    ;   agent_home_endpoint(Agent, Endpoint),
+    (   probably_at(Agent, Endpoint),
         \+ endpoint_address(Endpoint)
     ->  Answer = elsewhere(Endpoint)
     ;   Answer = none

@@ -1,7 +1,6 @@
 :- module(typhon_loaded,
-          [ program_load/6,             % +Spec, -Program, -Initial, -Hash,
+          [ program_load/6              % +Spec, -Program, -Initial, -Hash,
                                         % -Kinds, -Places
-            program_unknown/3           % +Hash, +State, :Offered
           ]).
 :- use_module(library(debug), [debug/3]).
 :- use_module(library(settings), [setting/2, setting/4]).
@@ -27,12 +26,15 @@ its exports at the time of reading.
     was_read/2,                 % File, Hash: of the program that was read
     read_anew/4,                % File or hash of clauses, Hash, Sources,
                                 % Doubtful, see program_read/7
-    unknown/3.                  % +Hash, +State, :Offered, see program_unknown/3
+    unknown/3.                  % Hash, State, :Offered: an agent of this
+                                % program is created, with these predicates in
+                                % its state: print, once for each program, those
+                                % that it calls and that nothing defines, but no
+                                % Problem for which call(Offered, Problem)
+                                % succeeds
 
 :- dynamic loaded/3.            % File or hash of clauses, Sources, Loaded: the
                                 % oldest first
-
-:- meta_predicate program_unknown(+, +, 1).
 
 %!  program_load(+Spec, -Program, -Initial, -Hash, -Kinds, -Places) is det.
 %
@@ -84,16 +86,6 @@ remember(Key, Sources, Loaded) :-
     retractall(loaded(Key, _, _)),
     assertz(loaded(Key, Sources, Loaded)),
     forget_oldest.
-
-%!  program_unknown(+Hash, +State:list, :Offered) is det.
-%
-%   An agent of the program of this Hash is created, with State, the predicates
-%   of its state.  Print, once for each program, the predicates that it calls
-%   and that nothing defines.  A problem for which call(Offered, Problem)
-%   succeeds is not printed.
-
-program_unknown(Hash, State, Offered) :-
-    forall(unknown(Hash, State, Offered), true).
 
 forget_oldest :-
     predicate_property(loaded(_, _, _), number_of_clauses(Count)),

@@ -5,10 +5,7 @@
             library_directive/2,        % +Parts, -Library
             located_clause/2,           % +Located, -Clause
             clause_indicator/2,         % +Clauses, -PI
-            directive_problem/2,        % +Directives, -Problem
-            clause_problem/2,           % +Clauses, -Problem
-            entry_problem/3,            % +Located, +Clauses, -Problem
-            option_problem/3            % +Kind, +Located, -Problem
+            file_problem/4              % +Kind, +Located, +Parts, -Problem
           ]).
 :- use_module(library(apply), [maplist/3, partition/4]).
 :- use_module(library(lists), [member/2, memberchk/2, selectchk/3]).
@@ -125,13 +122,28 @@ clause_indicator(Clauses, Name/Arity) :-
                 *           PROBLEMS           *
                 *******************************/
 
-%!  directive_problem(+Directives, -Problem) is nondet.
+%!  file_problem(+Kind, +Located, +Parts, -Problem) is nondet.
 %
-%   A problem with a directive. Directives are pairs Term-Location.
+%   Problem keeps the file from being used, besides those of file_parts/4.
 
-directive_problem(Directives, problem(Formal, Location, Advice)) :-
+file_problem(_, _, Parts, problem(Formal, Location, Advice)) :-
+    part(directives, Parts, Directives),
     member((:- Directive)-Location, Directives),
     faulty_directive(Directive, Formal, Advice).
+file_problem(_, _, Parts, problem(Formal, Location, Advice)) :-
+    part(clauses, Parts, Clauses),
+    member(Term-Location, Clauses),
+    clause_parts(Term, Head, Body),
+    faulty_clause(Head, Body, Formal, Advice).
+file_problem(agent, Located, Parts, Problem) :-
+    part(rules, Parts, Rules),
+    no_entry(Located, Rules, Problem).
+file_problem(Kind, Located, _, problem(Formal, Location, Advice)) :-
+    member(Term-Location, Located),
+    declaration(Kind, Term, _, Options),
+    !,
+    member(Option, Options),
+    faulty_option(Kind, Option, Formal, Advice).
 
 faulty_directive(Directive, instantiation_error, directive) :-
     var(Directive),
@@ -183,15 +195,6 @@ faulty_indicator(Name/Arity, Formal, redefined) :-
     taken(Head, Formal).
 faulty_indicator(PI, type_error(predicate_indicator, PI), indicator).
 
-%!  clause_problem(+Clauses, -Problem) is nondet.
-%
-%   A problem with a clause. Clauses are pairs Term-Location.
-
-clause_problem(Clauses, problem(Formal, Location, Advice)) :-
-    member(Term-Location, Clauses),
-    clause_parts(Term, Head, Body),
-    faulty_clause(Head, Body, Formal, Advice).
-
 faulty_clause(Head, _, instantiation_error, head) :-
     var(Head),
     !.
@@ -230,15 +233,10 @@ is_body((A->B)) :- !, is_body(A), is_body(B).
 is_body((A*->B)) :- !, is_body(A), is_body(B).
 is_body(Body) :- callable(Body).
 
-%!  entry_problem(+Located, +Clauses, -Problem) is semidet.
-%
-%   The entries of a program are missing.  Located are pairs Term-Location,
-%   Clauses its rules.
-
-entry_problem(Located, Clauses,
-              problem(existence_error(entry, main/0), Location, entry(Near))) :-
+no_entry(Located, Rules,
+         problem(existence_error(entry, main/0), Location, entry(Near))) :-
     findall(Name/Arity,
-            ( member((Head:-_)-_, Clauses), callable(Head),
+            ( member((Head:-_)-_, Rules), callable(Head),
               functor(Head, Name, Arity) ),
             PIs),
     \+ ( member(PI, PIs), is_entry(PI) ),
@@ -250,18 +248,6 @@ entry_problem(Located, Clauses,
 
 is_entry(main/0).
 is_entry(on_message/2).
-
-%!  option_problem(+Kind, +Located, -Problem) is nondet.
-%
-%   A problem with the options of an `agent` or a `payload`, Kind.  Located are
-%   pairs Term-Location.
-
-option_problem(Kind, Located, problem(Formal, Location, Advice)) :-
-    member(Term-Location, Located),
-    declaration(Kind, Term, _, Options),
-    !,
-    member(Option, Options),
-    faulty_option(Kind, Option, Formal, Advice).
 
 faulty_option(Kind, Option, Formal, Advice) :-
     nonvar(Option),

@@ -14,17 +14,15 @@
           ]).
 :- use_module(library(apply), [maplist/2, maplist/3, partition/4]).
 :- use_module(library(error), [is_of_type/2, must_be/2, type_error/2]).
-:- use_module(library(lists),
-              [append/2, append/3, member/2, memberchk/2, nth1/3]).
+:- use_module(library(lists), [append/3, member/2, memberchk/2, nth1/3]).
 :- use_module(library(pairs), [pairs_values/2]).
 :- autoload(library(readutil), [read_file_to_string/3]).
 :- use_module(library(sha), [hash_atom/2, sha_hash/3]).
 :- use_module('../base/on_demand', [on_demand_load/2]).
 :- use_module(mobile, [mobile_predicates/3]).
 :- use_module(parts,
-              [ clause_indicator/2, clause_problem/2, directive_problem/2,
-                entry_problem/3, file_parts/4, in_state/2, library_directive/2,
-                located_clause/2, option_problem/3, part/3 ]).
+              [ clause_indicator/2, file_parts/4, file_problem/4, in_state/2,
+                library_directive/2, located_clause/2, part/3 ]).
 :- use_module(places, [places/2, places_named/4]).
 :- use_module(source, [declaration/4, source_terms/5]).
 :- use_module(paths, []).
@@ -168,7 +166,7 @@ program_terms(Located, program(Name, State, Libraries, Static), Initial,
     part(rules, Parts, Rules),
     findall(Library, library_directive(Parts, Library), Libraries),
     partition(in_state(State), Rules, Initial0, Static0),
-    findall(Problem, faulty(Located, Parts, Problem), Errors1),
+    findall(Problem, file_problem(agent, Located, Parts, Problem), Errors1),
     append(Errors0, Errors1, Errors2),
     analyse(Errors2, Static0, Kinds, Errors3),
     in_file_order(Errors3, Located, Errors),
@@ -176,16 +174,6 @@ program_terms(Located, program(Name, State, Libraries, Static), Initial,
     maplist(located_clause, Initial0, Initial),
     pairs_values(Static0, Locations),
     places(Locations, Places).
-
-faulty(Located, Parts, Problem) :-
-    part(directives, Parts, Directives),
-    part(clauses, Parts, Clauses),
-    part(rules, Parts, Rules),
-    (   directive_problem(Directives, Problem)
-    ;   clause_problem(Clauses, Problem)
-    ;   entry_problem(Located, Rules, Problem)
-    ;   option_problem(agent, Located, Problem)
-    ).
 
 %   The program is not analysed if it has errors.
 
@@ -202,13 +190,10 @@ payload_terms(Located, payload(Name, PIs, Clauses), Errors) :-
     file_parts(payload, Located, Parts, Errors0),
     part(name, Parts, Name),
     part(options, Parts, Options),
-    part(directives, Parts, Directives),
     part(clauses, Parts, Clauses0),
-    findall(P, directive_problem(Directives, P), Errors1),
-    findall(P, clause_problem(Clauses0, P), Errors2),
-    findall(P, option_problem(payload, Located, P), Errors3),
-    append([Errors0, Errors1, Errors2, Errors3], Errors4),
-    in_file_order(Errors4, Located, Errors),
+    findall(Problem, file_problem(payload, Located, Parts, Problem), Errors1),
+    append(Errors0, Errors1, Errors2),
+    in_file_order(Errors2, Located, Errors),
     provided(Options, Provided),
     maplist(located_clause, Clauses0, Clauses),
     findall(PI, clause_indicator(Clauses, PI), Defined),

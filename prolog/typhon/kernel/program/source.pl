@@ -60,11 +60,9 @@ source_terms(Spec, Located, Sources, Errors, Warnings) :-
 %   items(+Spec, -Items): Items are, in order, term(Term, Location),
 %   source(Source), error(Problem) and warning(Problem).
 
-items(Spec, _) :-
-    var(Spec),
-    !,
-    throw(error(instantiation_error, _)).
-items(clauses(Terms), Items) :-
+items(Spec, Items) :-
+    nonvar(Spec),
+    Spec = clauses(Terms),
     !,
     must_be(list, Terms),
     number_terms(Terms, 1, Items).
