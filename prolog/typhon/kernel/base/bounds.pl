@@ -98,8 +98,6 @@ free_pages(Bytes) :-
                 *           BOUNDED            *
                 *******************************/
 
-%   Tables that delete their oldest facts.
-
 :- meta_predicate bounded(0, +).
 
 :- multifile forgotten/1.               % Fact: it was deleted

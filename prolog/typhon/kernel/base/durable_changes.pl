@@ -40,8 +40,9 @@ The actions of an agent between two stops are one unit of work, too: its
 messages, and the facts that it leaves and takes, are deferred until it stops.
 
 The back end, which queues the changes, and has the store, is an option: it
-defines the hooks below.  Without an open back end each change costs one call of
-durable_on/0, and nothing is deferred.
+defines the hooks below, and all exports that have no clause here.  Without an
+open back end each change costs one call of durable_on/0, and nothing is
+deferred.
 
 *Threading*: any thread.  The changes of one item are made one after another,
 inside the mutex that guards its owner.
@@ -84,11 +85,11 @@ inside the mutex that guards its owner.
 
 %!  durable_opened(-Place) is semidet.
 %
-%   A store is open; Place is its name in errors. The back end defines this.
+%   A store is open; Place is its name in errors.
 
 %!  durable_item(+Kind, +Order, -Key, -N, -Value) is nondet.
 %
-%   The items of Kind in the open store. The back end defines this.
+%   The items of Kind in the open store.
 %
 %   @arg Order is `numbers` if lower numbers come first, or `any`
 
@@ -154,8 +155,7 @@ durable_number(N) :-
 %!  durable_key(+Key, +N) is semidet.
 %
 %   Items can have this key, and this number.  Key and N may be any term: keys
-%   that other processes choose, such as ids of agents, are checked first.  The
-%   back end defines this.
+%   that other processes choose, such as ids of agents, are checked first.
 
 %!  durable_put(+Kind, +Key, +N, +Term) is det.
 %
@@ -212,12 +212,12 @@ effects_deferred :-
 %!  deferred_drop(+Kind, +Key, +N) is det.
 %
 %   Where changes are durable: as durable_drop/3; where effects are deferred, so
-%   is the change.  The back end defines this.
+%   is the change.
 
 %!  deferred_act(+Kind, +Key, +Term, +By) is det.
 %
 %   Where effects are deferred: call act(Kind, Key, Term) once, when the agent
-%   has stopped, even if the process ends before.  The back end defines this.
+%   has stopped, even if the process ends before.
 %
 %   @arg By is `frame` if Term must fit in a frame, else `any`
 %   @error resource_error(frame_bytes)
@@ -246,8 +246,7 @@ commit_changes :-
 %!  send_after_commit(+Item, +When) is det.
 %
 %   While output waits, see output_waits/0: pass Item to committed/1 when all
-%   earlier changes are committed, in the order of these calls.  The back end
-%   defines this.
+%   earlier changes are committed, in the order of these calls.
 %
 %   @arg When is `now` if a caller waits for it; `anyhow` if a caller waits and
 %        the error of the last commit shall not be raised; `later` if the
@@ -258,14 +257,12 @@ commit_changes :-
 
 %!  flush_sends is det.
 %
-%   Commit soon, and send the output that waits for it.  The back end defines
-%   this.
+%   Commit soon, and send the output that waits for it.
 
 %!  durable_post(+Endpoint, +Kind, +Term) is det.
 %
 %   Post Term to Endpoint exactly once, even if a process ends, together with
-%   the changes of this unit of work so far, which ends here.  The back end
-%   defines this.
+%   the changes of this unit of work so far, which ends here.
 %
 %   @error resource_error(frame_bytes)
 

@@ -165,8 +165,6 @@ is_remark(Text) :-
                 *           ABRIDGED           *
                 *******************************/
 
-%   Text of bounded length for terms.
-
 %!  abridged(+Term, +Longest:integer, -Text:string) is det.
 %
 %   Text is Term as written in a program: a variable that occurs once as `_`,

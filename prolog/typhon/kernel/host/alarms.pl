@@ -17,6 +17,7 @@
 :- use_module(library(debug), [debug/3]).
 :- use_module(library(pairs), [pairs_keys_values/3]).
 :- use_module('../base/error_text', [error_lines/3]).
+:- use_module('../base/fifo', [fifo_size/2]).
 :- autoload(library(rbtrees),
               [ ord_list_to_rbtree/2, rb_delete/3, rb_insert/4, rb_min/3,
                 rb_size/2 ]).
@@ -100,10 +101,8 @@ alarm_stamp(Stamp, Agent, Token) :-
 %   Count stamps are in the queue, and the timer has not read them yet.
 
 alarms_new(Count) :-
-    (   new(New),
-        catch(message_queue_property(New, size(Count0)),
-              error(existence_error(_, _), _), fail)
-    ->  Count = Count0
+    (   new(New)
+    ->  fifo_size(New, Count)
     ;   Count = 0
     ).
 

@@ -7,7 +7,6 @@
 :- use_module(library(lists), [member/2]).
 :- use_module(library(option), [option/2]).
 :- use_module(library(settings), [setting/2, setting/4]).
-:- use_module('../base/error_text', [harmless_error/2]).
 :- use_module('../base/own_thread', [abort_quietly/0, in_own_thread/1]).
 :- use_module('../base/options', [check_options/2]).
 :- use_module('../base/durable_changes', [durable_closed/0]).
@@ -19,7 +18,7 @@
               [ agent/5, agent_ordered/1, agent_status/3, agent_wakes/2,
                 mail_count/2, with_agent/2 ]).
 :- use_module(questions,
-              [agent_ask/4, agent_named/2, agent_urge/4, question_answered/2]).
+              [agent_asked/4, agent_named/2, agent_urge/4, question_answered/2]).
 :- use_module(orders, [order_take/2]).
 :- use_module(ending, [agent_end/3, agent_forgotten/2]).
 
@@ -75,24 +74,13 @@ agent_dispose(Agent) :-
 agent_dispose(Agent, Options) :-
     check_options(dispose_option, Options),
     agent_named(Agent, Id),
-    (   give_order(Id, dispose, State)
+    (   agent_asked(Id, dispose, 10, State)
     ->  ( option(force(Seconds), Options) -> true ; Seconds = none ),
         wait_for_end(State, Id, Seconds)
     ;   existence_error(agent, Agent)
     ).
 
 typhon_options:declared(dispose_option, force(Seconds), number, Seconds).
-
-%   give_order(+Agent, +Question, -State): fails if there is no such agent.
-
-give_order(Agent, Question, State) :-
-    agent_ask(Agent, Question, 10, Answer),
-    answered(Answer, State).
-
-answered(answer(State), State).
-answered(error(Formal), _) :-
-    harmless_error(error(Formal, _), Ball),
-    throw(Ball).
 
 %   wait_for_end(+State, +Agent, +Seconds): wait for the end of Agent, if it has
 %   only noted the order; interrupt it after Seconds, unless these are `none`.
@@ -131,7 +119,7 @@ ends_within(Agent, Seconds) :-
           fail),
     !.
 ends_within(Agent, _) :-
-    (   give_order(Agent, dispose, State)
+    (   agent_asked(Agent, dispose, 10, State)
     ->  State == ended
     ;   true
     ).
@@ -140,7 +128,7 @@ ends_within(Agent, _) :-
 %   may hop to a process that is not known here yet.
 
 force(Agent, Deadline) :-
-    (   \+ give_order(Agent, force, _)
+    (   \+ agent_asked(Agent, force, 10, _)
     ->  true
     ;   ends_within(Agent, 0.2)
     ->  true

@@ -241,8 +241,6 @@ faulty_oldest(Id) :-
                 *           ON HOLD            *
                 *******************************/
 
-%   Agents that are held in the middle of their goals.
-%
 %   The engine of a turn, see typhon_turn, may suspend an agent before any
 %   goal.  The agent then has the status `held`, and `resumed` from when it may
 %   go on until a worker has it.  In place of its goals there is

@@ -11,7 +11,6 @@
           ]).
 :- use_module(library(error), [existence_error/2, must_be/2]).
 :- use_module(library(option), [option/2]).
-:- use_module('../base/error_text', [harmless_error/2]).
 :- use_module('../base/options', [check_options/2]).
 :- use_module('../base/durable_changes', [output_waits/0, sync_changes/0]).
 :- use_module('../program', [payload_load/2]).
@@ -19,7 +18,7 @@
               [address_parts/3, as_guest/1, context_now/2, host_address/2]).
 :- use_module('../travel', [agent_resumed_from/3, post/3, post_via/4]).
 :- use_module('../agent', [agent/5]).
-:- use_module(questions, [agent_ask/4, agent_named/2]).
+:- use_module(questions, [agent_asked/4, agent_named/2]).
 
 /** <module> Orders and messages from outside
 
@@ -140,15 +139,10 @@ agent_answer(Agent, Question, Answer) :-
 
 agent_answer(Agent, Question, Seconds, Answer) :-
     agent_named(Agent, Id),
-    (   agent_ask(Id, Question, Seconds, Answer0)
-    ->  answered(Answer0, Answer)
+    (   agent_asked(Id, Question, Seconds, Answer0)
+    ->  Answer = Answer0
     ;   existence_error(agent, Agent)
     ).
-
-answered(answer(Answer), Answer).
-answered(error(Formal), _) :-
-    harmless_error(error(Formal, _), Ball),
-    throw(Ball).
 
                 /*******************************
                 *           MESSAGES           *

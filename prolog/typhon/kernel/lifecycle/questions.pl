@@ -1,5 +1,6 @@
 :- module(typhon_questions,
           [ agent_ask/4,                % +Agent, +Question, +Seconds, -Answer
+            agent_asked/4,              % +Agent, +Question, +Seconds, -Term
             agent_ask_here/4,           % +Agent, +Question, +Seconds, -Answer
             agent_urge/4,               % +Agent, +Question, +Seconds, -Answer
             question_answered/2,        % +Asker, +Answer
@@ -14,6 +15,7 @@
 :- use_module('../base/on_demand',
               [on_demand_later/1, on_demand_load/2, on_demand_missing/2]).
 :- use_module('../base/bounds', [bounded/2]).
+:- use_module('../base/error_text', [harmless_error/2]).
 :- use_module('../wire', [endpoint_address/1, endpoint_reply/2]).
 :- use_module('../host',
               [ address_parts/3, peer_may/3, process_ask/6, security_event/3,
@@ -60,6 +62,19 @@ agent_ask(Agent, Question, Seconds, Answer) :-
     time_now(Now),
     Deadline is Now+Seconds,
     ask(Agent, Question, by(Deadline), Answer).
+
+%!  agent_asked(+Agent, +Question, +Seconds, -Term) is semidet.
+%
+%   As agent_ask/4, but an error that is the answer is raised.
+
+agent_asked(Agent, Question, Seconds, Term) :-
+    agent_ask(Agent, Question, Seconds, Answer),
+    answer_term(Answer, Term).
+
+answer_term(answer(Term), Term).
+answer_term(error(Formal), _) :-
+    harmless_error(error(Formal, _), Ball),
+    throw(Ball).
 
 %!  agent_ask_here(+Agent, +Question, +Seconds, -Answer) is semidet.
 %

@@ -139,15 +139,9 @@ fails_inside(Left-Framed, Goals) :-
                 *******************************/
 
 user:prolog_exception_hook(_, _, Frame, Catcher) :-
-    integer(Catcher),
-    frame_of(Catcher, machine_run/3),
-    note_raised(Frame),
-    fail.
+    note_raised(Frame, Catcher).
 prolog:prolog_exception_hook(_, _, Frame, Catcher, _) :-
-    integer(Catcher),
-    frame_of(Catcher, machine_run/3),
-    note_raised(Frame),
-    fail.
+    note_raised(Frame, Catcher).
 
 %   The hook sees names qualified from its own module.
 
@@ -159,13 +153,16 @@ frame_of(Frame, PI) :-
 %   The bindings of a hook that fails are undone, so the note is a global
 %   variable.
 
-note_raised(Frame) :-
+note_raised(Frame, Catcher) :-
+    integer(Catcher),
+    frame_of(Catcher, machine_run/3),
     native_goal(Frame, Raising),
     native_clauses(100, Frame, Clauses),
     raising(Frame, Goal, Goals, Outer),
     same_goal(Frame, Raising, Goal),
     framed(Outer, Goals, Left),
-    note(raised, Goal, Left, natives(Raising, Clauses)).
+    note(raised, Goal, Left, natives(Raising, Clauses)),
+    fail.
 
 raising(Frame, Control, [Control|Goals], Outer) :-
     prolog_frame_attribute(Frame, parent, Outer),
