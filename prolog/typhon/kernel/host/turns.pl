@@ -49,7 +49,7 @@ pauses turns ends the pause.
 :- dynamic
     keys/3,                     % Thread number, flag of agent, of time
     slow/2,                     % Kind, Until
-    paused/0,
+    turns_paused/0,
     kept/1.                     % Agent: it got a turn during the pause
 
 %!  turn_begins(+What) is det.
@@ -129,11 +129,6 @@ latest(Turns, Latest) :-
                 *          SHORT TURNS         *
                 *******************************/
 
-%   short(-Inferences, -Seconds): a turn is short below both.  These inferences
-%   cost as much as some wake-ups.
-
-short(20000, 0.004).
-
 %   Two turns that took long by the clock are close if fewer inferences than
 %   these lie between them.  A turn takes some thousand.
 
@@ -147,7 +142,9 @@ remembered(waits, 10).
 
 %!  turn_if_short(+Kind, :Turn) is semidet.
 %
-%   Call Turn, of an agent of that Kind. Fails if such a turn may be long.
+%   Call Turn, of an agent of that Kind. Fails if such a turn may be long.  It is
+%   short below so many inferences, which cost as much as some wake-ups, and
+%   below so many seconds.
 
 turn_if_short(Kind, Turn) :-
     (   slow(Kind, Until)
@@ -160,10 +157,9 @@ turn_if_short(Kind, Turn) :-
     call(Turn),
     statistics(inferences, Count),
     get_time(Time),
-    short(MostInferences, MostSeconds),
-    (   Count-Count0 > MostInferences
+    (   Count-Count0 > 20000
     ->  remember(long, Kind)
-    ;   Time-Time0 < MostSeconds
+    ;   Time-Time0 < 0.004
     ->  true
     ;   waited(Kind, Count)
     ).
@@ -206,19 +202,15 @@ slow_until(Kind, Until, Now) :-
 %
 %   Turns are paused.
 
-turns_paused :-
-    paused,
-    !.
-
 %!  turns_pause is det.
 %
 %   Pause turns.
 
 turns_pause :-
     with_mutex(typhon_turns,
-               (   paused
+               (   turns_paused
                ->  true
-               ;   assertz(paused)
+               ;   assertz(turns_paused)
                )).
 
 %!  turns_go_on(-Agents:list) is det.
@@ -227,7 +219,7 @@ turns_pause :-
 
 turns_go_on(Agents) :-
     with_mutex(typhon_turns,
-               ( retractall(paused),
+               ( retractall(turns_paused),
                  findall(Agent, kept(Agent), Agents),
                  retractall(kept(_)) )).
 
@@ -236,8 +228,8 @@ turns_go_on(Agents) :-
 %   Turns are paused: keep Agent until the pause ends.
 
 turn_later(Agent) :-
-    paused,
-    with_mutex(typhon_turns, ( paused, assertz(kept(Agent)) )).
+    turns_paused,
+    with_mutex(typhon_turns, ( turns_paused, assertz(kept(Agent)) )).
 
                 /*******************************
                 *           CONTEXT            *

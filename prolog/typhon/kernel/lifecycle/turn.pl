@@ -39,9 +39,7 @@ one call that fails.
 an agent belongs to one worker.
 */
 
-:- meta_predicate
-    turn_unit(0),
-    turn_concluded(+, +, 1, -).
+:- meta_predicate turn_unit(0).
 
 :- multifile
     engine/3,                   % Agent, Start, Engine
@@ -63,19 +61,19 @@ turn_engine(Agent, Start, Engine) :-
     ;   Engine = machine
     ).
 
-%   turn_run(+Engine, +Turn, +Start, -Outcome, -Goals0) is det.
+%   turn_run(+Engine, +Run, +Turn, +Start, -Outcome, -Goals0) is det.
 %
-%   Run the agent to its next stop, from Goals0.  Outcome is that of
-%   machine_run/3, `held` if the agent was suspended in the middle of its
-%   goals, or over(Resource) if it passed a limit.
+%   Run the agent to its next stop, from Goals0.  Run is that of unit/2, or
+%   `none`.  Outcome is that of machine_run/3, `held` if the agent was suspended
+%   in the middle of its goals, or over(Resource) if it passed a limit.
 
-turn_run(machine, Turn, goals(Goals), Outcome, Goals) :-
+turn_run(machine, Run, Turn, goals(Goals), Outcome, Goals) :-
     !,
-    (   unit(Run, _)
-    ->  call(Run, typhon_turn:bounded_run(Turn, Goals, Outcome))
-    ;   bounded_run(Turn, Goals, Outcome)
+    (   Run == none
+    ->  bounded_run(Turn, Goals, Outcome)
+    ;   call(Run, typhon_turn:bounded_run(Turn, Goals, Outcome))
     ).
-turn_run(Engine, Turn, Start, Outcome, Goals0) :-
+turn_run(Engine, _, Turn, Start, Outcome, Goals0) :-
     start_plain(Start, Plain),
     call(Engine, Turn, Plain, Outcome, Goals0).
 
@@ -101,16 +99,6 @@ turn_unit(Goal) :-
     (   unit(Run, _)
     ->  call(Run, Goal)
     ;   call(Goal)
-    ).
-
-%   turn_concluded(+Turn, +Outcome, :Conclude, -Next) is det.
-%
-%   call(Conclude, Next) carries out Outcome and ends the unit of work.
-
-turn_concluded(turn(Id, _, _), Outcome, Conclude, Next) :-
-    (   unit(_, Whole)
-    ->  call(Whole, Id, Outcome, call(Conclude, Next), Next)
-    ;   call(Conclude, Next)
     ).
 
 %!  turn_settled is det.
@@ -153,7 +141,7 @@ turn_bounded(Host) :-
 %   The worker leaves the agent, which rests, goes on elsewhere or has ended.
 
 turn_over(Id) :-
-    ignore(over(Id)).
+    ( over(Id) -> true ; true ).
 
                 /*******************************
                 *       AGENTS ON A HOST       *
@@ -165,11 +153,7 @@ turn_over(Id) :-
 
 typhon_scheduler:run(Id) :-
     (   with_agent(Id, take(Id, Task))
-    ->  (   catch(completed(Task, Id), Ball, broken_off(Ball, Id))
-        ->  context_clear
-        ;   context_clear,
-            fail
-        )
+    ->  begin(Task, Id)
     ;   turn_over(Id)                   % has ended
     ).
 
@@ -178,29 +162,15 @@ typhon_scheduler:run(Id) :-
 typhon_scheduler:run_on(Id, Host, Context, Goals) :-
     (   turns_paused
     ->  ignore(with_agent(Id, agent_ready(Id, Goals)))
-    ;   (   catch(completed_on(Id, Host, Context, Goals), Ball,
-                  broken_off(Ball, Id))
-        ->  context_clear
-        ;   context_clear,
-            fail
-        )
+    ;   begin(run_on(Host, Context, Goals), Id)
     ).
 
-completed_on(Id, Host, Context, Goals) :-
-    run_on(Id, Host, Context, Goals),
-    !.
-completed_on(Id, _, _, Goals) :-
-    not_completed(Id, Goals).
-
-run_on(Id, Host, Context, Goals) :-
-    agent_here(Id, Host, Module, Hash, Life),
-    !,
-    context_set(Host, Id, Module),
-    turn_engine(agent(Id, Host, Hash, Life), goals(Goals), Engine),
-    turns(goals(Goals), Engine, turn(Id, Host, Context), Next),
-    go_on(Next, Id).
-run_on(Id, _, _, _) :-                  % has ended
-    turn_over(Id).
+begin(Task, Id) :-
+    (   catch(completed(Task, Id), Ball, broken_off(Ball, Id))
+    ->  context_clear
+    ;   context_clear,
+        fail
+    ).
 
 take(Id, later) :-
     turn_later(Id),
@@ -226,6 +196,9 @@ completed(Task, Id) :-
     not_completed(Id, Goals).
 
 task_goals(run(goals(Goals)), Goals) :-
+    Goals = [_|_],
+    !.
+task_goals(run_on(_, _, Goals), Goals) :-
     Goals = [_|_],
     !.
 task_goals(order(_, Goals), Goals) :-
@@ -263,12 +236,26 @@ perform(run(Start), Id) :-
     turn_engine(agent(Id, Host, Hash, Life), Start, Engine),
     turns(Start, Engine, turn(Id, Host, context(Program, Module)), Next),
     go_on(Next, Id).
+perform(run_on(Host, Context, Goals), Id) :-
+    (   agent_here(Id, Host, Module, Hash, Life)
+    ->  context_set(Host, Id, Module),
+        turn_engine(agent(Id, Host, Hash, Life), goals(Goals), Engine),
+        turns(goals(Goals), Engine, turn(Id, Host, Context), Next),
+        go_on(Next, Id)
+    ;   turn_over(Id)                   % has ended
+    ).
 
 %   turns(+Start, +Engine, +Turn, -Next): Next is `stop`, or elsewhere(Goals).
 
 turns(Start, Engine, Turn, Next) :-
-    turn_run(Engine, Turn, Start, Outcome, Goals0),
-    turn_concluded(Turn, Outcome, conclude(Outcome, Goals0, Turn), Next0),
+    (   unit(Run, Whole)
+    ->  turn_run(Engine, Run, Turn, Start, Outcome, Goals0),
+        arg(1, Turn, Id),
+        call(Whole, Id, Outcome,
+             typhon_turn:conclude(Outcome, Goals0, Turn, Next0), Next0)
+    ;   turn_run(Engine, none, Turn, Start, Outcome, Goals0),
+        conclude(Outcome, Goals0, Turn, Next0)
+    ),
     (   Next0 = go(Goals)
     ->  turns(goals(Goals), Engine, Turn, Next)
     ;   Next = Next0

@@ -48,10 +48,6 @@ are deferred while a frame is being handled and counted.
     damaged/4.                          % Key, Count, Which, Times: the last
                                         % damaged frame of a session
 
-%   The reader acknowledges after so many bytes, or after ack_frames/1 frames.
-
-ack_bytes(32768).
-
 %!  read_frames(+Session, +In, +Out) is det.
 %
 %   Handle all frames until In ends.
@@ -243,7 +239,9 @@ handle(Frame, Session, In, State) :-
     nb_setarg(2, State, 0),
     acknowledge_now_and_then(AckDue, Session, In, State).
 
-%   A bundle is acknowledged at once: its sender holds others until then.
+%   The reader acknowledges after ack_frames/1 frames, or after half of the bytes
+%   that may be under way.  A bundle is acknowledged at once: its sender holds
+%   others until then.
 
 acknowledge_now_and_then(AckDue, Session, In, State) :-
     (   AckDue =:= 0
@@ -252,8 +250,7 @@ acknowledge_now_and_then(AckDue, Session, In, State) :-
         AckDue < MaxFrames,
         arg(1, State, AckedBytes),
         byte_count(In, Bytes),
-        ack_bytes(MaxBytes),
-        Bytes-AckedBytes < MaxBytes
+        Bytes-AckedBytes < 32768
     ->  true
     ;   acknowledge(Session, In, State)
     ).

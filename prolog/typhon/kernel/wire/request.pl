@@ -138,13 +138,13 @@ requests_lost(Session, Unsent) :-
 %   hook handed_over(Token, Result), where Result is `accepted`, `lost`,
 %   `unsent`, or the answer of the peer.
 
-handed_over(settled(Token, Number, Result), Session) :-
-    (   Result == deferred
-    ->  Id is -Number,
-        session_key(Session, Key),
-        assertz(open_request(Id, Key, typhon_request:answered_late(Token)))
-    ;   handed(Token, Result)
-    ).
+handed_over(settled(Token, Number, deferred), Session) :-
+    !,
+    Id is -Number,
+    session_key(Session, Key),
+    assertz(open_request(Id, Key, typhon_request:answered_late(Token))).
+handed_over(settled(Token, _, Result), _) :-
+    handed(Token, Result).
 
 handed(Token, spoilt) :-
     !,
@@ -307,7 +307,7 @@ spoil(alone(OnAnswer), _) :-
     request_answer(lost, OnAnswer).
 
 reporting(Goal, Kind) :-
-    ignore(attempt(Goal, Kind)).
+    ( attempt(Goal, Kind) -> true ; true ).
 
 attempt(Goal, Kind) :-
     (   catch(Goal, Error, true)

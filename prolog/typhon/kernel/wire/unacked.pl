@@ -82,10 +82,6 @@ unacked_open(Window) :-
 		 *            FRAMES            *
 		 *******************************/
 
-%   Bytes that may be under way without a risk that write blocks.
-
-under_way(65536).
-
 %!  ack_frames(-Count) is det.
 %
 %   The reader acknowledges after so many frames.
@@ -108,14 +104,14 @@ unacked_sent(Window, Out, Bytes, Token, counts(Count, Count)) :-
     set_flag(AckSent, Count),
     set_flag(Settled, Count).
 
-%   space(+Most, +Window, +Out, -Space): the bytes that can be written to Out
-%   without blocking if Most is `room`, or `inf` if it is `all`.
+%   space(+Most, +Window, +Out, -Space): the bytes that can be written to Out if
+%   Most is `room`, or `inf` if it is `all`.  As long as no more than 64 kB are
+%   under way, writing does not block.
 
 space(room, window(_, _, _, _, _, AckedBytes, _, _), Out, Space) :-
     byte_count(Out, Written),
     get_flag(AckedBytes, Acked),
-    under_way(Max),
-    Space is Max-(Written-Acked).
+    Space is 65536-(Written-Acked).
 space(all, _, _, inf).
 
 %!  unacked_waits(+Window, +Bytes, +Token) is det.
@@ -292,16 +288,17 @@ session_acked(Session, Received, Handed) :-
     get_flag(Acked, Count),
     count_ahead(Count, Received, Ahead),
     Ahead > 0,
-    session_held(Session, acked(Ahead, Window, Handed)).
+    session_held(Session, acked(Ahead, Count, Window, Handed)).
 
-acked(Ahead, Window, Handed) :-
+%   Only the thread of the connection changes Acked.
+
+acked(Ahead, Count0, Window, Handed) :-
     Window = window(Sent, _, _, _, Acked, AckedBytes, _, _),
     message_queue_property(Sent, size(Size)),
     (   Ahead =< Size
     ->  true
     ;   domain_error(acknowledged, Ahead)
     ),
-    get_flag(Acked, Count0),
     take_received(Ahead, Count0, Sent, Handed, 0, Bytes),
     Count is Count0+Ahead,
     set_flag(Acked, Count),
