@@ -48,7 +48,7 @@ The token goes to the thread that takes it first.
 
 :- dynamic
     lendable/3,                         % Thread, Queue, connection(...)
-    seen/4.                             % Thread, Turn, Since, Processor time
+    seen/3.                             % Thread, Began, Processor time
 
 %   While threads are lent the manager checks at this interval.  A lent thread
 %   is overdue after so much processor time in one turn, or so much time
@@ -79,7 +79,7 @@ endpoint_afterwards(Goal) :-
 
 lending_anew :-
     flag(typhon_lending, _, 0),
-    retractall(seen(_, _, _, _)).
+    retractall(seen(_, _, _)).
 
 %!  lending_open(+Session, +In, +Out, -Queue) is det.
 %
@@ -89,7 +89,6 @@ lending_open(Session, In, Out, Queue) :-
     thread_self(Me),
     message_queue_create(Queue),
     assertz(lendable(Me, Queue, connection(Session, In, Out))),
-    nb_setval(typhon_turns_lent, 0),
     nb_setval(typhon_end, none),
     nb_setval(typhon_lending, idle).
 
@@ -152,10 +151,8 @@ leave(Goal, Flush) :-
 
 give(Queue) :-
     nb_linkval(typhon_lending, lent),
-    nb_getval(typhon_turns_lent, Turn0),
-    Turn is Turn0+1,
-    nb_linkval(typhon_turns_lent, Turn), % a number: nothing to copy
-    thread_send_message(Queue, token(Turn)),
+    get_time(Began),
+    thread_send_message(Queue, token(Began)),
     check_if_needed.
 
 %   An overdue thread waits until its release is complete.
@@ -228,28 +225,26 @@ check_later :-
 check_lent :-
     flag(typhon_lending, _, 0),
     get_time(Now),
-    findall(Seen, lent_now(Now, Seen), All),
-    forall(( member(Seen, All), is_overdue(Now, Seen, Thread, Turn) ),
-           ignore(release(Thread, Turn))),
-    retractall(seen(_, _, _, _)),
+    findall(Seen, lent_now(Seen), All),
+    forall(( member(Seen, All), is_overdue(Now, Seen, Thread, Began) ),
+           ignore(release(Thread, Began))),
+    retractall(seen(_, _, _)),
     forall(member(Seen, All), assertz(Seen)),
     (   All == []
     ->  true
     ;   check_if_needed
     ).
 
-lent_now(Now, seen(Thread, Turn, Since, Work)) :-
-    lent_to(Thread, Turn),
-    (   seen(Thread, Turn, Since0, Work0)
-    ->  Since = Since0,
-        Work = Work0
-    ;   Since = Now,
-        worked(Thread, Work)
+lent_now(seen(Thread, Began, Work)) :-
+    lent_to(Thread, Began),
+    (   seen(Thread, Began, Work0)
+    ->  Work = Work0
+    ;   worked(Thread, Work)
     ).
 
-is_overdue(Now, seen(Thread, Turn, Since, Work0), Thread, Turn) :-
+is_overdue(Now, seen(Thread, Began, Work0), Thread, Began) :-
     (   most_time(Time),
-        Now-Since > Time
+        Now-Began > Time
     ->  true
     ;   most_work(Most),
         worked(Thread, Work),
@@ -259,32 +254,32 @@ is_overdue(Now, seen(Thread, Turn, Since, Work0), Thread, Turn) :-
 worked(Thread, Seconds) :-
     catch(thread_statistics(Thread, cputime, Seconds), error(_, _), fail).
 
-lent_to(Thread, Turn) :-
+lent_to(Thread, Began) :-
     lendable(Thread, Queue, _),
-    catch(thread_peek_message(Queue, token(Turn)), error(_, _), fail).
+    catch(thread_peek_message(Queue, token(Began)), error(_, _), fail).
 
                  /*******************************
                  *           RELEASE            *
                  *******************************/
 
-%   release(+Thread, +Turn) is semidet: Thread no longer belongs to the
-%   endpoint, and its session is without connection.  A caller that waits for
-%   the end of Thread goes on.  If Thread comes back before its connection is
-%   closed, it waits for the release.
+%   release(+Thread, +Began) is semidet: Thread, lent since Began, no longer
+%   belongs to the endpoint, and its session is without connection.  A caller
+%   that waits for the end of Thread goes on.  If Thread comes back before its
+%   connection is closed, it waits for the release.
 
 typhon_threads:overdue(Thread) :-
-    lent_to(Thread, Turn),
-    release(Thread, Turn).
+    lent_to(Thread, Began),
+    release(Thread, Began).
 
-release(Thread, Turn) :-
-    sig_atomic(released(Thread, Turn, Connection)),
+release(Thread, Began) :-
+    sig_atomic(released(Thread, Began, Connection)),
     debug(typhon(session), '~w is overdue: its connection is closed',
           [Thread]),
     in_background(part(Thread, Connection), lender).
 
-released(Thread, Turn, Connection) :-
+released(Thread, Began, Connection) :-
     lendable(Thread, Queue, Connection),
-    catch(thread_get_message(Queue, token(Turn), [timeout(0)]),
+    catch(thread_get_message(Queue, token(Began), [timeout(0)]),
           error(_, _), fail),
     !,
     call_cleanup(                       % Thread waits for this in any case

@@ -67,7 +67,7 @@ read_frames(Session, In, Out) :-
     session_owes,                       % the count of frames received before
     setup_call_cleanup(
         lending_open(Session, In, Out, Queue),
-        read_or_skip(Session, In, Max, state(Bytes, 0, Queue)),
+        read_or_skip(Session, In, Max, state(Bytes, silent(0, 0), Queue)),
         lending_close).
 
 %!  in_reader is semidet.
@@ -192,15 +192,26 @@ silent(Session, In, State) :-
     ->  true
     ;   acknowledge(Session, In, State) % the peer need not keep the frames
     ),
-    arg(2, State, Silent),
-    (   \+ session_unfinished(Session)
-    ->  nb_setarg(2, State, 0)
-    ;   Silent < 2
-    ->  Silent1 is Silent+1,
-        nb_setarg(2, State, Silent1),
-        session_control(Session, ping)
-    ;   throw(error(timeout_error(read, In), _))
+    (   session_unfinished(Session)
+    ->  silences(In, State, Count),
+        (   Count < 3
+        ->  session_control(Session, ping)
+        ;   throw(error(timeout_error(read, In), _))
+        )
+    ;   nb_setarg(2, State, silent(0, 0))
     ).
+
+%   silences(+In, +State, -Count): Count time-outs have passed since a byte was
+%   read.
+
+silences(In, State, Count) :-
+    arg(2, State, silent(Count0, Bytes0)),
+    byte_count(In, Bytes),
+    (   Bytes =:= Bytes0
+    ->  Count is Count0+1
+    ;   Count = 1
+    ),
+    nb_setarg(2, State, silent(Count, Bytes)).
 
 %   The counts of a frame are handled before its body: the body may bring back
 %   an agent whose departure the counts settle.
@@ -216,9 +227,8 @@ settled([One|Settled], Session) :-
     handed_over(One, Session),
     settled(Settled, Session).
 
-handle(none, _, _, State) :-
-    !,
-    nb_setarg(2, State, 0).
+handle(none, _, _, _) :-
+    !.
 handle(ping, Session, In, State) :-
     !,
     acknowledge(Session, In, State).
@@ -231,12 +241,10 @@ handle(Bundle, Session, In, State) :-
     take_bundle(Bundle, Session),
     !,
     session_count(Session, _),
-    nb_setarg(2, State, 0),
     acknowledge(Session, In, State).
 handle(Frame, Session, In, State) :-
     dispatch(Session, Frame),
     session_count(Session, AckDue),
-    nb_setarg(2, State, 0),
     acknowledge_now_and_then(AckDue, Session, In, State).
 
 %   The reader acknowledges after ack_frames/1 frames, or after half of the bytes

@@ -40,8 +40,8 @@ settled when the frame was put: so a frame that has waited behind an objection
 does not settle the frame of the objection. The number of frames that the peer
 has received is a count of its own: it opens the window.
 
-A Token other than `none` or `loose` is that of a hand-over, Number-Token, see
-settlement.pl.
+A Token is `none`, `loose`, or the compound term of a hand-over, which becomes
+Number-Token, see settlement.pl.
 
 *Threading*: the mutex of the session guards its window: a caller of unacked_*
 holds it. session_count/2 and session_acked/3 are for the thread of the
@@ -261,15 +261,11 @@ unacked_close(Session, Waiting, Sent, Unsent) :-
     take_received(Size, Count, SentQueue, Sent, 0, _),
     fifo_empty(WaitingQueue, Waiting),
     findall(Token,
-            ( member(frame(_, Token, _), Waiting), hands_over(Token) ),
+            ( member(frame(_, Token, _), Waiting), compound(Token) ),
             Unsent),
     message_queue_destroy(SentQueue),
     message_queue_destroy(WaitingQueue),
     assertz(free_flags(Flags)).
-
-hands_over(Token) :-
-    Token \== none,
-    Token \== loose.
 
 		 /*******************************
 		 *       ACKNOWLEDGEMENTS       *
@@ -318,7 +314,7 @@ take_received(Ahead, N0, Sent, Handed, Bytes0, Bytes) :-
     frame_overhead(Head),
     Bytes1 is Bytes0+Length+Head,
     N is N0+1,
-    (   hands_over(Token)
+    (   compound(Token)
     ->  Handed = [N-Token|Handed1]
     ;   Handed = Handed1
     ),
