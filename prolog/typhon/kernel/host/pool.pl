@@ -15,7 +15,7 @@
                 timer_stop/0 ]).
 :- use_module(turns,
               [turn_if_short/2, turn_in/3, turns_go_on/1, turns_pause/0]).
-:- use_module(scheduler, [work_do/2, work_survives/1]).
+:- use_module(scheduler, [work_do/2]).
 
 /** <module> The runtime `real`: a pool of few threads for many agents
 
@@ -138,8 +138,7 @@ waits(Queue) :-
 %   The calling thread is not in the pool, so it gets only short turns.
 
 typhon_time:here(real, Agents, Turn) :-
-    run_queue(_),
-    turn_if_short(Agents, work_survives(Turn)).
+    turn_if_short(Agents, Turn).
 
                 /*******************************
                 *         ALARMS, WAITING      *

@@ -1,6 +1,5 @@
 :- module(typhon_scheduler,
           [ work_do/2,                  % +Work, :Again
-            work_survives/1,            % :Turn
             scheduler_limited/2,        % +Host, +Boolean
             agent_parked/1,             % ?Agent
             schedule/2,                 % +Host, +Agent
@@ -36,9 +35,7 @@ Higher layers define agents by the hooks run/1, fire/2, over/2 and kind/2.
 *Threading*: any thread; no two threads run the same agent.
 */
 
-:- meta_predicate
-    work_do(+, 1),
-    work_survives(0).
+:- meta_predicate work_do(+, 1).
 
 :- dynamic limited/1.           % Host
 
@@ -48,13 +45,6 @@ Higher layers define agents by the hooks run/1, fire/2, over/2 and kind/2.
 
 work_do(Work, Again) :-
     catch(do(Work, Again), Ball, report_error(Ball)).
-
-%!  work_survives(:Turn) is semidet.
-%
-%   Call Turn, and catch and print its errors.
-
-work_survives(Turn) :-
-    catch(Turn, Ball, report_error(Ball)).
 
 do(agent(Agent), _) :-
     run_one(Agent).
@@ -165,7 +155,7 @@ schedule_stays(Here, There) :-
 
 schedule_here(Host, Kind, Turn) :-
     \+ limited(Host),
-    time_here(Kind, Turn).
+    time_here(Kind, catch(Turn, Ball, typhon_scheduler:report_error(Ball))).
 
 %!  schedule_adopt(+Thread) is det.
 %

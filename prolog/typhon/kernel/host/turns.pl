@@ -1,7 +1,7 @@
 :- module(typhon_turns,
           [ turn_begins/1,              % +What
             turn_of/3,                  % +Agent, -Thread, -Seconds
-            turns_now/3,                % -Agent, -Thread, -Seconds
+            turns_now/3,                % ?Agent, -Thread, -Seconds
             turn_in/3,                  % +Thread, -What, -Since
             turn_if_short/2,            % +Kind, :Turn
             turns_not_short/2,          % +Kind, +Seconds
@@ -17,7 +17,7 @@
             context_agent/1,            % -Agent
             in_context/2                % +Host, :Goal
           ]).
-:- use_module(library(lists), [member/2]).
+:- use_module(library(lists), [member/2, min_member/2]).
 
 /** <module> Turns of agents
 
@@ -84,18 +84,10 @@ make_keys(AgentKey, TimeKey) :-
 %   day.
 
 turn_of(Agent, Thread, Seconds) :-
-    findall(At-Number,
-            ( keys(Number, AgentKey, TimeKey),
-              get_flag(AgentKey, Agent),
-              get_flag(TimeKey, At) ),
-            Turns),
-    latest(Turns, Since-Number),
-    thread_property(Thread, id(Number)),
-    !,
-    get_time(Now),
-    Seconds is max(0.0, Now-Since).
+    findall(Seconds0-Thread0, turns_now(Agent, Thread0, Seconds0), Turns),
+    min_member(Seconds-Thread, Turns).
 
-%!  turns_now(-Agent, -Thread, -Seconds:float) is nondet.
+%!  turns_now(?Agent, -Thread, -Seconds:float) is nondet.
 %
 %   The last turn of each thread that exists. It may be over.
 
@@ -118,12 +110,6 @@ turn_in(Thread, What, Since) :-
     !,
     get_flag(AgentKey, What),
     get_flag(TimeKey, Since).
-
-latest(Turns, Latest) :-
-    member(Latest, Turns),
-    Latest = At-_,
-    \+ ( member(Other-_, Turns), Other > At ),
-    !.
 
                 /*******************************
                 *          SHORT TURNS         *

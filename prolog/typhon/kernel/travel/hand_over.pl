@@ -115,20 +115,19 @@ leave(Transfer, Since, Frame) :-
 typhon_endpoint:handed_over(Transfer, Result) :-
     settled(Result, Transfer).
 
-settled(accepted, Transfer) :-
-    arg(1, Transfer, Id),
-    with_agent(Id, moved_on(Transfer, Host, Since)),
+settled(accepted, hop(Id, Dest, Hops)) :-
+    with_agent(Id, moved_on(Id, Dest, Hops, Host, Since)),
     !,
     host_left(Host, Since).
 settled(Result, Transfer) :-
-    arg(1, Transfer, Id),
-    ignore(with_agent(Id, thawed(Id))),
+    ignore(( Transfer = hop(Id, _, _),
+             with_agent(Id, thawed(Id)) )),
     result(Result, Transfer).
 
 %   The destination is noted before the agent is removed, and mail that came
 %   meanwhile is sent before any that comes later.
 
-moved_on(hop(Id, dest(Address, _, Endpoint), Hops), Host, Since) :-
+moved_on(Id, dest(Address, _, Endpoint), Hops, Host, Since) :-
     agent_under_way(Id, Hops, Host, _, way(_, Since, Process), _),
     agent_went(Id, Address, Hops, Endpoint, Process),
     agent_gone(Id, Hops, Mail),
