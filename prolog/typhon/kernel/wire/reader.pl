@@ -33,7 +33,7 @@ are deferred while a frame is being handled and counted.
                 session_unfinished/1 ]).
 :- use_module(session,
               [debug_frame/4, session_codec/2, session_key/2, session_peer/3]).
-:- use_module(settlement, [session_settled/3]).
+:- use_module(settlement, [session_settled/4]).
 :- use_module(threads, [manager_notify/1]).
 :- use_module(transport, [transport_input/2]).
 :- use_module(unacked,
@@ -217,9 +217,9 @@ silences(In, State, Count) :-
 %   an agent whose departure the counts settle.
 
 handle(Frame, Counts, Session, In, State) :-
-    session_settled(Session, Counts, Settled),
+    session_settled(Session, Counts, Settled, Waiting),
     settled(Settled, Session),
-    session_release(Session),
+    ( Waiting > 0 -> session_release(Session) ; true ),
     handle(Frame, Session, In, State).
 
 settled([], _).

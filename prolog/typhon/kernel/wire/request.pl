@@ -134,7 +134,7 @@ requests_lost(Session, Unsent) :-
 
 %!  handed_over(+Settled, +Session) is det.
 %
-%   Settled is settled(Token, Number, Result), see session_settled/3: call the
+%   Settled is settled(Token, Number, Result), see session_settled/4: call the
 %   hook handed_over(Token, Result), where Result is `accepted`, `lost`,
 %   `unsent`, or the answer of the peer.
 

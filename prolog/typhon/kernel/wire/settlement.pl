@@ -1,5 +1,5 @@
 :- module(typhon_settlement,
-          [ session_settled/3,          % +Session, +Counts, -Settled
+          [ session_settled/4,          % +Session, +Counts, -Settled, -Waiting
             session_objected/3,         % +Session, +Number, +Answer
             session_pending/2,          % +Session, -Count
             objection_answered/3,       % +Session, +Number, +Answer
@@ -23,25 +23,27 @@ call session_pending/2.
 :- use_module(frame, [count_ahead/3]).
 :- use_module(session, [session_key/2]).
 :- use_module(unacked,
-              [session_acked/3, session_unacked/2, session_under_way/2]).
+              [session_acked/4, session_unacked/2, session_under_way/2]).
 
 :- dynamic
     unsettled/3,                        % Key, Number, Token: received
     objection/3.                        % Key, Number, Answer
 
-%!  session_settled(+Session, +Counts, -Settled:list) is det.
+%!  session_settled(+Session, +Counts, -Settled:list, -Waiting:integer) is det.
 %
 %   A frame of the peer has these Counts, see frame.pl. Settled lists the
 %   hand-overs that they settle, settled(Token, Number, Result), Result being
-%   `accepted` or an objection.
+%   `accepted` or an objection.  Waiting is 0 if the peer has acknowledged
+%   nothing by them, else the number of frames that wait.
 %
 %   @error domain_error(acknowledged, Count)
 
-session_settled(Session, counts(Received, Count), Settled) :-
+session_settled(Session, counts(Received, Count), Settled, Waiting) :-
     session_key(Session, Key),
-    (   session_acked(Session, Received, Handed)
+    (   session_acked(Session, Received, Handed, Waiting)
     ->  settled_now(Handed, Key, Count, Settled, Late)
-    ;   Settled = Late
+    ;   Settled = Late,
+        Waiting = 0
     ),
     settled_late(Key, Count, Late).
 

@@ -12,7 +12,8 @@
                                         % -Frames
             unacked_close/4,            % +Session, -Waiting, -Sent, -Unsent
             ack_frames/1,               % -Count
-            session_acked/3,            % +Session, +Received, -Handed
+            session_acked/4,            % +Session, +Received, -Handed,
+                                        % -Waiting
             session_under_way/2,        % +Session, +Number
             session_unacked/2,          % +Session, -Count
             session_received/2,         % +Session, -Count
@@ -44,7 +45,7 @@ A Token is `none`, `loose`, or the compound term of a hand-over, which becomes
 Number-Token, see settlement.pl.
 
 *Threading*: the mutex of the session guards its window: a caller of unacked_*
-holds it. session_count/2 and session_acked/3 are for the thread of the
+holds it. session_count/2 and session_acked/4 are for the thread of the
 connection, the other session_* are for any thread.
 */
 
@@ -271,25 +272,27 @@ unacked_close(Session, Waiting, Sent, Unsent) :-
 		 *       ACKNOWLEDGEMENTS       *
 		 *******************************/
 
-%!  session_acked(+Session, +Received, -Handed:list) is semidet.
+%!  session_acked(+Session, +Received, -Handed:list, -Waiting:integer)
+%!      is semidet.
 %
 %   The peer has Received so many frames, as read in a head; fails if that was
 %   known. Handed are the hand-overs among the frames that are acknowledged now.
+%   Waiting frames were not written yet.
 %
 %   @error domain_error(acknowledged, Count) if that is more than was sent
 
-session_acked(Session, Received, Handed) :-
+session_acked(Session, Received, Handed, Waiting) :-
     session_window(Session, Window),
     arg(5, Window, Acked),
     get_flag(Acked, Count),
     count_ahead(Count, Received, Ahead),
     Ahead > 0,
-    session_held(Session, acked(Ahead, Count, Window, Handed)).
+    session_held(Session, acked(Ahead, Count, Window, Handed, Waiting)).
 
 %   Only the thread of the connection changes Acked.
 
-acked(Ahead, Count0, Window, Handed) :-
-    Window = window(Sent, _, _, _, Acked, AckedBytes, _, _),
+acked(Ahead, Count0, Window, Handed, Waiting) :-
+    Window = window(Sent, Queue, _, _, Acked, AckedBytes, _, _),
     message_queue_property(Sent, size(Size)),
     (   Ahead =< Size
     ->  true
@@ -300,7 +303,8 @@ acked(Ahead, Count0, Window, Handed) :-
     set_flag(Acked, Count),
     get_flag(AckedBytes, Bytes0),
     Bytes1 is Bytes0+Bytes,
-    set_flag(AckedBytes, Bytes1).
+    set_flag(AckedBytes, Bytes1),
+    message_queue_property(Queue, size(Waiting)).
 
 %   take_received(+Ahead, +Count, +Sent, -Handed, +Bytes0, -Bytes): the peer has
 %   received Ahead frames more than Count, of so many bytes; Handed are their

@@ -175,14 +175,12 @@ control_add(Key, Kind, Bytes) :-
 
 %!  session_release(+Session) is det.
 %
-%   The peer has acknowledged something: send the posts that are held.
+%   The peer has acknowledged something, and frames wait: send the posts that
+%   are held.
 
 session_release(Session) :-
-    (   unacked_waiting(Session)
-    ->  session_key(Session, Key),
-        session_locked(Session, write_or_connect(Session, Key))
-    ;   true
-    ).
+    session_key(Session, Key),
+    session_locked(Session, write_or_connect(Session, Key)).
 
 %   Some frame waits: write it, or request a connection.
 
