@@ -11,12 +11,13 @@
             host_again/1,               % +Name
             host_leave/1,               % +Name
             host_load/2,                % +Name, -Load
+            host_hop_times/3,           % +Name, ?Direction, -Times
+            host_hop/3,                 % +Name, +Direction, +Seconds
             host_plain/2,               % ?Name, -Plain
             host_plain_leaves/2,        % +Name, -Since
             host_came/2,                % +Name-Plain, +Since
             host_left/2,                % +Name, +Since
-            host_passes/4,              % +From, +Name-To, +Since, -Seconds
-            host_passed/3               % +Here, +There, +Seconds
+            host_passes/4               % +From, +Name-To, +Since, -Seconds
           ]).
 :- use_module(library(apply), [maplist/3]).
 :- use_module(library(lists), [member/2]).
@@ -26,19 +27,17 @@
 :- use_module('../base/bounds', [memory_short/1]).
 :- use_module(clocks, [clock/3, host_time/2]).
 :- use_module(time, [time_now/1]).
-:- use_module(hop_times,
-              [ hop_time_add/2, hop_times_begin/1, hop_times_end/1,
-                hop_times_flags/3, host_hop/3 ]).
 :- use_module(links, [host_unlink/2]).
 :- use_module(host_parts, [parts/3, parts_compile/1, parts_forget/1]).
 
 /** <module> Hosts of this process
 
-The records of hosts: name, address, place, options, and the number of agents on
-them.
+The records of hosts: name, address, place, options, and their counts: the
+number of agents on them, their load, and how long hops into and out of them
+take, in host seconds.
 
-*Threading*: any thread.  The load is a flag that changes under one mutex,
-together with the times of hops.
+*Threading*: any thread.  The counts are flags, which many threads change without
+leaving garbage, under one mutex: flag/3 would lock for each of them.
 */
 
 :- dynamic
@@ -46,7 +45,8 @@ together with the times of hops.
     option/2,                   % Name, Option
     admits/4,                   % Name, Tokens, Capacity, Flag: while
                                 % it admits agents
-    load_key/2,                 % Name, Flag
+    counts/4,                   % Name, Load, In, Out: a flag, and twice
+                                % flags(Count, Min, Sum, Max) of hops
     host_plain/2.               % Name, Plain
 
 %!  host(?Name, ?Address, ?Place) is nondet.
@@ -58,7 +58,7 @@ together with the times of hops.
 %   Add a host, which admits agents from now on.
 
 host_add(Name, Address, Place, Options) :-
-    make_keys(Name),
+    make_flags(Name),
     forall(member(Option, Options), assertz(option(Name, Option))),
     parts_compile(Name),
     assertz(host(Name, Address, Place)),
@@ -69,8 +69,8 @@ host_add(Name, Address, Place, Options) :-
 begin_admitting(Name) :-
     asked(Name, tokens(Tokens), []),
     asked(Name, capacity(Capacity), inf),
-    load_key(Name, Key),
-    assertz(admits(Name, Tokens, Capacity, Key)).
+    counts(Name, Load, _, _),
+    assertz(admits(Name, Tokens, Capacity, Load)).
 
 %!  host_plain(?Name, -Plain) is nondet.
 %
@@ -83,8 +83,7 @@ note_plain(Name) :-
         host(Name, Address, Place),
         asked(Name, hop_time(Delay), none),
         clock(Name, Epoch, Rate),
-        hop_times_flags(Name, in, In),
-        hop_times_flags(Name, out, Out)
+        counts(Name, _, In, Out)
     ->  assertz(host_plain(Name, plain(Address, Place, Delay, Epoch, Rate,
                                        Capacity, Load, In, Out)))
     ;   true
@@ -107,32 +106,37 @@ asked(Name, Option, Default) :-
     ;   arg(1, Option, Default)
     ).
 
-%   Flags are counters that many threads change without leaving garbage.
+make_flags(Name) :-
+    make_flag(load, Name, 0, Load),
+    make_hop_flags(in, Name, In),
+    make_hop_flags(out, Name, Out),
+    assertz(counts(Name, Load, In, Out)).
 
-make_keys(Name) :-
-    atom_concat('typhon load ', Name, Load),
-    flag(Load, _, 0),
-    assertz(load_key(Name, Load)),
-    hop_times_begin(Name).
+make_hop_flags(Direction, Name, flags(Count, Min, Sum, Max)) :-
+    make_flag(Direction-count, Name, 0, Count),
+    make_flag(Direction-min, Name, inf, Min),
+    make_flag(Direction-sum, Name, 0.0, Sum),
+    make_flag(Direction-max, Name, 0.0, Max).
 
-%   The load of a host and the times of its hops.
+make_flag(What, Name, Value0, Flag) :-
+    format(atom(Flag), 'typhon ~w ~w', [What, Name]),
+    flag(Flag, _, Value0).
 
 :- durable(counts, Name, 0, Values, counts_item(Name, Values),
            counts_restore(Name, Values)).
 
 counts_item(Name, Values) :-
     host(Name, _, _),
-    findall(Value, ( count_key(Name, Key), flag(Key, Value, Value) ), Values).
+    flags_of(Name, Flags),
+    maplist(get_flag, Flags, Values).
 
 counts_restore(Name, Values) :-
-    findall(Key, count_key(Name, Key), Keys),
-    maplist(set_flag, Keys, Values).
+    flags_of(Name, Flags),
+    maplist(set_flag, Flags, Values).
 
-count_key(Name, Key) :-
-    load_key(Name, Key).
-count_key(Name, Key) :-
-    hop_times_flags(Name, _, Flags),
-    arg(_, Flags, Key).
+flags_of(Name, [Load|Flags]) :-
+    counts(Name, Load, In, Out),
+    findall(Flag, ( arg(_, In, Flag) ; arg(_, Out, Flag) ), Flags).
 
 %!  host_close(+Name) is det.
 %
@@ -159,8 +163,7 @@ host_remove(Name) :-
     retractall(host(Name, _, _)),
     retractall(option(Name, _)),
     host_unlink(Name, _),
-    retractall(load_key(Name, _)),
-    hop_times_end(Name),
+    retractall(counts(Name, _, _, _)),
     parts_forget(Name).
 
 %!  host_option(?Name, ?Option) is nondet.
@@ -243,10 +246,10 @@ count_entry(Capacity, Key, Answer) :-
     ;   Answer = refused(capacity)
     ).
 
-count_load(Key, Change) :-
-    get_flag(Key, Load0),
-    Load is Load0+Change,
-    set_flag(Key, Load).
+count(Flag, Change) :-
+    get_flag(Flag, Count0),
+    Count is Count0+Change,
+    set_flag(Flag, Count).
 
 %!  host_came(+Where, +Since) is semidet.
 %
@@ -265,18 +268,18 @@ host_came(Where, Since) :-
 %   Count an agent on Name in its load again, even beyond its capacity.
 
 host_again(Name) :-
-    (   load_key(Name, Key)
-    ->  with_mutex(typhon_host_flags, count_load(Key, 1))
-    ;   true                            % stopped meanwhile
-    ).
+    load_changes(Name, 1).
 
 %!  host_leave(+Name) is det.
 %
 %   Stop counting an agent in the load of Name.
 
 host_leave(Name) :-
-    (   load_key(Name, Key)
-    ->  with_mutex(typhon_host_flags, count_load(Key, -1))
+    load_changes(Name, -1).
+
+load_changes(Name, Change) :-
+    (   counts(Name, Load, _, _)
+    ->  with_mutex(typhon_host_flags, count(Load, Change))
     ;   true                            % stopped meanwhile
     ).
 
@@ -285,8 +288,8 @@ host_leave(Name) :-
 %   Load agents are on Name, faulty ones not counted.
 
 host_load(Name, Load) :-
-    load_key(Name, Key),
-    get_flag(Key, Load).
+    counts(Name, Flag, _, _),
+    get_flag(Flag, Load).
 
                 /*******************************
                 *             HOPS             *
@@ -304,12 +307,12 @@ host_left(Name, Since) :-
     Seconds is max(0.0, (Now-Epoch)*Rate-Since),
     with_mutex(typhon_host_flags, left(Load, Out, Seconds)).
 host_left(Name, Since) :-
-    host_time(Name, Now),
-    !,
-    Seconds is max(0.0, Now-Since),
-    host_hop(Name, out, Seconds),
-    host_leave(Name).
-host_left(_, _).                        % stopped meanwhile
+    (   host_time(Name, Now)
+    ->  Seconds is max(0.0, Now-Since),
+        host_hop(Name, out, Seconds),
+        host_leave(Name)
+    ;   true                            % stopped meanwhile
+    ).
 
 %!  host_passes(+From, +Where, +Since, -Seconds:float) is semidet.
 %
@@ -347,17 +350,6 @@ place_taken(Name-Plain, Count) :-
         fail
     ).
 
-%!  host_passed(+Here, +There, +Seconds) is det.
-%
-%   Count an agent that moves from Here to There, where host_enter/3 has
-%   admitted it.  The load of Here is changed last: a host that stops waits
-%   until its load is 0.
-
-host_passed(Here, There, Seconds) :-
-    host_hop(Here, out, Seconds),
-    host_hop(There, in, Seconds),
-    host_leave(Here).
-
 came(Where, In, Seconds) :-
     Where = _-plain(_, _, _, _, _, _, Load, _, _),
     get_flag(Load, Count),
@@ -367,5 +359,51 @@ came(Where, In, Seconds) :-
     hop_time_add(In, Seconds).
 
 left(Load, Out, Seconds) :-
-    count_load(Load, -1),
+    count(Load, -1),
     hop_time_add(Out, Seconds).
+
+%!  host_hop(+Name, +Direction, +Seconds) is det.
+%
+%   Record a hop into (`in`) or out of (`out`) Name that took Seconds.
+
+host_hop(Name, Direction, Seconds) :-
+    (   counts(Name, _, In, Out)
+    ->  hop_flags(Direction, In, Out, Flags),
+        with_mutex(typhon_host_flags, hop_time_add(Flags, Seconds))
+    ;   true                            % stopped meanwhile
+    ).
+
+hop_flags(in, In, _, In).
+hop_flags(out, _, Out, Out).
+
+%   hop_time_add(+Flags, +Seconds): inside the mutex.  In virtual time most hops
+%   take no time.
+
+hop_time_add(flags(Count, Min, Sum, Max), Seconds) :-
+    get_flag(Count, N0), N is N0+1, set_flag(Count, N),
+    (   Seconds =:= 0.0,
+        get_flag(Min, 0.0)
+    ->  true
+    ;   get_flag(Sum, Sum0), Sum1 is Sum0+Seconds, set_flag(Sum, Sum1),
+        get_flag(Min, Min0),
+        ( Seconds < Min0 -> set_flag(Min, Seconds) ; true ),
+        get_flag(Max, Max0),
+        ( Seconds > Max0 -> set_flag(Max, Seconds) ; true )
+    ).
+
+%!  host_hop_times(+Name, ?Direction, -Times) is nondet.
+%
+%   Times is stats(Count, Min, Mean, Max) of the hops in that Direction.
+
+host_hop_times(Name, Direction, stats(Count, Min, Mean, Max)) :-
+    counts(Name, _, In, Out),
+    hop_flags(Direction, In, Out,
+              flags(CountFlag, MinFlag, SumFlag, MaxFlag)),
+    get_flag(CountFlag, Count),
+    get_flag(MaxFlag, Max),
+    (   Count =:= 0
+    ->  Min = 0.0, Mean = 0.0
+    ;   get_flag(MinFlag, Min),
+        get_flag(SumFlag, Sum),
+        Mean is Sum/Count
+    ).

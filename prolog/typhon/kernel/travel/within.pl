@@ -9,8 +9,8 @@
 :- use_module('../wire', [endpoint_address/1, mobile_term/1]).
 :- use_module('../host',
               [ address_parts/3, event/4, event_subscribed/1, host/3,
-                host_passed/3, host_passes/4, host_plain/2, host_time/2,
-                schedule/2, schedule_stays/2, time_now/1 ]).
+                host_hop/3, host_leave/1, host_passes/4, host_plain/2,
+                host_time/2, schedule/2, schedule_stays/2, time_now/1 ]).
 :- use_module('../agent',
               [ agent/5, agent_links/4, agent_mobile/6, agent_move/5,
                 agent_passes/6, agent_put/3, agent_relink/2, agent_runs/1,
@@ -152,7 +152,9 @@ move(Id, Here-Name, going(Module0, Hash, Life, Until, Since), Hole-Goals0,
     agent_move(Id, Name, Module, Life, Until),
     ready_if_stopped(Next, Id, Goals),
     seconds(Here, Name, Since, Seconds),
-    host_passed(Here, Name, Seconds).
+    host_hop(Here, out, Seconds),
+    host_hop(Name, in, Seconds),
+    host_leave(Here).                   % last: a host that stops waits for it
 
 next(running, Here-Name, Goals, Next) :-
     (   schedule_stays(Here, Name)

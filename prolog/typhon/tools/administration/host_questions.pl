@@ -14,7 +14,7 @@
               [check_name/2, check_option/2, check_options/2]).
 :- use_module('../../kernel/wire', [endpoint_reply/2]).
 :- use_module('../../kernel/host',
-              [ hop_times_flags/3, host/3, host_address/2, host_link/3,
+              [ host/3, host_address/2, host_hop_times/3, host_link/3,
                 host_listed/2, host_load/2, host_neighbours/2, host_option/2,
                 host_put/2, host_resolve/2, host_unknown/1, host_unlink/2,
                 parts_load/1, peer_may/3, place_offer/2, process_ask/6,
@@ -79,18 +79,8 @@ local_property(load(Load), Name) :-
     host_load(Name, Load).
 local_property(neighbours(Neighbours), Name) :-
     host_neighbours(Name, Neighbours).
-local_property(hop_time(Direction, Stats), Name) :-
-    Stats = stats(Count, Min, Mean, Max),
-    hop_times_flags(Name, Direction,
-                    flags(CountKey, MinKey, SumKey, MaxKey)),
-    get_flag(CountKey, Count),
-    (   Count =:= 0
-    ->  Min = 0.0, Mean = 0.0, Max = 0.0
-    ;   get_flag(MinKey, Min),
-        get_flag(SumKey, Sum),
-        get_flag(MaxKey, Max),
-        Mean is Sum/Count
-    ).
+local_property(hop_time(Direction, Times), Name) :-
+    host_hop_times(Name, Direction, Times).
 local_property(place(Place), Name) :-
     host(Name, _, Place).
 
