@@ -61,17 +61,18 @@ turn_engine(Agent, Start, Engine) :-
     ;   Engine = machine
     ).
 
-%   turn_run(+Engine, +Run, +Turn, +Start, -Outcome, -Goals0) is det.
+%   turn_run(+Engine, +Unit, +Turn, +Start, -Outcome, -Goals0) is det.
 %
-%   Run the agent to its next stop, from Goals0.  Run is that of unit/2, or
-%   `none`.  Outcome is that of machine_run/3, `held` if the agent was suspended
-%   in the middle of its goals, or over(Resource) if it passed a limit.
+%   Run the agent to its next stop, from Goals0.  Unit is unit(Run), where Run
+%   is that of unit/2, or `none`.  Outcome is that of machine_run/3, `held` if
+%   the agent was suspended in the middle of its goals, or over(Resource) if it
+%   passed a limit.
 
-turn_run(machine, Run, Turn, goals(Goals), Outcome, Goals) :-
+turn_run(machine, Unit, Turn, goals(Goals), Outcome, Goals) :-
     !,
-    (   Run == none
-    ->  bounded_run(Turn, Goals, Outcome)
-    ;   call(Run, typhon_turn:bounded_run(Turn, Goals, Outcome))
+    (   Unit = unit(Run)
+    ->  call(Run, typhon_turn:bounded_run(Turn, Goals, Outcome))
+    ;   bounded_run(Turn, Goals, Outcome)
     ).
 turn_run(Engine, _, Turn, Start, Outcome, Goals0) :-
     start_plain(Start, Plain),
@@ -249,7 +250,7 @@ perform(run_on(Host, Context, Goals), Id) :-
 
 turns(Start, Engine, Turn, Next) :-
     (   unit(Run, Whole)
-    ->  turn_run(Engine, Run, Turn, Start, Outcome, Goals0),
+    ->  turn_run(Engine, unit(Run), Turn, Start, Outcome, Goals0),
         arg(1, Turn, Id),
         call(Whole, Id, Outcome,
              typhon_turn:conclude(Outcome, Goals0, Turn, Next0), Next0)
