@@ -110,4 +110,4 @@ connected(Name, Port, Options, Goal) :-
 %   The one helper that is running.
 
 helper_pid(Pid) :-
-    typhon_nxt_link:running(_, Pid).
+    typhon_helper_requests:helper_pid(nxt(_), Pid).

@@ -14,8 +14,9 @@ interface of the layer, which is independent of hosts and agents.
        helper_ask(mqtt(alpha), _{do:connect, url:URL}, 5, Answer).
 
 Answer is ok(Reply), a dict or another JSON value, or a description of the
-error, see helper_ask/4; helper_call/5 raises errors.  Unsolicited messages of a helper, {"event": ...}, are
-passed to the hook typhon_helper_owner:handle_message(Name, Dict).  A restarted
+error, see helper_ask/4; helper_call/5 raises errors.  Unsolicited messages of a
+helper, {"event": ...}, are passed to the hook
+typhon_helper_owner:handle_message(Name, Dict).  A restarted
 helper first gets the requests of the hook typhon_helper_owner:again(Name,
 Request).  Names are ground terms chosen by the caller, one for each helper.
 */

@@ -309,8 +309,7 @@ create(Owner, Goal, Release, Alias) :-
     thread_send_message(Thread, crew_begin).
 
 work(Goal) :-
-    setup_call_cleanup(
-        true,
+    call_cleanup(
         catch(( thread_get_message(crew_begin),
                 ignore(Goal) ),
               Ball,

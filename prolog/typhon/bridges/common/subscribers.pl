@@ -190,11 +190,8 @@ subscribers_forget(Service, Host) :-
                  unsubscribe_events(Host) )).
 
 forget(Service, Host) :-
-    retract(subscribed(_, Agent, Service, Host, _, Key)),
-    !,
-    gap_forget(Service, Key, Agent),
-    forget(Service, Host).
-forget(_, _).
+    forall(retract(subscribed(_, Agent, Service, Host, _, Key)),
+           gap_forget(Service, Key, Agent)).
 
                 /*******************************
                 *    AGENTS THAT LEAVE OR END  *
@@ -232,21 +229,16 @@ agent_event(_, _, _) =>
     true.
 
 departs(Agent, Host) :-
-    retract(subscribed(Text, Agent, Service, Host, How, Key)),
-    !,
-    assertz(away(Agent, subscribed(Text, Agent, Service, Host, How, Key))),
-    unsubscribed(Service, Host, Key, Agent),
-    departs(Agent, Host).
-departs(_, _).
+    forall(retract(subscribed(Text, Agent, Service, Host, How, Key)),
+           ( assertz(away(Agent,
+                          subscribed(Text, Agent, Service, Host, How, Key))),
+             unsubscribed(Service, Host, Key, Agent) )).
 
 comes_back(Agent) :-
-    retract(away(Agent, Subscribed)),
-    !,
-    Subscribed = subscribed(_, _, Service, Host, _, Key),
-    assertz(Subscribed),
-    ignore(wanted(Service, Host, Key, true)),
-    comes_back(Agent).
-comes_back(_).
+    forall(retract(away(Agent, Subscribed)),
+           ( Subscribed = subscribed(_, _, Service, Host, _, Key),
+             assertz(Subscribed),
+             ignore(wanted(Service, Host, Key, true)) )).
 
 drop_subscriptions(Agent, Host) :-
     (   subscribed(_, Agent, _, Host, _, _)
@@ -255,11 +247,8 @@ drop_subscriptions(Agent, Host) :-
     ).
 
 unsubscribe_all(Agent, Host) :-
-    retract(subscribed(_, Agent, Service, Host, _, Key)),
-    !,
-    unsubscribed(Service, Host, Key, Agent),
-    unsubscribe_all(Agent, Host).
-unsubscribe_all(_, _).
+    forall(retract(subscribed(_, Agent, Service, Host, _, Key)),
+           unsubscribed(Service, Host, Key, Agent)).
 
 %   Remove agents that have departed and arrived elsewhere.  Each departure adds
 %   one agent and checks two, so the table stays small.

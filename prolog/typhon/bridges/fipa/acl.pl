@@ -157,24 +157,21 @@ must_be_acl(Acl) :-
                 *******************************/
 
 read_parameter(Key-Sexp, Parameter) :-
-    key_name(Key, Name),
-    kind(Name, Kind),
+    parameter(Key, _, Name, Kind),
     read_value(Kind, Sexp, Value),
     Parameter =.. [Name,Value].
 
-%   In Prolog the names of the standard have underscores in place of hyphens.
+%   parameter(+Written, -Key, -Name, -Kind): in Prolog the names of the standard
+%   have underscores in place of hyphens.
 
-key_name(Key, Name) :-
-    known(Key, Name0, _),
-    !,
-    Name = Name0.
-key_name(Key, Key).
-
-kind(Name, Kind) :-
-    known(_, Name, Kind0),
-    !,
-    Kind = Kind0.
-kind(_, text).
+parameter(Written, Key, Name, Kind) :-
+    (   known(Key, Name, Kind),
+        ( Written == Key ; Written == Name )
+    ->  true
+    ;   Key = Written,
+        Name = Written,
+        Kind = text
+    ).
 
 known(sender, sender, aid).
 known(receiver, receiver, aids).
@@ -245,21 +242,13 @@ parameter_sexps(Parameter, [Key, Sexp]) :-
     (   compound(Parameter),
         compound_name_arguments(Parameter, Written, [Value]),
         ground(Value),
-        key_name(Written, Name),
-        kind(Name, Kind),
+        parameter(Written, Name, _, Kind),
         value_sexp(Kind, Value, Sexp0),
-        known_key(Name, Name1),
-        sexp_word(Name1)
-    ->  atom_concat(:, Name1, Key),
+        sexp_word(Name)
+    ->  atom_concat(:, Name, Key),
         Sexp = Sexp0
     ;   type_error(fipa_parameter, Parameter)
     ).
-
-known_key(Name, Key) :-
-    known(Key0, Name, _),
-    !,
-    Key = Key0.
-known_key(Name, Name).
 
 value_sexp(aid, Aid, Sexp) :-
     aid_sexp(Aid, Sexp).

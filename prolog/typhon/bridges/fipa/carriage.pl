@@ -109,10 +109,8 @@ carriage_close(Host) :-
 
 carrier_run(Host, Address, Queue, Limits) :-
     Way = way(none),
-    setup_call_cleanup(
-        true,
-        carrier_loop(Host, Address, Queue, Limits, Way),
-        disconnect(Way)).
+    call_cleanup(carrier_loop(Host, Address, Queue, Limits, Way),
+                 disconnect(Way)).
 
 gone(Host, Address, Queue) :-
     with_mutex(typhon_fipa_carriage,

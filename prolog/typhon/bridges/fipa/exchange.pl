@@ -203,11 +203,10 @@ receive(Manager, Host, _, Acl), manager(Manager) =>
         answer(Host, Manager, Acl, Reply)
     ;   true
     ).
-receive(_, Host, Aid, Acl), Acl = acl(Performative, _),
-                            \+ performative(Performative) =>
+receive(Local, Host, _, Acl), Acl = acl(Performative, _),
+                              \+ performative(Performative) =>
     acl_reply(Acl, 'not-understood', ['unrecognised-value'(Performative)],
               Reply),
-    local_name(Host, Aid, Local),
     answer(Host, Local, Acl, Reply).
 receive(Local, Host, Aid, Acl) =>
     catch(to_agent(Local, Host, Acl), error(Formal, _),

@@ -90,7 +90,10 @@ manager_end(Host) :-
 
 done(Act, Manager, Host, Reply), arguments(Act, register, [Description]) =>
     described(Description, Manager, Name),
-    refuse_if(known(Manager, Host, Name), failure('already-registered')),
+    (   known(Manager, Host, Name)
+    ->  throw(fipa(failure('already-registered')))
+    ;   true
+    ),
     enter(Manager, Host, Name, Description),
     Reply = done.
 done(Act, Manager, Host, Reply), arguments(Act, modify, [Description]) =>
@@ -131,12 +134,6 @@ arguments(Act, Name, Arguments) :-
     compound_name_arguments(Act, Name, Arguments).
 arguments(Name, Name, []) :-
     atom(Name).
-
-refuse_if(Goal, Reason) :-
-    (   call(Goal)
-    ->  throw(fipa(Reason))
-    ;   true
-    ).
 
 %   A description belongs to the agent with the name in it.
 

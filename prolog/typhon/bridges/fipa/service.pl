@@ -211,14 +211,11 @@ answer(Request, Host, _, Out, KeepAlive) :-
     http_respond(Out, Code, KeepAlive).
 
 bad(time_limit_exceeded, 408).
-bad(error(Formal, _), Code) :-
-    bad_request(Formal, Code).
-
-bad_request(resource_error(http_body), 413) :- !.
-bad_request(resource_error(http_head), 413) :- !.
-bad_request(syntax_error(http_length), 411) :- !.
-bad_request(timeout_error(_, _), 408) :- !.
-bad_request(_, 400).
+bad(error(resource_error(http_body), _), 413) :- !.
+bad(error(resource_error(http_head), _), 413) :- !.
+bad(error(syntax_error(http_length), _), 411) :- !.
+bad(error(timeout_error(_, _), _), 408) :- !.
+bad(error(_, _), 400).
 
 %   Closing a connection with unread input resets it, and the client loses the
 %   answer.

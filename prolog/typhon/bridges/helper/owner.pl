@@ -1,7 +1,6 @@
 :- module(typhon_helper_owner,
           [ own/4,                      % +Me, +Message, +State0, -State
             own_state/2,                % +When, -State
-            request_line/2,             % +Request, -Line
             request_line/4,             % +Request, +Seconds, -Id, -Line
             said/3,                     % +Name, +Owner, +Dict
             answer_unwanted/1,          % +Id
@@ -131,7 +130,7 @@ begin_again(Me, Wait, State) :-
     begin(Me, Wait, State),
     Me = owner(Name, _, _, _, _),
     forall(( State = up(_, _, _), again(Name, Request) ),
-           ( request_line(Request, Line),
+           ( json_text(Request, Line),
              write_line(State, Line) )).
 
 %   Fail the open requests, and restart the process as its mode demands.
@@ -189,7 +188,7 @@ write_line(up(Process, _, _), Line) :-
 write_line(down(_, _, _), _).           % no caller waits
 
 stop(up(Process, _, _)) :-
-    request_line(_{do:quit}, Line),
+    json_text(_{do:quit}, Line),
     process_write(Process, Line),
     process_end(Process),
     process_release(Process).
@@ -209,19 +208,14 @@ prolog:message(typhon(helper_ended(Name, Status))) -->
     awaited/3,                  % Id, Caller, Owner: written, not yet answered
     complaint/2.                % Owner, Dict: an error without a request
 
-%!  request_line(+Request:dict, -Line:string) is det.
 %!  request_line(+Request:dict, +Seconds, -Id, -Line:string) is det.
 %
-%   Line is Request, which needs no answer; or Request with a new Id, and its
-%   time limit.
-
-request_line(Request, Line) :-
-    json_text(Request, Line).
+%   Line is Request with a new Id, and its time limit.
 
 request_line(Request0, Seconds, Id, Line) :-
     flag(typhon_helper_request, Id, Id+1),
     put_dict(_{id:Id, timeout:Seconds}, Request0, Request),
-    request_line(Request, Line).
+    json_text(Request, Line).
 
 %!  said(+Name, +Owner, +Dict) is det.
 %

@@ -34,7 +34,7 @@ process_kill_of/1.
 :- meta_predicate process_begin(+, +, +, 1, -).
 
 :- dynamic
-    running/2,                  % Owner: a server, Pid
+    process_pid/2,              % Owner: a server, Pid
     bridges/1.                  % Directory
 
 :- module_property(typhon_helper_process, file(Source)),
@@ -64,7 +64,7 @@ helper_file(Relative, File) :-
 process_begin(command(Program, Args), Owner, Role, Heard,
               process(In, Reader)) :-
     start(Program, Args, In, Out, Pid),
-    with_mutex(typhon_helper_pid, assertz(running(Owner, Pid))),
+    with_mutex(typhon_helper_pid, assertz(process_pid(Owner, Pid))),
     flag(typhon_helper_reader, N, N+1),
     atomic_list_concat([typhon, Role, reader, N], '_', ReaderAlias),
     thread_create(follow(Owner, Pid, Out, Heard), Reader,
@@ -117,10 +117,7 @@ process_release(process(In, Reader)) :-
 
 process_kill_of(Owner) :-
     with_mutex(typhon_helper_pid,
-               forall(running(Owner, Pid), kill(Pid))).
-
-process_pid(Owner, Pid) :-
-    running(Owner, Pid).
+               forall(process_pid(Owner, Pid), kill(Pid))).
 
 kill(Pid) :-
     catch(process_kill(Pid, kill), error(_, _), true).
@@ -175,7 +172,7 @@ ended(Owner, Pid, Status) :-
     catch(process_wait(Pid, Status, [timeout(0)]), error(_, _),
           Status = unknown),
     Status \== timeout,
-    retractall(running(Owner, Pid)).
+    retractall(process_pid(Owner, Pid)).
 
                 /*******************************
                 *            PYTHON            *

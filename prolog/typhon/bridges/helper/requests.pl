@@ -10,12 +10,12 @@
           ]).
 :- use_module(library(error), [existence_error/2, permission_error/3]).
 :- use_module(library(option), [option/3]).
+:- use_module('../../kernel/base/json', [json_text/2]).
 :- use_module('../../kernel/base/own_thread', [in_own_thread/1]).
 :- use_module('../../kernel/base/server',
               [server_call/4, server_cast/2, server_start/4, server_stop/1]).
 :- use_module(owner,
-              [ answer_unwanted/1, own/4, own_state/2, request_line/2,
-                request_line/4 ]).
+              [answer_unwanted/1, own/4, own_state/2, request_line/4]).
 :- use_module(process, [process_kill_of/1, process_pid/2]).
 
 /** <module> Requests to helpers, and their answers
@@ -146,7 +146,7 @@ ask(Name, Owner, Request, Seconds, Answer) :-
 
 helper_send(Name, Request) :-
     find_helper(Name, Owner, Lines),
-    request_line(Request, Line),
+    json_text(Request, Line),
     catch(thread_send_message(Lines, Line),
           error(existence_error(_, _), _),
           existence_error(helper, Name)),
@@ -154,7 +154,7 @@ helper_send(Name, Request) :-
 
 helper_note(Name, Request) :-
     find_helper(Name, Owner, _),
-    request_line(Request, Line),
+    json_text(Request, Line),
     pass(Name, Owner, note(Line)).
 
 pass(Name, Owner, Message) :-
@@ -228,4 +228,3 @@ prolog:error_message(helper_died(Status, Name)) -->
     [ 'The helper ~p ended: ~p'-[Name, Status] ].
 prolog:error_message(helper_error(Kind, Name)) -->
     [ 'The helper ~p reports ~w'-[Name, Kind] ].
-

@@ -270,10 +270,6 @@ login(Data, Login) :-
         )
     ).
 
-                /*******************************
-                *           MESSAGES           *
-                *******************************/
-
 prolog:message(typhon(mqtt_down(Host))) -->
     [ 'MQTT on ~w: the connection to the broker is lost'-[Host] ].
 prolog:message(typhon(mqtt_up(Host))) -->

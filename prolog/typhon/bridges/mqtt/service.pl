@@ -156,7 +156,6 @@ mqtt_default(Host, Option, Default) :-
                 *******************************/
 
 %   mqtt_ask(+Host, +Request, +Seconds) is det.
-%   mqtt_note(+Host, +Request) is det.
 %
 %   @error mqtt_error(Problem, Host), where Problem is unreachable, refused, tls
 %   or failed; timeout_error(mqtt(What), Host), and the errors of helper_call/5
@@ -206,9 +205,6 @@ fits(Host, Message) :-
     string_length(Text, Length),
     mqtt_default(Host, largest(Largest), 4194304),
     Length*4 =< Largest.
-
-mqtt_note(Host, Request) :-
-    helper_note(mqtt(Host), Request).
 
 typhon_helper_owner:again(mqtt(Host), Request) :-
     connection_gone(Host),
@@ -343,14 +339,10 @@ kind(bytes).
 
 typhon_subscribers:wanted(mqtt, Host, mqtt(Filter, Kind), Wanted) :-
     wanted_request(Wanted, Do, More),
-    mqtt_note(Host, More.put(_{do:Do, filter:Filter, kind:Kind})).
+    helper_note(mqtt(Host), More.put(_{do:Do, filter:Filter, kind:Kind})).
 
 wanted_request(true, subscribe, _{qos:2}).
 wanted_request(false, unsubscribe, _{}).
-
-                /*******************************
-                *           MESSAGES           *
-                *******************************/
 
 prolog:error_message(mqtt_error(Problem, Host)) -->
     { problem(Problem, Text) },

@@ -16,14 +16,14 @@
             nxt_message_write/3,        % +Brick, +Inbox, +Text
             nxt_message_read/4          % +Brick, +Inbox, +Remove, -Text
           ]).
+:- use_module(library(crypto), [hex_bytes/2]).
 :- use_module(library(error), [must_be/2]).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(option), [option/3]).
 :- use_module('../../kernel/base/options', [check_options/2]).
 :- use_module(link,
-              [ bytes_hex/2, hex_bytes/2, link_brick/2, link_close/1,
-                link_open/3, link_option/2, link_request/4, link_request/5,
-                nxt_text/2 ]).
+              [ link_brick/2, link_close/1, link_open/3, link_option/2,
+                link_request/4, link_request/5, nxt_text/2 ]).
 
 /** <module> A brick: connection, battery, name, sounds, display, mailboxes
 
@@ -247,7 +247,7 @@ nxt_clear(Brick) :-
 nxt_message_write(Brick, Inbox, Text) :-
     must_be(between(0, 19), Inbox),
     format(codes(Codes), '~w', [Text]),
-    bytes_hex(Codes, Hex),
+    hex_bytes(Hex, Codes),
     nxt_command(Brick, 'MESSAGEWRITE', _{inbox:Inbox, message:Hex}, _).
 
 %!  nxt_message_read(+Brick, +Inbox, +Remove:boolean, -Text:atom) is semidet.

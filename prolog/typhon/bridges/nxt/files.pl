@@ -10,11 +10,12 @@
             nxt_program_stop/1,         % +Brick
             nxt_program/2               % +Brick, -File
           ]).
+:- use_module(library(crypto), [hex_bytes/2]).
 :- use_module(library(error), [must_be/2]).
 :- use_module(library(lists), [append/3]).
 :- use_module(library(readutil), [read_file_to_codes/3]).
 :- use_module(brick, [nxt_command/4]).
-:- use_module(link, [bytes_hex/2, hex_bytes/2, nxt_text/2]).
+:- use_module(link, [nxt_text/2]).
 
 /** <module> Files and programs of a brick
 
@@ -125,7 +126,7 @@ write_pieces(Bytes, Left, Brick, Handle) :-
     Size is min(Piece, Left),
     length(Part, Size),
     append(Part, Rest, Bytes),
-    bytes_hex(Part, Hex),
+    hex_bytes(Hex, Part),
     nxt_command(Brick, 'WRITE', _{handle:Handle, data:Hex}, _),
     Left1 is Left-Size,
     write_pieces(Rest, Left1, Brick, Handle).

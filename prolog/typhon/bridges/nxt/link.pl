@@ -10,8 +10,6 @@
             link_value/4,               % +Brick, +Key, +Default, -Value
             link_unset/2,               % +Brick, ?Key
             nxt_python/2,               % +Options, -Program
-            bytes_hex/2,                % +Bytes, -Hex
-            hex_bytes/2,                % +Hex, -Bytes
             nxt_text/2                  % +Length, +Text
           ]).
 :- use_module(library(apply), [maplist/3]).
@@ -21,10 +19,9 @@
 :- use_module(library(lists), [member/2]).
 :- use_module(library(option), [option/2, option/3]).
 :- use_module(library(settings), [setting/2, setting/4]).
-:- use_module(library(sha), [hash_atom/2]).
 :- use_module('../helper',
               [ helper_call/5, helper_close/1, helper_file/2, helper_open/3,
-                helper_pid/2, helper_python/2 ]).
+                helper_python/2 ]).
 
 /** <module> Requests to bricks, and their answers
 
@@ -163,40 +160,9 @@ nxt_command_line(Port, Options,
     helper_file('nxt/bridge.py', File),
     option(baudrate(Baud), Options, 115200).
 
-%   running(?Brick, ?Pid): for queries from the top level.
-
-:- public running/2.
-
-running(Brick, Pid) :-
-    helper_pid(nxt(Brick), Pid).
-
                 /*******************************
-                *         BYTES, NAMES         *
+                *             NAMES            *
                 *******************************/
-
-%!  bytes_hex(+Bytes:list, -Hex:atom) is det.
-%!  hex_bytes(+Hex:atom, -Bytes:list) is det.
-%
-%   Hex are the two hexadecimal digits of each byte.
-
-bytes_hex(Bytes, Hex) :-
-    must_be(list(between(0, 255)), Bytes),
-    hash_atom(Bytes, Hex).
-
-hex_bytes(Hex, Bytes) :-
-    atom_codes(Hex, Codes),
-    phrase(bytes(Bytes), Codes).
-
-bytes([Byte|Bytes]) -->
-    [High,Low],
-    !,
-    { code_type(High, xdigit(H)),
-      code_type(Low, xdigit(L)),
-      Byte is H*16+L
-    },
-    bytes(Bytes).
-bytes([]) -->
-    [].
 
 %!  nxt_text(+Length:integer, +Text) is det.
 %
@@ -307,10 +273,6 @@ link_value(Brick, Key, Default, Value) :-
 
 link_unset(Brick, Key) :-
     retractall(value(Brick, Key, _)).
-
-                /*******************************
-                *           MESSAGES           *
-                *******************************/
 
 prolog:error_message(existence_error(nxt_port, Port)) -->
     [ 'There is no port ~w'-[Port] ].

@@ -18,9 +18,10 @@
             nxt_i2c/5                   % +Brick, +Port, +Bytes, +Count,
                                         % -Answer
           ]).
+:- use_module(library(crypto), [hex_bytes/2]).
 :- use_module(library(error), [domain_error/2, must_be/2]).
 :- use_module(brick, [nxt_command/4]).
-:- use_module(link, [bytes_hex/2, hex_bytes/2, link_request/4]).
+:- use_module(link, [link_request/4]).
 
 /** <module> Sensors
 
@@ -169,7 +170,7 @@ nxt_gyro(Brick, Port, Value) :-
 nxt_i2c(Brick, Port, Bytes, Count, Answer) :-
     input(Port, Input),
     must_be(between(0, 15), Count),
-    bytes_hex(Bytes, Hex),
+    hex_bytes(Hex, Bytes),
     link_request(Brick, i2c,
                  _{do:i2c, port:Input, data:Hex, rx:Count}, Reply),
     hex_bytes(Reply.data, Answer).

@@ -108,7 +108,7 @@ way_state(Host, Where, Connected) :-
     ).
 
 connected(node, Host) :-
-    node_up(Host).
+    helper_pid(ros(Host), _).
 connected(server, Host) :-
     rosbridge_up(Host).
 
@@ -139,44 +139,32 @@ send_frame(server, Host, Frame, Seconds) :-
 way_note(Host, Op) :-
     op_frame(Op, Frame),
     debug(typhon(ros), '~w notes ~p', [Host, Op]),
-    catch(note(Host, Frame), error(Formal, _),
+    catch(( host_way(Host, Kind, _), note(Kind, Host, Frame) ),
+          error(Formal, _),
           debug(typhon(ros), '~w has not sent ~p: ~p', [Host, Op, Formal])).
 
-note(Host, Frame) :-
-    host_way(Host, Kind, _),
-    note(Kind, Host, Frame).
-
 note(node, Host, Frame) :-
-    node_note(Host, Frame).
+    helper_note(ros(Host), _{do:frame, frame:Frame}).
 note(server, Host, Frame) :-
     rosbridge_send(Host, Frame, 0).
-
-%!  way_await(+Host, +Id, +Op, +Seconds, -Answer) is det.
-%
-%   Send Op, and wait for the answer to Id, see answer_await/5.
-
-way_await(Host, Id, Op, Seconds, Answer) :-
-    answer_await(Host, Id, way_send(Host, Op), Seconds, Answer).
 
                 /*******************************
                 *           ANSWERS            *
                 *******************************/
 
-:- meta_predicate answer_await(+, +, 0, +, -).
-
 :- dynamic
     awaited/3.                  % Id, Host, Queue
 
-%   answer_await(+Host, +Id, :Ask, +Seconds, -Answer) is det.
+%!  way_await(+Host, +Id, +Op, +Seconds, -Answer) is det.
 %
-%   Run Ask once, and wait for the answer that another thread passes to
-%   answer_come/2. Answer is that answer, lost(Why), or `timeout`.
+%   Send Op, and wait for the answer to Id that another thread passes to
+%   answer_come/2.  Answer is that answer, lost(Why), or `timeout`.
 
-answer_await(Host, Id, Ask, Seconds, Answer) :-
+way_await(Host, Id, Op, Seconds, Answer) :-
     setup_call_cleanup(
         ( message_queue_create(Queue),
           assertz(awaited(Id, Host, Queue)) ),
-        ( once(Ask),
+        ( way_send(Host, Op),
           wait(Queue, Seconds, Answer) ),
         ( retractall(awaited(Id, _, _)),
           message_queue_destroy(Queue) )).
@@ -314,16 +302,6 @@ formal("wrong_value", Dict, type_error(ros_field(Field, Type), Value)) :-
 name(Key, Dict, Atom) :-
     get_dict(Key, Dict, Text),
     atom_string(Atom, Text).
-
-%   node_up(+Host) is semidet.
-
-node_up(Host) :-
-    helper_pid(ros(Host), _).
-
-%   node_note(+Host, +Frame:dict) is det.
-
-node_note(Host, Frame) :-
-    helper_note(ros(Host), _{do:frame, frame:Frame}).
 
 prolog:error_message(existence_error(ros_python, File)) -->
     [ 'There is no Python with rclpy at ~w (run make tools-ros to \c

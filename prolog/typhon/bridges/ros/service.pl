@@ -153,8 +153,7 @@ ros_subscribe(Topic0, Type, Options) :-
 topic_type(Topic, Type, Atom) :-
     nonvar(Type),
     !,
-    ros_type(msg, Type, Atom),
-    ros_name(topic, Topic, _).
+    ros_type(msg, Type, Atom).
 topic_type(Topic, Type, Type) :-
     ros_topics(Pairs),
     (   memberchk(Topic-Type0, Pairs)
@@ -196,10 +195,6 @@ ros_services(Services) :-
     call_json(Host, '/rosapi/services', 'rosapi_msgs/srv/Services', _{},
               JSON),
     maplist(atom_string, Services, JSON.services).
-
-                /*******************************
-                *           MESSAGES           *
-                *******************************/
 
 prolog:message(typhon(ros_lost(Host, Why))) -->
     [ '~w has lost ROS (~p), and tries to reconnect'-[Host, Why] ].

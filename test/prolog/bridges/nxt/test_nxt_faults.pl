@@ -268,7 +268,8 @@ test(prolog_dies) :-
 prolog_dies(Brick, Port) :-
     format(atom(Goal),
            'nxt_connect(b,~q),nxt_run(b,a,50),\c
-            typhon_nxt_link:running(_,P),print(P),nl,thread_get_message(x)',
+            typhon_helper_requests:helper_pid(nxt(_),P),\c
+            print(P),nl,thread_get_message(x)',
            [Port]),
     project_file('prolog/typhon/nxt.pl', File),
     with_swipl(['-q', '-g', Goal, File], Pid, _, Out,
