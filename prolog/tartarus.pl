@@ -69,10 +69,6 @@ names.
               save_agent/2 as agent_save,
               save_tartarus_state/1 as save_platform_state ]).
 
-                /*******************************
-                *    consult('platform.pl')    *
-                *******************************/
-
 %   Programs consult the file of the platform under some path.  If there is no
 %   such file, this library is loaded in its place.
 

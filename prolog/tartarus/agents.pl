@@ -184,10 +184,6 @@ static_agent(Name, Location, Handler, Tokens) :-
     record_static(Name, Key),
     verbosely("Agent with name ~w created~n", [Name]).
 
-                /*******************************
-                *            EXECUTE           *
-                *******************************/
-
 %!  execute_agent(+Name, +Location, +Handler) is det.
 %!  execute_agent(+Name, +Location, +Handler, +Start) is det.
 %!  agent_execute(+Name, +Location, +Handler, +Start) is det.
@@ -332,10 +328,6 @@ matches(Location, Location) :-
 matches(Location, Own) :-
     ground(Location),
     same_location(Location, Own).
-
-                /*******************************
-                *             NAMES            *
-                *******************************/
 
 %!  get_new_name(+Base, -Name) is det.
 %!  get_new_name_alpha(-Name) is det.

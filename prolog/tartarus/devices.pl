@@ -61,10 +61,6 @@ switch(Fact) :-
     retractall(Old),
     assertz(Fact).
 
-                /*******************************
-                *            PYTHON            *
-                *******************************/
-
 %!  python_call(+File, +Function, +Argument, -Result:atom) is semidet.
 %!  python_call(+File, +Function, -Result:atom) is semidet.
 %
@@ -108,10 +104,6 @@ in_python(Goal) :-
                       [relative_to(Dir)]),
    retractall(bridge(_)),
    assertz(bridge(File)).
-
-                /*******************************
-                *        WHAT IS MISSING       *
-                *******************************/
 
 %!  pinMode(+Pin, +Mode).
 %!  digitalWrite(+Pin, +Value).

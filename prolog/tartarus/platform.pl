@@ -228,10 +228,6 @@ closing :-
     forall(retract(asserted(Ref)),
            catch(erase(Ref), error(existence_error(_, _), _), true)).
 
-                /*******************************
-                *           LOCATIONS          *
-                *******************************/
-
 %!  here(-Location) is semidet.
 %
 %   Location, (Ip,Port), is that of the platform of this process.

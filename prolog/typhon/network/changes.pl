@@ -174,9 +174,5 @@ interrupt(Dynamics) :-
     ;   true
     ).
 
-                /*******************************
-                *           MESSAGES           *
-                *******************************/
-
 prolog:message(typhon(link_not_changed(Change))) -->
     [ 'The links of the network could not be changed: ~p'-[Change] ].

@@ -216,10 +216,6 @@ line(Line, Tag, OnEvent) :-
     ;   output_line(Tag, Line)
     ).
 
-                /*******************************
-                *            ENDING            *
-                *******************************/
-
 %!  child_close(+Child) is det.
 %
 %   Order the child to stop: close its standard input.
@@ -260,10 +256,6 @@ child_release(child(_, _, Thread)) :-
     ->  true
     ;   print_message(warning, typhon(child_thread(Status)))
     ).
-
-                /*******************************
-                *           MESSAGES           *
-                *******************************/
 
 prolog:message(typhon(child_thread(Status))) -->
     [ 'The thread that followed a process ended with ~p'-[Status] ].

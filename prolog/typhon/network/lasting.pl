@@ -268,10 +268,6 @@ kept_note(Plan0, Clock, How) :-
     journal_record_put(Where, Text).
 kept_note(_, _, _).
 
-                /*******************************
-                *           MESSAGES           *
-                *******************************/
-
 prolog:error_message(journal_of_another(Place, Was, Is)) -->
     [ 'The journal ~p is that of another network: '-[Place] ],
     differs(Was, Is),

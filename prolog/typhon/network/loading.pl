@@ -202,10 +202,6 @@ resume_process(Network, P, Kind, Terms) :-
     findall(Id, member(P:item(stands, Id, _, _), Terms), Agents),
     node_order(Network, P, goes_on(Kind, Time, Agents), ok).
 
-                /*******************************
-                *           MESSAGES           *
-                *******************************/
-
 prolog:error_message(permission_error(load, virtual_time, Network)) -->
     [ 'This process has virtual time already: ~w cannot begin in it'-
       [Network] ].

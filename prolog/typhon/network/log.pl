@@ -142,10 +142,6 @@ server_name(Address, Name) :-
     ;   Name = Address
     ).
 
-                /*******************************
-                *            EVENTS            *
-                *******************************/
-
 typhon_endpoint:received(log, event(Log, Host, Agent, What), _) :-
     server_name(Log, Name),
     with_mutex(typhon_log, stamp(Name, Host, Agent, What)).
@@ -162,10 +158,6 @@ stamp(Name, _, _, _) :-
 stamp(Name, Host, _, _) :-
     assertz(missing(Name)),
     print_message(warning, typhon(no_log_server(Name, Host))).
-
-                /*******************************
-                *           MESSAGES           *
-                *******************************/
 
 prolog:message(typhon(no_log_server(Name, Host))) -->
     [ 'There is no log server ~w here: events of ~w are lost'-[Name, Host] ].
@@ -279,10 +271,6 @@ finish(open(Stream, Unsure), File) :-
     ).
 finish(lost(Count, _), File) :-
     print_message(error, typhon(log_lost(File, Count))).
-
-                /*******************************
-                *           MESSAGES           *
-                *******************************/
 
 prolog:message(typhon(log_not_written(File, Error))) -->
     [ 'The log ~w cannot be written: '-[File] ],

@@ -140,10 +140,6 @@ line_event(Line, Event) :-
     nonvar(Event),
     Event = event(_, _, _, _).
 
-                /*******************************
-                *           MESSAGES           *
-                *******************************/
-
 prolog:message(typhon(log_line_skipped(File:Number, Line))) -->
     { ( sub_string(Line, 0, 60, _, Start) -> true ; Start = Line ) },
     [ '~w:~d: not an event, or cut short: ~s'-[File, Number, Start] ].

@@ -129,10 +129,6 @@ network_change(Network, Change0) :-
     plan_change(Costs, Change0, Change),
     wire_change(Network, Change).
 
-                /*******************************
-                *             STOP             *
-                *******************************/
-
 %!  networks_stop(+Network) is det.
 %
 %   See network_stop/1.
@@ -257,10 +253,6 @@ property(log(File), Network) :-
 property(seed(Seed), Network) :-
     network(Network, Plan),
     plan_option(Plan, seed(Seed)).
-
-                /*******************************
-                *           MESSAGES           *
-                *******************************/
 
 prolog:message(typhon(network_step(Goal))) -->
     [ 'Ending the network: ~p failed'-[Goal] ].

@@ -246,16 +246,8 @@ take(P-Result, Ps, Rest, [P-Result|Others], Others) :-
     !.
 take(_, Ps, Ps, Others, Others).
 
-                /*******************************
-                *           MESSAGES           *
-                *******************************/
-
 prolog:error_message(existence_error(carrier, Network-P)) -->
     [ 'Process ~w of ~w is not running'-[P, Network] ].
-
-                /*******************************
-                *          DEADLINES           *
-                *******************************/
 
 %!  deadline(+Seconds, -Deadline) is det.
 %

@@ -336,10 +336,6 @@ remains(Network, P) :-
     child(Network, P, _),
     \+ node_gone(Network, P).
 
-                /*******************************
-                *           MESSAGES           *
-                *******************************/
-
 prolog:message(typhon(node_down(Network, Pid, Status, Hosts, Agents))) -->
     [ 'Process ~w of ~w ended: ~p'-[Pid, Network, Status] ],
     gone_with_it('its hosts', Hosts),

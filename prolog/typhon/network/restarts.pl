@@ -227,10 +227,6 @@ not_restored(Ball) :-
     print_error(error, Ball),
     fail.
 
-                /*******************************
-                *            ABSENCE           *
-                *******************************/
-
 %!  restarts_absent(+Network, +P) is det.
 %
 %   P has died: record it as absent, if the processes of Network are restarted.
@@ -251,10 +247,6 @@ restarts_back(Network) :-
     setting(typhon_processes:order_seconds, Seconds),
     ignore(thread_wait(\+ absent(Network, _),
                        [ timeout(Seconds), wait_preds([absent/2]) ])).
-
-                /*******************************
-                *           MESSAGES           *
-                *******************************/
 
 prolog:message(typhon(node_given_up(Network, P, Most, Seconds))) -->
     [ 'Process ~w of ~w is not started again: it has died ~D times within \c

@@ -337,10 +337,6 @@ before_end(Bytes, End, Body) :-
 damaged(File, Why) :-
     throw(error(network_damaged(File, Why), _)).
 
-                /*******************************
-                *           MESSAGES           *
-                *******************************/
-
 prolog:error_message(timeout_error(save, Network)) -->
     [ '~w has not come to rest in time, and is not saved'-[Network] ].
 prolog:error_message(permission_error(save, network, Network)) -->

@@ -105,10 +105,6 @@ rights(Rights) :-
     is_list(Rights),
     forall(member(Right, Rights), ( ground(Right), right(Right) )).
 
-                /*******************************
-                *             AUDIT            *
-                *******************************/
-
 %   note(+File, +Host, +Peer, +Proof, +What): Proof is how Peer has proved its
 %   identity; What is that of security_event/3.
 

@@ -258,10 +258,6 @@ retire(Hash) :-
     retractall(variant(Hash, _, _)),
     forall(member(Module, Modules), assertz(retired(Module))).
 
-                /*******************************
-                *           CHECKING           *
-                *******************************/
-
 typhon_check:objection(Options, program(Rules, Libraries), Objection) :-
     option(policy(Policy), Options),
     Policy \== trusted,

@@ -61,10 +61,6 @@ typhon_time:repeats(virtual, 'v.').
 
 typhon_time:clock(virtual, typhon_virtual_loop:virtual_now).
 
-                /*******************************
-                *         START AND STOP       *
-                *******************************/
-
 %   Time begins at 0.0 and stands still.  Stopping also works while time is
 %   held: queued work is discarded, and a running goal is interrupted.
 
@@ -231,10 +227,6 @@ report_work :-
         print_message(warning, typhon(virtual_stuck(Work, Now)))
     ;   true
     ).
-
-                /*******************************
-                *           MESSAGES           *
-                *******************************/
 
 prolog:message(typhon(virtual_stuck(Work, Now))) -->
     [ 'Virtual time stands still at ~3f: this does not end: ~p'-[Now, Work] ].

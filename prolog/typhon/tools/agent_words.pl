@@ -172,18 +172,10 @@ option_colours(Kind, Options, Colours) :-
     ;   Colours = type_error(option)
     ).
 
-                /*******************************
-                *        PROLOG'S MANUAL       *
-                *******************************/
-
 %   part(?What, ?Module): Module of Prolog's manual implements What.
 
 part(help, prolog_help).
 part(comments, pldoc_process).
-
-                /*******************************
-                *             HELP             *
-                *******************************/
 
 %!  help_shown(+HTML) is semidet.
 %

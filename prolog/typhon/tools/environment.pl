@@ -74,10 +74,6 @@ user:expand_query(Query, _, _, _) :-
 prolog:error_message(existence_error(procedure, Spec)) -->
     word_lines(Spec).
 
-                /*******************************
-                *             HELP             *
-                *******************************/
-
 :- multifile
     prolog:message//1,
     prolog_help:show_html_hook/1,
@@ -94,10 +90,6 @@ user:message_hook(help(Told), _, _) :-
 
 prolog:message(help(typhon(Pairs, Count))) -->
     '$messages':translate_message(help(apropos_matches(Pairs, Count))).
-
-                /*******************************
-                *            EDITORS           *
-                *******************************/
 
 :- multifile
     prolog_colour:directive_colours/2,

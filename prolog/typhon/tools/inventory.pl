@@ -264,10 +264,6 @@ parts([Text]) -->
     string_without(`0123456789`, Codes),
     { atom_codes(Text, Codes) }.
 
-                /*******************************
-                *           ONE HOST           *
-                *******************************/
-
 %   Longer lists and texts would not be readable.
 
 most(tuples, 300).

@@ -335,10 +335,6 @@ named(Name, Shown) :-
     abridged(Name, 200, Text),
     ( is_printable(Text) -> Shown = Text ; Shown = 'a name that cannot be shown' ).
 
-                /*******************************
-                *          NEAR NAMES          *
-                *******************************/
-
 meant(Kind, Name) -->
     { names(Kind, Names),
       names_proposed(Name, Names, Text)

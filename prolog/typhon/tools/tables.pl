@@ -27,10 +27,6 @@ it is made are left out.
 
 longest_table(60).
 
-                /*******************************
-                *             HOSTS            *
-                *******************************/
-
 %!  print_hosts(+Places) is det.
 %
 %   As hosts/0, but also for the processes at the addresses Places.
@@ -119,10 +115,6 @@ shown_id(short, All, Id, Name) :-
          agent_name(Other, Name, _) ),
     !.
 shown_id(_, _, Id, Id).
-
-                /*******************************
-                *          SUPERVISION         *
-                *******************************/
 
 %!  print_tree(+Places) is det.
 %

@@ -111,10 +111,6 @@ raised_by(Caller, Caller).              % it holds more than a predicate
 is_indicator(_:_).
 is_indicator(_/_).
 
-                /*******************************
-                *             HOOKS            *
-                *******************************/
-
 %   These clauses run before the hook of library(prolog_stack), which would add
 %   a backtrace.
 

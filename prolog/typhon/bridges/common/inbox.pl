@@ -167,10 +167,6 @@ ends_stay(left(_)).
 ends_stay(ended(_)).
 ends_stay(faulty(_)).
 
-                /*******************************
-                *             FACTS            *
-                *******************************/
-
 leave(Host, Place, Fact) :-
     tuple_leave(Place, Fact),
     event(facts, Host, none, leave(Fact)).

@@ -281,10 +281,6 @@ typhon_routing:returned(fipa(_), Id, Acl) :-
     acl_parameter(Acl, sender(Sender)),
     fail_to_sender(Host, Sender, Aid, Acl, "no such agent").
 
-                /*******************************
-                *           FAILURES           *
-                *******************************/
-
 %   A failure is never answered with a failure: two platforms would loop.
 
 fail_to(Host, Local, To, Acl, Why) :-

@@ -242,10 +242,6 @@ skip_body(Fields, In) :-
     ).
 skip_body(_, _).
 
-                /*******************************
-                *             TIME             *
-                *******************************/
-
 %!  within(+Seconds, :Goal) is semidet.
 %
 %   Call once(Goal), for at most Seconds.

@@ -109,10 +109,6 @@ decoded(Encoding, Bytes, Text) :-
 decoded(_, _, _) :-
     syntax_error(fipa_encoding).
 
-                /*******************************
-                *          ENVELOPES           *
-                *******************************/
-
 %   An envelope has at most max_envelope characters, a number in it max_digits
 %   digits.
 

@@ -95,10 +95,6 @@ platform_counts(Host, Counts) :-
               Count =.. [What,N] ),
             Counts).
 
-                /*******************************
-                *           ADDRESSES          *
-                *******************************/
-
 %!  platform_met(+Name, +Addresses:list) is det.
 %!  platform_way(+Aid, -Addresses:list) is det.
 %

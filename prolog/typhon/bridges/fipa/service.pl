@@ -131,10 +131,6 @@ property(Count, Host, _, _) :-
     platform_counts(Host, Counts),
     member(Count, Counts).
 
-                /*******************************
-                *             BRIDGE           *
-                *******************************/
-
 %   The message goes through the platform of the host, else through that of the
 %   receiver, else through any platform of this process.
 

@@ -204,10 +204,6 @@ plain(Code) :-
     Code < 0x7f,
     \+ memberchk(Code, `()"`).
 
-                /*******************************
-                *             TIMES            *
-                *******************************/
-
 %!  utc_text(+Stamp, -Text:atom) is det.
 %!  utc_text(-Stamp, +Text) is semidet.
 %

@@ -282,10 +282,6 @@ answer_died(Answer0, Answer) :-
     ),
     answer_all(Answer).
 
-                /*******************************
-                *            VALUES            *
-                *******************************/
-
 %!  json_value(+Term) is det.
 %
 %   Term can be written as JSON.

@@ -175,10 +175,6 @@ nxt_keep_alive(Brick, Seconds) :-
     nxt_command(Brick, 'KEEPALIVE', _{}, Values),
     Seconds is Values.sleep_time/1000.
 
-                /*******************************
-                *            SOUNDS            *
-                *******************************/
-
 %!  nxt_tone(+Brick, +Hertz, +MilliSeconds) is det.
 %
 %   Begin a tone of 200 to 14000 Hz.
@@ -205,10 +201,6 @@ nxt_sound_file(Brick, File, Loop) :-
 nxt_sound_stop(Brick) :-
     nxt_command(Brick, 'STOPSOUNDPLAYBACK', _{}, _).
 
-                /*******************************
-                *            DISPLAY           *
-                *******************************/
-
 %!  nxt_write(+Brick, +Column, +Row, +Text) is det.
 %
 %   Write on the display, which has rows 0 to 7 of columns 0 to 15.  Text beyond
@@ -233,10 +225,6 @@ nxt_write(Brick, Column, Row, Text0) :-
 nxt_clear(Brick) :-
     must_be(atom, Brick),
     link_request(Brick, clear, _{do:clear}, 10, _). % 16 telegrams
-
-                /*******************************
-                *           MAILBOXES          *
-                *******************************/
 
 %!  nxt_message_write(+Brick, +Inbox, +Text) is det.
 %

@@ -157,10 +157,6 @@ nxt_download(Brick, File, Local) :-
         format(Out, '~s', [Bytes]),
         close(Out)).
 
-                /*******************************
-                *           PROGRAMS           *
-                *******************************/
-
 %!  nxt_program_start(+Brick, +File) is det.
 %
 %   Start a program, such as 'demo.rxe'.

@@ -160,10 +160,6 @@ nxt_command_line(Port, Options,
     helper_file('nxt/bridge.py', File),
     option(baudrate(Baud), Options, 115200).
 
-                /*******************************
-                *             NAMES            *
-                *******************************/
-
 %!  nxt_text(+Length:integer, +Text) is det.
 %
 %   Text is an atom of 1 to Length ASCII characters.

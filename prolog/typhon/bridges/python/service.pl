@@ -120,10 +120,6 @@ typhon_starting:ends(python, Host) :-
     retractall(started(Host, _)),
     retractall(loaded(Host, _, _)).
 
-                /*******************************
-                *     MESSAGES FROM PYTHON     *
-                *******************************/
-
 typhon_helper_owner:handle_message(python(Host), Dict) :-
     get_dict(event, Dict, Event),
     handle_event(Event, Host, Dict).
@@ -140,10 +136,6 @@ handle_event("leave", Host, Dict) :-
     started(Host, Options),
     option(queue(Max), Options, 1000),
     inbox_put(how(fact, Max), python-facts, Host-none, Fact-_).
-
-                /*******************************
-                *           PAYLOADS           *
-                *******************************/
 
 typhon_starting:delivers(Host, Name, Source) :-
     with_mutex(typhon_python, begun(Host)),

@@ -259,10 +259,6 @@ of_type(Type, Value) :-
     value_type(Value, Type),
     !.
 
-                /*******************************
-                *           ACTIONS            *
-                *******************************/
-
 %!  ros_goal(+Action, +Type, +Goal, -Id:atom) is det.
 %
 %   Send Goal to an action server, and do not wait for the result.  The agent

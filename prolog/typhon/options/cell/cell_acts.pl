@@ -78,10 +78,6 @@ cell_fault(note(How, fault(Goal, Goals, natives(Raising, []))), Outcome,
     !.
 cell_fault(_, _, none).
 
-                /*******************************
-                *            CHANGES           *
-                *******************************/
-
 %!  cell_changes_made(+Changes, +Host, +Module) is semidet.
 %
 %   Replace the clauses of predicates of the state.  Changes is a list of

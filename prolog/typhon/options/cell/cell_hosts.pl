@@ -124,10 +124,6 @@ warn(Host, Why) :-
         print_message(warning, typhon(no_cells(Host, Why)))
     ).
 
-                /*******************************
-                *           MESSAGES           *
-                *******************************/
-
 prolog:message(typhon(no_cells(Host, Why))) -->
     [ 'Untrusted agents on ~w run in the process of the host, since ~w'-
           [Host, Why], nl,

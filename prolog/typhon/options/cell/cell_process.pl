@@ -152,10 +152,6 @@ source(Name, Path) :-
     file_directory_name(File, Directory),
     directory_file_path(Directory, Name, Path).
 
-                /*******************************
-                *            FILTER            *
-                *******************************/
-
 %   The filter is compiled once.  cell.sh opens its file as the user of this
 %   process.
 
@@ -196,10 +192,6 @@ must_have(Command, How) :-
 cell_filter_forget :-
     forall(retract(filter(File)),
            catch(delete_file(File), error(existence_error(_, _), _), true)).
-
-                /*******************************
-                *           MESSAGES           *
-                *******************************/
 
 prolog:error_message(cell_unavailable(Cause)) -->
     [ 'No cell can be started: ~w'-[Cause], nl,

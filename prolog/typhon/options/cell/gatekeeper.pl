@@ -372,10 +372,6 @@ answer_goal(raised(Error), _, _, _, raised(Error)).
 
 agent(agent(_, Host, Module, _, _), Host, Module).
 
-                /*******************************
-                *           MESSAGES           *
-                *******************************/
-
 prolog:message(typhon(cell_ended(Id, Host, Reason, Outcome))) -->
     [ 'Agent ~w on ~w '-[Id, Host] ],
     ( { Outcome == again } -> [ 'runs again in another cell' ] ; [ 'is lost' ] ),

@@ -121,10 +121,6 @@ refuse_cyclic(Goal) :-
     functor(Goal, Name, Arity),
     refuse(cyclic(Name/Arity)).
 
-                /*******************************
-                *            STATE             *
-                *******************************/
-
 %   own_only(+Goal0, +Module, -Goal): an agent may change and read its own
 %   state, not the predicates of a place or the clauses of its program.
 

@@ -299,10 +299,6 @@ owner_entered(Peer, State0, State) :-
 of_owner(Clause) :-
     subsumes_term('$owner'(_), Clause).
 
-                /*******************************
-                *            IN IDS            *
-                *******************************/
-
 %!  agent_owned(+Id) is semidet.
 %!  agent_owned(+Id, +Owner) is semidet.
 %

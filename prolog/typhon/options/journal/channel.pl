@@ -266,10 +266,6 @@ drop_received(To, N) :-
     ;   true
     ).
 
-                /*******************************
-                *        BREAKS AND ENDS       *
-                *******************************/
-
 %   Posts sent over the previous connection may be lost, so sending starts
 %   again.
 

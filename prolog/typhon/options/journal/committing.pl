@@ -47,10 +47,6 @@ must not commit.
 idle_seconds(0.02).
 again_seconds(1).
 
-                /*******************************
-                *         BEGIN AND END        *
-                *******************************/
-
 %!  commits_begin is det.
 %
 %   The store is open: begin to commit.

@@ -84,10 +84,6 @@ journal_part(Dir0, P, Part) :-
     atom_concat(process, P, Name),
     directory_file_path(Dir, Name, Part).
 
-                /*******************************
-                *           JOURNALS           *
-                *******************************/
-
 %!  database_found(+Base) is semidet.
 %
 %   Base holds a journal.
@@ -119,10 +115,6 @@ journal_part(Dir0, P, Part) :-
 %!  database_wrong(+Base, +Connection, -Why) is semidet.
 %
 %   The journal is damaged; Why is the report of the database.
-
-                /*******************************
-                *            RECORD            *
-                *******************************/
 
 %!  journal_record(+Where, -Text) is semidet.
 %!  journal_record_put(+Where, +Text) is det.

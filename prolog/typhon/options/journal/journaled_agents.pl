@@ -223,10 +223,6 @@ typhon_runtime:ending(after) :-
     maplist(state_log_end, Modules),
     retractall(stored(_, _, _)).
 
-                /*******************************
-                *           PROGRAMS           *
-                *******************************/
-
 %   Record the program outside the present unit of work: other threads rely on
 %   the code_noted/1 fact at once, and the present unit may fail, or be
 %   committed after theirs.

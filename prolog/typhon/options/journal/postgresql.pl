@@ -304,10 +304,6 @@ typhon_database:database_forgets(postgresql(_), normal, Connection, Seconds) :-
     !,
     Seconds is 2+0.005*Milliseconds.
 
-                /*******************************
-                *            RECORD            *
-                *******************************/
-
 typhon_database:record(postgresql(server(Schema, Driver)), Text) :-
     sql_load,
     connected(Driver, Connection,
@@ -331,10 +327,6 @@ typhon_database:record_put(postgresql(server(Schema, Driver)), Text) :-
 typhon_database:record_drop(postgresql(server(Schema, Driver))) :-
     connected(Driver, Connection,
               do(Connection, 'drop table if exists ~w.network', [Schema])).
-
-                /*******************************
-                *            ERRORS            *
-                *******************************/
 
 typhon_database:error_words(postgresql(_), ['lock timeout'], locked).
 typhon_database:error_words(postgresql(_), ['No space left', 'disk full'],

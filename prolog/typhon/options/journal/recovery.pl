@@ -129,10 +129,6 @@ typhon_durable:tidy :-
     forall(( member(Id, Ids), \+ not_restored(Id, _) ),
            durable_drop_all(state, Id)).
 
-                /*******************************
-                *            GO ON             *
-                *******************************/
-
 typhon_durable:go_on :-
     findall(Id, agent_status(Id, _, _), All),
     forall(member(Id, All), agent_reschedule(Id)).

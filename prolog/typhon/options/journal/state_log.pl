@@ -318,10 +318,6 @@ set_anew(Head, Module, Log, set(Name/Arity, Clauses),
             Clauses),
     length(Clauses, Count).
 
-                /*******************************
-                *            REPLAY            *
-                *******************************/
-
 %!  state_replayed(+State, +Changes:list, -Latest) is det.
 %
 %   Latest is State after Changes, each a list as of state_log_changes/2, the

@@ -296,10 +296,6 @@ drop_parts(Kind, Key, N) :-
     ;   true
     ).
 
-                /*******************************
-                *            ITEMS             *
-                *******************************/
-
 %!  journal_item(+Kind, +Order, -Key, -N, -Value) is nondet.
 %
 %   Value is an item of Kind.

@@ -70,10 +70,6 @@ effects.
 :- dynamic act_again/4.                 % Kind, N, Key, Term: deferred before a
                                         % restart
 
-                /*******************************
-                *            NUMBERS           *
-                *******************************/
-
 %!  changes_begin is det.
 %
 %   The store is open and was read: queue changes from now on.
@@ -104,10 +100,6 @@ number_bound(N) :-
 
 changes_number_after(N) :-
     flag(typhon_durable_number, N0, max(N0, N+1)).
-
-                /*******************************
-                *             KEYS             *
-                *******************************/
 
 %   A commit that the database refuses is repeated for ever, and all later ones
 %   wait: so keys are checked first.

@@ -190,10 +190,6 @@ spread_withdrawal(Host, Source, Problem) :-
             Hosts),
     inform(Hosts, withdrawn(Source, Problem)).
 
-                /*******************************
-                *           FOLLOWING          *
-                *******************************/
-
 %!  pheromone_here(?Problem, -Source, -Strength) is nondet.
 %
 %   As pheromone/3 of the vocabulary.

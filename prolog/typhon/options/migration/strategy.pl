@@ -137,10 +137,6 @@ least_recent(Visited, Hosts, Host) :-
     memberchk(Host, Hosts),
     !.
 
-                /*******************************
-                *            MEMORY            *
-                *******************************/
-
 %!  memory_mark(+Host, +Memory0, -Memory) is det.
 %
 %   Memory has Host as the most recently visited host.

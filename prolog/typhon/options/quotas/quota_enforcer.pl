@@ -185,10 +185,6 @@ turn(Agent, Host, Thread, Seconds) :-
     agent(Agent, Host, _, _, _),
     agent_status(Agent, running, _).
 
-                /*******************************
-                *           EACH AGENT         *
-                *******************************/
-
 %   exceeds(+Agent, +Host, +Thread, +Seconds, -Act) is semidet.
 %
 %   The limit of a stack is above its quota, see far_limit/1.  An agent that
@@ -226,10 +222,6 @@ pause_in(Thread, Agent) :-
     get_time(Now),
     Until is Now+0.1*Part,
     signal(Thread, pause(Agent, Until)).
-
-                /*******************************
-                *            TOGETHER          *
-                *******************************/
 
 %   used(+What, +Host, -Used): Used is a list of Owner-(Amount-Agent).
 
@@ -273,10 +265,6 @@ over(host, Owners, Most, Its) :-
 
 sum(Its, Sum) :-
     aggregate_all(sum(Amount), member(Amount-_, Its), Sum).
-
-                /*******************************
-                *           LIFETIME           *
-                *******************************/
 
 typhon_scheduler:fire(Id, stays(Until)) :-
     !,

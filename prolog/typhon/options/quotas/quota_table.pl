@@ -153,10 +153,6 @@ what_most(calls(PI, Most), What, Most) :-
 what_most(Quota, What, Most) :-
     compound_name_arguments(Quota, What, [Most]).
 
-                /*******************************
-                *            PASSED            *
-                *******************************/
-
 %!  quota_begin is det.
 %
 %   The turn of an agent begins in this thread: it has exceeded no quota yet.

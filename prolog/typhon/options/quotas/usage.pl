@@ -196,10 +196,6 @@ too_often(Host, What, Count, All) :-
          Other \== all,
          More > Count ).
 
-                /*******************************
-                *             CLONES           *
-                *******************************/
-
 %   may_clone(+Host, +Agent): the quotas limit the number of agents with the
 %   program and owner of Agent, with its owner, and in all on the host.  They
 %   also limit the clones made in a second.  Otherwise a program would clone for
@@ -317,10 +313,6 @@ add_tuples(Host, Kind, Id, Change) :-
     ->  assertz(left(Host, Kind, Id, Count))
     ;   true
     ).
-
-                /*******************************
-                *              TEXT            *
-                *******************************/
 
 %!  usage_begin is det.
 %

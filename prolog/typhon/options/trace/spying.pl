@@ -146,10 +146,6 @@ program_module(Program, Module) :-
     code_program(Hash, program(Program, _, _, _)),
     code_module(Hash, Module).
 
-                /*******************************
-                *             TRACE            *
-                *******************************/
-
 %!  trace_program(+Spec, +Ports) is semidet.
 %
 %   As trace/2, for predicates of programs; fails for others.

@@ -365,10 +365,6 @@ send(Reply, Answer) :-
     catch(thread_send_message(Reply, Answer), error(existence_error(_, _), _),
           fail).
 
-                /*******************************
-                *           MESSAGES           *
-                *******************************/
-
 prolog:message(typhon(virtual_nothing_due)) -->
     [ 'Virtual time has come to its end: no agent is ready, and nothing is \c
        due'-[] ].

@@ -226,10 +226,6 @@ cumulated([Bound-Own|Counts], Count0, [Bound-Count|Buckets]) :-
     Count is Count0+Own,
     cumulated(Counts, Count, Buckets).
 
-                /*******************************
-                *      TEXT OF PROMETHEUS      *
-                *******************************/
-
 %   metric(+Metric)//: Metric is metric(Name, Type, Help, Samples).  A sample is
 %   sample(Suffix, Labels, Value): Suffix, as `_bucket`, is appended to the name
 %   of the metric; Labels are pairs Name=Term; Value is a number.

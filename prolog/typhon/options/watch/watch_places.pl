@@ -170,10 +170,6 @@ again_later(Watch, Endpoint, Pause) :-
     Next is min(Longest, 2*Pause),
     put_state(Watch, Endpoint, down(Again, Next)).
 
-                /*******************************
-                *             HOSTS            *
-                *******************************/
-
 %!  place_started(+Watch, +Peer, +Host, +Clock) is semidet.
 %!  place_stopped(+Watch, +Host) is det.
 %

@@ -190,10 +190,6 @@ request_more(peer(ReplyTo)) :-
 request_more(here(OnAnswer)) :-
     call(OnAnswer, answer(more)).
 
-                /*******************************
-                *            EVENTS            *
-                *******************************/
-
 %   The answer to a request lists the running hosts, of which the event
 %   `started` may follow: it is reported once.
 
@@ -232,10 +228,6 @@ report_raised(Ball, Watch) :-
         print_message(warning, typhon(watch_raised(Watch, Ball)))
     ).
 
-                /*******************************
-                *              END             *
-                *******************************/
-
 %   A place sends all its events before it answers `ended`, so all events have
 %   been delivered when the last place has answered.
 
@@ -271,10 +263,6 @@ unwatch_all(me(Watch, Queue, _)) :-
            endpoint_request(Endpoint, watch, unwatch(Watch),
                             typhon_watch_receiver:put_answer(Queue, ended,
                                                              Endpoint))).
-
-                /*******************************
-                *           MESSAGES           *
-                *******************************/
 
 prolog:message(typhon(watch_raised(Watch, Ball))) -->
     [ 'The goal of ~w raises an exception; the watch goes on: '-[Watch] ],

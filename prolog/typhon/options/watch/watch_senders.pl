@@ -147,10 +147,6 @@ stop_senders :-
     stop_senders.
 stop_senders.
 
-                /*******************************
-                *           EVENTS             *
-                *******************************/
-
 typhon_events:handle_event(watch(Buffer, Address, Clock), Host, Agent, What) :-
     time_at(Clock, Time),
     event_shown(Host, What, Shown),
@@ -173,10 +169,6 @@ public_event(log(Term), _, Public) =>
     ).
 public_event(What, _, Public) =>
     Public = What.
-
-                /*******************************
-                *         THE SENDER           *
-                *******************************/
 
 sender(Peer, Id, Signals, Buffer) :-
     setup_call_cleanup(

@@ -103,10 +103,6 @@ must_have_hosts(asked(Hosts), watching(_, _, There)) =>
 must_have_hosts(carried(_), _) =>
     true.
 
-                /*******************************
-                *             END              *
-                *******************************/
-
 %!  watch_end(+Watch) is det.
 %
 %   See unwatch/1.

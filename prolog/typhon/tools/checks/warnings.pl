@@ -256,10 +256,6 @@ typhon_loaded:unknown(Hash, State, Offered) :-
              \+ call(Offered, Problem) ),
            print_problem(warning, Problem)).
 
-                /*******************************
-                *         FAULTY AGENTS        *
-                *******************************/
-
 typhon_fault:advice(PI, Hash, Text) :-
     findall(Own, own(Hash, Own), PIs),
     unknown_advice(PI, PIs, Advice),

@@ -211,10 +211,6 @@ hop_row(Way, stats(Count, Min, Mean, Max), [Text, Count|Times]) :-
     name_text(Way, Text),
     Times = [Min, Mean, Max].
 
-                /*******************************
-                *          SUPERVISION         *
-                *******************************/
-
 node_dict(node(Agent, Relation, Summary, Below), Dict) :-
     maplist(name_text, [Agent, Relation], [Id, RelationText]),
     maplist(node_dict, Below, Dicts),
@@ -225,10 +221,6 @@ summary_dict(none, _, _{host:"", program:"", status:"", doing:""}) :-
     !.
 summary_dict(Summary, Agent, Dict) :-
     agent_summary_dict(agent(Agent, Summary), Dict).
-
-                /*******************************
-                *           NETWORKS           *
-                *******************************/
 
 network_dict(_{name:Name, hosts:HostTexts, seed:Seed, processes:Pids}) :-
     network_property(Network, hosts(Hosts)),

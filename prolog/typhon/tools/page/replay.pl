@@ -155,10 +155,6 @@ links(Events, Links) :-
         sort(Links0, Links)
     ).
 
-                /*******************************
-                *             NAMES            *
-                *******************************/
-
 %   intern(+Rows, -Names, -Short): Short are Rows with indexes into Names in
 %   place of texts, so that each text is sent once.
 
@@ -314,10 +310,6 @@ write_script(Out, data(Text)) :-
 write_script(Out, script(Type, Text)) :-
     format(Out, '<script type="~w">~s</script>~n', [Type, Text]).
 write_script(_, style(_)).
-
-                /*******************************
-                *           MESSAGES           *
-                *******************************/
 
 prolog:error_message(existence_error(page_tool, Name)) -->
     [ '~w is missing; run `make page-tools` to get it'-[Name] ].

@@ -290,10 +290,6 @@ switched(switch_protocol(Goal, _), In, Out) :-
     call(Goal, In, Out).
 switched(_, _, _).
 
-                /*******************************
-                *             BODY             *
-                *******************************/
-
 %   with_body(+In, +Length, -Body, :Goal) is semidet.
 %
 %   Read a body of Length bytes from In, and run Goal once, in which Body is a

@@ -108,10 +108,6 @@ sources_tree(Trees) :-
     findall(Address, place(Address), Places),
     supervision_tree(Places, Trees, _).
 
-                /*******************************
-                *            SEARCH            *
-                *******************************/
-
 %   Without a browser the server waits until one connects.
 
 :- public handle/3.
