@@ -292,13 +292,10 @@ load_platform :-
     (   exists_source(library(typhon))
     ->  true
     ;   module_property(typhon_node_process, file(File)),
-        relative_library(File, Library),
+        atom_concat(Library, '/typhon/network/node_process.pl', File),
         asserta(user:file_search_path(library, Library))
     ),
     use_module(library(typhon), []).
-
-relative_library(File, Library) :-
-    atom_concat(Library, '/typhon/network/node_process.pl', File).
 
 on_stop_signal(_) :-
     thread_send_message(typhon_end, stop).

@@ -74,10 +74,8 @@ save(Network, State, File) :-
     numlist(1, Count, Ps),
     not_shared(Network),
     restarts_back(Network),
-    setup_call_cleanup(
-        true,
-        collect_state(Network, Ps, State, Terms),
-        resume_all(Network, Ps)),
+    call_cleanup(collect_state(Network, Ps, State, Terms),
+                 resume_all(Network, Ps)),
     saved_write(File, Terms).
 
 %   In virtual time the work of other hosts of this process cannot be separated

@@ -2,8 +2,8 @@
 
 /** <module> Cells: processes for agents of untrusted owners
 
-The interface of the option cell(Kind) of hosts, see doc/security.md.  The
-operating system isolates the process of a cell.  cells_list/1 lists these processes.
+The interface of the option cell(Kind) of hosts, see doc/security.md.
+cells_list/1 lists the processes, which the operating system isolates.
 */
 
 :- use_module(cell/cell_hosts, []).

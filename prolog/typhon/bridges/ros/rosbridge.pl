@@ -6,12 +6,13 @@
           ]).
 :- use_module(library(debug), [debug/3]).
 :- use_module(library(error), [resource_error/1]).
-:- use_module(library(http/websocket), [ws_send/2]).
+:- use_module(library(http/http_stream), []).
+:- use_module(library(http/websocket), [http_open_websocket/3, ws_send/2]).
 :- use_module(library(lists), [member/2]).
+:- use_module(library(settings), [setting/2, setting/4]).
 :- use_module('../../kernel/base/error_text', [print_error/2]).
 :- use_module('../../kernel/base/json', [json_text/2]).
 :- use_module('../../kernel/base/own_thread', [in_own_thread/1]).
-:- use_module(websocket, [socket_close/1, socket_open/3, socket_read/2]).
 
 /** <module> The connection to a rosbridge server
 
@@ -21,11 +22,17 @@ second thread writes the messages in its queue, which is bounded: a caller that
 sends faster than the server reads waits, and gets an error after its time
 limit.
 
+library(http/http_stream) is loaded since without it requests of WebSockets have
+the version HTTP/1.0, which servers refuse.
+
 *Threading*: any thread may call rosbridge_send/3.  The reading thread runs the
 hooks, and reads nothing meanwhile.  The reading thread is no `server`, since it
 waits for a stream.  The writing thread is none, since it ends with its
 connection.
 */
+
+:- setting(longest, nonneg, 4 000 000,
+           "Characters of one message from a rosbridge server").
 
 :- multifile
     handle_message/2,           % Host, Read: as of socket_read/2
@@ -49,7 +56,8 @@ soon(5).                        % seconds: a connection that ends earlier failed
 %   Connect Host within Seconds, and keep it connected.  A server that has sent
 %   nothing for Silence seconds, not even answers to pings, counts as gone.
 %
-%   @error the errors of socket_open/3, timeout_error(connect, URL)
+%   @error the errors of http_open/3 and http_open_websocket/3,
+%   timeout_error(connect, URL)
 
 rosbridge_open(Host, URL, Seconds, Silence) :-
     setup_call_cleanup(
@@ -98,7 +106,7 @@ rosbridge_up(Host) :-
 rosbridge_send(Host, Frame, Seconds) :-
     json_text(Frame, Text),
     (   writer(Host, Writer),
-        catch(pass(Writer, write(Text), Seconds),
+        catch(pass(Writer, text(Text), Seconds),
               error(existence_error(_, _), _), fail)
     ->  true
     ;   throw(error(ros_error(not_connected, Host), _))
@@ -121,8 +129,7 @@ rosbridge_close(Host) :-
     ;   true
     ).
 
-%   unregister_reader(+Host, -Reader) succeeds for only one of concurrent
-%   callers.
+%   Succeeds for only one of concurrent callers.
 
 unregister_reader(Host, Reader) :-
     reader(Host, Reader),
@@ -183,7 +190,7 @@ await_ends(Readers, Deadline) :-
 
 send_close(Host) :-
     writer(Host, Writer),
-    catch(thread_send_message(Writer, bye, [timeout(0)]),
+    catch(thread_send_message(Writer, close(1000, ""), [timeout(0)]),
           error(existence_error(_, _), _), fail).
 
 interrupt(Thread) :-
@@ -275,11 +282,10 @@ serve_until_end(link(Host, _, Silence, Asker), Socket, Writer, Why) :-
 %   A frame for a change that occurs meanwhile may be sent twice, but not
 %   missed.
 
-send_all([], _, _).
-send_all([Frame|Frames], Writer, Seconds) :-
-    json_text(Frame, Text),
-    pass(Writer, write(Text), Seconds),
-    send_all(Frames, Writer, Seconds).
+send_all(Frames, Writer, Seconds) :-
+    forall(member(Frame, Frames),
+           ( json_text(Frame, Text),
+             pass(Writer, text(Text), Seconds) )).
 
 read_loop(Host, Socket, Why) :-
     socket_read(Socket, Read),
@@ -313,23 +319,14 @@ write_loop(Socket, Every) :-
     thread_self(Me),
     (   thread_get_message(Me, Message, [timeout(Every)])
     ->  true
-    ;   Message = ping
+    ;   Message = ping('')              % the server answers it
     ),
-    (   catch(write_message(Message, Socket), error(_, _), fail),
-        Message \== bye
+    Socket = socket(_, Out),
+    (   catch(ws_send(Out, Message), error(_, _), fail),
+        Message \= close(_, _)          % the server closes its end
     ->  write_loop(Socket, Every)
     ;   true
     ).
-
-%   The server answers a ping by a pong, and a bye by closing its end.
-
-write_message(Message, socket(_, Out)) :-
-    socket_message(Message, WebSocketMessage),
-    ws_send(Out, WebSocketMessage).
-
-socket_message(write(Text), text(Text)).
-socket_message(ping, ping('')).
-socket_message(bye, close(1000, "")).
 
 %   If the server does not read, the writer blocks again after an interrupt,
 %   because the library then writes the rest.  So the interrupt is repeated.
@@ -346,3 +343,57 @@ writer_stop(Writer, Me) :-
     !,
     writer_stop(Writer, Me).
 writer_stop(_, _).
+
+%   Reading raises a timeout when the server has sent nothing for Silence
+%   seconds.  Without nodelay a frame would wait until the server has acknowledged
+%   the previous one.
+
+socket_open(URL, Silence, socket(In, Out)) :-
+    http_open_websocket(URL, Pair, [timeout(Silence), nodelay(true)]),
+    stream_pair(Pair, In, Out).
+
+%   socket_read(+Socket, -Read): wait for a message, and answer pings meanwhile.
+%   Read is text(String), `binary`, end(Why), or too_long(Characters) for a
+%   message longer than the setting `longest`, which is skipped and not stored.
+%
+%   @error timeout_error(read, Stream)
+
+socket_read(Socket, Read) :-
+    Socket = socket(In, _),
+    websocket:ws_read_header(In, Code, _),
+    read_frame(Code, Socket, Read0),
+    (   Read0 == none
+    ->  socket_read(Socket, Read)
+    ;   Read = Read0
+    ).
+
+read_frame(end_of_file, _, end(closed)) :- !.
+read_frame(Code, Socket, Read) :-
+    Socket = socket(In, Out),
+    setting(longest, Longest),
+    read_string(In, Longest, Text),
+    rest(In, 0, More),
+    (   More > 0
+    ->  Length is Longest+More,
+        Read = too_long(Length)
+    ;   frame_read(Code, Text, Out, Read)
+    ).
+
+frame_read(1, Text, _, text(Text)) :- !.
+frame_read(2, _, _, binary) :- !.
+frame_read(8, _, _, end(closed)) :- !.
+frame_read(9, Text, Out, none) :- !, ws_send(Out, pong(Text)).
+frame_read(_, _, _, none).
+
+rest(In, Count0, Count) :-
+    read_string(In, 4096, Text),
+    string_length(Text, Length),
+    (   Length =:= 0
+    ->  Count = Count0
+    ;   Count1 is Count0+Length,
+        rest(In, Count1, Count)
+    ).
+
+socket_close(socket(In, Out)) :-
+    catch(close(Out, [force(true)]), error(_, _), true),
+    catch(close(In, [force(true)]), error(_, _), true).

@@ -194,7 +194,7 @@ part_setting(idle,typhon_cells,number,60,'Seconds after which a cell that no age
 part_setting(kill_seconds,typhon_processes,number,10,'Seconds for a killed process to end','network/processes').
 part_setting(last_seconds,typhon_watches,number,2,'Seconds that unwatch/1 waits for earlier events','options/watch/watches').
 part_setting(links,typhon_trail,positive_integer,32,'Links that are kept of the trail of an agent','options/trail/trail').
-part_setting(longest,typhon_ros_rosbridge,nonneg,4000000,'Characters of one message from a rosbridge server','bridges/ros/websocket').
+part_setting(longest,typhon_ros_rosbridge,nonneg,4000000,'Characters of one message from a rosbridge server','bridges/ros/rosbridge').
 part_setting(memory,typhon_cells,positive_integer,1500000000,'Bytes of address space that a cell may have','options/cell/cell_process').
 part_setting(met,typhon_fipa_platform,positive_integer,10000,'Agents of other platforms whose addresses are remembered','bridges/fipa/platform').
 part_setting(most,typhon_ros_advertisements,positive_integer,1000,'Topics and services that a host may use, each in its way','bridges/ros/advertisements').

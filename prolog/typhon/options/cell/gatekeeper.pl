@@ -317,7 +317,7 @@ handle_frame(request(N, Goal), Cell, Agent, _, Acts,
 handle_frame(changing(N, Goal, Changes), Cell, Agent, _, Acts, more(Next)) :-
     Next = acts(well, [], something),
     carry_out(Acts, Agent, Told),
-    agent(Agent, Host, Module),
+    Agent = agent(_, Host, Module, _, _),
     cell_changes_made(Changes, Host, Module),
     answer_goal(Told, Goal, changes, Agent, Answer),
     agent_state(Module, State0),
@@ -366,11 +366,9 @@ done(_, _, something).
 %   that error.
 
 answer_goal(well, Goal, Kind, Agent, Answer) :-
-    agent(Agent, Host, _),
+    Agent = agent(_, Host, _, _, _),
     cell_answer(Goal, Kind, Host, Agent, Answer).
 answer_goal(raised(Error), _, _, _, raised(Error)).
-
-agent(agent(_, Host, Module, _, _), Host, Module).
 
 prolog:message(typhon(cell_ended(Id, Host, Reason, Outcome))) -->
     [ 'Agent ~w on ~w '-[Id, Host] ],

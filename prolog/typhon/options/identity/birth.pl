@@ -60,9 +60,12 @@ the certificate of this process, which the birth of the agent proves.
 
 :- multifile
     typhon_bounds:forgotten/1,
-    typhon_identity:ids_anew/0,
     typhon_host_parts:part/4,
-    typhon_hop:sent_again/2.
+    typhon_hop:sent_again/2,
+    typhon_identity:ids_anew/0,
+    typhon_identity:mark_suffix/1,
+    typhon_identity:origin/4,
+    typhon_on_demand:joins/2.
 
 :- setting(births, positive_integer, 20000,
            "Agents whose proofs of ownership are kept").
@@ -251,12 +254,6 @@ birth_shown(Id, Birth) :-
                 /*******************************
                 *            OWNERS            *
                 *******************************/
-
-:- multifile
-    typhon_host_parts:part/4,
-    typhon_on_demand:joins/2,
-    typhon_identity:mark_suffix/1,
-    typhon_identity:origin/4.
 
 typhon_on_demand:joins(keys, any).
 

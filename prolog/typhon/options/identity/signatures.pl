@@ -42,14 +42,10 @@ put into them.
 
 most_signatures(1024).
 
-%!  program_signature(?Hash, -Signature) is semidet.
 %!  signature_keep(+Hash, +Signature) is det.
 %
 %   Signature is claimed to be that of the program with Hash.  A new signature
 %   replaces an earlier one, so that a bad one cannot block a good one for long.
-
-program_signature(Hash, Signature) :-
-    signature(Hash, Signature).
 
 signature_keep(Hash, Signature) :-
     signature(Hash, Signature),
@@ -141,7 +137,7 @@ signature_author(Keys, Hash, Signature, Author) :-
 typhon_code:wrapped(signed(Sent, Signature), Sent, signature(Signature)).
 
 typhon_code:extra(Hash, signature(Signature)) :-
-    program_signature(Hash, Signature).
+    signature(Hash, Signature).
 
 typhon_code:extra_comes(signature(Signature), Hash) :-
     signature_keep(Hash, Signature).
@@ -220,7 +216,7 @@ rewritten(Goal, Plain) :-
     arg(2, Goal, Plain).
 
 payload_signature(Payload, Signature) :-
-    program_signature(_, _),            % there are signatures
+    signature(_, _),                    % there are signatures
     payload_hash(Payload, Hash),
-    program_signature(Hash, Signature),
+    signature(Hash, Signature),
     !.

@@ -69,8 +69,7 @@ database(Dir0, Dir, sqlite(Dir)) :-
 
 %!  journal_part(+Where, +P, -Part) is det.
 %
-%   Part is the P-th of several journals that belong together: a directory
-%   below that of Where, or another schema.
+%   See typhon_journal.
 
 journal_part(postgresql(Url), P, postgresql(Url, Part)) :-
     !,
@@ -120,8 +119,7 @@ journal_part(Dir0, P, Part) :-
 %!  journal_record_put(+Where, +Text) is det.
 %!  journal_record_drop(+Where) is det.
 %
-%   Read, write or delete the common record of journals that belong together.
-%   The record is a text beside the journals.  Reading fails if there is none.
+%   See typhon_journal.
 
 journal_record(Where, Text) :-
     database(Where, Place, Base),

@@ -92,11 +92,6 @@ declare(Log) :-
     dynamic([ Log:counted/4, Log:added/4, Log:erased/4, Log:unsure/2,
               Log:queried_until/1 ]).
 
-%   Counting takes time linear in the clauses, so many changes share one count.
-
-uncounted(Count, Most) :-
-    Most is Count//8.
-
                 /*******************************
                 *           LISTENERS          *
                 *******************************/
@@ -295,8 +290,7 @@ edited(Head, Module, Log, edit(Erased, First, Last),
     verified(Head, Module, Count, Uncounted1, Uncounted).
 
 verified(Head, Module, Count, Uncounted0, Uncounted) :-
-    uncounted(Count, Most),
-    (   Uncounted0 =< Most
+    (   Uncounted0 =< Count//8          % counting takes time linear in Count
     ->  Uncounted = Uncounted0
     ;   count(Head, Module, Count),
         Uncounted = 0
@@ -329,15 +323,12 @@ state_replayed(state(Empty, Clauses), Changes, Latest) :-
     gensym('typhon replay ', Module),
     setup_call_cleanup(
         set_module(Module:class(temporary)),
-        ( dynamics(Empty, Module),
+        ( forall(member(PI, Empty), dynamic(Module:PI)),
           agent_add(Clauses, Module),
           forall(( member(List, Changes), member(Change, List) ),
                  replay(Change, Module)),
           agent_state(Module, Latest) ),
         '$destroy_module'(Module)).
-
-dynamics(PIs, Module) :-
-    forall(member(PI, PIs), dynamic(Module:PI)).
 
 replay(edit(Erased, First, Last), Module) =>
     forall(member(K-Clause, Erased), erased(K, Clause, Module)),

@@ -149,11 +149,7 @@ sample(Sample) :-
 %!  journal_place(+Where, -Place:atom) is det.
 %!  journal_found(+Where) is semidet.
 %
-%   Place is the name of the journal in errors.  journal_found/1 succeeds if the
-%   journal exists.
-%
-%   @arg Where is a directory, postgresql(Url), or such a Url
-%   @error domain_error(postgresql_url, Url)
+%   See typhon_journal.  journal_found/1 succeeds if the journal exists.
 
 journal_place(Where, Place) :-
     database(Where, Place, _).

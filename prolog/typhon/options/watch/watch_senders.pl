@@ -171,10 +171,8 @@ public_event(What, _, Public) =>
     Public = What.
 
 sender(Peer, Id, Signals, Buffer) :-
-    setup_call_cleanup(
-        true,
-        sender_run(to(Peer, Id, Signals, Buffer)),
-        sender_end(Peer, Id, Signals, Buffer)).
+    call_cleanup(sender_run(to(Peer, Id, Signals, Buffer)),
+                 sender_end(Peer, Id, Signals, Buffer)).
 
 sender_end(Peer, Id, Signals, Buffer) :-
     debug(typhon(watch), '~w of ~w watches no more', [Id, Peer]),
