@@ -105,11 +105,7 @@ leave(Name, Life, Id) :-
     assertz(left(Name, Id, Indicators)).
 
 sweep(Name, Id) :-
-    retract(left(Name, Id, Indicators)),
-    !,
-    body_erase(Name, Indicators),
-    sweep(Name, Id).
-sweep(_, _).
+    forall(retract(left(Name, Id, Indicators)), body_erase(Name, Indicators)).
 
                 /*******************************
                 *           RECORDS            *

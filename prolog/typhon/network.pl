@@ -21,88 +21,72 @@
 
 /** <module> Networks
 
-Many hosts in one or more processes, their links, and their log.
-This is the interface of the layer: higher layers import from here.  Its
-modules are loaded when they are used first.
+Many hosts in one or more processes, their links, and their log.  This is the
+interface of the layer; its modules are loaded when they are first used.
 
-*Threading*: as the predicates say; any thread otherwise.
+*Threading*: any thread.
 */
 
 :- meta_predicate network_at(+, +, 0).
 
 %!  network_start(+Topology, -Network, +Options) is det.
 %
-%   Starts a network of the shape Topology (see topology_edges/4). Options:
+%   Start a network of the shape Topology, see topology_edges/4.  Options:
 %
-%     - processes(P)
-%       1 (default): the hosts are in this process. More: they are in so
-%       many child processes, in blocks of consecutive hosts, at most one
-%       process per host.
-%     - machines(Machines)
-%       Children are started through ssh, on Machines in turn, in blocks as
-%       well; by default one on each. A machine is a target of ssh, or as
-%       described at child_start/6. bind(Interface) must name an interface
-%       that they can reach.
-%     - bind(Interface)
-%       Of the endpoints on this machine; default `localhost`.
-%     - tls(Directory)
-%       The keys of this process, as of host_start/2, and of the children; on
-%       other machines they are in a directory of the same name.
-%     - hosts(Options)
-%       Options for host_start/2, for each of the hosts.
-%     - places(Places)
-%       Files for the places of hosts, goals called there; see module `host_setup`.
-%     - hop_time(uniform(Min, Max))
-%       An emulated link delay in host seconds, added to every hop.
-%     - clock(Rate)
-%       Host seconds per second; default 1. With clock(virtual) nothing
-%       waits, and the same Seed gives the same events: time runs while
-%       a caller waits, in agent_join/3 and network_advance/2, and jumps to
-%       what is due next. One process.
-%     - log(File), log(File, Kinds)
-%       A log server writes the events of all hosts to File, begun anew:
-%       when agents begin and end, what they log, and, of Kinds, a list out
-%       of `hops`, `messages`, `facts`, `faults`, `links` and `hosts`,
-%       where they went, senders and receivers, what they left and took,
-%       their errors, and which links and hosts came and went.
-%       With messages(content) for `messages` it has what the messages say,
-%       too; of more than 200 characters (the setting
-%       `typhon_host_log:content_characters`) the beginning, as a string.
-%     - dynamic(Model)
-%       Links come and go: see dynamics_model/2.
-%     - cost(Cost)
-%       What each link costs: a number, or uniform(Min, Max), drawn for each
-%       pair of hosts. What edges(List) says comes first.
-%     - seed(Seed)
-%       An integer, from which all that is random follows; drawn when not
-%       given, and told by network_property/2.
-%     - journal(Directory), sync(How)
-%       What happens in the network outlives its processes, each of which has
-%       its journal, as of host_start/2, below Directory. Started again with
-%       the same Directory the network is what it was, agents go on, and what
-%       options leave open is as before. If its hosts are in this process, it
-%       must be started before any other host.
-%     - restart(Boolean)
-%       Child processes that die are started again, with the ports that they
-%       had, up to 10 times in a minute each (settings of module `restarts`).
-%       Without a journal their hosts are then as they were when they began:
-%       their agents, and what was left there, are lost. Default `false`.
+%     - processes(P): default 1: the hosts are in this process.  Otherwise they
+%       are in so many child processes, in blocks of consecutive hosts, at most
+%       one process for each host
+%     - machines(Machines): start the children through ssh on Machines in turn,
+%       in blocks as well, by default one on each.  A machine is a target of
+%       ssh, or a term of child_start/6.  bind(Interface) must name an interface
+%       that they can reach
+%     - bind(Interface): of the endpoints on this machine; default `localhost`
+%     - tls(Directory): the keys of this process, as of host_start/2, and of the
+%       children; other machines have them in a directory of the same name
+%     - hosts(Options): options of host_start/2 for each of the hosts
+%     - places(Places): files for the places of hosts, and goals that are called
+%       there, see typhon_host_setup
+%     - hop_time(uniform(Min, Max)): emulated delay in host seconds of each hop
+%     - clock(Rate): host seconds per second; default 1.  With clock(virtual)
+%       nothing waits, and the same Seed gives the same events: time runs while
+%       a caller waits, in agent_join/3 and network_advance/2, and jumps to the
+%       next event.  One process
+%     - log(File), log(File, Kinds): a log server writes the events of all hosts
+%       to File, which it replaces: begins and ends of agents, what they log,
+%       and events of Kinds, a list of `hops`, `messages`, `facts`, `faults`,
+%       `links` and `hosts`.  With messages(content) in place of `messages` the
+%       events hold the messages, those of more than 200 characters (the setting
+%       `typhon_host_log:content_characters`) cut, as a string
+%     - dynamic(Model): links change, see dynamics_model/2
+%     - cost(Cost): of each link: a number, or uniform(Min, Max), drawn for each
+%       pair of hosts.  A cost in edges(List) overrides it
+%     - seed(Seed): an integer, which determines all random choices; by default
+%       it is drawn, and network_property/2 returns it
+%     - journal(Directory), sync(How): the network outlives its processes, each
+%       of which has its journal, as of host_start/2, below Directory.  When the
+%       network is started again with the same Directory it is restored, agents
+%       go on, and options that are not given keep their values.  If its hosts
+%       are in this process, it must be started before any other host
+%     - restart(Boolean): restart child processes that die, with their ports, up
+%       to 10 times in a minute each (settings of typhon_restarts).  Without a
+%       journal their hosts begin anew, and their agents and facts are lost.
+%       Default `false`
 %
-%   @error uninstantiation_error(Network): the name is made here
+%   @error uninstantiation_error(Network)
 %   @error domain_error(network_option, Option), domain_error(topology, T),
 %   timeout_error(start, Network), system_error(process_ended(Status)),
-%   and what host_start/2 throws; journal_of_another(Directory, Was, Is) if
-%   the journal is that of a network that was started otherwise
+%   and the errors of host_start/2; journal_of_another(Directory, Was, Is) if
+%   the journal is that of another network
 
 network_start(Topology, Network, Options) :-
     networks_start(Topology, Network, Options).
 
 %!  network_stop(+Network) is det.
 %
-%   Ends what network_start/3 started, in order: the changes of links, what
-%   agents do, the hosts, the processes that carry them, the log, when all that
-%   was said to it is written. Takes seconds at the most, also when a process
-%   hangs. Where hosts are in this process its other agents pause meanwhile.
+%   Stop, in this order, the changes of links, the turns of agents, the hosts,
+%   their processes, and the log, when all events posted to it are written.
+%   Takes seconds at most, also if a process hangs.  If hosts are in this
+%   process, its other agents pause meanwhile.
 %
 %   @error existence_error(network, Network)
 
@@ -113,28 +97,24 @@ network_stop(Network) :-
 %
 %   Property is one of
 %
-%     - hosts(Addresses)
-%       In the order of the topology.
-%     - edges(Edges)
-%       The links between hosts of the network at this moment, pairs A-B
-%       of addresses. Asks each process.
-%     - agents(Agents)
-%       Those that were born on its hosts and have not ended, wherever they
-%       are, in no order. Asks each process.
-%     - processes(Pids)
-%       The processes that carry hosts and are alive.
+%     - hosts(Addresses): in the order of the topology
+%     - edges(Edges): the present links between hosts of the network, pairs A-B
+%       of addresses.  Asks each process
+%     - agents(Agents): those that were created on its hosts and have not ended,
+%       wherever they are, in any order.  Asks each process
+%     - processes(Pids): the processes that run hosts
 %     - log(File), seed(Seed)
 %
-%   @error type_error(atom, Network), and existence_error(network, Network)
-%   when it is bound and not running, domain_error(network_property, Property)
+%   @error type_error(atom, Network), existence_error(network, Network) if it is
+%   bound, domain_error(network_property, Property)
 
 network_property(Network, Property) :-
     networks_property(Network, Property).
 
 %!  network_hosts(?Network, -Addresses) is nondet.
 %
-%   Addresses of the hosts of a Network of this process.  Loads nothing: as
-%   long as no network was started there is none.
+%   Addresses are those of the hosts of Network, which this process has started.
+%   Loads nothing: before the first start there is no network.
 
 network_hosts(Network, Addresses) :-
     current_module(typhon_networks),
@@ -142,7 +122,7 @@ network_hosts(Network, Addresses) :-
 
 %!  network_advance(+Network, +Seconds) is det.
 %
-%   Let Seconds pass, by the clock of the hosts: in virtual time at once.
+%   Let Seconds pass, by the clock of the hosts; in virtual time at once.
 %
 %   @error existence_error(network, Network)
 
@@ -151,9 +131,9 @@ network_advance(Network, Seconds) :-
 
 %!  network_at(+Network, +Time, :Goal) is det.
 %
-%   Run Goal once when the clock of the hosts shows Time, or as soon as may
-%   be if that is past; never, if Network is stopped before. What Goal
-%   raises is reported.
+%   Run Goal once when the clock of the hosts shows Time, soon if that is past,
+%   and not at all if Network is stopped before.  An exception of Goal is
+%   reported.
 %
 %   @error existence_error(network, Network), type_error(callable, Goal)
 
@@ -163,73 +143,66 @@ network_at(Network, Time, Goal) :-
 %!  network_save(+Network, +File) is det.
 %
 %   Write all of Network to File: hosts, links, agents with their goals, state
-%   and mail, facts, payloads, outcomes, clocks, and what is due.  It goes on
-%   afterwards, and from File a network can be made that goes on alike, see
-%   network_load/3.  What was in File is replaced when all is written.
+%   and mail, facts, payloads, outcomes, clocks and pending events.  Network
+%   goes on afterwards, and network_load/3 makes a network from File that goes
+%   on alike.  An old File is replaced when all is written.
 %
 %   @error existence_error(network, Network)
-%   @error timeout_error(save, Network): something does not come to rest
-%   @error type_error(mobile_term, Culprit): what cannot be written
-%   @error permission_error(save, network, Network): an agent asks for it
-%   @error permission_error(save, host, Host): which is not of Network, but has
+%   @error timeout_error(save, Network): it does not come to rest
+%   @error type_error(mobile_term, Culprit): Culprit cannot be written
+%   @error permission_error(save, network, Network): the caller is an agent
+%   @error permission_error(save, host, Host): Host is not in Network, but has
 %          the same virtual time
-%   @error existence_error(carrier, Network-P), and what open/3 raises
+%   @error existence_error(carrier, Network-P), and the errors of open/3
 
 network_save(Network, File) :-
     save_network(Network, File).
 
 %!  network_load(+File, -Network, +Options) is det.
 %
-%   Network is what network_save/2 has written to File, and goes on from there:
-%   in virtual time as the first one did, to the last byte of the log. It has
-%   the same name, if that is free, and its agents have the same ids. Options:
+%   Network goes on from the state that network_save/2 has written to File, in
+%   virtual time with the same events, to the last byte of the log.  It has the
+%   same name, if that is free, and its agents have the same ids.  Option:
 %
-%     - log(File)
-%       Where its events are written, begun anew. By default they go on in the
-%       file of the first one: what was written there since is cut off. If
-%       that file is not there, or shorter, it is begun anew.
+%     - log(File): write its events to File, which is replaced.  By default they
+%       follow those in the log of the saved network, which is cut to its length
+%       at that time, or begun anew if it is missing or shorter
 %
 %   @error existence_error(source_sink, File)
 %   @error network_damaged(File, Why), network_version(File, Version)
 %   @error domain_error(network_load_option, Option)
 %   @error permission_error(load, virtual_time, Network): this process has
 %          virtual time already
-%   @error what network_start/3 raises, as where a port is taken
+%   @error the errors of network_start/3, for example if a port is in use
 
 network_load(File, Network, Options) :-
     load_network(File, Network, Options).
 
 %!  log_server_start(+Options, -Address) is det.
 %
-%   Starts a log server in this process. Options:
+%   Start a log server in this process.  Options:
 %
-%     - file(File)
-%       Where events are written. Has no default.
-%     - mode(Mode)
-%       `write` (default): the file is begun anew; `append`: it goes on.
-%     - name(Name)
-%       Default `log`.
-%     - bind(Interface), port(Port)
-%       Of the process' endpoint, if it has to be started. Default
-%       `localhost` and any.
-%     - clock(Epoch, Rate)
-%       Default clock(0, 1), the time of day.
+%     - file(File): where it writes events; required
+%     - mode(Mode): `write` (default) replaces the file, `append` extends it
+%     - name(Name): default `log`
+%     - bind(Interface), port(Port): of the endpoint of the process, if it must
+%       be started; default `localhost`, and any port
+%     - clock(Epoch, Rate): default clock(0, 1), the time of day
 %
 %   Address is Name@Interface:Port, for log(Address) of host_start/2.
 %
 %   @error domain_error(log_server_option, Option),
-%   existence_error(option, file),
-%   permission_error(start, log_server, Name) when it is running,
-%   existence_error(directory, Dir), permission_error(open, source_sink,
-%   File)
+%   existence_error(option, file), permission_error(start, log_server, Name) if
+%   it runs already, existence_error(directory, Dir), permission_error(open,
+%   source_sink, File)
 
 log_server_start(Options, Address) :-
     log_serve(Options, Address).
 
 %!  log_server_stop(+Address) is det.
 %
-%   Writes what has arrived, and what was posted in this process before,
-%   and ends the server.
+%   Stop the server when all events that have arrived, or that this process has
+%   posted before, are written.
 %
 %   @error existence_error(log_server, Address)
 
@@ -238,10 +211,9 @@ log_server_stop(Address) :-
 
 %!  log_events(+File, -Events:list) is det.
 %
-%   Events are the event(Time, Host, Agent, What) facts in File, in the
-%   order in which they arrived. What has arrived in this process is among
-%   them. A line that is no fact is reported by a warning, and the others are
-%   read.
+%   Events are the facts event(Time, Host, Agent, What) in File, in the order of
+%   their arrival, including all that have arrived in this process.  Other lines
+%   are skipped with a warning.
 %
 %   @error existence_error(source_sink, File)
 

@@ -150,7 +150,7 @@ ros_subscribe(Topic0, Type, Options) :-
           ( ignore(unsubscribe(ros, Host, Topic, Agent)),
             throw(Ball) )).
 
-topic_type(Topic, Type, Atom) :-
+topic_type(_, Type, Atom) :-
     nonvar(Type),
     !,
     ros_type(msg, Type, Atom).
