@@ -77,7 +77,7 @@ task(library, "Wait for agents, and end them",
 task(library, "Look into agents",
      [ typhon_environment, typhon_administration:[agent_property/2],
        typhon_source_view, typhon_trace, typhon_trails ]).
-task(library, "Watch a network", [typhon_watching, typhon_page]).
+task(library, "Watch a network", [typhon_watches, typhon_page]).
 task(library, "Save and restore agents",
      [typhon_administration:[agent_save/2, agent_load/2, agent_load/3]]).
 task(library, "Use Python, MQTT, ROS and FIPA", [typhon_starting]).

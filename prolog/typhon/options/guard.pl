@@ -30,7 +30,7 @@ host_start/2 those of views.
 */
 
 :- multifile
-    typhon_check:objection/3,
+    typhon_checks:objection/3,
     typhon_code:retiring/1,
     typhon_gate:forbidden/2,
     typhon_host_parts:begins/3,
@@ -258,7 +258,7 @@ retire(Hash) :-
     retractall(variant(Hash, _, _)),
     forall(member(Module, Modules), assertz(retired(Module))).
 
-typhon_check:objection(Options, program(Rules, Libraries), Objection) :-
+typhon_checks:objection(Options, program(Rules, Libraries), Objection) :-
     option(policy(Policy), Options),
     Policy \== trusted,
     policy_read(Policy),

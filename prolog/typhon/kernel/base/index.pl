@@ -65,7 +65,6 @@ part_joins(pheromone_option,span,'options/migration').
 part_joins(pheromone_option,strength,'options/migration').
 part_joins(program,read,'tools/checks').
 part_joins(question,mailbox,'tools/administration').
-part_joins(question,program,'tools/source_view').
 part_joins(question,properties,'tools/administration').
 part_joins(question,step,'options/trace').
 part_joins(question,trail,'options/trail').
@@ -163,7 +162,6 @@ part_file('tools/administration','tools/administration/restore').
 part_file('tools/checks','tools/checks/goal_lines').
 part_file('tools/checks','tools/checks/warnings').
 part_file('tools/source_view','tools/source_view/clause_location').
-part_file('tools/source_view','tools/source_view/listing').
 
 %!  part_setting(?Name, ?Module, ?Type, ?Default, ?Text, ?File) is nondet.
 %
@@ -192,7 +190,6 @@ part_setting(heartbeat_seconds,typhon_page_browsers,number,5,'Seconds without ev
 part_setting(hold_seconds,typhon_saving,number,30,'Seconds for a network to come to rest before it is saved','network/saving').
 part_setting(idle,typhon_cells,number,60,'Seconds after which a cell that no agent uses ends','options/cell/cells').
 part_setting(kill_seconds,typhon_processes,number,10,'Seconds for a killed process to end','network/processes').
-part_setting(last_seconds,typhon_watches,number,2,'Seconds that unwatch/1 waits for earlier events','options/watch/watches').
 part_setting(links,typhon_trail,positive_integer,32,'Links that are kept of the trail of an agent','options/trail/trail').
 part_setting(longest,typhon_ros_rosbridge,nonneg,4000000,'Characters of one message from a rosbridge server','bridges/ros/rosbridge').
 part_setting(memory,typhon_cells,positive_integer,1500000000,'Bytes of address space that a cell may have','options/cell/cell_process').
