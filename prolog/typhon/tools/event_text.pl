@@ -200,12 +200,8 @@ goal_lines((If->_)) -->
 goal_lines((If*->_)) -->
     !,
     [ '( ' ], goal_lines(If), [ ' *-> ... ) without else' ].
-goal_lines(Goal0) -->
-    { copy_term(Goal0, Goal),
-      numbervars(Goal, 0, _, [singletons(true)])
-    },
-    [ '~W'-[Goal, [ quoted(true), portray(false), max_depth(10),
-                    spacing(next_argument), numbervars(true) ]] ].
+goal_lines(Goal) -->
+    goal_shown(Goal).
 
 %   clauses_lines(+Where)//: the text names the clause of the goal and that of
 %   its caller.

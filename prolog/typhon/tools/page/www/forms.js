@@ -33,8 +33,8 @@ export function dialog(title, content, confirm, send, wide = false) {
 
 // A labelled field; the field itself is its `input`.
 export function field(label, attributes = {}, hint = null) {
-  const { value, list, area, ...rest } = attributes;
-  const input = element(area ? 'textarea' : 'input',
+  const { value, list, ...rest } = attributes;
+  const input = element('input',
     { autocomplete: 'off', spellcheck: 'false', ...rest });
   if (value !== undefined) input.value = value;
   const made = element('label', { class: 'field' },
