@@ -70,8 +70,6 @@ anew(Name, Location, Handler, Tokens) :-
     record_add(Name, Handler, Location, Tokens).
 
 %!  life_end(+Name) is det.
-%
-%   End the agent Name, if it is on this platform.
 
 life_end(Name) :-
     with_mutex(tartarus_lives, forget(Name, Indicators)),

@@ -123,8 +123,6 @@ start_log(Network, clock(Epoch, Rate), Plan, Mode, [Option]) :-
 start_log(_, _, _, _, []).
 
 %!  log_option(+Plan, +Address, -Option) is det.
-%
-%   Option is the host option for the log server at Address.
 
 log_option(Plan, Address, Option) :-
     (   plan_log(Plan, _, [Kind|Kinds])
@@ -182,15 +180,11 @@ network_log(Network, Spec, Options, Address) :-
     assertz(part(Network, log(Address, File))).
 
 %!  network_dynamics(+Network, +Dynamics) is det.
-%
-%   Record the dynamics of Network.
 
 network_dynamics(Network, Dynamics) :-
     assertz(part(Network, dynamics(Dynamics))).
 
 %!  dynamics_end(+Network) is det.
-%
-%   Stop the dynamics of Network, if it has any.
 
 dynamics_end(Network) :-
     (   retract(part(Network, dynamics(Dynamics)))
@@ -199,8 +193,6 @@ dynamics_end(Network) :-
     ).
 
 %!  log_end(+Network) is det.
-%
-%   Stop the log server of Network, if it has one.
 
 log_end(Network) :-
     (   retract(part(Network, log(Address, _)))

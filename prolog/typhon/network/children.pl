@@ -247,8 +247,6 @@ stop_reading :-
     ).
 
 %!  child_release(+Child) is det.
-%
-%   Release the resources of a child that is down.
 
 child_release(child(_, _, Thread)) :-
     thread_join(Thread, Status),

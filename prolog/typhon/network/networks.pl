@@ -113,8 +113,6 @@ unless_built(_, Network) :-
     in_own_thread(end(Network)).
 
 %!  network_goes_on(+Network, +Clock) is det.
-%
-%   Record that the network is built.
 
 network_goes_on(Network, Clock) :-
     assertz(running(Network, Clock)).

@@ -82,8 +82,6 @@ node_again(Network, P) :-
     retractall(down(Network, P, _)).
 
 %!  nodes_forget(+Network) is det.
-%
-%   Delete all records of the processes of Network.
 
 nodes_forget(Network) :-
     retractall(up(Network, _, _, _)),
@@ -250,8 +248,6 @@ prolog:error_message(existence_error(carrier, Network-P)) -->
     [ 'Process ~w of ~w is not running'-[P, Network] ].
 
 %!  deadline(+Seconds, -Deadline) is det.
-%
-%   Deadline is the stamp of the time Seconds from now.
 
 deadline(Seconds, Deadline) :-
     get_time(Now),

@@ -396,8 +396,6 @@ plan_options(plan(_, _, _, Options), Options).
 plan_shape(plan(Names, Edges, _, _), Names, Edges).
 
 %!  plan_without(+Plan0, +Names, -Plan) is det.
-%
-%   Plan is Plan0 without options of these Names.
 
 plan_without(plan(Hosts, Edges, Costs, Options0), Names,
              plan(Hosts, Edges, Costs, Options)) :-

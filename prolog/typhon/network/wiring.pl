@@ -241,8 +241,6 @@ rest(Network, P) :-
     node_order(Network, P, rest(Seconds, []), _).
 
 %!  wire_forget(+Network) is det.
-%
-%   Delete the records of the hosts and links of Network.
 
 wire_forget(Network) :-
     retractall(host(Network, _, _, _, _)),
@@ -259,8 +257,6 @@ wired(Network, Hosts) :-
     pairs_values(Sorted, Hosts).
 
 %!  wired_host(+Network, +P, -Name) is nondet.
-%
-%   Process P has a host called Name.
 
 wired_host(Network, P, Name) :-
     host(Network, _, Name, P, _).

@@ -214,8 +214,6 @@ end_if_displaced :-
                 *******************************/
 
 %!  http_deadline(+Seconds, -Deadline) is det.
-%
-%   Deadline is the time stamp Seconds from now.
 
 http_deadline(Seconds, Deadline) :-
     get_time(Now),

@@ -125,8 +125,6 @@ unsubscribed(Service, Host, Key, Agent) :-
     ).
 
 %!  subscription(?Service, ?Host, ?Key) is nondet.
-%
-%   Key has a subscriber.
 
 subscription(Service, Host, Key) :-
     subscribed(_, _, Service, Host, _, Key0),
@@ -181,8 +179,6 @@ subscribers_drop(Service, Host, Key, Message) :-
            ignore(unsubscribe(Service, Host, Key, Agent))).
 
 %!  subscribers_forget(+Service, +Host) is det.
-%
-%   Remove all subscriptions to Service on Host.
 
 subscribers_forget(Service, Host) :-
     with_mutex(typhon_subscribers,

@@ -86,8 +86,6 @@ forget(Host, Address, Queue) :-
     message_queue_destroy(Queue).
 
 %!  carriage_queued(+Host, -Count) is det.
-%
-%   Count letters are queued.
 
 carriage_queued(Host, Count) :-
     aggregate_all(sum(Size),

@@ -77,8 +77,6 @@ about(raised(Ball), _, _) =>
     throw(Ball).
 
 %!  manager_end(+Host) is det.
-%
-%   Remove all registrations of the managers of Host.
 
 manager_end(Host) :-
     directory_forget(ams-Host),

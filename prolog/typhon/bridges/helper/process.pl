@@ -102,8 +102,6 @@ process_end(process(In, _)) :-
     catch(close(In, [force(true)]), error(_, _), true).
 
 %!  process_release(+Process) is det.
-%
-%   Release the resources of a process that has ended.
 
 process_release(process(In, Reader)) :-
     process_end(process(In, Reader)),

@@ -67,8 +67,6 @@ link_close(Brick) :-
     ).
 
 %!  link_brick(?Brick, ?Port) is nondet.
-%
-%   Brick is connected at Port.
 
 link_brick(Brick, Port) :-
     brick(Brick, Port, _).

@@ -64,8 +64,6 @@ open_way(server, Host, URL, Options) :-
     rosbridge_open(Host, URL, Seconds, Silence).
 
 %!  way_close(+Host) is det.
-%
-%   Disconnect Host.
 
 way_close(Host) :-
     (   way(Host, Kind, _, _)

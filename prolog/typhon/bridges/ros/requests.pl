@@ -314,8 +314,6 @@ ros_cancel(Id) :-
     request/3.                  % Id, Host, Service: open
 
 %!  goal_end(+Host, ?Id, -Agent, -Action) is semidet.
-%
-%   Remove the open goal Id of Agent.
 
 goal_end(Host, Id, Agent, Action) :-
     retract(goal(Id, Host, Agent, Action)),

@@ -91,8 +91,6 @@ alias(Role, Host, Alias) :-
     atomic_list_concat([typhon_ros, Role, Host, N], '_', Alias).
 
 %!  rosbridge_up(?Host) is nondet.
-%
-%   Host is connected now.
 
 rosbridge_up(Host) :-
     writer(Host, _).

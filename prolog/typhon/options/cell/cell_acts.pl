@@ -33,8 +33,6 @@ place.
                 *******************************/
 
 %!  cell_outcome(@Outcome) is semidet.
-%
-%   Outcome is a valid outcome of machine_run/3.
 
 cell_outcome(done).
 cell_outcome(failed).

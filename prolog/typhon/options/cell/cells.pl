@@ -177,8 +177,6 @@ first(Key, run(Host, Agent)) :-
     assertz(woken(Agent, Key)).
 
 %!  cell_give(+Cell) is det.
-%
-%   Return Cell, which cell_take/3 has taken.
 
 cell_give(Cell) :-
     with_mutex(typhon_cells, give(Cell, Next)),

@@ -121,8 +121,6 @@ urgency(idle, 1).
 urgency(now, 2).
 
 %!  queue_error(-Error) is semidet.
-%
-%   Error is that of the last commit.
 
 queue_error(Error) :-
     reported(Error),

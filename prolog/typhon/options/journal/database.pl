@@ -84,8 +84,6 @@ journal_part(Dir0, P, Part) :-
     directory_file_path(Dir, Name, Part).
 
 %!  database_found(+Base) is semidet.
-%
-%   Base holds a journal.
 
 %!  database_connect(+Base, +Seconds, -Connection, -Age) is det.
 %
@@ -97,8 +95,6 @@ journal_part(Dir0, P, Part) :-
 %   Begin a transaction.  From now on no other process can open the journal.
 
 %!  database_tables(+Base, +Connection) is det.
-%
-%   Create the tables of a new journal.
 
 %!  database_stamp(+Base, +Connection, -Stamp) is det.
 %!  database_same(+Base, +Sync, +Stamp, +Connection) is semidet.

@@ -354,8 +354,6 @@ typhon_durable:go_on :-
     forall(member(act(Kind, N, Key, Term), Acts), act(Kind, N, Key, Term)).
 
 %!  deferred_any is semidet.
-%
-%   This thread has deferred effects.
 
 deferred_any :-
     (   deferred(_)
@@ -364,15 +362,11 @@ deferred_any :-
     !.
 
 %!  deferred_commit is det.
-%
-%   Queue the deferred changes of this thread.
 
 deferred_commit :-
     forall(retract(deferred(Change)), changes_add(Change)).
 
 %!  deferred_release is det.
-%
-%   Call the deferred goals of this thread.
 
 deferred_release :-
     (   after(_)

@@ -315,8 +315,6 @@ add_tuples(Host, Kind, Id, Change) :-
     ).
 
 %!  usage_begin is det.
-%
-%   The turn of an agent begins in this thread.
 
 usage_begin :-
     quota_begin,

@@ -62,8 +62,6 @@ sender_signal(Signals, Message) :-
           true).                        % the sender has ended
 
 %!  time_at(+Clock, -Time) is det.
-%
-%   Time is the present time of clock(Epoch, Rate).
 
 time_at(clock(Epoch, Rate), Time) :-
     time_now(Now),

@@ -114,8 +114,6 @@ browsers_send(Event) :-
     ).
 
 %!  browsers_there is semidet.
-%
-%   At least one browser is connected.
 
 browsers_there :-
     browser(_, _),

@@ -238,8 +238,6 @@ status_word(Doing, Word) :-
     clock_of/3.                 % Host, Epoch, Rate
 
 %!  times_stop is det.
-%
-%   Forget the clocks and the origin of a page.
 
 times_stop :-
     retractall(reference(_, _)),

@@ -91,8 +91,6 @@ sources_look(scene(Hosts, Agents)) :-
     inventory_agents(Seen, Agents).
 
 %!  sources_metrics(-Text:string) is det.
-%
-%   Text has the metrics of all hosts of the page, see metrics/2.
 
 sources_metrics(Text) :-
     take_inventory(0, _, Hosts),

@@ -304,8 +304,6 @@ goals_normal(Goals0, Goals) :-
     body_list(Body, Goals).
 
 %!  body_list(+Body, -Goals:list) is det.
-%
-%   Goals are those of a clause body.
 
 body_list(Body, Goals) :-
     body_goals(Body, _, Goals0, []),
