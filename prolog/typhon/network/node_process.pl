@@ -72,54 +72,35 @@ waits for the order to stop, and kills the process if it does not end in time.
 
 %!  order_do(+Order, -Answer) is det.
 %
-%   Orders and their answers:
+%   Orders, whose answer is `ok` if none is named:
 %
-%     - hosts(Specs)
-%       Starts a host for each Name-Options, or, if one start fails, none.
-%       Answer is the list of their addresses.
-%     - go_on
-%       Resumes the contents of the journal of the process; `ok`.
-%     - stop(Names)
-%       Stops these hosts; `ok`. Ignores hosts that do not exist. If Names are
-%       all hosts of the process, the journal keeps its contents.
-%     - stop
-%       Stops all hosts of the process in the same way; `ok`.
-%     - flush(Seconds, Peers)
-%       `ok` when all that the process has sent to the endpoints Peers has
-%       arrived, else `late`.
-%     - link(Halves), unlink(Halves)
-%       One direction of a link for each half(Name, Address, Cost), Cost as
-%       of host_link/3; `ok`.
-%     - places(Pairs)
-%       Calls the goal of each Name-Goal in the place of the host; `ok`.
-%     - expect(Endpoints), expect_no_more(Endpoints)
-%       From now on a process at one of Endpoints that ends will be restarted,
-%       or will not; `ok`.
-%     - neighbours(Names)
-%       Answer is the list of the neighbours of each host, `[]` for a host
-%       that does not exist.
-%     - hold(Seconds)
-%       Pauses time: no agent gets a turn; `ok`, or `late`.
-%     - rest(Seconds, Peers)
-%       Waits until no agent runs or is under way, and nothing is queued for
-%       the endpoints Peers; `ok`, or `late`.
-%     - kept(Names)
-%       Answer is kept(Time, Specs, Items): the state of time, see
+%     - hosts(Specs): start a host for each Name-Options, or, if one start
+%       fails, none; the list of their addresses
+%     - again(Specs): the same for hosts that existed before
+%     - go_on: resume the contents of the journal of the process
+%     - stop(Names): stop these hosts, if they exist.  If Names are all hosts of
+%       the process, the journal keeps its contents
+%     - stop: stop all hosts of the process in the same way
+%     - flush(Seconds, Peers): `ok` when all that the process has sent to the
+%       endpoints Peers has arrived, else `late`
+%     - link(Halves), unlink(Halves): one direction of a link for each
+%       half(Name, Address, Cost), see host_link/3
+%     - places(Pairs): call the goal of each Name-Goal in the place of the host
+%     - expect(Endpoints), expect_no_more(Endpoints): from now on a process at
+%       one of Endpoints that ends will be restarted, or will not
+%     - neighbours(Names): the list of the neighbours of each host, `[]` for a
+%       host that does not exist
+%     - hold(Seconds): pause time, so that no agent gets a turn; `ok` or `late`
+%     - let_go: end hold(_)
+%     - rest(Seconds, Peers): wait until no agent runs or is under way, and
+%       nothing is queued for the endpoints Peers; `ok` or `late`
+%     - kept(Names): kept(Time, Specs, Items): the state of time, see
 %       time_state/1, Name-Options for each of these hosts, and the items of
-%       process_dump/2.
-%     - let_go
-%       Ends hold(_); `ok`.
-%     - again(Specs)
-%       As hosts(Specs), for hosts that existed before.
-%     - fill(Kind, Items)
-%       Restores Items; `ok`.
-%     - goes_on(Kind, Time, Agents)
-%       Restores the state of time, and resumes Agents; `ok`.
-%     - agents
-%       Answer is the list of the agents that were created in the process and
-%       have not ended.
-%     - ended(Name)
-%       Answer is the list of the ended agents named Name.
+%       process_dump/2
+%     - fill(Kind, Items): restore Items
+%     - goes_on(Kind, Time, Agents): restore the state of time, resume Agents
+%     - agents: the agents that were created in the process and have not ended
+%     - ended(Name): the ended agents named Name
 %
 %   @error errors of host_start/2, and of goals of places(Pairs); where such
 %   a goal fails, place_goal_failed(Name, Goal)

@@ -47,28 +47,24 @@ process begins a watch, or another process watches its hosts.
 %   event(Time, Host, Agent, What), where Time is in seconds of the clock of
 %   Host, Host is an address, Agent an id or `none`, and What is one of
 %
-%     - created, ended(Outcome), fault(Fault)
-%       An agent begins, ends, or becomes faulty; Fault is the one of
-%       agent_property/2.  A faulty agent ends when it is disposed of.
-%     - left(To), arrived(From, Seconds), stayed(To)
-%       An agent departs for To; has arrived after a hop of Seconds; could not
-%       move to To.
-%     - cloned(Id), sent(To), received(From), log(Term)
-%       On hosts whose option log(Address, Kinds) has messages(content), also
-%       sent(To, Message) and received(From, Message).
-%     - leave(Fact), take(Fact)
-%       A fact is put into the tuple space of Host, or taken out.
-%     - link(To), unlink(To), started, stopped
-%       Agent is `none`.
-%     - refused(Agent, Reason)
-%       Host did not admit Agent: the name of an agent to be created there, or
-%       the id of an arriving one.  Reason is the one of move_refused/2.  The
-%       agent of the event is `none`.
-%     - lost
-%       The process of Host has ended or cannot be reached any more.  When it
-%       is reachable again, Host has the event `started`.
-%     - skipped(Count)
-%       Count events of Host were dropped, since OnEvent is too slow.
+%     - created, ended(Outcome), fault(Fault): an agent begins, ends, or becomes
+%       faulty; Fault is the one of agent_property/2.  A faulty agent ends when
+%       it is disposed of
+%     - left(To), arrived(From, Seconds), stayed(To): an agent departs for To;
+%       has arrived after a hop of Seconds; could not move to To
+%     - cloned(Id), sent(To), received(From), log(Term), on hosts whose option
+%       log(Address, Kinds) has messages(content) also sent(To, Message) and
+%       received(From, Message)
+%     - leave(Fact), take(Fact): a fact is put into the tuple space of Host, or
+%       taken out
+%     - link(To), unlink(To), started, stopped: Agent is `none`
+%     - refused(Agent, Reason): Host did not admit Agent: the name of an agent
+%       to be created there, or the id of an arriving one.  Reason is the one of
+%       move_refused/2.  The agent of the event is `none`
+%     - lost: the process of Host has ended or cannot be reached any more.  When
+%       it is reachable again, Host has the event `started`
+%     - skipped(Count): Count events of Host were dropped, since OnEvent is too
+%       slow
 %
 %   The events of one host arrive in order.  All calls run one after the other
 %   in a thread of the watch, so that hosts never wait for OnEvent.  Failure of
@@ -194,12 +190,11 @@ end_from_outside(Watch, Thread) :-
 %   Processes are the processes of Hosts, see watch/3, as
 %   process(Endpoint, Pid, Hosts, Agents), with
 %
-%     - host(Address, Time, Load, Options, Links)
-%       Time is the time of its clock, Load the number of its agents that
-%       count towards its capacity, Options those of host_start/2 except
-%       tokens, Links pairs To-Cost.
-%     - agent(Id, Host, Program, State, Hops)
-%       State is that of agent_property/2, without the error of faulty agents.
+%     - host(Address, Time, Load, Options, Links): Time is the time of its
+%       clock, Load the number of its agents that count towards its capacity,
+%       Options those of host_start/2 except tokens, Links pairs To-Cost
+%     - agent(Id, Host, Program, State, Hops): State is that of
+%       agent_property/2, without the error of faulty agents
 %
 %   Silent are the endpoints of processes that did not answer within five
 %   seconds.

@@ -40,20 +40,15 @@
 %   'socket://localhost:5000'. The brick has answered when this succeeds.
 %   Options:
 %
-%     - deadline(Seconds)
-%       Time limit of every later call; default 3.
-%     - connect_deadline(Seconds)
-%       Time limit of this call; default 15.
-%     - confirm(Boolean)
-%       Whether the brick must acknowledge commands that have no other answer,
-%       such as motor commands; default `true`.  With `false`, these are faster
-%       (a Bluetooth link needs a tenth of a second to change direction), and
-%       succeed even if the brick is silent or refuses.
-%     - baudrate(N)
-%       Default 115200.
-%     - python(Program)
-%       The Python of the helper; default see the setting
-%       typhon_nxt_link:python.
+%     - deadline(Seconds): of every later call; default 3
+%     - connect_deadline(Seconds): of this call; default 15
+%     - confirm(Boolean): whether the brick must acknowledge commands that have
+%       no other answer, such as motor commands; default `true`.  With `false`,
+%       these are faster (a Bluetooth link needs a tenth of a second to change
+%       direction), and succeed even if the brick is silent or refuses
+%     - baudrate(N): default 115200
+%     - python(Program): the Python of the helper; default see the setting
+%       typhon_nxt_link:python
 %
 %   @error permission_error(connect, nxt_brick, Brick) if Brick is connected
 %   @error See nxt_failure/5

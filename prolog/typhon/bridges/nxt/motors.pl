@@ -36,19 +36,15 @@ has reached its limit is released, and may roll on for some degrees.
 %
 %   Begin to turn Motors.  Options:
 %
-%     - regulated(Boolean)
-%       Whether Power is a speed, which the brick maintains under load; default
-%       `false`.
-%     - brake(Boolean)
-%       Brake between the pulses of the current; default as regulated.
-%     - degrees(N)
-%       Turn by N degrees; default 0: without limit.
-%     - sync(Ratio)
-%       Synchronise two motors: at 0 both turn alike, at 50 the first one does
-%       not turn, at 100 it turns in the opposite direction; -50 and -100 do the
-%       same to the second one.
-%     - state(State)
-%       `running` (default), `ramp_up` or `ramp_down`.
+%     - regulated(Boolean): whether Power is a speed, which the brick maintains
+%       under load; default `false`
+%     - brake(Boolean): brake between the pulses of the current; default as
+%       regulated
+%     - degrees(N): turn by N degrees; default 0: without limit
+%     - sync(Ratio): synchronise two motors: at 0 both turn alike, at 50 the
+%       first one does not turn, at 100 it turns in the opposite direction; -50
+%       and -100 do the same to the second one
+%     - state(State): `running` (default), `ramp_up` or `ramp_down`
 %
 %   @error domain_error(nxt_motor_option, Option)
 

@@ -33,15 +33,11 @@ gyroscope, infrared seeker and accelerometer are those of HiTechnic.
 %   family(Name, Most, Kind): export predicates Name of a brick and 1 to Most
 %   ports.  They call the goal of Kind with two more arguments:
 %
-%     - all(Goal)
-%       the brick and the list of the ports;
-%     - each(Goal)
-%       the brick and one port, for each port;
-%     - value(Goal)
-%       the brick, one port and its value, for each port; the values are
-%       arguments of the predicate, after the ports.
-%     - speed(Sign)
-%       a move forward or backward: the speed is the last argument.
+%     - all(Goal): the brick and the list of the ports
+%     - each(Goal): the brick and one port, for each port
+%     - value(Goal): the brick, one port and its value, for each port; the
+%       values are arguments of the predicate, after the ports
+%     - speed(Sign): a move forward or backward: the speed is the last argument
 %
 %   So `init_light_nxt(b, 1, 3)` sets up two ports, and
 %   `read_touch_nxt(b, 1, 3, R1, R3)` returns their values.

@@ -49,10 +49,7 @@ typhon_options:declared(ros_call_option, deadline(X), between(0.01, 3600), X).
 %!  ros_call(+Service, +Type, +Request, -Response, +Options) is semidet.
 %
 %   Call Service.  Request and Response have the form of a message of
-%   ros_publish/3.  Options:
-%
-%     - deadline(Seconds)
-%       Time limit of the call; default is that of ros_start/3.
+%   ros_publish/3.  Option: deadline(Seconds), default that of ros_start/3.
 %
 %   @error domain_error(ros_name(service), Service)
 %   @error domain_error(ros_type(srv), Type), existence_error(ros_type, Type)
