@@ -122,22 +122,24 @@ image_held(image(Id, Hash, Life, State, Goals, Mail, Start),
 %   @error type_error(agent_image, Name)
 
 image_label(Image, label(Id, Hops, Since, From)) :-
-    (   is_image(Image)
-    ->  Image = image(Id, _, Life, _, _, _, Start),
-        started(Start, Since, From),
-        life_hops(Life, Hops)
+    (   is_image(Image),
+        Image = image(Id, _, Life, _, _, _, Start),
+        started(Start, Since, From)
+    ->  life_hops(Life, Hops)
     ;   image_name(Image, Name),
         type_error(agent_image, Name)
     ).
 
+started(Since, Since, none) :-
+    number(Since),
+    !.
 started(Start, Since, From) :-
-    (   number(Start)
-    ->  Since = Start,
-        From = none
-    ;   Start = From-Since
-    ).
+    subsumes_term(_-_, Start),
+    Start = From-Since,
+    atom(From),
+    number(Since).
 
-is_image(image(Id, Hash, Life, State, Goals, Mail, Start)) :-
+is_image(image(Id, Hash, Life, State, Goals, Mail, _)) :-
     atom(Id),
     is_printable(Id),
     agent_home(Id, _),
@@ -150,8 +152,7 @@ is_image(image(Id, Hash, Life, State, Goals, Mail, Start)) :-
     is_list(Clauses),
     is_list(Goals),
     is_list(Mail),
-    forall(member(Message, Mail), subsumes_term(_-_, Message)),
-    is_start(Start).
+    forall(member(Message, Mail), subsumes_term(_-_, Message)).
 
 may_be_noted(Id, Life) :-
     (   durable_on
@@ -159,15 +160,6 @@ may_be_noted(Id, Life) :-
         durable_key(Id, Hops)
     ;   true
     ).
-
-is_start(Start) :-
-    number(Start),
-    !.
-is_start(Start) :-
-    subsumes_term(_-_, Start),
-    Start = From-Since,
-    atom(From),
-    number(Since).
 
 %   The name or functor of Image: the whole would be too long for a message.
 

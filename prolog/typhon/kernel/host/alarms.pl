@@ -6,7 +6,6 @@
             alarms_renew/1,             % +Stamp
             alarms_new/1,               % -Count
             alarms_go_off/1,            % +Stamp
-            alarms_number/1,            % -Count
             index_make/1,               % -Index
             index_update/2,             % +Index0, -Index
             index_delete/3,             % +Index0, +Stamp, -Index
@@ -127,13 +126,6 @@ alarm_take(Alarm, Agent, Token) :-
     clause(alarm(_, Agent, Token), true, Alarm),
     catch(erase(Alarm), error(existence_error(_, _), _), fail).
 
-%!  alarms_number(-Count) is det.
-%
-%   There are Count alarms. This is slow: clauses are counted.
-
-alarms_number(Count) :-
-    predicate_property(alarm(_, _, _), number_of_clauses(Count)).
-
                 /*******************************
                 *           THE INDEX          *
                 *******************************/
@@ -144,7 +136,7 @@ alarms_number(Count) :-
 
 index_make(Index) :-
     alarms_thin,
-    alarms_number(Count),
+    predicate_property(alarm(_, _, _), number_of_clauses(Count)),
     More is max(500, Count),
     current_prolog_flag(stack_limit, Bytes),
     Space is Bytes//512-Count,

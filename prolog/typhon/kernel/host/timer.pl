@@ -6,11 +6,11 @@
             alarms_overdue/0
           ]).
 :- use_module('../base/server',
-              [ server_answer/2, server_call/4, server_cast/2, server_check/1,
+              [ server_answer/2, server_cast/2, server_check/1,
                 server_start/4, server_stop/1 ]).
 :- use_module(alarms,
               [ alarm_add/3, alarms_begin/0, alarms_end/0, alarms_go_off/1,
-                alarms_new/1, alarms_number/1, alarms_renew/1, index_delete/3,
+                alarms_new/1, alarms_renew/1, index_delete/3,
                 index_first/2, index_make/1, index_size/2, index_update/2 ]).
 :- use_module(turns, [turns_paused/0]).
 
@@ -112,16 +112,6 @@ alarms_overdue :-
         ignore(server_cast(Timer, look))
     ;   true
     ).
-
-%   alarm_count(-Alarms, -Indexed): the numbers of alarms, and of stamps in the
-%   index; for tests.
-
-:- public alarm_count/2.
-
-alarm_count(Alarms, Indexed) :-
-    timer(Timer),
-    server_call(Timer, count, inf, Indexed),
-    alarms_number(Alarms).
 
                 /*******************************
                 *           THE TIMER          *

@@ -18,7 +18,8 @@
               [ agent/5, agent_ordered/1, agent_status/3, agent_wakes/2,
                 mail_count/2, with_agent/2 ]).
 :- use_module(questions,
-              [agent_asked/4, agent_named/2, agent_urge/4, question_answered/2]).
+              [ agent_asked/4, agent_named/2, agent_urge/4,
+                question_answered/2 ]).
 :- use_module(orders, [order_take/2]).
 :- use_module(ending, [agent_end/3, agent_forgotten/2]).
 

@@ -250,7 +250,6 @@ is_call(Goal) :-
 
 own_kind(native, _, leaf([])).
 own_kind(mobile, _, mobile).
-own_kind(open, _, mobile).
 own_kind(outside(Heads), _, leaf(Heads)).
 own_kind(state, Head, leaf([Head])).
 

@@ -322,13 +322,13 @@ declare_mobile(Kind, Module, Name, Arity) :-
     assertz(Module:'$mobile'(Head, Mobile, Goals, Rest, Barrier,
                                Condition)).
 
-%   condition(+Kind, -Condition): the predicate is unfolded if Condition holds,
-%   see typhon_machine.
+%   condition(+Kind, -Condition): the predicate is unfolded if Condition, `mobile`
+%   or outside(Heads), holds, see typhon_machine.
 
 condition(outside(PIs), outside(Heads)) :-
     !,
     maplist(indicator_head, PIs, Heads).
-condition(Kind, Kind).
+condition(_, mobile).
 
 indicator_head(Name/Arity, Head) :-
     functor(Head, Name, Arity).

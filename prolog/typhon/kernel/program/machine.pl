@@ -369,7 +369,6 @@ handed(Place, Vars, Goals, X, Base, Out) :-
 %   mobile(+Condition, +Agent): this static predicate must be unfolded.
 
 mobile(mobile, _).
-mobile(open, _).
 mobile(outside(Heads), Agent) :-
     has_rule(Heads, Agent).
 
