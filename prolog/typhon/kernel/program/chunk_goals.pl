@@ -1,6 +1,6 @@
 :- module(typhon_chunk_goals,
           [ plain_goals/2,              % +Goals0, -Goals
-            goals_without/3,            % +Frames, +Goals0, -Goals
+            goals_without/3,            % +Goals0, +Frames, -Goals
             frame_goals/4,              % +Place, +Vars, -Goals, ?Rest
             place_left/4,               % +Place, +Vars, -Goal, -Goals
             place_marked/3              % +Place, +Vars, -Left
@@ -31,30 +31,30 @@ saves time, '$frame'/5, from goals to frames.
 %   A suspended agent is shown with these goals.
 
 plain_goals(Goals0, Goals) :-
-    goals_without(all, Goals0, Goals).
+    goals_without(Goals0, all, Goals).
 
-%!  goals_without(+Frames, +Goals0, -Goals) is det.
+%!  goals_without(+Goals0, +Frames, -Goals) is det.
 %
 %   As plain_goals/2, but if Frames is `cuts`, keep frames without a cut.  A cut
 %   in a frame would cut to where this run began, and the next run begins
 %   elsewhere.
 
-goals_without(_, [], []).
-goals_without(Frames, [Goal|Goals0], [Goal|Goals]) :-
+goals_without([], _, []).
+goals_without([Goal|Goals0], Frames, [Goal|Goals]) :-
     var(Goal),
     !,
-    goals_without(Frames, Goals0, Goals).
-goals_without(Frames, ['$k'(Place, Vars)|Goals0], Goals) :-
+    goals_without(Goals0, Frames, Goals).
+goals_without(['$k'(Place, Vars)|Goals0], Frames, Goals) :-
     !,
     (   Frames == cuts,
         Place /\ 1 =:= 0
     ->  Goals = ['$k'(Place, Vars)|Goals1]
     ;   frame_goals(Place, Vars, Goals, Goals1)
     ),
-    goals_without(Frames, Goals0, Goals1).
-goals_without(Frames, [Goal0|Goals0], [Goal|Goals]) :-
+    goals_without(Goals0, Frames, Goals1).
+goals_without([Goal0|Goals0], Frames, [Goal|Goals]) :-
     plain_goal(Goal0, Goal),
-    goals_without(Frames, Goals0, Goals).
+    goals_without(Goals0, Frames, Goals).
 
 %!  frame_goals(+Place, +Vars, -Goals, ?Rest) is det.
 %

@@ -322,8 +322,8 @@ declare_mobile(Kind, Module, Name, Arity) :-
     assertz(Module:'$mobile'(Head, Mobile, Goals, Rest, Barrier,
                                Condition)).
 
-%   condition(+Kind, -Condition): the predicate is unfolded if Condition, `mobile`
-%   or outside(Heads), holds, see typhon_machine.
+%   condition(+Kind, -Condition): the predicate is unfolded if Condition holds,
+%   `mobile` or outside(Heads), see typhon_machine.
 
 condition(outside(PIs), outside(Heads)) :-
     !,

@@ -113,9 +113,9 @@ outcome(effect(Control, Hole, [First|Goals0]), Outcome) :-
     Outcome = effect(Control, Hole, [First|Goals]),
     var(First),                         % usually the hole
     !,
-    goals_without(cuts, Goals0, Goals).
+    goals_without(Goals0, cuts, Goals).
 outcome(effect(Control, Hole, Goals0), effect(Control, Hole, Goals)) :-
-    goals_without(cuts, Goals0, Goals).
+    goals_without(Goals0, cuts, Goals).
 
 %!  machine_inside is semidet.
 %
@@ -129,9 +129,9 @@ machine_inside :-
                 *           THE RUN            *
                 *******************************/
 
-%   run(+Goals, +Context, +Base, -Out) is nondet: Out is `exit` for each solution
-%   of Goals, or effect(...) where a control predicate is reached.  `!` in Goals
-%   cuts to Base, the choice point at which the run began.
+%   run(+Goals, +Context, +Base, -Out) is nondet: Out is `exit` for each
+%   solution of Goals, or effect(...) where a control predicate is reached.
+%   `!` in Goals cuts to Base, the choice point at which the run began.
 
 run([], _, _, exit).
 run([Goal|Goals], Context, Base, Out) :-
