@@ -7,12 +7,11 @@
             vocabulary/1,               % +Module
             vocabulary_word/2           % ?Module, ?PI
           ]).
-:- use_module(library(apply), [foldl/4, maplist/3]).
-:- use_module(library(assoc),
-              [assoc_to_keys/2, empty_assoc/1, get_assoc/3, put_assoc/4]).
+:- use_module(library(apply), [maplist/3]).
 :- use_module(library(lists), [append/3, member/2]).
-:- use_module(library(ordsets), [ord_union/3]).
+:- use_module(library(ordsets), [ord_subtract/3]).
 :- use_module(library(settings), [setting/4]).
+:- autoload(library(ugraphs), [reachable/3, vertices_edges_to_ugraph/3]).
 :- use_module('../base/bounds', [bounded/2]).
 :- use_module(bodies, [control/1]).
 
@@ -48,11 +47,16 @@ declarations, which are made while modules are loaded.
 
 mobile_predicates(Clauses, Kinds, Problems) :-
     maplist(clause_calls, Clauses, Located),
-    empty_assoc(Empty),
-    foldl(add_calls, Located, Empty, Calls),
-    assoc_to_keys(Calls, Own),
-    reach(Own, Calls, [], Mobile),
-    maplist(kind(Calls, Mobile), Own, Kinds),
+    findall(PI, member(calls(PI, _, _), Located), PIs),
+    sort(PIs, Own),
+    findall(PI-Next,
+            ( member(calls(PI, Calls, _), Located),
+              member(Call, Calls),
+              next_call(Call, Own, Next) ),
+            Edges),
+    vertices_edges_to_ugraph(Own, Edges, Graph),
+    maplist(kind(Own, Graph), Own, Kinds),
+    findall(PI, member(PI-mobile, Kinds), Mobile),
     findall(Problem, misplaced(Located, Mobile, Problem), Problems1),
     findall(Problem, changed(Located, Own, Problem), Problems2),
     append(Problems1, Problems2, Problems).
@@ -61,90 +65,44 @@ clause_calls((Head:-Body)-Location, calls(Name/Arity, Calls, Location)) :-
     functor(Head, Name, Arity),
     body_calls(Body, Calls).
 
-add_calls(calls(PI, New, _), Calls0, Calls) :-
-    (   get_assoc(PI, Calls0, Old)
-    ->  ord_union(Old, New, All)
-    ;   All = New
+%   next_call(+Call, +Own, -Next) is semidet: the machine itself may come to
+%   Next, a predicate or `unknown`.  A predicate that is called natively needs no
+%   unfolding.
+
+next_call(unknown(run), _, unknown).
+next_call(call(PI, run), Own, PI) :-
+    (   memberchk(PI, Own)
+    ;   is_control(PI)
+    ;   \+ built_in(PI)
     ),
-    put_assoc(PI, Calls0, All, Calls).
-
-%   reach(+Own, +Calls, +Mobile0, -Mobile): the least fixed point of Mobile0
-%   under Calls.
-
-reach(Own, Calls, Mobile0, Mobile) :-
-    findall(PI,
-            ( member(PI, Own),
-              \+ memberchk(PI, Mobile0),
-              get_assoc(PI, Calls, List),
-              memberchk_mobile(List, Mobile0)
-            ),
-            New),
-    (   New == []
-    ->  Mobile = Mobile0
-    ;   append(New, Mobile0, Mobile1),
-        reach(Own, Calls, Mobile1, Mobile)
-    ).
-
-memberchk_mobile(List, Mobile) :-
-    member(call(PI, run), List),
-    is_mobile(PI, Mobile),
     !.
+
+kind(Own, Graph, PI, PI-Kind) :-
+    reachable(PI, Graph, Reached),
+    (   member(Next, Reached),
+        is_control(Next)
+    ->  Kind = mobile
+    ;   ( PI == on_message/2 ; memberchk(unknown, Reached) )
+    ->  Kind = open
+    ;   ord_subtract(Reached, Own, [])
+    ->  Kind = native
+    ;   ord_subtract(Reached, Own, Outside),
+        Kind = outside(Outside)
+    ).
 
 %!  is_mobile(+PI, +Mobile) is semidet.
 %
 %   PI is a control predicate, or one of Mobile.
 
-is_mobile(Name/Arity, Mobile) :-
-    (   functor(Head, Name, Arity),
-        control(Head)
+is_mobile(PI, Mobile) :-
+    (   is_control(PI)
     ->  true
-    ;   memberchk(Name/Arity, Mobile)
+    ;   memberchk(PI, Mobile)
     ).
 
-kind(Calls, Mobile, PI, PI-Kind) :-
-    (   memberchk(PI, Mobile)
-    ->  Kind = mobile
-    ;   PI == on_message/2
-    ->  Kind = open
-    ;   closure([PI], Calls, [], Reached),
-        kind_of(Reached, Calls, Kind)
-    ).
-
-kind_of(Reached, _, open) :-
-    memberchk(unknown, Reached),
-    !.
-kind_of(Reached, Calls, Kind) :-
-    findall(PI,
-            ( member(PI, Reached),
-              \+ get_assoc(PI, Calls, _)
-            ),
-            Outside),
-    (   Outside == []
-    ->  Kind = native
-    ;   Kind = outside(Outside)
-    ).
-
-%   closure(+Agenda, +Calls, +Seen, -Reached): the predicates that the machine
-%   itself may call; a predicate that is called natively needs no unfolding.
-
-closure([], _, Seen, Seen).
-closure([PI|Agenda0], Calls, Seen, Reached) :-
-    memberchk(PI, Seen),
-    !,
-    closure(Agenda0, Calls, Seen, Reached).
-closure([PI|Agenda0], Calls, Seen, Reached) :-
-    (   get_assoc(PI, Calls, List)
-    ->  findall(Next, next_call(List, Next), More),
-        append(More, Agenda0, Agenda)
-    ;   Agenda = Agenda0
-    ),
-    closure(Agenda, Calls, [PI|Seen], Reached).
-
-next_call(List, PI) :-
-    member(call(PI, run), List),
-    \+ built_in(PI).
-next_call(List, unknown) :-
-    memberchk(unknown(run), List).
+is_control(Name/Arity) :-
+    functor(Head, Name, Arity),
+    control(Head).
 
 misplaced(Located, Mobile,
           problem(permission_error(call, control_predicate, PI), Location,
