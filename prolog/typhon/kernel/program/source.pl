@@ -11,7 +11,7 @@
           ]).
 :- use_module(library(apply), [maplist/2, maplist/3]).
 :- use_module(library(error), [must_be/2]).
-:- use_module(library(lists), [member/2, memberchk/2]).
+:- use_module(library(lists), [member/2, memberchk/2, nth1/3]).
 :- use_module('../base/names', [names_near/3]).
 :- use_module(paths, [files_beside/3, included_file/3, program_file/2]).
 
@@ -65,30 +65,26 @@ items(Spec, Items) :-
     Spec = clauses(Terms),
     !,
     must_be(list, Terms),
-    number_terms(Terms, 1, Items).
+    findall(Item,
+            ( nth1(N, Terms, Term), grammar_rule(Term, clause(N), Item) ),
+            Items).
 items(Spec, Items) :-
     program_file(Spec, File),
     setup_call_cleanup(
         scratch_module(Module),
-        file_items(File, reading([], Module), Items, []),
+        findall(Item, file_item(File, reading([], Module), Item), Items),
         '$destroy_module'(Module)).
 
-number_terms([], _, []).
-number_terms([Term|Terms], N, [Item|Items]) :-
-    grammar_rule(Term, clause(N), Item),
-    N1 is N+1,
-    number_terms(Terms, N1, Items).
-
-%   file_items(+File, +Reading, -Items, ?Rest): Reading is reading(Files,
+%   file_item(+File, +Reading, -Item) is nondet: Reading is reading(Files,
 %   Module), where Files include File.
 
-file_items(File, reading(Files, Module),
-           [source(file(File, Stamp, Now))|Items], Rest) :-
+file_item(File, _, source(file(File, Stamp, Now))) :-
     get_time(Now),
-    file_stamp(File, Stamp),
+    file_stamp(File, Stamp).
+file_item(File, reading(Files, Module), Item) :-
     setup_call_cleanup(
         open(File, read, In, [encoding(utf8)]),
-        read_items(In, reading([File|Files], Module), Items, Rest),
+        item_in(In, reading([File|Files], Module), Item),
         close(In)).
 
 file_stamp(File, stamp(Size, Time)) :-
@@ -104,12 +100,18 @@ scratch_module(Module) :-
     set_module(Module:class(temporary)),
     set_module(Module:base(system)).
 
-%   read_items(+In, +Reading, -Items, ?Rest): the first of the files of Reading
-%   is read from In.
+%   item_in(+In, +Reading, -Item) is nondet: the first of the files of Reading is
+%   read from In.
 
-read_items(In, Reading, Items, Rest) :-
+item_in(In, Reading, Item) :-
+    repeat,
     read_one(In, Reading, Read),
-    continue(Read, In, Reading, Items, Rest).
+    (   Read = read(Term, _, _, _),
+        Term == end_of_file
+    ->  !,
+        fail
+    ;   item(Read, Reading, Item)
+    ).
 
 %   read_one(+In, +Reading, -Read): Read is error(Problem), or read(Term,
 %   Location, Bindings, Once), Once being the names of variables that occur
@@ -143,34 +145,23 @@ read_located(In, File, Module, read(Term, File:Line, Named, Once)) :-
 may_be_slip(Name) :-
     \+ sub_atom(Name, 0, _, _, '_').
 
-continue(read(Term, _, _, _), _, _, Rest, Rest) :-
-    Term == end_of_file,
-    !.
-continue(read(Term, Location, _, _), In, Reading, Items, Rest) :-
+item(read(Term, Location, _, _), Reading, Item) :-
     includes(Term, Spec),
     !,
-    include_file(Spec, Location, Reading, Items, Items1),
-    read_items(In, Reading, Items1, Rest).
-continue(read(Term, Location, Named, Once), In, Reading, [Item|Items],
-         Rest) :-
-    Reading = reading(_, Module),
-    grammar_rule(Term, Location, Item),
-    import_operators(Term, Module),
-    variable_names(Item, Named, Items, Items0),
-    once_warning(Once, Location, Items0, Items1),
-    read_items(In, Reading, Items1, Rest).
-continue(error(Problem), In, Reading, [error(Problem)|Items], Rest) :-
-    read_items(In, Reading, Items, Rest).
-
-%   variable_names(+Item, +Bindings, -Items, ?Rest): the names of the variables
-%   of a term, in the order of term_variables/2; `_` for those without one.
-
-variable_names(term(Term, Location), [Named|More],
-               [source(names(Location, Names))|Rest], Rest) :-
-    !,
-    term_variables(Term, Variables),
-    maplist(variable_name([Named|More]), Variables, Names).
-variable_names(_, _, Rest, Rest).
+    included(Spec, Location, Reading, Item).
+item(read(Term0, Location, Named, Once), reading(_, Module), Item) :-
+    grammar_rule(Term0, Location, Item0),
+    import_operators(Term0, Module),
+    (   Item = Item0
+    ;   Item0 = term(Term, _),
+        Named = [_|_],
+        term_variables(Term, Variables),
+        maplist(variable_name(Named), Variables, Names),
+        Item = source(names(Location, Names))
+    ;   Once = [_|_],
+        Item = warning(problem(singletons(Once), Location, singletons))
+    ).
+item(error(Problem), _, error(Problem)).
 
 variable_name(Named, Variable, Name) :-
     (   member(Name0=Variable0, Named),
@@ -178,12 +169,6 @@ variable_name(Named, Variable, Name) :-
     ->  Name = Name0
     ;   Name = '_'
     ).
-
-once_warning([], _, Items, Items) :-
-    !.
-once_warning(Names, Location,
-             [warning(problem(singletons(Names), Location, singletons))|Items],
-             Items).
 
 includes(Term, Spec) :-
     nonvar(Term),
@@ -193,17 +178,17 @@ includes(Term, Spec) :-
 
 %   Reports a file that includes itself, or that does not exist.
 
-include_file(Spec, Location, Reading, Items, Rest) :-
+included(Spec, Location, Reading, Item) :-
     Reading = reading([File|Files], _),
     catch(included_file(Spec, File, Path), error(Formal, _), true),
     (   nonvar(Formal)
     ->  files_meant(Formal, File, Meant),
-        Items = [error(problem(Formal, Location, include(Meant)))|Rest]
+        Item = error(problem(Formal, Location, include(Meant)))
     ;   memberchk(Path, [File|Files])
     ->  Formal = permission_error(include, source_sink, Spec),
-        Items = [error(problem(Formal, Location, include_itself))|Rest]
-    ;   Items = [source(include(Spec, File, Path))|Items1],
-        file_items(Path, Reading, Items1, Rest)
+        Item = error(problem(Formal, Location, include_itself))
+    ;   Item = source(include(Spec, File, Path))
+    ;   file_item(Path, Reading, Item)
     ).
 
 files_meant(existence_error(_, Spec), Includer, Meant) :-
