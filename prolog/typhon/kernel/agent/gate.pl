@@ -2,6 +2,7 @@
           [ gate/4,                     % +Host, +Entrant, :Install, -Verdict
             gate_refused/4              % +Host, +From, +Agent, +Reason
           ]).
+:- use_module(library(lists), [member/2]).
 :- use_module('../base/bounds', [memory_short/1]).
 :- use_module('../program', [code_module/2, code_receive/2]).
 :- use_module('../host',
@@ -100,26 +101,23 @@ against(from(_, _, _), _, Host, refused(unknown_host)) :-
     !.
 against(From, Entrant, Host, Verdict) :-
     parts(admit, Host, Closures),
-    first_reason(Closures, From, Entrant, Host, Verdict),
+    member(Closure, Closures),
+    call(Closure, From, Entrant, Host, Verdict),
     !.
 against(from(_, Program, _), entrant(_, Hash, _, _, _), _, need_program) :-
     lacks_program(Program, Hash),
     !.
 against(From, Entrant, Host, Verdict) :-
     parts(admit_program, Host, Closures),
-    first_reason(Closures, From, Entrant, Host, Verdict).
+    member(Closure, Closures),
+    call(Closure, From, Entrant, Host, Verdict),
+    !.
 
 %   A request of a peer may name any term as the host.
 
 open(Host) :-
     atom(Host),
     \+ host_closed(Host).
-
-first_reason([Closure|Closures], From, Entrant, Host, Verdict) :-
-    (   call(Closure, From, Entrant, Host, Verdict)
-    ->  true
-    ;   first_reason(Closures, From, Entrant, Host, Verdict)
-    ).
 
 %   @error domain_error(program_of_hash(Hash), Program)
 
