@@ -2,8 +2,7 @@
 :- use_module(library(lists), [member/2]).
 :- use_module(library(option), [option/3]).
 :- use_module('../kernel/base/durable', [durable/6]).
-:- use_module('../kernel/host',
-              [schedule_work/1, scheduler_limited/2]).
+:- use_module('../kernel/host', [scheduler_limited/2, time_work/1]).
 
 /** <module> Hosts on which only so many agents run at a time
 
@@ -41,11 +40,11 @@ typhon_host_parts:changeable(concurrency(_)).
 
 typhon_host_parts:changes(concurrency(Concurrency), Host) :-
     limit(Host, Concurrency, Work),
-    forall(member(One, Work), schedule_work(One)).
+    forall(member(One, Work), time_work(One)).
 
 typhon_hosting:closes(Host) :-
     limit(Host, inf, Work),
-    forall(member(One, Work), schedule_work(One)).
+    forall(member(One, Work), time_work(One)).
 
 typhon_host_parts:ends(Host) :-
     limit(Host, inf, _).

@@ -3,19 +3,16 @@
             scheduler_limited/2,        % +Host, +Boolean
             agent_parked/1,             % ?Agent
             schedule/2,                 % +Host, +Agent
-            schedule_work/1,            % +Work
             schedule_stays/2,           % +Here, +There
             schedule_here/3,            % +Host, +Kind, :Turn
             schedule_adopt/1,           % +Thread
-            schedule_leave/0,
             scheduler_call/1            % :Goal
           ]).
 :- use_module(library(debug), [debug/3]).
 :- use_module('../base/error_text', [is_abort/1, print_error/2]).
 :- use_module(turns, [turn_begins/1, turn_in/3, turns_not_short/2]).
 :- use_module(time,
-              [ time_adopt/1, time_alone/0, time_here/2, time_leave/0,
-                time_work/1 ]).
+              [time_adopt/1, time_alone/0, time_here/2, time_work/1]).
 
 /** <module> The scheduler: agents that are ready, and their turns
 
@@ -131,13 +128,6 @@ schedule(Host, Agent) :-
               [Agent, Host])
     ).
 
-%!  schedule_work(+Work) is det.
-%
-%   Queue Work, of an agent that was parked.
-
-schedule_work(Work) :-
-    time_work(Work).
-
 %!  schedule_stays(+Here, +There) is semidet.
 %
 %   The worker that runs an agent on Here may go on with it on There: no other
@@ -159,7 +149,7 @@ schedule_here(Host, Kind, Turn) :-
 
 %!  schedule_adopt(+Thread) is det.
 %
-%   Make Thread a worker until it calls schedule_leave/0.  It runs an agent by
+%   Make Thread a worker until it calls time_leave/0.  It runs an agent by
 %   schedule_here/3, and has no other duties now.
 
 blocks(60).                             % seconds without short turns
@@ -169,13 +159,6 @@ schedule_adopt(Thread) :-
     forall(( turn_in(Thread, Agent, _), kind(Agent, Kind) ),
            turns_not_short(Kind, Seconds)),
     time_adopt(Thread).
-
-%!  schedule_leave is det.
-%
-%   End schedule_adopt/1: this thread is no longer a worker.
-
-schedule_leave :-
-    time_leave.
 
 %!  scheduler_call(:Goal) is det.
 %

@@ -42,7 +42,8 @@ an agent belongs to one worker.
 :- meta_predicate turn_unit(0).
 
 :- multifile
-    engine/3,                   % Agent, Start, Engine
+    engine/3,                   % Agent, Start, Engine: it runs Agent,
+                                % agent(Id, Host, Hash, Life), from Start
     limit_passed/1,             % Outcome: of the agent that this thread ran,
                                 % and that was interrupted at a limit
     unit/2,                     % Run, Conclude: call(Run, Goal) runs an agent,
@@ -50,16 +51,6 @@ an agent belongs to one worker.
                                 % rest, as one unit of work
     settle/0,                   % end that unit now
     over/1.                     % Id: its worker no longer runs it
-
-%   turn_engine(+Agent, +Start, -Engine) is det.
-%
-%   Engine runs Agent, agent(Id, Host, Hash, Life), from Start.
-
-turn_engine(Agent, Start, Engine) :-
-    (   engine(Agent, Start, Engine0)
-    ->  Engine = Engine0
-    ;   Engine = machine
-    ).
 
 %   turn_run(+Engine, +Unit, +Turn, +Start, -Outcome, -Goals0) is det.
 %
@@ -196,13 +187,11 @@ completed(Task, Id) :-
     task_goals(Task, Goals),
     not_completed(Id, Goals).
 
-task_goals(run(goals(Goals)), Goals) :-
-    Goals = [_|_],
-    !.
-task_goals(run_on(_, _, Goals), Goals) :-
-    Goals = [_|_],
-    !.
-task_goals(order(_, Goals), Goals) :-
+task_goals(Task, Goals) :-
+    (   Task = run(goals(Goals))
+    ;   Task = run_on(_, _, Goals)
+    ;   Task = order(_, Goals)
+    ),
     Goals = [_|_],
     !.
 task_goals(leave(Dest, move(Dest), Goals, _), [move(Dest)|Goals]) :-
@@ -233,18 +222,23 @@ perform(leave(Dest, Hole, Goals, Since), Id) :-
 perform(run(Start), Id) :-
     agent(Id, Host, Module, Hash, Life),
     agent_code(Module, Program),
-    context_set(Host, Id, Module),
-    turn_engine(agent(Id, Host, Hash, Life), Start, Engine),
-    turns(Start, Engine, turn(Id, Host, context(Program, Module)), Next),
-    go_on(Next, Id).
+    run_from(Start, agent(Id, Host, Hash, Life), context(Program, Module)).
 perform(run_on(Host, Context, Goals), Id) :-
-    (   agent_here(Id, Host, Module, Hash, Life)
-    ->  context_set(Host, Id, Module),
-        turn_engine(agent(Id, Host, Hash, Life), goals(Goals), Engine),
-        turns(goals(Goals), Engine, turn(Id, Host, Context), Next),
-        go_on(Next, Id)
+    (   agent_here(Id, Host, _, Hash, Life)
+    ->  run_from(goals(Goals), agent(Id, Host, Hash, Life), Context)
     ;   turn_over(Id)                   % has ended
     ).
+
+run_from(Start, Agent, Context) :-
+    Agent = agent(Id, Host, _, _),
+    Context = context(_, Module),
+    context_set(Host, Id, Module),
+    (   engine(Agent, Start, Engine0)
+    ->  Engine = Engine0
+    ;   Engine = machine
+    ),
+    turns(Start, Engine, turn(Id, Host, Context), Next),
+    go_on(Next, Id).
 
 %   turns(+Start, +Engine, +Turn, -Next): Next is `stop`, or elsewhere(Goals).
 

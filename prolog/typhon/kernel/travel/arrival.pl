@@ -12,7 +12,7 @@
                 endpoint_reply_later/2 ]).
 :- use_module('../host',
               [ event/4, host/3, host_hop/3, host_time/2, schedule/2,
-                schedule_adopt/1, schedule_here/3, schedule_leave/0 ]).
+                schedule_adopt/1, schedule_here/3, time_leave/0 ]).
 :- use_module('../agent',
               [ agent/5, agent_extras_load/1, agent_extras_missing/1,
                 agent_here/5, agent_order/2, agent_status/3, gate/4,
@@ -147,7 +147,7 @@ typhon_endpoint:lent(Thread) :-
     schedule_adopt(Thread).
 
 typhon_endpoint:returned :-
-    schedule_leave.
+    time_leave.
 
 arrive(Name, Image, Papers, HopId, Peer, Answer) :-
     papers_program(Papers, Program),

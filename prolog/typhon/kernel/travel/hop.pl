@@ -22,9 +22,8 @@
 :- use_module(within, [hop_within/6]).
 :- use_module(transfer,
               [ hop_label/3, transfer_arrived/1, transfer_freeze/4,
-                transfer_image/2, transfer_image/5, transfer_repeated/2,
-                transfer_stays/2, transfer_traveller/3,
-                transfer_unreachable/1 ]).
+                transfer_image/2, transfer_image/5, transfer_stays/2,
+                transfer_traveller/3, transfer_unreachable/1 ]).
 
 /** <module> A hop is a transaction
 
@@ -167,8 +166,7 @@ hop_request(Transfer, Name, Image, Program, Request) :-
     ).
 
 not_sent(Formal, Transfer) :-
-    transfer_traveller(Transfer, Agent, Hops),
-    (   transfer_repeated(Agent, Hops)
+    (   may_have_arrived(Transfer)
     ->  resolve_in_doubt(Transfer)
     ;   transfer_stays(Transfer, Formal)
     ).
