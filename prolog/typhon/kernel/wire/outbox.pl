@@ -11,6 +11,7 @@
             session_acknowledge/1,      % +Session
             session_owes/0,
             session_send_later/2,       % +Session, +Term
+            session_later_begin/1,      % +Session
             session_later/1,            % -Count
             session_push/1,             % +Session
             session_control/2           % +Session, +Term
@@ -87,7 +88,7 @@ send_bytes(Session, Bytes, Token, When) :-
 %   As session_send/2, but Term may be held, see writer.pl.
 
 session_send_with(Session, Term) :-
-    answers_left(Own),
+    answers_left(Own, _),
     !,
     (   Own == Session
     ->  session_send(Session, Term)     % so that the answers go, too
@@ -169,43 +170,45 @@ session_object(Session, Answer) :-
 %   session_send_later/2.
 
 session_owes :-
-    nb_getval(typhon_later, Count),
-    Count1 is Count+1,
-    nb_linkval(typhon_later, Count1),
-    nb_linkval(typhon_owing, true).
+    nb_getval(typhon_later, Later),
+    nb_setarg(3, Later, true).
 
 %   Answers that a reader has buffered go with this frame, or before a frame to
 %   another peer: the process that gets this frame must not report an agent
 %   before the peer has the answer that the agent has arrived here.
 
 answers_first(Session) :-
-    answers_left(Own),
+    answers_left(Own, Later),
     !,
     (   Own == Session
-    ->  nb_linkval(typhon_later, 0),
-        nb_linkval(typhon_owing, false)
+    ->  none_later(Later)
     ;   session_push(Own)
     ).
 answers_first(_).
 
-answers_left(Session) :-
-    nb_current(typhon_later, Count),
-    Count > 0,
-    nb_current(typhon_later_in, Session).
+answers_left(Session, Later) :-
+    nb_current(typhon_later, Later),
+    Later = later(Session, Count, Owing),
+    ( Owing == true -> true ; Count > 0 ).
+
+none_later(Later) :-
+    nb_setarg(2, Later, 0),
+    nb_setarg(3, Later, false).
 
 %!  session_send_later(+Session, +Term) is det.
 %
 %   Send Term with the next frame.  Only the thread of the connection may buffer
-%   frames: it calls session_push/1 when it begins, and again soon after it has
-%   buffered frames.  Other threads send at once.
+%   frames: it calls session_push/1 soon after it has done so.  Other threads
+%   send at once.
 
 session_send_later(Session, Term) :-
-    nb_current(typhon_later, Count),
+    nb_current(typhon_later, Later),
     !,
     frame_bytes(Session, Term, Bytes),
     unless_closed(buffer(Session, Bytes)),
-    Count1 is Count+1,
-    nb_linkval(typhon_later, Count1).
+    arg(2, Later, Count0),
+    Count is Count0+1,
+    nb_setarg(2, Later, Count).
 session_send_later(Session, Term) :-
     session_answer(Session, Term).
 
@@ -215,12 +218,27 @@ buffer(Session, Bytes) :-
     ;   session_locked(Session, put_frame(Session, Bytes, none, buffer))
     ).
 
+%!  session_later_begin(+Session) is det.
+%
+%   This thread, which begins to read frames of Session, may buffer frames.  Its
+%   state is later(Session, Count, Owing): it has buffered Count frames, and the
+%   peer waits for the count of received frames if Owing is `true`; a new
+%   connection sends the count of frames that were received before.
+
+session_later_begin(Session) :-
+    nb_setval(typhon_later, later(Session, 0, true)).
+
 %!  session_later(-Count) is det.
 %
-%   The number of frames that this thread has buffered.
+%   The number of frames, one with the count included, that this thread has to
+%   send.
 
 session_later(Count) :-
-    nb_getval(typhon_later, Count).
+    nb_getval(typhon_later, later(_, Count0, Owing)),
+    (   Owing == true
+    ->  Count is Count0+1
+    ;   Count = Count0
+    ).
 
 %!  session_push(+Session) is det.
 %
@@ -228,19 +246,15 @@ session_later(Count) :-
 
 session_push(Session) :-
     ( output_waits -> flush_sends ; true ),
-    (   nb_current(typhon_owing, true)
+    nb_getval(typhon_later, Later),
+    (   arg(3, Later, true)
     ->  session_acknowledge(Session)
     ;   output_waits
     ->  true
     ;   session_key(Session, Key),
         session_locked(Session, flush_out(Key))
     ),
-    nb_linkval(typhon_later, 0),
-    nb_linkval(typhon_owing, false),
-    (   nb_current(typhon_later_in, Session)
-    ->  true
-    ;   nb_setval(typhon_later_in, Session)
-    ).
+    none_later(Later).
 
 frame_bytes(Session, Term, Bytes) :-
     session_codec(Session, Codec),

@@ -27,7 +27,7 @@ are deferred while a frame is being handled and counted.
               [lend/3, lending_close/0, lending_open/4, lent/0]).
 :- use_module(outbox,
               [ session_acknowledge/1, session_control/2, session_later/1,
-                session_object/2, session_owes/0, session_push/1 ]).
+                session_later_begin/1, session_object/2, session_push/1 ]).
 :- use_module(request,
               [ dispatch/2, dispatch_all/2, handed_over/2,
                 session_unfinished/1 ]).
@@ -63,8 +63,7 @@ read_frames(Session, In, Out) :-
     set_stream(In, timeout(Silence)),
     byte_count(In, Bytes),
     nb_setval(typhon_reader, true),
-    session_push(Session),
-    session_owes,                       % the count of frames received before
+    session_later_begin(Session),
     setup_call_cleanup(
         lending_open(Session, In, Out, Queue),
         read_or_skip(Session, In, Max, state(Bytes, silent(0, 0), Queue)),
