@@ -101,8 +101,7 @@ framed(Endpoint, Name, Hash, Image, Frame) :-
 
 leave(Transfer, Since, Frame) :-
     Transfer = hop(Id, Dest, Hops),
-    endpoint_hand_to(Frame, Process),
-    agent_handed(Id, Hops, way(Dest, Since, Process), Frame),
+    agent_handed(Id, Hops, way(Dest, Since), Frame),
     catch(endpoint_hand_over(Frame, Transfer), error(session_closed, _),
           scheduler_call(typhon_hand_over:settled(unsent, Transfer))).
 
@@ -128,7 +127,8 @@ settled(Result, Transfer) :-
 %   meanwhile is sent before any that comes later.
 
 moved_on(Id, dest(Address, _, Endpoint), Hops, Host, Since) :-
-    agent_under_way(Id, Hops, Host, _, way(_, Since, Process), _),
+    agent_under_way(Id, Hops, Host, _, way(_, Since), Frame),
+    endpoint_hand_to(Frame, Process),
     agent_went(Id, Address, Hops, Endpoint, Process),
     agent_gone(Id, Hops, Mail),
     post_on(Id, Mail).
@@ -144,7 +144,7 @@ typhon_agents:thaw(Id) :-
 %   those of the frame; the hop does not count before the agent has arrived.
 
 thawed(Id) :-
-    agent_under_way(Id, Hops, Host, _, way(Dest, Since, _), Frame),
+    agent_under_way(Id, Hops, Host, _, way(Dest, Since), Frame),
     !,
     endpoint_handed(Frame, hop(_, Image, _)),
     Image = image(Id, Hash, Life1, State, Hole-Goals0, Mail, _),
