@@ -127,8 +127,8 @@ held(out(E, N, K, T)) :- typhon_channel:out(E, N, K, T).
 held(had(E, N)) :- typhon_channel:had(E, N).
 held(sent(E, N)) :- typhon_channel:sent(E, N).
 held(courier(E)) :- typhon_channel:courier(E).
-held(seen(E, N)) :- typhon_durable_posts:seen(E, N).
-held(ack_scheduled(E)) :- typhon_durable_posts:ack_scheduled(E).
+held(seen(E, N)) :- typhon_channel:seen(E, N).
+held(ack_scheduled(E)) :- typhon_channel:ack_scheduled(E).
 held(waits(Id, Letters, T, S)) :-
     typhon_backlog:waits(Id, Q, T, S),
     findall(L, thread_peek(Q, L), Letters).

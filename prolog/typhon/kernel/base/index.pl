@@ -121,13 +121,11 @@ part_file('options/identity','options/identity/birth').
 part_file('options/identity','options/identity/sender_rights').
 part_file('options/journal','options/journal/channel').
 part_file('options/journal','options/journal/committing').
-part_file('options/journal','options/journal/durable_posts').
 part_file('options/journal','options/journal/hop_ids').
 part_file('options/journal','options/journal/journaled_agents').
 part_file('options/journal','options/journal/journaled_tuples').
 part_file('options/journal','options/journal/postgresql').
 part_file('options/journal','options/journal/recovery').
-part_file('options/journal','options/journal/sqlite').
 part_file('options/journal','options/journal/store').
 part_file('options/journal','options/journal/units_of_work').
 part_file('options/migration','options/migration/pheromone').

@@ -6,8 +6,9 @@
 :- use_module('../../kernel/base/durable', [durable/5]).
 :- use_module('../../kernel/base/durable_changes',
               [ crash_point/1, durable_drop/3, durable_drop_below/3,
-                durable_number/1, durable_on/0, enqueue_changes/0,
-                output_waits/0 ]).
+                durable_number/1, durable_on/0, durable_put/4,
+                enqueue_changes/0, output_waits/0, unit_of_work/1 ]).
+:- use_module('../../kernel/base/error_text', [print_error/2]).
 :- use_module('../../kernel/wire',
               [ endpoint_address/1, endpoint_gone/1, endpoint_post/3,
                 endpoint_process/1 ]).
@@ -15,12 +16,20 @@
 :- use_module(units_of_work,
               [changes_add/1, changes_must_fit/1, changes_putting/5]).
 
-/** <module> The sending end of durable posts
+/** <module> Durable posts
 
 A process that keeps a journal records a post to another process before it sends
 it, and keeps the record until the other process reports that it has received
 the post durably.  Until then it sends the post again over each new connection.
-The frames, and the receiving end, are described in typhon_durable_posts.
+It sends
+
+    channel(Process, To, Before, N, Kind, Term)
+
+the post of number N of Process to the endpoint To; Before is the number of the
+post before, or first(M) if all up to M are known to have arrived.  The receiver
+takes each post once, in order, and notes its arrival together with its effects.
+It sends again(To) if a post is missing, and had(To, N) when it has taken one.
+It need not keep a journal itself.
 
 The window of a session, see typhon_unacked, is different: it numbers frames
 one by one, keeps bytes in a queue, and ends with the process.  Here the items
@@ -29,7 +38,8 @@ dropped from the middle.  A frame kept as a fact costs three times as much as a
 frame in a queue.
 
 *Threading*: any thread posts, and never waits for a connection; one worker at
-a time sends to an endpoint.
+a time sends to an endpoint.  Connection threads take posts; a worker
+acknowledges them.
 */
 
 :- meta_predicate changing_posts(+, 0).
@@ -47,7 +57,9 @@ a time sends to an endpoint.
     had/2,                      % Endpoint, N: the peer has received all up to N
     sent/2,                     % Endpoint, N: all up to N were sent; missing
                                 % if sending is to start again
-    courier/1.                  % Endpoint: a worker sends, or will soon
+    courier/1,                  % Endpoint: a worker sends, or will soon
+    seen/2,                     % Key, N: last post taken from a channel
+    ack_scheduled/1.            % Key: an acknowledgement is scheduled
 
 :- setting(channel_seconds, number, 300,
            "Seconds for which posts are kept for a process that has left, and \c
@@ -55,6 +67,7 @@ a time sends to an endpoint.
 
 batch(100).
 longest_pause(1).               % seconds between attempts
+ack_seconds(0.02).
 
 typhon_durable_changes:durable_post(Endpoint, Kind, Term) :-
     changing_posts(
@@ -275,15 +288,83 @@ typhon_endpoint:connection(Endpoint, up) :-
     ;   send_again(Endpoint)
     ).
 
-:- durable(out, Endpoint, N, item(Kind, Term), out(Endpoint, N, Kind, Term)).
-
 typhon_durable:go_on :-
     findall(Endpoint, out(Endpoint, _, _, _), All),
     sort(All, Endpoints),
     forall(member(Endpoint, Endpoints), send_again(Endpoint)).
 
+                /*******************************
+                *            RECEIVER          *
+                *******************************/
+
+typhon_endpoint:received(channel,
+                         channel(Process, To, Before, N, Kind, Term), Peer) :-
+    must_be(atom, Process),
+    must_be(atom, To),
+    must_be(integer, N),
+    atomic_list_concat([Process, To], ' ', Key),
+    with_mutex(typhon_channel_in,
+               take_once(Key, Before, N, Kind, Term, Peer, How)),
+    answer(How, Key, To, Peer).
+
+take_once(Key, _, N, _, _, _, known) :-
+    seen(Key, Seen),
+    N =< Seen,
+    !.
+take_once(Key, Before, N, Kind, Term, Peer, new) :-
+    in_order(Before, Key),
+    !,
+    unit_of_work(( durable_put(seen, Key, 0, N),
+                   take(Kind, Term, Peer) )),
+    retractall(seen(Key, _)),
+    assertz(seen(Key, N)),
+    crash_point(after_take).
+take_once(_, _, _, _, _, _, gap).
+
+%   A receiver that has lost its state starts at the number that the sender
+%   names.
+
+in_order(first(Before), Key) :-
+    (   seen(Key, Seen)
+    ->  Seen >= Before
+    ;   true
+    ).
+in_order(Before, Key) :-
+    seen(Key, Before).
+
+take(Kind, Term, Peer) :-
+    catch(ignore(typhon_endpoint:received(Kind, Term, Peer)),
+          error(Formal, Context),
+          print_error(error, error(Formal, Context))).
+
+answer(gap, _, To, Peer) :-
+    endpoint_post(Peer, channel, again(To)).
+answer(_, Key, To, Peer) :-
+    (   ack_scheduled(Key)
+    ->  true
+    ;   assertz(ack_scheduled(Key)),
+        ack_seconds(Seconds),
+        alarm_in(Seconds, Key, had(To, Peer))
+    ).
+
+acknowledge(Key, To, Peer) :-
+    retractall(ack_scheduled(Key)),
+    (   seen(Key, N)
+    ->  catch(endpoint_post(Peer, channel, had(To, N)), error(_, _), true)
+    ;   true
+    ).
+
+typhon_scheduler:fire(Key, had(To, Peer)) :-
+    !,
+    scheduler_call(typhon_channel:acknowledge(Key, To, Peer)).
+
+:- durable(out, Endpoint, N, item(Kind, Term), out(Endpoint, N, Kind, Term)).
+:- durable(seen, Key, 0, N, seen(Key, N)).
+
 typhon_runtime:ending(after) :-
     retractall(out(_, _, _, _)),
     retractall(had(_, _)),
     retractall(sent(_, _)),
-    retractall(courier(_)).
+    retractall(courier(_)),
+    retractall(seen(_, _)),
+    retractall(ack_scheduled(_)).

@@ -14,15 +14,16 @@
             journal_record_drop/1,      % +Where
             in_terms_of/3               % +Place, +Base, :Goal
           ]).
-:- use_module(library(filesex), [directory_file_path/3]).
+:- use_module(library(filesex), [directory_file_path/3, make_directory_path/1]).
 :- use_module(library(lists), [member/2]).
+:- use_module(library(readutil), [read_file_to_string/3]).
 :- use_module(postgresql, [postgresql_place/4, postgresql_url/1]).
-:- use_module(sqlite, []).
+:- use_module(sql, [sql_connect/2, sql_do/2, sql_row/4]).
 
 /** <module> Databases for a journal
 
-The database is SQLite in a directory, or PostgreSQL at a URL; higher layers do
-not know which.  The modules of both define the hooks, for a Base of their own.
+The database is SQLite in a directory, with the Base sqlite(Dir), or PostgreSQL
+at a URL, see typhon_postgresql; higher layers do not know which.
 
 *Threading*: one thread at a time.
 */
@@ -130,6 +131,94 @@ journal_record_drop(Where) :-
     in_terms_of(Place, Base, record_drop(Base)).
 
                 /*******************************
+                *            SQLITE            *
+                *******************************/
+
+database_found(sqlite(Dir)) :-
+    file(Dir, File),
+    exists_file(File).
+
+database_connect(sqlite(Dir), Seconds, Connection, Age) :-
+    catch(make_directory_path(Dir), error(Formal, _),
+          not_written(Dir, Formal)),
+    file(Dir, File),
+    (   exists_file(File)
+    ->  Age = old
+    ;   Age = new
+    ),
+    Timeout is truncate(1000*Seconds),
+    format(atom(Driver), 'DRIVER=SQLite3;Timeout=~d;Database=~w',
+           [Timeout, File]),
+    sql_connect(Driver, Connection).
+
+file(Dir, File) :-
+    directory_file_path(Dir, 'journal.db', File).
+
+%   The lock is taken by the first change of the transaction, and kept.
+
+database_lock(sqlite(_), Sync, Connection) :-
+    pragma(Connection, locking_mode, exclusive),
+    pragma(Connection, journal_mode, wal),
+    pragma(Connection, synchronous, Sync),
+    sql_do(Connection, 'begin exclusive').
+
+pragma(Connection, Name, Value) :-
+    format(atom(Pragma), 'pragma ~w=~w', [Name, Value]),
+    sql_do(Connection, Pragma).
+
+database_tables(sqlite(_), Connection) :-
+    sql_do(Connection,
+           'create table item (kind text, key text, n integer, \c
+            length integer, sum integer, value blob, \c
+            primary key (kind, key, n)) without rowid'),
+    sql_do(Connection,
+           'create table part (kind text, key text, n integer, \c
+            part integer, value blob, \c
+            primary key (kind, key, n, part)) without rowid'),
+    sql_do(Connection,
+           'create table about (version integer, sample text)').
+
+database_stamp(sqlite(_), _, none).
+
+database_wrong(sqlite(_), Connection, Why) :-
+    sql_row(Connection, 'pragma quick_check(1)', row(Said), [atom]),
+    !,
+    Said \== ok,
+    Why = Said.
+
+%   The record is a file that is written completely or not at all.
+
+record(sqlite(Dir), Text) :-
+    record_file(Dir, File),
+    exists_file(File),
+    read_file_to_string(File, Text, [encoding(utf8)]).
+
+record_put(sqlite(Dir), Text) :-
+    record_file(Dir, File),
+    atom_concat(File, '.new', New),
+    catch(( make_directory_path(Dir),
+            setup_call_cleanup(open(New, write, Out, [encoding(utf8)]),
+                               write(Out, Text),
+                               close(Out)),
+            rename_file(New, File) ),
+          error(Formal, _),
+          not_written(Dir, Formal)).
+
+not_written(Dir, Formal) :-
+    format(atom(Why), 'it cannot be written: ~p', [Formal]),
+    throw(error(permission_error(open, journal, Dir), context(_, Why))).
+
+record_drop(sqlite(Dir)) :-
+    record_file(Dir, File),
+    (   exists_file(File)
+    ->  delete_file(File)
+    ;   true
+    ).
+
+record_file(Dir, File) :-
+    directory_file_path(Dir, 'network.pl', File).
+
+                /*******************************
                 *            ERRORS            *
                 *******************************/
 
@@ -151,6 +240,14 @@ means(Base, _, Text, What) :-
     !.
 means(postgresql(_), State, _, unreachable) :-
     sub_atom(State, 0, _, _, '08').     % the class of connections
+
+error_words(sqlite(_), ['is locked'], locked).
+error_words(sqlite(_),
+                            [readonly, 'unable to open', 'connect failed'],
+                            unwritable).
+error_words(sqlite(_), ['is full', 'disk I/O'], full).
+error_words(sqlite(_), [driver, 'Driver', 'Data source'],
+                            missing(libsqliteodbc)).
 
 throw_meaning(locked, _, Place) :-
     not_opened(Place, 'another process has it').

@@ -35,7 +35,7 @@ test(plain_host_loads_no_option, Out == "[]") :-
                                    typhon_tables, typhon_page_server, \c
                                    typhon_tracing, typhon_stepping, \c
                                    typhon_spying, typhon_units_of_work, \c
-                                   typhon_durable_posts, typhon_hop_ids, \c
+                                   typhon_channel, typhon_hop_ids, \c
                                    typhon_journaled_tuples, \c
                                    typhon_host_log, typhon_concurrency, \c
                                    typhon_external_recipients, \c

@@ -401,7 +401,7 @@ with_asker(Driver, In, Out, Goal) :-
 :- begin_tests(channel_plain).
 
 receiving_end(Loaded) :-
-    (   peer_do(plain, current_module(typhon_durable_posts))
+    (   peer_do(plain, current_module(typhon_channel))
     ->  Loaded = true
     ;   Loaded = false
     ).
