@@ -42,9 +42,12 @@ test(plain_host_loads_no_option, Out == "[]") :-
                                    typhon_single ]), \c
                        module_property(M, file(_)) ), Ms), \c
           print(Ms)', Out).
+%   SWI-Prolog 10 itself loads the index of its library with library(socket).
+
 test(plain_host_loads_no_large_library, Out == "[],0") :-
     seen('host_start(a), \c
-          ( predicate_property(\'$autoload\':library_index(_, _, _), \c
+          ( current_prolog_flag(version, V), V < 100000, \c
+            predicate_property(\'$autoload\':library_index(_, _, _), \c
                                number_of_clauses(N)) -> true ; N = 0 ), \c
           findall(M, ( member(M, [ process, predicate_options, readutil ]), \c
                        module_property(M, file(_)) ), Ms), \c
