@@ -45,7 +45,7 @@ in_own_thread(Goal) :-
     !,
     once(Goal).
 in_own_thread(Goal) :-
-    flag(typhon_own_thread, N, N+1),
+    flag(typhon_own_thread, N, N+1),    % one that is about to end has its alias
     atom_concat(typhon_stopper_, N, Alias),
     catch(thread_create(typhon_own_thread:alone(Goal), Thread,
                         [alias(Alias)]),

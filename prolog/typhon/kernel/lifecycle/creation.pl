@@ -238,9 +238,8 @@ typhon_endpoint:requested(agent, create(HostName, Name, Start, Program), Peer,
                           ReplyTo) :-
     Answers = typhon_creation:create_answered(HostName, Name, Start, Program,
                                               Peer, ReplyTo),
-    (   begins_at_once(Start)
-    ->  call(Answers)
-    ;   endpoint_later(Answers)
+    (   \+ begins_at_once(Start),
+        endpoint_later(Answers)
     ->  true
     ;   call(Answers)
     ).

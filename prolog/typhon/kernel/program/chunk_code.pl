@@ -145,16 +145,15 @@ parts_block(either(A, B), _, Nodes, Outer, Mode, Phase, Env, Code) =>
     branches([A,B], Nodes, Outer, Mode, Phase, Env, [CodeA,CodeB], Rest),
     join((CodeA;CodeB), Rest, Code).
 parts_block(if(Arrow, If, Then, Else, N-_), _, Nodes, Outer, Mode, Phase, Env,
-            Code), Else = _-Fail, Fail == fail =>
-    test(If, Env, Test),
-    fails(N, Phase, Env, Fails),
-    branches([Then], Nodes, Outer, Mode, Phase, Env, [CodeT], Rest),
-    condition(Arrow, Test, CodeT, Fails, Code0),
-    join(Code0, Rest, Code).
-parts_block(if(Arrow, If, Then, Else, _), _, Nodes, Outer, Mode, Phase, Env,
             Code) =>
     test(If, Env, Test),
-    branches([Then,Else], Nodes, Outer, Mode, Phase, Env, [CodeT,CodeE], Rest),
+    (   Else = _-Fail,
+        Fail == fail
+    ->  fails(N, Phase, Env, CodeE),
+        branches([Then], Nodes, Outer, Mode, Phase, Env, [CodeT], Rest)
+    ;   branches([Then,Else], Nodes, Outer, Mode, Phase, Env, [CodeT,CodeE],
+                 Rest)
+    ),
     condition(Arrow, Test, CodeT, CodeE, Code0),
     join(Code0, Rest, Code).
 
