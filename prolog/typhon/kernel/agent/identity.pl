@@ -280,18 +280,11 @@ with_agent(Id, Goal) :-
 agents_passed :-
     forall(shard(_, Mutex), with_mutex(Mutex, true)).
 
-:- dynamic shard/2.
+%   shard(-I, -Mutex)
 
-%   A saved state runs this directive again, but has the clauses already.
+term_expansion(shards, Shards) :-
+    findall(shard(I, Mutex),
+            ( between(0, 63, I), atom_concat(typhon_agents_, I, Mutex) ),
+            Shards).
 
-make_shards :-
-    shard(_, _),
-    !.
-make_shards :-
-    forall(between(0, 63, I),
-           ( atom_concat(typhon_agents_, I, Mutex),
-             assertz(shard(I, Mutex))
-           )),
-    compile_predicates([shard/2]).
-
-:- initialization(make_shards, now).
+shards.

@@ -188,15 +188,13 @@ index_update(Index0, Index) :-
     ;   Index = Index0
     ).
 
-index_insert(least(_, 0), _, Index) :-
+index_insert(Index0, _, Index) :-
+    arg(2, Index0, 0),
     !,
     index_make(Index).
 index_insert(least(Stamp0, Left0), Stamp1, least(Stamp, Left)) :-
     Left is Left0-1,
     Stamp is min(Stamp0, Stamp1).
-index_insert(index(_, 0), _, Index) :-
-    !,
-    index_make(Index).
 index_insert(index(Stamps0, Left0), Stamp, index(Stamps, Left)) :-
     Left is Left0-1,
     rb_insert(Stamps0, Stamp, Stamp, Stamps).

@@ -194,7 +194,7 @@ place_deliver(Place, payload(Name, PIs, Clauses), PIs) :-
     with_mutex(typhon_place, deliver(Place, Name, PIs, Clauses)).
 
 deliver(Place, Name, PIs, Clauses) :-
-    old_payload(Place, Name, OldPIs),
+    ( delivered(Place, Name, OldPIs) -> true ; OldPIs = [] ),
     subtract(PIs, OldPIs, New),
     subtract(OldPIs, PIs, Gone),
     forall(member(PI, New), free(Place, PI)),
@@ -238,12 +238,6 @@ refs(Place, PIs, Refs) :-
               functor(Head, Name, Arity),
               clause(Place:Head, _, Ref) ),
             Refs).
-
-old_payload(Place, Name, PIs) :-
-    (   delivered(Place, Name, PIs0)
-    ->  PIs = PIs0
-    ;   PIs = []
-    ).
 
 own(Place, Name/Arity) :-
     functor(Head, Name, Arity),

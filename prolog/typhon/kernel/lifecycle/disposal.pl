@@ -145,8 +145,10 @@ force(Agent, Deadline) :-
 
 typhon_questions:here(dispose, Agent, Asker) :-
     catch(( order_take(Agent, dispose),
-            disposal_state(Agent, State),
-            Answer = answer(State)
+            (   agent(Agent, _, _, _, _)
+            ->  Answer = answer(noted)
+            ;   Answer = answer(ended)
+            )
           ),
           error(Formal, _),
           Answer = error(Formal)),
@@ -155,25 +157,21 @@ typhon_questions:here(force, Agent, Asker) :-
     agent(Agent, _, _, _, _),
     (   agent_status(Agent, running, _),
         turn_of(Agent, Thread, _)
-    ->  catch(thread_signal(Thread, typhon_disposal:interrupt(Agent)),
+    ->  catch(thread_signal(Thread, typhon_disposal:interrupt(_, Agent)),
               error(existence_error(_, _), _), true)
     ;   true
     ),
     question_answered(Asker, answer(ok)).
 
-disposal_state(Agent, State) :-
-    (   agent(Agent, _, _, _, _)
-    ->  State = noted
-    ;   State = ended
-    ).
+:- public interrupt/2.
 
-:- public interrupt/1.
+%   interrupt(?Host, ?Agent): interrupt the agent that this thread runs, if it is
+%   Agent on Host.  Interrupts only its goals: operations of the platform on the
+%   agent must not be split.  The agent cannot catch this exception permanently.
 
-%   Interrupts only goals of Agent: operations of the platform on the agent
-%   must not be split.  The agent cannot catch this exception permanently.
-
-interrupt(Agent) :-
-    (   context_now(_, Agent),
+interrupt(Host, Agent) :-
+    (   context_now(Host, Agent),
+        Agent \== none,
         machine_inside
     ->  abort_quietly
     ;   true
@@ -233,7 +231,7 @@ end_or_order(Host, Deadline) :-
            ignore(order_take(Id, evacuate(Host)))),
     get_time(Now),
     (   Now > Deadline
-    ->  interrupt(Host, Ids)
+    ->  interrupt_all(Host, Ids)
     ;   true
     ).
 
@@ -247,28 +245,18 @@ stays(Id) :-
         \+ Status = transit(_, _)
     ).
 
-%   The agents cannot catch this exception permanently.
-
-interrupt(Host, Ids) :-
+interrupt_all(Host, Ids) :-
     forall(member(Id, Ids),
            ignore(agent_end(Id, idles_on(Host, Id), disposed))),
     (   member(Id, Ids),
         agent_status(Id, running, _)
-    ->  time_signal(typhon_disposal:stop_running(Host))
+    ->  time_signal(typhon_disposal:interrupt(Host, _))
     ;   true
     ).
 
 idles_on(Host, Id, Status) :-
     Status \== running,
     agent(Id, Host, _, _, _).
-
-stop_running(Host) :-
-    (   context_now(Host, Agent),
-        Agent \== none,
-        machine_inside
-    ->  abort_quietly
-    ;   true
-    ).
 
                 /*******************************
                 *         RESCHEDULING         *
