@@ -136,8 +136,12 @@ check('to change SWI-Prolog',
         open(F, write, _) ), raised(permission_error(_, _, _))).
 check('to change programs', open('/usr/bin/prlimit', append, _),
       raised(permission_error(_, _, _))).
-check('folders of users', ( exists_directory('/root')
-                          ; exists_directory('/home') ), no).
+check('folders of users, but those that lead to SWI-Prolog',
+      ( ( Dir = '/root' ; Dir = '/home' ), exists_directory(Dir),
+        directory_files(Dir, Files), member(File, Files),
+        \+ memberchk(File, ['.', '..']),
+        atomic_list_concat([Dir, File], /, Path), current_prolog_flag(home, H),
+        \+ sub_atom(H, 0, _, _, Path) ), no).
 check('another user', setuid(0), raised(_)).
 check('another group', setgid(0), raised(_)).
 check('a datagram to the internet',
