@@ -165,9 +165,10 @@ typhon_questions:here(force, Agent, Asker) :-
 
 :- public interrupt/2.
 
-%   interrupt(?Host, ?Agent): interrupt the agent that this thread runs, if it is
-%   Agent on Host.  Interrupts only its goals: operations of the platform on the
-%   agent must not be split.  The agent cannot catch this exception permanently.
+%   interrupt(?Host, ?Agent): interrupt the agent that this thread runs, if it
+%   is Agent on Host.  Interrupts only its goals: operations of the platform on
+%   the agent must not be split.  The agent cannot catch this exception
+%   permanently.
 
 interrupt(Host, Agent) :-
     (   context_now(Host, Agent),
