@@ -138,21 +138,18 @@ report(Id, Fault) :-
     !,
     debug(typhon(agent), '~w: is faulty, on ~w', [Id, Host]),
     fault_outcome(Fault, Outcome),
-    log_fault(Outcome, Host, Id),
+    bad_end(Outcome, Id, Fault, What, Kind, Message),
+    event(bad_ends, Host, Id, What),
     fault_shown(Fault, Shown),
     event(faults, Host, Id, fault(Shown)),
-    print_fault(Outcome, Id, Fault).
+    print_message(Kind, typhon(Message)).
 report(_, _).
 
-log_fault(failed, Host, Id) :-
-    event(bad_ends, Host, Id, ended(failed)).
-log_fault(raised(Error), Host, Id) :-
-    event(bad_ends, Host, Id, faulty(Error)).
+%   bad_end(+Outcome, +Id, +Fault, -What, -Kind, -Message): its event and message.
 
-print_fault(failed, Id, Fault) :-
-    print_message(warning, typhon(agent_failed(Id, Fault))).
-print_fault(raised(Error), Id, Fault) :-
-    print_message(error, typhon(faulty(Id, Error, Fault))).
+bad_end(failed, Id, Fault, ended(failed), warning, agent_failed(Id, Fault)).
+bad_end(raised(Error), Id, Fault, faulty(Error), error,
+        faulty(Id, Error, Fault)).
 
 %!  agent_stays(+Id, +Goals) is det.
 %
@@ -161,18 +158,17 @@ print_fault(raised(Error), Id, Fault) :-
 
 agent_stays(Id, Goals) :-
     is_faulty(Goals, Fault, _),
-    (   with_agent(Id, faulty_keep(Id, Goals, Kept, At))
+    (   with_agent(Id, faulty_keep(Id, Goals, At))
     ->  report_fault(Id, Fault, At),
-        bound_faulty(Kept)
+        bound_faulty
     ;   true                            % it has ended meanwhile
     ).
 
-bound_faulty(Kept) :-
-    (   Kept == true,
-        faulty_oldest(Oldest)
+bound_faulty :-
+    (   faulty_oldest(Oldest)
     ->  retractall(kept(Oldest)),
         ignore(agent_end(Oldest, is_kept, disposed)),
-        bound_faulty(Kept)
+        bound_faulty
     ;   true
     ).
 
@@ -190,21 +186,19 @@ is_kept(faulty(_)).
            "Faulty agents kept for inspection").
 
 %   Id, which was running or obeyed an order, is faulty: Goals begin with its
-%   fault.  Kept is `false` if another order has arrived meanwhile.  At is its
+%   fault.  It is not kept if another order has arrived meanwhile.  At is its
 %   host and the number of its hops: a moment later it may be elsewhere.
 
-faulty_keep(Id, Goals, Kept, at(Host, Hops)) :-
+faulty_keep(Id, Goals, at(Host, Hops)) :-
     agent(Id, Host, _, _, Life),
     life_hops(Life, Hops),
     (   agent_ordered(Id)
-    ->  agent_ready(Id, Goals),
-        Kept = false
+    ->  agent_ready(Id, Goals)
     ;   is_faulty(Goals, Fault, _),
         fault_error(Fault, Error),
         agent_put(Id, faulty(Error), Goals),
         assertz(kept(Id)),
-        host_leave(Host),
-        Kept = true
+        host_leave(Host)
     ),
     !.
 
