@@ -110,11 +110,7 @@ set_extras_of_life(Extras, life(P, H, L, T, Ps, S, _),
 %   May is `go`, `static` if it must not move, or `end` if it has made all its
 %   hops.
 
-life_may_move(life(_, _, inf, _, _, false, _), May) :-
-    !,
-    May = go.                           % nearly always
-life_may_move(Life, May) :-
-    Life = life(_, Hops, Most, _, _, Static, _),
+life_may_move(life(_, Hops, Most, _, _, Static, _), May) :-
     (   Static == true
     ->  May = static
     ;   integer(Most),
