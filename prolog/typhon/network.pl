@@ -106,7 +106,7 @@ network_stop(Network) :-
 %     - log(File), seed(Seed)
 %
 %   @error type_error(atom, Network), existence_error(network, Network) if it is
-%   bound, domain_error(network_property, Property)
+%   bound and not running, domain_error(network_property, Property)
 
 network_property(Network, Property) :-
     networks_property(Network, Property).

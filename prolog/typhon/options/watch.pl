@@ -6,7 +6,7 @@
           ]).
 :- use_module(library(error), [existence_error/2, must_be/2]).
 :- use_module(library(lists), [member/2]).
-:- use_module(library(settings), [setting/2, setting/4]).
+:- use_module(library(settings), [setting/2]).
 :- use_module('../kernel/base/own_thread', [in_own_thread/1, stop_thread/1]).
 :- use_module('../kernel/wire', [endpoint_request/4]).
 :- use_module('../kernel/host',
@@ -29,9 +29,6 @@ process begins a watch, or another process watches its hosts.
 
 *Threading*: any thread that may wait; the thread of a watch may end it, too.
 */
-
-:- setting(last_seconds, number, 2,
-           "Seconds that unwatch/1 waits for earlier events").
 
 %   `:` and not 1: a lambda expression in a meta-argument is compiled when its
 %   file is loaded, and then loses variables that are not parameters.
@@ -175,7 +172,7 @@ end(Watch, Thread) :-
     runtime_release(watch(Watch)).
 
 end_from_outside(Watch, Thread) :-
-    setting(last_seconds, Seconds),
+    setting(typhon_watches:last_seconds, Seconds),
     setup_call_cleanup(
         message_queue_create(Done),
         ( receiver_put(Watch, end(Done)),

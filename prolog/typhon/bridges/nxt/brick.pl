@@ -16,7 +16,7 @@
             nxt_message_write/3,        % +Brick, +Inbox, +Text
             nxt_message_read/4          % +Brick, +Inbox, +Remove, -Text
           ]).
-:- use_module(library(crypto), [hex_bytes/2]).
+:- autoload(library(crypto), [hex_bytes/2]).
 :- use_module(library(error), [must_be/2]).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(option), [option/3]).

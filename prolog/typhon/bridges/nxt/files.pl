@@ -10,7 +10,7 @@
             nxt_program_stop/1,         % +Brick
             nxt_program/2               % +Brick, -File
           ]).
-:- use_module(library(crypto), [hex_bytes/2]).
+:- autoload(library(crypto), [hex_bytes/2]).
 :- use_module(library(error), [must_be/2]).
 :- use_module(library(lists), [append/3]).
 :- use_module(library(readutil), [read_file_to_codes/3]).

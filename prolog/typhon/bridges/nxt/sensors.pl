@@ -18,7 +18,7 @@
             nxt_i2c/5                   % +Brick, +Port, +Bytes, +Count,
                                         % -Answer
           ]).
-:- use_module(library(crypto), [hex_bytes/2]).
+:- autoload(library(crypto), [hex_bytes/2]).
 :- use_module(library(error), [domain_error/2, must_be/2]).
 :- use_module(brick, [nxt_command/4]).
 :- use_module(link, [link_request/4]).

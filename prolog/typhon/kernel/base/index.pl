@@ -188,6 +188,7 @@ part_setting(heartbeat_seconds,typhon_page_browsers,number,5,'Seconds without ev
 part_setting(hold_seconds,typhon_saving,number,30,'Seconds for a network to come to rest before it is saved','network/saving').
 part_setting(idle,typhon_cells,number,60,'Seconds after which a cell that no agent uses ends','options/cell/cells').
 part_setting(kill_seconds,typhon_processes,number,10,'Seconds for a killed process to end','network/processes').
+part_setting(last_seconds,typhon_watches,number,2,'Seconds that unwatch/1 waits for earlier events','options/watch/watch_receiver').
 part_setting(links,typhon_trail,positive_integer,32,'Links that are kept of the trail of an agent','options/trail/trail').
 part_setting(longest,typhon_ros_rosbridge,nonneg,4000000,'Characters of one message from a rosbridge server','bridges/ros/rosbridge').
 part_setting(memory,typhon_cells,positive_integer,1500000000,'Bytes of address space that a cell may have','options/cell/cell_process').

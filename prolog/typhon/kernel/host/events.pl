@@ -96,13 +96,13 @@ without_content(received(From, _), Shown) =>
 without_content(What, Shown) =>
     Shown = What.
 
-%   An event that is printed for one agent also goes to the log.
-
 notify_listeners(Kind, Host, Agent, What) :-
     findall(Listener, listener(Kind, Host, Agent, Listener), Listeners0),
     sort(Listeners0, Listeners),
     forall(member(Listener, Listeners),
            notify(Listener, Host, Agent, What)).
+
+%   An event that is printed for one agent also goes to the log.
 
 listener(Kind, Host, _, Listener) :-
     subscription(Kind, Host, Listener).

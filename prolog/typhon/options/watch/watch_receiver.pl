@@ -6,6 +6,7 @@
           ]).
 :- use_module(library(apply), [partition/4]).
 :- use_module(library(lists), [delete/3, member/2, min_list/2]).
+:- use_module(library(settings), [setting/4]).
 :- use_module('../../kernel/base/error_text', [error_lines/3, is_abort/1]).
 :- use_module('../../kernel/wire',
               [endpoint_address/1, endpoint_reply/2, endpoint_request/4]).
@@ -32,6 +33,9 @@ an aborted watch ends.
     typhon_endpoint:connection/2,
     typhon_endpoint:requested/4,
     typhon_event_sender:deliver_here/3.
+
+:- setting(typhon_watches:last_seconds, number, 2,
+           "Seconds that unwatch/1 waits for earlier events").
 
 :- dynamic watch/2.             % Watch, Queue: while events are wanted
 

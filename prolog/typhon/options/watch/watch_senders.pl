@@ -24,7 +24,7 @@ of that name, or when that process cannot be reached any more.
 A watching process sends requests of kind `watch`; Wanted are names of hosts, or
 `all`:
 
-  | watch(Id, Wanted) | watching(Endpoint, New, Hosts), see module `watches` |
+  | watch(Id, Wanted) | watching(Endpoint, New, Hosts), see module `typhon_watches` |
   | unwatch(Id)       | `ended`, when all events have been sent            |
 
 Events are sent with requests of kind `watched`:
