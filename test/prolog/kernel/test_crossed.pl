@@ -19,7 +19,7 @@ modules are merged.
 
 test(modules_of_an_agent_life) :-
     with_peers([a, b], fewest(15, Modules)),
-    assertion(no_more_than(60, Modules)).
+    assertion(no_more_than(59, Modules)).
 
 :- end_tests(crossed).
 
