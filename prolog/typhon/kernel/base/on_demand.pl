@@ -1,5 +1,6 @@
 :- module(typhon_on_demand,
-          [ on_demand_missing/2,        % +Seam, +What
+          [ on_demand_part/2,           % +Seam, +What
+            on_demand_missing/2,        % +Seam, +What
             on_demand_load/2,           % +Seam, +What
             on_demand_call/3,           % +Seam, +What, +Goal
             on_demand_later/1           % :Goal
@@ -48,6 +49,14 @@ worker by on_demand_later/1.
    file_directory_name(Kernel, Typhon),
    retractall(directory(_)),
    assertz(directory(Typhon)).
+
+%!  on_demand_part(+Seam, +What) is semidet.
+%
+%   A part, loaded or not, defines the hook Seam for What.
+
+on_demand_part(Seam, What) :-
+    part_joins(Seam, What, _),
+    !.
 
 %!  on_demand_missing(+Seam, +What) is semidet.
 %

@@ -13,7 +13,7 @@
 :- use_module(library(lists), [last/2, member/2]).
 :- use_module(library(settings), [setting/4]).
 :- use_module('../base/on_demand',
-              [on_demand_later/1, on_demand_load/2, on_demand_missing/2]).
+              [on_demand_later/1, on_demand_load/2, on_demand_part/2]).
 :- use_module('../base/bounds', [bounded/2]).
 :- use_module('../base/error_text', [harmless_error/2]).
 :- use_module('../wire', [endpoint_address/1, endpoint_reply/2]).
@@ -206,18 +206,22 @@ may_ask(Right, Peer, Host, Agent, Question) :-
     ).
 
 answer(Question, Agent, Asker) :-
+    answer(Question, Agent, Asker, answered_later(Question, Agent, Asker)).
+
+answer(Question, Agent, Asker, Otherwise) :-
     (   here(Question, Agent, Asker)
     ->  true
-    ;   answered_later(Question, Agent, Asker)
+    ;   call(Otherwise)
     ->  true
     ;   not_here(Agent, Asker)
     ).
 
-%   A worker loads the code that answers, and then answers.
+%   A worker loads the code that answers, and then answers. Another thread may
+%   have loaded it since here/3 was called.
 
 answered_later(Question, Agent, Asker) :-
     functor(Question, Kind, _),
-    on_demand_missing(question, Kind),
+    on_demand_part(question, Kind),
     on_demand_later(typhon_questions:load_and_answer(Kind, Question, Agent,
                                                      Asker)).
 
@@ -225,7 +229,7 @@ answered_later(Question, Agent, Asker) :-
 
 load_and_answer(Kind, Question, Agent, Asker) :-
     on_demand_load(question, Kind),
-    answer(Question, Agent, Asker).
+    answer(Question, Agent, Asker, fail).
 
 not_here(Agent, Asker) :-
     (   probably_at(Agent, Endpoint),

@@ -40,7 +40,7 @@ it is answered once.
 :- use_module(library(lists), [member/2]).
 :- use_module('../base/error_text', [error_lines/3, print_error/2]).
 :- use_module('../base/on_demand',
-              [on_demand_later/1, on_demand_load/2, on_demand_missing/2]).
+              [on_demand_later/1, on_demand_load/2, on_demand_part/2]).
 :- use_module(outbox,
               [ session_answer/2, session_object/2, session_owes/0,
                 session_send/2, session_send_later/2 ]).
@@ -193,7 +193,7 @@ dispatch(Session, request(Id, Kind, Term)) :-
 dispatch(Session, hand(Kind, Term)) :-
     !,
     session_peer(Session, _, Peer),
-    (   attempt(typhon_endpoint:handed(Kind, Term, Peer, Verdict), Kind)
+    (   attempt(typhon_endpoint:handed(Kind, Term, Peer, Verdict), Kind, fail)
     ->  verdict(Verdict, Kind, Term, Peer, Session)
     ;   session_object(Session, spoilt)
     ).
@@ -292,14 +292,16 @@ together(Kind, Terms, Fewer) :-
 %   Call the hook for a post of Peer.
 
 take_post(Kind, Term, Peer) :-
-    reporting(typhon_endpoint:received(Kind, Term, Peer), Kind).
+    Hook = typhon_endpoint:received(Kind, Term, Peer),
+    ( attempt(Hook, Kind, taken_later(Hook)) -> true ; true ).
 
 %!  take_request(+Kind, +Term, +Peer, +ReplyTo) is semidet.
 %
 %   Call the hook for a request of Peer.  Fails if no hook takes it.
 
 take_request(Kind, Term, Peer, ReplyTo) :-
-    attempt(typhon_endpoint:requested(Kind, Term, Peer, ReplyTo), Kind).
+    Hook = typhon_endpoint:requested(Kind, Term, Peer, ReplyTo),
+    attempt(Hook, Kind, taken_later(Hook)).
 
 spoil(reply_to(Session, Id), Kind) :-
     reporting(session_answer(Session, spoilt(Id)), Kind).
@@ -307,9 +309,12 @@ spoil(alone(OnAnswer), _) :-
     request_answer(lost, OnAnswer).
 
 reporting(Goal, Kind) :-
-    ( attempt(Goal, Kind) -> true ; true ).
+    ( attempt(Goal, Kind, fail) -> true ; true ).
 
-attempt(Goal, Kind) :-
+%   attempt(:Goal, +Kind, :Otherwise) is semidet: report an error of Goal; call
+%   Otherwise if it fails.
+
+attempt(Goal, Kind, Otherwise) :-
     (   catch(Goal, Error, true)
     ->  (   var(Error)
         ->  true
@@ -318,20 +323,19 @@ attempt(Goal, Kind) :-
         ;   print_message(error, typhon(endpoint, hook(Kind, Error))),
             fail
         )
-    ;   taken_later(Goal)
+    ;   call(Otherwise)
     ->  true
     ;   print_message(error, typhon(endpoint, hook(Kind, failed))),
         fail
     ).
 
-%   taken_later(+Hook) is semidet: Hook is defined by code that is not loaded
-%   yet. A worker loads the code and calls the hook.
+%   taken_later(+Hook) is semidet: Hook is defined by code that was not loaded, at
+%   least when the hook was called. A worker loads the code and calls the hook.
 
 taken_later(typhon_endpoint:Hook) :-
     functor(Hook, Seam, _),
-    memberchk(Seam, [received, requested]),
     arg(1, Hook, Kind),
-    on_demand_missing(Seam, Kind),
+    on_demand_part(Seam, Kind),
     endpoint_later(typhon_request:load_and_take(Hook)).
 
 %!  endpoint_later(:Goal) is semidet.
@@ -353,7 +357,7 @@ load_and_take(Hook) :-
     arg(1, Hook, Kind),
     (   catch(on_demand_load(Seam, Kind), Error, print_error(error, Error)),
         var(Error),
-        attempt(typhon_endpoint:Hook, Kind)
+        attempt(typhon_endpoint:Hook, Kind, fail)
     ->  true
     ;   Hook = requested(_, _, _, ReplyTo)
     ->  spoil(ReplyTo, Kind)
