@@ -97,9 +97,14 @@ without_content(What, Shown) =>
     Shown = What.
 
 notify_listeners(Kind, Host, Agent, What) :-
+    subscription(Kind, Agent, _),
+    !,
     findall(Listener, listener(Kind, Host, Agent, Listener), Listeners0),
     sort(Listeners0, Listeners),
     forall(member(Listener, Listeners),
+           notify(Listener, Host, Agent, What)).
+notify_listeners(Kind, Host, Agent, What) :-
+    forall(subscription(Kind, Host, Listener),
            notify(Listener, Host, Agent, What)).
 
 %   An event that is printed for one agent also goes to the log.

@@ -7,11 +7,13 @@
             vocabulary/1,               % +Module
             vocabulary_word/2           % ?Module, ?PI
           ]).
-:- use_module(library(apply), [maplist/3]).
+:- use_module(library(apply), [exclude/3, include/3, maplist/3]).
+:- use_module(library(assoc),
+              [ assoc_to_keys/2, empty_assoc/1, gen_assoc/3, get_assoc/3,
+                list_to_assoc/2, put_assoc/4 ]).
 :- use_module(library(lists), [append/3, member/2]).
-:- use_module(library(ordsets), [ord_subtract/3]).
+:- use_module(library(pairs), [group_pairs_by_key/2, transpose_pairs/2]).
 :- use_module(library(settings), [setting/4]).
-:- autoload(library(ugraphs), [reachable/3, vertices_edges_to_ugraph/3]).
 :- use_module('../base/bounds', [bounded/2]).
 :- use_module(bodies, [control/1]).
 
@@ -47,15 +49,14 @@ declarations, which are made while modules are loaded.
 
 mobile_predicates(Clauses, Kinds, Problems) :-
     maplist(clause_calls, Clauses, Located),
-    findall(PI, member(calls(PI, _, _), Located), PIs),
-    sort(PIs, Own),
+    findall(PI-own, member(calls(PI, _, _), Located), Pairs),
+    table(Pairs, Own),
     findall(PI-Next,
             ( member(calls(PI, Calls, _), Located),
               member(Call, Calls),
               next_call(Call, Own, Next) ),
             Edges),
-    vertices_edges_to_ugraph(Own, Edges, Graph),
-    maplist(kind(Own, Graph), Own, Kinds),
+    kinds(Edges, Own, Kinds),
     findall(PI, member(PI-mobile, Kinds), Mobile),
     findall(Problem, misplaced(Located, Mobile, Problem), Problems1),
     findall(Problem, changed(Located, Own, Problem), Problems2),
@@ -65,29 +66,91 @@ clause_calls((Head:-Body)-Location, calls(Name/Arity, Calls, Location)) :-
     functor(Head, Name, Arity),
     body_calls(Body, Calls).
 
+%   table(+Pairs, -Table): the values of each key.
+
+table(Pairs0, Table) :-
+    sort(Pairs0, Pairs),
+    group_pairs_by_key(Pairs, Groups),
+    list_to_assoc(Groups, Table).
+
+is_own(PI, Own) :-
+    get_assoc(PI, Own, _).
+
 %   next_call(+Call, +Own, -Next) is semidet: the machine itself may come to
 %   Next, a predicate or `unknown`.  A predicate that is called natively needs no
 %   unfolding.
 
 next_call(unknown(run), _, unknown).
 next_call(call(PI, run), Own, PI) :-
-    (   memberchk(PI, Own)
+    (   is_own(PI, Own)
     ;   is_control(PI)
     ;   \+ built_in(PI)
     ),
     !.
 
-kind(Own, Graph, PI, PI-Kind) :-
-    reachable(PI, Graph, Reached),
-    (   member(Next, Reached),
-        is_control(Next)
+%   kinds(+Edges, +Own, -Kinds).  Each walk is from what is called to its callers:
+%   one from each predicate would be quadratic, and peers send programs.
+
+kinds(Edges, Own, Kinds) :-
+    callers(Edges, Callers),
+    callers_of(is_control, Callers, Mobile),
+    callers_of(==(unknown), Callers, Open),
+    exclude(is_known(Mobile, Open), Edges, Rest),
+    callers(Rest, RestCallers),
+    findall(PI-Outside,
+            ( gen_assoc(Outside, RestCallers, _),
+              \+ is_own(Outside, Own),
+              reached([Outside], RestCallers, Set),
+              gen_assoc(PI, Set, _) ),
+            Pairs),
+    table(Pairs, Outer),
+    assoc_to_keys(Own, PIs),
+    maplist(kind(Mobile, Open, Outer), PIs, Kinds).
+
+callers(Edges, Callers) :-
+    transpose_pairs(Edges, Reversed),
+    table(Reversed, Callers).
+
+:- meta_predicate callers_of(1, +, -).
+
+callers_of(Goal, Callers, Set) :-
+    assoc_to_keys(Callers, Called),
+    include(Goal, Called, Targets),
+    reached(Targets, Callers, Set).
+
+is_known(Mobile, Open, PI-_) :-
+    (   get_assoc(PI, Mobile, _)
+    ->  true
+    ;   get_assoc(PI, Open, _)
+    ).
+
+kind(Mobile, Open, Outer, PI, PI-Kind) :-
+    (   get_assoc(PI, Mobile, _)
     ->  Kind = mobile
-    ;   ( PI == on_message/2 ; memberchk(unknown, Reached) )
+    ;   ( PI == on_message/2 ; get_assoc(PI, Open, _) )
     ->  Kind = open
-    ;   ord_subtract(Reached, Own, [])
-    ->  Kind = native
-    ;   ord_subtract(Reached, Own, Outside),
-        Kind = outside(Outside)
+    ;   get_assoc(PI, Outer, Outside)
+    ->  Kind = outside(Outside)
+    ;   Kind = native
+    ).
+
+%   reached(+From, +Table, -Reached): the keys of Reached are From and all to
+%   which Table leads.
+
+reached(From, Table, Reached) :-
+    empty_assoc(Empty),
+    reached(From, Table, Empty, Reached).
+
+reached([], _, Reached, Reached).
+reached([Key|Keys], Table, Reached0, Reached) :-
+    (   get_assoc(Key, Reached0, _)
+    ->  reached(Keys, Table, Reached0, Reached)
+    ;   put_assoc(Key, Reached0, true, Reached1),
+        (   get_assoc(Key, Table, More)
+        ->  append(More, Keys, All)
+        ;   All = Keys
+        ),
+        reached(All, Table, Reached1, Reached)
     ).
 
 %!  is_mobile(+PI, +Mobile) is semidet.
@@ -119,7 +182,7 @@ changed(Located, Own,
                 undeclared(PI))) :-
     member(calls(_, Calls, Location), Located),
     member(changes(PI), Calls),
-    memberchk(PI, Own).
+    is_own(PI, Own).
 
                 /*******************************
                 *         WALK A BODY          *

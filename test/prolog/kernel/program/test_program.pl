@@ -304,7 +304,32 @@ test(payload_with_a_faulty_clause, F-L == type_error(callable, 5)-3) :-
 
 :- end_tests(load_errors).
 
+%   chain(+Last, +Count, -Inferences): to load a program of Count predicates, each
+%   of which calls the next, and the last Last.
+
+chain(Last, Count, Inferences) :-
+    findall((Head:-Body),
+            ( between(1, Count, N),
+              atom_concat(p, N, Head),
+              (   N < Count
+              ->  Next is N+1,
+                  atom_concat(p, Next, Body)
+              ;   Body = Last
+              ) ),
+            Clauses),
+    statistics(inferences, Before),
+    program_load(clauses([(:- agent(a)), main|Clauses]), _, _),
+    statistics(inferences, After),
+    Inferences is After-Before.
+
 :- begin_tests(programs).
+
+%   Peers send programs: a long chain of calls must not take seconds.
+
+test(chain_of_calls,
+     [ forall(member(Last, [true, move(x), call(_), state])),
+       true(Inferences < 10 000 000) ]) :-
+    chain(Last, 1000, Inferences).
 
 test(parts, P-I =@= program(a, [p/1,q/1], [library(dcg/basics)-all],
                             [(main:-p(X), r(X)), r(_)])-[p(1),(q(Y):-p(Y))]) :-
