@@ -29,9 +29,8 @@ that run.
 The thread that reads an agent from a connection may run it at once, rather
 than wake a worker, as long as its turns are short.  Turns of a kind count as
 short until one was long, and count again after a while.  A turn is long by the
-inferences it takes, or if two of a few successive turns of one kind take long by
-the clock, the time not counted in which the thread was ready but waited for a
-processor.
+inferences it takes.  On a busy machine any turn may take long by the clock; but
+if two of a few successive turns of one kind do, they wait for something.
 
 While turns are paused no alarm goes off, and no agent begins a turn: agents
 that get a turn are kept until the pause ends.
@@ -116,10 +115,9 @@ turn_in(Thread, What, Since) :-
                 *          SHORT TURNS         *
                 *******************************/
 
-%   A turn is long by the clock after so many seconds.  Two such turns are close
-%   if fewer inferences than these lie between them: a turn takes some thousand.
+%   Two turns that took long by the clock are close if fewer inferences than
+%   these lie between them.  A turn takes some thousand.
 
-long_seconds(0.004).
 few_turns(5000).
 
 %   remembered(?What, -Seconds): for so long a kind does not count as short
@@ -131,7 +129,8 @@ remembered(waits, 10).
 %!  turn_if_short(+Kind, :Turn) is semidet.
 %
 %   Call Turn, of an agent of that Kind. Fails if such a turn may be long.  It is
-%   short below so many inferences, which cost as much as some wake-ups.
+%   short below so many inferences, which cost as much as some wake-ups, and
+%   below so many seconds.
 
 turn_if_short(Kind, Turn) :-
     (   slow(Kind, Until)
@@ -146,42 +145,18 @@ turn_if_short(Kind, Turn) :-
     get_time(Time),
     (   Count-Count0 > 20000
     ->  remember(long, Kind)
-    ;   long_seconds(Most),
-        Time-Time0 > Most
-    ->  waited(Kind, Count, Time-Time0)
-    ;   true
+    ;   Time-Time0 < 0.004
+    ->  true
+    ;   waited(Kind, Count)
     ).
 
-%   waited(+Kind, +Count, +Seconds): a turn took Seconds by the clock.  How long
-%   the thread waited for a processor in it follows from the sum that was noted
-%   at the last such turn, if that is close.
-
-waited(Kind, Count, Seconds) :-
-    processor_wait(Wait),
-    (   nb_current(typhon_long_turn, long(Kind, Before, Wait0)),
+waited(Kind, Count) :-
+    (   nb_current(typhon_long_turn, Kind-Before),
         few_turns(Few),
-        Count-Before < Few,
-        long_seconds(Most),
-        Seconds-(Wait-Wait0) > Most
+        Count-Before < Few
     ->  remember(waits, Kind)
-    ;   nb_setval(typhon_long_turn, long(Kind, Count, Wait))
+    ;   nb_setval(typhon_long_turn, Kind-Count)
     ).
-
-%   processor_wait(-Seconds): for so long this thread has been ready but not
-%   running; 0 where the system does not tell. The file has nanoseconds on a
-%   processor, waiting for one, and the number of time slices.
-
-processor_wait(Seconds) :-
-    catch(setup_call_cleanup(
-              open('/proc/thread-self/schedstat', read, In),
-              read_string(In, _, Text),
-              close(In)),
-          error(_, _), fail),
-    split_string(Text, " ", "\n", [_, Waited|_]),
-    number_string(Nanoseconds, Waited),
-    !,
-    Seconds is Nanoseconds/1.0e9.
-processor_wait(0).
 
 remember(What, Kind) :-
     remembered(What, Seconds),

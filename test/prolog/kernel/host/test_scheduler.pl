@@ -618,28 +618,6 @@ waits :-
     thread_self(Me),
     \+ thread_get_message(Me, never, [timeout(0.006)]).
 
-%   with_busy_threads(+Count, :Goal): so many threads compute meanwhile.
-
-:- meta_predicate with_busy_threads(+, 0).
-
-with_busy_threads(Count, Goal) :-
-    findall(Thread,
-            ( between(1, Count, _),
-              thread_create(compute, Thread) ),
-            Threads),
-    call_cleanup(Goal, maplist(end_computing, Threads)).
-
-compute :-
-    repeat,
-    fail.
-
-end_computing(Thread) :-
-    thread_signal(Thread, abort),
-    thread_join(Thread, _).
-
-has_schedstat :-
-    exists_file('/proc/thread-self/schedstat').
-
 :- begin_tests(short_turns).
 
 test(short_turns) :-
@@ -653,11 +631,6 @@ test(two_waiting_turns_in_a_row) :-
     turn_if_short(e, waits),
     turn_if_short(e, waits),
     \+ turn_if_short(e, short).
-test(turns_that_wait_for_a_processor, [condition(has_schedstat)]) :-
-    numlist(1, 8000, Ups),
-    reverse(Ups, Downs),
-    with_busy_threads(4,
-        forall(between(1, 800, _), turn_if_short(i, msort(Downs, _)))).
 test(occasional_waiting_turns) :-
     some_kind(f, now_and_then).
 test(longer_memory_is_kept) :-
