@@ -102,14 +102,17 @@ turns_now(Agent, Thread, Seconds) :-
 %!  turn_in(+Thread, -What, -Since:float) is semidet.
 %
 %   The last turn of Thread, which may be over, was one of What and began at
-%   Since.
+%   Since.  Fails if it had none: the flags are those of an earlier thread.
 
 turn_in(Thread, What, Since) :-
-    catch(thread_property(Thread, id(Number)), error(_, _), fail),
+    catch(( thread_property(Thread, id(Number)),
+            thread_statistics(Thread, epoch, Start) ),
+          error(_, _), fail),
     keys(Number, AgentKey, TimeKey),
     !,
-    get_flag(AgentKey, What),
-    get_flag(TimeKey, Since).
+    get_flag(TimeKey, Since),
+    Since >= Start,
+    get_flag(AgentKey, What).
 
                 /*******************************
                 *          SHORT TURNS         *

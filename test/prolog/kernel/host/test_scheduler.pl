@@ -136,6 +136,21 @@ test(pool_never_exceeds_its_maximum, true(Most-N == 8-20)) :-
                  wait_until(test_scheduler:count(20), 10) )),
     count(N),
     message_queue_destroy(Q).
+test(new_thread_has_had_no_turn) :-
+    between(1, 100, _),
+    thread_create(turn_begins(old), First),
+    thread_property(First, id(Number)),
+    thread_join(First),
+    setup_call_cleanup(
+        thread_create(thread_get_message(end), Second),
+        (   thread_property(Second, id(Number))
+        ->  assertion(\+ turn_in(Second, _, _)),
+            Same = true
+        ;   Same = false
+        ),
+        ( thread_send_message(Second, end), thread_join(Second) )),
+    Same == true,
+    !.
 test(shrinks_when_idle, N == 2) :-
     message_queue_create(Q),
     scheduling([typhon_scheduler:idle_seconds=0.05],
