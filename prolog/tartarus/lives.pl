@@ -103,7 +103,11 @@ leave(Name, Life, Id) :-
     assertz(left(Name, Id, Indicators)).
 
 sweep(Name, Id) :-
-    forall(retract(left(Name, Id, Indicators)), body_erase(Name, Indicators)).
+    retract(left(Name, Id, Indicators)),
+    !,
+    body_erase(Name, Indicators),
+    sweep(Name, Id).
+sweep(_, _).
 
                 /*******************************
                 *           RECORDS            *

@@ -186,8 +186,11 @@ subscribers_forget(Service, Host) :-
                  unsubscribe_events(Host) )).
 
 forget(Service, Host) :-
-    forall(retract(subscribed(_, Agent, Service, Host, _, Key)),
-           gap_forget(Service, Key, Agent)).
+    retract(subscribed(_, Agent, Service, Host, _, Key)),
+    !,
+    gap_forget(Service, Key, Agent),
+    forget(Service, Host).
+forget(_, _).
 
                 /*******************************
                 *    AGENTS THAT LEAVE OR END  *
@@ -225,16 +228,21 @@ agent_event(_, _, _) =>
     true.
 
 departs(Agent, Host) :-
-    forall(retract(subscribed(Text, Agent, Service, Host, How, Key)),
-           ( assertz(away(Agent,
-                          subscribed(Text, Agent, Service, Host, How, Key))),
-             unsubscribed(Service, Host, Key, Agent) )).
+    retract(subscribed(Text, Agent, Service, Host, How, Key)),
+    !,
+    assertz(away(Agent, subscribed(Text, Agent, Service, Host, How, Key))),
+    unsubscribed(Service, Host, Key, Agent),
+    departs(Agent, Host).
+departs(_, _).
 
 comes_back(Agent) :-
-    forall(retract(away(Agent, Subscribed)),
-           ( Subscribed = subscribed(_, _, Service, Host, _, Key),
-             assertz(Subscribed),
-             ignore(wanted(Service, Host, Key, true)) )).
+    retract(away(Agent, Subscribed)),
+    !,
+    Subscribed = subscribed(_, _, Service, Host, _, Key),
+    assertz(Subscribed),
+    ignore(wanted(Service, Host, Key, true)),
+    comes_back(Agent).
+comes_back(_).
 
 drop_subscriptions(Agent, Host) :-
     (   subscribed(_, Agent, _, Host, _, _)
@@ -243,8 +251,11 @@ drop_subscriptions(Agent, Host) :-
     ).
 
 unsubscribe_all(Agent, Host) :-
-    forall(retract(subscribed(_, Agent, Service, Host, _, Key)),
-           unsubscribed(Service, Host, Key, Agent)).
+    retract(subscribed(_, Agent, Service, Host, _, Key)),
+    !,
+    unsubscribed(Service, Host, Key, Agent),
+    unsubscribe_all(Agent, Host).
+unsubscribe_all(_, _).
 
 %   Remove agents that have departed and arrived elsewhere.  Each departure adds
 %   one agent and checks two, so the table stays small.
