@@ -122,11 +122,11 @@ release_unless_begun(_, Id) :-
 %   the process is one of a network, it may have ended.
 
 ask(place(Endpoint, Wanted, Hosts), Id, asked(Endpoint, Wanted, Answer)) :-
-    (   Hosts = asked([_-Who|_])
+    (   Hosts = asked([_-Host|_])
     ->  true
-    ;   Who = Endpoint
+    ;   Host = Endpoint
     ),
-    catch(process_ask(Endpoint, Who, watch, watch(Id, Wanted), Answer, 10),
+    catch(process_ask(Endpoint, Host, watch, watch(Id, Wanted), Answer, 10),
           error(Formal, Context),
           process_gone(Hosts, error(Formal, Context), Answer)),
     must_have_hosts(Hosts, Answer).

@@ -300,10 +300,10 @@ doubts(0) --> !.
 doubts(N) --> [ '~d warnings, '-[N] ].
 
 happened(Agent, Host) -->
-    { short_name(Agent, Who),
+    { short_name(Agent, Name),
       short_name(Host, Where)
     },
-    [ '% ~w at ~w: '-[Who, Where] ].
+    [ '% ~w at ~w: '-[Name, Where] ].
 
 stopped(rests(State)) --> !, [ 'is ~w'-[State] ].
 stopped(ended(Outcome)) --> [ 'has ended, ' ], term_lines(Outcome).

@@ -7,9 +7,8 @@
 :- use_module(library(lists), [append/3, member/2, nth1/3]).
 :- autoload(library(listing), [portray_clause/1, portray_clause/3]).
 :- use_module('../kernel/program',
-              [clause_parts/3, code_names/2, code_program/2, goals_body/2]).
-:- use_module('../kernel/agent', [agent/5]).
-:- use_module('../kernel/lifecycle', [agent_answer/3, question_answered/2]).
+              [clause_parts/3, goals_body/2]).
+:- use_module('../kernel/lifecycle', [agent_answer/3]).
 :- use_module(administration, [agent_property/2]).
 :- autoload('source_view/clause_location', [body_list/2]).
 :- autoload('source_view/variable_names',
@@ -24,8 +23,6 @@ when an agent is listed, or becomes faulty.
 
 *Threading*: any thread.
 */
-
-:- multifile typhon_questions:here/3.
 
 %!  agent_listing(+Agent) is det.
 %
@@ -57,13 +54,6 @@ about(Agent, Properties) :-
     memberchk(hops(Hops), Properties),
     functor(State, Word, _),
     format('% ~w~n% on ~w, ~w, ~D hops~n~n', [Agent, Host, Word, Hops]).
-
-typhon_questions:here(program, Agent, Asker) :-
-    agent(Agent, _, _, Hash, _),
-    code_program(Hash, Program),
-    !,
-    code_names(Hash, Names),
-    question_answered(Asker, answer(Program-Names)).
 
 %!  goals_shown(+Agent, +Facts, +Goals, -Shown, -Text:string) is det.
 %

@@ -65,6 +65,7 @@ part_joins(pheromone_option,span,'options/migration').
 part_joins(pheromone_option,strength,'options/migration').
 part_joins(program,read,'tools/checks').
 part_joins(question,mailbox,'tools/administration').
+part_joins(question,program,'tools/administration').
 part_joins(question,properties,'tools/administration').
 part_joins(question,step,'options/trace').
 part_joins(question,trail,'options/trail').

@@ -42,7 +42,7 @@ leaving garbage, under one mutex: flag/3 would lock for each of them.
 
 :- dynamic
     host/3,                     % Name, Address, Place
-    option/2,                   % Name, Option
+    host_option/2,              % Name, Option
     admits/4,                   % Name, Tokens, Capacity, Flag: while
                                 % it admits agents
     counts/4,                   % Name, Load, In, Out: a flag, and twice
@@ -59,7 +59,7 @@ leaving garbage, under one mutex: flag/3 would lock for each of them.
 
 host_add(Name, Address, Place, Options) :-
     make_flags(Name),
-    forall(member(Option, Options), assertz(option(Name, Option))),
+    forall(member(Option, Options), assertz(host_option(Name, Option))),
     parts_compile(Name),
     assertz(host(Name, Address, Place)),
     begin_admitting(Name),
@@ -101,7 +101,7 @@ host_plain_leaves(Name, Since) :-
     Since is (Now-Epoch)*Rate.
 
 asked(Name, Option, Default) :-
-    (   option(Name, Option)
+    (   host_option(Name, Option)
     ->  true
     ;   arg(1, Option, Default)
     ).
@@ -161,7 +161,7 @@ host_remove(Name) :-
     durable_drop(host, Name, 0),
     host_close(Name),
     retractall(host(Name, _, _)),
-    retractall(option(Name, _)),
+    retractall(host_option(Name, _)),
     host_unlink(Name, _),
     retractall(counts(Name, _, _, _)),
     parts_forget(Name).
@@ -169,9 +169,6 @@ host_remove(Name) :-
 %!  host_option(?Name, ?Option) is nondet.
 %
 %   Name has Option, as in host_start/2.
-
-host_option(Name, Option) :-
-    option(Name, Option).
 
 %!  host_note(+Name) is det.
 %
@@ -181,7 +178,7 @@ host_option(Name, Option) :-
 host_note(Name) :-
     (   durable_on
     ->  findall(Option,
-                ( option(Name, Option),
+                ( host_option(Name, Option),
                   \+ typhon_host_parts:unnoted(Option) ),
                 Options),
         durable_put(host, Name, 0, Options)
@@ -198,10 +195,10 @@ host_put(Name, Option) :-
     functor(Option, OptionName, Arity),
     functor(Old, OptionName, Arity),
     retractall(host_plain(Name, _)),
-    (   option(Name, Old)
-    ->  assertz(option(Name, Option)),
-        once(retract(option(Name, Old)))
-    ;   assertz(option(Name, Option))
+    (   host_option(Name, Old)
+    ->  assertz(host_option(Name, Option)),
+        once(retract(host_option(Name, Old)))
+    ;   assertz(host_option(Name, Option))
     ),
     parts_compile(Name),
     (   admits(Name, Tokens, Capacity, Key)

@@ -60,22 +60,22 @@ effect(move(Host), Hole, Goals, Id-Here, Next) :-
         life_may_move(Life, May),
         set_out(May, Dest, Hole, Goals, Id-Here, Next)
     ).
-effect(clone(Who), Hole, Goals, Id-Here, go(Goals)) :-
+effect(clone(Role), Hole, Goals, Id-Here, go(Goals)) :-
     parts_call(acts, Here, [Id, clone]),
     can_be_kept(Goals),
-    copy_term(Hole-Goals-Who, (Who1=clone(Id))-Going-Who1),
+    copy_term(Hole-Goals-Role, (Role1=clone(Id))-Going-Role1),
     clone_id(Id, CloneId),
-    noted_with(CloneId, Hole-Goals-Who, Id),
+    noted_with(CloneId, Hole-Goals-Role, Id),
     agent_clone_here(Id, Going, CloneId),
-    Hole = (Who=parent(CloneId)).
-effect(clone(Host, Who), Hole, Goals, Id-Here, Next) :-
+    Hole = (Role=parent(CloneId)).
+effect(clone(Host, Role), Hole, Goals, Id-Here, Next) :-
     destination(Host, Dest),
     (   Dest == local(Here)
-    ->  effect(clone(Who), Hole, Goals, Id-Here, Next)
+    ->  effect(clone(Role), Hole, Goals, Id-Here, Next)
     ;   parts_call(acts, Here, [Id, clone]),
         clone_id(Id, CloneId),
         event(hops, Here, Id, cloned(CloneId)),
-        hop_clone(Id, Dest, CloneId, Who, Hole, Goals),
+        hop_clone(Id, Dest, CloneId, Role, Hole, Goals),
         Next = stop
     ).
 effect(sleep(Seconds), Hole, Goals, Id-Here, Next) :-
@@ -115,8 +115,8 @@ effect('$fault'(Fault), '$fault'(Fault), Goals, Id-_, stop) :-
 
 %   The parent has the id of its clone from the moment the clone exists.
 
-noted_with(CloneId, Hole-Goals-Who, Id) :-
-    \+ \+ ( Hole = (Who=parent(CloneId)),
+noted_with(CloneId, Hole-Goals-Role, Id) :-
+    \+ \+ ( Hole = (Role=parent(CloneId)),
             agent_note(Id, ready, Goals) ).
 
 %   Goals that wait are stored in clauses, which cannot hold attributes of

@@ -1,5 +1,5 @@
 :- module(typhon_join,
-          [ agent_join/3,               % +Who, -Outcome, +Timeout
+          [ agent_join/3,               % +Agents, -Outcome, +Timeout
             agent_result/3              % +Agent, -Term, +Timeout
           ]).
 :- use_module(library(error), [existence_error/2, must_be/2]).
@@ -22,13 +22,13 @@ has the outcome.
 
 :- multifile typhon_questions:here/3.
 
-%!  agent_join(+Who, -Outcome, +Timeout) is det.
+%!  agent_join(+Agents, -Outcome, +Timeout) is det.
 %
 %   Wait until an agent has ended, wherever it is, for Timeout seconds (a
 %   number or `inf`).  Outcome is `done`, `failed`, raised(Error), `disposed`
 %   or `timeout`.
 %
-%   Who is an agent, or family(Agent): Agent, its clones, and theirs; then this
+%   Agents is an agent, or family(Agent): Agent, its clones, and theirs; then this
 %   waits until the last of them has ended.  Outcome is then a list of pairs
 %   Agent-Outcome, each agent before its clones, and these in the order in
 %   which they were born in a process.  At the timeout the outcome of agents
@@ -39,9 +39,9 @@ has the outcome.
 %   @error host_unreachable(Home), connection_lost(Home): for a family, of
 %   any of its members
 
-agent_join(Who, Outcomes, Timeout) :-
-    nonvar(Who),
-    Who = family(Agent),
+agent_join(Agents, Outcomes, Timeout) :-
+    nonvar(Agents),
+    Agents = family(Agent),
     !,
     wait_seconds(Timeout, Seconds),
     agent_once_named(Agent, Id),

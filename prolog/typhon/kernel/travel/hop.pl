@@ -1,7 +1,7 @@
 :- module(typhon_hop,
           [ hop/6,                      % +Id, +Where, +Hole, +Goals, +Since,
                                         % -Next
-            hop_clone/6                 % +Id, +Where, +CloneId, +Agent, +Hole,
+            hop_clone/6                 % +Id, +Where, +CloneId, -Role, +Hole,
                                         % +Goals
           ]).
 :- use_module(library(debug), [debug/3]).
@@ -72,22 +72,22 @@ hop(Id, Where, Hole, Goals0, Since, stop) :-
     image(Transfer, Hole-Goals, Mail, Since, Image),
     set_out(Transfer, Hole-Goals, Mail, Since, Image).
 
-%!  hop_clone(+Id, +Where, +CloneId, +Agent, +Hole, +Goals) is det.
+%!  hop_clone(+Id, +Where, +CloneId, -Role, +Hole, +Goals) is det.
 %
 %   Send a clone of Id to Where; Id waits for the answer, and Goals are its
 %   goals.
 
-hop_clone(Id, Where, CloneId, Agent, Hole, Goals0) :-
+hop_clone(Id, Where, CloneId, Role, Hole, Goals0) :-
     plain_goals(Goals0, Goals),
     agent(Id, Host, _, _, _),
     host_time(Host, Since),
     destination(Where, Dest),
     Transfer = clone(Id, Dest, CloneId),
-    image(Transfer, Hole-Goals-Agent, Mail, Since, Image),
+    image(Transfer, Hole-Goals-Role, Mail, Since, Image),
     host(Host, Here, _),
     agent_born(CloneId, Here),
     clone_born(Id, CloneId),
-    set_out(Transfer, Hole-Goals-Agent, Mail, Since, Image).
+    set_out(Transfer, Hole-Goals-Role, Mail, Since, Image).
 
 %   The host of this process may be stopped while an agent is on its way to it;
 %   its address stays the same.

@@ -45,7 +45,7 @@ the hop, or clone(Id, Dest, CloneId).  Dest is dest(Address, Name, Endpoint).
 During the transfer the agent is frozen in this process; the transfer ends when
 the agent has arrived, or stays.
 
-The held goals are Hole-Goals, for a clone Hole-Goals-Agent.  While the agent is
+The held goals are Hole-Goals, for a clone Hole-Goals-Role.  While the agent is
 frozen its goals are hop(Held, Hops, Mail, Since) or
 clone(Held, CloneId, Since).
 
@@ -81,8 +81,8 @@ transfer_traveller(clone(_, _, CloneId), CloneId, 1).
 transfer_image(hop(Id, _, Hops), Hole-Goals, Mail, Since, Image) :-
     ignore(Hole = true),                % Hole is bound if the move was an order
     image_hop(Id, Hops, Goals, Mail, Since, Image).
-transfer_image(clone(Id, _, CloneId), Hole-Goals-Agent, _, Since, Image) :-
-    Hole = (Agent=clone(Id)),
+transfer_image(clone(Id, _, CloneId), Hole-Goals-Role, _, Since, Image) :-
+    Hole = (Role=clone(Id)),
     image_clone(Id, CloneId, Goals, Since, Image).
 
 %!  transfer_image(+Transfer, -Image) is semidet.
@@ -279,10 +279,10 @@ back(Id, Hops, Address, Error) :-
     agent_ready(Id, Goals).
 
 clone_back(Id, CloneId, Answer) :-
-    agent_status(Id, cloning(_, _), clone(Hole-Goals-Agent, CloneId, _)),
+    agent_status(Id, cloning(_, _), clone(Hole-Goals-Role, CloneId, _)),
     (   Answer = stays(Address, Error)
-    ->  answer_at(clone(Address, Agent), throw(error(Error, _)), Hole)
-    ;   Hole = (Agent=Answer)
+    ->  answer_at(clone(Address, Role), throw(error(Error, _)), Hole)
+    ;   Hole = (Role=Answer)
     ),
     agent_ready(Id, Goals).
 

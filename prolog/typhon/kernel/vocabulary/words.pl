@@ -18,8 +18,8 @@
             enter/1,                    % +Result
             message_failed/2,           % +From, +Message
             move/1,                     % +Host
-            clone/1,                    % -Who
-            clone/2,                    % +Host, -Who
+            clone/1,                    % -Role
+            clone/2,                    % +Host, -Role
             receive/1,                  % ?Message
             receive/2,                  % ?Message, +Timeout
             dispose/0
@@ -330,11 +330,11 @@ message_failed(From, Message) :-
 move(_) :-
     misplaced(move/1).
 
-%!  clone(-Who) is det.
-%!  clone(+Host, -Who) is det.
+%!  clone(-Role) is det.
+%!  clone(+Host, -Role) is det.
 %
-%   Clone this agent, here or on Host.  This agent goes on with Who =
-%   parent(CloneId), the clone with Who = clone(ParentId).
+%   Clone this agent, here or on Host.  This agent goes on with Role =
+%   parent(CloneId), the clone with Role = clone(ParentId).
 
 clone(_) :-
     misplaced(clone/1).

@@ -242,12 +242,11 @@ means(postgresql(_), State, _, unreachable) :-
     sub_atom(State, 0, _, _, '08').     % the class of connections
 
 error_words(sqlite(_), ['is locked'], locked).
-error_words(sqlite(_),
-                            [readonly, 'unable to open', 'connect failed'],
-                            unwritable).
+error_words(sqlite(_), [readonly, 'unable to open', 'connect failed'],
+            unwritable).
 error_words(sqlite(_), ['is full', 'disk I/O'], full).
 error_words(sqlite(_), [driver, 'Driver', 'Data source'],
-                            missing(libsqliteodbc)).
+            missing(libsqliteodbc)).
 
 throw_meaning(locked, _, Place) :-
     not_opened(Place, 'another process has it').

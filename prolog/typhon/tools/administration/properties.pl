@@ -5,7 +5,7 @@
 :- use_module(library(lists), [member/2]).
 :- use_module(library(pairs), [pairs_keys/2]).
 :- use_module('../../kernel/base/options', [check_name/2]).
-:- use_module('../../kernel/program', [code_program/2]).
+:- use_module('../../kernel/program', [code_names/2, code_program/2]).
 :- use_module('../../kernel/host', [host/3, host_address/2, turn_of/3]).
 :- use_module('../../kernel/agent',
               [ agent/5, agent_home/2, agent_state/2, agent_status/3,
@@ -99,6 +99,13 @@ typhon_questions:here(mailbox, Agent, Asker) :-
     with_agent(Agent, ( agent(Agent, _, _, _, _),
                         mail_list(Agent, Messages) )),
     question_answered(Asker, answer([mailbox(Messages)])).
+
+typhon_questions:here(program, Agent, Asker) :-
+    agent(Agent, _, _, Hash, _),
+    code_program(Hash, Program),
+    !,
+    code_names(Hash, Names),
+    question_answered(Asker, answer(Program-Names)).
 
 property(host(Address), Agent) :-
     agent(Agent, Host, _, _, _),

@@ -42,6 +42,7 @@ test(plain_host_loads_no_option, Out == "[]") :-
                                    typhon_single ]), \c
                        module_property(M, file(_)) ), Ms), \c
           print(Ms)', Out).
+
 %   SWI-Prolog 10 itself loads the index of its library with library(socket).
 
 test(plain_host_loads_no_large_library, Out == "[],0") :-
