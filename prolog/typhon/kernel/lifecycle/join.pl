@@ -28,7 +28,7 @@ has the outcome.
 %   number or `inf`).  Outcome is `done`, `failed`, raised(Error), `disposed`
 %   or `timeout`.
 %
-%   Agents is an agent, or family(Agent): Agent, its clones, and theirs; then this
+%   Agents is an agent, or family(Agent): Agent, its clones, and theirs. Then this
 %   waits until the last of them has ended.  Outcome is then a list of pairs
 %   Agent-Outcome, each agent before its clones, and these in the order in
 %   which they were born in a process.  At the timeout the outcome of agents
