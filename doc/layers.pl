@@ -6,6 +6,7 @@
     swipl doc/layers.pl -- picture | tred | dot -Tsvg > doc/img/layers.svg
     swipl doc/layers.pl -- figures
     swipl doc/layers.pl -- index
+    swipl doc/layers.pl -- kinds
 
 `check` says what is not in order, and fails if anything is:
 
@@ -22,7 +23,11 @@
   - a file of the kernel that names an option;
   - a hook that its module does not declare, or that no module defines;
   - an index of what is loaded on demand that is not up to date (`index`
-    writes it, prolog/typhon/kernel/base/index.pl).
+    writes it, prolog/typhon/kernel/base/index.pl);
+  - a clause that handles what another process sends, which
+    prolog/typhon/kernel/wire/kinds.pl does not declare, a declaration that no
+    clause handles, or a table in doc/wire.md that is not up to date (`kinds`
+    writes it).
 
 `picture` draws which module imports which (tred leaves out what follows from
 other arrows), `figures` counts modules, lines and lines per predicate, and
@@ -36,6 +41,7 @@ prints what the kernel and the tests hold beside the most that is wanted.
 :- use_module(layers/check).
 :- use_module(layers/figures).
 :- use_module(layers/index, [write_index/0]).
+:- use_module(layers/kinds, [write_kinds/0]).
 :- use_module(layers/picture).
 :- use_module(layers/tree, [read_tree/0]).
 
@@ -55,6 +61,9 @@ main([check]) :-
 main([index]) :-
     read_tree,
     write_index.
+main([kinds]) :-
+    read_tree,
+    write_kinds.
 main([picture]) :-
     read_tree,
     picture.

@@ -6,6 +6,7 @@
 :- use_module(library(lists), [member/2, nth1/3]).
 :- use_module(library(readutil), [read_file_to_string/3]).
 :- use_module(index, [index_problem/1]).
+:- use_module(kinds, [kinds_problem/1]).
 :- use_module(seams).
 :- use_module(tree).
 
@@ -68,6 +69,8 @@ problem(Problem) :-
     seam_problem(Problem).
 problem(Problem) :-
     index_problem(Problem).
+problem(Problem) :-
+    kinds_problem(Problem).
 
 %   has_predicate(+File, +Module, +PI) is semidet: File, of Module, defines,
 %   declares or imports PI, or a predicate with more arguments, as closures have.
@@ -220,6 +223,12 @@ says(breaks_rule(F, O), '~w: names the option ~w: use a hook', [F, O]) :-
     atom(O).
 says(hook_not_declared(F, H), '~w: defines ~w, which its module does not \c
      declare multifile', [F, H]).
+says(undeclared(F, Form, Term), '~w: handles the ~w ~q, which \c
+     prolog/typhon/kernel/wire/kinds.pl does not declare for it', [F, Form, Term]).
+says(not_handled(Module, Form, Term), 'prolog/typhon/kernel/wire/kinds.pl: no \c
+     clause of ~w handles the ~w ~q', [Module, Form, Term]).
+says(stale_kinds, 'doc/wire.md: its table of kinds is not what it is to be: run \c
+     doc/layers.pl -- kinds', []).
 says(stale_index(F), '~w: is not what it is to be: run doc/layers.pl -- index',
      [F]).
 says(hook_without_definition(F, H), '~w: no module defines its hook ~w',

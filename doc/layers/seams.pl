@@ -4,6 +4,7 @@
           ]).
 :- use_module(library(lists), [member/2]).
 :- use_module(index, [index_file/1]).
+:- use_module(kinds, [kinds_file/1]).
 :- use_module(tree).
 
 /** <module> The kernel names no option
@@ -39,12 +40,13 @@ option_words(trace,    [trace, traces, traced, tracing, spying, stepping]).
 
 %!  kernel_file(?File) is nondet.
 %
-%   File is of the kernel, but for the index.
+%   File is of the kernel, but for the index and the declarations.
 
 kernel_file(File) :-
     layer_module(File, Layer, _),
     sub_atom(Layer, 0, _, _, 'kernel/'),
-    \+ index_file(File).                % it names them all, and is made
+    \+ index_file(File),                % these two name them all: one is made,
+    \+ kinds_file(File).                % the other declares what may arrive
 
 %!  seam_problem(-Problem) is nondet.
 

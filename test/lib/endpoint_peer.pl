@@ -39,7 +39,14 @@ Requests are
 
 :- multifile
     typhon_endpoint:received/3,
-    typhon_endpoint:requested/4.
+    typhon_endpoint:requested/4,
+    typhon_kinds:accepts/5.
+
+typhon_kinds:accepts(post, Kind, _, none, none) :-
+    memberchk(Kind, [note, back]).
+typhon_kinds:accepts(request, Kind, _, none, none) :-
+    memberchk(Kind, [ ask_back, back, count, cross, echo, greet, later, never,
+                      notes, process, reach, remember, string, wrong ]).
 
 typhon_endpoint:received(note, Note, _) :-
     assertz(note(Note)).

@@ -44,3 +44,4 @@ This is the interface of the layer: higher layers import from here.
 :- reexport('host/runtime').
 :- reexport('host/hosting').
 :- reexport('host/remote').
+:- reexport('host/rights').

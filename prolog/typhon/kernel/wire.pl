@@ -20,6 +20,7 @@ This is the interface of the layer: higher layers import from here.
             [endpoint_hand_over/2, endpoint_hand_to/2, endpoint_handed/2]).
 :- reexport(wire/request,
             [endpoint_later/1, endpoint_reply/2, endpoint_reply_later/2]).
+:- reexport(wire/kinds, [arrival_permitted/4]).
 :- reexport(wire/session, [frame_fits/1]).
 :- reexport(wire/lending, [endpoint_afterwards/1]).
 :- reexport(wire/waiting, [endpoint_flush/1, endpoint_flush/2]).

@@ -1,6 +1,7 @@
 :- module(typhon_children,
           [ child_start/6,              % +Tag, +Machine, +Interface,
                                         % +Options, :OnEvent, -Child
+            child_secret/1,             % -Secret
             child_close/1,              % +Child
             child_kill/1,               % +Child
             child_release/1             % +Child
@@ -15,7 +16,7 @@
 :- use_module(library(settings), [setting/2, setting/4]).
 :- use_module('../kernel/base/options', [check_options/2]).
 :- use_module('../kernel/base/prolog_faults', [installed_swipl/2, spawn/3]).
-:- use_module('../kernel/wire', [cookie/1]).
+:- use_module('../kernel/wire', [cookie/1, random_hex/2]).
 :- use_module('../options/keys', [own_keys/1]).
 :- use_module(child_output, [output_line/2]).
 
@@ -55,7 +56,8 @@ cannot start, and with down(Tag, Status) when it has ended. The thread is no
            "Seconds for a child to end in order before it is killed").
 
 :- dynamic
-    node_file/1.                % File
+    node_file/1,                % File
+    secret/1.                   % of this process, for its children
 
 :- module_property(typhon_children, file(Source)),
    file_directory_name(Source, Dir),
@@ -94,9 +96,24 @@ child_start(Tag, Machine, Interface, Options, OnEvent,
     thread_create(follow(Tag, Pid, Out, OnEvent), Thread, [alias(Alias)]),
     debug(typhon(network), 'process ~w of ~w is started: ~w, ~p',
           [Pid, Tag, Program, Args]),
-    catch(send_term(In, node(Cookie, Bind, Seconds, Keys, Options)),
+    child_secret(Secret),
+    catch(send_term(In, node(Cookie, Secret, Bind, Seconds, Keys, Options)),
           error(io_error(_, _), _),
           true).                % the child has ended: down(Tag, _) follows
+
+%!  child_secret(-Secret) is det.
+%
+%   Secret goes with each order to a child of this process.
+
+child_secret(Secret) :-
+    with_mutex(typhon_children, secret_made(Secret)).
+
+secret_made(Secret) :-
+    secret(Secret),
+    !.
+secret_made(Secret) :-
+    random_hex(32, Secret),
+    assertz(secret(Secret)).
 
 %   A process with TLS can connect only to others with TLS.
 

@@ -11,13 +11,13 @@
 :- use_module('../kernel/base/error_text', [error_text/2, print_error/2]).
 :- use_module('../kernel/base/durable_changes', [output_waits/0]).
 :- use_module('../kernel/wire',
-              [ peer_expect/1, peer_expect_no_more/1, endpoint_address/1,
-                endpoint_flush/2, endpoint_reply/2 ]).
+              [ arrival_permitted/4, peer_expect/1, peer_expect_no_more/1,
+                endpoint_address/1, endpoint_flush/2, endpoint_reply/2 ]).
 :- use_module('../kernel/host',
               [ host/3, host_do/2, host_link/3, host_neighbours/2,
                 host_option/2, host_restart/2, host_start/2, host_stop/1,
                 host_unlink/2, hosts_go_on/0, hosts_rest/0, runtime_acquire/2,
-                runtime_release/1, time_again/2, time_hold/1, time_let_go/1,
+                parent_secret/1, runtime_release/1, time_again/2, time_hold/1, time_let_go/1,
                 time_state/1 ]).
 :- use_module('../tools/administration', [host_property/2]).
 :- use_module('../options/journal', [hosts_back/1, hosts_journal/2]).
@@ -35,8 +35,8 @@ by a request for hosts in a child. One order takes whole lists, so that a
 network of a thousand hosts needs few requests.
 
 Module `children` starts a child as `swipl -g node_main node_process.pl`. The
-first line of its standard input is node(Cookie, Interface, StopSeconds, Keys,
-Options). When the endpoint listens, and the journal, if any, is restored, the
+first line of its standard input is node(Cookie, Secret, Interface, StopSeconds,
+Keys, Options). When the endpoint listens, and the journal, if any, is restored, the
 child prints one line:
 
     typhon_node_process <Interface>:<Port> <Pid>
@@ -44,7 +44,7 @@ child prints one line:
 If the child cannot start, the line is `typhon_node_process_error <Error>`, and
 the process ends.
 
-After that orders arrive over the wire, as requests of kind `node`. The process
+After that orders arrive over the wire, as requests of kind `node` with Secret. The process
 stops in order when its standard input ends, or on SIGTERM and SIGINT: hosts
 stop first, then the process sends its output. The process ends at most
 StopSeconds later, even if a thread hangs.
@@ -216,7 +216,8 @@ node_main :-
     set_stream(user_input, encoding(utf8)),
     set_stream(user_output, encoding(utf8)),
     set_stream(user_output, buffer(line)),
-    read_term(user_input, node(Cookie, Interface, Seconds, Keys, Options), []),
+    read_term(user_input,
+              node(Cookie, Secret, Interface, Seconds, Keys, Options), []),
     skip(user_input, 0'\n),     % resets the column that both streams share
     setenv('TYPHON_COOKIE', Cookie),
     with_keys(Keys),
@@ -224,6 +225,7 @@ node_main :-
                   [alias(typhon_end), detached(true)]),
     on_signal(term, _, typhon_node_process:on_stop_signal),
     on_signal(int, _, typhon_node_process:on_stop_signal),
+    parent_secret(Secret),
     assertz(child),
     output_begin,
     catch(begin(Interface, Seconds, Options), error(Formal, Context),
@@ -300,12 +302,15 @@ ensure_end(Seconds) :-
     current_prolog_flag(pid, Pid),
     process_kill(Pid, kill).
 
-typhon_endpoint:requested(node, alive, _, ReplyTo) :-
+typhon_endpoint:requested(node, order(_, Order), Peer, ReplyTo) :-
     child,
+    arrival_permitted(order, node, Order, Peer),
+    ordered(Order, ReplyTo).
+
+ordered(alive, ReplyTo) :-
     !,
     endpoint_reply(ReplyTo, done(ok)).
-typhon_endpoint:requested(node, Order, _, ReplyTo) :-
-    child,
+ordered(Order, ReplyTo) :-
     thread_send_message(main, order(Order, ReplyTo)).
 
 serve :-

@@ -19,11 +19,12 @@
           ]).
 :- use_module(library(apply), [maplist/3]).
 :- use_module(library(debug), [debug/3]).
-:- use_module(library(error), [existence_error/2]).
+:- use_module(library(error), [existence_error/2, permission_error/3]).
 :- use_module(library(lists), [member/2, selectchk/3]).
 :- use_module(library(settings), [setting/2, setting/4]).
 :- use_module('../kernel/base/error_text', [harmless_error/2]).
 :- use_module('../kernel/wire', [endpoint_address/1, endpoint_request/4]).
+:- use_module(children, [child_secret/1]).
 :- use_module(node_process, [order_do/2]).
 
 /** <module> The processes of a network, and orders to them
@@ -151,6 +152,8 @@ result(answer(done(Answer)), _, Answer).
 result(answer(raised(Formal, Text)), _, _) :-
     harmless_error(error(Formal, context(_, Text)), Ball),
     throw(Ball).
+result(answer(not_permitted(Right)), Node, _) :-
+    permission_error(Right, process, Node).
 result(down, Node, _) :-
     existence_error(carrier, Node).
 result(unreachable, Node, _) :-
@@ -193,7 +196,11 @@ send_order(local, Order) :-
     !,
     order_do(Order, _).
 send_order(Endpoint, Order) :-
-    endpoint_request(Endpoint, node, Order, typhon_nodes:unwatched).
+    ask(Endpoint, Order, typhon_nodes:unwatched).
+
+ask(Endpoint, Order, OnAnswer) :-
+    child_secret(Secret),
+    endpoint_request(Endpoint, node, order(Secret, Order), OnAnswer).
 
 %!  nodes_peers(+Network, -Peers:list) is det.
 %
@@ -214,8 +221,7 @@ unwatched(_).
 send(Network, P, Order, Queue) :-
     assertz(waiting(Network, P, Queue)),
     (   node(Network, P, _, Endpoint)
-    ->  endpoint_request(Endpoint, node, Order,
-                         typhon_nodes:answered(Queue, P))
+    ->  ask(Endpoint, Order, typhon_nodes:answered(Queue, P))
     ;   answered(Queue, P, down)
     ).
 

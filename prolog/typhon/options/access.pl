@@ -12,7 +12,7 @@
 
 The option peer(Rules) of a host is a list of Peer-Rights.  Peer is `cookie`,
 certificate(Name), or a pattern of these; Rights is `all` or a list of rights,
-see typhon_remote.  Rules call the right `inspect` `watch`.  The first rule that
+see typhon_rights.  Rules call the right `inspect` `watch`.  The first rule that
 matches the proof of a peer applies; a peer without a matching rule has no
 right.
 
@@ -61,7 +61,7 @@ forbids(Rules, from(Peer, _, _), _, _, refused(peer)) :-
     endpoint_proof(Peer, Proof),
     \+ permits(Rules, Proof, agents).
 
-%   permits(+Rules, +Proof, +Right): see typhon_remote.
+%   permits(+Rules, +Proof, +Right): see typhon_rights.
 
 permits(Rules, Proof, Right) :-
     member(Peer-Rights, Rules),
@@ -69,19 +69,15 @@ permits(Rules, Proof, Right) :-
     !,
     (   Rights == all
     ->  true
-    ;   named(Right, Name),
-        memberchk(Name, Rights)
+    ;   memberchk(Right, Rights)
     ).
-
-named(inspect, watch) :-
-    !.
-named(Right, Right).
 
 right(agents).
 right(messages).
 right(orders).
 right(remote).
 right(watch).
+right(log).
 
 %   @error domain_error(peer_rule, Rule)
 
@@ -110,8 +106,7 @@ rights(Rights) :-
 
 note(File, Host, Peer, Proof, What0) :-
     get_time(Time),
-    ( What0 == refused(inspect) -> What1 = refused(watch) ; What1 = What0 ),
-    brief(What1, What),
+    brief(What0, What),
     catch(with_mutex(typhon_audit,
                      append_line(File,
                                  audit(Time, Host, Peer, Proof, What))),

@@ -85,7 +85,6 @@ typhon_endpoint:received(message, shown(Births, abroad(To, From, Message)),
 
 receive(To, From, Message, Births, Peer) :-
     must_be(compound, To),
-    must_be(atom, From),
     mail_accepted(Peer, To, Births, [mail(Peer, From, Message)], Accepted),
     (   Accepted == []
     ->  true

@@ -8,6 +8,8 @@
 :- use_module('../host',
               [ event/4, host/3, host_closed/1, host_enter/3, host_leave/1,
                 host_load/2, parts/3, security_event/2, security_event/3 ]).
+:- use_module(agents, [agent_on/2]).
+:- use_module(identity, [agent_home/2]).
 :- use_module(life, [life_tokens/2]).
 
 /** <module> Admission: which agents a host accepts
@@ -39,8 +41,9 @@ capacity of the host.
 :- meta_predicate gate(+, +, 1, -).
 
 :- multifile
-    forbidden/2.                % Ball, Reason: installing the agent raised
+    forbidden/2,                % Ball, Reason: installing the agent raised
                                 % Ball, which means a refusal for Reason
+    typhon_rights:agent_scope/2.
 
 %!  gate(+Host, +Entrant, :Install, -Verdict) is det.
 %
@@ -162,3 +165,18 @@ noted(from(Peer, _, _), Host, What) :-
     security_event(Host, Peer, What).
 noted(_, Host, What) :-
     security_event(Host, What).
+
+                /*******************************
+                *       RIGHTS OF PEERS        *
+                *******************************/
+
+%   The host of an agent decides what other processes may do with it; for an
+%   agent that is elsewhere, the host on which it was born.
+
+typhon_rights:agent_scope(Id, Host) :-
+    agent_on(Id, Host),
+    !.
+typhon_rights:agent_scope(Id, Host) :-
+    agent_home(Id, Address),
+    host(Host, Address, _),
+    !.

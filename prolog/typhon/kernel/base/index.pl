@@ -216,4 +216,5 @@ part_setting(ssh,typhon_children,atom,ssh,'The program that reaches other machin
 part_setting(start,typhon_cells,number,120,'Seconds in which a cell has to load its program','options/cell/cell_process').
 part_setting(start_seconds,typhon_processes,number,60,'Seconds for the processes of a network to start','network/processes').
 part_setting(stop_seconds,typhon_children,number,5,'Seconds for a child to end in order before it is killed','network/children').
+part_setting(traced,typhon_tracing,positive_integer,1000,'Agents whose traces are printed, the latest','options/trace/tracing').
 part_setting(virtual_events,typhon_watch_senders,positive_integer,1000000,'The same in virtual time, which runs ahead of all watches','options/watch/watch_senders').

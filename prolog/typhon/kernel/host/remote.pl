@@ -1,52 +1,31 @@
 :- module(typhon_remote,
           [ remote/2,                   % +Host, +Goal
             host_do/2,                  % +Name, +Goal
-            host_unknown/1,             % +Address
-            peer_may/3,                 % +Peer, +Host, +Right
-            security_event/2,           % +Host, +What
-            security_event/3            % +Host, +Peer, +What
+            host_unknown/1              % +Address
           ]).
 :- use_module(library(debug), [debug/3]).
 :- use_module(library(error),
               [existence_error/2, must_be/2, permission_error/3]).
-:- use_module(library(lists), [member/2]).
 :- use_module('../base/error_text', [harmless_error/2]).
 :- use_module('../wire',
-              [ endpoint_address/1, endpoint_own_proof/1, endpoint_proof/2,
-                endpoint_reply/2, mobile_term/1 ]).
+              [endpoint_reply/2, mobile_term/1]).
 :- use_module(runtime, [process_ask/6]).
 :- use_module(turns, [in_context/2]).
 :- use_module(host_names, [host_resolve/2]).
-:- use_module(host_parts, [parts/3]).
 :- use_module(hosts, [host/3, host_option/2]).
 :- use_module(scheduler, [scheduler_call/1]).
 
-/** <module> What other processes may do on a host, and goals that they run
+/** <module> Goals that other processes run on a host
 
-remote/2 is for administrators: a process that has the cookie can run any goal
-on a host, unless the host was started with remote(false).
-
-The rights are
-
-  - agents: create agents here, and send agents here
-  - messages: send messages to agents here
-  - orders: dispose of agents, move and change them; link the host
-  - remote: run goals here
-  - inspect: read agents, events and the properties of the host
-
-A peer has all of these rights, but `remote` only if it proves that it has the
-secret of this process: the cookie, or, where processes have keys, its
-certificate.
-The parts of a host in the phase `permit` can decide otherwise, and those in
-the phase `security` record security events; see typhon_host_parts.
+remote/2 is for administrators: a process that has the right `remote`, see
+typhon_rights, can run any goal on a host, unless the host was started with
+remote(false).
 
 *Threading*: the goal runs in the calling thread, or in a worker of the other
 process.
 */
 
-:- multifile
-    typhon_endpoint:requested/4,
-    typhon_handshake:text_only/1.
+:- multifile typhon_endpoint:requested/4.
 
 %!  remote(+Host, +Goal) is semidet.
 %
@@ -115,18 +94,10 @@ host_do(Name, Goal) :-
     host(Name, _, Place),
     in_context(Name, Place:Goal).
 
-typhon_endpoint:requested(remote, remote(Name, Goal), Peer, ReplyTo) :-
+typhon_endpoint:requested(remote, remote(Name, Goal), _, ReplyTo) :-
     (   host(Name, _, _)
-    ->  may_remote(Peer, Name, Goal, ReplyTo)
+    ->  scheduler_call(typhon_remote:serve(Name, Goal, ReplyTo))
     ;   endpoint_reply(ReplyTo, unknown_host)
-    ).
-
-may_remote(Peer, Name, Goal, ReplyTo) :-
-    (   peer_may(Peer, Name, remote)
-    ->  security_event(Name, Peer, remote(Goal)),
-        scheduler_call(typhon_remote:serve(Name, Goal, ReplyTo))
-    ;   endpoint_reply(ReplyTo,
-                       raised(error(permission_error(remote, host, Name), _)))
     ).
 
 serve(Name, Goal, ReplyTo) :-
@@ -158,80 +129,4 @@ outcome(Name, Goal, Answer) :-
     ->  mobile_term(Goal),
         Answer = true(Goal)
     ;   Answer = false
-    ).
-
-                /*******************************
-                *            RIGHTS            *
-                *******************************/
-
-%!  peer_may(+Peer, +Host, +Right) is semidet.
-%
-%   The process at the address Peer has Right on Host.  A denial is a security
-%   event.
-
-peer_may(Peer, Host, Right) :-
-    (   permitted(Peer, Host, Right)
-    ->  true
-    ;   security_event(Host, Peer, refused(Right)),
-        fail
-    ).
-
-permitted(_, Host, Right) :-
-    Right \== remote,
-    \+ parts(permit, Host, _),
-    !.
-permitted(Peer, Host, Right) :-
-    endpoint_proof(Peer, Proof),
-    proof_may(Proof, Host, Right).
-
-proof_may(Proof, Host, Right) :-
-    parts(permit, Host, Closures),
-    !,
-    forall(member(Closure, Closures), call(Closure, Proof, Right)).
-proof_may(Proof, _, remote) :-
-    endpoint_own_proof(Proof),
-    !.
-
-%   A peer that may not run goals here must not be able to end the process by a
-%   binary record either.  The codec of a session is chosen when the session
-%   begins.
-
-typhon_handshake:text_only(Proof) :-
-    (   host(Host, _, _)
-    *-> \+ ( proof_may(Proof, Host, remote),
-             \+ host_option(Host, remote(false)) )
-    ;   \+ endpoint_own_proof(Proof)
-    ),
-    !.
-
-%!  security_event(+Host, +What) is det.
-%!  security_event(+Host, +Peer, +What) is det.
-%
-%   Report What, which this process, or the process at the address Peer, did, or
-%   was refused, on Host.  What is one of
-%
-%   | refused(Agent, Reason)   | Host did not admit Agent, see typhon_gate    |
-%   | refused(Right)           | Peer does not have that Right               |
-%   | refused(Id, from(Other)) | Id got no message of Peer's in Other's name |
-%   | over(Agent, What)        | Agent passed this limit, and ended          |
-%   | cell(Agent, Reason)      | the process of Agent was ended for breaking |
-%   |                          | a rule, or ended itself                     |
-%   | order(Agent, Order)      | Peer gave that order to Agent               |
-%   | remote(Goal)             | Peer ran Goal here                          |
-
-security_event(Host, What) :-
-    endpoint_address(Own),
-    endpoint_own_proof(Proof),
-    security_event(Host, Own, Proof, What).
-
-security_event(Host, Peer, What) :-
-    endpoint_proof(Peer, Proof),
-    security_event(Host, Peer, Proof, What).
-
-security_event(Host, Peer, Proof, What) :-
-    debug(typhon(security), '~w at ~w: ~p', [Peer, Host, What]),
-    (   parts(security, Host, Closures)
-    ->  forall(member(Closure, Closures),
-               call(Closure, Host, Peer, Proof, What))
-    ;   true
     ).

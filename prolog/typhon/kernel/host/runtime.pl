@@ -176,13 +176,18 @@ released(_) :-
 %   @error host_unreachable(Host)
 %   @error permission_error(authenticate, host, Host): that process has
 %   another cookie than this one
+%   @error permission_error(Right, host, Host): this process lacks a right
 %   @error those of endpoint_call/5
 
 process_ask(Endpoint, Host, Kind, Term, Answer, Seconds) :-
-    as_guest(catch(endpoint_call(Endpoint, Kind, Term, answer(Answer),
+    as_guest(catch(endpoint_call(Endpoint, Kind, Term, answer(Answer0),
                                  Seconds),
                    error(unreachable(_), _),
-                   unreachable(Endpoint, Host))).
+                   unreachable(Endpoint, Host))),
+    (   Answer0 = not_permitted(Right)
+    ->  permission_error(Right, host, Host)
+    ;   Answer = Answer0
+    ).
 
 unreachable(Endpoint, Host) :-
     (   endpoint_missed(Endpoint, permission_error(authenticate, peer, cookie))

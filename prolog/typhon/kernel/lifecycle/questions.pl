@@ -18,8 +18,7 @@
 :- use_module('../base/error_text', [harmless_error/2]).
 :- use_module('../wire', [endpoint_address/1, endpoint_reply/2]).
 :- use_module('../host',
-              [ address_parts/3, peer_may/3, process_ask/6, security_event/3,
-                time_now/1, time_wait/3 ]).
+              [address_parts/3, process_ask/6, time_now/1, time_wait/3]).
 :- use_module('../agent', [agent/5, agent_home_endpoint/2, agent_name/3]).
 :- use_module('../travel',
               [agent_outcome/2, ended_agent/1, home_agents/1, whereabouts/2]).
@@ -150,8 +149,17 @@ ask_at(here, Agent, Question, Deadline, Answer) :-
 ask_at(Endpoint, Agent, Question, Deadline, Answer) :-
     seconds_left(Deadline, Left),
     Seconds is max(0.01, Left),
-    process_ask(Endpoint, Endpoint, agent, question(Agent, Question), Answer,
-                Seconds).
+    catch(process_ask(Endpoint, Endpoint, agent, question(Agent, Question),
+                      Answer, Seconds),
+          Error,
+          denied(Error, Agent, Answer)).
+
+denied(error(permission_error(Right, host, _), _), Agent, Answer) :-
+    Right \== authenticate,
+    !,
+    Answer = error(permission_error(Right, agent, Agent)).
+denied(Error, _, _) :-
+    throw(Error).
 
 %   answer_of(+Agent, :Asks, +Deadline, -Answer): call(Asks, Asker) asks Agent.
 
@@ -185,25 +193,8 @@ seconds_left(by_day(Stamp), Seconds) :-
                 *            ANSWERS           *
                 *******************************/
 
-typhon_endpoint:requested(agent, question(Agent, Question), Peer, ReplyTo) :-
-    (   agent(Agent, Host, _, _, _),
-        right_for(Question, Right),
-        \+ may_ask(Right, Peer, Host, Agent, Question)
-    ->  endpoint_reply(ReplyTo, error(permission_error(Right, agent, Agent)))
-    ;   answer(Question, Agent, reply(ReplyTo))
-    ).
-
-right_for(order(_), Right) => Right = orders.
-right_for(dispose, Right) => Right = orders.
-right_for(force, Right) => Right = orders.
-right_for(_, Right) => Right = inspect.
-
-may_ask(Right, Peer, Host, Agent, Question) :-
-    peer_may(Peer, Host, Right),
-    (   Right == orders
-    ->  security_event(Host, Peer, order(Agent, Question))
-    ;   true
-    ).
+typhon_endpoint:requested(agent, question(Agent, Question), _, ReplyTo) :-
+    answer(Question, Agent, reply(ReplyTo)).
 
 answer(Question, Agent, Asker) :-
     answer(Question, Agent, Asker, answered_later(Question, Agent, Asker)).

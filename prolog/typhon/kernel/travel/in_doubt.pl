@@ -107,8 +107,9 @@ typhon_durable:go_on :-
 home_answered(Transfer, answer(true)) :-
     !,
     transfer_arrived(Transfer).
-home_answered(Transfer, answer(Reached)) :-
+home_answered(Transfer, answer(Answer)) :-
     !,
+    ( Answer == false -> Reached = false ; Reached = unknown ),
     scheduler_call(ask_peers(Transfer, Reached)).
 home_answered(Transfer, _) :-
     transfer_traveller(Transfer, Id, _),
@@ -151,9 +152,10 @@ ask_peers(Transfer, HomeAnswer) :-
 
 ask_peer(Peer, Id, Hops, Answer) :-
     catch(endpoint_call(Peer, whereabouts, reached(Id, Hops),
-                        answer(Answer), 5),
+                        answer(Answer0), 5),
           error(_, _),
-          no_answer(Peer, Answer)).
+          no_answer(Peer, Answer0)),
+    ( Answer0 = not_permitted(_) -> Answer = unknown ; Answer = Answer0 ).
 
 no_answer(Peer, Answer) :-
     (   endpoint_gone(Peer)

@@ -5,14 +5,14 @@
             post_waiting/2              % +Id, -Messages
           ]).
 :- use_module(library(apply), [maplist/3]).
-:- use_module(library(error), [existence_error/2, must_be/2]).
+:- use_module(library(error), [existence_error/2]).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(pairs), [group_pairs_by_key/2]).
 :- use_module('../base/durable_changes',
               [ deferred_act/4, durable_on/0, effects_deferred/0,
                 enqueue_changes/0, unit_of_work/1 ]).
 :- use_module('../wire', [endpoint_address/1, mobile_term/1]).
-:- use_module('../host', [parts/3, peer_may/3]).
+:- use_module('../host', [parts/3]).
 :- use_module('../agent',
               [agent_home/2, agent_mail/2, agent_on/2, with_agent/2]).
 :- use_module(backlog,
@@ -152,15 +152,9 @@ typhon_endpoint:received(message, shown(Births, message(Id, Mail, Left)),
     letter_receive(Id, Births, Mail, Left, Peer).
 
 letter_receive(Id, Births, Mail0, Left, Peer) :-
-    must_be(atom, Id),
-    must_be(nonneg, Left),
-    must_be(list(typhon_mail), Mail0),
     mail_accepted(Peer, Id, Births, Mail0, Mail),
     (   Mail == []
     ->  true
-    ;   agent_on(Id, Host),
-        \+ peer_may(Peer, Host, messages)
-    ->  true                            % peer_may/3 has logged the refusal
     ;   pass_on(Id, letter(Mail, Left))
     ).
 

@@ -7,7 +7,6 @@
           ]).
 :- use_module(library(apply), [maplist/4, partition/4]).
 :- use_module(library(debug), [debug/3]).
-:- use_module(library(error), [must_be/2]).
 :- use_module(library(lists), [append/2, append/3, max_list/2, member/2]).
 :- use_module('../base/durable_changes', [durable_on/0, durable_post/3]).
 :- use_module('../wire',
@@ -34,7 +33,6 @@ thread.
 :- multifile
     returned/3,                 % From, Id, Message: the bridge of From takes
                                 % it back
-    error:has_type/2,
     typhon_durable_changes:undelivered/4,
     typhon_endpoint:received/3.
 
@@ -258,7 +256,6 @@ report(Formal, Id, [mail(_, From, Message)|More]) :-
     print_message(warning, typhon(Problem)).
 
 typhon_endpoint:received(message, lost(Formal, Id, Mail), _) :-
-    must_be(list(typhon_mail), Mail),
     partition(is_from_bridge, Mail, Bridged, Sent),
     give_back(Formal, Id, Bridged),
     (   Sent == []
@@ -271,8 +268,3 @@ typhon_durable_changes:undelivered(message, shown(_, Message), Endpoint,
     typhon_durable_changes:undelivered(message, Message, Endpoint, Formal).
 typhon_durable_changes:undelivered(message, message(Id, Mail, _), _, Formal) :-
     mail_lost(Formal, Id, Mail).
-
-error:has_type(typhon_mail, Mail) :-
-    subsumes_term(mail(_, _, _), Mail),
-    arg(1, Mail, Origin),
-    atom(Origin).

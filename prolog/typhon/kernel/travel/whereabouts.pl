@@ -24,7 +24,8 @@
 :- use_module('../base/durable_changes',
               [durable_drop/3, durable_on/0, durable_put/4]).
 :- use_module('../wire',
-              [endpoint_address/1, endpoint_peer/2, endpoint_post/3]).
+              [ arrival_permitted/4, endpoint_address/1, endpoint_peer/2,
+                endpoint_post/3 ]).
 :- use_module('../host', [address_parts/3]).
 :- use_module('../agent',
               [agent_home_endpoint/2, is_result_fact/1]).
@@ -270,7 +271,6 @@ typhon_endpoint:received(whereabouts, All, Peer) :-
     !,
     receive_news(All, [], Peer).
 typhon_endpoint:received(whereabouts, shown(Births, All), Peer) :-
-    must_be(list, All),
     receive_news(All, Births, Peer).
 
 receive_news(All, Births, Peer) :-
@@ -279,29 +279,22 @@ receive_news(All, Births, Peer) :-
     maplist(news(Process), Accepted).
 
 news_accepted(Peer, Births, News) :-
-    must_be(compound, News),
+    arrival_permitted(news, whereabouts, News, Peer),
     arg(1, News, Id),
-    must_be(atom, Id),
     peer_may_send_for(Peer, Births, Id).
 
 news(Process, located(Id, Address, Hops)) :-
-    must_be(nonneg, Hops),
     address_parts(Address, _, _),
     home_moved(Id, Address, Hops, Process).
 news(Process, ended(Id, Outcome, Hops)) :-
     news(Process, ended(Id, Outcome, Hops, [])).
 news(_, ended(Id, Outcome, Hops, Results)) :-
-    must_be(nonneg, Hops),
     must_be(list(typhon_payloads), Results),
     home_ended(Id, Outcome, Hops, Results).
 news(Process, faulty(Id, Outcome, Stamp, Address, Hops)) :-
-    must_be(nonneg, Hops),
-    must_be(number, Stamp),
     address_parts(Address, _, _),
     home_faulty(Id, Outcome, Stamp, Address, Hops, Process).
 news(_, resumed(Id, Stamp, Hops)) :-
-    must_be(nonneg, Hops),
-    must_be(number, Stamp),
     home_resumed(Id, Stamp, Hops).
 
 error:has_type(typhon_payloads, Item) :-

@@ -37,8 +37,8 @@ connection on which the arbiter sends its count.
 :- use_module(lending, [lent_away/0]).
 :- use_module(reader, [read_frames/3]).
 :- use_module(session,
-              [ connection_is/2, route_add/2, session_adopting/2, session_key/2,
-                session_open/5, session_peer/3 ]).
+              [ connection_is/2, route_add/2, session_adopting/2, session_open/5,
+                session_peer/3, session_to_self/1 ]).
 :- use_module(transport,
               [ line_read/3, line_write/2, refusal_text/2, transport_close/0,
                 transport_first/2, transport_open/6 ]).
@@ -98,7 +98,7 @@ report_refused(Ip, Formal, Stage) :-
 %   that address is meaningless here; Ip replaces 0.0.0.0.
 
 reachable(_, _, Session) :-
-    own_session(Session),
+    session_to_self(Session),
     !.
 reachable(Ip, Peer, Session) :-
     hello_peer(Peer, Process, _, Claimed),
@@ -268,15 +268,6 @@ session_keys(Role, Me, Peer, MyKey, Key) :-
 
 own_keys(client(_), self_client, self_server).
 own_keys(server(_), self_server, self_client).
-
-%   own_session(+Session) is semidet.
-%
-%   Session joins this process to itself.
-
-own_session(Session) :-
-    session_key(Session, Key),
-    own_keys(_, Key, _),
-    !.
 
 adopt(MyKey, Key, Role, Session, In, Out) :-
     MyKey @< Key,

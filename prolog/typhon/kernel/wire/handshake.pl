@@ -156,17 +156,37 @@ authenticate(Role, In, Out, Hello, Cookie, PeerHello) :-
     setting(handshake_time, Seconds),
     get_time(Now),
     Deadline is Now+Seconds,
-    exchange_greetings(Role, In, Out, Deadline, Hello, Ours, Theirs),
-    call(Cookie, Secret),
-    exchange_proofs(Role, In, Out, Deadline, Secret, Ours, Theirs),
+    thread_self(Me),
+    call_cleanup(
+        ( exchange_greetings(Role, In, Out, Deadline, Hello, Ours, Theirs),
+          check_self(Theirs, Hello),
+          call(Cookie, Secret),
+          exchange_proofs(Role, In, Out, Deadline, Secret, Ours, Theirs) ),
+        retractall(own_greeting(Me, _))),
     greeting_hello(Theirs, PeerHello).
+
+:- dynamic own_greeting/2.              % Thread, Line: it is in a handshake
 
 greet(Out, Hello, Line) :-
     random_hex(16, Nonce),
     hello_line(Hello, HelloLine),
     protocol(Protocol),
     format(string(Line), "~w ~w ~w", [Protocol, Nonce, HelloLine]),
+    thread_self(Me),
+    assertz(own_greeting(Me, Line)),
     line_write(Out, Line).
+
+%   A hello is public: a peer that claims to be this process has to be at the
+%   other end of a handshake of this process.
+
+check_self(Theirs, Hello) :-
+    hello_peer(Hello, Process, Start, _),
+    format(string(Me), "~w ~w ", [Process, Start]),
+    (   sub_string(Theirs, _, _, _, Me),
+        \+ own_greeting(_, Theirs)
+    ->  permission_error(authenticate, peer, other)
+    ;   true
+    ).
 
 protocol("typhon 3").
 

@@ -27,7 +27,9 @@
 A frame that cannot be decoded is unreadable(Formal, Mark): Mark is request(Id)
 or answer(Id) if it has a mark, see frame.pl, else `none`.
 
-Posts and requests go to the hooks of typhon_endpoint, answers to the caller.
+Posts and requests that the peer may send, see kinds.pl, go to the hooks of
+typhon_endpoint, answers to the caller. A request for which the peer lacks a right
+is answered not_permitted(Right).
 A hand-over needs no answer: settlement of its frame means that it was accepted.
 The Answer of an objection is `spoilt`, an answer of the hook, or `deferred`:
 then the frame is a request from now on, under its negated number.
@@ -41,10 +43,11 @@ it is answered once.
 :- use_module('../base/error_text', [error_lines/3, print_error/2]).
 :- use_module('../base/on_demand',
               [on_demand_later/1, on_demand_load/2, on_demand_part/2]).
+:- use_module(kinds, [arrival_verdict/5]).
 :- use_module(outbox,
               [ session_answer/2, session_object/2, session_owes/0,
                 session_send/2, session_send_later/2 ]).
-:- use_module(session, [session_key/2, session_peer/3]).
+:- use_module(session, [session_key/2, session_peer/3, session_to_self/1]).
 :- use_module(transport, [transport_as/2, transport_proof/1]).
 :- use_module(settlement,
               [objection_answered/3, session_objected/3, session_pending/2]).
@@ -185,7 +188,7 @@ conclude(Result, Id, Key) :-
 dispatch(Session, post(Kind, Term)) :-
     !,
     session_peer(Session, _, Peer),
-    take_post(Kind, Term, Peer).
+    post_in(Session, Kind, Term, Peer).
 dispatch(Session, request(Id, Kind, Term)) :-
     !,
     session_peer(Session, _, Peer),
@@ -193,7 +196,8 @@ dispatch(Session, request(Id, Kind, Term)) :-
 dispatch(Session, hand(Kind, Term)) :-
     !,
     session_peer(Session, _, Peer),
-    (   attempt(typhon_endpoint:handed(Kind, Term, Peer, Verdict), Kind, fail)
+    (   allowed(Session, hand, Kind, Term, Peer, ok),
+        attempt(typhon_endpoint:handed(Kind, Term, Peer, Verdict), Kind, fail)
     ->  verdict(Verdict, Kind, Term, Peer, Session)
     ;   session_object(Session, spoilt)
     ).
@@ -253,9 +257,33 @@ answered(Session, Id, Answer, Result) :-
     ).
 
 dispatch_request(Id, Kind, Term, Peer, Session) :-
-    (   take_request(Kind, Term, Peer, reply_to(Session, Id))
+    ReplyTo = reply_to(Session, Id),
+    allowed(Session, request, Kind, Term, Peer, Verdict),
+    (   Verdict = refused(Right)
+    ->  reporting(endpoint_reply(ReplyTo, not_permitted(Right)), Kind)
+    ;   Verdict == ok,
+        take_request(Kind, Term, Peer, ReplyTo)
     ->  true
-    ;   spoil(reply_to(Session, Id), Kind)
+    ;   spoil(ReplyTo, Kind)
+    ).
+
+post_in(Session, Kind, Term, Peer) :-
+    (   allowed(Session, post, Kind, Term, Peer, ok)
+    ->  take_post(Kind, Term, Peer)
+    ;   true
+    ).
+
+%   allowed(+Session, +Form, +Kind, +Term, +Peer, -Verdict): see kinds.pl. This
+%   process may send to itself what it likes.
+
+allowed(Session, _, _, _, _, ok) :-
+    session_to_self(Session),
+    !.
+allowed(_, Form, Kind, Term, Peer, Verdict) :-
+    arrival_verdict(Form, Kind, Term, Peer, Verdict),
+    (   Verdict == undeclared
+    ->  print_message(warning, typhon(endpoint, undeclared(Peer, Form, Kind)))
+    ;   true
     ).
 
 %!  dispatch_all(+Session, +Frames:list) is det.
@@ -270,7 +298,7 @@ dispatch_all(Session, [post(Kind, Term)|Frames0]) :-
     together(Kind, [Term|Terms], Fewer),
     !,
     session_peer(Session, _, Peer),
-    forall(member(One, Fewer), take_post(Kind, One, Peer)),
+    forall(member(One, Fewer), post_in(Session, Kind, One, Peer)),
     dispatch_all(Session, Frames).
 dispatch_all(Session, [Frame|Frames]) :-
     dispatch(Session, Frame),
@@ -289,7 +317,7 @@ together(Kind, Terms, Fewer) :-
 
 %!  take_post(+Kind, +Term, +Peer) is det.
 %
-%   Call the hook for a post of Peer.
+%   Call the hook for a post that Peer may send.
 
 take_post(Kind, Term, Peer) :-
     Hook = typhon_endpoint:received(Kind, Term, Peer),
@@ -297,7 +325,7 @@ take_post(Kind, Term, Peer) :-
 
 %!  take_request(+Kind, +Term, +Peer, +ReplyTo) is semidet.
 %
-%   Call the hook for a request of Peer.  Fails if no hook takes it.
+%   Call the hook for a request that Peer may send.  Fails if no hook takes it.
 
 take_request(Kind, Term, Peer, ReplyTo) :-
     Hook = typhon_endpoint:requested(Kind, Term, Peer, ReplyTo),
@@ -373,6 +401,8 @@ is_thread_end(wire_thread_end(_)).
 
 prolog:message(typhon(endpoint, unreadable(Peer, Formal))) -->
     [ 'Endpoint: a frame of ~w cannot be read: ~p'-[Peer, Formal] ].
+prolog:message(typhon(endpoint, undeclared(Peer, Form, Kind))) -->
+    [ 'Endpoint: ~w has sent a ~w ~q that is not declared'-[Peer, Form, Kind] ].
 prolog:message(typhon(endpoint, unknown_frame(Frame))) -->
     [ 'Endpoint: unknown frame: ~W'
       -[Frame, [quoted(true), max_depth(8)]] ].

@@ -4,6 +4,7 @@
             session_forget/1,           % +Session
             session_must_exist/3,       % +Session, -Key, -Window
             session_key/2,              % +Session, -Key
+            session_to_self/1,          % +Session
             session_codec/2,            % +Session, -Codec
             session_window/2,           % +Session, -Window
             session_window/3,           % +Session, -Key, -Window
@@ -77,6 +78,13 @@ route_key(Address, Key) :-
 %   Key names the peer.
 
 session_key(session(Key, _, _, _, _, _), Key).
+
+%!  session_to_self(+Session) is semidet.
+%
+%   Session joins this process to itself; it has one session for each end.
+
+session_to_self(session(self_client, _, _, _, _, _)).
+session_to_self(session(self_server, _, _, _, _, _)).
 
 %!  session_codec(+Session, -Codec) is det.
 %

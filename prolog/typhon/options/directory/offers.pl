@@ -5,7 +5,7 @@
             search/4                    % +Address, +Radius, +Wanted, -Found
           ]).
 :- use_module(library(aggregate), [aggregate_all/3]).
-:- use_module(library(error), [must_be/2, resource_error/1]).
+:- use_module(library(error), [resource_error/1]).
 :- use_module(library(settings), [setting/2, setting/4]).
 :- use_module(library(apply), [partition/4]).
 :- use_module(library(lists), [append/2, append/3, member/2]).
@@ -211,7 +211,6 @@ is_answer(at(Host, Neighbours, Offers)) :-
     is_list(Offers).
 
 typhon_endpoint:requested(directory, look(Hosts, Look), _, ReplyTo) :-
-    must_be(list(atom), Hosts),
     scheduler_call(typhon_offers:reply(Hosts, Look, ReplyTo)).
 
 reply(Hosts, Look, ReplyTo) :-

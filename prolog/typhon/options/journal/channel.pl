@@ -1,6 +1,5 @@
 :- module(typhon_channel, []).
 :- use_module(library(debug), [debug/3]).
-:- use_module(library(error), [must_be/2]).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(settings), [setting/2, setting/4]).
 :- use_module('../../kernel/base/durable', [durable/5]).
@@ -10,8 +9,8 @@
                 enqueue_changes/0, output_waits/0, unit_of_work/1 ]).
 :- use_module('../../kernel/base/error_text', [print_error/2]).
 :- use_module('../../kernel/wire',
-              [ endpoint_address/1, endpoint_gone/1, endpoint_post/3,
-                endpoint_process/1 ]).
+              [ arrival_permitted/4, endpoint_address/1, endpoint_gone/1,
+                endpoint_peer/2, endpoint_post/3, endpoint_process/1 ]).
 :- use_module('../../kernel/host', [alarm_in/3, scheduler_call/1]).
 :- use_module(units_of_work,
               [changes_add/1, changes_must_fit/1, changes_putting/5]).
@@ -253,11 +252,22 @@ report_undelivered(Lost, Endpoint, Formal) :-
                 *            ANSWERS           *
                 *******************************/
 
-typhon_endpoint:received(channel, again(To), _) :-
-    send_again(To).
-typhon_endpoint:received(channel, had(To, N), _) :-
-    must_be(integer, N),
-    with_mutex(typhon_channel, posts_received(To, N)).
+typhon_endpoint:received(channel, again(To), Peer) :-
+    ( leads_to(To, Peer) -> send_again(To) ; true ).
+typhon_endpoint:received(channel, had(To, N), Peer) :-
+    (   leads_to(To, Peer)
+    ->  with_mutex(typhon_channel, posts_received(To, N))
+    ;   true
+    ).
+
+%   leads_to(+To, +Peer) is semidet: posts to the endpoint To are for the
+%   process at Peer, which alone acknowledges them.
+
+leads_to(Peer, Peer) :-
+    !.
+leads_to(To, Peer) :-
+    endpoint_peer(Peer, process(Process)),
+    endpoint_peer(To, process(Process)).
 
 send_again(To) :-
     changing_posts(To, retractall(sent(To, _))).
@@ -299,13 +309,14 @@ typhon_durable:go_on :-
 
 typhon_endpoint:received(channel,
                          channel(Process, To, Before, N, Kind, Term), Peer) :-
-    must_be(atom, Process),
-    must_be(atom, To),
-    must_be(integer, N),
+    endpoint_peer(Peer, process(Process)),
+    !,
     atomic_list_concat([Process, To], ' ', Key),
     with_mutex(typhon_channel_in,
                take_once(Key, Before, N, Kind, Term, Peer, How)),
     answer(How, Key, To, Peer).
+typhon_endpoint:received(channel, channel(Process, _, _, _, _, _), Peer) :-
+    debug(typhon(mail), '~w has sent a post of ~w', [Peer, Process]).
 
 take_once(Key, _, N, _, _, _, known) :-
     seen(Key, Seen),
@@ -333,9 +344,12 @@ in_order(Before, Key) :-
     seen(Key, Before).
 
 take(Kind, Term, Peer) :-
-    catch(ignore(typhon_endpoint:received(Kind, Term, Peer)),
-          error(Formal, Context),
-          print_error(error, error(Formal, Context))).
+    (   arrival_permitted(post, Kind, Term, Peer)
+    ->  catch(ignore(typhon_endpoint:received(Kind, Term, Peer)),
+              error(Formal, Context),
+              print_error(error, error(Formal, Context)))
+    ;   true
+    ).
 
 answer(gap, _, To, Peer) :-
     endpoint_post(Peer, channel, again(To)).

@@ -4,14 +4,13 @@
             peers_ask/2                 % +Question, -Results
           ]).
 :- use_module(library(apply), [exclude/3]).
-:- use_module(library(error), [must_be/2]).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(ordsets), [ord_subtract/3, ord_union/2]).
 :- use_module('../../kernel/wire',
               [ endpoint_address/1, endpoint_ask_all/6, endpoint_gone/1,
                 endpoint_peer/2, endpoint_reply/2 ]).
 :- use_module('../../kernel/host',
-              [address_parts/3, alarm_in/3, peer_may/3, scheduler_call/1]).
+              [address_parts/3, alarm_in/3, scheduler_call/1]).
 :- use_module('../../kernel/lifecycle', [agent_ask_here/4]).
 :- use_module('../../kernel/agent', [agent_on/2]).
 :- use_module(failed_processes, [process_suspect/1]).
@@ -99,7 +98,6 @@ send_outcome(reply(ReplyTo), Outcome) :-
     endpoint_reply(ReplyTo, Outcome).
 
 typhon_endpoint:requested(monitor, watch(Agent), _, ReplyTo) :-
-    must_be(atom, Agent),
     monitored_add(Agent, reply(ReplyTo)).
 
                 /*******************************
@@ -244,7 +242,6 @@ may_be_found(Results, at(_, Address, _, _)) :-
     \+ endpoint_gone(Endpoint).
 
 typhon_endpoint:requested(monitor, have(Agents), _, ReplyTo) :-
-    must_be(list(atom), Agents),
     findall(Agent, ( member(Agent, Agents), agent_on(Agent, _) ), Here),
     endpoint_reply(ReplyTo, Here).
 
@@ -276,7 +273,7 @@ typhon_scheduler:fire(_, orphans(Agents, Seconds)) :-
     ;   true
     ).
 
-:- public end_everywhere/2, end_asked/4.
+:- public end_everywhere/2, end_asked/3.
 
 %   end_everywhere(+Agents, +Asked): dispose of Agents here and in all known
 %   processes, except in Asked, which have got the request.
@@ -289,21 +286,13 @@ end_everywhere(Agents, Asked) :-
     ord_union([[Me], Peers, Asked], All),
     ask(Peers, end(Agents, All), _).
 
-typhon_endpoint:requested(monitor, end(Agents, Asked), Peer, ReplyTo) :-
-    must_be(list(atom), Agents),
-    must_be(list(atom), Asked),
-    scheduler_call(typhon_monitored_agents:end_asked(Agents, Asked, Peer,
-                                                     ReplyTo)).
+typhon_endpoint:requested(monitor, end(Agents, Asked), _, ReplyTo) :-
+    scheduler_call(typhon_monitored_agents:end_asked(Agents, Asked, ReplyTo)).
 
-end_asked(Agents0, Asked0, Peer, ReplyTo) :-
-    exclude(may_not_end(Peer), Agents0, Agents),
+end_asked(Agents, Asked0, ReplyTo) :-
     sort(Asked0, Asked),
     end_everywhere(Agents, Asked),
     endpoint_reply(ReplyTo, ok).
-
-may_not_end(Peer, Agent) :-
-    agent_on(Agent, Host),
-    \+ peer_may(Peer, Host, orders).
 
 end_here(Agent) :-
     patience(Seconds),

@@ -16,8 +16,8 @@
               [ endpoint_address/1, endpoint_gone/1, endpoint_reply/2,
                 endpoint_request/4 ]).
 :- use_module('../../kernel/host',
-              [ address_parts/3, alarm_in/3, peer_may/3, runtime_acquire/2,
-                runtime_release/1, scheduler_call/1 ]).
+              [ alarm_in/3, runtime_acquire/2, runtime_release/1,
+                scheduler_call/1 ]).
 :- use_module('../../kernel/agent', [agent_home/2, agent_home_endpoint/2]).
 :- use_module('../../kernel/travel',
               [outcome_wait/3, peer_may_send_for/3, post_on/2]).
@@ -184,43 +184,23 @@ watcher_ended(Id, _) :-
            ignore(monitor_remove(Watcher, Agent))).
 
 typhon_endpoint:requested(monitor, by(Id, Request), Peer, ReplyTo) :-
-    must_be(atom, Id),
     peer_may_send_for(Peer, [], Id),
-    for_peer(Request, Id, Peer),
+    for_peer(Request, Id),
     endpoint_reply(ReplyTo, ok).
-typhon_endpoint:requested(monitor, monitor_add(Ends, Id), Peer, ReplyTo) :-
-    share(Peer, Ends, Id, monitor_add(Ends, Id)),
+typhon_endpoint:requested(monitor, monitor_add(Ends, Id), _, ReplyTo) :-
+    ignore(monitor_add(Ends, Id)),
     endpoint_reply(ReplyTo, ok).
 typhon_endpoint:requested(monitor, follows(Agent, Id), _, ReplyTo) :-
     ( monitor_set(ends(Agent), Id) -> Answer = true ; Answer = false ),
     endpoint_reply(ReplyTo, Answer).
-typhon_endpoint:requested(monitor, monitor_remove(Ends, Id), Peer, ReplyTo) :-
-    share(Peer, Ends, Id, monitor_remove(Ends, Id)),
+typhon_endpoint:requested(monitor, monitor_remove(Ends, Id), _, ReplyTo) :-
+    ignore(monitor_remove(Ends, Id)),
     endpoint_reply(ReplyTo, ok).
 
-share(Peer, ends(Agent), Id, Change) :-
-    must_be(atom, Id),
-    (   may_order(Peer, Agent)
-    ->  ignore(Change)
-    ;   true
-    ).
-
-may_order(Peer, Agent) :-
-    agent_home(Agent, Address),
-    address_parts(Address, Host, _),
-    peer_may(Peer, Host, orders).
-
-%   A shared monitor makes this process dispose of Agent on behalf of Peer, so
-%   Peer needs the right to give orders to it.
-
-for_peer(begin(Agent, Shared), Id, Peer) :-
+for_peer(begin(Agent, Shared), Id) :-
     agent_home(Agent, _),
-    (   memberchk(Shared, [false,self])
-    ->  true
-    ;   may_order(Peer, Agent)
-    ),
     monitor_begin(Id, Agent, Shared).
-for_peer(end(Agent), Id, _) :-
+for_peer(end(Agent), Id) :-
     monitor_end(Id, Agent).
 
 %!  monitor_call(+Agent, :OnDown) is det.
@@ -267,6 +247,9 @@ home_answered(Agent, Home, answer(unknown)) :-
     ->  scheduler_call(typhon_monitors:lost(Home))
     ;   scheduler_call(typhon_monitors:unknown(Agent))
     ).
+home_answered(Agent, _, answer(not_permitted(_))) :-
+    !,
+    down(Agent, unknown).
 home_answered(Agent, _, answer(Outcome)) :-
     !,
     down(Agent, Outcome).

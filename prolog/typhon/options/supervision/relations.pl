@@ -1,7 +1,6 @@
 :- module(typhon_relations,
           [ relations/2                 % ?Other, -Relations
           ]).
-:- use_module(library(error), [must_be/2]).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(solution_sequences), [limit/2]).
 :- use_module('../../kernel/wire', [endpoint_address/1, endpoint_reply/2]).
@@ -65,7 +64,6 @@ relation_of(Id, Other, Id, monitors(Id, Other)) :-
     atom(Id).
 
 typhon_endpoint:requested(monitor, relations(Other), _, ReplyTo) :-
-    ( var(Other) -> true ; must_be(atom, Other) ),
     scheduler_call(typhon_relations:send_relations(Other, ReplyTo)).
 
 :- public send_relations/2.             % goal of a worker

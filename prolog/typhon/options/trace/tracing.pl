@@ -12,6 +12,8 @@
 :- use_module(library(error),
               [domain_error/2, existence_error/2, must_be/2]).
 :- use_module(library(lists), [member/2]).
+:- use_module(library(settings), [setting/4]).
+:- use_module('../../kernel/base/bounds', [bounded/2]).
 :- use_module('../../kernel/program', [code_names/2, code_program/2]).
 :- use_module('../../kernel/wire',
               [endpoint_address/1, endpoint_reply/2, endpoint_request/4]).
@@ -20,7 +22,7 @@
               [ agent/5, agent_put/3, agent_put_life/2, agent_status/3, agent_unorder/2,
                 life_extras/2, set_extras_of_life/3, with_agent/2 ]).
 :- use_module('../../kernel/lifecycle',
-              [order_give/3, question_answered/2]).
+              [agent_named/2, order_give/3, question_answered/2]).
 :- use_module('../../tools/source_view', [goal_named/4]).
 
 /** <module> Tracers of agents
@@ -54,7 +56,24 @@ agent_trace(Agent, What) :-
     must_be(list, What),
     maplist(must_be_kind, What),
     own_endpoint(To),
-    order_give(Agent, watched(trace(To, What)), _).
+    agent_named(Agent, Id),
+    expect_events(Id),
+    order_give(Id, watched(trace(To, What)), _).
+
+%   Other processes send events of agents that were traced here, only. An agent
+%   that is no longer traced may still have events under way.
+
+:- dynamic expected/1.                  % Id
+
+:- setting(traced, positive_integer, 1000,
+           "Agents whose traces are printed, the latest").
+
+expect_events(Id) :-
+    (   expected(Id)
+    ->  true
+    ;   assertz(expected(Id)),
+        bounded(expected(_), typhon_tracing:traced)
+    ).
 
 must_be_kind(Kind) :-
     must_be(atom, Kind),
@@ -225,7 +244,10 @@ goal_shown(_, Goal, Goal).
 ignore_answer(_).
 
 typhon_endpoint:requested(trace, traced(Host, Agent, What), _, ReplyTo) :-
-    show(Host, Agent, What),
+    (   expected(Agent)
+    ->  show(Host, Agent, What)
+    ;   true
+    ),
     endpoint_reply(ReplyTo, ok).
 
 show(Host, Agent, What) :-

@@ -151,7 +151,7 @@ wanted(me(Watch, _, _)) :-
 
 handle_message(events(Peer, Events, ReplyTo), Me) =>
     request_more(ReplyTo),
-    forall(( member(Event, Events), wanted(Me) ),
+    forall(( sends(Peer, Me), member(Event, Events), wanted(Me) ),
            handle_event(Event, Peer, Me)).
 handle_message(connection(Peer, down), _), endpoint_address(Peer) =>
     true.                               % this process itself
@@ -170,6 +170,16 @@ handle_message(asked(Endpoint, Result), Me) =>
     call_on_all(Events, Me).
 handle_message(_, _) =>                 % over, ended(_)
     true.
+
+%   sends(+Peer, +Me) is semidet: the process at Peer has watched hosts. Events of
+%   a restarted process may come before its answer.
+
+sends(Peer, me(Watch, _, _)) :-
+    (   endpoint_address(Peer)
+    ;   place_at(Watch, Peer, _, _)
+    ;   place_at(Watch, _, _, Peer)
+    ),
+    !.
 
 request_again(Peer, State, Me) :-
     Me = me(Watch, _, _),

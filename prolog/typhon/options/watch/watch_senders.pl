@@ -116,7 +116,7 @@ may_watch(Peer, _) :-
     endpoint_address(Peer),
     !.
 may_watch(Peer, Name) :-
-    peer_may(Peer, Name, inspect).
+    peer_may(Peer, Name, watch).
 
 subscribe_host(Name, Address-Clock, Buffer) :-
     kinds(Kinds),

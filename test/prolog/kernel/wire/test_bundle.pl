@@ -18,7 +18,9 @@
 
 :- dynamic note/2.                      % Note, Thread
 
-:- multifile typhon_endpoint:received/3.
+:- multifile typhon_endpoint:received/3, typhon_kinds:accepts/5.
+
+typhon_kinds:accepts(post, note, _, none, none).
 
 typhon_endpoint:received(note, Note, _) :-
     thread_self(Me),

@@ -24,7 +24,11 @@
 :- multifile
     typhon_endpoint:received/3,
     typhon_endpoint:requested/4,
-    typhon_endpoint:connection/2.
+    typhon_endpoint:connection/2,
+    typhon_kinds:accepts/5.
+
+typhon_kinds:accepts(post, note, _, none, none).
+typhon_kinds:accepts(request, echo, _, none, none).
 
 typhon_endpoint:received(note, Note, _) :-
     assertz(note(Note)).

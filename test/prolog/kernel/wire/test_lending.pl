@@ -27,7 +27,11 @@ The endpoint is connected to itself: its own reader threads read its posts.
 :- multifile
     typhon_endpoint:lent/1,
     typhon_endpoint:received/3,
-    typhon_endpoint:returned/0.
+    typhon_endpoint:returned/0,
+    typhon_kinds:accepts/5.
+
+typhon_kinds:accepts(post, errand, _, none, none).
+typhon_kinds:accepts(post, word, _, none, none).
 
 typhon_endpoint:received(errand, Errand, _) :-
     thread_self(Me),

@@ -16,12 +16,15 @@ The client sends `M` before anything else, and the server answers with a line.
 
 :- multifile
     typhon_endpoint:requested/4,
+    typhon_kinds:accepts/5,
     typhon_transport:begins/4,
     typhon_transport:ends/1,
     typhon_transport:disagrees/1,
     typhon_transport:first_byte/2,
     typhon_transport:misfit/4,
     typhon_transport:opens/7.
+
+typhon_kinds:accepts(request, proof, mine, none, none).
 
 :- dynamic is_on/0.
 

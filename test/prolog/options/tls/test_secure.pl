@@ -21,7 +21,12 @@
 :- needs([openssl]).
 
 :- dynamic told/1, broken/0.
-:- multifile user:message_hook/3, typhon_endpoint:requested/4.
+:- multifile
+    user:message_hook/3,
+    typhon_endpoint:requested/4,
+    typhon_kinds:accepts/5.
+
+typhon_kinds:accepts(request, who_am_i, _, none, none).
 
 user:message_hook(typhon(endpoint, turned_away(_, Why)), _, _) :-
     assertz(told(Why)).

@@ -1,0 +1,274 @@
+:- module(test_arrivals, []).
+
+/** <module> What other processes send is checked against the declarations
+
+Each declared term is sent to a host by a process with no right, with each one,
+and with all, which proves itself by the cookie, by the certificate of the host,
+and by that of a stranger.
+
+*Threading*: one test at a time.
+*/
+
+:- use_module('../../../lib/common').
+:- use_module('../../../lib/authority').
+:- use_module('../../../lib/peers').
+:- use_module(library(apply), [maplist/3]).
+:- use_module(library(filesex), [directory_file_path/3]).
+:- use_module(library(lists), [append/3, member/2, nth1/3]).
+:- use_module(library(plunit)).
+:- use_module(library(readutil), [read_file_to_terms/3]).
+:- use_module(library(typhon)).
+:- use_module(library(typhon/kernel/host), [address_parts/3]).
+:- use_module(library(typhon/kernel/wire),
+              [endpoint_call/5, endpoint_post/3, endpoint_request/4]).
+:- use_module(library(typhon/kernel/wire/kinds), [arrives/6]).
+
+:- begin_tests(arrivals).
+
+test(cookie_decides_by_rights) :-
+    with_tmp_dir(by_cookie(all_rights)).
+test(unknown_or_malformed_terms_are_refused_and_audited) :-
+    with_tmp_dir(by_cookie(malformed)).
+test(peer_without_rights_changes_nothing) :-
+    with_tmp_dir(by_cookie(unchanged)).
+test(first_rule_that_matches_applies) :-
+    with_tmp_dir(by_cookie(first_rule)).
+
+:- end_tests(arrivals).
+
+:- begin_tests(arrivals_by_certificate, [condition(has_openssl)]).
+
+test(certificate_of_the_host_decides_by_rights) :-
+    with_authority([inn, guest], [], by_certificate(inn)).
+test(certificate_of_a_stranger_decides_by_rights) :-
+    with_authority([inn, guest], [], by_certificate(guest)).
+test(stranger_without_rules_may_not_run_goals_or_write_logs) :-
+    with_authority([inn, guest], [], default_rights).
+
+:- end_tests(arrivals_by_certificate).
+
+has_openssl :-
+    catch(absolute_file_name(path(openssl), _, [access(execute)]),
+          error(_, _), fail).
+
+                /*******************************
+                *            VICTIM            *
+                *******************************/
+
+by_cookie(Test, Dir) :-
+    directory_file_path(Dir, audit, File),
+    no_leaks(with_peers(
+        [p-[host([audit(File), peer([cookie-[]])])]],
+        with_host_here([], call(Test, cookie, File)))).
+
+by_certificate(Holder, Authority) :-
+    keys_of(inn, Authority, Inn),
+    keys_of(Holder, Authority, Keys),
+    with_tmp_dir(by_certificate(Inn, Keys, certificate(Holder))).
+
+by_certificate(Inn, Keys, Proof, Dir) :-
+    directory_file_path(Dir, audit, File),
+    no_leaks(with_peers(
+        [p-[host([tls(Inn), cell(none), audit(File), peer([Proof-[]])])]],
+        with_host_here([tls(Keys)], all_rights(Proof, File)))).
+
+default_rights(Authority) :-
+    keys_of(inn, Authority, Inn),
+    keys_of(guest, Authority, Keys),
+    with_tmp_dir(default_rights(Inn, Keys)).
+
+default_rights(Inn, Keys, Dir) :-
+    directory_file_path(Dir, audit, File),
+    no_leaks(with_peers(
+        [p-[host([tls(Inn), cell(none), audit(File)])]],
+        with_host_here([tls(Keys)],
+                       ( refusals(File, Refused, _),
+                         sort(Refused, Rights),
+                         assertion(Rights == [log,parent,remote]) )))).
+
+:- meta_predicate with_host_here(+, 0).
+
+with_host_here(Options, Goal) :-
+    setup_call_cleanup(host_start(here, Options), once(Goal),
+                       host_stop(here)).
+
+                /*******************************
+                *            MATRIX            *
+                *******************************/
+
+rights([agents, messages, orders, remote, watch, log]).
+
+all_rights(Proof, File) :-
+    rights(Rights),
+    forall(( Given = [] ; member(Right, Rights), Given = [Right]
+           ; Given = all ),
+           obeys(Given, Proof, File)).
+
+obeys(Given, Proof, File) :-
+    peer_do(p, host_change(p, peer([Proof-Given]))),
+    refusals(File, Refused, Needed),
+    expected(Needed, Given, Expected),
+    assertion(Refused == Expected).
+
+expected([], _, []).
+expected([Right|Needed], Given, Refused) :-
+    (   may(Right, Given)
+    ->  Refused = More
+    ;   Refused = [Right|More]
+    ),
+    !,
+    expected(Needed, Given, More).
+
+may(Right, all) :-
+    Right \== parent.
+may(Right, Given) :-
+    is_list(Given),
+    memberchk(Right, Given).
+
+%   refusals(+File, -Refused, -Needed): send all declared terms.  Refused are
+%   the rights that were audited as missing, Needed those declared, in order.
+
+refusals(File, Refused, Needed) :-
+    waiting_agent(Agent),
+    findall(case(Form, Kind, Term, Right),
+            sample_case(Agent, Form, Kind, Term, Right), Cases),
+    audited(File, Before),
+    forall(member(case(Form, Kind, Term, _), Cases), sent(Form, Kind, Term)),
+    audited(File, After),
+    append(Before, New, After),
+    findall(Right, member(refused(Right), New), Refused),
+    findall(Right,
+            ( member(case(_, _, _, Right), Cases),
+              \+ memberchk(Right, [none, asked, gate]) ),
+            Needed).
+
+sample_case(Agent, Form, Kind, Term, Right) :-
+    arrives(Form0, Kind, Pattern, Right, Scope, _),
+    scoped(Scope, Agent),
+    sample(Pattern, Term0),
+    framed(Form0, Form, Term0, Term).
+
+scoped(host(p), _) :-
+    !.
+scoped(agent(Agent), Agent) :-
+    !.
+scoped(_, _).
+
+framed(post, post, Term, Term).
+framed(request, request, Term, Term).
+framed(news, post, Term, [Term]).
+
+sample(Var:Type, Term) :-
+    !,
+    ( nonvar(Var) -> Term = Var ; sample(Type, Term) ).
+sample(name, x).
+sample(term, true).
+sample(count, 0).
+sample(positive, 1).
+sample(number, 1).
+sample(list(_), []) :-
+    !.
+sample(Pattern, Term) :-
+    compound(Pattern),
+    !,
+    compound_name_arguments(Pattern, Name, Types),
+    maplist(sample, Types, Args),
+    compound_name_arguments(Term, Name, Args).
+sample(Constant, Constant) :-
+    \+ memberchk(Constant, [name, term, count, positive, number]).
+
+%   A later request is answered after all that was sent before.
+
+sent(Form, Kind, Term) :-
+    endpoint(p, Endpoint),
+    (   Form == post
+    ->  endpoint_post(Endpoint, Kind, Term)
+    ;   endpoint_request(Endpoint, Kind, Term, test_arrivals:ignored)
+    ),
+    endpoint_call(Endpoint, certificate, of_yours, _, 20).
+
+ignored(_).
+
+endpoint(Peer, Endpoint) :-
+    peer_host(Peer, Host),
+    address_parts(Host, _, Endpoint).
+
+audited(File, Whats) :-
+    (   exists_file(File)
+    ->  read_file_to_terms(File, Entries, [])
+    ;   Entries = []
+    ),
+    findall(What, member(audit(_, _, _, _, What), Entries), Whats).
+
+waiting_agent(Agent) :-
+    peer_do(p, agent_create(clauses([ (:- agent(x, [])),
+                                      on_message(_, _) ]), Agent)).
+
+                /*******************************
+                *          MALFORMED           *
+                *******************************/
+
+%   Each term of the declarations with each argument of a wrong type, and terms
+%   that are not declared at all.
+
+malformed(_, File) :-
+    peer_do(p, host_change(p, peer([cookie-all]))),
+    findall(case(Form, Kind, Term),
+            ( sample_case(x, Form, Kind, Term0, _), damaged(Term0, Term),
+              \+ declared(Form, Kind, Term) ),
+            Cases0),
+    append(Cases0,
+           [ case(request, bogus, x), case(post, bogus, x), case(post, _, x),
+             case(request, f(x), x), case(request, node, x),
+             case(request, hosting, _), case(post, message, _) ],
+           Cases),
+    length(Cases, Count),
+    assertion(Count > 100),
+    forall(member(case(Form, Kind, Term), Cases),
+           refused_undeclared(Form, Kind, Term, File)).
+
+refused_undeclared(Form, Kind, Term, File) :-
+    audited(File, Before),
+    sent(Form, Kind, Term),
+    audited(File, After),
+    append(Before, New, After),
+    assertion(Form-Kind-Term-New = _-_-_-[undeclared(_)]).
+
+damaged(Term0, Term) :-
+    compound(Term0),
+    Term0 \= [_|_],
+    compound_name_arguments(Term0, Name, Args0),
+    nth1(I, Args0, _),
+    member(Wrong, [_, f(_), 1.5, "text"]),
+    findall(Arg, ( nth1(J, Args0, Arg0), ( I == J -> Arg = Wrong ; Arg = Arg0 )
+                 ), Args),
+    compound_name_arguments(Term, Name, Args).
+
+declared(Form, Kind, Term) :-
+    typhon_kinds:accepts(Form, Kind, Term, _, _),
+    !.
+
+                /*******************************
+                *           UNCHANGED          *
+                *******************************/
+
+%   The state of an agent and of the host that the terms are about.
+
+unchanged(Proof, File) :-
+    waiting_agent(Agent),
+    state(Agent, Before),
+    obeys([], Proof, File),
+    state(Agent, After),
+    assertion(After == Before).
+
+state(Agent, [Status,Links,Facts,Whereabouts]) :-
+    peer_do(p, agent_property(Agent, state(Status))),
+    peer_do(p, host_property(p, neighbours(Links))),
+    peer_do(p, findall(Fact, remote(p, sense(Fact)), Facts)),
+    peer_do(p, agent_property(Agent, host(Whereabouts))).
+
+first_rule(_, File) :-
+    peer_do(p, host_change(p, peer([cookie-[watch], cookie-all]))),
+    refusals(File, Refused, Needed),
+    expected(Needed, [watch], Expected),
+    assertion(Refused == Expected).
