@@ -183,7 +183,7 @@ check_self(Theirs, Hello) :-
     hello_peer(Hello, Process, Start, _),
     format(string(Me), "~w ~w ", [Process, Start]),
     (   sub_string(Theirs, _, _, _, Me),
-        \+ own_greeting(_, Theirs)
+        \+ ( own_greeting(Thread, Theirs), \+ thread_self(Thread) )
     ->  permission_error(authenticate, peer, other)
     ;   true
     ).

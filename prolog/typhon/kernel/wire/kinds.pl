@@ -40,7 +40,7 @@ Scopes are the hosts on which the right is needed:
 
 Types of arguments are
 
-  | name       | an atom of at most 2,000 characters                     |
+  | name       | an atom of at most 65,536 characters                    |
   | term       | any term; bounded, like all, by the size of frames      |
   | list(Type) | a list of at most 1,000,000                             |
   | Constant   | the same atom                                           |
@@ -98,7 +98,7 @@ unconditional(asked).
 is_a(name, Term) :-
     atom(Term),
     atom_length(Term, Length),
-    Length =< 2000.
+    Length =< 65 536.
 is_a(term, _).
 is_a(count, Term) :-
     integer(Term),

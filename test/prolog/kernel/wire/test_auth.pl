@@ -102,10 +102,22 @@ test(wrong_cookie, [Server-Client == Expected]) :-
     ->  Client = closed
     ;   Client = ClientError
     ).
-test(reflected_proof, Why == cookie) :-
+test(peer_cannot_claim_to_be_this_process, Why == other) :-
     hello(x, 1, 'c:1', Hello),
-    meeting(authenticate_as(server, Hello, "cookie"), reflect,
+    meeting(authenticate_as(server, Hello, "cookie"), claim_to_be(x),
             error(permission_error(authenticate, peer, Why), _), _).
+test(reflected_greeting_is_refused, Why == other) :-
+    hello(x, 1, 'c:1', Hello),
+    meeting(reflect, authenticate_as(client, Hello, "cookie"),
+            _, error(permission_error(authenticate, peer, Why), _)).
+test(reflected_proof_of_a_client_is_refused, Why == cookie) :-
+    hello(x, 1, 'c:1', Hello),
+    meeting(false_server(reflected), authenticate_as(client, Hello, "cookie"),
+            _, error(permission_error(authenticate, peer, Why), _)).
+test(server_without_the_cookie_is_refused, Why == cookie) :-
+    hello(x, 1, 'c:1', Hello),
+    meeting(false_server(guessed), authenticate_as(client, Hello, "cookie"),
+            _, error(permission_error(authenticate, peer, Why), _)).
 test(unexpected_term) :-
     refusal(say("GET / HTTP/1.1\r\n\r\n"),
             permission_error(authenticate, peer, protocol)).
@@ -166,15 +178,42 @@ endless(_, Out) :-
 
 %   Echoes its input.
 
-reflect(In, Out) :-
-    hello(x, 1, 'c:1', Hello),
-    hello_line(Hello, HelloLine),
-    format(string(First), "typhon 3 00 ~w", [HelloLine]),
+claim_to_be(Process, In, Out) :-
+    greeting_of(Process, First),
     line_write(Out, First),
+    next_line(In, _),
+    line_write(Out, "00").
+
+greeting_of(Process, Line) :-
+    hello(Process, 1, 'c:1', Hello),
+    hello_line(Hello, HelloLine),
+    format(string(Line), "typhon 3 00 ~w", [HelloLine]).
+
+next_line(In, Line) :-
     get_time(Now),
     Deadline is Now+5,
-    line_read(In, Deadline, _),
-    line_write(Out, "00").
+    line_read(In, Deadline, Line).
+
+reflect(In, Out) :-
+    next_line(In, Greeting),
+    line_write(Out, Greeting),
+    next_line(In, Proof),
+    line_write(Out, Proof).
+
+%   A server that does not know the cookie answers with the proof of the client,
+%   or with one made with another cookie.
+
+false_server(Kind, In, Out) :-
+    next_line(In, Theirs),
+    greeting_of(false, Ours),
+    line_write(Out, Ours),
+    next_line(In, Proof),
+    (   Kind == reflected
+    ->  Answer = Proof
+    ;   typhon_handshake:proof("a guess of 16 bytes", server, Theirs, Ours,
+                               Answer)
+    ),
+    line_write(Out, Answer).
 
 :- end_tests(authentication).
 

@@ -32,7 +32,8 @@ test(rules_and_audit_of_a_running_host_change,
          - [refused(orders), order(_, dispose)]) :-
     with_tmp_dir(changed_rules([Before,Ruled,After], Noted)).
 test(events_need_the_right_to_watch,
-     Results-Noted = [existence_error(host, _), true]-[refused(watch)]) :-
+     Results-Noted = [permission_error(watch, host, _), true]
+                     -[refused(watch)]) :-
     with_tmp_dir(watched(Results, Noted)).
 test(unknown_rules_are_an_error, error(domain_error(peer_rule, x))) :-
     host_start(g, [peer([x])]).

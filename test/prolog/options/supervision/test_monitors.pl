@@ -386,8 +386,8 @@ at(Peer, Host) :-
 
 test(shared_fate_needs_the_right_to_give_orders,
      [ forall(member(Rights-Expected,
-                     [ [agents,messages]-(refused-resident),
-                       [agents,messages,orders]-(monitored-gone) ])),
+                     [ [agents,messages,watch]-(refused-resident),
+                       [agents,messages,watch,orders]-(monitored-gone) ])),
        Said-State == Expected ]) :-
     no_leaks(with_peers(
         [p1-[host([peer([cookie-Rights])])]],
