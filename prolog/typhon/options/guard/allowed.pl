@@ -1,8 +1,9 @@
 :- module(typhon_allowed,
           [ allowed/3,                  % +Policy, +Goal, -How
             allowed_library/1,          % +Library
+            refuses/2,                  % +Policy, @Goal
             own_name/1,                 % +Head
-            makes_clause/1,             % ?Head
+            definable/1,                % +Head
             policy_read/1               % +Policy
           ]).
 :- use_module(library(apply), [maplist/3]).
@@ -10,6 +11,7 @@
 :- use_module(library(lists), [member/2, memberchk/2]).
 :- use_module(library(readutil), [read_file_to_terms/3]).
 :- use_module('../../kernel/program', [vocabulary_word/2]).
+:- use_module(constructs, [construct/2]).
 
 /** <module> Predicates that untrusted agents may call
 
@@ -34,15 +36,12 @@ policy_read/1 fills.
 
 %!  allowed(+Policy, +Goal, -How) is semidet.
 %
-%   Policy is `guarded`, or a file that policy_read/1 has read.
+%   Goal may be called if no rule refuses it, see refuses/2.  Policy is
+%   `guarded`, or a file that policy_read/1 has read.
 %
 %   @arg How is `free`, runs(Spec) if Goal calls some of its arguments, or
 %        look(Kind) if it depends on what these are
 
-allowed(Policy, Goal, _) :-
-    rule(Goal, Policy, refuse),
-    !,
-    fail.
 allowed(_, Goal, How) :-
     needs_check(Goal, Kind),
     !,
@@ -56,6 +55,22 @@ allowed(_, Goal, free) :-
     !.
 allowed(Policy, Goal, free) :-
     rule(Goal, Policy, allow).
+
+%!  refuses(+Policy, @Goal) is semidet.
+%
+%   A rule of Policy refuses Goal, whether it is a construct, a control
+%   predicate, or a service.  What a control predicate becomes when an agent
+%   stops is refused as that.
+
+refuses(Policy, Goal) :-
+    rule(Goal, Policy, refuse),
+    !.
+refuses(Policy, sleep_until(Until)) :-
+    rule(sleep(Until), Policy, refuse).
+refuses(Policy, receive_until(Pattern, Until)) :-
+    rule(receive(Pattern, Until), Policy, refuse).
+refuses(Policy, receive_until(Pattern, Until, _)) :-
+    rule(receive(Pattern, Until), Policy, refuse).
 
 %   needs_check(?Goal, ?Kind): the safety of Goal depends on its arguments,
 %   which typhon_guard_calls checks as Kind demands.
@@ -179,10 +194,20 @@ own_name(Head) :-
         remember(General)
     ).
 
-%!  makes_clause(?Head) is nondet.
+%!  definable(+Head) is semidet.
 %
-%   assertz/1, or the reader, takes a fact with this head for a clause of
-%   another predicate.
+%   A clause may have this head: a goal of that name calls the clause, and the
+%   name is not reserved for the platform.
+
+definable(Head) :-
+    functor(Head, Name, _),
+    \+ makes_clause(Head),
+    \+ construct(Head, _),
+    \+ sub_atom(Name, 0, _, _, $),
+    \+ sub_atom(Name, 0, _, _, 'mobile ').
+
+%   makes_clause(?Head): assertz/1, or the reader, takes a fact with this head
+%   for a clause of another predicate.
 
 makes_clause((:-_)).
 makes_clause((_:-_)).
@@ -200,10 +225,7 @@ remember(General) :-
     assertz(seen_own(General)).
 
 is_own(Head) :-
-    functor(Head, Name, _),
-    \+ makes_clause(Head),
-    \+ sub_atom(Name, 0, _, _, $),
-    \+ sub_atom(Name, 0, _, _, 'mobile '),
+    definable(Head),
     (   \+ predicate_property(typhon_vocabulary:Head, visible)
     ->  true
     ;   free(Head)

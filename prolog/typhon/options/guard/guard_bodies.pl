@@ -4,6 +4,7 @@
             guard_lambda/4,             % +Lambda0, +N, +Own, -Lambda
             is_lambda/1,                % @Closure
             is_own/2,                   % +Goal, +Own
+            is_refused/2,               % @Goal, +Own
             is_control/1,               % @Goal
             extended/3                  % +Closure, +Extra, -Goal
           ]).
@@ -11,7 +12,8 @@
 :- use_module(library(assoc), [get_assoc/3]).
 :- use_module(library(lists), [append/3]).
 :- use_module('../../kernel/program', [control/1]).
-:- use_module(allowed, [allowed/3, own_name/1]).
+:- use_module(allowed, [allowed/3, definable/1, own_name/1, refuses/2]).
+:- use_module(constructs, [construct/2]).
 :- use_module(guard_limits, [refuse/1]).
 
 /** <module> The goals in clauses of untrusted agents
@@ -59,14 +61,14 @@ guard(Body0, Own, Body) :-
 guarded(Goal, _, '$checked'(Goal)) :-
     var(Goal),
     !.
-guarded(catch(Goal0, Ball, Recovery0), Own, catch(Goal, Ball, Recovery)) :-
+guarded(Goal, Own, _) :-
+    is_refused(Goal, Own),
     !,
-    guard(Goal0, Own, Goal),
-    guard_recovery(Recovery0, Ball, Own, Recovery).
+    refuse(Goal).
 guarded(Goal0, Own, Goal) :-
-    construct(Goal0, Parts0, Goal, Parts),
+    construct(Goal0, How),
     !,
-    maplist(guard_part(Own), Parts0, Parts).
+    guard_construct(How, Goal0, Own, Goal).
 guarded(Goal, _, Goal) :-
     passes(Goal),
     !.
@@ -76,31 +78,45 @@ guarded(Goal, Own, Goal) :-
 guarded(sleep(Seconds), _, '$checked'(sleep(Seconds))) :-
     !.
 guarded(Goal0, Own, Goal) :-
-    callable(Goal0),
-    Goal0 \= _:_,
     Own = own(_, Policy),
     allowed(Policy, Goal0, How),
     !,
     guard_allowed(How, Goal0, Own, Goal).
-guarded(Goal0, Own, Goal) :-
-    compound(Goal0),
-    compound_name_arguments(Goal0, call, [Closure0|Extra]),
-    Extra \== [],
+guarded(phrase(NT, List), Own, Goal) :-
     !,
-    length(Extra, N),
-    closure(N, Own, Closure0, Closure),
-    compound_name_arguments(Goal, call, [Closure|Extra]).
-guarded(phrase(NT, List), Own, phrase(NT1, List)) :-
+    guarded(phrase(NT, List, []), Own, Goal).
+guarded(phrase(NT, List, Rest), Own, Goal) :-
+    is_non_terminal(NT),
     !,
-    non_terminal(NT, Own, NT1).
-guarded(phrase(NT, List, Rest), Own, phrase(NT1, List, Rest)) :-
-    !,
-    non_terminal(NT, Own, NT1).
+    guarded(call(NT, List, Rest), Own, Goal).
 guarded(Goal, _, Goal) :-
     callable(Goal),
     unknown(Goal),
     !.
 guarded(Goal, _, _) :-
+    refuse(Goal).
+
+%   phrase/2,3 would run a grammar body, call/N only a non-terminal.
+
+is_non_terminal(NT) :-
+    callable(NT),
+    definable(NT),
+    NT \= {_},
+    \+ is_list(NT).
+
+guard_construct(plain, Goal, _, Goal).
+guard_construct(parts(Parts0, Goal, Parts), _, Own, Goal) :-
+    maplist(guard_part(Own), Parts0, Parts).
+guard_construct(catch, catch(Goal0, Ball, Recovery0), Own,
+                catch(Goal, Ball, Recovery)) :-
+    guard(Goal0, Own, Goal),
+    guard_recovery(Recovery0, Ball, Own, Recovery).
+guard_construct(closure, Goal0, Own, Goal) :-
+    compound_name_arguments(Goal0, call, [Closure0|Extra]),
+    length(Extra, N),
+    closure(N, Own, Closure0, Closure),
+    compound_name_arguments(Goal, call, [Closure|Extra]).
+guard_construct(refused, Goal, _, _) :-
     refuse(Goal).
 
 %   Without '$uncaught'(Ball) an exception that interrupts the agent would be
@@ -116,15 +132,6 @@ guard_recovery(Recovery0, Ball, Own, ('$uncaught'(Ball),Recovery)) :-
 
 guard_part(Own, Part0, Part) :-
     guard(Part0, Own, Part).
-
-construct((A0,B0), [A0,B0], (A,B), [A,B]).
-construct((A0;B0), [A0,B0], (A;B), [A,B]).
-construct((A0->B0), [A0,B0], (A->B), [A,B]).
-construct((A0*->B0), [A0,B0], (A*->B), [A,B]).
-construct(\+A0, [A0], \+A, [A]).
-construct(call(A0), [A0], call(A), [A]).
-construct(once(A0), [A0], once(A), [A]).
-construct(ignore(A0), [A0], ignore(A), [A]).
 
 %   Goals that are guarded already, the goal at which a suspended agent
 %   continues, and the goals that stop an agent, except sleep/1, which the
@@ -154,9 +161,18 @@ is_control(Goal) :-
 %   with the name of an unknown goal.
 
 unknown(Goal) :-
-    Goal \= _:_,
-    own_name(Goal),
-    \+ allowed(guarded, Goal, _).
+    own_name(Goal).
+
+%!  is_refused(@Goal, +Own) is semidet.
+%
+%   A rule of the policy refuses Goal, and it calls no predicate of the agent.
+%   The machine stops at a control predicate, even if the agent has one of that
+%   name.
+
+is_refused(Goal, Own) :-
+    Own = own(_, Policy),
+    refuses(Policy, Goal),
+    ( is_control(Goal) -> true ; \+ is_own(Goal, Own) ).
 
 %!  is_own(+Goal, +Own) is semidet.
 %
@@ -289,22 +305,3 @@ parameters(Parameters0, Parameters, Count) :-
     is_list(List0),
     length(List0, Count),
     append(List0, [], List).
-
-%   NT must be the name of a grammar rule, not a grammar body.
-
-non_terminal(NT, _, _) :-
-    ( var(NT) ; \+ callable(NT) ; is_list(NT) ; body_of_grammar(NT) ),
-    !,
-    refuse(phrase(NT, _)).
-non_terminal(NT0, Own, NT) :-
-    closure(2, Own, NT0, NT).
-
-body_of_grammar((_,_)).
-body_of_grammar((_;_)).
-body_of_grammar((_|_)).
-body_of_grammar((_->_)).
-body_of_grammar(\+_).
-body_of_grammar({_}).
-body_of_grammar(!).
-body_of_grammar(NT) :- functor(NT, call, _).
-

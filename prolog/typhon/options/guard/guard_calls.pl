@@ -11,10 +11,10 @@
 :- use_module('../../kernel/program', [path_below/1]).
 :- use_module('../../kernel/host', [context_now/2, parts/3]).
 :- use_module('../../kernel/agent', [agent_code/2]).
-:- use_module(allowed, [allowed/3, makes_clause/1, own_name/1]).
+:- use_module(allowed, [allowed/3, definable/1, own_name/1]).
 :- use_module(guard_bodies,
               [ extended/3, guard/3, guard_lambda/4, guard_parts/1,
-                is_control/1, is_lambda/1, is_own/2 ]).
+                is_control/1, is_lambda/1, is_own/2, is_refused/2 ]).
 :- use_module(guard_clauses, [allowed_fact/2, guard_clauses/3]).
 :- use_module(guard_limits,
               [ clause_cells/1, harmless_format/1, must_be_tree/1,
@@ -54,14 +54,17 @@ guard_left(Own, Goal0, Goal) :-
 %!  guard_call(+Policy, +Module, +Closure, +Extra:list, -Goal) is det.
 %
 %   Goal is Closure called with Extra, which the agent in Module may call now.
+%   If Module is `none` it calls no predicate of the agent's program.
 %
 %   @error instantiation_error
 %   @error permission_error(call, sandboxed, Culprit)
 
+guard_call(Policy, none, Closure, Extra, Goal) :-
+    !,
+    checked(Extra, own(none, Policy), Closure, Goal).
 guard_call(Policy, Module, Closure, Extra, Goal) :-
     agent_code(Module, Program),
-    Own = own(module(Program), Policy),
-    checked(Extra, Own, Closure, Goal0),
+    checked(Extra, own(module(Program), Policy), Closure, Goal0),
     own_only(Goal0, Module, Goal).
 
 %   checked(+Extra, +Own, +Closure, -Goal): the body of a lambda expression is
@@ -98,24 +101,23 @@ count_parts :-
     clause_cells(Max),
     guard_parts(Max).
 
-guard_now(Goal, Own, Goal) :-
-    is_control(Goal),
-    \+ is_own(Goal, Own),
-    !.
 guard_now(Goal0, Own, Goal) :-
-    plain(Goal0, Own),
-    Own = own(_, Policy),
-    allowed(Policy, Goal0, look(Kind)),
-    !,
-    check_arguments(Kind, Policy, Goal0, Goal).
+    \+ is_own(Goal0, Own),
+    \+ is_refused(Goal0, Own),
+    guard_last(Goal0, Own, Goal),
+    !.
 guard_now(Goal0, Own, Goal) :-
     guard(Goal0, Own, Goal).
 
-%   plain(+Goal, +Own): the agent does not define Goal itself.
+%   guard_last(+Goal0, +Own, -Goal) is semidet: Goal0 needs the checks that are
+%   made only when it is called.
 
-plain(Goal, Own) :-
-    callable(Goal),
-    \+ is_own(Goal, Own).
+guard_last(Goal, _, Goal) :-
+    is_control(Goal),
+    !.
+guard_last(Goal0, own(_, Policy), Goal) :-
+    allowed(Policy, Goal0, look(Kind)),
+    check_arguments(Kind, Policy, Goal0, Goal).
 
 refuse_cyclic(Goal) :-
     functor(Goal, Name, Arity),
@@ -230,8 +232,7 @@ check_arguments(_, _, Goal, _) :-
 
 unqualified(Head) :-
     callable(Head),
-    Head \= _:_,
-    \+ makes_clause(Head).
+    definable(Head).
 
 %   SWI-Prolog crashes if the size of a term overflows.
 

@@ -10,7 +10,7 @@
 :- use_module(library(assoc), [empty_assoc/1, put_assoc/4]).
 :- use_module('../../kernel/base/trees', [is_tree/2]).
 :- use_module('../../kernel/program', [clause_parts/3]).
-:- use_module(allowed, [allowed_library/1, makes_clause/1, own_name/1]).
+:- use_module(allowed, [allowed_library/1, definable/1, own_name/1]).
 :- use_module(guard_bodies, [guard/3, guard_parts/1]).
 :- use_module(guard_limits, [clause_cells/1, must_be_tree/1, refuse/1]).
 
@@ -96,16 +96,11 @@ heads(Clauses, Own) :-
 add_head(Clause, Own0, Own) :-
     clause_parts(Clause, Head, _),
     (   callable(Head),
-        functor(Head, Name, Arity),
-        \+ makes_clause(Head),
-        \+ reserved(Name, Arity)
-    ->  put_assoc(Name/Arity, Own0, true, Own)
+        definable(Head)
+    ->  functor(Head, Name, Arity),
+        put_assoc(Name/Arity, Own0, true, Own)
     ;   refuse(Head)
     ).
-
-reserved(:, 2).
-reserved(Name, _) :- sub_atom(Name, 0, _, _, $).
-reserved(Name, _) :- sub_atom(Name, 0, _, _, 'mobile ').
 
 guard_clause(Own, Clause0, Clause) :-
     clause_parts(Clause0, Head, Body0),

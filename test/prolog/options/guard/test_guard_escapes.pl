@@ -5,6 +5,7 @@
 :- use_module(library(filesex), [directory_file_path/3]).
 :- use_module(library(lists), [append/3, member/2, numlist/3]).
 :- use_module(library(typhon)).
+:- use_module(library(yall)).
 
 /** <module> Former escapes from the sandbox
 
@@ -251,6 +252,83 @@ changed(Clauses, Name, Escaped-Name, Dir) :-
                        close(Out)),
     with_hosts([g-[policy(File), cell(none)], t],
                capturing(escaped(outcome(Clauses, _), Escaped), _)).
+
+                /*******************************
+                *          CONSTRUCTS          *
+                *******************************/
+
+%   construct(-Goal): SWI-Prolog does not call a predicate of that name.
+
+construct(Goal) :-
+    harm(Harm),
+    member(Goal,
+           [ '|'(fail, Harm), '|'(Harm, true), '|'((true, fail), Harm),
+             (true, '|'(fail, Harm)), \+ '|'(fail, Harm),
+             call('|'(fail), Harm), call('|', fail, Harm),
+             maplist('|'(fail), [Harm]), foldl(call('|'), [fail], Harm, _),
+             maplist([_]>>'|'(fail, Harm), [1]),
+             setof(x, X^'|'(X = 1, Harm), _), catch('|'(fail, Harm), _, true),
+             $(Harm), call($, Harm), $, @(Harm, user), call(@(Harm), user),
+             @('|'(fail, Harm), user), user:Harm, call(user:call, Harm),
+             phrase(({Harm} *-> []), []), phrase(('|'([x], {Harm})), []),
+             phrase(({Harm} -> []), []), phrase(call(Harm), []),
+             phrase(!, []), phrase("x", []), phrase([x|{Harm}], []),
+             phrase(user:x, []), phrase(phrase({Harm}), []),
+             call(phrase, {Harm}, []), maplist(phrase({Harm}), [[]]),
+             {Harm}, call({}, Harm), '[|]'(user, []), call([user]),
+             '.'(_{}, put(Harm), _), ?=>(true, Harm),
+             (true => Harm), (true --> Harm), [X]>>Harm, X/Harm, \X^Harm,
+             apply(call, [Harm]), not(Harm), X^Harm, tnot(Harm),
+             reset(Harm, _, _), shift(Harm), call_continuation([Harm]),
+             findall(x, Harm), snapshot(Harm), undo(Harm), thread_idle(Harm, x),
+             prolog_listen(x, Harm), when(true, Harm), freeze(X, Harm),
+             arithmetic_expression_value(x, Harm) ]).
+
+%   defining(-Clauses): the agent has a predicate with the name of a construct.
+
+defining([ (main :- Goal), (Head :- true) ]) :-
+    harm(Harm),
+    member(Goal, [ '|'(fail, Harm), @(Harm, user), (Harm *-> true),
+                   $(Harm), ignore(Harm), user:Harm, call(Harm, x) ]),
+    functor(Goal, Name, Arity),
+    functor(Head, Name, Arity).
+defining([ (main :- assertz('|'(x, y)), assertz((p :- '|'(fail, Harm))), p) ]) :-
+    harm(Harm).
+defining([ (main :- c(C), assertz(C), p), c((p :- '|'(fail, Harm))) ]) :-
+    harm(Harm).
+defining([ (main :- c(C), assertz(C), p), c((p :- @(Harm, user))) ]) :-
+    harm(Harm).
+
+:- begin_tests(constructs).
+
+test(constructs_are_no_calls, Escaped-Through == 0-[]) :-
+    findall(Goal, construct(Goal), Goals),
+    with_hosts([g-[policy(guarded), cell(none)], t],
+               capturing(escaped(let_through(Goals, Through), Escaped), _)).
+test(constructs_cannot_be_defined,
+     [forall(defining(Clauses)), true(Escaped == 0)]) :-
+    with_hosts([g-[policy(guarded), cell(none)]],
+               capturing(escaped(outcome(Clauses, Outcome), Escaped), _)),
+    assertion(refused_or_unread(Outcome)).
+test(grammar_rules_are_called, R == [x,y]) :-
+    with_hosts([g-[policy(guarded), cell(none)]],
+               ( create([ (main :- phrase(ab(X, Y), [x,y]),
+                                   findall(x, phrase(ab(_, _), [x,y,z], _),
+                                           [_]),
+                                   result([X,Y])),
+                          (ab(A, B, [A,B|T], T) :- true) ], Agent, [host(g)]),
+                 agent_result(Agent, R, 10) )).
+test(facts_of_the_platform_stay, R == refused) :-
+    with_hosts([g-[policy(guarded), cell(none)]],
+               ( create([ (main :- c(C),
+                                   catch(( findall(x, retract(C), _),
+                                           result(removed) ),
+                                         error(permission_error(_, _, _), _),
+                                         result(refused))),
+                          c('$owner'(_)) ], A, [host(g)]),
+                 agent_result(A, R, 10) )).
+
+:- end_tests(constructs).
 
                 /*******************************
                 *            CLAUSES           *
