@@ -10,7 +10,7 @@
 :- use_module(common).
 :- use_module(fixtures).
 :- use_module(library(filesex), [directory_file_path/3]).
-:- use_module(library(lists), [member/2]).
+:- use_module(library(lists), [append/3, member/2]).
 :- use_module(library(readutil), [read_file_to_terms/3]).
 :- use_module(library(socket)).
 :- use_module(library(typhon)).
@@ -46,12 +46,16 @@ with_inmates(Options, Quotas, Goal) :-
     with_tmp_dir(in_cell(Options, Quotas, Goal)).
 
 in_cell(Options, Quotas, Goal, Dir) :-
-    project_file('test/prolog/options/cell/rules.pl', Rules),
+    (   memberchk(policy(_), Options)
+    ->  Policy = []
+    ;   project_file('test/prolog/options/cell/rules.pl', Rules),
+        Policy = [policy(Rules)]
+    ),
+    append(Policy, Options, Options1),
     directory_file_path(Dir, audit, Audit),
     setup_call_cleanup(
         bait_set(Dir, Sockets),
-        with_hosts([c-[ policy(Rules), cell(owner), audit(Audit),
-                        quota(Quotas)|Options ]],
+        with_hosts([c-[ cell(owner), audit(Audit), quota(Quotas)|Options1 ]],
                    ( baits_inside(A), call(Goal), rests(A) )),
         bait_clear(Sockets)).
 

@@ -4,6 +4,7 @@
             cell_turn_begins/0,
             cell_changes_made/3,        % +Changes, +Host, +Module
             cell_answer/5,              % +Goal, +Kind, +Host, +Agent, -Answer
+            cell_stop/4,                % +Outcome0, +Host, +Agent, -Outcome
             cell_violation/1            % +What
           ]).
 :- use_module(library(apply), [maplist/2]).
@@ -21,9 +22,10 @@
 /** <module> Checking and carrying out the messages of a cell
 
 A cell sends outcomes, changes of the state of an agent, and goals.  None of
-them is trusted: clauses are checked like those of an agent that arrives, and a
-goal is called only if its predicate is of the vocabulary or a service of the
-place.
+them is trusted: clauses are checked like those of an agent that arrives; a goal
+is called only if its predicate is of the vocabulary or a service of the place,
+and only if the policy lets an agent call it, also where the agent has a
+predicate of that name.
 
 *Threading*: in the worker that runs the turn of the agent.
 */
@@ -139,20 +141,50 @@ cell_turn_begins :-
 %   @error cell_violation(refused) too many requests of this turn were refused.
 %   Each refusal writes a line to the audit log
 
-cell_answer(Goal, Kind, Host, agent(Id, _, _, _, _), Answer) :-
+cell_answer(Goal, Kind, Host, Agent, Answer) :-
     callable(Goal),
-    catch(answer_allowed(Goal, Kind, Host, Id, Answer), error(Formal, Where),
+    of_policy(answer_allowed(Goal, Kind, Host, Agent, Answer), Host, Agent,
+              Answer).
+
+answer_allowed(Goal0, Kind, Host, agent(Id, _, Module, _, _), Answer) :-
+    functor(Goal0, Name, Arity),
+    (   may_ask(Kind, Host, Name/Arity, Of)
+    ->  policy_goal(Module, Goal0, Goal),
+        goal_module(Of, Host, Id, Name/Arity, Called),
+        solutions(Kind, Goal, Called, Answer)
+    ;   permission_error(call, sandboxed, Goal0)
+    ).
+
+%!  cell_stop(+Outcome0, +Host, +Agent, -Outcome) is det.
+%
+%   The agent stops with Outcome0 of cell_outcome/1.  If the policy refuses the
+%   control predicate that is an error of the agent.
+
+cell_stop(Outcome0, Host, Agent, Outcome) :-
+    (   Outcome0 = effect(Control, _, _)
+    ->  Agent = agent(_, _, Module, _, _),
+        of_policy(( policy_goal(Module, Control, _), Outcome = Outcome0 ),
+                  Host, Agent, Outcome)
+    ;   Outcome = Outcome0
+    ).
+
+%   policy_goal(+Module, +Goal0, -Goal): the same check as of a goal that the
+%   agent calls in this process, but of none of the agent's own predicates.
+
+policy_goal(Module, Goal0, Goal) :-
+    agent_variant(Module, Variant),
+    typhon_agent_module:called(Variant, none, Goal0, [], Goal).
+
+%   of_policy(:Goal, +Host, +Agent, -Outcome): call Goal; an error is its
+%   Outcome, raised(Error), and a refusal is audited.
+
+:- meta_predicate of_policy(0, +, +, -).
+
+of_policy(Goal, Host, agent(Id, _, _, _, _), Outcome) :-
+    catch(Goal, error(Formal, Where),
           ( note_refusal(Formal, Host, Id),
             printable_fallback(error(Formal, Where), Portable),
-            Answer = raised(Portable) )).
-
-answer_allowed(Goal, Kind, Host, Id, Answer) :-
-    functor(Goal, Name, Arity),
-    (   may_ask(Kind, Host, Name/Arity, Of)
-    ->  goal_module(Of, Host, Id, Name/Arity, Module),
-        solutions(Kind, Goal, Module, Answer)
-    ;   permission_error(call, sandboxed, Goal)
-    ).
+            Outcome = raised(Portable) )).
 
 %   The host that refuses a move has written that to its audit log already.
 

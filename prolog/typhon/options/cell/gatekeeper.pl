@@ -14,7 +14,8 @@
 :- use_module('../../kernel/lifecycle', [turn_settled/0]).
 :- use_module(cell_acts,
               [ cell_answer/5, cell_changes_made/3, cell_fault/3,
-                cell_outcome/1, cell_turn_begins/0, cell_violation/1 ]).
+                cell_outcome/1, cell_stop/4, cell_turn_begins/0,
+                cell_violation/1 ]).
 :- use_module(cell_frames).
 :- use_module(cell_functors, [functors_charged/3, functors_left/1]).
 :- use_module(cell_hosts, [walled/2]).
@@ -335,11 +336,15 @@ handle_frame(over(_, What), _, Agent, _, Acts, over(What)) :-
 handle_frame(outcome(_, Outcome, Note, Changes), Cell, Agent, _, Acts,
              Result) :-
     cell_outcome(Outcome),
-    cell_fault(Note, Outcome, Fault),
+    cell_fault(Note, Outcome, Fault0),
     carry_out(Acts, Agent, Told),
-    ( Told = raised(_) -> Result = outcome(Told, none)
-    ; Result = outcome(Outcome, Fault) ),
     Agent = agent(Id, Host, Module, _, _),
+    (   Told == well
+    ->  cell_stop(Outcome, Host, Agent, Result1)
+    ;   Result1 = Told
+    ),
+    ( Result1 == Outcome -> Fault = Fault0 ; Fault = none ),
+    Result = outcome(Result1, Fault),
     cell_changes_made(Changes, Host, Module),
     (   Outcome = raised(_)             % the cell may have sent no changes
     ->  cell_forgets(Cell, Id)
