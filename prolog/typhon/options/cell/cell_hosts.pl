@@ -127,5 +127,5 @@ warn(Host, Why) :-
 prolog:message(typhon(no_cells(Host, Why))) -->
     [ 'Untrusted agents on ~w run in the process of the host, since ~w'-
           [Host, Why], nl,
-      'An agent that finds a way around the rules of the policy has all \c
-       rights of that process'-[] ].
+      'The rules of the policy protect against mistakes, not against \c
+       attackers'-[] ].

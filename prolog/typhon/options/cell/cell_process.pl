@@ -199,7 +199,8 @@ prolog:error_message(cell_unavailable(Cause)) -->
        that it may make user namespaces: allow them \c
        (kernel.unprivileged_userns_clone, AppArmor; in podman \c
        --security-opt seccomp=unconfined --security-opt unmask=ALL)'-[], nl,
-      'With the option cell(none) untrusted agents run in this process'-[] ].
+      'With the option cell(none) untrusted agents run in this process, and \c
+       its policy protects against mistakes only'-[] ].
 prolog:error_message(timeout_error(start_cell, Seconds)) -->
     [ 'A cell has not loaded its program within ~w seconds: raise the \c
        setting typhon_cells:start on a slow machine'-[Seconds] ].

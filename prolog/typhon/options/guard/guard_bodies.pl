@@ -171,6 +171,7 @@ unknown(Goal) :-
 
 is_refused(Goal, Own) :-
     Own = own(_, Policy),
+    Policy \== guarded,                 % has no rules
     refuses(Policy, Goal),
     ( is_control(Goal) -> true ; \+ is_own(Goal, Own) ).
 

@@ -12,6 +12,7 @@
 :- use_module('../../kernel/host', [context_now/2, parts/3]).
 :- use_module('../../kernel/agent', [agent_code/2]).
 :- use_module(allowed, [allowed/3, definable/1, own_name/1]).
+:- use_module(constructs, [construct/2]).
 :- use_module(guard_bodies,
               [ extended/3, guard/3, guard_lambda/4, guard_parts/1,
                 is_control/1, is_lambda/1, is_own/2, is_refused/2 ]).
@@ -90,8 +91,7 @@ guard_called(Own, Goal0, Goal) :-
     (   var(Goal0)
     ->  throw(error(instantiation_error, _))
     ;   acyclic_term(Goal0)
-    ->  count_parts,
-        guard_now(Goal0, Own, Goal)
+    ->  guard_now(Goal0, Own, Goal)
     ;   refuse_cyclic(Goal0)
     ).
 
@@ -107,16 +107,21 @@ guard_now(Goal0, Own, Goal) :-
     guard_last(Goal0, Own, Goal),
     !.
 guard_now(Goal0, Own, Goal) :-
+    count_parts,
     guard(Goal0, Own, Goal).
 
-%   guard_last(+Goal0, +Own, -Goal) is semidet: Goal0 needs the checks that are
-%   made only when it is called.
+%   guard_last(+Goal0, +Own, -Goal) is semidet: Goal0 runs no other goals.
 
 guard_last(Goal, _, Goal) :-
     is_control(Goal),
     !.
 guard_last(Goal0, own(_, Policy), Goal) :-
-    allowed(Policy, Goal0, look(Kind)),
+    \+ construct(Goal0, _),
+    allowed(Policy, Goal0, How),
+    looked_at(How, Policy, Goal0, Goal).
+
+looked_at(free, _, Goal, Goal).
+looked_at(look(Kind), Policy, Goal0, Goal) :-
     check_arguments(Kind, Policy, Goal0, Goal).
 
 refuse_cyclic(Goal) :-

@@ -292,7 +292,8 @@ defining([ (main :- Goal), (Head :- true) ]) :-
                    $(Harm), ignore(Harm), user:Harm, call(Harm, x) ]),
     functor(Goal, Name, Arity),
     functor(Head, Name, Arity).
-defining([ (main :- assertz('|'(x, y)), assertz((p :- '|'(fail, Harm))), p) ]) :-
+defining([ (main :- assertz('|'(x, y)), assertz((p :- '|'(fail, Harm))),
+                    p) ]) :-
     harm(Harm).
 defining([ (main :- c(C), assertz(C), p), c((p :- '|'(fail, Harm))) ]) :-
     harm(Harm).

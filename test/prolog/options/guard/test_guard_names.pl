@@ -83,11 +83,13 @@ unguarded(Body, Call) :-
     member(Call, Calls),
     \+ may_call(Call).
 
-%   within(+Body, -Part): Part is Body, or a goal that a predicate calls which
-%   Body calls.  compiled_calls/2 has the parts of constructs.
+%   within(+Body, -Part): Part is a goal of Body, or one that a predicate calls
+%   which Body calls.
 
 within(Body, Part) :-
-    (   Body = call(Part0)
+    (   member(Body, [(A,B), (A;B), (A->B), (A*->B)])
+    ->  ( within(A, Part) ; within(B, Part) )
+    ;   member(Body, [\+Part0, call(Part0)])
     ->  within(Part0, Part)
     ;   compound(Body),
         compound_name_arguments(Body, call, [Closure|Extra])
@@ -197,9 +199,9 @@ suspects(Names) :-
     names(All),
     findall(Name, ( member(Name, All), \+ is_word(Name) ), Names0),
     numlist(1, 30, Numbers),
-    findall(Name, ( member(_, Numbers), random_member(Name, All),
-                     Name \== call ), Names1),
-    append(Names0, [not|Names1], Names2),
+    findall(Name, ( member(_, Numbers), random_member(Name, All) ),
+            Names1),
+    append(Names0, [call,not,phrase|Names1], Names2),
     sort(Names2, Names).
 
 is_word(Name) :-
