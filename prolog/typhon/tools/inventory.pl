@@ -7,13 +7,13 @@
           ]).
 :- use_module(library(apply), [exclude/3, maplist/3]).
 :- use_module(library(dcg/basics), [digits//1, string_without//2]).
-:- autoload(library(listing), [portray_clause/1]).
 :- use_module(library(lists), [append/2, append/3, member/2]).
 :- use_module(library(option), [option/3]).
 :- use_module(library(pairs), [map_list_to_pairs/3, pairs_values/2]).
 :- use_module(library(settings), [setting/2, setting/4]).
 :- use_module(library(solution_sequences), [limit/2]).
 :- use_module('../kernel/base/error_text', [abridged/3]).
+:- use_module('../kernel/base/text', [print_clause/3]).
 :- use_module('../kernel/host',
               [ address_parts/3, clock/3, host/3, host_link_cost/3,
                 host_option/2, host_resolve/2,
@@ -336,7 +336,7 @@ clause_text(Place, Text) :-
     clause_string((Head:-Body), Text).
 
 clause_string(Clause, Text) :-
-    with_output_to(string(Whole), portray_clause(Clause)),
+    with_output_to(string(Whole), print_clause(current_output, Clause, [])),
     longest(Longest),
     (   sub_string(Whole, 0, Longest, _, Begin)
     ->  string_concat(Begin, "...", Text)

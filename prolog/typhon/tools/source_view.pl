@@ -5,7 +5,7 @@
           ]).
 :- use_module(library(apply), [maplist/2]).
 :- use_module(library(lists), [append/3, member/2, nth1/3]).
-:- autoload(library(listing), [portray_clause/1, portray_clause/3]).
+:- use_module('../kernel/base/text', [print_clause/3]).
 :- use_module('../kernel/program',
               [clause_parts/3, goals_body/2]).
 :- use_module('../kernel/lifecycle', [agent_answer/3]).
@@ -86,16 +86,16 @@ goal_named(Clauses, Lists, Goal, Named) :-
 
 list_program(program(Name, State, Libraries, Clauses), Names, Places) :-
     ( State == [] -> Options = [] ; Options = [state(State)] ),
-    portray_clause((:- agent(Name, Options))),
+    portray((:- agent(Name, Options)), []),
     forall(member(Library-Imports, Libraries),
            library(Imports, Library)),
     list_clauses(Clauses, Names, 0, Places).
 
 library(all, Library) :-
     !,
-    portray_clause((:- use_module(Library))).
+    portray((:- use_module(Library)), []).
 library(Imports, Library) :-
-    portray_clause((:- use_module(Library, Imports))).
+    portray((:- use_module(Library, Imports)), []).
 
 :- meta_predicate part(+, +, 0).
 
@@ -111,7 +111,7 @@ list_goals(Goals, Bindings) :-
 
 portray(Clause, Bindings) :-
     current_output(Out),
-    portray_clause(Out, Clause, [variable_names(Bindings)]).
+    print_clause(Out, Clause, [variable_names(Bindings)]).
 
                 /*******************************
                 *            CLAUSES           *

@@ -1,7 +1,8 @@
 :- module(typhon_text,
           [ term_text/2,                % +Term, -Bytes
             text_term/2,                % +Bytes, -Term
-            write_portable/3            % +Out, +Term, +Options
+            write_portable/3,           % +Out, +Term, +Options
+            print_clause/3              % +Out, +Clause, +Options
           ]).
 
 /** <module> The canonical text of a term
@@ -17,6 +18,7 @@ thread and are restored.
 */
 
 :- autoload(library(error), [resource_error/1, syntax_error/1]).
+:- autoload(library(listing), [portray_clause/3]).
 :- autoload(library(memfile), [free_memory_file/1, memory_file_to_string/3,
                                  new_memory_file/1, open_memory_file/4]).
 
@@ -251,3 +253,20 @@ long_integers :-
     ->  set_prolog_flag(max_integer_size, 1 000 000 000)
     ;   true
     ).
+
+                /*******************************
+                *        TEXT FOR PEOPLE       *
+                *******************************/
+
+:- multifile user:exception/3.
+:- dynamic user:exception/3.
+
+%!  print_clause(+Out, +Clause, +Options) is det.
+%
+%   As portray_clause/3, but loads no library.  portray_clause/3 looks up the
+%   goals of Clause in a module, here one where nothing is autoloaded.
+
+print_clause(Out, Clause, Options) :-
+    portray_clause(Out, Clause, [module(typhon_print_clause)|Options]).
+
+user:exception(undefined_predicate, typhon_print_clause:_, error).

@@ -241,14 +241,14 @@ refs(Place, PIs, Refs) :-
 
 own(Place, Name/Arity) :-
     functor(Head, Name, Arity),
-    predicate_property(Place:Head, dynamic),
-    \+ predicate_property(Place:Head, imported_from(_)).
+    '$get_predicate_attribute'(Place:Head, (dynamic), 1),
+    \+ '$get_predicate_attribute'(Place:Head, imported, _).
 
 free(Place, Name/Arity) :-
     functor(Head, Name, Arity),
-    (   predicate_property(Place:Head, defined),
-        \+ predicate_property(Place:Head, imported_from(_)),
-        predicate_property(Place:Head, number_of_clauses(N)),
+    (   '$get_predicate_attribute'(Place:Head, defined, 1),
+        \+ '$get_predicate_attribute'(Place:Head, imported, _),
+        '$get_predicate_attribute'(Place:Head, number_of_clauses, N),
         N > 0
     ->  permission_error(deliver, procedure, Name/Arity)
     ;   true
