@@ -3,8 +3,7 @@
 :- use_module(library(lists), [member/2]).
 :- use_module(library(option), [option/2]).
 :- use_module('../kernel/program',
-              [ clause_parts/3, code_make/3, code_module/2, code_program/2,
-                mobile_predicates/3, sent_program/2 ]).
+              [code_known/2, code_make/3, code_program/2, sent_program/2]).
 :- use_module('../kernel/host',
               [ context_now/2, host/3, host_option/2, parts_call/3,
                 place_host/2, place_service/2 ]).
@@ -159,7 +158,7 @@ forbids(Policy, From, Entrant, _, refused(Reason)) :-
 %   @error the errors that forbidden/2 lists
 
 check_entrant(_, entrant(_, Hash, _, _, _), Policy) :-
-    code_module(Hash, _),
+    code_known(Hash, _),
     !,
     guarded_module(Policy, Hash, _).
 check_entrant(from(_, Sent, _), _, Policy) :-
@@ -174,10 +173,10 @@ forbidden(error(permission_error(call, sandboxed, Culprit), _),
           policy(Culprit)).
 forbidden(error(resource_error(clause_cells), _), policy(clause_cells)).
 
-%   may_receive(+Policy, +Host, +Id, +Sent): the agent Id may get the program
-%   Sent.
+%   may_receive(+Policy, +Host, +Id, +New): the agent Id may get the program New,
+%   Hash-Sent.
 
-may_receive(Policy, _, _, Sent) :-
+may_receive(Policy, _, _, _-Sent) :-
     check_sent(Policy, Sent).
 
 %   check_sent(+Policy, +Sent): check a program that is not installed yet, since
@@ -227,9 +226,9 @@ guarded_module(Policy, Hash, Module) :-
     !,
     Module = Module0.
 guarded_module(Policy, Hash, Module) :-
+    code_known(Hash, Kinds),
     code_program(Hash, Program0),
     guard_program(Policy, Program0, Program),
-    kinds(Program0, Kinds),
     with_mutex(typhon_guard,
                make(Hash, Policy, Program, Kinds, Module)).
 
@@ -240,12 +239,6 @@ make(Hash, Policy, _, _, Module) :-
 make(Hash, Policy, Program, Kinds, Module) :-
     code_make(Program, Kinds, Module),
     assertz(variant(Hash, Policy, Module)).
-
-kinds(program(_, _, _, Clauses), Kinds) :-
-    findall((Head:-Body)-none,
-            ( member(Clause, Clauses), clause_parts(Clause, Head, Body) ),
-            Rules),
-    mobile_predicates(Rules, Kinds, _).
 
 typhon_code:retiring(Hash) :-
     with_mutex(typhon_guard, retire(Hash)).

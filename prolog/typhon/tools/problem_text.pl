@@ -105,7 +105,8 @@ typhon_programs:advice(once) -->
     ['a file begins with one declaration: move what follows it to a file \c
       of its own'].
 typhon_programs:advice(library) -->
-    ['there is no such library: install it, or write library(Name)'].
+    ['no such library: install it, or write library(Name) or \c
+      library(Folder/Name), not a path'].
 typhon_programs:advice(indicator) -->
     ['write dynamic Name/Arity, ...'].
 typhon_programs:advice(rule) -->

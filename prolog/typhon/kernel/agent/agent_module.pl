@@ -1,6 +1,7 @@
 :- module(typhon_agent_module,
           [ agent_module/5,             % +Id, +Place, +Hash, +State, -Module
             agent_module/4,             % +Id, +Place, +Program, +Clauses
+            agent_program/3,            % +Place, +Hash, -Program
             agent_code/2,               % +Module, -Program
             agent_build/5,              % +Id, +Place, +Hash, +Begin, -Agent
             agent_clauses/3,            % +Module, +Clauses0, -Clauses
@@ -14,7 +15,7 @@
             agent_variant/2             % +Module, -Variant
           ]).
 :- use_module(library(lists), [memberchk/2]).
-:- use_module('../program', [code_module/2, plain_goals/2]).
+:- use_module('../program', [code_known/2, code_module/2, plain_goals/2]).
 :- use_module('../wire', [mobile_term/1]).
 :- use_module('../host', [host/3, parts/3, parts_call/3, place_host/2]).
 :- use_module(agents, [agent_here/5]).
@@ -60,8 +61,8 @@ on the host, even if the options of the host change.
 %   @error those of assertz/1, and of the hooks of a variant
 
 agent_module(Id, Place, Hash, State0, Module) :-
-    code_module(Hash, Program0),
-    place_imports(Place, Hash, Program0, State0, Program, Above, State),
+    agent_program(Place, Hash, Program),
+    place_imports(Place, State0, Above, State),
     State = state(Empty, Clauses),
     free_module(Id, Module),
     module_create(Module, Program, Above),
@@ -95,16 +96,30 @@ begins(Place, Module) :-
     ;   true
     ).
 
-%   place_imports(+Place, +Hash, +Program0, +State0, -Program, -Above, -State):
-%   an agent on Place imports from Program and Above, and has State in place of
-%   State0.
+%!  agent_program(+Place, +Hash, -Program) is semidet.
+%
+%   Agents on Place import from the module Program, which is made now if it was
+%   not.  The program of that Hash is compiled as it is only for places that run
+%   it as it is.  Fails if there is none.
+%
+%   @error those of code_module/2, and of the hooks of a variant
 
-place_imports(Place, Hash, _, State0, Program, View, State) :-
+agent_program(Place, Hash, Program) :-
+    place_variant(Place, _, Variant),
+    !,
+    code_known(Hash, _),
+    typhon_agent_module:program(Variant, Hash, Program).
+agent_program(_, Hash, Program) :-
+    code_module(Hash, Program).
+
+%   place_imports(+Place, +State0, -Above, -State): an agent on Place also
+%   imports from Above, and has State in place of State0.
+
+place_imports(Place, State0, View, State) :-
     place_variant(Place, View, Variant),
     !,
-    typhon_agent_module:program(Variant, Hash, Program),
     typhon_agent_module:state(Variant, State0, State).
-place_imports(Place, _, Program, State, Program, Place, State).
+place_imports(Place, State, Place, State).
 
 %!  agent_code(+Module, -Program) is det.
 %

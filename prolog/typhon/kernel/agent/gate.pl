@@ -4,10 +4,11 @@
           ]).
 :- use_module(library(lists), [member/2]).
 :- use_module('../base/bounds', [memory_short/1]).
-:- use_module('../program', [code_module/2, code_receive/2]).
+:- use_module('../program', [code_known/2, code_receive/2]).
 :- use_module('../host',
-              [ event/4, host/3, host_closed/1, host_enter/3, host_leave/1,
+              [ event/4, host/3, host_admits/2, host_closed/1, host_enter/3, host_leave/1,
                 host_load/2, parts/3, security_event/2, security_event/3 ]).
+:- use_module(agent_module, [agent_program/3]).
 :- use_module(agents, [agent_on/2]).
 :- use_module(identity, [agent_home/2]).
 :- use_module(life, [life_tokens/2]).
@@ -52,16 +53,18 @@ capacity of the host.
 %   agent.  The slot is released unless Verdict is `ok`.  Other verdicts are
 %   refused(Reason), `need_program`, and those of Install.
 %
-%   Signals are deferred from reservation to installation.  While memory is
-%   short the process has no capacity for more agents.
+%   Signals are deferred from reservation to installation; before, the program
+%   is compiled.  While memory is short the process has no capacity for more
+%   agents.
 %
 %   @error what Install raises, unless it means that Host refuses the agent
 
 gate(Host, From-Entrant, Install, Verdict) :-
     (   against(From, Entrant, Host, Verdict)
     ->  true
-    ;   Entrant = entrant(_, _, Life, _, _),
+    ;   Entrant = entrant(_, Hash, Life, _, _),
         life_tokens(Life, Tokens),
+        ignore(make_ready(Host, Tokens, Hash)),
         sig_atomic(enter(Host, Tokens, From, Install, Verdict))
     ),
     (   Verdict = refused(Reason)
@@ -69,6 +72,13 @@ gate(Host, From-Entrant, Install, Verdict) :-
         gate_refused(Host, From, Agent, Reason)
     ;   true
     ).
+
+%   Libraries are loaded here: after admission, and outside of mutexes.
+
+make_ready(Host, Tokens, Hash) :-
+    host_admits(Host, Tokens),
+    host(Host, _, Place),
+    agent_program(Place, Hash, _).
 
 enter(Host, Tokens, From, Install, Verdict) :-
     host_enter(Host, Tokens, Entered),
@@ -126,7 +136,7 @@ open(Host) :-
 
 lacks_program(Program, Hash) :-
     (   Program == known
-    ->  \+ code_module(Hash, _)
+    ->  \+ code_known(Hash, _)
     ;   \+ code_receive(Hash, Program)
     ).
 

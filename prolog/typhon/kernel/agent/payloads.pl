@@ -15,12 +15,12 @@
               [existence_error/2, permission_error/3, resource_error/1]).
 :- use_module(library(lists), [member/2, selectchk/3]).
 :- use_module(library(settings), [setting/2, setting/4]).
-:- use_module('../program', [code_module/2]).
 :- use_module('../host', [host_address/2, parts/3]).
 :- use_module(agents, [agent/5, agent_put_life/2]).
 :- use_module(identity, [with_agent/2]).
 :- use_module(agent_module,
-              [agent_add/2, agent_clauses/3, agent_declare/2, agent_variant/2]).
+              [ agent_add/2, agent_clauses/3, agent_code/2, agent_declare/2,
+                agent_variant/2 ]).
 :- use_module(life, [life_payloads/2, set_payloads_of_life/3]).
 
 /** <module> Payloads and results of agents
@@ -63,9 +63,9 @@ payload_marks(Payload, Marks) :-
 
 agent_attach(Id, Payload) :-
     Payload = payload(Name, PIs, _),
-    agent(Id, Host, Module, Hash, Life),
+    agent(Id, Host, Module, _, Life),
     must_be_admitted(Host, Payload, new),
-    code_module(Hash, Program),
+    agent_code(Module, Program),
     maplist(free(Module, Program), PIs),
     life_payloads(Life, Payloads),
     not_carried(Name, Payloads),

@@ -51,7 +51,7 @@ looks up one list of closures, and a host without options has none.
   | security      | Host, Peer, Proof, What      | see security_event/3        |
   | payload       | From, Payload, Host, Reason  | a payload is refused, see   |
   |               |                              | typhon_payloads             |
-  | new_program   | Host, Id, Sent               | Id gets another program,    |
+  | new_program   | Host, Id, Hash-Sent          | Id gets another program,    |
   |               |                              | sent as in code_receive/2;  |
   |               |                              | an error forbids it         |
 

@@ -7,6 +7,7 @@
             host_option/2,              % ?Name, ?Option
             host_put/2,                 % +Name, +Option
             host_note/1,                % +Name
+            host_admits/2,              % +Name, +Tokens
             host_enter/3,               % +Name, +Tokens, -Answer
             host_again/1,               % +Name
             host_leave/1,               % +Name
@@ -212,6 +213,16 @@ host_put(Name, Option) :-
                 /*******************************
                 *          ADMISSION           *
                 *******************************/
+
+%!  host_admits(+Name, +Tokens) is semidet.
+%
+%   host_enter/3 would answer `ok` now.
+
+host_admits(Name, Tokens) :-
+    admits(Name, Wanted, Capacity, Load),
+    ( Wanted == [] -> true ; has_token(Wanted, Tokens) ),
+    get_flag(Load, Count),
+    Count < Capacity.
 
 %!  host_enter(+Name, +Tokens, -Answer) is det.
 %

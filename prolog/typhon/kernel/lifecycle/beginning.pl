@@ -7,11 +7,10 @@
           ]).
 :- use_module(library(debug), [debug/3]).
 :- use_module('../base/durable_changes', [sync_changes/0, unit_of_work/1]).
-:- use_module('../program', [code_module/2]).
 :- use_module('../host',
               [ amended/5, event/4, host/3, host_address/2, host_unknown/1 ]).
 :- use_module('../agent',
-              [ agent/5, agent_build/5, agent_enter/3, agent_handles/2,
+              [ agent/5, agent_build/5, agent_code/2, agent_enter/3, agent_handles/2,
                 agent_home/2, agent_id/3, agent_mail/2, agent_name/3,
                 agent_ready/2, agent_rest/3, agent_state/2, gate/4,
                 life_clone/3, mail_count/2, no_result_facts/2,
@@ -156,8 +155,8 @@ record_clone(Parent, Id) :-
 %   An agent that only handles messages is resident from the start.
 
 begin([], Id) :-
-    agent(Id, _, Module, Hash, _),
-    code_module(Hash, Program),
+    agent(Id, _, Module, _, _),
+    agent_code(Module, Program),
     agent_handles(Program, Module),
     mail_count(Id, 0),
     !,

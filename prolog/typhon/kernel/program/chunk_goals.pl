@@ -10,7 +10,7 @@
 :- use_module(library(occurs), [sub_term/2]).
 :- use_module(bodies, [plain_goal/2, special/2]).
 :- use_module(clause_places, [among/2, clause_places/5]).
-:- use_module(code, [code_module/2, code_program/2]).
+:- use_module(code, [code_compiled/2, code_program/2]).
 :- use_module(source, [clause_parts/3]).
 
 /** <module> Frames of chunks and the goals that they stand for
@@ -169,7 +169,7 @@ barrier(_, _).
 
 place_left(Place, Vars, Goal, Goals) :-
     functor(Vars, Module, _),
-    code_module(Hash, Module),
+    code_compiled(Hash, Module),
     code_program(Hash, program(_, _, _, Clauses)),
     length(Clauses, Count),
     I is Place//2 mod Count,

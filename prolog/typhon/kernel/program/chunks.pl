@@ -7,7 +7,7 @@
 :- use_module(bodies, [named/4]).
 :- use_module(chunk_code, [clause_code/5]).
 :- use_module(clause_places, [occurs/2]).
-:- use_module(code, [code_module/2, code_program/2]).
+:- use_module(code, [code_compiled/2, code_program/2]).
 :- use_module(source, [clause_parts/3]).
 
 /** <module> Programs compiled in chunks, from stop to stop
@@ -60,7 +60,7 @@ chunks_ready(Module) :-
     '$get_predicate_attribute'(Module:'$goals'(_, _, _, _), defined, 1),
     !.
 chunks_ready(Module) :-
-    code_module(Hash, Module),
+    code_compiled(Hash, Module),
     code_program(Hash, Program),
     with_mutex(typhon_chunks, sig_atomic(compile_once(Module, Program))).
 

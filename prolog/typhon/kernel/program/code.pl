@@ -5,7 +5,9 @@
             code_unwrapped/3,           % +Sent, -Sent0, -Extras
             code_wrapped/3,             % +Extras, +Sent0, -Sent
             code_extras/2,              % +Terms, -Extras
-            code_module/2,              % ?Hash, -Module
+            code_module/2,              % +Hash, -Module
+            code_known/2,               % ?Hash, -Kinds
+            code_compiled/2,            % ?Hash, ?Module
             code_program/2,             % ?Hash, -Program
             code_sent/2,                % +Hash, -Sent
             code_locate/2,              % +Hash, +Places
@@ -22,12 +24,17 @@
 :- use_module(library(lists), [append/3, member/2]).
 :- use_module(library(settings), [setting/2, setting/4]).
 :- use_module(bodies, [body_goals/4, named/4]).
+:- use_module(libraries, [import_library/2, is_import/1]).
 :- use_module(mobile, [mobile_predicates/3]).
 :- use_module(places, [clauses_names/2, is_places/1]).
 :- use_module(programs, [program_hash/2]).
 :- use_module(source, [clause_parts/3]).
 
 /** <module> Programs installed in this process
+
+A program is installed as a term.  It is compiled, and the libraries that it
+imports are loaded, when the first agent needs it that a host has admitted and
+that runs it as it is.
 
 The static clauses of a program exist once in a process, in a module that all
 its agents share, however many there are and however often they come back.  Its
@@ -40,7 +47,8 @@ A mobile predicate p/N has, besides its native form, clauses
 `'mobile p'(A1, ..., AN, Goals, Rest, Barrier)`: facts that unfold a call into
 a goal list, see typhon_machine.  The table '$mobile'/6 maps calls to them.
 
-*Threading*: one mutex protects the table; readers need none.
+*Threading*: one mutex protects the tables; readers need none.  Libraries are
+loaded outside of it.
 */
 
 :- setting(programs, nonneg, 256,
@@ -49,7 +57,7 @@ a goal list, see typhon_machine.  The table '$mobile'/6 maps calls to them.
 :- multifile
     in_use/1,                   % Hash: an agent of this process runs it
     installed/2,                % Name, Module: a program of that name has been
-                                % installed
+                                % compiled
     retiring/1,                 % Hash: the program is about to be deleted
     wrapped/3,                  % ?Sent, ?Sent0, ?Extra: Sent is Sent0 with an
                                 % Extra of an option
@@ -57,7 +65,8 @@ a goal list, see typhon_machine.  The table '$mobile'/6 maps calls to them.
     extra_comes/2.              % Extra, Hash: the program arrived with Extra
 
 :- dynamic
-    code_module/2,              % Hash, Module
+    code_known/2,               % Hash, Kinds: of installed programs
+    code_compiled/2,            % Hash, Module
     code_program/2,             % Hash, Program
     places/2,                   % Hash, Places: of programs with known places
     retired/2.                  % Hash, Module: deleted at the next eviction
@@ -65,13 +74,21 @@ a goal list, see typhon_machine.  The table '$mobile'/6 maps calls to them.
 %!  code_install(+Hash, +Program, +Kinds) is det.
 %
 %   Make Program available; does nothing if it is already.  Kinds is the result
-%   of mobile_predicates/3, where that is known.
+%   of mobile_predicates/3.
 
 code_install(Hash, Program, Kinds) :-
-    (   code_module(Hash, _)
+    (   code_known(Hash, _)
     ->  true
     ;   with_mutex(typhon_code, install(Hash, Program, Kinds))
     ).
+
+install(Hash, _, _) :-
+    code_known(Hash, _),
+    !.
+install(Hash, Program, Kinds) :-
+    evict,
+    assertz(code_program(Hash, Program)),
+    assertz(code_known(Hash, Kinds)).
 
 program_kinds(program(_, _, _, Clauses), Kinds) :-
     maplist(rule_at_no_place, Clauses, Rules),
@@ -125,11 +142,12 @@ sent_program(Sent, Program) :-
     subsumes_term(program(_, _, _, _), Program).
 
 receive(Hash, Program) :-
-    (   code_module(Hash, _)
+    (   code_known(Hash, _)
     ->  true
     ;   subsumes_term(program(_, _, _, _), Program),
         Program = program(_, State, Libraries, Clauses),
         maplist(is_list, [State, Libraries, Clauses]),
+        maplist(is_import, Libraries),
         program_hash(Program, Hash)
     ->  program_kinds(Program, Kinds),
         code_install(Hash, Program, Kinds)
@@ -198,25 +216,46 @@ code_names(Hash, Lists) :-
     code_places(Hash, Places),
     clauses_names(Places, Lists).
 
-%!  code_module(?Hash, -Module) is semidet.
-%
-%   Module is that of an installed program.
-
-%!  code_program(?Hash, -Program) is semidet.
+%!  code_program(?Hash, -Program) is nondet.
 %
 %   Program is an installed program.
 
-install(Hash, _, _) :-
-    code_module(Hash, _),
+%!  code_known(?Hash, -Kinds) is nondet.
+%
+%   A program is installed; Kinds is the result of mobile_predicates/3 for it.
+
+%!  code_compiled(?Hash, ?Module) is nondet.
+%
+%   An installed program has been compiled in Module.
+
+%!  code_module(+Hash, -Module) is semidet.
+%
+%   Module is that of an installed program, which is compiled now if it was not.
+%   Fails if no program has that Hash.
+%
+%   @error existence_error(library, Name)
+
+code_module(Hash, Module) :-
+    (   code_compiled(Hash, Module0)
+    ->  Module = Module0
+    ;   code_program(Hash, program(_, _, Libraries, _)),
+        forall(member(Library-_, Libraries),
+               import_library(typhon_code, Library-[])),
+        with_mutex(typhon_code, compile(Hash, Module))
+    ).
+
+compile(Hash, Module) :-
+    code_compiled(Hash, Module),
     !.
-install(Hash, Program, Kinds) :-
+compile(Hash, Module) :-
+    code_known(Hash, Kinds),
+    code_program(Hash, Program),
+    !,
     (   retract(retired(Hash, Module))
     ->  true
-    ;   evict,
-        code_make(Program, Kinds, Module)
+    ;   code_make(Program, Kinds, Module)
     ),
-    assertz(code_program(Hash, Program)),
-    assertz(code_module(Hash, Module)),
+    assertz(code_compiled(Hash, Module)),
     Program = program(Name, _, _, _),
     forall(installed(Name, Module), true),
     debug(typhon(program), 'program ~w is in module ~q', [Hash, Module]).
@@ -238,7 +277,7 @@ code_make(Program, Kinds, Module) :-
 
 code_clear :-
     with_mutex(typhon_code,
-               ( forall(code_module(Hash, _), retire(Hash)),
+               ( forall(code_known(Hash, _), retire(Hash)),
                  forall(retiring(none), true),
                  findall(Module, retired(_, Module), Modules),
                  retractall(retired(_, _)),
@@ -249,7 +288,7 @@ code_clear :-
 %   that is arriving always finds its program.
 
 evict :-
-    predicate_property(code_module(_,_), number_of_clauses(Count)),
+    predicate_property(code_known(_,_), number_of_clauses(Count)),
     setting(programs, Max),
     Count >= Max,
     !,
@@ -257,15 +296,16 @@ evict :-
            ( retract(retired(Hash, Module)),
              '$destroy_module'(Module)
            )),
-    forall(( code_module(Hash, _), \+ in_use(Hash) ),
+    forall(( code_known(Hash, _), \+ in_use(Hash) ),
            retire(Hash)).
 evict.
 
 retire(Hash) :-
-    retract(code_module(Hash, Module)),
+    retractall(code_known(Hash, _)),
     retractall(code_program(Hash, _)),
     retractall(places(Hash, _)),
-    assertz(retired(Hash, Module)),
+    forall(retract(code_compiled(Hash, Module)),
+           assertz(retired(Hash, Module))),
     forall(retiring(Hash), true),
     debug(typhon(program), 'program ~w is retired', [Hash]).
 
@@ -299,12 +339,6 @@ no_system_sleep(Module) :-
 
 sleep(_) :-
     permission_error(call, control_predicate, sleep/1).
-
-import_library(Module, Library-all) :-
-    !,
-    Module:use_module(Library).
-import_library(Module, Library-Imports) :-
-    Module:use_module(Library, Imports).
 
 declare(Module, (Name/Arity)-Kind) :-
     module_transparent(Module:Name/Arity),

@@ -16,6 +16,7 @@
 :- use_module(library(settings), [setting/4]).
 :- use_module('../base/bounds', [bounded/2]).
 :- use_module(bodies, [control/1]).
+:- use_module(libraries, [declared_meta/3]).
 
 /** <module> Which predicates of a program can reach a control predicate
 
@@ -305,7 +306,7 @@ meta(PI, Meta) :-
 
 find_meta(Name/Arity, Meta) :-
     functor(General, Name, Arity),
-    (   predicate_property(typhon_vocabulary:General, meta_predicate(Meta0))
+    (   declared_meta(typhon_vocabulary, General, Meta0)
     ->  Meta = Meta0
     ;   Meta = none
     ).

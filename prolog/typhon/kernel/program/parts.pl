@@ -9,9 +9,8 @@
           ]).
 :- use_module(library(apply), [maplist/3, partition/4]).
 :- use_module(library(lists), [member/2, memberchk/2, selectchk/3]).
-:- use_module(source,
-              [ clause_parts/3, declaration/4, indicator_in/2,
-                library_import/2 ]).
+:- use_module(source, [clause_parts/3, declaration/4, indicator_in/2]).
+:- use_module(libraries, [import_fault/2, library_import/2]).
 :- use_module(bodies, [control/1]).
 :- use_module('../base/names', [names_near/3]).
 
@@ -154,12 +153,10 @@ faulty_directive(dynamic(PIs), Formal, Advice) :-
 faulty_directive(discontiguous(_), _, _) :-
     !,
     fail.
-faulty_directive(Directive, existence_error(library, Library), library) :-
-    library_import(Directive, library(Library)-_),
+faulty_directive(Directive, Formal, library) :-
+    library_import(Directive, Import),
     !,
-    \+ absolute_file_name(library(Library), _,
-                          [ file_type(prolog), access(read),
-                            file_errors(fail) ]).
+    import_fault(Import, Formal).
 faulty_directive(Directive, Formal, Advice) :-
     functor(Directive, Kind, _),
     memberchk(Kind, [agent,payload]),

@@ -5,7 +5,6 @@
             source_settled/1,           % +Sources
             source_same/1,              % +Sources
             declaration/4,              % +Kind, +Term, -Name, -Options
-            library_import/2,           % +Directive, -Import
             indicator_in/2,             % +PIs, ?PI
             clause_parts/3              % +Clause, -Head, -Body
           ]).
@@ -13,6 +12,8 @@
 :- use_module(library(error), [must_be/2]).
 :- use_module(library(lists), [member/2, memberchk/2, nth1/3]).
 :- use_module('../base/names', [names_near/3]).
+:- use_module(libraries,
+              [import_operators/2, library_import/2, with_scratch_module/2]).
 :- use_module(paths, [files_beside/3, included_file/3, program_file/2]).
 
 /** <module> Clause files as terms with their locations
@@ -70,10 +71,10 @@ items(Spec, Items) :-
             Items).
 items(Spec, Items) :-
     program_file(Spec, File),
-    setup_call_cleanup(
-        scratch_module(Module),
-        findall(Item, file_item(File, reading([], Module), Item), Items),
-        '$destroy_module'(Module)).
+    with_scratch_module(Module,
+                        findall(Item,
+                                file_item(File, reading([], Module), Item),
+                                Items)).
 
 %   file_item(+File, +Reading, -Item) is nondet: Reading is reading(Files,
 %   Module), where Files include File.
@@ -90,15 +91,6 @@ file_item(File, reading(Files, Module), Item) :-
 file_stamp(File, stamp(Size, Time)) :-
     size_file(File, Size),
     time_file(File, Time).
-
-%   Operators that the file imports from libraries live in a module of
-%   their own while the file, and what it includes, is read.
-
-scratch_module(Module) :-
-    flag(typhon_scratch_module, N, N+1),
-    atom_concat('typhon source ', N, Module),
-    set_module(Module:class(temporary)),
-    set_module(Module:base(system)).
 
 %   item_in(+In, +Reading, -Item) is nondet: the first of the files of Reading is
 %   read from In.
@@ -151,7 +143,7 @@ item(read(Term, Location, _, _), Reading, Item) :-
     included(Spec, Location, Reading, Item).
 item(read(Term0, Location, Named, Once), reading(_, Module), Item) :-
     grammar_rule(Term0, Location, Item0),
-    import_operators(Term0, Module),
+    term_operators(Term0, Module),
     (   Item = Item0
     ;   Item0 = term(Term, _),
         Named = [_|_],
@@ -208,13 +200,11 @@ grammar_rule(Term0, Location, Item) :-
           Item = error(problem(Formal, Location, grammar))).
 grammar_rule(Term, Location, term(Term, Location)).
 
-%   typhon_programs reports a library that does not exist.
-
-import_operators((:- Directive), Module) :-
-    library_import(Directive, _),
+term_operators((:- Directive), Module) :-
+    library_import(Directive, Import),
     !,
-    catch(Module:Directive, error(_, _), true).
-import_operators(_, _).
+    import_operators(Import, Module).
+term_operators(_, _).
 
                 /*******************************
                 *           ONE CLAUSE         *
@@ -228,10 +218,9 @@ import_operators(_, _).
 
 source_clause(File:Line, Clause) :-
     exists_file(File),
-    setup_call_cleanup(
-        scratch_module(Module),
-        catch(clause_in(File, Line, Module, Clause), error(_, _), fail),
-        '$destroy_module'(Module)).
+    with_scratch_module(Module,
+                        catch(clause_in(File, Line, Module, Clause),
+                              error(_, _), fail)).
 
 clause_in(File, Line, Module, Clause) :-
     setup_call_cleanup(
@@ -249,7 +238,7 @@ clause_at(In, Line, Module, Clause) :-
     (   At =:= Line
     ->  Clause = clause(Term, Layout, Names)
     ;   At < Line,
-        import_operators(Term, Module),
+        term_operators(Term, Module),
         clause_at(In, Line, Module, Clause)
     ).
 
@@ -293,15 +282,6 @@ declaration(Kind, (:- Directive), Name, Options) :-
         Options = []
     ),
     atom(Name).
-
-%!  library_import(+Directive, -Import) is semidet.
-%
-%   Import is library(L)-all or library(L)-List.
-
-library_import(use_module(library(L)), library(L)-all) :-
-    ground(L).
-library_import(use_module(library(L), Imports), library(L)-Imports) :-
-    ground(L-Imports).
 
 %!  indicator_in(+PIs, ?PI) is nondet.
 %

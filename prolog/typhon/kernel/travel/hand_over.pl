@@ -4,7 +4,7 @@
           ]).
 :- use_module(library(debug), [debug/3]).
 :- use_module('../base/durable_changes', [durable_on/0]).
-:- use_module('../program', [code_module/2, plain_goals/2]).
+:- use_module('../program', [code_compiled/2, plain_goals/2]).
 :- use_module('../wire',
               [ endpoint_afterwards/1, endpoint_hand/4, endpoint_hand_over/2,
                 endpoint_hand_to/2,
@@ -172,7 +172,7 @@ taken_over(Host, Image, known, Peer) :-
     host_plain(Host, Plain),
     \+ event_subscribed(hops),
     is_plain_image(Image, Id, Hash, Life, Hops, Clauses, Goals, Since),
-    code_module(Hash, Program),
+    code_compiled(Hash, Program),
     arg(1, Plain, Address),
     with_agent(Id, install(Id, Hops, Host-Plain, Hash-Program, Life, Clauses,
                            Since, Home)),

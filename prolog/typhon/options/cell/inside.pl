@@ -3,7 +3,7 @@
 :- use_module('../../kernel/base/on_demand', [on_demand_load/2]).
 :- use_module('../../kernel/base/trees', [is_tree/2]).
 :- use_module('../../kernel/program',
-              [ answer_at/3, code_module/2, code_receive/2, fault_noted/1,
+              [ answer_at/3, code_known/2, code_receive/2, fault_noted/1,
                 machine_run/3, plain_goals/2 ]).
 :- use_module('../../kernel/wire', [mobile_term/1]).
 :- use_module('../../kernel/host',
@@ -151,7 +151,7 @@ agent_ready(Id, _, known, same, Module) :-
 agent_ready(Id, Hash, Program, State, Module) :-
     State = state(_, _),
     (   Program == known
-    ->  code_module(Hash, _)
+    ->  code_known(Hash, _)
     ;   code_receive(Hash, Program)
     ),
     forget(Id),

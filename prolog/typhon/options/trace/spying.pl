@@ -7,7 +7,7 @@
 :- use_module(library(prolog_trace), [trace/2]).
 :- use_module('../../kernel/base/names', [names_proposed/3]).
 :- use_module('../../kernel/program',
-              [clause_parts/3, code_module/2, code_program/2]).
+              [clause_parts/3, code_compiled/2, code_known/2, code_program/2]).
 
 /** <module> Spy points on programs, by the names of programs
 
@@ -57,8 +57,9 @@ spied(Hash, Goal, Action) :-
     member(Action, [hold, print]),
     spied(Program, Name, Arity, Action),
     (   Action == hold
-    ;   code_module(Hash, Module),
-        unfolded(Module, Goal)
+    ;   code_known(Hash, Kinds),
+        memberchk(Name/Arity-Kind, Kinds),
+        Kind \== native
     ),
     !.
 
@@ -144,7 +145,7 @@ in_module(Module, _, _) :-
 
 program_module(Program, Module) :-
     code_program(Hash, program(Program, _, _, _)),
-    code_module(Hash, Module).
+    code_compiled(Hash, Module).
 
 %!  trace_program(+Spec, +Ports) is semidet.
 %

@@ -73,7 +73,7 @@ change_made(facts(Clauses), Id) :-
     agent_clauses(Module, Clauses, Allowed),
     agent_add(Allowed, Module).
 change_made(program(Hash, Sent), Id) :-
-    may_change(Id, Sent),
+    may_change(Id, Hash-Sent),
     code_receive(Hash, Sent),
     code_program(Hash, Program),
     Program = program(_, PIs, _, _),
@@ -89,10 +89,10 @@ change_made(program(Hash, Sent), Id) :-
 %   A part of the host may forbid the program, as it would for an agent that
 %   arrives with it.
 
-may_change(Id, Sent) :-
+may_change(Id, New) :-
     (   agent(Id, Host, _, _, _),
         parts(new_program, Host, Closures)
-    ->  forall(member(Closure, Closures), call(Closure, Host, Id, Sent))
+    ->  forall(member(Closure, Closures), call(Closure, Host, Id, New))
     ;   true
     ).
 

@@ -13,7 +13,7 @@
 :- use_module('../../kernel/program',
               [ advice_text/2, body_calls/2, built_in/1, clause_parts/3,
                 code_program/2, file_parts/4, in_file_order/3, indicator_in/2,
-                library_directive/2, near_built_in/2, part/3, problem_error/3,
+                library_directive/2, library_export/2, near_built_in/2, part/3, problem_error/3,
                 source_same/1 ]).
 :- use_module(goal_lines, [problem_at_goal/2]).
 :- use_module(lost_choices, [lost_choice/3]).
@@ -164,20 +164,8 @@ own_predicate(Parts, PI) :-
 
 imported(Parts, PI) :-
     library_directive(Parts, Library-_),
-    exports(Library, PI),
+    library_export(Library, PI),
     !.
-
-exports(Library, PI) :-
-    absolute_file_name(Library, File,
-                       [ file_type(prolog), access(read),
-                         file_errors(fail) ]),
-    load_files(File, [if(not_loaded), imports([])]),
-    module_property(Module, file(File)),
-    exported(Module, PI).
-
-exported(Module, PI) :-
-    module_property(Module, exports(Exports)),
-    memberchk(PI, Exports).
 
 %   unknown_advice(+PI, +Own:list, -Advice) is det.
 %
@@ -186,7 +174,7 @@ exported(Module, PI) :-
 %   predicate with the same name and another arity, or with a similar name.
 
 unknown_advice(PI, _, of_library(typhon)) :-
-    exported(typhon, PI),
+    library_export(library(typhon), PI),
     !.
 unknown_advice(Name/Arity, Own, offered(Near)) :-
     findall(PI, ( member(PI, Own) ; near_built_in(Name/Arity, PI) ), PIs),

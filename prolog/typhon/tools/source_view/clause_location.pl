@@ -5,7 +5,7 @@
 :- use_module(library(apply), [maplist/3]).
 :- use_module(library(lists), [append/3, member/2, min_list/2, nth1/3]).
 :- use_module('../../kernel/program',
-              [ body_goals/4, clause_parts/3, code_module/2, code_places/2,
+              [ body_goals/4, clause_parts/3, code_compiled/2, code_places/2,
                 code_program/2, goals_body/2, place/3, plain_goals/2 ]).
 
 /** <module> The clause from which a goal comes
@@ -46,7 +46,7 @@ typhon_fault:fault_location(Hash, Agent, Fault, Where) :-
 %   agent.  Where is [] if more than three places are possible.
 
 fault_where(Hash, Agent, fault(Goal, Goals, Natives), Where) :-
-    code_module(Hash, Module),
+    ignore(code_compiled(Hash, Module)),
     all_clauses(Hash, Agent, All),
     Natives = natives(Raising, References),
     native_places(References, Module, All, Inner0),
