@@ -15,8 +15,9 @@ it: a payload that has changed since is refused.
 *Threading*: any thread; the module of an agent belongs to its worker.
 */
 
-:- use_module(library(error), [existence_error/2]).
+:- use_module(library(error), [existence_error/2, permission_error/3]).
 :- use_module(library(lists), [member/2]).
+:- use_module('../../kernel/program', [code_unwrapped/3]).
 :- use_module('../../kernel/host', [host_option/2]).
 :- use_module('../../kernel/agent',
               [agent_attach/2, agent_state/2, life_payloads/2]).
@@ -55,9 +56,10 @@ typhon_host_parts:part(Phase, Host, Order, typhon_authors:Closure) :-
 
 closure(admit_program, 60, payloads_forbid).
 closure(admit_program, 70, program_forbids).
+closure(new_program, 20, may_get).
 closure(payload, 10, payload_forbids).
 
-:- public payloads_forbid/4, program_forbids/4, payload_forbids/4.
+:- public payloads_forbid/4, program_forbids/4, may_get/3, payload_forbids/4.
 
 %   If the program was not sent along, its signature may arrive with it later.
 
@@ -67,6 +69,20 @@ program_forbids(From, entrant(_, Hash, _, _, _), Host, Verdict) :-
     (   From = from(_, known, _)
     ->  Verdict = need_program
     ;   Verdict = refused(unsigned)
+    ).
+
+%   may_get(+Host, +Id, +New): the agent Id may get the program New, Hash-Sent.
+%   Its signature may come with it.
+
+may_get(Host, Id, Hash-Sent) :-
+    host_option(Host, authors(Authors)),
+    code_unwrapped(Sent, _, Extras),
+    (   signed_by(Authors, Hash)
+    ->  true
+    ;   member(signature(Signature), Extras),
+        signature_by(Authors, Hash, Signature)
+    ->  true
+    ;   permission_error(change, agent_program, Id)
     ).
 
 %   signed_by(+Authors, +Hash): one of Authors has signed the program Hash.

@@ -98,6 +98,48 @@ changed_program(Authority, _) :-
     assertion(Before == done),
     assertion(subsumes_term(refused(move_refused(_, unsigned)), After)).
 
+%   The libraries of a program that no admitted author has signed are not loaded,
+%   and no order gives it to an agent.
+
+test(unsigned_programs_load_nothing) :-
+    with_authority([alpha, beta], [alice], unsigned_program).
+
+unsigned_program(Authority) :-
+    keys_of(beta, Authority, Dir),
+    with_peers([beta-[host([tls(Dir)])]],
+               with_choosy_host(Authority, unsigned_program(Authority))).
+
+unsigned_program(Authority, Alpha) :-
+    Terms = [ (:- agent(x, [])), (:- use_module(library(www_browser))),
+              on_message(_, _) ],
+    outcome(agent_create(clauses(Terms), _, [host(alpha)]), Here),
+    assertion(subsumes_term(move_refused(_, unsigned), Here)),
+    peer_do(beta, catch(( agent_create(clauses(Terms), _, [host(Alpha)]),
+                          There = created ), error(There, _), true)),
+    assertion(subsumes_term(move_refused(_, unsigned), There)),
+    signed_resident(Authority, rests, File0),
+    signed_resident(Authority, waits, File),
+    agent_create(File0, Agent, [host(alpha)]),
+    outcome(agent_change(Agent, program(clauses(Terms))), Change),
+    assertion(Change == permission_error(change, agent_program, Agent)),
+    outcome(agent_change(Agent, program(File)), Signed),
+    assertion(Signed == true),
+    agent_dispose(Agent),
+    assertion(\+ ( source_file(Source),
+                   file_base_name(Source, 'www_browser.pl') )).
+
+outcome(Goal, Outcome) :-
+    catch(( call(Goal), Outcome = true ), error(Outcome, _), true).
+
+signed_resident(Authority, Name, File) :-
+    atom_concat(Name, '.pl', Base),
+    directory_file_path(Authority, Base, File),
+    setup_call_cleanup(
+        open(File, write, Out),
+        format(Out, ':- agent(~w, []).~non_message(_, _).~n', [Name]),
+        close(Out)),
+    keys_sign_file(File, alice, Authority).
+
 test(hosts_and_revoked_authors_cannot_sign) :-
     with_authority([alpha], [alice], no_author).
 
