@@ -57,6 +57,23 @@ test(parent_is_known, Parent == Id) :-
                     (tell(clone(P)) :- receive(_-above), parent(Q), send(P, Q)) ],
                   Id, [host(c)]),
            agent_result(Id, Parent, 30) )).
+test(gatekeeper_does_not_compile_the_program, Result-Modules == [a-[]]-[]) :-
+    cell(( result([ (:- use_module(library(ugraphs))),
+                    (main :- vertices_edges_to_ugraph([a], [], G),
+                             result(G)) ], Result),
+           findall(M, typhon_code:code_compiled(_, M), Modules) )).
+test(imports_of_a_created_agent_are_not_loaded, Reason-Files ==
+         policy((:- use_module(library(www_browser))))-[]) :-
+    cell(( result([ (main :- catch(create(clauses(
+                                              [ (:- agent(b, [])),
+                                                (:- use_module(
+                                                    library(www_browser))),
+                                                main ]), _, []),
+                                   error(move_refused(_, R), _), true),
+                             result(R)) ], Reason),
+           findall(File, ( source_file(File),
+                           file_base_name(File, 'www_browser.pl') ),
+                   Files) )).
 test(messages_are_handled, Said == [hello(1),hello(2)]) :-
     cell(( create([ (:- dynamic(said/1)),
                     (on_message(_, hello(N)) :- assertz(said(hello(N)))),
