@@ -6,8 +6,9 @@
 :- use_module('../base/bounds', [memory_short/1]).
 :- use_module('../program', [code_known/2, code_receive/2]).
 :- use_module('../host',
-              [ event/4, host/3, host_admits/2, host_closed/1, host_enter/3, host_leave/1,
-                host_load/2, parts/3, security_event/2, security_event/3 ]).
+              [ event/4, host/3, host_admits/2, host_closed/1, host_enter/3,
+                host_leave/1, host_load/2, parts/3, security_event/2,
+                security_event/3 ]).
 :- use_module(agent_module, [agent_program/3]).
 :- use_module(agents, [agent_on/2]).
 :- use_module(identity, [agent_home/2]).

@@ -124,7 +124,7 @@ library_export(Library, Export) :-
 
 file_export(File, Export) :-
     (   module_property(Module, file(File))
-    ->  ( Property = exports(Exports) ; Property = exported_operators(Exports) ),
+    ->  member(Property, [exports(Exports), exported_operators(Exports)]),
         module_property(Module, Property),
         member(Export, Exports)
     ;   beginning(File, Directives),

@@ -12,7 +12,7 @@
 :- use_module(library(typhon)).
 :- use_module(library(typhon/kernel/base/text), [print_clause/3]).
 
-/** <module> The process of a host loads no library for a program that it refuses
+/** <module> A host loads no library for a program that it refuses
 
 The libraries here raise a flag when they are loaded.  The folder of libraries
 has free.pl, in/deep.pl, and links to files outside of it; evil.pl is beside the

@@ -98,8 +98,8 @@ changed_program(Authority, _) :-
     assertion(Before == done),
     assertion(subsumes_term(refused(move_refused(_, unsigned)), After)).
 
-%   The libraries of a program that no admitted author has signed are not loaded,
-%   and no order gives it to an agent.
+%   The libraries of a program that no admitted author has signed are not
+%   loaded, and no order gives it to an agent.
 
 test(unsigned_programs_load_nothing) :-
     with_authority([alpha, beta], [alice], unsigned_program).
