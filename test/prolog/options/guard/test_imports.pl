@@ -10,7 +10,6 @@
 :- use_module(library(random), [random_between/3, random_member/2]).
 :- use_module(library(yall)).
 :- use_module(library(typhon)).
-:- use_module(library(typhon/kernel/base/text), [print_clause/3]).
 
 /** <module> A host loads no library for a program that it refuses
 
@@ -231,8 +230,9 @@ test(listing_loads_nothing, New == []) :-
                  findall(File, source_file(File), Before),
                  with_output_to(string(_), agent_listing(A)),
                  with_output_to(string(_),
-                                print_clause(current_output,
-                                             (a :- www_open_url(x)), [])),
+                                typhon_text:print_clause(
+                                    current_output, (a :- www_open_url(x)),
+                                    [])),
                  findall(File, ( source_file(File),
                                  \+ memberchk(File, Before), names(File) ),
                          New) )).
