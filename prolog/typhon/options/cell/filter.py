@@ -14,14 +14,14 @@ eventfd2 execve exit exit_group faccessat faccessat2 fcntl fdatasync fgetxattr
 flock fstat fstatfs fsync ftruncate futex getcwd getdents64 getegid geteuid
 getgid getpeername getpgrp getpid getppid getpriority getrandom getresgid
 getresuid getrlimit getrusage getsockname getsockopt gettid gettimeofday getuid
-getxattr ioctl kill lgetxattr listen lseek lstat madvise membarrier mkdir
-mkdirat mmap mprotect mremap munmap nanosleep newfstatat open openat pipe pipe2
-poll ppoll pread64 prlimit64 pselect6 pwrite64 read readlink readlinkat readv
-recvfrom recvmsg rename renameat restart_syscall rmdir rseq rt_sigaction
-rt_sigpending rt_sigprocmask rt_sigreturn rt_sigsuspend rt_sigtimedwait
-sched_getaffinity sched_yield select sendmsg sendto set_robust_list
-set_tid_address setitimer setsockopt shutdown sigaltstack stat statfs statx
-sysinfo tgkill time umask uname unlink unlinkat wait4 waitid write writev
+getxattr ioctl kill lgetxattr listen lseek lstat madvise membarrier mmap
+mprotect mremap munmap nanosleep newfstatat open openat pipe pipe2 poll ppoll
+pread64 prlimit64 pselect6 pwrite64 read readlink readlinkat readv recvfrom
+recvmsg restart_syscall rseq rt_sigaction rt_sigpending rt_sigprocmask
+rt_sigreturn rt_sigsuspend rt_sigtimedwait sched_getaffinity sched_yield select
+sendmsg sendto set_robust_list set_tid_address setitimer setsockopt shutdown
+sigaltstack stat statfs statx sysinfo tgkill time umask uname wait4 waitid
+write writev
 """.split()  # not: ptrace keyctl io_uring userfaultfd bpf perf unshare mount
 
 SOCKETS = (1, 2)  # AF_UNIX; AF_INET, which has only the loopback of the cell

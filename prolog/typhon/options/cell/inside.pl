@@ -40,7 +40,6 @@ may do whatever the operating system allows this process.
 :- public cell_main/0.
 
 cell_main :-
-    priority_lower,
     set_prolog_flag(gc_thread, false),
     set_prolog_flag(threads, false),
     set_prolog_flag(stack_limit, 268 435 456),
@@ -53,31 +52,6 @@ cell_main :-
     set_stream(Null, alias(user_error)),
     cell_frame_write(Out, ready),
     serve(In, Out).
-
-%   Linux may divide processors between sessions before it looks at the nice
-%   values of processes (sched_autogroup), and a cell is a session of its own.
-%   So the session gets a nice value, too.
-
-priority_lower :-
-    (   access_file('/proc/self/autogroup', write)
-    ->  ignore(session_nice(15))
-    ;   true
-    ).
-
-%   The kernel accepts one change in a tenth of a second, whichever process makes
-%   it; others get an error.
-
-session_nice(Nice) :-
-    between(1, 100, _),
-    catch(session_nice_set(Nice), error(io_error(_, _), _),
-          ( sleep(0.1), fail )),
-    !.
-
-session_nice_set(Nice) :-
-    setup_call_cleanup(
-        open('/proc/self/autogroup', update, Out, [buffer(full)]),
-        ( write(Out, Nice), flush_output(Out) ),
-        close(Out, [force(true)])).
 
 connection(In, Out) :-
     stream_property(In, alias(user_input)),

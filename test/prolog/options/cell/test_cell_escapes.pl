@@ -29,9 +29,10 @@ test(data_of_an_owner_is_not_in_the_cell_of_another,
 %   created in the process p looks for it.
 
 left_to_another(Left, Seen) :-
-    Things = [ exists_file('/tmp/left'), current_predicate(left/0),
+    Things = [ size_file('/tmp/services.pl', 4), current_predicate(left/0),
                tcp_connect('127.0.0.1':20001, _, []) ],
-    attempt(( open('/tmp/left', write, S), close(S), assertz(left),
+    attempt(( open('/tmp/services.pl', write, S), write(S, left), close(S),
+              assertz(left),
               tcp_socket(T), tcp_bind(T, '127.0.0.1':20001), tcp_listen(T, 5),
               test_see(Things, [yes,yes,yes]) ), Left),
     address(c, C),
@@ -63,11 +64,22 @@ check('what is in /', directory_files(/, L),
 check('to change the library', open('/typhon/x', write, _),
       raised(permission_error(_, _, _))).
 check('to fill the disk',
-      ( open('/tmp/big', write, S),
+      ( open('/tmp/services.pl', write, S),
         catch(forall(between(1, 40000, _), format(S, "~`xt~1000|~n", [])), E,
               true),
-        close(S, [force(true)]), delete_file('/tmp/big'), throw(E) ),
+        close(S, [force(true)]), open('/tmp/services.pl', write, S1),
+        close(S1), throw(E) ),
       raised(io_error(_, _))).
+check('to make a file', open('/tmp/x', write, _),
+      raised(permission_error(_, _, _))).
+check('to make a folder', make_directory('/tmp/x'),
+      raised(permission_error(_, _, _))).
+check('to make files in place of others',
+      ( delete_file('/tmp/policy'), open('/tmp/policy', write, _) ),
+      raised(permission_error(_, _, _))).
+check('a higher priority',
+      ( open('/proc/self/autogroup', update, S), write(S, 0), close(S) ),
+      raised(permission_error(_, _, _))).
 check('shared memory', open('/dev/shm/x', write, _),
       raised(permission_error(_, _, _))).
 check('a port of the host', tcp_connect('127.0.0.1':target(port), _, []),
@@ -152,15 +164,17 @@ check('a datagram to the internet',
 check('all machines of the network',
       ( udp_socket(S), udp_send(S, "x", '224.0.0.1':5353, []) ), raised(_)).
 check('a file that can be run',
-      ( open('/tmp/x', write, S), close(S), chmod('/tmp/x', +x) ), raised(_)).
+      chmod('/tmp/policy', +x), raised(_)).
 check('to fill the disk with several files',
       ( length(L, 16000), maplist(=(0'a), L), string_codes(T, L),
-        findall(F, ( between(1, 4, N), atom_concat('/tmp/full', N, F) ), Fs),
-        catch(forall(member(F, Fs),
+        read_file_to_string('/tmp/policy', Policy, []),
+        catch(forall(member(F, ['/tmp/services.pl','/tmp/policy']),
                      ( open(F, write, S),
-                       forall(between(1, 500, _), write(S, T)),
+                       forall(between(1, 1000, _), write(S, T)),
                        close(S) )), E, true),
-        forall(( member(F, Fs), exists_file(F) ), delete_file(F)), throw(E) ),
+        open('/tmp/services.pl', write, S1), close(S1),
+        open('/tmp/policy', write, S2), write(S2, Policy), close(S2),
+        throw(E) ),
       raised(io_error(_, _))).
 check('memory of the kernel', open('/proc/kcore', read, _), raised(_)).
 check('keys of the kernel', open('/proc/sysrq-trigger', write, _), raised(_)).
@@ -174,7 +188,7 @@ check('a program in its place',
       exec('/usr/bin/prlimit'('--as=unlimited', '--nproc=unlimited')),
       ended(lost(cell(exit(1))))).
 check('a hundred files',
-      forall(between(1, 100, _), open('/tmp/x', append, _)),
+      forall(between(1, 100, _), open('/tmp/services.pl', append, _)),
       raised(resource_error(max_files))
       ; ended(raised(error(resource_error(max_files), _)))).
 check('to end the process', halt, ended(lost(cell(exit(0))))).
