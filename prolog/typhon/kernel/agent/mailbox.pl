@@ -18,6 +18,7 @@
 :- use_module(library(settings), [setting/2, setting/4]).
 :- use_module(identity, [with_agent/2]).
 :- use_module('../base/fifo', [fifo_empty/2, fifo_size/2, fifo_take/2]).
+:- use_module('../base/reports', [report/4]).
 :- use_module('../base/durable', [durable/6]).
 :- use_module('../base/durable_changes',
               [ durable_drop/3, durable_drop_all/2, durable_number/1,
@@ -133,7 +134,7 @@ mail_keep(Id, [Message|Messages]) :-
     ;   debug(typhon(mail), '~w: has no space for ~p', [Id, Message])
     ),
     (   Count =:= Max-1
-    ->  print_message(warning, typhon(mailbox_full(Id, Max)))
+    ->  report(warning, full_mailboxes, Id, typhon(mailbox_full(Id, Max)))
     ;   true
     ),
     mail_keep(Id, Messages).

@@ -11,6 +11,7 @@
 :- use_module(library(lists), [member/2]).
 :- use_module(library(settings), [setting/2, setting/4]).
 :- use_module('../base/durable_changes', [unit_of_work/1]).
+:- use_module('../base/reports', [report/4]).
 :- use_module('../host',
               [event/4, events_forget/1, host/3, host_again/1, host_leave/1]).
 :- use_module('../agent',
@@ -134,7 +135,7 @@ agent_fails(Id, Outcome, Goals0) :-
     ).
 
 report(Id, Fault) :-
-    agent(Id, Host, _, _, _),
+    agent(Id, Host, _, Hash, _),
     !,
     debug(typhon(agent), '~w: is faulty, on ~w', [Id, Host]),
     fault_outcome(Fault, Outcome),
@@ -142,7 +143,7 @@ report(Id, Fault) :-
     event(bad_ends, Host, Id, What),
     fault_shown(Fault, Shown),
     event(faults, Host, Id, fault(Shown)),
-    print_message(Kind, typhon(Message)).
+    report(Kind, faulty_agents(Hash), Id, typhon(Message)).
 report(_, _).
 
 %   bad_end(+Outcome, +Id, +Fault, -What, -Kind, -Message): its event and message.

@@ -5,6 +5,7 @@
             turn_over_limit/3           % +Host, +Id, +What
           ]).
 :- use_module('../base/durable_changes', [unit_of_work/1]).
+:- use_module('../base/reports', [report/4]).
 :- use_module('../program',
               [ answer_at/3, fault_note/1, machine_ready/1, machine_run/3,
                 plain_goals/2 ]).
@@ -285,7 +286,7 @@ over_limit(_, _).
 
 turn_over_limit(Host, Id, What) :-
     security_event(Host, over(Id, What)),
-    print_message(warning, typhon(over_limit(Id, What))).
+    report(warning, agents_over_limit, Id, typhon(over_limit(Id, What))).
 
 %   conclude(+Outcome, +Goals0, +Turn, -Next): carry out Outcome of the run
 %   from Goals0.  Next is as in effect/5.

@@ -6,6 +6,7 @@
 :- use_module(library(lists), [append/3, member/2]).
 :- use_module(library(settings), [setting/2, setting/4]).
 :- use_module('../base/durable_changes', [durable_on/0, durable_post/3]).
+:- use_module('../base/reports', [report/4]).
 :- use_module('../wire', [endpoint_post/3, endpoint_post_by/4]).
 :- use_module(sender_authorization, [with_proof/5]).
 :- use_module('../host', [alarm_in/3, scheduler_call/1]).
@@ -206,12 +207,12 @@ shown_news(Home, All, Shown) :-
 
 posted_in_parts([ended(Id, Outcome, Hops, _)], Post, Home) :-
     !,
-    print_message(warning, typhon(results_lost(Id))),
+    report(warning, lost_results, Id, typhon(results_lost(Id))),
     posted(Post, Home, [ended(Id, Outcome, Hops)]).
 posted_in_parts([News], _, _) :-
     !,
     arg(1, News, Id),
-    print_message(warning, typhon(news_too_long(Id))).
+    report(warning, lost_news, Id, typhon(news_too_long(Id))).
 posted_in_parts(All, Post, Home) :-
     length(All, Count),
     Half is Count//2,

@@ -8,6 +8,7 @@
 :- use_module(library(error), [existence_error/2]).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(pairs), [group_pairs_by_key/2]).
+:- use_module('../base/reports', [report/4]).
 :- use_module('../base/durable_changes',
               [ deferred_act/4, durable_on/0, effects_deferred/0,
                 enqueue_changes/0, unit_of_work/1 ]).
@@ -82,8 +83,8 @@ retry_if_waiting(Way, _, Way).
 
 typhon_durable_changes:act(letter, Id, From-Message) :-
     catch(post_now(Id, From, Message), error(Formal, _),
-          print_message(warning,
-                        typhon(undeliverable(Formal, Id, From, Message)))).
+          report(warning, lost_messages, Id,
+                 typhon(undeliverable(Formal, Id, From, Message)))).
 
 post_way(Id, From, Message, Way) :-
     parts(deliver, _, _),

@@ -9,6 +9,7 @@
 :- use_module(library(debug), [debug/3]).
 :- use_module(library(lists), [append/2, append/3, max_list/2, member/2]).
 :- use_module('../base/durable_changes', [durable_on/0, durable_post/3]).
+:- use_module('../base/reports', [report/5]).
 :- use_module('../wire',
               [ endpoint_address/1, endpoint_gone/1, endpoint_post/3,
                 endpoint_post_up/3 ]).
@@ -248,12 +249,13 @@ report_to_origin(Origin, Formal, Id, Mail) :-
           true).                        % it was reported here
 
 report(Formal, Id, [mail(_, From, Message)|More]) :-
+    length(More, Others),
     (   More == []
     ->  Problem = undeliverable(Formal, Id, From, Message)
-    ;   length(More, Others),
-        Problem = undeliverable(Formal, Id, From, Message, Others)
+    ;   Problem = undeliverable(Formal, Id, From, Message, Others)
     ),
-    print_message(warning, typhon(Problem)).
+    Count is Others+1,
+    report(warning, lost_messages, Id, Count, typhon(Problem)).
 
 typhon_endpoint:received(message, lost(Formal, Id, Mail), _) :-
     partition(is_from_bridge, Mail, Bridged, Sent),

@@ -29,6 +29,7 @@
               [ agent/5, agent_put/3, agent_ready/2, agent_remove/3,
                 agent_status/3, image_clone/5, image_hop/6, mail_all/2,
                 mail_back/2, with_agent/2 ]).
+:- use_module('../base/reports', [report/4]).
 :- use_module('../base/durable', [durable/5, durable_assertz/1]).
 :- use_module('../base/durable_changes',
               [ crash_point/1, durable_drop/3, durable_on/0,
@@ -355,5 +356,5 @@ move_over(Id, Answer) :-
 move_failed(Id, Formal) :-
     (   move_over(Id, error(Formal))
     ->  true
-    ;   print_message(warning, typhon(order_failed(Id, Formal)))
+    ;   report(warning, failed_orders, Id, typhon(order_failed(Id, Formal)))
     ).

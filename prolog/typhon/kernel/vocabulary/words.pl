@@ -29,6 +29,7 @@
 :- use_module(library(lists), [member/2]).
 :- use_module('../base/on_demand', [on_demand_load/2, on_demand_missing/2]).
 :- use_module('../base/own_thread', [in_own_thread/1]).
+:- use_module('../base/reports', [report/4]).
 :- use_module('../program', [vocabulary/1]).
 :- use_module('../wire', [mobile_term/1]).
 :- use_module('../host',
@@ -190,9 +191,9 @@ warn_undeliverable(Host, _, _, _) :-
     host_closed(Host),
     !.
 warn_undeliverable(_, Agent, Id, Message) :-
-    print_message(warning,
-                  typhon(undeliverable(existence_error(agent, Agent), Agent,
-                                       Id, Message))).
+    report(warning, lost_messages, Agent,
+           typhon(undeliverable(existence_error(agent, Agent), Agent, Id,
+                                Message))).
 
 %!  leave(+Fact) is det.
 %
@@ -300,7 +301,8 @@ result(Term) :-
 
 %!  message_failed(+From, +Message) is det.
 %
-%   Print a warning that on_message/2 has failed.  The agent goes on.  If the
+%   Print a warning that on_message/2 has failed, at most one in a second, and
+%   the number of the others.  The agent goes on.  If the
 %   program has a clause for the message, the warning has the location of the
 %   goal that failed.
 
@@ -311,7 +313,7 @@ message_failed(From, Message) :-
     ->  Warning = message_undone(Id, From, Message, Fault)
     ;   Warning = message_failed(Id, From, Message)
     ),
-    print_message(warning, typhon(Warning)).
+    report(warning, messages_not_understood, Id, typhon(Warning)).
 
                 /*******************************
                 *            CONTROL           *

@@ -15,24 +15,22 @@ as long as no other client needs them.
 Most unknown clients speak another protocol. A client whose first byte has
 arrived, and is not that of a greeting, gets neither slot nor thread.
 
-A port scan or a flood must not fill the log, and must not go unnoticed. The
-first few refusals of a burst are reported one by one; for the rest one message
-a second reports their number, addresses and reasons. A burst is over after a
-second without refusals.
+A message for each second reports the number, addresses and reasons of refusals,
+see typhon_reports.
 
 *Threading*: accept_all/2 is the goal of a thread, which is woken by a
 signal: closing the socket would not wake it. A mutex guards the slots: the
 acceptor gives and takes them, the thread of a client reports its progress and
-returns its own. Another mutex guards the counts of refusals; the connection
-manager calls report/0 when a second is over.
+returns its own.
 */
 
-:- use_module(library(apply), [foldl/4]).
+:- use_module(library(aggregate), [aggregate_all/3]).
 :- use_module(library(error), [syntax_error/1]).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(pairs), [group_pairs_by_key/2, pairs_keys_values/3]).
 :- use_module(library(settings), [setting/2, setting/4]).
 :- autoload(library(socket), [tcp_accept/3]).
+:- use_module('../base/reports', [report/4]).
 :- use_module(connection, [incoming/5, open_streams/3]).
 :- use_module(threads,
               [ manager_notify/1, wire_thread_create/4, wire_thread_running/1,
@@ -44,9 +42,7 @@ manager calls report/0 when a second is over.
 
 :- dynamic
     unproved/4,                         % Thread, Ip, Since, Stage
-    proved/1,                           % Ip, of a peer; the newest last
-    burst/1,                            % Refused: number since its begin
-    tally/3.                            % Ip, Why, Count: not yet reported
+    proved/1.                           % Ip, of a peer; the newest last
 
 %   The number of addresses kept in proved/1.
 
@@ -64,14 +60,11 @@ accept_all(Socket, Me) :-
 
 %!  accept_no_more is det.
 %
-%   Close the streams of clients whose threads had not begun with them, and
-%   report the last refusals.  Called when all threads of the endpoint have
-%   ended.
+%   Close the streams of clients whose threads had not begun with them.  Called
+%   when all threads of the endpoint have ended.
 
 accept_no_more :-
-    forall(unproved(Thread, _, _, _), take_slot(Thread)),
-    report,
-    retractall(burst(_)).
+    forall(unproved(Thread, _, _, _), take_slot(Thread)).
 
 accept(Socket, Me) :-
     tcp_accept(Socket, Client, ip(A, B, C, D)),
@@ -262,79 +255,20 @@ remember(Ip) :-
 		 *           REFUSALS           *
 		 *******************************/
 
-%   The most that are reported one by one, and the most pairs of address and
-%   reason.
-
-singly(5).
-groups(16).
-
 %   refused(+Ip, +Formal): a client at Ip was refused. Formal is that of an
 %   error, `silent` (its slot was needed), `crowd` (there was no slot), or
 %   version(V).
 
+:- multifile typhon_reports:summary/3.
+
 refused(Ip, Formal) :-
     reason(Formal, Why),
-    sig_atomic(with_mutex(typhon_refusals, note(Ip, Why, How))),
-    (   How == alone
-    ->  level(Why, Level),
-        print_message(Level, typhon(endpoint, turned_away(Ip, Why)))
-    ;   true
-    ).
+    level(Why, Level),
+    report(Level, refused_clients, Ip-Why,
+           typhon(endpoint, turned_away(Ip, Why))).
 
-note(Ip, Why, How) :-
-    (   retract(burst(Reported))
-    ->  true
-    ;   Reported = 0,
-        plan
-    ),
-    Reported1 is Reported+1,
-    assertz(burst(Reported1)),
-    singly(Max),
-    (   Reported < Max
-    ->  How = alone
-    ;   How = together,
-        add(Ip, Why)
-    ).
-
-add(Ip, Why) :-
-    retract(tally(Ip, Why, Count0)),
-    !,
-    Count is Count0+1,
-    assertz(tally(Ip, Why, Count)).
-add(Ip, Why) :-
-    predicate_property(tally(_, _, _), number_of_clauses(Groups)),
-    groups(Max),
-    (   ( Groups < Max ; Ip-Why == others-several )
-    ->  assertz(tally(Ip, Why, 1))
-    ;   add(others, several)
-    ).
-
-plan :-
-    get_time(Now),
-    Time is Now+1,
-    ignore(manager_notify(later(Time, typhon_acceptor:report))).
-
-%   Report the refusals that were not reported one by one.
-
-report :-
-    sig_atomic(with_mutex(typhon_refusals, take(Groups))),
-    (   Groups == []
-    ->  true
-    ;   (   member(_-(_-Why), Groups), level(Why, warning)
-        ->  Level = warning
-        ;   Level = informational
-        ),
-        print_message(Level, typhon(endpoint, turned_away(Groups)))
-    ).
-
-take(Groups) :-
-    findall(Count-(Ip-Why), tally(Ip, Why, Count), Groups0),
-    retractall(tally(_, _, _)),
-    sort(1, @>=, Groups0, Groups),
-    (   Groups == []
-    ->  retractall(burst(_))
-    ;   plan
-    ).
+typhon_reports:summary(refused_clients, Groups,
+                       typhon(endpoint, turned_away(Groups))).
 
 %   reason(+Formal, -Why): Why has no details that differ from case to case.
 
@@ -365,13 +299,14 @@ prolog:message(typhon(endpoint, turned_away(Ip, Why))) -->
     [ 'Endpoint: refused a client at ~w: '-[Ip] ],
     why(Why).
 prolog:message(typhon(endpoint, turned_away(Groups))) -->
-    { foldl([Count-_, Sum0, Sum]>>(Sum is Sum0+Count), Groups, 0, Sum) },
+    { aggregate_all(sum(Count), member(Count-_, Groups), Sum) },
     [ 'Endpoint: refused ~D more clients:'-[Sum] ],
     groups(Groups).
 
 groups([]) -->
     [].
-groups([Count-(Ip-Why)|Groups]) -->
+groups([Count-Group|Groups]) -->
+    { Group = Ip-Why -> true ; Ip-Why = others-several },
     [ nl, '  ~D at ~w: '-[Count, Ip] ],
     why(Why),
     groups(Groups).

@@ -23,6 +23,7 @@ connection on which the arbiter sends its count.
 *Threading*: incoming/5 and outgoing/2 are the goals of threads of the wire.
 */
 
+:- use_module('../base/reports', [report/4]).
 :- use_module(library(debug), [debug/3]).
 :- use_module(library(error), [domain_error/2, syntax_error/1]).
 :- use_module(library(settings), [setting/2]).
@@ -351,10 +352,10 @@ lost(Session, Me) :-
 report_break(Session, Formal) :-
     session_peer(Session, _, Address),
     (   is_normal_break(Formal)
-    ->  Level = silent
-    ;   Level = warning
-    ),
-    print_message(Level, typhon(endpoint, broken(Address, Formal))).
+    ->  print_message(silent, typhon(endpoint, broken(Address, Formal)))
+    ;   report(warning, broken_connections, Address,
+               typhon(endpoint, broken(Address, Formal)))
+    ).
 
 is_normal_break(Formal) :-
     memberchk(Formal, [ io_error(_, _), socket_error(_, _),

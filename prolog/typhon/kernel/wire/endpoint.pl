@@ -46,6 +46,7 @@ under the mutex of the endpoint.
               [ durable_item/5, durable_opened/1, durable_put/4,
                 sync_changes/0 ]).
 :- use_module('../base/own_thread', [in_own_thread/1]).
+:- use_module('../base/reports', [reports_end/0]).
 :- use_module(acceptor, [accept_all/2, accept_no_more/0]).
 :- use_module(handshake, [cookie/1, hello/4, random_hex/2]).
 :- use_module(connection_manager, [manager_begin/1, manager_end/0]).
@@ -283,9 +284,11 @@ stop :-
     forall(session(_, Session),
            ( session_close(Session, Unsent),
              requests_lost(Session, Unsent) )),
-    transport_end.
+    transport_end,
+    reports_end.
 stop :-
-    alone_end.
+    alone_end,
+    reports_end.
 
 %!  endpoint_address(?Address) is semidet.
 %

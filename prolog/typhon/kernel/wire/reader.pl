@@ -19,6 +19,7 @@ requesting it again would not help.
 are deferred while a frame is being handled and counted.
 */
 
+:- use_module('../base/reports', [report/4]).
 :- use_module(library(apply), [maplist/3]).
 :- use_module(library(settings), [setting/2, setting/4]).
 :- use_module(frame,
@@ -160,7 +161,8 @@ skip(Session, Which) :-
     ;   sig_atomic(( session_object(Session, spoilt),
                      session_count(Session, _) )),
         session_peer(Session, _, Address),
-        print_message(error, typhon(endpoint, skipped(Address)))
+        report(error, skipped_frames, Address,
+               typhon(endpoint, skipped(Address)))
     ).
 
 times_damaged(Key, Count, Which, Times) :-

@@ -41,6 +41,7 @@ it is answered once.
 
 :- use_module(library(lists), [member/2]).
 :- use_module('../base/error_text', [error_lines/3, print_error/2]).
+:- use_module('../base/reports', [report/4]).
 :- use_module('../base/on_demand',
               [on_demand_later/1, on_demand_load/2, on_demand_part/2]).
 :- use_module(kinds, [arrival_verdict/5]).
@@ -213,10 +214,12 @@ dispatch(Session, spoilt(Id)) :-
 dispatch(Session, unreadable(Formal, Mark)) :-
     !,
     session_peer(Session, _, Peer),
-    print_message(warning, typhon(endpoint, unreadable(Peer, Formal))),
+    report(warning, unreadable_frames, Peer,
+           typhon(endpoint, unreadable(Peer, Formal))),
     unreadable(Mark, Session).
 dispatch(_, Frame) :-                   % of a later version, or damaged
-    print_message(warning, typhon(endpoint, unknown_frame(Frame))).
+    report(warning, unknown_frames, peers,
+           typhon(endpoint, unknown_frame(Frame))).
 
 %   unreadable(+Mark, +Session): if a caller waits for an answer because of the
 %   frame, in this process or the other, the caller gets `lost`.
@@ -348,12 +351,14 @@ attempt(Goal, Kind, Otherwise) :-
         ->  true
         ;   is_thread_end(Error)
         ->  throw(Error)
-        ;   print_message(error, typhon(endpoint, hook(Kind, Error))),
+        ;   report(error, errors_of_hooks, Kind,
+                   typhon(endpoint, hook(Kind, Error))),
             fail
         )
     ;   call(Otherwise)
     ->  true
-    ;   print_message(error, typhon(endpoint, hook(Kind, failed))),
+    ;   report(error, errors_of_hooks, Kind,
+               typhon(endpoint, hook(Kind, failed))),
         fail
     ).
 

@@ -38,6 +38,7 @@ call the rest. The caller serializes start and stop of the manager.
     manager_start(3, +).
 
 :- multifile
+    typhon_reports:wakes/1,
     not_now/1,                          % Why: this thread will end later
     overdue/1.                          % Thread: release it, if it is lent
 
@@ -226,6 +227,9 @@ manager_stop :-
 manager_notify(Message) :-
     manager(Server),
     server_cast(Server, Message).
+
+typhon_reports:wakes(Stamp) :-
+    manager_notify(later(Stamp, typhon_reports:reports_due)).
 
 %!  in_manager is semidet.
 %

@@ -3,6 +3,7 @@
 :- use_module(library(lists), [append/2, member/2, reverse/2]).
 :- use_module(library(readutil), [read_file_to_string/3]).
 :- use_module('../../kernel/base/durable_changes', [durable_on/0]).
+:- use_module('../../kernel/base/reports', [report/4]).
 :- use_module('../../kernel/program',
               [code_sent/2, fault_note/1, plain_goals/2]).
 :- use_module('../../kernel/host',
@@ -169,7 +170,8 @@ finish_turn(broken(Why), Cell, Agent, Outcome) :-
 
 ended(agent(Id, Host, _, _, _), Reason, Outcome) :-
     security_event(Host, cell(Id, Reason)),
-    print_message(warning, typhon(cell_ended(Id, Host, Reason, Outcome))).
+    report(warning, ended_cells, Id,
+           typhon(cell_ended(Id, Host, Reason, Outcome))).
 
 %   run_turn(+Cell, +Policy, +OwnerAndAgent, +Goals, -Result): Result is
 %   outcome(Outcome, Note), over(What) or broken(Why).

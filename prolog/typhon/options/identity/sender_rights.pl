@@ -24,6 +24,7 @@ has the owner of this process, or has been in this process.
 :- use_module(library(lists), [member/2]).
 :- use_module(library(ordsets), [ord_memberchk/2]).
 :- use_module(library(pairs), [group_pairs_by_key/2]).
+:- use_module('../../kernel/base/reports', [report/4]).
 :- use_module('../../kernel/wire',
               [endpoint_address/1, endpoint_own_proof/1, endpoint_proof/2]).
 :- use_module('../../kernel/host', [security_event/3]).
@@ -112,7 +113,7 @@ sender_accepted(Peer, Births, From) :-
     ).
 
 report_forged(Peer, Id, From) :-
-    print_message(warning, typhon(not_from(Peer, Id, From))),
+    report(warning, forged_senders, Peer, typhon(not_from(Peer, Id, From))),
     (   atom(Id),
         agent(Id, Host, _, _, _)
     ->  security_event(Host, Peer, refused(Id, from(From)))

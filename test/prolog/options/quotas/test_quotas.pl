@@ -241,6 +241,9 @@ lost_with(A, N) :-
         warning,
         typhon(undeliverable(resource_error(mailbox), A, _, _, More))),
     N is More+1.
+lost_with(A, N) :-
+    printed_message(warning, typhon(more(lost_messages, Groups))),
+    member(N-A, Groups).
 
                 /*******************************
                 *            TOGETHER          *
