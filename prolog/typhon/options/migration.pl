@@ -45,6 +45,8 @@ next_host(Strategy, Host) :-
 %
 %   @error type_error(mobile_term, Culprit), instantiation_error
 %   @error domain_error(pheromone_option, Option)
+%   @error resource_error(pheromone) Problem is too large, see the setting
+%   `typhon_pheromone:cells`
 
 emit(Problem) :-
     emit_here(Problem, []).

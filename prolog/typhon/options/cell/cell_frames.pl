@@ -9,7 +9,8 @@
             state_changes/3,            % +Module, +Mark, -Changes
             state_predicate/2           % +Module, -Head
           ]).
-:- use_module(library(lists), [max_list/2, reverse/2]).
+:- use_module(library(lists), [max_list/2, member/2, reverse/2]).
+:- use_module(library(occurs), [sub_term/2]).
 :- use_module(library(apply), [exclude/3]).
 :- use_module(library(error), [resource_error/1, syntax_error/1]).
 :- use_module('../../kernel/base/text', [term_text/2, text_term/2]).
@@ -70,7 +71,8 @@ most_bytes(8 388 608).
 %   @error resource_error(cell_frame) Term is too large
 
 cell_frame_write(Out, Term) :-
-    term_text(Term, Bytes),
+    term_text(Term, Bytes0),
+    unlike_numbers(Bytes0, Term, Bytes),
     string_length(Bytes, Length),
     most_bytes(Most),
     (   Length =< Most
@@ -142,13 +144,63 @@ frame_body(In, Length, Bytes) :-
 %   @error syntax_error(long_number)
 
 no_long_number(Bytes) :-
-    (   digits(Bytes, Before, Digits),
-        (   sub_string(Digits, _, 1, _, " ")
-        ;   number_begins(Bytes, Before, Digits)
-        )
+    (   like_number(Bytes, _)
     ->  syntax_error(long_number)
     ;   true
     ).
+
+like_number(Bytes, Before) :-
+    digits(Bytes, Before, Digits),
+    (   sub_string(Digits, _, 1, _, " ")
+    ->  true
+    ;   number_begins(Bytes, Before, Digits)
+    ).
+
+%   unlike_numbers(+Bytes0, +Term, -Bytes): Bytes is text of Term in which no
+%   block looks like a part of a long number, if Term has no such number.  Then a
+%   block that does is in quotes, with the blocks that it extends to: three of
+%   their characters become escape sequences.  The first ten may be part of one
+%   already.
+
+unlike_numbers(Bytes0, Term, Bytes) :-
+    (   ( \+ like_number(Bytes0, _) ; has_long_number(Term) )
+    ->  Bytes = Bytes0
+    ;   findall(Block, digits(Bytes0, Block, _), Blocks),
+        findall(Block, like_number(Bytes0, Block), Firsts),
+        extended(Blocks, Firsts, none, Long),
+        findall(At, ( member(Block, Long), member(Offset, [10,7500,14 989]),
+                      At is Block+Offset ), Ats),
+        escaped(Ats, 0, Bytes0, Pieces),
+        atomics_to_string(Pieces, Bytes1),
+        unlike_numbers(Bytes1, Term, Bytes)
+    ).
+
+extended([], _, _, []).
+extended([Block|Blocks], Firsts, Before, Long0) :-
+    (   ( Before == Block ; memberchk(Block, Firsts) )
+    ->  Next is Block+15 000,
+        Long0 = [Block|Long]
+    ;   Next = none,
+        Long0 = Long
+    ),
+    extended(Blocks, Firsts, Next, Long).
+
+escaped([], From, Bytes, [Piece]) :-
+    sub_string(Bytes, From, _, 0, Piece).
+escaped([At|Ats], From, Bytes, [Piece,Escape|Pieces]) :-
+    Length is At-From,
+    sub_string(Bytes, From, Length, _, Piece),
+    sub_string(Bytes, At, 1, _, Char),
+    string_codes(Char, [Code]),
+    format(string(Escape), "\\x~16r\\", [Code]),
+    Next is At+1,
+    escaped(Ats, Next, Bytes, Pieces).
+
+has_long_number(Term) :-
+    sub_term(Number, Term),
+    rational(Number, N, D),
+    msb(max(abs(N), D)+1) > 45 000,
+    !.
 
 %   digits(+Bytes, -Before, -Digits) is nondet.
 

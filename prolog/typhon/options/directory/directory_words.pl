@@ -31,7 +31,7 @@
 %
 %   @error instantiation_error, type_error(mobile_term, Culprit)
 %   @error resource_error(offers): an agent has at most 100, the setting
-%          `typhon_offers:offers`
+%          `typhon_offers:offers`, of 1000 cells each, `typhon_offers:cells`
 
 offer(Service, Properties) :-
     must_be(ground, Service),

@@ -10,6 +10,7 @@
 :- use_module(library(apply), [partition/4]).
 :- use_module(library(lists), [append/2, append/3, member/2]).
 :- use_module(library(ordsets), [ord_subtract/3, ord_union/3]).
+:- use_module('../../kernel/base/trees', [is_tree/2]).
 :- use_module('../../kernel/base/durable', [durable/5, durable_assertz/1]).
 :- use_module('../../kernel/base/durable_changes', [durable_drop/3]).
 :- use_module('../../kernel/agent', [agent/5, agent_status/3, life_hops/2]).
@@ -39,6 +40,8 @@ waits; a worker answers requests of other processes.
     typhon_host_parts:ends/1.
 
 :- setting(offers, positive_integer, 100, "Offers of an agent").
+:- setting(cells, positive_integer, 1000,
+           "Cells of an offer, at most; eight characters of a text count as one").
 
 :- dynamic
     offer/6,                    % Agent, N, Host, Hops, Service, Properties
@@ -60,9 +63,11 @@ typhon_host_parts:ends(Host) :-
 %   same Service; remove its offer.
 %
 %   @error resource_error(offers) Agent has as many offers as the setting
-%   `offers` allows
+%   `offers` allows, or the offer is larger than the setting `cells` allows
 
 offer_add(Host, Agent, Service, Properties) :-
+    setting(cells, Most),
+    ( is_tree(Service-Properties, Most) -> true ; resource_error(offers) ),
     with_mutex(typhon_offers, add(Host, Agent, Service, Properties)).
 
 add(Host, Agent, Service, Properties) :-

@@ -5,18 +5,21 @@
           ]).
 :- use_module(library(aggregate), [aggregate_all/3]).
 :- use_module(library(debug), [debug/3]).
-:- use_module(library(error), [must_be/2]).
+:- use_module(library(apply), [maplist/2]).
+:- use_module(library(error), [is_of_type/2, must_be/2, resource_error/1]).
 :- use_module(library(lists), [member/2]).
 :- use_module(library(option), [option/3]).
+:- use_module(library(settings), [setting/2, setting/4]).
 :- use_module('../../kernel/base/error_text', [print_error/2]).
 :- use_module('../../kernel/base/prng', [chance_member/4]).
+:- use_module('../../kernel/base/trees', [is_tree/2]).
 :- use_module('../../kernel/base/options', [check_options/2]).
 :- use_module('../../kernel/wire',
               [endpoint_address/1, endpoint_post/3, mobile_term/1]).
 :- use_module('../../kernel/host',
               [ address_parts/3, context_host/1, context_now/2, host/3,
                 host_neighbours/2, host_time/2, parts_call/3, scheduler_call/1,
-                tuple_leave/2, tuple_sense/2, tuple_take/2 ]).
+                tuple_leave/3, tuple_sense/2, tuple_take/2 ]).
 :- use_module(strategy, [memory_chance/4]).
 
 /** <module> Pheromones, and the agents that follow them
@@ -37,14 +40,29 @@ Source is the host that emitted it, Next the neighbour from which it came, Until
 the host time at which it has evaporated.  Of two with the same problem and
 source the stronger is kept, and of two that are equally strong the newer.
 
+A host has a bounded number of pheromones, of a bounded size.  If it is full
+those that have evaporated are dropped, else the oldest one that came from the
+neighbour from which most have come.  So a flood displaces no pheromones of other
+neighbours.
+
 *Threading*: any thread.  A worker stores and forwards arriving pheromones.
 */
 
 :- multifile
     typhon_options:declared/4,
     typhon_endpoint:received/3,
+    typhon_host_parts:ends/1,
     typhon_strategy:choose/6,
-    typhon_strategy:strategy/1.
+    typhon_strategy:strategy/1,
+    typhon_tuples:counted/2.
+
+:- setting(pheromones, positive_integer, 1000,
+           "Pheromones that a host has at most").
+:- setting(cells, positive_integer, 1000,
+           "Cells of the problem of a pheromone, at most; eight characters of \c
+            a text count as one").
+
+:- dynamic here/3.              % Host, Next, Count: in its tuple space
 
                 /*******************************
                 *           DIFFUSION          *
@@ -70,9 +88,10 @@ pheromone_until(Emitted, Period, Span, Distance, Until) :-
 emit_here(Problem, Options) :-
     context_host(Host),
     context_now(Host, Agent),
-    parts_call(acts, Host, [Agent, say(Problem-Options)]),
+    parts_call(acts, Host, [Agent, emit(Problem-Options)]),
     must_be(ground, Problem),
     mobile_term(Problem),
+    ( is_small(Problem) -> true ; resource_error(pheromone) ),
     check_options(pheromone_option, Options),
     option(span(Span), Options, 3),
     option(strength(Maximum), Options, 100),
@@ -81,6 +100,10 @@ emit_here(Problem, Options) :-
     host_time(Host, Now),
     spread(Host, Source,
            signal(Problem, Source, Maximum, Span, Period, Now, 1)).
+
+is_small(Problem) :-
+    setting(cells, Most),
+    is_tree(Problem, Most).
 
 typhon_options:declared(pheromone_option, span(Hops), positive_integer, Hops).
 typhon_options:declared(pheromone_option, strength(Number), number, Number).
@@ -118,8 +141,26 @@ post(Endpoint, Name, News) :-
           debug(typhon(pheromone), 'not told ~w@~w: ~p',
                 [Name, Endpoint, Formal])).
 
-typhon_endpoint:received(pheromone, pheromone(Name, News), _) :-
-    scheduler_call(typhon_pheromone:news([Name], News)).
+%   A process that sends anything else is not of this version, or is malicious.
+
+typhon_endpoint:received(pheromone, pheromone(Name, News), Peer) :-
+    (   is_news(News, Peer)
+    ->  scheduler_call(typhon_pheromone:news([Name], News))
+    ;   debug(typhon(pheromone), 'ignored a pheromone of ~w', [Peer])
+    ).
+
+is_news(smelt(From, Signal), Peer) :-
+    atom(From),
+    address_parts(From, _, Peer),
+    ground(Signal),
+    Signal = signal(Problem, Source, Maximum, Span, Period, Emitted, D),
+    atom(Source),
+    maplist(number, [Maximum,Period,Emitted]),
+    maplist(is_of_type(positive_integer), [Span,D]),
+    is_small(Problem).
+is_news(withdrawn(Source, Problem), _) :-
+    atom(Source),
+    ground(Problem).
 
 news(Hosts, News) :-
     forall(member(Host, Hosts),
@@ -138,7 +179,7 @@ handle_news(smelt(From, Signal), Host, Place) :-
     pheromone_until(Emitted, Period, Span, D, Until),
     host_time(Host, Now),
     Pheromone = pheromone(Problem, Source, Strength, From, Until),
-    (   with_mutex(typhon_pheromone, store(Place, Now, Pheromone)),
+    (   with_mutex(typhon_pheromone, store(Host, Place, Now, Pheromone)),
         D < Span
     ->  D1 is D + 1,
         spread(Host, From,
@@ -151,17 +192,54 @@ handle_news(withdrawn(Source, Problem), Host, Place) :-
     ;   true
     ).
 
-%   store(+Place, +Now, +Pheromone) is semidet: fails if Place has a better
-%   pheromone.
+%   store(+Host, +Place, +Now, +Pheromone) is semidet: fails if Place has a
+%   better pheromone.
 
-store(Place, Now, Pheromone) :-
-    Pheromone = pheromone(Problem, Source, Strength, _, Until),
+store(Host, Place, Now, Pheromone) :-
+    Pheromone = pheromone(Problem, Source, Strength, Next, Until),
     Until > Now,
     \+ ( tuple_sense(Place, pheromone(Problem, Source, S0, _, U0)),
          U0 > Now,
          better(S0, U0, Strength, Until) ),
     ignore(remove(Place, Problem, Source)),
-    tuple_leave(Place, Pheromone).
+    make_space(Host, Place, Now),
+    tuple_leave(Place, Pheromone, pheromone(Host, Next)).
+
+%   The tuples are counted, since agents can take them, and leave others like
+%   them.
+
+typhon_tuples:counted(pheromone(Host, Next), Change) :-
+    with_mutex(typhon_pheromone, count(Host, Next, Change)).
+
+count(Host, Next, Change) :-
+    ( retract(here(Host, Next, Count0)) -> true ; Count0 = 0 ),
+    Count is Count0+Change,
+    ( Count > 0 -> assertz(here(Host, Next, Count)) ; true ).
+
+typhon_host_parts:ends(Host) :-
+    retractall(here(Host, _, _)).
+
+make_space(Host, Place, Now) :-
+    (   has_space(Host)
+    ->  true
+    ;   forall(( tuple_sense(Place, pheromone(Problem, Source, _, _, Until)),
+                 number(Until), Until =< Now ),
+               ignore(remove(Place, Problem, Source))),
+        displace(Host, Place)
+    ).
+
+displace(Host, Place) :-
+    (   has_space(Host)
+    ->  true
+    ;   aggregate_all(max(Count-Next), here(Host, Next, Count), max(_-Most)),
+        tuple_take(Place, pheromone(_, _, _, Most, _)),
+        displace(Host, Place)
+    ).
+
+has_space(Host) :-
+    aggregate_all(sum(Count), here(Host, _, Count), Sum),
+    setting(pheromones, Most),
+    Sum < Most.
 
 better(S0, _, S, _) :-
     S0 > S.
@@ -178,6 +256,8 @@ remove(Place, Problem, Source) :-
 
 withdraw_here(Problem) :-
     context_host(Host),
+    context_now(Host, Agent),
+    parts_call(acts, Host, [Agent, emit(Problem)]),
     must_be(ground, Problem),
     host(Host, Source, _),
     spread_withdrawal(Host, Source, Problem).

@@ -53,6 +53,9 @@ acts(Host, Agent, log(What)) =>
 acts(Host, Agent, leave(Fact)) =>
     may_leave(Host, Agent),
     must_be_small(Host, Fact).
+acts(Host, Agent, emit(What)) =>
+    spend(Host, Agent, facts),
+    must_be_small(Host, What).
 acts(Host, _, say(Term)) =>
     must_be_small(Host, Term).
 acts(Host, Agent, service(PI)) =>
